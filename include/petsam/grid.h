@@ -67,6 +67,17 @@ PETSC_EXTERN PetscErrorCode SamGridNorm(SamGrid grid, Vec field, NormType type, 
 /* SamGridChecksum - a checksum of a field's values by cell, the same on any number of ranks. Collective. */
 PETSC_EXTERN PetscErrorCode SamGridChecksum(SamGrid grid, Vec field, uint64_t *checksum);
 
+/*
+  SamGridMove - moves the grid by `distance` (m) over a field, which moves against it: at x it becomes what it was at
+  x + distance. Whole cells, within 1e-6 of one, without error, else by cubic interpolation. What enters is 0, or, with
+  `continues`, what was at the grid's border. Collective.
+  SamGridEntering - the columns and rows that are made of what enters, at the low and the high end of x, y. Not
+  collective.
+*/
+PETSC_EXTERN PetscErrorCode SamGridMove(SamGrid grid, PetscInt components, const PetscReal distance[2],
+                                        PetscBool continues, Vec from, Vec to);
+PETSC_EXTERN void SamGridEntering(SamGrid grid, const PetscReal distance[2], PetscInt low[2], PetscInt high[2]);
+
 /* Coordinates of the centre of column i and of row j (both global), m. */
 static inline PetscReal SamGridX(SamGrid grid, PetscInt i)
 {

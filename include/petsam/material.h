@@ -21,17 +21,20 @@ typedef struct {
   PetscReal coupling; /* [(1 - 2 nu1)/G1 - (1 - 2 nu2)/G2]/(4 pi), 1/Pa */
   PetscReal modulus;  /* E* = 1/(pi normal), Pa */
   PetscReal dundurs;  /* Dundurs' beta = coupling/normal */
+  PetscReal film[2];  /* thickness (m) and shear modulus (Pa) of a film between the surfaces; 0: none */
 } SamPair;
+/* SamPairFilm - what a unit of shear displaces the surfaces by in the film, m/Pa. Not collective. */
+PETSC_EXTERN PetscReal SamPairFilm(const SamPair *pair);
 
 /*
-  SamPairSet - fills a pair from Young's moduli (Pa, infinity for rigid) and Poisson's ratios.
+  SamPairSet - fills a pair from Young's moduli (Pa, infinity for rigid) and Poisson's ratios, without a film.
   Not collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for a modulus that is not positive, a ratio outside (-1, 0.5], or two
   rigid bodies.
 */
 PETSC_EXTERN PetscErrorCode SamPairSet(SamPair *pair, const PetscReal young[2], const PetscReal poisson[2]);
 /*
-  SamPairSetFromOptions - from -body1_young, -body1_poisson, -body2_young, -body2_poisson. Collective. Errors:
-  SAM_ERR_USER, as SamPairSet(), and for an option that is missing.
+  SamPairSetFromOptions - from -body1_young, -body1_poisson, -body2_young, -body2_poisson, and the film's
+  -film_thickness and -film_shear. Collective. Errors: SAM_ERR_USER, as SamPairSet(), and for an option that is missing.
 */
 PETSC_EXTERN PetscErrorCode SamPairSetFromOptions(SamPair *pair, const SamOptions *from);
 /*

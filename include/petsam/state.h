@@ -19,17 +19,22 @@ typedef enum { SAM_TRIED, SAM_COMMITTED, SAM_BEFORE, SAM_GENERATIONS } SamGenera
 /* Whether results offer a field, and save it by default. */
 typedef enum { SAM_RESULT_NONE, SAM_RESULT_OFFERED, SAM_RESULT_USUAL } SamResultUse;
 
+/* What becomes of a field when the grid moves: it belongs to the place, or to the material, what enters being 0 or as
+   at the border. */
+typedef enum { SAM_STAYS, SAM_MOVES, SAM_MOVES_CONTINUED } SamStateMotion;
+
 /*
   SamStateField - the declaration of a remembered field. A field of two components is offered as name_x and name_y. The
   names and texts of fields are not copied.
 */
 typedef struct {
-  const char  *name, *unit, *text;
-  PetscInt     components;  /* values a cell, 1 or 2 */
-  PetscInt     generations; /* 2: tried and committed; 3: one step back too */
-  PetscBool    kept;        /* later steps depend on it, so that checkpoints have it */
-  PetscBool    optional;    /* a checkpoint may lack it; it is zero then */
-  SamResultUse result;
+  const char    *name, *unit, *text;
+  PetscInt       components;  /* values a cell, 1 or 2 */
+  PetscInt       generations; /* 2: tried and committed; 3: one step back too */
+  PetscBool      kept;        /* later steps depend on it, so that checkpoints have it */
+  PetscBool      optional;    /* a checkpoint may lack it; it is zero then */
+  SamResultUse   result;
+  SamStateMotion motion;
 } SamStateField;
 /*
   SamStateDeclareField - declares a field; `id` is its handle. Declaring the same name again returns the same handle.
@@ -109,6 +114,15 @@ PETSC_EXTERN PetscErrorCode SamStateReject(SamState state);
 PETSC_EXTERN PetscErrorCode SamStateForgetFields(SamState state);
 PETSC_EXTERN PetscBool      SamStateHasTried(SamState state);
 PETSC_EXTERN PetscErrorCode SamStateReset(SamState state);
+
+/*
+  SamStateMove - of a try: the committed generation becomes what it is after the grid has moved by `distance` (m), until
+  the try is rejected; a commit keeps it. Collective.
+  SamStateSwapMoved - the committed generation becomes what it was before that, and at the next call what it is after
+  it: for those who save it. Not collective.
+*/
+PETSC_EXTERN PetscErrorCode SamStateMove(SamState state, const PetscReal distance[2]);
+PETSC_EXTERN void           SamStateSwapMoved(SamState state);
 
 /*
   SamStateSetField - the vector of a field's tried generation, to be written to: zero when it is first made, later with

@@ -84,14 +84,32 @@ SAM_VECTORIZED static void NormalRow(PetscInt n, const double *restrict p, const
   max[DISPLACEMENT] = PetscMax(max[DISPLACEMENT], displacement);
 }
 
-/* The largest pressure in those cells of a row that lie at the grid's border. */
-static double EdgeOfRow(SamGrid grid, PetscInt j, const double p[])
+/* Columns and rows at the low and high end of x, y that are at the grid's border, or of material that has entered. */
+typedef struct {
+  PetscInt low[2], high[2];
+} Border;
+
+static Border BorderOf(SamGrid grid, const SamSolution *s)
 {
-  const PetscInt row  = grid->row_start + j;
-  const PetscInt step = row == 0 || row == grid->ny - 1 ? 1 : PetscMax(grid->nx - 1, 1);
+  Border b;
+
+  SamGridEntering(grid, s->control.roll, b.low, b.high);
+  for (int axis = 0; axis < 2; axis++) {
+    b.low[axis]  = PetscMax(b.low[axis], 1);
+    b.high[axis] = PetscMax(b.high[axis], 1);
+  }
+  return b;
+}
+
+/* The largest pressure in the cells of a row that lie there. */
+static double EdgeOfRow(SamGrid grid, const Border *b, PetscInt j, const double p[])
+{
+  const PetscInt row = grid->row_start + j, nx = grid->nx;
+  const PetscInt low  = row < b->low[1] || row >= grid->ny - b->high[1] ? nx : b->low[0];
   double         most = 0;
 
-  for (PetscInt i = 0; i < grid->nx; i += step) most = PetscMax(most, p[i]);
+  for (PetscInt i = 0; i < low; i++) most = PetscMax(most, p[i]);
+  for (PetscInt i = nx - b->high[0]; i < nx; i++) most = PetscMax(most, p[i]);
   return most;
 }
 
@@ -137,11 +155,13 @@ static PetscErrorCode CheckNormal(SamProblem problem, SamState state, const SamS
   PetscReal     limit;
   SamMotion     motion;
   SamGrid       grid;
+  Border        border;
   Vec           separation, lower;
 
   PetscFunctionBegin;
   PetscCall(SamProblemGetGrid(problem, &grid));
   PetscCall(SamSolutionCreateSeparation(problem, state, SAM_COMMITTED, &separation));
+  border = BorderOf(grid, s);
   PetscCall(SamProblemGetLeast(problem, state, &lower));
   PetscCall(SamMotionSet(&motion, problem, s));
   PetscCall(SamProblemGetPressureLimit(problem, &limit));
@@ -156,7 +176,7 @@ static PetscErrorCode CheckNormal(SamProblem problem, SamState state, const SamS
 
     SamMotionGap(&motion, SamMotionOfGap(&motion, j), u + k, h + k, gap);
     NormalRow(grid->nx, p + k, least ? least + k : zeros, gap, u + k, SAM_SATURATED * (double)limit, max);
-    max[EDGE] = PetscMax(max[EDGE], EdgeOfRow(grid, j, p + k));
+    max[EDGE] = PetscMax(max[EDGE], EdgeOfRow(grid, &border, j, p + k));
   }
   PetscCall(VecRestoreArrayRead(separation, &h));
   if (lower) PetscCall(VecRestoreArrayRead(lower, &least));
@@ -206,7 +226,7 @@ SAM_VECTORIZED static TangentialSums TangentialRow(PetscInt n, const double *res
 static PetscErrorCode CreateBound(SamProblem problem, SamState state, const SamSolution *before, const SamSolution *s,
                                   Vec *bound)
 {
-  SamBoundAt at = {state, s->control.friction_scale, NULL, NULL};
+  SamBoundAt at = {state, s->control.friction_scale, NULL, NULL, SamControlRolled(&s->control)};
   SamGrid    grid;
   double    *b;
 

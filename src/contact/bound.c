@@ -22,7 +22,8 @@
 
 PetscErrorCode SamSolveBound(SamSolve *w, Vec bound)
 {
-  const SamBoundAt at = {w->c->state, w->s->control.friction_scale, w->s->pressure, w->slip};
+  const SamBoundAt at = {w->c->state, w->s->control.friction_scale, w->s->pressure, w->slip,
+                         SamControlRolled(&w->s->control)};
 
   PetscFunctionBegin;
   PetscCall(SamProblemComputeBound(w->c->problem, &at, &(SamBound){.value = bound}));

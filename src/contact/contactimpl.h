@@ -3,6 +3,7 @@
 #define PETSAM_CONTACTIMPL_H
 
 #include <petsam/contact.h>
+#include <petsam/private/solutionimpl.h>
 #include "recall.h"
 
 /* The numbers of the solvers, side by side in the state in this order. */
@@ -26,12 +27,13 @@ struct _n_SamContact {
   SamTangential       tangential;
   /* its state */
   SamState         state;
-  PetscBool        has_tried;                      /* a tried solution */
-  SamSolution      generation[SAM_GENERATIONS];    /* views of the state */
-  SamRecall        recall;                         /* steps of the cycle before */
-  PetscObjectState revision[SAM_GENERATIONS];      /* of the problem that the pressure was solved with; -1: another */
+  PetscBool        has_tried;                   /* a tried solution */
+  PetscBool        rolls;                       /* the tried step does, and the committed solution has moved for it */
+  SamSolution      generation[SAM_GENERATIONS]; /* views of the state */
+  SamRecall        recall;                      /* steps of the cycle before */
+  PetscObjectState revision[SAM_GENERATIONS];   /* of the problem that the pressure was solved with; -1: another */
   PetscInt         tractions[3], displacements[2]; /* fields: pressure, bound, shear; u_z, u_t */
-  PetscInt         time, solution, given, control, residuals, counts, status, window, steps; /* numbers, see memory.c */
+  PetscInt time, solution, given, creeps, control, residuals, counts, status, window, steps; /* numbers, see memory.c */
 };
 
 /* Whether pressure and shear depend on each other. */

@@ -11,12 +11,13 @@
 static PetscErrorCode DeclareFields(SamContact c)
 {
   static const SamStateField tractions[3] = {
-    {"pressure", "Pa", "contact pressure, mean over the cell", 1, 3, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_USUAL},
-    {"bound", "Pa", NULL, 1, 3, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_NONE},
-    {"shear", "Pa", "shear traction, mean over the cell", 2, 3, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_USUAL}};
+    {"pressure", "Pa", "contact pressure, mean over the cell", 1, 3, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_USUAL,
+     SAM_STAYS},
+    {"bound", "Pa", NULL, 1, 3, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_NONE, SAM_STAYS},
+    {"shear", "Pa", "shear traction, mean over the cell", 2, 3, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_USUAL, SAM_STAYS}};
   static const SamStateField displacements[2] = {
-    {"displacement_z", "m", DISPLACEMENT, 1, 2, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_OFFERED},
-    {"displacement", "m", DISPLACEMENT, 2, 2, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_OFFERED}};
+    {"displacement_z", "m", DISPLACEMENT, 1, 2, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_OFFERED, SAM_STAYS},
+    {"displacement", "m", DISPLACEMENT, 2, 2, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_OFFERED, SAM_MOVES_CONTINUED}};
 
   PetscFunctionBegin;
   for (int k = 0; k < 3; k++) PetscCall(SamStateDeclareField(c->state, &tractions[k], &c->tractions[k]));
@@ -56,6 +57,12 @@ static PetscErrorCode DeclareControl(SamContact c)
 
     PetscCall(Declare(c, condition->name, condition->unit, condition->text, SAM_NUMBER_REAL, 1, PETSC_FALSE,
                       PETSC_FALSE, n ? NULL : &c->given));
+  }
+  for (PetscInt k = 0; k < 3; k++) {
+    const SamComponentName *name = &SamComponentNames[SamComponentsOf[SAM_BALANCE_TANGENTIAL][k]];
+
+    PetscCall(Declare(c, name->creep, name->creep_unit, name->creep_text, SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_FALSE,
+                      k ? NULL : &c->creeps));
   }
   PetscCall(Declare(c, "control", "1", "what was prescribed", SAM_NUMBER_REAL, SAM_CONTROL_NUMBERS, PETSC_TRUE,
                     PETSC_FALSE, &c->control));
@@ -184,12 +191,35 @@ const SamSolution *SamContactBefore(SamContact c)
   return *SamStateNumbers(c->state, c->steps, SAM_COMMITTED) > 0 ? &c->generation[SAM_COMMITTED] : NULL;
 }
 
-/* Whether the slip of a step is in the direction at mid step. A bound that follows the slip needs its own passes. */
+/*
+  Whether the slip of a step is in the direction at mid step. A bound that follows the slip needs its own passes; of a
+  step that rolls the shear before is that of other material.
+*/
 static PetscBool TurnsAtMidStep(SamContact c)
 {
-  const SamSolution *before = SamContactBefore(c);
+  return SamContactBefore(c) && !SamProblemFollowsSlip(c->problem) && !c->rolls &&
+         c->set.slip_direction == SAM_SLIP_MID;
+}
 
-  return before && !SamProblemFollowsSlip(c->problem) && c->set.slip_direction == SAM_SLIP_MID;
+/*
+  The committed solution as the next step finds it where the grid has moved: what belongs to the material has moved
+  through it. The rigid motion, and the stretch by bulk stress, are taken about the origin, which has moved along.
+*/
+static PetscErrorCode Move(SamContact c, const PetscReal roll[2])
+{
+  SamSolution *const s     = &c->generation[SAM_COMMITTED];
+  PetscReal *const   rigid = s->rigid;
+  const SamPair     *pair;
+  SamStretch         e;
+
+  PetscFunctionBegin;
+  PetscCall(SamStateMove(c->state, roll));
+  PetscCall(SamContactView(c));
+  PetscCall(SamElasticityGetPair(c->elasticity, &pair));
+  e = SamStretchOf(pair, &s->control);
+  rigid[SAM_COMPONENT_TX] -= rigid[SAM_COMPONENT_MZ] * roll[1] + e.xx * roll[0] + e.xy * roll[1];
+  rigid[SAM_COMPONENT_TY] += rigid[SAM_COMPONENT_MZ] * roll[0] - e.xy * roll[0] - e.yy * roll[1];
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamContactBegin(SamContact c, const SamControl *control)
@@ -199,6 +229,8 @@ PetscErrorCode SamContactBegin(SamContact c, const SamControl *control)
   PetscFunctionBegin;
   PetscCall(SamContactDeclare(c));
   PetscCall(SamStateBegin(c->state));
+  c->rolls = SamControlRolled(control) != 0;
+  if (c->rolls && SamContactBefore(c)) PetscCall(Move(c, control->roll));
   *s          = (SamSolution){.control = *control};
   s->mid_step = TurnsAtMidStep(c);
   PetscCall(SamStateSetField(c->state, c->tractions[0], &s->pressure));
@@ -226,6 +258,14 @@ PetscErrorCode SamContactStore(SamContact c, const SamStep *step)
   n[c->time] = step->control.time;
   PetscCall(PetscArraycpy(n + c->solution, step->load, SAM_COMPONENTS));
   PetscCall(PetscArraycpy(n + c->solution + SAM_COMPONENTS, step->rigid, SAM_COMPONENTS));
+  for (PetscInt k = 0; k < 3 && c->rolls; k++) {
+    const PetscInt     m      = SamComponentsOf[SAM_BALANCE_TANGENTIAL][k];
+    const SamSolution *before = SamContactBefore(c);
+
+    n[c->creeps + k] = step->control.creep[m]
+                         ? step->control.value[m]
+                         : (step->rigid[m] - (before ? before->rigid[m] : 0)) / SamControlRolled(&step->control);
+  }
   for (PetscInt k = 0; k < SAM_CONDITIONS; k++) n[c->given + k] = SamControlPart(&step->control, SAM_COMPONENTS + k);
   SamControlPack(&c->generation[SAM_TRIED].control, n + c->control);
   n[c->residuals]     = step->check.normal;

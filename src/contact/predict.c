@@ -51,10 +51,11 @@ static double Continuation(const SamControl *before, const SamControl *now, cons
   Changes c = {0, 0, 0};
   double  alpha, across;
 
+  if (SamControlRolled(now) != 0 || SamControlRolled(next) != 0) return 0; /* the slip moves, whatever changes */
   for (PetscInt n = 0; n < SAM_COMPONENTS; n++) {
     const PetscInt k = SamComponentsOf[n / 3][n % 3];
 
-    if (next->force[k] != now->force[k] || now->force[k] != before->force[k]) return 0;
+    if (SamControlWay(next, k) != SamControlWay(now, k) || SamControlWay(now, k) != SamControlWay(before, k)) return 0;
     AddChange(before->value[k], now->value[k], next->value[k], &c);
   }
   for (PetscInt k = SAM_COMPONENTS; k < SAM_CONTROL_PARTS; k++) /* the next bound is computed with the next friction */
@@ -187,7 +188,7 @@ static PetscErrorCode ExtrapolateField(SamContact c, double alpha, PetscInt fiel
 static PetscErrorCode Extrapolate(SamContact c, double alpha, double friction_scale, PetscBool *found)
 {
   const SamSolution *next = &c->generation[SAM_TRIED];
-  const SamBoundAt   at   = {c->state, friction_scale, next->pressure, NULL};
+  const SamBoundAt   at   = {c->state, friction_scale, next->pressure, NULL, 0};
   double             most = 0;
 
   PetscFunctionBegin;

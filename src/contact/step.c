@@ -20,6 +20,13 @@ static PetscErrorCode Begin(SamContact c, const SamStepStart *start, PetscBool s
   w->counts     = SamStateNumbers(c->state, c->counts, SAM_TRIED);
   w->normal     = SamControlGetBalance(&w->s->control, SAM_BALANCE_NORMAL);
   w->tangential = SamControlGetBalance(&w->s->control, SAM_BALANCE_TANGENTIAL);
+  for (PetscInt k = 0; k < 3; k++) {
+    const PetscInt n = SamComponentsOf[SAM_BALANCE_TANGENTIAL][k];
+
+    if (w->s->control.creep[n])
+      w->tangential.rigid[k] =
+        (w->before ? w->before->rigid[n] : 0) + SamControlRolled(&w->s->control) * w->s->control.value[n];
+  }
   PetscCall(PetscArraycpy(w->rigid, start->rigid, 3));
   PetscCall(SamSolutionCreateSeparation(c->problem, c->state, SAM_COMMITTED, &w->separation));
   if (w->coupled || w->s->mid_step) PetscCall(SamGridCreateVec(c->grid, 2, &w->shear_product.field));

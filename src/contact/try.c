@@ -57,6 +57,28 @@ static PetscErrorCode CheckBulkStress(SamContact c, const SamControl *control)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamContactCheckRolling(SamContact c, const SamControl *control)
+{
+  const PetscReal   rolled = SamControlRolled(control);
+  SamElasticityType type;
+
+  PetscFunctionBegin;
+  PetscCall(SamElasticityGetType(c->elasticity, &type));
+  PetscCheck(isfinite(rolled), c->grid->comm, SAM_ERR_USER, "roll is not a finite number");
+  PetscCheck(rolled == 0 || c->set.rolling == SAM_ROLLING_NONE, c->grid->comm, SAM_ERR_USER,
+             "roll = %.6g: has no meaning with -rolling steady: omit one of them", (double)rolled);
+  PetscCheck(rolled == 0 || !c->traits.periodic, c->grid->comm, SAM_ERR_USER,
+             "roll = %.6g: expected 0: bodies of type %s do not roll", (double)rolled, type);
+  for (PetscInt k = 0; k < SAM_COMPONENTS; k++)
+    PetscCheck(
+      !control->creep[k] || control->value[k] == 0 || rolled != 0 || c->set.rolling == SAM_ROLLING_STEADY,
+      c->grid->comm, SAM_ERR_USER,
+      "%s = %.6g: a creepage needs a rolled distance: give the columns roll or roll_y in -history, or -rolling "
+      "steady",
+      SamComponentNames[k].creep, (double)control->value[k]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Refuses a control that makes no sense. Rotations that the elasticity does not have are held at 0. */
 static PetscErrorCode CheckControl(SamContact c, SamControl *control)
 {
@@ -65,7 +87,7 @@ static PetscErrorCode CheckControl(SamContact c, SamControl *control)
   PetscFunctionBegin;
   PetscCall(SamElasticityGetType(c->elasticity, &type));
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
-    const char *name = control->force[k] ? SamComponentNames[k].load : SamComponentNames[k].rigid;
+    const char *name = SamControlPartName(control, k);
 
     PetscCheck(isfinite(control->value[k]), c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "%s is not a finite number", name);
     if (k < SAM_COMPONENT_MX || c->traits.rotations[k - SAM_COMPONENT_MX]) continue;
@@ -80,6 +102,7 @@ static PetscErrorCode CheckControl(SamContact c, SamControl *control)
   PetscCheck(control->friction_scale >= 0 && isfinite(control->friction_scale), c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
              "friction_scale = %.6g: expected a number >= 0", (double)control->friction_scale);
   PetscCall(CheckBulkStress(c, control));
+  PetscCall(SamContactCheckRolling(c, control));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -91,6 +114,8 @@ PetscErrorCode SamContactSetUp(SamContact c)
   PetscBool     friction, limits;
 
   PetscFunctionBegin;
+  PetscCheck(c->set.rolling == SAM_ROLLING_NONE, c->grid->comm, SAM_ERR_USER,
+             "-rolling steady: not available: roll in steps of time, by the column roll of -history");
   PetscCall(SamProblemHasFriction(c->problem, &friction));
   PetscCall(SamProblemGetPressureLimit(c->problem, &limit));
   PetscCall(SamProblemGetLaws(c->problem, &count, &laws));
@@ -152,12 +177,23 @@ PetscErrorCode SamContactIsGapCurrent(SamContact c, PetscBool *current)
 */
 static PetscErrorCode IsSamePressure(SamContact c, const SamControl *control, PetscBool *same)
 {
-  PetscBool current;
+  PetscBool current, moves;
 
   PetscFunctionBegin;
   PetscCall(SamContactIsGapCurrent(c, &current));
-  *same = !SamContactIsCoupled(c) && SamContactBefore(c) && current &&
+  PetscCall(SamProblemAddSeparation(c->problem, c->state, SAM_COMMITTED, NULL, &moves));
+  *same = !SamContactIsCoupled(c) && SamContactBefore(c) && current && !(c->rolls && moves) &&
           SamControlIsSame(&c->generation[SAM_COMMITTED].control, control, SAM_BALANCE_NORMAL);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The committed solution becomes what it was before the grid moved for a tried step. */
+static PetscErrorCode MoveBack(SamContact c)
+{
+  PetscFunctionBegin;
+  if (c->rolls) PetscCall(SamContactView(c));
+  c->rolls = PETSC_FALSE;
+  PetscCall(RestoreWindow(c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -193,8 +229,8 @@ static PetscErrorCode GetGap(SamLawStep *step, Vec gap)
 
 static PetscErrorCode GetSlope(SamLawStep *step, Vec by_pressure)
 {
-  const SamContact c  = (SamContact)step->context;
-  SamBoundAt       at = {c->state, step->control->friction_scale, step->pressure, NULL};
+  const SamContact c = (SamContact)step->context;
+  SamBoundAt at      = {c->state, step->control->friction_scale, step->pressure, NULL, SamControlRolled(step->control)};
 
   PetscFunctionBegin;
   if (SamProblemFollowsSlip(c->problem)) PetscCall(SamLawStepGetFriction(step, &at.slip, NULL, NULL));
@@ -255,7 +291,7 @@ static void SetUnknown(SamStep *step)
 {
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
     step->load[k]  = step->control.force[k] ? step->control.value[k] : NAN;
-    step->rigid[k] = step->control.force[k] ? NAN : step->control.value[k];
+    step->rigid[k] = SamControlWay(&step->control, k) == SAM_BY_RIGID ? step->control.value[k] : NAN;
   }
   step->check = (SamCheck){.normal = NAN, .tangential = NAN, .equilibrium = NAN, .cone = NAN, .edge = NAN};
 }
@@ -277,12 +313,13 @@ PetscErrorCode SamContactTry(SamContact c, const SamControl *control, SamStep *s
   PetscCall(SamContactPredict(c, &given, &start));
   if (c->set.warm_start && !SamContactIsCoupled(c) && !SamProblemFollowsSlip(c->problem))
     SamRecallFind(c->recall, &given, &start.kept);
+  if (c->rolls) start.kept = NULL; /* its product is not where the slip has moved to */
   PetscCall(SamContactSolveStep(c, &start, same_pressure, step));
   if (step->status == SAM_STATUS_NO_EQUILIBRIUM) { /* there is no solution to check */
     SetUnknown(step);
     PetscCall(SamContactStore(c, step));
     PetscCall(SamStateForgetFields(c->state));
-    PetscCall(RestoreWindow(c));
+    PetscCall(MoveBack(c));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   c->has_tried = PETSC_TRUE;
@@ -297,7 +334,10 @@ PetscErrorCode SamContactCommit(SamContact c)
   PetscFunctionBegin;
   PetscCheck(c->has_tried, c->grid->comm, PETSC_ERR_ORDER, "There is no tried step to commit");
   *SamStateNumbers(c->state, c->steps, SAM_TRIED) += 1;
-  PetscCall(SamRecallKeep(c->recall, SamContactBefore(c), &c->generation[SAM_TRIED], c->revision[SAM_TRIED]));
+  if (c->rolls) /* what is put between the bodies may have moved, and kept pressures be wrong */
+    SamRecallForget(c->recall);
+  else
+    PetscCall(SamRecallKeep(c->recall, SamContactBefore(c), &c->generation[SAM_TRIED], c->revision[SAM_TRIED]));
   PetscCall(SamStateCommit(c->state));
   c->revision[SAM_COMMITTED] = c->revision[SAM_TRIED];
   c->has_tried               = PETSC_FALSE;
@@ -310,7 +350,7 @@ PetscErrorCode SamContactReject(SamContact c)
   PetscFunctionBegin;
   c->has_tried = PETSC_FALSE;
   PetscCall(SamStateReject(c->state));
-  PetscCall(RestoreWindow(c));
+  PetscCall(MoveBack(c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -48,11 +48,18 @@ PetscErrorCode SamPairSet(SamPair *pair, const PetscReal young[2], const PetscRe
   pair->coupling = ((1 - 2 * poisson[0]) * inverse_shear[0] - (1 - 2 * poisson[1]) * inverse_shear[1]) / (4 * PETSC_PI);
   pair->modulus  = 1 / (PETSC_PI * pair->normal);
   pair->dundurs  = pair->coupling / pair->normal;
+  pair->film[0] = pair->film[1] = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscReal SamPairFilm(const SamPair *pair)
+{
+  return pair->film[0] > 0 ? pair->film[0] / pair->film[1] : 0;
 }
 
 /* Options and parameters: of both bodies Young's moduli, then Poisson's ratios. */
 static const char *const names[] = {"body1_young", "body2_young", "body1_poisson", "body2_poisson"};
+static const char *const films[] = {"film_thickness", "film_shear"};
 
 PetscErrorCode SamPairAddParameters(const SamPair *pair, SamParameters *p)
 {
@@ -61,6 +68,8 @@ PetscErrorCode SamPairAddParameters(const SamPair *pair, SamParameters *p)
     PetscCall(SamParametersAddReals(p, names[b], PETSC_TRUE, 1, &pair->young[b]));
     PetscCall(SamParametersAddReals(p, names[2 + b], PETSC_TRUE, 1, &pair->poisson[b]));
   }
+  for (PetscInt k = 0; k < 2 && pair->film[0] > 0; k++)
+    PetscCall(SamParametersAddReals(p, films[k], PETSC_TRUE, 1, &pair->film[k]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -80,6 +89,11 @@ PetscErrorCode SamPairSetFromParameters(SamPair *pair, MPI_Comm comm, const SamP
   PetscCall(FindFault(value, value + 2, "", message, sizeof(message)));
   PetscCheck(!message[0], comm, SAM_ERR_FILE, "%s: cannot be read: %s", source, message);
   PetscCall(SamPairSet(pair, value, value + 2));
+  for (PetscInt k = 0; k < 2; k++) {
+    const SamParameter *found = SamParametersFind(p, films[k]);
+
+    if (found && found->count == 1) pair->film[k] = found->value[0];
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -112,5 +126,11 @@ PetscErrorCode SamPairSetFromOptions(SamPair *pair, const SamOptions *from)
   PetscCall(FindFault(young, poisson, prefix, message, sizeof(message)));
   PetscCheck(!message[0], from->comm, SAM_ERR_USER, "%s", message);
   PetscCall(SamPairSet(pair, young, poisson));
+  PetscCall(SamOptionsReal(from, films[0], "thickness (m) of a film between the surfaces, which shear displaces",
+                           SAM_RANGE_POSITIVE, &pair->film[0], &has_young));
+  PetscCall(SamOptionsReal(from, films[1], "its shear modulus (Pa)", SAM_RANGE_POSITIVE, &pair->film[1], &has_poisson));
+  PetscCheck(has_young == has_poisson, from->comm, SAM_ERR_USER,
+             "%s%s is given without %s%s: a film has both: give both", prefix, films[has_young ? 0 : 1], prefix,
+             films[has_young ? 1 : 0]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

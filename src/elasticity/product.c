@@ -4,12 +4,18 @@
 typedef PetscErrorCode (*Method)(SamElasticity, const double *const[], double *const[]);
 typedef PetscErrorCode (*MethodSingle)(SamElasticity, double, const float *const[], float *const[]);
 
-static PetscErrorCode Apply(SamElasticity e, Method method, SamEvent event, Vec in, Vec out)
+/* `film`: the displacement of each cell by its own value, in addition. */
+static PetscErrorCode Apply(SamElasticity e, Method method, SamEvent event, PetscReal film, Vec in, Vec out)
 {
-  const double *x = NULL;
+  const double *x    = NULL;
+  Vec           copy = NULL;
   double       *y;
 
   PetscFunctionBegin;
+  if (film > 0 && in == out) {
+    PetscCall(VecDuplicate(in, &copy));
+    PetscCall(VecCopy(in, copy));
+  }
   PetscCheck(method, e->grid->comm, PETSC_ERR_SUP, "Elasticity of type %s has no such product", e->type);
   PetscCall(SamElasticitySetUp(e));
   PetscCall(PetscLogEventBegin(SamEvents[event], 0, 0, 0, 0));
@@ -20,51 +26,62 @@ static PetscErrorCode Apply(SamElasticity e, Method method, SamEvent event, Vec 
                    (double *const[]){y, y + e->grid->cells}));
   PetscCall(VecRestoreArray(out, &y));
   if (in != out) PetscCall(VecRestoreArrayRead(in, &x));
+  if (film > 0) PetscCall(VecAXPY(out, film, copy ? copy : in));
+  PetscCall(VecDestroy(&copy));
   PetscCall(PetscLogEventEnd(SamEvents[event], 0, 0, 0, 0));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode ApplySingle(SamElasticity e, MethodSingle method, SamEvent event, double factor, const float x[],
-                                  float y[])
+static PetscErrorCode ApplySingle(SamElasticity e, MethodSingle method, SamEvent event, PetscReal film, double factor,
+                                  const float x[], float y[])
 {
   const float *const in[2]  = {x, x + e->grid->cells};
   float *const       out[2] = {y, y + e->grid->cells};
+  const float        own    = (float)(film * factor);
+  float             *copy   = NULL;
 
   PetscFunctionBegin;
+  if (film > 0 && x == y) {
+    PetscCall(PetscMalloc1(2 * e->grid->cells, &copy));
+    PetscCall(PetscArraycpy(copy, x, 2 * e->grid->cells));
+  }
   PetscCall(SamElasticitySetUp(e));
   PetscCall(PetscLogEventBegin(SamEvents[event], 0, 0, 0, 0));
   PetscCall(method(e, factor, in, out));
+  for (PetscInt k = 0; k < 2 * e->grid->cells && film > 0; k++) y[k] += own * (copy ? copy : x)[k];
+  PetscCall(PetscFree(copy));
   PetscCall(PetscLogEventEnd(SamEvents[event], 0, 0, 0, 0));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* The public functions: a product of fields, or of arrays in single precision, by a method and under an event. */
-#define PRODUCT(Name, method, event) \
+#define PRODUCT(Name, method, event, film) \
   PetscErrorCode Name(SamElasticity e, Vec in, Vec out) \
   { \
     PetscFunctionBegin; \
     SamElasticityWith(e, method); \
-    PetscCall(Apply(e, e->ops.method, event, in, out)); \
+    PetscCall(Apply(e, e->ops.method, event, film, in, out)); \
     PetscFunctionReturn(PETSC_SUCCESS); \
   }
-#define PRODUCT_SINGLE(Name, method, event) \
+#define PRODUCT_SINGLE(Name, method, event, film) \
   PetscErrorCode Name(SamElasticity e, double factor, const float in[], float out[]) \
   { \
     PetscFunctionBegin; \
     SamElasticityWith(e, method); \
-    PetscCall(ApplySingle(e, e->ops.method, event, factor, in, out)); \
+    PetscCall(ApplySingle(e, e->ops.method, event, film, factor, in, out)); \
     PetscFunctionReturn(PETSC_SUCCESS); \
   }
 
-PRODUCT(SamElasticityApplyNormal, applynormal, SAM_EVENT_APPLY_NORMAL)
-PRODUCT(SamElasticityApplyTangential, applytangential, SAM_EVENT_APPLY_TANGENTIAL)
-PRODUCT(SamElasticityApplyNormalToTangential, applynormaltotangential, SAM_EVENT_APPLY_COUPLING)
-PRODUCT(SamElasticityApplyTangentialToNormal, applytangentialtonormal, SAM_EVENT_APPLY_COUPLING)
-PRODUCT(SamElasticityApplyNormalSlopes, applynormalslopes, SAM_EVENT_APPLY_NORMAL)
-PRODUCT_SINGLE(SamElasticityApplyNormalSingle, applynormalsingle, SAM_EVENT_APPLY_NORMAL)
-PRODUCT_SINGLE(SamElasticityApplyTangentialSingle, applytangentialsingle, SAM_EVENT_APPLY_TANGENTIAL)
-PRODUCT_SINGLE(SamElasticityPreconditionNormalSingle, preconditionnormal, SAM_EVENT_PRECONDITION_NORMAL)
-PRODUCT_SINGLE(SamElasticityPreconditionTangentialSingle, preconditiontangential, SAM_EVENT_PRECONDITION_TANGENTIAL)
+PRODUCT(SamElasticityApplyNormal, applynormal, SAM_EVENT_APPLY_NORMAL, 0)
+PRODUCT(SamElasticityApplyTangential, applytangential, SAM_EVENT_APPLY_TANGENTIAL, SamPairFilm(&e->pair))
+PRODUCT(SamElasticityApplyNormalToTangential, applynormaltotangential, SAM_EVENT_APPLY_COUPLING, 0)
+PRODUCT(SamElasticityApplyTangentialToNormal, applytangentialtonormal, SAM_EVENT_APPLY_COUPLING, 0)
+PRODUCT(SamElasticityApplyNormalSlopes, applynormalslopes, SAM_EVENT_APPLY_NORMAL, 0)
+PRODUCT_SINGLE(SamElasticityApplyNormalSingle, applynormalsingle, SAM_EVENT_APPLY_NORMAL, 0)
+PRODUCT_SINGLE(SamElasticityApplyTangentialSingle, applytangentialsingle, SAM_EVENT_APPLY_TANGENTIAL,
+               SamPairFilm(&e->pair))
+PRODUCT_SINGLE(SamElasticityPreconditionNormalSingle, preconditionnormal, SAM_EVENT_PRECONDITION_NORMAL, 0)
+PRODUCT_SINGLE(SamElasticityPreconditionTangentialSingle, preconditiontangential, SAM_EVENT_PRECONDITION_TANGENTIAL, 0)
 
 PetscErrorCode SamElasticityGetNear(SamElasticity e, PetscInt reach, PetscInt sub, double table[])
 {

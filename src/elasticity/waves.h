@@ -17,6 +17,7 @@ typedef struct SamSymbol {
   double gain;    /* constants of the symbol, times a factor and the transforms' normalisation */
   double nu;      /* of the tangential symbols: nu, or nu/(1 - nu) */
   double mean;    /* stands for |k| at k = 0 in the inverses */
+  double film;    /* of the inverse tangential symbol: that is inverse to what it is without a film plus this */
   void (*multiply)(const struct SamSymbol *symbol, SamWaves waves); /* in place */
 } SamSymbol;
 

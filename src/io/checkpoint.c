@@ -174,11 +174,12 @@ static off_t CountBytes(SamGrid grid, SamState state)
 
 static PetscErrorCode WriteAll(SamFile f, SamContact contact, const Rest *rest)
 {
-  SamState      state;
-  PetscBool     is;
-  char          list[2048];
-  uint64_t      gap[2];
-  const SamNote notes[] = {GAP(gap)};
+  SamState       state;
+  PetscBool      is;
+  char           list[2048];
+  uint64_t       gap[2];
+  const SamNote  notes[] = {GAP(gap)};
+  PetscErrorCode ierr;
 
   PetscFunctionBegin;
   PetscCall(SamContactGetState(contact, &state));
@@ -194,7 +195,10 @@ static PetscErrorCode WriteAll(SamFile f, SamContact contact, const Rest *rest)
   PetscCall(MoveNotes(f, rest->n, rest->notes));
   MoveNumbers(f, state, NULL, 0);
   SamFileWriteTextAttribute(f, f->id, "fields", list);
-  PetscCall(MoveFields(f, state));
+  SamStateSwapMoved(state); /* a tried step is not saved */
+  ierr = MoveFields(f, state);
+  SamStateSwapMoved(state);
+  PetscCall(ierr);
   (void)SamFileNote(f, H5Fflush(f->id, H5F_SCOPE_GLOBAL));
   PetscCall(SamFileEnd(f));
   PetscFunctionReturn(PETSC_SUCCESS);

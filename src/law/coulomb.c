@@ -62,12 +62,15 @@ PetscErrorCode SamLawGetFriction(SamLaw law, PetscReal *friction)
 
 static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBool *asked)
 {
-  Coulomb *const c      = (Coulomb *)law->data;
-  SamFieldFile   source = {
-      .file_option     = "friction_file",
-      .dataset_option  = "friction_dataset",
-      .default_dataset = "/friction",
-      .unit            = "1",
+  static const char *const law_words[] = {"coulomb", "slip_path", "pressure", "falling", NULL};
+
+  PetscInt       changes = 0;
+  Coulomb *const c       = (Coulomb *)law->data;
+  SamFieldFile   source  = {
+       .file_option     = "friction_file",
+       .dataset_option  = "friction_dataset",
+       .default_dataset = "/friction",
+       .unit            = "1",
   };
   PetscReal      friction = c->friction;
   PetscBool      set, help;
@@ -79,6 +82,8 @@ static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBo
   PetscCall(SamOptionsHeading(from, "Friction"));
   PetscCall(SamOptionsReal(from, "friction", "Coulomb's coefficient", SAM_RANGE_NONNEGATIVE, &friction, &set));
   PetscCall(SamFieldFileSetFromOptions(&source, from, "HDF5 file with a coefficient of friction per cell"));
+  PetscCall(SamOptionsEnum(from, "friction_law", "how the coefficient changes: coulomb, slip_path, pressure, falling",
+                           law_words, &changes, NULL)); /* friction.c */
   PetscCall(SamPrintHelp(&help));
   PetscCheck(!set || !source.file[0], from->comm, SAM_ERR_USER, "-%sfriction and -%sfriction_file: give one of them",
              source.prefix, source.prefix);

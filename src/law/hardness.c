@@ -59,7 +59,8 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
                                                   .components  = 1,
                                                   .generations = 2,
                                                   .kept        = PETSC_TRUE,
-                                                  .result      = SAM_RESULT_USUAL};
+                                                  .result      = SAM_RESULT_USUAL,
+                                                  .motion      = SAM_MOVES};
   static const SamStateNumber numbers[NUMBERS] = {
     {"plastic_cells", "1", "cells at the pressure limit", SAM_NUMBER_INT, 1, PETSC_FALSE, PETSC_TRUE},
     {"plastic_area", "m2", "area at the pressure limit", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE},

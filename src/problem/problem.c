@@ -227,11 +227,20 @@ PetscErrorCode SamProblemHasFriction(SamProblem p, PetscBool *has)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamProblemComputeBound(SamProblem p, const SamBoundAt *at, const SamBound *bound)
+PetscErrorCode SamProblemComputeBound(SamProblem p, const SamBoundAt *given, const SamBound *bound)
 {
+  SamBoundAt at    = *given;
+  PetscInt   count = 0;
+
   PetscFunctionBegin;
+  for (PetscInt k = 0; k < p->laws; k++) count += p->law[k]->ops.bound != NULL;
+  if (count > 1 && at.pressure == bound->value) { /* which the first law overwrites */
+    PetscCall(SamGridCreateVec(p->grid, 1, &at.pressure));
+    PetscCall(VecCopy(given->pressure, at.pressure));
+  }
   for (PetscInt k = 0; k < p->laws; k++)
-    if (p->law[k]->ops.bound) PetscCall(p->law[k]->ops.bound(p->law[k], at, bound));
+    if (p->law[k]->ops.bound) PetscCall(p->law[k]->ops.bound(p->law[k], &at, bound));
+  if (at.pressure != given->pressure) PetscCall(VecDestroy(&at.pressure));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

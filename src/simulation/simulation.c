@@ -74,9 +74,28 @@ static PetscErrorCode Offer(SamSimulation s)
     PetscCall(SamHistoryGives(s->history, condition, &given));
     if (given || (k == SAM_CONDITION_FRICTION && s->plan.points))
       PetscCall(SamStateOfferNumber(state, condition->name, condition->usual));
+    for (PetscInt c = 0; c < SAM_COMPONENTS && given && condition->change; c++)
+      if (SamComponentNames[c].creep) PetscCall(SamStateOfferNumber(state, SamComponentNames[c].creep, NAN));
   }
   if (s->needs.stiffness) PetscCall(SamStiffnessDeclare(s->setup.contact));
   PetscCall(SamSimulationDeclarePieces(s));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Refuses a program of which no step has a meaning, before the first is solved. */
+static PetscErrorCode CheckRolling(SamSimulation s)
+{
+  SamControl control;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < s->needs.steps; k++) {
+    PetscCall(SamHistoryGetStep(s->history, k, &control));
+    PetscCall(SamContactCheckRolling(s->setup.contact, &control));
+    PetscCheck(SamControlRolled(&control) == 0 || !s->needs.life, s->comm, SAM_ERR_USER,
+               "roll with -wear_cycles: surfaces that roll are worn step by step: omit one of them");
+    PetscCheck(SamControlRolled(&control) == 0 || s->step_rtol == 0, s->comm, SAM_ERR_USER,
+               "roll with -step_rtol: rolled distances are not divided by the energy's error: use -steps");
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -85,6 +104,7 @@ static PetscErrorCode Prepare(SamSimulation s, const SamOptions *from)
 {
   PetscFunctionBegin;
   PetscCall(SamSimulationCreateLife(s));
+  PetscCall(CheckRolling(s));
   PetscCall(Offer(s));
   PetscCall(SamOutputSettingsPrepare(&s->output_settings, s->setup.contact, from));
   PetscCall(SamSimulationCollectParameters(s));

@@ -6,6 +6,7 @@
 typedef struct {
   SamStateField declared;
   Vec           value[SAM_GENERATIONS];
+  Vec           other; /* while the committed one has moved that before it; NULL: it has not */
   PetscBool     set;
 } Field;
 
@@ -59,8 +60,10 @@ PetscErrorCode SamStateCreateLike(SamState state, SamState *other)
 static PetscErrorCode DestroyFields(SamState s)
 {
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < s->fields; k++)
+  for (PetscInt k = 0; k < s->fields; k++) {
+    PetscCall(VecDestroy(&s->field[k].other));
     for (PetscInt g = 0; g < SAM_GENERATIONS; g++) PetscCall(VecDestroy(&s->field[k].value[g]));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -185,10 +188,41 @@ PetscErrorCode SamStateBegin(SamState s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+void SamStateSwapMoved(SamState s)
+{
+  for (PetscInt k = 0; k < s->fields; k++) {
+    Field *f     = &s->field[k];
+    Vec    other = f->other;
+
+    if (!other) continue;
+    f->other                = f->value[SAM_COMMITTED];
+    f->value[SAM_COMMITTED] = other;
+  }
+}
+
 PetscErrorCode SamStateForgetFields(SamState s)
 {
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < s->fields; k++) s->field[k].set = PETSC_FALSE;
+  SamStateSwapMoved(s);
+  for (PetscInt k = 0; k < s->fields; k++) {
+    PetscCall(VecDestroy(&s->field[k].other));
+    s->field[k].set = PETSC_FALSE;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamStateMove(SamState s, const PetscReal distance[2])
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < s->fields; k++) {
+    Field *f = &s->field[k];
+
+    if (f->declared.motion == SAM_STAYS || !f->value[SAM_COMMITTED]) continue;
+    PetscCall(SamGridCreateVec(s->grid, f->declared.components, &f->other));
+    PetscCall(SamGridMove(s->grid, f->declared.components, distance, f->declared.motion == SAM_MOVES_CONTINUED,
+                          f->value[SAM_COMMITTED], f->other));
+  }
+  SamStateSwapMoved(s);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -227,6 +261,7 @@ PetscErrorCode SamStateCommit(SamState s)
 
   PetscFunctionBegin;
   PetscCheck(s->tried, s->grid->comm, PETSC_ERR_ORDER, "There is no tried generation");
+  for (PetscInt k = 0; k < s->fields; k++) PetscCall(VecDestroy(&s->field[k].other));
   for (PetscInt k = 0; k < s->fields; k++)
     if (s->field[k].set) Rotate(&s->field[k]);
   s->generation[SAM_BEFORE]    = s->generation[SAM_COMMITTED];
@@ -303,6 +338,7 @@ PetscErrorCode SamStateCopy(SamState from, SamState to)
              " cells: expected %" PetscInt_FMT " x %" PetscInt_FMT,
              from->grid->nx, from->grid->ny, to->grid->nx, to->grid->ny);
   PetscCall(SamStateReject(to));
+  SamStateSwapMoved(from);
   for (PetscInt k = 0; k < from->fields; k++) {
     const char *name = from->field[k].declared.name;
 
@@ -325,6 +361,7 @@ PetscErrorCode SamStateCopy(SamState from, SamState to)
       else
         PetscCall(PetscArraycpy(to->generation[g] + n->id, from->generation[g] + other, n->declared.count));
   }
+  SamStateSwapMoved(from);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

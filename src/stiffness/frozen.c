@@ -63,7 +63,7 @@ static PetscErrorCode LeaveLeast(SamWindow window, SamGrid grid, Vec whole, Vec 
 /* The derivatives of the bound, the slip and the overlap of the tried step, for a motion that continues it. */
 static PetscErrorCode CreateMotion(SamContact contact, const SamSolution *s, SamWindow window, SamGrid grid, Vec f[])
 {
-  SamBoundAt at    = {NULL, s->control.friction_scale, s->pressure, NULL};
+  SamBoundAt at    = {NULL, s->control.friction_scale, s->pressure, NULL, SamControlRolled(&s->control)};
   SamBound   bound = {NULL, NULL, NULL};
   SamProblem problem;
   SamGrid    whole;

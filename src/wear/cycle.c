@@ -164,7 +164,7 @@ static PetscErrorCode FindShift(SamLife l, SamRate *rate)
 
 static PetscErrorCode FindCoefficient(SamLife l, PetscReal friction_scale, SamRate *rate)
 {
-  const SamBoundAt at = {l->memory, friction_scale, rate->pressure, NULL};
+  const SamBoundAt at = {l->memory, friction_scale, rate->pressure, NULL, 0};
   const double    *p, *load, *path, *unit;
   double          *to, most = 0;
   Vec              cycle, slip;

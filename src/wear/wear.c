@@ -85,7 +85,11 @@ static PetscErrorCode ComputeDepth(void *owner, SamState state, PetscInt body, V
 
 static PetscErrorCode Declare(SamLaw law, SamState state)
 {
-  static const SamStateField load      = {.name = SAM_WEAR_LOAD, .components = 1, .generations = 3, .kept = PETSC_TRUE},
+  static const SamStateField load      = {.name        = SAM_WEAR_LOAD,
+                                          .components  = 1,
+                                          .generations = 3,
+                                          .kept        = PETSC_TRUE,
+                                          .motion      = SAM_MOVES},
                              cycle     = {.name = SAM_WEAR_CYCLE, .components = 1, .generations = 2},
                              path      = {.name = SAM_WEAR_PATH, .components = 1, .generations = 2};
   static const SamStateNumber number[] = {

@@ -29,6 +29,7 @@ typedef struct {
   PetscReal friction_scale; /* of the control */
   Vec       pressure;       /* Pa */
   Vec       slip;           /* m: length of the slip of this step, in each cell; NULL: none */
+  PetscReal rolled;         /* m: rolled distance of the step (SamControlRolled()) */
 } SamBoundAt;
 
 /*
@@ -134,6 +135,9 @@ struct _n_SamLaw {
 /* The laws that come with the library, in the order in which they act (register.c). */
 PETSC_INTERN PetscErrorCode SamLawRegisterAll(void);
 PETSC_INTERN PetscErrorCode SamLawCreate_Coulomb(SamLaw law);
+PETSC_INTERN PetscErrorCode SamLawCreate_PathFriction(SamLaw law);
+PETSC_INTERN PetscErrorCode SamLawCreate_PressureFriction(SamLaw law);
+PETSC_INTERN PetscErrorCode SamLawCreate_FallingFriction(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_Archard(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_Energy(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_Hardness(SamLaw law);

@@ -200,23 +200,24 @@ static PetscErrorCode Precondition(SamElasticity e, PetscInt n, double factor, d
   s.step[1] = 2 * PETSC_PI / (double)hy * e->grid->length / e->grid->dy;
   s.gain    = factor / (2 * PETSC_PI * local * (double)hx * (double)hy * e->grid->length);
   s.mean    = 0.5 * PetscMin(s.step[0], s.step[1]);
+  s.film    = SamPairFilm(&e->pair) / (2 * PETSC_PI * local * e->grid->length);
   PetscCall(SamSymbolApplySingle(e, &s, n, in, out));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Times gain |k| (I + nu kk'/|k|^2). */
+/* Times gain |k| (I + nu kk'/|k|^2), or, with a film, the inverse of the inverse of this plus the film. */
 SAM_VECTORIZED static void DivideTangential(const SamSymbol *s, SamWaves at)
 {
   const float gain = (float)s->gain, mean = (float)s->mean, extra = (float)s->nu, least = mean * mean,
-              step = (float)s->step[1], kx = (float)at.kx, sign = (float)at.cross;
+              step = (float)s->step[1], kx = (float)at.kx, sign = (float)at.cross, film = (float)s->film;
   float(*restrict x)[2] = (float(*)[2])at.x, (*restrict y)[2] = (float(*)[2])at.y;
 
 #pragma omp simd
   for (PetscInt m = at.first; m < at.last; m++) {
     const float ky = step * (float)(m - at.origin), k2 = kx * kx + ky * ky, some = k2 > least ? k2 : least,
-                g    = gain * sqrtf(some);
-    const float part = g * extra / some, cross = sign * part * kx * ky, gx = g + part * kx * kx,
-                gy = g + part * ky * ky;
+                k = sqrtf(some), g = gain * k / (1 + film * k);
+    const float part = g * extra / some / (1 + film * k * (1 + extra)), cross = sign * part * kx * ky,
+                gx = g + part * kx * kx, gy = g + part * ky * ky;
     const float x0 = x[m][0], x1 = x[m][1], y0 = y[m][0], y1 = y[m][1];
 
     x[m][0] = gx * x0 + cross * y0;

@@ -90,18 +90,19 @@ static void FilterTangentialToNormal(const SamFourierBlock *block, const void *c
 
 /* ---- inverses ---- */
 
-/* gain |k| times the inverse of the matrix I - nu kk'/|k|^2 whose cross term is multiplied by `cross`. */
+/* gain |k| times the inverse of the matrix (1 + film |k|) I - nu kk'/|k|^2, its cross term multiplied by `cross`. */
 SAM_VECTORIZED static void DivideTangential(const SamSymbol *s, SamWaves at)
 {
   const float gain = (float)s->gain, nu = (float)s->nu, least = (float)(s->mean * s->mean), step = (float)s->step[1];
-  const float kx = (float)at.kx, cross = (float)at.cross;
+  const float kx = (float)at.kx, cross = (float)at.cross, film = (float)s->film;
   float(*restrict x)[2] = (float(*)[2])at.x, (*restrict y)[2] = (float(*)[2])at.y;
 
 #pragma omp simd
   for (PetscInt m = at.first; m < at.last; m++) {
     const float ky = step * (float)(m - at.origin), k2 = kx * kx + ky * ky, some = k2 > least ? k2 : least;
-    const float a = 1 - nu * kx * kx / some, b = -cross * nu * kx * ky / some, d = 1 - nu * ky * ky / some;
-    const float g  = gain * sqrtf(some) / (a * d - b * b);
+    const float k = sqrtf(some), own = 1 + film * k;
+    const float a = own - nu * kx * kx / some, b = -cross * nu * kx * ky / some, d = own - nu * ky * ky / some;
+    const float g  = gain * k / (a * d - b * b);
     const float x0 = x[m][0], x1 = x[m][1], y0 = y[m][0], y1 = y[m][1];
 
     x[m][0] = g * (d * x0 - b * y0);
@@ -133,6 +134,7 @@ static SamSymbol InverseOf(SamElasticity e, double factor, double amplitude, Pro
 {
   SamSymbol s = SymbolOf(e, factor, amplitude, multiply);
 
+  s.film = SamPairFilm(&e->pair) / (amplitude * e->grid->length);
   s.gain = factor / (amplitude * e->grid->length * (double)e->grid->nx * (double)e->grid->ny);
   return s;
 }

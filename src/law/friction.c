@@ -1,0 +1,265 @@
+/*
+  Friction that changes: with the accumulated slip, with the pressure, or with the velocity of slip in rolling. The
+  bound b = mu p of Coulomb's law, which acts first, becomes F b + (1 - F) low p in each cell.
+
+  slip_path  F = exp(-L/length), low = final; L is the slip under pressure of all committed steps: a step has the
+             friction that those before it left, with an error of first order in its slip.
+  pressure   F = (p/reference)^exponent, low = 0; b is not more than a limit.
+  falling    F = 2^(-speed/half speed), low = kinetic, where a step rolls; the speed is that of rolling times slip over
+             rolled distance. With a memory F = t F_before + (1 - t) F_now, t = memory/(memory + slip), the slip being
+             at least the memory's speed times the step's time. The bound follows the slip of the step, and there may be
+             more than one solution.
+  Source of falling friction: Vollebregt and Schuttelaars 2012, J. Sound Vib. 331, 2141-2155.
+*/
+#include <petsam/private/lawimpl.h>
+#include <math.h>
+
+typedef enum { PATH, PRESSURE, FALLING, KINDS } Kind;
+enum { FINAL, LENGTH };
+enum { EXPONENT, REFERENCE, LIMIT };
+enum { KINETIC, HALF, SPEED, MEMORY, SLOWEST, OPTIONS };
+
+typedef struct {
+  const char *name, *text;
+  SamRange    range;
+  PetscReal   usual; /* NAN: required */
+} Option;
+
+/* A kind by its word of -friction_law; the field that it remembers, NULL: none. */
+static const struct {
+  const char   *word;
+  Option        option[OPTIONS];
+  SamStateField memory;
+} kinds[KINDS] = {
+  {"slip_path",
+   {{"friction_path_final", "slip_path: coefficient after long slip", SAM_RANGE_NONNEGATIVE, NAN},
+    {"friction_path_length", "slip_path: slip (m) after which 1/e of the change is left", SAM_RANGE_POSITIVE, NAN}},
+   {"friction_path", "m", "slip under pressure, over all steps", 1, 2, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_OFFERED,
+    SAM_MOVES}},
+  {"pressure",
+   {{"friction_pressure_exponent", "pressure: exponent of p over the reference, > -1", SAM_RANGE_ANY, 0},
+    {"friction_pressure_reference", "pressure: where the coefficient is -friction (Pa)", SAM_RANGE_POSITIVE, 1},
+    {"friction_shear_limit", "pressure: maximum shear (Pa)", SAM_RANGE_POSITIVE_INF, INFINITY}},
+   {NULL}},
+  {"falling",
+   {{"friction_falling_kinetic", "falling: coefficient at high speed", SAM_RANGE_NONNEGATIVE, NAN},
+    {"friction_falling_half_speed", "falling: slip velocity (m/s) of half the change", SAM_RANGE_POSITIVE, NAN},
+    {"rolling_speed", "falling: speed of rolling (m/s)", SAM_RANGE_POSITIVE, NAN},
+    {"friction_falling_memory", "falling: slip (m) of the memory, 0: none", SAM_RANGE_NONNEGATIVE, 0},
+    {"friction_falling_memory_speed", "falling: least slip velocity for the memory (m/s)", SAM_RANGE_NONNEGATIVE, 0}},
+   {"friction_fallen", "1", "part of the change of friction that is reached", 1, 2, PETSC_TRUE, PETSC_FALSE,
+    SAM_RESULT_OFFERED, SAM_MOVES}}};
+
+typedef struct {
+  Kind      kind;
+  PetscReal value[OPTIONS];
+} Friction;
+
+/* ---- options ---- */
+
+static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBool *asked)
+{
+  Friction *const f      = (Friction *)law->data;
+  const char     *prefix = SamOptionsPrefix(from);
+  char            word[64];
+  PetscBool       given, help;
+
+  PetscFunctionBegin;
+  PetscCall(PetscOptionsGetString(NULL, from->prefix, "-friction_law", word, sizeof(word), &given)); /* coulomb.c */
+  *asked = given && !strcmp(word, kinds[f->kind].word);
+  PetscCall(SamPrintHelp(&help));
+  for (const Option *o = kinds[f->kind].option; o < kinds[f->kind].option + OPTIONS && o->name; o++) {
+    PetscReal *const value = &f->value[o - kinds[f->kind].option];
+
+    PetscCall(SamOptionsReal(from, o->name, o->text, o->range, value, &given));
+    PetscCheck(*asked || !given, from->comm, SAM_ERR_USER, "-%s%s is given without -%sfriction_law %s", prefix, o->name,
+               prefix, kinds[f->kind].word);
+    PetscCheck(!*asked || !isnan(*value) || help, from->comm, SAM_ERR_USER, "-%sfriction_law %s: give -%s%s", prefix,
+               kinds[f->kind].word, prefix, o->name);
+  }
+  PetscCheck(f->kind != PRESSURE || f->value[EXPONENT] > -1, from->comm, SAM_ERR_USER,
+             "-%sfriction_pressure_exponent %.6g: expected a number > -1", prefix, (double)f->value[EXPONENT]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode AddParameters(SamLaw law, SamParameters *p)
+{
+  const Friction *f = (const Friction *)law->data;
+
+  PetscFunctionBegin;
+  PetscCall(SamParametersAddText(p, "friction_law", PETSC_TRUE, kinds[f->kind].word));
+  for (PetscInt k = 0; k < OPTIONS && kinds[f->kind].option[k].name; k++)
+    PetscCall(SamParametersAddReals(p, kinds[f->kind].option[k].name, PETSC_TRUE, 1, &f->value[k]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- what is remembered, and results ---- */
+
+static PetscErrorCode ComputeCoefficient(void *owner, SamState state, PetscInt component, Vec coefficient)
+{
+  const Vec p = SamStateReadField(state, SamStateFindField(state, "pressure")),
+            b = SamStateReadField(state, SamStateFindField(state, "bound"));
+
+  PetscFunctionBegin;
+  (void)owner;
+  (void)component;
+  PetscCall(VecSet(coefficient, 0));
+  if (p && b) PetscCall(VecPointwiseDivide(coefficient, b, p)); /* 0 where p is 0 */
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Declare(SamLaw law, SamState state)
+{
+  const SamStateField *memory      = &kinds[((const Friction *)law->data)->kind].memory;
+  const SamStateResult coefficient = {"friction_coefficient",
+                                      "1",
+                                      "coefficient of friction",
+                                      SAM_FIELD_REAL,
+                                      SAM_RESULT_OFFERED,
+                                      ComputeCoefficient,
+                                      law,
+                                      0,
+                                      -1};
+  PetscInt             id;
+
+  PetscFunctionBegin;
+  if (memory->name) PetscCall(SamStateDeclareField(state, memory, &id));
+  PetscCall(SamStateOffer(state, &coefficient));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the bound ---- */
+
+/* The factor F by what is remembered and the slip of the step, and its derivative by this slip. */
+static double FactorOf(const Friction *f, double p, double memory, double slip, double rolled, double *by_slip)
+{
+  const PetscReal *v = f->value;
+  double           now, t, rate;
+
+  *by_slip = 0;
+  if (f->kind == PATH) return exp(-memory / v[LENGTH]);
+  if (f->kind == PRESSURE) return pow(p / v[REFERENCE], v[EXPONENT]);
+  if (rolled == 0) return 1 - memory;
+  rate     = M_LN2 * v[SPEED] / (rolled * v[HALF]);
+  now      = exp(-rate * slip);
+  t        = v[MEMORY] > 0 ? v[MEMORY] / (v[MEMORY] + PetscMax(slip, v[SLOWEST] * rolled / v[SPEED])) : 0;
+  *by_slip = -(1 - t) * rate * now;
+  if (v[MEMORY] > 0 && slip > v[SLOWEST] * rolled / v[SPEED]) *by_slip -= t * t / v[MEMORY] * (1 - memory - now);
+  return t * (1 - memory) + (1 - t) * now;
+}
+
+static void BoundCell(const Friction *f, const SamBoundAt *at, double p, double memory, double slip, double *value,
+                      double *by_pressure, double *by_slip)
+{
+  const double low   = at->friction_scale * (f->kind == PATH      ? f->value[FINAL]
+                                             : f->kind == FALLING ? f->value[KINETIC]
+                                                                  : 0);
+  const double steep = f->kind == PRESSURE ? 1 + f->value[EXPONENT] : 1;
+  double       change;
+  const double factor = FactorOf(f, p, memory, slip, at->rolled, &change);
+  const double bound  = factor * (value ? *value : *by_pressure * p) + (1 - factor) * low * p;
+  const double most   = f->kind == PRESSURE ? f->value[LIMIT] : INFINITY;
+
+  if (by_slip) *by_slip = factor * *by_slip + change * (*value - low * p);
+  if (by_pressure) *by_pressure = bound > most ? 0 : steep * factor * *by_pressure + (1 - factor) * low;
+  if (value) *value = PetscMin(bound, most);
+}
+
+static PetscErrorCode Bound(SamLaw law, const SamBoundAt *at, const SamBound *bound)
+{
+  const Friction *f     = (const Friction *)law->data;
+  const char     *name  = kinds[f->kind].memory.name;
+  const Vec       in[]  = {at->pressure, at->slip,
+                    name && at->state ? SamStateGetField(at->state, SamStateFindField(at->state, name), SAM_COMMITTED)
+                                             : NULL},
+            out[]       = {bound->value, bound->by_pressure, bound->by_slip};
+  const double *from[3] = {NULL};
+  double       *to[3]   = {NULL};
+
+  PetscFunctionBegin;
+  for (int k = 0; k < 3; k++) {
+    if (in[k]) PetscCall(VecGetArrayRead(in[k], &from[k]));
+    if (out[k]) PetscCall(VecGetArray(out[k], &to[k]));
+  }
+  for (PetscInt k = 0; k < law->grid->cells; k++)
+    if (from[0][k] > 0)
+      BoundCell(f, at, from[0][k], in[2] ? from[2][k] : 0, in[1] ? from[1][k] : 0, out[0] ? &to[0][k] : NULL,
+                out[1] ? &to[1][k] : NULL, out[2] ? &to[2][k] : NULL);
+  for (int k = 0; k < 3; k++) {
+    if (out[k]) PetscCall(VecRestoreArray(out[k], &to[k]));
+    if (in[k]) PetscCall(VecRestoreArrayRead(in[k], &from[k]));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The slip under pressure is added; of falling friction the part that is reached replaces the one before. */
+static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
+{
+  const Friction *f      = (const Friction *)law->data;
+  const PetscInt  id     = kinds[f->kind].memory.name ? SamStateFindField(step->state, kinds[f->kind].memory.name) : -1;
+  const double    rolled = (double)SamControlRolled(step->control);
+  const double   *p, *slip, *old = NULL;
+  double *new, change;
+  Vec before, after, path;
+
+  PetscFunctionBegin;
+  if (id < 0 || (f->kind == FALLING && rolled == 0)) PetscFunctionReturn(PETSC_SUCCESS);
+  before = SamStateGetField(step->state, id, SAM_COMMITTED);
+  PetscCall(SamLawStepGetFriction(step, &path, NULL, NULL));
+  PetscCall(SamStateSetField(step->state, id, &after));
+  PetscCall(VecGetArrayRead(step->pressure, &p));
+  PetscCall(VecGetArrayRead(path, &slip));
+  if (before) PetscCall(VecGetArrayRead(before, &old));
+  PetscCall(VecGetArrayWrite(after, &new));
+  for (PetscInt k = 0; k < law->grid->cells; k++) {
+    const double was = old ? old[k] : 0;
+
+    new[k] = f->kind == PATH ? was + (p[k] > 0 ? slip[k] : 0)
+             : p[k] > 0      ? 1 - FactorOf(f, p[k], was, slip[k], rolled, &change)
+                             : 0;
+  }
+  PetscCall(VecRestoreArrayWrite(after, &new));
+  if (before) PetscCall(VecRestoreArrayRead(before, &old));
+  PetscCall(VecRestoreArrayRead(path, &slip));
+  PetscCall(VecRestoreArrayRead(step->pressure, &p));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the types ---- */
+
+static PetscErrorCode Create(SamLaw law, Kind kind)
+{
+  Friction *f;
+
+  PetscFunctionBegin;
+  PetscCall(PetscNew(&f));
+  f->kind = kind;
+  for (PetscInt k = 0; k < OPTIONS; k++) f->value[k] = kinds[kind].option[k].usual;
+  law->data               = f;
+  law->option             = "friction_law";
+  law->bytes              = kinds[kind].memory.name ? 16 : 0;
+  law->needs_friction     = PETSC_TRUE;
+  law->follows_slip       = kind == FALLING;
+  law->forbids_jumps      = kinds[kind].memory.name ? PETSC_TRUE : PETSC_FALSE;
+  law->ops.setfromoptions = SetFromOptions;
+  law->ops.addparameters  = AddParameters;
+  law->ops.declare        = Declare;
+  law->ops.bound          = Bound;
+  law->ops.advance        = Advance;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLawCreate_PathFriction(SamLaw law)
+{
+  return Create(law, PATH);
+}
+
+PetscErrorCode SamLawCreate_PressureFriction(SamLaw law)
+{
+  return Create(law, PRESSURE);
+}
+
+PetscErrorCode SamLawCreate_FallingFriction(SamLaw law)
+{
+  return Create(law, FALLING);
+}

@@ -1,0 +1,197 @@
+"""Rolling in steps of time: columns roll and roll_y, creepages given or found."""
+
+import h5py
+import numpy as np
+import pytest
+
+from support import ball, history
+
+N, MU, SHARE, CELL = 0.4705, 0.4013, 0.657, 0.25
+# CONTACT's example from Cattaneo's shift to Carter's steady state; its numbers are those that it prints
+CASE_C = dict(
+    grid_n=(34, 33),
+    grid_size=(34 * CELL, 33 * CELL),
+    grid_center=(0.125, 0.0),
+    body1_young=2.56,
+    body2_young=2.56,
+    body1_poisson=0.28,
+    body2_poisson=0.28,
+    gap_type="sphere",
+    gap_radius1=1 / (2 * 0.002963),
+    gap_radius2=float("inf"),
+    friction=MU,
+    load_n=N,
+    output_fields="all",
+)
+TX = SHARE * MU * N
+
+
+def numbers(path):
+    with h5py.File(path, "r") as f:
+        return {name: data[:] for name, data in f["history"].items()}
+
+
+@pytest.fixture
+def roll(petsam, tmp_path):
+    """Runs rows of a history: the numbers of its steps."""
+
+    def run(case, header, *rows, name="rolled", **words):
+        loads = history(tmp_path / f"{name}.csv", header, *[map(float, row) for row in rows])
+        petsam(case, loads, dict(output=f"{name}.h5"), **words)
+        return numbers(tmp_path / f"{name}.h5")
+
+    return run
+
+
+def cattaneo(steps, length=CELL):
+    return [(0, TX, 0.0), *[(k + 1, TX, length) for k in range(steps)]]
+
+
+def test_from_cattaneo_to_carter(roll):
+    h = roll(CASE_C, "time,load_tx,roll", *cattaneo(56))
+    assert h["disp_x"][0] == pytest.approx(0.01774, abs=5.1e-6)
+    assert h["stick_cells"][0] == 305
+    assert np.isnan(h["creep_x"][0])
+    expected = {1: 1.824e-3, 2: 1.882e-3, 6: 2.221e-3, 14: 3.403e-3, 15: 3.402e-3, 21: 3.088e-3, 56: 3.101e-3}
+    for k, creep in expected.items():
+        assert h["creep_x"][k] == pytest.approx(creep, abs=5.1e-7), k
+        assert h["disp_x"][k] - h["disp_x"][k - 1] == pytest.approx(h["creep_x"][k] * CELL, rel=1e-12)
+    assert h["stick_cells"][-1] == 346
+    assert np.all(h["tangential_applies"] <= 18)
+
+
+def test_given_creepages_give_back_the_loads(roll):
+    found = roll(CASE_C, "time,load_tx,roll", *cattaneo(8))
+    rows = [(k, *(found[f"creep_{n}"][k] for n in ("x", "y", "spin")), CELL) for k in range(1, 9)]
+    # the first row has the shift as creepage over a rolled distance, from nothing
+    first = [(0, found["disp_x"][0] / CELL, found["disp_y"][0] / CELL, found["rot_z"][0] / CELL, CELL)]
+    given = roll(CASE_C, "time,creep_x,creep_y,creep_spin,roll", *first, *rows, name="given")
+    assert np.allclose(given["load_tx"], TX, rtol=1e-5)
+    assert np.allclose(given["disp_x"], found["disp_x"], rtol=1e-9)
+
+
+def test_rows_are_divided(roll):
+    one = roll(CASE_C, "time,load_tx,roll", *cattaneo(12))
+    rows = [(0, 0.0, 0.0), (1, TX, 0.0), (2, TX, 12 * CELL)]
+    divided = roll(dict(CASE_C, steps=12), "time,load_tx,roll", *rows, name="divided")
+    assert np.all(divided["roll"][-12:] == CELL)
+    assert np.allclose(divided["creep_x"][-1], one["creep_x"][-1], rtol=1e-4)
+
+
+@pytest.mark.parametrize(("length", "tolerance"), [(0.5 * CELL, 8e-3), (1.4 * CELL, 1.2e-2), (2 * CELL, 2.6e-2)])
+def test_steps_of_other_lengths(roll, length, tolerance):
+    """The error of a step is of first order in its length; what parts of a cell add is less."""
+    whole = roll(CASE_C, "time,load_tx,roll", *cattaneo(40))
+    other = roll(CASE_C, "time,load_tx,roll", *cattaneo(round(40 * CELL / length), length), name="other")
+    assert other["creep_x"][-1] == pytest.approx(whole["creep_x"][-1], rel=tolerance)
+
+
+def test_rigid_rolling_turns_the_reference(roll):
+    """Without friction nothing resists: a step without creepage slips nowhere, and displacements are about the grid."""
+    case = dict(ball(32), friction=1e-9, sum_slip_path=True)
+    d = case["grid_size"] / 32
+    rows = [
+        (0, 0.0, 0.0, 0.0, 0.0, 0.0),
+        (1, 1e-3, 2e-3, 3.0, 2 * d, d),
+        (2, 0.0, 0.0, 0.0, 3 * d, 0.0),
+        (3, 0.0, 0.0, 0.0, 0.0, -2 * d),
+        (4, 0.0, 0.0, 0.0, -3 * d, 2 * d),
+    ]
+    h = roll(case, "time,creep_x,creep_y,creep_spin,roll,roll_y", *rows)
+    path = np.hypot(2 * d, d)
+    assert h["rot_z"][1:] == pytest.approx(3.0 * path, rel=1e-12)
+    turn = 3.0 * path * d
+    assert h["disp_x"][1:] - h["disp_x"][1] == pytest.approx(turn * np.array([0, 0, 2, 0]), abs=1e-12 * turn)
+    assert h["disp_y"][1:] - h["disp_y"][1] == pytest.approx(turn * np.array([0, 3, 3, 0]), abs=1e-12 * turn)
+    assert np.all(h["dissipated_energy"][2:] <= 1e-6 * h["dissipated_energy"][1])
+
+
+def test_along_y_is_as_along_x(roll):
+    case = dict(ball(40), load_n=180.0)
+    d = case["grid_size"] / 40
+    rows = [(0, 20.0, 5.0, 0.0, 0.0), *[(k, 20.0, 5.0, 1.3 * d, 0.5 * d) for k in range(1, 6)]]
+    x = roll(case, "time,load_tx,load_ty,roll,roll_y", *rows)
+    y = roll(case, "time,load_ty,load_tx,roll_y,roll", *rows, name="y")
+    for a, b in (("creep_x", "creep_y"), ("creep_y", "creep_x")):
+        assert np.allclose(x[a][1:], y[b][1:], rtol=1e-4)
+    assert np.allclose(
+        x["creep_spin"][1:], -y["creep_spin"][1:], rtol=1e-3, atol=1e-3 * np.abs(x["creep_spin"][1:]).max()
+    )
+
+
+WEARS = dict(sum_slip_path=True, sum_friction_energy=True, wear_coefficient1=1e-12, pressure_limit=2.2e8)
+
+
+@pytest.mark.parametrize("ranks", [2, 3])
+def test_bits_do_not_depend_on_ranks(petsam, roll, tmp_path, ranks):
+    case = dict(ball(33), **WEARS)
+    d = case["grid_size"] / 33
+    rows = [(0, 20.0, 0.0, 0.0), (1, 20.0, d, -2 * d), (2, 22.0, 0.3 * d, 0.8 * d), (3, 20.0, -d, 0.0)]
+    for n in (1, ranks):
+        roll(case, "time,load_tx,roll,roll_y", *rows, name=f"on{n}", ranks=n)
+    with h5py.File(tmp_path / "on1.h5") as one, h5py.File(tmp_path / f"on{ranks}.h5") as many:
+        for name in ("shear_x", "slip_x", "slip_path", "friction_energy", "wear_depth1", "plastic_depth"):
+            assert np.array_equal(one[name][:], many[name][:]), name
+
+
+def test_what_the_material_has_suffered_moves_with_it(roll, tmp_path):
+    case = dict(ball(40), **WEARS)
+    d = case["grid_size"] / 40
+    del case["load_n"]
+    # lifted after the second row: what was there moves and nothing is added
+    rows = [(0, 180.0, 30.0, 0.0, 0.0), (1, 0.0, 0.0, 0.0, 0.0), (2, 0.0, 0.0, 3 * d, -2 * d)]
+    roll(case, "time,load_n,load_tx,roll,roll_y", *rows)
+    with h5py.File(tmp_path / "rolled.h5") as f:
+        for name in ("wear_depth1", "plastic_depth", "friction_energy"):
+            before, after = f[name][1], f[name][2]
+            assert before.max() > 0, name
+            assert np.array_equal(after[2:, :-3], before[:-2, 3:]), name
+            assert np.all(after[:2] == 0) and np.all(after[:, -3:] == 0), name
+
+
+def test_restart_amid_rolling(petsam, roll, tmp_path):
+    case = dict(ball(33), **WEARS)
+    d = case["grid_size"] / 33
+    rows = [(0, 20.0, 0.0), *[(k, 20.0, 0.7 * d) for k in range(1, 6)]]
+    roll(case, "time,load_tx,roll", *rows, name="whole")
+    loads = dict(history=tmp_path / "whole.csv")
+    petsam(case, loads, dict(checkpoint="state.h5", checkpoint_every=2, output="half.h5"))
+    petsam(
+        case, loads, dict(restart="state.h5.1" if (tmp_path / "state.h5.1").exists() else "state.h5", output="rest.h5")
+    )
+    with h5py.File(tmp_path / "whole.h5") as whole, h5py.File(tmp_path / "rest.h5") as rest:
+        for name in ("shear_x", "slip_x", "slip_path", "wear_depth1", "plastic_depth"):
+            assert np.array_equal(whole[name][-1], rest[name][-1]), name
+
+
+def test_contact_where_material_enters_is_told(roll):
+    case = ball(32, half_width=1.1)  # three columns outside of the contact
+    d = case["grid_size"] / 32
+    h = roll(case, "time,load_tx,roll", (0, 10.0, 0.0), (1, 10.0, d), (2, 10.0, 4 * d), check=12)
+    assert list(h["status"]) == [0, 0, 12]
+
+
+@pytest.mark.parametrize(
+    ("options", "header", "rows", "words"),
+    [
+        (dict(creep_x=1e-3), None, [], ["creep_x", "roll"]),
+        (dict(creep_x=1e-3, load_tx=1.0), None, [], ["-load_tx and -creep_x are conjugate"]),
+        (dict(creep_spin=1e-3, rot_z=1.0), None, [], ["-rot_z and -creep_spin are conjugate"]),
+        ({}, "time,creep_x,disp_x", [(0, 1e-3, 0)], ["disp_x and creep_x are conjugate"]),
+        ({}, "time,creep_y", [(0, 1e-3)], ["creep_y", "roll"]),
+        (dict(rolling="steady"), None, [], ["-rolling steady"]),
+        (dict(elasticity="periodic"), "time,roll", [(0, 1e-5)], ["roll", "periodic do not roll"]),
+        (dict(creep_z=1), None, [], ["creep_z"]),
+        (
+            dict(wear_coefficient1=1e-12, wear_cycles=10),
+            "time,load_tx,roll",
+            [(0, 1.0, 1e-6), (1, 2.0, 1e-6), (2, 1.0, 1e-6)],
+            ["roll with -wear_cycles"],
+        ),
+    ],
+)
+def test_bad_input_is_refused(petsam, tmp_path, options, header, rows, words):
+    loads = history(tmp_path / "bad.csv", header, *rows) if header else {}
+    done = petsam(ball(16), options, loads, check=2)
+    for word in words:
+        assert word in " ".join(done.complaint)
