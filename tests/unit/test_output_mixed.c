@@ -86,8 +86,8 @@ static void test_columns_of_one_run_go_on_without_values(void **state)
 /* Its values would end in the middle. */
 static void test_field_that_only_the_file_has_is_refused(void **state)
 {
-  static const SamStateField field = {"other_field", "m",         "of another law", 1, 2,
-                                      PETSC_TRUE,    PETSC_FALSE, SAM_RESULT_USUAL};
+  static const SamStateField field = {"other_field", "m",         "of another law", 1,        2,
+                                      PETSC_TRUE,    PETSC_FALSE, SAM_RESULT_USUAL, SAM_STAYS};
   SamGrid                    grid  = CreateGrid(0);
   Shown                      one = CreateShown(grid), other = CreateShown(grid);
   const SamParameters        parameters = NewParameters(friction);

@@ -15,7 +15,8 @@ static const SamStateField path = {"fading_path",
                                    .components  = 1,
                                    .generations = 2,
                                    .kept        = PETSC_TRUE,
-                                   .result      = SAM_RESULT_OFFERED};
+                                   .result      = SAM_RESULT_OFFERED,
+                                   .motion      = SAM_MOVES}; /* with the material, where the contact rolls */
 
 static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBool *asked)
 {
