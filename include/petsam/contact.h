@@ -28,6 +28,8 @@ PETSC_EXTERN PetscErrorCode SamContactCreate(SamProblem problem, SamContact *con
 PETSC_EXTERN PetscErrorCode SamContactDestroy(SamContact *contact);
 /* SamContactSetOptionsPrefix - the prefix of its options and of its solvers'; NULL: none. Not collective. */
 PETSC_EXTERN PetscErrorCode SamContactSetOptionsPrefix(SamContact contact, const char prefix[]);
+/* Whether the contact rolls in steady state, which each step is then; steps of time roll by SamControl. */
+typedef enum { SAM_ROLLING_NONE, SAM_ROLLING_STEADY } SamRolling;
 /*
   SamContactSettings - of a contact; its defaults are those of SamContactGetSettings() on a new one.
   With coupling the normal and the tangential problem of dissimilar materials are solved in turn, a pass each, until one
@@ -36,20 +38,21 @@ PETSC_EXTERN PetscErrorCode SamContactSetOptionsPrefix(SamContact contact, const
   grid that is one period, too.
 */
 typedef struct {
-  PetscBool coupling;         /* normal-tangential coupling is taken into account (true; -coupling full or none) */
-  PetscReal coupling_rtol;    /* (1e-6; -coupling_rtol) */
-  PetscInt  coupling_max_it;  /* most passes (100; -coupling_max_it) */
-  PetscBool coupling_monitor; /* print the change after each pass (false; -coupling_monitor) */
-  PetscBool warm_start;       /* start a step from the steps before, on the finest grid only (true; -warm_start) */
-  PetscReal cycle_memory;     /* bytes on all ranks for steps of a repeated load cycle: a step that the cycle before had
+  PetscBool  coupling;         /* normal-tangential coupling is taken into account (true; -coupling full or none) */
+  PetscReal  coupling_rtol;    /* (1e-6; -coupling_rtol) */
+  PetscInt   coupling_max_it;  /* most passes (100; -coupling_max_it) */
+  PetscBool  coupling_monitor; /* print the change after each pass (false; -coupling_monitor) */
+  PetscBool  warm_start;       /* start a step from the steps before, on the finest grid only (true; -warm_start) */
+  PetscReal  cycle_memory; /* bytes on all ranks for steps of a repeated load cycle: a step that the cycle before had
                                  starts from that, with the same solution within the tolerances; what is kept is in no
                                  state and no checkpoint, from which the bits differ then (0: none; -cycle_memory) */
-  PetscBool allow_edge;       /* contact at the grid's edge is a warning, no status (false; -allow_edge_contact) */
-  PetscBool edges;            /* areas, and tractions at points, by reconstructed contact and stick edges (edges.h);
+  SamRolling rolling;      /* towards +x (none; -rolling) */
+  PetscBool  allow_edge;   /* contact at the grid's edge is a warning, no status (false; -allow_edge_contact) */
+  PetscBool  edges;        /* areas, and tractions at points, by reconstructed contact and stick edges (edges.h);
                                  else by counted cells, wrong by a part of a cell along the edge (true; -edges
                                  reconstruct or none; with deferred the law of that name corrects the pressure too) */
-  PetscBool spots;            /* count the contact spots and compute the mean gap (false; -contact_spots) */
-  PetscBool print_check;      /* print the errors of each step (false; -contact_check) */
+  PetscBool  spots;        /* count the contact spots and compute the mean gap (false; -contact_spots) */
+  PetscBool  print_check;  /* print the errors of each step (false; -contact_check) */
 } SamContactSettings;
 /*
   SamContactSetSettings, SamContactGetSettings - not collective, the same on all ranks. Errors:
@@ -64,6 +67,11 @@ PETSC_EXTERN PetscErrorCode SamContactSetFromOptions(SamContact contact);
   SAM_ERR_USER.
 */
 PETSC_EXTERN PetscErrorCode SamContactSetUp(SamContact contact);
+/*
+  SamContactCheckRolling - refuses what has no meaning in a step: creepages without a rolled distance or steady rolling,
+  both of these, a distance on bodies that do not roll. Not collective. Errors: SAM_ERR_USER.
+*/
+PETSC_EXTERN PetscErrorCode SamContactCheckRolling(SamContact contact, const SamControl *control);
 /*
   The objects of a contact, borrowed. Not collective, but for SamContactGetState(), which lets the laws declare what
   they remember. That state is for reading, and for what a program offers of its own.

@@ -1,4 +1,4 @@
-/* What is prescribed in a load step: the six components, each by its load or by its displacement, and the friction. */
+/* What is prescribed in a load step: the six components, each by load, displacement or creepage, and the friction. */
 #ifndef PETSAM_CONTROL_H
 #define PETSAM_CONTROL_H
 
@@ -22,14 +22,19 @@ typedef enum {
 } SamComponent;
 
 /*
-  SamComponentName - the names of a component's load and of its displacement, as options (without dash), histories and
-  results spell them, with units and a description.
+  SamComponentName - the names of a component's load, of its displacement and of its creepage, as options (without
+  dash), histories and results spell them, with units and a description. Tx, Ty and Mz have a creepage, the change of
+  the displacement with the rolled distance; of the others its name is NULL.
 */
 typedef struct {
   const char *load, *load_unit, *load_text;
   const char *rigid, *rigid_unit, *rigid_text;
+  const char *creep, *creep_unit, *creep_text;
 } SamComponentName;
 PETSC_EXTERN const SamComponentName SamComponentNames[SAM_COMPONENTS];
+/* How a component is given. SamComponentNameOf - the name of a component so given, NULL: it cannot be. Not collective. */
+typedef enum { SAM_BY_LOAD, SAM_BY_RIGID, SAM_BY_CREEP, SAM_WAYS } SamWay;
+PETSC_EXTERN const char *SamComponentNameOf(PetscInt component, SamWay way);
 
 /* The components of a bulk stress, in the order used everywhere. */
 typedef enum { SAM_BULK_XX, SAM_BULK_YY, SAM_BULK_XY, SAM_BULK_COMPONENTS } SamBulkComponent;
@@ -42,7 +47,9 @@ typedef enum { SAM_BULK_XX, SAM_BULK_YY, SAM_BULK_XY, SAM_BULK_COMPONENTS } SamB
 typedef struct {
   PetscReal time;                  /* s; stored with the results, the solution does not depend on it */
   PetscBool force[SAM_COMPONENTS]; /* true: the load is given and the displacement is found; false: the reverse */
-  PetscReal value[SAM_COMPONENTS]; /* the given load (N, N m) or displacement (m, rad) */
+  PetscBool creep[SAM_COMPONENTS]; /* true: not the displacement, but the creepage is given; then `force` is false */
+  PetscReal value[SAM_COMPONENTS]; /* the given load (N, N m), displacement (m, rad) or creepage (1, 1/m) */
+  PetscReal roll[2];               /* m; rolled distance of the step towards +x, +y: the grid moves over the bodies */
   PetscReal friction_scale;        /* factor on the coefficient of friction, >= 0 */
   PetscReal bulk_stress[2][SAM_BULK_COMPONENTS]; /* Pa, of body 1 and 2: uniform, parallel to the surface */
 } SamControl;
@@ -57,22 +64,36 @@ typedef struct {
   PetscReal   usual; /* its value when none is given */
   SamRange    range;
   PetscBool   option; /* may be an option, and changes from `usual` to its first value; else it has that at once */
+  PetscBool   change; /* not a level but a change since the row before, of which each of the row's steps has its part */
   int         group;  /* those of a group are in results and parameters together, if one of them is given */
 } SamCondition;
-enum { SAM_CONDITION_FRICTION, SAM_CONDITION_BULK, SAM_CONDITIONS = SAM_CONDITION_BULK + 2 * SAM_BULK_COMPONENTS };
+enum {
+  SAM_CONDITION_FRICTION,
+  SAM_CONDITION_BULK,
+  SAM_CONDITION_ROLL = SAM_CONDITION_BULK + 2 * SAM_BULK_COMPONENTS,
+  SAM_CONDITIONS     = SAM_CONDITION_ROLL + 2
+};
 PETSC_EXTERN const SamCondition SamConditions[SAM_CONDITIONS];
 /* The entry of a component of the bulk stress of body 0 or 1. */
 #define SAM_BULK_CONDITION(body, k) (&SamConditions[SAM_CONDITION_BULK + (body)*SAM_BULK_COMPONENTS + (k)])
 
 /*
-  What a control prescribes, in one row: the loads or displacements of the six components, then the conditions.
-  SamControlPart - the k-th of them. SamControlPlace - where it is. SamControlPartName - its name as an option (without
-  dash) or column, of load or displacement. Not collective.
+  What a control prescribes, in one row: the loads, displacements or creepages of the six components, then the
+  conditions. SamControlPart - the k-th of them. SamControlPlace - where it is. SamControlPartName - its name as an
+  option (without dash) or column, as it is given. SamControlWay - how a component is given; SamControlSetWay - sets it.
+  Not collective.
 */
 #define SAM_CONTROL_PARTS (SAM_COMPONENTS + SAM_CONDITIONS)
 PETSC_EXTERN PetscReal   SamControlPart(const SamControl *control, PetscInt k);
 PETSC_EXTERN PetscReal  *SamControlPlace(SamControl *control, PetscInt k);
 PETSC_EXTERN const char *SamControlPartName(const SamControl *control, PetscInt k);
+PETSC_EXTERN SamWay      SamControlWay(const SamControl *control, PetscInt component);
+PETSC_EXTERN void        SamControlSetWay(SamControl *control, PetscInt component, SamWay way);
+/*
+  SamControlRolled - the rolled distance by which creepages are multiplied, m: along x or along y alone as given, with
+  its sign, else the length of the path. Not collective.
+*/
+PETSC_EXTERN PetscReal SamControlRolled(const SamControl *control);
 
 /*
   SamControlPack, SamControlUnpack - a control as SAM_CONTROL_NUMBERS numbers, and back. Not collective.
@@ -84,8 +105,8 @@ PETSC_EXTERN void SamControlUnpack(const double numbers[], SamControl *control);
 /* SamControlInitialize - all loads given and 0, time 0, all conditions as usual. Not collective. */
 PETSC_EXTERN PetscErrorCode SamControlInitialize(SamControl *control);
 /*
-  SamControlSet - prescribes a component by the name of its load or of its displacement ("load_tx", "disp_x"; N, N m, m
-  or rad). Not collective. Errors: PETSC_ERR_ARG_UNKNOWN_TYPE for any other name.
+  SamControlSet - prescribes a component by the name of its load, displacement or creepage ("load_tx", "disp_x",
+  "creep_x"; N, N m, m, rad, 1 or 1/m). Not collective. Errors: PETSC_ERR_ARG_UNKNOWN_TYPE for any other name.
 */
 PETSC_EXTERN PetscErrorCode SamControlSet(SamControl *control, const char name[], PetscReal value);
 /*

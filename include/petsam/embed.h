@@ -59,7 +59,7 @@ int petsam_grid(petsam_contact *c, int n[2], double size[2], double center[2], i
 int petsam_set_field(petsam_contact *c, const char *name, const double *values);
 /*
   petsam_try - solves a step from the committed state. `time` (s) is only noted. force[i] is 0 where value[i] is a
-  displacement, else it is a load. `load` and `rigid` become all twelve, given or found; NaN where there is none (NULL:
+  displacement, 2 where it is a creepage (of Tx, Ty, Mz), else it is a load. `load` and `rigid` become all twelve, given or found; NaN where there is none (NULL:
   not wanted). A try replaces an earlier one. After 0, 10 and 12 there is a tried step, whose fields and numbers can be
   asked for; 10 cannot be committed. A step takes the new normal load first, and then the tangential ones.
 */

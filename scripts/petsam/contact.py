@@ -28,6 +28,8 @@ from .errors import Error, Missing, short, there_are
 
 LOADS = ("load_n", "load_tx", "load_ty", "load_mx", "load_my", "load_mz")  # N, N m
 RIGIDS = ("disp_z", "disp_x", "disp_y", "rot_x", "rot_y", "rot_z")  # m, rad
+CREEPS = (None, "creep_x", "creep_y", None, None, "creep_spin")  # 1, 1, 1/m
+WAYS = (RIGIDS, LOADS, CREEPS)  # as petsam_try() numbers them
 # of a computed cycle, by their names in /wear
 CYCLE = (
     "cycle", "jump", "error", "volume1", "volume2", "depth_max1", "depth_max2", "dissipated_energy", "contact_area",
@@ -272,18 +274,20 @@ class Contact:
     def try_step(self, time=0.0, **given):
         """Solve a step from the committed state: a Step.
 
-        Each component is given by its load (load_n, N ... load_mz, N m) or its displacement (disp_z, m ... rot_z, rad);
-        what is not given is a load of 0. NoEquilibrium or NotConverged where there is no solution, with the step; an
+        Each component is given by its load (load_n, N ... load_mz, N m), its displacement (disp_z, m ... rot_z, rad) or
+        its creepage (creep_x, creep_y, creep_spin, 1/m); what is not given is a load of 0. NoEquilibrium or NotConverged where there is no solution, with the step; an
         EdgeContactWarning where the contact has reached the edge of the grid. Replaces an earlier try.
         """
         force, value = (ctypes.c_int * 6)(*[1] * 6), (ctypes.c_double * 6)()
         for name, number in given.items():
-            if name not in LOADS + RIGIDS:
-                raise TypeError(f"try_step: {name}: expected {', '.join(LOADS + RIGIDS)}")
-            k = (LOADS + RIGIDS).index(name) % 6
-            if LOADS[k] in given and RIGIDS[k] in given:
-                raise TypeError(f"try_step: {LOADS[k]} and {RIGIDS[k]} are conjugate: give one of them")
-            force[k], value[k] = name in LOADS, _real(number, f"try_step: {name}")
+            way = next((way for way, names in enumerate(WAYS) if name in names), None)
+            if way is None:
+                raise TypeError(f"try_step: {name}: expected {', '.join(filter(None, LOADS + RIGIDS + CREEPS))}")
+            k = WAYS[way].index(name)
+            both = [names[k] for names in (LOADS, RIGIDS, CREEPS) if names[k] in given]
+            if len(both) > 1:
+                raise TypeError(f"try_step: {both[0]} and {both[1]} are conjugate: give one of them")
+            force[k], value[k] = way, _real(number, f"try_step: {name}")
         if "load_n" not in given and "disp_z" not in given:
             raise TypeError("try_step: load_n or disp_z is missing")
         load, rigid = np.full(6, np.nan), np.full(6, np.nan)

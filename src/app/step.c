@@ -80,9 +80,10 @@ static PetscErrorCode ViewSolution(const SamStep *s, SamContact c, const Sizes *
 
 PetscErrorCode SamStepView(const SamStep *s, SamContact contact, PetscViewer viewer)
 {
-  static const SamComponent order[] = {SAM_COMPONENT_N,  SAM_COMPONENT_MX, SAM_COMPONENT_MY,
-                                       SAM_COMPONENT_TX, SAM_COMPONENT_TY, SAM_COMPONENT_MZ};
-  const Sizes               sizes   = GetSizes(s, contact);
+  static const SamComponent order[]         = {SAM_COMPONENT_N,  SAM_COMPONENT_MX, SAM_COMPONENT_MY,
+                                               SAM_COMPONENT_TX, SAM_COMPONENT_TY, SAM_COMPONENT_MZ};
+  static const char *const  given[SAM_WAYS] = {"load", "displacement", "creepage"};
+  const Sizes               sizes           = GetSizes(s, contact);
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
@@ -95,7 +96,7 @@ PetscErrorCode SamStepView(const SamStep *s, SamContact contact, PetscViewer vie
                                               : "",
                                      name->load, Rounded(s, c, s->load, sizes.load), name->load_unit, name->rigid,
                                      Rounded(s, c, s->rigid, sizes.rigid), name->rigid_unit,
-                                     s->control.force[c] ? "load" : "displacement"));
+                                     given[SamControlWay(&s->control, c)]));
   }
   if (s->status != SAM_STATUS_NO_EQUILIBRIUM) PetscCall(ViewSolution(s, contact, &sizes, viewer));
   PetscFunctionReturn(PETSC_SUCCESS);

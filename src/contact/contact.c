@@ -79,11 +79,12 @@ PetscErrorCode SamContactGetSettings(SamContact c, SamContactSettings *settings)
 
 PetscErrorCode SamContactSetFromOptions(SamContact c)
 {
-  static const char *const coupling_words[] = {"none", "full", NULL}, *const edge_words[] = {"none", "reconstruct",
-                                                                                             "deferred", NULL};
-  const SamOptions   from     = {c->grid->comm, c->prefix};
-  SamContactSettings s        = c->set;
-  PetscInt           coupling = s.coupling ? 1 : 0, edges = s.edges ? 1 : 0;
+  static const char *const        coupling_words[] = {"none", "full", NULL},
+                           *const edge_words[]     = {"none", "reconstruct", "deferred", NULL},
+                           *const rolling_words[]  = {"none", "steady", NULL};
+  const SamOptions                from             = {c->grid->comm, c->prefix};
+  SamContactSettings              s                = c->set;
+  PetscInt                        coupling = s.coupling ? 1 : 0, edges = s.edges ? 1 : 0, rolling = (PetscInt)s.rolling;
 
   PetscFunctionBegin;
   PetscCall(SamOptionsHeading(&from, "Contact"));
@@ -99,6 +100,8 @@ PetscErrorCode SamContactSetFromOptions(SamContact c)
                            &s.warm_start, NULL));
   PetscCall(SamOptionsReal(&from, "cycle_memory", "bytes to keep steps of a repeated cycle, from which the next starts",
                            SAM_RANGE_NONNEGATIVE, &s.cycle_memory, NULL));
+  PetscCall(SamOptionsEnum(&from, "rolling", "steady: the contact rolls towards +x in steady state; or none",
+                           rolling_words, &rolling, NULL));
   PetscCall(SamOptionsBool(&from, "allow_edge_contact", "contact at the grid's edge is a warning, no error",
                            &s.allow_edge, NULL));
   PetscCall(SamOptionsEnum(&from, "edges", "reconstruct, deferred (correct the pressure), none (count cells)",
@@ -108,6 +111,7 @@ PetscErrorCode SamContactSetFromOptions(SamContact c)
   PetscCall(SamOptionsBool(&from, "contact_check", "print the check of each step", &s.print_check, NULL));
   s.coupling = coupling != 0;
   s.edges    = edges > 0;
+  s.rolling  = (SamRolling)rolling;
   PetscCall(SamContactSetSettings(c, &s));
   PetscCall(SamSolverSetFromOptions(SamNormalAsSolver(c->normal)));
   PetscCall(SamSolverSetFromOptions(SamTangentialAsSolver(c->tangential)));

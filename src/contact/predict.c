@@ -54,7 +54,7 @@ static double Continuation(const SamControl *before, const SamControl *now, cons
   for (PetscInt n = 0; n < SAM_COMPONENTS; n++) {
     const PetscInt k = SamComponentsOf[n / 3][n % 3];
 
-    if (next->force[k] != now->force[k] || now->force[k] != before->force[k]) return 0;
+    if (SamControlWay(next, k) != SamControlWay(now, k) || SamControlWay(now, k) != SamControlWay(before, k)) return 0;
     AddChange(before->value[k], now->value[k], next->value[k], &c);
   }
   for (PetscInt k = SAM_COMPONENTS; k < SAM_CONTROL_PARTS; k++) /* the next bound is computed with the next friction */

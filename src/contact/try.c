@@ -57,6 +57,28 @@ static PetscErrorCode CheckBulkStress(SamContact c, const SamControl *control)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamContactCheckRolling(SamContact c, const SamControl *control)
+{
+  const PetscReal   rolled = SamControlRolled(control);
+  SamElasticityType type;
+
+  PetscFunctionBegin;
+  PetscCall(SamElasticityGetType(c->elasticity, &type));
+  PetscCheck(isfinite(rolled), c->grid->comm, SAM_ERR_USER, "roll is not a finite number");
+  PetscCheck(rolled == 0 || c->set.rolling == SAM_ROLLING_NONE, c->grid->comm, SAM_ERR_USER,
+             "roll = %.6g: has no meaning with -rolling steady: omit one of them", (double)rolled);
+  PetscCheck(rolled == 0 || !c->traits.periodic, c->grid->comm, SAM_ERR_USER,
+             "roll = %.6g: expected 0: bodies of type %s do not roll", (double)rolled, type);
+  for (PetscInt k = 0; k < SAM_COMPONENTS; k++)
+    PetscCheck(
+      !control->creep[k] || control->value[k] == 0 || rolled != 0 || c->set.rolling == SAM_ROLLING_STEADY,
+      c->grid->comm, SAM_ERR_USER,
+      "%s = %.6g: a creepage needs a rolled distance: give the columns roll or roll_y in -history, or -rolling "
+      "steady",
+      SamComponentNames[k].creep, (double)control->value[k]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Refuses a control that makes no sense. Rotations that the elasticity does not have are held at 0. */
 static PetscErrorCode CheckControl(SamContact c, SamControl *control)
 {
@@ -65,7 +87,7 @@ static PetscErrorCode CheckControl(SamContact c, SamControl *control)
   PetscFunctionBegin;
   PetscCall(SamElasticityGetType(c->elasticity, &type));
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
-    const char *name = control->force[k] ? SamComponentNames[k].load : SamComponentNames[k].rigid;
+    const char *name = SamControlPartName(control, k);
 
     PetscCheck(isfinite(control->value[k]), c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "%s is not a finite number", name);
     if (k < SAM_COMPONENT_MX || c->traits.rotations[k - SAM_COMPONENT_MX]) continue;
@@ -80,6 +102,7 @@ static PetscErrorCode CheckControl(SamContact c, SamControl *control)
   PetscCheck(control->friction_scale >= 0 && isfinite(control->friction_scale), c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
              "friction_scale = %.6g: expected a number >= 0", (double)control->friction_scale);
   PetscCall(CheckBulkStress(c, control));
+  PetscCall(SamContactCheckRolling(c, control));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -91,6 +114,8 @@ PetscErrorCode SamContactSetUp(SamContact c)
   PetscBool     friction, limits;
 
   PetscFunctionBegin;
+  PetscCheck(c->set.rolling == SAM_ROLLING_NONE, c->grid->comm, SAM_ERR_USER,
+             "-rolling steady: not available: roll in steps of time, by the column roll of -history");
   PetscCall(SamProblemHasFriction(c->problem, &friction));
   PetscCall(SamProblemGetPressureLimit(c->problem, &limit));
   PetscCall(SamProblemGetLaws(c->problem, &count, &laws));

@@ -98,13 +98,13 @@ static PetscErrorCode RefuseOthers(const petsam_contact *c)
   static const char *const others[] = {"load_history", "wear_cycles"};
 
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < 2 * SAM_COMPONENTS + 2; k++) {
-    const char *name = k >= 2 * SAM_COMPONENTS ? others[k - 2 * SAM_COMPONENTS]
-                       : k % 2                 ? SamComponentNames[k / 2].rigid
-                                               : SamComponentNames[k / 2].load;
+  for (PetscInt k = 0; k < SAM_WAYS * SAM_COMPONENTS + 2; k++) {
+    const char *name = k >= SAM_WAYS * SAM_COMPONENTS ? others[k - SAM_WAYS * SAM_COMPONENTS]
+                                                      : SamComponentNameOf(k / SAM_WAYS, (SamWay)(k % SAM_WAYS));
     char        option[32];
     PetscBool   set;
 
+    if (!name) continue;
     PetscCall(PetscSNPrintf(option, sizeof(option), "-%s", name));
     PetscCall(PetscOptionsHasName(NULL, NULL, option, &set));
     PetscCheck(!set, c->comm, SAM_ERR_USER, "-%s: give loads, displacements and cycles with each call, not as options",
@@ -304,7 +304,12 @@ static PetscErrorCode Try(petsam_contact *c, double time, const int force[], con
   PetscCheck(isfinite(time), c->comm, SAM_ERR_USER, "petsam_try: time is not a finite number");
   control.time = time;
   for (int k = 0; k < SAM_COMPONENTS; k++) {
-    control.force[k] = force[k] != 0;
+    const SamWay way = force[k] == 2 ? SAM_BY_CREEP : force[k] ? SAM_BY_LOAD : SAM_BY_RIGID;
+
+    PetscCheck(SamComponentNameOf(k, way), c->comm, SAM_ERR_USER,
+               "petsam_try: force of %s is 2: it has no creepage: use 1 for a load, 0 for a displacement",
+               SamComponentNames[k].load);
+    SamControlSetWay(&control, k, way);
     control.value[k] = value[k];
   }
   PetscCall(SamEmbedForget(c));

@@ -158,7 +158,7 @@ static PetscErrorCode ChecksumColumns(SamHistory history, PetscInt steps, uint64
     columns[0] = SamHashMix(columns[0] + SamHashBits(control.time));
     for (PetscInt k = 0; k < SAM_CONTROL_PARTS; k++) {
       columns[1 + k] = SamHashMix(columns[1 + k] + SamHashBits(SamControlPart(&control, k) + 0.0));
-      if (k < SAM_COMPONENTS) columns[1 + k] = SamHashMix(columns[1 + k] + (control.force[k] ? 1 : 2));
+      if (k < SAM_COMPONENTS) columns[1 + k] = SamHashMix(columns[1 + k] + 1 + (uint64_t)SamControlWay(&control, k));
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -57,50 +57,63 @@ static PetscErrorCode Override(const Reader *r, const char name[], const char co
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Finds the column of a component, that of its load or that of its displacement, which decides what is prescribed. */
+/* Finds the column of a component: of load, displacement or creepage, which decides what is prescribed. */
 static PetscErrorCode FindColumn(SamHistory h, MPI_Comm comm, const char file[], PetscInt c)
 {
-  const SamComponentName *name = &SamComponentNames[c];
-  const PetscInt          load = SamTableFind(&h->table, name->load), rigid = SamTableFind(&h->table, name->rigid);
-
   PetscFunctionBegin;
-  PetscCheck(load < 0 || rigid < 0, comm, SAM_ERR_USER,
-             "%s, line %" PetscInt_FMT ": the columns %s and %s are conjugate: give one of them", file,
-             h->table.header_line, name->load, name->rigid);
-  h->column[c]         = PetscMax(load, rigid);
-  h->constant.force[c] = rigid < 0;
+  h->column[c] = -1;
+  SamControlSetWay(&h->constant, c, SAM_BY_LOAD);
+  for (SamWay way = SAM_BY_LOAD; way < SAM_WAYS; way++) {
+    const char    *name   = SamComponentNameOf(c, way);
+    const PetscInt column = name ? SamTableFind(&h->table, name) : -1;
+
+    if (column < 0) continue;
+    PetscCheck(h->column[c] < 0, comm, SAM_ERR_USER,
+               "%s, line %" PetscInt_FMT ": the columns %s and %s are conjugate: give one of them", file,
+               h->table.header_line, SamControlPartName(&h->constant, c), name);
+    h->column[c] = column;
+    SamControlSetWay(&h->constant, c, way);
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Reads one component: its load or its displacement, from an option or a column, but only one of these four. */
+/* Reads one component: load, displacement or creepage, from an option or a column, but only one of these. */
 static PetscErrorCode ReadComponent(SamHistory h, const Reader *r, PetscInt c)
 {
-  const SamOptions *const from   = r->from;
-  const SamComponentName *name   = &SamComponentNames[c];
-  const char             *prefix = SamOptionsPrefix(from), *column;
-  PetscReal               load = c ? 0 : NAN, rigid = NAN; /* without one of the two the load is 0, but for N */
-  PetscBool               has_load, has_rigid, help;
+  const SamOptions *const from            = r->from;
+  const SamComponentName *name            = &SamComponentNames[c];
+  const char             *prefix          = SamOptionsPrefix(from);
+  PetscReal               value[SAM_WAYS] = {c ? 0 : NAN, NAN, NAN}; /* without any the load is 0, but for N */
+  PetscBool               has[SAM_WAYS] = {PETSC_FALSE}, given = PETSC_FALSE, help;
   char                    text[96];
 
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(text, sizeof(text), "%s (%s), or instead %s", name->load_text, name->load_unit, name->rigid));
-  PetscCall(SamOptionsReal(from, name->load, text, c ? SAM_RANGE_ANY : SAM_RANGE_NONNEGATIVE, &load, &has_load));
+  PetscCall(SamOptionsReal(from, name->load, text, c ? SAM_RANGE_ANY : SAM_RANGE_NONNEGATIVE, &value[SAM_BY_LOAD],
+                           &has[SAM_BY_LOAD]));
   PetscCall(PetscSNPrintf(text, sizeof(text), "%s (%s)", name->rigid_text, name->rigid_unit));
-  PetscCall(SamOptionsReal(from, name->rigid, text, SAM_RANGE_ANY, &rigid, &has_rigid));
-  PetscCall(FindColumn(h, from->comm, r->file, c));
-  column = h->constant.force[c] ? name->load : name->rigid;
-  if (h->column[c] >= 0) {
-    PetscCall(Override(r, name->load, column, &has_load));
-    PetscCall(Override(r, name->rigid, column, &has_rigid));
+  PetscCall(SamOptionsReal(from, name->rigid, text, SAM_RANGE_ANY, &value[SAM_BY_RIGID], &has[SAM_BY_RIGID]));
+  if (name->creep) {
+    PetscCall(PetscSNPrintf(text, sizeof(text), "%s (%s) of rolling", name->creep_text, name->creep_unit));
+    PetscCall(SamOptionsReal(from, name->creep, text, SAM_RANGE_ANY, &value[SAM_BY_CREEP], &has[SAM_BY_CREEP]));
   }
-  PetscCheck(!has_load || !has_rigid, from->comm, SAM_ERR_USER,
-             "-%s%s and -%s%s are conjugate, one follows from the other: give one of them", prefix, name->load, prefix,
-             name->rigid);
-  if (has_rigid) h->constant.force[c] = PETSC_FALSE;
-  h->constant.value[c] = has_rigid ? rigid : has_load ? load : 0;
+  PetscCall(FindColumn(h, from->comm, r->file, c));
+  h->constant.value[c] = 0;
+  for (SamWay way = SAM_BY_LOAD; way < SAM_WAYS; way++) {
+    const char *own = SamComponentNameOf(c, way), *other = SamControlPartName(&h->constant, c);
+
+    if (h->column[c] >= 0) PetscCall(Override(r, own, other, &has[way]));
+    if (!has[way]) continue;
+    PetscCheck(!given, from->comm, SAM_ERR_USER,
+               "-%s%s and -%s%s are conjugate, one follows from the other: give one of them", prefix, other, prefix,
+               own);
+    given                = PETSC_TRUE;
+    h->constant.value[c] = value[way];
+    SamControlSetWay(&h->constant, c, way);
+  }
   if (c != SAM_COMPONENT_N) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamPrintHelp(&help));
-  PetscCall(SamOptionsRequire(from, has_load || has_rigid || h->column[c] >= 0 || help, "load_n or -disp_z",
+  PetscCall(SamOptionsRequire(from, given || h->column[c] >= 0 || help, "load_n or -disp_z",
                               "the normal force (N) or the approach (m)"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -257,9 +270,10 @@ static PetscErrorCode CheckChanges(SamHistory h, MPI_Comm comm, const char file[
 /* Part k of the control (SamControlPart()), which has a column, or is constant. */
 static double ValueOfRow(SamHistory h, PetscInt k, PetscInt r)
 {
-  const PetscBool at_once = k >= SAM_COMPONENTS && !SamConditions[k - SAM_COMPONENTS].option;
+  const SamCondition *condition = k < SAM_COMPONENTS ? NULL : &SamConditions[k - SAM_COMPONENTS];
 
-  if (r < 0 && !at_once) return (double)SamControlPart(&h->before, k);
+  if (r < 0 && condition && condition->change) return 0;
+  if (r < 0 && (!condition || condition->option)) return (double)SamControlPart(&h->before, k);
   return h->column[k] >= 0 ? Entry(h, h->column[k], PetscMax(r, 0)) : (double)SamControlPart(&h->constant, k);
 }
 
@@ -272,14 +286,15 @@ static PetscBool IsAtRest(SamHistory h)
 }
 
 /* The names of columns that there may be, NULL at the end. */
-#define NAMES (1 + 2 * SAM_COMPONENTS + SAM_CONDITIONS + 1)
+#define NAMES (1 + SAM_WAYS * SAM_COMPONENTS + SAM_CONDITIONS + 1)
 static void ListNames(const char *names[NAMES])
 {
   PetscInt n = 0;
 
   names[n++] = "time";
-  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) names[n++] = SamComponentNames[c].load;
-  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) names[n++] = SamComponentNames[c].rigid;
+  for (SamWay way = SAM_BY_LOAD; way < SAM_WAYS; way++)
+    for (PetscInt c = 0; c < SAM_COMPONENTS; c++)
+      if (SamComponentNameOf(c, way)) names[n++] = SamComponentNameOf(c, way);
   for (PetscInt k = 0; k < SAM_CONDITIONS; k++) names[n++] = SamConditions[k].name;
   names[n] = NULL;
 }
@@ -341,7 +356,7 @@ PetscErrorCode SamHistoryCreate(MPI_Comm comm, const SamControl *constant, const
     h->column[k] = SamTableFind(&h->table, SamConditions[k - SAM_COMPONENTS].name);
   if (before) h->before = *before;
   for (PetscInt c = 0; c < SAM_COMPONENTS && before; c++) /* a load and a displacement have nothing between them */
-    if (before->force[c] != h->constant.force[c]) h->before.value[c] = ValueOfRow(h, c, 0);
+    if (SamControlWay(before, c) != SamControlWay(&h->constant, c)) h->before.value[c] = ValueOfRow(h, c, 0);
   PetscCall(SetIncrements(h, increments, comm, what));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -368,8 +383,9 @@ PetscErrorCode SamHistoryCreateFromOptions(const SamOptions *from, const SamArgu
              "-%ssteps %" PetscInt_FMT ": times %" PetscInt_FMT
              " rows is more steps than can be counted (%" PetscInt_FMT ")",
              SamOptionsPrefix(from), increments, h->rows, PETSC_MAX_INT);
-  for (PetscInt k = 0; k < 2 * SAM_COMPONENTS; k++) /* so that none is taken for another one misspelled */
-    SamOptionsKnow(from, k % 2 ? SamComponentNames[k / 2].rigid : SamComponentNames[k / 2].load, NULL);
+  for (SamWay way = SAM_BY_LOAD; way < SAM_WAYS; way++) /* so that none is taken for another one misspelled */
+    for (PetscInt c = 0; c < SAM_COMPONENTS; c++)
+      if (SamComponentNameOf(c, way)) SamOptionsKnow(from, SamComponentNameOf(c, way), NULL);
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++) PetscCall(ReadComponent(h, &reader, c));
   for (PetscInt k = SAM_COMPONENTS; k < SAM_CONTROL_PARTS; k++) PetscCall(ReadCondition(h, &reader, k));
   PetscCall(SetIncrements(h, increments, from->comm, file));
@@ -388,7 +404,9 @@ PetscErrorCode SamHistoryGetStep(SamHistory h, PetscInt k, SamControl *control)
 #define BETWEEN(before, after) (i == steps ? (after) : (before) + part * ((after) - (before)))
   control->time = BETWEEN(TimeOfRow(h, r - 1), TimeOfRow(h, r));
   for (PetscInt p = 0; p < SAM_CONTROL_PARTS; p++)
-    *SamControlPlace(control, p) = BETWEEN(ValueOfRow(h, p, r - 1), ValueOfRow(h, p, r));
+    *SamControlPlace(control, p) = p >= SAM_COMPONENTS && SamConditions[p - SAM_COMPONENTS].change
+                                     ? ValueOfRow(h, p, r) / (double)steps
+                                     : BETWEEN(ValueOfRow(h, p, r - 1), ValueOfRow(h, p, r));
 #undef BETWEEN
   PetscFunctionReturn(PETSC_SUCCESS);
 }

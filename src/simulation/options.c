@@ -52,8 +52,8 @@ static PetscErrorCode CheckComponents(SamSimulation s, const SamOptions *from)
     for (PetscInt c = SAM_COMPONENT_MX; c < SAM_COMPONENTS; c++)
       PetscCheck(control.value[c] == 0 || traits.rotations[c - SAM_COMPONENT_MX], from->comm, SAM_ERR_USER,
                  "-%s%s %.6g: has no meaning with -%selasticity %s, which has no such moment or rotation",
-                 SamOptionsPrefix(from), control.force[c] ? SamComponentNames[c].load : SamComponentNames[c].rigid,
-                 (double)control.value[c], SamOptionsPrefix(from), type);
+                 SamOptionsPrefix(from), SamControlPartName(&control, c), (double)control.value[c],
+                 SamOptionsPrefix(from), type);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

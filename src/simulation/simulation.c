@@ -79,11 +79,27 @@ static PetscErrorCode Offer(SamSimulation s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Refuses a program of which no step has a meaning, before the first is solved. */
+static PetscErrorCode CheckRolling(SamSimulation s)
+{
+  SamControl control;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < s->needs.steps; k++) {
+    PetscCall(SamHistoryGetStep(s->history, k, &control));
+    PetscCall(SamContactCheckRolling(s->setup.contact, &control));
+    PetscCheck(SamControlRolled(&control) == 0 || !s->needs.life, s->comm, SAM_ERR_USER,
+               "roll with -wear_cycles: surfaces that roll are worn step by step: omit one of them");
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* What follows from contact and load program together. */
 static PetscErrorCode Prepare(SamSimulation s, const SamOptions *from)
 {
   PetscFunctionBegin;
   PetscCall(SamSimulationCreateLife(s));
+  PetscCall(CheckRolling(s));
   PetscCall(Offer(s));
   PetscCall(SamOutputSettingsPrepare(&s->output_settings, s->setup.contact, from));
   PetscCall(SamSimulationCollectParameters(s));

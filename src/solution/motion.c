@@ -258,7 +258,7 @@ PetscBool SamControlIsSame(const SamControl *a, const SamControl *b, SamBalanceK
   for (PetscInt k = 0; k < 3; k++) {
     const PetscInt c = SamComponentsOf[kind][k];
 
-    if (a->force[c] != b->force[c] || a->value[c] != b->value[c]) return PETSC_FALSE;
+    if (SamControlWay(a, c) != SamControlWay(b, c) || a->value[c] != b->value[c]) return PETSC_FALSE;
   }
   return PETSC_TRUE;
 }

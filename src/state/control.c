@@ -1,31 +1,66 @@
 /* What a load step prescribes, and its names. */
 #include <petsam/private/baseimpl.h>
 #include <petsam/control.h>
+#include <math.h>
 #include <stddef.h>
 #include <string.h>
 
 const SamComponentName SamComponentNames[SAM_COMPONENTS] = {
-  {"load_n", "N", "normal force", "disp_z", "m", "rigid-body displacement along z (approach)"},
-  {"load_tx", "N", "tangential force along x", "disp_x", "m", "rigid-body displacement along x"},
-  {"load_ty", "N", "tangential force along y", "disp_y", "m", "rigid-body displacement along y"},
-  {"load_mx", "N m", "moment about x", "rot_x", "rad", "rotation about x"},
-  {"load_my", "N m", "moment about y", "rot_y", "rad", "rotation about y"},
-  {"load_mz", "N m", "moment about z", "rot_z", "rad", "rotation about z"}};
+  {"load_n", "N", "normal force", "disp_z", "m", "rigid-body displacement along z (approach)", NULL, NULL, NULL},
+  {"load_tx", "N", "tangential force along x", "disp_x", "m", "rigid-body displacement along x", "creep_x", "1",
+   "creepage along x"},
+  {"load_ty", "N", "tangential force along y", "disp_y", "m", "rigid-body displacement along y", "creep_y", "1",
+   "creepage along y"},
+  {"load_mx", "N m", "moment about x", "rot_x", "rad", "rotation about x", NULL, NULL, NULL},
+  {"load_my", "N m", "moment about y", "rot_y", "rad", "rotation about y", NULL, NULL, NULL},
+  {"load_mz", "N m", "moment about z", "rot_z", "rad", "rotation about z", "creep_spin", "1/m", "spin"}};
 
 #define BULK(body, k, component) \
   { \
     "bulk" #body "_stress_" #component, "Pa", "bulk stress " #component " of body " #body ", tension positive", \
-      offsetof(SamControl, bulk_stress[body - 1][k]), 0, SAM_RANGE_ANY, PETSC_TRUE, 1 \
+      offsetof(SamControl, bulk_stress[body - 1][k]), 0, SAM_RANGE_ANY, PETSC_TRUE, PETSC_FALSE, 1 \
+  }
+#define ROLL(name, k, axis) \
+  { \
+    name, "m", "rolled distance of the load step along " axis, offsetof(SamControl, roll[k]), 0, SAM_RANGE_ANY, \
+      PETSC_FALSE, PETSC_TRUE, 2 \
   }
 const SamCondition SamConditions[SAM_CONDITIONS] = {{"friction_scale", "1", "factor on the coefficient of friction",
                                                      offsetof(SamControl, friction_scale), 1, SAM_RANGE_NONNEGATIVE,
-                                                     PETSC_FALSE, 0},
+                                                     PETSC_FALSE, PETSC_FALSE, 0},
                                                     BULK(1, SAM_BULK_XX, xx),
                                                     BULK(1, SAM_BULK_YY, yy),
                                                     BULK(1, SAM_BULK_XY, xy),
                                                     BULK(2, SAM_BULK_XX, xx),
                                                     BULK(2, SAM_BULK_YY, yy),
-                                                    BULK(2, SAM_BULK_XY, xy)};
+                                                    BULK(2, SAM_BULK_XY, xy),
+                                                    ROLL("roll", 0, "x"),
+                                                    ROLL("roll_y", 1, "y")};
+
+const char *SamComponentNameOf(PetscInt k, SamWay way)
+{
+  const SamComponentName *name = &SamComponentNames[k];
+
+  return way == SAM_BY_LOAD ? name->load : way == SAM_BY_RIGID ? name->rigid : name->creep;
+}
+
+SamWay SamControlWay(const SamControl *control, PetscInt k)
+{
+  return control->force[k] ? SAM_BY_LOAD : control->creep[k] ? SAM_BY_CREEP : SAM_BY_RIGID;
+}
+
+void SamControlSetWay(SamControl *control, PetscInt k, SamWay way)
+{
+  control->force[k] = way == SAM_BY_LOAD;
+  control->creep[k] = way == SAM_BY_CREEP;
+}
+
+PetscReal SamControlRolled(const SamControl *control)
+{
+  const PetscReal *roll = control->roll;
+
+  return roll[1] == 0 ? roll[0] : roll[0] == 0 ? roll[1] : hypot(roll[0], roll[1]);
+}
 
 PetscErrorCode SamControlInitialize(SamControl *control)
 {
@@ -55,35 +90,36 @@ PetscReal SamControlPart(const SamControl *control, PetscInt k)
 const char *SamControlPartName(const SamControl *control, PetscInt k)
 {
   if (k >= SAM_COMPONENTS) return SamConditions[k - SAM_COMPONENTS].name;
-  return control->force[k] ? SamComponentNames[k].load : SamComponentNames[k].rigid;
+  return SamComponentNameOf(k, SamControlWay(control, k));
 }
 
 void SamControlPack(const SamControl *control, double n[])
 {
   *n++ = control->time;
-  for (PetscInt k = 0; k < SAM_COMPONENTS; k++) *n++ = control->force[k];
+  for (PetscInt k = 0; k < SAM_COMPONENTS; k++) *n++ = SamControlWay(control, k);
   for (PetscInt k = 0; k < SAM_CONTROL_PARTS; k++) *n++ = SamControlPart(control, k);
 }
 
 void SamControlUnpack(const double n[], SamControl *control)
 {
   control->time = *n++;
-  for (PetscInt k = 0; k < SAM_COMPONENTS; k++) control->force[k] = *n++ != 0;
+  for (PetscInt k = 0; k < SAM_COMPONENTS; k++) SamControlSetWay(control, k, (SamWay)*n++);
   for (PetscInt k = 0; k < SAM_CONTROL_PARTS; k++) *SamControlPlace(control, k) = *n++;
 }
 
 PetscErrorCode SamControlSet(SamControl *control, const char name[], PetscReal value)
 {
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
-    const PetscBool load = !strcmp(name, SamComponentNames[k].load);
+  for (PetscInt k = 0; k < SAM_COMPONENTS; k++)
+    for (SamWay way = SAM_BY_LOAD; way < SAM_WAYS; way++) {
+      const char *own = SamComponentNameOf(k, way);
 
-    if (!load && strcmp(name, SamComponentNames[k].rigid)) continue;
-    control->force[k] = load;
-    control->value[k] = value;
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  SETERRQ(PETSC_COMM_SELF, PETSC_ERR_ARG_UNKNOWN_TYPE, "%s is not the name of a load or displacement", name);
+      if (!own || strcmp(name, own)) continue;
+      SamControlSetWay(control, k, way);
+      control->value[k] = value;
+      PetscFunctionReturn(PETSC_SUCCESS);
+    }
+  SETERRQ(PETSC_COMM_SELF, PETSC_ERR_ARG_UNKNOWN_TYPE, "%s is not the name of a load, displacement or creepage", name);
 }
 
 PetscErrorCode SamControlReadCondition(const SamOptions *from, PetscInt k, SamControl *control, PetscBool *set)

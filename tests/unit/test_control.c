@@ -18,22 +18,32 @@ static void test_defaults_prescribe_no_load(void **state)
     sam_assert(control.bulk_stress[0][k] == 0 && control.bulk_stress[1][k] == 0);
 }
 
-/* A name changes only its component; of a load and its displacement the later one counts. */
-static void test_names_give_loads_or_displacements(void **state)
+/* A name changes only its component; of a load, its displacement and its creepage the later one counts. */
+static void test_names_give_loads_displacements_or_creepages(void **state)
 {
   (void)state;
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
-    SamControl control;
+    SamControl control, read = {0};
+    double     packed[SAM_CONTROL_NUMBERS];
 
     sam_call(SamControlInitialize(&control));
     sam_call(SamControlSet(&control, SamComponentNames[k].load, 2));
     sam_assert(control.force[k] && control.value[k] == 2);
     sam_call(SamControlSet(&control, SamComponentNames[k].rigid, 3));
     sam_assert(!control.force[k] && control.value[k] == 3);
+    sam_assert(!SamComponentNames[k].creep ==
+               (k != SAM_COMPONENT_TX && k != SAM_COMPONENT_TY && k != SAM_COMPONENT_MZ));
+    if (SamComponentNames[k].creep) {
+      sam_call(SamControlSet(&control, SamComponentNames[k].creep, 5));
+      sam_assert(!control.force[k] && control.creep[k] && control.value[k] == 5);
+      SamControlPack(&control, packed);
+      SamControlUnpack(packed, &read);
+      sam_assert(!memcmp(&read, &control, sizeof(read)));
+    }
     for (PetscInt other = 0; other < SAM_COMPONENTS; other++)
       sam_assert(other == k || (control.force[other] && control.value[other] == 0));
     sam_call(SamControlSet(&control, SamComponentNames[k].load, 4));
-    sam_assert(control.force[k] && control.value[k] == 4);
+    sam_assert(control.force[k] && !control.creep[k] && control.value[k] == 4);
   }
 }
 
@@ -65,7 +75,7 @@ int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_defaults_prescribe_no_load),
-    cmocka_unit_test(test_names_give_loads_or_displacements),
+    cmocka_unit_test(test_names_give_loads_displacements_or_creepages),
     cmocka_unit_test(test_names_are_those_of_the_interface),
     cmocka_unit_test(test_other_names_are_refused),
   };
