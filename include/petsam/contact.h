@@ -46,7 +46,7 @@ typedef struct {
   PetscReal  cycle_memory; /* bytes on all ranks for steps of a repeated load cycle: a step that the cycle before had
                                  starts from that, with the same solution within the tolerances; what is kept is in no
                                  state and no checkpoint, from which the bits differ then (0: none; -cycle_memory) */
-  SamRolling rolling;      /* towards +x (none; -rolling) */
+  SamRolling rolling;      /* towards +x; as the elasticity does, and not to be set */
   PetscBool  allow_edge;   /* contact at the grid's edge is a warning, no status (false; -allow_edge_contact) */
   PetscBool  edges;        /* areas, and tractions at points, by reconstructed contact and stick edges (edges.h);
                                  else by counted cells, wrong by a part of a cell along the edge (true; -edges

@@ -43,6 +43,8 @@ PETSC_INTERN PetscErrorCode SamSolveShear(SamSolve *solve, PetscBool has_shear, 
 PETSC_INTERN PetscErrorCode SamSolveTangential(SamSolve *solve, PetscBool has_shear);
 /* SamSolveJudge - records in the step whether the last solve of a problem failed. Collective. */
 PETSC_INTERN PetscErrorCode SamSolveJudge(SamSolve *solve, SamBalanceKind kind);
+/* SamSolveRolling - the numbers of steady rolling, of the solved step (rolling.c). Collective. */
+PETSC_INTERN PetscErrorCode SamSolveRolling(SamSolve *solve);
 /* SamSolveSkipTangential - no shear, as the pressure is not right. Collective. */
 PETSC_INTERN PetscErrorCode SamSolveSkipTangential(SamSolve *solve);
 

@@ -96,8 +96,7 @@ PetscErrorCode SamElasticityCreate_Rolling(SamElasticity e)
                               .getselfinfluence      = GetSelfInfluence};
   PetscCall(SamElasticitySetInner(e, SAM_ELASTICITY_HALFSPACE));
   if (e->traits.coupled) e->ops.applynormaltotangential = ApplyNormalToTangential;
-  e->traits.steady  = PETSC_TRUE;
-  e->traits.stretch = PETSC_FALSE;
+  e->traits.steady = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -114,10 +113,9 @@ PetscErrorCode SamElasticityCreateRolling(SamElasticity bodies, SamElasticity *r
   PetscCall(PetscStrncpy(e->prefix, bodies->prefix, sizeof(e->prefix)));
   PetscCall(SamElasticityDestroy(&e->inner));
   PetscCall(SamElasticityReference(bodies));
-  e->inner          = bodies;
-  e->traits         = bodies->traits;
-  e->traits.steady  = PETSC_TRUE;
-  e->traits.stretch = PETSC_FALSE;
-  *rolling          = e;
+  e->inner         = bodies;
+  e->traits        = bodies->traits;
+  e->traits.steady = PETSC_TRUE;
+  *rolling         = e;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -38,7 +38,7 @@
 
 static const double lengths[SAM_ROLLING_LENGTHS] = {1, 0.6, 0.3, 0.1};
 
-typedef SamRolling Work;
+typedef SamRollingWork Work;
 
 /* ---- fields ---- */
 

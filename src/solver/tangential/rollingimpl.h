@@ -21,7 +21,7 @@ typedef struct {
   float       *slot[SAM_ROLLING_KEPT + 1]; /* the new direction, then those kept, newest first: d, then A d */
   float       *columns;                    /* of the least squares, in some cells of a row */
   PetscInt     kept;
-} SamRolling;
+} SamRollingWork;
 
 /* Sums over cells: of the projection equation's residual, and the shear with the phi. */
 typedef struct {
@@ -29,27 +29,27 @@ typedef struct {
 } SamRollingSums;
 
 /* Chooses stick and slip, adds to the sums. */
-PETSC_INTERN void SamRollingSetsRow(const SamRolling *w, SamRow row, SamRollingSums *sums);
+PETSC_INTERN void SamRollingSetsRow(const SamRollingWork *w, SamRow row, SamRollingSums *sums);
 /* r = P(-s), or P phi a, and z = g r. */
-PETSC_INTERN void SamRollingRightRow(const SamRolling *w, SamRow row, const double *a, float z[]);
+PETSC_INTERN void SamRollingRightRow(const SamRollingWork *w, SamRow row, const double *a, float z[]);
 /* z, which holds M g r, becomes the direction along the stream. */
-PETSC_INTERN void SamRollingSweepRow(const SamRolling *w, SamRow row, float z[]);
+PETSC_INTERN void SamRollingSweepRow(const SamRollingWork *w, SamRow row, float z[]);
 /* z += P carry a; with `normal` also what brings slipping cells onto their circles. */
-PETSC_INTERN void SamRollingAddRow(const SamRolling *w, SamRow row, PetscInt count, const double a[3],
+PETSC_INTERN void SamRollingAddRow(const SamRollingWork *w, SamRow row, PetscInt count, const double a[3],
                                    PetscBool normal);
 /* Adds the products of z, and of the P carry, with the phi. */
-PETSC_INTERN void SamRollingLoadsRow(const SamRolling *w, SamRow row, const float z[], PetscBool project,
+PETSC_INTERN void SamRollingLoadsRow(const SamRollingWork *w, SamRow row, const float z[], PetscBool project,
                                      double sums[3]);
 /* Adds the upper triangle of the products of all columns of the least squares, the residual being the last one. */
-PETSC_INTERN void SamRollingGramRow(const SamRolling *w, SamRow row, double sums[SAM_ROLLING_GRAM]);
+PETSC_INTERN void SamRollingGramRow(const SamRollingWork *w, SamRow row, double sums[SAM_ROLLING_GRAM]);
 /* The new direction becomes the combination x of itself and the kept ones. */
-PETSC_INTERN void SamRollingCombineRow(const SamRolling *w, SamRow row, const double x[]);
+PETSC_INTERN void SamRollingCombineRow(const SamRollingWork *w, SamRow row, const double x[]);
 /* Adds the squares of the residual of the projection equation after steps of these lengths, with the motion a. */
-PETSC_INTERN void SamRollingLengthsRow(const SamRolling *w, SamRow row, const double length[SAM_ROLLING_LENGTHS],
+PETSC_INTERN void SamRollingLengthsRow(const SamRollingWork *w, SamRow row, const double length[SAM_ROLLING_LENGTHS],
                                        const double a[3], double squares[SAM_ROLLING_LENGTHS]);
 /* Makes the step of length t, with the motion a. */
-PETSC_INTERN void SamRollingAdvanceRow(const SamRolling *w, SamRow row, double t, const double a[3]);
+PETSC_INTERN void SamRollingAdvanceRow(const SamRollingWork *w, SamRow row, double t, const double a[3]);
 /* trial = q, with cells that slip beyond their circles. */
-PETSC_INTERN void SamRollingTrialRow(const SamRolling *w, SamRow row);
+PETSC_INTERN void SamRollingTrialRow(const SamRollingWork *w, SamRow row);
 
 #endif

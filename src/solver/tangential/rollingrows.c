@@ -12,7 +12,7 @@
 #define NEAR 0.5
 #define OUT  1.02
 
-SAM_VECTORIZED void SamRollingSetsRow(const SamRolling *w, SamRow row, SamRollingSums *sums)
+SAM_VECTORIZED void SamRollingSetsRow(const SamRollingWork *w, SamRow row, SamRollingSums *sums)
 {
   const SamStickSlip *u       = &w->base;
   const ptrdiff_t     cells   = u->cells;
@@ -47,7 +47,7 @@ SAM_VECTORIZED void SamRollingSetsRow(const SamRolling *w, SamRow row, SamRollin
   sums->load[2] += turn - row.eta * x;
 }
 
-SAM_VECTORIZED void SamRollingRightRow(const SamRolling *w, SamRow row, const double *a, float z[])
+SAM_VECTORIZED void SamRollingRightRow(const SamRollingWork *w, SamRow row, const double *a, float z[])
 {
   const SamStickSlip *u     = &w->base;
   const ptrdiff_t     cells = u->cells;
@@ -69,7 +69,7 @@ SAM_VECTORIZED void SamRollingRightRow(const SamRolling *w, SamRow row, const do
   }
 }
 
-void SamRollingSweepRow(const SamRolling *w, SamRow row, float z[])
+void SamRollingSweepRow(const SamRollingWork *w, SamRow row, float z[])
 {
   const ptrdiff_t cells        = w->base.cells;
   const float *restrict weight = w->weight + row.first, *restrict nx = w->normal + row.first, *restrict ny = nx + cells,
@@ -87,7 +87,7 @@ void SamRollingSweepRow(const SamRolling *w, SamRow row, float z[])
   }
 }
 
-SAM_VECTORIZED void SamRollingLoadsRow(const SamRolling *w, SamRow row, const float z[], PetscBool project,
+SAM_VECTORIZED void SamRollingLoadsRow(const SamRollingWork *w, SamRow row, const float z[], PetscBool project,
                                        double sums[3])
 {
   const ptrdiff_t cells    = w->base.cells;
@@ -110,7 +110,7 @@ SAM_VECTORIZED void SamRollingLoadsRow(const SamRolling *w, SamRow row, const fl
   sums[2] += turn - row.eta * x;
 }
 
-SAM_VECTORIZED static void AddCarry(const SamRolling *w, SamRow row, const float *carry, float a)
+SAM_VECTORIZED static void AddCarry(const SamRollingWork *w, SamRow row, const float *carry, float a)
 {
   const ptrdiff_t cells    = w->base.cells;
   const float *restrict nx = w->normal + row.first, *restrict ny = nx + cells, *restrict weight = w->weight + row.first,
@@ -126,7 +126,7 @@ SAM_VECTORIZED static void AddCarry(const SamRolling *w, SamRow row, const float
   }
 }
 
-SAM_VECTORIZED static void AddNormal(const SamRolling *w, SamRow row)
+SAM_VECTORIZED static void AddNormal(const SamRollingWork *w, SamRow row)
 {
   const SamStickSlip *u     = &w->base;
   const ptrdiff_t     cells = u->cells;
@@ -144,7 +144,7 @@ SAM_VECTORIZED static void AddNormal(const SamRolling *w, SamRow row)
   }
 }
 
-void SamRollingAddRow(const SamRolling *w, SamRow row, PetscInt count, const double a[3], PetscBool normal)
+void SamRollingAddRow(const SamRollingWork *w, SamRow row, PetscInt count, const double a[3], PetscBool normal)
 {
   for (PetscInt k = 0; k < count; k++) AddCarry(w, row, w->carry[k], (float)a[k]);
   if (normal) AddNormal(w, row);
@@ -155,7 +155,8 @@ void SamRollingAddRow(const SamRolling *w, SamRow row, PetscInt count, const dou
 #define CHUNK 128
 
 /* What a direction changes of the residual, in some cells of a row: x, then y. */
-SAM_VECTORIZED static void DirectionColumn(const SamRolling *w, SamRow row, const float slot[], float *restrict column)
+SAM_VECTORIZED static void DirectionColumn(const SamRollingWork *w, SamRow row, const float slot[],
+                                           float *restrict column)
 {
   const ptrdiff_t cells    = w->base.cells;
   const float *restrict nx = w->normal + row.first, *restrict ny = nx + cells, *restrict weight = w->weight + row.first,
@@ -174,7 +175,7 @@ SAM_VECTORIZED static void DirectionColumn(const SamRolling *w, SamRow row, cons
 }
 
 /* What a creepage changes. */
-SAM_VECTORIZED static void CreepColumn(const SamRolling *w, SamRow row, const double a[3], float *restrict column)
+SAM_VECTORIZED static void CreepColumn(const SamRollingWork *w, SamRow row, const double a[3], float *restrict column)
 {
   const ptrdiff_t cells    = w->base.cells;
   const float *restrict nx = w->normal + row.first, *restrict ny = nx + cells, *restrict weight = w->weight + row.first;
@@ -191,7 +192,7 @@ SAM_VECTORIZED static void CreepColumn(const SamRolling *w, SamRow row, const do
 }
 
 /* The residual: slip that should not be, and shear that is not on its circle. */
-SAM_VECTORIZED static void ResidualColumn(const SamRolling *w, SamRow row, float *restrict column)
+SAM_VECTORIZED static void ResidualColumn(const SamRollingWork *w, SamRow row, float *restrict column)
 {
   const SamStickSlip *u     = &w->base;
   const ptrdiff_t     cells = u->cells;
@@ -222,7 +223,7 @@ SAM_VECTORIZED static void AddProducts(int count, PetscInt n, const float *restr
   }
 }
 
-void SamRollingGramRow(const SamRolling *w, SamRow whole, double sums[SAM_ROLLING_GRAM])
+void SamRollingGramRow(const SamRollingWork *w, SamRow whole, double sums[SAM_ROLLING_GRAM])
 {
   const SamFrame *f = w->base.frame;
   const PetscInt  n = w->kept + 1, columns = n + f->count + 1;
@@ -253,7 +254,7 @@ SAM_VECTORIZED static void Add(int n, float x, const float *restrict from, float
   for (int i = 0; i < n; i++) to[i] += x * from[i];
 }
 
-void SamRollingCombineRow(const SamRolling *w, SamRow row, const double x[])
+void SamRollingCombineRow(const SamRollingWork *w, SamRow row, const double x[])
 {
   for (PetscInt c = 0; c < 4; c++) {
     const ptrdiff_t first = c * (ptrdiff_t)w->base.cells + row.first;
@@ -263,7 +264,7 @@ void SamRollingCombineRow(const SamRolling *w, SamRow row, const double x[])
   }
 }
 
-SAM_VECTORIZED void SamRollingLengthsRow(const SamRolling *w, SamRow row, const double length[SAM_ROLLING_LENGTHS],
+SAM_VECTORIZED void SamRollingLengthsRow(const SamRollingWork *w, SamRow row, const double length[SAM_ROLLING_LENGTHS],
                                          const double a[3], double squares[SAM_ROLLING_LENGTHS])
 {
   const SamStickSlip *u       = &w->base;
@@ -293,7 +294,7 @@ SAM_VECTORIZED void SamRollingLengthsRow(const SamRolling *w, SamRow row, const 
   }
 }
 
-SAM_VECTORIZED void SamRollingAdvanceRow(const SamRolling *w, SamRow row, double t, const double a[3])
+SAM_VECTORIZED void SamRollingAdvanceRow(const SamRollingWork *w, SamRow row, double t, const double a[3])
 {
   const SamStickSlip *u     = &w->base;
   const ptrdiff_t     cells = u->cells;
@@ -313,7 +314,7 @@ SAM_VECTORIZED void SamRollingAdvanceRow(const SamRolling *w, SamRow row, double
   }
 }
 
-SAM_VECTORIZED void SamRollingTrialRow(const SamRolling *w, SamRow row)
+SAM_VECTORIZED void SamRollingTrialRow(const SamRollingWork *w, SamRow row)
 {
   const SamStickSlip *u     = &w->base;
   const ptrdiff_t     cells = u->cells;
