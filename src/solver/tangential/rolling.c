@@ -130,102 +130,70 @@ static PetscErrorCode MakeDirection(Work *w, const double *a, float z[])
   for (PetscInt j = 0; j < u->rows; j++) SamRollingRightRow(w, SamStickSlipRow(u, j), a, z);
   ClearMargins(u, z);
   PetscCall(SamLevelPreconditionSingle(u->solver, u->level, u->self * (double)u->level->grid->dx, z, z));
-  for (PetscInt j = 0; j < u->rows; j++) SamRollingSweepRow(w, SamStickSlipRow(u, j), z);
+  for (PetscInt j = 0; j < u->rows; j++) SamRollingSweepRow(w, SamStickSlipRow(u, j), z, a ? 0 : 1);
   ClearMargins(u, z);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode SumLoads(const Work *w, const float z[], PetscBool project, double load[3])
+/* The loads that a direction carries, along the basis; first `project` times the part along the shear is taken off. */
+static PetscErrorCode SumLoads(const Work *w, float project, float z[], double load[3])
 {
   const SamStickSlip *u         = &w->base;
   SamTotal            totals[3] = {{0}};
+  double              sums[3];
 
   PetscFunctionBegin;
   for (PetscInt j = 0; j < u->rows; j++) {
     double row[3] = {0};
 
-    SamRollingLoadsRow(w, SamStickSlipRow(u, j), z, project, row);
+    SamRollingLoadsRow(w, SamStickSlipRow(u, j), project, z, row);
     SamAddAll(3, totals, row);
   }
-  PetscCall(SamSumTotals(u->level->grid->comm, 3, totals, load));
+  PetscCall(SamSumTotals(u->level->grid->comm, 3, totals, sums));
+  for (PetscInt i = 0; i < u->frame->count; i++) load[i] = SamFrameDot(u->frame->basis[i], sums);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Solves a symmetric or other small system by elimination with the largest pivots on the diagonal, or `any`. */
-static void Eliminate(PetscInt n, double m[][SAM_ROLLING_COLUMNS], double b[], double x[])
-{
-  PetscInt  order[SAM_ROLLING_COLUMNS], count = 0;
-  PetscBool used[SAM_ROLLING_COLUMNS] = {PETSC_FALSE};
-
-  for (; count < n; count++) {
-    PetscInt k = -1;
-
-    for (PetscInt i = 0; i < n; i++)
-      if (!used[i] && (k < 0 || m[i][i] > m[k][k])) k = i;
-    if (!(m[k][k] > DEPENDENT)) break;
-    used[k]      = PETSC_TRUE;
-    order[count] = k;
-    for (PetscInt i = 0; i < n; i++) {
-      const double part = used[i] ? 0 : m[i][k] / m[k][k];
-
-      for (PetscInt l = 0; l < n; l++) m[i][l] -= part * m[k][l];
-      b[i] -= part * b[k];
-    }
-  }
-  for (PetscInt i = 0; i < n; i++) x[i] = 0;
-  while (count-- > 0) {
-    const PetscInt k    = order[count];
-    double         rest = b[k];
-
-    for (PetscInt l = 0; l < n; l++)
-      if (l != k) rest -= m[k][l] * x[l];
-    x[k] = rest / m[k][k];
-  }
-}
-
-/* The least squares of columns by the products of all pairs of them, the last being what they are to make. */
+/*
+  The least squares of columns by the products of all pairs of them, the last being what they are to make: the upper
+  triangle, row by row.
+*/
 static void FitColumns(PetscInt n, const double gram[], double x[])
 {
-  double m[SAM_ROLLING_COLUMNS][SAM_ROLLING_COLUMNS], b[SAM_ROLLING_COLUMNS], scale[SAM_ROLLING_COLUMNS];
+  double A[SAM_ROLLING_COLUMNS * SAM_ROLLING_COLUMNS], b[SAM_ROLLING_COLUMNS] = {0}, scale[SAM_ROLLING_COLUMNS];
 
   for (PetscInt k = 0; k < n; k++) {
-    for (PetscInt l = k; l < n; l++) m[k][l] = m[l][k] = gram[l - k];
+    for (PetscInt l = k; l < n; l++) A[k * n + l] = A[l * n + k] = gram[l - k];
     b[k]     = gram[n - k];
     scale[k] = gram[0] > 0 ? 1 / sqrt(gram[0]) : 0;
     gram += n + 1 - k;
   }
   for (PetscInt k = 0; k < n; k++) {
-    for (PetscInt l = 0; l < n; l++) m[k][l] *= scale[k] * scale[l];
+    for (PetscInt l = 0; l < n; l++) A[k * n + l] *= scale[k] * scale[l];
     b[k] *= scale[k];
   }
-  Eliminate(n, m, b, x);
+  SamSolveSymmetric(n, A, b, DEPENDENT, x);
   for (PetscInt k = 0; k < n; k++) x[k] *= scale[k];
 }
 
-/* Adds to the new direction what keeps the loads, `load` being the shear with the phi. */
+/* Adds to the new direction what makes up for the loads, `load` being the shear with the phi. */
 static PetscErrorCode KeepLoads(Work *w, const double load[3])
 {
-  const SamStickSlip *u = &w->base;
-  const SamFrame     *f = u->frame;
-  const PetscInt      n = f->count;
-  double              z[3], m[4][3] = {{0}}, gram[10], a[3], *to = gram;
+  const SamStickSlip *u       = &w->base;
+  const SamFrame     *f       = u->frame;
+  const PetscInt      n       = f->count;
+  double              m[4][3] = {{0}}, z[3], gram[10], a[3], *to = gram;
 
   PetscFunctionBegin;
-  for (PetscInt j = 0; j < u->rows; j++) SamRollingAddRow(w, SamStickSlipRow(u, j), 0, NULL, PETSC_TRUE);
   if (!n) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SumLoads(w, w->slot[0], PETSC_FALSE, z));
-  for (PetscInt k = 0; k < n; k++) {
-    double carried[3];
-
-    PetscCall(SumLoads(w, w->carry[k], PETSC_TRUE, carried));
-    for (PetscInt i = 0; i < n; i++) m[k][i] = SamFrameDot(f->basis[i], carried);
-  }
-  for (PetscInt i = 0; i < n; i++)
-    m[n][i] = (f->target[i] - SamFrameDot(f->basis[i], load)) / w->unit_q - SamFrameDot(f->basis[i], z);
+  for (PetscInt k = 0; k < n; k++) PetscCall(SumLoads(w, 1, w->carry[k], m[k]));
+  PetscCall(SumLoads(w, 0, w->slot[0], z));
+  for (PetscInt i = 0; i < n; i++) m[n][i] = (f->target[i] - SamFrameDot(f->basis[i], load)) / w->unit_q - z[i];
   for (PetscInt k = 0; k <= n; k++)
     for (PetscInt l = k; l <= n; l++) *to++ = SamFrameDot(m[k], m[l]);
   FitColumns(n, gram, a);
-  for (PetscInt j = 0; j < u->rows; j++) SamRollingAddRow(w, SamStickSlipRow(u, j), n, a, PETSC_FALSE);
+  for (PetscInt k = 0; k < n; k++)
+    for (PetscInt i = 0; i < 2 * u->cells; i++) w->slot[0][i] += (float)a[k] * w->carry[k][i];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -307,7 +275,13 @@ static PetscErrorCode MakeAdmissible(Work *w, PetscBool *found)
   SamStickSlip *u = &w->base;
 
   PetscFunctionBegin;
-  for (PetscInt j = 0; j < u->rows; j++) SamRollingTrialRow(w, SamStickSlipRow(u, j));
+  for (PetscInt k = 0; k < u->cells; k++) { /* cells that slip go beyond their circles, and come back onto them */
+    const PetscInt l      = k + u->cells;
+    const double   factor = w->normal[k] != 0 || w->normal[l] != 0 ? 2 * u->bound[k] / hypot(u->q[k], u->q[l]) : 1;
+
+    w->trial[k] = factor * u->q[k];
+    w->trial[l] = factor * u->q[l];
+  }
   PetscCall(SamFrameProjectTangential(u->frame, u->bound, NULL, PETSC_FALSE, w->trial, NULL, found));
   if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscArraycpy(u->q, w->trial, 2 * u->cells));

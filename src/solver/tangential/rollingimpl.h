@@ -32,14 +32,10 @@ typedef struct {
 PETSC_INTERN void SamRollingSetsRow(const SamRollingWork *w, SamRow row, SamRollingSums *sums);
 /* r = P(-s), or P phi a, and z = g r. */
 PETSC_INTERN void SamRollingRightRow(const SamRollingWork *w, SamRow row, const double *a, float z[]);
-/* z, which holds M g r, becomes the direction along the stream. */
-PETSC_INTERN void SamRollingSweepRow(const SamRollingWork *w, SamRow row, float z[]);
-/* z += P carry a; with `normal` also what brings slipping cells onto their circles. */
-PETSC_INTERN void SamRollingAddRow(const SamRollingWork *w, SamRow row, PetscInt count, const double a[3],
-                                   PetscBool normal);
-/* Adds the products of z, and of the P carry, with the phi. */
-PETSC_INTERN void SamRollingLoadsRow(const SamRollingWork *w, SamRow row, const float z[], PetscBool project,
-                                     double sums[3]);
+/* z, which holds M g r, becomes the direction along the stream, plus `normal` times what the circles need. */
+PETSC_INTERN void SamRollingSweepRow(const SamRollingWork *w, SamRow row, float z[], float normal);
+/* Takes `project` times the part along the shear off z, and adds the products with the phi. */
+PETSC_INTERN void SamRollingLoadsRow(const SamRollingWork *w, SamRow row, float project, float z[], double sums[3]);
 /* Adds the upper triangle of the products of all columns of the least squares, the residual being the last one. */
 PETSC_INTERN void SamRollingGramRow(const SamRollingWork *w, SamRow row, double sums[SAM_ROLLING_GRAM]);
 /* The new direction becomes the combination x of itself and the kept ones. */
@@ -49,7 +45,5 @@ PETSC_INTERN void SamRollingLengthsRow(const SamRollingWork *w, SamRow row, cons
                                        const double a[3], double squares[SAM_ROLLING_LENGTHS]);
 /* Makes the step of length t, with the motion a. */
 PETSC_INTERN void SamRollingAdvanceRow(const SamRollingWork *w, SamRow row, double t, const double a[3]);
-/* trial = q, with cells that slip beyond their circles. */
-PETSC_INTERN void SamRollingTrialRow(const SamRollingWork *w, SamRow row);
 
 #endif

@@ -69,85 +69,48 @@ SAM_VECTORIZED void SamRollingRightRow(const SamRollingWork *w, SamRow row, cons
   }
 }
 
-void SamRollingSweepRow(const SamRollingWork *w, SamRow row, float z[])
+void SamRollingSweepRow(const SamRollingWork *w, SamRow row, float z[], float normal)
 {
-  const ptrdiff_t cells        = w->base.cells;
+  const SamStickSlip *u     = &w->base;
+  const ptrdiff_t     cells = u->cells;
+  const double *restrict qx = u->q + row.first, *restrict qy = qx + cells, *restrict bound = u->bound + row.first;
   const float *restrict weight = w->weight + row.first, *restrict nx = w->normal + row.first, *restrict ny = nx + cells,
                         *restrict rx = w->r + row.first, *restrict ry = rx + cells;
   float *restrict zx = z + row.first, *restrict zy = zx + cells;
   float x = 0, y = 0;
 
   for (int i = row.count - 1; i >= 0; i--) {
-    const float h = weight[i], g = sqrtf(h), rest = 0.5f * (1 - h) * h;
+    const float h = weight[i], g = sqrtf(h), rest = 0.5f * (1 - h) * h,
+                over = normal * (float)((bound[i] - sqrt(qx[i] * qx[i] + qy[i] * qy[i])) / w->unit_q);
     const float vx = g * zx[i] + rest * rx[i] + h * x, vy = g * zy[i] + rest * ry[i] + h * y,
                 part = nx[i] * vx + ny[i] * vy;
 
-    zx[i] = x = vx - part * nx[i];
-    zy[i] = y = vy - part * ny[i];
+    x     = vx - part * nx[i];
+    y     = vy - part * ny[i];
+    zx[i] = x + over * nx[i];
+    zy[i] = y + over * ny[i];
   }
 }
 
-SAM_VECTORIZED void SamRollingLoadsRow(const SamRollingWork *w, SamRow row, const float z[], PetscBool project,
-                                       double sums[3])
+SAM_VECTORIZED void SamRollingLoadsRow(const SamRollingWork *w, SamRow row, float project, float z[], double sums[3])
 {
-  const ptrdiff_t cells    = w->base.cells;
-  const float *restrict nx = w->normal + row.first, *restrict ny = nx + cells, *restrict weight = w->weight + row.first,
-                        *restrict zx = z + row.first, *restrict zy = zx + cells;
-  const float p = project ? 1 : 0;
-  double      x = 0, y = 0, turn = 0;
+  const float *restrict nx = w->normal + row.first, *restrict ny = nx + w->base.cells;
+  float *restrict zx = z + row.first, *restrict zy = zx + w->base.cells;
+  double x = 0, y = 0, turn = 0;
 
 #pragma omp simd reduction(+ : x, y, turn)
   for (int i = 0; i < row.count; i++) {
-    const float  in = weight[i] > 0 ? 1.0f : 0.0f, part = p * (nx[i] * zx[i] + ny[i] * zy[i]);
-    const double vx = (double)(in * (zx[i] - part * nx[i])), vy = (double)(in * (zy[i] - part * ny[i]));
+    const float part = project * (nx[i] * zx[i] + ny[i] * zy[i]);
 
-    x += vx;
-    y += vy;
-    turn += (row.xi0 + (double)i * row.dxi) * vy;
+    zx[i] -= part * nx[i];
+    zy[i] -= part * ny[i];
+    x += (double)zx[i];
+    y += (double)zy[i];
+    turn += (row.xi0 + (double)i * row.dxi) * (double)zy[i];
   }
   sums[0] += x;
   sums[1] += y;
   sums[2] += turn - row.eta * x;
-}
-
-SAM_VECTORIZED static void AddCarry(const SamRollingWork *w, SamRow row, const float *carry, float a)
-{
-  const ptrdiff_t cells    = w->base.cells;
-  const float *restrict nx = w->normal + row.first, *restrict ny = nx + cells, *restrict weight = w->weight + row.first,
-                        *restrict cx = carry + row.first, *restrict cy = cx + cells;
-  float *restrict zx = w->slot[0] + row.first, *restrict zy = zx + cells;
-
-#pragma omp simd
-  for (int i = 0; i < row.count; i++) {
-    const float in = weight[i] > 0 ? a : 0.0f, part = nx[i] * cx[i] + ny[i] * cy[i];
-
-    zx[i] += in * (cx[i] - part * nx[i]);
-    zy[i] += in * (cy[i] - part * ny[i]);
-  }
-}
-
-SAM_VECTORIZED static void AddNormal(const SamRollingWork *w, SamRow row)
-{
-  const SamStickSlip *u     = &w->base;
-  const ptrdiff_t     cells = u->cells;
-  const double *restrict qx = u->q + row.first, *restrict qy = qx + cells, *restrict bound = u->bound + row.first;
-  const float *restrict nx = w->normal + row.first, *restrict ny = nx + cells;
-  float *restrict zx = w->slot[0] + row.first, *restrict zy = zx + cells;
-  const double inverse = 1 / w->unit_q;
-
-#pragma omp simd
-  for (int i = 0; i < row.count; i++) {
-    const float over = (float)(inverse * (bound[i] - sqrt(qx[i] * qx[i] + qy[i] * qy[i])));
-
-    zx[i] += nx[i] * over;
-    zy[i] += ny[i] * over;
-  }
-}
-
-void SamRollingAddRow(const SamRollingWork *w, SamRow row, PetscInt count, const double a[3], PetscBool normal)
-{
-  for (PetscInt k = 0; k < count; k++) AddCarry(w, row, w->carry[k], (float)a[k]);
-  if (normal) AddNormal(w, row);
 }
 
 /* ---- least squares ---- */
@@ -311,23 +274,5 @@ SAM_VECTORIZED void SamRollingAdvanceRow(const SamRollingWork *w, SamRow row, do
     qy[i] += by_q * (double)dy[i];
     sx[i] += by_s * (double)ux[i] - motion_x;
     sy[i] += by_s * (double)uy[i] - (a1 + a2 * (row.xi0 + (double)i * row.dxi));
-  }
-}
-
-SAM_VECTORIZED void SamRollingTrialRow(const SamRollingWork *w, SamRow row)
-{
-  const SamStickSlip *u     = &w->base;
-  const ptrdiff_t     cells = u->cells;
-  const double *restrict qx = u->q + row.first, *restrict qy = qx + cells, *restrict bound = u->bound + row.first;
-  const float *restrict nx = w->normal + row.first, *restrict ny = nx + cells;
-  double *restrict vx = w->trial + row.first, *restrict vy = vx + cells;
-
-#pragma omp simd
-  for (int i = 0; i < row.count; i++) {
-    const double slips = nx[i] * nx[i] + ny[i] * ny[i] > 0.5f ? 1 : 0,
-                 scale = 1 + slips * (2 * bound[i] / sqrt(qx[i] * qx[i] + qy[i] * qy[i] + (1 - slips)) - 1);
-
-    vx[i] = scale * qx[i];
-    vy[i] = scale * qy[i];
   }
 }
