@@ -40,106 +40,83 @@ PetscErrorCode SamContactDeclareRolling(SamContact c)
 
 /* ---- the next coarser grid ---- */
 
+/* Fields of it: separation, pressure, bound; the fine grid's pressure and bound; two components: shear, offset. */
+enum { SEPARATION, PRESSURE, BOUND, MEAN_PRESSURE, MEAN_BOUND, SHEAR, OFFSET, FIELDS };
 typedef struct {
   SamElasticity elasticity;
   SamTransfer   transfer;
   SamGrid       grid;
-  Vec           separation, pressure, bound, mean[2], shear, offset;
+  Vec           field[FIELDS];
   SamBalance    normal, tangential;
 } Coarse;
 
 static PetscErrorCode CreateCoarse(SamSolve *w, Coarse *k)
 {
-  Vec h = w->separation;
-
   PetscFunctionBegin;
   PetscCall(SamElasticityGetGrid(k->elasticity, &k->grid));
-  for (PetscInt n = 0; n < 2; n++) PetscCall(SamGridCreateVec(k->grid, 1, &k->mean[n]));
-  PetscCall(SamGridCreateVec(k->grid, 1, &k->separation));
-  PetscCall(SamGridCreateVec(k->grid, 1, &k->pressure));
-  PetscCall(SamGridCreateVec(k->grid, 1, &k->bound));
-  PetscCall(SamGridCreateVec(k->grid, 2, &k->shear));
-  if (w->coupled) {
-    PetscCall(SamGridCreateVec(k->grid, 2, &k->offset));
-    PetscCall(VecWAXPY(w->h, 1, w->lift, w->separation));
-    h = w->h;
-  }
-  PetscCall(SamTransferRestrict(k->transfer, h, k->separation));
-  PetscCall(SamTransferRestrict(k->transfer, w->s->pressure, k->mean[0]));
-  PetscCall(SamTransferRestrict(k->transfer, w->s->bound, k->mean[1]));
+  for (PetscInt n = 0; n < FIELDS; n++) PetscCall(SamGridCreateVec(k->grid, n < SHEAR ? 1 : 2, &k->field[n]));
+  if (w->coupled) PetscCall(VecWAXPY(w->h, 1, w->lift, w->separation));
+  PetscCall(SamTransferRestrict(k->transfer, w->coupled ? w->h : w->separation, k->field[SEPARATION]));
+  PetscCall(SamTransferRestrict(k->transfer, w->s->pressure, k->field[MEAN_PRESSURE]));
+  PetscCall(SamTransferRestrict(k->transfer, w->s->bound, k->field[MEAN_BOUND]));
   k->normal     = SamControlGetBalance(&w->s->control, SAM_BALANCE_NORMAL);
   k->tangential = SamControlGetBalance(&w->s->control, SAM_BALANCE_TANGENTIAL);
   for (PetscInt n = 0; n < 3; n++) { /* the loads that were found: the same contact */
-    k->normal.force[n] = w->c->traits.rotations[0] || n == 0 ? PETSC_TRUE : PETSC_FALSE;
+    k->normal.force[n] = PETSC_TRUE;
     k->normal.load[n]  = w->s->load[SamComponentsOf[SAM_BALANCE_NORMAL][n]];
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode DestroyCoarse(Coarse *k)
+static PetscErrorCode TakeTolerance(SamSolver from, SamSolver to)
 {
-  PetscFunctionBegin;
-  for (PetscInt n = 0; n < 2; n++) PetscCall(VecDestroy(&k->mean[n]));
-  PetscCall(VecDestroy(&k->separation));
-  PetscCall(VecDestroy(&k->pressure));
-  PetscCall(VecDestroy(&k->bound));
-  PetscCall(VecDestroy(&k->shear));
-  PetscCall(VecDestroy(&k->offset));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* The pressure under the same normal loads. */
-static PetscErrorCode SolvePressure(SamSolve *w, Coarse *k, SamSolverReason *reason)
-{
-  SamNormal normal;
-  PetscReal rtol, limit;
+  PetscReal rtol;
 
   PetscFunctionBegin;
-  PetscCall(SamSolverGetTolerances(SamNormalAsSolver(w->c->normal), &rtol, NULL));
-  PetscCall(SamProblemGetPressureLimit(w->c->problem, &limit));
-  PetscCall(SamNormalCreate(k->elasticity, &normal));
-  PetscCall(SamSolverSetTolerances(SamNormalAsSolver(normal), rtol, PETSC_DEFAULT));
-  PetscCall(SamNormalSetPressureLimit(normal, limit));
-  PetscCall(SamNormalSolve(normal, k->separation, &k->normal, PETSC_FALSE, k->pressure));
-  PetscCall(SamSolverGetReason(SamNormalAsSolver(normal), reason));
-  PetscCall(SamNormalDestroy(&normal));
+  PetscCall(SamSolverGetTolerances(from, &rtol, NULL));
+  PetscCall(SamSolverSetTolerances(to, rtol, PETSC_DEFAULT));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* The coefficient of friction is the mean one where the fine grid has contact, elsewhere that of all of it. */
 static PetscErrorCode ComputeBound(Coarse *k)
 {
-  const double *p, *mean_p, *mean_b;
-  double       *b;
-  PetscReal     sums[2];
+  double   *f[SHEAR];
+  PetscReal sums[2];
 
   PetscFunctionBegin;
-  for (PetscInt n = 0; n < 2; n++) PetscCall(SamGridNorm(k->grid, k->mean[n], NORM_1, &sums[n]));
-  PetscCall(VecGetArrayRead(k->pressure, &p));
-  PetscCall(VecGetArrayRead(k->mean[0], &mean_p));
-  PetscCall(VecGetArrayRead(k->mean[1], &mean_b));
-  PetscCall(VecGetArrayWrite(k->bound, &b));
+  for (PetscInt n = 0; n < 2; n++) PetscCall(SamGridNorm(k->grid, k->field[MEAN_PRESSURE + n], NORM_1, &sums[n]));
+  for (PetscInt n = 0; n < SHEAR; n++) PetscCall(VecGetArray(k->field[n], &f[n]));
   for (PetscInt i = 0; i < k->grid->cells; i++)
-    b[i] = p[i] * (mean_p[i] > 0 ? mean_b[i] / mean_p[i] : (double)(sums[1] / sums[0]));
-  PetscCall(VecRestoreArrayWrite(k->bound, &b));
-  PetscCall(VecRestoreArrayRead(k->mean[1], &mean_b));
-  PetscCall(VecRestoreArrayRead(k->mean[0], &mean_p));
-  PetscCall(VecRestoreArrayRead(k->pressure, &p));
+    f[BOUND][i] =
+      f[PRESSURE][i] * (f[MEAN_PRESSURE][i] > 0 ? f[MEAN_BOUND][i] / f[MEAN_PRESSURE][i] : (double)(sums[1] / sums[0]));
+  for (PetscInt n = 0; n < SHEAR; n++) PetscCall(VecRestoreArray(k->field[n], &f[n]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode SolveShear(SamSolve *w, Coarse *k, SamSolverReason *reason)
+/* The pressure under the same normal loads, and the shear. */
+static PetscErrorCode SolveCoarse(SamSolve *w, Coarse *k, SamSolverReason *reason)
 {
+  Vec *const    f = k->field;
+  SamNormal     normal;
   SamTangential tangential;
-  PetscReal     rtol;
+  PetscReal     limit;
 
   PetscFunctionBegin;
+  PetscCall(SamProblemGetPressureLimit(w->c->problem, &limit));
+  PetscCall(SamNormalCreate(k->elasticity, &normal));
+  PetscCall(TakeTolerance(SamNormalAsSolver(w->c->normal), SamNormalAsSolver(normal)));
+  PetscCall(SamNormalSetPressureLimit(normal, limit));
+  PetscCall(SamNormalSolve(normal, f[SEPARATION], &k->normal, PETSC_FALSE, f[PRESSURE]));
+  PetscCall(SamSolverGetReason(SamNormalAsSolver(normal), reason));
+  PetscCall(SamNormalDestroy(&normal));
+  if (*reason < 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ComputeBound(k));
-  if (k->offset) PetscCall(SamElasticityApplyNormalToTangential(k->elasticity, k->pressure, k->offset));
-  PetscCall(SamSolverGetTolerances(SamTangentialAsSolver(w->c->tangential), &rtol, NULL));
+  if (w->coupled) PetscCall(SamElasticityApplyNormalToTangential(k->elasticity, f[PRESSURE], f[OFFSET]));
   PetscCall(SamTangentialCreate(k->elasticity, &tangential));
-  PetscCall(SamSolverSetTolerances(SamTangentialAsSolver(tangential), rtol, PETSC_DEFAULT));
-  PetscCall(SamTangentialSolve(tangential, k->bound, k->offset, &k->tangential, PETSC_FALSE, k->shear));
+  PetscCall(TakeTolerance(SamTangentialAsSolver(w->c->tangential), SamTangentialAsSolver(tangential)));
+  PetscCall(
+    SamTangentialSolve(tangential, f[BOUND], w->coupled ? f[OFFSET] : NULL, &k->tangential, PETSC_FALSE, f[SHEAR]));
   PetscCall(SamSolverGetReason(SamTangentialAsSolver(tangential), reason));
   PetscCall(SamTangentialDestroy(&tangential));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -163,8 +140,7 @@ PetscErrorCode SamSolveRolling(SamSolve *w)
   PetscCall(SamElasticityGetCoarse(w->c->elasticity, &k.elasticity, &k.transfer));
   if (!k.elasticity) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(CreateCoarse(w, &k));
-  PetscCall(SolvePressure(w, &k, &reason));
-  if (reason > 0) PetscCall(SolveShear(w, &k, &reason));
+  PetscCall(SolveCoarse(w, &k, &reason));
   for (PetscInt n = 0; reason > 0 && n < 3; n++) {
     const PetscInt  t     = SamComponentsOf[SAM_BALANCE_TANGENTIAL][n];
     const double    ratio = (double)(w->c->grid->dx / (k.grid->dx - w->c->grid->dx));
@@ -174,6 +150,6 @@ PetscErrorCode SamSolveRolling(SamSolve *w)
 
     numbers[(found ? CREEPS : LOADS) + n] = fine + ratio * (fine - coarse);
   }
-  PetscCall(DestroyCoarse(&k));
+  for (PetscInt n = 0; n < FIELDS; n++) PetscCall(VecDestroy(&k.field[n]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -133,8 +133,8 @@ PetscErrorCode SamContactSetUp(SamContact c)
                laws[k]->option);
   for (PetscInt k = 0; k < count; k++)
     PetscCheck(!c->traits.steady || laws[k]->steady, c->grid->comm, SAM_ERR_USER,
-               "-%s: has no meaning with -rolling steady, where no step continues another: omit it",
-               laws[k]->option ? laws[k]->option : laws[k]->type);
+               "%s%s: has no meaning with -rolling steady, where no step continues another: omit it",
+               laws[k]->option ? "-" : "", laws[k]->option ? laws[k]->option : laws[k]->type);
   PetscCheck(SamTangentialAsSolver(c->tangential)->steady == c->traits.steady, c->grid->comm, SAM_ERR_USER,
              "-tangential_type: does not solve this problem: use %s",
              c->traits.steady ? SAM_TANGENTIAL_ROLLING : SAM_TANGENTIAL_NEWTON);

@@ -13,23 +13,24 @@
 */
 #include <petsam/private/elasticityimpl.h>
 
-/* The differences of each row of n fields, as new arrays, one after the other; SamFree() frees them. */
-static PetscErrorCode CreateDifferences(SamGrid grid, PetscInt n, const double *const in[], double **out)
-{
-  const double inverse = 1 / grid->dx;
-
-  PetscFunctionBegin;
-  PetscCall(SamAllocate(sizeof(**out) * (size_t)(n * grid->cells), out));
-  for (PetscInt c = 0; c < n; c++)
-    for (PetscInt j = 0; j < grid->rows; j++) {
-      const double *restrict from = in[c] + (ptrdiff_t)j * grid->nx;
-      double *restrict to         = *out + (ptrdiff_t)(c * grid->cells + j * grid->nx);
-
-      for (PetscInt i = 0; i + 1 < grid->nx; i++) to[i] = inverse * (from[i] - from[i + 1]);
-      to[grid->nx - 1] = inverse * from[grid->nx - 1];
-    }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
+/* The differences of the rows of n fields, times `factor`, as new arrays one after the other, for SamFree(). */
+#define DIFFERENCES(Name, Real) \
+  static PetscErrorCode Name(SamGrid grid, PetscInt n, Real factor, const Real *const in[], Real **out) \
+  { \
+    PetscFunctionBegin; \
+    PetscCall(SamAllocate(sizeof(**out) * (size_t)(n * grid->cells), out)); \
+    for (PetscInt c = 0; c < n; c++) \
+      for (PetscInt j = 0; j < grid->rows; j++) { \
+        const Real *restrict from = in[c] + (ptrdiff_t)j * grid->nx; \
+        Real *restrict to         = *out + (ptrdiff_t)(c * grid->cells + j * grid->nx); \
+\
+        for (PetscInt i = 0; i + 1 < grid->nx; i++) to[i] = factor * (from[i] - from[i + 1]); \
+        to[grid->nx - 1] = factor * from[grid->nx - 1]; \
+      } \
+    PetscFunctionReturn(PETSC_SUCCESS); \
+  }
+DIFFERENCES(CreateDifferences, double)
+DIFFERENCES(CreateDifferencesSingle, float)
 
 static PetscErrorCode ApplyTangential(SamElasticity e, const double *const q[], double *const u[])
 {
@@ -38,7 +39,7 @@ static PetscErrorCode ApplyTangential(SamElasticity e, const double *const q[], 
 
   PetscFunctionBegin;
   SamElasticityWith(bodies, applytangential);
-  PetscCall(CreateDifferences(e->grid, 2, q, &d));
+  PetscCall(CreateDifferences(e->grid, 2, 1 / e->grid->dx, q, &d));
   PetscCall((*bodies->ops.applytangential)(bodies, (const double *const[]){d, d + e->grid->cells}, u));
   SamFree(d);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -51,7 +52,7 @@ static PetscErrorCode ApplyNormalToTangential(SamElasticity e, const double *con
 
   PetscFunctionBegin;
   SamElasticityWith(bodies, applynormaltotangential);
-  PetscCall(CreateDifferences(e->grid, 1, p, &d));
+  PetscCall(CreateDifferences(e->grid, 1, 1 / e->grid->dx, p, &d));
   PetscCall((*bodies->ops.applynormaltotangential)(bodies, (const double *const[]){d}, u));
   SamFree(d);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -60,22 +61,13 @@ static PetscErrorCode ApplyNormalToTangential(SamElasticity e, const double *con
 static PetscErrorCode ApplyTangentialSingle(SamElasticity e, double factor, const float *const q[], float *const u[])
 {
   SamElasticity bodies = e->inner;
-  const SamGrid grid   = e->grid;
   float        *d;
 
   PetscFunctionBegin;
   SamElasticityWith(bodies, applytangentialsingle);
-  PetscCall(SamAllocate(sizeof(*d) * (size_t)(2 * grid->cells), &d));
-  for (PetscInt c = 0; c < 2; c++)
-    for (PetscInt j = 0; j < grid->rows; j++) {
-      const float *restrict from = q[c] + (ptrdiff_t)j * grid->nx;
-      float *restrict to         = d + (ptrdiff_t)(c * grid->cells + j * grid->nx);
-
-      for (PetscInt i = 0; i + 1 < grid->nx; i++) to[i] = from[i] - from[i + 1];
-      to[grid->nx - 1] = from[grid->nx - 1];
-    }
-  PetscCall(
-    (*bodies->ops.applytangentialsingle)(bodies, factor / grid->dx, (const float *const[]){d, d + grid->cells}, u));
+  PetscCall(CreateDifferencesSingle(e->grid, 2, 1, q, &d));
+  PetscCall((*bodies->ops.applytangentialsingle)(bodies, factor / e->grid->dx,
+                                                 (const float *const[]){d, d + e->grid->cells}, u));
   SamFree(d);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

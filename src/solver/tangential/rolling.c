@@ -290,14 +290,11 @@ static PetscErrorCode MakeAdmissible(Work *w, PetscBool *found)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static SamSolverReason Reason(const Work *w, PetscBool found, PetscInt stagnant)
+static SamSolverReason Reason(const SamStickSlip *u, PetscBool failed)
 {
-  const SamStickSlip *u = &w->base;
-
-  if (!found) return SAM_SOLVER_DIVERGED_STAGNATED;
+  if (failed) return SAM_SOLVER_DIVERGED_STAGNATED;
   if (!isfinite(u->error)) return SAM_SOLVER_DIVERGED_NAN;
-  if (SamLevelAtMaxIterations(u->solver, u->level)) return SAM_SOLVER_DIVERGED_ITS;
-  return stagnant > STAGNATION ? SAM_SOLVER_DIVERGED_STAGNATED : SAM_SOLVER_ITERATING;
+  return SamLevelAtMaxIterations(u->solver, u->level) ? SAM_SOLVER_DIVERGED_ITS : SAM_SOLVER_ITERATING;
 }
 
 /* The iterations, from an admissible start. */
@@ -309,7 +306,7 @@ static PetscErrorCode Run(Work *w, SamSolverReason *reason)
   PetscBool     found = PETSC_TRUE;
 
   PetscFunctionBegin;
-  *reason = Reason(w, found, stagnant);
+  *reason = Reason(u, !found || stagnant > STAGNATION);
   if (!*reason && u->error <= u->level->rtol) *reason = SAM_SOLVER_CONVERGED_RTOL;
   PetscCall(ChooseSets(w, load));
   while (!*reason) {
@@ -332,7 +329,7 @@ static PetscErrorCode Run(Work *w, SamSolverReason *reason)
       }
       PetscCall(ChooseSets(w, load));
     }
-    if (!*reason) *reason = Reason(w, found, stagnant);
+    if (!*reason) *reason = Reason(u, !found || stagnant > STAGNATION);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
