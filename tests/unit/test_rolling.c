@@ -70,7 +70,7 @@ static void test_operator_is_that_of_the_differences(void **state)
   sam_call(SamElasticityApplyTangential(r.c.s.elasticity, q, u));
   sam_call(SamElasticityApplyTangential(r.rest, d, v));
   sam_call(VecScale(v, 1 / grid->dx));
-  sam_assert_close(Difference(u, v, NORM_INFINITY), 0, 1e-12 * Norm(u, NORM_INFINITY));
+  sam_assert_close(Difference(u, v, NORM_INFINITY), 0, 1e-13);
   sam_assert_close(Dot(q, u), 0.5 * Dot(d, v), 1e-12 * Dot(d, v));
   sam_assert(Dot(q, u) > 0);
   sam_call(SamElasticityGetSelfInfluence(r.c.s.elasticity, &self[0], &self[1]));
@@ -167,7 +167,7 @@ static void test_solution_is_the_only_one(void **state)
   (void)state;
   (void)SolveWell(&r.c, NULL, NULL, 1e-8, &creep, q);
   SolvePlainly(&r.c, &same, plain);
-  sam_assert_close(Difference(q, plain, NORM_INFINITY), 0, 1e-6 * Norm(q, NORM_INFINITY));
+  sam_assert_close(Difference(q, plain, NORM_INFINITY), 0, 1e-6);
   sam_call(VecDestroy(&q));
   sam_call(VecDestroy(&plain));
   DestroyRolling(&r);
