@@ -42,16 +42,16 @@ typedef enum { SAM_ROLLING_NONE, SAM_ROLLING_STEADY } SamRolling;
 */
 typedef enum { SAM_SLIP_AUTO, SAM_SLIP_MID, SAM_SLIP_END } SamSlipDirection;
 typedef struct {
-  PetscBool  coupling;         /* normal-tangential coupling is taken into account (true; -coupling full or none) */
-  PetscReal  coupling_rtol;    /* (1e-6; -coupling_rtol) */
-  PetscInt   coupling_max_it;  /* most passes (100; -coupling_max_it) */
-  PetscBool  coupling_monitor; /* print the change after each pass (false; -coupling_monitor) */
-  PetscBool  warm_start;       /* start a step from the steps before, on the finest grid only (true; -warm_start) */
+  PetscBool        coupling;      /* normal-tangential coupling is taken into account (true; -coupling full or none) */
+  PetscReal        coupling_rtol; /* (1e-6; -coupling_rtol) */
+  PetscInt         coupling_max_it;  /* most passes (100; -coupling_max_it) */
+  PetscBool        coupling_monitor; /* print the change after each pass (false; -coupling_monitor) */
+  PetscBool        warm_start;     /* start a step from the steps before, on the finest grid only (true; -warm_start) */
   SamSlipDirection slip_direction; /* (auto; -slip_direction) */
   PetscReal  cycle_memory; /* bytes on all ranks for steps of a repeated load cycle: a step that the cycle before had
                                  starts from that, with the same solution within the tolerances; what is kept is in no
                                  state and no checkpoint, from which the bits differ then (0: none; -cycle_memory) */
-  SamRolling rolling;      /* towards +x (none; -rolling) */
+  SamRolling rolling;      /* towards +x; as the elasticity does, and not to be set */
   PetscBool  allow_edge;   /* contact at the grid's edge is a warning, no status (false; -allow_edge_contact) */
   PetscBool  edges;        /* areas, and tractions at points, by reconstructed contact and stick edges (edges.h);
                                  else by counted cells, wrong by a part of a cell along the edge (true; -edges

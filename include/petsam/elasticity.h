@@ -21,6 +21,8 @@ typedef const char *SamElasticityType;
 #define SAM_ELASTICITY_PERIODIC \
   "periodic" /* two half-spaces, the grid being one period of everything; tractions are sums of waves */
 
+#define SAM_ELASTICITY_ROLLING "rolling" /* any of these in steady rolling, by SamElasticityCreateRolling() */
+
 /* SamElasticityTraits - properties of a type that users of the operator rely on. None follows from another. */
 typedef struct {
   PetscBool coupled;  /* pressure moves the surfaces tangentially, and shear moves them normally */
@@ -30,6 +32,7 @@ typedef struct {
   PetscBool mean;   /* a uniform traction displaces the surface; else displacements are relative to the mean planes */
   PetscBool parts;  /* where only a part of the grid has traction, an operator on that part suffices */
   PetscBool within; /* the pressure may vary within cells */
+  PetscBool steady; /* rolls towards +x: u_t is a velocity relative to that of rolling, the operator not symmetric */
   PetscBool stress; /* stresses in the bodies are available; set by the class */
 } SamElasticityTraits;
 
@@ -38,6 +41,12 @@ typedef struct {
   first needed. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamElasticityCreate(SamGrid grid, const SamPair *pair, SamElasticity *elasticity);
+/*
+  SamElasticityCreateRolling - the same bodies in steady rolling towards +x: u_t is the slip velocity by the tractions,
+  relative to the rolling speed, and creepages stand for tangential rigid displacements. References the bodies.
+  Collective. Errors: PETSC_ERR_SUP for periodic bodies.
+*/
+PETSC_EXTERN PetscErrorCode SamElasticityCreateRolling(SamElasticity bodies, SamElasticity *rolling);
 /*
   SamElasticitySetType - forgets the coarser operators and the parts. Collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for a
   type that is not registered; PETSC_ERR_ORDER when a problem or a solver refers to the elasticity already.

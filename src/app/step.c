@@ -16,6 +16,14 @@ static double Get(SamContact contact, const char name[])
   return id < 0 ? NAN : *SamStateReadNumbers(state, id);
 }
 
+/* Whether the contact rolls in steady state: then there is no slip since the start. */
+static PetscBool IsSteady(SamContact contact)
+{
+  SamContactSettings set;
+
+  return !SamContactGetSettings(contact, &set) && set.rolling == SAM_ROLLING_STEADY;
+}
+
 /* ---- what is zero to rounding ---- */
 
 /* Sizes of forces and moments, translations and rotations; of the latter as they act at the border of the contact. */
@@ -54,14 +62,17 @@ static double Rounded(const SamStep *s, PetscInt c, const PetscReal values[], co
 
 static PetscErrorCode ViewSolution(const SamStep *s, SamContact c, const Sizes *sizes, PetscViewer viewer)
 {
+  const PetscBool rolls = IsSteady(c);
   const double passes = Get(c, "coupling_iterations"), move = ROUNDING * sizes->rigid[0], work = sizes->load[0] * move;
 
   PetscFunctionBegin;
-  PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  contact %.6g m2, stick %.6g m2, dissipated %.6g J\n", "areas",
-                                   Get(c, "contact_area"), Get(c, "stick_area"),
-                                   Clean(Get(c, "dissipated_energy"), work)));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  pressure %.6g Pa, shear %.6g Pa, slip %.6g m\n", "maximum",
-                                   Get(c, "pressure_max"), Get(c, "shear_max"), Clean(Get(c, "slip_max"), move)));
+  PetscCall(PetscViewerASCIIPrintf(
+    viewer, "  %-10s  contact %.6g m2, stick %.6g m2, dissipated %.6g %s\n", "areas", Get(c, "contact_area"),
+    Get(c, "stick_area"), Clean(Get(c, rolls ? "rolling_energy" : "dissipated_energy"), work), rolls ? "J/m" : "J"));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  pressure %.6g Pa, shear %.6g Pa, slip %.6g%s\n", "maximum",
+                                   Get(c, "pressure_max"), Get(c, "shear_max"),
+                                   Clean(Get(c, rolls ? "slip_velocity_max" : "slip_max"), move),
+                                   rolls ? " of the rolling speed" : " m"));
   if (!isnan(Get(c, "contact_spots")))
     PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  %.0f, contact on %.4g %% of the grid, mean gap %.6g m\n",
                                      "spots", Get(c, "contact_spots"), 100 * Get(c, "contact_fraction"),
@@ -87,16 +98,24 @@ PetscErrorCode SamStepView(const SamStep *s, SamContact contact, PetscViewer vie
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
-    const PetscInt          c    = order[k];
-    const SamComponentName *name = &SamComponentNames[c];
+    const PetscInt          c     = order[k];
+    const SamComponentName *name  = &SamComponentNames[c];
+    const PetscBool         creep = name->creep && IsSteady(contact), load = s->control.force[c];
+    char                    fine[96] = "";
 
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  %-7s %14.7g %-3s  %-6s %14.7g %-3s  (%s given)\n",
+    if (creep) {
+      (void)snprintf(fine, sizeof(fine), "%s_extrapolated", load ? name->creep : name->load);
+      (void)snprintf(fine, sizeof(fine), "; fine grid: %s %.7g", load ? name->creep : name->load,
+                     Clean(Get(contact, fine), 1e3 * REST * (load ? sizes.rigid : sizes.load)[c >= SAM_COMPONENT_MX]));
+    }
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  %-7s %14.7g %-3s  %-6s %14.7g %-3s  (%s given%s)\n",
                                      k == 0   ? "normal"
                                      : k == 3 ? "tangential"
                                               : "",
-                                     name->load, Rounded(s, c, s->load, sizes.load), name->load_unit, name->rigid,
-                                     Rounded(s, c, s->rigid, sizes.rigid), name->rigid_unit,
-                                     given[SamControlWay(&s->control, c)]));
+                                     name->load, Rounded(s, c, s->load, sizes.load), name->load_unit,
+                                     creep ? name->creep : name->rigid, Rounded(s, c, s->rigid, sizes.rigid),
+                                     creep ? name->creep_unit : name->rigid_unit, given[SamControlWay(&s->control, c)],
+                                     fine));
   }
   if (s->status != SAM_STATUS_NO_EQUILIBRIUM) PetscCall(ViewSolution(s, contact, &sizes, viewer));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -157,7 +176,8 @@ static void WriteColumn(SamReport r, const SamStep *s, SamContact contact, int k
                         char text[], size_t size)
 {
   const Sizes  sizes  = GetSizes(s, contact);
-  const double number = columns[k].number[0] ? Get(contact, columns[k].number) : 0;
+  const char  *name   = k == SLIP && IsSteady(contact) ? "slip_velocity_max" : columns[k].number;
+  const double number = name[0] ? Get(contact, name) : 0;
 
   if (k == STEP)
     (void)snprintf(text, size, "%ld", (long)r->number + 1);
@@ -188,7 +208,9 @@ PetscErrorCode SamReportStepLine(SamReport r, const SamStep *s, SamContact conta
       if (!r->shown[k]) continue;
       WriteColumn(r, s, contact, k, seconds, left, text, sizeof(text));
       used += (size_t)snprintf(line + used, sizeof(line) - used, "%*s", columns[k].width,
-                               heading ? columns[k].heading : text);
+                               !heading                         ? text
+                               : k == SLIP && IsSteady(contact) ? "slip/V"
+                                                                : columns[k].heading);
     }
     PetscCall(PetscPrintf(r->comm, "%s\n", line));
     if (!heading) PetscFunctionReturn(PETSC_SUCCESS);

@@ -19,6 +19,7 @@ PetscErrorCode SamContactCreate(SamProblem problem, SamContact *contact)
   PetscCall(SamProblemGetElasticity(problem, &c->elasticity));
   PetscCall(SamProblemGetGrid(problem, &c->grid));
   PetscCall(SamElasticityGetTraits(c->elasticity, &c->traits));
+  c->set.rolling = c->traits.steady ? SAM_ROLLING_STEADY : SAM_ROLLING_NONE;
   PetscCall(SamNormalCreate(c->elasticity, &c->normal));
   PetscCall(SamTangentialCreate(c->elasticity, &c->tangential));
   PetscCall(SamStateCreate(c->grid, &c->state));
@@ -65,7 +66,8 @@ PetscErrorCode SamContactSetSettings(SamContact c, const SamContactSettings *set
              "coupling iterations max_it = %" PetscInt_FMT ": expected at least 1", settings->coupling_max_it);
   PetscCheck(settings->cycle_memory >= 0, c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
              "cycle memory = %.6g: expected a number >= 0", (double)settings->cycle_memory);
-  c->set = *settings;
+  c->set         = *settings;
+  c->set.rolling = c->traits.steady ? SAM_ROLLING_STEADY : SAM_ROLLING_NONE;
   PetscCall(SamRecallSetMemory(c->recall, settings->cycle_memory));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -81,12 +83,10 @@ PetscErrorCode SamContactSetFromOptions(SamContact c)
 {
   static const char *const coupling_words[] = {"none", "full", NULL}, *const edge_words[] = {"none", "reconstruct",
                                                                                              "deferred", NULL};
-  static const char *const direction_words[] = {"auto", "mid", "end", NULL},
-                           *const rolling_words[] = {"none", "steady", NULL};
+  static const char *const direction_words[] = {"auto", "mid", "end", NULL};
   const SamOptions         from              = {c->grid->comm, c->prefix};
   SamContactSettings       s                 = c->set;
   PetscInt                 coupling = s.coupling ? 1 : 0, edges = s.edges ? 1 : 0, direction = s.slip_direction;
-  PetscInt                 rolling = s.rolling;
 
   PetscFunctionBegin;
   PetscCall(SamOptionsHeading(&from, "Contact"));
@@ -104,8 +104,6 @@ PetscErrorCode SamContactSetFromOptions(SamContact c)
                            &s.warm_start, NULL));
   PetscCall(SamOptionsReal(&from, "cycle_memory", "bytes to keep steps of a repeated cycle, from which the next starts",
                            SAM_RANGE_NONNEGATIVE, &s.cycle_memory, NULL));
-  PetscCall(SamOptionsEnum(&from, "rolling", "steady: the contact rolls towards +x in steady state; or none",
-                           rolling_words, &rolling, NULL));
   PetscCall(SamOptionsBool(&from, "allow_edge_contact", "contact at the grid's edge is a warning, no error",
                            &s.allow_edge, NULL));
   PetscCall(SamOptionsEnum(&from, "edges", "reconstruct, deferred (correct the pressure), none (count cells)",
@@ -116,7 +114,6 @@ PetscErrorCode SamContactSetFromOptions(SamContact c)
   s.coupling       = coupling != 0;
   s.slip_direction = (SamSlipDirection)direction;
   s.edges          = edges > 0;
-  s.rolling        = (SamRolling)rolling;
   PetscCall(SamContactSetSettings(c, &s));
   PetscCall(SamSolverSetFromOptions(SamNormalAsSolver(c->normal)));
   PetscCall(SamSolverSetFromOptions(SamTangentialAsSolver(c->tangential)));

@@ -34,6 +34,7 @@ struct _n_SamContact {
   PetscObjectState revision[SAM_GENERATIONS];   /* of the problem that the pressure was solved with; -1: another */
   PetscInt         tractions[3], displacements[2]; /* fields: pressure, bound, shear; u_z, u_t */
   PetscInt time, solution, given, creeps, control, residuals, counts, status, window, steps; /* numbers, see memory.c */
+  PetscInt rolling; /* numbers, of steady rolling only, see rolling.c */
 };
 
 /* Whether pressure and shear depend on each other. */
@@ -61,6 +62,13 @@ PETSC_INTERN PetscErrorCode SamContactView(SamContact contact);
   SamContactBefore - the committed solution, from which the tried one continues; NULL in the first step. Not collective.
 */
 PETSC_INTERN const SamSolution *SamContactBefore(SamContact contact);
+/* SamContactSlipBefore - the same if its slip is that from which this step slips on; not so in steady rolling. */
+static inline const SamSolution *SamContactSlipBefore(SamContact contact)
+{
+  return contact->traits.steady ? NULL : SamContactBefore(contact);
+}
+/* SamContactDeclareRolling - declares the numbers of steady rolling, if the contact does (rolling.c). Collective. */
+PETSC_INTERN PetscErrorCode SamContactDeclareRolling(SamContact contact);
 
 /* ---- a step ---- */
 

@@ -21,7 +21,12 @@ static PetscErrorCode DeclareFields(SamContact c)
 
   PetscFunctionBegin;
   for (int k = 0; k < 3; k++) PetscCall(SamStateDeclareField(c->state, &tractions[k], &c->tractions[k]));
-  for (int k = 0; k < 2; k++) PetscCall(SamStateDeclareField(c->state, &displacements[k], &c->displacements[k]));
+  for (int k = 0; k < 2; k++) {
+    SamStateField field = displacements[k];
+
+    if (k && c->traits.steady) field.result = SAM_RESULT_NONE; /* a velocity */
+    PetscCall(SamStateDeclareField(c->state, &field, &c->displacements[k]));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -46,11 +51,19 @@ static PetscErrorCode DeclareControl(SamContact c)
   for (PetscInt n = 0; n < 2 * SAM_COMPONENTS; n++) {
     const PetscInt          k    = n % SAM_COMPONENTS;
     const SamComponentName *name = &SamComponentNames[k];
-    const PetscBool         load = n < SAM_COMPONENTS;
+    const PetscBool         load = n < SAM_COMPONENTS, creep = c->traits.steady && name->creep;
 
-    PetscCall(Declare(c, load ? name->load : name->rigid, load ? name->load_unit : name->rigid_unit,
-                      load ? name->load_text : name->rigid_text, SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE,
-                      n ? NULL : &c->solution));
+    PetscCall(Declare(c,
+                      load    ? name->load
+                      : creep ? name->creep
+                              : name->rigid,
+                      load    ? name->load_unit
+                      : creep ? name->creep_unit
+                              : name->rigid_unit,
+                      load    ? name->load_text
+                      : creep ? name->creep_text
+                              : name->rigid_text,
+                      SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE, n ? NULL : &c->solution));
   }
   for (PetscInt n = 0; n < SAM_CONDITIONS; n++) {
     const SamCondition *condition = &SamConditions[n];
@@ -148,11 +161,17 @@ PetscErrorCode SamContactFindEdge(SamContact c, SamEdgeOf which, Vec point, SamE
 
 static PetscErrorCode Offer(SamContact c)
 {
+  const PetscBool      steady    = c->traits.steady;
+  const char *const    unit      = steady ? "1" : "m";
   const SamStateResult results[] = {
-    {"slip_x", "m", "relative tangential displacement along x since the start", SAM_FIELD_REAL, SAM_RESULT_USUAL,
-     Compute, c, SLIP_X, -1},
-    {"slip_y", "m", "relative tangential displacement along y since the start", SAM_FIELD_REAL, SAM_RESULT_USUAL,
-     Compute, c, SLIP_Y, -1},
+    {steady ? "slip_velocity_x" : "slip_x", unit,
+     steady ? "slip velocity along x, relative to the rolling speed"
+            : "relative tangential displacement along x since the start",
+     SAM_FIELD_REAL, SAM_RESULT_USUAL, Compute, c, SLIP_X, -1},
+    {steady ? "slip_velocity_y" : "slip_y", unit,
+     steady ? "slip velocity along y, relative to the rolling speed"
+            : "relative tangential displacement along y since the start",
+     SAM_FIELD_REAL, SAM_RESULT_USUAL, Compute, c, SLIP_Y, -1},
     {"gap", "m", "gap between the deformed surfaces", SAM_FIELD_REAL, SAM_RESULT_OFFERED, Compute, c, GAP, -1},
     {"state", "1", "state of the cell", SAM_FIELD_STATE, SAM_RESULT_USUAL, Compute, c, STATE, -1},
     {"pressure_center", "Pa", "contact pressure at the centre of the cell", SAM_FIELD_REAL, SAM_RESULT_OFFERED, Compute,
@@ -177,7 +196,8 @@ PetscErrorCode SamContactDeclare(SamContact c)
   PetscCall(DeclareFields(c));
   PetscCall(Offer(c));
   PetscCall(DeclareControl(c));
-  PetscCall(SamSolutionDeclareNumbers(c->state));
+  PetscCall(SamSolutionDeclareNumbers(c->state, c->traits.steady));
+  PetscCall(SamContactDeclareRolling(c));
   PetscCall(DeclareOutcome(c));
   if (c->set.spots) PetscCall(SamSolutionDeclareSpots(c->state));
   PetscCall(SamProblemDeclare(c->problem, c->state));

@@ -232,7 +232,8 @@ PetscErrorCode SamContactPredict(SamContact c, const SamControl *control, SamSte
     start->rigid[k] = now->rigid[n] + alpha * (now->rigid[n] - before->rigid[n]);
   }
   if (alpha > 0) PetscCall(Extrapolate(c, alpha, control->friction_scale, &found));
-  start->pressure = start->shear = found;
+  start->pressure = found;
+  start->shear    = found && !c->traits.steady; /* there nested grids are as good as the last step */
   if (!found && c->set.warm_start && !SamContactIsCoupled(c) &&
       SamControlIsSame(&now->control, control, SAM_BALANCE_NORMAL))
     PetscCall(StartFromLastPressure(c, start));

@@ -16,7 +16,7 @@ static PetscErrorCode Begin(SamContact c, const SamStepStart *start, PetscBool s
   *w = (SamSolve){
     .c = c, .s = &c->generation[SAM_TRIED], .step = step, .same_pressure = same_pressure, .kept = start->kept};
   w->coupled    = SamContactIsCoupled(c);
-  w->before     = SamContactBefore(c);
+  w->before     = SamContactSlipBefore(c);
   w->counts     = SamStateNumbers(c->state, c->counts, SAM_TRIED);
   w->normal     = SamControlGetBalance(&w->s->control, SAM_BALANCE_NORMAL);
   w->tangential = SamControlGetBalance(&w->s->control, SAM_BALANCE_TANGENTIAL);
@@ -100,7 +100,7 @@ static PetscErrorCode DescribeImpossible(SamSolve *w, char message[], size_t siz
 /* Copies the pressure of the committed state, where nothing that it depends on has changed. */
 static PetscErrorCode TakePressure(SamSolve *w)
 {
-  const SamSolution *from = w->before;
+  const SamSolution *from = SamContactBefore(w->c);
 
   PetscFunctionBegin;
   PetscCall(SamVecCopyNonzero(from->pressure, w->s->pressure));
@@ -181,7 +181,7 @@ static PetscErrorCode DescribeSliding(SamSolve *w, char message[], size_t size)
                             follows ? " at the slip of the last iteration" : ""));
     PetscCall(PetscStrlcat(message, text, size));
     if (loaded > 1) PetscCall(PetscStrlcat(instead, ", ", sizeof(instead)));
-    PetscCall(PetscStrlcat(instead, name->rigid, sizeof(instead)));
+    PetscCall(PetscStrlcat(instead, w->c->traits.steady ? name->creep : name->rigid, sizeof(instead)));
   }
   PetscCall(SamProblemHasFriction(w->c->problem, &friction));
   PetscCall(PetscStrlcat(
@@ -431,6 +431,7 @@ PetscErrorCode SamContactSolveStep(SamContact c, const SamStepStart *start, Pets
     PetscCall(SamSolveCoupled(&w, start));
   else
     PetscCall(SolveOnce(&w, start));
+  if (c->traits.steady) PetscCall(SamSolveRolling(&w));
   PetscCall(End(&w));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -55,6 +55,8 @@ PETSC_INTERN PetscErrorCode SamSolveGuessDirection(SamSolve *solve, SamKept kept
                                                    Vec offset);
 /* SamSolveJudge - records in the step whether the last solve of a problem failed. Collective. */
 PETSC_INTERN PetscErrorCode SamSolveJudge(SamSolve *solve, SamBalanceKind kind);
+/* SamSolveRolling - the numbers of steady rolling, of the solved step (rolling.c). Collective. */
+PETSC_INTERN PetscErrorCode SamSolveRolling(SamSolve *solve);
 /* SamSolveSkipTangential - no shear, as the pressure is not right. Collective. */
 PETSC_INTERN PetscErrorCode SamSolveSkipTangential(SamSolve *solve);
 

@@ -1,6 +1,7 @@
 /* Steps of a contact that are tried, then committed or rejected. */
 #include "contactimpl.h"
 #include <math.h>
+#include <petsam/private/solverimpl.h>
 
 /*
   The check includes rounding, which the solvers' recurrences omit. So its limits are the solvers' tolerances times a
@@ -76,6 +77,14 @@ PetscErrorCode SamContactCheckRolling(SamContact c, const SamControl *control)
       "%s = %.6g: a creepage needs a rolled distance: give the columns roll or roll_y in -history, or -rolling "
       "steady",
       SamComponentNames[k].creep, (double)control->value[k]);
+  for (PetscInt k = 0; k < SAM_COMPONENTS && c->traits.steady; k++)
+    PetscCheck(!SamComponentNames[k].creep || SamControlWay(control, k) != SAM_BY_RIGID, c->grid->comm, SAM_ERR_USER,
+               "%s has no meaning with -rolling steady: give %s or %s", SamComponentNames[k].rigid,
+               SamComponentNames[k].creep, SamComponentNames[k].load);
+  for (PetscInt k = 0; k < 2 * SAM_BULK_COMPONENTS && c->traits.steady; k++)
+    PetscCheck(SamControlPart(control, SAM_COMPONENTS + SAM_CONDITION_BULK + k) == 0, c->grid->comm, SAM_ERR_USER,
+               "%s has no meaning with -rolling steady: a uniform strain is a creepage: add it to creep_x",
+               SamConditions[SAM_CONDITION_BULK + k].name);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -114,8 +123,6 @@ PetscErrorCode SamContactSetUp(SamContact c)
   PetscBool     friction, limits;
 
   PetscFunctionBegin;
-  PetscCheck(c->set.rolling == SAM_ROLLING_NONE, c->grid->comm, SAM_ERR_USER,
-             "-rolling steady: not available: roll in steps of time, by the column roll of -history");
   PetscCall(SamProblemHasFriction(c->problem, &friction));
   PetscCall(SamProblemGetPressureLimit(c->problem, &limit));
   PetscCall(SamProblemGetLaws(c->problem, &count, &laws));
@@ -124,6 +131,13 @@ PetscErrorCode SamContactSetUp(SamContact c)
                "-%s: not supported with friction or a pressure limit, under which a corrected pressure would make the "
                "rest of the solution less accurate: use -edges reconstruct",
                laws[k]->option);
+  for (PetscInt k = 0; k < count; k++)
+    PetscCheck(!c->traits.steady || laws[k]->steady, c->grid->comm, SAM_ERR_USER,
+               "%s%s: has no meaning with -rolling steady, where no step continues another: omit it",
+               laws[k]->option ? "-" : "", laws[k]->option ? laws[k]->option : laws[k]->type);
+  PetscCheck(SamTangentialAsSolver(c->tangential)->steady == c->traits.steady, c->grid->comm, SAM_ERR_USER,
+             "-tangential_type: does not solve this problem: use %s",
+             c->traits.steady ? SAM_TANGENTIAL_ROLLING : SAM_TANGENTIAL_NEWTON);
   PetscCall(SamNormalLimitsPressure(c->normal, &limits));
   PetscCheck(isinf(limit) || limits, c->grid->comm, SAM_ERR_USER,
              "-pressure_limit: not supported by this -normal_type: use %s", SAM_NORMAL_ACTIVESET);
@@ -204,7 +218,7 @@ PetscErrorCode SamContactComputeFriction(SamContact c, Vec path, Vec pressed, Ve
   PetscFunctionBegin;
   PetscCheck(c->has_tried, c->grid->comm, PETSC_ERR_ORDER, "There is no tried step");
   PetscCall(
-    SamSolutionComputeFriction(c->problem, SamContactBefore(c), &c->generation[SAM_TRIED], path, pressed, work));
+    SamSolutionComputeFriction(c->problem, SamContactSlipBefore(c), &c->generation[SAM_TRIED], path, pressed, work));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -268,14 +282,14 @@ static PetscErrorCode Advance(SamContact c, PetscBool same_pressure)
 /* Checks the tried solution and fills in the numbers of the step. */
 static PetscErrorCode Conclude(SamContact c, PetscBool same_pressure, SamStep *step)
 {
-  SamSolution       *s      = &c->generation[SAM_TRIED];
-  const SamSolution *before = SamContactBefore(c);
+  SamSolution       *s    = &c->generation[SAM_TRIED];
+  const SamSolution *last = SamContactBefore(c), *before = SamContactSlipBefore(c);
 
   PetscFunctionBegin;
   /* that of the nested grids, before new fields are made: lowers the peak from 99 to 90 MB at 512 x 512 cells */
-  if (!before) SamReturnMemory();
+  if (!last) SamReturnMemory();
   PetscCall(SamContactSetDisplacements(c));
-  if (same_pressure) PetscCall(SamVecCopyNonzero(before->displacement_z, s->displacement_z));
+  if (same_pressure) PetscCall(SamVecCopyNonzero(last->displacement_z, s->displacement_z));
   PetscCall(SamCheckSolution(c->problem, c->state, c->set.coupling, same_pressure, before, s, &step->check));
   PetscCall(Advance(c, same_pressure));
   PetscCall(PetscArraycpy(step->load, s->load, SAM_COMPONENTS));
@@ -311,7 +325,7 @@ PetscErrorCode SamContactTry(SamContact c, const SamControl *control, SamStep *s
   PetscCall(SamContactBegin(c, &given));
   PetscCall(IsSamePressure(c, &given, &same_pressure));
   PetscCall(SamContactPredict(c, &given, &start));
-  if (c->set.warm_start && !SamContactIsCoupled(c) && !SamProblemFollowsSlip(c->problem))
+  if (c->set.warm_start && !c->traits.steady && !SamContactIsCoupled(c) && !SamProblemFollowsSlip(c->problem))
     SamRecallFind(c->recall, &given, &start.kept);
   if (c->rolls) start.kept = NULL; /* its product is not where the slip has moved to */
   PetscCall(SamContactSolveStep(c, &start, same_pressure, step));

@@ -82,6 +82,7 @@ PetscErrorCode SamElasticitySetType(SamElasticity e, SamElasticityType type)
 
   PetscFunctionBegin;
   PetscCall(PetscFunctionListFind(SamElasticityList, type, &create));
+  if (!strcmp(type, SAM_ELASTICITY_ROLLING)) create = SamElasticityCreate_Rolling; /* not a choice of the user's */
   PetscCall(SamElasticityGetTypes(types, sizeof(types)));
   PetscCheck(create, e->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "Elasticity of type %s is not registered: use %s", type,
              types);
@@ -245,6 +246,7 @@ PetscErrorCode SamElasticityCreateStress(SamElasticity e, PetscInt body, const S
 PetscErrorCode SamElasticityAddParameters(SamElasticity e, SamParameters *p)
 {
   PetscFunctionBegin;
+  if (e->traits.steady) e = e->inner; /* these are the bodies; how they move is recorded elsewhere */
   PetscCall(SamPairAddParameters(&e->pair, p));
   PetscCall(SamParametersAddText(p, "elasticity", PETSC_TRUE, e->type));
   if (e->inner) PetscCall(SamParametersAddText(p, "elasticity_inner", PETSC_TRUE, e->inner->type));

@@ -65,14 +65,18 @@ static PetscBool Names(const SamOutputSettings *set, const char name[])
 
 PetscErrorCode SamOutputSettingsAddLaws(SamOutputSettings *set, SamProblem problem)
 {
-  const SamLawType *types;
-  PetscInt          count;
+  const SamLawType   *types;
+  PetscInt            count;
+  SamElasticity       elasticity;
+  SamElasticityTraits traits;
 
   PetscFunctionBegin;
+  PetscCall(SamProblemGetElasticity(problem, &elasticity));
+  PetscCall(SamElasticityGetTraits(elasticity, &traits));
   set->sums = PETSC_TRUE;
   PetscCall(SamLawGetTypes(&count, &types));
   for (PetscInt k = 0; k < count; k++)
-    if (Names(set, types[k]) || Names(set, "all")) PetscCall(SamProblemAddSum(problem, types[k]));
+    if (Names(set, types[k]) || (Names(set, "all") && !traits.steady)) PetscCall(SamProblemAddSum(problem, types[k]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

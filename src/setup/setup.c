@@ -6,6 +6,29 @@
 /* Options of files that the gap may come from. */
 static const char *const files[] = {"-gap_file", "-gap_rough_file"};
 
+/* Steady rolling is a property of the operator. */
+static PetscErrorCode ReadRolling(SamSetup *s, const SamOptions *from)
+{
+  static const char *const words[] = {"none", "steady", NULL};
+  SamElasticity            bodies  = s->elasticity;
+  SamElasticityTraits      traits;
+  SamElasticityType        type;
+  PetscInt                 rolling = 0;
+
+  PetscFunctionBegin;
+  PetscCall(SamOptionsEnum(from, "rolling", "steady: the contact rolls towards +x in steady state; or none", words,
+                           &rolling, NULL));
+  if (!rolling) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamElasticityGetTraits(bodies, &traits));
+  PetscCall(SamElasticityGetType(bodies, &type));
+  PetscCheck(!traits.periodic, from->comm, SAM_ERR_USER,
+             "-%srolling steady: has no meaning with -%selasticity %s, whose contact has no leading edge",
+             SamOptionsPrefix(from), SamOptionsPrefix(from), type);
+  PetscCall(SamElasticityCreateRolling(bodies, &s->elasticity));
+  PetscCall(SamElasticityDestroy(&bodies));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* The elasticity and the laws on the grid. */
 static PetscErrorCode CreateProblem(SamSetup *s, const SamOptions *from)
 {
@@ -13,6 +36,7 @@ static PetscErrorCode CreateProblem(SamSetup *s, const SamOptions *from)
   PetscCall(SamElasticityCreate(s->grid, &s->pair, &s->elasticity));
   PetscCall(SamElasticitySetOptionsPrefix(s->elasticity, from->prefix));
   PetscCall(SamElasticitySetFromOptions(s->elasticity));
+  PetscCall(ReadRolling(s, from));
   PetscCall(SamProblemCreate(s->elasticity, &s->problem));
   PetscCall(SamProblemSetLawsFromOptions(s->problem, from));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -149,5 +173,6 @@ PetscErrorCode SamSetupAddParameters(const SamSetup *s, SamParameters *p)
   PetscCall(AddGap(s, p));
   PetscCall(SamContactGetSettings(s->contact, &set));
   PetscCall(SamParametersAddText(p, "coupling", PETSC_TRUE, set.coupling ? "full" : "none"));
+  PetscCall(SamParametersAddText(p, "rolling", PETSC_TRUE, set.rolling == SAM_ROLLING_STEADY ? "steady" : "none"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -129,12 +129,25 @@ static const SamStateNumber declared[NUMBERS] = {
   REAL("stored_energy", "J", "elastic energy of both bodies"),
   REAL("energy_error", "J", "estimated error of dissipated_energy by the length of the load step")};
 
-PetscErrorCode SamSolutionDeclareNumbers(SamState state)
+/* The same of steady rolling. */
+static const SamStateNumber steady_slip = REAL("slip_velocity_max", "1",
+                                               "maximum slip velocity of a cell in contact, relative to that of "
+                                               "rolling"),
+                            steady_work = REAL("rolling_energy_cells", "J/m",
+                                               "frictional work per rolled distance, summed over cells");
+
+PetscErrorCode SamSolutionDeclareNumbers(SamState state, PetscBool steady)
 {
   PetscInt id;
 
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < NUMBERS; k++) PetscCall(SamStateDeclareNumber(state, &declared[k], &id));
+  for (PetscInt k = 0; k < NUMBERS; k++) {
+    const SamStateNumber *number = &declared[k];
+
+    if (steady && k == SLIP_MAX) number = &steady_slip;
+    if (steady && k == DISSIPATED_ENERGY) number = &steady_work;
+    PetscCall(SamStateDeclareNumber(state, number, &id));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -264,12 +277,17 @@ static PetscErrorCode FindEdges(SamProblem problem, SamState state, const SamSol
 PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamState state, const SamSolution *before,
                                          const SamSolution *s, PetscBool edges)
 {
-  double *const numbers = SamStateNumbers(state, SamStateFindNumber(state, declared[0].name), SAM_TRIED);
-  SamGrid       grid;
+  double *const       numbers = SamStateNumbers(state, SamStateFindNumber(state, declared[0].name), SAM_TRIED);
+  SamGrid             grid;
+  SamElasticity       elasticity;
+  SamElasticityTraits traits;
 
   PetscFunctionBegin;
   PetscCall(SamProblemGetGrid(problem, &grid));
+  PetscCall(SamProblemGetElasticity(problem, &elasticity));
+  PetscCall(SamElasticityGetTraits(elasticity, &traits));
   PetscCall(SumCells(problem, state, before, s, numbers));
+  if (traits.steady) numbers[STORED_ENERGY] = NAN; /* u_t is a velocity */
   PetscCall(SamProblemAddEnergy(problem, state, s->pressure, s->displacement_z, &numbers[STORED_ENERGY]));
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_EDGES], 0, 0, 0, 0));
   numbers[EDGE_ACCEPTED] = 0;

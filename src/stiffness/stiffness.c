@@ -150,6 +150,17 @@ static void Transform(const Systems *s, const PetscBool rotations[3], SamStiffne
     }
 }
 
+static PetscErrorCode CheckSteady(SamContact contact)
+{
+  SamContactSettings set;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetSettings(contact, &set));
+  PetscCheck(set.rolling == SAM_ROLLING_NONE, PETSC_COMM_SELF, SAM_ERR_USER,
+             "-stiffness: has no meaning with -rolling steady, where loads follow from creepages: omit it");
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* The part of the grid that the elasticity uses may be another one afterwards: each try chooses its own. */
 PetscErrorCode SamStiffnessCompute(SamContact contact, SamStiffnessDirection direction, SamStiffness *stiffness)
 {
@@ -159,6 +170,7 @@ PetscErrorCode SamStiffnessCompute(SamContact contact, SamStiffnessDirection dir
   SamProblem          problem;
 
   PetscFunctionBegin;
+  PetscCall(CheckSteady(contact));
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_STIFFNESS], 0, 0, 0, 0));
   PetscCall(SamContactGetProblem(contact, &problem));
   PetscCall(SamProblemGetElasticity(problem, &elasticity));
@@ -194,6 +206,7 @@ PetscErrorCode SamStiffnessDeclare(SamContact contact)
   PetscInt id;
 
   PetscFunctionBegin;
+  PetscCall(CheckSteady(contact));
   PetscCall(SamContactGetState(contact, &state));
   for (int k = 0; k < SAM_STIFFNESS_DIRECTIONS; k++) PetscCall(SamStateDeclareNumber(state, &numbers[k], &id));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -222,7 +222,7 @@ static inline double SamLarger(double most, double value)
   SamSolveSymmetric - x = pseudo-inverse of the symmetric, positive semi-definite A of order n <= SAM_SYMMETRIC_MAX, row
   after row, times b. Eigenvalues up to `least` times the largest count as zero. A is overwritten. Not collective.
 */
-#define SAM_SYMMETRIC_MAX 8
+#define SAM_SYMMETRIC_MAX 16
 PETSC_EXTERN void SamSolveSymmetric(PetscInt n, double A[], const double b[], double least, double x[]);
 
 /* SamGetFolder - the folder that a file's name names it in, "." without one. Not collective. */

@@ -95,6 +95,7 @@ struct _n_SamLaw {
   PetscInt         bytes;          /* of memory that it takes for each cell */
   PetscBool        needs_friction; /* makes no sense without friction */
   PetscBool        forbids_jumps;  /* cannot be in a life with cycle jumps */
+  PetscBool        steady;         /* has a meaning in steady rolling: remembers and asks for no slip of steps */
   PetscBool        forbids_others; /* supports neither friction nor a limit of the pressure */
   void            *data;           /* the type's own, from PetscNew(); NULL: none */
   /* all may be NULL; collective */

@@ -105,5 +105,6 @@ PETSC_EXTERN PetscErrorCode SamTangentialSolveKeeping(SamTangential tangential, 
                                                       SamBalance *balance, PetscBool guess, Vec q, SamProduct *product);
 
 PETSC_EXTERN PetscErrorCode SamTangentialCreate_Newton(SamSolver solver);
+PETSC_EXTERN PetscErrorCode SamTangentialCreate_Rolling(SamSolver solver);
 
 #endif

@@ -256,11 +256,12 @@ static PetscErrorCode SolveLoaded(SamSolver s, SamLevel *level, PetscBool guess)
 /* Shear acts only where there is a bound, and only there its displacement counts: the problem is that of a window. */
 static PetscErrorCode Solve(SamSolver s, SamLevel *level, PetscBool guess)
 {
-  const Vec     bound = level->given[SAM_TANGENTIAL_BOUND];
-  PetscInt      first[2], size[2];
-  PetscReal     most;
-  SamWindow     window;
-  SamElasticity part;
+  const Vec           bound = level->given[SAM_TANGENTIAL_BOUND];
+  PetscInt            first[2], size[2];
+  PetscReal           most;
+  SamWindow           window;
+  SamElasticity       part;
+  SamElasticityTraits traits;
 
   PetscFunctionBegin;
   PetscCall(VecMax(bound, NULL, &most));
@@ -269,6 +270,11 @@ static PetscErrorCode Solve(SamSolver s, SamLevel *level, PetscBool guess)
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(SamGridGetSupport(level->grid, bound, first, size));
+  PetscCall(SamElasticityGetTraits(level->elasticity, &traits));
+  if (traits.steady && first[0] > 0) { /* the difference of the shear reaches one cell behind the contact */
+    first[0]--;
+    size[0]++;
+  }
   PetscCall(SamElasticityChoosePart(level->elasticity, first, size, PETSC_TRUE, &window, &part));
   if (window)
     PetscCall(SamLevelSolveInWindow(s, level, window, part, guess, SolveLoaded));
@@ -284,6 +290,8 @@ static SamSolverKind kind = {
   .event              = SAM_EVENT_TANGENTIAL_SOLVE,
   .type               = SAM_TANGENTIAL_NEWTON,
   .create             = SamTangentialCreate_Newton,
+  .steady             = SAM_TANGENTIAL_ROLLING,
+  .createsteady       = SamTangentialCreate_Rolling,
   .rtol               = 1e-6,
   .coarse_rtol        = 1e-3,
   .components         = 2,
@@ -304,10 +312,13 @@ PetscErrorCode SamTangentialRegister(const char name[], PetscErrorCode (*create)
 
 PetscErrorCode SamTangentialCreate(SamElasticity elasticity, SamTangential *tangential)
 {
-  SamSolver solver;
+  SamElasticityTraits traits;
+  SamSolver           solver;
 
   PetscFunctionBegin;
   PetscCall(SamSolverCreate(&kind, elasticity, &solver));
+  PetscCall(SamElasticityGetTraits(elasticity, &traits));
+  if (traits.steady) PetscCall(SamSolverSetType(solver, SAM_TANGENTIAL_ROLLING));
   *tangential = (SamTangential)solver;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

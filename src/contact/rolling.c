@@ -1,0 +1,155 @@
+/*
+  The numbers of steady rolling: frictional work per rolled distance, and what finer grids would give.
+
+  The work is that of the loads on the creepages, xi Tx + eta Ty + phi Mz. Summed over cells, as -q.s, it lacks the
+  numerical damping of the upwind difference, (D q).C (D q)/2, which is first order in the cell's size.
+
+  So are loads and creepages. The same step is solved on the next coarser grid, pressure and shear, at a quarter of the
+  cost; with h and H the sizes of the cells, F(h) + (F(h) - F(H)) h/(H - h) is as good as a much finer grid. A coarse
+  bound that is the mean of the fine one would not do: it reaches half a cell farther on the average.
+*/
+#include "stepimpl.h"
+
+/* The numbers, side by side in the state: energies, then by component load and creepage. */
+enum { ENERGY, LOADS, CREEPS = LOADS + 3, NUMBERS = CREEPS + 3 };
+
+PetscErrorCode SamContactDeclareRolling(SamContact c)
+{
+  char           name[64], text[96];
+  SamStateNumber number = {"rolling_energy", "J/m", "frictional work per rolled distance, of loads and creepages",
+                           SAM_NUMBER_REAL,  1,     PETSC_FALSE,
+                           PETSC_TRUE};
+  PetscInt       id;
+
+  PetscFunctionBegin;
+  if (!c->traits.steady) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamStateDeclareNumber(c->state, &number, &c->rolling));
+  for (PetscInt n = LOADS; n < NUMBERS; n++) {
+    const SamComponentName *of   = &SamComponentNames[SamComponentsOf[SAM_BALANCE_TANGENTIAL][(n - LOADS) % 3]];
+    const PetscBool         load = n < CREEPS;
+
+    (void)snprintf(name, sizeof(name), "%s_extrapolated", load ? of->load : of->creep);
+    (void)snprintf(text, sizeof(text), "%s, extrapolated to fine grids", load ? of->load_text : of->creep_text);
+    number.name = name;
+    number.unit = load ? of->load_unit : of->creep_unit;
+    number.text = text;
+    PetscCall(SamStateDeclareNumber(c->state, &number, &id));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the next coarser grid ---- */
+
+/* Fields of it: separation, pressure, bound; the fine grid's pressure and bound; two components: shear, offset. */
+enum { SEPARATION, PRESSURE, BOUND, MEAN_PRESSURE, MEAN_BOUND, SHEAR, OFFSET, FIELDS };
+typedef struct {
+  SamElasticity elasticity;
+  SamTransfer   transfer;
+  SamGrid       grid;
+  Vec           field[FIELDS];
+  SamBalance    normal, tangential;
+} Coarse;
+
+static PetscErrorCode CreateCoarse(SamSolve *w, Coarse *k)
+{
+  PetscFunctionBegin;
+  PetscCall(SamElasticityGetGrid(k->elasticity, &k->grid));
+  for (PetscInt n = 0; n < FIELDS; n++) PetscCall(SamGridCreateVec(k->grid, n < SHEAR ? 1 : 2, &k->field[n]));
+  if (w->coupled) PetscCall(VecWAXPY(w->h, 1, w->lift, w->separation));
+  PetscCall(SamTransferRestrict(k->transfer, w->coupled ? w->h : w->separation, k->field[SEPARATION]));
+  PetscCall(SamTransferRestrict(k->transfer, w->s->pressure, k->field[MEAN_PRESSURE]));
+  PetscCall(SamTransferRestrict(k->transfer, w->s->bound, k->field[MEAN_BOUND]));
+  k->normal     = SamControlGetBalance(&w->s->control, SAM_BALANCE_NORMAL);
+  k->tangential = SamControlGetBalance(&w->s->control, SAM_BALANCE_TANGENTIAL);
+  for (PetscInt n = 0; n < 3; n++) { /* the loads that were found: the same contact */
+    k->normal.force[n] = PETSC_TRUE;
+    k->normal.load[n]  = w->s->load[SamComponentsOf[SAM_BALANCE_NORMAL][n]];
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode TakeTolerance(SamSolver from, SamSolver to)
+{
+  PetscReal rtol;
+
+  PetscFunctionBegin;
+  PetscCall(SamSolverGetTolerances(from, &rtol, NULL));
+  PetscCall(SamSolverSetTolerances(to, rtol, PETSC_DEFAULT));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The coefficient of friction is the mean one where the fine grid has contact, elsewhere that of all of it. */
+static PetscErrorCode ComputeBound(Coarse *k)
+{
+  double   *f[SHEAR];
+  PetscReal sums[2];
+
+  PetscFunctionBegin;
+  for (PetscInt n = 0; n < 2; n++) PetscCall(SamGridNorm(k->grid, k->field[MEAN_PRESSURE + n], NORM_1, &sums[n]));
+  for (PetscInt n = 0; n < SHEAR; n++) PetscCall(VecGetArray(k->field[n], &f[n]));
+  for (PetscInt i = 0; i < k->grid->cells; i++)
+    f[BOUND][i] =
+      f[PRESSURE][i] * (f[MEAN_PRESSURE][i] > 0 ? f[MEAN_BOUND][i] / f[MEAN_PRESSURE][i] : (double)(sums[1] / sums[0]));
+  for (PetscInt n = 0; n < SHEAR; n++) PetscCall(VecRestoreArray(k->field[n], &f[n]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The pressure under the same normal loads, and the shear. */
+static PetscErrorCode SolveCoarse(SamSolve *w, Coarse *k, SamSolverReason *reason)
+{
+  Vec *const    f = k->field;
+  SamNormal     normal;
+  SamTangential tangential;
+  PetscReal     limit;
+
+  PetscFunctionBegin;
+  PetscCall(SamProblemGetPressureLimit(w->c->problem, &limit));
+  PetscCall(SamNormalCreate(k->elasticity, &normal));
+  PetscCall(TakeTolerance(SamNormalAsSolver(w->c->normal), SamNormalAsSolver(normal)));
+  PetscCall(SamNormalSetPressureLimit(normal, limit));
+  PetscCall(SamNormalSolve(normal, f[SEPARATION], &k->normal, PETSC_FALSE, f[PRESSURE]));
+  PetscCall(SamSolverGetReason(SamNormalAsSolver(normal), reason));
+  PetscCall(SamNormalDestroy(&normal));
+  if (*reason < 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ComputeBound(k));
+  if (w->coupled) PetscCall(SamElasticityApplyNormalToTangential(k->elasticity, f[PRESSURE], f[OFFSET]));
+  PetscCall(SamTangentialCreate(k->elasticity, &tangential));
+  PetscCall(TakeTolerance(SamTangentialAsSolver(w->c->tangential), SamTangentialAsSolver(tangential)));
+  PetscCall(
+    SamTangentialSolve(tangential, f[BOUND], w->coupled ? f[OFFSET] : NULL, &k->tangential, PETSC_FALSE, f[SHEAR]));
+  PetscCall(SamSolverGetReason(SamTangentialAsSolver(tangential), reason));
+  PetscCall(SamTangentialDestroy(&tangential));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSolveRolling(SamSolve *w)
+{
+  double *const   numbers = SamStateNumbers(w->c->state, w->c->rolling, SAM_TRIED);
+  Coarse          k       = {.elasticity = NULL};
+  SamSolverReason reason;
+
+  PetscFunctionBegin;
+  numbers[ENERGY] = 0;
+  for (PetscInt n = 0; n < 3; n++) {
+    const PetscInt t = SamComponentsOf[SAM_BALANCE_TANGENTIAL][n];
+
+    numbers[ENERGY] += (double)(w->s->load[t] * w->s->rigid[t]);
+    numbers[LOADS + n] = numbers[CREEPS + n] = NAN;
+  }
+  if (w->step->status != SAM_STATUS_CONVERGED || w->s->load[SAM_COMPONENT_N] <= 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamElasticityGetCoarse(w->c->elasticity, &k.elasticity, &k.transfer));
+  if (!k.elasticity) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(CreateCoarse(w, &k));
+  PetscCall(SolveCoarse(w, &k, &reason));
+  for (PetscInt n = 0; reason > 0 && n < 3; n++) {
+    const PetscInt  t     = SamComponentsOf[SAM_BALANCE_TANGENTIAL][n];
+    const double    ratio = (double)(w->c->grid->dx / (k.grid->dx - w->c->grid->dx));
+    const PetscBool found = w->tangential.force[n];
+    const double    fine  = (double)(found ? w->s->rigid : w->s->load)[t],
+                 coarse   = (double)(found ? k.tangential.rigid : k.tangential.load)[n];
+
+    numbers[(found ? CREEPS : LOADS) + n] = fine + ratio * (fine - coarse);
+  }
+  for (PetscInt n = 0; n < FIELDS; n++) PetscCall(VecDestroy(&k.field[n]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

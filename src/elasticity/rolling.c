@@ -1,0 +1,113 @@
+/*
+  Bodies that roll towards +x in steady state, on top of a type of elasticity.
+
+  The grid moves with the contact; material enters at large x and moves towards -x, by a cell in the time in which its
+  displacement changes from that of cell i + 1 to that of cell i. So where u = C q is the displacement of bodies at
+  rest, the slip velocity, in units of the rolling speed, is
+      (u_i - u_(i+1))/dx - creepage = A q - creepage,     A = C D/dx,     (D q)_i = q_i - q_(i+1),
+  as C does not depend on the place: one difference before the product. q is zero outside of the contact, and D q also
+  in one cell behind it. A is positive, q.A q = (D q).C (D q)/(2 dx), but not symmetric. A creepage stands where a
+  displacement stands in the problem of bodies at rest, and u_t is a velocity; pressure moves the surfaces likewise.
+
+  Source: J. J. Kalker, Three-dimensional Elastic Bodies in Rolling Contact (1990), chapter 4.
+*/
+#include <petsam/private/elasticityimpl.h>
+
+/* The differences of the rows of n fields, times `factor`, as new arrays one after the other, for SamFree(). */
+#define DIFFERENCES(Name, Real) \
+  static PetscErrorCode Name(SamGrid grid, PetscInt n, Real factor, const Real *const in[], Real **out) \
+  { \
+    PetscFunctionBegin; \
+    PetscCall(SamAllocate(sizeof(**out) * (size_t)(n * grid->cells), out)); \
+    for (PetscInt c = 0; c < n; c++) \
+      for (PetscInt j = 0; j < grid->rows; j++) { \
+        const Real *restrict from = in[c] + (ptrdiff_t)j * grid->nx; \
+        Real *restrict to         = *out + (ptrdiff_t)(c * grid->cells + j * grid->nx); \
+\
+        for (PetscInt i = 0; i + 1 < grid->nx; i++) to[i] = factor * (from[i] - from[i + 1]); \
+        to[grid->nx - 1] = factor * from[grid->nx - 1]; \
+      } \
+    PetscFunctionReturn(PETSC_SUCCESS); \
+  }
+DIFFERENCES(CreateDifferences, double)
+DIFFERENCES(CreateDifferencesSingle, float)
+
+static PetscErrorCode ApplyTangential(SamElasticity e, const double *const q[], double *const u[])
+{
+  SamElasticity bodies = e->inner;
+  double       *d;
+
+  PetscFunctionBegin;
+  SamElasticityWith(bodies, applytangential);
+  PetscCall(CreateDifferences(e->grid, 2, 1 / e->grid->dx, q, &d));
+  PetscCall((*bodies->ops.applytangential)(bodies, (const double *const[]){d, d + e->grid->cells}, u));
+  SamFree(d);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ApplyNormalToTangential(SamElasticity e, const double *const p[], double *const u[])
+{
+  SamElasticity bodies = e->inner;
+  double       *d;
+
+  PetscFunctionBegin;
+  SamElasticityWith(bodies, applynormaltotangential);
+  PetscCall(CreateDifferences(e->grid, 1, 1 / e->grid->dx, p, &d));
+  PetscCall((*bodies->ops.applynormaltotangential)(bodies, (const double *const[]){d}, u));
+  SamFree(d);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ApplyTangentialSingle(SamElasticity e, double factor, const float *const q[], float *const u[])
+{
+  SamElasticity bodies = e->inner;
+  float        *d;
+
+  PetscFunctionBegin;
+  SamElasticityWith(bodies, applytangentialsingle);
+  PetscCall(CreateDifferencesSingle(e->grid, 2, 1, q, &d));
+  PetscCall((*bodies->ops.applytangentialsingle)(bodies, factor / e->grid->dx,
+                                                 (const float *const[]){d, d + e->grid->cells}, u));
+  SamFree(d);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode GetSelfInfluence(SamElasticity e, PetscReal *normal, PetscReal *tangential)
+{
+  PetscFunctionBegin;
+  PetscCall(SamElasticityGetSelfInfluence(e->inner, normal, tangential));
+  *tangential /= e->grid->dx;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticityCreate_Rolling(SamElasticity e)
+{
+  PetscFunctionBegin;
+  e->ops = (SamElasticityOps){.applytangential       = ApplyTangential,
+                              .applytangentialsingle = ApplyTangentialSingle,
+                              .getselfinfluence      = GetSelfInfluence};
+  PetscCall(SamElasticitySetInner(e, SAM_ELASTICITY_HALFSPACE));
+  if (e->traits.coupled) e->ops.applynormaltotangential = ApplyNormalToTangential;
+  e->traits.steady = PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticityCreateRolling(SamElasticity bodies, SamElasticity *rolling)
+{
+  SamElasticity e;
+
+  PetscFunctionBegin;
+  PetscCheck(!bodies->traits.periodic && !bodies->traits.steady, bodies->grid->comm, PETSC_ERR_SUP,
+             "Bodies of type %s do not roll", bodies->type);
+  PetscCall(SamElasticityCreate(bodies->grid, &bodies->pair, &e));
+  PetscCall(SamElasticitySetType(e, SAM_ELASTICITY_ROLLING));
+  e->fft = bodies->fft;
+  PetscCall(PetscStrncpy(e->prefix, bodies->prefix, sizeof(e->prefix)));
+  PetscCall(SamElasticityDestroy(&e->inner));
+  PetscCall(SamElasticityReference(bodies));
+  e->inner         = bodies;
+  e->traits        = bodies->traits;
+  e->traits.steady = PETSC_TRUE;
+  *rolling         = e;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,327 @@
+"""Steady rolling: published numbers of CONTACT, Kalker's coefficients, limits of fine grids, and what is refused."""
+
+import h5py
+import numpy as np
+import pytest
+
+from support import history
+
+G, NU = 82e9, 0.28
+YOUNG = 2 * G * (1 + NU)
+
+
+def integrals(k2):
+    """Complete elliptic integrals K and E of the squared modulus, by the arithmetic-geometric mean."""
+    a, b, c, total, power = 1.0, np.sqrt(1 - k2), np.sqrt(k2), 1 - k2 / 2, 0.5
+    while abs(c) > 1e-16:
+        a, b, c = (a + b) / 2, np.sqrt(a * b), (a - b) / 2
+        power *= 2
+        total -= power * c * c
+    return np.pi / (2 * a), np.pi / (2 * a) * total
+
+
+def ellipse(a=1e-3, ratio=1.0, p0=800e6, poisson=NU, n=64, width=2.3, **more):
+    """Similar bodies, a contact of half axes a along x and a/ratio along y, of greatest pressure p0."""
+    young, b = 2 * G * (1 + poisson), a / ratio
+    short, long = min(a, b), max(a, b)
+    e_star = young / 2 / (1 - poisson**2)
+    K, E = integrals(1 - (short / long) ** 2)
+    if short == long:
+        radii = [2 * a * e_star / (np.pi * p0)] * 2
+    else:
+        e2 = 1 - (short / long) ** 2
+        across = 2 * p0 / (e_star * short * e2) * (E - (short / long) ** 2 * K)
+        along = 2 * p0 * short / (e_star * long**2 * e2) * (K - E)
+        radii = [1 / across, 1 / along] if a < b else [1 / along, 1 / across]
+    return dict(
+        dict(
+            rolling="steady",
+            body1_young=young,
+            body2_young=young,
+            body1_poisson=poisson,
+            body2_poisson=poisson,
+            friction=0.3,
+            gap_type="ellipsoid",
+            gap_radius_x=float(radii[0]),
+            gap_radius_y=float(radii[1]),
+            load_n=2 / 3 * np.pi * p0 * a * b,
+            grid_n=n,
+            grid_size=(width * a, width * b),
+        ),
+        **more,
+    )
+
+
+U = 0.3 * 800e6 / G  # creepage at which case S begins to slide, about
+
+
+def relative(s, case, name, arm=None):
+    """A load over mu N, or mu N times an arm."""
+    return float(s[name]) / (case["friction"] * case["load_n"] * (arm or 1))
+
+
+def fine(s, case, name, arm=None):
+    return relative(s, case, f"{name}_extrapolated", arm)
+
+
+# ---- numbers of CONTACT
+
+A = dict(
+    ellipse(),
+    friction=0.33,
+    load_n=106.7e3,
+    gap_radius_x=0.625,
+    gap_radius_y=0.625 * 2.842757,
+    grid_n=(48, 44),
+    grid_size=(2.2 * 6.3036e-3, 2.2 * 12.6072e-3),
+    creep_y=0.0,
+    creep_spin=0.0,
+)
+
+
+@pytest.mark.parametrize(
+    "creep, load, power, stick",
+    [
+        (1e-5, 0.007015, None, None),
+        (4e-4, 0.2588, None, None),
+        (8e-4, 0.4742, None, None),
+        (1.2e-3, 0.6482, 256.1, 782),
+        (1.6e-3, 0.7831, 419.6, 596),
+        (2e-3, 0.8816, 596.4, 422),
+    ],
+)
+def test_traction_curve(solve, creep, load, power, stick):
+    s = solve(A, dict(creep_x=creep))
+    assert s["contact_cells"] == 1384
+    assert relative(s, A, "load_tx") == pytest.approx(load, abs=6e-5 if load > 0.1 else 6e-7)
+    if power:
+        assert 10 * s["rolling_energy_cells"] == pytest.approx(power, rel=3e-4)
+        assert abs(s["stick_cells"] - stick) <= 2
+
+
+B = dict(
+    ellipse(),
+    body1_young=2.56,
+    body2_young=2.56,
+    friction=0.4013,
+    load_n=0.4705,
+    gap_radius_x=1 / 0.005926,
+    gap_radius_y=1 / 0.005926,
+    grid_n=41,
+    grid_size=8.2,
+    creep_x=0.00304,
+    creep_y=0.0,
+    creep_spin=0.0,
+)
+
+
+def test_cattaneo_to_carter_bodies(solve):
+    s = solve(B)
+    assert s["load_tx"] == pytest.approx(0.12208, abs=1e-5)
+    assert abs(s["stick_cells"] - 555) <= 1
+    assert s["rolling_energy_cells"] == pytest.approx(3.405e-4, rel=3e-4)
+    assert s["rolling_energy"] == pytest.approx(0.00304 * s["load_tx"], rel=1e-12)
+
+
+def test_friction_field(solve, tmp_path):
+    with h5py.File(tmp_path / "mu.h5", "w") as f:
+        f["friction"] = np.repeat(0.2 + 0.01 * np.arange(41)[:, None], 51, axis=1)
+    case = dict(B, friction=None, friction_file=tmp_path / "mu.h5", grid_n=(51, 41), grid_size=(10.2, 8.2))
+    s = solve(case)
+    assert s["load_tx"] == pytest.approx(0.1206, abs=1e-4)
+    assert s["load_ty"] == pytest.approx(3.864e-4, abs=4e-6)
+    assert s["load_mz"] == pytest.approx(-0.01946, abs=2e-4)
+    assert abs(s["stick_cells"] - 534) <= 2
+
+
+def test_spin_and_creepages(solve):
+    case = ellipse()
+    spin = U / 1e-3
+    # CONTACT takes the spin at x + dx/6
+    s = solve(case, dict(creep_x=0.5 * U, creep_y=0.5 * U + spin * 2.3e-3 / 64 / 6, creep_spin=spin))
+    for name, expected in (("load_tx", 0.4257), ("load_ty", 0.7946)):
+        assert relative(s, case, name) == pytest.approx(expected, abs=1e-4)
+    assert relative(s, case, "load_mz", 1e-3) == pytest.approx(0.1962, abs=1e-4)
+
+
+@pytest.mark.parametrize("n, load", [(64, 0.505392), (128, 0.502350), (256, 0.501033)])
+def test_sphere(solve, n, load):
+    case = ellipse(n=n)
+    s = solve(case, dict(creep_x=0.3 * U, creep_y=0.0, creep_spin=0.0))
+    assert relative(s, case, "load_tx") == pytest.approx(load, abs=1e-5)
+    assert s["tangential_applies"] <= 30
+
+
+# ---- limits of fine grids
+
+
+@pytest.mark.parametrize(
+    "ratio, creep, expected",
+    [
+        (1, (0.3, 0, 0), dict(load_tx=(0.4997, 2e-4))),
+        (1, (1, 0, 0), dict(load_tx=(0.9828, 2e-4))),
+        (1, (0, 0, 2), dict(load_ty=(0.5240, 1.2e-3), load_mz=(0.4482, 1e-3))),
+        (0.3, (0.3, 0, 0), dict(load_tx=(0.4392, 4e-4))),
+        (0.3, (0, 0.3, 0), dict(load_ty=(0.3510, 8e-4), load_mz=(-0.0728, 6e-4))),
+    ],
+)
+def test_extrapolated_loads(solve, ratio, creep, expected):
+    case = ellipse(n=256, ratio=ratio)
+    s = solve(case, dict(creep_x=creep[0] * U, creep_y=creep[1] * U, creep_spin=creep[2] * U / 1e-3))
+    for name, (value, tolerance) in expected.items():
+        arm = 1e-3 / np.sqrt(ratio) if name == "load_mz" else None
+        assert fine(s, case, name, arm) == pytest.approx(value, abs=tolerance), name
+
+
+@pytest.mark.parametrize(
+    "ratio, poisson, table",
+    [
+        (1, 0.0, (3.40, 3.40, 1.33, 1.21)),
+        (1, 0.25, (4.12, 3.67, 1.47, 1.19)),
+        (1, 0.5, (5.20, 3.98, 1.63, 1.16)),
+        (0.3, 0.25, (3.44, 2.75, 0.715, 2.96)),
+    ],
+)
+def test_kalkers_coefficients(solve, ratio, poisson, table):
+    case = ellipse(n=96, ratio=ratio, poisson=poisson, friction=1e4)
+    area = 1e-6 / ratio
+    unit = case["friction"] * case["load_n"]
+    found = []
+    for creep in np.eye(3) * 1e-5:
+        s = solve(case, dict(creep_x=float(creep[0]), creep_y=float(creep[1]), creep_spin=float(creep[2] * 1e3)))
+        found.append([fine(s, case, name) * unit for name in ("load_tx", "load_ty", "load_mz")])
+    found = np.array(found) / (G * area * 1e-5)
+    arm = np.sqrt(area)
+    coefficients = found[0, 0], found[1, 1], found[2, 1] / (1e3 * arm), found[2, 2] / (1e3 * area)
+    assert coefficients == pytest.approx(table, rel=0.015)
+    assert -found[1, 2] / arm == pytest.approx(coefficients[2], rel=1e-4)  # C32 = C23
+
+
+@pytest.mark.parametrize(
+    "spin, load, moment",
+    [(0.5, 0.974280, 0.101910), (1, 0.883574, 0.220894), (2, 0.552233, 0.455593), (4, 0.289923, 0.553097)],
+)
+def test_full_sliding(solve, spin, load, moment):
+    case = ellipse(n=96)
+    s = solve(case, dict(creep_x=300 * U, creep_y=0.0, creep_spin=spin * 300 * U / 1e-3))
+    assert relative(s, case, "load_tx") == pytest.approx(load, abs=2e-3)
+    assert relative(s, case, "load_mz", 1e-3) == pytest.approx(moment, abs=2e-3)
+
+
+def test_cylinders(solve):
+    """Two rows of long cells: Carter."""
+    case = dict(
+        ellipse(),
+        load_n=35.78e3,
+        gap_radius_x=0.5,
+        gap_radius_y=float("inf"),
+        grid_n=(55, 2),
+        grid_size=(2.2e-3, 0.2),
+        grid_center=(3e-5, 0.0),
+        allow_edge_contact=True,
+    )
+    s = solve(case, dict(creep_x=2.4e-4, creep_y=0.0, creep_spin=0.0))
+    assert relative(s, case, "load_tx") == pytest.approx(0.6480, abs=1e-3)
+    assert s["stick_cells"] == 60
+    assert s["contact_cells"] == 100
+
+
+# ---- loads, histories, ranks
+
+
+@pytest.mark.parametrize("ratio", [1, 3])
+@pytest.mark.parametrize("n", [64, 256])
+def test_given_loads(solve, n, ratio):
+    case = ellipse(n=n, ratio=ratio)
+    force = case["friction"] * case["load_n"]
+    s = solve(case, dict(load_tx=0.95 * force))
+    assert s["load_tx"] == pytest.approx(0.95 * force, rel=1e-10)
+    assert s["tangential_applies"] <= 40
+    again = solve(case, dict(creep_x=float(s["creep_x"]), creep_y=0.0, creep_spin=0.0))
+    assert relative(again, case, "load_tx") == pytest.approx(0.95, abs=5e-6)
+    extrapolated = float(s["creep_x_extrapolated"])
+    assert 1 < extrapolated / s["creep_x"] < 1.05
+    assert np.isnan(s["load_tx_extrapolated"])
+
+
+def test_history_of_creepages(solve, tmp_path):
+    """Each row is a steady state of its own."""
+    case = ellipse()
+    rows = [(float(k), k * U / 4, 0.2 * k * U) for k in range(1, 5)]
+    curve = solve(case, history(tmp_path / "curve.csv", "time,creep_x,creep_y", *rows), dict(load_mz=0.0))
+    alone = solve(case, dict(creep_x=rows[2][1], creep_y=rows[2][2]))
+    with h5py.File(curve.path) as f:
+        found = {name: values[:] for name, values in f["history"].items()}
+    for name in ("load_tx", "load_ty", "creep_spin", "load_tx_extrapolated", "rolling_energy"):
+        assert found[name][2] == pytest.approx(alone[name], rel=2e-5, abs=1e-5)
+    assert np.all(np.diff(found["load_tx"]) > 0)
+    assert np.all(found["rolling_energy_cells"] < found["rolling_energy"])
+    assert np.all(np.isfinite(found["load_ty_extrapolated"]))
+    assert not {"disp_x", "disp_y", "rot_z", "dissipated_energy", "slip_max"} & set(found)
+
+
+def test_same_bits_on_any_number_of_ranks(solve):
+    case = ellipse(n=70, output_fields="all")
+    runs = [solve(case, dict(load_tx=0.5 * 0.3 * case["load_n"], creep_spin=U / 1e-3), ranks=k) for k in (1, 2, 3)]
+    for other in runs[1:]:
+        for name in ("creep_x", "load_mz", "creep_x_extrapolated"):
+            assert runs[0][name] == other[name], name
+        for name in ("shear_x", "slip_velocity_y"):
+            assert np.array_equal(getattr(runs[0], name), getattr(other, name)), name
+
+
+def test_slip_is_against_the_shear(solve):
+    case = ellipse()
+    s = solve(case, dict(creep_x=0.5 * U, creep_y=0.0, creep_spin=0.0, output_fields="all"))
+    q, v = np.stack([s.shear_x, s.shear_y]), np.stack([s.slip_velocity_x, s.slip_velocity_y])
+    assert np.all((q * v).sum(0)[s.state == 2] <= 1e-9 * 800e6)
+    assert np.abs(v[:, s.state == 1]).max() <= 1e-4 * U
+
+
+@pytest.mark.parametrize("n", [64, 96])
+def test_dissimilar_bodies(petsam, n):
+    case = ellipse(n=n, width=3.2, friction=1.0)
+    done = petsam(case, dict(body2_young=YOUNG / 10, creep_x=U, load_n=case["load_n"] / 4, output="d.h5"))
+    assert "coupling" in done.stdout
+
+
+# ---- what is refused
+
+
+@pytest.mark.parametrize(
+    "options, complaint",
+    [
+        (dict(creep_x=1e-3, load_tx=1.0), "-load_tx and -creep_x are conjugate"),
+        (dict(disp_x=1e-6), "disp_x has no meaning with -rolling steady: give creep_x or load_tx"),
+        (dict(rot_z=1e-6), "rot_z has no meaning with -rolling steady: give creep_spin or load_mz"),
+        (dict(creep_x=1e-3, elasticity="periodic"), "has no meaning with -elasticity periodic"),
+        (dict(creep_x=1e-3, wear_coefficient1=1e-14), "has no meaning with -rolling steady"),
+        (dict(creep_x=1e-3, sum_slip_path=True), "slip_path: has no meaning with -rolling steady"),
+        (dict(creep_x=1e-3, edges="deferred"), "-edges deferred: not supported with friction"),
+        (dict(creep_x=1e-3, stiffness=True, output="x.h5"), "-stiffness: has no meaning with -rolling steady"),
+        (dict(creep_x=1e-3, bulk1_stress_xx=1e6), "bulk1_stress_xx has no meaning with -rolling steady"),
+        (dict(creep_x=1e-3, tangential_type="newton"), "-tangential_type: does not solve this problem: use rolling"),
+        (dict(creep_x=1e-3, output_fields="slip_x", output="x.h5"), "unknown field slip_x"),
+        (dict(creep_x=1e-3, rolling="none"), "creep_x = 0.001"),
+        (dict(rolling="none", tangential_type="rolling"), "-tangential_type: does not solve this problem: use newton"),
+    ],
+)
+def test_what_has_no_meaning_is_refused(petsam, options, complaint):
+    case = ellipse(n=40)
+    assert complaint in petsam(case, options, check=2).stderr
+
+
+def test_rolled_distance_is_refused(petsam, tmp_path):
+    rows = history(tmp_path / "roll.csv", "time,creep_x,roll", (1.0, 1e-3, 1e-4))
+    assert "has no meaning with -rolling steady" in petsam(ellipse(n=40), rows, check=2).stderr
+
+
+def test_gross_slip_names_creepages(petsam):
+    case = ellipse(n=40)
+    complaint = petsam(case, dict(load_tx=0.31 * case["load_n"]), check=11).stderr
+    assert "gross slip: load_tx" in complaint and "give creep_x" in complaint
+
+
+def test_contact_at_the_trailing_edge(petsam):
+    case = ellipse(n=40)
+    petsam(case, dict(creep_x=1e-3, grid_center=(0.3e-3, 0.0)), check=12)
