@@ -25,23 +25,26 @@ typedef struct {
   PetscReal   usual; /* NAN: required */
 } Option;
 
-/* A kind by its word of -friction_law; the field that it remembers, NULL: none. */
+/* A kind by its type of law and its word of -friction_law; the field that it remembers, NULL: none. */
 static const struct {
-  const char   *word;
+  const char   *type, *word;
   Option        option[OPTIONS];
   SamStateField memory;
 } kinds[KINDS] = {
-  {"slip_path",
+  {SAM_LAW_PATH_FRICTION,
+   "slip_path",
    {{"friction_path_final", "slip_path: coefficient after long slip", SAM_RANGE_NONNEGATIVE, NAN},
     {"friction_path_length", "slip_path: slip (m) after which 1/e of the change is left", SAM_RANGE_POSITIVE, NAN}},
    {"friction_path", "m", "slip under pressure, over all steps", 1, 2, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_OFFERED,
     SAM_MOVES}},
-  {"pressure",
+  {SAM_LAW_PRESSURE_FRICTION,
+   "pressure",
    {{"friction_pressure_exponent", "pressure: exponent of p over the reference, > -1", SAM_RANGE_ANY, 0},
     {"friction_pressure_reference", "pressure: where the coefficient is -friction (Pa)", SAM_RANGE_POSITIVE, 1},
     {"friction_shear_limit", "pressure: maximum shear (Pa)", SAM_RANGE_POSITIVE_INF, INFINITY}},
    {NULL}},
-  {"falling",
+  {SAM_LAW_FALLING_FRICTION,
+   "falling",
    {{"friction_falling_kinetic", "falling: coefficient at high speed", SAM_RANGE_NONNEGATIVE, NAN},
     {"friction_falling_half_speed", "falling: slip velocity (m/s) of half the change", SAM_RANGE_POSITIVE, NAN},
     {"rolling_speed", "falling: speed of rolling (m/s)", SAM_RANGE_POSITIVE, NAN},
@@ -69,12 +72,13 @@ static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBo
   *asked = given && !strcmp(word, kinds[f->kind].word);
   PetscCall(SamPrintHelp(&help));
   for (const Option *o = kinds[f->kind].option; o < kinds[f->kind].option + OPTIONS && o->name; o++) {
-    PetscReal *const value = &f->value[o - kinds[f->kind].option];
+    const PetscInt  k      = (PetscInt)(o - kinds[f->kind].option);
+    const PetscBool needed = isnan(o->usual) || (f->kind == PRESSURE && k == REFERENCE && f->value[EXPONENT] != 0);
 
-    PetscCall(SamOptionsReal(from, o->name, o->text, o->range, value, &given));
+    PetscCall(SamOptionsReal(from, o->name, o->text, o->range, &f->value[k], &given));
     PetscCheck(*asked || !given, from->comm, SAM_ERR_USER, "-%s%s is given without -%sfriction_law %s", prefix, o->name,
                prefix, kinds[f->kind].word);
-    PetscCheck(!*asked || !isnan(*value) || help, from->comm, SAM_ERR_USER, "-%sfriction_law %s: give -%s%s", prefix,
+    PetscCheck(!*asked || given || !needed || help, from->comm, SAM_ERR_USER, "-%sfriction_law %s: give -%s%s", prefix,
                kinds[f->kind].word, prefix, o->name);
   }
   PetscCheck(f->kind != PRESSURE || f->value[EXPONENT] > -1, from->comm, SAM_ERR_USER,
@@ -227,11 +231,13 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
 
 /* ---- the types ---- */
 
-static PetscErrorCode Create(SamLaw law, Kind kind)
+PetscErrorCode SamLawCreate_Friction(SamLaw law)
 {
   Friction *f;
+  Kind      kind = PATH;
 
   PetscFunctionBegin;
+  while (strcmp(law->type, kinds[kind].type)) kind++;
   PetscCall(PetscNew(&f));
   f->kind = kind;
   for (PetscInt k = 0; k < OPTIONS; k++) f->value[k] = kinds[kind].option[k].usual;
@@ -247,19 +253,4 @@ static PetscErrorCode Create(SamLaw law, Kind kind)
   law->ops.bound          = Bound;
   law->ops.advance        = Advance;
   PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamLawCreate_PathFriction(SamLaw law)
-{
-  return Create(law, PATH);
-}
-
-PetscErrorCode SamLawCreate_PressureFriction(SamLaw law)
-{
-  return Create(law, PRESSURE);
-}
-
-PetscErrorCode SamLawCreate_FallingFriction(SamLaw law)
-{
-  return Create(law, FALLING);
 }

@@ -5,9 +5,9 @@ PetscErrorCode SamLawRegisterAll(void)
 {
   PetscFunctionBegin;
   PetscCall(SamLawRegister(SAM_LAW_COULOMB, SamLawCreate_Coulomb));
-  PetscCall(SamLawRegister(SAM_LAW_PATH_FRICTION, SamLawCreate_PathFriction));
-  PetscCall(SamLawRegister(SAM_LAW_PRESSURE_FRICTION, SamLawCreate_PressureFriction));
-  PetscCall(SamLawRegister(SAM_LAW_FALLING_FRICTION, SamLawCreate_FallingFriction));
+  PetscCall(SamLawRegister(SAM_LAW_PATH_FRICTION, SamLawCreate_Friction));
+  PetscCall(SamLawRegister(SAM_LAW_PRESSURE_FRICTION, SamLawCreate_Friction));
+  PetscCall(SamLawRegister(SAM_LAW_FALLING_FRICTION, SamLawCreate_Friction));
   PetscCall(SamLawRegister(SAM_LAW_ARCHARD, SamLawCreate_Archard));
   PetscCall(SamLawRegister(SAM_LAW_ENERGY, SamLawCreate_Energy));
   PetscCall(SamLawRegister(SAM_LAW_HARDNESS, SamLawCreate_Hardness));

@@ -70,18 +70,21 @@ static const char *FindMeant(const Reader *r, const char field[])
 /* Lists all names, those of the bulk stresses in short. */
 static void ListNames(const Reader *r, char list[], size_t size)
 {
-  size_t used = 0;
+  size_t    used   = 0;
+  PetscBool before = PETSC_FALSE;
 
   list[0] = '\0';
   for (size_t k = 0; r->names[k] && used < size; k++) {
     const PetscBool bulk = strncmp(r->names[k], "bulk", 4) ? PETSC_FALSE : PETSC_TRUE;
+    const PetscBool next = r->names[k + 1] && !strncmp(r->names[k + 1], "bulk", 4);
 
-    if (bulk && r->names[k + 1] && !strncmp(r->names[k - 1], "bulk", 4)) continue;
-    used += (size_t)snprintf(list + used, size - used, "%s%s",
-                             k == 0                     ? ""
-                             : bulk && !r->names[k + 1] ? " ... "
-                                                        : ", ",
-                             r->names[k]);
+    if (!(bulk && before && next))
+      used += (size_t)snprintf(list + used, size - used, "%s%s",
+                               k == 0           ? ""
+                               : bulk && before ? " ... "
+                                                : ", ",
+                               r->names[k]);
+    before = bulk;
   }
 }
 

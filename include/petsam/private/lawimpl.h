@@ -136,9 +136,7 @@ struct _n_SamLaw {
 /* The laws that come with the library, in the order in which they act (register.c). */
 PETSC_INTERN PetscErrorCode SamLawRegisterAll(void);
 PETSC_INTERN PetscErrorCode SamLawCreate_Coulomb(SamLaw law);
-PETSC_INTERN PetscErrorCode SamLawCreate_PathFriction(SamLaw law);
-PETSC_INTERN PetscErrorCode SamLawCreate_PressureFriction(SamLaw law);
-PETSC_INTERN PetscErrorCode SamLawCreate_FallingFriction(SamLaw law);
+PETSC_INTERN PetscErrorCode SamLawCreate_Friction(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_Archard(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_Energy(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_Hardness(SamLaw law);
