@@ -1,4 +1,4 @@
-/* Steady rolling: the operator, what holds exactly, and the solver against a method that has nothing in common with it. */
+/* Steady rolling: the operator, what holds exactly, and the solver against another method. */
 #include "tangentials.h"
 
 #include <petsam/private/elasticityimpl.h>
@@ -200,7 +200,7 @@ static void test_conditions_hold(void **state)
     }
 }
 
-/* Friction's power: by cells it lacks half of (D q).C (D q)/dx; with the slip between two cells it is that of the loads. */
+/* By cells the power lacks half of (D q).C (D q)/dx; with the slip between two cells it is that of the loads. */
 static void test_power(void **state)
 {
   Rolling       r    = NewRolling(50, 0.28);
