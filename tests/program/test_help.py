@@ -150,7 +150,7 @@ def test_json_has_the_words_of_options(ask):
     expected = {
         "petsam": {
             "-gap_type": "ellipsoid file flat punch sphere",
-            "-tangential_type": "newton",
+            "-tangential_type": "newton rolling",
             "-elasticity": "halfspace periodic",
             "-edges": "none reconstruct deferred",
             "-grid_n": "",

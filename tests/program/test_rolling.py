@@ -302,6 +302,7 @@ def test_dissimilar_bodies(petsam, n):
         (dict(creep_x=1e-3, bulk1_stress_xx=1e6), "bulk1_stress_xx has no meaning with -rolling steady"),
         (dict(creep_x=1e-3, tangential_type="newton"), "-tangential_type: does not solve this problem: use rolling"),
         (dict(creep_x=1e-3, output_fields="slip_x", output="x.h5"), "unknown field slip_x"),
+        (dict(creep_x=1e-3, output_fields="displacement_x", output="x.h5"), "unknown field displacement_x"),
         (dict(creep_x=1e-3, rolling="none"), "creep_x = 0.001"),
         (dict(rolling="none", tangential_type="rolling"), "-tangential_type: does not solve this problem: use newton"),
     ],

@@ -1,4 +1,4 @@
-/* Steady rolling: the operator, what holds exactly, and the solver against a method that has nothing in common with it. */
+/* Steady rolling: the operator, what holds exactly, and the solver against another method. */
 #include "tangentials.h"
 
 #include <petsam/private/elasticityimpl.h>
@@ -117,7 +117,7 @@ static void test_reciprocity(void **state)
 
   (void)state;
   sam_call(VecScale(bound, 1e6));
-  (void)Solve(&wide, bound, NULL, NULL, 1e-9, &lateral, q);
+  sam_assert(Solve(&wide, bound, NULL, NULL, 1e-9, &lateral, q).error <= 1e-9); /* of the shear that is returned */
   (void)Solve(&wide, bound, NULL, NULL, 1e-9, &spin, q);
   sam_assert(spin.load[1] > 0);
   sam_assert_close(spin.load[1] / r.c.s.a, -lateral.load[2] / r.c.s.a / r.c.s.a, 1e-7 * spin.load[1] / r.c.s.a);
@@ -200,7 +200,7 @@ static void test_conditions_hold(void **state)
     }
 }
 
-/* Friction's power: by cells it lacks half of (D q).C (D q)/dx; with the slip between two cells it is that of the loads. */
+/* By cells the power lacks half of (D q).C (D q)/dx; with the slip between two cells it is that of the loads. */
 static void test_power(void **state)
 {
   Rolling       r    = NewRolling(50, 0.28);
@@ -286,6 +286,41 @@ static void test_bits_are_the_same_on_any_number_of_ranks(void **state)
   }
 }
 
+/* A disc of bound 1e8 Pa whose first column is `first`. */
+static void SetDisc(SamGrid grid, PetscInt first, PetscInt radius, Vec bound)
+{
+  double *b;
+
+  sam_call(VecGetArray(bound, &b));
+  for (PetscInt k = 0; k < grid->cells; k++) {
+    const PetscInt i = k % grid->nx - first - radius, j = grid->row_start + k / grid->nx - grid->ny / 2;
+
+    b[k] = i * i + j * j <= radius * radius ? 1e8 : 0;
+  }
+  sam_call(VecRestoreArray(bound, &b));
+}
+
+/* Contact that moves to the first column of the part of the grid in use needs another part: it acts one cell behind. */
+static void test_part_holds_the_cell_behind(void **state)
+{
+  Rolling    r     = NewRolling(120, 0.28);
+  Vec        q     = NewField(r.c.s.grid, 2);
+  SamBalance creep = Creep(1e-3, 0, 0), given = creep;
+  PetscInt   first[2], n[2];
+
+  (void)state;
+  SetDisc(r.c.s.grid, 50, 20, r.c.bound);
+  (void)SolveWell(&r.c, NULL, NULL, 0, &creep, q);
+  sam_call(SamElasticityGetPartPlace(r.c.s.elasticity, first, n));
+  sam_assert(first[0] > 0 && first[0] < 50);
+  SetDisc(r.c.s.grid, first[0], 20, r.c.bound);
+  creep = given;
+  (void)SolveWell(&r.c, NULL, NULL, 3e-7, &creep, q);
+  AssertConditions(&r.c, NULL, &creep, &given, q);
+  sam_call(VecDestroy(&q));
+  DestroyRolling(&r);
+}
+
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {
@@ -295,6 +330,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_conditions_hold),
     cmocka_unit_test(test_power),
     cmocka_unit_test(test_gross_slip),
+    cmocka_unit_test(test_part_holds_the_cell_behind),
     cmocka_unit_test(test_bits_are_the_same_on_any_number_of_ranks),
   };
 

@@ -31,7 +31,7 @@
 /* Iterations after which what carries the loads is made anew. */
 #define RENEW 5
 /* Iterations without half the error after which directions are forgotten, and without less of it before giving up. */
-#define PATIENCE   8
+#define PATIENCE   5
 #define STAGNATION 100
 /* A column of the least squares that is a combination of others up to this part of it is left out. */
 #define DEPENDENT 1e-6

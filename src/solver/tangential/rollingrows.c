@@ -6,17 +6,21 @@
 #include "rollingimpl.h"
 #include <math.h>
 
-/* A cell slips when q - EASE s/c is beyond its circle and q no nearer to its centre than NEAR of the bound, and either
-   its slip is against its shear, or that is OUT of the bound. */
-#define EASE 0.25
-#define NEAR 0.5
-#define OUT  1.02
+/*
+  A cell slips when q - EASE s/c is beyond its circle and q no nearer to its centre than NEAR of the bound, and either
+  its slip is against its shear, or q is farther out than OUT of the bound, less where the error is below ROUGH: left to
+  stick, such cells stall the iteration.
+*/
+#define EASE  0.25
+#define NEAR  0.5
+#define OUT   0.02
+#define ROUGH 1e-3
 
 SAM_VECTORIZED void SamRollingSetsRow(const SamRollingWork *w, SamRow row, SamRollingSums *sums)
 {
   const SamStickSlip *u       = &w->base;
   const ptrdiff_t     cells   = u->cells;
-  const double        inverse = 1 / u->self, ease = EASE * inverse;
+  const double        inverse = 1 / u->self, ease = EASE * inverse, far = 1 + OUT * PetscMin(1, u->error / ROUGH);
   const double *restrict qx = u->q + row.first, *restrict qy = qx + cells, *restrict sx = u->s + row.first,
                          *restrict sy = sx + cells, *restrict bound = u->bound + row.first;
   float *restrict nx = w->normal + row.first, *restrict ny = nx + cells, *restrict weight = w->weight + row.first;
@@ -27,7 +31,7 @@ SAM_VECTORIZED void SamRollingSetsRow(const SamRollingWork *w, SamRow row, SamRo
     const double b = bound[i], in = b > 0 ? 1 : 0, q2 = qx[i] * qx[i] + qy[i] * qy[i],
                  power = qx[i] * sx[i] + qy[i] * sy[i];
     const double ox = qx[i] - ease * sx[i], oy = qy[i] - ease * sy[i], beyond = ox * ox + oy * oy >= b * b ? 1 : 0,
-                 near = q2 >= NEAR * NEAR * b * b ? 1 : 0, out = q2 > OUT * OUT * b * b ? 1 : 0,
+                 near = q2 >= NEAR * NEAR * b * b ? 1 : 0, out = q2 > far * far * b * b ? 1 : 0,
                  against = power < 0 ? 1 : 0, slips = in * beyond * near * (against > out ? against : out);
     const double scale = slips / sqrt(q2 + (1 - slips)), lambda = -power * scale * inverse / (b + (1 - in)),
                  yx = qx[i] - inverse * sx[i], yy = qy[i] - inverse * sy[i], n2 = yx * yx + yy * yy,
