@@ -189,7 +189,8 @@ void SamRecallFind(SamRecall r, const SamControl *next, SamKept *kept)
     }
   if (r->found >= 0) *kept = r->entry[r->found].kept;
   if (!*kept) return;
-  (*kept)->other  = r->older >= 0 ? r->entry[r->older].kept : NULL;
+  (*kept)->other = r->older >= 0 ? r->entry[r->older].kept : NULL;
+  if ((*kept)->other && (*kept)->other->revision != (*kept)->revision) (*kept)->other = NULL; /* of another contact */
   (*kept)->weight = (*kept)->other ? r->weight : 1;
 }
 
