@@ -308,7 +308,7 @@ static void AddRow(const SamKept k, double weight, PetscInt component, PetscInt 
   for (PetscInt i = k->first[j]; i < k->last[j]; i++) to[i] += unit * (double)*change++;
 }
 
-/* The weight with which the shear's change from `before` to `now` would have been nearest to those of both kept steps. */
+/* The weight with which the two kept steps would have been nearest to the shear's change from `before` to `now`. */
 static PetscErrorCode FindWeight(SamRecall r, const SamKept k, Vec before, Vec now)
 {
   const PetscInt nx        = r->grid->nx;
