@@ -8,12 +8,20 @@
   the steady state; the solver's first trial then goes to the nearest admissible shear (newton.c), and a start whose
   error is too large is dropped for that of predict.c.
 
+  Friction is odd: where all that causes shear is reversed, so is its change. So under the same normal loads the second
+  half of a symmetric cycle repeats the first one with the other sign, and k is a step of the half cycle before.
+
+  On the way to the steady state the changes differ from it by parts that shrink by nearly the same factor m from one
+  repetition to the next, m < 0 for parts that reversal does not reverse. So of the last two repetitions, D and the
+  older D', w D + (1 - w) D' with w = 1 + m is much nearer than D. w is what fits the changes of the last step best.
+
   For bodies whose pressure does not depend on the shear, the pressure of step k is that of this step, if what is
   prescribed of it and the gap are the same to the bit.
 
-  A step is recognised by what it prescribes and what the step before did, not by its number. It replaces the one that
-  it repeats. Where the memory is full, steps that repeat none replace the oldest ones, and those that do are not kept:
-  of a cycle that does not fit, the part that does is used again and again. Changes are stored on the contact's part of
+  A step is recognised by what it prescribes and what the step before did, not by its number. It replaces the last but
+  one that it repeats, and where the memory is full the last one. Steps that repeat none then replace the oldest ones,
+  and those whose like is not kept are not either: of a cycle that does not fit, the part that does is used again and
+  again. Changes are stored on the contact's part of
   each row, as integers in units of 2^-30 of their largest value, four times as accurate as floats of the same size. All
   decisions are those of global numbers: the same on any number of ranks.
 */
@@ -30,6 +38,9 @@
 /* An upper bound of the influence of single cells' shear on their neighbours, in units of the self-influence. */
 #define SPREAD 4
 #define UNITS  1073741824.0
+/* Least and largest weight of the last of two repetitions. */
+#define LEAST_WEIGHT (-1.0)
+#define MOST_WEIGHT  2.0
 
 /* ---- what is kept of a step ---- */
 
@@ -44,6 +55,8 @@ struct _n_SamKept {
   PetscObjectState revision;        /* of the problem that the pressure was solved with */
   SamControl       control;
   double           load[3], rigid[3], moved[3]; /* normal; moved: the change of the tangential rigid displacements */
+  double           sign, weight; /* of the changes in the step that is to come; the rest is `other`'s */
+  SamKept          other;        /* the next older such step; NULL: none */
 };
 
 typedef struct {
@@ -53,9 +66,10 @@ typedef struct {
 
 struct _n_SamRecall {
   SamGrid  grid;
-  double   limit, bytes; /* on all ranks */
-  PetscInt count, newest, found;
-  Entry   *entry; /* a ring of STEPS; NULL until there is memory for it */
+  double   limit, bytes;                /* on all ranks */
+  PetscInt count, newest, found, older; /* found, older: the last two steps like the next one; -1: none */
+  double   weight;                      /* of the former, by what was best in the last step */
+  Entry   *entry;                       /* a ring of STEPS; NULL until there is memory for it */
   double   largest[SAM_CONTROL_NUMBERS];
 };
 
@@ -78,7 +92,7 @@ PetscErrorCode SamRecallCreate(SamGrid grid, SamRecall *recall)
   PetscFunctionBegin;
   PetscCall(SamAllocateZeros(sizeof(**recall), recall));
   (*recall)->grid  = grid;
-  (*recall)->found = -1;
+  (*recall)->found = (*recall)->older = -1;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -86,7 +100,7 @@ void SamRecallForget(SamRecall r)
 {
   for (PetscInt k = 0; k < r->count; k++) DestroyKept(r, &r->entry[k].kept);
   r->count = r->newest = 0;
-  r->found             = -1;
+  r->found = r->older = -1;
 }
 
 void SamRecallDestroy(SamRecall *recall)
@@ -129,6 +143,17 @@ static PetscBool IsSame(SamRecall r, const SamControl *a, const SamControl *b)
   return PETSC_TRUE;
 }
 
+/* The control with all that causes shear reversed. */
+static SamControl Reversed(const SamControl *control)
+{
+  SamControl reversed = *control;
+
+  for (PetscInt k = 0; k < 3; k++) reversed.value[SamComponentsOf[SAM_BALANCE_TANGENTIAL][k]] *= -1;
+  for (PetscInt body = 0; body < 2; body++)
+    for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++) reversed.bulk_stress[body][k] *= -1;
+  return reversed;
+}
+
 /* The k-th entry before the newest one. */
 static PetscInt Before(SamRecall r, PetscInt k)
 {
@@ -137,17 +162,36 @@ static PetscInt Before(SamRecall r, PetscInt k)
 
 void SamRecallFind(SamRecall r, const SamControl *next, SamKept *kept)
 {
-  double numbers[SAM_CONTROL_NUMBERS];
+  double     numbers[SAM_CONTROL_NUMBERS];
+  SamControl to[2], from[2]; /* controls of the step: as they are, and reversed */
 
   *kept    = NULL;
-  r->found = -1;
+  r->found = r->older = -1;
+  if (r->limit <= 0) return;
   Numbers(next, numbers);
   for (PetscInt k = 0; k < SAM_CONTROL_NUMBERS; k++) r->largest[k] = PetscMax(r->largest[k], fabs(numbers[k]));
-  for (PetscInt k = 0; r->limit > 0 && k + 2 < r->count && r->found < 0; k++)
-    if (IsSame(r, &r->entry[Before(r, k)].control, next) &&
-        IsSame(r, &r->entry[Before(r, k + 1)].control, &r->entry[r->newest].control))
-      r->found = Before(r, k);
+  to[0]   = *next;
+  to[1]   = Reversed(next);
+  from[0] = r->entry[r->newest].control;
+  from[1] = Reversed(&from[0]);
+  for (PetscInt k = 0; k + 2 < r->count && r->older < 0; k++)
+    for (int way = 0; way < 2; way++) {
+      const PetscInt n = Before(r, k);
+
+      if (!IsSame(r, &r->entry[n].control, &to[way]) || !IsSame(r, &r->entry[Before(r, k + 1)].control, &from[way]))
+        continue;
+      if (r->found < 0)
+        r->found = n;
+      else
+        r->older = n;
+      if (r->entry[n].kept) r->entry[n].kept->sign = way ? -1 : 1;
+      break;
+    }
   if (r->found >= 0) *kept = r->entry[r->found].kept;
+  if (!*kept) return;
+  (*kept)->other = r->older >= 0 ? r->entry[r->older].kept : NULL;
+  if ((*kept)->other && (*kept)->other->revision != (*kept)->revision) (*kept)->other = NULL; /* of another contact */
+  (*kept)->weight = (*kept)->other ? r->weight : 1;
 }
 
 /* ---- keeping ---- */
@@ -222,6 +266,7 @@ static PetscErrorCode CreateKept(SamRecall r, Vec bound_before, Vec bound, Petsc
   r->bytes += k->bytes;
   for (PetscInt n = r->count - 1; r->found < 0 && n > 0 && r->bytes > r->limit; n--)
     DestroyKept(r, &r->entry[Before(r, n)].kept);
+  if (r->found >= 0 && r->bytes > r->limit) DestroyKept(r, &r->entry[r->found].kept);
   if (r->bytes > r->limit) {
     DestroyKept(r, &k);
     PetscFunctionReturn(PETSC_SUCCESS);
@@ -254,6 +299,58 @@ static PetscErrorCode KeepPressure(SamRecall r, SamKept k, const SamSolution *no
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Adds `weight` times the kept changes of a component of the shear (0, 1) or the product (2, 3) to row j, n on. */
+static void AddRow(const SamKept k, double weight, PetscInt component, PetscInt j, ptrdiff_t n, double to[])
+{
+  const int32_t *change = k->change[component] + n;
+  const double   unit   = weight * k->sign * k->unit[component / 2];
+
+  for (PetscInt i = k->first[j]; i < k->last[j]; i++) to[i] += unit * (double)*change++;
+}
+
+/* The weight with which the two kept steps would have been nearest to the shear's change from `before` to `now`. */
+static PetscErrorCode FindWeight(SamRecall r, const SamKept k, Vec before, Vec now)
+{
+  const PetscInt nx        = r->grid->nx;
+  SamTotal       totals[2] = {{0}};
+  const double  *a, *b;
+  double        *row, sums[2];
+  ptrdiff_t      n = 0, m = 0;
+
+  PetscFunctionBegin;
+  r->weight = 1;
+  if (!k || !k->other) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscMalloc1(2 * nx, &row));
+  PetscCall(VecGetArrayRead(before, &a));
+  PetscCall(VecGetArrayRead(now, &b));
+  for (PetscInt j = 0; j < r->grid->rows; j++) {
+    double both[2] = {0, 0};
+
+    for (PetscInt c = SHEAR_X; c <= SHEAR_Y; c++) {
+      const ptrdiff_t at = c * (ptrdiff_t)r->grid->cells + (ptrdiff_t)j * nx;
+
+      PetscCall(PetscArrayzero(row, 2 * nx));
+      AddRow(k->other, 1, c, j, m, row);
+      AddRow(k, 1, c, j, n, row + nx);
+      for (PetscInt i = 0; i < nx; i++) {
+        const double way = row[nx + i] - row[i];
+
+        both[0] += way * (b[at + i] - a[at + i] - row[i]);
+        both[1] += way * way;
+      }
+    }
+    SamAddAll(2, totals, both);
+    n += k->last[j] - k->first[j];
+    m += k->other->last[j] - k->other->first[j];
+  }
+  PetscCall(VecRestoreArrayRead(now, &b));
+  PetscCall(VecRestoreArrayRead(before, &a));
+  PetscCall(PetscFree(row));
+  PetscCall(SamSumTotals(r->grid->comm, 2, totals, sums));
+  if (sums[1] > 0) r->weight = PetscMin(PetscMax(sums[0] / sums[1], LEAST_WEIGHT), MOST_WEIGHT);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamRecallKeep(SamRecall r, const SamSolution *before, const SamSolution *now, PetscObjectState revision)
 {
   Entry    *e;
@@ -261,7 +358,8 @@ PetscErrorCode SamRecallKeep(SamRecall r, const SamSolution *before, const SamSo
 
   PetscFunctionBegin;
   if (r->limit <= 0) PetscFunctionReturn(PETSC_SUCCESS);
-  if (r->found >= 0) DestroyKept(r, &r->entry[r->found].kept);
+  if (before) PetscCall(FindWeight(r, r->found >= 0 ? r->entry[r->found].kept : NULL, before->shear, now->shear));
+  if (r->older >= 0) DestroyKept(r, &r->entry[r->older].kept);
   r->newest = r->count ? (r->newest + 1) % STEPS : 0;
   r->count  = PetscMin(r->count + 1, STEPS);
   e         = &r->entry[r->newest];
@@ -270,7 +368,7 @@ PetscErrorCode SamRecallKeep(SamRecall r, const SamSolution *before, const SamSo
   if (!before || !before->displacement_t) PetscFunctionReturn(PETSC_SUCCESS);
   pressure = SamControlIsSame(&before->control, &now->control, SAM_BALANCE_NORMAL) ? PETSC_FALSE : PETSC_TRUE;
   PetscCall(CreateKept(r, before->bound, now->bound, pressure, &e->kept));
-  r->found = -1;
+  r->found = r->older = -1;
   if (!e->kept) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(KeepChange(r, e->kept, before->shear, now->shear, &e->kept->unit[0], &e->kept->change[SHEAR_X]));
   PetscCall(KeepChange(r, e->kept, before->displacement_t, now->displacement_t, &e->kept->unit[1],
@@ -317,12 +415,6 @@ PetscErrorCode SamKeptGetPressure(SamKept k, SamGrid grid, SamSolution *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Adds the kept changes of a component of shear or product to the part of a row. */
-static void AddRow(PetscInt n, double unit, const int32_t change[], double to[])
-{
-  for (PetscInt i = 0; i < n; i++) to[i] += unit * (double)change[i];
-}
-
 /*
   Shear outside of the bound is rounding, or the change of the contact's edge since: it is dropped, and what it would
   displace nearby goes to the account of rounding. Returns its square; `open`: the cells under a bound that are not in
@@ -344,24 +436,29 @@ static double TrimRow(PetscInt nx, PetscInt first, PetscInt last, const double b
   return lost;
 }
 
-void SamKeptGetMotion(SamKept k, const SamSolution *now, PetscReal rigid[])
+void SamKeptGetMotion(SamKept kept, const SamSolution *now, PetscReal rigid[])
 {
-  for (PetscInt c = 0; c < 3; c++) {
-    const PetscInt n = SamComponentsOf[SAM_BALANCE_TANGENTIAL][c];
+  const SamKept parts[2] = {kept, kept->other};
 
-    rigid[n] = now->rigid[n] + k->moved[c];
+  for (PetscInt c = 0; c < 3; c++) {
+    const PetscInt k = SamComponentsOf[SAM_BALANCE_TANGENTIAL][c];
+
+    rigid[k] = now->rigid[k];
+    for (int n = 0; n < 2 && parts[n]; n++)
+      rigid[k] += (n ? 1 - kept->weight : kept->weight) * parts[n]->sign * parts[n]->moved[c];
   }
 }
 
-PetscErrorCode SamKeptGetShear(SamKept k, SamElasticity elasticity, const SamSolution *now, Vec bound, Vec shear,
+PetscErrorCode SamKeptGetShear(SamKept kept, SamElasticity elasticity, const SamSolution *now, Vec bound, Vec shear,
                                SamProduct *product, PetscBool *found)
 {
   SamGrid       grid;
   PetscReal     self;
   double       *q, *u, open = 0, lost;
   const double *b;
-  ptrdiff_t     n     = 0;
-  SamTotal      total = {0};
+  ptrdiff_t     at[2]    = {0, 0};
+  SamTotal      total    = {0};
+  const SamKept parts[2] = {kept, kept->other};
 
   PetscFunctionBegin;
   PetscCall(SamElasticityGetGrid(elasticity, &grid));
@@ -372,15 +469,18 @@ PetscErrorCode SamKeptGetShear(SamKept k, SamElasticity elasticity, const SamSol
   PetscCall(VecGetArray(product->field, &u));
   PetscCall(VecGetArrayRead(bound, &b));
   for (PetscInt j = 0; j < grid->rows; j++) {
-    const ptrdiff_t row = (ptrdiff_t)j * grid->nx, cell = row + k->first[j];
-    const PetscInt  count = k->last[j] - k->first[j];
+    const ptrdiff_t row   = (ptrdiff_t)j * grid->nx;
+    PetscInt        first = 0, last = grid->nx;
 
-    for (PetscInt c = 0; c < 2; c++) {
-      AddRow(count, k->unit[0], k->change[SHEAR_X + c] + n, q + c * (ptrdiff_t)grid->cells + cell);
-      AddRow(count, k->unit[1], k->change[PRODUCT_X + c] + n, u + c * (ptrdiff_t)grid->cells + cell);
+    for (int n = 0; n < 2 && parts[n]; n++) {
+      for (PetscInt c = 0; c < CHANGES; c++)
+        AddRow(parts[n], n ? 1 - kept->weight : kept->weight, c, j, at[n],
+               (c < PRODUCT_X ? q : u) + (c % 2) * (ptrdiff_t)grid->cells + row);
+      first = PetscMax(first, parts[n]->first[j]);
+      last  = PetscMin(last, parts[n]->last[j]);
+      at[n] += parts[n]->last[j] - parts[n]->first[j];
     }
-    SamAdd(&total, TrimRow(grid->nx, k->first[j], k->last[j], b + row, q + row, q + grid->cells + row, &open));
-    n += count;
+    SamAdd(&total, TrimRow(grid->nx, first, last, b + row, q + row, q + grid->cells + row, &open));
   }
   PetscCall(VecRestoreArrayRead(bound, &b));
   PetscCall(VecRestoreArray(product->field, &u));
@@ -390,7 +490,10 @@ PetscErrorCode SamKeptGetShear(SamKept k, SamElasticity elasticity, const SamSol
   product->first[0] = product->first[1] = 0;
   product->n[0]                         = grid->nx;
   product->n[1]                         = grid->ny;
-  product->rounding = sqrt(k->cells) * (k->unit[1] / (double)self + SPREAD * k->unit[0]) + SPREAD * sqrt(lost);
-  *found            = open > 0 ? PETSC_FALSE : PETSC_TRUE;
+  product->rounding                     = SPREAD * sqrt(lost);
+  for (int n = 0; n < 2 && parts[n]; n++)
+    product->rounding += fabs(n ? 1 - kept->weight : kept->weight) * sqrt(parts[n]->cells) *
+                         (parts[n]->unit[1] / (double)self + SPREAD * parts[n]->unit[0]);
+  *found = open > 0 ? PETSC_FALSE : PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -17,8 +17,8 @@ PETSC_INTERN PetscErrorCode SamRecallSetMemory(SamRecall recall, PetscReal bytes
 /* SamRecallForget - forgets all steps. Not collective. */
 PETSC_INTERN void SamRecallForget(SamRecall recall);
 /*
-  SamRecallFind - the step before that prescribed the same as the next one, after the same; NULL: none, or nothing is
-  kept of it. Not collective.
+  SamRecallFind - the last step that prescribed the same as the next one, or its reverse, after the same or its reverse;
+  NULL: none, or nothing is kept of it. Not collective.
   SamRecallKeep - takes note of a step that is committed, and keeps it if the last search found its like. `before`: the
   committed solution so far, NULL in the first step; `revision`: of the problem. Collective.
 */

@@ -306,16 +306,13 @@ static PetscErrorCode SolveFromKept(SamSolve *w, SamKept kept, Vec offset, SamBa
     SamSolverSetEffort(SamTangentialAsSolver(c->tangential), 0, SAM_EFFORT_FULL);
     PetscCall(SamSolverGetReason(SamTangentialAsSolver(c->tangential), &reason));
     *solved = reason > 0 ? PETSC_TRUE : PETSC_FALSE;
+    if (!*solved) PetscCall(Count(SamTangentialAsSolver(c->tangential), w->counts + SAM_COUNT_TANGENTIAL));
   }
-  if (*solved) {
-    PetscCall(SamVecCopyNonzero(shear, w->s->shear));
-    if (w->s->mid_step) {
-      PetscCall(VecDestroy(&w->shear_product.field));
-      w->shear_product = product;
-      product.field    = NULL;
-    }
-  } else {
-    PetscCall(Count(SamTangentialAsSolver(c->tangential), w->counts + SAM_COUNT_TANGENTIAL));
+  if (*solved) PetscCall(SamVecCopyNonzero(shear, w->s->shear));
+  if (*solved && w->s->mid_step) {
+    PetscCall(VecDestroy(&w->shear_product.field));
+    w->shear_product = product;
+    product.field    = NULL;
   }
   PetscCall(VecDestroy(&shear));
   PetscCall(VecDestroy(&product.field));

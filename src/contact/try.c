@@ -294,7 +294,7 @@ static PetscErrorCode Conclude(SamContact c, PetscBool same_pressure, SamStep *s
   PetscCall(Advance(c, same_pressure));
   PetscCall(PetscArraycpy(step->load, s->load, SAM_COMPONENTS));
   PetscCall(PetscArraycpy(step->rigid, s->rigid, SAM_COMPONENTS));
-  PetscCall(SamSolutionComputeNumbers(c->problem, c->state, before, s, c->set.edges));
+  PetscCall(SamSolutionComputeNumbers(c->problem, c->state, before, s, same_pressure, c->set.edges));
   if (c->set.spots) PetscCall(SamSolutionComputeSpots(c->problem, c->state, s));
   PetscCall(Judge(c, step));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -138,17 +138,25 @@ static void AddCell(const Band *band, PetscInt i, PetscInt j, double sums[SUMS],
   const ptrdiff_t k      = SamZoneAt(z, i, j);
   const PetscInt  slot   = band->slot[k];
   const PetscBool inside = z->distance[k] > 0;
-  const Quality   about  = slot >= 0 ? QualityAbout(band, i, j) : COUNT;
-  const PetscBool good   = about == ACCEPT;
-  const double   *fit    = good ? band->fit + SAM_FIT_TERMS * (ptrdiff_t)slot : NULL;
-  PetscInt        faces  = 0;
+  Quality         about;
+  PetscBool       good;
+  const double   *fit;
+  PetscInt        faces = 0;
 
-  for (int n = 0; n < 4 && inside && slot >= 0; n++)
+  sums[CELLS] += inside ? 1 : 0;
+  if (slot < 0) {
+    sums[AREA] += inside ? 1 : 0;
+    if (point) *point = z->w[k];
+    return;
+  }
+  about = QualityAbout(band, i, j);
+  good  = about == ACCEPT;
+  fit   = good ? band->fit + SAM_FIT_TERMS * (ptrdiff_t)slot : NULL;
+  for (int n = 0; n < 4 && inside; n++)
     if (SamZoneHas(z, i + x[n], j + y[n]) && z->distance[SamZoneAt(z, i + x[n], j + y[n])] < 0) faces++;
   sums[FACES] += (double)faces;
   sums[GOOD] += good ? (double)faces : 0;
   sums[SMOOTH] += about >= CORRECT ? (double)faces : 0;
-  sums[CELLS] += inside ? 1 : 0;
   sums[AREA] += good ? SamFitPart(fit) : inside ? 1 - (faces && !IsBlunt(z, i, j) ? FACE * (double)faces : 0) : 0;
   if (point) *point = good ? fit[0] : z->w[k];
   if (good) SamEdgeAddPoint(z->grid, fit, i, j, edge);
@@ -176,11 +184,9 @@ static PetscErrorCode Examine(Band *band)
   PetscFunctionBegin;
   SamFitWindowInitialize(SAM_EDGE_WINDOW, SAM_EDGE_LAST + 1, 0, &core);
   PetscCall(PetscMalloc1(cells, &band->slot));
-  for (ptrdiff_t k = 0; k < cells; k++) {
-    const PetscInt j = z->first + (PetscInt)(k / nx);
-
-    band->slot[k] = j >= begin && j < end && z->distance[k] >= NEXT && z->distance[k] <= LAST ? band->band++ : -1;
-  }
+  for (PetscInt j = z->first; j < z->first + z->count; j++)
+    for (ptrdiff_t k = SamZoneAt(z, 0, j), last = k + nx; k < last; k++)
+      band->slot[k] = j >= begin && j < end && z->distance[k] >= NEXT && z->distance[k] <= LAST ? band->band++ : -1;
   PetscCall(PetscMalloc2(band->band, &band->quality, SAM_FIT_TERMS * band->band, &band->fit));
   for (PetscInt j = begin; j < end; j++)
     for (PetscInt i = 0; i < nx; i++) {

@@ -136,11 +136,17 @@ static const SamStateNumber steady_slip = REAL("slip_velocity_max", "1",
                             steady_work = REAL("rolling_energy_cells", "J/m",
                                                "frictional work per rolled distance, summed over cells");
 
+/* Of the edge of contact: whether it is known, its area, faces and good faces. They hold while the pressure does. */
+enum { KNOWN, AREA, FACES, GOOD, EDGE };
+static const SamStateNumber contact_edge = {"contact_edge_sums", "1",        "edge of contact", SAM_NUMBER_REAL, EDGE,
+                                             PETSC_FALSE,         PETSC_FALSE};
+
 PetscErrorCode SamSolutionDeclareNumbers(SamState state, PetscBool steady)
 {
   PetscInt id;
 
   PetscFunctionBegin;
+  PetscCall(SamStateDeclareNumber(state, &contact_edge, &id));
   for (PetscInt k = 0; k < NUMBERS; k++) {
     const SamStateNumber *number = &declared[k];
 
@@ -253,31 +259,40 @@ static PetscErrorCode FindPeak(SamGrid grid, const SamSolution *s, const SamEdge
 }
 
 /* The areas by the edges of contact and stick, and the peak of the shear between stick and slip. */
-static PetscErrorCode FindEdges(SamProblem problem, SamState state, const SamSolution *s, double numbers[NUMBERS])
+static PetscErrorCode FindEdges(SamProblem problem, SamState state, const SamSolution *s, double contact[EDGE],
+                                double numbers[NUMBERS])
 {
-  SamEdge edge[2];
+  SamEdge edge;
   SamGrid grid;
   double  peak = numbers[SHEAR_MAX];
 
   PetscFunctionBegin;
   PetscCall(SamProblemGetGrid(problem, &grid));
-  PetscCall(SamSolutionFindEdge(problem, state, s, SAM_EDGE_CONTACT, NULL, &edge[0]));
-  PetscCall(SamSolutionFindEdge(problem, state, s, SAM_EDGE_STICK, NULL, &edge[1]));
-  PetscCall(FindPeak(grid, s, &edge[1], &peak));
+  if (contact[KNOWN] == 0) {
+    PetscCall(SamSolutionFindEdge(problem, state, s, SAM_EDGE_CONTACT, NULL, &edge));
+    contact[KNOWN] = 1;
+    contact[AREA]  = edge.area;
+    contact[FACES] = edge.faces;
+    contact[GOOD]  = edge.good;
+    PetscCall(SamEdgeDestroy(&edge));
+  }
+  PetscCall(SamSolutionFindEdge(problem, state, s, SAM_EDGE_STICK, NULL, &edge));
+  PetscCall(FindPeak(grid, s, &edge, &peak));
   PetscCall(SamMax(grid->comm, 1, &peak));
   numbers[SHEAR_MAX]    = peak;
-  numbers[CONTACT_AREA] = edge[0].area;
-  numbers[STICK_AREA]   = edge[1].area;
+  numbers[CONTACT_AREA] = contact[AREA];
+  numbers[STICK_AREA]   = edge.area;
   numbers[EDGE_ACCEPTED] =
-    edge[0].faces + edge[1].faces > 0 ? (edge[0].good + edge[1].good) / (edge[0].faces + edge[1].faces) : 1;
-  for (PetscInt k = 0; k < 2; k++) PetscCall(SamEdgeDestroy(&edge[k]));
+    contact[FACES] + edge.faces > 0 ? (contact[GOOD] + edge.good) / (contact[FACES] + edge.faces) : 1;
+  PetscCall(SamEdgeDestroy(&edge));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamState state, const SamSolution *before,
-                                         const SamSolution *s, PetscBool edges)
+                                         const SamSolution *s, PetscBool same_pressure, PetscBool edges)
 {
   double *const       numbers = SamStateNumbers(state, SamStateFindNumber(state, declared[0].name), SAM_TRIED);
+  double *const       contact = SamStateNumbers(state, SamStateFindNumber(state, contact_edge.name), SAM_TRIED);
   SamGrid             grid;
   SamElasticity       elasticity;
   SamElasticityTraits traits;
@@ -291,7 +306,8 @@ PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamState state, con
   PetscCall(SamProblemAddEnergy(problem, state, s->pressure, s->displacement_z, &numbers[STORED_ENERGY]));
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_EDGES], 0, 0, 0, 0));
   numbers[EDGE_ACCEPTED] = 0;
-  if (edges) PetscCall(FindEdges(problem, state, s, numbers));
+  if (!same_pressure) contact[KNOWN] = 0;
+  if (edges) PetscCall(FindEdges(problem, state, s, contact, numbers));
   PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_EDGES], 0, 0, 0, 0));
   numbers[FRACTION] = numbers[CONTACT_AREA] / (grid->width[0] * grid->width[1]);
   PetscFunctionReturn(PETSC_SUCCESS);

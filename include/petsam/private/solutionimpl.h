@@ -99,11 +99,12 @@ PETSC_INTERN PetscErrorCode SamSolutionComputeFriction(SamProblem problem, const
 /*
   SamSolutionDeclareNumbers - the numbers of /history that SamSolutionComputeNumbers() fills in the tried generation:
   cells and areas, by their counted cells or (`edges`) reconstructed edges, largest tractions and slip, energies; of
-  steady rolling (`steady`) slip velocity and frictional work per distance. Collective.
+  steady rolling (`steady`) slip velocity and frictional work per distance. With `same_pressure` that of the step
+  before, whose edge of contact it keeps. Collective.
 */
 PETSC_INTERN PetscErrorCode SamSolutionDeclareNumbers(SamState state, PetscBool steady);
 PETSC_INTERN PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamState state, const SamSolution *before,
-                                                      const SamSolution *now, PetscBool edges);
+                                                      const SamSolution *now, PetscBool same_pressure, PetscBool edges);
 /* SamSolutionDeclareSpots, SamSolutionComputeSpots - likewise the number of contact spots, and the mean gap. */
 PETSC_INTERN PetscErrorCode SamSolutionDeclareSpots(SamState state);
 PETSC_INTERN PetscErrorCode SamSolutionComputeSpots(SamProblem problem, SamState state, const SamSolution *now);

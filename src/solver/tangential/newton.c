@@ -394,7 +394,7 @@ static PetscErrorCode Finish(Work *w, PetscBool *found)
   /* the slip is still that of the shear before: the step changes s/c by no more than this */
   w->rounding += (1 + w->reach) * sqrt(w->size) * w->unit / u->self;
   PetscCall(PetscArraycpy(u->q, w->trial, 2 * u->cells));
-  PetscCall(Refresh(w));
+  if (u->solver->enough || Error(w) > u->level->rtol) PetscCall(Refresh(w));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
