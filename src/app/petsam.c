@@ -138,8 +138,7 @@ static PetscErrorCode EstimateMemory(SamSimulation simulation, double *bytes)
   PetscCall(PetscOptionsGetString(NULL, NULL, "-cycle_memory", kept, sizeof(kept), NULL));
   cell = bytes_per_cell[needs.steps > 1][needs.friction][needs.coupled] + (double)needs.laws +
          (needs.friction && (mid || divided) ? TURN_BYTES : 0) + (traits.steady ? ROLLING_BYTES : 0) +
-         (needs.life ? LIFE_BYTES : 0) +
-         (needs.stiffness ? stiffness_bytes[needs.friction][needs.coupled] : 0);
+         (needs.life ? LIFE_BYTES : 0) + (needs.stiffness ? stiffness_bytes[needs.friction][needs.coupled] : 0);
   *bytes = SAM_MEMORY_PROGRAM + cell * (double)setup->grid->cells;
   if (needs.grid_check) *bytes += 0.25 * cell * (double)setup->grid->cells;
   if (needs.steps > 1) *bytes += atof(kept) / ranks;

@@ -176,15 +176,14 @@ static void KeepWorst(SamReport r, const SamStep *step)
 
 static PetscErrorCode KeepEnergy(SamReport r, SamContact contact)
 {
-  static const char *const names[] = {"dissipated_energy", "energy_error"};
+  PetscReal energy, error;
 
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < 2; k++) {
-    PetscReal value;
-
-    PetscCall(SamContactGetNumber(contact, names[k], &value));
-    if (!isnan(value)) r->energy[k] += value;
-  }
+  PetscCall(SamContactGetNumber(contact, "energy_error", &error));
+  if (isnan(error)) PetscFunctionReturn(PETSC_SUCCESS); /* of rolling */
+  PetscCall(SamContactGetNumber(contact, "dissipated_energy", &energy));
+  r->energy[0] += energy;
+  r->energy[1] += error;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -55,8 +55,8 @@ struct _n_SamKept {
   PetscObjectState revision;        /* of the problem that the pressure was solved with */
   SamControl       control;
   double           load[3], rigid[3], moved[3]; /* normal; moved: the change of the tangential rigid displacements */
-  double           sign, weight; /* of the changes in the step that is to come; the rest is `other`'s */
-  SamKept          other;        /* the next older such step; NULL: none */
+  double           sign, weight;                /* of the changes in the step that is to come; the rest is `other`'s */
+  SamKept          other;                       /* the next older such step; NULL: none */
 };
 
 typedef struct {

@@ -22,7 +22,7 @@ static const Number numbers[] = {{"contact_area", "m2", 1}, {"stick_area", "m2",
 
 PetscErrorCode SamSimulationReadGridCheck(SamSimulation s, const SamOptions *from)
 {
-  static const char *const without[] = {"-restart", "-friction_file", "-wear_cycles", "-step_rtol"};
+  static const char *const without[] = {"-restart", "-friction_file", "-wear_cycles", "-step_rtol", "-rolling"};
 
   PetscBool set, help;
 

@@ -93,15 +93,20 @@ static PetscErrorCode AddNumbers(SamSimulation s, double before[SUMS], PetscBool
 PetscErrorCode SamSimulationTry(SamSimulation s, PetscInt k, SamStep *step)
 {
   const SamContact contact      = s->setup.contact;
-  double           before[SUMS] = {0}, done = 0, piece = s->step_rtol > 0 ? MOST : 1;
+  double           before[SUMS] = {0}, done = 0, piece = MOST;
   PetscBool        enough = PETSC_TRUE, longer = PETSC_FALSE;
   SamControl       control;
 
   PetscFunctionBegin;
+  if (s->step_rtol == 0) {
+    PetscCall(SamHistoryGetStep(s->history, k, &control));
+    PetscCall(SamContactTry(contact, &control, step));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   while (PETSC_TRUE) {
     PetscCall(SamHistoryGetPart(s->history, k, done + piece, &control));
     PetscCall(SamContactTry(contact, &control, step));
-    if (s->step_rtol == 0 || !SamStepIsSolved(step)) break;
+    if (!SamStepIsSolved(step)) break;
     PetscCall(Judge(s, piece, &enough, &longer));
     if (!enough) {
       piece /= 2;

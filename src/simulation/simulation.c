@@ -85,16 +85,18 @@ static PetscErrorCode Offer(SamSimulation s)
 /* Refuses a program of which no step has a meaning, before the first is solved. */
 static PetscErrorCode CheckRolling(SamSimulation s)
 {
-  SamControl control;
+  SamContactSettings set;
+  SamControl         control;
 
   PetscFunctionBegin;
+  PetscCall(SamContactGetSettings(s->setup.contact, &set));
   for (PetscInt k = 0; k < s->needs.steps; k++) {
     PetscCall(SamHistoryGetStep(s->history, k, &control));
     PetscCall(SamContactCheckRolling(s->setup.contact, &control));
     PetscCheck(SamControlRolled(&control) == 0 || !s->needs.life, s->comm, SAM_ERR_USER,
                "roll with -wear_cycles: surfaces that roll are worn step by step: omit one of them");
-    PetscCheck(SamControlRolled(&control) == 0 || s->step_rtol == 0, s->comm, SAM_ERR_USER,
-               "roll with -step_rtol: rolled distances are not divided by the energy's error: use -steps");
+    PetscCheck(s->step_rtol == 0 || (SamControlRolled(&control) == 0 && set.rolling == SAM_ROLLING_NONE), s->comm,
+               SAM_ERR_USER, "-step_rtol with rolling, which has no estimate of the energy's error: use -steps");
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -258,11 +260,11 @@ static PetscErrorCode SolveStep(SamSimulation s, PetscBool *ended)
   PetscCall(SamSimulationTell(s, &(SamSimulationNews){.kind = SAM_NEWS_STEP, .step = k, .result = &step}));
   PetscCall(SamSimulationExamine(s, k, &step));
   if (SamStepIsSolved(&step)) PetscCall(SamSimulationExamineLaws(s, k));
-  if (!*ended) {
+  if (!*ended && s->needs.grid_check) {
     PetscCall(SamContactGetNumber(s->setup.contact, "dissipated_energy", &work));
     s->dissipated += (double)work;
-    PetscCall(SamContactCommit(s->setup.contact));
   }
+  if (!*ended) PetscCall(SamContactCommit(s->setup.contact));
   if (*ended || !s->point.worst) s->point.worst = step.status;
   s->point.steps++;
   s->point.times = SamOutputAddTime(s->point.times, step.control.time);

@@ -139,7 +139,7 @@ static const SamStateNumber steady_slip = REAL("slip_velocity_max", "1",
 /* Of the edge of contact: whether it is known, its area, faces and good faces. They hold while the pressure does. */
 enum { KNOWN, AREA, FACES, GOOD, EDGE };
 static const SamStateNumber contact_edge = {"contact_edge_sums", "1",        "edge of contact", SAM_NUMBER_REAL, EDGE,
-                                             PETSC_FALSE,         PETSC_FALSE};
+                                            PETSC_FALSE,         PETSC_FALSE};
 
 PetscErrorCode SamSolutionDeclareNumbers(SamState state, PetscBool steady)
 {
@@ -302,7 +302,8 @@ PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamState state, con
   PetscCall(SamProblemGetElasticity(problem, &elasticity));
   PetscCall(SamElasticityGetTraits(elasticity, &traits));
   PetscCall(SumCells(problem, state, before, s, numbers));
-  if (traits.steady) numbers[STORED_ENERGY] = NAN; /* u_t is a velocity */
+  if (traits.steady) numbers[STORED_ENERGY] = NAN;                                      /* u_t is a velocity */
+  if (traits.steady || SamControlRolled(&s->control) != 0) numbers[ENERGY_ERROR] = NAN; /* estimated at one place */
   PetscCall(SamProblemAddEnergy(problem, state, s->pressure, s->displacement_z, &numbers[STORED_ENERGY]));
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_EDGES], 0, 0, 0, 0));
   numbers[EDGE_ACCEPTED] = 0;
