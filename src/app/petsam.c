@@ -106,6 +106,9 @@ static const double bytes_per_cell[2][2][2] = {{{85, 150}, {190, 400}},
 /* Of steady rolling, bytes per cell: directions and their products. Measured at 1024: 250, for contact on 59 %. */
 #define ROLLING_BYTES 280
 
+/* A -cycle_memory from here on is no estimate of what will be used, bytes. */
+#define UNLIMITED 1e15
+
 /* Of a life, bytes per cell. */
 #define LIFE_BYTES (16 * 8)
 
@@ -141,7 +144,7 @@ static PetscErrorCode EstimateMemory(SamSimulation simulation, double *bytes)
          (needs.life ? LIFE_BYTES : 0) + (needs.stiffness ? stiffness_bytes[needs.friction][needs.coupled] : 0);
   *bytes = SAM_MEMORY_PROGRAM + cell * (double)setup->grid->cells;
   if (needs.grid_check) *bytes += 0.25 * cell * (double)setup->grid->cells;
-  if (needs.steps > 1) *bytes += atof(kept) / ranks;
+  if (needs.steps > 1 && atof(kept) < UNLIMITED) *bytes += atof(kept) / ranks; /* not of NaN, which is refused */
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

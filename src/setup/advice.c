@@ -222,8 +222,9 @@ static void AdviseCells(Receiver *to, const SamSetup *s, const SamExtent *extent
                              2 * extent->half[1] < s->grid->width[1] - 0.5 * s->grid->dy};
   const PetscBool strip = extent->zones == 1 && ends[0] != ends[1], refine[2] = {!strip || ends[0], !strip || ends[1]};
   /* of periodic bodies all cells may be in contact, and have no width */
-  const PetscBool whole            = !strip && extent->across > (PetscReal)PetscMin(s->grid->nx, s->grid->ny) - 0.5;
-  const PetscBool few              = !whole && extent->across<FEW_CELLS, steep = fabs(extent->change)> PEAK;
+  const PetscBool whole = !strip && extent->across > (PetscReal)PetscMin(s->grid->nx, s->grid->ny) - 0.5;
+  const PetscBool few   = !whole && extent->across < FEW_CELLS;
+  const PetscBool steep = fabs(extent->change) > PEAK, sharp = steep && !extent->finer;
   const double    more             = few ? (FEW_CELLS + SAME) / (double)across : 0;
   const double    factor           = PetscMax(more, steep ? (double)extent->finer : 0);
   const PetscBool absurd           = more * (double)PetscMax(s->grid->nx, s->grid->ny) > ABSURD;
@@ -248,8 +249,9 @@ static void AdviseCells(Receiver *to, const SamSetup *s, const SamExtent *extent
   if (steep)
     (void)snprintf(peak, sizeof(peak), "the peak pressure is not resolved, about %.0f %% %s on cells half as wide%s",
                    100 * fabs((double)extent->change), extent->change > 0 ? "higher" : "lower",
-                   extent->finer ? "" : ", and further on finer ones, as at a sharp edge");
-  Advise(to, "", "%s%s%s%s%s", spots, few && steep ? "; " : "", peak, better,
+                   sharp ? ", and further on finer ones, as at a sharp edge" : "");
+  /* a grid that is enough for the number of cells alone is named after it */
+  Advise(to, "", "%s%s%s%s%s%s", spots, sharp ? better : "", few && steep ? "; " : "", peak, sharp ? "" : better,
          absurd ? "; or check the units, N, m, Pa" : "");
 }
 

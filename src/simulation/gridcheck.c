@@ -9,6 +9,7 @@
 #include <math.h>
 
 #define DISSIPATED "dissipated_energy"
+#define LEAST      4 /* cells in a row, of which half are a grid */
 
 /* A number by its name, and the order of its error. */
 typedef struct {
@@ -30,6 +31,8 @@ PetscErrorCode SamSimulationReadGridCheck(SamSimulation s, const SamOptions *fro
   PetscCall(SamPrintHelp(&help));
   PetscCall(SamOptionsBool(from, "grid_check", "all steps on half the cells too; errors of the last numbers",
                            &s->needs.grid_check, NULL));
+  PetscCheck(!s->needs.grid_check || PetscMin(s->setup.grid->nx, s->setup.grid->ny) >= LEAST, from->comm, SAM_ERR_USER,
+             "-grid_check needs at least %d cells in x and in y (-grid_n)", LEAST);
   for (size_t k = 0; s->needs.grid_check && !help && k < sizeof(without) / sizeof(without[0]); k++) {
     PetscCall(PetscOptionsHasName(NULL, NULL, without[k], &set));
     PetscCheck(!set, from->comm, SAM_ERR_USER, "-grid_check does not work with %s: remove one of them", without[k]);

@@ -147,6 +147,8 @@ static PetscErrorCode SetProgram(SamSimulation s, SamHistory history, PetscReal 
   PetscCall(SamHistoryGetCount(history, &s->needs.steps));
   PetscCall(SamPrintHelp(&help));
   if (help) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCheck(s->step_rtol == 0 || s->needs.friction, from->comm, SAM_ERR_USER,
+             "-step_rtol without -friction: no energy is dissipated: give -friction, or remove it");
   PetscCheck(s->step_rtol == 0 || !s->needs.life, from->comm, SAM_ERR_USER,
              "-step_rtol with -wear_cycles: all computed cycles must have the same load steps: use -steps");
   PetscCall(SamPlanSetCycles(&s->plan, cycles, s->setup.problem, from));

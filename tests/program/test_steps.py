@@ -58,3 +58,28 @@ def test_divided_steps_are_the_same_on_ranks_and_after_a_restart(loads, petsam, 
 def test_divided_steps_are_not_for_cycles_of_wear(loads, petsam):
     done = petsam(loads, dict(step_rtol=1e-3, wear_cycles=10, wear_energy1=1e-14), check=2)
     assert "-step_rtol with -wear_cycles" in done.complaint[0]
+
+
+def test_numbers_of_divided_steps_are_those_of_all_pieces(loads, solve):
+    case = dict(loads, pressure_limit=4e8, output_every=1000)
+    few, many = solve(case, dict(step_rtol=1e-2)), solve(case, dict(steps=16))
+    with h5py.File(few.path) as one, h5py.File(many.path) as other:
+        plastic = [file["history/plastic_energy"][:].sum() for file in (one, other)]
+    assert plastic[1] > 0 and abs(plastic[0] / plastic[1] - 1) < 1e-2
+
+
+def test_last_fields_of_a_divided_step_without_equilibrium_have_their_own_time(loads, petsam, tmp_path):
+    case = {name: value for name, value in loads.items() if name != "history"}
+    rows = [(0.0, 180.0, 0.0), (1.0, 180.0, 0.5 * LIMIT), (2.0, 180.0, 1.5 * LIMIT)]
+    case |= history(tmp_path / "slide.csv", "time,load_n,load_tx", *rows)
+    petsam(case, dict(step_rtol=1e-2, output="s.h5", output_every=1000), check=11)
+    with h5py.File(tmp_path / "s.h5") as file:
+        time, shear, x, y = file["time"][-1], file["shear_x"][-1], file["x"][:], file["y"][:]
+    area = (x[1] - x[0]) * (y[1] - y[0])
+    assert 1 < time < 2 and shear.sum() * area == pytest.approx((0.5 + (time - 1)) * LIMIT, rel=1e-5)
+
+
+def test_runs_with_and_without_divided_steps_do_not_continue_each_other(loads, petsam):
+    petsam(loads, dict(checkpoint="c.h5", checkpoint_every=4))
+    done = petsam(loads, dict(step_rtol=1e-2, restart="c.h5.1"), check=2)
+    assert "lacks step_rtol" in done.complaint[0]
