@@ -217,7 +217,7 @@ const SamSolution *SamContactBefore(SamContact c)
 */
 static PetscBool TurnsAtMidStep(SamContact c)
 {
-  return SamContactBefore(c) && !SamProblemFollowsSlip(c->problem) && !c->rolls &&
+  return SamContactSlipBefore(c) && !SamProblemFollowsSlip(c->problem) && !c->rolls &&
          c->set.slip_direction == SAM_SLIP_MID;
 }
 

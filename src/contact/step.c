@@ -23,7 +23,7 @@ static PetscErrorCode Begin(SamContact c, const SamStepStart *start, PetscBool s
   for (PetscInt k = 0; k < 3; k++) {
     const PetscInt n = SamComponentsOf[SAM_BALANCE_TANGENTIAL][k];
 
-    if (w->s->control.creep[n])
+    if (w->s->control.creep[n] && !c->traits.steady)
       w->tangential.rigid[k] =
         (w->before ? w->before->rigid[n] : 0) + SamControlRolled(&w->s->control) * w->s->control.value[n];
   }

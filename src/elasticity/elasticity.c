@@ -226,7 +226,7 @@ PetscErrorCode SamElasticityGetSelfInfluence(SamElasticity e, PetscReal *normal,
   SamElasticityWith(e, getselfinfluence);
   PetscCall((*e->ops.getselfinfluence)(e, &of_normal, &of_tangential));
   if (normal) *normal = of_normal;
-  if (tangential) *tangential = of_tangential + SamPairFilm(&e->pair);
+  if (tangential) *tangential = of_tangential + (e->traits.steady ? 0 : SamPairFilm(&e->pair));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

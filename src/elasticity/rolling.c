@@ -34,6 +34,7 @@ DIFFERENCES(CreateDifferencesSingle, float)
 
 static PetscErrorCode ApplyTangential(SamElasticity e, const double *const q[], double *const u[])
 {
+  const double  film   = (double)SamPairFilm(&e->pair);
   SamElasticity bodies = e->inner;
   double       *d;
 
@@ -41,6 +42,8 @@ static PetscErrorCode ApplyTangential(SamElasticity e, const double *const q[], 
   SamElasticityWith(bodies, applytangential);
   PetscCall(CreateDifferences(e->grid, 2, 1 / e->grid->dx, q, &d));
   PetscCall((*bodies->ops.applytangential)(bodies, (const double *const[]){d, d + e->grid->cells}, u));
+  for (PetscInt c = 0; c < 2 && film > 0; c++)
+    for (PetscInt k = 0; k < e->grid->cells; k++) u[c][k] += film * d[c * e->grid->cells + k];
   SamFree(d);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -60,6 +63,7 @@ static PetscErrorCode ApplyNormalToTangential(SamElasticity e, const double *con
 
 static PetscErrorCode ApplyTangentialSingle(SamElasticity e, double factor, const float *const q[], float *const u[])
 {
+  const float   film   = (float)((double)SamPairFilm(&e->pair) * factor / (double)e->grid->dx);
   SamElasticity bodies = e->inner;
   float        *d;
 
@@ -68,6 +72,8 @@ static PetscErrorCode ApplyTangentialSingle(SamElasticity e, double factor, cons
   PetscCall(CreateDifferencesSingle(e->grid, 2, 1, q, &d));
   PetscCall((*bodies->ops.applytangentialsingle)(bodies, factor / e->grid->dx,
                                                  (const float *const[]){d, d + e->grid->cells}, u));
+  for (PetscInt c = 0; c < 2 && film > 0; c++)
+    for (PetscInt k = 0; k < e->grid->cells; k++) u[c][k] += film * d[c * e->grid->cells + k];
   SamFree(d);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

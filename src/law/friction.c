@@ -246,6 +246,7 @@ PetscErrorCode SamLawCreate_Friction(SamLaw law)
   law->bytes              = kinds[kind].memory.name ? 16 : 0;
   law->needs_friction     = PETSC_TRUE;
   law->follows_slip       = kind == FALLING;
+  law->steady             = kind == PRESSURE;
   law->forbids_jumps      = kinds[kind].memory.name ? PETSC_TRUE : PETSC_FALSE;
   law->ops.setfromoptions = SetFromOptions;
   law->ops.addparameters  = AddParameters;

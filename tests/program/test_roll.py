@@ -179,7 +179,9 @@ def test_contact_where_material_enters_is_told(roll):
         (dict(creep_spin=1e-3, rot_z=1.0), None, [], ["-rot_z and -creep_spin are conjugate"]),
         ({}, "time,creep_x,disp_x", [(0, 1e-3, 0)], ["disp_x and creep_x are conjugate"]),
         ({}, "time,creep_y", [(0, 1e-3)], ["creep_y", "roll"]),
-        (dict(rolling="steady"), None, [], ["-rolling steady"]),
+        (dict(rolling="steady", step_rtol=1e-3), None, [], ["-step_rtol with rolling"]),
+        (dict(rolling="steady", grid_check=True), None, [], ["-grid_check does not work with -rolling"]),
+        (dict(step_rtol=1e-3), "time,load_tx,roll", [(0, 1.0, 0), (1, 2.0, 1e-6)], ["-step_rtol with rolling"]),
         (dict(elasticity="periodic"), "time,roll", [(0, 1e-5)], ["roll", "periodic do not roll"]),
         (dict(creep_z=1), None, [], ["creep_z"]),
         (

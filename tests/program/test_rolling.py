@@ -326,3 +326,26 @@ def test_gross_slip_names_creepages(petsam):
 def test_contact_at_the_trailing_edge(petsam):
     case = ellipse(n=40)
     petsam(case, dict(creep_x=1e-3, grid_center=(0.3e-3, 0.0)), check=12)
+
+
+def test_film_far_softer_than_the_bodies_makes_a_brush(solve):
+    """Shear grows along the stream by the creepage over the compliance of the film, as that of bristles does."""
+    film = 1e-9
+    case = ellipse(n=40, creep_x=2e-4, creep_y=-1e-4, creep_spin=0.0, friction=0.5)
+    s = solve(case, dict(film_thickness=1e-3, film_shear=1e-3 / film))
+    dx = s.x[1] - s.x[0]
+    inside = (s.state[:, :-1] == 1) & (s.state[:, 1:] == 1)
+    assert inside.sum() > 200
+    for shear, creep in ((s.shear_x, 2e-4), (s.shear_y, -1e-4)):
+        growth = -np.diff(shear, axis=1)[inside] / dx
+        assert np.abs(growth / (creep / film) - 1).max() < 1e-2  # the bodies give way by up to this
+
+
+def test_friction_by_pressure_bounds_rolling(solve):
+    """Full sliding under mu (p/reference)^n: the sum of the bound by quadrature."""
+    case = ellipse(n=64, creep_x=0.05, friction_law="pressure", friction_pressure_exponent=-0.5)
+    s = solve(case, dict(friction_pressure_reference=4e8))
+    r2 = np.linspace(0, 1, 200001)
+    p = 800e6 * np.sqrt(1 - r2)
+    exact = np.pi * 1e-6 * np.trapezoid(0.3 * p * np.sqrt(4e8 / np.maximum(p, 1e-3)), r2)
+    assert float(s["load_tx"]) == pytest.approx(exact, rel=2e-3)
