@@ -85,12 +85,11 @@ static PetscErrorCode JoinNumbers(SamSimulation s, double before[NUMBERS], Petsc
   PetscCall(SamContactGetState(s->setup.contact, &state));
   for (PetscInt k = 0; k < NUMBERS; k++) {
     const PetscInt id = SamStateFindNumber(state, numbers[k]);
-    double        *number, joined;
+    double        *number;
 
     if (id < 0) continue;
     number                           = SamStateNumbers(state, id, SAM_TRIED);
-    joined                           = k < SUMS ? PetscMax(*number, before[k]) : *number + before[k];
-    *(to_step ? number : &before[k]) = joined;
+    *(to_step ? number : &before[k]) = k < SUMS ? PetscMax(*number, before[k]) : *number + before[k];
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

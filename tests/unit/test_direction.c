@@ -62,7 +62,7 @@ static void AssertEstimate(Cycle cycle, Cycle many)
   sam_assert(cycle.error < 3 * error && error < 3 * cycle.error);
 }
 
-/* With the direction at mid step, errors fall like the square of the steps, and their estimate is within a factor of 3. */
+/* At mid step errors fall like the square of the steps, and their estimate is within a factor of 3. */
 static void test_energy_is_second_order_at_mid_step(void **state)
 {
   const Cycle one = RunCycle(Dissimilar(), MID, 0.3, 0.2, 24, 1), two = RunCycle(Dissimilar(), MID, 0.3, 0.2, 24, 2),

@@ -9,7 +9,7 @@
 #define SAM_ROLLING_LENGTHS 4                              /* of a step that are tried */
 #define SAM_ROLLING_GRAM    (SAM_ROLLING_COLUMNS * (SAM_ROLLING_COLUMNS + 1) / 2)
 
-/* Floats are in units: shear in unit_q, slip velocity in unit_s = c unit_q; so the influence of a cell on itself is 1. */
+/* Floats are in units: shear in unit_q, slip velocity in unit_s = c unit_q: a cell's influence on itself is 1. */
 typedef struct {
   SamStickSlip base;
   double       unit_q, unit_s;
