@@ -45,7 +45,7 @@ static void AssertSingle(SamElasticity e)
 {
   const double factor = 1e11;
   SamGrid      grid;
-  PetscInt     n;
+  PetscInt     n, wrong = 0;
   double      *exact;
   float       *x, *y;
   Vec          q, u;
@@ -64,7 +64,8 @@ static void AssertSingle(SamElasticity e)
   sam_call(SamElasticityApplyTangentialSingle(e, factor, x, y));
   sam_call(SamElasticityApplyTangentialSingle(e, factor, x, x));
   sam_call(VecGetArray(u, &exact));
-  for (PetscInt k = 0; k < n; k++) sam_assert(x[k] == y[k] && fabs(y[k] - factor * exact[k]) < 1e-4);
+  for (PetscInt k = 0; k < n; k++) wrong += x[k] != y[k] || !(fabs(y[k] - factor * exact[k]) < 1e-4);
+  sam_assert(wrong == 0);
   sam_call(VecRestoreArray(u, &exact));
   free(x);
   free(y);
@@ -111,6 +112,7 @@ static void test_preconditioner_knows_the_film(void **state)
   SamGrid       grid = NewGrid(24, 20, 1e-3, 1e-3);
   SamElasticity e    = NewElasticity(grid, SAM_ELASTICITY_PERIODIC, FILM);
   Vec           q = NewField(grid, 2), u = NewField(grid, 2);
+  PetscInt      wrong = 0;
   double       *a;
   float        *r = (float *)calloc((size_t)(2 * grid->cells) + 1, sizeof(*r));
 
@@ -129,7 +131,8 @@ static void test_preconditioner_knows_the_film(void **state)
   sam_call(VecRestoreArray(u, &a));
   sam_call(SamElasticityPreconditionTangentialSingle(e, 1e-12, r, r));
   sam_call(VecGetArray(q, &a));
-  for (PetscInt k = 0; k < 2 * grid->cells; k++) sam_assert(fabs(r[k] - a[k]) < 1e-5);
+  for (PetscInt k = 0; k < 2 * grid->cells; k++) wrong += !(fabs(r[k] - a[k]) < 1e-5);
+  sam_assert(wrong == 0);
   sam_call(VecRestoreArray(q, &a));
   free(r);
   sam_call(VecDestroy(&q));
