@@ -90,7 +90,8 @@ PETSC_EXTERN PetscErrorCode SamEvaluationSetSource(SamEvaluation evaluation, con
   SamEvaluationSetUp - checks the settings together, and creates the stresses' kernels. SamEvaluationCompute() calls
   it. Collective. Errors: SAM_ERR_USER for a body that is rigid or whose stresses are not available, a depth above zero
   but below a millionth of a cell, a section outside of the grid, a cycle of one step, passing points of more than
-  one or below a section along y, Ruiz's parameters away from the surface or of passing points; PETSC_ERR_ORDER without elasticity.
+  one or below a section along y, Ruiz's parameters away from the surface or of passing points; PETSC_ERR_ORDER without
+  elasticity.
 */
 PETSC_EXTERN PetscErrorCode SamEvaluationSetUp(SamEvaluation evaluation);
 /*

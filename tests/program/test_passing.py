@@ -6,6 +6,7 @@ import pytest
 
 import conftest
 from support import SPHERE, ball
+from test_embed import run_python
 
 PROGRAM = conftest.PROGRAM.with_name("petsam-stress")
 COMPONENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
@@ -113,6 +114,29 @@ def test_bulk_stress_is_there_far_away(launcher, tmp_path):
     with h5py.File(tmp_path / "s.h5") as f:
         assert f["stress_xx"][:].min() == pytest.approx(5e7, rel=1e-3)
         assert f["crossland"][:].max() < 1e-3 * 5e7
+
+
+def test_in_process_it_has_the_bits_of_the_program(stress, tmp_path):
+    case = dict(CASE, section="y=0", depths=DEPTHS)
+    given = dict(ball(40, rolling="steady"), output_fields=None)
+    loads = dict(load_n=given.pop("load_n"), creep_x=3e-3, creep_y=2e-4, creep_spin=10.0)
+    run_python(
+        f"""
+import numpy as np, petsam, warnings
+warnings.simplefilter("error")
+contact = petsam.Contact(**{ ({k: v for k, v in given.items() if v is not None})!r})
+contact.try_step(**{dict(loads, creep_x=1e-4)!r})
+contact.commit()
+contact.record()
+contact.try_step(**{loads!r})
+contact.commit()
+np.savez("f.npz", **contact.fatigue({case.pop("fatigue")!r}, **{case!r}))
+""".replace("inf", "float('inf')"),
+        tmp_path,
+    )
+    found, expected = np.load(tmp_path / "f.npz"), stress(dict(CASE, section="y=0", depths=DEPTHS, quantities="none"))
+    for name in ("crossland", "dang_van"):
+        assert found[name].shape == (4, 1, 40) and np.array_equal(found[name], expected[name])
 
 
 @pytest.mark.parametrize(

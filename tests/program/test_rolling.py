@@ -290,7 +290,7 @@ def test_power_of_the_centred_slip_is_that_of_the_loads(solve, more):
 
 
 def test_wear_of_the_running_band(solve):
-    """Pressure times the slip of a cell's passage, along the way of a point; slip at a cell is the mean of both sides."""
+    """Pressure times slip along the way of a point; the slip at a cell is the mean of both its sides."""
     case = ellipse(n=50, creep_x=0.4 * U, creep_y=0.0, creep_spin=U / 1e-3, output_fields="all")
     one, two = solve(case), solve(case, ranks=2)
     ahead = [one.slip_velocity_x, one.slip_velocity_y]
