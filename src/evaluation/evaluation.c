@@ -214,7 +214,8 @@ PetscErrorCode SamEvaluationSetUp(SamEvaluation e)
   PetscCall(CreateStress(e));
   PetscCall(CheckPassing(e));
   PetscCheck(e->source.steps > 1 || e->passing || !SamCycleWanted(e), e->comm, SAM_ERR_USER,
-             "%sfatigue needs the steps of a cycle, two at least, and not %" PetscInt_FMT, e->dash, e->source.steps);
+             "%sfatigue needs the steps of a cycle, two at least, and not %" PetscInt_FMT ": give more, or %spassing",
+             e->dash, e->source.steps, e->dash);
   PetscCheck(!e->wants[SAM_QUANTITY_RUIZ] || e->depth[0] == 0, e->comm, SAM_ERR_USER,
              "%sfatigue ruiz: it is defined on the surface: 0 must be one of %sdepths", e->dash, e->dash);
   PetscCall(CheckDepths(e));
