@@ -53,12 +53,15 @@ PETSC_EXTERN PetscErrorCode SamEvaluationDestroy(SamEvaluation *evaluation);
     SetDepths           n depths (m), >= 0 and increasing; default: 0. -depths
     SetSection          only the cells nearest to the plane y = place (SAM_SECTION_X: along x) or x = place, m. -section
     SetQuantities       those that are wanted; default: stress and mises. -quantities, and -fatigue for parameters
+    SetPassing          fatigue parameters of points that pass along x, of one step: the stresses of each row of cells,
+                        and none but the bulk stress far from the contact, are the cycle of all its points. -passing
     SetFatigueConstants without those of the body. -fatigue_crossland_alpha, ...
 */
 PETSC_EXTERN PetscErrorCode SamEvaluationSetBody(SamEvaluation evaluation, PetscInt body);
 PETSC_EXTERN PetscErrorCode SamEvaluationGetBody(SamEvaluation evaluation, PetscInt *body);
 PETSC_EXTERN PetscErrorCode SamEvaluationSetDepths(SamEvaluation evaluation, PetscInt n, const PetscReal depths[]);
 PETSC_EXTERN PetscErrorCode SamEvaluationSetSection(SamEvaluation evaluation, SamSectionAxis axis, PetscReal place);
+PETSC_EXTERN PetscErrorCode SamEvaluationSetPassing(SamEvaluation evaluation, PetscBool passing);
 PETSC_EXTERN PetscErrorCode SamEvaluationSetQuantities(SamEvaluation evaluation, const PetscBool wants[SAM_QUANTITIES]);
 PETSC_EXTERN PetscErrorCode SamEvaluationSetFatigueConstants(SamEvaluation              evaluation,
                                                              const SamFatigueConstants *constants);
@@ -86,8 +89,9 @@ PETSC_EXTERN PetscErrorCode SamEvaluationSetSource(SamEvaluation evaluation, con
 /*
   SamEvaluationSetUp - checks the settings together, and creates the stresses' kernels. SamEvaluationCompute() calls
   it. Collective. Errors: SAM_ERR_USER for a body that is rigid or whose stresses are not available, a depth above zero
-  but below a millionth of a cell, a section outside of the grid, a cycle of one step, Ruiz's parameters away from the
-  surface; PETSC_ERR_ORDER without elasticity.
+  but below a millionth of a cell, a section outside of the grid, a cycle of one step, passing points of more than
+  one or below a section along y, Ruiz's parameters away from the surface or of passing points; PETSC_ERR_ORDER without
+  elasticity.
 */
 PETSC_EXTERN PetscErrorCode SamEvaluationSetUp(SamEvaluation evaluation);
 /*

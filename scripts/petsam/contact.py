@@ -491,7 +491,8 @@ class Contact:
 
         parameters  of crossland, dang_van, findley, swt, fatemi_socie, ruiz; their arrays have the shape (z, y, x)
         constants   fatigue_crossland_alpha, fatigue_dang_van_alpha, fatigue_findley_k, fatigue_fatemi_socie_k,
-                    fatigue_yield (Pa): the options of petsam-stress
+                    fatigue_yield (Pa), passing (True: of a point that passes along x under the one recorded step):
+                    the options of petsam-stress
         quantities  those of stress() that are wanted too, of all steps: (time, z, y, x)
 
         CycleWarning where the last step has not the tractions of the state in which recording began.

@@ -368,7 +368,7 @@ static PetscErrorCode Compute(void *context)
   run->writing = PETSC_TRUE;
   PetscCall(CreateFile(run));
   PetscCall(SamEvaluationHasCycle(run->evaluation, &cycle));
-  if (cycle) PetscCall(SamCycleCheckClosed(run));
+  if (cycle && run->steps > 1) PetscCall(SamCycleCheckClosed(run)); /* one: of points that pass */
   PetscCall(SamEvaluationSetMonitor(run->evaluation, Tell, run));
   PetscCall(SamEvaluationCompute(run->evaluation, Write, run));
   if (run->told > run->start) { /* lines that have begun end with the whole */

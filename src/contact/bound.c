@@ -86,8 +86,9 @@ static PetscErrorCode Fail(SamSolve *w, PetscReal change)
   while (k < count - 1 && !laws[k]->follows_slip) k++;
   PetscCall(PetscSNPrintf(message, sizeof(message),
                           "the friction of the law %s did not converge with the slip within %d iterations, the last "
-                          "relative change is %.2g: use smaller load steps",
-                          laws[k]->type, PASSES, (double)change));
+                          "relative change is %.2g: %s",
+                          laws[k]->type, PASSES, (double)change,
+                          w->c->traits.steady ? "use a longer memory of the friction" : "use smaller load steps"));
   PetscCall(SamStepFail(w->step, SAM_STATUS_NOT_CONVERGED, message));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

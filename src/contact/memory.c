@@ -114,7 +114,7 @@ static PetscErrorCode DeclareOutcome(SamContact c)
 
 /* ---- fields that are computed ---- */
 
-enum { SLIP_X, SLIP_Y, GAP, STATE, PRESSURE_CENTER, SHEAR_CENTER_X, SHEAR_CENTER_Y };
+enum { SLIP_X, SLIP_Y, GAP, STATE, PRESSURE_CENTER, SHEAR_CENTER_X, SHEAR_CENTER_Y, POWER, WEAR };
 
 static PetscErrorCode Compute(void *owner, SamState state, PetscInt which, Vec field)
 {
@@ -139,6 +139,10 @@ static PetscErrorCode Compute(void *owner, SamState state, PetscInt which, Vec f
     break;
   case STATE:
     PetscCall(SamSolutionComputeStates(s, field));
+    break;
+  case POWER:
+  case WEAR:
+    PetscCall(SamSolutionComputeRolling(c->problem, s, which == WEAR, field));
     break;
   case PRESSURE_CENTER:
     PetscCall(SamSolutionComputePressureCenter(c->problem, state, s, field));
@@ -183,10 +187,15 @@ static PetscErrorCode Offer(SamContact c)
     {"contact_edge", "m", "points of the contact edge, x and y", SAM_FIELD_POINTS, SAM_RESULT_OFFERED, NULL, c,
      SAM_EDGE_CONTACT, -1},
     {"stick_edge", "m", "points of the stick-slip boundary, x and y", SAM_FIELD_POINTS, SAM_RESULT_OFFERED, NULL, c,
-     SAM_EDGE_STICK, -1}};
+     SAM_EDGE_STICK, -1},
+    {"power_density", "Pa", "frictional power per area, over the rolling speed", SAM_FIELD_REAL, SAM_RESULT_OFFERED,
+     Compute, c, POWER, -1},
+    {"wear_passage", "Pa m", "pressure times slip of a point that passes, the same along x", SAM_FIELD_REAL,
+     SAM_RESULT_OFFERED, Compute, c, WEAR, -1}};
+  const size_t count = sizeof(results) / sizeof(results[0]) - (steady ? 0 : 2); /* the last two are of rolling */
 
   PetscFunctionBegin;
-  for (size_t k = 0; k < sizeof(results) / sizeof(results[0]); k++) PetscCall(SamStateOffer(c->state, &results[k]));
+  for (size_t k = 0; k < count; k++) PetscCall(SamStateOffer(c->state, &results[k]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

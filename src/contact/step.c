@@ -186,7 +186,7 @@ static PetscErrorCode DescribeSliding(SamSolve *w, char message[], size_t size)
   PetscCall(SamProblemHasFriction(w->c->problem, &friction));
   PetscCall(PetscStrlcat(
     message, friction ? " cannot be balanced by |q| <= mu p" : " cannot be balanced without friction", size));
-  PetscCall(PetscStrlcat(message, follows ? ": use smaller load steps" : instead, size));
+  PetscCall(PetscStrlcat(message, follows && !w->c->traits.steady ? ": use smaller load steps" : instead, size));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

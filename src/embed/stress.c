@@ -41,7 +41,13 @@ static PetscErrorCode TakeStep(petsam_contact *c, Step *step)
   PetscCall(SamContactGetSolution(c->setup->contact, &s));
   step->control = s->control;
   PetscCall(SamAllocate(sizeof(double) * SAM_STEP_FIELDS * (size_t)n, &step->fields));
-  for (int f = 0; f < SAM_STEP_FIELDS; f++) PetscCall(SamEmbedCopyField(c, names[f], step->fields + f * n));
+  for (int f = 0; f < SAM_STEP_FIELDS; f++) {
+    PetscBool has;
+
+    PetscCall(SamContactHasField(c->setup->contact, names[f], &has));
+    for (ptrdiff_t k = 0; k < n && !has; k++) step->fields[f * n + k] = NAN; /* steady rolling has a velocity instead */
+    if (has) PetscCall(SamEmbedCopyField(c, names[f], step->fields + f * n));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -307,8 +313,8 @@ static PetscErrorCode AdviseClosed(petsam_contact *c)
   const double *const a = s->before.fields, *const b = s->step[s->steps - 1].fields;
 
   PetscFunctionBegin;
-  for (int f = 0; f < 2 && a; f++) {
-    double most[2] = {0, 0}; /* traction, difference */
+  for (int f = 0; f < 2 && a && s->steps > 1; f++) { /* one: of points that pass */
+    double most[2] = {0, 0};                         /* traction, difference */
 
     for (ptrdiff_t k = first[f] * n; k < first[f + 1] * n; k++) {
       most[0] = fmax(most[0], fmax(fabs(a[k]), fabs(b[k])));

@@ -1,4 +1,7 @@
-/* Fatigue parameters of the chosen steps, taken as one closed cycle, from the stresses of all of them. */
+/*
+  Fatigue parameters of the chosen steps, taken as one closed cycle, from the stresses of all of them; or of points that
+  pass along x under one step, in whose time x stands: a row's stresses, and none far away, are the cycle of its points.
+*/
 #include "evaluationimpl.h"
 
 #define BLOCK 256 /* points between two looks at the clock */
@@ -7,6 +10,7 @@
 typedef struct {
   SamEvaluation    e;
   const SamPoints *points;
+  PetscInt         states;
   PetscInt         surface;               /* points on the surface, the first ones */
   const double    *slip;                  /* of these: (states, 2, surface) */
   double          *stress, *shear, *path; /* of a point: [component][state] */
@@ -61,11 +65,26 @@ static PetscErrorCode ReadSlip(SamEvaluation e, PetscInt length, double slip[])
 
 static void GatherStress(const Cycle *c, PetscInt point)
 {
-  const PetscInt states = c->e->source.steps, n = c->points->count;
+  const PetscInt states = c->states, n = c->points->count;
 
   for (PetscInt s = 0; s < states; s++)
     for (PetscInt k = 0; k < SAM_STRESS_COMPONENTS; k++)
       c->stress[k * states + s] = c->points->stress[(s * SAM_STRESS_COMPONENTS + k) * (ptrdiff_t)n + point];
+}
+
+/* Those of a point that passes all cells of its row, of which `point` is the first, and of none of them far away. */
+static void GatherPassing(const Cycle *c, PetscInt point)
+{
+  const PetscInt states = c->states, nx = states - 1, n = c->points->count;
+
+  double far[SAM_STRESS_COMPONENTS] = {0};
+
+  SamStressAddBulk(c->e, 0, 1, far);
+  for (PetscInt k = 0; k < SAM_STRESS_COMPONENTS; k++) {
+    for (PetscInt i = 0; i < nx; i++) /* no parameter depends on which end comes first */
+      c->stress[k * states + i] = c->points->stress[k * (ptrdiff_t)n + point + i];
+    c->stress[k * states + nx] = far[k];
+  }
 }
 
 #define MOST 4 /* components of a quantity: the value, and the normal of its plane */
@@ -85,28 +104,37 @@ static void ComputeRuiz(const Cycle *c, PetscInt point, double value[2])
   SamFatigueRuiz(states, c->stress, c->shear, c->path, &value[0], &value[1]);
 }
 
-/* Computes a quantity's components at all points, into value[component * count + point]. */
+/* Computes a quantity's components at a point, into value[component * count + point]. */
+static PetscErrorCode ComputePoint(SamEvaluation e, const Cycle *c, SamQuantity quantity, PetscInt i, double values[])
+{
+  const PetscInt      n = c->points->count, depths = c->points->depths;
+  SamFatigueConstants constants   = e->constants;
+  double              value[MOST] = {0, 0, 0, 0};
+
+  PetscFunctionBegin;
+  (e->passing ? GatherPassing : GatherStress)(c, i);
+  SamStressGetConstants(e->stress, e->depth[c->points->depth + i / (n / depths)], &constants.young, &constants.poisson);
+  if (quantity == SAM_QUANTITY_RUIZ)
+    ComputeRuiz(c, i, value);
+  else
+    PetscCall(SamFatigueCompute((SamFatigueParameter)(quantity - SAM_QUANTITY_CROSSLAND), &constants, c->states,
+                                c->stress, &value[0], &value[1]));
+  for (PetscInt k = 0; k < SamQuantityComponents(quantity); k++) values[k * (ptrdiff_t)n + i] = value[k];
+  if (!isnan(value[0])) SamLargestKeep(&e->fatigue[quantity], value[0], c->points->first + (double)i);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The same at all points; those of a row pass all through the same. */
 static PetscErrorCode ComputeAll(SamEvaluation e, const Cycle *c, SamQuantity quantity, double values[], double done,
                                  double share)
 {
-  const PetscInt      n = c->points->count, components = SamQuantityComponents(quantity);
-  const PetscInt      depths    = c->points->depths;
-  SamFatigueConstants constants = e->constants;
+  const PetscInt n = c->points->count;
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < n; i++) {
-    double value[MOST] = {0, 0, 0, 0};
-
-    GatherStress(c, i);
-    SamStressGetConstants(e->stress, e->depth[c->points->depth + i / (n / depths)], &constants.young,
-                          &constants.poisson);
-    if (quantity == SAM_QUANTITY_RUIZ)
-      ComputeRuiz(c, i, value);
-    else
-      PetscCall(SamFatigueCompute((SamFatigueParameter)(quantity - SAM_QUANTITY_CROSSLAND), &constants, e->source.steps,
-                                  c->stress, &value[0], &value[1]));
-    for (PetscInt k = 0; k < components; k++) values[k * (ptrdiff_t)n + i] = value[k];
-    if (!isnan(value[0])) SamLargestKeep(&e->fatigue[quantity], value[0], c->points->first + (double)i);
+    if (!e->passing || i % e->grid->nx == 0) PetscCall(ComputePoint(e, c, quantity, i, values));
+    for (PetscInt k = 0; e->passing && i % e->grid->nx > 0 && k < SamQuantityComponents(quantity); k++)
+      values[k * (ptrdiff_t)n + i] = values[k * (ptrdiff_t)n + i - 1];
     if (i % BLOCK == BLOCK - 1)
       PetscCall(SamEvaluationTell(e, "fatigue parameters", done + share * (double)(i + 1) / (double)n, 0));
   }
@@ -116,12 +144,12 @@ static PetscErrorCode ComputeAll(SamEvaluation e, const Cycle *c, SamQuantity qu
 static PetscErrorCode Create(SamEvaluation e, const SamPoints *p, Cycle *c)
 {
   const PetscInt length = !e->section ? p->count : e->axis == SAM_SECTION_X ? e->grid->nx : e->grid->ny;
-  const PetscInt states = e->source.steps;
+  const PetscInt states = e->passing ? e->grid->nx + 1 : e->source.steps;
   double        *slip   = NULL;
 
   PetscFunctionBegin;
   /* the surface is the first depth, where Ruiz's parameters are asked for */
-  *c = (Cycle){.e = e, .points = p, .surface = p->depth == 0 && p->depths > 0 ? length : 0};
+  *c = (Cycle){.e = e, .points = p, .states = states, .surface = p->depth == 0 && p->depths > 0 ? length : 0};
   if (e->wants[SAM_QUANTITY_RUIZ] && (e->section || p->depth == 0)) { /* collective */
     PetscCall(SamAllocate(sizeof(double) * (size_t)(2 * states) * (size_t)length, &slip));
     PetscCall(ReadSlip(e, length, slip));

@@ -88,6 +88,13 @@ PetscErrorCode SamEvaluationSetSection(SamEvaluation e, SamSectionAxis axis, Pet
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamEvaluationSetPassing(SamEvaluation e, PetscBool passing)
+{
+  PetscFunctionBegin;
+  e->passing = passing;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamEvaluationSetQuantities(SamEvaluation e, const PetscBool wants[SAM_QUANTITIES])
 {
   PetscFunctionBegin;
@@ -184,13 +191,31 @@ static PetscErrorCode CreateStress(SamEvaluation e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* A point that passes has the stresses of one step. */
+static PetscErrorCode CheckPassing(SamEvaluation e)
+{
+  PetscFunctionBegin;
+  if (!e->passing) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCheck(SamCycleWanted(e), e->comm, SAM_ERR_USER, "%spassing is given without %sfatigue", e->dash, e->dash);
+  PetscCheck(e->source.steps == 1, e->comm, SAM_ERR_USER,
+             "%spassing: %" PetscInt_FMT " steps are given: a point passes under those of one: give one step", e->dash,
+             e->source.steps);
+  PetscCheck(!e->section || e->axis == SAM_SECTION_X, e->comm, SAM_ERR_USER,
+             "%spassing: points pass along x: give a %ssection y=..., or none", e->dash, e->dash);
+  PetscCheck(!e->wants[SAM_QUANTITY_RUIZ], e->comm, SAM_ERR_USER,
+             "%sfatigue ruiz: needs the slip of steps, and not %spassing: omit one of them", e->dash, e->dash);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamEvaluationSetUp(SamEvaluation e)
 {
   PetscFunctionBegin;
   PetscCheck(e->elasticity, e->comm, PETSC_ERR_ORDER, "An evaluation without elasticity");
   PetscCall(CreateStress(e));
-  PetscCheck(e->source.steps > 1 || !SamCycleWanted(e), e->comm, SAM_ERR_USER,
-             "%sfatigue needs the steps of a cycle, two at least, and not %" PetscInt_FMT, e->dash, e->source.steps);
+  PetscCall(CheckPassing(e));
+  PetscCheck(e->source.steps > 1 || e->passing || !SamCycleWanted(e), e->comm, SAM_ERR_USER,
+             "%sfatigue needs the steps of a cycle, two at least, and not %" PetscInt_FMT ": give more, or %spassing",
+             e->dash, e->source.steps, e->dash);
   PetscCheck(!e->wants[SAM_QUANTITY_RUIZ] || e->depth[0] == 0, e->comm, SAM_ERR_USER,
              "%sfatigue ruiz: it is defined on the surface: 0 must be one of %sdepths", e->dash, e->dash);
   PetscCall(CheckDepths(e));

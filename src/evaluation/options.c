@@ -204,6 +204,7 @@ PetscErrorCode SamEvaluationAddParameters(SamEvaluation e, SamParameters *p)
 
   PetscFunctionBegin;
   PetscCall(SamParametersAddReals(p, "body", PETSC_TRUE, 1, &body));
+  if (e->passing) PetscCall(SamParametersAddText(p, "passing", PETSC_TRUE, "true"));
   SamStressGetConstants(e->stress, 0, &young, &poisson);
   PetscCall(SamParametersAddReals(p, "young", PETSC_TRUE, 1, &young));
   PetscCall(SamParametersAddReals(p, "poisson", PETSC_TRUE, 1, &poisson));
@@ -223,6 +224,8 @@ static PetscErrorCode ReadFatigue(const SamOptions *from, SamEvaluation e)
   PetscCall(SamOptionsWords(from, "fatigue", "parameters over the steps as one closed cycle: some of " FATIGUE, FATIGUE,
                             text, sizeof(text), &set));
   if (set) PetscCall(ReadNames(from, "fatigue", FATIGUE, SAM_QUANTITY_CROSSLAND, 6, text, e));
+  PetscCall(SamOptionsBool(from, "passing", "the cycle is that of a point that passes along x under one step",
+                           &e->passing, NULL));
   PetscCall(ReadConstants(from, e));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -8,7 +8,8 @@
   falling    F = 2^(-speed/half speed), low = kinetic, where a step rolls; the speed is that of rolling times slip over
              rolled distance. With a memory F = t F_before + (1 - t) F_now, t = memory/(memory + slip), the slip being
              at least the memory's speed times the step's time. The bound follows the slip of the step, and there may be
-             more than one solution.
+             more than one solution. In steady rolling a cell is a step of the material: the slip is the slip velocity
+             over that of rolling, times dx, and F_before that of the cell ahead; it is 1 at the leading edge.
   Source of falling friction: Vollebregt and Schuttelaars 2012, J. Sound Vib. 331, 2141-2155.
 */
 #include <petsam/private/lawimpl.h>
@@ -56,7 +57,18 @@ static const struct {
 typedef struct {
   Kind      kind;
   PetscReal value[OPTIONS];
+  PetscBool steady; /* rolling: what is remembered stands in the cell ahead, and not in the state */
 } Friction;
+
+/* The solution that was found, where there may be several. */
+static const SamStateNumber branch = {"friction_mean",
+                                      "1",
+                                      "mean coefficient of friction of the solution next to friction at rest: others "
+                                      "may exist",
+                                      SAM_NUMBER_REAL,
+                                      1,
+                                      PETSC_FALSE,
+                                      PETSC_TRUE};
 
 /* ---- options ---- */
 
@@ -114,7 +126,8 @@ static PetscErrorCode ComputeCoefficient(void *owner, SamState state, PetscInt c
 
 static PetscErrorCode Declare(SamLaw law, SamState state)
 {
-  const SamStateField *memory      = &kinds[((const Friction *)law->data)->kind].memory;
+  const Friction      *f           = (const Friction *)law->data;
+  const SamStateField *memory      = &kinds[f->kind].memory;
   const SamStateResult coefficient = {"friction_coefficient",
                                       "1",
                                       "coefficient of friction",
@@ -127,7 +140,8 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
   PetscInt             id;
 
   PetscFunctionBegin;
-  if (memory->name) PetscCall(SamStateDeclareField(state, memory, &id));
+  if (memory->name && !f->steady) PetscCall(SamStateDeclareField(state, memory, &id));
+  if (f->steady && law->follows_slip) PetscCall(SamStateDeclareNumber(state, &branch, &id));
   PetscCall(SamStateOffer(state, &coefficient));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -169,26 +183,36 @@ static void BoundCell(const Friction *f, const SamBoundAt *at, double p, double 
   if (value) *value = PetscMin(bound, most);
 }
 
-static PetscErrorCode Bound(SamLaw law, const SamBoundAt *at, const SamBound *bound)
+static PetscErrorCode Bound(SamLaw law, const SamBoundAt *given, const SamBound *bound)
 {
   const Friction *f     = (const Friction *)law->data;
-  const char     *name  = kinds[f->kind].memory.name;
-  const Vec       in[]  = {at->pressure, at->slip,
+  const PetscInt  cells = law->grid->cells;
+  const char     *name  = f->steady ? NULL : kinds[f->kind].memory.name;
+  const double    step  = f->steady ? (double)law->grid->dx : 1; /* slip of a step over what is given as slip */
+  SamBoundAt of = *given, *const at = &of;
+  const Vec in[]        = {at->pressure, at->slip,
                     name && at->state ? SamStateGetField(at->state, SamStateFindField(at->state, name), SAM_COMMITTED)
                                              : NULL},
             out[]       = {bound->value, bound->by_pressure, bound->by_slip};
   const double *from[3] = {NULL};
-  double       *to[3]   = {NULL};
+  double       *to[3] = {NULL}, memory = 0, change;
 
   PetscFunctionBegin;
+  if (f->steady) at->rolled = law->grid->dx;
   for (int k = 0; k < 3; k++) {
     if (in[k]) PetscCall(VecGetArrayRead(in[k], &from[k]));
     if (out[k]) PetscCall(VecGetArray(out[k], &to[k]));
   }
-  for (PetscInt k = 0; k < law->grid->cells; k++)
-    if (from[0][k] > 0)
-      BoundCell(f, at, from[0][k], in[2] ? from[2][k] : 0, in[1] ? from[1][k] : 0, out[0] ? &to[0][k] : NULL,
-                out[1] ? &to[1][k] : NULL, out[2] ? &to[2][k] : NULL);
+  for (PetscInt n = 0; n < cells; n++) {
+    const PetscInt k = cells - 1 - n; /* from the leading edge */
+    const double   p = from[0][k], slip = in[1] ? step * from[1][k] : 0;
+
+    if (!f->steady || n % law->grid->nx == 0) memory = in[2] ? from[2][k] : 0;
+    if (p > 0)
+      BoundCell(f, at, p, memory, slip, out[0] ? &to[0][k] : NULL, out[1] ? &to[1][k] : NULL,
+                out[2] ? &to[2][k] : NULL);
+    if (f->steady) memory = p > 0 ? 1 - FactorOf(f, p, memory, slip, at->rolled, &change) : 0;
+  }
   for (int k = 0; k < 3; k++) {
     if (out[k]) PetscCall(VecRestoreArray(out[k], &to[k]));
     if (in[k]) PetscCall(VecRestoreArrayRead(in[k], &from[k]));
@@ -204,9 +228,17 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
   const double    rolled = (double)SamControlRolled(step->control);
   const double   *p, *slip, *old = NULL;
   double *new, change;
-  Vec before, after, path;
+  PetscReal sums[2];
+  Vec       before, after, path;
 
   PetscFunctionBegin;
+  if (f->steady && law->follows_slip) {
+    PetscCall(SamGridNorm(law->grid, SamStateReadField(step->state, SamStateFindField(step->state, "bound")), NORM_1,
+                          &sums[0]));
+    PetscCall(SamGridNorm(law->grid, step->pressure, NORM_1, &sums[1]));
+    *SamStateNumbers(step->state, SamStateFindNumber(step->state, branch.name), SAM_TRIED) =
+      sums[1] > 0 ? (double)(sums[0] / sums[1]) : NAN;
+  }
   if (id < 0 || (f->kind == FALLING && rolled == 0)) PetscFunctionReturn(PETSC_SUCCESS);
   before = SamStateGetField(step->state, id, SAM_COMMITTED);
   PetscCall(SamLawStepGetFriction(step, &path, NULL, NULL));
@@ -233,20 +265,23 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
 
 PetscErrorCode SamLawCreate_Friction(SamLaw law)
 {
-  Friction *f;
-  Kind      kind = PATH;
+  Friction           *f;
+  Kind                kind = PATH;
+  SamElasticityTraits traits;
 
   PetscFunctionBegin;
+  PetscCall(SamElasticityGetTraits(law->elasticity, &traits));
   while (strcmp(law->type, kinds[kind].type)) kind++;
   PetscCall(PetscNew(&f));
-  f->kind = kind;
+  f->kind   = kind;
+  f->steady = traits.steady;
   for (PetscInt k = 0; k < OPTIONS; k++) f->value[k] = kinds[kind].option[k].usual;
   law->data               = f;
   law->option             = "friction_law";
   law->bytes              = kinds[kind].memory.name ? 16 : 0;
   law->needs_friction     = PETSC_TRUE;
   law->follows_slip       = kind == FALLING;
-  law->steady             = kind == PRESSURE;
+  law->steady             = kind != PATH;
   law->forbids_jumps      = kinds[kind].memory.name ? PETSC_TRUE : PETSC_FALSE;
   law->ops.setfromoptions = SetFromOptions;
   law->ops.addparameters  = AddParameters;

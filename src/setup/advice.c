@@ -31,8 +31,9 @@ void SamLoadsMostAdd(SamLoadsMost *most, const SamControl *control)
 {
   const PetscReal *v = control->value, normal = v[SAM_COMPONENT_N];
   const PetscBool *force = control->force;
-  const PetscReal  x     = force[SAM_COMPONENT_TX] ? 0 : v[SAM_COMPONENT_TX];
-  const PetscReal  y     = force[SAM_COMPONENT_TY] ? 0 : v[SAM_COMPONENT_TY];
+  const PetscBool *creep = control->creep;
+  const PetscReal  x     = force[SAM_COMPONENT_TX] || creep[SAM_COMPONENT_TX] ? 0 : v[SAM_COMPONENT_TX];
+  const PetscReal  y     = force[SAM_COMPONENT_TY] || creep[SAM_COMPONENT_TY] ? 0 : v[SAM_COMPONENT_TY];
 
   most->force = force[SAM_COMPONENT_N];
   most->slide = PetscMax(most->slide, hypot(x, y));

@@ -46,6 +46,43 @@ static PetscErrorCode RestoreOptional(Vec field, double **values)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/*
+  The centred slip velocity of a cell in steady rolling is u_t at the cell, the mean of both its sides, less the
+  creepage. The power of a shear on the mean of u_t is zero, so that the sum over cells is the work of the loads.
+*/
+PetscErrorCode SamSolutionComputeRolling(SamProblem problem, const SamSolution *s, PetscBool wears, Vec field)
+{
+  SamGrid      grid;
+  SamIncrement increment;
+  SamValues    v;
+  double      *to;
+
+  PetscFunctionBegin;
+  PetscCall(SamProblemGetGrid(problem, &grid));
+  PetscCall(SamIncrementCreate(problem, NULL, s, &increment));
+  PetscCall(SamValuesGet(s, &v));
+  PetscCall(VecGetArrayWrite(field, &to));
+  for (PetscInt j = 0; j < grid->rows; j++) {
+    const ptrdiff_t first = (ptrdiff_t)j * grid->nx;
+    double          sum   = 0;
+
+    SamIncrementComputeRow(&increment, j);
+    for (PetscInt i = 0; i < grid->nx; i++) {
+      const ptrdiff_t k = first + i, l = k + v.cells, behind = i ? 1 : 0;
+      const double    sx = increment.slip[0][i] - 0.5 * (v.u_t[k] - v.u_t[k - behind]),
+                   sy    = increment.slip[1][i] - 0.5 * (v.u_t[l] - v.u_t[l - behind]);
+
+      to[k] = -(v.q[k] * sx + v.q[l] * sy);
+      sum += v.p[k] * hypot(sx, sy) * (double)grid->dx;
+    }
+    for (PetscInt i = 0; wears && i < grid->nx; i++) to[first + i] = sum;
+  }
+  PetscCall(VecRestoreArrayWrite(field, &to));
+  PetscCall(SamValuesRestore(s, &v));
+  PetscCall(SamIncrementDestroy(&increment));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamSolutionComputeFriction(SamProblem problem, const SamSolution *last, const SamSolution *s, Vec path,
                                           Vec pressed, Vec work)
 {

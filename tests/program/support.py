@@ -206,7 +206,13 @@ class Results:
         return self.history[name]
 
     def __getattr__(self, name):
-        if name not in FIELDS + ("slip_velocity_x", "slip_velocity_y"):
+        if name not in FIELDS + (
+            "slip_velocity_x",
+            "slip_velocity_y",
+            "friction_coefficient",
+            "power_density",
+            "wear_passage",
+        ):
             raise AttributeError(name)
         with h5py.File(self.path, "r") as f:
             value = f[name][-1]

@@ -278,6 +278,30 @@ def test_slip_is_against_the_shear(solve):
     assert np.abs(v[:, s.state == 1]).max() <= 1e-4 * U
 
 
+@pytest.mark.parametrize("more", [{}, dict(film_thickness=1e-4, film_shear=8e9), dict(friction=1e4)])
+def test_power_of_the_centred_slip_is_that_of_the_loads(solve, more):
+    case = dict(ellipse(n=50, ratio=2, creep_x=0.4 * U, creep_y=-0.3 * U, creep_spin=U / 1e-3), **more)
+    s = solve(case, dict(output_fields="all"))
+    power = s.power_density * s.dx * s.dy
+    assert power.sum() == pytest.approx(s["rolling_energy"], rel=1e-10)
+    assert s["rolling_energy_cells"] < (1 - 1e-3) * power.sum()
+    if more.get("friction") != 1e4:
+        assert power.min() >= -1e-2 * power.max()  # where spin turns the slip
+
+
+def test_wear_of_the_running_band(solve):
+    """Pressure times slip along the way of a point; the slip at a cell is the mean of both its sides."""
+    case = ellipse(n=50, creep_x=0.4 * U, creep_y=0.0, creep_spin=U / 1e-3, output_fields="all")
+    one, two = solve(case), solve(case, ranks=2)
+    ahead = [one.slip_velocity_x, one.slip_velocity_y]
+    behind = [np.roll(v, 1, axis=1) for v in ahead]
+    # creepage of y at the cell, and not where that slip is
+    slip = (ahead[0] + behind[0]) / 2, (ahead[1] + behind[1]) / 2 - U / 1e-3 * one.dx / 2
+    band = (one.pressure * np.hypot(*slip)).sum(axis=1) * one.dx
+    assert np.abs(one.wear_passage - band[:, None]).max() <= 1e-12 * band.max()
+    assert band.max() > 0 and np.array_equal(one.wear_passage, two.wear_passage)
+
+
 @pytest.mark.parametrize("n", [64, 96])
 def test_dissimilar_bodies(petsam, n):
     case = ellipse(n=n, width=3.2, friction=1.0)
@@ -349,3 +373,59 @@ def test_friction_by_pressure_bounds_rolling(solve):
     p = 800e6 * np.sqrt(1 - r2)
     exact = np.pi * 1e-6 * np.trapezoid(0.3 * p * np.sqrt(4e8 / np.maximum(p, 1e-3)), r2)
     assert float(s["load_tx"]) == pytest.approx(exact, rel=2e-3)
+
+
+FALLING = dict(
+    friction_law="falling",
+    friction_falling_kinetic=0.14,
+    friction_falling_half_speed=1.25,
+    rolling_speed=10.0,
+    friction_falling_memory=3e-6,
+    friction_falling_memory_speed=1e-3,
+    output_fields="all",
+)
+
+
+def test_falling_friction_under_a_film(solve, tmp_path):
+    rows = history(tmp_path / "falling.csv", "time,creep_x", (1, 0.002), (2, 0.008), (3, 0.02), (4, 0.1))
+    done = solve(A, FALLING, rows, dict(film_thickness=1.25e-3, film_shear=8.2e9))
+    with h5py.File(done.path) as f:
+        found = f["history/load_tx"][:] / (A["friction"] * A["load_n"])
+        mean, words = f["history/friction_mean"][:], f["history/friction_mean"].attrs["long_name"]
+    assert found == pytest.approx([0.3495, 0.8652, 0.9393, 0.7559], abs=6e-5)
+    assert "displacement" not in done.run.stderr  # a creepage is none
+    assert 0.33 > mean[0] > mean[1] > mean[2] > mean[3] > 0.14
+    assert mean[3] == pytest.approx(0.33 * found[3], rel=1e-3)  # all slides
+    assert "friction at rest" in words and "others may exist" in words
+
+
+def test_memory_marches_from_the_leading_edge(solve):
+    """mu of a cell from that of the cell ahead, t = memory/(memory + slip of a cell); at the edge from mu at rest."""
+    s = solve(A, FALLING, dict(creep_x=0.1, friction_falling_memory=1e-5))
+    mu, before = s.friction_coefficient, np.full(s.y.size, 0.33)
+    slip = np.hypot(s.slip_velocity_x, s.slip_velocity_y)
+    dx = s.x[1] - s.x[0]
+    for i in reversed(range(s.x.size)):
+        inside = s.pressure[:, i] > 0
+        now = 0.14 + 0.19 * 2 ** (-slip[:, i] * 10 / 1.25)
+        t = 1e-5 / (1e-5 + np.maximum(slip[:, i] * dx, 1e-3 * dx / 10))
+        before = np.where(inside, t * before + (1 - t) * now, 0.33)
+        assert mu[inside, i] == pytest.approx(before[inside], rel=1e-5)
+    assert 0.14 < mu[s.pressure > 0].min() < 0.29
+
+
+def test_falling_friction_on_any_number_of_ranks(solve):
+    runs = [solve(A, FALLING, dict(creep_x=0.01, creep_spin=0.5), ranks=k) for k in (1, 2, 3)]
+    for other in runs[1:]:
+        assert runs[0]["load_tx"] == other["load_tx"] and runs[0]["friction_mean"] == other["friction_mean"]
+        assert np.array_equal(runs[0].friction_coefficient, other.friction_coefficient)
+
+
+def test_loads_above_falling_friction_name_creepages(petsam):
+    complaint = petsam(
+        A,
+        FALLING,
+        dict(load_tx=0.99 * 0.33 * 106.7e3, friction_falling_memory=0, friction_falling_half_speed=0.02),
+        check=11,
+    ).stderr
+    assert "gross slip: load_tx" in complaint and "give creep_x" in complaint

@@ -28,7 +28,8 @@ typedef struct {
   SamState  state;          /* of the contact; NULL: nothing is remembered */
   PetscReal friction_scale; /* of the control */
   Vec       pressure;       /* Pa */
-  Vec       slip;           /* m: length of the slip of this step, in each cell; NULL: none */
+  Vec       slip;           /* m: length of the slip of this step, in each cell; NULL: none. In steady rolling, where no
+                               step continues another, the slip velocity over that of rolling */
   PetscReal rolled;         /* m: rolled distance of the step (SamControlRolled()) */
 } SamBoundAt;
 

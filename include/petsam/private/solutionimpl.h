@@ -95,6 +95,13 @@ PETSC_INTERN PetscErrorCode SamSolutionComputeStates(const SamSolution *solution
 */
 PETSC_INTERN PetscErrorCode SamSolutionComputeFriction(SamProblem problem, const SamSolution *before,
                                                        const SamSolution *now, Vec path, Vec pressed, Vec work);
+/*
+  SamSolutionComputeRolling - of steady rolling, with the centred slip velocity over that of rolling: the frictional
+  power per area over the rolling speed (Pa); `wears`: instead the integral along x of pressure times slip (Pa m), the
+  same in all cells of a row. Not collective.
+*/
+PETSC_INTERN PetscErrorCode SamSolutionComputeRolling(SamProblem problem, const SamSolution *solution, PetscBool wears,
+                                                      Vec field);
 
 /*
   SamSolutionDeclareNumbers - the numbers of /history that SamSolutionComputeNumbers() fills in the tried generation:
