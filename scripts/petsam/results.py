@@ -333,6 +333,11 @@ class Results(Datafile):
         """Names without their ending of the fields that are components NAME_x and NAME_y."""
         return [name[:-2] for name in self.fields if name.endswith("_x") and name[:-2] + "_y" in self.fields]
 
+    @property
+    def is_steady(self):
+        """Whether the contact rolls in steady state: each step by itself, without slip or energy of a step."""
+        return str(self.parameters.get("rolling")) == "steady"
+
     @cached_property
     def products(self):
         """Names of what is computed of fields: of steady rolling the frictional power density."""

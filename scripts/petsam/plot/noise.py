@@ -23,17 +23,12 @@ def _largest(results, names):
     return largest(one.series(name).astype(float) for one in results for name in names if name in one.history)
 
 
-def is_steady(one):
-    """Whether results are of steady rolling."""
-    return str(one.parameters.get("rolling")) == "steady"
-
-
 def scales(results):
     """Unit: scale of the scalars with this unit."""
     force, way = _largest(results, FORCES), _largest(results, WAYS)
     size = np.sqrt(_largest(results, (AREA,))) or largest(axis for one in results for axis in (one.x, one.y))
     known = {"N": force, "N m": force * size, "m": way, "rad": way / size, "J": force * way}
-    if all(is_steady(one) for one in results):  # creepages and spin
+    if all(one.is_steady for one in results):  # creepages and spin
         creep = max(_largest(results, CREEPS), _largest(results, (SPIN,)) * size)
         known.update({"1": creep, "1/m": creep / size})
     return known
@@ -58,7 +53,7 @@ def varies(results, name, known):
 def works(one):
     """Whether friction does something in a history: a tangential load works, or something is dissipated."""
     known = scales([one])
-    if is_steady(one):
+    if one.is_steady:
         return False
     if varies([one], ENERGY, known):
         return True

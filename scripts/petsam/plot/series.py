@@ -68,8 +68,8 @@ def against(results, name, other):
 
 
 def usual(results):
-    """What a picture of the history is drawn over by itself: time, or of steady rolling the creepage that varies most."""
-    if not all(noise.is_steady(one) for one in results):
+    """What a history is drawn over by itself: time, or of steady rolling the creepage that varies most."""
+    if not all(one.is_steady for one in results):
         return TIME
     known = noise.scales(results)
     spans = {name: max(float(np.ptp(one.series(name))) for one in results) for name in CREEPS}
@@ -84,7 +84,7 @@ def _varying(results):
     # of a life the sum of the energy over the computed cycles says nothing
     energy = [] if any(one.has_life for one in results) else [ENERGY]
     names = [*(name for pair in PAIRS.values() for name in pair), "contact_area", "stick_area", *shared, *energy]
-    names = CURVES if all(noise.is_steady(one) for one in results) else names
+    names = CURVES if all(one.is_steady for one in results) else names
     names = [name for name in names if noise.varies(results, name, known)]
     all_stick = all(np.allclose(one.series("stick_area"), one.series("contact_area"), rtol=1e-9) for one in results)
     names = [name for name in names if name != "stick_area" or not all_stick]
