@@ -58,6 +58,11 @@ def test_the_curve_is_over_what_varies_most(rolled):
         assert labels(figure) == ["$T_x$", "$T_y$", "$M_z$", r"creepage $\xi$", "stick area"]
 
 
+def test_spin_counts_with_the_size_of_the_contact(rolled):
+    with petsam.open(rolled("creep_x,creep_spin,load_ty", (1e-4, 0.1, 0.0), (1e-3, 0.2, 0.0))) as results:
+        assert below(series.history([results])) == {r"creepage $\xi$"}
+
+
 def test_a_curve_of_loads_is_over_the_creepage_that_they_need(rolled):
     with petsam.open(rolled("load_ty,creep_spin", (2.0, 0.0), (6.0, 0.0), (10.0, 0.0))) as results:
         figure = series.history([results])
