@@ -78,6 +78,11 @@ PETSC_EXTERN PetscErrorCode SamContactSetUp(SamContact contact);
 */
 PETSC_EXTERN PetscErrorCode SamContactCheckRolling(SamContact contact, const SamControl *control);
 /*
+  SamContactOfferCondition - makes the k-th condition (control.h) a number of each step, and with a rolled distance the
+  creepages. Collective.
+*/
+PETSC_EXTERN PetscErrorCode SamContactOfferCondition(SamContact contact, PetscInt k);
+/*
   The objects of a contact, borrowed. Not collective, but for SamContactGetState(), which lets the laws declare what
   they remember. That state is for reading, and for what a program offers of its own.
 */

@@ -62,10 +62,14 @@ int petsam_set_field(petsam_contact *c, const char *name, const double *values);
   displacement, 2 where it is a creepage (of Tx, Ty, Mz), else it is a load. `load` and `rigid` become all twelve, given
   or found; NaN where there is none (NULL: not wanted). A try replaces an earlier one. After 0, 10 and 12 there is a
   tried step, whose fields and numbers can be asked for; 10 cannot be committed. A step takes the new normal load first,
-  and then the tangential ones.
+  and then the tangential ones. With -rolling steady each try is a steady state of rolling.
+  petsam_roll - the same of a step in which the contact rolls by distance[0] towards +x and distance[1] towards +y (m):
+  the grid moves over the bodies, and a creepage times the distance is the motion of body 1. Not with -rolling steady.
 */
 int petsam_try(petsam_contact *c, double time, const int force[6], const double value[6], double load[6],
                double rigid[6]);
+int petsam_roll(petsam_contact *c, double time, const double distance[2], const int force[6], const double value[6],
+                double load[6], double rigid[6]);
 /*
   petsam_history - solves the steps of a history and commits each: `values` (rows, columns), and `columns` their names
   with commas between them, as in the first line of the program's file: "time,load_n,load_tx". The first row's change

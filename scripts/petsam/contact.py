@@ -76,19 +76,20 @@ class CycleWarning(UserWarning):
 
 class Step:
     """A tried step: time (s), load and rigid in the order of LOADS and RIGIDS, each of them by its name, and the
-    further numbers of /history, step.dissipated_energy, step.contact_area, ...; NaN where a step has none.
+    further numbers of /history, step.dissipated_energy, step.contact_area, ...; NaN where a step has none. In steady
+    rolling rigid has the creepages, by their own names.
 
     numbers   {name: value} of loads, displacements and the further numbers
     """
 
-    def __init__(self, time, load, rigid, status, message, numbers=None):
+    def __init__(self, time, load, rigid, status, message, numbers=None, names=RIGIDS):
         self.time, self.load, self.rigid, self.status, self.message = time, load, rigid, status, message
-        self.numbers = dict(zip(LOADS + RIGIDS, map(float, [*load, *rigid])))
+        self.numbers, self._names = dict(zip(LOADS + names, map(float, [*load, *rigid]))), LOADS + names
         self.numbers.update(numbers or {})
         self.__dict__.update(self.numbers)
 
     def __repr__(self):
-        pairs = [f"{name}={value:.6g}" for name, value in zip(LOADS + RIGIDS, [*self.load, *self.rigid])]
+        pairs = [f"{name}={value:.6g}" for name, value in zip(self._names, [*self.load, *self.rigid])]
         return f"Step(time={self.time:g}, status={self.status}, {', '.join(pairs)})"
 
 
@@ -231,6 +232,8 @@ class Contact:
             )
             self._check(code)
         self._read_grid()
+        known = self._names("number")
+        self._rigids = tuple(rigid if rigid in known else creep for rigid, creep in zip(RIGIDS, CREEPS))
 
     def _read_grid(self):
         n, size, center = (ctypes.c_int * 2)(), (ctypes.c_double * 2)(), (ctypes.c_double * 2)()
@@ -277,36 +280,50 @@ class Contact:
         Each component is given by its load (load_n, N ... load_mz, N m), its displacement (disp_z, m ... rot_z, rad) or
         its creepage (creep_x, creep_y, creep_spin, 1/m); what is not given is a load of 0. NoEquilibrium or
         NotConverged where there is no solution, with the step; an EdgeContactWarning where the contact has reached the
-        edge of the grid. Replaces an earlier try.
+        edge of the grid. Replaces an earlier try. With rolling="steady" each try is a steady state of rolling.
         """
+        return self._try("try_step", time, None, given)
+
+    def roll(self, roll=0.0, roll_y=0.0, time=0.0, **given):
+        """The same of a step in which the contact rolls by roll towards +x and roll_y towards +y (m): a Step.
+
+        The grid moves over the bodies; a creepage times the distance is the motion of body 1. Not for a contact of
+        rolling="steady", which try_step() solves.
+        """
+        distance = [_real(roll, "roll: roll"), _real(roll_y, "roll: roll_y")]
+        return self._try("roll", time, (ctypes.c_double * 2)(*[one.value for one in distance]), given)
+
+    def _try(self, function, time, distance, given):
         force, value = (ctypes.c_int * 6)(*[1] * 6), (ctypes.c_double * 6)()
         for name, number in given.items():
             way = next((way for way, names in enumerate(WAYS) if name in names), None)
             if way is None:
-                raise TypeError(f"try_step: {name}: expected {', '.join(filter(None, LOADS + RIGIDS + CREEPS))}")
+                raise TypeError(f"{function}: {name}: expected {', '.join(filter(None, LOADS + RIGIDS + CREEPS))}")
             k = WAYS[way].index(name)
             both = [names[k] for names in (LOADS, RIGIDS, CREEPS) if names[k] in given]
             if len(both) > 1:
-                raise TypeError(f"try_step: {both[0]} and {both[1]} are conjugate: give one of them")
-            force[k], value[k] = way, _real(number, f"try_step: {name}")
+                raise TypeError(f"{function}: {both[0]} and {both[1]} are conjugate: give one of them")
+            force[k], value[k] = way, _real(number, f"{function}: {name}")
         if "load_n" not in given and "disp_z" not in given:
-            raise TypeError("try_step: load_n or disp_z is missing")
+            raise TypeError(f"{function}: load_n or disp_z is missing")
         load, rigid = np.full(6, np.nan), np.full(6, np.nan)
         code = 0
         try:
-            code = self._call("try", _real(time, "try_step: time"), force, value, _pointer(load), _pointer(rigid))
+            begin = ["try" if distance is None else "roll", _real(time, f"{function}: time")]
+            begin += [] if distance is None else [distance]
+            code = self._call(*begin, force, value, _pointer(load), _pointer(rigid))
         except (NotConverged, NoEquilibrium) as error:
-            error.step = Step(time, load, rigid, error.code, str(error), self._numbers())
+            error.step = Step(time, load, rigid, error.code, str(error), self._numbers(), self._rigids)
             raise
-        step = Step(time, load, rigid, code, self._message(), self._numbers())
+        step = Step(time, load, rigid, code, self._message(), self._numbers(), self._rigids)
         if code == EDGE:
-            warnings.warn(step.message, EdgeContactWarning, stacklevel=2)
+            warnings.warn(step.message, EdgeContactWarning, stacklevel=3)
         return step
 
     def _numbers(self):
         """{name: value} of the further numbers of the last step; a history may add some. A microsecond each."""
         found, value = {}, ctypes.c_double()
-        names = [name for name in self._names("number") if name not in ("time", "status", *LOADS, *RIGIDS)]
+        names = [name for name in self._names("number") if name not in ("time", "status", *LOADS, *self._rigids)]
         with _lock:
             for name in names:
                 if self._c.petsam_get_number(self._contact, name.encode(), ctypes.byref(value)) == 0:
@@ -395,9 +412,8 @@ class Contact:
         return found
 
     def _last_step(self, status=0, message=""):
-        values = {name: self.number(name) for name in ("time", *LOADS, *RIGIDS)}
-        load, rigid = (np.array([values[name] for name in names]) for names in (LOADS, RIGIDS))
-        return Step(values["time"], load, rigid, status, message, self._numbers())
+        load, rigid = (np.array([self.number(name) for name in names]) for names in (LOADS, self._rigids))
+        return Step(self.number("time"), load, rigid, status, message, self._numbers(), self._rigids)
 
     # ------------------------------------------------------------ fields and numbers
 

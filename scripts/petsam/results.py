@@ -13,6 +13,7 @@ from .isolation import reading
 
 OPEN, STICK, SLIP = 0, 1, 2  # /state
 DEPTHS = ("wear_depth1", "wear_depth2")  # removed of body 1 and 2
+POWER, POWER_OF = "power_density", ("shear", "slip_velocity")  # |q||s|, in steady rolling
 EDGES = ("contact_edge", "stick_edge")
 NO_EQUILIBRIUM = 11  # /history/status of a step that was refused: it has no solution
 BLOCK = 256  # rows read at a time: bounds the memory, and strides in HDF5 itself are slow
@@ -332,8 +333,20 @@ class Results(Datafile):
         """Names without their ending of the fields that are components NAME_x and NAME_y."""
         return [name[:-2] for name in self.fields if name.endswith("_x") and name[:-2] + "_y" in self.fields]
 
+    @property
+    def is_steady(self):
+        """Whether the contact rolls in steady state: each step by itself, without slip or energy of a step."""
+        return str(self.parameters.get("rolling")) == "steady"
+
+    @cached_property
+    def products(self):
+        """Names of what is computed of fields: of steady rolling the frictional power density."""
+        return [POWER] if set(POWER_OF) <= set(self.vectors) else []
+
     def about(self, name):
         """Attributes of a field as texts: units, and long_name; of a vector those of its first component."""
+        if name in self.products:
+            return "Pa", "frictional power per area over the rolling speed"
         name = name if name in self.fields else name + "_x"
         try:
             with reading(self.path):
@@ -360,15 +373,17 @@ class Results(Datafile):
             raise self._error(error) from error
 
     def quantity(self, name, *part, **window):
-        """A field, or the magnitude in the plane of a vector whose components the file has; arguments of field()."""
+        """A field, the magnitude of a vector whose components the file has, or a product; arguments of field()."""
+        if name not in self.fields and name in self.products:
+            return np.prod([self.quantity(of, *part, **window) for of in POWER_OF], axis=0)
         if name not in self.fields and name in self.vectors:
             return np.hypot(self.field(name + "_x", *part, **window), self.field(name + "_y", *part, **window))
         return self.field(name, *part, **window)
 
     def need_quantity(self, name, option=None):
-        """Error where the file has neither a field nor a vector of this name, which an option may have asked for."""
-        if name not in self.fields and name not in self.vectors:
-            names = [*self.fields, *self.vectors]
+        """Error where the file has no field, vector or product of this name, which an option may have asked for."""
+        names = [*self.fields, *self.vectors, *self.products]
+        if name not in names:
             there = there_are(name, names, "it has") if names else "; it has no field at all"
             lack = f"{option} {short(name)}: has no such field" if option else f"has no {short(name)}"
             raise Error(f"{self.path}: {lack} (petsam -output_fields){there}")

@@ -227,6 +227,19 @@ PetscErrorCode SamContactGetField(SamContact c, const char name[], Vec field)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamContactOfferCondition(SamContact c, PetscInt k)
+{
+  const SamCondition *condition = &SamConditions[k];
+  SamState            state;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetState(c, &state));
+  PetscCall(SamStateOfferNumber(state, condition->name, condition->usual));
+  for (PetscInt n = 0; n < SAM_COMPONENTS && condition->change; n++)
+    if (SamComponentNames[n].creep) PetscCall(SamStateOfferNumber(state, SamComponentNames[n].creep, NAN));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamContactGetNumber(SamContact c, const char name[], PetscReal *value)
 {
   const PetscInt id = SamStateFindNumber(c->state, name);

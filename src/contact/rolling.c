@@ -4,9 +4,10 @@
   The work is that of the loads on the creepages, xi Tx + eta Ty + phi Mz. Summed over cells, as -q.s, it lacks the
   numerical damping of the upwind difference, (D q).C (D q)/2, which is first order in the cell's size.
 
-  So are loads and creepages. The same step is solved on the next coarser grid, pressure and shear, at a quarter of the
-  cost; with h and H the sizes of the cells, F(h) + (F(h) - F(H)) h/(H - h) is as good as a much finer grid. A coarse
-  bound that is the mean of the fine one would not do: it reaches half a cell farther on the average.
+  So are loads and creepages. The same step is solved on the next coarser grid, pressure and shear, from the means of
+  the fine ones, at a quarter of the cost; with h and H the sizes of the cells, F(h) + (F(h) - F(H)) h/(H - h) is as
+  good as a much finer grid. A coarse bound that is the mean of the fine one would not do: it reaches half a cell
+  farther on the average.
 */
 #include "stepimpl.h"
 
@@ -59,9 +60,11 @@ static PetscErrorCode CreateCoarse(SamSolve *w, Coarse *k)
   PetscCall(SamTransferRestrict(k->transfer, w->coupled ? w->h : w->separation, k->field[SEPARATION]));
   PetscCall(SamTransferRestrict(k->transfer, w->s->pressure, k->field[MEAN_PRESSURE]));
   PetscCall(SamTransferRestrict(k->transfer, w->s->bound, k->field[MEAN_BOUND]));
+  PetscCall(SamTransferRestrict(k->transfer, w->s->shear, k->field[SHEAR]));
   k->normal     = SamControlGetBalance(&w->s->control, SAM_BALANCE_NORMAL);
   k->tangential = SamControlGetBalance(&w->s->control, SAM_BALANCE_TANGENTIAL);
-  for (PetscInt n = 0; n < 3; n++) { /* the loads that were found: the same contact */
+  for (PetscInt n = 0; n < 3; n++) { /* the loads that were found: the same contact; the creepages are the start */
+    if (k->tangential.force[n]) k->tangential.rigid[n] = w->rigid[n];
     k->normal.force[n] = PETSC_TRUE;
     k->normal.load[n]  = w->s->load[SamComponentsOf[SAM_BALANCE_NORMAL][n]];
   }
@@ -107,7 +110,8 @@ static PetscErrorCode SolveCoarse(SamSolve *w, Coarse *k, SamSolverReason *reaso
   PetscCall(SamNormalCreate(k->elasticity, &normal));
   PetscCall(TakeTolerance(SamNormalAsSolver(w->c->normal), SamNormalAsSolver(normal)));
   PetscCall(SamNormalSetPressureLimit(normal, limit));
-  PetscCall(SamNormalSolve(normal, f[SEPARATION], &k->normal, PETSC_FALSE, f[PRESSURE]));
+  PetscCall(VecCopy(f[MEAN_PRESSURE], f[PRESSURE]));
+  PetscCall(SamNormalSolve(normal, f[SEPARATION], &k->normal, PETSC_TRUE, f[PRESSURE]));
   PetscCall(SamSolverGetReason(SamNormalAsSolver(normal), reason));
   PetscCall(SamNormalDestroy(&normal));
   if (*reason < 0) PetscFunctionReturn(PETSC_SUCCESS);
@@ -116,7 +120,7 @@ static PetscErrorCode SolveCoarse(SamSolve *w, Coarse *k, SamSolverReason *reaso
   PetscCall(SamTangentialCreate(k->elasticity, &tangential));
   PetscCall(TakeTolerance(SamTangentialAsSolver(w->c->tangential), SamTangentialAsSolver(tangential)));
   PetscCall(
-    SamTangentialSolve(tangential, f[BOUND], w->coupled ? f[OFFSET] : NULL, &k->tangential, PETSC_FALSE, f[SHEAR]));
+    SamTangentialSolve(tangential, f[BOUND], w->coupled ? f[OFFSET] : NULL, &k->tangential, PETSC_TRUE, f[SHEAR]));
   PetscCall(SamSolverGetReason(SamTangentialAsSolver(tangential), reason));
   PetscCall(SamTangentialDestroy(&tangential));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -71,12 +71,10 @@ PetscErrorCode SamContactCheckRolling(SamContact c, const SamControl *control)
   PetscCheck(rolled == 0 || !c->traits.periodic, c->grid->comm, SAM_ERR_USER,
              "roll = %.6g: expected 0: bodies of type %s do not roll", (double)rolled, type);
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++)
-    PetscCheck(
-      !control->creep[k] || control->value[k] == 0 || rolled != 0 || c->set.rolling == SAM_ROLLING_STEADY,
-      c->grid->comm, SAM_ERR_USER,
-      "%s = %.6g: a creepage needs a rolled distance: give the columns roll or roll_y in -history, or -rolling "
-      "steady",
-      SamComponentNames[k].creep, (double)control->value[k]);
+    PetscCheck(!control->creep[k] || control->value[k] == 0 || rolled != 0 || c->set.rolling == SAM_ROLLING_STEADY,
+               c->grid->comm, SAM_ERR_USER,
+               "%s = %.6g: a creepage needs a rolled distance: give roll or roll_y, or -rolling steady",
+               SamComponentNames[k].creep, (double)control->value[k]);
   for (PetscInt k = 0; k < SAM_COMPONENTS && c->traits.steady; k++)
     PetscCheck(!SamComponentNames[k].creep || SamControlWay(control, k) != SAM_BY_RIGID, c->grid->comm, SAM_ERR_USER,
                "%s has no meaning with -rolling steady: give %s or %s", SamComponentNames[k].rigid,

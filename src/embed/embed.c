@@ -293,7 +293,7 @@ int petsam_set_field(petsam_contact *c, const char *name, const double *values)
 
 /* ---- steps ---- */
 
-static PetscErrorCode Try(petsam_contact *c, double time, const int force[], const double value[])
+static PetscErrorCode Try(petsam_contact *c, double time, const double roll[], const int force[], const double value[])
 {
   SamControl     control = c->control;
   SamLoadsMost   most    = {.open = c->has_gap};
@@ -303,6 +303,7 @@ static PetscErrorCode Try(petsam_contact *c, double time, const int force[], con
   PetscFunctionBegin;
   PetscCheck(isfinite(time), c->comm, SAM_ERR_USER, "petsam_try: time is not a finite number");
   control.time = time;
+  for (int k = 0; k < 2; k++) control.roll[k] = roll[k];
   for (int k = 0; k < SAM_COMPONENTS; k++) {
     const SamWay way = force[k] == 2 ? SAM_BY_CREEP : force[k] ? SAM_BY_LOAD : SAM_BY_RIGID;
 
@@ -313,6 +314,8 @@ static PetscErrorCode Try(petsam_contact *c, double time, const int force[], con
     control.value[k] = value[k];
   }
   PetscCall(SamEmbedForget(c));
+  for (PetscInt k = SAM_CONDITION_ROLL; k < SAM_CONDITION_ROLL + 2 && SamControlRolled(&control) != 0; k++)
+    PetscCall(SamContactOfferCondition(c->setup->contact, k));
   code = SamContactTry(c->setup->contact, &control, &c->last);
   if (code) PetscCall(SamEmbedForget(c));
   PetscCall(code);
@@ -323,15 +326,15 @@ static PetscErrorCode Try(petsam_contact *c, double time, const int force[], con
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-int petsam_try(petsam_contact *c, double time, const int force[6], const double value[6], double load[6],
-               double rigid[6])
+static int TryTogether(petsam_contact *c, const char function[], double time, const double roll[], const int force[],
+                       const double value[], double load[], double rigid[])
 {
-  const uint64_t kinds = SamEmbedAdd(SamHashBits(time), force, SAM_COMPONENTS * sizeof(*force));
-  int            code;
+  uint64_t sum = SamEmbedAdd(SamHashBits(time), force, SAM_COMPONENTS * sizeof(*force));
+  int      code;
 
-  if (!SamEmbedEnterTogether(c, __func__, force && value, SamEmbedAdd(kinds, value, SAM_COMPONENTS * sizeof(*value))))
-    return SAM_EMBED_USAGE;
-  code = SamEmbedLeave(c, Try(c, time, force, value));
+  sum = SamEmbedAdd(SamEmbedAdd(sum, value, SAM_COMPONENTS * sizeof(*value)), roll, 2 * sizeof(*roll));
+  if (!SamEmbedEnterTogether(c, function, force && value && roll, sum)) return SAM_EMBED_USAGE;
+  code = SamEmbedLeave(c, Try(c, time, roll, force, value));
   if (code) return code;
   for (int k = 0; k < SAM_COMPONENTS; k++) {
     if (load) load[k] = (double)c->last.load[k];
@@ -339,6 +342,18 @@ int petsam_try(petsam_contact *c, double time, const int force[6], const double 
   }
   (void)snprintf(c->message, sizeof(c->message), "%s", c->last.message);
   return (int)c->last.status;
+}
+
+int petsam_try(petsam_contact *c, double time, const int force[6], const double value[6], double load[6],
+               double rigid[6])
+{
+  return TryTogether(c, __func__, time, (const double[2]){0, 0}, force, value, load, rigid);
+}
+
+int petsam_roll(petsam_contact *c, double time, const double distance[2], const int force[6], const double value[6],
+                double load[6], double rigid[6])
+{
+  return TryTogether(c, __func__, time, distance, force, value, load, rigid);
 }
 
 static PetscErrorCode Commit(petsam_contact *c)

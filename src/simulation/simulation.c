@@ -63,19 +63,13 @@ PetscErrorCode SamSimulationWarn(void *simulation, const char text[], const char
 /* Makes numbers of each step what varies. */
 static PetscErrorCode Offer(SamSimulation s)
 {
-  SamState state;
-
   PetscFunctionBegin;
-  PetscCall(SamContactGetState(s->setup.contact, &state));
   for (PetscInt k = 0; k < SAM_CONDITIONS; k++) {
-    const SamCondition *condition = &SamConditions[k];
-    PetscBool           given;
+    PetscBool given;
 
-    PetscCall(SamHistoryGives(s->history, condition, &given));
+    PetscCall(SamHistoryGives(s->history, &SamConditions[k], &given));
     if (given || (k == SAM_CONDITION_FRICTION && s->plan.points))
-      PetscCall(SamStateOfferNumber(state, condition->name, condition->usual));
-    for (PetscInt c = 0; c < SAM_COMPONENTS && given && condition->change; c++)
-      if (SamComponentNames[c].creep) PetscCall(SamStateOfferNumber(state, SamComponentNames[c].creep, NAN));
+      PetscCall(SamContactOfferCondition(s->setup.contact, k));
   }
   if (s->needs.stiffness) PetscCall(SamStiffnessDeclare(s->setup.contact));
   PetscCall(SamSimulationDeclarePieces(s));

@@ -235,6 +235,81 @@ with petsam.Contact(restart="c.h5", **case) as contact, petsam.Contact(**case) a
     )
 
 
+ROLLS = [(0, 0.0, 0.0, 60.0), (1, 5e-5, 0.0, 60.0), (2, 7e-5, -2e-5, 90.0)]
+
+
+def test_steps_that_roll_have_the_bits_of_the_program(petsam, tmp_path):
+    """Tried, rejected and tried again; a creepage that was found, given. The next history does not roll on."""
+    case = dict(CASE, load_n=800.0)
+    write(tmp_path / "h.csv", "time,roll,roll_y,load_tx", ROLLS)
+    petsam(dict(case, history="h.csv", output="h.h5", output_fields="all"))
+    run_python(
+        BEGIN
+        + f"""
+found = []
+with petsam.Contact(**case) as contact:
+    for time, x, y, load_tx in {ROLLS!r}:
+        given = dict(time=time, load_n=800, load_tx=load_tx)
+        if time:
+            contact.roll(roll=3e-5, roll_y=1e-4, load_n=900, creep_x=1e-3)
+            contact.reject()
+        found.append(contact.roll(roll=x, roll_y=y, **given) if time else contact.try_step(**given))
+        last = found[-1]
+        creeps = {{name: last.numbers.get(name) for name in ("creep_x", "creep_y", "creep_spin")}}
+        if time:
+            same = contact.roll(roll=x, roll_y=y, time=time, load_n=800, **creeps)
+            assert np.allclose(same.load, last.load, rtol=1e-4, atol=0.01), (same, last)
+            contact.roll(roll=x, roll_y=y, **given)
+        contact.commit()
+    shear = contact["shear_x"]
+    assert contact.run(dict(time=[3], load_n=[800], load_tx=[95]))[0].roll == 0
+numbers = {{name: [step.numbers.get(name, np.nan) for step in found] for name in found[-1].numbers}}
+np.savez("found.npz", field=shear, **numbers)
+""",
+        tmp_path,
+    )
+    found = np.load(tmp_path / "found.npz")
+    with h5py.File(tmp_path / "h.h5") as f:
+        assert np.array_equal(found["field"], f["shear_x"][-1])
+        assert set(f["history"]) - {"time", "status"} <= set(found.files)
+        for name in set(found.files) & {"creep_x", "creep_spin", "disp_x", "roll_y", "slip_max"}:
+            assert found[name][1:].tobytes() == f["history"][name][1:].tobytes(), name
+
+
+def test_steady_rolling_in_process(petsam, tmp_path):
+    """Each try is a steady state, with the bits of the program; creepages have their own names."""
+    case = dict(CASE, body2_young=210e9, body2_poisson=0.3, rolling="steady")
+    write(tmp_path / "h.csv", "time,load_n,creep_x,load_ty", [(1, 800.0, 4e-4, 9.0), (2, 800.0, 5e-4, 9.0)])
+    petsam(dict(case, history="h.csv", output="h.h5"))
+    run_python(
+        f"""
+import numpy as np, petsam
+with petsam.Contact(**{case!r}) as contact:
+    for creep in 4e-4, 5e-4:
+        step = contact.try_step(load_n=800, creep_x=creep, load_ty=9)
+        contact.commit()
+    assert step.rigid[1] == step.creep_x == 5e-4 and not hasattr(step, "disp_x") and "creep_y=" in repr(step)
+    velocity = contact["slip_velocity_x"]
+    again = contact.run(dict(time=[3], load_n=[800], creep_x=[5e-4], load_ty=[9]))[0]
+    assert again.tangential_iterations == 0 and again.load_tx == step.load_tx and again.rigid[2] == again.creep_y
+    for says, wrong in ("no meaning with -rolling steady", dict(roll=1e-5)), ("load_n or disp_z is", dict(roll=0)):
+        try:
+            contact.roll(**wrong, **(dict(load_n=800) if wrong["roll"] else dict()))
+        except (petsam.ContactError, TypeError) as error:
+            assert says in str(error), error
+        else:
+            raise SystemExit("not refused")
+    np.savez("found.npz", velocity=velocity, **step.numbers)
+""",
+        tmp_path,
+    )
+    found = np.load(tmp_path / "found.npz")
+    with h5py.File(tmp_path / "h.h5") as f:
+        assert np.array_equal(found["velocity"], f["slip_velocity_x"][-1])
+        for name in "load_tx", "creep_y", "load_tx_extrapolated", "rolling_energy", "stick_area":
+            assert found[name] == f["history"][name][-1], name
+
+
 def test_examples_run(tmp_path):
     for name, says in ("history", "81 steps"), ("life", "  100000 cycles"), ("fatigue", "(33, 1, 96)"):
         assert says in run_python((ROOT / f"examples/embed/python/{name}.py").read_text(), tmp_path)

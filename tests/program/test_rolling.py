@@ -260,6 +260,37 @@ def test_history_of_creepages(solve, tmp_path):
     assert not {"disp_x", "disp_y", "rot_z", "dissipated_energy", "slip_max"} & set(found)
 
 
+def test_states_near_the_last_one_start_from_it(solve, tmp_path):
+    """Along the last change, across it, and under loads; what is found does not depend on it, nor on the ranks."""
+    rows = [
+        (0.3, 0.1, 0.5),
+        (0.303, 0.1, 0.5),
+        (0.306, 0.1, 0.5),
+        (0.306, 0.102, 0.49),
+        (0.306, 0.102, 0.49),
+        (0.5, 0, 0),
+    ]
+    table = history(
+        tmp_path / "near.csv",
+        "time,creep_x,creep_y,creep_spin",
+        *[(k, x * U, y * U, s) for k, (x, y, s) in enumerate(rows)],
+    )
+    case = ellipse()
+
+    def found(*options, **words):
+        with h5py.File(solve(case, table, *options, **words).path, "r") as f:
+            return {name: data[:] for name, data in f["history"].items()}
+
+    near, alone = found(), found(dict(warm_start="false"))
+    assert near["tangential_iterations"][4] == 0  # nothing has changed
+    assert np.all(near["tangential_preconditions"][1:4] < alone["tangential_preconditions"][1:4])
+    assert near["tangential_preconditions"][5] == alone["tangential_preconditions"][5]  # farther away
+    for name, size in ("load_tx", 1), ("load_ty", 1), ("load_mz", 1e-3), ("load_tx_extrapolated", 1):
+        most = 2e-6 * case["friction"] * case["load_n"] * size
+        assert near[name] == pytest.approx(alone[name], rel=0, abs=most), name
+    assert np.array_equal(found(ranks=2)["load_tx"], near["load_tx"])
+
+
 def test_same_bits_on_any_number_of_ranks(solve):
     case = ellipse(n=70, output_fields="all")
     runs = [solve(case, dict(load_tx=0.5 * 0.3 * case["load_n"], creep_spin=U / 1e-3), ranks=k) for k in (1, 2, 3)]

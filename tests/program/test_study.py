@@ -185,6 +185,14 @@ def test_yaml_combines_all_lists_and_computes_expressions(tmp_path):
     ]
 
 
+def test_steady_rolling_is_tabulated(run, tmp_path):
+    """Its results have no energy of a step, and so no cycles."""
+    (tmp_path / "t.csv").write_text("creep_x\n1e-4\n2e-4\n")
+    run("t.csv", "--", *words(dict(CASE, rolling="steady")))
+    with h5py.File(tmp_path / "t" / "results.h5") as file:
+        assert np.all(np.diff(file["results/load_tx"][:]) > 0) and "dissipated_energy_sum" not in file["results"]
+
+
 def test_options_for_all_cases_count_in_expressions(tmp_path):
     path = table(tmp_path, 'options:\n  friction: 0.1\n  load_tx: ["{friction * 100}", 1]\n', "t.yaml")
     first = study_cases.read(str(path), study_cases.common_options(["-friction", "0.3"]))[0]

@@ -244,20 +244,22 @@ static void test_ranks_that_differ_are_refused(void **state)
   (void)MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   (void)MPI_Comm_size(PETSC_COMM_WORLD, &size);
   sam_assert(petsam_commit(NULL) == 2 && strstr(petsam_message(NULL), "petsam_commit: the contact is NULL"));
-  for (int k = 0; k < 9 && size > 1; k++) {
+  for (int k = 0; k < 10 && size > 1; k++) {
     const int    odd      = rank == size - 1;
     const double value[6] = {7e-6, odd && k == 0 ? 5e-7 : 0}, cycles = odd ? 0 : 10;
-    const int    code = k == 0   ? petsam_try(c, 1, none, value, NULL, NULL)
-                        : k == 1 ? petsam_try(c, odd, none, value, NULL, NULL)
-                        : k == 2 ? petsam_try(c, 1, odd ? NULL : none, value, NULL, NULL)
-                        : k == 3 ? (odd ? petsam_commit(c) : petsam_reject(c))
-                        : k == 4 ? petsam_get_field(c, odd ? "gap" : "slip_x", NULL)
-                        : k == 5 ? petsam_history(c, columns, ROWS - odd, values, NULL, NULL)
-                        : k == 6 ? petsam_live(c, cycles, columns, ROWS, values, NULL, NULL)
-                        : k == 7 ? petsam_save(c, odd ? "this.h5" : "that.h5")
-                                 : petsam_create(World(), odd ? NULL : OPTIONS, &other);
+    const double rolled[2] = {1e-5, odd ? 1e-6 : 0};
+    const int    code      = k == 0   ? petsam_try(c, 1, none, value, NULL, NULL)
+                             : k == 1 ? petsam_try(c, odd, none, value, NULL, NULL)
+                             : k == 2 ? petsam_try(c, 1, odd ? NULL : none, value, NULL, NULL)
+                             : k == 3 ? (odd ? petsam_commit(c) : petsam_reject(c))
+                             : k == 4 ? petsam_get_field(c, odd ? "gap" : "slip_x", NULL)
+                             : k == 5 ? petsam_history(c, columns, ROWS - odd, values, NULL, NULL)
+                             : k == 6 ? petsam_live(c, cycles, columns, ROWS, values, NULL, NULL)
+                             : k == 7 ? petsam_save(c, odd ? "this.h5" : "that.h5")
+                             : k == 8 ? petsam_roll(c, 1, rolled, none, value, NULL, NULL)
+                                      : petsam_create(World(), odd ? NULL : OPTIONS, &other);
 
-    sam_assert(code == 2 && strstr(petsam_message(k < 8 ? c : NULL), words));
+    sam_assert(code == 2 && strstr(petsam_message(k < 9 ? c : NULL), words));
   }
   sam_assert(!other && petsam_history(c, columns, ROWS, values, NULL, NULL) == 0);
   petsam_destroy(&c);

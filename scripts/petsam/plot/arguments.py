@@ -125,7 +125,7 @@ def _pictures(parser):
     kinds.add_argument("--loop", action="store_true", help="a load over its displacement, of --cycle or of all steps")
     kinds.add_argument("--load", choices=tuple(PAIRS), help="the loops' load (that which does the most work)")
     kinds.add_argument("--energy", action="store_true", help="dissipated energy of every cycle")
-    kinds.add_argument("--history", action="store_true", help="scalars over time, or over --against")
+    kinds.add_argument("--history", action="store_true", help="scalars over time or a creepage, or over --against")
     kinds.add_argument("--fretting-log", action="store_true", help="loops of up to eight cycles, with their energy")
     kinds.add_argument("--scar", action="store_true", help="removed depth along x and y through its deepest point")
     kinds.add_argument("--life", action="store_true", help="volume, depth, energy, area and pressure over cycles")
@@ -143,7 +143,9 @@ def _quantities(parser):
         help="scalars of /history, of a matrix stiffness.load_tx.disp_x, or columns of a study (those that vary)",
     )  # fmt: skip
     what.add_argument(
-        "--against", metavar="NAME", help="over which scalar, or column (time; the input with most values)"
+        "--against",
+        metavar="NAME",
+        help="over which scalar, or column (time; the creepage that varies; the input with most values)",
     )
     what.add_argument("--by", metavar="NAME", help="of a study: the column that the curves' colours stand for")
     what.add_argument(

@@ -14,7 +14,8 @@
 
 Without a kind given, maps and profiles of the last saved step are drawn, and of several solved load steps the loop,
 if friction works, and the history, of three cycles or more their loops and energies, too; of a wear simulation
-(-wear_cycles) its fretting log, scar and curves over the cycles instead of these; of a file of petsam-stress its
+(-wear_cycles) its fretting log, scar and curves over the cycles instead of these; of steady rolling the creep curve,
+and arrows of the slip velocity on the map of stick and slip; of a file of petsam-stress its
 section or maps, the profile, and fatigue parameters if it has them; of results.h5 of petsam-study the results that
 vary, over the input with the most values. Constant scalars and fields that are zero to rounding are drawn only by name.
 An option that none of the pictures uses is rejected.
@@ -235,8 +236,8 @@ def draw(options, results, kind):
     if kind in OF_LIFE:
         return draw_wear(options, results, kind)
     if kind == "history":
-        other = options.against or series.TIME
-        return series.history(ranged(options, results), options.scalar, other, options.spelling, axes_of(options))
+        part = ranged(options, results)
+        return series.history(part, options.scalar, options.against, options.spelling, axes_of(options))
     return draw_cycles(options, results, kind)
 
 

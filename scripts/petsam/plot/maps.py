@@ -15,8 +15,16 @@ from . import colours, noise, symbols
 from .style import bar, extent, field, need_few, plt, ticks
 from .units import label, largest, plain, scale
 
-USUAL = ("pressure", "shear", "slip", "state")  # drawn unless fields are named, as far as the file has them
-OF_CONTACT = ("slip", "slip_x", "slip_y")  # exist in the contact only
+USUAL = (
+    "pressure",
+    "shear",
+    "slip",
+    "power_density",
+    "state",
+)  # drawn unless fields are named, as far as the file has them
+VELOCITY = ("slip_velocity_x", "slip_velocity_y")  # arrows on the state
+ARROWS = 18  # along the longer side of a map at most
+OF_CONTACT = ("slip", "slip_x", "slip_y", "slip_velocity", *VELOCITY)  # exist in the contact only
 STATES = {OPEN: ("open", "#f4f4f4"), STICK: ("stick", "#3b4cc0"), SLIP: ("slip", "#e9a03b")}
 PIXELS = 1200  # of a map in each direction: more cells than the eye and the paper hold
 WIDE = 2.0  # width over height from which maps stand below each other
@@ -30,7 +38,8 @@ HIDDEN = 0.02  # of a map's area at most that the points of an edge cover
 
 def usual(results):
     """Names of the fields that a map shows of a file by itself."""
-    names = [name for name in USUAL if results.has([name]) or name in results.vectors]
+    computed = (*results.vectors, *results.products)
+    names = [name for name in USUAL if results.has([name]) or name in computed]
     return names or [name for name in results.fields if name not in DEPTHS][:8]
 
 
@@ -45,7 +54,19 @@ def _read(results, index, names, whole):
         is_open = results.field("state", index, **part) == OPEN
         data.update({name: np.where(is_open, np.nan, data[name]) for name in masked})
     edges = extent(results.x[columns], results.y[rows], stride=stride)
+    if "state" in names and results.has(VELOCITY):
+        data["arrows"] = _arrows(results, index, **part)
     return {**data, "extent": edges, "edges": [results.edge(name, index) for name in results.edges]}
+
+
+def _arrows(results, index, rows, columns, stride):
+    """Places and slip velocities of some of the cells that slip, in steady rolling: x, y (m), v_x, v_y."""
+    state, *velocity = (results.field(name, index, rows, columns, stride) for name in ("state", *VELOCITY))
+    every = -(-max(state.shape) // ARROWS)
+    some = slice(every // 2, None, every)
+    slips = state[some, some] == SLIP
+    x, y = np.meshgrid(results.x[columns][::stride][some], results.y[rows][::stride][some])
+    return [values[slips] for values in (x, y, *(one[some, some] for one in velocity))]
 
 
 def _gather(snapshots, names, whole):
@@ -166,6 +187,9 @@ def _draw(panel, one, name, shown, layout, length):
         drawn = bar(panel, image, "", layout.height, ticks=range(len(words)))
         drawn.set_ticks(range(len(words)), labels=words)
     drawn.ax.tick_params(labelsize=8)
+    if name == "state" and "arrows" in one:
+        x, y, *velocity = one["arrows"]
+        panel.quiver(length * x, length * y, *velocity, color="black", width=0.006, angles="xy", pivot="mid")
     for points in one["edges"]:
         _edge_points(panel, points, length, layout, "black" if not isinstance(shown, colours.Colours) else "0.85")
     panel.set(xlim=edges[:2], ylim=edges[2:])

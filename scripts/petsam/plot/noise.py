@@ -15,6 +15,7 @@ from .units import largest
 NOISE = 1e-6  # of the scale: solvers converge to 1e-8 and less
 FORCES, WAYS = ("load_n", "load_tx", "load_ty"), ("disp_z", "disp_x", "disp_y")
 AREA = "contact_area"
+CREEPS, SPIN = ("creep_x", "creep_y"), "creep_spin"
 MOMENTS = ("load_mx", "load_my", "load_mz")
 
 
@@ -26,7 +27,11 @@ def scales(results):
     """Unit: scale of the scalars with this unit."""
     force, way = _largest(results, FORCES), _largest(results, WAYS)
     size = np.sqrt(_largest(results, (AREA,))) or largest(axis for one in results for axis in (one.x, one.y))
-    return {"N": force, "N m": force * size, "m": way, "rad": way / size, "J": force * way}
+    known = {"N": force, "N m": force * size, "m": way, "rad": way / size, "J": force * way}
+    if all(one.is_steady for one in results):  # creepages and spin
+        creep = max(_largest(results, CREEPS), _largest(results, (SPIN,)) * size)
+        known.update({"1": creep, "1/m": creep / size})
+    return known
 
 
 def varies(results, name, known):
@@ -48,6 +53,8 @@ def varies(results, name, known):
 def works(one):
     """Whether friction does something in a history: a tangential load works, or something is dissipated."""
     known = scales([one])
+    if one.is_steady:
+        return False
     if varies([one], ENERGY, known):
         return True
     pairs = (("load_tx", "disp_x"), ("load_ty", "disp_y"), ("load_mz", "rot_z"))

@@ -10,6 +10,8 @@ from .units import label, largest, plain, scale
 
 VOLUMES = ("wear_volume1", "wear_volume2")
 TIME = "time"
+CREEPS = ("creep_x", "creep_y", "creep_spin")
+CURVES = ("load_tx", "load_ty", "load_mz", *CREEPS, "stick_area")  # of steady rolling
 CONSTANT = ("load_n", "contact_area")  # shown where nothing varies
 # rows and columns of the matrices of /history
 LOADS = ("load_n", "load_tx", "load_ty", "load_mx", "load_my", "load_mz")
@@ -65,6 +67,16 @@ def against(results, name, other):
     return beside, values
 
 
+def usual(results):
+    """What a history is drawn over by itself: time, or of steady rolling the creepage that varies most."""
+    if not all(one.is_steady for one in results):
+        return TIME
+    known = noise.scales(results)
+    spans = {name: max(float(np.ptp(one.series(name))) for one in results) for name in CREEPS}
+    spans = {name: span / known[results[0].units[name]] for name, span in spans.items() if span > 0.0}
+    return max(spans, key=spans.get, default=TIME)
+
+
 def _varying(results):
     """Names that a picture of the history shows by itself: what varies (see noise), each once."""
     known = noise.scales(results)
@@ -72,6 +84,7 @@ def _varying(results):
     # of a life the sum of the energy over the computed cycles says nothing
     energy = [] if any(one.has_life for one in results) else [ENERGY]
     names = [*(name for pair in PAIRS.values() for name in pair), "contact_area", "stick_area", *shared, *energy]
+    names = CURVES if all(one.is_steady for one in results) else names
     names = [name for name in names if noise.varies(results, name, known)]
     all_stick = all(np.allclose(one.series("stick_area"), one.series("contact_area"), rtol=1e-9) for one in results)
     names = [name for name in names if name != "stick_area" or not all_stick]
@@ -100,15 +113,16 @@ def _panel(panel, results, name, other, across):
     panel.set(ylabel=label(symbols.scalar(name), unit))
 
 
-def history(results, names=None, other=TIME, option="--names", logs=()):
-    """Scalars of /history over time, or over another scalar: one panel each, one line per file.
+def history(results, names=None, other=None, option="--names", logs=()):
+    """Scalars of /history over time, or over another scalar (see usual()): one panel each, one line per file.
 
     Of steps without a solution the status alone. logs are the axes, x or y, that are logarithmic.
     """
     for one in results:
         one.need_solution()
         need_scalars(one, names or (), option)
-        need_scalars(one, [other], "--against")
+        need_scalars(one, [other] if other else (), "--against")
+    other = other or usual(results)
     names = names or [name for name in _varying(results) if name != other]
     need_few(len(names), "datasets")
     columns = min(3, len(names))

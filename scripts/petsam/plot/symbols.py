@@ -5,6 +5,7 @@ from .units import plain
 SYMBOLS = {
     "load_n": "$N$", "load_tx": "$T_x$", "load_ty": "$T_y$", "load_mx": "$M_x$", "load_my": "$M_y$", "load_mz": "$M_z$",
     "disp_z": "$d_z$", "disp_x": "$d_x$", "disp_y": "$d_y$", "rot_x": "$r_x$", "rot_y": "$r_y$", "rot_z": "$r_z$",
+    "creep_x": r"creepage $\xi$", "creep_y": r"creepage $\eta$", "creep_spin": r"spin $\varphi$",
     "dissipated_energy": "dissipated energy, sum",
     "wear_volume1": "volume removed of body 1", "wear_volume2": "volume removed of body 2",
 }  # fmt: skip
@@ -12,6 +13,7 @@ FIELDS = {
     "pressure": ("pressure", "$p$"), "shear": ("shear", "$|q|$"), "slip": ("slip", "$|s|$"),
     "shear_x": ("shear", "$q_x$"), "shear_y": ("shear", "$q_y$"), "slip_x": ("slip", "$s_x$"),
     "slip_y": ("slip", "$s_y$"), "state": ("state", ""), "gap": ("gap", "$g$"),
+    "slip_velocity": ("slip velocity over $V$,", "$|s|$"), "power_density": ("power density over $V$,", "$|q||s|$"),
     "wear_depth1": ("depth removed of body 1,", "$w_1$"), "wear_depth2": ("depth removed of body 2,", "$w_2$"),
 }  # fmt: skip
 

@@ -71,6 +71,8 @@ def scalars(path, figures=LAST):
             for name, values in results.history.items():
                 if values.ndim == 1:
                     found[name] = (values[-1].item(), results.units[name])
+            if results.is_steady:
+                return found, None
             # without any solution the energy is unknown, not zero
             total = float(np.sum(results.series(ENERGY))) if results.solved.size else np.nan
             found[ENERGY + "_sum"] = (total, results.units[ENERGY])

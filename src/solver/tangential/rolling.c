@@ -160,20 +160,35 @@ static PetscErrorCode SumLoads(const Work *w, float project, float z[], double l
 */
 static void FitColumns(PetscInt n, const double gram[], double x[])
 {
-  double A[SAM_ROLLING_COLUMNS * SAM_ROLLING_COLUMNS], b[SAM_ROLLING_COLUMNS] = {0}, scale[SAM_ROLLING_COLUMNS];
+  double    A[SAM_ROLLING_COLUMNS][SAM_ROLLING_COLUMNS], b[SAM_ROLLING_COLUMNS], scale[SAM_ROLLING_COLUMNS];
+  PetscBool used[SAM_ROLLING_COLUMNS] = {PETSC_FALSE};
 
   for (PetscInt k = 0; k < n; k++) {
-    for (PetscInt l = k; l < n; l++) A[k * n + l] = A[l * n + k] = gram[l - k];
+    for (PetscInt l = k; l < n; l++) A[k][l] = A[l][k] = gram[l - k];
     b[k]     = gram[n - k];
     scale[k] = gram[0] > 0 ? 1 / sqrt(gram[0]) : 0;
     gram += n + 1 - k;
   }
   for (PetscInt k = 0; k < n; k++) {
-    for (PetscInt l = 0; l < n; l++) A[k * n + l] *= scale[k] * scale[l];
+    for (PetscInt l = 0; l < n; l++) A[k][l] *= scale[k] * scale[l];
     b[k] *= scale[k];
   }
-  SamSolveSymmetric(n, A, b, DEPENDENT, x);
-  for (PetscInt k = 0; k < n; k++) x[k] *= scale[k];
+  for (PetscInt step = 0; step < n; step++) { /* Gauss and Jordan's elimination, the largest pivot first */
+    PetscInt p = -1;
+
+    for (PetscInt k = 0; k < n; k++)
+      if (!used[k] && A[k][k] > (p < 0 ? DEPENDENT : A[p][p])) p = k;
+    if (p < 0) break;
+    used[p] = PETSC_TRUE;
+    for (PetscInt k = 0; k < n; k++) {
+      const double factor = A[k][p] / A[p][p];
+
+      if (k == p) continue;
+      for (PetscInt l = 0; l < n; l++) A[k][l] -= factor * A[p][l];
+      b[k] -= factor * b[p];
+    }
+  }
+  for (PetscInt k = 0; k < n; k++) x[k] = used[k] ? scale[k] * b[k] / A[k][k] : 0;
 }
 
 /* Adds to the new direction what makes up for the loads, `load` being the shear with the phi. */

@@ -1,0 +1,106 @@
+"""petsam-plot of steady rolling: creep curves; stick and slip zones with arrows of slip velocity, power density."""
+
+import subprocess
+
+import numpy as np
+import pytest
+from matplotlib.quiver import Quiver
+
+import petsam
+from petsam.plot import maps, series
+from support import ROOT, ball, history
+
+CASE = dict(ball(32), rolling="steady")
+
+
+@pytest.fixture(scope="module")
+def rolled(solve, tmp_path_factory):
+    """rolled(columns, *rows): the results of such creepages and loads."""
+    folder = tmp_path_factory.mktemp("history")
+
+    def run(columns, *rows):
+        table = folder / f"{columns.replace(',', '_')}.csv"
+        return solve(CASE, history(table, f"time,{columns}", *[(k, *row) for k, row in enumerate(rows)])).path
+
+    return run
+
+
+def curve(rolled):
+    """Under longitudinal creepage; the lateral one and the spin are found, and are zero to rounding."""
+    return rolled("creep_x", (2e-4,), (4e-4,), (8e-4,), (2e-3,))
+
+
+def labels(figure):
+    return [axes.get_ylabel().split(",")[0] for axes in figure.axes if axes.lines]
+
+
+def below(figure):
+    return {axes.get_xlabel() for axes in figure.axes if axes.get_xlabel()}
+
+
+def test_the_history_is_a_creep_curve(rolled):
+    with petsam.open(curve(rolled)) as results:
+        figure = series.history([results])
+        assert labels(figure) == ["$T_x$", "stick area"]
+        assert below(figure) == {r"creepage $\xi$"}
+        x, y = figure.axes[0].lines[0].get_data()
+        assert np.array_equal(x, results.history["creep_x"]) and np.allclose(y, results.history["load_tx"])
+        over_time = series.history([results], ["load_tx"], "time").axes[0]
+        assert np.array_equal(over_time.lines[0].get_xdata(), [0, 1, 2, 3])
+
+
+def test_the_curve_is_over_what_varies_most(rolled):
+    """Spin times the size of the contact counts beside creepages; what else varies is a curve of its own."""
+    rows = (1e-4, 0.0, 0.1), (1.1e-4, 0.0, 1.0), (1e-4, 0.0, 3.0)
+    with petsam.open(rolled("creep_x,creep_y,creep_spin", *rows)) as results:
+        figure = series.history([results])
+        assert below(figure) == {r"spin $\varphi$, 1/m"}
+        assert labels(figure) == ["$T_x$", "$T_y$", "$M_z$", r"creepage $\xi$", "stick area"]
+
+
+def test_spin_counts_with_the_size_of_the_contact(rolled):
+    with petsam.open(rolled("creep_x,creep_spin,load_ty", (1e-4, 0.1, 0.0), (1e-3, 0.2, 0.0))) as results:
+        assert below(series.history([results])) == {r"creepage $\xi$"}
+
+
+def test_a_curve_of_loads_is_over_the_creepage_that_they_need(rolled):
+    with petsam.open(rolled("load_ty,creep_spin", (2.0, 0.0), (6.0, 0.0), (10.0, 0.0))) as results:
+        figure = series.history([results])
+        assert below(figure) == {r"creepage $\eta$"} and "$T_y$" in labels(figure)
+
+
+def test_arrows_of_slip_velocity_on_the_cells_that_slip(rolled):
+    with petsam.open(curve(rolled)) as results:
+        figure = maps.maps([(results, results.of_step(3))], whole=True)
+        titles = [axes.get_title() for axes in figure.axes if axes.images]
+        assert titles == ["pressure $p$", "shear $|q|$", "power density over $V$, $|q||s|$", "state"]
+        panel = next(axes for axes in figure.axes if axes.get_title() == "state")
+        (arrows,) = (one for one in panel.collections if isinstance(one, Quiver))
+        x, y = (1e-6 * np.asarray(values) for values in (arrows.X, arrows.Y))
+        i, j = (np.argmin(np.abs(axis[:, None] - at), axis=0) for axis, at in ((results.x, x), (results.y, y)))
+        state, vx, vy = (results.field(name, 2) for name in ("state", "slip_velocity_x", "slip_velocity_y"))
+        assert 10 < i.size < 18 * 18 and np.allclose(results.x[i], x) and np.allclose(results.y[j], y)
+        assert np.all(state[j, i] == 2) and np.array_equal(arrows.U, vx[j, i]) and np.array_equal(arrows.V, vy[j, i])
+        assert np.mean(arrows.U) < 0  # against the shear of a positive creepage
+
+
+def test_power_density_is_a_field_by_name(rolled):
+    with petsam.open(curve(rolled)) as results:
+        q, v = (np.hypot(results.field(f"{name}_x"), results.field(f"{name}_y")) for name in ("shear", "slip_velocity"))
+        power = results.quantity("power_density")
+        assert np.array_equal(power, q * v) and results.about("power_density")[0] == "Pa"
+        cell = (results.x[1] - results.x[0]) * (results.y[1] - results.y[0])
+        assert np.sum(power) * cell == pytest.approx(results.history["rolling_energy_cells"][-1])
+        assert len(maps.maps([(results, results.of_last())], names=["power_density"]).axes) == 1
+
+
+def test_all_pictures_of_a_file(rolled, tmp_path):
+    done = subprocess.run(
+        [ROOT / "scripts/petsam-plot", curve(rolled)], cwd=tmp_path, capture_output=True, text=True, timeout=120
+    )
+    assert done.returncode == 0, done.stderr
+    assert [line.rpartition("_")[2] for line in done.stdout.split()[1::2]] == [
+        "maps.png",
+        "profiles.png",
+        "history.png",
+    ]
