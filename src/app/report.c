@@ -180,7 +180,8 @@ static PetscErrorCode KeepEnergy(SamReport r, SamContact contact)
 
   PetscFunctionBegin;
   PetscCall(SamContactGetNumber(contact, "energy_error", &error));
-  if (isnan(error)) PetscFunctionReturn(PETSC_SUCCESS); /* of rolling */
+  if (isnan(error)) r->energy[1] = -INFINITY; /* of rolling: there is no estimate for all */
+  if (isnan(error)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamContactGetNumber(contact, "dissipated_energy", &energy));
   r->energy[0] += energy;
   r->energy[1] += error;

@@ -277,10 +277,7 @@ static PetscErrorCode SetField(petsam_contact *c, const char name[], const doubl
   PetscCall(SamGridIsFinite(c->setup->grid, c->work, &finite));
   PetscCheck(finite, c->comm, SAM_ERR_USER, "%s: not all values are finite numbers", name);
   PetscCall(SamEmbedForget(c));
-  if (gap)
-    PetscCall(SetGap(c, c->work));
-  else
-    PetscCall(SamProblemSetFrictionField(c->setup->problem, c->work));
+  PetscCall(gap ? SetGap(c, c->work) : SamProblemSetFrictionField(c->setup->problem, c->work));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

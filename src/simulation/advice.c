@@ -34,7 +34,8 @@ PetscErrorCode SamSimulationPrepareAdvice(SamSimulation s, PetscInt first)
   }
   PetscCall(SamProblemHasFriction(s->setup.problem, &rubs));
   PetscCall(SamContactGetSettings(s->setup.contact, &set));
-  if (rubs && set.coupling && s->needs.steps == 1 && fabs(s->setup.pair.dundurs) > DISSIMILAR)
+  if (rubs && set.coupling && set.rolling == SAM_ROLLING_NONE && s->needs.steps == 1 &&
+      fabs(s->setup.pair.dundurs) > DISSIMILAR)
     PetscCall(
       SamSimulationWarn(s,
                         "elastically dissimilar bodies with friction slip while the normal load grows, here in one "
