@@ -28,8 +28,11 @@ PETSC_EXTERN PetscErrorCode SamContactCreate(SamProblem problem, SamContact *con
 PETSC_EXTERN PetscErrorCode SamContactDestroy(SamContact *contact);
 /* SamContactSetOptionsPrefix - the prefix of its options and of its solvers'; NULL: none. Not collective. */
 PETSC_EXTERN PetscErrorCode SamContactSetOptionsPrefix(SamContact contact, const char prefix[]);
-/* Whether the contact rolls in steady state, which each step is then; steps of time roll by SamControl. */
-typedef enum { SAM_ROLLING_NONE, SAM_ROLLING_STEADY } SamRolling;
+/*
+  SamContactIsSteady - whether the contact rolls in steady state, as its elasticity does: each step is such a state.
+  Steps of time roll by SamControl. Not collective.
+*/
+PETSC_EXTERN PetscBool SamContactIsSteady(SamContact contact);
 /*
   SamContactSettings - of a contact; its defaults are those of SamContactGetSettings() on a new one.
   With coupling the normal and the tangential problem of dissimilar materials are solved in turn, a pass each, until one
@@ -48,16 +51,15 @@ typedef struct {
   PetscBool        coupling_monitor; /* print the change after each pass (false; -coupling_monitor) */
   PetscBool        warm_start;     /* start a step from the steps before, on the finest grid only (true; -warm_start) */
   SamSlipDirection slip_direction; /* (auto; -slip_direction) */
-  PetscReal  cycle_memory; /* bytes on all ranks for steps of a repeated load cycle: a step that the cycle before had
+  PetscReal cycle_memory; /* bytes on all ranks for steps of a repeated load cycle: a step that the cycle before had
                                  starts from that, with the same solution within the tolerances; what is kept is in no
                                  state and no checkpoint, from which the bits differ then (0: none; -cycle_memory) */
-  SamRolling rolling;      /* towards +x; as the elasticity does, and not to be set */
-  PetscBool  allow_edge;   /* contact at the grid's edge is a warning, no status (false; -allow_edge_contact) */
-  PetscBool  edges;        /* areas, and tractions at points, by reconstructed contact and stick edges (edges.h);
+  PetscBool allow_edge;   /* contact at the grid's edge is a warning, no status (false; -allow_edge_contact) */
+  PetscBool edges;        /* areas, and tractions at points, by reconstructed contact and stick edges (edges.h);
                                  else by counted cells, wrong by a part of a cell along the edge (true; -edges
                                  reconstruct or none; with deferred the law of that name corrects the pressure too) */
-  PetscBool  spots;        /* count the contact spots and compute the mean gap (false; -contact_spots) */
-  PetscBool  print_check;  /* print the errors of each step (false; -contact_check) */
+  PetscBool spots;        /* count the contact spots and compute the mean gap (false; -contact_spots) */
+  PetscBool print_check;  /* print the errors of each step (false; -contact_check) */
 } SamContactSettings;
 /*
   SamContactSetSettings, SamContactGetSettings - not collective, the same on all ranks. Errors:

@@ -16,14 +16,6 @@ static double Get(SamContact contact, const char name[])
   return id < 0 ? NAN : *SamStateReadNumbers(state, id);
 }
 
-/* Whether the contact rolls in steady state: then there is no slip since the start. */
-static PetscBool IsSteady(SamContact contact)
-{
-  SamContactSettings set;
-
-  return !SamContactGetSettings(contact, &set) && set.rolling == SAM_ROLLING_STEADY;
-}
-
 /* ---- what is zero to rounding ---- */
 
 /* Sizes of forces and moments, translations and rotations; of the latter as they act at the border of the contact. */
@@ -62,7 +54,7 @@ static double Rounded(const SamStep *s, PetscInt c, const PetscReal values[], co
 
 static PetscErrorCode ViewSolution(const SamStep *s, SamContact c, const Sizes *sizes, PetscViewer viewer)
 {
-  const PetscBool rolls = IsSteady(c);
+  const PetscBool rolls = SamContactIsSteady(c);
   const double passes = Get(c, "coupling_iterations"), move = ROUNDING * sizes->rigid[0], work = sizes->load[0] * move;
 
   PetscFunctionBegin;
@@ -100,7 +92,7 @@ PetscErrorCode SamStepView(const SamStep *s, SamContact contact, PetscViewer vie
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
     const PetscInt          c     = order[k];
     const SamComponentName *name  = &SamComponentNames[c];
-    const PetscBool         creep = name->creep && IsSteady(contact), load = s->control.force[c];
+    const PetscBool         creep = name->creep && SamContactIsSteady(contact), load = s->control.force[c];
     char                    fine[96] = "";
 
     if (creep) {
@@ -176,7 +168,7 @@ static void WriteColumn(SamReport r, const SamStep *s, SamContact contact, int k
                         char text[], size_t size)
 {
   const Sizes  sizes  = GetSizes(s, contact);
-  const char  *name   = k == SLIP && IsSteady(contact) ? "slip_velocity_max" : columns[k].number;
+  const char  *name   = k == SLIP && SamContactIsSteady(contact) ? "slip_velocity_max" : columns[k].number;
   const double number = name[0] ? Get(contact, name) : 0;
 
   if (k == STEP)
@@ -208,9 +200,9 @@ PetscErrorCode SamReportStepLine(SamReport r, const SamStep *s, SamContact conta
       if (!r->shown[k]) continue;
       WriteColumn(r, s, contact, k, seconds, left, text, sizeof(text));
       used += (size_t)snprintf(line + used, sizeof(line) - used, "%*s", columns[k].width,
-                               !heading                         ? text
-                               : k == SLIP && IsSteady(contact) ? "slip/V"
-                                                                : columns[k].heading);
+                               !heading                                   ? text
+                               : k == SLIP && SamContactIsSteady(contact) ? "slip/V"
+                                                                          : columns[k].heading);
     }
     PetscCall(PetscPrintf(r->comm, "%s\n", line));
     if (!heading) PetscFunctionReturn(PETSC_SUCCESS);

@@ -19,7 +19,6 @@ PetscErrorCode SamContactCreate(SamProblem problem, SamContact *contact)
   PetscCall(SamProblemGetElasticity(problem, &c->elasticity));
   PetscCall(SamProblemGetGrid(problem, &c->grid));
   PetscCall(SamElasticityGetTraits(c->elasticity, &c->traits));
-  c->set.rolling = c->traits.steady ? SAM_ROLLING_STEADY : SAM_ROLLING_NONE;
   PetscCall(SamNormalCreate(c->elasticity, &c->normal));
   PetscCall(SamTangentialCreate(c->elasticity, &c->tangential));
   PetscCall(SamStateCreate(c->grid, &c->state));
@@ -66,8 +65,7 @@ PetscErrorCode SamContactSetSettings(SamContact c, const SamContactSettings *set
              "coupling iterations max_it = %" PetscInt_FMT ": expected at least 1", settings->coupling_max_it);
   PetscCheck(settings->cycle_memory >= 0, c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
              "cycle memory = %.6g: expected a number >= 0", (double)settings->cycle_memory);
-  c->set         = *settings;
-  c->set.rolling = c->traits.steady ? SAM_ROLLING_STEADY : SAM_ROLLING_NONE;
+  c->set = *settings;
   PetscCall(SamRecallSetMemory(c->recall, settings->cycle_memory));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -225,6 +223,11 @@ PetscErrorCode SamContactGetField(SamContact c, const char name[], Vec field)
   PetscCall(VecRestoreArrayWrite(field, &to));
   PetscCall(VecRestoreArrayRead(holder, &from));
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscBool SamContactIsSteady(SamContact c)
+{
+  return c->traits.steady;
 }
 
 PetscErrorCode SamContactOfferCondition(SamContact c, PetscInt k)

@@ -66,14 +66,13 @@ PetscErrorCode SamContactCheckRolling(SamContact c, const SamControl *control)
   PetscFunctionBegin;
   PetscCall(SamElasticityGetType(c->elasticity, &type));
   PetscCheck(isfinite(rolled), c->grid->comm, SAM_ERR_USER, "roll is not a finite number");
-  PetscCheck(rolled == 0 || c->set.rolling == SAM_ROLLING_NONE, c->grid->comm, SAM_ERR_USER,
+  PetscCheck(rolled == 0 || !c->traits.steady, c->grid->comm, SAM_ERR_USER,
              "roll = %.6g: has no meaning with -rolling steady: omit one of them", (double)rolled);
   PetscCheck(rolled == 0 || !c->traits.periodic, c->grid->comm, SAM_ERR_USER,
              "roll = %.6g: expected 0: bodies of type %s do not roll", (double)rolled, type);
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++)
-    PetscCheck(!control->creep[k] || control->value[k] == 0 || rolled != 0 || c->set.rolling == SAM_ROLLING_STEADY,
-               c->grid->comm, SAM_ERR_USER,
-               "%s = %.6g: a creepage needs a rolled distance: give roll or roll_y, or -rolling steady",
+    PetscCheck(!control->creep[k] || control->value[k] == 0 || rolled != 0 || c->traits.steady, c->grid->comm,
+               SAM_ERR_USER, "%s = %.6g: a creepage needs a rolled distance: give roll or roll_y, or -rolling steady",
                SamComponentNames[k].creep, (double)control->value[k]);
   for (PetscInt k = 0; k < SAM_COMPONENTS && c->traits.steady; k++)
     PetscCheck(!SamComponentNames[k].creep || SamControlWay(control, k) != SAM_BY_RIGID, c->grid->comm, SAM_ERR_USER,

@@ -173,6 +173,6 @@ PetscErrorCode SamSetupAddParameters(const SamSetup *s, SamParameters *p)
   PetscCall(AddGap(s, p));
   PetscCall(SamContactGetSettings(s->contact, &set));
   PetscCall(SamParametersAddText(p, "coupling", PETSC_TRUE, set.coupling ? "full" : "none"));
-  PetscCall(SamParametersAddText(p, "rolling", PETSC_TRUE, set.rolling == SAM_ROLLING_STEADY ? "steady" : "none"));
+  PetscCall(SamParametersAddText(p, "rolling", PETSC_TRUE, SamContactIsSteady(s->contact) ? "steady" : "none"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -34,7 +34,7 @@ PetscErrorCode SamSimulationPrepareAdvice(SamSimulation s, PetscInt first)
   }
   PetscCall(SamProblemHasFriction(s->setup.problem, &rubs));
   PetscCall(SamContactGetSettings(s->setup.contact, &set));
-  if (rubs && set.coupling && set.rolling == SAM_ROLLING_NONE && s->needs.steps == 1 &&
+  if (rubs && set.coupling && !SamContactIsSteady(s->setup.contact) && s->needs.steps == 1 &&
       fabs(s->setup.pair.dundurs) > DISSIMILAR)
     PetscCall(
       SamSimulationWarn(s,

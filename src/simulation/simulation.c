@@ -79,17 +79,15 @@ static PetscErrorCode Offer(SamSimulation s)
 /* Refuses a program of which no step has a meaning, before the first is solved. */
 static PetscErrorCode CheckRolling(SamSimulation s)
 {
-  SamContactSettings set;
-  SamControl         control;
+  SamControl control;
 
   PetscFunctionBegin;
-  PetscCall(SamContactGetSettings(s->setup.contact, &set));
   for (PetscInt k = 0; k < s->needs.steps; k++) {
     PetscCall(SamHistoryGetStep(s->history, k, &control));
     PetscCall(SamContactCheckRolling(s->setup.contact, &control));
     PetscCheck(SamControlRolled(&control) == 0 || !s->needs.life, s->comm, SAM_ERR_USER,
                "roll with -wear_cycles: surfaces that roll are worn step by step: omit one of them");
-    PetscCheck(s->step_rtol == 0 || (SamControlRolled(&control) == 0 && set.rolling == SAM_ROLLING_NONE), s->comm,
+    PetscCheck(s->step_rtol == 0 || (SamControlRolled(&control) == 0 && !SamContactIsSteady(s->setup.contact)), s->comm,
                SAM_ERR_USER, "-step_rtol with rolling, which has no estimate of the energy's error: use -steps");
   }
   PetscFunctionReturn(PETSC_SUCCESS);

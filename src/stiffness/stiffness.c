@@ -152,11 +152,8 @@ static void Transform(const Systems *s, const PetscBool rotations[3], SamStiffne
 
 static PetscErrorCode CheckSteady(SamContact contact)
 {
-  SamContactSettings set;
-
   PetscFunctionBegin;
-  PetscCall(SamContactGetSettings(contact, &set));
-  PetscCheck(set.rolling == SAM_ROLLING_NONE, PETSC_COMM_SELF, SAM_ERR_USER,
+  PetscCheck(!SamContactIsSteady(contact), PETSC_COMM_SELF, SAM_ERR_USER,
              "-stiffness: has no meaning with -rolling steady, where loads follow from creepages: omit it");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
