@@ -192,12 +192,14 @@ void SamIncrementTurnRow(const SamIncrement *s, PetscInt j, double *const to[2])
 
   for (PetscInt i = 0; i < s->grid->nx; i++) {
     const ptrdiff_t k = first + i, l = k + cells;
-    const double    x0 = b0[k] > 0 ? q0[k] / b0[k] : 0, y0 = b0[k] > 0 ? q0[l] / b0[k] : 0;
-    const double    x1 = b1[k] > 0 ? q1[k] / b1[k] : 0, y1 = b1[k] > 0 ? q1[l] / b1[k] : 0;
-    const double    along = x0 * x1 + y0 * y1, weight = PetscMax(0.5 * (x0 * x0 + y0 * y0 + along), 0);
+    const double    x = to[0][i] = s->row[0][i], y = to[1][i] = s->row[1][i];
+
+    if (b0[k] == 0 && b1[k] == 0) continue; /* no shear, which turns by no angle */
+    const double x0 = b0[k] > 0 ? q0[k] / b0[k] : 0, y0 = b0[k] > 0 ? q0[l] / b0[k] : 0;
+    const double x1 = b1[k] > 0 ? q1[k] / b1[k] : 0, y1 = b1[k] > 0 ? q1[l] / b1[k] : 0;
+    const double along = x0 * x1 + y0 * y1, weight = PetscMax(0.5 * (x0 * x0 + y0 * y0 + along), 0);
     const double c = x1 * x1 + y1 * y1 + weight * along, d = weight * (x0 * y1 - y0 * x1), size = sqrt(c * c + d * d);
     const double cosine = size > 0 ? c / size : 1, sine = size > 0 ? d / size : 0;
-    const double x = s->row[0][i], y = s->row[1][i];
 
     to[0][i] = cosine * x - sine * y;
     to[1][i] = sine * x + cosine * y;
