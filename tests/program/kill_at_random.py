@@ -71,8 +71,11 @@ def differences(one, two):
 
 
 def torture(launcher, folder, kills, ranks, seed, say=lambda text: None):
-    """So many kills over as many runs as it takes; returns how many went on from a checkpoint."""
-    chance, restarts = random.Random(seed), 0
+    """So many kills over as many runs as it takes; returns how many went on from a checkpoint.
+
+    Where none did, as each kill was earlier than the first checkpoint, up to ten times as many kills.
+    """
+    chance, restarts, more = random.Random(seed), 0, 9 * kills
     write_history(folder)
     begin = time.monotonic()
     run = start(launcher, folder, [CASE, dict(output="whole.h5"), KEPT, dict(checkpoint="whole.state.h5")], ranks)
@@ -83,6 +86,8 @@ def torture(launcher, folder, kills, ranks, seed, say=lambda text: None):
         told_before = complete_steps(folder / "out.h5") if (folder / "state.h5").exists() else 0
         goes_on = (folder / "state.h5").exists()
         restarts += goes_on
+        if kills <= 0 and restarts == 0 and more > 0:
+            kills, more = 1, more - 1
         run = start(launcher, folder, [CASE, KEPT, dict(restart="state.h5") if goes_on else {}], ranks)
         try:
             out, err = run.communicate(timeout=chance.uniform(0, length) if kills > 0 else None)
