@@ -21,7 +21,7 @@ typedef struct SamSymbol {
   /* of layered bodies (layered/waves.c): */
   const SamSpline *table;   /* symbols times |k|, by k^2 in 1/m^2 */
   double           unit;    /* 1/m^2 in units of k^2 */
-  double           floor;   /* least symbol in inverses: rounding on a rigid base */
+  double           top;     /* the normal symbol of the materials at the surfaces */
   PetscBool        inverse; /* the inverses of the symbols */
   void (*multiply)(const struct SamSymbol *symbol, SamWaves waves); /* in place */
 } SamSymbol;

@@ -1,8 +1,17 @@
-/* Layered bodies on waves: products with their symbols and the inverses. */
+/*
+  Layered bodies on waves: products with their symbols c/|k| and the inverses |k|/c.
+
+  On a part of the surface the inverse is a preconditioner. It holds the surface about a contact in place, as if it were
+  clamped, and a hard film on a soft bed resists that like a plate, far more than with the free surface that it has: on
+  the contact, the inverse is up to E1/E2 times too large at the edge. Where c is more than that of the surface's
+  material, c_top, the normal inverse therefore takes c_top (c/c_top)^(3/4). Measured at E1/E2 = 100 and a film of a
+  hundredth of the contact's radius: 15 to 80 iterations at 64 to 512 cells; with c itself 21 to no convergence.
+*/
 #include "../waves.h"
 #include <math.h>
 
 #define CHUNK 256
+#define LEAST 1e-12 /* c/c_top in inverses: less is rounding, on a rigid base */
 
 /* Of some waves: |k|^2, never 0, and the gains along and across them. */
 typedef struct {
@@ -25,9 +34,10 @@ static PetscInt Gains(const SamSymbol *s, const SamWaves *at, PetscInt first, Sa
   }
   SamSplineRow(s->table, symbol, n, argument, gain);
   for (PetscInt m = 0; m < n; m++) {
-    const double k = sqrt(k2[m]);
+    const double k = sqrt(k2[m]), ratio = gain[m] / s->top, root = sqrt(PetscMax(ratio, 1)),
+                 eased = symbol == SAM_LAYERED_ZZ && ratio > 1 ? root * sqrt(root) : PetscMax(ratio, LEAST);
 
-    gain[m] = s->inverse ? s->gain * k / PetscMax(gain[m], s->floor) : s->gain * gain[m] / k;
+    gain[m] = s->inverse ? s->gain * k / (s->top * eased) : s->gain * gain[m] / k;
   }
   if (!s->inverse && at->kx == 0 && first == at->origin) gain[0] = 0;
   return n;
@@ -51,6 +61,6 @@ PetscErrorCode SamLayeredSymbolSet(SamLayered layered, PetscReal length, PetscIn
   PetscCall(SamLayeredPrepare(layered, 0, k));
   s->table = &layered->symbols;
   s->unit  = 1 / (length * length);
-  s->floor = 1e-12 * 2 * PETSC_PI * layered->pair.normal;
+  s->top   = 2 * PETSC_PI * layered->pair.normal;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
