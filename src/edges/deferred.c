@@ -250,7 +250,7 @@ static PetscErrorCode MakePasses(Work *w, PetscInt *made)
   *made = 0;
   PetscCall(SamElasticityGetTraits(w->law->elasticity, &traits));
   if (!traits.within)
-    PetscCall(PetscStrncpy(why, "it is supported for -elasticity halfspace only", sizeof(why)));
+    PetscCall(PetscStrncpy(why, "it is supported for -elasticity halfspace without layers only", sizeof(why)));
   else
     PetscCall(SamProfileStart(w->profile, w->c->pressure, &edge, &found));
   if (edge.smooth < SMOOTH * edge.faces)

@@ -179,14 +179,14 @@ static PetscErrorCode ReadLayers(const SamOptions *from, PetscInt b, SamLayers *
   }
   if (!most || print) PetscFunctionReturn(PETSC_SUCCESS);
   for (int l = 0; l < LISTS; l++)
-    PetscCall(SamOptionsRequire(from, count[l] > 0, lists[b][l], "with the other two lists of the body's layers"));
+    PetscCall(SamOptionsRequire(from, count[l] > 0, lists[b][l], "the layers of a body need all three lists"));
   for (; count[POISSON] == 1 && layers->count < most; layers->count++)
     layers->poisson[layers->count] = layers->poisson[0];
   if (count[POISSON] == 1) count[POISSON] = most;
   layers->count = most;
   for (int l = 0; l < LISTS; l++)
     PetscCheck(count[l] == most, from->comm, SAM_ERR_USER,
-               "-%s%s has %" PetscInt_FMT " values for %" PetscInt_FMT " layers: give one for each layer",
+               "-%s%s is given for %" PetscInt_FMT " of %" PetscInt_FMT " layers: give a number for each",
                SamOptionsPrefix(from), lists[b][l], count[l], most);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -32,9 +32,6 @@ typedef enum { SAM_LAYERED_ZZ, SAM_LAYERED_ZR, SAM_LAYERED_RR, SAM_LAYERED_TT, S
 */
 PETSC_INTERN void SamLayeredSymbols(const SamPair *pair, PetscInt body, double k, double total[SAM_LAYERED_SYMBOLS],
                                     double difference[SAM_LAYERED_SYMBOLS]);
-/* SamLayeredLimits - the differences for k -> 0, of one body; the thickness of all its layers. Not collective. */
-PETSC_INTERN void SamLayeredLimits(const SamPair *pair, PetscInt body, double difference[SAM_LAYERED_SYMBOLS],
-                                   double *thickness);
 
 /*
   SamSpline - functions of s >= 0 as polynomials of degree 9 on intervals: from 0 to `least`, then eight to each factor 2

@@ -22,6 +22,7 @@
 #define NEAR    0.15 /* of the depth: within, the series */
 #define TERMS   10
 #define AROUND  12    /* points of the interpolation */
+#define LONGEST 1e-18 /* smallest k times the thickness */
 #define FASTEST 200.0 /* largest k times the depth */
 
 static const int orders[SAM_RADIAL_FUNCTIONS] = {0, 0, 2, 1};
@@ -166,17 +167,18 @@ static void Values(const void *context, double s, double values[])
 
 PetscErrorCode SamRadialCreate(const SamPair *pair, double depth, double r, SamSpline *table)
 {
-  double    limit[SAM_LAYERED_SYMBOLS], thickest;
+  double    ignored[SAM_LAYERED_SYMBOLS], limit[SAM_LAYERED_SYMBOLS], thickest;
   Transform t = {.depth = depth, .y0 = -log(FASTEST / depth)};
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < 2; b++) {
-    SamLayeredLimits(pair, b + 1, limit, &t.thickness[b]);
+    for (PetscInt n = 0; n < pair->layers[b].count; n++) t.thickness[b] += (double)pair->layers[b].thickness[n];
+    SamLayeredSymbols(pair, b + 1, LONGEST / PetscMax(t.thickness[b], depth), ignored, limit);
     if (!b) limit[SAM_LAYERED_ZR] = -limit[SAM_LAYERED_ZR];
     Combine(limit, t.image[b]);
   }
   thickest = PetscMax(t.thickness[0], t.thickness[1]);
-  t.x0     = log(1e-18 / thickest);
+  t.x0     = log(LONGEST / thickest);
   t.n      = (int)ceil((log(FASTEST / depth) - t.x0) / STEP);
   for (int f = 0; f < SAM_RADIAL_FUNCTIONS; f++) PetscCall(PetscMalloc1(t.n, &t.remainder[f]));
   Sample(&t, pair);

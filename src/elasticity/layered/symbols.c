@@ -124,32 +124,3 @@ void SamLayeredSymbols(const SamPair *pair, PetscInt body, double k, double tota
     }
   }
 }
-
-void SamLayeredLimits(const SamPair *pair, PetscInt body, double difference[SAM_LAYERED_SYMBOLS], double *thickness)
-{
-  const SamLayers *layers = &pair->layers[body - 1];
-  Matrix           m      = {{{0}}};
-  double           across = 0;
-
-  *thickness = 0;
-  for (PetscInt n = 0; n < layers->count; n++) *thickness += layers->thickness[n];
-  if (!isinf(pair->young[body - 1])) {
-    const Material substrate = MaterialOf(pair->young[body - 1], pair->poisson[body - 1]);
-
-    m      = substrate.half_space;
-    across = 1 / substrate.mu;
-  }
-  if (layers->count) {
-    const Material top = MaterialOf(layers->young[0], layers->poisson[0]);
-
-    m = Plus(m, -1, top.half_space);
-    across -= 1 / top.mu;
-  } else {
-    m      = (Matrix){{{0}}};
-    across = 0;
-  }
-  difference[SAM_LAYERED_ZZ] = -m.m[1][1];
-  difference[SAM_LAYERED_ZR] = -m.m[1][0];
-  difference[SAM_LAYERED_RR] = -m.m[0][0];
-  difference[SAM_LAYERED_TT] = across;
-}
