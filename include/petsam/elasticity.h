@@ -30,6 +30,7 @@ typedef struct {
   PetscBool mean;   /* a uniform traction displaces the surface; else displacements are relative to the mean planes */
   PetscBool parts;  /* where only a part of the grid has traction, an operator on that part suffices */
   PetscBool within; /* the pressure may vary within cells */
+  PetscBool layers; /* the bodies may have layers */
   PetscBool stress; /* stresses in the bodies are available; set by the class */
 } SamElasticityTraits;
 

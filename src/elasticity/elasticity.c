@@ -140,6 +140,9 @@ PetscErrorCode SamElasticitySetFromOptions(SamElasticity e)
   PetscCall(SamFourierSettingsFromOptions(&e->fft, &from));
   if (strcmp(type, e->type) || e->is_set_up || (e->inner && e->inner->is_set_up))
     PetscCall(SamElasticitySetType(e, type)); /* made anew with the settings */
+  PetscCheck(e->traits.layers || !SamPairHasLayers(&e->pair), from.comm, SAM_ERR_USER,
+             "-%selasticity %s: not supported with layers: use %s or %s", e->prefix, type, SAM_ELASTICITY_HALFSPACE,
+             SAM_ELASTICITY_PERIODIC);
   for (SamElasticity o = e; o; o = o->inner) {
     o->fft = e->fft;
     if (o->ops.setfromoptions) PetscCall((*o->ops.setfromoptions)(o, &from));

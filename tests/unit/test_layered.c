@@ -508,6 +508,30 @@ static void test_stresses_of_layered_bodies_are_refused(void **state)
   sam_call(SamGridDestroy(&grid));
 }
 
+/* A type that does not know of layers refuses them. */
+static PetscErrorCode CreateBare(SamElasticity e)
+{
+  e->traits = (SamElasticityTraits){.mean = PETSC_TRUE};
+  return 0;
+}
+
+static void test_types_without_layers_refuse_them(void **state)
+{
+  const SamPair pair = PairOf(&plain, &hard);
+  SamGrid       grid = NewGrid(16, 16, 4, 4);
+  SamElasticity e;
+
+  (void)state;
+  sam_call(SamElasticityRegister("bare", CreateBare));
+  sam_call(SamElasticityCreate(grid, &pair, &e));
+  sam_call(PetscOptionsInsertString(NULL, "-elasticity bare"));
+  sam_fails(SamElasticitySetFromOptions(e), SAM_ERR_USER);
+  sam_assert(strstr(CaughtMessage(), "-elasticity bare: not supported with layers") != NULL);
+  sam_call(PetscOptionsClear(NULL));
+  sam_call(SamElasticityDestroy(&e));
+  sam_call(SamGridDestroy(&grid));
+}
+
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_symbols_have_reference_values),
@@ -523,6 +547,7 @@ int main(int argc, char **argv)
                                      cmocka_unit_test(test_results_are_the_same_on_any_number_of_ranks),
                                      cmocka_unit_test(test_bodies_with_layers_come_back_from_their_parameters),
                                      cmocka_unit_test(test_layers_couple),
+                                     cmocka_unit_test(test_types_without_layers_refuse_them),
                                      cmocka_unit_test(test_stresses_of_layered_bodies_are_refused)};
 
   return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));

@@ -324,7 +324,8 @@ PetscErrorCode SamElasticityCreate_HalfSpace(SamElasticity e)
                                     .rotations = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE},
                                     .mean      = PETSC_TRUE,
                                     .parts     = PETSC_TRUE,
-                                    .within    = !data->layers};
+                                    .within    = !data->layers,
+                                    .layers    = PETSC_TRUE};
   e->ops    = (SamElasticityOps){.inherit                 = Inherit,
                                  .setup                   = SetUp,
                                  .destroy                 = Destroy,

@@ -339,18 +339,19 @@ PetscErrorCode SamElasticityCreate_Periodic(SamElasticity e)
   PetscCall(PetscNew(&data));
   if (SamPairHasLayers(&e->pair)) PetscCall(SamLayeredCreate(&e->pair, &data->layers));
   e->data   = data;
-  e->traits = (SamElasticityTraits){.coupled = SamElasticityPairIsCoupled(&e->pair), .periodic = PETSC_TRUE};
-  e->ops    = (SamElasticityOps){.inherit                 = Inherit,
-                                 .setup                   = SetUp,
-                                 .destroy                 = Destroy,
-                                 .applynormal             = ApplyNormal,
-                                 .applytangential         = ApplyTangential,
-                                 .applynormalsingle       = ApplyNormalSingle,
-                                 .applytangentialsingle   = ApplyTangentialSingle,
-                                 .preconditionnormal      = PreconditionNormal,
-                                 .preconditiontangential  = PreconditionTangential,
-                                 .getselfinfluence        = GetSelfInfluence,
-                                 .applynormaltotangential = ApplyNormalToTangential,
-                                 .applytangentialtonormal = ApplyTangentialToNormal};
+  e->traits = (SamElasticityTraits){
+    .coupled = SamElasticityPairIsCoupled(&e->pair), .periodic = PETSC_TRUE, .layers = PETSC_TRUE};
+  e->ops = (SamElasticityOps){.inherit                 = Inherit,
+                              .setup                   = SetUp,
+                              .destroy                 = Destroy,
+                              .applynormal             = ApplyNormal,
+                              .applytangential         = ApplyTangential,
+                              .applynormalsingle       = ApplyNormalSingle,
+                              .applytangentialsingle   = ApplyTangentialSingle,
+                              .preconditionnormal      = PreconditionNormal,
+                              .preconditiontangential  = PreconditionTangential,
+                              .getselfinfluence        = GetSelfInfluence,
+                              .applynormaltotangential = ApplyNormalToTangential,
+                              .applytangentialtonormal = ApplyTangentialToNormal};
   PetscFunctionReturn(PETSC_SUCCESS);
 }
