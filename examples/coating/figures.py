@@ -113,14 +113,19 @@ class Comparison:
         over = [float(h) for h in THICKNESSES]
         for e in RATIOS:
             cases = [self.cases[e, h] for h in THICKNESSES]
-            for panel, values, column in ((axes[0], [c.central for c in cases], 1), (axes[1], [c.contact for c in cases], 0)):
+            for panel, values, column in (
+                (axes[0], [c.central for c in cases], 1),
+                (axes[1], [c.contact for c in cases], 0),
+            ):
                 joined(panel, over, values, TINTS[e], "o-", label=f"$E_1/E_2 = {e}$")
                 exact = [(float(h), EXACT[e, h][column]) for h in THICKNESSES if (e, h) in EXACT]
                 panel.plot(*zip(*exact), "x", color="black", markersize=7, zorder=3)
         axes[1].plot([], [], "x", color="black", label="integral equations")
         for e, h in SHAPES:
             case, row = self.cases[e, h], self.cases[e, h].y.size // 2
-            axes[2].plot(case.x / A, case["pressure"][row] / P0, color=TINTS[e], label=f"$E_1/E_2 = {e}$, $h = {h}\\,a$")
+            axes[2].plot(
+                case.x / A, case["pressure"][row] / P0, color=TINTS[e], label=f"$E_1/E_2 = {e}$, $h = {h}\\,a$"
+            )
         for panel in axes[:2]:
             panel.set_xscale("log")
         frame(axes[0], "Central pressure", "$h/a$", "$p/p_0$")

@@ -34,11 +34,11 @@ PETSC_INTERN void SamLayeredSymbols(const SamPair *pair, PetscInt body, double k
                                     double difference[SAM_LAYERED_SYMBOLS]);
 
 /*
-  SamSpline - functions of s >= 0 as polynomials of degree 9 on intervals: from 0 to `least`, then eight to each factor 2
-  of s, which the leading bits of s choose, up to `most`. Arguments beyond are taken as the nearest. Errors are 1e-15
+  SamSpline - functions of s >= 0 as polynomials of degree 9 on intervals: from 0 to `least`, then eight to each factor
+  2 of s, which the leading bits of s choose, up to `most`. Arguments beyond are taken as the nearest. Errors are 1e-15
   where a function is analytic about its interval as far as its distance from 0.
-  SamSplineCreate - from the values of all functions at s. SamSplineRow - values of a function at s[0 ... n - 1], quickly
-  where consecutive arguments share an interval. None is collective.
+  SamSplineCreate - from the values of all functions at s. SamSplineRow - values of a function at s[0 ... n - 1],
+  quickly where consecutive arguments share an interval. None is collective.
 */
 #define SAM_SPLINE_DEGREE 9
 typedef struct {

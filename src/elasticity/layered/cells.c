@@ -1,7 +1,7 @@
 /*
   Integrals of the radial functions over cells, by Gauss' quadrature; and the tables of a pair.
 
-  The functions are smooth on the scale of R, R^2 = r^2 + depth^2, where they behave like those of an image as deep. With
+  The functions are smooth on the scale of R, R^2 = r^2 + depth^2, where they behave like those of such an image. With
   R in units of the longer side:
     R < 8     parts of the cell, halved or quartered until half their diagonal is below R/3.5, 8 x 8 points each
     R < 45    the whole cell, 5 x 5 points as far as 13, then 4 x 4

@@ -2,10 +2,10 @@
   Functions of a positive number by polynomials on intervals that its exponent and the three leading bits of its
   mantissa number.
 
-  On an interval from c to 9/8 c at most, a function that is analytic as far as 0 has Chebyshev coefficients that fall by
-  34 from one to the next, so that degree 9 leaves 1e-15. The coefficients come from the values at Chebyshev's points and
-  are turned into powers of t, -1 <= t <= 1, for Horner's scheme: consecutive arguments of one interval are worked off
-  together, without roots or logarithms.
+  On an interval from c to 9/8 c at most, a function that is analytic as far as 0 has Chebyshev coefficients that fall
+  by 34 from one to the next, so that degree 9 leaves 1e-15. The coefficients come from the values at Chebyshev's points
+  and are turned into powers of t, -1 <= t <= 1, for Horner's scheme: consecutive arguments of one interval are worked
+  off together, without roots or logarithms.
 */
 #include <petsam/private/layered.h>
 
