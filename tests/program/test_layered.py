@@ -85,6 +85,21 @@ def test_approach_at_a_radius(layers, base, load, approach, tolerance, solve):
 
 
 @pytest.mark.parametrize(
+    "layers, load, pressure, normal, torsional",
+    [
+        (HARD, 2.9554498519, 1.1558854318, 2.920029573, 7.1857743038),
+        (SOFT, 0.33284904952, 0.18502222302, 1.0104898017, 0.22334887107),
+    ],
+)
+def test_peak_and_stiffness_at_a_radius(layers, load, pressure, normal, torsional, solve):
+    """The stiffness in approach, and in torsion when all sticks."""
+    r = solve(sphere(layers, 2.6, friction=MU, coupling="none", stiffness=True), dict(load_n=load * E * A**3))
+    assert peak(r) == pytest.approx(pressure * E * A, rel=3e-5)
+    assert r["stiffness"][0, 0] == pytest.approx(normal * E * A, rel=2e-3)
+    assert r["stiffness_reversal"][5, 5] == pytest.approx(torsional * E * A**3, rel=5e-3)
+
+
+@pytest.mark.parametrize(
     "layers, load, moment, rotation",
     [(HARD, 1.477724926, 0.591408579, 0.571777852), (SOFT, 0.1664245248, 0.531573613, 2.577468433)],
 )
