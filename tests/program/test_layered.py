@@ -121,6 +121,17 @@ def test_tangential_force_on_alike_coated_bodies(layers, load, displacement, sol
     assert r["disp_x"] == pytest.approx(displacement * A**2, rel=1e-4)
 
 
+@pytest.mark.parametrize(
+    "young, thickness, load, most",
+    [(0.01, 0.01, 0.597, 12), (0.1, 0.3, 0.341, 12), (10, 0.1, 2.05, 22), (100, 0.01, 1.65, 45), (100, 0.1, 3.08, 40)],
+)
+def test_iterations_on_films(young, thickness, load, most, solve):
+    """Also of a hard film on a soft body, where the inverse of the symbols alone needs 130 iterations."""
+    r = solve(sphere([(young, 0.3, thickness)], 2.6, n=128), dict(load_n=load * E * A**3))
+    assert r["contact_area"] == pytest.approx(np.pi * A**2, rel=0.05)
+    assert r["normal_iterations"] <= most
+
+
 def test_coupled_bodies_slip_at_much_friction(solve):
     """A hard film on one body: coupled, with friction 1; solved and checked, and the same on any number of ranks."""
     case = sphere(HARD, 2.6, n=48, other=SOFT, friction=1.0, load_n=0.2 * E * A**3)

@@ -21,6 +21,9 @@ typedef struct {
   PetscReal x[POINTS], w[POINTS]; /* on (-1/2, 1/2) */
 } Rule;
 
+/* Gauss' rules of 0 to POINTS points, filled by SamLayeredCreate(). */
+static Rule rules[POINTS + 1];
+
 /* The values of a kernel at (x[i], y), i < n <= CHUNK + 2 STENCIL, times the weight, added. */
 static void AddPoints(SamLayered l, SamLayeredCell kind, double weight, PetscInt n, const double x[], double y,
                       double values[])
@@ -50,20 +53,10 @@ static void AddPoints(SamLayered l, SamLayeredCell kind, double weight, PetscInt
                                                 : y);
 }
 
-/* Gauss' rules of 0 to POINTS points. */
-static const Rule *Rules(void)
-{
-  static Rule rules[POINTS + 1];
-
-  for (PetscInt n = 2; n <= POINTS && rules[POINTS].w[0] == 0; n++)
-    if (PetscDTGaussQuadrature(n, -0.5, 0.5, rules[n].x, rules[n].w)) abort(); /* only for invalid arguments */
-  return rules;
-}
-
 /* The integral over a rectangle of these sides about (x, y), by n x n points. */
 static double Integrate(SamLayered l, SamLayeredCell kind, int n, const double centre[2], const double side[2])
 {
-  const Rule *rule = &Rules()[n];
+  const Rule *rule = &rules[n];
   double      x[POINTS], values[POINTS] = {0}, sum = 0;
 
   for (int i = 0; i < n; i++) x[i] = centre[0] + side[0] * rule->x[i];
@@ -106,7 +99,7 @@ static void AddFar(SamLayered l, SamLayeredCell kind, int across, const double s
   static const double weights[] = {1 - 2.0 / 24 - 17 * 6.0 / 5760 - 367 * 20.0 / 967680,
                                    1.0 / 24 + 17 * 4.0 / 5760 + 367 * 15.0 / 967680, -17.0 / 5760 - 367 * 6.0 / 967680,
                                    367.0 / 967680};
-  const Rule         *rule      = &Rules()[across];
+  const Rule         *rule      = &rules[across];
   double              x[CHUNK + 2 * STENCIL], f[CHUNK + 2 * STENCIL];
 
   for (PetscInt start = first; start < end; start += CHUNK) {
@@ -145,6 +138,7 @@ void SamLayeredAddRow(SamLayered l, SamLayeredCell kind, double dx, double dy, P
 PetscErrorCode SamLayeredCreate(const SamPair *pair, SamLayered *layered)
 {
   PetscFunctionBegin;
+  for (PetscInt n = 2; n <= POINTS; n++) PetscCall(PetscDTGaussQuadrature(n, -0.5, 0.5, rules[n].x, rules[n].w));
   PetscCall(PetscNew(layered));
   (*layered)->references = 1;
   (*layered)->pair       = *pair;
