@@ -4,6 +4,7 @@
 
 #include <petsam/private/baseimpl.h>
 #include <petsam/material.h>
+#include <petsam/private/halfspace.h>
 
 /*
   The way of the data, for a pair whose bodies have layers (material.h):
@@ -77,18 +78,16 @@ PETSC_INTERN PetscErrorCode SamRadialCreate(const SamPair *pair, double depth, d
 
 /*
   SamLayeredAddRow - adds the integrals over the cells at the lags (i, j), i = 0 ... n - 1: the displacement at a point
-  (i dx, j dy) from the centre of a cell under unit traction, less that of the surface's half-spaces. Errors are 1e-12
-  of the radial functions. Not collective.
+  (i dx, j dy) from the centre of a cell under unit traction, less that of the surface's half-spaces. `kind`: what has
+  this integral of half-spaces; u_z from p: R, u_x from q_x: XX, u_x from p: X. Errors are 1e-12 of the functions.
+  SamLayeredAddSlopeRow - the same of u_z from pressures that are linear as those of SamSlopeRow(), 1e-6 if the layers
+  are 8 cells thick. SamLayeredRectangle - one over a rectangle; `level` of its division: 0. None is collective.
 */
-typedef enum {
-  SAM_LAYERED_CELL_ZZ,
-  SAM_LAYERED_CELL_XX,
-  SAM_LAYERED_CELL_YY,
-  SAM_LAYERED_CELL_XY,
-  SAM_LAYERED_CELL_XZ,
-  SAM_LAYERED_CELL_YZ
-} SamLayeredCell;
-PETSC_INTERN void SamLayeredAddRow(SamLayered layered, SamLayeredCell kind, double dx, double dy, PetscInt j,
-                                   PetscInt n, double values[]);
+PETSC_INTERN void   SamLayeredAddSlopeRow(SamLayered layered, int axis, double dx, double dy, PetscInt j, PetscInt n,
+                                          double values[]);
+PETSC_INTERN double SamLayeredRectangle(SamLayered layered, SamIntegral kind, int level, const double centre[2],
+                                        const double side[2]);
+PETSC_INTERN void   SamLayeredAddRow(SamLayered layered, SamIntegral kind, double dx, double dy, PetscInt j, PetscInt n,
+                                     double values[]);
 
 #endif

@@ -19,6 +19,9 @@ typedef struct {
   SamLayered layers;          /* NULL: none */
 } HalfSpace;
 
+/* The thinnest layers on which edges are those of half-spaces: 8 cells, twice the depth. */
+#define THICK 16
+
 /* A kernel is a sum of at most two integrals over the cell. */
 typedef struct {
   double      dx, dy;
@@ -62,7 +65,7 @@ static void CoefficientRow(PetscInt j, PetscInt n, double *const values[], const
     SamIntegralRow(c->integral[1], c->dx, c->dy, j, start, count, more);
     for (PetscInt i = 0; i < count; i++) values[0][start + i] += c->factor[1] * more[i];
   }
-  if (c->layers) SamLayeredAddRow(c->layers, (SamLayeredCell)c->kind, c->dx, c->dy, j, n, values[0]);
+  if (c->layers) SamLayeredAddRow(c->layers, (SamIntegral)c->kind, c->dx, c->dy, j, n, values[0]);
 }
 
 /* The layers' part of kernels needs a table as far as the lags reach. */
@@ -83,7 +86,7 @@ static double SelfInfluence(SamElasticity e, Kind kind)
   double             v = c.factor[0] * SamIntegralCell(c.integral[0], c.dx, c.dy, 0, 0);
 
   if (c.factor[1] != 0) v += c.factor[1] * SamIntegralCell(c.integral[1], c.dx, c.dy, 0, 0);
-  if (c.layers) SamLayeredAddRow(c.layers, (SamLayeredCell)kind, c.dx, c.dy, 0, 1, &v);
+  if (c.layers) SamLayeredAddRow(c.layers, (SamIntegral)kind, c.dx, c.dy, 0, 1, &v);
   return v;
 }
 
@@ -96,9 +99,17 @@ static PetscErrorCode GetSelfInfluence(SamElasticity e, PetscReal *normal, Petsc
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+typedef struct {
+  SamSlopeKernel kernel;
+  SamLayered     layers;
+} Slopes;
+
 static void SlopeRow(PetscInt j, PetscInt n, double *const values[], const void *context)
 {
-  SamSlopeRow((const SamSlopeKernel *)context, j, n, values[0]);
+  const Slopes *c = (const Slopes *)context;
+
+  SamSlopeRow(&c->kernel, j, n, values[0]);
+  if (c->layers) SamLayeredAddSlopeRow(c->layers, c->kernel.axis, c->kernel.dx, c->kernel.dy, j, n, values[0]);
 }
 
 static PetscErrorCode GetKernel(SamElasticity e, Kind kind, SamKernel *kernel)
@@ -113,12 +124,14 @@ static PetscErrorCode GetKernel(SamElasticity e, Kind kind, SamKernel *kernel)
     PetscCall(PrepareLayers(e));
     PetscCall(SamKernelsCreate(e->fourier, 1, odd, CoefficientRow, &c, kept));
   } else if (!*kept) {
-    const int            axis     = kind - SLOPE_X;
-    const PetscBool      odd[][2] = {{axis == 0, axis == 1}};
-    SamSlopeRules        rules;
-    const SamSlopeKernel c = {
-      .rules = &rules, .axis = axis, .dx = e->grid->dx, .dy = e->grid->dy, .factor = e->pair.normal};
+    const int       axis     = kind - SLOPE_X;
+    const PetscBool odd[][2] = {{axis == 0, axis == 1}};
+    SamSlopeRules   rules;
+    const Slopes    c = {
+         .kernel = {.rules = &rules, .axis = axis, .dx = e->grid->dx, .dy = e->grid->dy, .factor = e->pair.normal},
+         .layers = ((const HalfSpace *)e->data)->layers};
 
+    PetscCall(PrepareLayers(e));
     PetscCall(SamSlopeRulesCreate(&rules));
     PetscCall(SamKernelsCreate(e->fourier, 1, odd, SlopeRow, &c, kept));
   }
@@ -271,14 +284,19 @@ static PetscErrorCode GetNear(SamElasticity e, PetscInt reach, PetscInt sub, dou
 {
   const double   dx = e->grid->dx / (double)sub, dy = e->grid->dy / (double)sub;
   const PetscInt lags = 2 * reach + 1, cells = sub * sub;
+  SamLayered     layers = ((const HalfSpace *)e->data)->layers;
 
   PetscFunctionBegin;
+  PetscCall(PrepareLayers(e));
   for (PetscInt n = 0; n < lags * lags * cells; n++) {
     const PetscInt lag = n / cells, cell = n % cells;
     const PetscInt i = (lag % lags - reach) * sub + sub / 2 - cell % sub,
                    j = (lag / lags - reach) * sub + sub / 2 - cell / sub;
 
     table[n] = e->pair.normal * SamIntegralCell(SAM_INTEGRAL_R, dx, dy, i, j);
+    if (layers)
+      table[n] += SamLayeredRectangle(layers, SAM_INTEGRAL_R, 0, (const double[]){(double)i * dx, (double)j * dy},
+                                      (const double[]){dx, dy});
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -318,28 +336,29 @@ PetscErrorCode SamElasticityCreate_HalfSpace(SamElasticity e)
   PetscFunctionBegin;
   PetscCall(PetscNew(&data));
   if (SamPairHasLayers(&e->pair)) PetscCall(SamLayeredCreate(&e->pair, &data->layers));
-  e->data   = data;
-  e->traits = (SamElasticityTraits){.coupled   = SamElasticityPairIsCoupled(&e->pair),
-                                    .stretch   = PETSC_TRUE,
-                                    .rotations = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE},
-                                    .mean      = PETSC_TRUE,
-                                    .parts     = PETSC_TRUE,
-                                    .within    = !data->layers,
-                                    .layers    = PETSC_TRUE};
-  e->ops    = (SamElasticityOps){.inherit                 = Inherit,
-                                 .setup                   = SetUp,
-                                 .destroy                 = Destroy,
-                                 .applynormal             = ApplyNormal,
-                                 .applytangential         = ApplyTangential,
-                                 .applynormalsingle       = ApplyNormalSingle,
-                                 .applytangentialsingle   = ApplyTangentialSingle,
-                                 .preconditionnormal      = PreconditionNormal,
-                                 .preconditiontangential  = PreconditionTangential,
-                                 .getselfinfluence        = GetSelfInfluence,
-                                 .createstress            = CreateStress,
-                                 .applynormaltotangential = ApplyNormalToTangential,
-                                 .applytangentialtonormal = ApplyTangentialToNormal,
-                                 .applynormalslopes       = ApplyNormalSlopes,
-                                 .getnear                 = GetNear};
+  e->data = data;
+  e->traits =
+    (SamElasticityTraits){.coupled   = SamElasticityPairIsCoupled(&e->pair),
+                          .stretch   = PETSC_TRUE,
+                          .rotations = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE},
+                          .mean      = PETSC_TRUE,
+                          .parts     = PETSC_TRUE,
+                          .within = !data->layers || data->layers->depth >= THICK * PetscMax(e->grid->dx, e->grid->dy),
+                          .layers = PETSC_TRUE};
+  e->ops = (SamElasticityOps){.inherit                 = Inherit,
+                              .setup                   = SetUp,
+                              .destroy                 = Destroy,
+                              .applynormal             = ApplyNormal,
+                              .applytangential         = ApplyTangential,
+                              .applynormalsingle       = ApplyNormalSingle,
+                              .applytangentialsingle   = ApplyTangentialSingle,
+                              .preconditionnormal      = PreconditionNormal,
+                              .preconditiontangential  = PreconditionTangential,
+                              .getselfinfluence        = GetSelfInfluence,
+                              .createstress            = CreateStress,
+                              .applynormaltotangential = ApplyNormalToTangential,
+                              .applytangentialtonormal = ApplyTangentialToNormal,
+                              .applynormalslopes       = ApplyNormalSlopes,
+                              .getnear                 = GetNear};
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -25,36 +25,29 @@ typedef struct {
 static Rule rules[POINTS + 1];
 
 /* The values of a kernel at (x[i], y), i < n <= CHUNK + 2 STENCIL, times the weight, added. */
-static void AddPoints(SamLayered l, SamLayeredCell kind, double weight, PetscInt n, const double x[], double y,
+static void AddPoints(SamLayered l, SamIntegral kind, double weight, PetscInt n, const double x[], double y,
                       double values[])
 {
-  double s[CHUNK + 2 * STENCIL], f[CHUNK + 2 * STENCIL];
+  static const SamRadial function[] = {SAM_RADIAL_N, SAM_RADIAL_A, SAM_RADIAL_A,
+                                       SAM_RADIAL_B, SAM_RADIAL_C, SAM_RADIAL_C};
+  const double           sign       = kind == SAM_INTEGRAL_XX ? weight : -weight;
+  double                 s[CHUNK + 2 * STENCIL], f[CHUNK + 2 * STENCIL];
 
   for (PetscInt i = 0; i < n; i++) s[i] = x[i] * x[i] + y * y;
-  if (kind == SAM_LAYERED_CELL_XX || kind == SAM_LAYERED_CELL_YY) {
-    const double sign = kind == SAM_LAYERED_CELL_XX ? weight : -weight;
-
-    SamSplineRow(&l->radial, SAM_RADIAL_A, n, s, f);
-    for (PetscInt i = 0; i < n; i++) values[i] += weight * f[i];
-    SamSplineRow(&l->radial, SAM_RADIAL_B, n, s, f);
-    for (PetscInt i = 0; i < n; i++) values[i] += sign * f[i] * (x[i] * x[i] - y * y);
-    return;
-  }
-  SamSplineRow(&l->radial,
-               kind == SAM_LAYERED_CELL_ZZ   ? SAM_RADIAL_N
-               : kind == SAM_LAYERED_CELL_XY ? SAM_RADIAL_B
-                                             : SAM_RADIAL_C,
-               n, s, f);
+  SamSplineRow(&l->radial, function[kind], n, s, f);
   for (PetscInt i = 0; i < n; i++)
     values[i] += weight * f[i] *
-                 (kind == SAM_LAYERED_CELL_ZZ   ? 1
-                  : kind == SAM_LAYERED_CELL_XY ? 2 * x[i] * y
-                  : kind == SAM_LAYERED_CELL_XZ ? x[i]
-                                                : y);
+                 (kind < SAM_INTEGRAL_XY    ? 1
+                  : kind == SAM_INTEGRAL_XY ? 2 * x[i] * y
+                  : kind == SAM_INTEGRAL_X  ? x[i]
+                                            : y);
+  if (kind != SAM_INTEGRAL_XX && kind != SAM_INTEGRAL_YY) return;
+  SamSplineRow(&l->radial, SAM_RADIAL_B, n, s, f);
+  for (PetscInt i = 0; i < n; i++) values[i] += sign * f[i] * (x[i] * x[i] - y * y);
 }
 
 /* The integral over a rectangle of these sides about (x, y), by n x n points. */
-static double Integrate(SamLayered l, SamLayeredCell kind, int n, const double centre[2], const double side[2])
+static double Integrate(SamLayered l, SamIntegral kind, int n, const double centre[2], const double side[2])
 {
   const Rule *rule = &rules[n];
   double      x[POINTS], values[POINTS] = {0}, sum = 0;
@@ -65,7 +58,7 @@ static double Integrate(SamLayered l, SamLayeredCell kind, int n, const double c
   return sum * side[0] * side[1];
 }
 
-static double Divide(SamLayered l, SamLayeredCell kind, int level, const double centre[2], const double side[2])
+double SamLayeredRectangle(SamLayered l, SamIntegral kind, int level, const double centre[2], const double side[2])
 {
   const double R2       = centre[0] * centre[0] + centre[1] * centre[1] + l->depth * l->depth;
   const int    parts[2] = {side[1] > 2 * side[0] ? 1 : 2, side[0] > 2 * side[1] ? 1 : 2};
@@ -78,7 +71,7 @@ static double Divide(SamLayered l, SamLayeredCell kind, int level, const double 
     const double at[2]   = {centre[0] + (k % parts[0] - 0.5 * (parts[0] - 1)) * part[0],
                             centre[1] + (k / parts[0] - 0.5 * (parts[1] - 1)) * part[1]};
 
-    sum += Divide(l, kind, level + 1, at, part);
+    sum += SamLayeredRectangle(l, kind, level + 1, at, part);
   }
   return sum;
 }
@@ -93,7 +86,7 @@ static PetscInt FirstBeyond(SamLayered l, double R, const double side[2], PetscI
 }
 
 /* Lags first ... end - 1 of a row, by this many rows of points across a cell. */
-static void AddFar(SamLayered l, SamLayeredCell kind, int across, const double side[2], PetscInt j, PetscInt first,
+static void AddFar(SamLayered l, SamIntegral kind, int across, const double side[2], PetscInt j, PetscInt first,
                    PetscInt end, double values[])
 {
   static const double weights[] = {1 - 2.0 / 24 - 17 * 6.0 / 5760 - 367 * 20.0 / 967680,
@@ -118,7 +111,7 @@ static void AddFar(SamLayered l, SamLayeredCell kind, int across, const double s
   }
 }
 
-void SamLayeredAddRow(SamLayered l, SamLayeredCell kind, double dx, double dy, PetscInt j, PetscInt n, double values[])
+void SamLayeredAddRow(SamLayered l, SamIntegral kind, double dx, double dy, PetscInt j, PetscInt n, double values[])
 {
   const double   side[2] = {dx, dy};
   const PetscInt parts = FirstBeyond(l, 8, side, j, n), fifth = FirstBeyond(l, 13, side, j, n),
@@ -127,10 +120,27 @@ void SamLayeredAddRow(SamLayered l, SamLayeredCell kind, double dx, double dy, P
   for (PetscInt i = 0; i < fourth; i++) {
     const double centre[2] = {(double)i * dx, (double)j * dy};
 
-    values[i] += i < parts ? Divide(l, kind, 0, centre, side) : Integrate(l, kind, i < fifth ? 5 : 4, centre, side);
+    values[i] +=
+      i < parts ? SamLayeredRectangle(l, kind, 0, centre, side) : Integrate(l, kind, i < fifth ? 5 : 4, centre, side);
   }
   AddFar(l, kind, 3, side, j, fourth, third, values);
   AddFar(l, kind, 2, side, j, third, n, values);
+}
+
+void SamLayeredAddSlopeRow(SamLayered l, int axis, double dx, double dy, PetscInt j, PetscInt n, double values[])
+{
+  const Rule *rule = &rules[3];
+  double      x[CHUNK];
+
+  for (PetscInt start = 0; start < n; start += CHUNK)
+    for (int k = 0; k < 9; k++) {
+      const int      a = k % 3, b = k / 3;
+      const PetscInt count = PetscMin(CHUNK, n - start);
+
+      for (PetscInt i = 0; i < count; i++) x[i] = ((double)(start + i) - rule->x[a]) * dx;
+      AddPoints(l, SAM_INTEGRAL_R, dx * dy * rule->w[a] * rule->w[b] * rule->x[axis ? b : a], count, x,
+                ((double)j - rule->x[b]) * dy, values + start);
+    }
 }
 
 /* ---- the tables ---- */
