@@ -75,6 +75,9 @@ PETSC_EXTERN PetscErrorCode SamOptionsReal(const SamOptions *from, const char na
                                            PetscReal *value, PetscBool *set);
 PETSC_EXTERN PetscErrorCode SamOptionsRealPair(const SamOptions *from, const char name[], const char help[],
                                                SamRange range, PetscReal value[2], PetscBool *set);
+/* SamOptionsReals - a list of up to `most` numbers in the range, and how many; 0: the option is absent. */
+PETSC_EXTERN PetscErrorCode SamOptionsReals(const SamOptions *from, const char name[], const char help[],
+                                            SamRange range, PetscInt most, PetscReal values[], PetscInt *count);
 /* SamOptionsInt, SamOptionsIntPair - the same for whole numbers from `least` on. */
 PETSC_EXTERN PetscErrorCode SamOptionsInt(const SamOptions *from, const char name[], const char help[], PetscInt least,
                                           PetscInt *value, PetscBool *set);

@@ -33,6 +33,7 @@ typedef struct {
   PetscBool parts;  /* where only a part of the grid has traction, an operator on that part suffices */
   PetscBool within; /* the pressure may vary within cells */
   PetscBool steady; /* rolls towards +x: u_t is a velocity relative to that of rolling, the operator not symmetric */
+  PetscBool layers; /* the bodies may have layers */
   PetscBool stress; /* stresses in the bodies are available; set by the class */
 } SamElasticityTraits;
 

@@ -5,15 +5,25 @@
 #include <petsam/parameters.h>
 
 /*
+  SamLayers - bonded layers on a body, from the surface down.
+*/
+#define SAM_LAYERS 32 /* most on a body */
+typedef struct {
+  PetscInt  count;                                                         /* 0: none */
+  PetscReal young[SAM_LAYERS], poisson[SAM_LAYERS], thickness[SAM_LAYERS]; /* Pa, finite; 1; m */
+} SamLayers;
+
+/*
   SamPair - the elastic constants of two isotropic bodies, and the sums of them that the displacements of their surfaces
   depend on (relative displacements: elasticity.h). At a distance r on two half-spaces a unit force gives
     u_z from p:   normal / r
     u_x from q_x: shear / r + shear_xx x^2 / r^3,   u_y from q_x: shear_xx x y / r^3
     u_x from p:   coupling x / r^2,                 u_z from q_x: -coupling x / r^2
-  (Johnson 1985, Contact Mechanics, sections 3.2 and 3.6).
+  (Johnson 1985, Contact Mechanics, sections 3.2 and 3.6). On layered bodies this is the limit for small r: the sums are
+  those of the materials at the surfaces.
 */
 typedef struct {
-  PetscReal young[2]; /* Pa; infinite: rigid */
+  PetscReal young[2]; /* Pa; infinite: rigid; of the substrate below layers */
   PetscReal poisson[2];
   PetscReal normal;   /* sum (1 - nu)/(2 pi G), 1/Pa */
   PetscReal shear;    /* the same */
@@ -21,7 +31,8 @@ typedef struct {
   PetscReal coupling; /* [(1 - 2 nu1)/G1 - (1 - 2 nu2)/G2]/(4 pi), 1/Pa */
   PetscReal modulus;  /* E* = 1/(pi normal), Pa */
   PetscReal dundurs;  /* Dundurs' beta = coupling/normal */
-  PetscReal film[2];  /* thickness (m) and shear modulus (Pa) of a film between the surfaces; 0: none */
+  SamLayers layers[2];
+  PetscReal film[2]; /* thickness (m) and shear modulus (Pa) of a film between the surfaces; 0: none */
 } SamPair;
 /* SamPairFilm - what a unit of shear displaces the surfaces by in the film, m/Pa. Not collective. */
 PETSC_EXTERN PetscReal SamPairFilm(const SamPair *pair);
@@ -33,8 +44,17 @@ PETSC_EXTERN PetscReal SamPairFilm(const SamPair *pair);
 */
 PETSC_EXTERN PetscErrorCode SamPairSet(SamPair *pair, const PetscReal young[2], const PetscReal poisson[2]);
 /*
-  SamPairSetFromOptions - from -body1_young, -body1_poisson, -body2_young, -body2_poisson, and the film's
-  -film_thickness and -film_shear. Collective. Errors: SAM_ERR_USER, as SamPairSet(), and for an option that is missing.
+  SamPairSetLayered - the same of bodies with layers; a rigid body with layers is elastic. Not collective. Errors: as
+  SamPairSet(), and for a layer that is rigid or whose thickness is not positive, or too many.
+  SamPairHasLayers - whether a body has any. Not collective.
+*/
+PETSC_EXTERN PetscErrorCode SamPairSetLayered(SamPair *pair, const PetscReal young[2], const PetscReal poisson[2],
+                                              const SamLayers layers[2]);
+PETSC_EXTERN PetscBool      SamPairHasLayers(const SamPair *pair);
+/*
+  SamPairSetFromOptions - from -body1_young, -body1_poisson, -body1_layer_young, -body1_layer_poisson,
+  -body1_layer_thickness, those of body 2, and the film's -film_thickness and -film_shear. Collective. Errors:
+  SAM_ERR_USER, as SamPairSetLayered(), and for an option that is missing, or lists of different lengths.
 */
 PETSC_EXTERN PetscErrorCode SamPairSetFromOptions(SamPair *pair, const SamOptions *from);
 /*

@@ -184,6 +184,31 @@ PetscErrorCode SamOptionsRealPair(const SamOptions *from, const char name[], con
   return ReadNumbers(from, name, help, &(Kind){.pair = PETSC_TRUE, .range = range}, value, set);
 }
 
+PetscErrorCode SamOptionsReals(const SamOptions *from, const char name[], const char help[], SamRange range,
+                               PetscInt most, PetscReal values[], PetscInt *count)
+{
+  const Kind  kind = {.range = range};
+  char        expected[96], text[TEXT_SIZE];
+  const char *rest = text;
+  double      number;
+  PetscBool   good = PETSC_TRUE, found;
+
+  PetscFunctionBegin;
+  *count = 0;
+  PetscCall(Describe(from, name, help, "<number>[,...]", ""));
+  (void)snprintf(expected, sizeof(expected), "%s, or at most %d separated by commas", SamRangeDescribe(range),
+                 (int)most);
+  PetscCall(GetText(from, name, expected, text, sizeof(text), &found));
+  if (!found) PetscFunctionReturn(PETSC_SUCCESS);
+  while (good && *rest && *count < most) {
+    good               = ReadNumber(&kind, &rest, &number);
+    values[(*count)++] = number;
+  }
+  PetscCheck(good && !*rest, from->comm, SAM_ERR_USER, "-%s%s %s: expected %s", SamOptionsPrefix(from), name,
+             Quote(text), expected);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamOptionsInt(const SamOptions *from, const char name[], const char help[], PetscInt least,
                              PetscInt *value, PetscBool *set)
 {

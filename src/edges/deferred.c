@@ -250,7 +250,8 @@ static PetscErrorCode MakePasses(Work *w, PetscInt *made)
   *made = 0;
   PetscCall(SamElasticityGetTraits(w->law->elasticity, &traits));
   if (!traits.within)
-    PetscCall(PetscStrncpy(why, "it is supported for -elasticity halfspace only", sizeof(why)));
+    PetscCall(
+      PetscStrncpy(why, "it is supported for -elasticity halfspace, on layers of 8 cells at least", sizeof(why)));
   else
     PetscCall(SamProfileStart(w->profile, w->c->pressure, &edge, &found));
   if (edge.smooth < SMOOTH * edge.faces)

@@ -141,6 +141,9 @@ PetscErrorCode SamElasticitySetFromOptions(SamElasticity e)
   PetscCall(SamFourierSettingsFromOptions(&e->fft, &from));
   if (strcmp(type, e->type) || e->is_set_up || (e->inner && e->inner->is_set_up))
     PetscCall(SamElasticitySetType(e, type)); /* made anew with the settings */
+  PetscCheck(e->traits.layers || !SamPairHasLayers(&e->pair), from.comm, SAM_ERR_USER,
+             "-%selasticity %s: not supported with layers: use %s or %s", e->prefix, type, SAM_ELASTICITY_HALFSPACE,
+             SAM_ELASTICITY_PERIODIC);
   for (SamElasticity o = e; o; o = o->inner) {
     o->fft = e->fft;
     if (o->ops.setfromoptions) PetscCall((*o->ops.setfromoptions)(o, &from));
@@ -213,7 +216,10 @@ PetscErrorCode SamElasticityGetTraits(SamElasticity e, SamElasticityTraits *trai
 
 PetscBool SamElasticityPairIsCoupled(const SamPair *pair)
 {
-  /* bodies of equal constants cancel exactly; others may leave rounding */
+  /* bodies of equal constants and layers cancel exactly; others may leave rounding */
+  if (SamPairHasLayers(pair))
+    return pair->young[0] != pair->young[1] || pair->poisson[0] != pair->poisson[1] ||
+           memcmp(&pair->layers[0], &pair->layers[1], sizeof(pair->layers[0]));
   return PetscAbsReal(pair->dundurs) > 1e-14;
 }
 
@@ -239,6 +245,8 @@ PetscErrorCode SamElasticityCreateStress(SamElasticity e, PetscInt body, const S
              e->type);
   PetscCheck((body == 1 || body == 2) && !isinf(e->pair.young[body - 1]), e->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
              "Body %" PetscInt_FMT ": use 1 or 2, an elastic body", body);
+  PetscCheck(!e->pair.layers[body - 1].count, e->grid->comm, PETSC_ERR_SUP,
+             "Body %" PetscInt_FMT " has layers: its stresses are not available", body);
   PetscCall((*e->ops.createstress)(e, body, settings ? settings : &e->fft, stress));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -3,49 +3,94 @@
 #include <petsam/material.h>
 #include <math.h>
 
-/* The fault of invalid constants: a message that names the constant with a prefix; empty without fault. */
-static PetscErrorCode FindFault(const PetscReal young[2], const PetscReal poisson[2], const char prefix[],
-                                char message[], size_t size)
+/* One material: a body, or a layer of one. */
+typedef struct {
+  PetscReal young, poisson;
+} Material;
+
+/* The fault of a material: a message that names its constants, which begin with `name`; empty without fault. */
+static PetscErrorCode FindFaultOf(Material m, const char name[], char message[], size_t size)
 {
+  const PetscReal inverse_shear = isinf(m.young) ? 0 : 2 * (1 + m.poisson) / m.young;
+
+  PetscFunctionBegin;
+  if (!(m.young > 0))
+    PetscCall(PetscSNPrintf(message, size, "%s_young %.6g: expected a number > 0 or inf", name, (double)m.young));
+  else if (!(m.poisson > -1 && m.poisson <= 0.5))
+    PetscCall(PetscSNPrintf(message, size, "%s_poisson %.6g: expected a number above -1 and at most 0.5%s", name,
+                            (double)m.poisson, m.poisson > 1 ? ": 0.3, not 30 percent" : ""));
+  else if (!isfinite(inverse_shear) || (inverse_shear == 0 && !isinf(m.young)))
+    PetscCall(PetscSNPrintf(message, size, "%s_young %.6g: its compliance is out of range in double precision", name,
+                            (double)m.young));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The same of a body and its layers. */
+static PetscErrorCode FindFaultOfBody(Material body, const SamLayers *layers, const char name[], char message[],
+                                      size_t size)
+{
+  char layer[128];
+
+  PetscFunctionBegin;
+  PetscCall(FindFaultOf(body, name, message, size));
+  PetscCall(PetscSNPrintf(layer, sizeof(layer), "%s_layer", name));
+  for (PetscInt n = 0; n < layers->count && !message[0]; n++) {
+    PetscCall(FindFaultOf((Material){layers->young[n], layers->poisson[n]}, layer, message, size));
+    if (!message[0] && isinf(layers->young[n]))
+      PetscCall(
+        PetscSNPrintf(message, size, "%s_young inf: a layer cannot be rigid: expected a finite number > 0", layer));
+    else if (!message[0] && !(layers->thickness[n] > 0 && isfinite(layers->thickness[n])))
+      PetscCall(PetscSNPrintf(message, size, "%s_thickness %.6g: expected a finite number > 0", layer,
+                              (double)layers->thickness[n]));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The fault of invalid constants: a message that names the constant with a prefix; empty without fault. */
+static PetscErrorCode FindFault(const PetscReal young[2], const PetscReal poisson[2], const SamLayers layers[2],
+                                const char prefix[], char message[], size_t size)
+{
+  char name[96];
+
   PetscFunctionBegin;
   message[0] = '\0';
   for (int b = 0; b < 2 && !message[0]; b++) {
-    const PetscReal inverse_shear = isinf(young[b]) ? 0 : 2 * (1 + poisson[b]) / young[b];
-
-    if (!(young[b] > 0))
-      PetscCall(PetscSNPrintf(message, size, "%sbody%d_young %.6g: expected a number > 0 or inf", prefix, b + 1,
-                              (double)young[b]));
-    else if (!(poisson[b] > -1 && poisson[b] <= 0.5))
-      PetscCall(PetscSNPrintf(message, size, "%sbody%d_poisson %.6g: expected a number above -1 and at most 0.5%s",
-                              prefix, b + 1, (double)poisson[b], poisson[b] > 1 ? ": 0.3, not 30 percent" : ""));
-    else if (!isfinite(inverse_shear) || (inverse_shear == 0 && !isinf(young[b])))
-      PetscCall(PetscSNPrintf(message, size, "%sbody%d_young %.6g: its compliance is out of range in double precision",
-                              prefix, b + 1, (double)young[b]));
+    PetscCall(PetscSNPrintf(name, sizeof(name), "%sbody%d", prefix, b + 1));
+    PetscCall(FindFaultOfBody((Material){young[b], poisson[b]}, &layers[b], name, message, size));
   }
-  if (!message[0] && isinf(young[0]) && isinf(young[1]))
+  if (!message[0] && isinf(young[0]) && isinf(young[1]) && !layers[0].count && !layers[1].count)
     PetscCall(PetscSNPrintf(message, size,
                             "%sbody1_young and %sbody2_young: both bodies are rigid, at least one must be elastic",
                             prefix, prefix));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamPairSet(SamPair *pair, const PetscReal young[2], const PetscReal poisson[2])
+PetscErrorCode SamPairSetLayered(SamPair *pair, const PetscReal young[2], const PetscReal poisson[2],
+                                 const SamLayers layers[2])
 {
-  PetscReal inverse_shear[2]; /* 1/G, zero for a rigid body */
+  PetscReal inverse_shear[2], nu[2]; /* 1/G and Poisson's ratio at the surface; 1/G is zero for a rigid body */
   char      message[256];
 
   PetscFunctionBegin;
-  PetscCall(FindFault(young, poisson, "", message, sizeof(message)));
+  PetscCall(FindFault(young, poisson, layers, "", message, sizeof(message)));
   PetscCheck(!message[0], PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "%s", message);
+  PetscCall(PetscMemzero(pair, sizeof(*pair)));
   for (PetscInt b = 0; b < 2; b++) {
-    inverse_shear[b] = isinf(young[b]) ? 0 : 2 * (1 + poisson[b]) / young[b];
+    const PetscReal E = layers[b].count ? layers[b].young[0] : young[b];
+
+    pair->layers[b].count = layers[b].count;
+    PetscCall(PetscArraycpy(pair->layers[b].young, layers[b].young, layers[b].count));
+    PetscCall(PetscArraycpy(pair->layers[b].poisson, layers[b].poisson, layers[b].count));
+    PetscCall(PetscArraycpy(pair->layers[b].thickness, layers[b].thickness, layers[b].count));
+    nu[b]            = layers[b].count ? layers[b].poisson[0] : poisson[b];
+    inverse_shear[b] = isinf(E) ? 0 : 2 * (1 + nu[b]) / E;
     pair->young[b]   = young[b];
     pair->poisson[b] = poisson[b];
   }
-  pair->normal   = ((1 - poisson[0]) * inverse_shear[0] + (1 - poisson[1]) * inverse_shear[1]) / (2 * PETSC_PI);
+  pair->normal   = ((1 - nu[0]) * inverse_shear[0] + (1 - nu[1]) * inverse_shear[1]) / (2 * PETSC_PI);
   pair->shear    = pair->normal;
-  pair->shear_xx = (poisson[0] * inverse_shear[0] + poisson[1] * inverse_shear[1]) / (2 * PETSC_PI);
-  pair->coupling = ((1 - 2 * poisson[0]) * inverse_shear[0] - (1 - 2 * poisson[1]) * inverse_shear[1]) / (4 * PETSC_PI);
+  pair->shear_xx = (nu[0] * inverse_shear[0] + nu[1] * inverse_shear[1]) / (2 * PETSC_PI);
+  pair->coupling = ((1 - 2 * nu[0]) * inverse_shear[0] - (1 - 2 * nu[1]) * inverse_shear[1]) / (4 * PETSC_PI);
   pair->modulus  = 1 / (PETSC_PI * pair->normal);
   pair->dundurs  = pair->coupling / pair->normal;
   pair->film[0] = pair->film[1] = 0;
@@ -57,16 +102,40 @@ PetscReal SamPairFilm(const SamPair *pair)
   return pair->film[0] > 0 ? pair->film[0] / pair->film[1] : 0;
 }
 
-/* Options and parameters: of both bodies Young's moduli, then Poisson's ratios. */
+PetscErrorCode SamPairSet(SamPair *pair, const PetscReal young[2], const PetscReal poisson[2])
+{
+  static const SamLayers none[2];
+
+  return SamPairSetLayered(pair, young, poisson, none);
+}
+
+PetscBool SamPairHasLayers(const SamPair *pair)
+{
+  return pair->layers[0].count || pair->layers[1].count ? PETSC_TRUE : PETSC_FALSE;
+}
+
+/* Options and parameters: of both bodies Young's moduli, then Poisson's ratios; of the layers; of the film. */
 static const char *const names[] = {"body1_young", "body2_young", "body1_poisson", "body2_poisson"};
 static const char *const films[] = {"film_thickness", "film_shear"};
+enum { YOUNG, POISSON, THICKNESS, LISTS };
+static const char *const lists[2][LISTS] = {{"body1_layer_young", "body1_layer_poisson", "body1_layer_thickness"},
+                                            {"body2_layer_young", "body2_layer_poisson", "body2_layer_thickness"}};
+
+static PetscReal *ListOf(SamLayers *layers, int list)
+{
+  return list == YOUNG ? layers->young : list == POISSON ? layers->poisson : layers->thickness;
+}
 
 PetscErrorCode SamPairAddParameters(const SamPair *pair, SamParameters *p)
 {
   PetscFunctionBegin;
   for (PetscInt b = 0; b < 2; b++) {
+    SamLayers layers = pair->layers[b];
+
     PetscCall(SamParametersAddReals(p, names[b], PETSC_TRUE, 1, &pair->young[b]));
     PetscCall(SamParametersAddReals(p, names[2 + b], PETSC_TRUE, 1, &pair->poisson[b]));
+    for (int l = 0; l < LISTS && layers.count; l++)
+      PetscCall(SamParametersAddReals(p, lists[b][l], PETSC_TRUE, layers.count, ListOf(&layers, l)));
   }
   for (PetscInt k = 0; k < 2 && pair->film[0] > 0; k++)
     PetscCall(SamParametersAddReals(p, films[k], PETSC_TRUE, 1, &pair->film[k]));
@@ -75,6 +144,7 @@ PetscErrorCode SamPairAddParameters(const SamPair *pair, SamParameters *p)
 
 PetscErrorCode SamPairSetFromParameters(SamPair *pair, MPI_Comm comm, const SamParameters *p, const char source[])
 {
+  SamLayers layers[2] = {{.count = 0}, {.count = 0}};
   PetscReal value[4];
   char      message[256];
 
@@ -86,9 +156,18 @@ PetscErrorCode SamPairSetFromParameters(SamPair *pair, MPI_Comm comm, const SamP
                names[k]);
     value[k] = found->value[0];
   }
-  PetscCall(FindFault(value, value + 2, "", message, sizeof(message)));
+  for (PetscInt k = 0; k < 2 * LISTS; k++) {
+    const PetscInt      b = k / LISTS, l = k % LISTS;
+    const SamParameter *found = SamParametersFind(p, lists[b][l]);
+
+    if (!l && found) layers[b].count = found->count;
+    PetscCheck((found ? found->count : 0) == layers[b].count, comm, SAM_ERR_FILE,
+               "%s: cannot be read: the attribute %s does not fit the layers", source, lists[b][l]);
+    for (PetscInt n = 0; n < layers[b].count; n++) ListOf(&layers[b], (int)l)[n] = found->value[n];
+  }
+  PetscCall(FindFault(value, value + 2, layers, "", message, sizeof(message)));
   PetscCheck(!message[0], comm, SAM_ERR_FILE, "%s: cannot be read: %s", source, message);
-  PetscCall(SamPairSet(pair, value, value + 2));
+  PetscCall(SamPairSetLayered(pair, value, value + 2, layers));
   for (PetscInt k = 0; k < 2; k++) {
     const SamParameter *found = SamParametersFind(p, films[k]);
 
@@ -97,8 +176,38 @@ PetscErrorCode SamPairSetFromParameters(SamPair *pair, MPI_Comm comm, const SamP
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The layers of body b, whose lists must have one length; one Poisson's ratio is for all. */
+static PetscErrorCode ReadLayers(const SamOptions *from, PetscInt b, SamLayers *layers)
+{
+  static const char *const help[]  = {"Young's modulus of each layer from the surface down (Pa)",
+                                      "Poisson's ratio of each layer, or one for all", "thickness of each layer (m)"};
+  static const SamRange    range[] = {SAM_RANGE_POSITIVE_INF, SAM_RANGE_ANY, SAM_RANGE_ANY};
+  PetscInt                 count[LISTS], most = 0;
+  PetscBool                print;
+
+  PetscFunctionBegin;
+  PetscCall(SamPrintHelp(&print));
+  for (int l = 0; l < LISTS; l++) {
+    PetscCall(SamOptionsReals(from, lists[b][l], help[l], range[l], SAM_LAYERS, ListOf(layers, l), &count[l]));
+    most = PetscMax(most, count[l]);
+  }
+  if (!most || print) PetscFunctionReturn(PETSC_SUCCESS);
+  for (int l = 0; l < LISTS; l++)
+    PetscCall(SamOptionsRequire(from, count[l] > 0, lists[b][l], "the layers of a body need all three lists"));
+  for (; count[POISSON] == 1 && layers->count < most; layers->count++)
+    layers->poisson[layers->count] = layers->poisson[0];
+  if (count[POISSON] == 1) count[POISSON] = most;
+  layers->count = most;
+  for (int l = 0; l < LISTS; l++)
+    PetscCheck(count[l] == most, from->comm, SAM_ERR_USER,
+               "-%s%s is given for %" PetscInt_FMT " of %" PetscInt_FMT " layers: give a number for each",
+               SamOptionsPrefix(from), lists[b][l], count[l], most);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamPairSetFromOptions(SamPair *pair, const SamOptions *from)
 {
+  SamLayers layers[2] = {{.count = 0}, {.count = 0}};
   PetscReal young[2] = {0, 0}, poisson[2] = {0, 0};
   PetscBool has_young, has_poisson, help;
   char      message[256], prefix[80];
@@ -120,12 +229,13 @@ PetscErrorCode SamPairSetFromOptions(SamPair *pair, const SamOptions *from)
       SamOptionsReal(from, name, "Poisson's ratio: required unless rigid", SAM_RANGE_ANY, &poisson[b], &has_poisson));
     PetscCall(SamOptionsRequire(from, has_poisson || isinf(young[b]) || help, name,
                                 "Poisson's ratio (0.3 for steel; not needed for a rigid body)"));
+    PetscCall(ReadLayers(from, b, &layers[b]));
   }
   if (help) young[0] = young[1] = 1;
   PetscCall(PetscSNPrintf(prefix, sizeof(prefix), "-%s", SamOptionsPrefix(from)));
-  PetscCall(FindFault(young, poisson, prefix, message, sizeof(message)));
+  PetscCall(FindFault(young, poisson, layers, prefix, message, sizeof(message)));
   PetscCheck(!message[0], from->comm, SAM_ERR_USER, "%s", message);
-  PetscCall(SamPairSet(pair, young, poisson));
+  PetscCall(SamPairSetLayered(pair, young, poisson, layers));
   PetscCall(SamOptionsReal(from, films[0], "thickness (m) of a film between the surfaces, which shear displaces",
                            SAM_RANGE_POSITIVE, &pair->film[0], &has_young));
   PetscCall(SamOptionsReal(from, films[1], "its shear modulus (Pa)", SAM_RANGE_POSITIVE, &pair->film[1], &has_poisson));

@@ -3,6 +3,7 @@
 #define PETSAM_WAVES_H
 
 #include <petsam/private/elasticityimpl.h>
+#include <petsam/private/layered.h>
 
 /* Part of a column of spectra: entries first ... last - 1 have the wave number ky = step (m - origin). */
 typedef struct {
@@ -18,6 +19,11 @@ typedef struct SamSymbol {
   double nu;      /* of the tangential symbols: nu, or nu/(1 - nu) */
   double mean;    /* stands for |k| at k = 0 in the inverses */
   double film;    /* of the inverse tangential symbol: that is inverse to what it is without a film plus this */
+  /* of layered bodies (layered/waves.c): */
+  const SamSpline *table;   /* symbols times |k|, by k^2 in 1/m^2 */
+  double           unit;    /* 1/m^2 in units of k^2 */
+  double           top;     /* the normal symbol of the materials at the surfaces */
+  PetscBool        inverse; /* the inverses of the symbols */
   void (*multiply)(const struct SamSymbol *symbol, SamWaves waves); /* in place */
 } SamSymbol;
 
@@ -28,5 +34,19 @@ PETSC_INTERN PetscErrorCode SamSymbolApplySingle(SamElasticity elasticity, const
                                                  const float *const in[], float *const out[]);
 /* Multiplies by gain |k|, with `mean` for |k| of the mean; in single precision. */
 PETSC_INTERN void SamSymbolDivideNormal(const SamSymbol *symbol, SamWaves waves);
+/*
+  SamLayeredSymbolSet - gives a symbol whose `step` is set the tables of layered bodies, and extends these to all waves
+  of hx * hy. Not collective, the same on all ranks.
+*/
+PETSC_INTERN PetscErrorCode SamLayeredSymbolSet(SamLayered layered, PetscReal length, PetscInt hx, PetscInt hy,
+                                                SamSymbol *symbol);
+/*
+  Layered bodies, in two precisions: multiply by gain c/|k| or gain |k|/c, c the symbols out of the table. The mean
+  becomes 0, in inverses that of `mean`. Tangential: along and across each wave.
+*/
+PETSC_INTERN void SamLayeredMultiplyNormal(const SamSymbol *symbol, SamWaves waves);
+PETSC_INTERN void SamLayeredMultiplyTangential(const SamSymbol *symbol, SamWaves waves);
+PETSC_INTERN void SamLayeredMultiplyNormalSingle(const SamSymbol *symbol, SamWaves waves);
+PETSC_INTERN void SamLayeredMultiplyTangentialSingle(const SamSymbol *symbol, SamWaves waves);
 
 #endif

@@ -186,6 +186,8 @@ static PetscErrorCode CreateStress(SamEvaluation e)
   PetscCall(SamElasticityGetPair(e->elasticity, &pair));
   PetscCheck(!isinf(pair->young[e->body - 1]), e->comm, SAM_ERR_USER,
              "%sbody %" PetscInt_FMT ": it is rigid, so its stresses are undetermined", e->dash, e->body);
+  PetscCheck(!pair->layers[e->body - 1].count, e->comm, SAM_ERR_USER,
+             "%sbody %" PetscInt_FMT ": it has layers: stresses below the surface are not available", e->dash, e->body);
   PetscCall(SamStressDestroy(&e->stress));
   PetscCall(SamElasticityCreateStress(e->elasticity, e->body, e->settings, &e->stress));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -99,7 +99,7 @@ static PetscErrorCode Estimate(const SamSetup *s, PetscBool force, PetscReal val
   PetscFunctionBegin;
   PetscCall(SamGapEstimateContact(s->gap, force, force ? value / s->pair.modulus : value, half, known));
   for (int k = 0; k < 2; k++)
-    if (!isfinite(half[k]) || half[k] <= 0) *known = PETSC_FALSE;
+    if (!isfinite(half[k]) || half[k] <= 0 || SamPairHasLayers(&s->pair)) *known = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -256,6 +256,31 @@ static void AdviseCells(Receiver *to, const SamSetup *s, const SamExtent *extent
          absurd ? "; or check the units, N, m, Pa" : "");
 }
 
+/* Layers that the cells do not resolve, or that are as good as none or as endless. */
+static void AdviseLayers(Receiver *to, const SamSetup *s, const PetscReal half[2])
+{
+  const double cell = (double)PetscMax(s->grid->dx, s->grid->dy), width = 2 * (double)PetscMax(half[0], half[1]);
+
+  for (int b = 0; b < 2; b++) {
+    const SamLayers *l     = &s->pair.layers[b];
+    PetscBool        other = PETSC_FALSE;
+
+    for (PetscInt n = 0; n < l->count; n++)
+      other = other || l->young[n] != s->pair.young[b] || l->poisson[n] != s->pair.poisson[b];
+    if (l->count && !other)
+      Advise(to, "", "all layers of body %d are of the substrate's material: they have no effect", b + 1);
+    else if (l->count && (double)l->thickness[0] < cell)
+      Advise(to, "grid_n",
+             "the layer at the surface of body %d is %.2g cells thick: pressures on that scale are not resolved", b + 1,
+             (double)l->thickness[0] / cell);
+    if (l->count && (double)l->thickness[0] > 100 * width)
+      Advise(to, "",
+             "-body%d_layer_thickness %g is %.2g times the width of the contact: the limit is 100: check the "
+             "unit, m",
+             b + 1, (double)l->thickness[0], (double)l->thickness[0] / width);
+  }
+}
+
 PetscErrorCode SamAdviseStep(const SamSetup *s, const SamStep *step, const SamExtent *extent, const SamLoadsMost *most,
                              SamAdviceFunction receive, void *context)
 {
@@ -272,6 +297,7 @@ PetscErrorCode SamAdviseStep(const SamSetup *s, const SamStep *step, const SamEx
     PetscCall(GetWidths(s, step, extent, half, &across));
     AdviseCells(&to, s, extent, half, across);
     PetscCall(Compare(s, half, ratio, sizeof(ratio), &large));
+    AdviseLayers(&to, s, half);
     if (large) Advise(&to, "", "contact too large for half-space theory: its half width %s", ratio);
   }
   PetscCall(to.error);

@@ -1,6 +1,8 @@
 /*
   Two half-spaces: tractions constant on each cell, kernels from the closed forms over a rectangle (influence.c),
   products by convolution without wrapping round (fourier/kernel.c). Source: Liu, Wang and Liu 2000, Wear 243, 101-111.
+  On layered bodies the closed forms are those of the materials at the surfaces, to which the rest is added
+  (layered/cells.c); the preconditioner is the inverse of their symbols.
 */
 #include "../waves.h"
 #include <petsam/private/halfspace.h>
@@ -13,14 +15,20 @@
 typedef enum { ZZ, XX, YY, XY, XZ, YZ, SLOPE_X, SLOPE_Y, KERNELS } Kind;
 
 typedef struct {
-  SamKernel kernel[KERNELS]; /* NULL until needed */
+  SamKernel  kernel[KERNELS]; /* NULL until needed */
+  SamLayered layers;          /* NULL: none */
 } HalfSpace;
+
+/* The thinnest layers on which edges are those of half-spaces: 8 cells, twice the depth. */
+#define THICK 16
 
 /* A kernel is a sum of at most two integrals over the cell. */
 typedef struct {
   double      dx, dy;
   SamIntegral integral[2];
   double      factor[2];
+  Kind        kind;
+  SamLayered  layers;
 } Coefficients;
 
 static Coefficients GetCoefficients(SamElasticity e, Kind kind)
@@ -38,7 +46,9 @@ static Coefficients GetCoefficients(SamElasticity e, Kind kind)
   return (Coefficients){.dx       = e->grid->dx,
                         .dy       = e->grid->dy,
                         .integral = {integrals[kind][0], integrals[kind][1]},
-                        .factor   = {factors[kind][0], factors[kind][1]}};
+                        .factor   = {factors[kind][0], factors[kind][1]},
+                        .kind     = kind,
+                        .layers   = ((const HalfSpace *)e->data)->layers};
 }
 
 static void CoefficientRow(PetscInt j, PetscInt n, double *const values[], const void *context)
@@ -49,13 +59,24 @@ static void CoefficientRow(PetscInt j, PetscInt n, double *const values[], const
 
   SamIntegralRow(c->integral[0], c->dx, c->dy, j, 0, n, values[0]);
   for (PetscInt i = 0; i < n; i++) values[0][i] *= c->factor[0];
-  if (c->factor[1] == 0) return;
-  for (PetscInt start = 0; start < n; start += CHUNK) {
+  for (PetscInt start = 0; start < n && c->factor[1] != 0; start += CHUNK) {
     const PetscInt count = PetscMin(CHUNK, n - start);
 
     SamIntegralRow(c->integral[1], c->dx, c->dy, j, start, count, more);
     for (PetscInt i = 0; i < count; i++) values[0][start + i] += c->factor[1] * more[i];
   }
+  if (c->layers) SamLayeredAddRow(c->layers, (SamIntegral)c->kind, c->dx, c->dy, j, n, values[0]);
+}
+
+/* The layers' part of kernels needs a table as far as the lags reach. */
+static PetscErrorCode PrepareLayers(SamElasticity e)
+{
+  const SamGrid grid = e->grid;
+  SamLayered    l    = ((const HalfSpace *)e->data)->layers;
+
+  PetscFunctionBegin;
+  if (l) PetscCall(SamLayeredPrepare(l, 2 * hypot(grid->width[0], grid->width[1]), (const double[2]){0, 0}));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* The influence of a cell on itself, m/Pa. */
@@ -65,20 +86,30 @@ static double SelfInfluence(SamElasticity e, Kind kind)
   double             v = c.factor[0] * SamIntegralCell(c.integral[0], c.dx, c.dy, 0, 0);
 
   if (c.factor[1] != 0) v += c.factor[1] * SamIntegralCell(c.integral[1], c.dx, c.dy, 0, 0);
+  if (c.layers) SamLayeredAddRow(c.layers, (SamIntegral)kind, c.dx, c.dy, 0, 1, &v);
   return v;
 }
 
 static PetscErrorCode GetSelfInfluence(SamElasticity e, PetscReal *normal, PetscReal *tangential)
 {
   PetscFunctionBegin;
+  PetscCall(PrepareLayers(e));
   *normal     = SelfInfluence(e, ZZ);
   *tangential = PetscMax(SelfInfluence(e, XX), SelfInfluence(e, YY));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+typedef struct {
+  SamSlopeKernel kernel;
+  SamLayered     layers;
+} Slopes;
+
 static void SlopeRow(PetscInt j, PetscInt n, double *const values[], const void *context)
 {
-  SamSlopeRow((const SamSlopeKernel *)context, j, n, values[0]);
+  const Slopes *c = (const Slopes *)context;
+
+  SamSlopeRow(&c->kernel, j, n, values[0]);
+  if (c->layers) SamLayeredAddSlopeRow(c->layers, c->kernel.axis, c->kernel.dx, c->kernel.dy, j, n, values[0]);
 }
 
 static PetscErrorCode GetKernel(SamElasticity e, Kind kind, SamKernel *kernel)
@@ -90,14 +121,17 @@ static PetscErrorCode GetKernel(SamElasticity e, Kind kind, SamKernel *kernel)
     const Coefficients c        = GetCoefficients(e, kind);
     const PetscBool    odd[][2] = {{kind == XY || kind == XZ, kind == XY || kind == YZ}};
 
+    PetscCall(PrepareLayers(e));
     PetscCall(SamKernelsCreate(e->fourier, 1, odd, CoefficientRow, &c, kept));
   } else if (!*kept) {
-    const int            axis     = kind - SLOPE_X;
-    const PetscBool      odd[][2] = {{axis == 0, axis == 1}};
-    SamSlopeRules        rules;
-    const SamSlopeKernel c = {
-      .rules = &rules, .axis = axis, .dx = e->grid->dx, .dy = e->grid->dy, .factor = e->pair.normal};
+    const int       axis     = kind - SLOPE_X;
+    const PetscBool odd[][2] = {{axis == 0, axis == 1}};
+    SamSlopeRules   rules;
+    const Slopes    c = {
+         .kernel = {.rules = &rules, .axis = axis, .dx = e->grid->dx, .dy = e->grid->dy, .factor = e->pair.normal},
+         .layers = ((const HalfSpace *)e->data)->layers};
 
+    PetscCall(PrepareLayers(e));
     PetscCall(SamSlopeRulesCreate(&rules));
     PetscCall(SamKernelsCreate(e->fourier, 1, odd, SlopeRow, &c, kept));
   }
@@ -187,12 +221,14 @@ static PetscErrorCode ApplyTangentialSingle(SamElasticity e, double factor, cons
   so that |k| is the inverse up to a factor. For shear the symbol is (2 pi (A + B)/|k|)(I - nu kk'/|k|^2), B =
   pair.shear_xx, nu = B/(A + B), with the inverse (|k|/(2 pi (A + B)))(I + nu/(1 - nu) kk'/|k|^2). Here they act on the
   grid made periodic, which costs a quarter of a padded transform and needs as few iterations. The symbol is
-  recomputed each time. Single precision suffices for an approximation. `local`: A or A + B.
+  recomputed each time. Single precision suffices for an approximation. `local`: A or A + B. Layered bodies have symbols
+  out of tables, which are all of the gain but the transforms' part.
 */
 static PetscErrorCode Precondition(SamElasticity e, PetscInt n, double factor, double local, SamSymbol s,
                                    const float *const in[], float *const out[])
 {
-  PetscInt hx, hy;
+  const SamLayered layers = ((const HalfSpace *)e->data)->layers;
+  PetscInt         hx, hy;
 
   PetscFunctionBegin;
   PetscCall(SamFourierGetPeriods(e->fourier, &hx, &hy));
@@ -201,6 +237,13 @@ static PetscErrorCode Precondition(SamElasticity e, PetscInt n, double factor, d
   s.gain    = factor / (2 * PETSC_PI * local * (double)hx * (double)hy * e->grid->length);
   s.mean    = 0.5 * PetscMin(s.step[0], s.step[1]);
   s.film    = SamPairFilm(&e->pair) / (2 * PETSC_PI * local * e->grid->length);
+  if (layers) {
+    PetscCall(SamLayeredSymbolSet(layers, e->grid->length, hx, hy, &s));
+    s.gain     = factor / ((double)hx * (double)hy * e->grid->length);
+    s.film     = SamPairFilm(&e->pair) / e->grid->length;
+    s.inverse  = PETSC_TRUE;
+    s.multiply = n == 1 ? SamLayeredMultiplyNormalSingle : SamLayeredMultiplyTangentialSingle;
+  }
   PetscCall(SamSymbolApplySingle(e, &s, n, in, out));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -243,19 +286,29 @@ static PetscErrorCode GetNear(SamElasticity e, PetscInt reach, PetscInt sub, dou
 {
   const double   dx = e->grid->dx / (double)sub, dy = e->grid->dy / (double)sub;
   const PetscInt lags = 2 * reach + 1, cells = sub * sub;
+  SamLayered     layers = ((const HalfSpace *)e->data)->layers;
 
   PetscFunctionBegin;
+  PetscCall(PrepareLayers(e));
   for (PetscInt n = 0; n < lags * lags * cells; n++) {
     const PetscInt lag = n / cells, cell = n % cells;
     const PetscInt i = (lag % lags - reach) * sub + sub / 2 - cell % sub,
                    j = (lag / lags - reach) * sub + sub / 2 - cell / sub;
 
     table[n] = e->pair.normal * SamIntegralCell(SAM_INTEGRAL_R, dx, dy, i, j);
+    if (layers)
+      table[n] += SamLayeredRectangle(layers, SAM_INTEGRAL_R, 0, (const double[]){(double)i * dx, (double)j * dy},
+                                      (const double[]){dx, dy});
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- the type ---- */
+
+static PetscErrorCode Inherit(SamElasticity parent, SamElasticity child)
+{
+  return SamLayeredReference(((const HalfSpace *)parent->data)->layers, &((HalfSpace *)child->data)->layers);
+}
 
 static PetscErrorCode CreateStress(SamElasticity e, PetscInt body, const SamFourierSettings *settings,
                                    SamStress *stress)
@@ -274,6 +327,7 @@ static PetscErrorCode Destroy(SamElasticity e)
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < KERNELS; k++) PetscCall(SamKernelDestroy(&data->kernel[k]));
+  PetscCall(SamLayeredDestroy(&data->layers));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -283,26 +337,30 @@ PetscErrorCode SamElasticityCreate_HalfSpace(SamElasticity e)
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&data));
-  e->data   = data;
-  e->traits = (SamElasticityTraits){.coupled   = SamElasticityPairIsCoupled(&e->pair),
-                                    .stretch   = PETSC_TRUE,
-                                    .rotations = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE},
-                                    .mean      = PETSC_TRUE,
-                                    .parts     = PETSC_TRUE,
-                                    .within    = PETSC_TRUE};
-  e->ops    = (SamElasticityOps){.setup                   = SetUp,
-                                 .destroy                 = Destroy,
-                                 .applynormal             = ApplyNormal,
-                                 .applytangential         = ApplyTangential,
-                                 .applynormalsingle       = ApplyNormalSingle,
-                                 .applytangentialsingle   = ApplyTangentialSingle,
-                                 .preconditionnormal      = PreconditionNormal,
-                                 .preconditiontangential  = PreconditionTangential,
-                                 .getselfinfluence        = GetSelfInfluence,
-                                 .createstress            = CreateStress,
-                                 .applynormaltotangential = ApplyNormalToTangential,
-                                 .applytangentialtonormal = ApplyTangentialToNormal,
-                                 .applynormalslopes       = ApplyNormalSlopes,
-                                 .getnear                 = GetNear};
+  if (SamPairHasLayers(&e->pair)) PetscCall(SamLayeredCreate(&e->pair, &data->layers));
+  e->data = data;
+  e->traits =
+    (SamElasticityTraits){.coupled   = SamElasticityPairIsCoupled(&e->pair),
+                          .stretch   = PETSC_TRUE,
+                          .rotations = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE},
+                          .mean      = PETSC_TRUE,
+                          .parts     = PETSC_TRUE,
+                          .within = !data->layers || data->layers->depth >= THICK * PetscMax(e->grid->dx, e->grid->dy),
+                          .layers = PETSC_TRUE};
+  e->ops = (SamElasticityOps){.inherit                 = Inherit,
+                              .setup                   = SetUp,
+                              .destroy                 = Destroy,
+                              .applynormal             = ApplyNormal,
+                              .applytangential         = ApplyTangential,
+                              .applynormalsingle       = ApplyNormalSingle,
+                              .applytangentialsingle   = ApplyTangentialSingle,
+                              .preconditionnormal      = PreconditionNormal,
+                              .preconditiontangential  = PreconditionTangential,
+                              .getselfinfluence        = GetSelfInfluence,
+                              .createstress            = CreateStress,
+                              .applynormaltotangential = ApplyNormalToTangential,
+                              .applytangentialtonormal = ApplyTangentialToNormal,
+                              .applynormalslopes       = ApplyNormalSlopes,
+                              .getnear                 = GetNear};
   PetscFunctionReturn(PETSC_SUCCESS);
 }

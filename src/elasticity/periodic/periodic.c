@@ -19,9 +19,9 @@
 #include "../waves.h"
 #include <math.h>
 
-/* The self-influence of a cell, m/Pa. */
 typedef struct {
-  double normal, tangential;
+  double     normal, tangential; /* the self-influence of a cell, m/Pa */
+  SamLayered layers;             /* whose symbols take the places of 2 pi A and so on; NULL: none */
 } Periodic;
 
 #define Real    double
@@ -44,14 +44,26 @@ static inline double IsOwnMirror(PetscInt k, PetscInt n)
 
 /* ---- coupling ---- */
 
+/* A symbol of layered bodies. */
+static double SymbolAt(const SamSymbol *s, SamLayeredSymbol symbol, double k2)
+{
+  const double argument = k2 * s->unit;
+  double       value;
+
+  SamSplineRow(s->table, symbol, 1, &argument, &value);
+  return value;
+}
+
 /* gain k/|k|^2 at entry m of column b: odd in k, so 0 for waves that are their own mirror images, and for the mean. */
 static void CouplingAt(const SamSymbol *s, const SamFourierBlock *block, PetscInt b, PetscInt m, double g[2])
 {
   const double kx = s->step[0] * (double)(block->first + b),
                ky = s->step[1] * (double)(2 * m <= block->hy ? m : m - block->hy), k2 = kx * kx + ky * ky;
+  double gain = s->gain;
 
-  g[0] = k2 > 0 ? s->gain * kx / k2 * (1 - IsOwnMirror(block->first + b, block->hx)) : 0;
-  g[1] = k2 > 0 ? s->gain * ky / k2 * (1 - IsOwnMirror(m, block->hy)) : 0;
+  if (s->table) gain *= SymbolAt(s, SAM_LAYERED_ZR, k2);
+  g[0] = k2 > 0 ? gain * kx / k2 * (1 - IsOwnMirror(block->first + b, block->hx)) : 0;
+  g[1] = k2 > 0 ? gain * ky / k2 * (1 - IsOwnMirror(m, block->hy)) : 0;
 }
 
 /* u_t = -i g p */
@@ -116,6 +128,11 @@ SAM_VECTORIZED static void DivideTangential(const SamSymbol *s, SamWaves at)
 
 typedef void (*Product)(const SamSymbol *symbol, SamWaves waves);
 
+static SamLayered LayersOf(SamElasticity e)
+{
+  return ((const Periodic *)e->data)->layers;
+}
+
 /* The symbol factor * amplitude * (a function of k of degree -1). */
 static SamSymbol SymbolOf(SamElasticity e, double factor, double amplitude, Product multiply)
 {
@@ -126,6 +143,7 @@ static SamSymbol SymbolOf(SamElasticity e, double factor, double amplitude, Prod
   for (PetscInt c = 0; c < 2; c++) s.step[c] = 2 * PETSC_PI / grid->width[c] * grid->length;
   s.mean = 0.5 * PetscMin(s.step[0], s.step[1]);
   s.gain = factor * amplitude * grid->length / ((double)grid->nx * (double)grid->ny);
+  if (LayersOf(e)) PetscCallAbort(grid->comm, SamLayeredSymbolSet(LayersOf(e), grid->length, grid->nx, grid->ny, &s));
   return s;
 }
 
@@ -134,38 +152,45 @@ static SamSymbol InverseOf(SamElasticity e, double factor, double amplitude, Pro
 {
   SamSymbol s = SymbolOf(e, factor, amplitude, multiply);
 
-  s.film = SamPairFilm(&e->pair) / (amplitude * e->grid->length);
-  s.gain = factor / (amplitude * e->grid->length * (double)e->grid->nx * (double)e->grid->ny);
+  s.film    = SamPairFilm(&e->pair) / (amplitude * e->grid->length);
+  s.inverse = PETSC_TRUE;
+  s.gain    = factor / (amplitude * e->grid->length * (double)e->grid->nx * (double)e->grid->ny);
   return s;
 }
 
 static double NormalAmplitude(SamElasticity e)
 {
-  return 2 * PETSC_PI * e->pair.normal;
+  return LayersOf(e) ? 1 : 2 * PETSC_PI * e->pair.normal;
 }
 
 static double TangentialAmplitude(SamElasticity e)
 {
-  return 2 * PETSC_PI * (e->pair.shear + e->pair.shear_xx);
+  return LayersOf(e) ? 1 : 2 * PETSC_PI * (e->pair.shear + e->pair.shear_xx);
+}
+
+static double CouplingAmplitude(SamElasticity e)
+{
+  return LayersOf(e) ? 1 : 2 * PETSC_PI * e->pair.coupling;
 }
 
 static PetscErrorCode ApplyNormal(SamElasticity e, const double *const p[], double *const u_z[])
 {
-  const SamSymbol s = SymbolOf(e, 1, NormalAmplitude(e), MultiplyNormalDouble);
+  const SamSymbol s = SymbolOf(e, 1, NormalAmplitude(e), LayersOf(e) ? SamLayeredMultiplyNormal : MultiplyNormalDouble);
 
   return SamSymbolApply(e, &s, 1, p, u_z);
 }
 
 static PetscErrorCode ApplyTangential(SamElasticity e, const double *const q[], double *const u_t[])
 {
-  const SamSymbol s = SymbolOf(e, 1, TangentialAmplitude(e), MultiplyTangentialDouble);
+  const SamSymbol s =
+    SymbolOf(e, 1, TangentialAmplitude(e), LayersOf(e) ? SamLayeredMultiplyTangential : MultiplyTangentialDouble);
 
   return SamSymbolApply(e, &s, 2, q, u_t);
 }
 
 static PetscErrorCode ApplyNormalToTangential(SamElasticity e, const double *const p[], double *const u_t[])
 {
-  const SamSymbol        s      = SymbolOf(e, 1, 2 * PETSC_PI * e->pair.coupling, NULL);
+  const SamSymbol        s      = SymbolOf(e, 1, CouplingAmplitude(e), NULL);
   const SamFourierFilter filter = {SAM_FOURIER_PERIODIC, 1, 2, FilterNormalToTangential, &s};
 
   return SamFourierApply(e->fourier, &filter, p, u_t);
@@ -173,7 +198,7 @@ static PetscErrorCode ApplyNormalToTangential(SamElasticity e, const double *con
 
 static PetscErrorCode ApplyTangentialToNormal(SamElasticity e, const double *const q[], double *const u_z[])
 {
-  const SamSymbol        s      = SymbolOf(e, 1, 2 * PETSC_PI * e->pair.coupling, NULL);
+  const SamSymbol        s      = SymbolOf(e, 1, CouplingAmplitude(e), NULL);
   const SamFourierFilter filter = {SAM_FOURIER_PERIODIC, 2, 1, FilterTangentialToNormal, &s};
 
   return SamFourierApply(e->fourier, &filter, q, u_z);
@@ -181,28 +206,32 @@ static PetscErrorCode ApplyTangentialToNormal(SamElasticity e, const double *con
 
 static PetscErrorCode ApplyNormalSingle(SamElasticity e, double factor, const float *const p[], float *const u_z[])
 {
-  const SamSymbol s = SymbolOf(e, factor, NormalAmplitude(e), MultiplyNormalSingle);
+  const SamSymbol s =
+    SymbolOf(e, factor, NormalAmplitude(e), LayersOf(e) ? SamLayeredMultiplyNormalSingle : MultiplyNormalSingle);
 
   return SamSymbolApplySingle(e, &s, 1, p, u_z);
 }
 
 static PetscErrorCode ApplyTangentialSingle(SamElasticity e, double factor, const float *const q[], float *const u_t[])
 {
-  const SamSymbol s = SymbolOf(e, factor, TangentialAmplitude(e), MultiplyTangentialSingle);
+  const SamSymbol s = SymbolOf(e, factor, TangentialAmplitude(e),
+                               LayersOf(e) ? SamLayeredMultiplyTangentialSingle : MultiplyTangentialSingle);
 
   return SamSymbolApplySingle(e, &s, 2, q, u_t);
 }
 
 static PetscErrorCode PreconditionNormal(SamElasticity e, double factor, const float *const r[], float *const p[])
 {
-  const SamSymbol s = InverseOf(e, factor, NormalAmplitude(e), SamSymbolDivideNormal);
+  const SamSymbol s =
+    InverseOf(e, factor, NormalAmplitude(e), LayersOf(e) ? SamLayeredMultiplyNormalSingle : SamSymbolDivideNormal);
 
   return SamSymbolApplySingle(e, &s, 1, r, p);
 }
 
 static PetscErrorCode PreconditionTangential(SamElasticity e, double factor, const float *const r[], float *const q[])
 {
-  const SamSymbol s = InverseOf(e, factor, TangentialAmplitude(e), DivideTangential);
+  const SamSymbol s =
+    InverseOf(e, factor, TangentialAmplitude(e), LayersOf(e) ? SamLayeredMultiplyTangentialSingle : DivideTangential);
 
   return SamSymbolApplySingle(e, &s, 2, r, q);
 }
@@ -241,6 +270,23 @@ static void SumWaves(SamElasticity e, const SamSymbol *s, PetscInt m, double sum
   }
 }
 
+/* The same for layered bodies: of u_z from p, u_x from q_x, and u_y from q_y. */
+static void SumLayeredWaves(SamElasticity e, const SamSymbol *s, PetscInt m, double sums[3])
+{
+  const double ky = s->step[1] * (double)m, weight = Multiplicity(m, e->grid->ny);
+
+  sums[0] = sums[1] = sums[2] = 0;
+  for (PetscInt l = m ? 0 : 1; l <= e->grid->nx / 2; l++) {
+    const double kx = s->step[0] * (double)l, k2 = kx * kx + ky * ky,
+                 part = weight * Multiplicity(l, e->grid->nx) / sqrt(k2), along = SymbolAt(s, SAM_LAYERED_RR, k2),
+                 across = SymbolAt(s, SAM_LAYERED_TT, k2);
+
+    sums[0] += part * SymbolAt(s, SAM_LAYERED_ZZ, k2);
+    sums[1] += part * (along * kx * kx + across * ky * ky) / k2;
+    sums[2] += part * (along * ky * ky + across * kx * kx) / k2;
+  }
+}
+
 /*
   A unit traction on one cell alone has all waves at the same amplitude, so that a cell's influence on itself is the
   mean of the symbol over all waves.
@@ -256,12 +302,16 @@ static PetscErrorCode ComputeSelfInfluence(SamElasticity e, Periodic *data)
   PetscCallMPI(MPI_Comm_rank(e->grid->comm, &rank));
   PetscCallMPI(MPI_Comm_size(e->grid->comm, &ranks));
   for (PetscInt m = rank; m <= e->grid->ny / 2; m += ranks) {
-    SumWaves(e, &s, m, sums);
+    if (data->layers)
+      SumLayeredWaves(e, &s, m, sums);
+    else
+      SumWaves(e, &s, m, sums);
     SamAddAll(3, totals, sums);
   }
   PetscCall(SamSumTotals(e->grid->comm, 3, totals, sums));
   data->normal     = NormalAmplitude(e) * s.gain * sums[0];
   data->tangential = TangentialAmplitude(e) * s.gain * (sums[0] - s.nu * PetscMin(sums[1], sums[2]));
+  if (data->layers) data->tangential = s.gain * PetscMax(sums[1], sums[2]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -273,23 +323,37 @@ static PetscErrorCode SetUp(SamElasticity e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode Inherit(SamElasticity parent, SamElasticity child)
+{
+  return SamLayeredReference(LayersOf(parent), &((Periodic *)child->data)->layers);
+}
+
+static PetscErrorCode Destroy(SamElasticity e)
+{
+  return SamLayeredDestroy(&((Periodic *)e->data)->layers);
+}
+
 PetscErrorCode SamElasticityCreate_Periodic(SamElasticity e)
 {
   Periodic *data;
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&data));
+  if (SamPairHasLayers(&e->pair)) PetscCall(SamLayeredCreate(&e->pair, &data->layers));
   e->data   = data;
-  e->traits = (SamElasticityTraits){.coupled = SamElasticityPairIsCoupled(&e->pair), .periodic = PETSC_TRUE};
-  e->ops    = (SamElasticityOps){.setup                   = SetUp,
-                                 .applynormal             = ApplyNormal,
-                                 .applytangential         = ApplyTangential,
-                                 .applynormalsingle       = ApplyNormalSingle,
-                                 .applytangentialsingle   = ApplyTangentialSingle,
-                                 .preconditionnormal      = PreconditionNormal,
-                                 .preconditiontangential  = PreconditionTangential,
-                                 .getselfinfluence        = GetSelfInfluence,
-                                 .applynormaltotangential = ApplyNormalToTangential,
-                                 .applytangentialtonormal = ApplyTangentialToNormal};
+  e->traits = (SamElasticityTraits){
+    .coupled = SamElasticityPairIsCoupled(&e->pair), .periodic = PETSC_TRUE, .layers = PETSC_TRUE};
+  e->ops = (SamElasticityOps){.inherit                 = Inherit,
+                              .setup                   = SetUp,
+                              .destroy                 = Destroy,
+                              .applynormal             = ApplyNormal,
+                              .applytangential         = ApplyTangential,
+                              .applynormalsingle       = ApplyNormalSingle,
+                              .applytangentialsingle   = ApplyTangentialSingle,
+                              .preconditionnormal      = PreconditionNormal,
+                              .preconditiontangential  = PreconditionTangential,
+                              .getselfinfluence        = GetSelfInfluence,
+                              .applynormaltotangential = ApplyNormalToTangential,
+                              .applytangentialtonormal = ApplyTangentialToNormal};
   PetscFunctionReturn(PETSC_SUCCESS);
 }

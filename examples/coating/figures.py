@@ -1,0 +1,140 @@
+"""Pressure, radius and approach of a rigid sphere on coated flats, and partial slip of two coated bodies.
+
+Reads the HDF5 files that examples/coating/run.sh writes to a directory, draws coating.png and prints the numbers,
+beside the solutions of integral equations where they are known.
+"""
+
+import os
+import sys
+
+import numpy as np
+
+import petsam
+from petsam import comparison
+from petsam.plot.style import COLORS, frame, joined, plt, save
+
+RATIOS = ("0.1", "0.5", "2", "10")
+THICKNESSES = ("0.1", "0.3", "1", "3")
+SHAPES = (("0.1", "0.3"), ("0.5", "0.3"), ("2", "0.3"), ("10", "0.3"))  # whose pressures are drawn
+TINTS = dict(zip(RATIOS, (COLORS[0], "#2a9d72", COLORS[1], "0.35")))
+LOAD, RADIUS, MODULUS = 100.0, 0.1, 210e9 / 0.91  # N, m, Pa
+A = (0.75 * LOAD * RADIUS / MODULUS) ** (1 / 3)
+P0 = 1.5 * LOAD / (np.pi * A**2)
+# contact radius, peak pressure and approach over those without coating (Poisson's ratio 0.3 throughout)
+EXACT = {
+    ("0.1", "0.1"): (1.270815613, 0.735112125, 1.202485789),
+    ("0.1", "1"): (1.834126934, 0.331111124, 2.186382489),
+    ("0.5", "0.3"): (1.110868897, 0.874492079, 1.080371403),
+    ("0.5", "1"): (1.206607645, 0.704682272, 1.227128046),
+    ("2", "0.3"): (0.908892359, 1.095008555, 0.947110271),
+    ("2", "1"): (0.818477540, 1.475436899, 0.826869969),
+    ("10", "0.3"): (0.710121732, 1.273788556, 0.859776394),
+}
+
+
+class Case(petsam.Snapshot):
+    """The last step of a run, over the numbers without coating."""
+
+    def __init__(self, directory, name):
+        super().__init__(petsam.open(os.path.join(directory, name + ".h5")))
+        history = self.results.history
+        if np.any(history["status"] != 0):
+            raise petsam.Error(f"{self.results.path}: a step did not converge")
+        self.contact = self.radius("contact_area") / A
+        nearest = np.argsort(self.r, axis=None)[:12]  # a parabola through the cells about the axis
+        fit = np.polyfit(self.r.ravel()[nearest] ** 2, self["pressure"].ravel()[nearest], 1)
+        self.central, self.peak = fit[1] / P0, float(np.max(self["pressure"])) / P0
+        self.approach = float(history["disp_z"][-1]) * RADIUS / A**2
+        self.slip = float(history["disp_x"][-1])
+        self.stick = float(np.sqrt(history["stick_area"][-1] / history["contact_area"][-1]))
+
+
+def numbers(ratio, thickness, case):
+    """A row of the table; errors where a reference is at hand."""
+    row = {
+        "ratio": float(ratio),
+        "thickness": float(thickness),
+        "radius": case.contact,
+        "central": case.central,
+        "peak": case.peak,
+        "approach": case.approach,
+    }
+    computed = (case.contact, case.central, case.approach)
+    if (ratio, thickness) in EXACT:
+        errors = [value / exact - 1 for value, exact in zip(computed, EXACT[ratio, thickness])]
+        row.update(zip(("radius_error", "central_error", "approach_error"), errors))
+    return row
+
+
+class Comparison:
+    """All results of a directory."""
+
+    def __init__(self, directory):
+        self.cases = {(e, h): Case(directory, f"e{e}_h{h}") for e in RATIOS for h in THICKNESSES}
+        self.slides = {e: Case(directory, f"slide_e{e}") for e in ("0.1", "1", "10")}
+        self.numbers = {
+            "cases": [numbers(e, h, case) for (e, h), case in self.cases.items()],
+            "slides": [
+                {"ratio": float(e), "radius": case.contact, "peak": case.peak, "slip": case.slip, "stick": case.stick}
+                for e, case in self.slides.items()
+            ],
+        }
+
+    def tables(self):
+        """The tables."""
+        yield (
+            "Rigid sphere: contact radius, central and peak pressure, approach, over those without coating",
+            (
+                "E1/E2 = ratio:g; h/a = thickness:g; radius = radius:.4f; central p = central:.4f; peak p = peak:.4f; "
+                "approach = approach:.4f"
+            ),
+            self.numbers["cases"],
+        )
+        yield (
+            "Errors against integral equations",
+            (
+                "E1/E2 = ratio:g; h/a = thickness:g; radius = radius_error:+.0e; central p = central_error:+.0e; "
+                "approach = approach_error:+.0e"
+            ),
+            [row for row in self.numbers["cases"] if "radius_error" in row],
+        )
+        yield (
+            "Two alike coated bodies, h/a = 0.5, T_x = 0.6 mu N",
+            (
+                "E1/E2 = ratio:g; radius = radius:.4f; peak p = peak:.4f; displacement, m = slip:.4e; "
+                "stick radius = stick:.4f"
+            ),
+            self.numbers["slides"],
+        )
+
+    def draw(self, directory):
+        """Pressure and radius over thickness, and the shapes of the pressure."""
+        figure, axes = plt.subplots(1, 3, figsize=(13.0, 4.2), constrained_layout=True)
+        over = [float(h) for h in THICKNESSES]
+        for e in RATIOS:
+            cases = [self.cases[e, h] for h in THICKNESSES]
+            for panel, values, column in (
+                (axes[0], [c.central for c in cases], 1),
+                (axes[1], [c.contact for c in cases], 0),
+            ):
+                joined(panel, over, values, TINTS[e], "o-", label=f"$E_1/E_2 = {e}$")
+                exact = [(float(h), EXACT[e, h][column]) for h in THICKNESSES if (e, h) in EXACT]
+                panel.plot(*zip(*exact), "x", color="black", markersize=7, zorder=3)
+        axes[1].plot([], [], "x", color="black", label="integral equations")
+        for e, h in SHAPES:
+            case, row = self.cases[e, h], self.cases[e, h].y.size // 2
+            axes[2].plot(
+                case.x / A, case["pressure"][row] / P0, color=TINTS[e], label=f"$E_1/E_2 = {e}$, $h = {h}\\,a$"
+            )
+        for panel in axes[:2]:
+            panel.set_xscale("log")
+        frame(axes[0], "Central pressure", "$h/a$", "$p/p_0$")
+        frame(axes[1], "Contact radius", "$h/a$", "radius$/a$")
+        frame(axes[2], "Pressure along x", "$x/a$", "$p/p_0$", (0.0, 1.6), (0.0, None))
+        for panel in axes[1:]:
+            panel.legend()
+        save(figure, directory, "coating.png")
+
+
+if __name__ == "__main__":
+    sys.exit(comparison.main(Comparison, __doc__, "coating"))

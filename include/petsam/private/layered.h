@@ -1,0 +1,93 @@
+/* Bodies with bonded layers: symbols, the influence in space, cell integrals, and tables of them. */
+#ifndef PETSAM_LAYERED_H
+#define PETSAM_LAYERED_H
+
+#include <petsam/private/baseimpl.h>
+#include <petsam/material.h>
+#include <petsam/private/halfspace.h>
+
+/*
+  The way of the data, for a pair whose bodies have layers (material.h):
+    symbols.c  the layers of each body become symbols, functions of the wave number, by a recursion from the substrate
+               up: the symbols themselves, and their differences from those of a half-space of the surface's material
+    spline.c    functions of s = r^2 or s = k^2 become polynomials on short intervals, which are evaluated quickly
+    radial.c   the differences become radial functions, the influence in space that is added to the half-space's
+    cells.c    the radial functions become integrals over cells, which halfspace.c adds to its closed forms. All
+               products, coarse grids and parts are those of half-spaces
+    waves.c    the symbols themselves act on waves: products on periodic grids, and the preconditioners of both
+  Source of formulas: Burmister 1945, J. Appl. Phys. 16, 89; O'Sullivan and King 1988, J. Tribol. 110, 235.
+*/
+
+/*
+  Symbols times |k|, m/Pa times 1/m: u_z from p, the coupling, u_t from q along the wave, and across it. A wave along x
+  of p and (q_x, q_y) moves a surface by u_z = (zz p + zr q_x)/k, u_x = (rr q_x + zr p)/k, u_y = tt q_y/k, where p and
+  u_z go like cos kx and q_x and u_x like sin kx.
+*/
+typedef enum { SAM_LAYERED_ZZ, SAM_LAYERED_ZR, SAM_LAYERED_RR, SAM_LAYERED_TT, SAM_LAYERED_SYMBOLS } SamLayeredSymbol;
+
+/*
+  SamLayeredSymbols - the symbols of a pair at the wave number k > 0 (1/m): zz, rr, tt are sums over both bodies, zr is
+  that of body 2 less that of body 1; `difference`: less the symbols of half-spaces of the materials at the surface,
+  accurate also where it is as small as exp(-2 k h). `body`: of body 1 or 2 alone (zr: its own); 0: of the pair. Not
+  collective.
+*/
+PETSC_INTERN void SamLayeredSymbols(const SamPair *pair, PetscInt body, double k, double total[SAM_LAYERED_SYMBOLS],
+                                    double difference[SAM_LAYERED_SYMBOLS]);
+
+/*
+  SamSpline - functions of s >= 0 as polynomials of degree 9 on intervals: from 0 to `least`, then eight to each factor
+  2 of s, which the leading bits of s choose, up to `most`. Arguments beyond are taken as the nearest. Errors are 1e-15
+  where a function is analytic about its interval as far as its distance from 0.
+  SamSplineCreate - from the values of all functions at s. SamSplineRow - values of a function at s[0 ... n - 1],
+  quickly where consecutive arguments share an interval. None is collective.
+*/
+#define SAM_SPLINE_DEGREE 9
+typedef struct {
+  double least, most, *centre, *scale, *coefficients; /* of each interval; coefficients of each function and interval */
+  int    first, intervals, functions;
+} SamSpline;
+PETSC_INTERN PetscErrorCode SamSplineCreate(SamSpline *table, int functions, double least, double most,
+                                            void (*values)(const void *context, double s, double values[]),
+                                            const void *context);
+PETSC_INTERN PetscErrorCode SamSplineDestroy(SamSpline *table);
+PETSC_INTERN void SamSplineRow(const SamSpline *table, int function, PetscInt n, const double s[], double values[]);
+
+/*
+  SamLayered - the tables of a pair, which elasticities on several grids share: of the symbols by k^2, and of four
+  functions by r^2, which make the influence of a unit force in space, less that of the surface's half-spaces, at
+  (x, y) from it:
+    u_z from p:   N
+    u_x from q_x: A + B (x^2 - y^2),   u_y from q_y: A - B (x^2 - y^2),   u_y from q_x: 2 B x y
+    u_x from p:   C x,                 u_z from q_x: -C x
+  SamLayeredPrepare - extends the tables to distances up to r (m) and wave numbers from k[0] to k[1] (1/m); none for 0.
+  Not collective, the same on all ranks.
+*/
+typedef enum { SAM_RADIAL_N, SAM_RADIAL_A, SAM_RADIAL_B, SAM_RADIAL_C, SAM_RADIAL_FUNCTIONS } SamRadial;
+typedef struct {
+  PetscInt  references;
+  SamPair   pair;
+  double    depth; /* 2 h, h the thinner of both bodies' first layers: differences fall like exp(-depth k) */
+  SamSpline symbols, radial;
+} * SamLayered;
+PETSC_INTERN PetscErrorCode SamLayeredCreate(const SamPair *pair, SamLayered *layered);
+PETSC_INTERN PetscErrorCode SamLayeredReference(SamLayered from, SamLayered *to); /* in the place of another */
+PETSC_INTERN PetscErrorCode SamLayeredDestroy(SamLayered *layered);
+PETSC_INTERN PetscErrorCode SamLayeredPrepare(SamLayered layered, double r, const double k[2]);
+/* SamRadialCreate - the table of the four functions for distances up to r. Not collective. */
+PETSC_INTERN PetscErrorCode SamRadialCreate(const SamPair *pair, double depth, double r, SamSpline *table);
+
+/*
+  SamLayeredAddRow - adds the integrals over the cells at the lags (i, j), i = 0 ... n - 1: the displacement at a point
+  (i dx, j dy) from the centre of a cell under unit traction, less that of the surface's half-spaces. `kind`: what has
+  this integral of half-spaces; u_z from p: R, u_x from q_x: XX, u_x from p: X. Errors are 1e-12 of the functions.
+  SamLayeredAddSlopeRow - the same of u_z from pressures that are linear as those of SamSlopeRow(), 1e-6 if the layers
+  are 8 cells thick. SamLayeredRectangle - one over a rectangle; `level` of its division: 0. None is collective.
+*/
+PETSC_INTERN void   SamLayeredAddSlopeRow(SamLayered layered, int axis, double dx, double dy, PetscInt j, PetscInt n,
+                                          double values[]);
+PETSC_INTERN double SamLayeredRectangle(SamLayered layered, SamIntegral kind, int level, const double centre[2],
+                                        const double side[2]);
+PETSC_INTERN void   SamLayeredAddRow(SamLayered layered, SamIntegral kind, double dx, double dy, PetscInt j, PetscInt n,
+                                     double values[]);
+
+#endif

@@ -1,0 +1,191 @@
+/*
+  From the differences of symbols g(k) to the influence in space, by transforms of Hankel's kind
+    f(r) = H_n[g](r) = (1/2 pi) int_0^inf g(k) J_n(kr) dk:
+  f_N = H_0[zz], f_A = H_0[(rr + tt)/2], f_B = H_2[(tt - rr)/2], f_C = H_1[zr].
+
+  Algorithm (Talman 1978, J. Comput. Phys. 29, 35; Hamilton 2000, MNRAS 312, 257). g is smooth in x = ln k whatever
+  the thicknesses are, and the transform is a convolution in x:
+    1. The image g(0) exp(-k Z), Z the thickness of all layers, is taken out, as its transform is known:
+       (r/(rho + Z))^n/rho, rho^2 = r^2 + Z^2. What remains is O(k). Each body has its own image.
+    2. The remainder is sampled at equal steps of x. Of its Fourier coefficients c_m at the frequencies w_m,
+       r f(r) at ln r = y is the sum of c_m M_m exp(-i w_m (x0 + y)), with the Mellin transform of the kernel,
+       M = 2^iw Gamma((1 + n + iw)/2)/Gamma((1 + n - iw)/2): one transform gives all r.
+    3. Between the samples r f is interpolated in ln r by 12 points.
+    4. For r below 0.15 of the depth that g falls with, a power series by the moments of g.
+  The table holds f_N, f_A, f_B/r^2 and f_C/r, functions of r^2 that are analytic at 0. The error is 1e-13 of f's size.
+*/
+#include <petsam/private/layered.h>
+#include <complex.h>
+#include <fftw3.h>
+
+#define STEP    0.04
+#define NEAR    0.15 /* of the depth: within, the series */
+#define TERMS   10
+#define AROUND  12    /* points of the interpolation */
+#define LONGEST 1e-18 /* smallest k times the thickness */
+#define FASTEST 200.0 /* largest k times the depth */
+
+static const int orders[SAM_RADIAL_FUNCTIONS] = {0, 0, 2, 1};
+
+typedef struct {
+  double  depth, x0, y0;                   /* ln k and ln r of the first samples */
+  int     n;                               /* samples */
+  double *remainder[SAM_RADIAL_FUNCTIONS]; /* of the symbols, then r f(r) */
+  double  moments[SAM_RADIAL_FUNCTIONS][TERMS];
+  double  image[2][SAM_RADIAL_FUNCTIONS], thickness[2]; /* of each body */
+} Transform;
+
+/* The four g out of the symbols. */
+static void Combine(const double symbols[], double g[])
+{
+  g[SAM_RADIAL_N] = symbols[SAM_LAYERED_ZZ];
+  g[SAM_RADIAL_A] = 0.5 * (symbols[SAM_LAYERED_RR] + symbols[SAM_LAYERED_TT]);
+  g[SAM_RADIAL_B] = 0.5 * (symbols[SAM_LAYERED_TT] - symbols[SAM_LAYERED_RR]);
+  g[SAM_RADIAL_C] = symbols[SAM_LAYERED_ZR];
+}
+
+/* Samples without images, and moments with them. */
+static void Sample(Transform *t, const SamPair *pair)
+{
+  double total[SAM_LAYERED_SYMBOLS], difference[SAM_LAYERED_SYMBOLS], g[SAM_RADIAL_FUNCTIONS];
+
+  memset(t->moments, 0, sizeof(t->moments));
+  for (int i = 0; i < t->n; i++) {
+    const double k = exp(t->x0 + i * STEP);
+
+    SamLayeredSymbols(pair, 0, k, total, difference);
+    Combine(difference, g);
+    for (int f = 0; f < SAM_RADIAL_FUNCTIONS; f++) {
+      double power = g[f] * k * STEP / (2 * PETSC_PI) * pow(k * t->depth, orders[f]);
+
+      for (int j = 0; j < TERMS; j++, power *= k * t->depth * k * t->depth) t->moments[f][j] += power;
+      t->remainder[f][i] = g[f];
+      for (int b = 0; b < 2; b++) t->remainder[f][i] -= t->image[b][f] * exp(-k * t->thickness[b]);
+    }
+  }
+}
+
+/* The imaginary part of ln Gamma(x + iy), by Stirling's series at a larger argument. */
+static double ImaginaryLogGamma(double x, double y)
+{
+  double complex z     = x + I * y, series;
+  double         shift = 0;
+
+  for (; cabs(z) < 12 || creal(z) < 8; z += 1) shift += carg(z);
+  series =
+    (z - 0.5) * clog(z) - z + (1 / 12.0 - (1 / 360.0 - (1 / 1260.0 - 1 / (1680.0 * z * z)) / (z * z)) / (z * z)) / z;
+  return cimag(series) - shift;
+}
+
+/* From samples of a remainder to r f(r), in place. */
+static PetscErrorCode Convolve(const Transform *t, int order, double samples[])
+{
+  const int       n = t->n;
+  double complex *c;
+  fftw_plan       plan;
+
+  PetscFunctionBegin;
+  c = (double complex *)fftw_malloc(sizeof(*c) * (size_t)(n / 2 + 1));
+  PetscCheck(c, PETSC_COMM_SELF, PETSC_ERR_MEM, "No memory for %d wave numbers", n);
+  plan = fftw_plan_dft_r2c_1d(n, samples, (fftw_complex *)c, FFTW_ESTIMATE | FFTW_PRESERVE_INPUT);
+  PetscCheck(plan, PETSC_COMM_SELF, PETSC_ERR_LIB, SAM_NO_PLAN);
+  fftw_execute(plan);
+  fftw_destroy_plan(plan);
+  for (int m = 0; m <= n / 2; m++) {
+    const double w     = 2 * PETSC_PI * m / (n * STEP);
+    const double phase = w * log(2) + 2 * ImaginaryLogGamma(0.5 * (1 + order), 0.5 * w) - w * (t->x0 + t->y0);
+
+    c[m] = conj(c[m] * cexp(I * phase)) / (2 * PETSC_PI * n);
+  }
+  plan = fftw_plan_dft_c2r_1d(n, (fftw_complex *)c, samples, FFTW_ESTIMATE);
+  PetscCheck(plan, PETSC_COMM_SELF, PETSC_ERR_LIB, SAM_NO_PLAN);
+  fftw_execute(plan);
+  fftw_destroy_plan(plan);
+  fftw_free(c);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* weights[k] of the sample first + k, for the interpolation at ln r. */
+static int Interpolation(const Transform *t, double r, double weights[AROUND])
+{
+  const double at    = (log(r) - t->y0) / STEP;
+  const int    first = (int)floor(at) - AROUND / 2 + 1;
+  double       sum = 0, binomial = 1;
+
+  for (int k = 0; k < AROUND; k++) {
+    const double distance = at - first - k;
+
+    if (fabs(distance) < 1e-12) {
+      for (int l = 0; l < AROUND; l++) weights[l] = l == k ? 1 : 0;
+      return first;
+    }
+    weights[k] = (k % 2 ? -1 : 1) * binomial / distance;
+    sum += weights[k];
+    binomial *= (double)(AROUND - 1 - k) / (k + 1);
+  }
+  for (int k = 0; k < AROUND; k++) weights[k] /= sum;
+  return first;
+}
+
+/* f(r)/r^n by the series. */
+static double Series(const Transform *t, int f, double s)
+{
+  const int    n    = orders[f];
+  const double x    = -0.25 * s / (t->depth * t->depth);
+  double       term = pow(2 * t->depth, -n), sum = 0;
+
+  for (int j = 0; j < TERMS; j++) {
+    sum += term / (n == 2 ? (j + 1) * (j + 2) : n == 1 ? j + 1 : 1) * t->moments[f][j];
+    term *= x / ((j + 1.0) * (j + 1.0));
+  }
+  return sum;
+}
+
+static void Values(const void *context, double s, double values[])
+{
+  const Transform *t = (const Transform *)context;
+  const double     r = sqrt(s);
+  double           weights[AROUND];
+  int              first = 0;
+
+  if (r > NEAR * t->depth) first = Interpolation(t, r, weights);
+  for (int f = 0; f < SAM_RADIAL_FUNCTIONS; f++) {
+    if (r <= NEAR * t->depth) {
+      values[f] = Series(t, f, s);
+      continue;
+    }
+    values[f] = 0;
+    for (int k = 0; k < AROUND; k++) values[f] += weights[k] * t->remainder[f][(first + k) % t->n];
+    values[f] *= pow(r, -1 - orders[f]);
+    for (int b = 0; b < 2; b++) {
+      const double rho = hypot(r, t->thickness[b]);
+
+      values[f] += t->image[b][f] / (2 * PETSC_PI * rho) * pow(rho + t->thickness[b], -orders[f]);
+    }
+  }
+}
+
+PetscErrorCode SamRadialCreate(const SamPair *pair, double depth, double r, SamSpline *table)
+{
+  double    ignored[SAM_LAYERED_SYMBOLS], limit[SAM_LAYERED_SYMBOLS], thickest;
+  Transform t = {.depth = depth, .y0 = -log(FASTEST / depth)};
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < 2; b++) {
+    for (PetscInt n = 0; n < pair->layers[b].count; n++) t.thickness[b] += (double)pair->layers[b].thickness[n];
+    SamLayeredSymbols(pair, b + 1, LONGEST / PetscMax(t.thickness[b], depth), ignored, limit);
+    if (!b) limit[SAM_LAYERED_ZR] = -limit[SAM_LAYERED_ZR];
+    Combine(limit, t.image[b]);
+  }
+  thickest = PetscMax(t.thickness[0], t.thickness[1]);
+  t.x0     = log(LONGEST / thickest);
+  t.n      = (int)ceil((log(FASTEST / depth) - t.x0) / STEP);
+  for (int f = 0; f < SAM_RADIAL_FUNCTIONS; f++) PetscCall(PetscMalloc1(t.n, &t.remainder[f]));
+  Sample(&t, pair);
+  for (int f = 0; f < SAM_RADIAL_FUNCTIONS; f++) PetscCall(Convolve(&t, orders[f], t.remainder[f]));
+  /* from a power of 2 on */
+  PetscCall(
+    SamSplineCreate(table, SAM_RADIAL_FUNCTIONS, exp2(floor(log2(NEAR * depth * NEAR * depth))), r * r, Values, &t));
+  for (int f = 0; f < SAM_RADIAL_FUNCTIONS; f++) PetscCall(PetscFree(t.remainder[f]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,66 @@
+/*
+  Layered bodies on waves: products with their symbols c/|k| and the inverses |k|/c.
+
+  On a part of the surface the inverse is a preconditioner. It holds the surface about a contact in place, as if it were
+  clamped, and a hard film on a soft bed resists that like a plate, far more than with the free surface that it has: on
+  the contact, the inverse is up to E1/E2 times too large at the edge. Where c is more than that of the surface's
+  material, c_top, the normal inverse therefore takes c_top (c/c_top)^(3/4). Measured at E1/E2 = 100 and a film of a
+  hundredth of the contact's radius: 15 to 80 iterations at 64 to 512 cells; with c itself 21 to no convergence.
+*/
+#include "../waves.h"
+#include <math.h>
+
+#define CHUNK 256
+#define LEAST 1e-12 /* c/c_top in inverses: less is rounding, on a rigid base */
+
+/* Of some waves: |k|^2, never 0, and the gains along and across them. */
+typedef struct {
+  double k2[CHUNK], along[CHUNK], across[CHUNK];
+} Waves;
+
+/* At most CHUNK waves from the entry `first` on: |k|^2 and gain c/|k|, or its inverse; how many. */
+static PetscInt Gains(const SamSymbol *s, const SamWaves *at, PetscInt first, SamLayeredSymbol symbol, double k2[],
+                      double gain[])
+{
+  const PetscInt n     = PetscMin(CHUNK, at->last - first);
+  const double   least = s->mean * s->mean, film = symbol == SAM_LAYERED_ZZ ? 0 : s->film;
+  double         argument[CHUNK] = {0};
+
+  for (PetscInt m = 0; m < n; m++) {
+    const double ky = s->step[1] * (double)(first + m - at->origin);
+
+    k2[m]       = PetscMax(at->kx * at->kx + ky * ky, least);
+    argument[m] = k2[m] * s->unit;
+  }
+  SamSplineRow(s->table, symbol, n, argument, gain);
+  for (PetscInt m = 0; m < n; m++) {
+    const double k = sqrt(k2[m]), ratio = gain[m] / s->top, root = sqrt(PetscMax(ratio, 1)),
+                 eased = symbol == SAM_LAYERED_ZZ && ratio > 1 ? root * sqrt(root) : PetscMax(ratio, LEAST);
+
+    gain[m] = s->inverse ? s->gain * k / (s->top * eased + film * k) : s->gain * gain[m] / k;
+  }
+  if (!s->inverse && at->kx == 0 && first == at->origin) gain[0] = 0;
+  return n;
+}
+
+#define Real    double
+#define Name(x) x
+#include "products.h"
+#undef Real
+#undef Name
+#define Real    float
+#define Name(x) x##Single
+#include "products.h"
+
+PetscErrorCode SamLayeredSymbolSet(SamLayered layered, PetscReal length, PetscInt hx, PetscInt hy, SamSymbol *s)
+{
+  const double k[2] = {0.5 * PetscMin(s->step[0], s->step[1]) / length,
+                       0.5 * hypot((double)hx * s->step[0], (double)hy * s->step[1]) / length};
+
+  PetscFunctionBegin;
+  PetscCall(SamLayeredPrepare(layered, 0, k));
+  s->table = &layered->symbols;
+  s->unit  = 1 / (length * length);
+  s->top   = 2 * PETSC_PI * layered->pair.normal;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

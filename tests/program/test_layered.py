@@ -1,0 +1,234 @@
+"""Layered bodies: spheres against integral equations, torsion and sliding of coated bodies, waves, wrong input."""
+
+import h5py
+import numpy as np
+import pytest
+
+from support import assert_close, assert_same
+
+# Lengths in units of the contact radius A on a sphere of radius 1 m; the substrate's modulus is E, its ratio 0.3.
+A, E = 1e-3, 1e9
+HARD = [(4, 0.25, 0.5)]
+SOFT = [(0.1, 0.45, 0.5)]
+MU = 0.1
+
+
+def body(number, layers=(), young=E):
+    """Options of a body whose layers (modulus over E, Poisson's ratio, thickness over A) are given."""
+    name = f"body{number}_"
+    options = {name + "young": young, name + "poisson": 0.3}
+    for k, word in enumerate(("young", "poisson", "thickness")):
+        if layers:
+            options[name + "layer_" + word] = [layer[k] * (E, 1, A)[k] for layer in layers]
+    return options
+
+
+def sphere(layers, width, n=256, base=E, other=None, **more):
+    """A sphere on a coated body, rigid unless its layers are given; the grid's width in units of A."""
+    first = body(1, other) if other else dict(body1_young=float("inf"))
+    return dict(
+        **first,
+        **body(2, layers, base),
+        gap_type="sphere",
+        gap_radius1=1.0,
+        gap_radius2=float("inf"),
+        grid_n=n,
+        grid_size=width * A,
+        output_fields="all",
+        **more,
+    )
+
+
+def peak(r):
+    """The pressure at the origin, which is a corner of four cells."""
+    n = r.pressure.shape[0] // 2
+    p = r.pressure[n - 2 : n + 2, n - 2 : n + 2]
+    x = np.arange(4) - 1.5
+    return np.polyfit((x[:, None] ** 2 + x**2).ravel(), p.ravel(), 1)[1]
+
+
+# Modulus and thickness of one layer with Poisson's ratio 0.3, and contact radius, peak and approach, all over those of
+# the substrate alone, by integral equations (11 digits).
+RIGID_SPHERES = [
+    (0.01, 1, 3.319842098, 0.110383191, 6.114887373),
+    (0.1, 0.1, 1.270815613, 0.735112125, 1.202485789),
+    (0.5, 1, 1.206607645, 0.704682272, 1.227128046),
+    (4, 0.3, 0.826240554, 1.163449429, 0.907981488),
+    (10, 0.3, 0.710121732, 1.273788556, 0.859776394),
+    (100, 0.3, 0.300585305, 9.697377324, 0.614463129),
+]
+
+
+@pytest.mark.parametrize("young, thickness, radius, pressure, approach", RIGID_SPHERES)
+def test_rigid_sphere_on_one_layer(young, thickness, radius, pressure, approach, solve):
+    load = 4 / 3 * E / 0.91 * A**3
+    r = solve(sphere([(young, 0.3, thickness)], 2.6 * radius), dict(load_n=load))
+    assert peak(r) == pytest.approx(1.5 * load / (np.pi * A**2) * pressure, rel=3e-5)
+    assert r["disp_z"] == pytest.approx(A**2 * approach, rel=1e-5)
+    assert r["contact_area"] == pytest.approx(np.pi * (radius * A) ** 2, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    "layers, base, load, approach, tolerance",
+    [
+        (HARD, E, 2.9554498519, 1.4078716098, 1e-5),
+        (SOFT, E, 0.33284904952, 0.61181692726, 1e-5),
+        ([(1, 0.3, 0.1)], float("inf"), 11.10263482, 0.51293659007, 1e-4),
+        ([(1, 0.5, 0.5)], float("inf"), 4.6188816431, 0.45490282156, 1e-4),
+    ],
+)
+def test_approach_at_a_radius(layers, base, load, approach, tolerance, solve):
+    """Also on a rigid base, there of nearly and of fully incompressible layers."""
+    r = solve(sphere(layers, 2.6, base=base), dict(load_n=load * E * A**3))
+    assert r["disp_z"] == pytest.approx(approach * A**2, rel=tolerance)
+    assert r["contact_area"] == pytest.approx(np.pi * A**2, rel=2e-3)
+
+
+@pytest.mark.parametrize(
+    "layers, load, pressure, normal, torsional",
+    [
+        (HARD, 2.9554498519, 1.1558854318, 2.920029573, 7.1857743038),
+        (SOFT, 0.33284904952, 0.18502222302, 1.0104898017, 0.22334887107),
+    ],
+)
+def test_peak_and_stiffness_at_a_radius(layers, load, pressure, normal, torsional, solve):
+    """The stiffness in approach, and in torsion when all sticks."""
+    r = solve(sphere(layers, 2.6, friction=MU, coupling="none", stiffness=True), dict(load_n=load * E * A**3))
+    assert peak(r) == pytest.approx(pressure * E * A, rel=3e-5)
+    assert r["stiffness"][0, 0] == pytest.approx(normal * E * A, rel=2e-3)
+    assert r["stiffness_reversal"][5, 5] == pytest.approx(torsional * E * A**3, rel=5e-3)
+
+
+@pytest.mark.parametrize(
+    "layers, load, approach", [(HARD, 2.9554498519, 1.4078716098), (SOFT, 0.33284904952, 0.61181692726)]
+)
+def test_pressure_corrected_for_its_edge(layers, load, approach, solve):
+    """Ten times as accurate, as on half-spaces: the film is 25 cells thick."""
+    r = solve(sphere(layers, 2.6, n=128, edges="deferred"), dict(load_n=load * E * A**3))
+    assert r["disp_z"] == pytest.approx(approach * A**2, rel=5e-6)
+    assert r["contact_area"] == pytest.approx(np.pi * A**2, rel=6e-5)
+
+
+@pytest.mark.parametrize(
+    "layers, load, moment, rotation",
+    [(HARD, 1.477724926, 0.591408579, 0.571777852), (SOFT, 0.1664245248, 0.531573613, 2.577468433)],
+)
+def test_torsion_of_alike_coated_bodies(layers, load, moment, rotation, solve):
+    """Partial slip that is known: alike bodies are not coupled, and torsion moves no surface radially."""
+    error = []
+    for n in (64, 128):
+        case = sphere(layers, 2.6, n=n, other=layers, friction=MU, load_n=load * E * A**3)
+        r = solve(case, dict(load_mz=moment * MU * load * E * A**4))
+        error.append(abs(r["rot_z"] / (rotation * MU * A) - 1))
+        assert r["coupling_iterations"] <= 1
+    assert error[1] < 1e-3 and error[1] < 0.5 * error[0]
+
+
+@pytest.mark.parametrize("layers, load, displacement", [(HARD, 1.477724926, 0.047787), (SOFT, 0.1664245248, 0.07486)])
+def test_tangential_force_on_alike_coated_bodies(layers, load, displacement, solve):
+    case = sphere(layers, 2.5, other=layers, friction=MU, load_n=load * E * A**3)
+    r = solve(case, dict(load_tx=0.6 * MU * load * E * A**3))
+    assert r["disp_x"] == pytest.approx(displacement * A**2, rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    "young, thickness, load, most",
+    [(0.01, 0.01, 0.597, 12), (0.1, 0.3, 0.341, 12), (10, 0.1, 2.05, 22), (100, 0.01, 1.65, 45), (100, 0.1, 3.08, 40)],
+)
+def test_iterations_on_films(young, thickness, load, most, solve):
+    """Also of a hard film on a soft body, where the inverse of the symbols alone needs 130 iterations."""
+    r = solve(sphere([(young, 0.3, thickness)], 2.6, n=128), dict(load_n=load * E * A**3))
+    assert r["contact_area"] == pytest.approx(np.pi * A**2, rel=0.05)
+    assert r["normal_iterations"] <= most
+
+
+def test_coupled_bodies_slip_at_much_friction(solve):
+    """A hard film on one body: coupled, with friction 1; solved and checked, and the same on any number of ranks."""
+    case = sphere(HARD, 2.6, n=48, other=SOFT, friction=1.0, load_n=0.2 * E * A**3)
+    more = dict(load_tx=0.05 * E * A**3, steps=2)
+    one, two = (solve(case, more, ranks=ranks) for ranks in (1, 3))
+    assert one["coupling_iterations"] > 1
+    assert_same(one, two, 0)
+
+
+def test_wave_in_full_contact(tmp_path, solve):
+    """Periodic bodies: a wave takes the pressure of its symbol, c = 1.04309842376544 at k h = 1 (E = 1, h = 1)."""
+    width, height, n = 2 * np.pi * A, 1e-8, 40
+    x = (np.arange(n) + 0.5) / n
+    with h5py.File(tmp_path / "wave.h5", "w") as f:
+        f["height"] = np.tile(height * (1 - np.cos(2 * np.pi * x)), (6, 1))
+    amplitude = height / A * E / 1.04309842376544
+    r = solve(
+        dict(body1_young=float("inf"), **body(2, [(4, 0.25, 1)]), elasticity="periodic"),
+        dict(gap_type="file", gap_file=tmp_path / "wave.h5", grid_n=(n, 6), grid_size=(width, width / 5)),
+        dict(load_n=1.5 * amplitude * width**2 / 5),
+    )
+    assert_close(r.pressure, np.tile(amplitude * (1.5 + np.cos(2 * np.pi * x)), (6, 1)), 1e-7)
+
+
+# ---------------------------------------------------------------- what is refused, and what is advised
+
+SMALL = sphere([(2, 0.3, 1), (3, 0.2, 0.5)], 2.6, n=32, load_n=0.5 * E * A**3, friction=0.2)
+
+
+@pytest.mark.parametrize(
+    "change, says",
+    [
+        (dict(body2_layer_young=[E]), "-body2_layer_young is given for 1 of 2 layers"),
+        (dict(body2_layer_thickness=None), "-body2_layer_thickness is missing"),
+        (dict(body2_layer_thickness=[A, 0]), "-body2_layer_thickness 0: expected a finite number > 0"),
+        (dict(body2_layer_thickness=[A, -A]), "-body2_layer_thickness -0.001: expected a finite number > 0"),
+        (
+            dict(body2_layer_poisson=[0.3, 0.51]),
+            "-body2_layer_poisson 0.51: expected a number above -1 and at most 0.5",
+        ),
+        (dict(body2_layer_young="1e9,inf"), "-body2_layer_young inf: a layer cannot be rigid"),
+        (dict(body2_layer_young="1e9,0"), "-body2_layer_young 1e9,0: expected a number > 0"),
+        (dict(body2_layer_young="1e9,soft"), "-body2_layer_young 1e9,soft: expected a number > 0"),
+        (dict(body2_layer_young=",".join(["1e9"] * 33)), "at most 32 separated by commas"),
+    ],
+)
+def test_wrong_layers_are_refused(change, says, petsam):
+    assert says in petsam({**SMALL, **change}, check=2).complaint[0]
+
+
+def test_one_poisson_s_ratio_is_for_all_layers(solve):
+    one = solve({**SMALL, "body2_layer_poisson": 0.3})
+    two = solve({**SMALL, "body2_layer_poisson": (0.3, 0.3)})
+    assert_same(one, two, 0)
+
+
+@pytest.mark.parametrize(
+    "change, says",
+    [
+        (
+            dict(body2_layer_young=[E, E], body2_layer_poisson=0.3),
+            "all layers of body 2 are of the substrate's material",
+        ),
+        (dict(body2_layer_thickness=[A / 100, A]), "the layer at the surface of body 2 is 0.12 cells thick"),
+        (dict(body2_layer_thickness=[1.0, A]), "-body2_layer_thickness 1 is"),
+        (
+            dict(edges="deferred", friction=None, body2_layer_thickness=[A / 2, A]),
+            "it is supported for -elasticity halfspace, on layers of 8 cells at least",
+        ),
+    ],
+)
+def test_layers_that_are_hardly_meant_are_told(change, says, petsam):
+    assert says in petsam({**SMALL, **change}).stderr
+
+
+def test_restart_with_other_layers_is_refused(petsam):
+    petsam(SMALL, dict(steps=3, checkpoint="state.h5", checkpoint_every=2))
+    again = dict(steps=3, restart="state.h5")
+    for change in (dict(body2_layer_thickness=[A, A]), dict(body2_layer_young=[2 * E, 4 * E])):
+        assert f"-{list(change)[0]} is" in petsam({**SMALL, **change}, again, check=2).complaint[0]
+    none = {f"body2_layer_{name}": None for name in ("young", "poisson", "thickness")}
+    assert "is given there, and not here" in petsam({**SMALL, **none}, again, check=2).complaint[0]
+
+
+def test_layers_are_recorded(solve):
+    r = solve(SMALL)
+    with h5py.File(r.path) as f:
+        assert list(f.attrs["body2_layer_thickness"]) == [A, 0.5 * A]
+        assert list(f.attrs["body2_layer_young"]) == [2 * E, 3 * E]
+        assert "body1_layer_young" not in f.attrs
