@@ -12,6 +12,8 @@ typedef struct {
   PetscInt  count;                                                         /* 0: none */
   PetscReal young[SAM_LAYERS], poisson[SAM_LAYERS], thickness[SAM_LAYERS]; /* Pa, finite; 1; m */
 } SamLayers;
+/* SamLayersDepth - the depth (m) of the bottom of the n-th layer; 0 for n = 0. Not collective. */
+PETSC_EXTERN PetscReal SamLayersDepth(const SamLayers *layers, PetscInt n);
 
 /*
   SamPair - the elastic constants of two isotropic bodies, and the sums of them that the displacements of their surfaces

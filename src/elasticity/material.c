@@ -65,6 +65,14 @@ static PetscErrorCode FindFault(const PetscReal young[2], const PetscReal poisso
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscReal SamLayersDepth(const SamLayers *layers, PetscInt n)
+{
+  PetscReal depth = 0;
+
+  for (PetscInt k = 0; k < n; k++) depth += layers->thickness[k];
+  return depth;
+}
+
 PetscErrorCode SamPairSetLayered(SamPair *pair, const PetscReal young[2], const PetscReal poisson[2],
                                  const SamLayers layers[2])
 {

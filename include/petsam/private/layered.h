@@ -14,6 +14,7 @@
     radial.c   the differences become radial functions, the influence in space that is added to the half-space's
     cells.c    the radial functions become integrals over cells, which halfspace.c adds to its closed forms. All
                products, coarse grids and parts are those of half-spaces
+    stress.c   symbols of the stresses at a depth become radial functions and integrals likewise
     waves.c    the symbols themselves act on waves: products on periodic grids, and the preconditioners of both
   Source of formulas: Burmister 1945, J. Appl. Phys. 16, 89; O'Sullivan and King 1988, J. Tribol. 110, 235.
 */
@@ -35,13 +36,28 @@ PETSC_INTERN void SamLayeredSymbols(const SamPair *pair, PetscInt body, double k
                                     double difference[SAM_LAYERED_SYMBOLS]);
 
 /*
+  SamLayeredStresses - of body 1 or 2, at a wave number k (1/m) and the depth z below the top of a layer (the last: the
+  substrate, which must be elastic): ten functions of which the stresses by unit waves of traction are made, in the
+  order of the transforms at the head of stress.c. In the first layer: less those of a half-space of its material. Not
+  collective.
+*/
+#define SAM_LAYERED_STRESSES 10
+PETSC_INTERN void SamLayeredStresses(const SamPair *pair, PetscInt body, PetscInt layer, double z, double k,
+                                     double s[SAM_LAYERED_STRESSES]);
+/* SamLayeredCreateStress - the stresses in body 1 or 2 of a pair, which has layers (stress.c). Collective. */
+PETSC_INTERN PetscErrorCode SamLayeredCreateStress(SamGrid grid, const SamFourierSettings *settings, PetscInt body,
+                                                   const SamPair *pair, SamStress *stress);
+
+/*
   SamSpline - functions of s >= 0 as polynomials of degree 9 on intervals: from 0 to `least`, then eight to each factor
   2 of s, which the leading bits of s choose, up to `most`. Arguments beyond are taken as the nearest. Errors are 1e-15
   where a function is analytic about its interval as far as its distance from 0.
+  The most functions of a table: SAM_RADIALS.
   SamSplineCreate - from the values of all functions at s. SamSplineRow - values of a function at s[0 ... n - 1],
   quickly where consecutive arguments share an interval. None is collective.
 */
 #define SAM_SPLINE_DEGREE 9
+#define SAM_RADIALS       10
 typedef struct {
   double least, most, *centre, *scale, *coefficients; /* of each interval; coefficients of each function and interval */
   int    first, intervals, functions;
@@ -73,19 +89,68 @@ PETSC_INTERN PetscErrorCode SamLayeredCreate(const SamPair *pair, SamLayered *la
 PETSC_INTERN PetscErrorCode SamLayeredReference(SamLayered from, SamLayered *to); /* in the place of another */
 PETSC_INTERN PetscErrorCode SamLayeredDestroy(SamLayered *layered);
 PETSC_INTERN PetscErrorCode SamLayeredPrepare(SamLayered layered, double r, const double k[2]);
-/* SamRadialCreate - the table of the four functions for distances up to r. Not collective. */
-PETSC_INTERN PetscErrorCode SamRadialCreate(const SamPair *pair, double depth, double r, SamSpline *table);
+
+/*
+  SamRadialSource - functions g(k), whose transforms f(r) of these orders (radial.c) make a table of f/r^order for
+  distances up to r. They fall like exp(-depth k), and vary over lengths up to `longest`; for k = 0 they tend to the sum
+  of the images. SamRadialCreate() is not collective.
+*/
+typedef struct {
+  int        functions;
+  const int *orders;
+  double     depth, longest; /* m */
+  double     image[2][SAM_RADIALS], thickness[2];
+  void (*values)(const void *context, double k, double g[]);
+  const void *context;
+} SamRadialSource;
+PETSC_INTERN PetscErrorCode SamRadialCreate(const SamRadialSource *of, double r, SamSpline *table);
+
+/*
+  SamRadialKernels - at most three kernels, sums of terms: a factor, a function of a table and a polynomial of (x, y).
+  Terms of one function follow each other.
+    SamRadialAddRow        adds the integrals over the cells at the lags (i, j), i = 0 ... n - 1, at a point that lies
+                           (i, j) cells from each; errors are 1e-12 of the functions
+    SamRadialAddRectangle  adds those over a rectangle; `level` of its division: 0
+    SamRadialSetUp         must be called before both
+  None is collective.
+*/
+#define SAM_RADIAL_KERNELS 3
+typedef enum {
+  SAM_ANGULAR_1,
+  SAM_ANGULAR_X,   /* r cos t */
+  SAM_ANGULAR_Y,   /* r sin t */
+  SAM_ANGULAR_XX,  /* r^2 cos 2t */
+  SAM_ANGULAR_XY,  /* r^2 sin 2t */
+  SAM_ANGULAR_XXX, /* r^3 cos 3t */
+  SAM_ANGULAR_YYY  /* r^3 sin 3t */
+} SamAngular;
+typedef struct {
+  int        function, kernel;
+  SamAngular angular;
+  double     factor;
+} SamRadialTerm;
+typedef struct {
+  const SamSpline     *table;
+  double               depth;
+  int                  kernels, count; /* kernels, terms */
+  const SamRadialTerm *terms;
+} SamRadialKernels;
+PETSC_INTERN PetscErrorCode SamRadialSetUp(void);
+PETSC_INTERN void           SamRadialAddRow(const SamRadialKernels *of, const double side[2], PetscInt j, PetscInt n,
+                                            double *const values[]);
+PETSC_INTERN void           SamRadialAddRectangle(const SamRadialKernels *of, int level, const double centre[2],
+                                                  const double side[2], double sums[]);
 
 /*
   SamLayeredAddRow - adds the integrals over the cells at the lags (i, j), i = 0 ... n - 1: the displacement at a point
   (i dx, j dy) from the centre of a cell under unit traction, less that of the surface's half-spaces. `kind`: what has
   this integral of half-spaces; u_z from p: R, u_x from q_x: XX, u_x from p: X. Errors are 1e-12 of the functions.
   SamLayeredAddSlopeRow - the same of u_z from pressures that are linear as those of SamSlopeRow(), 1e-6 if the layers
-  are 8 cells thick. SamLayeredRectangle - one over a rectangle; `level` of its division: 0. None is collective.
+  are 8 cells thick. SamLayeredRectangle - one over a rectangle. None is collective.
 */
 PETSC_INTERN void   SamLayeredAddSlopeRow(SamLayered layered, int axis, double dx, double dy, PetscInt j, PetscInt n,
                                           double values[]);
-PETSC_INTERN double SamLayeredRectangle(SamLayered layered, SamIntegral kind, int level, const double centre[2],
+PETSC_INTERN double SamLayeredRectangle(SamLayered layered, SamIntegral kind, const double centre[2],
                                         const double side[2]);
 PETSC_INTERN void   SamLayeredAddRow(SamLayered layered, SamIntegral kind, double dx, double dy, PetscInt j, PetscInt n,
                                      double values[]);

@@ -297,7 +297,7 @@ static PetscErrorCode GetNear(SamElasticity e, PetscInt reach, PetscInt sub, dou
 
     table[n] = e->pair.normal * SamIntegralCell(SAM_INTEGRAL_R, dx, dy, i, j);
     if (layers)
-      table[n] += SamLayeredRectangle(layers, SAM_INTEGRAL_R, 0, (const double[]){(double)i * dx, (double)j * dy},
+      table[n] += SamLayeredRectangle(layers, SAM_INTEGRAL_R, (const double[]){(double)i * dx, (double)j * dy},
                                       (const double[]){dx, dy});
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -313,6 +313,7 @@ static PetscErrorCode Inherit(SamElasticity parent, SamElasticity child)
 static PetscErrorCode CreateStress(SamElasticity e, PetscInt body, const SamFourierSettings *settings,
                                    SamStress *stress)
 {
+  if (e->pair.layers[body - 1].count) return SamLayeredCreateStress(e->grid, settings, body, &e->pair, stress);
   return SamHalfSpaceCreateStress(e->grid, settings, body, e->pair.young[body - 1], e->pair.poisson[body - 1], stress);
 }
 

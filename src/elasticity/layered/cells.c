@@ -12,125 +12,172 @@
 #include <petsam/private/layered.h>
 #include <petscdt.h>
 
-#define CHUNK   512 /* lags that are worked off together */
-#define STENCIL 3   /* cells to each side */
-#define DEEPEST 60  /* divisions of a cell; a depth of 1e-18 cells */
-#define POINTS  8
+#define CHUNK    512 /* lags that are worked off together */
+#define STENCIL  3   /* cells to each side */
+#define DEEPEST  60  /* divisions of a cell; a depth of 1e-18 cells */
+#define POINTS   8
+#define SMALLEST 1e-18 /* k times the thickness, for the limit of long waves */
 
 typedef struct {
   PetscReal x[POINTS], w[POINTS]; /* on (-1/2, 1/2) */
 } Rule;
 
-/* Gauss' rules of 0 to POINTS points, filled by SamLayeredCreate(). */
+/* Gauss' rules of 0 to POINTS points, filled by SamRadialSetUp(). */
 static Rule rules[POINTS + 1];
 
-/* The values of a kernel at (x[i], y), i < n <= CHUNK + 2 STENCIL, times the weight, added. */
-static void AddPoints(SamLayered l, SamIntegral kind, double weight, PetscInt n, const double x[], double y,
-                      double values[])
+/* Adds the values of kernels at (x[i], y), i < n <= CHUNK + 2 STENCIL, times the weight. */
+static void AddPoints(const SamRadialKernels *of, double weight, PetscInt n, const double x[], double y,
+                      double *const values[])
 {
-  static const SamRadial function[] = {SAM_RADIAL_N, SAM_RADIAL_A, SAM_RADIAL_A,
-                                       SAM_RADIAL_B, SAM_RADIAL_C, SAM_RADIAL_C};
-  const double           sign       = kind == SAM_INTEGRAL_XX ? weight : -weight;
-  double                 s[CHUNK + 2 * STENCIL], f[CHUNK + 2 * STENCIL];
+  /* the polynomials' coefficients of x^0 to x^3 */
+  const double polynomials[][4] = {[SAM_ANGULAR_1]   = {1},
+                                   [SAM_ANGULAR_X]   = {0, 1},
+                                   [SAM_ANGULAR_Y]   = {y},
+                                   [SAM_ANGULAR_XX]  = {-y * y, 0, 1},
+                                   [SAM_ANGULAR_XY]  = {0, 2 * y},
+                                   [SAM_ANGULAR_XXX] = {0, -3 * y * y, 0, 1},
+                                   [SAM_ANGULAR_YYY] = {-y * y * y, 0, 3 * y}};
+  double       s[CHUNK + 2 * STENCIL], f[CHUNK + 2 * STENCIL];
 
   for (PetscInt i = 0; i < n; i++) s[i] = x[i] * x[i] + y * y;
-  SamSplineRow(&l->radial, function[kind], n, s, f);
-  for (PetscInt i = 0; i < n; i++)
-    values[i] += weight * f[i] *
-                 (kind < SAM_INTEGRAL_XY    ? 1
-                  : kind == SAM_INTEGRAL_XY ? 2 * x[i] * y
-                  : kind == SAM_INTEGRAL_X  ? x[i]
-                                            : y);
-  if (kind != SAM_INTEGRAL_XX && kind != SAM_INTEGRAL_YY) return;
-  SamSplineRow(&l->radial, SAM_RADIAL_B, n, s, f);
-  for (PetscInt i = 0; i < n; i++) values[i] += sign * f[i] * (x[i] * x[i] - y * y);
+  for (int t = 0; t < of->count; t++) {
+    const SamRadialTerm term = of->terms[t];
+    const double       *c = polynomials[term.angular], w = weight * term.factor;
+    double             *to = values[term.kernel];
+
+    if (!t || term.function != of->terms[t - 1].function) SamSplineRow(of->table, term.function, n, s, f);
+    for (PetscInt i = 0; i < n; i++) to[i] += w * f[i] * (((c[3] * x[i] + c[2]) * x[i] + c[1]) * x[i] + c[0]);
+  }
 }
 
-/* The integral over a rectangle of these sides about (x, y), by n x n points. */
-static double Integrate(SamLayered l, SamIntegral kind, int n, const double centre[2], const double side[2])
+/* Adds the integrals over a rectangle of these sides about (x, y), by n x n points. */
+static void Integrate(const SamRadialKernels *of, int n, const double centre[2], const double side[2], double sums[])
 {
   const Rule *rule = &rules[n];
-  double      x[POINTS], values[POINTS] = {0}, sum = 0;
+  double      x[POINTS], values[SAM_RADIAL_KERNELS][POINTS] = {{0}};
 
   for (int i = 0; i < n; i++) x[i] = centre[0] + side[0] * rule->x[i];
-  for (int j = 0; j < n; j++) AddPoints(l, kind, rule->w[j], n, x, centre[1] + side[1] * rule->x[j], values);
-  for (int i = 0; i < n; i++) sum += rule->w[i] * values[i];
-  return sum * side[0] * side[1];
+  for (int j = 0; j < n; j++)
+    AddPoints(of, rule->w[j], n, x, centre[1] + side[1] * rule->x[j], (double *[]){values[0], values[1], values[2]});
+  for (int k = 0; k < of->kernels; k++)
+    for (int i = 0; i < n; i++) sums[k] += rule->w[i] * values[k][i] * side[0] * side[1];
 }
 
-double SamLayeredRectangle(SamLayered l, SamIntegral kind, int level, const double centre[2], const double side[2])
+void SamRadialAddRectangle(const SamRadialKernels *of, int level, const double centre[2], const double side[2],
+                           double sums[])
 {
-  const double R2       = centre[0] * centre[0] + centre[1] * centre[1] + l->depth * l->depth;
+  const double R2       = centre[0] * centre[0] + centre[1] * centre[1] + of->depth * of->depth;
   const int    parts[2] = {side[1] > 2 * side[0] ? 1 : 2, side[0] > 2 * side[1] ? 1 : 2};
-  double       sum      = 0;
 
-  if (level == DEEPEST || 3.5 * 3.5 / 4 * (side[0] * side[0] + side[1] * side[1]) < R2)
-    return Integrate(l, kind, POINTS, centre, side);
+  if (level == DEEPEST || 3.5 * 3.5 / 4 * (side[0] * side[0] + side[1] * side[1]) < R2) {
+    Integrate(of, POINTS, centre, side, sums);
+    return;
+  }
   for (int k = 0; k < parts[0] * parts[1]; k++) {
     const double part[2] = {side[0] / parts[0], side[1] / parts[1]};
     const double at[2]   = {centre[0] + (k % parts[0] - 0.5 * (parts[0] - 1)) * part[0],
                             centre[1] + (k / parts[0] - 0.5 * (parts[1] - 1)) * part[1]};
 
-    sum += SamLayeredRectangle(l, kind, level + 1, at, part);
+    SamRadialAddRectangle(of, level + 1, at, part, sums);
   }
-  return sum;
 }
 
 /* The first lag of a row whose R, in units of the longer side, is that at least; at most n. */
-static PetscInt FirstBeyond(SamLayered l, double R, const double side[2], PetscInt j, PetscInt n)
+static PetscInt FirstBeyond(double depth, double R, const double side[2], PetscInt j, PetscInt n)
 {
-  const double far = R * PetscMax(side[0], side[1]), y = (double)j * side[1],
-               x2 = far * far - y * y - l->depth * l->depth;
+  const double far = R * PetscMax(side[0], side[1]), y = (double)j * side[1], x2 = far * far - y * y - depth * depth;
 
   return x2 <= 0 ? 0 : (PetscInt)PetscMin(ceil(sqrt(x2) / side[0]), (double)n);
 }
 
 /* Lags first ... end - 1 of a row, by this many rows of points across a cell. */
-static void AddFar(SamLayered l, SamIntegral kind, int across, const double side[2], PetscInt j, PetscInt first,
-                   PetscInt end, double values[])
+static void AddFar(const SamRadialKernels *of, int across, const double side[2], PetscInt j, PetscInt first,
+                   PetscInt end, double *const values[])
 {
   static const double weights[] = {1 - 2.0 / 24 - 17 * 6.0 / 5760 - 367 * 20.0 / 967680,
                                    1.0 / 24 + 17 * 4.0 / 5760 + 367 * 15.0 / 967680, -17.0 / 5760 - 367 * 6.0 / 967680,
                                    367.0 / 967680};
   const Rule         *rule      = &rules[across];
-  double              x[CHUNK + 2 * STENCIL], f[CHUNK + 2 * STENCIL];
+  double              x[CHUNK + 2 * STENCIL], sums[SAM_RADIAL_KERNELS][CHUNK + 2 * STENCIL];
 
   for (PetscInt start = first; start < end; start += CHUNK) {
     const PetscInt n = PetscMin(CHUNK, end - start);
 
     for (PetscInt i = 0; i < n + 2 * STENCIL; i++) {
       x[i] = (double)(start + i - STENCIL) * side[0];
-      f[i] = 0;
+      for (int k = 0; k < of->kernels; k++) sums[k][i] = 0;
     }
     for (int b = 0; b < across; b++)
-      AddPoints(l, kind, side[0] * side[1] * rule->w[b], n + 2 * STENCIL, x, ((double)j + rule->x[b]) * side[1], f);
-    for (PetscInt i = 0; i < n; i++) {
-      values[start + i] += weights[0] * f[i + STENCIL];
-      for (int k = 1; k <= STENCIL; k++) values[start + i] += weights[k] * (f[i + STENCIL - k] + f[i + STENCIL + k]);
-    }
+      AddPoints(of, side[0] * side[1] * rule->w[b], n + 2 * STENCIL, x, ((double)j + rule->x[b]) * side[1],
+                (double *[]){sums[0], sums[1], sums[2]});
+    for (int k = 0; k < of->kernels; k++)
+      for (PetscInt i = 0; i < n; i++) {
+        const double *const f = &sums[k][i + STENCIL];
+
+        values[k][start + i] += weights[0] * f[0];
+        for (int m = 1; m <= STENCIL; m++) values[k][start + i] += weights[m] * (f[-m] + f[m]);
+      }
   }
+}
+
+void SamRadialAddRow(const SamRadialKernels *of, const double side[2], PetscInt j, PetscInt n, double *const values[])
+{
+  const PetscInt parts = FirstBeyond(of->depth, 8, side, j, n), fifth = FirstBeyond(of->depth, 13, side, j, n),
+                 fourth = FirstBeyond(of->depth, 45, side, j, n), third = FirstBeyond(of->depth, 640, side, j, n);
+
+  for (PetscInt i = 0; i < fourth; i++) {
+    const double centre[2]                = {(double)i * side[0], (double)j * side[1]};
+    double       sums[SAM_RADIAL_KERNELS] = {0};
+
+    if (i < parts)
+      SamRadialAddRectangle(of, 0, centre, side, sums);
+    else
+      Integrate(of, i < fifth ? 5 : 4, centre, side, sums);
+    for (int k = 0; k < of->kernels; k++) values[k][i] += sums[k];
+  }
+  AddFar(of, 3, side, j, fourth, third, values);
+  AddFar(of, 2, side, j, third, n, values);
+}
+
+/* ---- the surface ---- */
+
+/* The kernel of displacements that has this integral of half-spaces. */
+static SamRadialKernels SurfaceKernel(SamLayered l, SamIntegral kind)
+{
+  static const SamRadialTerm terms[][2] = {
+    [SAM_INTEGRAL_R]  = {{SAM_RADIAL_N, 0, SAM_ANGULAR_1, 1}},
+    [SAM_INTEGRAL_XX] = {{SAM_RADIAL_A, 0, SAM_ANGULAR_1, 1}, {SAM_RADIAL_B, 0, SAM_ANGULAR_XX, 1}},
+    [SAM_INTEGRAL_YY] = {{SAM_RADIAL_A, 0, SAM_ANGULAR_1, 1}, {SAM_RADIAL_B, 0, SAM_ANGULAR_XX, -1}},
+    [SAM_INTEGRAL_XY] = {{SAM_RADIAL_B, 0, SAM_ANGULAR_XY, 1}},
+    [SAM_INTEGRAL_X]  = {{SAM_RADIAL_C, 0, SAM_ANGULAR_X, 1}},
+    [SAM_INTEGRAL_Y]  = {{SAM_RADIAL_C, 0, SAM_ANGULAR_Y, 1}},
+  };
+  const int count = kind == SAM_INTEGRAL_XX || kind == SAM_INTEGRAL_YY ? 2 : 1;
+
+  return (SamRadialKernels){.table = &l->radial, .depth = l->depth, .kernels = 1, .count = count, .terms = terms[kind]};
+}
+
+double SamLayeredRectangle(SamLayered l, SamIntegral kind, const double centre[2], const double side[2])
+{
+  const SamRadialKernels of  = SurfaceKernel(l, kind);
+  double                 sum = 0;
+
+  SamRadialAddRectangle(&of, 0, centre, side, &sum);
+  return sum;
 }
 
 void SamLayeredAddRow(SamLayered l, SamIntegral kind, double dx, double dy, PetscInt j, PetscInt n, double values[])
 {
-  const double   side[2] = {dx, dy};
-  const PetscInt parts = FirstBeyond(l, 8, side, j, n), fifth = FirstBeyond(l, 13, side, j, n),
-                 fourth = FirstBeyond(l, 45, side, j, n), third = FirstBeyond(l, 640, side, j, n);
+  const SamRadialKernels of = SurfaceKernel(l, kind);
 
-  for (PetscInt i = 0; i < fourth; i++) {
-    const double centre[2] = {(double)i * dx, (double)j * dy};
-
-    values[i] +=
-      i < parts ? SamLayeredRectangle(l, kind, 0, centre, side) : Integrate(l, kind, i < fifth ? 5 : 4, centre, side);
-  }
-  AddFar(l, kind, 3, side, j, fourth, third, values);
-  AddFar(l, kind, 2, side, j, third, n, values);
+  SamRadialAddRow(&of, (const double[]){dx, dy}, j, n, &values);
 }
 
 void SamLayeredAddSlopeRow(SamLayered l, int axis, double dx, double dy, PetscInt j, PetscInt n, double values[])
 {
-  const Rule *rule = &rules[3];
-  double      x[CHUNK];
+  const SamRadialKernels of   = SurfaceKernel(l, SAM_INTEGRAL_R);
+  const Rule            *rule = &rules[3];
+  double                 x[CHUNK];
 
   for (PetscInt start = 0; start < n; start += CHUNK)
     for (int k = 0; k < 9; k++) {
@@ -138,17 +185,24 @@ void SamLayeredAddSlopeRow(SamLayered l, int axis, double dx, double dy, PetscIn
       const PetscInt count = PetscMin(CHUNK, n - start);
 
       for (PetscInt i = 0; i < count; i++) x[i] = ((double)(start + i) - rule->x[a]) * dx;
-      AddPoints(l, SAM_INTEGRAL_R, dx * dy * rule->w[a] * rule->w[b] * rule->x[axis ? b : a], count, x,
-                ((double)j - rule->x[b]) * dy, values + start);
+      AddPoints(&of, dx * dy * rule->w[a] * rule->w[b] * rule->x[axis ? b : a], count, x, ((double)j - rule->x[b]) * dy,
+                (double *[]){values + start});
     }
 }
 
 /* ---- the tables ---- */
 
-PetscErrorCode SamLayeredCreate(const SamPair *pair, SamLayered *layered)
+PetscErrorCode SamRadialSetUp(void)
 {
   PetscFunctionBegin;
   for (PetscInt n = 2; n <= POINTS; n++) PetscCall(PetscDTGaussQuadrature(n, -0.5, 0.5, rules[n].x, rules[n].w));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLayeredCreate(const SamPair *pair, SamLayered *layered)
+{
+  PetscFunctionBegin;
+  PetscCall(SamRadialSetUp());
   PetscCall(PetscNew(layered));
   (*layered)->references = 1;
   (*layered)->pair       = *pair;
@@ -181,6 +235,43 @@ PetscErrorCode SamLayeredDestroy(SamLayered *layered)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The functions of k whose transforms are N, A, B and C, out of differences of symbols. */
+static void Combine(const double symbols[], double g[])
+{
+  g[SAM_RADIAL_N] = symbols[SAM_LAYERED_ZZ];
+  g[SAM_RADIAL_A] = 0.5 * (symbols[SAM_LAYERED_RR] + symbols[SAM_LAYERED_TT]);
+  g[SAM_RADIAL_B] = 0.5 * (symbols[SAM_LAYERED_TT] - symbols[SAM_LAYERED_RR]);
+  g[SAM_RADIAL_C] = symbols[SAM_LAYERED_ZR];
+}
+
+static void DifferencesAt(const void *context, double k, double values[])
+{
+  double total[SAM_LAYERED_SYMBOLS], difference[SAM_LAYERED_SYMBOLS];
+
+  SamLayeredSymbols(&((SamLayered)context)->pair, 0, k, total, difference);
+  Combine(difference, values);
+}
+
+static PetscErrorCode CreateRadial(SamLayered l, double r)
+{
+  static const int orders[] = {[SAM_RADIAL_N] = 0, [SAM_RADIAL_A] = 0, [SAM_RADIAL_B] = 2, [SAM_RADIAL_C] = 1};
+  SamRadialSource  of       = {
+           .functions = SAM_RADIAL_FUNCTIONS, .orders = orders, .depth = l->depth, .values = DifferencesAt, .context = l};
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < 2; b++) {
+    double total[SAM_LAYERED_SYMBOLS], limit[SAM_LAYERED_SYMBOLS];
+
+    of.thickness[b] = (double)SamLayersDepth(&l->pair.layers[b], l->pair.layers[b].count);
+    of.longest      = PetscMax(of.longest, of.thickness[b]);
+    SamLayeredSymbols(&l->pair, b + 1, SMALLEST / PetscMax(of.thickness[b], l->depth), total, limit);
+    if (!b) limit[SAM_LAYERED_ZR] = -limit[SAM_LAYERED_ZR];
+    Combine(limit, of.image[b]);
+  }
+  PetscCall(SamRadialCreate(&of, r, &l->radial));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static void SymbolsAt(const void *context, double k2, double values[])
 {
   double difference[SAM_LAYERED_SYMBOLS];
@@ -195,7 +286,7 @@ PetscErrorCode SamLayeredPrepare(SamLayered l, double r, const double k[2])
   PetscFunctionBegin;
   if (r > 0 && !(r * r <= l->radial.most)) {
     PetscCall(SamSplineDestroy(&l->radial));
-    PetscCall(SamRadialCreate(&l->pair, l->depth, room * r, &l->radial));
+    PetscCall(CreateRadial(l, room * r));
   }
   if (k[1] > 0 && (!l->symbols.intervals || k[0] * k[0] < l->symbols.least || k[1] * k[1] > l->symbols.most)) {
     const double ends[2] = {l->symbols.intervals ? PetscMin(sqrt(l->symbols.least), k[0]) : k[0],

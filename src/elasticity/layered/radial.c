@@ -1,18 +1,17 @@
 /*
-  From the differences of symbols g(k) to the influence in space, by transforms of Hankel's kind
-    f(r) = H_n[g](r) = (1/2 pi) int_0^inf g(k) J_n(kr) dk:
-  f_N = H_0[zz], f_A = H_0[(rr + tt)/2], f_B = H_2[(tt - rr)/2], f_C = H_1[zr].
+  From functions of the wave number g(k) to functions in space, by transforms of Hankel's kind
+    f(r) = H_n[g](r) = (1/2 pi) int_0^inf g(k) J_n(kr) dk.
 
   Algorithm (Talman 1978, J. Comput. Phys. 29, 35; Hamilton 2000, MNRAS 312, 257). g is smooth in x = ln k whatever
   the thicknesses are, and the transform is a convolution in x:
     1. The image g(0) exp(-k Z), Z the thickness of all layers, is taken out, as its transform is known:
-       (r/(rho + Z))^n/rho, rho^2 = r^2 + Z^2. What remains is O(k). Each body has its own image.
+       (r/(rho + Z))^n/rho, rho^2 = r^2 + Z^2. What remains is O(k). Each of two bodies may have its own image.
     2. The remainder is sampled at equal steps of x. Of its Fourier coefficients c_m at the frequencies w_m,
        r f(r) at ln r = y is the sum of c_m M_m exp(-i w_m (x0 + y)), with the Mellin transform of the kernel,
        M = 2^iw Gamma((1 + n + iw)/2)/Gamma((1 + n - iw)/2): one transform gives all r.
     3. Between the samples r f is interpolated in ln r by 12 points.
     4. For r below 0.15 of the depth that g falls with, a power series by the moments of g.
-  The table holds f_N, f_A, f_B/r^2 and f_C/r, functions of r^2 that are analytic at 0. The error is 1e-13 of f's size.
+  The table holds f/r^n, functions of r^2 that are analytic at 0. The error is 1e-13 of f's size.
 */
 #include <petsam/private/layered.h>
 #include <complex.h>
@@ -22,45 +21,34 @@
 #define NEAR    0.15 /* of the depth: within, the series */
 #define TERMS   10
 #define AROUND  12    /* points of the interpolation */
-#define LONGEST 1e-18 /* smallest k times the thickness */
+#define LONGEST 1e-18 /* smallest k times the longest length */
 #define FASTEST 200.0 /* largest k times the depth */
 
-static const int orders[SAM_RADIAL_FUNCTIONS] = {0, 0, 2, 1};
-
 typedef struct {
-  double  depth, x0, y0;                   /* ln k and ln r of the first samples */
-  int     n;                               /* samples */
-  double *remainder[SAM_RADIAL_FUNCTIONS]; /* of the symbols, then r f(r) */
-  double  moments[SAM_RADIAL_FUNCTIONS][TERMS];
-  double  image[2][SAM_RADIAL_FUNCTIONS], thickness[2]; /* of each body */
+  const SamRadialSource *of;
+  double                 x0, y0;                 /* ln k and ln r of the first samples */
+  int                    n;                      /* samples */
+  double                *remainder[SAM_RADIALS]; /* of the functions of k, then r f(r) */
+  double                 moments[SAM_RADIALS][TERMS];
 } Transform;
 
-/* The four g out of the symbols. */
-static void Combine(const double symbols[], double g[])
-{
-  g[SAM_RADIAL_N] = symbols[SAM_LAYERED_ZZ];
-  g[SAM_RADIAL_A] = 0.5 * (symbols[SAM_LAYERED_RR] + symbols[SAM_LAYERED_TT]);
-  g[SAM_RADIAL_B] = 0.5 * (symbols[SAM_LAYERED_TT] - symbols[SAM_LAYERED_RR]);
-  g[SAM_RADIAL_C] = symbols[SAM_LAYERED_ZR];
-}
-
 /* Samples without images, and moments with them. */
-static void Sample(Transform *t, const SamPair *pair)
+static void Sample(Transform *t)
 {
-  double total[SAM_LAYERED_SYMBOLS], difference[SAM_LAYERED_SYMBOLS], g[SAM_RADIAL_FUNCTIONS];
+  const SamRadialSource *of    = t->of;
+  const double           depth = of->depth;
+  double                 g[SAM_RADIALS];
 
-  memset(t->moments, 0, sizeof(t->moments));
   for (int i = 0; i < t->n; i++) {
     const double k = exp(t->x0 + i * STEP);
 
-    SamLayeredSymbols(pair, 0, k, total, difference);
-    Combine(difference, g);
-    for (int f = 0; f < SAM_RADIAL_FUNCTIONS; f++) {
-      double power = g[f] * k * STEP / (2 * PETSC_PI) * pow(k * t->depth, orders[f]);
+    (*of->values)(of->context, k, g);
+    for (int f = 0; f < of->functions; f++) {
+      double power = g[f] * k * STEP / (2 * PETSC_PI) * pow(k * depth, of->orders[f]);
 
-      for (int j = 0; j < TERMS; j++, power *= k * t->depth * k * t->depth) t->moments[f][j] += power;
+      for (int j = 0; j < TERMS; j++, power *= k * depth * k * depth) t->moments[f][j] += power;
       t->remainder[f][i] = g[f];
-      for (int b = 0; b < 2; b++) t->remainder[f][i] -= t->image[b][f] * exp(-k * t->thickness[b]);
+      for (int b = 0; b < 2; b++) t->remainder[f][i] -= of->image[b][f] * exp(-k * of->thickness[b]);
     }
   }
 }
@@ -130,62 +118,56 @@ static int Interpolation(const Transform *t, double r, double weights[AROUND])
 /* f(r)/r^n by the series. */
 static double Series(const Transform *t, int f, double s)
 {
-  const int    n    = orders[f];
-  const double x    = -0.25 * s / (t->depth * t->depth);
-  double       term = pow(2 * t->depth, -n), sum = 0;
+  const int    n    = t->of->orders[f];
+  const double x    = -0.25 * s / (t->of->depth * t->of->depth);
+  double       term = pow(2 * t->of->depth, -n), sum = 0;
 
+  for (int j = 1; j <= n; j++) term /= j;
   for (int j = 0; j < TERMS; j++) {
-    sum += term / (n == 2 ? (j + 1) * (j + 2) : n == 1 ? j + 1 : 1) * t->moments[f][j];
-    term *= x / ((j + 1.0) * (j + 1.0));
+    sum += term * t->moments[f][j];
+    term *= x / ((j + 1.0) * (j + 1.0 + n));
   }
   return sum;
 }
 
 static void Values(const void *context, double s, double values[])
 {
-  const Transform *t = (const Transform *)context;
-  const double     r = sqrt(s);
-  double           weights[AROUND];
-  int              first = 0;
+  const Transform       *t  = (const Transform *)context;
+  const SamRadialSource *of = t->of;
+  const double           r  = sqrt(s);
+  double                 weights[AROUND];
+  int                    first = 0;
 
-  if (r > NEAR * t->depth) first = Interpolation(t, r, weights);
-  for (int f = 0; f < SAM_RADIAL_FUNCTIONS; f++) {
-    if (r <= NEAR * t->depth) {
+  if (r > NEAR * of->depth) first = Interpolation(t, r, weights);
+  for (int f = 0; f < of->functions; f++) {
+    if (r <= NEAR * of->depth) {
       values[f] = Series(t, f, s);
       continue;
     }
     values[f] = 0;
     for (int k = 0; k < AROUND; k++) values[f] += weights[k] * t->remainder[f][(first + k) % t->n];
-    values[f] *= pow(r, -1 - orders[f]);
+    values[f] *= pow(r, -1 - of->orders[f]);
     for (int b = 0; b < 2; b++) {
-      const double rho = hypot(r, t->thickness[b]);
+      const double rho = hypot(r, of->thickness[b]);
 
-      values[f] += t->image[b][f] / (2 * PETSC_PI * rho) * pow(rho + t->thickness[b], -orders[f]);
+      if (of->image[b][f] != 0)
+        values[f] += of->image[b][f] / (2 * PETSC_PI * rho) * pow(rho + of->thickness[b], -of->orders[f]);
     }
   }
 }
 
-PetscErrorCode SamRadialCreate(const SamPair *pair, double depth, double r, SamSpline *table)
+PetscErrorCode SamRadialCreate(const SamRadialSource *of, double r, SamSpline *table)
 {
-  double    ignored[SAM_LAYERED_SYMBOLS], limit[SAM_LAYERED_SYMBOLS], thickest;
-  Transform t = {.depth = depth, .y0 = -log(FASTEST / depth)};
+  const double depth = of->depth, near = NEAR * depth;
+  Transform    t = {.of = of, .y0 = -log(FASTEST / depth), .x0 = log(LONGEST / of->longest)};
 
   PetscFunctionBegin;
-  for (PetscInt b = 0; b < 2; b++) {
-    for (PetscInt n = 0; n < pair->layers[b].count; n++) t.thickness[b] += (double)pair->layers[b].thickness[n];
-    SamLayeredSymbols(pair, b + 1, LONGEST / PetscMax(t.thickness[b], depth), ignored, limit);
-    if (!b) limit[SAM_LAYERED_ZR] = -limit[SAM_LAYERED_ZR];
-    Combine(limit, t.image[b]);
-  }
-  thickest = PetscMax(t.thickness[0], t.thickness[1]);
-  t.x0     = log(LONGEST / thickest);
-  t.n      = (int)ceil((log(FASTEST / depth) - t.x0) / STEP);
-  for (int f = 0; f < SAM_RADIAL_FUNCTIONS; f++) PetscCall(PetscMalloc1(t.n, &t.remainder[f]));
-  Sample(&t, pair);
-  for (int f = 0; f < SAM_RADIAL_FUNCTIONS; f++) PetscCall(Convolve(&t, orders[f], t.remainder[f]));
+  t.n = (int)ceil((log(FASTEST / depth) - t.x0) / STEP);
+  for (int f = 0; f < of->functions; f++) PetscCall(PetscMalloc1(t.n, &t.remainder[f]));
+  Sample(&t);
+  for (int f = 0; f < of->functions; f++) PetscCall(Convolve(&t, of->orders[f], t.remainder[f]));
   /* from a power of 2 on */
-  PetscCall(
-    SamSplineCreate(table, SAM_RADIAL_FUNCTIONS, exp2(floor(log2(NEAR * depth * NEAR * depth))), r * r, Values, &t));
-  for (int f = 0; f < SAM_RADIAL_FUNCTIONS; f++) PetscCall(PetscFree(t.remainder[f]));
+  PetscCall(SamSplineCreate(table, of->functions, exp2(floor(log2(near * near))), r * r, Values, &t));
+  for (int f = 0; f < of->functions; f++) PetscCall(PetscFree(t.remainder[f]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

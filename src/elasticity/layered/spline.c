@@ -50,7 +50,7 @@ static void MakeFit(double points[POINTS], double matrix[POINTS][POINTS])
 PetscErrorCode SamSplineCreate(SamSpline *table, int functions, double least, double most,
                                void (*values)(const void *, double, double[]), const void *context)
 {
-  double points[POINTS], matrix[POINTS][POINTS], value[SAM_RADIAL_FUNCTIONS];
+  double points[POINTS], matrix[POINTS][POINTS], value[SAM_RADIALS];
 
   PetscFunctionBegin;
   MakeFit(points, matrix);

@@ -10,6 +10,12 @@
     R = -(D' - C A')^-1 (D - C A),  P = F(kh) R F(kh),  C = C0 + (D' - C0 A') P (A + A' P)^-1,  C0 = D A^-1,
   the second term being the difference from a half-space of the layer's material. Across the wave, with s = 1/mu in the
   substrate: rho = (s - 1/mu)/(s + 1/mu), g = rho exp(-2kh), s = 1/mu + 2 g/(mu (1 - g)).
+
+  Stresses, from the surface down with (T, S) at each layer's top: a = (A + A' P)^-1 (T, S), b = R F(kh) a, so that
+  (T, S) = A F(kz) a + A' F(k(h - z)) b and likewise (U, W) at a depth z in the layer; in the substrate a = A^-1 (T, S),
+  b = 0. In the top layer, a is that of a half-space, A^-1 (T, S), but for -A^-1 A' P a, which with b makes the
+  difference. Across the wave, V = v exp(-kz) + g exp(kz) v, v = -T/(mu (1 - g)). In the plane, S_xx = (2 mu U + nu
+  S)/(1 - nu), S_yy = nu (S_xx + S), S_xy = -mu V sin kx.
 */
 #include <petsam/private/layered.h>
 
@@ -70,25 +76,43 @@ typedef struct {
   double across, difference_across;
 } Surface;
 
+/* Of a layer on what lies below it: F(kh), R, P, rho and g (top of this file). */
+typedef struct {
+  Matrix F, R, P;
+  double rho, g;
+} Reflection;
+
+static Matrix Decay(double x)
+{
+  return (Matrix){{{exp(-x), x * exp(-x)}, {0, exp(-x)}}};
+}
+
+static Reflection ReflectionOf(const Surface *below, const Material *m, double kh)
+{
+  Reflection r = {.F   = Decay(kh),
+                  .R   = Times(Inverse(Plus(Times(below->compliance, m->mirror_A), -1, m->mirror_D)),
+                               Plus(m->D, -1, Times(below->compliance, m->A))),
+                  .rho = (below->across - 1 / m->mu) / (below->across + 1 / m->mu)};
+
+  r.P = Times(r.F, Times(r.R, r.F));
+  r.g = r.rho * exp(-2 * kh);
+  return r;
+}
+
 static void AddLayer(Surface *s, const Material *m, double kh)
 {
-  const Matrix F = {{{exp(-kh), kh * exp(-kh)}, {0, exp(-kh)}}};
-  const Matrix R = Times(Inverse(Plus(m->mirror_D, -1, Times(s->compliance, m->mirror_A))),
-                         Plus(m->D, -1, Times(s->compliance, m->A)));
-  const Matrix P = Plus((Matrix){{{0}}}, -1, Times(F, Times(R, F)));
-  const double g = (s->across - 1 / m->mu) / (s->across + 1 / m->mu) * exp(-2 * kh);
+  const Reflection r = ReflectionOf(s, m, kh);
 
-  s->difference        = Times(Times(Plus(m->mirror_D, -1, Times(m->half_space, m->mirror_A)), P),
-                               Inverse(Plus(m->A, 1, Times(m->mirror_A, P))));
+  s->difference        = Times(Times(Plus(m->mirror_D, -1, Times(m->half_space, m->mirror_A)), r.P),
+                               Inverse(Plus(m->A, 1, Times(m->mirror_A, r.P))));
   s->compliance        = Plus(m->half_space, 1, s->difference);
-  s->difference_across = 2 * g / (m->mu * (1 - g));
+  s->difference_across = 2 * r.g / (m->mu * (1 - r.g));
   s->across            = 1 / m->mu + s->difference_across;
 }
 
-static Surface SurfaceOf(const SamPair *pair, PetscInt b, double k)
+static Surface SubstrateOf(const SamPair *pair, PetscInt b)
 {
-  const SamLayers *layers = &pair->layers[b];
-  Surface          s      = {.across = 0};
+  Surface s = {.across = 0};
 
   if (!isinf(pair->young[b])) {
     const Material m = MaterialOf(pair->young[b], pair->poisson[b]);
@@ -96,6 +120,14 @@ static Surface SurfaceOf(const SamPair *pair, PetscInt b, double k)
     s.compliance = m.half_space;
     s.across     = 1 / m.mu;
   }
+  return s;
+}
+
+static Surface SurfaceOf(const SamPair *pair, PetscInt b, double k)
+{
+  const SamLayers *layers = &pair->layers[b];
+  Surface          s      = SubstrateOf(pair, b);
+
   for (PetscInt n = layers->count - 1; n >= 0; n--) {
     const Material m = MaterialOf(layers->young[n], layers->poisson[n]);
 
@@ -123,4 +155,84 @@ void SamLayeredSymbols(const SamPair *pair, PetscInt body, double k, double tota
       to[SAM_LAYERED_TT] += part ? s.difference_across : s.across;
     }
   }
+}
+
+/* ---- stresses ---- */
+
+/* A wave at the top of a layer: (T, S) for p = 1 and for q = 1, and T across for q = 1. */
+typedef struct {
+  Matrix stress;
+  double across;
+} Wave;
+
+/* The ten functions out of (U, W), (T, S) by p and q, and V, T across, in a material. */
+static void CombineStresses(double mu, double nu, Matrix moved, Matrix stress, double v, double across,
+                            double s[SAM_LAYERED_STRESSES])
+{
+  double xx[2], yy[2];
+
+  for (int t = 0; t < 2; t++) {
+    xx[t] = (2 * mu * moved.m[0][t] + nu * stress.m[1][t]) / (1 - nu);
+    yy[t] = nu * (xx[t] + stress.m[1][t]);
+  }
+  s[0] = stress.m[1][0];
+  s[1] = stress.m[0][0];
+  s[2] = 0.5 * (xx[0] + yy[0]);
+  s[3] = 0.5 * (xx[0] - yy[0]);
+  s[4] = stress.m[1][1];
+  s[5] = 0.5 * (stress.m[0][1] + across);
+  s[6] = 0.5 * (stress.m[0][1] - across);
+  s[7] = 0.5 * (xx[1] + yy[1]);
+  s[8] = 0.25 * (xx[1] - yy[1]) + 0.5 * mu * v;
+  s[9] = 0.25 * (xx[1] - yy[1]) - 0.5 * mu * v;
+}
+
+/* In the substrate, at the depth z below its top. */
+static void Below(const SamPair *pair, PetscInt b, Wave top, double kz, double s[SAM_LAYERED_STRESSES])
+{
+  const Material m = MaterialOf(pair->young[b], pair->poisson[b]);
+  const Matrix   a = Times(Decay(kz), Times(Inverse(m.A), top.stress));
+  const double   v = -top.across / m.mu * exp(-kz);
+
+  CombineStresses(m.mu, pair->poisson[b], Times(m.D, a), Times(m.A, a), v, -m.mu * v, s);
+}
+
+void SamLayeredStresses(const SamPair *pair, PetscInt body, PetscInt layer, double z, double k,
+                        double s[SAM_LAYERED_STRESSES])
+{
+  const PetscInt   b      = body - 1;
+  const SamLayers *layers = &pair->layers[b];
+  Surface          below[SAM_LAYERS + 1]; /* each layer */
+  Wave             top = {{{{0, -1}, {-1, 0}}}, -1};
+
+  below[layers->count] = SubstrateOf(pair, b);
+  for (PetscInt n = layers->count - 1; n >= 0; n--) {
+    const Material m = MaterialOf(layers->young[n], layers->poisson[n]);
+
+    below[n] = below[n + 1];
+    AddLayer(&below[n], &m, k * layers->thickness[n]);
+  }
+  for (PetscInt n = 0; n < layers->count; n++) {
+    const Material   m  = MaterialOf(layers->young[n], layers->poisson[n]);
+    const double     kh = k * layers->thickness[n];
+    const Reflection r  = ReflectionOf(&below[n + 1], &m, kh);
+    const Matrix a = Times(Inverse(Plus(m.A, 1, Times(m.mirror_A, r.P))), top.stress), b_ = Times(r.R, Times(r.F, a));
+    const double v = -top.across / (m.mu * (1 - r.g));
+
+    if (n == layer) {
+      const PetscBool first = (PetscBool)(n == 0);
+      const Matrix    down  = Times(Decay(k * z),
+                                first ? Plus((Matrix){{{0}}}, -1, Times(Inverse(m.A), Times(m.mirror_A, Times(r.P, a))))
+                                          : a),
+                   up       = Times(Decay(kh - k * z), b_);
+      const double v_down = (first ? r.g : 1) * v * exp(-k * z), v_up = r.rho * v * exp(k * z - 2 * kh);
+
+      CombineStresses(m.mu, layers->poisson[n], Plus(Times(m.D, down), 1, Times(m.mirror_D, up)),
+                      Plus(Times(m.A, down), 1, Times(m.mirror_A, up)), v_down + v_up, m.mu * (v_up - v_down), s);
+      return;
+    }
+    top.stress = Plus(Times(m.A, Times(r.F, a)), 1, Times(m.mirror_A, b_));
+    top.across = m.mu * v * exp(-kh) * (r.rho - 1);
+  }
+  Below(pair, b, top, k * z, s);
 }

@@ -1,0 +1,245 @@
+/*
+  Stresses in a body with layers, by unit tractions on the cells of its surface.
+
+  Problem. In each wave the stresses at a depth are known (symbols.c). In space, at the distance r and the angle t from a
+  unit force, they are made of transforms G_n[s] = (1/2 pi) int_0^inf s(k) J_n(kr) k dk of ten functions, p or q saying
+  which traction acts, (T, S) the stresses xz, zz of a wave along x, M that of xy across it:
+    f0 = G_0[S_p]                f4 = G_1[S_q]                     f8 = G_1[(S_xx - S_yy)_q/4 + M/2]
+    f1 = G_1[T_p]                f5 = G_0[T_q + T_y]/2             f9 = G_3[(S_xx - S_yy)_q/4 - M/2]
+    f2 = G_0[(S_xx + S_yy)_p]/2  f6 = G_2[T_q - T_y]/2
+    f3 = G_2[(S_xx - S_yy)_p]/2  f7 = G_1[(S_xx + S_yy)_q]/2
+  By p: xx, yy = f2 -+ f3 cos 2t, zz = f0, xy = -f3 sin 2t, xz = f1 cos t, yz = f1 sin t. By q_x: xx = -(f7 + f8) cos t
+  + f9 cos 3t, yy = (f8 - f7) cos t - f9 cos 3t, zz = -f4 cos t, xy = -f8 sin t + f9 sin 3t, xz = f5 - f6 cos 2t, yz =
+  -f6 sin 2t. By q_y the same with x and y exchanged.
+
+  Algorithm. For each depth, a table of the ten functions (radial.c), integrated over the cells (cells.c). In the first
+  layer the functions are those of the difference from a half-space of its material, whose closed forms
+  (halfspace/stresscell.c) are added: they fall like exp(-k (2 h - z)). Below, they fall like exp(-kz).
+
+  Values at the centres of cells, as in stresscell.c: for a shear q that varies along x in cells of the side h, s_xx gets
+  -(h/pi) dq/dx sum_m ((-1)^m/m) s(2 pi m/h) over m = 1, 2, ..., s(k) the symbol of s_xx by q; likewise yy, zz and, along
+  the other axis, xy, each with its own; and xz by p with -T_p. Thirty terms of such an alternating series, with the
+  weights of Cohen, Rodriguez Villegas and Zagier (2000, Exp. Math. 9, 3), give all its digits.
+
+  Source: O'Sullivan and King 1988, J. Tribol. 110, 235; method and numbers checked in tests/unit/test_layered_stress.c.
+*/
+#include <petsam/private/layered.h>
+#include <petsam/private/stressimpl.h>
+
+#define ALTERNATING 30   /* terms of a series */
+#define LONG_WAVE   1e-5 /* on a rigid base, k times the depth of all layers below which rounding counts */
+#define THICK       8    /* cells of the first layer on which edges are those of a half-space */
+
+typedef struct {
+  SamPair   pair;
+  PetscInt  body, layer; /* the layer at the depth in use; the number of layers: the substrate */
+  double    z;           /* below the layer's top, m */
+  double    depth, base; /* in use, -1: none; of all layers */
+  double    decay;       /* functions fall like exp(-decay k), m */
+  SamSpline table;
+} Layered;
+
+static const SamLayers *LayersOf(const Layered *l)
+{
+  return &l->pair.layers[l->body - 1];
+}
+
+/* The layer at a depth; interfaces belong to what is above. */
+static PetscInt LayerAt(const Layered *l, double depth)
+{
+  PetscInt n = 0;
+
+  while (n < LayersOf(l)->count && depth > (double)SamLayersDepth(LayersOf(l), n + 1)) n++;
+  return n;
+}
+
+/* ---- the functions ---- */
+
+static void StressesAt(const Layered *l, double k, double s[SAM_LAYERED_STRESSES])
+{
+  const double least = isinf(l->pair.young[l->body - 1]) ? LONG_WAVE / l->base : 0;
+
+  SamLayeredStresses(&l->pair, l->body, l->layer, l->z, PetscMax(k, least), s);
+}
+
+static void FunctionsAt(const void *context, double k, double g[])
+{
+  StressesAt((const Layered *)context, k, g);
+  for (int f = 0; f < SAM_LAYERED_STRESSES; f++) g[f] *= k;
+}
+
+static PetscErrorCode UseDepth(SamStress stress, PetscReal depth)
+{
+  static const int orders[SAM_LAYERED_STRESSES] = {0, 1, 0, 2, 1, 0, 2, 1, 1, 3};
+  const SamGrid    grid                         = stress->grid;
+  Layered         *l                            = (Layered *)stress->data;
+  SamRadialSource  of = {.functions = SAM_LAYERED_STRESSES, .orders = orders, .values = FunctionsAt, .context = l};
+
+  PetscFunctionBegin;
+  if ((double)depth == l->depth) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamSplineDestroy(&l->table));
+  l->depth = (double)depth;
+  l->layer = LayerAt(l, l->depth);
+  l->z     = l->depth - (double)SamLayersDepth(LayersOf(l), l->layer);
+  l->decay = l->layer ? l->depth : 2 * (double)LayersOf(l)->thickness[0] - l->z;
+  PetscCheck(l->layer < LayersOf(l)->count || !isinf(l->pair.young[l->body - 1]), grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
+             "Depth %.6g m: it is in the rigid base", l->depth);
+  of.depth   = l->decay;
+  of.longest = PetscMax(l->base, l->depth);
+  /* beyond the farthest lags, for cells' means along a row */
+  PetscCall(
+    SamRadialCreate(&of, 1.1 * hypot((double)grid->width[0], (double)grid->width[1]) + 8 * of.depth, &l->table));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- rows of lags ---- */
+
+/* The kernels of a group, by terms. */
+static const struct {
+  int           count;
+  SamRadialTerm terms[8];
+} groups[SAM_STRESS_GROUPS] = {
+  [SAM_STRESS_PLANE_P] = {5,
+                          {{2, 0, SAM_ANGULAR_1, 1},
+                           {2, 1, SAM_ANGULAR_1, 1},
+                           {3, 0, SAM_ANGULAR_XX, -1},
+                           {3, 1, SAM_ANGULAR_XX, 1},
+                           {3, 2, SAM_ANGULAR_XY, -1}}},
+  [SAM_STRESS_PLANE_X] = {8,
+                          {{7, 0, SAM_ANGULAR_X, -1},
+                           {7, 1, SAM_ANGULAR_X, -1},
+                           {8, 0, SAM_ANGULAR_X, -1},
+                           {8, 1, SAM_ANGULAR_X, 1},
+                           {8, 2, SAM_ANGULAR_Y, -1},
+                           {9, 0, SAM_ANGULAR_XXX, 1},
+                           {9, 1, SAM_ANGULAR_XXX, -1},
+                           {9, 2, SAM_ANGULAR_YYY, 1}}},
+  /* cos 3t and sin 3t become -sin 3t and -cos 3t where x and y are exchanged */
+  [SAM_STRESS_PLANE_Y]  = {8,
+                           {{7, 0, SAM_ANGULAR_Y, -1},
+                            {7, 1, SAM_ANGULAR_Y, -1},
+                            {8, 1, SAM_ANGULAR_Y, -1},
+                            {8, 0, SAM_ANGULAR_Y, 1},
+                            {8, 2, SAM_ANGULAR_X, -1},
+                            {9, 1, SAM_ANGULAR_YYY, -1},
+                            {9, 0, SAM_ANGULAR_YYY, 1},
+                            {9, 2, SAM_ANGULAR_XXX, -1}}},
+  [SAM_STRESS_NORMAL_P] = {3, {{0, 0, SAM_ANGULAR_1, 1}, {1, 1, SAM_ANGULAR_X, 1}, {1, 2, SAM_ANGULAR_Y, 1}}},
+  [SAM_STRESS_NORMAL_T] = {5,
+                           {{5, 0, SAM_ANGULAR_1, 1},
+                            {5, 2, SAM_ANGULAR_1, 1},
+                            {6, 0, SAM_ANGULAR_XX, -1},
+                            {6, 1, SAM_ANGULAR_XY, -1},
+                            {6, 2, SAM_ANGULAR_XX, 1}}},
+  [SAM_STRESS_NORMAL_Z] = {2, {{4, 0, SAM_ANGULAR_X, -1}, {4, 1, SAM_ANGULAR_Y, -1}}},
+};
+
+/* Symbols of xx, yy, zz, xy by shear along the wave, across it for xy, and of xz by pressure with the opposite sign. */
+typedef struct {
+  double xx, yy, zz, xy, xz;
+} Jumps;
+
+/* Their alternating sums over 2 pi, for cells of this side: half the difference of the neighbours, over pi. */
+static Jumps JumpsOf(const Layered *l, double side)
+{
+  const double power = pow(3 + sqrt(8), ALTERNATING), d = 0.5 * (power + 1 / power);
+  double       b = -1, c = -d, sums[SAM_LAYERED_STRESSES] = {0}, s[SAM_LAYERED_STRESSES];
+
+  for (int m = 0; m < ALTERNATING; m++) {
+    c = b - c;
+    StressesAt(l, 2 * PETSC_PI * (m + 1) / side, s);
+    for (int f = 0; f < SAM_LAYERED_STRESSES; f++) sums[f] -= c / d * s[f] / (m + 1) / (2 * PETSC_PI);
+    b *= (double)(m + ALTERNATING) * (m - ALTERNATING) / ((m + 0.5) * (m + 1));
+  }
+  return (Jumps){.xx = sums[7] + sums[8] + sums[9],
+                 .yy = sums[7] - sums[8] - sums[9],
+                 .zz = sums[4],
+                 .xy = sums[8] - sums[9],
+                 .xz = -sums[1]};
+}
+
+/* Adds the correction of values at centres at the lags (1, 0) and (0, 1). */
+static void Correct(const Layered *l, const double side[2], SamStressGroup group, PetscInt j, PetscInt n,
+                    double *const values[SAM_STRESS_GROUP])
+{
+  const PetscInt at = 1 - j;
+  Jumps          jumps;
+
+  if (j > 1 || at >= n) return;
+  jumps = JumpsOf(l, side[j]);
+  if (j == 0 && group == SAM_STRESS_PLANE_X) values[0][at] += jumps.xx;
+  if (j == 0 && group == SAM_STRESS_PLANE_X) values[1][at] += jumps.yy;
+  if (j == 1 && group == SAM_STRESS_PLANE_X) values[2][at] += jumps.xy;
+  if (j == 1 && group == SAM_STRESS_PLANE_Y) values[0][at] += jumps.yy;
+  if (j == 1 && group == SAM_STRESS_PLANE_Y) values[1][at] += jumps.xx;
+  if (j == 0 && group == SAM_STRESS_PLANE_Y) values[2][at] += jumps.xy;
+  if (group == SAM_STRESS_NORMAL_P) values[1 + j][at] += jumps.xz;
+  if (group == SAM_STRESS_NORMAL_Z) values[j][at] += jumps.zz;
+}
+
+static void Row(SamStress stress, const double side[2], double depth, SamStressGroup group, PetscInt j, PetscInt n,
+                double *const values[SAM_STRESS_GROUP])
+{
+  const Layered           *l      = (const Layered *)stress->data;
+  const SamHalfSpaceSource source = {{side[0], side[1]}, depth, (double)LayersOf(l)->poisson[0]};
+  const SamRadialKernels   of     = {.table   = &l->table,
+                                     .depth   = l->decay,
+                                     .kernels = SAM_STRESS_GROUP,
+                                     .count   = groups[group].count,
+                                     .terms   = groups[group].terms};
+
+  for (int k = 0; k < SAM_STRESS_GROUP; k++) PetscCallVoid(PetscArrayzero(values[k], n));
+  if (!l->layer && group != SAM_STRESS_NORMAL_Z) SamHalfSpaceStressRow(&source, group, j, n, values);
+  if (!l->layer && group == SAM_STRESS_NORMAL_Z) {
+    /* what p does to xz and yz */
+    double *const rows[] = {values[2], values[0], values[1]};
+
+    SamHalfSpaceStressRow(&source, SAM_STRESS_NORMAL_P, j, n, rows);
+    PetscCallVoid(PetscArrayzero(values[2], n));
+  }
+  SamRadialAddRow(&of, side, j, n, values);
+  Correct(l, side, group, j, n, values);
+}
+
+/* ---- the type ---- */
+
+static void GetConstants(SamStress stress, PetscReal depth, PetscReal *young, PetscReal *poisson)
+{
+  const Layered  *l        = (const Layered *)stress->data;
+  const PetscInt  n        = LayerAt(l, (double)depth);
+  const PetscBool in_layer = (PetscBool)(n < LayersOf(l)->count);
+
+  *young   = in_layer ? LayersOf(l)->young[n] : l->pair.young[l->body - 1];
+  *poisson = in_layer ? LayersOf(l)->poisson[n] : l->pair.poisson[l->body - 1];
+}
+
+static PetscErrorCode Destroy(SamStress stress)
+{
+  PetscFunctionBegin;
+  PetscCall(SamSplineDestroy(&((Layered *)stress->data)->table));
+  PetscCall(PetscFree(stress->data));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLayeredCreateStress(SamGrid grid, const SamFourierSettings *settings, PetscInt body,
+                                      const SamPair *pair, SamStress *stress)
+{
+  Layered  *l;
+  PetscBool thick;
+
+  PetscFunctionBegin;
+  PetscCall(SamRadialSetUp());
+  PetscCall(SamStressCreate(grid, settings, body, stress));
+  PetscCall(PetscNew(&l));
+  *l                = (Layered){.pair = *pair, .body = body, .depth = -1};
+  l->base           = (double)SamLayersDepth(LayersOf(l), LayersOf(l)->count);
+  thick             = LayersOf(l)->thickness[0] >= THICK * PetscMax(grid->dx, grid->dy) ? PETSC_TRUE : PETSC_FALSE;
+  (*stress)->data   = l;
+  (*stress)->groups = SAM_STRESS_GROUPS;
+  (*stress)->ops    = (SamStressOps){.row          = Row,
+                                     .usedepth     = UseDepth,
+                                     .getconstants = GetConstants,
+                                     .atedge       = thick ? SamHalfSpaceStressAtEdge : NULL,
+                                     .destroy      = Destroy};
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
