@@ -50,7 +50,8 @@ PETSC_EXTERN PetscErrorCode SamEvaluationDestroy(SamEvaluation *evaluation);
 /*
   The settings, which are those of SamEvaluationSetFromOptions(). None is collective. Errors: SAM_ERR_USER.
     SetBody             1 or 2 (default); z points into it. -body
-    SetDepths           n depths (m), >= 0 and increasing; default: 0. -depths
+    SetDepths           n depths (m), >= 0 and increasing; default: 0. One at an interface of layers becomes two, the
+                        second, larger by rounding, below it. -depths
     SetSection          only the cells nearest to the plane y = place (SAM_SECTION_X: along x) or x = place, m. -section
     SetQuantities       those that are wanted; default: stress and mises. -quantities, and -fatigue for parameters
     SetPassing          fatigue parameters of points that pass along x, of one step: the stresses of each row of cells,
@@ -147,5 +148,14 @@ PETSC_EXTERN PetscErrorCode SamEvaluationGetLargest(SamEvaluation evaluation, Sa
                                                     SamLargest *largest);
 PETSC_EXTERN PetscErrorCode SamEvaluationGetEdgeLargest(SamEvaluation evaluation, PetscInt step, SamLargest largest[2],
                                                         PetscBool *lost);
+/*
+  SamEvaluationGetLayers - the number of layers of the body, after SamEvaluationSetUp().
+  SamEvaluationGetLayerLargest - of a layer (from 0; their number: the substrate) in a step, after
+  SamEvaluationCompute(): the largest von Mises stress; and the largest tension zz and shear sqrt(xz^2 + yz^2) at its
+  bottom. NaN where no depth is there. Not collective.
+*/
+PETSC_EXTERN PetscErrorCode SamEvaluationGetLayers(SamEvaluation evaluation, PetscInt *layers);
+PETSC_EXTERN PetscErrorCode SamEvaluationGetLayerLargest(SamEvaluation evaluation, PetscInt layer, PetscInt step,
+                                                         SamLargest largest[3]);
 
 #endif

@@ -11,6 +11,7 @@
 typedef struct {
   PetscInt  count;                                                         /* 0: none */
   PetscReal young[SAM_LAYERS], poisson[SAM_LAYERS], thickness[SAM_LAYERS]; /* Pa, finite; 1; m */
+  PetscReal stress[SAM_LAYERS][2];                                         /* residual stress xx and yy, Pa */
 } SamLayers;
 /* SamLayersDepth - the depth (m) of the bottom of the n-th layer; 0 for n = 0. Not collective. */
 PETSC_EXTERN PetscReal SamLayersDepth(const SamLayers *layers, PetscInt n);
@@ -55,7 +56,7 @@ PETSC_EXTERN PetscErrorCode SamPairSetLayered(SamPair *pair, const PetscReal you
 PETSC_EXTERN PetscBool      SamPairHasLayers(const SamPair *pair);
 /*
   SamPairSetFromOptions - from -body1_young, -body1_poisson, -body1_layer_young, -body1_layer_poisson,
-  -body1_layer_thickness, those of body 2, and the film's -film_thickness and -film_shear. Collective. Errors:
+  -body1_layer_thickness, -body1_layer_stress, those of body 2, and the film's -film_thickness and -film_shear. Collective. Errors:
   SAM_ERR_USER, as SamPairSetLayered(), and for an option that is missing, or lists of different lengths.
 */
 PETSC_EXTERN PetscErrorCode SamPairSetFromOptions(SamPair *pair, const SamOptions *from);

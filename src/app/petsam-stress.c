@@ -250,6 +250,40 @@ static PetscErrorCode WriteEdge(SamStressRun *run, SamLargest *largest[2], const
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Those of each layer and at its bottom, where depths are there. */
+static PetscErrorCode WriteLayers(SamStressRun *run, SamLargest *values)
+{
+  static const char *const of[] = {"mises", "tension", "shear"}, *const is[] = {"von Mises stress",
+                                                                                "tension at the bottom",
+                                                                                "shear stress at the bottom"};
+  PetscInt layers;
+
+  PetscFunctionBegin;
+  PetscCall(SamEvaluationGetLayers(run->evaluation, &layers));
+  for (PetscInt k = 0; k < 3 * (layers + 1) - 2 && layers; k++) {
+    const PetscInt layer = k / 3;
+    PetscBool      some  = PETSC_FALSE;
+    char           name[64], words[96];
+
+    for (PetscInt s = 0; s < run->steps; s++) {
+      SamLargest three[3];
+
+      PetscCall(SamEvaluationGetLayerLargest(run->evaluation, layer, s, three));
+      values[s] = three[k % 3];
+      if (!isnan(values[s].value)) some = PETSC_TRUE;
+    }
+    if (!some) continue;
+    if (layer == layers)
+      PetscCall(PetscSNPrintf(name, sizeof(name), "substrate_%s", of[k % 3]));
+    else
+      PetscCall(PetscSNPrintf(name, sizeof(name), "layer%" PetscInt_FMT "_%s", layer + 1, of[k % 3]));
+    PetscCall(
+      PetscSNPrintf(words, sizeof(words), "maximum %s of the %s", is[k % 3], layer < layers ? "layer" : "substrate"));
+    PetscCall(WriteLargest(run, name, words, "", values));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Writes the largest values of all steps, and of the fatigue parameters. */
 static PetscErrorCode WriteAllLargest(SamStressRun *run)
 {
@@ -267,6 +301,7 @@ static PetscErrorCode WriteAllLargest(SamStressRun *run)
   PetscCall(WriteLargest(run, "mises", "maximum von Mises stress", "", largest[0]));
   PetscCall(WriteLargest(run, "principal_1", "maximum principal stress", "", largest[1]));
   PetscCall(WriteEdge(run, largest, &layout));
+  PetscCall(WriteLayers(run, largest[0]));
   for (PetscInt q = SAM_QUANTITY_CROSSLAND; q <= SAM_QUANTITY_RUIZ; q++) {
     SamLargest of;
 
@@ -306,6 +341,30 @@ static PetscErrorCode PrintBanner(SamStressRun *run)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The largest values of each layer over all steps. */
+static PetscErrorCode PrintLayers(SamStressRun *run)
+{
+  static const char *const of[] = {"von Mises stress", "tension at its bottom", "shear at its bottom"};
+  PetscInt                 layers;
+
+  PetscFunctionBegin;
+  PetscCall(SamEvaluationGetLayers(run->evaluation, &layers));
+  for (PetscInt k = 0; k < 3 * (layers + 1) - 2 && layers; k++) {
+    SamLargest three[3], most = {.value = -INFINITY};
+    char       name[32] = "substrate";
+
+    for (PetscInt s = 0; s < run->steps; s++) {
+      PetscCall(SamEvaluationGetLayerLargest(run->evaluation, k / 3, s, three));
+      if (three[k % 3].value > most.value) most = three[k % 3];
+    }
+    if (most.value == -INFINITY) continue;
+    if (k / 3 < layers) PetscCall(PetscSNPrintf(name, sizeof(name), "layer %" PetscInt_FMT, k / 3 + 1));
+    PetscCall(PetscPrintf(run->grid->comm, "              %s: %s %.6g Pa at (%.4g, %.4g, %.4g) m\n", name, of[k % 3],
+                          most.value, most.place[0], most.place[1], most.place[2]));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode PrintLargest(SamStressRun *run)
 {
   static const char *const        names[] = {"Crossland", "Dang Van", "Findley", "SWT", "Fatemi-Socie", "Ruiz 1"},
@@ -325,6 +384,7 @@ static PetscErrorCode PrintLargest(SamStressRun *run)
   PetscCall(PetscPrintf(run->grid->comm,
                         "  maximum     von Mises stress %.6g Pa at (%.4g, %.4g, %.4g) m in step %" PetscInt_FMT "\n",
                         most.value, most.place[0], most.place[1], most.place[2], load));
+  PetscCall(PrintLayers(run));
   PetscCall(SamEvaluationGetLayout(run->evaluation, &layout));
   for (PetscInt q = SAM_QUANTITY_CROSSLAND; q <= SAM_QUANTITY_RUIZ; q++) {
     if (!layout.wants[q]) continue;

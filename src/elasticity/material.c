@@ -128,10 +128,18 @@ static const char *const films[] = {"film_thickness", "film_shear"};
 enum { YOUNG, POISSON, THICKNESS, LISTS };
 static const char *const lists[2][LISTS] = {{"body1_layer_young", "body1_layer_poisson", "body1_layer_thickness"},
                                             {"body2_layer_young", "body2_layer_poisson", "body2_layer_thickness"}};
+static const char *const residual[2]     = {"body1_layer_stress", "body2_layer_stress"};
 
 static PetscReal *ListOf(SamLayers *layers, int list)
 {
   return list == YOUNG ? layers->young : list == POISSON ? layers->poisson : layers->thickness;
+}
+
+static PetscBool HasResidualStress(const SamLayers *layers)
+{
+  for (PetscInt n = 0; n < layers->count; n++)
+    if (layers->stress[n][0] != 0 || layers->stress[n][1] != 0) return PETSC_TRUE;
+  return PETSC_FALSE;
 }
 
 PetscErrorCode SamPairAddParameters(const SamPair *pair, SamParameters *p)
@@ -144,6 +152,8 @@ PetscErrorCode SamPairAddParameters(const SamPair *pair, SamParameters *p)
     PetscCall(SamParametersAddReals(p, names[2 + b], PETSC_TRUE, 1, &pair->poisson[b]));
     for (int l = 0; l < LISTS && layers.count; l++)
       PetscCall(SamParametersAddReals(p, lists[b][l], PETSC_TRUE, layers.count, ListOf(&layers, l)));
+    if (HasResidualStress(&layers))
+      PetscCall(SamParametersAddReals(p, residual[b], PETSC_TRUE, 2 * layers.count, layers.stress[0]));
   }
   for (PetscInt k = 0; k < 2 && pair->film[0] > 0; k++)
     PetscCall(SamParametersAddReals(p, films[k], PETSC_TRUE, 1, &pair->film[k]));
@@ -169,18 +179,39 @@ PetscErrorCode SamPairSetFromParameters(SamPair *pair, MPI_Comm comm, const SamP
     const SamParameter *found = SamParametersFind(p, lists[b][l]);
 
     if (!l && found) layers[b].count = found->count;
-    PetscCheck((found ? found->count : 0) == layers[b].count, comm, SAM_ERR_FILE,
+    PetscCheck((found ? found->count : 0) == layers[b].count && layers[b].count <= SAM_LAYERS, comm, SAM_ERR_FILE,
                "%s: cannot be read: the attribute %s does not fit the layers", source, lists[b][l]);
     for (PetscInt n = 0; n < layers[b].count; n++) ListOf(&layers[b], (int)l)[n] = found->value[n];
   }
   PetscCall(FindFault(value, value + 2, layers, "", message, sizeof(message)));
   PetscCheck(!message[0], comm, SAM_ERR_FILE, "%s: cannot be read: %s", source, message);
+  for (PetscInt b = 0; b < 2; b++) {
+    const SamParameter *found = SamParametersFind(p, residual[b]);
+
+    for (PetscInt n = 0; found && found->count == 2 * layers[b].count && n < found->count; n++)
+      layers[b].stress[n / 2][n % 2] = found->value[n];
+  }
   PetscCall(SamPairSetLayered(pair, value, value + 2, layers));
   for (PetscInt k = 0; k < 2; k++) {
     const SamParameter *found = SamParametersFind(p, films[k]);
 
     if (found && found->count == 1) pair->film[k] = found->value[0];
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Two numbers for each layer. */
+static PetscErrorCode ReadResidualStress(const SamOptions *from, PetscInt b, SamLayers *layers)
+{
+  PetscInt count;
+
+  PetscFunctionBegin;
+  PetscCall(SamOptionsReals(from, residual[b],
+                            "residual stress xx and yy of each layer (Pa), which only petsam-stress adds",
+                            SAM_RANGE_ANY, 2 * SAM_LAYERS, layers->stress[0], &count));
+  PetscCheck(!count || count == 2 * layers->count, from->comm, SAM_ERR_USER,
+             "-%s%s: %" PetscInt_FMT " numbers are given for %" PetscInt_FMT " layers: give xx and yy of each",
+             SamOptionsPrefix(from), residual[b], count, layers->count);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -199,7 +230,7 @@ static PetscErrorCode ReadLayers(const SamOptions *from, PetscInt b, SamLayers *
     PetscCall(SamOptionsReals(from, lists[b][l], help[l], range[l], SAM_LAYERS, ListOf(layers, l), &count[l]));
     most = PetscMax(most, count[l]);
   }
-  if (!most || print) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!most || print) PetscFunctionReturn(ReadResidualStress(from, b, layers));
   for (int l = 0; l < LISTS; l++)
     PetscCall(SamOptionsRequire(from, count[l] > 0, lists[b][l], "the layers of a body need all three lists"));
   for (; count[POISSON] == 1 && layers->count < most; layers->count++)
@@ -210,6 +241,7 @@ static PetscErrorCode ReadLayers(const SamOptions *from, PetscInt b, SamLayers *
     PetscCheck(count[l] == most, from->comm, SAM_ERR_USER,
                "-%s%s is given for %" PetscInt_FMT " of %" PetscInt_FMT " layers: give a number for each",
                SamOptionsPrefix(from), lists[b][l], count[l], most);
+  PetscCall(ReadResidualStress(from, b, layers));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

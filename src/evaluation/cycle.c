@@ -77,9 +77,10 @@ static void GatherPassing(const Cycle *c, PetscInt point)
 {
   const PetscInt states = c->states, nx = states - 1, n = c->points->count;
 
-  double far[SAM_STRESS_COMPONENTS] = {0};
+  double          far[SAM_STRESS_COMPONENTS] = {0};
+  const SamPoints there = {.count = 1, .depth = c->points->depth + point / (n / c->points->depths), .depths = 1};
 
-  SamStressAddBulk(c->e, 0, 1, far);
+  SamStressAddBulk(c->e, 0, &there, far);
   for (PetscInt k = 0; k < SAM_STRESS_COMPONENTS; k++) {
     for (PetscInt i = 0; i < nx; i++) /* no parameter depends on which end comes first */
       c->stress[k * states + i] = c->points->stress[k * (ptrdiff_t)n + point + i];

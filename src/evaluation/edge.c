@@ -33,13 +33,14 @@ static void Keep(SamLargest *largest, double value, PetscReal x, PetscReal y)
 
 PetscErrorCode SamEdgeStressCompute(SamEvaluation e, PetscInt step, Vec field)
 {
-  const SamGrid g    = e->grid;
-  const double *bulk = e->source.bulk[step];
+  const SamGrid g = e->grid;
+  double        bulk[SAM_BULK_COMPONENTS];
   SamEdge       edge;
   Vec           square;
   double       *stress;
 
   PetscFunctionBegin;
+  SamBulkStressAt(e, step, 0, bulk);
   PetscCall(SamGridCreateVec(g, 1, &square));
   PetscCall(FillSquare(g, field, square));
   PetscCall(SamEdgeReconstruct(g, square, NULL, &edge));

@@ -3,6 +3,7 @@
 
 /* The least depth, in cells: at smaller ones the kernels equal those of the surface but for rounding. */
 #define LEAST_DEPTH 1e-6
+#define ROUNDING    1e-9 /* of a depth, within which it is that of an interface */
 
 /* ---- life ---- */
 
@@ -32,7 +33,7 @@ PetscErrorCode SamEvaluationDestroy(SamEvaluation *evaluation)
   if (!e) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamStressDestroy(&e->stress));
   PetscCall(SamElasticityDestroy(&e->elasticity));
-  PetscCall(PetscFree(e->depth));
+  PetscCall(PetscFree2(e->depth, e->side));
   PetscCall(PetscFree(e->largest));
   PetscCall(PetscFree(e));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -55,19 +56,22 @@ PetscErrorCode SamEvaluationGetBody(SamEvaluation e, PetscInt *body)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamEvaluationTakeDepths(SamEvaluation e, const char said[], PetscInt n, const PetscReal depths[])
+PetscErrorCode SamEvaluationTakeDepths(SamEvaluation e, const char said[], PetscInt n, const PetscReal depths[],
+                                       const int sides[])
 {
   PetscFunctionBegin;
   PetscCheck(n > 0, e->comm, SAM_ERR_USER, "%s: expected at least one depth", said);
   for (PetscInt k = 0; k < n; k++) {
     PetscCheck(depths[k] >= 0 && depths[k] < PETSC_INFINITY, e->comm, SAM_ERR_USER,
                "%s: %.6g is above the surface: expected numbers >= 0", said, (double)depths[k]);
-    PetscCheck(!k || depths[k] > depths[k - 1], e->comm, SAM_ERR_USER,
-               "%s: %.6g follows %.6g: expected depths that increase", said, (double)depths[k], (double)depths[k - 1]);
+    PetscCheck(!k || depths[k] > depths[k - 1] || (depths[k] == depths[k - 1] && sides && sides[k] > sides[k - 1]),
+               e->comm, SAM_ERR_USER, "%s: %.6g follows %.6g: expected depths that increase", said, (double)depths[k],
+               (double)depths[k - 1]);
   }
-  PetscCall(PetscFree(e->depth));
-  PetscCall(PetscMalloc1(n, &e->depth));
+  PetscCall(PetscFree2(e->depth, e->side));
+  PetscCall(PetscCalloc2(n, &e->depth, n, &e->side));
   PetscCall(PetscArraycpy(e->depth, depths, n));
+  if (sides) PetscCall(PetscArraycpy(e->side, sides, n));
   e->depths = n;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -75,7 +79,7 @@ PetscErrorCode SamEvaluationTakeDepths(SamEvaluation e, const char said[], Petsc
 PetscErrorCode SamEvaluationSetDepths(SamEvaluation e, PetscInt n, const PetscReal depths[])
 {
   PetscFunctionBegin;
-  PetscCall(SamEvaluationTakeDepths(e, "depths", n, depths));
+  PetscCall(SamEvaluationTakeDepths(e, "depths", n, depths, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -154,6 +158,64 @@ static PetscErrorCode CheckDepths(SamEvaluation e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+const SamLayers *SamLayerAt(SamEvaluation e, PetscInt depth, PetscInt *layer)
+{
+  const SamPair   *pair;
+  const SamLayers *layers;
+
+  PetscCallAbort(e->comm, SamElasticityGetPair(e->elasticity, &pair));
+  layers = &pair->layers[e->body - 1];
+  for (*layer = 0; *layer < layers->count && e->depth[depth] > SamLayersDepth(layers, *layer + 1);) ++*layer;
+  return layers;
+}
+
+/* The number of the layer whose bottom is at a depth, but for rounding; the number of layers: none. */
+static PetscInt InterfaceAt(const SamLayers *layers, PetscReal depth)
+{
+  PetscInt n = 0;
+
+  while (n < layers->count && PetscAbsReal(depth - SamLayersDepth(layers, n + 1)) > ROUNDING * depth) n++;
+  return n;
+}
+
+/* At an interface: the depth itself stands for the side above, the next number for that below; both where none is said. */
+static PetscErrorCode SplitInterfaces(SamEvaluation e)
+{
+  const SamPair   *pair;
+  const SamLayers *layers;
+  PetscReal       *depth;
+  int             *side;
+  PetscInt         n = 0;
+
+  PetscFunctionBegin;
+  PetscCall(SamElasticityGetPair(e->elasticity, &pair));
+  layers = &pair->layers[e->body - 1];
+  PetscCall(PetscMalloc2(2 * e->depths, &depth, 2 * e->depths, &side));
+  for (PetscInt k = 0; k < e->depths; k++) {
+    const PetscInt  interface = InterfaceAt(layers, e->depth[k]);
+    const PetscReal bottom    = SamLayersDepth(layers, PetscMin(interface + 1, layers->count));
+    const PetscBool rigid     = (PetscBool)(interface == layers->count - 1 && isinf(pair->young[e->body - 1]));
+
+    PetscCheck(!e->side[k] || interface < layers->count, e->comm, SAM_ERR_USER,
+               "%sdepths: %.6g%c names a side of an interface, and there is none: omit the sign", e->dash,
+               (double)e->depth[k], e->side[k] < 0 ? '-' : '+');
+    PetscCheck(!layers->count || !isinf(pair->young[e->body - 1]) ||
+                 (interface < layers->count ? !rigid || e->side[k] <= 0 : e->depth[k] < bottom),
+               e->comm, SAM_ERR_USER, "%sdepths: %.6g m is in the rigid base, which begins at %.6g m", e->dash,
+               (double)e->depth[k], (double)SamLayersDepth(layers, layers->count));
+    for (int s = -1; s <= 1; s += 2) {
+      if (interface < layers->count ? e->side[k] == -s || (rigid && s > 0) : s > 0) continue;
+      depth[n]  = interface == layers->count ? e->depth[k] : s < 0 ? bottom : nextafter(bottom, PETSC_INFINITY);
+      side[n++] = interface == layers->count ? 0 : s;
+    }
+  }
+  PetscCall(PetscFree2(e->depth, e->side));
+  e->depth  = depth;
+  e->side   = side;
+  e->depths = n;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Finds the line of cells nearest to the section. */
 static PetscErrorCode FindLine(SamEvaluation e)
 {
@@ -184,10 +246,8 @@ static PetscErrorCode CreateStress(SamEvaluation e)
   PetscCall(SamElasticityGetType(e->elasticity, &type));
   PetscCheck(traits.stress, e->comm, SAM_ERR_USER, "%s: stresses are not available for bodies of type %s", e->of, type);
   PetscCall(SamElasticityGetPair(e->elasticity, &pair));
-  PetscCheck(!isinf(pair->young[e->body - 1]), e->comm, SAM_ERR_USER,
+  PetscCheck(!isinf(pair->young[e->body - 1]) || pair->layers[e->body - 1].count, e->comm, SAM_ERR_USER,
              "%sbody %" PetscInt_FMT ": it is rigid, so its stresses are undetermined", e->dash, e->body);
-  PetscCheck(!pair->layers[e->body - 1].count, e->comm, SAM_ERR_USER,
-             "%sbody %" PetscInt_FMT ": it has layers: stresses below the surface are not available", e->dash, e->body);
   PetscCall(SamStressDestroy(&e->stress));
   PetscCall(SamElasticityCreateStress(e->elasticity, e->body, e->settings, &e->stress));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -214,6 +274,7 @@ PetscErrorCode SamEvaluationSetUp(SamEvaluation e)
   PetscFunctionBegin;
   PetscCheck(e->elasticity, e->comm, PETSC_ERR_ORDER, "An evaluation without elasticity");
   PetscCall(CreateStress(e));
+  PetscCall(SplitInterfaces(e));
   PetscCall(CheckPassing(e));
   PetscCheck(e->source.steps > 1 || e->passing || !SamCycleWanted(e), e->comm, SAM_ERR_USER,
              "%sfatigue needs the steps of a cycle, two at least, and not %" PetscInt_FMT ": give more, or %spassing",
@@ -261,17 +322,25 @@ static PetscErrorCode ClearLargest(SamEvaluation e)
   PetscFunctionBegin;
   PetscCall(PetscFree(e->largest));
   PetscCall(PetscMalloc1(e->source.steps, &e->largest));
-  for (PetscInt s = 0; s < e->source.steps; s++)
-    e->largest[s] = (SamStepLargest){.mises = none, .principal = none, .edge = {edge, edge}};
+  for (PetscInt s = 0; s < e->source.steps; s++) {
+    SamStepLargest *const of = &e->largest[s];
+
+    *of = (SamStepLargest){.mises = none, .principal = none, .edge = {edge, edge}};
+    for (PetscInt n = 0; n <= SAM_LAYERS; n++) of->layer[n] = none;
+    for (PetscInt n = 0; n < 2 * SAM_LAYERS; n++) of->interface[n / 2][n % 2] = none;
+  }
   for (PetscInt q = 0; q < SAM_QUANTITIES; q++) e->fatigue[q] = none;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamEvaluationCompute(SamEvaluation e, SamEvaluationWrite write, void *context)
 {
+  PetscInt layers;
+
   PetscFunctionBegin;
   PetscCall(SamEvaluationSetUp(e));
   PetscCall(ClearLargest(e));
+  PetscCall(SamEvaluationGetLayers(e, &layers));
   e->write         = write;
   e->write_context = context;
   PetscCall(e->section ? SamLinesCompute(e) : SamMapsCompute(e));
@@ -281,6 +350,10 @@ PetscErrorCode SamEvaluationCompute(SamEvaluation e, SamEvaluationWrite write, v
     PetscCall(SamLargestAgree(e->comm, &of->mises.value, 1, &of->mises.point));
     PetscCall(SamLargestAgree(e->comm, &of->principal.value, 1, &of->principal.point));
     for (int k = 0; k < 2; k++) PetscCall(SamLargestAgree(e->comm, &of->edge[k].value, 2, of->edge[k].place));
+    for (PetscInt n = 0; n <= layers; n++)
+      PetscCall(SamLargestAgree(e->comm, &of->layer[n].value, 1, &of->layer[n].point));
+    for (PetscInt n = 0; n < 2 * layers; n++)
+      PetscCall(SamLargestAgree(e->comm, &of->interface[n / 2][n % 2].value, 1, &of->interface[n / 2][n % 2].point));
   }
   for (PetscInt q = SAM_QUANTITY_CROSSLAND; q <= SAM_QUANTITY_RUIZ; q++)
     if (e->wants[q]) PetscCall(SamLargestAgree(e->comm, &e->fatigue[q].value, 1, &e->fatigue[q].point));
@@ -316,22 +389,48 @@ PetscErrorCode SamEvaluationHasCycle(SamEvaluation e, PetscBool *has)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The value and the place of a point; NaN where there is none. */
+static SamLargest PlaceOf(SamEvaluation e, const SamLargestPoint *of)
+{
+  const SamGrid   g   = e->grid;
+  const PetscBool row = e->section && e->axis == SAM_SECTION_X, column = e->section && e->axis == SAM_SECTION_Y;
+  const double    nx = column ? 1 : (double)g->nx, ny = row ? 1 : (double)g->ny;
+  const double    plane = floor(of->point / (nx * ny)), j = floor((of->point - plane * nx * ny) / nx);
+  const double    i = of->point - (plane * ny + j) * nx;
+
+  if (of->value == -INFINITY) return (SamLargest){NAN, {NAN, NAN, NAN}};
+  return (SamLargest){of->value,
+                      {(double)SamGridX(g, column ? e->index : (PetscInt)i),
+                       (double)SamGridY(g, row ? e->index : (PetscInt)j), (double)e->depth[(PetscInt)plane]}};
+}
+
 PetscErrorCode SamEvaluationGetLargest(SamEvaluation e, SamQuantity quantity, PetscInt step, SamLargest *largest)
 {
-  const SamGrid          g   = e->grid;
-  const PetscBool        row = e->section && e->axis == SAM_SECTION_X, column = e->section && e->axis == SAM_SECTION_Y;
-  const double           nx = column ? 1 : (double)g->nx, ny = row ? 1 : (double)g->ny;
-  const SamLargestPoint *of    = SamQuantityIsOfCycle(quantity)   ? &e->fatigue[quantity]
-                                 : quantity == SAM_QUANTITY_MISES ? &e->largest[step].mises
-                                                                  : &e->largest[step].principal;
-  const double           plane = floor(of->point / (nx * ny)), j = floor((of->point - plane * nx * ny) / nx);
-  const double           i = of->point - (plane * ny + j) * nx;
+  PetscFunctionBegin;
+  *largest = PlaceOf(e, SamQuantityIsOfCycle(quantity)   ? &e->fatigue[quantity]
+                        : quantity == SAM_QUANTITY_MISES ? &e->largest[step].mises
+                                                         : &e->largest[step].principal);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamEvaluationGetLayers(SamEvaluation e, PetscInt *layers)
+{
+  const SamPair *pair;
 
   PetscFunctionBegin;
-  largest->value    = of->value;
-  largest->place[0] = (double)SamGridX(g, column ? e->index : (PetscInt)i);
-  largest->place[1] = (double)SamGridY(g, row ? e->index : (PetscInt)j);
-  largest->place[2] = (double)e->depth[(PetscInt)plane];
+  PetscCall(SamElasticityGetPair(e->elasticity, &pair));
+  *layers = pair->layers[e->body - 1].count;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamEvaluationGetLayerLargest(SamEvaluation e, PetscInt layer, PetscInt step, SamLargest largest[3])
+{
+  const SamStepLargest *of = &e->largest[step];
+
+  PetscFunctionBegin;
+  largest[0] = PlaceOf(e, &of->layer[layer]);
+  for (int k = 0; k < 2; k++)
+    largest[1 + k] = PlaceOf(e, layer < SAM_LAYERS ? &of->interface[layer][k] : &(SamLargestPoint){-INFINITY, 0});
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

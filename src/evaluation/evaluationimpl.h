@@ -14,8 +14,10 @@ typedef struct {
 /* The largest values of a step. */
 typedef struct {
   SamLargestPoint mises, principal;
-  SamLargest      edge[2];   /* at the contact's edge: stress xx, principal stress */
-  PetscBool       edge_lost; /* there is an edge, which is not found */
+  SamLargestPoint layer[SAM_LAYERS + 1];    /* von Mises stress in each layer, and in the substrate */
+  SamLargestPoint interface[SAM_LAYERS][2]; /* tension zz and shear at the bottom of each layer */
+  SamLargest      edge[2];                  /* at the contact's edge: stress xx, principal stress */
+  PetscBool       edge_lost;                /* there is an edge, which is not found */
 } SamStepLargest;
 
 struct _n_SamEvaluation {
@@ -23,6 +25,7 @@ struct _n_SamEvaluation {
   /* settings */
   PetscInt            body, depths;
   PetscReal          *depth;
+  int                *side; /* of an interface at that depth: -1 above, 1 below, 0 not said, or none is there */
   PetscBool           section;
   SamSectionAxis      axis;
   PetscReal           place; /* of the section: y along x, x along y, m */
@@ -69,8 +72,14 @@ PETSC_INTERN double SamLinesMemory(SamEvaluation e);
 /* SamEvaluationReadTractions - pressure and both shears of a step, this rank's rows. Collective. */
 PETSC_INTERN PetscErrorCode SamEvaluationReadTractions(SamEvaluation e, PetscInt step,
                                                        double *const to[SAM_STRESS_TRACTIONS]);
-/* SamStressAddBulk - adds the bulk stress of a step to the stresses of n points. Not collective. */
-PETSC_INTERN void SamStressAddBulk(SamEvaluation e, PetscInt step, PetscInt n, double stress[]);
+/*
+  SamBulkStressAt - the bulk stress of a step and the residual stress at a depth: of bulk stress a layer has the strains
+  of the substrate. SamStressAddBulk - adds them to the stresses of points. Neither is collective.
+*/
+PETSC_INTERN void SamBulkStressAt(SamEvaluation e, PetscInt step, PetscInt depth, double bulk[SAM_BULK_COMPONENTS]);
+PETSC_INTERN void SamStressAddBulk(SamEvaluation e, PetscInt step, const SamPoints *points, double stress[]);
+/* SamLayerAt - the layers of the body, and the number of that which has this depth, count: the substrate. */
+PETSC_INTERN const SamLayers *SamLayerAt(SamEvaluation e, PetscInt depth, PetscInt *layer);
 /* SamQuantitiesWrite - computes what is wanted of a step's stresses and hands it over (quantities.c). Collective. */
 PETSC_INTERN PetscErrorCode SamQuantitiesWrite(SamEvaluation e, PetscInt step, const SamPoints *points,
                                                const double stress[]);
@@ -94,8 +103,11 @@ PETSC_INTERN PetscErrorCode SamCycleWrite(SamEvaluation e, const SamPoints *poin
 
 /* SamEvaluationTell - calls the monitor. Not collective. */
 PETSC_INTERN PetscErrorCode SamEvaluationTell(SamEvaluation e, const char work[], double part, double whole);
-/* SamEvaluationTakeDepths - takes over depths that `said` names in messages. Not collective. Errors: SAM_ERR_USER. */
+/*
+  SamEvaluationTakeDepths - takes over depths, which `said` names in messages, and the sides of interfaces there, NULL:
+  both. Not collective. Errors: SAM_ERR_USER.
+*/
 PETSC_INTERN PetscErrorCode SamEvaluationTakeDepths(SamEvaluation e, const char said[], PetscInt n,
-                                                    const PetscReal depths[]);
+                                                    const PetscReal depths[], const int sides[]);
 
 #endif

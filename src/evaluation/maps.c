@@ -40,7 +40,7 @@ static PetscErrorCode ComputeStep(SamEvaluation e, PetscInt step, const SamPoint
   PetscCall(SamStressApply(e->stress, field));
   if (e->depth[p->depth] == 0) PetscCall(SamEdgeStressCompute(e, step, field));
   PetscCall(VecGetArray(field, &a));
-  SamStressAddBulk(e, step, p->count, a);
+  SamStressAddBulk(e, step, p, a);
   PetscCall(SamQuantitiesWrite(e, step, p, a));
   if (p->stress)
     PetscCall(PetscArraycpy(p->stress + step * SAM_STRESS_COMPONENTS * (ptrdiff_t)p->count, a,

@@ -13,6 +13,17 @@
 
 /* ---- numbers ---- */
 
+/* The side of an interface that a sign after a depth says, which is taken off: 2e-6- above, 2e-6+ below; 0: none. */
+static int ReadSide(char text[])
+{
+  const size_t length = strlen(text);
+  const char   last   = length ? text[length - 1] : '\0';
+
+  if (last != '-' && last != '+') return 0;
+  text[length - 1] = '\0';
+  return last == '-' ? -1 : 1;
+}
+
 /* A finite number that makes up the whole text. */
 static PetscBool ReadNumber(const char text[], double *value)
 {
@@ -49,7 +60,8 @@ static int Divide(char text[], char at, char *parts[], int most)
 #define EXPECTED "expected depths separated by commas, or first:last:number, first < last"
 
 /* first:last:number */
-static PetscErrorCode ReadRange(MPI_Comm comm, const char whole[], char text[], PetscInt *n, PetscReal **depths)
+static PetscErrorCode ReadRange(MPI_Comm comm, const char whole[], char text[], PetscInt *n, PetscReal **depths,
+                                int **sides)
 {
   char  *parts[3];
   double ends[2] = {0, 0};
@@ -59,22 +71,24 @@ static PetscErrorCode ReadRange(MPI_Comm comm, const char whole[], char text[], 
                ReadWhole(parts[2], n) && *n >= 2 && ends[1] > ends[0],
              comm, SAM_ERR_USER, "%s: " EXPECTED, whole);
   PetscCheck(*n <= MOST_DEPTHS, comm, SAM_ERR_USER, "%s: expected at most %d depths", whole, MOST_DEPTHS);
-  PetscCall(PetscMalloc1(*n, depths));
+  PetscCall(PetscCalloc2(*n, depths, *n, sides));
   for (PetscInt k = 0; k < *n; k++)
     (*depths)[k] = (PetscReal)(k + 1 == *n ? ends[1] : ends[0] + (ends[1] - ends[0]) * k / (*n - 1));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode ReadList(MPI_Comm comm, const char whole[], char text[], PetscInt *n, PetscReal **depths)
+static PetscErrorCode ReadList(MPI_Comm comm, const char whole[], char text[], PetscInt *n, PetscReal **depths,
+                               int **sides)
 {
   char *parts[TEXT / 2];
 
   PetscFunctionBegin;
   *n = Divide(text, ',', parts, TEXT / 2);
-  PetscCall(PetscMalloc1(*n, depths));
+  PetscCall(PetscCalloc2(*n, depths, *n, sides));
   for (PetscInt k = 0; k < *n; k++) {
     double value = 0;
 
+    (*sides)[k] = ReadSide(parts[k]);
     PetscCheck(ReadNumber(parts[k], &value), comm, SAM_ERR_USER, "%s: " EXPECTED, whole);
     (*depths)[k] = (PetscReal)value;
   }
@@ -86,13 +100,16 @@ static PetscErrorCode ReadDepths(const SamOptions *from, SamEvaluation e)
   char       text[TEXT] = "0", whole[TEXT + 16];
   PetscInt   n;
   PetscReal *depths;
+  int       *sides;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsString(from, "depths", "depths, m: 0,1e-5,2e-5 or first:last:number", text, sizeof(text), NULL));
+  PetscCall(SamOptionsString(
+    from, "depths", "depths, m: 0,1e-5,2e-5 or first:last:number; 2e-6- above an interface of layers, 2e-6+ below",
+    text, sizeof(text), NULL));
   PetscCall(PetscSNPrintf(whole, sizeof(whole), "-depths %s", text));
-  PetscCall((strchr(text, ':') ? ReadRange : ReadList)(from->comm, whole, text, &n, &depths));
-  PetscCall(SamEvaluationTakeDepths(e, whole, n, depths));
-  PetscCall(PetscFree(depths));
+  PetscCall((strchr(text, ':') ? ReadRange : ReadList)(from->comm, whole, text, &n, &depths, &sides));
+  PetscCall(SamEvaluationTakeDepths(e, whole, n, depths, sides));
+  PetscCall(PetscFree2(depths, sides));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

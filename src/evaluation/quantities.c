@@ -9,14 +9,43 @@ PetscErrorCode SamEvaluationReadTractions(SamEvaluation e, PetscInt step, double
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-void SamStressAddBulk(SamEvaluation e, PetscInt step, PetscInt n, double stress[])
+void SamBulkStressAt(SamEvaluation e, PetscInt step, PetscInt depth, double bulk[SAM_BULK_COMPONENTS])
+{
+  const double    *of = e->source.bulk[step];
+  const SamPair   *pair;
+  PetscInt         n;
+  const SamLayers *layers = SamLayerAt(e, depth, &n);
+
+  PetscCallAbort(e->comm, SamElasticityGetPair(e->elasticity, &pair));
+  for (int k = 0; k < SAM_BULK_COMPONENTS; k++) bulk[k] = of[k];
+  if (n == layers->count) return;
+  if (!isinf(pair->young[e->body - 1])) {
+    const double nu = (double)pair->poisson[e->body - 1], own = (double)layers->poisson[n],
+                 ratio = (double)(layers->young[n] / pair->young[e->body - 1]);
+    const double xx = of[SAM_BULK_XX] - nu * of[SAM_BULK_YY], yy = of[SAM_BULK_YY] - nu * of[SAM_BULK_XX];
+
+    bulk[SAM_BULK_XX] = ratio * (xx + own * yy) / (1 - own * own);
+    bulk[SAM_BULK_YY] = ratio * (yy + own * xx) / (1 - own * own);
+    bulk[SAM_BULK_XY] = ratio * (1 + nu) / (1 + own) * of[SAM_BULK_XY];
+  }
+  bulk[SAM_BULK_XX] += (double)layers->stress[n][0];
+  bulk[SAM_BULK_YY] += (double)layers->stress[n][1];
+}
+
+void SamStressAddBulk(SamEvaluation e, PetscInt step, const SamPoints *p, double stress[])
 {
   static const SamStressComponent component[SAM_BULK_COMPONENTS] = {SAM_STRESS_XX, SAM_STRESS_YY, SAM_STRESS_XY};
+  const PetscInt                  plane                          = p->depths ? p->count / p->depths : 0;
 
-  for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++) {
-    double *const s = stress + component[k] * (ptrdiff_t)n;
+  for (PetscInt depth = 0; depth < p->depths; depth++) {
+    double bulk[SAM_BULK_COMPONENTS];
 
-    for (PetscInt i = 0; i < n && e->source.bulk[step][k] != 0; i++) s[i] += e->source.bulk[step][k];
+    SamBulkStressAt(e, step, p->depth + depth, bulk);
+    for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++) {
+      double *const s = stress + component[k] * (ptrdiff_t)p->count + depth * (ptrdiff_t)plane;
+
+      for (PetscInt i = 0; i < plane && bulk[k] != 0; i++) s[i] += bulk[k];
+    }
   }
 }
 
@@ -72,6 +101,27 @@ static void FindLargest(SamEvaluation e, PetscInt step, const SamPoints *p,
       KeepPrincipal(largest, s, i, p->first);
 }
 
+/* Largest values of each layer, and at its bottom. */
+static void FindLargestOfLayers(SamEvaluation e, PetscInt step, const SamPoints *p,
+                                const double *const s[SAM_STRESS_COMPONENTS], const double mises[])
+{
+  const PetscInt plane = p->depths ? p->count / p->depths : 0;
+
+  for (PetscInt k = 0; k < p->depths; k++) {
+    PetscInt         n;
+    const SamLayers *layers = SamLayerAt(e, p->depth + k, &n);
+
+    for (PetscInt i = k * plane; i < (k + 1) * plane && layers->count; i++) {
+      SamLargestPoint *const at = e->largest[step].interface[n];
+
+      SamLargestKeep(&e->largest[step].layer[n], mises[i], p->first + (double)i);
+      if (e->side[p->depth + k] >= 0) continue;
+      SamLargestKeep(&at[0], s[SAM_STRESS_ZZ][i], p->first + (double)i);
+      SamLargestKeep(&at[1], hypot(s[SAM_STRESS_XZ][i], s[SAM_STRESS_YZ][i]), p->first + (double)i);
+    }
+  }
+}
+
 static PetscErrorCode Write(SamEvaluation e, PetscInt step, const SamPoints *p, SamQuantity quantity, PetscInt k,
                             const double values[])
 {
@@ -112,6 +162,7 @@ PetscErrorCode SamQuantitiesWrite(SamEvaluation e, PetscInt step, const SamPoint
   for (PetscInt k = 0; k < arrays; k++) PetscCall(SamAllocate(sizeof(double) * (size_t)p->count, &more[k]));
   SamStressMises(p->count, s, more[0]);
   FindLargest(e, step, p, s, more[0]);
+  FindLargestOfLayers(e, step, p, s, more[0]);
   PetscCall(Write(e, step, p, SAM_QUANTITY_MISES, 0, more[0]));
   for (PetscInt c = 0; c < SAM_STRESS_COMPONENTS; c++) PetscCall(Write(e, step, p, SAM_QUANTITY_STRESS, c, s[c]));
   if (principal) {

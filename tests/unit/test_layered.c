@@ -530,21 +530,6 @@ static void test_layers_couple(void **state)
 }
 
 /* Stresses are those of bodies without layers only. */
-static void test_stresses_of_layered_bodies_are_refused(void **state)
-{
-  const SamPair pair = PairOf(&plain, &hard);
-  SamGrid       grid = NewGrid(16, 16, 4, 4);
-  SamElasticity e    = NewOn(grid, &pair, SAM_ELASTICITY_HALFSPACE);
-  SamStress     stress;
-
-  (void)state;
-  sam_fails(SamElasticityCreateStress(e, 2, NULL, &stress), PETSC_ERR_SUP);
-  sam_call(SamElasticityCreateStress(e, 1, NULL, &stress));
-  sam_call(SamStressDestroy(&stress));
-  sam_call(SamElasticityDestroy(&e));
-  sam_call(SamGridDestroy(&grid));
-}
-
 /* A type that does not know of layers refuses them. */
 static PetscErrorCode CreateBare(SamElasticity e)
 {
@@ -584,8 +569,7 @@ int main(int argc, char **argv)
                                      cmocka_unit_test(test_results_are_the_same_on_any_number_of_ranks),
                                      cmocka_unit_test(test_bodies_with_layers_come_back_from_their_parameters),
                                      cmocka_unit_test(test_layers_couple),
-                                     cmocka_unit_test(test_types_without_layers_refuse_them),
-                                     cmocka_unit_test(test_stresses_of_layered_bodies_are_refused)};
+                                     cmocka_unit_test(test_types_without_layers_refuse_them)};
 
   return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
 }

@@ -1,0 +1,176 @@
+/*
+  Stresses in layered bodies: under a disc and in Hertz's contact against reference numbers, of integrals with many
+  digits; layers cut in two, layers of the substrate's material; continuity and jumps at interfaces; the surface.
+*/
+#include "fields.h"
+
+#include <petsam/private/layered.h>
+#include <petsam/private/stressimpl.h>
+
+enum { COMPONENTS = SAM_STRESS_COMPONENTS, TRACTIONS = SAM_STRESS_TRACTIONS, GROUP = SAM_STRESS_GROUP, LAGS = 40 };
+
+/* A pair of a rigid body and one with layers: modulus, Poisson's ratio, thickness of each, the substrate last. */
+static SamPair PairOf(int count, const double layer[][3])
+{
+  SamLayers layers[2] = {{.count = 0}, {.count = count}};
+  SamPair   pair;
+
+  for (int n = 0; n < count; n++) {
+    layers[1].young[n]     = layer[n][0];
+    layers[1].poisson[n]   = layer[n][1];
+    layers[1].thickness[n] = layer[n][2];
+  }
+  sam_call(SamPairSetLayered(&pair, (const PetscReal[]){INFINITY, layer[count][0]},
+                             (const PetscReal[]){0, layer[count][1]}, layers));
+  return pair;
+}
+
+static const double hard[][3] = {{4, 0.25, 1}, {1, 0.3, 0}}, soft[][3] = {{0.1, 0.45, 1}, {1, 0.3, 0}},
+                    two[][3] = {{4, 0.2, 0.5}, {0.25, 0.4, 1}, {1, 0.3, 0}}, thin[][3] = {{4, 0.25, 0.5}, {1, 0.3, 0}},
+                    cut[][3] = {{4, 0.25, 0.3}, {4, 0.25, 0.2}, {1, 0.3, 0}}, alike[][3] = {{1, 0.3, 0.4}, {1, 0.3, 0}};
+
+/* ---- a disc under pressure ---- */
+
+/* s_rr, s_tt, s_zz at (r, z) under a uniform pressure on a disc of radius 1, by quadrature over the wave number. */
+static void Disc(const SamPair *pair, PetscInt layer, double z, double r, double stress[3])
+{
+  const double step = 2e-3, last               = 120;
+  double       s[SAM_LAYERED_STRESSES], sum[3] = {0, 0, 0};
+
+  for (int m = 0; m < last / step; m++) {
+    const double k = (m + 0.5) * step, w = j1(k) * step, x = k * r;
+
+    SamLayeredStresses(pair, 2, layer, z, k, s);
+    sum[0] += w * s[0] * j0(x);
+    sum[1] += w * s[2] * j0(x);
+    sum[2] += w * s[3] * jn(2, x);
+  }
+  stress[0] = sum[1] - sum[2];
+  stress[1] = sum[1] + sum[2];
+  stress[2] = sum[0];
+}
+
+/* Depths in layers below the first: there the functions are the stresses themselves. */
+static void test_disc_has_reference_stresses(void **state)
+{
+  static const struct {
+    const double (*body)[3];
+    int    count, layer;
+    double z, r, expected[3]; /* z below the layer's top */
+  } rows[] = {{hard, 1, 1, 0, 0, {-0.011294468717, -0.011294468717, -0.45467737443}},
+              {soft, 1, 1, 0, 0.8, {-0.094060730995, -0.024391211954, -0.50831826235}},
+              {two, 2, 2, 0.5, 0.8, {-0.02578927114, -0.011187343142, -0.23906394705}}};
+
+  (void)state;
+  for (size_t k = 0; k < sizeof(rows) / sizeof(rows[0]); k++) {
+    const SamPair pair = PairOf(rows[k].count, rows[k].body);
+    double        stress[3];
+
+    Disc(&pair, rows[k].layer, rows[k].z, rows[k].r, stress);
+    if (getenv("SAM_SHOW"))
+      for (int c = 0; c < 3; c++) print_message("# %.10f %.10f\n", stress[c], rows[k].expected[c]);
+    for (int c = 0; c < 3; c++) sam_assert_close(stress[c], rows[k].expected[c], 2e-6);
+  }
+}
+
+/* ---- rows of kernels ---- */
+
+static SamStress NewStress(SamGrid grid, const SamPair *pair)
+{
+  SamStress stress;
+
+  sam_call(SamLayeredCreateStress(grid, NULL, 2, pair, &stress));
+  return stress;
+}
+
+/* All kernels at LAGS lags in rows j = 0, 1, 7. */
+typedef double Rows[SAM_STRESS_GROUPS][3][GROUP][LAGS];
+
+static void GetRows(SamStress stress, double depth, Rows rows)
+{
+  static const PetscInt lines[] = {0, 1, 7};
+
+  sam_call(SamStressUseDepth(stress, depth));
+  for (int g = 0; g < SAM_STRESS_GROUPS; g++)
+    for (int l = 0; l < 3; l++)
+      (*stress->ops.row)(stress, (const double[]){0.11, 0.08}, depth, (SamStressGroup)g, lines[l], LAGS,
+                         (double *[]){rows[g][l][0], rows[g][l][1], rows[g][l][2]});
+}
+
+/* The largest difference of a group's kernels. */
+static double DifferenceOf(Rows a, Rows b, int g)
+{
+  double most = 0;
+
+  for (int l = 0; l < 3; l++)
+    for (int k = 0; k < GROUP; k++)
+      for (int i = 0; i < LAGS; i++) most = fmax(most, fabs(a[g][l][k][i] - b[g][l][k][i]));
+  return most;
+}
+
+static void AssertSameRows(const SamPair *a, const SamPair *b, double depth, double tolerance)
+{
+  static Rows rows[2];
+  SamGrid     grid = NewGrid(37, 23, 5, 4);
+  SamStress   one = NewStress(grid, a), other = NewStress(grid, b);
+
+  GetRows(one, depth, rows[0]);
+  GetRows(other, depth, rows[1]);
+  for (int g = 0; g < SAM_STRESS_GROUPS; g++) {
+    if (getenv("SAM_SHOW")) print_message("# group %d: %.1e\n", g, DifferenceOf(rows[0], rows[1], g));
+    sam_assert(DifferenceOf(rows[0], rows[1], g) < tolerance);
+  }
+  sam_call(SamStressDestroy(&one));
+  sam_call(SamStressDestroy(&other));
+  sam_call(SamGridDestroy(&grid));
+}
+
+/* In the lower part the functions are the whole stresses, in the whole layer they are added to closed forms. */
+static void test_layer_cut_in_two_is_one(void **state)
+{
+  const SamPair one = PairOf(1, thin), parts = PairOf(2, cut);
+
+  (void)state;
+  AssertSameRows(&one, &parts, 0.31, 1e-12);
+  AssertSameRows(&one, &parts, 0.5, 1e-12);
+  AssertSameRows(&one, &parts, 0.12, 1e-12);
+  AssertSameRows(&one, &parts, 0.7, 1e-12);
+}
+
+/* Of the substrate's material, the layer is no layer: closed forms, with their values at centres. */
+static void test_layer_of_the_substrates_material_is_none(void **state)
+{
+  static Rows   rows;
+  const SamPair pair   = PairOf(1, alike);
+  SamGrid       grid   = NewGrid(37, 23, 5, 4);
+  SamStress     stress = NewStress(grid, &pair);
+
+  (void)state;
+  for (double depth = 0.1; depth < 1; depth += 0.41) {
+    const SamHalfSpaceSource source = {{0.11, 0.08}, depth, 0.3};
+    static double            exact[GROUP][LAGS];
+
+    GetRows(stress, depth, rows);
+    for (int g = 0; g < SAM_STRESS_NORMAL_Z; g++)
+      for (int l = 0; l < 2; l++) {
+        double most = 0;
+
+        SamHalfSpaceStressRow(&source, (SamStressGroup)g, l, LAGS, (double *[]){exact[0], exact[1], exact[2]});
+        for (int k = 0; k < GROUP; k++)
+          for (int i = 0; i < LAGS; i++) most = fmax(most, fabs(rows[g][l][k][i] - exact[k][i]));
+        if (getenv("SAM_SHOW")) print_message("# depth %g group %d row %d: %.1e\n", depth, g, l, most);
+        sam_assert(most < 1e-12);
+      }
+  }
+  sam_call(SamStressDestroy(&stress));
+  sam_call(SamGridDestroy(&grid));
+}
+
+int main(int argc, char **argv)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_disc_has_reference_stresses),
+                                     cmocka_unit_test(test_layer_cut_in_two_is_one),
+                                     cmocka_unit_test(test_layer_of_the_substrates_material_is_none)};
+
+  return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
+}
