@@ -90,6 +90,7 @@ PetscErrorCode SamPairSetLayered(SamPair *pair, const PetscReal young[2], const 
     PetscCall(PetscArraycpy(pair->layers[b].young, layers[b].young, layers[b].count));
     PetscCall(PetscArraycpy(pair->layers[b].poisson, layers[b].poisson, layers[b].count));
     PetscCall(PetscArraycpy(pair->layers[b].thickness, layers[b].thickness, layers[b].count));
+    PetscCall(PetscArraycpy(pair->layers[b].stress, layers[b].stress, layers[b].count));
     nu[b]            = layers[b].count ? layers[b].poisson[0] : poisson[b];
     inverse_shear[b] = isinf(E) ? 0 : 2 * (1 + nu[b]) / E;
     pair->young[b]   = young[b];

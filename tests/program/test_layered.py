@@ -4,6 +4,7 @@ import h5py
 import numpy as np
 import pytest
 
+import conftest
 from support import assert_close, assert_same
 
 # Lengths in units of the contact radius A on a sphere of radius 1 m; the substrate's modulus is E, its ratio 0.3.
@@ -232,3 +233,108 @@ def test_layers_are_recorded(solve):
         assert list(f.attrs["body2_layer_thickness"]) == [A, 0.5 * A]
         assert list(f.attrs["body2_layer_young"]) == [2 * E, 3 * E]
         assert "body1_layer_young" not in f.attrs
+
+
+# ---------------------------------------------------------------- stresses
+
+SLIDING = sphere([(4, 0.25, 0.5), (0.5, 0.4, 0.3)], 2.6, n=48, load_n=0.5 * E * A**3, friction=0.3)
+SLIDING |= dict(load_tx=0.1 * E * A**3)
+PROGRAM = conftest.PROGRAM.with_name("petsam-stress")
+TRACTIONS, OTHERS = ("zz", "xz", "yz"), ("xx", "yy", "xy")
+
+
+@pytest.fixture
+def petsam_stress(launcher, tmp_path):
+    """petsam_stress(options, ranks=1, check=0): a run of petsam-stress in tmp_path."""
+
+    def run(options, ranks=1, check=0):
+        return conftest.execute(launcher, tmp_path, [options], ranks, check, program=PROGRAM)
+
+    return run
+
+
+def stresses(f, names, depth):
+    return np.array([f["stress_" + name][0, depth] for name in names])
+
+
+def strain(f, depth, young, poisson):
+    """Strains along x and y, and shear, by Hooke's law."""
+    s = dict(zip(OTHERS + TRACTIONS, stresses(f, OTHERS + TRACTIONS, depth)))
+    of = [s["xx"] - poisson * (s["yy"] + s["zz"]), s["yy"] - poisson * (s["xx"] + s["zz"]), (1 + poisson) * s["xy"]]
+    return np.array(of) / young
+
+
+def test_stresses_through_layers(solve, petsam_stress, tmp_path):
+    """Both sides of each interface: tractions and strains are continuous; the same on three ranks and on a section."""
+    r = solve(SLIDING)
+    case = dict(input=r.path, depths=f"0,{0.2 * A},{0.5 * A},{0.8 * A},{A}")
+    petsam_stress(dict(case, output="maps.h5"))
+    petsam_stress(dict(case, output="line.h5", section="y=1e-5"), ranks=3)
+    with h5py.File(tmp_path / "maps.h5") as f, h5py.File(tmp_path / "line.h5") as line:
+        assert f["z"][:] == pytest.approx(np.array([0, 0.2, 0.5, 0.5, 0.8, 0.8, 1]) * A, rel=1e-12)
+        assert np.all(np.diff(f["z"][:]) > 0)
+        for above, below, upper, lower in ((2, 3, (4, 0.25), (0.5, 0.4)), (4, 5, (0.5, 0.4), (1, 0.3))):
+            tractions = stresses(f, TRACTIONS, above)
+            assert_close(stresses(f, TRACTIONS, below), tractions, 1e-10 * np.abs(tractions).max())
+            one, other = strain(f, above, upper[0] * E, upper[1]), strain(f, below, lower[0] * E, lower[1])
+            assert_close(other, one, 1e-10 * np.abs(one).max())
+            assert np.abs(stresses(f, ("xx",), above) - stresses(f, ("xx",), below)).max() > 0.1 * np.abs(one).max() * E
+        row = np.argmin(np.abs(f["y"][:] - line["y"][0]))
+        for name in TRACTIONS + OTHERS:
+            wide = f["stress_" + name][0][:, row]
+            assert_close(line["stress_" + name][0, :, 0], wide, 1e-10 * np.abs(wide).max())
+        mises, history = f["mises"][0], f["history"]
+        for name, depths in (("layer1", (0, 1, 2)), ("layer2", (3, 4)), ("substrate", (5, 6))):
+            assert history[name + "_mises_max"][0] == max(mises[k].max() for k in depths), name
+        for layer, depth in (("layer1", 2), ("layer2", 4)):
+            assert history[layer + "_tension_max"][0] == f["stress_zz"][0, depth].max()
+            shear = np.hypot(f["stress_xz"][0, depth], f["stress_yz"][0, depth]).max()
+            assert history[layer + "_shear_max"][0] == pytest.approx(shear, rel=1e-14)
+
+
+def test_layers_take_the_strains_of_the_bulk_stress_and_their_residual_stress(petsam, petsam_stress, tmp_path):
+    case = {**SLIDING, "friction": None, "load_tx": None}
+    more = dict(bulk2_stress_xx=1e6, bulk2_stress_yy=-2e5, bulk2_stress_xy=3e5, body2_layer_stress="-3e6,-2e6,1e5,4e5")
+    for name, options in (("none", {}), ("all", more)):
+        petsam(case, options, dict(output=f"{name}.h5"))
+        petsam_stress(dict(input=f"{name}.h5", output=f"{name}-s.h5", depths=f"{0.1 * A},{0.6 * A},{2 * A}"))
+    with h5py.File(tmp_path / "all-s.h5") as f, h5py.File(tmp_path / "none-s.h5") as none:
+        for depth, young, poisson, residual in (
+            (0, 4, 0.25, (-3e6, -2e6)),
+            (1, 0.5, 0.4, (1e5, 4e5)),
+            (2, 1, 0.3, (0, 0)),
+        ):
+            added = [f["stress_" + name][0, depth] - none["stress_" + name][0, depth] for name in OTHERS]
+            xx, yy = 1e6 + 0.3 * 2e5, -2e5 - 0.3 * 1e6
+            own = young / (1 - poisson**2)
+            expected = own * (xx + poisson * yy), own * (yy + poisson * xx), young * 1.3 / (1 + poisson) * 3e5
+            for value, bulk, rest in zip(added, expected, (*residual, 0)):
+                assert_close(value, np.full_like(value, bulk + rest), 1e-3)
+
+
+@pytest.mark.parametrize(
+    "depths, says",
+    [
+        (f"{0.4 * A}+", f"-depths: {0.4 * A:g}+ names a side of an interface, and there is none"),
+        (f"{0.5 * A}+,{0.5 * A}-", "expected depths that increase"),
+        (f"{0.5 * A},{0.9 * A}", f"{0.9 * A:g} m is in the rigid base, which begins at {0.8 * A:g} m"),
+        (f"{0.8 * A}+", "is in the rigid base"),
+    ],
+)
+def test_depths_that_layers_do_not_have_are_refused(depths, says, solve, petsam_stress):
+    r = solve({**SLIDING, "body2_young": float("inf"), "body2_poisson": None})
+    assert says in petsam_stress(dict(input=r.path, output="s.h5", depths=depths), check=2).stderr
+
+
+def test_one_side_of_an_interface(solve, petsam_stress, tmp_path):
+    r = solve(SLIDING)
+    petsam_stress(dict(input=r.path, output="both.h5", depths=f"{0.5 * A}"))
+    for k, sign in enumerate("-+"):
+        petsam_stress(dict(input=r.path, output=f"one{k}.h5", depths=f"{0.5 * A}{sign}"))
+        with h5py.File(tmp_path / "both.h5") as both, h5py.File(tmp_path / f"one{k}.h5") as one:
+            assert np.array_equal(one["stress_xx"][0, 0], both["stress_xx"][0, k])
+
+
+def test_residual_stress_has_two_numbers_for_each_layer(petsam):
+    says = "-body2_layer_stress: 3 numbers are given for 2 layers: give xx and yy of each"
+    assert says in petsam({**SLIDING, "body2_layer_stress": "1e6,1e6,2e6"}, check=2).complaint[0]

@@ -7,7 +7,7 @@
 #include <petsam/private/layered.h>
 #include <petsam/private/stressimpl.h>
 
-enum { COMPONENTS = SAM_STRESS_COMPONENTS, TRACTIONS = SAM_STRESS_TRACTIONS, GROUP = SAM_STRESS_GROUP, LAGS = 40 };
+enum { COMPONENTS = SAM_STRESS_COMPONENTS, GROUP = SAM_STRESS_GROUP, LAGS = 40 };
 
 /* A pair of a rigid body and one with layers: modulus, Poisson's ratio, thickness of each, the substrate last. */
 static SamPair PairOf(int count, const double layer[][3])
@@ -166,11 +166,119 @@ static void test_layer_of_the_substrates_material_is_none(void **state)
   sam_call(SamGridDestroy(&grid));
 }
 
+/* ---- fields ---- */
+
+/* A stress at a cell's centre, on all ranks. */
+static double At(SamGrid grid, Vec field, PetscInt component, PetscInt i, PetscInt j)
+{
+  const double *s;
+  double        value = 0;
+
+  sam_call(VecGetArrayRead(field, &s));
+  if (j >= grid->row_start && j < grid->row_start + grid->rows)
+    value = s[component * grid->cells + (j - grid->row_start) * grid->nx + i];
+  sam_call(VecRestoreArrayRead(field, &s));
+  sam_call(SamSum(grid->comm, 1, &value));
+  return value;
+}
+
+/* Hertz's pressure and 0.3 of it as shear along x, on 241 x 241 cells of 0.01. */
+static Vec NewHertz(SamGrid grid)
+{
+  Vec     field = NewField(grid, COMPONENTS);
+  double *s;
+
+  sam_call(VecGetArray(field, &s));
+  for (PetscInt j = 0; j < grid->rows; j++)
+    for (PetscInt i = 0; i < grid->nx; i++) {
+      const double   x = (double)SamGridX(grid, i), y = (double)SamGridY(grid, grid->row_start + j);
+      const double   p = sqrt(fmax(1 - x * x - y * y, 0));
+      const PetscInt k = j * grid->nx + i;
+
+      s[SAM_STRESS_ZZ * grid->cells + k] = p;
+      s[SAM_STRESS_XZ * grid->cells + k] = 0.3 * p;
+    }
+  sam_call(VecRestoreArray(field, &s));
+  return field;
+}
+
+static void test_sliding_has_reference_stresses(void **state)
+{
+  static const struct {
+    int    i, j;
+    double z, stress[COMPONENTS]; /* xx yy zz xy xz yz */
+  } rows[] = {
+    {30, 20, 0.25, {-0.4416382258, -0.3473601862, -0.8154782498, -0.0297038391, -0.2427627972, -0.0895965173}},
+    {30, 20, 0.5, {0.3843873174, 0.4609366747, -0.6147015752, -0.0428066056, -0.1126825785, -0.0587985443}},
+    {-100, 0, 0.5, {-0.0641674889, 0.1378583317, -0.1993715839, 0, 0.1322900517, 0}}};
+  const SamPair pair   = PairOf(1, thin);
+  SamGrid       grid   = NewGrid(241, 241, 2.41, 2.41);
+  SamStress     stress = NewStress(grid, &pair);
+
+  (void)state;
+  for (size_t k = 0; k < sizeof(rows) / sizeof(rows[0]); k++) {
+    Vec field = NewHertz(grid);
+
+    sam_call(SamStressSetDepth(stress, rows[k].z));
+    sam_call(SamStressApply(stress, field));
+    for (PetscInt c = 0; c < COMPONENTS; c++) {
+      const double value = At(grid, field, c, 120 + rows[k].i, 120 + rows[k].j);
+
+      if (getenv("SAM_SHOW")) print_message("# %.8f %.8f\n", value, rows[k].stress[c]);
+      sam_assert_close(value, rows[k].stress[c], 3e-4);
+    }
+    sam_call(VecDestroy(&field));
+  }
+  sam_call(SamStressDestroy(&stress));
+  sam_call(SamGridDestroy(&grid));
+}
+
+/* Tractions are continuous through an interface, the others jump by the strains, which are continuous in the plane. */
+static void test_interfaces_transmit_tractions_and_strains(void **state)
+{
+  const SamPair pair   = PairOf(2, two);
+  const double  bottom = 0.5, E[] = {4, 0.25}, nu[] = {0.2, 0.4};
+  SamGrid       grid             = NewGrid(37, 23, 3.7, 2.3);
+  SamStress     stress           = NewStress(grid, &pair);
+  double        most[COMPONENTS] = {0}, strain[2][3];
+
+  (void)state;
+  for (PetscInt i = 3; i < 37; i += 7) {
+    double s[2][COMPONENTS];
+
+    for (int side = 0; side < 2; side++) {
+      Vec field = NewHertz(grid);
+
+      sam_call(SamStressSetDepth(stress, side ? nextafter(bottom, 1) : bottom));
+      sam_call(SamStressApply(stress, field));
+      for (PetscInt c = 0; c < COMPONENTS; c++) s[side][c] = At(grid, field, c, i, 9);
+      sam_call(VecDestroy(&field));
+      strain[side][0] = (s[side][0] - nu[side] * (s[side][1] + s[side][2])) / E[side];
+      strain[side][1] = (s[side][1] - nu[side] * (s[side][0] + s[side][2])) / E[side];
+      strain[side][2] = s[side][3] * (1 + nu[side]) / E[side];
+    }
+    for (int c = 0; c < 3; c++) {
+      const int traction[] = {SAM_STRESS_ZZ, SAM_STRESS_XZ, SAM_STRESS_YZ};
+
+      most[c]     = fmax(most[c], fabs(s[0][traction[c]] - s[1][traction[c]]));
+      most[3 + c] = fmax(most[3 + c], fabs(strain[0][c] - strain[1][c]));
+    }
+  }
+  for (int c = 0; c < COMPONENTS; c++) {
+    if (getenv("SAM_SHOW")) print_message("# %.1e\n", most[c]);
+    sam_assert(most[c] < 1e-11);
+  }
+  sam_call(SamStressDestroy(&stress));
+  sam_call(SamGridDestroy(&grid));
+}
+
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_disc_has_reference_stresses),
                                      cmocka_unit_test(test_layer_cut_in_two_is_one),
-                                     cmocka_unit_test(test_layer_of_the_substrates_material_is_none)};
+                                     cmocka_unit_test(test_layer_of_the_substrates_material_is_none),
+                                     cmocka_unit_test(test_sliding_has_reference_stresses),
+                                     cmocka_unit_test(test_interfaces_transmit_tractions_and_strains)};
 
   return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
 }
