@@ -86,13 +86,15 @@ def test_arrows_of_slip_velocity_on_the_cells_that_slip(rolled):
         assert np.mean(arrows.U) < 0  # against the shear of a positive creepage
 
 
-def test_power_density_is_a_field_by_name(rolled):
-    with petsam.open(curve(rolled)) as results:
+@pytest.mark.parametrize("spin", [0.0, 5.0])
+def test_power_density_is_a_field_by_name(rolled, spin):
+    with petsam.open(rolled("creep_x,creep_spin", (2e-4, spin), (2e-3, spin))) as results:
         power = results.quantity("power_density")
         assert results.about("power_density")[0] == "Pa"
         cell = (results.x[1] - results.x[0]) * (results.y[1] - results.y[0])
         assert np.sum(power) * cell == pytest.approx(results.history["rolling_energy"][-1])
-        assert len(maps.maps([(results, results.of_last())], names=["power_density"]).axes) == 1
+        figure = maps.maps([(results, results.of_last())], names=["power_density"])
+        assert len(figure.axes) == 1 and figure.axes[0].images[0].norm.vmin == 0.0  # also with spin: see colours.LEAST
 
 
 @pytest.mark.parametrize("window", [{}, dict(rows=slice(4, 20), columns=slice(5, 29), stride=3), dict(stride=5)])
