@@ -71,7 +71,8 @@ def carter(directory):
         rows.append(dict(creep=creep, n55=found[0], n440=found[1], closed=closed, cells=power[0], loads=power[1]))
     print_table(
         "T_x over mu N on 55 and 440 columns, Carter's; power (W) at 30 m/s by cells and by loads, 55 columns",
-        "creepage = creep:.1e; 55 = n55:.4f; 440 = n440:.4f; Carter = closed:.4f; W cells = cells:.2f; W loads = loads:.2f",
+        "creepage = creep:.1e; 55 = n55:.4f; 440 = n440:.4f; Carter = closed:.4f; "
+        "W cells = cells:.2f; W loads = loads:.2f",
         rows,
     )
     figure, axes = plt.subplots(1, 2, figsize=(10.0, 3.4), constrained_layout=True)
