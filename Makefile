@@ -111,6 +111,7 @@ bench-programs: $(BENCHES) ## build the benchmark's programs
 bench: all bench-programs venv peers ## run the benchmark, or go on with an unfinished one; the report is in build/bench/report: ARGS=--quick for a short one, ARGS=--anew to start over
 	$(PYTHON) tests/bench/benchmark.py --build $(B) --out $(B)/bench/report $(ARGS)
 	$(B)/venv/bin/python tests/bench/edges.py --build $(B)
+	$(PYTHON) tests/bench/rolling.py --build $(B)
 
 # the programs that the benchmark compares with, built for this processor; the benchmark also runs without them
 peers: $(B)/peers/done ## install the programs that the benchmark compares with

@@ -13,7 +13,7 @@ from .isolation import reading
 
 OPEN, STICK, SLIP = 0, 1, 2  # /state
 DEPTHS = ("wear_depth1", "wear_depth2")  # removed of body 1 and 2
-POWER, POWER_OF = "power_density", ("shear", "slip_velocity")  # |q||s|, in steady rolling
+POWER, POWER_OF = "power_density", ("shear", "slip_velocity")  # of steady rolling: -q . s at the cell's centre
 EDGES = ("contact_edge", "stick_edge")
 NO_EQUILIBRIUM = 11  # /history/status of a step that was refused: it has no solution
 BLOCK = 256  # rows read at a time: bounds the memory, and strides in HDF5 itself are slow
@@ -375,10 +375,30 @@ class Results(Datafile):
     def quantity(self, name, *part, **window):
         """A field, the magnitude of a vector whose components the file has, or a product; arguments of field()."""
         if name not in self.fields and name in self.products:
-            return np.prod([self.quantity(of, *part, **window) for of in POWER_OF], axis=0)
+            return self._power(*part, **window)
         if name not in self.fields and name in self.vectors:
             return np.hypot(self.field(name + "_x", *part, **window), self.field(name + "_y", *part, **window))
         return self.field(name, *part, **window)
+
+    def _power(self, index=-1, rows=slice(None), columns=slice(None), stride=1):
+        """Frictional power over the rolling speed as petsam saves it (power_density): of the centred slip velocity.
+
+        The saved slip velocity belongs to the side ahead of a cell, with the creepage at its centre: at the centre it
+        is the mean of the cell's and that of the cell behind, whose creepage spin has changed by spin times dx.
+        """
+        low, high, _ = columns.indices(self.x.size)
+        spin = (0.0, self.history["creep_spin"][self.row(index % self.times.size)] * (self.x[1] - self.x[0]))
+        power = 0.0
+        for axis, turn in zip("xy", spin):
+            name = f"slip_velocity_{axis}"
+            slip = self.field(name, index, rows, columns, stride)
+            if low:
+                behind = self.field(name, index, rows, slice(low - 1, max(low, high) - 1), stride)
+            else:
+                rest = self.field(name, index, rows, slice(stride - 1, max(stride, high) - 1), stride)
+                behind = np.hstack([slip[:, :1] + turn, rest])  # the first cell has none behind
+            power = power - self.field(f"shear_{axis}", index, rows, columns, stride) * (slip + behind - turn) / 2.0
+        return power
 
     def need_quantity(self, name, option=None):
         """Error where the file has no field, vector or product of this name, which an option may have asked for."""
@@ -386,7 +406,8 @@ class Results(Datafile):
         if name not in names:
             there = there_are(name, names, "it has") if names else "; it has no field at all"
             lack = f"{option} {short(name)}: has no such field" if option else f"has no {short(name)}"
-            raise Error(f"{self.path}: {lack} (petsam -output_fields){there}")
+            wanted = f" {name}, or {','.join(f'{of}_x,{of}_y' for of in POWER_OF)}" if name == POWER else ""
+            raise Error(f"{self.path}: {lack} (petsam -output_fields{wanted}){there}")
 
     def _saved(self, name):
         """The dataset of a field, or of an edge."""

@@ -139,6 +139,35 @@ def test_failing_case_is_named_and_loses_no_other(tmp_path):
     assert rows(tmp_path / "out")[:2] == timed and all("seconds" in r for r in rows(tmp_path / "out"))
 
 
+def rolling(out, *words, build=BUILD):
+    script = support.ROOT / "tests/bench/rolling.py"
+    words = [sys.executable, script, "--build", build, "--out", out, "--cells", "64,96,128", "--repeats", "1", *words]
+    return subprocess.run(words, capture_output=True, text=True, timeout=300)
+
+
+def test_rolling_stands_beside_contact(tmp_path):
+    done = rolling(tmp_path)
+    assert done.returncode == 0, done.stdout + done.stderr
+    with open(tmp_path / "rolling.csv", newline="") as file:
+        of64, of96, of128 = csv.DictReader(file)
+    assert float(of64["T_x"]) == pytest.approx(float(of64["CONTACT load"]), abs=6e-5) and not of96["CONTACT load"]
+    assert 0 < float(of64["seconds"]) < 10 and 5 < float(of64["applications"]) <= 30 and float(of64["memory"]) > 10
+    assert float(of128["extrapolated"]) == pytest.approx(0.4997, abs=5e-4)  # the limit of fine grids
+    (line,) = (line for line in done.stdout.splitlines() if line.startswith("| 64 |"))
+    assert line.endswith("| 0.5054 | 40, 4.7 s | 101, 1.6 s |")
+
+
+def test_loads_other_than_contact_s_fail(tmp_path):
+    """A petsam whose creepage is larger by a percent."""
+    build = tmp_path / "build"
+    (build / "bin").mkdir(parents=True)
+    program = build / "bin" / "petsam"
+    program.write_text(f'#!/bin/sh\nexec {BUILD}/bin/petsam "$@" -creep_x 8.87e-4\n')
+    program.chmod(0o755)
+    done = rolling(tmp_path, build=build)
+    assert done.returncode == 1 and "T_x differs from CONTACT's on [64, 128] cells" in done.stderr
+
+
 def test_unknown_case_is_refused():
     done = run("--cases", "hertzz")
     assert done.returncode == 2 and "no case hertzz" in done.stderr

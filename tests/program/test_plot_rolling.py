@@ -75,7 +75,7 @@ def test_arrows_of_slip_velocity_on_the_cells_that_slip(rolled):
     with petsam.open(curve(rolled)) as results:
         figure = maps.maps([(results, results.of_step(3))], whole=True)
         titles = [axes.get_title() for axes in figure.axes if axes.images]
-        assert titles == ["pressure $p$", "shear $|q|$", "power density over $V$, $|q||s|$", "state"]
+        assert titles == ["pressure $p$", "shear $|q|$", r"power density over $V$, $-q \cdot s$", "state"]
         panel = next(axes for axes in figure.axes if axes.get_title() == "state")
         (arrows,) = (one for one in panel.collections if isinstance(one, Quiver))
         x, y = (1e-6 * np.asarray(values) for values in (arrows.X, arrows.Y))
@@ -86,23 +86,35 @@ def test_arrows_of_slip_velocity_on_the_cells_that_slip(rolled):
         assert np.mean(arrows.U) < 0  # against the shear of a positive creepage
 
 
-def test_power_density_is_a_field_by_name(rolled):
-    with petsam.open(curve(rolled)) as results:
+@pytest.mark.parametrize("spin", [0.0, 5.0])
+def test_power_density_is_a_field_by_name(rolled, spin):
+    with petsam.open(rolled("creep_x,creep_spin", (2e-4, spin), (2e-3, spin))) as results:
         power = results.quantity("power_density")
         assert results.about("power_density")[0] == "Pa"
         cell = (results.x[1] - results.x[0]) * (results.y[1] - results.y[0])
         assert np.sum(power) * cell == pytest.approx(results.history["rolling_energy"][-1])
-        assert len(maps.maps([(results, results.of_last())], names=["power_density"]).axes) == 1
+        figure = maps.maps([(results, results.of_last())], names=["power_density"])
+        assert len(figure.axes) == 1 and figure.axes[0].images[0].norm.vmin == 0.0  # also with spin: see colours.LEAST
 
 
-def test_power_density_without_its_field_is_a_product(rolled, tmp_path):
-    copy = shutil.copy(curve(rolled), tmp_path / "copy.h5")
+@pytest.mark.parametrize("window", [{}, dict(rows=slice(4, 20), columns=slice(5, 29), stride=3), dict(stride=5)])
+def test_power_density_is_computed_where_it_is_not_saved(rolled, tmp_path, window):
+    path = rolled("creep_x,creep_y,creep_spin", (2e-4, 0.0, 0.0), (4e-4, 2e-4, 1.0))
+    copy = shutil.copy(path, tmp_path / "copy.h5")
     with h5py.File(copy, "a") as file:
         del file["power_density"]
-    with petsam.open(copy) as results:
-        q, v = (np.hypot(results.field(f"{name}_x"), results.field(f"{name}_y")) for name in ("shear", "slip_velocity"))
-        assert np.array_equal(results.quantity("power_density"), q * v)
-        assert results.about("power_density")[0] == "Pa"
+    with petsam.open(path) as whole, petsam.open(copy) as results:
+        saved, found = (of.quantity("power_density", **window) for of in (whole, results))
+        assert saved.shape == found.shape and np.abs(found - saved).max() <= 1e-12 * np.abs(saved).max()
+        assert saved.max() > 0 and results.about("power_density")[0] == "Pa"
+
+
+def test_what_the_power_needs_is_named(rolled, tmp_path):
+    copy = shutil.copy(curve(rolled), tmp_path / "copy.h5")
+    with h5py.File(copy, "a") as file:
+        del file["power_density"], file["slip_velocity_x"]
+    with petsam.open(copy) as results, pytest.raises(petsam.Error, match="power_density, or shear_x,shear_y,slip_vel"):
+        results.need_quantity("power_density")
 
 
 def test_all_pictures_of_a_file(rolled, tmp_path):

@@ -11,6 +11,7 @@ from .units import label, scale
 SIGNED, UNSIGNED = "RdBu_r", "viridis"
 ENDINGS = ("_x", "_y", "_z")  # of the names of components, which have a sign even where they are positive
 ROUNDING = 1e-6  # of the largest value: what is negative by less is no sign
+LEAST = {"power_density": 0.02}  # the same of a field that is slightly negative in some cells by its nature
 PERCENTILES = (99.8, 99.0, 98.0, 95.0)  # tried in this order
 PEAK = 2.0  # times the percentile: what lies above would darken the rest
 DECADES = 4  # of a logarithmic scale, unless limits are given
@@ -42,7 +43,7 @@ class Colours(NamedTuple):
 def is_signed(name, values):
     """Whether a quantity has two directions: by its name, or because some of it is negative."""
     low, high = float(np.min(values, initial=0.0)), float(np.max(values, initial=0.0))
-    return name.endswith(ENDINGS) or low < -ROUNDING * max(high, -low)
+    return name.endswith(ENDINGS) or low < -LEAST.get(name, ROUNDING) * max(high, -low)
 
 
 def finite(arrays):
@@ -120,7 +121,9 @@ def choose(name, arrays, unit, choice=None):
     if choice.log:
         norm = SymLogNorm(factor * floor, vmin=low, vmax=high, base=10) if signed else LogNorm(low, high)
     above = bool(magnitudes.size) and factor * np.max(values) > high * (1.0 + 1e-9)
-    below = bool(magnitudes.size) and factor * np.min(values) < low - 1e-9 * abs(high) and not choice.log
+    below = (
+        bool(magnitudes.size) and factor * np.min(values) < low - LEAST.get(name, 1e-9) * abs(high) and not choice.log
+    )
     extend = {(True, True): "both", (True, False): "max", (False, True): "min"}.get((above, below), "neither")
     remark = _remark(share, factor * whole, prefixed)
     return Colours(norm, SIGNED if signed else UNSIGNED, factor, prefixed, remark, extend)
