@@ -7,7 +7,8 @@
 
   Algorithm, in units in which a cell's influence on itself is 1; an iteration takes one product:
     1. Sets: cells whose q - s/4 is beyond its circle slip, if s is against q or q far outside; the others stick. With
-       lambda = |s|/b where a cell slips, h = 1/(1 + lambda), g = sqrt(h). P takes the part along the shear off.
+       lambda = |s|/b where a cell slips, h = 1/(1 + lambda), g = sqrt(h), of faint cells less. P takes the part along
+       the shear off.
     2. Residual: -s in stick; -h P s and b - |q| in slip. A direction d changes it by A d in stick; by P(h A d +
        (1 - h) d) and its part along the shear in slip; a creepage by -h P phi.
     3. New direction: P(g M g + (1 - h)h/2) r, r = -P s, with M the inverse of the operator of bodies at rest, and then
@@ -36,7 +37,7 @@
 /* A column of the least squares that is a combination of others up to this part of it is left out. */
 #define DEPENDENT 1e-6
 /* A start slides where a cell's slip is this many times what its bound moves. */
-#define FAST 100
+#define FAST 8
 
 static const double lengths[SAM_ROLLING_LENGTHS] = {1, 0.6, 0.3, 0.1};
 
