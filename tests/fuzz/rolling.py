@@ -4,8 +4,8 @@
     python3 tests/fuzz/rolling.py [--build build] [--count 500] [--seed 1] [--show]
 
 Ellipses a/b 0.1 to 10, nu 0 to 0.5, roughness, films, friction fields, dissimilar bodies; creepages and loads to 0.99
-of the limit in all combinations; grids of 32 to 128 cells. Prints what repeats a failure, and at the end the products of
-each kind. Ends with 1 after a failure.
+of the limit in all combinations; grids of 32 to 128 cells. Prints what repeats a failure, and at the end the products
+of each kind. Ends with 1 after a failure.
 """
 
 import argparse
@@ -265,9 +265,8 @@ def main():
             print(f"seed {seed} ({', '.join(kinds)}): {wrong}\n    {line}", flush=True)
     for kind, counts in products.items():
         each, seed = max(counts)
-        print(
-            f"{kind:11} {len(counts):4}  median {np.median([n for n, _ in counts]):3.0f}  most {each:3.0f} (seed {seed})"
-        )
+        median = np.median([n for n, _ in counts])
+        print(f"{kind:11} {len(counts):4}  median {median:3.0f}  most {each:3.0f} (seed {seed})")
     print(f"{given.count} problems, {failed} failed")
     return failed > 0
 
