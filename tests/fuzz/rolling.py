@@ -220,7 +220,7 @@ def trial(program, seed):
     """Kinds, history and faults of a problem."""
     with tempfile.TemporaryDirectory() as folder:
         folder = Path(folder)
-        for _ in range(4):
+        for _ in range(20):
             problem = Problem(seed)
             for name, field in problem.files.items():
                 with h5py.File(folder / f"{name}.h5", "w") as f:
