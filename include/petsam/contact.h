@@ -76,9 +76,10 @@ PETSC_EXTERN PetscErrorCode SamContactSetFromOptions(SamContact contact);
 PETSC_EXTERN PetscErrorCode SamContactSetUp(SamContact contact);
 /*
   SamContactCheckRolling - refuses what has no meaning in a step: creepages without a rolled distance or steady rolling,
-  both of these, a distance on bodies that do not roll. Not collective. Errors: SAM_ERR_USER.
+  both of these, a distance on bodies that do not roll or beyond the grid's width. `where`: "file, line 3: " or "", for
+  the message. Not collective. Errors: SAM_ERR_USER.
 */
-PETSC_EXTERN PetscErrorCode SamContactCheckRolling(SamContact contact, const SamControl *control);
+PETSC_EXTERN PetscErrorCode SamContactCheckRolling(SamContact contact, const SamControl *control, const char where[]);
 /*
   SamContactOfferCondition - makes the k-th condition (control.h) a number of each step, and with a rolled distance the
   creepages. Collective.

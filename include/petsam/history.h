@@ -66,5 +66,7 @@ PETSC_EXTERN PetscErrorCode SamHistoryGives(SamHistory history, const SamConditi
 */
 PETSC_EXTERN PetscErrorCode SamHistoryGetStep(SamHistory history, PetscInt k, SamControl *control);
 PETSC_EXTERN PetscErrorCode SamHistoryGetPart(SamHistory history, PetscInt k, PetscReal part, SamControl *control);
+/* SamHistoryGetPlace - the row that step k leads to, for messages: "file, line 3: ", empty without a file. */
+PETSC_EXTERN PetscErrorCode SamHistoryGetPlace(SamHistory history, PetscInt k, char text[], size_t size);
 
 #endif

@@ -85,6 +85,7 @@ PetscErrorCode SamContactSetFromOptions(SamContact c)
   const SamOptions         from              = {c->grid->comm, c->prefix};
   SamContactSettings       s                 = c->set;
   PetscInt                 coupling = s.coupling ? 1 : 0, edges = s.edges ? 1 : 0, direction = s.slip_direction;
+  PetscBool                turns, keeps;
 
   PetscFunctionBegin;
   PetscCall(SamOptionsHeading(&from, "Contact"));
@@ -97,11 +98,13 @@ PetscErrorCode SamContactSetFromOptions(SamContact c)
   PetscCall(SamOptionsBool(&from, "coupling_monitor", "print the change after each coupling iteration",
                            &s.coupling_monitor, NULL));
   PetscCall(SamOptionsEnum(&from, "slip_direction", "by the shear at mid or end of a step; auto: mid with -step_rtol",
-                           direction_words, &direction, NULL));
+                           direction_words, &direction, &turns));
   PetscCall(SamOptionsBool(&from, "warm_start", "start each step from the previous steps, on the finest grid only",
                            &s.warm_start, NULL));
   PetscCall(SamOptionsReal(&from, "cycle_memory", "bytes to keep steps of a repeated cycle, from which the next starts",
-                           SAM_RANGE_NONNEGATIVE, &s.cycle_memory, NULL));
+                           SAM_RANGE_NONNEGATIVE, &s.cycle_memory, &keeps));
+  if (turns) PetscCall(SamContactRefuseSteady(c, "-", "slip_direction"));
+  if (keeps) PetscCall(SamContactRefuseSteady(c, "-", "cycle_memory"));
   PetscCall(SamOptionsBool(&from, "allow_edge_contact", "contact at the grid's edge is a warning, no error",
                            &s.allow_edge, NULL));
   PetscCall(SamOptionsEnum(&from, "edges", "reconstruct, deferred (correct the pressure), none (count cells)",

@@ -58,6 +58,8 @@ PETSC_INTERN PetscErrorCode SamContactSetDisplacements(SamContact contact);
 PETSC_INTERN PetscErrorCode SamContactStore(SamContact contact, const SamStep *step);
 /* SamContactView - makes the views of the committed generation, and of that one step back. Collective. */
 PETSC_INTERN PetscErrorCode SamContactView(SamContact contact);
+/* Refuses an option (prefix "-") or a law that steady rolling gives no meaning, if it rolls so. Not collective. */
+PETSC_INTERN PetscErrorCode SamContactRefuseSteady(SamContact contact, const char prefix[], const char name[]);
 /*
   SamContactBefore - the committed solution, from which the tried one continues; NULL in the first step. Not collective.
 */

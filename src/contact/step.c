@@ -181,7 +181,7 @@ static PetscErrorCode DescribeSliding(SamSolve *w, char message[], size_t size)
                             follows ? " at the slip of the last iteration" : ""));
     PetscCall(PetscStrlcat(message, text, size));
     if (loaded > 1) PetscCall(PetscStrlcat(instead, ", ", sizeof(instead)));
-    PetscCall(PetscStrlcat(instead, w->c->traits.steady ? name->creep : name->rigid, sizeof(instead)));
+    PetscCall(PetscStrlcat(instead, w->c->traits.steady || w->c->rolls ? name->creep : name->rigid, sizeof(instead)));
   }
   PetscCall(SamProblemHasFriction(w->c->problem, &friction));
   PetscCall(PetscStrlcat(

@@ -14,6 +14,31 @@
 
 /* ---- a step ---- */
 
+/* Where only material from outside of the grid came into contact, the message is about the rolled distance. */
+static PetscErrorCode DescribeEntering(SamContact c, SamStep *step)
+{
+  const PetscInt  cells[2] = {c->grid->nx, c->grid->ny};
+  const PetscReal size[2] = {c->grid->dx, c->grid->dy}, *roll = step->control.roll;
+  PetscInt        first[2], n[2];
+
+  PetscFunctionBegin;
+  PetscCall(SamGridGetSupport(c->grid, c->generation[SAM_TRIED].pressure, first, n));
+  for (PetscInt k = 0; k < 2; k++)
+    if (first[k] == 0 || first[k] + n[k] == cells[k]) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt k = 0; k < 2; k++) { /* interpolation between cells takes one more */
+    const PetscReal most = size[k] * (PetscReal)((roll[k] > 0 ? cells[k] - first[k] - n[k] : first[k]) - 1);
+
+    if (fabs(roll[k]) <= most) continue;
+    (void)snprintf(step->message, sizeof(step->message),
+                   "the contact reached material from outside of the grid, whose displacement is unknown (pressure "
+                   "there up to %.2g times the maximum): %s = %.8g: at most %.8g m in a step: use more steps or a "
+                   "wider grid",
+                   (double)step->check.edge, SamConditions[SAM_CONDITION_ROLL + k].name, (double)roll[k], (double)most);
+    (void)snprintf(step->setting, sizeof(step->setting), "steps");
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Judge(SamContact c, SamStep *step)
 {
   const SamCheck *check  = &step->check;
@@ -31,6 +56,15 @@ static PetscErrorCode Judge(SamContact c, SamStep *step)
                           (double)check->normal, (double)check->tangential, (double)check->equilibrium,
                           (double)check->cone, (double)check->edge));
   PetscCall(SamStepJudge(step, &limits));
+  if (c->rolls && check->edge > 0 && SamStepIsSolved(step)) PetscCall(DescribeEntering(c, step));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamContactRefuseSteady(SamContact c, const char prefix[], const char name[])
+{
+  PetscFunctionBegin;
+  PetscCheck(!c->traits.steady, c->grid->comm, SAM_ERR_USER,
+             "%s%s: has no meaning with -rolling steady, where no step continues another: omit it", prefix, name);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -58,7 +92,7 @@ static PetscErrorCode CheckBulkStress(SamContact c, const SamControl *control)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamContactCheckRolling(SamContact c, const SamControl *control)
+PetscErrorCode SamContactCheckRolling(SamContact c, const SamControl *control, const char where[])
 {
   const PetscReal   rolled = SamControlRolled(control);
   SamElasticityType type;
@@ -66,14 +100,18 @@ PetscErrorCode SamContactCheckRolling(SamContact c, const SamControl *control)
   PetscFunctionBegin;
   PetscCall(SamElasticityGetType(c->elasticity, &type));
   PetscCheck(isfinite(rolled), c->grid->comm, SAM_ERR_USER, "roll is not a finite number");
+  for (PetscInt k = 0; k < 2; k++)
+    PetscCheck(fabs(control->roll[k]) <= c->grid->width[k], c->grid->comm, SAM_ERR_USER,
+               "%s%s = %.6g: expected at most the width of the grid, %.6g m, in a step: use more steps", where,
+               SamConditions[SAM_CONDITION_ROLL + k].name, (double)control->roll[k], (double)c->grid->width[k]);
   PetscCheck(rolled == 0 || !c->traits.steady, c->grid->comm, SAM_ERR_USER,
-             "roll = %.6g: has no meaning with -rolling steady: omit one of them", (double)rolled);
+             "%sroll = %.6g: has no meaning with -rolling steady: omit one of them", where, (double)rolled);
   PetscCheck(rolled == 0 || !c->traits.periodic, c->grid->comm, SAM_ERR_USER,
-             "roll = %.6g: expected 0: bodies of type %s do not roll", (double)rolled, type);
+             "%sroll = %.6g: expected 0: bodies of type %s do not roll", where, (double)rolled, type);
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++)
     PetscCheck(!control->creep[k] || control->value[k] == 0 || rolled != 0 || c->traits.steady, c->grid->comm,
-               SAM_ERR_USER, "%s = %.6g: a creepage needs a rolled distance: give roll or roll_y, or -rolling steady",
-               SamComponentNames[k].creep, (double)control->value[k]);
+               SAM_ERR_USER, "%s%s = %.6g: a creepage needs a rolled distance: give roll or roll_y, or -rolling steady",
+               where, SamComponentNames[k].creep, (double)control->value[k]);
   for (PetscInt k = 0; k < SAM_COMPONENTS && c->traits.steady; k++)
     PetscCheck(!SamComponentNames[k].creep || SamControlWay(control, k) != SAM_BY_RIGID, c->grid->comm, SAM_ERR_USER,
                "%s has no meaning with -rolling steady: give %s or %s", SamComponentNames[k].rigid,
@@ -108,7 +146,7 @@ static PetscErrorCode CheckControl(SamContact c, SamControl *control)
   PetscCheck(control->friction_scale >= 0 && isfinite(control->friction_scale), c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
              "friction_scale = %.6g: expected a number >= 0", (double)control->friction_scale);
   PetscCall(CheckBulkStress(c, control));
-  PetscCall(SamContactCheckRolling(c, control));
+  PetscCall(SamContactCheckRolling(c, control, ""));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -129,9 +167,9 @@ PetscErrorCode SamContactSetUp(SamContact c)
                "rest of the solution less accurate: use -edges reconstruct",
                laws[k]->option);
   for (PetscInt k = 0; k < count; k++)
-    PetscCheck(!c->traits.steady || laws[k]->steady, c->grid->comm, SAM_ERR_USER,
-               "%s%s: has no meaning with -rolling steady, where no step continues another: omit it",
-               laws[k]->option ? "-" : "", laws[k]->option ? laws[k]->option : laws[k]->type);
+    if (!laws[k]->steady)
+      PetscCall(
+        SamContactRefuseSteady(c, laws[k]->option ? "-" : "", laws[k]->option ? laws[k]->option : laws[k]->type));
   PetscCheck(SamTangentialAsSolver(c->tangential)->steady == c->traits.steady, c->grid->comm, SAM_ERR_USER,
              "-tangential_type: does not solve this problem: use %s",
              c->traits.steady ? SAM_TANGENTIAL_ROLLING : SAM_TANGENTIAL_NEWTON);

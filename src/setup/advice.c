@@ -38,7 +38,7 @@ void SamLoadsMostAdd(SamLoadsMost *most, const SamControl *control)
   most->force = force[SAM_COMPONENT_N];
   most->slide = PetscMax(most->slide, hypot(x, y));
   for (PetscInt c = SAM_COMPONENT_MX; c < SAM_COMPONENTS; c++)
-    if (!force[c]) most->rotation = PetscMax(most->rotation, fabs(v[c]));
+    if (!force[c] && !creep[c]) most->rotation = PetscMax(most->rotation, fabs(v[c]));
   if (!most->steps++ || normal > most->normal) most->normal = normal;
   for (PetscInt k = 0; k < 2; k++) {
     const SamComponent c = k ? SAM_COMPONENT_MX : SAM_COMPONENT_MY; /* My tips along x */
@@ -352,7 +352,7 @@ PetscErrorCode SamAdviseEdge(const SamSetup *s, const SamLoadsMost *most, SamSte
   char         grid[3 * AT_A_TIME], ratio[192] = "";
 
   PetscFunctionBegin;
-  if (!SamStepIsSolved(step) || !(step->check.edge > 0) || !most->steps) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!SamStepIsSolved(step) || strcmp(step->setting, "grid_size") || !most->steps) PetscFunctionReturn(PETSC_SUCCESS);
   step->setting[0] = '\0'; /* the text names the options */
   PetscCall(Estimate(s, most->force, most->normal, half, &known));
   if (isinf(half[0]) || isinf(half[1])) {

@@ -16,6 +16,7 @@ struct _n_SamHistory {
   SamTable   table;                     /* empty without a file */
   PetscInt   time;                      /* column; -1: none */
   PetscInt   column[SAM_CONTROL_PARTS]; /* of each part of the control, -1: constant */
+  char       file[PETSC_MAX_PATH_LEN];  /* of the table */
 };
 
 PetscErrorCode SamHistoryClaimOption(void)
@@ -344,6 +345,7 @@ PetscErrorCode SamHistoryCreate(MPI_Comm comm, const SamControl *constant, const
   PetscCall(Create(history));
   h           = *history;
   h->constant = *constant;
+  PetscCall(PetscStrncpy(h->file, what, sizeof(h->file)));
   ListNames(names);
   PetscCall(SamTableCreate(comm, what, columns, rows, values, names, &h->table));
   TakeTable(h);
@@ -364,20 +366,20 @@ PetscErrorCode SamHistoryCreate(MPI_Comm comm, const SamControl *constant, const
 PetscErrorCode SamHistoryCreateFromOptions(const SamOptions *from, const SamArguments *arguments, SamHistory *history)
 {
   SamHistory  h;
-  char        file[PETSC_MAX_PATH_LEN] = "";
-  Reader      reader                   = {.from = from, .arguments = arguments, .file = file};
-  PetscInt    increments               = 1;
+  Reader      reader     = {.from = from, .arguments = arguments};
+  PetscInt    increments = 1;
   const char *names[NAMES];
   PetscBool   has_file;
 
   PetscFunctionBegin;
   PetscCall(Create(history));
-  h = *history;
+  h           = *history;
+  reader.file = h->file;
   PetscCall(SamOptionsHeading(from, "Loads and displacements"));
-  PetscCall(ReadFileName(from, file, sizeof(file), &has_file));
+  PetscCall(ReadFileName(from, h->file, sizeof(h->file), &has_file));
   PetscCall(SamHistoryReadIncrements(from, &increments));
   ListNames(names);
-  if (has_file) PetscCall(SamTableRead(from->comm, "history", file, names, &h->table));
+  if (has_file) PetscCall(SamTableRead(from->comm, "history", h->file, names, &h->table));
   if (has_file) TakeTable(h);
   PetscCheck(increments <= PETSC_MAX_INT / h->rows, from->comm, SAM_ERR_USER,
              "-%ssteps %" PetscInt_FMT ": times %" PetscInt_FMT
@@ -388,7 +390,21 @@ PetscErrorCode SamHistoryCreateFromOptions(const SamOptions *from, const SamArgu
       if (SamComponentNameOf(c, way)) SamOptionsKnow(from, SamComponentNameOf(c, way), NULL);
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++) PetscCall(ReadComponent(h, &reader, c));
   for (PetscInt k = SAM_COMPONENTS; k < SAM_CONTROL_PARTS; k++) PetscCall(ReadCondition(h, &reader, k));
-  PetscCall(SetIncrements(h, increments, from->comm, file));
+  PetscCall(SetIncrements(h, increments, from->comm, h->file));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscInt RowOf(SamHistory h, PetscInt k)
+{
+  return k < h->start ? 0 : 1 + (k - h->start) / h->increments;
+}
+
+PetscErrorCode SamHistoryGetPlace(SamHistory h, PetscInt k, char text[], size_t size)
+{
+  PetscFunctionBegin;
+  text[0] = '\0';
+  if (h->table.rows)
+    PetscCall(PetscSNPrintf(text, size, "%s, line %" PetscInt_FMT ": ", h->file, h->table.line[RowOf(h, k)]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -399,7 +415,7 @@ PetscErrorCode SamHistoryGetStep(SamHistory h, PetscInt k, SamControl *control)
 
 PetscErrorCode SamHistoryGetPart(SamHistory h, PetscInt k, PetscReal part, SamControl *control)
 {
-  const PetscInt r = k < h->start ? 0 : 1 + (k - h->start) / h->increments, steps = r ? h->increments : h->start;
+  const PetscInt r = RowOf(h, k), steps = r ? h->increments : h->start;
   const double   i = (double)(r ? (k - h->start) % h->increments : k) + (double)part, way = i / (double)steps;
 
   PetscFunctionBegin;

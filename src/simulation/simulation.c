@@ -76,15 +76,27 @@ static PetscErrorCode Offer(SamSimulation s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Refuses a program of which no step has a meaning, before the first is solved. */
+/*
+  Refuses a load history with a step that has no meaning, before the first is solved; ends of rows first, whose values
+  are those of the file.
+*/
 static PetscErrorCode CheckRolling(SamSimulation s)
 {
   SamControl control;
+  PetscInt   start, increments;
+  char       where[PETSC_MAX_PATH_LEN + 32];
 
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < s->needs.steps; k++) {
+  PetscCall(SamHistoryGetStart(s->history, &start));
+  PetscCall(SamHistoryGetIncrements(s->history, &increments));
+  for (PetscInt n = 0; n < 2 * s->needs.steps; n++) {
+    const PetscInt  k   = n % s->needs.steps;
+    const PetscBool end = (k + 1 - start) % increments == 0;
+
+    if (end != (n < s->needs.steps)) continue;
     PetscCall(SamHistoryGetStep(s->history, k, &control));
-    PetscCall(SamContactCheckRolling(s->setup.contact, &control));
+    PetscCall(SamHistoryGetPlace(s->history, k, where, sizeof(where)));
+    PetscCall(SamContactCheckRolling(s->setup.contact, &control, where));
     PetscCheck(SamControlRolled(&control) == 0 || !s->needs.life, s->comm, SAM_ERR_USER,
                "roll with -wear_cycles: surfaces that roll are worn step by step: omit one of them");
     PetscCheck(s->step_rtol == 0 || (SamControlRolled(&control) == 0 && !SamContactIsSteady(s->setup.contact)), s->comm,

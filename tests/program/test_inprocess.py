@@ -286,6 +286,8 @@ def test_steady_rolling_in_process(petsam, tmp_path):
 import numpy as np, petsam
 with petsam.Contact(**{case!r}) as contact:
     for creep in 4e-4, 5e-4:
+        contact.try_step(load_n=900, creep_x=1e-2, creep_spin=3)
+        contact.reject()
         step = contact.try_step(load_n=800, creep_x=creep, load_ty=9)
         contact.commit()
     assert step.rigid[1] == step.creep_x == 5e-4 and not hasattr(step, "disp_x") and "creep_y=" in repr(step)

@@ -1,5 +1,7 @@
 """Rolling in steps of time: columns roll and roll_y, creepages given or found."""
 
+import re
+
 import h5py
 import numpy as np
 import pytest
@@ -171,6 +173,29 @@ def test_contact_where_material_enters_is_told(roll):
     assert list(h["status"]) == [0, 0, 12]
 
 
+@pytest.mark.parametrize("way, other", [("roll", "x"), ("roll_y", "y")])
+@pytest.mark.parametrize("cells", [8, -17.5, 32])
+def test_what_a_step_can_roll_is_told(petsam, tmp_path, way, other, cells):
+    """By as much as the message says, the next step rolls."""
+    case, header = ball(32), f"time,load_t{other},{way}"
+    d = case["grid_size"] / 32
+
+    def run(roll, **words):
+        return petsam(case, history(tmp_path / "h.csv", header, (0, 10.0, 0.0), (1, 10.0, float(roll))), **words).stderr
+
+    said = run(cells * d, check=12)
+    assert "material from outside of the grid" in said and "use more steps" in said and "-grid_size" not in said
+    most = float(re.search(rf"{way} = \S+ at most (\S+) m in a step", said)[1])
+    run(np.copysign(most, cells))
+    assert f"{way} = 1e+300: expected at most the width of the grid" in run(1e300, check=2)
+
+
+def test_gross_slip_of_a_rolling_step_names_creepages(petsam, tmp_path):
+    case = ball(32)
+    rows = history(tmp_path / "h.csv", "time,load_tx,roll", (0, 10.0, 0.0), (1, 500.0, 5e-5))
+    assert "for gross slip give creep_x" in petsam(case, rows, check=11).stderr
+
+
 @pytest.mark.parametrize(
     ("options", "header", "rows", "words"),
     [
@@ -178,7 +203,7 @@ def test_contact_where_material_enters_is_told(roll):
         (dict(creep_x=1e-3, load_tx=1.0), None, [], ["-load_tx and -creep_x are conjugate"]),
         (dict(creep_spin=1e-3, rot_z=1.0), None, [], ["-rot_z and -creep_spin are conjugate"]),
         ({}, "time,creep_x,disp_x", [(0, 1e-3, 0)], ["disp_x and creep_x are conjugate"]),
-        ({}, "time,creep_y", [(0, 1e-3)], ["creep_y", "roll"]),
+        (dict(steps=4), "time,creep_y", [(0, 0), (1, 1e-3)], ["bad.csv, line 3: creep_y = 0.001:", "roll"]),
         (dict(rolling="steady", step_rtol=1e-3), None, [], ["-step_rtol with rolling"]),
         (dict(rolling="steady", grid_check=True), None, [], ["-grid_check does not work with -rolling"]),
         (dict(step_rtol=1e-3), "time,load_tx,roll", [(0, 1.0, 0), (1, 2.0, 1e-6)], ["-step_rtol with rolling"]),

@@ -226,6 +226,45 @@ def test_cylinders(solve):
     assert s["contact_cells"] == 100
 
 
+@pytest.mark.parametrize("n", [40, 57])
+@pytest.mark.parametrize(
+    "given",
+    [
+        dict(creep_x=1e3),
+        dict(creep_spin=1e4),
+        dict(creep_spin=1e6),
+        dict(creep_x=1e3, creep_y=1e6, creep_spin=1e9),
+        dict(creep_x=1e3, load_ty=200.0),
+        dict(load_tx=150.0, creep_y=1.0, creep_spin=1e4),
+        dict(load_n=1e-12, creep_x=1e-3),
+        dict(load_n=1e-12, creep_x=1e-9, creep_spin=1.0),
+    ],
+)
+def test_fast_sliding(solve, n, given):
+    """Shear hardly changes the slip: each cell's is its bound against the creepage there."""
+    case = dict(ellipse(n=n, output_fields="all"), **given)
+    s = solve(case)
+    assert s["tangential_applies"] <= 8
+    assert "rotation" not in s.run.stderr  # a spin is none
+    x, y = np.meshgrid(s.x, s.y)
+    creeps = [float(s[f"creep_{name}"]) for name in ("x", "y", "spin")]
+    slip = np.stack([creeps[0] - creeps[2] * y, creeps[1] + creeps[2] * x])
+    size = np.hypot(*slip)
+    bound, shear = 0.3 * s.pressure, np.stack([s.shear_x, s.shear_y])
+    assert np.all(np.hypot(*shear) <= (1 + 1e-12) * bound)
+    most = bound.max()
+    far = (bound > 0) & (size > 100 * most / G)
+    assert far.sum() >= 0.9 * (bound > 0).sum()
+    error = np.hypot(*(shear - bound * slip / np.maximum(size, 1e-300)))
+    assert np.all(error[far] <= (1e-5 + 10 * most / G / size[far]) * most)
+
+
+@pytest.mark.parametrize("given", [dict(creep_x=1e160), dict(creep_spin=1e300), dict(tangential_max_it=3)])
+def test_no_shear_beyond_its_bound_is_left(solve, given):
+    s = solve(dict(ellipse(n=40, creep_x=0.3 * U, output_fields="all"), **given), check=10)
+    assert np.all(np.hypot(s.shear_x, s.shear_y) <= (1 + 1e-12) * 0.3 * s.pressure)
+
+
 # ---- loads, histories, ranks
 
 
@@ -291,6 +330,22 @@ def test_states_near_the_last_one_start_from_it(solve, tmp_path):
     assert np.array_equal(found(ranks=2)["load_tx"], near["load_tx"])
 
 
+@pytest.mark.parametrize("ranks", [1, 2])
+@pytest.mark.parametrize("more", [{}, dict(body2_young=YOUNG / 4)], ids=["similar", "dissimilar"])
+def test_restart_amid_steady_states(petsam, tmp_path, more, ranks):
+    """The start of a state is made of those before, which a checkpoint has: the same bits."""
+    case = dict(ellipse(n=40, width=3.2, output_fields="all"), **more)
+    rows = [(k, 0.1 * U * (1 + 0.02 * k), 0.05 * case["load_n"], U * 10 * k) for k in range(1, 7)]
+    case.update(history(tmp_path / "h.csv", "time,creep_x,load_ty,creep_spin", *rows))
+    case.update(checkpoint="c.h5", checkpoint_every=4)
+    petsam(case, dict(output="whole.h5"), ranks=ranks)
+    petsam(case, dict(output="rest.h5", restart="c.h5"), ranks=ranks)
+    with h5py.File(tmp_path / "whole.h5") as whole, h5py.File(tmp_path / "rest.h5") as rest:
+        assert rest["history/time"].size < 6
+        for name in ("shear_x", "slip_velocity_y", "pressure"):
+            assert np.array_equal(whole[name][-1], rest[name][-1]), name
+
+
 def test_same_bits_on_any_number_of_ranks(solve):
     case = ellipse(n=70, output_fields="all")
     runs = [solve(case, dict(load_tx=0.5 * 0.3 * case["load_n"], creep_spin=U / 1e-3), ranks=k) for k in (1, 2, 3)]
@@ -352,6 +407,8 @@ def test_dissimilar_bodies(petsam, n):
         (dict(creep_x=1e-3, elasticity="periodic"), "has no meaning with -elasticity periodic"),
         (dict(creep_x=1e-3, wear_coefficient1=1e-14), "has no meaning with -rolling steady"),
         (dict(creep_x=1e-3, sum_slip_path=True), "slip_path: has no meaning with -rolling steady"),
+        (dict(creep_x=1e-3, slip_direction="mid"), "-slip_direction: has no meaning with -rolling steady"),
+        (dict(creep_x=1e-3, cycle_memory=1e6), "-cycle_memory: has no meaning with -rolling steady"),
         (dict(creep_x=1e-3, edges="deferred"), "-edges deferred: not supported with friction"),
         (dict(creep_x=1e-3, stiffness=True, output="x.h5"), "-stiffness: has no meaning with -rolling steady"),
         (dict(creep_x=1e-3, bulk1_stress_xx=1e6), "bulk1_stress_xx has no meaning with -rolling steady"),

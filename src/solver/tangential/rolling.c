@@ -7,7 +7,8 @@
 
   Algorithm, in units in which a cell's influence on itself is 1; an iteration takes one product:
     1. Sets: cells whose q - s/4 is beyond its circle slip, if s is against q or q far outside; the others stick. With
-       lambda = |s|/b where a cell slips, h = 1/(1 + lambda), g = sqrt(h). P takes the part along the shear off.
+       lambda = |s|/b where a cell slips, h = 1/(1 + lambda), g = sqrt(h), of faint cells less. P takes the part along
+       the shear off.
     2. Residual: -s in stick; -h P s and b - |q| in slip. A direction d changes it by A d in stick; by P(h A d +
        (1 - h) d) and its part along the shear in slip; a creepage by -h P phi.
     3. New direction: P(g M g + (1 - h)h/2) r, r = -P s, with M the inverse of the operator of bodies at rest, and then
@@ -35,6 +36,8 @@
 #define STAGNATION 100
 /* A column of the least squares that is a combination of others up to this part of it is left out. */
 #define DEPENDENT 1e-6
+/* A start slides where a cell's slip is this many times what its bound moves. */
+#define FAST 8
 
 static const double lengths[SAM_ROLLING_LENGTHS] = {1, 0.6, 0.3, 0.1};
 
@@ -284,10 +287,25 @@ static PetscErrorCode Iterate(Work *w, PetscBool renew, const double load[3])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Step 5, and the end: an admissible shear nearby, with its slip and its error, to rounding. */
-static PetscErrorCode MakeAdmissible(Work *w, PetscBool *found)
+/* The nearest admissible shear to the trial, with its slip and its error, to rounding. */
+static PetscErrorCode TakeTrial(Work *w, double motion[3], PetscBool *found)
 {
   SamStickSlip *u = &w->base;
+
+  PetscFunctionBegin;
+  PetscCall(SamFrameProjectTangential(u->frame, u->bound, NULL, PETSC_FALSE, w->trial, motion, found));
+  if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscArraycpy(u->q, w->trial, 2 * u->cells));
+  for (PetscInt c = 0; motion && c < 3; c++) u->motion[c] += u->self * motion[c];
+  PetscCall(SamStickSlipComputeSlip(u));
+  PetscCall(SamStickSlipMeasure(u));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Step 5, and the end: an admissible shear nearby. */
+static PetscErrorCode MakeAdmissible(Work *w, PetscBool *found)
+{
+  const SamStickSlip *u = &w->base;
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < u->cells; k++) { /* cells that slip go beyond their circles, and come back onto them */
@@ -297,11 +315,29 @@ static PetscErrorCode MakeAdmissible(Work *w, PetscBool *found)
     w->trial[k] = factor * u->q[k];
     w->trial[l] = factor * u->q[l];
   }
-  PetscCall(SamFrameProjectTangential(u->frame, u->bound, NULL, PETSC_FALSE, w->trial, NULL, found));
-  if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscArraycpy(u->q, w->trial, 2 * u->cells));
-  PetscCall(SamStickSlipComputeSlip(u));
-  PetscCall(SamStickSlipMeasure(u));
+  PetscCall(TakeTrial(w, NULL, found));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
+  Before the iterations, which would take the cells of a start to stick: where bodies slide so fast that shear hardly
+  changes their slip, q = D(q - s/c) is its own iteration.
+*/
+static PetscErrorCode Slide(Work *w)
+{
+  SamStickSlip *u    = &w->base;
+  double        fast = 0, before = INFINITY, motion[3];
+  PetscBool     found = PETSC_TRUE;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < u->cells; k++)
+    fast += u->bound[k] > 0 && hypot(u->s[k], u->s[k + u->cells]) > FAST * w->unit_s;
+  PetscCall(SamSum(u->level->grid->comm, 1, &fast));
+  while (fast > 0 && found && u->error > u->level->rtol && u->error < 0.5 * before) {
+    before = u->error;
+    for (PetscInt k = 0; k < 2 * u->cells; k++) w->trial[k] = u->q[k] - u->s[k] / u->self;
+    PetscCall(TakeTrial(w, motion, &found));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -349,6 +385,20 @@ static PetscErrorCode Run(Work *w, SamSolverReason *reason)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Without a solution, no shear beyond its bound is left. */
+static PetscErrorCode LeaveAdmissible(Work *w)
+{
+  SamStickSlip *u     = &w->base;
+  PetscBool     found = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  if (isfinite(u->error)) PetscCall(MakeAdmissible(w, &found));
+  if (found) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscArrayzero(u->q, 2 * u->cells));
+  PetscCall(PetscArraycpy(u->motion, u->frame->fixed, 3));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode SamTangentialSolve_Rolling(SamSolver solver, SamLevel *level)
 {
   Work          w;
@@ -357,7 +407,9 @@ static PetscErrorCode SamTangentialSolve_Rolling(SamSolver solver, SamLevel *lev
   PetscFunctionBegin;
   PetscCall(Create(solver, level, &w));
   PetscCall(SamStickSlipStart(u));
+  PetscCall(Slide(&w));
   PetscCall(Run(&w, &solver->reason));
+  if (solver->reason < 0) PetscCall(LeaveAdmissible(&w));
   solver->error = u->error;
   for (PetscInt c = 0; c < 3; c++) level->rigid[c] = u->motion[c];
   PetscCall(Destroy(&w));

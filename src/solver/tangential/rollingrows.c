@@ -15,6 +15,8 @@
 #define NEAR  0.5
 #define OUT   0.02
 #define ROUGH 1e-3
+/* Up to this weight a cell counts in proportion to it in the preconditioner, not to its root. */
+#define FAINT 1e-3f
 
 SAM_VECTORIZED void SamRollingSetsRow(const SamRollingWork *w, SamRow row, SamRollingSums *sums)
 {
@@ -51,6 +53,15 @@ SAM_VECTORIZED void SamRollingSetsRow(const SamRollingWork *w, SamRow row, SamRo
   sums->load[2] += turn - row.eta * x;
 }
 
+/*
+  The root of a weight. The slip of a cell with hardly any bound is large, and through the preconditioner the root would
+  have it move the cells beside it, on which its shear has no influence.
+*/
+static inline float Root(float h)
+{
+  return h < FAINT ? h / sqrtf(FAINT) : sqrtf(h);
+}
+
 SAM_VECTORIZED void SamRollingRightRow(const SamRollingWork *w, SamRow row, const double *a, float z[])
 {
   const SamStickSlip *u     = &w->base;
@@ -63,7 +74,7 @@ SAM_VECTORIZED void SamRollingRightRow(const SamRollingWork *w, SamRow row, cons
 
 #pragma omp simd
   for (int i = 0; i < row.count; i++) {
-    const float in = weight[i] > 0 ? 1.0f : 0.0f, g = sqrtf(weight[i]), x = in * (float)(ax + s * sx[i]),
+    const float in = weight[i] > 0 ? 1.0f : 0.0f, g = Root(weight[i]), x = in * (float)(ax + s * sx[i]),
                 y = in * (float)(a1 + a2 * (row.xi0 + (double)i * row.dxi) + s * sy[i]), part = nx[i] * x + ny[i] * y;
 
     rx[i] = x - part * nx[i];
@@ -84,7 +95,7 @@ void SamRollingSweepRow(const SamRollingWork *w, SamRow row, float z[], float no
   float x = 0, y = 0;
 
   for (int i = row.count - 1; i >= 0; i--) {
-    const float h = weight[i], g = sqrtf(h), rest = 0.5f * (1 - h) * h,
+    const float h = weight[i], g = Root(h), rest = 0.5f * (1 - h) * h,
                 over = normal * (float)((bound[i] - sqrt(qx[i] * qx[i] + qy[i] * qy[i])) / w->unit_q);
     const float vx = g * zx[i] + rest * rx[i] + h * x, vy = g * zy[i] + rest * ry[i] + h * y,
                 part = nx[i] * vx + ny[i] * vy;

@@ -270,6 +270,7 @@ PetscErrorCode SamStickSlipSetError(SamStickSlip *w, const SamTotal squares[SAM_
   PetscCall(SamSumTotals(w->level->grid->comm, SAM_SQUARES, squares, sums));
   w->scale = sqrt(PetscMax(sums[3], PetscMax(sums[1], sums[2])));
   w->error = sums[0] != 0 ? sqrt(sums[0]) / w->scale : 0;
+  if (!isfinite(sums[2])) w->error = NAN; /* a square of the slip overflows */
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
