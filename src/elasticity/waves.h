@@ -15,8 +15,10 @@ typedef struct {
 typedef struct SamSymbol {
   double step[2]; /* wave numbers of the longest waves, 2 pi/period */
   double gain;    /* constants of the symbol, times a factor and the transforms' normalisation */
+  double unit;    /* of slip in steady rolling: the inverse symbol over |k| */
   double nu;      /* of the tangential symbols: nu, or nu/(1 - nu) */
   double mean;    /* stands for |k| at k = 0 in the inverses */
+  double lag;     /* of slip in steady rolling: the length of a cell along x */
   double film;    /* of the inverse tangential symbol: that is inverse to what it is without a film plus this */
   void (*multiply)(const struct SamSymbol *symbol, SamWaves waves); /* in place */
 } SamSymbol;
