@@ -12,11 +12,12 @@
        (1 - h) d) and its part along the shear in slip; a creepage by -h P phi.
     3. New direction: P(g M g + (1 - h)h/2) r, r = -P s, with M the inverse of the operator of bodies at rest, and then
        along the stream z_i = P(z_i + h_i z_(i+1)), from the leading edge on, which undoes the difference in A. Without
-       it the iterations grow like the number of cells along x. Where cells slip, h A + 1 - h is not near h A for long
-       waves, and N h r stands for the first part, N being M for a fixed h in slip (SamElasticityPreconditionSlipSingle):
-       a quarter fewer products. It does nothing for single slipping cells at edges: M alone serves after an iteration
-       that left more than SLOW of the error, until the next such. To this is added what the circles need. Given loads:
-       and as much of the same of each free creepage as the loads need, which is made anew every RENEW iterations.
+       it the iterations grow like the number of cells along x. In slip N h r takes the place of the first part, as long
+       waves there are damped (halfspace.c): N = 1 for h = 0, at h = SAM_SLIP_WEIGHT from a spectrum, between them
+       linear in h. That saves a third of the products. It can stall at single slipping cells of an edge: after an
+       iteration that left more than SLOW of the error the first part serves alone, until the next such. To this is
+       added what the circles need. Given loads: and as much of the same of each free creepage as the loads need, which
+       is made anew every RENEW iterations.
     4. Its product. Least squares over the new direction, the last ones, whose products are known and hold whatever the
        sets are, and the free creepages. Of a few lengths of this step the one that leaves the least residual of
        q = D(q - s). The step takes the place of the new direction.

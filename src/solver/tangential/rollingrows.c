@@ -103,8 +103,10 @@ void SamRollingSweepRow(const SamRollingWork *w, SamRow row, float z[], float no
     const float h = weight[i], g = sqrtf(h), rest = 0.5f * (1 - h) * h,
                 over  = normal * (float)((bound[i] - sqrt(qx[i] * qx[i] + qy[i] * qy[i])) / w->unit_q);
     const float share = w->slipping ? SlipPart(weight, row.count, i) : 0, stick = 1 - share,
-                vx = stick * (g * zx[i] + rest * rx[i]) + share * slip_x[i] + h * x,
-                vy = stick * (g * zy[i] + rest * ry[i]) + share * slip_y[i] + h * y, part = nx[i] * vx + ny[i] * vy;
+                near = PetscMin(1, h / (float)SAM_SLIP_WEIGHT),
+                vx   = stick * (g * zx[i] + rest * rx[i]) + share * (near * slip_x[i] + (1 - near) * h * rx[i]) + h * x,
+                vy   = stick * (g * zy[i] + rest * ry[i]) + share * (near * slip_y[i] + (1 - near) * h * ry[i]) + h * y,
+                part = nx[i] * vx + ny[i] * vy;
 
     x     = vx - part * nx[i];
     y     = vy - part * ny[i];
