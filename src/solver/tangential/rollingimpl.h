@@ -33,7 +33,7 @@ typedef struct {
 PETSC_INTERN void SamRollingSetsRow(const SamRollingWork *w, SamRow row, SamRollingSums *sums);
 /* r = P(-s), or P phi a, z = g r, and h r in place of the new direction's product. */
 PETSC_INTERN void SamRollingRightRow(const SamRollingWork *w, SamRow row, const double *a, float z[]);
-/* z, which holds M g r, with N h r as above, becomes the direction along the stream, plus `normal` times what the circles need. */
+/* z = M g r becomes, with N h r as above, the direction along the stream, plus `normal` times what the circles need. */
 PETSC_INTERN void SamRollingSweepRow(const SamRollingWork *w, SamRow row, float z[], float normal);
 /* Takes `project` times the part along the shear off z, and adds the products with the phi. */
 PETSC_INTERN void SamRollingLoadsRow(const SamRollingWork *w, SamRow row, float project, float z[], double sums[3]);
