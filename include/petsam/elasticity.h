@@ -156,6 +156,13 @@ PETSC_EXTERN PetscErrorCode SamElasticityPreconditionNormalSingle(SamElasticity 
                                                                   const float residual[], float p[]);
 PETSC_EXTERN PetscErrorCode SamElasticityPreconditionTangentialSingle(SamElasticity elasticity, double factor,
                                                                       const float residual[], float q[]);
+/*
+  For the tangential part of bodies in steady rolling where they slip, A being the operator of
+  SamElasticityCreateRolling(): of h A + 1 - h, h = SAM_SLIP_WEIGHT, before the sweep along x (halfspace.c). Collective.
+*/
+#define SAM_SLIP_WEIGHT 0.5
+PETSC_EXTERN PetscErrorCode SamElasticityPreconditionSlipSingle(SamElasticity elasticity, double factor,
+                                                                const float residual[], float q[]);
 
 /*
   SamElasticityGetSelfInfluence - displacement of a cell's centre under unit traction on that cell alone, m/Pa: u_z from

@@ -84,6 +84,19 @@ PRODUCT_SINGLE(SamElasticityApplyTangentialSingle, applytangentialsingle, SAM_EV
 PRODUCT_SINGLE(SamElasticityPreconditionNormalSingle, preconditionnormal, SAM_EVENT_PRECONDITION_NORMAL, 0)
 PRODUCT_SINGLE(SamElasticityPreconditionTangentialSingle, preconditiontangential, SAM_EVENT_PRECONDITION_TANGENTIAL, 0)
 
+PetscErrorCode SamElasticityPreconditionSlipSingle(SamElasticity e, double factor, const float in[], float out[])
+{
+  SamElasticity with = e;
+
+  PetscFunctionBegin;
+  SamElasticityWith(with, preconditionslip);
+  if (with->ops.preconditionslip)
+    PetscCall(ApplySingle(with, with->ops.preconditionslip, SAM_EVENT_PRECONDITION_TANGENTIAL, 0, factor, in, out));
+  else
+    PetscCall(SamElasticityPreconditionTangentialSingle(e, factor, in, out));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamElasticityGetNear(SamElasticity e, PetscInt reach, PetscInt sub, double table[])
 {
   PetscFunctionBegin;

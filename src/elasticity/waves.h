@@ -18,6 +18,8 @@ typedef struct SamSymbol {
   double gain;    /* constants of the symbol, times a factor and the transforms' normalisation */
   double nu;      /* of the tangential symbols: nu, or nu/(1 - nu) */
   double mean;    /* stands for |k| at k = 0 in the inverses */
+  double lag;     /* of slip in steady rolling: the length of a cell along x, */
+  double slip;    /* and the inverse symbol over |k| */
   double film;    /* of the inverse tangential symbol: that is inverse to what it is without a film plus this */
   /* of layered bodies (layered/waves.c): */
   const SamSpline *table;   /* symbols times |k|, by k^2 in 1/m^2 */

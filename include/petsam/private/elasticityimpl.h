@@ -36,6 +36,8 @@ typedef struct {
   PetscErrorCode (*preconditionnormal)(SamElasticity, double factor, const float *const r[], float *const p[]);
   PetscErrorCode (*preconditiontangential)(SamElasticity, double factor, const float *const r[], float *const q[]);
   PetscErrorCode (*getselfinfluence)(SamElasticity, PetscReal *normal, PetscReal *tangential);
+  /* for slip in steady rolling; NULL: preconditiontangential */
+  PetscErrorCode (*preconditionslip)(SamElasticity, double factor, const float *const r[], float *const q[]);
   /* the stresses in a body that is not rigid */
   PetscErrorCode (*createstress)(SamElasticity, PetscInt body, const SamFourierSettings *, SamStress *);
   /* required with the trait coupled */

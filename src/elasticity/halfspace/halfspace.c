@@ -270,6 +270,34 @@ SAM_VECTORIZED static void DivideTangential(const SamSymbol *s, SamWaves at)
   }
 }
 
+/*
+  Where bodies that roll in steady state slip, rolling.c needs the inverse of h A + 1 - h, A = C (1 - S), S the shift by
+  a cell along x. With M = 1/C it is that of 1 - h S, which rolling.c applies along each row, times
+      M (1 - h S)/(h (1 - S) + (1 - h) M),
+  here with h = SAM_SLIP_WEIGHT everywhere. M alone is right for the shortest waves only.
+*/
+SAM_VECTORIZED static void DivideSlip(const SamSymbol *s, SamWaves at)
+{
+  const float h = (float)SAM_SLIP_WEIGHT, c = h * (float)cos(s->lag * at.kx), i = h * (float)sin(s->lag * at.kx),
+              unit = (1 - h) * (float)s->slip, mean = (float)s->mean, least = mean * mean, step = (float)s->step[1],
+              kx = (float)at.kx, film = (float)s->film;
+  float(*restrict x)[2] = (float(*)[2])at.x, (*restrict y)[2] = (float(*)[2])at.y;
+
+  DivideTangential(s, at);
+#pragma omp simd
+  for (PetscInt m = at.first; m < at.last; m++) {
+    const float ky = step * (float)(m - at.origin), k2 = kx * kx + ky * ky, k = sqrtf(k2 > least ? k2 : least),
+                below = h - c + unit * k / (1 + film * k), scale = 1 / (below * below + i * i),
+                re = scale * ((1 - c) * below + i * i), im = scale * i * (1 - c - below);
+    const float x0 = x[m][0], x1 = x[m][1], y0 = y[m][0], y1 = y[m][1];
+
+    x[m][0] = re * x0 - im * x1;
+    x[m][1] = im * x0 + re * x1;
+    y[m][0] = re * y0 - im * y1;
+    y[m][1] = im * y0 + re * y1;
+  }
+}
+
 static PetscErrorCode PreconditionNormal(SamElasticity e, double factor, const float *const r[], float *const p[])
 {
   return Precondition(e, 1, factor, e->pair.normal, (SamSymbol){.multiply = SamSymbolDivideNormal}, r, p);
@@ -280,6 +308,17 @@ static PetscErrorCode PreconditionTangential(SamElasticity e, double factor, con
   const SamSymbol s = {.nu = e->pair.shear_xx / e->pair.shear, .multiply = DivideTangential};
 
   return Precondition(e, 2, factor, e->pair.shear + e->pair.shear_xx, s, r, q);
+}
+
+static PetscErrorCode PreconditionSlip(SamElasticity e, double factor, const float *const r[], float *const q[])
+{
+  const double    local = e->pair.shear + e->pair.shear_xx;
+  const SamSymbol s     = {.nu       = e->pair.shear_xx / e->pair.shear,
+                           .lag      = e->grid->dx / e->grid->length,
+                           .slip     = factor / (2 * PETSC_PI * local * e->grid->length),
+                           .multiply = DivideSlip};
+
+  return Precondition(e, 2, factor, local, s, r, q);
 }
 
 static PetscErrorCode GetNear(SamElasticity e, PetscInt reach, PetscInt sub, double table[])
@@ -357,6 +396,7 @@ PetscErrorCode SamElasticityCreate_HalfSpace(SamElasticity e)
                               .applytangentialsingle   = ApplyTangentialSingle,
                               .preconditionnormal      = PreconditionNormal,
                               .preconditiontangential  = PreconditionTangential,
+                              .preconditionslip        = data->layers ? NULL : PreconditionSlip,
                               .getselfinfluence        = GetSelfInfluence,
                               .createstress            = CreateStress,
                               .applynormaltotangential = ApplyNormalToTangential,

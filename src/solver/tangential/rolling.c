@@ -13,8 +13,12 @@
        (1 - h) d) and its part along the shear in slip; a creepage by -h P phi.
     3. New direction: P(g M g + (1 - h)h/2) r, r = -P s, with M the inverse of the operator of bodies at rest, and then
        along the stream z_i = P(z_i + h_i z_(i+1)), from the leading edge on, which undoes the difference in A. Without
-       it the iterations grow like the number of cells along x. To this is added what the circles need. Given loads: and
-       as much of the same of each free creepage as the loads need, which is made anew every RENEW iterations.
+       it the iterations grow like the number of cells along x. In slip N h r takes the place of the first part, as long
+       waves there are damped (halfspace.c): N = 1 for h = 0, at h = SAM_SLIP_WEIGHT from a spectrum, between them
+       linear in h. That saves a third of the products. It can stall at single slipping cells of an edge: after an
+       iteration that left more than SLOW of the error the first part serves alone, until the next such. To this is
+       added what the circles need. Given loads: and as much of the same of each free creepage as the loads need, which
+       is made anew every RENEW iterations.
     4. Its product. Least squares over the new direction, the last ones, whose products are known and hold whatever the
        sets are, and the free creepages. Of a few lengths of this step the one that leaves the least residual of
        q = D(q - s). The step takes the place of the new direction.
@@ -31,8 +35,12 @@
 
 /* Iterations after which what carries the loads is made anew. */
 #define RENEW 5
-/* Iterations without half the error after which directions are forgotten, and without less of it before giving up. */
+/*
+  Iterations without half the error after which directions are forgotten, and without less of it before giving up;
+  part of the error that an iteration leaves if its direction was bad.
+*/
 #define PATIENCE   5
+#define SLOW       0.7
 #define STAGNATION 100
 /* A column of the least squares that is a combination of others up to this part of it is left out. */
 #define DEPENDENT 1e-6
@@ -124,15 +132,22 @@ static PetscErrorCode ChooseSets(Work *w, double load[3])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The direction against the slip, or (a not NULL) along a creepage. */
+/* The direction against the slip, or (a not NULL) along a creepage. N h r takes the new direction's product's place. */
 static PetscErrorCode MakeDirection(Work *w, const double *a, float z[])
 {
-  const SamStickSlip *u = &w->base;
+  const SamStickSlip *u      = &w->base;
+  const double        factor = u->self * (double)u->level->grid->dx;
+  float              *slip   = w->slot[0] + 2 * u->cells;
 
   PetscFunctionBegin;
   for (PetscInt j = 0; j < u->rows; j++) SamRollingRightRow(w, SamStickSlipRow(u, j), a, z);
   ClearMargins(u, z);
-  PetscCall(SamLevelPreconditionSingle(u->solver, u->level, u->self * (double)u->level->grid->dx, z, z));
+  PetscCall(SamLevelPreconditionSingle(u->solver, u->level, factor, z, z));
+  if (w->slipping) {
+    ClearMargins(u, slip);
+    u->solver->preconditions += u->level->finest ? 1 : 0;
+    PetscCall(SamElasticityPreconditionSlipSingle(u->level->elasticity, factor, slip, slip));
+  }
   for (PetscInt j = 0; j < u->rows; j++) SamRollingSweepRow(w, SamStickSlipRow(u, j), z, a ? 0 : 1);
   ClearMargins(u, z);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -352,12 +367,13 @@ static SamSolverReason Reason(const SamStickSlip *u, PetscBool failed)
 static PetscErrorCode Run(Work *w, SamSolverReason *reason)
 {
   SamStickSlip *u    = &w->base;
-  double        best = u->error, mark = u->error, load[3];
+  double        best = u->error, mark = u->error, last = u->error, load[3];
   PetscInt      stagnant = 0, since = 0, renewed = RENEW;
   PetscBool     found = PETSC_TRUE;
 
   PetscFunctionBegin;
-  *reason = Reason(u, !found || stagnant > STAGNATION);
+  w->slipping = PETSC_TRUE;
+  *reason     = Reason(u, !found || stagnant > STAGNATION);
   if (!*reason && u->error <= u->level->rtol) *reason = SAM_SOLVER_CONVERGED_RTOL;
   PetscCall(ChooseSets(w, load));
   while (!*reason) {
@@ -365,10 +381,12 @@ static PetscErrorCode Run(Work *w, SamSolverReason *reason)
     renewed = renewed >= RENEW ? 1 : renewed + 1;
     PetscCall(ChooseSets(w, load));
     PetscCall(SamLevelIterated(u->solver, u->level, u->error));
-    since    = u->error <= 0.5 * mark ? 0 : since + 1;
-    mark     = since ? mark : u->error;
-    stagnant = u->error < 0.9 * best ? 0 : stagnant + 1;
-    best     = PetscMin(best, u->error);
+    w->slipping = u->error <= SLOW * last ? w->slipping : !w->slipping;
+    last        = u->error;
+    since       = u->error <= 0.5 * mark ? 0 : since + 1;
+    mark        = since ? mark : u->error;
+    stagnant    = u->error < 0.9 * best ? 0 : stagnant + 1;
+    best        = PetscMin(best, u->error);
     if (u->error <= u->level->rtol || since >= PATIENCE) {
       PetscCall(MakeAdmissible(w, &found));
       if (found && u->error <= u->level->rtol) *reason = SAM_SOLVER_CONVERGED_RTOL;

@@ -21,6 +21,7 @@ typedef struct {
   float       *slot[SAM_ROLLING_KEPT + 1]; /* the new direction, then those kept, newest first: d, then A d */
   float       *columns;                    /* of the least squares, in some cells of a row */
   PetscInt     kept;
+  PetscBool    slipping; /* whether directions have N in slip, see rolling.c */
 } SamRollingWork;
 
 /* Sums over cells: of the projection equation's residual, and the shear with the phi. */
@@ -30,9 +31,9 @@ typedef struct {
 
 /* Chooses stick and slip, adds to the sums. */
 PETSC_INTERN void SamRollingSetsRow(const SamRollingWork *w, SamRow row, SamRollingSums *sums);
-/* r = P(-s), or P phi a, and z = g r. */
+/* r = P(-s), or P phi a, z = g r, and h r in place of the new direction's product. */
 PETSC_INTERN void SamRollingRightRow(const SamRollingWork *w, SamRow row, const double *a, float z[]);
-/* z, which holds M g r, becomes the direction along the stream, plus `normal` times what the circles need. */
+/* z = M g r becomes, with N h r as above, the direction along the stream, plus `normal` times what the circles need. */
 PETSC_INTERN void SamRollingSweepRow(const SamRollingWork *w, SamRow row, float z[], float normal);
 /* Takes `project` times the part along the shear off z, and adds the products with the phi. */
 PETSC_INTERN void SamRollingLoadsRow(const SamRollingWork *w, SamRow row, float project, float z[], double sums[3]);

@@ -69,7 +69,8 @@ SAM_VECTORIZED void SamRollingRightRow(const SamRollingWork *w, SamRow row, cons
   const double *restrict sx = u->s + row.first, *restrict sy = sx + cells;
   const float *restrict nx = w->normal + row.first, *restrict ny = nx + cells, *restrict weight = w->weight + row.first;
   float *restrict rx = w->r + row.first, *restrict ry = rx + cells, *restrict zx = z + row.first,
-                  *restrict zy = zx + cells;
+                  *restrict zy = zx + cells, *restrict hx = w->slot[0] + 2 * cells + row.first,
+                  *restrict hy = hx + cells;
   const double ax = a ? SamFrameX(a, row.eta) : 0, a1 = a ? a[1] : 0, a2 = a ? a[2] : 0, s = a ? 0 : -1 / w->unit_s;
 
 #pragma omp simd
@@ -81,7 +82,21 @@ SAM_VECTORIZED void SamRollingRightRow(const SamRollingWork *w, SamRow row, cons
     ry[i] = y - part * ny[i];
     zx[i] = g * rx[i];
     zy[i] = g * ry[i];
+    hx[i] = weight[i] * rx[i];
+    hy[i] = weight[i] * ry[i];
   }
+}
+
+/* The part of N: 0 in stick and beside it, where N for the true h is small; 1 where h is at most that of N. */
+static float SlipPart(const float weight[], int count, int i)
+{
+  float most = weight[i], part;
+
+  if (most <= 0) return 0;
+  if (i > 0) most = PetscMax(most, weight[i - 1]);
+  if (i + 1 < count) most = PetscMax(most, weight[i + 1]);
+  part = PetscMin(1, (1 - most) / (1 - (float)SAM_SLIP_WEIGHT));
+  return part * part;
 }
 
 void SamRollingSweepRow(const SamRollingWork *w, SamRow row, float z[], float normal)
@@ -90,14 +105,18 @@ void SamRollingSweepRow(const SamRollingWork *w, SamRow row, float z[], float no
   const ptrdiff_t     cells = u->cells;
   const double *restrict qx = u->q + row.first, *restrict qy = qx + cells, *restrict bound = u->bound + row.first;
   const float *restrict weight = w->weight + row.first, *restrict nx = w->normal + row.first, *restrict ny = nx + cells,
-                        *restrict rx = w->r + row.first, *restrict ry = rx + cells;
+                        *restrict rx = w->r + row.first, *restrict ry = rx + cells,
+                        *restrict slip_x = w->slot[0] + 2 * cells + row.first, *restrict slip_y = slip_x + cells;
   float *restrict zx = z + row.first, *restrict zy = zx + cells;
   float x = 0, y = 0;
 
   for (int i = row.count - 1; i >= 0; i--) {
     const float h = weight[i], g = Root(h), rest = 0.5f * (1 - h) * h,
-                over = normal * (float)((bound[i] - sqrt(qx[i] * qx[i] + qy[i] * qy[i])) / w->unit_q);
-    const float vx = g * zx[i] + rest * rx[i] + h * x, vy = g * zy[i] + rest * ry[i] + h * y,
+                over  = normal * (float)((bound[i] - sqrt(qx[i] * qx[i] + qy[i] * qy[i])) / w->unit_q);
+    const float share = w->slipping ? SlipPart(weight, row.count, i) : 0, stick = 1 - share,
+                near = PetscMin(1, h / (float)SAM_SLIP_WEIGHT),
+                vx   = stick * (g * zx[i] + rest * rx[i]) + share * (near * slip_x[i] + (1 - near) * h * rx[i]) + h * x,
+                vy   = stick * (g * zy[i] + rest * ry[i]) + share * (near * slip_y[i] + (1 - near) * h * ry[i]) + h * y,
                 part = nx[i] * vx + ny[i] * vy;
 
     x     = vx - part * nx[i];
