@@ -56,8 +56,9 @@ PETSC_EXTERN PetscErrorCode SamPairSetLayered(SamPair *pair, const PetscReal you
 PETSC_EXTERN PetscBool      SamPairHasLayers(const SamPair *pair);
 /*
   SamPairSetFromOptions - from -body1_young, -body1_poisson, -body1_layer_young, -body1_layer_poisson,
-  -body1_layer_thickness, -body1_layer_stress, those of body 2, and the film's -film_thickness and -film_shear. Collective. Errors:
-  SAM_ERR_USER, as SamPairSetLayered(), and for an option that is missing, or lists of different lengths.
+  -body1_layer_thickness, -body1_layer_stress, those of body 2, and the film's -film_thickness and -film_shear.
+  Collective. Errors: SAM_ERR_USER, as SamPairSetLayered(), and for an option that is missing, or lists of different
+  lengths.
 */
 PETSC_EXTERN PetscErrorCode SamPairSetFromOptions(SamPair *pair, const SamOptions *from);
 /*

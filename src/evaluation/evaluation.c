@@ -178,7 +178,7 @@ static PetscInt InterfaceAt(const SamLayers *layers, PetscReal depth)
   return n;
 }
 
-/* At an interface: the depth itself stands for the side above, the next number for that below; both where none is said. */
+/* At an interface the depth itself stands for the side above, the next number for that below; none is said: both. */
 static PetscErrorCode SplitInterfaces(SamEvaluation e)
 {
   const SamPair   *pair;
