@@ -1,7 +1,7 @@
 /*
   Stresses in a body with layers, by unit tractions on the cells of its surface.
 
-  Problem. In each wave the stresses at a depth are known (symbols.c). In space, at the distance r and the angle t from a
+  Problem. In each wave the stresses at a depth are known (symbols.c). In space, at the distance r and angle t from a
   unit force, they are made of transforms G_n[s] = (1/2 pi) int_0^inf s(k) J_n(kr) k dk of ten functions, p or q saying
   which traction acts, (T, S) the stresses xz, zz of a wave along x, M that of xy across it:
     f0 = G_0[S_p]                f4 = G_1[S_q]                     f8 = G_1[(S_xx - S_yy)_q/4 + M/2]
@@ -16,12 +16,12 @@
   layer the functions are those of the difference from a half-space of its material, whose closed forms
   (halfspace/stresscell.c) are added: they fall like exp(-k (2 h - z)). Below, they fall like exp(-kz).
 
-  Values at the centres of cells, as in stresscell.c: for a shear q that varies along x in cells of the side h, s_xx gets
-  -(h/pi) dq/dx sum_m ((-1)^m/m) s(2 pi m/h) over m = 1, 2, ..., s(k) the symbol of s_xx by q; likewise yy, zz and, along
-  the other axis, xy, each with its own; and xz by p with -T_p. Thirty terms of such an alternating series, with the
-  weights of Cohen, Rodriguez Villegas and Zagier (2000, Exp. Math. 9, 3), give all its digits.
+  Values at the centres of cells, as in stresscell.c: for a shear q that varies along x in cells of side h, s_xx gets
+  -(h/pi) dq/dx sum_m ((-1)^m/m) s(2 pi m/h) over m = 1, 2, ..., s(k) the symbol of s_xx by q; likewise yy, zz and,
+  along the other axis, xy, each with its own; and xz by p with -T_p. Thirty terms of such an alternating series, with
+  the weights of Cohen, Rodriguez Villegas and Zagier (2000, Exp. Math. 9, 3), give all its digits.
 
-  Source: O'Sullivan and King 1988, J. Tribol. 110, 235; method and numbers checked in tests/unit/test_layered_stress.c.
+  Source: O'Sullivan and King 1988, J. Tribol. 110, 235.
 */
 #include <petsam/private/layered.h>
 #include <petsam/private/stressimpl.h>
