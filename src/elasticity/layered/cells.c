@@ -255,10 +255,11 @@ static void DifferencesAt(const void *context, double k, double values[])
 static PetscErrorCode CreateRadial(SamLayered l, double r)
 {
   static const int orders[] = {[SAM_RADIAL_N] = 0, [SAM_RADIAL_A] = 0, [SAM_RADIAL_B] = 2, [SAM_RADIAL_C] = 1};
-  SamRadialSource  of       = {
-           .functions = SAM_RADIAL_FUNCTIONS, .orders = orders, .depth = l->depth, .values = DifferencesAt, .context = l};
+  SamRadialSource  of       = {.functions = SAM_RADIAL_FUNCTIONS, .orders = orders, .values = DifferencesAt};
 
   PetscFunctionBegin;
+  of.depth   = l->depth;
+  of.context = l;
   for (PetscInt b = 0; b < 2; b++) {
     double total[SAM_LAYERED_SYMBOLS], limit[SAM_LAYERED_SYMBOLS];
 
