@@ -7,7 +7,7 @@
 /*
   SamLayers - bonded layers on a body, from the surface down.
 */
-#define SAM_LAYERS 32 /* most on a body */
+#define SAM_LAYERS 64 /* most on a body */
 typedef struct {
   PetscInt  count;                                                         /* 0: none */
   PetscReal young[SAM_LAYERS], poisson[SAM_LAYERS], thickness[SAM_LAYERS]; /* Pa, finite; 1; m */

@@ -8,8 +8,8 @@
   SamParameters - values by the names of the options (without dash) that give them. Where `fixed` is true, a stopped run
   can only go on with the same value.
 */
-#define SAM_PARAMETERS       64 /* most parameters of a run */
-#define SAM_PARAMETER_VALUES 32 /* most numbers of one */
+#define SAM_PARAMETERS       64  /* most parameters of a run */
+#define SAM_PARAMETER_VALUES 128 /* most numbers of one */
 typedef struct {
   char      name[32];
   PetscBool fixed;

@@ -1,6 +1,6 @@
 /* Elastic constants of a pair of bodies. */
 #include <petsam/private/baseimpl.h>
-#include <petsam/material.h>
+#include <petsam/private/layered.h>
 #include <math.h>
 
 /* One material: a body, or a layer of one. */
@@ -130,6 +130,7 @@ enum { YOUNG, POISSON, THICKNESS, LISTS };
 static const char *const lists[2][LISTS] = {{"body1_layer_young", "body1_layer_poisson", "body1_layer_thickness"},
                                             {"body2_layer_young", "body2_layer_poisson", "body2_layer_thickness"}};
 static const char *const residual[2]     = {"body1_layer_stress", "body2_layer_stress"};
+static const char *const profiles[2]     = {"body1_layer_file", "body2_layer_file"};
 
 static PetscReal *ListOf(SamLayers *layers, int list)
 {
@@ -223,14 +224,20 @@ static PetscErrorCode ReadLayers(const SamOptions *from, PetscInt b, SamLayers *
                                       "Poisson's ratio of each layer, or one for all", "thickness of each layer (m)"};
   static const SamRange    range[] = {SAM_RANGE_POSITIVE_INF, SAM_RANGE_ANY, SAM_RANGE_ANY};
   PetscInt                 count[LISTS], most = 0;
-  PetscBool                print;
+  PetscBool                print, graded;
 
   PetscFunctionBegin;
   PetscCall(SamPrintHelp(&print));
+  PetscCall(SamLayersReadFile(from, profiles[b], layers, &graded));
   for (int l = 0; l < LISTS; l++) {
     PetscCall(SamOptionsReals(from, lists[b][l], help[l], range[l], SAM_LAYERS, ListOf(layers, l), &count[l]));
     most = PetscMax(most, count[l]);
   }
+  PetscCheck(!graded || !most, from->comm, SAM_ERR_USER, "-%s%s and -%s%s exclude each other: omit one",
+             SamOptionsPrefix(from), profiles[b], SamOptionsPrefix(from),
+             lists[b][count[YOUNG]     ? YOUNG
+                      : count[POISSON] ? POISSON
+                                       : THICKNESS]);
   if (!most || print) PetscFunctionReturn(ReadResidualStress(from, b, layers));
   for (int l = 0; l < LISTS; l++)
     PetscCall(SamOptionsRequire(from, count[l] > 0, lists[b][l], "the layers of a body need all three lists"));

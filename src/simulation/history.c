@@ -1,5 +1,6 @@
 /* The load program: made of options and a file, asked for its steps. */
-#include "historyimpl.h"
+#include <petsam/history.h>
+#include <petsam/private/table.h>
 #include <petsam/private/arguments.h>
 #include <petsam/private/help.h>
 #include <float.h>

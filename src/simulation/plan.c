@@ -1,7 +1,8 @@
 /* The -wear_ options: laws of wear, cycles of a life, friction that changes over it. */
 #include "plan.h"
 #include <petsam/private/baseimpl.h>
-#include "historyimpl.h"
+#include <petsam/history.h>
+#include <petsam/private/table.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -186,7 +186,7 @@ SMALL = sphere([(2, 0.3, 1), (3, 0.2, 0.5)], 2.6, n=32, load_n=0.5 * E * A**3, f
         (dict(body2_layer_young="1e9,inf"), "-body2_layer_young inf: a layer cannot be rigid"),
         (dict(body2_layer_young="1e9,0"), "-body2_layer_young 1e9,0: expected a number > 0"),
         (dict(body2_layer_young="1e9,soft"), "-body2_layer_young 1e9,soft: expected a number > 0"),
-        (dict(body2_layer_young=",".join(["1e9"] * 33)), "at most 32 separated by commas"),
+        (dict(body2_layer_young=",".join(["1e9"] * 65)), "at most 64 separated by commas"),
     ],
 )
 def test_wrong_layers_are_refused(change, says, petsam):
@@ -338,3 +338,55 @@ def test_one_side_of_an_interface(solve, petsam_stress, tmp_path):
 def test_residual_stress_has_two_numbers_for_each_layer(petsam):
     says = "-body2_layer_stress: 3 numbers are given for 2 layers: give xx and yy of each"
     assert says in petsam({**SLIDING, "body2_layer_stress": "1e6,1e6,2e6"}, check=2).complaint[0]
+
+
+# ---------------------------------------------------------------- constants that vary with the depth
+
+NO_LISTS = {f"body2_layer_{name}": None for name in ("young", "poisson", "thickness")}
+
+
+def test_profile_is_cut_into_layers_of_the_constants_at_their_middle(petsam, tmp_path):
+    """A layer of constant E, a jump, and E that falls along a line: 1 and 63 layers, as if they were listed."""
+    rows = (0, 4 * E, 0.2), (0.3 * A, 4 * E, 0.2), (0.3 * A, 2 * E, 0.3), (A, E, 0.25)
+    lines = ["depth, young, poisson  # m, Pa", *(", ".join(map(str, row)) for row in rows)]
+    (tmp_path / "p.csv").write_text("\n".join(lines) + "\n")
+    case = {**SMALL, **NO_LISTS}
+    petsam(case, dict(body2_layer_file="p.csv", output="file.h5"))
+    at = (np.arange(63) + 0.5) / 63
+    lists = dict(
+        body2_layer_young=[4 * E, *(2 * E - at * E)],
+        body2_layer_poisson=[0.2, *(0.3 - 0.05 * at)],
+        body2_layer_thickness=[0.3 * A, *[(A - 0.3 * A) / 63] * 63],
+    )
+    petsam(case, lists, dict(output="lists.h5"))
+    with h5py.File(tmp_path / "file.h5") as f, h5py.File(tmp_path / "lists.h5") as listed:
+        for name, values in lists.items():
+            assert f.attrs[name] == pytest.approx(values, rel=1e-13)
+        assert_close(f["pressure"][0], listed["pressure"][0], 1e-7 * listed["pressure"][0].max())
+
+
+@pytest.mark.parametrize(
+    "text, says",
+    [
+        ("depth,young,poisson\n1e-4,1e9,0.3\n", "p.csv, line 2: depth 0.0001: expected 0 in the first row"),
+        ("depth,young,poisson\n0,1e9,0.3\n", "p.csv: the last depth is 0: expected rows down to"),
+        ("depth,young,poisson\n0,1e9,0.3\n2,1e9,0.3\n1,1e9,0.3\n", "p.csv, line 4: depth 1 is less than in the row"),
+        ("depth,young,poisson\n0,1e9,0.3\n1,0,0.3\n", "p.csv, line 3: young 0: expected a number > 0"),
+        ("depth,young,poisson\n0,1e9,0.3\n1,1e9,0.6\n", "p.csv, line 3: poisson 0.6: expected a number above -1"),
+        ("depth,young\n0,1e9\n1,1e9\n", "p.csv, line 1: no column named poisson"),
+        ("0,1e9,0.3\n", "p.csv, line 1: 0 is no name of a column"),
+        (
+            "depth,young,poisson\n" + "".join(f"{k},1e9,0.3\n" for k in range(66)),
+            "p.csv: has 66 rows: expected at most 64",
+        ),
+    ],
+)
+def test_wrong_profiles_are_refused(text, says, petsam, tmp_path):
+    (tmp_path / "p.csv").write_text(text)
+    assert says in petsam({**SMALL, **NO_LISTS, "body2_layer_file": "p.csv"}, check=2).complaint[0]
+
+
+def test_profile_excludes_lists(petsam, tmp_path):
+    (tmp_path / "p.csv").write_text("depth,young,poisson\n0,1e9,0.3\n1e-3,2e9,0.3\n")
+    says = "-body2_layer_file and -body2_layer_young exclude each other: omit one"
+    assert says in petsam({**SMALL, "body2_layer_file": "p.csv"}, check=2).complaint[0]

@@ -36,6 +36,15 @@ PETSC_INTERN void SamLayeredSymbols(const SamPair *pair, PetscInt body, double k
                                     double difference[SAM_LAYERED_SYMBOLS]);
 
 /*
+  SamLayersReadFile - the layers of a body whose constants vary with the depth, from the text file that an option (its
+  name without prefix) names: columns depth (m, from 0 on), young (Pa), poisson; constants between rows are linear, and
+  jump at a depth that two rows have. SAM_LAYERS layers at most, of the constants at their middle; `set`: whether the
+  option is given. Collective. Errors: SAM_ERR_USER, SAM_ERR_FILE.
+*/
+PETSC_INTERN PetscErrorCode SamLayersReadFile(const SamOptions *from, const char option[], SamLayers *layers,
+                                              PetscBool *set);
+
+/*
   SamLayeredStresses - of body 1 or 2, at a wave number k (1/m) and the depth z below the top of a layer (the last: the
   substrate, which must be elastic): ten functions of which the stresses by unit waves of traction are made, in the
   order of the transforms at the head of stress.c. In the first layer: less those of a half-space of its material. Not

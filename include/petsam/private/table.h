@@ -1,9 +1,8 @@
 /* A table of numbers with named columns, read from text. */
-#ifndef PETSAM_HISTORYIMPL_H
-#define PETSAM_HISTORYIMPL_H
+#ifndef PETSAM_TABLE_H
+#define PETSAM_TABLE_H
 
 #include <petsam/private/baseimpl.h>
-#include <petsam/history.h>
 #include <string.h>
 
 #define SAM_TABLE_COLUMNS 32

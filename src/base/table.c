@@ -1,5 +1,5 @@
 /* A table of numbers with named columns, read from text. */
-#include "historyimpl.h"
+#include <petsam/private/table.h>
 #include <ctype.h>
 #include <errno.h>
 #include <math.h>
@@ -220,11 +220,10 @@ static PetscErrorCode ReadLines(Reader *r, FILE *stream, char **buffer)
     }
   }
   PetscCheck(!ferror(stream), r->comm, SAM_ERR_FILE, SAM_CANNOT_READ, r->option, r->file, strerror(errno));
-  PetscCheck(
-    r->t->rows, r->comm, SAM_ERR_USER,
-    "-%s %s: has no row: expected a line with the names of the columns, for example %s,%s, and below it a line "
-    "of numbers for each step",
-    r->option, r->file, r->names[0], r->names[1]);
+  PetscCheck(r->t->rows, r->comm, SAM_ERR_USER,
+             "-%s %s: has no row: expected a line with the names of the columns, for example %s,%s, and below it lines "
+             "of numbers",
+             r->option, r->file, r->names[0], r->names[1]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
