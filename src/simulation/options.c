@@ -190,9 +190,10 @@ PetscErrorCode SamSimulationSetProgram(SamSimulation s, SamHistory *history, Pet
   *history = NULL;
   PetscCall(SamOutputDestroy(&s->output)); /* of a run that ended with an error */
   PetscCall(SamLifeDestroy(&s->life));
-  s->point    = (SamSimulationPoint){.steps = 0};
-  s->start    = (SamSimulationStart){.steps = 0};
-  s->most     = (SamLoadsMost){.steps = 0};
+  s->point   = (SamSimulationPoint){.steps = 0};
+  s->start   = (SamSimulationStart){.steps = 0};
+  s->most    = (SamLoadsMost){.steps = 0};
+  s->worn[0] = s->worn[1] = PETSC_FALSE;
   s->prepared = s->stopped = s->examined = s->warned = s->told = PETSC_FALSE;
   PetscCall(PetscArrayzero(s->advised, SAM_LAWS));
   PetscCall(SetProgram(s, h, cycles, &from));

@@ -65,6 +65,8 @@ static PetscErrorCode ReadLife(SamPlan *w, const SamOptions *from)
   PetscCall(SamOptionsReal(from, "wear_jump", "fixed jump length in cycles", SAM_RANGE_POSITIVE, &w->life.jump,
                            &w->life.fixed));
   PetscCall(CheckWhole("wear_jump", w->life.jump, w->life.fixed, from));
+  PetscCall(SamOptionsBool(from, "wear_stop_layer", "end where the first layer of a body is worn through",
+                           &w->stop_layer, NULL));
   PetscCall(ReadOutputs(w, from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -72,7 +74,8 @@ static PetscErrorCode ReadLife(SamPlan *w, const SamOptions *from)
 /* Options that have no meaning without others. */
 static PetscErrorCode CheckPresent(const SamPlan *w, const SamOptions *from)
 {
-  static const char *const life[] = {"wear_type", "wear_rtol", "wear_jump", "wear_output", "wear_friction"};
+  static const char *const life[] = {"wear_type",   "wear_rtol",     "wear_jump",
+                                     "wear_output", "wear_friction", "wear_stop_layer"};
 
   PetscBool set;
 

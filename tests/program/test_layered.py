@@ -390,3 +390,25 @@ def test_profile_excludes_lists(petsam, tmp_path):
     (tmp_path / "p.csv").write_text("depth,young,poisson\n0,1e9,0.3\n1e-3,2e9,0.3\n")
     says = "-body2_layer_file and -body2_layer_young exclude each other: omit one"
     assert says in petsam({**SMALL, "body2_layer_file": "p.csv"}, check=2).complaint[0]
+
+
+# ---------------------------------------------------------------- wear
+
+
+def test_life_tells_the_cycle_by_which_a_layer_is_worn_through(petsam, tmp_path):
+    """Once, with the thickness; on request the life ends there, with all cycles before as without it."""
+    rows = "time,load_tx\n" + "".join(f"{k},{f * 0.06 * E * A**3}\n" for k, f in enumerate((1, -1, 1)))
+    (tmp_path / "cycle.csv").write_text(rows)
+    case = {**SMALL, "history": "cycle.csv", "steps": 3, "wear_coefficient2": 1e-9, "wear_cycles": 600, "grid_n": 20}
+    case["body2_layer_thickness"] = [2e-6 * A, A]
+    told = petsam(case, dict(output="all.h5")).stderr
+    petsam(case, dict(output="some.h5", wear_stop_layer=True))
+    with h5py.File(tmp_path / "all.h5") as f, h5py.File(tmp_path / "some.h5") as some:
+        cycle, depth = f["wear/cycle"][:], f["wear/depth_max2"][:]
+        first = np.argmax(depth >= 2e-6 * A)
+        assert 0 < first < len(depth) - 1
+        says = f"after {cycle[first]:.10g} cycles: the first layer of body 2, 2e-09 m thick, is worn through"
+        assert told.count("worn through") == 1 and says in told
+        assert np.array_equal(some["wear/depth_max2"][:], depth[: first + 1])
+    says = "-wear_stop_layer is given without -wear_cycles"
+    assert says in petsam({**SMALL, "wear_coefficient2": 1e-13, "wear_stop_layer": True}, check=2).complaint[0]
