@@ -50,10 +50,13 @@ PETSC_EXTERN PetscErrorCode SamPairSet(SamPair *pair, const PetscReal young[2], 
   SamPairSetLayered - the same of bodies with layers; a rigid body with layers is elastic. Not collective. Errors: as
   SamPairSet(), and for a layer that is rigid or whose thickness is not positive, or too many.
   SamPairHasLayers - whether a body has any. Not collective.
+  SamPairCoupling - the largest ratio of normal displacement by shear to that by pressure, of waves with numbers from
+  `first` to `last` (1/m): Dundurs' beta without layers. Not collective.
 */
 PETSC_EXTERN PetscErrorCode SamPairSetLayered(SamPair *pair, const PetscReal young[2], const PetscReal poisson[2],
                                               const SamLayers layers[2]);
 PETSC_EXTERN PetscBool      SamPairHasLayers(const SamPair *pair);
+PETSC_EXTERN double         SamPairCoupling(const SamPair *pair, double first, double last);
 /*
   SamPairSetFromOptions - from -body1_young, -body1_poisson, -body1_layer_young, -body1_layer_poisson,
   -body1_layer_thickness, -body1_layer_stress, those of body 2, and the film's -film_thickness and -film_shear.

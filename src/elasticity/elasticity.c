@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#define THINNEST 1e-12 /* layer, in cells */
+
 /* Grids with fewer cells than this in a direction are solved directly, without a coarser one. */
 #define COARSEST 32
 
@@ -126,6 +128,24 @@ static PetscErrorCode DescribeOthers(SamElasticity e, const SamOptions *from)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Thicknesses that the transforms of layered bodies resolve on this grid. */
+static PetscErrorCode CheckThicknesses(SamElasticity e, const SamOptions *from)
+{
+  const PetscReal least = THINNEST * PetscMin(e->grid->dx, e->grid->dy),
+                  most  = PetscMax(e->grid->width[0], e->grid->width[1]) / THINNEST;
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < 2; b++)
+    for (PetscInt n = 0; n < e->pair.layers[b].count; n++) {
+      const PetscReal h = e->pair.layers[b].thickness[n];
+
+      PetscCheck(h >= least && h <= most, from->comm, SAM_ERR_USER,
+                 "-%sbody%" PetscInt_FMT "_layer_thickness %.6g: expected %.3g to %.3g m on this grid", e->prefix,
+                 b + 1, (double)h, (double)least, (double)most);
+    }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamElasticitySetFromOptions(SamElasticity e)
 {
   const SamOptions from = {e->grid->comm, e->prefix};
@@ -144,6 +164,7 @@ PetscErrorCode SamElasticitySetFromOptions(SamElasticity e)
   PetscCheck(e->traits.layers || !SamPairHasLayers(&e->pair), from.comm, SAM_ERR_USER,
              "-%selasticity %s: not supported with layers: use %s or %s", e->prefix, type, SAM_ELASTICITY_HALFSPACE,
              SAM_ELASTICITY_PERIODIC);
+  PetscCall(CheckThicknesses(e, &from));
   for (SamElasticity o = e; o; o = o->inner) {
     o->fft = e->fft;
     if (o->ops.setfromoptions) PetscCall((*o->ops.setfromoptions)(o, &from));

@@ -123,6 +123,20 @@ PetscBool SamPairHasLayers(const SamPair *pair)
   return pair->layers[0].count || pair->layers[1].count ? PETSC_TRUE : PETSC_FALSE;
 }
 
+double SamPairCoupling(const SamPair *pair, double first, double last)
+{
+  enum { SAMPLES = 32 };
+  double most = fabs((double)pair->dundurs);
+
+  for (int m = 0; m < SAMPLES && SamPairHasLayers(pair); m++) {
+    double total[SAM_LAYERED_SYMBOLS], difference[SAM_LAYERED_SYMBOLS];
+
+    SamLayeredSymbols(pair, 0, first * pow(last / first, (double)m / (SAMPLES - 1)), total, difference);
+    most = PetscMax(most, fabs(total[SAM_LAYERED_ZR]) / total[SAM_LAYERED_ZZ]);
+  }
+  return most;
+}
+
 /* Options and parameters: of both bodies Young's moduli, then Poisson's ratios; of the layers; of the film. */
 static const char *const names[] = {"body1_young", "body2_young", "body1_poisson", "body2_poisson"};
 static const char *const films[] = {"film_thickness", "film_shear"};
@@ -162,6 +176,32 @@ PetscErrorCode SamPairAddParameters(const SamPair *pair, SamParameters *p)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The layers of body b; `fault`: the name of a list that has not as many numbers as the others, NULL: none. */
+static void TakeLayers(const SamParameters *p, PetscInt b, SamLayers *layers, const char **fault)
+{
+  const SamParameter *found[LISTS], *stress = SamParametersFind(p, residual[b]);
+  PetscInt            counts[LISTS];
+
+  *fault = NULL;
+  for (int l = 0; l < LISTS; l++) {
+    found[l]  = SamParametersFind(p, lists[b][l]);
+    counts[l] = found[l] ? found[l]->count : 0;
+    /* texts have none, but are there */
+    if (found[l] && (counts[l] < 1 || counts[l] > SAM_LAYERS)) *fault = lists[b][l];
+  }
+  for (int l = 0; l < LISTS && !*fault; l++)
+    if (counts[l] != counts[(l + 1) % LISTS] && counts[l] != counts[(l + 2) % LISTS]) *fault = lists[b][l];
+  if (*fault) return;
+  layers->count = counts[0];
+  for (int l = 0; l < LISTS; l++)
+    for (PetscInt n = 0; n < layers->count; n++) ListOf(layers, l)[n] = found[l]->value[n];
+  if (stress && stress->count != 2 * layers->count) *fault = residual[b];
+  for (PetscInt n = 0; stress && !*fault && n < stress->count; n++) {
+    layers->stress[n / 2][n % 2] = stress->value[n];
+    if (!isfinite(stress->value[n])) *fault = residual[b];
+  }
+}
+
 PetscErrorCode SamPairSetFromParameters(SamPair *pair, MPI_Comm comm, const SamParameters *p, const char source[])
 {
   SamLayers layers[2] = {{.count = 0}, {.count = 0}};
@@ -176,23 +216,15 @@ PetscErrorCode SamPairSetFromParameters(SamPair *pair, MPI_Comm comm, const SamP
                names[k]);
     value[k] = found->value[0];
   }
-  for (PetscInt k = 0; k < 2 * LISTS; k++) {
-    const PetscInt      b = k / LISTS, l = k % LISTS;
-    const SamParameter *found = SamParametersFind(p, lists[b][l]);
+  for (PetscInt b = 0; b < 2; b++) {
+    const char *fault;
 
-    if (!l && found) layers[b].count = found->count;
-    PetscCheck((found ? found->count : 0) == layers[b].count && layers[b].count <= SAM_LAYERS, comm, SAM_ERR_FILE,
-               "%s: cannot be read: the attribute %s does not fit the layers", source, lists[b][l]);
-    for (PetscInt n = 0; n < layers[b].count; n++) ListOf(&layers[b], (int)l)[n] = found->value[n];
+    TakeLayers(p, b, &layers[b], &fault);
+    PetscCheck(!fault, comm, SAM_ERR_FILE, "%s: cannot be read: the attribute %s does not fit the layers", source,
+               fault);
   }
   PetscCall(FindFault(value, value + 2, layers, "", message, sizeof(message)));
   PetscCheck(!message[0], comm, SAM_ERR_FILE, "%s: cannot be read: %s", source, message);
-  for (PetscInt b = 0; b < 2; b++) {
-    const SamParameter *found = SamParametersFind(p, residual[b]);
-
-    for (PetscInt n = 0; found && found->count == 2 * layers[b].count && n < found->count; n++)
-      layers[b].stress[n / 2][n % 2] = found->value[n];
-  }
   PetscCall(SamPairSetLayered(pair, value, value + 2, layers));
   for (PetscInt k = 0; k < 2; k++) {
     const SamParameter *found = SamParametersFind(p, films[k]);
@@ -212,8 +244,8 @@ static PetscErrorCode ReadResidualStress(const SamOptions *from, PetscInt b, Sam
                             "residual stress xx and yy of each layer (Pa), which only petsam-stress adds",
                             SAM_RANGE_ANY, 2 * SAM_LAYERS, layers->stress[0], &count));
   PetscCheck(!count || count == 2 * layers->count, from->comm, SAM_ERR_USER,
-             "-%s%s: %" PetscInt_FMT " numbers are given for %" PetscInt_FMT " layers: give xx and yy of each",
-             SamOptionsPrefix(from), residual[b], count, layers->count);
+             "-%s%s: %" PetscInt_FMT " of %" PetscInt_FMT " numbers are given: give xx and yy of each layer",
+             SamOptionsPrefix(from), residual[b], count, 2 * layers->count);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -3,6 +3,7 @@
 
 /* The least depth, in cells: at smaller ones the kernels equal those of the surface but for rounding. */
 #define LEAST_DEPTH 1e-6
+#define MOST_DEPTH  1e6  /* widths of the grid */
 #define ROUNDING    1e-9 /* of a depth, within which it is that of an interface */
 
 /* ---- life ---- */
@@ -151,6 +152,9 @@ static PetscErrorCode CheckDepths(SamEvaluation e)
   const PetscReal side = PetscMin(e->grid->dx, e->grid->dy);
 
   PetscFunctionBegin;
+  PetscCheck(e->depth[e->depths - 1] <= MOST_DEPTH * PetscMax(e->grid->width[0], e->grid->width[1]), e->comm,
+             SAM_ERR_USER, "%sdepths: %.6g m is more than %g times the width of the grid: check the unit, m", e->dash,
+             (double)e->depth[e->depths - 1], MOST_DEPTH);
   for (PetscInt k = 0; k < e->depths; k++)
     PetscCheck(e->depth[k] == 0 || e->depth[k] >= LEAST_DEPTH * side, e->comm, SAM_ERR_USER,
                "%sdepths: %.6g m is less than a millionth of a cell (%.6g m): the surface is 0", e->dash,

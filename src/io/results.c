@@ -54,7 +54,10 @@ static void GetText(SamFile f, const char name[], size_t size, char text[])
   if (!SamTextRead(f->id, name, text, size) || strlen(text) + 1 == size) text[0] = '\0';
 }
 
-/* The root attributes that parameters are stored as: numbers, not too many, and short texts. */
+/*
+  The root attributes that parameters are stored as: numbers, not too many, and short texts. A constant of a body that
+  is none of these has the count -1, so that it is not taken for missing.
+*/
 static void GetParameters(SamFile f, SamParameters *all)
 {
 
@@ -70,6 +73,7 @@ static void GetParameters(SamFile f, SamParameters *all)
       if (H5Tget_class(type) == H5T_FLOAT && count > 0 && count <= SAM_PARAMETER_VALUES &&
           H5Aread(attribute, H5T_NATIVE_DOUBLE, p->value) >= 0)
         p->count = (PetscInt)count;
+      if (!p->count && !p->text[0] && !strncmp(p->name, "body", 4)) p->count = -1;
       if (p->count || p->text[0]) all->count++;
     }
     if (space >= 0) (void)H5Sclose(space);

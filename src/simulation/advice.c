@@ -3,7 +3,7 @@
 
 /* A coefficient of friction from the first of these on is likely to be percent; from the second on it means stick. */
 static const PetscReal percent[2] = {5, 100};
-/* Dundurs' beta from which one step of the normal load is too coarse. */
+/* Dundurs' beta, or what stands for it on layers, from which one step of the normal load is too coarse. */
 #define DISSIMILAR 0.05
 
 PetscErrorCode SamSimulationPrepareAdvice(SamSimulation s, PetscInt first)
@@ -13,6 +13,9 @@ PetscErrorCode SamSimulationPrepareAdvice(SamSimulation s, PetscInt first)
   SamLaw             law;
   SamContactSettings set;
   char               text[160];
+  const SamGrid      g        = s->setup.grid;
+  const double       waves[2] = {2 * PETSC_PI / (double)PetscMax(g->width[0], g->width[1]),
+                                 PETSC_PI / (double)PetscMax(g->dx, g->dy)};
 
   PetscFunctionBegin;
   for (PetscInt k = first; k < s->needs.steps; k++) {
@@ -35,7 +38,7 @@ PetscErrorCode SamSimulationPrepareAdvice(SamSimulation s, PetscInt first)
   PetscCall(SamProblemHasFriction(s->setup.problem, &rubs));
   PetscCall(SamContactGetSettings(s->setup.contact, &set));
   if (rubs && set.coupling && !SamContactIsSteady(s->setup.contact) && s->needs.steps == 1 &&
-      fabs(s->setup.pair.dundurs) > DISSIMILAR)
+      SamPairCoupling(&s->setup.pair, waves[0], waves[1]) > DISSIMILAR)
     PetscCall(
       SamSimulationWarn(s,
                         "elastically dissimilar bodies with friction slip while the normal load grows, here in one "

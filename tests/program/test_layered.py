@@ -178,6 +178,8 @@ SMALL = sphere([(2, 0.3, 1), (3, 0.2, 0.5)], 2.6, n=32, load_n=0.5 * E * A**3, f
         (dict(body2_layer_young=[E]), "-body2_layer_young is given for 1 of 2 layers"),
         (dict(body2_layer_thickness=None), "-body2_layer_thickness is missing"),
         (dict(body2_layer_thickness=[A, 0]), "-body2_layer_thickness 0: expected a finite number > 0"),
+        (dict(body2_layer_thickness=[A, 1e-20]), "-body2_layer_thickness 1e-20: expected"),
+        (dict(body2_layer_thickness=[A, 1e155]), "-body2_layer_thickness 1e+155: expected"),
         (dict(body2_layer_thickness=[A, -A]), "-body2_layer_thickness -0.001: expected a finite number > 0"),
         (
             dict(body2_layer_poisson=[0.3, 0.51]),
@@ -336,7 +338,7 @@ def test_one_side_of_an_interface(solve, petsam_stress, tmp_path):
 
 
 def test_residual_stress_has_two_numbers_for_each_layer(petsam):
-    says = "-body2_layer_stress: 3 numbers are given for 2 layers: give xx and yy of each"
+    says = "-body2_layer_stress: 3 of 4 numbers are given: give xx and yy of each layer"
     assert says in petsam({**SLIDING, "body2_layer_stress": "1e6,1e6,2e6"}, check=2).complaint[0]
 
 
@@ -412,3 +414,36 @@ def test_life_tells_the_cycle_by_which_a_layer_is_worn_through(petsam, tmp_path)
         assert np.array_equal(some["wear/depth_max2"][:], depth[: first + 1])
     says = "-wear_stop_layer is given without -wear_cycles"
     assert says in petsam({**SMALL, "wear_coefficient2": 1e-13, "wear_stop_layer": True}, check=2).complaint[0]
+
+
+@pytest.mark.parametrize(
+    "attributes, names",
+    [
+        (dict(body2_layer_young=[E] * 40), "body2_layer_young"),
+        (
+            dict.fromkeys((f"body2_layer_{name}" for name in ("young", "poisson", "thickness")), [1e-3] * 200),
+            "body2_layer",
+        ),
+        (dict(body2_layer_young="soft"), "body2_layer_young"),
+        (dict(body2_layer_poisson=None), "body2_layer_poisson"),
+        (dict(body2_layer_thickness=3), "body2_layer_thickness"),
+        (dict(body2_layer_stress=[1e9, 1e9, 1e9, float("nan")]), "body2_layer_stress"),
+        (dict(body2_layer_stress=[1e9]), "body2_layer_stress"),
+    ],
+)
+def test_damaged_layers_in_a_file_are_refused(attributes, names, petsam, petsam_stress, tmp_path):
+    petsam(SLIDING, dict(output="r.h5"))
+    with h5py.File(tmp_path / "r.h5", "r+") as f:
+        for name, value in attributes.items():
+            f.attrs.pop(name, None)
+            if value is not None:
+                f.attrs[name] = value
+    told = petsam_stress(dict(input="r.h5", output="s.h5", depths=f"{0.2 * A}"), check=3).stderr
+    assert f"the attribute {names}" in told and "does not fit the layers" in told
+
+
+def test_layers_that_couple_are_advised_to_take_steps(petsam):
+    """Alike at the surface, so that only the layer couples the bodies."""
+    case = sphere([(10, 0.3, 0.3)], 2.6, n=32, load_n=0.5 * E * A**3, friction=0.2, load_tx=0.05 * E * A**3)
+    told = petsam({**case, "body1_young": 10 * E, "body1_poisson": 0.3}).stderr
+    assert "elastically dissimilar bodies with friction slip while the normal load grows" in told
