@@ -153,7 +153,7 @@ static PetscErrorCode CheckDepths(SamEvaluation e)
 
   PetscFunctionBegin;
   PetscCheck(e->depth[e->depths - 1] <= MOST_DEPTH * PetscMax(e->grid->width[0], e->grid->width[1]), e->comm,
-             SAM_ERR_USER, "%sdepths: %.6g m is more than %g times the width of the grid: check the unit, m", e->dash,
+             SAM_ERR_USER, "%sdepths: %.6g m is more than %.6g times the width of the grid: check the unit, m", e->dash,
              (double)e->depth[e->depths - 1], MOST_DEPTH);
   for (PetscInt k = 0; k < e->depths; k++)
     PetscCheck(e->depth[k] == 0 || e->depth[k] >= LEAST_DEPTH * side, e->comm, SAM_ERR_USER,

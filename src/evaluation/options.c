@@ -103,9 +103,8 @@ static PetscErrorCode ReadDepths(const SamOptions *from, SamEvaluation e)
   int       *sides;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsString(
-    from, "depths", "depths, m: 0,1e-5,2e-5 or first:last:number; 2e-6- above an interface of layers, 2e-6+ below",
-    text, sizeof(text), NULL));
+  PetscCall(SamOptionsString(from, "depths", "depths, m: 0,1e-5,2e-5 or first:last:number; 2e-6-, 2e-6+: an interface",
+                             text, sizeof(text), NULL));
   PetscCall(PetscSNPrintf(whole, sizeof(whole), "-depths %s", text));
   PetscCall((strchr(text, ':') ? ReadRange : ReadList)(from->comm, whole, text, &n, &depths, &sides));
   PetscCall(SamEvaluationTakeDepths(e, whole, n, depths, sides));

@@ -114,7 +114,11 @@ def test_beginning_of_two_topics_is_refused(petsam):
         ("gap_type", ["-gap_type"]),
         ("grid_N", ["-grid_n"]),
         ("coupling", ["-coupling", "-coupling_rtol", "-coupling_max_it", "-coupling_monitor"]),
-        ("body1", ["-body1_young", "-body1_poisson"]),
+        (
+            "body1",
+            ["-body1_young", "-body1_poisson"]
+            + [f"-body1_layer_{name}" for name in ("file", "young", "poisson", "thickness", "stress")],
+        ),
         ("restart", ["-restart", "-restart_gap"]),
         ("fft", ["-fft_effort", "-fft_exchange"]),
     ],

@@ -17,7 +17,9 @@ PAGES = [
     ROOT / "README.md",
     *(page for folder in ("examples", "include", "scripts") for page in ROOT.glob(folder + "/**/*.md")),
 ]
-EXAMPLES = sorted(path.parent.name for path in (ROOT / "examples").glob("*/figures.py"))
+EXAMPLES = sorted(
+    path.parent.name for path in (ROOT / "examples").glob("*/figures.py") if (path.parent / "run.sh").exists()
+)
 CASE = ball(n=32)
 
 
