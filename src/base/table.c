@@ -221,8 +221,8 @@ static PetscErrorCode ReadLines(Reader *r, FILE *stream, char **buffer)
   }
   PetscCheck(!ferror(stream), r->comm, SAM_ERR_FILE, SAM_CANNOT_READ, r->option, r->file, strerror(errno));
   PetscCheck(r->t->rows, r->comm, SAM_ERR_USER,
-             "-%s %s: has no row: expected a line with the names of the columns, for example %s,%s, and below it lines "
-             "of numbers",
+             "-%s %s: has no row: expected a line with the names of the columns, for example %s,%s, and below it a "
+             "line of numbers for each row",
              r->option, r->file, r->names[0], r->names[1]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
