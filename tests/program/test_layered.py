@@ -348,17 +348,17 @@ NO_LISTS = {f"body2_layer_{name}": None for name in ("young", "poisson", "thickn
 
 
 def test_profile_is_cut_into_layers_of_the_constants_at_their_middle(petsam, tmp_path):
-    """A layer of constant E, a jump, and E that falls along a line: 1 and 63 layers, as if they were listed."""
-    rows = (0, 4 * E, 0.2), (0.3 * A, 4 * E, 0.2), (0.3 * A, 2 * E, 0.3), (A, E, 0.25)
+    """A layer of constant E, a jump, and E that falls along two lines: 1, 32 and 31 layers, as if they were listed."""
+    rows = (0, 4 * E, 0.2), (0.3 * A, 4 * E, 0.2), (0.3 * A, 2 * E, 0.3), (A, E, 0.25), (2 * A, E / 2, 0.25)
     lines = ["depth, young, poisson  # m, Pa", *(", ".join(map(str, row)) for row in rows)]
     (tmp_path / "p.csv").write_text("\n".join(lines) + "\n")
     case = {**SMALL, **NO_LISTS}
     petsam(case, dict(body2_layer_file="p.csv", output="file.h5"))
-    at = (np.arange(63) + 0.5) / 63
+    at, below = (np.arange(32) + 0.5) / 32, (np.arange(31) + 0.5) / 31
     lists = dict(
-        body2_layer_young=[4 * E, *(2 * E - at * E)],
-        body2_layer_poisson=[0.2, *(0.3 - 0.05 * at)],
-        body2_layer_thickness=[0.3 * A, *[(A - 0.3 * A) / 63] * 63],
+        body2_layer_young=[4 * E, *(2 * E - at * E), *(E - below * E / 2)],
+        body2_layer_poisson=[0.2, *(0.3 - 0.05 * at), *[0.25] * 31],
+        body2_layer_thickness=[0.3 * A, *[0.7 * A / 32] * 32, *[A / 31] * 31],
     )
     petsam(case, lists, dict(output="lists.h5"))
     with h5py.File(tmp_path / "file.h5") as f, h5py.File(tmp_path / "lists.h5") as listed:
