@@ -15,6 +15,8 @@ typedef struct {
 } SamLayers;
 /* SamLayersDepth - the depth (m) of the bottom of the n-th layer; 0 for n = 0. Not collective. */
 PETSC_EXTERN PetscReal SamLayersDepth(const SamLayers *layers, PetscInt n);
+/* SamLayersAt - the layer at a depth (m), an interface being of the one above; count: the substrate. Not collective. */
+PETSC_EXTERN PetscInt SamLayersAt(const SamLayers *layers, PetscReal depth);
 
 /*
   SamPair - the elastic constants of two isotropic bodies, and the sums of them that the displacements of their surfaces

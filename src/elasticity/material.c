@@ -73,6 +73,14 @@ PetscReal SamLayersDepth(const SamLayers *layers, PetscInt n)
   return depth;
 }
 
+PetscInt SamLayersAt(const SamLayers *layers, PetscReal depth)
+{
+  PetscInt n = 0;
+
+  while (n < layers->count && depth > SamLayersDepth(layers, n + 1)) n++;
+  return n;
+}
+
 PetscErrorCode SamPairSetLayered(SamPair *pair, const PetscReal young[2], const PetscReal poisson[2],
                                  const SamLayers layers[2])
 {

@@ -169,7 +169,7 @@ const SamLayers *SamLayerAt(SamEvaluation e, PetscInt depth, PetscInt *layer)
 
   PetscCallAbort(e->comm, SamElasticityGetPair(e->elasticity, &pair));
   layers = &pair->layers[e->body - 1];
-  for (*layer = 0; *layer < layers->count && e->depth[depth] > SamLayersDepth(layers, *layer + 1);) ++*layer;
+  *layer = SamLayersAt(layers, e->depth[depth]);
   return layers;
 }
 

@@ -44,15 +44,6 @@ static const SamLayers *LayersOf(const Layered *l)
   return &l->pair.layers[l->body - 1];
 }
 
-/* The layer at a depth; interfaces belong to what is above. */
-static PetscInt LayerAt(const Layered *l, double depth)
-{
-  PetscInt n = 0;
-
-  while (n < LayersOf(l)->count && depth > (double)SamLayersDepth(LayersOf(l), n + 1)) n++;
-  return n;
-}
-
 /* ---- the functions ---- */
 
 static void StressesAt(const Layered *l, double k, double s[SAM_LAYERED_STRESSES])
@@ -79,7 +70,7 @@ static PetscErrorCode UseDepth(SamStress stress, PetscReal depth)
   if ((double)depth == l->depth) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamSplineDestroy(&l->table));
   l->depth = (double)depth;
-  l->layer = LayerAt(l, l->depth);
+  l->layer = SamLayersAt(LayersOf(l), depth);
   l->z     = l->depth - (double)SamLayersDepth(LayersOf(l), l->layer);
   l->decay = l->layer ? l->depth : 2 * (double)LayersOf(l)->thickness[0] - l->z;
   PetscCheck(l->layer < LayersOf(l)->count || !isinf(l->pair.young[l->body - 1]), grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
@@ -206,7 +197,7 @@ static void Row(SamStress stress, const double side[2], double depth, SamStressG
 static void GetConstants(SamStress stress, PetscReal depth, PetscReal *young, PetscReal *poisson)
 {
   const Layered  *l        = (const Layered *)stress->data;
-  const PetscInt  n        = LayerAt(l, (double)depth);
+  const PetscInt  n        = SamLayersAt(LayersOf(l), depth);
   const PetscBool in_layer = (PetscBool)(n < LayersOf(l)->count);
 
   *young   = in_layer ? LayersOf(l)->young[n] : l->pair.young[l->body - 1];
