@@ -56,7 +56,8 @@ PETSC_EXTERN PetscErrorCode SamEvaluationDestroy(SamEvaluation *evaluation);
     SetQuantities       those that are wanted; default: stress and mises. -quantities, and -fatigue for parameters
     SetPassing          fatigue parameters of points that pass along x, of one step: the stresses of each row of cells,
                         and none but the bulk stress far from the contact, are the cycle of all its points. -passing
-    SetFatigueConstants without those of the body. -fatigue_crossland_alpha, ...
+    SetFatigueConstants without those of the body, n = 1: the same everywhere, else of each layer and then of the
+                        substrate, if that is not rigid. -fatigue_crossland_alpha, ...
 */
 PETSC_EXTERN PetscErrorCode SamEvaluationSetBody(SamEvaluation evaluation, PetscInt body);
 PETSC_EXTERN PetscErrorCode SamEvaluationGetBody(SamEvaluation evaluation, PetscInt *body);
@@ -64,8 +65,8 @@ PETSC_EXTERN PetscErrorCode SamEvaluationSetDepths(SamEvaluation evaluation, Pet
 PETSC_EXTERN PetscErrorCode SamEvaluationSetSection(SamEvaluation evaluation, SamSectionAxis axis, PetscReal place);
 PETSC_EXTERN PetscErrorCode SamEvaluationSetPassing(SamEvaluation evaluation, PetscBool passing);
 PETSC_EXTERN PetscErrorCode SamEvaluationSetQuantities(SamEvaluation evaluation, const PetscBool wants[SAM_QUANTITIES]);
-PETSC_EXTERN PetscErrorCode SamEvaluationSetFatigueConstants(SamEvaluation              evaluation,
-                                                             const SamFatigueConstants *constants);
+PETSC_EXTERN PetscErrorCode SamEvaluationSetFatigueConstants(SamEvaluation evaluation, PetscInt n,
+                                                             const SamFatigueConstants constants[]);
 /* SamEvaluationSetFromOptions - reads these options. Collective. Errors: SAM_ERR_USER. */
 PETSC_EXTERN PetscErrorCode SamEvaluationSetFromOptions(SamEvaluation evaluation, const SamOptions *from);
 /*

@@ -108,13 +108,16 @@ static void ComputeRuiz(const Cycle *c, PetscInt point, double value[2])
 /* Computes a quantity's components at a point, into value[component * count + point]. */
 static PetscErrorCode ComputePoint(SamEvaluation e, const Cycle *c, SamQuantity quantity, PetscInt i, double values[])
 {
-  const PetscInt      n = c->points->count, depths = c->points->depths;
-  SamFatigueConstants constants   = e->constants;
+  const PetscInt      n = c->points->count, depth = c->points->depth + i / (n / c->points->depths);
+  PetscInt            material;
+  SamFatigueConstants constants;
   double              value[MOST] = {0, 0, 0, 0};
 
   PetscFunctionBegin;
   (e->passing ? GatherPassing : GatherStress)(c, i);
-  SamStressGetConstants(e->stress, e->depth[c->points->depth + i / (n / depths)], &constants.young, &constants.poisson);
+  (void)SamLayerAt(e, depth, &material);
+  constants = e->constants[e->materials > 1 ? material : 0];
+  SamStressGetConstants(e->stress, e->depth[depth], &constants.young, &constants.poisson);
   if (quantity == SAM_QUANTITY_RUIZ)
     ComputeRuiz(c, i, value);
   else

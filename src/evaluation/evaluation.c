@@ -16,10 +16,11 @@ PetscErrorCode SamEvaluationCreate(MPI_Comm comm, SamEvaluation *evaluation)
   PetscFunctionBegin;
   PetscCall(SamInitialize());
   PetscCall(PetscNew(&e));
-  *evaluation = e;
-  e->comm     = comm;
-  e->body     = 2;
-  e->dash     = "";
+  *evaluation  = e;
+  e->comm      = comm;
+  e->body      = 2;
+  e->materials = 1;
+  e->dash      = "";
   PetscCall(SamEvaluationSetDepths(e, 1, &surface));
   e->wants[SAM_QUANTITY_STRESS] = e->wants[SAM_QUANTITY_MISES] = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -107,10 +108,12 @@ PetscErrorCode SamEvaluationSetQuantities(SamEvaluation e, const PetscBool wants
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamEvaluationSetFatigueConstants(SamEvaluation e, const SamFatigueConstants *constants)
+PetscErrorCode SamEvaluationSetFatigueConstants(SamEvaluation e, PetscInt n, const SamFatigueConstants constants[])
 {
   PetscFunctionBegin;
-  e->constants = *constants;
+  PetscCheck(n > 0 && n <= SAM_LAYERS + 1, e->comm, PETSC_ERR_ARG_OUTOFRANGE, "%" PetscInt_FMT " sets of constants", n);
+  PetscCall(PetscArraycpy(e->constants, constants, n));
+  e->materials = n;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -273,11 +276,28 @@ static PetscErrorCode CheckPassing(SamEvaluation e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Constants of fatigue are the same everywhere, or each layer's and the substrate's. */
+static PetscErrorCode CheckConstants(SamEvaluation e)
+{
+  const SamPair *pair;
+  PetscInt       materials;
+
+  PetscFunctionBegin;
+  PetscCall(SamElasticityGetPair(e->elasticity, &pair));
+  materials = pair->layers[e->body - 1].count + !isinf(pair->young[e->body - 1]);
+  PetscCheck(e->materials == 1 || e->materials == materials || !SamCycleWanted(e), e->comm, SAM_ERR_USER,
+             "%sfatigue: lists of %" PetscInt_FMT " constants for %" PetscInt_FMT
+             " materials in depth: give one number, or one for each layer and the substrate",
+             e->dash, e->materials, materials);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamEvaluationSetUp(SamEvaluation e)
 {
   PetscFunctionBegin;
   PetscCheck(e->elasticity, e->comm, PETSC_ERR_ORDER, "An evaluation without elasticity");
   PetscCall(CreateStress(e));
+  PetscCall(CheckConstants(e));
   PetscCall(SplitInterfaces(e));
   PetscCall(CheckPassing(e));
   PetscCheck(e->source.steps > 1 || e->passing || !SamCycleWanted(e), e->comm, SAM_ERR_USER,

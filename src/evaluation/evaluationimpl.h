@@ -30,8 +30,9 @@ struct _n_SamEvaluation {
   SamSectionAxis      axis;
   PetscReal           place; /* of the section: y along x, x along y, m */
   PetscBool           wants[SAM_QUANTITIES];
-  PetscBool           passing;   /* the states of a cycle are the stresses of a row of cells, and those far from it */
-  SamFatigueConstants constants; /* but for the body's */
+  PetscBool           passing; /* the states of a cycle are the stresses of a row of cells, and those far from it */
+  SamFatigueConstants constants[SAM_LAYERS + 1]; /* but for the body's */
+  PetscInt            materials; /* that have constants of their own, layers first; 1: all have the first ones */
   const char         *dash;      /* before the names of settings in messages, where options gave them */
   /* bodies */
   SamElasticity             elasticity;

@@ -191,24 +191,43 @@ static const struct {
 };
 enum { CONSTANTS = sizeof(constants) / sizeof(constants[0]) };
 
-static PetscReal *ConstantOf(SamEvaluation e, int k)
+static PetscReal *ConstantOf(SamEvaluation e, PetscInt material, int k)
 {
-  return (PetscReal *)(void *)((char *)&e->constants + constants[k].place);
+  return (PetscReal *)(void *)((char *)&e->constants[material] + constants[k].place);
+}
+
+/* One number is for all materials; lists of more have one length, that of the materials. */
+static PetscErrorCode ReadConstant(const SamOptions *from, SamEvaluation e, int k, PetscBool required)
+{
+  PetscReal values[SAM_LAYERS + 1];
+  PetscInt  n;
+
+  PetscFunctionBegin;
+  PetscCall(
+    SamOptionsReals(from, constants[k].name, constants[k].help, constants[k].range, SAM_LAYERS + 1, values, &n));
+  PetscCall(SamOptionsRequire(from, (PetscBool)(n > 0 || !required), constants[k].name, constants[k].help));
+  PetscCheck(n <= 1 || e->materials <= 1 || n == e->materials, from->comm, SAM_ERR_USER,
+             "-%s: %" PetscInt_FMT " numbers, but %" PetscInt_FMT
+             " in another list: give one number, or one for each layer and the substrate",
+             constants[k].name, n, e->materials);
+  e->materials = PetscMax(e->materials, n);
+  for (PetscInt m = 0; n > 0 && m <= SAM_LAYERS; m++) *ConstantOf(e, m, k) = values[n > 1 ? PetscMin(m, n - 1) : 0];
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode ReadConstants(const SamOptions *from, SamEvaluation e)
 {
-  PetscBool set, print;
+  PetscBool print;
 
   PetscFunctionBegin;
   PetscCall(SamPrintHelp(&print));
+  e->materials = 1;
   for (int k = 0; k < CONSTANTS; k++) {
     const PetscBool wanted = e->wants[constants[k].quantity];
 
     if (!wanted) SamOptionsKnow(from, constants[k].name, constants[k].with);
     if (!wanted && !print) continue;
-    PetscCall(SamOptionsReal(from, constants[k].name, constants[k].help, constants[k].range, ConstantOf(e, k), &set));
-    PetscCall(SamOptionsRequire(from, set || print, constants[k].name, constants[k].help));
+    PetscCall(ReadConstant(from, e, k, (PetscBool)!print));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -225,9 +244,13 @@ PetscErrorCode SamEvaluationAddParameters(SamEvaluation e, SamParameters *p)
   PetscCall(SamParametersAddReals(p, "young", PETSC_TRUE, 1, &young));
   PetscCall(SamParametersAddReals(p, "poisson", PETSC_TRUE, 1, &poisson));
   PetscCall(SamElasticityAddParameters(e->elasticity, p));
-  for (int k = 0; k < CONSTANTS; k++)
-    if (e->wants[constants[k].quantity])
-      PetscCall(SamParametersAddReals(p, constants[k].name, PETSC_TRUE, 1, ConstantOf(e, k)));
+  for (int k = 0; k < CONSTANTS; k++) {
+    PetscReal values[SAM_LAYERS + 1];
+
+    if (!e->wants[constants[k].quantity]) continue;
+    for (PetscInt m = 0; m < e->materials; m++) values[m] = *ConstantOf(e, m, k);
+    PetscCall(SamParametersAddReals(p, constants[k].name, PETSC_TRUE, e->materials, values));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

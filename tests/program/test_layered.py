@@ -337,6 +337,30 @@ def test_one_side_of_an_interface(solve, petsam_stress, tmp_path):
             assert np.array_equal(one["stress_xx"][0, 0], both["stress_xx"][0, k])
 
 
+def test_fatigue_constants_of_layers_and_substrate(petsam, petsam_stress, tmp_path):
+    (tmp_path / "h.csv").write_text("time,load_n,load_tx\n0,0.2,0\n1,0.2,0.01\n2,0.2,-0.01\n")
+    petsam({k: v for k, v in SLIDING.items() if k not in ("load_n", "load_tx")}, dict(history="h.csv", output="r.h5"))
+    depths = (0.1, 0.6, 2)
+
+    def findley(k, name):
+        case = dict(input="r.h5", output=name, quantities="none", fatigue="findley", section="y=0", steps="all")
+        petsam_stress({**case, "depths": [d * A for d in depths], "fatigue_findley_k": k})
+        with h5py.File(tmp_path / name) as f:
+            return f["findley"][:]
+
+    constants = (0.4, 0.1, 0.25)
+    each = findley(constants, "each.h5")
+    for depth, k in enumerate(constants):
+        assert np.array_equal(each[depth], findley(k, f"one{depth}.h5")[depth])
+    refused = dict(input="r.h5", output="no.h5", fatigue="findley,crossland", steps="all", fatigue_crossland_alpha=0.1)
+    for k, says in (
+        ("0.4,0.1", "-fatigue: lists of 2 constants for 3 materials in depth: give one number, or one for each layer"),
+        ("0.4,0.1,0.2", "-fatigue_findley_k: 3 numbers, but 2 in another list: give one number, or one for each layer"),
+    ):
+        more = dict(fatigue_crossland_alpha="0.1,0.2") if "another" in says else {}
+        assert says in petsam_stress({**refused, "fatigue_findley_k": k, **more}, check=2).stderr
+
+
 def test_residual_stress_has_two_numbers_for_each_layer(petsam):
     says = "-body2_layer_stress: 3 of 4 numbers are given: give xx and yy of each layer"
     assert says in petsam({**SLIDING, "body2_layer_stress": "1e6,1e6,2e6"}, check=2).complaint[0]
