@@ -1,0 +1,357 @@
+#!/usr/bin/env python3
+"""Layered bodies, random problems: each must agree with coefficients by an own solution of the layers and quadrature.
+
+    python3 tests/fuzz/layered.py [--build build] [--count 300] [--seed 1] [--show]
+
+One to five layers on one or both bodies, E ratios 0.01 to 100, nu 0 to 0.5, thicknesses 0.01 to 10 contact radii, rigid
+bases, friction to 1, normal loads, then tangential ones in one or two steps. Each wave's boundary conditions are one
+linear system here, not a recursion; its transforms to space are sums over the wave number, not over its logarithm.
+Prints what repeats a failure, and at the end the products of each kind. Ends with 1 after a failure.
+"""
+
+import argparse
+import collections
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import h5py
+import numpy as np
+from scipy.interpolate import CubicSpline, make_interp_spline
+from scipy.special import j0, j1, jv
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "program"))
+from rolling import convolve, corners, kernels  # noqa: E402
+from support import words  # noqa: E402
+
+# ---------------------------------------------------------------- mechanics
+
+
+class Body:
+    """Layers (modulus, Poisson's ratio, thickness) from the surface down, on a substrate: modulus, ratio; None: rigid."""
+
+    def __init__(self, layers, base):
+        self.layers, self.base = layers, base
+
+    def surface(self):
+        """Shear modulus and Poisson's ratio at the surface."""
+        young, nu = (self.layers or [self.base])[0][:2]
+        return young / (2 * (1 + nu)), nu
+
+    def symbols(self, k):
+        """zz, zr, rr, tt at the wave numbers k, times k."""
+        materials = [(e / (2 * (1 + nu)), nu, h) for e, nu, h in self.layers]
+        if self.base:
+            materials.append((self.base[0] / (2 * (1 + self.base[1])), self.base[1], np.inf))
+        n, s = len(self.layers), 2 if self.base else 0
+        unit = materials[0][0]  # of stresses
+        plane, across = np.zeros((k.size, 4 * n + s, 4 * n + s)), np.zeros((k.size, 2 * n + s // 2, 2 * n + s // 2))
+
+        def modes(m, z):
+            """U, W, T, S at a depth for the four parts of layer m, and V, T_y for its two; T, S over k."""
+            g, nu, h = materials[m]
+            down = down_modes(z, g, nu)
+            out = [[*d] for d in down]
+            shear = [(np.exp(-k * z), -g / unit * np.exp(-k * z))]
+            if np.isfinite(h):
+                out += [(u, -w, -t, s) for u, w, t, s in down_modes(h - z, g, nu)]
+                shear.append((np.exp(-k * (h - z)), g / unit * np.exp(-k * (h - z))))
+            return np.array(out), np.array(shear)
+
+        def down_modes(z, g, nu):
+            e, kz, kappa, g = np.exp(-k * z), k * z, 3 - 4 * nu, g / unit
+            theta = -2 * (1 - 2 * nu) * e  # div u over k of the second
+            first = (e, e, -2 * g * e, -2 * g * e)
+            u, w = kz * e, (kz + kappa) * e
+            du, dw = (1 - kz) * e, (1 - kz - kappa) * e
+            lame = -4 * g * nu * e if nu == 0.5 else 2 * g * nu / (1 - 2 * nu) * theta
+            return first, (u, w, g * (du - w), lame + 2 * g * dw)
+
+        rows, lines = 0, 0
+        for m, (_, _, h) in enumerate(materials):
+            at, beside = slice(4 * m, min(4 * m + 4, plane.shape[1])), slice(2 * m, min(2 * m + 2, across.shape[1]))
+            top, top_across = modes(m, 0.0)
+            if m == 0:
+                plane[:, 0:2, at], across[:, 0:1, beside] = (
+                    top[:, 2:].transpose(2, 1, 0),
+                    top_across[:, 1:].T[:, :, :].reshape(k.size, 1, -1),
+                )
+                rows, lines = 2, 1
+            if not np.isfinite(h):
+                continue
+            low, low_across = modes(m, h)
+            last = m + 1 == len(materials)
+            count, single = (2, 1) if last else (4, 2)
+            plane[:, rows : rows + count, at] = low[:, :count].transpose(2, 1, 0)
+            across[:, lines : lines + single, beside] = low_across[:, :single].transpose(2, 1, 0)
+            if not last:
+                below, below_across = modes(m + 1, 0.0)
+                next_at = slice(4 * m + 4, min(4 * m + 8, plane.shape[1]))
+                next_beside = slice(2 * m + 2, min(2 * m + 4, across.shape[1]))
+                plane[:, rows : rows + 4, next_at] = -below.transpose(2, 1, 0)
+                across[:, lines : lines + 2, next_beside] = -below_across.transpose(2, 1, 0)
+            rows, lines = rows + count, lines + single
+        given = np.zeros((k.size, plane.shape[1], 2))
+        given[:, 0, 0] = given[:, 1, 1] = -1  # q is -T, p is -S
+        a = np.linalg.solve(plane, given)
+        given = np.zeros((k.size, across.shape[1], 1))
+        given[:, 0, 0] = -1
+        b = np.linalg.solve(across, given)
+        top, top_across = modes(0, 0.0)
+        u, w, v = top[:, 0].T, top[:, 1].T, top_across[:, 0].T
+        width, half = top.shape[0], top_across.shape[0]
+
+        def of(field, part):
+            return (field * a[:, :width, part]).sum(1) / unit
+
+        return of(w, 1), of(u, 1), of(u, 0), (v * b[:, :half, 0]).sum(1) / unit
+
+
+def transform(depth, ks, d, order, r):
+    """1/2pi times the integral of d(k) J_order(kr), d given at ks, over all k; it falls like exp(-depth k)."""
+    smooth = CubicSpline(np.log(ks), d)
+    most, edges = 40 / depth, [0.0, float(ks[0])]
+    while edges[-1] < most:  # panels on which d and the Bessel functions are polynomials of a low degree
+        edges.append(edges[-1] + min(0.3 * edges[-1], 2 / r.max(), 0.5 / depth))
+    x, w = np.polynomial.legendre.leggauss(8)
+    half, mid = np.diff(edges) / 2, np.add(edges[1:], edges[:-1]) / 2
+    k = (mid[:, None] + half[:, None] * x).ravel()
+    g = (half[:, None] * w).ravel() * smooth(np.log(np.maximum(k, ks[0]))) / (2 * np.pi)
+    bessel = {0: j0, 1: j1}.get(order, lambda z: jv(order, z))
+    return np.array([g @ bessel(k * one) for one in r])
+
+
+def coefficients(bodies, n, d):
+    """Influence of a cell at lags from -n to n - 1 cells: zz, xx, xy, yy, and xz, yz of pressure (relative displacements)."""
+    elastic = [(body, sign) for body, sign in zip(bodies, (-1, 1)) if body]
+    surfaces = [body.surface() if body else (np.inf, 0.0) for body in bodies]
+    xx, xy, yy, px, py = kernels(n, d, surfaces)
+    zz = corners(n, d, lambda x, y: x * np.arcsinh(y / np.abs(x)) + y * np.arcsinh(x / np.abs(y)))
+    zz = sum((1 - nu) / (2 * np.pi * g) for g, nu in surfaces) * zz
+    layered = [(body, sign) for body, sign in elastic if body.layers]
+    depth = 2 * min(body.layers[0][2] for body, _ in layered)
+    total = max(sum(layer[2] for layer in body.layers) for body, _ in layered)
+    diagonal = np.hypot(n[0] * d[0], n[1] * d[1]) * 1.1
+    ks = np.geomspace(1e-7 / max(total, diagonal), 60 / depth, 2500)
+    sums = np.zeros((4, ks.size))
+    for body, sign in layered:
+        g, nu = body.surface()
+        flat = ((1 - nu) / g, -(1 - 2 * nu) / (2 * g), (1 - nu) / g, 1 / g)
+        for m, (symbol, half_space) in enumerate(zip(body.symbols(ks), flat)):
+            sums[m] += (sign if m == 1 else 1) * (symbol - half_space)
+    r = np.concatenate([[0], np.geomspace(1e-3 * depth, diagonal, 260)])
+    if r[1] > 0.2 * max(d):
+        r = np.concatenate([[0], np.geomspace(1e-2 * min(d), diagonal, 400)])
+    f = [
+        transform(depth, ks, one, order, r)
+        for one, order in ((sums[0], 0), ((sums[2] + sums[3]) / 2, 0), ((sums[3] - sums[2]) / 2, 2), (sums[1], 1))
+    ]
+    even = make_interp_spline(
+        np.concatenate([-r[:0:-1], r]), np.concatenate([np.array(f[:3])[:, :0:-1], f[:3]], axis=1), k=7, axis=1
+    )
+    odd = make_interp_spline(np.concatenate([-r[:0:-1], r]), np.concatenate([-f[3][:0:-1], f[3]]), k=7)
+
+    def values(x, y):
+        s = np.hypot(x, y)
+        z, one, two = even(s)
+        third, s = odd(s), np.where(s > 0, s, 1)
+        c, q = x / s, y / s
+        return np.array(
+            [z, one + two * (c * c - q * q), 2 * two * c * q, one - two * (c * c - q * q), third * c, third * q]
+        )
+
+    added = np.zeros((6, 2 * n[1], 2 * n[0]))
+    lag = np.mgrid[-n[1] : n[1], -n[0] : n[0]].astype(float)
+    x, w = np.polynomial.legendre.leggauss(7)
+
+    def integrate(j, i, cut):
+        """Integrals over the cells at these lags, each cut into cut * cut parts."""
+        points = ((np.arange(cut) + 0.5)[:, None] + x / 2).ravel() / cut - 0.5
+        weight = np.tile(w / 2, cut) / cut
+        return sum(
+            a * b * d[0] * d[1] * values((i + s) * d[0], (j + t) * d[1])
+            for s, a in zip(points, weight)
+            for t, b in zip(points, weight)
+        )
+
+    far = np.hypot(lag[0] * d[1], lag[1] * d[0])
+    fine = int(min(40, max(1, np.ceil(1.2 * max(d) / depth))))
+    for part, cut in ((far > 4.5 * max(d), 1), ((far <= 4.5 * max(d)) & (far > 0), 3 * fine), (far == 0, 3 * fine)):
+        added[:, part] = integrate(lag[0][part], lag[1][part], cut)
+    return [a + b for a, b in zip((zz, xx, xy, yy, px, py), added)]
+
+
+def faults(bodies, mu, f):
+    """What is wrong in a file, over what is allowed; its history."""
+    h = {name: values[:] for name, values in f["history"].items()}
+    x, y = f["x"][:], f["y"][:]
+    d = x[1] - x[0], y[1] - y[0]
+    c = coefficients(bodies, (x.size, y.size), d)
+    xm, ym = np.meshgrid(x, y)
+    area, before, tests = d[0] * d[1], np.zeros((2, y.size, x.size)), collections.defaultdict(float)
+
+    def most(name, value, allowed):
+        tests[name] = max(tests[name], float(value) / allowed)
+
+    for step in range(f["pressure"].shape[0]):
+        r = {name: float(values[step]) for name, values in h.items()}
+        p, q = f["pressure"][step], np.array([f[f"shear_{a}"][step] for a in "xy"])
+        uz = convolve(c[0], p) - convolve(c[4], q[0]) - convolve(c[5], q[1])
+        ut = np.array([convolve(c[1], q[0]) + convolve(c[2], q[1]), convolve(c[2], q[0]) + convolve(c[3], q[1])])
+        ut += np.array([convolve(c[4], p), convolve(c[5], p)])
+        largest = np.abs(uz).max()
+        most("displacement", np.abs(uz - f["displacement_z"][step]).max() / largest, 3e-8)
+        free = f["gap"][step] - f["displacement_z"][step]  # from the gap's definition
+        gap = free + uz
+        most("gap", np.abs(gap[p > 0]).max() / largest, 2e-6)
+        most("penetration", -gap.min() / largest, 2e-6)
+        most("tension", -p.min() / p.max(), 1e-14)
+        bound = mu * p
+        most("bound", (np.hypot(*q) - bound).max() / p.max(), 1e-9)
+        way = np.array([r["disp_x"] - ym * r["rot_z"], r["disp_y"] + xm * r["rot_z"]])
+        slip = ut - way - before
+        size = (c[1].max() + c[3].max()) / 2
+        z = q - slip / size
+        length = np.hypot(*z)
+        residual = (q - z * np.where(length > bound, bound / np.maximum(length, 1e-300), 1))[:, p > 0]
+        if mu > 0 and step > 0:
+            most("friction", np.abs(residual).max() * size / max(np.abs(ut).max(), 1e-300), 1e-5)
+        before = ut - way
+        for name, field in dict(load_n=p, load_tx=q[0], load_ty=q[1]).items():
+            most(name, abs(field.sum() * area - r[name]) / r["load_n"], 1e-9)
+    return h, {name: value for name, value in tests.items() if not value <= 1}
+
+
+# ---------------------------------------------------------------- problems
+
+
+class Problem:
+    def __init__(self, seed):
+        self.random = random = np.random.default_rng(seed)
+        self.kinds = []
+
+        def log(low, high):
+            return float(np.exp(random.uniform(np.log(low), np.log(high))))
+
+        def ratio():
+            return float(random.choice([0.5, 0.0, 0.3])) if random.random() < 0.3 else float(random.uniform(0, 0.5))
+
+        young, self.a, self.mu = log(1e8, 1e11), log(1e-5, 1e-2), log(0.02, 1) if random.random() < 0.8 else 0.0
+
+        def layers(most):
+            count = int(random.integers(1, most + 1))
+            return [(young * log(0.01, 100), ratio(), self.a * log(0.01, 10)) for _ in range(count)]
+
+        rigid_base = random.random() < 0.12
+        second = Body(layers(5), None if rigid_base else (young, ratio()))
+        first = None
+        kind = random.choice(["rigid", "alike", "half-space", "layered"], p=[0.25, 0.25, 0.25, 0.25])
+        if kind == "alike":
+            first = second
+        elif kind == "half-space":
+            first = Body([], (young * log(0.1, 100), ratio()))
+        elif kind == "layered":
+            first = Body(layers(3), (young * log(0.1, 10), ratio()))
+        self.bodies = (first, second)
+        self.kinds += [str(kind), f"{len(second.layers)} layers", *(["rigid base"] if rigid_base else [])]
+        self.n = tuple(int(k) for k in random.integers(33, 49, 2))
+        self.case = dict(gap_type="sphere", gap_radius1=1e3 * self.a, gap_radius2=np.inf)
+        for number, body in enumerate(self.bodies, 1):
+            name = f"body{number}_"
+            if body is None:
+                self.case[name + "young"] = np.inf
+                continue
+            self.case[name + "young"] = body.base[0] if body.base else np.inf
+            self.case[name + "poisson"] = body.base[1] if body.base else 0.3
+            for k, word in enumerate(("young", "poisson", "thickness")):
+                if body.layers:
+                    self.case[name + "layer_" + word] = [layer[k] for layer in body.layers]
+        self.case["friction"] = self.mu
+        # the load under which a contact of radius a is, about, by the moduli at the surface and deep inside
+        self.case["load_n"] = 4 / 3 * young * self.a**3 / (1e3 * self.a) * log(0.2, 2)
+
+
+def run(program, folder, case, name):
+    line = [str(program), *words(dict(case, output=name))]
+    (folder / name).unlink(missing_ok=True)
+    return subprocess.run(line, cwd=folder, capture_output=True, text=True, timeout=600)
+
+
+def fit(program, folder, problem):
+    """Chooses the grid's width so that the contact is 15 to 45 cells across; the last result of doing so."""
+    width = 6 * problem.a
+    for _ in range(8):
+        sides = (width * float(problem.random.uniform(0.95, 1.05)), width)
+        problem.case.update(grid_n=problem.n, grid_size=sides)
+        done = run(program, folder, dict(problem.case, friction=0.0), "still.h5")
+        if done.returncode:
+            width *= 2
+            continue
+        with h5py.File(folder / "still.h5") as f:
+            across = 2 * np.sqrt(float(f["history/contact_area"][-1]) / np.pi) / width
+        if 0.35 < across < 0.8:
+            return done
+        width *= across / 0.55 if across > 0 else 0.2
+    return done
+
+
+def trial(program, seed):
+    """Kinds, history and faults of a problem."""
+    with tempfile.TemporaryDirectory() as folder:
+        folder = Path(folder)
+        problem = Problem(seed)
+        done, random = fit(program, folder, problem), problem.random
+        rows = [[problem.case["load_n"], 0, 0, 0]]
+        if problem.mu > 0:
+            for _ in range(int(random.integers(1, 3))):
+                limit = problem.mu * problem.case["load_n"] * random.uniform(0.05, 0.9)
+                angle = random.uniform(0, 2 * np.pi)
+                rows.append([rows[0][0], limit * np.cos(angle), limit * np.sin(angle), 0])
+        case = {key: value for key, value in problem.case.items() if key != "load_n"}
+        (folder / "h.csv").write_text(
+            "time,load_n,load_tx,load_ty,load_mz\n"
+            + "".join(",".join(map(repr, [k, *map(float, row)])) + "\n" for k, row in enumerate(rows))
+        )
+        case.update(history="h.csv", output_fields="all")
+        line = " ".join(words(case))
+        if done.returncode == 0:
+            done = run(program, folder, case, "slid.h5")
+        if done.returncode:
+            return problem.kinds, None, {f"code {done.returncode}": done.stderr.strip()[-300:]}, line
+        with h5py.File(folder / "slid.h5") as f:
+            h, wrong = faults(problem.bodies, problem.mu, f)
+        return problem.kinds, h, wrong, line
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", default="build", help="the build folder")
+    parser.add_argument("--count", type=int, default=300, help="how many problems")
+    parser.add_argument("--seed", type=int, default=1, help="of the first; the next one has the next number")
+    parser.add_argument("--show", action="store_true", help="print a line for each problem")
+    given = parser.parse_args()
+    program = Path(given.build).resolve() / "bin" / "petsam"
+    products, failed = collections.defaultdict(list), 0
+    for seed in range(given.seed, given.seed + given.count):
+        kinds, h, wrong, line = trial(program, seed)
+        if h:
+            for kind in ["all", *kinds]:
+                products[kind].append((int(h["normal_applies"].max()), int(h["tangential_applies"].max()), seed))
+            if given.show:
+                print(seed, ",".join(kinds), products["all"][-1][:2], flush=True)
+        if wrong:
+            failed += 1
+            print(f"seed {seed} ({', '.join(kinds)}): {wrong}\n    {line}", flush=True)
+    for kind, counts in products.items():
+        normal, tangential = (np.array([c[k] for c in counts]) for k in (0, 1))
+        print(
+            f"{kind:11} {len(counts):4}  normal: median {np.median(normal):3.0f}, most {normal.max():3.0f};"
+            f"  tangential: median {np.median(tangential):3.0f}, most {tangential.max():3.0f}"
+        )
+    print(f"{given.count} problems, {failed} failed")
+    return failed > 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
