@@ -32,6 +32,26 @@ EXACT = {
 }
 
 
+PULLS = {"none": "steel", "soft": "0.4E, 0.1 mm", "hard": "4E, 0.1 mm", "thin": "4E, 30 um", "graded": "2E...E, 0.3 mm"}
+
+
+class Pull:
+    """The tension behind a sphere that slides almost in full."""
+
+    def __init__(self, directory, name):
+        stress = petsam.open(os.path.join(directory, f"pull_{name}-stress.h5"))
+        self.x, self.z, self.principal = stress.x, stress.z, stress.field("principal_1")[:, 0, :]
+        contact = Case(directory, f"pull_{name}")
+        self.radius = contact.contact * A
+        k = int(np.argmax(self.principal[0]))
+        self.row = {
+            "film": PULLS[name],
+            "peak": contact.peak * P0 / 1e6,
+            "tension": self.principal[0, k] / 1e6,
+            "place": self.x[k] / self.radius,
+        }
+
+
 class Case(petsam.Snapshot):
     """The last step of a run, over the numbers without coating."""
 
@@ -72,7 +92,9 @@ class Comparison:
     def __init__(self, directory):
         self.cases = {(e, h): Case(directory, f"e{e}_h{h}") for e in RATIOS for h in THICKNESSES}
         self.slides = {e: Case(directory, f"slide_e{e}") for e in ("0.1", "1", "10")}
+        self.pulls = {name: Pull(directory, name) for name in PULLS}
         self.numbers = {
+            "pulls": [pull.row for pull in self.pulls.values()],
             "cases": [numbers(e, h, case) for (e, h), case in self.cases.items()],
             "slides": [
                 {"ratio": float(e), "radius": case.contact, "peak": case.peak, "slip": case.slip, "stick": case.stick}
@@ -107,6 +129,12 @@ class Comparison:
             self.numbers["slides"],
         )
 
+        yield (
+            "Sliding towards +x, friction 0.3: largest tension at the surface",
+            ("film = film; peak p, MPa = peak:.0f; tension, MPa = tension:.0f; at x/radius = place:.2f"),
+            self.numbers["pulls"],
+        )
+
     def draw(self, directory):
         """Pressure and radius over thickness, and the shapes of the pressure."""
         figure, axes = plt.subplots(1, 3, figsize=(13.0, 4.2), constrained_layout=True)
@@ -134,6 +162,15 @@ class Comparison:
         for panel in axes[1:]:
             panel.legend()
         save(figure, directory, "coating.png")
+        figure, axes = plt.subplots(1, 2, figsize=(10.0, 4.0), constrained_layout=True)
+        for (name, pull), color in zip(self.pulls.items(), (*COLORS[:2], "#2a9d72", "0.35", "#b07aa1")):
+            behind = int(np.argmax(pull.principal[0]))
+            axes[0].plot(pull.x / pull.radius, pull.principal[0] / 1e6, color=color, label=PULLS[name])
+            axes[1].plot(pull.principal[:, behind] / 1e6, pull.z * 1e3, color=color)
+        frame(axes[0], "Largest principal stress at the surface", "$x$ / radius", "MPa", (-1.6, 1.6))
+        frame(axes[1], "Below its largest value", "MPa", "depth, mm", None, (0.3, 0.0))
+        axes[0].legend()
+        save(figure, directory, "pull.png")
 
 
 if __name__ == "__main__":

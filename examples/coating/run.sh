@@ -48,4 +48,22 @@ for ratio in 0.1 1 10; do
     # shellcheck disable=SC2046 # several words
     slide "slide_e$ratio" $(film "$ratio")
 done
+
+# The sphere slides along x, almost in full: tension at the surface behind it, and through films and a graded surface.
+printf 'depth,young,poisson\n0,420e9,0.3\n3e-4,210e9,0.3\n' >"$out/graded.csv"
+pull() {
+    film=$1
+    shift
+    solve_quietly "pull_$film" -options_file "$here/coating.opts" -friction 0.3 -load_tx 29.7 -steps 8 -grid_n 129 \
+        -grid_size 1e-3 "$@"
+    stress "pull_$film" "pull_$film-stress" -section y=0 -depths 0:3e-4:31 -quantities stress,principal
+}
+coat() { # coat NAME MODULUS THICKNESS
+    pull "$1" -body2_layer_young "$2" -body2_layer_poisson 0.3 -body2_layer_thickness "$3"
+}
+pull none
+coat soft 84e9 1e-4
+coat hard 840e9 1e-4
+coat thin 840e9 3e-5
+pull graded -body2_layer_file "$out/graded.csv"
 compare

@@ -14,6 +14,7 @@
 /* A line of progress follows the one before after so many seconds, or such a part of the time spent. */
 #define TELL_SECONDS 1.0
 #define TELL_PART    0.05
+#define SHOWN        8 /* layers of which all maxima are printed */
 
 /* ---- set-up ---- */
 
@@ -341,23 +342,40 @@ static PetscErrorCode PrintBanner(SamStressRun *run)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The largest values of each layer over all steps. */
+/* The largest value of a kind in a layer over all steps; -INFINITY without one. */
+static PetscErrorCode GetLargestOf(SamStressRun *run, PetscInt layer, PetscInt kind, SamLargest *most)
+{
+  SamLargest three[3];
+
+  PetscFunctionBegin;
+  *most = (SamLargest){.value = -INFINITY};
+  for (PetscInt s = 0; s < run->steps; s++) {
+    PetscCall(SamEvaluationGetLayerLargest(run->evaluation, layer, s, three));
+    if (three[kind].value > most->value) *most = three[kind];
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The largest values of each layer over all steps; of many layers only those that are largest of all. */
 static PetscErrorCode PrintLayers(SamStressRun *run)
 {
-  static const char *const of[] = {"von Mises stress", "tension at its bottom", "shear at its bottom"};
-  PetscInt                 layers;
+  static const char *const of[]    = {"von Mises stress", "tension at its bottom", "shear at its bottom"};
+  double                   best[3] = {-INFINITY, -INFINITY, -INFINITY};
+  PetscInt                 layers, all;
+  SamLargest               most;
 
   PetscFunctionBegin;
   PetscCall(SamEvaluationGetLayers(run->evaluation, &layers));
-  for (PetscInt k = 0; k < 3 * (layers + 1) - 2 && layers; k++) {
-    SamLargest three[3], most = {.value = -INFINITY};
-    char       name[32] = "substrate";
+  all = layers ? 3 * (layers + 1) - 2 : 0;
+  for (PetscInt k = 0; k < all && layers > SHOWN; k++) {
+    PetscCall(GetLargestOf(run, k / 3, k % 3, &most));
+    best[k % 3] = PetscMax(best[k % 3], most.value);
+  }
+  for (PetscInt k = 0; k < all; k++) {
+    char name[32] = "substrate";
 
-    for (PetscInt s = 0; s < run->steps; s++) {
-      PetscCall(SamEvaluationGetLayerLargest(run->evaluation, k / 3, s, three));
-      if (three[k % 3].value > most.value) most = three[k % 3];
-    }
-    if (most.value == -INFINITY) continue;
+    PetscCall(GetLargestOf(run, k / 3, k % 3, &most));
+    if (most.value == -INFINITY || most.value < best[k % 3]) continue;
     if (k / 3 < layers) PetscCall(PetscSNPrintf(name, sizeof(name), "layer %" PetscInt_FMT, k / 3 + 1));
     PetscCall(PetscPrintf(run->grid->comm, "              %s: %s %.6g Pa at (%.4g, %.4g, %.4g) m\n", name, of[k % 3],
                           most.value, most.place[0], most.place[1], most.place[2]));

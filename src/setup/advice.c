@@ -264,15 +264,17 @@ static void AdviseLayers(Receiver *to, const SamSetup *s, const PetscReal half[2
   for (int b = 0; b < 2; b++) {
     const SamLayers *l     = &s->pair.layers[b];
     PetscBool        other = PETSC_FALSE;
+    PetscInt         same  = 0; /* layers of about the modulus at the surface */
 
     for (PetscInt n = 0; n < l->count; n++)
       other = other || l->young[n] != s->pair.young[b] || l->poisson[n] != s->pair.poisson[b];
+    while (same < l->count && PetscAbsReal(l->young[same] / l->young[0] - 1) < 0.1) same++;
     if (l->count && !other)
       Advise(to, "", "all layers of body %d are of the substrate's material: they have no effect", b + 1);
-    else if (l->count && (double)l->thickness[0] < cell)
+    else if (l->count && (double)SamLayersDepth(l, same) < cell)
       Advise(to, "grid_n",
              "the layer at the surface of body %d is %.2g cells thick: pressures on that scale are not resolved", b + 1,
-             (double)l->thickness[0] / cell);
+             (double)SamLayersDepth(l, same) / cell);
     if (l->count && (double)l->thickness[0] > 100 * width)
       Advise(to, "",
              "-body%d_layer_thickness %g is %.2g times the width of the contact: the limit is 100: check the "
