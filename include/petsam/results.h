@@ -52,9 +52,11 @@ PETSC_EXTERN PetscErrorCode SamResultsRead(SamResults results, PetscInt k, SamRe
 PETSC_EXTERN PetscErrorCode SamResultsReadBulkStress(SamResults results, PetscInt step, PetscInt body,
                                                      double stress[SAM_BULK_COMPONENTS]);
 /*
-  SamResultsReadCycle - the cycles before the one that a load step (from 1) belongs to in a life; 0 in other results.
-  Collective. Errors: as SamResultsReadBulkStress().
+  SamResultsReadNumber - of a load step (from 1): the cycles before the one that it belongs to in a life, 0 in other
+  results; or its SamStatus. Collective. Errors: as SamResultsReadBulkStress().
 */
-PETSC_EXTERN PetscErrorCode SamResultsReadCycle(SamResults results, PetscInt step, double *cycle);
+typedef enum { SAM_RESULTS_CYCLE, SAM_RESULTS_STATUS, SAM_RESULTS_NUMBERS } SamResultsNumber;
+PETSC_EXTERN PetscErrorCode SamResultsReadNumber(SamResults results, PetscInt step, SamResultsNumber number,
+                                                 double *value);
 
 #endif

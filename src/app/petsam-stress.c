@@ -43,10 +43,11 @@ static PetscErrorCode CreateBodies(SamStressRun *run)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Times and bulk stresses of the steps. */
+/* Times and bulk stresses of the steps; warns of those that have not been solved. */
 static PetscErrorCode ReadSteps(SamStressRun *run)
 {
-  PetscInt body;
+  PetscInt    body, unsolved = 0, first[2] = {0, 0};
+  PetscMPIInt rank;
 
   PetscFunctionBegin;
   PetscCall(SamStressRequestSteps(&run->request, run->results, &run->steps, &run->saved));
@@ -55,10 +56,20 @@ static PetscErrorCode ReadSteps(SamStressRun *run)
   PetscCall(SamEvaluationGetBody(run->evaluation, &body));
   for (PetscInt k = 0; k < run->steps; k++) {
     PetscInt step;
+    double   status;
 
     PetscCall(SamResultsGetSaved(run->results, run->saved[k], &step, &run->times[k]));
     PetscCall(SamResultsReadBulkStress(run->results, step, body - 1, run->bulk[k]));
+    PetscCall(SamResultsReadNumber(run->results, step, SAM_RESULTS_STATUS, &status));
+    if (status == 0) continue;
+    if (!unsolved++) first[0] = step, first[1] = (PetscInt)status;
   }
+  PetscCallMPI(MPI_Comm_rank(run->grid->comm, &rank));
+  if (unsolved && !rank)
+    fprintf(stderr,
+            "petsam-stress: warning: petsam has not solved %ld of %ld steps: step %ld has the status %ld "
+            "(/history/status): do not rely on its stresses\n",
+            (long)unsolved, (long)run->steps, (long)first[0], (long)first[1]);
   PetscCall(SamEvaluationSetSource(
     run->evaluation,
     &(SamEvaluationSource){.steps = run->steps, .bulk = run->bulk, .read = ReadField, .context = run}));

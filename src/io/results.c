@@ -8,7 +8,8 @@
 #include <petsam/results.h>
 #include <string.h>
 
-static const char *const fields[SAM_RESULTS_FIELDS] = {"/pressure", "/shear_x", "/shear_y", "/slip_x", "/slip_y"};
+static const char *const numbers[SAM_RESULTS_NUMBERS] = {"cycle", "status"};
+static const char *const fields[SAM_RESULTS_FIELDS]   = {"/pressure", "/shear_x", "/shear_y", "/slip_x", "/slip_y"};
 
 /* What the file says of its run. */
 typedef struct {
@@ -17,7 +18,7 @@ typedef struct {
   SamParameters parameters;
   hsize_t       steps, saved;
   double        first; /* load steps before those of the file */
-  int           has[SAM_RESULTS_FIELDS], bulk[2][SAM_BULK_COMPONENTS], cycle;
+  int           has[SAM_RESULTS_FIELDS], bulk[2][SAM_BULK_COMPONENTS], number[SAM_RESULTS_NUMBERS];
 } Facts;
 
 struct _n_SamResults {
@@ -82,14 +83,16 @@ static void GetParameters(SamFile f, SamParameters *all)
   }
 }
 
-/* Opens a dataset of real numbers with that number of dimensions, and gets its shape. */
+/* Opens a dataset of numbers with that number of dimensions, and gets its shape. */
 static PetscErrorCode Open(SamFile f, const char name[], int rank, hsize_t shape[], hid_t *dataset)
 {
+  H5T_class_t type;
+
   PetscFunctionBegin;
   *dataset = H5Dopen2(f->id, name, H5P_DEFAULT);
   CHECK(f, *dataset >= 0, "it has no dataset %s", name);
-  CHECK(f,
-        H5Tget_class(H5Dget_type(*dataset)) == H5T_FLOAT && H5Sget_simple_extent_ndims(H5Dget_space(*dataset)) == rank,
+  type = H5Tget_class(H5Dget_type(*dataset));
+  CHECK(f, (type == H5T_FLOAT || type == H5T_INTEGER) && H5Sget_simple_extent_ndims(H5Dget_space(*dataset)) == rank,
         "%s is not what petsam writes", name);
   (void)SamFileGetSize(f, *dataset, rank, shape);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -164,7 +167,7 @@ static PetscErrorCode Look(SamFile f, const void *question, void *answer)
   for (int n = 0; n < 2 * SAM_BULK_COMPONENTS; n++)
     PetscCall(ExamineColumn(f, facts, SAM_BULK_CONDITION(0, n)->name,
                             &facts->bulk[n / SAM_BULK_COMPONENTS][n % SAM_BULK_COMPONENTS]));
-  PetscCall(ExamineColumn(f, facts, "cycle", &facts->cycle));
+  for (int n = 0; n < SAM_RESULTS_NUMBERS; n++) PetscCall(ExamineColumn(f, facts, numbers[n], &facts->number[n]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -337,10 +340,10 @@ PetscErrorCode SamResultsReadBulkStress(SamResults r, PetscInt step, PetscInt bo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamResultsReadCycle(SamResults r, PetscInt step, double *cycle)
+PetscErrorCode SamResultsReadNumber(SamResults r, PetscInt step, SamResultsNumber number, double *value)
 {
   PetscFunctionBegin;
-  *cycle = 0;
-  if (r->facts.cycle) PetscCall(ReadNumber(r, "cycle", step, cycle));
+  *value = 0;
+  if (r->facts.number[number]) PetscCall(ReadNumber(r, numbers[number], step, value));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

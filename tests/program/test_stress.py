@@ -92,6 +92,14 @@ def test_largest_tension_of_sliding_is_found_at_the_edge(launcher, tmp_path, bod
         assert np.array_equal(found[0]["history/" + name], found[1]["history/" + name])
 
 
+def test_steps_that_petsam_has_not_solved_are_told(launcher, tmp_path):
+    case = dict(SPHERE, grid_n=32, load_tx=None, output="c.h5")
+    case.update(grid_size=1e-3)  # smaller than the contact
+    conftest.execute(launcher, tmp_path, [case], 1, 12)
+    told = conftest.execute(launcher, tmp_path, [dict(input="c.h5", output="s.h5", depths=1e-4)], 1, 0, program=PROGRAM)
+    assert "has not solved 1 of 1 steps: step 1 has the status 12" in told.stderr
+
+
 def test_edge_that_is_not_resolved_has_no_stress(launcher, tmp_path):
     case = dict(SPHERE, grid_n=36, grid_size=4.2e-3, load_tx=None, disp_x=1e-4, output="c.h5")  # slides
     case.update(grid_center=(0.3 * 4.2e-3 / 36, 0.0))

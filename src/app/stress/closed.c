@@ -59,7 +59,7 @@ static PetscErrorCode CheckLife(SamStressRun *run, PetscBool *life)
   *life = PETSC_FALSE;
   for (int k = 0; k < 2; k++) {
     PetscCall(SamResultsGetSaved(run->results, run->saved[k ? run->steps - 1 : 0], &step, NULL));
-    PetscCall(SamResultsReadCycle(run->results, step, &cycle[k]));
+    PetscCall(SamResultsReadNumber(run->results, step, SAM_RESULTS_CYCLE, &cycle[k]));
   }
   *life = cycle[0] > 0 || cycle[1] > 0;
   if (cycle[0] == cycle[1]) PetscFunctionReturn(PETSC_SUCCESS);
