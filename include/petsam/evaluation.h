@@ -25,6 +25,14 @@ typedef enum {
 /* SamQuantityComponents - number of the components of a quantity. Not collective. */
 PETSC_EXTERN PetscInt SamQuantityComponents(SamQuantity quantity);
 
+/*
+  SamFatigueAverage - of which stress fatigue parameters are computed, by the theory of critical distances: at a point
+  half a length below the surface, as a mean over the line from the surface to two lengths below it, or over the half
+  disc of that radius below the surface, in the plane of x and z (below a line of cells along y: of y and z). Source:
+  Taylor 2007, The Theory of Critical Distances, chapter 3.
+*/
+typedef enum { SAM_AVERAGE_NONE, SAM_AVERAGE_POINT, SAM_AVERAGE_LINE, SAM_AVERAGE_AREA } SamFatigueAverage;
+
 /* The fields of a step that an evaluation reads: tractions (Pa), and for Ruiz's parameters the slip (m). */
 typedef enum {
   SAM_STEP_PRESSURE,
@@ -58,6 +66,8 @@ PETSC_EXTERN PetscErrorCode SamEvaluationDestroy(SamEvaluation *evaluation);
                         and none but the bulk stress far from the contact, are the cycle of all its points. -passing
     SetFatigueConstants without those of the body, n = 1: the same everywhere, else of each layer and then of the
                         substrate, if that is not rigid. -fatigue_crossland_alpha, ...
+    SetFatigueLength    averages the stresses of fatigue parameters below each cell of the surface over a length (m),
+                        in place of the depths and of other quantities. -fatigue_length, -fatigue_average
 */
 PETSC_EXTERN PetscErrorCode SamEvaluationSetBody(SamEvaluation evaluation, PetscInt body);
 PETSC_EXTERN PetscErrorCode SamEvaluationGetBody(SamEvaluation evaluation, PetscInt *body);
@@ -67,6 +77,8 @@ PETSC_EXTERN PetscErrorCode SamEvaluationSetPassing(SamEvaluation evaluation, Pe
 PETSC_EXTERN PetscErrorCode SamEvaluationSetQuantities(SamEvaluation evaluation, const PetscBool wants[SAM_QUANTITIES]);
 PETSC_EXTERN PetscErrorCode SamEvaluationSetFatigueConstants(SamEvaluation evaluation, PetscInt n,
                                                              const SamFatigueConstants constants[]);
+PETSC_EXTERN PetscErrorCode SamEvaluationSetFatigueLength(SamEvaluation evaluation, PetscReal length,
+                                                          SamFatigueAverage average);
 /* SamEvaluationSetFromOptions - reads these options. Collective. Errors: SAM_ERR_USER. */
 PETSC_EXTERN PetscErrorCode SamEvaluationSetFromOptions(SamEvaluation evaluation, const SamOptions *from);
 /*

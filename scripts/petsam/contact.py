@@ -502,13 +502,14 @@ class Contact:
         """
         self._call("record", ctypes.c_int(bool(on)))
 
-    def fatigue(self, parameters, depths=0.0, section=None, body=2, quantities=(), **constants):
+    def fatigue(self, parameters, depths=None, section=None, body=2, quantities=(), **constants):
         """Fatigue parameters over the recorded steps, taken as one closed cycle: {name: array}, as stress().
 
         parameters  of crossland, dang_van, findley, swt, fatemi_socie, ruiz; their arrays have the shape (z, y, x)
         constants   fatigue_crossland_alpha, fatigue_dang_van_alpha, fatigue_findley_k, fatigue_fatemi_socie_k,
                     fatigue_yield (Pa), passing (True: of a point that passes along x under the one recorded step):
-                    the options of petsam-stress
+                    fatigue_length (m) and fatigue_average (point, line, area) instead of depths, of which the default
+                    is the surface: the options of petsam-stress
         quantities  those of stress() that are wanted too, of all steps: (time, z, y, x)
 
         CycleWarning where the last step has not the tractions of the state in which recording began.

@@ -36,6 +36,7 @@ PetscErrorCode SamEvaluationDestroy(SamEvaluation *evaluation)
   PetscCall(SamStressDestroy(&e->stress));
   PetscCall(SamElasticityDestroy(&e->elasticity));
   PetscCall(PetscFree2(e->depth, e->side));
+  PetscCall(PetscFree(e->weight));
   PetscCall(PetscFree(e->largest));
   PetscCall(PetscFree(e));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -298,6 +299,7 @@ PetscErrorCode SamEvaluationSetUp(SamEvaluation e)
   PetscCheck(e->elasticity, e->comm, PETSC_ERR_ORDER, "An evaluation without elasticity");
   PetscCall(CreateStress(e));
   PetscCall(CheckConstants(e));
+  PetscCall(SamAverageSetUp(e));
   PetscCall(SplitInterfaces(e));
   PetscCall(CheckPassing(e));
   PetscCheck(e->source.steps > 1 || e->passing || !SamCycleWanted(e), e->comm, SAM_ERR_USER,
@@ -388,10 +390,12 @@ PetscErrorCode SamEvaluationCompute(SamEvaluation e, SamEvaluationWrite write, v
 
 PetscErrorCode SamEvaluationGetLayout(SamEvaluation e, SamStressLayout *layout)
 {
+  static const PetscReal surface = 0;
+
   PetscFunctionBegin;
   *layout = (SamStressLayout){.steps   = e->source.steps,
-                              .depths  = e->depths,
-                              .depth   = e->depth,
+                              .depths  = e->average ? 1 : e->depths,
+                              .depth   = e->average ? &surface : e->depth,
                               .section = e->section,
                               .axis    = e->axis,
                               .index   = e->index};
@@ -434,6 +438,7 @@ PetscErrorCode SamEvaluationGetLargest(SamEvaluation e, SamQuantity quantity, Pe
   *largest = PlaceOf(e, SamQuantityIsOfCycle(quantity)   ? &e->fatigue[quantity]
                         : quantity == SAM_QUANTITY_MISES ? &e->largest[step].mises
                                                          : &e->largest[step].principal);
+  if (SamQuantityIsOfCycle(quantity) && e->average && !isnan(largest->value)) largest->place[2] = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -33,7 +33,9 @@ struct _n_SamEvaluation {
   PetscBool           passing; /* the states of a cycle are the stresses of a row of cells, and those far from it */
   SamFatigueConstants constants[SAM_LAYERS + 1]; /* but for the body's */
   PetscInt            materials; /* that have constants of their own, layers first; 1: all have the first ones */
-  const char         *dash;      /* before the names of settings in messages, where options gave them */
+  SamFatigueAverage   average;
+  PetscReal           length, *weight; /* of the average, m; the part of each depth in it */
+  const char         *dash;            /* before the names of settings in messages, where options gave them */
   /* bodies */
   SamElasticity             elasticity;
   const SamFourierSettings *settings;
@@ -101,6 +103,14 @@ PETSC_INTERN PetscErrorCode SamLargestAgree(MPI_Comm comm, double *value, int n,
 */
 PETSC_INTERN PetscBool      SamCycleWanted(SamEvaluation e);
 PETSC_INTERN PetscErrorCode SamCycleWrite(SamEvaluation e, const SamPoints *points, double done, double share);
+
+/*
+  SamAverageSetUp - the depths of the average, and their parts (average.c). Collective. Errors: SAM_ERR_USER.
+  SamAverageAdd - adds the part of depth k in it: `from` and `to` are n values, lines of `length` points. Not collective.
+*/
+PETSC_INTERN PetscErrorCode SamAverageSetUp(SamEvaluation e);
+PETSC_INTERN PetscErrorCode SamAverageAdd(SamEvaluation e, PetscInt k, PetscInt length, ptrdiff_t n,
+                                          const double from[], double to[]);
 
 /* SamEvaluationTell - calls the monitor. Not collective. */
 PETSC_INTERN PetscErrorCode SamEvaluationTell(SamEvaluation e, const char work[], double part, double whole);

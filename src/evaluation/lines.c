@@ -57,32 +57,58 @@ static PetscErrorCode ComputeSteps(SamEvaluation e, SamSection section, PetscInt
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamLinesCompute(SamEvaluation e)
+/* All steps at some depths from `depth` on; a mean of them is collected in `sum`, which is made here. */
+static PetscErrorCode ComputeDepths(SamEvaluation e, PetscInt depth, PetscInt depths, SamPoints *p, double **sum)
 {
   const PetscInt batch = Batch(e), room = SamCycleWanted(e) ? e->source.steps : batch;
-  SamPoints      p = {.count = 0};
   PetscInt       length;
+  ptrdiff_t      values;
   SamSection     section;
   Vec            tractions;
   double         part;
 
   PetscFunctionBegin;
-  PetscCall(SamSectionCreate(e->stress, e->axis, e->index, e->depths, e->depth, &section));
-  PetscCall(SamSectionGetDepths(section, &p.depth, &p.depths, &length));
-  p.count = p.depths * length;
-  p.first = (double)p.depth * (double)length;
-  PetscCall(SamAllocate(sizeof(double) * (size_t)(room * SAM_STRESS_COMPONENTS) * (size_t)p.count, &p.stress));
+  PetscCall(SamSectionCreate(e->stress, e->axis, e->index, depths, e->depth + depth, &section));
+  PetscCall(SamSectionGetDepths(section, &p->depth, &p->depths, &length));
+  p->depth += depth;
+  p->count = p->depths * length;
+  p->first = (double)p->depth * (double)length;
+  values   = room * SAM_STRESS_COMPONENTS * (ptrdiff_t)p->count;
+  SamFree(p->stress);
+  PetscCall(SamAllocate(sizeof(double) * (size_t)values, &p->stress));
   PetscCall(SamGridCreateVec(e->grid, SAM_STRESS_TRACTIONS, &tractions));
   for (PetscInt first = 0; first < e->source.steps; first += batch) {
     const PetscInt count = PetscMin(batch, e->source.steps - first);
 
-    PetscCall(ComputeSteps(e, section, first, count, &p, tractions));
-    part = (double)(first + count) / (double)e->source.steps;
+    PetscCall(ComputeSteps(e, section, first, count, p, tractions));
+    part = ((double)depth + (double)depths * (double)(first + count) / (double)e->source.steps) / (double)e->depths;
     PetscCall(SamEvaluationTell(e, "section", part, SamCycleWanted(e) ? 0 : part));
   }
-  if (SamCycleWanted(e)) PetscCall(SamCycleWrite(e, &p, 0, 1));
+  if (e->average && !*sum) {
+    PetscCall(SamAllocate(sizeof(double) * (size_t)values, sum));
+    PetscCall(PetscArrayzero(*sum, values));
+  }
+  if (e->average) PetscCall(SamAverageAdd(e, depth, length, values, p->stress, *sum));
   PetscCall(VecDestroy(&tractions));
-  SamFree(p.stress);
   PetscCall(SamSectionDestroy(&section));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLinesCompute(SamEvaluation e)
+{
+  const PetscInt depths = e->average ? 1 : e->depths; /* one by one all are the first rank's */
+  SamPoints      p      = {.count = 0};
+  double        *sum    = NULL;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < e->depths; k += depths) PetscCall(ComputeDepths(e, k, depths, &p, &sum));
+  if (e->average) {
+    SamFree(p.stress);
+    p.stress = sum;
+    p.depth  = 0;
+    p.first  = 0;
+  }
+  if (SamCycleWanted(e)) PetscCall(SamCycleWrite(e, &p, 0, 1));
+  SamFree(p.stress);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -33,7 +33,8 @@ static PetscErrorCode ReadTractions(SamEvaluation e, PetscInt step, Vec field)
 
 static PetscErrorCode ComputeStep(SamEvaluation e, PetscInt step, const SamPoints *p, Vec field)
 {
-  double *a;
+  const ptrdiff_t size = SAM_STRESS_COMPONENTS * (ptrdiff_t)p->count;
+  double         *a;
 
   PetscFunctionBegin;
   PetscCall(ReadTractions(e, step, field));
@@ -42,9 +43,10 @@ static PetscErrorCode ComputeStep(SamEvaluation e, PetscInt step, const SamPoint
   PetscCall(VecGetArray(field, &a));
   SamStressAddBulk(e, step, p, a);
   PetscCall(SamQuantitiesWrite(e, step, p, a));
-  if (p->stress)
-    PetscCall(PetscArraycpy(p->stress + step * SAM_STRESS_COMPONENTS * (ptrdiff_t)p->count, a,
-                            SAM_STRESS_COMPONENTS * p->count));
+  if (p->stress && e->average)
+    PetscCall(SamAverageAdd(e, p->depth, e->grid->nx, size, a, p->stress + step * size));
+  else if (p->stress)
+    PetscCall(PetscArraycpy(p->stress + step * size, a, size));
   PetscCall(VecRestoreArray(field, &a));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -58,9 +60,12 @@ PetscErrorCode SamMapsCompute(SamEvaluation e)
 
   PetscFunctionBegin;
   PetscCall(SamGridCreateVec(g, SAM_STRESS_COMPONENTS, &field));
-  if (SamCycleWanted(e))
-    PetscCall(
-      SamAllocate(sizeof(double) * (size_t)(e->source.steps * SAM_STRESS_COMPONENTS) * (size_t)p.count, &p.stress));
+  if (SamCycleWanted(e)) {
+    const size_t values = (size_t)(e->source.steps * SAM_STRESS_COMPONENTS) * (size_t)p.count;
+
+    PetscCall(SamAllocate(sizeof(double) * values, &p.stress));
+    if (e->average) PetscCall(PetscArrayzero(p.stress, values));
+  }
   for (p.depth = 0; p.depth < e->depths; p.depth++) {
     p.first = ((double)p.depth * (double)g->ny + (double)g->row_start) * (double)g->nx;
     PetscCall(SamStressSetDepth(e->stress, e->depth[p.depth]));
@@ -69,8 +74,11 @@ PetscErrorCode SamMapsCompute(SamEvaluation e)
       part = ((double)p.depth + (double)(step + 1) / (double)e->source.steps) / e->depths;
       PetscCall(SamEvaluationTell(e, "maps", part, p.stress ? 0 : part));
     }
-    if (p.stress) PetscCall(SamCycleWrite(e, &p, (double)p.depth / e->depths, 1.0 / e->depths));
+    if (p.stress && !e->average) PetscCall(SamCycleWrite(e, &p, (double)p.depth / e->depths, 1.0 / e->depths));
   }
+  p.depth = 0;
+  p.first = (double)g->row_start * (double)g->nx;
+  if (e->average) PetscCall(SamCycleWrite(e, &p, 0, 1));
   SamFree(p.stress);
   PetscCall(VecDestroy(&field));
   PetscFunctionReturn(PETSC_SUCCESS);

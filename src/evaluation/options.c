@@ -191,6 +191,8 @@ static const struct {
 };
 enum { CONSTANTS = sizeof(constants) / sizeof(constants[0]) };
 
+static const char *const averages[] = {"point", "line", "area"}; /* from SAM_AVERAGE_POINT on */
+
 static PetscReal *ConstantOf(SamEvaluation e, PetscInt material, int k)
 {
   return (PetscReal *)(void *)((char *)&e->constants[material] + constants[k].place);
@@ -251,6 +253,42 @@ PetscErrorCode SamEvaluationAddParameters(SamEvaluation e, SamParameters *p)
     for (PetscInt m = 0; m < e->materials; m++) values[m] = *ConstantOf(e, m, k);
     PetscCall(SamParametersAddReals(p, constants[k].name, PETSC_TRUE, e->materials, values));
   }
+  if (e->average) {
+    PetscCall(SamParametersAddReals(p, "fatigue_length", PETSC_TRUE, 1, &e->length));
+    PetscCall(SamParametersAddText(p, "fatigue_average", PETSC_TRUE, averages[e->average - SAM_AVERAGE_POINT]));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The length over which stresses are averaged; the depths and quantities of other results are not for it. */
+static PetscErrorCode ReadLength(const SamOptions *from, SamEvaluation e)
+{
+  char      text[NAMES] = "line";
+  PetscReal length      = 0;
+  PetscBool set, print, given[2], some = PETSC_FALSE;
+  int       k = 0;
+
+  PetscFunctionBegin;
+  PetscCall(SamPrintHelp(&print));
+  PetscCall(SamOptionsReal(from, "fatigue_length",
+                           "length over which the stresses are averaged, m; default: not at all", SAM_RANGE_POSITIVE,
+                           &length, &set));
+  if (!set) SamOptionsKnow(from, "fatigue_average", "-fatigue_length");
+  if (!set && !print) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamOptionsWord(from, "fatigue_average",
+                           "point: at half the length deep; line: to twice the length; area: the half disc of it",
+                           "point,line,area", text, sizeof(text), NULL));
+  while (k < 3 && strcmp(text, averages[k])) k++;
+  PetscCheck(k < 3, from->comm, SAM_ERR_USER, "-fatigue_average %s: expected point, line or area", text);
+  if (print) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscOptionsHasName(NULL, from->prefix, "-depths", &given[0]));
+  PetscCall(PetscOptionsHasName(NULL, from->prefix, "-quantities", &given[1]));
+  for (PetscInt q = 0; q < SAM_QUANTITY_CROSSLAND; q++) some = some || e->wants[q];
+  PetscCheck(!given[0] && !(given[1] && some), from->comm, SAM_ERR_USER,
+             "-fatigue_length: the mean has depths and quantities of its own: omit -%s",
+             given[0] ? "depths" : "quantities");
+  PetscCall(PetscArrayzero(e->wants, SAM_QUANTITY_CROSSLAND));
+  PetscCall(SamEvaluationSetFatigueLength(e, length, (SamFatigueAverage)(SAM_AVERAGE_POINT + k)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -266,6 +304,7 @@ static PetscErrorCode ReadFatigue(const SamOptions *from, SamEvaluation e)
   PetscCall(SamOptionsBool(from, "passing", "the cycle is that of a point that passes along x under one step",
                            &e->passing, NULL));
   PetscCall(ReadConstants(from, e));
+  PetscCall(ReadLength(from, e));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

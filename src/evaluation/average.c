@@ -1,0 +1,108 @@
+/*
+  Means of the stress over a length, of which fatigue parameters are computed: they do not depend on the grid, where the
+  largest value of a point does, and they allow for the size effect (critical distances).
+
+  Below each cell of the surface, L being the length:
+    point  the stress at the depth L/2
+    line   (1/2L) times its integral from 0 to 2L
+    area   (2/pi L^2) times its integral over the half disc of radius L in the plane of the line of cells and z
+
+  The depths are Gauss' points of t, z = Z t^2, as stresses vary most near the surface. Across, a half disc has the mean
+  over its chord, of cells and parts of them; beyond the grid nothing counts.
+*/
+#include "evaluationimpl.h"
+#include <petscdt.h>
+
+#define DEPTHS 16
+
+PetscErrorCode SamEvaluationSetFatigueLength(SamEvaluation e, PetscReal length, SamFatigueAverage average)
+{
+  PetscFunctionBegin;
+  PetscCheck(length > 0 && length < PETSC_INFINITY, e->comm, SAM_ERR_USER, "%sfatigue_length %.6g: expected a number > 0",
+             e->dash, (double)length);
+  e->length  = length;
+  e->average = average;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The mean is of one material. */
+static PetscErrorCode CheckMaterial(SamEvaluation e)
+{
+  const SamPair   *pair;
+  const SamLayers *layers;
+  const PetscReal  deepest = e->depth[e->depths - 1];
+
+  PetscFunctionBegin;
+  PetscCall(SamElasticityGetPair(e->elasticity, &pair));
+  layers = &pair->layers[e->body - 1];
+  PetscCheck(!layers->count || deepest < layers->thickness[0], e->comm, SAM_ERR_USER,
+             "%sfatigue_length: the mean reaches %.4g m deep, through the first layer of %.4g m: choose a shorter one",
+             e->dash, (double)deepest, (double)layers->thickness[0]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamAverageSetUp(SamEvaluation e)
+{
+  const PetscInt  n     = e->average == SAM_AVERAGE_POINT ? 1 : DEPTHS;
+  const PetscReal reach = e->average == SAM_AVERAGE_LINE ? 2 * e->length : e->length;
+  PetscReal       t[DEPTHS], w[DEPTHS], z[DEPTHS], sum = 0;
+
+  PetscFunctionBegin;
+  PetscCall(PetscFree(e->weight));
+  if (e->average == SAM_AVERAGE_NONE) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCheck(SamCycleWanted(e), e->comm, SAM_ERR_USER, "%sfatigue_length is given without %sfatigue", e->dash, e->dash);
+  PetscCheck(!e->wants[SAM_QUANTITY_RUIZ], e->comm, SAM_ERR_USER,
+             "%sfatigue ruiz: is of the surface, and not of a mean over %sfatigue_length: omit one of them", e->dash,
+             e->dash);
+  for (PetscInt q = 0; q < SAM_QUANTITY_CROSSLAND; q++)
+    PetscCheck(!e->wants[q], e->comm, SAM_ERR_USER,
+               "%squantities: with %sfatigue_length there are means for fatigue parameters only: give none", e->dash,
+               e->dash);
+  PetscCall(PetscDTGaussQuadrature(n, 0, 1, t, w));
+  PetscCall(PetscMalloc1(n, &e->weight));
+  for (PetscInt k = 0; k < n; k++) {
+    z[k]         = n == 1 ? e->length / 2 : reach * t[k] * t[k];
+    e->weight[k] = w[k] * t[k];
+    if (e->average == SAM_AVERAGE_AREA) e->weight[k] *= PetscSqrtReal(1 - PetscSqr(z[k] / reach));
+    sum += e->weight[k];
+  }
+  for (PetscInt k = 0; k < n; k++) e->weight[k] /= sum;
+  PetscCall(SamEvaluationTakeDepths(e, "fatigue_length", n, z, NULL));
+  PetscCall(CheckMaterial(e));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The integral of a line up to x cells from its beginning; sums[i]: of its first i cells. */
+static double IntegralTo(const double sums[], PetscInt length, double x)
+{
+  const double   inside = PetscMin(PetscMax(x, 0), (double)length);
+  const PetscInt i      = (PetscInt)PetscMin(floor(inside), (double)(length - 1));
+
+  return sums[i] + (inside - (double)i) * (sums[i + 1] - sums[i]);
+}
+
+PetscErrorCode SamAverageAdd(SamEvaluation e, PetscInt k, PetscInt length, ptrdiff_t n, const double from[],
+                             double to[])
+{
+  const PetscReal side = e->section && e->axis == SAM_SECTION_Y ? e->grid->dy : e->grid->dx;
+  const double    half = PetscMax(PetscSqrtReal(PetscMax(0, PetscSqr(e->length) - PetscSqr(e->depth[k]))) / side, 0.5);
+  double         *sums;
+
+  PetscFunctionBegin;
+  if (e->average != SAM_AVERAGE_AREA) {
+    for (ptrdiff_t i = 0; i < n; i++) to[i] += e->weight[k] * from[i];
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(PetscMalloc1(length + 1, &sums));
+  for (ptrdiff_t first = 0; first < n; first += length) {
+    sums[0] = 0;
+    for (PetscInt i = 0; i < length; i++) sums[i + 1] = sums[i] + from[first + i];
+    for (PetscInt i = 0; i < length; i++) {
+      const double low = PetscMax(i + 0.5 - half, 0), high = PetscMin(i + 0.5 + half, (double)length);
+
+      to[first + i] += e->weight[k] * (IntegralTo(sums, length, high) - IntegralTo(sums, length, low)) / (high - low);
+    }
+  }
+  PetscCall(PetscFree(sums));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
