@@ -114,13 +114,12 @@ PETSC_EXTERN PetscErrorCode SamOutputWriteCycle(SamOutput output);
 */
 PETSC_EXTERN PetscErrorCode SamOutputGetSaved(SamOutput output, PetscInt *steps, PetscInt *saved, PetscReal *time);
 /*
+  SamOutputPlan - results without a file, of which only the size can be asked. Collective.
   SamOutputForecast - the size (bytes) of a file like this one of so many load steps and so many steps with fields,
   without compression. Not collective.
-  SamOutputGetSpace - the free space (bytes) of the file system that the file is on; infinite if that is not known.
-  Collective.
 */
+PETSC_EXTERN PetscErrorCode SamOutputPlan(SamGrid grid, const SamOutputSettings *settings, SamOutput *output);
 PETSC_EXTERN PetscErrorCode SamOutputForecast(SamOutput output, double steps, double saved, double *bytes);
-PETSC_EXTERN PetscErrorCode SamOutputGetSpace(SamOutput output, double *bytes);
 /* SamOutputHasReplaced - whether the file has replaced older results. Not collective. */
 PETSC_EXTERN PetscErrorCode SamOutputHasReplaced(SamOutput output, PetscBool *replaced);
 /* SamOutputGetXdmf - the name of the XDMF file beside the results, NULL without one; borrowed. Not collective. */

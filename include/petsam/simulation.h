@@ -38,6 +38,7 @@ typedef struct {
   const char *results;                        /* file; NULL: none */
   PetscBool   replaced;                       /* an older file of that name */
   char        size[64];                       /* of the results, in words */
+  double      seconds;                        /* that a step takes, roughly; 0: not known */
   char        when[PETSC_MAX_PATH_LEN + 256]; /* checkpoints are written, in words; empty: never */
   const char *restart;                        /* the checkpoint from which it goes on; NULL: none */
   char        after[64];                      /* in words: where that is */
@@ -94,8 +95,11 @@ PETSC_EXTERN PetscErrorCode SamSimulationSetSignals(SamSimulation simulation, vo
   SamSimulationSetUp - makes the contact and what else takes memory. While the help is printed, reads its options only.
   SamSimulationRun - goes on from the checkpoint, if there is one; solves all steps, or cycles; writes what is to be
   written. Ends early where a step has no solution, did not converge, or is at the edge of the grid.
+  SamSimulationRehearse - instead: what comes before the first step, without writing: reads the checkpoint, forecasts
+  size and time, and tells of the beginning.
   Collective. Errors: SAM_ERR_USER, SAM_ERR_FILE.
 */
+PETSC_EXTERN PetscErrorCode SamSimulationRehearse(SamSimulation simulation);
 PETSC_EXTERN PetscErrorCode SamSimulationSetFromOptions(SamSimulation simulation, const SamOptions *from,
                                                         const struct _n_SamArguments *arguments);
 PETSC_EXTERN PetscErrorCode SamSimulationSetUp(SamSimulation simulation, const SamOptions *from);

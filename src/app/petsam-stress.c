@@ -14,7 +14,6 @@
 /* A line of progress follows the one before after so many seconds, or such a part of the time spent. */
 #define TELL_SECONDS 1.0
 #define TELL_PART    0.05
-#define SHOWN        8 /* layers of which all maxima are printed */
 
 /* ---- set-up ---- */
 
@@ -211,120 +210,6 @@ static PetscErrorCode WriteStepNumbers(SamStressRun *run)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Writes largest values of each step and their places: name_max, name_max_x, name_max_y, and name_max_z below. */
-static PetscErrorCode WriteLargest(SamStressRun *run, const char name[], const char words[], const char where[],
-                                   const SamLargest largest[])
-{
-  static const char *const endings[] = {"max", "max_x", "max_y", "max_z"};
-  double                  *values;
-
-  PetscFunctionBegin;
-  PetscCall(PetscMalloc1(run->steps, &values));
-  for (int k = 0; k < (where[0] ? 3 : 4); k++) {
-    char dataset[64], text[128], of[16] = "";
-
-    for (PetscInt s = 0; s < run->steps; s++) values[s] = k ? largest[s].place[k - 1] : largest[s].value;
-    if (k) PetscCall(PetscSNPrintf(of, sizeof(of), "%c of the ", "xyz"[k - 1]));
-    PetscCall(PetscSNPrintf(dataset, sizeof(dataset), "%s_%s", name, endings[k]));
-    PetscCall(PetscSNPrintf(text, sizeof(text), "%s%s%s", of, words, where));
-    PetscCall(SamStressFileSetHistory(run->file, dataset, k ? "m" : "Pa", text, values));
-  }
-  PetscCall(PetscFree(values));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Those at the edge of contact, where there are maps of the surface, with a warning of steps without. */
-static PetscErrorCode WriteEdge(SamStressRun *run, SamLargest *largest[2], const SamStressLayout *layout)
-{
-  const char *const where   = " at the contact edge, on the surface";
-  PetscInt          missing = 0;
-  PetscMPIInt       rank;
-
-  PetscFunctionBegin;
-  if (layout->section || layout->depth[0] > 0) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt s = 0; s < run->steps; s++) {
-    SamLargest of[2];
-    PetscBool  lost;
-
-    PetscCall(SamEvaluationGetEdgeLargest(run->evaluation, s, of, &lost));
-    for (int k = 0; k < 2; k++) largest[k][s] = of[k];
-    missing += lost ? 1 : 0;
-  }
-  PetscCall(WriteLargest(run, "edge_stress_xx", "maximum stress xx", where, largest[0]));
-  PetscCall(WriteLargest(run, "edge_principal_1", "maximum principal stress", where, largest[1]));
-  PetscCallMPI(MPI_Comm_rank(run->grid->comm, &rank));
-  if (!missing || rank) PetscFunctionReturn(PETSC_SUCCESS);
-  fprintf(stderr,
-          "petsam-stress: warning: the contact edge is not found in %ld of %ld steps, and "
-          "/history/edge_stress_xx_max is NaN there: less than 95 %% of it is smooth and resolved, or petsam has "
-          "corrected it (-edges deferred): use results of -edges reconstruct; a finer grid helps only similar bodies\n",
-          (long)missing, (long)run->steps);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Those of each layer and at its bottom, where depths are there. */
-static PetscErrorCode WriteLayers(SamStressRun *run, SamLargest *values)
-{
-  static const char *const of[] = {"mises", "tension", "shear"}, *const is[] = {"von Mises stress",
-                                                                                "tension at the bottom",
-                                                                                "shear stress at the bottom"};
-  PetscInt layers;
-
-  PetscFunctionBegin;
-  PetscCall(SamEvaluationGetLayers(run->evaluation, &layers));
-  for (PetscInt k = 0; k < 3 * (layers + 1) - 2 && layers; k++) {
-    const PetscInt layer = k / 3;
-    PetscBool      some  = PETSC_FALSE;
-    char           name[64], words[96];
-
-    for (PetscInt s = 0; s < run->steps; s++) {
-      SamLargest three[3];
-
-      PetscCall(SamEvaluationGetLayerLargest(run->evaluation, layer, s, three));
-      values[s] = three[k % 3];
-      if (!isnan(values[s].value)) some = PETSC_TRUE;
-    }
-    if (!some) continue;
-    if (layer == layers)
-      PetscCall(PetscSNPrintf(name, sizeof(name), "substrate_%s", of[k % 3]));
-    else
-      PetscCall(PetscSNPrintf(name, sizeof(name), "layer%" PetscInt_FMT "_%s", layer + 1, of[k % 3]));
-    PetscCall(
-      PetscSNPrintf(words, sizeof(words), "maximum %s of the %s", is[k % 3], layer < layers ? "layer" : "substrate"));
-    PetscCall(WriteLargest(run, name, words, "", values));
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Writes the largest values of all steps, and of the fatigue parameters. */
-static PetscErrorCode WriteAllLargest(SamStressRun *run)
-{
-  SamStressLayout layout;
-  SamLargest     *largest[2];
-
-  PetscFunctionBegin;
-  PetscCall(SamEvaluationGetLayout(run->evaluation, &layout));
-  for (int k = 0; k < 2; k++) {
-    PetscCall(PetscMalloc1(run->steps, &largest[k]));
-    for (PetscInt s = 0; s < run->steps; s++)
-      PetscCall(
-        SamEvaluationGetLargest(run->evaluation, k ? SAM_QUANTITY_PRINCIPAL : SAM_QUANTITY_MISES, s, &largest[k][s]));
-  }
-  PetscCall(WriteLargest(run, "mises", "maximum von Mises stress", "", largest[0]));
-  PetscCall(WriteLargest(run, "principal_1", "maximum principal stress", "", largest[1]));
-  PetscCall(WriteEdge(run, largest, &layout));
-  PetscCall(WriteLayers(run, largest[0]));
-  for (PetscInt q = SAM_QUANTITY_CROSSLAND; q <= SAM_QUANTITY_RUIZ; q++) {
-    SamLargest of;
-
-    if (!layout.wants[q]) continue;
-    PetscCall(SamEvaluationGetLargest(run->evaluation, (SamQuantity)q, 0, &of));
-    PetscCall(SamStressFileSetLargest(run->file, (SamQuantity)q, of.value, of.place));
-  }
-  for (int k = 0; k < 2; k++) PetscCall(PetscFree(largest[k]));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* ---- the run ---- */
 
 static PetscErrorCode PrintBanner(SamStressRun *run)
@@ -350,78 +235,6 @@ static PetscErrorCode PrintBanner(SamStressRun *run)
                         "  ranks       %d, memory about %s per rank\n\n",
                         body, run->request.input, g->nx, g->ny, run->steps, layout.depths,
                         layout.section ? "on a section" : "maps", ranks, memory));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* The largest value of a kind in a layer over all steps; -INFINITY without one. */
-static PetscErrorCode GetLargestOf(SamStressRun *run, PetscInt layer, PetscInt kind, SamLargest *most)
-{
-  SamLargest three[3];
-
-  PetscFunctionBegin;
-  *most = (SamLargest){.value = -INFINITY};
-  for (PetscInt s = 0; s < run->steps; s++) {
-    PetscCall(SamEvaluationGetLayerLargest(run->evaluation, layer, s, three));
-    if (three[kind].value > most->value) *most = three[kind];
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* The largest values of each layer over all steps; of many layers only those that are largest of all. */
-static PetscErrorCode PrintLayers(SamStressRun *run)
-{
-  static const char *const of[]    = {"von Mises stress", "tension at its bottom", "shear at its bottom"};
-  double                   best[3] = {-INFINITY, -INFINITY, -INFINITY};
-  PetscInt                 layers, all;
-  SamLargest               most;
-
-  PetscFunctionBegin;
-  PetscCall(SamEvaluationGetLayers(run->evaluation, &layers));
-  all = layers ? 3 * (layers + 1) - 2 : 0;
-  for (PetscInt k = 0; k < all && layers > SHOWN; k++) {
-    PetscCall(GetLargestOf(run, k / 3, k % 3, &most));
-    best[k % 3] = PetscMax(best[k % 3], most.value);
-  }
-  for (PetscInt k = 0; k < all; k++) {
-    char name[32] = "substrate";
-
-    PetscCall(GetLargestOf(run, k / 3, k % 3, &most));
-    if (most.value == -INFINITY || most.value < best[k % 3]) continue;
-    if (k / 3 < layers) PetscCall(PetscSNPrintf(name, sizeof(name), "layer %" PetscInt_FMT, k / 3 + 1));
-    PetscCall(PetscPrintf(run->grid->comm, "              %s: %s %.6g Pa at (%.4g, %.4g, %.4g) m\n", name, of[k % 3],
-                          most.value, most.place[0], most.place[1], most.place[2]));
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode PrintLargest(SamStressRun *run)
-{
-  static const char *const        names[] = {"Crossland", "Dang Van", "Findley", "SWT", "Fatemi-Socie", "Ruiz 1"},
-                           *const units[] = {" Pa", " Pa", " Pa", " Pa", "", " J/m2"};
-  SamLargest                      most    = {.value = -INFINITY}, of;
-  SamStressLayout                 layout;
-  PetscInt                        load = 0;
-
-  PetscFunctionBegin;
-  if (run->quiet) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt s = 0; s < run->steps; s++) {
-    PetscCall(SamEvaluationGetLargest(run->evaluation, SAM_QUANTITY_MISES, s, &of));
-    if (s && of.value <= most.value) continue;
-    most = of;
-    PetscCall(SamResultsGetSaved(run->results, run->saved[s], &load, NULL));
-  }
-  PetscCall(PetscPrintf(run->grid->comm,
-                        "  maximum     von Mises stress %.6g Pa at (%.4g, %.4g, %.4g) m in step %" PetscInt_FMT "\n",
-                        most.value, most.place[0], most.place[1], most.place[2], load));
-  PetscCall(PrintLayers(run));
-  PetscCall(SamEvaluationGetLayout(run->evaluation, &layout));
-  for (PetscInt q = SAM_QUANTITY_CROSSLAND; q <= SAM_QUANTITY_RUIZ; q++) {
-    if (!layout.wants[q]) continue;
-    PetscCall(SamEvaluationGetLargest(run->evaluation, (SamQuantity)q, 0, &of));
-    PetscCall(PetscPrintf(run->grid->comm, "              %s %.6g%s at (%.4g, %.4g, %.4g) m\n",
-                          names[q - SAM_QUANTITY_CROSSLAND], of.value, units[q - SAM_QUANTITY_CROSSLAND], of.place[0],
-                          of.place[1], of.place[2]));
-  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -465,11 +278,11 @@ static PetscErrorCode Compute(void *context)
     PetscCall(Tell(run, "all", 1, 0));
   }
   PetscCall(WriteStepNumbers(run));
-  PetscCall(WriteAllLargest(run));
+  PetscCall(SamLargestWrite(run));
   PetscCall(SamStressFileFinish(run->file));
   run->writing = PETSC_FALSE;
   PetscCall(PetscTime(&end));
-  PetscCall(PrintLargest(run));
+  if (!run->quiet) PetscCall(SamLargestPrint(run));
   if (!run->quiet)
     PetscCall(
       PetscPrintf(run->grid->comm, "  time        %.2f s\n  written     %s\n", end - run->start, run->request.output));

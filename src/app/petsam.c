@@ -17,6 +17,7 @@ enum { EXIT_STOPPED = 75 };
 typedef struct {
   SamSimulation simulation;
   SamReport     report;
+  PetscBool     dry; /* checks and forecasts only */
 } SamRun;
 
 /* ---- signals ---- */
@@ -178,6 +179,8 @@ static PetscErrorCode SetUp(void *context, const SamArguments *arguments)
   PetscCall(SamSimulationSetSignals(run->simulation, signaled));
   PetscCall(SamSimulationSetFromOptions(run->simulation, &from, arguments));
   PetscCall(SamReportCreateFromOptions(&from, &run->report));
+  PetscCall(SamOptionsBool(&from, "dry_run", "check everything, print memory, disk and time, and solve nothing",
+                           &run->dry, NULL));
   PetscCall(SamSimulationGetFiles(run->simulation, &files));
   if (files.checkpoint) CatchSignals(PETSC_TRUE);
   PetscCall(CheckFiles(&files, arguments));
@@ -211,8 +214,8 @@ static PetscErrorCode Solve(void *context)
 
   PetscFunctionBegin;
   PetscCall(SamSimulationSetMonitor(run->simulation, Tell, run));
-  PetscCall(SamSimulationRun(run->simulation));
-  PetscCall(SamReportClosing(run->report));
+  PetscCall((run->dry ? SamSimulationRehearse : SamSimulationRun)(run->simulation));
+  if (!run->dry) PetscCall(SamReportClosing(run->report));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

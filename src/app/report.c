@@ -130,6 +130,10 @@ PetscErrorCode SamReportBanner(SamReport r, SamGrid grid, double bytes, const Sa
                         start->results ? "in " : "not kept (no -output)", start->results ? start->results : "",
                         start->replaced ? ", replacing those there" : ""));
   if (start->results) PetscCall(PetscPrintf(r->comm, "  %-10s  %s\n", "file size", start->size));
+  if (start->seconds > 0)
+    PetscCall(PetscPrintf(r->comm, "  %-10s  roughly %.2g s a step, %.2g s in all%s; nothing is solved (-dry_run)\n",
+                          "time", start->seconds, start->seconds * (double)start->steps,
+                          start->cyclic ? " to there" : ""));
   if (start->when[0]) PetscCall(PetscPrintf(r->comm, "  %-10s  %s\n", "checkpoint", start->when));
   PetscCall(PrintRestart(r, start));
   PetscCall(PetscPrintf(r->comm, "\n"));

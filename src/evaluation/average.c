@@ -18,8 +18,8 @@
 PetscErrorCode SamEvaluationSetFatigueLength(SamEvaluation e, PetscReal length, SamFatigueAverage average)
 {
   PetscFunctionBegin;
-  PetscCheck(length > 0 && length < PETSC_INFINITY, e->comm, SAM_ERR_USER, "%sfatigue_length %.6g: expected a number > 0",
-             e->dash, (double)length);
+  PetscCheck(length > 0 && length < PETSC_INFINITY, e->comm, SAM_ERR_USER,
+             "%sfatigue_length %.6g: expected a number > 0", e->dash, (double)length);
   e->length  = length;
   e->average = average;
   PetscFunctionReturn(PETSC_SUCCESS);

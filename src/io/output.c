@@ -242,6 +242,14 @@ PetscErrorCode SamOutputCreate(SamGrid grid, const char filename[], const SamOut
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamOutputPlan(SamGrid grid, const SamOutputSettings *set, SamOutput *output)
+{
+  PetscFunctionBegin;
+  PetscCall(SamInitialize());
+  PetscCall(SamOutputAllocate(grid, NULL, set, output));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Written last: a file that is not marked as closed was left by a run that did not get to its end. */
 static void MarkClosed(SamOutput o)
 {
@@ -257,6 +265,7 @@ PetscErrorCode SamOutputDestroy(SamOutput *output)
 
   PetscFunctionBegin;
   *output = NULL;
+  if (o && !o->f) PetscCall(SamOutputFree(&o));
   if (!o) PetscFunctionReturn(PETSC_SUCCESS);
   if (!o->broken && o->waits) changed = SamOutputFlush(o);
   if (!changed && o->f->writing && !o->broken && !o->copying)
@@ -295,13 +304,6 @@ PetscErrorCode SamOutputGetXdmf(SamOutput o, const char **filename)
 {
   PetscFunctionBegin;
   *filename = o->xdmf ? SamXdmfGetName(o->xdmf) : NULL;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamOutputGetSpace(SamOutput o, double *bytes)
-{
-  PetscFunctionBegin;
-  PetscCall(SamFileGetSpace(o->f, bytes));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -57,7 +57,7 @@ static PetscErrorCode WriteStep(void *context, PetscInt step, PetscReal cycles, 
 
   PetscFunctionBegin;
   PetscCall(SamHistoryGetStart(s->history, &start));
-  due = SamPlanIsOutput(&s->plan, cycles) && ((step + 1) % s->output_every == 0 || step + 1 == s->needs.steps - start);
+  due = (PetscBool)(SamPlanIsOutput(&s->plan, cycles) && SamSimulationSaves(s, step + 1, s->needs.steps - start));
   if (!step) s->last_time = PETSC_NINFINITY; /* the fields of the step before are not those of a step in the file */
   PetscCall(TimeOf(s, cycles, &told.control.time));
   PetscCall(Place(s, cycles, told.control.time));

@@ -3,6 +3,8 @@
 #include <petsam/private/arguments.h>
 #include <petsam/private/lawimpl.h>
 #include <petsam/private/solutionimpl.h>
+#include <string.h>
+#include <strings.h>
 
 #define FLUSH 2.0 /* s that steps without fields wait to be written */
 
@@ -92,15 +94,26 @@ static PetscErrorCode ReadPlan(SamSimulation s, PetscBool given, const SamOption
 
 static PetscErrorCode ReadResults(SamSimulation s, const SamOptions *from)
 {
-  PetscBool help;
+  char        at[16] = "steps";
+  const char *ending;
+  PetscBool   help;
 
   PetscFunctionBegin;
   PetscCall(SamOptionsHeading(from, "Results and resources"));
   PetscCall(
     SamOptionsFile(from, "output", "HDF5 file of the results", s->filename, sizeof(s->filename), &s->has_output));
+  ending = strrchr(s->filename, '.');
+  PetscCheck(!ending || (strcasecmp(ending, ".csv") && strcasecmp(ending, ".txt")), from->comm, SAM_ERR_USER,
+             "-output %s: the results are an HDF5 file: name it .h5", s->filename);
   s->output_every = 1;
   PetscCall(SamOptionsInt(from, "output_every", "write the fields of every m-th step, and of the last", 1,
                           &s->output_every, NULL));
+  PetscCall(SamOptionsWord(from, "output_at",
+                           "the steps that -output_every counts: all (steps), or those that end rows (history)",
+                           "steps,history", at, sizeof(at), NULL));
+  PetscCheck(!strcmp(at, "steps") || !strcmp(at, "history"), from->comm, SAM_ERR_USER,
+             "-output_at %s: expected steps or history", at);
+  s->output_rows = (PetscBool)!strcmp(at, "history");
   PetscCall(SamOptionsBool(from, "stiffness", "tangent stiffness of every step, for continued loading and reversal",
                            &s->needs.stiffness, NULL));
   PetscCall(SamOutputSettingsSetFromOptions(&s->output_settings, from));

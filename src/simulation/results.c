@@ -1,5 +1,6 @@
 /* The results file of a simulation: created, gone on with, or begun as a branch; and how large it will be. */
 #include "simulationimpl.h"
+#include <petsam/private/file.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -97,10 +98,24 @@ PetscErrorCode SamSimulationOpenResults(SamSimulation s)
 
 /* ---- size ---- */
 
+PetscBool SamSimulationSaves(SamSimulation s, PetscInt step, PetscInt last)
+{
+  const PetscInt first      = s->output_rows && !s->life; /* the start is the first row */
+  PetscInt       increments = 1, start = 0;
+
+  if (s->output_rows) PetscCallAbort(s->comm, SamHistoryGetIncrements(s->history, &increments));
+  if (s->output_rows && !s->life) PetscCallAbort(s->comm, SamHistoryGetStart(s->history, &start));
+  return (PetscBool)(step == last || ((step - start) % increments == 0 &&
+                                      ((step - start) / increments + first) % s->output_every == 0));
+}
+
 /* Steps first + 1 ... last whose fields are saved. */
 static PetscInt CountSaved(SamSimulation s, PetscInt first, PetscInt last)
 {
-  return last / s->output_every - first / s->output_every + (last > first && last % s->output_every ? 1 : 0);
+  PetscInt count = 0;
+
+  for (PetscInt k = first + 1; k <= last; k++) count += SamSimulationSaves(s, k, last);
+  return count;
 }
 
 /* The size of the whole file, and what is still to come of it. In a life the cycles that will be computed count not. */
@@ -132,7 +147,7 @@ PetscErrorCode SamSimulationForecast(SamSimulation s, char text[], size_t size)
 
   PetscFunctionBegin;
   PetscCall(Estimate(s, &whole, &rest));
-  PetscCall(SamOutputGetSpace(s->output, &space));
+  PetscCall(SamFileGetSpace(s->comm, "output", s->filename, &space));
   SamDescribeBytes(whole, words[0], sizeof(words[0]));
   SamDescribeBytes(rest, words[1], sizeof(words[1]));
   SamDescribeBytes(space, words[2], sizeof(words[2]));

@@ -55,6 +55,7 @@ struct _n_SamSimulation {
   PetscBool              prepared;
   PetscBool              stopped; /* before its end, with a checkpoint */
   PetscInt               output_every;
+  PetscBool              output_rows; /* it counts the rows of the load history */
   PetscBool              has_output;
   PetscBool              told;      /* in a life: the step that failed is in the file */
   PetscBool              warned;    /* a warning has been printed in this life */
@@ -79,11 +80,13 @@ PETSC_INTERN PetscErrorCode SamSimulationWarn(void *simulation, const char text[
   SamSimulationFileExists - whether there is a file of that name, by rank 0. Collective.
   SamSimulationOpenResults - opens the results. After a restart it extends a file that is there; a new name begins a
   file with the steps from there on. Collective. Errors: SAM_ERR_FILE, SAM_ERR_USER.
+  SamSimulationSaves - whether the fields of a step, from 1 to last, are saved. Not collective.
   SamSimulationForecast - how large the results will be, in words; warns where the disk has not that much space.
   Collective.
 */
 PETSC_INTERN PetscErrorCode SamSimulationFileExists(SamSimulation simulation, const char filename[], PetscBool *exists);
 PETSC_INTERN PetscErrorCode SamSimulationOpenResults(SamSimulation simulation);
+PETSC_INTERN PetscBool      SamSimulationSaves(SamSimulation simulation, PetscInt step, PetscInt last);
 PETSC_INTERN PetscErrorCode SamSimulationForecast(SamSimulation simulation, char text[], size_t size);
 /* SamSimulationCreateLife - makes the life, if cycles are asked for, once there is a contact. Collective. */
 PETSC_INTERN PetscErrorCode SamSimulationCreateLife(SamSimulation simulation);

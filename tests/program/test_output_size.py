@@ -226,3 +226,42 @@ def test_steps_before_a_failure_are_written(tmp_path, petsam):
     petsam(CASE, dict(output_every=1000, output_flush=1000), check=11)
     with h5py.File(tmp_path / "out.h5") as f:
         assert f["history/status"][:].tolist() == [0, 0, 11] and f["time"][:].tolist() == [2]
+
+
+# ---- a run that only checks
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_dry_run_forecasts_and_writes_nothing(folder, petsam, ranks):
+    before = sorted(folder.iterdir())
+    done = petsam(CASE, dict(dry_run=True, checkpoint="state.h5"), ranks=ranks)
+    assert sorted(folder.iterdir()) == before
+    told = re.search(r"file size +about ([\d.]+) (\w+), .* free there", done.stdout)
+    assert "roughly" in done.stdout and "nothing is solved" in done.stdout and "memory" in done.stdout
+    petsam(CASE)
+    unit = dict(kB=1e3, MB=1e6)[told[2]]
+    assert float(told[1]) * unit == pytest.approx((folder / "out.h5").stat().st_size, rel=0.1)
+
+
+def test_dry_run_reads_all_that_a_run_reads(folder, petsam):
+    petsam(CASE, dict(checkpoint="state.h5", checkpoint_every=7))
+    on = dict(CASE, restart="state.h5", output="on.h5", dry_run=True)
+    write_history(folder, STEPS + 4)
+    assert "after step 21" in petsam(on).stdout
+    assert "friction" in petsam(on, dict(friction=0.123), check=2).stderr
+    assert "cannot be written: No such file" in petsam(CASE, dict(output="no/out.h5", dry_run=True), check=3).stderr
+    assert "-frob" in petsam(CASE, dict(frob=1, dry_run=True), check=2).stderr
+    assert not (folder / "on.h5").exists()
+
+
+# ---- fields at the rows of a history
+
+
+def test_fields_at_the_rows_of_a_history(folder, petsam):
+    """Ends of rows have their times, whatever the number of steps to them."""
+    (folder / "rows.csv").write_text("time,load_n\n0,5\n1,20\n3,10\n7,30\n")
+    case = dict(CASE, history="rows.csv", steps=3, output_at="history")
+    for every, times in ((1, [0, 1, 3, 7]), (2, [1, 7]), (3, [3, 7])):
+        petsam(case, dict(output_every=every))
+        with h5py.File(folder / "out.h5") as f:
+            assert f["time"][:].tolist() == times and f["history/time"].size == 12

@@ -156,11 +156,12 @@ PETSC_INTERN PetscErrorCode SamFileNameBeside(const char filename[], const char 
   SamFileReserve - allocates disk space for so many bytes and HDF5's metadata: the file becomes longer, and HDF5 cuts
   off the unused part when it flushes, unless all of it is unused. Collective. Errors: SAM_ERR_FILE.
   SamFileFindUnused - where what was reserved last begins, if HDF5 has not cut it off, else -1. On rank 0.
-  SamFileGetSpace - the free space (bytes) of the file's file system; infinite if that is not known. Collective.
+  SamFileGetSpace - the free space (bytes) where a file is or will be; infinite if that is not known. Collective.
+  Errors: SAM_ERR_FILE where it cannot be written.
 */
 PETSC_INTERN PetscErrorCode SamFileReserve(SamFile file, off_t bytes);
 PETSC_INTERN off_t          SamFileFindUnused(SamFile file);
-PETSC_INTERN PetscErrorCode SamFileGetSpace(SamFile file, double *bytes);
+PETSC_INTERN PetscErrorCode SamFileGetSpace(MPI_Comm comm, const char option[], const char filename[], double *bytes);
 /*
   SamFileReplace - flushes the complete file `temporary` to the disk and renames it to `filename`. A file of that name
   is replaced, or first named `kept` if that is not NULL. At every moment there is a complete file of one of these

@@ -44,5 +44,8 @@ typedef struct {
   to it; and of those of several cycles of a life (closed.c). Collective.
 */
 PETSC_INTERN PetscErrorCode SamCycleCheckClosed(SamStressRun *run);
+/* SamLargestWrite, SamLargestPrint - the largest values of each step, and of the fatigue parameters. Collective. */
+PETSC_INTERN PetscErrorCode SamLargestWrite(SamStressRun *run);
+PETSC_INTERN PetscErrorCode SamLargestPrint(SamStressRun *run);
 
 #endif
