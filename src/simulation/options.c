@@ -108,8 +108,7 @@ static PetscErrorCode ReadResults(SamSimulation s, const SamOptions *from)
   s->output_every = 1;
   PetscCall(SamOptionsInt(from, "output_every", "write the fields of every m-th step, and of the last", 1,
                           &s->output_every, NULL));
-  PetscCall(SamOptionsWord(from, "output_at",
-                           "the steps that -output_every counts: all (steps), or those that end rows (history)",
+  PetscCall(SamOptionsWord(from, "output_at", "what -output_every counts: all steps, or those at rows of the history",
                            "steps,history", at, sizeof(at), NULL));
   PetscCheck(!strcmp(at, "steps") || !strcmp(at, "history"), from->comm, SAM_ERR_USER,
              "-output_at %s: expected steps or history", at);
