@@ -204,24 +204,21 @@ PetscErrorCode SamFileReserve(SamFile f, off_t bytes)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamFileGetSpace(MPI_Comm comm, const char option[], const char filename[], double *bytes)
+PetscErrorCode SamFileGetSpace(SamGrid grid, const char option[], const char filename[], double *bytes)
 {
   struct statvfs space;
-  char           folder[PETSC_MAX_PATH_LEN] = ".", *slash;
+  char           folder[PETSC_MAX_PATH_LEN];
   PetscMPIInt    rank;
   int            error = 0;
 
   PetscFunctionBegin;
   *bytes = PETSC_INFINITY;
-  if (strchr(filename, '/')) PetscCall(PetscStrncpy(folder, filename, sizeof(folder)));
-  slash = strrchr(folder, '/');
-  if (slash) slash[slash == folder] = '\0';
-  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  SamGetFolder(filename, folder);
+  PetscCallMPI(MPI_Comm_rank(grid->comm, &rank));
   if (rank == 0 && access(access(filename, F_OK) ? folder : filename, W_OK)) error = errno;
   if (rank == 0 && !statvfs(folder, &space)) *bytes = (double)space.f_bavail * (double)space.f_frsize;
-  PetscCallMPI(MPI_Bcast(bytes, 1, MPI_DOUBLE, 0, comm));
-  PetscCallMPI(MPI_Bcast(&error, 1, MPI_INT, 0, comm));
-  PetscCheck(!error, comm, SAM_ERR_FILE, "-%s %s: cannot be written: %s", option, filename, strerror(error));
+  PetscCallMPI(MPI_Bcast(bytes, 1, MPI_DOUBLE, 0, grid->comm));
+  PetscCall(SamFileRaise(grid, option, filename, error));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

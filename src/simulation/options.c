@@ -103,7 +103,7 @@ static PetscErrorCode ReadResults(SamSimulation s, const SamOptions *from)
   PetscCall(
     SamOptionsFile(from, "output", "HDF5 file of the results", s->filename, sizeof(s->filename), &s->has_output));
   ending = strrchr(s->filename, '.');
-  PetscCheck(!ending || (strcasecmp(ending, ".csv") && strcasecmp(ending, ".txt")), from->comm, SAM_ERR_USER,
+  PetscCheck(!ending || strcasecmp(ending, ".csv"), from->comm, SAM_ERR_USER,
              "-output %s: the results are an HDF5 file: name it .h5", s->filename);
   s->output_every = 1;
   PetscCall(SamOptionsInt(from, "output_every", "write the fields of every m-th step, and of the last", 1,

@@ -147,7 +147,7 @@ PetscErrorCode SamSimulationForecast(SamSimulation s, char text[], size_t size)
 
   PetscFunctionBegin;
   PetscCall(Estimate(s, &whole, &rest));
-  PetscCall(SamFileGetSpace(s->comm, "output", s->filename, &space));
+  PetscCall(SamFileGetSpace(s->setup.grid, "output", s->filename, &space));
   SamDescribeBytes(whole, words[0], sizeof(words[0]));
   SamDescribeBytes(rest, words[1], sizeof(words[1]));
   SamDescribeBytes(space, words[2], sizeof(words[2]));

@@ -161,6 +161,7 @@ MISTAKES = [
         code=3,
         says=["-output s.txt", "not replaced"],
     ),
+    mistake("results as a table", {}, "-output", "loads.csv", says=["-output loads.csv", "HDF5", "name it .h5"]),
     mistake("no surface", FILE, "-gap_file", "none.h5", says=["-gap_file none.h5", "No such file"], code=3),
     mistake(
         "surface as text",

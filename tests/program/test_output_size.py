@@ -249,7 +249,7 @@ def test_dry_run_reads_all_that_a_run_reads(folder, petsam):
     write_history(folder, STEPS + 4)
     assert "after step 21" in petsam(on).stdout
     assert "friction" in petsam(on, dict(friction=0.123), check=2).stderr
-    assert "cannot be written: No such file" in petsam(CASE, dict(output="no/out.h5", dry_run=True), check=3).stderr
+    assert "cannot be written: " in petsam(CASE, dict(output="no/out.h5", dry_run=True), check=3).stderr
     assert "-frob" in petsam(CASE, dict(frob=1, dry_run=True), check=2).stderr
     assert not (folder / "on.h5").exists()
 

@@ -161,7 +161,7 @@ PETSC_INTERN PetscErrorCode SamFileNameBeside(const char filename[], const char 
 */
 PETSC_INTERN PetscErrorCode SamFileReserve(SamFile file, off_t bytes);
 PETSC_INTERN off_t          SamFileFindUnused(SamFile file);
-PETSC_INTERN PetscErrorCode SamFileGetSpace(MPI_Comm comm, const char option[], const char filename[], double *bytes);
+PETSC_INTERN PetscErrorCode SamFileGetSpace(SamGrid grid, const char option[], const char filename[], double *bytes);
 /*
   SamFileReplace - flushes the complete file `temporary` to the disk and renames it to `filename`. A file of that name
   is replaced, or first named `kept` if that is not NULL. At every moment there is a complete file of one of these
