@@ -34,6 +34,7 @@ typedef struct {
   PetscReal lever[2]; /* m: the farthest that moments bring the centre of pressure from the origin along x and y */
   PetscReal slide;    /* m: the farthest that displacements move the surfaces along them */
   PetscReal rotation; /* rad: the largest that is prescribed */
+  PetscReal bulk;     /* Pa: the largest component of the bulk stresses */
   PetscBool open;     /* the contact may be larger than a closed solution for these loads has it: rotations, wear */
 } SamLoadsMost;
 /* SamLoadsMostAdd - adds a step. Not collective. */

@@ -14,6 +14,8 @@
 /* A line of progress follows the one before after so many seconds, or such a part of the time spent. */
 #define TELL_SECONDS 1.0
 #define TELL_PART    0.05
+/* A depth, in widths of the grid, that a unit may explain. */
+#define DEEP 20.0
 
 /* ---- set-up ---- */
 
@@ -238,6 +240,24 @@ static PetscErrorCode PrintBanner(SamStressRun *run)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The stresses of a contact fall off within its own size. */
+static PetscErrorCode WarnOfDepths(SamStressRun *run)
+{
+  const double    width = (double)PetscMax(run->grid->width[0], run->grid->width[1]);
+  SamStressLayout layout;
+  PetscMPIInt     rank;
+  double          deepest;
+
+  PetscFunctionBegin;
+  PetscCall(SamEvaluationGetLayout(run->evaluation, &layout));
+  deepest = (double)layout.depth[layout.depths - 1];
+  PetscCallMPI(MPI_Comm_rank(run->grid->comm, &rank));
+  if (deepest > DEEP * width && !rank)
+    fprintf(stderr, "petsam-stress: warning: -depths: %g m is %.2g times the width of the grid: check the unit, m\n",
+            deepest, deepest / width);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static SamStressRun run_of_process; /* for the handler of signals */
 
 /* A signal that ends the program leaves no temporary file: it may be large. */
@@ -265,6 +285,7 @@ static PetscErrorCode Compute(void *context)
   PetscFunctionBegin;
   CatchSignals();
   PetscCall(PrintBanner(run));
+  PetscCall(WarnOfDepths(run));
   PetscCall(PetscTime(&run->start));
   run->told    = run->start;
   run->writing = PETSC_TRUE;

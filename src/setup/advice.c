@@ -13,6 +13,9 @@
 #define FEW_CELLS 20
 /* Half-space theory is taken to hold up to this ratio of the half width of the contact to a radius of curvature. */
 #define STEEPEST 0.1
+/* A bulk stress over Young's modulus below which it has no effect, and a grid's width (m) that units may explain. */
+#define SLIGHT 1e-8
+#define WIDEST 100.0
 /* Cells half as wide may change the peak pressure by this part of it. */
 #define PEAK 0.05
 
@@ -35,6 +38,8 @@ void SamLoadsMostAdd(SamLoadsMost *most, const SamControl *control)
   const PetscReal  x     = force[SAM_COMPONENT_TX] || creep[SAM_COMPONENT_TX] ? 0 : v[SAM_COMPONENT_TX];
   const PetscReal  y     = force[SAM_COMPONENT_TY] || creep[SAM_COMPONENT_TY] ? 0 : v[SAM_COMPONENT_TY];
 
+  for (PetscInt k = 0; k < 2 * SAM_BULK_COMPONENTS; k++)
+    most->bulk = PetscMax(most->bulk, fabs(control->bulk_stress[k / SAM_BULK_COMPONENTS][k % SAM_BULK_COMPONENTS]));
   most->force = force[SAM_COMPONENT_N];
   most->slide = PetscMax(most->slide, hypot(x, y));
   for (PetscInt c = SAM_COMPONENT_MX; c < SAM_COMPONENTS; c++)
@@ -256,6 +261,18 @@ static void AdviseCells(Receiver *to, const SamSetup *s, const SamExtent *extent
          absurd ? "; or check the units, N, m, Pa" : "");
 }
 
+/* Numbers that another unit would explain: of bulk stress, and of the grid. */
+static void AdviseUnits(Receiver *to, const SamSetup *s, const SamLoadsMost *most)
+{
+  const double young = (double)PetscMin(s->pair.young[0], s->pair.young[1]);
+  const double width = (double)PetscMax(s->grid->width[0], s->grid->width[1]);
+
+  if (most->bulk > 0 && (double)most->bulk < SLIGHT * young)
+    Advise(to, "", "the largest bulk stress, %g Pa, is %.2g of Young's modulus: check the unit, Pa", (double)most->bulk,
+           (double)most->bulk / young);
+  if (width > WIDEST) Advise(to, "grid_size", "the grid is %g m wide: check the unit, m", width);
+}
+
 /* Layers that the cells do not resolve, or that are as good as none or as endless. */
 static void AdviseLayers(Receiver *to, const SamSetup *s, const PetscReal half[2])
 {
@@ -292,6 +309,7 @@ PetscErrorCode SamAdviseStep(const SamSetup *s, const SamStep *step, const SamEx
   char      ratio[192];
 
   PetscFunctionBegin;
+  AdviseUnits(&to, s, most);
   AdviseMotion(&to, extent, most);
   if (!extent->zones) AdviseTouch(&to, &step->control);
   /* at the grid's edge it is the grid that decides how large the contact is */

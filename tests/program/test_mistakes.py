@@ -498,6 +498,18 @@ def test_mistake_with_stresses_is_explained(launcher, petsam, folder, words, cod
     assert not (folder / "new.h5").exists()
 
 
+def test_numbers_of_another_unit_are_told(launcher, petsam, folder):
+    """A bulk stress in MPa, a grid in mm, depths in um."""
+    told = petsam(SPHERE, dict(bulk2_stress_xx=50, output="r.h5")).complaint
+    assert any("the largest bulk stress, 50 Pa, is" in line and "check the unit, Pa" in line for line in told)
+    case = dict(SPHERE, gap_radius1=2e5, gap_radius2=2e5, grid_size=1200.0, load_n=1e13)
+    told = petsam(case, check=None).complaint
+    assert any("the grid is 1200 m wide: check the unit, m" in line for line in told)
+    stress = ["-input", "r.h5", "-output", "deep.h5", "-depths", "0.5"]
+    done = execute(launcher, folder, stress, 1, 0, program=PROGRAM.with_name("petsam-stress"))
+    assert "times the width of the grid: check the unit, m" in done.stderr
+
+
 @pytest.mark.parametrize("cells, across", [((128, 8), None), ((16, 8), 4), ((8, 128), None), ((8, 16), 4)])
 def test_a_cylinder_is_as_wide_as_it_touches(petsam, cells, across):
     """Along its axis it ends nowhere: cells there are none too few, and more of them no help."""
