@@ -177,7 +177,7 @@ def test_xarray_opens_it_as_a_volume(stress, contact):
         (dict(depths="nan"), 2, "-depths nan"),
         (dict(section="z=0"), 2, "-section z=0"),
         (dict(section="y=1"), 2, "outside of the grid"),
-        (dict(steps="3"), 2, "step 3 of c.h5 has not been saved"),
+        (dict(steps="3"), 2, "step 3 of c.h5 has not been saved (-output_every of its run), steps "),
         (dict(steps="2:9"), 2, "there is no step 9"),
         (dict(steps="0"), 2, "-steps 0"),
         (dict(quantities="mises,temperature"), 2, "-quantities mises,temperature"),

@@ -159,6 +159,23 @@ def test_life_tells_its_cycles(life):
     assert r["wear/pressure_max"][-1] == r["pressure"][-1].max()
 
 
+def test_stresses_of_a_cycle_by_its_number(life, launcher, tmp_path):
+    r = life(wear_output=(0, 30000))
+    steps = np.flatnonzero(r["history/cycle"] == 30000) + 1
+    program = conftest.PROGRAM.with_name("petsam-stress")
+    case = dict(input="life.h5", section="y=0", depths=1e-6, quantities="none", fatigue="swt")
+    for name, which in (("one", dict(cycle=30000)), ("two", dict(steps=f"{steps[0]}:{steps[-1]}"))):
+        conftest.execute(launcher, tmp_path, [dict(case, output=f"{name}.h5", **which)], 1, 0, program=program)
+    with h5py.File(tmp_path / "one.h5") as one, h5py.File(tmp_path / "two.h5") as two:
+        assert one["history/step"][:].tolist() == steps.tolist() and np.array_equal(one["swt"][:], two["swt"][:])
+    for words, says in (
+        (dict(cycle=500), "-cycle 500: the steps of that cycle are not in life.h5, those of 0, 30000, 100000 are"),
+        (dict(cycle=0, steps=1), "-cycle and -steps are both given"),
+    ):
+        done = conftest.execute(launcher, tmp_path, [dict(case, output="no.h5", **words)], 1, 2, program=program)
+        assert says in done.stderr
+
+
 def test_wear_of_a_life_is_the_work_of_friction_over_it(life):
     r = life(wear_rtol=2e-3)
     rate = 1e-14 / MU * r["wear/dissipated_energy"]

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define LISTED 12 /* steps or cycles of a list in a message */
+
 /* ---- options ---- */
 
 /* One to three whole numbers with colons between them, which make up the whole text; returns how many, 0 for others. */
@@ -58,6 +60,11 @@ PetscErrorCode SamStressRequestRead(const SamOptions *from, SamStressRequest *r)
   PetscCall(SamOptionsRequire(from, set || print, "output", "the file to be written"));
   PetscCall(SamOptionsHeading(from, "Where and when"));
   PetscCall(ReadSteps(from, r));
+  PetscCall(SamOptionsReal(from, "cycle", "the steps of the saved cycle of a life with that number, instead of -steps",
+                           SAM_RANGE_NONNEGATIVE, &r->cycle, &r->of_cycle));
+  PetscCall(PetscOptionsHasName(NULL, from->prefix, "-steps", &set));
+  PetscCheck(!set || !r->of_cycle || print, from->comm, SAM_ERR_USER,
+             "-cycle and -steps are both given: omit one of them");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -78,14 +85,71 @@ static PetscErrorCode FindSaved(SamResults results, PetscInt step, PetscInt *sav
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The saved steps, or with `cycles` the cycles of saved steps, in words: 1, 2, 3 and so on, but for repetitions. */
+static PetscErrorCode ListSaved(SamResults results, PetscBool cycles, char text[], size_t size)
+{
+  double   last = -1;
+  PetscInt count, shown = 0;
+
+  PetscFunctionBegin;
+  text[0] = '\0';
+  PetscCall(SamResultsGetSteps(results, NULL, &count));
+  for (PetscInt k = 0; k < count; k++) {
+    const size_t used = strlen(text);
+    PetscInt     step;
+    double       number;
+
+    PetscCall(SamResultsGetSaved(results, k, &step, NULL));
+    number = (double)step;
+    if (cycles) PetscCall(SamResultsReadNumber(results, step, SAM_RESULTS_CYCLE, &number));
+    if (number == last) continue;
+    if (shown < LISTED) (void)snprintf(text + used, size - used, "%s%.10g", shown ? ", " : "", number);
+    if (shown == LISTED) (void)snprintf(text + used, size - used, " and more");
+    shown++;
+    last = number;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The saved steps of a cycle of a life. */
+static PetscErrorCode FindCycle(const SamStressRequest *r, SamResults results, PetscInt *count, PetscInt **list)
+{
+  PetscInt saved, step;
+  SamGrid  grid;
+  char     text[256];
+
+  PetscFunctionBegin;
+  PetscCall(SamResultsGetGrid(results, &grid));
+  PetscCall(SamResultsGetSteps(results, NULL, &saved));
+  PetscCall(PetscMalloc1(saved, list));
+  *count = 0;
+  for (PetscInt k = 0; k < saved; k++) {
+    double cycle;
+
+    PetscCall(SamResultsGetSaved(results, k, &step, NULL));
+    PetscCall(SamResultsReadNumber(results, step, SAM_RESULTS_CYCLE, &cycle));
+    if (cycle == (double)r->cycle) (*list)[(*count)++] = k;
+  }
+  PetscCall(ListSaved(results, PETSC_TRUE, text, sizeof(text)));
+  PetscCheck(*count, grid->comm, SAM_ERR_USER, "-cycle %.10g: the steps of that cycle are not in %s, those of %s are",
+             (double)r->cycle, r->input, text);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamStressRequestSteps(const SamStressRequest *r, SamResults results, PetscInt *count, PetscInt **list)
 {
   PetscInt steps, saved;
   SamGrid  grid;
+  char     text[256];
 
   PetscFunctionBegin;
+  if (r->of_cycle) {
+    PetscCall(FindCycle(r, results, count, list));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   PetscCall(SamResultsGetGrid(results, &grid));
   PetscCall(SamResultsGetSteps(results, &steps, &saved));
+  PetscCall(ListSaved(results, PETSC_FALSE, text, sizeof(text)));
   *count = r->all_steps ? saved : r->last_step ? 1 : (r->last - r->first) / r->stride + 1;
   PetscCheck(r->all_steps || r->last_step || r->last <= steps, grid->comm, SAM_ERR_USER,
              "-steps: there is no step %" PetscInt_FMT " in %s, the last is %" PetscInt_FMT, r->last, r->input, steps);
@@ -97,7 +161,8 @@ PetscErrorCode SamStressRequestSteps(const SamStressRequest *r, SamResults resul
     if (r->all_steps || r->last_step) continue;
     PetscCall(FindSaved(results, step, &(*list)[k]));
     PetscCheck((*list)[k] >= 0, grid->comm, SAM_ERR_USER,
-               "-steps: step %" PetscInt_FMT " of %s has not been saved (-output_every of its run)", step, r->input);
+               "-steps: step %" PetscInt_FMT " of %s has not been saved (-output_every of its run), steps %s have",
+               step, r->input, text);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

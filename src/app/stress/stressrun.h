@@ -10,6 +10,8 @@ typedef struct {
   char      input[PETSC_MAX_PATH_LEN], output[PETSC_MAX_PATH_LEN];
   PetscBool all_steps, last_step;
   PetscInt  first, last, stride; /* load steps from 1, where neither is set */
+  PetscBool of_cycle;            /* instead: the steps of a cycle of a life */
+  PetscReal cycle;
 } SamStressRequest;
 
 /* SamStressRequestRead - reads these options. Collective. Errors: SAM_ERR_USER. */
