@@ -46,13 +46,15 @@ PetscErrorCode SamSetupReadOptions(SamSetup *s, const SamOptions *from)
 {
   PetscInt  n[2];
   PetscReal width[2], center[2];
+  PetscBool plane;
 
   PetscFunctionBegin;
   PetscCall(SamOptionsPlugins(from));
   PetscCall(SamGapCreate(from->comm, &s->gap));
   PetscCall(SamGapSetOptionsPrefix(s->gap, from->prefix));
   PetscCall(SamGapGetFileGrid(s->gap, n, width, center));
-  PetscCall(SamGridCreateFromOptions(from, n, width, center, &s->grid));
+  PetscCall(SamElasticityPlaneFromOptions(from, &plane));
+  PetscCall(SamGridCreateFromOptions(from, plane, n, width, center, &s->grid));
   PetscCall(SamPairSetFromOptions(&s->pair, from));
   PetscCall(CreateProblem(s, from));
   PetscCall(SamGapSetFromOptions(s->gap));
