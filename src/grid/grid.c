@@ -114,8 +114,8 @@ PetscErrorCode SamGridCreateFromOptions(const SamOptions *from, PetscBool row, P
 
   PetscFunctionBegin;
   PetscCall(SamOptionsHeading(from, "Grid"));
-  PetscCall(SamOptionsIntPair(from, "grid_n", "cells in x[,y]: required without a surface file", row ? 1 : 2, n,
-                              &has_n));
+  PetscCall(
+    SamOptionsIntPair(from, "grid_n", "cells in x[,y]: required without a surface file", row ? 1 : 2, n, &has_n));
   PetscCall(SamOptionsRealPair(from, "grid_size", "full width in x[,y] (m): required without a surface file",
                                SAM_RANGE_POSITIVE, width, &has_width));
   PetscCall(SamOptionsRealPair(from, "grid_center", "centre x,y (m)", SAM_RANGE_ANY, center, NULL));
@@ -131,6 +131,8 @@ PetscErrorCode SamGridCreateFromOptions(const SamOptions *from, PetscBool row, P
   PetscCall(SamOptionsRequire(from, has_n || n[0], "grid_n", "the number of cells in x[,y], for example 256"));
   PetscCall(SamOptionsRequire(from, has_width || width[0] > 0, "grid_size",
                               "the full width of the grid in x[,y], m: about 1.5 times that of the contact"));
+  PetscCheck(row || n[1] != 1, from->comm, SAM_ERR_USER, "%s: one cell in y: a plane problem needs -%selasticity plane",
+             names[0], SamOptionsPrefix(from));
   if (row) PetscCall(TakeRow(from, n, width, center));
   PetscCall(FindFault(n, width, center, names, message, sizeof(message)));
   PetscCheck(!message[0], from->comm, SAM_ERR_USER, "%s", message);

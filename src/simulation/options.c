@@ -30,6 +30,11 @@ static PetscErrorCode CheckBulkStress(SamSimulation s, const SamControl *control
       PetscCheck(stress == 0 || traits.stretch, from->comm, SAM_ERR_USER,
                  "-%s%s, or its column in -history: %.6g: has no meaning with -%selasticity %s, whose bodies bear none",
                  prefix, SAM_BULK_CONDITION(body, k)->name, stress, prefix, type);
+      PetscCheck(
+        stress == 0 || !traits.plane || k == SAM_BULK_XX, from->comm, SAM_ERR_USER,
+        "-%s%s, or its column in -history: %.6g: has no meaning in plane strain, where yy follows from xx, and "
+        "there is no xy: give %s",
+        prefix, SAM_BULK_CONDITION(body, k)->name, stress, SAM_BULK_CONDITION(body, SAM_BULK_XX)->name);
     }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

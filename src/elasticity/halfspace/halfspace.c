@@ -83,8 +83,8 @@ static void PlaneRow(const Coefficients *c, PetscInt j, PetscInt n, double value
   const double more = c->kind == YY ? c->factor[1] : 0;
 
   for (PetscInt i = 0; i < n; i++) {
-    values[i] = c->kind == XZ ? PETSC_PI * c->factor[0] * c->dx
-                              : -2 * (c->factor[0] + more) * PlaneIntegral(c->dx, c->datum, i);
+    values[i] =
+      c->kind == XZ ? PETSC_PI * c->factor[0] * c->dx : -2 * (c->factor[0] + more) * PlaneIntegral(c->dx, c->datum, i);
     if (j) values[i] = 0;
   }
 }
