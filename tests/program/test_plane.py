@@ -1,0 +1,240 @@
+"""Plane strain: closed forms with the order of their errors, per metre of length; what else a line of cells must do."""
+
+import h5py
+import numpy as np
+import pytest
+
+from petsam.closed import plane as closed_plane
+from petsam.closed.punch import Punch
+from support import assert_same, history
+
+YOUNG, NU, MU, R, N = 200e9, 0.3, 0.5, 0.05, 1e5
+E_STAR = YOUNG / 2 / (1 - NU**2)
+A = 2.406915e-4  # half width, m
+P0 = 264.49616e6
+WIDTH = 6.3e-4
+CYLINDER = dict(
+    elasticity="plane",
+    body1_young=YOUNG,
+    body2_young=YOUNG,
+    body1_poisson=NU,
+    body2_poisson=NU,
+    gap_type="ellipsoid",
+    gap_radius_x=R,
+    gap_radius_y=float("inf"),
+    friction=MU,
+    load_n=N,
+    grid_n=256,
+    grid_size=WIDTH,
+    output_fields="all",
+)
+
+
+def root(x, a):
+    """The mean over cells about x of sqrt(1 - x^2/a^2)."""
+    h = (x[1] - x[0]) / 2
+
+    def primitive(x):
+        s = np.clip(x / a, -1, 1)
+        return a / 2 * (s * np.sqrt(1 - s * s) + np.arcsin(s))
+
+    return (primitive(x + h) - primitive(x - h)) / (2 * h)
+
+
+def cattaneo(x, c, at=0.0):
+    """q over mu p0 under T, the stick zone of half width c about `at`."""
+    return root(x, A) - c / A * root(x - at, c)
+
+
+def rms(values):
+    return np.sqrt(np.mean(values**2))
+
+
+def test_reference_numbers(solve):
+    assert 4 * N * R / (np.pi * E_STAR) == pytest.approx(A**2, rel=1e-6)
+    r = solve(CYLINDER, dict(grid_n=1000, load_tx=2.5e4))
+    c = A * np.sqrt(1 - 2.5e4 / (MU * N))
+    assert r["contact_area"] == pytest.approx(2 * A, rel=1e-4)
+    assert r["stick_area"] == pytest.approx(2 * c, rel=3e-4)
+    assert r["pressure_max"] == pytest.approx(P0, rel=1e-5)
+    assert r["shear_max"] == pytest.approx(MU * P0 * np.sqrt(1 - c**2 / A**2), rel=3e-4)
+    # -(2/(pi E*)) int p ln(|x|/D), D the width of the grid
+    far = 2 * N / (np.pi * E_STAR)
+    assert r["disp_z"] == pytest.approx(far * (np.log(2 * WIDTH / A) + 0.5), rel=1e-5)
+    # the shear displaces its own stick zone uniformly: mu times that of the pressure, less that of the reduced one
+    assert r["disp_x"] == pytest.approx(
+        MU * far * (np.log(2 * WIDTH / A) + 0.5) - MU * far * (c / A) ** 2 * (np.log(2 * WIDTH / c) + 0.5), rel=1e-4
+    )
+    assert r["load_n"] == pytest.approx(N, rel=1e-12)
+
+
+def test_errors_are_of_first_order_and_of_edges_less(solve):
+    errors = []
+    for n in (60, 120, 240, 480, 960):
+        r = solve(CYLINDER, dict(grid_n=n, load_tx=2.5e4, normal_rtol=1e-10, tangential_rtol=1e-10))
+        assert r["edge_accepted"] == 1
+        c = A * np.sqrt(0.5)
+        errors.append(
+            (
+                rms(r.pressure[0] / P0 - root(r.x, A)),
+                rms(r.shear_x[0] / (MU * P0) - cattaneo(r.x, c)),
+                abs(r["contact_area"] / (2 * A) - 1) + abs(r["stick_area"] / (2 * c) - 1),
+            )
+        )
+    pressure, shear, edges = np.array(errors).T
+    assert pressure[-1] < 3e-4 and shear[-1] < 6e-4 and edges[-1] < 3e-4
+    order = np.polyfit(np.log([60, 120, 240, 480, 960]), np.log(np.array(errors)), 1)[0]
+    assert (order[:2] < -0.9).all()
+
+
+def test_reversed_load_is_a_superposition(petsam, tmp_path):
+    rows = history(
+        tmp_path / "h.csv", "time,load_n,load_tx", (0.0, N, 0.0), (1.0, N, 4e4), (2.0, N, -1e4), (3.0, N, -4e4)
+    )
+    r = petsam(dict(CYLINDER, load_n=None), rows, dict(steps=4, grid_n=500, output=tmp_path / "r.h5"))
+    with h5py.File(tmp_path / "r.h5") as f:
+        x, q, T = f["x"][:], f["shear_x"][:, 0], f["history/load_tx"][:]
+        stick = f["history/stick_area"][:]
+    for k in range(5, len(T)):
+        if T[k] > T[k - 1]:
+            continue
+        reversed_part = A * np.sqrt(1 - (4e4 - T[k]) / (2 * MU * N))
+        exact = cattaneo(x, A * np.sqrt(1 - 4e4 / (MU * N))) - 2 * cattaneo(x, reversed_part)
+        assert rms(q[k] / (MU * P0) - exact) < 2e-3
+        assert stick[k] == pytest.approx(2 * reversed_part, rel=3e-3)
+    assert r.code == 0
+
+
+def test_bulk_stress_shifts_the_stick_zone(petsam, tmp_path):
+    """Nowell and Hills: by a s/(4 mu p0), its width as without."""
+    s, T = 60e6, 1.5e4
+    rows = history(tmp_path / "h.csv", "time,load_n,load_tx,bulk2_stress_xx", (0.0, N, 0.0, 0.0), (1.0, N, T, s))
+    petsam(dict(CYLINDER, load_n=None), rows, dict(steps=1, grid_n=500, output=tmp_path / "r.h5"))
+    c, e = A * np.sqrt(1 - T / (MU * N)), A * s / (4 * MU * P0)
+    with h5py.File(tmp_path / "r.h5") as f:
+        x, q = f["x"][:], f["shear_x"][-1, 0]
+        assert f["history/stick_area"][-1] == pytest.approx(2 * c, rel=2e-3)
+        assert f["history/bulk2_stress_yy"][-1] == pytest.approx(NU * s)
+    difference = [rms(q / (MU * P0) - cattaneo(x, c, at)) for at in (e, -e)]
+    assert min(difference) < 1e-3 and max(difference) > 0.05
+
+
+@pytest.mark.parametrize("moment", [0.0, 30.0])
+def test_rounded_punch_in_partial_slip(solve, moment):
+    punch = Punch(1e-3, 20e-3, E_STAR)
+    load, shear = 6e5, 0.6 * MU * 6e5
+    r = solve(
+        dict(CYLINDER, gap_type="punch", gap_radius_x=None, gap_radius_y=None),
+        dict(gap_flat_radius=1e-3, gap_edge_radius=20e-3, load_n=load, load_my=moment, load_tx=shear),
+        dict(grid_n=1000, grid_size=3.2e-3),
+    )
+    contact = closed_plane.contact_under_moment(punch, load, moment)
+    stick = closed_plane.stick_zone(punch, contact, shear, MU)
+    p = closed_plane.plane_pressure(r.x, punch, contact)
+    q = closed_plane.plane_shear(r.x, punch, contact, stick, MU)
+    assert rms(r.pressure[0] - p) < 4e-3 * rms(p) and rms(r.shear_x[0] - q) < 8e-3 * rms(q)
+    assert r["contact_area"] == pytest.approx(2 * contact.half_width, rel=5e-4)
+    assert r["stick_area"] == pytest.approx(2 * stick.half_width, rel=1e-3)
+    assert r["rot_y"] == pytest.approx(closed_plane.plane_tilt(punch, contact), rel=2e-4, abs=1e-12)
+
+
+def test_westergaard(solve, tmp_path):
+    height, width, n = 1e-6, 1e-3, 1000
+    x = ((np.arange(n) + 0.5) / n - 0.5) * width
+    with h5py.File(tmp_path / "wave.h5", "w") as f:
+        f["height"] = height * (1 - np.cos(2 * np.pi * x / width))[None, :]
+    full, sine = np.pi * E_STAR * height / width, np.sin(0.3 * np.pi)
+    r = solve(
+        dict(CYLINDER, elasticity="plane_periodic", gap_type="file", gap_radius_x=None, gap_radius_y=None),
+        dict(gap_file=tmp_path / "wave.h5", grid_n=n, grid_size=width, load_n=full * sine**2 * width),
+    )
+    s = np.sin(np.pi * x / width)
+    exact = 2 * full * np.cos(np.pi * x / width) * np.sqrt(np.maximum(sine**2 - s**2, 0))
+    assert rms(r.pressure[0] - exact) < 3e-3 * full
+    assert r["contact_area"] == pytest.approx(0.6 * width, rel=1e-3)
+
+
+def test_antiplane_load_shears_as_one_along_x(solve):
+    """Without nu in it: by 1/(1 - nu) more displacement, the same shear."""
+    along, across = (solve(CYLINDER, {"load_tx": 0.0, "load_ty": 0.0, name: 3e4}) for name in ("load_tx", "load_ty"))
+    assert np.abs(along.shear_x - across.shear_y).max() < 1e-5 * MU * P0
+    assert across["disp_y"] == pytest.approx(along["disp_x"] / (1 - NU), rel=1e-6)
+    assert across["stick_area"] == pytest.approx(2 * A * np.sqrt(1 - 3e4 / (MU * N)), rel=1e-3)
+    # both share the disc
+    both = solve(CYLINDER, dict(load_tx=2e4, load_ty=2e4))
+    assert (np.hypot(both.shear_x, both.shear_y) <= MU * both.pressure * (1 + 1e-9)).all()
+
+
+def test_rolling_is_carter_s(solve):
+    mu, T = 0.3, 2e4
+    r = solve(CYLINDER, dict(friction=mu, load_tx=T, rolling="steady", grid_n=1000))
+    exact = mu * A / R * (1 - np.sqrt(1 - T / (mu * N)))
+    assert r["creep_x"] == pytest.approx(exact, rel=2e-3)
+    assert r["stick_area"] == pytest.approx(2 * A * np.sqrt(1 - T / (mu * N)), rel=5e-3)
+
+
+def test_datum_moves_displacements_only(solve):
+    near, far = (solve(CYLINDER, dict(load_tx=2e4, plane_datum=d)) for d in (WIDTH, 1000 * WIDTH))
+    assert_close = np.abs(near.pressure - far.pressure).max() < 1e-5 * P0
+    assert assert_close and np.abs(near.shear_x - far.shear_x).max() < 1e-5 * P0
+    by = 2 / (np.pi * E_STAR) * np.log(1000)
+    assert far["disp_z"] - near["disp_z"] == pytest.approx(N * by, rel=1e-6)
+    assert far["disp_x"] - near["disp_x"] == pytest.approx(2e4 * by, rel=1e-4)
+    assert near.attributes["plane_datum"] == WIDTH and far.attributes["plane_datum"] == 1000 * WIDTH
+
+
+def test_given_displacements_give_the_loads(solve):
+    r = solve(CYLINDER, dict(load_tx=2e4, load_my=1.0))
+    given = {name: None for name in ("load_n", "load_tx", "load_my")}
+    s = solve(dict(CYLINDER, **given), {name: float(r[name]) for name in ("disp_z", "disp_x", "rot_y")})
+    for name, scale in (("load_n", N), ("load_tx", N), ("load_my", 1.0)):
+        assert s[name] == pytest.approx(r[name], abs=1e-5 * scale)
+
+
+@pytest.mark.parametrize("type", ["plane", "plane_periodic"])
+def test_any_number_of_ranks_gives_the_same_bits(solve, type):
+    case = dict(CYLINDER, elasticity=type, body2_young=70e9, body2_poisson=0.2, grid_n=150, load_tx=2e4, load_ty=1e4)
+    case.update(grid_size=1.3e-3)
+    runs = [solve(case, ranks=ranks) for ranks in (1, 2, 3)] + [solve(case, dict(fft_exchange="transpose"), ranks=2)]
+    for other in runs[1:]:
+        assert_same(runs[0], other, 0)
+
+
+def test_units_are_per_metre(petsam, tmp_path):
+    run = petsam(CYLINDER, dict(stiffness=True, output=tmp_path / "r.h5"), ranks=2)
+    assert "per metre of length; one rank works, the others wait" in run.stdout
+    assert "N/(N/m)" in run.stdout and "J/m" in run.stdout and "load_mx" not in run.stdout
+    with h5py.File(tmp_path / "r.h5") as f:
+        units = {name: data.attrs["units"] for name, data in f["history"].items()}
+        assert f["pressure"].shape[1:] == (1, 256)
+        assert np.isnan(f["history/stiffness"][-1][3]).all()
+    assert units["load_n"] == "N/m" and units["load_my"] == "N m/m" and units["contact_area"] == "m2/m"
+    assert units["dissipated_energy"] == "J/m" and units["stiffness"].startswith("N/m2,") and units["disp_z"] == "m"
+
+
+@pytest.mark.parametrize(
+    "options, complaint",
+    [
+        (dict(grid_n=(64, 32)), "-grid_n 64,32: a plane problem has one row of cells: use 64,1"),
+        (dict(load_mx=1.0), "-load_mx 1: has no meaning with -elasticity plane"),
+        (dict(rot_z=1e-3), "-rot_z 0.001: has no meaning with -elasticity plane"),
+        (
+            dict(bulk1_stress_yy=1e6),
+            "-bulk1_stress_yy, or its column in -history: 1e+06: has no meaning in plane strain",
+        ),
+        (
+            dict(bulk2_stress_xy=1e6),
+            "-bulk2_stress_xy, or its column in -history: 1e+06: has no meaning in plane strain",
+        ),
+        (dict(plane_datum=1e-4), "-plane_datum 0.0001: give at least half the grid's width, 0.000315 m"),
+        (dict(gap_radius_y=0.1), "-gap_radius_y 0.1: has no meaning with -elasticity plane"),
+        (dict(elasticity="halfspace", grid_n=(64, 1)), "-grid_n 64,1: expected an integer >= 2"),
+    ],
+)
+def test_what_has_no_meaning_is_refused(petsam, options, complaint):
+    assert complaint in petsam(CYLINDER, options, check=2).stderr
+
+
+def test_columns_are_refused(petsam, tmp_path):
+    rows = history(tmp_path / "h.csv", "time,load_n,load_mz", (0.0, N, 0.0), (1.0, N, 1.0))
+    assert "load_mz" in petsam(dict(CYLINDER, load_n=None), rows, check=2).stderr
