@@ -494,7 +494,7 @@ static PetscErrorCode SetFromOptions_Plane(SamElasticity e, const SamOptions *fr
 
   PetscFunctionBegin;
   PetscCall(SamOptionsReal(from, DATUM,
-                           "plane: displacements are relative to points at this distance (m): the grid's width",
+                           "plane: distance of the points that displacements are relative to (m)",
                            SAM_RANGE_POSITIVE, &((HalfSpace *)e->data)->datum, NULL));
   PetscCall(PetscSNPrintf(before, sizeof(before), "-%s", e->prefix));
   PetscCall(CheckDatum(e, SAM_ERR_USER, "", before));
