@@ -236,3 +236,79 @@ def test_what_has_no_meaning_is_refused(petsam, options, complaint):
 def test_columns_are_refused(petsam, tmp_path):
     rows = history(tmp_path / "h.csv", "time,load_n,load_mz", (0.0, N, 0.0), (1.0, N, 1.0))
     assert "load_mz" in petsam(dict(CYLINDER, load_n=None), rows, check=2).stderr
+
+
+# ---------------------------------------------------------------- what else a contact does
+
+LAYER = dict(body2_layer_young=400e9, body2_layer_poisson=0.2, body2_layer_thickness=4e-5)
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        dict(body2_young=70e9, body2_poisson=0.2),
+        dict(LAYER, body1_young=70e9),
+        dict(pressure_limit=2e8),
+        dict(wear_coefficient1=1e-12, wear_coefficient2=3e-12),
+        dict(wear_energy2=1e-12, friction_law="slip_path", friction_path_final=0.6, friction_path_length=1e-7),
+        dict(film_thickness=1e-7, film_shear=1e8, slip_direction="mid"),
+    ],
+)
+def test_one_row_is_a_periodic_contact_without_y(petsam, tmp_path, options):
+    """Through a history, whatever is switched on: fields as those of four equal rows, loads by their width."""
+    height = 2.5e-4
+    case = dict(
+        CYLINDER, gap_type="file", gap_radius_x=None, gap_radius_y=None, load_n=None, grid_size=None, grid_n=None
+    )
+    case.update(output="r.h5", steps=2, overwrite=True, normal_rtol=1e-10, tangential_rtol=1e-10, **options)
+    x = ((np.arange(60) + 0.5) / 60 - 0.5) * 1.2e-3
+    with h5py.File(tmp_path / "row.h5", "w") as f:
+        f["height"] = (x**2 / (2 * R))[None, :]
+    with h5py.File(tmp_path / "rows.h5", "w") as f:
+        f["height"] = np.tile(x**2 / (2 * R), (4, 1))
+    both = []
+    for type, n, width, name in (("plane_periodic", 1, 1.0, "row"), ("periodic", 4, height, "rows")):
+        loads = [
+            (t, N * width, T * width, Ty * width) for t, T, Ty in ((0.0, 0.0, 0.0), (1.0, 3e4, 1e4), (2.0, -2e4, 0.0))
+        ]
+        rows = history(tmp_path / "h.csv", "time,load_n,load_tx,load_ty", *loads)
+        size = 1.2e-3 if n == 1 else (1.2e-3, height)
+        petsam(case, rows, dict(elasticity=type, grid_n=(60, n), grid_size=size, gap_file=tmp_path / f"{name}.h5"))
+        with h5py.File(tmp_path / "r.h5") as f:
+            fields = {k: f[k][:] for k in f if getattr(f[k], "shape", ())[-1:] == (60,) and k not in ("x", "state")}
+            numbers = {
+                k: v[:] / (width if v.attrs["units"].split("/")[0] in ("N", "N m", "J", "m2", "m3") else 1.0)
+                for k, v in f["history"].items()
+            }
+        both.append((fields, numbers))
+    (plane, numbers), (rows, others) = both
+    for name in plane:
+        scale = np.abs(rows[name]).max()
+        assert np.abs(plane[name] - rows[name]).max() <= 1e-6 * scale, name
+    for name in ("load_tx", "disp_z", "disp_x", "dissipated_energy", "contact_area", "wear_volume2"):
+        if name in numbers:
+            scale = np.abs(others[name]).max()
+            assert np.abs(numbers[name] - others[name]).max() <= 1e-5 * scale, name
+
+
+def test_a_life_and_an_embedded_contact(petsam, tmp_path):
+    """A life by jumps, also in process, and the same bits there."""
+    import petsam as package
+
+    case = dict(CYLINDER, load_n=None, grid_n=100, wear_coefficient2=1e-13, wear_rtol=1e-2, output_fields=None)
+    rows = history(
+        tmp_path / "h.csv", "time,load_n,load_tx", (0.0, N, 0.0), (1.0, N, 2e4), (3.0, N, -2e4), (4.0, N, 0.0)
+    )
+    petsam(case, rows, dict(steps=5, wear_cycles=1000, output=tmp_path / "r.h5"))
+    with h5py.File(tmp_path / "r.h5") as f:
+        depth, volume = f["wear_depth2"][-1], f["history/wear_volume2"][-1]
+        assert f["history/wear_volume2"].attrs["units"] == "m3/m"
+        assert f["wear/cycle"][-1] == 1000
+        assert volume == pytest.approx(depth.sum() * WIDTH / 100, rel=1e-12)
+    options = {k: v for k, v in case.items() if v is not None and not k.startswith("load") and k != "wear_rtol"}
+    with package.Contact(**options) as c:
+        step = c.try_step(load_n=N, load_tx=2e4)
+        c.commit()
+        assert c["pressure"].shape == (1, 100) and step.load_tx == pytest.approx(2e4)
+        with pytest.raises(package.Error, match="bodies of type plane have no such moment"):
+            c.try_step(load_n=N, load_mz=1.0)

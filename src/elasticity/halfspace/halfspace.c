@@ -493,8 +493,7 @@ static PetscErrorCode SetFromOptions_Plane(SamElasticity e, const SamOptions *fr
   char before[SAM_PREFIX + 2];
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsReal(from, DATUM,
-                           "plane: distance of the points that displacements are relative to (m)",
+  PetscCall(SamOptionsReal(from, DATUM, "plane: distance of the points that displacements are relative to (m)",
                            SAM_RANGE_POSITIVE, &((HalfSpace *)e->data)->datum, NULL));
   PetscCall(PetscSNPrintf(before, sizeof(before), "-%s", e->prefix));
   PetscCall(CheckDatum(e, SAM_ERR_USER, "", before));
