@@ -315,6 +315,9 @@ PetscErrorCode SamElasticityCreateFromParameters(SamGrid grid, const SamParamete
              type->text, types);
   PetscCall(SamElasticityCreate(grid, &pair, elasticity));
   PetscCall(SamElasticitySetType(*elasticity, type->text));
+  PetscCheck((*elasticity)->traits.plane == (grid->ny == 1), grid->comm, SAM_ERR_FILE,
+             "%s: cannot be read: its elasticity %s does not fit its grid of %" PetscInt_FMT " rows", source,
+             type->text, grid->ny);
   for (SamElasticity e = *elasticity; e; e = e->inner)
     if (e->ops.setparameters) PetscCall((*e->ops.setparameters)(e, p, source));
   PetscFunctionReturn(PETSC_SUCCESS);
