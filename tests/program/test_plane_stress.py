@@ -101,8 +101,14 @@ def test_antiplane_shear(stress, tmp_path):
 def test_bulk_stress_sections_ranks_and_fatigue(stress, launcher, tmp_path):
     bulk = "load_n,load_tx,bulk2_stress_xx"
     rows = [(0.0, N, 0.0, 0.0), (1.0, N, 2e4, 8e7), (2.0, N, -2e4, -8e7), (3.0, N, 2e4, 8e7)]
-    options = dict(depths="0,1e-5,2e-4,2e-3", steps="2:4", fatigue="swt,fatemi_socie,crossland",
-                   fatigue_fatemi_socie_k=0.5, fatigue_yield=5e8, fatigue_crossland_alpha=0.3)
+    options = dict(
+        depths="0,1e-5,2e-4,2e-3",
+        steps="2:4",
+        fatigue="swt,fatemi_socie,crossland",
+        fatigue_fatemi_socie_k=0.5,
+        fatigue_yield=5e8,
+        fatigue_crossland_alpha=0.3,
+    )
     s, _ = stress(bulk, rows, **options)
     assert s["stress_xx"][0, -1, 0, 0] == pytest.approx(8e7, rel=0.05)
     assert np.abs(s["stress_yy"] - NU * (s["stress_xx"] + s["stress_zz"])).max() < 1e-9 * P0

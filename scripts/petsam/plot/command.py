@@ -76,6 +76,8 @@ def chosen(options, results):
         if kind not in allowed:
             there = ", ".join(allowed)
             raise Error(f"{results[0].path}: --{kind}: not for files of {program(results[0])}; use one of {there}")
+    if options.field and kinds == ["maps"] and not options.maps and results[0].is_plane:
+        return ["profiles"]
     if kinds:
         return kinds
     if stresses:
@@ -102,16 +104,17 @@ def study_kinds(studies, kinds):
 
 def result_kinds(results):
     """What results of petsam are good for; of one that lacks fields, a picture whose message says so."""
-    fields = ["maps", "profiles"] if all(one.steps and maps.usual(one) for one in results) else []
+    lines = any(one.is_plane for one in results)
+    fields = ["maps", "profiles"][lines:] if all(one.steps and maps.usual(one) for one in results) else []
     if all(one.has_life for one in results):
         scars = any(wear.worn(one, one.of_last()) for one in results)
         return [*fields, "fretting-log", *(["scar"] if scars else []), "life"]
     several = any(one.solved.size > 1 for one in results)
     if not any(one.solved.size and noise.works(one) for one in results):  # normal loads alone: no loop, no energy
-        return [*fields, *(["history"] if several else [])] or ["maps"]
+        return [*fields, *(["history"] if several else [])] or ["maps", "profiles"][lines : lines + 1]
     repeated = all(one.solved.size and not one.has_life and len(cycles.find(one)) >= MANY for one in results)
     more = ["loop", *(["energy"] if repeated else []), "history", *(["fretting-log"] if repeated else [])]
-    return [*fields, *(more if several else [])] or ["maps"]
+    return [*fields, *(more if several else [])] or ["maps", "profiles"][lines : lines + 1]
 
 
 def stress_kinds(files):
