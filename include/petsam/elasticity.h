@@ -41,8 +41,8 @@ typedef struct {
 } SamElasticityTraits;
 
 /*
-  SamElasticityCreate - of type halfspace, on a grid of one row plane; copies the pair, references the grid. What products need is made when it is
-  first needed. Collective.
+  SamElasticityCreate - of type halfspace, on a grid of one row plane; copies the pair, references the grid. What
+  products need is made when it is first needed. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamElasticityCreate(SamGrid grid, const SamPair *pair, SamElasticity *elasticity);
 /*
@@ -95,7 +95,8 @@ PETSC_EXTERN PetscErrorCode SamElasticityCreateFromParameters(SamGrid grid, cons
                                                               const char source[], SamElasticity *elasticity);
 /*
   SamElasticityGetCoarse - the operator on the next coarser grid, and the transfer to it; both borrowed, NULL when the
-  grid is too small to be halved (fewer than 32 cells in a direction, but for one row). Made at the first call. Collective.
+  grid is too small to be halved (fewer than 32 cells in a direction, but for one row). Made at the first call.
+  Collective.
 */
 PETSC_EXTERN PetscErrorCode SamElasticityGetCoarse(SamElasticity elasticity, SamElasticity *coarse,
                                                    SamTransfer *transfer);

@@ -87,8 +87,8 @@ PETSC_EXTERN PetscErrorCode SamGapGetParameters(SamGap gap, SamGapType *type, Pe
 PETSC_EXTERN PetscErrorCode SamGapEstimateContact(SamGap gap, PetscBool force, PetscReal value, PetscReal half[2],
                                                   PetscBool *known);
 /*
-  SamGapEstimateLine - the half width (m) along x of the contact in plane strain under a force per length over E* (m), of
-  shapes that are even in x; 0: there is none. `known` as above. Not collective.
+  SamGapEstimateLine - the half width (m) along x of the contact in plane strain under a force per length over E* (m),
+  of shapes that are even in x; 0: there is none. `known` as above. Not collective.
 */
 PETSC_EXTERN PetscErrorCode SamGapEstimateLine(SamGap gap, PetscReal value, PetscReal *half, PetscBool *known);
 /*

@@ -26,8 +26,8 @@ struct _n_SamGrid {
   SamGridCreate - n[0] * n[1] cells of full width `width` about `center` (m). Collective. The grid and all that is made
   on it use a communicator of the library's own, PETSc's duplicate of `comm`, so that their messages never meet those
   of the caller.
-  Errors: PETSC_ERR_ARG_OUTOFRANGE when n[0] < 2 or n[1] < 1, a width is not positive and finite, or the cells cannot be counted in a
-  PetscInt.
+  Errors: PETSC_ERR_ARG_OUTOFRANGE when n[0] < 2 or n[1] < 1, a width is not positive and finite, or the cells
+  cannot be counted in a PetscInt.
 */
 PETSC_EXTERN PetscErrorCode SamGridCreate(MPI_Comm comm, const PetscInt n[2], const PetscReal width[2],
                                           const PetscReal center[2], SamGrid *grid);
@@ -105,7 +105,7 @@ PETSC_EXTERN PetscErrorCode SamTransferProlong(SamTransfer transfer, Vec coarse,
   SamWindow - a rectangle of cells of a grid as a grid of its own, with its own slabs on all ranks.
 */
 typedef struct _n_SamWindow *SamWindow;
-/* SamWindowCreate - the n[0] * n[1] cells from column first[0] and row first[1] on; n >= 2, in a row n[1] = 1. Collective. */
+/* SamWindowCreate - the n[0] * n[1] cells from column first[0] and row first[1] on; n >= 2, or one row. Collective. */
 PETSC_EXTERN PetscErrorCode SamWindowCreate(SamGrid grid, const PetscInt first[2], const PetscInt n[2],
                                             SamWindow *window);
 PETSC_EXTERN PetscErrorCode SamWindowDestroy(SamWindow *window);

@@ -69,9 +69,7 @@ def faults(problem, f):
         p, qx, qy = (f[name][k, 0] for name in ("pressure", "shear_x", "shear_y"))
         e = [[h[f"bulk{b}_stress_xx"][k] if f"bulk{b}_stress_xx" in h else 0.0] for b in (1, 2)]
         young = [2 * g * (1 + nu) for g, nu in problem.bodies]
-        stretch = sum(
-            sign * (1 - nu**2) * s[0] / E for sign, s, E, (_, nu) in zip((-1, 1), e, young, problem.bodies)
-        )
+        stretch = sum(sign * (1 - nu**2) * s[0] / E for sign, s, E, (_, nu) in zip((-1, 1), e, young, problem.bodies))
         u_z = Z @ p - C @ qx
         s_x = Z @ qx + problem.film * qx + C @ p + stretch * x - h["disp_x"][k]
         s_y = Y @ qy + problem.film * qy - h["disp_y"][k]

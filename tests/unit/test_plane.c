@@ -1,4 +1,4 @@
-/* Plane strain: products against closed forms in more digits and sums over waves, symmetry, precision, inverses, ranks. */
+/* Plane strain: products against closed forms and waves, symmetry, precision, inverses, one datum, grids, ranks. */
 #include "elasticities.h"
 #include "preconditioners.h"
 

@@ -490,11 +490,13 @@ static PetscErrorCode CheckDatum(SamElasticity e, PetscErrorCode error, const ch
 
 static PetscErrorCode SetFromOptions_Plane(SamElasticity e, const SamOptions *from)
 {
-  char before[SAM_PREFIX + 2];
+  char      before[SAM_PREFIX + 2];
+  PetscReal datum = 0;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsReal(from, DATUM, "plane: distance of the points that displacements are relative to (m)",
-                           SAM_RANGE_POSITIVE, &((HalfSpace *)e->data)->datum, NULL));
+  PetscCall(SamOptionsReal(from, DATUM, "plane: distance (m) that displacements are relative to, 0: grid width",
+                           SAM_RANGE_NONNEGATIVE, &datum, NULL));
+  if (datum > 0) ((HalfSpace *)e->data)->datum = datum;
   PetscCall(PetscSNPrintf(before, sizeof(before), "-%s", e->prefix));
   PetscCall(CheckDatum(e, SAM_ERR_USER, "", before));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -369,7 +369,7 @@ PetscErrorCode SamGapEstimateContact(SamGap gap, PetscBool force, PetscReal valu
 
 #define POINTS 100 /* of the rule of an integral */
 
-/* A line contact of half width a: N/E* = a times the integral of sin t h'(a sin t), t from 0 to pi/2; Johnson, eq. 2.23. */
+/* A line contact of half width a: N/E* = a times the integral of sin t h'(a sin t), t from 0 to pi/2. */
 static double LineForce(SamGap gap, double a)
 {
   double sum = 0;
