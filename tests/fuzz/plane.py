@@ -22,7 +22,6 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "program"))
 from support import words  # noqa: E402
 
 STEPS = 5
-ALL = ("load_n", "load_tx", "load_ty", "load_my", "disp_z", "disp_x", "disp_y", "rot_y")
 
 
 # ---------------------------------------------------------------- mechanics
@@ -50,71 +49,93 @@ def matrices(n, h, bodies, datum):
     return normal * even[lag % n], across * even[lag % n], coupled * turned[lag % n]
 
 
-def faults(problem, f):
-    """What is wrong with the steps of a file: ratios to what is allowed."""
-    case, mu = problem.case, problem.case["friction"]
-    h = {name: values[:] for name, values in f["history"].items()}
-    x = f["x"][:]
-    n, d = x.size, x[1] - x[0]
-    Z, Y, C = matrices(n, d, problem.bodies, None if problem.periodic else problem.datum)
-    gap = problem.gap
-    past = {name: np.zeros(n) for name in ("x", "y", "w1", "w2", "plastic", "p")}
-    worst = collections.defaultdict(float)
+class Check:
+    """Ratios of errors to what is allowed, the largest by name, over the steps of a file."""
 
-    def test(name, value):
-        worst[name] = max(worst[name], float(value) if np.isfinite(value) else np.inf)
+    def __init__(self, problem, f):
+        self.problem, self.f, self.case, self.mu = problem, f, problem.case, problem.case["friction"]
+        self.h = {name: values[:] for name, values in f["history"].items()}
+        self.x = f["x"][:]
+        self.d = self.x[1] - self.x[0]
+        self.kernels = matrices(self.x.size, self.d, problem.bodies, None if problem.periodic else problem.datum)
+        self.past = {name: np.zeros(self.x.size) for name in ("x", "y", "w1", "w2", "plastic", "p")}
+        self.worst = collections.defaultdict(float)
+        self.unit = np.abs(self.kernels[0]).sum(axis=1).max() * max(np.abs(f["pressure"][:]).max(), 1e-300)
 
-    unit_u = np.abs(Z).sum(axis=1).max() * max(np.abs(f["pressure"][:]).max(), 1e-300)
-    for k in range(len(h["time"])):
-        p, qx, qy = (f[name][k, 0] for name in ("pressure", "shear_x", "shear_y"))
-        e = [[h[f"bulk{b}_stress_xx"][k] if f"bulk{b}_stress_xx" in h else 0.0] for b in (1, 2)]
-        young = [2 * g * (1 + nu) for g, nu in problem.bodies]
-        stretch = sum(sign * (1 - nu**2) * s[0] / E for sign, s, E, (_, nu) in zip((-1, 1), e, young, problem.bodies))
-        u_z = Z @ p - C @ qx
-        s_x = Z @ qx + problem.film * qx + C @ p + stretch * x - h["disp_x"][k]
-        s_y = Y @ qy + problem.film * qy - h["disp_y"][k]
-        g = gap + past["w1"] + past["w2"] + past["plastic"] + u_z - h["disp_z"][k] - x * h["rot_y"][k]
-        limit = case.get("pressure_limit", np.inf)
-        full = p >= limit * (1 - 1e-9)
-        scale = max(np.abs(u_z).max(), 1e-3 * unit_u)
-        test("tension", -p.min() / p.max() / 1e-12)
-        test("overlap", -g[~full].min(initial=0) / scale / 1e-6)
-        test("touch", np.abs(g[(p > 1e-7 * p.max()) & ~full]).max(initial=0) / scale / 3e-6)
-        test("yield", g[full].max(initial=-1) / scale / 1e-6)
-        # friction
-        size = np.hypot(qx, qy)
-        test("cone", (size - mu * p).max() / p.max() / 1e-9)
-        move = np.array([s_x - past["x"], s_y - past["y"]])
-        c = 0.5 * (Z[0, 0] + Y[0, 0]) + problem.film
-        z = np.array([qx, qy]) - move / c
+    def test(self, name, value):
+        self.worst[name] = max(self.worst[name], float(value) if np.isfinite(value) else np.inf)
+
+    def step(self, k):
+        """All conditions of a step; then what it leaves to the next one."""
+        p, *q = (self.f[name][k, 0] for name in ("pressure", "shear_x", "shear_y"))
+        now = [self.f[f"slip_{c}"][k, 0] for c in "xy"]
+        self.normal(k, p, q[0])
+        self.tangential(k, p, np.array(q), now)
+        self.wear(k, p, now)
+        self.sums(k, p, q)
+        self.past.update(x=now[0], y=now[1], p=p)
+        if "plastic_depth" in self.f:
+            self.past["plastic"] = self.f["plastic_depth"][k, 0]
+
+    def normal(self, k, p, qx):
+        Z, _, C = self.kernels
+        u, rigid = Z @ p - C @ qx, self.h["disp_z"][k] + self.x * self.h["rot_y"][k]
+        g = self.problem.gap + self.past["w1"] + self.past["w2"] + self.past["plastic"] + u - rigid
+        full = p >= self.case.get("pressure_limit", np.inf) * (1 - 1e-9)
+        scale = max(np.abs(u).max(), 1e-3 * self.unit)
+        self.test("tension", -p.min() / p.max() / 1e-12)
+        self.test("overlap", -g[~full].min(initial=0) / scale / 1e-6)
+        self.test("touch", np.abs(g[(p > 1e-7 * p.max()) & ~full]).max(initial=0) / scale / 3e-6)
+        self.test("yield", g[full].max(initial=-1) / scale / 1e-6)
+
+    def tangential(self, k, p, q, slip):
+        Z, Y, C = self.kernels
+        film, stretch = self.problem.film, 0.0
+        for body, (g, nu) in enumerate(self.problem.bodies, 1):
+            s = self.h.get(f"bulk{body}_stress_xx", np.zeros(k + 1))[k]
+            stretch += (-1) ** body * (1 - nu**2) * s / (2 * g * (1 + nu))
+        s_x = Z @ q[0] + film * q[0] + C @ p + stretch * self.x - self.h["disp_x"][k]
+        s_y = Y @ q[1] + film * q[1] - self.h["disp_y"][k]
+        bound = self.mu * p
+        self.test("cone", (np.hypot(*q) - bound).max() / p.max() / 1e-9)
+        move = np.array([s_x - self.past["x"], s_y - self.past["y"]])
+        z = q - move / (0.5 * (Z[0, 0] + Y[0, 0]) + film)
         length = np.maximum(np.hypot(*z), 1e-300)
-        residual = np.array([qx, qy]) - z * np.where(length > mu * p, mu * p / length, 1)
-        test("friction", np.linalg.norm(residual) / max(np.linalg.norm(mu * p), 1e-300) / 3e-5)
-        test("slip", np.abs(f["slip_x"][k, 0] - s_x).max() / max(unit_u, 1e-300) / 1e-7)
-        # what wears in this step, and what has worn before
-        slid = np.hypot(*(np.array([f["slip_x"][k, 0], f["slip_y"][k, 0]]) - [past["x"], past["y"]]))
-        most = np.maximum(p, past["p"]) * slid * (1 + 1e-6)
-        past["p"] = p
+        residual = q - z * np.where(length > bound, bound / length, 1)
+        self.test("friction", np.linalg.norm(residual) / max(np.linalg.norm(bound), 1e-300) / 3e-5)
+        self.test("slip", max(np.abs(slip[0] - s_x).max(), np.abs(slip[1] - s_y).max()) / self.unit / 1e-7)
+
+    def wear(self, k, p, slip):
+        """Not more than the larger pressure over the way, and as the work of friction."""
+        way = np.hypot(slip[0] - self.past["x"], slip[1] - self.past["y"])
+        most = np.maximum(p, self.past["p"]) * way * (1 + 1e-6)
         for b in (1, 2):
-            if f"wear_depth{b}" in f:
-                depth = f[f"wear_depth{b}"][k, 0]
-                k_b, more = case.get(f"wear_coefficient{b}", 0), depth - past[f"w{b}"]
-                unit = max(depth.max(), 1e-30)
-                test("wear", max(-more.min(), (more - k_b * most).max()) / unit / 1e-9)
-                test("wear work", np.abs(depth - k_b / mu * f["friction_energy"][k, 0]).max() / unit / 1e-6)
-                past[f"w{b}"] = depth
-        if "plastic_depth" in f:
-            past["plastic"] = f["plastic_depth"][k, 0]
-        past["x"], past["y"] = f["slip_x"][k, 0], f["slip_y"][k, 0]
-        # sums, and what is given
-        sums = dict(load_n=p.sum() * d, load_tx=qx.sum() * d, load_ty=qy.sum() * d, load_my=(x * p).sum() * d)
-        for name, value in sums.items():
-            unit = p.sum() * d * (np.abs(x).max() if name == "load_my" else 1)
-            test("sums", abs(value - h[name][k]) / unit / 1e-9)
-        for name, values in problem.rows.items():
-            unit = max(np.abs(h[name]).max(), 1e-6 * (h["load_n"][k] if "load" in name else unit_u), 1e-12 * unit_u)
-            test("given", abs(values[k] - h[name][k]) / unit / 1e-7)
-    return h, {name: value for name, value in worst.items() if not value <= 1}
+            if f"wear_depth{b}" in self.f:
+                depth = self.f[f"wear_depth{b}"][k, 0]
+                k_b, more = self.case.get(f"wear_coefficient{b}", 0), depth - self.past[f"w{b}"]
+                unit, work = max(depth.max(), 1e-30), self.f["friction_energy"][k, 0]
+                self.test("wear", max(-more.min(), (more - k_b * most).max()) / unit / 1e-9)
+                self.test("wear work", np.abs(depth - k_b / self.mu * work).max() / unit / 1e-6)
+                self.past[f"w{b}"] = depth
+
+    def sums(self, k, p, q):
+        """Loads, and what is given."""
+        h, x = self.h, self.x
+        found = dict(load_n=p.sum(), load_tx=q[0].sum(), load_ty=q[1].sum(), load_my=(x * p).sum())
+        for name, value in found.items():
+            unit = p.sum() * self.d * (np.abs(x).max() if name == "load_my" else 1)
+            self.test("sums", abs(value * self.d - h[name][k]) / unit / 1e-9)
+        for name, values in self.problem.rows.items():
+            least = 1e-6 * (h["load_n"][k] if "load" in name else self.unit)
+            self.test("given", abs(values[k] - h[name][k]) / max(np.abs(h[name]).max(), least) / 1e-7)
+
+
+def faults(problem, f):
+    """What is wrong with the steps of a file."""
+    check = Check(problem, f)
+    for k in range(len(check.h["time"])):
+        check.step(k)
+    return check.h, {name: value for name, value in check.worst.items() if not value <= 1}
 
 
 # ---------------------------------------------------------------- problems
@@ -124,90 +145,95 @@ class Problem:
     """A random history of a line of cells; `kinds` are its properties."""
 
     def __init__(self, seed):
-        self.random = random = np.random.default_rng(seed)
+        self.random = np.random.default_rng(seed)
         self.kinds = []
+        n, self.a, self.mu = int(self.log(16, 300)), self.log(1e-5, 1e-2), self.log(0.03, 1)
+        self.periodic = self.is_a("periodic", 0.25)
+        self.width = float(self.random.uniform(2.6, 4)) * self.a
+        self.make_bodies()
+        self.datum = self.width * (1 if self.random.random() < 0.5 else self.log(0.6, 1e3))
+        self.p0 = self.modulus * self.log(1e-4, 3e-2)
+        self.make_gap(n)
+        self.make_case(n)
+        self.make_history()
 
-        def log(low, high):
-            return float(np.exp(random.uniform(np.log(low), np.log(high))))
+    def log(self, low, high):
+        return float(np.exp(self.random.uniform(np.log(low), np.log(high))))
 
-        def is_a(kind, chance):
-            if random.random() < chance:
-                self.kinds.append(kind)
-            return kind in self.kinds
+    def is_a(self, kind, chance):
+        if self.random.random() < chance:
+            self.kinds.append(kind)
+        return kind in self.kinds
 
-        n, a, g, nu, mu = int(log(16, 300)), log(1e-5, 1e-2), log(1e8, 2e11), random.uniform(0, 0.5), log(0.03, 1)
-        self.periodic = is_a("periodic", 0.25)
+    def make_bodies(self):
+        g, nu = self.log(1e8, 2e11), self.random.uniform(0, 0.5)
         self.bodies = [(g, nu)] * 2
-        if is_a("dissimilar", 0.3):
-            self.bodies = [(g, nu), (g * log(0.1, 10), random.uniform(0, 0.5))]
-        young = [float(2 * g * (1 + nu)) for g, nu in self.bodies]
-        modulus = 1 / sum((1 - nu) / (2 * g) for g, nu in self.bodies)
-        width = float(random.uniform(2.6, 4)) * a
-        self.datum = width * (1 if random.random() < 0.5 else log(0.6, 1e3))
-        x = ((np.arange(n) + 0.5) / n - 0.5) * width
-        p0 = modulus * log(1e-4, 3e-2)
-        radius = a * modulus / (2 * p0)
-        self.gap = x**2 / (2 * radius)
-        if is_a("flat", 0.25):  # with rounded edges
-            self.gap = np.maximum(np.abs(x) - 0.6 * a, 0) ** 2 / (2 * 0.5 * radius)
-        if is_a("rough", 0.3):
-            waves = np.cumsum(random.normal(size=n))
-            self.gap = self.gap + a**2 / radius * log(1e-3, 0.1) * (waves - waves.mean()) / waves.std()
-        load = np.pi * p0 * a / 2
+        if self.is_a("dissimilar", 0.3):
+            self.bodies = [(g, nu), (g * self.log(0.1, 10), self.random.uniform(0, 0.5))]
+        self.modulus = 1 / sum((1 - nu) / (2 * g) for g, nu in self.bodies)
+
+    def make_gap(self, n):
+        x = ((np.arange(n) + 0.5) / n - 0.5) * self.width
+        self.radius = self.a * self.modulus / (2 * self.p0)
+        self.gap = x**2 / (2 * self.radius)
+        if self.is_a("flat", 0.25):  # with rounded edges
+            self.gap = np.maximum(np.abs(x) - 0.6 * self.a, 0) ** 2 / self.radius
+        if self.is_a("rough", 0.3):
+            waves = np.cumsum(self.random.normal(size=n))
+            self.gap += self.a**2 / self.radius * self.log(1e-3, 0.1) * (waves - waves.mean()) / waves.std()
+
+    def make_case(self, n):
         self.case = dict(
             elasticity="plane_periodic" if self.periodic else "plane",
             plane_datum=None if self.periodic else float(self.datum),
-            body1_young=young[0],
-            body2_young=young[1],
-            body1_poisson=float(self.bodies[0][1]),
-            body2_poisson=float(self.bodies[1][1]),
             gap_type="file",
             gap_file="gap.h5",
             grid_n=n,
-            grid_size=width,
-            friction=mu,
+            grid_size=self.width,
+            friction=self.mu,
             normal_rtol=1e-9,
             tangential_rtol=1e-8,
             history="h.csv",
             steps=1,
             output_fields="all",
         )
+        for k, (g, nu) in enumerate(self.bodies, 1):
+            self.case.update({f"body{k}_young": float(2 * g * (1 + nu)), f"body{k}_poisson": float(nu)})
         self.film = 0.0
-        if is_a("film", 0.2):
-            self.film = width / n / g * log(1e-2, 1e2)
+        if self.is_a("film", 0.2):
+            self.film = self.width / n / self.bodies[0][0] * self.log(1e-2, 1e2)
             self.case.update(film_thickness=1e-6, film_shear=1e-6 / self.film)
-        if is_a("hard", 0.15):
-            self.case["pressure_limit"] = p0 * log(0.5, 2)
-        if is_a("wear", 0.25):
-            self.case[f"wear_coefficient{random.choice([1, 2])}"] = log(1e-3, 0.1) / p0 * a / radius
-        # each row of loads, of which the tangential ones change their signs
-        t = np.arange(STEPS)
+        if self.is_a("hard", 0.15):
+            self.case["pressure_limit"] = self.p0 * self.log(0.5, 2)
+        if self.is_a("wear", 0.25):
+            wear = self.log(1e-3, 0.1) / self.p0 * self.a / self.radius
+            self.case[f"wear_coefficient{self.random.choice([1, 2])}"] = wear
+
+    def make_history(self):
+        """Rows of loads, of which the tangential ones change their signs."""
+        random, load = self.random, np.pi * self.p0 * self.a / 2
         N = load * random.uniform(0.3, 1, STEPS)
-        share = 0.7 if "dissimilar" in self.kinds else 0.95
         angle = 0 if random.random() < 0.6 else random.uniform(0, 2 * np.pi)
-        T = mu * N * share * random.uniform(-1, 1, STEPS)
+        T = self.mu * N * (0.7 if "dissimilar" in self.kinds else 0.95) * random.uniform(-1, 1, STEPS)
         self.rows = dict(load_n=N, load_tx=T * np.cos(angle))
         if angle:
             self.kinds.append("antiplane")
             self.rows["load_ty"] = T * np.sin(angle)
-        if not self.periodic and is_a("moment", 0.3):
-            self.rows["load_my"] = N * a * random.uniform(-0.15, 0.15, STEPS)
+        if not self.periodic and self.is_a("moment", 0.3):
+            self.rows["load_my"] = N * self.a * random.uniform(-0.15, 0.15, STEPS)
+        if self.is_a("displacements", 0.25):  # of all loads but that along z
+            for name, way in (("load_tx", "disp_x"), ("load_ty", "disp_y")):
+                if self.rows.pop(name, None) is not None:
+                    self.rows[way] = random.uniform(-1, 1, STEPS) * self.mu * load / self.modulus
         self.columns = dict(self.rows)
-        if not self.periodic and is_a("bulk", 0.3):
-            self.columns[f"bulk{random.choice([1, 2])}_stress_xx"] = mu * p0 * random.uniform(-1, 1, STEPS)
-        if is_a("displacements", 0.25):  # of all loads but that along z
-            for load_of, way in (("load_tx", "disp_x"), ("load_ty", "disp_y")):
-                if load_of in self.columns:
-                    move = random.uniform(-1, 1, STEPS) * mu * load / modulus
-                    del self.rows[load_of], self.columns[load_of]
-                    self.rows[way] = self.columns[way] = move
-        self.t = t
+        if not self.periodic and self.is_a("bulk", 0.3):
+            self.columns[f"bulk{random.choice([1, 2])}_stress_xx"] = self.mu * self.p0 * random.uniform(-1, 1, STEPS)
 
     def write(self, folder):
         with h5py.File(folder / "gap.h5", "w") as f:
             f["height"] = self.gap[None, :]
         names = ["time", *self.columns]
-        rows = np.column_stack([self.t, *self.columns.values()])
+        rows = np.column_stack([np.arange(STEPS), *self.columns.values()])
         text = "\n".join([",".join(names), *(",".join(repr(float(v)) for v in row) for row in rows)])
         (folder / "h.csv").write_text(text + "\n")
 

@@ -6,7 +6,7 @@ import pytest
 
 import conftest
 from support import history
-from test_plane import CYLINDER, MU, NU, A, N, P0
+from test_plane import CYLINDER, MU, NU, P0, A, N
 
 PROGRAM = conftest.PROGRAM.with_name("petsam-stress")
 COMPONENTS = ("xx", "yy", "zz", "xy", "xz", "yz")

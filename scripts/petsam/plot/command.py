@@ -76,10 +76,8 @@ def chosen(options, results):
         if kind not in allowed:
             there = ", ".join(allowed)
             raise Error(f"{results[0].path}: --{kind}: not for files of {program(results[0])}; use one of {there}")
-    if options.field and kinds == ["maps"] and not options.maps and results[0].is_plane:
-        return ["profiles"]
     if kinds:
-        return kinds
+        return of_field(options, results, kinds)
     if stresses:
         return stress_kinds(results)
     if options.range:
@@ -87,6 +85,11 @@ def chosen(options, results):
     if options.cycle and not all(one.has_life for one in results):
         return ["loop"]
     return result_kinds(results)
+
+
+def of_field(options, results, kinds):
+    """The kinds asked for, where the one that --field means is the profile of a line."""
+    return ["profiles"] if kinds == ["maps"] and not options.maps and getattr(results[0], "is_plane", False) else kinds
 
 
 def program(one):

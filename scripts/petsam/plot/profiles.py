@@ -90,7 +90,7 @@ def _rows(snapshots, names):
 
 
 def profiles(snapshots, at=(0.0, 0.0), whole=False, names=None, limits=None, logs=()):
-    """Fields along x (left) and y (right), of plane problems along x: those named, or pressure, shear, slip and removed depths."""
+    """Fields along x (left) and y (right; not of plane problems): those named, or pressure, shear, slip and depths."""
     if limits and len(names or ()) != 1:
         raise Error("--limits: expected one field, by --field")
     rows = _rows(snapshots, names)

@@ -189,7 +189,10 @@ def _scar_panel(panel, row, axis, units, whole):
 
 
 def scar(steps, at=None, whole=False):
-    """Removed depth along x (left) and y (right; not of plane problems) through its deepest point: one row per body, one line per step."""
+    """Removed depth along x (left) and y (right) through its deepest point: one row per body, one line per step.
+
+    Of plane problems along x only.
+    """
     need_few(len(steps), "steps and files")
     rows = _scar_rows(steps, at)
     sides = sides_of(one for one, _ in steps)
