@@ -56,7 +56,7 @@ static PetscErrorCode RefuseCurvature(SamSetup *s, const SamOptions *from)
   PetscCall(SamGapGetParameters(s->gap, NULL, &count, &names, &values));
   for (PetscInt k = 0; k < count && !help; k++)
     PetscCheck(strcmp(names[k], "gap_radius_y") || isinf(values[k]), from->comm, SAM_ERR_USER,
-               "-%s%s %.6g: has no meaning with -%selasticity plane, whose bodies are straight along y: give inf",
+               "-%s%s %.6g: has no meaning with -%selasticity plane, whose bodies are cylinders along y: give inf",
                SamOptionsPrefix(from), names[k], (double)values[k], SamOptionsPrefix(from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -168,6 +168,7 @@ def test_rolling_is_carter_s(solve):
     r = solve(CYLINDER, dict(friction=mu, load_tx=T, rolling="steady", grid_n=1000))
     exact = mu * A / R * (1 - np.sqrt(1 - T / (mu * N)))
     assert r["creep_x"] == pytest.approx(exact, rel=2e-3)
+    assert r["creep_x_extrapolated"] == pytest.approx(exact, rel=5e-3)
     assert r["stick_area"] == pytest.approx(2 * A * np.sqrt(1 - T / (mu * N)), rel=5e-3)
 
 
