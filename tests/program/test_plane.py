@@ -236,7 +236,8 @@ def test_what_has_no_meaning_is_refused(petsam, options, complaint):
 
 def test_columns_are_refused(petsam, tmp_path):
     rows = history(tmp_path / "h.csv", "time,load_n,load_mz", (0.0, N, 0.0), (1.0, N, 1.0))
-    assert "load_mz" in petsam(dict(CYLINDER, load_n=None), rows, check=2).stderr
+    complaint = petsam(dict(CYLINDER, load_n=None), rows, check=2).stderr
+    assert "h.csv, line 3: load_mz 1: has no meaning with -elasticity plane" in complaint
 
 
 # ---------------------------------------------------------------- what else a contact does
