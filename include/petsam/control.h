@@ -2,7 +2,7 @@
 #ifndef PETSAM_CONTROL_H
 #define PETSAM_CONTROL_H
 
-#include <petsam/base.h>
+#include <petsam/grid.h>
 
 /*
   SamComponent - the six components of the rigid motion of body 1 relative to body 2, in the order used everywhere. Each
@@ -35,6 +35,8 @@ PETSC_EXTERN const SamComponentName SamComponentNames[SAM_COMPONENTS];
 /* How a component is given. SamComponentNameOf - its name so, NULL: it cannot be given so. Not collective. */
 typedef enum { SAM_BY_LOAD, SAM_BY_RIGID, SAM_BY_CREEP, SAM_WAYS } SamWay;
 PETSC_EXTERN const char *SamComponentNameOf(PetscInt component, SamWay way);
+/* SamUnitOn - a number's unit on a grid: with one row of a load, area, volume or energy per metre. Not collective. */
+PETSC_EXTERN const char *SamUnitOn(SamGrid grid, const char unit[]);
 
 /* The components of a bulk stress, in the order used everywhere. */
 typedef enum { SAM_BULK_XX, SAM_BULK_YY, SAM_BULK_XY, SAM_BULK_COMPONENTS } SamBulkComponent;

@@ -20,6 +20,8 @@ typedef const char *SamElasticityType;
 #define SAM_ELASTICITY_HALFSPACE "halfspace" /* two half-spaces; tractions are constant on each cell */
 #define SAM_ELASTICITY_PERIODIC \
   "periodic" /* two half-spaces, the grid being one period of everything; tractions are sums of waves */
+#define SAM_ELASTICITY_PLANE          "plane" /* half-spaces in plane strain, on a grid of one row; forces per metre */
+#define SAM_ELASTICITY_PLANE_PERIODIC "plane_periodic" /* the same of periodic */
 
 #define SAM_ELASTICITY_ROLLING "rolling" /* any of these in steady rolling, by SamElasticityCreateRolling() */
 
@@ -30,6 +32,7 @@ typedef struct {
   PetscBool stretch;  /* the bodies may bear a uniform bulk stress */
   PetscBool rotations[3]; /* about x, y, z: a rigid rotation is possible, and a moment defined */
   PetscBool mean;   /* a uniform traction displaces the surface; else displacements are relative to the mean planes */
+  PetscBool plane;  /* plane strain: the grid has one row */
   PetscBool parts;  /* where only a part of the grid has traction, an operator on that part suffices */
   PetscBool within; /* the pressure may vary within cells */
   PetscBool steady; /* rolls towards +x: u_t is a velocity relative to that of rolling, the operator not symmetric */
@@ -38,8 +41,8 @@ typedef struct {
 } SamElasticityTraits;
 
 /*
-  SamElasticityCreate - of type halfspace; copies the pair, references the grid. What products need is made when it is
-  first needed. Collective.
+  SamElasticityCreate - of type halfspace, on a grid of one row plane; copies the pair, references the grid. What
+  products need is made when it is first needed. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamElasticityCreate(SamGrid grid, const SamPair *pair, SamElasticity *elasticity);
 /*
@@ -77,6 +80,10 @@ PETSC_EXTERN PetscErrorCode SamElasticityGetGrid(SamElasticity elasticity, SamGr
 PETSC_EXTERN PetscErrorCode SamElasticityGetPair(SamElasticity elasticity, const SamPair **pair); /* borrowed */
 PETSC_EXTERN PetscErrorCode SamElasticityGetTraits(SamElasticity elasticity, SamElasticityTraits *traits);
 /*
+  SamElasticityPlaneFromOptions - whether -elasticity names a plane type, for the grid. Not collective.
+*/
+PETSC_EXTERN PetscErrorCode SamElasticityPlaneFromOptions(const SamOptions *from, PetscBool *plane);
+/*
   SamElasticityAddParameters - appends what defines the bodies, by the names of its options: elastic constants, type,
   and what the type adds. Not collective.
   SamElasticityCreateFromParameters - the same bodies on a grid, from such a record. `source` names it in
@@ -88,7 +95,8 @@ PETSC_EXTERN PetscErrorCode SamElasticityCreateFromParameters(SamGrid grid, cons
                                                               const char source[], SamElasticity *elasticity);
 /*
   SamElasticityGetCoarse - the operator on the next coarser grid, and the transfer to it; both borrowed, NULL when the
-  grid is too small to be halved (fewer than 32 cells in a direction). Made at the first call. Collective.
+  grid is too small to be halved (fewer than 32 cells in a direction, but for one row). Made at the first call.
+  Collective.
 */
 PETSC_EXTERN PetscErrorCode SamElasticityGetCoarse(SamElasticity elasticity, SamElasticity *coarse,
                                                    SamTransfer *transfer);

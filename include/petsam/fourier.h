@@ -42,6 +42,7 @@ PETSC_EXTERN PetscErrorCode SamFourierSettingsFromOptions(SamFourierSettings *se
   (only in padded mode) the odd ones: entry m of phase f of column b is frequency ky = phases * m + f of phases * hy,
   kx = first + b of phases * hx, at data[field][(f * width + b) * stride + m][re, im] in double precision, or at
   single[field][...] in single precision; the other array is NULL.
+  A grid of one row has no frequencies along y, and hy = phases = stride = 1 in both modes.
 */
 typedef struct {
   SamFourierMode mode;

@@ -87,6 +87,11 @@ PETSC_EXTERN PetscErrorCode SamGapGetParameters(SamGap gap, SamGapType *type, Pe
 PETSC_EXTERN PetscErrorCode SamGapEstimateContact(SamGap gap, PetscBool force, PetscReal value, PetscReal half[2],
                                                   PetscBool *known);
 /*
+  SamGapEstimateLine - the half width (m) along x of the contact in plane strain under a force per length over E* (m),
+  of shapes that are even in x; 0: there is none. `known` as above. Not collective.
+*/
+PETSC_EXTERN PetscErrorCode SamGapEstimateLine(SamGap gap, PetscReal value, PetscReal *half, PetscBool *known);
+/*
   SamGapGetSteepness - the largest ratio of a contact's half widths (m, along x and y) to a radius of curvature, and the
   name of the option (without dash and prefix) that gives this radius; 0 and NULL for types without radii. Not
   collective.

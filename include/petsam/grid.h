@@ -5,7 +5,8 @@
 #include <petsam/base.h>
 
 /*
-  SamGrid - nx * ny cells of dx * dy (m), x the fast index. Rows lie in slabs of ceil(ny/ranks) rows, the layout of
+  SamGrid - nx * ny cells of dx * dy (m), x the fast index; ny = 1 for plane problems, whose cells are 1 m wide along y,
+  so that sums over cells are per metre. Rows lie in slabs of ceil(ny/ranks) rows, the layout of
   FFTW's MPI transforms; the last ranks may own none. A plain struct: read its members, do not change them.
 */
 typedef struct _n_SamGrid *SamGrid;
@@ -17,7 +18,7 @@ struct _n_SamGrid {
   PetscReal dx, dy;          /* cell size (m) */
   PetscInt  row_start, rows; /* this rank's rows */
   PetscInt  cells;           /* this rank's cells: rows * nx */
-  PetscReal length;          /* half the larger width: the length that makes coordinates dimensionless (m) */
+  PetscReal length;          /* half the larger width, of one row that in x: makes coordinates dimensionless (m) */
   PetscInt  references;
 };
 
@@ -25,17 +26,18 @@ struct _n_SamGrid {
   SamGridCreate - n[0] * n[1] cells of full width `width` about `center` (m). Collective. The grid and all that is made
   on it use a communicator of the library's own, PETSc's duplicate of `comm`, so that their messages never meet those
   of the caller.
-  Errors: PETSC_ERR_ARG_OUTOFRANGE when n < 2, a width is not positive and finite, or the cells cannot be counted in a
-  PetscInt.
+  Errors: PETSC_ERR_ARG_OUTOFRANGE when n[0] < 2 or n[1] < 1, a width is not positive and finite, or the cells
+  cannot be counted in a PetscInt.
 */
 PETSC_EXTERN PetscErrorCode SamGridCreate(MPI_Comm comm, const PetscInt n[2], const PetscReal width[2],
                                           const PetscReal center[2], SamGrid *grid);
 /*
   SamGridCreateFromOptions - from -grid_n, -grid_size, -grid_center. `n`, `width` and `center` are what counts without
-  them, become those of the grid, and the first two are required where they are 0. Collective. Errors: SAM_ERR_USER.
+  them, become those of the grid, and the first two are required where they are 0. `row`: one row of cells, 1 m wide.
+  Collective. Errors: SAM_ERR_USER.
 */
-PETSC_EXTERN PetscErrorCode SamGridCreateFromOptions(const SamOptions *from, PetscInt n[2], PetscReal width[2],
-                                                     PetscReal center[2], SamGrid *grid);
+PETSC_EXTERN PetscErrorCode SamGridCreateFromOptions(const SamOptions *from, PetscBool row, PetscInt n[2],
+                                                     PetscReal width[2], PetscReal center[2], SamGrid *grid);
 PETSC_EXTERN PetscErrorCode SamGridReference(SamGrid grid);
 PETSC_EXTERN PetscErrorCode SamGridDestroy(SamGrid *grid);
 /* SamGridCoarsen - the same rectangle with half the cells in each direction, rounded up. Collective. */
@@ -103,7 +105,7 @@ PETSC_EXTERN PetscErrorCode SamTransferProlong(SamTransfer transfer, Vec coarse,
   SamWindow - a rectangle of cells of a grid as a grid of its own, with its own slabs on all ranks.
 */
 typedef struct _n_SamWindow *SamWindow;
-/* SamWindowCreate - the n[0] * n[1] cells from column first[0] and row first[1] on; n >= 2. Collective. */
+/* SamWindowCreate - the n[0] * n[1] cells from column first[0] and row first[1] on; n >= 2, or one row. Collective. */
 PETSC_EXTERN PetscErrorCode SamWindowCreate(SamGrid grid, const PetscInt first[2], const PetscInt n[2],
                                             SamWindow *window);
 PETSC_EXTERN PetscErrorCode SamWindowDestroy(SamWindow *window);

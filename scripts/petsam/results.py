@@ -75,10 +75,10 @@ class Datafile:
                 self.close()
                 raise
 
-    def _read_axes(self, names, least):
+    def _read_axes(self, names, fewest):
         """The coordinates, each of at least so many numbers that increase; then /history and the parameters."""
         axes = [self._row(_own(self.file, name), name) for name in names]
-        for name, axis in zip(names, axes):
+        for name, axis, least in zip(names, axes, fewest):
             if axis.size < least or not np.all(np.isfinite(axis)) or not np.all(np.diff(axis) > 0.0):
                 raise ValueError(f"/{name} is not {least} or more numbers that increase")
         history, self.units = self._read_table("history")
@@ -165,7 +165,9 @@ class Results(Datafile):
     first_row, last_row = 0, None  # rows of the history that count: see between()
 
     def _read(self):
-        self.x, self.y = self._read_axes(("x", "y"), 2)
+        self.x, self.y = self._read_axes(("x", "y"), (2, 1))
+        self.is_plane = self.y.size == 1  # plane strain: numbers are per metre
+        self.work_unit = self.units.get("dissipated_energy", "J")
         self.times = self._row(_own(self.file, "time"), "time")
         if "friction_file" not in self.parameters:
             _ = self.parameters["friction"]  # which every other file has
@@ -497,7 +499,7 @@ class Snapshot:
         need_index(results, index)
         self.index = index
         self.x, self.y, self.parameters = results.x, results.y, results.parameters
-        self.dx, self.dy = (float(axis[1] - axis[0]) for axis in (self.x, self.y))
+        self.dx, self.dy = (float(axis[1] - axis[0]) if axis.size > 1 else 1.0 for axis in (self.x, self.y))
 
     def __getitem__(self, name):
         if name in self.results.history:

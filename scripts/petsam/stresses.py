@@ -25,7 +25,7 @@ class Stresses(Datafile):
     """
 
     def _read(self):
-        self.times, self.z, self.y, self.x = self._read_axes(AXES, 1)
+        self.times, self.z, self.y, self.x = self._read_axes(AXES, (1, 1, 1, 1))
         self.along = "x" if self.y.size == 1 else "y" if self.x.size == 1 else None
         self.steps = [int(number) for number in self.history["step"]]
         self.shape = (self.times.size, self.z.size, self.y.size, self.x.size)

@@ -112,6 +112,7 @@ PetscErrorCode SamReportBanner(SamReport r, SamGrid grid, double bytes, const Sa
 
   PetscFunctionBegin;
   r->steps = start->steps;
+  r->row   = grid->ny == 1;
   SamReportChooseColumns(r, start->loads);
   if (r->quiet) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCallMPI(MPI_Comm_size(r->comm, &ranks));
@@ -123,6 +124,9 @@ PetscErrorCode SamReportBanner(SamReport r, SamGrid grid, double bytes, const Sa
   PetscCall(PetscPrintf(r->comm, "  %-10s  %d on %d node%s\n", "ranks", ranks, (int)nodes, nodes > 1 ? "s" : ""));
   PetscCall(PetscPrintf(r->comm, "  %-10s  %" PetscInt_FMT " x %" PetscInt_FMT " cells of %.6g m x %.6g m\n", "grid",
                         grid->nx, grid->ny, (double)grid->dx, (double)grid->dy));
+  if (grid->ny == 1)
+    PetscCall(PetscPrintf(r->comm, "  %-10s  strain: loads, areas, energies and volumes per metre of length%s\n",
+                          "plane", ranks > 1 ? "; one rank works, the others wait" : ""));
   SamDescribeBytes(bytes, memory, sizeof(memory));
   PetscCall(PetscPrintf(r->comm, "  %-10s  about %s per rank\n", "memory", memory));
   PetscCall(PetscPrintf(r->comm, "  %-10s  %" PetscInt_FMT "%s, results %s%s%s\n", "steps", start->steps,
@@ -315,8 +319,9 @@ static PetscErrorCode EndCycle(SamReport r, const SamLifeReport *c, PetscReal cy
   if (c->jump <= 0 && c->cycles < cycles) (void)snprintf(duration, sizeof(duration), "unknown");
   if (r->cycles == 1)
     PetscCall(PetscPrintf(r->comm, "%10s %8s %7s %9s %9s %9s %9s %9s %8s %8s %8s %6s %8s\n", "cycles", "jump", "error",
-                          "vol.1/m3", "vol.2/m3", "depth1/m", "depth2/m", "energy/J", "area/m2", "p max/Pa", "computed",
-                          "s", "left"));
+                          r->row ? "vol.1/m2" : "vol.1/m3", r->row ? "vol.2/m2" : "vol.2/m3", "depth1/m", "depth2/m",
+                          r->row ? "en/(J/m)" : "energy/J", r->row ? "width/m" : "area/m2", "p max/Pa", "computed", "s",
+                          "left"));
   PetscCall(PetscPrintf(r->comm,
                         "%10.9g %8.6g %7.1e %9.3g %9.3g %9.3g %9.3g %9.3g %8.3g %8.3g %8" PetscInt_FMT " %6.2f %8s\n",
                         (double)c->cycles, (double)c->jump, (double)c->error, (double)c->volume[0],

@@ -42,6 +42,7 @@ struct _n_SamReport {
   double         recent[SAM_REPORT_RECENT]; /* seconds of the last steps */
   PetscInt       steps, number, done;
   PetscBool      shown[SAM_REPORT_COLUMNS]; /* columns of the table of steps */
+  PetscBool      row;                       /* a grid of one row: loads per metre */
   PetscInt       cycles;                    /* lines printed for computed cycles */
   PetscReal      jump;                      /* cycles, of the last of these */
   PetscBool      living;                    /* the run is a life */

@@ -55,12 +55,15 @@ static double Rounded(const SamStep *s, PetscInt c, const PetscReal values[], co
 static PetscErrorCode ViewSolution(const SamStep *s, SamContact c, const Sizes *sizes, PetscViewer viewer)
 {
   const PetscBool rolls = SamContactIsSteady(c);
+  SamGrid         grid;
   const double passes = Get(c, "coupling_iterations"), move = ROUNDING * sizes->rigid[0], work = sizes->load[0] * move;
 
   PetscFunctionBegin;
+  PetscCall(SamContactGetGrid(c, &grid));
   PetscCall(PetscViewerASCIIPrintf(
-    viewer, "  %-10s  contact %.6g m2, stick %.6g m2, dissipated %.6g %s\n", "areas", Get(c, "contact_area"),
-    Get(c, "stick_area"), Clean(Get(c, rolls ? "rolling_energy" : "dissipated_energy"), work), rolls ? "J/m" : "J"));
+    viewer, "  %-10s  contact %.6g %s, stick %.6g %s, dissipated %.6g %s\n", "areas", Get(c, "contact_area"),
+    SamUnitOn(grid, "m2"), Get(c, "stick_area"), SamUnitOn(grid, "m2"),
+    Clean(Get(c, rolls ? "rolling_energy" : "dissipated_energy"), work), SamUnitOn(grid, rolls ? "J/m" : "J")));
   PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  pressure %.6g Pa, shear %.6g Pa, slip %.6g%s\n", "maximum",
                                    Get(c, "pressure_max"), Get(c, "shear_max"),
                                    Clean(Get(c, rolls ? "slip_velocity_max" : "slip_max"), move),
@@ -87,27 +90,30 @@ PetscErrorCode SamStepView(const SamStep *s, SamContact contact, PetscViewer vie
                                                SAM_COMPONENT_TX, SAM_COMPONENT_TY, SAM_COMPONENT_MZ};
   static const char *const  given[SAM_WAYS] = {"load", "displacement", "creepage"};
   const Sizes               sizes           = GetSizes(s, contact);
+  SamGrid                   grid;
 
   PetscFunctionBegin;
+  PetscCall(SamContactGetGrid(contact, &grid));
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
     const PetscInt          c     = order[k];
     const SamComponentName *name  = &SamComponentNames[c];
     const PetscBool         creep = name->creep && SamContactIsSteady(contact), load = s->control.force[c];
     char                    fine[96] = "";
 
+    if (grid->ny == 1 && (c == SAM_COMPONENT_MX || c == SAM_COMPONENT_MZ)) continue;
     if (creep) {
       (void)snprintf(fine, sizeof(fine), "%s_extrapolated", load ? name->creep : name->load);
       (void)snprintf(fine, sizeof(fine), "; fine grid: %s %.7g", load ? name->creep : name->load,
                      Clean(Get(contact, fine), 1e3 * REST * (load ? sizes.rigid : sizes.load)[c >= SAM_COMPONENT_MX]));
     }
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  %-7s %14.7g %-3s  %-6s %14.7g %-3s  (%s given%s)\n",
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  %-7s %14.7g %-*s  %-6s %14.7g %-3s  (%s given%s)\n",
                                      k == 0   ? "normal"
                                      : k == 3 ? "tangential"
                                               : "",
-                                     name->load, Rounded(s, c, s->load, sizes.load), name->load_unit,
-                                     creep ? name->creep : name->rigid, Rounded(s, c, s->rigid, sizes.rigid),
-                                     creep ? name->creep_unit : name->rigid_unit, given[SamControlWay(&s->control, c)],
-                                     fine));
+                                     name->load, Rounded(s, c, s->load, sizes.load), grid->ny == 1 ? 5 : 3,
+                                     SamUnitOn(grid, name->load_unit), creep ? name->creep : name->rigid,
+                                     Rounded(s, c, s->rigid, sizes.rigid), creep ? name->creep_unit : name->rigid_unit,
+                                     given[SamControlWay(&s->control, c)], fine));
   }
   if (s->status != SAM_STATUS_NO_EQUILIBRIUM) PetscCall(ViewSolution(s, contact, &sizes, viewer));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -128,24 +134,26 @@ typedef struct {
   int         width, digits, order; /* order in which columns are omitted where a line would be too long; 0: never */
 } Column;
 enum { STEP, TIME, LOADS, CONTACT = LOADS + SAM_COMPONENTS, SLIP = CONTACT + 4, RESIDUAL = CONTACT + 7, SECONDS, LEFT };
-static const Column columns[SAM_REPORT_COLUMNS] = {{"step", "", 5, 0, 0},
-                                                   {"time/s", "", 10, 4, 0},
-                                                   {"N/N", "", 11, 4, 0},
-                                                   {"Tx/N", "", 11, 4, 0},
-                                                   {"Ty/N", "", 11, 4, 0},
-                                                   {"Mx/Nm", "", 11, 4, 0},
-                                                   {"My/Nm", "", 11, 4, 0},
-                                                   {"Mz/Nm", "", 11, 4, 0},
-                                                   {"contact/m2", "contact_area", 11, 4, 0},
-                                                   {"stick/m2", "stick_area", 10, 3, 5},
-                                                   {"p max/Pa", "pressure_max", 9, 3, 6},
-                                                   {"q max/Pa", "shear_max", 9, 3, 3},
-                                                   {"slip/m", "slip_max", 9, 3, 4},
-                                                   {"it n", "normal_iterations", 5, 4, 2},
-                                                   {"it t", "tangential_iterations", 5, 4, 1},
-                                                   {"residual", "", 9, 2, 0},
-                                                   {"s", "", 7, 2, 0},
-                                                   {"left", "", 9, 0, 0}};
+/* The headings of loads and areas per metre of length. */
+static const char *const per_metre[] = {"N/(N/m)", "Tx/(N/m)", "Ty/(N/m)", "", "My/N", "", "contact/m", "stick/m"};
+static const Column      columns[SAM_REPORT_COLUMNS] = {{"step", "", 5, 0, 0},
+                                                        {"time/s", "", 10, 4, 0},
+                                                        {"N/N", "", 11, 4, 0},
+                                                        {"Tx/N", "", 11, 4, 0},
+                                                        {"Ty/N", "", 11, 4, 0},
+                                                        {"Mx/Nm", "", 11, 4, 0},
+                                                        {"My/Nm", "", 11, 4, 0},
+                                                        {"Mz/Nm", "", 11, 4, 0},
+                                                        {"contact/m2", "contact_area", 11, 4, 0},
+                                                        {"stick/m2", "stick_area", 10, 3, 5},
+                                                        {"p max/Pa", "pressure_max", 9, 3, 6},
+                                                        {"q max/Pa", "shear_max", 9, 3, 3},
+                                                        {"slip/m", "slip_max", 9, 3, 4},
+                                                        {"it n", "normal_iterations", 5, 4, 2},
+                                                        {"it t", "tangential_iterations", 5, 4, 1},
+                                                        {"residual", "", 9, 2, 0},
+                                                        {"s", "", 7, 2, 0},
+                                                        {"left", "", 9, 0, 0}};
 
 void SamReportChooseColumns(SamReport r, const PetscBool loads[SAM_COMPONENTS])
 {
@@ -201,6 +209,7 @@ PetscErrorCode SamReportStepLine(SamReport r, const SamStep *s, SamContact conta
       WriteColumn(r, s, contact, k, seconds, left, text, sizeof(text));
       used += (size_t)snprintf(line + used, sizeof(line) - used, "%*s", columns[k].width,
                                !heading                                   ? text
+                               : r->row && k >= LOADS && k < CONTACT + 2  ? per_metre[k - LOADS]
                                : k == SLIP && SamContactIsSteady(contact) ? "slip/V"
                                                                           : columns[k].heading);
     }

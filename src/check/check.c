@@ -94,7 +94,7 @@ static Border BorderOf(SamGrid grid, const SamSolution *s)
   Border b;
 
   SamGridEntering(grid, s->control.roll, b.low, b.high);
-  for (int axis = 0; axis < 2; axis++) {
+  for (int axis = 0; axis < (grid->ny == 1 ? 1 : 2); axis++) {
     b.low[axis]  = PetscMax(b.low[axis], 1);
     b.high[axis] = PetscMax(b.high[axis], 1);
   }

@@ -65,7 +65,7 @@ static PetscErrorCode CreateCoarse(SamSolve *w, Coarse *k)
   k->tangential = SamControlGetBalance(&w->s->control, SAM_BALANCE_TANGENTIAL);
   for (PetscInt n = 0; n < 3; n++) { /* the loads that were found: the same contact; the creepages are the start */
     if (k->tangential.force[n]) k->tangential.rigid[n] = w->rigid[n];
-    k->normal.force[n] = PETSC_TRUE;
+    k->normal.force[n] = n != 1 || k->grid->ny > 1; /* no Mx in plane strain */
     k->normal.load[n]  = w->s->load[SamComponentsOf[SAM_BALANCE_NORMAL][n]];
   }
   PetscFunctionReturn(PETSC_SUCCESS);

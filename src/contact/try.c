@@ -68,8 +68,11 @@ PetscErrorCode SamContactRefuseSteady(SamContact c, const char prefix[], const c
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Bulk stress must be finite, and 0 in a rigid body, and in bodies that bear none: stretched ones are not periodic. */
-static PetscErrorCode CheckBulkStress(SamContact c, const SamControl *control)
+/*
+  Bulk stress must be finite, and 0 in a rigid body, and in bodies that bear none: stretched ones are not periodic. In
+  plane strain that along y follows from that along x.
+*/
+static PetscErrorCode CheckBulkStress(SamContact c, SamControl *control)
 {
   const SamPair    *pair;
   SamElasticityType type;
@@ -88,6 +91,12 @@ static PetscErrorCode CheckBulkStress(SamContact c, const SamControl *control)
                  "%s = %.6g: expected at most Young's modulus, %.6g", name, stress, (double)pair->young[body]);
       PetscCheck(stress == 0 || c->traits.stretch, c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
                  "%s = %.6g: expected 0: bodies of type %s bear no bulk stress", name, stress, type);
+      if (!c->traits.plane || k == SAM_BULK_XX) continue;
+      /* without -0, of which nothing may depend */
+      control->bulk_stress[body][k] =
+        k == SAM_BULK_YY ? 0 + pair->poisson[body] * control->bulk_stress[body][SAM_BULK_XX] : 0;
+      PetscCheck(stress == 0 || stress == control->bulk_stress[body][k], c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
+                 "%s = %.6g: expected 0: in plane strain yy follows from xx, and there is no xy", name, stress);
     }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -113,9 +122,10 @@ PetscErrorCode SamContactCheckRolling(SamContact c, const SamControl *control, c
                SAM_ERR_USER, "%s%s = %.6g: a creepage needs a rolled distance: give roll or roll_y, or -rolling steady",
                where, SamComponentNames[k].creep, (double)control->value[k]);
   for (PetscInt k = 0; k < SAM_COMPONENTS && c->traits.steady; k++)
-    PetscCheck(!SamComponentNames[k].creep || SamControlWay(control, k) != SAM_BY_RIGID, c->grid->comm, SAM_ERR_USER,
-               "%s has no meaning with -rolling steady: give %s or %s", SamComponentNames[k].rigid,
-               SamComponentNames[k].creep, SamComponentNames[k].load);
+    PetscCheck(!SamComponentNames[k].creep || SamControlWay(control, k) != SAM_BY_RIGID ||
+                 (k >= SAM_COMPONENT_MX && !c->traits.rotations[k - SAM_COMPONENT_MX]),
+               c->grid->comm, SAM_ERR_USER, "%s has no meaning with -rolling steady: give %s or %s",
+               SamComponentNames[k].rigid, SamComponentNames[k].creep, SamComponentNames[k].load);
   for (PetscInt k = 0; k < 2 * SAM_BULK_COMPONENTS && c->traits.steady; k++)
     PetscCheck(SamControlPart(control, SAM_COMPONENTS + SAM_CONDITION_BULK + k) == 0, c->grid->comm, SAM_ERR_USER,
                "%s has no meaning with -rolling steady: a uniform strain is a creepage: add it to creep_x",

@@ -54,7 +54,8 @@ typedef struct {
   double   terms[SAM_FIT_CELLS][SAM_FIT_TERMS], products[SAM_FIT_CELLS][SAM_FIT_PRODUCTS];
 } SamFitWindow;
 PETSC_INTERN void SamFitWindowInitialize(PetscInt half, int least, double bell, SamFitWindow *window);
-#define SAM_FIT_LEAST 9 /* fewest cells of a fit */
+#define SAM_FIT_LEAST      9 /* fewest cells of a fit, */
+#define SAM_FIT_LEAST_LINE 3 /* and on a grid of one row */
 /*
   SamFitFactor - what the fits in the window about a cell have in common, whatever the values. False: there are too few
   cells, or the fit is singular. Not collective.

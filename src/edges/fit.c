@@ -37,9 +37,10 @@ static Range RangeOf(const SamZone *z, PetscInt half, PetscInt i, PetscInt j)
 
 /*
   Cholesky's factor of a symmetric positive matrix, both given by the rows of their lower triangles; false where it is
-  singular. (The eigenvalues of SamSolveSymmetric() would take longer than the fit.)
+  singular. (The eigenvalues of SamSolveSymmetric() would take longer than the fit.) `line`: terms that are zero
+  everywhere remain zero.
 */
-static PetscBool Factor(double A[PRODUCTS])
+static PetscBool Factor(PetscBool line, double A[PRODUCTS])
 {
   double *row[TERMS];
 
@@ -47,6 +48,10 @@ static PetscBool Factor(double A[PRODUCTS])
   for (int j = 0; j < TERMS; j++) {
     const double whole = row[j][j];
 
+    if (line && whole == 0) {
+      row[j][j] = 1;
+      continue;
+    }
     for (int k = 0; k < j; k++) row[j][j] -= row[j][k] * row[j][k];
     if (!(row[j][j] > 1e-10 * whole)) return PETSC_FALSE;
     row[j][j] = sqrt(row[j][j]);
@@ -91,13 +96,14 @@ PetscBool SamFitFactor(const SamZone *z, const SamFitWindow *window, PetscInt i,
 {
   const PetscInt half  = window->half;
   const Range    range = RangeOf(z, half, i, j);
+  const PetscInt least = z->grid->ny == 1 ? SAM_FIT_LEAST_LINE : SAM_FIT_LEAST;
   PetscInt       count = 0;
 
   for (int n = 0; n < PRODUCTS; n++) factor[n] = 0;
   for (PetscInt b = range.low; b <= range.high; b++)
     count += AddProducts(range.right - range.left + 1, z->distance + SamZoneAt(z, range.left, b), window->least,
                          window->products + (b - j + half) * (2 * half + 1) + range.left - i + half, factor);
-  return count >= SAM_FIT_LEAST ? Factor(factor) : PETSC_FALSE;
+  return count >= least ? Factor(z->grid->ny == 1, factor) : PETSC_FALSE;
 }
 
 /* What the values of cells add to a fit: to the terms, the sum of their squares, and the weights. */

@@ -23,6 +23,8 @@ static PetscErrorCode RegisterAll(void)
   if (SamElasticityList) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscFunctionListAdd(&SamElasticityList, SAM_ELASTICITY_HALFSPACE, SamElasticityCreate_HalfSpace));
   PetscCall(PetscFunctionListAdd(&SamElasticityList, SAM_ELASTICITY_PERIODIC, SamElasticityCreate_Periodic));
+  PetscCall(PetscFunctionListAdd(&SamElasticityList, SAM_ELASTICITY_PLANE, SamElasticityCreate_Plane));
+  PetscCall(PetscFunctionListAdd(&SamElasticityList, SAM_ELASTICITY_PLANE_PERIODIC, SamElasticityCreate_PlanePeriodic));
   PetscCall(PetscRegisterFinalize(FreeList));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -56,8 +58,18 @@ PetscErrorCode SamElasticityCreate(SamGrid grid, const SamPair *pair, SamElastic
   for (PetscInt k = 0; k < 2; k++) e->factor[k] = 1;
   PetscCall(SamGridReference(grid));
   e->grid = grid;
-  PetscCall(SamElasticitySetType(e, SAM_ELASTICITY_HALFSPACE));
+  PetscCall(SamElasticitySetType(e, grid->ny == 1 ? SAM_ELASTICITY_PLANE : SAM_ELASTICITY_HALFSPACE));
   *elasticity = e;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticityPlaneFromOptions(const SamOptions *from, PetscBool *plane)
+{
+  char type[64] = "";
+
+  PetscFunctionBegin;
+  PetscCall(PetscOptionsGetString(NULL, from->prefix, "-elasticity", type, sizeof(type), NULL));
+  *plane = !strcmp(type, SAM_ELASTICITY_PLANE) || !strcmp(type, SAM_ELASTICITY_PLANE_PERIODIC);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -131,8 +143,9 @@ static PetscErrorCode DescribeOthers(SamElasticity e, const SamOptions *from)
 /* Thicknesses that the transforms of layered bodies resolve on this grid. */
 static PetscErrorCode CheckThicknesses(SamElasticity e, const SamOptions *from)
 {
-  const PetscReal least = THINNEST * PetscMin(e->grid->dx, e->grid->dy),
-                  most  = PetscMax(e->grid->width[0], e->grid->width[1]) / THINNEST;
+  const PetscBool row   = e->grid->ny == 1;
+  const PetscReal least = THINNEST * (row ? e->grid->dx : PetscMin(e->grid->dx, e->grid->dy)),
+                  most  = 2 * e->grid->length / THINNEST;
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < 2; b++)
@@ -162,8 +175,9 @@ PetscErrorCode SamElasticitySetFromOptions(SamElasticity e)
   if (strcmp(type, e->type) || e->is_set_up || (e->inner && e->inner->is_set_up))
     PetscCall(SamElasticitySetType(e, type)); /* made anew with the settings */
   PetscCheck(e->traits.layers || !SamPairHasLayers(&e->pair), from.comm, SAM_ERR_USER,
-             "-%selasticity %s: not supported with layers: use %s or %s", e->prefix, type, SAM_ELASTICITY_HALFSPACE,
-             SAM_ELASTICITY_PERIODIC);
+             "-%selasticity %s: not supported with layers: use %s%s", e->prefix, type,
+             e->traits.plane ? "" : "halfspace or ",
+             e->traits.plane ? SAM_ELASTICITY_PLANE_PERIODIC : SAM_ELASTICITY_PERIODIC);
   PetscCall(CheckThicknesses(e, &from));
   for (SamElasticity o = e; o; o = o->inner) {
     o->fft = e->fft;
@@ -178,6 +192,8 @@ PetscErrorCode SamElasticitySetUp(SamElasticity e)
 {
   PetscFunctionBegin;
   if (e->is_set_up) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCheck(e->traits.plane == (e->grid->ny == 1), e->grid->comm, PETSC_ERR_ARG_SIZ,
+             "Elasticity of type %s: a grid of one row is for plane types, and these need one", e->type);
   e->is_set_up = PETSC_TRUE;
   if (e->inner) PetscCall(SamElasticitySetUp(e->inner));
   if (e->ops.setup) PetscCall((*e->ops.setup)(e));
@@ -299,6 +315,9 @@ PetscErrorCode SamElasticityCreateFromParameters(SamGrid grid, const SamParamete
              type->text, types);
   PetscCall(SamElasticityCreate(grid, &pair, elasticity));
   PetscCall(SamElasticitySetType(*elasticity, type->text));
+  PetscCheck((*elasticity)->traits.plane == (grid->ny == 1), grid->comm, SAM_ERR_FILE,
+             "%s: cannot be read: its elasticity %s does not fit its grid of %" PetscInt_FMT " rows", source,
+             type->text, grid->ny);
   for (SamElasticity e = *elasticity; e; e = e->inner)
     if (e->ops.setparameters) PetscCall((*e->ops.setparameters)(e, p, source));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -350,7 +369,7 @@ PetscErrorCode SamElasticityCreateLike(SamElasticity parent, SamGrid grid, const
 PetscErrorCode SamElasticityGetCoarse(SamElasticity e, SamElasticity *coarse, SamTransfer *transfer)
 {
   PetscFunctionBegin;
-  if (!e->coarse && PetscMin(e->grid->nx, e->grid->ny) >= COARSEST) {
+  if (!e->coarse && (e->grid->ny == 1 ? e->grid->nx : PetscMin(e->grid->nx, e->grid->ny)) >= COARSEST) {
     SamGrid grid;
 
     PetscCall(SamGridCoarsen(e->grid, &grid));

@@ -97,7 +97,7 @@ PetscErrorCode SamElasticityChoosePart(SamElasticity e, const PetscInt first[2],
     const PetscInt margin = 3 + n[k] / 50, last = PetscMin(first[k] + n[k] + margin, all[k]);
 
     from[k] = PetscMax(first[k] - margin, 0);
-    size[k] = PetscMax(last - from[k], 2);
+    size[k] = PetscMax(last - from[k], PetscMin(2, all[k]));
     from[k] = PetscMin(from[k], all[k] - size[k]);
   }
   if (!e->traits.parts || (double)size[0] * (double)size[1] > WORTH * (double)all[0] * (double)all[1])

@@ -2,12 +2,37 @@
 #include "waves.h"
 #include <math.h>
 
+/*
+  The waves of one row run along x. A symbol of the kind of bodies does not care about directions: they are a column
+  along y, whose x is y.
+*/
+static void FilterRow(const SamFourierBlock *block, const SamSymbol *s)
+{
+  const size_t bytes  = (size_t)block->first * 2 * (block->data[0] ? sizeof(double) : sizeof(float));
+  SamSymbol    turned = *s;
+  SamWaves     waves  = {.cross = 0, .first = block->first, .last = block->first + block->columns};
+  char        *field[2];
+
+  for (PetscInt c = 0; c < 2; c++)
+    field[c] = block->data[c]     ? (char *)block->data[c] - bytes
+               : block->single[c] ? (char *)block->single[c] - bytes
+                                  : NULL;
+  turned.step[1] = s->step[0];
+  waves.x        = field[1] ? field[1] : field[0];
+  waves.y        = field[0];
+  s->multiply(&turned, waves);
+}
+
 /* A column in three parts: wave numbers from 0 up, that of two cells' length if there is one, the negative ones. */
 static void Filter(const SamFourierBlock *block, const void *context)
 {
   const SamSymbol *s       = (const SamSymbol *)context;
   const PetscInt   ends[4] = {0, (block->hy + 1) / 2, block->hy / 2 + 1, block->hy};
 
+  if (block->stride == 1 && s->lag == 0) {
+    FilterRow(block, s);
+    return;
+  }
   for (PetscInt b = 0; b < block->columns; b++)
     for (PetscInt k = 0; k < 3; k++) {
       const ptrdiff_t offset = (ptrdiff_t)b * block->stride;

@@ -153,11 +153,11 @@ PetscErrorCode SamEvaluationSetSource(SamEvaluation e, const SamEvaluationSource
 
 static PetscErrorCode CheckDepths(SamEvaluation e)
 {
-  const PetscReal side = PetscMin(e->grid->dx, e->grid->dy);
+  const PetscReal side = e->grid->ny == 1 ? e->grid->dx : PetscMin(e->grid->dx, e->grid->dy);
 
   PetscFunctionBegin;
-  PetscCheck(e->depth[e->depths - 1] <= MOST_DEPTH * PetscMax(e->grid->width[0], e->grid->width[1]), e->comm,
-             SAM_ERR_USER, "%sdepths: %.6g m is more than %.6g times the width of the grid: check the unit, m", e->dash,
+  PetscCheck(e->depth[e->depths - 1] <= MOST_DEPTH * 2 * e->grid->length, e->comm, SAM_ERR_USER,
+             "%sdepths: %.6g m is more than %.6g times the width of the grid: check the unit, m", e->dash,
              (double)e->depth[e->depths - 1], MOST_DEPTH);
   for (PetscInt k = 0; k < e->depths; k++)
     PetscCheck(e->depth[k] == 0 || e->depth[k] >= LEAST_DEPTH * side, e->comm, SAM_ERR_USER,
@@ -235,6 +235,9 @@ static PetscErrorCode FindLine(SamEvaluation e)
 
   PetscFunctionBegin;
   if (!e->section) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCheck(row || g->ny > 1, e->comm, SAM_ERR_USER,
+             "%ssection x=%.6g: a plane problem has no section along y: give y=0, or omit it", e->dash,
+             (double)e->place);
   PetscCheck(at >= -0.5 - 1e-9 && at <= (PetscReal)n - 0.5 + 1e-9, e->comm, SAM_ERR_USER,
              "%ssection %s=%.6g: outside of the grid, which reaches from %.6g to %.6g m", e->dash, row ? "y" : "x",
              (double)e->place, (double)(first - 0.5 * step), (double)(first + ((PetscReal)n - 0.5) * step));

@@ -56,7 +56,7 @@ static PetscErrorCode CheckShape(SamFile f, const Wanted *w, hid_t space, hsize_
   PetscCheck(rank == 2 && H5Sget_simple_extent_dims(space, shape, NULL) == 2, f->comm, SAM_ERR_FILE,
              "-%s %s: %s has %d dimension(s), expected shape (ny, nx), rows are y", f->option, f->filename,
              w->source->dataset, rank);
-  PetscCheck(w->grid || (shape[0] > 1 && shape[1] > 1), f->comm, SAM_ERR_FILE,
+  PetscCheck(w->grid || (shape[0] > 0 && shape[1] > 1), f->comm, SAM_ERR_FILE,
              "-%s %s: %s has shape (%lld, %lld), expected 2 or more of each", f->option, f->filename,
              w->source->dataset, (long long)shape[0], (long long)shape[1]);
   if (w->grid) {
@@ -87,7 +87,7 @@ static PetscErrorCode CheckLengths(SamFile f, const Wanted *w, hid_t dataset, An
   }
   answer->factor = lengths.factor;
   if (!grid) PetscFunctionReturn(PETSC_SUCCESS);
-  for (int d = 0; d < 2; d++) {
+  for (int d = 0; d < (grid->ny == 1 ? 1 : 2); d++) {
     if (!(size[d] > 0)) size[d] = grid->width[d]; /* one axis may be missing */
     fits = fits && fabs(size[d] - grid->width[d]) <= size_tolerance * grid->width[d];
   }

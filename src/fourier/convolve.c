@@ -19,6 +19,7 @@ static Column GetColumn(SamKernel kernel, const SamFourierBlock *block, PetscInt
   const ptrdiff_t hy = block->hy, even = hy / 2 + 1;
   const double   *base = kernel->values + (block->local + b) * (hy + 1);
 
+  if (block->stride == 1) return (Column){kernel->values, hy, hy};
   if (phase == 0) return (Column){base, even, hy};
   return (Column){base + even, (hy + 1) / 2, hy - 1};
 }
@@ -275,8 +276,14 @@ static void MultiplyTwo(const Factors *f, const SamFourierBlock *block, PetscInt
 
 static void Multiply(const SamFourierBlock *block, const void *context)
 {
-  const Factors *factors = (const Factors *)context;
+  const Factors  *factors = (const Factors *)context;
+  SamFourierBlock row     = *block;
 
+  if (block->stride == 1) { /* one row: its values along x are a column's */
+    row.hy      = block->columns;
+    row.columns = 1;
+    block       = &row;
+  }
   for (PetscInt f = 0; f < block->phases; f++)
     for (PetscInt b = 0; b < block->columns; b++) factors->multiply(factors, block, f, b);
 }
@@ -292,7 +299,8 @@ PetscErrorCode SamConvolve(SamFourier F, const SamKernelMatrix *M, const double 
   if (FindNine(M, &factors.nine)) factors.multiply = MultiplyThree;
   if (factors.multiply == MultiplyGeneral)
     for (PetscInt o = 0; o < M->n_out; o++)
-      PetscCall(SamAllocate(sizeof(*factors.column[o]) * (size_t)F->hy, &factors.column[o]));
+      PetscCall(
+        SamAllocate(sizeof(*factors.column[o]) * (size_t)(F->grid->ny == 1 ? F->hx + 1 : F->hy), &factors.column[o]));
   PetscCall(SamFourierApply(F, &filter, in, out));
   for (PetscInt o = 0; o < M->n_out; o++) SamFree(factors.column[o]);
   PetscFunctionReturn(PETSC_SUCCESS);

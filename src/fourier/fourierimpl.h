@@ -86,7 +86,7 @@ static inline PetscBool SamWorkspaceTransposes(SamWorkspace w)
 struct _n_SamKernel {
   PetscBool odd_x, odd_y;
   ptrdiff_t columns; /* of this rank */
-  double   *values;  /* (columns, hy + 1) */
+  double   *values;  /* (columns, hy + 1); of one row (columns) */
 };
 
 struct _n_SamFourier {

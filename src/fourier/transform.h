@@ -332,6 +332,27 @@ static void ColumnsBackward(SamFourier F, PetscInt phases, const SamPieces *piec
   Scatter(line, pieces, k, count, F->stride, (const Complex *)t->staging);
 }
 
+/* A grid of one row: its spectra take the filter where they are. */
+static void FilterRow(SamFourier F, const SamFourierFilter *filter)
+{
+  const SamColumns *c     = &F->columns[filter->mode];
+  SamFourierBlock   block = {.mode    = filter->mode,
+                             .phases  = 1,
+                             .hx      = (PetscInt)F->hx,
+                             .hy      = 1,
+                             .first   = (PetscInt)c->start,
+                             .columns = (PetscInt)c->count,
+                             .width   = (PetscInt)c->count,
+                             .stride  = 1};
+
+  for (PetscInt i = 0; i < PetscMax(filter->n_in, filter->n_out); i++) {
+    const SamPieces pieces = SamFourierGetPieces(F, i, 1, c->n, c->start, c->count);
+
+    block.DATA[i] = (Complex *)SamPieceData(&pieces, 0, sizeof(Complex));
+  }
+  filter->apply(&block, filter->context);
+}
+
 static void Columns(SamFourier F, const SamFourierFilter *filter)
 {
   const SamFourierMode mode  = filter->mode;
@@ -380,7 +401,10 @@ PetscErrorCode APPLY(SamFourier F, const SamFourierFilter *filter, const Real *c
     PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_FFT_TRANSPOSE], 0, 0, 0, 0));
   }
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_FFT_COLUMNS], 0, 0, 0, 0));
-  Columns(F, filter);
+  if (F->grid->ny == 1)
+    FilterRow(F, filter);
+  else
+    Columns(F, filter);
   PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_FFT_COLUMNS], 0, 0, 0, 0));
   if (F->work->ranks > 1) {
     PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_FFT_TRANSPOSE], 0, 0, 0, 0));

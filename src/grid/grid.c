@@ -17,9 +17,9 @@ static PetscErrorCode FindFault(const PetscInt n[2], const PetscReal width[2], c
   for (PetscInt k = 0; k < 2 && !message[0]; k++) {
     const char *axis = k ? "y" : "x";
 
-    if (n[k] < 2)
-      PetscCall(
-        PetscSNPrintf(message, size, "%s: %" PetscInt_FMT " cells in %s, expected at least 2", names[0], n[k], axis));
+    if (n[k] < (k ? 1 : 2))
+      PetscCall(PetscSNPrintf(message, size, "%s: %" PetscInt_FMT " cells in %s, expected at least %d", names[0], n[k],
+                              axis, k ? 1 : 2));
     else if (!(width[k] > 0) || !isfinite(width[k]))
       PetscCall(PetscSNPrintf(message, size, "%s: a width of %.6g m in %s, expected a number > 0", names[1],
                               (double)width[k], axis));
@@ -65,7 +65,7 @@ PetscErrorCode SamGridCreate(MPI_Comm comm, const PetscInt n[2], const PetscReal
   }
   g->dx     = width[0] / (PetscReal)n[0];
   g->dy     = width[1] / (PetscReal)n[1];
-  g->length = 0.5 * PetscMax(width[0], width[1]);
+  g->length = 0.5 * (n[1] == 1 ? width[0] : PetscMax(width[0], width[1]));
   SamGridRowsOf(g, size, rank, &g->row_start, &end);
   g->rows  = end - g->row_start;
   g->cells = g->rows * n[0];
@@ -91,8 +91,22 @@ static PetscErrorCode RefuseThin(const SamOptions *from, const PetscInt n[2], co
           SamOptionsPrefix(from), numbers, SamOptionsPrefix(from));
 }
 
-PetscErrorCode SamGridCreateFromOptions(const SamOptions *from, PetscInt n[2], PetscReal width[2], PetscReal center[2],
-                                        SamGrid *grid)
+/* One row of cells, of a width of 1 m: what is given along y counts for nothing but a number of cells. */
+static PetscErrorCode TakeRow(const SamOptions *from, PetscInt n[2], PetscReal width[2], PetscReal center[2])
+{
+  PetscFunctionBegin;
+  PetscCheck(n[1] == 1 || n[1] == n[0], from->comm, SAM_ERR_USER,
+             "-%sgrid_n %" PetscInt_FMT ",%" PetscInt_FMT ": a plane problem has one row of cells: use %" PetscInt_FMT
+             ",1",
+             SamOptionsPrefix(from), n[0], n[1], n[0]);
+  n[1]      = 1;
+  width[1]  = 1;
+  center[1] = 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGridCreateFromOptions(const SamOptions *from, PetscBool row, PetscInt n[2], PetscReal width[2],
+                                        PetscReal center[2], SamGrid *grid)
 {
   PetscBool         has_n, has_width, help;
   char              message[256], options[3][96];
@@ -100,7 +114,8 @@ PetscErrorCode SamGridCreateFromOptions(const SamOptions *from, PetscInt n[2], P
 
   PetscFunctionBegin;
   PetscCall(SamOptionsHeading(from, "Grid"));
-  PetscCall(SamOptionsIntPair(from, "grid_n", "cells in x[,y]: required without a surface file", 2, n, &has_n));
+  PetscCall(
+    SamOptionsIntPair(from, "grid_n", "cells in x[,y]: required without a surface file", row ? 1 : 2, n, &has_n));
   PetscCall(SamOptionsRealPair(from, "grid_size", "full width in x[,y] (m): required without a surface file",
                                SAM_RANGE_POSITIVE, width, &has_width));
   PetscCall(SamOptionsRealPair(from, "grid_center", "centre x,y (m)", SAM_RANGE_ANY, center, NULL));
@@ -116,9 +131,12 @@ PetscErrorCode SamGridCreateFromOptions(const SamOptions *from, PetscInt n[2], P
   PetscCall(SamOptionsRequire(from, has_n || n[0], "grid_n", "the number of cells in x[,y], for example 256"));
   PetscCall(SamOptionsRequire(from, has_width || width[0] > 0, "grid_size",
                               "the full width of the grid in x[,y], m: about 1.5 times that of the contact"));
+  PetscCheck(row || n[1] != 1, from->comm, SAM_ERR_USER, "%s: one cell in y: a plane problem needs -%selasticity plane",
+             names[0], SamOptionsPrefix(from));
+  if (row) PetscCall(TakeRow(from, n, width, center));
   PetscCall(FindFault(n, width, center, names, message, sizeof(message)));
   PetscCheck(!message[0], from->comm, SAM_ERR_USER, "%s", message);
-  PetscCall(RefuseThin(from, n, width));
+  if (!row) PetscCall(RefuseThin(from, n, width));
   PetscCall(SamGridCreate(from->comm, n, width, center, grid));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

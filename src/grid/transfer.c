@@ -46,11 +46,11 @@ static void Between(PetscInt k, PetscInt n, PetscInt N, PetscInt *left, double *
 
   *left = (PetscInt)floor(s);
   *t    = s - floor(s);
-  if (*left < 0) {
+  if (*left < 0 || N == 1) {
     *left = 0;
     *t    = 0;
   }
-  if (*left > N - 2) {
+  if (*left > N - 2 && N > 1) {
     *left = N - 2;
     *t    = 1;
   }
@@ -96,7 +96,7 @@ PetscErrorCode SamTransferCreate(SamGrid fine, SamGrid coarse, SamTransfer *tran
   if (fine->rows) {
     Between(fine->row_start, fine->ny, coarse->ny, &coarse_first, &weight);
     Between(fine->row_start + fine->rows - 1, fine->ny, coarse->ny, &last, &weight);
-    coarse_count = last + 2 - coarse_first;
+    coarse_count = PetscMin(last + 2, coarse->ny) - coarse_first;
   }
   PetscCall(SamRowsCreate(fine, fine_first, fine_count, &t->fine_rows));
   PetscCall(SamRowsCreate(coarse, coarse_first, coarse_count, &t->coarse_rows));
@@ -188,7 +188,7 @@ static void InterpolateComponent(SamTransfer t, const double rows[], double row[
 
     Between(t->fine->row_start + j, t->fine->ny, t->coarse->ny, &J, &ty);
     below = rows + (J - t->coarse_rows.first) * N;
-    above = below + N;
+    above = t->coarse->ny > 1 ? below + N : below;
     for (PetscInt l = 0; l < N; l++) row[l] = (1 - ty) * below[l] + ty * above[l];
     for (PetscInt i = 0; i < n; i++) {
       const PetscInt l  = t->left[i];

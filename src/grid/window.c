@@ -27,8 +27,8 @@ PetscErrorCode SamWindowCreate(SamGrid grid, const PetscInt first[2], const Pets
   PetscCall(SamGridReference(grid));
   w->grid = grid;
   for (PetscInt k = 0; k < 2; k++) {
-    PetscCheck(first[k] >= 0 && n[k] >= 2 && first[k] + n[k] <= all[k], grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-               "The window is not part of the grid");
+    PetscCheck(first[k] >= 0 && n[k] >= PetscMin(2, all[k]) && first[k] + n[k] <= all[k], grid->comm,
+               PETSC_ERR_ARG_OUTOFRANGE, "The window is not part of the grid");
     w->first[k] = first[k];
     width[k]    = step[k] * (PetscReal)n[k];
     center[k]   = grid->center[k] + ((PetscReal)first[k] + 0.5 * (PetscReal)n[k] - 0.5 * (PetscReal)all[k]) * step[k];

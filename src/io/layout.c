@@ -189,7 +189,7 @@ static hid_t CreateColumn(SamOutput o, hid_t group, const SamStateNumber *number
 {
   const int64_t   statuses[] = {SAM_STATUS_CONVERGED, SAM_STATUS_NOT_CONVERGED, SAM_STATUS_NO_EQUILIBRIUM,
                                 SAM_STATUS_EDGE_CONTACT};
-  const SamLabel  label      = {number->name, number->unit, number->text};
+  const SamLabel  label      = {number->name, SamUnitOn(o->grid, number->unit), number->text};
   const PetscBool whole      = number->kind == SAM_NUMBER_INT || number->kind == SAM_NUMBER_STATUS;
   const hid_t     dataset    = SamFileCreateDataset(o->f, group, &label, whole ? H5T_STD_I64LE : H5T_IEEE_F64LE,
                                              number->kind == SAM_NUMBER_MATRIX ? &matrices : &series, 0);
@@ -212,7 +212,7 @@ static void CreateSeries(SamOutput o, SamSeries kind)
   group = SamFileNote(o->f, H5Gcreate2(o->f->id, o->series[kind], H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
   for (PetscInt c = 0; c < SamStateCountNumbers(state); c++) {
     const SamStateNumber *n     = SamStateNumberOf(state, c, NULL);
-    const SamLabel        label = {n->name, n->unit, n->text};
+    const SamLabel        label = {n->name, SamUnitOn(o->grid, n->unit), n->text};
 
     if (!n->result) continue;
     if (c == 0) {

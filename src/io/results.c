@@ -142,7 +142,7 @@ static PetscErrorCode ExamineColumn(SamFile f, const Facts *facts, const char co
 static PetscBool IsPlausible(const Facts *f)
 {
   for (int k = 0; k < 2; k++) {
-    if (!(f->n[k] >= 2 && f->n[k] <= 1e9 && f->n[k] == floor(f->n[k]) && f->width[k] > 0 && isfinite(f->width[k])))
+    if (!(f->n[k] >= 2 - k && f->n[k] <= 1e9 && f->n[k] == floor(f->n[k]) && f->width[k] > 0 && isfinite(f->width[k])))
       return PETSC_FALSE;
     if (!(f->first >= 0 && f->first <= 1e9 && f->first == floor(f->first))) return PETSC_FALSE;
     if (!isfinite(f->center[k])) return PETSC_FALSE;

@@ -203,10 +203,10 @@ static PetscErrorCode View(SamLaw law, SamState state, PetscViewer viewer)
   const double *numbers = SamStateReadNumbers(state, SamStateFindNumber(state, "plastic_cells"));
 
   PetscFunctionBegin;
-  (void)law;
   if (numbers[MOST] > 0)
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  %.6g m2 at the limit, depth up to %.6g m, work %.6g J\n",
-                                     "plastic", numbers[AREA], numbers[MOST], numbers[ENERGY]));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  %.6g %s at the limit, depth up to %.6g m, work %.6g %s\n",
+                                     "plastic", numbers[AREA], SamUnitOn(law->grid, "m2"), numbers[MOST],
+                                     numbers[ENERGY], SamUnitOn(law->grid, "J")));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -2,6 +2,7 @@
 #include <petsam/private/baseimpl.h>
 #include <petsam/setup.h>
 #include <math.h>
+#include <string.h>
 
 /* Options of files that the gap may come from. */
 static const char *const files[] = {"-gap_file", "-gap_rough_file"};
@@ -42,20 +43,41 @@ static PetscErrorCode CreateProblem(SamSetup *s, const SamOptions *from)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* A curvature along y, of which the one row of a plane problem would see nothing. */
+static PetscErrorCode RefuseCurvature(SamSetup *s, const SamOptions *from)
+{
+  const char *const *names;
+  const PetscReal   *values;
+  PetscInt           count;
+  PetscBool          help;
+
+  PetscFunctionBegin;
+  PetscCall(SamPrintHelp(&help));
+  PetscCall(SamGapGetParameters(s->gap, NULL, &count, &names, &values));
+  for (PetscInt k = 0; k < count && !help; k++)
+    PetscCheck(strcmp(names[k], "gap_radius_y") || isinf(values[k]), from->comm, SAM_ERR_USER,
+               "-%s%s %.6g: has no meaning with -%selasticity plane, whose bodies are cylinders along y: give inf",
+               SamOptionsPrefix(from), names[k], (double)values[k], SamOptionsPrefix(from));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamSetupReadOptions(SamSetup *s, const SamOptions *from)
 {
   PetscInt  n[2];
   PetscReal width[2], center[2];
+  PetscBool plane;
 
   PetscFunctionBegin;
   PetscCall(SamOptionsPlugins(from));
   PetscCall(SamGapCreate(from->comm, &s->gap));
   PetscCall(SamGapSetOptionsPrefix(s->gap, from->prefix));
   PetscCall(SamGapGetFileGrid(s->gap, n, width, center));
-  PetscCall(SamGridCreateFromOptions(from, n, width, center, &s->grid));
+  PetscCall(SamElasticityPlaneFromOptions(from, &plane));
+  PetscCall(SamGridCreateFromOptions(from, plane, n, width, center, &s->grid));
   PetscCall(SamPairSetFromOptions(&s->pair, from));
   PetscCall(CreateProblem(s, from));
   PetscCall(SamGapSetFromOptions(s->gap));
+  if (plane) PetscCall(RefuseCurvature(s, from));
   for (PetscInt k = 0; k < 2; k++) PetscCall(PetscOptionsHasName(NULL, from->prefix, files[k], &s->from_file[k]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

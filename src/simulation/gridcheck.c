@@ -31,8 +31,9 @@ PetscErrorCode SamSimulationReadGridCheck(SamSimulation s, const SamOptions *fro
   PetscCall(SamPrintHelp(&help));
   PetscCall(SamOptionsBool(from, "grid_check", "all steps on half the cells too; errors of the last numbers",
                            &s->needs.grid_check, NULL));
-  PetscCheck(!s->needs.grid_check || PetscMin(s->setup.grid->nx, s->setup.grid->ny) >= LEAST, from->comm, SAM_ERR_USER,
-             "-grid_check needs at least %d cells in x and in y (-grid_n)", LEAST);
+  PetscCheck(!s->needs.grid_check ||
+               (s->setup.grid->nx >= LEAST && (s->setup.grid->ny == 1 || s->setup.grid->ny >= LEAST)),
+             from->comm, SAM_ERR_USER, "-grid_check needs at least %d cells in x and in y (-grid_n)", LEAST);
   for (size_t k = 0; s->needs.grid_check && !help && k < sizeof(without) / sizeof(without[0]); k++) {
     PetscCall(PetscOptionsHasName(NULL, NULL, without[k], &set));
     PetscCheck(!set, from->comm, SAM_ERR_USER, "-grid_check does not work with %s: remove one of them", without[k]);
@@ -61,12 +62,12 @@ static PetscErrorCode SolveAll(SamSimulation s, SamContact contact, double *diss
 }
 
 /* `ratio`: of the widths of the cells. */
-static void Add(SamGridCheck *check, double ratio, Number number, double value, double coarse)
+static void Add(SamGrid grid, SamGridCheck *check, double ratio, Number number, double value, double coarse)
 {
   const double error = (value - coarse) / (pow(ratio, (double)number.order) - 1);
 
   check->row[check->count++] = (SamGridCheckRow){.name         = number.name,
-                                                 .unit         = number.unit,
+                                                 .unit         = SamUnitOn(grid, number.unit),
                                                  .order        = number.order,
                                                  .value        = value,
                                                  .coarse       = coarse,
@@ -78,8 +79,9 @@ static void Add(SamGridCheck *check, double ratio, Number number, double value, 
 static PetscErrorCode Compare(SamSimulation s, SamContact coarse, double dissipated, const SamStep *step,
                               SamGridCheck *check)
 {
-  const SamGrid      grid  = s->setup.grid;
-  const double       ratio = sqrt((double)grid->nx * (double)grid->ny / ((double)check->n[0] * (double)check->n[1]));
+  const SamGrid grid  = s->setup.grid;
+  const double  cells = (double)grid->nx * (double)grid->ny / ((double)check->n[0] * (double)check->n[1]),
+               ratio  = grid->ny == 1 ? cells : sqrt(cells);
   const SamSolution *fine;
 
   PetscFunctionBegin;
@@ -90,7 +92,7 @@ static PetscErrorCode Compare(SamSimulation s, SamContact coarse, double dissipa
     PetscCall(SamContactGetNumber(s->setup.contact, numbers[k].name, &value[0]));
     PetscCall(SamContactGetNumber(coarse, numbers[k].name, &value[1]));
     if (sum) value[0] = s->dissipated, value[1] = dissipated;
-    if (value[0] > 0) Add(check, ratio, numbers[k], (double)value[0], (double)value[1]);
+    if (value[0] > 0) Add(grid, check, ratio, numbers[k], (double)value[0], (double)value[1]);
   }
   PetscCall(SamContactGetSolution(s->setup.contact, &fine));
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++) {
@@ -98,9 +100,10 @@ static PetscErrorCode Compare(SamSimulation s, SamContact coarse, double dissipa
 
     if (step->control.value[c] == 0) continue;
     if (step->control.force[c])
-      Add(check, ratio, (Number){name->rigid, name->rigid_unit, 2}, (double)fine->rigid[c], (double)step->rigid[c]);
+      Add(grid, check, ratio, (Number){name->rigid, name->rigid_unit, 2}, (double)fine->rigid[c],
+          (double)step->rigid[c]);
     else
-      Add(check, ratio, (Number){name->load, name->load_unit, 2}, (double)fine->load[c], (double)step->load[c]);
+      Add(grid, check, ratio, (Number){name->load, name->load_unit, 2}, (double)fine->load[c], (double)step->load[c]);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -32,6 +32,11 @@ static PetscErrorCode CheckBulkStress(SamSimulation s, const SamControl *control
       PetscCheck(stress == 0 || traits.stretch, from->comm, SAM_ERR_USER,
                  "-%s%s, or its column in -history: %.6g: has no meaning with -%selasticity %s, whose bodies bear none",
                  prefix, SAM_BULK_CONDITION(body, k)->name, stress, prefix, type);
+      PetscCheck(
+        stress == 0 || !traits.plane || k == SAM_BULK_XX, from->comm, SAM_ERR_USER,
+        "-%s%s, or its column in -history: %.6g: has no meaning in plane strain, where yy follows from xx, and "
+        "there is no xy: give %s",
+        prefix, SAM_BULK_CONDITION(body, k)->name, stress, SAM_BULK_CONDITION(body, SAM_BULK_XX)->name);
     }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -52,11 +57,18 @@ static PetscErrorCode CheckComponents(SamSimulation s, const SamOptions *from)
 
     PetscCall(SamHistoryGetStep(s->history, k, &control));
     PetscCall(CheckBulkStress(s, &control, traits, from));
-    for (PetscInt c = SAM_COMPONENT_MX; c < SAM_COMPONENTS; c++)
+    for (PetscInt c = SAM_COMPONENT_MX; c < SAM_COMPONENTS; c++) {
+      char      place[PETSC_MAX_PATH_LEN + 32], option[64];
+      PetscBool given;
+
+      (void)snprintf(option, sizeof(option), "-%s", SamControlPartName(&control, c));
+      PetscCall(PetscOptionsHasName(NULL, from->prefix, option, &given));
+      PetscCall(SamHistoryGetPlace(s->history, k, place, sizeof(place)));
+      if (given || !place[0]) (void)snprintf(place, sizeof(place), "-%s", SamOptionsPrefix(from));
       PetscCheck(control.value[c] == 0 || traits.rotations[c - SAM_COMPONENT_MX], from->comm, SAM_ERR_USER,
-                 "-%s%s %.6g: has no meaning with -%selasticity %s, which has no such moment or rotation",
-                 SamOptionsPrefix(from), SamControlPartName(&control, c), (double)control.value[c],
-                 SamOptionsPrefix(from), type);
+                 "%s%s %.6g: has no meaning with -%selasticity %s, which has no such moment or rotation", place,
+                 SamControlPartName(&control, c), (double)control.value[c], SamOptionsPrefix(from), type);
+    }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

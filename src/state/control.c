@@ -37,6 +37,21 @@ const SamCondition SamConditions[SAM_CONDITIONS] = {{"friction_scale", "1", "fac
                                                     ROLL("roll", 0, "x"),
                                                     ROLL("roll_y", 1, "y")};
 
+const char *SamUnitOn(SamGrid grid, const char unit[])
+{
+  static const char *const units[][2] = {{"N", "N/m"},
+                                         {"N m", "N m/m"},
+                                         {"J", "J/m"},
+                                         {"J/m", "J/m2"},
+                                         {"m2", "m2/m"},
+                                         {"m3", "m3/m"},
+                                         {"N/m, N/rad, N, N m/rad", "N/m2, N/(m rad), N/m, N/rad"}};
+
+  for (size_t k = 0; grid->ny == 1 && k < sizeof(units) / sizeof(units[0]); k++)
+    if (!strcmp(unit, units[k][0])) return units[k][1];
+  return unit;
+}
+
 const char *SamComponentNameOf(PetscInt k, SamWay way)
 {
   const SamComponentName *name = &SamComponentNames[k];

@@ -198,7 +198,8 @@ class Results:
             self.history = {name: data[-1] for name, data in f["history"].items()}
             self.attributes = dict(f.attrs)
             self.saved = f["pressure"].shape[0]
-        self.dx, self.dy = np.diff(self.x).mean(), np.diff(self.y).mean()
+        self.dx = np.diff(self.x).mean()
+        self.dy = np.diff(self.y).mean() if self.y.size > 1 else 1.0  # a plane problem: per metre
         self.xx, self.yy = np.meshgrid(self.x, self.y)
         self.r = np.hypot(self.xx, self.yy)
 

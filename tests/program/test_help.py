@@ -155,7 +155,7 @@ def test_json_has_the_words_of_options(ask):
         "petsam": {
             "-gap_type": "ellipsoid file flat punch sphere",
             "-tangential_type": "newton rolling",
-            "-elasticity": "halfspace periodic",
+            "-elasticity": "halfspace periodic plane plane_periodic",
             "-edges": "none reconstruct deferred",
             "-grid_n": "",
         },

@@ -40,4 +40,22 @@ static inline PetscErrorCode PreconditionTangential(SamElasticity e, Vec residua
   return PreconditionField(e, 2, residual, q);
 }
 
+typedef PetscErrorCode (*SingleProduct)(SamElasticity, double, const float[], float[]);
+
+/* `factor` times the single product of a field in place. */
+static inline void ApplySingle(SamElasticity e, SamGrid grid, PetscInt components, SingleProduct single, double factor,
+                               Vec v)
+{
+  const PetscInt n    = components * grid->cells;
+  float         *work = (float *)calloc((size_t)n + 1, sizeof(*work));
+  double        *a;
+
+  sam_call(VecGetArray(v, &a));
+  for (PetscInt i = 0; i < n; i++) work[i] = (float)a[i];
+  sam_call(single(e, factor, work, work));
+  for (PetscInt i = 0; i < n; i++) a[i] = (double)work[i];
+  sam_call(VecRestoreArray(v, &a));
+  free(work);
+}
+
 #endif

@@ -139,7 +139,7 @@ static PetscErrorCode FromOptions(SamGrid *grid)
   PetscInt         n[2]     = {0, 0};
   PetscReal        width[2] = {0, 0}, center[2] = {0, 0};
 
-  return SamGridCreateFromOptions(&from, n, width, center, grid);
+  return SamGridCreateFromOptions(&from, PETSC_FALSE, n, width, center, grid);
 }
 
 static void test_grid_from_options(void **state)

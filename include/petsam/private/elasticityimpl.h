@@ -96,6 +96,8 @@ PETSC_EXTERN PetscBool SamElasticityPairIsCoupled(const SamPair *pair);
 
 PETSC_EXTERN PetscErrorCode SamElasticityCreate_HalfSpace(SamElasticity elasticity);
 PETSC_EXTERN PetscErrorCode SamElasticityCreate_Periodic(SamElasticity elasticity);
+PETSC_EXTERN PetscErrorCode SamElasticityCreate_Plane(SamElasticity elasticity);
+PETSC_EXTERN PetscErrorCode SamElasticityCreate_PlanePeriodic(SamElasticity elasticity);
 PETSC_EXTERN PetscErrorCode SamElasticityCreate_Rolling(SamElasticity elasticity);
 
 #endif

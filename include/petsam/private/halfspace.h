@@ -61,7 +61,7 @@ PETSC_EXTERN void SamHalfSpaceStressCell(const PetscReal side[2], PetscReal pois
 
 /* SamHalfSpaceSource - unit traction on a cell, as it acts at a depth. */
 typedef struct {
-  double side[2]; /* of the cell, m */
+  double side[2]; /* of the cell, m; along y INFINITY: plane strain, a strip at the lags (i, 0) */
   double depth;   /* z >= 0, m */
   double poisson;
 } SamHalfSpaceSource;

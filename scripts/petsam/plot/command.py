@@ -77,7 +77,7 @@ def chosen(options, results):
             there = ", ".join(allowed)
             raise Error(f"{results[0].path}: --{kind}: not for files of {program(results[0])}; use one of {there}")
     if kinds:
-        return kinds
+        return of_field(options, results, kinds)
     if stresses:
         return stress_kinds(results)
     if options.range:
@@ -85,6 +85,11 @@ def chosen(options, results):
     if options.cycle and not all(one.has_life for one in results):
         return ["loop"]
     return result_kinds(results)
+
+
+def of_field(options, results, kinds):
+    """The kinds asked for, where the one that --field means is the profile of a line."""
+    return ["profiles"] if kinds == ["maps"] and not options.maps and getattr(results[0], "is_plane", False) else kinds
 
 
 def program(one):
@@ -102,16 +107,17 @@ def study_kinds(studies, kinds):
 
 def result_kinds(results):
     """What results of petsam are good for; of one that lacks fields, a picture whose message says so."""
-    fields = ["maps", "profiles"] if all(one.steps and maps.usual(one) for one in results) else []
+    lines = any(one.is_plane for one in results)
+    fields = ["maps", "profiles"][lines:] if all(one.steps and maps.usual(one) for one in results) else []
     if all(one.has_life for one in results):
         scars = any(wear.worn(one, one.of_last()) for one in results)
         return [*fields, "fretting-log", *(["scar"] if scars else []), "life"]
     several = any(one.solved.size > 1 for one in results)
     if not any(one.solved.size and noise.works(one) for one in results):  # normal loads alone: no loop, no energy
-        return [*fields, *(["history"] if several else [])] or ["maps"]
+        return [*fields, *(["history"] if several else [])] or ["maps", "profiles"][lines : lines + 1]
     repeated = all(one.solved.size and not one.has_life and len(cycles.find(one)) >= MANY for one in results)
     more = ["loop", *(["energy"] if repeated else []), "history", *(["fretting-log"] if repeated else [])]
-    return [*fields, *(more if several else [])] or ["maps"]
+    return [*fields, *(more if several else [])] or ["maps", "profiles"][lines : lines + 1]
 
 
 def stress_kinds(files):

@@ -97,7 +97,7 @@ def loop(results, pair=None):
     for one, color in zip(results, colors(len(results))):
         x, y = (factors[name][0] * one.series(name) for name in (way, force))
         energy = _last_cycle(one, tuple(factors))
-        factor, unit = scale("J", energy or 0.0)
+        factor, unit = scale(one.work_unit, energy or 0.0)
         text = plain(one.label) + (f": {factor * energy:.4g} {unit} in the last cycle" if energy is not None else "")
         (_line if x.size <= DENSE else _cloud)(axes, x, y, color, text)
         last = {"markersize": 6.0, "markerfacecolor": "white", "zorder": 3}
@@ -119,7 +119,7 @@ def cycle_loops(found, pair=None, numbers=None):
     factors = loop_axes(results, pair)
     force, way = factors
     energies = [cycle_energy(one.results, tuple(factors), cycle) for one, cycle in chosen]
-    joules, unit = scale("J", largest([np.array(energies)]))
+    joules, unit = scale(results[0].work_unit, largest([np.array(energies)]))
     figure, axes = plt.subplots(figsize=(7.6, 4.8), constrained_layout=True)
     tints = [tint(k, len(chosen)) for k in range(len(chosen))] if len(found) == 1 else colors(len(chosen))
     for (one, cycle), energy, color in zip(chosen, energies, tints):
@@ -157,7 +157,7 @@ def energy(found, logs=()):
     data = [_energies(one) for one in found]
     many, words = counted(largest(numbers for numbers, _ in data))
     many, words = (many, words) if many < 1e-2 else (1.0, "cycle")
-    joules, unit = scale("J", largest(energies for _, energies in data))
+    joules, unit = scale(found[0].results.work_unit, largest(energies for _, energies in data))
     figure, axes = plt.subplots(figsize=(6.4, 4.4), constrained_layout=True)
     for one, (numbers, energies), color in zip(found, data, colors(len(found))):
         computed = " computed" if one.results.has_life else ""

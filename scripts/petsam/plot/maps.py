@@ -213,6 +213,9 @@ def maps(snapshots, whole=False, names=None, choice=None):
     """Fields of every snapshot, one scale a field: those named, or pressure, |q|, |s|, state and removed depths."""
     if choice and choice.limits and len(names or ()) != 1:
         raise Error("--limits: expected one field, by --field")
+    for results, _ in snapshots:
+        if results.is_plane:
+            raise Error(f"{results.path}: --maps: is a plane problem, one row of cells: use --profiles")
     data, names = _gather(snapshots, names, whole)
     layout = Layout(data, len(names))
     need_few(layout.rows, "steps and files")

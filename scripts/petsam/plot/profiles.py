@@ -20,9 +20,16 @@ ROWS = (
 )  # names, title, symbol, unit, whether it is bounded by friction
 
 
+def sides_of(files):
+    """The axes along which there is something to draw: 0 for x and 1 for y, which plane problems do not have."""
+    return (0,) if all(one.is_plane for one in files) else (0, 1)
+
+
 def crossing(results, axis, at):
     """Number of the row (axis 0) or column (axis 1) of cells nearest to the point at."""
     across = (results.y, results.x)[axis]
+    if across.size == 1:
+        return 0
     half = 0.5 * (across[1] - across[0])
     if not across[0] - half <= at[1 - axis] <= across[-1] + half:
         raise Error("{}: --at {:g},{:g}: is not on the grid".format(results.path, *at))
@@ -83,12 +90,13 @@ def _rows(snapshots, names):
 
 
 def profiles(snapshots, at=(0.0, 0.0), whole=False, names=None, limits=None, logs=()):
-    """Fields along x (left) and y (right): those named, or pressure, shear, slip and removed depths."""
+    """Fields along x (left) and y (right; not of plane problems): those named, or pressure, shear, slip and depths."""
     if limits and len(names or ()) != 1:
         raise Error("--limits: expected one field, by --field")
     rows = _rows(snapshots, names)
     read = list(dict.fromkeys(name for row in rows for name in row[0]))
     tints = colors(len(snapshots))
+    sides = sides_of(results for results, _ in snapshots)
     lines = [
         [
             (
@@ -99,7 +107,7 @@ def profiles(snapshots, at=(0.0, 0.0), whole=False, names=None, limits=None, log
             )
             for (results, index), tint in zip(snapshots, tints)
         ]
-        for axis in (0, 1)
+        for axis in sides
     ]
     every = [line[0] for side in lines for line in side]
     length, unit = scale("m", largest(data["along"] for data in every))
@@ -109,9 +117,9 @@ def profiles(snapshots, at=(0.0, 0.0), whole=False, names=None, limits=None, log
         files = list(dict.fromkeys(one for one, _ in snapshots))
         tops = [0.0 if noise.is_nothing(row[0][0], by_name, files) else top for row, top in zip(rows, tops)]
     shown = [(row, top) for row, top in zip(rows, tops) if top > 0.0] or [(rows[0], 0.0)]
-    size = (11.0, 2.7 * len(shown) + (0.4 if len(shown) > 1 else 1.2))
+    size = (11.0 if len(sides) > 1 else 7.2, 2.7 * len(shown) + (0.4 if len(shown) > 1 else 1.2))
     shared = {"sharey": "row", "sharex": "col", "constrained_layout": True}
-    figure, axes = plt.subplots(len(shown), 2, figsize=size, squeeze=False, **shared)
+    figure, axes = plt.subplots(len(shown), len(sides), figsize=size, squeeze=False, **shared)
     for panels, ((group, text, symbol, base, friction), top) in zip(axes, shown):
         factor, prefixed = scale(base, max(map(abs, limits)) if limits else top)
         for panel, side in zip(panels, lines):
@@ -120,8 +128,10 @@ def profiles(snapshots, at=(0.0, 0.0), whole=False, names=None, limits=None, log
             panel.set(**({"ylim": [factor * value for value in limits]} if limits else {}))
         panels[0].set(ylabel=label(symbol, prefixed))
         panels[0].set_title(text, loc="left", fontsize=9.5)
-    axes[-1, 0].set_xlabel("{}  at $y$ = {:.4g} {}".format(label("$x$", unit), length * at[1], unit))
-    axes[-1, 1].set_xlabel("{}  at $x$ = {:.4g} {}".format(label("$y$", unit), length * at[0], unit))
+    axes[-1, 0].set_xlabel(label("$x$", unit))
+    if len(sides) > 1:
+        axes[-1, 0].set_xlabel("{}  at $y$ = {:.4g} {}".format(label("$x$", unit), length * at[1], unit))
+        axes[-1, 1].set_xlabel("{}  at $x$ = {:.4g} {}".format(label("$y$", unit), length * at[0], unit))
     if len(snapshots) > 1:
         names, marks = axes[0, 0].get_legend_handles_labels()[::-1]
         figure.legend(marks, names, loc="outside upper center", ncols=2)  # above the panels: curves are anywhere within

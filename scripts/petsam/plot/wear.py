@@ -9,7 +9,7 @@ import numpy as np
 from ..errors import Error
 from ..results import BLOCK
 from .loops import LOOPS, cycle_energy, loop_axes, loop_energy, spread
-from .profiles import crossing
+from .profiles import crossing, sides_of
 from .style import colors, curve, need_few, note, plt, tint
 from .symbols import SYMBOLS
 from .units import counted, label, largest, plain, scale
@@ -72,7 +72,7 @@ def _loops(panel, one, factors, loops):
     """Loops of one file's cycles."""
     cycles, energies, points = loops
     factor, words = counted(cycles[-1])
-    joules, unit = scale("J", largest([energies]))
+    joules, unit = scale(one.work_unit, largest([energies]))
     for k, (cycle, energy, values) in enumerate(zip(cycles, energies, points)):
         y, x = (size * values(name) for name, (size, _) in factors.items())
         text = f"{factor * cycle:.3g}: {joules * energy:.3g} {unit}"
@@ -183,29 +183,36 @@ def _scar_panel(panel, row, axis, units, whole):
     for k, (values, text) in enumerate(zip(lines, texts)):
         panel.plot(along, factor * values[part], color=tint(k, len(lines)), linewidth=1.3, label=text)
     across = f"${'yx'[axis]}$ = {length * at[1 - axis]:.4g} {unit}"
-    panel.set_title(f"{plain(one.label)}: body {name[-1]} along ${'xy'[axis]}$ at {across}", fontsize=9)
+    where = "" if one.is_plane else f" along ${'xy'[axis]}$ at {across}"
+    panel.set_title(f"{plain(one.label)}: body {name[-1]}{where}", fontsize=9)
     panel.set_xlabel(label(f"${'xy'[axis]}$", unit))
 
 
 def scar(steps, at=None, whole=False):
-    """Removed depth along x (left) and y (right) through its deepest point: one row per body, one line per step."""
+    """Removed depth along x (left) and y (right) through its deepest point: one row per body, one line per step.
+
+    Of plane problems along x only.
+    """
     need_few(len(steps), "steps and files")
     rows = _scar_rows(steps, at)
+    sides = sides_of(one for one, _ in steps)
     depth = largest(
         _line(one, name, index, axis, point)
         for one, indices, name, point in rows
         for index in indices
-        for axis in (0, 1)
+        for axis in sides
     )
     units = scale("m", largest(axis for one, _ in steps for axis in (one.x, one.y))), scale("m", depth)
-    size = (11.5, 3.2 * len(rows) + 0.3)
-    figure, axes = plt.subplots(len(rows), 2, figsize=size, squeeze=False, sharey="row", constrained_layout=True)
+    size = (11.5 if len(sides) > 1 else 7.5, 3.2 * len(rows) + 0.3)
+    figure, axes = plt.subplots(
+        len(rows), len(sides), figsize=size, squeeze=False, sharey="row", constrained_layout=True
+    )
     for panels, row in zip(axes, rows):
         for axis, panel in enumerate(panels):
             _scar_panel(panel, row, axis, units, whole)
         panels[0].invert_yaxis()  # shared
         panels[0].set_ylabel(label(f"removed depth $w_{row[2][-1]}$", units[1][1]))
-        _legend(panels[1], _names(row[0], row[1])[1])
+        _legend(panels[-1], _names(row[0], row[1])[1])
     return figure
 
 

@@ -3,6 +3,11 @@
   products by convolution without wrapping round (fourier/kernel.c). Source: Liu, Wang and Liu 2000, Wear 243, 101-111.
   On layered bodies the closed forms are those of the materials at the surfaces, to which the rest is added
   (layered/cells.c); the preconditioner is the inverse of their symbols.
+
+  In plane strain the grid is one row and the kernels are those of line loads, integrated over a cell (PlaneIntegral):
+  -2 A ln(|x|/D) for u_z from p and u_x from q_x, -2 (A + B) ln(|x|/D) for u_y from q_y, pi coupling sgn(x) for u_x from
+  p. They are the integrals of those below over all y, but that displacements are relative to a point at the distance D.
+  Waves have the same symbols. Source: Johnson 1985, Contact Mechanics, sections 2.2 and 2.3.
 */
 #include "../waves.h"
 #include <petsam/private/halfspace.h>
@@ -17,7 +22,10 @@ typedef enum { ZZ, XX, YY, XY, XZ, YZ, SLOPE_X, SLOPE_Y, KERNELS } Kind;
 typedef struct {
   SamKernel  kernel[KERNELS]; /* NULL until needed */
   SamLayered layers;          /* NULL: none */
+  PetscReal  datum;           /* D in plane strain, m; 0: three dimensions */
 } HalfSpace;
+
+#define DATUM "plane_datum"
 
 /* The thinnest layers on which edges are those of half-spaces: 8 cells, twice the depth. */
 #define THICK 16
@@ -29,6 +37,7 @@ typedef struct {
   double      factor[2];
   Kind        kind;
   SamLayered  layers;
+  double      datum;
 } Coefficients;
 
 static Coefficients GetCoefficients(SamElasticity e, Kind kind)
@@ -48,7 +57,36 @@ static Coefficients GetCoefficients(SamElasticity e, Kind kind)
                         .integral = {integrals[kind][0], integrals[kind][1]},
                         .factor   = {factors[kind][0], factors[kind][1]},
                         .kind     = kind,
-                        .layers   = ((const HalfSpace *)e->data)->layers};
+                        .layers   = ((const HalfSpace *)e->data)->layers,
+                        .datum    = (double)((const HalfSpace *)e->data)->datum};
+}
+
+/*
+  The integral of ln(|x|/D) over the cell at the lag i >= 0, m: in powers of the inverse lag, where the closed form
+  L(i + 1/2) - L(i - 1/2) cancels.
+*/
+static double PlaneIntegral(double dx, double datum, PetscInt i)
+{
+  const double square = 4 * (double)i * (double)i;
+  double       sum = 0, power = 1;
+
+  if (!i) return dx * (log(dx / (2 * datum)) - 1);
+  for (int k = 2; power > 1e-18; k += 2) {
+    power /= square;
+    sum += power / ((k + 1) * k);
+  }
+  return dx * (log((double)i * dx / datum) - sum);
+}
+
+static void PlaneRow(const Coefficients *c, PetscInt j, PetscInt n, double values[])
+{
+  const double more = c->kind == YY ? c->factor[1] : 0;
+
+  for (PetscInt i = 0; i < n; i++) {
+    values[i] =
+      c->kind == XZ ? PETSC_PI * c->factor[0] * c->dx : -2 * (c->factor[0] + more) * PlaneIntegral(c->dx, c->datum, i);
+    if (j) values[i] = 0;
+  }
 }
 
 static void CoefficientRow(PetscInt j, PetscInt n, double *const values[], const void *context)
@@ -57,6 +95,10 @@ static void CoefficientRow(PetscInt j, PetscInt n, double *const values[], const
   const Coefficients *c = (const Coefficients *)context;
   double              more[CHUNK];
 
+  if (c->datum > 0) {
+    PlaneRow(c, j, n, values[0]);
+    return;
+  }
   SamIntegralRow(c->integral[0], c->dx, c->dy, j, 0, n, values[0]);
   for (PetscInt i = 0; i < n; i++) values[0][i] *= c->factor[0];
   for (PetscInt start = 0; start < n && c->factor[1] != 0; start += CHUNK) {
@@ -83,7 +125,13 @@ static PetscErrorCode PrepareLayers(SamElasticity e)
 static double SelfInfluence(SamElasticity e, Kind kind)
 {
   const Coefficients c = GetCoefficients(e, kind);
-  double             v = c.factor[0] * SamIntegralCell(c.integral[0], c.dx, c.dy, 0, 0);
+  double             v;
+
+  if (c.datum > 0) {
+    PlaneRow(&c, 0, 1, &v);
+    return v;
+  }
+  v = c.factor[0] * SamIntegralCell(c.integral[0], c.dx, c.dy, 0, 0);
 
   if (c.factor[1] != 0) v += c.factor[1] * SamIntegralCell(c.integral[1], c.dx, c.dy, 0, 0);
   if (c.layers) SamLayeredAddRow(c.layers, (SamIntegral)kind, c.dx, c.dy, 0, 1, &v);
@@ -155,12 +203,28 @@ static PetscErrorCode GetMatrix(SamElasticity e, PetscInt n_out, PetscInt n_in, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* In plane strain u_z and u_x, or u_x and p, by themselves, and u_y. */
+static PetscErrorCode ApplyPlane(SamElasticity e, PetscInt n_out, PetscInt n_in, double scale, const Kind kinds[],
+                                 const double *const in[], double *const out[])
+{
+  SamKernelMatrix matrix;
+
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < n_out; c++) {
+    if (c < n_in) PetscCall(GetMatrix(e, 1, 1, scale, &kinds[c * n_in + c], &matrix));
+    if (c < n_in) PetscCall(SamConvolve(e->fourier, &matrix, &in[c], &out[c]));
+    if (c >= n_in) PetscCall(PetscArrayzero(out[c], e->grid->cells));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Apply(SamElasticity e, PetscInt n_out, PetscInt n_in, double scale, const Kind kinds[],
                             const double *const in[], double *const out[])
 {
   SamKernelMatrix matrix;
 
   PetscFunctionBegin;
+  if (e->traits.plane) PetscFunctionReturn(ApplyPlane(e, n_out, n_in, scale, kinds, in, out));
   PetscCall(GetMatrix(e, n_out, n_in, scale, kinds, &matrix));
   PetscCall(SamConvolve(e->fourier, &matrix, in, out));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -172,6 +236,11 @@ static PetscErrorCode ApplySingle(SamElasticity e, PetscInt n, const Kind kinds[
   SamKernelMatrix matrix;
 
   PetscFunctionBegin;
+  for (PetscInt c = 0; c < n && e->traits.plane; c++) {
+    PetscCall(GetMatrix(e, 1, 1, 1, &kinds[c * n + c], &matrix));
+    PetscCall(SamConvolveSingle(e->fourier, &matrix, factor, &in[c], &out[c]));
+  }
+  if (e->traits.plane) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(GetMatrix(e, n, n, 1, kinds, &matrix));
   PetscCall(SamConvolveSingle(e->fourier, &matrix, factor, in, out));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -233,7 +302,7 @@ static PetscErrorCode Precondition(SamElasticity e, PetscInt n, double factor, d
   PetscFunctionBegin;
   PetscCall(SamFourierGetPeriods(e->fourier, &hx, &hy));
   s.step[0] = 2 * PETSC_PI / (double)hx * e->grid->length / e->grid->dx;
-  s.step[1] = 2 * PETSC_PI / (double)hy * e->grid->length / e->grid->dy;
+  s.step[1] = e->traits.plane ? s.step[0] : 2 * PETSC_PI / (double)hy * e->grid->length / e->grid->dy;
   s.gain    = factor / (2 * PETSC_PI * local * (double)hx * (double)hy * e->grid->length);
   s.mean    = 0.5 * PetscMin(s.step[0], s.step[1]);
   s.film    = SamPairFilm(&e->pair) / (2 * PETSC_PI * local * e->grid->length);
@@ -346,6 +415,7 @@ static PetscErrorCode GetNear(SamElasticity e, PetscInt reach, PetscInt sub, dou
 
 static PetscErrorCode Inherit(SamElasticity parent, SamElasticity child)
 {
+  ((HalfSpace *)child->data)->datum = ((const HalfSpace *)parent->data)->datum;
   return SamLayeredReference(((const HalfSpace *)parent->data)->layers, &((HalfSpace *)child->data)->layers);
 }
 
@@ -403,5 +473,60 @@ PetscErrorCode SamElasticityCreate_HalfSpace(SamElasticity e)
                               .applytangentialtonormal = ApplyTangentialToNormal,
                               .applynormalslopes       = ApplyNormalSlopes,
                               .getnear                 = GetNear};
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- plane strain ---- */
+
+static PetscErrorCode CheckDatum(SamElasticity e, PetscErrorCode error, const char source[], const char before[])
+{
+  const double datum = (double)((const HalfSpace *)e->data)->datum, least = (double)e->grid->width[0] / 2;
+
+  PetscFunctionBegin;
+  PetscCheck(datum >= least && isfinite(datum), e->grid->comm, error,
+             "%s%s" DATUM " %.6g: give at least half the grid's width, %.6g m", source, before, datum, least);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode SetFromOptions_Plane(SamElasticity e, const SamOptions *from)
+{
+  char      before[SAM_PREFIX + 2];
+  PetscReal datum = 0;
+
+  PetscFunctionBegin;
+  PetscCall(SamOptionsReal(from, DATUM, "plane: distance (m) that displacements are relative to, 0: grid width",
+                           SAM_RANGE_NONNEGATIVE, &datum, NULL));
+  if (datum > 0) ((HalfSpace *)e->data)->datum = datum;
+  PetscCall(PetscSNPrintf(before, sizeof(before), "-%s", e->prefix));
+  PetscCall(CheckDatum(e, SAM_ERR_USER, "", before));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode AddParameters_Plane(SamElasticity e, SamParameters *p)
+{
+  return SamParametersAddReals(p, DATUM, PETSC_TRUE, 1, &((const HalfSpace *)e->data)->datum);
+}
+
+static PetscErrorCode SetParameters_Plane(SamElasticity e, const SamParameters *p, const char source[])
+{
+  const SamParameter *found = SamParametersFind(p, DATUM);
+
+  PetscFunctionBegin;
+  if (found && found->count == 1) ((HalfSpace *)e->data)->datum = found->value[0];
+  PetscCall(CheckDatum(e, SAM_ERR_FILE, source, ": cannot be read: "));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticityCreate_Plane(SamElasticity e)
+{
+  PetscFunctionBegin;
+  PetscCall(SamElasticityCreate_HalfSpace(e));
+  ((HalfSpace *)e->data)->datum = e->grid->width[0];
+  e->traits.plane               = PETSC_TRUE;
+  e->traits.rotations[0] = e->traits.rotations[2] = PETSC_FALSE;
+  e->traits.within = e->traits.layers = PETSC_FALSE;
+  e->ops.setfromoptions               = SetFromOptions_Plane;
+  e->ops.addparameters                = AddParameters_Plane;
+  e->ops.setparameters                = SetParameters_Plane;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

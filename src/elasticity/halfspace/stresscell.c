@@ -21,10 +21,14 @@
     s_zz += M (hx dq_x/dx + hy dq_y/dy)/pi.
   With differences over two cells for the derivatives this changes the kernels at the neighbours of the cell only.
 
+  In plane strain, of a strip |x| < a, the closed forms of Johnson, section 2.5, with the angle that the strip is seen
+  under, and differences of fractions multiplied out, so that nothing cancels far away.
+
   References: Love 1929, Phil. Trans. R. Soc. A 228, 377; Johnson 1985, Contact Mechanics, ch. 3; Kalker 1990,
   Three-dimensional Elastic Bodies in Rolling Contact, ch. 4 and app. C.
 */
 #include <petsam/private/halfspace.h>
+#include <math.h>
 
 /* Points of the quadrature along a side, from the farthest distances, in longer sides, to the nearest; then none. */
 enum { GROUPS = SAM_STRESS_NORMAL_Z }; /* all that a half-space has */
@@ -185,6 +189,31 @@ static void Cells(const SamHalfSpaceSource *s, SamStressGroup group, double x0, 
   }
 }
 
+/* ---- plane strain ---- */
+
+/* The stresses at (x, z) by the strip |x| < a under unit tractions. */
+static void Strip(SamStressGroup group, double nu, double a, double x, double z, double f[SAM_STRESS_GROUP])
+{
+  const double r1 = (x - a) * (x - a) + z * z, r2 = (x + a) * (x + a) + z * z, product = r1 * r2;
+  const double angle = 2 * atan2(2 * a * z, x * x - a * a + z * z),
+               sine = 4 * a * z * (x * x - a * a - z * z) / product, cosine = -8 * a * x * z * z / product,
+               ratio = -2 * atanh(2 * a * x / (x * x + a * a + z * z));
+  /* from p: xx, zz, xz; from q_x: xx, and zz as xz from p, xz as xx from p; from q_y: xy and yz */
+  const double p[3] = {-(angle + sine) / (2 * PETSC_PI), -(angle - sine) / (2 * PETSC_PI), cosine / (2 * PETSC_PI)},
+               q    = (2 * ratio - cosine) / (2 * PETSC_PI);
+
+  f[0] = f[1] = f[2] = 0;
+  if (group == SAM_STRESS_PLANE_P) f[0] = p[0];
+  if (group == SAM_STRESS_PLANE_P) f[1] = nu * (p[0] + p[1]);
+  if (group == SAM_STRESS_PLANE_X) f[0] = q;
+  if (group == SAM_STRESS_PLANE_X) f[1] = nu * (q + p[2]);
+  if (group == SAM_STRESS_PLANE_Y) f[2] = ratio / (2 * PETSC_PI);
+  if (group == SAM_STRESS_NORMAL_P) f[0] = p[1];
+  if (group == SAM_STRESS_NORMAL_P) f[1] = p[2];
+  if (group == SAM_STRESS_NORMAL_T) f[0] = p[0];
+  if (group == SAM_STRESS_NORMAL_T) f[2] = -angle / (2 * PETSC_PI);
+}
+
 /* All lengths in a power of two near the longer side: the stresses have no length in them. */
 static double ScaleSource(SamHalfSpaceSource *s)
 {
@@ -250,6 +279,14 @@ void SamHalfSpaceStressRow(const SamHalfSpaceSource *source, SamStressGroup grou
 {
   SamHalfSpaceSource s = *source;
 
+  for (PetscInt i = 0; i < n && isinf(s.side[1]); i++) {
+    double f[SAM_STRESS_GROUP] = {0, 0, 0};
+
+    if (j == 0) Strip(group, s.poisson, s.side[0] / 2, (double)i * s.side[0], s.depth, f);
+    for (int k = 0; k < SAM_STRESS_GROUP; k++) values[k][i] = f[k];
+  }
+  if (isinf(s.side[1]) && j == 0) Correct(&s, group, 0, n, values);
+  if (isinf(s.side[1])) return;
   (void)ScaleSource(&s);
   Cells(&s, group, 0, (double)j * s.side[1], (int)n, values);
   Correct(&s, group, j, n, values);
@@ -264,7 +301,8 @@ typedef struct {
 static void Row(SamStress stress, const double side[2], double depth, SamStressGroup group, PetscInt j, PetscInt n,
                 double *const values[SAM_STRESS_GROUP])
 {
-  const SamHalfSpaceSource source = {{side[0], side[1]}, depth, (double)((const Constants *)stress->data)->poisson};
+  const double             across = stress->grid->ny == 1 ? INFINITY : side[1];
+  const SamHalfSpaceSource source = {{side[0], across}, depth, (double)((const Constants *)stress->data)->poisson};
 
   SamHalfSpaceStressRow(&source, group, j, n, values);
 }

@@ -9,6 +9,7 @@
     2. What cells outside of that block add is smooth there: it is what the map has at the centres of the nine cells
        about the point, less the part of the block's cells by the map's own kernels, interpolated.
   The kernels are those of Boussinesq and Cerruti on the surface (Johnson 1985, Contact Mechanics, sections 3.2, 3.6).
+  In plane strain they are of degree -1, and there are two directions: the integrals along them are the same.
 */
 #include <petsam/private/rows.h>
 #include <petsam/edges.h>
@@ -33,7 +34,8 @@ typedef struct {
 
 static PetscErrorCode CreateMap(SamGrid grid, PetscReal poisson, Vec field, Map *m)
 {
-  const SamHalfSpaceSource source = {{(double)grid->dx, (double)grid->dy}, 0, (double)poisson};
+  const double             dy     = grid->ny == 1 ? INFINITY : (double)grid->dy;
+  const SamHalfSpaceSource source = {{(double)grid->dx, dy}, 0, (double)poisson};
 
   PetscFunctionBegin;
   *m = (Map){.grid = grid, .poisson = (double)poisson};
@@ -91,6 +93,7 @@ static void AddOutside(const Map *m, PetscInt i, PetscInt j, const double at[2],
       double         weight  = 1, part[PLANE];
 
       for (int d = 0; d < 2; d++) weight *= side[d] == 0 ? 1 - at[d] * at[d] : 0.5 * at[d] * (at[d] + (double)side[d]);
+      if (weight == 0) continue;
       OutsideOf(m, i, j, a, b, part);
       for (int c = 0; c < PLANE; c++) stress[c] += weight * part[c];
     }
@@ -110,6 +113,16 @@ static void PointKernels(double nu, const double e[2], double k[SAM_STRESS_TRACT
   k[SAM_STRESS_QY][XX] = -3 * nu * y * xx / PETSC_PI;
   k[SAM_STRESS_QY][YY] = -y * (1 + nu - 3 * nu * xx) / PETSC_PI;
   k[SAM_STRESS_QY][XY] = -x * (1 - 2 * nu + 6 * nu * yy) / (2 * PETSC_PI);
+}
+
+/* The same of lines along y, times the distance. */
+static void LineKernels(double nu, const double e[2], double k[SAM_STRESS_TRACTIONS][PLANE])
+{
+  for (int t = 0; t < SAM_STRESS_TRACTIONS; t++)
+    for (int c = 0; c < PLANE; c++) k[t][c] = 0;
+  k[SAM_STRESS_QX][XX] = -2 * e[0] / PETSC_PI;
+  k[SAM_STRESS_QX][YY] = nu * k[SAM_STRESS_QX][XX];
+  k[SAM_STRESS_QY][XY] = -e[0] / PETSC_PI;
 }
 
 /* A ray from the point, in cells: its direction, its end at the block's border, and the function b r + c r^2 on it. */
@@ -157,6 +170,7 @@ static void AddInside(const Map *m, PetscInt i, PetscInt j, const double at[2], 
                       double stress[PLANE])
 {
   const double dx = (double)m->grid->dx, dy = (double)m->grid->dy;
+  const int    line                       = m->grid->ny == 1;
   double       like[SAM_STRESS_TRACTIONS] = {0}, most = 0;
 
   for (PetscInt b = -1; b <= 1; b++)
@@ -167,14 +181,15 @@ static void AddInside(const Map *m, PetscInt i, PetscInt j, const double at[2], 
       most = p;
       for (PetscInt t = 0; t < SAM_STRESS_TRACTIONS; t++) like[t] = TractionAt(m, t, i + a, j + b) / p;
     }
-  for (int n = 0; n < RAYS; n++) {
-    const Ray    ray    = MakeRay(fit, at, 2 * PETSC_PI * (n + 0.5) / RAYS);
+  for (int n = 0; n < (line ? 2 : RAYS); n++) {
+    const Ray    ray    = MakeRay(fit, at, line ? n * PETSC_PI : 2 * PETSC_PI * (n + 0.5) / RAYS);
     const double way[2] = {dx * ray.direction[0], dy * ray.direction[1]}, size = hypot(way[0], way[1]);
-    const double e[2] = {-way[0] / size, -way[1] / size}, area = 2 * PETSC_PI / RAYS * dx * dy / (size * size);
-    double       k[SAM_STRESS_TRACTIONS][PLANE], sums[SAM_STRESS_TRACTIONS];
+    const double e[2] = {-way[0] / size, -way[1] / size},
+                 area = line ? 1 : 2 * PETSC_PI / RAYS * dx * dy / (size * size);
+    double k[SAM_STRESS_TRACTIONS][PLANE], sums[SAM_STRESS_TRACTIONS];
 
     AlongRay(m, &ray, i, j, at, like, sums);
-    PointKernels(m->poisson, e, k);
+    (line ? LineKernels : PointKernels)(m->poisson, e, k);
     for (int t = 0; t < SAM_STRESS_TRACTIONS; t++)
       for (int c = 0; c < PLANE; c++) stress[c] += area * k[t][c] * sums[t];
   }
@@ -191,10 +206,11 @@ PetscErrorCode SamHalfSpaceStressAtEdge(SamStress body, Vec field, const SamEdge
   PetscCall(CreateMap(grid, poisson, field, &m));
   for (PetscInt n = 0; n < edge->count; n++) {
     const PetscInt  i = edge->cell[n] % grid->nx, j = grid->row_start + edge->cell[n] / grid->nx;
-    const double    at[2]    = {(double)((edge->x[n] - SamGridX(grid, i)) / grid->dx),
-                                (double)((edge->y[n] - SamGridY(grid, j)) / grid->dy)};
-    double         *to       = stress + (ptrdiff_t)PLANE * n;
-    const PetscBool complete = i > BLOCK && i + BLOCK + 1 < grid->nx && j > BLOCK && j + BLOCK + 1 < grid->ny;
+    const double    at[2] = {(double)((edge->x[n] - SamGridX(grid, i)) / grid->dx),
+                             (double)((edge->y[n] - SamGridY(grid, j)) / grid->dy)};
+    double         *to    = stress + (ptrdiff_t)PLANE * n;
+    const PetscBool complete =
+      i > BLOCK && i + BLOCK + 1 < grid->nx && (grid->ny == 1 || (j > BLOCK && j + BLOCK + 1 < grid->ny));
 
     if (!complete) continue;
     for (int c = 0; c < PLANE; c++) to[c] = 0;

@@ -141,6 +141,7 @@ static SamSymbol SymbolOf(SamElasticity e, double factor, double amplitude, Prod
   SamSymbol      s    = {.nu = pair->shear_xx / (pair->shear + pair->shear_xx), .multiply = multiply};
 
   for (PetscInt c = 0; c < 2; c++) s.step[c] = 2 * PETSC_PI / grid->width[c] * grid->length;
+  if (grid->ny == 1) s.step[1] = s.step[0]; /* of waves that do not exist */
   s.mean = 0.5 * PetscMin(s.step[0], s.step[1]);
   s.gain = factor * amplitude * grid->length / ((double)grid->nx * (double)grid->ny);
   if (LayersOf(e)) PetscCallAbort(grid->comm, SamLayeredSymbolSet(LayersOf(e), grid->length, grid->nx, grid->ny, &s));
@@ -331,6 +332,14 @@ static PetscErrorCode Inherit(SamElasticity parent, SamElasticity child)
 static PetscErrorCode Destroy(SamElasticity e)
 {
   return SamLayeredDestroy(&((Periodic *)e->data)->layers);
+}
+
+PetscErrorCode SamElasticityCreate_PlanePeriodic(SamElasticity e)
+{
+  PetscFunctionBegin;
+  PetscCall(SamElasticityCreate_Periodic(e));
+  e->traits.plane = PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamElasticityCreate_Periodic(SamElasticity e)

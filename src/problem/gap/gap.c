@@ -367,6 +367,41 @@ PetscErrorCode SamGapEstimateContact(SamGap gap, PetscBool force, PetscReal valu
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+#define POINTS 100 /* of the rule of an integral */
+
+/* A line contact of half width a: N/E* = a times the integral of sin t h'(a sin t), t from 0 to pi/2. */
+static double LineForce(SamGap gap, double a)
+{
+  double sum = 0;
+
+  for (int k = 0; k < POINTS; k++) {
+    const double sine = sin((k + 0.5) * PETSC_PI / (2 * POINTS)), x = a * sine, by = 1e-4 * x;
+
+    sum += sine * (gap->ops.height(gap->values, x + by, 0) - gap->ops.height(gap->values, x - by, 0)) / (2 * by);
+  }
+  return a * sum * PETSC_PI / (2 * POINTS);
+}
+
+PetscErrorCode SamGapEstimateLine(SamGap gap, PetscReal value, PetscReal *half, PetscBool *known)
+{
+  double low = 1e-12, high = 1e6;
+
+  PetscFunctionBegin;
+  *half  = 0;
+  *known = gap->ops.contact && !gap->rough.file[0] && value > 0;
+  if (!*known || LineForce(gap, high) < value) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt k = 0; k < HALVINGS && high > (1 + 1e-9) * low; k++) {
+    const double middle = sqrt(low * high);
+
+    if (LineForce(gap, middle) < value)
+      low = middle;
+    else
+      high = middle;
+  }
+  *half = high;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamGapGetSteepness(SamGap gap, const PetscReal half[2], PetscReal *ratio, const char **option)
 {
   PetscInt parameter = 0;

@@ -1,0 +1,283 @@
+#!/usr/bin/env python3
+"""Plane strain, random histories: each step must fulfil the conditions of contact by dense matrices in numpy.
+
+    python3 tests/fuzz/plane.py [--build build] [--count 300] [--seed 1] [--show]
+
+Lines of 16 to 300 cells: half-planes and periodic ones, rough and rounded, nu 0 to 0.5, friction 0.03 to 1,
+dissimilar bodies, bulk stress, antiplane loads, films, wear, hardness, tilting moments; loads and displacements in all
+combinations, with reversals. Prints what repeats a failure. Ends with 1 after a failure.
+"""
+
+import argparse
+import collections
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "program"))
+from support import words  # noqa: E402
+
+STEPS = 5
+
+
+# ---------------------------------------------------------------- mechanics
+
+
+def matrices(n, h, bodies, datum):
+    """u_z by p (and u_x by q_x), u_y by q_y, u_x by p, all (n, n): of half-planes (datum, m), or periodic (None)."""
+    normal = sum((1 - nu) / g for g, nu in bodies)
+    across = sum(1 / g for g, nu in bodies)
+    (g1, nu1), (g2, nu2) = bodies
+    coupled = (1 - 2 * nu1) / (2 * g1) - (1 - 2 * nu2) / (2 * g2)
+    lag = np.subtract.outer(np.arange(n), np.arange(n))
+    if datum:
+        x = h * np.abs(lag).astype(np.longdouble)
+        high, low = x + h / 2, np.abs(x - h / 2)
+        F = high * np.log(high / datum) - np.sign(x - h / 2) * low * np.log(low / datum) - h
+        F = np.array(F, float)
+        return -normal / np.pi * F, -across / np.pi * F, coupled / 2 * h * np.sign(lag)
+    k = 2 * np.pi * np.fft.fftfreq(n, h)
+    size = np.abs(k)
+    size[0] = np.inf
+    odd = np.where(2 * np.abs(np.arange(n)) == n, 0, np.sign(k))  # the wave of two cells is its own mirror image
+    even = np.real(np.fft.ifft(1 / size))
+    turned = np.real(np.fft.ifft(-1j * odd / size))
+    return normal * even[lag % n], across * even[lag % n], coupled * turned[lag % n]
+
+
+class Check:
+    """Ratios of errors to what is allowed, the largest by name, over the steps of a file."""
+
+    def __init__(self, problem, f):
+        self.problem, self.f, self.case, self.mu = problem, f, problem.case, problem.case["friction"]
+        self.h = {name: values[:] for name, values in f["history"].items()}
+        self.x = f["x"][:]
+        self.d = self.x[1] - self.x[0]
+        self.kernels = matrices(self.x.size, self.d, problem.bodies, None if problem.periodic else problem.datum)
+        self.past = {name: np.zeros(self.x.size) for name in ("x", "y", "w1", "w2", "plastic", "p")}
+        self.worst = collections.defaultdict(float)
+        self.unit = np.abs(self.kernels[0]).sum(axis=1).max() * max(np.abs(f["pressure"][:]).max(), 1e-300)
+
+    def test(self, name, value):
+        self.worst[name] = max(self.worst[name], float(value) if np.isfinite(value) else np.inf)
+
+    def step(self, k):
+        """All conditions of a step; then what it leaves to the next one."""
+        p, *q = (self.f[name][k, 0] for name in ("pressure", "shear_x", "shear_y"))
+        now = [self.f[f"slip_{c}"][k, 0] for c in "xy"]
+        self.normal(k, p, q[0])
+        self.tangential(k, p, np.array(q), now)
+        self.wear(k, p, now)
+        self.sums(k, p, q)
+        self.past.update(x=now[0], y=now[1], p=p)
+        if "plastic_depth" in self.f:
+            self.past["plastic"] = self.f["plastic_depth"][k, 0]
+
+    def normal(self, k, p, qx):
+        Z, _, C = self.kernels
+        u, rigid = Z @ p - C @ qx, self.h["disp_z"][k] + self.x * self.h["rot_y"][k]
+        g = self.problem.gap + self.past["w1"] + self.past["w2"] + self.past["plastic"] + u - rigid
+        full = p >= self.case.get("pressure_limit", np.inf) * (1 - 1e-9)
+        scale = max(np.abs(u).max(), 1e-3 * self.unit)
+        self.test("tension", -p.min() / p.max() / 1e-12)
+        self.test("overlap", -g[~full].min(initial=0) / scale / 1e-6)
+        self.test("touch", np.abs(g[(p > 1e-7 * p.max()) & ~full]).max(initial=0) / scale / 3e-6)
+        self.test("yield", g[full].max(initial=-1) / scale / 1e-6)
+
+    def tangential(self, k, p, q, slip):
+        Z, Y, C = self.kernels
+        film, stretch = self.problem.film, 0.0
+        for body, (g, nu) in enumerate(self.problem.bodies, 1):
+            s = self.h.get(f"bulk{body}_stress_xx", np.zeros(k + 1))[k]
+            stretch += (-1) ** body * (1 - nu**2) * s / (2 * g * (1 + nu))
+        s_x = Z @ q[0] + film * q[0] + C @ p + stretch * self.x - self.h["disp_x"][k]
+        s_y = Y @ q[1] + film * q[1] - self.h["disp_y"][k]
+        bound = self.mu * p
+        self.test("cone", (np.hypot(*q) - bound).max() / p.max() / 1e-9)
+        move = np.array([s_x - self.past["x"], s_y - self.past["y"]])
+        z = q - move / (0.5 * (Z[0, 0] + Y[0, 0]) + film)
+        length = np.maximum(np.hypot(*z), 1e-300)
+        residual = q - z * np.where(length > bound, bound / length, 1)
+        self.test("friction", np.linalg.norm(residual) / max(np.linalg.norm(bound), 1e-300) / 3e-5)
+        self.test("slip", max(np.abs(slip[0] - s_x).max(), np.abs(slip[1] - s_y).max()) / self.unit / 1e-7)
+
+    def wear(self, k, p, slip):
+        """Not more than the larger pressure over the way, and as the work of friction."""
+        way = np.hypot(slip[0] - self.past["x"], slip[1] - self.past["y"])
+        most = np.maximum(p, self.past["p"]) * way * (1 + 1e-6)
+        for b in (1, 2):
+            if f"wear_depth{b}" in self.f:
+                depth = self.f[f"wear_depth{b}"][k, 0]
+                k_b, more = self.case.get(f"wear_coefficient{b}", 0), depth - self.past[f"w{b}"]
+                unit, work = max(depth.max(), 1e-30), self.f["friction_energy"][k, 0]
+                self.test("wear", max(-more.min(), (more - k_b * most).max()) / unit / 1e-9)
+                self.test("wear work", np.abs(depth - k_b / self.mu * work).max() / unit / 1e-6)
+                self.past[f"w{b}"] = depth
+
+    def sums(self, k, p, q):
+        """Loads, and what is given."""
+        h, x = self.h, self.x
+        found = dict(load_n=p.sum(), load_tx=q[0].sum(), load_ty=q[1].sum(), load_my=(x * p).sum())
+        for name, value in found.items():
+            unit = p.sum() * self.d * (np.abs(x).max() if name == "load_my" else 1)
+            self.test("sums", abs(value * self.d - h[name][k]) / unit / 1e-9)
+        for name, values in self.problem.rows.items():
+            least = 1e-6 * (h["load_n"][k] if "load" in name else self.unit)
+            self.test("given", abs(values[k] - h[name][k]) / max(np.abs(h[name]).max(), least) / 1e-7)
+
+
+def faults(problem, f):
+    """What is wrong with the steps of a file."""
+    check = Check(problem, f)
+    for k in range(len(check.h["time"])):
+        check.step(k)
+    return check.h, {name: value for name, value in check.worst.items() if not value <= 1}
+
+
+# ---------------------------------------------------------------- problems
+
+
+class Problem:
+    """A random history of a line of cells; `kinds` are its properties."""
+
+    def __init__(self, seed):
+        self.random = np.random.default_rng(seed)
+        self.kinds = []
+        n, self.a, self.mu = int(self.log(16, 300)), self.log(1e-5, 1e-2), self.log(0.03, 1)
+        self.periodic = self.is_a("periodic", 0.25)
+        self.width = float(self.random.uniform(2.6, 4)) * self.a
+        self.make_bodies()
+        self.datum = self.width * (1 if self.random.random() < 0.5 else self.log(0.6, 1e3))
+        self.p0 = self.modulus * self.log(1e-4, 3e-2)
+        self.make_gap(n)
+        self.make_case(n)
+        self.make_history()
+
+    def log(self, low, high):
+        return float(np.exp(self.random.uniform(np.log(low), np.log(high))))
+
+    def is_a(self, kind, chance):
+        if self.random.random() < chance:
+            self.kinds.append(kind)
+        return kind in self.kinds
+
+    def make_bodies(self):
+        g, nu = self.log(1e8, 2e11), self.random.uniform(0, 0.5)
+        self.bodies = [(g, nu)] * 2
+        if self.is_a("dissimilar", 0.3):
+            self.bodies = [(g, nu), (g * self.log(0.1, 10), self.random.uniform(0, 0.5))]
+        self.modulus = 1 / sum((1 - nu) / (2 * g) for g, nu in self.bodies)
+
+    def make_gap(self, n):
+        x = ((np.arange(n) + 0.5) / n - 0.5) * self.width
+        self.radius = self.a * self.modulus / (2 * self.p0)
+        self.gap = x**2 / (2 * self.radius)
+        if self.is_a("flat", 0.25):  # with rounded edges
+            self.gap = np.maximum(np.abs(x) - 0.6 * self.a, 0) ** 2 / self.radius
+        if self.is_a("rough", 0.3):
+            waves = np.cumsum(self.random.normal(size=n))
+            self.gap += self.a**2 / self.radius * self.log(1e-3, 0.1) * (waves - waves.mean()) / waves.std()
+
+    def make_case(self, n):
+        self.case = dict(
+            elasticity="plane_periodic" if self.periodic else "plane",
+            plane_datum=None if self.periodic else float(self.datum),
+            gap_type="file",
+            gap_file="gap.h5",
+            grid_n=n,
+            grid_size=self.width,
+            friction=self.mu,
+            normal_rtol=1e-9,
+            tangential_rtol=1e-8,
+            history="h.csv",
+            steps=1,
+            output_fields="all",
+        )
+        for k, (g, nu) in enumerate(self.bodies, 1):
+            self.case.update({f"body{k}_young": float(2 * g * (1 + nu)), f"body{k}_poisson": float(nu)})
+        self.film = 0.0
+        if self.is_a("film", 0.2):
+            self.film = self.width / n / self.bodies[0][0] * self.log(1e-2, 1e2)
+            self.case.update(film_thickness=1e-6, film_shear=1e-6 / self.film)
+        if self.is_a("hard", 0.15):
+            self.case["pressure_limit"] = self.p0 * self.log(0.5, 2)
+        if self.is_a("wear", 0.25):
+            wear = self.log(1e-3, 0.1) / self.p0 * self.a / self.radius
+            self.case[f"wear_coefficient{self.random.choice([1, 2])}"] = wear
+
+    def make_history(self):
+        """Rows of loads, of which the tangential ones change their signs."""
+        random, load = self.random, np.pi * self.p0 * self.a / 2
+        N = load * random.uniform(0.3, 1, STEPS)
+        angle = 0 if random.random() < 0.6 else random.uniform(0, 2 * np.pi)
+        T = self.mu * N * (0.7 if "dissimilar" in self.kinds else 0.95) * random.uniform(-1, 1, STEPS)
+        self.rows = dict(load_n=N, load_tx=T * np.cos(angle))
+        if angle:
+            self.kinds.append("antiplane")
+            self.rows["load_ty"] = T * np.sin(angle)
+        if not self.periodic and self.is_a("moment", 0.3):
+            self.rows["load_my"] = N * self.a * random.uniform(-0.15, 0.15, STEPS)
+        if self.is_a("displacements", 0.25):  # of all loads but that along z
+            for name, way in (("load_tx", "disp_x"), ("load_ty", "disp_y")):
+                if self.rows.pop(name, None) is not None:
+                    self.rows[way] = random.uniform(-1, 1, STEPS) * self.mu * load / self.modulus
+        self.columns = dict(self.rows)
+        if not self.periodic and self.is_a("bulk", 0.3):
+            self.columns[f"bulk{random.choice([1, 2])}_stress_xx"] = self.mu * self.p0 * random.uniform(-1, 1, STEPS)
+
+    def write(self, folder):
+        with h5py.File(folder / "gap.h5", "w") as f:
+            f["height"] = self.gap[None, :]
+        names = ["time", *self.columns]
+        rows = np.column_stack([np.arange(STEPS), *self.columns.values()])
+        text = "\n".join([",".join(names), *(",".join(repr(float(v)) for v in row) for row in rows)])
+        (folder / "h.csv").write_text(text + "\n")
+
+
+def trial(program, seed):
+    """Kinds, history and faults of a problem."""
+    problem = Problem(seed)
+    with tempfile.TemporaryDirectory() as folder:
+        folder = Path(folder)
+        problem.write(folder)
+        command = [str(program), *words(dict(problem.case, output="r.h5"))]
+        done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=300)
+        line = " ".join(words(problem.case))
+        if done.returncode in (11, 12):  # gross slip by rough surfaces, or contact up to the edge of the grid
+            return [f"code {done.returncode}"], None, {}, line
+        if done.returncode:
+            return problem.kinds, None, {f"code {done.returncode}": done.stderr.strip()[-300:]}, line
+        with h5py.File(folder / "r.h5") as f:
+            h, wrong = faults(problem, f)
+        return problem.kinds, h, wrong, line
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", default="build", help="the build folder")
+    parser.add_argument("--count", type=int, default=300, help="how many problems")
+    parser.add_argument("--seed", type=int, default=1, help="of the first; the next one has the next number")
+    parser.add_argument("--show", action="store_true", help="print a line for each problem")
+    given = parser.parse_args()
+    program = Path(given.build).resolve() / "bin" / "petsam"
+    counts, failed = collections.Counter(), 0
+    for seed in range(given.seed, given.seed + given.count):
+        kinds, h, wrong, line = trial(program, seed)
+        counts.update(kinds or ["plain"])
+        if given.show and h:
+            most = max(h["normal_applies"].max(), h["tangential_applies"].max())
+            print(seed, ",".join(kinds), f"products {most:.0f}", flush=True)
+        if wrong:
+            failed += 1
+            print(f"seed {seed} ({', '.join(kinds)}): {wrong}\n    {line}", flush=True)
+    print(", ".join(f"{kind} {count}" for kind, count in counts.most_common()))
+    print(f"{given.count} problems, {failed} failed")
+    return failed > 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

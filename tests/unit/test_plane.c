@@ -1,0 +1,332 @@
+/* Plane strain: products against closed forms and waves, symmetry, precision, inverses, one datum, grids, ranks. */
+#include "elasticities.h"
+#include "preconditioners.h"
+
+#include <math.h>
+
+/* Cells: few, odd, prime, and so many that lines are transformed in parts. */
+static const PetscInt lengths[] = {2, 3, 7, 16, 37, 600, 3000};
+enum { NUM_LENGTHS = sizeof(lengths) / sizeof(lengths[0]) };
+
+static const double width = 3e-3, tolerance = 2e-14;
+
+static SamElasticity NewOn(MPI_Comm comm, PetscInt nx, SamElasticityType type)
+{
+  SamGrid       grid = NewGridOn(comm, nx, 1, width, 1, 1e-3, 0);
+  SamElasticity e    = NewDissimilar(grid);
+
+  sam_call(SamElasticitySetType(e, type));
+  sam_call(SamGridDestroy(&grid)); /* the operator has a reference */
+  return e;
+}
+
+static SamGrid GridOf(SamElasticity e)
+{
+  SamGrid grid;
+
+  sam_call(SamElasticityGetGrid(e, &grid));
+  return grid;
+}
+
+/* The four products, and the components of what goes in and comes out: 0, 1 tangential, 2 normal. */
+static const struct {
+  Product  apply;
+  PetscInt first_in, n_in, first_out, n_out;
+} products[4] = {{SamElasticityApplyNormal, 2, 1, 2, 1},
+                 {SamElasticityApplyTangential, 0, 2, 0, 2},
+                 {SamElasticityApplyNormalToTangential, 2, 1, 0, 2},
+                 {SamElasticityApplyTangentialToNormal, 0, 2, 2, 1}};
+
+/* x ln(|x|/D). */
+static long double L(long double x, long double datum)
+{
+  return x == 0 ? 0 : x * logl(fabsl(x) / datum);
+}
+
+/* Displacement along `row` at the lag i by unit traction along `column`, of both bodies: Johnson 1985, 2.2 to 2.3. */
+static long double Kernel(int row, int column, PetscInt i, long double h, long double datum)
+{
+  const long double pi = acosl(-1), x = (long double)i * h;
+  const long double F = L(x + h / 2, datum) - L(x - h / 2, datum) - h, sides = fabsl(x + h / 2) - fabsl(x - h / 2);
+  long double       sum = 0;
+
+  for (int b = 0; b < 2; b++) {
+    const long double nu = poisson[b], G = young[b] / (2 * (1 + nu));
+
+    if (row == column) sum -= (row == 1 ? 1 : 1 - nu) / (pi * G) * F;
+    /* a load draws the surface of body 2 to it; that of body 1, of which p is the mirror image, likewise */
+    if (row == 0 && column == 2) sum += (b == 1 ? -1 : 1) * (1 - 2 * nu) / (4 * G) * sides;
+    if (row == 2 && column == 0) sum -= (b == 1 ? -1 : 1) * (1 - 2 * nu) / (4 * G) * sides;
+  }
+  return sum;
+}
+
+static void test_kernels_are_the_closed_forms(void **state)
+{
+  (void)state;
+  for (int n = 0; n < NUM_LENGTHS; n++)
+    for (int c = 0; c < 4; c++) {
+      SamElasticity  e    = NewOn(PETSC_COMM_WORLD, lengths[n], SAM_ELASTICITY_PLANE);
+      const SamGrid  grid = GridOf(e);
+      const PetscInt nx = grid->nx, at = nx / 3;
+
+      for (PetscInt in = 0; in < products[c].n_in; in++) {
+        Vec     t = NewField(grid, products[c].n_in), u = NewField(grid, products[c].n_out);
+        double *values;
+
+        AddAt(grid, in, at, 0, 1, t);
+        sam_call(products[c].apply(e, t, u));
+        values = Whole(grid, products[c].n_out, u);
+        for (PetscInt out = 0; out < products[c].n_out; out++)
+          for (PetscInt i = 0; i < nx; i++) {
+            const int    row = (int)(products[c].first_out + out), column = (int)(products[c].first_in + in);
+            const double own = (double)Kernel(1, 1, 0, (long double)grid->dx, (long double)width);
+
+            sam_assert_close(values[out * nx + i],
+                             (double)Kernel(row, column, i - at, (long double)grid->dx, (long double)width),
+                             tolerance * own);
+          }
+        free(values);
+        sam_call(VecDestroy(&t));
+        sam_call(VecDestroy(&u));
+      }
+      sam_call(SamElasticityDestroy(&e));
+    }
+}
+
+/* On one period cos k x is displaced as on a half-plane: 2/(E* k), (1/G1 + 1/G2)/k, and the coupling turned by pi/2. */
+static void test_waves_are_displaced_by_their_symbols(void **state)
+{
+  const double G[2]     = {young[0] / (2 * (1 + poisson[0])), young[1] / (2 * (1 + poisson[1]))};
+  const double in_plane = (1 - poisson[0]) / G[0] + (1 - poisson[1]) / G[1], across = 1 / G[0] + 1 / G[1],
+               coupled = (1 - 2 * poisson[0]) / (2 * G[0]) - (1 - 2 * poisson[1]) / (2 * G[1]);
+  (void)state;
+  for (int n = 2; n < NUM_LENGTHS; n++)
+    for (PetscInt m = 1; 2 * m < PetscMin(lengths[n], 20); m++) {
+      SamElasticity e    = NewOn(PETSC_COMM_WORLD, lengths[n], SAM_ELASTICITY_PLANE_PERIODIC);
+      const SamGrid grid = GridOf(e);
+      const double  k    = 2 * PETSC_PI * (double)m / width;
+      Vec           t = NewField(grid, 2), p = NewField(grid, 1), u = NewField(grid, 2), u_z = NewField(grid, 1);
+      double       *values, *normal, *moved;
+
+      for (PetscInt i = 0; i < grid->nx; i++) {
+        AddAt(grid, 0, i, 0, cos(k * SamGridX(grid, i)), t);
+        AddAt(grid, 1, i, 0, 3 * cos(k * SamGridX(grid, i)), t);
+        AddAt(grid, 0, i, 0, cos(k * SamGridX(grid, i)), p);
+      }
+      sam_call(SamElasticityApplyTangential(e, t, u));
+      sam_call(SamElasticityApplyNormal(e, p, u_z));
+      values = Whole(grid, 2, u);
+      normal = Whole(grid, 1, u_z);
+      sam_call(SamElasticityApplyNormalToTangential(e, p, u));
+      moved = Whole(grid, 2, u);
+      for (PetscInt i = 0; i < grid->nx; i++) {
+        const double c = cos(k * SamGridX(grid, i)), s = sin(k * SamGridX(grid, i)), size = tolerance * across / k;
+
+        sam_assert_close(normal[i], in_plane / k * c, size);
+        sam_assert_close(values[i], in_plane / k * c, size);
+        sam_assert_close(values[grid->nx + i], 3 * across / k * c, 3 * size);
+        sam_assert_close(moved[i], coupled / k * s, size);
+        sam_assert(moved[grid->nx + i] == 0);
+      }
+      free(values);
+      free(normal);
+      free(moved);
+      sam_call(VecDestroy(&t));
+      sam_call(VecDestroy(&p));
+      sam_call(VecDestroy(&u));
+      sam_call(VecDestroy(&u_z));
+      sam_call(SamElasticityDestroy(&e));
+    }
+}
+
+static const SamElasticityType types[] = {SAM_ELASTICITY_PLANE, SAM_ELASTICITY_PLANE_PERIODIC};
+
+static void test_operator_is_symmetric(void **state)
+{
+  (void)state;
+  for (int n = 0; n < 2 * NUM_LENGTHS; n++) {
+    SamElasticity e    = NewOn(PETSC_COMM_WORLD, lengths[n / 2], types[n % 2]);
+    const SamGrid grid = GridOf(e);
+    Vec    p = NewRandom(grid, 1, 1), q = NewRandom(grid, 2, 2), u_z = NewField(grid, 1), u_t = NewField(grid, 2);
+    double size;
+
+    sam_call(SamElasticityApplyTangential(e, q, u_t));
+    size = Norm(u_t, NORM_2) * Norm(q, NORM_2);
+    sam_assert(Dot(q, u_t) > 0);
+    sam_call(SamElasticityApplyNormalToTangential(e, p, u_t));
+    sam_call(SamElasticityApplyTangentialToNormal(e, q, u_z));
+    sam_assert_close(Dot(q, u_t) - Dot(p, u_z), 0, 1e-14 * size);
+    sam_call(SamElasticityApplyNormal(e, p, u_z));
+    sam_assert(Dot(p, u_z) > 0);
+    sam_call(VecDestroy(&p));
+    sam_call(VecDestroy(&q));
+    sam_call(VecDestroy(&u_z));
+    sam_call(VecDestroy(&u_t));
+    sam_call(SamElasticityDestroy(&e));
+  }
+}
+
+/* In single precision the same; preconditioners are positive, of the periodic operator the inverse. */
+static void test_single_precision_and_inverses(void **state)
+{
+  const SingleProduct single[2]       = {SamElasticityApplyNormalSingle, SamElasticityApplyTangentialSingle};
+  const Product       precondition[2] = {PreconditionNormal, PreconditionTangential};
+
+  (void)state;
+  for (int n = 4; n < 2 * NUM_LENGTHS; n++)
+    for (PetscInt c = 0; c < 2; c++) {
+      SamElasticity e    = NewOn(PETSC_COMM_WORLD, lengths[n / 2], types[n % 2]);
+      const SamGrid grid = GridOf(e);
+      Vec           x = NewRandom(grid, c + 1, 5), y = Copy(x), z = Copy(x);
+
+      sam_call(products[c].apply(e, x, y));
+      ApplySingle(e, grid, c + 1, single[c], 1e12, z);
+      sam_call(VecScale(z, 1e-12));
+      sam_assert(Difference(z, y, NORM_2) < 1e-6);
+      sam_call(VecCopy(y, x));
+      sam_call(precondition[c](e, y, y));
+      sam_assert(Dot(x, y) > 0);
+      sam_call(products[c].apply(e, y, y));
+      sam_assert(!(n % 2) || Difference(y, x, NORM_2) < 1e-6);
+      sam_call(VecDestroy(&x));
+      sam_call(VecDestroy(&y));
+      sam_call(VecDestroy(&z));
+      sam_call(SamElasticityDestroy(&e));
+    }
+}
+
+/* Parts and coarser grids are counted from the same datum. */
+static void test_datum_is_one_on_all_grids(void **state)
+{
+  const PetscInt first[2] = {5, 0}, n[2] = {20, 1};
+  SamElasticity  e = NewOn(PETSC_COMM_WORLD, 64, SAM_ELASTICITY_PLANE), coarse, part;
+  SamTransfer    transfer;
+  SamWindow      window;
+  const SamPair *pair;
+  PetscReal      own[2];
+
+  (void)state;
+  sam_call(SamElasticityGetPair(e, &pair));
+  sam_call(SamElasticityGetCoarse(e, &coarse, &transfer));
+  sam_assert(coarse && transfer && GridOf(coarse)->nx == 32 && GridOf(coarse)->ny == 1);
+  sam_call(SamElasticityGetSelfInfluence(coarse, &own[0], &own[1]));
+  sam_assert_close(own[0], (double)Kernel(2, 2, 0, width / 32, (long double)width), 1e-14 * own[0]);
+  sam_assert_close(own[1], (double)Kernel(1, 1, 0, width / 32, (long double)width), 1e-14 * own[1]);
+  sam_call(SamElasticityChoosePart(e, first, n, PETSC_FALSE, &window, &part));
+  sam_assert(window && part && GridOf(part)->nx < 64 && GridOf(part)->ny == 1);
+  sam_call(SamElasticityGetSelfInfluence(part, &own[0], NULL));
+  sam_assert_close(own[0], (double)Kernel(2, 2, 0, width / 64, (long double)width), 1e-14 * own[0]);
+  sam_call(SamElasticityDestroy(&e));
+}
+
+static void test_types_and_grids_must_fit(void **state)
+{
+  SamGrid       row = NewGrid(8, 1, width, 1), grid = NewGrid(8, 8, width, width);
+  SamElasticity e[3] = {NewDissimilar(row), NewDissimilar(grid), NewDissimilar(row)};
+
+  (void)state;
+  sam_call(SamElasticitySetUp(e[2])); /* by itself a row is plane */
+  sam_call(SamElasticitySetType(e[0], SAM_ELASTICITY_HALFSPACE));
+  sam_call(SamElasticitySetType(e[1], SAM_ELASTICITY_PLANE));
+  for (int k = 0; k < 2; k++) sam_fails(SamElasticitySetUp(e[k]), PETSC_ERR_ARG_SIZ);
+  for (int k = 0; k < 3; k++) sam_call(SamElasticityDestroy(&e[k]));
+  sam_call(SamGridDestroy(&row));
+  sam_call(SamGridDestroy(&grid));
+}
+
+/* Restriction keeps sums, prolongation of a constant is that; windows and shifts take a row. */
+static void test_fields_of_one_row_move_between_grids(void **state)
+{
+  SamGrid     fine = NewGrid(37, 1, width, 1), coarse;
+  Vec         x = NewRandom(fine, 2, 3), y, z = NewField(fine, 2);
+  SamTransfer transfer;
+  SamWindow   window;
+  double     *before = Whole(fine, 2, x), *after;
+
+  (void)state;
+  sam_call(SamGridCoarsen(fine, &coarse));
+  sam_assert(coarse->nx == 19 && coarse->ny == 1);
+  y = NewField(coarse, 2);
+  sam_call(SamTransferCreate(fine, coarse, &transfer));
+  sam_call(SamTransferRestrict(transfer, x, y));
+  sam_assert_close(Sum(y) / 19, Sum(x) / 37, 1e-15);
+  sam_call(VecSet(y, 0.25));
+  sam_call(SamTransferProlong(transfer, y, z));
+  sam_assert_close(Sum(z), 2 * 37 * 0.25, 1e-13);
+  sam_call(SamWindowCreate(fine, (const PetscInt[]){9, 0}, (const PetscInt[]){11, 1}, &window));
+  sam_call(VecDestroy(&y));
+  sam_call(SamGridDestroy(&coarse));
+  sam_call(SamWindowGetGrid(window, &coarse));
+  y = NewField(coarse, 2);
+  sam_call(SamWindowTake(window, x, y));
+  sam_call(SamWindowPut(window, y, z));
+  after = Whole(fine, 2, z);
+  for (PetscInt k = 0; k < 2 * 37; k++) sam_assert(after[k] == (k % 37 >= 9 && k % 37 < 20 ? before[k] : 0));
+  free(after);
+  sam_call(SamGridMove(fine, 2, (const PetscReal[]){2 * fine->dx, 0}, PETSC_FALSE, x, z));
+  after = Whole(fine, 2, z);
+  for (PetscInt k = 0; k < 2 * 37; k++) sam_assert(after[k] == (k % 37 < 35 ? before[k + 2] : 0));
+  free(after);
+  free(before);
+  sam_call(SamWindowDestroy(&window));
+  sam_call(SamTransferDestroy(&transfer));
+  sam_call(VecDestroy(&x));
+  sam_call(VecDestroy(&y));
+  sam_call(VecDestroy(&z));
+  sam_call(SamGridDestroy(&fine));
+}
+
+/* All products of a field on these ranks: (6, nx), then preconditioned, (3, nx). */
+static double *AllProducts(MPI_Comm comm, PetscInt nx, SamElasticityType type)
+{
+  SamElasticity e    = NewOn(comm, nx, type);
+  const SamGrid grid = GridOf(e);
+  double       *all = (double *)calloc((size_t)(9 * nx), sizeof(*all)), *to = all;
+
+  for (int c = 0; c < 6; c++) {
+    const PetscInt n_in = c < 4 ? products[c].n_in : c - 3, n_out = c < 4 ? products[c].n_out : n_in;
+    Vec            in = NewRandom(grid, n_in, 7), out = NewField(grid, n_out);
+    double        *whole;
+
+    sam_call((c < 4 ? products[c].apply : c == 4 ? PreconditionNormal : PreconditionTangential)(e, in, out));
+    whole = Whole(grid, n_out, out);
+    memcpy(to, whole, sizeof(*to) * (size_t)(n_out * nx));
+    to += n_out * nx;
+    free(whole);
+    sam_call(VecDestroy(&in));
+    sam_call(VecDestroy(&out));
+  }
+  sam_call(SamElasticityDestroy(&e));
+  return all;
+}
+
+static void test_any_number_of_ranks_gives_the_same_bits(void **state)
+{
+  (void)state;
+  for (int n = 0; n < 2 * NUM_LENGTHS; n++) {
+    const PetscInt nx       = lengths[n / 2];
+    double        *together = AllProducts(PETSC_COMM_WORLD, nx, types[n % 2]),
+           *alone           = AllProducts(PETSC_COMM_SELF, nx, types[n % 2]);
+
+    for (PetscInt k = 0; k < 9 * nx; k++) sam_assert(together[k] == alone[k]);
+    free(together);
+    free(alone);
+  }
+}
+
+int main(int argc, char **argv)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(test_kernels_are_the_closed_forms),
+    cmocka_unit_test(test_waves_are_displaced_by_their_symbols),
+    cmocka_unit_test(test_operator_is_symmetric),
+    cmocka_unit_test(test_single_precision_and_inverses),
+    cmocka_unit_test(test_datum_is_one_on_all_grids),
+    cmocka_unit_test(test_types_and_grids_must_fit),
+    cmocka_unit_test(test_fields_of_one_row_move_between_grids),
+    cmocka_unit_test(test_any_number_of_ranks_gives_the_same_bits),
+  };
+
+  return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
+}
