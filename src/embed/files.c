@@ -21,7 +21,8 @@ static PetscErrorCode CollectParameters(petsam_contact *c, SamParameters *parame
   else
     PetscCall(SamParametersAddText(parameters, "given_gap", PETSC_TRUE, "none"));
   for (PetscInt k = 0; k < SAM_CONDITIONS; k++)
-    if (SamConditions[k].option)
+    if (SamConditions[k].option &&
+        (k < SAM_CONDITION_CASE || SamElasticityHasCase(c->setup->elasticity, k - SAM_CONDITION_CASE)))
       PetscCall(SamParametersAddReals(parameters, SamConditions[k].name, PETSC_TRUE, 1,
                                       SamControlPlace(&c->control, SAM_COMPONENTS + k)));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -1,0 +1,469 @@
+/*
+  Finite bodies: what a body's shape and its supports add to the half-space, or to a layered one, is smooth, and a
+  matrix D of low rank on polynomials phi_i over a patch (private/compliance.h). To the displacement by the tractions t
+
+    c_j = sum over cells of t times the integral of phi_j,    u = sum phi_i (D c)_i, its mean over each cell
+
+  is added. Polynomials are known on every grid, coarse ones and parts too, so that nothing is transferred; they are
+  products, of which only the factors' means over columns and rows of cells are stored. Outside of the patch they keep
+  their values at its border, and contact there is refused. Each row of cells is summed in an order that its traction
+  alone determines, and the rows' sums are added exactly: the bits do not depend on the number of ranks.
+
+  Body 1 is turned about x by half a turn into its place: y and z change their signs, nothing else does. It bears -t, and
+  u is of body 2 less body 1, so that both bodies add.
+*/
+#include <petsam/private/compliance.h>
+#include <math.h>
+#include <petscdt.h>
+#include <string.h>
+
+enum { LANES = 8, TILE = 64, FACTORS = SAM_COMPLIANCE_DEGREE + 1 };
+
+static const double turned[2][3] = {{1, -1, -1}, {1, 1, 1}};
+
+typedef struct {
+  SamCompliance of[2];       /* NULL: that body is all half-space */
+  double       *along[2][2]; /* of each body, in x and y: the means of polynomial a over cell i at a cells + i */
+} Bodies;
+
+/* The components that a product takes, or makes: z, or x and y. */
+typedef enum { NORMAL, TANGENTIAL } Kind;
+static const PetscInt first_of[] = {2, 0}, count_of[] = {1, 2};
+
+typedef double Coefficients[3][SAM_COMPLIANCE_MODES];
+
+/* ---- the polynomials ---- */
+
+void SamComplianceMeans(SamCompliance c, PetscInt axis, double from, double to, double means[])
+{
+  enum { POINTS = SAM_COMPLIANCE_DEGREE / 2 + 1 };
+  PetscReal x[POINTS], w[POINTS];
+
+  (void)PetscDTGaussQuadrature(POINTS, -1, 1, x, w);
+  for (PetscInt a = 0; a <= c->degree; a++) means[a] = 0;
+  for (PetscInt k = 0; k < POINTS; k++) {
+    const double at = 0.5 * (from + to) + 0.5 * (to - from) * x[k];
+    const double s  = PetscMin(PetscMax((at - c->center[axis]) / c->half[axis], -1), 1);
+    double       p = 1, before = 0;
+
+    for (PetscInt a = 0; a <= c->degree; a++) {
+      const double next = ((2 * a + 1) * s * p - a * before) / (a + 1);
+
+      means[a] += 0.5 * w[k] * sqrt((a + 0.5) / c->half[axis]) * p;
+      before = p;
+      p      = next;
+    }
+  }
+}
+
+static PetscErrorCode SetUp(SamElasticity e)
+{
+  Bodies *const  data    = (Bodies *)e->data;
+  const PetscInt n[2]    = {e->grid->nx, e->grid->ny};
+  const double   side[2] = {e->grid->dx, e->grid->dy};
+  double         means[FACTORS];
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < 4; k++) {
+    const PetscInt      b = k / 2, axis = k % 2;
+    const SamCompliance c = data->of[b];
+
+    if (!c) continue;
+    PetscCall(PetscMalloc1((c->degree + 1) * n[axis], &data->along[b][axis]));
+    for (PetscInt i = 0; i < n[axis]; i++) {
+      const double x = turned[b][axis] * (axis ? SamGridY(e->grid, i) : SamGridX(e->grid, i));
+
+      SamComplianceMeans(c, axis, x - 0.5 * side[axis], x + 0.5 * side[axis], means);
+      for (PetscInt a = 0; a <= c->degree; a++) data->along[b][axis][a * n[axis] + i] = means[a];
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- sums and displacements of rows ---- */
+
+/* The sums over n cells of a row, times each of the polynomials in x; of fields in double and in single precision. */
+#define SUM_ROW(Name, Real) \
+  SAM_VECTORIZED static void Name(PetscInt n, PetscInt factors, const Real *t, const double *table, double sums[]) \
+  { \
+    PetscInt first = 0, last = n; \
+\
+    while (first < n && t[first] == 0) first++; \
+    while (last > first && t[last - 1] == 0) last--; \
+    first -= first % LANES; \
+    for (PetscInt a = 0; a < factors; a++) { \
+      const double *restrict phi = table + (ptrdiff_t)a * n; \
+      double   lane[LANES]       = {0}; \
+      PetscInt i                 = first; \
+\
+      for (; i + LANES <= last; i += LANES) \
+        _Pragma("omp simd") for (PetscInt l = 0; l < LANES; l++) lane[l] += (double)t[i + l] * phi[i + l]; \
+      for (; i < last; i++) lane[i % LANES] += (double)t[i] * phi[i]; \
+      sums[a] = ((lane[0] + lane[4]) + (lane[2] + lane[6])) + ((lane[1] + lane[5]) + (lane[3] + lane[7])); \
+    } \
+  }
+SUM_ROW(SumRow, double)
+SUM_ROW(SumRowSingle, float)
+
+/* Adds the polynomials times their coefficients along a row. */
+#define ADD_ROW(Name, Real) \
+  SAM_VECTORIZED static void Name(PetscInt n, PetscInt factors, const double *table, const double of[], Real *u) \
+  { \
+    for (PetscInt i = 0; i < n; i += TILE) { \
+      const PetscInt count      = PetscMin(TILE, n - i); \
+      double         sums[TILE] = {0}; \
+\
+      for (PetscInt a = 0; a < factors; a++) { \
+        const double *restrict phi = table + (ptrdiff_t)a * n + i; \
+\
+        _Pragma("omp simd") for (PetscInt l = 0; l < count; l++) sums[l] += of[a] * phi[l]; \
+      } \
+      _Pragma("omp simd") for (PetscInt l = 0; l < count; l++) u[i + l] = (Real)((double)u[i + l] + sums[l]); \
+    } \
+  }
+ADD_ROW(AddRow, double)
+ADD_ROW(AddRowSingle, float)
+
+/* The factor in y of polynomial m of body b in this rank's row j. */
+#define ALONG_Y(e, b, m, j) \
+  ((const Bodies *)(e)->data)->along[b][1][(ptrdiff_t)of->power[m][1] * (e)->grid->ny + (e)->grid->row_start + (j)]
+
+/* D c in the contact's frame, from this rank's part of c in that of the contact. */
+static PetscErrorCode Multiply(SamElasticity e, SamCompliance of, Kind in, Kind out, double factor,
+                               const SamTotal part[], Coefficients d)
+{
+  const PetscInt n     = count_of[in] * of->modes;
+  const double   scale = factor * e->grid->dx * e->grid->dy;
+  double         c[2 * SAM_COMPLIANCE_MODES];
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < n; k += SAM_TOTALS)
+    PetscCall(SamSumTotals(e->grid->comm, PetscMin(SAM_TOTALS, n - k), part + k, c + k));
+  for (PetscInt k = first_of[out]; k < first_of[out] + count_of[out]; k++)
+    for (PetscInt m = 0; m < of->modes; m++) {
+      double total = 0;
+
+      for (PetscInt i = 0; i < n; i++) {
+        const PetscInt l = first_of[in] + i / of->modes;
+
+        total += of->matrix[k][m][l][i % of->modes] * turned[of->body][l] * c[i];
+      }
+      d[k][m] = scale * turned[of->body][k] * total;
+    }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The coefficients of the displacements of both bodies by tractions. */
+#define COLLECT(Name, Real, Sum) \
+  static PetscErrorCode Name(SamElasticity e, Kind in, Kind out, double factor, const Real *const t[], \
+                             Coefficients d[2]) \
+  { \
+    const Bodies  *data = (const Bodies *)e->data; \
+    const PetscInt nx   = e->grid->nx; \
+\
+    PetscFunctionBegin; \
+    for (PetscInt b = 0; b < 2; b++) { \
+      const SamCompliance of                          = data->of[b]; \
+      SamTotal            c[2 * SAM_COMPLIANCE_MODES] = {{0}}; \
+      double              sums[FACTORS]; \
+\
+      for (PetscInt n = 0; of && n < e->grid->rows * count_of[in]; n++) { \
+        const PetscInt j = n / count_of[in], k = n % count_of[in]; \
+\
+        Sum(nx, of->degree + 1, t[k] + (ptrdiff_t)j * nx, data->along[b][0], sums); \
+        for (PetscInt m = 0; m < of->modes; m++) \
+          SamAdd(&c[k * of->modes + m], sums[of->power[m][0]] * ALONG_Y(e, b, m, j)); \
+      } \
+      if (of) PetscCall(Multiply(e, of, in, out, factor, c, d[b])); \
+    } \
+    PetscFunctionReturn(PETSC_SUCCESS); \
+  }
+COLLECT(Collect, double, SumRow)
+COLLECT(CollectSingle, float, SumRowSingle)
+
+/* Adds polynomials with the coefficients of both bodies to displacements. */
+#define SPREAD(Name, Real, Add) \
+  static void Name(SamElasticity e, Kind out, Coefficients d[2], Real *const u[]) \
+  { \
+    const Bodies  *data = (const Bodies *)e->data; \
+    const PetscInt nx   = e->grid->nx; \
+\
+    for (PetscInt b = 0; b < 2; b++) { \
+      const SamCompliance of = data->of[b]; \
+\
+      for (PetscInt n = 0; of && n < e->grid->rows * count_of[out]; n++) { \
+        const PetscInt j = n / count_of[out], k = n % count_of[out]; \
+        double         sums[FACTORS] = {0}; \
+\
+        for (PetscInt m = 0; m < of->modes; m++) \
+          sums[of->power[m][0]] += d[b][first_of[out] + k][m] * ALONG_Y(e, b, m, j); \
+        Add(nx, of->degree + 1, data->along[b][0], sums, u[k] + (ptrdiff_t)j * nx); \
+      } \
+    } \
+  }
+SPREAD(Spread, double, AddRow)
+SPREAD(SpreadSingle, float, AddRowSingle)
+
+/* ---- products ---- */
+
+typedef PetscErrorCode (*Method)(SamElasticity, const double *const[], double *const[]);
+
+/* `method` NULL: the half-spaces have no such coupling. */
+static PetscErrorCode Apply(SamElasticity e, SamElasticity inner, Method method, Kind in, Kind out,
+                            const double *const t[], double *const u[])
+{
+  Coefficients d[2];
+
+  PetscFunctionBegin;
+  PetscCall(Collect(e, in, out, 1, t, d));
+  if (method)
+    PetscCall((*method)(inner, t, u));
+  else
+    for (PetscInt k = 0; k < count_of[out]; k++) PetscCall(PetscArrayzero(u[k], e->grid->cells));
+  Spread(e, out, d, u);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+#define PRODUCT(Name, method, in, out, has) \
+  static PetscErrorCode Name(SamElasticity e, const double *const t[], double *const u[]) \
+  { \
+    SamElasticity inner = e->inner; \
+\
+    PetscFunctionBegin; \
+    SamElasticityWith(inner, method); \
+    PetscCall(Apply(e, inner, (has) ? inner->ops.method : NULL, in, out, t, u)); \
+    PetscFunctionReturn(PETSC_SUCCESS); \
+  }
+PRODUCT(ApplyNormal, applynormal, NORMAL, NORMAL, PETSC_TRUE)
+PRODUCT(ApplyTangential, applytangential, TANGENTIAL, TANGENTIAL, PETSC_TRUE)
+PRODUCT(ApplyNormalToTangential, applynormaltotangential, NORMAL, TANGENTIAL, e->inner->traits.coupled)
+PRODUCT(ApplyTangentialToNormal, applytangentialtonormal, TANGENTIAL, NORMAL, e->inner->traits.coupled)
+
+#define PRODUCT_SINGLE(Name, method, kind) \
+  static PetscErrorCode Name(SamElasticity e, double factor, const float *const t[], float *const u[]) \
+  { \
+    SamElasticity inner = e->inner; \
+    Coefficients  d[2]; \
+\
+    PetscFunctionBegin; \
+    SamElasticityWith(inner, method); \
+    PetscCall(CollectSingle(e, kind, kind, factor, t, d)); \
+    PetscCall((*inner->ops.method)(inner, factor, t, u)); \
+    SpreadSingle(e, kind, d, u); \
+    PetscFunctionReturn(PETSC_SUCCESS); \
+  }
+PRODUCT_SINGLE(ApplyNormalSingle, applynormalsingle, NORMAL)
+PRODUCT_SINGLE(ApplyTangentialSingle, applytangentialsingle, TANGENTIAL)
+
+/* The mean over the patch of what a cell adds to its own displacement along an axis, m/Pa. */
+static double MeanInfluence(SamElasticity e, PetscInt axis)
+{
+  const Bodies *data = (const Bodies *)e->data;
+  double        sum  = 0;
+
+  for (PetscInt b = 0; b < 2; b++)
+    for (PetscInt m = 0; data->of[b] && m < data->of[b]->modes; m++)
+      sum += data->of[b]->matrix[axis][m][axis][m] / (4 * data->of[b]->half[0] * data->of[b]->half[1]);
+  return sum * e->grid->dx * e->grid->dy;
+}
+
+static PetscErrorCode GetSelfInfluence(SamElasticity e, PetscReal *normal, PetscReal *tangential)
+{
+  PetscReal *const own[]  = {normal, tangential};
+  const double     more[] = {MeanInfluence(e, 2), PetscMax(MeanInfluence(e, 0), MeanInfluence(e, 1))};
+
+  PetscFunctionBegin;
+  PetscCall(SamElasticityGetSelfInfluence(e->inner, normal, tangential));
+  *tangential -= SamPairFilm(&e->pair);
+  for (int k = 0; k < 2; k++) *own[k] += PetscMax(more[k], -0.5 * *own[k]); /* on coarse grids it may outweigh it */
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- load cases ---- */
+
+PetscErrorCode SamElasticityAddCases(SamElasticity e, const SamControl *control, PetscBool tangential, Vec field)
+{
+  const Kind   kind = tangential ? TANGENTIAL : NORMAL;
+  Coefficients d[2];
+  double      *u;
+
+  PetscFunctionBegin;
+  if (strcmp(e->type, SAM_ELASTICITY_COMPLIANCE)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamElasticitySetUp(e));
+  PetscCall(PetscMemzero(d, sizeof(d)));
+  for (PetscInt b = 0; b < 2; b++) {
+    const SamCompliance c = ((const Bodies *)e->data)->of[b];
+
+    for (PetscInt l = 0; c && l < c->cases; l++)
+      for (PetscInt k = 0; k < 3; k++)
+        for (PetscInt m = 0; m < c->modes; m++)
+          d[b][k][m] += (b ? 1 : -1) * turned[b][k] * control->cases[c->slot[l]] * c->field[l][k][m];
+  }
+  PetscCall(VecGetArray(field, &u));
+  Spread(e, kind, d, (double *const[]){u, u + e->grid->cells});
+  PetscCall(VecRestoreArray(field, &u));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscBool SamElasticityHasCase(SamElasticity e, PetscInt slot)
+{
+  for (PetscInt b = 0; b < 2 && !strcmp(e->type, SAM_ELASTICITY_COMPLIANCE); b++) {
+    const SamCompliance c = ((const Bodies *)e->data)->of[b];
+
+    for (PetscInt l = 0; c && l < c->cases; l++)
+      if (c->slot[l] == slot) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
+}
+
+/* ---- the type ---- */
+
+static void Take(SamElasticity e, PetscInt b, SamCompliance c)
+{
+  ((Bodies *)e->data)->of[b] = c;
+  if (c) c->references++;
+}
+
+static PetscErrorCode Inherit(SamElasticity parent, SamElasticity child)
+{
+  for (PetscInt b = 0; b < 2; b++) Take(child, b, ((const Bodies *)parent->data)->of[b]);
+  return PETSC_SUCCESS;
+}
+
+static PetscErrorCode AddParameters(SamElasticity e, SamParameters *p)
+{
+  static const char *const names[2][2] = {{"body1_compliance", "body1_compliance_file"},
+                                          {"body2_compliance", "body2_compliance_file"}};
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < 2; b++) {
+    const SamCompliance c = ((const Bodies *)e->data)->of[b];
+
+    if (!c) continue;
+    PetscCall(SamParametersAddChecksum(p, names[b][0], c->checksum));
+    PetscCall(SamParametersAddText(p, names[b][1], PETSC_FALSE, c->file));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Destroy(SamElasticity e)
+{
+  Bodies *data = (Bodies *)e->data;
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < 2; b++) {
+    PetscCall(SamComplianceDestroy(&data->of[b]));
+    PetscCall(PetscFree(data->along[b][0]));
+    PetscCall(PetscFree(data->along[b][1]));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticityCreate_Compliance(SamElasticity e)
+{
+  Bodies *data;
+
+  PetscFunctionBegin;
+  PetscCall(PetscNew(&data));
+  e->data = data;
+  e->ops  = (SamElasticityOps){.inherit                 = Inherit,
+                               .setup                   = SetUp,
+                               .addparameters           = AddParameters,
+                               .destroy                 = Destroy,
+                               .applynormal             = ApplyNormal,
+                               .applytangential         = ApplyTangential,
+                               .applynormalsingle       = ApplyNormalSingle,
+                               .applytangentialsingle   = ApplyTangentialSingle,
+                               .getselfinfluence        = GetSelfInfluence,
+                               .applynormaltotangential = ApplyNormalToTangential,
+                               .applytangentialtonormal = ApplyTangentialToNormal};
+  PetscCall(SamElasticitySetInner(e, SAM_ELASTICITY_HALFSPACE));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Whether the body's normal and tangential directions are coupled, or its load cases displace the surfaces. */
+static PetscBool Couples(SamCompliance c)
+{
+  double most = 0;
+
+  for (PetscInt k = 0; k < 2 * c->modes; k++)
+    for (PetscInt m = 0; m < c->modes; m++) most = PetscMax(most, fabs(c->matrix[k % 2][k / 2][2][m]));
+  return most > 0 || c->cases ? PETSC_TRUE : PETSC_FALSE;
+}
+
+/* Notes the cells that reach beyond the body's patch. */
+static PetscErrorCode NotePatch(SamElasticity e, const SamOptions *from, SamCompliance c)
+{
+  const PetscInt n[2]    = {e->grid->nx, e->grid->ny};
+  const double   side[2] = {e->grid->dx, e->grid->dy};
+
+  PetscFunctionBegin;
+  for (PetscInt axis = 0; axis < 2; axis++) {
+    PetscInt *const outside = e->traits.outside[axis];
+    const double    middle = turned[c->body][axis] * c->center[axis], half = c->half[axis] + 1e-6 * side[axis],
+                 begin = e->grid->center[axis] - 0.5 * e->grid->width[axis];
+    const double low = ceil((middle - half - begin) / side[axis]), high = floor((middle + half - begin) / side[axis]);
+
+    PetscCheck(low < high && high > 0 && low < (double)n[axis], from->comm, SAM_ERR_USER,
+               "-%sbody%" PetscInt_FMT "_compliance %s: its patch, %.6g m to %.6g m in %s, holds no cell of the grid: "
+               "give another -grid_center or -grid_size",
+               SamOptionsPrefix(from), c->body + 1, c->file, middle - c->half[axis], middle + c->half[axis],
+               axis ? "y" : "x");
+    outside[0] = PetscMax(outside[0], (PetscInt)PetscMax(low, 0));
+    outside[1] = PetscMax(outside[1], n[axis] - (PetscInt)PetscMin(high, (double)n[axis]));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The kernel to which the compliance is added must be the one from which it was computed. */
+static PetscErrorCode CheckConstants(SamElasticity e, const SamOptions *from, SamCompliance c)
+{
+  static const char *const names[]  = {"young", "poisson"};
+  const double             kernel[] = {(double)e->pair.young[c->body], (double)e->pair.poisson[c->body]},
+               file[] = {c->young, c->poisson}, scale[] = {c->young, 1};
+
+  PetscFunctionBegin;
+  for (int k = 0; k < 2; k++) {
+    if (kernel[0] == file[0] && (isinf(file[0]) || kernel[k] == file[k])) continue;
+    PetscCheck(fabs(kernel[k] - file[k]) <= 1e-6 * scale[k], from->comm, SAM_ERR_USER,
+               "-%sbody%" PetscInt_FMT "_compliance %s: its %s is %.10g, but -%sbody%" PetscInt_FMT
+               "_%s is %.10g: make them equal",
+               SamOptionsPrefix(from), c->body + 1, c->file, names[k], file[k], SamOptionsPrefix(from), c->body + 1,
+               names[k], kernel[k]);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticityAddCompliances(SamElasticity *elasticity, const SamOptions *from)
+{
+  static const char *const names[] = {"body1_compliance", "body2_compliance"};
+  SamElasticity            bodies = *elasticity, e = NULL;
+  PetscBool                help, given;
+  char                     file[PETSC_MAX_PATH_LEN] = "";
+
+  PetscFunctionBegin;
+  PetscCall(SamPrintHelp(&help));
+  for (PetscInt b = 0; b < 2; b++) SamOptionsKnow(from, names[b], NULL);
+  for (PetscInt b = 0; b < 2; b++) {
+    SamCompliance c;
+
+    PetscCall(SamOptionsFile(from, names[b], "HDF5 file of the body's own compliance, by petsam-compliance", file,
+                             sizeof(file), &given));
+    if (!given || help) continue;
+    PetscCheck(!bodies->traits.periodic, from->comm, SAM_ERR_USER,
+               "-%s%s: has no meaning with -%selasticity %s, whose bodies have no borders", SamOptionsPrefix(from),
+               names[b], SamOptionsPrefix(from), bodies->type);
+    if (!e) PetscCall(SamElasticityWrap(bodies, SAM_ELASTICITY_COMPLIANCE, &e));
+    PetscCall(SamComplianceRead(from->comm, b, names[b], file, &c));
+    Take(e, b, c);
+    c->references--;
+    PetscCall(CheckConstants(e, from, c));
+    PetscCall(NotePatch(e, from, c));
+    if (Couples(c)) e->traits.coupled = PETSC_TRUE;
+  }
+  if (!e) PetscFunctionReturn(PETSC_SUCCESS);
+  e->traits.patch = PETSC_TRUE;
+  PetscCall(SamElasticityDestroy(elasticity));
+  *elasticity = e;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
