@@ -17,13 +17,14 @@
 #include <petscdt.h>
 #include <string.h>
 
-enum { LANES = 8, TILE = 64, FACTORS = SAM_COMPLIANCE_DEGREE + 1 };
+enum { TOGETHER = 4, FACTORS = SAM_COMPLIANCE_DEGREE + TOGETHER };
 
 static const double turned[2][3] = {{1, -1, -1}, {1, 1, 1}};
 
 typedef struct {
-  SamCompliance of[2];       /* NULL: that body is all half-space */
-  double       *along[2][2]; /* of each body, in x and y: the means of polynomial a over cell i at a cells + i */
+  SamCompliance of[2]; /* NULL: that body is all half-space */
+  double
+    *along[2][2]; /* of each body, in x and y: the means of polynomial a over cell i at a cells + i, zeros behind */
 } Bodies;
 
 /* The components that a product takes, or makes: z, or x and y. */
@@ -69,7 +70,7 @@ static PetscErrorCode SetUp(SamElasticity e)
     const SamCompliance c = data->of[b];
 
     if (!c) continue;
-    PetscCall(PetscMalloc1((c->degree + 1) * n[axis], &data->along[b][axis]));
+    PetscCall(PetscCalloc1((c->degree + TOGETHER) * n[axis], &data->along[b][axis]));
     for (PetscInt i = 0; i < n[axis]; i++) {
       const double x = turned[b][axis] * (axis ? SamGridY(e->grid, i) : SamGridX(e->grid, i));
 
@@ -82,47 +83,49 @@ static PetscErrorCode SetUp(SamElasticity e)
 
 /* ---- sums and displacements of rows ---- */
 
-/* The sums over n cells of a row, times each of the polynomials in x; of fields in double and in single precision. */
-#define SUM_ROW(Name, Real) \
-  SAM_VECTORIZED static void Name(PetscInt n, PetscInt factors, const Real *t, const double *table, double sums[]) \
+/*
+  The sums over n cells of a row, times each of the polynomials in x, and the sum of these times coefficients added to a
+  row: four at once, with zeros behind the last; of fields in double and in single precision.
+*/
+#define ROWS(Sum, Add, Real) \
+  SAM_VECTORIZED static void Sum(PetscInt n, PetscInt factors, const Real *restrict t, const double *table, \
+                                 double sums[]) \
   { \
     PetscInt first = 0, last = n; \
 \
     while (first < n && t[first] == 0) first++; \
     while (last > first && t[last - 1] == 0) last--; \
-    first -= first % LANES; \
-    for (PetscInt a = 0; a < factors; a++) { \
-      const double *restrict phi = table + (ptrdiff_t)a * n; \
-      double   lane[LANES]       = {0}; \
-      PetscInt i                 = first; \
+    for (PetscInt a = 0; a < factors; a += TOGETHER) { \
+      const double *restrict p0 = table + (ptrdiff_t)a * n, *restrict p1 = p0 + n, *restrict p2 = p1 + n, \
+                             *restrict p3 = p2 + n; \
+      double s0 = 0, s1 = 0, s2 = 0, s3 = 0; \
 \
-      for (; i + LANES <= last; i += LANES) \
-        _Pragma("omp simd") for (PetscInt l = 0; l < LANES; l++) lane[l] += (double)t[i + l] * phi[i + l]; \
-      for (; i < last; i++) lane[i % LANES] += (double)t[i] * phi[i]; \
-      sums[a] = ((lane[0] + lane[4]) + (lane[2] + lane[6])) + ((lane[1] + lane[5]) + (lane[3] + lane[7])); \
-    } \
-  }
-SUM_ROW(SumRow, double)
-SUM_ROW(SumRowSingle, float)
-
-/* Adds the polynomials times their coefficients along a row. */
-#define ADD_ROW(Name, Real) \
-  SAM_VECTORIZED static void Name(PetscInt n, PetscInt factors, const double *table, const double of[], Real *u) \
-  { \
-    for (PetscInt i = 0; i < n; i += TILE) { \
-      const PetscInt count      = PetscMin(TILE, n - i); \
-      double         sums[TILE] = {0}; \
+      _Pragma("omp simd reduction(+ : s0, s1, s2, s3)") for (PetscInt i = first; i < last; i++) \
+      { \
+        const double x = (double)t[i]; \
 \
-      for (PetscInt a = 0; a < factors; a++) { \
-        const double *restrict phi = table + (ptrdiff_t)a * n + i; \
-\
-        _Pragma("omp simd") for (PetscInt l = 0; l < count; l++) sums[l] += of[a] * phi[l]; \
+        s0 += x * p0[i]; \
+        s1 += x * p1[i]; \
+        s2 += x * p2[i]; \
+        s3 += x * p3[i]; \
       } \
-      _Pragma("omp simd") for (PetscInt l = 0; l < count; l++) u[i + l] = (Real)((double)u[i + l] + sums[l]); \
+      sums[a] = s0, sums[a + 1] = s1, sums[a + 2] = s2, sums[a + 3] = s3; \
+    } \
+  } \
+  SAM_VECTORIZED static void Add(PetscInt n, PetscInt factors, const double *table, const double of[], \
+                                 Real *restrict u) \
+  { \
+    for (PetscInt a = 0; a < factors; a += TOGETHER) { \
+      const double *restrict p0 = table + (ptrdiff_t)a * n, *restrict p1 = p0 + n, *restrict p2 = p1 + n, \
+                             *restrict p3 = p2 + n; \
+      const double c0 = of[a], c1 = of[a + 1], c2 = of[a + 2], c3 = of[a + 3]; \
+\
+      _Pragma("omp simd") for (PetscInt i = 0; i < n; i++) u[i] = \
+        (Real)((double)u[i] + (c0 * p0[i] + c1 * p1[i] + c2 * p2[i] + c3 * p3[i])); \
     } \
   }
-ADD_ROW(AddRow, double)
-ADD_ROW(AddRowSingle, float)
+ROWS(SumRow, AddRow, double)
+ROWS(SumRowSingle, AddRowSingle, float)
 
 /* The factor in y of polynomial m of body b in this rank's row j. */
 #define ALONG_Y(e, b, m, j) \
