@@ -34,6 +34,7 @@ static PetscInt cases_used = 0;
     case_names[k], "1", "factor on a load case of a body", offsetof(SamControl, cases[k]), 0, SAM_RANGE_ANY, \
       PETSC_TRUE, PETSC_FALSE, 3 + (k) \
   }
+#define CASES(k) CASE(k), CASE((k) + 1), CASE((k) + 2), CASE((k) + 3)
 const SamCondition SamConditions[SAM_CONDITIONS] = {{"friction_scale", "1", "factor on the coefficient of friction",
                                                      offsetof(SamControl, friction_scale), 1, SAM_RANGE_NONNEGATIVE,
                                                      PETSC_FALSE, PETSC_FALSE, 0},
@@ -45,22 +46,10 @@ const SamCondition SamConditions[SAM_CONDITIONS] = {{"friction_scale", "1", "fac
                                                     BULK(2, SAM_BULK_XY, xy),
                                                     ROLL("roll", 0, "x"),
                                                     ROLL("roll_y", 1, "y"),
-                                                    CASE(0),
-                                                    CASE(1),
-                                                    CASE(2),
-                                                    CASE(3),
-                                                    CASE(4),
-                                                    CASE(5),
-                                                    CASE(6),
-                                                    CASE(7),
-                                                    CASE(8),
-                                                    CASE(9),
-                                                    CASE(10),
-                                                    CASE(11),
-                                                    CASE(12),
-                                                    CASE(13),
-                                                    CASE(14),
-                                                    CASE(15)};
+                                                    CASES(0),
+                                                    CASES(4),
+                                                    CASES(8),
+                                                    CASES(12)};
 
 PetscErrorCode SamControlAddCase(PetscInt body, const char name[], PetscInt *place, PetscBool *room)
 {

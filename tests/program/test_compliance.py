@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 import compliances
+import conftest
 from support import assert_same, history, l2
 
 # E = 1, nu = 0.3, the patch is the grid: [-1, 1]^2
@@ -126,6 +127,70 @@ def test_skew_matrix_turns_over_with_its_body(solve, tmp_path):
     assert_same(first, second, 1e-9)
 
 
+def test_symmetric_part_is_used(solve, layer, tmp_path):
+    d = compliances.layer(1, 2)
+    skew = np.random.default_rng(2).normal(size=d.shape)
+    file = compliances.write(tmp_path / "c.h5", d + 0.1 * (skew - skew.transpose(2, 3, 0, 1)))
+    plain = solve(SPHERE, bodies(2), SHEAR, dict(body2_compliance=layer(1, 2)))
+    assert_same(solve(SPHERE, bodies(2), SHEAR, dict(body2_compliance=file)), plain, 1e-9)
+
+
+def test_stiffness_is_that_of_the_next_step(solve, layer):
+    case = [SPHERE, bodies(2), dict(body2_compliance=layer(1, 4), stiffness=True)]
+    one, two = (solve(*case, dict(disp_z=0.00384 + change)) for change in (0, 1e-7))
+    assert one["stiffness"][0, 0] == pytest.approx((two["load_n"] - one["load_n"]) / 1e-7, rel=5e-3)
+    plain = solve(SPHERE, coated(2, 1), dict(disp_z=0.00384, stiffness=True))
+    assert one["stiffness"] == pytest.approx(plain["stiffness"], abs=5e-3 * plain["stiffness"][0, 0])
+
+
+def beam(path, softer):
+    """Its middle alone: the rigid motions of a clamped beam's top, 12 x 4 x 3 of steel in N and mm."""
+    half, turn, height = 1.5, 3.97e-7, 1.5
+    c = softer * np.diag([1.2e-6 + height**2 * turn, 2.7e-6, 8e-6, 3e-7, turn, 2e-7])
+    c[0, 4] = c[4, 0] = -softer * height * turn  # shear bends it
+    c[1, 3] = c[3, 1] = softer * height * 1.5e-7
+    r = np.zeros((3, 3, 6))  # coefficients of displacements along x, y, z and rotations about them
+    r[0, [0, 1, 2], [0, 1, 2]] = 2 * half
+    slope = 2 * half**2 / np.sqrt(3)
+    r[2, 2, 3] = r[1, 1, 5] = slope
+    r[1, 2, 4] = r[2, 0, 5] = -slope
+    return compliances.write(path, np.einsum("iak,kl,jbl->iajb", r, c, r) * 210e3 / half, half=half, young=210e3)
+
+
+@pytest.mark.parametrize("softer, friction, most", [(1, 0.5, 9), (10, 0.5, 12), (10, 1, 13), (30, 1, 22)])
+def test_soft_bodies_converge_with_rotations_held(softer, friction, most, petsam, tmp_path):
+    """What the bending by shear couples: pressed, sheared and reversed."""
+    z, x = 0.0057 + 0.0363 * softer, 0.004 * softer + 0.001
+    rows = [(k + 1.0, a * z, b * x, 0, 0, 0) for k, (a, b) in enumerate([(1, 0), (1, -1), (1, 0), (1, 1), (0.8, 0.5)])]
+    case = {**SPHERE, "grid_n": 80, "grid_size": 3, "body1_young": "inf", "body2_young": 210e3, "body2_poisson": 0.3}
+    case |= history(tmp_path / "h.csv", "time,disp_z,disp_x,rot_x,rot_y,rot_z", *rows)
+    file = beam(tmp_path / "beam.h5", softer)
+    petsam(case, dict(friction=friction, body2_compliance=file, output="r.h5", allow_edge_contact=True))
+    with h5py.File(tmp_path / "r.h5") as f:
+        assert max(f["history/coupling_iterations"]) <= most
+        assert abs(f["history/load_tx"][1] / f["history/load_tx"][3]) == pytest.approx(1, abs=0.2)
+
+
+def test_contact_in_process(solve, layer):
+    """As the program, and two contacts whose bodies have other cases."""
+    import petsam
+
+    one = layer(1, 2, cases=dict(pull=np.full((6, 3), 1e-5)))
+    two = layer(1, 2, cases=dict(bend=np.full((6, 3), 2e-5), pull=np.full((6, 3), 3e-5)))
+    case = {**SPHERE, **bodies(2), "friction": 0.3}
+    given = dict(load_n=0.002, load_tx=1e-4)
+    del case["output_fields"]
+    with (
+        petsam.Contact(**case, body2_compliance=one, body2_case_pull=1) as a,
+        petsam.Contact(**case, body2_compliance=two, body2_case_bend=1) as b,
+    ):
+        for contact, file, name in ((a, one, "pull"), (b, two, "bend")):
+            step = contact.try_step(**given)
+            r = solve({**case, **given, "body2_compliance": file, f"body2_case_{name}": 1}, dict(steps=1))
+            assert np.array_equal(contact["pressure"], r.pressure)
+            assert step.rigid[0] == r["disp_z"]
+
+
 def test_patch_is_smaller_than_the_grid(solve, layer, petsam):
     """The same answer where contact stays within it, code 12 where it does not."""
     load = dict(load_n=0.0005)
@@ -219,8 +284,8 @@ def test_thin_layer_without_slopes_is_refused(petsam, layer):
 @pytest.mark.parametrize(
     "change, code, says",
     [
-        (dict(body2_young=1.01), 2, "its young is 1, but -body2_young is 1.01: make them equal"),
-        (dict(body2_poisson=0.31), 2, "its poisson is 0.3, but -body2_poisson is 0.31"),
+        (dict(body2_young=1.01), 2, "is of a body with young 1, not 1.01: make them equal"),
+        (dict(body2_poisson=0.31), 2, "is of a body with poisson 0.3, not 0.31"),
         (dict(elasticity="periodic"), 2, "-body2_compliance: has no meaning with -elasticity periodic"),
         (dict(rolling="steady"), 2, "-rolling steady: has no meaning with -body1_compliance or -body2_compliance"),
         (dict(grid_center=[9, 0]), 2, "its patch, -1 m to 1 m in x, holds no cell of the grid"),
@@ -280,6 +345,14 @@ def test_wrong_files_are_refused(name, value, says, petsam, layer):
     message = petsam({**SPHERE, **bodies(2), "load_n": 0.001, "body2_compliance": file}, check=3).complaint[0]
     assert f"-body2_compliance {file}: " in message
     assert says in message
+
+
+def test_stresses_are_refused(solve, layer, launcher, tmp_path):
+    r = solve(SPHERE, bodies(2), dict(disp_z=0.00384, body2_compliance=layer(1, 4)))
+    options = dict(input=r.path, output="s.h5", body=2, depths=0.1)
+    program = conftest.PROGRAM.with_name("petsam-stress")
+    message = conftest.execute(launcher, tmp_path, [options], 1, 3, program=program).stderr
+    assert "its bodies have compliances of their own, for which stresses are not supported" in message
 
 
 @pytest.mark.parametrize("part", [0.3, 0.6, 0.9, 0.999])

@@ -9,6 +9,8 @@
   their values at its border, and contact there is refused. Each row of cells is summed in an order that its traction
   alone determines, and the rows' sums are added exactly: the bits do not depend on the number of ranks.
 
+  A cell's influence on itself is that of the half-space: D adds a part of the order of the cell's area to the patch's.
+
   Body 1 is turned about x by half a turn into its place: y and z change their signs, nothing else does. It bears -t, and
   u is of body 2 less body 1, so that both bodies add.
 */
@@ -23,8 +25,7 @@ static const double turned[2][3] = {{1, -1, -1}, {1, 1, 1}};
 
 typedef struct {
   SamCompliance of[2]; /* NULL: that body is all half-space */
-  double
-    *along[2][2]; /* of each body, in x and y: the means of polynomial a over cell i at a cells + i, zeros behind */
+  double *along[2][2]; /* in x and y: the mean of polynomial a over cell i at a cells + i, zeros behind the last */
 } Bodies;
 
 /* The components that a product takes, or makes: z, or x and y. */
@@ -258,30 +259,6 @@ PRODUCT(ApplyTangentialToNormal, applytangentialtonormal, TANGENTIAL, NORMAL, e-
 PRODUCT_SINGLE(ApplyNormalSingle, applynormalsingle, NORMAL)
 PRODUCT_SINGLE(ApplyTangentialSingle, applytangentialsingle, TANGENTIAL)
 
-/* The mean over the patch of what a cell adds to its own displacement along an axis, m/Pa. */
-static double MeanInfluence(SamElasticity e, PetscInt axis)
-{
-  const Bodies *data = (const Bodies *)e->data;
-  double        sum  = 0;
-
-  for (PetscInt b = 0; b < 2; b++)
-    for (PetscInt m = 0; data->of[b] && m < data->of[b]->modes; m++)
-      sum += data->of[b]->matrix[axis][m][axis][m] / (4 * data->of[b]->half[0] * data->of[b]->half[1]);
-  return sum * e->grid->dx * e->grid->dy;
-}
-
-static PetscErrorCode GetSelfInfluence(SamElasticity e, PetscReal *normal, PetscReal *tangential)
-{
-  PetscReal *const own[]  = {normal, tangential};
-  const double     more[] = {MeanInfluence(e, 2), PetscMax(MeanInfluence(e, 0), MeanInfluence(e, 1))};
-
-  PetscFunctionBegin;
-  PetscCall(SamElasticityGetSelfInfluence(e->inner, normal, tangential));
-  *tangential -= SamPairFilm(&e->pair);
-  for (int k = 0; k < 2; k++) *own[k] += PetscMax(more[k], -0.5 * *own[k]); /* on coarse grids it may outweigh it */
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* ---- load cases ---- */
 
 PetscErrorCode SamElasticityAddCases(SamElasticity e, const SamControl *control, PetscBool tangential, Vec field)
@@ -377,7 +354,6 @@ PetscErrorCode SamElasticityCreate_Compliance(SamElasticity e)
                                .applytangential         = ApplyTangential,
                                .applynormalsingle       = ApplyNormalSingle,
                                .applytangentialsingle   = ApplyTangentialSingle,
-                               .getselfinfluence        = GetSelfInfluence,
                                .applynormaltotangential = ApplyNormalToTangential,
                                .applytangentialtonormal = ApplyTangentialToNormal};
   PetscCall(SamElasticitySetInner(e, SAM_ELASTICITY_HALFSPACE));
@@ -421,19 +397,15 @@ static PetscErrorCode NotePatch(SamElasticity e, const SamOptions *from, SamComp
 /* The kernel to which the compliance is added must be the one from which it was computed. */
 static PetscErrorCode CheckConstants(SamElasticity e, const SamOptions *from, SamCompliance c)
 {
-  static const char *const names[]  = {"young", "poisson"};
-  const double             kernel[] = {(double)e->pair.young[c->body], (double)e->pair.poisson[c->body]},
-               file[] = {c->young, c->poisson}, scale[] = {c->young, 1};
+  const double young = (double)e->pair.young[c->body], poisson = (double)e->pair.poisson[c->body];
 
   PetscFunctionBegin;
-  for (int k = 0; k < 2; k++) {
-    if (kernel[0] == file[0] && (isinf(file[0]) || kernel[k] == file[k])) continue;
-    PetscCheck(fabs(kernel[k] - file[k]) <= 1e-6 * scale[k], from->comm, SAM_ERR_USER,
-               "-%sbody%" PetscInt_FMT "_compliance %s: its %s is %.10g, but -%sbody%" PetscInt_FMT
-               "_%s is %.10g: make them equal",
-               SamOptionsPrefix(from), c->body + 1, c->file, names[k], file[k], SamOptionsPrefix(from), c->body + 1,
-               names[k], kernel[k]);
-  }
+  PetscCheck(young == c->young || fabs(young - c->young) <= 1e-6 * c->young, from->comm, SAM_ERR_USER,
+             "-%sbody%" PetscInt_FMT "_compliance %s: is of a body with young %.10g, not %.10g: make them equal",
+             SamOptionsPrefix(from), c->body + 1, c->file, c->young, young);
+  PetscCheck(isinf(young) || fabs(poisson - c->poisson) <= 1e-6, from->comm, SAM_ERR_USER,
+             "-%sbody%" PetscInt_FMT "_compliance %s: is of a body with poisson %.10g, not %.10g: make them equal",
+             SamOptionsPrefix(from), c->body + 1, c->file, c->poisson, poisson);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -12,13 +12,12 @@
 
 enum { SIDE = 20, CELLS = SIDE * SIDE, UNKNOWNS = 3 * CELLS };
 
-/* From traction `from` on a cell to displacement `to` of the one (i, j) cells farther on. */
+/* From traction `from` on a cell to displacement `to` >= `from` of the one (i, j) cells farther on. */
 static double Influence(const SamPair *pair, int to, int from, const double d[2], PetscInt i, PetscInt j)
 {
 #define OF(integral) SamIntegralCell(SAM_INTEGRAL_##integral, d[0], d[1], i, j)
   if (to == 2 && from == 2) return pair->normal * OF(R);
   if (to == 2) return -pair->coupling * (from ? OF(Y) : OF(X));
-  if (from == 2) return pair->coupling * (to ? OF(Y) : OF(X));
   if (to != from) return pair->shear_xx * OF(XY);
   return pair->shear * OF(R) + pair->shear_xx * (to ? OF(YY) : OF(XX));
 #undef OF
