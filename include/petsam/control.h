@@ -40,8 +40,9 @@ PETSC_EXTERN const char *SamComponentNameOf(PetscInt component, SamWay way);
 #define SAM_CASES     16
 #define SAM_CASE_NAME 20
 
-/* The components of a bulk stress, in the order used everywhere. */
+/* The components of a bulk stress, in the order used everywhere; before factors on load cases where both are kept. */
 typedef enum { SAM_BULK_XX, SAM_BULK_YY, SAM_BULK_XY, SAM_BULK_COMPONENTS } SamBulkComponent;
+#define SAM_BULK_AND_CASES (SAM_BULK_COMPONENTS + SAM_CASES)
 
 /*
   SamControl - what is prescribed in a load step. SamControlInitialize() sets the defaults, the user the rest.

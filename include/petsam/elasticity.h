@@ -38,8 +38,9 @@ typedef struct {
   PetscBool steady; /* rolls towards +x: u_t is a velocity relative to that of rolling, the operator not symmetric */
   PetscBool layers; /* the bodies may have layers */
   PetscBool patch;  /* the bodies have a place, and do not roll */
-  PetscInt  outside[2][2]; /* columns and rows at the low and high end of x, y where contact is not within a patch */
-  PetscBool stress;        /* stresses in the bodies are available; set by the class */
+  PetscBool cases[SAM_CASES]; /* which of the load cases of a control are those of these bodies */
+  PetscInt  outside[2][2];    /* columns and rows at the low and high end of x, y where contact is not within a patch */
+  PetscBool stress;           /* stresses in the bodies are available; set by the class */
 } SamElasticityTraits;
 
 /*
@@ -58,13 +59,11 @@ PETSC_EXTERN PetscErrorCode SamElasticityCreateRolling(SamElasticity bodies, Sam
   -body2_compliance add (elasticity/compliance/); without these options does nothing. Collective. Errors: SAM_ERR_USER,
   SAM_ERR_FILE.
   SamElasticityAddCases - adds the relative displacements (m) by load cases of the bodies to a field: normal ones, one
-  component, or tangential ones, two. Collective. SamElasticityHasCase - whether one of `cases` of a control is a load
-  case of these bodies. Not collective.
+  component, or tangential ones, two. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamElasticityAddCompliances(SamElasticity *elasticity, const SamOptions *from);
 PETSC_EXTERN PetscErrorCode SamElasticityAddCases(SamElasticity elasticity, const SamControl *control,
                                                   PetscBool tangential, Vec field);
-PETSC_EXTERN PetscBool      SamElasticityHasCase(SamElasticity elasticity, PetscInt slot);
 /*
   SamElasticitySetType - forgets the coarser operators and the parts. Collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for a
   type that is not registered; PETSC_ERR_ORDER when a problem or a solver refers to the elasticity already.

@@ -141,11 +141,8 @@ static PetscErrorCode CheckCases(SamContact c, const SamControl *control)
     const double factor = (double)control->cases[k];
 
     if (factor == 0) continue;
-    PetscCheck(isfinite(factor) && SamElasticityHasCase(c->elasticity, k), c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-               "%s = %.6g: expected 0, or a number and a file of the body's compliance with this load case", name,
-               factor);
-    PetscCheck(SamContactIsCoupled(c), c->grid->comm, SAM_ERR_USER,
-               "%s = %.6g: not supported with -coupling none: use -coupling full", name, factor);
+    PetscCheck(isfinite(factor) && c->traits.cases[k] && SamContactIsCoupled(c), c->grid->comm, SAM_ERR_USER,
+               "%s = %.6g: expected 0, or a body with this load case and -coupling full", name, factor);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

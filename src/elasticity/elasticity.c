@@ -232,7 +232,7 @@ PetscErrorCode SamElasticityGetTraits(SamElasticity e, SamElasticityTraits *trai
   PetscFunctionBegin;
   *traits = e->traits;
   SamElasticityWith(e, createstress);
-  traits->stress = e->ops.createstress && !traits->patch;
+  traits->stress = e->ops.createstress != NULL;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -261,12 +261,9 @@ PetscErrorCode SamElasticityGetSelfInfluence(SamElasticity e, PetscReal *normal,
 PetscErrorCode SamElasticityCreateStress(SamElasticity e, PetscInt body, const SamFourierSettings *settings,
                                          SamStress *stress)
 {
-  SamElasticityTraits available;
-
   PetscFunctionBegin;
-  PetscCall(SamElasticityGetTraits(e, &available));
   SamElasticityWith(e, createstress);
-  PetscCheck(available.stress, e->grid->comm, PETSC_ERR_SUP, "Elasticity of type %s: no stresses are available",
+  PetscCheck(e->ops.createstress, e->grid->comm, PETSC_ERR_SUP, "Elasticity of type %s: no stresses are available",
              e->type);
   PetscCheck((body == 1 || body == 2) && (!isinf(e->pair.young[body - 1]) || e->pair.layers[body - 1].count),
              e->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "Body %" PetscInt_FMT ": use 1 or 2, an elastic body", body);
@@ -298,11 +295,6 @@ PetscErrorCode SamElasticityCreateFromParameters(SamGrid grid, const SamParamete
   PetscFunctionBegin;
   PetscCall(SamPairSetFromParameters(&pair, grid->comm, p, source));
   PetscCheck(type, grid->comm, SAM_ERR_FILE, "%s: cannot be read: it lacks the attribute elasticity", source);
-  PetscCheck(!SamParametersFind(p, "body1_compliance") && !SamParametersFind(p, "body2_compliance"), grid->comm,
-             SAM_ERR_FILE,
-             "%s: its bodies have compliances of their own, for which stresses are not supported: use finite elements "
-             "under its tractions",
-             source);
   PetscCall(SamElasticityGetTypes(types, sizeof(types)));
   PetscCall(PetscFunctionListFind(SamElasticityList, type->text, &create));
   PetscCheck(create, grid->comm, SAM_ERR_FILE, "%s: cannot be read: its elasticity is of type %s: expected %s", source,
@@ -311,6 +303,7 @@ PetscErrorCode SamElasticityCreateFromParameters(SamGrid grid, const SamParamete
   PetscCall(SamElasticitySetType(*elasticity, type->text));
   for (SamElasticity e = *elasticity; e; e = e->inner)
     if (e->ops.setparameters) PetscCall((*e->ops.setparameters)(e, p, source));
+  PetscCall(SamElasticityAddRecordedCompliances(elasticity, p, source));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

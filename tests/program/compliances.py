@@ -13,9 +13,17 @@ def powers(degree):
 
 
 def wave(k, thickness, poisson):
-    """Displacements (x, z) by tractions (x, z) of a plane wave, and y by y; an infinite thickness: the half-space.
+    """Displacements (x, z) by tractions (x, z) of a plane wave, and y by y; an infinite thickness: the half-space."""
+    _, moved, by = airy(k, thickness, poisson)
+    shear = 0.5 / (1 + poisson)
+    return moved(0.0) @ by, (1 if np.isinf(thickness) else np.tanh(k * thickness)) / (shear * k)
 
-    E = 1. By Airy's function (a + b z) exp(-kz) + (c + d z) exp(k(z - thickness)), bonded at z = thickness.
+
+def airy(k, thickness, poisson):
+    """Of a depth: Airy's function and its derivatives by each constant, and the displacements; and the constants by
+    the tractions.
+
+    E = 1. The function is (a + b z) exp(-kz) + (c + d z) exp(k(z - thickness)), bonded at z = thickness.
     """
     shear = 0.5 / (1 + poisson)
     deep = np.isinf(thickness)
@@ -40,7 +48,7 @@ def wave(k, thickness, poisson):
         rows += list(moved(thickness))
     unit = np.zeros((len(rows), 2))
     unit[:2] = np.eye(2)
-    return moved(0.0) @ np.linalg.solve(np.array(rows), unit), (1 if deep else np.tanh(k * thickness)) / (shear * k)
+    return at, moved, np.linalg.solve(np.array(rows), unit)
 
 
 @functools.lru_cache
@@ -74,7 +82,53 @@ def layer(thickness, degree, poisson=0.3):
     return (result / (2 * np.pi) ** 2).real
 
 
-def write(path, compliance, half=1.0, center=(0.0, 0.0), young=1.0, poisson=0.3, table=None, cases=None):
+def wave_stress(k, z, thickness, poisson):
+    """Stress (3, 3, 3) of such a wave along x at a depth, by tractions along x, y, z."""
+    at, _, by = airy(k, thickness, poisson)
+    f = at(z) @ by  # of x and z
+    s = np.zeros((3, 3, 3), dtype=complex)
+    plane = [0, 2]
+    s[0, 0, plane], s[2, 2, plane] = f[2], -(k**2) * f[0]
+    s[1, 1] = poisson * (s[0, 0] + s[2, 2])
+    s[0, 2, plane] = s[2, 0, plane] = -1j * k * f[1]
+    if np.isinf(thickness):
+        along, across = np.exp(-k * z), np.exp(-k * z)
+    else:
+        along, across = (g(k * (thickness - z)) / np.cosh(k * thickness) for g in (np.sinh, np.cosh))
+    s[0, 1, 1] = s[1, 0, 1] = 1j * along
+    s[1, 2, 1] = s[2, 1, 1] = -across
+    return s
+
+
+@functools.lru_cache
+def layer_stress(thickness, degree, points, deepest, poisson=0.3):
+    """Axes x, y, z and the stresses (m, 3, nz, ny, nx, 6) of the layer less those of the half-space."""
+    x, z = np.linspace(-1, 1, points), np.linspace(0, deepest, points)
+    nodes, weights = np.polynomial.legendre.leggauss(48)
+    most = 12 / (thickness - deepest / 2)
+    ks, weights = 0.5 * most * (nodes + 1), 0.5 * most * weights
+    angles = 2 * np.pi * (np.arange(72) + 0.5) / 72
+    table, order = powers(degree), np.arange(degree + 1)
+    cos, sin, zero = np.cos(angles), np.sin(angles), 0 * angles
+    turn = np.stack([np.stack(row, -1) for row in ([cos, -sin, zero], [sin, cos, zero], [zero, zero, zero + 1])], -2)
+    result = np.zeros((points, points**2, len(table) * 18), dtype=complex)
+    for k, weight in zip(ks, weights):
+        hats = [
+            np.sqrt((2 * order + 1) / 2) * 2 * (-1j) ** order * spherical_jn(order, (k * d)[:, None])
+            for d in (cos, sin)
+        ]
+        phi = hats[0][:, table[:, 0]] * hats[1][:, table[:, 1]]
+        way = np.exp(1j * k * (cos[:, None, None] * x + sin[:, None, None] * x[:, None])).reshape(len(angles), -1)
+        for n, depth in enumerate(z):
+            s = wave_stress(k, depth, thickness, poisson) - wave_stress(k, depth, np.inf, poisson)
+            s = np.einsum("tai,tbj,ijc,tdc->tabd", turn, turn, s, turn)[:, [0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
+            by = np.einsum("tm,tsd->tmds", phi, s).reshape(len(angles), -1)
+            result[n] += weight * k * 2 * np.pi / len(angles) / (2 * np.pi) ** 2 * (way.T @ by)
+    shape = (points, points, points, len(table), 3, 6)
+    return x, x, z, result.real.reshape(shape).transpose(3, 4, 0, 1, 2, 5)
+
+
+def write(path, compliance, half=1.0, center=(0.0, 0.0), young=1.0, poisson=0.3, table=None, cases=None, stress=None):
     """A file; `half` scales a compliance of the patch [-1, 1]^2 and E = 1."""
     m = len(compliance)
     degree = next(n for n in range(20) if (n + 1) * (n + 2) // 2 >= m)
@@ -87,4 +141,6 @@ def write(path, compliance, half=1.0, center=(0.0, 0.0), young=1.0, poisson=0.3,
         f["compliance"] = compliance * half / (1 if np.isinf(young) else young)
         for name, field in (cases or {}).items():
             f[f"cases/{name}/displacement"] = field
+        for name, value in (stress or {}).items():
+            f[f"stress/{name}"] = value
     return path

@@ -3,6 +3,7 @@
 #define PETSAM_COMPLIANCE_H
 
 #include <petsam/private/elasticityimpl.h>
+#include <petsam/private/stressimpl.h>
 
 #define SAM_COMPLIANCE_DEGREE 10 /* highest of the polynomials */
 #define SAM_COMPLIANCE_MODES  66 /* most polynomials: those up to this degree */
@@ -26,6 +27,7 @@ struct _n_SamCompliance {
   double   matrix[3][SAM_COMPLIANCE_MODES][3][SAM_COMPLIANCE_MODES]; /* m3/N, symmetric */
   PetscInt cases, slot[SAM_COMPLIANCE_CASES];                        /* of SamConditions */
   char     name[SAM_COMPLIANCE_CASES][32];
+  PetscInt below[3]; /* points along x, y, z at which the stresses are known; 0: nowhere */
   double   field[SAM_COMPLIANCE_CASES][3][SAM_COMPLIANCE_MODES]; /* m2, displacements by the unit load case */
 };
 
@@ -44,5 +46,26 @@ PETSC_INTERN void SamComplianceMeans(SamCompliance compliance, PetscInt axis, do
   that are uniform on 20 x 20 cells of the patch. Of a rigid body: 0 if it is semidefinite, else negative.
 */
 PETSC_INTERN PetscErrorCode SamComplianceLeast(SamCompliance compliance, double *least);
+/*
+  SamComplianceCollect - c by tractions p, q_x, q_y on body 2. Collective.
+  SamComplianceReadStress - the axes x, y, z (m), then the stresses at the points by each c and each load case; as many
+  numbers as SamComplianceStresses(). Collective. Errors: SAM_ERR_FILE.
+  SamComplianceAddStress - adds to the stresses of a half-space what c and the load cases add. Collective. Errors:
+  SAM_ERR_FILE for a file without stresses.
+*/
+PETSC_INTERN PetscErrorCode SamComplianceCollect(SamElasticity elasticity, SamCompliance compliance,
+                                                 const double *const tractions[], double sums[3][SAM_COMPLIANCE_MODES]);
+PETSC_INTERN PetscErrorCode SamComplianceReadStress(MPI_Comm comm, SamCompliance compliance, double values[]);
+PETSC_INTERN PetscErrorCode SamComplianceAddStress(SamElasticity elasticity, SamCompliance compliance,
+                                                   SamStress stress);
+/* The numbers of the stresses at all points of one field; of the axes, all fields by c and by load cases. */
+static inline PetscInt SamComplianceField(SamCompliance c)
+{
+  return c->below[0] * c->below[1] * c->below[2] * SAM_STRESS_COMPONENTS;
+}
+static inline PetscInt SamComplianceStresses(SamCompliance c)
+{
+  return c->below[0] + c->below[1] + c->below[2] + (3 * c->modes + c->cases) * SamComplianceField(c);
+}
 
 #endif

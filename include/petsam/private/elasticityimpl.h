@@ -100,5 +100,8 @@ PETSC_EXTERN PetscErrorCode SamElasticityCreate_HalfSpace(SamElasticity elastici
 PETSC_EXTERN PetscErrorCode SamElasticityCreate_Periodic(SamElasticity elasticity);
 PETSC_EXTERN PetscErrorCode SamElasticityCreate_Rolling(SamElasticity elasticity);
 PETSC_EXTERN PetscErrorCode SamElasticityCreate_Compliance(SamElasticity elasticity);
+/* SamElasticityAddRecordedCompliances - as SamElasticityAddCompliances(), from a record; `source` names it. */
+PETSC_EXTERN PetscErrorCode SamElasticityAddRecordedCompliances(SamElasticity *elasticity, const SamParameters *p,
+                                                                const char source[]);
 
 #endif

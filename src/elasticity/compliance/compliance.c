@@ -132,58 +132,75 @@ ROWS(SumRowSingle, AddRowSingle, float)
 #define ALONG_Y(e, b, m, j) \
   ((const Bodies *)(e)->data)->along[b][1][(ptrdiff_t)of->power[m][1] * (e)->grid->ny + (e)->grid->row_start + (j)]
 
-/* D c in the contact's frame, from this rank's part of c in that of the contact. */
-static PetscErrorCode Multiply(SamElasticity e, SamCompliance of, Kind in, Kind out, double factor,
-                               const SamTotal part[], Coefficients d)
+/* c of body b, in its own frame, from this rank's part of it in that of the contact. */
+static PetscErrorCode Total(SamElasticity e, SamCompliance of, Kind in, const SamTotal part[], Coefficients c)
 {
-  const PetscInt n     = count_of[in] * of->modes;
-  const double   scale = factor * e->grid->dx * e->grid->dy;
-  double         c[2 * SAM_COMPLIANCE_MODES];
-
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < n; k += SAM_TOTALS)
-    PetscCall(SamSumTotals(e->grid->comm, PetscMin(SAM_TOTALS, n - k), part + k, c + k));
-  for (PetscInt k = first_of[out]; k < first_of[out] + count_of[out]; k++)
-    for (PetscInt m = 0; m < of->modes; m++) {
-      double total = 0;
+  for (PetscInt l = first_of[in]; l < first_of[in] + count_of[in]; l++, part += of->modes)
+    for (PetscInt m = 0; m < of->modes; m += SAM_TOTALS) {
+      const PetscInt count = PetscMin(SAM_TOTALS, of->modes - m);
 
-      for (PetscInt i = 0; i < n; i++) {
-        const PetscInt l = first_of[in] + i / of->modes;
-
-        total += of->matrix[k][m][l][i % of->modes] * turned[of->body][l] * c[i];
-      }
-      d[k][m] = scale * turned[of->body][k] * total;
+      PetscCall(SamSumTotals(e->grid->comm, count, part + m, c[l] + m));
+      for (PetscInt k = m; k < m + count; k++) c[l][k] *= turned[of->body][l] * e->grid->dx * e->grid->dy;
     }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The coefficients of the displacements of both bodies by tractions. */
+/* c of a body by tractions. */
 #define COLLECT(Name, Real, Sum) \
-  static PetscErrorCode Name(SamElasticity e, Kind in, Kind out, double factor, const Real *const t[], \
-                             Coefficients d[2]) \
+  static PetscErrorCode Name(SamElasticity e, SamCompliance of, Kind in, const Real *const t[], Coefficients c) \
   { \
-    const Bodies  *data = (const Bodies *)e->data; \
-    const PetscInt nx   = e->grid->nx; \
+    const PetscInt nx = e->grid->nx, b = of->body; \
+    SamTotal       part[2 * SAM_COMPLIANCE_MODES] = {{0}}; \
+    double         sums[FACTORS]; \
 \
     PetscFunctionBegin; \
-    for (PetscInt b = 0; b < 2; b++) { \
-      const SamCompliance of                          = data->of[b]; \
-      SamTotal            c[2 * SAM_COMPLIANCE_MODES] = {{0}}; \
-      double              sums[FACTORS]; \
+    for (PetscInt n = 0; n < e->grid->rows * count_of[in]; n++) { \
+      const PetscInt j = n / count_of[in], k = n % count_of[in]; \
 \
-      for (PetscInt n = 0; of && n < e->grid->rows * count_of[in]; n++) { \
-        const PetscInt j = n / count_of[in], k = n % count_of[in]; \
-\
-        Sum(nx, of->degree + 1, t[k] + (ptrdiff_t)j * nx, data->along[b][0], sums); \
-        for (PetscInt m = 0; m < of->modes; m++) \
-          SamAdd(&c[k * of->modes + m], sums[of->power[m][0]] * ALONG_Y(e, b, m, j)); \
-      } \
-      if (of) PetscCall(Multiply(e, of, in, out, factor, c, d[b])); \
+      Sum(nx, of->degree + 1, t[k] + (ptrdiff_t)j * nx, ((const Bodies *)e->data)->along[b][0], sums); \
+      for (PetscInt m = 0; m < of->modes; m++) \
+        SamAdd(&part[k * of->modes + m], sums[of->power[m][0]] * ALONG_Y(e, b, m, j)); \
     } \
+    PetscCall(Total(e, of, in, part, c)); \
     PetscFunctionReturn(PETSC_SUCCESS); \
   }
 COLLECT(Collect, double, SumRow)
 COLLECT(CollectSingle, float, SumRowSingle)
+
+PetscErrorCode SamComplianceCollect(SamElasticity e, SamCompliance c, const double *const tractions[],
+                                    double sums[3][SAM_COMPLIANCE_MODES])
+{
+  PetscFunctionBegin;
+  PetscCall(SamElasticitySetUp(e));
+  PetscCall(Collect(e, c, NORMAL, tractions, sums));
+  PetscCall(Collect(e, c, TANGENTIAL, tractions + 1, sums));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* D c, turned into the contact's frame. */
+static void Multiply(SamCompliance of, Kind in, Kind out, double factor, const Coefficients c, Coefficients d)
+{
+  for (PetscInt k = first_of[out]; k < first_of[out] + count_of[out]; k++)
+    for (PetscInt m = 0; m < of->modes; m++) {
+      double total = 0;
+
+      for (PetscInt l = first_of[in]; l < first_of[in] + count_of[in]; l++)
+        for (PetscInt n = 0; n < of->modes; n++) total += of->matrix[k][m][l][n] * c[l][n];
+      d[k][m] = factor * turned[of->body][k] * total;
+    }
+}
+
+/* The coefficients of the displacements of both bodies by tractions. */
+#define DISPLACE(e, collect, in, out, factor, t, d) \
+  for (PetscInt b = 0; b < 2; b++) { \
+    const SamCompliance of = ((const Bodies *)(e)->data)->of[b]; \
+    Coefficients        c; \
+\
+    if (!of) continue; \
+    PetscCall(collect(e, of, in, t, c)); \
+    Multiply(of, in, out, factor, (const double(*)[SAM_COMPLIANCE_MODES])c, (d)[b]); \
+  }
 
 /* Adds polynomials with the coefficients of both bodies to displacements. */
 #define SPREAD(Name, Real, Add) \
@@ -219,7 +236,7 @@ static PetscErrorCode Apply(SamElasticity e, SamElasticity inner, Method method,
   Coefficients d[2];
 
   PetscFunctionBegin;
-  PetscCall(Collect(e, in, out, 1, t, d));
+  DISPLACE(e, Collect, in, out, 1, t, d);
   if (method)
     PetscCall((*method)(inner, t, u));
   else
@@ -251,7 +268,7 @@ PRODUCT(ApplyTangentialToNormal, applytangentialtonormal, TANGENTIAL, NORMAL, e-
 \
     PetscFunctionBegin; \
     SamElasticityWith(inner, method); \
-    PetscCall(CollectSingle(e, kind, kind, factor, t, d)); \
+    DISPLACE(e, CollectSingle, kind, kind, factor, t, d); \
     PetscCall((*inner->ops.method)(inner, factor, t, u)); \
     SpreadSingle(e, kind, d, u); \
     PetscFunctionReturn(PETSC_SUCCESS); \
@@ -285,44 +302,49 @@ PetscErrorCode SamElasticityAddCases(SamElasticity e, const SamControl *control,
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscBool SamElasticityHasCase(SamElasticity e, PetscInt slot)
-{
-  for (PetscInt b = 0; b < 2 && !strcmp(e->type, SAM_ELASTICITY_COMPLIANCE); b++) {
-    const SamCompliance c = ((const Bodies *)e->data)->of[b];
-
-    for (PetscInt l = 0; c && l < c->cases; l++)
-      if (c->slot[l] == slot) return PETSC_TRUE;
-  }
-  return PETSC_FALSE;
-}
-
 /* ---- the type ---- */
 
-static void Take(SamElasticity e, PetscInt b, SamCompliance c)
-{
-  ((Bodies *)e->data)->of[b] = c;
-  if (c) c->references++;
-}
+static const char *const names[] = {"body1_compliance", "body2_compliance"};
+static const char *const files[] = {"body1_compliance_file", "body2_compliance_file"};
 
 static PetscErrorCode Inherit(SamElasticity parent, SamElasticity child)
 {
-  for (PetscInt b = 0; b < 2; b++) Take(child, b, ((const Bodies *)parent->data)->of[b]);
+  for (PetscInt b = 0; b < 2; b++) {
+    const SamCompliance c = ((const Bodies *)parent->data)->of[b];
+
+    ((Bodies *)child->data)->of[b] = c;
+    if (c) c->references++;
+  }
   return PETSC_SUCCESS;
 }
 
+/* With the file's full name, by which other programs find it. */
 static PetscErrorCode AddParameters(SamElasticity e, SamParameters *p)
 {
-  static const char *const names[2][2] = {{"body1_compliance", "body1_compliance_file"},
-                                          {"body2_compliance", "body2_compliance_file"}};
+  char path[PETSC_MAX_PATH_LEN];
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < 2; b++) {
     const SamCompliance c = ((const Bodies *)e->data)->of[b];
 
     if (!c) continue;
-    PetscCall(SamParametersAddChecksum(p, names[b][0], c->checksum));
-    PetscCall(SamParametersAddText(p, names[b][1], PETSC_FALSE, c->file));
+    PetscCall(SamParametersAddChecksum(p, names[b], c->checksum));
+    PetscCall(PetscGetFullPath(c->file, path, sizeof(path)));
+    PetscCall(SamParametersAddText(p, files[b], PETSC_FALSE, path));
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode CreateStress(SamElasticity e, PetscInt body, const SamFourierSettings *settings,
+                                   SamStress *stress)
+{
+  const SamCompliance c     = ((const Bodies *)e->data)->of[body - 1];
+  SamElasticity       inner = e->inner;
+
+  PetscFunctionBegin;
+  SamElasticityWith(inner, createstress);
+  PetscCall((*inner->ops.createstress)(inner, body, settings, stress));
+  if (c) PetscCall(SamComplianceAddStress(e, c, *stress));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -354,6 +376,7 @@ PetscErrorCode SamElasticityCreate_Compliance(SamElasticity e)
                                .applytangential         = ApplyTangential,
                                .applynormalsingle       = ApplyNormalSingle,
                                .applytangentialsingle   = ApplyTangentialSingle,
+                               .createstress            = CreateStress,
                                .applynormaltotangential = ApplyNormalToTangential,
                                .applytangentialtonormal = ApplyTangentialToNormal};
   PetscCall(SamElasticitySetInner(e, SAM_ELASTICITY_HALFSPACE));
@@ -409,36 +432,63 @@ static PetscErrorCode CheckConstants(SamElasticity e, const SamOptions *from, Sa
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Adds the compliance of body b, from a file that `option` names. */
+static PetscErrorCode Add(SamElasticity *elasticity, const SamOptions *from, PetscInt b, const char option[],
+                          const char file[])
+{
+  SamElasticity e = *elasticity;
+  SamCompliance c;
+
+  PetscFunctionBegin;
+  PetscCheck(!e->traits.periodic, from->comm, SAM_ERR_USER,
+             "-%s%s: has no meaning with -%selasticity %s, whose bodies have no borders", SamOptionsPrefix(from),
+             option, SamOptionsPrefix(from), e->type);
+  if (!e->traits.patch) {
+    PetscCall(SamElasticityWrap(*elasticity, SAM_ELASTICITY_COMPLIANCE, &e));
+    PetscCall(SamElasticityDestroy(elasticity));
+    *elasticity     = e;
+    e->traits.patch = PETSC_TRUE;
+  }
+  PetscCall(SamComplianceRead(from->comm, b, option, file, &c));
+  ((Bodies *)e->data)->of[b] = c;
+  PetscCall(CheckConstants(e, from, c));
+  PetscCall(NotePatch(e, from, c));
+  if (Couples(c)) e->traits.coupled = PETSC_TRUE;
+  for (PetscInt l = 0; l < c->cases; l++) e->traits.cases[c->slot[l]] = PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamElasticityAddCompliances(SamElasticity *elasticity, const SamOptions *from)
 {
-  static const char *const names[] = {"body1_compliance", "body2_compliance"};
-  SamElasticity            bodies = *elasticity, e = NULL;
-  PetscBool                help, given;
-  char                     file[PETSC_MAX_PATH_LEN] = "";
+  PetscBool help, given;
+  char      file[PETSC_MAX_PATH_LEN] = "";
 
   PetscFunctionBegin;
   PetscCall(SamPrintHelp(&help));
   for (PetscInt b = 0; b < 2; b++) SamOptionsKnow(from, names[b], NULL);
   for (PetscInt b = 0; b < 2; b++) {
-    SamCompliance c;
-
     PetscCall(SamOptionsFile(from, names[b], "HDF5 file of the body's own compliance, by petsam-compliance", file,
                              sizeof(file), &given));
-    if (!given || help) continue;
-    PetscCheck(!bodies->traits.periodic, from->comm, SAM_ERR_USER,
-               "-%s%s: has no meaning with -%selasticity %s, whose bodies have no borders", SamOptionsPrefix(from),
-               names[b], SamOptionsPrefix(from), bodies->type);
-    if (!e) PetscCall(SamElasticityWrap(bodies, SAM_ELASTICITY_COMPLIANCE, &e));
-    PetscCall(SamComplianceRead(from->comm, b, names[b], file, &c));
-    Take(e, b, c);
-    c->references--;
-    PetscCall(CheckConstants(e, from, c));
-    PetscCall(NotePatch(e, from, c));
-    if (Couples(c)) e->traits.coupled = PETSC_TRUE;
+    if (given && !help) PetscCall(Add(elasticity, from, b, names[b], file));
   }
-  if (!e) PetscFunctionReturn(PETSC_SUCCESS);
-  e->traits.patch = PETSC_TRUE;
-  PetscCall(SamElasticityDestroy(elasticity));
-  *elasticity = e;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticityAddRecordedCompliances(SamElasticity *elasticity, const SamParameters *p,
+                                                   const char source[])
+{
+  const SamOptions from = {(*elasticity)->grid->comm, NULL};
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < 2; b++) {
+    const SamParameter *sum = SamParametersFind(p, names[b]), *file = SamParametersFind(p, files[b]);
+    SamParameters       own = {.count = 0};
+
+    if (!sum || !file) continue;
+    PetscCall(Add(elasticity, &from, b, names[b], file->text));
+    PetscCall(SamParametersAddChecksum(&own, "", ((const Bodies *)(*elasticity)->data)->of[b]->checksum));
+    PetscCheck(!strcmp(own.list[0].text, sum->text), from.comm, SAM_ERR_FILE,
+               "%s: -%s %s has changed since: bring back that file", source, names[b], file->text);
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#define RANK 4 /* most dimensions of what is read */
+#define RANK 6 /* most dimensions of what is read */
 
 /* `size` 0 in a dimension: any number up to `most`, which it becomes. */
 typedef struct {
@@ -127,6 +127,64 @@ static PetscErrorCode ReadCases(SamFile f, SamCompliance c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The points below the patch, if there are any; along each axis they increase. */
+static PetscErrorCode ReadAxes(SamFile f, SamCompliance c, double values[])
+{
+  enum { MOST = 1024 };
+  static const char *const names[] = {"/stress/x", "/stress/y", "/stress/z"};
+  double                   own[MOST];
+
+  PetscFunctionBegin;
+  for (int d = 0; d < 3; d++) {
+    Shape shape = {1, {0}, MOST};
+
+    PetscCall(ReadNumbers(f, names[d], &shape, own));
+    c->below[d] = (PetscInt)shape.size[0];
+    for (PetscInt k = 0; k < c->below[d]; k++) {
+      PetscCheck(!k || own[k] > own[k - 1], f->comm, SAM_ERR_FILE, "-%s %s: %s does not increase: make the file anew",
+                 f->option, f->filename, names[d]);
+      if (values) *values++ = own[k];
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* As SamComplianceReadStress(). */
+static PetscErrorCode LookBelow(SamFile f, const void *question, void *answer)
+{
+  struct _n_SamCompliance c    = *(const struct _n_SamCompliance *)question;
+  const hsize_t           n[3] = {(hsize_t)c.below[0], (hsize_t)c.below[1], (hsize_t)c.below[2]}, m = (hsize_t)c.modes;
+  const PetscInt          size = SamComplianceField(&c);
+  double                 *to   = (double *)answer;
+  Shape                   all  = {6, {m, 3, n[2], n[1], n[0], SAM_STRESS_COMPONENTS}, 0};
+
+  PetscFunctionBegin;
+  PetscCall(ReadAxes(f, &c, to));
+  to += n[0] + n[1] + n[2];
+  PetscCall(ReadNumbers(f, "/stress/basis", &all, to));
+  to += 3 * c.modes * size;
+  for (PetscInt l = 0; l < c.cases; l++, to += size) {
+    Shape one = {4, {n[2], n[1], n[0], SAM_STRESS_COMPONENTS}, 0};
+    char  path[64];
+
+    (void)snprintf(path, sizeof(path), "/stress/cases/%s", c.name[l]);
+    PetscCall(ReadNumbers(f, path, &one, to));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamComplianceReadStress(MPI_Comm comm, SamCompliance c, double values[])
+{
+  const char *const option = c->body ? "body2_compliance" : "body1_compliance";
+
+  PetscFunctionBegin;
+  PetscCheck(c->below[0], comm, SAM_ERR_FILE, "-%s %s: has no group /stress: make the file without --no-stress", option,
+             c->file);
+  PetscCall(
+    SamFileExamine(comm, option, c->file, LookBelow, c, values, sizeof(*values) * (size_t)SamComplianceStresses(c)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Look(SamFile f, const void *question, void *answer)
 {
   SamCompliance c = (SamCompliance)answer;
@@ -145,6 +203,7 @@ static PetscErrorCode Look(SamFile f, const void *question, void *answer)
   PetscCall(ReadBasis(f, c));
   PetscCall(ReadMatrix(f, c));
   PetscCall(ReadCases(f, c));
+  if (H5Lexists(f->id, "/stress", H5P_DEFAULT) > 0) PetscCall(ReadAxes(f, c, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
