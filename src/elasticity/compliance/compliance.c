@@ -11,8 +11,8 @@
 
   A cell's influence on itself is that of the half-space: D adds a part of the order of the cell's area to the patch's.
 
-  Body 1 is turned about x by half a turn into its place: y and z change their signs, nothing else does. It bears -t, and
-  u is of body 2 less body 1, so that both bodies add.
+  Body 1 is turned about x by half a turn into its place: y and z change their signs, nothing else does. It bears -t,
+  and u is of body 2 less body 1, so that both bodies add.
 */
 #include <petsam/private/compliance.h>
 #include <math.h>

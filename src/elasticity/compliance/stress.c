@@ -1,7 +1,7 @@
 /*
-  Stresses in a finite body: those of the half-space under the tractions, and what is smooth up to the surface, from the
-  file: the stresses of the rest of the body by each c_j (compliance.c), and those of the load cases. Both are known at a
-  coarse grid of points, between which they are interpolated linearly; beyond its borders in x and y they stay the same.
+  Stresses in a finite body: those of the half-space under the tractions, and what is smooth up to the surface, from
+  the file: the stresses of the rest of the body by each c_j (compliance.c), and those of the load cases. Both are known
+  at a coarse grid of points, between which they are interpolated linearly; beyond it in x and y they stay the same.
 */
 #include <petsam/private/compliance.h>
 
