@@ -38,8 +38,13 @@ PETSC_EXTERN const char *SamComponentNameOf(PetscInt component, SamWay way);
 /* SamUnitOn - a number's unit on a grid: with one row of a load, area, volume or energy per metre. Not collective. */
 PETSC_EXTERN const char *SamUnitOn(SamGrid grid, const char unit[]);
 
-/* The components of a bulk stress, in the order used everywhere. */
+/* Load cases of the bodies' compliances: most of a process, and most letters of a name. */
+#define SAM_CASES     16
+#define SAM_CASE_NAME 20
+
+/* The components of a bulk stress, in the order used everywhere; before factors on load cases where both are kept. */
 typedef enum { SAM_BULK_XX, SAM_BULK_YY, SAM_BULK_XY, SAM_BULK_COMPONENTS } SamBulkComponent;
+#define SAM_BULK_AND_CASES (SAM_BULK_COMPONENTS + SAM_CASES)
 
 /*
   SamControl - what is prescribed in a load step. SamControlInitialize() sets the defaults, the user the rest.
@@ -54,6 +59,7 @@ typedef struct {
   PetscReal roll[2];               /* m; rolled distance of the step towards +x, +y: the grid moves over the bodies */
   PetscReal friction_scale;        /* factor on the coefficient of friction, >= 0 */
   PetscReal bulk_stress[2][SAM_BULK_COMPONENTS]; /* Pa, of body 1 and 2: uniform, parallel to the surface */
+  PetscReal cases[SAM_CASES];                    /* factors on load cases, see SamControlAddCase() */
 } SamControl;
 
 /*
@@ -73,9 +79,17 @@ enum {
   SAM_CONDITION_FRICTION,
   SAM_CONDITION_BULK,
   SAM_CONDITION_ROLL = SAM_CONDITION_BULK + 2 * SAM_BULK_COMPONENTS,
-  SAM_CONDITIONS     = SAM_CONDITION_ROLL + 2
+  SAM_CONDITION_CASE = SAM_CONDITION_ROLL + 2,
+  SAM_CONDITIONS     = SAM_CONDITION_CASE + SAM_CASES
 };
 PETSC_EXTERN const SamCondition SamConditions[SAM_CONDITIONS];
+/*
+  SamControlAddCase - the condition body1_case_<name> or body2_case_<name> (body 0 or 1), and its place in `cases`; one
+  that was added before keeps its place. `room`: there was one. SamConditionIsUsed - whether an entry has a name: those
+  of load cases that no file has are idle. Not collective, but to be called on all ranks.
+*/
+PETSC_EXTERN PetscErrorCode SamControlAddCase(PetscInt body, const char name[], PetscInt *place, PetscBool *room);
+PETSC_EXTERN PetscBool      SamConditionIsUsed(PetscInt k);
 /* The entry of a component of the bulk stress of body 0 or 1. */
 #define SAM_BULK_CONDITION(body, k) (&SamConditions[SAM_CONDITION_BULK + (body)*SAM_BULK_COMPONENTS + (k)])
 

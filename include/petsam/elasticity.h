@@ -2,6 +2,7 @@
 #ifndef PETSAM_ELASTICITY_H
 #define PETSAM_ELASTICITY_H
 
+#include <petsam/control.h>
 #include <petsam/fourier.h>
 #include <petsam/material.h>
 #include <petsam/parameters.h>
@@ -24,6 +25,8 @@ typedef const char *SamElasticityType;
 #define SAM_ELASTICITY_PLANE_PERIODIC "plane_periodic" /* the same of periodic */
 
 #define SAM_ELASTICITY_ROLLING "rolling" /* any of these in steady rolling, by SamElasticityCreateRolling() */
+#define SAM_ELASTICITY_COMPLIANCE \
+  "compliance" /* half-spaces and what finite bodies add, SamElasticityAddCompliances() */
 
 /* SamElasticityTraits - properties of a type that users of the operator rely on. None follows from another. */
 typedef struct {
@@ -37,7 +40,10 @@ typedef struct {
   PetscBool within; /* the pressure may vary within cells */
   PetscBool steady; /* rolls towards +x: u_t is a velocity relative to that of rolling, the operator not symmetric */
   PetscBool layers; /* the bodies may have layers */
-  PetscBool stress; /* stresses in the bodies are available; set by the class */
+  PetscBool patch;  /* the bodies have a place, and do not roll */
+  PetscBool cases[SAM_CASES]; /* which of the load cases of a control are those of these bodies */
+  PetscInt  outside[2][2];    /* columns and rows at the low and high end of x, y where contact is not within a patch */
+  PetscBool stress;           /* stresses in the bodies are available; set by the class */
 } SamElasticityTraits;
 
 /*
@@ -51,6 +57,16 @@ PETSC_EXTERN PetscErrorCode SamElasticityCreate(SamGrid grid, const SamPair *pai
   Collective. Errors: PETSC_ERR_SUP for periodic bodies.
 */
 PETSC_EXTERN PetscErrorCode SamElasticityCreateRolling(SamElasticity bodies, SamElasticity *rolling);
+/*
+  SamElasticityAddCompliances - replaces the bodies by finite ones, whose compliances the files of -body1_compliance and
+  -body2_compliance add (elasticity/compliance/); without these options does nothing. Collective. Errors: SAM_ERR_USER,
+  SAM_ERR_FILE.
+  SamElasticityAddCases - adds the relative displacements (m) by load cases of the bodies to a field: normal ones, one
+  component, or tangential ones, two. Collective.
+*/
+PETSC_EXTERN PetscErrorCode SamElasticityAddCompliances(SamElasticity *elasticity, const SamOptions *from);
+PETSC_EXTERN PetscErrorCode SamElasticityAddCases(SamElasticity elasticity, const SamControl *control,
+                                                  PetscBool tangential, Vec field);
 /*
   SamElasticitySetType - forgets the coarser operators and the parts. Collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for a
   type that is not registered; PETSC_ERR_ORDER when a problem or a solver refers to the elasticity already.

@@ -90,11 +90,12 @@ PETSC_EXTERN PetscErrorCode SamEvaluationSetElasticity(SamEvaluation evaluation,
 
 /*
   SamEvaluationSource - the load steps, read when they are needed. `read`: copies this rank's rows of a field;
-  collective. `bulk`: the bulk stress of the body in each step (Pa). The array is the caller's.
+  collective. `bulk`: the bulk stress of the body in each step (Pa), and the factors on load cases. The array is the
+  caller's.
 */
 typedef struct {
   PetscInt steps;
-  const double (*bulk)[SAM_BULK_COMPONENTS];
+  const double (*bulk)[SAM_BULK_AND_CASES];
   PetscErrorCode (*read)(void *context, PetscInt step, SamStepField field, double values[]);
   void *context;
 } SamEvaluationSource;

@@ -46,11 +46,12 @@ PETSC_EXTERN PetscErrorCode SamResultsGetSaved(SamResults results, PetscInt k, P
 */
 PETSC_EXTERN PetscErrorCode SamResultsRead(SamResults results, PetscInt k, SamResultsField field, double values[]);
 /*
-  SamResultsReadBulkStress - the bulk stress (Pa) of body 0 or 1 at a load step (from 1), 0 where the file has no column
-  of it. Collective. Errors: SAM_ERR_FILE, also for a value that is no finite number.
+  SamResultsReadBulkStress - the bulk stress (Pa) of body 0 or 1 at a load step (from 1), and the factors on the load
+  cases that are known by then, 0 where the file has no column of it. Collective. Errors: SAM_ERR_FILE, also for a value
+  that is no finite number.
 */
 PETSC_EXTERN PetscErrorCode SamResultsReadBulkStress(SamResults results, PetscInt step, PetscInt body,
-                                                     double stress[SAM_BULK_COMPONENTS]);
+                                                     double stress[SAM_BULK_AND_CASES]);
 /*
   SamResultsReadNumber - of a load step (from 1): the cycles before the one that it belongs to in a life, 0 in other
   results; or its SamStatus. Collective. Errors: as SamResultsReadBulkStress().

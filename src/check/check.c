@@ -49,6 +49,8 @@ static PetscErrorCode ComputeDisplacements(SamProblem problem, SamState state, P
   else
     PetscCall(SamVecZero(s->displacement_t));
   if (traits.coupled && coupling) PetscCall(AddCoupling(elasticity, grid, s));
+  PetscCall(SamElasticityAddCases(elasticity, &s->control, PETSC_FALSE, s->displacement_z));
+  PetscCall(SamElasticityAddCases(elasticity, &s->control, PETSC_TRUE, s->displacement_t));
   PetscCall(SamElasticityTrim(elasticity));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -84,19 +86,23 @@ SAM_VECTORIZED static void NormalRow(PetscInt n, const double *restrict p, const
   max[DISPLACEMENT] = PetscMax(max[DISPLACEMENT], displacement);
 }
 
-/* Columns and rows at the low and high end of x, y that are at the grid's border, or of material that has entered. */
+/* Columns and rows at the low and high end of x, y at the grid's border, beyond a patch, or of entered material. */
 typedef struct {
   PetscInt low[2], high[2];
 } Border;
 
-static Border BorderOf(SamGrid grid, const SamSolution *s)
+static Border BorderOf(SamProblem problem, SamGrid grid, const SamSolution *s)
 {
-  Border b;
+  SamElasticity       elasticity;
+  SamElasticityTraits traits;
+  Border              b;
 
+  (void)SamProblemGetElasticity(problem, &elasticity);
+  (void)SamElasticityGetTraits(elasticity, &traits);
   SamGridEntering(grid, s->control.roll, b.low, b.high);
   for (int axis = 0; axis < (grid->ny == 1 ? 1 : 2); axis++) {
-    b.low[axis]  = PetscMax(b.low[axis], 1);
-    b.high[axis] = PetscMax(b.high[axis], 1);
+    b.low[axis]  = PetscMax(b.low[axis], PetscMax(traits.outside[axis][0], 1));
+    b.high[axis] = PetscMax(b.high[axis], PetscMax(traits.outside[axis][1], 1));
   }
   return b;
 }
@@ -161,7 +167,7 @@ static PetscErrorCode CheckNormal(SamProblem problem, SamState state, const SamS
   PetscFunctionBegin;
   PetscCall(SamProblemGetGrid(problem, &grid));
   PetscCall(SamSolutionCreateSeparation(problem, state, SAM_COMMITTED, &separation));
-  border = BorderOf(grid, s);
+  border = BorderOf(problem, grid, s);
   PetscCall(SamProblemGetLeast(problem, state, &lower));
   PetscCall(SamMotionSet(&motion, problem, s));
   PetscCall(SamProblemGetPressureLimit(problem, &limit));

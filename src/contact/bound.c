@@ -132,6 +132,7 @@ PetscErrorCode SamSolveShear(SamSolve *w, PetscBool has_shear, PetscReal rtol, S
 
   PetscFunctionBegin;
   if (w->coupled) PetscCall(SamElasticityApplyNormalToTangential(w->c->elasticity, w->s->pressure, w->pushed));
+  if (w->coupled) PetscCall(SamElasticityAddCases(w->c->elasticity, &w->s->control, PETSC_TRUE, w->pushed));
   if (!SamProblemFollowsSlip(w->c->problem)) {
     PetscCall(SamSolveDirection(w, has_shear, rtol, effort));
     PetscFunctionReturn(PETSC_SUCCESS);

@@ -65,7 +65,7 @@ static PetscErrorCode DeclareControl(SamContact c)
                               : name->rigid_text,
                       SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE, n ? NULL : &c->solution));
   }
-  for (PetscInt n = 0; n < SAM_CONDITIONS; n++) {
+  for (PetscInt n = 0; n < SAM_CONDITIONS && SamConditionIsUsed(n); n++) {
     const SamCondition *condition = &SamConditions[n];
 
     PetscCall(Declare(c, condition->name, condition->unit, condition->text, SAM_NUMBER_REAL, 1, PETSC_FALSE,
@@ -295,7 +295,11 @@ PetscErrorCode SamContactStore(SamContact c, const SamStep *step)
                          ? step->control.value[m]
                          : (step->rigid[m] - (before ? before->rigid[m] : 0)) / SamControlRolled(&step->control);
   }
-  for (PetscInt k = 0; k < SAM_CONDITIONS; k++) n[c->given + k] = SamControlPart(&step->control, SAM_COMPONENTS + k);
+  for (PetscInt k = 0; k < SAM_CONDITIONS; k++) { /* load cases may come later: they are found by name */
+    const PetscInt id = k < SAM_CONDITION_CASE ? c->given + k : SamStateFindNumber(c->state, SamConditions[k].name);
+
+    if (id >= 0) n[id] = SamControlPart(&step->control, SAM_COMPONENTS + k);
+  }
   SamControlPack(&c->generation[SAM_TRIED].control, n + c->control);
   n[c->residuals]     = step->check.normal;
   n[c->residuals + 1] = step->check.tangential;

@@ -118,6 +118,7 @@ static PetscErrorCode GetSeparation(SamSolve *w, Vec *h)
 {
   PetscFunctionBegin;
   if (w->coupled) PetscCall(VecAXPY(w->h, 1, w->separation));
+  if (w->coupled) PetscCall(SamElasticityAddCases(w->c->elasticity, &w->s->control, PETSC_FALSE, w->h));
   *h = w->coupled ? w->h : w->separation;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

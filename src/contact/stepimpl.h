@@ -23,10 +23,10 @@ typedef struct {
   SamProduct         shear_product;      /* C q of the tried solution; coupled, or at mid step only */
   Vec                turn;               /* at mid step: t of direction.c, m, two components; NULL: zero */
   /* coupled only */
-  Vec        h;                                 /* separation plus lift */
-  Vec        lift;                              /* normal displacement by the shear that the pressure is solved with */
-  Vec        pushed;                            /* tangential displacement by the pressure, set by SamSolveShear() */
-  SamProduct pressure_product;                  /* S p of the tried solution */
+  Vec        h;                /* separation plus lift */
+  Vec        lift;             /* normal displacement by the shear that the pressure is solved with */
+  Vec        pushed;           /* tangential displacement by pressure and load cases, set by SamSolveShear() */
+  SamProduct pressure_product; /* S p of the tried solution */
   Vec        previous_pressure, previous_shear; /* of the previous pass */
 } SamSolve;
 

@@ -57,6 +57,13 @@ static PetscErrorCode Judge(SamContact c, SamStep *step)
                           (double)check->cone, (double)check->edge));
   PetscCall(SamStepJudge(step, &limits));
   if (c->rolls && check->edge > 0 && SamStepIsSolved(step)) PetscCall(DescribeEntering(c, step));
+  if (c->traits.patch && check->edge > 0 && SamStepIsSolved(step)) {
+    (void)snprintf(step->message, sizeof(step->message),
+                   "the contact reached the border of the patch of a body's compliance, or of the grid (pressure there "
+                   "up to %.2g times the maximum): make the patch larger",
+                   (double)check->edge);
+    step->setting[0] = '\0';
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -115,6 +122,8 @@ PetscErrorCode SamContactCheckRolling(SamContact c, const SamControl *control, c
                SamConditions[SAM_CONDITION_ROLL + k].name, (double)control->roll[k], (double)c->grid->width[k]);
   PetscCheck(rolled == 0 || !c->traits.steady, c->grid->comm, SAM_ERR_USER,
              "%sroll = %.6g: has no meaning with -rolling steady: omit one of them", where, (double)rolled);
+  PetscCheck(rolled == 0 || !c->traits.patch, c->grid->comm, SAM_ERR_USER,
+             "%sroll = %.6g: expected 0: bodies with a compliance of their own have a place", where, (double)rolled);
   PetscCheck(rolled == 0 || !c->traits.periodic, c->grid->comm, SAM_ERR_USER,
              "%sroll = %.6g: expected 0: bodies of type %s do not roll", where, (double)rolled, type);
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++)
@@ -130,6 +139,21 @@ PetscErrorCode SamContactCheckRolling(SamContact c, const SamControl *control, c
     PetscCheck(SamControlPart(control, SAM_COMPONENTS + SAM_CONDITION_BULK + k) == 0, c->grid->comm, SAM_ERR_USER,
                "%s has no meaning with -rolling steady: a uniform strain is a creepage: add it to creep_x",
                SamConditions[SAM_CONDITION_BULK + k].name);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Load cases must be those of the bodies, and the pressure and the shear be solved with each other. */
+static PetscErrorCode CheckCases(SamContact c, const SamControl *control)
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < SAM_CASES; k++) {
+    const char  *name   = SamConditions[SAM_CONDITION_CASE + k].name;
+    const double factor = (double)control->cases[k];
+
+    if (factor == 0) continue;
+    PetscCheck(isfinite(factor) && c->traits.cases[k] && SamContactIsCoupled(c), c->grid->comm, SAM_ERR_USER,
+               "%s = %.6g: expected 0, or a body with this load case and -coupling full", name, factor);
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -156,6 +180,7 @@ static PetscErrorCode CheckControl(SamContact c, SamControl *control)
   PetscCheck(control->friction_scale >= 0 && isfinite(control->friction_scale), c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
              "friction_scale = %.6g: expected a number >= 0", (double)control->friction_scale);
   PetscCall(CheckBulkStress(c, control));
+  PetscCall(CheckCases(c, control));
   PetscCall(SamContactCheckRolling(c, control, ""));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -96,7 +96,8 @@ PetscErrorCode SamElasticitySetType(SamElasticity e, SamElasticityType type)
 
   PetscFunctionBegin;
   PetscCall(PetscFunctionListFind(SamElasticityList, type, &create));
-  if (!strcmp(type, SAM_ELASTICITY_ROLLING)) create = SamElasticityCreate_Rolling; /* not a choice of the user's */
+  if (!strcmp(type, SAM_ELASTICITY_ROLLING)) create = SamElasticityCreate_Rolling; /* not choices of the user's */
+  if (!strcmp(type, SAM_ELASTICITY_COMPLIANCE)) create = SamElasticityCreate_Compliance;
   PetscCall(SamElasticityGetTypes(types, sizeof(types)));
   PetscCheck(create, e->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "Elasticity of type %s is not registered: use %s", type,
              types);
@@ -289,8 +290,9 @@ PetscErrorCode SamElasticityCreateStress(SamElasticity e, PetscInt body, const S
 PetscErrorCode SamElasticityAddParameters(SamElasticity e, SamParameters *p)
 {
   PetscFunctionBegin;
-  if (e->traits.steady) e = e->inner; /* these are the bodies; how they move is recorded elsewhere */
   PetscCall(SamPairAddParameters(&e->pair, p));
+  for (; !strcmp(e->type, SAM_ELASTICITY_ROLLING) || !strcmp(e->type, SAM_ELASTICITY_COMPLIANCE); e = e->inner)
+    if (e->ops.addparameters) PetscCall((*e->ops.addparameters)(e, p)); /* options of their own tell these types */
   PetscCall(SamParametersAddText(p, "elasticity", PETSC_TRUE, e->type));
   if (e->inner) PetscCall(SamParametersAddText(p, "elasticity_inner", PETSC_TRUE, e->inner->type));
   for (; e; e = e->inner)
@@ -320,6 +322,7 @@ PetscErrorCode SamElasticityCreateFromParameters(SamGrid grid, const SamParamete
              type->text, grid->ny);
   for (SamElasticity e = *elasticity; e; e = e->inner)
     if (e->ops.setparameters) PetscCall((*e->ops.setparameters)(e, p, source));
+  PetscCall(SamElasticityAddRecordedCompliances(elasticity, p, source));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -337,6 +340,23 @@ PetscErrorCode SamElasticitySetInner(SamElasticity e, SamElasticityType type)
   PetscCall(SamElasticityDestroy(&e->inner));
   e->inner  = inner;
   e->traits = inner->traits;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticityWrap(SamElasticity bodies, SamElasticityType type, SamElasticity *outer)
+{
+  SamElasticity e;
+
+  PetscFunctionBegin;
+  PetscCall(SamElasticityCreate(bodies->grid, &bodies->pair, &e));
+  PetscCall(SamElasticitySetType(e, type));
+  e->fft = bodies->fft;
+  PetscCall(PetscStrncpy(e->prefix, bodies->prefix, sizeof(e->prefix)));
+  PetscCall(SamElasticityDestroy(&e->inner));
+  PetscCall(SamElasticityReference(bodies));
+  e->inner  = bodies;
+  e->traits = bodies->traits;
+  *outer    = e;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

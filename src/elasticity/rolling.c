@@ -100,20 +100,10 @@ PetscErrorCode SamElasticityCreate_Rolling(SamElasticity e)
 
 PetscErrorCode SamElasticityCreateRolling(SamElasticity bodies, SamElasticity *rolling)
 {
-  SamElasticity e;
-
   PetscFunctionBegin;
   PetscCheck(!bodies->traits.periodic && !bodies->traits.steady, bodies->grid->comm, PETSC_ERR_SUP,
              "Bodies of type %s do not roll", bodies->type);
-  PetscCall(SamElasticityCreate(bodies->grid, &bodies->pair, &e));
-  PetscCall(SamElasticitySetType(e, SAM_ELASTICITY_ROLLING));
-  e->fft = bodies->fft;
-  PetscCall(PetscStrncpy(e->prefix, bodies->prefix, sizeof(e->prefix)));
-  PetscCall(SamElasticityDestroy(&e->inner));
-  PetscCall(SamElasticityReference(bodies));
-  e->inner         = bodies;
-  e->traits        = bodies->traits;
-  e->traits.steady = PETSC_TRUE;
-  *rolling         = e;
+  PetscCall(SamElasticityWrap(bodies, SAM_ELASTICITY_ROLLING, rolling));
+  (*rolling)->traits.steady = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -13,7 +13,10 @@ static int LeaveFile(petsam_contact *c, PetscErrorCode error)
 
 static PetscErrorCode CollectParameters(petsam_contact *c, SamParameters *parameters)
 {
+  SamElasticityTraits traits;
+
   PetscFunctionBegin;
+  PetscCall(SamElasticityGetTraits(c->setup->elasticity, &traits));
   *parameters = (SamParameters){.in_process = PETSC_TRUE};
   PetscCall(SamSetupAddParameters(c->setup, parameters));
   if (c->has_gap)
@@ -21,7 +24,7 @@ static PetscErrorCode CollectParameters(petsam_contact *c, SamParameters *parame
   else
     PetscCall(SamParametersAddText(parameters, "given_gap", PETSC_TRUE, "none"));
   for (PetscInt k = 0; k < SAM_CONDITIONS; k++)
-    if (SamConditions[k].option)
+    if (SamConditions[k].option && (k < SAM_CONDITION_CASE || traits.cases[k - SAM_CONDITION_CASE]))
       PetscCall(SamParametersAddReals(parameters, SamConditions[k].name, PETSC_TRUE, 1,
                                       SamControlPlace(&c->control, SAM_COMPONENTS + k)));
   PetscFunctionReturn(PETSC_SUCCESS);

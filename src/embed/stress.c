@@ -199,7 +199,7 @@ static PetscErrorCode ReadOptions(petsam_contact *c, const char options[], SamEv
 typedef struct {
   const Step *step;
   PetscInt    cells;
-  double (*bulk)[SAM_BULK_COMPONENTS];
+  double (*bulk)[SAM_BULK_AND_CASES];
 } Steps;
 
 static PetscErrorCode ReadStep(void *context, PetscInt step, SamStepField field, double values[])
@@ -221,8 +221,9 @@ static PetscErrorCode Compute(petsam_contact *c, const char options[], PetscInt 
   PetscCall(SamEvaluationSetElasticity(e, c->setup->elasticity, NULL, "-elasticity"));
   PetscCall(SamEvaluationGetBody(e, &body));
   for (PetscInt k = 0; k < n; k++)
-    for (int b = 0; b < SAM_BULK_COMPONENTS; b++)
-      steps->bulk[k][b] = (double)steps->step[k].control.bulk_stress[body - 1][b];
+    for (int b = 0; b < SAM_BULK_AND_CASES; b++)
+      steps->bulk[k][b] = (double)(b < SAM_BULK_COMPONENTS ? steps->step[k].control.bulk_stress[body - 1][b]
+                                                           : steps->step[k].control.cases[b - SAM_BULK_COMPONENTS]);
   PetscCall(SamEvaluationSetSource(
     e, &(SamEvaluationSource){.steps = n, .bulk = steps->bulk, .read = ReadStep, .context = steps}));
   PetscCall(SamEvaluationSetUp(e));

@@ -4,6 +4,7 @@
 PetscErrorCode SamEvaluationReadTractions(SamEvaluation e, PetscInt step, double *const to[SAM_STRESS_TRACTIONS])
 {
   PetscFunctionBegin;
+  PetscCall(PetscArraycpy(e->stress->cases, e->source.bulk[step] + SAM_BULK_COMPONENTS, SAM_CASES));
   for (PetscInt t = 0; t < SAM_STRESS_TRACTIONS; t++)
     PetscCall((*e->source.read)(e->source.context, step, (SamStepField)(SAM_STEP_PRESSURE + t), to[t]));
   PetscFunctionReturn(PETSC_SUCCESS);

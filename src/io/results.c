@@ -168,6 +168,13 @@ static PetscErrorCode Look(SamFile f, const void *question, void *answer)
     PetscCall(ExamineColumn(f, facts, SAM_BULK_CONDITION(0, n)->name,
                             &facts->bulk[n / SAM_BULK_COMPONENTS][n % SAM_BULK_COMPONENTS]));
   for (int n = 0; n < SAM_RESULTS_NUMBERS; n++) PetscCall(ExamineColumn(f, facts, numbers[n], &facts->number[n]));
+  for (PetscInt k = 0; k < facts->parameters.count; k++) { /* load cases are parameters, and columns */
+    const char *name = facts->parameters.list[k].name;
+    int         has  = 1;
+
+    if (strstr(name, "_case_") == name + 5) PetscCall(ExamineColumn(f, facts, name, &has));
+    CHECK(f, has, "it has no column %s", name);
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -330,12 +337,19 @@ static PetscErrorCode ReadNumber(SamResults r, const char column[], PetscInt ste
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamResultsReadBulkStress(SamResults r, PetscInt step, PetscInt body, double stress[SAM_BULK_COMPONENTS])
+PetscErrorCode SamResultsReadBulkStress(SamResults r, PetscInt step, PetscInt body, double stress[SAM_BULK_AND_CASES])
 {
   PetscFunctionBegin;
   for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++) {
     stress[k] = 0;
     if (r->facts.bulk[body][k]) PetscCall(ReadNumber(r, SAM_BULK_CONDITION(body, k)->name, step, &stress[k]));
+  }
+  for (PetscInt k = 0; k < SAM_CASES; k++) {
+    const char *name = SamConditions[SAM_CONDITION_CASE + k].name;
+
+    stress[SAM_BULK_COMPONENTS + k] = 0;
+    if (SamParametersFind(&r->facts.parameters, name))
+      PetscCall(ReadNumber(r, name, step, &stress[SAM_BULK_COMPONENTS + k]));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -25,6 +25,11 @@ static PetscErrorCode ReadRolling(SamSetup *s, const SamOptions *from)
   PetscCheck(!traits.periodic, from->comm, SAM_ERR_USER,
              "-%srolling steady: has no meaning with -%selasticity %s, whose contact has no leading edge",
              SamOptionsPrefix(from), SamOptionsPrefix(from), type);
+  PetscCheck(
+    !traits.patch, from->comm, SAM_ERR_USER,
+    "-%srolling steady: has no meaning with -body1_compliance or -body2_compliance, whose bodies have a place: "
+    "omit one of them",
+    SamOptionsPrefix(from));
   PetscCall(SamElasticityCreateRolling(bodies, &s->elasticity));
   PetscCall(SamElasticityDestroy(&bodies));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -37,6 +42,7 @@ static PetscErrorCode CreateProblem(SamSetup *s, const SamOptions *from)
   PetscCall(SamElasticityCreate(s->grid, &s->pair, &s->elasticity));
   PetscCall(SamElasticitySetOptionsPrefix(s->elasticity, from->prefix));
   PetscCall(SamElasticitySetFromOptions(s->elasticity));
+  PetscCall(SamElasticityAddCompliances(&s->elasticity, from));
   PetscCall(ReadRolling(s, from));
   PetscCall(SamProblemCreate(s->elasticity, &s->problem));
   PetscCall(SamProblemSetLawsFromOptions(s->problem, from));

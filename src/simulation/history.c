@@ -297,7 +297,7 @@ static void ListNames(const char *names[NAMES])
   for (SamWay way = SAM_BY_LOAD; way < SAM_WAYS; way++)
     for (PetscInt c = 0; c < SAM_COMPONENTS; c++)
       if (SamComponentNameOf(c, way)) names[n++] = SamComponentNameOf(c, way);
-  for (PetscInt k = 0; k < SAM_CONDITIONS; k++) names[n++] = SamConditions[k].name;
+  for (PetscInt k = 0; k < SAM_CONDITIONS && SamConditionIsUsed(k); k++) names[n++] = SamConditions[k].name;
   names[n] = NULL;
 }
 

@@ -307,6 +307,8 @@ PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamState state, con
   PetscCall(SumCells(problem, state, before, s, numbers));
   if (traits.steady) numbers[STORED_ENERGY] = NAN;                                      /* u_t is a velocity */
   if (traits.steady || SamControlRolled(&s->control) != 0) numbers[ENERGY_ERROR] = NAN; /* estimated at one place */
+  for (PetscInt k = 0; k < SAM_CASES; k++)
+    if (s->control.cases[k] != 0) numbers[STORED_ENERGY] = NAN; /* the displacements are not by the tractions alone */
   PetscCall(SamProblemAddEnergy(problem, state, s->pressure, s->displacement_z, &numbers[STORED_ENERGY]));
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_EDGES], 0, 0, 0, 0));
   numbers[EDGE_ACCEPTED] = 0;

@@ -25,6 +25,16 @@ const SamComponentName SamComponentNames[SAM_COMPONENTS] = {
     name, "m", "rolled distance of the load step along " axis, offsetof(SamControl, roll[k]), 0, SAM_RANGE_ANY, \
       PETSC_FALSE, PETSC_TRUE, 2 \
   }
+/* Names of load cases, which files give; until then none that could be given. */
+static char     case_names[SAM_CASES][sizeof("body1_case_") + SAM_CASE_NAME];
+static PetscInt cases_used = 0;
+
+#define CASE(k) \
+  { \
+    case_names[k], "1", "factor on a load case of a body", offsetof(SamControl, cases[k]), 0, SAM_RANGE_ANY, \
+      PETSC_TRUE, PETSC_FALSE, 3 + (k) \
+  }
+#define CASES(k) CASE(k), CASE((k) + 1), CASE((k) + 2), CASE((k) + 3)
 const SamCondition SamConditions[SAM_CONDITIONS] = {{"friction_scale", "1", "factor on the coefficient of friction",
                                                      offsetof(SamControl, friction_scale), 1, SAM_RANGE_NONNEGATIVE,
                                                      PETSC_FALSE, PETSC_FALSE, 0},
@@ -35,7 +45,29 @@ const SamCondition SamConditions[SAM_CONDITIONS] = {{"friction_scale", "1", "fac
                                                     BULK(2, SAM_BULK_YY, yy),
                                                     BULK(2, SAM_BULK_XY, xy),
                                                     ROLL("roll", 0, "x"),
-                                                    ROLL("roll_y", 1, "y")};
+                                                    ROLL("roll_y", 1, "y"),
+                                                    CASES(0),
+                                                    CASES(4),
+                                                    CASES(8),
+                                                    CASES(12)};
+
+PetscErrorCode SamControlAddCase(PetscInt body, const char name[], PetscInt *place, PetscBool *room)
+{
+  char own[sizeof(case_names[0])];
+
+  PetscFunctionBegin;
+  (void)snprintf(own, sizeof(own), "body%d_case_%s", (int)body + 1, name);
+  for (*place = 0; *place < cases_used && strcmp(case_names[*place], own); (*place)++) continue;
+  *room = *place < SAM_CASES ? PETSC_TRUE : PETSC_FALSE;
+  if (!*room || *place < cases_used) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscStrncpy(case_names[cases_used++], own, sizeof(own)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscBool SamConditionIsUsed(PetscInt k)
+{
+  return k < SAM_CONDITION_CASE + cases_used ? PETSC_TRUE : PETSC_FALSE;
+}
 
 const char *SamUnitOn(SamGrid grid, const char unit[])
 {
@@ -144,7 +176,7 @@ PetscErrorCode SamControlReadCondition(const SamOptions *from, PetscInt k, SamCo
 
   PetscFunctionBegin;
   *set = PETSC_FALSE;
-  if (!condition->option) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!condition->option || !SamConditionIsUsed(k)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscSNPrintf(text, sizeof(text), "%s (%s)", condition->text, condition->unit));
   PetscCall(
     SamOptionsReal(from, condition->name, text, condition->range, SamControlPlace(control, SAM_COMPONENTS + k), set));

@@ -71,7 +71,7 @@ static PetscErrorCode Read(void *context, PetscInt step, SamStepField field, dou
   return 0;
 }
 
-static void GiveSteps(SamEvaluation e, Given *given, const double bulk[][SAM_BULK_COMPONENTS])
+static void GiveSteps(SamEvaluation e, Given *given, const double bulk[][SAM_BULK_AND_CASES])
 {
   sam_call(SamEvaluationSetSource(e, &(SamEvaluationSource){.steps = 2, .bulk = bulk, .read = Read, .context = given}));
 }
@@ -121,12 +121,12 @@ static int IsMap(SamElasticity elasticity, const Kept *kept, int step, Vec press
 
 static void test_steps_have_the_stresses_of_their_tractions(void **state)
 {
-  const PetscReal depths[2]                    = {0, 1e-4};
-  const PetscBool wants[SAM_QUANTITIES]        = {[SAM_QUANTITY_STRESS] = PETSC_TRUE, [SAM_QUANTITY_SWT] = PETSC_TRUE};
-  Sphere          s                            = NewSphereOf(NewPair(210e9, 0.3, 70e9, 0.2), 24, 1.5);
-  const double    bulk[2][SAM_BULK_COMPONENTS] = {{3e7}, {3e7}};
-  Kept            kept                         = {.grid = s.grid};
-  Given           given                        = {.grid = s.grid};
+  const PetscReal depths[2]                   = {0, 1e-4};
+  const PetscBool wants[SAM_QUANTITIES]       = {[SAM_QUANTITY_STRESS] = PETSC_TRUE, [SAM_QUANTITY_SWT] = PETSC_TRUE};
+  Sphere          s                           = NewSphereOf(NewPair(210e9, 0.3, 70e9, 0.2), 24, 1.5);
+  const double    bulk[2][SAM_BULK_AND_CASES] = {{3e7}, {3e7}};
+  Kept            kept                        = {.grid = s.grid};
+  Given           given                       = {.grid = s.grid};
   SamEvaluation   e;
   SamLargest      largest;
 
@@ -157,10 +157,10 @@ static void test_steps_have_the_stresses_of_their_tractions(void **state)
 static void test_settings_that_cannot_be_are_refused(void **state)
 {
   const PetscReal wrong[2] = {1e-4, 0}, little = 1e-15;
-  const PetscBool ruiz[SAM_QUANTITIES]         = {[SAM_QUANTITY_RUIZ] = PETSC_TRUE};
-  Sphere          s                            = NewSphereOf(NewPair(210e9, 0.3, 210e9, 0.3), 24, 1.5);
-  const double    bulk[2][SAM_BULK_COMPONENTS] = {{0}};
-  Given           given                        = {.grid = s.grid};
+  const PetscBool ruiz[SAM_QUANTITIES]        = {[SAM_QUANTITY_RUIZ] = PETSC_TRUE};
+  Sphere          s                           = NewSphereOf(NewPair(210e9, 0.3, 210e9, 0.3), 24, 1.5);
+  const double    bulk[2][SAM_BULK_AND_CASES] = {{0}};
+  Given           given                       = {.grid = s.grid};
   SamEvaluation   e;
 
   (void)state;

@@ -86,6 +86,8 @@ PETSC_EXTERN PetscErrorCode SamElasticitySetInner(SamElasticity elasticity, SamE
 */
 PETSC_EXTERN PetscErrorCode SamElasticityCreateLike(SamElasticity parent, SamGrid grid, const PetscInt first[2],
                                                     SamElasticity *child);
+/* SamElasticityWrap - an object of a type that adds to these bodies, in the place of its own inner one. Collective. */
+PETSC_EXTERN PetscErrorCode SamElasticityWrap(SamElasticity bodies, SamElasticityType type, SamElasticity *outer);
 /* The object that has a method: this one, or one within. */
 #define SamElasticityWith(e, method) \
   while (!(e)->ops.method && (e)->inner) (e) = (e)->inner
@@ -99,5 +101,9 @@ PETSC_EXTERN PetscErrorCode SamElasticityCreate_Periodic(SamElasticity elasticit
 PETSC_EXTERN PetscErrorCode SamElasticityCreate_Plane(SamElasticity elasticity);
 PETSC_EXTERN PetscErrorCode SamElasticityCreate_PlanePeriodic(SamElasticity elasticity);
 PETSC_EXTERN PetscErrorCode SamElasticityCreate_Rolling(SamElasticity elasticity);
+PETSC_EXTERN PetscErrorCode SamElasticityCreate_Compliance(SamElasticity elasticity);
+/* SamElasticityAddRecordedCompliances - as SamElasticityAddCompliances(), from a record; `source` names it. */
+PETSC_EXTERN PetscErrorCode SamElasticityAddRecordedCompliances(SamElasticity *elasticity, const SamParameters *p,
+                                                                const char source[]);
 
 #endif

@@ -32,7 +32,7 @@ typedef struct {
   SamEvaluation    evaluation;
   PetscInt         steps, *saved;
   PetscReal       *times;
-  double (*bulk)[SAM_BULK_COMPONENTS]; /* bulk stress of the body in each step, Pa */
+  double (*bulk)[SAM_BULK_AND_CASES]; /* bulk stress of the body (Pa) and factors on load cases in each step */
   PetscBool      quiet, writing;
   PetscLogDouble start, told; /* when the computation began, and the last line was printed, s */
 

@@ -1,0 +1,494 @@
+/*
+  Finite bodies: what a body's shape and its supports add to the half-space, or to a layered one, is smooth, and a
+  matrix D of low rank on polynomials phi_i over a patch (private/compliance.h). To the displacement by the tractions t
+
+    c_j = sum over cells of t times the integral of phi_j,    u = sum phi_i (D c)_i, its mean over each cell
+
+  is added. Polynomials are known on every grid, coarse ones and parts too, so that nothing is transferred; they are
+  products, of which only the factors' means over columns and rows of cells are stored. Outside of the patch they keep
+  their values at its border, and contact there is refused. Each row of cells is summed in an order that its traction
+  alone determines, and the rows' sums are added exactly: the bits do not depend on the number of ranks.
+
+  A cell's influence on itself is that of the half-space: D adds a part of the order of the cell's area to the patch's.
+
+  Body 1 is turned about x by half a turn into its place: y and z change their signs, nothing else does. It bears -t,
+  and u is of body 2 less body 1, so that both bodies add.
+*/
+#include <petsam/private/compliance.h>
+#include <math.h>
+#include <petscdt.h>
+#include <string.h>
+
+enum { TOGETHER = 4, FACTORS = SAM_COMPLIANCE_DEGREE + TOGETHER };
+
+static const double turned[2][3] = {{1, -1, -1}, {1, 1, 1}};
+
+typedef struct {
+  SamCompliance of[2]; /* NULL: that body is all half-space */
+  double *along[2][2]; /* in x and y: the mean of polynomial a over cell i at a cells + i, zeros behind the last */
+} Bodies;
+
+/* The components that a product takes, or makes: z, or x and y. */
+typedef enum { NORMAL, TANGENTIAL } Kind;
+static const PetscInt first_of[] = {2, 0}, count_of[] = {1, 2};
+
+typedef double Coefficients[3][SAM_COMPLIANCE_MODES];
+
+/* ---- the polynomials ---- */
+
+void SamComplianceMeans(SamCompliance c, PetscInt axis, double from, double to, double means[])
+{
+  enum { POINTS = SAM_COMPLIANCE_DEGREE / 2 + 1 };
+  PetscReal x[POINTS], w[POINTS];
+
+  (void)PetscDTGaussQuadrature(POINTS, -1, 1, x, w);
+  for (PetscInt a = 0; a <= c->degree; a++) means[a] = 0;
+  for (PetscInt k = 0; k < POINTS; k++) {
+    const double at = 0.5 * (from + to) + 0.5 * (to - from) * x[k];
+    const double s  = PetscMin(PetscMax((at - c->center[axis]) / c->half[axis], -1), 1);
+    double       p = 1, before = 0;
+
+    for (PetscInt a = 0; a <= c->degree; a++) {
+      const double next = ((2 * a + 1) * s * p - a * before) / (a + 1);
+
+      means[a] += 0.5 * w[k] * sqrt((a + 0.5) / c->half[axis]) * p;
+      before = p;
+      p      = next;
+    }
+  }
+}
+
+static PetscErrorCode SetUp(SamElasticity e)
+{
+  Bodies *const  data    = (Bodies *)e->data;
+  const PetscInt n[2]    = {e->grid->nx, e->grid->ny};
+  const double   side[2] = {e->grid->dx, e->grid->dy};
+  double         means[FACTORS];
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < 4; k++) {
+    const PetscInt      b = k / 2, axis = k % 2;
+    const SamCompliance c = data->of[b];
+
+    if (!c) continue;
+    PetscCall(PetscCalloc1((c->degree + TOGETHER) * n[axis], &data->along[b][axis]));
+    for (PetscInt i = 0; i < n[axis]; i++) {
+      const double x = turned[b][axis] * (axis ? SamGridY(e->grid, i) : SamGridX(e->grid, i));
+
+      SamComplianceMeans(c, axis, x - 0.5 * side[axis], x + 0.5 * side[axis], means);
+      for (PetscInt a = 0; a <= c->degree; a++) data->along[b][axis][a * n[axis] + i] = means[a];
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- sums and displacements of rows ---- */
+
+/*
+  The sums over n cells of a row, times each of the polynomials in x, and the sum of these times coefficients added to a
+  row: four at once, with zeros behind the last; of fields in double and in single precision.
+*/
+#define ROWS(Sum, Add, Real) \
+  SAM_VECTORIZED static void Sum(PetscInt n, PetscInt factors, const Real *restrict t, const double *table, \
+                                 double sums[]) \
+  { \
+    PetscInt first = 0, last = n; \
+\
+    while (first < n && t[first] == 0) first++; \
+    while (last > first && t[last - 1] == 0) last--; \
+    for (PetscInt a = 0; a < factors; a += TOGETHER) { \
+      const double *restrict p0 = table + (ptrdiff_t)a * n, *restrict p1 = p0 + n, *restrict p2 = p1 + n, \
+                             *restrict p3 = p2 + n; \
+      double s0 = 0, s1 = 0, s2 = 0, s3 = 0; \
+\
+      _Pragma("omp simd reduction(+ : s0, s1, s2, s3)") for (PetscInt i = first; i < last; i++) \
+      { \
+        const double x = (double)t[i]; \
+\
+        s0 += x * p0[i]; \
+        s1 += x * p1[i]; \
+        s2 += x * p2[i]; \
+        s3 += x * p3[i]; \
+      } \
+      sums[a] = s0, sums[a + 1] = s1, sums[a + 2] = s2, sums[a + 3] = s3; \
+    } \
+  } \
+  SAM_VECTORIZED static void Add(PetscInt n, PetscInt factors, const double *table, const double of[], \
+                                 Real *restrict u) \
+  { \
+    for (PetscInt a = 0; a < factors; a += TOGETHER) { \
+      const double *restrict p0 = table + (ptrdiff_t)a * n, *restrict p1 = p0 + n, *restrict p2 = p1 + n, \
+                             *restrict p3 = p2 + n; \
+      const double c0 = of[a], c1 = of[a + 1], c2 = of[a + 2], c3 = of[a + 3]; \
+\
+      _Pragma("omp simd") for (PetscInt i = 0; i < n; i++) u[i] = \
+        (Real)((double)u[i] + (c0 * p0[i] + c1 * p1[i] + c2 * p2[i] + c3 * p3[i])); \
+    } \
+  }
+ROWS(SumRow, AddRow, double)
+ROWS(SumRowSingle, AddRowSingle, float)
+
+/* The factor in y of polynomial m of body b in this rank's row j. */
+#define ALONG_Y(e, b, m, j) \
+  ((const Bodies *)(e)->data)->along[b][1][(ptrdiff_t)of->power[m][1] * (e)->grid->ny + (e)->grid->row_start + (j)]
+
+/* c of body b, in its own frame, from this rank's part of it in that of the contact. */
+static PetscErrorCode Total(SamElasticity e, SamCompliance of, Kind in, const SamTotal part[], Coefficients c)
+{
+  PetscFunctionBegin;
+  for (PetscInt l = first_of[in]; l < first_of[in] + count_of[in]; l++, part += of->modes)
+    for (PetscInt m = 0; m < of->modes; m += SAM_TOTALS) {
+      const PetscInt count = PetscMin(SAM_TOTALS, of->modes - m);
+
+      PetscCall(SamSumTotals(e->grid->comm, count, part + m, c[l] + m));
+      for (PetscInt k = m; k < m + count; k++) c[l][k] *= turned[of->body][l] * e->grid->dx * e->grid->dy;
+    }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* c of a body by tractions. */
+#define COLLECT(Name, Real, Sum) \
+  static PetscErrorCode Name(SamElasticity e, SamCompliance of, Kind in, const Real *const t[], Coefficients c) \
+  { \
+    const PetscInt nx = e->grid->nx, b = of->body; \
+    SamTotal       part[2 * SAM_COMPLIANCE_MODES] = {{0}}; \
+    double         sums[FACTORS]; \
+\
+    PetscFunctionBegin; \
+    for (PetscInt n = 0; n < e->grid->rows * count_of[in]; n++) { \
+      const PetscInt j = n / count_of[in], k = n % count_of[in]; \
+\
+      Sum(nx, of->degree + 1, t[k] + (ptrdiff_t)j * nx, ((const Bodies *)e->data)->along[b][0], sums); \
+      for (PetscInt m = 0; m < of->modes; m++) \
+        SamAdd(&part[k * of->modes + m], sums[of->power[m][0]] * ALONG_Y(e, b, m, j)); \
+    } \
+    PetscCall(Total(e, of, in, part, c)); \
+    PetscFunctionReturn(PETSC_SUCCESS); \
+  }
+COLLECT(Collect, double, SumRow)
+COLLECT(CollectSingle, float, SumRowSingle)
+
+PetscErrorCode SamComplianceCollect(SamElasticity e, SamCompliance c, const double *const tractions[],
+                                    double sums[3][SAM_COMPLIANCE_MODES])
+{
+  PetscFunctionBegin;
+  PetscCall(SamElasticitySetUp(e));
+  PetscCall(Collect(e, c, NORMAL, tractions, sums));
+  PetscCall(Collect(e, c, TANGENTIAL, tractions + 1, sums));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* D c, turned into the contact's frame. */
+static void Multiply(SamCompliance of, Kind in, Kind out, double factor, const Coefficients c, Coefficients d)
+{
+  for (PetscInt k = first_of[out]; k < first_of[out] + count_of[out]; k++)
+    for (PetscInt m = 0; m < of->modes; m++) {
+      double total = 0;
+
+      for (PetscInt l = first_of[in]; l < first_of[in] + count_of[in]; l++)
+        for (PetscInt n = 0; n < of->modes; n++) total += of->matrix[k][m][l][n] * c[l][n];
+      d[k][m] = factor * turned[of->body][k] * total;
+    }
+}
+
+/* The coefficients of the displacements of both bodies by tractions. */
+#define DISPLACE(e, collect, in, out, factor, t, d) \
+  for (PetscInt b = 0; b < 2; b++) { \
+    const SamCompliance of = ((const Bodies *)(e)->data)->of[b]; \
+    Coefficients        c; \
+\
+    if (!of) continue; \
+    PetscCall(collect(e, of, in, t, c)); \
+    Multiply(of, in, out, factor, (const double(*)[SAM_COMPLIANCE_MODES])c, (d)[b]); \
+  }
+
+/* Adds polynomials with the coefficients of both bodies to displacements. */
+#define SPREAD(Name, Real, Add) \
+  static void Name(SamElasticity e, Kind out, Coefficients d[2], Real *const u[]) \
+  { \
+    const Bodies  *data = (const Bodies *)e->data; \
+    const PetscInt nx   = e->grid->nx; \
+\
+    for (PetscInt b = 0; b < 2; b++) { \
+      const SamCompliance of = data->of[b]; \
+\
+      for (PetscInt n = 0; of && n < e->grid->rows * count_of[out]; n++) { \
+        const PetscInt j = n / count_of[out], k = n % count_of[out]; \
+        double         sums[FACTORS] = {0}; \
+\
+        for (PetscInt m = 0; m < of->modes; m++) \
+          sums[of->power[m][0]] += d[b][first_of[out] + k][m] * ALONG_Y(e, b, m, j); \
+        Add(nx, of->degree + 1, data->along[b][0], sums, u[k] + (ptrdiff_t)j * nx); \
+      } \
+    } \
+  }
+SPREAD(Spread, double, AddRow)
+SPREAD(SpreadSingle, float, AddRowSingle)
+
+/* ---- products ---- */
+
+typedef PetscErrorCode (*Method)(SamElasticity, const double *const[], double *const[]);
+
+/* `method` NULL: the half-spaces have no such coupling. */
+static PetscErrorCode Apply(SamElasticity e, SamElasticity inner, Method method, Kind in, Kind out,
+                            const double *const t[], double *const u[])
+{
+  Coefficients d[2];
+
+  PetscFunctionBegin;
+  DISPLACE(e, Collect, in, out, 1, t, d);
+  if (method)
+    PetscCall((*method)(inner, t, u));
+  else
+    for (PetscInt k = 0; k < count_of[out]; k++) PetscCall(PetscArrayzero(u[k], e->grid->cells));
+  Spread(e, out, d, u);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+#define PRODUCT(Name, method, in, out, has) \
+  static PetscErrorCode Name(SamElasticity e, const double *const t[], double *const u[]) \
+  { \
+    SamElasticity inner = e->inner; \
+\
+    PetscFunctionBegin; \
+    SamElasticityWith(inner, method); \
+    PetscCall(Apply(e, inner, (has) ? inner->ops.method : NULL, in, out, t, u)); \
+    PetscFunctionReturn(PETSC_SUCCESS); \
+  }
+PRODUCT(ApplyNormal, applynormal, NORMAL, NORMAL, PETSC_TRUE)
+PRODUCT(ApplyTangential, applytangential, TANGENTIAL, TANGENTIAL, PETSC_TRUE)
+PRODUCT(ApplyNormalToTangential, applynormaltotangential, NORMAL, TANGENTIAL, e->inner->traits.coupled)
+PRODUCT(ApplyTangentialToNormal, applytangentialtonormal, TANGENTIAL, NORMAL, e->inner->traits.coupled)
+
+#define PRODUCT_SINGLE(Name, method, kind) \
+  static PetscErrorCode Name(SamElasticity e, double factor, const float *const t[], float *const u[]) \
+  { \
+    SamElasticity inner = e->inner; \
+    Coefficients  d[2]; \
+\
+    PetscFunctionBegin; \
+    SamElasticityWith(inner, method); \
+    DISPLACE(e, CollectSingle, kind, kind, factor, t, d); \
+    PetscCall((*inner->ops.method)(inner, factor, t, u)); \
+    SpreadSingle(e, kind, d, u); \
+    PetscFunctionReturn(PETSC_SUCCESS); \
+  }
+PRODUCT_SINGLE(ApplyNormalSingle, applynormalsingle, NORMAL)
+PRODUCT_SINGLE(ApplyTangentialSingle, applytangentialsingle, TANGENTIAL)
+
+/* ---- load cases ---- */
+
+PetscErrorCode SamElasticityAddCases(SamElasticity e, const SamControl *control, PetscBool tangential, Vec field)
+{
+  const Kind   kind = tangential ? TANGENTIAL : NORMAL;
+  Coefficients d[2];
+  double      *u;
+
+  PetscFunctionBegin;
+  if (strcmp(e->type, SAM_ELASTICITY_COMPLIANCE)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamElasticitySetUp(e));
+  PetscCall(PetscMemzero(d, sizeof(d)));
+  for (PetscInt b = 0; b < 2; b++) {
+    const SamCompliance c = ((const Bodies *)e->data)->of[b];
+
+    for (PetscInt l = 0; c && l < c->cases; l++)
+      for (PetscInt k = 0; k < 3; k++)
+        for (PetscInt m = 0; m < c->modes; m++)
+          d[b][k][m] += (b ? 1 : -1) * turned[b][k] * control->cases[c->slot[l]] * c->field[l][k][m];
+  }
+  PetscCall(VecGetArray(field, &u));
+  Spread(e, kind, d, (double *const[]){u, u + e->grid->cells});
+  PetscCall(VecRestoreArray(field, &u));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the type ---- */
+
+static const char *const names[] = {"body1_compliance", "body2_compliance"};
+static const char *const files[] = {"body1_compliance_file", "body2_compliance_file"};
+
+static PetscErrorCode Inherit(SamElasticity parent, SamElasticity child)
+{
+  for (PetscInt b = 0; b < 2; b++) {
+    const SamCompliance c = ((const Bodies *)parent->data)->of[b];
+
+    ((Bodies *)child->data)->of[b] = c;
+    if (c) c->references++;
+  }
+  return PETSC_SUCCESS;
+}
+
+/* With the file's full name, by which other programs find it. */
+static PetscErrorCode AddParameters(SamElasticity e, SamParameters *p)
+{
+  char path[PETSC_MAX_PATH_LEN];
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < 2; b++) {
+    const SamCompliance c = ((const Bodies *)e->data)->of[b];
+
+    if (!c) continue;
+    PetscCall(SamParametersAddChecksum(p, names[b], c->checksum));
+    PetscCall(PetscGetFullPath(c->file, path, sizeof(path)));
+    PetscCall(SamParametersAddText(p, files[b], PETSC_FALSE, path));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode CreateStress(SamElasticity e, PetscInt body, const SamFourierSettings *settings,
+                                   SamStress *stress)
+{
+  const SamCompliance c     = ((const Bodies *)e->data)->of[body - 1];
+  SamElasticity       inner = e->inner;
+
+  PetscFunctionBegin;
+  SamElasticityWith(inner, createstress);
+  PetscCall((*inner->ops.createstress)(inner, body, settings, stress));
+  if (c) PetscCall(SamComplianceAddStress(e, c, *stress));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Destroy(SamElasticity e)
+{
+  Bodies *data = (Bodies *)e->data;
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < 2; b++) {
+    PetscCall(SamComplianceDestroy(&data->of[b]));
+    PetscCall(PetscFree(data->along[b][0]));
+    PetscCall(PetscFree(data->along[b][1]));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticityCreate_Compliance(SamElasticity e)
+{
+  Bodies *data;
+
+  PetscFunctionBegin;
+  PetscCall(PetscNew(&data));
+  e->data = data;
+  e->ops  = (SamElasticityOps){.inherit                 = Inherit,
+                               .setup                   = SetUp,
+                               .addparameters           = AddParameters,
+                               .destroy                 = Destroy,
+                               .applynormal             = ApplyNormal,
+                               .applytangential         = ApplyTangential,
+                               .applynormalsingle       = ApplyNormalSingle,
+                               .applytangentialsingle   = ApplyTangentialSingle,
+                               .createstress            = CreateStress,
+                               .applynormaltotangential = ApplyNormalToTangential,
+                               .applytangentialtonormal = ApplyTangentialToNormal};
+  PetscCall(SamElasticitySetInner(e, SAM_ELASTICITY_HALFSPACE));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Whether the body's normal and tangential directions are coupled, or its load cases displace the surfaces. */
+static PetscBool Couples(SamCompliance c)
+{
+  double most = 0;
+
+  for (PetscInt k = 0; k < 2 * c->modes; k++)
+    for (PetscInt m = 0; m < c->modes; m++) most = PetscMax(most, fabs(c->matrix[k % 2][k / 2][2][m]));
+  return most > 0 || c->cases ? PETSC_TRUE : PETSC_FALSE;
+}
+
+/* Notes the cells that reach beyond the body's patch. */
+static PetscErrorCode NotePatch(SamElasticity e, const SamOptions *from, SamCompliance c)
+{
+  const PetscInt n[2]    = {e->grid->nx, e->grid->ny};
+  const double   side[2] = {e->grid->dx, e->grid->dy};
+
+  PetscFunctionBegin;
+  for (PetscInt axis = 0; axis < 2; axis++) {
+    PetscInt *const outside = e->traits.outside[axis];
+    const double    middle = turned[c->body][axis] * c->center[axis], half = c->half[axis] + 1e-6 * side[axis],
+                 begin = e->grid->center[axis] - 0.5 * e->grid->width[axis];
+    const double low = ceil((middle - half - begin) / side[axis]), high = floor((middle + half - begin) / side[axis]);
+
+    PetscCheck(low < high && high > 0 && low < (double)n[axis], from->comm, SAM_ERR_USER,
+               "-%sbody%" PetscInt_FMT "_compliance %s: its patch, %.6g m to %.6g m in %s, holds no cell of the grid: "
+               "give another -grid_center or -grid_size",
+               SamOptionsPrefix(from), c->body + 1, c->file, middle - c->half[axis], middle + c->half[axis],
+               axis ? "y" : "x");
+    outside[0] = PetscMax(outside[0], (PetscInt)PetscMax(low, 0));
+    outside[1] = PetscMax(outside[1], n[axis] - (PetscInt)PetscMin(high, (double)n[axis]));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The kernel to which the compliance is added must be the one from which it was computed. */
+static PetscErrorCode CheckConstants(SamElasticity e, const SamOptions *from, SamCompliance c)
+{
+  const double young = (double)e->pair.young[c->body], poisson = (double)e->pair.poisson[c->body];
+
+  PetscFunctionBegin;
+  PetscCheck(young == c->young || fabs(young - c->young) <= 1e-6 * c->young, from->comm, SAM_ERR_USER,
+             "-%sbody%" PetscInt_FMT "_compliance %s: is of a body with young %.10g, not %.10g: make them equal",
+             SamOptionsPrefix(from), c->body + 1, c->file, c->young, young);
+  PetscCheck(isinf(young) || fabs(poisson - c->poisson) <= 1e-6, from->comm, SAM_ERR_USER,
+             "-%sbody%" PetscInt_FMT "_compliance %s: is of a body with poisson %.10g, not %.10g: make them equal",
+             SamOptionsPrefix(from), c->body + 1, c->file, c->poisson, poisson);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Adds the compliance of body b, from a file that `option` names. */
+static PetscErrorCode Add(SamElasticity *elasticity, const SamOptions *from, PetscInt b, const char option[],
+                          const char file[])
+{
+  SamElasticity e = *elasticity;
+  SamCompliance c;
+
+  PetscFunctionBegin;
+  PetscCheck(!e->traits.periodic, from->comm, SAM_ERR_USER,
+             "-%s%s: has no meaning with -%selasticity %s, whose bodies have no borders", SamOptionsPrefix(from),
+             option, SamOptionsPrefix(from), e->type);
+  if (!e->traits.patch) {
+    PetscCall(SamElasticityWrap(*elasticity, SAM_ELASTICITY_COMPLIANCE, &e));
+    PetscCall(SamElasticityDestroy(elasticity));
+    *elasticity     = e;
+    e->traits.patch = PETSC_TRUE;
+  }
+  PetscCall(SamComplianceRead(from->comm, b, option, file, &c));
+  ((Bodies *)e->data)->of[b] = c;
+  PetscCall(CheckConstants(e, from, c));
+  PetscCall(NotePatch(e, from, c));
+  if (Couples(c)) e->traits.coupled = PETSC_TRUE;
+  for (PetscInt l = 0; l < c->cases; l++) e->traits.cases[c->slot[l]] = PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticityAddCompliances(SamElasticity *elasticity, const SamOptions *from)
+{
+  PetscBool help, given;
+  char      file[PETSC_MAX_PATH_LEN] = "";
+
+  PetscFunctionBegin;
+  PetscCall(SamPrintHelp(&help));
+  for (PetscInt b = 0; b < 2; b++) SamOptionsKnow(from, names[b], NULL);
+  for (PetscInt b = 0; b < 2; b++) {
+    PetscCall(SamOptionsFile(from, names[b], "HDF5 file of the body's own compliance, by petsam-compliance", file,
+                             sizeof(file), &given));
+    if (given && !help) PetscCall(Add(elasticity, from, b, names[b], file));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticityAddRecordedCompliances(SamElasticity *elasticity, const SamParameters *p,
+                                                   const char source[])
+{
+  const SamOptions from = {(*elasticity)->grid->comm, NULL};
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < 2; b++) {
+    const SamParameter *sum = SamParametersFind(p, names[b]), *file = SamParametersFind(p, files[b]);
+    SamParameters       own = {.count = 0};
+
+    if (!sum || !file) continue;
+    PetscCall(Add(elasticity, &from, b, names[b], file->text));
+    PetscCall(SamParametersAddChecksum(&own, "", ((const Bodies *)(*elasticity)->data)->of[b]->checksum));
+    PetscCheck(!strcmp(own.list[0].text, sum->text), from.comm, SAM_ERR_FILE,
+               "%s: -%s %s has changed since: bring back that file", source, names[b], file->text);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,142 @@
+/*
+  Whether a body's compliance is positive: that of the half-space is, and so is the exact one of the body, but the sum
+  of the half-space and a projection need not be.
+
+  With K of the half-space on cells, Phi the polynomials' means (modes, cells), A the area of a cell and G =
+  A Phi K^-1 Phi', the eigenvalues of K + A Phi'D Phi relative to K are 1 and 1 + those of D G.
+*/
+#include <petsam/private/compliance.h>
+#include <petsam/private/halfspace.h>
+#include <math.h>
+#include <petscksp.h>
+
+enum { SIDE = 20, CELLS = SIDE * SIDE, UNKNOWNS = 3 * CELLS };
+
+/* From traction `from` on a cell to displacement `to` >= `from` of the one (i, j) cells farther on. */
+static double Influence(const SamPair *pair, int to, int from, const double d[2], PetscInt i, PetscInt j)
+{
+#define OF(integral) SamIntegralCell(SAM_INTEGRAL_##integral, d[0], d[1], i, j)
+  if (to == 2 && from == 2) return pair->normal * OF(R);
+  if (to == 2) return -pair->coupling * (from ? OF(Y) : OF(X));
+  if (to != from) return pair->shear_xx * OF(XY);
+  return pair->shear * OF(R) + pair->shear_xx * (to ? OF(YY) : OF(XX));
+#undef OF
+}
+
+/* The lower triangle of K of the half-space under a rigid body, by columns. */
+static PetscErrorCode Fill(SamCompliance c, const double d[2], double matrix[])
+{
+  enum { LAGS = 2 * SIDE, TABLE = LAGS * LAGS };
+  const PetscReal young[2] = {INFINITY, c->young}, poisson[2] = {0, c->poisson};
+  double         *table;
+  SamPair         pair;
+
+  PetscFunctionBegin;
+  PetscCall(SamPairSet(&pair, young, poisson));
+  PetscCall(PetscMalloc1(9 * TABLE, &table));
+  for (int k = 0; k < 9 * TABLE; k++)
+    table[k] = Influence(&pair, k / TABLE / 3, k / TABLE % 3, d, k % LAGS - SIDE, k % TABLE / LAGS - SIDE);
+  for (int column = 0; column < UNKNOWNS; column++)
+    for (int row = column; row < UNKNOWNS; row++) {
+      const int from = column % CELLS, to = row % CELLS, i = to % SIDE - from % SIDE, j = to / SIDE - from / SIDE;
+
+      matrix[column * UNKNOWNS + row] =
+        table[(row / CELLS * 3 + column / CELLS) * TABLE + (j + SIDE) * LAGS + i + SIDE];
+    }
+  PetscCall(PetscFree(table));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Phi', by columns: polynomial m of direction a is column a modes + m. */
+static void FillMeans(SamCompliance c, const double d[2], double means[])
+{
+  double along[2][SIDE][SAM_COMPLIANCE_DEGREE + 1];
+
+  for (PetscInt k = 0; k < 2 * SIDE; k++) {
+    const double from = c->center[k / SIDE] - c->half[k / SIDE] + (double)(k % SIDE) * d[k / SIDE];
+
+    SamComplianceMeans(c, k / SIDE, from, from + d[k / SIDE], along[k / SIDE][k % SIDE]);
+  }
+  for (PetscInt a = 0; a < 3; a++)
+    for (PetscInt m = 0; m < c->modes; m++)
+      for (PetscInt k = 0; k < CELLS; k++)
+        means[(a * c->modes + m) * UNKNOWNS + a * CELLS + k] =
+          along[0][k % SIDE][c->power[m][0]] * along[1][k / SIDE][c->power[m][1]];
+}
+
+/* The compliance of the tractions on the cells relative to the half-space's, less the identity: D G. */
+static PetscErrorCode CreateRelative(SamCompliance c, Mat d, PetscInt n, Mat *relative)
+{
+  const double side[2] = {2 * c->half[0] / SIDE, 2 * c->half[1] / SIDE};
+  Mat          matrix, means, solved, g;
+  double      *values;
+
+  PetscFunctionBegin;
+  PetscCall(MatCreateSeqDense(PETSC_COMM_SELF, UNKNOWNS, UNKNOWNS, NULL, &matrix));
+  PetscCall(MatCreateSeqDense(PETSC_COMM_SELF, UNKNOWNS, n, NULL, &means));
+  PetscCall(MatDenseGetArray(matrix, &values));
+  PetscCall(Fill(c, side, values));
+  PetscCall(MatDenseRestoreArray(matrix, &values));
+  PetscCall(MatDenseGetArray(means, &values));
+  FillMeans(c, side, values);
+  PetscCall(MatDenseRestoreArray(means, &values));
+  PetscCall(MatDuplicate(means, MAT_DO_NOT_COPY_VALUES, &solved));
+  PetscCall(MatSetOption(matrix, MAT_SPD, PETSC_TRUE));
+  PetscCall(MatCholeskyFactor(matrix, NULL, NULL));
+  PetscCall(MatMatSolve(matrix, means, solved));
+  PetscCall(MatTransposeMatMult(means, solved, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &g));
+  PetscCall(MatScale(g, side[0] * side[1]));
+  PetscCall(MatMatMult(d, g, MAT_INITIAL_MATRIX, PETSC_DEFAULT, relative));
+  PetscCall(MatDestroy(&g));
+  PetscCall(MatDestroy(&solved));
+  PetscCall(MatDestroy(&means));
+  PetscCall(MatDestroy(&matrix));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The smallest of the real eigenvalues of a matrix of order n. */
+static PetscErrorCode FindSmallest(Mat matrix, PetscInt n, double *least)
+{
+  double *real, *imaginary;
+  KSP     ksp;
+  PC      pc;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(n, &real, n, &imaginary));
+  PetscCall(KSPCreate(PETSC_COMM_SELF, &ksp));
+  PetscCall(KSPSetOperators(ksp, matrix, matrix));
+  PetscCall(KSPGetPC(ksp, &pc));
+  PetscCall(PCSetType(pc, PCNONE));
+  PetscCall(KSPSetUp(ksp));
+  PetscCall(KSPComputeEigenvaluesExplicitly(ksp, n, real, imaginary));
+  *least = real[0];
+  for (PetscInt k = 1; k < n; k++) *least = PetscMin(*least, real[k]);
+  PetscCall(KSPDestroy(&ksp));
+  PetscCall(PetscFree2(real, imaginary));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamComplianceLeast(SamCompliance c, double *least)
+{
+  const PetscInt n = 3 * c->modes;
+  double        *values, most = 0;
+  Mat            d, relative  = NULL;
+
+  PetscFunctionBegin;
+  PetscCall(MatCreateSeqDense(PETSC_COMM_SELF, n, n, NULL, &d));
+  PetscCall(MatDenseGetArray(d, &values));
+  for (PetscInt k = 0; k < n * n; k++) {
+    values[k] = c->matrix[k % n / c->modes][k % c->modes][k / n / c->modes][k / n % c->modes];
+    most      = PetscMax(most, fabs(values[k]));
+  }
+  PetscCall(MatDenseRestoreArray(d, &values));
+  if (!isinf(c->young)) PetscCall(CreateRelative(c, d, n, &relative));
+  PetscCall(FindSmallest(relative ? relative : d, n, least));
+  if (relative)
+    *least += 1;
+  else if (*least > -1e-9 * most)
+    *least = 0;
+  PetscCall(MatDestroy(&relative));
+  PetscCall(MatDestroy(&d));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,247 @@
+/* Reading a body's compliance; the whole of it is read where the file is examined, in a child process. */
+#include <petsam/control.h>
+#include <petsam/private/compliance.h>
+#include <petsam/private/file.h>
+#include <ctype.h>
+#include <math.h>
+#include <string.h>
+
+#define RANK 6 /* most dimensions of what is read */
+
+/* `size` 0 in a dimension: any number up to `most`, which it becomes. */
+typedef struct {
+  int     rank;
+  hsize_t size[RANK], most;
+} Shape;
+
+/* Reads a dataset of finite numbers. */
+static PetscErrorCode ReadNumbers(SamFile f, const char name[], Shape *shape, double values[])
+{
+  const hid_t dataset = H5Dopen2(f->id, name, H5P_DEFAULT), space = dataset >= 0 ? H5Dget_space(dataset) : -1;
+  const int   rank        = space >= 0 ? H5Sget_simple_extent_ndims(space) : -1;
+  hsize_t     found[RANK] = {0}, count = 1;
+  PetscBool   fits;
+
+  PetscFunctionBegin;
+  PetscCheck(dataset >= 0, f->comm, SAM_ERR_FILE, "-%s %s: has no dataset %s: make the file by petsam-compliance",
+             f->option, f->filename, name);
+  fits = rank == shape->rank && H5Sget_simple_extent_dims(space, found, NULL) == rank;
+  for (int d = 0; d < shape->rank && fits; d++) {
+    fits                    = shape->size[d] ? found[d] == shape->size[d] : found[d] > 0 && found[d] <= shape->most;
+    count *= shape->size[d] = found[d];
+  }
+  PetscCheck(fits, f->comm, SAM_ERR_FILE, "-%s %s: %s has a shape that does not fit the others: make the file anew",
+             f->option, f->filename, name);
+  PetscCheck(SamFileIsWhole(f, dataset, NULL, PETSC_TRUE) &&
+               H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0,
+             f->comm, SAM_ERR_FILE, "-%s %s: the numbers of %s cannot be read: the file is damaged", f->option,
+             f->filename, name);
+  for (hsize_t k = 0; k < count; k++)
+    PetscCheck(isfinite(values[k]), f->comm, SAM_ERR_FILE,
+               "-%s %s: number %lld of %s is not finite: make the file anew", f->option, f->filename, (long long)k,
+               name);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ReadAttribute(SamFile f, const char name[], double *value)
+{
+  const PetscBool found = SamFileHasAttribute(f, name);
+
+  PetscFunctionBegin;
+  if (found) SamFileReadAttribute(f, f->id, name, H5T_NATIVE_DOUBLE, 1, value);
+  PetscCheck(found && !f->failed && !isnan(*value), f->comm, SAM_ERR_FILE,
+             "-%s %s: the attribute %s is missing or no number: expected a file of petsam-compliance", f->option,
+             f->filename, name);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ReadBasis(SamFile f, SamCompliance c)
+{
+  double power[SAM_COMPLIANCE_MODES][2];
+  Shape  pair = {1, {2}, 0}, table = {2, {0, 2}, SAM_COMPLIANCE_MODES};
+
+  PetscFunctionBegin;
+  PetscCall(ReadNumbers(f, "/patch/center", &pair, c->center));
+  PetscCall(ReadNumbers(f, "/patch/half", &pair, c->half));
+  PetscCheck(c->half[0] > 0 && c->half[1] > 0, f->comm, SAM_ERR_FILE,
+             "-%s %s: /patch/half is %.6g, %.6g: expected lengths > 0", f->option, f->filename, c->half[0], c->half[1]);
+  PetscCall(ReadNumbers(f, "/basis/degree_xy", &table, power[0]));
+  c->modes = (PetscInt)table.size[0];
+  for (PetscInt m = 0; m < c->modes; m++)
+    for (int d = 0; d < 2; d++) {
+      PetscCheck(power[m][d] >= 0 && power[m][d] <= SAM_COMPLIANCE_DEGREE && power[m][d] == floor(power[m][d]), f->comm,
+                 SAM_ERR_FILE, "-%s %s: /basis/degree_xy has %.6g: expected whole numbers from 0 to %d", f->option,
+                 f->filename, power[m][d], SAM_COMPLIANCE_DEGREE);
+      c->power[m][d] = (PetscInt)power[m][d];
+      c->degree      = PetscMax(c->degree, c->power[m][d]);
+    }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The symmetric part. */
+static PetscErrorCode ReadMatrix(SamFile f, SamCompliance c)
+{
+  const hsize_t  m     = (hsize_t)c->modes;
+  const PetscInt n     = 3 * c->modes;
+  Shape          shape = {4, {m, 3, m, 3}, 0};
+  double        *all;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(n * n, &all));
+  PetscCall(ReadNumbers(f, "/compliance", &shape, all));
+  for (PetscInt r = 0; r < n; r++)
+    for (PetscInt s = 0; s < n; s++) c->matrix[r % 3][r / 3][s % 3][s / 3] = 0.5 * (all[r * n + s] + all[s * n + r]);
+  PetscCall(PetscFree(all));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The load cases, in the order of their names. */
+static PetscErrorCode ReadCases(SamFile f, SamCompliance c)
+{
+  const hid_t group = H5Lexists(f->id, "/cases", H5P_DEFAULT) > 0 ? H5Gopen2(f->id, "/cases", H5P_DEFAULT) : -1;
+  H5G_info_t  info  = {.nlinks = 0};
+
+  PetscFunctionBegin;
+  if (group >= 0) (void)SamFileNote(f, H5Gget_info(group, &info));
+  PetscCheck(info.nlinks <= SAM_COMPLIANCE_CASES, f->comm, SAM_ERR_FILE,
+             "-%s %s: has %lld load cases: expected at most %d", f->option, f->filename, (long long)info.nlinks,
+             SAM_COMPLIANCE_CASES);
+  for (hsize_t k = 0; k < info.nlinks; k++) {
+    char         *name = c->name[c->cases], path[64];
+    const ssize_t size =
+      H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, k, name, sizeof(c->name[0]), H5P_DEFAULT);
+    Shape     shape = {2, {(hsize_t)c->modes, 3}, 0};
+    double    field[SAM_COMPLIANCE_MODES][3];
+    PetscBool good = size > 0 && size <= SAM_CASE_NAME;
+
+    for (const char *letter = name; *letter && good; letter++)
+      good = isalnum((unsigned char)*letter) || *letter == '_' ? PETSC_TRUE : PETSC_FALSE;
+    PetscCheck(good, f->comm, SAM_ERR_FILE,
+               "-%s %s: a load case is named %s: expected at most %d letters, digits and underscores", f->option,
+               f->filename, name, SAM_CASE_NAME);
+    (void)snprintf(path, sizeof(path), "/cases/%s/displacement", name);
+    PetscCall(ReadNumbers(f, path, &shape, field[0]));
+    for (PetscInt m = 0; m < 3 * c->modes; m++) c->field[c->cases][m % 3][m / 3] = field[m / 3][m % 3];
+    c->cases++;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The points below the patch, if there are any; along each axis they increase. */
+static PetscErrorCode ReadAxes(SamFile f, SamCompliance c, double values[])
+{
+  enum { MOST = 1024 };
+  static const char *const names[] = {"/stress/x", "/stress/y", "/stress/z"};
+  double                   own[MOST];
+
+  PetscFunctionBegin;
+  for (int d = 0; d < 3; d++) {
+    Shape shape = {1, {0}, MOST};
+
+    PetscCall(ReadNumbers(f, names[d], &shape, own));
+    c->below[d] = (PetscInt)shape.size[0];
+    for (PetscInt k = 0; k < c->below[d]; k++) {
+      PetscCheck(!k || own[k] > own[k - 1], f->comm, SAM_ERR_FILE, "-%s %s: %s does not increase: make the file anew",
+                 f->option, f->filename, names[d]);
+      if (values) *values++ = own[k];
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* As SamComplianceReadStress(). */
+static PetscErrorCode LookBelow(SamFile f, const void *question, void *answer)
+{
+  struct _n_SamCompliance c    = *(const struct _n_SamCompliance *)question;
+  const hsize_t           n[3] = {(hsize_t)c.below[0], (hsize_t)c.below[1], (hsize_t)c.below[2]}, m = (hsize_t)c.modes;
+  const PetscInt          size = SamComplianceField(&c);
+  double                 *to   = (double *)answer;
+  Shape                   all  = {6, {m, 3, n[2], n[1], n[0], SAM_STRESS_COMPONENTS}, 0};
+
+  PetscFunctionBegin;
+  PetscCall(ReadAxes(f, &c, to));
+  to += n[0] + n[1] + n[2];
+  PetscCall(ReadNumbers(f, "/stress/basis", &all, to));
+  to += 3 * c.modes * size;
+  for (PetscInt l = 0; l < c.cases; l++, to += size) {
+    Shape one = {4, {n[2], n[1], n[0], SAM_STRESS_COMPONENTS}, 0};
+    char  path[64];
+
+    (void)snprintf(path, sizeof(path), "/stress/cases/%s", c.name[l]);
+    PetscCall(ReadNumbers(f, path, &one, to));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamComplianceReadStress(MPI_Comm comm, SamCompliance c, double values[])
+{
+  const char *const option = c->body ? "body2_compliance" : "body1_compliance";
+
+  PetscFunctionBegin;
+  PetscCheck(c->below[0], comm, SAM_ERR_FILE, "-%s %s: has no group /stress: make the file without --no-stress", option,
+             c->file);
+  PetscCall(
+    SamFileExamine(comm, option, c->file, LookBelow, c, values, sizeof(*values) * (size_t)SamComplianceStresses(c)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Look(SamFile f, const void *question, void *answer)
+{
+  SamCompliance c = (SamCompliance)answer;
+  double        version;
+
+  PetscFunctionBegin;
+  (void)question;
+  PetscCall(ReadAttribute(f, "petsam_compliance", &version));
+  PetscCheck(version == 1, f->comm, SAM_ERR_FILE, "-%s %s: petsam_compliance is %.6g: expected 1: use a newer petsam",
+             f->option, f->filename, version);
+  PetscCall(ReadAttribute(f, "young", &c->young));
+  PetscCall(ReadAttribute(f, "poisson", &c->poisson));
+  PetscCheck(c->young > 0 && (isinf(c->young) || (c->poisson > -1 && c->poisson <= 0.5)), f->comm, SAM_ERR_FILE,
+             "-%s %s: young is %.6g, poisson %.6g: expected a modulus > 0 and a ratio from -1 to 0.5", f->option,
+             f->filename, c->young, c->poisson);
+  PetscCall(ReadBasis(f, c));
+  PetscCall(ReadMatrix(f, c));
+  PetscCall(ReadCases(f, c));
+  if (H5Lexists(f->id, "/stress", H5P_DEFAULT) > 0) PetscCall(ReadAxes(f, c, NULL));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamComplianceRead(MPI_Comm comm, PetscInt body, const char option[], const char file[],
+                                 SamCompliance *compliance)
+{
+  SamCompliance c;
+  double        least;
+
+  PetscFunctionBegin;
+  PetscCall(PetscNew(&c));
+  *compliance   = c;
+  c->references = 1;
+  PetscCall(SamFileExamine(comm, option, file, Look, NULL, c, sizeof(*c)));
+  c->checksum   = SamHashBytes(0, (const unsigned char *)c, sizeof(*c));
+  c->references = 1;
+  c->body       = body;
+  PetscCall(PetscStrncpy(c->file, file, sizeof(c->file)));
+  PetscCall(SamComplianceLeast(c, &least));
+  PetscCheck(least > 0 || (isinf(c->young) && least == 0), comm, SAM_ERR_FILE,
+             "-%s %s: under some traction the body would gain energy: the smallest eigenvalue of its compliance is "
+             "%.3g of the half-space's, degree %" PetscInt_FMT ", patch %.6g m x %.6g m: use a higher degree or a "
+             "smaller patch",
+             option, file, least, c->degree, 2 * c->half[0], 2 * c->half[1]);
+  for (PetscInt l = 0; l < c->cases; l++) {
+    PetscBool room;
+
+    PetscCall(SamControlAddCase(body, c->name[l], &c->slot[l], &room));
+    PetscCheck(room, comm, SAM_ERR_FILE, "-%s %s: its load case %s is one too many: expected at most %d in a process",
+               option, file, c->name[l], SAM_CASES);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamComplianceDestroy(SamCompliance *c)
+{
+  PetscFunctionBegin;
+  if (*c && --(*c)->references == 0) PetscCall(PetscFree(*c));
+  *c = NULL;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

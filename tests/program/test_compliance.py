@@ -1,0 +1,471 @@
+"""Finite bodies: a layer on a rigid base by correction against petsam's own layers, load cases, wrong input."""
+
+import h5py
+import numpy as np
+import pytest
+
+import compliances
+import conftest
+from support import assert_same, history, l2
+
+# E = 1, nu = 0.3, the patch is the grid: [-1, 1]^2
+SPHERE = dict(gap_type="sphere", gap_radius1=100, gap_radius2="inf", grid_n=48, grid_size=2, output_fields="all")
+SHEAR = dict(grid_n=[48, 40], grid_size=[2, 1.8], friction=0.3, load_n=0.004, load_tx=6e-4, load_ty=3e-4, steps=2)
+
+
+def bodies(number, **more):
+    """Body `number` elastic, the other rigid."""
+    return {f"body{3 - number}_young": "inf", f"body{number}_young": 1, f"body{number}_poisson": 0.3, **more}
+
+
+def coated(number, thickness):
+    """The same with petsam's own layer on a rigid base."""
+    layer = {f"body{number}_layer_{k}": v for k, v in dict(young=1, poisson=0.3, thickness=thickness).items()}
+    return {**bodies(number), f"body{number}_young": "inf", **layer}
+
+
+@pytest.fixture(scope="session")
+def layer(tmp_path_factory):
+    """layer(thickness, degree, factor=1, ...): the name of a file."""
+    folder = tmp_path_factory.mktemp("compliance")
+
+    def make(thickness, degree, factor=1.0, **more):
+        name = folder / f"{len(list(folder.iterdir()))}.h5"
+        return compliances.write(name, factor * compliances.layer(thickness, degree), **more)
+
+    return make
+
+
+# ---------------------------------------------------------------- the layer on a rigid base
+
+
+@pytest.mark.parametrize(
+    "thickness, numbers",
+    [
+        (0.5, (-1.374154570, -1.196352841, -0.144348727, 0.144348727, -0.362599552, 0.119799525, -0.141201495)),
+        (1, (-1.082455029, -0.797564327, -0.110503367, 0.110503367, -0.170421589, 0.066660369, -0.034818822)),
+        (2, (-0.699391676, -0.463065920, -0.051192014, 0.051192014, -0.042916786, 0.018386176, -0.003084913)),
+    ],
+)
+def test_matrix_of_the_tests_is_that_of_the_layer(thickness, numbers):
+    d = compliances.layer(thickness, 2)
+    found = (d[0, 2, 0, 2], d[0, 0, 0, 0], d[1, 2, 0, 0], d[1, 0, 0, 2], d[1, 2, 1, 2], d[3, 2, 0, 2], d[3, 2, 3, 2])
+    assert found == pytest.approx(numbers, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    "thickness, approach, load, degree, tolerance",
+    [(1, 0.00384, 0.00688554, 4, 3e-3), (1, 0.00384, 0.00688554, 6, 3e-4), (2, 0.0064, 0.0114462, 4, 1e-4)],
+)
+def test_pressure_of_a_layer(thickness, approach, load, degree, tolerance, solve, layer):
+    own = solve(SPHERE, coated(2, thickness), dict(disp_z=approach))
+    r = solve(SPHERE, bodies(2), dict(disp_z=approach, body2_compliance=layer(thickness, degree)))
+    assert l2(r.pressure, own.pressure) < tolerance
+    assert r["load_n"] == pytest.approx(load, rel=max(tolerance, 1e-4))
+    assert abs(r["normal_iterations"] - own["normal_iterations"]) <= 3
+
+
+@pytest.mark.parametrize("number", [1, 2])
+def test_shear_of_a_layer(number, solve, layer):
+    """Coupled, on either body: that of body 1 is turned over."""
+    own = solve(SPHERE, coated(number, 1), SHEAR)
+    r = solve(SPHERE, bodies(number), SHEAR, {f"body{number}_compliance": layer(1, 6)})
+    assert l2(r.pressure, own.pressure) < 5e-4
+    for name in ("shear_x", "shear_y", "displacement_x", "displacement_y"):
+        assert l2(getattr(r, name), getattr(own, name)) < 4e-3, name
+    assert r["coupling_iterations"] <= 8
+
+
+def test_shear_of_two_layers(solve, layer):
+    """Alike: what couples the directions of one body cancels that of the other."""
+    both = {**coated(1, 1), **coated(2, 1)}
+    own = solve(SPHERE, {**both, "body1_young": "inf", "body2_young": "inf"}, SHEAR)
+    file = layer(1, 6)
+    case = dict(body1_young=1, body2_young=1, body1_poisson=0.3, body2_poisson=0.3)
+    r = solve(SPHERE, case, SHEAR, dict(body1_compliance=file, body2_compliance=file))
+    for name in ("pressure", "shear_x", "shear_y", "slip_x"):
+        assert l2(getattr(r, name), getattr(own, name)) < 1e-3, name
+
+
+def test_lengths_and_moduli_scale(solve, layer):
+    """A thousand times smaller, of steel."""
+    one = solve(SPHERE, bodies(2), SHEAR, dict(body2_compliance=layer(1, 4)))
+    small = dict(grid_size=[2e-3, 1.8e-3], gap_radius1=0.1, body2_young=2e11, load_n=800, load_tx=120, load_ty=60)
+    file = layer(1, 4, half=1e-3, young=2e11)
+    two = solve({**SPHERE, **bodies(2), **SHEAR, **small}, dict(body2_compliance=file))
+    assert l2(two.pressure, 2e11 * one.pressure) < 1e-7
+    assert l2(two.shear_x, 2e11 * one.shear_x) < 1e-5
+
+
+@pytest.mark.parametrize("number", [1, 2])
+def test_compliance_of_zero_changes_no_bit(number, solve, layer):
+    plain = solve(SPHERE, bodies(number), SHEAR)
+    assert_same(solve(SPHERE, bodies(number), SHEAR, {f"body{number}_compliance": layer(1, 2, 0)}), plain, 0)
+
+
+def test_same_bits_on_any_number_of_ranks(solve, layer):
+    case = [SPHERE, bodies(2), SHEAR, dict(grid_n=[70, 61], body2_compliance=layer(1, 5))]
+    one = solve(*case)
+    for ranks in (2, 3):
+        assert_same(solve(*case, ranks=ranks), one, 0)
+
+
+def test_skew_matrix_turns_over_with_its_body(solve, tmp_path):
+    """A body that a turn by 180 degrees about x maps to another one: as body 1 the first acts as body 2 the second."""
+    rng = np.random.default_rng(1)
+    table = compliances.powers(2)
+    d = rng.normal(size=(6, 3, 6, 3))
+    d = 0.02 * (d + d.transpose(2, 3, 0, 1))
+    turn = np.array([1, -1, -1]) * (-1.0) ** table[:, 1:]  # of direction and polynomial
+    other = d * turn[:, :, None, None] * turn
+    one, two = compliances.write(tmp_path / "1.h5", d), compliances.write(tmp_path / "2.h5", other)
+    load = dict(friction=0.3, load_n=0.002, load_tx=3e-4, load_ty=1e-4, gap_radius1=100)
+    case = dict(body1_young=1, body2_young=1, body1_poisson=0.3, body2_poisson=0.3)
+    first = solve(SPHERE, case, load, dict(body1_compliance=one))
+    second = solve(SPHERE, case, load, dict(body2_compliance=two))
+    assert first["coupling_iterations"] > 1
+    assert_same(first, second, 1e-9)
+
+
+def test_symmetric_part_is_used(solve, layer, tmp_path):
+    d = compliances.layer(1, 2)
+    skew = np.random.default_rng(2).normal(size=d.shape)
+    file = compliances.write(tmp_path / "c.h5", d + 0.1 * (skew - skew.transpose(2, 3, 0, 1)))
+    plain = solve(SPHERE, bodies(2), SHEAR, dict(body2_compliance=layer(1, 2)))
+    assert_same(solve(SPHERE, bodies(2), SHEAR, dict(body2_compliance=file)), plain, 1e-9)
+
+
+def test_stiffness_is_that_of_the_next_step(solve, layer):
+    case = [SPHERE, bodies(2), dict(body2_compliance=layer(1, 4), stiffness=True)]
+    one, two = (solve(*case, dict(disp_z=0.00384 + change)) for change in (0, 1e-7))
+    assert one["stiffness"][0, 0] == pytest.approx((two["load_n"] - one["load_n"]) / 1e-7, rel=5e-3)
+    plain = solve(SPHERE, coated(2, 1), dict(disp_z=0.00384, stiffness=True))
+    assert one["stiffness"] == pytest.approx(plain["stiffness"], abs=5e-3 * plain["stiffness"][0, 0])
+
+
+def beam(path, softer):
+    """Its middle alone: the rigid motions of a clamped beam's top, 12 x 4 x 3 of steel in N and mm."""
+    half, turn, height = 1.5, 3.97e-7, 1.5
+    c = softer * np.diag([1.2e-6 + height**2 * turn, 2.7e-6, 8e-6, 3e-7, turn, 2e-7])
+    c[0, 4] = c[4, 0] = -softer * height * turn  # shear bends it
+    c[1, 3] = c[3, 1] = softer * height * 1.5e-7
+    r = np.zeros((3, 3, 6))  # coefficients of displacements along x, y, z and rotations about them
+    r[0, [0, 1, 2], [0, 1, 2]] = 2 * half
+    slope = 2 * half**2 / np.sqrt(3)
+    r[2, 2, 3] = r[1, 1, 5] = slope
+    r[1, 2, 4] = r[2, 0, 5] = -slope
+    return compliances.write(path, np.einsum("iak,kl,jbl->iajb", r, c, r) * 210e3 / half, half=half, young=210e3)
+
+
+@pytest.mark.parametrize("softer, friction, most", [(1, 0.5, 9), (10, 0.5, 12), (10, 1, 13), (30, 1, 30)])
+def test_soft_bodies_converge_with_rotations_held(softer, friction, most, petsam, tmp_path):
+    """What the bending by shear couples: pressed, sheared and reversed."""
+    z, x = 0.0057 + 0.0363 * softer, 0.004 * softer + 0.001
+    rows = [(k + 1.0, a * z, b * x, 0, 0, 0) for k, (a, b) in enumerate([(1, 0), (1, -1), (1, 0), (1, 1), (0.8, 0.5)])]
+    case = {**SPHERE, "grid_n": 80, "grid_size": 3, "body1_young": "inf", "body2_young": 210e3, "body2_poisson": 0.3}
+    case |= history(tmp_path / "h.csv", "time,disp_z,disp_x,rot_x,rot_y,rot_z", *rows)
+    file = beam(tmp_path / "beam.h5", softer)
+    petsam(case, dict(friction=friction, body2_compliance=file, output="r.h5", allow_edge_contact=True))
+    with h5py.File(tmp_path / "r.h5") as f:
+        assert max(f["history/coupling_iterations"]) <= most
+        assert abs(f["history/load_tx"][1] / f["history/load_tx"][3]) == pytest.approx(1, abs=0.2)
+
+
+def test_contact_in_process(solve, layer):
+    """As the program, and two contacts whose bodies have other cases."""
+    import petsam
+
+    one = layer(1, 2, cases=dict(pull=np.full((6, 3), 1e-5)))
+    two = layer(1, 2, cases=dict(bend=np.full((6, 3), 2e-5), pull=np.full((6, 3), 3e-5)))
+    case = {**SPHERE, **bodies(2), "friction": 0.3}
+    given = dict(load_n=0.002, load_tx=1e-4)
+    del case["output_fields"]
+    with (
+        petsam.Contact(**case, body2_compliance=one, body2_case_pull=1) as a,
+        petsam.Contact(**case, body2_compliance=two, body2_case_bend=1) as b,
+    ):
+        for contact, file, name in ((a, one, "pull"), (b, two, "bend")):
+            step = contact.try_step(**given)
+            r = solve({**case, **given, "body2_compliance": file, f"body2_case_{name}": 1}, dict(steps=1))
+            assert np.array_equal(contact["pressure"], r.pressure)
+            assert step.rigid[0] == r["disp_z"]
+
+
+@pytest.mark.parametrize("center", [(0.15, 0), (-0.15, 0), (0, 0.15), (0, -0.15)])
+def test_patch_is_smaller_than_the_grid(center, solve, layer, petsam):
+    """The same answer where contact stays within it, code 12 where it does not."""
+    case = [{**SPHERE, "gap_radius1": 20}, bodies(2), dict(body2_compliance=layer(1, 4, half=0.5, center=center))]
+    wide = solve(*case, dict(load_n=0.0005))
+    one = solve(*case, dict(load_n=0.0005, grid_n=[16, 16], grid_size=[2 / 3, 2 / 3]))
+    assert l2(wide.pressure[16:32, 16:32], one.pressure) < 1e-6
+    done = petsam({**SPHERE, **bodies(2)}, case[2], dict(load_n=0.001), check=12)
+    assert "the contact reached the border of the patch of a body's compliance" in done.stderr
+
+
+# ---------------------------------------------------------------- load cases
+
+STEEL = dict(body1_young=1, body2_young=1, body1_poisson=0.3, body2_poisson=0.3)
+
+
+@pytest.mark.parametrize("number, sign", [(1, -1), (2, 1)])
+def test_case_that_stretches_is_a_bulk_stress(number, sign, solve, layer, tmp_path):
+    stress = 3e-4
+    field = np.zeros((3, 3))
+    field[1, 0], field[2, 1] = 2 / np.sqrt(3) * np.array([stress, -0.3 * stress])
+    file = compliances.write(tmp_path / "c.h5", np.zeros((3, 3, 3, 3)), cases=dict(pull=field))
+    rows = [(1, 0.004, 0.0003, 0), (2, 0.004, 0.0003, 1), (3, 0.004, -0.0003, 0.5)]
+    columns = "time,load_n,load_tx,"
+    one = history(tmp_path / "a.csv", columns + f"body{number}_case_pull", *rows)
+    two = history(
+        tmp_path / "b.csv", columns + "bulk2_stress_xx", *[(*row[:3], sign * stress * row[3]) for row in rows]
+    )
+    case = [SPHERE, STEEL, dict(friction=0.3, steps=2)]
+    r = solve(*case, one, {f"body{number}_compliance": file})
+    plain = solve(*case, two)
+    for name in ("shear_x", "shear_y", "slip_x", "slip_y"):
+        assert l2(getattr(r, name), getattr(plain, name)) < 1e-5, name
+    with h5py.File(r.path) as f:
+        assert list(f[f"history/body{number}_case_pull"]) == [0, 0, 0.5, 1, 0.75, 0.5]
+        assert list(np.isnan(f["history/stored_energy"])) == [False] * 2 + [True] * 4
+
+
+def test_polynomials_keep_their_values_outside_of_the_patch(solve, tmp_path):
+    """Those of a load case that turns the body, which its rotation follows."""
+    slope = 1e-4
+    field = np.zeros((3, 3))
+    field[1, 2] = 2 * 0.5**2 / np.sqrt(3) * slope
+    file = compliances.write(tmp_path / "c.h5", np.zeros((3, 3, 3, 3)), half=0.5, cases=dict(turn=field))
+    case = [{**SPHERE, "gap_radius1": 20}, STEEL, dict(load_n=2e-4, body2_compliance=file)]
+    r, plain = solve(*case, dict(body2_case_turn=1)), solve(*case)
+    assert l2(r.pressure, plain.pressure) < 1e-6
+    turned = np.ones((48, 1)) * slope * np.clip(r.x, -0.5, 0.5)
+    assert r.displacement_z - plain.displacement_z == pytest.approx(turned, abs=1e-4 * slope)
+
+
+@pytest.mark.parametrize("number, signs", [(1, (-1, 1, 1)), (2, (1, 1, 1))])
+def test_case_that_moves_the_surface_moves_the_body(number, signs, solve, layer, tmp_path):
+    field = np.zeros((1, 3))
+    field[0] = 2 * np.array([1e-4, 2e-4, 3e-4])
+    file = compliances.write(tmp_path / "c.h5", np.zeros((1, 3, 1, 3)), cases=dict(move=field, other=0 * field))
+    given = dict(friction=0.3, disp_z=0.003, disp_x=2e-4, disp_y=-1e-4)
+    r = solve(SPHERE, STEEL, given, {f"body{number}_compliance": file, f"body{number}_case_move": 0.5})
+    moved = {name: given[name] - 0.5 * v for name, v in zip(("disp_x", "disp_y", "disp_z"), signs * field[0] / 2)}
+    plain = solve(SPHERE, STEEL, {**given, **moved})
+    for name in ("pressure", "shear_x", "shear_y"):
+        assert l2(getattr(r, name), getattr(plain, name)) < 1e-6, name
+
+
+def test_run_with_cases_goes_on_from_its_checkpoint(petsam, layer, tmp_path):
+    file = layer(1, 2, cases=dict(bend=np.full((6, 3), 1e-5)))
+    rows = [(k, 0.004, 2e-4 * k, 0.25 * k) for k in range(5)]
+    case = {**SPHERE, **bodies(2), "friction": 0.3, "body2_compliance": file}
+    case |= history(tmp_path / "h.csv", "time,load_n,load_tx,body2_case_bend", *rows)
+    petsam(case, dict(output="whole.h5"))
+    first = history(tmp_path / "first.csv", "time,load_n,load_tx,body2_case_bend", *rows[:3])
+    petsam({**case, **first}, dict(output="part.h5", checkpoint="c.h5", checkpoint_every=1))
+    petsam(case, dict(output="part.h5", restart="c.h5"))
+    with h5py.File(tmp_path / "whole.h5") as whole, h5py.File(tmp_path / "part.h5") as part:
+        for name in ("pressure", "shear_x", "slip_x", "history/body2_case_bend"):
+            assert np.array_equal(whole[name], part[name]), name
+    other = layer(1, 3, cases=dict(bend=np.full((10, 3), 1e-5)))
+    message = petsam({**case, "body2_compliance": other}, dict(restart="c.h5"), check=2).complaint[0]
+    assert "-body2_compliance is" in message
+
+
+# ---------------------------------------------------------------- stresses
+
+
+@pytest.fixture
+def stresses(launcher, tmp_path):
+    """stresses(results, body, ..., check=0): components (6, z, y, x), or the message."""
+    program = conftest.PROGRAM.with_name("petsam-stress")
+
+    def run(results, body, check=0, **options):
+        out = tmp_path / f"{len(list(tmp_path.iterdir()))}-stress.h5"
+        options = dict(input=results.path, output=out, body=body, depths=[0, 0.1, 0.4, 1], **options)
+        done = conftest.execute(launcher, tmp_path, [options], 1, check, program=program)
+        if check:
+            return done.stderr
+        with h5py.File(out) as f:
+            return np.array([f[f"stress_{name}"][-1] for name in ("xx", "yy", "zz", "xy", "xz", "yz")])
+
+    return run
+
+
+def known(thickness, degree, points=7, deepest=1.0):
+    """The contents of /stress."""
+    x, y, z, basis = compliances.layer_stress(thickness, degree, points, deepest)
+    return dict(x=x, y=y, z=z, basis=basis)
+
+
+@pytest.mark.parametrize("number", [1, 2])
+def test_stresses_in_a_layer(number, solve, layer, stresses):
+    """Against petsam's own layer: maps, and a section."""
+    file = layer(2, 4, stress=known(2, 4))
+    own = solve(SPHERE, coated(number, 2), SHEAR)
+    r = solve(SPHERE, bodies(number), SHEAR, {f"body{number}_compliance": file})
+    plain = stresses(solve(SPHERE, bodies(number), SHEAR), number)
+    scale = np.abs(plain[2]).max()
+    for section in ({}, dict(section="y=0.2"), dict(section="x=-0.1")):
+        wanted, found = stresses(own, number, **section), stresses(r, number, **section)
+        assert np.abs(found - wanted).max() < 1.5e-3 * scale
+    assert np.abs(plain - stresses(own, number)).max() > 0.03 * scale
+
+
+@pytest.mark.parametrize("number", [1, 2])
+def test_stresses_of_a_load_case(number, solve, layer, stresses, tmp_path):
+    """Those of two steps, which a body has besides those of its tractions; its y is turned on body 1."""
+    given = np.array([4e-3, 1e-3, 2e-3, 3e-3, 5e-3, 6e-3])
+    axes = dict(x=[-1.0, 1.0], y=[-1.0, 1.0], z=[0.0, 1.0])
+    field = np.einsum("y,s->ys", [1, 2], given)[None, :, None, :] * np.ones((2, 1, 2, 1))
+    stress = {**axes, "basis": np.zeros((6, 3, 2, 2, 2, 6)), "cases/pull": field, "cases/bend": 0 * field}
+    file = compliances.write(
+        tmp_path / "c.h5",
+        np.zeros((6, 3, 6, 3)),
+        stress=stress,
+        cases=dict(pull=np.zeros((6, 3)), bend=np.zeros((6, 3))),
+    )
+    rows = history(tmp_path / "h.csv", f"time,load_n,body{number}_case_pull", (1, 0.004, 1), (2, 0.004, 0.5))
+    case = [SPHERE, STEEL, dict(friction=0.3)]
+    r = solve(*case, rows, {f"body{number}_compliance": file})
+    more = stresses(r, number) - stresses(solve(*case, dict(load_n=0.004, steps=1)), number)
+    turn = np.array([1, 1, 1, -1, 1, -1]) if number == 1 else np.ones(6)
+    along = 1.5 + (0.5 if number == 2 else -0.5) * r.y
+    wanted = 0.5 * (turn * given)[:, None, None, None] * along[:, None] * np.ones((4, 1, 48))
+    assert more == pytest.approx(wanted, abs=1e-7)
+
+
+def test_what_stresses_need_is_told(solve, layer, stresses):
+    case = [SPHERE, bodies(2), dict(disp_z=0.00384)]
+    r = solve(*case, dict(body2_compliance=layer(1, 4)))
+    assert "has no group /stress: make the file without --no-stress" in stresses(r, 2, 3)
+    deep = known(2, 4)
+    file = layer(2, 4, stress={**deep, "z": 0.5 * deep["z"]})
+    r = solve(*case, dict(body2_compliance=file))
+    assert "-depths 1: " in stresses(r, 2, 2)
+    assert stresses(r, 1, 2)  # it is rigid
+    with h5py.File(file, "r+") as f:
+        f["stress/x"][1] = 5
+    assert "/stress/x does not increase" in stresses(r, 2, 3)
+    with h5py.File(file, "r+") as f:
+        f["stress/x"][...] = deep["x"]
+        f["compliance"][...] *= 0.99
+    assert "has changed since: bring back that file" in stresses(r, 2, 3)
+
+
+def test_stresses_in_process(layer):
+    import petsam
+
+    file = layer(2, 4, stress=known(2, 4), cases=dict(pull=np.zeros((15, 3))))
+    with h5py.File(file, "r+") as f:
+        f["stress/cases/pull"] = np.full((7, 7, 7, 6), 1e-3)
+    case = {**SPHERE, **bodies(2), "body2_compliance": file}
+    del case["output_fields"]
+    with petsam.Contact(**case, friction=0.3) as a, petsam.Contact(**case, friction=0.3, body2_case_pull=1) as b:
+        found = []
+        for contact in (a, b):
+            contact.try_step(load_n=0.002)
+            contact.commit()
+            found.append(contact.stress(depths=[0.4])["stress_xx"])
+        assert np.asarray(found[1]) - np.asarray(found[0]) == pytest.approx(1e-3, abs=1e-8)
+
+
+# ---------------------------------------------------------------- wrong input
+
+
+@pytest.mark.parametrize(
+    "thickness, degree, least",
+    [(0.25, 0, 0.014), (0.25, 2, 0.099), (1, 0, 0.308), (1, 2, 0.364), (1, 8, 0.363), (2, 0, 0.553), (2, 2, 0.578)],
+)
+def test_body_that_would_gain_energy_is_refused(thickness, degree, least, petsam, layer):
+    """A matrix eight times too large, of which the message tells the smallest eigenvalue."""
+    case = {**SPHERE, **bodies(2), "load_n": 0.001, "body2_compliance": layer(thickness, degree, 8)}
+    message = petsam(case, check=3).complaint[0]
+    found = float(message.split("its compliance is ")[1].split()[0])
+    assert 1 + (found - 1) / 8 == pytest.approx(least, abs=1.5e-3)
+    assert f"degree {degree}, patch 2 m x 2 m: use a higher degree" in message
+
+
+def test_thin_layer_without_slopes_is_refused(petsam, layer):
+    case = {**SPHERE, **bodies(2), "load_n": 0.001}
+    petsam(case, dict(body2_compliance=layer(0.125, 0)), check=3)
+    petsam(case, dict(body2_compliance=layer(0.125, 2)))
+
+
+@pytest.mark.parametrize(
+    "change, code, says",
+    [
+        (dict(body2_young=1.01), 2, "is of a body with young 1, not 1.01: make them equal"),
+        (dict(body2_poisson=0.31), 2, "is of a body with poisson 0.3, not 0.31"),
+        (dict(elasticity="periodic"), 2, "-body2_compliance: has no meaning with -elasticity periodic"),
+        (dict(rolling="steady"), 2, "-rolling steady: has no meaning with -body1_compliance or -body2_compliance"),
+        (dict(grid_center=[9, 0]), 2, "its patch, -1 m to 1 m in x, holds no cell of the grid"),
+        (dict(history="roll.csv", load_n=None), 2, "roll = 0.01: expected 0: bodies with a compliance"),
+        (dict(history="case.csv", load_n=None), 2, "body2_case_no"),
+        (dict(body2_case_no=1), 2, "body2_case_no"),
+        (
+            dict(body2_case_pull=1, coupling="none"),
+            2,
+            "body2_case_pull = 1: expected 0, or a body with this load case and -coupling full",
+        ),
+        (dict(body2_compliance="none.h5"), 3, "-body2_compliance none.h5"),
+        (dict(body2_compliance="roll.csv"), 3, "it is not an HDF5 file"),
+    ],
+)
+def test_what_a_compliance_does_not_go_with_is_refused(change, code, says, petsam, layer, tmp_path):
+    history(tmp_path / "roll.csv", "time,load_n,roll", (1, 0.001, 0.01))
+    history(tmp_path / "case.csv", "time,load_n,body2_case_no", (1, 0.001, 1))
+    file = layer(1, 2, cases=dict(pull=np.zeros((6, 3))))
+    case = {**SPHERE, **bodies(2), "load_n": 0.001, "friction": 0.3, "body2_compliance": file, **change}
+    assert says in " ".join(petsam(case, check=code).complaint)
+
+
+def change(name, value):
+    """A change of a file: a dataset, or an attribute after @, is replaced, or removed by None."""
+
+    def make(f):
+        where, key = (f.attrs, name[1:]) if name[0] == "@" else (f, name)
+        if key in where:
+            del where[key]
+        if value is not None:
+            where[key] = value
+
+    return make
+
+
+@pytest.mark.parametrize(
+    "name, value, says",
+    [
+        ("@petsam_compliance", None, "the attribute petsam_compliance is missing or no number"),
+        ("@petsam_compliance", 2, "petsam_compliance is 2: expected 1"),
+        ("@young", "steel", "the attribute young is missing or no number"),
+        ("@young", -1.0, "young is -1, poisson 0.3: expected a modulus > 0"),
+        ("@poisson", 0.6, "poisson 0.6: expected a modulus > 0"),
+        ("patch/half", None, "has no dataset /patch/half: make the file by petsam-compliance"),
+        ("patch/half", [1.0, 0.0], "/patch/half is 1, 0: expected lengths > 0"),
+        ("patch/center", [0.0, np.nan], "number 1 of /patch/center is not finite"),
+        ("basis/degree_xy", np.zeros((6, 3)), "/basis/degree_xy has a shape that does not fit"),
+        ("basis/degree_xy", np.full((6, 2), 11), "/basis/degree_xy has 11: expected whole numbers from 0 to 10"),
+        ("basis/degree_xy", np.zeros((5, 2)), "/compliance has a shape that does not fit"),
+        ("compliance", np.full((6, 3, 6, 3), np.inf), "number 0 of /compliance is not finite"),
+        ("cases/a b/displacement", np.zeros((6, 3)), "a load case is named a b: expected at most 20 letters"),
+        ("cases/pull/displacement", np.zeros((5, 3)), "/cases/pull/displacement has a shape that does not fit"),
+        ("cases/pull/x", np.zeros(5), "has no dataset /cases/pull/displacement"),
+    ],
+)
+def test_wrong_files_are_refused(name, value, says, petsam, layer):
+    file = layer(1, 2)
+    with h5py.File(file, "r+") as f:
+        change(name, value)(f)
+    message = petsam({**SPHERE, **bodies(2), "load_n": 0.001, "body2_compliance": file}, check=3).complaint[0]
+    assert f"-body2_compliance {file}: " in message
+    assert says in message
+
+
+@pytest.mark.parametrize("part", [0.3, 0.6, 0.9, 0.999])
+def test_damaged_files_are_refused(part, petsam, layer):
+    file = layer(1, 2)
+    content = file.read_bytes()
+    file.write_bytes(content[: int(part * len(content))])
+    message = petsam({**SPHERE, **bodies(2), "load_n": 0.001, "body2_compliance": file}, check=3).complaint[0]
+    assert "-body2_compliance" in message
