@@ -9,6 +9,15 @@ import conftest
 from support import assert_same, history, l2
 
 # E = 1, nu = 0.3, the patch is the grid: [-1, 1]^2
+PLANE = dict(
+    elasticity="plane",
+    grid_n=48,
+    gap_type="ellipsoid",
+    gap_radius_x=100,
+    gap_radius_y="inf",
+    gap_radius1=None,
+    gap_radius2=None,
+)
 SPHERE = dict(gap_type="sphere", gap_radius1=100, gap_radius2="inf", grid_n=48, grid_size=2, output_fields="all")
 SHEAR = dict(grid_n=[48, 40], grid_size=[2, 1.8], friction=0.3, load_n=0.004, load_tx=6e-4, load_ty=3e-4, steps=2)
 
@@ -398,6 +407,7 @@ def test_thin_layer_without_slopes_is_refused(petsam, layer):
         (dict(body2_young=1.01), 2, "is of a body with young 1, not 1.01: make them equal"),
         (dict(body2_poisson=0.31), 2, "is of a body with poisson 0.3, not 0.31"),
         (dict(elasticity="periodic"), 2, "-body2_compliance: has no meaning with -elasticity periodic"),
+        (PLANE, 2, "-body2_compliance: is of a body of finite length, and -elasticity plane of an endless one"),
         (dict(rolling="steady"), 2, "-rolling steady: has no meaning with -body1_compliance or -body2_compliance"),
         (dict(grid_center=[9, 0]), 2, "its patch, -1 m to 1 m in x, holds no cell of the grid"),
         (dict(history="roll.csv", load_n=None), 2, "roll = 0.01: expected 0: bodies with a compliance"),

@@ -443,6 +443,9 @@ static PetscErrorCode Add(SamElasticity *elasticity, const SamOptions *from, Pet
   PetscCheck(!e->traits.periodic, from->comm, SAM_ERR_USER,
              "-%s%s: has no meaning with -%selasticity %s, whose bodies have no borders", SamOptionsPrefix(from),
              option, SamOptionsPrefix(from), e->type);
+  PetscCheck(!e->traits.plane, from->comm, SAM_ERR_USER,
+             "-%s%s: is of a body of finite length, and -%selasticity %s of an endless one: omit one of them",
+             SamOptionsPrefix(from), option, SamOptionsPrefix(from), e->type);
   if (!e->traits.patch) {
     PetscCall(SamElasticityWrap(*elasticity, SAM_ELASTICITY_COMPLIANCE, &e));
     PetscCall(SamElasticityDestroy(elasticity));
