@@ -80,6 +80,8 @@ static double PlaneIntegral(double dx, double datum, PetscInt i)
 
 static void PlaneRow(const Coefficients *c, PetscInt j, PetscInt n, double values[])
 {
+  static const SamLayeredSymbol symbols[] = {
+    [ZZ] = SAM_LAYERED_ZZ, [XX] = SAM_LAYERED_RR, [YY] = SAM_LAYERED_TT, [XZ] = SAM_LAYERED_ZR};
   const double more = c->kind == YY ? c->factor[1] : 0;
 
   for (PetscInt i = 0; i < n; i++) {
@@ -87,6 +89,7 @@ static void PlaneRow(const Coefficients *c, PetscInt j, PetscInt n, double value
       c->kind == XZ ? PETSC_PI * c->factor[0] * c->dx : -2 * (c->factor[0] + more) * PlaneIntegral(c->dx, c->datum, i);
     if (j) values[i] = 0;
   }
+  if (c->layers && !j) SamLayeredAddLine(c->layers, symbols[c->kind], c->dx, c->datum, n, values);
 }
 
 static void CoefficientRow(PetscInt j, PetscInt n, double *const values[], const void *context)
@@ -117,6 +120,7 @@ static PetscErrorCode PrepareLayers(SamElasticity e)
   SamLayered    l    = ((const HalfSpace *)e->data)->layers;
 
   PetscFunctionBegin;
+  if (l && e->traits.plane) PetscFunctionReturn(SamLayeredPrepareLine(l, 2 * grid->width[0]));
   if (l) PetscCall(SamLayeredPrepare(l, 2 * hypot(grid->width[0], grid->width[1]), (const double[2]){0, 0}));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -524,9 +528,10 @@ PetscErrorCode SamElasticityCreate_Plane(SamElasticity e)
   ((HalfSpace *)e->data)->datum = e->grid->width[0];
   e->traits.plane               = PETSC_TRUE;
   e->traits.rotations[0] = e->traits.rotations[2] = PETSC_FALSE;
-  e->traits.within = e->traits.layers = PETSC_FALSE;
-  e->ops.setfromoptions               = SetFromOptions_Plane;
-  e->ops.addparameters                = AddParameters_Plane;
-  e->ops.setparameters                = SetParameters_Plane;
+  e->traits.within                                = PETSC_FALSE;
+  if (SamPairHasLayers(&e->pair)) e->ops.createstress = NULL;
+  e->ops.setfromoptions = SetFromOptions_Plane;
+  e->ops.addparameters  = AddParameters_Plane;
+  e->ops.setparameters  = SetParameters_Plane;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
