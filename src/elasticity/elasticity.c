@@ -176,9 +176,8 @@ PetscErrorCode SamElasticitySetFromOptions(SamElasticity e)
   if (strcmp(type, e->type) || e->is_set_up || (e->inner && e->inner->is_set_up))
     PetscCall(SamElasticitySetType(e, type)); /* made anew with the settings */
   PetscCheck(e->traits.layers || !SamPairHasLayers(&e->pair), from.comm, SAM_ERR_USER,
-             "-%selasticity %s: not supported with layers: use %s%s", e->prefix, type,
-             e->traits.plane ? "" : "halfspace or ",
-             e->traits.plane ? SAM_ELASTICITY_PLANE_PERIODIC : SAM_ELASTICITY_PERIODIC);
+             "-%selasticity %s: not supported with layers: use %s or %s", e->prefix, type, SAM_ELASTICITY_HALFSPACE,
+             SAM_ELASTICITY_PERIODIC);
   PetscCall(CheckThicknesses(e, &from));
   for (SamElasticity o = e; o; o = o->inner) {
     o->fft = e->fft;

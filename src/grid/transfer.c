@@ -46,7 +46,7 @@ static void Between(PetscInt k, PetscInt n, PetscInt N, PetscInt *left, double *
 
   *left = (PetscInt)floor(s);
   *t    = s - floor(s);
-  if (*left < 0 || N == 1) {
+  if (*left < 0) {
     *left = 0;
     *t    = 0;
   }

@@ -130,4 +130,4 @@ def test_ranks_do_not_matter(hills, solve):
 
 def test_unknown_elasticity_is_named(petsam, sphere):
     done = petsam(sphere, "-elasticity", "plate", check=2)
-    assert done.complaint[0] == "petsam: -elasticity plate: expected halfspace or periodic"
+    assert done.complaint[0] == "petsam: -elasticity plate: expected halfspace, periodic, plane or plane_periodic"

@@ -76,7 +76,12 @@ def bits(path):
 
 def test_help_lists_the_types_and_their_options(petsam, plugin):
     lines = petsam("-help", dict(plugin=plugin)).stdout
-    for text in ("coated, halfspace or periodic", "cone, ellipsoid,", "activeset or spectral", "Fading friction"):
+    for text in (
+        "coated, halfspace, periodic, plane or plane_periodic",
+        "cone, ellipsoid,",
+        "activeset or spectral",
+        "Fading friction",
+    ):
         assert text in lines
     for option in ("-fading_length", "-fading_final", "-coating_compliance", "-gap_slope"):
         assert option in lines

@@ -74,7 +74,7 @@ static void test_coarse_grid_has_half_the_cells_of_the_same_rectangle(void **sta
 
 static void test_impossible_grids_are_refused(void **state)
 {
-  const PetscInt  n[][2]      = {{1, 5}, {5, 1}, {0, 5}, {-3, 5}, {5, 5}};
+  const PetscInt  n[][2]      = {{1, 5}, {5, 0}, {0, 5}, {-3, 5}, {5, 5}};
   const PetscReal width[][2]  = {{0, 1}, {1, -1}, {NAN, 1}, {1, INFINITY}, {1, 1e-200}};
   const PetscReal center[][2] = {{NAN, 0}, {0, INFINITY}, {1e15, 0}}, size[2] = {1, 1}, origin[2] = {0, 0};
   SamGrid         grid;

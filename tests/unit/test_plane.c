@@ -2,6 +2,8 @@
 #include "elasticities.h"
 #include "preconditioners.h"
 
+#include <petsam/private/layered.h>
+
 #include <math.h>
 
 /* Cells: few, odd, prime, and so many that lines are transformed in parts. */
@@ -92,6 +94,78 @@ static void test_kernels_are_the_closed_forms(void **state)
       }
       sam_call(SamElasticityDestroy(&e));
     }
+}
+
+/*
+  Of layered bodies: the symbols' differences by quadrature over k, with 1/k cos(kx), or sin, over a cell; what remains
+  of them at k = 0 is c0 exp(-kd), whose line load is -c0/pi ln(sqrt(x^2 + d^2)/D), or c0/pi atan(x/d).
+*/
+static double LayeredKernel(const SamPair *pair, SamLayeredSymbol symbol, double x, double h)
+{
+  enum { PANELS = 30000 };
+  static const double at[4][2] = {{-0.861136311594053, 0.347854845137454},
+                                  {-0.339981043584856, 0.652145154862546},
+                                  {0.339981043584856, 0.652145154862546},
+                                  {0.861136311594053, 0.347854845137454}};
+  const PetscBool     odd      = symbol == SAM_LAYERED_ZR;
+  const double        d = 1e-4, least = log(1e-8), step = (log(6e5) - least) / PANELS; /* of ln k */
+  double              total[SAM_LAYERED_SYMBOLS], limit[SAM_LAYERED_SYMBOLS], some[SAM_LAYERED_SYMBOLS], sum = 0;
+
+  SamLayeredSymbols(pair, 0, 1e-15, total, limit);
+  for (int n = 0; n < 4 * PANELS; n++) {
+    const double k = exp(least + step * (n / 4 + 0.5 + 0.5 * at[n % 4][0])), w = 0.5 * step * k * at[n % 4][1];
+
+    SamLayeredSymbols(pair, 0, k, total, some);
+    sum +=
+      w * (some[symbol] - limit[symbol] * exp(-k * d)) / k * (odd ? sin(k * x) : cos(k * x)) * 2 * sin(k * h / 2) / k;
+  }
+  for (int n = 0; n < 400; n++) { /* the rest is smooth over d */
+    const double s = x + h * ((n / 4 + 0.5 + 0.5 * at[n % 4][0]) / 100 - 0.5), w = 0.5 * h / 100 * at[n % 4][1];
+
+    sum += w * limit[symbol] * (odd ? atan(s / d) : -log(hypot(s, d) / width));
+  }
+  return sum / PETSC_PI;
+}
+
+static void test_layers_add_their_symbols(void **state)
+{
+  static const double           substrate[2] = {210e9, 70e9};
+  static const SamLayeredSymbol symbols[4]   = {SAM_LAYERED_ZZ, SAM_LAYERED_RR, SAM_LAYERED_TT, SAM_LAYERED_ZR};
+  const SamLayers               layers[2]    = {{.count = 1, .young = {120e9}, .poisson = {0.1}, .thickness = {1e-4}},
+                                                {2, {150e9, 60e9}, {0.2, 0.4}, {6e-5, 2e-4}, {{0}}}};
+  SamGrid                       grid         = NewGridOn(PETSC_COMM_WORLD, 37, 1, width, 1, 0, 0);
+  SamElasticity                 e;
+  SamPair                       pair;
+  double                       *all[4];
+
+  (void)state;
+  sam_call(SamPairSetLayered(&pair, substrate, poisson, layers));
+  sam_call(SamElasticityCreate(grid, &pair, &e));
+  for (int c = 0; c < 4; c++) { /* u_z by p, u_x by q_x, u_y by q_y, u_x by p */
+    Vec t = NewField(grid, c == 0 || c == 3 ? 1 : 2), u = NewField(grid, c ? 2 : 1);
+
+    AddAt(grid, c == 2 ? 1 : 0, 0, 0, 1, t);
+    sam_call((c == 0   ? SamElasticityApplyNormal
+              : c == 3 ? SamElasticityApplyNormalToTangential
+                       : SamElasticityApplyTangential)(e, t, u));
+    all[c] = Whole(grid, c ? 2 : 1, u);
+    sam_call(VecDestroy(&t));
+    sam_call(VecDestroy(&u));
+  }
+  for (int c = 0; c < 4; c++)
+    for (PetscInt i = 0; i < 37; i += i < 2 ? 1 : i < 3 ? 12 : 22) {
+      const double h = grid->dx, x = (double)i * h, own = all[c][c == 2 ? 37 : 0];
+      const double lag      = c == 3 ? (i ? PETSC_PI * pair.coupling * h : 0)
+                                     : -2 * (pair.normal + (c == 2 ? pair.shear_xx : 0)) *
+                                    (double)(L(x + h / 2, width) - L(x - h / 2, width) - h);
+      const double size     = c == 3 ? all[0][0] : own;
+      const double expected = lag + LayeredKernel(&pair, symbols[c], x, h);
+
+      sam_assert_close(all[c][(c == 2 ? 37 : 0) + i], expected, 1e-11 * size);
+    }
+  for (int c = 0; c < 4; c++) free(all[c]);
+  sam_call(SamElasticityDestroy(&e));
+  sam_call(SamGridDestroy(&grid));
 }
 
 /* On one period cos k x is displaced as on a half-plane: 2/(E* k), (1/G1 + 1/G2)/k, and the coupling turned by pi/2. */
@@ -319,6 +393,7 @@ int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_kernels_are_the_closed_forms),
+    cmocka_unit_test(test_layers_add_their_symbols),
     cmocka_unit_test(test_waves_are_displaced_by_their_symbols),
     cmocka_unit_test(test_operator_is_symmetric),
     cmocka_unit_test(test_single_precision_and_inverses),

@@ -92,7 +92,7 @@ typedef struct {
   PetscInt  references;
   SamPair   pair;
   double    depth; /* 2 h, h the thinner of both bodies' first layers: differences fall like exp(-depth k) */
-  SamSpline symbols, radial;
+  SamSpline symbols, radial, line;
 } * SamLayered;
 PETSC_INTERN PetscErrorCode SamLayeredCreate(const SamPair *pair, SamLayered *layered);
 PETSC_INTERN PetscErrorCode SamLayeredReference(SamLayered from, SamLayered *to); /* in the place of another */
@@ -163,5 +163,13 @@ PETSC_INTERN double SamLayeredRectangle(SamLayered layered, SamIntegral kind, co
                                         const double side[2]);
 PETSC_INTERN void   SamLayeredAddRow(SamLayered layered, SamIntegral kind, double dx, double dy, PetscInt j, PetscInt n,
                                      double values[]);
+/*
+  SamLayeredPrepareLine, SamLayeredAddLine - the same in plane strain: the table up to the distance r (m); the integrals
+  of the influence of line loads, less that of the surface's half-spaces, over the cells at the lags i = 0 ... n - 1.
+  Far away displacements are those of the substrates, relative to the distance `datum` (m). Not collective.
+*/
+PETSC_INTERN PetscErrorCode SamLayeredPrepareLine(SamLayered layered, double r);
+PETSC_INTERN void SamLayeredAddLine(SamLayered layered, SamLayeredSymbol symbol, double dx, double datum, PetscInt n,
+                                    double values[]);
 
 #endif

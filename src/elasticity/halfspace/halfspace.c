@@ -25,8 +25,6 @@ typedef struct {
   PetscReal  datum;           /* D in plane strain, m; 0: three dimensions */
 } HalfSpace;
 
-#define DATUM "plane_datum"
-
 /* The thinnest layers on which edges are those of half-spaces: 8 cells, twice the depth. */
 #define THICK 16
 
@@ -80,6 +78,8 @@ static double PlaneIntegral(double dx, double datum, PetscInt i)
 
 static void PlaneRow(const Coefficients *c, PetscInt j, PetscInt n, double values[])
 {
+  static const SamLayeredSymbol symbols[] = {
+    [ZZ] = SAM_LAYERED_ZZ, [XX] = SAM_LAYERED_RR, [YY] = SAM_LAYERED_TT, [XZ] = SAM_LAYERED_ZR};
   const double more = c->kind == YY ? c->factor[1] : 0;
 
   for (PetscInt i = 0; i < n; i++) {
@@ -87,6 +87,7 @@ static void PlaneRow(const Coefficients *c, PetscInt j, PetscInt n, double value
       c->kind == XZ ? PETSC_PI * c->factor[0] * c->dx : -2 * (c->factor[0] + more) * PlaneIntegral(c->dx, c->datum, i);
     if (j) values[i] = 0;
   }
+  if (c->layers && !j) SamLayeredAddLine(c->layers, symbols[c->kind], c->dx, c->datum, n, values);
 }
 
 static void CoefficientRow(PetscInt j, PetscInt n, double *const values[], const void *context)
@@ -117,6 +118,7 @@ static PetscErrorCode PrepareLayers(SamElasticity e)
   SamLayered    l    = ((const HalfSpace *)e->data)->layers;
 
   PetscFunctionBegin;
+  if (l && e->traits.plane) PetscFunctionReturn(SamLayeredPrepareLine(l, 2 * grid->width[0]));
   if (l) PetscCall(SamLayeredPrepare(l, 2 * hypot(grid->width[0], grid->width[1]), (const double[2]){0, 0}));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -476,57 +478,7 @@ PetscErrorCode SamElasticityCreate_HalfSpace(SamElasticity e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- plane strain ---- */
-
-static PetscErrorCode CheckDatum(SamElasticity e, PetscErrorCode error, const char source[], const char before[])
+PetscReal *SamHalfSpaceDatum(SamElasticity e)
 {
-  const double datum = (double)((const HalfSpace *)e->data)->datum, least = (double)e->grid->width[0] / 2;
-
-  PetscFunctionBegin;
-  PetscCheck(datum >= least && isfinite(datum), e->grid->comm, error,
-             "%s%s" DATUM " %.6g: give at least half the grid's width, %.6g m", source, before, datum, least);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode SetFromOptions_Plane(SamElasticity e, const SamOptions *from)
-{
-  char      before[SAM_PREFIX + 2];
-  PetscReal datum = 0;
-
-  PetscFunctionBegin;
-  PetscCall(SamOptionsReal(from, DATUM, "plane: distance (m) that displacements are relative to, 0: grid width",
-                           SAM_RANGE_NONNEGATIVE, &datum, NULL));
-  if (datum > 0) ((HalfSpace *)e->data)->datum = datum;
-  PetscCall(PetscSNPrintf(before, sizeof(before), "-%s", e->prefix));
-  PetscCall(CheckDatum(e, SAM_ERR_USER, "", before));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode AddParameters_Plane(SamElasticity e, SamParameters *p)
-{
-  return SamParametersAddReals(p, DATUM, PETSC_TRUE, 1, &((const HalfSpace *)e->data)->datum);
-}
-
-static PetscErrorCode SetParameters_Plane(SamElasticity e, const SamParameters *p, const char source[])
-{
-  const SamParameter *found = SamParametersFind(p, DATUM);
-
-  PetscFunctionBegin;
-  if (found && found->count == 1) ((HalfSpace *)e->data)->datum = found->value[0];
-  PetscCall(CheckDatum(e, SAM_ERR_FILE, source, ": cannot be read: "));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamElasticityCreate_Plane(SamElasticity e)
-{
-  PetscFunctionBegin;
-  PetscCall(SamElasticityCreate_HalfSpace(e));
-  ((HalfSpace *)e->data)->datum = e->grid->width[0];
-  e->traits.plane               = PETSC_TRUE;
-  e->traits.rotations[0] = e->traits.rotations[2] = PETSC_FALSE;
-  e->traits.within = e->traits.layers = PETSC_FALSE;
-  e->ops.setfromoptions               = SetFromOptions_Plane;
-  e->ops.addparameters                = AddParameters_Plane;
-  e->ops.setparameters                = SetParameters_Plane;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return &((HalfSpace *)e->data)->datum;
 }

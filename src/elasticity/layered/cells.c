@@ -231,6 +231,7 @@ PetscErrorCode SamLayeredDestroy(SamLayered *layered)
   if (!l || --l->references > 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamSplineDestroy(&l->symbols));
   PetscCall(SamSplineDestroy(&l->radial));
+  PetscCall(SamSplineDestroy(&l->line));
   PetscCall(PetscFree(l));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -252,25 +253,121 @@ static void DifferencesAt(const void *context, double k, double values[])
   Combine(difference, values);
 }
 
-static PetscErrorCode CreateRadial(SamLayered l, double r)
+/* A source of these differences, whose images are those of the symbols. */
+static SamRadialSource SourceOf(SamLayered l)
 {
-  static const int orders[] = {[SAM_RADIAL_N] = 0, [SAM_RADIAL_A] = 0, [SAM_RADIAL_B] = 2, [SAM_RADIAL_C] = 1};
-  SamRadialSource  of       = {.functions = SAM_RADIAL_FUNCTIONS, .orders = orders, .values = DifferencesAt};
+  SamRadialSource of = {.functions = SAM_LAYERED_SYMBOLS, .depth = l->depth, .context = l};
 
-  PetscFunctionBegin;
-  of.depth   = l->depth;
-  of.context = l;
   for (PetscInt b = 0; b < 2; b++) {
-    double total[SAM_LAYERED_SYMBOLS], limit[SAM_LAYERED_SYMBOLS];
+    double total[SAM_LAYERED_SYMBOLS];
 
     of.thickness[b] = (double)SamLayersDepth(&l->pair.layers[b], l->pair.layers[b].count);
     of.longest      = PetscMax(of.longest, of.thickness[b]);
-    SamLayeredSymbols(&l->pair, b + 1, SMALLEST / PetscMax(of.thickness[b], l->depth), total, limit);
-    if (!b) limit[SAM_LAYERED_ZR] = -limit[SAM_LAYERED_ZR];
+    SamLayeredSymbols(&l->pair, b + 1, SMALLEST / PetscMax(of.thickness[b], l->depth), total, of.image[b]);
+    if (!b) of.image[b][SAM_LAYERED_ZR] = -of.image[b][SAM_LAYERED_ZR];
+  }
+  return of;
+}
+
+static PetscErrorCode CreateRadial(SamLayered l, double r)
+{
+  static const int orders[] = {[SAM_RADIAL_N] = 0, [SAM_RADIAL_A] = 0, [SAM_RADIAL_B] = 2, [SAM_RADIAL_C] = 1};
+  SamRadialSource  of       = SourceOf(l);
+
+  PetscFunctionBegin;
+  of.orders = orders;
+  of.values = DifferencesAt;
+  for (PetscInt b = 0; b < 2; b++) {
+    double limit[SAM_LAYERED_SYMBOLS];
+
+    PetscCall(PetscArraycpy(limit, of.image[b], SAM_LAYERED_SYMBOLS));
     Combine(limit, of.image[b]);
   }
   PetscCall(SamRadialCreate(&of, r, &l->radial));
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- lines along y, in plane strain ---- */
+
+/*
+  The influence of a line load is the integral over y of that of point loads: of H_0[c](r) for zz, rr and tt, of
+  x H_1[c](r)/r for zr. The images' parts are known, -(c(0)/pi) ln(rho/D), relative to a distance D, and (c(0)/pi)
+  atan(x/Z); what remains falls like y^-3, and with y = R sinh t the trapezoidal rule integrates it.
+*/
+#define LINE_STEP  0.3
+#define LINE_COUNT 50  /* y up to 1e6 R */
+#define LINE_REACH 2e6 /* of the table, over the distance */
+
+static void LineDifferencesAt(const void *context, double k, double values[])
+{
+  double total[SAM_LAYERED_SYMBOLS];
+
+  SamLayeredSymbols(&((SamLayered)context)->pair, 0, k, total, values);
+}
+
+PetscErrorCode SamLayeredPrepareLine(SamLayered l, double r)
+{
+  static const int orders[] = {[SAM_LAYERED_ZZ] = 0, [SAM_LAYERED_ZR] = 1, [SAM_LAYERED_RR] = 0, [SAM_LAYERED_TT] = 0};
+  SamRadialSource  of       = SourceOf(l);
+  const double     reach    = LINE_REACH * hypot(r, l->depth);
+
+  PetscFunctionBegin;
+  if (reach * reach <= l->line.most) PetscFunctionReturn(PETSC_SUCCESS);
+  of.orders = orders;
+  of.values = LineDifferencesAt;
+  PetscCall(SamSplineDestroy(&l->line));
+  PetscCall(SamRadialCreate(&of, 2 * reach, &l->line));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+typedef struct {
+  const SamSpline *table;
+  SamRadialSource  of;
+  SamLayeredSymbol symbol;
+  double           datum;
+} Line;
+
+static double LineAt(const Line *c, double x)
+{
+  const PetscBool odd = c->symbol == SAM_LAYERED_ZR;
+  const double    R   = hypot(x, c->of.depth / 2);
+  double          s[LINE_COUNT], f[LINE_COUNT], sum = 0;
+
+  for (int m = 0; m < LINE_COUNT; m++) s[m] = x * x + R * R * sinh(m * LINE_STEP) * sinh(m * LINE_STEP);
+  SamSplineRow(c->table, c->symbol, LINE_COUNT, s, f);
+  for (int m = 0; m < LINE_COUNT; m++) {
+    for (int b = 0; b < 2; b++) {
+      const double Z = c->of.thickness[b], rho = sqrt(s[m] + Z * Z), image = c->of.image[b][c->symbol];
+
+      if (image != 0) f[m] -= image / (2 * PETSC_PI * rho * (odd ? rho + Z : 1));
+    }
+    sum += (m ? 2 : 1) * LINE_STEP * R * cosh(m * LINE_STEP) * f[m];
+  }
+  if (odd) sum *= x;
+  for (int b = 0; b < 2; b++) {
+    const double Z = c->of.thickness[b], image = c->of.image[b][c->symbol] / PETSC_PI;
+
+    if (image != 0) sum += image * (odd ? atan(x / Z) : -log(hypot(x, Z) / c->datum));
+  }
+  return sum;
+}
+
+/* The integral over an interval, halved until it is short against the distance of the images. */
+static double LineIntegral(const Line *c, double x, double length)
+{
+  double sum = 0;
+
+  if (length > 0.7 * hypot(x, c->of.depth / 2))
+    return LineIntegral(c, x - length / 4, length / 2) + LineIntegral(c, x + length / 4, length / 2);
+  for (int k = 0; k < POINTS; k++) sum += rules[POINTS].w[k] * LineAt(c, x + length * rules[POINTS].x[k]);
+  return length * sum;
+}
+
+void SamLayeredAddLine(SamLayered l, SamLayeredSymbol symbol, double dx, double datum, PetscInt n, double values[])
+{
+  const Line line = {&l->line, SourceOf(l), symbol, datum};
+
+  for (PetscInt i = 0; i < n; i++) values[i] += LineIntegral(&line, (double)i * dx, dx);
 }
 
 static void SymbolsAt(const void *context, double k2, double values[])
