@@ -17,54 +17,71 @@ from .basis import along, powers
 
 ACCURACY = 1e-9  # of a Gauss sum
 MOST = 160  # Gauss points along a side
-CHUNK = 1 << 16  # pairs of point and Gauss point at a time
-DELTA = np.eye(3)
+CHUNK = 1 << 15  # pairs of point and Gauss point at a time
 
 
 def _powers(d):
-    """1/r and 1/s of the differences (..., 3)."""
-    r = np.sqrt(np.einsum("...i,...i", d, d))
-    return 1.0 / r, 1.0 / (r + d[..., 2])
+    """1/r and 1/s of the differences d (3, ...)."""
+    r = np.sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2])
+    return 1.0 / r, 1.0 / (r + d[2])
 
 
 def displacement(d, poisson):
-    """u_ik (..., 3, 3), times 4 pi G, of a unit force in k at the origin of d (..., 3)."""
+    """u_ik (3, 3, ...), times 4 pi G, at differences d (3, ...) from a unit force in k."""
     a, b = _powers(d)
     c = 1.0 - 2.0 * poisson
-    u = np.einsum("...,ik->...ik", a, DELTA) + np.einsum("...,...i,...k->...ik", a**3, d, d)
-    flat = d[..., :2]
-    u[..., :2, :2] += c * (
-        np.einsum("...,ik->...ik", b, DELTA[:2, :2]) - np.einsum("...,...i,...k->...ik", a * b**2, flat, flat)
-    )
-    side = c * (a * b)[..., None] * flat
-    u[..., 2, :2] += side
-    u[..., :2, 2] -= side
-    u[..., 2, 2] += c * a
+    u = np.empty((3, 3, *a.shape))
+    cube, side = a * a * a, c * a * b
+    flat = cube - side * b
+    u[0, 1] = u[1, 0] = d[0] * d[1] * flat
+    for i in range(2):
+        u[i, i] = a + c * b + d[i] * d[i] * flat
+        u[2, i] = d[i] * (d[2] * cube + side)
+        u[i, 2] = d[i] * (d[2] * cube - side)
+    u[2, 2] = (1.0 + c) * a + d[2] * d[2] * cube
     return u
 
 
+def _add_correction(g, d, inverse, c):
+    """The gradient of (1 - 2 nu) H_ik, added to g."""
+    a, b = inverse
+    p = c * a * b
+    q, w = p * b, p * a * (a + b)
+    third, cube = q * a * (a + 2.0 * b), c * a * a * a
+    for i in range(2):
+        for k in range(2):
+            equal = i == k
+            g[i, k, 2] -= (p if equal else 0.0) - w * d[i] * d[k]
+            second = (p if equal else 0.0) - w * d[i] * d[k]
+            g[2, i, k] += second
+            g[i, 2, k] -= second
+            for m in range(2):
+                line = sum(d[n] for n, pair in ((m, (i, k)), (k, (i, m)), (i, (k, m))) if pair[0] == pair[1])
+                g[i, k, m] += third * (d[i] * d[k] * d[m]) - q * line
+        g[2, i, 2] -= cube * d[i]
+        g[i, 2, 2] += cube * d[i]
+    for m in range(3):
+        g[2, 2, m] -= cube * d[m]
+
+
 def gradient(d, poisson):
-    """u_ik,l (..., 3, 3, 3), times 4 pi G, of the same."""
+    """u_ik,l (3, 3, 3, ...), times 4 pi G, of the same."""
     a, b = _powers(d)
-    c = 1.0 - 2.0 * poisson
-    near = (a**3)[..., None] * d
-    g = -3.0 * np.einsum("...,...i,...k,...l->...ikl", a**5, d, d, d)
-    g += np.einsum("il,...k->...ikl", DELTA, near) + np.einsum("kl,...i->...ikl", DELTA, near)
-    g -= np.einsum("ik,...l->...ikl", DELTA, near)
-    e, flat = DELTA[:2, :2], d[..., :2]
-    line = (a * b**2)[..., None] * flat
-    third = np.einsum("ik,...l->...ikl", e, line) + np.einsum("il,...k->...ikl", e, line)
-    third += np.einsum("kl,...i->...ikl", e, line)
-    third -= np.einsum("...,...i,...k,...l->...ikl", a**3 * b**2 + 2.0 * a**2 * b**3, flat, flat, flat)
-    second = np.einsum("...,ik->...ik", a * b, e)
-    second -= np.einsum("...,...i,...k->...ik", a**3 * b + a**2 * b**2, flat, flat)
-    g[..., :2, :2, :2] -= c * third
-    g[..., :2, :2, 2] -= c * second
-    g[..., 2, :2, :2] += c * second
-    g[..., :2, 2, :2] -= c * second
-    g[..., 2, :2, 2] -= c * near[..., :2]
-    g[..., :2, 2, 2] += c * near[..., :2]
-    g[..., 2, 2, :] -= c * near
+    cube = a * a * a
+    g = np.empty((3, 3, 3, *a.shape))
+    near = [cube * one for one in d]
+    fifth = -3.0 * a * a
+    for i in range(3):
+        for k in range(i, 3):
+            outer = fifth * d[i] * near[k]
+            for m in range(3):
+                value = outer * d[m]
+                for n, same, sign in ((k, i == m, 1.0), (i, k == m, 1.0), (m, i == k, -1.0)):
+                    if same:
+                        value += sign * near[n]
+                g[i, k, m] = value
+                g[k, i, m] = value
+    _add_correction(g, d, (a, b), 1.0 - 2.0 * poisson)
     return g
 
 
@@ -86,7 +103,7 @@ class Fields:
         self.columns = 3 * patch.count
 
     def _sum(self, kernel, points, parts):
-        """Sums (points, parts, m, 3) of kernel(differences) (..., parts, 3) over the patch."""
+        """Sums (points, parts, m, 3) of kernel(differences, poisson) (parts, 3, ...) over the patch."""
         points = np.asarray(points, dtype=float)
         result = np.empty((len(points), parts, self.patch.count, 3))
         counts = points_needed(self.patch.distance(points), self.patch.degree)
@@ -97,23 +114,21 @@ class Fields:
             stride = max(1, CHUNK // len(source))
             for first in range(0, len(chosen), stride):
                 some = chosen[first : first + stride]
-                d = np.repeat(points[some][:, None, :], len(source), axis=1)
-                d[..., :2] -= source
-                values = kernel(d).reshape(len(some), len(source), -1)
-                summed = np.matmul(factor.T, values).reshape(len(some), self.patch.count, parts, 3)
-                result[some] = summed.transpose(0, 2, 1, 3)
+                d = points[some].T[:, :, None] - np.concatenate([source.T, np.zeros((1, len(source)))])[:, None, :]
+                values = kernel(d, self.poisson).reshape(-1, len(source)) @ factor
+                result[some] = values.reshape(parts, 3, len(some), -1).transpose(2, 0, 3, 1)
         return result
 
     def displacement(self, points):
         """u (points, 3, 3 m), column 3 j + k of phi_j in direction k; m3/N: metres by a coefficient in N/m."""
-        u = self._sum(lambda d: displacement(d, self.poisson), points, 3)
+        u = self._sum(displacement, points, 3)
         return u.reshape(len(points), 3, self.columns)
 
     def gradient(self, points):
         """u_i,l (points, 3, 3, 3 m)."""
 
-        def kernel(d):
-            return np.swapaxes(gradient(d, self.poisson), -1, -2).reshape(*d.shape[:-1], 9, 3)
+        def kernel(d, poisson):
+            return np.swapaxes(gradient(d, poisson), 1, 2).reshape(9, 3, *d.shape[1:])
 
         return self._sum(kernel, points, 9).reshape(len(points), 3, 3, self.columns)
 
@@ -187,9 +202,9 @@ def projected(patch, young, poisson):
         u, v = (w.ravel() for w in np.meshgrid(t, t))
         d = np.stack([u * v, u] if swapped else [u, u * v], axis=1) * sides * (sx, sy)
         measure = np.outer(weight, weight).ravel() * u * sides[0] * sides[1]
-        difference = np.concatenate([d, np.zeros((len(d), 1))], axis=1)
-        kernel = displacement(difference, poisson) * (measure * 0.5 * (1.0 + poisson) / (np.pi * young))[:, None, None]
+        difference = np.stack([*d.T, np.zeros(len(d))])
+        kernel = displacement(difference, poisson) * (measure * 0.5 * (1.0 + poisson) / (np.pi * young))
         cx, cy = (_correlation(patch.degree, patch.half[axis], d[:, axis]) for axis in range(2))
         pairs = cx[:, table[:, 0][:, None], table[:, 0]] * cy[:, table[:, 1][:, None], table[:, 1]]
-        total += np.einsum("pab,pij->aibj", pairs, kernel, optimize=True)
+        total += np.einsum("pab,ijp->aibj", pairs, kernel, optimize=True)
     return total.reshape(3 * patch.count, 3 * patch.count)

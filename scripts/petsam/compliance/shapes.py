@@ -161,7 +161,7 @@ _WEDGE6, _WEDGE15 = Family(_WEDGE, _WEDGE_LINEAR), Family(_middles(_WEDGE, _WEDG
 SHAPES = {
     "C3D8": Shape(_HEX8, 8, _faces(_HEX_FACES, []), _cube, 2, _HEX8),
     "C3D20": Shape(_HEX20, 8, _faces(_HEX_FACES, _HEX_EDGES), _cube, 3, _HEX8),
-    "C3D4": Shape(_TET4, 4, _faces(_TET_FACES, []), _tetrahedron, 1, _TET4),
+    "C3D4": Shape(_TET4, 4, _faces(_TET_FACES, []), _tetrahedron, 2, _TET4),
     "C3D10": Shape(_TET10, 4, _faces(_TET_FACES, _TET_EDGES), _tetrahedron, 3, _TET4),
     "C3D6": Shape(_WEDGE6, 6, _faces(_WEDGE_FACES, []), wedge_rule, 2, _WEDGE6),
     "C3D15": Shape(_WEDGE15, 6, _faces(_WEDGE_FACES, _WEDGE_EDGES), wedge_rule, 3, _WEDGE6),
@@ -169,6 +169,5 @@ SHAPES = {
 KINDS = {
     **{name: name for name in SHAPES},
     "C3D8I": "C3D8",
-    "C3D8R": "C3D8",
     "C3D20R": "C3D20",
 }  # element types of CalculiX and the shapes they have

@@ -4,9 +4,9 @@ The retained nodes are the patch. Each phi_j gives consistent forces F_j on them
 
     D_ij = F_i . K^-1 F_j - <phi_i, K_half-space phi_j>
 
-which subtracts two large numbers: the finite elements' error of the local displacements stays in D. It is too stiff
-by a few per cent of D at degree 1, and from degree 2 on its local part replaces that of the half-space. The method by meshes
-has no such error.
+which subtracts two large numbers: the finite elements' error of the local displacements stays in D. It is too stiff by
+a few per cent of D at degree 1, and from degree 2 on its local part replaces that of the half-space. The method by
+meshes has no such error.
 
 Formats: Abaqus .mtx (*USER ELEMENT, *MATRIX) and CalculiX's, Nastran's DMIG KAAX (bulk data), and a list of the lower
 triangle by rows (ANSYS .sub as text) in the order of the table of nodes, three directions per node.
