@@ -133,13 +133,21 @@ class Mesh:
         local, best = np.zeros((len(points), 3)), np.full(len(points), np.inf)
         for index, one in enumerate(self.blocks):
             corners = self.nodes[one.nodes]
+            low, high = corners.min(axis=1), corners.max(axis=1)
+            slack = 0.1 * (high - low).max(axis=1)[:, None]
+            low, high = low - slack, high + slack
             count = min(NEIGHBOURS, len(corners))
             _, near = cKDTree(corners.mean(axis=1)).query(points, count)
             for candidate in near.reshape(len(points), count).T:
-                place, outside = _inverse(one.shape, corners[candidate], points)
-                better = outside < best - 1e-12
+                boxed = np.all((points >= low[candidate]) & (points <= high[candidate]), axis=1)
+                tried = np.flatnonzero(boxed & (best > INSIDE))
+                if not len(tried):
+                    continue
+                place, outside = _inverse(one.shape, corners[candidate[tried]], points[tried])
+                mask = outside < best[tried]
+                better = tried[mask]
                 block[better], element[better] = index, candidate[better]
-                local[better], best[better] = place[better], outside[better]
+                local[better], best[better] = place[mask], outside[mask]
         block[best > INSIDE] = -1
         return block, element, local
 

@@ -20,12 +20,10 @@ class Family:
 
     def _monomials(self, points, derivative=None):
         out = np.ones((len(points), len(self.exponents)))
-        for d in range(points.shape[1]):
-            power = self.exponents[:, d]
-            if d == derivative:
-                out *= power * points[:, d, None] ** np.maximum(power - 1, 0)
-            else:
-                out *= points[:, d, None] ** power
+        one = np.ones(len(points))
+        for d, x in enumerate(points.T):
+            powers = (0.0 * one, one, 2.0 * x) if d == derivative else (one, x, x * x)
+            out *= np.stack(powers, axis=1)[:, self.exponents[:, d]]
         return out
 
     def values(self, points):

@@ -2,10 +2,13 @@
 
 import numpy as np
 from scipy import sparse
+from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import splu
 
 from ..errors import Error
+from .stiffness import rigid_motions
 
+LOOSE = 1e-6  # singular value of rigid motions at the supports, below which the body can move
 LEAF = 60  # nodes that are not divided further
 
 
@@ -35,6 +38,21 @@ def dissection(points, adjacency):
     return np.concatenate(order)
 
 
+def need_support(nodes, adjacency, fixed):
+    """Error where a connected part of the body can move as a rigid one."""
+    count, part = connected_components(adjacency, directed=False)
+    for i in range(count):
+        mine = np.flatnonzero(part == i)
+        rows = (3 * mine[:, None] + np.arange(3)).ravel()
+        held = rigid_motions(nodes[mine])[fixed[rows]]
+        if len(held) < 6 or np.linalg.svd(held, compute_uv=False)[-1] < LOOSE:
+            x = nodes[mine].mean(axis=0)
+            raise Error(
+                f"{'the body' if count == 1 else f'one of {count} parts of the body'}, about x = {x[0]:.3g}, y = "
+                f"{x[1]:.3g}, z = {x[2]:.3g} m of the frame, is not supported: name node sets by --fixed that hold it"
+            )
+
+
 class Solver:
     """K with fixed unknowns."""
 
@@ -43,12 +61,12 @@ class Solver:
         self.matrix, self.fixed = matrix.tocsr(), fixed
         self.free = np.flatnonzero(~fixed)
         self.held = np.flatnonzero(fixed)
-        if not self.held.size:
-            raise Error("the body has no support: name a node set by --fixed")
         count = len(nodes)
         pattern = sparse.csr_matrix((np.ones(matrix.nnz), self.matrix.indices // 3, self.matrix.indptr))
         pick = sparse.csr_matrix((np.ones(count), (np.arange(count), 3 * np.arange(count))), shape=(count, 3 * count))
-        order = dissection(nodes, (pick @ pattern).tocsr())
+        adjacency = (pick @ pattern).tocsr()
+        need_support(nodes, adjacency, fixed)
+        order = dissection(nodes, adjacency)
         rows = (3 * order[:, None] + np.arange(3)).ravel()
         self.rows = rows[~fixed[rows]]
         supported = self.matrix[self.rows][:, self.rows].tocsc()

@@ -85,16 +85,16 @@ def model_lines(mesh):
     """Nodes, elements, sections and materials as lines of a deck; nodes are numbered from 1."""
     lines = ["*NODE, NSET=NALL"]
     lines += ["{}, {:.12e}, {:.12e}, {:.12e}".format(i, *p) for i, p in enumerate(mesh.nodes, 1)]
-    first, sections = 1, []
+    sections = []
     for index, block in enumerate(mesh.blocks):
         pairs, which = np.unique(np.stack([block.young, block.poisson], axis=1), axis=0, return_inverse=True)
         for m, (young, poisson) in enumerate(pairs):
             name = f"E{index}M{m}"
             lines.append(f"*ELEMENT, TYPE={block.kind}, ELSET={name}")
-            for nodes in block.nodes[which.ravel() == m] + 1:
-                lines += numbers([first, *nodes])
+            mine = which.ravel() == m
+            for number, nodes in zip(block.numbers[mine], block.nodes[mine] + 1):
+                lines += numbers([number, *nodes])
                 lines[-1] = lines[-1].rstrip(",")
-                first += 1
             sections += [f"*MATERIAL, NAME={name}", "*ELASTIC", f"{young:.12e}, {poisson:.12e}", "*DENSITY", "1."]
             sections.append(f"*SOLID SECTION, ELSET={name}, MATERIAL={name}")
     return lines + sections
