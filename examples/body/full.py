@@ -168,9 +168,9 @@ def main():
     mesh, top = body_mesh(options.body, options.size, options.far)
     lines, beside = deck(options.body, mesh, top, options.size)
     base = Path(options.out)
-    base.with_suffix(".inp").write_text("\n".join(lines) + "\n", encoding="ascii")
+    Path(f"{base}.inp").write_text("\n".join(lines) + "\n", encoding="ascii")
     before = os.times()
-    with open(base.with_suffix(".log"), "w", encoding="utf-8") as log:
+    with open(f"{base}.log", "w", encoding="utf-8") as log:
         threads = {"OMP_NUM_THREADS": "1", "CCX_NPROC_STIFFNESS": "1"}
         done = subprocess.run(
             [os.environ.get("CCX", "ccx"), base.name],
@@ -180,21 +180,22 @@ def main():
             env={**os.environ, **threads},
         )
     if done.returncode:
-        sys.exit(f"full.py: CalculiX failed, see {base.with_suffix('.log')}")
+        sys.exit(f"full.py: CalculiX failed, see {base}.log")
     after = os.times()
     cpu = after.children_user + after.children_system - before.children_user - before.children_system
     moved, stresses = np.zeros((len(mesh.nodes) + 8, 3)), np.zeros((len(mesh.blocks[0].nodes), 8, 6))
-    reaction = read_dat(str(base.with_suffix(".dat")), moved, stresses)
+    reaction = read_dat(f"{base}.dat", moved, stresses)
     elements = mesh.blocks[0].nodes[beside]
     force = nodal_forces(mesh.nodes, elements, stresses[beside])
     area = areas(mesh, top, mesh.surfaces["TOP"])
-    nodes = np.flatnonzero(top)
+    near = np.max(np.abs(mesh.nodes[:, :2]), axis=1) < BODIES[options.body]["reach"] + 1e-6
+    nodes = np.flatnonzero(top & near)  # others may be held
     values = force[nodes] / area[nodes, None]
     load, shear = 2.0 * reaction[2], 2.0 * reaction[0]
     x, y = mesh.nodes[nodes, :2].T
     surface = {"x": x, "y": y, "area": area[nodes], "pressure": values[:, 2], "shear_x": values[:, 0]}
     count = len(mesh.blocks[0].nodes)
-    np.savez(base.with_suffix(".npz"), load_n=load, load_tx=shear, elements=count, cpu=cpu, **surface)
+    np.savez(f"{base}.npz", load_n=load, load_tx=shear, elements=count, cpu=cpu, **surface)
     print(f"{count} elements, N = {load:.6g}, T = {shear:.6g} N, {cpu:.0f} s")
 
 

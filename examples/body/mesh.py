@@ -2,7 +2,7 @@
 """CalculiX decks (mm, N, MPa) of the two example bodies.
 
     mesh.py block block.inp          4 x 4 x 4 mm, clamped below; the sphere touches it 1.4 mm from an edge
-    mesh.py beam beam.inp            12 x 4 x 3 mm, clamped at both ends; step 1 pulls one end by 1 mm
+    mesh.py beam beam.inp            12 x 4 x 3 mm, clamped at both ends; step 1 pulls one end by 0.006 mm
 
 The contact's origin is the origin of the deck, z points into the body. --coarse halves the elements.
 """
@@ -56,7 +56,7 @@ def lines(name, fine, kind):
         out += [f"*NSET, NSET={title}", *numbers(nodes + 1)]
     out += ["*SURFACE, NAME=TOP", *(f"{element}, S{face + 1}" for element, face in mesh.surfaces["TOP"])]
     if name == "beam":
-        out += ["*STEP", "*STATIC", "*BOUNDARY", "RIGHT, 1, 1, 1.", "*END STEP"]
+        out += ["*STEP", "*STATIC", "*BOUNDARY", "RIGHT, 1, 1, 0.006", "*END STEP"]
     return out
 
 
