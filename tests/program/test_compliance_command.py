@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from petsam.compliance import cases, deck, mesh, model, stiffness
-from test_compliance_tool import EVEN, clamped, condensed, needs_calculix, retained, written_abaqus
+from test_compliance_tool import CCX, EVEN, clamped, condensed, needs_calculix, retained, written_abaqus
 from test_plot import pixels
 
 GRID = np.linspace(-2.0, 2.0, 5)
@@ -415,6 +415,28 @@ def test_matrices_that_are_no_condensed_stiffness_are_rejected(compliance, tmp_p
     assert "5 numbers, which are no triangle" in compliance(*substructure_words(), check=3)[0]
     (tmp_path / "k.mtx").write_text("2 1 0 2\n")
     assert "rows, nodes.txt has" in compliance(*substructure_words(), check=3)[0]
+
+
+@needs_calculix
+def test_the_substructure_that_calculix_writes_is_rejected(compliance, tmp_path):
+    """Version 2.20 writes the rows of the retained nodes as they are; the file's name is .mtx."""
+    body = clamped(GRID, GRID, GRID + 2.0)
+    lines = stiffness.model_lines(body.mesh)
+    for name, nodes in (("KEPT", retained(body)), ("HELD", body.supported)):
+        lines += [f"*NSET, NSET={name}", *stiffness.numbers(nodes + 1)]
+    lines += [
+        "*BOUNDARY",
+        "HELD, 1, 3",
+        "*STEP",
+        "*SUBSTRUCTURE GENERATE",
+        "*RETAINED NODAL DOFS, SORTED=NO",
+        "KEPT, 1, 3",
+    ]
+    stiffness.run([*lines, "*SUBSTRUCTURE MATRIX OUTPUT, STIFFNESS=YES", "*END STEP"], tmp_path, "sub", CCX)
+    table = ["{} {} {} {}".format(n + 1, *body.mesh.nodes[n]) for n in retained(body)]
+    (tmp_path / "nodes.txt").write_text("\n".join(table) + "\n")
+    (tmp_path / ".mtx").rename(tmp_path / "k.mtx")
+    assert "0.83 of the sum of the diagonal" in compliance(*substructure_words(), check=3)[0]
 
 
 def substructure_words():
