@@ -4,10 +4,9 @@
     full.py block out --size 0.1           a rigid sphere of 100 mm moves down by 0.01 mm, no friction
     full.py beam out --size 0.1            by 0.04 mm, friction 0.5, then one end of the beam is pulled by 0.006 mm
 
-The sphere's shape is on the body: its surface nodes are lower by r^2/(2 R) within the contact's neighbourhood, and
-a rigid plane moves down. --size is the elements' size there (mm), --far the size of the largest ones. Writes OUT.inp,
-runs CalculiX, and writes the loads and the nodes' pressures to OUT.npz: forces that balance the stresses in the
-elements beside the surface, over the area of each node, as examples/fe-comparison does.
+The sphere is a rigid surface of facets of 0.05 mm. --size is the elements' size at the contact (mm), --far the size of
+the largest ones. Writes OUT.inp, runs CalculiX, and writes the loads and the nodes' pressures to OUT.npz: forces that
+balance the stresses in the elements beside the surface, over the area of each node, as examples/fe-comparison does.
 """
 
 import argparse
@@ -25,6 +24,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "fe-comparison"))
 from surface import nodal_forces, read_dat  # noqa: E402
 
 YOUNG, POISSON, RADIUS = 210000.0, 0.3, 100.0
+FACET, MARGIN = 0.05, 0.2  # of the sphere, and by how much it is larger than the contact's neighbourhood, mm
 GROWTH = 1.3  # of neighbouring elements
 PENALTY = 30.0  # contact stiffness by E over the size of an element
 FRICTION = 0.5
@@ -58,7 +58,7 @@ def along(low, high, reach, size, far):
 
 
 def body_mesh(name, size, far):
-    """The mesh, with the sphere's shape on its surface."""
+    """The mesh, and a mask of the nodes on its surface."""
     of = BODIES[name]
     (x0, x1), (y0, y1), (_, depth) = of["box"]
     deep = 0.4 * of["reach"]
@@ -73,45 +73,49 @@ def body_mesh(name, size, far):
     }
     mesh = grid_mesh(edges, "C3D8I", YOUNG, POISSON, sets)
     top = np.abs(mesh.nodes[:, 2]) < 1e-9
-    r2 = np.sum(mesh.nodes[:, :2] ** 2, axis=1)
-    mesh.nodes[top, 2] += np.minimum(r2, of["reach"] ** 2)[top] / (2.0 * RADIUS)
     return mesh, top
+
+
+def sphere(of):
+    """Nodes and bricks of a rigid shell whose lower side, towards the body, is the sphere."""
+    reach = of["reach"] + MARGIN
+    x, y = (np.linspace(low, reach, round((reach - low) / FACET) + 1) for low in (-reach, -MARGIN))
+    shell = grid_mesh((x, y, [-1.0, 0.0]), "C3D8")
+    shell.nodes[:, 2] -= np.sum(shell.nodes[:, :2] ** 2, axis=1) / (2.0 * RADIUS)
+    return shell.nodes, shell.blocks[0].nodes
 
 
 def deck(name, mesh, top, size):
     """Lines of the deck; and the elements beside the surface."""
     of, count, elements = BODIES[name], len(mesh.nodes), mesh.blocks[0].nodes
     beside = np.flatnonzero(np.any(top[elements], axis=1))
-    side = 20.0
-    plane = [(x, y, z) for z in (0.0, -1.0) for x, y in ((-side, -side), (side, -side), (side, side), (-side, side))]
+    cap, facets = sphere(of)
     out = ["*HEADING", f"{name}: full contact", "*NODE, NSET=NBODY"]
     out += ["{}, {:.12g}, {:.12g}, {:.12g}".format(i, *p) for i, p in enumerate(mesh.nodes, 1)]
-    out.append("*NODE, NSET=NPLANE")
-    out += ["{}, {:.12g}, {:.12g}, {:.12g}".format(count + i, *p) for i, p in enumerate(plane, 1)]
+    out.append("*NODE, NSET=NSPHERE")
+    out += ["{}, {:.12g}, {:.12g}, {:.12g}".format(count + i, *p) for i, p in enumerate(cap, 1)]
     out.append("*ELEMENT, TYPE=C3D8I, ELSET=EBODY")
     out += [", ".join(map(str, (i, *(nodes + 1)))) for i, nodes in enumerate(elements, 1)]
-    order = [4, 5, 6, 7, 0, 1, 2, 3]  # right-handed: the lower face first
-    out += [
-        "*ELEMENT, TYPE=C3D8, ELSET=EPLANE",
-        ", ".join(map(str, (len(elements) + 1, *(count + 1 + np.array(order))))),
-    ]
+    out.append("*ELEMENT, TYPE=C3D8, ELSET=ESPHERE")
+    first = len(elements) + 1
+    out += [", ".join(map(str, (first + i, *(count + 1 + nodes)))) for i, nodes in enumerate(facets)]
     out += ["*MATERIAL, NAME=STEEL", "*ELASTIC", f"{YOUNG}, {POISSON}"]
-    out += [f"*SOLID SECTION, ELSET=E{part}, MATERIAL=STEEL" for part in ("BODY", "PLANE")]
+    out += [f"*SOLID SECTION, ELSET=E{part}, MATERIAL=STEEL" for part in ("BODY", "SPHERE")]
     for title, nodes in mesh.node_sets.items():
         out += [f"*NSET, NSET={title}", *numbers(nodes + 1)]
     near = np.max(np.abs(mesh.nodes[:, :2]), axis=1) < of["reach"] + 1e-6
     chosen = [(e, f) for e, f in mesh.surfaces["TOP"] if np.all(near[elements[e - 1]])]
     out += ["*SURFACE, NAME=SBODY", *(f"{element}, S{face + 1}" for element, face in chosen)]
-    out += ["*SURFACE, NAME=SPLANE", f"{len(elements) + 1}, S2"]
+    out += ["*SURFACE, NAME=SSPHERE", "ESPHERE, S2"]
     stiffness = PENALTY * YOUNG / size
     out += ["*SURFACE INTERACTION, NAME=TOUCH", "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR", f"{stiffness:.12g}"]
     if name == "beam":
         out += ["*FRICTION", f"{FRICTION}, {stiffness:.12g}"]
-    out += ["*CONTACT PAIR, INTERACTION=TOUCH, TYPE=SURFACE TO SURFACE", "SBODY, SPLANE"]
+    out += ["*CONTACT PAIR, INTERACTION=TOUCH, TYPE=SURFACE TO SURFACE", "SBODY, SSPHERE"]
     out += ["*NSET, NSET=PRINTED", *numbers(np.unique(elements[beside]) + 1)]
     out += ["*ELSET, ELSET=BESIDE", *numbers(beside + 1)]
     held = ["BOTTOM, 1, 3"] if name == "block" else ["LEFT, 1, 3", "RIGHT, 2, 3"]
-    out += ["*BOUNDARY", *held, "NPLANE, 1, 2"]
+    out += ["*BOUNDARY", *held, "NSPHERE, 1, 2"]
     middle = np.setdiff1d(mesh.node_sets["MIDDLE"], held_nodes(name, mesh))
     out += ["*NSET, NSET=SYMMETRY", *numbers(middle + 1), "*BOUNDARY", "SYMMETRY, 2, 2"]
     return out + steps(name, of), beside
@@ -126,7 +130,7 @@ def held_nodes(name, mesh):
 def steps(name, of):
     """The load history."""
     prints = [
-        "*NODE PRINT, NSET=NPLANE, TOTALS=ONLY",
+        "*NODE PRINT, NSET=NSPHERE, TOTALS=ONLY",
         "RF",
         "*NODE PRINT, NSET=PRINTED",
         "U",
@@ -136,7 +140,7 @@ def steps(name, of):
     start = ["*STEP, INC=200", "*STATIC, SOLVER=ITERATIVE CHOLESKY", "0.5, 1.", *CONTROLS, "*BOUNDARY"]
     out = [
         *start,
-        f"NPLANE, 3, 3, {of['down']}",
+        f"NSPHERE, 3, 3, {of['down']}",
         *(["RIGHT, 1, 1, 0."] if name == "beam" else []),
         *prints,
         "*END STEP",
@@ -183,7 +187,7 @@ def main():
         sys.exit(f"full.py: CalculiX failed, see {base}.log")
     after = os.times()
     cpu = after.children_user + after.children_system - before.children_user - before.children_system
-    moved, stresses = np.zeros((len(mesh.nodes) + 8, 3)), np.zeros((len(mesh.blocks[0].nodes), 8, 6))
+    moved, stresses = np.zeros((len(mesh.nodes), 3)), np.zeros((len(mesh.blocks[0].nodes), 8, 6))
     reaction = read_dat(f"{base}.dat", moved, stresses)
     elements = mesh.blocks[0].nodes[beside]
     force = nodal_forces(mesh.nodes, elements, stresses[beside])

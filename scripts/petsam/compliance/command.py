@@ -27,7 +27,7 @@ from ..surface.lengths import lengths, several, shown, sides
 from . import model, picture, substructure, writing
 
 HIGHEST = 10  # degree that petsam reads
-NAME = re.compile(r"[A-Za-z0-9_]{1,24}")
+NAME = re.compile(r"[A-Za-z0-9_]{1,20}")
 MOST_CASES = 8
 PROGRAM = "petsam-compliance"
 
@@ -51,7 +51,7 @@ def case(text):
     name, _, step = text.partition("=")
     if not NAME.fullmatch(name) or not step.isdecimal():
         raise argparse.ArgumentTypeError(
-            f"{short(text)}: expected NAME=STEP, a name of at most 24 letters, digits or _ and a step of the deck"
+            f"{short(text)}: expected NAME=STEP, a name of at most 20 letters, digits or _ and a step of the deck"
         )
     return name, int(step)
 
