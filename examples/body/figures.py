@@ -16,8 +16,8 @@ import petsam
 from petsam import comparison
 from petsam.plot.style import COLORS, frame, plt, points, save
 
-DEGREES = ("none", "1", "2", "4", "6", "fine")
-TITLES = {"none": "half-space", "fine": "6, fine mesh"}
+DEGREES = ("none", "1", "2", "4", "6", "coarse")
+TITLES = {"none": "half-space", "coarse": "6, coarse mesh"}
 SAMPLES = (np.arange(5) - 2.0) / 5.0  # of a node's area, by which petsam's values are averaged
 
 
@@ -112,7 +112,7 @@ class Comparison:
         for which, color, text in (
             ("none", "0.6", "half-space"),
             ("1", COLORS[3], "degree 1"),
-            ("fine", COLORS[0], "degree 6"),
+            ("6", COLORS[0], "degree 6"),
         ):
             grid = self.grids[body].get(which)
             if grid is not None:
@@ -123,7 +123,7 @@ class Comparison:
             best = self.full[body][-1]
             row = best.y < 1e-9
             points(panel, best.x[row], getattr(best, name)[row], COLORS[1], label=f"CalculiX, {best.size:g} mm")
-            half = 1e3 * self.grids[body]["fine"].x[-1]
+            half = 1e3 * self.grids[body]["6"].x[-1]
             panel.set_xlim(-half, half)
             panel.set_ylim(1.15 * min(0.0, getattr(best, name)[row].min()), 1.15 * getattr(best, name)[row].max())
         frame(panel, title, "x, mm", "")

@@ -25,10 +25,10 @@ command -v "$ccx" >/dev/null || fail "no CalculiX $ccx: install the Debian packa
 PYTHON=$python
 export PYTHON
 
-# meshes, and again with elements of half the size
+# meshes, and coarser ones
 for body in block beam; do
     "$python" "$here/mesh.py" "$body" "$out/$body.inp"
-    "$python" "$here/mesh.py" "$body" "$out/${body}_fine.inp" --fine
+    "$python" "$here/mesh.py" "$body" "$out/${body}_coarse.inp" --coarse
 done
 
 # compliance BODY NAME DEGREE OPTION...: NAME.h5 from the deck BODY.inp
@@ -44,11 +44,11 @@ for degree in 1 2 4 6; do
     compliance block "block_c$degree" "$degree" --fixed BOTTOM --patch 2.2mm
     compliance beam "beam_c$degree" "$degree" --fixed LEFT --fixed RIGHT --patch 3mm --case pull=1
 done
-compliance block_fine block_cfine 6 --fixed BOTTOM --patch 2.2mm
-compliance beam_fine beam_cfine 6 --fixed LEFT --fixed RIGHT --patch 3mm --case pull=1
+compliance block_coarse block_ccoarse 6 --fixed BOTTOM --patch 2.2mm
+compliance beam_coarse beam_ccoarse 6 --fixed LEFT --fixed RIGHT --patch 3mm --case pull=1
 
 solve_quietly block_none -options_file "$here/block.opts"
-for which in 1 2 4 6 fine; do
+for which in 1 2 4 6 coarse; do
     solve_quietly "block_$which" -options_file "$here/block.opts" -body2_compliance "$out/block_c$which.h5"
     solve_quietly "beam_$which" -options_file "$here/beam.opts" -body2_compliance "$out/beam_c$which.h5" \
         -history "$here/pull.csv"
