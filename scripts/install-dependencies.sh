@@ -4,7 +4,7 @@
 set -eu
 
 packages="gcc gfortran make pkg-config libopenmpi-dev openmpi-bin petsc-dev libfftw3-dev libfftw3-mpi-dev \
-libhdf5-openmpi-dev libcmocka-dev python3 python3-venv $*"
+libhdf5-openmpi-dev libcmocka-dev calculix-ccx python3 python3-venv $*"
 
 if ! command -v apt-get >/dev/null; then
   echo "install-dependencies.sh: apt-get not found; install the equivalents of these packages:" >&2

@@ -13,7 +13,7 @@ import options
 
 TITLES = {"history": "LOAD HISTORIES", "exit codes": "EXIT STATUS"}
 SEE_ALSO = {
-    "petsam": "petsam-stress(1); petsam-plot, petsam-study and petsam-surface have --help.",
+    "petsam": "petsam-stress(1); petsam-compliance, petsam-plot, petsam-study and petsam-surface have --help.",
     "petsam-stress": "petsam(1); petsam-plot has --help.",
 }
 WIDTH = 70  # of commands

@@ -11,6 +11,7 @@ cycles          cycles of a load history and their energies
 closed          closed-form solutions of contact mechanics
 plot            pictures: petsam-plot
 study           many runs from a table: petsam-study
+compliance      real bodies from finite elements: petsam-compliance
 surface         measured surfaces into petsam's HDF5: petsam-surface
 comparison      what the examples' comparisons with other solutions share
 isolation       reading of files that may be damaged, in a child process
@@ -60,7 +61,7 @@ _HOMES = {
     "WearWarning": ".contact",
 }
 
-_PARTS = ("closed", "comparison", "cycles", "environment", "isolation", "plot", "study", "surface")
+_PARTS = ("closed", "comparison", "compliance", "cycles", "environment", "isolation", "plot", "study", "surface")
 
 
 def __getattr__(name):

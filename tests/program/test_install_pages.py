@@ -12,7 +12,7 @@ from conftest import PROGRAM, environment, make_install
 from support import ROOT
 
 PROGRAMS = ("petsam", "petsam-stress")
-TOOLS = ("petsam-plot", "petsam-study", "petsam-surface")
+TOOLS = ("petsam-compliance", "petsam-plot", "petsam-study", "petsam-surface")
 COMPLETE = """
 . "$1"
 function=$2
@@ -173,6 +173,7 @@ def tool(share, name, *line):
 @pytest.mark.parametrize(
     "name, some",
     [
+        ("petsam-compliance", {"--mesh", "--contact", "--fixed", "--no-stress"}),
         ("petsam-plot", {"--maps", "--fretting-log", "--whole-grid", "--output", "--dpi"}),
         ("petsam-study", {"--directory", "--skip-failed", "--slurm", "--cycle"}),
         ("petsam-surface", {"--body", "--first-row", "--grid-n", "--no-picture"}),

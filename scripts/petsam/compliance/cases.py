@@ -1,0 +1,131 @@
+"""Load cases: the displacements of the patch by the loads and displacements of a step of the deck, without contact.
+
+By Betti's theorem the coefficients need no displacement of the patch: with U_i the displacements and S_i the forces of
+the supports by the traction phi_i, the loads F and the prescribed displacements g of the case give
+
+    <phi_i, v> = F.U_i - S_i.g
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..errors import Error, short
+from .deck import UNSUPPORTED_LOADS, _value
+from .remainder import scatter
+
+REST = 1e-2  # of the field's range: the most that the polynomials may miss
+FACE_POINTS = 4  # Gauss points along the side of a loaded face
+
+
+@dataclass
+class Case:
+    """Coefficients (m, 3), m2, the share of the field that the polynomials miss, and the displacements (3 nodes, 1)."""
+
+    coefficients: np.ndarray
+    rest: float
+    displacement: np.ndarray
+
+
+class Loads:
+    """Forces (3 nodes, 1), N, and prescribed displacements (3 nodes, 1), m, of a step."""
+
+    def __init__(self, deck, mesh, frame, units):
+        self.deck, self.mesh, self.frame, self.units = deck, mesh, frame, units
+        self.force = np.zeros((3 * len(mesh.nodes), 1))
+        self.moved = np.zeros((3 * len(mesh.nodes), 1))
+        self.prescribed = np.zeros(3 * len(mesh.nodes), dtype=bool)
+
+    def _nodes(self, card, word):
+        if word.upper() in self.mesh.node_sets:
+            return self.mesh.node_sets[word.upper()]
+        number = _value(card, word, int)
+        index = np.searchsorted(self.mesh.node_numbers, number)
+        if index == len(self.mesh.node_numbers) or self.mesh.node_numbers[index] != number:
+            raise Error(f"{card.place}: no node {number} in the mesh")
+        return np.array([index])
+
+    def _direction(self, card, word):
+        direction = _value(card, word, int)
+        if not 1 <= direction <= 3:
+            raise Error(f"{card.place}: direction {direction}: use 1 to 3")
+        return self.frame.axes[:, direction - 1]
+
+    def cload(self, card):
+        """Forces on nodes."""
+        for words in card.lines:
+            vector = self._direction(card, words[1]) * _value(card, words[2]) * self.units.force
+            self.force.reshape(-1, 3)[self._nodes(card, words[0])] += vector
+
+    def boundary(self, card):
+        """Displacements of nodes."""
+        for words in card.lines:
+            nodes = self._nodes(card, words[0])
+            first = _value(card, words[1], int)
+            last = _value(card, words[2], int) if len(words) > 2 and words[2] else first
+            value = _value(card, words[3]) if len(words) > 3 and words[3] else 0.0
+            self.prescribed.reshape(-1, 3)[nodes] = True
+            for direction in range(first, last + 1):
+                self.moved.reshape(-1, 3)[nodes] += self._direction(card, str(direction)) * value * self.units.length
+
+    def dload(self, card):
+        """Pressure on element faces."""
+        for words in card.lines:
+            if len(words) < 3 or words[1][:1].upper() != "P" or not words[1][1:].isdecimal():
+                raise Error(f"{card.place}: {short(', '.join(words))}: only pressure P1 to P6 is supported")
+            self._pressure(self.deck.faces(card, words), _value(card, words[2]))
+
+    def dsload(self, card):
+        """Pressure on a surface."""
+        for words in card.lines:
+            name = words[0].upper()
+            if name not in self.mesh.surfaces or len(words) < 3 or words[1].upper() != "P":
+                raise Error(f"{card.place}: {short(', '.join(words))}: expected `surface, P, value`")
+            self._pressure(self.mesh.surfaces[name], _value(card, words[2]))
+
+    def _pressure(self, faces, value):
+        loaded = type(self.mesh)(self.mesh.nodes, self.mesh.blocks, surfaces={"": faces})
+        for group in loaded.surface_faces(""):
+            gauss = self.mesh.gauss(group, FACE_POINTS)
+            nodal = -value * self.units.stress * np.einsum("qk,nqi->nki", gauss.values, gauss.area)
+            scatter(self.force, group.nodes, nodal[..., None])
+
+
+def loads(deck, mesh, frame, units, step):
+    """The Loads of a step, numbered from 1."""
+    if not 1 <= step <= len(deck.steps):
+        raise Error(f"the deck has {len(deck.steps)} steps, not step {step}: name one of them by --case NAME=STEP")
+    found = Loads(deck, mesh, frame, units)
+    for card in deck.steps[step - 1]:
+        if card.name in UNSUPPORTED_LOADS:
+            raise Error(f"{card.place}: *{card.name} in a load case is not supported: remove it")
+        try:
+            getattr(found, card.name.lower())(card)
+        except IndexError:
+            raise Error(f"{card.place}: a line of *{card.name} has too few values") from None
+    if not (np.any(found.force) or np.any(found.moved)):
+        raise Error(f"step {step} has no load: give *CLOAD, *DLOAD, *DSLOAD or *BOUNDARY in it")
+    return found
+
+
+def case(found, solver, remainder, patch, place, points):
+    """The Case of the Loads; place: of the points (n, 2) of the patch, in the mesh; errors are about `found.name`."""
+    free = found.prescribed & ~solver.fixed
+    if np.any(free):
+        number = found.mesh.node_numbers[np.flatnonzero(free)[0] // 3]
+        raise Error(f"load case {found.name}: node {number} is prescribed but not in --fixed: add its set to --fixed")
+    given = found.moved[solver.held]
+    v = solver(found.force, given)
+    loaded = np.flatnonzero(np.any(found.force.reshape(-1, 3), axis=1))
+    coefficients = np.einsum("nic,ni->c", remainder.total(loaded), found.force.reshape(-1, 3)[loaded])
+    coefficients -= (remainder.support.T @ given)[:, 0]
+    coefficients = coefficients.reshape(-1, 3)
+    sampled = found.mesh.interpolate(place, v.reshape(-1, 3))
+    rest = np.max(np.abs(sampled - patch.values(*points.T) @ coefficients))
+    spread = np.max(np.ptp(sampled, axis=0)) + 1e-3 * np.max(np.abs(sampled))
+    if not rest <= REST * spread:
+        raise Error(
+            f"load case {found.name}: the polynomials miss {rest / spread:.2g} of its field on the patch, limit "
+            f"{REST:g}: use a higher --degree, a finer mesh, or a load farther from the patch"
+        )
+    return Case(coefficients, float(rest / spread), v)

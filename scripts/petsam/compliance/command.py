@@ -1,0 +1,228 @@
+"""Compute how a real body deforms beyond a half-space, for petsam's -body1_compliance and -body2_compliance.
+
+    petsam-compliance --mesh block.inp --units mm --contact TOP --fixed BOTTOM --frame 0,0,0 --patch 2.4mm
+    petsam-compliance --mesh beam.inp --units mm --contact TOP --fixed ENDS --frame 0,0,0:1,0,0 --patch 3mm,2mm \\
+        --degree 6 --case pull=1 -o beam.h5
+    petsam-compliance --matrix beam.mtx --nodes beam.txt --units mm --young 2.1e11 --poisson 0.3 --patch 3mm
+
+Reads a CalculiX deck (.inp) of solid elements: C3D20, C3D20R, C3D8I, C3D10 and others, isotropic elastic materials, and
+takes the stiffness from CalculiX. The contact is on the patch, a rectangle about --center in the plane z = 0 of the
+frame, whose z points into the body; it lies on the surface --contact. The body is held at the nodes of --fixed. A load
+case is a step of the deck, with *CLOAD, *DLOAD, *DSLOAD or *BOUNDARY, without contact. Writes HDF5 and a picture beside
+it. With --matrix the body is a substructure of another program, whose retained nodes are the patch: less accurate, so
+of degree 1.
+"""
+
+import argparse
+import os
+import re
+import shlex
+import sys
+import warnings
+
+from .. import isolation
+from ..errors import Error, Parser, fail, guarded, joined, short
+from ..files import same
+from ..surface.lengths import lengths, several, shown, sides
+from . import model, picture, substructure, writing
+
+HIGHEST = 10  # degree that petsam reads
+NAME = re.compile(r"[A-Za-z0-9_]{1,20}")
+MOST_CASES = 8
+PROGRAM = "petsam-compliance"
+
+
+def frame(text):
+    """Reader of a frame for argparse: an origin, a direction x and a direction z."""
+    parts = [re.split(r",", part) for part in text.split(":")]
+    try:
+        vectors = [[float(word) for word in part] for part in parts]
+    except ValueError:
+        vectors = []
+    if not 1 <= len(vectors) <= 3 or not all(len(vector) == 3 for vector in vectors):
+        raise argparse.ArgumentTypeError(
+            f"{short(text)}: expected ORIGIN[:X[:Z]], each of them three numbers: 0,0,0:1,0,0"
+        )
+    return vectors
+
+
+def case(text):
+    """Reader of a load case for argparse."""
+    name, _, step = text.partition("=")
+    if not NAME.fullmatch(name) or not step.isdecimal():
+        raise argparse.ArgumentTypeError(
+            f"{short(text)}: expected NAME=STEP, a name of at most 20 letters, digits or _ and a step of the deck"
+        )
+    return name, int(step)
+
+
+def degree(text):
+    """Reader of a degree for argparse."""
+    if not text.isdecimal() or int(text) > HIGHEST:
+        raise argparse.ArgumentTypeError(f"{short(text)}: expected an integer from 0 to {HIGHEST}")
+    return int(text)
+
+
+def length(text):
+    """Reader of a length above 0 for argparse."""
+    values = lengths(text)
+    if len(values) != 1 or not 0.0 < values[0] < float("inf"):
+        raise argparse.ArgumentTypeError(f"{short(text)}: expected a length above 0")
+    return values[0]
+
+
+def _body_options(parser):
+    body = parser.add_argument_group("the body")
+    body.add_argument("--mesh", metavar="NAME.inp", help="CalculiX deck with mesh, sets and materials")
+    body.add_argument("--contact", metavar="SURFACE", help="element surface of the deck on which the patch lies")
+    body.add_argument("--fixed", action="append", metavar="NSET", help="node set held in x, y, z; may be repeated")
+    body.add_argument("--units", choices=tuple(model.UNITS), default="m", help="m: m, N, Pa; mm: mm, N, MPa (m)")
+    body.add_argument(
+        "--frame",
+        type=frame,
+        metavar="ORIGIN[:X[:Z]]",
+        help="of the contact in the deck's coordinates and units; Z points into the body (0,0,0:1,0,0, surface normal)",
+    )
+    body.add_argument("--case", type=case, action="append", metavar="NAME=STEP", help="load case: a step of the deck")
+
+
+def _matrix_options(parser):
+    other = parser.add_argument_group("instead of a mesh, a substructure matrix")
+    other.add_argument("--matrix", metavar="NAME", help="stiffness: Abaqus .mtx, Nastran DMIG KAAX, ANSYS .sub as text")
+    other.add_argument("--nodes", metavar="NAME", help="table of the retained nodes, in lines of: node x y z")
+    other.add_argument("--young", type=float, metavar="PA", help="modulus of the material under the patch, Pa")
+    other.add_argument("--poisson", type=float, metavar="NU", help="its Poisson's ratio")
+
+
+def parser():
+    """The command line."""
+    found = Parser(prog=PROGRAM, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    _body_options(found)
+    patch = found.add_argument_group("the patch")
+    patch.add_argument("--patch", type=sides, required=True, metavar="X[,Y]", help="full widths: 2e-3 (m) or 2mm")
+    patch.add_argument(
+        "--center", type=several(2, "X,Y"), default=(0.0, 0.0), metavar="X,Y", help="its centre in the frame (0,0)"
+    )
+    patch.add_argument(
+        "--degree", type=degree, metavar="N", help=f"of the polynomials, 0 to {HIGHEST} (6; of a matrix 1)"
+    )
+    method = found.add_argument_group("method")
+    method.add_argument("--method", choices=("auto", "image", "cutoff"), default="auto", help="(auto: image if valid)")
+    method.add_argument(
+        "--stiffness", choices=("calculix", "own"), default="calculix", help="program that assembles it (calculix)"
+    )
+    method.add_argument("--coarse-mesh", metavar="NAME.inp", help="a coarser deck, to estimate the error of the mesh")
+    method.add_argument("--depth", type=length, metavar="Z", help="of the stress points (the patch's smaller width)")
+    method.add_argument("--no-stress", dest="stress", action="store_false", help="omit stresses below the surface")
+    _matrix_options(found)
+    out = found.add_argument_group("output")
+    out.add_argument("-o", "--output", metavar="NAME.h5", help="(the deck's name, here)")
+    out.add_argument("--picture", metavar="NAME.png", help="(beside the output)")
+    out.add_argument("--no-picture", action="store_true", help="draw none")
+    return found
+
+
+def arguments(words):
+    """Read the command line."""
+    reader = parser()
+    options = reader.parse_args(joined(words))
+    if bool(options.mesh) == bool(options.matrix):
+        reader.error("give either --mesh or --matrix")
+    needed = ("contact", "fixed") if options.mesh else ("nodes", "young", "poisson")
+    for name in needed:
+        if getattr(options, name) is None:
+            reader.error(f"{'--mesh' if options.mesh else '--matrix'} needs --{name}")
+    useless = ("nodes", "young", "poisson") if options.mesh else ("contact", "fixed", "case", "coarse_mesh", "depth")
+    for name in useless:
+        if getattr(options, name) is not None:
+            reader.error(f"--{name.replace('_', '-')} is not for {'--mesh' if options.mesh else '--matrix'}: remove it")
+    options.frame = options.frame or [[0.0, 0.0, 0.0]]
+    options.case = options.case or []
+    names = [name for name, _ in options.case]
+    if len(set(names)) < len(names) or len(names) > MOST_CASES:
+        reader.error(f"--case: give each name once, at most {MOST_CASES} of them")
+    if options.degree is None:
+        options.degree = 6 if options.mesh else 1
+    options.ccx = os.environ.get("CCX", "ccx")
+    base = os.path.splitext(os.path.basename(options.mesh or options.matrix))[0]
+    options.output = options.output or base + ".h5"
+    options.picture = options.picture or os.path.splitext(options.output)[0] + ".png"
+    if not options.picture.lower().endswith(".png"):
+        reader.error(f"--picture: {short(options.picture)}: use a name that ends in .png")
+    return options
+
+
+def description(body):
+    """Lines that describe a Body."""
+    m = body.patch.count
+    lines = [
+        f"half-space  E = {body.young:.6g} Pa, nu = {body.poisson:.6g}",
+        "patch       {} x {} about x = {:g} m, y = {:g} m".format(
+            *(shown(2.0 * half) for half in body.patch.half), *body.patch.center
+        ),
+        f"functions   {m} of degree {body.patch.degree} in each direction, method {body.method}",
+        *(f"            {text}" for text in body.remarks),
+        "checks      asymmetry {:.1e}, smallest eigenvalue {:.3g} relative to the half-space".format(
+            body.checks["asymmetry"], body.checks["smallest_eigenvalue"]
+        ),
+    ]
+    if "degree_change" in body.checks:
+        lines.append(
+            f"            degree {body.patch.degree - 2} changes the correction by {body.checks['degree_change']:.1e}"
+        )
+    if "mesh_change" in body.checks:
+        lines.append(f"            the coarser mesh changes the compliance by {body.checks['mesh_change']:.1e}")
+    lines += [
+        f"load case   {name}: the polynomials miss {one.rest:.1e} of its field" for name, one in body.cases.items()
+    ]
+    return lines
+
+
+def carry_out(options, words):
+    """Compute, write, draw and print; in a child, as a file may be read here."""
+    source = options.mesh or options.matrix
+    inputs = [name for name in (source, options.coarse_mesh, options.nodes) if name]
+    for name in [options.output] + ([] if options.no_picture else [options.picture]):
+        if any(same(name, path) for path in inputs):
+            raise Error(f"{name}: is an input file; choose another name by --output")
+    writing.need_own(options.output)
+    command = shlex.join([PROGRAM, *words])
+    progress = model.Progress(sys.stderr)
+    compute = model.computed if options.mesh else substructure.computed
+    body = compute(source, options, command, progress)
+    for text in body.remarks:
+        if text.startswith("warning: "):
+            print(f"{PROGRAM}: {text}", file=sys.stderr)
+    writing.write(body, options.output)
+    if not options.no_picture:
+        picture.save(body, options.picture)
+    print(f"{options.output}: compliance of {source}")
+    print("\n".join("  " + line for line in description(body) if "warning: " not in line))
+    if not options.no_picture:
+        print("wrote " + options.picture)
+    name = shlex.quote(options.output)
+    print(
+        f"options for petsam:\n  -body2_compliance {name} -body2_young {body.young:.10g} "
+        f"-body2_poisson {body.poisson:.10g}"
+    )
+
+
+def _child(options, words):
+    warnings.simplefilter("ignore")
+    try:
+        carry_out(options, words)
+    except (Error, OSError) as error:
+        return fail(PROGRAM, error)
+    return 0
+
+
+def main():
+    """Exit code: 0, 2 for bad usage, 3 for a file or a body that is rejected."""
+
+    def parent():
+        words = sys.argv[1:]
+        options = arguments(words)
+        (code,) = isolation.each(lambda _: _child(options, words), [None])
+        return fail(PROGRAM, code) if isinstance(code, Error) else code
+
+    return guarded(PROGRAM, parent)

@@ -1,0 +1,110 @@
+"""A picture of a compliance: the patch on the mesh, deflections, the spectrum, convergence by degree."""
+
+import numpy as np
+
+from ..files import need_replaceable
+from ..plot.style import COLORS, STYLE, bar, field, frame, note, plt
+from ..plot.units import label, scale
+
+CELLS = 80  # of the patch in a map
+COLUMNS = 3
+SIDE = 3.6  # inches of a panel
+
+
+def _outline(body):
+    """Edges (n, 2, 2) of the contact surface's faces, x and y."""
+    model = body.mesh
+    edges = []
+    for group in model.contact:
+        count = model.mesh.blocks[group.block].shape.face_corners(group.local)
+        corners = model.mesh.nodes[group.nodes[:, :count], :2]
+        edges.append(np.stack([corners, np.roll(corners, -1, axis=1)], axis=2).reshape(-1, 2, 2))
+    return np.concatenate(edges)
+
+
+def _mesh(axes, body, unit):
+    from matplotlib.collections import LineCollection
+
+    if body.mesh is not None:
+        axes.add_collection(LineCollection(_outline(body) * unit[0], colors="0.6", linewidths=0.5))
+    (x, y), (a, b) = body.patch.center, body.patch.half
+    corners = np.array([(x - a, y - b), (x + a, y - b), (x + a, y + b), (x - a, y + b), (x - a, y - b)]) * unit[0]
+    axes.plot(*corners.T, color=COLORS[1], linewidth=1.6)
+    axes.autoscale()
+    axes.grid(False)
+    frame(axes, "patch on the mesh", label("x", unit[1]), label("y", unit[1]))
+    axes.set_aspect("equal", adjustable="datalim")
+
+
+def _points(patch):
+    x, y = (c + h * (2.0 * (np.arange(CELLS) + 0.5) / CELLS - 1.0) for c, h in zip(patch.center, patch.half))
+    return [v.ravel() for v in np.meshgrid(x, y)]
+
+
+def _map(axes, body, coefficients, title, unit):
+    """u_z, or the largest component, of a displacement on the patch."""
+    patch = body.patch
+    values = (patch.values(*_points(patch)) @ coefficients).T.reshape(3, CELLS, CELLS)
+    largest = int(np.argmax(np.max(np.abs(values), axis=(1, 2))))
+    size = scale("m", float(np.max(np.abs(values))))
+    (x, y), (a, b) = patch.center, patch.half
+    edges = [v * unit[0] for v in (x - a, x + a, y - b, y + b)]
+    shown = values[largest] * size[0]
+    image = field(axes, shown, edges, shown.min(), shown.max())
+    frame(axes, title, label("x", unit[1]), label("y", unit[1]))
+    bar(axes, image, label(f"u_{'xyz'[largest]}", size[1]))
+
+
+def _unit_load(body, direction):
+    """Coefficients (m, 3) of the correction by 1 N, uniform on the patch."""
+    m = body.patch.count
+    load = np.zeros((m, 3))
+    load[0, direction] = 0.5 / np.sqrt(body.patch.half[0] * body.patch.half[1])
+    return (0.5 * (body.compliance + body.compliance.T) @ load.ravel()).reshape(m, 3)
+
+
+def _spectrum(axes, body):
+    values = np.sort(np.abs(body.eigenvalues))[::-1]
+    axes.semilogy(1 + np.arange(len(values)), np.maximum(values, 1e-300), ".", color=COLORS[0])
+    axes.set_ylim(max(values[0] * 1e-12, values[-1] * 0.5, 1e-300), 2.0 * values[0])
+    frame(axes, "eigenvalues relative to the half-space", "number", "magnitude")
+
+
+def _convergence(axes, body):
+    changes = np.maximum(body.changes, 1e-16)
+    axes.semilogy(np.arange(len(changes)), changes, "o-", color=COLORS[2], markersize=4)
+    frame(axes, "correction under a Hertzian pressure", "degree", f"difference from degree {body.patch.degree}")
+
+
+def draw(body):
+    """The figure."""
+    unit = scale("m", float(max(body.patch.half)))
+    panels = [
+        lambda axes: _mesh(axes, body, unit),
+        lambda axes: _map(axes, body, _unit_load(body, 2), "correction under N = 1 N", unit),
+        lambda axes: _map(axes, body, _unit_load(body, 0), "correction under T_x = 1 N", unit),
+        lambda axes: _spectrum(axes, body),
+    ]
+    if len(body.changes) > 1:
+        panels.append(lambda axes: _convergence(axes, body))
+    for name, case in body.cases.items():
+        panels.append(lambda axes, c=case, n=name: _map(axes, body, c.coefficients, f"load case {n}", unit))
+    rows = -(-len(panels) // COLUMNS)
+    figure, grid = plt.subplots(
+        rows, COLUMNS, figsize=(COLUMNS * (SIDE + 1.0), rows * SIDE), squeeze=False, layout="constrained"
+    )
+    for axes, panel in zip(grid.ravel(), panels):
+        panel(axes)
+    for axes in grid.ravel()[len(panels) :]:
+        axes.set_axis_off()
+    note(figure, f"method {body.method}, degree {body.patch.degree}: body minus half-space", 10)
+    return figure
+
+
+def save(body, path):
+    """The picture as a file."""
+    need_replaceable(path)
+    with plt.rc_context(STYLE):
+        figure = draw(body)
+        figure.savefig(path, format="png")
+        plt.close(figure)

@@ -1,0 +1,467 @@
+"""petsam-compliance as a command: its file, load cases, stresses, and everything that it rejects."""
+
+import re
+import sys
+
+import h5py
+import numpy as np
+import pytest
+
+from petsam.compliance import cases, deck, mesh, model, stiffness
+from test_compliance_tool import CCX, EVEN, clamped, condensed, needs_calculix, retained, written_abaqus
+from test_plot import pixels
+
+GRID = np.linspace(-2.0, 2.0, 5)
+SUPPORT = {"LEFT": lambda p: p[:, 0] < -2.0 + 1e-9, "RIGHT": lambda p: p[:, 0] > 2.0 - 1e-9}
+BOTTOM = {"BOTTOM": lambda p: p[:, 2] > 4.0 - 1e-9}
+ALWAYS = ["--contact", "TOP", "--stiffness", "own", "--patch", "2", "--degree", "2", "--no-picture"]
+
+
+def written(path, body, *more):
+    """A deck of a mesh, with further lines."""
+    lines = stiffness.model_lines(body)
+    for name, nodes in body.node_sets.items():
+        lines += [f"*NSET, NSET={name}", *stiffness.numbers(nodes + 1)]
+    lines += ["*SURFACE, NAME=TOP", *(f"{element}, S{face + 1}" for element, face in body.surfaces["TOP"])]
+    path.write_text("\n".join([*lines, *more]) + "\n")
+
+
+def bricks(edges=(GRID, GRID, GRID + 2.0), sets=BOTTOM, moduli=(1.0, 0.3)):
+    """A block of quadratic bricks."""
+    return mesh.grid_mesh(edges, "C3D20", *moduli, node_sets=sets)
+
+
+@pytest.fixture
+def compliance(tmp_path, monkeypatch, capfd):
+    """compliance(*words, check=0): lines on stdout of petsam-compliance, or those on stderr where it fails."""
+    from petsam.compliance import command
+
+    monkeypatch.chdir(tmp_path)
+
+    def run(*words, check=0, warning=None):
+        monkeypatch.setattr(sys, "argv", ["petsam-compliance", *map(str, words)])
+        try:
+            code = command.main()
+        except SystemExit as end:  # of argparse
+            code = end.code
+        out, err = capfd.readouterr()
+        err = re.sub(r"(?m)^  \d+ s: .*\n", "", err)  # progress
+        assert code == check, out + err
+        if check:
+            assert len(err.splitlines()) == 1 and err.startswith("petsam-compliance: error: "), err
+        elif warning:
+            assert f"petsam-compliance: warning: {warning}" in err
+        else:
+            assert not err
+        return (err if check else out).splitlines()
+
+    return run
+
+
+@pytest.fixture
+def block(tmp_path):
+    """Name of the deck of a block, clamped below."""
+    written(tmp_path / "block.inp", bricks())
+    return ["--mesh", "block.inp", "--fixed", "BOTTOM", *ALWAYS]
+
+
+# ---------------------------------------------------------------- the file
+
+
+def test_the_file_has_all_that_its_format_names(compliance, block):
+    printed = compliance(*block, "-o", "f.h5")
+    with h5py.File("f.h5", "r") as file:
+        attributes = dict(file.attrs)
+        assert attributes["petsam_compliance"] == 1 and attributes["young"] == 1.0 and attributes["poisson"] == 0.3
+        assert attributes["method"] == "image" and attributes["degree"] == 2 and attributes["source"] == "block.inp"
+        assert re.fullmatch("[0-9a-f]{64}", attributes["source_sha256"])
+        assert np.allclose(file["/frame/origin"], 0.0) and np.allclose(file["/frame/axes"], np.eye(3))
+        assert np.allclose(file["/patch/center"], 0.0) and np.allclose(file["/patch/half"], 1.0)
+        assert file["/basis/degree_xy"][:].tolist() == [[0, 0], [1, 0], [0, 1], [2, 0], [1, 1], [0, 2]]
+        assert file["/compliance"].shape == (6, 3, 6, 3)
+        assert file["/compliance"][0, 0, 0, 0] == pytest.approx(5.367, abs=1e-3)
+        assert file["/stress/basis"].shape == (6, 3, 13, 13, 13, 6) and file["/stress/z"][-1] == pytest.approx(2.0)
+        assert file["/checks/asymmetry"][()] < 1e-6 and 0.9 < file["/checks/smallest_eigenvalue"][()] <= 1.0
+        assert 0.0 < file["/checks/degree_change"][()] < 1.0 and "cases" not in file
+    assert any("-body2_compliance f.h5 -body2_young 1 -body2_poisson 0.3" in line for line in printed)
+
+
+@needs_calculix
+def test_calculixs_stiffness_gives_the_same_compliance(compliance, block):
+    compliance(*block, "-o", "own.h5", "--no-stress")
+    words = [word for word in block if word not in ("--stiffness", "own")]
+    compliance(*words, "-o", "calculix.h5", "--no-stress")
+    with h5py.File("own.h5", "r") as own, h5py.File("calculix.h5", "r") as other:
+        assert np.allclose(own["compliance"], other["compliance"], atol=1e-9) and "stress" not in other
+
+
+def test_a_coarser_mesh_estimates_the_error(compliance, block, tmp_path):
+    half = np.array([-2.0, -1.0, 0.0, 1.0, 2.0])
+    written(tmp_path / "coarse.inp", bricks((half, half, [0.0, 1.0, 2.2, 4.0])))
+    compliance(*block, "--coarse-mesh", "coarse.inp", "-o", "f.h5")
+    with h5py.File("f.h5", "r") as file:
+        assert 1e-5 < file["/checks/mesh_change"][()] < 2e-2
+
+
+def test_millimetres_and_a_frame_in_the_model(compliance, tmp_path):
+    body = bricks(moduli=(210000.0, 0.3))
+    body.nodes = body.nodes @ np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]) + [5.0, 6.0, 7.0]
+    written(tmp_path / "block.inp", body)
+    words = [*ALWAYS, "--patch", "2mm", "--mesh", "block.inp", "--fixed", "BOTTOM", "--units", "mm"]
+    compliance(*words, "--frame", "5,6,7:0,1,0", "-o", "f.h5")
+    with h5py.File("f.h5", "r") as file:
+        assert np.allclose(file["/frame/origin"], [5e-3, 6e-3, 7e-3])
+        assert np.allclose(file["/frame/axes"], [[0, 1, 0], [0, 0, 1], [1, 0, 0]])
+        # D scales with length over modulus
+        assert file["/compliance"][0, 0, 0, 0] == pytest.approx(5.367 * 1e-3 / 2.1e11, rel=2e-4)
+        assert file.attrs["young"] == 2.1e11
+
+
+def test_an_inclined_frame_gives_the_same_file(compliance, block, tmp_path):
+    compliance(*block, "-o", "straight.h5")
+    body, c, s = bricks(), np.cos(0.4), np.sin(0.4)
+    turn = np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
+    body.nodes = body.nodes @ turn
+    written(tmp_path / "block.inp", body)
+    compliance(*block, "--frame", "0,0,0:" + ",".join(map(str, turn[0])), "-o", "inclined.h5")
+    with h5py.File("straight.h5", "r") as one, h5py.File("inclined.h5", "r") as other:
+        for name in ("compliance", "stress/basis"):
+            assert np.allclose(one[name], other[name], atol=1e-6)
+
+
+def test_the_picture_is_drawn(compliance, block):
+    words = [word for word in block if word != "--no-picture"]
+    assert "wrote block.png" in compliance(*words)
+    assert min(pixels("block.png")) > 500
+
+
+# ---------------------------------------------------------------- load cases and stresses
+
+
+def bar(path, *steps):
+    """A bar without Poisson's ratio between its ends, so that it is stretched evenly."""
+    written(path, bricks(sets=SUPPORT, moduli=(2.0, 0.0)), *steps)
+    return ["--mesh", path.name, *ALWAYS]
+
+
+PULL = ["*STEP", "*STATIC", "*BOUNDARY", "RIGHT, 1, 1, 0.1", "*END STEP"]
+PRESS = ["*STEP", "*STATIC", "*DSLOAD", "END, P, -0.05", "*END STEP"]
+
+
+def test_a_bar_is_stretched_evenly_by_a_case_of_displacement(compliance, tmp_path):
+    words = bar(tmp_path / "bar.inp", *PULL)
+    compliance(*words, "--fixed", "LEFT", "--fixed", "RIGHT", "--case", "pull=1", "-o", "f.h5")
+    with h5py.File("f.h5", "r") as file:
+        v, stress = file["/cases/pull/displacement"][:], file["/stress/cases/pull"][:]
+    exact = np.zeros((6, 3))
+    exact[0, 0], exact[1, 0] = 0.05 * 2.0, 0.025 * 2.0 / np.sqrt(3.0)  # u_x = 0.025 (x + 2)
+    assert np.allclose(v, exact, atol=1e-4)  # measured 2e-5: fields of the patch at the ends
+    assert np.allclose(stress[..., 0], 2.0 * 0.025, atol=1e-9) and np.allclose(stress[..., 1:], 0.0, atol=1e-9)
+
+
+@pytest.mark.parametrize("step", [PRESS, ["*STEP", "*DLOAD", "LAST, P4, -0.05", "*END STEP"]])
+def test_a_bar_is_stretched_evenly_by_a_case_of_pressure(compliance, tmp_path, step):
+    body = bricks(sets=SUPPORT)
+    last = [
+        number
+        for number, nodes in zip(body.blocks[0].numbers, body.blocks[0].nodes)
+        if 1.9 < body.nodes[nodes, 0].max()
+    ]
+    surface = ["*ELSET, ELSET=LAST", *stiffness.numbers(last), "*SURFACE, NAME=END", "LAST, S4"]
+    words = bar(tmp_path / "bar.inp", *surface, *step)
+    compliance(*words, "--fixed", "LEFT", "--case", "pull=1", "-o", "f.h5")
+    with h5py.File("f.h5", "r") as file:
+        v = file["/cases/pull/displacement"][:]
+    assert v[0, 0] == pytest.approx(0.1, rel=2e-3) and v[1, 0] == pytest.approx(0.05 / np.sqrt(3.0), rel=2e-3)
+
+
+def test_forces_on_nodes_are_given_to_each_node_of_a_set(tmp_path):
+    path = tmp_path / "bar.inp"
+    bar(path, "*STEP", "*CLOAD", "RIGHT, 1, 0.01", "7, 2, 3.", "*END STEP")
+    found, axes = deck.read(str(path)), np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]])
+    frame = model.Frame(np.zeros(3), axes)
+    force = cases.loads(found, found.mesh, frame, model.UNITS["mm"], 1).force.reshape(-1, 3)
+    right = SUPPORT["RIGHT"](found.mesh.nodes)
+    # x of the deck is z of the frame, y is x; newtons
+    assert np.allclose(force[right, 2], 0.01) and np.allclose(force[~right, 2], 0.0)
+    assert force[6, 0] == pytest.approx(3.0) and np.count_nonzero(force) == np.count_nonzero(right) + 1
+
+
+def test_stresses_below_a_pressure_are_the_reference_numbers():
+    """p = 1/2 on the patch of the block 4 x 4 x 4 with 8^3 bricks, at (0, 0, 0.5)."""
+    from petsam.compliance import basis, halfspace, stresses
+
+    patch = basis.Patch((0.0, 0.0), (1.0, 1.0), 0)
+    body = clamped(EVEN, EVEN, EVEN + 2.0)
+    rest = body.by_images(patch)
+    where = stresses.grid(body.mesh, patch, 2.0)
+    found = stresses.remaining(where, rest)[0, 2, 3, 6, 6]  # z = 0.5
+    local = halfspace.Fields(patch, 1.0, 0.3).stress(np.array([[0.0, 0.0, 0.5]]))[0, :, :, 2]
+    assert local[0, 0] == pytest.approx(-0.151, abs=5e-4) and local[2, 2] == pytest.approx(-0.465, abs=5e-4)
+    assert local[0, 0] + found[0] == pytest.approx(-0.1066, abs=2e-3)
+    assert local[2, 2] + found[2] == pytest.approx(-0.4734, abs=2e-3)
+
+
+def test_both_methods_give_the_same_stresses(compliance, tmp_path):
+    fine = np.linspace(-2.0, 2.0, 9)
+    written(tmp_path / "block.inp", bricks((fine, fine, fine + 2.0)))
+    words = ["--mesh", "block.inp", "--fixed", "BOTTOM", *ALWAYS, "--degree", "0"]
+    compliance(*words, "-o", "image.h5")
+    compliance(*words, "--method", "cutoff", "-o", "cutoff.h5", warning="an element is 0.6")
+    with h5py.File("image.h5", "r") as one, h5py.File("cutoff.h5", "r") as other:
+        first, second = (file["/stress/basis"][0, 2] for file in (one, other))
+        assert other.attrs["method"] == "cutoff"
+    assert np.max(np.abs(first - second)) < 0.06  # measured 0.053
+
+
+# ---------------------------------------------------------------- rejected
+
+
+def test_a_patch_beyond_the_surface_is_rejected(compliance, block):
+    assert "is not on it: use a smaller --patch" in compliance(*block, "--patch", "4.2", check=3)[0]
+    assert "the patch is not inside the contact surface" in compliance(*block, "--center", "1.5,0", check=3)[0]
+
+
+def test_a_frame_off_the_surface_is_rejected(compliance, block):
+    assert "off the plane of the frame" in compliance(*block, "--frame", "0,0,0.5", check=3)[0]
+    assert "points out of the body: reverse" in compliance(*block, "--frame", "0,0,0:1,0,0:0,0,-1", check=3)[0]
+    assert "parallel or zero" in compliance(*block, "--frame", "0,0,0:0,0,1:0,0,1", check=3)[0]
+
+
+def test_a_small_clearance_is_rejected(compliance, block):
+    said = compliance(*block, "--patch", "3.4", check=3)[0]
+    assert "another surface of the body is 0.3 m from the patch, limit 0.425 m" in said
+
+
+def test_coarse_elements_beside_the_patch_are_rejected(compliance, block):
+    assert (
+        "an element of 1 m is 0.4 m from the patch, limit 1.3 times" in compliance(*block, "--patch", "3.2", check=3)[0]
+    )
+
+
+def test_an_asymmetric_compliance_is_rejected():
+    from petsam.compliance import checks
+
+    with pytest.raises(checks.Error, match="asymmetric by 0.0.*limit 0.0001: use a finer mesh"):
+        checks.symmetric(np.array([[1.0, 1e-3], [0.0, 1.0]]))
+
+
+def test_a_body_above_the_plane_of_the_patch_needs_the_cut_off(compliance, tmp_path):
+    """A shoulder: the patch lies in a step of the block."""
+    x = np.linspace(-2.0, 4.0, 13)
+    body = bricks((x, EVEN, np.linspace(-1.0, 3.0, 9)), {"BOTTOM": lambda p: p[:, 2] > 3.0 - 1e-9})
+    centers = body.nodes[body.blocks[0].nodes].mean(axis=1)
+    kept = (centers[:, 2] > 0.0) | (centers[:, 0] > 2.0)
+    one = body.blocks[0]
+    for name in ("numbers", "nodes", "young", "poisson"):
+        setattr(one, name, getattr(one, name)[kept])
+    top = [g for g in body.boundary() if np.any(np.all(np.abs(body.nodes[g.nodes][..., 2]) < 1e-9, axis=1))]
+    flat = [
+        (int(one.numbers[e]), g.local)
+        for g in top
+        for e, n in zip(g.elements, g.nodes)
+        if np.all(np.abs(body.nodes[n][:, 2]) < 1e-9)
+    ]
+    body.surfaces["TOP"] = flat
+    used, nodes = np.unique(one.nodes, return_inverse=True)
+    body.node_sets = {"BOTTOM": np.flatnonzero(np.isin(used, body.node_sets["BOTTOM"]))}
+    body.nodes, one.nodes = body.nodes[used], nodes.reshape(one.nodes.shape)
+    written(tmp_path / "step.inp", body)
+    words = ["--mesh", "step.inp", "--fixed", "BOTTOM", *ALWAYS, "--degree", "1"]
+    assert (
+        "rises above the plane of the patch: use --method cutoff" in compliance(*words, "--method", "image", check=3)[0]
+    )
+    printed = compliance(*words, "-o", "f.h5", warning="an element is")
+    assert any("method cutoff: the body rises above" in line for line in printed)
+    said = compliance(*words, "--patch", "3.2", check=3)[0]
+    assert "belong to a half-space of one material, limit 0.8 m" in said
+
+
+def test_two_materials_need_the_cut_off(compliance, tmp_path):
+    body = bricks((EVEN, EVEN, EVEN + 2.0))
+    body.blocks[0].young[body.nodes[body.blocks[0].nodes].mean(axis=1)[:, 2] > 2.0] = 3.0
+    written(tmp_path / "two.inp", body)
+    words = ["--mesh", "two.inp", "--fixed", "BOTTOM", *ALWAYS]
+    assert "several materials: use --method cutoff" in compliance(*words, "--method", "image", check=3)[0]
+
+
+def test_a_field_that_the_polynomials_miss_is_rejected(compliance, tmp_path):
+    """A force close to the patch."""
+    body = bricks(sets=BOTTOM)
+    near = int(np.argmin(np.linalg.norm(body.nodes - [1.5, 0.0, 0.0], axis=1))) + 1
+    written(tmp_path / "block.inp", body, "*STEP", "*CLOAD", f"{near}, 3, 1.", "*END STEP")
+    words = ["--mesh", "block.inp", "--fixed", "BOTTOM", *ALWAYS, "--case", "push=1"]
+    assert "load case push: the polynomials miss" in compliance(*words, check=3)[0]
+
+
+BAD_CASES = [
+    ([], "the deck has 0 steps, not step 1"),
+    (["*STEP", "*STATIC", "*END STEP"], "step 1 has no load"),
+    (["*STEP", "*BOUNDARY", "RIGHT, 1, 1, 0.1", "*END STEP"], "is prescribed but not in --fixed"),
+    (["*STEP", "*DLOAD", "1, GRAV, 9.81, 0, 0, -1", "*END STEP"], "only pressure P1 to P6"),
+    (["*STEP", "*CLOAD", "RIGHT, 4, 1.", "*END STEP"], "direction 4: use 1 to 3"),
+    (["*STEP", "*CLOAD", "RIGHT, 1", "*END STEP"], "too few values"),
+    (["*STEP", "*CLOAD", "99999, 1, 1.", "*END STEP"], "no node 99999"),
+    (["*STEP", "*TEMPERATURE", "RIGHT, 1.", "*END STEP"], "*TEMPERATURE in a load case is not supported"),
+    (["*STEP", "*DSLOAD", "NOWHERE, P, 1.", "*END STEP"], "expected `surface, P, value`"),
+]
+
+
+@pytest.mark.parametrize("step, text", BAD_CASES)
+def test_steps_that_are_no_load_case_are_rejected(compliance, tmp_path, step, text):
+    words = bar(tmp_path / "bar.inp", *step)
+    assert text in compliance(*words, "--fixed", "LEFT", "--degree", "0", "--case", "pull=1", check=3)[0]
+
+
+BAD_DECKS = [
+    ("*ELASTIC\n", "*ELASTIC, TYPE=ORTHO\n", "only isotropic elasticity"),
+    ("1.000000000000e+00, 3.000000000000e-01", "-1., 0.3", "E = -1, nu = 0.3: use E > 0"),
+    ("*SOLID SECTION", "*SHELL SECTION", "*SHELL SECTION is not supported"),
+    ("TYPE=C3D20", "TYPE=S8R", "elements of type S8R are not supported"),
+    ("*SOLID SECTION, ELSET=E0M0", "*SOLID SECTION, ELSET=OTHER", "no element set OTHER"),
+    ("*ELASTIC\n", "*PLASTIC\n", "has no *ELASTIC"),
+    ("*NODE, NSET=NALL", "*EQUATION\n*NODE, NSET=NALL", "*EQUATION is not supported"),
+    ("*NODE, NSET=NALL", "*INCLUDE, INPUT=block.inp", "decks include each other"),
+    ("*NODE, NSET=NALL\n1, ", "*NODE, NSET=NALL\n1000000, ", "node 1 of an element is not defined"),
+    ("*NODE, NSET=NALL\n1, ", "*NODE, NSET=NALL\n1, nan, nan, nan\n1, x", "is not finite"),
+    ("*SURFACE, NAME=TOP", "*SURFACE, NAME=TOP, TYPE=NODE", "surface TOP is empty"),
+]
+
+
+@pytest.mark.parametrize("old, new, text", BAD_DECKS)
+def test_decks_that_are_not_supported_are_rejected(compliance, block, tmp_path, old, new, text):
+    path = tmp_path / "block.inp"
+    assert old in path.read_text()
+    path.write_text(path.read_text().replace(old, new, 1))
+    assert text in compliance(*block, check=3)[0]
+
+
+def test_sets_that_do_not_exist_are_rejected_with_the_names_that_do(compliance, block):
+    said = compliance(*block, "--fixed", "BOTOM", check=3)[0]
+    assert "no node set BOTOM: is BOTTOM meant?" in said
+    assert "no surface LID; there are TOP" in compliance(*block, "--contact", "LID", check=3)[0]
+
+
+def test_a_body_with_too_little_support_is_rejected(compliance, tmp_path):
+    one = {"ONE": lambda p: np.max(np.abs(p - [-2.0, -2.0, 4.0]), axis=1) < 1e-9}
+    written(tmp_path / "block.inp", bricks(sets=one))
+    said = compliance("--mesh", "block.inp", "--fixed", "ONE", *ALWAYS, check=3)[0]
+    assert "the body, about x = 0, y = 0, z = 2 m of the frame, is not supported" in said
+
+
+def test_files_that_are_not_its_own_are_kept(compliance, block, tmp_path):
+    (tmp_path / "f.h5").write_text("mine")
+    assert "was not written by petsam-compliance" in compliance(*block, "-o", "f.h5", check=3)[0]
+    assert (tmp_path / "f.h5").read_text() == "mine"
+    assert "is an input file" in compliance(*block, "-o", "block.inp", check=3)[0]
+
+
+@pytest.mark.parametrize(
+    "words, text",
+    [
+        (["--patch", "1"], "give either --mesh or --matrix"),
+        (["--patch", "1", "--mesh", "a.inp"], "--mesh needs --contact"),
+        (["--patch", "1", "--matrix", "a.mtx", "--nodes", "n.txt"], "--matrix needs --young"),
+        (
+            ["--patch", "1", "--mesh", "a", "--contact", "T", "--fixed", "B", "--young", "1"],
+            "--young is not for --mesh",
+        ),
+        (
+            ["--patch", "1", "--mesh", "a", "--contact", "T", "--fixed", "B", "--degree", "11"],
+            "an integer from 0 to 10",
+        ),
+        (["--patch", "1", "--mesh", "a", "--contact", "T", "--fixed", "B", "--case", "a b=1"], "expected NAME=STEP"),
+        (["--patch", "1", "--mesh", "a", "--contact", "T", "--fixed", "B", "--frame", "1,2"], "expected ORIGIN"),
+        (["--patch", "1", "--mesh", "a", "--contact", "T", "--fixed", "B", *(2 * ["--case", "a=1"])], "each name once"),
+    ],
+)
+def test_bad_usage(compliance, words, text):
+    assert text in compliance(*words, check=2)[0]
+
+
+# ---------------------------------------------------------------- substructures
+
+
+def substructure(tmp_path, matrix, body):
+    """Files of a matrix and its nodes; the words for them."""
+    numbers = np.arange(1, len(retained(body)) + 1)
+    (tmp_path / "k.mtx").write_text("\n".join(written_abaqus(numbers.tolist(), matrix)) + "\n")
+    table = ["{} {} {} {}".format(n, *p) for n, p in zip(numbers, body.mesh.nodes[retained(body)])]
+    (tmp_path / "nodes.txt").write_text("\n".join(table) + "\n")
+    words = ["--matrix", "k.mtx", "--nodes", "nodes.txt", "--young", "1", "--poisson", "0.3", "--patch", "2"]
+    return [*words, "--frame", "0,0,0:1,0,0:0,0,1", "--no-picture"]
+
+
+def test_a_substructure_gives_a_file_of_degree_1_with_a_warning(compliance, tmp_path):
+    body = clamped(GRID, GRID, GRID + 2.0)
+    words = substructure(tmp_path, condensed(body), body)
+    compliance(*words, "-o", "f.h5", warning="a matrix gives the compliance by the direct method")
+    with h5py.File("f.h5", "r") as file:
+        assert file.attrs["method"] == "direct" and file.attrs["degree"] == 1
+        assert file["/compliance"][0, 0, 0, 0] == pytest.approx(5.43, rel=0.04)
+    assert "the retained nodes span x = -1 to 1 m" in compliance(*words, "--patch", "1.5", check=3)[0]
+    assert "0.5 m off the plane" in compliance(*words, "--frame", "0,0,0.5:1,0,0:0,0,1", check=3)[0]
+
+
+def test_matrices_that_are_no_condensed_stiffness_are_rejected(compliance, tmp_path):
+    body = clamped(GRID, GRID, GRID + 2.0)
+    rows = (3 * retained(body)[:, None] + np.arange(3)).ravel()
+    retained_block = body.matrix[rows][:, rows].toarray()
+    said = compliance(*substructure(tmp_path, retained_block, body), check=3)[0]
+    assert "of the sum of the diagonal, limit 0.5: the matrix is not condensed" in said
+    floating = condensed(body) - 10.0 * np.eye(len(rows))
+    assert "has the eigenvalue -" in compliance(*substructure(tmp_path, floating, body), check=3)[0]
+    (tmp_path / "k.mtx").write_text("1 2 3 4 5\n")
+    assert "5 numbers, which are no triangle" in compliance(*substructure_words(), check=3)[0]
+    (tmp_path / "k.mtx").write_text("2 1 0 2\n")
+    assert "rows, nodes.txt has" in compliance(*substructure_words(), check=3)[0]
+
+
+@needs_calculix
+def test_the_substructure_that_calculix_writes_is_rejected(compliance, tmp_path):
+    """Version 2.20 writes the rows of the retained nodes as they are; the file's name is .mtx."""
+    body = clamped(GRID, GRID, GRID + 2.0)
+    lines = stiffness.model_lines(body.mesh)
+    for name, nodes in (("KEPT", retained(body)), ("HELD", body.supported)):
+        lines += [f"*NSET, NSET={name}", *stiffness.numbers(nodes + 1)]
+    lines += [
+        "*BOUNDARY",
+        "HELD, 1, 3",
+        "*STEP",
+        "*SUBSTRUCTURE GENERATE",
+        "*RETAINED NODAL DOFS, SORTED=NO",
+        "KEPT, 1, 3",
+    ]
+    stiffness.run([*lines, "*SUBSTRUCTURE MATRIX OUTPUT, STIFFNESS=YES", "*END STEP"], tmp_path, "sub", CCX)
+    table = ["{} {} {} {}".format(n + 1, *body.mesh.nodes[n]) for n in retained(body)]
+    (tmp_path / "nodes.txt").write_text("\n".join(table) + "\n")
+    (tmp_path / ".mtx").rename(tmp_path / "k.mtx")
+    assert "0.83 of the sum of the diagonal" in compliance(*substructure_words(), check=3)[0]
+
+
+def substructure_words():
+    words = ["--matrix", "k.mtx", "--nodes", "nodes.txt", "--young", "1", "--poisson", "0.3", "--patch", "2"]
+    return [*words, "--frame", "0,0,0:1,0,0:0,0,1", "--no-picture"]
+
+
+def test_an_asymmetric_matrix_is_rejected():
+    from petsam.compliance import substructure as direct
+
+    with pytest.raises(direct.Error, match="asymmetric by 0.5"):
+        direct.examined(np.array([[2.0, 1.0], [0.0, 2.0]]), "k")
+
+
+# ---------------------------------------------------------------- reading
+
+
+def test_a_deck_is_read_with_generated_sets_continued_lines_and_included_files(tmp_path):
+    (tmp_path / "nodes.inp").write_text("*NODE, NSET=ALL\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n** a comment\n9,5,5,5\n")
+    (tmp_path / "a.inp").write_text(
+        "*Include, input=nodes.inp\n*element, type=c3d4, elset=e\n7,1,2,\n3,4\n*nset,nset=N,generate\n1,3,2\n"
+        "*NSET,NSET=M\nN, 4\n*material,name=m\n*elastic\n1.D0,.3\n*solid section,elset=E,material=M\n"
+        "*surface, name=s\ne, S1\n*STEP\n*CLOAD\nN,1,2.\n*END STEP\n"
+    )
+    found = deck.read(str(tmp_path / "a.inp"))
+    assert found.mesh.node_numbers.tolist() == [1, 2, 3, 4] and found.mesh.node_sets["M"].tolist() == [0, 2, 3]
+    assert found.mesh.surfaces["S"] == [(7, 0)] and found.mesh.blocks[0].young.tolist() == [1.0]
+    assert len(found.steps) == 1 and found.steps[0][0].lines == [["N", "1", "2."]]
