@@ -23,7 +23,7 @@ class Petsam(MakefilePackage):
     version("main", branch="main")
     version("0.1.0", tag="v0.1.0")
 
-    variant("scripts", default=True, description="Python libraries of petsam-plot, petsam-study and petsam-surface")
+    variant("scripts", default=True, description="Python libraries of petsam-fatigue, -plot, -study and -surface")
 
     depends_on("c", type="build")
     depends_on("gmake", type="build")

@@ -9,6 +9,7 @@ open            reading of files: Results of petsam (results.py), Stresses of pe
                 petsam-study (studies.py)
 cycles          cycles of a load history and their energies
 closed          closed-form solutions of contact mechanics
+lives           lives, safety factors, short cracks: petsam-fatigue
 plot            pictures: petsam-plot
 study           many runs from a table: petsam-study
 surface         measured surfaces into petsam's HDF5: petsam-surface
@@ -60,7 +61,7 @@ _HOMES = {
     "WearWarning": ".contact",
 }
 
-_PARTS = ("closed", "comparison", "cycles", "environment", "isolation", "plot", "study", "surface")
+_PARTS = ("closed", "comparison", "cycles", "environment", "isolation", "lives", "plot", "study", "surface")
 
 
 def __getattr__(name):

@@ -12,7 +12,7 @@ from conftest import PROGRAM, environment, make_install
 from support import ROOT
 
 PROGRAMS = ("petsam", "petsam-stress")
-TOOLS = ("petsam-plot", "petsam-study", "petsam-surface")
+TOOLS = ("petsam-fatigue", "petsam-plot", "petsam-study", "petsam-surface")
 COMPLETE = """
 . "$1"
 function=$2
