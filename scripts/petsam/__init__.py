@@ -10,6 +10,7 @@ open            reading of files: Results of petsam (results.py), Stresses of pe
 cycles          cycles of a load history and their energies
 closed          closed-form solutions of contact mechanics
 lives           lives, safety factors, short cracks: petsam-fatigue
+sliding         regime, energy ratio, sliding ratio of a cycle; slip amplitudes
 plot            pictures: petsam-plot
 study           many runs from a table: petsam-study
 surface         measured surfaces into petsam's HDF5: petsam-surface
@@ -61,7 +62,7 @@ _HOMES = {
     "WearWarning": ".contact",
 }
 
-_PARTS = ("closed", "comparison", "cycles", "environment", "isolation", "lives", "plot", "study", "surface")
+_PARTS = ("closed", "comparison", "cycles", "environment", "isolation", "lives", "plot", "sliding", "study", "surface")
 
 
 def __getattr__(name):

@@ -3,8 +3,11 @@
 CSV: case, exit_code (empty: not run), seconds, ranks, the inputs, `steps`, the names of petsam's /history (those of the
 last step, with NaN for what is unknown if it has no solution; `dissipated_energy_sum` of all steps that have one),
 message. A scalar that has an input's name gets `_end` added. Of histories with cycles (petsam.cycles) there are also
-`cycles`, their number, `dissipated_energy_cycle_last`, and `dissipated_energy_cycle_change`, by which the last cycle
-differs from the one before, relative to it; and `dissipated_energy_cycle_K` of the chosen cycles K.
+`cycles`, their number, `energy_ratio_cycle_last` and `sliding_ratio_cycle_last` (petsam.sliding),
+`dissipated_energy_cycle_last`, and `dissipated_energy_cycle_change`, by which the last cycle
+differs from the one before, relative to it; and `dissipated_energy_cycle_K` of the chosen cycles K. `regime` is 0 where
+all steps stick, 1 of partial slip, 2 of gross slip (also where a step was refused for it), 3 where some cycles are of
+gross slip and others are not.
 
 HDF5: the same in /case, /exit_code (-1: not run), /seconds, /ranks, /message, and in the groups /inputs and /results,
 NaN where there is no value; the attribute `options` holds those of all cases, and /cases/NAME links to the case's own
@@ -15,18 +18,20 @@ import csv
 import functools
 import io
 import os
+import re
 from typing import NamedTuple, Optional
 
 import h5py
 import numpy as np
 
-from .. import cycles, isolation
+from .. import cycles, isolation, sliding
 from ..errors import Error
 from ..files import need_replaceable
 from ..results import DAMAGED, Results
 from .runs import RESULTS, record, write_atomically
 
 ENERGY = cycles.ENERGY
+GROSS = re.compile(r"gross slip: ")  # what petsam says of a load that cannot be balanced
 
 
 class Figures(NamedTuple):
@@ -42,11 +47,13 @@ LAST = Figures()
 
 def of_cycles(results, figures):
     """Name: (value, unit) from the cycles of a file, empty where it has none; NaN for missing cycles."""
+    whole = []
     if results.has_life:
         energies, count = results.wear[ENERGY], results.wear["cycle"][-1].item()
         by_number = dict(zip(results.wear["cycle"].tolist(), energies.tolist()))
     elif results.solved.size:
-        energies = cycles.find(results, figures.turns, figures.period).energies
+        whole = cycles.find(results, figures.turns, figures.period)
+        energies = whole.energies
         count, by_number = energies.size, dict(enumerate(energies.tolist(), 1))
         by_number.update({number - energies.size - 1: value for number, value in list(by_number.items())})
     else:
@@ -57,9 +64,26 @@ def of_cycles(results, figures):
     last, before = [*[float("nan")] * 2, *energies.tolist()][:-3:-1]
     found = {"cycles": (count, "1"), ENERGY + "_cycle_last": (last, unit)}
     found[ENERGY + "_cycle_change"] = (last / before - 1.0 if before else float("nan"), "1")
+    found.update(_ratios(results, whole))
     for number in figures.numbers:
         found[f"{ENERGY}_cycle_{number}"] = (by_number.get(number, float("nan")), unit)
     return found
+
+
+def _ratios(results, whole):
+    """Energy ratio and sliding ratio of the last of some cycles."""
+    pair = cycles.busiest(results) if len(whole) else None
+    if pair is None:
+        return {}
+    last = sliding.numbers(results, whole.numbered(-1), pair)
+    return {f"{name}_cycle_last": (getattr(last, name), "1") for name in ("energy_ratio", "sliding_ratio")}
+
+
+def _regime(results, figures):
+    """Code of the regime: of all cycles, or without any of all steps."""
+    whole = [] if results.has_life else cycles.find(results, figures.turns, figures.period)
+    parts = [cycle.rows for cycle in whole] or [slice(None)]
+    return sliding.REGIMES.index(sliding.regime_of(sliding.regime(results, rows) for rows in parts))
 
 
 def scalars(path, figures=LAST):
@@ -77,6 +101,8 @@ def scalars(path, figures=LAST):
             total = float(np.sum(results.series(ENERGY))) if results.solved.size else np.nan
             found[ENERGY + "_sum"] = (total, results.units[ENERGY])
             try:
+                if results.solved.size and "stick_area" in results.history:
+                    found["regime"] = (_regime(results, figures), "1")
                 return {**found, **of_cycles(results, figures)}, None
             except Error as error:
                 return found, str(error)
@@ -94,6 +120,9 @@ def rows(directory, cases, figures=LAST):
     values = list(isolation.each(functools.partial(scalars, figures=figures), paths))
     values = [({}, None) if isinstance(one, Error) else one for one in values]
     known_values = {case.name: one for case, (one, _) in zip(ended, values)}
+    for case, known in records:
+        if case.name in known_values and GROSS.match(known.get("message") or ""):
+            known_values[case.name]["regime"] = (sliding.REGIMES.index("gross slip"), "1")
     complaint = next((text for _, text in values if text), None)
     return [(case, known, known_values.get(case.name, {})) for case, known in records], complaint
 
