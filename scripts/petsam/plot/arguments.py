@@ -97,6 +97,15 @@ def condition(text):
     return name, value
 
 
+def limit(text):
+    """Reader of NAME=VALUE, with a number, for argparse."""
+    name, value = condition(text)
+    values = numbers(float)(value)
+    if len(values) != 1 or not math.isfinite(values[0]):
+        raise argparse.ArgumentTypeError(f"{short(text)}: expected NAME=VALUE with one number")
+    return name, values[0]
+
+
 def resolution(text):
     """Reader of the pixels an inch for argparse."""
     try:
@@ -145,12 +154,17 @@ def _quantities(parser):
     what.add_argument(
         "--against",
         metavar="NAME",
-        help="over which scalar, or column (time; the creepage that varies; the input with most values)",
+        help="over which scalar, or column (time; the creepage that varies; the input with most values); "
+        "of a study X,Y: a map of --scalar (the regime)",
     )
     what.add_argument("--by", metavar="NAME", help="of a study: the column that the curves' colours stand for")
     what.add_argument(
         "--where", type=condition, action="append", default=[], metavar="NAME=VALUE",
         help="of a study: only cases with this value",
+    )  # fmt: skip
+    what.add_argument(
+        "--border", type=limit, action="append", default=[], metavar="NAME=VALUE",
+        help="of a map of a study: a line where this column has the value",
     )  # fmt: skip
 
 

@@ -9,6 +9,7 @@
     petsam-plot --scalar contact_area --against load_n a.h5 b.h5               any scalar of /history over any other
     petsam-plot --loop --range 33:64 strokes.h5     load steps 33 to 64 only
     petsam-plot --scalar stick_area --against load_tx --by friction study/results.h5       a study's table
+    petsam-plot --against load_tx,friction --border life=1e6 study/results.h5   its regimes over two inputs
     petsam-plot --scar --cycle 0,1e5,1e6 life.h5    removed depth at three saved cycles
     petsam-plot --sections --component xx stress.h5     stresses under the surface, by petsam-stress
 
@@ -32,7 +33,7 @@ from ..files import need_replaceable, same
 from ..results import DAMAGED, NotSaved
 from ..stresses import Stresses, open_any
 from ..studies import Study
-from . import arguments, bodies, colours, loops, maps, noise, profiles, series, tables, uses, wear
+from . import arguments, bodies, colours, loops, maps, noise, planes, profiles, series, tables, uses, wear
 from .arguments import FORMATS
 from .style import STYLE, plt
 from .uses import STUDY
@@ -228,6 +229,11 @@ def draw(options, results, kind):
     """One picture, a matplotlib figure."""
     if kind == STUDY:
         names = (options.scalar, options.against, options.by, options.where)
+        if uses.is_plane(options):
+            if len(results) > 1:
+                raise Error(f"{results[1].path}: --against {options.against}: maps are of one study; give one file")
+            over = options.against.split(",")
+            return planes.planes(results[0], over, options.scalar, options.where, options.border, axes_of(options))
         return tables.study(results, *names, axes_of(options))
     if isinstance(results[0], Stresses):
         return draw_stresses(options, results, kind)
@@ -257,7 +263,7 @@ def save(options, figure, name):
 
 def need_options(options, results):
     """Error where an option is given that the files have no use for."""
-    for name, given in (("by", options.by), ("where", options.where)):
+    for name, given in (("by", options.by), ("where", options.where), ("border", options.border)):
         if given and not isinstance(results[0], Study):
             raise Error(f"{results[0].path}: --{name}: is for results.h5 of petsam-study")
     for name in ("turns", "period", "cycle", "step", "time"):
