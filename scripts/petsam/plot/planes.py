@@ -65,6 +65,7 @@ def _values(panel, xs, ys, grid, name, unit):
         image = panel.scatter(xs[i], ys[j], c=factor * grid[some], cmap="viridis", s=36)
     else:
         image = panel.contourf(xs, ys, np.ma.masked_invalid(factor * grid), levels=LEVELS, cmap="viridis")
+        image.drawn = xs, ys, factor * grid
     bar(panel, image, label(plain(name), prefixed))
 
 
@@ -77,7 +78,9 @@ def _border(panel, study, over, where, name, limit, color):
             grid, level = np.log(grid), np.log(limit)
         else:
             level = limit
-        panel.contour(xs, ys, np.ma.masked_invalid(grid), levels=[level], colors=[color], linewidths=1.8)
+        panel.contour(
+            xs, ys, np.ma.masked_invalid(grid), levels=[level], colors=[color], linewidths=1.8, linestyles="solid"
+        )
     unit = written(numbers(study, name, "--border")[1])
     side = "" if known.min() < limit < known.max() else ": all below" if known.max() <= limit else ": all above"
     text = f"{plain(name)} = {limit:g} {'' if unit == '1' else unit}".rstrip() + side
