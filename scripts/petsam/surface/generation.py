@@ -59,6 +59,6 @@ def heights(spectrum, n, size, shortest, seed=0, rms=None):
     found = float(np.sqrt(np.mean(values**2)))
     if not found > 0.0:
         raise Error(
-            f"the spectrum has no wave between {shown(shortest)} and the size; use a larger --size or longer --wavelengths"
+            f"the spectrum has no wave between {shown(shortest)} and the size; use a larger --size or --wavelengths"
         )
     return values if rms is None else values * (rms / found)
