@@ -9,6 +9,8 @@ open            reading of files: Results of petsam (results.py), Stresses of pe
                 petsam-study (studies.py)
 cycles          cycles of a load history and their energies
 closed          closed-form solutions of contact mechanics
+lives           lives, safety factors, short cracks: petsam-fatigue
+sliding         regime, energy ratio, sliding ratio of a cycle; slip amplitudes
 plot            pictures: petsam-plot
 study           many runs from a table: petsam-study
 compliance      real bodies from finite elements: petsam-compliance
@@ -61,7 +63,19 @@ _HOMES = {
     "WearWarning": ".contact",
 }
 
-_PARTS = ("closed", "comparison", "compliance", "cycles", "environment", "isolation", "plot", "study", "surface")
+_PARTS = (
+    "closed",
+    "comparison",
+    "compliance",
+    "cycles",
+    "environment",
+    "isolation",
+    "lives",
+    "plot",
+    "sliding",
+    "study",
+    "surface",
+)
 
 
 def __getattr__(name):

@@ -14,6 +14,7 @@ from .isolation import reading
 OPEN, STICK, SLIP = 0, 1, 2  # /state
 DEPTHS = ("wear_depth1", "wear_depth2")  # removed of body 1 and 2
 POWER, POWER_OF = "power_density", ("shear", "slip_velocity")  # of steady rolling: -q . s at the cell's centre
+SLIPS = {"slip_range": 1.0, "slip_amplitude": 0.5}  # of a cycle: see sliding.py
 EDGES = ("contact_edge", "stick_edge")
 NO_EQUILIBRIUM = 11  # /history/status of a step that was refused: it has no solution
 BLOCK = 256  # rows read at a time: bounds the memory, and strides in HDF5 itself are slow
@@ -342,11 +343,15 @@ class Results(Datafile):
 
     @cached_property
     def products(self):
-        """Names of what is computed of fields: of steady rolling the frictional power density."""
-        return [POWER] if set(POWER_OF) <= set(self.vectors) else []
+        """Names of what is computed of fields: of steady rolling the power density, else slip over a cycle."""
+        if set(POWER_OF) <= set(self.vectors):
+            return [POWER]
+        return list(SLIPS) if "slip" in self.vectors and "state" in self.fields and self.times.size > 2 else []
 
     def about(self, name):
         """Attributes of a field as texts: units, and long_name; of a vector those of its first component."""
+        if name in self.products and name != POWER:
+            return "m", f"{name.replace('_', ' ')} of the cycle"
         if name in self.products:
             return "Pa", "frictional power per area over the rolling speed"
         name = name if name in self.fields else name + "_x"
@@ -377,7 +382,11 @@ class Results(Datafile):
     def quantity(self, name, *part, **window):
         """A field, the magnitude of a vector whose components the file has, or a product; arguments of field()."""
         if name not in self.fields and name in self.products:
-            return self._power(*part, **window)
+            if name == POWER:
+                return self._power(*part, **window)
+            from .sliding import slip_range  # which reads such results
+
+            return SLIPS[name] * slip_range(self, *part, **window)
         if name not in self.fields and name in self.vectors:
             return np.hypot(self.field(name + "_x", *part, **window), self.field(name + "_y", *part, **window))
         return self.field(name, *part, **window)

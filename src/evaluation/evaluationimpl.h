@@ -105,8 +105,9 @@ PETSC_INTERN PetscBool      SamCycleWanted(SamEvaluation e);
 PETSC_INTERN PetscErrorCode SamCycleWrite(SamEvaluation e, const SamPoints *points, double done, double share);
 
 /*
-  SamAverageSetUp - the depths of the average, and their parts (average.c). Collective. Errors: SAM_ERR_USER.
-  SamAverageAdd - adds the part of depth k in it: `from` and `to` are n values, lines of `length` points. Not collective.
+  SamAverageSetUp - the depths of the average, and their parts (average.c). Errors: SAM_ERR_USER.
+  SamAverageAdd - adds the part of depth k in it: `from` and `to` are n values, lines of `length` points. Neither is
+  collective.
 */
 PETSC_INTERN PetscErrorCode SamAverageSetUp(SamEvaluation e);
 PETSC_INTERN PetscErrorCode SamAverageAdd(SamEvaluation e, PetscInt k, PetscInt length, ptrdiff_t n,

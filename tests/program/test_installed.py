@@ -82,7 +82,9 @@ def test_petsam_of_the_environment_comes_first(tree, tmp_path):
     assert "exit 9: the other one" in shell("petsam/scripts/petsam-study one.csv", tmp_path, check=1, PETSAM=fake)
 
 
-@pytest.mark.parametrize("script", ["petsam-compliance", "petsam-plot", "petsam-study", "petsam-surface"])
+@pytest.mark.parametrize(
+    "script", ["petsam-compliance", "petsam-fatigue", "petsam-plot", "petsam-study", "petsam-surface"]
+)
 def test_missing_libraries_are_named_with_the_remedy(tree, tmp_path, script):
     bare = tmp_path / "bare"
     bare.write_text(f'#!/bin/sh\nexec {sys.executable} -E -S "$@"\n')

@@ -11,7 +11,7 @@ import h5py
 import numpy as np
 import pytest
 
-from petsam import cycles
+from petsam import cycles, sliding
 from petsam.errors import Error
 from petsam.plot import command, loops, maps, profiles, series
 from petsam.plot.units import scale
@@ -435,7 +435,7 @@ def test_energy_of_a_loop_is_that_of_its_load():
 def test_energy_of_a_loop_is_positive_where_friction_dissipates():
     x = np.array([1.0, -1.0, -1.0, 1.0])  # back at -1, forth at 1
     y = np.array([-1.0, -1.0, 1.0, 1.0])
-    assert loops._area(x, y) == 4.0
+    assert sliding.area(x, y) == 4.0
 
 
 def test_loop_is_that_of_the_load_which_works(solve, tmp_path):

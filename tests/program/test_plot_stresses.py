@@ -108,7 +108,7 @@ def test_profile_is_the_stress_on_the_surface(folder):
 @pytest.mark.parametrize("name", ["section", "column", "maps"])
 def test_fatigue_names_the_largest_value_and_its_place(folder, name):
     file = petsam.open(folder / f"{name}.h5")
-    figure = bodies.fatigue(file)
+    figure = bodies.fatigue([file])
     title = figure.axes[0].get_title()
     with h5py.File(folder / f"{name}.h5") as f:
         swt = f["swt"][:1] if name == "maps" else f["swt"][:]
@@ -121,7 +121,7 @@ def test_fatigue_names_the_largest_value_and_its_place(folder, name):
 def test_numbers_of_contours_lie_neither_on_one_another_nor_on_the_mark(folder):
     file = petsam.open(folder / "section.h5")
     found = 0
-    for figure in (bodies.fatigue(file), bodies.sections([(file, 1), (file, 2)], "zz")):
+    for figure in (bodies.fatigue([file]), bodies.sections([(file, 1), (file, 2)], "zz")):
         figure.canvas.draw()
         for axes in figure.axes:
             room = axes.get_window_extent()
@@ -152,7 +152,7 @@ def test_numbers_on_one_another_are_taken_away():
 
 
 def test_the_mark_of_a_curve_does_not_hide_it_and_titles_have_units(folder):
-    axes = bodies.fatigue(petsam.open(folder / "section.h5")).axes[1]  # Ruiz is on the surface only
+    axes = bodies.fatigue([petsam.open(folder / "section.h5")]).axes[1]  # Ruiz is on the surface only
     curve, mark = axes.lines
     assert mark.get_marker() == "o" and mark.get_markerfacecolor() == "none"
     assert mark.get_xydata()[0] == pytest.approx(curve.get_xydata()[np.argmax(curve.get_ydata())])
@@ -187,7 +187,7 @@ def test_open_knows_the_file_by_its_content(folder):
         (("--maps", "section.h5"), "holds a section"),
         (("--step", "2", "section.h5"), "has the steps 3, 4, 5, 6"),
         (("--time", "9", "section.h5"), "from 1.5 to 3"),
-        (("--fatigue", "section.h5", "maps.h5"), "one file at a time"),
+        (("--fatigue", "section.h5", "maps.h5"), "sections and maps do not go into one picture"),
     ],
 )
 def test_pictures_that_cannot_be_are_refused(plot, words, says):

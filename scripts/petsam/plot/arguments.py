@@ -12,6 +12,7 @@ from . import bodies
 
 FORMATS = (".png", ".pdf", ".svg")
 DPI = (10, 1200)
+WIDTHS = (30.0, 2000.0)  # mm of a picture
 SCALES = ("colors", "x", "y")  # that may be logarithmic
 
 
@@ -72,6 +73,14 @@ def percentile(text):
     return values[0]
 
 
+def width(text):
+    """Reader of a picture's width, mm, for argparse."""
+    values = numbers(float)(text)
+    if len(values) != 1 or not WIDTHS[0] <= values[0] <= WIDTHS[1]:
+        raise argparse.ArgumentTypeError("{}: expected millimetres from {:g} to {:g}".format(short(text), *WIDTHS))
+    return values[0]
+
+
 def names(text):
     """Reader of a list of names for argparse."""
     words = text.split(",")
@@ -95,6 +104,15 @@ def condition(text):
     if not (name and equal and value):
         raise argparse.ArgumentTypeError(f"{short(text) or repr('')}: expected NAME=VALUE")
     return name, value
+
+
+def limit(text):
+    """Reader of NAME=VALUE, with a number, for argparse."""
+    name, value = condition(text)
+    values = numbers(float)(value)
+    if len(values) != 1 or not math.isfinite(values[0]):
+        raise argparse.ArgumentTypeError(f"{short(text)}: expected NAME=VALUE with one number")
+    return name, values[0]
 
 
 def resolution(text):
@@ -145,12 +163,17 @@ def _quantities(parser):
     what.add_argument(
         "--against",
         metavar="NAME",
-        help="over which scalar, or column (time; the creepage that varies; the input with most values)",
+        help="over which scalar, or column (time; the creepage that varies; the input with most values); "
+        "of a study X,Y: a map of --scalar (the regime)",
     )
     what.add_argument("--by", metavar="NAME", help="of a study: the column that the curves' colours stand for")
     what.add_argument(
         "--where", type=condition, action="append", default=[], metavar="NAME=VALUE",
         help="of a study: only cases with this value",
+    )  # fmt: skip
+    what.add_argument(
+        "--border", type=limit, action="append", default=[], metavar="NAME=VALUE",
+        help="of a map of a study: a line where this column has the value",
     )  # fmt: skip
 
 
@@ -195,9 +218,20 @@ def _look(parser):
         "--percentile", type=percentile, metavar="P",
         help="colours up to this percentile of the cells that are not 0 (100, less where peaks would darken the rest)",
     )  # fmt: skip
+    for letter in "xy":
+        look.add_argument(
+            f"--{letter}lim", type=limits, metavar="LOW,HIGH", help=f"part of the {letter} axis, in SI units"
+        )
+    look.add_argument(
+        "--width",
+        type=width,
+        metavar="MM",
+        help="width of the picture, mm; texts are scaled, to no less than 4.5 points",
+    )
     look.add_argument("--log", type=scales, default=[], metavar="WHAT,...", help="logarithmic colors, x, y")
     look.add_argument("--labels", metavar="TEXT,...", help="the files' names in the pictures (their file names)")
     look.add_argument("-o", "--output", metavar="NAME", help="name of the picture; it may end in .png, .pdf or .svg")
+    look.add_argument("--csv", metavar="NAME.csv", help="write the numbers of all that is drawn")
     look.add_argument("--format", choices=[end[1:] for end in FORMATS], help="instead of an end of the name (png)")
     look.add_argument("--dpi", type=resolution, default=150, help="pixels per inch of a PNG, 10 to 1200 (150)")
 

@@ -102,6 +102,7 @@ def _contours(axes, along, z, values, low, high, color_map):
         high = low + 1.0
     levels = np.linspace(low, high, LEVELS + 1)
     image = axes.contourf(along, z, np.clip(values, low, high), levels=levels, cmap=color_map)
+    image.drawn = along, z, values
     lines = axes.contour(
         along, z, values, levels=MaxNLocator(LINES).tick_values(low, high)[1:-1], colors="0.25", linewidths=0.5
     )
@@ -251,41 +252,62 @@ def maps(steps, component=None, depths=None, limits=None):
     return figure
 
 
-def fatigue(file, at=(0.0, 0.0)):
-    """Every fatigue parameter of a file: over a section, or over the first plane; the maximum is marked."""
-    names = file.fatigue
+def fatigue(files, at=(0.0, 0.0)):
+    """Fatigue parameters over a section, or over the first plane, with the maximum marked: all of one file; of several
+    those that each has, a row per file and one scale per parameter."""
+    names = [name for name in files[0].fatigue if _have(files, name)]
+    for one in files:
+        if not one.fatigue:
+            raise Error(f"{one.path}: has no fatigue parameter (petsam-stress -fatigue)")
     if not names:
-        raise Error(f"{file.path}: has no fatigue parameter (petsam-stress -fatigue)")
-    columns = min(2, len(names))
-    rows = -(-len(names) // columns)
+        raise Error(f"{files[0].path}: shares no fatigue parameter with {files[-1].path}; draw them one by one")
+    for one in files:
+        if (one.along is None) != (files[0].along is None):
+            raise Error(f"{one.path}: sections and maps do not go into one picture; draw them one by one")
+    file = files[0]
+    columns = min(2, len(names)) if len(files) == 1 else len(names)
+    rows = -(-len(names) // columns) * len(files)
+    need_few(rows * columns, "parameters and files")
     ratio = np.ptp(file.x) / np.ptp(file.y) if file.along is None else 1.0
     size = (5.6 * columns, (4.6 / min(max(1.0, ratio), 2.5) if file.along is None else 3.6) * rows + 0.3)
     figure, axes = plt.subplots(
         rows, columns, figsize=size, squeeze=False, layout="compressed" if file.along is None else "constrained"
     )
-    for panel, name in zip(axes.flat, names):
-        _fatigue_panel(figure, panel, file, name, at)
-    for panel in axes.flat[len(names) :]:
+    tops = {name: _span([_fatigue_values(one, name, at)[0] for one in files]) for name in names}
+    for panel, (one, name) in zip(axes.flat, ((one, name) for one in files for name in names)):
+        _fatigue_panel(panel, one, name, at, tops[name])
+        if len(files) > 1:
+            panel.set_title(f"{plain(one.label)}: {panel.get_title()}", fontsize=9)
+    for panel in axes.flat[len(names) * len(files) :]:
         panel.set_axis_off()
-    figure.suptitle(plain(file.label), fontsize=9, color="0.35")
+    if len(files) == 1:
+        figure.suptitle(plain(file.label), fontsize=9, color="0.35")
     _untangle(figure)
     return figure
 
 
-def _fatigue_panel(figure, panel, file, name, at):
+def _span(arrays):
+    """The least, at most 0, and the largest of the finite values in arrays."""
+    values = np.concatenate([one[np.isfinite(one)] for one in arrays])
+    return min(0.0, float(np.min(values))), float(np.max(values))
+
+
+def _fatigue_values(file, name, at):
+    """Values of a parameter on a plane or a section; names and coordinates along it and across, and where it is."""
     if file.along is None:
-        values = file.field(name, depths=slice(0, 1))[0]
-        axis, along, where, other, down = "x", file.x, ("z", file.z[0]), "y", file.y
-    else:
-        values = _section(file, name, 0, at)
-        axis, along, _, _, where = _line(file, at)
-        other, down = "z", file.z
+        return file.field(name, depths=slice(0, 1))[0], "x", file.x, ("z", file.z[0]), "y", file.y
+    axis, along, _, _, where = _line(file, at)
+    return _section(file, name, 0, at), axis, along, where, "z", file.z
+
+
+def _fatigue_panel(panel, file, name, at, span):
+    values, axis, along, where, other, down = _fatigue_values(file, name, at)
     some = np.isfinite(values)
     k, i = np.unravel_index(np.argmax(np.where(some, values, -np.inf)), values.shape)
     high, base = float(values[k, i]), file.unit(name)
-    factor, prefixed = scale(base, abs(high))
+    factor, prefixed = scale(base, abs(span[1]))
     length, unit = scale("m", np.ptp(along) / 2)
-    limits = (min(0.0, factor * float(np.min(values[some]))), factor * high)
+    limits = (factor * span[0], factor * span[1])
     if file.along is None:
         image = field(panel, factor * values, extent(file.x, file.y, 1.0 / length), *limits, "inferno")
     elif some.all(axis=1).sum() > 1:

@@ -9,6 +9,8 @@
     petsam-plot --scalar contact_area --against load_n a.h5 b.h5               any scalar of /history over any other
     petsam-plot --loop --range 33:64 strokes.h5     load steps 33 to 64 only
     petsam-plot --scalar stick_area --against load_tx --by friction study/results.h5       a study's table
+    petsam-plot --fatigue --width 180 --csv both.csv a_fatigue.h5 b_fatigue.h5     two pads, also as numbers
+    petsam-plot --against load_tx,friction --border life=1e6 study/results.h5   its regimes over two inputs
     petsam-plot --scar --cycle 0,1e5,1e6 life.h5    removed depth at three saved cycles
     petsam-plot --sections --component xx stress.h5     stresses under the surface, by petsam-stress
 
@@ -32,7 +34,7 @@ from ..files import need_replaceable, same
 from ..results import DAMAGED, NotSaved
 from ..stresses import Stresses, open_any
 from ..studies import Study
-from . import arguments, bodies, colours, loops, maps, noise, profiles, series, tables, uses, wear
+from . import arguments, bodies, colours, looks, loops, maps, noise, planes, profiles, series, tables, uses, wear
 from .arguments import FORMATS
 from .style import STYLE, plt
 from .uses import STUDY
@@ -129,7 +131,7 @@ def stress_kinds(files):
         elif all(file.along and file.z.size > 1 for file in files):
             kinds.append("sections")
         kinds.append("profiles")
-    if len(files) == 1 and files[0].fatigue:
+    if all(one.fatigue for one in files):
         kinds.append("fatigue")
     return kinds or ["profiles"]
 
@@ -174,9 +176,7 @@ def path(options, kind, alone):
 def draw_stresses(options, files, kind):
     """One picture of stresses, a matplotlib figure."""
     if kind == "fatigue":
-        if len(files) > 1:
-            raise Error(f"{files[1].path}: --fatigue: draws one file at a time")
-        return bodies.fatigue(files[0], options.at or ORIGIN)
+        return bodies.fatigue(files, options.at or ORIGIN)
     if options.cycle:
         raise Error(f"{files[0].path}: --cycle: a file of petsam-stress, which has steps")
     steps = snapshots(options, files)
@@ -234,6 +234,11 @@ def draw(options, results, kind):
     """One picture, a matplotlib figure."""
     if kind == STUDY:
         names = (options.scalar, options.against, options.by, options.where)
+        if uses.is_plane(options):
+            if len(results) > 1:
+                raise Error(f"{results[1].path}: --against {options.against}: maps are of one study; give one file")
+            over = options.against.split(",")
+            return planes.planes(results[0], over, options.scalar, options.where, options.border, axes_of(options))
         return tables.study(results, *names, axes_of(options))
     if isinstance(results[0], Stresses):
         return draw_stresses(options, results, kind)
@@ -247,12 +252,17 @@ def draw(options, results, kind):
     return draw_cycles(options, results, kind)
 
 
-def save(options, figure, name):
-    """Write one picture, which replaces no results and nothing that is not a file."""
-    need_replaceable(name)
-    for one in options.files:
-        if same(one, name):
-            raise Error(f"{name}: would replace the results; --output gives another name")
+def save(options, figure, name, table="w"):
+    """Write one picture, and its values to the table, which replace no results and nothing that is not a file."""
+    for written, option in ((name, "--output"), (options.csv, "--csv")):
+        if written:
+            need_replaceable(written)
+        for one in options.files if written else ():
+            if same(one, written):
+                raise Error(f"{written}: would replace the results; {option} gives another name")
+    looks.adapt(figure, options.xlim, options.ylim, options.width)
+    if options.csv:
+        looks.write(figure, options.csv, table)
     width, height = (options.dpi * inches for inches in figure.get_size_inches())
     if name.lower().endswith(".png") and width * height > PIXELS:
         raise Error(f"{name}: {width:.0f} x {height:.0f} pixels are too many; see --dpi")
@@ -263,7 +273,7 @@ def save(options, figure, name):
 
 def need_options(options, results):
     """Error where an option is given that the files have no use for."""
-    for name, given in (("by", options.by), ("where", options.where)):
+    for name, given in (("by", options.by), ("where", options.where), ("border", options.border)):
         if given and not isinstance(results[0], Study):
             raise Error(f"{results[0].path}: --{name}: is for results.h5 of petsam-study")
     for name in ("turns", "period", "cycle", "step", "time"):
@@ -284,7 +294,8 @@ def draw_all(options):
     with plt.rc_context(STYLE):
         for kind in kinds:
             try:
-                save(options, draw(options, results, kind), path(options, kind, len(kinds) == 1))
+                picture, mode = path(options, kind, len(kinds) == 1), "w" if kind == kinds[0] else "a"
+                save(options, draw(options, results, kind), picture, mode)
             except NotSaved as error:  # of what --step, --time, --cycle or --range has asked for
                 raise Error(f"{error.path}: --{error.wanted}: {error.reason}") from error
             except OSError:  # of the picture; those of the results have been taken for Errors

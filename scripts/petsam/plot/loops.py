@@ -8,8 +8,10 @@ import numpy as np
 from matplotlib.collections import LineCollection
 from matplotlib.ticker import MaxNLocator
 
+from .. import sliding
 from ..cycles import ENERGY, PAIRS, busiest, by_turns
 from ..errors import Error
+from ..sliding import cycle_energy, loop_energy
 from . import noise, symbols
 from .style import colors, curve, logarithmic, need_few, plt, tint
 from .units import counted, label, largest, plain, scale
@@ -18,9 +20,6 @@ LOOPS = 8  # in a panel: more cannot be told apart
 DENSE = 1000  # points from which a loop is drawn in transparent pieces: where it passes often is darker
 PIECE = 20  # points of a piece
 HEADROOM = 1.08  # the top of an axis of energies over the largest one
-
-
-ALONE = 1e-3  # of a loop's area: smaller areas of the other loads' loops are rounding
 
 
 def loop_axes(results, pair=None):
@@ -34,26 +33,6 @@ def loop_axes(results, pair=None):
     return {name: scale(results[0].units[name], largest(one.series(name) for one in results)) for name in PAIRS[pair]}
 
 
-def _area(x, y):
-    """Area of a closed polygon, positive when it is passed clockwise, as a load passes its displacement."""
-    return 0.5 * float(np.sum((x + np.roll(x, -1)) * (np.roll(y, -1) - y))) * -1.0
-
-
-def loop_energy(results, names, values, energy):
-    """Energy (J) that a load spends on its displacement over a closed loop; values(name) are those of its steps.
-
-    Where no other load and no bulk stress does work, that is the dissipated energy of the cycle (energy), which needs
-    no fine steps; else the area of the loop as it is drawn, whose sides are straight.
-    """
-    force, way = names
-    areas = {pair: _area(values(pair[1]), values(pair[0])) for pair in PAIRS.values()}
-    mine = areas.pop((force, way))
-    bulk = any(np.ptp(values(name)) > 0.0 for name in results.history if name.startswith("bulk"))
-    if force == "load_n" or bulk or max(map(abs, areas.values())) > ALONE * abs(mine):
-        return mine
-    return energy
-
-
 def _last_cycle(results, names):
     """Energy of the last whole cycle of the displacement, J; None without one."""
     if results.has_life:
@@ -63,12 +42,6 @@ def _last_cycle(results, names):
     if not cycles:
         return None
     return cycle_energy(results, names, cycles[-1])
-
-
-def cycle_energy(results, names, cycle):
-    """The same of a petsam.cycles.Cycle."""
-    friction = float(np.sum(results.series(ENERGY)[cycle.first + 1 : cycle.last + 1]))
-    return loop_energy(results, names, lambda name: results.series(name)[cycle.rows], friction)
 
 
 def _labels(axes, factors):
@@ -118,18 +91,19 @@ def cycle_loops(found, pair=None, numbers=None):
     need_few(len(chosen), "cycles and files")
     factors = loop_axes(results, pair)
     force, way = factors
-    energies = [cycle_energy(one.results, tuple(factors), cycle) for one, cycle in chosen]
-    joules, unit = scale(results[0].work_unit, largest([np.array(energies)]))
+    pair = force.removeprefix("load_")
+    known = [sliding.numbers(one.results, cycle, pair) for one, cycle in chosen]
+    joules, unit = scale(results[0].work_unit, largest([np.array([of.energy for of in known])]))
     figure, axes = plt.subplots(figsize=(7.6, 4.8), constrained_layout=True)
     tints = [tint(k, len(chosen)) for k in range(len(chosen))] if len(found) == 1 else colors(len(chosen))
-    for (one, cycle), energy, color in zip(chosen, energies, tints):
+    for (one, cycle), of, color in zip(chosen, known, tints):
         x, y = (factors[name][0] * one.results.series(name)[cycle.rows] for name in (way, force))
         who = "" if len(found) == 1 else plain(one.results.label) + ", "
-        text = f"{who}{cycle.number}: {joules * energy:.4g} {unit}"
+        text = f"{who}{cycle.number}: {joules * of.energy:.4g} {unit}, {of.energy_ratio:.3g}, {of.sliding_ratio:.3g}"
         axes.plot(x, y, color=color, label=text, **curve(x.size))
     _labels(axes, factors)
     outside = {"loc": "upper left", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.3}
-    axes.legend(title="cycle: energy of the loop", **outside)
+    axes.legend(title="cycle: energy of the loop,\nenergy ratio, sliding ratio", **outside)
     axes.set_title("cycles by " + plain(found[0].manner), fontsize=9.5, color="0.35")
     return figure
 

@@ -1,6 +1,7 @@
 """How all pictures look: matplotlib without a screen, the house's style and colours, and what many pictures share."""
 
 import os
+import re
 
 import matplotlib
 
@@ -119,7 +120,7 @@ class _Beside:
 
     def __call__(self, _axes, _renderer):
         figure = self.panel.figure
-        inches = figure.get_size_inches()[0]
+        inches = figure.get_size_inches()[0] / getattr(figure, "scaled", 1.0)
         box = self.panel.get_position()
         return type(box).from_bounds(box.x1 + self.GAP / inches, box.y0, self.WIDTH / inches, box.height)
 
@@ -142,6 +143,7 @@ class _Plain(LogFormatterMathtext):
     """Numbers of a logarithmic axis as they are written elsewhere: 30, not 3 times 10 to the first; of those between
     the decades no more than there is room for."""
 
+    GLYPH, LINE = 0.1, 0.2  # inches of a digit and of a line of text
     # decades on the axis at most, and the first digits that are written
     ROOM = ((0.2, range(1, 10)), (0.45, (1, 2, 3, 4, 5, 6, 8)), (0.9, (1, 2, 3, 5)), (2.2, (1, 2, 5)))
 
@@ -154,7 +156,28 @@ class _Plain(LogFormatterMathtext):
         digits = next((digits for most, digits in self.ROOM if decades <= most), (1,))
         if abs(first - round(first)) < 1e-6 and round(first) not in digits:
             return ""
-        return f"{x:g}" if 1e-3 <= abs(x) < 1e5 or abs(first - 1.0) > 1e-6 else super().__call__(x, pos)
+        if 1e-3 <= abs(x) < 1e5:
+            return f"{x:g}"
+        power = f"10^{{{int(np.floor(np.log10(x) + 1e-9))}}}"
+        return f"$\\mathdefault{{{power}}}$" if abs(first - 1.0) < 1e-6 else f"${first:g}\\cdot{power}$"
+
+    def format_ticks(self, values):
+        """The numbers, without those that would lie on the decades' or on one before."""
+        decades = [] if self is self.axis.get_major_formatter() else list(self.axis.get_majorticklocs())
+        low, high = sorted(self.axis.get_view_interval())
+        name, box, taken = self.axis.axis_name, self.axis.axes.get_window_extent(), []
+        inches = (box.width if name == "x" else box.height) / self.axis.figure.dpi
+        inches /= getattr(self.axis.figure, "scaled", 1.0)  # the texts are as much smaller
+        labels = []
+        for x in [*decades, *values]:
+            text = self(x) if low <= x <= high else ""
+            count = len(re.sub(r"\\[a-z]+|[${}^]", "", text)) + text.count("cdot")
+            half = 0.5 * (self.GLYPH * count if name == "x" else self.LINE)
+            at = inches * np.log(x / low) / np.log(high / low) if text and low > 0.0 else 0.0
+            free = all(abs(at - other) > half + reach for other, reach in taken)
+            labels.append(text if free else "")
+            taken += [(at, half)] if text and free else []
+        return labels[len(decades) :]
 
 
 def logarithmic(panel, axes):

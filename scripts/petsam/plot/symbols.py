@@ -13,6 +13,7 @@ FIELDS = {
     "pressure": ("pressure", "$p$"), "shear": ("shear", "$|q|$"), "slip": ("slip", "$|s|$"),
     "shear_x": ("shear", "$q_x$"), "shear_y": ("shear", "$q_y$"), "slip_x": ("slip", "$s_x$"),
     "slip_y": ("slip", "$s_y$"), "state": ("state", ""), "gap": ("gap", "$g$"),
+    "slip_range": ("slip range of the cycle", ""), "slip_amplitude": ("slip amplitude of the cycle", ""),
     "slip_velocity": ("slip velocity over $V$,", "$|s|$"),
      "power_density": ("power density over $V$,", r"$-q \cdot s$"),
     "wear_depth1": ("depth removed of body 1,", "$w_1$"), "wear_depth2": ("depth removed of body 2,", "$w_2$"),

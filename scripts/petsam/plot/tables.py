@@ -17,7 +17,7 @@ NOISE = 1e-9  # of the largest number with the same dimension: what is smaller i
 DIMENSION = {"J": "N m"}
 
 
-def _numbers(study, name, option):
+def numbers(study, name, option):
     """Values of a column of numbers, and their unit."""
     values, unit = study.column(name, option)
     if values.dtype.kind not in "biuf":
@@ -93,9 +93,9 @@ def _once(study, names):
     return [name for name in names if name in kept]
 
 
-def rows(study, where=()):
-    """Which cases are drawn: those that finished, and whose columns have the given values (name, text)."""
-    chosen = study.codes == 0
+def matching(study, where=()):
+    """Which cases have the given values (name, text) in their columns."""
+    chosen = np.full(study.codes.shape, True)
     for name, text in where:
         values, _ = study.column(name, "--where")
         if values.dtype.kind in "biuf":
@@ -110,6 +110,12 @@ def rows(study, where=()):
             there = ", ".join(sorted({f"{value:g}" if values.dtype.kind in "biuf" else value for value in values})[:8])
             raise Error(f"{study.path}: --where {short(name)}={short(text)}: no case has it; there are {there}")
         chosen = chosen & match
+    return chosen
+
+
+def rows(study, where=()):
+    """Which cases are drawn: those that finished, and whose columns have the given values (name, text)."""
+    chosen = matching(study, where) & (study.codes == 0)
     if not chosen.any():
         raise Error(f"{study.path}: none of the chosen cases has finished")
     return chosen
@@ -197,9 +203,9 @@ def _curves(studies, other, by, where):
 
 def _draw(panel, curves, name, other, across, logs):
     """One column over the other of all curves."""
-    data = [(study.column(other)[0][cases].astype(float), _numbers(study, name, "--scalar")[0][cases])
+    data = [(study.column(other)[0][cases].astype(float), numbers(study, name, "--scalar")[0][cases])
             for study, _, _, _, cases in curves]  # fmt: skip
-    factor, unit = scale(_numbers(curves[0][0], name, "--scalar")[1], largest(y for _, y in data))
+    factor, unit = scale(numbers(curves[0][0], name, "--scalar")[1], largest(y for _, y in data))
     for (_, text, color, mark, _), (x, y) in zip(curves, data):
         order = np.argsort(x, kind="stable")
         many = {"marker": "", "linewidth": 0.8} if x.size > MARKED else {"marker": mark, "linewidth": 1.0}
@@ -220,7 +226,7 @@ def study(studies, names=None, other=None, by=None, where=(), logs=()):
     """
     other = other or abscissa(studies[0])
     for one in studies:
-        _numbers(one, other, "--against")
+        numbers(one, other, "--against")
     names = names or _results(studies[0], other)
     need_few(len(names), "columns")
     curves = _curves(studies, other, by, where)

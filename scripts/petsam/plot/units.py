@@ -39,6 +39,16 @@ def scale(unit, largest):
     return 1.0 / size, prefix + written(unit)
 
 
+def size_of(text):
+    """Size in SI units of the unit in an axis' label, as label() writes it; 1 without one."""
+    for word in reversed(re.findall(r", (\S+)", text)):
+        for size, prefix in PREFIXES:
+            first = BASE.match(word[len(prefix) :].replace("²", "2").replace("³", "3"))
+            if word.startswith(prefix) and first and not (prefix == "" and word[0] in "Gkµnp"):
+                return size ** POWERS.get(first[0], 1)
+    return 1.0
+
+
 def counted(largest):
     """Factor and words for numbers of cycles up to the largest."""
     size, word = next((pair for pair in NUMBERS if largest >= pair[0]), (1.0, ""))

@@ -19,7 +19,7 @@ OF_STRESSES = {
     "component": ("maps", "sections", "profiles"), "at": ("sections", "profiles"), "depth": ("maps",),
     "limits": ("maps", "sections"),
 }  # fmt: skip
-OF_STUDIES = dict.fromkeys(("scalar", "against", "by", "where", "log x", "log y"), (STUDY,))
+OF_STUDIES = dict.fromkeys(("scalar", "against", "by", "where", "border", "log x", "log y"), (STUDY,))
 TABLES = {Stresses: OF_STRESSES, Study: OF_STUDIES}
 NAMES = tuple(dict.fromkeys([*OF_RESULTS, *OF_STRESSES, *OF_STUDIES]))
 # what to take instead
@@ -37,8 +37,15 @@ def _given(options, name):
     return value is not None and value is not False and value != []
 
 
+def is_plane(options):
+    """Whether a study is drawn over two inputs: --against X,Y."""
+    return "," in (options.against or "")
+
+
 def _users(name, options, results):
     """Kinds of picture that use an option, of these files and with the other options."""
+    if isinstance(results[0], Study) and name == ("by" if is_plane(options) else "border"):
+        return ()
     users = TABLES.get(type(results[0]), OF_RESULTS).get(name, ())
     if type(results[0]) in TABLES:
         planes = name != "at" or any(file.along is None for file in results)  # a section is where it is

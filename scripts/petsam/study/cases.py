@@ -6,7 +6,9 @@ leaves the option out, `#` starts a comment. Semicolons separate the columns if 
 
 YAML: `options` maps options of petsam to a value or to a list; every combination of the lists is a case. `parameters`
 is the same for names that are no options, `files` maps names of files that every case gets in its own folder to their
-text, `ranks` is the number of MPI ranks. Anywhere a text may hold {expressions} of parameters and options.
+text, `ranks` is the number of MPI ranks. Anywhere a text may hold {expressions} of parameters and options. `stress`
+maps options of petsam-stress, which then runs after each case; `results` maps names of columns to expressions of
+inputs, of other columns and of results.
 
 Options that name files are meant relative to the table. A study has at most CASES cases.
 """
@@ -46,7 +48,8 @@ NAME = 255  # bytes of a file's name
 
 class Case(NamedTuple):
     """One run: number (from 1), name, inputs (name: text; the lists' values, or the columns), options (name: text or
-    None), files (name: text), MPI ranks."""
+    None), files (name: text), MPI ranks, options of petsam-stress likewise, expressions of results (name: text), and
+    the values of all parameters and options that these may use."""
 
     number: int
     name: str
@@ -54,13 +57,17 @@ class Case(NamedTuple):
     options: dict
     files: dict
     ranks: int
+    stress: dict = {}
+    results: dict = {}
+    values: dict = {}
 
-    def words(self):
-        """The command line of petsam but for the results' name.
+    def words(self, options=None):
+        """The command line of petsam, or of petsam-stress, but for the results' name.
 
         An options file comes first: of an option that is in it, too, the last value counts, which is the table's.
         """
-        options = sorted(self.options.items(), key=lambda item: item[0] != "options_file")
+        options = self.options if options is None else options
+        options = sorted(options.items(), key=lambda item: item[0] != "options_file")
         return [word for name, value in options for word in (["-" + name] if value is None else ["-" + name, value])]
 
     def identity(self):
@@ -72,6 +79,8 @@ class Case(NamedTuple):
             elif name in PATHS and value:
                 value = _content(value) if name in HASHED else _stamp(value)
             parts.append((name, value))
+        if self.stress:
+            parts.append(("stress", sorted(self.stress.items())))
         return hashlib.sha256(repr(parts).encode()).hexdigest()
 
 
@@ -138,7 +147,7 @@ def common_options(words):
 
 
 def _csv_cases(path, _common):
-    """(where, inputs, options, files, ranks, name) of each row; the inputs that vary make the name."""
+    """(where, inputs, options, files, ranks, name, rest) of each row; the inputs that vary make the name."""
     names, rows = read_csv(path)
     _need_few(path, len(rows))
     varied = [
@@ -154,6 +163,7 @@ def _csv_cases(path, _common):
             {},
             (ranks, where),
             name or _name({key: values[key] for key in varied if key in values}),
+            (),
         )
 
 
@@ -178,6 +188,7 @@ def _yaml_cases(path, common):
             expanded = {name: expander.text(name) for name in values}
             texts = {name: expander.expand(text) for name, text in table.files.items()}
             ranks = expanded.get("ranks") or expander.expand(table.ranks)
+            stress = {name: expander.expand(text) for name, text in table.stress.items()}
         except ValueError as error:
             raise TableError(f"{path}: {error}") from error
         where = ", ".join([path, *(f"{name} = {short(values[name])}" for name in table.lists)])
@@ -189,6 +200,7 @@ def _yaml_cases(path, common):
             texts,
             (ranks, "{}, line {}".format(path, table.lines.get("ranks", 1))),
             _name(inputs),
+            (stress, table.results, expanded),
         )
 
 
@@ -208,10 +220,12 @@ def read(path, common=None, ranks=1):
     """The cases of a table, with options common to all (which override the table's) and the default number of ranks."""
     kind = _yaml_cases if path.lower().endswith((".yaml", ".yml")) else _csv_cases
     folder, common, cases, seen = os.path.dirname(os.path.abspath(path)), common or {}, [], {}
-    for where, inputs, options, files, (count, place), name in kind(path, common):
+    for where, inputs, options, files, (count, place), name, rest in kind(path, common):
         for option in {**options, **common}:
             if option in TAKEN:
                 raise TableError(f"{where}: -{option}: {TAKEN[option]}")
+        for option in {"input", "output"} & set(rest[0] if rest else ()):
+            raise TableError(f"{where}: stress: -{option}: petsam-study chooses the file; remove the option")
         _check_name(name, where, seen)
         seen[name] = where
         cases.append(
@@ -222,6 +236,7 @@ def read(path, common=None, ranks=1):
                 {**_located(options, files, folder), **common},
                 files,
                 _ranks(count, place) if count else ranks,
+                *rest,
             )
         )
     return cases

@@ -10,6 +10,9 @@ Sections of a YAML table:
   parameters  names of your own for {expressions}, likewise
   files       NAME: text of a file that each case gets in its folder, with {expressions}; an option refers to NAME
   ranks       MPI ranks of a case
+  stress      options of petsam-stress, which runs after each case; its maxima are columns, such as swt_max
+  results     NAME: expression of results, inputs and one another, a column of the table, such as
+              life: life_swt(swt_max, 115e9, 2.03e9, -0.104, 0.841, -0.69)
 
   options: {history: cycle.csv, load_n: 1000, friction: [0.1, 0.5]}
   files:

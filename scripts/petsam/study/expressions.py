@@ -1,4 +1,4 @@
-"""Expressions in braces that a study's table may hold: arithmetic of numbers and names.
+"""Expressions in braces that a study's table may hold: arithmetic of numbers and names; those of results have none.
 
 All numbers are doubles, so that no expression takes long, and lengths and depths are bounded.
 """
@@ -14,6 +14,20 @@ from ..errors import short
 
 FUNCTIONS = {name: getattr(math, name) for name in ("sqrt", "sin", "cos", "tan", "exp", "log", "pi")}
 FUNCTIONS.update(abs=abs, min=min, max=max)
+
+
+def _life(name):
+    """Cycles of a value, and of the constants of its curve, by a criterion of petsam.lives.strength."""
+
+    def life(*values):
+        from ..lives import strength
+
+        return min(float(getattr(strength, name)(*values)), strength.MOST)
+
+    return life
+
+
+FUNCTIONS.update({f"life_{name}": _life(name) for name in ("swt", "fatemi_socie", "basquin")})
 OPERATORS = {
     ast.Add: operator.add,
     ast.Sub: operator.sub,
@@ -60,6 +74,22 @@ def _tree(expression):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         return ast.parse(expression, mode="eval").body
+
+
+def check(expression):
+    """ValueError where an expression is none, whatever its names stand for."""
+    try:
+        _number(_tree(expression), lambda name: 1.0)
+    except SyntaxError as error:
+        raise ValueError(error.msg) from error
+    except (RecursionError, MemoryError) as error:
+        raise ValueError("is nested too deeply") from error
+    except (ArithmeticError, TypeError) as error:
+        if isinstance(error, TypeError):
+            raise ValueError(str(error)) from error
+    except ValueError as error:
+        if "use " in str(error):  # not a function's domain, which depends on the values
+            raise
 
 
 class Expander:

@@ -11,14 +11,15 @@ import yaml
 
 from ..errors import Error, short
 from ..files import need_regular
+from .expressions import check
 
 CSV, YAML = 64 << 20, 1 << 20  # bytes of a table at most; reading YAML takes long
 VALUE = 16384  # characters of a value: the system bounds the words of a command
 NAME = re.compile(r"[A-Za-z]\w*")  # of an option or a parameter
-KEYS = ("options", "parameters", "files", "ranks")
+KEYS = ("options", "parameters", "files", "ranks", "stress", "results")
 EXAMPLE = ("options:", "  load_tx: [30, 60, 90]")
 # files in the folder of every case (runs.py), and of petsam
-FOLDER = re.compile(r"(petsam\.log|record\.json|lock|results\.(h5|xdmf)|checkpoint.*)(\..*)?")
+FOLDER = re.compile(r"(petsam\.log|record\.json|lock|(results|stress)\.(h5|xdmf)|checkpoint.*)(\..*)?")
 FILE_NAME = 251  # bytes: it is written as NAME.tmp first
 SCALARS = {"tag:yaml.org,2002:" + kind for kind in ("null", "bool", "int", "float", "str", "timestamp")}
 
@@ -120,7 +121,8 @@ def read_csv(path):
 
 class Table(NamedTuple):
     """A YAML table: parameters and options as {name: list of texts}, files as {name: text}, ranks as text or None,
-    names of the parameters and options with lists, and {name: line} of all."""
+    names of the parameters and options with lists, {name: line} of all, options of petsam-stress as {name: text}, and
+    expressions of results as {name: text}."""
 
     parameters: dict
     options: dict
@@ -128,6 +130,8 @@ class Table(NamedTuple):
     ranks: str
     lists: list
     lines: dict
+    stress: dict
+    results: dict
 
 
 class _Reader:
@@ -165,7 +169,7 @@ class _Reader:
             raise self.error(f"{short(node.value)}: expected a number, a string, true or false", node)
         if len(node.value) > most:
             raise self.error(f"a value of {len(node.value)} characters; use at most {most}", node)
-        if node.tag.endswith((":str", ":timestamp")):
+        if node.tag.endswith((":str", ":timestamp")) or ":" in node.value:  # 7:18 are steps, not base 60
             value = node.value
         else:
             try:
@@ -218,7 +222,7 @@ class _Reader:
             raise error
         for key in sections:
             if key not in KEYS:
-                raise self.error(f"{short(key)}: unknown; use options, parameters, files or ranks")
+                raise self.error(f"{short(key)}: unknown; use {', '.join(KEYS[:-1])} or {KEYS[-1]}")
         ranks, place = sections.get("ranks"), self.lines.get("ranks")
         parameters, lists = {}, []
         if not self.empty(sections.get("parameters")):
@@ -232,7 +236,25 @@ class _Reader:
         files = self.files(sections.get("files"))
         if place and "ranks" not in {**parameters, **options}:
             self.lines["ranks"] = place
-        return Table(parameters, options, files, ranks and self.scalar(ranks), lists + more, self.lines)
+        stress, results = (self.single(sections.get(key), key, {**parameters, **options}) for key in KEYS[-2:])
+        ranks = ranks and self.scalar(ranks)
+        return Table(parameters, options, files, ranks, lists + more, self.lines, stress, results)
+
+    def single(self, node, key, others):
+        """Name: text, of a section without lists; the names of results are those of no input."""
+        if self.empty(node):
+            return {}
+        found, lists = self.choices(node, key)
+        if lists:
+            raise self.error(f"{key}: {lists[0]}: is a list; give one value, which may hold expressions", node)
+        for name, (text,) in found.items() if key == "results" else ():
+            if name in others:
+                raise self.error(f"results: {name}: is an input; use another name", node)
+            try:
+                check(text or "")
+            except ValueError as error:
+                raise self.error(f"results: {name}: {short(text)}: {error}", node) from error
+        return {name: text for name, (text,) in found.items()}
 
 
 def _problem(error, text):

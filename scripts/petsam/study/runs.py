@@ -11,6 +11,7 @@ import fcntl
 import json
 import math
 import os
+import re
 import signal
 import subprocess
 import time
@@ -20,6 +21,7 @@ from ..errors import Error, one_line, short
 from ..files import need_regular, need_replaceable
 
 LOG, RESULTS, RECORD, CHECKPOINT = "petsam.log", "results.h5", "record.json", "checkpoint.h5"
+STRESSES = "stress.h5"  # of petsam-stress, where the table asks for it
 STOPPED = 75  # petsam's exit code when it has written a checkpoint and is to be run again
 MEANINGS = {
     2: "bad usage",
@@ -33,6 +35,7 @@ PATIENCE = 10.0  # seconds that runs get to end when asked to
 GRACE = 90.0  # seconds that they get to write a checkpoint and stop, unless a variable gives the time that is left
 RESERVE = 30.0  # seconds before the end of a Slurm job in which it is queued again
 WORDS = 1000  # characters of a run's own words on how it ended
+OWN = re.compile("petsam(-stress)?: ")  # how the programs' messages begin
 PAUSE = 0.05  # seconds between looks at the runs
 
 
@@ -92,7 +95,7 @@ def _message(log, code):
             lines = [line.strip() for line in file if line.strip()]
     except OSError:
         lines = []
-    own = [line[len("petsam: ") :] for line in lines if line.startswith("petsam: ") and "warning: " not in line]
+    own = [re.sub(r"^petsam(-stress)?: ", "", line) for line in lines if OWN.match(line) and "warning: " not in line]
     if own:
         return one_line(own[0], WORDS)
     if code < 0 or code > 128:
@@ -151,13 +154,12 @@ class Run:
         self.start, self.told, self.patience = time.monotonic(), None, 0.0
         self.before = record(directory, case).get("seconds", 0.0) if goes_on else 0.0
         self._note(None, "")
-        words = [
-            *command(case.ranks),
-            *case.words(),
-            "-output",
-            RESULTS,
-            *self._checkpointing(checkpoint_every, goes_on),
-        ]
+        program = command(case.ranks)
+        self.stress = []
+        if case.stress:
+            beside = os.path.join(os.path.dirname(program[-1]), "petsam-stress")
+            self.stress = [*program[:-1], beside, "-input", RESULTS, "-output", STRESSES, *case.words(case.stress)]
+        words = [*program, *case.words(), "-output", RESULTS, *self._checkpointing(checkpoint_every, goes_on)]
         log = os.path.join(self.folder, LOG)
         need_replaceable(log)
         with open(log, "a" if goes_on else "w", encoding="utf-8") as file:
@@ -196,7 +198,7 @@ class Run:
         if checkpoint_every and record(directory, self.case) and os.path.exists(os.path.join(self.folder, CHECKPOINT)):
             return True
         for name in os.listdir(self.folder):
-            if name in (RESULTS, RECORD, LOG) or name.startswith(os.path.splitext(CHECKPOINT)[0]):
+            if name in (RESULTS, RECORD, LOG, STRESSES) or name.startswith(os.path.splitext(CHECKPOINT)[0]):
                 os.remove(os.path.join(self.folder, name))
         return False
 
@@ -228,7 +230,12 @@ class Run:
         code = self.process.poll()
         if self.told and code is None and time.monotonic() > self.told + self.patience:
             self.signal(signal.SIGTERM)
+        if code == 0 and self.stress and not self.told:
+            with open(os.path.join(self.folder, LOG), "a", encoding="utf-8") as file:
+                self.process = self._popen(self.stress, file)
+            self.stress, code = [], None
         if code is not None:
+            code = STOPPED if code == 0 and self.stress else code
             if self.told and code not in (0, *MEANINGS) and os.path.exists(os.path.join(self.folder, CHECKPOINT)):
                 code = STOPPED  # it was in a long step, and has an earlier checkpoint
             message = _message(os.path.join(self.folder, LOG), code)

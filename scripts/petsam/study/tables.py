@@ -3,8 +3,12 @@
 CSV: case, exit_code (empty: not run), seconds, ranks, the inputs, `steps`, the names of petsam's /history (those of the
 last step, with NaN for what is unknown if it has no solution; `dissipated_energy_sum` of all steps that have one),
 message. A scalar that has an input's name gets `_end` added. Of histories with cycles (petsam.cycles) there are also
-`cycles`, their number, `dissipated_energy_cycle_last`, and `dissipated_energy_cycle_change`, by which the last cycle
-differs from the one before, relative to it; and `dissipated_energy_cycle_K` of the chosen cycles K.
+`cycles`, their number, `energy_ratio_cycle_last` and `sliding_ratio_cycle_last` (petsam.sliding),
+`dissipated_energy_cycle_last`, and `dissipated_energy_cycle_change`, by which the last cycle
+differs from the one before, relative to it; and `dissipated_energy_cycle_K` of the chosen cycles K. `regime` is 0 where
+all steps stick, 1 of partial slip, 2 of gross slip (also where a step was rejected for it), 3 where some cycles are of
+gross slip and others are not. Where petsam-stress runs too, `mises_max` and so on are the largest of its /history, and
+`swt_max` and so on those of its fatigue parameters. Columns of the table's `results` follow.
 
 HDF5: the same in /case, /exit_code (-1: not run), /seconds, /ranks, /message, and in the groups /inputs and /results,
 NaN where there is no value; the attribute `options` holds those of all cases, and /cases/NAME links to the case's own
@@ -14,19 +18,24 @@ results file.
 import csv
 import functools
 import io
+import math
 import os
+import re
 from typing import NamedTuple, Optional
 
 import h5py
 import numpy as np
 
-from .. import cycles, isolation
+from .. import cycles, isolation, sliding
 from ..errors import Error
 from ..files import need_replaceable
 from ..results import DAMAGED, Results
-from .runs import RESULTS, record, write_atomically
+from ..stresses import Stresses
+from .expressions import Expander
+from .runs import RESULTS, STRESSES, record, write_atomically
 
 ENERGY = cycles.ENERGY
+GROSS = re.compile(r"(step \d+: )?gross slip: ")  # what petsam says of a load that cannot be balanced
 
 
 class Figures(NamedTuple):
@@ -42,11 +51,13 @@ LAST = Figures()
 
 def of_cycles(results, figures):
     """Name: (value, unit) from the cycles of a file, empty where it has none; NaN for missing cycles."""
+    whole = []
     if results.has_life:
         energies, count = results.wear[ENERGY], results.wear["cycle"][-1].item()
         by_number = dict(zip(results.wear["cycle"].tolist(), energies.tolist()))
     elif results.solved.size:
-        energies = cycles.find(results, figures.turns, figures.period).energies
+        whole = cycles.find(results, figures.turns, figures.period)
+        energies = whole.energies
         count, by_number = energies.size, dict(enumerate(energies.tolist(), 1))
         by_number.update({number - energies.size - 1: value for number, value in list(by_number.items())})
     else:
@@ -57,9 +68,26 @@ def of_cycles(results, figures):
     last, before = [*[float("nan")] * 2, *energies.tolist()][:-3:-1]
     found = {"cycles": (count, "1"), ENERGY + "_cycle_last": (last, unit)}
     found[ENERGY + "_cycle_change"] = (last / before - 1.0 if before else float("nan"), "1")
+    found.update(_ratios(results, whole))
     for number in figures.numbers:
         found[f"{ENERGY}_cycle_{number}"] = (by_number.get(number, float("nan")), unit)
     return found
+
+
+def _ratios(results, whole):
+    """Energy ratio and sliding ratio of the last of some cycles."""
+    pair = cycles.busiest(results) if len(whole) else None
+    if pair is None:
+        return {}
+    last = sliding.numbers(results, whole.numbered(-1), pair)
+    return {f"{name}_cycle_last": (getattr(last, name), "1") for name in ("energy_ratio", "sliding_ratio")}
+
+
+def _regime(results, figures):
+    """Code of the regime: of all cycles, or without any of all steps."""
+    whole = [] if results.has_life else cycles.find(results, figures.turns, figures.period)
+    parts = [cycle.rows for cycle in whole] or [slice(None)]
+    return sliding.REGIMES.index(sliding.regime_of(sliding.regime(results, rows) for rows in parts))
 
 
 def scalars(path, figures=LAST):
@@ -77,11 +105,50 @@ def scalars(path, figures=LAST):
             total = float(np.sum(results.series(ENERGY))) if results.solved.size else np.nan
             found[ENERGY + "_sum"] = (total, results.units[ENERGY])
             try:
+                if results.solved.size and "stick_area" in results.history:
+                    found["regime"] = (_regime(results, figures), "1")
                 return {**found, **of_cycles(results, figures)}, None
             except Error as error:
                 return found, str(error)
     except (Error, *DAMAGED):
         return {}, None
+
+
+def _stresses(path):
+    """Name: (value, unit) of the maxima in a file of petsam-stress; empty where there is none that can be read."""
+    try:
+        with Stresses(path) as file:
+            names = [name for name in file.history if name.endswith("_max")]
+            found = {name: (float(np.max(file.history[name])), file.units[name]) for name in names}
+            for name in file.fatigue:
+                values = file.field(name)
+                if np.isfinite(values).any():
+                    found[name + "_max"] = (float(np.nanmax(values)), file.unit(name))
+            return found
+    except (Error, *DAMAGED):
+        return {}
+
+
+def _of_case(folder, figures, with_stress):
+    """scalars() of a case's folder, with the maxima of its stresses."""
+    values, complaint = scalars(os.path.join(folder, RESULTS), figures)
+    return {**values, **(_stresses(os.path.join(folder, STRESSES)) if values and with_stress else {})}, complaint
+
+
+def _expressed(case, values):
+    """Name: (value, unit) of the table's expressions, NaN without a value; and the first thing wrong, or None."""
+    known = {name + "_end" if name in case.values else name: repr(value) for name, (value, _) in values.items()}
+    known.update({name: text for name, text in case.values.items() if text is not None})
+    known.update({name: f"{{{expression}}}" for name, expression in case.results.items()})
+    expander, found, complaint = Expander(known), {}, None
+    for name in case.results:
+        try:
+            found[name] = (float(expander.text(name)), "1")
+        except ValueError as error:
+            expander.open.clear()
+            found[name] = (math.nan, "1")
+            complaint = complaint or f"case {case.name}: results: {name}: {error}"
+    return found, complaint
 
 
 def rows(directory, cases, figures=LAST):
@@ -90,11 +157,22 @@ def rows(directory, cases, figures=LAST):
     records = [(case, record(directory, case)) for case in cases]
     ended = [case for case, known in records if known.get("exit_code") is not None]
     # a run that was killed may have left a damaged file
-    paths = [os.path.join(directory, case.name, RESULTS) for case in ended]
-    values = list(isolation.each(functools.partial(scalars, figures=figures), paths))
+    paths = [os.path.join(directory, case.name) for case in ended]
+    with_stress = any(case.stress for case in cases)
+    values = list(isolation.each(functools.partial(_of_case, figures=figures, with_stress=with_stress), paths))
     values = [({}, None) if isinstance(one, Error) else one for one in values]
     known_values = {case.name: one for case, (one, _) in zip(ended, values)}
+    for case, known in records:
+        if case.name in known_values and GROSS.match(known.get("message") or ""):
+            known_values[case.name]["regime"] = (sliding.REGIMES.index("gross slip"), "1")
     complaint = next((text for _, text in values if text), None)
+    wrong = []
+    for case, _ in records:
+        if case.results and known_values.get(case.name):
+            more, text = _expressed(case, known_values[case.name])
+            known_values[case.name].update(more)
+            wrong.append(text)
+    complaint = complaint or (wrong[0] if wrong and all(wrong) else None)
     return [(case, known, known_values.get(case.name, {})) for case, known in records], complaint
 
 

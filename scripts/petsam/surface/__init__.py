@@ -7,6 +7,7 @@ reading     maps from files of any kind
 filling     missing points
 levels      mean, tilt and form taken off
 resampling  a map on another grid
+generation  random surfaces of a spectrum
 writing     HDF5 for petsam's -gap_file and -gap_rough_file
 picture     the result as PNG
 command     the command

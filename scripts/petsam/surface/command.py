@@ -3,6 +3,7 @@
     petsam-surface rough.npy --body 2 --units um --size 1mm --level tilt
     petsam-surface scan.sur --body 1 --mirror x --level sphere --grid-n 512 -o top.h5
     petsam-surface top.h5 bottom.h5 -o pair.h5         heights of body 1 and 2 make a separation
+    petsam-surface --self-affine 0.8 --rms 0.5um --wavelengths 500um,10um --size 1mm --grid-n 512 --seed 3 -o r3.h5
 
 Reads NumPy's .npy, text (.csv, .txt: one line per y, one number per x), HDF5 (.h5), and through the library
 SurfaceTopography from PyPI the files of many instruments. Writes HDF5 for petsam's -gap_file and -gap_rough_file,
@@ -22,14 +23,18 @@ from dataclasses import replace
 from .. import isolation
 from ..errors import Error, Parser, fail, guarded, short
 from ..files import same
-from . import levels, picture, writing
+from . import generation, levels, picture, writing
 from .filling import filled
 from .lengths import several, shown, sides, unit
-from .maps import QUANTITIES, combined, cut, peak_to_valley, rms_height, rms_slope
+from .maps import QUANTITIES, combined, cut, new_map, peak_to_valley, rms_height, rms_slope
 from .reading import FORMATS, read_map
 from .resampling import resampled
 
 MOST = 1 << 16  # cells in x or y
+OF_FILES = (
+    "units", "pixel", "first_row", "transpose", "mirror", "depths", "missing", "format", "skip_rows", "skip_columns",
+    "dataset", "channel", "window", "fill", "level", "grid_size",
+)  # fmt: skip
 SIGNED = ("--window", "--center", "--missing")  # options whose values may begin with a minus sign
 
 
@@ -57,6 +62,17 @@ def count(text):
     if not text.isdecimal():
         raise argparse.ArgumentTypeError(f"{short(text)}: expected an integer")
     return int(text)
+
+
+def hurst(text):
+    """Reader of a Hurst exponent for argparse."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
+    if not 0.0 < value <= 1.0:
+        raise argparse.ArgumentTypeError(f"{short(text)}: expected a Hurst exponent above 0, at most 1")
+    return value
 
 
 def _window(text):
@@ -99,8 +115,17 @@ def _file_options(parser):
 def arguments(words):
     """Read the command line."""
     parser = Parser(prog="petsam-surface", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("files", nargs="+", metavar="FILE", help="one map, or two for a separation")
+    parser.add_argument("files", nargs="*", metavar="FILE", help="one map, or two for a separation")
     _file_options(parser)
+    made = parser.add_argument_group("a random surface instead of a file, with --size and --grid-n")
+    kind = made.add_mutually_exclusive_group()
+    kind.add_argument("--self-affine", type=hurst, metavar="H", help="self-affine with this Hurst exponent")
+    kind.add_argument("--psd", metavar="TABLE", help="of a spectrum: a text of q (rad/m) and C (m^4) on each line")
+    made.add_argument("--rms", type=several(1, "a length"), metavar="HEIGHT", help="rms height (that of the spectrum)")
+    made.add_argument(
+        "--wavelengths", type=several(2, "LONG,SHORT"), metavar="LONG,SHORT", help="of a self-affine surface"
+    )
+    made.add_argument("--seed", type=count, default=0, metavar="K", help="another integer is another surface (0)")
     done = parser.add_argument_group("processing")
     done.add_argument("--window", type=_window, metavar="X0,X1,Y0,Y1", help="keep the cells with centres in it")
     done.add_argument(
@@ -121,18 +146,64 @@ def arguments(words):
     out.add_argument("--picture", metavar="NAME.png", help="(beside the output)")
     out.add_argument("--no-picture", action="store_true", help="draw none")
     options = parser.parse_args(_joined(words))
+    _check_random(parser, options)
     if len(options.files) > 2:
         parser.error(f"{len(options.files)} files: use one, or two for a separation")
     if options.body and len(options.body) not in (1, len(options.files)):
         parser.error(f"--body: {len(options.body)} bodies for {len(options.files)} file: give one for each")
     if options.separation and options.depths:
         parser.error("--depths applies to heights, not to a separation")
-    base = os.path.splitext(os.path.basename(options.files[0]))[0]
+    base = os.path.splitext(os.path.basename(options.files[0]))[0] if options.files else "random"
     options.output = options.output or base + ".h5"
     options.picture = options.picture or os.path.splitext(options.output)[0] + ".png"
     if not options.picture.lower().endswith(".png"):
         parser.error(f"--picture: {short(options.picture)}: use a name that ends in .png")
     return options
+
+
+def _check_random(parser, options):
+    """End with a message where a random surface lacks something, or there is neither a file nor one."""
+    random = options.self_affine is not None or options.psd
+    if bool(random) == bool(options.files):
+        parser.error("give one FILE or two, or a random surface by --self-affine or --psd" + " instead" * bool(random))
+    given = {"--rms": options.rms, "--wavelengths": options.wavelengths}
+    if not random:
+        for name, value in given.items():
+            if value:
+                parser.error(f"{name}: is for a random surface; use --self-affine or --psd")
+        return
+    for name in OF_FILES:
+        if getattr(options, name) not in (None, False, 0, "none"):
+            parser.error(f"--{name.replace('_', '-')}: has no effect on a random surface; omit it")
+    needed = {"--size": options.size, "--grid-n": options.grid_n, **({} if options.psd else given)}
+    lacking = [name for name, value in needed.items() if not value]
+    if lacking:
+        parser.error(f"a random surface needs {', '.join(lacking)}")
+    _check_values(parser, options)
+
+
+def _check_values(parser, options):
+    """End with a message where the lengths of a random surface cannot be."""
+    if options.psd and options.wavelengths:
+        parser.error("--wavelengths: not allowed with --psd, whose table has the limits")
+    if options.rms and not options.rms[0] > 0.0:
+        parser.error(f"--rms {options.rms[0]:g} m: use a height above 0")
+    if options.wavelengths and not options.wavelengths[0] > options.wavelengths[1] > 0.0:
+        parser.error("--wavelengths: expected LONG,SHORT, the longer one first, above 0")
+
+
+def random_map(options):
+    """The Map of a random surface; heights of body 2 unless --body gives another."""
+    if options.psd:
+        spectrum, shortest = generation.tabulated(options.psd)
+    else:
+        shortest = options.wavelengths[1]
+        spectrum = generation.self_affine(options.self_affine, *options.wavelengths)
+    rms = options.rms[0] if options.rms else None
+    values = generation.heights(spectrum, options.grid_n, options.size, shortest, options.seed, rms)
+    quantity = "separation" if options.separation else (options.body or ["height2"])[0]
+    print(f"random surface: {QUANTITIES[quantity]}\n  seed {options.seed}")
+    return new_map(values, options.size, quantity, options.output)
 
 
 def _joined(words):
@@ -208,6 +279,7 @@ def carry_out(options, words):
     if len(quantities) < len(options.files):
         quantities = quantities * len(options.files)
     maps = [prepared(path, options, quantity) for path, quantity in zip(options.files, quantities)]
+    maps = maps or [random_map(options)]
     one = maps[0] if len(maps) == 1 else combined(*maps)
     if options.center:
         one = replace(one, center=options.center)

@@ -250,6 +250,8 @@ def read_map(path, options, quantity):
     values = np.asarray(stated.values, dtype=np.float64)  # before it is scaled: single precision would stay so
     values = values.T if options.transpose else values
     quantity = _agreed(path, stated.quantity, quantity, "--body or --separation")
+    alone = quantity is None and len(options.files) == 1 and _kind(path, options) == "surfacetopography"
+    quantity = "height2" if alone else quantity  # instruments measure heights; which body's the remark says
     unit = _agreed(path, stated.unit, options.units, "--units")
     given = options.size or options.pixel and tuple(w * n for w, n in zip(options.pixel, values.shape[::-1]))
     size = _agreed(path, stated.size, given, "--size or --pixel")
@@ -258,6 +260,8 @@ def read_map(path, options, quantity):
         values = np.where(values == options.missing, np.nan, values)
     one = new_map(values * (-unit if options.depths else unit), size, quantity, path, stated.center or (0.0, 0.0))
     top, remarks = _top(path, stated, options)
+    if alone:
+        remarks.append("taken for heights of body 2; --body 1 or --separation takes them for another")
     if quantity == "height1" and stated.quantity is None and not options.mirror:
         remarks.append(
             "x and y are petsam's, as seen from above; seen from its own side, body 1 is mirrored: --mirror x or y"

@@ -1,0 +1,112 @@
+"""Lives, safety factors, damage and cracks of the cycles of a spectrum: what the command prints and draws."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..errors import Error
+from . import cracks, strength
+from .materials import need
+from .stresses import terms
+
+# of each criterion its title and the constants that it needs; of factors the parameter's limit
+LIVES = {
+    "swt": ("Smith-Watson-Topper", ("young", "sigma_f", "b", "epsilon_f", "c")),
+    "fatemi_socie": ("Fatemi-Socie", ("young", "poisson", "tau_f", "b0", "gamma_f", "c0")),
+    "basquin": ("Basquin", ("sigma_f", "b")),
+}
+FACTORS = {name: (name.replace("_", " ").title(), (name + "_limit",)) for name in ("findley", "crossland", "dang_van")}
+CRACK = {"crack": ("short crack", ("dk_th", "stress_limit"))}
+CRITERIA = {**LIVES, **FACTORS, **CRACK}
+OF_STRESS = ("basquin", "crack")  # which need the stress on planes, not a parameter of the file
+
+
+class Place(NamedTuple):
+    """A value and where it is, m."""
+
+    value: float
+    x: float
+    y: float
+    z: float
+
+
+class Line(NamedTuple):
+    """Below a point: its place, the depths, and columns by name: (unit, values)."""
+
+    x: float
+    y: float
+    z: np.ndarray
+    columns: dict
+
+
+def possible(cycle, constants, angle=0.0):
+    """Criteria for which the file has the data, and the constants are there."""
+    known = {**cycle.constants, **constants}
+    return [
+        name
+        for name, (_, names) in CRITERIA.items()
+        if all(one in known for one in names) and has_data(cycle, name, angle)
+    ]
+
+
+def has_data(cycle, name, angle=0.0):
+    """Whether a cycle has what a criterion is computed from."""
+    if name not in OF_STRESS:
+        return name in cycle
+    return cycle.steps > 1 and all(one in cycle for one in terms(angle))
+
+
+def _values(cycle, name, constants, angle):
+    """Lives (cycles) or safety factors at all points, (z, y, x)."""
+    if not has_data(cycle, name, angle):
+        wanted = "several steps with -quantities stress" if name in OF_STRESS else f"-fatigue {name}"
+        raise Error(f"{cycle.path}: {name}: the data are missing; give petsam-stress {wanted}")
+    known = {**cycle.constants, **constants}
+    found = need(known, CRITERIA[name][1], f"{cycle.path}: {name}")
+    if name == "basquin":
+        return strength.basquin(*cycle.extremes(angle), *found, constants.get("ultimate"))
+    if name in LIVES:
+        return getattr(strength, name)(cycle.maximum(name), *found)
+    return strength.factor(cycle.maximum(name), *found)
+
+
+def least(cycle, values):
+    """The least of values (z, y, x), and where; Error without any."""
+    if not np.isfinite(values).any() and not np.isinf(values).any():
+        raise Error(f"{cycle.path}: has no value at any point")
+    k, j, i = np.unravel_index(np.nanargmin(values), values.shape)
+    return Place(*(float(value) for value in (values[k, j, i], cycle.x[i], cycle.y[j], cycle.z[k])))
+
+
+def lives(cycles, name, constants, angle=0.0):
+    """Lives, or safety factors, of every cycle at all points."""
+    first = cycles[0]
+    for one in cycles[1:]:
+        for mine, its in ((first.x, one.x), (first.y, one.y), (first.z, one.z)):
+            if mine.shape != its.shape or not np.allclose(mine, its, rtol=1e-9, atol=1e-12):
+                raise Error(
+                    f"{one.path}: has other points than {first.path}; give all blocks the same depths and section"
+                )
+    return [_values(one, name, constants, angle) for one in cycles]
+
+
+def crack(cycle, constants, angle, row, column):
+    """Columns of a crack of the lengths z below a point; the least length at which it grows, and that of its arrest."""
+    limits = need(constants, CRACK["crack"][1], f"{cycle.path}: crack")
+    if cycle.z.size < 3:
+        raise Error(f"{cycle.path}: crack: has {cycle.z.size} depths; give petsam-stress at least 3 from 0 on")
+    if not has_data(cycle, "crack", angle):
+        raise Error(f"{cycle.path}: crack: needs several steps and stresses; give petsam-stress -quantities stress")
+    high, low = cracks.extremes(cycle.z, cycle.stress_line(angle, row, column), cycle.z)
+    thresholds = cracks.threshold(cycle.z, *limits)
+    curves = cycle.z[1:], (high - low)[1:], thresholds[1:]
+    unit = "Pa m^1/2"
+    columns = {"k_max": (unit, high), "k_range": (unit, high - low), "k_threshold": (unit, thresholds)}
+    return columns, cracks.start(*curves), cracks.arrest(*curves)
+
+
+def line(cycle, names, row, column, computed):
+    """The Line below a point: quantities of the cycle by name, and what has been computed at all points."""
+    columns = {name: (cycle.unit(name), cycle.line(name, row, column)) for name in names}
+    columns.update({name: (unit, values[:, row, column]) for name, (unit, values) in computed.items()})
+    return Line(float(cycle.x[column]), float(cycle.y[row]), cycle.z, columns)

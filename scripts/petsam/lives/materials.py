@@ -1,0 +1,79 @@
+"""Constants of a material: name, unit, range; from a YAML file of names and values, and from the command line."""
+
+from typing import NamedTuple
+
+import yaml
+
+from ..errors import Error, short, there_are
+from ..files import need_regular
+
+SMALL = 1 << 20  # bytes of a file of constants at most
+
+
+class Constant(NamedTuple):
+    """Unit, limits (exclusive) and meaning of a constant."""
+
+    unit: str
+    low: float
+    high: float
+    meaning: str
+
+
+STRESS = ("Pa", 1e5, 1e12)
+CONSTANTS = {
+    "young": Constant("Pa", 1e6, 1e13, "Young's modulus (the file's)"),
+    "poisson": Constant("1", -1.0, 0.5, "Poisson's ratio (the file's)"),
+    "sigma_f": Constant(*STRESS, "fatigue strength coefficient"),
+    "b": Constant("1", -1.0, 0.0, "fatigue strength exponent"),
+    "epsilon_f": Constant("1", 1e-5, 100.0, "fatigue ductility coefficient"),
+    "c": Constant("1", -2.0, 0.0, "fatigue ductility exponent"),
+    "tau_f": Constant(*STRESS, "the same four in shear: strength coefficient"),
+    "b0": Constant("1", -1.0, 0.0, "its exponent"),
+    "gamma_f": Constant("1", 1e-5, 100.0, "ductility coefficient"),
+    "c0": Constant("1", -2.0, 0.0, "its exponent"),
+    "ultimate": Constant(*STRESS, "ultimate strength: Goodman's correction of the S-N life"),
+    "findley_limit": Constant(*STRESS, "value of Findley's parameter at the fatigue limit"),
+    "crossland_limit": Constant(*STRESS, "the same of Crossland's"),
+    "dang_van_limit": Constant(*STRESS, "the same of Dang Van's"),
+    "dk_th": Constant("Pa m^1/2", 1e4, 1e9, "threshold range of the stress intensity of long cracks"),
+    "stress_limit": Constant(*STRESS, "fatigue limit as a stress range, at the stress ratio of dk_th"),
+}
+
+
+def checked(name, value, where):
+    """The value of a constant as a number; Error where it is none, or outside its range."""
+    if name not in CONSTANTS:
+        raise Error(f"{where}: {short(name)} is no constant{there_are(name, CONSTANTS)}")
+    one = CONSTANTS[name]
+    unit = "" if one.unit == "1" else " " + one.unit
+    try:
+        number = float(str(value))  # as YAML takes 900e6 for a text
+    except ValueError:
+        raise Error(f"{where}: {name} {short(value)} is not a number; give it in SI units, without a unit") from None
+    if not one.low < number < one.high:
+        limits = f"outside {one.low:g} to {one.high:g}{unit}"
+        raise Error(f"{where}: {name} {number:g}{unit} is {limits}; give it in SI units")
+    return number
+
+
+def read(path):
+    """Constants of a YAML file of names and values."""
+    if need_regular(path).st_size > SMALL:
+        raise Error(f"{path}: is larger than {SMALL} bytes; give a file of names and values")
+    try:
+        with open(path, encoding="utf-8") as file:
+            values = yaml.safe_load(file)
+    except (yaml.YAMLError, ValueError, RecursionError) as error:
+        raise Error(f"{path}: is not YAML: {short(error)}") from error
+    if not isinstance(values, dict):
+        raise Error(f"{path}: expected lines such as sigma_f: 1.76e9")
+    return {str(name): checked(str(name), value, path) for name, value in values.items()}
+
+
+def need(constants, names, what):
+    """Values of the constants of these names; Error where one is missing, which `what` needs."""
+    lacking = [name for name in names if name not in constants]
+    if lacking:
+        texts = [f"{name} ({CONSTANTS[name].unit}, {CONSTANTS[name].meaning})" for name in lacking]
+        raise Error(f"{what}: {', '.join(texts)}: missing; give it in --material or by --constant")
+    return [constants[name] for name in names]

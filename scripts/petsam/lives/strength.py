@@ -1,0 +1,62 @@
+"""Lives of the fatigue parameters by strain-life and S-N curves, safety factors, damage of a spectrum.
+
+Lives are cycles N, half as many as reversals 2N; inf beyond MOST, LEAST where the first reversal breaks the material.
+
+    Smith-Watson-Topper  s_max de/2                      = sigma_f^2/E (2N)^2b + sigma_f epsilon_f (2N)^(b+c)
+    Fatemi-Socie         tau_a/G (1 + k s_max/yield)     = tau_f/G (2N)^b0 + gamma_f (2N)^c0
+    Basquin              s_a, with Goodman's mean stress = sigma_f (2N)^b
+
+K. N. Smith, P. Watson, T. H. Topper, Journal of Materials 5 (1970) 767-778; A. Fatemi, D. F. Socie, Fatigue and
+Fracture of Engineering Materials and Structures 11 (1988) 149-165; M. A. Miner, Journal of Applied Mechanics 12 (1945)
+A159-A164.
+"""
+
+import numpy as np
+
+LEAST, MOST = 0.5, 1e12  # cycles
+HALVINGS = 60  # of the interval of log N: to rounding
+
+
+def _life(curve, values):
+    """Cycles N at which a curve, falling with N, has the values."""
+    values = np.asarray(values, dtype=float)
+    low, high = np.full(values.shape, np.log(LEAST)), np.full(values.shape, np.log(MOST))
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        above = curve(np.exp(middle)) > values
+        low, high = np.where(above, middle, low), np.where(above, high, middle)
+    lives = np.where(values <= curve(MOST), np.inf, np.where(values >= curve(LEAST), LEAST, np.exp(low)))
+    return np.where(np.isnan(values), np.nan, lives)
+
+
+def swt(values, young, sigma_f, b, epsilon_f, c):
+    """Lives of values (Pa) of Smith, Watson and Topper's parameter."""
+    return _life(lambda n: sigma_f**2 / young * (2 * n) ** (2 * b) + sigma_f * epsilon_f * (2 * n) ** (b + c), values)
+
+
+def fatemi_socie(values, young, poisson, tau_f, b0, gamma_f, c0):
+    """Lives of values of Fatemi and Socie's parameter."""
+    shear = young / (2.0 * (1.0 + poisson))
+    return _life(lambda n: tau_f / shear * (2 * n) ** b0 + gamma_f * (2 * n) ** c0, values)
+
+
+def basquin(high, low, sigma_f, b, ultimate=None):
+    """Lives of a stress (Pa) between high and low; with the ultimate strength by Goodman's mean-stress correction."""
+    amplitude, mean = 0.5 * (np.asarray(high) - low), 0.5 * (np.asarray(high) + low)
+    if ultimate is not None:
+        rest = 1.0 - np.maximum(mean, 0.0) / ultimate
+        amplitude = np.where(rest > 0.0, amplitude / np.where(rest > 0.0, rest, 1.0), np.inf)
+    return _life(lambda n: sigma_f * (2 * n) ** b, amplitude)
+
+
+def factor(values, limit):
+    """Safety factor: the limit relative to the values of a parameter; inf where these are not positive."""
+    values = np.asarray(values, dtype=float)
+    return np.where(
+        values > 0.0, limit / np.where(values > 0.0, values, 1.0), np.where(np.isnan(values), np.nan, np.inf)
+    )
+
+
+def damage(lives, counts):
+    """Palmgren and Miner's sum over blocks of cycles: counts relative to lives."""
+    return sum(count / one for one, count in zip(lives, counts))

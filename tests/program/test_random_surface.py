@@ -1,0 +1,116 @@
+"""Random surfaces of petsam-surface: spectra, seeds, grids, refusals; and instruments' heights without a body."""
+
+import sys
+
+import h5py
+import numpy as np
+import pytest
+
+from petsam.errors import Error
+from petsam.surface import command, generation, reading
+
+SIZE = (1e-3, 1e-3)
+
+
+def spectrum_of(values, size=SIZE):
+    """q (rad/m) of all waves and C (m^4) of heights."""
+    power = np.abs(np.fft.fft2(values) / values.size) ** 2 * size[0] * size[1] / (2 * np.pi) ** 2
+    k = [2 * np.pi * np.fft.fftfreq(n, side / n) for n, side in zip(values.shape[::-1], size)]
+    return np.hypot(k[0][None, :], k[1][:, None]).ravel(), power.ravel()
+
+
+def test_a_self_affine_surface_has_its_exponent_and_its_limits():
+    spectrum = generation.self_affine(0.7, 2e-4, 1e-5)
+    found = [spectrum_of(generation.heights(spectrum, (256, 256), SIZE, 1e-5, seed, 1e-6)) for seed in range(8)]
+    q, power = found[0][0], np.mean([one for _, one in found], axis=0)
+    inside = (q > 2 * np.pi / 2e-4 * 1.001) & (q < 2 * np.pi / 1e-5 * 0.999)
+    outside = (q < 2 * np.pi / 2e-4 * 0.999) | (q > 2 * np.pi / 1e-5 * 1.001)
+    slope = np.polyfit(np.log(q[inside]), np.log(power[inside]), 1)[0]
+    assert slope == pytest.approx(-2 * 1.7, abs=0.05) and power[outside].max() < 1e-20 * power.max()
+
+
+def test_a_table_gives_the_mean_square_height(tmp_path):
+    """The integral of C = c q^-2 from q0 to q1 over all wave vectors is 2 pi c log(q1/q0)."""
+    q0, q1, c = 2 * np.pi / 2.01e-4, 2 * np.pi / 1e-5, 1e-14
+    (tmp_path / "psd.txt").write_text("".join(f"{q} {c / q**2}\n" for q in (q0, 2 * q0, q1)))
+    spectrum, shortest = generation.tabulated(str(tmp_path / "psd.txt"))
+    assert shortest == pytest.approx(1e-5)
+    squares = [np.mean(generation.heights(spectrum, (256, 256), SIZE, shortest, seed) ** 2) for seed in range(20)]
+    assert np.mean(squares) == pytest.approx(2 * np.pi * c * np.log(q1 / q0), rel=0.1)
+
+
+def test_a_seed_is_a_surface_whatever_the_grid():
+    spectrum = generation.self_affine(0.8, 5e-4, 2e-5)
+    one, same, other = (generation.heights(spectrum, (128, 128), SIZE, 2e-5, seed, 1e-6) for seed in (3, 3, 4))
+    assert one.tobytes() == same.tobytes() and abs(np.corrcoef(one.ravel(), other.ravel())[0, 1]) < 0.5
+    fine = generation.heights(spectrum, (384, 384), SIZE, 2e-5, 3, 1e-6)
+    assert np.sqrt(np.mean(one**2)) == pytest.approx(1e-6) and abs(np.mean(one)) < 1e-15
+    assert fine[::3, ::3] == pytest.approx(one, abs=1e-15)
+    long = generation.heights(spectrum, (100, 200), (1e-3, 2e-3), 2.1e-5, 3, 1e-6)
+    assert long.shape == (200, 100) and np.isrealobj(long)
+
+
+@pytest.fixture
+def surface(tmp_path, monkeypatch, capfd):
+    """surface(*words): exit code, stdout and stderr of petsam-surface."""
+    monkeypatch.chdir(tmp_path)
+
+    def run(*words):
+        monkeypatch.setattr(sys, "argv", ["petsam-surface", *map(str, words)])
+        try:
+            code = command.main()
+        except SystemExit as end:
+            code = end.code
+        return code, *capfd.readouterr()
+
+    return run
+
+
+RANDOM = ("--self-affine", "0.8", "--rms", "0.5um", "--wavelengths", "200um,40um", "--size", "1mm", "--grid-n", "64")
+
+
+def test_the_command_writes_a_surface(surface, tmp_path):
+    code, out, err = surface(*RANDOM, "--seed", "7", "--no-picture", "-o", "r.h5")
+    assert code == 0 and not err and "heights of body 2" in out and "seed 7" in out and "-gap_rough_file r.h5" in out
+    with h5py.File(tmp_path / "r.h5") as file:
+        values = file["height"][:]
+    expected = generation.heights(generation.self_affine(0.8, 2e-4, 4e-5), (64, 64), SIZE, 4e-5, 7, 5e-7)
+    assert values == pytest.approx(expected, abs=1e-18)
+    assert surface(*RANDOM, "--body", "1", "--no-picture", "-o", "r.h5")[1].startswith(
+        "random surface: heights of body 1"
+    )
+
+
+@pytest.mark.parametrize(
+    "words, says, code",
+    [
+        ([], "give one FILE or two, or a random surface by --self-affine or --psd", 2),
+        ([*RANDOM, "a.npy"], "give one FILE or two, or a random surface", 2),
+        (["a.npy", "--rms", "1um"], "--rms: is for a random surface", 2),
+        (RANDOM[:4], "a random surface needs --size, --grid-n, --wavelengths", 2),
+        ([*RANDOM, "--level", "tilt"], "--level: has no effect on a random surface", 2),
+        ([*RANDOM, "--wavelengths", "10um,20um"], "the longer one first", 2),
+        ([*RANDOM, "--self-affine", "1.2"], "expected a Hurst exponent above 0, at most 1", 2),
+        ([*RANDOM, "--grid-n", "32"], "shortest wavelength 40 um has 1.28 cells of the grid; use at least 2", 3),
+        ([*RANDOM, "--wavelengths", "44.5um,44um", "--size", "45um,45um"], "has no wave between 44 um and the size", 3),
+        (["--psd", "p.txt", "--size", "1mm", "--grid-n", "64"], "p.txt: expected lines of q (rad/m), increasing", 3),
+    ],
+)
+def test_refusals(surface, tmp_path, words, says, code):
+    (tmp_path / "p.txt").write_text("2 1\n1 1\n")
+    found, _, err = surface(*words)
+    assert found == code and len(err.splitlines()) == 1 and says in err, err
+
+
+def test_heights_of_one_instruments_file_are_body_2s(monkeypatch, tmp_path):
+    (tmp_path / "scan.sur").write_text("x")
+    stated = reading.Stated(np.array([[0.0, 1e-6], [0.0, 0.0]]), 1.0, (1e-3, 1e-3))
+    monkeypatch.setitem(reading.READERS, "surfacetopography", lambda path, options: stated)
+    options = command.arguments([str(tmp_path / "scan.sur")])
+    one, remarks = reading.read_map(str(tmp_path / "scan.sur"), options, None)
+    assert one.quantity == "height2" and any(
+        "taken for heights of body 2; --body 1 or --separation" in r for r in remarks
+    )
+    options = command.arguments([str(tmp_path / "scan.sur")] * 2)
+    with pytest.raises(Error, match="does not say whether it holds heights"):
+        reading.read_map(str(tmp_path / "scan.sur"), options, None)

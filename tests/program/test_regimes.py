@@ -1,0 +1,198 @@
+"""Studies that decide: stresses of each case, expressions of results, regimes, and their maps over two inputs."""
+
+import csv
+import subprocess
+import sys
+
+import h5py
+import numpy as np
+import pytest
+
+import petsam
+from conftest import PROGRAM as PETSAM
+from conftest import environment
+from petsam import sliding
+from petsam.lives import strength
+from petsam.plot import planes
+from petsam.study import cases as study_cases
+from petsam.study.cases import Case
+from petsam.study.tables import write_hdf5
+from support import ROOT, ball, hertz, words
+
+pytestmark = pytest.mark.usefixtures("closing")
+
+CASE = ball(n=24)
+GROSS = 1.5 * CASE["friction"] * float(hertz(CASE).approach)  # m: about the displacement of incipient sliding
+TABLE = """parameters:
+  part: [0.3, 2.5]
+options:
+  load_n: [90, 180]
+  history: h.csv
+  steps: 4
+files:
+  h.csv: |
+    time, disp_x
+    1, {part * GROSS}
+    2, {-part * GROSS}
+    3, {part * GROSS}
+stress:
+  steps: 5:12
+  depths: 0,1e-5
+  fatigue: swt
+results:
+  life: life_swt(swt_max, 72e9, 300e6, -0.1, 0.1, -0.6)
+  twice: 2 * life_log + 0 * load_n
+  life_log: log(life)
+  stronger: sqrt(energy_ratio_cycle_last - 0.5)
+""".replace("GROSS", repr(GROSS))
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """A study with stresses and expressions, and what it printed."""
+    folder = tmp_path_factory.mktemp("study")
+    (folder / "t.yaml").write_text(TABLE)
+    done = study(folder, "t.yaml", "--", *words({name: value for name, value in CASE.items() if name != "load_n"}))
+    assert done.returncode == 0, done.stderr + done.stdout
+    return folder
+
+
+def study(folder, *arguments):
+    command = [sys.executable, str(ROOT / "scripts" / "petsam-study"), *arguments]
+    env = {**environment(), "PYTHON": sys.executable, "PETSAM": str(PETSAM)}
+    return subprocess.run(command, cwd=folder, env=env, capture_output=True, text=True, timeout=240)
+
+
+def rows(folder):
+    with open(folder / "t" / "results.csv", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def test_the_stresses_of_each_case_are_columns(folder):
+    for row in rows(folder):
+        with petsam.open(folder / "t" / row["case"] / "stress.h5") as file:
+            assert file.steps == list(range(5, 13))  # 5:12 is no number to the base 60
+            assert float(row["swt_max"]) == file.field("swt").max()
+            assert float(row["mises_max"]) == file.history["mises_max"].max()
+    with h5py.File(folder / "t" / "results.h5") as file:
+        assert file["results/swt_max"].attrs["units"] == "Pa" and file["results/life"].attrs["units"] == "1"
+
+
+def test_expressions_take_results_inputs_and_one_another(folder):
+    for row in rows(folder):
+        life = strength.swt(float(row["swt_max"]), 72e9, 300e6, -0.1, 0.1, -0.6)
+        assert float(row["life"]) == pytest.approx(float(life), rel=1e-9)
+        assert float(row["twice"]) == pytest.approx(2 * np.log(life), rel=1e-9)
+        ratio = float(row["energy_ratio_cycle_last"])
+        assert float(row["stronger"]) == pytest.approx(np.sqrt(ratio - 0.5) if ratio > 0.5 else np.nan, nan_ok=True)
+
+
+def test_the_regime_and_the_ratios_are_those_of_the_cycle(folder):
+    for row in rows(folder):
+        slides = float(row["part"]) > 1.0
+        assert sliding.REGIMES[int(row["regime"])] == ("gross slip" if slides else "partial slip")
+        assert (
+            (float(row["energy_ratio_cycle_last"]) > 0.2) == slides == (float(row["sliding_ratio_cycle_last"]) > 0.26)
+        )
+
+
+def test_an_expression_without_a_value_in_any_case_is_an_error_after_the_tables(folder):
+    (folder / "t.yaml").write_text(TABLE.replace("load_n\n", "load_m\n"))
+    done = study(folder, "t.yaml", "--", *words({name: value for name, value in CASE.items() if name != "load_n"}))
+    assert done.returncode == 3 and "results: twice: " in done.stderr and "load_m" in done.stderr
+    assert "life_log" in rows(folder)[0] and "4 others skipped" not in done.stdout  # the cases did not run again
+    (folder / "t.yaml").write_text(TABLE)
+
+
+def test_a_load_that_slides_is_gross_slip(tmp_path):
+    (tmp_path / "t.csv").write_text("load_tx\n20\n60\n")
+    done = study(tmp_path, "t.csv", "--", *words(CASE))
+    assert done.returncode == 1
+    assert [row["regime"] for row in rows(tmp_path)] == ["1", "2"]
+
+
+@pytest.mark.parametrize(
+    "text, message",
+    [
+        ("results:\n  life: open(1)\n", "t.yaml, line 3: results: life: open(1): use only numbers, names"),
+        ("results:\n  life: 1 +\n", "t.yaml, line 3: results: life: 1 +: "),
+        ("results:\n  load_n: 2\n", "results: load_n: is an input; use another name"),
+        ("results:\n  life: [1, 2]\n", "results: life: is a list; give one value"),
+        ("stress:\n  output: a.h5\n", "stress: -output: petsam-study chooses the file"),
+        ("results:\n  life: __import__\n  b: a.b\n", "results: b: a.b: use only numbers, names"),
+    ],
+)
+def test_bad_sections_are_refused(tmp_path, text, message):
+    (tmp_path / "t.yaml").write_text(text + "options:\n  load_n: 1\n")
+    with pytest.raises(petsam.Error) as error:
+        study_cases.read(str(tmp_path / "t.yaml"))
+    assert message.replace("line 3", "line 2") in str(error.value) or message in str(error.value)
+
+
+def test_another_stress_is_another_case(tmp_path):
+    identities = set()
+    for text in ("", "stress:\n  depths: 0\n", "stress:\n  depths: 1e-5\n", "results:\n  a: 1\n"):
+        (tmp_path / "t.yaml").write_text("options:\n  load_n: 1\n" + text)
+        identities.add(study_cases.read(str(tmp_path / "t.yaml"))[0].identity())
+    assert len(identities) == 3  # expressions need no new run
+
+
+# ---------------------------------------------------------------- maps
+
+
+@pytest.fixture
+def table(tmp_path):
+    """A study of 4 x 3 cases; the last has failed by gross slip."""
+    found = []
+    for number, (x, y) in enumerate(((x, y) for y in (1.0, 2.0, 4.0) for x in (1.0, 2.0, 3.0, 5.0)), 1):
+        case = Case(number, f"c{number}", {"way": str(x), "load": str(y)}, {}, {}, 1)
+        values = {"regime": (2 if x > y else 1, "1"), "life": (10.0 ** (x + y), "1"), "depth": (1e-6 * x, "m")}
+        code = 11 if number == 12 else 0
+        found.append((case, {"exit_code": code, "seconds": 1.0, "message": ""}, values))
+    write_hdf5(str(tmp_path / "results.h5"), found, "t.yaml")
+    return tmp_path / "results.h5"
+
+
+def test_a_map_of_regimes_has_their_borders(table):
+    panel = planes.planes(petsam.open(table), ["way", "load"]).axes[0]
+    texts = [text.get_text() for text in panel.get_legend().get_texts()]
+    assert texts == ["partial slip", "gross slip"]
+    lines = sorted(tuple(map(tuple, line.get_xydata())) for line in panel.lines if len(line.get_xydata()) == 2)
+    upright = [((1.5, 0.5), (1.5, 1.5)), ((2.5, 1.5), (2.5, 3.0)), ((4.0, 3.0), (4.0, 5.0))]
+    level = [((1.5, 1.5), (2.5, 1.5)), ((2.5, 3.0), (4.0, 3.0))]
+    assert lines == sorted(upright + level)
+
+
+def test_borders_are_where_a_column_has_a_value(table):
+    figure = planes.planes(
+        petsam.open(table), ["way", "load"], ["depth"], borders=[("life", 10.0**4.5), ("depth", 1.0)]
+    )
+    panel = figure.axes[0]
+    texts = [text.get_text() for text in panel.get_legend().get_texts()]
+    assert texts == ["life = 31622.8", "depth = 1 m: all below"]
+    points = np.concatenate([path.vertices for one in panel.collections[1:] for path in one.get_paths()])
+    assert points.sum(axis=1) == pytest.approx(4.5)  # x + y, linear in the logarithm
+
+
+def test_the_command_draws_maps_and_refuses_what_is_none(draw, table):
+    assert draw("--against", "way,load", "--border", "life=1e4", "--log", "y", "-o", "m.png", table)[0] == 0
+    assert (table.parent / "m.png").stat().st_size > 10000
+    assert draw("--against", "way,load", "--scalar", "life,depth", "-o", "two.svg", table) == (0, [])
+    for given, says, code in (
+        (["--against", "way,load", "--border", "life"], "expected NAME=VALUE", 2),
+        (["--against", "way,load", "--border", "wear=1"], "--border wear: there is no such column", 3),
+        (["--against", "way", "--border", "life=1"], "--border: has no effect", 2),
+        (["--against", "way,load", "--by", "load"], "--by: has no effect", 2),
+        (["--against", "way,load", "--where", "load=1"], "a map needs two values of each", 3),
+        (["--against", "way,way"], "12 cases at 4 places", 3),
+        (["--against", "way,load,life"], "expected X,Y", 3),
+    ):
+        found, err = draw(*given, table)
+        assert found == code and len(err) == 1 and says in err[0], err
+
+
+def test_cases_at_one_place_are_refused(table):
+    study = petsam.open(table)
+    study.inputs["way"] = np.where(study.inputs["way"] == 2.0, 3.0, study.inputs["way"])
+    with pytest.raises(petsam.Error, match="12 cases at 9 places; choose cases of the other inputs by --where"):
+        planes.planes(study, ["way", "load"])
