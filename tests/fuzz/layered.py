@@ -28,8 +28,16 @@ from support import words  # noqa: E402
 # ---------------------------------------------------------------- mechanics
 
 
+def falling(k, z, g, nu):
+    """U, W, T, S of the two parts of a layer that decay downwards, z below its top; displacements times k."""
+    e, kz, kappa = np.exp(-k * z), k * z, 3 - 4 * nu
+    lame = -4 * g * nu * e  # Lame's first constant times the second part's dilatation
+    shear, stretch = (1 - kz) * e - (kz + kappa) * e, (1 - kz - kappa) * e
+    return [[e, e, -2 * g * e, -2 * g * e], [kz * e, (kz + kappa) * e, g * shear, lame + 2 * g * stretch]]
+
+
 class Body:
-    """Layers (modulus, Poisson's ratio, thickness) from the surface down, on a substrate: modulus, ratio; None: rigid."""
+    """Layers (modulus, Poisson's ratio, thickness) from the surface down, and a base (modulus, ratio; None: rigid)."""
 
     def __init__(self, layers, base):
         self.layers, self.base = layers, base
@@ -39,73 +47,47 @@ class Body:
         young, nu = (self.layers or [self.base])[0][:2]
         return young / (2 * (1 + nu)), nu
 
+    def modes(self, m, z, k):
+        """U, W, T, S of the parts of layer m at a depth in it, and V, T_y of those across: (parts, 4 or 2, k)."""
+        young, nu, h = [*self.layers, (*(self.base or (1, 0)), np.inf)][m]
+        g = young / (2 * (1 + nu)) / self.surface()[0]
+        plane, across = falling(k, z, g, nu), [[np.exp(-k * z), -g * np.exp(-k * z)]]
+        if np.isfinite(h):
+            plane += [[u, -w, -t, s] for u, w, t, s in falling(k, h - z, g, nu)]
+            across.append([np.exp(-k * (h - z)), g * np.exp(-k * (h - z))])
+        return np.array(plane), np.array(across)
+
+    def solve(self, k, kind):
+        """The parts of the first layer by unit tractions: kind 0 in the plane (by q, by p), 1 across it (by q_y)."""
+        n, each, tractions = len(self.layers), (4, 2)[kind], (2, 1)[kind]
+        size = each * n + (tractions if self.base else 0)
+        matrix, row = np.zeros((k.size, size, size)), tractions
+        for m in range(n + (1 if self.base else 0)):
+            at = slice(each * m, min(each * (m + 1), size))
+            top = self.modes(m, 0.0, k)[kind].transpose(2, 1, 0)
+            if m == 0:
+                matrix[:, :tractions, at] = top[:, -tractions:]
+            else:  # displacements and tractions go on
+                matrix[:, row - each : row, at] = -top
+            if m < n:
+                bottom = self.modes(m, self.layers[m][2], k)[kind].transpose(2, 1, 0)
+                count = tractions if m + 1 == n and not self.base else each  # on a rigid base only displacements, 0
+                matrix[:, row : row + count, at] = bottom[:, :count]
+                row += count
+        given = np.zeros((k.size, size, tractions))
+        given[:, range(tractions), range(tractions)] = -1  # q is -T, p is -S
+        return np.linalg.solve(matrix, given)
+
     def symbols(self, k):
         """zz, zr, rr, tt at the wave numbers k, times k."""
-        materials = [(e / (2 * (1 + nu)), nu, h) for e, nu, h in self.layers]
-        if self.base:
-            materials.append((self.base[0] / (2 * (1 + self.base[1])), self.base[1], np.inf))
-        n, s = len(self.layers), 2 if self.base else 0
-        unit = materials[0][0]  # of stresses
-        plane, across = np.zeros((k.size, 4 * n + s, 4 * n + s)), np.zeros((k.size, 2 * n + s // 2, 2 * n + s // 2))
+        plane, across = self.modes(0, 0.0, k)
+        a, b = self.solve(k, 0)[:, : len(plane)], self.solve(k, 1)[:, : len(across)]
+        g = self.surface()[0]
 
-        def modes(m, z):
-            """U, W, T, S at a depth for the four parts of layer m, and V, T_y for its two; T, S over k."""
-            g, nu, h = materials[m]
-            down = down_modes(z, g, nu)
-            out = [[*d] for d in down]
-            shear = [(np.exp(-k * z), -g / unit * np.exp(-k * z))]
-            if np.isfinite(h):
-                out += [(u, -w, -t, s) for u, w, t, s in down_modes(h - z, g, nu)]
-                shear.append((np.exp(-k * (h - z)), g / unit * np.exp(-k * (h - z))))
-            return np.array(out), np.array(shear)
+        def of(component, parts, solution, load):
+            return (parts[:, component].T * solution[:, :, load]).sum(1) / g
 
-        def down_modes(z, g, nu):
-            e, kz, kappa, g = np.exp(-k * z), k * z, 3 - 4 * nu, g / unit
-            theta = -2 * (1 - 2 * nu) * e  # div u over k of the second
-            first = (e, e, -2 * g * e, -2 * g * e)
-            u, w = kz * e, (kz + kappa) * e
-            du, dw = (1 - kz) * e, (1 - kz - kappa) * e
-            lame = -4 * g * nu * e if nu == 0.5 else 2 * g * nu / (1 - 2 * nu) * theta
-            return first, (u, w, g * (du - w), lame + 2 * g * dw)
-
-        rows, lines = 0, 0
-        for m, (_, _, h) in enumerate(materials):
-            at, beside = slice(4 * m, min(4 * m + 4, plane.shape[1])), slice(2 * m, min(2 * m + 2, across.shape[1]))
-            top, top_across = modes(m, 0.0)
-            if m == 0:
-                plane[:, 0:2, at], across[:, 0:1, beside] = (
-                    top[:, 2:].transpose(2, 1, 0),
-                    top_across[:, 1:].T[:, :, :].reshape(k.size, 1, -1),
-                )
-                rows, lines = 2, 1
-            if not np.isfinite(h):
-                continue
-            low, low_across = modes(m, h)
-            last = m + 1 == len(materials)
-            count, single = (2, 1) if last else (4, 2)
-            plane[:, rows : rows + count, at] = low[:, :count].transpose(2, 1, 0)
-            across[:, lines : lines + single, beside] = low_across[:, :single].transpose(2, 1, 0)
-            if not last:
-                below, below_across = modes(m + 1, 0.0)
-                next_at = slice(4 * m + 4, min(4 * m + 8, plane.shape[1]))
-                next_beside = slice(2 * m + 2, min(2 * m + 4, across.shape[1]))
-                plane[:, rows : rows + 4, next_at] = -below.transpose(2, 1, 0)
-                across[:, lines : lines + 2, next_beside] = -below_across.transpose(2, 1, 0)
-            rows, lines = rows + count, lines + single
-        given = np.zeros((k.size, plane.shape[1], 2))
-        given[:, 0, 0] = given[:, 1, 1] = -1  # q is -T, p is -S
-        a = np.linalg.solve(plane, given)
-        given = np.zeros((k.size, across.shape[1], 1))
-        given[:, 0, 0] = -1
-        b = np.linalg.solve(across, given)
-        top, top_across = modes(0, 0.0)
-        u, w, v = top[:, 0].T, top[:, 1].T, top_across[:, 0].T
-        width, half = top.shape[0], top_across.shape[0]
-
-        def of(field, part):
-            return (field * a[:, :width, part]).sum(1) / unit
-
-        return of(w, 1), of(u, 1), of(u, 0), (v * b[:, :half, 0]).sum(1) / unit
+        return of(1, plane, a, 1), of(0, plane, a, 1), of(0, plane, a, 0), of(0, across, b, 0)
 
 
 def transform(depth, ks, d, order, r):
@@ -123,7 +105,7 @@ def transform(depth, ks, d, order, r):
 
 
 def coefficients(bodies, n, d):
-    """Influence of a cell at lags from -n to n - 1 cells: zz, xx, xy, yy, and xz, yz of pressure (relative displacements)."""
+    """Influence of a cell at lags from -n to n - 1 cells: zz, xx, xy, yy, and xz, yz of pressure; of body 2 less 1."""
     elastic = [(body, sign) for body, sign in zip(bodies, (-1, 1)) if body]
     surfaces = [body.surface() if body else (np.inf, 0.0) for body in bodies]
     xx, xy, yy, px, py = kernels(n, d, surfaces)
@@ -226,6 +208,17 @@ def faults(bodies, mu, f):
 # ---------------------------------------------------------------- problems
 
 
+def material(name, body):
+    """The options of a body; None: rigid."""
+    if body is None:
+        return {name + "young": np.inf}
+    case = {name + "young": body.base[0] if body.base else np.inf, name + "poisson": body.base[1] if body.base else 0.3}
+    for k, word in enumerate(("young", "poisson", "thickness")):
+        if body.layers:
+            case[name + "layer_" + word] = [layer[k] for layer in body.layers]
+    return case
+
+
 class Problem:
     def __init__(self, seed):
         self.random = random = np.random.default_rng(seed)
@@ -243,30 +236,21 @@ class Problem:
             count = int(random.integers(1, most + 1))
             return [(young * log(0.01, 100), ratio(), self.a * log(0.01, 10)) for _ in range(count)]
 
-        rigid_base = random.random() < 0.12
-        second = Body(layers(5), None if rigid_base else (young, ratio()))
-        first = None
-        kind = random.choice(["rigid", "alike", "half-space", "layered"], p=[0.25, 0.25, 0.25, 0.25])
-        if kind == "alike":
-            first = second
-        elif kind == "half-space":
-            first = Body([], (young * log(0.1, 100), ratio()))
-        elif kind == "layered":
-            first = Body(layers(3), (young * log(0.1, 10), ratio()))
-        self.bodies = (first, second)
-        self.kinds += [str(kind), f"{len(second.layers)} layers", *(["rigid base"] if rigid_base else [])]
+        base = None if random.random() < 0.12 else (young, ratio())
+        second = Body(layers(5), base)
+        kind = str(random.choice(["rigid", "alike", "half-space", "layered"]))
+        firsts = {
+            "rigid": lambda: None,
+            "alike": lambda: second,
+            "half-space": lambda: Body([], (young * log(0.1, 100), ratio())),
+            "layered": lambda: Body(layers(3), (young * log(0.1, 10), ratio())),
+        }
+        self.bodies = (firsts[kind](), second)
+        self.kinds += [kind, f"{len(second.layers)} layers", *([] if base else ["rigid base"])]
         self.n = tuple(int(k) for k in random.integers(33, 49, 2))
         self.case = dict(gap_type="sphere", gap_radius1=1e3 * self.a, gap_radius2=np.inf)
         for number, body in enumerate(self.bodies, 1):
-            name = f"body{number}_"
-            if body is None:
-                self.case[name + "young"] = np.inf
-                continue
-            self.case[name + "young"] = body.base[0] if body.base else np.inf
-            self.case[name + "poisson"] = body.base[1] if body.base else 0.3
-            for k, word in enumerate(("young", "poisson", "thickness")):
-                if body.layers:
-                    self.case[name + "layer_" + word] = [layer[k] for layer in body.layers]
+            self.case.update(material(f"body{number}_", body))
         self.case["friction"] = self.mu
         # the load under which a contact of radius a is, about, by the moduli at the surface and deep inside
         self.case["load_n"] = 4 / 3 * young * self.a**3 / (1e3 * self.a) * log(0.2, 2)
