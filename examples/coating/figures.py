@@ -130,7 +130,7 @@ class Comparison:
         )
 
         yield (
-            "Sliding towards +x, friction 0.3: largest tension at the surface",
+            "Sliding towards +x, friction 0.3: peak tension at the surface",
             ("film = film; peak p, MPa = peak:.0f; tension, MPa = tension:.0f; at x/radius = place:.2f"),
             self.numbers["pulls"],
         )
@@ -167,8 +167,8 @@ class Comparison:
             behind = int(np.argmax(pull.principal[0]))
             axes[0].plot(pull.x / pull.radius, pull.principal[0] / 1e6, color=color, label=PULLS[name])
             axes[1].plot(pull.principal[:, behind] / 1e6, pull.z * 1e3, color=color)
-        frame(axes[0], "Largest principal stress at the surface", "$x$ / radius", "MPa", (-1.6, 1.6))
-        frame(axes[1], "Below its largest value", "MPa", "depth, mm", None, (0.3, 0.0))
+        frame(axes[0], "Maximum principal stress at the surface", "$x$ / radius", "MPa", (-1.6, 1.6))
+        frame(axes[1], "Below its maximum", "MPa", "depth, mm", None, (0.3, 0.0))
         axes[0].legend()
         save(figure, directory, "pull.png")
 
