@@ -243,7 +243,7 @@ static PetscErrorCode PrintBanner(SamStressRun *run)
 /* The stresses of a contact fall off within its own size. */
 static PetscErrorCode WarnOfDepths(SamStressRun *run)
 {
-  const double    width = (double)PetscMax(run->grid->width[0], run->grid->width[1]);
+  const double    width = 2 * (double)run->grid->length;
   SamStressLayout layout;
   PetscMPIInt     rank;
   double          deepest;

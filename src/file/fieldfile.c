@@ -56,7 +56,7 @@ static PetscErrorCode CheckShape(SamFile f, const Wanted *w, hid_t space, hsize_
   PetscCheck(rank == 2 && H5Sget_simple_extent_dims(space, shape, NULL) == 2, f->comm, SAM_ERR_FILE,
              "-%s %s: %s has %d dimension(s), expected shape (ny, nx), rows are y", f->option, f->filename,
              w->source->dataset, rank);
-  PetscCheck(w->grid || (shape[0] > 0 && shape[1] > 1), f->comm, SAM_ERR_FILE,
+  PetscCheck(w->grid || (shape[0] + w->source->row > 1 && shape[1] > 1), f->comm, SAM_ERR_FILE,
              "-%s %s: %s has shape (%lld, %lld), expected 2 or more of each", f->option, f->filename,
              w->source->dataset, (long long)shape[0], (long long)shape[1]);
   if (w->grid) {

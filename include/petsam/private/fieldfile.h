@@ -16,6 +16,7 @@ typedef struct {
   const char *file_option, *dataset_option; /* without prefix and dash */
   const char *default_dataset, *unit;
   PetscReal   least;   /* values below are refused */
+  PetscBool   row;     /* a dataset of one row is a surface, in plane strain */
   PetscBool is_length; /* a separation, or heights of one body: attributes say which, in which unit and on what size */
 } SamFieldFile;
 

@@ -60,8 +60,7 @@ PetscErrorCode SamStressRequestRead(const SamOptions *from, SamStressRequest *r)
   PetscCall(SamOptionsRequire(from, set || print, "output", "the file to be written"));
   PetscCall(SamOptionsHeading(from, "Where and when"));
   PetscCall(ReadSteps(from, r));
-  PetscCall(SamOptionsReal(from, "cycle",
-                           "the steps of a saved cycle of a wear simulation by its number, instead of -steps",
+  PetscCall(SamOptionsReal(from, "cycle", "a saved cycle of a wear simulation by its number, not -steps",
                            SAM_RANGE_NONNEGATIVE, &r->cycle, &r->of_cycle));
   PetscCall(PetscOptionsHasName(NULL, from->prefix, "-steps", &set));
   PetscCheck(!set || !r->of_cycle || print, from->comm, SAM_ERR_USER,

@@ -1,4 +1,5 @@
 /* The class SamGap: types, their parameters, roughness. Each shape is in a file of its own. */
+#include <petsam/elasticity.h>
 #include <petsam/private/gapimpl.h>
 #include <math.h>
 #include <stdlib.h>
@@ -252,9 +253,10 @@ PetscErrorCode SamGapGetFileGrid(SamGap gap, PetscInt n[2], PetscReal width[2], 
 
     PetscCall(SamFieldFileSetFromOptions(source, &from, ""));
     if (!source->file[0]) continue;
+    PetscCall(SamElasticityPlaneFromOptions(&from, &source->row));
     PetscCall(SamFieldFileGetGrid(source, gap->comm, n, width, center));
     PetscCheck(
-      has_size || (width[0] > 0 && width[1] > 0), gap->comm, SAM_ERR_USER,
+      has_size || (width[0] > 0 && (width[1] > 0 || source->row)), gap->comm, SAM_ERR_USER,
       "-%sgrid_size is missing: -%s%s %s records no size of %s, neither as its attribute size nor by x and y with "
       "units beside it",
       gap->prefix, gap->prefix, source->file_option, source->file, source->dataset);
