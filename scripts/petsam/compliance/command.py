@@ -23,6 +23,7 @@ import warnings
 from .. import isolation
 from ..errors import Error, Parser, fail, guarded, joined, short
 from ..files import same
+from ..replacing import need_own
 from ..surface.lengths import lengths, several, shown, sides
 from . import model, picture, substructure, writing
 
@@ -185,7 +186,7 @@ def carry_out(options, words):
     for name in [options.output] + ([] if options.no_picture else [options.picture]):
         if any(same(name, path) for path in inputs):
             raise Error(f"{name}: is an input file; choose another name by --output")
-    writing.need_own(options.output)
+    need_own(options.output, writing.SIGN, PROGRAM)
     command = shlex.join([PROGRAM, *words])
     progress = model.Progress(sys.stderr)
     compute = model.computed if options.mesh else substructure.computed

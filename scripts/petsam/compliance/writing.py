@@ -3,31 +3,14 @@
 import hashlib
 import os
 
-import h5py
 import numpy as np
 
-from ..errors import Error
-from ..files import need_replaceable
-from ..isolation import reading
+from ..replacing import replacing
 from .basis import powers
 
 SIGN = "petsam_compliance"  # root attribute by which a file of this command is known
 VERSION = 1
 BLOCK = 1 << 20
-
-
-def need_own(path):
-    """Error where the name is that of a file that this command has not written."""
-    need_replaceable(path)
-    if not os.path.exists(path):
-        return
-    try:
-        with reading(path), h5py.File(path, "r") as file:
-            own = SIGN in file.attrs
-    except OSError:
-        own = False
-    if not own:
-        raise Error(f"{path}: exists and was not written by petsam-compliance; choose another name by --output")
 
 
 def checksum(path):
@@ -76,13 +59,5 @@ def _fill(file, body):
 
 def write(body, path):
     """The Body; a file of that name is replaced when all is written."""
-    part = f"{path}.{os.getpid()}.tmp"
-    try:
-        with h5py.File(part, "w") as file:
-            _fill(file, body)
-        os.replace(part, path)
-    except OSError as error:
-        raise Error(f"{path}: cannot be written: {error.strerror or error}") from error
-    finally:
-        if os.path.exists(part):
-            os.remove(part)
+    with replacing(path) as file:
+        _fill(file, body)

@@ -23,6 +23,7 @@ from dataclasses import replace
 from .. import isolation
 from ..errors import Error, Parser, fail, guarded, short
 from ..files import same
+from ..replacing import need_own
 from . import generation, levels, picture, writing
 from .filling import filled
 from .lengths import several, shown, sides, unit
@@ -274,7 +275,7 @@ def carry_out(options, words):
     for name in outputs:
         if any(same(name, path) for path in options.files):
             raise Error(f"{name}: is an input file; choose another name by --output")
-    writing.need_own(options.output)
+    need_own(options.output, writing.SIGN, "petsam-surface")
     quantities = ["separation"] if options.separation else options.body or [None]
     if len(quantities) < len(options.files):
         quantities = quantities * len(options.files)

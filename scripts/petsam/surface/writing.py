@@ -1,14 +1,9 @@
 """Maps as HDF5, for petsam's -gap_file and -gap_rough_file and for other readers."""
 
-import os
-
-import h5py
 import numpy as np
 
 from .. import __version__
-from ..errors import Error
-from ..files import need_replaceable
-from ..isolation import reading
+from ..replacing import replacing
 from .maps import QUANTITIES
 
 SIGN = "petsam_surface"  # root attribute by which a file of this command is known
@@ -19,37 +14,15 @@ def dataset(one):
     return "separation" if one.quantity == "separation" else "height"
 
 
-def need_own(path):
-    """Error where the name is that of a file that this command has not written."""
-    need_replaceable(path)
-    if not os.path.exists(path):
-        return
-    try:
-        with reading(path), h5py.File(path, "r") as file:
-            own = SIGN in file.attrs
-    except OSError:
-        own = False
-    if not own:
-        raise Error(f"{path}: exists and was not written by petsam-surface; choose another name by --output")
-
-
 def write(one, path, command):
     """The map; command: the words that made it. A file of that name is replaced when all is written."""
-    part = f"{path}.{os.getpid()}.tmp"
-    try:
-        with h5py.File(part, "w") as file:
-            file.attrs[SIGN] = __version__
-            file.attrs["command"] = command
-            data = file.create_dataset(dataset(one), data=np.asarray(one.values, dtype=np.float64))
-            data.attrs.update(units="m", quantity=one.quantity, long_name=QUANTITIES[one.quantity])
-            for d, letter in ((1, "y"), (0, "x")):
-                axis = file.create_dataset(letter, data=one.axis(d))
-                axis.attrs.update(units="m", long_name=letter + " of the cells' centres")
-                axis.make_scale(letter)
-                data.dims[1 - d].attach_scale(axis)
-        os.replace(part, path)
-    except OSError as error:
-        raise Error(f"{path}: cannot be written: {error.strerror or error}") from error
-    finally:
-        if os.path.exists(part):
-            os.remove(part)
+    with replacing(path) as file:
+        file.attrs[SIGN] = __version__
+        file.attrs["command"] = command
+        data = file.create_dataset(dataset(one), data=np.asarray(one.values, dtype=np.float64))
+        data.attrs.update(units="m", quantity=one.quantity, long_name=QUANTITIES[one.quantity])
+        for d, letter in ((1, "y"), (0, "x")):
+            axis = file.create_dataset(letter, data=one.axis(d))
+            axis.attrs.update(units="m", long_name=letter + " of the cells' centres")
+            axis.make_scale(letter)
+            data.dims[1 - d].attach_scale(axis)

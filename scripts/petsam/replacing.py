@@ -1,0 +1,39 @@
+"""Files that the commands write as HDF5: one of another origin is never replaced, one of theirs only by a whole one."""
+
+import contextlib
+import os
+
+import h5py
+
+from .errors import Error
+from .files import need_replaceable
+from .isolation import reading
+
+
+def need_own(path, sign, command):
+    """Error where the name is that of a file that this command, whose root attribute is `sign`, has not written."""
+    need_replaceable(path)
+    if not os.path.exists(path):
+        return
+    try:
+        with reading(path), h5py.File(path, "r") as file:
+            own = sign in file.attrs
+    except OSError:
+        own = False
+    if not own:
+        raise Error(f"{path}: exists and was not written by {command}; choose another name by --output")
+
+
+@contextlib.contextmanager
+def replacing(path):
+    """An open HDF5 file, which takes this name when all is written."""
+    part = f"{path}.{os.getpid()}.tmp"
+    try:
+        with h5py.File(part, "w") as file:
+            yield file
+        os.replace(part, path)
+    except OSError as error:
+        raise Error(f"{path}: cannot be written: {error.strerror or error}") from error
+    finally:
+        if os.path.exists(part):
+            os.remove(part)
