@@ -61,13 +61,14 @@ static PetscErrorCode CheckComponents(SamSimulation s, const SamOptions *from)
       char      place[PETSC_MAX_PATH_LEN + 32], option[64];
       PetscBool given;
 
+      if (control.value[c] == 0 || traits.rotations[c - SAM_COMPONENT_MX]) continue;
       (void)snprintf(option, sizeof(option), "-%s", SamControlPartName(&control, c));
       PetscCall(PetscOptionsHasName(NULL, from->prefix, option, &given));
       PetscCall(SamHistoryGetPlace(s->history, k, place, sizeof(place)));
       if (given || !place[0]) (void)snprintf(place, sizeof(place), "-%s", SamOptionsPrefix(from));
-      PetscCheck(control.value[c] == 0 || traits.rotations[c - SAM_COMPONENT_MX], from->comm, SAM_ERR_USER,
-                 "%s%s %.6g: has no meaning with -%selasticity %s, which has no such moment or rotation", place,
-                 SamControlPartName(&control, c), (double)control.value[c], SamOptionsPrefix(from), type);
+      SETERRQ(from->comm, SAM_ERR_USER,
+              "%s%s %.6g: has no meaning with -%selasticity %s, which has no such moment or rotation", place,
+              SamControlPartName(&control, c), (double)control.value[c], SamOptionsPrefix(from), type);
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -130,7 +130,7 @@ static PetscErrorCode FindCycle(const SamStressRequest *r, SamResults results, P
     PetscCall(SamResultsReadNumber(results, step, SAM_RESULTS_CYCLE, &cycle));
     if (cycle == (double)r->cycle) (*list)[(*count)++] = k;
   }
-  PetscCall(ListSaved(results, PETSC_TRUE, text, sizeof(text)));
+  if (!*count) PetscCall(ListSaved(results, PETSC_TRUE, text, sizeof(text)));
   PetscCheck(*count, grid->comm, SAM_ERR_USER, "-cycle %.10g: the steps of that cycle are not in %s, those of %s are",
              (double)r->cycle, r->input, text);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -149,7 +149,6 @@ PetscErrorCode SamStressRequestSteps(const SamStressRequest *r, SamResults resul
   }
   PetscCall(SamResultsGetGrid(results, &grid));
   PetscCall(SamResultsGetSteps(results, &steps, &saved));
-  PetscCall(ListSaved(results, PETSC_FALSE, text, sizeof(text)));
   *count = r->all_steps ? saved : r->last_step ? 1 : (r->last - r->first) / r->stride + 1;
   PetscCheck(r->all_steps || r->last_step || r->last <= steps, grid->comm, SAM_ERR_USER,
              "-steps: there is no step %" PetscInt_FMT " in %s, the last is %" PetscInt_FMT, r->last, r->input, steps);
@@ -160,6 +159,7 @@ PetscErrorCode SamStressRequestSteps(const SamStressRequest *r, SamResults resul
     (*list)[k] = r->all_steps ? k : saved - 1;
     if (r->all_steps || r->last_step) continue;
     PetscCall(FindSaved(results, step, &(*list)[k]));
+    if ((*list)[k] < 0) PetscCall(ListSaved(results, PETSC_FALSE, text, sizeof(text)));
     PetscCheck((*list)[k] >= 0, grid->comm, SAM_ERR_USER,
                "-steps: step %" PetscInt_FMT " of %s has not been saved (-output_every of its run), steps %s have",
                step, r->input, text);
