@@ -4,8 +4,8 @@
     python3 tests/fuzz/plane.py [--build build] [--count 300] [--seed 1] [--show]
 
 Lines of 16 to 300 cells: half-planes and periodic ones, rough and rounded, nu 0 to 0.5, friction 0.03 to 1,
-dissimilar bodies, bulk stress, antiplane loads, films, wear, hardness, tilting moments; loads and displacements in all
-combinations, with reversals. Prints what repeats a failure. Ends with 1 after a failure.
+dissimilar bodies, layers, bulk stress, antiplane loads, films, wear, hardness, tilting moments; loads and displacements
+in all combinations, with reversals. Prints what repeats a failure. Ends with 1 after a failure.
 """
 
 import argparse
@@ -19,6 +19,7 @@ import h5py
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "program"))
+from layers import Body  # noqa: E402
 from support import words  # noqa: E402
 
 STEPS = 5
@@ -27,26 +28,80 @@ STEPS = 5
 # ---------------------------------------------------------------- mechanics
 
 
+def layered(n, h, bodies, datum):
+    """What layers add to u_z by p, u_x by q_x, u_y by q_y and u_x by p, by lags of up to n - 1 cells.
+
+    The symbol less that of the half-plane at the surface is an image c(0) exp(-kZ), whose integral is known, and a
+    rest of the order k. Periodic bodies have the sum over their waves instead.
+    """
+    lag, sums = np.arange(n) * h, np.zeros((4, n))
+    point, weight = np.polynomial.legendre.leggauss(12)
+
+    def ends(primitive):  # the mean over a cell times its width
+        return (primitive(lag + h / 2) - primitive(lag - h / 2)) / np.pi
+
+    for sign, body in zip((-1, 1), bodies):
+        if not body.layers:
+            continue
+        g, nu = body.surface()
+        flat = np.array([(1 - nu) / g, (1 - nu) / g, 1 / g, -(1 - 2 * nu) / (2 * g)])[:, None]
+
+        def rest(k, body=body, flat=flat):
+            zz, zr, rr, tt = body.symbols(k)
+            return np.array([zz, rr, tt, zr]) - flat
+
+        signs = np.array([1, 1, 1, sign])[:, None]
+        if not datum:
+            k = 2 * np.pi * np.arange(1, n // 2 + 1) / (n * h)
+            c = rest(k) / k * np.where(2 * np.arange(1, n // 2 + 1) == n, 0.5, 1) * 2 / n
+            waves = np.outer(k, lag)
+            sums[:3] += (c @ np.cos(waves))[:3]
+            sums[3] += sign * ((c * np.where(2 * np.arange(1, n // 2 + 1) == n, 0, 1)) @ np.sin(waves))[3]
+            continue
+        thin, Z = body.layers[0][2], sum(layer[2] for layer in body.layers)
+        edges = [0.0, 1e-6 / Z]
+        while edges[-1] < 20 / thin:
+            edges.append(edges[-1] + min(0.3 * edges[-1], 4 / (n * h), 0.5 / thin))
+        k = (np.array(edges[:-1])[:, None] + np.diff(edges)[:, None] * (point + 1) / 2).ravel()
+        w = (np.diff(edges)[:, None] * weight / 2).ravel() / np.pi
+        long = rest(np.array([1e-11 / Z]))
+        c = (rest(k) - long * np.exp(-k * Z)) / k * w * 2 * np.sin(k * h / 2) / k
+        waves = np.outer(k, lag)
+        by_ln = ends(lambda x, Z=Z: x - x * np.log(np.hypot(x, Z) / datum) - Z * np.arctan(x / Z))
+        by_atan = ends(lambda x, Z=Z: x * np.arctan(x / Z) - Z * np.log(np.hypot(x, Z)))
+        sums += signs * np.concatenate([(c @ np.cos(waves))[:3], (c @ np.sin(waves))[3:]])
+        sums[:3] += long[:3] * by_ln
+        sums[3] += sign * long[3] * by_atan
+    return sums
+
+
 def matrices(n, h, bodies, datum):
-    """u_z by p (and u_x by q_x), u_y by q_y, u_x by p, all (n, n): of half-planes (datum, m), or periodic (None)."""
+    """u_z by p, u_x by q_x, u_y by q_y, u_x by p, all (n, n): of half-planes (datum, m), or periodic (None)."""
+    sums, bodies = layered(n, h, bodies, datum), [body.surface() for body in bodies]
+    lag = np.subtract.outer(np.arange(n), np.arange(n))
+    more = sums[:, np.abs(lag)] * np.array([np.ones((n, n))] * 3 + [np.sign(lag)])
+    return [a + b for a, b in zip(more, half_planes(lag, h, bodies, datum))]
+
+
+def half_planes(lag, h, bodies, datum):
+    n = len(lag)
     normal = sum((1 - nu) / g for g, nu in bodies)
     across = sum(1 / g for g, nu in bodies)
     (g1, nu1), (g2, nu2) = bodies
     coupled = (1 - 2 * nu1) / (2 * g1) - (1 - 2 * nu2) / (2 * g2)
-    lag = np.subtract.outer(np.arange(n), np.arange(n))
     if datum:
         x = h * np.abs(lag).astype(np.longdouble)
         high, low = x + h / 2, np.abs(x - h / 2)
         F = high * np.log(high / datum) - np.sign(x - h / 2) * low * np.log(low / datum) - h
         F = np.array(F, float)
-        return -normal / np.pi * F, -across / np.pi * F, coupled / 2 * h * np.sign(lag)
+        return -normal / np.pi * F, -normal / np.pi * F, -across / np.pi * F, coupled / 2 * h * np.sign(lag)
     k = 2 * np.pi * np.fft.fftfreq(n, h)
     size = np.abs(k)
     size[0] = np.inf
     odd = np.where(2 * np.abs(np.arange(n)) == n, 0, np.sign(k))  # the wave of two cells is its own mirror image
     even = np.real(np.fft.ifft(1 / size))
     turned = np.real(np.fft.ifft(-1j * odd / size))
-    return normal * even[lag % n], across * even[lag % n], coupled * turned[lag % n]
+    return normal * even[lag % n], normal * even[lag % n], across * even[lag % n], coupled * turned[lag % n]
 
 
 class Check:
@@ -57,7 +112,8 @@ class Check:
         self.h = {name: values[:] for name, values in f["history"].items()}
         self.x = f["x"][:]
         self.d = self.x[1] - self.x[0]
-        self.kernels = matrices(self.x.size, self.d, problem.bodies, None if problem.periodic else problem.datum)
+        datum = f.attrs.get("plane_datum", None)
+        self.kernels = matrices(self.x.size, self.d, problem.bodies, datum)
         self.past = {name: np.zeros(self.x.size) for name in ("x", "y", "w1", "w2", "plastic", "p")}
         self.worst = collections.defaultdict(float)
         self.unit = np.abs(self.kernels[0]).sum(axis=1).max() * max(np.abs(f["pressure"][:]).max(), 1e-300)
@@ -78,7 +134,7 @@ class Check:
             self.past["plastic"] = self.f["plastic_depth"][k, 0]
 
     def normal(self, k, p, qx):
-        Z, _, C = self.kernels
+        Z, _, _, C = self.kernels
         u, rigid = Z @ p - C @ qx, self.h["disp_z"][k] + self.x * self.h["rot_y"][k]
         g = self.problem.gap + self.past["w1"] + self.past["w2"] + self.past["plastic"] + u - rigid
         full = p >= self.case.get("pressure_limit", np.inf) * (1 - 1e-9)
@@ -89,17 +145,18 @@ class Check:
         self.test("yield", g[full].max(initial=-1) / scale / 1e-6)
 
     def tangential(self, k, p, q, slip):
-        Z, Y, C = self.kernels
+        _, X, Y, C = self.kernels
         film, stretch = self.problem.film, 0.0
-        for body, (g, nu) in enumerate(self.problem.bodies, 1):
-            s = self.h.get(f"bulk{body}_stress_xx", np.zeros(k + 1))[k]
-            stretch += (-1) ** body * (1 - nu**2) * s / (2 * g * (1 + nu))
-        s_x = Z @ q[0] + film * q[0] + C @ p + stretch * self.x - self.h["disp_x"][k]
+        for number, body in enumerate(self.problem.bodies, 1):
+            g, nu = body.base[0] / (2 * (1 + body.base[1])), body.base[1]
+            s = self.h.get(f"bulk{number}_stress_xx", np.zeros(k + 1))[k]
+            stretch += (-1) ** number * (1 - nu**2) * s / (2 * g * (1 + nu))
+        s_x = X @ q[0] + film * q[0] + C @ p + stretch * self.x - self.h["disp_x"][k]
         s_y = Y @ q[1] + film * q[1] - self.h["disp_y"][k]
         bound = self.mu * p
         self.test("cone", (np.hypot(*q) - bound).max() / p.max() / 1e-9)
         move = np.array([s_x - self.past["x"], s_y - self.past["y"]])
-        z = q - move / (0.5 * (Z[0, 0] + Y[0, 0]) + film)
+        z = q - move / (0.5 * (X[0, 0] + Y[0, 0]) + film)
         length = np.maximum(np.hypot(*z), 1e-300)
         residual = q - z * np.where(length > bound, bound / length, 1)
         self.test("friction", np.linalg.norm(residual) / max(np.linalg.norm(bound), 1e-300) / 3e-5)
@@ -150,8 +207,8 @@ class Problem:
         n, self.a, self.mu = int(self.log(16, 300)), self.log(1e-5, 1e-2), self.log(0.03, 1)
         self.periodic = self.is_a("periodic", 0.25)
         self.width = float(self.random.uniform(2.6, 4)) * self.a
+        self.datum = None if self.random.random() < 0.5 else self.width * self.log(0.6, 1e3)
         self.make_bodies()
-        self.datum = self.width * (1 if self.random.random() < 0.5 else self.log(0.6, 1e3))
         self.p0 = self.modulus * self.log(1e-4, 3e-2)
         self.make_gap(n)
         self.make_case(n)
@@ -166,11 +223,23 @@ class Problem:
         return kind in self.kinds
 
     def make_bodies(self):
-        g, nu = self.log(1e8, 2e11), self.random.uniform(0, 0.5)
-        self.bodies = [(g, nu)] * 2
+        young, nu = self.log(2e8, 5e11), self.random.uniform(0, 0.5)
+        bases = [(young, nu)] * 2
         if self.is_a("dissimilar", 0.3):
-            self.bodies = [(g, nu), (g * self.log(0.1, 10), self.random.uniform(0, 0.5))]
-        self.modulus = 1 / sum((1 - nu) / (2 * g) for g, nu in self.bodies)
+            bases[1] = (young * self.log(0.1, 10), self.random.uniform(0, 0.5))
+        layers, which = [[], []], self.random.integers(1, 4)
+        if self.is_a("layers", 0.3):
+            self.datum = self.datum and 50 * self.datum  # displacements relative to a near one are not positive
+            layers = [self.make_layers(base[0]) if which & (1 << k) else [] for k, base in enumerate(bases)]
+        self.bodies = [Body(*one) for one in zip(layers, bases)]
+        wave = np.array([1 / self.a])
+        self.modulus = 0.5 / sum(body.symbols(wave)[0][0] for body in self.bodies)
+
+    def make_layers(self, young):
+        return [
+            (young * self.log(0.03, 30), self.random.uniform(0, 0.5), self.a * self.log(0.03, 3))
+            for _ in range(self.random.integers(1, 4))
+        ]
 
     def make_gap(self, n):
         x = ((np.arange(n) + 0.5) / n - 0.5) * self.width
@@ -185,7 +254,7 @@ class Problem:
     def make_case(self, n):
         self.case = dict(
             elasticity="plane_periodic" if self.periodic else "plane",
-            plane_datum=None if self.periodic else float(self.datum),
+            plane_datum=None if self.periodic else self.datum,
             gap_type="file",
             gap_file="gap.h5",
             grid_n=n,
@@ -197,11 +266,13 @@ class Problem:
             steps=1,
             output_fields="all",
         )
-        for k, (g, nu) in enumerate(self.bodies, 1):
-            self.case.update({f"body{k}_young": float(2 * g * (1 + nu)), f"body{k}_poisson": float(nu)})
+        for k, body in enumerate(self.bodies, 1):
+            self.case.update({f"body{k}_young": body.base[0], f"body{k}_poisson": float(body.base[1])})
+            for name, values in zip(("young", "poisson", "thickness"), zip(*body.layers)):
+                self.case[f"body{k}_layer_{name}"] = [float(value) for value in values]
         self.film = 0.0
         if self.is_a("film", 0.2):
-            self.film = self.width / n / self.bodies[0][0] * self.log(1e-2, 1e2)
+            self.film = self.width / n / self.bodies[0].surface()[0] * self.log(1e-2, 1e2)
             self.case.update(film_thickness=1e-6, film_shear=1e-6 / self.film)
         if self.is_a("hard", 0.15):
             self.case["pressure_limit"] = self.p0 * self.log(0.5, 2)

@@ -183,6 +183,21 @@ def test_datum_moves_displacements_only(solve):
     assert near.attributes["plane_datum"] == WIDTH and far.attributes["plane_datum"] == 1000 * WIDTH
 
 
+def test_datum_of_stiff_layers_is_farther(solve, petsam):
+    """Relative to a near point, loads would pull them: by default the datum is where problems have solutions."""
+    layers = dict(body2_layer_young=5e12, body2_layer_poisson=0.3, body2_layer_thickness=WIDTH / 2)
+    case = dict(dict(CYLINDER, **layers), grid_n=64, load_n=2e4, tangential_rtol=1e-8)
+    r = solve(case, dict(disp_x=4e-8))
+    datum = r.attributes["plane_datum"]
+    assert datum > 2 * WIDTH and 0 < r["load_tx"] < 0.9e4 and r["disp_z"] > 0
+    far = solve(case, dict(plane_datum=10 * datum, load_tx=float(r["load_tx"])))
+    by = 2 / (np.pi * E_STAR) * np.log(10)
+    assert far["disp_z"] - r["disp_z"] == pytest.approx(2e4 * by, rel=1e-5)
+    assert far["disp_x"] - 4e-8 == pytest.approx(r["load_tx"] * by, rel=1e-4)
+    complaint = petsam(case, dict(plane_datum=WIDTH), check=2).stderr
+    assert f"-plane_datum {WIDTH:.6g}: give at least {datum / 2:.6g} m, nearer than which" in complaint
+
+
 def test_given_displacements_give_the_loads(solve):
     r = solve(CYLINDER, dict(load_tx=2e4, load_my=1.0))
     given = {name: None for name in ("load_n", "load_tx", "load_my")}

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 import conftest
+from layers import Body
 from support import history
 from test_embed import run_python
 from test_plane import CYLINDER, MU, NU, P0, A, N
@@ -148,3 +149,49 @@ with petsam.Contact(**{options!r}) as c:
     here = np.load(tmp_path / "here.npz")
     for name in COMPONENTS:
         assert np.array_equal(here[f"stress_{name}"], s[f"stress_{name}"]), name
+
+
+LAYERS = [(8e11, 0.2, 2e-5), (5e10, 0.4, 6e-5)]
+
+
+@pytest.mark.parametrize("base", [(2e11, 0.3), None])
+def test_stresses_through_layers(stress, tmp_path, base):
+    """Against integrals over the waves, of layers solved by one linear system each, with the tractions in the file."""
+    case = dict(
+        CASE,
+        body1_young=float("inf"),
+        body2_young=base[0] if base else float("inf"),
+        body2_poisson=base[1] if base else 0.3,
+        body2_layer_young="8e11,5e10",
+        body2_layer_poisson="0.2,0.4",
+        body2_layer_thickness="2e-5,6e-5",
+        grid_n=201,
+    )
+    depths = [1.5e-5, 3e-5, 7.9e-5] + ([8.1e-5, 3e-4] if base else [])
+    columns = "load_n,load_tx,load_ty"
+    s, _ = stress(columns, [(0.0, 3e4, 0.0, 0.0), (1.0, 3e4, 6e3, 4e3)], depths=",".join(map(str, depths)), case=case)
+    body = Body(LAYERS, base)
+    with h5py.File(tmp_path / "c.h5") as f:
+        x, p, qx, qy = f["x"][:], *(f[name][-1, 0] for name in ("pressure", "shear_x", "shear_y"))
+    h = x[1] - x[0]
+    for n, z in enumerate(depths):
+        # panels of eight points, shorter for long waves, as far as exp(-kz) reaches
+        edges = np.concatenate([[0.0], np.geomspace(1.0, 2e3, 30), np.arange(4e3, 30 / z, 3e3)])
+        point, weight = np.polynomial.legendre.leggauss(8)
+        k = (edges[:-1, None] + np.diff(edges)[:, None] * (point + 1) / 2).ravel()
+        w = (np.diff(edges)[:, None] * weight / 2).ravel() / np.pi * 2 * np.sin(k * h / 2) / k
+        waves = np.exp(1j * np.outer(x, k))
+        P, Qx, Qy = (w * (np.conj(waves).T @ q) for q in (p, qx, qy))
+        plane, across = body.stresses(z, k)
+        exact = dict(
+            xx=(waves @ (P * plane[0, 1])).real - (waves @ (Qx * plane[0, 0])).imag,
+            zz=(waves @ (P * plane[1, 1])).real - (waves @ (Qx * plane[1, 0])).imag,
+            xz=(waves @ (P * plane[2, 1])).imag + (waves @ (Qx * plane[2, 0])).real,
+            yz=(waves @ (Qy * across[0])).real,
+            xy=(waves @ (Qy * across[1])).imag,
+        )
+        nu = [*LAYERS, base][0 if z < 2e-5 else 1 if z < 8e-5 else 2][1]
+        exact["yy"] = nu * (exact["xx"] + exact["zz"])
+        for name in COMPONENTS:
+            error = s[f"stress_{name}"][0, n, 0] - exact[name]
+            assert np.abs(error).max() < 1e-9 * p.max(), (name, z)

@@ -102,13 +102,15 @@ PETSC_INTERN PetscErrorCode SamLayeredPrepare(SamLayered layered, double r, cons
 /*
   SamRadialSource - functions g(k), whose transforms f(r) of these orders (radial.c) make a table of f/r^order for
   distances up to r. They fall like exp(-depth k), and vary over lengths up to `longest`; for k = 0 they tend to the sum
-  of the images. SamRadialCreate() is not collective.
+  of the images. `line`: the transforms are by cosines (order 0) and sines (order 1). SamRadialCreate() is not
+  collective.
 */
 typedef struct {
   int        functions;
   const int *orders;
   double     depth, longest; /* m */
   double     image[2][SAM_RADIALS], thickness[2];
+  PetscBool  line;
   void (*values)(const void *context, double k, double g[]);
   const void *context;
 } SamRadialSource;
@@ -119,6 +121,7 @@ PETSC_INTERN PetscErrorCode SamRadialCreate(const SamRadialSource *of, double r,
   Terms of one function follow each other.
     SamRadialAddRow        adds the integrals over the cells at the lags (i, j), i = 0 ... n - 1, at a point that lies
                            (i, j) cells from each; errors are 1e-12 of the functions
+    SamRadialAddLine       the same in plane strain, of a table by cosines and sines
     SamRadialAddRectangle  adds those over a rectangle; `level` of its division: 0
     SamRadialSetUp         must be called before both
   None is collective.
@@ -147,8 +150,9 @@ typedef struct {
 PETSC_INTERN PetscErrorCode SamRadialSetUp(void);
 PETSC_INTERN void           SamRadialAddRow(const SamRadialKernels *of, const double side[2], PetscInt j, PetscInt n,
                                             double *const values[]);
-PETSC_INTERN void           SamRadialAddRectangle(const SamRadialKernels *of, int level, const double centre[2],
-                                                  const double side[2], double sums[]);
+PETSC_INTERN void SamRadialAddLine(const SamRadialKernels *of, double side, PetscInt n, double *const values[]);
+PETSC_INTERN void SamRadialAddRectangle(const SamRadialKernels *of, int level, const double centre[2],
+                                        const double side[2], double sums[]);
 
 /*
   SamLayeredAddRow - adds the integrals over the cells at the lags (i, j), i = 0 ... n - 1: the displacement at a point

@@ -1,16 +1,53 @@
 /* Two half-spaces in plane strain: the type, and the distance that displacements are relative to (halfspace.c). */
 #include "../waves.h"
+#include <petsam/private/layered.h>
 #include <math.h>
 
 #define DATUM "plane_datum"
 
+/* Of the mean of ln k over a uniform load: the logarithms of the longest and the shortest waves times the width. */
+#define LONG  (-25.0)
+#define SHORT 12.0
+#define STEP  0.05
+#define EULER 0.57721566490153286
+
+/*
+  Displacements by loads on the grid are positive, and the problems have solutions, if the datum is farther than a
+  quarter of the grid's width (half-planes: the logarithmic capacity of an interval). With layers, displacements c(k)/k
+  have another mean: -ln(x/D) is (cos kx - [k < exp(-0.5772)/D])/k over all waves, so that the mean displacement by a
+  uniform load vanishes at the distance D where int (c sinc^2(k width/2) - c(0) [k < exp(-0.5772)/D]) d ln k = 0. In
+  half-planes it is 0.223 widths, and half the width, or that factor, is asked for.
+*/
+static double LeastDatum(SamElasticity e)
+{
+  const double width = (double)e->grid->width[0], half_plane = exp(-1.5);
+  double       farthest            = half_plane, limit[SAM_LAYERED_SYMBOLS], difference[SAM_LAYERED_SYMBOLS],
+         sums[SAM_LAYERED_SYMBOLS] = {0};
+
+  if (!SamPairHasLayers(&e->pair)) return width / 2;
+  SamLayeredSymbols(&e->pair, 0, exp(2 * LONG) / width, limit, difference);
+  for (double x = LONG; x < SHORT; x += STEP) {
+    const double k = exp(x), sinc = sin(k / 2) / (k / 2);
+    double       c[SAM_LAYERED_SYMBOLS];
+
+    SamLayeredSymbols(&e->pair, 0, k / width, c, difference);
+    for (int s = 0; s < SAM_LAYERED_SYMBOLS; s++) sums[s] += STEP * (c[s] * sinc * sinc - limit[s] / (1 + k * k));
+  }
+  /* on rigid bases there is no logarithm */
+  for (int s = 0; s < SAM_LAYERED_SYMBOLS; s++)
+    if (s != SAM_LAYERED_ZR && limit[s] > exp(LONG) * fabs(sums[s]))
+      farthest = PetscMax(farthest, exp(-EULER - sums[s] / limit[s]));
+  return width * farthest / (2 * half_plane);
+}
+
 static PetscErrorCode CheckDatum(SamElasticity e, PetscErrorCode error, const char source[], const char before[])
 {
-  const double datum = (double)*SamHalfSpaceDatum(e), least = (double)e->grid->width[0] / 2;
+  const double datum = (double)*SamHalfSpaceDatum(e), least = LeastDatum(e);
 
   PetscFunctionBegin;
-  PetscCheck(datum >= least && isfinite(datum), e->grid->comm, error,
-             "%s%s" DATUM " %.6g: give at least half the grid's width, %.6g m", source, before, datum, least);
+  PetscCheck(datum >= least && isfinite(datum), e->grid->comm, error, "%s%s" DATUM " %.6g: give at least %s%.6g m%s",
+             source, before, datum, SamPairHasLayers(&e->pair) ? "" : "half the grid's width, ", least,
+             SamPairHasLayers(&e->pair) ? ", nearer than which loads pull these layers towards them" : "");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -20,8 +57,9 @@ static PetscErrorCode SetFromOptions_Plane(SamElasticity e, const SamOptions *fr
   PetscReal datum = 0;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsReal(from, DATUM, "plane: distance (m) that displacements are relative to, 0: grid width",
-                           SAM_RANGE_NONNEGATIVE, &datum, NULL));
+  PetscCall(SamOptionsReal(
+    from, DATUM, "plane: distance (m) that displacements are relative to, 0: grid width, more for stiff layers",
+    SAM_RANGE_NONNEGATIVE, &datum, NULL));
   if (datum > 0) *SamHalfSpaceDatum(e) = datum;
   PetscCall(PetscSNPrintf(before, sizeof(before), "-%s", e->prefix));
   PetscCall(CheckDatum(e, SAM_ERR_USER, "", before));
@@ -47,13 +85,12 @@ PetscErrorCode SamElasticityCreate_Plane(SamElasticity e)
 {
   PetscFunctionBegin;
   PetscCall(SamElasticityCreate_HalfSpace(e));
-  *SamHalfSpaceDatum(e)  = e->grid->width[0];
+  *SamHalfSpaceDatum(e)  = 2 * LeastDatum(e);
   e->traits.plane        = PETSC_TRUE;
   e->traits.rotations[0] = e->traits.rotations[2] = PETSC_FALSE;
   e->traits.within                                = PETSC_FALSE;
-  if (SamPairHasLayers(&e->pair)) e->ops.createstress = NULL;
-  e->ops.setfromoptions = SetFromOptions_Plane;
-  e->ops.addparameters  = AddParameters_Plane;
-  e->ops.setparameters  = SetParameters_Plane;
+  e->ops.setfromoptions                           = SetFromOptions_Plane;
+  e->ops.addparameters                            = AddParameters_Plane;
+  e->ops.setparameters                            = SetParameters_Plane;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

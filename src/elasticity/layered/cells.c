@@ -139,6 +139,33 @@ void SamRadialAddRow(const SamRadialKernels *of, const double side[2], PetscInt 
   AddFar(of, 2, side, j, third, n, values);
 }
 
+/* Adds the integrals of kernels over an interval, halved until it is short against the distance of the images. */
+static void AddInterval(const SamRadialKernels *of, double x, double length, double sums[])
+{
+  const double half = length / 2;
+  double       at[POINTS], values[SAM_RADIAL_KERNELS][POINTS] = {{0}};
+
+  if (length > 0.7 * hypot(x, of->depth / 2)) {
+    AddInterval(of, x - half / 2, half, sums);
+    AddInterval(of, x + half / 2, half, sums);
+    return;
+  }
+  for (int i = 0; i < POINTS; i++) at[i] = x + length * rules[POINTS].x[i];
+  AddPoints(of, length, POINTS, at, 0, (double *[]){values[0], values[1], values[2]});
+  for (int k = 0; k < of->kernels; k++)
+    for (int i = 0; i < POINTS; i++) sums[k] += rules[POINTS].w[i] * values[k][i];
+}
+
+void SamRadialAddLine(const SamRadialKernels *of, double side, PetscInt n, double *const values[])
+{
+  for (PetscInt i = 0; i < n; i++) {
+    double sums[SAM_RADIAL_KERNELS] = {0};
+
+    AddInterval(of, (double)i * side, side, sums);
+    for (int k = 0; k < of->kernels; k++) values[k][i] += sums[k];
+  }
+}
+
 /* ---- the surface ---- */
 
 /* The kernel of displacements that has this integral of half-spaces. */

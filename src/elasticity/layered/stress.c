@@ -16,6 +16,10 @@
   layer the functions are those of the difference from a half-space of its material, whose closed forms
   (halfspace/stresscell.c) are added: they fall like exp(-k (2 h - z)). Below, they fall like exp(-kz).
 
+  In plane strain the ten become even functions (cosines) xx = s2 + s3, yy = s2 - s3, zz = s0 by p, xz = s5 + s6 by q_x
+  and yz = s5 - s6 by q_y; and odd ones (sines) xz = s1 by p, zz = -s4, xx = -(s7 + s8 + s9), yy = -(s7 - s8 - s9) by
+  q_x, and xy = -(s8 - s9) by q_y.
+
   Values at the centres of cells, as in stresscell.c: for a shear q that varies along x in cells of side h, s_xx gets
   -(h/pi) dq/dx sum_m ((-1)^m/m) s(2 pi m/h) over m = 1, 2, ..., s(k) the symbol of s_xx by q; likewise yy, zz and,
   along the other axis, xy, each with its own; and xz by p with -T_p. Thirty terms of such an alternating series, with
@@ -26,9 +30,10 @@
 #include <petsam/private/layered.h>
 #include <petsam/private/stressimpl.h>
 
-#define ALTERNATING 30   /* terms of a series */
-#define LONG_WAVE   1e-5 /* on a rigid base, k times the depth of all layers below which rounding counts */
-#define THICK       8    /* cells of the first layer on which edges are those of a half-space */
+#define ALTERNATING 30    /* terms of a series */
+#define SMALLEST    1e-18 /* k times the longest length, for the limit of long waves */
+#define LONG_WAVE   1e-5  /* on a rigid base, k times the depth of all layers below which rounding counts */
+#define THICK       8     /* cells of the first layer on which edges are those of a half-space */
 
 typedef struct {
   SamPair   pair;
@@ -59,12 +64,37 @@ static void FunctionsAt(const void *context, double k, double g[])
   for (int f = 0; f < SAM_LAYERED_STRESSES; f++) g[f] *= k;
 }
 
+/* The functions of plane strain, in their own order. */
+enum { P_XX, P_YY, P_ZZ, X_XZ, Y_YZ, EVEN, P_XZ = EVEN, X_XX, X_YY, X_ZZ, Y_XY };
+
+static void LineFunctionsAt(const void *context, double k, double g[])
+{
+  double s[SAM_LAYERED_STRESSES];
+
+  StressesAt((const Layered *)context, k, s);
+  g[P_XX] = s[2] + s[3];
+  g[P_YY] = s[2] - s[3];
+  g[P_ZZ] = s[0];
+  g[X_XZ] = s[5] + s[6];
+  g[Y_YZ] = s[5] - s[6];
+  g[P_XZ] = s[1];
+  g[X_XX] = -s[7] - s[8] - s[9];
+  g[X_YY] = -s[7] + s[8] + s[9];
+  g[X_ZZ] = -s[4];
+  g[Y_XY] = -s[8] + s[9];
+}
+
 static PetscErrorCode UseDepth(SamStress stress, PetscReal depth)
 {
-  static const int orders[SAM_LAYERED_STRESSES] = {0, 1, 0, 2, 1, 0, 2, 1, 1, 3};
-  const SamGrid    grid                         = stress->grid;
-  Layered         *l                            = (Layered *)stress->data;
-  SamRadialSource  of = {.functions = SAM_LAYERED_STRESSES, .orders = orders, .values = FunctionsAt, .context = l};
+  static const int orders[]      = {0, 1, 0, 2, 1, 0, 2, 1, 1, 3};
+  static const int line_orders[] = {0, 0, 0, 0, 0, 1, 1, 1, 1, 1};
+  const SamGrid    grid          = stress->grid;
+  Layered         *l             = (Layered *)stress->data;
+  SamRadialSource  of            = {.functions = SAM_LAYERED_STRESSES,
+                                    .line      = grid->ny == 1 ? PETSC_TRUE : PETSC_FALSE,
+                                    .orders    = grid->ny == 1 ? line_orders : orders,
+                                    .values    = grid->ny == 1 ? LineFunctionsAt : FunctionsAt,
+                                    .context   = l};
 
   PetscFunctionBegin;
   if ((double)depth == l->depth) PetscFunctionReturn(PETSC_SUCCESS);
@@ -77,6 +107,10 @@ static PetscErrorCode UseDepth(SamStress stress, PetscReal depth)
              "Depth %.6g m: it is in the rigid base", l->depth);
   of.depth   = l->decay;
   of.longest = PetscMax(l->base, l->depth);
+  if (of.line) {
+    of.thickness[0] = of.depth;
+    LineFunctionsAt(l, SMALLEST / of.longest, of.image[0]);
+  }
   /* beyond the farthest lags, for cells' means along a row */
   PetscCall(
     SamRadialCreate(&of, 1.1 * hypot((double)grid->width[0], (double)grid->width[1]) + 8 * of.depth, &l->table));
@@ -123,6 +157,18 @@ static const struct {
                             {6, 1, SAM_ANGULAR_XY, -1},
                             {6, 2, SAM_ANGULAR_XX, 1}}},
   [SAM_STRESS_NORMAL_Z] = {2, {{4, 0, SAM_ANGULAR_X, -1}, {4, 1, SAM_ANGULAR_Y, -1}}},
+};
+
+static const struct {
+  int           count;
+  SamRadialTerm terms[2];
+} line_groups[SAM_STRESS_GROUPS] = {
+  [SAM_STRESS_PLANE_P]  = {2, {{P_XX, 0, SAM_ANGULAR_1, 1}, {P_YY, 1, SAM_ANGULAR_1, 1}}},
+  [SAM_STRESS_PLANE_X]  = {2, {{X_XX, 0, SAM_ANGULAR_X, 1}, {X_YY, 1, SAM_ANGULAR_X, 1}}},
+  [SAM_STRESS_PLANE_Y]  = {1, {{Y_XY, 2, SAM_ANGULAR_X, 1}}},
+  [SAM_STRESS_NORMAL_P] = {2, {{P_ZZ, 0, SAM_ANGULAR_1, 1}, {P_XZ, 1, SAM_ANGULAR_X, 1}}},
+  [SAM_STRESS_NORMAL_T] = {2, {{X_XZ, 0, SAM_ANGULAR_1, 1}, {Y_YZ, 2, SAM_ANGULAR_1, 1}}},
+  [SAM_STRESS_NORMAL_Z] = {1, {{X_ZZ, 0, SAM_ANGULAR_X, 1}}},
 };
 
 /* Symbols of xx, yy, zz, xy by shear along the wave, across it for xy, and of xz by pressure with the opposite sign. */
@@ -172,12 +218,13 @@ static void Row(SamStress stress, const double side[2], double depth, SamStressG
                 double *const values[SAM_STRESS_GROUP])
 {
   const Layered           *l      = (const Layered *)stress->data;
-  const SamHalfSpaceSource source = {{side[0], side[1]}, depth, (double)LayersOf(l)->poisson[0]};
+  const PetscBool          line   = stress->grid->ny == 1 ? PETSC_TRUE : PETSC_FALSE;
+  const SamHalfSpaceSource source = {{side[0], line ? INFINITY : side[1]}, depth, (double)LayersOf(l)->poisson[0]};
   const SamRadialKernels   of     = {.table   = &l->table,
                                      .depth   = l->decay,
                                      .kernels = SAM_STRESS_GROUP,
-                                     .count   = groups[group].count,
-                                     .terms   = groups[group].terms};
+                                     .count   = line ? line_groups[group].count : groups[group].count,
+                                     .terms   = line ? line_groups[group].terms : groups[group].terms};
 
   for (int k = 0; k < SAM_STRESS_GROUP; k++) PetscCallVoid(PetscArrayzero(values[k], n));
   if (!l->layer && group != SAM_STRESS_NORMAL_Z) SamHalfSpaceStressRow(&source, group, j, n, values);
@@ -188,7 +235,8 @@ static void Row(SamStress stress, const double side[2], double depth, SamStressG
     SamHalfSpaceStressRow(&source, SAM_STRESS_NORMAL_P, j, n, rows);
     PetscCallVoid(PetscArrayzero(values[2], n));
   }
-  SamRadialAddRow(&of, side, j, n, values);
+  if (line && j == 0) SamRadialAddLine(&of, side[0], n, values);
+  if (!line) SamRadialAddRow(&of, side, j, n, values);
   Correct(l, side, group, j, n, values);
 }
 
@@ -215,8 +263,8 @@ static PetscErrorCode Destroy(SamStress stress)
 PetscErrorCode SamLayeredCreateStress(SamGrid grid, const SamFourierSettings *settings, PetscInt body,
                                       const SamPair *pair, SamStress *stress)
 {
-  Layered  *l;
-  PetscBool thick;
+  Layered *l;
+  int      thick;
 
   PetscFunctionBegin;
   PetscCall(SamRadialSetUp());
@@ -224,7 +272,7 @@ PetscErrorCode SamLayeredCreateStress(SamGrid grid, const SamFourierSettings *se
   PetscCall(PetscNew(&l));
   *l                = (Layered){.pair = *pair, .body = body, .depth = -1};
   l->base           = (double)SamLayersDepth(LayersOf(l), LayersOf(l)->count);
-  thick             = LayersOf(l)->thickness[0] >= THICK * PetscMax(grid->dx, grid->dy) ? PETSC_TRUE : PETSC_FALSE;
+  thick             = LayersOf(l)->thickness[0] >= THICK * (grid->ny == 1 ? grid->dx : PetscMax(grid->dx, grid->dy));
   (*stress)->data   = l;
   (*stress)->groups = SAM_STRESS_GROUPS;
   (*stress)->ops    = (SamStressOps){.row          = Row,
