@@ -6,7 +6,8 @@
   has an edge of its own between the cells, at -s. The error of first order is a layer of two cells. So:
     1. Core: cells of the zone farther than BAND from any cell outside. A quadratic function is fitted to w in the core
        cells of a window about each cell of the band, and evaluated there.
-    2. The tail of the layer makes the core's edge lie too far out, by SHIFT of a cell in the mean.
+    2. The tail of the layer makes the core's edge lie too far out, by SHIFT of a cell in the mean over all places of an
+       edge between centres. In plane strain the edge has one such place, and the shift is that of the place (Line()).
     3. Guard: the difference to w must be that of the layer, whose shape is the same for all smooth edges.
     4. Areas: the part of each cell of the band where the function is positive, by sub-cells. Where it is refused, a
        cell counts less FACE for each of its faces to a cell outside, unless w is BLUNT there.
@@ -42,6 +43,23 @@ typedef struct {
   double   *fit;     /* of each of them: its function */
 } Band;
 
+/*
+  How far out the core's edge lies on a grid of one row, by its place u beyond the last centre of the zone, in cells:
+  fitted on Hertz's contact of 4600 cells, 64 places, within 7e-5; the edge of stick has the same within 2e-4. In a cell
+  of the zone, and in the first one outside, whose window has fewer cells.
+*/
+static double Line(const SamZone *z, PetscInt i, const double fit[SAM_FIT_TERMS])
+{
+  static const double shift[2][4] = {{0.019582, -0.18493, 0.28335, -0.040579},
+                                     {0.021411, -0.17189, 0.25669, -0.035107}};
+  const int           distance    = z->distance[SamZoneAt(z, i, 0)];
+  const double       *c           = shift[distance > 0];
+  const double        behind      = distance > 0 ? sqrt(distance) - 1 : -1;
+  const double        u           = PetscClipInterval(fit[0] / fabs(fit[1]) - behind, -0.15, 0.9);
+
+  return c[0] + u * (c[1] + u * (c[2] + u * c[3]));
+}
+
 PetscBool SamEdgeExtrapolate(const SamZone *z, const SamFitWindow *core, PetscInt i, PetscInt j,
                              double fit[SAM_FIT_TERMS], double *bent)
 {
@@ -49,7 +67,7 @@ PetscBool SamEdgeExtrapolate(const SamZone *z, const SamFitWindow *core, PetscIn
 
   if (!SamFitFactor(z, core, i, j, factor)) return PETSC_FALSE;
   SamFit(z, core, factor, z->w, i, j, fit, bent);
-  fit[0] -= SHIFT * hypot(fit[1], fit[2]);
+  fit[0] -= (z->grid->ny == 1 ? Line(z, i, fit) : SHIFT) * hypot(fit[1], fit[2]);
   return PETSC_TRUE;
 }
 

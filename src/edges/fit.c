@@ -163,6 +163,14 @@ SAM_VECTORIZED static double SumParts(const double *restrict fit, double slope)
   return sum;
 }
 
+/* The part of a cell of a single row: on one side of its function's root. */
+static double LinePart(const double fit[TERMS])
+{
+  const double square = fit[1] * fit[1] - 4 * fit[0] * fit[3], slope = fabs(fit[1]) + sqrt(PetscMax(square, 0));
+
+  return PetscClipInterval(0.5 + 2 * fit[0] / slope, 0, 1);
+}
+
 double SamFitPart(const double fit[TERMS])
 {
   const double slope = hypot(fit[1], fit[2]) / SUB;
@@ -170,5 +178,6 @@ double SamFitPart(const double fit[TERMS])
     0.5 * (fabs(fit[1]) + fabs(fit[2])) + 0.25 * (fabs(fit[3]) + fabs(fit[4]) + fabs(fit[5])) + slope;
 
   if (fabs(fit[0]) > reach) return fit[0] > 0 ? 1 : 0;
+  if (fit[2] == 0 && fit[4] == 0 && fit[5] == 0) return LinePart(fit);
   return SumParts(fit, slope) / (SUB * SUB);
 }

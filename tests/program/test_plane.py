@@ -69,7 +69,7 @@ def test_reference_numbers(solve):
     assert r["load_n"] == pytest.approx(N, rel=1e-12)
 
 
-def test_errors_fall_with_the_cells_those_of_edges_are_hundredths_of_one(solve):
+def test_errors_fall_with_the_cells_those_of_widths_with_their_square(solve):
     cells, c, errors = (60, 120, 240, 480), A * np.sqrt(0.5), []
     for n in cells:
         here = []  # by where the edges lie in their cells
@@ -82,8 +82,8 @@ def test_errors_fall_with_the_cells_those_of_edges_are_hundredths_of_one(solve):
         errors.append(np.sqrt(np.mean(np.square(here), 0)))
     errors = np.array(errors)
     order = -np.polyfit(np.log(cells), np.log(errors), 1)[0]
-    assert (errors[-1] < (1e-3, 1e-3, 0.05 * WIDTH / 480 / A, 0.05 * WIDTH / 480 / A)).all()
-    assert (order > 0.7).all()
+    assert (errors[-1] < (1e-3, 1e-3, 2e-4 * WIDTH / 480 / A, 3e-4 * WIDTH / 480 / A)).all()
+    assert (order > (0.7, 0.7, 1.6, 1.5)).all()
 
 
 def test_reversed_load_is_a_superposition(petsam, tmp_path):
@@ -300,10 +300,12 @@ def test_one_row_is_a_periodic_contact_without_y(petsam, tmp_path, options):
             }
         both.append((fields, numbers))
     (plane, numbers), (rows, others) = both
-    for name in plane:
+    for name in (one for one in plane if "center" not in one):
         scale = np.abs(rows[name]).max()
         assert np.abs(plane[name] - rows[name]).max() <= 1e-6 * scale, name
-    for name in ("load_tx", "disp_z", "disp_x", "dissipated_energy", "contact_area", "wear_volume2"):
+    # the place of an edge that is parallel to y is known on one row only, elsewhere that of edges in all directions
+    assert np.abs(numbers["contact_area"] - others["contact_area"]).max() < 2 * 0.04 * 2e-5
+    for name in ("load_tx", "disp_z", "disp_x", "dissipated_energy", "wear_volume2"):
         if name in numbers:
             scale = np.abs(others[name]).max()
             assert np.abs(numbers[name] - others[name]).max() <= 1e-5 * scale, name
