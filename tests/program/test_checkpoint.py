@@ -70,10 +70,9 @@ def write(folder, header, values):
     )
 
 
-@pytest.mark.parametrize("ranks", [1, 2, 3])
 @pytest.mark.parametrize(
-    "case",
-    [(CASE,), (DISSIMILAR,), CONSTANT, ROLLING, CORRECTED, HELD],
+    "case, ranks",
+    [((CASE,), 1), ((DISSIMILAR,), 2), (CONSTANT, 1), (ROLLING, 3), (CORRECTED, 2), (HELD, 1)],
     ids=["similar", "dissimilar", "constant", "rolling", "corrected", "corrected and held"],
 )
 def test_run_goes_on_as_if_it_had_not_been_stopped(folder, petsam, case, ranks):

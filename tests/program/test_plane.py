@@ -340,3 +340,31 @@ with petsam.Contact(**{options!r}) as c:
         tmp_path,
     )
     assert text.startswith("(1, 100) 20000") and "bodies of type plane have no such moment" in text
+
+
+def test_life_in_the_middle_of_a_long_contact(petsam, tmp_path):
+    """A rounded pad ten times as long as wide wears in its middle as the plane one under the load of its middle."""
+    n, size, flat, radius = (96, 24), (3.2e-3, 23e-3), (1e-3, 10e-3), 20e-3
+    x, y = (w * ((np.arange(k) + 0.5) / k - 0.5) for k, w in zip(n, size))
+    square = [np.maximum(np.abs(v) - c, 0) ** 2 / (2 * radius) for v, c in zip((x, y), flat)]
+    with h5py.File(tmp_path / "gap.h5", "w") as f:
+        f["height"] = square[1][:, None] + square[0]
+    case = dict(CYLINDER, gap_type="file", gap_file="gap.h5", load_n=None, friction=0.1, overwrite=True, output="r.h5")
+    case.update(gap_radius_x=None, gap_radius_y=None, steps=3, wear_coefficient1=1e-14, wear_coefficient2=1e-14)
+    case.update(wear_cycles=1e5, wear_rtol=1e-2, elasticity="halfspace", grid_n=n, grid_size=size)
+
+    def life(load, shear, **changes):
+        rows = [(0.0, load, 0.0), (1.0, load, shear), (3.0, load, -shear), (4.0, load, 0.0)]
+        petsam(dict(case, **changes), history(tmp_path / "h.csv", "time,load_n,load_tx", *rows))
+        with h5py.File(tmp_path / "r.h5") as f:
+            middle = f["pressure"].shape[1] // 2
+            return {name: f[name][:, middle] for name in ("pressure", "shear_x", "wear_depth2")}
+
+    solid = life(18000.0, 1080.0)
+    load, shear = (solid[name][:6].sum(axis=1) * (x[1] - x[0]) for name in ("pressure", "shear_x"))
+    with h5py.File(tmp_path / "gap.h5", "w") as f:
+        f["height"] = square[0][None, :]
+    plane = life(float(load[2]), float(np.abs(shear).max()), elasticity="plane", grid_n=n[0], grid_size=size[0])
+    for name, most in (("wear_depth2", 1e-2), ("pressure", 3e-3)):
+        a, b = solid[name][-1], plane[name][-1]
+        assert b.max() > 0 and np.linalg.norm(a - b) < most * np.linalg.norm(b), name
