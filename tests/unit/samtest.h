@@ -48,6 +48,20 @@ static inline void SamAssert_(int ok, const char *text, const char *file, int li
   SamAssert_(fabs((double)(a) - (double)(b)) <= (double)(tol), "|" #a " - " #b "| <= " #tol, __FILE__, __LINE__)
 #define sam_call(petsc_call_expr) SamAssert_((petsc_call_expr) == 0, #petsc_call_expr, __FILE__, __LINE__)
 
+static inline int SamRanks_(void)
+{
+  int ranks;
+
+  MPI_Comm_size(PETSC_COMM_WORLD, &ranks);
+  return ranks;
+}
+
+/* Ends a long test here if there are several ranks: what follows are errors and their orders, the same on any number. */
+#define sam_on_one_rank() \
+  do { \
+    if (SamRanks_() > 1) skip(); \
+  } while (0)
+
 /* A folder of its own for the files of the tests, without those of a test that crashed. 0: all ranks are there. */
 static inline int SamEnterFolder_(int rank, char folder[PETSC_MAX_PATH_LEN])
 {

@@ -223,6 +223,7 @@ static void test_jumps_lead_where_all_cycles_would(void **state)
   };
 
   (void)state;
+  sam_on_one_rank();
   for (size_t k = 0; k < sizeof(cases) / sizeof(cases[0]); k++) {
     const PetscInt        cycles = 30;
     const SamLifeSettings set    = {.type = cases[k].type, .rtol = 4e-3};
@@ -272,6 +273,7 @@ static void test_jumps_are_of_second_order(void **state)
   double volume[4], depth[4];
 
   (void)state;
+  sam_on_one_rank();
   for (int k = 0; k < 4; k++) {
     Joint *j =
       NewJoint(STEEL, 40, 1.4, 0.1, (Strokes){.approach = PETSC_TRUE, .steps = 8, .amplitude = 7.5e-7, .fast = 1e3},
