@@ -262,14 +262,13 @@ PetscBool SamElasticityPairIsCoupled(const SamPair *pair)
 
 PetscErrorCode SamElasticityGetSelfInfluence(SamElasticity e, PetscReal *normal, PetscReal *tangential)
 {
-  PetscReal of_normal, of_tangential;
-
   PetscFunctionBegin;
   PetscCall(SamElasticitySetUp(e));
   SamElasticityWith(e, getselfinfluence);
-  PetscCall((*e->ops.getselfinfluence)(e, &of_normal, &of_tangential));
-  if (normal) *normal = of_normal;
-  if (tangential) *tangential = of_tangential + (e->traits.steady ? 0 : SamPairFilm(&e->pair));
+  if (!e->has_self) PetscCall((*e->ops.getselfinfluence)(e, &e->self[0], &e->self[1]));
+  e->has_self = PETSC_TRUE;
+  if (normal) *normal = e->self[0];
+  if (tangential) *tangential = e->self[1] + (e->traits.steady ? 0 : SamPairFilm(&e->pair));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

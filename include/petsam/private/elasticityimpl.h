@@ -68,6 +68,8 @@ struct _n_SamElasticity {
   SamElasticity       inner;   /* what the type adds to, by SamElasticitySetInner(); NULL: nothing */
   SamFourier          fourier; /* made in setup by types that use one; the class trims and destroys it */
   PetscBool           is_set_up;
+  PetscBool           has_self; /* of a cell on itself, which solvers ask for at each step */
+  PetscReal           self[2];
   /* the place on the finest grid: cell (i, j) reaches from first[0] + i factor[0] to first[0] + (i + 1) factor[0] */
   PetscReal first[2], factor[2];
   /* derived operators */
