@@ -18,7 +18,10 @@ struct _n_SamGrid {
   PetscReal dx, dy;          /* cell size (m) */
   PetscInt  row_start, rows; /* this rank's rows */
   PetscInt  cells;           /* this rank's cells: rows * nx */
-  PetscReal length;          /* half the larger width, of one row that in x: makes coordinates dimensionless (m) */
+  /* without what lies along y where fields do not vary with it, in the one row of plane strain: */
+  PetscInt  axes;    /* 2: x and y; 1: x */
+  PetscReal side[2]; /* the shorter and the longer side of a cell (m) */
+  PetscReal length;  /* half the larger width: makes coordinates dimensionless (m) */
   PetscInt  references;
 };
 

@@ -100,7 +100,7 @@ PetscErrorCode SamStepView(const SamStep *s, SamContact contact, PetscViewer vie
     const PetscBool         creep = name->creep && SamContactIsSteady(contact), load = s->control.force[c];
     char                    fine[96] = "";
 
-    if (grid->ny == 1 && (c == SAM_COMPONENT_MX || c == SAM_COMPONENT_MZ)) continue;
+    if (grid->axes == 1 && (c == SAM_COMPONENT_MX || c == SAM_COMPONENT_MZ)) continue;
     if (creep) {
       (void)snprintf(fine, sizeof(fine), "%s_extrapolated", load ? name->creep : name->load);
       (void)snprintf(fine, sizeof(fine), "; fine grid: %s %.7g", load ? name->creep : name->load,
@@ -110,7 +110,7 @@ PetscErrorCode SamStepView(const SamStep *s, SamContact contact, PetscViewer vie
                                      k == 0   ? "normal"
                                      : k == 3 ? "tangential"
                                               : "",
-                                     name->load, Rounded(s, c, s->load, sizes.load), grid->ny == 1 ? 5 : 3,
+                                     name->load, Rounded(s, c, s->load, sizes.load), grid->axes == 1 ? 5 : 3,
                                      SamUnitOn(grid, name->load_unit), creep ? name->creep : name->rigid,
                                      Rounded(s, c, s->rigid, sizes.rigid), creep ? name->creep_unit : name->rigid_unit,
                                      given[SamControlWay(&s->control, c)], fine));

@@ -100,7 +100,7 @@ static Border BorderOf(SamProblem problem, SamGrid grid, const SamSolution *s)
   (void)SamProblemGetElasticity(problem, &elasticity);
   (void)SamElasticityGetTraits(elasticity, &traits);
   SamGridEntering(grid, s->control.roll, b.low, b.high);
-  for (int axis = 0; axis < (grid->ny == 1 ? 1 : 2); axis++) {
+  for (int axis = 0; axis < grid->axes; axis++) {
     b.low[axis]  = PetscMax(b.low[axis], PetscMax(traits.outside[axis][0], 1));
     b.high[axis] = PetscMax(b.high[axis], PetscMax(traits.outside[axis][1], 1));
   }

@@ -67,7 +67,7 @@ PetscBool SamEdgeExtrapolate(const SamZone *z, const SamFitWindow *core, PetscIn
 
   if (!SamFitFactor(z, core, i, j, factor)) return PETSC_FALSE;
   SamFit(z, core, factor, z->w, i, j, fit, bent);
-  fit[0] -= (z->grid->ny == 1 ? Line(z, i, fit) : SHIFT) * hypot(fit[1], fit[2]);
+  fit[0] -= (z->grid->axes == 1 ? Line(z, i, fit) : SHIFT) * hypot(fit[1], fit[2]);
   return PETSC_TRUE;
 }
 

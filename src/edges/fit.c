@@ -96,14 +96,14 @@ PetscBool SamFitFactor(const SamZone *z, const SamFitWindow *window, PetscInt i,
 {
   const PetscInt half  = window->half;
   const Range    range = RangeOf(z, half, i, j);
-  const PetscInt least = z->grid->ny == 1 ? SAM_FIT_LEAST_LINE : SAM_FIT_LEAST;
+  const PetscInt least = z->grid->axes == 1 ? SAM_FIT_LEAST_LINE : SAM_FIT_LEAST;
   PetscInt       count = 0;
 
   for (int n = 0; n < PRODUCTS; n++) factor[n] = 0;
   for (PetscInt b = range.low; b <= range.high; b++)
     count += AddProducts(range.right - range.left + 1, z->distance + SamZoneAt(z, range.left, b), window->least,
                          window->products + (b - j + half) * (2 * half + 1) + range.left - i + half, factor);
-  return count >= least ? Factor(z->grid->ny == 1, factor) : PETSC_FALSE;
+  return count >= least ? Factor(z->grid->axes == 1, factor) : PETSC_FALSE;
 }
 
 /* What the values of cells add to a fit: to the terms, the sum of their squares, and the weights. */

@@ -58,7 +58,7 @@ PetscErrorCode SamElasticityCreate(SamGrid grid, const SamPair *pair, SamElastic
   for (PetscInt k = 0; k < 2; k++) e->factor[k] = 1;
   PetscCall(SamGridReference(grid));
   e->grid = grid;
-  PetscCall(SamElasticitySetType(e, grid->ny == 1 ? SAM_ELASTICITY_PLANE : SAM_ELASTICITY_HALFSPACE));
+  PetscCall(SamElasticitySetType(e, grid->axes == 1 ? SAM_ELASTICITY_PLANE : SAM_ELASTICITY_HALFSPACE));
   *elasticity = e;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -144,9 +144,7 @@ static PetscErrorCode DescribeOthers(SamElasticity e, const SamOptions *from)
 /* Thicknesses that the transforms of layered bodies resolve on this grid. */
 static PetscErrorCode CheckThicknesses(SamElasticity e, const SamOptions *from)
 {
-  const PetscBool row   = e->grid->ny == 1;
-  const PetscReal least = THINNEST * (row ? e->grid->dx : PetscMin(e->grid->dx, e->grid->dy)),
-                  most  = 2 * e->grid->length / THINNEST;
+  const PetscReal least = THINNEST * e->grid->side[0], most = 2 * e->grid->length / THINNEST;
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < 2; b++)
@@ -192,7 +190,7 @@ PetscErrorCode SamElasticitySetUp(SamElasticity e)
 {
   PetscFunctionBegin;
   if (e->is_set_up) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCheck(e->traits.plane == (e->grid->ny == 1), e->grid->comm, PETSC_ERR_ARG_SIZ,
+  PetscCheck(e->traits.plane == (e->grid->axes == 1), e->grid->comm, PETSC_ERR_ARG_SIZ,
              "Elasticity of type %s: a grid of one row is for plane types, and these need one", e->type);
   e->is_set_up = PETSC_TRUE;
   if (e->inner) PetscCall(SamElasticitySetUp(e->inner));
@@ -315,7 +313,7 @@ PetscErrorCode SamElasticityCreateFromParameters(SamGrid grid, const SamParamete
              type->text, types);
   PetscCall(SamElasticityCreate(grid, &pair, elasticity));
   PetscCall(SamElasticitySetType(*elasticity, type->text));
-  PetscCheck((*elasticity)->traits.plane == (grid->ny == 1), grid->comm, SAM_ERR_FILE,
+  PetscCheck((*elasticity)->traits.plane == (grid->axes == 1), grid->comm, SAM_ERR_FILE,
              "%s: cannot be read: its elasticity %s does not fit its grid of %" PetscInt_FMT " rows", source,
              type->text, grid->ny);
   for (SamElasticity e = *elasticity; e; e = e->inner)
@@ -387,7 +385,7 @@ PetscErrorCode SamElasticityCreateLike(SamElasticity parent, SamGrid grid, const
 PetscErrorCode SamElasticityGetCoarse(SamElasticity e, SamElasticity *coarse, SamTransfer *transfer)
 {
   PetscFunctionBegin;
-  if (!e->coarse && (e->grid->ny == 1 ? e->grid->nx : PetscMin(e->grid->nx, e->grid->ny)) >= COARSEST) {
+  if (!e->coarse && (e->grid->axes == 1 ? e->grid->nx : PetscMin(e->grid->nx, e->grid->ny)) >= COARSEST) {
     SamGrid grid;
 
     PetscCall(SamGridCoarsen(e->grid, &grid));

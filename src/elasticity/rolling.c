@@ -92,7 +92,7 @@ PetscErrorCode SamElasticityCreate_Rolling(SamElasticity e)
   e->ops = (SamElasticityOps){.applytangential       = ApplyTangential,
                               .applytangentialsingle = ApplyTangentialSingle,
                               .getselfinfluence      = GetSelfInfluence};
-  PetscCall(SamElasticitySetInner(e, e->grid->ny == 1 ? SAM_ELASTICITY_PLANE : SAM_ELASTICITY_HALFSPACE));
+  PetscCall(SamElasticitySetInner(e, e->grid->axes == 1 ? SAM_ELASTICITY_PLANE : SAM_ELASTICITY_HALFSPACE));
   if (e->traits.coupled) e->ops.applynormaltotangential = ApplyNormalToTangential;
   e->traits.steady = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -153,7 +153,7 @@ PetscErrorCode SamEvaluationSetSource(SamEvaluation e, const SamEvaluationSource
 
 static PetscErrorCode CheckDepths(SamEvaluation e)
 {
-  const PetscReal side = e->grid->ny == 1 ? e->grid->dx : PetscMin(e->grid->dx, e->grid->dy);
+  const PetscReal side = e->grid->side[0];
 
   PetscFunctionBegin;
   PetscCheck(e->depth[e->depths - 1] <= MOST_DEPTH * 2 * e->grid->length, e->comm, SAM_ERR_USER,

@@ -87,7 +87,7 @@ static PetscErrorCode CheckLengths(SamFile f, const Wanted *w, hid_t dataset, An
   }
   answer->factor = lengths.factor;
   if (!grid) PetscFunctionReturn(PETSC_SUCCESS);
-  for (int d = 0; d < (grid->ny == 1 ? 1 : 2); d++) {
+  for (int d = 0; d < grid->axes; d++) {
     if (!(size[d] > 0)) size[d] = grid->width[d]; /* one axis may be missing */
     fits = fits && fabs(size[d] - grid->width[d]) <= size_tolerance * grid->width[d];
   }

@@ -300,7 +300,7 @@ PetscErrorCode SamConvolve(SamFourier F, const SamKernelMatrix *M, const double 
   if (factors.multiply == MultiplyGeneral)
     for (PetscInt o = 0; o < M->n_out; o++)
       PetscCall(
-        SamAllocate(sizeof(*factors.column[o]) * (size_t)(F->grid->ny == 1 ? F->hx + 1 : F->hy), &factors.column[o]));
+        SamAllocate(sizeof(*factors.column[o]) * (size_t)(F->grid->axes == 1 ? F->hx + 1 : F->hy), &factors.column[o]));
   PetscCall(SamFourierApply(F, &filter, in, out));
   for (PetscInt o = 0; o < M->n_out; o++) SamFree(factors.column[o]);
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -176,11 +176,11 @@ PetscErrorCode SamOutputFree(SamOutput *output)
 PetscErrorCode SamOutputCreateXdmf(SamOutput o, const char filename[])
 {
   const SamGrid g    = o->grid;
-  const double  dy   = g->ny == 1 ? g->dx : g->dy; /* a row of squares */
+  const double  dy   = g->axes == 1 ? g->dx : g->dy; /* a row of squares */
   SamXdmfMesh   mesh = {.rank    = 2,
                         .n       = {1, (hsize_t)g->ny, (hsize_t)g->nx},
                         .origin  = {0, SamGridY(g, 0), SamGridX(g, 0)},
-                        .spacing = {PetscMax(g->dx, dy), dy, g->dx}};
+                        .spacing = {g->side[1], dy, g->dx}};
 
   PetscFunctionBegin;
   for (PetscInt f = 0; f < SamOutputCount(o); f++) {

@@ -22,11 +22,11 @@ static void WriteType(SamOutput o, hid_t group)
 static void WriteGeometry(SamOutput o, hid_t group)
 {
   const SamGrid grid         = o->grid;
-  const double  dy           = grid->ny == 1 ? grid->dx : grid->dy; /* a row of squares, not of sticks of 1 m */
+  const double  dy           = grid->axes == 1 ? grid->dx : grid->dy; /* a row of squares, not of sticks of 1 m */
   const int64_t version[2]   = {2, 0};
   const int64_t extent[6]    = {0, grid->nx, 0, grid->ny, 0, 0};
   const double  origin[3]    = {SamGridX(grid, 0) - 0.5 * grid->dx, SamGridY(grid, 0) - 0.5 * dy, 0};
-  const double  spacing[3]   = {grid->dx, dy, PetscMax(grid->dx, dy)};
+  const double  spacing[3]   = {grid->dx, dy, grid->side[1]};
   const double  direction[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 
   SamFileWriteAttribute(o->f, group, "Version", H5T_STD_I64LE, H5T_NATIVE_INT64, 2, version);

@@ -77,12 +77,6 @@ static void WritePair(const char option[], const double x[2], char text[AT_A_TIM
 
 /* ---- the extent ---- */
 
-/* A plane problem: what is along y does not count. */
-static PetscBool IsRow(const SamSetup *s)
-{
-  return s->grid->ny == 1 ? PETSC_TRUE : PETSC_FALSE;
-}
-
 PetscErrorCode SamSetupMeasure(const SamSetup *s, SamExtent *extent)
 {
   const PetscReal     cell[2] = {s->grid->dx, s->grid->dy};
@@ -96,7 +90,7 @@ PetscErrorCode SamSetupMeasure(const SamSetup *s, SamExtent *extent)
   PetscCall(SamGridMeasureZones(s->grid, solution->pressure, NARROW, &extent->across));
   PetscCall(SamGridCountZones(s->grid, solution->pressure, traits.periodic, &extent->zones));
   PetscCall(SamGridGetSupport(s->grid, solution->pressure, first, n));
-  for (int k = 0; k < 2; k++) extent->half[k] = k && IsRow(s) ? 0 : 0.5 * (PetscReal)n[k] * cell[k];
+  for (int k = 0; k < 2; k++) extent->half[k] = k >= s->grid->axes ? 0 : 0.5 * (PetscReal)n[k] * cell[k];
   PetscCall(SamSetupMeasurePeak(s, extent));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -109,11 +103,11 @@ static PetscErrorCode Estimate(const SamSetup *s, PetscBool force, PetscReal val
 {
   PetscFunctionBegin;
   half[1] = 0;
-  if (IsRow(s))
+  if (s->grid->axes == 1)
     PetscCall(SamGapEstimateLine(s->gap, force ? value / s->pair.modulus : 0, &half[0], known));
   else
     PetscCall(SamGapEstimateContact(s->gap, force, force ? value / s->pair.modulus : value, half, known));
-  for (int k = 0; k < (IsRow(s) ? 1 : 2); k++)
+  for (int k = 0; k < s->grid->axes; k++)
     if (!isfinite(half[k]) || half[k] <= 0 || SamPairHasLayers(&s->pair)) *known = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -134,14 +128,14 @@ static void AdviseGrids(const SamSetup *s, const PetscReal half[2], double facto
     size[k] = PetscMin((double)s->grid->width[k], RoundUp(2 * ROOM * (double)half[k]));
     if (size[k] < 0.9 * (double)s->grid->width[k]) smaller = PETSC_TRUE;
   }
-  if (IsRow(s)) {
+  if (s->grid->axes == 1) {
     more[1] = more[0];
     size[1] = size[0];
   }
   if (s->grid->nx == s->grid->ny && s->grid->width[0] == s->grid->width[1])
     size[0] = size[1] = PetscMax(size[0], size[1]);
   /* the contact gets wider in cells as the grid gets smaller, more so along one axis */
-  for (int k = 0; k < (IsRow(s) ? 1 : 2); k++)
+  for (int k = 0; k < s->grid->axes; k++)
     if ((double)s->grid->width[k] / size[k] < factor) enough = PETSC_FALSE;
   if (PetscMax(more[0], more[1]) <= SAM_LARGEST_ROW) WritePair("grid_n", more, cells);
   if (smaller && enough) WritePair("grid_size", size, width);
@@ -159,7 +153,8 @@ static PetscErrorCode GetWidths(const SamSetup *s, const SamStep *step, const Sa
 
   PetscFunctionBegin;
   PetscCall(Estimate(s, step->control.force[SAM_COMPONENT_N], step->control.value[SAM_COMPONENT_N], closed, &known));
-  cells   = 2 * (IsRow(s) ? closed[0] / s->grid->dx : PetscMin(closed[0] / s->grid->dx, closed[1] / s->grid->dy));
+  cells =
+    2 * (s->grid->axes == 1 ? closed[0] / s->grid->dx : PetscMin(closed[0] / s->grid->dx, closed[1] / s->grid->dy));
   known   = known && fabs(cells - extent->across) <= SAME;
   *across = known ? cells : extent->across;
   for (int k = 0; k < 2; k++) half[k] = known ? closed[k] : extent->half[k];
@@ -240,7 +235,7 @@ static void AdviseCells(Receiver *to, const SamSetup *s, const SamExtent *extent
                         PetscReal across)
 {
   const PetscBool ends[2] = {2 * extent->half[0] < s->grid->width[0] - 0.5 * s->grid->dx,
-                             !IsRow(s) && 2 * extent->half[1] < s->grid->width[1] - 0.5 * s->grid->dy};
+                             s->grid->axes == 2 && 2 * extent->half[1] < s->grid->width[1] - 0.5 * s->grid->dy};
   const PetscBool strip = extent->zones == 1 && ends[0] != ends[1], refine[2] = {!strip || ends[0], !strip || ends[1]};
   /* of periodic bodies all cells may be in contact, and have no width */
   const PetscBool whole = !strip && extent->across > (PetscReal)PetscMin(s->grid->nx, s->grid->ny) - 0.5;
@@ -264,7 +259,7 @@ static void AdviseCells(Receiver *to, const SamSetup *s, const SamExtent *extent
     (void)snprintf(zones, sizeof(zones), "in %lld spots, the narrow ones ", (long long)extent->zones);
   (void)snprintf(size, sizeof(size), "%.3g m by %.3g m on a grid of %.3g m by %.3g m", 2 * (double)half[0],
                  2 * (double)half[1], (double)s->grid->width[0], (double)s->grid->width[1]);
-  if (IsRow(s))
+  if (s->grid->axes == 1)
     (void)snprintf(size, sizeof(size), "%.3g m on a grid of %.3g m", 2 * (double)half[0], (double)s->grid->width[0]);
   if (few)
     (void)snprintf(spots, sizeof(spots), "the contact is %s%.3g cells across (%s), fewer than %d", zones,
@@ -293,8 +288,7 @@ static void AdviseUnits(Receiver *to, const SamSetup *s, const SamLoadsMost *mos
 /* Layers that the cells do not resolve, or that are as good as none or as endless. */
 static void AdviseLayers(Receiver *to, const SamSetup *s, const PetscReal half[2])
 {
-  const double cell  = (double)(IsRow(s) ? s->grid->dx : PetscMax(s->grid->dx, s->grid->dy)),
-               width = 2 * (double)PetscMax(half[0], half[1]);
+  const double cell = (double)s->grid->side[1], width = 2 * (double)PetscMax(half[0], half[1]);
 
   for (int b = 0; b < 2; b++) {
     const SamLayers *l     = &s->pair.layers[b];
@@ -373,7 +367,7 @@ static void AdviseGrid(const SamSetup *s, const PetscReal half[2], const PetscRe
   if (n[0] == n[1] && s->grid->width[0] == s->grid->width[1]) width[0] = width[1] = PetscMax(width[0], width[1]);
   for (int k = 0; k < 2; k++)
     cells[k] = width[k] > (double)s->grid->width[k] ? 2 * ceil(0.5 * width[k] / (double)cell[k] - 1e-9) : n[k];
-  if (IsRow(s)) {
+  if (s->grid->axes == 1) {
     width[1] = width[0];
     cells[1] = cells[0];
   }

@@ -334,7 +334,7 @@ static PetscErrorCode FillPatch(const SamSetup *s, const Local *l, const PetscIn
 static PetscErrorCode Follow(const SamSetup *s, Local *l, Patch *a, SamExtent *extent)
 {
   const PetscInt n    = PetscMax(s->grid->nx, s->grid->ny);
-  const double   most = a->p[PEAK], cell = PetscMin(s->grid->dx, s->grid->dy);
+  const double   most = a->p[PEAK], cell = s->grid->side[0];
   double         before = most, change = 1, other = 0, tip;
   PetscBool      solved;
   Patch         *b;

@@ -14,8 +14,7 @@ PetscErrorCode SamSimulationPrepareAdvice(SamSimulation s, PetscInt first)
   SamContactSettings set;
   char               text[160];
   const SamGrid      g        = s->setup.grid;
-  const double       waves[2] = {2 * PETSC_PI / (double)PetscMax(g->width[0], g->width[1]),
-                                 PETSC_PI / (double)PetscMax(g->dx, g->dy)};
+  const double       waves[2] = {PETSC_PI / (double)g->length, PETSC_PI / (double)g->side[1]};
 
   PetscFunctionBegin;
   for (PetscInt k = first; k < s->needs.steps; k++) {

@@ -32,7 +32,7 @@ PetscErrorCode SamSimulationReadGridCheck(SamSimulation s, const SamOptions *fro
   PetscCall(SamOptionsBool(from, "grid_check", "all steps on half the cells too; errors of the last numbers",
                            &s->needs.grid_check, NULL));
   PetscCheck(!s->needs.grid_check ||
-               (s->setup.grid->nx >= LEAST && (s->setup.grid->ny == 1 || s->setup.grid->ny >= LEAST)),
+               (s->setup.grid->nx >= LEAST && (s->setup.grid->axes == 1 || s->setup.grid->ny >= LEAST)),
              from->comm, SAM_ERR_USER, "-grid_check needs at least %d cells in x and in y (-grid_n)", LEAST);
   for (size_t k = 0; s->needs.grid_check && !help && k < sizeof(without) / sizeof(without[0]); k++) {
     PetscCall(PetscOptionsHasName(NULL, NULL, without[k], &set));
@@ -81,7 +81,7 @@ static PetscErrorCode Compare(SamSimulation s, SamContact coarse, double dissipa
 {
   const SamGrid grid  = s->setup.grid;
   const double  cells = (double)grid->nx * (double)grid->ny / ((double)check->n[0] * (double)check->n[1]),
-               ratio  = grid->ny == 1 ? cells : sqrt(cells);
+               ratio  = grid->axes == 1 ? cells : sqrt(cells);
   const SamSolution *fine;
 
   PetscFunctionBegin;

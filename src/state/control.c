@@ -79,7 +79,7 @@ const char *SamUnitOn(SamGrid grid, const char unit[])
                                          {"m3", "m3/m"},
                                          {"N/m, N/rad, N, N m/rad", "N/m2, N/(m rad), N/m, N/rad"}};
 
-  for (size_t k = 0; grid->ny == 1 && k < sizeof(units) / sizeof(units[0]); k++)
+  for (size_t k = 0; grid->axes == 1 && k < sizeof(units) / sizeof(units[0]); k++)
     if (!strcmp(unit, units[k][0])) return units[k][1];
   return unit;
 }

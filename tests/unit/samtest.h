@@ -56,7 +56,7 @@ static inline int SamRanks_(void)
   return ranks;
 }
 
-/* Ends a long test here if there are several ranks: what follows are errors and their orders, the same on any number. */
+/* Ends a test here if there are several ranks: for long ones of errors and their orders, the same on any number. */
 #define sam_on_one_rank() \
   do { \
     if (SamRanks_() > 1) skip(); \

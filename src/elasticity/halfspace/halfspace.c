@@ -450,31 +450,30 @@ PetscErrorCode SamElasticityCreate_HalfSpace(SamElasticity e)
   PetscFunctionBegin;
   PetscCall(PetscNew(&data));
   if (SamPairHasLayers(&e->pair)) PetscCall(SamLayeredCreate(&e->pair, &data->layers));
-  e->data = data;
-  e->traits =
-    (SamElasticityTraits){.coupled   = SamElasticityPairIsCoupled(&e->pair),
-                          .stretch   = PETSC_TRUE,
-                          .rotations = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE},
-                          .mean      = PETSC_TRUE,
-                          .parts     = PETSC_TRUE,
-                          .within = !data->layers || data->layers->depth >= THICK * PetscMax(e->grid->dx, e->grid->dy),
-                          .layers = PETSC_TRUE};
-  e->ops = (SamElasticityOps){.inherit                 = Inherit,
-                              .setup                   = SetUp,
-                              .destroy                 = Destroy,
-                              .applynormal             = ApplyNormal,
-                              .applytangential         = ApplyTangential,
-                              .applynormalsingle       = ApplyNormalSingle,
-                              .applytangentialsingle   = ApplyTangentialSingle,
-                              .preconditionnormal      = PreconditionNormal,
-                              .preconditiontangential  = PreconditionTangential,
-                              .preconditionslip        = data->layers ? NULL : PreconditionSlip,
-                              .getselfinfluence        = GetSelfInfluence,
-                              .createstress            = CreateStress,
-                              .applynormaltotangential = ApplyNormalToTangential,
-                              .applytangentialtonormal = ApplyTangentialToNormal,
-                              .applynormalslopes       = ApplyNormalSlopes,
-                              .getnear                 = GetNear};
+  e->data   = data;
+  e->traits = (SamElasticityTraits){.coupled   = SamElasticityPairIsCoupled(&e->pair),
+                                    .stretch   = PETSC_TRUE,
+                                    .rotations = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE},
+                                    .mean      = PETSC_TRUE,
+                                    .parts     = PETSC_TRUE,
+                                    .within    = !data->layers || data->layers->depth >= THICK * e->grid->side[1],
+                                    .layers    = PETSC_TRUE};
+  e->ops    = (SamElasticityOps){.inherit                 = Inherit,
+                                 .setup                   = SetUp,
+                                 .destroy                 = Destroy,
+                                 .applynormal             = ApplyNormal,
+                                 .applytangential         = ApplyTangential,
+                                 .applynormalsingle       = ApplyNormalSingle,
+                                 .applytangentialsingle   = ApplyTangentialSingle,
+                                 .preconditionnormal      = PreconditionNormal,
+                                 .preconditiontangential  = PreconditionTangential,
+                                 .preconditionslip        = data->layers ? NULL : PreconditionSlip,
+                                 .getselfinfluence        = GetSelfInfluence,
+                                 .createstress            = CreateStress,
+                                 .applynormaltotangential = ApplyNormalToTangential,
+                                 .applytangentialtonormal = ApplyTangentialToNormal,
+                                 .applynormalslopes       = ApplyNormalSlopes,
+                                 .getnear                 = GetNear};
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -34,7 +34,7 @@ typedef struct {
 
 static PetscErrorCode CreateMap(SamGrid grid, PetscReal poisson, Vec field, Map *m)
 {
-  const double             dy     = grid->ny == 1 ? INFINITY : (double)grid->dy;
+  const double             dy     = grid->axes == 1 ? INFINITY : (double)grid->dy;
   const SamHalfSpaceSource source = {{(double)grid->dx, dy}, 0, (double)poisson};
 
   PetscFunctionBegin;
@@ -170,7 +170,7 @@ static void AddInside(const Map *m, PetscInt i, PetscInt j, const double at[2], 
                       double stress[PLANE])
 {
   const double dx = (double)m->grid->dx, dy = (double)m->grid->dy;
-  const int    line                       = m->grid->ny == 1;
+  const int    line                       = m->grid->axes == 1;
   double       like[SAM_STRESS_TRACTIONS] = {0}, most = 0;
 
   for (PetscInt b = -1; b <= 1; b++)
@@ -210,7 +210,7 @@ PetscErrorCode SamHalfSpaceStressAtEdge(SamStress body, Vec field, const SamEdge
                              (double)((edge->y[n] - SamGridY(grid, j)) / grid->dy)};
     double         *to    = stress + (ptrdiff_t)PLANE * n;
     const PetscBool complete =
-      i > BLOCK && i + BLOCK + 1 < grid->nx && (grid->ny == 1 || (j > BLOCK && j + BLOCK + 1 < grid->ny));
+      i > BLOCK && i + BLOCK + 1 < grid->nx && (grid->axes == 1 || (j > BLOCK && j + BLOCK + 1 < grid->ny));
 
     if (!complete) continue;
     for (int c = 0; c < PLANE; c++) to[c] = 0;

@@ -91,9 +91,9 @@ static PetscErrorCode UseDepth(SamStress stress, PetscReal depth)
   const SamGrid    grid          = stress->grid;
   Layered         *l             = (Layered *)stress->data;
   SamRadialSource  of            = {.functions = SAM_LAYERED_STRESSES,
-                                    .line      = grid->ny == 1 ? PETSC_TRUE : PETSC_FALSE,
-                                    .orders    = grid->ny == 1 ? line_orders : orders,
-                                    .values    = grid->ny == 1 ? LineFunctionsAt : FunctionsAt,
+                                    .line      = grid->axes == 1 ? PETSC_TRUE : PETSC_FALSE,
+                                    .orders    = grid->axes == 1 ? line_orders : orders,
+                                    .values    = grid->axes == 1 ? LineFunctionsAt : FunctionsAt,
                                     .context   = l};
 
   PetscFunctionBegin;
@@ -218,7 +218,7 @@ static void Row(SamStress stress, const double side[2], double depth, SamStressG
                 double *const values[SAM_STRESS_GROUP])
 {
   const Layered           *l      = (const Layered *)stress->data;
-  const PetscBool          line   = stress->grid->ny == 1 ? PETSC_TRUE : PETSC_FALSE;
+  const PetscBool          line   = stress->grid->axes == 1 ? PETSC_TRUE : PETSC_FALSE;
   const SamHalfSpaceSource source = {{side[0], line ? INFINITY : side[1]}, depth, (double)LayersOf(l)->poisson[0]};
   const SamRadialKernels   of     = {.table   = &l->table,
                                      .depth   = l->decay,
@@ -272,7 +272,7 @@ PetscErrorCode SamLayeredCreateStress(SamGrid grid, const SamFourierSettings *se
   PetscCall(PetscNew(&l));
   *l                = (Layered){.pair = *pair, .body = body, .depth = -1};
   l->base           = (double)SamLayersDepth(LayersOf(l), LayersOf(l)->count);
-  thick             = LayersOf(l)->thickness[0] >= THICK * (grid->ny == 1 ? grid->dx : PetscMax(grid->dx, grid->dy));
+  thick             = LayersOf(l)->thickness[0] >= THICK * grid->side[1];
   (*stress)->data   = l;
   (*stress)->groups = SAM_STRESS_GROUPS;
   (*stress)->ops    = (SamStressOps){.row          = Row,

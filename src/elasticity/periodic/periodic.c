@@ -141,7 +141,7 @@ static SamSymbol SymbolOf(SamElasticity e, double factor, double amplitude, Prod
   SamSymbol      s    = {.nu = pair->shear_xx / (pair->shear + pair->shear_xx), .multiply = multiply};
 
   for (PetscInt c = 0; c < 2; c++) s.step[c] = 2 * PETSC_PI / grid->width[c] * grid->length;
-  if (grid->ny == 1) s.step[1] = s.step[0]; /* of waves that do not exist */
+  if (grid->axes == 1) s.step[1] = s.step[0]; /* of waves that do not exist */
   s.mean = 0.5 * PetscMin(s.step[0], s.step[1]);
   s.gain = factor * amplitude * grid->length / ((double)grid->nx * (double)grid->ny);
   if (LayersOf(e)) PetscCallAbort(grid->comm, SamLayeredSymbolSet(LayersOf(e), grid->length, grid->nx, grid->ny, &s));
