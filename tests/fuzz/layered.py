@@ -9,7 +9,6 @@ linear system here, not a recursion; its transforms to space are sums over the w
 Prints what repeats a failure, and at the end the products of each kind. Ends with 1 after a failure.
 """
 
-import argparse
 import collections
 import subprocess
 import sys
@@ -25,6 +24,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "program"))
 from layers import Body  # noqa: E402
 from rolling import convolve, corners, kernels  # noqa: E402
 from support import words  # noqa: E402
+from trials import main  # noqa: E402
 
 # ---------------------------------------------------------------- mechanics
 
@@ -247,34 +247,10 @@ def trial(program, seed):
         return problem.kinds, h, wrong, line
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", default="build", help="the build folder")
-    parser.add_argument("--count", type=int, default=300, help="how many problems")
-    parser.add_argument("--seed", type=int, default=1, help="of the first; the next one has the next number")
-    parser.add_argument("--show", action="store_true", help="print a line for each problem")
-    given = parser.parse_args()
-    program = Path(given.build).resolve() / "bin" / "petsam"
-    products, failed = collections.defaultdict(list), 0
-    for seed in range(given.seed, given.seed + given.count):
-        kinds, h, wrong, line = trial(program, seed)
-        if h:
-            for kind in ["all", *kinds]:
-                products[kind].append((int(h["normal_applies"].max()), int(h["tangential_applies"].max()), seed))
-            if given.show:
-                print(seed, ",".join(kinds), products["all"][-1][:2], flush=True)
-        if wrong:
-            failed += 1
-            print(f"seed {seed} ({', '.join(kinds)}): {wrong}\n    {line}", flush=True)
-    for kind, counts in products.items():
-        normal, tangential = (np.array([c[k] for c in counts]) for k in (0, 1))
-        print(
-            f"{kind:11} {len(counts):4}  normal: median {np.median(normal):3.0f}, most {normal.max():3.0f};"
-            f"  tangential: median {np.median(tangential):3.0f}, most {tangential.max():3.0f}"
-        )
-    print(f"{given.count} problems, {failed} failed")
-    return failed > 0
+def numbers(history):
+    """Products, the most of a step."""
+    return {name: float(history[f"{name}_applies"].max()) for name in ("normal", "tangential")}
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(__doc__, trial, numbers))

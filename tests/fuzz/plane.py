@@ -8,7 +8,6 @@ dissimilar bodies, layers, bulk stress, antiplane loads, films, wear, hardness, 
 in all combinations, with reversals. Prints what repeats a failure. Ends with 1 after a failure.
 """
 
-import argparse
 import collections
 import subprocess
 import sys
@@ -21,6 +20,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "program"))
 from layers import Body  # noqa: E402
 from support import words  # noqa: E402
+from trials import main  # noqa: E402
 
 STEPS = 5
 
@@ -327,28 +327,10 @@ def trial(program, seed):
         return problem.kinds, h, wrong, line
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", default="build", help="the build folder")
-    parser.add_argument("--count", type=int, default=300, help="how many problems")
-    parser.add_argument("--seed", type=int, default=1, help="of the first; the next one has the next number")
-    parser.add_argument("--show", action="store_true", help="print a line for each problem")
-    given = parser.parse_args()
-    program = Path(given.build).resolve() / "bin" / "petsam"
-    counts, failed = collections.Counter(), 0
-    for seed in range(given.seed, given.seed + given.count):
-        kinds, h, wrong, line = trial(program, seed)
-        counts.update(kinds or ["plain"])
-        if given.show and h:
-            most = max(h["normal_applies"].max(), h["tangential_applies"].max())
-            print(seed, ",".join(kinds), f"products {most:.0f}", flush=True)
-        if wrong:
-            failed += 1
-            print(f"seed {seed} ({', '.join(kinds)}): {wrong}\n    {line}", flush=True)
-    print(", ".join(f"{kind} {count}" for kind, count in counts.most_common()))
-    print(f"{given.count} problems, {failed} failed")
-    return failed > 0
+def numbers(history):
+    """Products, the most of a step."""
+    return {name: float(history[f"{name}_applies"].max()) for name in ("normal", "tangential")}
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(__doc__, trial, numbers))

@@ -8,8 +8,6 @@ of the limit in all combinations; grids of 32 to 128 cells. Prints what repeats 
 of each kind. Ends with 1 after a failure.
 """
 
-import argparse
-import collections
 import subprocess
 import sys
 import tempfile
@@ -21,6 +19,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "program"))
 from support import words  # noqa: E402
 from test_rolling import integrals  # noqa: E402
+from trials import main  # noqa: E402
 
 MOST = 80  # products of each coupling iteration
 SIZES = (33, 35, 36, 40, 42, 45, 48, 50, 54, 55, 60, 63, 70, 72, 77, 90, 96, 105, 120, 127)
@@ -243,33 +242,11 @@ def trial(program, seed):
         return problem.kinds, h, wrong, line
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", default="build", help="the build folder")
-    parser.add_argument("--count", type=int, default=500, help="how many problems")
-    parser.add_argument("--seed", type=int, default=1, help="of the first; the next one has the next number")
-    parser.add_argument("--show", action="store_true", help="print a line for each problem")
-    given = parser.parse_args()
-    program = Path(given.build).resolve() / "bin" / "petsam"
-    products, failed = collections.defaultdict(list), 0
-    for seed in range(given.seed, given.seed + given.count):
-        kinds, h, wrong, line = trial(program, seed)
-        if h:
-            each = h["tangential_applies"] / max(1, h.get("coupling_iterations", 1))
-            for kind in ["all", *(kinds or ["plain"])]:
-                products[kind].append((each, seed))
-            if given.show:
-                print(seed, ",".join(kinds), f"area {h['share']:.2f}, products {each:.0f}", flush=True)
-        if wrong:
-            failed += 1
-            print(f"seed {seed} ({', '.join(kinds)}): {wrong}\n    {line}", flush=True)
-    for kind, counts in products.items():
-        each, seed = max(counts)
-        median = np.median([n for n, _ in counts])
-        print(f"{kind:11} {len(counts):4}  median {median:3.0f}  most {each:3.0f} (seed {seed})")
-    print(f"{given.count} problems, {failed} failed")
-    return failed > 0
+def numbers(history):
+    """Products of a pass, and the area of contact over that of the ellipse."""
+    passes = max(1, history.get("coupling_iterations", 1))
+    return {"products": float(history["tangential_applies"] / passes), "area": float(history["share"])}
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(__doc__, trial, numbers, count=500))
