@@ -368,3 +368,25 @@ def test_life_in_the_middle_of_a_long_contact(petsam, tmp_path):
     for name, most in (("wear_depth2", 1e-2), ("pressure", 3e-3)):
         a, b = solid[name][-1], plane[name][-1]
         assert b.max() > 0 and np.linalg.norm(a - b) < most * np.linalg.norm(b), name
+
+
+def test_wear_ends_with_contact_of_what_stuck_from_the_first(petsam, tmp_path):
+    """Under given displacements: a cylinder cut off at the first stick zone, |x| < c, bears the rest (closed form)."""
+
+    def approach(a):
+        return a * a / (2 * R) * (np.log(2 * WIDTH / a) + 0.5)
+
+    c = 0.6 * A
+    d, u = approach(A), MU * (approach(A) - approach(c))
+    rows = [(0.0, d, 0.0), (1.0, d, u), (3.0, d, -u), (4.0, d, 0.0)]
+    case = dict(CYLINDER, load_n=None, grid_n=300, steps=8, wear_coefficient2=1e-13, wear_cycles=1e6, wear_rtol=1e-2)
+    petsam(case, history(tmp_path / "h.csv", "time,disp_z,disp_x", *rows), dict(output="r.h5"))
+    load = (d - c * c / (4 * R)) * np.pi * E_STAR / 2 / np.log(2 * WIDTH / c)
+    with h5py.File(tmp_path / "r.h5") as f:
+        x, p = f["x"][:], f["pressure"][-1, 0]
+        assert f["history/load_n"][-1] == pytest.approx(load, rel=2e-3)
+        assert f["history/contact_area"][-1] == pytest.approx(2 * c, abs=2 * WIDTH / 300)
+        assert f["wear/dissipated_energy"][-1] < 1e-5 * f["wear/dissipated_energy"][0]
+    s = np.where(np.abs(x) < 0.9 * c, x, 0)
+    exact = (load / np.pi + E_STAR / (4 * R) * (c * c - 2 * s * s)) / np.sqrt(c * c - s * s)
+    assert np.abs(p / exact - 1)[np.abs(x) < 0.9 * c].max() < 5e-3
