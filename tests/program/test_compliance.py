@@ -405,6 +405,12 @@ def test_body_that_would_gain_energy_is_refused(thickness, degree, least, petsam
     assert f"degree {degree}, patch 2 m x 2 m: use a higher degree" in message
 
 
+def test_matrix_beyond_double_precision_is_refused(petsam, layer):
+    """LAPACK ended the process with exit code 0."""
+    case = {**SPHERE, **bodies(2), "load_n": 0.001, "body2_compliance": layer(1, 2, 1e307)}
+    assert "the smallest eigenvalue of its compliance is nan" in petsam(case, check=3).complaint[0]
+
+
 def test_thin_layer_without_slopes_is_refused(petsam, layer):
     case = {**SPHERE, **bodies(2), "load_n": 0.001}
     petsam(case, dict(body2_compliance=layer(0.125, 0)), check=3)

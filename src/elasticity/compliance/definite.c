@@ -120,6 +120,7 @@ PetscErrorCode SamComplianceLeast(SamCompliance c, double *least)
 {
   const PetscInt n = 3 * c->modes;
   double        *values, most = 0;
+  PetscReal      norm;
   Mat            d, relative  = NULL;
 
   PetscFunctionBegin;
@@ -131,7 +132,9 @@ PetscErrorCode SamComplianceLeast(SamCompliance c, double *least)
   }
   PetscCall(MatDenseRestoreArray(d, &values));
   if (!isinf(c->young)) PetscCall(CreateRelative(c, d, n, &relative));
-  PetscCall(FindSmallest(relative ? relative : d, n, least));
+  PetscCall(MatNorm(relative ? relative : d, NORM_FROBENIUS, &norm));
+  *least = NAN; /* of what is not finite, by which LAPACK would end the process with exit code 0 */
+  if (isfinite(norm)) PetscCall(FindSmallest(relative ? relative : d, n, least));
   if (relative)
     *least += 1;
   else if (*least > -1e-9 * most)
