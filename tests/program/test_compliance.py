@@ -488,6 +488,15 @@ def test_wrong_files_are_refused(name, value, says, petsam, layer):
     assert says in message
 
 
+def test_numbers_that_were_never_written_are_refused(petsam, layer):
+    file = layer(1, 2)
+    with h5py.File(file, "r+") as f:
+        del f["compliance"]
+        f.create_dataset("compliance", (6, 3, 6, 3), dtype=float)
+    message = petsam({**SPHERE, **bodies(2), "load_n": 0.001, "body2_compliance": file}, check=3).complaint[0]
+    assert "the numbers of /compliance cannot be read: the file is damaged" in message
+
+
 @pytest.mark.parametrize("part", [0.3, 0.6, 0.9, 0.999])
 def test_damaged_files_are_refused(part, petsam, layer):
     file = layer(1, 2)
