@@ -405,6 +405,15 @@ def test_body_that_would_gain_energy_is_refused(thickness, degree, least, petsam
     assert f"degree {degree}, patch 2 m x 2 m: use a higher degree" in message
 
 
+@pytest.mark.parametrize("young, thickness, code", [(1.0000001, 1, 0), (100, 1e-3, 0), (100, 0.5, 3)])
+def test_layer_that_makes_the_half_space_stiffer_than_the_correction_is_refused(young, thickness, code, petsam, layer):
+    """A body whose own compliance is positive; below a stiff layer the correction outweighs the half-space's."""
+    coat = dict(body2_layer_young=young, body2_layer_poisson=0.3, body2_layer_thickness=thickness)
+    case = {**SPHERE, **bodies(2), **coat, "load_n": 0.001, "grid_n": 24, "body2_compliance": layer(1, 2)}
+    complaint = " ".join(petsam(case, check=code).complaint)
+    assert ("would gain energy" in complaint) == bool(code)
+
+
 def test_matrix_beyond_double_precision_is_refused(petsam, layer):
     """LAPACK ended the process with exit code 0."""
     case = {**SPHERE, **bodies(2), "load_n": 0.001, "body2_compliance": layer(1, 2, 1e307)}

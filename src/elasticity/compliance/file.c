@@ -207,8 +207,8 @@ static PetscErrorCode Look(SamFile f, const void *question, void *answer)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamComplianceRead(MPI_Comm comm, PetscInt body, const char option[], const char file[],
-                                 SamCompliance *compliance)
+PetscErrorCode SamComplianceRead(MPI_Comm comm, PetscInt body, const SamLayers *layers, const char option[],
+                                 const char file[], SamCompliance *compliance)
 {
   SamCompliance c;
   double        least;
@@ -222,7 +222,7 @@ PetscErrorCode SamComplianceRead(MPI_Comm comm, PetscInt body, const char option
   c->references = 1;
   c->body       = body;
   PetscCall(PetscStrncpy(c->file, file, sizeof(c->file)));
-  PetscCall(SamComplianceLeast(c, &least));
+  PetscCall(SamComplianceLeast(c, layers, &least));
   PetscCheck(least > 0 || (isinf(c->young) && least == 0), comm, SAM_ERR_FILE,
              "-%s %s: under some traction the body would gain energy: the smallest eigenvalue of its compliance is "
              "%.3g of the half-space's, degree %" PetscInt_FMT ", patch %.6g m x %.6g m: use a higher degree or a "
