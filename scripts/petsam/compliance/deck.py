@@ -39,7 +39,7 @@ class Card:
 
 @dataclass
 class Deck:
-    """A deck's mesh, in the deck's own units and coordinates, the load cards of its steps, and *BOUNDARY before them."""
+    """A deck's mesh, in the deck's own units and coordinates, the load cards of its steps, and *BOUNDARY before."""
 
     mesh: Mesh
     element_sets: dict
