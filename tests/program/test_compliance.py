@@ -414,6 +414,17 @@ def test_layer_that_makes_the_half_space_stiffer_than_the_correction_is_refused(
     assert ("would gain energy" in complaint) == bool(code)
 
 
+@pytest.mark.parametrize("times, code", [(1e3, 0), (1e5, 3)])
+def test_body_whose_pressures_would_be_lost_in_its_displacement_is_refused(times, code, petsam, tmp_path):
+    """On a soft mount along z, which changes no pressure: 1e5 gave pressures wrong by 1e-4, 1e7 by a third."""
+    mount = np.zeros((6, 3, 6, 3))
+    mount[0, 2, 0, 2] = times
+    file = compliances.write(tmp_path / "mount.h5", mount)
+    case = {**SPHERE, **bodies(2), "load_n": 0.001, "grid_n": 24, "body2_compliance": file}
+    complaint = " ".join(petsam(case, check=code).complaint)
+    assert ("times as compliant as the half-space, limit 10000" in complaint) == bool(code)
+
+
 def test_matrix_beyond_double_precision_is_refused(petsam, layer):
     """LAPACK ended the process with exit code 0."""
     case = {**SPHERE, **bodies(2), "load_n": 0.001, "body2_compliance": layer(1, 2, 1e307)}

@@ -42,11 +42,12 @@ PETSC_INTERN PetscErrorCode SamComplianceDestroy(SamCompliance *compliance);
 /* SamComplianceMeans - means of the orthonormal polynomials along axis 0 or 1 over an interval (m), m^-1/2. */
 PETSC_INTERN void SamComplianceMeans(SamCompliance compliance, PetscInt axis, double from, double to, double means[]);
 /*
-  SamComplianceLeast - the smallest eigenvalue of the body's compliance relative to that of the half-space with its
-  layers, of tractions that are uniform on 20 x 20 cells of the patch. Of a rigid body: 0 if it is semidefinite, else
-  negative.
+  SamComplianceEnds - the smallest and the largest eigenvalue of the body's compliance relative to that of the
+  half-space with its layers, of tractions that are uniform on 20 x 20 cells of the patch. Of a rigid body: 0 if it is
+  semidefinite, else negative, and 1.
 */
-PETSC_INTERN PetscErrorCode SamComplianceLeast(SamCompliance compliance, const SamLayers *layers, double *least);
+PETSC_INTERN PetscErrorCode SamComplianceEnds(SamCompliance compliance, const SamLayers *layers, double *least,
+                                              double *most);
 /*
   SamComplianceCollect - c by tractions p, q_x, q_y on body 2. Collective.
   SamComplianceReadStress - the axes x, y, z (m), then the stresses at the points by each c and each load case; as many

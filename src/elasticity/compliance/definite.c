@@ -128,8 +128,8 @@ static PetscErrorCode CreateRelative(SamCompliance c, const SamLayers *layers, M
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The smallest of the real eigenvalues of a matrix of order n. */
-static PetscErrorCode FindSmallest(Mat matrix, PetscInt n, double *least)
+/* The smallest and the largest of the real eigenvalues of a matrix of order n. */
+static PetscErrorCode FindEnds(Mat matrix, PetscInt n, double *least, double *most)
 {
   double *real, *imaginary;
   KSP     ksp;
@@ -143,17 +143,20 @@ static PetscErrorCode FindSmallest(Mat matrix, PetscInt n, double *least)
   PetscCall(PCSetType(pc, PCNONE));
   PetscCall(KSPSetUp(ksp));
   PetscCall(KSPComputeEigenvaluesExplicitly(ksp, n, real, imaginary));
-  *least = real[0];
-  for (PetscInt k = 1; k < n; k++) *least = PetscMin(*least, real[k]);
+  *least = *most = real[0];
+  for (PetscInt k = 1; k < n; k++) {
+    *least = PetscMin(*least, real[k]);
+    *most  = PetscMax(*most, real[k]);
+  }
   PetscCall(KSPDestroy(&ksp));
   PetscCall(PetscFree2(real, imaginary));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamComplianceLeast(SamCompliance c, const SamLayers *layers, double *least)
+PetscErrorCode SamComplianceEnds(SamCompliance c, const SamLayers *layers, double *least, double *most)
 {
   const PetscInt n = 3 * c->modes;
-  double        *values, most = 0;
+  double        *values, entry = 0;
   PetscReal      norm;
   Mat            d, relative = NULL;
 
@@ -162,17 +165,20 @@ PetscErrorCode SamComplianceLeast(SamCompliance c, const SamLayers *layers, doub
   PetscCall(MatDenseGetArray(d, &values));
   for (PetscInt k = 0; k < n * n; k++) {
     values[k] = c->matrix[k % n / c->modes][k % c->modes][k / n / c->modes][k / n % c->modes];
-    most      = PetscMax(most, fabs(values[k]));
+    entry     = PetscMax(entry, fabs(values[k]));
   }
   PetscCall(MatDenseRestoreArray(d, &values));
   if (!isinf(c->young)) PetscCall(CreateRelative(c, layers, d, n, &relative));
   PetscCall(MatNorm(relative ? relative : d, NORM_FROBENIUS, &norm));
-  *least = NAN; /* of what is not finite, by which LAPACK would end the process with exit code 0 */
-  if (isfinite(norm)) PetscCall(FindSmallest(relative ? relative : d, n, least));
-  if (relative)
+  *least = *most = NAN; /* of what is not finite, by which LAPACK would end the process with exit code 0 */
+  if (isfinite(norm)) PetscCall(FindEnds(relative ? relative : d, n, least, most));
+  if (relative) {
     *least += 1;
-  else if (*least > -1e-9 * most)
-    *least = 0;
+    *most += 1;
+  } else {
+    if (*least > -1e-9 * entry) *least = 0;
+    *most = 1;
+  }
   PetscCall(MatDestroy(&relative));
   PetscCall(MatDestroy(&d));
   PetscFunctionReturn(PETSC_SUCCESS);
