@@ -25,6 +25,8 @@ class Stresses(Datafile):
     """
 
     def _read(self):
+        if "z" not in self.file:
+            raise Error(f"{self.path}: has no depths z: give a file of petsam-stress -input RESULTS.h5")
         self.times, self.z, self.y, self.x = self._read_axes(AXES, (1, 1, 1, 1))
         self.along = "x" if self.y.size == 1 else "y" if self.x.size == 1 else None
         self.steps = [int(number) for number in self.history["step"]]

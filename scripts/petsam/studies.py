@@ -86,6 +86,10 @@ class Study:
             raise Error(f"{self.path}: {what}: there is no such column{there_are(name, self.names)}")
         return self.results[bare], self.units[bare]
 
+    def unit_of_input(self, name):
+        """Unit of an input; that of the result of the same name, which in plane strain is per metre."""
+        return self.units.get(name) or unit_of_option(name)
+
     @property
     def names(self):
         """Names of all columns."""

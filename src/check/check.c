@@ -26,9 +26,9 @@ static PetscErrorCode AddCoupling(SamElasticity elasticity, SamGrid grid, const 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* u_z unless it is given, and u_t, both with the coupling. */
+/* u_z unless it is given, and u_t, both with the coupling; the largest u_z without load cases, which may cancel it. */
 static PetscErrorCode ComputeDisplacements(SamProblem problem, SamState state, PetscBool coupling, PetscBool u_z_known,
-                                           const SamSolution *s)
+                                           const SamSolution *s, PetscReal *most)
 {
   SamElasticity       elasticity;
   SamElasticityTraits traits;
@@ -49,6 +49,7 @@ static PetscErrorCode ComputeDisplacements(SamProblem problem, SamState state, P
   else
     PetscCall(SamVecZero(s->displacement_t));
   if (traits.coupled && coupling) PetscCall(AddCoupling(elasticity, grid, s));
+  PetscCall(VecNorm(s->displacement_z, NORM_INFINITY, most));
   PetscCall(SamElasticityAddCases(elasticity, &s->control, PETSC_FALSE, s->displacement_z));
   PetscCall(SamElasticityAddCases(elasticity, &s->control, PETSC_TRUE, s->displacement_t));
   PetscCall(SamElasticityTrim(elasticity));
@@ -62,28 +63,24 @@ enum { GAP, TENSION, DISPLACEMENT, PRESSURE, OPENING, EDGE, COUNT };
   pressure need not touch at their centres. Cells at the limit of the pressure may overlap: they yield.
 */
 SAM_VECTORIZED static void NormalRow(PetscInt n, const double *restrict p, const double *restrict least,
-                                     const double *restrict g, const double *restrict u, double saturated,
-                                     double max[COUNT])
+                                     const double *restrict g, double saturated, double max[COUNT])
 {
-  double gap = 0, tension = 0, displacement = 0, pressure = 0, opening = 0, nan = 0;
+  double gap = 0, tension = 0, pressure = 0, opening = 0, nan = 0;
 
-#pragma omp simd reduction(max : gap, tension, displacement, pressure, opening) reduction(+ : nan)
+#pragma omp simd reduction(max : gap, tension, pressure, opening) reduction(+ : nan)
   for (PetscInt i = 0; i < n; i++) {
-    const double size = fabs(u[i]), pressed = p[i] < saturated ? fabs(g[i]) : g[i],
-                 wrong = p[i] > least[i] ? pressed : -g[i];
+    const double pressed = p[i] < saturated ? fabs(g[i]) : g[i], wrong = p[i] > least[i] ? pressed : -g[i];
 
-    gap          = wrong > gap ? wrong : gap;
-    opening      = g[i] > opening ? g[i] : opening;
-    tension      = -p[i] > tension ? -p[i] : tension;
-    pressure     = p[i] > pressure ? p[i] : pressure;
-    displacement = size > displacement ? size : displacement;
+    gap      = wrong > gap ? wrong : gap;
+    opening  = g[i] > opening ? g[i] : opening;
+    tension  = -p[i] > tension ? -p[i] : tension;
+    pressure = p[i] > pressure ? p[i] : pressure;
     nan += p[i] + g[i] == p[i] + g[i] ? 0 : 1;
   }
-  max[GAP]          = nan > 0 ? INFINITY : SamLarger(max[GAP], gap);
-  max[OPENING]      = PetscMax(max[OPENING], opening);
-  max[TENSION]      = PetscMax(max[TENSION], tension);
-  max[PRESSURE]     = PetscMax(max[PRESSURE], pressure);
-  max[DISPLACEMENT] = PetscMax(max[DISPLACEMENT], displacement);
+  max[GAP]      = nan > 0 ? INFINITY : SamLarger(max[GAP], gap);
+  max[OPENING]  = PetscMax(max[OPENING], opening);
+  max[TENSION]  = PetscMax(max[TENSION], tension);
+  max[PRESSURE] = PetscMax(max[PRESSURE], pressure);
 }
 
 /* Columns and rows at the low and high end of x, y at the grid's border, beyond a patch, or of entered material. */
@@ -154,7 +151,8 @@ static PetscErrorCode SetRounding(SamProblem problem, const SamSolution *s, cons
 }
 
 /* The gap is that of the surfaces as they were before the step. */
-static PetscErrorCode CheckNormal(SamProblem problem, SamState state, const SamSolution *s, SamCheck *check)
+static PetscErrorCode CheckNormal(SamProblem problem, SamState state, const SamSolution *s, PetscReal most,
+                                  SamCheck *check)
 {
   double        max[COUNT] = {0}, *gap, *zeros;
   const double *p, *u, *h, *least = NULL;
@@ -181,7 +179,7 @@ static PetscErrorCode CheckNormal(SamProblem problem, SamState state, const SamS
     const ptrdiff_t k = (ptrdiff_t)j * grid->nx;
 
     SamMotionGap(&motion, SamMotionOfGap(&motion, j), u + k, h + k, gap);
-    NormalRow(grid->nx, p + k, least ? least + k : zeros, gap, u + k, SAM_SATURATED * (double)limit, max);
+    NormalRow(grid->nx, p + k, least ? least + k : zeros, gap, SAM_SATURATED * (double)limit, max);
     max[EDGE] = PetscMax(max[EDGE], EdgeOfRow(grid, &border, j, p + k));
   }
   PetscCall(VecRestoreArrayRead(separation, &h));
@@ -192,6 +190,7 @@ static PetscErrorCode CheckNormal(SamProblem problem, SamState state, const SamS
   PetscCall(PetscFree(gap));
   PetscCall(SamSolutionDestroySeparation(problem, &separation));
   PetscCall(SamMax(grid->comm, COUNT, max));
+  max[DISPLACEMENT] = (double)most;
   SetNormal(max, (double)limit, check);
   PetscCall(SetRounding(problem, s, max, check));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -338,6 +337,7 @@ PetscErrorCode SamCheckSolution(SamProblem problem, SamState state, PetscBool co
   SamElasticityTraits traits;
   SamGrid             grid;
   SamBalance          given[2];
+  PetscReal           most;
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_CHECK], 0, 0, 0, 0));
@@ -345,8 +345,8 @@ PetscErrorCode SamCheckSolution(SamProblem problem, SamState state, PetscBool co
   PetscCall(SamProblemGetElasticity(problem, &elasticity));
   PetscCall(SamElasticityGetTraits(elasticity, &traits));
   PetscCall(SamProblemGetGrid(problem, &grid));
-  PetscCall(ComputeDisplacements(problem, state, coupling, u_z_known, solution));
-  PetscCall(CheckNormal(problem, state, solution, check));
+  PetscCall(ComputeDisplacements(problem, state, coupling, u_z_known, solution, &most));
+  PetscCall(CheckNormal(problem, state, solution, most, check));
   if (traits.periodic) check->edge = 0;
   PetscCall(CheckTangential(problem, state, before, solution, check));
   given[0] = SamControlGetBalance(&solution->control, SAM_BALANCE_NORMAL);

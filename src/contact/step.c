@@ -178,7 +178,8 @@ static PetscErrorCode DescribeSliding(SamSolve *w, char message[], size_t size)
 
     if (!w->tangential.force[k] || load == 0) continue;
     PetscCall(PetscSNPrintf(text, sizeof(text), "%s%s = %.8g %s (%s%.8g%s)", loaded++ ? ", " : "", name->load, load,
-                            name->load_unit, follows ? "" : "limit ", (double)factor * load + 0.0, /* and not -0 */
+                            SamUnitOn(w->c->grid, name->load_unit), follows ? "" : "limit ",
+                            (double)factor * load + 0.0, /* and not -0 */
                             follows ? " at the slip of the last iteration" : ""));
     PetscCall(PetscStrlcat(message, text, size));
     if (loaded > 1) PetscCall(PetscStrlcat(instead, ", ", sizeof(instead)));

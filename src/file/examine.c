@@ -189,7 +189,7 @@ PetscBool SamFileIsWhole(SamFile f, hid_t dataset, const hsize_t extent[], Petsc
   } else if (good && layout == H5D_CONTIGUOUS && !H5Pget_external_count(creation)) {
     const haddr_t address = H5Dget_offset(dataset);
 
-    good = address == HADDR_UNDEF || address + H5Dget_storage_size(dataset) <= size;
+    good = address == HADDR_UNDEF ? !every : address + H5Dget_storage_size(dataset) <= size;
   }
   if (creation >= 0) (void)H5Pclose(creation);
   return good;

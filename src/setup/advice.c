@@ -220,14 +220,14 @@ static void AdviseMotion(Receiver *to, const SamExtent *extent, const SamLoadsMo
       (double)most->slide, width);
 }
 
-static void AdviseTouch(Receiver *to, const SamControl *control)
+static void AdviseTouch(Receiver *to, SamGrid grid, const SamControl *control)
 {
   const PetscBool force = control->force[SAM_COMPONENT_N];
 
   Advise(to, force ? "load_n" : "disp_z",
          "the bodies do not touch in any step: the %s is %g %s at most, and must exceed %s",
-         force ? "normal force" : "approach", (double)control->value[SAM_COMPONENT_N], force ? "N" : "m",
-         force ? "0" : "0, or the smallest separation");
+         force ? "normal force" : "approach", (double)control->value[SAM_COMPONENT_N],
+         force ? SamUnitOn(grid, "N") : "m", force ? "0" : "0, or the smallest separation");
 }
 
 /* A contact that is few cells across, or a peak of pressure that they do not resolve; grids on which it is not so. */
@@ -323,7 +323,7 @@ PetscErrorCode SamAdviseStep(const SamSetup *s, const SamStep *step, const SamEx
   PetscFunctionBegin;
   AdviseUnits(&to, s, most);
   AdviseMotion(&to, extent, most);
-  if (!extent->zones) AdviseTouch(&to, &step->control);
+  if (!extent->zones) AdviseTouch(&to, s->grid, &step->control);
   /* at the grid's edge it is the grid that decides how large the contact is */
   if (extent->zones && step->check.edge <= 0) {
     PetscCall(GetWidths(s, step, extent, half, &across));

@@ -268,6 +268,18 @@ def test_case_that_moves_the_surface_moves_the_body(number, signs, solve, layer,
         assert l2(getattr(r, name), getattr(plain, name)) < 1e-6, name
 
 
+@pytest.mark.parametrize("share", [0.5, 0.95, -100])
+def test_check_is_relative_to_the_displacement_by_tractions(share, solve, layer):
+    """Of a case that cancels a share of it: the errors were relative to what is left, and the step did not converge."""
+    field = np.zeros((6, 3))
+    field[0, 2] = 2.0  # 1 m everywhere
+    problem = {**SHEAR, "steps": 1, "body2_compliance": layer(1, 2, cases=dict(lift=field))}
+    plain = solve(SPHERE, bodies(2), problem)
+    found = solve(SPHERE, bodies(2), problem, dict(body2_case_lift=-share * plain.displacement_z.max()))
+    assert found["normal_residual"] == pytest.approx(plain["normal_residual"], rel=0.02)
+    assert l2(found.pressure, plain.pressure) < 1e-7
+
+
 def test_run_with_cases_goes_on_from_its_checkpoint(petsam, layer, tmp_path):
     file = layer(1, 2, cases=dict(bend=np.full((6, 3), 1e-5)))
     rows = [(k, 0.004, 2e-4 * k, 0.25 * k) for k in range(5)]
@@ -405,6 +417,32 @@ def test_body_that_would_gain_energy_is_refused(thickness, degree, least, petsam
     assert f"degree {degree}, patch 2 m x 2 m: use a higher degree" in message
 
 
+@pytest.mark.parametrize("young, thickness, code", [(1.0000001, 1, 0), (100, 1e-3, 0), (100, 0.5, 3)])
+def test_layer_that_makes_the_half_space_stiffer_than_the_correction_is_refused(young, thickness, code, petsam, layer):
+    """A body whose own compliance is positive; below a stiff layer the correction outweighs the half-space's."""
+    coat = dict(body2_layer_young=young, body2_layer_poisson=0.3, body2_layer_thickness=thickness)
+    case = {**SPHERE, **bodies(2), **coat, "load_n": 0.001, "grid_n": 24, "body2_compliance": layer(1, 2)}
+    complaint = " ".join(petsam(case, check=code).complaint)
+    assert ("would gain energy" in complaint) == bool(code)
+
+
+@pytest.mark.parametrize("times, code", [(1e3, 0), (1e5, 3)])
+def test_body_whose_pressures_would_be_lost_in_its_displacement_is_refused(times, code, petsam, tmp_path):
+    """On a soft mount along z, which changes no pressure: 1e5 gave pressures wrong by 1e-4, 1e7 by a third."""
+    mount = np.zeros((6, 3, 6, 3))
+    mount[0, 2, 0, 2] = times
+    file = compliances.write(tmp_path / "mount.h5", mount)
+    case = {**SPHERE, **bodies(2), "load_n": 0.001, "grid_n": 24, "body2_compliance": file}
+    complaint = " ".join(petsam(case, check=code).complaint)
+    assert ("times as compliant as the half-space, limit 10000" in complaint) == bool(code)
+
+
+def test_matrix_beyond_double_precision_is_refused(petsam, layer):
+    """LAPACK ended the process with exit code 0."""
+    case = {**SPHERE, **bodies(2), "load_n": 0.001, "body2_compliance": layer(1, 2, 1e307)}
+    assert "the smallest eigenvalue of its compliance is nan" in petsam(case, check=3).complaint[0]
+
+
 def test_thin_layer_without_slopes_is_refused(petsam, layer):
     case = {**SPHERE, **bodies(2), "load_n": 0.001}
     petsam(case, dict(body2_compliance=layer(0.125, 0)), check=3)
@@ -480,6 +518,15 @@ def test_wrong_files_are_refused(name, value, says, petsam, layer):
     message = petsam({**SPHERE, **bodies(2), "load_n": 0.001, "body2_compliance": file}, check=3).complaint[0]
     assert f"-body2_compliance {file}: " in message
     assert says in message
+
+
+def test_numbers_that_were_never_written_are_refused(petsam, layer):
+    file = layer(1, 2)
+    with h5py.File(file, "r+") as f:
+        del f["compliance"]
+        f.create_dataset("compliance", (6, 3, 6, 3), dtype=float)
+    message = petsam({**SPHERE, **bodies(2), "load_n": 0.001, "body2_compliance": file}, check=3).complaint[0]
+    assert "the numbers of /compliance cannot be read: the file is damaged" in message
 
 
 @pytest.mark.parametrize("part", [0.3, 0.6, 0.9, 0.999])

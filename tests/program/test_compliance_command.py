@@ -304,6 +304,8 @@ BAD_CASES = [
     (["*STEP", "*CLOAD", "99999, 1, 1.", "*END STEP"], "no node 99999"),
     (["*STEP", "*TEMPERATURE", "RIGHT, 1.", "*END STEP"], "*TEMPERATURE in a load case is not supported"),
     (["*STEP", "*DSLOAD", "NOWHERE, P, 1.", "*END STEP"], "expected `surface, P, value`"),
+    (["*STEP", "*CLOAD, AMPLITUDE=A", "RIGHT, 1, 1.", "*END STEP"], "AMPLITUDE of *CLOAD is not supported"),
+    (["*BOUNDARY", "RIGHT, 2, 2", "*STEP", "*END STEP"], "which is not in --fixed: add its set to --fixed"),
 ]
 
 
@@ -316,6 +318,7 @@ def test_steps_that_are_no_load_case_are_rejected(compliance, tmp_path, step, te
 BAD_DECKS = [
     ("*ELASTIC\n", "*ELASTIC, TYPE=ORTHO\n", "only isotropic elasticity"),
     ("1.000000000000e+00, 3.000000000000e-01", "-1., 0.3", "E = -1, nu = 0.3: use E > 0"),
+    ("*ELASTIC\n", "*ELASTIC\n1., 0.3, 0.\n", "*ELASTIC depends on the temperature"),
     ("*SOLID SECTION", "*SHELL SECTION", "*SHELL SECTION is not supported"),
     ("TYPE=C3D20", "TYPE=S8R", "elements of type S8R are not supported"),
     ("*SOLID SECTION, ELSET=E0M0", "*SOLID SECTION, ELSET=OTHER", "no element set OTHER"),

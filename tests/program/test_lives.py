@@ -243,7 +243,7 @@ def test_arrays_of_a_contact_are_taken_too(folder):
         (["-o", "high.h5", "high.h5"], ["use a name that ends in .png, .pdf or .svg"], 2),
         (["--csv", "low.h5", "low.h5"], ["low.h5: would replace the results"], 3),
         (["--material", "bad.yaml", "high.h5"], ["bad.yaml: sigma_f 2030MPa is not a number", "SI units"], 3),
-        (["c.h5"], ["c.h5"], 3),
+        (["c.h5"], ["c.h5: has no depths z: give a file of petsam-stress"], 3),
     ],
 )  # fmt: skip
 def test_refusals(fatigue, folder, words, says, code):

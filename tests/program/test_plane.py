@@ -250,6 +250,19 @@ def test_what_has_no_meaning_is_refused(petsam, options, complaint):
     assert complaint in petsam(CYLINDER, options, check=2).stderr
 
 
+@pytest.mark.parametrize(
+    "options, says",
+    [
+        (dict(load_tx=1e6), "load_tx = 1000000 N/m (limit "),
+        (dict(load_my=1e6), "load_my = 1e+06 N m/m under load_n = "),
+        (dict(load_my=1e6, load_n=0), "load_my = 1e+06 N m/m needs a normal force"),
+        (dict(pressure_limit=1, friction=0), "N/m exceeds the load that the whole grid carries"),
+    ],
+)
+def test_messages_about_loads_are_per_metre(petsam, options, says):
+    assert says in petsam({**CYLINDER, **options}, check=11).complaint[0]
+
+
 def test_columns_are_refused(petsam, tmp_path):
     rows = history(tmp_path / "h.csv", "time,load_n,load_mz", (0.0, N, 0.0), (1.0, N, 1.0))
     complaint = petsam(dict(CYLINDER, load_n=None), rows, check=2).stderr

@@ -160,6 +160,11 @@ def test_what_is_known_twice_is_drawn_once_and_inputs_have_their_units(single):
     assert [axes.get_ylabel().split(",")[0] for axes in named.axes if axes.lines] == ["dissipated energy", "$N$"]
 
 
+def test_an_input_has_the_unit_of_the_result_of_its_name(single):
+    single.units["load_n"] = "N/m"  # in plane strain
+    assert set(curves(tables.study([single]).axes[0])) == {"load_n = 100 N/m", "load_n = 200 N/m"}
+
+
 def test_units_of_options_are_those_of_the_reference():
     text = (ROOT / "examples" / "OPTIONS.md").read_text()
     known = re.findall(r"^\| `-(\w+) <number>(.*)$", text, re.MULTILINE)

@@ -79,6 +79,8 @@ def test_the_command_writes_a_surface(surface, tmp_path):
     assert surface(*RANDOM, "--body", "1", "--no-picture", "-o", "r.h5")[1].startswith(
         "random surface: heights of body 1"
     )
+    code, _, err = surface(*RANDOM, "--rms", "0.5", "--no-picture", "-o", "r.h5")
+    assert code == 0 and "r.h5: peak to valley" in err and err.endswith("is more than the size 1 mm: check the unit\n")
 
 
 @pytest.mark.parametrize(

@@ -16,6 +16,7 @@ from .remainder import scatter
 
 REST = 1e-2  # of the field's range: the most that the polynomials may miss
 FACE_POINTS = 4  # Gauss points along the side of a loaded face
+CHANGING = {"AMPLITUDE", "SECTOR", "SUBMODEL", "TIME DELAY", "USER"}  # parameters that change what the lines give
 
 
 @dataclass
@@ -91,18 +92,37 @@ class Loads:
             scatter(self.force, group.nodes, nodal[..., None])
 
 
+def _take(found, cards):
+    for card in cards:
+        if card.name in UNSUPPORTED_LOADS:
+            raise Error(f"{card.place}: *{card.name} in a load case is not supported: remove it")
+        changing = CHANGING & card.parameters.keys()
+        if changing:
+            raise Error(f"{card.place}: {min(changing)} of *{card.name} is not supported: give the values themselves")
+        try:
+            getattr(found, card.name.lower())(card)
+        except IndexError:
+            raise Error(f"{card.place}: a line of *{card.name} has too few values") from None
+
+
+def need_supports(deck, mesh, frame, units, supported):
+    """The nodes that the deck holds in all steps must be among the supported ones."""
+    found = Loads(deck, mesh, frame, units)
+    _take(found, deck.supports)
+    free = np.setdiff1d(np.flatnonzero(found.prescribed.reshape(-1, 3)[:, 0]), supported)
+    if len(free):
+        raise Error(
+            f"{deck.supports[0].place}: *BOUNDARY holds node {mesh.node_numbers[free[0]]}, which is not in --fixed: "
+            "add its set to --fixed, or remove the card"
+        )
+
+
 def loads(deck, mesh, frame, units, step):
     """The Loads of a step, numbered from 1."""
     if not 1 <= step <= len(deck.steps):
         raise Error(f"the deck has {len(deck.steps)} steps, not step {step}: name one of them by --case NAME=STEP")
     found = Loads(deck, mesh, frame, units)
-    for card in deck.steps[step - 1]:
-        if card.name in UNSUPPORTED_LOADS:
-            raise Error(f"{card.place}: *{card.name} in a load case is not supported: remove it")
-        try:
-            getattr(found, card.name.lower())(card)
-        except IndexError:
-            raise Error(f"{card.place}: a line of *{card.name} has too few values") from None
+    _take(found, deck.steps[step - 1])
     if not (np.any(found.force) or np.any(found.moved)):
         raise Error(f"step {step} has no load: give *CLOAD, *DLOAD, *DSLOAD or *BOUNDARY in it")
     return found

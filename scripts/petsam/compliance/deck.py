@@ -39,11 +39,12 @@ class Card:
 
 @dataclass
 class Deck:
-    """A deck's mesh, in the deck's own units and coordinates, and the load cards of its steps."""
+    """A deck's mesh, in the deck's own units and coordinates, the load cards of its steps, and *BOUNDARY before."""
 
     mesh: Mesh
     element_sets: dict
     steps: list
+    supports: list
 
 
 def cards(path, depth=0):
@@ -90,7 +91,7 @@ class Reader:
         self.path = path
         self.nodes, self.elements = {}, []  # number -> x; (kind, number, nodes)
         self.node_sets, self.element_sets, self.surfaces = {}, {}, {}
-        self.materials, self.sections, self.steps = {}, [], []
+        self.materials, self.sections, self.steps, self.supports = {}, [], [], []
         self._material, self._in_step = None, False
         for card in cards(path):
             self._take(card)
@@ -103,6 +104,9 @@ class Reader:
         method = getattr(self, "take_" + card.name.lower().replace(" ", "_"), None)
         if method and not (self._in_step and card.name != "END STEP"):
             method(card)
+
+    def take_boundary(self, card):
+        self.supports.append(card)
 
     def take_step(self, _card):
         self._in_step = True
@@ -179,6 +183,8 @@ class Reader:
         words = [word for word in card.lines[0] if word] if card.lines else []
         if len(words) < 2:
             raise Error(f"{card.place}: *ELASTIC needs E and nu")
+        if len(card.lines) > 1:
+            raise Error(f"{card.place}: *ELASTIC depends on the temperature: give one line, E and nu")
         young, poisson = (_value(card, word) for word in words[:2])
         if not (young > 0.0 and -1.0 < poisson < 0.5):
             raise Error(f"{card.place}: E = {young:g}, nu = {poisson:g}: use E > 0 and -1 < nu < 0.5")
@@ -222,7 +228,7 @@ class Reader:
             blocks.append(Block(kind, np.array([n for n, _ in chosen]), nodes, *constants.T.copy()))
         points = np.array([self.nodes[number] for number in used.tolist()])
         sets = {name: np.searchsorted(used, np.intersect1d(used, n)) for name, n in self.node_sets.items()}
-        return Deck(Mesh(points, blocks, sets, self.surfaces, used), self.element_sets, self.steps)
+        return Deck(Mesh(points, blocks, sets, self.surfaces, used), self.element_sets, self.steps, self.supports)
 
 
 def read(path):

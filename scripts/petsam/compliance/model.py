@@ -96,6 +96,7 @@ class Model:
         origin, x, z = (list(options.frame) + [None, None])[:3]
         self.frame = frame_of(np.array(origin) * units.length, x, z, outward)
         self.mesh = mesh.turned(self.frame.origin, self.frame.axes)
+        load_cases.need_supports(self.deck, self.mesh, self.frame, units, self.supported)
         self.contact = faces
         self.patch = Patch(options.center, tuple(0.5 * side for side in options.patch), options.degree)
 

@@ -3,7 +3,6 @@
 import numpy as np
 
 from ..errors import Error, short
-from ..studies import unit_of_option
 from . import symbols
 from .style import MARKED, colors, logarithmic, need_few, plt
 from .units import label, largest, plain, scale, written
@@ -121,8 +120,8 @@ def rows(study, where=()):
     return chosen
 
 
-def _text(name, value):
-    unit = written(unit_of_option(name))
+def _text(study, name, value):
+    unit = written(study.unit_of_input(name))
     return (
         f"{plain(name)} = {value:g} {unit}".rstrip() if isinstance(value, float) else f"{plain(name)} = {plain(value)}"
     )
@@ -193,7 +192,7 @@ def _curves(studies, other, by, where):
         names, curves = groups(study, other, by, rows(study, where))
         who = [plain(study.label)] if len(studies) > 1 else []
         for (key, cases), (color, mark) in zip(curves, _styles(curves)):
-            text = ", ".join([*who, *(_text(name, value) for name, value in zip(names, key))])
+            text = ", ".join([*who, *(_text(study, name, value) for name, value in zip(names, key))])
             found.append([study, text, color, mark, cases])
     if len(studies) > 1:  # colours tell the curves of several studies apart
         for curve, color in zip(found, colors(len(found))):
@@ -254,5 +253,5 @@ def _abscissa(curves, other):
     """Factor and unit of what is drawn over; an input has the numbers that the table gives."""
     study = curves[0][0]
     if other in study.inputs:
-        return 1.0, written(unit_of_option(other))
+        return 1.0, written(study.unit_of_input(other))
     return scale(study.column(other)[1], largest(study.column(other)[0][cases] for study, _, _, _, cases in curves))

@@ -204,7 +204,9 @@ def random_map(options):
     values = generation.heights(spectrum, options.grid_n, options.size, shortest, options.seed, rms)
     quantity = "separation" if options.separation else (options.body or ["height2"])[0]
     print(f"random surface: {QUANTITIES[quantity]}\n  seed {options.seed}")
-    return new_map(values, options.size, quantity, options.output)
+    one = new_map(values, options.size, quantity, options.output)
+    warn_of_unit(one, options.output)
+    return one
 
 
 def _joined(words):
@@ -216,6 +218,18 @@ def _joined(words):
     return joined
 
 
+def warn_of_unit(one, name, more=""):
+    """A warning of heights beyond the size."""
+    if peak_to_valley(one) > max(one.size):
+        texts = [shown(value) for value in (peak_to_valley(one), max(one.size))]
+        print(
+            "petsam-surface: warning: {}: peak to valley {} is more than the size {}: check the unit{}".format(
+                short(name), *texts, more
+            ),
+            file=sys.stderr,
+        )
+
+
 def prepared(path, options, quantity):
     """The processed map of one file; prints the steps."""
     one, remarks = read_map(path, options, quantity)
@@ -225,13 +239,7 @@ def prepared(path, options, quantity):
     one, missing = filled(one, options.fill)
     if missing:
         remarks.append(f"{missing} missing point{'s' if missing > 1 else ''} filled ({options.fill})")
-    if peak_to_valley(one) > max(one.size):
-        texts = [shown(value) for value in (peak_to_valley(one), max(one.size))]
-        print(
-            "petsam-surface: warning: {}: peak to valley {} is more than the size {}: check the unit, and "
-            "give the value of missing points by --missing".format(short(path), *texts),
-            file=sys.stderr,
-        )
+    warn_of_unit(one, path, ", and give the value of missing points by --missing")
     one, taken = levels.levelled(one, options.level)
     if taken:
         remarks.append(taken)

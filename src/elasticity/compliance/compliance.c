@@ -452,7 +452,7 @@ static PetscErrorCode Add(SamElasticity *elasticity, const SamOptions *from, Pet
     *elasticity     = e;
     e->traits.patch = PETSC_TRUE;
   }
-  PetscCall(SamComplianceRead(from->comm, b, option, file, &c));
+  PetscCall(SamComplianceRead(from->comm, b, &e->pair.layers[b], option, file, &c));
   ((Bodies *)e->data)->of[b] = c;
   PetscCall(CheckConstants(e, from, c));
   PetscCall(NotePatch(e, from, c));

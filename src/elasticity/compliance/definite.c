@@ -6,44 +6,78 @@
   A Phi K^-1 Phi', the eigenvalues of K + A Phi'D Phi relative to K are 1 and 1 + those of D G.
 */
 #include <petsam/private/compliance.h>
-#include <petsam/private/halfspace.h>
 #include <math.h>
 #include <petscksp.h>
 
-enum { SIDE = 20, CELLS = SIDE * SIDE, UNKNOWNS = 3 * CELLS };
+enum { SIDE = 20, CELLS = SIDE * SIDE, UNKNOWNS = 3 * CELLS, LAGS = 2 * SIDE, TABLE = LAGS * LAGS };
 
-/* From traction `from` on a cell to displacement `to` >= `from` of the one (i, j) cells farther on. */
-static double Influence(const SamPair *pair, int to, int from, const double d[2], PetscInt i, PetscInt j)
+/* Displacements (3, LAGS, LAGS) of the cells about the middle one by a unit traction of each direction there. */
+static PetscErrorCode FillTable(SamElasticity e, double table[])
 {
-#define OF(integral) SamIntegralCell(SAM_INTEGRAL_##integral, d[0], d[1], i, j)
-  if (to == 2 && from == 2) return pair->normal * OF(R);
-  if (to == 2) return -pair->coupling * (from ? OF(Y) : OF(X));
-  if (to != from) return pair->shear_xx * OF(XY);
-  return pair->shear * OF(R) + pair->shear_xx * (to ? OF(YY) : OF(XX));
-#undef OF
-}
-
-/* The lower triangle of K of the half-space under a rigid body, by columns. */
-static PetscErrorCode Fill(SamCompliance c, const double d[2], double matrix[])
-{
-  enum { LAGS = 2 * SIDE, TABLE = LAGS * LAGS };
-  const PetscReal young[2] = {INFINITY, c->young}, poisson[2] = {0, c->poisson};
-  double         *table;
-  SamPair         pair;
+  const PetscInt middle = SIDE * LAGS + SIDE;
+  Vec            field[2], moved[2];
+  const double  *u;
 
   PetscFunctionBegin;
-  PetscCall(SamPairSet(&pair, young, poisson));
-  PetscCall(PetscMalloc1(9 * TABLE, &table));
-  for (int k = 0; k < 9 * TABLE; k++)
-    table[k] = Influence(&pair, k / TABLE / 3, k / TABLE % 3, d, k % LAGS - SIDE, k % TABLE / LAGS - SIDE);
+  for (PetscInt k = 0; k < 2; k++) {
+    PetscCall(SamGridCreateVec(e->grid, k + 1, &field[k]));
+    PetscCall(SamGridCreateVec(e->grid, k + 1, &moved[k]));
+  }
+  for (PetscInt from = 0; from < 3; from++) {
+    const PetscInt k = from == 2 ? 0 : 1;
+
+    PetscCall(VecZeroEntries(field[k]));
+    PetscCall(VecSetValue(field[k], k * from * TABLE + middle, 1, INSERT_VALUES));
+    PetscCall(VecAssemblyBegin(field[k]));
+    PetscCall(VecAssemblyEnd(field[k]));
+    if (k) {
+      PetscCall(SamElasticityApplyTangential(e, field[1], moved[1]));
+      PetscCall(VecGetArrayRead(moved[1], &u));
+      PetscCall(PetscArraycpy(table + 3 * from * TABLE, u, 2 * TABLE));
+      PetscCall(VecRestoreArrayRead(moved[1], &u));
+      if (e->traits.coupled) PetscCall(SamElasticityApplyTangentialToNormal(e, field[1], moved[0]));
+    } else {
+      PetscCall(SamElasticityApplyNormal(e, field[0], moved[0]));
+    }
+    PetscCall(VecGetArrayRead(moved[0], &u));
+    PetscCall(PetscArraycpy(table + (3 * from + 2) * TABLE, u, TABLE));
+    PetscCall(VecRestoreArrayRead(moved[0], &u));
+  }
+  for (PetscInt k = 0; k < 2; k++) {
+    PetscCall(VecDestroy(&field[k]));
+    PetscCall(VecDestroy(&moved[k]));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The lower triangle of K of the half-space, with its layers, under a rigid body, by columns. */
+static PetscErrorCode Fill(SamCompliance c, const SamLayers *layers, const double d[2], double matrix[])
+{
+  const PetscReal young[2] = {INFINITY, c->young}, poisson[2] = {0, c->poisson};
+  const PetscReal width[2] = {LAGS * d[0], LAGS * d[1]}, center[2] = {0, 0};
+  const SamLayers both[2] = {{.count = 0}, *layers};
+  SamElasticity   e;
+  SamGrid         grid;
+  SamPair         pair;
+  double         *table;
+
+  PetscFunctionBegin;
+  PetscCall(SamPairSetLayered(&pair, young, poisson, both));
+  PetscCall(SamGridCreate(PETSC_COMM_SELF, (PetscInt[]){LAGS, LAGS}, width, center, &grid));
+  PetscCall(SamElasticityCreate(grid, &pair, &e));
+  PetscCall(SamElasticitySetType(e, SAM_ELASTICITY_HALFSPACE));
+  PetscCall(PetscCalloc1(9 * TABLE, &table));
+  PetscCall(FillTable(e, table));
   for (int column = 0; column < UNKNOWNS; column++)
     for (int row = column; row < UNKNOWNS; row++) {
       const int from = column % CELLS, to = row % CELLS, i = to % SIDE - from % SIDE, j = to / SIDE - from / SIDE;
 
       matrix[column * UNKNOWNS + row] =
-        table[(row / CELLS * 3 + column / CELLS) * TABLE + (j + SIDE) * LAGS + i + SIDE];
+        table[(column / CELLS * 3 + row / CELLS) * TABLE + (j + SIDE) * LAGS + i + SIDE];
     }
   PetscCall(PetscFree(table));
+  PetscCall(SamElasticityDestroy(&e));
+  PetscCall(SamGridDestroy(&grid));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -65,7 +99,7 @@ static void FillMeans(SamCompliance c, const double d[2], double means[])
 }
 
 /* The compliance of the tractions on the cells relative to the half-space's, less the identity: D G. */
-static PetscErrorCode CreateRelative(SamCompliance c, Mat d, PetscInt n, Mat *relative)
+static PetscErrorCode CreateRelative(SamCompliance c, const SamLayers *layers, Mat d, PetscInt n, Mat *relative)
 {
   const double side[2] = {2 * c->half[0] / SIDE, 2 * c->half[1] / SIDE};
   Mat          matrix, means, solved, g;
@@ -75,7 +109,7 @@ static PetscErrorCode CreateRelative(SamCompliance c, Mat d, PetscInt n, Mat *re
   PetscCall(MatCreateSeqDense(PETSC_COMM_SELF, UNKNOWNS, UNKNOWNS, NULL, &matrix));
   PetscCall(MatCreateSeqDense(PETSC_COMM_SELF, UNKNOWNS, n, NULL, &means));
   PetscCall(MatDenseGetArray(matrix, &values));
-  PetscCall(Fill(c, side, values));
+  PetscCall(Fill(c, layers, side, values));
   PetscCall(MatDenseRestoreArray(matrix, &values));
   PetscCall(MatDenseGetArray(means, &values));
   FillMeans(c, side, values);
@@ -94,8 +128,8 @@ static PetscErrorCode CreateRelative(SamCompliance c, Mat d, PetscInt n, Mat *re
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The smallest of the real eigenvalues of a matrix of order n. */
-static PetscErrorCode FindSmallest(Mat matrix, PetscInt n, double *least)
+/* The smallest and the largest of the real eigenvalues of a matrix of order n. */
+static PetscErrorCode FindEnds(Mat matrix, PetscInt n, double *least, double *most)
 {
   double *real, *imaginary;
   KSP     ksp;
@@ -109,33 +143,42 @@ static PetscErrorCode FindSmallest(Mat matrix, PetscInt n, double *least)
   PetscCall(PCSetType(pc, PCNONE));
   PetscCall(KSPSetUp(ksp));
   PetscCall(KSPComputeEigenvaluesExplicitly(ksp, n, real, imaginary));
-  *least = real[0];
-  for (PetscInt k = 1; k < n; k++) *least = PetscMin(*least, real[k]);
+  *least = *most = real[0];
+  for (PetscInt k = 1; k < n; k++) {
+    *least = PetscMin(*least, real[k]);
+    *most  = PetscMax(*most, real[k]);
+  }
   PetscCall(KSPDestroy(&ksp));
   PetscCall(PetscFree2(real, imaginary));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamComplianceLeast(SamCompliance c, double *least)
+PetscErrorCode SamComplianceEnds(SamCompliance c, const SamLayers *layers, double *least, double *most)
 {
   const PetscInt n = 3 * c->modes;
-  double        *values, most = 0;
-  Mat            d, relative  = NULL;
+  double        *values, entry = 0;
+  PetscReal      norm;
+  Mat            d, relative = NULL;
 
   PetscFunctionBegin;
   PetscCall(MatCreateSeqDense(PETSC_COMM_SELF, n, n, NULL, &d));
   PetscCall(MatDenseGetArray(d, &values));
   for (PetscInt k = 0; k < n * n; k++) {
     values[k] = c->matrix[k % n / c->modes][k % c->modes][k / n / c->modes][k / n % c->modes];
-    most      = PetscMax(most, fabs(values[k]));
+    entry     = PetscMax(entry, fabs(values[k]));
   }
   PetscCall(MatDenseRestoreArray(d, &values));
-  if (!isinf(c->young)) PetscCall(CreateRelative(c, d, n, &relative));
-  PetscCall(FindSmallest(relative ? relative : d, n, least));
-  if (relative)
+  if (!isinf(c->young)) PetscCall(CreateRelative(c, layers, d, n, &relative));
+  PetscCall(MatNorm(relative ? relative : d, NORM_FROBENIUS, &norm));
+  *least = *most = NAN; /* of what is not finite, by which LAPACK would end the process with exit code 0 */
+  if (isfinite(norm)) PetscCall(FindEnds(relative ? relative : d, n, least, most));
+  if (relative) {
     *least += 1;
-  else if (*least > -1e-9 * most)
-    *least = 0;
+    *most += 1;
+  } else {
+    if (*least > -1e-9 * entry) *least = 0;
+    *most = 1;
+  }
   PetscCall(MatDestroy(&relative));
   PetscCall(MatDestroy(&d));
   PetscFunctionReturn(PETSC_SUCCESS);

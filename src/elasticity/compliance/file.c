@@ -6,7 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-#define RANK 6 /* most dimensions of what is read */
+#define RANK 6     /* most dimensions of what is read */
+#define SOFT 10000 /* times the half-space's compliance: by as much errors of pressures exceed the tolerance */
 
 /* `size` 0 in a dimension: any number up to `most`, which it becomes. */
 typedef struct {
@@ -207,11 +208,11 @@ static PetscErrorCode Look(SamFile f, const void *question, void *answer)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamComplianceRead(MPI_Comm comm, PetscInt body, const char option[], const char file[],
-                                 SamCompliance *compliance)
+PetscErrorCode SamComplianceRead(MPI_Comm comm, PetscInt body, const SamLayers *layers, const char option[],
+                                 const char file[], SamCompliance *compliance)
 {
   SamCompliance c;
-  double        least;
+  double        least, most;
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&c));
@@ -222,12 +223,16 @@ PetscErrorCode SamComplianceRead(MPI_Comm comm, PetscInt body, const char option
   c->references = 1;
   c->body       = body;
   PetscCall(PetscStrncpy(c->file, file, sizeof(c->file)));
-  PetscCall(SamComplianceLeast(c, &least));
+  PetscCall(SamComplianceEnds(c, layers, &least, &most));
   PetscCheck(least > 0 || (isinf(c->young) && least == 0), comm, SAM_ERR_FILE,
              "-%s %s: under some traction the body would gain energy: the smallest eigenvalue of its compliance is "
              "%.3g of the half-space's, degree %" PetscInt_FMT ", patch %.6g m x %.6g m: use a higher degree or a "
              "smaller patch",
              option, file, least, c->degree, 2 * c->half[0], 2 * c->half[1]);
+  PetscCheck(most <= SOFT, comm, SAM_ERR_FILE,
+             "-%s %s: under some traction the body is %.3g times as compliant as the half-space, limit %d: its "
+             "pressures would be inaccurate: support the body more stiffly",
+             option, file, most, SOFT);
   for (PetscInt l = 0; l < c->cases; l++) {
     PetscBool room;
 

@@ -72,7 +72,7 @@ PetscErrorCode SamBalanceLever(SamGrid grid, const SamBalance *balance, char mes
                                PetscBool *possible)
 {
   const PetscReal sign[3] = {1, -1, 1}; /* lever of Mx along -y, of My along x */
-  const char     *axis[3] = {"", "y", "x"};
+  const char     *axis[3] = {"", "y", "x"}, *force = SamUnitOn(grid, "N"), *moment = SamUnitOn(grid, "N m");
 
   PetscFunctionBegin;
   *possible  = PETSC_TRUE;
@@ -88,8 +88,8 @@ PetscErrorCode SamBalanceLever(SamGrid grid, const SamBalance *balance, char mes
     if (balance->load[0] == 0) {
       *possible = balance->load[k] == 0;
       if (!*possible)
-        PetscCall(PetscSNPrintf(message, size, "%s = %.6g N m needs a normal force to balance it, and load_n is 0",
-                                name, (double)balance->load[k]));
+        PetscCall(PetscSNPrintf(message, size, "%s = %.6g %s needs a normal force to balance it, and load_n is 0", name,
+                                (double)balance->load[k], moment));
       continue;
     }
     lever = sign[k] * balance->load[k] / balance->load[0];
@@ -97,11 +97,11 @@ PetscErrorCode SamBalanceLever(SamGrid grid, const SamBalance *balance, char mes
     *possible = PETSC_FALSE;
     PetscCall(
       PetscSNPrintf(message, size,
-                    "%s = %.6g N m under load_n = %.6g N: the resultant lies at %s = %.6g m, the grid's cells from "
-                    "%.6g to %.6g m, so no pressure on this grid balances it (limits %.6g and %.6g N m)",
-                    name, (double)balance->load[k], (double)balance->load[0], axis[k], (double)lever, (double)first,
-                    (double)last, (double)(sign[k] * (k == 1 ? last : first) * balance->load[0]),
-                    (double)(sign[k] * (k == 1 ? first : last) * balance->load[0])));
+                    "%s = %.6g %s under load_n = %.6g %s: the resultant lies at %s = %.6g m, the grid's cells from "
+                    "%.6g to %.6g m, so no pressure on this grid balances it (limits %.6g and %.6g %s)",
+                    name, (double)balance->load[k], moment, (double)balance->load[0], force, axis[k], (double)lever,
+                    (double)first, (double)last, (double)(sign[k] * (k == 1 ? last : first) * balance->load[0]),
+                    (double)(sign[k] * (k == 1 ? first : last) * balance->load[0]), moment));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -132,6 +132,7 @@ PetscErrorCode SamBalanceCapacity(SamGrid grid, const SamBalance *balance, Petsc
 {
   const double cell = grid->dx * grid->dy, most = (double)limit * cell * (double)grid->nx * (double)grid->ny,
                load = (double)balance->load[0];
+  const char *force = SamUnitOn(grid, "N"), *moment = SamUnitOn(grid, "N m");
 
   PetscFunctionBegin;
   *possible  = PETSC_TRUE;
@@ -141,8 +142,8 @@ PetscErrorCode SamBalanceCapacity(SamGrid grid, const SamBalance *balance, Petsc
   if (!*possible)
     PetscCall(PetscSNPrintf(
       message, size,
-      "load_n = %.8g N exceeds the load that the whole grid carries under pressure_limit = %.6g Pa (limit %.8g N)",
-      load, (double)limit, most));
+      "load_n = %.8g %s exceeds the load that the whole grid carries under pressure_limit = %.6g Pa (limit %.8g %s)",
+      load, force, (double)limit, most, force));
   for (PetscInt k = 1; k < 3 && *possible; k++) {
     const double sign  = k == 1 ? -1 : 1, /* lever of Mx along -y, of My along x */
       place            = sign * (double)balance->load[k] / load,
@@ -152,12 +153,12 @@ PetscErrorCode SamBalanceCapacity(SamGrid grid, const SamBalance *balance, Petsc
 
     if (!balance->force[k] || (place >= first - room && place <= last + room)) continue;
     *possible = PETSC_FALSE;
-    PetscCall(
-      PetscSNPrintf(message, size,
-                    "%s = %.6g N m under load_n = %.6g N: pressures up to pressure_limit = %.6g Pa on this grid do "
-                    "not balance it (limits %.6g and %.6g N m)",
-                    SamComponentNames[SamComponentsOf[SAM_BALANCE_NORMAL][k]].load, (double)balance->load[k], load,
-                    (double)limit, (k == 1 ? -last : first) * load, (k == 1 ? -first : last) * load));
+    PetscCall(PetscSNPrintf(
+      message, size,
+      "%s = %.6g %s under load_n = %.6g %s: pressures up to pressure_limit = %.6g Pa on this grid do "
+      "not balance it (limits %.6g and %.6g %s)",
+      SamComponentNames[SamComponentsOf[SAM_BALANCE_NORMAL][k]].load, (double)balance->load[k], moment, load, force,
+      (double)limit, (k == 1 ? -last : first) * load, (k == 1 ? -first : last) * load, moment));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
