@@ -391,7 +391,7 @@ def test_wear_ends_with_contact_of_what_stuck_from_the_first(petsam, tmp_path):
 
     c = 0.6 * A
     d, u = approach(A), MU * (approach(A) - approach(c))
-    rows = [(0.0, d, 0.0), (1.0, d, u), (3.0, d, -u), (4.0, d, 0.0)]
+    rows = [(t, float(d), float(s)) for t, s in ((0.0, 0.0), (1.0, u), (3.0, -u), (4.0, 0.0))]
     case = dict(CYLINDER, load_n=None, grid_n=300, steps=8, wear_coefficient2=1e-13, wear_cycles=1e6, wear_rtol=1e-2)
     petsam(case, history(tmp_path / "h.csv", "time,disp_z,disp_x", *rows), dict(output="r.h5"))
     load = (d - c * c / (4 * R)) * np.pi * E_STAR / 2 / np.log(2 * WIDTH / c)
