@@ -268,6 +268,47 @@ def test_case_that_moves_the_surface_moves_the_body(number, signs, solve, layer,
         assert l2(getattr(r, name), getattr(plain, name)) < 1e-6, name
 
 
+def points(file, x, y, field):
+    """Another file, whose only load case, bend, is given at points."""
+    with h5py.File(file, "a") as f:
+        f.pop("cases", None)
+        f.update({"cases/bend/x": x, "cases/bend/y": y, "cases/bend/field": field})
+    return file
+
+
+def test_case_at_points_is_fitted_by_the_polynomials(solve, tmp_path):
+    """Scattered ones; u_z = 2e-4 x^2 - 1e-4 x y and u_x = 1e-4 y against the same case by its coefficients."""
+    x, y = np.random.default_rng(3).uniform(-1, 1, (2, 40))
+    table = [(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)]
+    field = np.zeros((6, 3))  # of orthonormal ones: 1/2, sqrt(5)/4 (3 x^2 - 1), 3/2 x y; sqrt(3)/2 y
+    field[0, 2], field[3, 2], field[4, 2] = 2e-4 * 2 / 3, 2e-4 * 4 / 3 / np.sqrt(5), -1e-4 * 2 / 3
+    field[2, 0] = 1e-4 * 2 / np.sqrt(3)
+    known = compliances.write(tmp_path / "a.h5", np.zeros((6, 3, 6, 3)), table=table, cases=dict(bend=field))
+    file = compliances.write(tmp_path / "b.h5", np.zeros((6, 3, 6, 3)), table=table)
+    points(file, x, y, np.stack([1e-4 * y, 0 * x, 2e-4 * x**2 - 1e-4 * x * y], axis=1))
+    given = dict(friction=0.3, disp_z=0.003, disp_x=2e-4, body2_case_bend=1)
+    r, plain = (solve(SPHERE, STEEL, given, dict(body2_compliance=one)) for one in (file, known))
+    for name in ("pressure", "shear_x", "displacement_z"):
+        assert l2(getattr(r, name), getattr(plain, name)) < 1e-9, name
+
+
+@pytest.mark.parametrize(
+    "x, y, field, says",
+    [
+        (np.zeros(8), np.linspace(-1, 1, 8), np.ones((8, 3)), "at 8 points, which do not determine 6 polynomials"),
+        (np.zeros(5), np.zeros(5), np.ones((5, 3)), "at 5 points, which do not determine 6 polynomials"),
+        (np.full(6, 1.5), np.zeros(6), np.ones((6, 3)), "/cases/bend/x has 1.5 m, outside of the patch from -1 to 1 m"),
+        (*np.meshgrid(*2 * [np.linspace(-1, 1, 5)]), None, "differs from polynomials of degree 2 by"),
+        (np.zeros(6), np.zeros(7), np.ones((7, 3)), "/cases/bend/y has a shape that does not fit the others"),
+    ],
+)
+def test_wrong_points_are_refused(x, y, field, says, petsam, tmp_path):
+    x, y = np.ravel(x), np.ravel(y)
+    field = np.abs(x)[:, None] * np.ones(3) if field is None else field
+    file = points(compliances.write(tmp_path / "c.h5", np.zeros((6, 3, 6, 3))), x, y, field)
+    assert says in petsam(SPHERE, STEEL, dict(disp_z=0.003, body2_compliance=file), check=3).stderr
+
+
 @pytest.mark.parametrize("share", [0.5, 0.95, -100])
 def test_check_is_relative_to_the_displacement_by_tractions(share, solve, layer):
     """Of a case that cancels a share of it: the errors were relative to what is left, and the step did not converge."""

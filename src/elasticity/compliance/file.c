@@ -4,10 +4,15 @@
 #include <petsam/private/file.h>
 #include <ctype.h>
 #include <math.h>
+#include <petscdt.h>
+#include <petscmat.h>
 #include <string.h>
 
-#define RANK 6     /* most dimensions of what is read */
-#define SOFT 10000 /* times the half-space's compliance: by as much errors of pressures exceed the tolerance */
+#define RANK        6      /* most dimensions of what is read */
+#define POINTS      100000 /* most at which a load case is given */
+#define INDEPENDENT 1e-6   /* least element over the largest on the diagonal of R, for points that determine them */
+#define REST        1e-2   /* of a load case's range: the most by which polynomials may differ from it */
+#define SOFT        10000  /* times the half-space's compliance: by as much errors of pressures exceed the tolerance */
 
 /* `size` 0 in a dimension: any number up to `most`, which it becomes. */
 typedef struct {
@@ -96,6 +101,118 @@ static PetscErrorCode ReadMatrix(SamFile f, SamCompliance c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The polynomials at places along an axis. */
+static PetscErrorCode ValuesAt(SamCompliance c, int axis, PetscInt n, const double at[], PetscReal values[])
+{
+  PetscInt   degrees[SAM_COMPLIANCE_DEGREE + 1];
+  PetscReal *t;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(n, &t));
+  for (PetscInt k = 0; k <= c->degree; k++) degrees[k] = k;
+  for (PetscInt k = 0; k < n; k++) t[k] = (at[k] - c->center[axis]) / c->half[axis];
+  PetscCall(PetscDTLegendreEval(n, t, c->degree + 1, degrees, values, NULL, NULL));
+  PetscCall(PetscFree(t));
+  for (PetscInt k = 0; k < n * (c->degree + 1); k++)
+    values[k] *= sqrt((2 * (double)(k % (c->degree + 1)) + 1) / (2 * c->half[axis]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
+  Coefficients of the polynomials nearest to values (n, 3) at n >= c->modes points; `rest`: the largest deviation over
+  their range, NaN where the points do not determine the polynomials.
+*/
+static PetscErrorCode Fit(SamCompliance c, PetscInt n, const double *const at[2], const double values[],
+                          double field[][3], double *rest)
+{
+  const PetscInt degrees = c->degree + 1;
+  PetscReal     *along[2], *a, least = PETSC_INFINITY, most = 0;
+  Mat            matrix, factor;
+  Vec            b, solution;
+
+  PetscFunctionBegin;
+  *rest = 0;
+  PetscCall(PetscMalloc2(n * degrees, &along[0], n * degrees, &along[1]));
+  for (int d = 0; d < 2; d++) PetscCall(ValuesAt(c, d, n, at[d], along[d]));
+  PetscCall(MatCreateSeqDense(PETSC_COMM_SELF, n, c->modes, NULL, &matrix));
+  PetscCall(MatDenseGetArray(matrix, &a));
+  for (PetscInt m = 0; m < c->modes; m++)
+    for (PetscInt k = 0; k < n; k++)
+      a[m * n + k] = along[0][k * degrees + c->power[m][0]] * along[1][k * degrees + c->power[m][1]];
+  PetscCall(MatDenseRestoreArray(matrix, &a));
+  PetscCall(MatDuplicate(matrix, MAT_COPY_VALUES, &factor));
+  PetscCall(MatQRFactor(factor, NULL, NULL));
+  PetscCall(MatDenseGetArray(factor, &a));
+  for (PetscInt m = 0; m < c->modes; m++) {
+    least = PetscMin(least, fabs(a[m * n + m]));
+    most  = PetscMax(most, fabs(a[m * n + m]));
+  }
+  PetscCall(MatDenseRestoreArray(factor, &a));
+  if (!(least > INDEPENDENT * most)) *rest = NAN;
+  PetscCall(MatCreateVecs(matrix, &solution, &b));
+  for (PetscInt d = 0; d < 3 && !isnan(*rest); d++) {
+    double range[2] = {values[d], values[d]};
+
+    PetscCall(VecGetArray(b, &a));
+    for (PetscInt k = 0; k < n; k++) {
+      a[k]     = values[3 * k + d];
+      range[0] = PetscMin(range[0], a[k]);
+      range[1] = PetscMax(range[1], a[k]);
+    }
+    PetscCall(VecRestoreArray(b, &a));
+    PetscCall(MatSolve(factor, b, solution));
+    PetscCall(VecGetArray(solution, &a));
+    for (PetscInt m = 0; m < c->modes; m++) field[m][d] = a[m];
+    PetscCall(VecRestoreArray(solution, &a));
+    PetscCall(VecScale(b, -1));
+    PetscCall(MatMultAdd(matrix, solution, b, b));
+    PetscCall(VecGetArray(b, &a));
+    for (PetscInt k = 0; k < n && range[1] > range[0]; k++) *rest = PetscMax(*rest, fabs(a[k]) / (range[1] - range[0]));
+    PetscCall(VecRestoreArray(b, &a));
+  }
+  PetscCall(VecDestroy(&b));
+  PetscCall(VecDestroy(&solution));
+  PetscCall(MatDestroy(&factor));
+  PetscCall(MatDestroy(&matrix));
+  PetscCall(PetscFree2(along[0], along[1]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* A load case that is given at points of the patch: x, y and field (points, 3), m. */
+static PetscErrorCode ReadPoints(SamFile f, SamCompliance c, const char name[], double field[][3])
+{
+  Shape       line = {1, {0}, POINTS}, table;
+  char        path[64];
+  double     *at[2], *values, rest = NAN;
+  const char *axes[2] = {"x", "y"};
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc3(POINTS, &at[0], POINTS, &at[1], 3 * POINTS, &values));
+  for (int d = 0; d < 2; d++) {
+    (void)snprintf(path, sizeof(path), "/cases/%s/%s", name, axes[d]);
+    PetscCall(ReadNumbers(f, path, &line, at[d]));
+    for (hsize_t k = 0; k < line.size[0]; k++)
+      PetscCheck(fabs(at[d][k] - c->center[d]) <= c->half[d] * (1 + 1e-9), f->comm, SAM_ERR_FILE,
+                 "-%s %s: %s has %.6g m, outside of the patch from %.6g to %.6g m: give points in the patch", f->option,
+                 f->filename, path, at[d][k], c->center[d] - c->half[d], c->center[d] + c->half[d]);
+  }
+  table = (Shape){2, {line.size[0], 3}, 0};
+  (void)snprintf(path, sizeof(path), "/cases/%s/field", name);
+  PetscCall(ReadNumbers(f, path, &table, values));
+  if ((PetscInt)line.size[0] >= c->modes)
+    PetscCall(Fit(c, (PetscInt)line.size[0], (const double *const[]){at[0], at[1]}, values, field, &rest));
+  PetscCheck(!isnan(rest), f->comm, SAM_ERR_FILE,
+             "-%s %s: load case %s is given at %d points, which do not determine %" PetscInt_FMT
+             " polynomials: give more points, all over the patch",
+             f->option, f->filename, name, (int)line.size[0], c->modes);
+  PetscCheck(rest <= REST, f->comm, SAM_ERR_FILE,
+             "-%s %s: the displacement of load case %s differs from polynomials of degree %" PetscInt_FMT
+             " by %.2g of its range, limit %g: use a higher degree or a smaller patch",
+             f->option, f->filename, name, c->degree, rest, REST);
+  PetscCall(PetscFree3(at[0], at[1], values));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* The load cases, in the order of their names. */
 static PetscErrorCode ReadCases(SamFile f, SamCompliance c)
 {
@@ -120,8 +237,13 @@ static PetscErrorCode ReadCases(SamFile f, SamCompliance c)
     PetscCheck(good, f->comm, SAM_ERR_FILE,
                "-%s %s: a load case is named %s: expected at most %d letters, digits and underscores", f->option,
                f->filename, name, SAM_CASE_NAME);
-    (void)snprintf(path, sizeof(path), "/cases/%s/displacement", name);
-    PetscCall(ReadNumbers(f, path, &shape, field[0]));
+    (void)snprintf(path, sizeof(path), "/cases/%s/field", name);
+    if (H5Lexists(f->id, path, H5P_DEFAULT) > 0) {
+      PetscCall(ReadPoints(f, c, name, field));
+    } else {
+      (void)snprintf(path, sizeof(path), "/cases/%s/displacement", name);
+      PetscCall(ReadNumbers(f, path, &shape, field[0]));
+    }
     for (PetscInt m = 0; m < 3 * c->modes; m++) c->field[c->cases][m % 3][m / 3] = field[m / 3][m % 3];
     c->cases++;
   }
