@@ -131,7 +131,7 @@ def test_turned_pad_is_the_pad_turned(solve):
 
 
 def test_lundbergs_roller_bears_evenly_along_its_length(solve):
-    """With the crown of its load: the pressure of a line contact up to near the ends; with little crown a peak there."""
+    """With the crown of its load as a line contact, up to near the ends; with little crown there is a peak there."""
     radius, half, line = 0.01, 5e-3, 2e5
     a = np.sqrt(4 * line * radius / np.pi / E_STAR)
     case = dict(

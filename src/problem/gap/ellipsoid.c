@@ -93,10 +93,10 @@ PetscErrorCode SamGapCreate_Ellipsoid(SamGap gap)
 /* ---- two bodies at an angle ---- */
 
 static const SamGapParameter curved[] = {
-  {"gap_radius1_x", "radius of body 1 along x (m, inf: cylindrical, < 0: concave)", SAM_RANGE_NOT_ZERO},
-  {"gap_radius1_y", "radius of body 1 along y (m, inf: cylindrical, < 0: concave)", SAM_RANGE_NOT_ZERO},
-  {"gap_radius2_x", "radius of body 2 along its x (m, inf: cylindrical, < 0: concave)", SAM_RANGE_NOT_ZERO},
-  {"gap_radius2_y", "radius of body 2 along its y (m, inf: cylindrical, < 0: concave)", SAM_RANGE_NOT_ZERO},
+  {"gap_radius1_x", "radius of body 1 along x (m, inf: cylinder, < 0: concave)", SAM_RANGE_NOT_ZERO},
+  {"gap_radius1_y", "radius of body 1 along y (m, inf: cylinder, < 0: concave)", SAM_RANGE_NOT_ZERO},
+  {"gap_radius2_x", "radius of body 2 along its x (m, inf: cylinder, < 0: concave)", SAM_RANGE_NOT_ZERO},
+  {"gap_radius2_y", "radius of body 2 along its y (m, inf: cylinder, < 0: concave)", SAM_RANGE_NOT_ZERO},
   {"gap_angle", "angle from x to the x of body 2 (degrees)", SAM_RANGE_ANY}};
 
 static const PetscReal curved_defaults[] = {INFINITY, INFINITY, INFINITY, INFINITY, 0};
