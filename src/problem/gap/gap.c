@@ -220,7 +220,7 @@ PetscErrorCode SamGapSetFromOptions(SamGap gap)
   PetscCall(SamPrintHelp(&help));
   PetscCall(SamOptionsHeading(&from, "Gap"));
   PetscCall(SamTypesList(SamGapList, list, sizeof(list)));
-  PetscCall(PetscSNPrintf(text, sizeof(text), "%s: required, or a file", list));
+  PetscCall(PetscSNPrintf(text, sizeof(text), "%s: required", list));
   PetscCall(PetscOptionsHasName(NULL, gap->prefix, "-gap_file", &file));
   PetscCall(PetscStrncpy(type, file && !gap->type[0] ? SAM_GAP_FILE : gap->type, sizeof(type)));
   PetscCall(SamTypesOption(SamGapList, &from, "gap_type", text, type, sizeof(type), &set));
