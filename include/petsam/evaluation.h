@@ -82,8 +82,8 @@ PETSC_EXTERN PetscErrorCode SamEvaluationSetFatigueLength(SamEvaluation evaluati
 /* SamEvaluationSetFromOptions - reads these options. Collective. Errors: SAM_ERR_USER. */
 PETSC_EXTERN PetscErrorCode SamEvaluationSetFromOptions(SamEvaluation evaluation, const SamOptions *from);
 /*
-  SamEvaluationNeedsHalfWidth - whether -depths has depths in half widths of the contact: then SamEvaluationSetHalfWidth()
-  sets one (m), before SamEvaluationSetUp(). Neither is collective. Errors: SAM_ERR_USER for depths that do not increase.
+  SamEvaluationNeedsHalfWidth - whether -depths has depths in half widths of the contact, which
+  SamEvaluationSetHalfWidth() sets (m). Neither is collective. Errors: SAM_ERR_USER for depths that do not increase.
 */
 PETSC_EXTERN PetscErrorCode SamEvaluationNeedsHalfWidth(SamEvaluation evaluation, PetscBool *needs);
 PETSC_EXTERN PetscErrorCode SamEvaluationSetHalfWidth(SamEvaluation evaluation, PetscReal half);

@@ -62,7 +62,8 @@ PetscErrorCode SamStressRunHalfWidth(SamStressRun *run)
   }
   PetscCall(SamEvaluationSetHalfWidth(run->evaluation, (PetscReal)half));
   if (!run->quiet)
-    PetscCall(PetscPrintf(run->grid->comm, "a = %g m, the half width (smaller half axis) of the contact of step %ld\n",
-                          half, (long)step));
+    PetscCall(PetscPrintf(run->grid->comm,
+                          "a = %.6g m, the half width (smaller half axis) of the contact of step %ld\n", half,
+                          (long)step));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
