@@ -138,7 +138,7 @@ static PetscErrorCode ReadDepths(const SamOptions *from, SamEvaluation e)
 
   PetscFunctionBegin;
   PetscCall(SamOptionsString(from, "depths",
-                             "depths, m: 0,1e-5; first:last:number; 0.5a: half widths; 2e-6-, 2e-6+: sides", text,
+                             "m: 0,1e-5 or first:last:number; 0.5a: half widths; 2e-6-, 2e-6+: sides", text,
                              sizeof(text), NULL));
   PetscCall(PetscFree(e->depths_text));
   PetscCall(PetscStrallocpy(text, &e->depths_text));

@@ -6,7 +6,7 @@ import pytest
 
 import conftest
 from support import SPHERE, hertz
-from test_plane import A, CYLINDER
+from test_plane import CYLINDER, A
 from test_shapes import INF, STEEL, elliptic_hertz, relative
 
 PROGRAM = conftest.PROGRAM.with_name("petsam-stress")
