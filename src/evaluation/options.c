@@ -137,9 +137,8 @@ static PetscErrorCode ReadDepths(const SamOptions *from, SamEvaluation e)
   char text[TEXT] = "0";
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsString(from, "depths",
-                             "m: 0,1e-5 or first:last:number; 0.5a: half widths; 2e-6-, 2e-6+: sides", text,
-                             sizeof(text), NULL));
+  PetscCall(SamOptionsString(from, "depths", "m: 0,1e-5 or first:last:number; 0.5a: half widths; 2e-6-, 2e-6+: sides",
+                             text, sizeof(text), NULL));
   PetscCall(PetscFree(e->depths_text));
   PetscCall(PetscStrallocpy(text, &e->depths_text));
   if (!strchr(text, 'a')) PetscCall(SamEvaluationSetHalfWidth(e, 1));
