@@ -118,6 +118,11 @@ MISTAKES = [
         dict(PIN, gap_radius2_x=-0.0099),
         says=["-gap_type curved: the surfaces cross", "the limit is 0: give a negative radius of larger size"],
     ),
+    mistake(
+        "bore as large as its pin",
+        dict(PIN, gap_radius2_x=-0.01),
+        says=["-gap_type curved: the radii are equal and opposite or infinite", "clearance", "or -gap_type flat"],
+    ),
     mistake("radius 0 for a flat", dict(PIN, gap_radius2_x=0), says=["-gap_radius2_x 0", "other than 0, or inf"]),
     mistake(
         "ends in plane strain", dict(PIN, gap_radius1_y=1, **PLANE), says=["-gap_radius1_y 1", "plane", "give inf"]
@@ -287,6 +292,12 @@ MISTAKES = [
         dict(FLAT, gap_type="ellipsoid", gap_radius_x=0.1, gap_radius_y="inf"),
         code=12,
         says=["axis along y", "both x and y periodic; to continue anyway: -allow_edge_contact"],
+    ),
+    mistake(
+        "pin that fills its bore",
+        dict(PIN, **PLANE, grid_size=1.4e-3, load_n=1e5),
+        code=12,
+        says=["-gap_radius1_x 0.01 (in m), the limit is about 0.1", "or give conforming bodies their own -body2_comp"],
     ),
     mistake("long pad", dict(PAD, grid_size=4e-3), code=12, says=["axis along y", "a section with loads per metre"]),
     mistake("load in mN", dict(load_n=1e6), code=12, says=["edge of the grid", "-grid_size 0.02"]),

@@ -183,7 +183,6 @@ static void test_curved_bodies_add_what_each_has_along_its_axes(void **state)
               Curved);
   AssertShape("-gap_type curved -gap_radius1_x 0.012 -gap_radius2_x 0.012 -gap_angle 90", Sphere);
   AssertShape("-gap_type curved -gap_radius2_x 0.03", Cylinder);
-  AssertShape("-gap_type curved", Flat);
 }
 
 static void test_pads_are_flat_with_round_edges_on_each_side(void **state)

@@ -170,6 +170,10 @@ static PetscErrorCode Check_Curved(SamGap gap)
     "-%sgap_type %s: the surfaces cross, their smallest relative curvature is %.6g 1/m, the limit is 0: give a "
     "negative radius of larger size",
     gap->prefix, gap->type, curvature[0]);
+  PetscCheck(curvature[1] > 0, gap->comm, SAM_ERR_USER,
+             "-%sgap_type %s: the radii are equal and opposite or infinite, so all relative curvatures are 0: give a "
+             "clearance between the radii, or -%sgap_type flat",
+             gap->prefix, gap->type, gap->prefix);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
