@@ -6,7 +6,6 @@ from matplotlib.patches import Patch
 
 from ..errors import Error, short
 from ..sliding import REGIMES
-from ..studies import unit_of_option
 from .style import COLORS, bar, logarithmic, need_few, plt
 from .tables import matching, numbers
 from .units import label, largest, plain, scale, written
@@ -115,7 +114,7 @@ def planes(study, over, names=None, where=(), borders=(), logs=()):
         panel.plot(xs[i], ys[j], ".", color="0.25", markersize=3.0, clip_on=False)
         for (criterion, limit), color in zip(borders, COLORS[1:] * len(borders)):
             handles.append(_border(panel, study, over, where, criterion, limit, color))
-        texts = [label(plain(one), written(unit_of_option(one))) for one in over]
+        texts = [label(plain(one), written(study.unit_of_input(one))) for one in over]
         panel.set(xlabel=texts[0], ylabel=texts[1])
         if handles:
             panel.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2)

@@ -254,5 +254,5 @@ def _abscissa(curves, other):
     """Factor and unit of what is drawn over; an input has the numbers that the table gives."""
     study = curves[0][0]
     if other in study.inputs:
-        return 1.0, written(unit_of_option(other))
+        return 1.0, written(study.unit_of_input(other))
     return scale(study.column(other)[1], largest(study.column(other)[0][cases] for study, _, _, _, cases in curves))
