@@ -65,6 +65,7 @@ typedef enum {
   SAM_RANGE_NONNEGATIVE,  /* finite, >= 0 */
   SAM_RANGE_POSITIVE,     /* finite, > 0 */
   SAM_RANGE_POSITIVE_INF, /* > 0, `inf` allowed */
+  SAM_RANGE_NOT_ZERO,     /* any but 0, `inf` allowed */
   SAM_RANGE_PART          /* > 0, < 1 */
 } SamRange;
 

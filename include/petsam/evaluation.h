@@ -82,6 +82,12 @@ PETSC_EXTERN PetscErrorCode SamEvaluationSetFatigueLength(SamEvaluation evaluati
 /* SamEvaluationSetFromOptions - reads these options. Collective. Errors: SAM_ERR_USER. */
 PETSC_EXTERN PetscErrorCode SamEvaluationSetFromOptions(SamEvaluation evaluation, const SamOptions *from);
 /*
+  SamEvaluationNeedsHalfWidth - whether -depths has depths in half widths of the contact, which
+  SamEvaluationSetHalfWidth() sets (m). Neither is collective. Errors: SAM_ERR_USER for depths that do not increase.
+*/
+PETSC_EXTERN PetscErrorCode SamEvaluationNeedsHalfWidth(SamEvaluation evaluation, PetscBool *needs);
+PETSC_EXTERN PetscErrorCode SamEvaluationSetHalfWidth(SamEvaluation evaluation, PetscReal half);
+/*
   SamEvaluationSetElasticity - the bodies, referenced; `settings` of the transforms, NULL: those of the elasticity.
   `source` names the origin of the bodies in messages. Settings and source are not copied. Collective.
 */

@@ -14,8 +14,12 @@ typedef const char *SamGapType;
 #define SAM_GAP_SPHERE    "sphere"    /* -gap_radius1, -gap_radius2 (m, inf: flat): (x^2 + y^2)/2R, 1/R = 1/R1 + 1/R2 */
 #define SAM_GAP_ELLIPSOID "ellipsoid" /* -gap_radius_x, -gap_radius_y (m, inf: cylindrical): x^2/2Rx + y^2/2Ry */
 #define SAM_GAP_PUNCH     "punch" /* -gap_flat_radius c, -gap_edge_radius R (m): 0 for r <= c, (r - c)^2/2R beyond */
-#define SAM_GAP_FLAT      "flat"  /* two planes: 0 */
-#define SAM_GAP_FILE      "file"  /* -gap_file, -gap_dataset (/height): an HDF5 dataset of shape (ny, nx), m */
+#define SAM_GAP_CURVED \
+  "curved" /* -gap_radius1_x, _y, -gap_radius2_x, _y (m), -gap_angle (degrees): two bodies' own radii */
+#define SAM_GAP_PAD    "pad"    /* -gap_half_flat_x, _y, -gap_edge_radius_x, _y (m): flat, with rounded edges */
+#define SAM_GAP_ROLLER "roller" /* -gap_roller_radius, _half_length, _crown, _drop (m): a logarithmic profile */
+#define SAM_GAP_FLAT   "flat"   /* two planes: 0 */
+#define SAM_GAP_FILE   "file"   /* -gap_file, -gap_dataset (/height): an HDF5 dataset of shape (ny, nx), m */
 
 /* SamGapCreate - a gap without a type. Its errors are raised on `comm`. Collective. */
 PETSC_EXTERN PetscErrorCode SamGapCreate(MPI_Comm comm, SamGap *gap);
@@ -55,7 +59,7 @@ PETSC_EXTERN PetscErrorCode SamGapSetFile(SamGap gap, PetscBool rough, const cha
 PETSC_EXTERN PetscErrorCode SamGapGetFileGrid(SamGap gap, PetscInt n[2], PetscReal width[2], PetscReal center[2]);
 /*
   SamGapSetFromOptions - reads -gap_type (required unless a type has been set, or there is -gap_file, whose type is
-  `file`), the options of that type, which are all required unless they have been set, and those of a roughness.
+  `file`), the options of that type, required unless they have been set or have a default, and those of a roughness.
   While the help is printed, the options of all types are listed, none is required, and the gap is left flat.
   Collective. Errors: SAM_ERR_USER for missing or wrong values.
 */

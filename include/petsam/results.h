@@ -56,7 +56,7 @@ PETSC_EXTERN PetscErrorCode SamResultsReadBulkStress(SamResults results, PetscIn
   SamResultsReadNumber - of a load step (from 1): the cycles before the one that it belongs to in a life, 0 in other
   results; or its SamStatus. Collective. Errors: as SamResultsReadBulkStress().
 */
-typedef enum { SAM_RESULTS_CYCLE, SAM_RESULTS_STATUS, SAM_RESULTS_NUMBERS } SamResultsNumber;
+typedef enum { SAM_RESULTS_CYCLE, SAM_RESULTS_STATUS, SAM_RESULTS_CONTACT_AREA, SAM_RESULTS_NUMBERS } SamResultsNumber;
 PETSC_EXTERN PetscErrorCode SamResultsReadNumber(SamResults results, PetscInt step, SamResultsNumber number,
                                                  double *value);
 

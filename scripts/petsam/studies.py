@@ -14,6 +14,7 @@ from .results import DAMAGED, WHOLE, _own, _reason
 # units of petsam's options, by their names
 UNITS = (
     (r"load_(n|tx|ty)", "N"), (r"load_m[xyz]", "N m"), (r"disp_[xyz]|grid_(size|center)|gap_(\w+_)?radius\w*", "m"),
+    (r"gap_half_flat_[xy]|gap_roller_\w+", "m"),
     (r"body[12]_layer_thickness|film_thickness", "m"), (r"body[12]_layer_(young|stress)|film_shear", "Pa"),
     (r"rot_[xyz]", "rad"), (r"body[12]_young|pressure_limit|bulk[12]_stress_\w+", "Pa"),
     (r"wear_coefficient[12]", "1/Pa"), (r"wear_energy[12]", "m3/J"),
@@ -87,8 +88,9 @@ class Study:
         return self.results[bare], self.units[bare]
 
     def unit_of_input(self, name):
-        """Unit of an input; that of the result of the same name, which in plane strain is per metre."""
-        return self.units.get(name) or unit_of_option(name)
+        """Unit of an input: that of the result of its name, in plane strain per metre; else of the option."""
+        unit = unit_of_option(name)
+        return self.units.get(name, unit) if unit else ""
 
     @property
     def names(self):

@@ -123,6 +123,7 @@ static PetscErrorCode SetUp(void *context, const SamArguments *arguments)
   PetscCall(SamResultsGetGrid(run->results, &run->grid));
   PetscCall(CreateBodies(run));
   PetscCall(ReadSteps(run));
+  PetscCall(SamStressRunHalfWidth(run));
   PetscCall(SamEvaluationSetUp(run->evaluation));
   PetscCall(GetMemory(run, &bytes));
   PetscCall(SamMemoryRefuse(run->grid->comm, bytes, "-input", run->request.input, &from));

@@ -74,6 +74,8 @@ const char *SamRangeDescribe(SamRange range)
     return "a number > 0";
   case SAM_RANGE_POSITIVE_INF:
     return "a number > 0 or inf";
+  case SAM_RANGE_NOT_ZERO:
+    return "a number other than 0, or inf";
   case SAM_RANGE_PART:
     return "a number > 0 and < 1";
   default:
@@ -84,9 +86,9 @@ const char *SamRangeDescribe(SamRange range)
 PetscBool SamRangeHas(SamRange range, double value)
 {
   if (isnan(value)) return PETSC_FALSE;
-  if (isinf(value)) return range == SAM_RANGE_POSITIVE_INF && value > 0;
+  if (isinf(value)) return range == SAM_RANGE_NOT_ZERO || (range == SAM_RANGE_POSITIVE_INF && value > 0);
   if (range == SAM_RANGE_NONNEGATIVE) return value >= 0;
-  if (range == SAM_RANGE_ANY) return PETSC_TRUE;
+  if (range == SAM_RANGE_ANY || range == SAM_RANGE_NOT_ZERO) return range == SAM_RANGE_ANY || value != 0;
   return value > 0 && (range != SAM_RANGE_PART || value < 1);
 }
 

@@ -37,6 +37,7 @@ PetscErrorCode SamEvaluationDestroy(SamEvaluation *evaluation)
   PetscCall(SamElasticityDestroy(&e->elasticity));
   PetscCall(PetscFree2(e->depth, e->side));
   PetscCall(PetscFree(e->weight));
+  PetscCall(PetscFree(e->depths_text));
   PetscCall(PetscFree(e->largest));
   PetscCall(PetscFree(e));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -25,7 +25,8 @@ struct _n_SamEvaluation {
   /* settings */
   PetscInt            body, depths;
   PetscReal          *depth;
-  int                *side; /* of an interface at that depth: -1 above, 1 below, 0 not said, or none is there */
+  char               *depths_text; /* of -depths */
+  int                *side;        /* of an interface at that depth: -1 above, 1 below, 0 not said, or none is there */
   PetscBool           section;
   SamSectionAxis      axis;
   PetscReal           place; /* of the section: y along x, x along y, m */

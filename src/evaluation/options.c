@@ -57,18 +57,32 @@ static int Divide(char text[], char at, char *parts[], int most)
 
 /* ---- depths ---- */
 
-#define EXPECTED "expected depths separated by commas, or first:last:number, first < last"
+#define EXPECTED \
+  "expected depths separated by commas, or first:last:number, first < last, in m or as 0.5a in half widths"
+
+/* A depth in m, or behind a number `a`, in half widths of the contact (m). */
+static PetscBool ReadDepth(char text[], PetscReal half, double *value)
+{
+  const size_t    length   = strlen(text);
+  const PetscBool relative = length && text[length - 1] == 'a' ? PETSC_TRUE : PETSC_FALSE;
+  PetscBool       good;
+
+  if (relative) text[length - 1] = '\0';
+  good = ReadNumber(text, value);
+  if (relative) *value *= (double)half;
+  return good;
+}
 
 /* first:last:number */
-static PetscErrorCode ReadRange(MPI_Comm comm, const char whole[], char text[], PetscInt *n, PetscReal **depths,
-                                int **sides)
+static PetscErrorCode ReadRange(MPI_Comm comm, const char whole[], char text[], PetscReal half, PetscInt *n,
+                                PetscReal **depths, int **sides)
 {
   char  *parts[3];
   double ends[2] = {0, 0};
 
   PetscFunctionBegin;
-  PetscCheck(Divide(text, ':', parts, 3) == 3 && ReadNumber(parts[0], &ends[0]) && ReadNumber(parts[1], &ends[1]) &&
-               ReadWhole(parts[2], n) && *n >= 2 && ends[1] > ends[0],
+  PetscCheck(Divide(text, ':', parts, 3) == 3 && ReadDepth(parts[0], half, &ends[0]) &&
+               ReadDepth(parts[1], half, &ends[1]) && ReadWhole(parts[2], n) && *n >= 2 && ends[1] > ends[0],
              comm, SAM_ERR_USER, "%s: " EXPECTED, whole);
   PetscCheck(*n <= MOST_DEPTHS, comm, SAM_ERR_USER, "%s: expected at most %d depths", whole, MOST_DEPTHS);
   PetscCall(PetscCalloc2(*n, depths, *n, sides));
@@ -77,8 +91,8 @@ static PetscErrorCode ReadRange(MPI_Comm comm, const char whole[], char text[], 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode ReadList(MPI_Comm comm, const char whole[], char text[], PetscInt *n, PetscReal **depths,
-                               int **sides)
+static PetscErrorCode ReadList(MPI_Comm comm, const char whole[], char text[], PetscReal half, PetscInt *n,
+                               PetscReal **depths, int **sides)
 {
   char *parts[TEXT / 2];
 
@@ -89,26 +103,45 @@ static PetscErrorCode ReadList(MPI_Comm comm, const char whole[], char text[], P
     double value = 0;
 
     (*sides)[k] = ReadSide(parts[k]);
-    PetscCheck(ReadNumber(parts[k], &value), comm, SAM_ERR_USER, "%s: " EXPECTED, whole);
+    PetscCheck(ReadDepth(parts[k], half, &value), comm, SAM_ERR_USER, "%s: " EXPECTED, whole);
     (*depths)[k] = (PetscReal)value;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode ReadDepths(const SamOptions *from, SamEvaluation e)
+PetscErrorCode SamEvaluationSetHalfWidth(SamEvaluation e, PetscReal half)
 {
-  char       text[TEXT] = "0", whole[TEXT + 16];
+  char       text[TEXT], whole[TEXT + 16];
   PetscInt   n;
   PetscReal *depths;
   int       *sides;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsString(from, "depths", "depths, m: 0,1e-5,2e-5 or first:last:number; 2e-6-, 2e-6+: an interface",
-                             text, sizeof(text), NULL));
+  PetscCall(PetscStrncpy(text, e->depths_text, sizeof(text)));
   PetscCall(PetscSNPrintf(whole, sizeof(whole), "-depths %s", text));
-  PetscCall((strchr(text, ':') ? ReadRange : ReadList)(from->comm, whole, text, &n, &depths, &sides));
+  PetscCall((strchr(text, ':') ? ReadRange : ReadList)(e->comm, whole, text, half, &n, &depths, &sides));
   PetscCall(SamEvaluationTakeDepths(e, whole, n, depths, sides));
   PetscCall(PetscFree2(depths, sides));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamEvaluationNeedsHalfWidth(SamEvaluation e, PetscBool *needs)
+{
+  PetscFunctionBegin;
+  *needs = e->depths_text && strchr(e->depths_text, 'a') ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ReadDepths(const SamOptions *from, SamEvaluation e)
+{
+  char text[TEXT] = "0";
+
+  PetscFunctionBegin;
+  PetscCall(SamOptionsString(from, "depths", "m: 0,1e-5 or first:last:number; 0.5a: half widths; 2e-6-, 2e-6+: sides",
+                             text, sizeof(text), NULL));
+  PetscCall(PetscFree(e->depths_text));
+  PetscCall(PetscStrallocpy(text, &e->depths_text));
+  if (!strchr(text, 'a')) PetscCall(SamEvaluationSetHalfWidth(e, 1));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -167,6 +167,7 @@ static PetscErrorCode Compare(const SamSetup *s, const PetscReal half[2], char t
   const char *option, *const *names;
   const PetscReal *values;
   PetscReal        ratio, radius = 0;
+  PetscBool        concave = PETSC_FALSE;
   PetscInt         count;
 
   PetscFunctionBegin;
@@ -175,12 +176,14 @@ static PetscErrorCode Compare(const SamSetup *s, const PetscReal half[2], char t
   *large = ratio > STEEPEST ? PETSC_TRUE : PETSC_FALSE;
   if (!(ratio > 0)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamGapGetParameters(s->gap, NULL, &count, &names, &values));
-  for (PetscInt k = 0; k < count; k++)
+  for (PetscInt k = 0; k < count; k++) {
     if (!strcmp(names[k], option)) radius = values[k];
+    concave = concave || (strstr(names[k], "radius") && values[k] < 0);
+  }
   (void)snprintf(text, size, "is %.2g times -%s %g (in m)", (double)ratio, option, (double)radius);
   if (*large)
-    (void)snprintf(text + strlen(text), size - strlen(text), ", the limit is about %g: check the units, N, m, Pa",
-                   STEEPEST);
+    (void)snprintf(text + strlen(text), size - strlen(text), ", the limit is about %g: check the units, N, m, Pa%s",
+                   STEEPEST, concave ? ", or give conforming bodies their own -body2_compliance" : "");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -49,7 +49,7 @@ static PetscErrorCode CreateProblem(SamSetup *s, const SamOptions *from)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A curvature along y, of which the one row of a plane problem would see nothing. */
+/* A curvature along y, or bodies at an angle, of which the one row of a plane problem would see nothing. */
 static PetscErrorCode RefuseCurvature(SamSetup *s, const SamOptions *from)
 {
   const char *const *names;
@@ -60,10 +60,15 @@ static PetscErrorCode RefuseCurvature(SamSetup *s, const SamOptions *from)
   PetscFunctionBegin;
   PetscCall(SamPrintHelp(&help));
   PetscCall(SamGapGetParameters(s->gap, NULL, &count, &names, &values));
-  for (PetscInt k = 0; k < count && !help; k++)
-    PetscCheck(strcmp(names[k], "gap_radius_y") || isinf(values[k]), from->comm, SAM_ERR_USER,
-               "-%s%s %.6g: has no meaning with -%selasticity plane, whose bodies are cylinders along y: give inf",
-               SamOptionsPrefix(from), names[k], (double)values[k], SamOptionsPrefix(from));
+  for (PetscInt k = 0; k < count && !help; k++) {
+    const char     *end   = strrchr(names[k], '_');
+    const PetscBool angle = !strcmp(names[k], "gap_angle") ? PETSC_TRUE : PETSC_FALSE;
+
+    PetscCheck(angle ? values[k] == 0 : !strstr(names[k], "radius") || strcmp(end, "_y") || isinf(values[k]),
+               from->comm, SAM_ERR_USER,
+               "-%s%s %.6g: has no meaning with -%selasticity plane, whose bodies are cylinders along y: give %s",
+               SamOptionsPrefix(from), names[k], (double)values[k], SamOptionsPrefix(from), angle ? "0" : "inf");
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

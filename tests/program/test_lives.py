@@ -263,6 +263,46 @@ def test_stresses_that_do_not_begin_at_the_surface_or_do_not_match_are_refused(f
     assert "has 1 depths" in fatigue("--material", "m.yaml", "--criteria", "crack", "flat.h5", check=3)
 
 
+def test_layers_have_their_own_moduli(fatigue, folder, launcher):
+    """At both sides of an interface; a crack is of one material."""
+    layers = dict(body2_layer_young="150e9,40e9", body2_layer_poisson=0.2, body2_layer_thickness="1e-4,2e-4")
+    case = dict(ball(n=32), **layers, load_tx=None, history="l.csv", steps=2, output="l.h5")
+    (folder / "l.csv").write_text("time,load_tx\n1,20\n2,-20\n3,20\n")
+    conftest.execute(launcher, folder, [case], 1, 0)
+    run = dict(input="l.h5", output="layered.h5", section="y=0", depths="0:4e-4:5", steps="3:6")
+    more = dict(fatigue="swt,fatemi_socie", fatigue_fatemi_socie_k=1, fatigue_yield=4e8)
+    conftest.execute(launcher, folder, [{**run, **more}], 1, 0, program=STRESS)
+    file = petsam.open(folder / "layered.h5")
+    young, nu = (
+        np.array(values)[:, None, None] for values in ([150e9] * 2 + [40e9] * 3 + [72e9] * 2, [0.2] * 5 + [0.34] * 2)
+    )
+    assert file.z.size == 7
+    cycle, weak = Cycle(file), {**CONSTANTS, **FS, "sigma_f": 1e8, "tau_f": 3e7}
+    weak = {name: value for name, value in weak.items() if name not in ("young", "poisson")}
+    constants = {name: weak[name] for name in ("sigma_f", "b", "epsilon_f", "c")}
+    by_hand = [strength.swt(file.field("swt")[k], float(young[k, 0, 0]), **constants) for k in range(7)]
+    assert evaluation.lives([cycle], "swt", weak)[0].tobytes() == np.array(by_hand).tobytes()
+    constants = {name: weak[name] for name in ("tau_f", "b0", "gamma_f", "c0")}
+    by_hand = strength.fatemi_socie(file.field("fatemi_socie"), young, nu, **constants)
+    found = evaluation.lives([cycle], "fatemi_socie", weak)[0]
+    assert found.tobytes() == by_hand.tobytes() and np.isfinite(found).any()
+    out = fatigue("--material", "m.yaml", "--no-picture", "layered.h5")
+    assert "Smith-Watson-Topper: life" in out and "crack" not in out
+    says = "the body has layers, and K is that of one material; omit it from --criteria"
+    assert says in fatigue("--material", "m.yaml", "--criteria", "crack", "layered.h5", check=3)
+
+
+def test_means_over_a_length_are_named(fatigue, folder, launcher):
+    run = dict(input="c.h5", output="mean.h5", steps="4:9", fatigue="swt", fatigue_length=5e-5)
+    conftest.execute(launcher, folder, [run], 1, 0, program=STRESS)
+    value = petsam.open(folder / "mean.h5").field("swt").max()
+    out = fatigue("--material", "m.yaml", "mean.h5")
+    assert f"life {float(strength.swt(value, **{**WEAK, 'young': 72e9})):.4g} cycles" in out
+    assert "z = 0 m, of means over 5e-05 m" in out and "wrote" not in out  # one depth is no picture
+    says = "crack: has means over 5e-05 m; omit -fatigue_length of petsam-stress"
+    assert says in fatigue("--material", "m.yaml", "--criteria", "crack", "mean.h5", check=3)
+
+
 def test_every_constant_has_a_range_and_a_text():
     for name, one in materials.CONSTANTS.items():
         assert one.low < one.high and one.meaning

@@ -15,6 +15,9 @@ from conftest import PROGRAM, execute
 from support import SPHERE, hertz
 
 FLAT = dict(gap_type="flat", gap_radius1=None, gap_radius2=None)
+PAD = dict(FLAT, gap_type="pad", gap_half_flat_x=5e-4, gap_edge_radius_x=0.1)
+PIN = dict(FLAT, gap_type="curved", gap_radius1_x=0.01, gap_radius2_x=-0.01005)
+PLANE = dict(elasticity="plane", grid_n=64)
 FILE = dict(gap_type="file", gap_radius1=None, gap_radius2=None, grid_n=(7, 6))
 HISTORY = dict(load_n=None, history="loads.csv")
 DRIVEN = {**SPHERE, **HISTORY}
@@ -91,13 +94,45 @@ MISTAKES = [
     mistake("no grid", dict(grid_n=None), says=["-grid_n is missing", "cells"]),
     mistake("no size", dict(grid_size=None), says=["-grid_size is missing", "m:", "1.5 times"]),
     mistake("no modulus", dict(body2_young=None), says=["-body2_young is missing", "Pa", "210e9", "inf"]),
-    mistake("no shape", dict(gap_type=None), says=["-gap_type is missing", "ellipsoid, file, flat, punch or sphere"]),
-    mistake("unknown shape", dict(gap_type="ball"), says=["-gap_type ball", "ellipsoid, file, flat, punch or sphere"]),
+    mistake(
+        "no shape",
+        dict(gap_type=None),
+        says=["-gap_type is missing", "curved, ellipsoid, file, flat, pad, punch, roller or sphere"],
+    ),
+    mistake(
+        "unknown shape",
+        dict(gap_type="ball"),
+        says=["-gap_type ball", "curved, ellipsoid, file, flat, pad, punch, roller or sphere"],
+    ),
     mistake("no second radius", dict(gap_radius2=None), says=["-gap_radius2 is missing", "inf: flat"]),
     mistake("no load", dict(load_n=None), says=["-load_n or -disp_z is missing", "(N)", "(m)"]),
     mistake("load and displacement", dict(disp_z=1e-6), says=["-load_n", "-disp_z", "give one of them"]),
     mistake(
         "radius of another shape", dict(gap_radius_x=0.2), says=["-gap_radius_x 0.2", "without -gap_type ellipsoid"]
+    ),
+    mistake(
+        "pad without its edge", dict(PAD, gap_edge_radius_x=None), says=["-gap_edge_radius_x is missing", "(m, inf"]
+    ),
+    mistake(
+        "bore smaller than its pin",
+        dict(PIN, gap_radius2_x=-0.0099),
+        says=["-gap_type curved: the surfaces cross", "the limit is 0: give a negative radius of larger size"],
+    ),
+    mistake(
+        "bore as large as its pin",
+        dict(PIN, gap_radius2_x=-0.01),
+        says=["-gap_type curved: the radii are equal and opposite or infinite", "clearance", "or -gap_type flat"],
+    ),
+    mistake("radius 0 for a flat", dict(PIN, gap_radius2_x=0), says=["-gap_radius2_x 0", "other than 0, or inf"]),
+    mistake(
+        "ends in plane strain", dict(PIN, gap_radius1_y=1, **PLANE), says=["-gap_radius1_y 1", "plane", "give inf"]
+    ),
+    mistake("edge in plane strain", dict(PAD, gap_edge_radius_y=1, **PLANE), says=["-gap_edge_radius_y 1", "give inf"]),
+    mistake("angle in plane strain", dict(PIN, gap_angle=90, **PLANE), says=["-gap_angle 90", "give 0"]),
+    mistake(
+        "roller without a crown",
+        dict(FLAT, gap_type="roller", gap_roller_radius=0.1, gap_roller_half_length=1e-2, gap_roller_drop=1e-5),
+        says=["-gap_roller_crown is missing", "amplitude of the crown (m), load per length/(pi E*)"],
     ),
     mistake("file of another shape", dict(gap_file="h.h5"), says=["-gap_file", "-gap_type file", "-gap_rough_file"]),
     mistake("shape of a file without it", dict(FILE), says=["-gap_file is missing", "-gap_type file"]),
@@ -161,6 +196,11 @@ MISTAKES = [
         code=3,
         says=["-output s.txt", "not replaced"],
     ),
+    mistake("fields at times", dict(output="r.h5", output_at="1.5"), says=["-output_at 1.5", "steps or history"]),
+    mistake("trial run by another name", {}, "-dryrun", says=["-dryrun", "is -dry_run meant?"]),
+    mistake("trial run of nothing", dict(load_n=None), "-dry_run", says=["-load_n or -disp_z is missing"]),
+    mistake("trial run with a word", {}, "-dry_run", "maybe", says=["-dry_run maybe"]),
+    mistake("results as a table in capitals", {}, "-output", "R.CSV", says=["-output R.CSV", "HDF5", "name it .h5"]),
     mistake("results as a table", {}, "-output", "loads.csv", says=["-output loads.csv", "HDF5", "name it .h5"]),
     mistake("no surface", FILE, "-gap_file", "none.h5", says=["-gap_file none.h5", "No such file"], code=3),
     mistake(
@@ -253,6 +293,13 @@ MISTAKES = [
         code=12,
         says=["axis along y", "both x and y periodic; to continue anyway: -allow_edge_contact"],
     ),
+    mistake(
+        "pin that fills its bore",
+        dict(PIN, **PLANE, grid_size=1.4e-3, load_n=1e5),
+        code=12,
+        says=["-gap_radius1_x 0.01 (in m), the limit is about 0.1", "or give conforming bodies their own -body2_comp"],
+    ),
+    mistake("long pad", dict(PAD, grid_size=4e-3), code=12, says=["axis along y", "a section with loads per metre"]),
     mistake("load in mN", dict(load_n=1e6), code=12, says=["edge of the grid", "-grid_size 0.02"]),
     mistake("grid in km", dict(grid_size=2.6e-6), code=12, says=["edge of the grid", "-grid_size 0.00"]),
     mistake(
@@ -481,6 +528,11 @@ def test_restart_with_another_option_names_it(petsam, folder, change):
         (["-input", "r.h5", "-depth", "1e-5"], 2, ["-depth 1e-5", "is -depths meant?"]),
         (["-input", "r.h5", "-depths", "-1e-5"], 2, ["-depths -1e-5"]),
         (["-input", "r.h5", "-depths", "10um"], 2, ["-depths 10um", "first:last:number"]),
+        (["-input", "r.h5", "-depths", "0,1b"], 2, ["-depths 0,1b", "in m or as 0.5a in half widths"]),
+        (["-input", "r.h5", "-depths", "0,2a,1a"], 2, ["-depths 0,2a,1a", "expected depths that increase"]),
+        (["-input", "r.h5", "-cycle", "2", "-steps", "1"], 2, ["-cycle and -steps are both given", "omit one"]),
+        (["-input", "r.h5", "-cycle", "7"], 2, ["-cycle 7: the steps of that cycle are not in r.h5, those of 0 are"]),
+        (["-input", "r.h5", "-cycle", "last"], 2, ["-cycle last", "a number >= 0"]),
         (["-input", "r.h5", "-section", "z=0"], 2, ["-section z=0", "x=", "y="]),
         (["-input", "r.h5", "-steps", "3"], 2, ["-steps", "no step 3", "the last is 1"]),
         (["-input", "r.h5", "-quantities", "von_mises"], 2, ["-quantities von_mises", "mises"]),

@@ -178,6 +178,14 @@ def test_units_of_options_are_those_of_the_reference():
     assert checked > 20 and unit_of_option("friction") == unit_of_option("ratio") == unit_of_option("my_load_n") == ""
 
 
+def test_loads_in_plane_strain_are_per_metre(single):
+    one = Study(single.path)
+    assert one.unit_of_input("load_n") == "N"
+    one.units["load_n"] = "N/m"
+    assert one.unit_of_input("load_n") == "N/m" and one.unit_of_input("grid_size") == "m"
+    assert one.unit_of_input("contact_area") == one.unit_of_input("way") == ""
+
+
 def test_several_studies_are_told_apart(study, path):
     drawn = curves(
         tables.study([study, Study(path, "other")], ["stick_area"], "ratio", "mu", [("shape", "ball")]).axes[0]

@@ -78,7 +78,7 @@ def test_help_lists_the_types_and_their_options(petsam, plugin):
     lines = petsam("-help", dict(plugin=plugin)).stdout
     for text in (
         "coated, halfspace, periodic, plane or plane_periodic",
-        "cone, ellipsoid,",
+        "cone, curved, ellipsoid,",
         "activeset or spectral",
         "Fading friction",
     ):

@@ -50,6 +50,49 @@ def test_a_seed_is_a_surface_whatever_the_grid():
     assert long.shape == (200, 100) and np.isrealobj(long)
 
 
+@pytest.mark.parametrize("moments", [(0.0, 3.0), (-1.0, 4.5), (0.7, 4.5), (0.0, 2.2), (-0.5, 3.0)])
+def test_heights_have_the_moments_that_are_given(moments):
+    """Of the polynomial exactly, by Gauss and Hermite's rule; of surfaces in the mean over seeds; on every grid."""
+    function = generation.cubic(*moments)
+    nodes, weights = np.polynomial.hermite_e.hermegauss(30)
+    found = [np.sum(weights * function(nodes) ** k) / np.sqrt(2 * np.pi) for k in range(5)]
+    assert found == pytest.approx([1, 0, 1, *moments], abs=1e-8)
+    spectrum = generation.self_affine(0.8, 1e-4, 2e-5)
+    of_seeds = []
+    for seed in range(6):
+        gauss = generation.heights(spectrum, (128, 128), SIZE, 2e-5, seed, 1e-6)
+        values = generation.shaped(gauss, function, 1e-6)
+        assert abs(values.mean()) < 1e-15 and values.std() == pytest.approx(1e-6)
+        of_seeds.append([np.mean((values / 1e-6) ** k) for k in (3, 4)])
+    assert np.mean(of_seeds, axis=0) == pytest.approx(moments, abs=0.25)
+    fine = generation.shaped(generation.heights(spectrum, (384, 384), SIZE, 2e-5, 5, 1e-6), function, 1e-6)
+    assert fine[::3, ::3] == pytest.approx(values, abs=1e-8)  # means over other points
+
+
+def test_heights_have_the_distribution_of_a_table(tmp_path):
+    """A tenth of the points in the lower 3 um, the others on a plateau of 1 um."""
+    (tmp_path / "abbott.txt").write_text("0 0\n3e-6 0.1\n4e-6 1\n")
+    function = generation.distributed(str(tmp_path / "abbott.txt"))
+    gauss = generation.heights(generation.self_affine(0.8, 1e-4, 2e-5), (256, 256), SIZE, 2e-5, 1)
+    values = generation.shaped(gauss, function)
+    assert np.ptp(values) == pytest.approx(4e-6, rel=0.01)
+    assert np.mean(values - values.min() < 3e-6) == pytest.approx(0.1, abs=0.01)
+    assert np.mean(values - values.min() < 3.5e-6) == pytest.approx(0.55, abs=0.02)
+    assert generation.shaped(gauss, function, 2e-6).std() == pytest.approx(2e-6)
+
+
+def test_skewness_changes_the_spectrum_little():
+    spectrum = generation.self_affine(0.8, 2e-4, 2e-5)
+    gauss = generation.heights(spectrum, (256, 256), SIZE, 2e-5, 2, 1e-6)
+    (q, power), (_, of) = (
+        spectrum_of(one) for one in (gauss, generation.shaped(gauss, generation.cubic(-0.8, 4.0), 1e-6))
+    )
+    inside = (q > 2 * np.pi / 2e-4) & (q < 2 * np.pi / 2e-5)
+    assert of[inside].sum() > 0.8 * of.sum()
+    slopes = [np.polyfit(np.log(q[inside]), np.log(one[inside]), 1)[0] for one in (power, of)]
+    assert slopes[1] == pytest.approx(slopes[0], abs=0.5)
+
+
 @pytest.fixture
 def surface(tmp_path, monkeypatch, capfd):
     """surface(*words): exit code, stdout and stderr of petsam-surface."""
@@ -83,9 +126,26 @@ def test_the_command_writes_a_surface(surface, tmp_path):
     assert code == 0 and "r.h5: peak to valley" in err and err.endswith("is more than the size 1 mm: check the unit\n")
 
 
+def test_the_command_shapes_heights(surface, tmp_path):
+    (tmp_path / "t.txt").write_text("0 0\n1e-6 0.5\n1.2e-6 1\n")
+    code, out, _ = surface(*RANDOM, "--skewness", "-1", "--no-picture", "-o", "r.h5")
+    assert code == 0 and "Sq 500 nm" in out and -1.6 < float(out.split("skewness Ssk ")[1].split(",")[0]) < -0.5
+    assert surface(*RANDOM, "--kurtosis", "5", "--no-picture", "-o", "r.h5")[0] == 0
+    code, out, _ = surface(*RANDOM[:2], *RANDOM[4:], "--distribution", "t.txt", "--no-picture", "-o", "r.h5")
+    assert code == 0
+    with h5py.File(tmp_path / "r.h5") as file:
+        assert np.ptp(file["height"][:]) == pytest.approx(1.2e-6, rel=0.02)
+
+
 @pytest.mark.parametrize(
     "words, says, code",
     [
+        (["a.npy", "--skewness", "-1"], "--skewness: is for a random surface", 2),
+        ([*RANDOM, "--skewness", "x"], "x: expected a number", 2),
+        ([*RANDOM, "--kurtosis", "0.9"], "--kurtosis 0.9: use more than 1, 1 and the skewness squared", 2),
+        ([*RANDOM, "--kurtosis", "4", "--distribution", "p.txt"], "not allowed with --distribution", 2),
+        ([*RANDOM, "--skewness", "-1", "--kurtosis", "2.5"], "kurtosis nearer to 4.5, or a table (--distribution)", 3),
+        ([*RANDOM, "--distribution", "p.txt"], "p.txt: expected lines of a height (m) and the share of points", 3),
         ([], "give one FILE or two, or a random surface by --self-affine or --psd", 2),
         ([*RANDOM, "a.npy"], "give one FILE or two, or a random surface", 2),
         (["a.npy", "--rms", "1um"], "--rms: is for a random surface", 2),

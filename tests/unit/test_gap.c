@@ -143,6 +143,65 @@ static void test_punch_is_flat_inside_and_round_outside(void **state)
   AssertShape("-gap_type punch -gap_flat_radius 0 -gap_edge_radius 0.012", Sphere);
 }
 
+/* Body 2's x is turned by 30 degrees: the quadratic form along and across it is added to that of body 1. */
+static double Curved(double x, double y)
+{
+  const double along = 0.5 * sqrt(3) * x + 0.5 * y, across = 0.5 * sqrt(3) * y - 0.5 * x;
+
+  return x * x / (2 * 0.03) + y * y / (2 * 0.02) + along * along / (2 * 0.05) - across * across / (2 * 0.08);
+}
+
+static double Pad(double x, double y)
+{
+  const double u = fmax(0, fabs(x) - 0.3e-3), v = fmax(0, fabs(y) - 0.5e-3);
+
+  return u * u / (2 * 0.03) + v * v / (2 * 0.02);
+}
+
+static double PadAlong(double x, double y)
+{
+  const double u = fmax(0, fabs(x) - 0.3e-3);
+
+  (void)y;
+  return u * u / (2 * 0.03);
+}
+
+/* Beyond the ends, y = 0.6 mm, along the tangent. */
+static double Roller(double x, double y)
+{
+  const double A = 1e-7, d = 4e-7, part = 1 - exp(-d / A), s = fmin(1, fabs(y) / 0.6e-3);
+  const double slope = 2 * A * part / (1 - part) / 0.6e-3;
+
+  return x * x / (2 * 0.03) - A * log(1 - part * s * s) + slope * fmax(0, fabs(y) - 0.6e-3);
+}
+
+static void test_curved_bodies_add_what_each_has_along_its_axes(void **state)
+{
+  (void)state;
+  AssertShape("-gap_type curved -gap_radius1_x 0.03 -gap_radius1_y 0.02 -gap_radius2_x 0.05 -gap_radius2_y -0.08 "
+              "-gap_angle 30",
+              Curved);
+  AssertShape("-gap_type curved -gap_radius1_x 0.012 -gap_radius2_x 0.012 -gap_angle 90", Sphere);
+  AssertShape("-gap_type curved -gap_radius2_x 0.03", Cylinder);
+}
+
+static void test_pads_are_flat_with_round_edges_on_each_side(void **state)
+{
+  (void)state;
+  AssertShape("-gap_type pad -gap_half_flat_x 0.3e-3 -gap_half_flat_y 0.5e-3 -gap_edge_radius_x 0.03 "
+              "-gap_edge_radius_y 0.02",
+              Pad);
+  AssertShape("-gap_type pad -gap_half_flat_x 0.3e-3 -gap_edge_radius_x 0.03", PadAlong);
+}
+
+static void test_rollers_are_logarithmic_up_to_their_ends(void **state)
+{
+  (void)state;
+  AssertShape("-gap_type roller -gap_roller_radius 0.03 -gap_roller_half_length 0.6e-3 -gap_roller_crown 1e-7 "
+              "-gap_roller_drop 4e-7",
+              Roller);
+}
+
 static void test_flat_is_zero(void **state)
 {
   (void)state;
@@ -360,7 +419,7 @@ static void test_wrong_options_are_named(void **state)
 {
   static const char *const cases[][3] = {
     {"-gap_radius1 1", "-gap_type", "missing"},
-    {"-gap_type cone", "-gap_type cone", "ellipsoid, file, flat, punch or sphere"},
+    {"-gap_type cone", "-gap_type cone", "curved, ellipsoid, file, flat, pad, punch, roller or sphere"},
     {"-gap_type", "-gap_type", "no value"},
     {"-gap_type sphere -gap_radius1 1", "-gap_radius2", "missing"},
     {"-gap_type sphere -gap_radius1 -1 -gap_radius2 1", "-gap_radius1", "> 0"},
@@ -455,9 +514,10 @@ static void test_unfit_datasets_are_named_on_all_ranks(void **state)
 
 static void test_help_lists_the_options_of_all_shapes(void **state)
 {
-  static const char *const names[] = {"-gap_type",     "-gap_radius1",     "-gap_radius2",      "-gap_radius_x",
-                                      "-gap_radius_y", "-gap_flat_radius", "-gap_edge_radius",  "-gap_file",
-                                      "-gap_dataset",  "-gap_rough_file",  "-gap_rough_dataset"};
+  static const char *const names[] = {"-gap_type",     "-gap_radius1",     "-gap_radius2",       "-gap_radius_x",
+                                      "-gap_radius_y", "-gap_flat_radius", "-gap_edge_radius",   "-gap_file",
+                                      "-gap_dataset",  "-gap_rough_file",  "-gap_rough_dataset", "-gap_radius2_y",
+                                      "-gap_angle",    "-gap_half_flat_x", "-gap_roller_crown"};
   static char              text[16384];
   FILE                    *usual = PETSC_STDOUT, *file = tmpfile();
   size_t                   length;
@@ -479,9 +539,10 @@ static void test_help_lists_the_options_of_all_shapes(void **state)
   (void)fclose(file);
   SetOptions("");
   for (size_t k = 0; k < sizeof(names) / sizeof(names[0]); k++) {
-    const char *place = strstr(text, names[k]);
+    char whole[64];
 
-    sam_assert(me || (place && place[strlen(names[k])] == ' '));
+    (void)snprintf(whole, sizeof(whole), "%s ", names[k]);
+    sam_assert(me || strstr(text, whole));
   }
 }
 
@@ -509,7 +570,8 @@ static void test_registered_type_can_be_chosen(void **state)
   (void)state;
   sam_call(SamGapRegister("ridge", CreateRidge));
   AssertShape("-gap_type ridge", Ridge);
-  AssertError("-gap_type cone", SAM_ERR_USER, "-gap_type cone", "ellipsoid, file, flat, punch, ridge or sphere");
+  AssertError("-gap_type cone", SAM_ERR_USER, "-gap_type cone",
+              "curved, ellipsoid, file, flat, pad, punch, ridge, roller or sphere");
 }
 
 int main(int argc, char **argv)
@@ -519,6 +581,9 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_infinite_radius_is_flat),
     cmocka_unit_test(test_ellipsoid_has_its_curvatures_along_x_and_y),
     cmocka_unit_test(test_punch_is_flat_inside_and_round_outside),
+    cmocka_unit_test(test_curved_bodies_add_what_each_has_along_its_axes),
+    cmocka_unit_test(test_pads_are_flat_with_round_edges_on_each_side),
+    cmocka_unit_test(test_rollers_are_logarithmic_up_to_their_ends),
     cmocka_unit_test(test_flat_is_zero),
     cmocka_unit_test(test_parameters_are_the_options),
     cmocka_unit_test(test_parameters_can_be_set),

@@ -95,6 +95,51 @@ static void test_ellipsoids_touch_where_their_pressure_closes_the_gap(void **sta
   }
 }
 
+/* Hertz's ellipse turned by 60 degrees, within a rectangle; along the axes as the ellipsoid; and no ends. */
+static void test_curved_bodies_have_the_ellipse_of_their_curvatures(void **state)
+{
+  PetscReal half[2], own[2];
+
+  (void)state;
+  sam_assert(Estimate("-gap_type ellipsoid -gap_radius_x 0.2 -gap_radius_y 0.05", PETSC_TRUE, 1e-9, own));
+  sam_assert(Estimate("-gap_type curved -gap_radius2_x 0.2 -gap_radius2_y 0.05", PETSC_TRUE, 1e-9, half));
+  for (int k = 0; k < 2; k++) sam_assert_close(half[k], own[k], 1e-8 * own[k]);
+  sam_assert(Estimate("-gap_type curved -gap_radius2_x 0.2 -gap_radius2_y 0.05 -gap_angle 60", PETSC_TRUE, 1e-9, half));
+  sam_assert_close(half[0], hypot(0.5 * own[0], 0.5 * sqrt(3) * own[1]), 1e-8 * own[0]);
+  sam_assert_close(half[1], hypot(0.5 * sqrt(3) * own[0], 0.5 * own[1]), 1e-8 * own[0]);
+  (void)Estimate("-gap_type curved -gap_radius1_x 0.3 -gap_radius2_x -0.4", PETSC_TRUE, 1, half);
+  sam_assert(!isinf(half[0]) && isinf(half[1]));
+  (void)Estimate("-gap_type curved -gap_radius1_y 0.3", PETSC_TRUE, 1, half);
+  sam_assert(isinf(half[0]) && !isinf(half[1]));
+  (void)Estimate("-gap_type curved -gap_radius1_x 0.3 -gap_radius2_x -0.3", PETSC_TRUE, 1, half);
+  sam_assert(isinf(half[0]) && isinf(half[1]));
+}
+
+/* Pads and rollers have none but in plane strain: there a pad is a punch. */
+static void test_bodies_of_finite_length_have_closed_forms_in_plane_strain_only(void **state)
+{
+  static const char *const pads[] = {"-gap_type pad -gap_half_flat_x 1e-3 -gap_edge_radius_x 0.05",
+                                     "-gap_type punch -gap_flat_radius 1e-3 -gap_edge_radius 0.05"};
+  PetscReal                half[2], line[2];
+  PetscBool                known;
+
+  (void)state;
+  sam_assert(!Estimate("-gap_type pad -gap_edge_radius_x 1 -gap_edge_radius_y 1", PETSC_TRUE, 1e-9, half));
+  sam_assert(!Estimate("-gap_type roller -gap_roller_radius 1 -gap_roller_half_length 1 -gap_roller_crown 1e-6 "
+                       "-gap_roller_drop 1e-5",
+                       PETSC_TRUE, 1e-9, half));
+  (void)Estimate(pads[0], PETSC_TRUE, 1e-9, half);
+  sam_assert(isinf(half[1]) && !isinf(half[0]));
+  for (int k = 0; k < 2; k++) {
+    SamGap gap = NewGap(pads[k]);
+
+    sam_call(SamGapEstimateLine(gap, 1e-6, &line[k], &known));
+    sam_assert(known);
+    sam_call(SamGapDestroy(&gap));
+  }
+  sam_assert_close(line[0], line[1], 1e-12);
+}
+
 /* Without a flat base a punch is a sphere; a large base carries a small load within it and a little more. */
 static void test_punches_touch_beyond_their_base(void **state)
 {
@@ -156,6 +201,16 @@ static void test_steepness_is_that_of_the_smallest_radius(void **state)
     {"-gap_type ellipsoid -gap_radius_x 0.2 -gap_radius_y 0.1", {0.1, 0.02}, 0.5, "gap_radius_x"},
     {"-gap_type punch -gap_flat_radius 1 -gap_edge_radius 0.1", {1.03, 1.02}, 0.3, "gap_edge_radius"},
     {"-gap_type punch -gap_flat_radius 1 -gap_edge_radius 0.1", {0.9, 0.9}, 0, "gap_edge_radius"},
+    {"-gap_type curved -gap_radius1_x 0.1 -gap_radius2_x -0.11", {0.02, 9}, 0.2, "gap_radius1_x"},
+    {"-gap_type curved -gap_radius2_x 1 -gap_radius2_y 0.1 -gap_angle 90", {0.02, 0.01}, 0.2, "gap_radius2_y"},
+    {"-gap_type pad -gap_half_flat_x 1 -gap_half_flat_y 2 -gap_edge_radius_x 0.1 -gap_edge_radius_y 0.2",
+     {1.03, 2.1},
+     0.5,
+     "gap_edge_radius_y"},
+    {"-gap_type roller -gap_roller_radius 0.1 -gap_roller_half_length 1 -gap_roller_crown 1e-6 -gap_roller_drop 1e-5",
+     {0.02, 1},
+     0.2,
+     "gap_roller_radius"},
     {"-gap_type flat", {1, 1}, 0, NULL},
   };
 
@@ -178,6 +233,8 @@ int main(int argc, char **argv)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_spheres_touch_as_hertz_says),
     cmocka_unit_test(test_ellipsoids_touch_where_their_pressure_closes_the_gap),
+    cmocka_unit_test(test_curved_bodies_have_the_ellipse_of_their_curvatures),
+    cmocka_unit_test(test_bodies_of_finite_length_have_closed_forms_in_plane_strain_only),
     cmocka_unit_test(test_punches_touch_beyond_their_base),
     cmocka_unit_test(test_straight_bodies_touch_without_end),
     cmocka_unit_test(test_measured_surfaces_have_no_closed_solution),

@@ -6,18 +6,18 @@
 #include <petsam/gap.h>
 #include <petsam/private/fieldfile.h>
 
-#define SAM_GAP_PARAMETERS 4 /* most parameters of a shape */
+#define SAM_GAP_PARAMETERS 5 /* most parameters of a shape */
 
 /*
   The contact of a shape without friction, under a central force, by a closed-form solution: half widths along x and y
-  (m, infinite where it has no end), force over the composite modulus E* (m2), approach (m). All of them grow with the
-  half width that it is computed from.
+  (m, infinite where it has no end, NaN where they are not known), force over the composite modulus E* (m2), approach
+  (m). All of them grow with the half width that it is computed from.
 */
 typedef struct {
   PetscReal half[2], force, approach;
 } SamGapContact;
 
-/* A number that defines a shape, read from a required option. */
+/* A number that defines a shape, read from an option. */
 typedef struct {
   const char *name; /* of the option, without dash and prefix */
   const char *help; /* what it is, with its unit */
@@ -38,22 +38,27 @@ struct _n_SamGap {
   struct {
     PetscInt               count;
     const SamGapParameter *parameters;
+    const PetscReal       *defaults; /* of the parameters, NaN for one that is required; NULL: all of them are */
     PetscReal (*height)(const PetscReal values[], PetscReal x, PetscReal y);
     PetscErrorCode (*setfromoptions)(SamGap gap);
     PetscErrorCode (*fill)(SamGap gap, SamGrid grid, Vec h);
     /*
       Optional, for messages. contact(): the contact whose larger finite half width (m) is `half`. steepness(): the
       largest ratio of the half widths of a contact (m, along x and y) to a radius of curvature, and which parameter is
-      that radius.
+      that radius. check(): an error for values that do not fit each other.
     */
     SamGapContact (*contact)(const PetscReal values[], PetscReal half);
     PetscReal (*steepness)(const PetscReal values[], const PetscReal half[2], PetscInt *parameter);
+    PetscErrorCode (*check)(SamGap gap);
   } ops;
   const char *names[SAM_GAP_PARAMETERS]; /* of the parameters */
 };
 
 PETSC_EXTERN PetscErrorCode SamGapCreate_Sphere(SamGap gap);
 PETSC_EXTERN PetscErrorCode SamGapCreate_Ellipsoid(SamGap gap);
+PETSC_EXTERN PetscErrorCode SamGapCreate_Curved(SamGap gap);
+PETSC_EXTERN PetscErrorCode SamGapCreate_Pad(SamGap gap);
+PETSC_EXTERN PetscErrorCode SamGapCreate_Roller(SamGap gap);
 PETSC_EXTERN PetscErrorCode SamGapCreate_Punch(SamGap gap);
 PETSC_EXTERN PetscErrorCode SamGapCreate_Flat(SamGap gap);
 PETSC_EXTERN PetscErrorCode SamGapCreate_File(SamGap gap);

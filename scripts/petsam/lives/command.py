@@ -134,7 +134,8 @@ def _report(options, cycles, name, found):
     for cycle, values in zip(cycles, found):
         least = evaluation.least(cycle, values)
         text = f"life {_lived(least.value)}" if is_life else f"safety factor {least.value:.4g}"
-        print(f"{cycle.path}: {title}: {text} {_where(least)}")
+        mean = f", of means over {cycle.averaged:g} m" if cycle.averaged else ""
+        print(f"{cycle.path}: {title}: {text} {_where(least)}{mean}")
     if is_life and (len(cycles) > 1 or options.counts != [1.0]):
         damage = strength.damage(found, options.counts)
         most = evaluation.least(cycles[0], -damage)
@@ -216,7 +217,7 @@ def carry_out(options):
         lines.append((cycle.label, line))
     if options.csv:
         _write_csv(options, lines)
-    if not options.no_picture:
+    if first.z.size > 1 and not options.no_picture:
         need_replaceable(options.output)
         from . import picture
 

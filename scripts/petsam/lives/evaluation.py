@@ -53,6 +53,8 @@ def has_data(cycle, name, angle=0.0):
     """Whether a cycle has what a criterion is computed from."""
     if name not in OF_STRESS:
         return name in cycle
+    if name == "crack" and cycle.layered:
+        return False
     return cycle.steps > 1 and all(one in cycle for one in terms(angle))
 
 
@@ -93,6 +95,10 @@ def lives(cycles, name, constants, angle=0.0):
 def crack(cycle, constants, angle, row, column):
     """Columns of a crack of the lengths z below a point; the least length at which it grows, and that of its arrest."""
     limits = need(constants, CRACK["crack"][1], f"{cycle.path}: crack")
+    if cycle.layered:
+        raise Error(f"{cycle.path}: crack: the body has layers, and K is that of one material; omit it from --criteria")
+    if cycle.averaged:
+        raise Error(f"{cycle.path}: crack: has means over {cycle.averaged:g} m; omit -fatigue_length of petsam-stress")
     if cycle.z.size < 3:
         raise Error(f"{cycle.path}: crack: has {cycle.z.size} depths; give petsam-stress at least 3 from 0 on")
     if not has_data(cycle, "crack", angle):

@@ -18,6 +18,8 @@ def terms(angle):
 class Cycle:
     """Stresses and parameters on the points x, y, z; constants are those of the body, young (Pa) and poisson."""
 
+    layered = False
+
     def __init__(self, source, label="the contact", **constants):
         """source: a petsam.Stresses, or the arrays by name of petsam.Contact.fatigue(), then with the constants."""
         self.source, self.file = source, source if isinstance(source, Stresses) else None
@@ -25,11 +27,31 @@ class Cycle:
         self.x, self.y, self.z = (getattr(source, n) if self.file else np.asarray(source[n]) for n in "xyz")
         if self.file:
             self.path, self.label, of = source.path, source.label, source.parameters
-            layered = any(f"body{of['body']:.0f}_layer_{word}" in of for word in ("young", "file"))
-            self.constants = {} if layered else {name: float(of[name]) for name in ("young", "poisson")}
+            self.constants = self._moduli(of)
         if self.z[0] != 0.0:
             raise Error(f"{self.path}: its first depth is {self.z[0]:g} m; give petsam-stress depths from 0 on")
         self.steps = source.times.size if self.file else np.size(source["time"])
+
+    def _moduli(self, of):
+        """Young's modulus and Poisson's ratio of the body; with layers at each depth, (z, 1, 1), or {} of a profile."""
+        body = f"body{of['body']:.0f}_"
+        self.layered = any(body + name in of for name in ("layer_young", "layer_file"))
+        if not self.layered:
+            return {name: float(of[name]) for name in ("young", "poisson")}
+        if body + "layer_thickness" not in of:
+            return {}
+        # at an interface the depth itself is above it, the next number below
+        layer = np.searchsorted(np.cumsum(of[body + "layer_thickness"]), self.z)
+        count, found = np.size(of[body + "layer_young"]), {}
+        for name in ("young", "poisson"):
+            values = np.append(np.broadcast_to(of[f"{body}layer_{name}"], count), of.get(body + name, np.nan))
+            found[name] = values[layer][:, None, None]
+        return found
+
+    @property
+    def averaged(self):
+        """Length over which the stresses have been averaged (petsam-stress -fatigue_length), m; 0: not at all."""
+        return float(self.file.parameters.get("fatigue_length", 0.0)) if self.file else 0.0
 
     def __contains__(self, name):
         return name in self.source and name not in ("x", "y", "z", "time")

@@ -14,11 +14,14 @@ their maps are then aligned at their centres.
 """
 
 import argparse
+import math
 import os
 import shlex
 import sys
 import warnings
 from dataclasses import replace
+
+import numpy as np
 
 from .. import isolation
 from ..errors import Error, Parser, fail, guarded, short
@@ -27,7 +30,7 @@ from ..replacing import need_own
 from . import generation, levels, picture, writing
 from .filling import filled
 from .lengths import several, shown, sides, unit
-from .maps import QUANTITIES, combined, cut, new_map, peak_to_valley, rms_height, rms_slope
+from .maps import QUANTITIES, combined, cut, moments, new_map, peak_to_valley, rms_height, rms_slope
 from .reading import FORMATS, read_map
 from .resampling import resampled
 
@@ -36,7 +39,7 @@ OF_FILES = (
     "units", "pixel", "first_row", "transpose", "mirror", "depths", "missing", "format", "skip_rows", "skip_columns",
     "dataset", "channel", "window", "fill", "level", "grid_size",
 )  # fmt: skip
-SIGNED = ("--window", "--center", "--missing")  # options whose values may begin with a minus sign
+SIGNED = ("--window", "--center", "--missing", "--skewness")  # options whose values may begin with a minus sign
 
 
 def cells(text):
@@ -63,6 +66,17 @@ def count(text):
     if not text.isdecimal():
         raise argparse.ArgumentTypeError(f"{short(text)}: expected an integer")
     return int(text)
+
+
+def number(text):
+    """Reader of a finite number for argparse."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise argparse.ArgumentTypeError(f"{short(text)}: expected a number")
+    return value
 
 
 def hurst(text):
@@ -126,6 +140,14 @@ def arguments(words):
     made.add_argument(
         "--wavelengths", type=several(2, "LONG,SHORT"), metavar="LONG,SHORT", help="of a self-affine surface"
     )
+    shape = made.add_mutually_exclusive_group()
+    shape.add_argument("--skewness", type=number, metavar="S", help="of the heights (0); below 0: plateaus and valleys")
+    shape.add_argument(
+        "--distribution",
+        metavar="TABLE",
+        help="of the heights: a text of a height (m) and the share below on each line",
+    )
+    made.add_argument("--kurtosis", type=number, metavar="K", help="of the heights (3 + 1.5 S^2); 3: as Gaussian ones")
     made.add_argument("--seed", type=count, default=0, metavar="K", help="another integer is another surface (0)")
     done = parser.add_argument_group("processing")
     done.add_argument("--window", type=_window, metavar="X0,X1,Y0,Y1", help="keep the cells with centres in it")
@@ -169,13 +191,16 @@ def _check_random(parser, options):
         parser.error("give one FILE or two, or a random surface by --self-affine or --psd" + " instead" * bool(random))
     given = {"--rms": options.rms, "--wavelengths": options.wavelengths}
     if not random:
-        for name, value in given.items():
-            if value:
+        of_heights = {f"--{name}": getattr(options, name) for name in ("skewness", "kurtosis", "distribution")}
+        for name, value in {**given, **of_heights}.items():
+            if value is not None:
                 parser.error(f"{name}: is for a random surface; use --self-affine or --psd")
         return
     for name in OF_FILES:
         if getattr(options, name) not in (None, False, 0, "none"):
             parser.error(f"--{name.replace('_', '-')}: has no effect on a random surface; omit it")
+    if options.distribution and not options.psd:
+        del given["--rms"]  # the table has heights
     needed = {"--size": options.size, "--grid-n": options.grid_n, **({} if options.psd else given)}
     lacking = [name for name, value in needed.items() if not value]
     if lacking:
@@ -184,7 +209,14 @@ def _check_random(parser, options):
 
 
 def _check_values(parser, options):
-    """End with a message where the lengths of a random surface cannot be."""
+    """End with a message where the numbers of a random surface cannot be."""
+    skewness = options.skewness or 0.0
+    if options.kurtosis is not None and options.distribution:
+        parser.error("--kurtosis: not allowed with --distribution, whose table has all moments")
+    if options.kurtosis is not None and not options.kurtosis > 1.0 + skewness**2:
+        parser.error(
+            f"--kurtosis {options.kurtosis:g}: use more than {1.0 + skewness**2:g}, 1 and the skewness squared"
+        )
     if options.psd and options.wavelengths:
         parser.error("--wavelengths: not allowed with --psd, whose table has the limits")
     if options.rms and not options.rms[0] > 0.0:
@@ -202,6 +234,12 @@ def random_map(options):
         spectrum = generation.self_affine(options.self_affine, *options.wavelengths)
     rms = options.rms[0] if options.rms else None
     values = generation.heights(spectrum, options.grid_n, options.size, shortest, options.seed, rms)
+    if options.distribution:
+        values = generation.shaped(values, generation.distributed(options.distribution), rms)
+    elif options.skewness is not None or options.kurtosis is not None:
+        skewness = options.skewness or 0.0
+        kurtosis = 3.0 + 1.5 * skewness**2 if options.kurtosis is None else options.kurtosis
+        values = generation.shaped(values, generation.cubic(skewness, kurtosis), float(np.sqrt(np.mean(values**2))))
     quantity = "separation" if options.separation else (options.body or ["height2"])[0]
     print(f"random surface: {QUANTITIES[quantity]}\n  seed {options.seed}")
     one = new_map(values, options.size, quantity, options.output)
@@ -262,6 +300,7 @@ def description(one):
         "cells   {} x {} of {} x {}".format(*n, *map(shown, cell)),
         "size    {} x {} about x = {:g} m, y = {:g} m".format(*map(shown, size), *center),
         f"height  Sq {shown(rms_height(one))}, peak to valley {shown(peak_to_valley(one))}, from {low} to {high}",
+        "shape   skewness Ssk {:.3g}, kurtosis Sku {:.3g}".format(*moments(one)),
         f"slope   Sdq {rms_slope(one):.4g}; of the mean plane {slopes[0]:.3g} in x, {slopes[1]:.3g} in y",
     ]
 

@@ -1,12 +1,19 @@
-"""Random surfaces: Gaussian heights of a given power spectrum, periodic over the grid.
+"""Random surfaces of a given power spectrum, periodic over the grid, with Gaussian or other heights.
 
 The spectrum C(q) (m^4, q in rad/m) is isotropic and two-dimensional: the mean square height is the integral of C over
 all wave vectors. A self-affine surface has C ~ q^(-2 (1 + H)) between its longest and its shortest wavelength (B. N. J.
 Persson and others, Journal of Physics: Condensed Matter 17 (2005) R1-R62). The waves of a seed depend on the size and
 the shortest wavelength only: a finer grid shows the same surface.
+
+Other heights are a function of the Gaussian ones, point by point (M. Grigoriu, Journal of Engineering Mechanics 110
+(1984) 610-620): of a table of heights and the share of points below them, or the cubic polynomial that has a given
+skewness and kurtosis (A. I. Fleishman, Psychometrika 43 (1978) 521-532). This changes the spectrum somewhat, and adds
+waves shorter than the shortest.
 """
 
 import numpy as np
+from scipy.optimize import least_squares
+from scipy.special import ndtr
 
 from ..errors import Error
 from .lengths import shown
@@ -14,6 +21,7 @@ from .tables import read_table
 
 RESOLVED = 2.0  # cells in the shortest wavelength at least
 MOST = 1 << 13  # waves along a side
+FOLD = 2.0  # within so many rms heights, 95 % of the points, higher Gaussian heights become higher ones
 
 
 def self_affine(hurst, longest, shortest):
@@ -31,6 +39,45 @@ def tabulated(path):
     q, c = np.log(table).T
     inside = lambda k: (k >= q[0] - 1e-9) & (k <= q[-1] + 1e-9)  # noqa: E731
     return lambda k: np.where(inside(np.log(k)), np.exp(np.interp(np.log(k), q, c)), 0.0), 2.0 * np.pi / table[-1, 0]
+
+
+def cubic(skewness, kurtosis):
+    """The function of Gaussian heights of mean square 1 to those of mean 0, mean square 1 with these moments."""
+
+    def moments(v):
+        b, c, d = v
+        return (
+            b * b + 6 * b * d + 2 * c * c + 15 * d * d - 1.0,
+            2 * c * (b * b + 24 * b * d + 105 * d * d + 2) - skewness,
+            24 * (b * d + c * c * (1 + b * b + 28 * b * d) + d * d * (12 + 48 * b * d + 141 * c * c + 225 * d * d))
+            - (kurtosis - 3.0),
+        )
+
+    found = least_squares(moments, (1.0, skewness / 6.0, 0.0), xtol=1e-15, ftol=1e-15, gtol=1e-15)
+    b, c, d = found.x
+    g = np.linspace(-FOLD, FOLD, 101)
+    if np.abs(found.fun).max() > 1e-9 or np.min(b + g * (2.0 * c + g * 3.0 * d)) < 0.0:
+        raise Error(
+            f"no heights of skewness {skewness:g} and kurtosis {kurtosis:g} by a cubic polynomial; use a kurtosis "
+            f"nearer to {3.0 + 1.5 * skewness**2:.3g}, or a table (--distribution)"
+        )
+    return lambda g: -c + g * (b + g * (c + g * d))
+
+
+def distributed(path):
+    """The function of Gaussian heights of mean square 1 to those of a table of heights (m) and shares below them."""
+    table, _ = read_table(path)
+    good = table.shape[1] == 2 and table.shape[0] >= 2 and np.all(np.diff(table, axis=0) > 0.0)
+    if not good or table[0, 1] < 0.0 or table[-1, 1] > 1.0:
+        raise Error(f"{path}: expected lines of a height (m) and the share of points below it, 0 to 1, both increasing")
+    return lambda g: np.interp(ndtr(g), table[:, 1], table[:, 0])
+
+
+def shaped(values, function, rms=None):
+    """Heights of another distribution, of mean 0; scaled to the rms height (m) if given."""
+    values = function(values / np.sqrt(np.mean(values**2)))
+    values = values - values.mean()
+    return values if rms is None else values * (rms / np.sqrt(np.mean(values**2)))
 
 
 def heights(spectrum, n, size, shortest, seed=0, rms=None):

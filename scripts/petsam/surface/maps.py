@@ -111,6 +111,12 @@ def rms_height(one):
     return float(np.std(one.values))
 
 
+def moments(one):
+    """Ssk and Sku: skewness and kurtosis of the heights; 0 and 0 of a plane."""
+    values = (one.values - np.mean(one.values)) / (np.std(one.values) or 1.0)
+    return float(np.mean(values**3)), float(np.mean(values**4))
+
+
 def rms_slope(one):
     """Sdq: root mean square of the gradient, between the centres of neighbouring cells."""
     along = [np.diff(one.values, axis=1 - d) / one.cell[d] for d in (0, 1)]

@@ -46,6 +46,8 @@ typedef struct {
   to it; and of those of several cycles of a life (closed.c). Collective.
 */
 PETSC_INTERN PetscErrorCode SamCycleCheckClosed(SamStressRun *run);
+/* SamStressRunHalfWidth - sets and prints the half width of the contact if depths need it (width.c). Collective. */
+PETSC_INTERN PetscErrorCode SamStressRunHalfWidth(SamStressRun *run);
 /* SamLargestWrite, SamLargestPrint - the largest values of each step, and of the fatigue parameters. Collective. */
 PETSC_INTERN PetscErrorCode SamLargestWrite(SamStressRun *run);
 PETSC_INTERN PetscErrorCode SamLargestPrint(SamStressRun *run);

@@ -1,7 +1,8 @@
 /*
   Curved bodies whose principal directions are x and y: h = x^2/2Rx + y^2/2Ry, where Rx and Ry are the principal
-  relative radii of curvature. If one of them is infinite: a cylinder.
-  K. L. Johnson, Contact Mechanics (Cambridge University Press, 1985), eq. 4.3.
+  relative radii of curvature. If one of them is infinite: a cylinder. Or two bodies with principal radii of their own,
+  negative where they are concave, those of body 2 turned by an angle about z.
+  K. L. Johnson, Contact Mechanics (Cambridge University Press, 1985), eqs 4.2 and 4.3.
 */
 #include <petsam/private/gapimpl.h>
 #include <math.h>
@@ -86,5 +87,105 @@ PetscErrorCode SamGapCreate_Ellipsoid(SamGap gap)
   gap->ops.height     = Height_Ellipsoid;
   gap->ops.contact    = Contact_Ellipsoid;
   gap->ops.steepness  = Steepness_Ellipsoid;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- two bodies at an angle ---- */
+
+static const SamGapParameter curved[] = {
+  {"gap_radius1_x", "radius of body 1 along x (m, inf: cylinder, < 0: concave)", SAM_RANGE_NOT_ZERO},
+  {"gap_radius1_y", "radius of body 1 along y (m, inf: cylinder, < 0: concave)", SAM_RANGE_NOT_ZERO},
+  {"gap_radius2_x", "radius of body 2 along its x (m, inf: cylinder, < 0: concave)", SAM_RANGE_NOT_ZERO},
+  {"gap_radius2_y", "radius of body 2 along its y (m, inf: cylinder, < 0: concave)", SAM_RANGE_NOT_ZERO},
+  {"gap_angle", "angle from x to the x of body 2 (degrees)", SAM_RANGE_ANY}};
+
+static const PetscReal curved_defaults[] = {INFINITY, INFINITY, INFINITY, INFINITY, 0};
+
+/* The relative curvatures h_xx, h_xy, h_yy (1/m) of v: the radii along x and y of both bodies, and their angle. */
+static void Curvatures(const PetscReal v[], double h[3])
+{
+  const double angle = v[4] * PETSC_PI / 180, c = cos(angle), s = sin(angle);
+
+  h[0] = 1 / v[0] + c * c / v[2] + s * s / v[3];
+  h[1] = c * s * (1 / v[2] - 1 / v[3]);
+  h[2] = 1 / v[1] + s * s / v[2] + c * c / v[3];
+}
+
+/* The smaller and the larger principal relative curvature, and the angle of the direction of the smaller to x. */
+static double Principal(const PetscReal v[], double curvature[2])
+{
+  double h[3], size = 0, deviation;
+
+  Curvatures(v, h);
+  for (int k = 0; k < 4; k++) size += 1 / fabs(v[k]);
+  deviation    = hypot(0.5 * (h[0] - h[2]), h[1]);
+  curvature[0] = 0.5 * (h[0] + h[2]) - deviation;
+  curvature[1] = 0.5 * (h[0] + h[2]) + deviation;
+  for (int k = 0; k < 2; k++)
+    if (fabs(curvature[k]) < 1e-14 * size) curvature[k] = 0; /* rounding */
+  return 0.5 * (atan2(2 * h[1], h[0] - h[2]) + PETSC_PI);
+}
+
+static PetscReal Height_Curved(const PetscReal values[], PetscReal x, PetscReal y)
+{
+  double h[3];
+
+  Curvatures(values, h);
+  return 0.5 * (h[0] * x * x + h[2] * y * y) + h[1] * x * y;
+}
+
+/* Hertz's ellipse in its own axes, within the rectangle of which the half widths are. */
+static SamGapContact Contact_Curved(const PetscReal values[], PetscReal half)
+{
+  double          curvature[2];
+  const double    angle = Principal(values, curvature), c = cos(angle), s = sin(angle);
+  const PetscReal radii[2] = {1 / curvature[0], 1 / curvature[1]};
+  SamGapContact   contact  = Contact_Ellipsoid(radii, half);
+  const double    a = contact.half[0], b = contact.half[1];
+
+  contact.half[0] = hypot(isinf(a) && fabs(c) < 1e-12 ? 0 : a * c, isinf(b) && fabs(s) < 1e-12 ? 0 : b * s);
+  contact.half[1] = hypot(isinf(a) && fabs(s) < 1e-12 ? 0 : a * s, isinf(b) && fabs(c) < 1e-12 ? 0 : b * c);
+  return contact;
+}
+
+static PetscReal Steepness_Curved(const PetscReal values[], const PetscReal half[2], PetscInt *parameter)
+{
+  const double angle = values[4] * PETSC_PI / 180, c = cos(angle), s = sin(angle);
+  const double along[4] = {half[0], half[1], hypot(half[0] * c, half[1] * s), hypot(half[0] * s, half[1] * c)};
+
+  *parameter = 0;
+  for (int k = 1; k < 4; k++)
+    if (along[k] / fabs(values[k]) > along[*parameter] / fabs(values[*parameter])) *parameter = k;
+  return along[*parameter] / fabs(values[*parameter]);
+}
+
+static PetscErrorCode Check_Curved(SamGap gap)
+{
+  double curvature[2];
+
+  PetscFunctionBegin;
+  (void)Principal(gap->values, curvature);
+  PetscCheck(
+    curvature[0] >= 0, gap->comm, SAM_ERR_USER,
+    "-%sgap_type %s: the surfaces cross, their smallest relative curvature is %.6g 1/m, the limit is 0: give a "
+    "negative radius of larger size",
+    gap->prefix, gap->type, curvature[0]);
+  PetscCheck(curvature[1] > 0, gap->comm, SAM_ERR_USER,
+             "-%sgap_type %s: the radii are equal and opposite or infinite, so all relative curvatures are 0: give a "
+             "clearance between the radii, or -%sgap_type flat",
+             gap->prefix, gap->type, gap->prefix);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGapCreate_Curved(SamGap gap)
+{
+  PetscFunctionBegin;
+  gap->ops.count      = 5;
+  gap->ops.parameters = curved;
+  gap->ops.defaults   = curved_defaults;
+  gap->ops.height     = Height_Curved;
+  gap->ops.contact    = Contact_Curved;
+  gap->ops.steepness  = Steepness_Curved;
+  gap->ops.check      = Check_Curved;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

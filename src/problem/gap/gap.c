@@ -23,6 +23,9 @@ static PetscErrorCode RegisterAll(void)
   registered = PETSC_TRUE;
   PetscCall(SamGapRegister(SAM_GAP_SPHERE, SamGapCreate_Sphere));
   PetscCall(SamGapRegister(SAM_GAP_ELLIPSOID, SamGapCreate_Ellipsoid));
+  PetscCall(SamGapRegister(SAM_GAP_CURVED, SamGapCreate_Curved));
+  PetscCall(SamGapRegister(SAM_GAP_PAD, SamGapCreate_Pad));
+  PetscCall(SamGapRegister(SAM_GAP_ROLLER, SamGapCreate_Roller));
   PetscCall(SamGapRegister(SAM_GAP_PUNCH, SamGapCreate_Punch));
   PetscCall(SamGapRegister(SAM_GAP_FLAT, SamGapCreate_Flat));
   PetscCall(SamGapRegister(SAM_GAP_FILE, SamGapCreate_File));
@@ -92,7 +95,10 @@ PetscErrorCode SamGapSetType(SamGap gap, SamGapType type)
              type, SAM_GAP_PARAMETERS);
   PetscCheck(gap->ops.height || gap->ops.fill, gap->comm, PETSC_ERR_PLIB, "Gap type %s sets neither height nor fill",
              type);
-  for (PetscInt k = 0; k < gap->ops.count; k++) gap->names[k] = gap->ops.parameters[k].name;
+  for (PetscInt k = 0; k < gap->ops.count; k++) {
+    gap->names[k] = gap->ops.parameters[k].name;
+    if (gap->ops.defaults) gap->values[k] = gap->ops.defaults[k];
+  }
   PetscCall(PetscStrncpy(gap->type, type, sizeof(gap->type)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -140,7 +146,7 @@ static PetscErrorCode RefuseFile(SamGap gap)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Reads the options of the type, all of which are required, except while the help is printed. */
+/* Reads the options of the type; those without a default are required, except while the help is printed. */
 static PetscErrorCode SetTypeFromOptions(SamGap gap, PetscBool help)
 {
   const SamOptions from = {gap->comm, gap->prefix};
@@ -151,7 +157,8 @@ static PetscErrorCode SetTypeFromOptions(SamGap gap, PetscBool help)
     PetscBool              set;
     char                   text[256];
 
-    PetscCall(PetscSNPrintf(text, sizeof(text), "%s: required by %s", parameter->help, gap->type));
+    PetscCall(PetscSNPrintf(text, sizeof(text), isnan(gap->values[k]) ? "%s: required by %s" : "%s, of %s",
+                            parameter->help, gap->type));
     PetscCall(SamOptionsReal(&from, parameter->name, text, parameter->range, &gap->values[k], &set));
     PetscCall(
       PetscSNPrintf(text, sizeof(text), "%s, required by -%sgap_type %s", parameter->help, gap->prefix, gap->type));
@@ -213,7 +220,7 @@ PetscErrorCode SamGapSetFromOptions(SamGap gap)
   PetscCall(SamPrintHelp(&help));
   PetscCall(SamOptionsHeading(&from, "Gap"));
   PetscCall(SamTypesList(SamGapList, list, sizeof(list)));
-  PetscCall(PetscSNPrintf(text, sizeof(text), "%s: required without a surface file", list));
+  PetscCall(PetscSNPrintf(text, sizeof(text), "%s: required", list));
   PetscCall(PetscOptionsHasName(NULL, gap->prefix, "-gap_file", &file));
   PetscCall(PetscStrncpy(type, file && !gap->type[0] ? SAM_GAP_FILE : gap->type, sizeof(type)));
   PetscCall(SamTypesOption(SamGapList, &from, "gap_type", text, type, sizeof(type), &set));
@@ -303,6 +310,7 @@ PetscErrorCode SamGapFill(SamGap gap, SamGrid grid, Vec h)
   for (PetscInt k = 0; k < gap->ops.count; k++)
     PetscCheck(!isnan(gap->values[k]), gap->comm, PETSC_ERR_ORDER, "Call SamGapSetParameter() for %s first",
                gap->names[k]);
+  if (gap->ops.check) PetscCall(gap->ops.check(gap));
   if (gap->ops.fill)
     PetscCall(gap->ops.fill(gap, grid, h));
   else
@@ -366,6 +374,7 @@ PetscErrorCode SamGapEstimateContact(SamGap gap, PetscBool force, PetscReal valu
   }
   contact = gap->ops.contact(gap->values, high);
   for (PetscInt k = 0; k < 2; k++) half[k] = contact.half[k];
+  if (isnan(half[0]) || isnan(half[1])) *known = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
