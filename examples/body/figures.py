@@ -27,8 +27,9 @@ class Full:
     def __init__(self, path):
         with np.load(path) as file:
             self.__dict__.update({name: file[name] for name in file.files})
-        found = re.search(r"full_([\d.]+),([\d.]+)\.npz$", path)
+        found = re.search(r"full_([\d.]+),([\d.]+)(?:,([\d.]+))?\.npz$", path)
         self.size, self.far = float(found[1]), float(found[2])
+        self.last = float(found[3] or found[2])
 
     def error(self, grid, name, mine):
         """L2 of petsam's field against the nodes' means, relative to these."""
@@ -49,7 +50,7 @@ class Comparison:
         self.grids = {body: self._grids(directory, body) for body in ("block", "beam")}
         paths = {body: glob.glob(os.path.join(directory, body + "_full_*.npz")) for body in self.grids}
         self.full = {
-            body: sorted(map(Full, found), key=lambda one: (-one.size, -one.far)) for body, found in paths.items()
+            body: sorted(map(Full, found), key=lambda one: (-one.size, -one.last)) for body, found in paths.items()
         }
         self.numbers = {body: [*self._rows(body), *self._full_rows(body)] for body in self.grids}
 
@@ -80,7 +81,7 @@ class Comparison:
     def _full_rows(self, body):
         return [
             {
-                "degree": f"CalculiX {one.size:g}, {one.far:g}", "n": float(one.load_n), "t": float(one.load_tx),
+                "degree": f"CalculiX {one.size:g}, {one.far:g}, {one.last:g}", "n": float(one.load_n), "t": float(one.load_tx),
                 "peak": float(one.pressure.max()), "elements": int(one.elements), "cpu": float(one.cpu),
             }
             for one in self.full[body]
@@ -126,6 +127,7 @@ class Comparison:
             half = 1e3 * self.grids[body]["6"].x[-1]
             panel.set_xlim(-half, half)
             panel.set_ylim(1.15 * min(0.0, getattr(best, name)[row].min()), 1.15 * getattr(best, name)[row].max())
+        panel.xaxis.set_major_locator(plt.MultipleLocator(0.5))
         frame(panel, title, "x, mm", "")
 
 
