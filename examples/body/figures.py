@@ -18,7 +18,8 @@ from petsam.plot.style import COLORS, frame, plt, points, save
 
 DEGREES = ("none", "1", "2", "4", "6", "coarse")
 TITLES = {"none": "half-space", "coarse": "6, coarse mesh"}
-SAMPLES = (np.arange(5) - 2.0) / 5.0  # of a node's area, by which petsam's values are averaged
+SAMPLES = np.arange(-4, 5) / 5.0  # of the spacing of nodes, by which petsam's values are averaged
+WEIGHTS = (1.0 - np.abs(SAMPLES)) / 5.0  # a node's shape function: the force of a node is the mean with it
 
 
 class Full:
@@ -36,9 +37,9 @@ class Full:
         axes = (grid.y * 1e3, grid.x * 1e3)
         values = RegularGridInterpolator(axes, grid[name] / 1e6, bounds_error=False, fill_value=0.0)
         mean = 0.0
-        for dx in SAMPLES * self.size:
-            for dy in SAMPLES * self.size:
-                mean = mean + values(np.stack([np.abs(self.y + dy), self.x + dx], axis=1)) / len(SAMPLES) ** 2
+        for dx, a in zip(SAMPLES * self.size, WEIGHTS):
+            for dy, b in zip(SAMPLES * self.size, WEIGHTS):
+                mean = mean + a * b * values(np.stack([np.abs(self.y + dy), self.x + dx], axis=1))
         weight = self.area * np.where(self.y < 1e-9, 0.5, 1.0)
         return float(np.sqrt(np.sum(weight * (mean - mine) ** 2) / np.sum(weight * mine**2)))
 
@@ -81,7 +82,8 @@ class Comparison:
     def _full_rows(self, body):
         return [
             {
-                "degree": f"CalculiX {one.size:g}, {one.far:g}, {one.last:g}", "n": float(one.load_n), "t": float(one.load_tx),
+                "degree": f"CalculiX {one.size:g}, {one.far:g}, {one.last:g}",
+                "n": float(one.load_n), "t": float(one.load_tx),
                 "peak": float(one.pressure.max()), "elements": int(one.elements), "cpu": float(one.cpu),
             }
             for one in self.full[body]

@@ -8,9 +8,9 @@
 Reads a CalculiX deck (.inp) of solid elements: C3D20, C3D20R, C3D8I, C3D10 and others, isotropic elastic materials, and
 takes the stiffness from CalculiX. The contact is on the patch, a rectangle about --center in the plane z = 0 of the
 frame, whose z points into the body; it lies on the surface --contact. The body is held at the nodes of --fixed; the
-nodes of --symmetry do not leave their plane: of half of a body whose halves are loaded alike. A load case is a step of the deck, with *CLOAD, *DLOAD, *DSLOAD or *BOUNDARY, without contact. Writes HDF5 and a picture beside
-it. With --matrix the body is a substructure of another program, whose retained nodes are the patch: less accurate, so
-of degree 1.
+nodes of --symmetry do not leave their plane: of half of a body whose halves are loaded alike. A load case is a step of
+the deck, with *CLOAD, *DLOAD, *DSLOAD or *BOUNDARY, without contact. Writes HDF5 and a picture beside it. With --matrix
+the body is a substructure of another program, whose retained nodes are the patch: less accurate, so of degree 1.
 """
 
 import argparse
