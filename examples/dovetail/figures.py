@@ -83,7 +83,12 @@ class Comparison:
     def _row(self, step):
         """Loads of a step, and the differences from full contact, by its mesh."""
         mine, coarse = self.cycles.history, self.coarse.history
-        row = {"step": step, "n": float(mine["load_n"][step - 1]), "t": float(mine["load_tx"][step - 1])}
+        row = {
+            "step": step,
+            "rise": 1e6 * float(self.rise[step - 1]),
+            "n": float(mine["load_n"][step - 1]),
+            "t": float(mine["load_tx"][step - 1]),
+        }
         row["coarse"] = float(coarse["load_n"][step - 1]) / row["n"] - 1.0
         for i, one in enumerate(self.full):
             row[f"n{i}"] = row[f"t{i}"] = np.nan
@@ -104,7 +109,7 @@ class Comparison:
 
     def tables(self):
         """Loads, errors, loop, wear and fatigue."""
-        columns = "step = step:d; N, N = n:.2f; T, N = t:.2f; coarser compliance: N = coarse:.2%"
+        columns = "step = step:d; rise, um = rise:.0f; N, N = n:.2f; T, N = t:.2f; coarse: N = coarse:.1%"
         columns += "".join(f"; {one.size:g}: N = n{i}:.2%; T = t{i}:.2%" for i, one in enumerate(self.full))
         yield "Loads of the flank, and relative to full contact", columns, self.numbers["steps"]
         columns = "step = step:d; peak, MPa = peak:.1f"

@@ -145,7 +145,9 @@ def deck(blade, disc, size, rises):
 
 
 def read_steps(path, first, count, steps):
-    """Reactions (steps, 3), N, and stresses (steps, elements, 8, 6), MPa, of elements numbered from `first`."""
+    """Reactions (steps, 3), N, and stresses (steps, elements, 8, 6), MPa, of elements numbered from `first`, of the steps
+    that were finished.
+    """
     reaction, stresses = np.zeros((steps, 3)), np.zeros((steps, count, 8, 6))
     kind, step = None, -1
     with open(path, encoding="ascii") as file:
@@ -160,7 +162,7 @@ def read_steps(path, first, count, steps):
                 reaction[step] = [float(word) for word in words]
             else:
                 stresses[step, int(words[0]) - first, int(words[1]) - 1] = [float(word) for word in words[2:8]]
-    return reaction, stresses
+    return reaction[: step + 1], stresses[: step + 1]
 
 
 def fields(disc, stresses):
@@ -204,7 +206,7 @@ def main():
         command = [os.environ.get("CCX", "ccx"), base.name]
         done = subprocess.run(command, cwd=base.parent, stdout=log, stderr=log, env={**os.environ, **threads})
     if done.returncode:
-        sys.exit(f"full.py: CalculiX failed, see {base}.log")
+        print(f"full.py: CalculiX stopped, see {base}.log; its finished steps are used", file=sys.stderr)
     after = os.times()
     cpu = after.children_user + after.children_system - before.children_user - before.children_system
     reaction, stresses = read_steps(f"{base}.dat", disc.first_element, len(disc.elements), len(rises))
