@@ -145,8 +145,8 @@ def deck(blade, disc, size, rises):
 
 
 def read_steps(path, first, count, steps):
-    """Reactions (steps, 3), N, and stresses (steps, elements, 8, 6), MPa, of elements numbered from `first`, of the steps
-    that were finished.
+    """Reactions (steps, 3), N, and stresses (steps, elements, 8, 6), MPa, of elements numbered from `first`; of those
+    steps that were finished.
     """
     reaction, stresses = np.zeros((steps, 3)), np.zeros((steps, count, 8, 6))
     kind, step = None, -1
