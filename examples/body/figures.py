@@ -18,7 +18,8 @@ from petsam.plot.style import COLORS, frame, plt, points, save
 
 DEGREES = ("none", "1", "2", "4", "6", "coarse")
 TITLES = {"none": "half-space", "coarse": "6, coarse mesh"}
-SAMPLES = (np.arange(5) - 2.0) / 5.0  # of a node's area, by which petsam's values are averaged
+SAMPLES = np.arange(-4, 5) / 5.0  # of the spacing of nodes, by which petsam's values are averaged
+WEIGHTS = (1.0 - np.abs(SAMPLES)) / 5.0  # a node's shape function: the force of a node is the mean with it
 
 
 class Full:
@@ -27,17 +28,18 @@ class Full:
     def __init__(self, path):
         with np.load(path) as file:
             self.__dict__.update({name: file[name] for name in file.files})
-        found = re.search(r"full_([\d.]+),([\d.]+)\.npz$", path)
+        found = re.search(r"full_([\d.]+),([\d.]+)(?:,([\d.]+))?\.npz$", path)
         self.size, self.far = float(found[1]), float(found[2])
+        self.last = float(found[3] or found[2])
 
     def error(self, grid, name, mine):
         """L2 of petsam's field against the nodes' means, relative to these."""
         axes = (grid.y * 1e3, grid.x * 1e3)
         values = RegularGridInterpolator(axes, grid[name] / 1e6, bounds_error=False, fill_value=0.0)
         mean = 0.0
-        for dx in SAMPLES * self.size:
-            for dy in SAMPLES * self.size:
-                mean = mean + values(np.stack([np.abs(self.y + dy), self.x + dx], axis=1)) / len(SAMPLES) ** 2
+        for dx, a in zip(SAMPLES * self.size, WEIGHTS):
+            for dy, b in zip(SAMPLES * self.size, WEIGHTS):
+                mean = mean + a * b * values(np.stack([np.abs(self.y + dy), self.x + dx], axis=1))
         weight = self.area * np.where(self.y < 1e-9, 0.5, 1.0)
         return float(np.sqrt(np.sum(weight * (mean - mine) ** 2) / np.sum(weight * mine**2)))
 
@@ -49,7 +51,7 @@ class Comparison:
         self.grids = {body: self._grids(directory, body) for body in ("block", "beam")}
         paths = {body: glob.glob(os.path.join(directory, body + "_full_*.npz")) for body in self.grids}
         self.full = {
-            body: sorted(map(Full, found), key=lambda one: (-one.size, -one.far)) for body, found in paths.items()
+            body: sorted(map(Full, found), key=lambda one: (-one.size, -one.last)) for body, found in paths.items()
         }
         self.numbers = {body: [*self._rows(body), *self._full_rows(body)] for body in self.grids}
 
@@ -80,7 +82,8 @@ class Comparison:
     def _full_rows(self, body):
         return [
             {
-                "degree": f"CalculiX {one.size:g}, {one.far:g}", "n": float(one.load_n), "t": float(one.load_tx),
+                "degree": f"CalculiX {one.size:g}, {one.far:g}, {one.last:g}",
+                "n": float(one.load_n), "t": float(one.load_tx),
                 "peak": float(one.pressure.max()), "elements": int(one.elements), "cpu": float(one.cpu),
             }
             for one in self.full[body]
@@ -126,6 +129,7 @@ class Comparison:
             half = 1e3 * self.grids[body]["6"].x[-1]
             panel.set_xlim(-half, half)
             panel.set_ylim(1.15 * min(0.0, getattr(best, name)[row].min()), 1.15 * getattr(best, name)[row].max())
+        panel.xaxis.set_major_locator(plt.MultipleLocator(0.5))
         frame(panel, title, "x, mm", "")
 
 

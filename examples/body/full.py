@@ -42,29 +42,34 @@ CONTROLS = (
 )
 
 
-def growing(start, end, size, far):
-    """Edges from start to end, of elements that grow from size to far."""
+def growing(start, end, size, far, last=None):
+    """Edges from start to end, of elements that grow from size to far, and shrink to `last` before the end."""
     length, sizes = abs(end - start), []
+    last = far if last is None else last
     while sum(sizes) < length - 1e-9:
-        sizes.append(min(far, size * GROWTH ** (len(sizes) + 1)))
+        shrunk = last + (GROWTH - 1.0) * max(0.0, length - sum(sizes) - last) / GROWTH
+        sizes.append(min(far, size * GROWTH ** (len(sizes) + 1), shrunk))
     return start + np.sign(end - start) * np.cumsum(sizes)[: len(sizes)] * length / sum(sizes) if sizes else []
 
 
-def along(low, high, reach, size, far):
-    """Edges from low to high with elements of `size` from -reach to reach, or between the ends within it."""
+def along(low, high, reach, size, far, last=None):
+    """Edges from low to high with elements of `size` from -reach to reach, or between the ends within it; those at the
+    ends have the size `last`."""
     left, right = max(low, -reach), min(high, reach)
     near = np.linspace(left, right, max(1, round((right - left) / size)) + 1)
-    return np.array([*growing(left, low, size, far)[::-1], *near, *growing(right, high, size, far)])
+    return np.array([*growing(left, low, size, far, last)[::-1], *near, *growing(right, high, size, far, last)])
 
 
-def body_mesh(name, size, far):
+def body_mesh(name, size, far, last=None):
     """The mesh, and a mask of the nodes on its surface."""
     of = BODIES[name]
     (x0, x1), (y0, y1), (_, depth) = of["box"]
     deep = 0.4 * of["reach"]
     z = [0.0, *np.linspace(0.0, deep, max(2, round(deep / size)) + 1)[1:]]
-    z = np.array([*z, *growing(deep, depth, size, far)])
-    edges = (along(x0, x1, of["reach"], size, far), along(y0, y1, of["reach"], size, far), z)
+    ends = None if last is None else min(2.0 * last, far)  # of the free sides: the supports' edges end there
+    z = np.array([*z, *growing(deep, depth, size, far, last if name == "block" else ends)])
+    x = along(x0, x1, of["reach"], size, far, last if name == "beam" else ends)
+    edges = (x, along(y0, y1, of["reach"], size, far, ends), z)
     sets = {
         "BOTTOM": lambda p: p[:, 2] > depth - 1e-9,
         "LEFT": lambda p: p[:, 0] < x0 + 1e-9,
@@ -168,8 +173,9 @@ def main():
     parser.add_argument("out", help="base of the files' names")
     parser.add_argument("--size", type=float, default=0.1, help="of the elements at the contact, mm (0.1)")
     parser.add_argument("--far", type=float, default=0.5, help="of the largest elements, mm (0.5)")
+    parser.add_argument("--last", type=float, help="of the elements at the supports, mm (--far)")
     options = parser.parse_args()
-    mesh, top = body_mesh(options.body, options.size, options.far)
+    mesh, top = body_mesh(options.body, options.size, options.far, options.last)
     lines, beside = deck(options.body, mesh, top, options.size)
     base = Path(options.out)
     Path(f"{base}.inp").write_text("\n".join(lines) + "\n", encoding="ascii")

@@ -7,7 +7,7 @@
 # Works from any directory. Environment:
 #   PETSAM   the program              (build/bin/petsam of the repository)
 #   CCX      CalculiX, Debian package calculix-ccx  (ccx)
-#   FULL     1: full contact, too, an hour  (0)
+#   FULL     1: full contact, too, half an hour  (0)
 #   NP       MPI ranks                (2)
 #   OUT      results and figures, relative to the repository's root  (build/body)
 #   PYTHON   a Python with scripts/requirements.txt  (build/venv/bin/python of the repository)
@@ -54,13 +54,15 @@ for which in 1 2 4 6 coarse; do
         -history "$here/pull.csv"
 done
 
-# full contact: a reference, whose mesh is refined at the contact and far from it
+# full contact: a reference, whose mesh is refined at the contact and at the supports; and how stiff its meshes are
 if [ "${FULL:-0}" = 1 ]; then
-    for mesh in 0.2,0.5 0.1,0.5 0.1,0.3; do
-        for body in block beam; do
-            "$python" "$here/full.py" "$body" "$out/${body}_full_$mesh" --size "${mesh%,*}" --far "${mesh#*,}"
-        done
+    for mesh in 0.2,0.5,0.5 0.2,0.5,0.05 0.1,0.5,0.5 0.1,0.4,0.04; do
+        rest=${mesh#*,}
+        "$python" "$here/full.py" beam "$out/beam_full_$mesh" --size "${mesh%%,*}" --far "${rest%,*}" --last "${mesh##*,}"
     done
-    "$python" "$here/full.py" block "$out/block_full_0.0625,0.5" --size 0.0625
+    for size in 0.2 0.1; do
+        "$python" "$here/full.py" block "$out/block_full_$size,0.5" --size "$size"
+    done
+    "$python" "$here/linear.py"
 fi
 compare

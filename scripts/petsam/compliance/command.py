@@ -7,10 +7,10 @@
 
 Reads a CalculiX deck (.inp) of solid elements: C3D20, C3D20R, C3D8I, C3D10 and others, isotropic elastic materials, and
 takes the stiffness from CalculiX. The contact is on the patch, a rectangle about --center in the plane z = 0 of the
-frame, whose z points into the body; it lies on the surface --contact. The body is held at the nodes of --fixed. A load
-case is a step of the deck, with *CLOAD, *DLOAD, *DSLOAD or *BOUNDARY, without contact. Writes HDF5 and a picture beside
-it. With --matrix the body is a substructure of another program, whose retained nodes are the patch: less accurate, so
-of degree 1.
+frame, whose z points into the body; it lies on the surface --contact. The body is held at the nodes of --fixed; the
+nodes of --symmetry do not leave their plane: of half of a body whose halves are loaded alike. A load case is a step of
+the deck, with *CLOAD, *DLOAD, *DSLOAD or *BOUNDARY, without contact. Writes HDF5 and a picture beside it. With --matrix
+the body is a substructure of another program, whose retained nodes are the patch: less accurate, so of degree 1.
 """
 
 import argparse
@@ -30,6 +30,7 @@ from . import model, picture, substructure, writing
 HIGHEST = 10  # degree that petsam reads
 NAME = re.compile(r"[A-Za-z0-9_]{1,20}")
 MOST_CASES = 8
+MESH_ONLY = ("contact", "fixed", "symmetry", "case", "coarse_mesh", "depth")
 PROGRAM = "petsam-compliance"
 
 
@@ -77,6 +78,9 @@ def _body_options(parser):
     body.add_argument("--mesh", metavar="NAME.inp", help="CalculiX deck with mesh, sets and materials")
     body.add_argument("--contact", metavar="SURFACE", help="element surface of the deck on which the patch lies")
     body.add_argument("--fixed", action="append", metavar="NSET", help="node set held in x, y, z; may be repeated")
+    body.add_argument(
+        "--symmetry", action="append", metavar="NSET", help="node set in a plane of symmetry; may be repeated"
+    )
     body.add_argument("--units", choices=tuple(model.UNITS), default="m", help="m: m, N, Pa; mm: mm, N, MPa (m)")
     body.add_argument(
         "--frame",
@@ -133,12 +137,12 @@ def arguments(words):
     for name in needed:
         if getattr(options, name) is None:
             reader.error(f"{'--mesh' if options.mesh else '--matrix'} needs --{name}")
-    useless = ("nodes", "young", "poisson") if options.mesh else ("contact", "fixed", "case", "coarse_mesh", "depth")
+    useless = ("nodes", "young", "poisson") if options.mesh else MESH_ONLY
     for name in useless:
         if getattr(options, name) is not None:
             reader.error(f"--{name.replace('_', '-')} is not for {'--mesh' if options.mesh else '--matrix'}: remove it")
     options.frame = options.frame or [[0.0, 0.0, 0.0]]
-    options.case = options.case or []
+    options.case, options.symmetry = options.case or [], options.symmetry or []
     names = [name for name, _ in options.case]
     if len(set(names)) < len(names) or len(names) > MOST_CASES:
         reader.error(f"--case: give each name once, at most {MOST_CASES} of them")

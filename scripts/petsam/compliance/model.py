@@ -10,7 +10,7 @@ from . import cases as load_cases
 from . import checks, cutoff, deck, images, stresses
 from .basis import Patch
 from .halfspace import Fields
-from .solve import Solver
+from .solve import Solver, plane_normal
 from .stiffness import stiffness
 
 GAUSS_MORE = 3  # Gauss points along the patch beyond its degree, where fields are sampled
@@ -89,6 +89,7 @@ class Model:
         self.supported = np.unique(
             np.concatenate([deck.need_set(mesh.node_sets, name, "node set", path) for name in options.fixed])
         )
+        symmetric = [deck.need_set(mesh.node_sets, name, "node set", path) for name in options.symmetry]
         faces = mesh.surface_faces(options.contact.upper())
         if not faces:
             raise Error(f"{path}: surface {options.contact} has no element faces: define it by TYPE=ELEMENT")
@@ -96,9 +97,18 @@ class Model:
         origin, x, z = (list(options.frame) + [None, None])[:3]
         self.frame = frame_of(np.array(origin) * units.length, x, z, outward)
         self.mesh = mesh.turned(self.frame.origin, self.frame.axes)
-        load_cases.need_supports(self.deck, self.mesh, self.frame, units, self.supported)
+        held = np.unique(np.concatenate([self.supported, *symmetric]))
+        load_cases.need_supports(self.deck, self.mesh, self.frame, units, held)
+        self.planes = [(nodes, self._normal(name, nodes)) for name, nodes in zip(options.symmetry, symmetric)]
         self.contact = faces
         self.patch = Patch(options.center, tuple(0.5 * side for side in options.patch), options.degree)
+
+    def _normal(self, name, nodes):
+        """Normal of a plane of symmetry in the frame's coordinates."""
+        normal = plane_normal(self.mesh.nodes[nodes])
+        if normal is None:
+            raise Error(f"{self.path}: node set {name} of --symmetry is not a plane: name the nodes of one plane")
+        return normal
 
     def moduli(self):
         """(E, nu) under the patch."""
@@ -128,6 +138,7 @@ def choose(model, plane):
         ("the surface is curved", not plane),
         ("the body rises above the plane of the patch", plane and model.above()),
         ("the body has several materials", not model.uniform()),
+        ("the body has a plane of symmetry", bool(model.planes)),
     ]
     reason = ", ".join(text for text, holds in reasons if holds)
     wanted = model.options.method
@@ -159,8 +170,12 @@ def remainder(model, method, plane, progress):
         clearance = checks.need_clearance(mesh, patch, supported)
         remarks.append(f"nearest other surface {clearance:.4g} m from the patch")
     else:
+        if not plane:
+            off = checks.deviation(mesh, patch, model.contact)
+            remarks.append(f"warning: the surface is up to {off:.2g} of the patch's half width off the tangent plane")
         tolerance = max(images.FLAT * max(patch.half), 0.0 if plane else checks.CURVED * min(patch.half))
-        chi = cutoff.widest(mesh, patch, supported, model.contact, tolerance, (young, poisson))
+        mirrored = np.concatenate([supported, *(nodes for nodes, _ in model.planes)])
+        chi = cutoff.widest(mesh, patch, mirrored, model.contact, tolerance, (young, poisson))
         coarse = cutoff.too_coarse(mesh, chi)
         remarks.append(f"cut-off from {chi.outer[0, :2]} to {chi.outer[1]} m")
         if coarse * cutoff.ELEMENTS > 1.0:
@@ -172,7 +187,7 @@ def remainder(model, method, plane, progress):
     fixed = np.zeros((len(mesh.nodes), 3), dtype=bool)
     fixed[supported] = True
     progress("factorization")
-    solver = Solver(matrix, mesh.nodes, fixed.ravel())
+    solver = Solver(matrix, mesh.nodes, fixed.ravel(), model.planes)
     fields = Fields(patch, young, poisson)
     if method == "image":
         return images.solved(mesh, fields, solver, supported, progress), solver, remarks
@@ -181,9 +196,11 @@ def remainder(model, method, plane, progress):
 
 def _cases(model, solver, found):
     """Load cases by name."""
+    if not model.options.case:
+        return {}
     patch = model.patch
     points, _ = patch.quadrature(*(2 * [patch.degree + GAUSS_MORE]))
-    inward = images.FLAT * min(patch.half)
+    inward = max(images.FLAT, 1.01 * checks.deviation(model.mesh, patch, model.contact)) * min(patch.half)
     lift = np.concatenate([points, np.full((len(points), 1), inward)], axis=1)
     place = model.mesh.locate(lift)
     if np.any(place[0] < 0):

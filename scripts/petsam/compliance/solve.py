@@ -9,6 +9,7 @@ from ..errors import Error
 from .stiffness import rigid_motions
 
 LOOSE = 1e-6  # singular value of rigid motions at the supports, below which the body can move
+FLAT = 1e-6  # of their extent, by which nodes may be off a plane of symmetry
 LEAF = 60  # nodes that are not divided further
 
 
@@ -38,13 +39,41 @@ def dissection(points, adjacency):
     return np.concatenate(order)
 
 
-def need_support(nodes, adjacency, fixed):
+def plane_normal(points):
+    """Unit normal of the plane through points (n, 3); None where they lie in no plane, or on a line."""
+    x = points - points.mean(axis=0)
+    spread, directions = np.linalg.svd(x.T @ x)[1:]
+    return directions[2] if spread[2] <= FLAT**2 * spread[0] < FLAT * spread[1] else None
+
+
+def free_directions(fixed, planes):
+    """Directions (n, 3, 3) of each node as rows, and which of them (n, 3) are free.
+
+    fixed: mask (3 n) of prescribed unknowns; planes: (nodes, normal) of symmetry.
+    """
+    free = ~fixed.reshape(-1, 3)
+    axes = np.tile(np.eye(3), (len(free), 1, 1))
+    member = np.zeros((len(free), len(planes)), dtype=bool)
+    for k, (nodes, _) in enumerate(planes):
+        member[nodes, k] = True
+    member[~np.all(free, axis=1)] = False
+    for planes_of in np.unique(member, axis=0):
+        normals = np.array([normal for (_, normal), is_in in zip(planes, planes_of) if is_in])
+        if len(normals):
+            here = np.all(member == planes_of, axis=1)
+            _, size, directions = np.linalg.svd(normals)
+            axes[here] = directions
+            free[here] = np.arange(3) >= np.sum(size > LOOSE)
+    return axes, free
+
+
+def need_support(nodes, adjacency, axes, free):
     """Error where a connected part of the body can move as a rigid one."""
     count, part = connected_components(adjacency, directed=False)
     for i in range(count):
         mine = np.flatnonzero(part == i)
-        rows = (3 * mine[:, None] + np.arange(3)).ravel()
-        held = rigid_motions(nodes[mine])[fixed[rows]]
+        motions = np.einsum("nkx,nxm->nkm", axes[mine], rigid_motions(nodes[mine]).reshape(-1, 3, 6))
+        held = motions[~free[mine]]
         if len(held) < 6 or np.linalg.svd(held, compute_uv=False)[-1] < LOOSE:
             x = nodes[mine].mean(axis=0)
             raise Error(
@@ -54,27 +83,31 @@ def need_support(nodes, adjacency, fixed):
 
 
 class Solver:
-    """K with fixed unknowns."""
+    """K with fixed unknowns, and with planes of symmetry."""
 
-    def __init__(self, matrix, nodes, fixed):
-        """fixed: mask of the unknowns (3 n) that are prescribed."""
+    def __init__(self, matrix, nodes, fixed, planes=()):
+        """fixed: mask of the unknowns (3 n) that are prescribed; planes: (nodes, normal) that nodes do not leave."""
         self.matrix, self.fixed = matrix.tocsr(), fixed
-        self.free = np.flatnonzero(~fixed)
         self.held = np.flatnonzero(fixed)
         count = len(nodes)
         pattern = sparse.csr_matrix((np.ones(matrix.nnz), self.matrix.indices // 3, self.matrix.indptr))
         pick = sparse.csr_matrix((np.ones(count), (np.arange(count), 3 * np.arange(count))), shape=(count, 3 * count))
         adjacency = (pick @ pattern).tocsr()
-        need_support(nodes, adjacency, fixed)
+        axes, free = free_directions(fixed, planes)
+        need_support(nodes, adjacency, axes, free)
         order = dissection(nodes, adjacency)
-        rows = (3 * order[:, None] + np.arange(3)).ravel()
-        self.rows = rows[~fixed[rows]]
-        supported = self.matrix[self.rows][:, self.rows].tocsc()
+        node, which = (part.ravel() for part in np.broadcast_arrays(order[:, None], np.arange(3)))
+        node, which = node[free[node, which]], which[free[node, which]]
+        rows, columns = 3 * node[:, None] + np.arange(3), np.tile(np.arange(len(node))[:, None], (1, 3))
+        moved = (axes[node, which].ravel(), (rows.ravel(), columns.ravel()))
+        self.moves = sparse.csr_matrix(moved, shape=(3 * count, len(node)))  # displacements by the free unknowns
+        self.moves.eliminate_zeros()
+        supported = (self.moves.T @ self.matrix @ self.moves).tocsc()
         try:
             self._factor = splu(supported, permc_spec="NATURAL", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
         except (RuntimeError, MemoryError) as error:
             raise Error(
-                f"the stiffness of {len(self.rows)} unknowns cannot be factorized ({error}): "
+                f"the stiffness of {len(node)} unknowns cannot be factorized ({error}): "
                 "support the whole body by --fixed, or use a coarser mesh"
             ) from error
 
@@ -82,8 +115,7 @@ class Solver:
         """Displacements (3 n, columns): forces (3 n, columns) on free unknowns, prescribed values (held, columns)."""
         u = np.zeros_like(force)
         u[self.held] = prescribed
-        u[self.rows] = self._factor.solve(np.ascontiguousarray((force - self.matrix @ u)[self.rows]))
-        return u
+        return u + self.moves @ self._factor.solve(self.moves.T @ (force - self.matrix @ u))
 
     def reaction(self, u, force):
         """Forces (held, columns) of the supports: K u - force."""
