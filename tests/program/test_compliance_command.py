@@ -305,7 +305,7 @@ BAD_CASES = [
     (["*STEP", "*TEMPERATURE", "RIGHT, 1.", "*END STEP"], "*TEMPERATURE in a load case is not supported"),
     (["*STEP", "*DSLOAD", "NOWHERE, P, 1.", "*END STEP"], "expected `surface, P, value`"),
     (["*STEP", "*CLOAD, AMPLITUDE=A", "RIGHT, 1, 1.", "*END STEP"], "AMPLITUDE of *CLOAD is not supported"),
-    (["*BOUNDARY", "RIGHT, 2, 2", "*STEP", "*END STEP"], "which is not in --fixed: add its set to --fixed"),
+    (["*BOUNDARY", "RIGHT, 2, 2", "*STEP", "*END STEP"], "which is not in --fixed or --symmetry: add its set to --fixed"),
 ]
 
 
