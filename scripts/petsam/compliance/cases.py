@@ -112,8 +112,8 @@ def need_supports(deck, mesh, frame, units, supported):
     free = np.setdiff1d(np.flatnonzero(found.prescribed.reshape(-1, 3)[:, 0]), supported)
     if len(free):
         raise Error(
-            f"{deck.supports[0].place}: *BOUNDARY holds node {mesh.node_numbers[free[0]]}, which is not in --fixed or --symmetry: "
-            "add its set to --fixed, or remove the card"
+            f"{deck.supports[0].place}: *BOUNDARY holds node {mesh.node_numbers[free[0]]}, which is not in "
+            "--fixed or --symmetry: add its set to --fixed, or remove the card"
         )
 
 

@@ -74,6 +74,9 @@ def frame_of(origin, x, z, outward):
     return Frame(np.array(origin, dtype=float), np.stack([x, np.cross(z, x), z]))
 
 
+MEGAPASCALS = (1e3, 1e6)  # moduli of metals and plastics in MPa
+
+
 class Model:
     """The mesh in the frame's coordinates, in SI units, with its supports and its contact surface."""
 
@@ -166,6 +169,8 @@ def remainder(model, method, plane, progress):
     mesh, patch, supported = model.mesh, model.patch, model.supported
     young, poisson = model.moduli()
     remarks = []
+    if MEGAPASCALS[0] <= young < MEGAPASCALS[1] and model.options.units == "m":
+        remarks.append(f"warning: Young's modulus is {young:.6g} Pa: give --units mm if the deck is in mm and MPa")
     if method == "image":
         clearance = checks.need_clearance(mesh, patch, supported)
         remarks.append(f"nearest other surface {clearance:.4g} m from the patch")
