@@ -102,9 +102,13 @@ PetscErrorCode SamStepView(const SamStep *s, SamContact contact, PetscViewer vie
 
     if (grid->axes == 1 && (c == SAM_COMPONENT_MX || c == SAM_COMPONENT_MZ)) continue;
     if (creep) {
+      double value;
+
       (void)snprintf(fine, sizeof(fine), "%s_extrapolated", load ? name->creep : name->load);
-      (void)snprintf(fine, sizeof(fine), "; fine grid: %s %.7g", load ? name->creep : name->load,
-                     Clean(Get(contact, fine), 1e3 * REST * (load ? sizes.rigid : sizes.load)[c >= SAM_COMPONENT_MX]));
+      value   = Clean(Get(contact, fine), 1e3 * REST * (load ? sizes.rigid : sizes.load)[c >= SAM_COMPONENT_MX]);
+      fine[0] = '\0';
+      if (!isnan(value)) /* a contact of few cells has none */
+        (void)snprintf(fine, sizeof(fine), "; fine grid: %s %.7g", load ? name->creep : name->load, value);
     }
     PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  %-7s %14.7g %-*s  %-6s %14.7g %-3s  (%s given%s)\n",
                                      k == 0   ? "normal"
