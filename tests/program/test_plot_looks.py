@@ -123,6 +123,13 @@ def test_a_picture_has_the_given_width(plot, folder):
     assert plot("--xlim", "2,1", "c.h5")[0] == 2
 
 
+def test_limits_without_data_are_rejected(plot, folder):
+    code, err = plot("--field", "pressure", "--xlim", "1,2", "-o", "beyond.png", "c.h5")
+    assert code == 3 and "--xlim 1,2: nothing is drawn there: the data reach from -" in err[0]
+    assert not (folder / "beyond.png").exists()
+    assert plot("--field", "pressure", "--xlim=-1e-5,2", "-o", "w.png", "c.h5")[0] == 0
+
+
 @pytest.mark.parametrize("decades", [0.1, 0.3, 0.6, 1.0, 1.7, 2.5, 4.0, 7.0])
 @pytest.mark.parametrize("inches", [2.0, 4.0, 9.0])
 @pytest.mark.parametrize("first", [3e-8, 1.0, 2e6])

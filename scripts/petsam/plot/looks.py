@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.text import Text
 
+from ..errors import Error
 from .style import plt
 from .units import size_of
 
@@ -22,14 +23,19 @@ def adapt(figure, x_limits=None, y_limits=None, width=None):
     """Show parts of the axes only (SI units); an axis that points down stays so. Width in mm, texts in proportion."""
     panels = _panels(figure)
     shared = [next(filter(None, (getattr(one, f"get_{n}label")() for one in panels)), "") for n in "xy"]
-    for panel in panels:
-        for limits, text, axis, change in (
-            (x_limits, shared[0], panel.xaxis, panel.set_xlim),
-            (y_limits, shared[1], panel.yaxis, panel.set_ylim),
-        ):
-            if limits:
-                low, high = (value / size_of(axis.get_label_text() or text) for value in limits)
-                change(*((high, low) if axis.get_inverted() else (low, high)))
+    for n, limits in enumerate((x_limits, y_limits)):
+        ranges = []  # of the data
+        for panel in panels if limits else ():
+            axis, change = ((panel.xaxis, panel.set_xlim), (panel.yaxis, panel.set_ylim))[n]
+            unit = size_of(axis.get_label_text() or shared[n])
+            ranges.append(np.sort((panel.dataLim.intervalx, panel.dataLim.intervaly)[n]) * unit)
+            low, high = (value / unit for value in limits)
+            change(*((high, low) if axis.get_inverted() else (low, high)))
+        if ranges and all(one[1] < limits[0] or one[0] > limits[1] for one in ranges):
+            raise Error(
+                f"--{'xy'[n]}lim {limits[0]:g},{limits[1]:g}: nothing is drawn there: "
+                f"the data reach from {min(one[0] for one in ranges):.4g} to {max(one[1] for one in ranges):.4g}"
+            )
     if width:
         inches = figure.get_size_inches()
         part = width / INCH / inches[0]
