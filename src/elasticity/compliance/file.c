@@ -207,7 +207,7 @@ static PetscErrorCode ReadPoints(SamFile f, SamCompliance c, const char name[], 
              f->option, f->filename, name, (int)line.size[0], c->modes);
   PetscCheck(rest <= REST, f->comm, SAM_ERR_FILE,
              "-%s %s: the displacement of load case %s differs from polynomials of degree %" PetscInt_FMT
-             " by %.2g of its range, limit %g: use a higher degree or a smaller patch",
+             " by %.2g of its range, limit %.6g: use a higher degree or a smaller patch",
              f->option, f->filename, name, c->degree, rest, REST);
   PetscCall(PetscFree3(at[0], at[1], values));
   PetscFunctionReturn(PETSC_SUCCESS);
