@@ -22,9 +22,9 @@ from scipy.special import j0, j1, jv
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "program"))
 from layers import Body  # noqa: E402
+from random_problems import main  # noqa: E402
 from rolling import convolve, corners, kernels  # noqa: E402
 from support import words  # noqa: E402
-from trials import main  # noqa: E402
 
 # ---------------------------------------------------------------- mechanics
 

@@ -19,8 +19,8 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "program"))
 from layers import Body  # noqa: E402
+from random_problems import main  # noqa: E402
 from support import words  # noqa: E402
-from trials import main  # noqa: E402
 
 STEPS = 5
 

@@ -17,9 +17,9 @@ import h5py
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "program"))
+from random_problems import main  # noqa: E402
 from support import words  # noqa: E402
 from test_rolling import integrals  # noqa: E402
-from trials import main  # noqa: E402
 
 MOST = 80  # products of each coupling iteration
 SIZES = (33, 35, 36, 40, 42, 45, 48, 50, 54, 55, 60, 63, 70, 72, 77, 90, 96, 105, 120, 127)
