@@ -100,7 +100,7 @@ static void test_kernels_are_the_closed_forms(void **state)
   Of layered bodies: the symbols' differences by quadrature over k, with 1/k cos(kx), or sin, over a cell; what remains
   of them at k = 0 is c0 exp(-kd), whose line load is -c0/pi ln(sqrt(x^2 + d^2)/D), or c0/pi atan(x/d).
 */
-static double LayeredKernel(const SamPair *pair, SamLayeredSymbol symbol, double x, double h)
+static double LayeredKernel(const SamPair *pair, SamLayeredSymbol symbol, double x, double h, double datum)
 {
   enum { PANELS = 30000 };
   static const double at[4][2] = {{-0.861136311594053, 0.347854845137454},
@@ -122,7 +122,7 @@ static double LayeredKernel(const SamPair *pair, SamLayeredSymbol symbol, double
   for (int n = 0; n < 400; n++) { /* the rest is smooth over d */
     const double s = x + h * ((n / 4 + 0.5 + 0.5 * at[n % 4][0]) / 100 - 0.5), w = 0.5 * h / 100 * at[n % 4][1];
 
-    sum += w * limit[symbol] * (odd ? atan(s / d) : -log(hypot(s, d) / width));
+    sum += w * limit[symbol] * (odd ? atan(s / d) : -log(hypot(s, d) / datum));
   }
   return sum / PETSC_PI;
 }
@@ -134,13 +134,16 @@ static void test_layers_add_their_symbols(void **state)
   const SamLayers               layers[2]    = {{.count = 1, .young = {120e9}, .poisson = {0.1}, .thickness = {1e-4}},
                                                 {2, {150e9, 60e9}, {0.2, 0.4}, {6e-5, 2e-4}, {{0}}}};
   SamGrid                       grid         = NewGridOn(PETSC_COMM_WORLD, 37, 1, width, 1, 0, 0);
+  SamParameters                 p            = {.count = 0};
   SamElasticity                 e;
   SamPair                       pair;
-  double                       *all[4];
+  double                       *all[4], datum;
 
   (void)state;
   sam_call(SamPairSetLayered(&pair, substrate, poisson, layers));
   sam_call(SamElasticityCreate(grid, &pair, &e));
+  sam_call(SamElasticityAddParameters(e, &p));
+  datum = (double)SamParametersFind(&p, "plane_datum")->value[0];
   for (int c = 0; c < 4; c++) { /* u_z by p, u_x by q_x, u_y by q_y, u_x by p */
     Vec t = NewField(grid, c == 0 || c == 3 ? 1 : 2), u = NewField(grid, c ? 2 : 1);
 
@@ -157,9 +160,9 @@ static void test_layers_add_their_symbols(void **state)
       const double h = grid->dx, x = (double)i * h, own = all[c][c == 2 ? 37 : 0];
       const double lag      = c == 3 ? (i ? PETSC_PI * pair.coupling * h : 0)
                                      : -2 * (pair.normal + (c == 2 ? pair.shear_xx : 0)) *
-                                    (double)(L(x + h / 2, width) - L(x - h / 2, width) - h);
+                                    (double)(L(x + h / 2, datum) - L(x - h / 2, datum) - h);
       const double size     = c == 3 ? all[0][0] : own;
-      const double expected = lag + LayeredKernel(&pair, symbols[c], x, h);
+      const double expected = lag + LayeredKernel(&pair, symbols[c], x, h, datum);
 
       sam_assert_close(all[c][(c == 2 ? 37 : 0) + i], expected, 1e-11 * size);
     }

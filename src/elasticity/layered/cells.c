@@ -317,84 +317,84 @@ static PetscErrorCode CreateRadial(SamLayered l, double r)
 /* ---- lines along y, in plane strain ---- */
 
 /*
-  The influence of a line load is the integral over y of that of point loads: of H_0[c](r) for zz, rr and tt, of
-  x H_1[c](r)/r for zr. The images' parts are known, -(c(0)/pi) ln(rho/D), relative to a distance D, and (c(0)/pi)
-  atan(x/Z); what remains falls like y^-3, and with y = R sinh t the trapezoidal rule integrates it.
+  The influence of a line load is the transform of c/k along the line. The images' parts are known, -(c(0)/pi)
+  ln(rho/D), relative to a distance D, and (c(0)/pi) atan(x/Z) for zr. What remains of c is of the order k; for waves
+  much longer than all layers it is taken as proportional, before rounding counts.
 */
-#define LINE_STEP  0.3
-#define LINE_COUNT 50  /* y up to 1e6 R */
-#define LINE_REACH 2e6 /* of the table, over the distance */
+#define PROPORTIONAL 1e-7 /* k times the longest length */
 
-static void LineDifferencesAt(const void *context, double k, double values[])
+typedef struct {
+  SamLayered      l;
+  SamRadialSource of; /* the images */
+} Rest;
+
+static void RestsAt(const void *context, double k, double values[])
 {
-  double total[SAM_LAYERED_SYMBOLS];
+  const Rest *rest = (const Rest *)context;
+  double      total[SAM_LAYERED_SYMBOLS];
 
-  SamLayeredSymbols(&((SamLayered)context)->pair, 0, k, total, values);
+  k = PetscMax(k, PROPORTIONAL / rest->of.longest);
+  SamLayeredSymbols(&rest->l->pair, 0, k, total, values);
+  for (int s = 0; s < SAM_LAYERED_SYMBOLS; s++) {
+    for (int b = 0; b < 2; b++) values[s] -= rest->of.image[b][s] * exp(-k * rest->of.thickness[b]);
+    values[s] /= k;
+  }
 }
 
 PetscErrorCode SamLayeredPrepareLine(SamLayered l, double r)
 {
   static const int orders[] = {[SAM_LAYERED_ZZ] = 0, [SAM_LAYERED_ZR] = 1, [SAM_LAYERED_RR] = 0, [SAM_LAYERED_TT] = 0};
-  SamRadialSource  of       = SourceOf(l);
-  const double     reach    = LINE_REACH * hypot(r, l->depth);
+  const Rest       rest     = {l, SourceOf(l)};
+  /* the images fall like exp(-k Z), Z at least half the depth */
+  SamRadialSource of = {.functions = SAM_LAYERED_SYMBOLS,
+                        .line      = PETSC_TRUE,
+                        .orders    = orders,
+                        .depth     = l->depth / 2,
+                        .longest   = rest.of.longest,
+                        .thickness = {l->depth / 2},
+                        .values    = RestsAt,
+                        .context   = &rest};
 
   PetscFunctionBegin;
-  if (reach * reach <= l->line.most) PetscFunctionReturn(PETSC_SUCCESS);
-  of.orders = orders;
-  of.values = LineDifferencesAt;
+  if (r * r <= l->line.most) PetscFunctionReturn(PETSC_SUCCESS);
+  RestsAt(&rest, 0, of.image[0]);
   PetscCall(SamSplineDestroy(&l->line));
-  PetscCall(SamRadialCreate(&of, 2 * reach, &l->line));
+  PetscCall(SamRadialCreate(&of, 2 * r, &l->line));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-typedef struct {
-  const SamSpline *table;
-  SamRadialSource  of;
-  SamLayeredSymbol symbol;
-  double           datum;
-} Line;
-
-static double LineAt(const Line *c, double x)
+/* The integrals of -ln(rho/D) and, odd, of atan(x/Z) over a cell about x. */
+static double ImageOver(double x, double dx, double Z, double datum, PetscBool odd)
 {
-  const PetscBool odd = c->symbol == SAM_LAYERED_ZR;
-  const double    R   = hypot(x, c->of.depth / 2);
-  double          s[LINE_COUNT], f[LINE_COUNT], sum = 0;
+  double sum = 0;
 
-  for (int m = 0; m < LINE_COUNT; m++) s[m] = x * x + R * R * sinh(m * LINE_STEP) * sinh(m * LINE_STEP);
-  SamSplineRow(c->table, c->symbol, LINE_COUNT, s, f);
-  for (int m = 0; m < LINE_COUNT; m++) {
-    for (int b = 0; b < 2; b++) {
-      const double Z = c->of.thickness[b], rho = sqrt(s[m] + Z * Z), image = c->of.image[b][c->symbol];
+  if (hypot(x, Z) > 2 * dx) { /* where closed forms cancel */
+    for (int k = 0; k < POINTS; k++) {
+      const double s = x + dx * rules[POINTS].x[k];
 
-      if (image != 0) f[m] -= image / (2 * PETSC_PI * rho * (odd ? rho + Z : 1));
+      sum += dx * rules[POINTS].w[k] * (odd ? atan(s / Z) : -log(hypot(s, Z) / datum));
     }
-    sum += (m ? 2 : 1) * LINE_STEP * R * cosh(m * LINE_STEP) * f[m];
+    return sum;
   }
-  if (odd) sum *= x;
-  for (int b = 0; b < 2; b++) {
-    const double Z = c->of.thickness[b], image = c->of.image[b][c->symbol] / PETSC_PI;
+  for (int end = -1; end <= 1; end += 2) {
+    const double s = x + end * dx / 2, rho = hypot(s, Z), angle = atan(s / Z);
 
-    if (image != 0) sum += image * (odd ? atan(x / Z) : -log(hypot(x, Z) / c->datum));
+    sum += end * (odd ? s * angle - Z * log(rho / Z) : s - s * log(rho / datum) - Z * angle);
   }
   return sum;
 }
 
-/* The integral over an interval, halved until it is short against the distance of the images. */
-static double LineIntegral(const Line *c, double x, double length)
-{
-  double sum = 0;
-
-  if (length > 0.7 * hypot(x, c->of.depth / 2))
-    return LineIntegral(c, x - length / 4, length / 2) + LineIntegral(c, x + length / 4, length / 2);
-  for (int k = 0; k < POINTS; k++) sum += rules[POINTS].w[k] * LineAt(c, x + length * rules[POINTS].x[k]);
-  return length * sum;
-}
-
 void SamLayeredAddLine(SamLayered l, SamLayeredSymbol symbol, double dx, double datum, PetscInt n, double values[])
 {
-  const Line line = {&l->line, SourceOf(l), symbol, datum};
+  const PetscBool        odd    = symbol == SAM_LAYERED_ZR;
+  const SamRadialSource  images = SourceOf(l);
+  const SamRadialTerm    term   = {symbol, 0, odd ? SAM_ANGULAR_X : SAM_ANGULAR_1, 1};
+  const SamRadialKernels of     = {.table = &l->line, .depth = l->depth / 2, .kernels = 1, .count = 1, .terms = &term};
 
-  for (PetscInt i = 0; i < n; i++) values[i] += LineIntegral(&line, (double)i * dx, dx);
+  SamRadialAddLine(&of, dx, n, &values);
+  for (int b = 0; b < 2; b++)
+    for (PetscInt i = 0; i < n && images.image[b][symbol] != 0; i++)
+      values[i] += images.image[b][symbol] / PETSC_PI * ImageOver((double)i * dx, dx, images.thickness[b], datum, odd);
 }
 
 static void SymbolsAt(const void *context, double k2, double values[])
