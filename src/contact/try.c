@@ -60,7 +60,7 @@ static PetscErrorCode Judge(SamContact c, SamStep *step)
   if (c->traits.patch && check->edge > 0 && SamStepIsSolved(step)) {
     (void)snprintf(step->message, sizeof(step->message),
                    "the contact reached the border of the patch of a body's compliance, or of the grid (pressure there "
-                   "up to %.2g times the maximum): make the patch larger",
+                   "up to %.2g times the maximum): use a larger grid, up to the patch, then a larger patch",
                    (double)check->edge);
     step->setting[0] = '\0';
   }

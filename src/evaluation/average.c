@@ -13,7 +13,8 @@
 #include "evaluationimpl.h"
 #include <petscdt.h>
 
-#define DEPTHS 16
+#define DEPTHS   16
+#define SHORTEST 1e-3 /* length of a mean, in cells */
 
 PetscErrorCode SamEvaluationSetFatigueLength(SamEvaluation e, PetscReal length, SamFatigueAverage average)
 {
@@ -50,6 +51,10 @@ PetscErrorCode SamAverageSetUp(SamEvaluation e)
   PetscFunctionBegin;
   PetscCall(PetscFree(e->weight));
   if (e->average == SAM_AVERAGE_NONE) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCheck(
+    e->length >= SHORTEST * e->grid->side[0] && e->length <= 2 * e->grid->length, e->comm, SAM_ERR_USER,
+    "%sfatigue_length %.6g: expected a length from %.3g m, a thousandth of a cell, to the grid's width, %.3g m",
+    e->dash, (double)e->length, (double)(SHORTEST * e->grid->side[0]), 2 * (double)e->grid->length);
   PetscCheck(SamCycleWanted(e), e->comm, SAM_ERR_USER, "%sfatigue_length is given without %sfatigue", e->dash, e->dash);
   PetscCheck(!e->wants[SAM_QUANTITY_RUIZ], e->comm, SAM_ERR_USER,
              "%sfatigue ruiz: is of the surface, and not of a mean over %sfatigue_length: omit one of them", e->dash,

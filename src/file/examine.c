@@ -42,7 +42,7 @@ static const char *FindFault(const char filename[])
   if (!S_ISREG(status.st_mode)) return S_ISDIR(status.st_mode) ? strerror(EISDIR) : "it is not a file";
   (void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
   hdf5 = H5Fis_hdf5(filename);
-  return hdf5 > 0 ? NULL : "it is not an HDF5 file; make one of a surface in another format by petsam-surface";
+  return hdf5 > 0 ? NULL : "it is not an HDF5 file; make one by petsam-surface, of a body by petsam-compliance";
 }
 
 static const char damaged[] = "it is damaged";

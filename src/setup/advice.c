@@ -183,7 +183,7 @@ static PetscErrorCode Compare(const SamSetup *s, const PetscReal half[2], char t
   (void)snprintf(text, size, "is %.2g times -%s %g (in m)", (double)ratio, option, (double)radius);
   if (*large)
     (void)snprintf(text + strlen(text), size - strlen(text), ", the limit is about %g: check the units, N, m, Pa%s",
-                   STEEPEST, concave ? ", or give conforming bodies their own -body2_compliance" : "");
+                   STEEPEST, concave ? "; conforming bodies need finite elements" : "");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

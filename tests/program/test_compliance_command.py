@@ -213,7 +213,7 @@ def test_both_methods_give_the_same_stresses(compliance, tmp_path):
     written(tmp_path / "block.inp", bricks((fine, fine, fine + 2.0)))
     words = ["--mesh", "block.inp", "--fixed", "BOTTOM", *ALWAYS, "--degree", "0"]
     compliance(*words, "-o", "image.h5")
-    compliance(*words, "--method", "cutoff", "-o", "cutoff.h5", warning="an element is 0.6")
+    compliance(*words, "--method", "cutoff", "-o", "cutoff.h5", warning="elements are up to 0.6")
     with h5py.File("image.h5", "r") as one, h5py.File("cutoff.h5", "r") as other:
         first, second = (file["/stress/basis"][0, 2] for file in (one, other))
         assert other.attrs["method"] == "cutoff"
@@ -277,7 +277,7 @@ def test_a_body_above_the_plane_of_the_patch_needs_the_cut_off(compliance, tmp_p
     assert (
         "rises above the plane of the patch: use --method cutoff" in compliance(*words, "--method", "image", check=3)[0]
     )
-    printed = compliance(*words, "-o", "f.h5", warning="an element is")
+    printed = compliance(*words, "-o", "f.h5", warning="elements are up to")
     assert any("method cutoff: the body rises above" in line for line in printed)
     said = compliance(*words, "--patch", "3.2", check=3)[0]
     assert "belong to a half-space of one material, limit 0.8 m" in said
@@ -477,3 +477,9 @@ def test_a_deck_is_read_with_generated_sets_continued_lines_and_included_files(t
     assert found.mesh.node_numbers.tolist() == [1, 2, 3, 4] and found.mesh.node_sets["M"].tolist() == [0, 2, 3]
     assert found.mesh.surfaces["S"] == [(7, 0)] and found.mesh.blocks[0].young.tolist() == [1.0]
     assert len(found.steps) == 1 and found.steps[0][0].lines == [["N", "1", "2."]]
+
+
+def test_a_plane_of_symmetry_that_is_held_is_rejected(compliance, tmp_path):
+    written(tmp_path / "bar.inp", bricks(sets=SUPPORT))
+    words = ["--mesh", "bar.inp", *ALWAYS, "--fixed", "LEFT", "--symmetry", "LEFT", "-o", "f.h5"]
+    assert "node set LEFT of --symmetry is held by --fixed: name another" in compliance(*words, check=3)[0]

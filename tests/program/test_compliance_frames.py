@@ -119,10 +119,10 @@ def test_a_plane_of_symmetry_may_be_inclined(compliance, tmp_path):  # noqa: F81
     words = [*WORDS, "--degree", "1"]
     said = compliance("--mesh", "a.inp", *words, "--symmetry", "MIDDLE", "--method", "image", check=3)[0]
     assert "has a plane of symmetry: use --method cutoff" in said
-    compliance("--mesh", "a.inp", *words, "--method", "cutoff", "-o", "free.h5", warning="an element")
+    compliance("--mesh", "a.inp", *words, "--method", "cutoff", "-o", "free.h5", warning="elements are")
     for name, more in (("a", []), ("b", [frame(SPACE)])):
         compliance(
-            "--mesh", f"{name}.inp", *words, *more, "--symmetry", "MIDDLE", "-o", f"{name}.h5", warning="an element"
+            "--mesh", f"{name}.inp", *words, *more, "--symmetry", "MIDDLE", "-o", f"{name}.h5", warning="elements are"
         )
     free, a, b = (h5py.File(f"{name}.h5", "r")["compliance"][:] for name in ("free", "a", "b"))
     assert np.max(np.abs(a - b)) < 1e-10 * np.max(np.abs(a))
@@ -147,7 +147,7 @@ def test_a_gently_curved_surface_is_its_tangent_plane_with_a_warning(compliance,
         if radius < 10.0:
             assert "m off the plane of the frame, limit 0.1 m" in compliance(*words, check=3)[0]
             continue
-        warning = "an element" if np.isinf(radius) else "the surface is up to 0.04 of the patch's half width off"
+        warning = "elements are" if np.isinf(radius) else "the surface is up to 0.04 of the patch's half width off"
         printed = compliance(*words, "-o", "f.h5", warning=warning)
         assert any("the surface is curved" in line for line in printed) == np.isfinite(radius)
         with h5py.File("f.h5", "r") as file:

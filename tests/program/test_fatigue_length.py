@@ -117,6 +117,8 @@ def test_means_do_not_depend_on_the_grid(launcher, contact):
     [
         (dict(fatigue_length=1e-4), "-fatigue_length is given without -fatigue"),
         (dict(CYCLE, fatigue_length=0), "-fatigue_length"),
+        (dict(CYCLE, fatigue_length=50), "-fatigue_length 50: expected a length from"),
+        (dict(CYCLE, fatigue_length=1e-9), "a thousandth of a cell, to the grid's width,"),
         (dict(CYCLE, fatigue_length=1e-4, depths=0), "omit -depths"),
         (dict(CYCLE, fatigue_length=1e-4, quantities="mises"), "omit -quantities"),
         (dict(CYCLE, fatigue_length=1e-4, fatigue_average="disc"), "-fatigue_average disc"),

@@ -297,7 +297,7 @@ MISTAKES = [
         "pin that fills its bore",
         dict(PIN, **PLANE, grid_size=1.4e-3, load_n=1e5),
         code=12,
-        says=["-gap_radius1_x 0.01 (in m), the limit is about 0.1", "or give conforming bodies their own -body2_comp"],
+        says=["-gap_radius1_x 0.01 (in m), the limit is about 0.1", "conforming bodies need finite elements"],
     ),
     mistake("long pad", dict(PAD, grid_size=4e-3), code=12, says=["axis along y", "a section with loads per metre"]),
     mistake("load in mN", dict(load_n=1e6), code=12, says=["edge of the grid", "-grid_size 0.02"]),

@@ -93,6 +93,11 @@ class Model:
             np.concatenate([deck.need_set(mesh.node_sets, name, "node set", path) for name in options.fixed])
         )
         symmetric = [deck.need_set(mesh.node_sets, name, "node set", path) for name in options.symmetry]
+        for name, nodes in zip(options.symmetry, symmetric):
+            if not np.setdiff1d(nodes, self.supported).size:
+                raise Error(
+                    f"{path}: node set {name} of --symmetry is held by --fixed: name another, or omit --symmetry"
+                )
         faces = mesh.surface_faces(options.contact.upper())
         if not faces:
             raise Error(f"{path}: surface {options.contact} has no element faces: define it by TYPE=ELEMENT")
@@ -185,7 +190,8 @@ def remainder(model, method, plane, progress):
         remarks.append(f"cut-off from {chi.outer[0, :2]} to {chi.outer[1]} m")
         if coarse * cutoff.ELEMENTS > 1.0:
             remarks.append(
-                f"warning: an element is {coarse:.2g} of the cut-off's ramp: use at least {cutoff.ELEMENTS} across it"
+                f"warning: elements are up to {coarse:.2g} times as wide as the cut-off's ramp: "
+                f"use at least {cutoff.ELEMENTS} across it"
             )
     progress("stiffness")
     matrix = stiffness(mesh, model.options.stiffness, model.options.ccx)

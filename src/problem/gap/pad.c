@@ -33,7 +33,8 @@ static PetscReal Height_Pad(const PetscReal v[], PetscReal x, PetscReal y)
 static PetscReal Height_Roller(const PetscReal v[], PetscReal x, PetscReal y)
 {
   const double part = -expm1(-v[3] / v[2]), s = fabs(y) / v[1];
-  const double end = 2 * v[2] * part * exp(v[3] / v[2]); /* slope there, times the half length */
+  /* slope there, times the half length; steeper than 45 degrees, it is as good as a wall */
+  const double end = PetscMin(2 * v[2] * part * exp(v[3] / v[2]), v[1]);
 
   return 0.5 * x * x / v[0] + (s > 1 ? v[3] + end * (s - 1) : -v[2] * log1p(-part * s * s));
 }
