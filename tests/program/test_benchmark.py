@@ -22,6 +22,8 @@ N, SECONDS = 2048, (0.06, 0.033, 0.057)  # a convolution's on one rank, and on t
 
 
 BUILD = Path(os.environ.get("PETSAM_BUILD", support.ROOT / "build")).resolve()
+# as it is here, without what MPI adds in a process that a test before has started it in, by which launchers fail
+ENVIRONMENT = dict(os.environ)
 TINY = ("--quick", "--peers", "none", "--cells", "32", "--repeats", "1")
 
 
@@ -30,7 +32,7 @@ def command(*words, build=BUILD):
 
 
 def run(*words, build=BUILD):
-    return subprocess.run(command(*words, build=build), capture_output=True, text=True, timeout=300)
+    return subprocess.run(command(*words, build=build), capture_output=True, text=True, timeout=300, env=ENVIRONMENT)
 
 
 def rows(out):
@@ -83,7 +85,7 @@ def test_parts_of_a_solve_make_up_the_whole(report):
 def killed(tmp_path):
     """The folder of a run that was killed after its first rows."""
     words = (*TINY, "--cases", "hertz,slip_tx", "--out", tmp_path)
-    with subprocess.Popen(command(*words), stdout=subprocess.DEVNULL) as started:
+    with subprocess.Popen(command(*words), stdout=subprocess.DEVNULL, env=ENVIRONMENT) as started:
         end = time.monotonic() + support.limit(120)
         while not rows(tmp_path) and started.poll() is None and time.monotonic() < end:
             time.sleep(0.02)
@@ -142,7 +144,7 @@ def test_failing_case_is_named_and_loses_no_other(tmp_path):
 def rolling(out, *words, build=BUILD):
     script = support.ROOT / "tests/bench/rolling.py"
     words = [sys.executable, script, "--build", build, "--out", out, "--cells", "64,96,128", "--repeats", "1", *words]
-    return subprocess.run(words, capture_output=True, text=True, timeout=300)
+    return subprocess.run(words, capture_output=True, text=True, timeout=300, env=ENVIRONMENT)
 
 
 def test_rolling_stands_beside_contact(tmp_path):

@@ -196,7 +196,7 @@ def test_words_of_the_tools_options_are_completed(share, monkeypatch):
 
 
 def test_behind_two_dashes_petsam_study_takes_petsams_options(share):
-    assert tool(share, "petsam-study", "cases.csv", "--", "-grid_n", "64", "-gap_type", "p") == ["punch"]
+    assert tool(share, "petsam-study", "cases.csv", "--", "-grid_n", "64", "-gap_type", "pu") == ["punch"]
 
 
 # ---- without the programs

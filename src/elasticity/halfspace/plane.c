@@ -57,9 +57,8 @@ static PetscErrorCode SetFromOptions_Plane(SamElasticity e, const SamOptions *fr
   PetscReal datum = 0;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsReal(
-    from, DATUM, "plane: distance (m) that displacements are relative to, 0: grid width, more for stiff layers",
-    SAM_RANGE_NONNEGATIVE, &datum, NULL));
+  PetscCall(SamOptionsReal(from, DATUM, "plane: datum's distance (m), 0: grid width, more with layers",
+                           SAM_RANGE_NONNEGATIVE, &datum, NULL));
   if (datum > 0) *SamHalfSpaceDatum(e) = datum;
   PetscCall(PetscSNPrintf(before, sizeof(before), "-%s", e->prefix));
   PetscCall(CheckDatum(e, SAM_ERR_USER, "", before));
