@@ -122,10 +122,7 @@ class Comparison:
         )
         yield (
             "Two alike coated bodies, h/a = 0.5, T_x = 0.6 mu N",
-            (
-                "E1/E2 = ratio:g; radius = radius:.4f; peak p = peak:.4f; d_x, m = slip:.4e; "
-                "stick radius = stick:.4f"
-            ),
+            ("E1/E2 = ratio:g; radius = radius:.4f; peak p = peak:.4f; d_x, m = slip:.4e; stick radius = stick:.4f"),
             self.numbers["slides"],
         )
 

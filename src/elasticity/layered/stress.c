@@ -227,6 +227,7 @@ static void Row(SamStress stress, const double side[2], double depth, SamStressG
                                      .terms   = line ? line_groups[group].terms : groups[group].terms};
 
   for (int k = 0; k < SAM_STRESS_GROUP; k++) PetscCallVoid(PetscArrayzero(values[k], n));
+  if (line && j > 0) return; /* there is one row */
   if (!l->layer && group != SAM_STRESS_NORMAL_Z) SamHalfSpaceStressRow(&source, group, j, n, values);
   if (!l->layer && group == SAM_STRESS_NORMAL_Z) {
     /* what p does to xz and yz */
@@ -235,8 +236,10 @@ static void Row(SamStress stress, const double side[2], double depth, SamStressG
     SamHalfSpaceStressRow(&source, SAM_STRESS_NORMAL_P, j, n, rows);
     PetscCallVoid(PetscArrayzero(values[2], n));
   }
-  if (line && j == 0) SamRadialAddLine(&of, side[0], n, values);
-  if (!line) SamRadialAddRow(&of, side, j, n, values);
+  if (line)
+    SamRadialAddLine(&of, side[0], n, values);
+  else
+    SamRadialAddRow(&of, side, j, n, values);
   Correct(l, side, group, j, n, values);
 }
 
