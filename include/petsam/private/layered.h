@@ -105,6 +105,7 @@ PETSC_INTERN PetscErrorCode SamLayeredPrepare(SamLayered layered, double r, cons
   of the images. `line`: the transforms are by cosines (order 0) and sines (order 1). SamRadialCreate() is not
   collective.
 */
+#define SAM_LONG_WAVE 1e-18 /* k times the longest length, where functions are those of k = 0 */
 typedef struct {
   int        functions;
   const int *orders;

@@ -54,7 +54,7 @@ PetscErrorCode SamStressRunHalfWidth(SamStressRun *run)
              "in m, or other -steps",
              run->request.input);
   PetscCall(SamResultsGetSaved(run->results, run->saved[most], &step, NULL));
-  if (run->grid->ny == 1) {
+  if (run->grid->axes == 1) {
     half = 0.5 * area;
   } else {
     PetscCall(RatioOfAxes(run, run->saved[most], &ratio));

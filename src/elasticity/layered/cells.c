@@ -12,11 +12,10 @@
 #include <petsam/private/layered.h>
 #include <petscdt.h>
 
-#define CHUNK    512 /* lags that are worked off together */
-#define STENCIL  3   /* cells to each side */
-#define DEEPEST  60  /* divisions of a cell; a depth of 1e-18 cells */
-#define POINTS   8
-#define SMALLEST 1e-18 /* k times the thickness, for the limit of long waves */
+#define CHUNK   512 /* lags that are worked off together */
+#define STENCIL 3   /* cells to each side */
+#define DEEPEST 60  /* divisions of a cell; a depth of 1e-18 cells */
+#define POINTS  8
 
 typedef struct {
   PetscReal x[POINTS], w[POINTS]; /* on (-1/2, 1/2) */
@@ -290,7 +289,7 @@ static SamRadialSource SourceOf(SamLayered l)
 
     of.thickness[b] = (double)SamLayersDepth(&l->pair.layers[b], l->pair.layers[b].count);
     of.longest      = PetscMax(of.longest, of.thickness[b]);
-    SamLayeredSymbols(&l->pair, b + 1, SMALLEST / PetscMax(of.thickness[b], l->depth), total, of.image[b]);
+    SamLayeredSymbols(&l->pair, b + 1, SAM_LONG_WAVE / PetscMax(of.thickness[b], l->depth), total, of.image[b]);
     if (!b) of.image[b][SAM_LAYERED_ZR] = -of.image[b][SAM_LAYERED_ZR];
   }
   return of;

@@ -24,7 +24,6 @@
 #define NEAR    0.15 /* of the depth: within, the series */
 #define TERMS   10
 #define AROUND  12    /* points of the interpolation */
-#define LONGEST 1e-18 /* smallest k times the longest length */
 #define FASTEST 200.0 /* largest k times the depth */
 
 typedef struct {
@@ -168,7 +167,8 @@ PetscErrorCode SamRadialCreate(const SamRadialSource *of, double r, SamSpline *t
 {
   const double depth = of->depth, near = NEAR * depth;
   /* cos kr does not vanish for long waves, which takes twice as many */
-  Transform t = {.of = of, .y0 = -log(FASTEST / depth), .x0 = (of->line ? 2 : 1) * log(LONGEST) - log(of->longest)};
+  Transform t = {
+    .of = of, .y0 = -log(FASTEST / depth), .x0 = (of->line ? 2 : 1) * log(SAM_LONG_WAVE) - log(of->longest)};
 
   PetscFunctionBegin;
   t.n = (int)ceil((log(FASTEST / depth) - t.x0) / STEP);

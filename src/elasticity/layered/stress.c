@@ -30,10 +30,9 @@
 #include <petsam/private/layered.h>
 #include <petsam/private/stressimpl.h>
 
-#define ALTERNATING 30    /* terms of a series */
-#define SMALLEST    1e-18 /* k times the longest length, for the limit of long waves */
-#define LONG_WAVE   1e-5  /* on a rigid base, k times the depth of all layers below which rounding counts */
-#define THICK       8     /* cells of the first layer on which edges are those of a half-space */
+#define ALTERNATING 30   /* terms of a series */
+#define LONG_WAVE   1e-5 /* on a rigid base, k times the depth of all layers below which rounding counts */
+#define THICK       8    /* cells of the first layer on which edges are those of a half-space */
 
 typedef struct {
   SamPair   pair;
@@ -109,7 +108,7 @@ static PetscErrorCode UseDepth(SamStress stress, PetscReal depth)
   of.longest = PetscMax(l->base, l->depth);
   if (of.line) {
     of.thickness[0] = of.depth;
-    LineFunctionsAt(l, SMALLEST / of.longest, of.image[0]);
+    LineFunctionsAt(l, SAM_LONG_WAVE / of.longest, of.image[0]);
   }
   /* beyond the farthest lags, for cells' means along a row */
   PetscCall(
