@@ -6,7 +6,7 @@
   Cells in contact and in stick, largest tractions and slip there, the elastic energy of both bodies, half the work of
   the tractions on the displacements, and the frictional work of this step, -sum q.(s - s_before) dA. Where a cell slips
   while its pressure changes, its shear follows the bound: the mean of the bounds before and after makes the sum over
-  steps second order, if the slip is in the direction at mid step (contact/direction.c, which has the order of both).
+  steps second order, if the slip is in the direction at mid step (step/direction.c, which has the order of both).
   Before the first step there is no bound; its pressure counts as there before its slip.
 */
 enum { CONTACT, STICK, DISSIPATED, STORED, ERROR, SUMS };

@@ -2,7 +2,7 @@
 #ifndef PETSAM_STEPIMPL_H
 #define PETSAM_STEPIMPL_H
 
-#include "contactimpl.h"
+#include "../contact/contactimpl.h"
 #include <petsam/private/normalimpl.h>
 #include <petsam/private/tangentialimpl.h>
 
