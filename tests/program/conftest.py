@@ -15,6 +15,33 @@ TIMEOUT = 120  # seconds for one run on an idle machine
 PROGRAM = Path(os.environ.get("PETSAM_BUILD", support.ROOT / "build")).resolve() / "bin" / "petsam"
 
 
+SLOWEST = 30  # tests whose CPU times are printed
+
+
+def cpu():
+    """CPU seconds of this process and of all that it has started and awaited."""
+    return sum(os.times()[:4])
+
+
+spent = [cpu()]
+
+
+@pytest.hookimpl(hookwrapper=True)
+def pytest_runtest_makereport(item, call):
+    """CPU seconds of each phase of a test, which do not depend on what else the machine does."""
+    report = (yield).get_result()
+    report.cpu, spent[0] = cpu() - spent[0], cpu()
+
+
+def pytest_terminal_summary(terminalreporter):
+    seconds = {}
+    for report in (r for reports in terminalreporter.stats.values() for r in reports if hasattr(r, "cpu")):
+        seconds[report.nodeid] = seconds.get(report.nodeid, 0.0) + report.cpu
+    terminalreporter.section(f"slowest {SLOWEST} of {sum(seconds.values()):.0f} CPU seconds")
+    for name in sorted(seconds, key=seconds.get, reverse=True)[:SLOWEST]:
+        terminalreporter.line(f"{seconds[name]:8.1f} s  {name}")
+
+
 class Popen(subprocess.Popen):
     """The time limits of all tests are those of an idle machine; on a loaded one they are longer."""
 
