@@ -1,5 +1,5 @@
 #!/bin/sh
-# Measure what the reconstruction of edges and the correction for them gain, against closed solutions: on a sphere, an
+# Measure what the reconstruction of edges gains, against closed solutions: on a sphere, an
 # ellipsoid turned on the grid and a rounded punch, which it draws; then on spheres that slip to and fro, and that slide.
 #
 #   examples/edges/run.sh [CELLS...]     cells in each direction (32 64 128 256; to and fro 64 128 256)

@@ -57,7 +57,7 @@ typedef struct {
   PetscBool allow_edge;   /* contact at the grid's edge is a warning, no status (false; -allow_edge_contact) */
   PetscBool edges;        /* areas, and tractions at points, by reconstructed contact and stick edges (edges.h);
                                  else by counted cells, wrong by a part of a cell along the edge (true; -edges
-                                 reconstruct or none; with deferred the law of that name corrects the pressure too) */
+                                 reconstruct or none) */
   PetscBool spots;        /* count the contact spots and compute the mean gap (false; -contact_spots) */
   PetscBool print_check;  /* print the errors of each step (false; -contact_check) */
 } SamContactSettings;

@@ -15,7 +15,6 @@ typedef struct _n_SamEdge {
   PetscReal area;        /* m2: by the reconstructed edge; where that is refused, cells less a part of a cell a face */
   PetscInt  cells;       /* of the zone */
   PetscReal faces, good; /* of these cells to cells outside; those where the reconstruction is accepted */
-  PetscReal smooth;      /* and those where the edge is smooth enough for a SamProfile */
   /* points of the reconstructed edge, one in each of this rank's cells that it crosses */
   PetscInt   count;
   PetscReal *x, *y; /* m */

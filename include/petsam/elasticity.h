@@ -37,7 +37,6 @@ typedef struct {
   PetscBool mean;   /* a uniform traction displaces the surface; else displacements are relative to the mean planes */
   PetscBool plane;  /* plane strain: the grid has one row */
   PetscBool parts;  /* where only a part of the grid has traction, an operator on that part suffices */
-  PetscBool within; /* the pressure may vary within cells */
   PetscBool steady; /* rolls towards +x: u_t is a velocity relative to that of rolling, the operator not symmetric */
   PetscBool layers; /* the bodies may have layers */
   PetscBool patch;  /* the bodies have a place, and do not roll */
@@ -147,19 +146,6 @@ PETSC_EXTERN PetscErrorCode SamElasticityApplyNormalToTangential(SamElasticity e
                                                                  Vec u_t); /* u_t from p */
 PETSC_EXTERN PetscErrorCode SamElasticityApplyTangentialToNormal(SamElasticity elasticity, Vec q,
                                                                  Vec u_z); /* u_z from q */
-/*
-  Pressure that varies within cells, if the trait `within` is set:
-  SamElasticityApplyNormalSlopes - u_z from a pressure that is linear in each cell, and zero in the mean. `slopes` (two
-  components): by how much it grows from one side of the cell to the other, along x and along y (Pa).
-  SamElasticityGetNear - u_z per unit of pressure (m/Pa) on the sub * sub sub-cells of a cell at the centres of the
-  cells about it, up to `reach` cells away in both directions:
-  table[(j * (2 reach + 1) + i) * sub * sub + l * sub + k], for the cell i - reach to the right and j - reach above, and
-  the sub-cell k from the left, l from below. `sub`: odd.
-  Collective.
-*/
-PETSC_EXTERN PetscErrorCode SamElasticityApplyNormalSlopes(SamElasticity elasticity, Vec slopes, Vec u_z);
-PETSC_EXTERN PetscErrorCode SamElasticityGetNear(SamElasticity elasticity, PetscInt reach, PetscInt sub,
-                                                 double table[]);
 /*
   The same in single precision: arrays of this rank's cells, two components one after the other; `factor` times the
   product. For directions and corrections, whose product is small against what it is added to. Scale so that input and

@@ -21,9 +21,8 @@ typedef const char       *SamLawType;
 #define SAM_LAW_ARCHARD           "archard"           /* wear in proportion to pressure and slip (wear.h) */
 #define SAM_LAW_ENERGY            "energy"            /* wear in proportion to the frictional work (wear.h) */
 #define SAM_LAW_HARDNESS          "hardness"          /* pressure up to a limit, where the surfaces yield */
-#define SAM_LAW_DEFERRED          "deferred"  /* corrects the pressure for the edge of contact (edges/deferred.c) */
-#define SAM_LAW_SLIP_PATH         "slip_path" /* remembers the accumulated slip */
-#define SAM_LAW_FRICTION_ENERGY   "friction_energy" /* remembers the frictional work */
+#define SAM_LAW_SLIP_PATH         "slip_path"         /* remembers the accumulated slip */
+#define SAM_LAW_FRICTION_ENERGY   "friction_energy"   /* remembers the frictional work */
 
 /*
   SamLawCreate - a law of that type, with the type's defaults; references the elasticity. Collective. Errors:
@@ -65,10 +64,4 @@ PETSC_EXTERN PetscErrorCode SamLawSetFrictionField(SamLaw law, Vec friction);
 /* SamLawGetFriction - coulomb: the coefficient, 0 where a field counts. Not collective. */
 PETSC_EXTERN PetscErrorCode SamLawGetFriction(SamLaw law, PetscReal *friction);
 PETSC_EXTERN PetscErrorCode SamLawSetHardness(SamLaw law, PetscReal hardness);
-/*
-  SamLawSetEdgePasses - deferred: how many times the pressure is solved again (2). Not collective, the same on all
-  ranks. Errors: PETSC_ERR_ARG_OUTOFRANGE for less than one.
-*/
-PETSC_EXTERN PetscErrorCode SamLawSetEdgePasses(SamLaw law, PetscInt passes);
-
 #endif

@@ -110,22 +110,18 @@ static PetscErrorCode PrintExtent(SamReport r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What of the edges is not found, or not corrected where that is asked for. */
+/* How much of the edges is not found. */
 static PetscErrorCode PrintEdges(SamReport r)
 {
   char where[48] = "";
 
   PetscFunctionBegin;
-  if (!r->touching) PetscFunctionReturn(PETSC_SUCCESS);
-  if (r->uncorrected)
-    PetscCall(PetscPrintf(r->comm, "  %-10s  not corrected in %" PetscInt_FMT " of %" PetscInt_FMT " steps\n", "edges",
-                          r->uncorrected, r->touching));
   if (!r->edges.step || r->edges.residual >= FOUND) PetscFunctionReturn(PETSC_SUCCESS);
   if (r->steps > 1)
     PetscCall(PetscSNPrintf(where, sizeof(where), " in step %" PetscInt_FMT " (the worst)", r->edges.step));
   PetscCall(PetscPrintf(r->comm,
                         "  %-10s  reconstructed on %.0f %% of their length%s: the other areas are counted from cells\n",
-                        r->uncorrected ? "" : "edges", 100 * (double)r->edges.residual, where));
+                        "edges", 100 * (double)r->edges.residual, where));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

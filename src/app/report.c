@@ -196,7 +196,7 @@ static PetscErrorCode KeepEnergy(SamReport r, SamContact contact)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode KeepEdges(SamReport r, SamContact contact, const SamStep *step)
+static PetscErrorCode KeepEdges(SamReport r, SamContact contact)
 {
   PetscReal          area, accepted;
   SamContactSettings set;
@@ -206,20 +206,8 @@ static PetscErrorCode KeepEdges(SamReport r, SamContact contact, const SamStep *
   PetscCall(SamContactGetNumber(contact, "contact_area", &area));
   PetscCall(SamContactGetNumber(contact, "edge_accepted", &accepted));
   if (!set.edges || !(area > 0)) PetscFunctionReturn(PETSC_SUCCESS);
-  r->touching++;
-  r->uncorrected += !strcmp(step->setting, "edges");
   if (!r->edges.step || accepted < r->edges.residual) r->edges = (SamReportWorst){accepted, r->number + 1};
   PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Whether a warning of an edge that is not corrected is left out: of many steps it is printed once. */
-static PetscBool IsRepeated(SamReport r, const SamStep *step)
-{
-  const PetscBool told = r->uncorrected_told;
-
-  if (step->status || strcmp(step->setting, "edges")) return PETSC_FALSE;
-  r->uncorrected_told = PETSC_TRUE;
-  return told;
 }
 
 /* Prints a step's message, with the option that decides it, to stderr; from rank 0. */
@@ -230,7 +218,7 @@ static void PrintMessage(SamReport r, const char where[], const SamStep *step)
 
   if (edge && r->edge_told) return;
   if (edge) r->edge_told = PETSC_TRUE;
-  if (r->rank || !step->message[0] || IsRepeated(r, step)) return;
+  if (r->rank || !step->message[0]) return;
   fflush(stdout);
   if (step->setting[0]) snprintf(option, sizeof(option), " (-%s)", step->setting);
   fprintf(stderr, "petsam: %s%s%s%s%s\n", step->status ? "" : "warning: ", where, where[0] ? ": " : "", step->message,
@@ -253,7 +241,7 @@ static PetscErrorCode CountStep(SamReport r, SamContact contact, PetscInt number
   r->done++;
   if (step->status != SAM_STATUS_NO_EQUILIBRIUM) {
     KeepWorst(r, step);
-    PetscCall(KeepEdges(r, contact, step));
+    PetscCall(KeepEdges(r, contact));
     PetscCall(KeepEnergy(r, contact));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

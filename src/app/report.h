@@ -47,15 +47,13 @@ struct _n_SamReport {
   PetscReal      jump;                      /* cycles, of the last of these */
   PetscBool      living;                    /* the run is a life */
   SamReportWorst worst[3];                  /* normal, tangential, equilibrium */
-  SamReportWorst edges; /* the least share of the edges that is reconstructed; step 0: none is asked for */
-  PetscInt       uncorrected, touching; /* steps that could not be corrected for their edges; in contact */
-  PetscReal      energy[2];             /* dissipated so far, and the estimate of its error, J */
+  SamReportWorst edges;     /* the least share of the edges that is reconstructed; step 0: none is asked for */
+  PetscReal      energy[2]; /* dissipated so far, and the estimate of its error, J */
   SamProgress    progress;
-  SamContact     contact;          /* whose monitors are set; borrowed */
-  SamExtent      extent;           /* of the contact in step `extent_step`, */
-  PetscInt       extent_step;      /* from 1; 0: not known */
-  PetscBool      edge_told;        /* that the contact is at the edge, which is allowed */
-  PetscBool      uncorrected_told; /* that an edge is not corrected */
+  SamContact     contact;     /* whose monitors are set; borrowed */
+  SamExtent      extent;      /* of the contact in step `extent_step`, */
+  PetscInt       extent_step; /* from 1; 0: not known */
+  PetscBool      edge_told;   /* that the contact is at the edge, which is allowed */
   /* files written */
   char    *name[SAM_REPORT_FILES], *content[SAM_REPORT_FILES];
   PetscInt files;

@@ -6,6 +6,7 @@
   the formulas in check.h.
 */
 #include <petsam/check.h>
+#include <petsam/normal.h>
 #include <petsam/private/solutionimpl.h>
 #include <petsam/tangential.h>
 
@@ -27,7 +28,7 @@ static PetscErrorCode AddCoupling(SamElasticity elasticity, SamGrid grid, const 
 }
 
 /* u_z unless it is given, and u_t, both with the coupling; the largest u_z without load cases, which may cancel it. */
-static PetscErrorCode ComputeDisplacements(SamProblem problem, SamState state, PetscBool coupling, PetscBool u_z_known,
+static PetscErrorCode ComputeDisplacements(SamProblem problem, PetscBool coupling, PetscBool u_z_known,
                                            const SamSolution *s, PetscReal *most)
 {
   SamElasticity       elasticity;
@@ -39,10 +40,7 @@ static PetscErrorCode ComputeDisplacements(SamProblem problem, SamState state, P
   PetscCall(SamProblemGetElasticity(problem, &elasticity));
   PetscCall(SamProblemGetGrid(problem, &grid));
   PetscCall(SamElasticityGetTraits(elasticity, &traits));
-  if (!u_z_known) {
-    PetscCall(SamElasticityApplyNormal(elasticity, s->pressure, s->displacement_z));
-    PetscCall(SamProblemAddDisplacement(problem, state, s->displacement_z));
-  }
+  if (!u_z_known) PetscCall(SamElasticityApplyNormal(elasticity, s->pressure, s->displacement_z));
   PetscCall(VecNorm(s->shear, NORM_INFINITY, &shear));
   if (shear != 0)
     PetscCall(SamElasticityApplyTangential(elasticity, s->shear, s->displacement_t));
@@ -59,17 +57,17 @@ static PetscErrorCode ComputeDisplacements(SamProblem problem, SamState state, P
 enum { GAP, TENSION, DISPLACEMENT, PRESSURE, OPENING, EDGE, COUNT };
 
 /*
-  Updates the maxima with a row's values, except for EDGE; a NaN makes the gap's error infinite. Cells under a least
-  pressure need not touch at their centres. Cells at the limit of the pressure may overlap: they yield.
+  Updates the maxima with a row's values, except for EDGE; a NaN makes the gap's error infinite. Cells at the limit
+  of the pressure may overlap: they yield.
 */
-SAM_VECTORIZED static void NormalRow(PetscInt n, const double *restrict p, const double *restrict least,
-                                     const double *restrict g, double saturated, double max[COUNT])
+SAM_VECTORIZED static void NormalRow(PetscInt n, const double *restrict p, const double *restrict g, double saturated,
+                                     double max[COUNT])
 {
   double gap = 0, tension = 0, pressure = 0, opening = 0, nan = 0;
 
 #pragma omp simd reduction(max : gap, tension, pressure, opening) reduction(+ : nan)
   for (PetscInt i = 0; i < n; i++) {
-    const double pressed = p[i] < saturated ? fabs(g[i]) : g[i], wrong = p[i] > least[i] ? pressed : -g[i];
+    const double pressed = p[i] < saturated ? fabs(g[i]) : g[i], wrong = p[i] > 0 ? pressed : -g[i];
 
     gap      = wrong > gap ? wrong : gap;
     opening  = g[i] > opening ? g[i] : opening;
@@ -154,39 +152,34 @@ static PetscErrorCode SetRounding(SamProblem problem, const SamSolution *s, cons
 static PetscErrorCode CheckNormal(SamProblem problem, SamState state, const SamSolution *s, PetscReal most,
                                   SamCheck *check)
 {
-  double        max[COUNT] = {0}, *gap, *zeros;
-  const double *p, *u, *h, *least = NULL;
+  double        max[COUNT] = {0}, *gap;
+  const double *p, *u, *h;
   PetscReal     limit;
   SamMotion     motion;
   SamGrid       grid;
   Border        border;
-  Vec           separation, lower;
+  Vec           separation;
 
   PetscFunctionBegin;
   PetscCall(SamProblemGetGrid(problem, &grid));
   PetscCall(SamSolutionCreateSeparation(problem, state, SAM_COMMITTED, &separation));
   border = BorderOf(problem, grid, s);
-  PetscCall(SamProblemGetLeast(problem, state, &lower));
   PetscCall(SamMotionSet(&motion, problem, s));
   PetscCall(SamProblemGetPressureLimit(problem, &limit));
   PetscCall(PetscMalloc1(grid->nx, &gap));
-  PetscCall(PetscCalloc1(grid->nx, &zeros));
   PetscCall(VecGetArrayRead(s->pressure, &p));
   PetscCall(VecGetArrayRead(s->displacement_z, &u));
-  if (lower) PetscCall(VecGetArrayRead(lower, &least));
   PetscCall(VecGetArrayRead(separation, &h));
   for (PetscInt j = 0; j < grid->rows; j++) {
     const ptrdiff_t k = (ptrdiff_t)j * grid->nx;
 
     SamMotionGap(&motion, SamMotionOfGap(&motion, j), u + k, h + k, gap);
-    NormalRow(grid->nx, p + k, least ? least + k : zeros, gap, SAM_SATURATED * (double)limit, max);
+    NormalRow(grid->nx, p + k, gap, SAM_SATURATED * (double)limit, max);
     max[EDGE] = PetscMax(max[EDGE], EdgeOfRow(grid, &border, j, p + k));
   }
   PetscCall(VecRestoreArrayRead(separation, &h));
-  if (lower) PetscCall(VecRestoreArrayRead(lower, &least));
   PetscCall(VecRestoreArrayRead(s->displacement_z, &u));
   PetscCall(VecRestoreArrayRead(s->pressure, &p));
-  PetscCall(PetscFree(zeros));
   PetscCall(PetscFree(gap));
   PetscCall(SamSolutionDestroySeparation(problem, &separation));
   PetscCall(SamMax(grid->comm, COUNT, max));
@@ -345,7 +338,7 @@ PetscErrorCode SamCheckSolution(SamProblem problem, SamState state, PetscBool co
   PetscCall(SamProblemGetElasticity(problem, &elasticity));
   PetscCall(SamElasticityGetTraits(elasticity, &traits));
   PetscCall(SamProblemGetGrid(problem, &grid));
-  PetscCall(ComputeDisplacements(problem, state, coupling, u_z_known, solution, &most));
+  PetscCall(ComputeDisplacements(problem, coupling, u_z_known, solution, &most));
   PetscCall(CheckNormal(problem, state, solution, most, check));
   if (traits.periodic) check->edge = 0;
   PetscCall(CheckTangential(problem, state, before, solution, check));

@@ -77,10 +77,24 @@ PetscErrorCode SamContactGetSettings(SamContact c, SamContactSettings *settings)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* A keyword of earlier versions, which is not one of those that are listed. */
+static PetscErrorCode RefuseDeferred(const SamOptions *from)
+{
+  char word[16] = "";
+
+  PetscFunctionBegin;
+  PetscCall(PetscOptionsGetString(NULL, from->prefix, "-edges", word, sizeof(word), NULL));
+  PetscCheck(strcmp(word, "deferred"), from->comm, SAM_ERR_USER,
+             "-%sedges deferred: no longer supported: use -edges reconstruct on a finer grid, whose errors -grid_check "
+             "estimates",
+             SamOptionsPrefix(from));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamContactSetFromOptions(SamContact c)
 {
   static const char *const coupling_words[] = {"none", "full", NULL}, *const edge_words[] = {"none", "reconstruct",
-                                                                                             "deferred", NULL};
+                                                                                             NULL};
   static const char *const direction_words[] = {"auto", "mid", "end", NULL};
   const SamOptions         from              = {c->grid->comm, c->prefix};
   SamContactSettings       s                 = c->set;
@@ -107,8 +121,8 @@ PetscErrorCode SamContactSetFromOptions(SamContact c)
   if (keeps) PetscCall(SamContactRefuseSteady(c, "-", "cycle_memory"));
   PetscCall(SamOptionsBool(&from, "allow_edge_contact", "contact at the grid's edge is a warning, no error",
                            &s.allow_edge, NULL));
-  PetscCall(SamOptionsEnum(&from, "edges", "reconstruct, deferred (correct the pressure), none (count cells)",
-                           edge_words, &edges, NULL));
+  PetscCall(RefuseDeferred(&from));
+  PetscCall(SamOptionsEnum(&from, "edges", "reconstruct, none (count cells)", edge_words, &edges, NULL));
   PetscCall(
     SamOptionsBool(&from, "contact_spots", "number of contact spots and mean gap of each step", &s.spots, NULL));
   PetscCall(SamOptionsBool(&from, "contact_check", "print the check of each step", &s.print_check, NULL));

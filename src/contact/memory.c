@@ -145,10 +145,10 @@ static PetscErrorCode Compute(void *owner, SamState state, PetscInt which, Vec f
     PetscCall(SamSolutionComputeRolling(c->problem, s, which == WEAR, field));
     break;
   case PRESSURE_CENTER:
-    PetscCall(SamSolutionComputePressureCenter(c->problem, state, s, field));
+    PetscCall(SamSolutionComputePressureCenter(c->problem, s, field));
     break;
   default:
-    PetscCall(SamSolutionComputeShearCenter(c->problem, state, s, which - SHEAR_CENTER_X, field));
+    PetscCall(SamSolutionComputeShearCenter(c->problem, s, which - SHEAR_CENTER_X, field));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -159,7 +159,7 @@ PetscErrorCode SamContactFindEdge(SamContact c, SamEdgeOf which, Vec point, SamE
 
   PetscFunctionBegin;
   PetscCall(SamContactGetSolution(c, &s));
-  PetscCall(SamSolutionFindEdge(c->problem, c->state, s, which, point, edge));
+  PetscCall(SamSolutionFindEdge(c->problem, s, which, point, edge));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -197,11 +197,6 @@ PetscErrorCode SamContactSetUp(SamContact c)
   PetscCall(SamProblemGetPressureLimit(c->problem, &limit));
   PetscCall(SamProblemGetLaws(c->problem, &count, &laws));
   for (PetscInt k = 0; k < count; k++)
-    PetscCheck(!laws[k]->forbids_others || (!friction && isinf(limit)), c->grid->comm, SAM_ERR_USER,
-               "-%s: not supported with friction or a pressure limit, under which a corrected pressure would make the "
-               "rest of the solution less accurate: use -edges reconstruct",
-               laws[k]->option);
-  for (PetscInt k = 0; k < count; k++)
     if (!laws[k]->steady)
       PetscCall(
         SamContactRefuseSteady(c, laws[k]->option ? "-" : "", laws[k]->option ? laws[k]->option : laws[k]->type));

@@ -16,12 +16,11 @@
 #include "edgesimpl.h"
 #include <math.h>
 
-#define BAND   2.5 /* distance of the core from the cells outside */
-#define LAST   SAM_EDGE_LAST
-#define WINDOW SAM_EDGE_WINDOW
+#define BAND   2.5    /* distance of the core from the cells outside */
+#define LAST   6      /* largest squared distance of cells that the layer of an edge makes wrong */
+#define WINDOW 5      /* half width of the window that they are reconstructed from, cells */
 #define SHIFT  0.0105 /* of the edge; fitted on circles and ellipses, within 5 % the same for all */
 #define BENT   0.005  /* largest deviation of the core from the function, rms over the slope of a cell */
-#define BOWED  0.02   /* the same for an edge that is good enough to be corrected */
 #define FACE   0.09   /* part of a cell a face */
 #define BLUNT  0.6    /* w of a cell at the edge over that of the cell behind it, where w does not vanish at the edge */
 #define NEXT   (-2)   /* a cell outside with this distance's square or nearer is beside the zone */
@@ -37,10 +36,10 @@ static const double layer_least[] = {-0.15, -0.03, -0.03}, layer_most[] = {0.20,
 /* The zone, and the reconstruction of the cells of its band and beside it. */
 typedef struct {
   SamZone   zone;
-  PetscInt *slot;    /* of each cell: its place among those, -1 for the others */
-  PetscInt  band;    /* number of those */
-  char     *quality; /* of each of them: that of its own reconstruction */
-  double   *fit;     /* of each of them: its function */
+  PetscInt *slot;   /* of each cell: its place among those, -1 for the others */
+  PetscInt  band;   /* number of those */
+  char     *smooth; /* of each of them: whether its own reconstruction looks like a smooth edge */
+  double   *fit;    /* of each of them: its function */
 } Band;
 
 /*
@@ -60,61 +59,52 @@ static double Line(const SamZone *z, PetscInt i, const double fit[SAM_FIT_TERMS]
   return c[0] + u * (c[1] + u * (c[2] + u * c[3]));
 }
 
-PetscBool SamEdgeExtrapolate(const SamZone *z, const SamFitWindow *core, PetscInt i, PetscInt j,
+/* The function about a cell by the zone's cells behind the layer of the edge; false: there are too few of them. */
+static PetscBool Extrapolate(const SamZone *z, const SamFitWindow *core, PetscInt i, PetscInt j,
                              double fit[SAM_FIT_TERMS], double *bent)
 {
-  double factor[SAM_FIT_PRODUCTS];
-
-  if (!SamFitFactor(z, core, i, j, factor)) return PETSC_FALSE;
-  SamFit(z, core, factor, z->w, i, j, fit, bent);
+  if (!SamFit(z, core, i, j, fit, bent)) return PETSC_FALSE;
   fit[0] -= (z->grid->axes == 1 ? Line(z, i, fit) : SHIFT) * hypot(fit[1], fit[2]);
   return PETSC_TRUE;
 }
 
-/* How far a cell of the band looks like a smooth edge: what may be done there. */
-typedef enum { COUNT, CORRECT, ACCEPT } Quality;
-
-/* Reconstructs a cell of the band; its constant becomes w*. */
-static Quality Reconstruct(const SamZone *z, const SamFitWindow *core, PetscInt i, PetscInt j,
-                           double fit[SAM_FIT_TERMS])
+/* Reconstructs a cell of the band; its constant becomes w*. Returns whether it looks like a smooth edge. */
+static PetscBool Reconstruct(const SamZone *z, const SamFitWindow *core, PetscInt i, PetscInt j,
+                             double fit[SAM_FIT_TERMS])
 {
   const ptrdiff_t k     = SamZoneAt(z, i, j);
   double          bent  = 0, slope, over;
   int             layer = 0;
 
-  if (!SamEdgeExtrapolate(z, core, i, j, fit, &bent)) return COUNT;
+  if (!Extrapolate(z, core, i, j, fit, &bent)) return PETSC_FALSE;
   slope = hypot(fit[1], fit[2]);
-  if (!(bent < BOWED * slope)) return COUNT;
-  if (z->distance[k] < 0) {
-    if (fit[0] >= IN_MOST * slope) return COUNT;
-  } else {
-    while (z->distance[k] > layer_last[layer]) layer++;
-    over = (z->w[k] - fit[0]) / slope;
-    if (!(fit[0] > OUT_LEAST * slope && over >= layer_least[layer] && over <= layer_most[layer])) return COUNT;
-  }
-  return bent < BENT * slope ? ACCEPT : CORRECT;
+  if (!(bent < BENT * slope)) return PETSC_FALSE;
+  if (z->distance[k] < 0) return fit[0] < IN_MOST * slope;
+  while (z->distance[k] > layer_last[layer]) layer++;
+  over = (z->w[k] - fit[0]) / slope;
+  return fit[0] > OUT_LEAST * slope && over >= layer_least[layer] && over <= layer_most[layer];
 }
 
-/* The least quality of a cell of the band and its neighbours. */
-static Quality QualityAbout(const Band *band, PetscInt i, PetscInt j)
+/* Whether a cell of the band and all its neighbours look like a smooth edge. */
+static PetscBool IsSmoothAbout(const Band *band, PetscInt i, PetscInt j)
 {
-  const SamZone *z     = &band->zone;
-  char           least = ACCEPT;
+  const SamZone *z = &band->zone;
 
   for (PetscInt b = j - 1; b <= j + 1; b++)
     for (PetscInt a = i - 1; a <= i + 1; a++) {
       const PetscInt k = SamZoneHas(z, a, b) ? band->slot[SamZoneAt(z, a, b)] : -1;
 
-      if (k >= 0) least = PetscMin(least, band->quality[k]);
+      if (k >= 0 && !band->smooth[k]) return PETSC_FALSE;
     }
-  return (Quality)least;
+  return PETSC_TRUE;
 }
 
 /* ---- the sums ---- */
 
-enum { AREA, FACES, GOOD, SMOOTH, CELLS, SUMS };
+enum { AREA, FACES, GOOD, CELLS, SUMS };
 
-void SamEdgeAddPoint(SamGrid grid, const double fit[SAM_FIT_TERMS], PetscInt i, PetscInt j, SamEdge *edge)
+/* Adds the place on the edge nearest to the centre of a cell of this rank, if it is in the cell. */
+static void AddPoint(SamGrid grid, const double fit[SAM_FIT_TERMS], PetscInt i, PetscInt j, SamEdge *edge)
 {
   const double square = fit[1] * fit[1] + fit[2] * fit[2], x = -fit[0] * fit[1] / square, y = -fit[0] * fit[2] / square;
   const PetscInt n = edge->count;
@@ -156,7 +146,6 @@ static void AddCell(const Band *band, PetscInt i, PetscInt j, double sums[SUMS],
   const ptrdiff_t k      = SamZoneAt(z, i, j);
   const PetscInt  slot   = band->slot[k];
   const PetscBool inside = z->distance[k] > 0;
-  Quality         about;
   PetscBool       good;
   const double   *fit;
   PetscInt        faces = 0;
@@ -167,17 +156,15 @@ static void AddCell(const Band *band, PetscInt i, PetscInt j, double sums[SUMS],
     if (point) *point = z->w[k];
     return;
   }
-  about = QualityAbout(band, i, j);
-  good  = about == ACCEPT;
-  fit   = good ? band->fit + SAM_FIT_TERMS * (ptrdiff_t)slot : NULL;
+  good = IsSmoothAbout(band, i, j);
+  fit  = good ? band->fit + SAM_FIT_TERMS * (ptrdiff_t)slot : NULL;
   for (int n = 0; n < 4 && inside; n++)
     if (SamZoneHas(z, i + x[n], j + y[n]) && z->distance[SamZoneAt(z, i + x[n], j + y[n])] < 0) faces++;
   sums[FACES] += (double)faces;
   sums[GOOD] += good ? (double)faces : 0;
-  sums[SMOOTH] += about >= CORRECT ? (double)faces : 0;
   sums[AREA] += good ? SamFitPart(fit) : inside ? 1 - (faces && !IsBlunt(z, i, j) ? FACE * (double)faces : 0) : 0;
   if (point) *point = good ? fit[0] : z->w[k];
-  if (good) SamEdgeAddPoint(z->grid, fit, i, j, edge);
+  if (good) AddPoint(z->grid, fit, i, j, edge);
 }
 
 PetscErrorCode SamEdgeDestroy(SamEdge *edge)
@@ -200,17 +187,17 @@ static PetscErrorCode Examine(Band *band)
   SamFitWindow core;
 
   PetscFunctionBegin;
-  SamFitWindowInitialize(SAM_EDGE_WINDOW, SAM_EDGE_LAST + 1, 0, &core);
+  SamFitWindowInitialize(WINDOW, LAST + 1, &core);
   PetscCall(PetscMalloc1(cells, &band->slot));
   for (PetscInt j = z->first; j < z->first + z->count; j++)
     for (ptrdiff_t k = SamZoneAt(z, 0, j), last = k + nx; k < last; k++)
       band->slot[k] = j >= begin && j < end && z->distance[k] >= NEXT && z->distance[k] <= LAST ? band->band++ : -1;
-  PetscCall(PetscMalloc2(band->band, &band->quality, SAM_FIT_TERMS * band->band, &band->fit));
+  PetscCall(PetscMalloc2(band->band, &band->smooth, SAM_FIT_TERMS * band->band, &band->fit));
   for (PetscInt j = begin; j < end; j++)
     for (PetscInt i = 0; i < nx; i++) {
       const PetscInt k = band->slot[SamZoneAt(z, i, j)];
 
-      if (k >= 0) band->quality[k] = (char)Reconstruct(z, &core, i, j, band->fit + SAM_FIT_TERMS * (ptrdiff_t)k);
+      if (k >= 0) band->smooth[k] = (char)Reconstruct(z, &core, i, j, band->fit + SAM_FIT_TERMS * (ptrdiff_t)k);
     }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -219,7 +206,7 @@ static PetscErrorCode Destroy(Band *band)
 {
   PetscFunctionBegin;
   PetscCall(PetscFree(band->slot));
-  PetscCall(PetscFree2(band->quality, band->fit));
+  PetscCall(PetscFree2(band->smooth, band->fit));
   PetscCall(SamZoneDestroy(&band->zone));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -246,10 +233,9 @@ PetscErrorCode SamEdgeReconstruct(SamGrid grid, Vec w, Vec point, SamEdge *edge)
   if (point) PetscCall(VecRestoreArray(point, &points));
   PetscCall(Destroy(&band));
   PetscCall(SamSumTotals(grid->comm, SUMS, totals, sums));
-  edge->area   = sums[AREA] * grid->dx * grid->dy;
-  edge->cells  = (PetscInt)sums[CELLS];
-  edge->faces  = sums[FACES];
-  edge->good   = sums[GOOD];
-  edge->smooth = sums[SMOOTH];
+  edge->area  = sums[AREA] * grid->dx * grid->dy;
+  edge->cells = (PetscInt)sums[CELLS];
+  edge->faces = sums[FACES];
+  edge->good  = sums[GOOD];
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,4 +1,4 @@
-/* Quadratic functions through a field's values: weighted least squares in a window about a cell. */
+/* Quadratic functions through a zone's field: least squares in a window about a cell. */
 #include "edgesimpl.h"
 #include <math.h>
 
@@ -6,7 +6,7 @@
 #define PRODUCTS SAM_FIT_PRODUCTS
 #define SUB      16 /* sub-cells in each direction */
 
-void SamFitWindowInitialize(PetscInt half, int least, double bell, SamFitWindow *window)
+void SamFitWindowInitialize(PetscInt half, int least, SamFitWindow *window)
 {
   PetscInt cell = 0;
 
@@ -15,11 +15,10 @@ void SamFitWindowInitialize(PetscInt half, int least, double bell, SamFitWindow 
     for (PetscInt a = -half; a <= half; a++, cell++) {
       const double x = (double)a / (double)half, y = (double)b / (double)half;
       const double terms[TERMS] = {1, x, y, x * x, x * y, y * y};
-      const double weight       = bell > 0 ? exp(-(double)(a * a + b * b) / (2 * bell * bell)) : 1;
 
       for (int k = 0, n = 0; k < TERMS; k++) {
-        window->terms[cell][k] = weight * terms[k];
-        for (int l = 0; l <= k; l++) window->products[cell][n++] = weight * terms[k] * terms[l];
+        window->terms[cell][k] = terms[k];
+        for (int l = 0; l <= k; l++) window->products[cell][n++] = terms[k] * terms[l];
       }
     }
 }
@@ -92,7 +91,8 @@ SAM_VECTORIZED static PetscInt AddProducts(PetscInt n, const signed char *distan
   return count;
 }
 
-PetscBool SamFitFactor(const SamZone *z, const SamFitWindow *window, PetscInt i, PetscInt j, double factor[PRODUCTS])
+/* The factor of the fit's matrix; returns the number of cells that the fit goes by, 0 if it is singular. */
+static PetscInt FactorOf(const SamZone *z, const SamFitWindow *window, PetscInt i, PetscInt j, double factor[PRODUCTS])
 {
   const PetscInt half  = window->half;
   const Range    range = RangeOf(z, half, i, j);
@@ -103,12 +103,12 @@ PetscBool SamFitFactor(const SamZone *z, const SamFitWindow *window, PetscInt i,
   for (PetscInt b = range.low; b <= range.high; b++)
     count += AddProducts(range.right - range.left + 1, z->distance + SamZoneAt(z, range.left, b), window->least,
                          window->products + (b - j + half) * (2 * half + 1) + range.left - i + half, factor);
-  return count >= least ? Factor(z->grid->axes == 1, factor) : PETSC_FALSE;
+  return count >= least && Factor(z->grid->axes == 1, factor) ? count : 0;
 }
 
-/* What the values of cells add to a fit: to the terms, the sum of their squares, and the weights. */
+/* What the values of cells add to a fit: to the terms, and the sum of their squares. */
 typedef struct {
-  double right[TERMS], squares, weights;
+  double right[TERMS], squares;
 } Values;
 
 SAM_VECTORIZED static void AddValues(PetscInt n, const signed char *distance, int least,
@@ -117,32 +117,34 @@ SAM_VECTORIZED static void AddValues(PetscInt n, const signed char *distance, in
 {
   for (PetscInt a = 0; a < n; a++) {
     if (distance[a] < least) continue;
-    sums->weights += terms[a][0];
-    sums->squares += terms[a][0] * values[a] * values[a];
+    sums->squares += values[a] * values[a];
     for (int k = 0; k < TERMS; k++) sums->right[k] += terms[a][k] * values[a];
   }
 }
 
-void SamFit(const SamZone *z, const SamFitWindow *window, const double factor[PRODUCTS], const double values[],
-            PetscInt i, PetscInt j, double fit[TERMS], double *bent)
+PetscBool SamFit(const SamZone *z, const SamFitWindow *window, PetscInt i, PetscInt j, double fit[TERMS], double *bent)
 {
   const PetscInt half  = window->half;
   const double   scale = (double)half;
   const Range    range = RangeOf(z, half, i, j);
   Values         sums  = {.squares = 0};
+  double         factor[PRODUCTS];
+  const PetscInt count = FactorOf(z, window, i, j, factor);
 
+  if (!count) return PETSC_FALSE;
   for (PetscInt b = range.low; b <= range.high; b++) {
     const ptrdiff_t k = SamZoneAt(z, range.left, b);
 
     AddValues(range.right - range.left + 1, z->distance + k, window->least,
-              window->terms + (b - j + half) * (2 * half + 1) + range.left - i + half, values + k, &sums);
+              window->terms + (b - j + half) * (2 * half + 1) + range.left - i + half, z->w + k, &sums);
   }
   for (int k = 0; k < TERMS; k++) fit[k] = sums.right[k];
   Solve(factor, fit);
   /* of the deviations: the function is their nearest one */
   for (int k = 0; k < TERMS; k++) sums.squares -= fit[k] * sums.right[k];
   for (int k = 1; k < TERMS; k++) fit[k] /= k < 3 ? scale : scale * scale;
-  if (bent) *bent = sqrt(PetscMax(sums.squares, 0) / sums.weights);
+  *bent = sqrt(PetscMax(sums.squares, 0) / (double)count);
+  return PETSC_TRUE;
 }
 
 /* The sum over sub-cells of their parts where the function, over the slope of a sub-cell, is positive. */

@@ -78,7 +78,6 @@ PRODUCT(SamElasticityApplyNormal, applynormal, SAM_EVENT_APPLY_NORMAL, 0)
 PRODUCT(SamElasticityApplyTangential, applytangential, SAM_EVENT_APPLY_TANGENTIAL, FILM)
 PRODUCT(SamElasticityApplyNormalToTangential, applynormaltotangential, SAM_EVENT_APPLY_COUPLING, 0)
 PRODUCT(SamElasticityApplyTangentialToNormal, applytangentialtonormal, SAM_EVENT_APPLY_COUPLING, 0)
-PRODUCT(SamElasticityApplyNormalSlopes, applynormalslopes, SAM_EVENT_APPLY_NORMAL, 0)
 PRODUCT_SINGLE(SamElasticityApplyNormalSingle, applynormalsingle, SAM_EVENT_APPLY_NORMAL, 0)
 PRODUCT_SINGLE(SamElasticityApplyTangentialSingle, applytangentialsingle, SAM_EVENT_APPLY_TANGENTIAL, FILM)
 PRODUCT_SINGLE(SamElasticityPreconditionNormalSingle, preconditionnormal, SAM_EVENT_PRECONDITION_NORMAL, 0)
@@ -94,14 +93,5 @@ PetscErrorCode SamElasticityPreconditionSlipSingle(SamElasticity e, double facto
     PetscCall(ApplySingle(with, with->ops.preconditionslip, SAM_EVENT_PRECONDITION_TANGENTIAL, 0, factor, in, out));
   else
     PetscCall(SamElasticityPreconditionTangentialSingle(e, factor, in, out));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamElasticityGetNear(SamElasticity e, PetscInt reach, PetscInt sub, double table[])
-{
-  PetscFunctionBegin;
-  SamElasticityWith(e, getnear);
-  PetscCheck(e->ops.getnear, e->grid->comm, PETSC_ERR_SUP, "Elasticity of type %s has no sub-cells", e->type);
-  PetscCall(e->ops.getnear(e, reach, sub, table));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

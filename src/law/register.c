@@ -11,7 +11,6 @@ PetscErrorCode SamLawRegisterAll(void)
   PetscCall(SamLawRegister(SAM_LAW_ARCHARD, SamLawCreate_Archard));
   PetscCall(SamLawRegister(SAM_LAW_ENERGY, SamLawCreate_Energy));
   PetscCall(SamLawRegister(SAM_LAW_HARDNESS, SamLawCreate_Hardness));
-  PetscCall(SamLawRegister(SAM_LAW_DEFERRED, SamLawCreate_Deferred));
   PetscCall(SamLawRegister(SAM_LAW_SLIP_PATH, SamLawCreate_SlipPath));
   PetscCall(SamLawRegister(SAM_LAW_FRICTION_ENERGY, SamLawCreate_FrictionEnergy));
   PetscFunctionReturn(PETSC_SUCCESS);

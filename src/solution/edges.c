@@ -25,12 +25,13 @@ static PetscErrorCode FillSquares(const SamSolution *s, SamEdgeOf which, Vec w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The reconstructed edge. */
-static PetscErrorCode Reconstruct(SamGrid grid, const SamSolution *s, SamEdgeOf which, Vec point, SamEdge *edge)
+PetscErrorCode SamSolutionFindEdge(SamProblem problem, const SamSolution *s, SamEdgeOf which, Vec point, SamEdge *edge)
 {
-  Vec w;
+  SamGrid grid;
+  Vec     w;
 
   PetscFunctionBegin;
+  PetscCall(SamProblemGetGrid(problem, &grid));
   PetscCall(SamGridCreateVec(grid, 1, &w));
   PetscCall(FillSquares(s, which, w));
   PetscCall(SamEdgeReconstruct(grid, w, point, edge));
@@ -38,30 +39,17 @@ static PetscErrorCode Reconstruct(SamGrid grid, const SamSolution *s, SamEdgeOf 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamSolutionFindEdge(SamProblem problem, SamState state, const SamSolution *s, SamEdgeOf which, Vec point,
-                                   SamEdge *edge)
-{
-  PetscBool found = PETSC_FALSE;
-  SamGrid   grid;
-
-  PetscFunctionBegin;
-  PetscCall(SamProblemGetGrid(problem, &grid));
-  if (which == SAM_EDGE_CONTACT) PetscCall(SamProblemFindEdge(problem, state, s->pressure, point, edge, &found));
-  if (!found) PetscCall(Reconstruct(grid, s, which, point, edge));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* ---- at the centres of cells ---- */
 
 /* The root of what vanishes at an edge, at the cells' centres. */
-static PetscErrorCode ComputeRoots(SamProblem problem, SamState state, const SamSolution *s, SamEdgeOf which, Vec root)
+static PetscErrorCode ComputeRoots(SamProblem problem, const SamSolution *s, SamEdgeOf which, Vec root)
 {
   SamEdge  edge;
   double  *value;
   PetscInt cells;
 
   PetscFunctionBegin;
-  PetscCall(SamSolutionFindEdge(problem, state, s, which, root, &edge));
+  PetscCall(SamSolutionFindEdge(problem, s, which, root, &edge));
   PetscCall(SamEdgeDestroy(&edge));
   PetscCall(VecGetLocalSize(root, &cells));
   PetscCall(VecGetArray(root, &value));
@@ -70,16 +58,15 @@ static PetscErrorCode ComputeRoots(SamProblem problem, SamState state, const Sam
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamSolutionComputePressureCenter(SamProblem problem, SamState state, const SamSolution *s, Vec pressure)
+PetscErrorCode SamSolutionComputePressureCenter(SamProblem problem, const SamSolution *s, Vec pressure)
 {
   PetscFunctionBegin;
-  PetscCall(ComputeRoots(problem, state, s, SAM_EDGE_CONTACT, pressure));
+  PetscCall(ComputeRoots(problem, s, SAM_EDGE_CONTACT, pressure));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* The shear keeps its direction; its size is mu times what the pressure exceeds the slack by, both at the centre. */
-PetscErrorCode SamSolutionComputeShearCenter(SamProblem problem, SamState state, const SamSolution *s,
-                                             PetscInt component, Vec shear)
+PetscErrorCode SamSolutionComputeShearCenter(SamProblem problem, const SamSolution *s, PetscInt component, Vec shear)
 {
   const double *at;
   double       *value;
@@ -88,8 +75,8 @@ PetscErrorCode SamSolutionComputeShearCenter(SamProblem problem, SamState state,
 
   PetscFunctionBegin;
   PetscCall(VecDuplicate(shear, &pressure));
-  PetscCall(ComputeRoots(problem, state, s, SAM_EDGE_CONTACT, pressure));
-  PetscCall(ComputeRoots(problem, state, s, SAM_EDGE_STICK, shear));
+  PetscCall(ComputeRoots(problem, s, SAM_EDGE_CONTACT, pressure));
+  PetscCall(ComputeRoots(problem, s, SAM_EDGE_STICK, shear));
   PetscCall(SamValuesGet(s, &v));
   PetscCall(VecGetArrayRead(pressure, &at));
   PetscCall(VecGetArray(shear, &value));

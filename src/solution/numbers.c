@@ -12,10 +12,10 @@
 enum { CONTACT, STICK, DISSIPATED, STORED, ERROR, SUMS };
 enum { PRESSURE, SHEAR, SLIP, MOSTS }; /* of the last two the squares */
 
-/* The fields of the step's solution, the bound before it, and the pressure without contact at centres (NULL: none). */
+/* The fields of the step's solution, and the bound before it. */
 typedef struct {
   SamValues     v;
-  const double *b_before, *least;
+  const double *b_before;
 } Fields;
 
 static void SumRow(const Fields *f, const SamIncrement *increment, ptrdiff_t first, double sums[SUMS],
@@ -34,7 +34,7 @@ static void SumRow(const Fields *f, const SamIncrement *increment, ptrdiff_t fir
     if (state == SAM_CELL_OPEN) continue;
     most[PRESSURE] = PetscMax(most[PRESSURE], p[k]);
     most[SHEAR]    = PetscMax(most[SHEAR], q[k] * q[k] + q[l] * q[l]);
-    if (!f->least || p[k] > f->least[k]) most[SLIP] = PetscMax(most[SLIP], sx[i] * sx[i] + sy[i] * sy[i]);
+    most[SLIP]     = PetscMax(most[SLIP], sx[i] * sx[i] + sy[i] * sy[i]);
     sums[CONTACT] += 1;
     sums[STICK] += state == SAM_CELL_STICK ? 1 : 0;
     sums[STORED] += 0.5 * (p[k] * f->v.u_z[k] + q[k] * f->v.u_t[k] + q[l] * f->v.u_t[l]);
@@ -157,24 +157,21 @@ PetscErrorCode SamSolutionDeclareNumbers(SamState state, PetscBool steady)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode SumCells(SamProblem problem, SamState state, const SamSolution *last, const SamSolution *s,
+static PetscErrorCode SumCells(SamProblem problem, const SamSolution *last, const SamSolution *s,
                                double numbers[NUMBERS])
 {
   SamTotal     totals[SUMS] = {{0}};
   double       sums[SUMS], most[MOSTS] = {0}, area, *turned[2];
   SamGrid      grid;
   SamIncrement increment;
-  Fields       f = {.least = NULL};
-  Vec          lower;
+  Fields       f;
   const Vec    before = last ? last->bound : s->bound;
 
   PetscFunctionBegin;
   PetscCall(SamProblemGetGrid(problem, &grid));
-  PetscCall(SamProblemGetLeast(problem, state, &lower));
   PetscCall(SamIncrementCreate(problem, last, s, &increment));
   PetscCall(SamValuesGet(s, &f.v));
   PetscCall(VecGetArrayRead(before, &f.b_before));
-  if (lower) PetscCall(VecGetArrayRead(lower, &f.least));
   PetscCall(PetscMalloc2(grid->nx, &turned[0], grid->nx, &turned[1]));
   for (PetscInt j = 0; j < grid->rows; j++) {
     double row[SUMS] = {0};
@@ -185,7 +182,6 @@ static PetscErrorCode SumCells(SamProblem problem, SamState state, const SamSolu
     SamAddAll(SUMS, totals, row);
   }
   PetscCall(PetscFree2(turned[0], turned[1]));
-  if (lower) PetscCall(VecRestoreArrayRead(lower, &f.least));
   PetscCall(VecRestoreArrayRead(before, &f.b_before));
   PetscCall(SamValuesRestore(s, &f.v));
   PetscCall(SamIncrementDestroy(&increment));
@@ -262,8 +258,7 @@ static PetscErrorCode FindPeak(SamGrid grid, const SamSolution *s, const SamEdge
 }
 
 /* The areas by the edges of contact and stick, and the peak of the shear between stick and slip. */
-static PetscErrorCode FindEdges(SamProblem problem, SamState state, const SamSolution *s, double contact[EDGE],
-                                double numbers[NUMBERS])
+static PetscErrorCode FindEdges(SamProblem problem, const SamSolution *s, double contact[EDGE], double numbers[NUMBERS])
 {
   SamEdge edge;
   SamGrid grid;
@@ -272,14 +267,14 @@ static PetscErrorCode FindEdges(SamProblem problem, SamState state, const SamSol
   PetscFunctionBegin;
   PetscCall(SamProblemGetGrid(problem, &grid));
   if (contact[KNOWN] == 0) {
-    PetscCall(SamSolutionFindEdge(problem, state, s, SAM_EDGE_CONTACT, NULL, &edge));
+    PetscCall(SamSolutionFindEdge(problem, s, SAM_EDGE_CONTACT, NULL, &edge));
     contact[KNOWN] = 1;
     contact[AREA]  = edge.area;
     contact[FACES] = edge.faces;
     contact[GOOD]  = edge.good;
     PetscCall(SamEdgeDestroy(&edge));
   }
-  PetscCall(SamSolutionFindEdge(problem, state, s, SAM_EDGE_STICK, NULL, &edge));
+  PetscCall(SamSolutionFindEdge(problem, s, SAM_EDGE_STICK, NULL, &edge));
   PetscCall(FindPeak(grid, s, &edge, &peak));
   PetscCall(SamMax(grid->comm, 1, &peak));
   numbers[SHEAR_MAX]    = peak;
@@ -304,16 +299,15 @@ PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamState state, con
   PetscCall(SamProblemGetGrid(problem, &grid));
   PetscCall(SamProblemGetElasticity(problem, &elasticity));
   PetscCall(SamElasticityGetTraits(elasticity, &traits));
-  PetscCall(SumCells(problem, state, before, s, numbers));
+  PetscCall(SumCells(problem, before, s, numbers));
   if (traits.steady) numbers[STORED_ENERGY] = NAN;                                      /* u_t is a velocity */
   if (traits.steady || SamControlRolled(&s->control) != 0) numbers[ENERGY_ERROR] = NAN; /* estimated at one place */
   for (PetscInt k = 0; k < SAM_CASES; k++)
     if (s->control.cases[k] != 0) numbers[STORED_ENERGY] = NAN; /* the displacements are not by the tractions alone */
-  PetscCall(SamProblemAddEnergy(problem, state, s->pressure, s->displacement_z, &numbers[STORED_ENERGY]));
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_EDGES], 0, 0, 0, 0));
   numbers[EDGE_ACCEPTED] = 0;
   if (!same_pressure) contact[KNOWN] = 0;
-  if (edges) PetscCall(FindEdges(problem, state, s, contact, numbers));
+  if (edges) PetscCall(FindEdges(problem, s, contact, numbers));
   PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_EDGES], 0, 0, 0, 0));
   numbers[FRACTION] = numbers[CONTACT_AREA] / (grid->width[0] * grid->width[1]);
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -379,41 +379,12 @@ static PetscErrorCode SolveShear(SamSolve *w, PetscBool has_shear)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Lets the laws correct the solution of the normal problem. */
-static PetscErrorCode Correct(SamSolve *w)
-{
-  SamCorrection c = {.state         = w->c->state,
-                     .normal        = w->c->normal,
-                     .separation    = w->separation,
-                     .given         = w->normal,
-                     .pressure      = w->s->pressure,
-                     .found         = w->normal,
-                     .same_pressure = w->same_pressure,
-                     .message       = w->step->message,
-                     .size          = sizeof(w->step->message)};
-
-  PetscFunctionBegin;
-  for (PetscInt k = 0; k < 3; k++) {
-    c.found.load[k]  = w->s->load[SamComponentsOf[SAM_BALANCE_NORMAL][k]];
-    c.found.rigid[k] = w->s->rigid[SamComponentsOf[SAM_BALANCE_NORMAL][k]];
-  }
-  PetscCall(SamProblemCorrect(w->c->problem, &c));
-  for (int k = 0; k < 3; k++) w->counts[SAM_COUNT_NORMAL + k] += (double)c.counts[k];
-  if (c.message[0]) {
-    PetscCall(PetscStrncpy(w->step->setting, "edges", sizeof(w->step->setting)));
-    w->c->revision[SAM_TRIED] = -1; /* the step after this one solves again, and may succeed */
-  }
-  SamBalanceStore(&c.found, w->s->load, w->s->rigid);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static PetscErrorCode SolveOnce(SamSolve *w, const SamStepStart *start)
 {
   PetscFunctionBegin;
   if (w->coupled) PetscCall(VecSet(w->h, 0));
   PetscCall(SamSolveNormal(w, start->pressure, start->shear));
   if (!w->same_pressure && !w->known_pressure) PetscCall(SamSolveJudge(w, SAM_BALANCE_NORMAL));
-  if (w->step->status == SAM_STATUS_CONVERGED) PetscCall(Correct(w));
   PetscCall(SolveShear(w, start->shear));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

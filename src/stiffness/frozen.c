@@ -41,25 +41,6 @@ static PetscErrorCode TakeField(SamWindow window, SamGrid grid, PetscInt compone
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Takes the pressure off cells that bear no more than their least pressure: their centres are not in contact. */
-static PetscErrorCode LeaveLeast(SamWindow window, SamGrid grid, Vec whole, Vec pressure)
-{
-  Vec           least;
-  const double *r;
-  double       *p;
-
-  PetscFunctionBegin;
-  PetscCall(TakeField(window, grid, 1, whole, &least));
-  PetscCall(VecGetArrayRead(least, &r));
-  PetscCall(VecGetArray(pressure, &p));
-  for (PetscInt k = 0; k < grid->cells; k++)
-    if (p[k] <= r[k]) p[k] = 0;
-  PetscCall(VecRestoreArray(pressure, &p));
-  PetscCall(VecRestoreArrayRead(least, &r));
-  PetscCall(VecDestroy(&least));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* The derivatives of the bound, the slip and the overlap of the tried step, for a motion that continues it. */
 static PetscErrorCode CreateMotion(SamContact contact, const SamSolution *s, SamWindow window, SamGrid grid, Vec f[])
 {
@@ -99,19 +80,12 @@ static PetscErrorCode CreateFields(SamContact contact, SamStiffnessDirection dir
                                    Vec f[])
 {
   const SamSolution *s;
-  SamProblem         problem;
-  SamState           state;
-  Vec                least;
 
   PetscFunctionBegin;
   PetscCall(SamContactGetSolution(contact, &s));
   PetscCall(TakeField(window, grid, 1, s->pressure, &f[PRESSURE]));
   PetscCall(TakeField(window, grid, 1, s->bound, &f[BOUND]));
   PetscCall(TakeField(window, grid, 2, s->shear, &f[SHEAR]));
-  PetscCall(SamContactGetProblem(contact, &problem));
-  PetscCall(SamContactGetState(contact, &state));
-  PetscCall(SamProblemGetLeast(problem, state, &least));
-  if (least) PetscCall(LeaveLeast(window, grid, least, f[PRESSURE]));
   if (direction == SAM_STIFFNESS_FORWARD) PetscCall(CreateMotion(contact, s, window, grid, f));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

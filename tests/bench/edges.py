@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Error of the pressure over time: the sphere, ellipsoid and punch of examples/edges by petsam, as it is and corrected
-for the edge of contact, and by the other programs of the benchmark.
+"""Error of the pressure over time: the sphere, ellipsoid and punch of examples/edges by petsam, without and with
+reconstructed edges, and by the other programs of the benchmark.
 
     build/venv/bin/python tests/bench/edges.py [--build build] [--cells 64,128,256,512] [--repeats 3]
 

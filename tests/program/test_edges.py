@@ -136,50 +136,6 @@ def test_counted_areas_are_whole_cells(solve):
         assert r[f"{name}_area"] == pytest.approx(r[f"{name}_cells"] * cell, rel=1e-12)
 
 
-# ---------------------------------------------------------------- the correction
-
-
-def test_corrected_contact_is_hertz(solve):
-    case = dict(SLIP, friction=0.0, edges="deferred", grid_n=64)
-    r, h = solve(case), hertz(case)
-    assert r["edge_passes"] == 2
-    assert r["contact_area"] == pytest.approx(np.pi * h.radius**2, rel=5e-5)
-    assert r["disp_z"] == pytest.approx(h.radius**2 / closed.effective_radius(0.2, 0.2), rel=4e-6)
-
-
-@pytest.mark.parametrize("ranks", [2, 3])
-def test_correction_is_the_same_on_any_number_of_ranks(solve, ranks):
-    case = dict(SLIP, friction=0.0, edges="deferred", grid_n=61, load_mx=0.02, output_fields="all")
-    one, more = solve(case), solve(case, ranks=ranks)
-    with h5py.File(one.path, "r") as a, h5py.File(more.path, "r") as b:
-        for name in fields(one.path):
-            assert np.array_equal(a[name][:], b[name][:], equal_nan=True), name
-
-
-def test_edge_that_is_not_smooth_is_left_and_said(petsam, solve):
-    case = dict(PUNCH, friction=0.0, grid_n=48)
-    said = petsam(dict(case, edges="deferred")).stderr
-    assert "not corrected" in said and "-edges" in said
-    plain, left = solve(case), solve(dict(case, edges="deferred"))
-    assert left["edge_passes"] == 0 and np.array_equal(plain.pressure, left.pressure)
-
-
-def test_steps_whose_edge_is_left_are_told_once(petsam, tmp_path):
-    (tmp_path / "h.csv").write_text("time, load_n\n1, 500\n2, 700\n3, 600\n")
-    case = dict(PUNCH, friction=0.0, grid_n=48, load_n=None, history="h.csv", edges="deferred", output="out.h5")
-    said = petsam(case).stderr
-    with package.open(tmp_path / "out.h5") as results:
-        assert (results.history["edge_passes"] == 0).all()
-    assert said.count("the edge of contact is not corrected") == 1
-
-
-def test_correction_with_friction_is_refused_with_the_reason(petsam, tmp_path):
-    case = dict(SPHERE, edges="deferred", output="out.h5")
-    said = petsam(case, check=2).stderr
-    assert "-edges deferred" in said and "-edges reconstruct" in said and "friction" in said
-    assert not (tmp_path / "out.h5").exists()
-
-
 def test_shear_of_pressing_alone_is_none(solve):
     r = solve(dict(SPHERE, grid_n=48))
     assert r["shear_max"] <= 1e-9 * hertz(SPHERE).pressure

@@ -348,7 +348,6 @@ def test_log_view_goes_to_xml(petsam, tmp_path):
     [
         ({}, 0),
         (dict(stiffness=True), 0),
-        (dict(edges="deferred", friction=0.0, load_tx=0.0), 0),
         (dict(body2_young=9e9, load_n=20.0, load_my=0.0, load_tx=2.0), 0),
         (dict(load_tx=900.0), 11),
         (dict(load_my=9.0), 11),

@@ -157,7 +157,7 @@ def test_json_has_the_words_of_options(ask):
             "-gap_type": "curved ellipsoid file flat pad punch roller sphere",
             "-tangential_type": "newton rolling",
             "-elasticity": "halfspace periodic plane plane_periodic",
-            "-edges": "none reconstruct deferred",
+            "-edges": "none reconstruct",
             "-grid_n": "",
         },
         "petsam-stress": {

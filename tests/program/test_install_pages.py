@@ -228,5 +228,5 @@ def test_the_reference_can_be_made_of_read_options():
     assert {
         "Grid: -grid_center: 0,0",
         "Grid: -grid_n: None",
-        "Correction for the edge of contact: -edges_passes: 2",
+        "Contact: -edges: reconstruct",
     } <= set(lines)

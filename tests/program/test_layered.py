@@ -101,16 +101,6 @@ def test_peak_and_stiffness_at_a_radius(layers, load, pressure, normal, torsiona
 
 
 @pytest.mark.parametrize(
-    "layers, load, approach", [(HARD, 2.9554498519, 1.4078716098), (SOFT, 0.33284904952, 0.61181692726)]
-)
-def test_pressure_corrected_for_its_edge(layers, load, approach, solve):
-    """Ten times as accurate, as on half-spaces: the film is 25 cells thick."""
-    r = solve(sphere(layers, 2.6, n=128, edges="deferred"), dict(load_n=load * E * A**3))
-    assert r["disp_z"] == pytest.approx(approach * A**2, rel=5e-6)
-    assert r["contact_area"] == pytest.approx(np.pi * A**2, rel=6e-5)
-
-
-@pytest.mark.parametrize(
     "layers, load, moment, rotation",
     [(HARD, 1.477724926, 0.591408579, 0.571777852), (SOFT, 0.1664245248, 0.531573613, 2.577468433)],
 )
@@ -210,10 +200,6 @@ def test_one_poisson_s_ratio_is_for_all_layers(solve):
         ),
         (dict(body2_layer_thickness=[A / 100, A]), "the layer at the surface of body 2 is 0.12 cells thick"),
         (dict(body2_layer_thickness=[1.0, A]), "-body2_layer_thickness 1 is"),
-        (
-            dict(edges="deferred", friction=None, body2_layer_thickness=[A / 2, A]),
-            "it is supported for -elasticity halfspace, on layers of 8 cells at least",
-        ),
     ],
 )
 def test_layers_that_are_hardly_meant_are_told(change, says, petsam):

@@ -409,7 +409,6 @@ def test_depth_is_saved_with_a_limit_only(petsam, tmp_path):
     [
         (dict(pressure_limit=-1), ["pressure_limit"]),
         (dict(pressure_limit=0), ["pressure_limit"]),
-        (dict(edges="deferred", friction=0), ["-edges deferred", "pressure limit", "-edges reconstruct"]),
         (
             dict(pressure_limit=None, output="o.h5", output_fields="plastic_depth"),
             ["-output_fields", "unknown field plastic_depth"],

@@ -336,7 +336,8 @@ static void test_grids_and_parts_know_their_place(void **state)
 
   (void)state;
   AssertPlace(s.elasticity, 0, 0, 1);
-  s.elasticity->traits.within = PETSC_FALSE; /* as a type decides that does not take over all of the inner one's */
+  s.elasticity->traits.rotations[2] =
+    PETSC_FALSE; /* as a type decides that does not take over all of the inner one's */
   sam_call(SamElasticityGetCoarse(s.elasticity, &coarse, &transfer));
   AssertPlace(coarse, 0, 0, 2);
   sam_assert(!memcmp(&coarse->traits, &s.elasticity->traits, sizeof(coarse->traits)));

@@ -242,7 +242,7 @@ static void test_thin_and_thick_layers_are_half_spaces(void **state)
 /* ---- integrals over cells at all distances ---- */
 
 /* Quadrature by 16 x 16 points on parts that are small against the distance and the layer. */
-static double Quadrature(SamLayered l, const double at[2], const double side[2], int parts, int axis)
+static double Quadrature(SamLayered l, const double at[2], const double side[2], int parts)
 {
   double sum = 0;
 
@@ -254,8 +254,7 @@ static double Quadrature(SamLayered l, const double at[2], const double side[2],
     double       f;
 
     SamSplineRow(&l->radial, SAM_RADIAL_N, 1, &s, &f);
-    /* the point is at `at` from the centre; a pressure that grows along an axis */
-    sum -= f * side[0] * side[1] / (4 * parts * parts) * (axis == 0 ? x : axis == 1 ? y : -1);
+    sum += f * side[0] * side[1] / (4 * parts * parts);
   }
   return sum;
 }
@@ -280,46 +279,10 @@ static void test_cells_are_integrals_at_all_distances(void **state)
       double       row[1000] = {0};
 
       SamLayeredAddRow(l, SAM_INTEGRAL_R, side[0], side[1], lags[k][1], 1000, row);
-      AssertRelative(row[lags[k][0]], Quadrature(l, at, side, hypot(at[0], at[1]) < 3 ? 250 : 40, -1), 2e-11);
+      AssertRelative(row[lags[k][0]], Quadrature(l, at, side, hypot(at[0], at[1]) < 3 ? 250 : 40), 2e-11);
     }
     sam_call(SamLayeredDestroy(&l));
   }
-}
-
-/* Pressures that are linear in a cell, and parts of cells, where the layers are 8 cells thick. */
-static void test_slopes_and_parts_of_cells_are_integrals(void **state)
-{
-  static const Body thick = {1, 0.3, 1, {{4, 0.25, 4}}};
-  const SamPair     pair = PairOf(&nothing, &thick), top = PairOf(&nothing, &(Body){4, 0.25, 0, {{0}}});
-  const PetscInt    reach = 1, sub = 3;
-  SamGrid           grid = NewGrid(12, 10, 6, 2.5);
-  SamElasticity     e[2] = {NewOn(grid, &pair, SAM_ELASTICITY_HALFSPACE), NewOn(grid, &top, SAM_ELASTICITY_HALFSPACE)};
-  SamLayered        l;
-  double           *whole, table[9 * 9], sum = 0;
-
-  (void)state;
-  sam_assert(e[0]->traits.within);
-  sam_call(SamLayeredCreate(&pair, &l));
-  sam_call(SamLayeredPrepare(l, 20, (const double[]){0, 0}));
-  for (int axis = 0; axis < 2; axis++) {
-    const double at[2] = {4 * 0.5, 3 * 0.25}, side[2] = {0.5, 0.25};
-    Vec          slopes = NewField(grid, 2), u[2] = {NewField(grid, 1), NewField(grid, 1)};
-
-    AddAt(grid, axis, 2, 1, 1, slopes);
-    for (int k = 0; k < 2; k++) sam_call(SamElasticityApplyNormalSlopes(e[k], slopes, u[k]));
-    sam_call(VecAXPY(u[0], -1, u[1]));
-    whole = Whole(grid, 1, u[0]);
-    AssertRelative(whole[4 * grid->nx + 6], Quadrature(l, at, side, 40, axis), 1e-6);
-    free(whole);
-    sam_call(VecDestroy(&slopes));
-    for (int k = 0; k < 2; k++) sam_call(VecDestroy(&u[k]));
-  }
-  sam_call(SamElasticityGetNear(e[0], reach, sub, table));
-  for (PetscInt k = 0; k < sub * sub; k++) sum += table[(2 * 3 + 2) * sub * sub + k];
-  AssertRelative(sum, Influence(e[0], 2, 2, 1, 1), 1e-12);
-  sam_call(SamLayeredDestroy(&l));
-  for (int k = 0; k < 2; k++) sam_call(SamElasticityDestroy(&e[k]));
-  sam_call(SamGridDestroy(&grid));
 }
 
 /* ---- products ---- */
@@ -561,7 +524,6 @@ int main(int argc, char **argv)
                                      cmocka_unit_test(test_layers_of_one_material_are_one),
                                      cmocka_unit_test(test_thin_and_thick_layers_are_half_spaces),
                                      cmocka_unit_test(test_cells_are_integrals_at_all_distances),
-                                     cmocka_unit_test(test_slopes_and_parts_of_cells_are_integrals),
                                      cmocka_unit_test(test_products_are_reciprocal),
                                      cmocka_unit_test(test_waves_are_multiplied_by_symbols),
                                      cmocka_unit_test(test_a_cell_displaces_itself_as_products_say),

@@ -301,18 +301,13 @@ static void test_depth_stays_without_the_limit(void **state)
   DestroyCase(&c);
 }
 
-static void test_edges_cannot_be_corrected_with_a_limit(void **state)
+static void test_limit_is_positive_and_of_its_law(void **state)
 {
-  Case             c       = NewCase(Steel(), 24, 1.5, 0, "-edges deferred");
-  const SamControl control = Loads(&c, 1, 0, 0, 0);
-  SamStep          step;
-  SamLaw           law;
+  Case   c = NewCase(Steel(), 24, 1.5, 0, "");
+  SamLaw law;
 
   (void)state;
-  SetLimit(&c, c.s.p0);
-  sam_fails(SamContactTry(c.contact, &control, &step), SAM_ERR_USER);
   SetLimit(&c, INFINITY);
-  sam_call(SamContactTry(c.contact, &control, &step));
   sam_call(SamProblemGetLaw(c.problem, SAM_LAW_HARDNESS, &law));
   sam_fails(SamLawSetHardness(law, -1), PETSC_ERR_ARG_OUTOFRANGE);
   sam_call(SamProblemGetLaw(c.problem, SAM_LAW_COULOMB, &law));
@@ -382,7 +377,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_contact_with_the_state_of_a_yielded_one_goes_on_as_it_would),
     cmocka_unit_test(test_state_without_a_depth_takes_it_away),
     cmocka_unit_test(test_depth_stays_without_the_limit),
-    cmocka_unit_test(test_edges_cannot_be_corrected_with_a_limit),
+    cmocka_unit_test(test_limit_is_positive_and_of_its_law),
     cmocka_unit_test(test_embedded_contact_yields_when_committed),
   };
 

@@ -43,9 +43,6 @@ typedef struct {
   /* required with the trait coupled */
   PetscErrorCode (*applynormaltotangential)(SamElasticity, const double *const p[], double *const u_t[]);
   PetscErrorCode (*applytangentialtonormal)(SamElasticity, const double *const q[], double *const u_z[]);
-  /* required with the trait within */
-  PetscErrorCode (*applynormalslopes)(SamElasticity, const double *const slopes[], double *const u_z[]);
-  PetscErrorCode (*getnear)(SamElasticity, PetscInt reach, PetscInt sub, double table[]);
 } SamElasticityOps;
 
 /* Where only some cells have traction: those cells as a grid of their own, and the operator on it. */

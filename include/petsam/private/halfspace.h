@@ -30,26 +30,6 @@ double SamIntegralCell(SamIntegral kind, double dx, double dy, ptrdiff_t i, ptrd
 void   SamIntegralRow(SamIntegral kind, double dx, double dy, ptrdiff_t j, ptrdiff_t i0, ptrdiff_t n, double *values);
 
 /*
-  SamSlopeRow - the integrals of factor/r over consecutive cells of a row whose pressures are linear and zero in the
-  mean: each grows by 1 from one side of the cell to the other, along x (axis 0) or y (axis 1). The point lies
-  (i dx, j dy) from the centre of cell i, i = 0 ... n - 1; the value at lag (0, 0) is 0. Relative errors are below 1e-8
-  of the integral of 1/r. Not collective; units and sides as for SamIntegralRow().
-  SamSlopeRulesCreate - Gauss' points and weights for it. Not collective.
-*/
-enum { SAM_SLOPE_RULES = 4, SAM_SLOPE_POINTS = 16 };
-typedef struct {
-  PetscReal x[SAM_SLOPE_RULES][SAM_SLOPE_POINTS], w[SAM_SLOPE_RULES][SAM_SLOPE_POINTS]; /* on (-1/2, 1/2) */
-} SamSlopeRules;
-typedef struct {
-  const SamSlopeRules *rules;
-  int                  axis;
-  double               dx, dy; /* sides of the cells, m */
-  double               factor; /* any unit */
-} SamSlopeKernel;
-PETSC_EXTERN PetscErrorCode SamSlopeRulesCreate(SamSlopeRules *rules);
-PETSC_EXTERN void           SamSlopeRow(const SamSlopeKernel *kernel, ptrdiff_t j, ptrdiff_t n, double values[]);
-
-/*
   SamHalfSpaceStressCell - the stress in a half-space z >= 0 by uniform tractions on a rectangle of its surface, at a
   point whose place from the rectangle's centre is given (m): of each component by a unit of each traction, by p, which
   presses in the direction of z, and by q_x and q_y, which pull in the direction of x and y. On the surface zz is -p, xz

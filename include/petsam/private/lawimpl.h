@@ -19,9 +19,7 @@
 #define PETSAM_LAWIMPL_H
 
 #include <petsam/private/baseimpl.h>
-#include <petsam/edges.h>
 #include <petsam/law.h>
-#include <petsam/normal.h>
 
 /* What a bound of the shear depends on. */
 typedef struct {
@@ -41,20 +39,6 @@ typedef struct {
 typedef struct {
   Vec value, by_pressure, by_slip;
 } SamBound;
-
-/* A pressure that solves the normal problem, for laws that correct it. */
-typedef struct {
-  SamState   state;
-  SamNormal  normal;
-  Vec        separation;    /* m, one component */
-  SamBalance given;         /* as prescribed */
-  Vec        pressure;      /* Pa: solved, and corrected */
-  SamBalance found;         /* its loads and rigid displacements, likewise */
-  PetscBool  same_pressure; /* it is that of the step before, corrected already */
-  PetscInt   counts[3];     /* iterations, applications, preconditions of the normal solver, to be added to */
-  char      *message;       /* of `size` characters: why it is not corrected; stays empty else */
-  size_t     size;
-} SamCorrection;
 
 /* A step that is solved, for laws to advance their tried state. */
 typedef struct _n_SamLawStep SamLawStep;
@@ -97,7 +81,6 @@ struct _n_SamLaw {
   PetscBool        needs_friction; /* makes no sense without friction */
   PetscBool        forbids_jumps;  /* cannot be in a life with cycle jumps */
   PetscBool        steady;         /* has a meaning in steady rolling: remembers and asks for no slip of steps */
-  PetscBool        forbids_others; /* supports neither friction nor a limit of the pressure */
   void            *data;           /* the type's own, from PetscNew(); NULL: none */
   /* all may be NULL; collective */
   struct {
@@ -121,12 +104,6 @@ struct _n_SamLaw {
     PetscErrorCode (*overlap)(SamLaw law, SamState state, Vec overlap);
     /* the law's tried state, and numbers of the step */
     PetscErrorCode (*advance)(SamLaw law, SamLawStep *step);
-    /* corrections of the pressure, see problemimpl.h */
-    PetscErrorCode (*correct)(SamLaw law, SamCorrection *correction);
-    PetscErrorCode (*displace)(SamLaw law, SamState state, Vec u_z);
-    PetscErrorCode (*least)(SamLaw law, SamState state, Vec *least);
-    PetscErrorCode (*edge)(SamLaw law, SamState state, Vec pressure, Vec point, SamEdge *edge, PetscBool *found);
-    PetscErrorCode (*energy)(SamLaw law, SamState state, Vec pressure, Vec u_z, PetscReal *energy);
     /* prints the law's numbers of a step, on a line of its own */
     PetscErrorCode (*view)(SamLaw law, SamState state, PetscViewer viewer);
     /* a warning about a solved step; empty: none */
@@ -141,7 +118,6 @@ PETSC_INTERN PetscErrorCode SamLawCreate_Friction(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_Archard(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_Energy(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_Hardness(SamLaw law);
-PETSC_INTERN PetscErrorCode SamLawCreate_Deferred(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_SlipPath(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_FrictionEnergy(SamLaw law);
 

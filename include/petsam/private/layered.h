@@ -159,15 +159,10 @@ PETSC_INTERN void SamRadialAddRectangle(const SamRadialKernels *of, int level, c
   SamLayeredAddRow - adds the integrals over the cells at the lags (i, j), i = 0 ... n - 1: the displacement at a point
   (i dx, j dy) from the centre of a cell under unit traction, less that of the surface's half-spaces. `kind`: what has
   this integral of half-spaces; u_z from p: R, u_x from q_x: XX, u_x from p: X. Errors are 1e-12 of the functions.
-  SamLayeredAddSlopeRow - the same of u_z from pressures that are linear as those of SamSlopeRow(), 1e-6 if the layers
-  are 8 cells thick. SamLayeredRectangle - one over a rectangle. None is collective.
+  Not collective.
 */
-PETSC_INTERN void   SamLayeredAddSlopeRow(SamLayered layered, int axis, double dx, double dy, PetscInt j, PetscInt n,
-                                          double values[]);
-PETSC_INTERN double SamLayeredRectangle(SamLayered layered, SamIntegral kind, const double centre[2],
-                                        const double side[2]);
-PETSC_INTERN void   SamLayeredAddRow(SamLayered layered, SamIntegral kind, double dx, double dy, PetscInt j, PetscInt n,
-                                     double values[]);
+PETSC_INTERN void SamLayeredAddRow(SamLayered layered, SamIntegral kind, double dx, double dy, PetscInt j, PetscInt n,
+                                   double values[]);
 /*
   SamLayeredPrepareLine, SamLayeredAddLine - the same in plane strain: the table up to the distance r (m); the integrals
   of the influence of line loads, less that of the surface's half-spaces, over the cells at the lags i = 0 ... n - 1.

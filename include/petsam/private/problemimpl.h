@@ -22,22 +22,6 @@ PETSC_INTERN PetscErrorCode SamProblemAddSeparation(SamProblem problem, SamState
 PETSC_INTERN PetscErrorCode SamProblemComputeBound(SamProblem problem, const SamBoundAt *at, const SamBound *bound);
 PETSC_INTERN PetscBool      SamProblemFollowsSlip(SamProblem problem);
 /*
-  What laws correct of a solution; each does nothing where no law does. Collective.
-  SamProblemCorrect - lets the laws correct a pressure that solves the normal problem.
-  SamProblemAddDisplacement - adds to u_z (m) what the pressure does beyond the influence of its means over cells.
-  SamProblemGetLeast - the least pressure of each cell (Pa, one component), which it bears without touching at its
-  centre; borrowed, NULL: none.
-  SamProblemFindEdge - the contact edge, if a law has it.
-  SamProblemAddEnergy - adds to the elastic energy (J).
-*/
-PETSC_INTERN PetscErrorCode SamProblemCorrect(SamProblem problem, SamCorrection *correction);
-PETSC_INTERN PetscErrorCode SamProblemAddDisplacement(SamProblem problem, SamState state, Vec u_z);
-PETSC_INTERN PetscErrorCode SamProblemGetLeast(SamProblem problem, SamState state, Vec *least);
-PETSC_INTERN PetscErrorCode SamProblemFindEdge(SamProblem problem, SamState state, Vec pressure, Vec point,
-                                               SamEdge *edge, PetscBool *found);
-PETSC_INTERN PetscErrorCode SamProblemAddEnergy(SamProblem problem, SamState state, Vec pressure, Vec u_z,
-                                                PetscReal *energy);
-/*
   SamProblemAddOverlap - adds by how much the bodies overlap in the tried step where they bear no more (m). Collective.
 */
 PETSC_INTERN PetscErrorCode SamProblemAddOverlap(SamProblem problem, SamState state, Vec overlap);

@@ -117,18 +117,18 @@ PETSC_INTERN PetscErrorCode SamSolutionDeclareSpots(SamState state);
 PETSC_INTERN PetscErrorCode SamSolutionComputeSpots(SamProblem problem, SamState state, const SamSolution *now);
 
 /*
-  SamSolutionFindEdge - an edge, with its points: by the reconstruction, or by a law that corrects for it. `point`
-  (NULL: not wanted), of one component: the square of what vanishes at the edge (Pa2), at the cells' centres: of the
-  pressure, or, for the stick zone, of what it exceeds |q|/mu by. Collective.
+  SamSolutionFindEdge - the reconstructed edge, with its points. `point` (NULL: not wanted), of one component: the square
+  of what vanishes at the edge (Pa2), at the cells' centres: of the pressure, or, for the stick zone, of what it exceeds
+  |q|/mu by. Collective.
   SamSolutionComputePressureCenter, SamSolutionComputeShearCenter - the tractions (Pa) at the cells' centres, by these
   edges, whose means over cells the solution has. Where an edge is not smooth the means stay. Collective.
 */
-PETSC_INTERN PetscErrorCode SamSolutionFindEdge(SamProblem problem, SamState state, const SamSolution *solution,
-                                                SamEdgeOf which, Vec point, SamEdge *edge);
-PETSC_INTERN PetscErrorCode SamSolutionComputePressureCenter(SamProblem problem, SamState state,
-                                                             const SamSolution *solution, Vec pressure);
-PETSC_INTERN PetscErrorCode SamSolutionComputeShearCenter(SamProblem problem, SamState state,
-                                                          const SamSolution *solution, PetscInt component, Vec shear);
+PETSC_INTERN PetscErrorCode SamSolutionFindEdge(SamProblem problem, const SamSolution *solution, SamEdgeOf which,
+                                                Vec point, SamEdge *edge);
+PETSC_INTERN PetscErrorCode SamSolutionComputePressureCenter(SamProblem problem, const SamSolution *solution,
+                                                             Vec pressure);
+PETSC_INTERN PetscErrorCode SamSolutionComputeShearCenter(SamProblem problem, const SamSolution *solution,
+                                                          PetscInt component, Vec shear);
 
 /* Copies a balance's loads and rigid displacements into arrays of all six components. */
 PETSC_INTERN void SamBalanceStore(const SamBalance *balance, PetscReal load[], PetscReal rigid[]);

@@ -49,13 +49,11 @@ static PetscErrorCode WriteEdge(SamStressRun *run, SamLargest *largest[2], const
   PetscCall(WriteLargest(run, "edge_principal_1", "maximum principal stress", where, largest[1]));
   PetscCallMPI(MPI_Comm_rank(run->grid->comm, &rank));
   if (!missing || rank) PetscFunctionReturn(PETSC_SUCCESS);
-  fprintf(
-    stderr,
-    "petsam-stress: warning: the contact edge is not found in %ld of %ld steps, and "
-    "/history/edge_stress_xx_max is NaN there: less than 95 %% of it is smooth and resolved, or petsam has "
-    "corrected it (-edges deferred): use results of -edges reconstruct on a finer grid, which does not help dissimilar "
-    "bodies\n",
-    (long)missing, (long)run->steps);
+  fprintf(stderr,
+          "petsam-stress: warning: the contact edge is not found in %ld of %ld steps, and "
+          "/history/edge_stress_xx_max is NaN there: less than 95 %% of it is smooth and resolved: use a finer "
+          "grid, which does not help dissimilar bodies\n",
+          (long)missing, (long)run->steps);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -13,20 +13,14 @@
 #include <petsam/private/halfspace.h>
 #include <math.h>
 
-/*
-  Kernels: row and column of the 3 x 3 operator, whose lower triangle follows by symmetry; u_z from pressures linear in
-  x and in y.
-*/
-typedef enum { ZZ, XX, YY, XY, XZ, YZ, SLOPE_X, SLOPE_Y, KERNELS } Kind;
+/* Kernels: row and column of the 3 x 3 operator, whose lower triangle follows by symmetry. */
+typedef enum { ZZ, XX, YY, XY, XZ, YZ, KERNELS } Kind;
 
 typedef struct {
   SamKernel  kernel[KERNELS]; /* NULL until needed */
   SamLayered layers;          /* NULL: none */
   PetscReal  datum;           /* D in plane strain, m; 0: three dimensions */
 } HalfSpace;
-
-/* The thinnest layers on which edges are those of half-spaces: 8 cells, twice the depth. */
-#define THICK 16
 
 /* A kernel is a sum of at most two integrals over the cell. */
 typedef struct {
@@ -149,41 +143,17 @@ static PetscErrorCode GetSelfInfluence(SamElasticity e, PetscReal *normal, Petsc
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-typedef struct {
-  SamSlopeKernel kernel;
-  SamLayered     layers;
-} Slopes;
-
-static void SlopeRow(PetscInt j, PetscInt n, double *const values[], const void *context)
-{
-  const Slopes *c = (const Slopes *)context;
-
-  SamSlopeRow(&c->kernel, j, n, values[0]);
-  if (c->layers) SamLayeredAddSlopeRow(c->layers, c->kernel.axis, c->kernel.dx, c->kernel.dy, j, n, values[0]);
-}
-
 static PetscErrorCode GetKernel(SamElasticity e, Kind kind, SamKernel *kernel)
 {
   SamKernel *kept = &((HalfSpace *)e->data)->kernel[kind];
 
   PetscFunctionBegin;
-  if (!*kept && kind < SLOPE_X) {
+  if (!*kept) {
     const Coefficients c        = GetCoefficients(e, kind);
     const PetscBool    odd[][2] = {{kind == XY || kind == XZ, kind == XY || kind == YZ}};
 
     PetscCall(PrepareLayers(e));
     PetscCall(SamKernelsCreate(e->fourier, 1, odd, CoefficientRow, &c, kept));
-  } else if (!*kept) {
-    const int       axis     = kind - SLOPE_X;
-    const PetscBool odd[][2] = {{axis == 0, axis == 1}};
-    SamSlopeRules   rules;
-    const Slopes    c = {
-         .kernel = {.rules = &rules, .axis = axis, .dx = e->grid->dx, .dy = e->grid->dy, .factor = e->pair.normal},
-         .layers = ((const HalfSpace *)e->data)->layers};
-
-    PetscCall(PrepareLayers(e));
-    PetscCall(SamSlopeRulesCreate(&rules));
-    PetscCall(SamKernelsCreate(e->fourier, 1, odd, SlopeRow, &c, kept));
   }
   *kernel = *kept;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -248,7 +218,7 @@ static PetscErrorCode ApplySingle(SamElasticity e, PetscInt n, const Kind kinds[
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static const Kind normal[] = {ZZ}, tangential[] = {XX, XY, XY, YY}, coupling[] = {XZ, YZ}, slope[] = {SLOPE_X, SLOPE_Y};
+static const Kind normal[] = {ZZ}, tangential[] = {XX, XY, XY, YY}, coupling[] = {XZ, YZ};
 
 static PetscErrorCode ApplyNormal(SamElasticity e, const double *const p[], double *const u_z[])
 {
@@ -268,11 +238,6 @@ static PetscErrorCode ApplyNormalToTangential(SamElasticity e, const double *con
 static PetscErrorCode ApplyTangentialToNormal(SamElasticity e, const double *const q[], double *const u_z[])
 {
   return Apply(e, 1, 2, -1, coupling, q, u_z);
-}
-
-static PetscErrorCode ApplyNormalSlopes(SamElasticity e, const double *const slopes[], double *const u_z[])
-{
-  return Apply(e, 1, 2, 1, slope, slopes, u_z);
 }
 
 static PetscErrorCode ApplyNormalSingle(SamElasticity e, double factor, const float *const p[], float *const u_z[])
@@ -392,27 +357,6 @@ static PetscErrorCode PreconditionSlip(SamElasticity e, double factor, const flo
   return Precondition(e, 2, factor, local, s, r, q);
 }
 
-static PetscErrorCode GetNear(SamElasticity e, PetscInt reach, PetscInt sub, double table[])
-{
-  const double   dx = e->grid->dx / (double)sub, dy = e->grid->dy / (double)sub;
-  const PetscInt lags = 2 * reach + 1, cells = sub * sub;
-  SamLayered     layers = ((const HalfSpace *)e->data)->layers;
-
-  PetscFunctionBegin;
-  PetscCall(PrepareLayers(e));
-  for (PetscInt n = 0; n < lags * lags * cells; n++) {
-    const PetscInt lag = n / cells, cell = n % cells;
-    const PetscInt i = (lag % lags - reach) * sub + sub / 2 - cell % sub,
-                   j = (lag / lags - reach) * sub + sub / 2 - cell / sub;
-
-    table[n] = e->pair.normal * SamIntegralCell(SAM_INTEGRAL_R, dx, dy, i, j);
-    if (layers)
-      table[n] += SamLayeredRectangle(layers, SAM_INTEGRAL_R, (const double[]){(double)i * dx, (double)j * dy},
-                                      (const double[]){dx, dy});
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* ---- the type ---- */
 
 static PetscErrorCode Inherit(SamElasticity parent, SamElasticity child)
@@ -456,7 +400,6 @@ PetscErrorCode SamElasticityCreate_HalfSpace(SamElasticity e)
                                     .rotations = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE},
                                     .mean      = PETSC_TRUE,
                                     .parts     = PETSC_TRUE,
-                                    .within    = !data->layers || data->layers->depth >= THICK * e->grid->side[1],
                                     .layers    = PETSC_TRUE};
   e->ops    = (SamElasticityOps){.inherit                 = Inherit,
                                  .setup                   = SetUp,
@@ -471,9 +414,7 @@ PetscErrorCode SamElasticityCreate_HalfSpace(SamElasticity e)
                                  .getselfinfluence        = GetSelfInfluence,
                                  .createstress            = CreateStress,
                                  .applynormaltotangential = ApplyNormalToTangential,
-                                 .applytangentialtonormal = ApplyTangentialToNormal,
-                                 .applynormalslopes       = ApplyNormalSlopes,
-                                 .getnear                 = GetNear};
+                                 .applytangentialtonormal = ApplyTangentialToNormal};
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -87,7 +87,6 @@ PetscErrorCode SamElasticityCreate_Plane(SamElasticity e)
   *SamHalfSpaceDatum(e)  = 2 * LeastDatum(e);
   e->traits.plane        = PETSC_TRUE;
   e->traits.rotations[0] = e->traits.rotations[2] = PETSC_FALSE;
-  e->traits.within                                = PETSC_FALSE;
   e->ops.setfromoptions                           = SetFromOptions_Plane;
   e->ops.addparameters                            = AddParameters_Plane;
   e->ops.setparameters                            = SetParameters_Plane;

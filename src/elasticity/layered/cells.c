@@ -183,37 +183,11 @@ static SamRadialKernels SurfaceKernel(SamLayered l, SamIntegral kind)
   return (SamRadialKernels){.table = &l->radial, .depth = l->depth, .kernels = 1, .count = count, .terms = terms[kind]};
 }
 
-double SamLayeredRectangle(SamLayered l, SamIntegral kind, const double centre[2], const double side[2])
-{
-  const SamRadialKernels of  = SurfaceKernel(l, kind);
-  double                 sum = 0;
-
-  SamRadialAddRectangle(&of, 0, centre, side, &sum);
-  return sum;
-}
-
 void SamLayeredAddRow(SamLayered l, SamIntegral kind, double dx, double dy, PetscInt j, PetscInt n, double values[])
 {
   const SamRadialKernels of = SurfaceKernel(l, kind);
 
   SamRadialAddRow(&of, (const double[]){dx, dy}, j, n, &values);
-}
-
-void SamLayeredAddSlopeRow(SamLayered l, int axis, double dx, double dy, PetscInt j, PetscInt n, double values[])
-{
-  const SamRadialKernels of   = SurfaceKernel(l, SAM_INTEGRAL_R);
-  const Rule            *rule = &rules[3];
-  double                 x[CHUNK];
-
-  for (PetscInt start = 0; start < n; start += CHUNK)
-    for (int k = 0; k < 9; k++) {
-      const int      a = k % 3, b = k / 3;
-      const PetscInt count = PetscMin(CHUNK, n - start);
-
-      for (PetscInt i = 0; i < count; i++) x[i] = ((double)(start + i) - rule->x[a]) * dx;
-      AddPoints(&of, dx * dy * rule->w[a] * rule->w[b] * rule->x[axis ? b : a], count, x, ((double)j - rule->x[b]) * dy,
-                (double *[]){values + start});
-    }
 }
 
 /* ---- the tables ---- */
