@@ -72,7 +72,7 @@ def write(folder, header, values):
 @pytest.mark.parametrize(
     "case, ranks",
     [((CASE,), 1), ((DISSIMILAR,), 2), (CONSTANT, 1), (ROLLING, 3), (HELD, 1)],
-    ids=["similar", "dissimilar", "constant", "rolling", "corrected", "corrected and held"],
+    ids=["similar", "dissimilar", "constant", "rolling", "held"],
 )
 def test_run_goes_on_as_if_it_had_not_been_stopped(folder, petsam, case, ranks):
     """To the last bit, which asks for all of the state: what is lost of it shows at the solvers' tolerance."""

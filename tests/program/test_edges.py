@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import petsam as package
-from support import PUNCH, SPHERE, closed, hertz, slide_limit
+from support import SPHERE, closed, hertz, slide_limit
 
 USUAL = {"pressure", "shear_x", "shear_y", "slip_x", "slip_y", "state"}
 SCALES = {"x", "y", "time", "point", "coordinate"}

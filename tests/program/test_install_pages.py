@@ -225,8 +225,4 @@ def test_the_reference_can_be_made_of_read_options():
     )
     words = [sys.executable, "-B", "-c", code, str(ROOT / "scripts/maintain"), str(PROGRAM)]
     lines = subprocess.run(words, capture_output=True, text=True, env=environment()).stdout.splitlines()
-    assert {
-        "Grid: -grid_center: 0,0",
-        "Grid: -grid_n: None",
-        "Contact: -edges: reconstruct",
-    } <= set(lines)
+    assert {"Grid: -grid_center: 0,0", "Grid: -grid_n: None", "Contact: -edges: reconstruct"} <= set(lines)

@@ -148,7 +148,9 @@ MISTAKES = [
     mistake("life without a cycle", dict(wear_coefficient1=1e-14, wear_cycles=10), says=["-wear_cycles", "-history"]),
     mistake("stiffness without results", {}, "-stiffness", says=["-stiffness", "-output"]),
     mistake(
-        "edges of earlier versions", dict(edges="deferred"), says=["-edges deferred", "-edges reconstruct", "-grid_check"]
+        "edges of earlier versions",
+        dict(edges="deferred"),
+        says=["-edges deferred", "-edges reconstruct", "-grid_check"],
     ),
     mistake(
         "bulk stress of a rigid body", dict(body2_young="inf", bulk2_stress_xx=1e6), says=["-bulk2_stress_xx", "rigid"]

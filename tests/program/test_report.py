@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from conftest import PROGRAM, environment
-from support import ROOT, SPHERE, ball, flatten, history
+from support import ROOT, SPHERE, ball, flatten
 
 EXAMPLE = str(ROOT / "examples" / "sphere" / "cattaneo.opts")
 STEPS = dict(ball(48), load_tx=20.0, steps=4)

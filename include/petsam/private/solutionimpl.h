@@ -117,9 +117,9 @@ PETSC_INTERN PetscErrorCode SamSolutionDeclareSpots(SamState state);
 PETSC_INTERN PetscErrorCode SamSolutionComputeSpots(SamProblem problem, SamState state, const SamSolution *now);
 
 /*
-  SamSolutionFindEdge - the reconstructed edge, with its points. `point` (NULL: not wanted), of one component: the square
-  of what vanishes at the edge (Pa2), at the cells' centres: of the pressure, or, for the stick zone, of what it exceeds
-  |q|/mu by. Collective.
+  SamSolutionFindEdge - the reconstructed edge, with its points. `point` (NULL: not wanted), of one component: the
+  square of what vanishes at the edge (Pa2), at the cells' centres: of the pressure, or, for the stick zone, of what it
+  exceeds |q|/mu by. Collective.
   SamSolutionComputePressureCenter, SamSolutionComputeShearCenter - the tractions (Pa) at the cells' centres, by these
   edges, whose means over cells the solution has. Where an edge is not smooth the means stay. Collective.
 */
