@@ -70,7 +70,7 @@ def run(petsam, folder, exact, n, place, way):
         f"-grid_n {n} -grid_size {width!r} -grid_center {x!r},{y!r} -body1_young {YOUNG} -body1_poisson 0 "
         f"-body2_young {YOUNG} -body2_poisson 0 -gap_type sphere -gap_radius1 {RADIUS} -gap_radius2 {RADIUS} "
         f"-friction {FRICTION} -history {folder}/loop.csv -edges {way} -output {folder}/loop.h5 -output_fields {field} "
-        "-output_xdmf false -quiet"
+        "-quiet"
     )
     done = subprocess.run([petsam, *words.split()], capture_output=True, text=True)
     if done.returncode:

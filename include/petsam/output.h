@@ -8,8 +8,7 @@
 /*
   SamOutput - a results file, to which one load step at a time is appended (layout: examples/RESULTS.md). Every dataset
   has the attributes `units` and `long_name`, and the dimension scales time, y, x, so that h5py and xarray (netcdf4)
-  open it. For ParaView the same datasets are linked in a group VTKHDF (read by VTK from 9.3 on) and described by an
-  XDMF file beside the results (for older versions, and VisIt).
+  open it. For ParaView the same datasets are linked in a group VTKHDF (read by VTK from 9.3 on).
 */
 typedef struct _n_SamOutput *SamOutput;
 
@@ -20,7 +19,6 @@ typedef struct {
   PetscInt    count;                                  /* so many; negative: those that are usual */
   PetscInt    compress;                               /* deflate level of the fields, 0 (none) to 9 */
   PetscInt    chunk[2];                               /* most cells of an HDF5 chunk in x, y */
-  PetscBool   xdmf;                                   /* write an XDMF file beside the results */
   PetscBool   single;                                 /* fields of cells in single precision */
   PetscBool   sums;        /* sums over the steps begin where they are named: SamOutputSettingsAddLaws() */
   PetscReal   flush;       /* s that steps without fields may wait to be written together; 0: they do not */
@@ -30,8 +28,8 @@ typedef struct {
 } SamOutputSettings;
 /*
   SamOutputSettingsSetFromOptions - sets the defaults (the usual fields, no compression, chunks of 1024 x 256 cells,
-  double precision, with XDMF file, each step written at once), then reads -output_fields, -output_compress,
-  -output_chunk, -output_single and -output_xdmf. Collective. Errors: SAM_ERR_USER.
+  double precision, each step written at once), then reads -output_fields, -output_compress,
+  -output_chunk and -output_single. Collective. Errors: SAM_ERR_USER.
   SamOutputSettingsAddLaws - adds laws to a problem that only accumulate a field which is asked for. Collective.
   SamOutputSettingsPrepare - the contact that is written. Collective. Errors: SAM_ERR_USER for a field that the contact
   does not offer.
@@ -50,10 +48,10 @@ PETSC_EXTERN PetscErrorCode SamOutputSettingsPrepare(SamOutputSettings *settings
 PETSC_EXTERN PetscErrorCode SamOutputCreate(SamGrid grid, const char filename[], const SamOutputSettings *settings,
                                             SamOutput *output);
 /*
-  SamOutputNames - the names of the XDMF file beside results and of the file in which SamOutputContinue() writes them
-  again; the caller frees them with PetscFree(). Not collective.
+  SamOutputNameTemporary - the name of the file in which SamOutputContinue() writes results again, and of a file of
+  stresses that is not complete; the caller frees it with PetscFree(). Not collective.
 */
-PETSC_EXTERN PetscErrorCode SamOutputNames(const char filename[], char **xdmf, char **temporary);
+PETSC_EXTERN PetscErrorCode SamOutputNameTemporary(const char filename[], char **temporary);
 /*
   How far the results of a stopped run go that are kept. Results that begin in the middle of a history have the root
   attribute SAM_OUTPUT_BRANCH, a number: the load steps before the first of the file.
@@ -69,7 +67,7 @@ typedef struct {
 PETSC_EXTERN uint64_t SamOutputAddTime(uint64_t times, PetscReal time);
 /*
   SamOutputContinue - results that continue those of a stopped run: what these held at a point is copied to a new
-  file (SamOutputNames()), which takes their name when it is complete. The XDMF file is written again. Collective.
+  file (SamOutputNameTemporary()), which takes their name when it is complete. Collective.
   Errors: SAM_ERR_FILE for a file that cannot be read or written or lacks some of the steps, SAM_ERR_USER for one with
   other fixed parameters or other times; after an error the file is unchanged.
 */
@@ -122,8 +120,6 @@ PETSC_EXTERN PetscErrorCode SamOutputPlan(SamGrid grid, const SamOutputSettings 
 PETSC_EXTERN PetscErrorCode SamOutputForecast(SamOutput output, double steps, double saved, double *bytes);
 /* SamOutputHasReplaced - whether the file has replaced older results. Not collective. */
 PETSC_EXTERN PetscErrorCode SamOutputHasReplaced(SamOutput output, PetscBool *replaced);
-/* SamOutputGetXdmf - the name of the XDMF file beside the results, NULL without one; borrowed. Not collective. */
-PETSC_EXTERN PetscErrorCode SamOutputGetXdmf(SamOutput output, const char **filename);
 /*
   SamOutputDestroy - closes the file, frees the object and sets the handle to NULL, also when closing fails. Collective.
   Errors: SAM_ERR_FILE.

@@ -125,7 +125,6 @@ typedef struct {
 /* SamSimulationFiles - the files that it reads or writes by its own options; NULL: none. */
 typedef struct {
   const char *output, *checkpoint, *restart;
-  PetscBool   xdmf; /* beside the results */
 } SamSimulationFiles;
 /*
   After SamSimulationSetFromOptions(). Not collective.

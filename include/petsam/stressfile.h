@@ -8,8 +8,7 @@
 /*
   SamStressFile - an HDF5 file with the datasets of the quantities, of shape (time, z, y, x), or (z, y, x) for those of
   all steps together, their coordinates, and the largest values of each step in /history. Every dataset has the
-  attributes `units` and `long_name` and its dimension scales, so that h5py and xarray open it; an XDMF file beside it
-  describes it to ParaView and VisIt as a volume.
+  attributes `units` and `long_name` and its dimension scales, so that h5py and xarray open it.
 */
 typedef struct _n_SamStressFile *SamStressFile;
 

@@ -85,16 +85,16 @@ static PetscErrorCode GetMemory(const SamStressRun *run, double *bytes)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The output, its XDMF file and its temporary file must not replace a file that is read. */
+/* The output and its temporary file must not replace a file that is read. */
 static PetscErrorCode CheckFiles(const SamStressRequest *r, const SamArguments *arguments)
 {
   SamFiles files = {.count = 0};
-  char    *xdmf, *temporary;
+  char    *temporary;
 
   PetscFunctionBegin;
   PetscCall(SamFilesAdd(&files, "-input", r->input, PETSC_FALSE));
-  PetscCall(SamOutputNames(r->output, &xdmf, &temporary));
-  PetscCall(SamFilesAddWritten(&files, "-output", r->output, xdmf, temporary));
+  PetscCall(SamOutputNameTemporary(r->output, &temporary));
+  PetscCall(SamFilesAddWritten(&files, "-output", r->output, NULL, temporary));
   PetscCall(SamFilesCheck(&files, PETSC_COMM_WORLD, arguments));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -57,7 +57,7 @@ static void CatchSignals(PetscBool checkpoint)
 
 /*
   Refuses names by which the run would replace a file that it reads, or one file of its own by another. Names that
-  petsam derives count too: the XDMF file beside the results, a checkpoint's file.1 and file.tmp.
+  petsam derives count too: a checkpoint's file.1 and file.tmp.
 */
 static PetscErrorCode CheckFiles(const SamSimulationFiles *f, const SamArguments *arguments)
 {
@@ -77,10 +77,9 @@ static PetscErrorCode CheckFiles(const SamSimulationFiles *f, const SamArguments
       PetscCall(SamFilesAdd(&files, strcmp(inputs[k], "-load_history") ? inputs[k] : "-history", name, PETSC_FALSE));
   }
   if (f->output) {
-    PetscCall(SamOutputNames(f->output, &one, &other));
-    if (!f->xdmf) PetscCall(PetscFree(one));
+    PetscCall(SamOutputNameTemporary(f->output, &other));
     if (!f->restart) PetscCall(PetscFree(other));
-    PetscCall(SamFilesAddWritten(&files, "-output", f->output, one, other));
+    PetscCall(SamFilesAddWritten(&files, "-output", f->output, NULL, other));
   }
   if (f->checkpoint) {
     PetscCall(SamCheckpointNames(f->checkpoint, &one, &other));

@@ -14,16 +14,7 @@
 #include <sys/statvfs.h>
 #include <unistd.h>
 
-enum {
-  IN_USE     = -1,
-  FOREIGN    = -2,
-  REPLACED   = -3,
-  RESIZED    = -4,
-  IS_LINK    = -5,
-  NOT_A_FILE = -6,
-  NO_FOLDER  = -7,
-  NOT_XML    = -8
-};
+enum { IN_USE = -1, FOREIGN = -2, REPLACED = -3, RESIZED = -4, IS_LINK = -5, NOT_A_FILE = -6, NO_FOLDER = -7 };
 
 static const struct {
   int         error;
@@ -36,7 +27,6 @@ static const struct {
                {IS_LINK, "it is a symbolic link"},
                {NOT_A_FILE, "it is not a file"},
                {NO_FOLDER, "its folder does not exist"},
-               {NOT_XML, "XML cannot hold its name: use another one, in UTF-8 without control characters"},
                {EISDIR, "it is a folder, expected the name of a file"}};
 
 static const char *Reason(int error)
@@ -103,7 +93,6 @@ static PetscBool IsOwn(SamFileUse use, const char head[], size_t size)
   static const char hdf5[8] = "\211HDF\r\n\032\n", zeros[8] = {0};
 
   if (!size) return PETSC_TRUE;
-  if (use == SAM_FILE_XDMF) return size >= strlen(SamXdmfHead) && !strncmp(head, SamXdmfHead, strlen(SamXdmfHead));
   if (size >= sizeof(zeros) && !memcmp(head, zeros, sizeof(zeros))) return PETSC_TRUE;
   if ((use == SAM_FILE_CHECKPOINT || use == SAM_FILE_TEMPORARY) && SamSealIsOne(head, size)) return PETSC_TRUE;
   if (use == SAM_FILE_CHECKPOINT || size < sizeof(hdf5) || memcmp(head, hdf5, sizeof(hdf5))) return PETSC_FALSE;
@@ -317,30 +306,13 @@ static int CheckFolderOf(const char filename[])
   return access(folder, W_OK | X_OK) ? errno : 0;
 }
 
-/* Whether XML can hold the name of a file: it has to be UTF-8, without control characters. */
-static PetscBool IsXml(const char filename[])
-{
-  const char *slash = strrchr(filename, '/');
-
-  for (const unsigned char *c = (const unsigned char *)(slash ? slash + 1 : filename); *c; c++) {
-    int more = *c < 0xc2 ? 0 : *c < 0xe0 ? 1 : *c < 0xf0 ? 2 : *c < 0xf5 ? 3 : 0; /* bytes of this character */
-
-    if (*c < ' ' || *c == 0x7f || (*c >= 0x80 && !more)) return PETSC_FALSE;
-    for (; more; more--)
-      if ((*++c & 0xc0) != 0x80) return PETSC_FALSE;
-  }
-  return PETSC_TRUE;
-}
-
 PetscErrorCode SamFileCheckName(SamGrid grid, const char option[], const char filename[], SamFileUse use)
 {
   SamHold hold  = {.file = -1};
   int     error = 0;
 
   PetscFunctionBegin;
-  if (use == SAM_FILE_XDMF && !IsXml(filename)) {
-    error = NOT_XML;
-  } else if (IsFirst(grid)) {
+  if (IsFirst(grid)) {
     error = access(filename, F_OK) ? CheckFolderOf(filename) : Take(filename, use, &hold);
     SamHoldRelease(filename, &hold);
   }

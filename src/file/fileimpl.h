@@ -26,8 +26,6 @@ PETSC_INTERN PetscErrorCode SamFileRaise(SamGrid grid, const char option[], cons
 /* SamSealIsOne - whether the first bytes of a file are a seal. Not collective. */
 PETSC_INTERN PetscBool SamSealIsOne(const char head[], size_t size);
 
-PETSC_INTERN const char SamXdmfHead[]; /* the first bytes of an XDMF file */
-
 /* ---- lengths (lengths.c) ---- */
 
 /* What a dataset of lengths says about itself. */

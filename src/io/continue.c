@@ -236,23 +236,15 @@ static PetscErrorCode CopyAll(SamOutput from, const Wanted *wanted, hsize_t keep
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Gives the copy, which is still open, the name of the results, and writes its XDMF file. */
-static PetscErrorCode TakeName(SamOutput o, const char filename[], PetscBool xdmf)
+/* Gives the copy, which is still open, the name of the results. */
+static PetscErrorCode TakeName(SamOutput o, const char filename[])
 {
-  double *times;
-
   PetscFunctionBegin;
   PetscCall(SamFileReplace(o->grid, "output", o->f->filename, filename, NULL));
   PetscCall(PetscFree(o->f->filename));
   PetscCall(PetscStrallocpy(filename, &o->f->filename));
   o->hold.use = SAM_FILE_RESULTS;
   o->replaced = PETSC_FALSE;
-  if (!xdmf) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ReadTimes(o, o->saved, &times));
-  o->set.xdmf = PETSC_TRUE;
-  PetscCall(SamOutputCreateXdmf(o, filename));
-  for (hsize_t k = 0; k < o->saved; k++) PetscCall(SamXdmfAddStep(o->xdmf, (PetscInt)k, (PetscReal)times[k]));
-  PetscCall(PetscFree(times));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -260,22 +252,20 @@ static PetscErrorCode TakeName(SamOutput o, const char filename[], PetscBool xdm
 static PetscErrorCode Rewrite(SamOutput from, const Wanted *wanted, hsize_t keep, SamOutput *to)
 {
   SamOutputSettings set = *wanted->set;
-  char             *xdmf, *temporary;
+  char             *temporary;
   PetscErrorCode    ierr;
 
   PetscFunctionBegin;
-  set.xdmf   = PETSC_FALSE;
   set.single = from->set.single;
   set.count  = 0;
   for (PetscInt f = 0; f < SamOutputCount(from); f++)
     if (from->wants[f])
       PetscCall(PetscStrncpy(set.names[set.count++], SamOutputResult(from, f)->name, SAM_OUTPUT_NAME));
-  PetscCall(SamOutputNames(from->f->filename, &xdmf, &temporary));
+  PetscCall(SamOutputNameTemporary(from->f->filename, &temporary));
   ierr = SamOutputCreateAs(from->grid, temporary, SAM_FILE_TEMPORARY, &set, to);
   if (!ierr) ierr = CopyAll(from, wanted, keep, *to);
-  if (!ierr) ierr = TakeName(*to, from->f->filename, wanted->set->xdmf);
+  if (!ierr) ierr = TakeName(*to, from->f->filename);
   if (ierr) (void)SamOutputDestroy(to);
-  PetscCall(PetscFree(xdmf));
   PetscCall(PetscFree(temporary));
   PetscCall(ierr);
   PetscFunctionReturn(PETSC_SUCCESS);

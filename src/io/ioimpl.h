@@ -46,7 +46,6 @@ struct _n_SamOutput {
   hid_t           closed;                /* attribute: whether the file was closed properly */
   SamHold         hold;                  /* of a file that is written */
   PetscBool       replaced;              /* there were older results */
-  SamXdmf         xdmf;                  /* NULL: none */
   SamState        state[SAM_SERIES];     /* whose numbers are the columns of a series; borrowed; NULL: none */
   const char     *series[SAM_SERIES];    /* their groups */
   PetscInt        values[SAM_SERIES];    /* in a row of them */
@@ -94,12 +93,24 @@ static inline SamLabel SamOutputLabel(SamOutput o, PetscInt f)
 
   return (SamLabel){r->name, r->unit, r->text};
 }
+/* The datasets `names` of the root group as an image for VTK: their values are at cells, or else at points. */
+typedef struct {
+  PetscBool   cells;
+  hsize_t     n[3];                  /* cells or points along x, y, z */
+  double      origin[3], spacing[3]; /* of the first point, a corner of the first cell, and between points; m */
+  int64_t     steps; /* in the datasets, whose first dimension is the time; -1: without this dimension */
+  double      time;  /* s, of a single step */
+  PetscInt    count;
+  const char *names[SAM_STATE_MOST];
+} SamImage;
 /*
-  SamOutputCreateVTK - creates the group VTKHDF of the file.
-  SamOutputCountVTK - sets the number of steps that VTK sees.
+  SamFileCreateVTK - creates the group VTKHDF of the file; returns its attribute with the number of steps, -1 without
+  one.
+  SamFileCountVTK - sets that number for a layer of cells that was created without a step.
+  Both note their failures, and are collective.
 */
-PETSC_INTERN void SamOutputCreateVTK(SamOutput output);
-PETSC_INTERN void SamOutputCountVTK(SamOutput output, hsize_t saved);
+PETSC_INTERN hid_t SamFileCreateVTK(SamFile file, const SamImage *image);
+PETSC_INTERN void  SamFileCountVTK(SamFile file, hid_t number, int64_t steps);
 
 /* SamOutputReadSeries - reads `count` numbers, or matrices, of a series from index `first` on, on all ranks. */
 PETSC_INTERN void SamOutputReadSeries(SamOutput output, hid_t dataset, hid_t type, hsize_t first, hsize_t count,
@@ -112,12 +123,10 @@ PETSC_INTERN PetscErrorCode SamOutputCopyOrigin(SamOutput from, SamOutput to);
 /*
   SamOutputAllocate - an object for an open file, NULL for one that is yet to be opened; no dataset is open yet.
   SamOutputFree - frees the object, and leaves the file as it is. Neither is collective.
-  SamOutputCreateXdmf - creates the XDMF file, without a step. Collective. Errors: SAM_ERR_FILE.
 */
 PETSC_INTERN PetscErrorCode SamOutputAllocate(SamGrid grid, SamFile file, const SamOutputSettings *set,
                                               SamOutput *output);
 PETSC_INTERN PetscErrorCode SamOutputFree(SamOutput *output);
-PETSC_INTERN PetscErrorCode SamOutputCreateXdmf(SamOutput output, const char filename[]);
 /*
   SamOutputCreateAs - SamOutputCreate() for that use of the file: results, or a temporary file. Collective.
   Errors: SAM_ERR_FILE.

@@ -229,6 +229,22 @@ static void CreateSeries(SamOutput o, SamSeries kind)
   }
 }
 
+/* For VTK the results are one layer of cells. */
+static void CreateVTK(SamOutput o)
+{
+  const SamGrid g     = o->grid;
+  const double  dy    = g->axes == 1 ? g->dx : g->dy; /* a row of squares, not of sticks of 1 m */
+  SamImage      image = {.cells   = PETSC_TRUE,
+                         .n       = {(hsize_t)g->nx, (hsize_t)g->ny, 0},
+                         .origin  = {SamGridX(g, 0) - 0.5 * g->dx, SamGridY(g, 0) - 0.5 * dy, 0},
+                         .spacing = {g->dx, dy, g->dx}};
+
+  for (PetscInt f = 0; f < SamOutputCount(o); f++)
+    if (o->fields[f] >= 0 && SamOutputResult(o, f)->kind != SAM_FIELD_POINTS)
+      image.names[image.count++] = SamOutputResult(o, f)->name;
+  o->vtk_steps = SamFileCreateVTK(o->f, &image);
+}
+
 PetscErrorCode SamOutputCreateLayout(SamOutput o)
 {
   const int8_t open = 0;
@@ -236,7 +252,7 @@ PetscErrorCode SamOutputCreateLayout(SamOutput o)
   PetscFunctionBegin;
   PetscCall(CreateFields(o));
   for (PetscInt k = 0; k < SAM_SERIES; k++) CreateSeries(o, (SamSeries)k);
-  SamOutputCreateVTK(o);
+  CreateVTK(o);
   SamFileWriteOrigin(o->f, "Partial-slip contact of elastic bodies", "petsam");
   SamFileWriteAttribute(o->f, o->f->id, "closed", H5T_STD_I8LE, H5T_NATIVE_INT8, 1, &open);
   o->closed = SamFileNote(o->f, H5Aopen(o->f->id, "closed", H5P_DEFAULT));

@@ -38,9 +38,10 @@ static PetscErrorCode ReadFieldNames(SamOutputSettings *set, const SamOptions *f
 PetscErrorCode SamOutputSettingsSetFromOptions(SamOutputSettings *set, const SamOptions *from)
 {
   const char *prefix = SamOptionsPrefix(from);
+  PetscBool   xdmf;
 
   PetscFunctionBegin;
-  *set = (SamOutputSettings){.compress = 0, .chunk = {1024, 256}, .xdmf = PETSC_TRUE};
+  *set = (SamOutputSettings){.compress = 0, .chunk = {1024, 256}};
   PetscCall(ReadFieldNames(set, from));
   PetscCall(SamOptionsInt(from, "output_compress", "level of compression of the fields, 0 (none) to 9", 0,
                           &set->compress, NULL));
@@ -51,8 +52,9 @@ PetscErrorCode SamOutputSettingsSetFromOptions(SamOutputSettings *set, const Sam
   PetscCall(SamOptionsIntPair(from, "output_chunk", "most cells of a chunk of the file in x[,y]", 1, set->chunk, NULL));
   PetscCall(
     SamOptionsBool(from, "output_single", "fields in single precision: files of half the size", &set->single, NULL));
-  PetscCall(
-    SamOptionsBool(from, "output_xdmf", "an XDMF file beside the results, for ParaView and VisIt", &set->xdmf, NULL));
+  PetscCall(PetscOptionsHasName(NULL, from->prefix, "-output_xdmf", &xdmf));
+  PetscCheck(!xdmf, from->comm, SAM_ERR_USER,
+             "-%soutput_xdmf: no XDMF file is written: ParaView 5.12 or later opens the results themselves", prefix);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -162,7 +164,6 @@ PetscErrorCode SamOutputFree(SamOutput *output)
 
   PetscFunctionBegin;
   *output = NULL;
-  PetscCall(SamXdmfDestroy(&o->xdmf));
   PetscCall(SamGridDestroy(&o->grid));
   PetscCall(VecDestroy(&o->work));
   PetscCall(PetscFree(o->points.xy));
@@ -173,36 +174,10 @@ PetscErrorCode SamOutputFree(SamOutput *output)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamOutputCreateXdmf(SamOutput o, const char filename[])
-{
-  const SamGrid g    = o->grid;
-  const double  dy   = g->axes == 1 ? g->dx : g->dy; /* a row of squares */
-  SamXdmfMesh   mesh = {.rank    = 2,
-                        .n       = {1, (hsize_t)g->ny, (hsize_t)g->nx},
-                        .origin  = {0, SamGridY(g, 0), SamGridX(g, 0)},
-                        .spacing = {g->side[1], dy, g->dx}};
-
-  PetscFunctionBegin;
-  for (PetscInt f = 0; f < SamOutputCount(o); f++) {
-    const PetscBool state = SamOutputResult(o, f)->kind == SAM_FIELD_STATE;
-
-    if (!o->wants[f] || SamOutputResult(o, f)->kind == SAM_FIELD_POINTS) continue;
-    mesh.fields[mesh.count++] = (SamXdmfField){.name  = SamOutputResult(o, f)->name,
-                                               .type  = state ? "Char" : "Float",
-                                               .bytes = state           ? 1
-                                                        : o->set.single ? 4
-                                                                        : 8};
-  }
-  PetscCall(SamXdmfCreate(g, filename, &mesh, &o->xdmf));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Creates the files. */
-static PetscErrorCode CreateFiles(SamOutput o, const char filename[], SamFileUse use)
+static PetscErrorCode CreateFile(SamOutput o, const char filename[], SamFileUse use)
 {
   PetscFunctionBegin;
   PetscCall(SamHoldTake(o->grid, "output", filename, use, &o->hold));
-  if (o->set.xdmf) PetscCall(SamOutputCreateXdmf(o, filename)); /* first: if it fails, old results are kept */
   PetscCall(SamFileOpen(o->grid, SAM_EVENT_OUTPUT, "output", filename, SAM_FILE_CREATE, &o->f));
   PetscCall(SamHoldHadContent(o->grid, &o->hold, &o->replaced));
   PetscCall(SamFileBegin(o->f));
@@ -223,7 +198,7 @@ PetscErrorCode SamOutputCreateAs(SamGrid grid, const char filename[], SamFileUse
   *output = NULL;
   PetscCall(SamInitialize());
   PetscCall(SamOutputAllocate(grid, NULL, set, &o));
-  ierr = CreateFiles(o, filename, use);
+  ierr = CreateFile(o, filename, use);
   if (!ierr) {
     *output = o;
   } else if (o->f) {
@@ -293,19 +268,9 @@ PetscErrorCode SamOutputHasReplaced(SamOutput o, PetscBool *replaced)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamOutputNames(const char filename[], char **xdmf, char **temporary)
+PetscErrorCode SamOutputNameTemporary(const char filename[], char **temporary)
 {
-  PetscFunctionBegin;
-  PetscCall(SamXdmfMakeName(filename, xdmf));
-  PetscCall(SamFileNameBeside(filename, ".tmp", temporary));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamOutputGetXdmf(SamOutput o, const char **filename)
-{
-  PetscFunctionBegin;
-  *filename = o->xdmf ? SamXdmfGetName(o->xdmf) : NULL;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return SamFileNameBeside(filename, ".tmp", temporary);
 }
 
 /* ---- attributes ---- */

@@ -284,12 +284,11 @@ PetscErrorCode SamOutputAppend(SamOutput o, const double step[], PetscReal time,
   if (values) {
     Append(o, o->time, H5T_NATIVE_DOUBLE, o->saved, 1, 1, &now);
     PetscCall(AppendFields(o, values, context));
-    SamOutputCountVTK(o, o->saved + 1);
+    SamFileCountVTK(o->f, o->vtk_steps, (int64_t)o->saved + 1);
     o->saved_time = time;
   }
   PetscCall(End(o));
   o->saved += values ? 1 : 0;
-  if (values && o->xdmf) PetscCall(SamXdmfAddStep(o->xdmf, (PetscInt)o->saved - 1, time));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -1,7 +1,7 @@
 /*
   Files of stresses: datasets of shape (time, z, y, x), all of them created at once and filled part by part.
 
-  The file is written beside its name and renamed when it is complete. The XDMF file is small and written at the end.
+  The file is written beside its name and renamed when it is complete.
 */
 #include "ioimpl.h"
 #include <petsam/private/quantities.h>
@@ -67,6 +67,41 @@ static const SamLabel    coordinate_labels[DIMENSIONS] = {{"time", "s", "time of
                                                           {"x", "m", "x of the cell centres"}};
 static const char *const axes[DIMENSIONS]              = {"T", "Z", "Y", "X"};
 
+/* The spacing of coordinates, which VTK needs; 0 where they are unequal. A single one has that of the grid. */
+static double Spacing(SamStressFile s, int d)
+{
+  const hsize_t       n = s->shape[d];
+  const double *const x = s->coordinate[d], step = n > 1 ? (x[n - 1] - x[0]) / (double)(n - 1) : s->grid->dx;
+
+  for (hsize_t k = 0; k < n; k++)
+    if (!(fabs(x[k] - x[0] - (double)k * step) <= 1e-9 * fabs(x[n - 1] - x[0]))) return 0;
+  return step;
+}
+
+/*
+  For VTK the stresses of all steps are at points, or those of the cycle if there are no others. VTK counts a dimension
+  of one point as none, so a section is a sheet of cells.
+*/
+static void CreateVTK(SamStressFile s)
+{
+  SamImage image = {.steps = (int64_t)s->shape[TIME], .time = s->coordinate[TIME][0]};
+
+  for (int d = 0; d < 3; d++) {
+    image.n[d]       = s->shape[X - d];
+    image.cells      = image.cells || image.n[d] == 1;
+    image.spacing[d] = Spacing(s, X - d);
+    if (!(image.spacing[d] > 0)) return;
+  }
+  for (int d = 0; d < 3; d++) image.origin[d] = s->coordinate[X - d][0] - (image.cells ? 0.5 * image.spacing[d] : 0);
+  for (int first = TIME; first <= Z && !image.count; first++) {
+    if (first == Z) image.steps = -1;
+    for (PetscInt k = 0; k < SAM_DATASETS; k++)
+      if (s->wants[SamDatasets[k].quantity] && FirstDimension(k) == first)
+        image.names[image.count++] = SamDatasets[k].label.name;
+  }
+  (void)SamFileCreateVTK(s->f, &image);
+}
+
 static void CreateAll(SamStressFile s, const SamParameters *parameters)
 {
   SamShape shape;
@@ -86,6 +121,7 @@ static void CreateAll(SamStressFile s, const SamParameters *parameters)
     s->dataset[k] = SamFileCreateDataset(s->f, s->f->id, &SamDatasets[k].label, H5T_IEEE_F64LE, &shape, 0);
     SamFileAttachScales(s->f, s->dataset[k], shape.rank, scale + first);
   }
+  CreateVTK(s);
   shape      = ShapeOf(s, TIME, 1);
   s->history = SamFileNote(s->f, H5Gcreate2(s->f->id, "history", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
   s->history_time =
@@ -110,7 +146,6 @@ PetscErrorCode SamStressFileCreate(SamGrid grid, const char filename[], const Sa
                                    const SamParameters *parameters, SamStressFile *file)
 {
   SamStressFile s;
-  char         *xdmf;
 
   PetscFunctionBegin;
   PetscCall(SamInitialize());
@@ -122,11 +157,9 @@ PetscErrorCode SamStressFileCreate(SamGrid grid, const char filename[], const Sa
   s->section = layout->section;
   PetscCall(PetscArraycpy(s->wants, layout->wants, SAM_QUANTITIES));
   PetscCall(PetscStrallocpy(filename, &s->filename));
-  PetscCall(SamOutputNames(filename, &xdmf, &s->temporary));
+  PetscCall(SamOutputNameTemporary(filename, &s->temporary));
   PetscCall(SetCoordinates(s, layout));
   PetscCall(SamFileCheckName(grid, OPTION, filename, SAM_FILE_RESULTS));
-  PetscCall(SamFileCheckName(grid, OPTION, xdmf, SAM_FILE_XDMF));
-  PetscCall(PetscFree(xdmf));
   PetscCall(SamHoldTake(grid, OPTION, s->temporary, SAM_FILE_TEMPORARY, &s->hold));
   PetscCall(SamFileOpen(grid, SAM_EVENT_OUTPUT, OPTION, s->temporary, SAM_FILE_CREATE, &s->f));
   PetscCall(SamFileReserve(s->f, Bytes(s)));
@@ -201,31 +234,9 @@ PetscErrorCode SamStressFileSetHistory(SamStressFile s, const char name[], const
 
 /* ---- the end ---- */
 
-/* Writes the XDMF file: a volume at each step. */
-static PetscErrorCode Describe(SamStressFile s)
-{
-  SamXdmfMesh mesh = {.rank = 3};
-  SamXdmf     xdmf;
-
-  PetscFunctionBegin;
-  for (int d = 0; d < 3; d++) {
-    mesh.n[d]    = s->shape[Z + d];
-    mesh.axis[d] = s->coordinate[Z + d];
-  }
-  for (PetscInt k = 0; k < SAM_DATASETS; k++)
-    if (s->wants[SamDatasets[k].quantity])
-      mesh.fields[mesh.count++] = (SamXdmfField){SamDatasets[k].label.name, "Float", 8, FirstDimension(k) != TIME};
-  PetscCall(SamXdmfCreate(s->grid, s->filename, &mesh, &xdmf));
-  for (hsize_t t = 0; t < s->shape[TIME]; t++)
-    PetscCall(SamXdmfAddStep(xdmf, (PetscInt)t, (PetscReal)s->coordinate[TIME][t]));
-  PetscCall(SamXdmfDestroy(&xdmf));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode SamStressFileFinish(SamStressFile s)
 {
   PetscFunctionBegin;
-  PetscCall(Describe(s));
   PetscCall(SamFileDestroy(&s->f, PETSC_TRUE));
   PetscCall(SamFileReplace(s->grid, OPTION, s->temporary, s->filename, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -249,9 +249,8 @@ static PetscErrorCode TellFile(SamSimulation s, const char name[], const char co
 /* Closes the results, and tells of all files. */
 static PetscErrorCode Finish(SamSimulation s)
 {
-  char        content[96];
-  const char *xdmf;
-  PetscInt    steps, saved;
+  char     content[96];
+  PetscInt steps, saved;
 
   PetscFunctionBegin;
   if (s->output) {
@@ -259,8 +258,6 @@ static PetscErrorCode Finish(SamSimulation s)
     PetscCall(PetscSNPrintf(content, sizeof(content), "%" PetscInt_FMT " step%s, fields of %" PetscInt_FMT, steps,
                             steps == 1 ? "" : "s", saved));
     PetscCall(TellFile(s, s->filename, content));
-    PetscCall(SamOutputGetXdmf(s->output, &xdmf));
-    if (xdmf) PetscCall(TellFile(s, xdmf, "the same for ParaView and VisIt"));
   }
   s->writing = PETSC_TRUE;
   PetscCall(SamOutputDestroy(&s->output));
@@ -381,7 +378,6 @@ PetscErrorCode SamSimulationGetFiles(SamSimulation s, SamSimulationFiles *files)
   files->output     = s->has_output ? s->filename : NULL;
   files->checkpoint = s->checkpoints.filename[0] ? s->checkpoints.filename : NULL;
   files->restart    = s->checkpoints.restart[0] ? s->checkpoints.restart : NULL;
-  files->xdmf       = s->output_settings.xdmf;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

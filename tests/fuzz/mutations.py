@@ -13,7 +13,7 @@ ODD_NAMES = (
     "-tangential_max_it -normal_rtol -tangential_rtol -normal_view -tangential_converged_reason -coupling "
     "-coupling_rtol -elasticity -disp_z -disp_x -rot_z -load_mz -load_mx -friction -friction_file "
     "-gap_file -gap_rough_file -gap_type "
-    "-max_walltime -checkpoint_every -output_every -output_compress -output_chunk -output_xdmf -allow_edge_contact "
+    "-max_walltime -checkpoint_every -output_every -output_compress -output_chunk -allow_edge_contact "
     "-memory_check -python -fp_trap -log_trace -options_view -normal_monitor -tangential_levels -normal_levels"
 ).split()
 

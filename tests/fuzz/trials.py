@@ -317,18 +317,7 @@ class Trials:
 
     def trial_names(self, chance, ranks):
         """Names of files at random: what is not petsam's stays as it is."""
-        names = [
-            "a.h5",
-            "a.xdmf",
-            "a.h5.1",
-            "a.h5.tmp",
-            "b.txt",
-            "loads.csv",
-            "study.opts",
-            "./a.h5",
-            "link.h5",
-            "no/a",
-        ]
+        names = ["a.h5", "a.h5.1", "a.h5.tmp", "b.txt", "loads.csv", "study.opts", "./a.h5", "link.h5", "no/a"]
         (self.folder / "b.txt").write_text("the only copy of a long text")
         (self.folder / "loads.csv").write_text("time, load_n\n1, 100\n2, 200\n")
         (self.folder / "study.opts").write_text("-load_tx 1\n")

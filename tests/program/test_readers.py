@@ -1,9 +1,10 @@
-"""The results open where users look: h5py, xarray, VTK through VTKHDF and through XDMF, with the same values in all."""
+"""The results open where users look: h5py, xarray, VTK through VTKHDF, with the same values in all."""
 
 import h5py
 import numpy as np
 import pytest
 
+from conftest import PROGRAM, execute
 from support import FIELDS, ball
 
 # steps of which some have no fields; a grid that is not square, does not lie about the origin and has several chunks
@@ -148,60 +149,33 @@ def test_vtk_reads_the_file_itself(path, values):
     )
 
 
-def test_vtk_reads_the_XDMF_beside_it(path, values):
-    """Cell centres are points there."""
+@pytest.mark.parametrize("steps", ["last", "all"])
+@pytest.mark.parametrize("of", ["-depths 0:1e-4:3", "-depths 1e-5", "-depths 0:1e-4:3 -section y=0"])
+def test_vtk_reads_stresses(solve, launcher, tmp_path, steps, of):
+    """Also of one step, one depth and one row, which VTK counts as no dimension."""
     pytest.importorskip("vtkmodules", reason="vtk is not installed")
-    from vtkmodules.vtkIOXdmf2 import vtkXdmfReader
+    from vtkmodules.vtkIOHDF import vtkHDFReader
 
-    x, y = values["x"], values["y"]
-    assert_vtk_reads(vtkXdmfReader(), path.with_suffix(".xdmf"), False, (x[0], x[-1], y[0], y[-1]), values)
+    options = ["-input", solve(CASE).path, "-output", "s.h5", "-steps", steps, *of.split()]
+    execute(launcher, tmp_path, options, 1, 0, program=PROGRAM.with_name("petsam-stress"))
+    reader = vtkHDFReader()
+    reader.SetFileName(str(tmp_path / "s.h5"))
+    with h5py.File(tmp_path / "s.h5") as f:
+        for step, time in enumerate(f["time"]):
+            vtk_times(reader)
+            reader.UpdateTimeStep(time)
+            image = reader.GetOutputDataObject(0)
+            arrays = vtk_arrays(image.GetPointData()) or vtk_arrays(image.GetCellData())
+            assert np.array_equal(arrays["mises"], f["mises"][step].ravel())
 
 
-def test_results_that_moved_with_their_XDMF_are_found(petsam, tmp_path, monkeypatch):
+def test_vtk_reads_a_single_step(solve):
     pytest.importorskip("vtkmodules", reason="vtk is not installed")
-    from vtkmodules.vtkIOXdmf2 import vtkXdmfReader
+    from vtkmodules.vtkIOHDF import vtkHDFReader
 
-    (tmp_path / "a").mkdir()
-    petsam(CASE, dict(output="a/a & b.h5"))
-    (tmp_path / "a").rename(tmp_path / "b")
-    with h5py.File(tmp_path / "b" / "a & b.h5") as f:
-        pressure = f["pressure"][-1]
-    reader = vtkXdmfReader()
-    reader.SetFileName(str(tmp_path / "b" / "a & b.xdmf"))
-    reader.UpdateTimeStep(vtk_times(reader)[-1])
-    assert np.array_equal(
-        vtk_arrays(reader.GetOutputDataObject(0).GetPointData())["pressure"].reshape(41, 50), pressure
-    )
-
-
-# ---- the XDMF file's name
-
-
-@pytest.mark.parametrize(
-    "name, beside",
-    [
-        ("out.h5", "out.xdmf"),
-        ("out.hdf5", "out.xdmf"),
-        ("out.vtkhdf", "out.xdmf"),
-        ("out", "out.xdmf"),
-        ("out.v2", "out.v2.xdmf"),
-    ],
-)
-def test_XDMF_has_the_name_of_the_results(petsam, tmp_path, name, beside):
-    done = petsam(CASE, dict(output=name))
-    assert {path.name for path in tmp_path.iterdir()} == {name, beside}
-    assert beside in done.stdout
-
-
-def test_XDMF_may_be_left_out(petsam, tmp_path):
-    petsam(CASE, "-output", "out.h5", "-output_xdmf", "false")
-    assert [path.name for path in tmp_path.iterdir()] == ["out.h5"]
-
-
-def test_XDMF_that_cannot_be_written_is_named(petsam, tmp_path):
-    petsam(CASE, dict(output="out.h5", output_xdmf="false"))
-    before = (tmp_path / "out.h5").read_bytes()
-    (tmp_path / "out.xdmf").mkdir()
-    done = petsam(CASE, dict(output="out.h5"), ranks=3, check=3)
-    assert len(done.complaint) == 1 and "out.xdmf" in done.complaint[0]
-    assert (tmp_path / "out.h5").read_bytes() == before
+    path = solve(CASE, dict(output_every=5)).path
+    reader = vtkHDFReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    with h5py.File(path) as f:
+        assert np.array_equal(vtk_arrays(reader.GetOutputDataObject(0).GetCellData())["gap"], f["gap"][0].ravel())

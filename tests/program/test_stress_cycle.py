@@ -269,13 +269,6 @@ def test_slip_is_needed_by_ruiz_only(stress, contact):
     assert "/slip_x" in done.stderr and not (contact / "no.h5").exists()
 
 
-def test_foreign_description_is_noticed_at_once(stress, contact):
-    (contact / "f.xdmf").write_text("hello")
-    done = stress(dict(input="c.h5", output="f.h5", depths="0:1e-3:2000", steps="all"), check=3)
-    assert "f.xdmf" in done.stderr and "%" not in done.stdout
-    assert (contact / "f.xdmf").read_text() == "hello" and not list(contact.glob("f.h5*"))
-
-
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGUSR1])  # others are ignored in the background
 def test_signal_leaves_no_file(contact, number):
     words = flatten([dict(input="c.h5", output="long.h5", depths="0:1e-3:400", steps="all", **ALL)])

@@ -394,8 +394,7 @@ def test_a_case_cannot_have_a_name_that_no_file_system_takes(tmp_path, monkeypat
 
 
 @pytest.mark.parametrize(
-    "name",
-    ["petsam.log", "results.h5", "results.xdmf", "record.json", "record.json.tmp", "lock", "checkpoint.h5.1", "..", ""],
+    "name", ["petsam.log", "results.h5", "record.json", "record.json.tmp", "lock", "checkpoint.h5.1", "..", ""]
 )
 def test_a_file_of_the_cases_cannot_have_the_name_of_another(tmp_path, monkeypatch, capsys, name):
     path = table(tmp_path, SECTION + f"1\nfiles:\n  '{name}': text\n", "t.yaml")

@@ -231,7 +231,6 @@ static inline SamOutputSettings SettingsOf(SamContact contact, const char *optio
   sam_call(SamOutputSettingsSetFromOptions(&set, &from));
   if (contact) sam_call(SamOutputSettingsPrepare(&set, contact, &from));
   SetOptions("");
-  set.xdmf = PETSC_FALSE;
   return set;
 }
 

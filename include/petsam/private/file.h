@@ -1,4 +1,4 @@
-/* HDF5 files that all ranks use together: opening, examining, datasets; names, locks and space on the disk; XDMF. */
+/* HDF5 files that all ranks use together: opening, examining, datasets; names, locks and space on the disk. */
 #ifndef PETSAM_FILE_H
 #define PETSAM_FILE_H
 
@@ -138,13 +138,7 @@ PETSC_INTERN PetscBool SamTextRead(hid_t object, const char name[], char text[],
 /* ---- the disk (disk.c) ---- */
 
 /* What a file is written for. Old results must be there; a temporary file becomes one of the others by its name. */
-typedef enum {
-  SAM_FILE_RESULTS,
-  SAM_FILE_OLD_RESULTS,
-  SAM_FILE_CHECKPOINT,
-  SAM_FILE_XDMF,
-  SAM_FILE_TEMPORARY
-} SamFileUse;
+typedef enum { SAM_FILE_RESULTS, SAM_FILE_OLD_RESULTS, SAM_FILE_CHECKPOINT, SAM_FILE_TEMPORARY } SamFileUse;
 /*
   SamFileCheckName - fails early if a file of that name cannot be written, is being written by another run, or is there
   and not what petsam writes for that use. Changes nothing on the disk. Collective. Errors: SAM_ERR_FILE.
@@ -208,37 +202,5 @@ PETSC_INTERN void           SamHoldRelease(const char filename[], SamHold *hold)
 */
 PETSC_INTERN PetscErrorCode SamSealWrite(SamGrid grid, const char option[], const char filename[]);
 PETSC_INTERN PetscErrorCode SamSealCheck(SamGrid grid, const char option[], const char filename[]);
-
-/* ---- XDMF (xdmf.c) ---- */
-
-/* A dataset that an XDMF file describes: its numbers ("Float" or "Char", of so many bytes), a layer for each step. */
-#define SAM_XDMF_FIELDS 64 /* most datasets */
-typedef struct {
-  const char *name, *type;
-  int         bytes;
-  PetscBool   constant; /* not a layer for each step: the same at all steps */
-} SamXdmfField;
-/* The points at which the fields are given: n[d] along z, y, x; datasets of `rank` 2 have no z. */
-typedef struct {
-  int           rank;
-  hsize_t       n[3];
-  const double *axis[3];               /* borrowed; NULL: points at equal distances */
-  double        origin[3], spacing[3]; /* of these */
-  PetscInt      count;
-  SamXdmfField  fields[SAM_XDMF_FIELDS];
-} SamXdmfMesh;
-/*
-  SamXdmf - an XDMF file beside results, which describes them to ParaView and VisIt.
-  SamXdmfCreate - creates one without a step for results of that name; replaces one that petsam has written.
-  SamXdmfAddStep - appends the step of that index in the results. After an error the file still has the earlier steps.
-  These, and SamXdmfDestroy(), are collective. Errors: SAM_ERR_FILE.
-  SamXdmfMakeName - results.h5 -> results.xdmf; the caller frees it. Not collective.
-*/
-typedef struct _n_SamXdmf  *SamXdmf;
-PETSC_INTERN PetscErrorCode SamXdmfCreate(SamGrid grid, const char results[], const SamXdmfMesh *mesh, SamXdmf *xdmf);
-PETSC_INTERN PetscErrorCode SamXdmfAddStep(SamXdmf xdmf, PetscInt step, PetscReal time);
-PETSC_INTERN PetscErrorCode SamXdmfMakeName(const char results[], char **name);
-PETSC_INTERN const char    *SamXdmfGetName(SamXdmf xdmf);
-PETSC_INTERN PetscErrorCode SamXdmfDestroy(SamXdmf *xdmf);
 
 #endif
