@@ -96,11 +96,22 @@ PETSC_EXTERN PetscErrorCode SamGapEstimateContact(SamGap gap, PetscBool force, P
 */
 PETSC_EXTERN PetscErrorCode SamGapEstimateLine(SamGap gap, PetscReal value, PetscReal *half, PetscBool *known);
 /*
-  SamGapGetSteepness - the largest ratio of a contact's half widths (m, along x and y) to a radius of curvature, and the
-  name of the option (without dash and prefix) that gives this radius; 0 and NULL for types without radii. Not
-  collective.
+  SamGapGetSteepness - the largest ratio of a contact's half widths (m, along x and y) to a radius of curvature, this
+  radius (m) and the name of the option (without dash and prefix) that gives it; 0 and NULL for types without radii.
+  `concave`: one of the bodies is. Not collective.
 */
-PETSC_EXTERN PetscErrorCode SamGapGetSteepness(SamGap gap, const PetscReal half[2], PetscReal *ratio,
-                                               const char **option);
+typedef struct {
+  PetscReal   ratio, radius;
+  const char *option;
+  PetscBool   concave;
+} SamGapSteepness;
+PETSC_EXTERN PetscErrorCode SamGapGetSteepness(SamGap gap, const PetscReal half[2], SamGapSteepness *steepness);
+/*
+  SamGapCheckPlane - refuses a shape that is not the same along y, of which a section would not tell. Collective.
+  Errors: SAM_ERR_USER with the option that bends it.
+  SamGapIsFromFile - whether the gap, or with `rough` its roughness, comes from a file. Not collective.
+*/
+PETSC_EXTERN PetscErrorCode SamGapCheckPlane(SamGap gap);
+PETSC_EXTERN PetscBool      SamGapIsFromFile(SamGap gap, PetscBool rough);
 
 #endif

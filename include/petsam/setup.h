@@ -13,7 +13,6 @@ typedef struct {
   SamProblem    problem;
   SamGap        gap;
   SamContact    contact;
-  PetscBool     from_file[2]; /* the gap, and a roughness, come from files */
 } SamSetup;
 
 /*

@@ -47,7 +47,7 @@ typedef struct {
 } SamSimulationStart;
 
 /*
-  SamGridCheckRow - a number of the last step (dissipated_energy: of all steps) on this grid and on half the cells, the
+  SamGridCheckRow - a number of the last step (sums: of all steps) on this grid and on half the cells, the
   order that its error is taken for, and what follows.
   SamGridCheck - all of them; `n`: the cells of the coarser grid.
 */

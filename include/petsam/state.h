@@ -49,12 +49,16 @@ PETSC_EXTERN PetscErrorCode SamStateDeclareField(SamState state, const SamStateF
   first number of a state is the coordinate of the others. Names and texts are copied.
 */
 typedef enum { SAM_NUMBER_REAL, SAM_NUMBER_INT, SAM_NUMBER_STATUS, SAM_NUMBER_MATRIX } SamNumberKind;
+/* How the numbers of the parts of a step make that of the whole step. */
+typedef enum { SAM_JOIN_LAST, SAM_JOIN_SUM, SAM_JOIN_GREATEST } SamNumberJoin;
 typedef struct {
   const char   *name, *unit, *text;
   SamNumberKind kind;
   PetscInt      count;  /* 1; of numbers that are no results any; of a matrix all its values */
   PetscBool     kept;   /* checkpoints have it */
   PetscBool     result; /* a column of /history */
+  SamNumberJoin join;
+  PetscInt      order; /* of its error in the width of the cells, for the check of the grid; 0: it is not estimated */
 } SamStateNumber;
 /*
   SamStateDeclareNumber - declares numbers; `id` is the place of the first: those declared one after the other lie side
@@ -138,6 +142,11 @@ PETSC_EXTERN Vec            SamStateGetField(SamState state, PetscInt id, SamGen
 PETSC_EXTERN Vec            SamStateReadField(SamState state, PetscInt id);
 PETSC_EXTERN double        *SamStateNumbers(SamState state, PetscInt id, SamGeneration generation);
 PETSC_EXTERN double        *SamStateReadNumbers(SamState state, PetscInt id);
+/*
+  SamStateJoinNumbers - joins the numbers of the tried generation to `parts`, those of the parts of the step before it:
+  SAM_STATE_NUMBERS values, at first 0. `to_step`: into the tried generation, else into `parts`. Not collective.
+*/
+PETSC_EXTERN void SamStateJoinNumbers(SamState state, double parts[], PetscBool to_step);
 /*
   SamStateRestoreField - the vector of a committed generation, or of that one step back, to be written to by who
   restores a saved state. Collective.

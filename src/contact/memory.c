@@ -34,7 +34,7 @@ static PetscErrorCode DeclareFields(SamContact c)
 static PetscErrorCode Declare(SamContact c, const char name[], const char unit[], const char text[], SamNumberKind kind,
                               PetscInt count, PetscBool kept, PetscBool result, PetscInt *first)
 {
-  const SamStateNumber number = {name, unit, text, kind, count, kept, result};
+  const SamStateNumber number = {name, unit, text, kind, count, kept, result, SAM_JOIN_LAST, 0};
   PetscInt             id;
 
   PetscFunctionBegin;
@@ -100,13 +100,22 @@ static PetscErrorCode DeclareOutcome(SamContact c)
     {"tangential_preconditions", "applications of the tangential preconditioner"},
     {"coupling_iterations", "iterations of the normal-tangential coupling"}};
 
+  SamStateNumber number = {NULL, "1", NULL, SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_GREATEST, 0};
+  PetscInt       id;
+
   PetscFunctionBegin;
-  for (int k = 0; k < 3; k++)
-    PetscCall(Declare(c, residuals[k][0], "1", residuals[k][1], SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE,
-                      k ? NULL : &c->residuals));
-  for (int k = 0; k < SAM_COUNTS; k++)
-    PetscCall(
-      Declare(c, counts[k][0], "1", counts[k][1], SAM_NUMBER_INT, 1, PETSC_FALSE, PETSC_TRUE, k ? NULL : &c->counts));
+  for (int k = 0; k < 3; k++) {
+    number.name = residuals[k][0];
+    number.text = residuals[k][1];
+    PetscCall(SamStateDeclareNumber(c->state, &number, k ? &id : &c->residuals));
+  }
+  number.kind = SAM_NUMBER_INT;
+  number.join = SAM_JOIN_SUM;
+  for (int k = 0; k < SAM_COUNTS; k++) {
+    number.name = counts[k][0];
+    number.text = counts[k][1];
+    PetscCall(SamStateDeclareNumber(c->state, &number, k ? &id : &c->counts));
+  }
   PetscCall(
     Declare(c, "status", "1", "outcome of the load step", SAM_NUMBER_STATUS, 1, PETSC_FALSE, PETSC_TRUE, &c->status));
   PetscFunctionReturn(PETSC_SUCCESS);

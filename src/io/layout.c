@@ -273,7 +273,7 @@ static PetscErrorCode DeclareColumn(SamOutput o, SamState state, hid_t group, co
 {
   const hid_t    dataset = SamFileNote(o->f, H5Dopen2(group, name, H5P_DEFAULT));
   const hid_t    type = dataset >= 0 ? H5Dget_type(dataset) : -1, space = dataset >= 0 ? H5Dget_space(dataset) : -1;
-  SamStateNumber number   = {name, "1", name, SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE};
+  SamStateNumber number   = {name, "1", name, SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, 0};
   char           unit[32] = "1", text[96] = "";
   PetscInt       id;
 

@@ -68,7 +68,9 @@ static const SamStateNumber branch = {"friction_mean",
                                       SAM_NUMBER_REAL,
                                       1,
                                       PETSC_FALSE,
-                                      PETSC_TRUE};
+                                      PETSC_TRUE,
+                                      SAM_JOIN_LAST,
+                                      0};
 
 /* ---- options ---- */
 

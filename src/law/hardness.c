@@ -62,12 +62,12 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
                                                   .result      = SAM_RESULT_USUAL,
                                                   .motion      = SAM_MOVES};
   static const SamStateNumber numbers[NUMBERS] = {
-    {"plastic_cells", "1", "cells at the pressure limit", SAM_NUMBER_INT, 1, PETSC_FALSE, PETSC_TRUE},
-    {"plastic_area", "m2", "area at the pressure limit", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE},
+    {"plastic_cells", "1", "cells at the pressure limit", SAM_NUMBER_INT, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, 0},
+    {"plastic_area", "m2", "area at the pressure limit", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, 0},
     {"plastic_depth_max", "m", "maximum depth by which the surfaces have yielded", SAM_NUMBER_REAL, 1, PETSC_FALSE,
-     PETSC_TRUE},
+     PETSC_TRUE, SAM_JOIN_LAST, 0},
     {"plastic_energy", "J", "plastic work of the pressure in the load step", SAM_NUMBER_REAL, 1, PETSC_FALSE,
-     PETSC_TRUE}};
+     PETSC_TRUE, SAM_JOIN_SUM, 0}};
   PetscInt id;
 
   PetscFunctionBegin;

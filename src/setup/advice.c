@@ -114,6 +114,11 @@ static PetscErrorCode Estimate(const SamSetup *s, PetscBool force, PetscReal val
 
 /* ---- what would be better ---- */
 
+static PetscBool IsFromFile(const SamSetup *s)
+{
+  return SamGapIsFromFile(s->gap, PETSC_FALSE) || SamGapIsFromFile(s->gap, PETSC_TRUE) ? PETSC_TRUE : PETSC_FALSE;
+}
+
 /* Grids that resolve a contact of these half widths: as large as now, and as many cells as now. Empty: none. */
 static void AdviseGrids(const SamSetup *s, const PetscReal half[2], double factor, const PetscBool refine[2],
                         char cells[], char width[])
@@ -164,26 +169,18 @@ static PetscErrorCode GetWidths(const SamSetup *s, const SamStep *step, const Sa
 /* Compares a contact with its radius, with the unit; `large`: it is too large for half-spaces. Empty: no radius. */
 static PetscErrorCode Compare(const SamSetup *s, const PetscReal half[2], char text[], size_t size, PetscBool *large)
 {
-  const char *option, *const *names;
-  const PetscReal *values;
-  PetscReal        ratio, radius = 0;
-  PetscBool        concave = PETSC_FALSE;
-  PetscInt         count;
+  SamGapSteepness steepness;
 
   PetscFunctionBegin;
   text[0] = '\0';
-  PetscCall(SamGapGetSteepness(s->gap, half, &ratio, &option));
-  *large = ratio > STEEPEST ? PETSC_TRUE : PETSC_FALSE;
-  if (!(ratio > 0)) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamGapGetParameters(s->gap, NULL, &count, &names, &values));
-  for (PetscInt k = 0; k < count; k++) {
-    if (!strcmp(names[k], option)) radius = values[k];
-    concave = concave || (strstr(names[k], "radius") && values[k] < 0);
-  }
-  (void)snprintf(text, size, "is %.2g times -%s %g (in m)", (double)ratio, option, (double)radius);
+  PetscCall(SamGapGetSteepness(s->gap, half, &steepness));
+  *large = steepness.ratio > STEEPEST ? PETSC_TRUE : PETSC_FALSE;
+  if (!(steepness.ratio > 0)) PetscFunctionReturn(PETSC_SUCCESS);
+  (void)snprintf(text, size, "is %.2g times -%s %g (in m)", (double)steepness.ratio, steepness.option,
+                 (double)steepness.radius);
   if (*large)
     (void)snprintf(text + strlen(text), size - strlen(text), ", the limit is about %g: check the units, N, m, Pa%s",
-                   STEEPEST, concave ? "; conforming bodies need finite elements" : "");
+                   STEEPEST, steepness.concave ? "; conforming bodies need finite elements" : "");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -252,7 +249,7 @@ static void AdviseCells(Receiver *to, const SamSetup *s, const SamExtent *extent
 
   if (!few && !steep) return;
   if (factor > 0) AdviseGrids(s, half, factor, refine, cells, width);
-  if (factor > 0 && (s->from_file[0] || s->from_file[1]))
+  if (factor > 0 && IsFromFile(s))
     (void)snprintf(better, sizeof(better), ": a file with heights at smaller distances%s%s", cells[0] ? ", and " : "",
                    cells);
   else
@@ -403,7 +400,7 @@ PetscErrorCode SamAdviseEdge(const SamSetup *s, const SamLoadsMost *most, SamSte
       : isinf(half[0])                 ? "x"
                                        : "y",
       isinf(half[0]) ? "" : "plane, a section with loads per metre, or ");
-  } else if (s->from_file[0] || s->from_file[1]) {
+  } else if (IsFromFile(s)) {
     (void)snprintf(text, size,
                    "; a surface from a file cannot be enlarged: give a file of a larger area, or less load");
   } else {

@@ -4,9 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-/* Options of files that the gap may come from. */
-static const char *const files[] = {"-gap_file", "-gap_rough_file"};
-
 /* Steady rolling is a property of the operator. */
 static PetscErrorCode ReadRolling(SamSetup *s, const SamOptions *from)
 {
@@ -49,36 +46,14 @@ static PetscErrorCode CreateProblem(SamSetup *s, const SamOptions *from)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A curvature along y, or bodies at an angle, of which the one row of a plane problem would see nothing. */
-static PetscErrorCode RefuseCurvature(SamSetup *s, const SamOptions *from)
-{
-  const char *const *names;
-  const PetscReal   *values;
-  PetscInt           count;
-  PetscBool          help;
-
-  PetscFunctionBegin;
-  PetscCall(SamPrintHelp(&help));
-  PetscCall(SamGapGetParameters(s->gap, NULL, &count, &names, &values));
-  for (PetscInt k = 0; k < count && !help; k++) {
-    const char     *end   = strrchr(names[k], '_');
-    const PetscBool angle = !strcmp(names[k], "gap_angle") ? PETSC_TRUE : PETSC_FALSE;
-
-    PetscCheck(angle ? values[k] == 0 : !strstr(names[k], "radius") || strcmp(end, "_y") || isinf(values[k]),
-               from->comm, SAM_ERR_USER,
-               "-%s%s %.6g: has no meaning with -%selasticity plane, whose bodies are cylinders along y: give %s",
-               SamOptionsPrefix(from), names[k], (double)values[k], SamOptionsPrefix(from), angle ? "0" : "inf");
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode SamSetupReadOptions(SamSetup *s, const SamOptions *from)
 {
   PetscInt  n[2];
   PetscReal width[2], center[2];
-  PetscBool plane;
+  PetscBool plane, help;
 
   PetscFunctionBegin;
+  PetscCall(SamPrintHelp(&help));
   PetscCall(SamOptionsPlugins(from));
   PetscCall(SamGapCreate(from->comm, &s->gap));
   PetscCall(SamGapSetOptionsPrefix(s->gap, from->prefix));
@@ -88,8 +63,7 @@ PetscErrorCode SamSetupReadOptions(SamSetup *s, const SamOptions *from)
   PetscCall(SamPairSetFromOptions(&s->pair, from));
   PetscCall(CreateProblem(s, from));
   PetscCall(SamGapSetFromOptions(s->gap));
-  if (plane) PetscCall(RefuseCurvature(s, from));
-  for (PetscInt k = 0; k < 2; k++) PetscCall(PetscOptionsHasName(NULL, from->prefix, files[k], &s->from_file[k]));
+  if (plane && !help) PetscCall(SamGapCheckPlane(s->gap));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -131,7 +105,7 @@ PetscErrorCode SamSetupCreateCoarse(const SamSetup *s, const SamOptions *from, S
   PetscCall(CreateProblem(coarse, from));
   PetscCall(SamProblemGetGap(s->problem, &fine));
   PetscCall(SamProblemGetGap(coarse->problem, &gap));
-  if (s->from_file[0] || s->from_file[1]) {
+  if (SamGapIsFromFile(s->gap, PETSC_FALSE) || SamGapIsFromFile(s->gap, PETSC_TRUE)) {
     PetscCall(SamTransferCreate(s->grid, coarse->grid, &transfer));
     PetscCall(SamTransferRestrict(transfer, fine, gap));
     PetscCall(SamTransferDestroy(&transfer));
@@ -169,6 +143,8 @@ static PetscErrorCode AddGrid(SamParameters *p, SamGrid grid)
 /* What comes from a file is identified by its checksum, since a file may change and keep its name. */
 static PetscErrorCode AddGap(const SamSetup *s, SamParameters *p)
 {
+  static const char *const files[] = {"gap_file", "gap_rough_file"};
+
   SamGapType         type;
   PetscInt           count;
   const char *const *names;
@@ -182,11 +158,11 @@ static PetscErrorCode AddGap(const SamSetup *s, SamParameters *p)
   for (PetscInt k = 0; k < count; k++) PetscCall(SamParametersAddReals(p, names[k], PETSC_TRUE, 1, &values[k]));
   PetscCall(SamProblemGetGap(s->problem, &separation));
   for (PetscInt k = 0; k < 2; k++) {
-    if (s->from_file[k]) {
+    if (SamGapIsFromFile(s->gap, k ? PETSC_TRUE : PETSC_FALSE)) {
       PetscCall(SamGridChecksum(s->grid, separation, &checksum));
-      PetscCall(SamParametersAddChecksum(p, files[k] + 1, checksum));
+      PetscCall(SamParametersAddChecksum(p, files[k], checksum));
     } else {
-      PetscCall(SamParametersAddText(p, files[k] + 1, PETSC_TRUE, "none"));
+      PetscCall(SamParametersAddText(p, files[k], PETSC_TRUE, "none"));
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -8,18 +8,7 @@
 #include "simulationimpl.h"
 #include <math.h>
 
-#define DISSIPATED "dissipated_energy"
-#define LEAST      4 /* cells in a row, of which half are a grid */
-
-/* A number by its name, and the order of its error. */
-typedef struct {
-  const char *name, *unit;
-  PetscInt    order;
-} Number;
-
-static const Number numbers[] = {{"contact_area", "m2", 1}, {"stick_area", "m2", 1}, {"pressure_max", "Pa", 1},
-                                 {"shear_max", "Pa", 1},    {"slip_max", "m", 1},    {"stored_energy", "J", 2},
-                                 {DISSIPATED, "J", 2}};
+#define LEAST 4 /* cells in a row, of which half are a grid */
 
 PetscErrorCode SamSimulationReadGridCheck(SamSimulation s, const SamOptions *from)
 {
@@ -41,42 +30,66 @@ PetscErrorCode SamSimulationReadGridCheck(SamSimulation s, const SamOptions *fro
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Solves the history on a coarser contact; the sum of the frictional work, and the status of the last step. */
-static PetscErrorCode SolveAll(SamSimulation s, SamContact contact, double *dissipated, SamStep *step)
+/* Solves the history on a coarser contact; the numbers that add up over the steps, and the last step. */
+static PetscErrorCode SolveAll(SamSimulation s, SamContact contact, double sums[], SamStep *step)
 {
-  PetscReal work;
+  SamState state;
 
   PetscFunctionBegin;
-  *dissipated = 0;
+  PetscCall(SamContactGetState(contact, &state));
   for (PetscInt k = 0; k < s->needs.steps; k++) {
     SamControl control;
 
     PetscCall(SamHistoryGetStep(s->history, k, &control));
     PetscCall(SamContactTry(contact, &control, step));
     if (step->status != SAM_STATUS_CONVERGED) break;
+    SamStateJoinNumbers(state, sums, PETSC_FALSE);
     PetscCall(SamContactCommit(contact));
-    PetscCall(SamContactGetNumber(contact, DISSIPATED, &work));
-    *dissipated += (double)work;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* `ratio`: of the widths of the cells. */
-static void Add(SamGrid grid, SamGridCheck *check, double ratio, Number number, double value, double coarse)
+/* Adds a row, if there is room; `ratio`: of the widths of the cells. */
+static void Add(SamGrid grid, SamGridCheck *check, double ratio, const char name[], const char unit[], PetscInt order,
+                double value, double coarse)
 {
-  const double error = (value - coarse) / (pow(ratio, (double)number.order) - 1);
+  const double error = (value - coarse) / (pow(ratio, (double)order) - 1);
 
-  check->row[check->count++] = (SamGridCheckRow){.name         = number.name,
-                                                 .unit         = SamUnitOn(grid, number.unit),
-                                                 .order        = number.order,
+  if (check->count == (PetscInt)(sizeof(check->row) / sizeof(check->row[0]))) return;
+  check->row[check->count++] = (SamGridCheckRow){.name         = name,
+                                                 .unit         = SamUnitOn(grid, unit),
+                                                 .order        = order,
                                                  .value        = value,
                                                  .coarse       = coarse,
                                                  .error        = fabs(error),
                                                  .extrapolated = value + error};
 }
 
-/* Compares the last steps on both grids: numbers above 0, and of loads and displacements those that are found. */
-static PetscErrorCode Compare(SamSimulation s, SamContact coarse, double dissipated, const SamStep *step,
+/* Compares the numbers above 0 whose error has an order. */
+static PetscErrorCode CompareNumbers(SamSimulation s, SamContact coarse, const double sums[], double ratio,
+                                     SamGridCheck *check)
+{
+  SamState state, other;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetState(s->setup.contact, &state));
+  PetscCall(SamContactGetState(coarse, &other));
+  for (PetscInt k = 0; k < SamStateCountNumbers(state); k++) {
+    PetscInt              id;
+    const SamStateNumber *n    = SamStateNumberOf(state, k, &id);
+    const PetscInt        same = n->order ? SamStateFindNumber(other, n->name) : -1;
+    const PetscBool       sum  = n->join == SAM_JOIN_SUM ? PETSC_TRUE : PETSC_FALSE;
+    const double          fine = sum ? s->sums[id] : *SamStateReadNumbers(state, id);
+
+    if (same >= 0 && fine > 0)
+      Add(s->setup.grid, check, ratio, n->name, n->unit, n->order, fine,
+          sum ? sums[same] : *SamStateReadNumbers(other, same));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Compares the last steps on both grids: numbers, and of loads and displacements those that are found. */
+static PetscErrorCode Compare(SamSimulation s, SamContact coarse, const double sums[], const SamStep *step,
                               SamGridCheck *check)
 {
   const SamGrid grid  = s->setup.grid;
@@ -85,25 +98,16 @@ static PetscErrorCode Compare(SamSimulation s, SamContact coarse, double dissipa
   const SamSolution *fine;
 
   PetscFunctionBegin;
-  for (size_t k = 0; k < sizeof(numbers) / sizeof(numbers[0]); k++) {
-    const PetscBool sum = (PetscBool)!strcmp(numbers[k].name, DISSIPATED);
-    PetscReal       value[2];
-
-    PetscCall(SamContactGetNumber(s->setup.contact, numbers[k].name, &value[0]));
-    PetscCall(SamContactGetNumber(coarse, numbers[k].name, &value[1]));
-    if (sum) value[0] = s->dissipated, value[1] = dissipated;
-    if (value[0] > 0) Add(grid, check, ratio, numbers[k], (double)value[0], (double)value[1]);
-  }
+  PetscCall(CompareNumbers(s, coarse, sums, ratio, check));
   PetscCall(SamContactGetSolution(s->setup.contact, &fine));
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++) {
     const SamComponentName *name = &SamComponentNames[c];
 
     if (step->control.value[c] == 0) continue;
     if (step->control.force[c])
-      Add(grid, check, ratio, (Number){name->rigid, name->rigid_unit, 2}, (double)fine->rigid[c],
-          (double)step->rigid[c]);
+      Add(grid, check, ratio, name->rigid, name->rigid_unit, 2, (double)fine->rigid[c], (double)step->rigid[c]);
     else
-      Add(grid, check, ratio, (Number){name->load, name->load_unit, 2}, (double)fine->load[c], (double)step->load[c]);
+      Add(grid, check, ratio, name->load, name->load_unit, 2, (double)fine->load[c], (double)step->load[c]);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -112,18 +116,18 @@ PetscErrorCode SamSimulationCheckGrid(SamSimulation s)
 {
   const SamOptions from = {s->comm, NULL};
   SamSetup         coarse;
-  SamGridCheck     check = {.count = 0};
+  SamGridCheck     check                   = {.count = 0};
+  double           sums[SAM_STATE_NUMBERS] = {0};
   SamStep          step;
-  double           dissipated;
   char             text[SAM_MESSAGE + 64];
 
   PetscFunctionBegin;
   PetscCall(SamSetupCreateCoarse(&s->setup, &from, &coarse));
   check.n[0] = coarse.grid->nx;
   check.n[1] = coarse.grid->ny;
-  PetscCall(SolveAll(s, coarse.contact, &dissipated, &step));
+  PetscCall(SolveAll(s, coarse.contact, sums, &step));
   if (step.status == SAM_STATUS_CONVERGED) {
-    PetscCall(Compare(s, coarse.contact, dissipated, &step, &check));
+    PetscCall(Compare(s, coarse.contact, sums, &step, &check));
     PetscCall(SamSimulationTell(s, &(SamSimulationNews){.kind = SAM_NEWS_GRID_CHECK, .check = &check}));
   } else {
     (void)snprintf(text, sizeof(text), "no errors are estimated: on half the cells %s", step.message);

@@ -34,7 +34,8 @@ PetscErrorCode SamSimulationReadPieces(SamSimulation s, const SamOptions *from)
 }
 
 /* What the state remembers of all pieces: their energy (J), their length in steps; named like the option. */
-static const SamStateNumber so_far = {"step_rtol", "J", NULL, SAM_NUMBER_REAL, 2, PETSC_TRUE, PETSC_FALSE};
+static const SamStateNumber so_far = {"step_rtol", "J",           NULL, SAM_NUMBER_REAL, 2, PETSC_TRUE,
+                                      PETSC_FALSE, SAM_JOIN_LAST, 0};
 
 PetscErrorCode SamSimulationDeclarePieces(SamSimulation s)
 {
@@ -67,39 +68,13 @@ static PetscErrorCode Judge(SamSimulation s, double length, PetscBool *enough, P
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The numbers of a step that are the largest of its pieces, and, from SUMS on, those that add up over them. */
-static const char *const numbers[] = {"normal_residual",       "tangential_residual", "equilibrium_residual",
-                                      "dissipated_energy",     "energy_error",        "plastic_energy",
-                                      "normal_iterations",     "normal_applies",      "normal_preconditions",
-                                      "tangential_iterations", "tangential_applies",  "tangential_preconditions",
-                                      "coupling_iterations"};
-#define NUMBERS ((PetscInt)(sizeof(numbers) / sizeof(numbers[0])))
-#define SUMS    3
-
-/* Joins the numbers of the tried step to those of the pieces before, or the reverse. */
-static PetscErrorCode JoinNumbers(SamSimulation s, double before[NUMBERS], PetscBool to_step)
-{
-  SamState state;
-
-  PetscFunctionBegin;
-  PetscCall(SamContactGetState(s->setup.contact, &state));
-  for (PetscInt k = 0; k < NUMBERS; k++) {
-    const PetscInt id = SamStateFindNumber(state, numbers[k]);
-    double        *number;
-
-    if (id < 0) continue;
-    number                           = SamStateNumbers(state, id, SAM_TRIED);
-    *(to_step ? number : &before[k]) = k < SUMS ? PetscMax(*number, before[k]) : *number + before[k];
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode SamSimulationTry(SamSimulation s, PetscInt k, SamStep *step)
 {
-  const SamContact contact         = s->setup.contact;
-  double           before[NUMBERS] = {0}, done = 0, piece = MOST;
+  const SamContact contact                   = s->setup.contact;
+  double           before[SAM_STATE_NUMBERS] = {0}, done = 0, piece = MOST;
   PetscBool        enough = PETSC_TRUE, longer = PETSC_FALSE;
   SamControl       control;
+  SamState         state;
 
   PetscFunctionBegin;
   if (s->step_rtol == 0) {
@@ -107,6 +82,7 @@ PetscErrorCode SamSimulationTry(SamSimulation s, PetscInt k, SamStep *step)
     PetscCall(SamContactTry(contact, &control, step));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
+  PetscCall(SamContactGetState(contact, &state));
   while (PETSC_TRUE) {
     PetscCall(SamHistoryGetPart(s->history, k, done + piece, &control));
     PetscCall(SamContactTry(contact, &control, step));
@@ -117,12 +93,12 @@ PetscErrorCode SamSimulationTry(SamSimulation s, PetscInt k, SamStep *step)
       continue;
     }
     if (done + piece == 1 || step->status != SAM_STATUS_CONVERGED) break;
-    PetscCall(JoinNumbers(s, before, PETSC_FALSE));
+    SamStateJoinNumbers(state, before, PETSC_FALSE);
     PetscCall(SamContactCommit(contact));
     s->last_time = control.time; /* whose fields are the last ones if the next piece has no solution */
     done += piece;
     if (longer && piece < MOST && fmod(done, 2 * piece) == 0) piece *= 2;
   }
-  PetscCall(JoinNumbers(s, before, PETSC_TRUE));
+  SamStateJoinNumbers(state, before, PETSC_TRUE);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

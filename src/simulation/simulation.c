@@ -277,7 +277,7 @@ static PetscErrorCode SolveStep(SamSimulation s, PetscBool *ended)
 {
   const PetscInt k = s->point.steps, last = s->needs.steps - 1;
   SamStep        step;
-  PetscReal      work;
+  SamState       state;
   PetscBool      due;
 
   PetscFunctionBegin;
@@ -293,8 +293,8 @@ static PetscErrorCode SolveStep(SamSimulation s, PetscBool *ended)
   PetscCall(SamSimulationExamine(s, k, &step));
   if (SamStepIsSolved(&step)) PetscCall(SamSimulationExamineLaws(s, k));
   if (!*ended && s->needs.grid_check) {
-    PetscCall(SamContactGetNumber(s->setup.contact, "dissipated_energy", &work));
-    s->dissipated += (double)work;
+    PetscCall(SamContactGetState(s->setup.contact, &state));
+    SamStateJoinNumbers(state, s->sums, PETSC_FALSE);
   }
   if (!*ended) PetscCall(SamContactCommit(s->setup.contact));
   if (*ended || !s->point.worst) s->point.worst = step.status;

@@ -63,11 +63,11 @@ struct _n_SamSimulation {
   PetscReal              last_time; /* of the last step that was written, s; -infinity: none */
   PetscBool              writing;   /* a collective write is under way */
   char                   filename[PETSC_MAX_PATH_LEN];
-  SamLoadsMost           most;              /* the largest loads of the steps from here on */
-  PetscInt               largest;           /* step of the largest normal load or approach among them, from 0 */
-  double                 dissipated;        /* frictional work of all steps so far, for the check of the grid, J */
-  PetscBool              examined;          /* whether the size of the contact was looked at */
-  PetscBool              advised[SAM_LAWS]; /* laws that have warned of a step */
+  SamLoadsMost           most;                    /* the largest loads of the steps from here on */
+  PetscInt               largest;                 /* step of the largest normal load or approach among them, from 0 */
+  double                 sums[SAM_STATE_NUMBERS]; /* numbers joined over all steps, for the check of the grid */
+  PetscBool              examined;                /* whether the size of the contact was looked at */
+  PetscBool              advised[SAM_LAWS];       /* laws that have warned of a step */
 };
 
 /*

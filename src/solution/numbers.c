@@ -107,39 +107,42 @@ enum {
   ENERGY_ERROR,
   NUMBERS
 };
-#define REAL(name, unit, text) \
+#define REAL(name, unit, text, ...) \
   { \
-    name, unit, text, SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE \
+    name, unit, text, SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE, __VA_ARGS__ \
   }
 #define INT(name, text) \
   { \
-    name, "1", text, SAM_NUMBER_INT, 1, PETSC_FALSE, PETSC_TRUE \
+    name, "1", text, SAM_NUMBER_INT, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, 0 \
   }
 static const SamStateNumber declared[NUMBERS] = {
-  REAL("contact_area", "m2", "area in contact"),
-  REAL("stick_area", "m2", "area in stick"),
-  REAL("contact_fraction", "1", "area in contact relative to that of the grid"),
+  REAL("contact_area", "m2", "area in contact", SAM_JOIN_LAST, 1),
+  REAL("stick_area", "m2", "area in stick", SAM_JOIN_LAST, 1),
+  REAL("contact_fraction", "1", "area in contact relative to that of the grid", SAM_JOIN_LAST, 0),
   INT("contact_cells", "cells in contact"),
   INT("stick_cells", "cells in stick"),
-  REAL("pressure_max", "Pa", "maximum pressure"),
-  REAL("shear_max", "Pa", "maximum shear"),
-  REAL("slip_max", "m", "maximum slip since the start of a cell in contact"),
-  REAL("edge_accepted", "1", "share of the contact edge and the stick-slip boundary that is reconstructed"),
-  REAL("dissipated_energy", "J", "frictional work of the load step"),
-  REAL("stored_energy", "J", "elastic energy of both bodies"),
-  REAL("energy_error", "J", "estimated error of dissipated_energy by the length of the load step")};
+  REAL("pressure_max", "Pa", "maximum pressure", SAM_JOIN_LAST, 1),
+  REAL("shear_max", "Pa", "maximum shear", SAM_JOIN_LAST, 1),
+  REAL("slip_max", "m", "maximum slip since the start of a cell in contact", SAM_JOIN_LAST, 1),
+  REAL("edge_accepted", "1", "share of the contact edge and the stick-slip boundary that is reconstructed",
+       SAM_JOIN_LAST, 0),
+  REAL("dissipated_energy", "J", "frictional work of the load step", SAM_JOIN_SUM, 2),
+  REAL("stored_energy", "J", "elastic energy of both bodies", SAM_JOIN_LAST, 2),
+  REAL("energy_error", "J", "estimated error of dissipated_energy by the length of the load step", SAM_JOIN_SUM, 0)};
 
 /* The same of steady rolling. */
 static const SamStateNumber steady_slip = REAL("slip_velocity_max", "1",
                                                "maximum slip velocity of a cell in contact, relative to that of "
-                                               "rolling"),
-                            steady_work = REAL("rolling_energy_cells", "J/m",
-                                               "frictional work per rolled distance, summed over cells");
+                                               "rolling",
+                                               SAM_JOIN_LAST, 0),
+                            steady_work =
+                              REAL("rolling_energy_cells", "J/m",
+                                   "frictional work per rolled distance, summed over cells", SAM_JOIN_LAST, 0);
 
 /* Of the edge of contact: whether it is known, its area, faces and good faces. They hold while the pressure does. */
 enum { KNOWN, AREA, FACES, GOOD, EDGE };
-static const SamStateNumber contact_edge = {"contact_edge_sums", "1",        "edge of contact", SAM_NUMBER_REAL, EDGE,
-                                            PETSC_FALSE,         PETSC_FALSE};
+static const SamStateNumber contact_edge = {
+  "contact_edge_sums", "1", "edge of contact", SAM_NUMBER_REAL, EDGE, PETSC_FALSE, PETSC_FALSE, SAM_JOIN_LAST, 0};
 
 PetscErrorCode SamSolutionDeclareNumbers(SamState state, PetscBool steady)
 {

@@ -316,6 +316,17 @@ double *SamStateReadNumbers(SamState s, PetscInt id)
   return SamStateNumbers(s, id, s->tried ? SAM_TRIED : SAM_COMMITTED);
 }
 
+void SamStateJoinNumbers(SamState s, double parts[], PetscBool to_step)
+{
+  for (PetscInt k = 0; k < s->numbers; k++) {
+    const SamNumberJoin join = s->number[k].declared.join;
+    double *const tried = s->generation[SAM_TRIED] + s->number[k].id, *const part = parts + s->number[k].id;
+
+    for (PetscInt n = 0; n < s->number[k].declared.count && join != SAM_JOIN_LAST; n++)
+      *(to_step ? &tried[n] : &part[n]) = join == SAM_JOIN_SUM ? tried[n] + part[n] : PetscMax(tried[n], part[n]);
+  }
+}
+
 /* Copies one generation of a field; NULL: it has no values. */
 static PetscErrorCode CopyField(SamState to, PetscInt id, SamGeneration g, Vec from)
 {

@@ -17,9 +17,15 @@ enum { ENERGY, LOADS, CREEPS = LOADS + 3, NUMBERS = CREEPS + 3 };
 PetscErrorCode SamContactDeclareRolling(SamContact c)
 {
   char           name[64], text[96];
-  SamStateNumber number = {"rolling_energy", "J/m", "frictional work per rolled distance, of loads and creepages",
-                           SAM_NUMBER_REAL,  1,     PETSC_FALSE,
-                           PETSC_TRUE};
+  SamStateNumber number = {"rolling_energy",
+                           "J/m",
+                           "frictional work per rolled distance, of loads and creepages",
+                           SAM_NUMBER_REAL,
+                           1,
+                           PETSC_FALSE,
+                           PETSC_TRUE,
+                           SAM_JOIN_LAST,
+                           0};
   PetscInt       id;
 
   PetscFunctionBegin;

@@ -193,9 +193,9 @@ PetscErrorCode SamStiffnessCompute(SamContact contact, SamStiffnessDirection dir
 
 static const SamStateNumber numbers[SAM_STIFFNESS_DIRECTIONS] = {
   {"stiffness", "N/m, N/rad, N, N m/rad", "d(loads)/d(rigid-body displacements) for continued loading",
-   SAM_NUMBER_MATRIX, SAM_COMPONENTS *SAM_COMPONENTS, PETSC_FALSE, PETSC_TRUE},
+   SAM_NUMBER_MATRIX, SAM_COMPONENTS *SAM_COMPONENTS, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, 0},
   {"stiffness_reversal", "N/m, N/rad, N, N m/rad", "d(loads)/d(rigid-body displacements) at a load reversal",
-   SAM_NUMBER_MATRIX, SAM_COMPONENTS *SAM_COMPONENTS, PETSC_FALSE, PETSC_TRUE}};
+   SAM_NUMBER_MATRIX, SAM_COMPONENTS *SAM_COMPONENTS, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, 0}};
 
 PetscErrorCode SamStiffnessDeclare(SamContact contact)
 {

@@ -4,7 +4,7 @@
 enum { CYCLE, JUMP, ERROR, VOLUME, DEPTH = VOLUME + 2, ENERGY = DEPTH + 2, AREA, PRESSURE, COMPUTED, NUMBERS };
 #define NUMBER(name, unit, text, kind) \
   { \
-    name, unit, text, kind, 1, PETSC_FALSE, PETSC_TRUE \
+    name, unit, text, kind, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, 0 \
   }
 static const SamStateNumber declared[NUMBERS] = {
   NUMBER("cycle", "1", "cycles before this one", SAM_NUMBER_REAL),

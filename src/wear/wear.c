@@ -93,11 +93,12 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
                              cycle     = {.name = SAM_WEAR_CYCLE, .components = 1, .generations = 2},
                              path      = {.name = SAM_WEAR_PATH, .components = 1, .generations = 2};
   static const SamStateNumber number[] = {
-    {"wear_volume1", "m3", "volume removed of body 1", SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE},
-    {"wear_volume2", "m3", "volume removed of body 2", SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE},
+    {"wear_volume1", "m3", "volume removed of body 1", SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE, SAM_JOIN_LAST, 0},
+    {"wear_volume2", "m3", "volume removed of body 2", SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE, SAM_JOIN_LAST, 0},
     {"wear_excess", "1", "wear of the step relative to the stability limit", SAM_NUMBER_REAL, 1, PETSC_FALSE,
-     PETSC_FALSE},
-    {WEARS, "1", "whether the step added to the wear load", SAM_NUMBER_INT, 1, PETSC_TRUE, PETSC_FALSE}};
+     PETSC_FALSE, SAM_JOIN_GREATEST, 0},
+    {WEARS, "1", "whether the step added to the wear load", SAM_NUMBER_INT, 1, PETSC_TRUE, PETSC_FALSE, SAM_JOIN_LAST,
+     0}};
   SamStateResult depth[2] = {
     {"wear_depth1", "m", "depth removed of body 1", SAM_FIELD_REAL, SAM_RESULT_USUAL, ComputeDepth, law, 0, -1},
     {"wear_depth2", "m", "depth removed of body 2", SAM_FIELD_REAL, SAM_RESULT_USUAL, ComputeDepth, law, 1, -1}};

@@ -276,12 +276,12 @@ static void test_field_that_only_the_file_has_is_named(void **state)
 
 static void test_number_that_the_file_lacks_is_named(void **state)
 {
-  static const SamStateNumber number     = {"other_number", "m",        "of another law", SAM_NUMBER_REAL, 2,
-                                            PETSC_TRUE,     PETSC_FALSE};
-  const SamParameters         parameters = NewParameters(friction);
-  Case                        one = NewBody(), other = NewBody();
-  SamStep                     step;
-  PetscInt                    id;
+  static const SamStateNumber number = {
+    "other_number", "m", "of another law", SAM_NUMBER_REAL, 2, PETSC_TRUE, PETSC_FALSE, SAM_JOIN_LAST, 0};
+  const SamParameters parameters = NewParameters(friction);
+  Case                one = NewBody(), other = NewBody();
+  SamStep             step;
+  PetscInt            id;
 
   (void)state;
   SolveStep(&one, 0, &step);

@@ -218,12 +218,11 @@ static void test_steepness_is_that_of_the_smallest_radius(void **state)
   for (size_t k = 0; k < sizeof(cases) / sizeof(cases[0]); k++) {
     SamGap          gap     = NewGap(cases[k].options);
     const PetscReal half[2] = {cases[k].half[0], cases[k].half[1]};
-    PetscReal       ratio;
-    const char     *option;
+    SamGapSteepness s;
 
-    sam_call(SamGapGetSteepness(gap, half, &ratio, &option));
-    sam_assert_close(ratio, cases[k].ratio, 1e-12);
-    sam_assert(cases[k].option ? option && !strcmp(option, cases[k].option) : !option);
+    sam_call(SamGapGetSteepness(gap, half, &s));
+    sam_assert_close(s.ratio, cases[k].ratio, 1e-12);
+    sam_assert(cases[k].option ? s.option && !strcmp(s.option, cases[k].option) : !s.option);
     sam_call(SamGapDestroy(&gap));
   }
 }

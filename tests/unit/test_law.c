@@ -67,9 +67,9 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
                                        .generations = 2,
                                        .kept        = PETSC_TRUE,
                                        .result      = SAM_RESULT_USUAL};
-  static const SamStateNumber cells = {"weak_cells", "1",       "cells that have slipped", SAM_NUMBER_INT, 1,
-                                       PETSC_FALSE,  PETSC_TRUE};
-  PetscInt                    id;
+  static const SamStateNumber cells = {
+    "weak_cells", "1", "cells that have slipped", SAM_NUMBER_INT, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, 0};
+  PetscInt id;
 
   PetscFunctionBegin;
   (void)law;

@@ -40,8 +40,8 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
     {"faded", "m", "slip so far", 1, 2, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_USUAL, SAM_MOVES},
     {"drift", "Pa", "sum of the shear", 2, 3, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_OFFERED, SAM_STAYS}};
   static const SamStateNumber numbers[] = {
-    {"faded_most", "m", "largest slip so far", SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE},
-    {"faded_steps", "1", "steps so far", SAM_NUMBER_INT, 1, PETSC_TRUE, PETSC_TRUE}};
+    {"faded_most", "m", "largest slip so far", SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE, SAM_JOIN_LAST, 0},
+    {"faded_steps", "1", "steps so far", SAM_NUMBER_INT, 1, PETSC_TRUE, PETSC_TRUE, SAM_JOIN_LAST, 0}};
   PetscInt id;
 
   PetscFunctionBegin;

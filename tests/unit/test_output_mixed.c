@@ -9,9 +9,9 @@
 static void DeclareOthers(const Shown *s)
 {
   static const SamStateNumber others[] = {
-    {"other_real", "Pa2", "of another law", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE},
-    {"other_whole", "1", "of another law", SAM_NUMBER_INT, 1, PETSC_FALSE, PETSC_TRUE},
-    {"other_matrix", "N/m", "of another law", SAM_NUMBER_MATRIX, 36, PETSC_FALSE, PETSC_TRUE}};
+    {"other_real", "Pa2", "of another law", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, 0},
+    {"other_whole", "1", "of another law", SAM_NUMBER_INT, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, 0},
+    {"other_matrix", "N/m", "of another law", SAM_NUMBER_MATRIX, 36, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, 0}};
   PetscInt id;
 
   for (int k = 0; k < 3; k++) sam_call(SamStateDeclareNumber(s->state, &others[k], &id));
@@ -123,9 +123,9 @@ static void test_field_that_only_the_file_has_is_refused(void **state)
 static SamState NewCycles(SamGrid grid)
 {
   static const SamStateNumber numbers[] = {
-    {"cycle", "1", "number of the cycle", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE},
-    {"hidden", "1", "no result", SAM_NUMBER_REAL, 3, PETSC_TRUE, PETSC_FALSE},
-    {"worn", "m3", "volume removed", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE}};
+    {"cycle", "1", "number of the cycle", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, 0},
+    {"hidden", "1", "no result", SAM_NUMBER_REAL, 3, PETSC_TRUE, PETSC_FALSE, SAM_JOIN_LAST, 0},
+    {"worn", "m3", "volume removed", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, 0}};
   SamState state;
   PetscInt id;
 

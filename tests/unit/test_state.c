@@ -10,10 +10,14 @@ static const SamStateField field3 = {.name        = "three",
                                      .result      = SAM_RESULT_USUAL},
                            field2 = {.name = "two", .components = 1, .generations = 2, .kept = PETSC_TRUE};
 
-static const SamStateNumber real    = {"real", "N", "a result", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE},
-                            integer = {"integer", "1", "a result", SAM_NUMBER_INT, 1, PETSC_FALSE, PETSC_TRUE},
-                            matrix  = {"matrix", "1", "a result", SAM_NUMBER_MATRIX, 36, PETSC_FALSE, PETSC_TRUE},
-                            kept    = {"kept", "1", "is remembered", SAM_NUMBER_REAL, 2, PETSC_TRUE, PETSC_FALSE};
+static const SamStateNumber real    = {"real",     "N",          "a result", SAM_NUMBER_REAL, 1, PETSC_FALSE,
+                                       PETSC_TRUE, SAM_JOIN_SUM, 0},
+                            integer = {"integer",         "1", "a result", SAM_NUMBER_INT, 1, PETSC_FALSE, PETSC_TRUE,
+                                       SAM_JOIN_GREATEST, 0},
+                            matrix  = {"matrix",   "1",           "a result", SAM_NUMBER_MATRIX, 36, PETSC_FALSE,
+                                       PETSC_TRUE, SAM_JOIN_LAST, 0},
+                            kept    = {"kept",        "1", "is remembered", SAM_NUMBER_REAL, 2, PETSC_TRUE, PETSC_FALSE,
+                                       SAM_JOIN_LAST, 0};
 
 /* A state with two fields and four numbers, and their handles. */
 typedef struct {
@@ -130,7 +134,8 @@ static void test_results_are_the_components_of_fields(void **state)
 static void test_more_than_fits_is_refused(void **state)
 {
   Memory         m    = NewMemory();
-  SamStateNumber many = {"many", "1", "", SAM_NUMBER_REAL, SAM_STATE_NUMBERS, PETSC_FALSE, PETSC_FALSE};
+  SamStateNumber many = {"many",      "1",           "", SAM_NUMBER_REAL, SAM_STATE_NUMBERS, PETSC_FALSE,
+                         PETSC_FALSE, SAM_JOIN_LAST, 0};
   char           names[SAM_STATE_MOST][16];
   PetscInt       id;
 
@@ -270,6 +275,29 @@ static void test_numbers_begin_with_none(void **state)
 }
 
 /* A number that becomes a result is one from the next try on. */
+/* Over the parts of a step sums add up, the greatest counts, and of all others the last. */
+static void test_numbers_join_over_the_parts_of_a_step(void **state)
+{
+  Memory m                        = NewMemory();
+  double parts[SAM_STATE_NUMBERS] = {0};
+
+  (void)state;
+  for (int part = 0; part < 3; part++) {
+    double *tried;
+
+    sam_call(SamStateBegin(m.state));
+    tried            = SamStateNumbers(m.state, 0, SAM_TRIED);
+    tried[m.real]    = 1 + part;
+    tried[m.integer] = 5 - part;
+    tried[m.kept]    = part;
+    SamStateJoinNumbers(m.state, parts, part == 2);
+    if (part < 2) sam_call(SamStateCommit(m.state));
+  }
+  sam_assert(*SamStateReadNumbers(m.state, m.real) == 6 && *SamStateReadNumbers(m.state, m.integer) == 5);
+  sam_assert(*SamStateReadNumbers(m.state, m.kept) == 2);
+  DestroyMemory(&m);
+}
+
 static void test_offered_number_is_a_result(void **state)
 {
   Memory m = NewMemory();
@@ -346,7 +374,8 @@ static void test_copy_goes_by_name(void **state)
   SamStateNumbers(m.state, m.kept, SAM_COMMITTED)[0] = 3;
   sam_call(SamStateCreate(m.grid, &other.state));
   sam_call(SamStateDeclareNumber(
-    other.state, &(SamStateNumber){"more", "1", "", SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_FALSE}, &number));
+    other.state, &(SamStateNumber){"more", "1", "", SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_FALSE, SAM_JOIN_LAST, 0},
+    &number));
   sam_call(SamStateDeclareNumber(other.state, &kept, &other.kept));
   sam_call(
     SamStateDeclareField(other.state, &(SamStateField){.name = "more", .components = 1, .generations = 2}, &more));
@@ -414,6 +443,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_rejected_try_leaves_no_trace),
     cmocka_unit_test(test_fields_can_be_forgotten_without_the_numbers),
     cmocka_unit_test(test_numbers_begin_with_none),
+    cmocka_unit_test(test_numbers_join_over_the_parts_of_a_step),
     cmocka_unit_test(test_offered_number_is_a_result),
     cmocka_unit_test(test_reset_forgets_all_values),
     cmocka_unit_test(test_copy_has_both_committed_generations),

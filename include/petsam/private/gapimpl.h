@@ -45,11 +45,14 @@ struct _n_SamGap {
     /*
       Optional, for messages. contact(): the contact whose larger finite half width (m) is `half`. steepness(): the
       largest ratio of the half widths of a contact (m, along x and y) to a radius of curvature, and which parameter is
-      that radius. check(): an error for values that do not fit each other.
+      that radius. concave(): whether one of the bodies is. check(): an error for values that do not fit each other.
+      cylinder: the values of the parameters for bodies that are cylinders along y, NaN where any will do; NULL: all.
     */
     SamGapContact (*contact)(const PetscReal values[], PetscReal half);
     PetscReal (*steepness)(const PetscReal values[], const PetscReal half[2], PetscInt *parameter);
+    PetscBool (*concave)(const PetscReal values[]);
     PetscErrorCode (*check)(SamGap gap);
+    const PetscReal *cylinder;
   } ops;
   const char *names[SAM_GAP_PARAMETERS]; /* of the parameters */
 };

@@ -11,6 +11,8 @@ static const SamGapParameter parameters[] = {
   {"gap_radius_x", "relative radius of curvature along x (m, inf: cylinder)", SAM_RANGE_POSITIVE_INF},
   {"gap_radius_y", "relative radius of curvature along y (m, inf: cylinder)", SAM_RANGE_POSITIVE_INF}};
 
+static const PetscReal cylinder[] = {NAN, INFINITY};
+
 static PetscReal Height_Ellipsoid(const PetscReal radius[], PetscReal x, PetscReal y)
 {
   return 0.5 * x * x / radius[0] + 0.5 * y * y / radius[1];
@@ -87,6 +89,7 @@ PetscErrorCode SamGapCreate_Ellipsoid(SamGap gap)
   gap->ops.height     = Height_Ellipsoid;
   gap->ops.contact    = Contact_Ellipsoid;
   gap->ops.steepness  = Steepness_Ellipsoid;
+  gap->ops.cylinder   = cylinder;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -99,7 +102,8 @@ static const SamGapParameter curved[] = {
   {"gap_radius2_y", "radius of body 2 along its y (m, inf: cylinder, < 0: concave)", SAM_RANGE_NOT_ZERO},
   {"gap_angle", "angle from x to the x of body 2 (degrees)", SAM_RANGE_ANY}};
 
-static const PetscReal curved_defaults[] = {INFINITY, INFINITY, INFINITY, INFINITY, 0};
+static const PetscReal curved_defaults[] = {INFINITY, INFINITY, INFINITY, INFINITY, 0},
+                       curved_cylinder[] = {NAN, INFINITY, NAN, INFINITY, 0};
 
 /* The relative curvatures h_xx, h_xy, h_yy (1/m) of v: the radii along x and y of both bodies, and their angle. */
 static void Curvatures(const PetscReal v[], double h[3])
@@ -159,6 +163,11 @@ static PetscReal Steepness_Curved(const PetscReal values[], const PetscReal half
   return along[*parameter] / fabs(values[*parameter]);
 }
 
+static PetscBool Concave_Curved(const PetscReal v[])
+{
+  return v[0] < 0 || v[1] < 0 || v[2] < 0 || v[3] < 0 ? PETSC_TRUE : PETSC_FALSE;
+}
+
 static PetscErrorCode Check_Curved(SamGap gap)
 {
   double curvature[2];
@@ -186,6 +195,8 @@ PetscErrorCode SamGapCreate_Curved(SamGap gap)
   gap->ops.height     = Height_Curved;
   gap->ops.contact    = Contact_Curved;
   gap->ops.steepness  = Steepness_Curved;
+  gap->ops.concave    = Concave_Curved;
+  gap->ops.cylinder   = curved_cylinder;
   gap->ops.check      = Check_Curved;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -413,12 +413,33 @@ PetscErrorCode SamGapEstimateLine(SamGap gap, PetscReal value, PetscReal *half, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamGapGetSteepness(SamGap gap, const PetscReal half[2], PetscReal *ratio, const char **option)
+PetscErrorCode SamGapGetSteepness(SamGap gap, const PetscReal half[2], SamGapSteepness *steepness)
 {
   PetscInt parameter = 0;
 
   PetscFunctionBegin;
-  *ratio  = gap->ops.steepness ? gap->ops.steepness(gap->values, half, &parameter) : 0;
-  *option = gap->ops.steepness ? gap->names[parameter] : NULL;
+  *steepness = (SamGapSteepness){.option = NULL};
+  if (!gap->ops.steepness) PetscFunctionReturn(PETSC_SUCCESS);
+  steepness->ratio   = gap->ops.steepness(gap->values, half, &parameter);
+  steepness->radius  = gap->values[parameter];
+  steepness->option  = gap->names[parameter];
+  steepness->concave = gap->ops.concave ? gap->ops.concave(gap->values) : PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGapCheckPlane(SamGap gap)
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < gap->ops.count && gap->ops.cylinder; k++)
+    PetscCheck(isnan(gap->ops.cylinder[k]) || fabs(gap->values[k]) == gap->ops.cylinder[k], gap->comm, SAM_ERR_USER,
+               "-%s%s %.6g: has no meaning with -%selasticity plane, whose bodies are cylinders along y: give %g",
+               gap->prefix, gap->names[k], (double)gap->values[k], gap->prefix, (double)gap->ops.cylinder[k]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscBool SamGapIsFromFile(SamGap gap, PetscBool rough)
+{
+  const SamFieldFile *source = rough ? &gap->rough : &gap->source;
+
+  return source->file[0] && (rough || gap->ops.setfromoptions) ? PETSC_TRUE : PETSC_FALSE;
 }

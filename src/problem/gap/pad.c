@@ -15,7 +15,7 @@ static const SamGapParameter pad[] = {
   {"gap_edge_radius_x", "radius of the edges along x (m, inf: cylindrical)", SAM_RANGE_POSITIVE_INF},
   {"gap_edge_radius_y", "radius of the edges along y (m, inf: cylindrical)", SAM_RANGE_POSITIVE_INF}};
 
-static const PetscReal pad_defaults[] = {0, 0, NAN, INFINITY};
+static const PetscReal pad_defaults[] = {0, 0, NAN, INFINITY}, pad_cylinder[] = {NAN, NAN, NAN, INFINITY};
 
 static const SamGapParameter roller[] = {
   {"gap_roller_radius", "relative radius of curvature across, along x (m)", SAM_RANGE_POSITIVE},
@@ -76,6 +76,7 @@ PetscErrorCode SamGapCreate_Pad(SamGap gap)
   gap->ops.height     = Height_Pad;
   gap->ops.contact    = Contact_Pad;
   gap->ops.steepness  = Steepness_Pad;
+  gap->ops.cylinder   = pad_cylinder;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
