@@ -215,7 +215,7 @@ PetscErrorCode SamContactDeclare(SamContact c)
   PetscCall(Offer(c));
   PetscCall(DeclareControl(c));
   PetscCall(SamSolutionDeclareNumbers(c->state, c->traits.steady));
-  PetscCall(SamContactDeclareRolling(c));
+  if (c->traits.steady) PetscCall(SamStepDeclareRolling(c->state, &c->rolling));
   PetscCall(DeclareOutcome(c));
   if (c->set.spots) PetscCall(SamSolutionDeclareSpots(c->state));
   PetscCall(SamProblemDeclare(c->problem, c->state));
@@ -275,16 +275,6 @@ PetscErrorCode SamContactBegin(SamContact c, const SamControl *control)
   PetscCall(SamStateSetField(c->state, c->tractions[1], &s->bound));
   PetscCall(SamStateSetField(c->state, c->tractions[2], &s->shear));
   PetscCall(SamProblemGetRevision(c->problem, &c->revision[SAM_TRIED]));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamContactSetDisplacements(SamContact c)
-{
-  SamSolution *s = &c->generation[SAM_TRIED];
-
-  PetscFunctionBegin;
-  PetscCall(SamStateSetField(c->state, c->displacements[0], &s->displacement_z));
-  PetscCall(SamStateSetField(c->state, c->displacements[1], &s->displacement_t));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -290,25 +290,3 @@ PetscErrorCode SamContactPredict(SamContact c, const SamControl *control, SamSte
     PetscCall(StartFromLastPressure(c, start));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
-
-PetscErrorCode SamFollowPressure(SamGrid grid, Vec pressure_before, Vec pressure, Vec shear)
-{
-  const PetscInt cells = grid->cells;
-  const double  *p0, *p;
-  double        *q;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetArrayRead(pressure_before, &p0));
-  PetscCall(VecGetArrayRead(pressure, &p));
-  PetscCall(VecGetArray(shear, &q));
-  for (PetscInt k = 0; k < cells; k++) {
-    const double scale = p0[k] > 0 ? p[k] / p0[k] : 0;
-
-    q[k] *= scale;
-    q[k + cells] *= scale;
-  }
-  PetscCall(VecRestoreArray(shear, &q));
-  PetscCall(VecRestoreArrayRead(pressure, &p));
-  PetscCall(VecRestoreArrayRead(pressure_before, &p0));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}

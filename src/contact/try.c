@@ -353,7 +353,7 @@ static PetscErrorCode Conclude(SamContact c, PetscBool same_pressure, SamStep *s
   PetscFunctionBegin;
   /* that of the nested grids, before new fields are made: lowers the peak from 99 to 90 MB at 512 x 512 cells */
   if (!last) SamReturnMemory();
-  PetscCall(SamContactSetDisplacements(c));
+  PetscCall(SamStepSetDisplacements(c->state, c->displacements, s));
   if (same_pressure) PetscCall(SamVecCopyNonzero(last->displacement_z, s->displacement_z));
   PetscCall(SamCheckSolution(c->problem, c->state, c->set.coupling, same_pressure, before, s, &step->check));
   PetscCall(Advance(c, same_pressure));
@@ -375,11 +375,41 @@ static void SetUnknown(SamStep *step)
   step->check = (SamCheck){.normal = NAN, .tangential = NAN, .equilibrium = NAN, .cone = NAN, .edge = NAN};
 }
 
+/* Finds a guess for the tried step, and solves it. */
+static PetscErrorCode Solve(SamContact c, PetscBool same_pressure, SamStep *step)
+{
+  SamStepTask task = {.problem       = c->problem,
+                      .elasticity    = c->elasticity,
+                      .grid          = c->grid,
+                      .traits        = c->traits,
+                      .normal        = c->normal,
+                      .tangential    = c->tangential,
+                      .state         = c->state,
+                      .set           = &c->set,
+                      .s             = &c->generation[SAM_TRIED],
+                      .committed     = SamContactBefore(c),
+                      .before        = SamContactSlipBefore(c),
+                      .displacements = {c->displacements[0], c->displacements[1]},
+                      .counts        = c->counts,
+                      .rolling       = c->rolling,
+                      .revision      = c->revision[SAM_TRIED],
+                      .coupled       = SamContactIsCoupled(c),
+                      .rolls         = c->rolls,
+                      .same_pressure = same_pressure};
+
+  PetscFunctionBegin;
+  PetscCall(SamContactPredict(c, &step->control, &task.start));
+  if (c->set.warm_start && !c->traits.steady && !SamContactIsCoupled(c) && !SamProblemFollowsSlip(c->problem))
+    SamRecallFind(c->recall, &step->control, &task.start.kept);
+  if (c->rolls) task.start.kept = NULL; /* its product is not where the slip has moved to */
+  PetscCall(SamStepSolve(&task, step));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamContactTry(SamContact c, const SamControl *control, SamStep *step)
 {
-  SamControl   given = *control;
-  SamStepStart start;
-  PetscBool    same_pressure = PETSC_FALSE;
+  SamControl given         = *control;
+  PetscBool  same_pressure = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(SamContactReject(c));
@@ -389,11 +419,7 @@ PetscErrorCode SamContactTry(SamContact c, const SamControl *control, SamStep *s
   step->control = given;
   PetscCall(SamContactBegin(c, &given));
   PetscCall(IsSamePressure(c, &given, &same_pressure));
-  PetscCall(SamContactPredict(c, &given, &start));
-  if (c->set.warm_start && !c->traits.steady && !SamContactIsCoupled(c) && !SamProblemFollowsSlip(c->problem))
-    SamRecallFind(c->recall, &given, &start.kept);
-  if (c->rolls) start.kept = NULL; /* its product is not where the slip has moved to */
-  PetscCall(SamContactSolveStep(c, &start, same_pressure, step));
+  PetscCall(Solve(c, same_pressure, step));
   if (step->status == SAM_STATUS_NO_EQUILIBRIUM) { /* there is no solution to check */
     SetUnknown(step);
     PetscCall(SamContactStore(c, step));

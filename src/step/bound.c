@@ -5,7 +5,7 @@
   Algorithm, from the bound without slip on, or by that of the last pass of dissimilar bodies; a pass:
     1. The tangential problem with b, from the last shear on, gives q and s.
     2. If B(p, |s|) is b, up to a part of the tolerance, the step is solved.
-    3. Else Anderson's method makes the next b of this and the last passes (mixing.c). Where the loads are too much for
+    3. Else Anderson's method makes the next b of this and the last passes (fixedpoint.c). Where the loads are too much for
        that, the next b is B(p, |s|) itself.
   Passes without acceleration multiply the error by dB/ds times the displacement of the slip zone by a unit shear.
   Where friction falls faster than the bodies unload, the motion is unstable: the surfaces jump, and there need not be a
@@ -22,11 +22,11 @@
 
 PetscErrorCode SamSolveBound(SamSolve *w, Vec bound)
 {
-  const SamBoundAt at = {w->c->state, w->s->control.friction_scale, w->s->pressure, w->slip,
+  const SamBoundAt at = {w->task->state, w->s->control.friction_scale, w->s->pressure, w->slip,
                          SamControlRolled(&w->s->control)};
 
   PetscFunctionBegin;
-  PetscCall(SamProblemComputeBound(w->c->problem, &at, &(SamBound){.value = bound}));
+  PetscCall(SamProblemComputeBound(w->task->problem, &at, &(SamBound){.value = bound}));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -34,44 +34,44 @@ PetscErrorCode SamSolveBound(SamSolve *w, Vec bound)
 static PetscErrorCode ComputeSlip(SamSolve *w)
 {
   PetscFunctionBegin;
-  if (!w->slip) PetscCall(SamGridCreateVec(w->c->grid, 1, &w->slip));
+  if (!w->slip) PetscCall(SamGridCreateVec(w->task->grid, 1, &w->slip));
   PetscCall(SamSolveDisplace(w));
-  PetscCall(SamSolutionComputeFriction(w->c->problem, w->before, w->s, w->slip, NULL, NULL));
+  PetscCall(SamSolutionComputeFriction(w->task->problem, w->task->before, w->s, w->slip, NULL, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Step 2: B(p, |s|), and its difference from the bound, relative to what the check compares it with. */
-static PetscErrorCode Measure(SamSolve *w, Vec found, PetscReal *change)
+typedef struct {
+  SamSolve *w;
+  PetscBool has_shear, mixed; /* mixed: the argument is made of results that had a solution */
+  PetscReal rtol, change;     /* the largest and the last change of the bound */
+} Passes;
+
+/*
+  Steps 1 and 2: B(p, |s|), and its difference from the bound. A tangential problem without a solution ends the passes,
+  and is the caller's to judge.
+*/
+static PetscErrorCode Pass(void *context, PetscInt pass, Vec found, SamPassEnd *end)
 {
-  const SamGrid grid = w->c->grid;
-  PetscReal     size, most[2], shear, bound;
-  Vec           difference;
+  Passes *const   p = (Passes *)context;
+  SamSolve *const w = p->w;
+  SamSolverReason reason;
+  PetscReal       most[2];
 
   PetscFunctionBegin;
+  PetscCall(SamSolveTangential(w, p->has_shear || pass > 1));
+  PetscCall(SamSolverGetReason(SamTangentialAsSolver(w->task->tangential), &reason));
+  if (reason < 0) {
+    *end     = p->mixed ? SAM_PASS_RESTARTS : SAM_PASS_FAILED;
+    p->mixed = PETSC_FALSE;
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   PetscCall(ComputeSlip(w));
   PetscCall(SamSolveBound(w, found));
-  PetscCall(SamGridCreateVec(grid, 1, &difference));
-  PetscCall(VecWAXPY(difference, -1, w->s->bound, found));
-  PetscCall(SamGridNorm(grid, difference, NORM_2, &size));
-  PetscCall(VecNorm(difference, NORM_INFINITY, &most[0]));
-  PetscCall(SamGridNorm(grid, w->s->shear, NORM_2, &shear));
-  PetscCall(SamGridNorm(grid, w->s->bound, NORM_2, &bound));
+  PetscCall(SamSolveGetChange(w, w->s->bound, found, 1, &p->change, &most[0]));
   PetscCall(VecMax(w->s->bound, NULL, &most[1]));
-  *change = size > 0 ? PetscMax(size / PetscMax(shear, SAM_SHEAR_FLOOR * bound), most[0] / most[1]) : 0;
-  PetscCall(VecDestroy(&difference));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Step 3. A bound is not negative. */
-static PetscErrorCode Next(SamSolve *w, SamMixing *mixing, Vec found)
-{
-  double *b;
-
-  PetscFunctionBegin;
-  PetscCall(SamMixingNext(mixing, w->s->pressure, found, w->s->bound));
-  PetscCall(VecGetArray(w->s->bound, &b));
-  for (PetscInt k = 0; k < w->c->grid->cells; k++) b[k] = PetscMax(b[k], 0);
-  PetscCall(VecRestoreArray(w->s->bound, &b));
+  if (p->change > 0) p->change = PetscMax(p->change, most[0] / most[1]);
+  if (p->change <= p->rtol) *end = SAM_PASS_SOLVED;
+  p->mixed = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -82,63 +82,34 @@ static PetscErrorCode Fail(SamSolve *w, PetscReal change)
   char          message[sizeof(w->step->message)];
 
   PetscFunctionBegin;
-  PetscCall(SamProblemGetLaws(w->c->problem, &count, &laws));
+  PetscCall(SamProblemGetLaws(w->task->problem, &count, &laws));
   while (k < count - 1 && !laws[k]->follows_slip) k++;
   PetscCall(PetscSNPrintf(message, sizeof(message),
                           "the friction of the law %s did not converge with the slip within %d iterations, the last "
                           "relative change is %.2g: %s",
                           laws[k]->type, PASSES, (double)change,
-                          w->c->traits.steady ? "use a longer memory of the friction" : "use smaller load steps"));
+                          w->task->traits.steady ? "use a longer memory of the friction" : "use smaller load steps"));
   PetscCall(SamStepFail(w->step, SAM_STATUS_NOT_CONVERGED, message));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* The passes; they end with a tangential problem that is not solved, which is the caller's to judge. */
-static PetscErrorCode Iterate(SamSolve *w, PetscBool has_shear, PetscReal rtol)
-{
-  PetscBool       mixed  = PETSC_FALSE;
-  PetscReal       change = PETSC_INFINITY;
-  SamMixing       mixing;
-  SamSolverReason reason = SAM_SOLVER_ITERATING;
-  Vec             found;
-
-  PetscFunctionBegin;
-  PetscCall(SamMixingCreate(w->c->grid, 1, &mixing));
-  PetscCall(SamGridCreateVec(w->c->grid, 1, &found));
-  for (PetscInt pass = 0; pass < PASSES && change > rtol; pass++) {
-    PetscCall(SamSolveTangential(w, has_shear || pass > 0));
-    PetscCall(SamSolverGetReason(SamTangentialAsSolver(w->c->tangential), &reason));
-    if (reason < 0 && !mixed) break;
-    if (reason > 0) PetscCall(Measure(w, found, &change));
-    if (change <= rtol) break;
-    mixed = reason > 0;
-    if (mixed) {
-      PetscCall(Next(w, &mixing, found));
-    } else {
-      PetscCall(SamMixingDestroy(&mixing));
-      PetscCall(SamMixingCreate(w->c->grid, 1, &mixing));
-      PetscCall(VecCopy(found, w->s->bound));
-    }
-  }
-  if (reason > 0 && change > rtol) PetscCall(Fail(w, change));
-  PetscCall(VecDestroy(&found));
-  PetscCall(SamMixingDestroy(&mixing));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamSolveShear(SamSolve *w, PetscBool has_shear, PetscReal rtol, SamEffort effort)
 {
-  const SamSolver solver = SamTangentialAsSolver(w->c->tangential);
+  static const SamFixedPoint bound  = {.components = 1, .most = PASSES, .nonnegative = PETSC_TRUE, .pass = Pass};
+  const SamSolver            solver = SamTangentialAsSolver(w->task->tangential);
+  Passes                     p      = {.w = w, .has_shear = has_shear, .rtol = BOUND_PART * rtol};
+  SamPassEnd                 end;
 
   PetscFunctionBegin;
-  if (w->coupled) PetscCall(SamElasticityApplyNormalToTangential(w->c->elasticity, w->s->pressure, w->pushed));
-  if (w->coupled) PetscCall(SamElasticityAddCases(w->c->elasticity, &w->s->control, PETSC_TRUE, w->pushed));
-  if (!SamProblemFollowsSlip(w->c->problem)) {
+  if (w->task->coupled) PetscCall(SamElasticityApplyNormalToTangential(w->task->elasticity, w->s->pressure, w->pushed));
+  if (w->task->coupled) PetscCall(SamElasticityAddCases(w->task->elasticity, &w->s->control, PETSC_TRUE, w->pushed));
+  if (!SamProblemFollowsSlip(w->task->problem)) {
     PetscCall(SamSolveDirection(w, has_shear, rtol, effort));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   SamSolverSetEffort(solver, SHEAR_PART * rtol, effort);
-  PetscCall(Iterate(w, has_shear, BOUND_PART * rtol));
+  PetscCall(SamSolveFixedPoint(w, &bound, &p, w->s->bound, &end));
+  if (end == SAM_PASS_GOES_ON) PetscCall(Fail(w, p.change));
   SamSolverSetEffort(solver, 0, SAM_EFFORT_FULL);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

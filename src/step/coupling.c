@@ -7,7 +7,7 @@
     2. The tangential problem with the bound mu p (bound.c) and the displacement by p gives q.
     3. The lift by q should be d. If it is, up to the error of the normal problem with it, the step is solved: then both
        problems are, with one and the same p and q.
-    4. Else Anderson's method makes the next d of this and the last passes (mixing.c).
+    4. Else Anderson's method makes the next d of this and the last passes (fixedpoint.c).
   Plain passes (Panagiotopoulos 1975, Ing.-Arch. 44, 421) would shrink the error by friction times Dundurs' beta a pass,
   and diverge beyond 1: where cells slip, q = mu p e turns the coupling into a rotation of the pressure's waves, with
   imaginary eigenvalues, for which Anderson's method is made.
@@ -46,9 +46,7 @@
 
 typedef struct {
   SamSolve *s;
-  SamMixing mixing;
-  Vec       lift;    /* by the shear of this pass */
-  PetscReal error;   /* of the normal problem with it */
+  PetscReal error;   /* of the normal problem with the lift by the shear of the last pass */
   PetscReal rtol[2]; /* of the normal and the tangential problem, as the user wants them */
   PetscBool looks;   /* contact may be where it has not been looked for */
   PetscBool slides;  /* the bound of this pass cannot carry the loads */
@@ -58,33 +56,12 @@ typedef struct {
   PetscReal sharper; /* factor on the tolerance of the shear */
 } Passes;
 
-static PetscErrorCode Create(SamSolve *s, const SamStepStart *start, Passes *p)
-{
-  PetscFunctionBegin;
-  *p = (Passes){.s = s, .looks = PETSC_TRUE, .error = start->shear ? GUESS : FIRST, .least = INFINITY, .sharper = 1};
-  PetscCall(SamMixingCreate(s->c->grid, 1, &p->mixing));
-  PetscCall(SamGridCreateVec(s->c->grid, 1, &p->lift));
-  PetscCall(SamSolverGetTolerances(SamNormalAsSolver(s->c->normal), &p->rtol[0], NULL));
-  PetscCall(SamSolverGetTolerances(SamTangentialAsSolver(s->c->tangential), &p->rtol[1], NULL));
-  if (start->shear) PetscCall(SamElasticityApplyTangentialToNormal(s->c->elasticity, s->s->shear, s->lift));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode Destroy(Passes *p)
-{
-  PetscFunctionBegin;
-  SamSolverSetEffort(SamNormalAsSolver(p->s->c->normal), 0, SAM_EFFORT_FULL);
-  SamSolverSetEffort(SamTangentialAsSolver(p->s->c->tangential), 0, SAM_EFFORT_FULL);
-  PetscCall(SamMixingDestroy(&p->mixing));
-  PetscCall(VecDestroy(&p->lift));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Steps 1 and 2. The first pass starts from what the start has a guess of, later ones from the last one. */
-static PetscErrorCode Pass(Passes *p, PetscInt pass, const SamStepStart *start)
+static PetscErrorCode Solve(Passes *p, PetscInt pass)
 {
-  SamSolve       *s            = p->s;
-  const PetscBool has_pressure = pass > 1 || start->pressure;
+  SamSolve           *s            = p->s;
+  const SamStepStart *start        = &s->task->start;
+  const PetscBool     has_pressure = pass > 1 || start->pressure;
   /* far from the solution nested grids find the slip zones of the new pressure faster than the last ones would */
   const PetscBool has_shear = pass > 1 ? (p->error <= NEAR && !p->stuck) : start->shear;
   const PetscBool brief     = p->error > EXACT && p->stuck < PATIENCE;
@@ -95,10 +72,10 @@ static PetscErrorCode Pass(Passes *p, PetscInt pass, const SamStepStart *start)
   PetscReal       limit, left;
 
   PetscFunctionBegin;
-  SamSolverSetEffort(SamNormalAsSolver(s->c->normal), PetscMax(NORMAL_FINAL * p->rtol[0], NORMAL_PART * error),
+  SamSolverSetEffort(SamNormalAsSolver(s->task->normal), PetscMax(NORMAL_FINAL * p->rtol[0], NORMAL_PART * error),
                      p->looks ? SAM_EFFORT_FULL : SAM_EFFORT_GLANCE);
   /* of a pressure that is not smooth yet, Newton's method may get stuck on the shear; that is not worth its while */
-  SamSolverSetEffort(SamTangentialAsSolver(s->c->tangential), rtol, effort);
+  SamSolverSetEffort(SamTangentialAsSolver(s->task->tangential), rtol, effort);
   PetscCall(VecCopy(s->lift, s->h));
   PetscCall(SamSolveNormal(s, has_pressure, pass == 1 && start->shear));
   PetscCall(SamSolveJudge(s, SAM_BALANCE_NORMAL));
@@ -109,11 +86,11 @@ static PetscErrorCode Pass(Passes *p, PetscInt pass, const SamStepStart *start)
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(SamSolveShear(s, has_shear, rtol, effort));
-  PetscCall(SamSolverGetReason(SamTangentialAsSolver(s->c->tangential), &reason));
-  PetscCall(SamTangentialGetLimit(s->c->tangential, &limit));
+  PetscCall(SamSolverGetReason(SamTangentialAsSolver(s->task->tangential), &reason));
+  PetscCall(SamTangentialGetLimit(s->task->tangential, &limit));
   p->stuck  = brief && reason == SAM_SOLVER_DIVERGED_ITS ? p->stuck + 1 : 0;
   p->slides = reason == SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM && limit > 0;
-  PetscCall(SamSolverGetStatistics(SamTangentialAsSolver(s->c->tangential), &left, NULL, NULL, NULL));
+  PetscCall(SamSolverGetStatistics(SamTangentialAsSolver(s->task->tangential), &left, NULL, NULL, NULL));
   /* rounding may leave more than a pass asks for: the user's tolerance counts */
   if (!p->slides && !p->stuck && !(reason == SAM_SOLVER_DIVERGED_STAGNATED && left <= p->rtol[1]))
     PetscCall(SamSolveJudge(s, SAM_BALANCE_TANGENTIAL));
@@ -121,7 +98,7 @@ static PetscErrorCode Pass(Passes *p, PetscInt pass, const SamStepStart *start)
 }
 
 /* Step 3. `solved`: the pressure solves the normal problem with the lift by the shear, and the shear is good enough. */
-static PetscErrorCode Measure(Passes *p, PetscBool *solved)
+static PetscErrorCode Measure(Passes *p, Vec lift, PetscBool *solved)
 {
   SamSolve       *s      = p->s;
   const PetscReal before = p->error;
@@ -129,14 +106,14 @@ static PetscErrorCode Measure(Passes *p, PetscBool *solved)
   PetscReal       error;
 
   PetscFunctionBegin;
-  PetscCall(SamElasticityApplyTangentialToNormal(s->c->elasticity, s->s->shear, p->lift));
-  PetscCall(VecCopy(p->lift, s->h));
-  SamSolverSetEffort(SamNormalAsSolver(s->c->normal), NORMAL_ENOUGH * p->rtol[0], SAM_EFFORT_MEASURE);
+  PetscCall(SamElasticityApplyTangentialToNormal(s->task->elasticity, s->s->shear, lift));
+  PetscCall(VecCopy(lift, s->h));
+  SamSolverSetEffort(SamNormalAsSolver(s->task->normal), NORMAL_ENOUGH * p->rtol[0], SAM_EFFORT_MEASURE);
   PetscCall(SamSolveNormal(s, PETSC_TRUE, PETSC_FALSE));
-  PetscCall(SamSolverGetReason(SamNormalAsSolver(s->c->normal), &reason));
+  PetscCall(SamSolverGetReason(SamNormalAsSolver(s->task->normal), &reason));
   if (reason < 0 && reason != SAM_SOLVER_DIVERGED_ITS) PetscCall(SamSolveJudge(s, SAM_BALANCE_NORMAL));
-  PetscCall(SamSolverGetStatistics(SamNormalAsSolver(s->c->normal), &p->error, NULL, NULL, NULL));
-  PetscCall(SamSolverGetStatistics(SamTangentialAsSolver(s->c->tangential), &error, NULL, NULL, NULL));
+  PetscCall(SamSolverGetStatistics(SamNormalAsSolver(s->task->normal), &p->error, NULL, NULL, NULL));
+  PetscCall(SamSolverGetStatistics(SamTangentialAsSolver(s->task->tangential), &error, NULL, NULL, NULL));
   p->looks = p->error > LOOK * before;
   p->waits = p->error < LOOK * p->least ? 0 : p->waits + 1;
   p->least = PetscMin(p->least, p->error);
@@ -149,64 +126,85 @@ static PetscErrorCode Measure(Passes *p, PetscBool *solved)
 }
 
 /* The relative change of a traction since the previous pass. Then `previous` becomes `now`. */
-static PetscErrorCode ComputeChange(SamContact c, Vec now, Vec previous, PetscReal *change)
+static PetscErrorCode ComputeChange(SamGrid grid, Vec now, Vec previous, PetscReal *change)
 {
   PetscReal size;
 
   PetscFunctionBegin;
   PetscCall(VecAYPX(previous, -1, now));
-  PetscCall(SamGridNorm(c->grid, previous, NORM_2, change));
-  PetscCall(SamGridNorm(c->grid, now, NORM_2, &size));
+  PetscCall(SamGridNorm(grid, previous, NORM_2, change));
+  PetscCall(SamGridNorm(grid, now, NORM_2, &size));
   *change = *change > 0 ? *change / size : 0;
   PetscCall(VecCopy(now, previous));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether the passes end: solved, or there have been too many. */
-static PetscErrorCode IsLast(Passes *p, PetscInt pass, PetscBool solved, PetscBool *last)
+/* Whether the passes end, as neither p nor q changes any more. */
+static PetscErrorCode Compare(Passes *p, PetscInt pass, PetscBool *solved)
 {
-  SamSolve        *s         = p->s;
-  const SamContact c         = s->c;
-  PetscReal        change[2] = {0, 0};
-  char             message[sizeof(s->step->message)];
+  SamSolve                 *s   = p->s;
+  const SamContactSettings *set = s->task->set;
+  PetscReal                 change[2];
 
   PetscFunctionBegin;
-  PetscCall(ComputeChange(c, s->s->pressure, s->previous_pressure, &change[0]));
-  PetscCall(ComputeChange(c, s->s->shear, s->previous_shear, &change[1]));
-  if (c->set.coupling_monitor)
-    PetscCall(PetscPrintf(c->grid->comm, "%5" PetscInt_FMT " coupling error %.6e change of p %.6e q %.6e%s\n", pass,
-                          (double)p->error, (double)change[0], (double)change[1], p->slides ? " slides" : ""));
-  *last = solved && (pass == 1 || PetscMax(change[0], change[1]) <= c->set.coupling_rtol);
-  if (*last && p->slides) PetscCall(SamSolveJudge(s, SAM_BALANCE_TANGENTIAL));
-  if (*last || pass < c->set.coupling_max_it) PetscFunctionReturn(PETSC_SUCCESS);
-  *last = PETSC_TRUE;
-  PetscCall(PetscSNPrintf(message, sizeof(message),
-                          "the coupling of normal and tangential problem did not converge within %" PetscInt_FMT
-                          " iterations, normal residual %.2g, tolerance %.2g",
-                          pass, (double)p->error, (double)p->rtol[0]));
-  PetscCall(SamStepFail(s->step, SAM_STATUS_NOT_CONVERGED, message));
-  PetscCall(PetscStrncpy(s->step->setting, "coupling_max_it", sizeof(s->step->setting)));
+  PetscCall(ComputeChange(s->task->grid, s->s->pressure, s->previous_pressure, &change[0]));
+  PetscCall(ComputeChange(s->task->grid, s->s->shear, s->previous_shear, &change[1]));
+  if (set->coupling_monitor)
+    PetscCall(PetscPrintf(s->task->grid->comm, "%5" PetscInt_FMT " coupling error %.6e change of p %.6e q %.6e%s\n",
+                          pass, (double)p->error, (double)change[0], (double)change[1], p->slides ? " slides" : ""));
+  *solved = *solved && (pass == 1 || PetscMax(change[0], change[1]) <= set->coupling_rtol);
+  if (*solved && p->slides) PetscCall(SamSolveJudge(s, SAM_BALANCE_TANGENTIAL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamSolveCoupled(SamSolve *s, const SamStepStart *start)
+static PetscErrorCode Pass(void *context, PetscInt pass, Vec lift, SamPassEnd *end)
 {
-  Passes    p;
-  PetscBool last = PETSC_FALSE;
+  Passes *const  p      = (Passes *)context;
+  SamStep *const step   = p->s->step;
+  PetscBool      solved = PETSC_FALSE;
 
   PetscFunctionBegin;
-  PetscCall(Create(s, start, &p));
-  for (PetscInt pass = 1; !last; pass++) {
-    PetscBool solved = PETSC_FALSE;
+  PetscCall(Solve(p, pass));
+  p->s->counts[SAM_COUNT_COUPLING] = (double)pass;
+  if (step->status == SAM_STATUS_CONVERGED) PetscCall(Measure(p, lift, &solved));
+  *end = SAM_PASS_FAILED;
+  if (step->status != SAM_STATUS_CONVERGED) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(Compare(p, pass, &solved));
+  *end = solved ? SAM_PASS_SOLVED : SAM_PASS_GOES_ON;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
-    PetscCall(Pass(&p, pass, start));
-    s->counts[SAM_COUNT_COUPLING] = (double)pass;
-    if (s->step->status != SAM_STATUS_CONVERGED) break;
-    PetscCall(Measure(&p, &solved));
-    if (s->step->status != SAM_STATUS_CONVERGED) break;
-    PetscCall(IsLast(&p, pass, solved, &last));
-    if (!last) PetscCall(SamMixingNext(&p.mixing, s->s->pressure, p.lift, s->lift));
-  }
-  PetscCall(Destroy(&p));
+static PetscErrorCode Fail(Passes *p)
+{
+  SamStep *const step = p->s->step;
+  char           message[sizeof(step->message)];
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(message, sizeof(message),
+                          "the coupling of normal and tangential problem did not converge within %" PetscInt_FMT
+                          " iterations, normal residual %.2g, tolerance %.2g",
+                          p->s->task->set->coupling_max_it, (double)p->error, (double)p->rtol[0]));
+  PetscCall(SamStepFail(step, SAM_STATUS_NOT_CONVERGED, message));
+  PetscCall(PetscStrncpy(step->setting, "coupling_max_it", sizeof(step->setting)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSolveCoupled(SamSolve *s)
+{
+  const SamStepTask  *task   = s->task;
+  const SamSolver     normal = SamNormalAsSolver(task->normal), tangential = SamTangentialAsSolver(task->tangential);
+  const SamFixedPoint iteration = {.components = 1, .most = task->set->coupling_max_it, .pass = Pass};
+  const PetscBool     shear     = task->start.shear;
+  Passes     p = {.s = s, .looks = PETSC_TRUE, .error = shear ? GUESS : FIRST, .least = INFINITY, .sharper = 1};
+  SamPassEnd end;
+
+  PetscFunctionBegin;
+  PetscCall(SamSolverGetTolerances(normal, &p.rtol[0], NULL));
+  PetscCall(SamSolverGetTolerances(tangential, &p.rtol[1], NULL));
+  if (shear) PetscCall(SamElasticityApplyTangentialToNormal(task->elasticity, s->s->shear, s->lift));
+  PetscCall(SamSolveFixedPoint(s, &iteration, &p, s->lift, &end));
+  if (end == SAM_PASS_GOES_ON) PetscCall(Fail(&p));
+  SamSolverSetEffort(normal, 0, SAM_EFFORT_FULL);
+  SamSolverSetEffort(tangential, 0, SAM_EFFORT_FULL);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -25,12 +25,12 @@
     1. The tangential problem with t, from the last shear on, gives q and ds. From the second pass on it is solved to a
        part of the last change of t only.
     2. If t is ds - R(q) ds up to a part of the tolerance, the step is solved.
-    3. Else Anderson's method makes the next t of this and the last passes (mixing.c).
+    3. Else Anderson's method makes the next t of this and the last passes (fixedpoint.c).
   Plain passes multiply the error by about the larger of tan(a/2) and 1/2. If they do not converge, the step keeps the
   rule at its end. The direction of a step that repeats one of the cycle before starts from that (recall.c).
 
   References: M. Ortiz, E. P. Popov, Accuracy and stability of integration algorithms for elastoplastic constitutive
-  relations, Int. J. Numer. Methods Eng. 21 (1985) 1561-1576; the sources of mixing.c.
+  relations, Int. J. Numer. Methods Eng. 21 (1985) 1561-1576; the sources of fixedpoint.c.
 */
 #include "stepimpl.h"
 
@@ -43,123 +43,58 @@
 /* The part of the last change of t to which the tangential problem is solved. */
 #define CHANGE_PART 0.03
 
-PetscErrorCode SamSolveDisplace(SamSolve *w)
+typedef struct {
+  SamSolve *w;
+  PetscBool has_shear;
+  SamEffort effort;
+  PetscReal rtol, tolerance; /* of the step, and of the tangential problem of the next pass */
+} Passes;
+
+/* Steps 1 and 2. A tangential problem that is not solved ends the passes. */
+static PetscErrorCode Pass(void *context, PetscInt pass, Vec found, SamPassEnd *end)
 {
-  const PetscBool known = w->s->mid_step && w->shear_product.n[0] > 0 ? PETSC_TRUE : PETSC_FALSE;
+  Passes *const   p      = (Passes *)context;
+  SamSolve *const w      = p->w;
+  const SamSolver solver = SamTangentialAsSolver(w->task->tangential);
+  SamSolverReason reason;
+  PetscReal       self, change;
 
   PetscFunctionBegin;
-  PetscCall(SamContactSetDisplacements(w->c));
-  if (known)
-    PetscCall(VecCopy(w->shear_product.field, w->s->displacement_t));
-  else
-    PetscCall(SamElasticityApplyTangential(w->c->elasticity, w->s->shear, w->s->displacement_t));
-  if (w->coupled) PetscCall(VecAXPY(w->s->displacement_t, 1, w->pushed));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Step 2: ds - R(q) ds, and its difference from t, relative to what the check compares it with. */
-static PetscErrorCode FindTurn(SamSolve *w, Vec found)
-{
-  const SamGrid grid = w->c->grid;
-  SamIncrement  increment;
-  double       *t, *to[2];
-
-  PetscFunctionBegin;
-  PetscCall(SamIncrementCreate(w->c->problem, w->before, w->s, &increment));
-  PetscCall(VecGetArrayWrite(found, &t));
-  for (PetscInt j = 0; j < grid->rows; j++) {
-    for (PetscInt k = 0; k < 2; k++) to[k] = t + (ptrdiff_t)j * grid->nx + (ptrdiff_t)k * grid->cells;
-    SamIncrementComputeRow(&increment, j);
-    SamIncrementTurnRow(&increment, j, to);
-    for (PetscInt k = 0; k < 2; k++)
-      for (PetscInt i = 0; i < grid->nx; i++) to[k][i] = increment.row[k][i] - to[k][i];
-  }
-  PetscCall(VecRestoreArrayWrite(found, &t));
-  PetscCall(SamIncrementDestroy(&increment));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode Measure(SamSolve *w, Vec found, PetscReal *change)
-{
-  const SamGrid grid = w->c->grid;
-  PetscReal     size, shear, bound, self;
-  Vec           difference;
-
-  PetscFunctionBegin;
+  SamSolverSetEffort(solver, p->tolerance, p->effort);
+  PetscCall(SamSolveTangential(w, p->has_shear || pass > 1));
+  PetscCall(SamSolverGetReason(solver, &reason));
+  *end = SAM_PASS_FAILED;
+  if (reason < 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamSolveDisplace(w));
-  PetscCall(FindTurn(w, found));
-  PetscCall(SamGridCreateVec(grid, 2, &difference));
-  PetscCall(VecWAXPY(difference, -1, w->turn, found));
-  PetscCall(SamGridNorm(grid, difference, NORM_2, &size));
-  PetscCall(VecDestroy(&difference));
-  PetscCall(SamGridNorm(grid, w->s->shear, NORM_2, &shear));
-  PetscCall(SamGridNorm(grid, w->s->bound, NORM_2, &bound));
-  PetscCall(SamElasticityGetSelfInfluence(w->c->elasticity, NULL, &self));
-  *change = size > 0 ? size / self / PetscMax(shear, SAM_SHEAR_FLOOR * bound) : 0;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamSolveGuessDirection(SamSolve *w, SamKept kept, Vec shear, const SamProduct *product, Vec offset)
-{
-  const Vec own = w->s->shear;
-
-  PetscFunctionBegin;
-  PetscCall(SamContactSetDisplacements(w->c));
-  PetscCall(VecCopy(product->field, w->s->displacement_t));
-  SamBalanceStore(&w->tangential, w->s->load, w->s->rigid);
-  SamKeptGetMotion(kept, w->before, w->s->rigid);
-  w->s->shear = shear;
-  PetscCall(FindTurn(w, w->turn));
-  w->s->shear = own;
-  PetscCall(VecAXPY(offset, -1, w->turn));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* The passes; `solved`: they have converged. A tangential problem that is not solved ends them. */
-static PetscErrorCode Iterate(SamSolve *w, PetscBool has_shear, PetscReal rtol, SamEffort effort, PetscBool *solved)
-{
-  const SamSolver solver = SamTangentialAsSolver(w->c->tangential);
-  SamSolverReason reason = SAM_SOLVER_ITERATING;
-  PetscReal       change = 0, tolerance = rtol;
-  SamMixing       mixing;
-  Vec             found;
-
-  PetscFunctionBegin;
-  *solved = PETSC_FALSE;
-  PetscCall(SamMixingCreate(w->c->grid, 2, &mixing));
-  PetscCall(SamGridCreateVec(w->c->grid, 2, &found));
-  if (!w->turn) PetscCall(SamGridCreateVec(w->c->grid, 2, &w->turn));
-  for (PetscInt pass = 0; pass < PASSES && !*solved; pass++) {
-    SamSolverSetEffort(solver, tolerance, effort);
-    PetscCall(SamSolveTangential(w, has_shear || pass > 0));
-    PetscCall(SamSolverGetReason(solver, &reason));
-    if (reason < 0) break;
-    PetscCall(Measure(w, found, &change));
-    if (change <= (tolerance > SHEAR_PART * rtol ? REST : TURN_PART) * rtol) {
-      *solved   = tolerance <= rtol;
-      tolerance = SHEAR_PART * rtol;
-    } else {
-      PetscCall(SamMixingNext(&mixing, w->s->pressure, found, w->turn));
-      tolerance = PetscMax(SHEAR_PART * rtol, CHANGE_PART * change);
-    }
+  PetscCall(SamSolveGetTurn(w, found));
+  PetscCall(SamElasticityGetSelfInfluence(w->task->elasticity, NULL, &self));
+  PetscCall(SamSolveGetChange(w, w->turn, found, self, &change, NULL));
+  if (change <= (p->tolerance > SHEAR_PART * p->rtol ? REST : TURN_PART) * p->rtol) {
+    *end         = p->tolerance <= p->rtol ? SAM_PASS_SOLVED : SAM_PASS_REPEATS;
+    p->tolerance = SHEAR_PART * p->rtol;
+  } else {
+    *end         = SAM_PASS_GOES_ON;
+    p->tolerance = PetscMax(SHEAR_PART * p->rtol, CHANGE_PART * change);
   }
-  PetscCall(VecDestroy(&found));
-  PetscCall(SamMixingDestroy(&mixing));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamSolveDirection(SamSolve *w, PetscBool has_shear, PetscReal rtol, SamEffort effort)
 {
-  const SamSolver solver = SamTangentialAsSolver(w->c->tangential);
-  PetscBool       solved = PETSC_FALSE;
-  SamSolverReason reason;
+  static const SamFixedPoint turn   = {.components = 2, .most = PASSES, .pass = Pass};
+  const SamSolver            solver = SamTangentialAsSolver(w->task->tangential);
+  Passes                     p = {.w = w, .has_shear = has_shear, .effort = effort, .rtol = rtol, .tolerance = rtol};
+  PetscBool                  solved = PETSC_FALSE;
+  SamPassEnd                 end;
+  SamSolverReason            reason;
 
   PetscFunctionBegin;
   if (w->s->mid_step) {
-    PetscCall(Iterate(w, has_shear, rtol, effort, &solved));
+    if (!w->turn) PetscCall(SamGridCreateVec(w->task->grid, 2, &w->turn));
+    PetscCall(SamSolveFixedPoint(w, &turn, &p, w->turn, &end));
     PetscCall(SamSolverGetReason(solver, &reason));
     SamSolverSetEffort(solver, rtol, effort);
-    solved = solved ||
+    solved = end == SAM_PASS_SOLVED ||
              reason == SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM || /* a later pass of dissimilar bodies tries again */
              (reason == SAM_SOLVER_DIVERGED_ITS && effort == SAM_EFFORT_BRIEF);
     if (!solved) w->s->mid_step = PETSC_FALSE;

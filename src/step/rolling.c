@@ -14,7 +14,7 @@
 /* The numbers, side by side in the state: energies, then by component load and creepage. */
 enum { ENERGY, LOADS, CREEPS = LOADS + 3, NUMBERS = CREEPS + 3 };
 
-PetscErrorCode SamContactDeclareRolling(SamContact c)
+PetscErrorCode SamStepDeclareRolling(SamState state, PetscInt *first)
 {
   char           name[64], text[96];
   SamStateNumber number = {"rolling_energy",
@@ -29,8 +29,7 @@ PetscErrorCode SamContactDeclareRolling(SamContact c)
   PetscInt       id;
 
   PetscFunctionBegin;
-  if (!c->traits.steady) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamStateDeclareNumber(c->state, &number, &c->rolling));
+  PetscCall(SamStateDeclareNumber(state, &number, first));
   for (PetscInt n = LOADS; n < NUMBERS; n++) {
     const SamComponentName *of   = &SamComponentNames[SamComponentsOf[SAM_BALANCE_TANGENTIAL][(n - LOADS) % 3]];
     const PetscBool         load = n < CREEPS;
@@ -40,7 +39,7 @@ PetscErrorCode SamContactDeclareRolling(SamContact c)
     number.name = name;
     number.unit = load ? of->load_unit : of->creep_unit;
     number.text = text;
-    PetscCall(SamStateDeclareNumber(c->state, &number, &id));
+    PetscCall(SamStateDeclareNumber(state, &number, &id));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -62,8 +61,8 @@ static PetscErrorCode CreateCoarse(SamSolve *w, Coarse *k)
   PetscFunctionBegin;
   PetscCall(SamElasticityGetGrid(k->elasticity, &k->grid));
   for (PetscInt n = 0; n < FIELDS; n++) PetscCall(SamGridCreateVec(k->grid, n < SHEAR ? 1 : 2, &k->field[n]));
-  if (w->coupled) PetscCall(VecWAXPY(w->h, 1, w->lift, w->separation));
-  PetscCall(SamTransferRestrict(k->transfer, w->coupled ? w->h : w->separation, k->field[SEPARATION]));
+  if (w->task->coupled) PetscCall(VecWAXPY(w->h, 1, w->lift, w->separation));
+  PetscCall(SamTransferRestrict(k->transfer, w->task->coupled ? w->h : w->separation, k->field[SEPARATION]));
   PetscCall(SamTransferRestrict(k->transfer, w->s->pressure, k->field[MEAN_PRESSURE]));
   PetscCall(SamTransferRestrict(k->transfer, w->s->bound, k->field[MEAN_BOUND]));
   PetscCall(SamTransferRestrict(k->transfer, w->s->shear, k->field[SHEAR]));
@@ -112,9 +111,9 @@ static PetscErrorCode SolveCoarse(SamSolve *w, Coarse *k, SamSolverReason *reaso
   PetscReal     limit;
 
   PetscFunctionBegin;
-  PetscCall(SamProblemGetPressureLimit(w->c->problem, &limit));
+  PetscCall(SamProblemGetPressureLimit(w->task->problem, &limit));
   PetscCall(SamNormalCreate(k->elasticity, &normal));
-  PetscCall(TakeTolerance(SamNormalAsSolver(w->c->normal), SamNormalAsSolver(normal)));
+  PetscCall(TakeTolerance(SamNormalAsSolver(w->task->normal), SamNormalAsSolver(normal)));
   PetscCall(SamNormalSetPressureLimit(normal, limit));
   PetscCall(VecCopy(f[MEAN_PRESSURE], f[PRESSURE]));
   PetscCall(SamNormalSolve(normal, f[SEPARATION], &k->normal, PETSC_TRUE, f[PRESSURE]));
@@ -122,11 +121,11 @@ static PetscErrorCode SolveCoarse(SamSolve *w, Coarse *k, SamSolverReason *reaso
   PetscCall(SamNormalDestroy(&normal));
   if (*reason < 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ComputeBound(k));
-  if (w->coupled) PetscCall(SamElasticityApplyNormalToTangential(k->elasticity, f[PRESSURE], f[OFFSET]));
+  if (w->task->coupled) PetscCall(SamElasticityApplyNormalToTangential(k->elasticity, f[PRESSURE], f[OFFSET]));
   PetscCall(SamTangentialCreate(k->elasticity, &tangential));
-  PetscCall(TakeTolerance(SamTangentialAsSolver(w->c->tangential), SamTangentialAsSolver(tangential)));
-  PetscCall(
-    SamTangentialSolve(tangential, f[BOUND], w->coupled ? f[OFFSET] : NULL, &k->tangential, PETSC_TRUE, f[SHEAR]));
+  PetscCall(TakeTolerance(SamTangentialAsSolver(w->task->tangential), SamTangentialAsSolver(tangential)));
+  PetscCall(SamTangentialSolve(tangential, f[BOUND], w->task->coupled ? f[OFFSET] : NULL, &k->tangential, PETSC_TRUE,
+                               f[SHEAR]));
   PetscCall(SamSolverGetReason(SamTangentialAsSolver(tangential), reason));
   PetscCall(SamTangentialDestroy(&tangential));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -134,7 +133,7 @@ static PetscErrorCode SolveCoarse(SamSolve *w, Coarse *k, SamSolverReason *reaso
 
 PetscErrorCode SamSolveRolling(SamSolve *w)
 {
-  double *const   numbers = SamStateNumbers(w->c->state, w->c->rolling, SAM_TRIED);
+  double *const   numbers = SamStateNumbers(w->task->state, w->task->rolling, SAM_TRIED);
   Coarse          k       = {.elasticity = NULL};
   SamSolverReason reason;
 
@@ -147,13 +146,13 @@ PetscErrorCode SamSolveRolling(SamSolve *w)
     numbers[LOADS + n] = numbers[CREEPS + n] = NAN;
   }
   if (w->step->status != SAM_STATUS_CONVERGED || w->s->load[SAM_COMPONENT_N] <= 0) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamElasticityGetCoarse(w->c->elasticity, &k.elasticity, &k.transfer));
+  PetscCall(SamElasticityGetCoarse(w->task->elasticity, &k.elasticity, &k.transfer));
   if (!k.elasticity) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(CreateCoarse(w, &k));
   PetscCall(SolveCoarse(w, &k, &reason));
   for (PetscInt n = 0; reason > 0 && n < 3; n++) {
     const PetscInt  t     = SamComponentsOf[SAM_BALANCE_TANGENTIAL][n];
-    const double    ratio = (double)(w->c->grid->dx / (k.grid->dx - w->c->grid->dx));
+    const double    ratio = (double)(w->task->grid->dx / (k.grid->dx - w->task->grid->dx));
     const PetscBool found = w->tangential.force[n];
     const double    fine  = (double)(found ? w->s->rigid : w->s->load)[t],
                  coarse   = (double)(found ? k.tangential.rigid : k.tangential.load)[n];

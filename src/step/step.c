@@ -1,60 +1,6 @@
-/*
-  The solution of one load step: what all laws add to the separation and their limits, the normal problem and its
-  corrections, the bound of the shear, the tangential problem. Then contact.c has the solution checked, and lets the
-  laws advance their tried state.
-
-  Similar materials: the pressure does not depend on the shear, so the normal and then the tangential problem solve the
-  step. Dissimilar materials: see coupling.c.
-*/
+/* The two problems of a step: each solved once, and the messages where it has no solution. */
 #include "stepimpl.h"
 #include <math.h>
-
-static PetscErrorCode Begin(SamContact c, const SamStepStart *start, PetscBool same_pressure, SamStep *step,
-                            SamSolve *w)
-{
-  PetscFunctionBegin;
-  *w = (SamSolve){
-    .c = c, .s = &c->generation[SAM_TRIED], .step = step, .same_pressure = same_pressure, .kept = start->kept};
-  w->coupled    = SamContactIsCoupled(c);
-  w->before     = SamContactSlipBefore(c);
-  w->counts     = SamStateNumbers(c->state, c->counts, SAM_TRIED);
-  w->normal     = SamControlGetBalance(&w->s->control, SAM_BALANCE_NORMAL);
-  w->tangential = SamControlGetBalance(&w->s->control, SAM_BALANCE_TANGENTIAL);
-  for (PetscInt k = 0; k < 3; k++) {
-    const PetscInt n = SamComponentsOf[SAM_BALANCE_TANGENTIAL][k];
-
-    if (w->s->control.creep[n] && !c->traits.steady)
-      w->tangential.rigid[k] =
-        (w->before ? w->before->rigid[n] : 0) + SamControlRolled(&w->s->control) * w->s->control.value[n];
-  }
-  PetscCall(PetscArraycpy(w->rigid, start->rigid, 3));
-  PetscCall(SamSolutionCreateSeparation(c->problem, c->state, SAM_COMMITTED, &w->separation));
-  if (w->coupled || w->s->mid_step) PetscCall(SamGridCreateVec(c->grid, 2, &w->shear_product.field));
-  if (!w->coupled) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamGridCreateVec(c->grid, 1, &w->h));
-  PetscCall(SamGridCreateVec(c->grid, 1, &w->lift));
-  PetscCall(SamGridCreateVec(c->grid, 2, &w->pushed));
-  PetscCall(SamGridCreateVec(c->grid, 1, &w->pressure_product.field));
-  PetscCall(SamGridCreateVec(c->grid, 1, &w->previous_pressure));
-  PetscCall(SamGridCreateVec(c->grid, 2, &w->previous_shear));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode End(SamSolve *w)
-{
-  PetscFunctionBegin;
-  PetscCall(SamSolutionDestroySeparation(w->c->problem, &w->separation));
-  PetscCall(VecDestroy(&w->turn));
-  PetscCall(VecDestroy(&w->slip));
-  PetscCall(VecDestroy(&w->pushed));
-  PetscCall(VecDestroy(&w->lift));
-  PetscCall(VecDestroy(&w->h));
-  PetscCall(VecDestroy(&w->pressure_product.field));
-  PetscCall(VecDestroy(&w->shear_product.field));
-  PetscCall(VecDestroy(&w->previous_pressure));
-  PetscCall(VecDestroy(&w->previous_shear));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
 
 /* Adds the counts of a solver's last solve to three numbers of the step. */
 static PetscErrorCode Count(SamSolver solver, double counts[3])
@@ -72,22 +18,22 @@ static PetscErrorCode Count(SamSolver solver, double counts[3])
 /* The message for loads that no pressure balances, or for an approach that is too large, with the limit. */
 static PetscErrorCode DescribeImpossible(SamSolve *w, char message[], size_t size)
 {
-  const SamGrid grid = w->c->grid;
+  const SamGrid grid = w->task->grid;
   PetscBool     possible;
   PetscReal     sum, limit;
   Vec           h;
 
   PetscFunctionBegin;
-  PetscCall(SamProblemGetPressureLimit(w->c->problem, &limit));
+  PetscCall(SamProblemGetPressureLimit(w->task->problem, &limit));
   PetscCall(SamBalanceLever(grid, &w->normal, message, size, &possible));
   if (possible) PetscCall(SamBalanceCapacity(grid, &w->normal, limit, message, size, &possible));
   if (!possible) PetscFunctionReturn(PETSC_SUCCESS);
-  if (w->normal.force[0] || w->c->traits.mean) {
+  if (w->normal.force[0] || w->task->traits.mean) {
     PetscCall(PetscStrncpy(message, "no pressure on this grid balances the normal loads", size));
     if (isfinite(limit)) PetscCall(PetscStrlcat(message, " within pressure_limit", size));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(SamProblemGetGap(w->c->problem, &h));
+  PetscCall(SamProblemGetGap(w->task->problem, &h));
   PetscCall(VecSum(h, &sum));
   PetscCall(
     PetscSNPrintf(message, size,
@@ -100,7 +46,7 @@ static PetscErrorCode DescribeImpossible(SamSolve *w, char message[], size_t siz
 /* Copies the pressure of the committed state, where nothing that it depends on has changed. */
 static PetscErrorCode TakePressure(SamSolve *w)
 {
-  const SamSolution *from = SamContactBefore(w->c);
+  const SamSolution *from = w->task->committed;
 
   PetscFunctionBegin;
   PetscCall(SamVecCopyNonzero(from->pressure, w->s->pressure));
@@ -117,9 +63,34 @@ static PetscErrorCode TakePressure(SamSolve *w)
 static PetscErrorCode GetSeparation(SamSolve *w, Vec *h)
 {
   PetscFunctionBegin;
-  if (w->coupled) PetscCall(VecAXPY(w->h, 1, w->separation));
-  if (w->coupled) PetscCall(SamElasticityAddCases(w->c->elasticity, &w->s->control, PETSC_FALSE, w->h));
-  *h = w->coupled ? w->h : w->separation;
+  if (w->task->coupled) PetscCall(VecAXPY(w->h, 1, w->separation));
+  if (w->task->coupled) PetscCall(SamElasticityAddCases(w->task->elasticity, &w->s->control, PETSC_FALSE, w->h));
+  *h = w->task->coupled ? w->h : w->separation;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
+  Scales a shear by the change of the pressure from `pressure_before`, cell by cell: cells that slip continue to slip.
+*/
+static PetscErrorCode FollowPressure(SamGrid grid, Vec pressure_before, Vec pressure, Vec shear)
+{
+  const PetscInt cells = grid->cells;
+  const double  *p0, *p;
+  double        *q;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(pressure_before, &p0));
+  PetscCall(VecGetArrayRead(pressure, &p));
+  PetscCall(VecGetArray(shear, &q));
+  for (PetscInt k = 0; k < cells; k++) {
+    const double scale = p0[k] > 0 ? p[k] / p0[k] : 0;
+
+    q[k] *= scale;
+    q[k + cells] *= scale;
+  }
+  PetscCall(VecRestoreArray(shear, &q));
+  PetscCall(VecRestoreArrayRead(pressure, &p));
+  PetscCall(VecRestoreArrayRead(pressure_before, &p0));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -129,28 +100,28 @@ PetscErrorCode SamSolveNormal(SamSolve *w, PetscBool has_pressure, PetscBool has
   Vec        predicted = NULL, h = NULL;
 
   PetscFunctionBegin;
-  if (w->same_pressure) {
+  if (w->task->same_pressure) {
     PetscCall(TakePressure(w));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  if (SamKeptHasPressure(w->kept, &w->s->control, w->c->revision[SAM_TRIED])) {
-    PetscCall(SamKeptGetPressure(w->kept, w->c->grid, w->s));
+  if (SamKeptHasPressure(w->kept, &w->s->control, w->task->revision)) {
+    PetscCall(SamKeptGetPressure(w->kept, w->task->grid, w->s));
     w->known_pressure = PETSC_TRUE;
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(GetSeparation(w, &h));
   if (has_shear) {
-    PetscCall(SamGridCreateVec(w->c->grid, 1, &predicted));
+    PetscCall(SamGridCreateVec(w->task->grid, 1, &predicted));
     PetscCall(SamVecCopyNonzero(w->s->pressure, predicted));
   }
   for (PetscInt k = 0; k < 3; k++)
     if (balance.force[k]) balance.rigid[k] = w->s->rigid[SamComponentsOf[SAM_BALANCE_NORMAL][k]]; /* of the last pass */
-  PetscCall(SamNormalSolveKeeping(w->c->normal, h, &balance, has_pressure, w->s->pressure,
-                                  w->coupled ? &w->pressure_product : NULL));
-  if (has_shear) PetscCall(SamFollowPressure(w->c->grid, predicted, w->s->pressure, w->s->shear));
+  PetscCall(SamNormalSolveKeeping(w->task->normal, h, &balance, has_pressure, w->s->pressure,
+                                  w->task->coupled ? &w->pressure_product : NULL));
+  if (has_shear) PetscCall(FollowPressure(w->task->grid, predicted, w->s->pressure, w->s->shear));
   PetscCall(VecDestroy(&predicted));
   SamBalanceStore(&balance, w->s->load, w->s->rigid);
-  PetscCall(Count(SamNormalAsSolver(w->c->normal), w->counts + SAM_COUNT_NORMAL));
+  PetscCall(Count(SamNormalAsSolver(w->task->normal), w->counts + SAM_COUNT_NORMAL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -162,14 +133,14 @@ PetscErrorCode SamSolveNormal(SamSolve *w, PetscBool has_pressure, PetscBool has
 */
 static PetscErrorCode DescribeSliding(SamSolve *w, char message[], size_t size)
 {
-  const PetscBool follows = SamProblemFollowsSlip(w->c->problem);
+  const PetscBool follows = SamProblemFollowsSlip(w->task->problem);
   PetscReal       factor;
   PetscInt        loaded = 0;
   PetscBool       friction;
   char            instead[64] = "; for gross slip give ";
 
   PetscFunctionBegin;
-  PetscCall(SamTangentialGetLimit(w->c->tangential, &factor));
+  PetscCall(SamTangentialGetLimit(w->task->tangential, &factor));
   PetscCall(PetscStrncpy(message, "gross slip: ", size));
   for (PetscInt k = 0; k < 3; k++) {
     const SamComponentName *name = &SamComponentNames[SamComponentsOf[SAM_BALANCE_TANGENTIAL][k]];
@@ -178,17 +149,18 @@ static PetscErrorCode DescribeSliding(SamSolve *w, char message[], size_t size)
 
     if (!w->tangential.force[k] || load == 0) continue;
     PetscCall(PetscSNPrintf(text, sizeof(text), "%s%s = %.8g %s (%s%.8g%s)", loaded++ ? ", " : "", name->load, load,
-                            SamUnitOn(w->c->grid, name->load_unit), follows ? "" : "limit ",
+                            SamUnitOn(w->task->grid, name->load_unit), follows ? "" : "limit ",
                             (double)factor * load + 0.0, /* and not -0 */
                             follows ? " at the slip of the last iteration" : ""));
     PetscCall(PetscStrlcat(message, text, size));
     if (loaded > 1) PetscCall(PetscStrlcat(instead, ", ", sizeof(instead)));
-    PetscCall(PetscStrlcat(instead, w->c->traits.steady || w->c->rolls ? name->creep : name->rigid, sizeof(instead)));
+    PetscCall(
+      PetscStrlcat(instead, w->task->traits.steady || w->task->rolls ? name->creep : name->rigid, sizeof(instead)));
   }
-  PetscCall(SamProblemHasFriction(w->c->problem, &friction));
+  PetscCall(SamProblemHasFriction(w->task->problem, &friction));
   PetscCall(PetscStrlcat(
     message, friction ? " cannot be balanced by |q| <= mu p" : " cannot be balanced without friction", size));
-  PetscCall(PetscStrlcat(message, follows && !w->c->traits.steady ? ": use smaller load steps" : instead, size));
+  PetscCall(PetscStrlcat(message, follows && !w->task->traits.steady ? ": use smaller load steps" : instead, size));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -219,7 +191,7 @@ static PetscErrorCode DescribeFailure(SamSolve *w, const char name[], SamSolver 
 PetscErrorCode SamSolveJudge(SamSolve *w, SamBalanceKind kind)
 {
   const PetscBool normal = kind == SAM_BALANCE_NORMAL;
-  const SamSolver solver = normal ? SamNormalAsSolver(w->c->normal) : SamTangentialAsSolver(w->c->tangential);
+  const SamSolver solver = normal ? SamNormalAsSolver(w->task->normal) : SamTangentialAsSolver(w->task->tangential);
   SamSolverReason reason;
   char            message[sizeof(w->step->message)];
 
@@ -259,29 +231,89 @@ static PetscErrorCode AddStretch(SamGrid grid, const SamStretch *e, Vec field)
 /* w - S of the tangential problem: what moves the surfaces besides the shear, less the slip so far; NULL for zero. */
 static PetscErrorCode CreateOffset(SamSolve *w, Vec *offset)
 {
-  const SamContact c = w->c;
-  const SamPair   *pair;
-  SamStretch       e;
-  PetscBool        stretched;
-  double          *slip;
+  const SamStepTask *task = w->task;
+  const SamPair     *pair;
+  SamStretch         e;
+  PetscBool          stretched;
+  double            *slip;
 
   PetscFunctionBegin;
   *offset = NULL;
-  PetscCall(SamElasticityGetPair(c->elasticity, &pair));
+  PetscCall(SamElasticityGetPair(task->elasticity, &pair));
   e         = SamStretchOf(pair, &w->s->control);
   stretched = e.xx != 0 || e.yy != 0 || e.xy != 0;
-  if (!w->coupled && !w->before && !stretched) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamGridCreateVec(c->grid, 2, offset));
-  if (w->before) {
+  if (!w->task->coupled && !w->task->before && !stretched) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamGridCreateVec(task->grid, 2, offset));
+  if (w->task->before) {
     PetscCall(VecGetArray(*offset, &slip));
     for (PetscInt k = 0; k < 2; k++)
-      PetscCall(SamSolutionComputeSlip(c->problem, w->before, k, slip + k * c->grid->cells));
+      PetscCall(SamSolutionComputeSlip(task->problem, w->task->before, k, slip + k * task->grid->cells));
     PetscCall(VecRestoreArray(*offset, &slip));
     PetscCall(VecScale(*offset, -1));
   }
-  if (w->coupled) PetscCall(VecAXPY(*offset, 1, w->pushed));
-  if (stretched) PetscCall(AddStretch(c->grid, &e, *offset));
+  if (w->task->coupled) PetscCall(VecAXPY(*offset, 1, w->pushed));
+  if (stretched) PetscCall(AddStretch(task->grid, &e, *offset));
   if (w->turn) PetscCall(VecAXPY(*offset, -1, w->turn));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamStepSetDisplacements(SamState state, const PetscInt fields[2], SamSolution *tried)
+{
+  PetscFunctionBegin;
+  PetscCall(SamStateSetField(state, fields[0], &tried->displacement_z));
+  PetscCall(SamStateSetField(state, fields[1], &tried->displacement_t));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSolveDisplace(SamSolve *w)
+{
+  const PetscBool known = w->s->mid_step && w->shear_product.n[0] > 0 ? PETSC_TRUE : PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCall(SamStepSetDisplacements(w->task->state, w->task->displacements, w->s));
+  if (known)
+    PetscCall(VecCopy(w->shear_product.field, w->s->displacement_t));
+  else
+    PetscCall(SamElasticityApplyTangential(w->task->elasticity, w->s->shear, w->s->displacement_t));
+  if (w->task->coupled) PetscCall(VecAXPY(w->s->displacement_t, 1, w->pushed));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSolveGetTurn(SamSolve *w, Vec turn)
+{
+  const SamGrid grid = w->task->grid;
+  SamIncrement  increment;
+  double       *t, *to[2];
+
+  PetscFunctionBegin;
+  PetscCall(SamIncrementCreate(w->task->problem, w->task->before, w->s, &increment));
+  PetscCall(VecGetArrayWrite(turn, &t));
+  for (PetscInt j = 0; j < grid->rows; j++) {
+    for (PetscInt k = 0; k < 2; k++) to[k] = t + (ptrdiff_t)j * grid->nx + (ptrdiff_t)k * grid->cells;
+    SamIncrementComputeRow(&increment, j);
+    SamIncrementTurnRow(&increment, j, to);
+    for (PetscInt k = 0; k < 2; k++)
+      for (PetscInt i = 0; i < grid->nx; i++) to[k][i] = increment.row[k][i] - to[k][i];
+  }
+  PetscCall(VecRestoreArrayWrite(turn, &t));
+  PetscCall(SamIncrementDestroy(&increment));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Takes t of direction.c from a kept step and its product, and lessens the offset by it. */
+static PetscErrorCode GuessDirection(SamSolve *w, SamKept kept, Vec shear, const SamProduct *product, Vec offset)
+{
+  const Vec own = w->s->shear;
+
+  PetscFunctionBegin;
+  PetscCall(SamStepSetDisplacements(w->task->state, w->task->displacements, w->s));
+  PetscCall(VecCopy(product->field, w->s->displacement_t));
+  SamBalanceStore(&w->tangential, w->s->load, w->s->rigid);
+  SamKeptGetMotion(kept, w->task->before, w->s->rigid);
+  w->s->shear = shear;
+  PetscCall(SamSolveGetTurn(w, w->turn));
+  w->s->shear = own;
+  PetscCall(VecAXPY(offset, -1, w->turn));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -291,24 +323,24 @@ static PetscErrorCode CreateOffset(SamSolve *w, Vec *offset)
 */
 static PetscErrorCode SolveFromKept(SamSolve *w, SamKept kept, Vec offset, SamBalance *balance, PetscBool *solved)
 {
-  const SamContact c       = w->c;
-  SamProduct       product = {.rounding = 0};
-  SamSolverReason  reason;
-  Vec              shear;
+  const SamStepTask *task    = w->task;
+  SamProduct         product = {.rounding = 0};
+  SamSolverReason    reason;
+  Vec                shear;
 
   PetscFunctionBegin;
   *solved = PETSC_FALSE;
-  PetscCall(SamGridCreateVec(c->grid, 2, &product.field));
-  PetscCall(SamGridCreateVec(c->grid, 2, &shear));
-  PetscCall(SamKeptGetShear(kept, c->elasticity, w->before, w->s->bound, shear, &product, solved));
+  PetscCall(SamGridCreateVec(task->grid, 2, &product.field));
+  PetscCall(SamGridCreateVec(task->grid, 2, &shear));
+  PetscCall(SamKeptGetShear(kept, task->elasticity, w->task->before, w->s->bound, shear, &product, solved));
   if (*solved) {
-    if (w->s->mid_step) PetscCall(SamSolveGuessDirection(w, kept, shear, &product, offset));
-    SamSolverSetEffort(SamTangentialAsSolver(c->tangential), 0, SAM_EFFORT_NEAR);
-    PetscCall(SamTangentialSolveKeeping(c->tangential, w->s->bound, offset, balance, PETSC_TRUE, shear, &product));
-    SamSolverSetEffort(SamTangentialAsSolver(c->tangential), 0, SAM_EFFORT_FULL);
-    PetscCall(SamSolverGetReason(SamTangentialAsSolver(c->tangential), &reason));
+    if (w->s->mid_step) PetscCall(GuessDirection(w, kept, shear, &product, offset));
+    SamSolverSetEffort(SamTangentialAsSolver(task->tangential), 0, SAM_EFFORT_NEAR);
+    PetscCall(SamTangentialSolveKeeping(task->tangential, w->s->bound, offset, balance, PETSC_TRUE, shear, &product));
+    SamSolverSetEffort(SamTangentialAsSolver(task->tangential), 0, SAM_EFFORT_FULL);
+    PetscCall(SamSolverGetReason(SamTangentialAsSolver(task->tangential), &reason));
     *solved = reason > 0 ? PETSC_TRUE : PETSC_FALSE;
-    if (!*solved) PetscCall(Count(SamTangentialAsSolver(c->tangential), w->counts + SAM_COUNT_TANGENTIAL));
+    if (!*solved) PetscCall(Count(SamTangentialAsSolver(task->tangential), w->counts + SAM_COUNT_TANGENTIAL));
   }
   if (*solved) PetscCall(SamVecCopyNonzero(shear, w->s->shear));
   if (*solved && w->s->mid_step) {
@@ -336,13 +368,13 @@ PetscErrorCode SamSolveTangential(SamSolve *w, PetscBool has_shear)
   w->kept = NULL; /* later passes start from the last one */
   if (!solved) {
     balance = given;
-    PetscCall(SamTangentialSolveKeeping(w->c->tangential, w->s->bound, offset, &balance, has_shear, w->s->shear,
+    PetscCall(SamTangentialSolveKeeping(w->task->tangential, w->s->bound, offset, &balance, has_shear, w->s->shear,
                                         w->shear_product.field ? &w->shear_product : NULL));
   }
   PetscCall(VecDestroy(&offset));
   for (PetscInt k = 0; k < 3; k++) w->rigid[k] = balance.rigid[k]; /* of the next pass */
   SamBalanceStore(&balance, w->s->load, w->s->rigid);
-  PetscCall(Count(SamTangentialAsSolver(w->c->tangential), w->counts + SAM_COUNT_TANGENTIAL));
+  PetscCall(Count(SamTangentialAsSolver(w->task->tangential), w->counts + SAM_COUNT_TANGENTIAL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -356,52 +388,5 @@ PetscErrorCode SamSolveSkipTangential(SamSolve *w)
   for (PetscInt k = 0; k < 3; k++)
     if (balance.force[k]) balance.rigid[k] = w->rigid[k];
   SamBalanceStore(&balance, w->s->load, w->s->rigid);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* ---- both ---- */
-
-/* The bound, and the tangential problem with it, unless the normal one has failed. */
-static PetscErrorCode SolveShear(SamSolve *w, PetscBool has_shear)
-{
-  PetscReal rtol;
-
-  PetscFunctionBegin;
-  PetscCall(SamSolveBound(w, w->s->bound));
-  w->counts[SAM_COUNT_COUPLING] = 1;
-  if (w->step->status != SAM_STATUS_CONVERGED) {
-    PetscCall(SamSolveSkipTangential(w));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  PetscCall(SamSolverGetTolerances(SamTangentialAsSolver(w->c->tangential), &rtol, NULL));
-  PetscCall(SamSolveShear(w, has_shear, rtol, SAM_EFFORT_FULL));
-  PetscCall(SamSolveJudge(w, SAM_BALANCE_TANGENTIAL));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode SolveOnce(SamSolve *w, const SamStepStart *start)
-{
-  PetscFunctionBegin;
-  if (w->coupled) PetscCall(VecSet(w->h, 0));
-  PetscCall(SamSolveNormal(w, start->pressure, start->shear));
-  if (!w->same_pressure && !w->known_pressure) PetscCall(SamSolveJudge(w, SAM_BALANCE_NORMAL));
-  PetscCall(SolveShear(w, start->shear));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamContactSolveStep(SamContact c, const SamStepStart *start, PetscBool same_pressure, SamStep *step)
-{
-  SamSolve  w;
-  PetscBool friction;
-
-  PetscFunctionBegin;
-  PetscCall(Begin(c, start, same_pressure, step, &w));
-  PetscCall(SamProblemHasFriction(c->problem, &friction));
-  if (w.coupled && friction)
-    PetscCall(SamSolveCoupled(&w, start));
-  else
-    PetscCall(SolveOnce(&w, start));
-  if (c->traits.steady) PetscCall(SamSolveRolling(&w));
-  PetscCall(End(&w));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,19 +1,17 @@
-/* The inside of a step: what its solution and the coupling of its two problems share. */
+/* The inside of a step: the shared data of its two problems and of their iterations. */
 #ifndef PETSAM_STEPIMPL_H
 #define PETSAM_STEPIMPL_H
 
-#include "../contact/contactimpl.h"
+#include "step.h"
 #include <petsam/private/normalimpl.h>
 #include <petsam/private/tangentialimpl.h>
 
 /* A step under way. */
 typedef struct {
-  SamContact         c;
-  SamSolution       *s;      /* the tried solution */
-  const SamSolution *before; /* whose slip it continues; NULL in the first step */
+  const SamStepTask *task;
+  SamSolution       *s; /* the tried solution */
   SamStep           *step;
-  PetscBool          coupled, same_pressure;
-  SamKept            kept;               /* the same step one cycle before; NULL: none */
+  SamKept            kept;               /* the same step one cycle before; NULL: none, or it has been used */
   PetscBool          known_pressure;     /* the pressure is that of the kept step */
   SamBalance         normal, tangential; /* as prescribed */
   double             rigid[3];           /* guess of the tangential rigid displacements */
@@ -30,56 +28,70 @@ typedef struct {
   Vec        previous_pressure, previous_shear; /* of the previous pass */
 } SamSolve;
 
+/* ---- the two problems (step.c) ---- */
+
 /*
   SamSolveNormal - the normal problem of the step. `has_pressure`: the tried solution holds a guess; `has_shear`: of the
   shear too, which then follows the pressure. Collective.
+  SamSolveTangential - the tangential problem under the bound of the tried solution; `has_shear` likewise. Collective.
+  SamSolveSkipTangential - no shear, as the pressure is not right. Collective.
 */
 PETSC_INTERN PetscErrorCode SamSolveNormal(SamSolve *solve, PetscBool has_pressure, PetscBool has_shear);
-/*
-  SamSolveBound - a bound of the shear, from the pressure and the last slip.
-  SamSolveShear - the tangential problem under the bound of the tried solution. A bound that follows the slip changes
-  with it; `rtol` is what both are solved to then (bound.c). Collective.
-*/
-PETSC_INTERN PetscErrorCode SamSolveBound(SamSolve *solve, Vec bound);
-PETSC_INTERN PetscErrorCode SamSolveShear(SamSolve *solve, PetscBool has_shear, PetscReal rtol, SamEffort effort);
-/* SamSolveTangential - the tangential problem; `has_shear` as above. Collective. */
 PETSC_INTERN PetscErrorCode SamSolveTangential(SamSolve *solve, PetscBool has_shear);
-/*
-  SamSolveDirection - the same with the direction of slip that the step has, to the tolerance `rtol` (direction.c).
-  SamSolveDisplace - gives the tried solution its tangential displacement by shear and pressure. Collective.
-*/
-PETSC_INTERN PetscErrorCode SamSolveDirection(SamSolve *solve, PetscBool has_shear, PetscReal rtol, SamEffort effort);
+PETSC_INTERN PetscErrorCode SamSolveSkipTangential(SamSolve *solve);
+/* SamSolveDisplace - gives the tried solution its tangential displacement by shear and pressure. Collective. */
 PETSC_INTERN PetscErrorCode SamSolveDisplace(SamSolve *solve);
-/* SamSolveGuessDirection - takes t from a kept step and its product, and lessens the offset by it. Collective. */
-PETSC_INTERN PetscErrorCode SamSolveGuessDirection(SamSolve *solve, SamKept kept, Vec shear, const SamProduct *product,
-                                                   Vec offset);
+/* SamSolveGetTurn - ds - R(q) ds of direction.c, by the tried shear and displacement. Collective. */
+PETSC_INTERN PetscErrorCode SamSolveGetTurn(SamSolve *solve, Vec turn);
 /* SamSolveJudge - records in the step whether the last solve of a problem failed. Collective. */
 PETSC_INTERN PetscErrorCode SamSolveJudge(SamSolve *solve, SamBalanceKind kind);
-/* SamSolveRolling - the numbers of steady rolling, of the solved step (rolling.c). Collective. */
-PETSC_INTERN PetscErrorCode SamSolveRolling(SamSolve *solve);
-/* SamSolveSkipTangential - no shear, as the pressure is not right. Collective. */
-PETSC_INTERN PetscErrorCode SamSolveSkipTangential(SamSolve *solve);
 
-/* SamSolveCoupled - both problems of dissimilar bodies with friction (coupling.c). Collective. */
-PETSC_INTERN PetscErrorCode SamSolveCoupled(SamSolve *solve, const SamStepStart *start);
+/* ---- fixed-point iterations (fixedpoint.c) ---- */
 
 /*
-  SamMixing - Anderson's acceleration of a fixed-point iteration on fields: from the last arguments and results it makes
-  the next argument (mixing.c).
+  SamFixedPoint - the iteration x <- g(x) on a field with Anderson's acceleration. `pass` computes the result g(x) of
+  pass 1, 2 ... and says how it ended; the driver makes the next argument of it. All ranks end a pass alike.
 */
-#define SAM_MIXING_DEPTH 6
+typedef enum {
+  SAM_PASS_GOES_ON,  /* the next argument is made of this and the last results */
+  SAM_PASS_REPEATS,  /* the next argument is the same */
+  SAM_PASS_RESTARTS, /* the next argument is the last result, and the ones before count no longer */
+  SAM_PASS_SOLVED,   /* the argument is the solution */
+  SAM_PASS_FAILED    /* there is no result */
+} SamPassEnd;
 typedef struct {
-  SamGrid  grid;
-  PetscInt components, depth, count, newest;
-  Vec      result[SAM_MIXING_DEPTH], change[SAM_MIXING_DEPTH]; /* change: result - argument, where it counts */
-  double   products[SAM_MIXING_DEPTH][SAM_MIXING_DEPTH];       /* of the changes */
-} SamMixing;
-PETSC_INTERN PetscErrorCode SamMixingCreate(SamGrid grid, PetscInt components, SamMixing *mixing);
-PETSC_INTERN PetscErrorCode SamMixingDestroy(SamMixing *mixing);
+  PetscInt  components;  /* of the fields */
+  PetscInt  most;        /* passes */
+  PetscBool nonnegative; /* the argument is */
+  PetscErrorCode (*pass)(void *context, PetscInt pass, Vec result, SamPassEnd *end);
+} SamFixedPoint;
 /*
-  SamMixingNext - takes an argument and its result, fields of one component, and replaces the argument by the next one.
-  Their difference counts where `weight` is positive. Collective.
+  SamSolveFixedPoint - iterates from `argument` on; differences count where the tried pressure is positive. `end`: how the
+  last pass ended; SAM_PASS_GOES_ON: there have been too many. Collective.
 */
-PETSC_INTERN PetscErrorCode SamMixingNext(SamMixing *mixing, Vec weight, Vec result, Vec argument);
+PETSC_INTERN PetscErrorCode SamSolveFixedPoint(SamSolve *solve, const SamFixedPoint *iteration, void *context,
+                                               Vec argument, SamPassEnd *end);
+/*
+  SamSolveGetChange - the difference of a pass's result from its argument, relative to what the check compares it with:
+  the 2-norm over that of the shear, and `largest` (NULL: not wanted), the largest one. `unit`: what a shear of 1 Pa is
+  in units of the fields. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamSolveGetChange(SamSolve *solve, Vec argument, Vec result, PetscReal unit,
+                                              PetscReal *change, PetscReal *largest);
+
+/*
+  SamSolveDirection - the tangential problem with the direction of slip that the step has, to the tolerance `rtol`
+  (direction.c). Collective.
+  SamSolveBound - a bound of the shear, from the pressure and the last slip. Collective.
+  SamSolveShear - the tangential problem under the bound of the tried solution. A bound that follows the slip changes
+  with it; `rtol` is what both are solved to then (bound.c). Collective.
+  SamSolveCoupled - both problems of dissimilar bodies with friction (coupling.c). Collective.
+  SamSolveRolling - the numbers of steady rolling, of the solved step (rolling.c). Collective.
+*/
+PETSC_INTERN PetscErrorCode SamSolveDirection(SamSolve *solve, PetscBool has_shear, PetscReal rtol, SamEffort effort);
+PETSC_INTERN PetscErrorCode SamSolveBound(SamSolve *solve, Vec bound);
+PETSC_INTERN PetscErrorCode SamSolveShear(SamSolve *solve, PetscBool has_shear, PetscReal rtol, SamEffort effort);
+PETSC_INTERN PetscErrorCode SamSolveCoupled(SamSolve *solve);
+PETSC_INTERN PetscErrorCode SamSolveRolling(SamSolve *solve);
 
 #endif

@@ -1,5 +1,6 @@
 /*
-  Anderson's acceleration of a fixed-point iteration x <- g(x) on fields.
+  Fixed-point iterations x <- g(x) on fields with Anderson's acceleration: the driver of coupling.c, bound.c and
+  direction.c.
 
   The next x is sum t_i g(x_i) over the last iterates, with the t of sum 1 for which sum t_i (g(x_i) - x_i) is smallest.
   For a linear g that is what a Krylov method makes of it, so that an iteration with the eigenvalues +- i r, which
@@ -10,34 +11,22 @@
 #include "stepimpl.h"
 #include <math.h>
 
-#define DEPTH SAM_MIXING_DEPTH
+/* Last iterates that are kept, of one component. */
+#define DEPTH 6
 /* Eigenvalues of the scaled matrix of products below this are rounding. */
 #define LEAST 1e-10
 /* The most that the parts' sizes may add up to, as errors of the results grow by that. */
 #define MOST 10.0
 
-PetscErrorCode SamMixingCreate(SamGrid grid, PetscInt components, SamMixing *m)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscMemzero(m, sizeof(*m)));
-  m->grid       = grid;
-  m->components = components;
-  m->depth      = DEPTH / components;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamMixingDestroy(SamMixing *m)
-{
-  PetscFunctionBegin;
-  for (PetscInt k = 0; k < DEPTH; k++) {
-    PetscCall(VecDestroy(&m->result[k]));
-    PetscCall(VecDestroy(&m->change[k]));
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
+typedef struct {
+  SamGrid  grid;
+  PetscInt components, depth, count, newest;
+  Vec      result[DEPTH], change[DEPTH]; /* change: result - argument, where it counts */
+  double   products[DEPTH][DEPTH];       /* of the changes */
+} Mixing;
 
 /* Adds the newest result, and the products of its change with all others. */
-static PetscErrorCode Add(SamMixing *m, Vec weight, Vec result, Vec argument)
+static PetscErrorCode Add(Mixing *m, Vec weight, Vec result, Vec argument)
 {
   const PetscInt k = m->count < m->depth ? m->count : (m->newest + 1) % m->depth, cells = m->grid->cells,
                  nx = m->grid->nx, rows = m->components * m->grid->rows;
@@ -79,7 +68,7 @@ static PetscErrorCode Add(SamMixing *m, Vec weight, Vec result, Vec argument)
 }
 
 /* The parts t of all iterates, with the sum 1. */
-static void FindParts(const SamMixing *m, double t[DEPTH])
+static void FindParts(const Mixing *m, double t[DEPTH])
 {
   const PetscInt k = m->newest;
   double         A[DEPTH * DEPTH], b[DEPTH], x[DEPTH], unit[DEPTH];
@@ -120,7 +109,8 @@ static void FindParts(const SamMixing *m, double t[DEPTH])
   }
 }
 
-PetscErrorCode SamMixingNext(SamMixing *m, Vec weight, Vec result, Vec argument)
+/* Replaces the argument by the next one. Differences count where `weight` is positive. */
+static PetscErrorCode Next(Mixing *m, Vec weight, Vec result, Vec argument)
 {
   double t[DEPTH];
 
@@ -129,5 +119,60 @@ PetscErrorCode SamMixingNext(SamMixing *m, Vec weight, Vec result, Vec argument)
   FindParts(m, t);
   PetscCall(VecSet(argument, 0));
   for (PetscInt l = 0; l < m->count; l++) PetscCall(VecAXPY(argument, t[l], m->result[l]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode CutNegative(SamGrid grid, Vec field)
+{
+  double *values;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArray(field, &values));
+  for (PetscInt k = 0; k < grid->cells; k++) values[k] = PetscMax(values[k], 0);
+  PetscCall(VecRestoreArray(field, &values));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSolveFixedPoint(SamSolve *w, const SamFixedPoint *f, void *context, Vec argument, SamPassEnd *end)
+{
+  const SamGrid grid = w->task->grid;
+  Mixing        m    = {.grid = grid, .components = f->components, .depth = DEPTH / f->components};
+  Vec           result;
+
+  PetscFunctionBegin;
+  PetscCall(SamGridCreateVec(grid, f->components, &result));
+  *end = SAM_PASS_REPEATS;
+  for (PetscInt pass = 1; *end < SAM_PASS_SOLVED && pass <= f->most; pass++) {
+    *end = SAM_PASS_GOES_ON;
+    PetscCall((*f->pass)(context, pass, result, end));
+    if (*end == SAM_PASS_GOES_ON) PetscCall(Next(&m, w->s->pressure, result, argument));
+    if (*end == SAM_PASS_GOES_ON && f->nonnegative) PetscCall(CutNegative(grid, argument));
+    if (*end == SAM_PASS_RESTARTS) PetscCall(VecCopy(result, argument));
+    if (*end == SAM_PASS_RESTARTS) m.count = 0;
+  }
+  PetscCall(VecDestroy(&result));
+  for (PetscInt k = 0; k < DEPTH; k++) {
+    PetscCall(VecDestroy(&m.result[k]));
+    PetscCall(VecDestroy(&m.change[k]));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSolveGetChange(SamSolve *w, Vec argument, Vec result, PetscReal unit, PetscReal *change,
+                                 PetscReal *largest)
+{
+  const SamGrid grid = w->task->grid;
+  PetscReal     size, shear, bound;
+  Vec           difference;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(result, &difference));
+  PetscCall(VecWAXPY(difference, -1, argument, result));
+  PetscCall(SamGridNorm(grid, difference, NORM_2, &size));
+  if (largest) PetscCall(VecNorm(difference, NORM_INFINITY, largest));
+  PetscCall(VecDestroy(&difference));
+  PetscCall(SamGridNorm(grid, w->s->shear, NORM_2, &shear));
+  PetscCall(SamGridNorm(grid, w->s->bound, NORM_2, &bound));
+  *change = size > 0 ? size / unit / PetscMax(shear, SAM_SHEAR_FLOOR * bound) : 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

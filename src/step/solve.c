@@ -1,0 +1,99 @@
+/*
+  The solution of one load step: what all laws add to the separation and their limits, the normal problem and its
+  corrections, the bound of the shear, the tangential problem. Then the contact has the solution checked, and lets the
+  laws advance their tried state.
+
+  Similar materials: the pressure does not depend on the shear, so the normal and then the tangential problem solve the
+  step. Dissimilar materials: see coupling.c.
+*/
+#include "stepimpl.h"
+
+static PetscErrorCode Begin(const SamStepTask *task, SamStep *step, SamSolve *w)
+{
+  PetscFunctionBegin;
+  *w            = (SamSolve){.task = task, .s = task->s, .step = step, .kept = task->start.kept};
+  w->counts     = SamStateNumbers(task->state, task->counts, SAM_TRIED);
+  w->normal     = SamControlGetBalance(&w->s->control, SAM_BALANCE_NORMAL);
+  w->tangential = SamControlGetBalance(&w->s->control, SAM_BALANCE_TANGENTIAL);
+  for (PetscInt k = 0; k < 3; k++) {
+    const PetscInt n = SamComponentsOf[SAM_BALANCE_TANGENTIAL][k];
+
+    if (w->s->control.creep[n] && !task->traits.steady)
+      w->tangential.rigid[k] =
+        (w->task->before ? w->task->before->rigid[n] : 0) + SamControlRolled(&w->s->control) * w->s->control.value[n];
+  }
+  PetscCall(PetscArraycpy(w->rigid, task->start.rigid, 3));
+  PetscCall(SamSolutionCreateSeparation(task->problem, task->state, SAM_COMMITTED, &w->separation));
+  if (task->coupled || w->s->mid_step) PetscCall(SamGridCreateVec(task->grid, 2, &w->shear_product.field));
+  if (!w->task->coupled) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamGridCreateVec(task->grid, 1, &w->h));
+  PetscCall(SamGridCreateVec(task->grid, 1, &w->lift));
+  PetscCall(SamGridCreateVec(task->grid, 2, &w->pushed));
+  PetscCall(SamGridCreateVec(task->grid, 1, &w->pressure_product.field));
+  PetscCall(SamGridCreateVec(task->grid, 1, &w->previous_pressure));
+  PetscCall(SamGridCreateVec(task->grid, 2, &w->previous_shear));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode End(SamSolve *w)
+{
+  PetscFunctionBegin;
+  PetscCall(SamSolutionDestroySeparation(w->task->problem, &w->separation));
+  PetscCall(VecDestroy(&w->turn));
+  PetscCall(VecDestroy(&w->slip));
+  PetscCall(VecDestroy(&w->pushed));
+  PetscCall(VecDestroy(&w->lift));
+  PetscCall(VecDestroy(&w->h));
+  PetscCall(VecDestroy(&w->pressure_product.field));
+  PetscCall(VecDestroy(&w->shear_product.field));
+  PetscCall(VecDestroy(&w->previous_pressure));
+  PetscCall(VecDestroy(&w->previous_shear));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The bound, and the tangential problem with it, unless the normal one has failed. */
+static PetscErrorCode SolveShear(SamSolve *w, PetscBool has_shear)
+{
+  PetscReal rtol;
+
+  PetscFunctionBegin;
+  PetscCall(SamSolveBound(w, w->s->bound));
+  w->counts[SAM_COUNT_COUPLING] = 1;
+  if (w->step->status != SAM_STATUS_CONVERGED) {
+    PetscCall(SamSolveSkipTangential(w));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(SamSolverGetTolerances(SamTangentialAsSolver(w->task->tangential), &rtol, NULL));
+  PetscCall(SamSolveShear(w, has_shear, rtol, SAM_EFFORT_FULL));
+  PetscCall(SamSolveJudge(w, SAM_BALANCE_TANGENTIAL));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode SolveOnce(SamSolve *w)
+{
+  const SamStepStart *start = &w->task->start;
+
+  PetscFunctionBegin;
+  if (w->task->coupled) PetscCall(VecSet(w->h, 0));
+  PetscCall(SamSolveNormal(w, start->pressure, start->shear));
+  if (!w->task->same_pressure && !w->known_pressure) PetscCall(SamSolveJudge(w, SAM_BALANCE_NORMAL));
+  PetscCall(SolveShear(w, start->shear));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamStepSolve(const SamStepTask *task, SamStep *step)
+{
+  SamSolve  w;
+  PetscBool friction;
+
+  PetscFunctionBegin;
+  PetscCall(Begin(task, step, &w));
+  PetscCall(SamProblemHasFriction(task->problem, &friction));
+  if (task->coupled && friction)
+    PetscCall(SamSolveCoupled(&w));
+  else
+    PetscCall(SolveOnce(&w));
+  if (task->traits.steady) PetscCall(SamSolveRolling(&w));
+  PetscCall(End(&w));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,59 @@
+/* The solution of one load step, for the contact that takes the step. */
+#ifndef PETSAM_STEP_H
+#define PETSAM_STEP_H
+
+#include <petsam/contact.h>
+#include <petsam/private/solutionimpl.h>
+#include "recall.h"
+
+/* The numbers of the solvers, side by side in the state in this order. */
+enum {
+  SAM_COUNT_NORMAL,         /* iterations, applications, preconditions of the normal solver, */
+  SAM_COUNT_TANGENTIAL = 3, /* and of the tangential one */
+  SAM_COUNT_COUPLING   = 6,
+  SAM_COUNTS           = 7
+};
+
+/* SamStepStart - the guess from which a step is solved. */
+typedef struct {
+  PetscBool pressure, shear; /* whether the tried solution holds a guess of the pressure; of the shear */
+  double    rigid[3];        /* guess of the tangential rigid displacements (m, m, rad) */
+  SamKept   kept;            /* the same step one cycle before; NULL: none */
+} SamStepStart;
+
+/* SamStepTask - a step to be solved, and what it is solved with; all is borrowed. */
+typedef struct {
+  SamProblem                problem;
+  SamElasticity             elasticity; /* of the problem */
+  SamGrid                   grid;       /* of the problem */
+  SamElasticityTraits       traits;
+  SamNormal                 normal;
+  SamTangential             tangential;
+  SamState                  state;
+  const SamContactSettings *set;
+  SamSolution              *s;                /* the tried solution, with its control and tractions */
+  const SamSolution        *committed;        /* from which the step continues; NULL in the first step */
+  const SamSolution        *before;           /* the same if its slip is continued; else NULL */
+  PetscInt                  displacements[2]; /* fields in the state: u_z, u_t */
+  PetscInt                  counts, rolling;  /* numbers in the state: of the solvers, of steady rolling */
+  PetscObjectState          revision;         /* of the problem */
+  PetscBool                 coupled;          /* pressure and shear depend on each other */
+  PetscBool                 rolls;            /* in time */
+  PetscBool                 same_pressure;    /* the pressure is the committed one, and is not solved again */
+  SamStepStart              start;
+} SamStepTask;
+
+/*
+  SamStepSolve - solves the normal and the tangential problem of a step, in turn when they are coupled. Failures are
+  reported in the status of `step` (solve.c). Collective.
+*/
+PETSC_INTERN PetscErrorCode SamStepSolve(const SamStepTask *task, SamStep *step);
+/*
+  SamStepSetDisplacements - gives the tried solution its displacements, these two fields of the state. Called as late as
+  possible: in the first step they then use the memory that the solvers have freed. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamStepSetDisplacements(SamState state, const PetscInt fields[2], SamSolution *tried);
+/* SamStepDeclareRolling - declares the numbers of steady rolling, and returns the first (rolling.c). Collective. */
+PETSC_INTERN PetscErrorCode SamStepDeclareRolling(SamState state, PetscInt *first);
+
+#endif
