@@ -197,13 +197,6 @@ PetscErrorCode SamContactReset(SamContact c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamContactGetSteps(SamContact c, PetscInt *steps)
-{
-  PetscFunctionBegin;
-  *steps = (PetscInt)*SamStateNumbers(c->state, c->steps, SAM_COMMITTED);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* ---- by name ---- */
 
 PetscErrorCode SamContactHasField(SamContact c, const char name[], PetscBool *has)

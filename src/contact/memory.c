@@ -229,6 +229,13 @@ const SamSolution *SamContactBefore(SamContact c)
   return *SamStateNumbers(c->state, c->steps, SAM_COMMITTED) > 0 ? &c->generation[SAM_COMMITTED] : NULL;
 }
 
+PetscErrorCode SamContactGetSteps(SamContact c, PetscInt *steps)
+{
+  PetscFunctionBegin;
+  *steps = (PetscInt)*SamStateNumbers(c->state, c->steps, SAM_COMMITTED);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /*
   Whether the slip of a step is in the direction at mid step. A bound that follows the slip needs its own passes; of a
   step that rolls the shear before is that of other material.

@@ -5,8 +5,8 @@
   Algorithm, from the bound without slip on, or by that of the last pass of dissimilar bodies; a pass:
     1. The tangential problem with b, from the last shear on, gives q and s.
     2. If B(p, |s|) is b, up to a part of the tolerance, the step is solved.
-    3. Else Anderson's method makes the next b of this and the last passes (fixedpoint.c). Where the loads are too much for
-       that, the next b is B(p, |s|) itself.
+    3. Else Anderson's method makes the next b of this and the last passes (fixedpoint.c). Where the loads are too much
+       for that, the next b is B(p, |s|) itself.
   Passes without acceleration multiply the error by dB/ds times the displacement of the slip zone by a unit shear.
   Where friction falls faster than the bodies unload, the motion is unstable: the surfaces jump, and there need not be a
   solution nearby.

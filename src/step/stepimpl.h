@@ -66,8 +66,8 @@ typedef struct {
   PetscErrorCode (*pass)(void *context, PetscInt pass, Vec result, SamPassEnd *end);
 } SamFixedPoint;
 /*
-  SamSolveFixedPoint - iterates from `argument` on; differences count where the tried pressure is positive. `end`: how the
-  last pass ended; SAM_PASS_GOES_ON: there have been too many. Collective.
+  SamSolveFixedPoint - iterates from `argument` on; differences count where the tried pressure is positive. `end`: how
+  the last pass ended; SAM_PASS_GOES_ON: there have been too many. Collective.
 */
 PETSC_INTERN PetscErrorCode SamSolveFixedPoint(SamSolve *solve, const SamFixedPoint *iteration, void *context,
                                                Vec argument, SamPassEnd *end);

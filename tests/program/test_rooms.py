@@ -17,7 +17,7 @@ MOST = 6  # files of one folder in a circle
 LISTS = {"src/law/register.c"}
 # arrows and circles that are still to go
 UPWARD = {("src/io/stressfile.c", "src/evaluation/datasets.c")}
-LARGE = {"src/contact": 7, "src/evaluation": 7}
+LARGE = {"src/evaluation": 7}
 
 
 def rooms():
