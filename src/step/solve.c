@@ -1,7 +1,6 @@
 /*
-  The solution of one load step: what all laws add to the separation and their limits, the normal problem and its
-  corrections, the bound of the shear, the tangential problem. Then the contact has the solution checked, and lets the
-  laws advance their tried state.
+  The solution of one load step: the separation that all laws add to, the normal problem, the bound of the shear, the
+  tangential problem. Then the contact has the solution checked, and lets the laws advance their tried state.
 
   Similar materials: the pressure does not depend on the shear, so the normal and then the tangential problem solve the
   step. Dissimilar materials: see coupling.c.
