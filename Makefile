@@ -6,7 +6,7 @@
 PKG_CONFIG ?= pkg-config
 OPT        ?= -O3 -g
 WERROR     ?=
-NM         ?= nm
+READELF    ?= readelf
 prefix     ?= /usr/local
 PYTHON     ?= python3
 B          := build
@@ -78,9 +78,9 @@ $(B)/lib/libpetsam.a: $(LIB_OBJ)
 	$(say) AR $@
 	$(Q)rm -f $@ && $(AR) rcs $@ $^
 
-# the shared library exports what begins with Sam or petsam_, and none of gcc's names with a dot
+# the shared library exports what the headers declare by PETSC_EXTERN and not by PETSC_INTERN
 $(B)/lib/exports.map: $(B)/lib/libpetsam.a
-	$(Q){ echo '{ global:'; $(NM) -g --defined-only $< | sed -nE 's/^[0-9a-f]+ [A-Zi] ((Sam|petsam_)[A-Za-z0-9_]+)$$/  \1;/p'; echo 'local: *; };'; } > $@
+	$(Q){ echo '{ global:'; $(READELF) -sW $< | awk '($$4 == "FUNC" || $$4 == "OBJECT") && $$5 == "GLOBAL" && $$6 == "DEFAULT" && $$7 != "UND" && $$8 ~ /^(Sam|petsam_)[A-Za-z0-9_]+$$/ { print "  " $$8 ";" }'; echo 'local: *; };'; } > $@
 
 $(B)/lib/libpetsam.so: $(LIB_OBJ) $(B)/lib/exports.map
 	@mkdir -p $(@D)

@@ -24,26 +24,26 @@ typedef struct {
 } SamBalance;
 
 /* The components (SamComponent) of a kind of balance, in its order. */
-PETSC_EXTERN const PetscInt SamComponentsOf[2][3];
+PETSC_INTERN const PetscInt SamComponentsOf[2][3];
 /* SamControlGetBalance - the components of one kind of a control, as the solvers take them. Not collective. */
 PETSC_EXTERN SamBalance SamControlGetBalance(const SamControl *control, SamBalanceKind kind);
 
 /* SamBalanceGetLoads - the three loads that a field of traction (1 or 2 components, Pa) carries. Collective. */
-PETSC_EXTERN PetscErrorCode SamBalanceGetLoads(SamGrid grid, SamBalanceKind kind, Vec traction, PetscReal loads[3]);
+PETSC_INTERN PetscErrorCode SamBalanceGetLoads(SamGrid grid, SamBalanceKind kind, Vec traction, PetscReal loads[3]);
 
 /*
   SamBalanceLever - whether a pressure on this grid can balance a normal load under force control: the lever arms
   (My/N, -Mx/N) must lie among the cell centres. Otherwise `message` (of that size) names the load and the limit. Also
   false for moments without N. True when N is displacement-controlled.
 */
-PETSC_EXTERN PetscErrorCode SamBalanceLever(SamGrid grid, const SamBalance *balance, char message[], size_t size,
+PETSC_INTERN PetscErrorCode SamBalanceLever(SamGrid grid, const SamBalance *balance, char message[], size_t size,
                                             PetscBool *possible);
 
 /*
   SamBalanceCapacity - whether pressures of at most `limit` (Pa) on this grid can carry the normal load under force
   control, and with it each of the moments for itself. Otherwise `message` (of that size) names the load and the limit.
 */
-PETSC_EXTERN PetscErrorCode SamBalanceCapacity(SamGrid grid, const SamBalance *balance, PetscReal limit, char message[],
+PETSC_INTERN PetscErrorCode SamBalanceCapacity(SamGrid grid, const SamBalance *balance, PetscReal limit, char message[],
                                                size_t size, PetscBool *possible);
 
 /*
@@ -52,7 +52,7 @@ PETSC_EXTERN PetscErrorCode SamBalanceCapacity(SamGrid grid, const SamBalance *b
   (the kinematic limit theorem). Infinite without a load. If not NULL, `shear` (Pa, two components) becomes that of
   sliding, which carries that many times the loads. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamBalanceSlideLimit(SamGrid grid, const SamBalance *balance, Vec bound, PetscReal *factor,
+PETSC_INTERN PetscErrorCode SamBalanceSlideLimit(SamGrid grid, const SamBalance *balance, Vec bound, PetscReal *factor,
                                                  Vec shear);
 
 #endif

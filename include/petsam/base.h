@@ -51,7 +51,7 @@ typedef struct {
   const char *prefix; /* without dash; NULL: none */
 } SamOptions;
 /* SamOptionsPrefix - the prefix, an empty text for none. Not collective. */
-PETSC_EXTERN const char *SamOptionsPrefix(const SamOptions *from);
+PETSC_INTERN const char *SamOptionsPrefix(const SamOptions *from);
 
 /*
   The functions that read options. Each looks up `-<prefix><name>` in PETSc's options database, and checks that the
@@ -74,15 +74,15 @@ PETSC_EXTERN PetscErrorCode SamOptionsHeading(const SamOptions *from, const char
 /* SamOptionsReal, SamOptionsRealPair - one number, or two in the range separated by a comma; one stands for both. */
 PETSC_EXTERN PetscErrorCode SamOptionsReal(const SamOptions *from, const char name[], const char help[], SamRange range,
                                            PetscReal *value, PetscBool *set);
-PETSC_EXTERN PetscErrorCode SamOptionsRealPair(const SamOptions *from, const char name[], const char help[],
+PETSC_INTERN PetscErrorCode SamOptionsRealPair(const SamOptions *from, const char name[], const char help[],
                                                SamRange range, PetscReal value[2], PetscBool *set);
 /* SamOptionsReals - a list of up to `most` numbers in the range, and how many; 0: the option is absent. */
-PETSC_EXTERN PetscErrorCode SamOptionsReals(const SamOptions *from, const char name[], const char help[],
+PETSC_INTERN PetscErrorCode SamOptionsReals(const SamOptions *from, const char name[], const char help[],
                                             SamRange range, PetscInt most, PetscReal values[], PetscInt *count);
 /* SamOptionsInt, SamOptionsIntPair - the same for whole numbers from `least` on. */
 PETSC_EXTERN PetscErrorCode SamOptionsInt(const SamOptions *from, const char name[], const char help[], PetscInt least,
                                           PetscInt *value, PetscBool *set);
-PETSC_EXTERN PetscErrorCode SamOptionsIntPair(const SamOptions *from, const char name[], const char help[],
+PETSC_INTERN PetscErrorCode SamOptionsIntPair(const SamOptions *from, const char name[], const char help[],
                                               PetscInt least, PetscInt value[2], PetscBool *set);
 /* SamOptionsBool - 1, true, yes, on, or 0, false, no, off; the option without a value means true. */
 PETSC_EXTERN PetscErrorCode SamOptionsBool(const SamOptions *from, const char name[], const char help[],
@@ -99,7 +99,7 @@ PETSC_EXTERN PetscErrorCode SamOptionsFile(const SamOptions *from, const char na
                                            size_t size, PetscBool *set);
 PETSC_EXTERN PetscErrorCode SamOptionsWord(const SamOptions *from, const char name[], const char help[],
                                            const char words[], char value[], size_t size, PetscBool *set);
-PETSC_EXTERN PetscErrorCode SamOptionsWords(const SamOptions *from, const char name[], const char help[],
+PETSC_INTERN PetscErrorCode SamOptionsWords(const SamOptions *from, const char name[], const char help[],
                                             const char words[], char value[], size_t size, PetscBool *set);
 /* SamOptionsEnum - one of the words of a NULL-terminated list; `value` is its index. */
 PETSC_EXTERN PetscErrorCode SamOptionsEnum(const SamOptions *from, const char name[], const char help[],
@@ -108,7 +108,7 @@ PETSC_EXTERN PetscErrorCode SamOptionsEnum(const SamOptions *from, const char na
   SamOptionsHasViewer - whether a viewer option is given; the viewer itself is created where it is used. Only ASCII
   viewers are accepted. The option then counts as known, and the help lists it.
 */
-PETSC_EXTERN PetscErrorCode SamOptionsHasViewer(const SamOptions *from, const char name[], const char help[],
+PETSC_INTERN PetscErrorCode SamOptionsHasViewer(const SamOptions *from, const char name[], const char help[],
                                                 PetscBool *set);
 /*
   SamOptionsPlugins - loads the shared libraries that -plugin names, and calls the function

@@ -75,8 +75,8 @@ typedef struct {
   SamStepJudge - sets a step's status and message from the errors in step->check. An error that is NaN fails. A status
   other than CONVERGED that the step already has is kept. Not collective: all ranks have the same numbers.
 */
-PETSC_EXTERN PetscErrorCode SamStepJudge(SamStep *step, const SamCheckLimits *limits);
+PETSC_INTERN PetscErrorCode SamStepJudge(SamStep *step, const SamCheckLimits *limits);
 /* SamStepFail - sets status and message unless the step has failed already: later failures follow from the first. */
-PETSC_EXTERN PetscErrorCode SamStepFail(SamStep *step, SamStatus status, const char message[]);
+PETSC_INTERN PetscErrorCode SamStepFail(SamStep *step, SamStatus status, const char message[]);
 
 #endif

@@ -79,18 +79,18 @@ PETSC_EXTERN PetscErrorCode SamContactSetUp(SamContact contact);
   both of these, a distance on bodies that do not roll or beyond the grid's width. `where`: "file, line 3: " or "", for
   the message. Not collective. Errors: SAM_ERR_USER.
 */
-PETSC_EXTERN PetscErrorCode SamContactCheckRolling(SamContact contact, const SamControl *control, const char where[]);
+PETSC_INTERN PetscErrorCode SamContactCheckRolling(SamContact contact, const SamControl *control, const char where[]);
 /*
   SamContactOfferCondition - makes the k-th condition (control.h) a number of each step, and with a rolled distance the
   creepages. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamContactOfferCondition(SamContact contact, PetscInt k);
+PETSC_INTERN PetscErrorCode SamContactOfferCondition(SamContact contact, PetscInt k);
 /*
   The objects of a contact, borrowed. Not collective, but for SamContactGetState(), which lets the laws declare what
   they remember. That state is for reading, and for what a program offers of its own.
 */
 PETSC_EXTERN PetscErrorCode SamContactGetState(SamContact contact, SamState *state);
-PETSC_EXTERN PetscErrorCode SamContactGetProblem(SamContact contact, SamProblem *problem);
+PETSC_INTERN PetscErrorCode SamContactGetProblem(SamContact contact, SamProblem *problem);
 PETSC_EXTERN PetscErrorCode SamContactGetGrid(SamContact contact, SamGrid *grid);
 PETSC_EXTERN PetscErrorCode SamContactGetNormal(SamContact contact, SamNormal *normal);
 PETSC_EXTERN PetscErrorCode SamContactGetTangential(SamContact contact, SamTangential *tangential);
@@ -137,7 +137,7 @@ PETSC_EXTERN PetscErrorCode SamContactGetNumber(SamContact contact, const char n
              after, as the dissipated energy
   Collective. Errors: PETSC_ERR_ORDER without a tried solution.
 */
-PETSC_EXTERN PetscErrorCode SamContactComputeFriction(SamContact contact, Vec path, Vec pressed, Vec work);
+PETSC_INTERN PetscErrorCode SamContactComputeFriction(SamContact contact, Vec path, Vec pressed, Vec work);
 
 /*
   SamContactViewLaws - prints the laws' reports of the last step. Collective.
@@ -145,14 +145,14 @@ PETSC_EXTERN PetscErrorCode SamContactComputeFriction(SamContact contact, Vec pa
   becomes the number of this law. Empty: no law has one. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamContactViewLaws(SamContact contact, PetscViewer viewer);
-PETSC_EXTERN PetscErrorCode SamContactAdvise(SamContact contact, PetscInt *k, char text[], size_t size);
+PETSC_INTERN PetscErrorCode SamContactAdvise(SamContact contact, PetscInt *k, char text[], size_t size);
 
 /*
   SamContactFindEdge - an edge of that solution (edges.h), with its points: by the reconstruction, or by a law that
   corrects for it. `point` (NULL: not wanted), of one component: the square of what vanishes at the edge (Pa2), at the
   cells' centres: of the pressure, or, for the stick zone, of what it exceeds |q|/mu by. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamContactFindEdge(SamContact contact, SamEdgeOf which, Vec point, SamEdge *edge);
+PETSC_INTERN PetscErrorCode SamContactFindEdge(SamContact contact, SamEdgeOf which, Vec point, SamEdge *edge);
 
 /*
   SamContactSetState - the committed state becomes that of another contact of the same problem, or one that was read
@@ -164,8 +164,8 @@ PETSC_EXTERN PetscErrorCode SamContactFindEdge(SamContact contact, SamEdgeOf whi
 */
 PETSC_EXTERN PetscErrorCode SamContactSetState(SamContact contact, SamState state, PetscBool gap_is_current);
 PETSC_EXTERN PetscErrorCode SamContactReset(SamContact contact);
-PETSC_EXTERN PetscErrorCode SamContactGetSteps(SamContact contact, PetscInt *steps);
+PETSC_INTERN PetscErrorCode SamContactGetSteps(SamContact contact, PetscInt *steps);
 /* SamContactIsGapCurrent - whether the committed pressure was solved with the problem's gap of now. Collective. */
-PETSC_EXTERN PetscErrorCode SamContactIsGapCurrent(SamContact contact, PetscBool *current);
+PETSC_INTERN PetscErrorCode SamContactIsGapCurrent(SamContact contact, PetscBool *current);
 
 #endif

@@ -34,8 +34,8 @@ typedef enum { SAM_EDGE_CONTACT, SAM_EDGE_STICK } SamEdgeOf;
   it differs by from w is the layer of a smooth edge; and so for its eight neighbours. Rough surfaces and zones of a few
   cells fail that, and are counted.
 */
-PETSC_EXTERN PetscErrorCode SamEdgeReconstruct(SamGrid grid, Vec w, Vec point, SamEdge *edge);
+PETSC_INTERN PetscErrorCode SamEdgeReconstruct(SamGrid grid, Vec w, Vec point, SamEdge *edge);
 /* SamEdgeDestroy - frees the points. Not collective. */
-PETSC_EXTERN PetscErrorCode SamEdgeDestroy(SamEdge *edge);
+PETSC_INTERN PetscErrorCode SamEdgeDestroy(SamEdge *edge);
 
 #endif

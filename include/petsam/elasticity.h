@@ -55,7 +55,7 @@ PETSC_EXTERN PetscErrorCode SamElasticityCreate(SamGrid grid, const SamPair *pai
   relative to the rolling speed, and creepages stand for tangential rigid displacements. References the bodies.
   Collective. Errors: PETSC_ERR_SUP for periodic bodies.
 */
-PETSC_EXTERN PetscErrorCode SamElasticityCreateRolling(SamElasticity bodies, SamElasticity *rolling);
+PETSC_INTERN PetscErrorCode SamElasticityCreateRolling(SamElasticity bodies, SamElasticity *rolling);
 /*
   SamElasticityAddCompliances - replaces the bodies by finite ones, whose compliances the files of -body1_compliance and
   -body2_compliance add (elasticity/compliance/); without these options does nothing. Collective. Errors: SAM_ERR_USER,
@@ -63,8 +63,8 @@ PETSC_EXTERN PetscErrorCode SamElasticityCreateRolling(SamElasticity bodies, Sam
   SamElasticityAddCases - adds the relative displacements (m) by load cases of the bodies to a field: normal ones, one
   component, or tangential ones, two. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamElasticityAddCompliances(SamElasticity *elasticity, const SamOptions *from);
-PETSC_EXTERN PetscErrorCode SamElasticityAddCases(SamElasticity elasticity, const SamControl *control,
+PETSC_INTERN PetscErrorCode SamElasticityAddCompliances(SamElasticity *elasticity, const SamOptions *from);
+PETSC_INTERN PetscErrorCode SamElasticityAddCases(SamElasticity elasticity, const SamControl *control,
                                                   PetscBool tangential, Vec field);
 /*
   SamElasticitySetType - forgets the coarser operators and the parts. Collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for a
@@ -78,7 +78,7 @@ PETSC_EXTERN PetscErrorCode SamElasticityGetType(SamElasticity elasticity, SamEl
 */
 PETSC_EXTERN PetscErrorCode SamElasticityRegister(const char name[], PetscErrorCode (*create)(SamElasticity));
 /* SamElasticityGetTypes - the registered types as a text: a, b or c. Not collective. */
-PETSC_EXTERN PetscErrorCode SamElasticityGetTypes(char types[], size_t size);
+PETSC_INTERN PetscErrorCode SamElasticityGetTypes(char types[], size_t size);
 /* SamElasticitySetOptionsPrefix - stands before the names of options; NULL: none. */
 PETSC_EXTERN PetscErrorCode SamElasticitySetOptionsPrefix(SamElasticity elasticity, const char prefix[]);
 /*
@@ -88,7 +88,7 @@ PETSC_EXTERN PetscErrorCode SamElasticitySetOptionsPrefix(SamElasticity elastici
 PETSC_EXTERN PetscErrorCode SamElasticitySetFromOptions(SamElasticity elasticity);
 /* SamElasticitySetUp - gets ready for products, which call it themselves; calling it again does nothing. Collective. */
 PETSC_EXTERN PetscErrorCode SamElasticitySetUp(SamElasticity elasticity);
-PETSC_EXTERN PetscErrorCode SamElasticityReference(SamElasticity elasticity);
+PETSC_INTERN PetscErrorCode SamElasticityReference(SamElasticity elasticity);
 PETSC_EXTERN PetscErrorCode SamElasticityDestroy(SamElasticity *elasticity);
 
 PETSC_EXTERN PetscErrorCode SamElasticityGetGrid(SamElasticity elasticity, SamGrid *grid);        /* borrowed */
@@ -97,7 +97,7 @@ PETSC_EXTERN PetscErrorCode SamElasticityGetTraits(SamElasticity elasticity, Sam
 /*
   SamElasticityPlaneFromOptions - whether -elasticity names a plane type, for the grid. Not collective.
 */
-PETSC_EXTERN PetscErrorCode SamElasticityPlaneFromOptions(const SamOptions *from, PetscBool *plane);
+PETSC_INTERN PetscErrorCode SamElasticityPlaneFromOptions(const SamOptions *from, PetscBool *plane);
 /*
   SamElasticityAddParameters - appends what defines the bodies, by the names of its options: elastic constants, type,
   and what the type adds. Not collective.
@@ -105,7 +105,7 @@ PETSC_EXTERN PetscErrorCode SamElasticityPlaneFromOptions(const SamOptions *from
   messages. Collective. Errors: SAM_ERR_FILE for a type that is not registered, and for parameters that
   are missing or make no bodies.
 */
-PETSC_EXTERN PetscErrorCode SamElasticityAddParameters(SamElasticity elasticity, SamParameters *parameters);
+PETSC_INTERN PetscErrorCode SamElasticityAddParameters(SamElasticity elasticity, SamParameters *parameters);
 PETSC_EXTERN PetscErrorCode SamElasticityCreateFromParameters(SamGrid grid, const SamParameters *parameters,
                                                               const char source[], SamElasticity *elasticity);
 /*
@@ -113,12 +113,12 @@ PETSC_EXTERN PetscErrorCode SamElasticityCreateFromParameters(SamGrid grid, cons
   grid is too small to be halved (fewer than 32 cells in a direction, but for one row). Made at the first call.
   Collective.
 */
-PETSC_EXTERN PetscErrorCode SamElasticityGetCoarse(SamElasticity elasticity, SamElasticity *coarse,
+PETSC_INTERN PetscErrorCode SamElasticityGetCoarse(SamElasticity elasticity, SamElasticity *coarse,
                                                    SamTransfer *transfer);
 /*
   SamElasticityTrim - frees the transforms' memory if it is large, until the next product. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamElasticityTrim(SamElasticity elasticity);
+PETSC_INTERN PetscErrorCode SamElasticityTrim(SamElasticity elasticity);
 
 /*
   The operator on a part of the grid; all collective, the window and the operator borrowed until another part is chosen,
@@ -130,12 +130,12 @@ PETSC_EXTERN PetscErrorCode SamElasticityTrim(SamElasticity elasticity);
   SamElasticitySetPart - takes exactly these cells; n = 0: none.
   SamElasticityGetPartPlace - the cells of the part in use, n = 0 for none. Not collective.
 */
-PETSC_EXTERN PetscErrorCode SamElasticityChoosePart(SamElasticity elasticity, const PetscInt first[2],
+PETSC_INTERN PetscErrorCode SamElasticityChoosePart(SamElasticity elasticity, const PetscInt first[2],
                                                     const PetscInt n[2], PetscBool keep, SamWindow *window,
                                                     SamElasticity *part);
-PETSC_EXTERN PetscErrorCode SamElasticitySetPart(SamElasticity elasticity, const PetscInt first[2],
+PETSC_INTERN PetscErrorCode SamElasticitySetPart(SamElasticity elasticity, const PetscInt first[2],
                                                  const PetscInt n[2]);
-PETSC_EXTERN PetscErrorCode SamElasticityGetPartPlace(SamElasticity elasticity, PetscInt first[2], PetscInt n[2]);
+PETSC_INTERN PetscErrorCode SamElasticityGetPartPlace(SamElasticity elasticity, PetscInt first[2], PetscInt n[2]);
 
 /*
   Products, all collective. One-component fields p, u_z; two-component fields q, u_t. Input and output may be the same.
@@ -151,9 +151,9 @@ PETSC_EXTERN PetscErrorCode SamElasticityApplyTangentialToNormal(SamElasticity e
   product. For directions and corrections, whose product is small against what it is added to. Scale so that input and
   result are of the order of one: floats end at 1e-38. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamElasticityApplyNormalSingle(SamElasticity elasticity, double factor, const float p[],
+PETSC_INTERN PetscErrorCode SamElasticityApplyNormalSingle(SamElasticity elasticity, double factor, const float p[],
                                                            float u_z[]);
-PETSC_EXTERN PetscErrorCode SamElasticityApplyTangentialSingle(SamElasticity elasticity, double factor, const float q[],
+PETSC_INTERN PetscErrorCode SamElasticityApplyTangentialSingle(SamElasticity elasticity, double factor, const float q[],
                                                                float u_t[]);
 
 /*
@@ -162,16 +162,16 @@ PETSC_EXTERN PetscErrorCode SamElasticityApplyTangentialSingle(SamElasticity ela
   the longest wave. For periodic bodies the same is the inverse itself but for the mean. Computed in single precision;
   `factor` times the result in the functions of float arrays, which see above. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamElasticityPreconditionNormalSingle(SamElasticity elasticity, double factor,
+PETSC_INTERN PetscErrorCode SamElasticityPreconditionNormalSingle(SamElasticity elasticity, double factor,
                                                                   const float residual[], float p[]);
-PETSC_EXTERN PetscErrorCode SamElasticityPreconditionTangentialSingle(SamElasticity elasticity, double factor,
+PETSC_INTERN PetscErrorCode SamElasticityPreconditionTangentialSingle(SamElasticity elasticity, double factor,
                                                                       const float residual[], float q[]);
 /*
   For the tangential part of bodies in steady rolling where they slip, A being the operator of
   SamElasticityCreateRolling(): of h A + 1 - h, h = SAM_SLIP_WEIGHT, before the sweep along x (halfspace.c). Collective.
 */
 #define SAM_SLIP_WEIGHT 0.5
-PETSC_EXTERN PetscErrorCode SamElasticityPreconditionSlipSingle(SamElasticity elasticity, double factor,
+PETSC_INTERN PetscErrorCode SamElasticityPreconditionSlipSingle(SamElasticity elasticity, double factor,
                                                                 const float residual[], float q[]);
 
 /*

@@ -23,7 +23,7 @@ typedef enum {
   SAM_QUANTITIES
 } SamQuantity;
 /* SamQuantityComponents - number of the components of a quantity. Not collective. */
-PETSC_EXTERN PetscInt SamQuantityComponents(SamQuantity quantity);
+PETSC_INTERN PetscInt SamQuantityComponents(SamQuantity quantity);
 
 /*
   SamFatigueAverage - of which stress fatigue parameters are computed, by the theory of critical distances: at a point

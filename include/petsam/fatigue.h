@@ -33,7 +33,7 @@ typedef struct {
   Sources: Smith, Watson and Topper 1970, J. Mater. 5, 767; Fatemi and Socie 1988, Fatigue Fract. Eng. Mater. Struct.
   11, 149; Papadopoulos 1997, Int. J. Fatigue 19, 219 (measures of the shear's path).
 */
-PETSC_EXTERN PetscErrorCode SamFatigueCompute(SamFatigueParameter parameter, const SamFatigueConstants *constants,
+PETSC_INTERN PetscErrorCode SamFatigueCompute(SamFatigueParameter parameter, const SamFatigueConstants *constants,
                                               PetscInt states, const double stress[], double *value, double normal[3]);
 
 /*
@@ -43,7 +43,7 @@ PETSC_EXTERN PetscErrorCode SamFatigueCompute(SamFatigueParameter parameter, con
   (Pa, m) in state k; the last state is followed by the first. Not collective. Source: Ruiz, Boddington and Chen 1984,
   Exp. Mech. 24, 208.
 */
-PETSC_EXTERN void SamFatigueRuiz(PetscInt states, const double stress[], const double shear[], const double slip[],
+PETSC_INTERN void SamFatigueRuiz(PetscInt states, const double stress[], const double shear[], const double slip[],
                                  double *d1, double *d2);
 
 /*
@@ -51,6 +51,6 @@ PETSC_EXTERN void SamFatigueRuiz(PetscInt states, const double stress[], const d
   radius, and its centre. Not collective. Source: Gaertner 1999, Fast and robust smallest enclosing balls (ESA).
 */
 #define SAM_BALL_DIMENSION 5
-PETSC_EXTERN double SamSmallestBall(PetscInt dimension, PetscInt n, const double points[], double center[]);
+PETSC_INTERN double SamSmallestBall(PetscInt dimension, PetscInt n, const double points[], double center[]);
 
 #endif

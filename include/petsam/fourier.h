@@ -68,30 +68,30 @@ typedef struct {
 } SamFourierFilter;
 
 /* SamFourierFastLength - an even length >= n for which FFTW is fast. Not collective. */
-PETSC_EXTERN PetscInt SamFourierFastLength(PetscInt n);
+PETSC_INTERN PetscInt SamFourierFastLength(PetscInt n);
 /* SamFourierCreate - NULL stands for the default settings. Plans are made when they are first needed. Collective. */
-PETSC_EXTERN PetscErrorCode SamFourierCreate(SamGrid grid, SamFourierPeriod period, const SamFourierSettings *settings,
+PETSC_INTERN PetscErrorCode SamFourierCreate(SamGrid grid, SamFourierPeriod period, const SamFourierSettings *settings,
                                              SamFourier *fourier);
-PETSC_EXTERN PetscErrorCode SamFourierDestroy(SamFourier *fourier);
+PETSC_INTERN PetscErrorCode SamFourierDestroy(SamFourier *fourier);
 /*
   SamFourierTrim - frees the memory that all transforms on the communicator share, if it is large, until one of them
   needs it again. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamFourierTrim(SamFourier fourier);
+PETSC_INTERN PetscErrorCode SamFourierTrim(SamFourier fourier);
 /* The periods hx, hy, without the doubling of padded mode. */
-PETSC_EXTERN PetscErrorCode SamFourierGetPeriods(SamFourier fourier, PetscInt *hx, PetscInt *hy);
+PETSC_INTERN PetscErrorCode SamFourierGetPeriods(SamFourier fourier, PetscInt *hx, PetscInt *hy);
 
 /*
   SamFourierApply - out = inverse transform of filter(transform of in). Fields are local arrays of (rows, nx); `out` may
   be the same arrays as `in`. Transforms are not normalised: the filter brings in 1/(period in x * period in y).
   Collective.
 */
-PETSC_EXTERN PetscErrorCode SamFourierApply(SamFourier fourier, const SamFourierFilter *filter,
+PETSC_INTERN PetscErrorCode SamFourierApply(SamFourier fourier, const SamFourierFilter *filter,
                                             const double *const in[], double *const out[]);
 /*
   SamFourierApplySingle - the same in single precision, at half the cost, for what is refined afterwards. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamFourierApplySingle(SamFourier fourier, const SamFourierFilter *filter,
+PETSC_INTERN PetscErrorCode SamFourierApplySingle(SamFourier fourier, const SamFourierFilter *filter,
                                                   const float *const in[], float *const out[]);
 
 /*
@@ -111,9 +111,9 @@ typedef void (*SamKernelRows)(PetscInt j, PetscInt count, double *const values[]
   SamKernelsCreate - tabulates and transforms n kernels, at most SAM_FOURIER_FIELDS, whose values are found together;
   odd[k]: whether the k-th one is odd in x and in y. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamKernelsCreate(SamFourier fourier, PetscInt n, const PetscBool odd[][2],
+PETSC_INTERN PetscErrorCode SamKernelsCreate(SamFourier fourier, PetscInt n, const PetscBool odd[][2],
                                              SamKernelRows rows, const void *context, SamKernel kernels[]);
-PETSC_EXTERN PetscErrorCode SamKernelDestroy(SamKernel *kernel);
+PETSC_INTERN PetscErrorCode SamKernelDestroy(SamKernel *kernel);
 
 /*
   SamConvolve - out[o] = sum_i scale[o][i] * (kernel[o][i] convolved with in[i]), exact but for rounding. A NULL kernel
@@ -126,14 +126,14 @@ typedef struct {
   double    scale[SAM_FOURIER_FIELDS][SAM_FOURIER_FIELDS];
 } SamKernelMatrix;
 
-PETSC_EXTERN PetscErrorCode SamConvolve(SamFourier fourier, const SamKernelMatrix *matrix, const double *const in[],
+PETSC_INTERN PetscErrorCode SamConvolve(SamFourier fourier, const SamKernelMatrix *matrix, const double *const in[],
                                         double *const out[]);
 /*
   SamConvolveSingle - `factor` times the same in single precision, for one field by an even kernel or two fields by a
   symmetric matrix whose off-diagonal kernel is odd in x and in y. `factor` brings the result to a size that floats
   hold. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamConvolveSingle(SamFourier fourier, const SamKernelMatrix *matrix, double factor,
+PETSC_INTERN PetscErrorCode SamConvolveSingle(SamFourier fourier, const SamKernelMatrix *matrix, double factor,
                                               const float *const in[], float *const out[]);
 
 #endif

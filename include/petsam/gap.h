@@ -56,7 +56,7 @@ PETSC_EXTERN PetscErrorCode SamGapSetFile(SamGap gap, PetscBool rough, const cha
   -grid_size; a width of 0, which the file does not give, is an error unless there is -grid_size. Collective. Errors:
   SAM_ERR_USER, SAM_ERR_FILE.
 */
-PETSC_EXTERN PetscErrorCode SamGapGetFileGrid(SamGap gap, PetscInt n[2], PetscReal width[2], PetscReal center[2]);
+PETSC_INTERN PetscErrorCode SamGapGetFileGrid(SamGap gap, PetscInt n[2], PetscReal width[2], PetscReal center[2]);
 /*
   SamGapSetFromOptions - reads -gap_type (required unless a type has been set, or there is -gap_file, whose type is
   `file`), the options of that type, required unless they have been set or have a default, and those of a roughness.
@@ -80,7 +80,7 @@ PETSC_EXTERN PetscReal SamGapGetHeight(SamGap gap, PetscReal x, PetscReal y);
   SamGapGetParameters - the type, and the numbers that define the shape: how many, their names (those of the options,
   without dash and prefix) and values. All borrowed; NULL for one that is not wanted. Not collective.
 */
-PETSC_EXTERN PetscErrorCode SamGapGetParameters(SamGap gap, SamGapType *type, PetscInt *count,
+PETSC_INTERN PetscErrorCode SamGapGetParameters(SamGap gap, SamGapType *type, PetscInt *count,
                                                 const char *const **names, const PetscReal **values);
 /*
   SamGapEstimateContact - half widths (m) along x and y of the contact of the shape without friction, by a closed-form
@@ -88,13 +88,13 @@ PETSC_EXTERN PetscErrorCode SamGapGetParameters(SamGap gap, SamGapType *type, Pe
   approach (m). Infinite along the axis of a cylinder; `known`: false for types without such a solution, and with a
   roughness. Not collective.
 */
-PETSC_EXTERN PetscErrorCode SamGapEstimateContact(SamGap gap, PetscBool force, PetscReal value, PetscReal half[2],
+PETSC_INTERN PetscErrorCode SamGapEstimateContact(SamGap gap, PetscBool force, PetscReal value, PetscReal half[2],
                                                   PetscBool *known);
 /*
   SamGapEstimateLine - the half width (m) along x of the contact in plane strain under a force per length over E* (m),
   of shapes that are even in x; 0: there is none. `known` as above. Not collective.
 */
-PETSC_EXTERN PetscErrorCode SamGapEstimateLine(SamGap gap, PetscReal value, PetscReal *half, PetscBool *known);
+PETSC_INTERN PetscErrorCode SamGapEstimateLine(SamGap gap, PetscReal value, PetscReal *half, PetscBool *known);
 /*
   SamGapGetSteepness - the largest ratio of a contact's half widths (m, along x and y) to a radius of curvature, this
   radius (m) and the name of the option (without dash and prefix) that gives it; 0 and NULL for types without radii.
@@ -105,7 +105,7 @@ typedef struct {
   const char *option;
   PetscBool   concave;
 } SamGapSteepness;
-PETSC_EXTERN PetscErrorCode SamGapGetSteepness(SamGap gap, const PetscReal half[2], SamGapSteepness *steepness);
+PETSC_INTERN PetscErrorCode SamGapGetSteepness(SamGap gap, const PetscReal half[2], SamGapSteepness *steepness);
 /*
   SamGapCheckPlane - refuses a shape that is not the same along y, of which a section would not tell. Collective.
   Errors: SAM_ERR_USER with the option that bends it.

@@ -33,30 +33,30 @@ PETSC_EXTERN PetscErrorCode SamHistoryClaimOption(void);
   (NULL: all are given for this run). Collective. Errors: SAM_ERR_USER naming the option, or the file and line;
   SAM_ERR_FILE for a file that cannot be read.
 */
-PETSC_EXTERN PetscErrorCode SamHistoryCreateFromOptions(const SamOptions *from, const struct _n_SamArguments *arguments,
+PETSC_INTERN PetscErrorCode SamHistoryCreateFromOptions(const SamOptions *from, const struct _n_SamArguments *arguments,
                                                         SamHistory *history);
 /*
   SamHistoryCreate - the same of rows in memory, `values` (rows, columns): `columns` names them, with commas, as the
   first line of a file. `constant`: the values of what has no column, as bulk stresses. `before`: what the change to the
   first row begins from; NULL: nothing, at time 0. Collective. Errors: SAM_ERR_USER naming the history's row.
 */
-PETSC_EXTERN PetscErrorCode SamHistoryCreate(MPI_Comm comm, const SamControl *constant, const SamControl *before,
+PETSC_INTERN PetscErrorCode SamHistoryCreate(MPI_Comm comm, const SamControl *constant, const SamControl *before,
                                              const char columns[], PetscInt rows, const double values[],
                                              PetscInt increments, SamHistory *history);
 /* SamHistoryReadIncrements - reads -steps. Collective. Errors: SAM_ERR_USER. */
-PETSC_EXTERN PetscErrorCode SamHistoryReadIncrements(const SamOptions *from, PetscInt *increments);
+PETSC_INTERN PetscErrorCode SamHistoryReadIncrements(const SamOptions *from, PetscInt *increments);
 /* SamHistoryDestroy - frees the history and sets the handle to NULL. Not collective. */
-PETSC_EXTERN PetscErrorCode SamHistoryDestroy(SamHistory *history);
+PETSC_INTERN PetscErrorCode SamHistoryDestroy(SamHistory *history);
 /* The number of load steps, and the number of increments for each row. Not collective. */
-PETSC_EXTERN PetscErrorCode SamHistoryGetCount(SamHistory history, PetscInt *steps);
-PETSC_EXTERN PetscErrorCode SamHistoryGetIncrements(SamHistory history, PetscInt *increments);
+PETSC_INTERN PetscErrorCode SamHistoryGetCount(SamHistory history, PetscInt *steps);
+PETSC_INTERN PetscErrorCode SamHistoryGetIncrements(SamHistory history, PetscInt *increments);
 /* SamHistoryGetStart - the number of load steps up to the first row: the increments, or 1. Not collective. */
-PETSC_EXTERN PetscErrorCode SamHistoryGetStart(SamHistory history, PetscInt *steps);
+PETSC_INTERN PetscErrorCode SamHistoryGetStart(SamHistory history, PetscInt *steps);
 /*
   SamHistoryGives - whether it gives a condition of that one's group: has a column of it, or another value than usual.
   Not collective.
 */
-PETSC_EXTERN PetscErrorCode SamHistoryGives(SamHistory history, const SamCondition *one, PetscBool *gives);
+PETSC_INTERN PetscErrorCode SamHistoryGives(SamHistory history, const SamCondition *one, PetscBool *gives);
 /*
   SamHistoryGetStep - the control of step k (from 0). The increments up to the first row start from zero loads,
   displacements and usual conditions at time 0; if the first row's time is not positive, they start before it by the
@@ -64,9 +64,9 @@ PETSC_EXTERN PetscErrorCode SamHistoryGives(SamHistory history, const SamConditi
   the start. Not collective.
   SamHistoryGetPart - after a part of the step, more than 0, at most 1. Not collective.
 */
-PETSC_EXTERN PetscErrorCode SamHistoryGetStep(SamHistory history, PetscInt k, SamControl *control);
-PETSC_EXTERN PetscErrorCode SamHistoryGetPart(SamHistory history, PetscInt k, PetscReal part, SamControl *control);
+PETSC_INTERN PetscErrorCode SamHistoryGetStep(SamHistory history, PetscInt k, SamControl *control);
+PETSC_INTERN PetscErrorCode SamHistoryGetPart(SamHistory history, PetscInt k, PetscReal part, SamControl *control);
 /* SamHistoryGetPlace - the row that step k leads to, for messages: "file, line 3: ", empty without a file. */
-PETSC_EXTERN PetscErrorCode SamHistoryGetPlace(SamHistory history, PetscInt k, char text[], size_t size);
+PETSC_INTERN PetscErrorCode SamHistoryGetPlace(SamHistory history, PetscInt k, char text[], size_t size);
 
 #endif

@@ -30,7 +30,7 @@ typedef const char       *SamLawType;
   SamLawReference, SamLawDestroy - add a reference, and give one back; the last one frees the law. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamLawCreate(SamElasticity elasticity, SamLawType type, SamLaw *law);
-PETSC_EXTERN PetscErrorCode SamLawReference(SamLaw law);
+PETSC_INTERN PetscErrorCode SamLawReference(SamLaw law);
 PETSC_EXTERN PetscErrorCode SamLawDestroy(SamLaw *law);
 /*
   SamLawRegister - adds a type; `create` sets a law's methods and defaults, see private/lawimpl.h. Laws act in the order
@@ -41,15 +41,15 @@ PETSC_EXTERN PetscErrorCode SamLawDestroy(SamLaw *law);
 */
 #define SAM_LAWS 32
 PETSC_EXTERN PetscErrorCode SamLawRegister(const char name[], PetscErrorCode (*create)(SamLaw));
-PETSC_EXTERN PetscErrorCode SamLawGetTypes(PetscInt *count, const SamLawType **types);
-PETSC_EXTERN PetscBool      SamLawIsRegistered(const char name[]);
+PETSC_INTERN PetscErrorCode SamLawGetTypes(PetscInt *count, const SamLawType **types);
+PETSC_INTERN PetscBool      SamLawIsRegistered(const char name[]);
 /*
   SamLawSetFromOptions - reads the law's options; `asked`: they select the law. Collective. Errors: SAM_ERR_USER,
   SAM_ERR_FILE.
   SamLawAddParameters - appends what defines the law, by the names of its options. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamLawSetFromOptions(SamLaw law, const SamOptions *from, PetscBool *asked);
-PETSC_EXTERN PetscErrorCode SamLawAddParameters(SamLaw law, SamParameters *parameters);
+PETSC_INTERN PetscErrorCode SamLawSetFromOptions(SamLaw law, const SamOptions *from, PetscBool *asked);
+PETSC_INTERN PetscErrorCode SamLawAddParameters(SamLaw law, SamParameters *parameters);
 
 /*
   SamLawSetFriction - coulomb: the coefficient of friction, the same everywhere.

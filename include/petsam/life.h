@@ -66,30 +66,30 @@ typedef struct _n_SamLife *SamLife;
   or a jump below 0; PETSC_ERR_ARG_INCOMP for a contact without a law of wear, or with a law that cycle jumps do not
   support.
 */
-PETSC_EXTERN PetscErrorCode SamLifeCreate(SamContact contact, const SamLifeCycle *cycle,
+PETSC_INTERN PetscErrorCode SamLifeCreate(SamContact contact, const SamLifeCycle *cycle,
                                           const SamLifeSettings *settings, SamLife *life);
-PETSC_EXTERN PetscErrorCode SamLifeDestroy(SamLife *life);
+PETSC_INTERN PetscErrorCode SamLifeDestroy(SamLife *life);
 /*
   SamLifeEnd - the contact's steps wear again, one by one; what the life has found can still be read. Not collective.
 */
-PETSC_EXTERN void SamLifeEnd(SamLife life);
+PETSC_INTERN void SamLifeEnd(SamLife life);
 /*
   SamLifeGetSeries - the numbers of computed cycles, as a state that results may offer as a series beside /history, and
   the name of that; borrowed. SamLifeRecord - sets its committed numbers. Not collective.
 */
-PETSC_EXTERN PetscErrorCode SamLifeGetSeries(SamLife life, SamState *series, const char **name);
-PETSC_EXTERN PetscErrorCode SamLifeRecord(SamLife life, const SamLifeReport *report);
+PETSC_INTERN PetscErrorCode SamLifeGetSeries(SamLife life, SamState *series, const char **name);
+PETSC_INTERN PetscErrorCode SamLifeRecord(SamLife life, const SamLifeReport *report);
 /*
   SamLifeCompute - a cycle on the wear so far. When a step of it has no solution or did not converge, the report's step
   has its status. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamLifeCompute(SamLife life, SamLifeReport *report);
+PETSC_INTERN PetscErrorCode SamLifeCompute(SamLife life, SamLifeReport *report);
 /*
   SamLifeJump - one jump, not beyond `cycles` in all. Where a cycle within it cannot be solved, it is tried again
   shorter; a jump of one cycle that cannot be made is a status of the report's step, and the wear stays.
   Collective. Errors: PETSC_ERR_ORDER without a computed cycle.
 */
-PETSC_EXTERN PetscErrorCode SamLifeJump(SamLife life, PetscReal cycles, SamLifeReport *report);
+PETSC_INTERN PetscErrorCode SamLifeJump(SamLife life, PetscReal cycles, SamLifeReport *report);
 
 /*
   SamLifeState - all that the life after a jump depends on, besides the states of the contact and of the wear. A life
@@ -102,7 +102,7 @@ typedef struct {
   PetscBool by_turns; /* on a changed gap, the turning points of the loads close the loop; else all steps do */
 } SamLifeState;
 /* SamLifeGetState, SamLifeSetState - between SamLifeJump() and SamLifeCompute(). Not collective. */
-PETSC_EXTERN PetscErrorCode SamLifeGetState(SamLife life, SamLifeState *state);
-PETSC_EXTERN PetscErrorCode SamLifeSetState(SamLife life, const SamLifeState *state);
+PETSC_INTERN PetscErrorCode SamLifeGetState(SamLife life, SamLifeState *state);
+PETSC_INTERN PetscErrorCode SamLifeSetState(SamLife life, const SamLifeState *state);
 
 #endif

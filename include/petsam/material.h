@@ -14,9 +14,9 @@ typedef struct {
   PetscReal stress[SAM_LAYERS][2];                                         /* residual stress xx and yy, Pa */
 } SamLayers;
 /* SamLayersDepth - the depth (m) of the bottom of the n-th layer; 0 for n = 0. Not collective. */
-PETSC_EXTERN PetscReal SamLayersDepth(const SamLayers *layers, PetscInt n);
+PETSC_INTERN PetscReal SamLayersDepth(const SamLayers *layers, PetscInt n);
 /* SamLayersAt - the layer at a depth (m), an interface being of the one above; count: the substrate. Not collective. */
-PETSC_EXTERN PetscInt SamLayersAt(const SamLayers *layers, PetscReal depth);
+PETSC_INTERN PetscInt SamLayersAt(const SamLayers *layers, PetscReal depth);
 
 /*
   SamPair - the elastic constants of two isotropic bodies, and the sums of them that the displacements of their surfaces
@@ -40,7 +40,7 @@ typedef struct {
   PetscReal film[2]; /* thickness (m) and shear modulus (Pa) of a film between the surfaces; 0: none */
 } SamPair;
 /* SamPairFilm - what a unit of shear displaces the surfaces by in the film, m/Pa. Not collective. */
-PETSC_EXTERN PetscReal SamPairFilm(const SamPair *pair);
+PETSC_INTERN PetscReal SamPairFilm(const SamPair *pair);
 
 /*
   SamPairSet - fills a pair from Young's moduli (Pa, infinity for rigid) and Poisson's ratios, without a film.
@@ -57,8 +57,8 @@ PETSC_EXTERN PetscErrorCode SamPairSet(SamPair *pair, const PetscReal young[2], 
 */
 PETSC_EXTERN PetscErrorCode SamPairSetLayered(SamPair *pair, const PetscReal young[2], const PetscReal poisson[2],
                                               const SamLayers layers[2]);
-PETSC_EXTERN PetscBool      SamPairHasLayers(const SamPair *pair);
-PETSC_EXTERN double         SamPairCoupling(const SamPair *pair, double first, double last);
+PETSC_INTERN PetscBool      SamPairHasLayers(const SamPair *pair);
+PETSC_INTERN double         SamPairCoupling(const SamPair *pair, double first, double last);
 /*
   SamPairSetFromOptions - from -body1_young, -body1_poisson, -body1_layer_young, -body1_layer_poisson,
   -body1_layer_thickness, -body1_layer_stress, those of body 2, and the film's -film_thickness and -film_shear.
@@ -71,8 +71,8 @@ PETSC_EXTERN PetscErrorCode SamPairSetFromOptions(SamPair *pair, const SamOption
   SamPairSetFromParameters - from such a record; `source` names it in messages. Collective.
   Errors: SAM_ERR_FILE.
 */
-PETSC_EXTERN PetscErrorCode SamPairAddParameters(const SamPair *pair, SamParameters *parameters);
-PETSC_EXTERN PetscErrorCode SamPairSetFromParameters(SamPair *pair, MPI_Comm comm, const SamParameters *parameters,
+PETSC_INTERN PetscErrorCode SamPairAddParameters(const SamPair *pair, SamParameters *parameters);
+PETSC_INTERN PetscErrorCode SamPairSetFromParameters(SamPair *pair, MPI_Comm comm, const SamParameters *parameters,
                                                      const char source[]);
 
 #endif

@@ -46,7 +46,7 @@ PETSC_EXTERN PetscErrorCode SamNormalRegister(const char name[], PetscErrorCode 
   PETSC_ERR_SUP; SamNormalLimitsPressure() - whether the current method has it.
 */
 PETSC_EXTERN PetscErrorCode SamNormalSetPressureLimit(SamNormal normal, PetscReal limit);
-PETSC_EXTERN PetscErrorCode SamNormalLimitsPressure(SamNormal normal, PetscBool *limits);
+PETSC_INTERN PetscErrorCode SamNormalLimitsPressure(SamNormal normal, PetscBool *limits);
 
 /*
   SamNormalSolve - finds p (Pa, one component) for the separation h (m, one component). With `guess` p holds a start,
@@ -63,7 +63,7 @@ PETSC_EXTERN PetscErrorCode SamNormalSolve(SamNormal normal, Vec h, SamBalance *
   (m/Pa, one component, >= 0), so that the gap is g = S p + diagonal p + h - (d_z - y r_x + x r_y). Wear whose rate
   follows the pressure is of this kind (wear.h). Collective.
 */
-PETSC_EXTERN PetscErrorCode SamNormalSolveYielding(SamNormal normal, Vec h, Vec diagonal, SamBalance *balance,
+PETSC_INTERN PetscErrorCode SamNormalSolveYielding(SamNormal normal, Vec h, Vec diagonal, SamBalance *balance,
                                                    PetscBool guess, Vec p);
 
 #endif

@@ -13,7 +13,7 @@ typedef struct _n_SamProblem *SamProblem;
 /* SamProblemCreate - references the elasticity. Collective. */
 PETSC_EXTERN PetscErrorCode SamProblemCreate(SamElasticity elasticity, SamProblem *problem);
 /* SamProblemReference - adds a reference. Not collective. */
-PETSC_EXTERN PetscErrorCode SamProblemReference(SamProblem problem);
+PETSC_INTERN PetscErrorCode SamProblemReference(SamProblem problem);
 /* SamProblemDestroy - drops a reference, the last one frees the problem; sets the handle to NULL. Collective. */
 PETSC_EXTERN PetscErrorCode SamProblemDestroy(SamProblem *problem);
 /* The elasticity and its grid. Not collective. */
@@ -30,7 +30,7 @@ PETSC_EXTERN PetscErrorCode SamProblemGetGrid(SamProblem problem, SamGrid *grid)
 */
 PETSC_EXTERN PetscErrorCode SamProblemSetGap(SamProblem problem, Vec h);
 PETSC_EXTERN PetscErrorCode SamProblemGetGap(SamProblem problem, Vec *h);
-PETSC_EXTERN PetscErrorCode SamProblemGetRevision(SamProblem problem, PetscObjectState *revision);
+PETSC_INTERN PetscErrorCode SamProblemGetRevision(SamProblem problem, PetscObjectState *revision);
 
 /*
   SamProblemAddLaw - adds a law, which it references; laws act in the order in which their types were registered.
@@ -45,7 +45,7 @@ PETSC_EXTERN PetscErrorCode SamProblemGetRevision(SamProblem problem, PetscObjec
 */
 PETSC_EXTERN PetscErrorCode SamProblemAddLaw(SamProblem problem, SamLaw law);
 PETSC_EXTERN PetscErrorCode SamProblemAddLawOfType(SamProblem problem, SamLawType type, SamLaw *law);
-PETSC_EXTERN PetscErrorCode SamProblemAddSum(SamProblem problem, SamLawType type);
+PETSC_INTERN PetscErrorCode SamProblemAddSum(SamProblem problem, SamLawType type);
 PETSC_EXTERN PetscErrorCode SamProblemGetLaw(SamProblem problem, SamLawType type, SamLaw *law);
 PETSC_EXTERN PetscErrorCode SamProblemGetLaws(SamProblem problem, PetscInt *count, const SamLaw **laws);
 PETSC_EXTERN PetscErrorCode SamProblemSetLawsFromOptions(SamProblem problem, const SamOptions *from);
@@ -54,8 +54,8 @@ PETSC_EXTERN PetscErrorCode SamProblemSetLawsFromOptions(SamProblem problem, con
   SamProblemGetBytes - memory that the laws take for each cell, bytes. Not collective.
   SamProblemMoves - whether a law changes the separation in time. Not collective.
 */
-PETSC_EXTERN PetscErrorCode SamProblemGetBytes(SamProblem problem, PetscInt *bytes);
-PETSC_EXTERN PetscErrorCode SamProblemMoves(SamProblem problem, PetscBool *moves);
+PETSC_INTERN PetscErrorCode SamProblemGetBytes(SamProblem problem, PetscInt *bytes);
+PETSC_INTERN PetscErrorCode SamProblemMoves(SamProblem problem, PetscBool *moves);
 
 /*
   SamProblemSetFriction, SamProblemSetFrictionField - set the coefficient of the law coulomb (law.h). Collective.
@@ -64,7 +64,7 @@ PETSC_EXTERN PetscErrorCode SamProblemMoves(SamProblem problem, PetscBool *moves
 */
 PETSC_EXTERN PetscErrorCode SamProblemSetFriction(SamProblem problem, PetscReal friction);
 PETSC_EXTERN PetscErrorCode SamProblemSetFrictionField(SamProblem problem, Vec friction);
-PETSC_EXTERN PetscErrorCode SamProblemHasFriction(SamProblem problem, PetscBool *has);
-PETSC_EXTERN PetscErrorCode SamProblemGetPressureLimit(SamProblem problem, PetscReal *limit);
+PETSC_INTERN PetscErrorCode SamProblemHasFriction(SamProblem problem, PetscBool *has);
+PETSC_INTERN PetscErrorCode SamProblemGetPressureLimit(SamProblem problem, PetscReal *limit);
 
 #endif

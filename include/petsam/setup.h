@@ -20,23 +20,23 @@ typedef struct {
   all objects but the contact. The gap is not filled yet, as that may need much memory. Collective. Errors:
   SAM_ERR_USER, SAM_ERR_FILE.
 */
-PETSC_EXTERN PetscErrorCode SamSetupReadOptions(SamSetup *setup, const SamOptions *from);
+PETSC_INTERN PetscErrorCode SamSetupReadOptions(SamSetup *setup, const SamOptions *from);
 /*
   SamSetupCreateContact - fills the gap, unless the help is being printed, and makes the contact, which reads its
   options. Collective. Errors: SAM_ERR_USER, SAM_ERR_FILE.
 */
-PETSC_EXTERN PetscErrorCode SamSetupCreateContact(SamSetup *setup, const SamOptions *from);
+PETSC_INTERN PetscErrorCode SamSetupCreateContact(SamSetup *setup, const SamOptions *from);
 /*
   SamSetupCreateCoarse - the same bodies on half the cells in each direction, rounded up, with a contact of the same
   options. Heights from files become means over the cells. Collective. Errors: SAM_ERR_USER, SAM_ERR_FILE.
 */
-PETSC_EXTERN PetscErrorCode SamSetupCreateCoarse(const SamSetup *setup, const SamOptions *from, SamSetup *coarse);
+PETSC_INTERN PetscErrorCode SamSetupCreateCoarse(const SamSetup *setup, const SamOptions *from, SamSetup *coarse);
 /*
   SamSetupAddParameters - appends what defines the contact, by the names of its options; fields by their checksums.
   Collective.
 */
-PETSC_EXTERN PetscErrorCode SamSetupAddParameters(const SamSetup *setup, SamParameters *parameters);
+PETSC_INTERN PetscErrorCode SamSetupAddParameters(const SamSetup *setup, SamParameters *parameters);
 /* SamSetupDestroy - frees all objects. Collective. */
-PETSC_EXTERN PetscErrorCode SamSetupDestroy(SamSetup *setup);
+PETSC_INTERN PetscErrorCode SamSetupDestroy(SamSetup *setup);
 
 #endif

@@ -112,8 +112,8 @@ PETSC_EXTERN PetscErrorCode SamSimulationRun(SamSimulation simulation);
                            SamSimulationRun() then goes on from the committed state; may be called again
   Stop - from a monitor: ends after this step. Collective. Errors: SAM_ERR_USER.
 */
-PETSC_EXTERN PetscErrorCode SamSimulationSetContactFromOptions(SamSimulation simulation, const SamOptions *from);
-PETSC_EXTERN PetscErrorCode SamSimulationSetProgram(SamSimulation simulation, SamHistory *history, PetscReal cycles);
+PETSC_INTERN PetscErrorCode SamSimulationSetContactFromOptions(SamSimulation simulation, const SamOptions *from);
+PETSC_INTERN PetscErrorCode SamSimulationSetProgram(SamSimulation simulation, SamHistory *history, PetscReal cycles);
 PETSC_EXTERN PetscErrorCode SamSimulationStop(SamSimulation simulation);
 
 /* SamSimulationNeeds - what its memory depends on besides the grid. */
@@ -136,7 +136,7 @@ typedef struct {
 PETSC_EXTERN PetscErrorCode SamSimulationGetSetup(SamSimulation simulation, const SamSetup **setup);
 PETSC_EXTERN PetscErrorCode SamSimulationGetNeeds(SamSimulation simulation, SamSimulationNeeds *needs);
 PETSC_EXTERN PetscErrorCode SamSimulationGetFiles(SamSimulation simulation, SamSimulationFiles *files);
-PETSC_EXTERN PetscErrorCode SamSimulationGetSeries(SamSimulation simulation, SamState *series);
+PETSC_INTERN PetscErrorCode SamSimulationGetSeries(SamSimulation simulation, SamState *series);
 PETSC_EXTERN PetscErrorCode SamSimulationGetStatus(SamSimulation simulation, SamStatus *worst, PetscBool *stopped);
 PETSC_EXTERN PetscBool      SamSimulationIsWriting(SamSimulation simulation);
 /* SamSimulationAbandon - before the process ends without the others: leaves no temporary file. Not collective. */

@@ -49,13 +49,13 @@ PETSC_EXTERN PetscErrorCode SamSolverSetOptionsPrefix(SamSolver solver, const ch
   unused one. Not collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for a value below zero, or rtol 0.
 */
 PETSC_EXTERN PetscErrorCode SamSolverSetTolerances(SamSolver solver, PetscReal rtol, PetscInt max_it);
-PETSC_EXTERN PetscErrorCode SamSolverGetTolerances(SamSolver solver, PetscReal *rtol, PetscInt *max_it);
+PETSC_INTERN PetscErrorCode SamSolverGetTolerances(SamSolver solver, PetscReal *rtol, PetscInt *max_it);
 
 /*
   SamSolverSetLevels - most nested grids that a solve without a guess begins on; 1: the finest only, 0: the type's
   default. Option -<kind>_levels. Not collective.
 */
-PETSC_EXTERN PetscErrorCode SamSolverSetLevels(SamSolver solver, PetscInt levels);
+PETSC_INTERN PetscErrorCode SamSolverSetLevels(SamSolver solver, PetscInt levels);
 
 /*
   SamSolverSetErrorIfNotConverged - whether a solve that does not converge is an error, PETSC_ERR_NOT_CONVERGED, and not

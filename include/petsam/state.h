@@ -77,7 +77,7 @@ PETSC_EXTERN PetscErrorCode SamStateDeclareNumber(SamState state, const SamState
   start. Not collective.
 */
 PETSC_EXTERN PetscErrorCode SamStateOfferNumber(SamState state, const char name[], double before);
-PETSC_EXTERN double         SamStateMissingNumber(SamState state, PetscInt k);
+PETSC_INTERN double         SamStateMissingNumber(SamState state, PetscInt k);
 
 /*
   SamStateResult - a field that results offer: a component of a remembered field, or what `compute` writes into a vector
@@ -98,10 +98,10 @@ typedef struct {
 PETSC_EXTERN PetscErrorCode SamStateOffer(SamState state, const SamStateResult *result);
 
 /* SamStateCreate - an empty state for fields of this grid, which it references. Collective. */
-PETSC_EXTERN PetscErrorCode SamStateCreate(SamGrid grid, SamState *state);
+PETSC_INTERN PetscErrorCode SamStateCreate(SamGrid grid, SamState *state);
 /* SamStateCreateLike - another state with the same declarations and no values. Collective. */
-PETSC_EXTERN PetscErrorCode SamStateCreateLike(SamState state, SamState *other);
-PETSC_EXTERN PetscErrorCode SamStateDestroy(SamState *state);
+PETSC_INTERN PetscErrorCode SamStateCreateLike(SamState state, SamState *other);
+PETSC_INTERN PetscErrorCode SamStateDestroy(SamState *state);
 
 /*
   SamStateBegin - begins a try: there is a tried generation, without fields; its results of real numbers are NaN, its
@@ -112,12 +112,12 @@ PETSC_EXTERN PetscErrorCode SamStateDestroy(SamState *state);
   SamStateHasTried - whether there is one. Not collective.
   SamStateReset - forgets all values: as after its creation. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamStateBegin(SamState state);
-PETSC_EXTERN PetscErrorCode SamStateCommit(SamState state);
-PETSC_EXTERN PetscErrorCode SamStateReject(SamState state);
-PETSC_EXTERN PetscErrorCode SamStateForgetFields(SamState state);
-PETSC_EXTERN PetscBool      SamStateHasTried(SamState state);
-PETSC_EXTERN PetscErrorCode SamStateReset(SamState state);
+PETSC_INTERN PetscErrorCode SamStateBegin(SamState state);
+PETSC_INTERN PetscErrorCode SamStateCommit(SamState state);
+PETSC_INTERN PetscErrorCode SamStateReject(SamState state);
+PETSC_INTERN PetscErrorCode SamStateForgetFields(SamState state);
+PETSC_INTERN PetscBool      SamStateHasTried(SamState state);
+PETSC_INTERN PetscErrorCode SamStateReset(SamState state);
 
 /*
   SamStateMove - of a try: the committed generation becomes what it is after the grid has moved by `distance` (m), until
@@ -125,8 +125,8 @@ PETSC_EXTERN PetscErrorCode SamStateReset(SamState state);
   SamStateSwapMoved - the committed generation becomes what it was before that, and at the next call what it is after
   it: for those who save it. Not collective.
 */
-PETSC_EXTERN PetscErrorCode SamStateMove(SamState state, const PetscReal distance[2]);
-PETSC_EXTERN void           SamStateSwapMoved(SamState state);
+PETSC_INTERN PetscErrorCode SamStateMove(SamState state, const PetscReal distance[2]);
+PETSC_INTERN void           SamStateSwapMoved(SamState state);
 
 /*
   SamStateSetField - the vector of a field's tried generation, to be written to: zero when it is first made, later with
@@ -140,7 +140,7 @@ PETSC_EXTERN void           SamStateSwapMoved(SamState state);
 PETSC_EXTERN PetscErrorCode SamStateSetField(SamState state, PetscInt id, Vec *field);
 PETSC_EXTERN Vec            SamStateGetField(SamState state, PetscInt id, SamGeneration generation);
 PETSC_EXTERN Vec            SamStateReadField(SamState state, PetscInt id);
-PETSC_EXTERN double        *SamStateNumbers(SamState state, PetscInt id, SamGeneration generation);
+PETSC_INTERN double        *SamStateNumbers(SamState state, PetscInt id, SamGeneration generation);
 PETSC_EXTERN double        *SamStateReadNumbers(SamState state, PetscInt id);
 /*
   SamStateJoinNumbers - joins the numbers of the tried generation to `parts`, those of the parts of the step before it:
@@ -151,7 +151,7 @@ PETSC_EXTERN void SamStateJoinNumbers(SamState state, double parts[], PetscBool 
   SamStateRestoreField - the vector of a committed generation, or of that one step back, to be written to by who
   restores a saved state. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamStateRestoreField(SamState state, PetscInt id, SamGeneration generation, Vec *field);
+PETSC_INTERN PetscErrorCode SamStateRestoreField(SamState state, PetscInt id, SamGeneration generation, Vec *field);
 
 /*
   SamStateCopy - the committed values, and those one step back, of another state on the same grid. Forgets a tried
@@ -159,7 +159,7 @@ PETSC_EXTERN PetscErrorCode SamStateRestoreField(SamState state, PetscInt id, Sa
   PETSC_ERR_ARG_SIZ for another grid; PETSC_ERR_ARG_INCOMP for a field that only `from` has values of, which the message
   names.
 */
-PETSC_EXTERN PetscErrorCode SamStateCopy(SamState from, SamState to);
+PETSC_INTERN PetscErrorCode SamStateCopy(SamState from, SamState to);
 
 /*
   The declarations, in their order. None is collective.
@@ -170,17 +170,17 @@ PETSC_EXTERN const SamStateField  *SamStateFieldOf(SamState state, PetscInt id);
 PETSC_EXTERN PetscInt              SamStateFindField(SamState state, const char name[]);
 PETSC_EXTERN PetscInt              SamStateCountNumbers(SamState state);
 PETSC_EXTERN const SamStateNumber *SamStateNumberOf(SamState state, PetscInt k, PetscInt *id);
-PETSC_EXTERN PetscInt              SamStateCountValues(SamState state); /* of all numbers */
+PETSC_INTERN PetscInt              SamStateCountValues(SamState state); /* of all numbers */
 PETSC_EXTERN PetscInt              SamStateFindNumber(SamState state, const char name[]);
-PETSC_EXTERN PetscInt              SamStateCountResults(SamState state);
-PETSC_EXTERN const SamStateResult *SamStateResultOf(SamState state, PetscInt k);
-PETSC_EXTERN PetscInt              SamStateFindResult(SamState state, const char name[]);
+PETSC_INTERN PetscInt              SamStateCountResults(SamState state);
+PETSC_INTERN const SamStateResult *SamStateResultOf(SamState state, PetscInt k);
+PETSC_INTERN PetscInt              SamStateFindResult(SamState state, const char name[]);
 /*
   SamStateFindValues - a field of the results: the vector that holds it and its component there, one of the state's
   (borrowed), or `work` (one component), into which it is computed or which is zero where it has no values yet.
   Collective.
 */
-PETSC_EXTERN PetscErrorCode SamStateFindValues(SamState state, PetscInt result, Vec work, Vec *holder,
+PETSC_INTERN PetscErrorCode SamStateFindValues(SamState state, PetscInt result, Vec work, Vec *holder,
                                                PetscInt *component);
 
 #endif

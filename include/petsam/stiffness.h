@@ -48,9 +48,9 @@ PETSC_EXTERN PetscErrorCode SamStiffnessCompute(SamContact contact, SamStiffness
   SamStiffnessRecord - computes them for the tried step, unless it has no solution; a failure becomes the step's
   message. Both are collective.
 */
-PETSC_EXTERN PetscErrorCode SamStiffnessDeclare(SamContact contact);
-PETSC_EXTERN PetscErrorCode SamStiffnessRecord(SamContact contact, SamStep *step);
+PETSC_INTERN PetscErrorCode SamStiffnessDeclare(SamContact contact);
+PETSC_INTERN PetscErrorCode SamStiffnessRecord(SamContact contact, SamStep *step);
 /* SamStiffnessDescribe - the message of a stiffness that did not converge; else empty. Not collective. */
-PETSC_EXTERN void SamStiffnessDescribe(const SamStiffness *stiffness, char text[], size_t size);
+PETSC_INTERN void SamStiffnessDescribe(const SamStiffness *stiffness, char text[], size_t size);
 
 #endif

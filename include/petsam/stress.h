@@ -42,9 +42,9 @@ PETSC_EXTERN PetscErrorCode SamStressApply(SamStress stress, Vec field);
   method. Collective.
 */
 typedef struct _n_SamEdge   SamEdge;
-PETSC_EXTERN PetscErrorCode SamStressAtEdge(SamStress stress, Vec field, const SamEdge *edge, double values[]);
+PETSC_INTERN PetscErrorCode SamStressAtEdge(SamStress stress, Vec field, const SamEdge *edge, double values[]);
 /* SamStressGetConstants - Young's modulus (Pa) and Poisson's ratio of the body at a depth (m). Not collective. */
-PETSC_EXTERN void SamStressGetConstants(SamStress stress, PetscReal depth, PetscReal *young, PetscReal *poisson);
+PETSC_INTERN void SamStressGetConstants(SamStress stress, PetscReal depth, PetscReal *young, PetscReal *poisson);
 
 /*
   SamSection - the stresses on a plane across the surface, through a row or a column of cells, at many depths: much
@@ -59,23 +59,23 @@ typedef enum { SAM_SECTION_X, SAM_SECTION_Y } SamSectionAxis;
   SamSectionCreate - through the row or column `index` of the grid, at n depths (m, >= 0). The stress must outlive it.
   Collective.
 */
-PETSC_EXTERN PetscErrorCode SamSectionCreate(SamStress stress, SamSectionAxis axis, PetscInt index, PetscInt n,
+PETSC_INTERN PetscErrorCode SamSectionCreate(SamStress stress, SamSectionAxis axis, PetscInt index, PetscInt n,
                                              const PetscReal depths[], SamSection *section);
-PETSC_EXTERN PetscErrorCode SamSectionDestroy(SamSection *section);
+PETSC_INTERN PetscErrorCode SamSectionDestroy(SamSection *section);
 /* SamSectionGetDepths - the first of the depths of this rank, their number, and the cells along. Not collective. */
-PETSC_EXTERN PetscErrorCode SamSectionGetDepths(SamSection section, PetscInt *first, PetscInt *count, PetscInt *length);
+PETSC_INTERN PetscErrorCode SamSectionGetDepths(SamSection section, PetscInt *first, PetscInt *count, PetscInt *length);
 /*
   SamSectionAddStep - keeps tractions (Pa, three components: the pressure and the shear along x and y), whose stresses
   the next SamSectionCompute() finds together with those of other steps, at a fraction of the time of the first. Every
   rank keeps the spectra of all lines of cells that have traction, 48 bytes a cell. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamSectionAddStep(SamSection section, Vec tractions);
+PETSC_INTERN PetscErrorCode SamSectionAddStep(SamSection section, Vec tractions);
 /*
   SamSectionCompute - the stresses (Pa) of the steps that have been added, and forgets these: value
   ((s * SAM_STRESS_COMPONENTS + c) * count + k) * length + i is component c of step s at this rank's k-th depth in cell
   i. As SamStressApply() in all else, and the same on any number of ranks. Not collective.
 */
-PETSC_EXTERN PetscErrorCode SamSectionCompute(SamSection section, double stress[]);
+PETSC_INTERN PetscErrorCode SamSectionCompute(SamSection section, double stress[]);
 
 /*
   Quantities of a stress at n points, whose components are arrays s[0] ... s[SAM_STRESS_COMPONENTS - 1]. Not collective.
@@ -85,8 +85,8 @@ PETSC_EXTERN PetscErrorCode SamSectionCompute(SamSection section, double stress[
                         body, of infinite modulus
 */
 PETSC_EXTERN void SamStressMises(PetscInt n, const double *const s[], double mises[]);
-PETSC_EXTERN void SamStressPrincipal(PetscInt n, const double *const s[], double *const p[3]);
-PETSC_EXTERN void SamStressStrain(PetscInt n, PetscReal young, PetscReal poisson, const double *const s[],
+PETSC_INTERN void SamStressPrincipal(PetscInt n, const double *const s[], double *const p[3]);
+PETSC_INTERN void SamStressStrain(PetscInt n, PetscReal young, PetscReal poisson, const double *const s[],
                                   double *const e[]);
 
 #endif

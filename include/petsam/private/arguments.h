@@ -27,17 +27,17 @@ typedef struct _n_SamArguments {
 */
 PETSC_EXTERN void SamArgumentsExamine(int *argc, char ***argv, SamArguments *arguments);
 /* SamArgumentsSeparate - makes all white space in a text outside of quotes what PETSc separates options by: spaces. */
-PETSC_EXTERN void SamArgumentsSeparate(char text[]);
+PETSC_INTERN void SamArgumentsSeparate(char text[]);
 /*
   SamArgumentsExamineText - looks through options in one text, and the options files that they name, likewise; -help
   and -version are mistakes. Rank 0 looks and tells the others. Collective over `comm`.
 */
-PETSC_EXTERN void SamArgumentsExamineText(MPI_Comm comm, const char text[], SamArguments *arguments);
+PETSC_INTERN void SamArgumentsExamineText(MPI_Comm comm, const char text[], SamArguments *arguments);
 /*
   SamArgumentsHas - whether an option (without dash) stands on the command line or in PETSC_OPTIONS, both of which are
   for this run, and not only in an options file, which several runs may share. Collective over `comm`.
 */
-PETSC_EXTERN PetscErrorCode SamArgumentsHas(MPI_Comm comm, const SamArguments *arguments, const char name[],
+PETSC_INTERN PetscErrorCode SamArgumentsHas(MPI_Comm comm, const SamArguments *arguments, const char name[],
                                             PetscBool *has);
 /*
   SamArgumentsFindPlace - the file and line of an option's value, with a colon; "" for one that is in no file, and on

@@ -29,16 +29,16 @@ typedef struct {
 } SamFrame;
 
 /* SamFrameGetComponent - the rigid-body displacement of component k (1 m or rad) as a combination of the phi. */
-PETSC_EXTERN void SamFrameGetComponent(SamGrid grid, SamBalanceKind kind, PetscInt k, double row[3]);
+PETSC_INTERN void SamFrameGetComponent(SamGrid grid, SamBalanceKind kind, PetscInt k, double row[3]);
 /*
   SamFrameSet - the frame of a grid (borrowed) for what a balance controls. Its pressures have no upper bound until the
   caller sets `most`. Not collective.
 */
-PETSC_EXTERN PetscErrorCode SamFrameSet(SamFrame *frame, SamGrid grid, const SamBalance *balance);
+PETSC_INTERN PetscErrorCode SamFrameSet(SamFrame *frame, SamGrid grid, const SamBalance *balance);
 /* SamFrameSetGiven - the same with all rigid-body displacements given as they stand in the balance. */
-PETSC_EXTERN PetscErrorCode SamFrameSetGiven(SamFrame *frame, SamGrid grid, const SamBalance *balance);
+PETSC_INTERN PetscErrorCode SamFrameSetGiven(SamFrame *frame, SamGrid grid, const SamBalance *balance);
 /* SamFrameGetRigid - rigid-body displacements of the force-controlled components, from a combination a of the phi. */
-PETSC_EXTERN void SamFrameGetRigid(const SamFrame *frame, const double a[3], SamBalance *balance);
+PETSC_INTERN void SamFrameGetRigid(const SamFrame *frame, const double a[3], SamBalance *balance);
 
 /* eta of this rank's row j: to the last bit the same on whatever rank the row is. */
 static inline double SamFrameEta(const SamFrame *f, PetscInt j)
@@ -197,7 +197,7 @@ PETSC_EXTERN void SamFrameSolve(const SamFrame *frame, const double gram[SAM_GRA
   SamFrameSolveSeen - the same. Returns the part of the sums that the Gram matrix does not see, from 0 to 1 (all of
   them); `unseen` is a combination of the phi along it, on which the sums do positive work.
 */
-PETSC_EXTERN double SamFrameSolveSeen(const SamFrame *frame, const double gram[SAM_GRAM], const double sums[3],
+PETSC_INTERN double SamFrameSolveSeen(const SamFrame *frame, const double gram[SAM_GRAM], const double sums[3],
                                       double a[3], double unseen[3]);
 
 /*
@@ -226,7 +226,7 @@ typedef struct {
   pressure: the nearest one with `nearest`, or where a single step of Newton's method finds it, else one about as near.
   Not found: p is unchanged, to the rounding of `made`. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamFrameProjectNormalStep(const SamFrame *frame, SamPressureStep *step, double p[],
+PETSC_INTERN PetscErrorCode SamFrameProjectNormalStep(const SamFrame *frame, SamPressureStep *step, double p[],
                                                       PetscBool *found);
 
 /*
@@ -238,13 +238,13 @@ PETSC_EXTERN PetscErrorCode SamFrameProjectNormalOnContact(const SamFrame *frame
   SamFrameProjectNormalBetween - the same on the cells whose pressure lies between its bounds, if those can carry what
   is missing; so cells at a bound stay there exactly. Else as above. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamFrameProjectNormalBetween(const SamFrame *frame, double p[], PetscBool *found);
+PETSC_INTERN PetscErrorCode SamFrameProjectNormalBetween(const SamFrame *frame, double p[], PetscBool *found);
 
 /*
   SamFrameClear - whether some free rigid-body displacement a leaves no cell with field + phi a > 0, to rounding of the
   field: bodies that are free to tilt then lose contact. For frames without load. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamFrameClear(const SamFrame *frame, const double field[], double a[3], PetscBool *clear);
+PETSC_INTERN PetscErrorCode SamFrameClear(const SamFrame *frame, const double field[], double a[3], PetscBool *clear);
 
 /*
   SamFrameProjectTangential - q := D(q + weight phi a), D the projection of each cell's shear onto the disc of radius

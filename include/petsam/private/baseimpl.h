@@ -57,7 +57,7 @@ PETSC_EXTERN PetscLogEvent SamEvents[SAM_EVENT_COUNT];
 /* ---- errors ---- */
 /* SamKeepMessage - an error handler of PETSc that keeps the first message in `context`, SAM_MESSAGE characters. */
 #define SAM_MESSAGE 1024
-PETSC_EXTERN PetscErrorCode SamKeepMessage(MPI_Comm comm, int line, const char *function, const char *file,
+PETSC_INTERN PetscErrorCode SamKeepMessage(MPI_Comm comm, int line, const char *function, const char *file,
                                            PetscErrorCode code, PetscErrorType type, const char *message,
                                            void *context);
 
@@ -70,28 +70,28 @@ PETSC_EXTERN PetscErrorCode SamKeepMessage(MPI_Comm comm, int line, const char *
   launched with MPI.
 */
 PETSC_EXTERN PetscBool SamPrepareMPI(void);
-PETSC_EXTERN void      SamForgetPreparation(void);
+PETSC_INTERN void      SamForgetPreparation(void);
 
 /* ---- memory ---- */
 /*
   SamAllocate, SamAllocateZeros - allocate an array of any size; a large one lies in large pages. `pointer` is the
   address of a pointer. Freed by SamFree(). Not collective. Errors: PETSC_ERR_MEM with the size.
 */
-PETSC_EXTERN PetscErrorCode SamAllocate(size_t bytes, void *pointer);
-PETSC_EXTERN PetscErrorCode SamAllocateZeros(size_t bytes, void *pointer);
-PETSC_EXTERN void           SamFree(void *pointer);
+PETSC_INTERN PetscErrorCode SamAllocate(size_t bytes, void *pointer);
+PETSC_INTERN PetscErrorCode SamAllocateZeros(size_t bytes, void *pointer);
+PETSC_INTERN void           SamFree(void *pointer);
 
 /*
   SamZero - sets n doubles to zero; does not write where they are zero, so that untouched pages take no memory. It reads
   them: not for memory that malloc() has given and nobody has written.
 */
-PETSC_EXTERN void SamZero(PetscInt n, double x[]);
+PETSC_INTERN void SamZero(PetscInt n, double x[]);
 
 /*
   SamReturnMemory - returns freed memory that the C library keeps to the system. The next allocations have to map it
   again, which takes time, so call it only at the end of long stages.
 */
-PETSC_EXTERN void SamReturnMemory(void);
+PETSC_INTERN void SamReturnMemory(void);
 /* SamDescribeBytes - a size for a person: "1.23 GB", where a GB is 1e9 bytes. Not collective. */
 PETSC_EXTERN void SamDescribeBytes(double bytes, char text[], size_t size);
 
@@ -99,11 +99,11 @@ PETSC_EXTERN void SamDescribeBytes(double bytes, char text[], size_t size);
 
 /* SamSetPrefix - copies the prefix of an object's options (NULL: none). Errors: PETSC_ERR_ARG_SIZ for more than 63. */
 #define SAM_PREFIX 64
-PETSC_EXTERN PetscErrorCode SamSetPrefix(char to[SAM_PREFIX], const char prefix[]);
+PETSC_INTERN PetscErrorCode SamSetPrefix(char to[SAM_PREFIX], const char prefix[]);
 
 /* SamRangeHas - whether a value lies in a range. SamRangeDescribe - the range in words. Not collective. */
-PETSC_EXTERN PetscBool   SamRangeHas(SamRange range, double value);
-PETSC_EXTERN const char *SamRangeDescribe(SamRange range);
+PETSC_INTERN PetscBool   SamRangeHas(SamRange range, double value);
+PETSC_INTERN const char *SamRangeDescribe(SamRange range);
 
 /* ---- mistakes in options and names (spelling.c); none is collective, but for SamOptionsRequire() ---- */
 /* SamNearestName - the name out of these that may be meant; NULL: none. */
@@ -112,11 +112,11 @@ PETSC_EXTERN const char *SamNearestName(const char tried[], size_t count, const 
   SamOptionsKnow - notes that there is an option of this name (without dash and prefix), for suggestions. `with`: what
   else must be given for it to have an effect, NULL: nothing, or not known.
 */
-PETSC_EXTERN void SamOptionsKnow(const SamOptions *from, const char name[], const char with[]);
+PETSC_INTERN void SamOptionsKnow(const SamOptions *from, const char name[], const char with[]);
 /* SamOptionsIsKnown - whether there is one; with the prefix, without dash. `with` may be NULL. */
-PETSC_EXTERN PetscBool SamOptionsIsKnown(const char name[], const char **with);
+PETSC_INTERN PetscBool SamOptionsIsKnown(const char name[], const char **with);
 /* SamOptionsNearest - the option that may be meant by a name; NULL: none. */
-PETSC_EXTERN const char *SamOptionsNearest(const char tried[]);
+PETSC_INTERN const char *SamOptionsNearest(const char tried[]);
 /*
   SamOptionsRequire - refuses that an option is missing; says which of those given may have been meant for it. After a
   blank the name may go on with what else would do.
@@ -125,9 +125,9 @@ PETSC_EXTERN const char *SamOptionsNearest(const char tried[]);
 PETSC_EXTERN PetscErrorCode SamOptionsRequire(const SamOptions *from, PetscBool given, const char name[],
                                               const char text[]);
 /* SamIsDecimalComma - whether a text begins with digits, a comma, and a digit: 2,6e-3. */
-PETSC_EXTERN PetscBool SamIsDecimalComma(const char text[]);
+PETSC_INTERN PetscBool SamIsDecimalComma(const char text[]);
 /* SamExplainNumber - what is wrong with a text that is no number, to be appended to a message; may be empty. */
-PETSC_EXTERN const char *SamExplainNumber(const char text[]);
+PETSC_INTERN const char *SamExplainNumber(const char text[]);
 
 /* ---- checksums ---- */
 
@@ -223,23 +223,23 @@ static inline double SamLarger(double most, double value)
   after row, times b. Eigenvalues up to `least` times the largest count as zero. A is overwritten. Not collective.
 */
 #define SAM_SYMMETRIC_MAX 16
-PETSC_EXTERN void SamSolveSymmetric(PetscInt n, double A[], const double b[], double least, double x[]);
+PETSC_INTERN void SamSolveSymmetric(PetscInt n, double A[], const double b[], double least, double x[]);
 
 /* SamGetFolder - the folder that a file's name names it in, "." without one. Not collective. */
 PETSC_EXTERN void SamGetFolder(const char filename[], char folder[PETSC_MAX_PATH_LEN]);
 
 /* SamJoin - names as a text, with `between` between them, but `last` before the last one. Not collective. */
-PETSC_EXTERN void SamJoin(PetscInt count, const char *const names[], const char between[], const char last[],
+PETSC_INTERN void SamJoin(PetscInt count, const char *const names[], const char between[], const char last[],
                           char text[], size_t size);
 /* SamTypesGet - the names in a registry, in alphabetical order; the caller frees the array. Not collective. */
-PETSC_EXTERN PetscErrorCode SamTypesGet(PetscFunctionList list, const char ***types, int *count);
+PETSC_INTERN PetscErrorCode SamTypesGet(PetscFunctionList list, const char ***types, int *count);
 /* SamTypesList - the names as a text, "a, b or c". Not collective. */
-PETSC_EXTERN PetscErrorCode SamTypesList(PetscFunctionList list, char text[], size_t size);
+PETSC_INTERN PetscErrorCode SamTypesList(PetscFunctionList list, char text[], size_t size);
 /* SamTypesOption - SamOptionsWord() for a type out of the registry, which SamTypesCheckOption() checks. */
-PETSC_EXTERN PetscErrorCode SamTypesOption(PetscFunctionList list, const SamOptions *from, const char name[],
+PETSC_INTERN PetscErrorCode SamTypesOption(PetscFunctionList list, const SamOptions *from, const char name[],
                                            const char help[], char type[], size_t size, PetscBool *set);
 /* SamTypesCheckOption - raises SAM_ERR_USER, with the names, for an option whose value is no name in the registry. */
-PETSC_EXTERN PetscErrorCode SamTypesCheckOption(PetscFunctionList list, const SamOptions *from, const char option[],
+PETSC_INTERN PetscErrorCode SamTypesCheckOption(PetscFunctionList list, const SamOptions *from, const char option[],
                                                 const char type[]);
 
 /* SamPrintHelp - whether the help is being printed, for which options are only listed. Not collective. */

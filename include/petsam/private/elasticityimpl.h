@@ -83,26 +83,26 @@ PETSC_EXTERN PetscErrorCode SamElasticitySetInner(SamElasticity elasticity, SamE
   SamElasticityCreateLike - on another grid: the same type, bodies and settings. `first`: the cell of the parent's grid
   where a part of it begins; NULL: the grid is a coarser one. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamElasticityCreateLike(SamElasticity parent, SamGrid grid, const PetscInt first[2],
+PETSC_INTERN PetscErrorCode SamElasticityCreateLike(SamElasticity parent, SamGrid grid, const PetscInt first[2],
                                                     SamElasticity *child);
 /* SamElasticityWrap - an object of a type that adds to these bodies, in the place of its own inner one. Collective. */
-PETSC_EXTERN PetscErrorCode SamElasticityWrap(SamElasticity bodies, SamElasticityType type, SamElasticity *outer);
+PETSC_INTERN PetscErrorCode SamElasticityWrap(SamElasticity bodies, SamElasticityType type, SamElasticity *outer);
 /* The object that has a method: this one, or one within. */
 #define SamElasticityWith(e, method) \
   while (!(e)->ops.method && (e)->inner) (e) = (e)->inner
 /* SamElasticityDestroyParts - forgets both parts. Collective. */
-PETSC_EXTERN PetscErrorCode SamElasticityDestroyParts(SamElasticity elasticity);
+PETSC_INTERN PetscErrorCode SamElasticityDestroyParts(SamElasticity elasticity);
 /* Whether the coupling coefficient of a pair is more than rounding. */
-PETSC_EXTERN PetscBool SamElasticityPairIsCoupled(const SamPair *pair);
+PETSC_INTERN PetscBool SamElasticityPairIsCoupled(const SamPair *pair);
 
-PETSC_EXTERN PetscErrorCode SamElasticityCreate_HalfSpace(SamElasticity elasticity);
-PETSC_EXTERN PetscErrorCode SamElasticityCreate_Periodic(SamElasticity elasticity);
-PETSC_EXTERN PetscErrorCode SamElasticityCreate_Plane(SamElasticity elasticity);
-PETSC_EXTERN PetscErrorCode SamElasticityCreate_PlanePeriodic(SamElasticity elasticity);
-PETSC_EXTERN PetscErrorCode SamElasticityCreate_Rolling(SamElasticity elasticity);
-PETSC_EXTERN PetscErrorCode SamElasticityCreate_Compliance(SamElasticity elasticity);
+PETSC_INTERN PetscErrorCode SamElasticityCreate_HalfSpace(SamElasticity elasticity);
+PETSC_INTERN PetscErrorCode SamElasticityCreate_Periodic(SamElasticity elasticity);
+PETSC_INTERN PetscErrorCode SamElasticityCreate_Plane(SamElasticity elasticity);
+PETSC_INTERN PetscErrorCode SamElasticityCreate_PlanePeriodic(SamElasticity elasticity);
+PETSC_INTERN PetscErrorCode SamElasticityCreate_Rolling(SamElasticity elasticity);
+PETSC_INTERN PetscErrorCode SamElasticityCreate_Compliance(SamElasticity elasticity);
 /* SamElasticityAddRecordedCompliances - as SamElasticityAddCompliances(), from a record; `source` names it. */
-PETSC_EXTERN PetscErrorCode SamElasticityAddRecordedCompliances(SamElasticity *elasticity, const SamParameters *p,
+PETSC_INTERN PetscErrorCode SamElasticityAddRecordedCompliances(SamElasticity *elasticity, const SamParameters *p,
                                                                 const char source[]);
 
 #endif

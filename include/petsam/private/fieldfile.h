@@ -24,7 +24,7 @@ typedef struct {
   SamFieldFileSetFromOptions - reads the two options; `help` describes the file. Collective. Errors: SAM_ERR_USER when
   only the dataset is given.
 */
-PETSC_EXTERN PetscErrorCode SamFieldFileSetFromOptions(SamFieldFile *source, const SamOptions *from, const char help[]);
+PETSC_INTERN PetscErrorCode SamFieldFileSetFromOptions(SamFieldFile *source, const SamOptions *from, const char help[]);
 /*
   SamFieldFileRead - reads the dataset into a field (one component); its rows are y. Lengths become a separation in m as
   the dataset's attributes have it (SamLengthsRead). Collective. Errors: SAM_ERR_FILE for a file that cannot be read or
@@ -32,12 +32,12 @@ PETSC_EXTERN PetscErrorCode SamFieldFileSetFromOptions(SamFieldFile *source, con
   are not finite or below the limit, and for lengths with an unknown unit or quantity, or of a surface whose size is not
   the grid's.
 */
-PETSC_EXTERN PetscErrorCode SamFieldFileRead(const SamFieldFile *source, SamGrid grid, Vec field);
+PETSC_INTERN PetscErrorCode SamFieldFileRead(const SamFieldFile *source, SamGrid grid, Vec field);
 /*
   SamFieldFileGetGrid - the grid on which a dataset of lengths is given: cells, full widths and centre (m) in x and y;
   a width of 0 is one that the file does not give. Collective. Errors: SAM_ERR_FILE, as for SamFieldFileRead().
 */
-PETSC_EXTERN PetscErrorCode SamFieldFileGetGrid(const SamFieldFile *source, MPI_Comm comm, PetscInt n[2],
+PETSC_INTERN PetscErrorCode SamFieldFileGetGrid(const SamFieldFile *source, MPI_Comm comm, PetscInt n[2],
                                                 PetscReal width[2], PetscReal center[2]);
 
 #endif

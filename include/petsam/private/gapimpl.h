@@ -57,13 +57,13 @@ struct _n_SamGap {
   const char *names[SAM_GAP_PARAMETERS]; /* of the parameters */
 };
 
-PETSC_EXTERN PetscErrorCode SamGapCreate_Sphere(SamGap gap);
-PETSC_EXTERN PetscErrorCode SamGapCreate_Ellipsoid(SamGap gap);
-PETSC_EXTERN PetscErrorCode SamGapCreate_Curved(SamGap gap);
-PETSC_EXTERN PetscErrorCode SamGapCreate_Pad(SamGap gap);
-PETSC_EXTERN PetscErrorCode SamGapCreate_Roller(SamGap gap);
-PETSC_EXTERN PetscErrorCode SamGapCreate_Punch(SamGap gap);
-PETSC_EXTERN PetscErrorCode SamGapCreate_Flat(SamGap gap);
-PETSC_EXTERN PetscErrorCode SamGapCreate_File(SamGap gap);
+PETSC_INTERN PetscErrorCode SamGapCreate_Sphere(SamGap gap);
+PETSC_INTERN PetscErrorCode SamGapCreate_Ellipsoid(SamGap gap);
+PETSC_INTERN PetscErrorCode SamGapCreate_Curved(SamGap gap);
+PETSC_INTERN PetscErrorCode SamGapCreate_Pad(SamGap gap);
+PETSC_INTERN PetscErrorCode SamGapCreate_Roller(SamGap gap);
+PETSC_INTERN PetscErrorCode SamGapCreate_Punch(SamGap gap);
+PETSC_INTERN PetscErrorCode SamGapCreate_Flat(SamGap gap);
+PETSC_INTERN PetscErrorCode SamGapCreate_File(SamGap gap);
 
 #endif

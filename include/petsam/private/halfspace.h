@@ -36,7 +36,7 @@ void   SamIntegralRow(SamIntegral kind, double dx, double dy, ptrdiff_t j, ptrdi
   is -q_x, yz is -q_y, and the stress is infinite on the rectangle's edges. The error is below 1e-12 of the largest
   kernel at that point, up to 16384 sides away. Not collective. Method and sources: stresscell.c.
 */
-PETSC_EXTERN void SamHalfSpaceStressCell(const PetscReal side[2], PetscReal poisson, const PetscReal point[3],
+PETSC_INTERN void SamHalfSpaceStressCell(const PetscReal side[2], PetscReal poisson, const PetscReal point[3],
                                          PetscReal stress[SAM_STRESS_COMPONENTS][SAM_STRESS_TRACTIONS]);
 
 /* SamHalfSpaceSource - unit traction on a cell, as it acts at a depth. */
@@ -51,14 +51,14 @@ typedef struct {
   cell's centre by unit traction on the cell that lies so far before it. They contain the correction of values at
   centres (stresscell.c). Not collective.
 */
-PETSC_EXTERN void SamHalfSpaceStressRow(const SamHalfSpaceSource *source, SamStressGroup group, PetscInt j, PetscInt n,
+PETSC_INTERN void SamHalfSpaceStressRow(const SamHalfSpaceSource *source, SamStressGroup group, PetscInt j, PetscInt n,
                                         double *const values[SAM_STRESS_GROUP]);
 
 /*
   SamHalfSpaceCreateStress - the stresses in body 1 or 2 that is a half-space. Collective. Errors:
   PETSC_ERR_ARG_OUTOFRANGE for another body or ratio.
 */
-PETSC_EXTERN PetscErrorCode SamHalfSpaceCreateStress(SamGrid grid, const SamFourierSettings *settings, PetscInt body,
+PETSC_INTERN PetscErrorCode SamHalfSpaceCreateStress(SamGrid grid, const SamFourierSettings *settings, PetscInt body,
                                                      PetscReal young, PetscReal poisson, SamStress *stress);
 /* SamHalfSpaceStressAtEdge - see SamStressAtEdge(). Collective. */
 PETSC_INTERN PetscErrorCode SamHalfSpaceStressAtEdge(SamStress stress, Vec field, const SamEdge *edge, double values[]);

@@ -64,7 +64,7 @@ struct _n_SamLawStep {
   SamLawAddToSum - the tried generation of a field becomes the committed one plus `more`. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamLawStepGetFriction(SamLawStep *step, Vec *path, Vec *pressed, Vec *work);
-PETSC_EXTERN PetscErrorCode SamLawAddToSum(SamState state, const char name[], Vec more);
+PETSC_INTERN PetscErrorCode SamLawAddToSum(SamState state, const char name[], Vec more);
 /* SamLawOrder - the place of a type among those registered. Not collective. */
 PETSC_INTERN PetscInt SamLawOrder(SamLawType type);
 

@@ -20,7 +20,7 @@ enum {
   SamNormalSolveKeeping - SamNormalSolve() with the product of the guess, if valid, which becomes that of the result;
   product NULL: none is kept. The balance then holds the rigid-body displacements of the guess. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamNormalSolveKeeping(SamNormal normal, Vec h, SamBalance *balance, PetscBool guess, Vec p,
+PETSC_INTERN PetscErrorCode SamNormalSolveKeeping(SamNormal normal, Vec h, SamBalance *balance, PetscBool guess, Vec p,
                                                   SamProduct *product);
 
 /*
@@ -31,6 +31,6 @@ PETSC_EXTERN PetscErrorCode SamNormalSolveKeeping(SamNormal normal, Vec h, SamBa
 PETSC_INTERN PetscErrorCode SamNormalLookOutside(SamSolver solver, SamLevel *level, SamWindow window, PetscInt first[2],
                                                  PetscInt size[2], PetscBool *apart);
 
-PETSC_EXTERN PetscErrorCode SamNormalCreate_ActiveSet(SamSolver solver);
+PETSC_INTERN PetscErrorCode SamNormalCreate_ActiveSet(SamSolver solver);
 
 #endif

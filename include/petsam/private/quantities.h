@@ -13,10 +13,10 @@ typedef struct {
 
 /* SamDatasets - those of all quantities, in their order, the components of each together. */
 enum { SAM_DATASETS = 33 };
-PETSC_EXTERN const SamDataset SamDatasets[SAM_DATASETS];
+PETSC_INTERN const SamDataset SamDatasets[SAM_DATASETS];
 /* SamDatasetOf - the number of a quantity's first dataset. Not collective. */
-PETSC_EXTERN PetscInt SamDatasetOf(SamQuantity quantity);
+PETSC_INTERN PetscInt SamDatasetOf(SamQuantity quantity);
 /* SamQuantityIsOfCycle - whether a quantity is of all steps together. Not collective. */
-PETSC_EXTERN PetscBool SamQuantityIsOfCycle(SamQuantity quantity);
+PETSC_INTERN PetscBool SamQuantityIsOfCycle(SamQuantity quantity);
 
 #endif

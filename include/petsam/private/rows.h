@@ -17,12 +17,12 @@ typedef struct {
   /* rows exchanged with each rank: [0] those that it wants of this rank, [1] those that this rank wants of it */
   PetscMPIInt *counts[2], *offsets[2];
 } SamRows;
-PETSC_EXTERN PetscErrorCode SamRowsCreate(SamGrid grid, PetscInt first, PetscInt count, SamRows *rows);
-PETSC_EXTERN PetscErrorCode SamRowsCreateAbout(SamGrid grid, PetscInt halo, SamRows *rows);
-PETSC_EXTERN PetscErrorCode SamRowsDestroy(SamRows *rows);
-PETSC_EXTERN PetscErrorCode SamRowsFetch(const SamRows *rows, PetscInt columns, const double own[],
+PETSC_INTERN PetscErrorCode SamRowsCreate(SamGrid grid, PetscInt first, PetscInt count, SamRows *rows);
+PETSC_INTERN PetscErrorCode SamRowsCreateAbout(SamGrid grid, PetscInt halo, SamRows *rows);
+PETSC_INTERN PetscErrorCode SamRowsDestroy(SamRows *rows);
+PETSC_INTERN PetscErrorCode SamRowsFetch(const SamRows *rows, PetscInt columns, const double own[],
                                          const double **wanted);
-PETSC_EXTERN PetscErrorCode SamRowsRestore(const SamRows *rows, const double **wanted);
+PETSC_INTERN PetscErrorCode SamRowsRestore(const SamRows *rows, const double **wanted);
 
 #define SAM_SEEN_MOST 6
 /*
@@ -35,14 +35,14 @@ typedef struct {
   SamRows       rows;
   const double *own, *at[SAM_SEEN_MOST]; /* the components of the rows that are seen */
 } SamSeen;
-PETSC_EXTERN PetscErrorCode SamSee(SamGrid grid, Vec field, PetscInt components, PetscInt halo, SamSeen *seen);
-PETSC_EXTERN PetscErrorCode SamForget(SamSeen *seen);
+PETSC_INTERN PetscErrorCode SamSee(SamGrid grid, Vec field, PetscInt components, PetscInt halo, SamSeen *seen);
+PETSC_INTERN PetscErrorCode SamForget(SamSeen *seen);
 
 /*
   SamGather - arrays of all ranks, n items of this one, one after the other on rank 0. `all`: the address of a pointer,
   NULL on other ranks, to be freed by PetscFree(); `total`: the items of all ranks, on all of them. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamGather(MPI_Comm comm, MPI_Datatype type, PetscInt n, const void *mine, PetscInt *total,
+PETSC_INTERN PetscErrorCode SamGather(MPI_Comm comm, MPI_Datatype type, PetscInt n, const void *mine, PetscInt *total,
                                       void *all);
 
 #endif

@@ -133,24 +133,24 @@ struct _n_SamSolver {
 
 /* ---- for kinds ---- */
 
-PETSC_EXTERN PetscErrorCode SamSolverCreate(SamSolverKind *kind, SamElasticity elasticity, SamSolver *solver);
-PETSC_EXTERN PetscErrorCode SamSolverDestroy(SamSolver solver);
-PETSC_EXTERN PetscErrorCode SamSolverRegister(SamSolverKind *kind, const char name[],
+PETSC_INTERN PetscErrorCode SamSolverCreate(SamSolverKind *kind, SamElasticity elasticity, SamSolver *solver);
+PETSC_INTERN PetscErrorCode SamSolverDestroy(SamSolver solver);
+PETSC_INTERN PetscErrorCode SamSolverRegister(SamSolverKind *kind, const char name[],
                                               PetscErrorCode (*create)(SamSolver));
 /*
   SamSolverSolve - checks the kind of the balance, clears the counts, solves, views. Of `problem` the balance,
   the given fields and the traction are used. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamSolverSolve(SamSolver solver, const SamLevel *problem, PetscBool guess);
+PETSC_INTERN PetscErrorCode SamSolverSolve(SamSolver solver, const SamLevel *problem, PetscBool guess);
 /* SamSolverViewFromOptions - obeys -<kind>_view and -<kind>_converged_reason after a solve. Collective. */
-PETSC_EXTERN PetscErrorCode SamSolverViewFromOptions(SamSolver solver);
+PETSC_INTERN PetscErrorCode SamSolverViewFromOptions(SamSolver solver);
 
 /*
   SamLevelSolveNested - solves on the level's grid, first on up to depth - 1 coarser ones, each of which gives the next
   finer one its start. A guess makes coarser grids needless. Coarse grids are solved only as well as they approximate
   the finest one. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamLevelSolveNested(SamSolver solver, SamLevel *level, PetscInt depth, PetscBool guess);
+PETSC_INTERN PetscErrorCode SamLevelSolveNested(SamSolver solver, SamLevel *level, PetscInt depth, PetscBool guess);
 
 /*
   SamLevelSolveInWindow - takes the given fields, and with `guess` the traction, out of a level into a window of it, has
@@ -158,29 +158,29 @@ PETSC_EXTERN PetscErrorCode SamLevelSolveNested(SamSolver solver, SamLevel *leve
   window's frame, which becomes the level's. Collective.
 */
 typedef PetscErrorCode (*SamLevelSolver)(SamSolver solver, SamLevel *level, PetscBool guess);
-PETSC_EXTERN PetscErrorCode SamLevelSolveInWindow(SamSolver solver, SamLevel *whole, SamWindow window,
+PETSC_INTERN PetscErrorCode SamLevelSolveInWindow(SamSolver solver, SamLevel *whole, SamWindow window,
                                                   SamElasticity part, PetscBool guess, SamLevelSolver solve);
 
 /*
   SamSolverSetEffort - the effort of the next solves, and the relative error that is enough (0: the user's rtol). Not
   collective.
 */
-PETSC_EXTERN void SamSolverSetEffort(SamSolver solver, PetscReal rtol, SamEffort effort);
+PETSC_INTERN void SamSolverSetEffort(SamSolver solver, PetscReal rtol, SamEffort effort);
 /* SamLevelHasProduct - whether the level's product is valid everywhere. Not collective. */
-PETSC_EXTERN PetscBool SamLevelHasProduct(const SamLevel *level);
+PETSC_INTERN PetscBool SamLevelHasProduct(const SamLevel *level);
 /* SamLevelKeepProduct - marks it as valid everywhere, with this rounding. Not collective. */
-PETSC_EXTERN void SamLevelKeepProduct(SamLevel *level, double rounding);
+PETSC_INTERN void SamLevelKeepProduct(SamLevel *level, double rounding);
 /* SamLevelForgetProduct - marks it as invalid. Not collective. */
-PETSC_EXTERN void SamLevelForgetProduct(SamLevel *level);
+PETSC_INTERN void SamLevelForgetProduct(SamLevel *level);
 
 /* SamLevelGetRigid - writes a level's rigid-body displacement into the force-controlled components of a balance. */
-PETSC_EXTERN void SamLevelGetRigid(const SamLevel *level, SamBalance *balance);
+PETSC_INTERN void SamLevelGetRigid(const SamLevel *level, SamBalance *balance);
 
 /* ---- for methods ---- */
 
 /* Settings in force: the user's, or the type's defaults. */
 PETSC_EXTERN PetscInt SamSolverMaxIterations(SamSolver solver);
-PETSC_EXTERN PetscInt SamSolverLevels(SamSolver solver);
+PETSC_INTERN PetscInt SamSolverLevels(SamSolver solver);
 
 /*
   SamLevelApply - u = S p or C q, whichever the kind has, with what is added to its diagonal.
@@ -189,16 +189,16 @@ PETSC_EXTERN PetscInt SamSolverLevels(SamSolver solver);
   Input and output may be the same. All count on the finest grid. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamLevelApply(SamSolver solver, SamLevel *level, Vec traction, Vec u);
-PETSC_EXTERN PetscErrorCode SamLevelApplySingle(SamSolver solver, SamLevel *level, double factor,
+PETSC_INTERN PetscErrorCode SamLevelApplySingle(SamSolver solver, SamLevel *level, double factor,
                                                 const float traction[], float u[]);
-PETSC_EXTERN PetscErrorCode SamLevelPreconditionSingle(SamSolver solver, SamLevel *level, double factor,
+PETSC_INTERN PetscErrorCode SamLevelPreconditionSingle(SamSolver solver, SamLevel *level, double factor,
                                                        const float r[], float z[]);
 
 /* SamLevelIterated - counts an iteration and calls the monitors, on the finest grid. Collective. */
 PETSC_EXTERN PetscErrorCode SamLevelIterated(SamSolver solver, SamLevel *level, PetscReal error);
 
 /* SamLevelAtMaxIterations - whether this is the finest grid, and max_it iterations have been made. Not collective. */
-PETSC_EXTERN PetscBool SamLevelAtMaxIterations(SamSolver solver, const SamLevel *level);
+PETSC_INTERN PetscBool SamLevelAtMaxIterations(SamSolver solver, const SamLevel *level);
 
 /*
   A method computes its gradient (the gap, the slip) in double precision once, and then adds to it the products of its

@@ -27,11 +27,11 @@ typedef struct {
   SamStressGroup group;
   PetscInt       member;
 } SamStressKernel;
-PETSC_EXTERN const SamStressKernel SamStressKernels[SAM_STRESS_COMPONENTS][SAM_STRESS_TRACTIONS]; /* of a half-space */
-PETSC_EXTERN SamStressKernel       SamStressKernelOf(SamStress stress, PetscInt component, PetscInt traction);
+PETSC_INTERN const SamStressKernel SamStressKernels[SAM_STRESS_COMPONENTS][SAM_STRESS_TRACTIONS]; /* of a half-space */
+PETSC_INTERN SamStressKernel       SamStressKernelOf(SamStress stress, PetscInt component, PetscInt traction);
 
 /* The parities of the kernels of a group: odd in x, odd in y. */
-PETSC_EXTERN const PetscBool SamStressOdd[SAM_STRESS_GROUPS][SAM_STRESS_GROUP][2];
+PETSC_INTERN const PetscBool SamStressOdd[SAM_STRESS_GROUPS][SAM_STRESS_GROUP][2];
 
 /*
   SamStressOps - what a type of elasticity knows of the stresses in one of its bodies; NULL where it has none. `data` is
@@ -83,11 +83,11 @@ struct _n_SamStress {
 */
 PETSC_EXTERN PetscErrorCode SamStressCreate(SamGrid grid, const SamFourierSettings *settings, PetscInt body,
                                             SamStress *stress);
-PETSC_EXTERN PetscErrorCode SamStressUseDepth(SamStress stress, PetscReal depth);
+PETSC_INTERN PetscErrorCode SamStressUseDepth(SamStress stress, PetscReal depth);
 
 /* SamPrincipalOf - the principal stresses of one stress, the largest first. Not collective. */
-PETSC_EXTERN void SamPrincipalOf(const double s[SAM_STRESS_COMPONENTS], double p[3]);
+PETSC_INTERN void SamPrincipalOf(const double s[SAM_STRESS_COMPONENTS], double p[3]);
 /* SamPrincipalDirection - a unit vector in the direction of one of them. Not collective. */
-PETSC_EXTERN void SamPrincipalDirection(const double s[SAM_STRESS_COMPONENTS], double principal, double n[3]);
+PETSC_INTERN void SamPrincipalDirection(const double s[SAM_STRESS_COMPONENTS], double principal, double n[3]);
 
 #endif

@@ -87,7 +87,7 @@ PETSC_EXTERN PetscErrorCode SamStickSlipComputeSlip(SamStickSlip *state);
 */
 PETSC_EXTERN PetscErrorCode SamStickSlipStart(SamStickSlip *state);
 /* SamStickSlipKeepProduct - leaves the product in s with the level, with its rounding. Not collective. */
-PETSC_EXTERN PetscErrorCode SamStickSlipKeepProduct(SamStickSlip *state, double rounding);
+PETSC_INTERN PetscErrorCode SamStickSlipKeepProduct(SamStickSlip *state, double rounding);
 /*
   SamStickSlipMeasure - the residual of the projection equation, with the motion that makes it smallest: s and motion
   are changed by a fit on the tangent space of the constraints (both directions where q - s/c lies within the disc,
@@ -95,16 +95,16 @@ PETSC_EXTERN PetscErrorCode SamStickSlipKeepProduct(SamStickSlip *state, double 
 */
 PETSC_EXTERN PetscErrorCode SamStickSlipMeasure(SamStickSlip *state);
 /* SamStickSlipSetError - error and scale from this rank's squares. Collective. */
-PETSC_EXTERN PetscErrorCode SamStickSlipSetError(SamStickSlip *state, const SamTotal squares[SAM_SQUARES]);
+PETSC_INTERN PetscErrorCode SamStickSlipSetError(SamStickSlip *state, const SamTotal squares[SAM_SQUARES]);
 
 /*
   SamTangentialSolveKeeping - SamTangentialSolve() with the product of the guess, if valid, which becomes that of the
   result; product NULL: none is kept. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamTangentialSolveKeeping(SamTangential tangential, Vec bound, Vec offset,
+PETSC_INTERN PetscErrorCode SamTangentialSolveKeeping(SamTangential tangential, Vec bound, Vec offset,
                                                       SamBalance *balance, PetscBool guess, Vec q, SamProduct *product);
 
-PETSC_EXTERN PetscErrorCode SamTangentialCreate_Newton(SamSolver solver);
-PETSC_EXTERN PetscErrorCode SamTangentialCreate_Rolling(SamSolver solver);
+PETSC_INTERN PetscErrorCode SamTangentialCreate_Newton(SamSolver solver);
+PETSC_INTERN PetscErrorCode SamTangentialCreate_Rolling(SamSolver solver);
 
 #endif
