@@ -10,7 +10,6 @@ import re
 import sys
 
 import numpy as np
-from scipy.interpolate import RegularGridInterpolator
 
 import petsam
 from petsam import comparison
@@ -18,8 +17,6 @@ from petsam.plot.style import COLORS, frame, plt, points, save
 
 DEGREES = ("none", "1", "2", "4", "6", "coarse")
 TITLES = {"none": "half-space", "coarse": "6, coarse mesh"}
-SAMPLES = np.arange(-4, 5) / 5.0  # of the spacing of nodes, by which petsam's values are averaged
-WEIGHTS = (1.0 - np.abs(SAMPLES)) / 5.0  # a node's shape function: the force of a node is the mean with it
 
 
 class Full:
@@ -34,14 +31,8 @@ class Full:
 
     def error(self, grid, name, mine):
         """L2 of petsam's field against the nodes' means, relative to these."""
-        axes = (grid.y * 1e3, grid.x * 1e3)
-        values = RegularGridInterpolator(axes, grid[name] / 1e6, bounds_error=False, fill_value=0.0)
-        mean = 0.0
-        for dx, a in zip(SAMPLES * self.size, WEIGHTS):
-            for dy, b in zip(SAMPLES * self.size, WEIGHTS):
-                mean = mean + a * b * values(np.stack([np.abs(self.y + dy), self.x + dx], axis=1))
         weight = self.area * np.where(self.y < 1e-9, 0.5, 1.0)
-        return float(np.sqrt(np.sum(weight * (mean - mine) ** 2) / np.sum(weight * mine**2)))
+        return comparison.nodal_l2(grid, name, (self.x, self.y), (self.size, self.size), mine, weight)
 
 
 class Comparison:

@@ -7,13 +7,10 @@
 The contact's origin is the origin of the deck, z points into the body. --coarse is for an estimate of the mesh's error.
 """
 
-import argparse
-import sys
-
 import numpy as np
 
+from petsam.compliance.example import deck_lines, write_deck
 from petsam.compliance.mesh import grid_mesh
-from petsam.compliance.stiffness import model_lines, numbers
 
 STEEL = (210000.0, 0.3)
 
@@ -48,27 +45,11 @@ def beam(coarse):
 def lines(name, coarse, kind):
     """The deck."""
     edges, sets = {"block": block, "beam": beam}[name](coarse)
-    mesh = grid_mesh(edges, kind, *STEEL, node_sets=sets)
-    out = ["*HEADING", f"{name}, mm, N, MPa", *model_lines(mesh)]
-    for title, nodes in mesh.node_sets.items():
-        out += [f"*NSET, NSET={title}", *numbers(nodes + 1)]
-    out += ["*SURFACE, NAME=TOP", *(f"{element}, S{face + 1}" for element, face in mesh.surfaces["TOP"])]
+    out = deck_lines(name, grid_mesh(edges, kind, *STEEL, node_sets=sets), "TOP")
     if name == "beam":
         out += ["*STEP", "*STATIC", "*BOUNDARY", "RIGHT, 1, 1, 0.006", "*END STEP"]
     return out
 
 
-def main():
-    """Write one deck."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("body", choices=("block", "beam"))
-    parser.add_argument("file", help="deck to write (.inp)")
-    parser.add_argument("--coarse", action="store_true", help="a third of the unknowns")
-    parser.add_argument("--type", default="C3D20R", help="element type (C3D20R)")
-    options = parser.parse_args()
-    with open(options.file, "w", encoding="ascii") as file:
-        file.write("\n".join(lines(options.body, options.coarse, options.type)) + "\n")
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    write_deck(__doc__, ("block", "beam"), lines)

@@ -10,7 +10,6 @@ import re
 import sys
 
 import numpy as np
-from scipy.interpolate import RegularGridInterpolator
 
 import petsam
 from petsam import comparison
@@ -19,8 +18,6 @@ from petsam.plot.style import COLORS, bar, cross, frame, plt, points, save
 STEPS = (1, 2, 4, 6, 8, 12, 16, 20)  # of the table
 FIELDS = (4, 8)  # whose pressure and shear are compared
 CYCLES = (slice(3, 12), slice(11, 20))  # rows of the closed cycles
-SAMPLES = np.arange(-4, 5) / 5.0  # of the spacing of nodes, by which petsam's values are averaged
-WEIGHTS = (1.0 - np.abs(SAMPLES)) / 5.0  # a node's shape function: the force of a node is the mean with it
 
 
 class Full:
@@ -35,14 +32,8 @@ class Full:
 
     def error(self, name, step):
         """L2 of petsam's field against the nodes' means, relative to these."""
-        grid = petsam.Snapshot(self.mine, step - 1)
-        axes = (grid.y * 1e3, grid.x * 1e3)
-        values = RegularGridInterpolator(axes, grid[name] / 1e6, bounds_error=False, fill_value=0.0)
-        mean, mine = 0.0, getattr(self, name)[step - 1]
-        for dx, a in zip(SAMPLES * self.spacing[0], WEIGHTS):
-            for dy, b in zip(SAMPLES * self.spacing[1], WEIGHTS):
-                mean = mean + a * b * values(np.stack([np.abs(self.y + dy), self.x + dx], axis=1))
-        return float(np.sqrt(np.sum(self.area * (mean - mine) ** 2) / np.sum(self.area * mine**2)))
+        grid, mine = petsam.Snapshot(self.mine, step - 1), getattr(self, name)[step - 1]
+        return comparison.nodal_l2(grid, name, (self.x, self.y), self.spacing, mine, self.area)
 
 
 def pull(load_n, load_tx):

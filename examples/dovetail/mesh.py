@@ -8,13 +8,10 @@ Z is radial, Y axial; both bodies are 6 mm thick. The flank (FLANK) is inclined 
 its middle, at X = 5, Z = 0. --coarse is for an estimate of the mesh's error.
 """
 
-import argparse
-import sys
-
 import numpy as np
 
+from petsam.compliance.example import deck_lines, write_deck
 from petsam.compliance.mesh import grid_mesh
-from petsam.compliance.stiffness import model_lines, numbers
 
 TITANIUM = (115000.0, 0.32)
 THICKNESS = 6.0
@@ -150,23 +147,8 @@ def lines(name, coarse, kind):
     """The deck."""
     body = Body(name)
     mesh, _ = strip(body, linear_mesh(body, coarse), kind)
-    out = ["*HEADING", f"dovetail, {name}, mm, N, MPa", *model_lines(mesh)]
-    for title, nodes in mesh.node_sets.items():
-        out += [f"*NSET, NSET={title}", *numbers(nodes + 1)]
-    return out + ["*SURFACE, NAME=FLANK", *(f"{element}, S{face + 1}" for element, face in mesh.surfaces["FLANK"])]
-
-
-def main():
-    """Write one deck."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("body", choices=("blade", "disc"))
-    parser.add_argument("file", help="deck to write (.inp)")
-    parser.add_argument("--coarse", action="store_true", help="a third of the unknowns")
-    parser.add_argument("--type", default="C3D20R", help="element type (C3D20R)")
-    options = parser.parse_args()
-    with open(options.file, "w", encoding="ascii") as file:
-        file.write("\n".join(lines(options.body, options.coarse, options.type)) + "\n")
+    return deck_lines(f"dovetail, {name}", mesh, "FLANK")
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    write_deck(__doc__, ("blade", "disc"), lines)

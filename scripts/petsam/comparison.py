@@ -23,6 +23,24 @@ def relative_l2(numerical, exact):
     return float(np.sqrt(np.sum((numerical - exact) ** 2) / np.sum(exact**2)))
 
 
+def nodal_l2(grid, name, nodes, spacing, reference, weight):
+    """relative_l2() of a field in MPa against values of finite elements at nodes: (x, y) in mm, weight their areas.
+
+    The force of a node is the mean with its shape function, so petsam's values are averaged with it: a hat of the
+    spacing of the nodes in x and y. The problem is symmetric about y = 0.
+    """
+    from scipy.interpolate import RegularGridInterpolator
+
+    values = RegularGridInterpolator((grid.y * 1e3, grid.x * 1e3), grid[name] / 1e6, bounds_error=False, fill_value=0.0)
+    hat = [(at / 5.0, (1.0 - abs(at / 5.0)) / 5.0) for at in range(-4, 5)]
+    mean, (x, y) = 0.0, nodes
+    for dx, a in hat:
+        for dy, b in hat:
+            points = np.stack([np.abs(y + dy * spacing[1]), x + dx * spacing[0]], axis=1)
+            mean = mean + a * b * values(points)
+    return float(np.sqrt(np.sum(weight * (mean - reference) ** 2) / np.sum(weight * reference**2)))
+
+
 def print_table(title, columns, rows):
     """Print rows (dicts) under a title; columns: "heading = key:format; ...", the format being that of format()."""
     columns = [column.split(" = ") for column in columns.split("; ")]
