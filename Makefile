@@ -53,7 +53,7 @@ VERSION := $(shell sed -nE 's/^\#define SAM_VERSION_(MAJOR|MINOR|SUBMINOR) +//p'
 SONAME  := libpetsam.so.$(basename $(VERSION))
 HEADERS := include/petsam.h $(sort $(wildcard include/petsam/*.h include/petsam/private/*.h))
 
-.PHONY: all help pages units bench bench-programs peers venv test check-sanitize check-valgrind check-clang check-petsc check-mutants check-fuzz check-readmes format check-format lint install wheel clean
+.PHONY: all help pages units bench bench-programs peers venv test check-slow check-sanitize check-valgrind check-clang check-petsc check-mutants check-fuzz check-readmes format check-format lint install wheel clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -140,8 +140,11 @@ $(B)/venv/tests-done: tests/requirements.txt tests/requirements-optional.txt $(B
 	done < tests/requirements-optional.txt
 	touch $@
 
-test: all units bench-programs $(B)/venv/tests-done ## run all tests (about half an hour on two cores)
+test: all units bench-programs $(B)/venv/tests-done ## run all tests but the slow ones (about ten minutes on two cores)
 	$(PYTHON) tests/run.py --build $(B)
+
+check-slow: all units bench-programs $(B)/venv/tests-done ## run the slow tests that `make test` leaves out, and all others on the ranks that it leaves out
+	$(PYTHON) tests/run.py --build $(B) --slow
 
 check-sanitize: ## unit tests under the address and undefined-behaviour sanitizers
 	$(MAKE) $(SANITIZE) all units

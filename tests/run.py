@@ -5,7 +5,9 @@ Unit tests (CMocka programs in build/tests) run on 1 and 3 ranks; then pytest ru
 tests/program. The output of failing tests and the slowest of both kinds are printed. Arguments choose tests by a
 part of their name. Time limits grow with the load of the machine.
 
-    python3 tests/run.py [--build build] [--ranks 1,3] [--units-only] [name ...]
+    python3 tests/run.py [--build build] [--ranks 1,3] [--units-only] [--slow] [name ...]
+
+With --slow it runs what it leaves out otherwise: units on 2 ranks, SLOW ones on any, tests marked as slow.
 """
 
 import argparse
@@ -21,6 +23,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 TIMEOUT = 300  # seconds for one unit test program on an idle machine
 SLOWEST = 30  # unit tests to print
+SLOW = {}  # unit tests of `make check-slow`
 WORKERS = 4  # most files of whole-program tests at a time; runs on several ranks share the cores
 
 
@@ -68,14 +71,14 @@ def run_unit(program, launcher, folder):
 
 
 def run_units(programs, ranks):
-    """As many programs at a time as there are cores, each in a folder of its own, on its numbers of ranks in turn."""
-    launchers = {n: mpirun(n) for n in ranks}
+    """As many programs at a time as there are cores, each in a folder of its own, on the ranks(its name) in turn."""
+    launchers = {n: mpirun(n) for n in {n for program in programs for n in ranks(program.name)}}
     times = []
 
     def run(program):
         passed = failed = 0
-        for n, launcher in launchers.items():
-            start = time.time()
+        for n in ranks(program.name):
+            start, launcher = time.time(), launchers[n]
             with tempfile.TemporaryDirectory(prefix=f"{program.name}-") as folder:
                 p, f, out = run_unit(program, launcher, folder)
             passed, failed = passed + p, failed + f
@@ -92,14 +95,21 @@ def run_units(programs, ranks):
     return sum(p for p, _ in counts), sum(f for _, f in counts)
 
 
-def run_pytest(build, names):
+def run_pytest(build, names, slow):
     python = build / "venv" / "bin" / "python"
     words = [str(python), "-m", "pytest", "-q", "-rs", "-p", "no:cacheprovider"]
     words += [str(ROOT / "tests" / "program")]
     if names:
         words += ["-k", " or ".join(names)]
     else:
-        words += ["-n", str(min(os.cpu_count() or 1, WORKERS)), "--dist", "loadfile"]
+        words += [
+            "-m",
+            "slow" if slow else "not slow",
+            "-n",
+            str(min(os.cpu_count() or 1, WORKERS)),
+            "--dist",
+            "loadfile",
+        ]
     done = subprocess.run(
         words,
         stdout=subprocess.PIPE,
@@ -120,20 +130,21 @@ def main():
     parser.add_argument("--build", default="build")
     parser.add_argument("--ranks", default="1,3")
     parser.add_argument("--units-only", action="store_true")
+    parser.add_argument("--slow", action="store_true")
     parser.add_argument("names", nargs="*")
     args = parser.parse_args()
     build = (ROOT / args.build).resolve()
     programs = [p for p in sorted((build / "tests").glob("test_*")) if os.access(p, os.X_OK) and p.is_file()]
     programs = [p for p in programs if not args.names or any(n in p.name for n in args.names)]
-    if not args.names:
-        print(
-            f"{len(programs)} unit test programs on {args.ranks} ranks (3 to 8 minutes on two cores)"
-            + ("" if args.units_only else ", then the program tests (in all about half an hour)"),
-            flush=True,
-        )
-    passed, failed = run_units(programs, [int(n) for n in args.ranks.split(",")])
+
+    def ranks(name):
+        if args.slow:
+            return [1, 2, 3] if name in SLOW else [2]
+        return [int(n) for n in args.ranks.split(",")] if args.names or name not in SLOW else []
+
+    passed, failed = run_units(programs, ranks)
     if not args.units_only:
-        p, f = run_pytest(build, args.names)
+        p, f = run_pytest(build, args.names, args.slow)
         passed, failed = passed + p, failed + f
     print(f"{passed} passed, {failed} failed")
     return 1 if failed or not passed else 0

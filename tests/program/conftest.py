@@ -5,6 +5,7 @@ import os
 import signal
 import subprocess
 import sys
+import zlib
 from pathlib import Path
 
 import pytest
@@ -16,6 +17,23 @@ PROGRAM = Path(os.environ.get("PETSAM_BUILD", support.ROOT / "build")).resolve()
 
 
 SLOWEST = 30  # tests whose CPU times are printed
+
+
+def pytest_configure(config):
+    config.addinivalue_line("markers", "slow: run by `make check-slow`, not by `make test`")
+
+
+def pytest_collection_modifyitems(items):
+    """Of a test on several numbers of ranks, all but one number, chosen by a checksum of its name, are slow."""
+    alike = {}
+    for item in items:
+        places = dict(getattr(item, "callspec", None) and item.callspec.indices or {})
+        if places.pop("ranks", None) is not None:
+            alike.setdefault((item.nodeid.partition("[")[0], *sorted(places.items())), []).append(item)
+    for name, tests in alike.items():
+        chosen = zlib.crc32(repr(name).encode()) % len(tests)
+        for test in tests[:chosen] + tests[chosen + 1 :]:
+            test.add_marker("slow")
 
 
 def cpu():

@@ -221,7 +221,7 @@ def test_second_run_is_kept_from_the_files(launcher, folder, ranks):
 
 
 @pytest.mark.parametrize("ranks", [1, 2])
-@pytest.mark.parametrize("step", [1, 5, 20])
+@pytest.mark.parametrize("step", [1, 5, pytest.param(20, marks=pytest.mark.slow)])
 def test_killed_run_leaves_what_it_has_told(launcher, folder, ranks, step):
     """At once after a step is told: its results are in the file, not on their way."""
     run = start(launcher, folder, ranks)
@@ -286,6 +286,7 @@ def die(deadly, folder, options=None, **variables):
     return told(run.stdout), run.returncode
 
 
+@pytest.mark.slow
 def test_no_write_of_a_step_harms_the_steps_before(deadly, folder):
     """Of the step at which HDF5 divides the nodes of its indices, which hold 64 chunks, and of a common one.
 

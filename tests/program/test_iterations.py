@@ -11,7 +11,7 @@ from problem import rough_plane  # noqa: E402
 from support import PUNCH, ball, slide_limit, sliding_pair
 
 
-@pytest.mark.parametrize("n", [256, 512, 1024, (509, 330)])
+@pytest.mark.parametrize("n", [256, 512, pytest.param(1024, marks=pytest.mark.slow), (509, 330)])
 def test_normal_products_at_most_15(solve, n):
     case = ball(n, friction=0)
     if not isinstance(n, int):
@@ -24,7 +24,7 @@ def test_normal_products_of_a_punch_with_moment_at_most_20(solve, n):
     assert solve(PUNCH, dict(grid_n=n, load_my=1.0))["normal_applies"] <= 20
 
 
-@pytest.mark.parametrize("n", [512, 1024])
+@pytest.mark.parametrize("n", [512, pytest.param(1024, marks=pytest.mark.slow)])
 def test_normal_products_of_a_rough_plane_at_most_30(solve, tmp_path, n):
     """About 8 % of it in contact."""
     case = {k: v for k, v in ball(n, friction=0).items() if not k.startswith("gap_")}
@@ -68,6 +68,7 @@ def test_tangential_products_of_a_punch_at_most_25(solve, load):
     assert solve(PUNCH, dict(grid_n=256), load)["tangential_applies"] <= 25
 
 
+@pytest.mark.slow
 def test_tangential_products_at_1024_at_most_25(solve):
     case = ball(1024, poisson=0.3)
     assert solve(case, dict(load_tx=0.8 * slide_limit(case)[0]))["tangential_applies"] <= 25
@@ -82,7 +83,7 @@ def test_products_of_a_dissimilar_contact_that_nearly_slides_at_most_25_a_pass(s
     assert s["tangential_applies"] <= 25 * s["coupling_iterations"]
 
 
-@pytest.mark.parametrize("n, friction", [(256, 1.0), (512, 1.6)])
+@pytest.mark.parametrize("n, friction", [(256, 1.0), pytest.param(512, 1.6, marks=pytest.mark.slow)])
 def test_tangential_products_of_strong_coupling_at_most_8_a_pass(solve, n, friction):
     """Of a pressure that is not smooth yet the shear is not sought to the end."""
     case = ball(n, body1_young=30e9, body1_poisson=0.0, body2_young=float("inf"), friction=friction)
