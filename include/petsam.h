@@ -30,6 +30,5 @@
 #include <petsam/stress.h>
 #include <petsam/fatigue.h>
 #include <petsam/evaluation.h>
-#include <petsam/stressfile.h>
 
 #endif

@@ -4,34 +4,29 @@
 
 #include <petsam/control.h>
 #include <petsam/elasticity.h>
-#include <petsam/fatigue.h>
-
-/* The quantities that are evaluated, each of one or more components, by their names in a stress file. */
-typedef enum {
-  SAM_QUANTITY_STRESS,    /* stress_xx ... stress_yz, Pa */
-  SAM_QUANTITY_MISES,     /* mises, Pa */
-  SAM_QUANTITY_PRINCIPAL, /* principal_1 >= principal_2 >= principal_3, Pa */
-  SAM_QUANTITY_SHEAR_MAX, /* shear_max, Pa: half the difference of principal_1 and principal_3 */
-  SAM_QUANTITY_STRAIN,    /* strain_xx ... strain_yz, tensor shear strains */
-  /* of all steps together, in the order of SamFatigueParameter: */
-  SAM_QUANTITY_CROSSLAND,    /* crossland, Pa */
-  SAM_QUANTITY_DANG_VAN,     /* dang_van, Pa */
-  SAM_QUANTITY_FINDLEY,      /* findley, Pa; findley_normal_x, _y, _z of the critical plane, as the next two have */
-  SAM_QUANTITY_SWT,          /* swt, Pa */
-  SAM_QUANTITY_FATEMI_SOCIE, /* fatemi_socie */
-  SAM_QUANTITY_RUIZ,         /* ruiz_1, J/m2; ruiz_2, Pa J/m2; on the surface, else NaN */
-  SAM_QUANTITIES
-} SamQuantity;
-/* SamQuantityComponents - number of the components of a quantity. Not collective. */
-PETSC_INTERN PetscInt SamQuantityComponents(SamQuantity quantity);
 
 /*
-  SamFatigueAverage - of which stress fatigue parameters are computed, by the theory of critical distances: at a point
-  half a length below the surface, as a mean over the line from the surface to two lengths below it, or over the half
-  disc of that radius below the surface, in the plane of x and z (below a line of cells along y: of y and z). Source:
-  Taylor 2007, The Theory of Critical Distances, chapter 3.
+  SamEvaluation - the stresses in one body under the tractions of load steps: at depths below all cells (maps) or below
+  a line of them (a section); the quantities that are wanted of them (src/stress/quantities.c); and fatigue parameters
+  over the steps, taken as one closed cycle. Maps are evaluated depth by depth, and each step is read once per depth:
+  the steps of a SamStressSource need not be in memory together. Fatigue parameters keep 48 bytes per cell and step.
+  Results are the same to the last bit on any number of ranks. Order of calls: Create, SetBodies, SetSource, SetUp,
+  Compute, GetLargest, Destroy.
 */
-typedef enum { SAM_AVERAGE_NONE, SAM_AVERAGE_POINT, SAM_AVERAGE_LINE, SAM_AVERAGE_AREA } SamFatigueAverage;
+typedef struct _n_SamEvaluation *SamEvaluation;
+
+/*
+  SamEvaluationCreateFromOptions - reads the options of petsam-stress that say what is wanted: -body, -depths, -section,
+  -quantities, -fatigue and its constants, -passing, -fatigue_length. Collective. Errors: SAM_ERR_USER.
+*/
+PETSC_EXTERN PetscErrorCode SamEvaluationCreateFromOptions(const SamOptions *from, SamEvaluation *evaluation);
+PETSC_EXTERN PetscErrorCode SamEvaluationDestroy(SamEvaluation *evaluation);
+/*
+  SamEvaluationSetBodies - the bodies, referenced; `settings` of the transforms, NULL: those of the elasticity. `source`
+  names the origin of the bodies in messages. Settings and source are not copied. Collective.
+*/
+PETSC_EXTERN PetscErrorCode SamEvaluationSetBodies(SamEvaluation evaluation, SamElasticity elasticity,
+                                                   const SamFourierSettings *settings, const char source[]);
 
 /* The fields of a step that an evaluation reads: tractions (Pa), and for Ruiz's parameters the slip (m). */
 typedef enum {
@@ -42,79 +37,59 @@ typedef enum {
   SAM_STEP_SLIP_Y,
   SAM_STEP_FIELDS
 } SamStepField;
-
+/* Numbers of a step: of the load step, 0 where steps have none; time (s); contact area (m2); the cycle of a life. */
+typedef enum { SAM_STEP_NUMBER, SAM_STEP_TIME, SAM_STEP_AREA, SAM_STEP_CYCLE } SamStepNumber;
 /*
-  SamEvaluation - the stresses in one body under the tractions of load steps: at depths below all cells (maps) or below
-  a line of them (a section); the quantities that are wanted of them; and fatigue parameters over the steps, taken as
-  one closed cycle. Maps are evaluated depth by depth, and each step is read once per depth: the steps of a
-  SamEvaluationSource need not be in memory together. Fatigue parameters keep 48 bytes per cell and step.
-  Results are the same to the last bit on any number of ranks.
-*/
-typedef struct _n_SamEvaluation *SamEvaluation;
-
-/* SamEvaluationCreate - of body 2, on its surface, without steps yet. SamEvaluationDestroy. Both are collective. */
-PETSC_EXTERN PetscErrorCode SamEvaluationCreate(MPI_Comm comm, SamEvaluation *evaluation);
-PETSC_EXTERN PetscErrorCode SamEvaluationDestroy(SamEvaluation *evaluation);
-/*
-  The settings, which are those of SamEvaluationSetFromOptions(). None is collective. Errors: SAM_ERR_USER.
-    SetBody             1 or 2 (default); z points into it. -body
-    SetDepths           n depths (m), >= 0 and increasing; default: 0. One at an interface of layers becomes two, the
-                        second, larger by rounding, below it. -depths
-    SetSection          only the cells nearest to the plane y = place (SAM_SECTION_X: along x) or x = place, m. -section
-    SetQuantities       those that are wanted; default: stress and mises. -quantities, and -fatigue for parameters
-    SetPassing          fatigue parameters of points that pass along x, of one step: the stresses of each row of cells,
-                        and none but the bulk stress far from the contact, are the cycle of all its points. -passing
-    SetFatigueConstants without those of the body, n = 1: the same everywhere, else of each layer and then of the
-                        substrate, if that is not rigid. -fatigue_crossland_alpha, ...
-    SetFatigueLength    averages the stresses of fatigue parameters below each cell of the surface over a length (m),
-                        in place of the depths and of other quantities. -fatigue_length, -fatigue_average
-*/
-PETSC_EXTERN PetscErrorCode SamEvaluationSetBody(SamEvaluation evaluation, PetscInt body);
-PETSC_EXTERN PetscErrorCode SamEvaluationGetBody(SamEvaluation evaluation, PetscInt *body);
-PETSC_EXTERN PetscErrorCode SamEvaluationSetDepths(SamEvaluation evaluation, PetscInt n, const PetscReal depths[]);
-PETSC_EXTERN PetscErrorCode SamEvaluationSetSection(SamEvaluation evaluation, SamSectionAxis axis, PetscReal place);
-PETSC_EXTERN PetscErrorCode SamEvaluationSetPassing(SamEvaluation evaluation, PetscBool passing);
-PETSC_EXTERN PetscErrorCode SamEvaluationSetQuantities(SamEvaluation evaluation, const PetscBool wants[SAM_QUANTITIES]);
-PETSC_EXTERN PetscErrorCode SamEvaluationSetFatigueConstants(SamEvaluation evaluation, PetscInt n,
-                                                             const SamFatigueConstants constants[]);
-PETSC_EXTERN PetscErrorCode SamEvaluationSetFatigueLength(SamEvaluation evaluation, PetscReal length,
-                                                          SamFatigueAverage average);
-/* SamEvaluationSetFromOptions - reads these options. Collective. Errors: SAM_ERR_USER. */
-PETSC_EXTERN PetscErrorCode SamEvaluationSetFromOptions(SamEvaluation evaluation, const SamOptions *from);
-/*
-  SamEvaluationNeedsHalfWidth - whether -depths has depths in half widths of the contact, which
-  SamEvaluationSetHalfWidth() sets (m). Neither is collective. Errors: SAM_ERR_USER for depths that do not increase.
-*/
-PETSC_EXTERN PetscErrorCode SamEvaluationNeedsHalfWidth(SamEvaluation evaluation, PetscBool *needs);
-PETSC_EXTERN PetscErrorCode SamEvaluationSetHalfWidth(SamEvaluation evaluation, PetscReal half);
-/*
-  SamEvaluationSetElasticity - the bodies, referenced; `settings` of the transforms, NULL: those of the elasticity.
-  `source` names the origin of the bodies in messages. Settings and source are not copied. Collective.
-*/
-PETSC_EXTERN PetscErrorCode SamEvaluationSetElasticity(SamEvaluation evaluation, SamElasticity elasticity,
-                                                       const SamFourierSettings *settings, const char source[]);
-
-/*
-  SamEvaluationSource - the load steps, read when they are needed. `read`: copies this rank's rows of a field;
-  collective. `bulk`: the bulk stress of the body in each step (Pa), and the factors on load cases. The array is the
-  caller's.
+  SamStressSource - the load steps, which are read when they are needed, by collective functions: this rank's rows of a
+  field; a number; the bulk stress (Pa) of body 1 or 2, and the factors on load cases. Step -1 is the one before the
+  first, if there is one. `warn` receives a text on the steps as a cycle.
 */
 typedef struct {
-  PetscInt steps;
-  const double (*bulk)[SAM_BULK_AND_CASES];
+  PetscInt  steps;
+  PetscBool before;
   PetscErrorCode (*read)(void *context, PetscInt step, SamStepField field, double values[]);
+  PetscErrorCode (*number)(void *context, PetscInt step, SamStepNumber number, double *value);
+  PetscErrorCode (*bulk)(void *context, PetscInt step, PetscInt body, double bulk[SAM_BULK_AND_CASES]);
+  PetscErrorCode (*warn)(void *context, const char text[]);
   void *context;
-} SamEvaluationSource;
-PETSC_EXTERN PetscErrorCode SamEvaluationSetSource(SamEvaluation evaluation, const SamEvaluationSource *source);
-
+} SamStressSource;
+/* SamEvaluationSetSource - the steps; not copied are those that the context holds. Not collective. */
+PETSC_EXTERN PetscErrorCode SamEvaluationSetSource(SamEvaluation evaluation, const SamStressSource *source);
 /*
   SamEvaluationSetUp - checks the settings together, and creates the stresses' kernels. SamEvaluationCompute() calls
   it. Collective. Errors: SAM_ERR_USER for a body that is rigid or whose stresses are not available, a depth above zero
   but below a millionth of a cell, a section outside of the grid, a cycle of one step, passing points of more than
   one or below a section along y, Ruiz's parameters away from the surface or of passing points; PETSC_ERR_ORDER without
-  elasticity.
+  bodies.
 */
 PETSC_EXTERN PetscErrorCode SamEvaluationSetUp(SamEvaluation evaluation);
+
+/* A result: numbers of shape (time, z, y, x), or (z, y, x) of all steps together. */
+typedef struct {
+  const char *name, *unit, *text;
+  PetscBool   of_cycle;
+} SamStressDataset;
+enum { SAM_TIME, SAM_Z, SAM_Y, SAM_X, SAM_STRESS_AXES };
+#define SAM_STRESS_DATASETS 64 /* most results */
+/* SamStressLayout - the shape of the results, after SamEvaluationSetUp(). The arrays are borrowed. */
+typedef struct {
+  PetscInt         body;
+  PetscBool        section, cycle;              /* below one line of cells; there are parameters of a cycle */
+  PetscInt         n[SAM_STRESS_AXES];          /* of all ranks */
+  const double    *coordinate[SAM_STRESS_AXES]; /* s, m */
+  PetscInt         row, rows;                   /* along y: this rank's part of maps, else all of it */
+  PetscInt         datasets;
+  SamStressDataset dataset[SAM_STRESS_DATASETS];
+  double           memory;    /* bytes that SamEvaluationCompute() needs on this rank */
+  double           half;      /* m: half width of the contact, in which -depths are given; 0: in m */
+  PetscInt         half_step; /* of that step */
+} SamStressLayout;
+PETSC_EXTERN const SamStressLayout *SamEvaluationGetLayout(SamEvaluation evaluation);
+/*
+  SamEvaluationAddParameters - appends the body, its elasticity, and the constants of the parameters that are wanted,
+  after SamEvaluationSetUp(). Not collective.
+*/
+PETSC_EXTERN PetscErrorCode SamEvaluationAddParameters(SamEvaluation evaluation, SamParameters *parameters);
 /*
   SamEvaluationSetMonitor - called now and then during SamEvaluationCompute() with the work under way, the done part of
   it, and the done part of all work (0: unknown). Not collective.
@@ -123,59 +98,69 @@ typedef PetscErrorCode (*SamEvaluationMonitor)(void *context, const char work[],
 PETSC_EXTERN PetscErrorCode SamEvaluationSetMonitor(SamEvaluation evaluation, SamEvaluationMonitor monitor,
                                                     void *context);
 /*
-  SamEvaluationCompute - evaluates all steps and hands over each result as it is found: this rank's values of a
-  component of a quantity, of a map those of its rows at one depth (`depth`, `depths` being 1), of a section those of
-  `depths` depths from `depth` on, (depths, cells along). `step` is 0 for a parameter of all steps together. The
-  callback is called alike on all ranks, with arrays that are the evaluation's. Collective.
+  SamEvaluationCompute - evaluates all steps and hands over each result as it is found: this rank's block of a dataset
+  of the layout, which begins at `start` and has `count` numbers along each axis; those of a cycle begin at time 0. A
+  map's blocks are its rows at one depth, a section's are some depths. The callback is called alike on all ranks, with
+  arrays that are the evaluation's. Collective.
 */
-typedef PetscErrorCode (*SamEvaluationWrite)(void *context, SamQuantity quantity, PetscInt component, PetscInt step,
-                                             PetscInt depth, PetscInt depths, const double values[]);
+typedef PetscErrorCode (*SamEvaluationWrite)(void *context, PetscInt dataset, const PetscInt start[SAM_STRESS_AXES],
+                                             const PetscInt count[SAM_STRESS_AXES], const double values[]);
 PETSC_EXTERN PetscErrorCode SamEvaluationCompute(SamEvaluation evaluation, SamEvaluationWrite write, void *context);
 
-/* The shape of an evaluation's results. The arrays are borrowed. */
-typedef struct {
-  PetscInt         steps, depths;
-  const PetscReal *times, *depth; /* s, m */
-  PetscBool        section;       /* only one line of cells: */
-  SamSectionAxis   axis;
-  PetscInt         index;
-  PetscBool        wants[SAM_QUANTITIES];
-} SamStressLayout;
-/*
-  After SamEvaluationSetUp(); none is collective:
-    SamEvaluationGetLayout     without the times, which an evaluation does not have; the depths are borrowed
-    SamEvaluationGetMemory     bytes that SamEvaluationCompute() needs on this rank
-    SamEvaluationHasCycle      whether a fatigue parameter is wanted
-    SamEvaluationAddParameters appends the body, its elasticity, and the constants of the parameters that are wanted
-*/
-PETSC_EXTERN PetscErrorCode SamEvaluationGetLayout(SamEvaluation evaluation, SamStressLayout *layout);
-PETSC_EXTERN PetscErrorCode SamEvaluationGetMemory(SamEvaluation evaluation, double *bytes);
-PETSC_EXTERN PetscErrorCode SamEvaluationHasCycle(SamEvaluation evaluation, PetscBool *has);
-PETSC_EXTERN PetscErrorCode SamEvaluationAddParameters(SamEvaluation evaluation, SamParameters *parameters);
-
-/* The largest value of a result, and its x, y and z (m); of equal ones the first in the order z, y, x. */
+/* A largest value, and its x, y and z (m); of equal ones the first in the order z, y, x. NaN: there is none. */
 typedef struct {
   double value, place[3];
 } SamLargest;
 /*
-  SamEvaluationGetLargest - after SamEvaluationCompute(): of SAM_QUANTITY_MISES or the first of SAM_QUANTITY_PRINCIPAL
-  in a step, whether they are wanted or not, or of a fatigue parameter that is wanted.
-  SamEvaluationGetEdgeLargest - where a map of the surface has been evaluated: the largest stress xx and the largest
-  principal stress of a step at the edge of contact (SamStressAtEdge()). NaN without one; `lost`: there is one, but too
-  little of it is smooth and resolved. Not collective.
+  SamLargestSeries - the largest values of each step: of the von Mises and the first principal stress, whether they are
+  wanted or not; where there is a map of the surface, of the stress xx and the first principal stress at the edge of
+  contact (SamStressAtEdge()); in each layer in which a depth is, of the von Mises stress, and of the tension zz and the
+  shear sqrt(xz^2 + yz^2) at its bottom. And the largest value of each fatigue parameter that is wanted.
 */
-PETSC_EXTERN PetscErrorCode SamEvaluationGetLargest(SamEvaluation evaluation, SamQuantity quantity, PetscInt step,
-                                                    SamLargest *largest);
-PETSC_EXTERN PetscErrorCode SamEvaluationGetEdgeLargest(SamEvaluation evaluation, PetscInt step, SamLargest largest[2],
-                                                        PetscBool *lost);
+typedef struct {
+  char              name[48], text[96]; /* of its dataset: name_max in each step; what it is */
+  char              shown[64];          /* the same as it is printed; "": it is not */
+  const char       *unit;
+  PetscBool         of_cycle;
+  PetscInt          layer;   /* from 1; 0: it is of no layer */
+  PetscInt          places;  /* coordinates of the place: z is 0 at the edge, and not told */
+  PetscInt          missing; /* steps with an edge of which too little is smooth and resolved */
+  PetscInt          count;   /* steps; 1 of a cycle */
+  const SamLargest *step;    /* borrowed */
+} SamLargestSeries;
+/* SamEvaluationGetLargest - the k-th of them after SamEvaluationCompute(); false: there are no more. Not collective. */
+PETSC_EXTERN PetscBool SamEvaluationGetLargest(SamEvaluation evaluation, PetscInt k, SamLargestSeries *series);
+
+/* ---- files ---- */
+
 /*
-  SamEvaluationGetLayers - the number of layers of the body, after SamEvaluationSetUp().
-  SamEvaluationGetLayerLargest - of a layer (from 0; their number: the substrate) in a step, after
-  SamEvaluationCompute(): the largest von Mises stress; and the largest tension zz and shear sqrt(xz^2 + yz^2) at its
-  bottom. NaN where no depth is there. Not collective.
+  SamStressFile - an HDF5 file with the results of an evaluation, their coordinates, and the largest values of each step
+  in /history. Every dataset has the attributes `units` and `long_name` and its dimension scales, so that h5py and
+  xarray open it.
 */
-PETSC_EXTERN PetscErrorCode SamEvaluationGetLayers(SamEvaluation evaluation, PetscInt *layers);
-PETSC_EXTERN PetscErrorCode SamEvaluationGetLayerLargest(SamEvaluation evaluation, PetscInt layer, PetscInt step,
-                                                         SamLargest largest[3]);
+typedef struct _n_SamStressFile *SamStressFile;
+/*
+  SamStressFileCreate - creates the file with all datasets; replaces an older file of petsam. It takes the name only
+  when SamStressFileFinish() has completed it. Collective. Errors: SAM_ERR_FILE, also when there is no space for it.
+  SamStressFileWrite - a SamEvaluationWrite with the file as its context. Collective. Errors: SAM_ERR_FILE.
+  SamStressFileWriteLargest - largest values: of steps in /history, as name_max and its place name_max_x, ...; of a
+  cycle as attributes of its dataset. Collective. Errors: SAM_ERR_FILE.
+  SamStressFileSetText - an attribute of the root group. Collective. Errors: SAM_ERR_FILE.
+  SamStressFileSetHistory - a number for each step in /history, with its unit. Collective. Errors: SAM_ERR_FILE.
+  SamStressFileFinish - completes the file and gives it its name. Collective. Errors: SAM_ERR_FILE.
+  SamStressFileAbandon - removes a file that has not been finished, before the program is aborted. Not collective.
+  SamStressFileDestroy - removes a file that has not been finished. Collective.
+*/
+PETSC_EXTERN PetscErrorCode SamStressFileCreate(SamGrid grid, const char filename[], const SamStressLayout *layout,
+                                                const SamParameters *parameters, SamStressFile *file);
+PETSC_EXTERN PetscErrorCode SamStressFileWrite(void *file, PetscInt dataset, const PetscInt start[SAM_STRESS_AXES],
+                                               const PetscInt count[SAM_STRESS_AXES], const double values[]);
+PETSC_EXTERN PetscErrorCode SamStressFileWriteLargest(SamStressFile file, const SamLargestSeries *series);
+PETSC_EXTERN PetscErrorCode SamStressFileSetText(SamStressFile file, const char name[], const char text[]);
+PETSC_EXTERN PetscErrorCode SamStressFileSetHistory(SamStressFile file, const char name[], const char units[],
+                                                    const char long_name[], const double values[]);
+PETSC_EXTERN PetscErrorCode SamStressFileFinish(SamStressFile file);
+PETSC_EXTERN void           SamStressFileAbandon(SamStressFile file);
+PETSC_EXTERN PetscErrorCode SamStressFileDestroy(SamStressFile *file);
 
 #endif

@@ -4,21 +4,6 @@
 
 #include <petsam/stress.h>
 
-/*
-  SamFatigueParameter - what is computed of the states of one closed cycle, whose order counts for Ruiz's only. n is the
-  normal of a plane, s_n the stress on it, e_n the strain along it, tau_a the radius of the minimum circumscribed circle
-  of the shear stress path in it; S the deviator, R the radius of the minimum circumscribed sphere of its path in the
-  norm sqrt(S:S), P_H the hydrostatic stress.
-*/
-typedef enum {
-  SAM_FATIGUE_CROSSLAND, /* R/sqrt(2) + alpha max P_H, Pa (Crossland 1956) */
-  SAM_FATIGUE_DANG_VAN,  /* max of tau + alpha P_H, tau the largest shear of S less the sphere's centre, Pa */
-  SAM_FATIGUE_FINDLEY,   /* largest over n of tau_a + k max s_n, Pa (Findley 1959) */
-  SAM_FATIGUE_SWT,       /* largest over n of max s_n times half the range of e_n, Pa; 0 where s_n is never tensile */
-  SAM_FATIGUE_FATEMI_SOCIE, /* largest over n of tau_a/G (1 + k max s_n/yield), 1 (Fatemi and Socie 1988) */
-  SAM_FATIGUE_PARAMETERS
-} SamFatigueParameter;
-
 typedef struct {
   PetscReal young, poisson; /* of the body, Pa, 1 */
   PetscReal crossland_alpha, dang_van_alpha, findley_k, fatemi_socie_k;
@@ -26,25 +11,42 @@ typedef struct {
 } SamFatigueConstants;
 
 /*
-  SamFatigueCompute - a parameter of the states of a cycle at one point: stress[c * states + k] is component c (Pa) in
-  state k. Planes are searched by 10 degrees, then around the best of them down to a sixth of a degree. The normal of
-  the best one, its z not negative, goes to `normal`, which may be NULL; it is NaN for a parameter without planes, and
-  where no plane is under tension (SWT). Not collective.
-  Sources: Smith, Watson and Topper 1970, J. Mater. 5, 767; Fatemi and Socie 1988, Fatigue Fract. Eng. Mater. Struct.
-  11, 149; Papadopoulos 1997, Int. J. Fatigue 19, 219 (measures of the shear's path).
+  SamFatigueCycle - the states of a closed cycle at a point, whose order counts for Ruiz's parameters only: component c
+  of state k is stress[c * states + k] (Pa), and of the slip (m) slip[c * states + k]; the last state is followed by the
+  first. There is room for SAM_FATIGUE_SCRATCH * states numbers in `scratch`.
 */
-PETSC_INTERN PetscErrorCode SamFatigueCompute(SamFatigueParameter parameter, const SamFatigueConstants *constants,
-                                              PetscInt states, const double stress[], double *value, double normal[3]);
-
+#define SAM_FATIGUE_SCRATCH 11
+typedef struct {
+  const SamFatigueConstants *constants;
+  PetscInt                   states;
+  const double              *stress, *slip; /* NULL: there is no slip below the surface */
+  double                    *scratch;
+} SamFatigueCycle;
 /*
-  SamFatigueRuiz - Ruiz's parameters on the surface. D1 = a quarter of the closed integral of |q . ds| (J/m2), which for
-  a reciprocating cycle is the shear times the slip amplitude; D2 (Pa J/m2) = D1 times the maximum tension in the
-  direction of the maximum change of slip. shear[c * states + k], slip[c * states + k]: their components along x and y
-  (Pa, m) in state k; the last state is followed by the first. Not collective. Source: Ruiz, Boddington and Chen 1984,
+  SamFatigueParameter - returns a parameter of a cycle. n is the normal of a plane, s_n the stress on it, e_n the strain
+  along it, tau_a the radius of the minimum circumscribed circle of the shear stress path in it; S the deviator, R the
+  radius of the minimum circumscribed sphere of its path in the norm sqrt(S:S), P_H the hydrostatic stress.
+    SamFatigueCrossland    R/sqrt(2) + alpha max P_H, Pa (Crossland 1956)
+    SamFatigueDangVan      max of tau + alpha P_H, tau the largest shear of S less the sphere's centre, Pa
+    SamFatigueFindley      largest over n of tau_a + k max s_n, Pa (Findley 1959)
+    SamFatigueSWT          largest over n of max s_n times half the range of e_n, Pa; 0 where s_n is never tensile
+    SamFatigueFatemiSocie  largest over n of tau_a/G (1 + k max s_n/yield), 1 (Fatemi and Socie 1988)
+    SamFatigueRuiz         D1, J/m2: a quarter of the closed integral of |q . ds|, q the shear on the surface, which for
+                           a reciprocating cycle is the shear times the slip amplitude; NaN below the surface
+  Planes are searched by 10 degrees, then around the best of them down to a sixth of a degree. The normal of the best
+  one, its z not negative, goes to `more`; it is NaN where no plane is under tension (SWT). Of Ruiz's, D2 (Pa J/m2) does:
+  D1 times the maximum tension in the direction of the maximum change of slip. Not collective.
+  Sources: Smith, Watson and Topper 1970, J. Mater. 5, 767; Fatemi and Socie 1988, Fatigue Fract. Eng. Mater. Struct.
+  11, 149; Papadopoulos 1997, Int. J. Fatigue 19, 219 (measures of the shear's path); Ruiz, Boddington and Chen 1984,
   Exp. Mech. 24, 208.
 */
-PETSC_INTERN void SamFatigueRuiz(PetscInt states, const double stress[], const double shear[], const double slip[],
-                                 double *d1, double *d2);
+typedef double      SamFatigueParameter(const SamFatigueCycle *cycle, double more[]);
+PETSC_INTERN double SamFatigueCrossland(const SamFatigueCycle *cycle, double more[]);
+PETSC_INTERN double SamFatigueDangVan(const SamFatigueCycle *cycle, double more[]);
+PETSC_INTERN double SamFatigueFindley(const SamFatigueCycle *cycle, double more[]);
+PETSC_INTERN double SamFatigueSWT(const SamFatigueCycle *cycle, double more[]);
+PETSC_INTERN double SamFatigueFatemiSocie(const SamFatigueCycle *cycle, double more[]);
+PETSC_INTERN double SamFatigueRuiz(const SamFatigueCycle *cycle, double more[]);
 
 /*
   SamSmallestBall - the smallest ball about n > 0 points of that dimension, at most 5 (points[i * dimension + d]): its

@@ -4,8 +4,10 @@
   Exit codes: 0 done; 2 bad usage; 3 a file cannot be used; others are PETSc's.
 */
 #include "program.h"
+#include "request.h"
 #include "help/petsam-stress.h" /* from petsam-stress.help */
-#include "stress/stressrun.h"
+#include <petsam/evaluation.h>
+#include <petsam/output.h>
 #include <petsam/private/baseimpl.h>
 #include <math.h>
 #include <petsctime.h>
@@ -17,9 +19,48 @@
 /* A depth, in widths of the grid, that a unit may explain. */
 #define DEEP 20.0
 
-/* ---- set-up ---- */
+#define SHOWN 8 /* layers of which all maxima are printed */
 
-/* A field of the k-th of the chosen steps. */
+/* A run of petsam-stress. */
+typedef struct {
+  SamStressRequest       request;
+  SamResults             results;
+  SamStressFile          file;
+  SamGrid                grid;       /* of the results */
+  SamElasticity          elasticity; /* the bodies, as the results have recorded them */
+  SamEvaluation          evaluation;
+  const SamStressLayout *layout;
+  PetscInt               steps, *saved;
+  PetscMPIInt            rank;
+  PetscBool              quiet, writing;
+  PetscLogDouble         start, told; /* when the computation began, and the last line was printed, s */
+
+  char               source[PETSC_MAX_PATH_LEN + 16]; /* of the bodies, for messages */
+  SamFourierSettings transforms;
+} SamStressRun;
+
+static PetscErrorCode Warn(void *context, const char option[], const char format[], ...)
+{
+  va_list values;
+
+  PetscFunctionBegin;
+  if (((const SamStressRun *)context)->rank) PetscFunctionReturn(PETSC_SUCCESS);
+  va_start(values, format);
+  fprintf(stderr, "petsam-stress: warning: %s", option);
+  (void)vfprintf(stderr, format, values);
+  fprintf(stderr, "\n");
+  va_end(values);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the steps ---- */
+
+/* The number of a saved step of the k-th chosen one; -1: of that before the first, at the same distance. */
+static PetscInt SavedStep(const SamStressRun *run, PetscInt k)
+{
+  return k >= 0 ? run->saved[k] : run->saved[0] - (run->steps > 1 ? run->saved[1] - run->saved[0] : 1);
+}
+
 static PetscErrorCode ReadField(void *context, PetscInt step, SamStepField field, double values[])
 {
   static const SamResultsField fields[SAM_STEP_FIELDS] = {SAM_RESULTS_PRESSURE, SAM_RESULTS_SHEAR_X,
@@ -27,9 +68,71 @@ static PetscErrorCode ReadField(void *context, PetscInt step, SamStepField field
   const SamStressRun *const    run                     = (const SamStressRun *)context;
 
   PetscFunctionBegin;
-  PetscCall(SamResultsRead(run->results, run->saved[step], fields[field], values));
+  PetscCall(SamResultsRead(run->results, SavedStep(run, step), fields[field], values));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+static PetscErrorCode ReadNumber(void *context, PetscInt k, SamStepNumber number, double *value)
+{
+  const SamStressRun *const run = (const SamStressRun *)context;
+  PetscInt                  step;
+  PetscReal                 time;
+
+  PetscFunctionBegin;
+  PetscCall(SamResultsGetSaved(run->results, SavedStep(run, k), &step, &time));
+  *value = number == SAM_STEP_NUMBER ? (double)step : (double)time;
+  if (number == SAM_STEP_AREA || number == SAM_STEP_CYCLE)
+    PetscCall(SamResultsReadNumber(run->results, step,
+                                   number == SAM_STEP_AREA ? SAM_RESULTS_CONTACT_AREA : SAM_RESULTS_CYCLE, value));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ReadBulk(void *context, PetscInt k, PetscInt body, double bulk[SAM_BULK_AND_CASES])
+{
+  const SamStressRun *const run = (const SamStressRun *)context;
+  PetscInt                  step;
+
+  PetscFunctionBegin;
+  PetscCall(SamResultsGetSaved(run->results, SavedStep(run, k), &step, NULL));
+  PetscCall(SamResultsReadBulkStress(run->results, step, body - 1, bulk));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode WarnOfSteps(void *context, const char text[])
+{
+  return Warn(context, "-steps: ", "%s", text);
+}
+
+/* Chooses the steps; warns of those that have not been solved. */
+static PetscErrorCode ChooseSteps(SamStressRun *run)
+{
+  SamStressSource source = {
+    .read = ReadField, .number = ReadNumber, .bulk = ReadBulk, .warn = WarnOfSteps, .context = run};
+  PetscInt unsolved = 0, first[2] = {0, 0};
+
+  PetscFunctionBegin;
+  PetscCall(SamStressRequestSteps(&run->request, run->results, &run->steps, &run->saved));
+  for (PetscInt k = 0; k < run->steps; k++) {
+    PetscInt step;
+    double   status;
+
+    PetscCall(SamResultsGetSaved(run->results, run->saved[k], &step, NULL));
+    PetscCall(SamResultsReadNumber(run->results, step, SAM_RESULTS_STATUS, &status));
+    if (status == 0) continue;
+    if (!unsolved++) first[0] = step, first[1] = (PetscInt)status;
+  }
+  if (unsolved)
+    PetscCall(Warn(run, "",
+                   "petsam has not solved %ld of %ld steps: step %ld has the status %ld (/history/status): do not rely "
+                   "on its stresses",
+                   (long)unsolved, (long)run->steps, (long)first[0], (long)first[1]));
+  source.steps  = run->steps;
+  source.before = SavedStep(run, -1) >= 0 ? PETSC_TRUE : PETSC_FALSE;
+  PetscCall(SamEvaluationSetSource(run->evaluation, &source));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- set-up ---- */
 
 /* The bodies, by the elasticity that the results have recorded. */
 static PetscErrorCode CreateBodies(SamStressRun *run)
@@ -40,49 +143,14 @@ static PetscErrorCode CreateBodies(SamStressRun *run)
   PetscCall(SamResultsGetParameters(run->results, &parameters));
   PetscCall(PetscSNPrintf(run->source, sizeof(run->source), "-input %s", run->request.input));
   PetscCall(SamElasticityCreateFromParameters(run->grid, parameters, run->source, &run->elasticity));
-  PetscCall(SamEvaluationSetElasticity(run->evaluation, run->elasticity, &run->transforms, run->source));
+  PetscCall(SamEvaluationSetBodies(run->evaluation, run->elasticity, &run->transforms, run->source));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Times and bulk stresses of the steps; warns of those that have not been solved. */
-static PetscErrorCode ReadSteps(SamStressRun *run)
+/* The bytes of this rank. */
+static double MemoryOf(const SamStressRun *run)
 {
-  PetscInt    body, unsolved = 0, first[2] = {0, 0};
-  PetscMPIInt rank;
-
-  PetscFunctionBegin;
-  PetscCall(SamStressRequestSteps(&run->request, run->results, &run->steps, &run->saved));
-  PetscCall(PetscMalloc1(run->steps, &run->times));
-  PetscCall(PetscMalloc1(run->steps, &run->bulk));
-  PetscCall(SamEvaluationGetBody(run->evaluation, &body));
-  for (PetscInt k = 0; k < run->steps; k++) {
-    PetscInt step;
-    double   status;
-
-    PetscCall(SamResultsGetSaved(run->results, run->saved[k], &step, &run->times[k]));
-    PetscCall(SamResultsReadBulkStress(run->results, step, body - 1, run->bulk[k]));
-    PetscCall(SamResultsReadNumber(run->results, step, SAM_RESULTS_STATUS, &status));
-    if (status == 0) continue;
-    if (!unsolved++) first[0] = step, first[1] = (PetscInt)status;
-  }
-  PetscCallMPI(MPI_Comm_rank(run->grid->comm, &rank));
-  if (unsolved && !rank)
-    fprintf(stderr,
-            "petsam-stress: warning: petsam has not solved %ld of %ld steps: step %ld has the status %ld "
-            "(/history/status): do not rely on its stresses\n",
-            (long)unsolved, (long)run->steps, (long)first[0], (long)first[1]);
-  PetscCall(SamEvaluationSetSource(
-    run->evaluation,
-    &(SamEvaluationSource){.steps = run->steps, .bulk = run->bulk, .read = ReadField, .context = run}));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode GetMemory(const SamStressRun *run, double *bytes)
-{
-  PetscFunctionBegin;
-  PetscCall(SamEvaluationGetMemory(run->evaluation, bytes));
-  *bytes += SAM_MEMORY_PROGRAM;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return run->layout->memory + SAM_MEMORY_PROGRAM;
 }
 
 /* The output and its temporary file must not replace a file that is read. */
@@ -105,13 +173,12 @@ static PetscErrorCode SetUp(void *context, const SamArguments *arguments)
   SamStressRun *const run  = (SamStressRun *)context;
   const SamOptions    from = {PETSC_COMM_WORLD, NULL};
   PetscBool           help;
-  double              bytes;
 
   PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &run->rank));
   PetscCall(SamOptionsPlugins(&from));
   PetscCall(SamStressRequestRead(&from, &run->request));
-  PetscCall(SamEvaluationCreate(PETSC_COMM_WORLD, &run->evaluation));
-  PetscCall(SamEvaluationSetFromOptions(run->evaluation, &from));
+  PetscCall(SamEvaluationCreateFromOptions(&from, &run->evaluation));
   PetscCall(SamOptionsHeading(&from, "Resources"));
   PetscCall(SamFourierSettingsFromOptions(&run->transforms, &from));
   PetscCall(SamOptionsBool(&from, "quiet", "print warnings and errors only", &run->quiet, NULL));
@@ -122,11 +189,14 @@ static PetscErrorCode SetUp(void *context, const SamArguments *arguments)
   PetscCall(SamResultsOpen(PETSC_COMM_WORLD, "input", run->request.input, &run->results));
   PetscCall(SamResultsGetGrid(run->results, &run->grid));
   PetscCall(CreateBodies(run));
-  PetscCall(ReadSteps(run));
-  PetscCall(SamStressRunHalfWidth(run));
+  PetscCall(ChooseSteps(run));
   PetscCall(SamEvaluationSetUp(run->evaluation));
-  PetscCall(GetMemory(run, &bytes));
-  PetscCall(SamMemoryRefuse(run->grid->comm, bytes, "-input", run->request.input, &from));
+  run->layout = SamEvaluationGetLayout(run->evaluation);
+  if (run->layout->half > 0 && !run->quiet)
+    PetscCall(PetscPrintf(run->grid->comm,
+                          "a = %.6g m, the half width (smaller half axis) of the contact of step %ld\n",
+                          run->layout->half, (long)run->layout->half_step));
+  PetscCall(SamMemoryRefuse(run->grid->comm, MemoryOf(run), "-input", run->request.input, &from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -140,8 +210,6 @@ static PetscErrorCode TearDown(void *context)
   PetscCall(SamElasticityDestroy(&run->elasticity));
   PetscCall(SamResultsDestroy(&run->results));
   PetscCall(PetscFree(run->saved));
-  PetscCall(PetscFree(run->times));
-  PetscCall(PetscFree(run->bulk));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -168,30 +236,19 @@ static PetscErrorCode Tell(void *context, const char work[], double part, double
 
 static PetscErrorCode CreateFile(SamStressRun *run)
 {
-  SamParameters   parameters = {.count = 0};
-  SamStressLayout layout;
-  const char     *of_run;
-  char           *options;
+  SamParameters parameters = {.count = 0};
+  const char   *of_run;
+  char         *options;
 
   PetscFunctionBegin;
-  PetscCall(SamEvaluationGetLayout(run->evaluation, &layout));
-  layout.times = run->times;
   PetscCall(SamEvaluationAddParameters(run->evaluation, &parameters));
-  PetscCall(SamStressFileCreate(run->grid, run->request.output, &layout, &parameters, &run->file));
+  PetscCall(SamStressFileCreate(run->grid, run->request.output, run->layout, &parameters, &run->file));
   PetscCall(SamStressFileSetText(run->file, "input", run->request.input));
   PetscCall(PetscOptionsGetAll(NULL, &options));
   PetscCall(SamStressFileSetText(run->file, "options", options));
   PetscCall(PetscFree(options));
   PetscCall(SamResultsGetOptions(run->results, &of_run));
   PetscCall(SamStressFileSetText(run->file, "input_options", of_run));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode Write(void *context, SamQuantity quantity, PetscInt component, PetscInt step, PetscInt depth,
-                            PetscInt depths, const double values[])
-{
-  PetscFunctionBegin;
-  PetscCall(SamStressFileWrite(((SamStressRun *)context)->file, quantity, component, step, depth, depths, values));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -202,14 +259,74 @@ static PetscErrorCode WriteStepNumbers(SamStressRun *run)
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(run->steps, &numbers));
-  for (PetscInt k = 0; k < run->steps; k++) {
-    PetscInt step;
-
-    PetscCall(SamResultsGetSaved(run->results, run->saved[k], &step, NULL));
-    numbers[k] = (double)step;
-  }
+  for (PetscInt k = 0; k < run->steps; k++) PetscCall(ReadNumber(run, k, SAM_STEP_NUMBER, &numbers[k]));
   PetscCall(SamStressFileSetHistory(run->file, "step", "1", "number of the load step, from 1", numbers));
   PetscCall(PetscFree(numbers));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Writes the largest values of all steps, and of the fatigue parameters. */
+static PetscErrorCode WriteLargest(SamStressRun *run)
+{
+  SamLargestSeries of;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; SamEvaluationGetLargest(run->evaluation, k, &of); k++) {
+    PetscCall(SamStressFileWriteLargest(run->file, &of));
+    if (of.missing && !strcmp(of.name, "edge_stress_xx"))
+      PetscCall(Warn(run, "",
+                     "the contact edge is not found in %ld of %ld steps, and /history/edge_stress_xx_max is NaN there: "
+                     "less than 95 %% of it is smooth and resolved: use a finer grid, which does not help dissimilar "
+                     "bodies",
+                     (long)of.missing, (long)run->steps));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The step in which a value is largest; -1: there is none. */
+static PetscInt MostOf(const SamLargestSeries *of)
+{
+  PetscInt most = -1;
+
+  for (PetscInt s = 0; s < of->count; s++)
+    if (!isnan(of->step[s].value) && (most < 0 || of->step[s].value > of->step[most].value)) most = s;
+  return most;
+}
+
+/* Whether a value of a layer is the largest of that kind in all layers. */
+static PetscBool IsLargestOfLayers(SamStressRun *run, const SamLargestSeries *of)
+{
+  const char *const kind = strrchr(of->name, '_');
+  SamLargestSeries  other;
+
+  for (PetscInt k = 0; SamEvaluationGetLargest(run->evaluation, k, &other); k++)
+    if (other.layer && !strcmp(strrchr(other.name, '_'), kind) &&
+        other.step[MostOf(&other)].value > of->step[MostOf(of)].value)
+      return PETSC_FALSE;
+  return PETSC_TRUE;
+}
+
+/* The largest values over all steps; of many layers only those that are largest of all. */
+static PetscErrorCode PrintLargest(SamStressRun *run)
+{
+  SamLargestSeries of;
+  PetscInt         layers = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; SamEvaluationGetLargest(run->evaluation, k, &of); k++) layers = PetscMax(layers, of.layer);
+  for (PetscInt k = 0; SamEvaluationGetLargest(run->evaluation, k, &of); k++) {
+    const PetscInt    most     = MostOf(&of);
+    const SamLargest *at       = most < 0 ? &(SamLargest){NAN, {NAN, NAN, NAN}} : &of.step[most];
+    char              step[32] = "", unit[16] = "";
+    double            number = 0;
+
+    if (!of.shown[0] || (of.layer && layers > SHOWN + 1 && !IsLargestOfLayers(run, &of))) continue;
+    if (strcmp(of.unit, "1")) (void)snprintf(unit, sizeof(unit), " %s", of.unit);
+    if (!k) PetscCall(ReadNumber(run, PetscMax(most, 0), SAM_STEP_NUMBER, &number));
+    if (!k) (void)snprintf(step, sizeof(step), " in step %.0f", number);
+    PetscCall(PetscPrintf(run->grid->comm, "  %-11s %s %.6g%s at (%.4g, %.4g, %.4g) m%s\n", k ? "" : "maximum",
+                          of.shown, at->value, unit, at->place[0], at->place[1], at->place[2], step));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -217,45 +334,34 @@ static PetscErrorCode WriteStepNumbers(SamStressRun *run)
 
 static PetscErrorCode PrintBanner(SamStressRun *run)
 {
-  const SamGrid   g = run->grid;
-  SamStressLayout layout;
-  PetscMPIInt     ranks;
-  PetscInt        body;
-  double          bytes;
-  char            memory[32];
+  const SamGrid g = run->grid;
+  PetscMPIInt   ranks;
+  char          memory[32];
 
   PetscFunctionBegin;
   if (run->quiet) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCallMPI(MPI_Comm_size(g->comm, &ranks));
-  PetscCall(SamEvaluationGetLayout(run->evaluation, &layout));
-  PetscCall(SamEvaluationGetBody(run->evaluation, &body));
-  PetscCall(GetMemory(run, &bytes));
-  SamDescribeBytes(bytes, memory, sizeof(memory));
+  SamDescribeBytes(MemoryOf(run), memory, sizeof(memory));
   PetscCall(PetscPrintf(g->comm,
                         "petsam-stress " PETSAM_VERSION ": stresses in body %" PetscInt_FMT "\n"
                         "  results     %s, %" PetscInt_FMT " x %" PetscInt_FMT " cells\n"
                         "  steps       %" PetscInt_FMT ", depths %" PetscInt_FMT ", %s\n"
                         "  ranks       %d, memory about %s per rank\n\n",
-                        body, run->request.input, g->nx, g->ny, run->steps, layout.depths,
-                        layout.section ? "on a section" : "maps", ranks, memory));
+                        run->layout->body, run->request.input, g->nx, g->ny, run->steps, run->layout->n[SAM_Z],
+                        run->layout->section ? "on a section" : "maps", ranks, memory));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* The stresses of a contact fall off within its own size. */
 static PetscErrorCode WarnOfDepths(SamStressRun *run)
 {
-  const double    width = 2 * (double)run->grid->length;
-  SamStressLayout layout;
-  PetscMPIInt     rank;
-  double          deepest;
+  const double width   = 2 * (double)run->grid->length,
+               deepest = run->layout->coordinate[SAM_Z][run->layout->n[SAM_Z] - 1];
 
   PetscFunctionBegin;
-  PetscCall(SamEvaluationGetLayout(run->evaluation, &layout));
-  deepest = (double)layout.depth[layout.depths - 1];
-  PetscCallMPI(MPI_Comm_rank(run->grid->comm, &rank));
-  if (deepest > DEEP * width && !rank)
-    fprintf(stderr, "petsam-stress: warning: -depths: %g m is %.2g times the width of the grid: check the unit, m\n",
-            deepest, deepest / width);
+  if (deepest > DEEP * width)
+    PetscCall(
+      Warn(run, "-depths: ", "%g m is %.2g times the width of the grid: check the unit, m", deepest, deepest / width));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -280,7 +386,6 @@ static void CatchSignals(void)
 static PetscErrorCode Compute(void *context)
 {
   SamStressRun *const run = (SamStressRun *)context;
-  PetscBool           cycle;
   PetscLogDouble      end;
 
   PetscFunctionBegin;
@@ -291,20 +396,18 @@ static PetscErrorCode Compute(void *context)
   run->told    = run->start;
   run->writing = PETSC_TRUE;
   PetscCall(CreateFile(run));
-  PetscCall(SamEvaluationHasCycle(run->evaluation, &cycle));
-  if (cycle && run->steps > 1) PetscCall(SamCycleCheckClosed(run)); /* one: of points that pass */
   PetscCall(SamEvaluationSetMonitor(run->evaluation, Tell, run));
-  PetscCall(SamEvaluationCompute(run->evaluation, Write, run));
+  PetscCall(SamEvaluationCompute(run->evaluation, SamStressFileWrite, run->file));
   if (run->told > run->start) { /* lines that have begun end with the whole */
     run->told = -INFINITY;
     PetscCall(Tell(run, "all", 1, 0));
   }
   PetscCall(WriteStepNumbers(run));
-  PetscCall(SamLargestWrite(run));
+  PetscCall(WriteLargest(run));
   PetscCall(SamStressFileFinish(run->file));
   run->writing = PETSC_FALSE;
   PetscCall(PetscTime(&end));
-  if (!run->quiet) PetscCall(SamLargestPrint(run));
+  if (!run->quiet) PetscCall(PrintLargest(run));
   if (!run->quiet)
     PetscCall(
       PetscPrintf(run->grid->comm, "  time        %.2f s\n  written     %s\n", end - run->start, run->request.output));

@@ -6,16 +6,24 @@
 */
 #include "embedimpl.h"
 #include <petsam/private/arguments.h>
-#include <petsam/private/quantities.h>
+#include <petsam/evaluation.h>
 
-/* The results: coordinates, and the datasets of an evaluation. */
-enum { TIME, Z, Y, X, AXES, RESULTS = AXES + SAM_DATASETS };
+enum { AXES = SAM_STRESS_AXES };
 
 /* A step whose stresses can be evaluated. */
 typedef struct {
   SamControl control;
+  double     area;   /* of contact, m2 */
   double    *fields; /* (SAM_STEP_FIELDS, cells); NULL: there is no step */
 } Step;
+
+/* Coordinates, or a dataset of an evaluation. */
+typedef struct {
+  const char *name;
+  int         dimensions;
+  ptrdiff_t   size; /* numbers on this rank */
+  double     *values;
+} Result;
 
 struct _n_SamEmbedStress {
   PetscBool recording;
@@ -24,7 +32,8 @@ struct _n_SamEmbedStress {
   Step      before; /* the committed one when recording began, if there was one */
   /* results */
   PetscInt shape[AXES]; /* on this rank */
-  double  *values[RESULTS];
+  int      results;
+  Result   result[AXES + SAM_STRESS_DATASETS]; /* coordinates, then datasets */
 };
 
 /* ---- steps ---- */
@@ -40,6 +49,7 @@ static PetscErrorCode TakeStep(petsam_contact *c, Step *step)
   PetscFunctionBegin;
   PetscCall(SamContactGetSolution(c->setup->contact, &s));
   step->control = s->control;
+  PetscCall(SamContactGetNumber(c->setup->contact, "contact_area", &step->area));
   PetscCall(SamAllocate(sizeof(double) * SAM_STEP_FIELDS * (size_t)n, &step->fields));
   for (int f = 0; f < SAM_STEP_FIELDS; f++) {
     PetscBool has;
@@ -85,10 +95,7 @@ void SamEmbedForgetSteps(petsam_contact *c)
 
 static void ForgetResults(SamEmbedStress s)
 {
-  for (int r = 0; r < RESULTS; r++) {
-    SamFree(s->values[r]);
-    s->values[r] = NULL;
-  }
+  while (s->results) SamFree(s->result[--s->results].values);
 }
 
 PetscErrorCode SamEmbedDestroyStress(petsam_contact *c)
@@ -102,62 +109,47 @@ PetscErrorCode SamEmbedDestroyStress(petsam_contact *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static const char *NameOf(int result)
+/* Makes room for a result of these dimensions, the last ones of the shape; or one of the axes alone. */
+static PetscErrorCode AddResult(SamEmbedStress s, const char name[], int first, int end)
 {
-  static const char *const axes[AXES] = {"time", "z", "y", "x"};
+  Result *const r = &s->result[s->results];
 
-  return result < AXES ? axes[result] : SamDatasets[result - AXES].label.name;
-}
-
-static int DimensionsOf(int result)
-{
-  return result < AXES ? 1 : SamQuantityIsOfCycle(SamDatasets[result - AXES].quantity) ? 3 : 4;
-}
-
-/* The numbers that a result has on this rank. */
-static ptrdiff_t SizeOf(SamEmbedStress s, int result)
-{
-  ptrdiff_t size = 1;
-
-  if (result < AXES) return s->shape[result];
-  for (int d = AXES - DimensionsOf(result); d < AXES; d++) size *= s->shape[d];
-  return size;
+  PetscFunctionBegin;
+  *r = (Result){.name = name, .dimensions = end - first, .size = 1};
+  for (int d = first; d < end; d++) r->size *= s->shape[d];
+  PetscCall(SamAllocateZeros(sizeof(double) * (size_t)r->size, &r->values));
+  s->results++;
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Shape, coordinates and room. */
-static PetscErrorCode CreateResults(petsam_contact *c, const SamStressLayout *l, const Step step[])
+static PetscErrorCode CreateResults(SamEmbedStress s, const SamStressLayout *l)
 {
-  const SamGrid        g   = c->setup->grid;
-  const SamEmbedStress s   = c->stress;
-  const PetscBool      row = l->section && l->axis == SAM_SECTION_X, column = l->section && l->axis == SAM_SECTION_Y;
+  static const char *const axes[AXES] = {"time", "z", "y", "x"};
 
   PetscFunctionBegin;
   ForgetResults(s);
-  s->shape[TIME] = l->steps;
-  s->shape[Z]    = l->depths;
-  s->shape[Y]    = row ? 1 : column ? g->ny : g->rows;
-  s->shape[X]    = column ? 1 : g->nx;
-  for (int r = 0; r < RESULTS; r++)
-    if (r < AXES || l->wants[SamDatasets[r - AXES].quantity])
-      PetscCall(SamAllocateZeros(sizeof(double) * (size_t)SizeOf(s, r), &s->values[r]));
-  for (PetscInt k = 0; k < l->steps; k++) s->values[TIME][k] = (double)step[k].control.time;
-  for (PetscInt k = 0; k < l->depths; k++) s->values[Z][k] = (double)l->depth[k];
-  for (PetscInt k = 0; k < s->shape[Y]; k++)
-    s->values[Y][k] = (double)SamGridY(g, row ? l->index : column ? k : g->row_start + k);
-  for (PetscInt k = 0; k < s->shape[X]; k++) s->values[X][k] = (double)SamGridX(g, column ? l->index : k);
+  for (int d = 0; d < AXES; d++) {
+    s->shape[d] = d == SAM_Y ? l->rows : l->n[d];
+    PetscCall(AddResult(s, axes[d], d, d + 1));
+    PetscCall(PetscArraycpy(s->result[d].values, l->coordinate[d] + (d == SAM_Y ? l->row : 0), s->shape[d]));
+  }
+  for (PetscInt k = 0; k < l->datasets; k++)
+    PetscCall(AddResult(s, l->dataset[k].name, l->dataset[k].of_cycle ? SAM_Z : SAM_TIME, AXES));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Keeps what an evaluation hands over. */
-static PetscErrorCode Keep(void *context, SamQuantity quantity, PetscInt component, PetscInt step, PetscInt depth,
-                           PetscInt depths, const double values[])
+static PetscErrorCode Keep(void *context, PetscInt dataset, const PetscInt start[SAM_STRESS_AXES],
+                           const PetscInt count[SAM_STRESS_AXES], const double values[])
 {
   const SamEmbedStress s     = (SamEmbedStress)context;
-  const ptrdiff_t      plane = (ptrdiff_t)s->shape[Y] * s->shape[X];
-  double *const        to    = s->values[AXES + SamDatasetOf(quantity) + component];
+  const ptrdiff_t      plane = (ptrdiff_t)s->shape[SAM_Y] * s->shape[SAM_X];
+  double *const        to    = s->result[AXES + dataset].values;
 
   PetscFunctionBegin;
-  PetscCall(PetscArraycpy(to + (step * s->shape[Z] + depth) * plane, values, depths * plane));
+  PetscCall(
+    PetscArraycpy(to + (start[SAM_TIME] * s->shape[SAM_Z] + start[SAM_Z]) * plane, values, count[SAM_Z] * plane));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -165,19 +157,20 @@ static PetscErrorCode Keep(void *context, SamQuantity quantity, PetscInt compone
 static PetscErrorCode GatherSection(petsam_contact *c)
 {
   const SamEmbedStress s = c->stress;
-  const ptrdiff_t      n = (ptrdiff_t)s->shape[Z] * s->shape[Y] * s->shape[X];
+  const ptrdiff_t      n = (ptrdiff_t)s->shape[SAM_Z] * s->shape[SAM_Y] * s->shape[SAM_X];
 
   PetscFunctionBegin;
-  for (int r = AXES; r < RESULTS; r++)
-    for (ptrdiff_t k = 0; s->values[r] && k < SizeOf(s, r); k += n)
-      PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, s->values[r] + k, (PetscMPIInt)n, MPI_UINT64_T, MPI_BOR, c->comm));
+  for (int r = AXES; r < s->results; r++)
+    for (ptrdiff_t k = 0; k < s->result[r].size; k += n)
+      PetscCallMPI(
+        MPI_Allreduce(MPI_IN_PLACE, s->result[r].values + k, (PetscMPIInt)n, MPI_UINT64_T, MPI_BOR, c->comm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- evaluation ---- */
 
 /* Reads the options of a call, which are in a database of their own. */
-static PetscErrorCode ReadOptions(petsam_contact *c, const char options[], SamEvaluation e)
+static PetscErrorCode ReadOptions(petsam_contact *c, const char options[], SamEvaluation *e)
 {
   const SamOptions from = {c->comm, NULL};
   PetscOptions     database;
@@ -187,7 +180,7 @@ static PetscErrorCode ReadOptions(petsam_contact *c, const char options[], SamEv
   PetscCall(PetscOptionsCreate(&database));
   PetscCall(PetscOptionsPush(database));
   code = SamEmbedInsertOptions(c, database, options);
-  if (!code) code = SamEvaluationSetFromOptions(e, &from);
+  if (!code) code = SamEvaluationCreateFromOptions(&from, e);
   if (!code) code = SamArgumentsRefuseUnknown(c->comm, NULL);
   PetscCall(PetscOptionsPop());
   PetscCall(PetscOptionsDestroy(&database));
@@ -197,55 +190,78 @@ static PetscErrorCode ReadOptions(petsam_contact *c, const char options[], SamEv
 
 /* The steps that are evaluated. */
 typedef struct {
-  const Step *step;
-  PetscInt    cells;
-  double (*bulk)[SAM_BULK_AND_CASES];
+  petsam_contact *c;
+  const Step     *step, *before;
+  PetscInt        cells;
 } Steps;
 
-static PetscErrorCode ReadStep(void *context, PetscInt step, SamStepField field, double values[])
+static PetscErrorCode ReadField(void *context, PetscInt k, SamStepField field, double values[])
+{
+  const Steps *const s    = (const Steps *)context;
+  const Step *const  step = k < 0 ? s->before : &s->step[k];
+
+  PetscFunctionBegin;
+  PetscCall(PetscArraycpy(values, step->fields + field * (ptrdiff_t)s->cells, s->cells));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ReadNumber(void *context, PetscInt k, SamStepNumber number, double *value)
 {
   const Steps *const s = (const Steps *)context;
 
-  PetscFunctionBegin;
-  PetscCall(PetscArraycpy(values, s->step[step].fields + field * (ptrdiff_t)s->cells, s->cells));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  *value = number == SAM_STEP_TIME ? (double)s->step[k].control.time : number == SAM_STEP_AREA ? s->step[k].area : 0;
+  return PETSC_SUCCESS;
 }
 
-static PetscErrorCode Compute(petsam_contact *c, const char options[], PetscInt n, Steps *steps, SamEvaluation e)
+static PetscErrorCode ReadBulk(void *context, PetscInt k, PetscInt body, double bulk[SAM_BULK_AND_CASES])
 {
-  SamStressLayout layout;
-  PetscInt        body;
+  const SamControl *const control = &((const Steps *)context)->step[k].control;
+
+  for (int b = 0; b < SAM_BULK_AND_CASES; b++)
+    bulk[b] =
+      (double)(b < SAM_BULK_COMPONENTS ? control->bulk_stress[body - 1][b] : control->cases[b - SAM_BULK_COMPONENTS]);
+  return PETSC_SUCCESS;
+}
+
+static PetscErrorCode Warn(void *context, const char text[])
+{
+  petsam_contact *const c = ((const Steps *)context)->c;
+
+  (void)snprintf(c->message, sizeof(c->message), "%s", text);
+  return PETSC_SUCCESS;
+}
+
+static PetscErrorCode Compute(petsam_contact *c, const char options[], PetscInt n, Steps *steps, SamEvaluation *e)
+{
+  const SamStressSource source = {.steps   = n,
+                                  .before  = steps->before && steps->before->fields,
+                                  .read    = ReadField,
+                                  .number  = ReadNumber,
+                                  .bulk    = ReadBulk,
+                                  .warn    = Warn,
+                                  .context = steps};
 
   PetscFunctionBegin;
   PetscCall(ReadOptions(c, options, e));
-  PetscCall(SamEvaluationSetElasticity(e, c->setup->elasticity, NULL, "-elasticity"));
-  PetscCall(SamEvaluationGetBody(e, &body));
-  for (PetscInt k = 0; k < n; k++)
-    for (int b = 0; b < SAM_BULK_AND_CASES; b++)
-      steps->bulk[k][b] = (double)(b < SAM_BULK_COMPONENTS ? steps->step[k].control.bulk_stress[body - 1][b]
-                                                           : steps->step[k].control.cases[b - SAM_BULK_COMPONENTS]);
-  PetscCall(SamEvaluationSetSource(
-    e, &(SamEvaluationSource){.steps = n, .bulk = steps->bulk, .read = ReadStep, .context = steps}));
-  PetscCall(SamEvaluationSetUp(e));
-  PetscCall(SamEvaluationGetLayout(e, &layout));
-  PetscCall(CreateResults(c, &layout, steps->step));
-  PetscCall(SamEvaluationCompute(e, Keep, c->stress));
-  if (layout.section) PetscCall(GatherSection(c));
+  PetscCall(SamEvaluationSetBodies(*e, c->setup->elasticity, NULL, "-elasticity"));
+  PetscCall(SamEvaluationSetSource(*e, &source));
+  PetscCall(SamEvaluationSetUp(*e));
+  PetscCall(CreateResults(c->stress, SamEvaluationGetLayout(*e)));
+  PetscCall(SamEvaluationCompute(*e, Keep, c->stress));
+  if (SamEvaluationGetLayout(*e)->section) PetscCall(GatherSection(c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Evaluate(petsam_contact *c, const char options[], PetscInt n, const Step step[], int shape[4])
+static PetscErrorCode Evaluate(petsam_contact *c, const char options[], PetscInt n, const Step step[],
+                               const Step *before, int shape[4])
 {
-  Steps          steps = {step, c->setup->grid->cells, NULL};
-  SamEvaluation  e;
+  Steps          steps = {c, step, before, c->setup->grid->cells};
+  SamEvaluation  e     = NULL;
   PetscErrorCode code;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(n, &steps.bulk));
-  PetscCall(SamEvaluationCreate(c->comm, &e));
-  code = Compute(c, options, n, &steps, e);
+  code = Compute(c, options, n, &steps, &e);
   PetscCall(SamEvaluationDestroy(&e));
-  PetscCall(PetscFree(steps.bulk));
   if (code) ForgetResults(c->stress);
   PetscCall(code);
   for (int d = 0; d < AXES; d++) shape[d] = (int)c->stress->shape[d];
@@ -263,7 +279,7 @@ static PetscErrorCode StressOfStep(petsam_contact *c, const char options[], int 
   PetscCheck(tried || committed, c->comm, PETSC_ERR_ORDER, "no step has been solved yet");
   if (!c->stress) PetscCall(PetscNew(&c->stress));
   PetscCall(TakeStep(c, &step));
-  code = Evaluate(c, options, 1, &step, shape);
+  code = Evaluate(c, options, 1, &step, NULL, shape);
   DestroyStep(&step);
   PetscCall(code);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -301,36 +317,6 @@ int petsam_record(petsam_contact *c, int on)
                                                                  : SAM_EMBED_USAGE;
 }
 
-/* The ends of a cycle may differ by this part of the maximum traction. */
-#define CLOSED 0.01
-
-/* Warns, by the message, when the tractions of the last step differ from those before the first. */
-static PetscErrorCode AdviseClosed(petsam_contact *c)
-{
-  static const int first[] = {SAM_STEP_PRESSURE, SAM_STEP_SHEAR_X, SAM_STEP_SLIP_X};
-
-  const ptrdiff_t      n = c->setup->grid->cells;
-  const SamEmbedStress s = c->stress;
-  const double *const a = s->before.fields, *const b = s->step[s->steps - 1].fields;
-
-  PetscFunctionBegin;
-  for (int f = 0; f < 2 && a && s->steps > 1; f++) { /* one: of points that pass */
-    double most[2] = {0, 0};                         /* traction, difference */
-
-    for (ptrdiff_t k = first[f] * n; k < first[f + 1] * n; k++) {
-      most[0] = fmax(most[0], fmax(fabs(a[k]), fabs(b[k])));
-      most[1] = fmax(most[1], fabs(b[k] - a[k]));
-    }
-    PetscCall(SamMax(c->comm, 2, most));
-    if (most[1] > CLOSED * most[0])
-      (void)snprintf(c->message, sizeof(c->message),
-                     "not a closed cycle, or not a steady one: the %s of the last recorded step differs from that "
-                     "before the first by up to %.0f %% of the maximum",
-                     f ? "shear" : "pressure", 100 * most[1] / most[0]);
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static PetscErrorCode Fatigue(petsam_contact *c, const char options[], int shape[4])
 {
   char          *all;
@@ -340,11 +326,10 @@ static PetscErrorCode Fatigue(petsam_contact *c, const char options[], int shape
   if (!c->stress) PetscCall(PetscNew(&c->stress));
   PetscCall(PetscMalloc1(strlen(options) + 32, &all));
   (void)sprintf(all, "-quantities none %s", options);
-  code = Evaluate(c, all, c->stress->steps, c->stress->step, shape);
+  code = Evaluate(c, all, c->stress->steps, c->stress->step, &c->stress->before, shape);
   PetscCall(PetscFree(all));
   PetscCall(code);
   PetscCheck(c->stress->steps, c->comm, PETSC_ERR_ORDER, "petsam_fatigue: no step has been recorded");
-  PetscCall(AdviseClosed(c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -358,24 +343,22 @@ int petsam_fatigue(petsam_contact *c, const char *options, int shape[4])
 
 const char *petsam_stress_name(const petsam_contact *c, int k, int *dimensions)
 {
-  for (int r = 0; r < RESULTS && c && c->stress && k >= 0; r++) {
-    if (!c->stress->values[r] || k--) continue;
-    if (dimensions) *dimensions = DimensionsOf(r);
-    return NameOf(r);
-  }
-  return NULL;
+  if (!c || !c->stress || k < 0 || k >= c->stress->results) return NULL;
+  if (dimensions) *dimensions = c->stress->result[k].dimensions;
+  return c->stress->result[k].name;
 }
 
 static PetscErrorCode GetStress(petsam_contact *c, const char name[], double values[])
 {
-  const SamEmbedStress s = c->stress;
-  int                  r = 0;
+  const SamEmbedStress s     = c->stress;
+  const int            count = s ? s->results : 0;
+  int                  r     = 0;
 
   PetscFunctionBegin;
-  while (s && r < RESULTS && (!s->values[r] || strcmp(name, NameOf(r)))) r++;
-  PetscCheck(s && r < RESULTS, c->comm, SAM_ERR_USER,
+  while (r < count && strcmp(name, s->result[r].name)) r++;
+  PetscCheck(r < count, c->comm, SAM_ERR_USER,
              "%s: the last petsam_stress() or petsam_fatigue() has no result of this name", name);
-  PetscCall(PetscArraycpy(values, s->values[r], SizeOf(s, r)));
+  PetscCall(PetscArraycpy(values, s->result[r].values, s->result[r].size));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

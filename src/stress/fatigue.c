@@ -28,12 +28,16 @@ enum { COARSE = 10, STARTS = 5 };
 
 #define DEGREE (PETSC_PI / 180)
 
+/* The parameters that are largest on a plane. */
+typedef enum { FINDLEY, SWT, FATEMI_SOCIE } Kind;
+
+/* A cycle, with the strains of its states for SWT, and room for a path: (states, 2). */
 typedef struct {
-  SamFatigueParameter        parameter;
+  Kind                       kind;
   const SamFatigueConstants *constants;
   PetscInt                   states;
-  const double              *stress, *strain; /* [component][state] */
-  double                    *path;            /* scratch: (states, 2) */
+  const double              *stress, *strain;
+  double                    *path;
 } Cycle;
 
 /* ---- on a plane ---- */
@@ -65,14 +69,14 @@ static double Factor(const Cycle *c, double normal)
   const SamFatigueConstants *k = c->constants;
   const double               G = (double)k->young / (2 * (1 + (double)k->poisson));
 
-  if (c->parameter == SAM_FATIGUE_FINDLEY) return 1;
+  if (c->kind == FINDLEY) return 1;
   return (1 + (double)k->fatemi_socie_k * normal / (double)k->yield) / G;
 }
 
 /* The parameter of a plane whose shear stress has that amplitude. */
 static double Combine(const Cycle *c, double amplitude, double normal)
 {
-  const double more = c->parameter == SAM_FATIGUE_FINDLEY ? (double)c->constants->findley_k * normal : 0;
+  const double more = c->kind == FINDLEY ? (double)c->constants->findley_k * normal : 0;
 
   return Factor(c, normal) * amplitude + more;
 }
@@ -114,7 +118,7 @@ static double OnPlane(const Cycle *c, double theta, double phi, double best)
   SetFrame(theta, phi, n, u, v);
   Project(c->states, c->stress, n, n, 1, c->path);
   FindEnds(c->states, c->path, 1, &least, &normal);
-  if (c->parameter == SAM_FATIGUE_SWT) {
+  if (c->kind == SWT) {
     if (normal <= 0) return 0;
     Project(c->states, c->strain, n, n, 1, c->path);
     FindEnds(c->states, c->path, 1, &least, &most);
@@ -236,23 +240,55 @@ static double FindStarts(const Cycle *c, double margin, Plane starts[STARTS], Pe
   return best;
 }
 
-/* The parameter of the best plane, and its normal if that is not NULL. */
-static double LargestOverPlanes(const Cycle *c, double normal[3])
+static void ComputeStrains(const SamFatigueCycle *c, double strain[])
 {
-  const PetscBool swt    = c->parameter == SAM_FATIGUE_SWT; /* never negative */
-  const double    margin = swt ? INFINITY : (1 - NEARLY) * Scale(c);
-  Plane           starts[STARTS];
-  PetscInt        count = 0, winner = 0;
-  const double    best = FindStarts(c, margin, starts, &count);
+  const double *s[COMPONENTS];
+  double       *e[COMPONENTS];
 
+  for (PetscInt k = 0; k < COMPONENTS; k++) {
+    s[k] = c->stress + k * c->states;
+    e[k] = strain + k * c->states;
+  }
+  SamStressStrain(c->states, c->constants->young, c->constants->poisson, s, e);
+}
+
+/* The parameter of the best plane, and its normal. */
+static double LargestOverPlanes(Kind kind, const SamFatigueCycle *of, double normal[3])
+{
+  const PetscBool swt   = kind == SWT; /* never negative */
+  const Cycle     cycle = {kind, of->constants, of->states, of->stress, of->scratch + 2 * of->states, of->scratch},
+              *c        = &cycle;
+  const double margin   = swt ? INFINITY : (1 - NEARLY) * Scale(c);
+  Plane        starts[STARTS];
+  PetscInt     count = 0, winner = 0;
+  double       best;
+
+  if (swt) ComputeStrains(of, of->scratch + 2 * of->states);
+  for (int d = 0; d < 3; d++) normal[d] = NAN;
+  best = FindStarts(c, margin, starts, &count);
   if (swt && best <= 0) return 0;
   for (PetscInt k = 0; k < count; k++) {
     if (starts[k].value < (swt ? NEARLY * best : best - margin)) continue;
     Climb(c, &starts[k]);
     if (starts[k].value >= starts[winner].value) winner = k;
   }
-  if (normal) GetNormal(&starts[winner], normal);
+  GetNormal(&starts[winner], normal);
   return starts[winner].value;
+}
+
+double SamFatigueFindley(const SamFatigueCycle *c, double more[])
+{
+  return LargestOverPlanes(FINDLEY, c, more);
+}
+
+double SamFatigueSWT(const SamFatigueCycle *c, double more[])
+{
+  return LargestOverPlanes(SWT, c, more);
+}
+
+double SamFatigueFatemiSocie(const SamFatigueCycle *c, double more[])
+{
+  return LargestOverPlanes(FATEMI_SOCIE, c, more);
 }
 
 /* ---- without planes ---- */
@@ -291,74 +327,58 @@ static double LargestShear(const double p[])
   return 0.5 * (principal[0] - principal[2]);
 }
 
-static double OfDeviators(const Cycle *c, double points[])
+double SamFatigueCrossland(const SamFatigueCycle *c, double more[])
+{
+  double       center[SAM_BALL_DIMENSION];
+  const double mean = Deviators(c->states, c->stress, c->scratch);
+
+  (void)more;
+  return SamSmallestBall(SAM_BALL_DIMENSION, c->states, c->scratch, center) / sqrt(2) +
+         (double)c->constants->crossland_alpha * mean;
+}
+
+double SamFatigueDangVan(const SamFatigueCycle *c, double more[])
 {
   const PetscInt n = c->states;
   const double  *s = c->stress;
   double         center[SAM_BALL_DIMENSION], best = -INFINITY;
-  const double   mean = Deviators(n, s, points), radius = SamSmallestBall(SAM_BALL_DIMENSION, n, points, center);
 
-  if (c->parameter == SAM_FATIGUE_CROSSLAND) return radius / sqrt(2) + (double)c->constants->crossland_alpha * mean;
+  (void)more;
+  (void)Deviators(n, s, c->scratch);
+  (void)SamSmallestBall(SAM_BALL_DIMENSION, n, c->scratch, center);
   for (PetscInt k = 0; k < n; k++) {
     double p[SAM_BALL_DIMENSION];
 
-    for (PetscInt d = 0; d < SAM_BALL_DIMENSION; d++) p[d] = points[k * SAM_BALL_DIMENSION + d] - center[d];
+    for (PetscInt d = 0; d < SAM_BALL_DIMENSION; d++) p[d] = c->scratch[k * SAM_BALL_DIMENSION + d] - center[d];
     best = fmax(best, LargestShear(p) +
                         (double)c->constants->dang_van_alpha * (s[XX * n + k] + s[YY * n + k] + s[ZZ * n + k]) / 3);
   }
   return best;
 }
 
-PetscErrorCode SamFatigueCompute(SamFatigueParameter parameter, const SamFatigueConstants *constants, PetscInt states,
-                                 const double stress[], double *value, double normal[3])
-{
-  Cycle         c = {.parameter = parameter, .constants = constants, .states = states, .stress = stress};
-  double       *scratch, *strain, *e[COMPONENTS];
-  const double *s[COMPONENTS];
-
-  PetscFunctionBegin;
-  PetscCheck(states > 0, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "A cycle of no states");
-  PetscCall(PetscMalloc2(SAM_BALL_DIMENSION * states, &scratch, COMPONENTS * states, &strain));
-  for (PetscInt k = 0; k < COMPONENTS; k++) {
-    s[k] = stress + k * states;
-    e[k] = strain + k * states;
-  }
-  c.path   = scratch;
-  c.strain = strain;
-  if (parameter == SAM_FATIGUE_SWT) SamStressStrain(states, constants->young, constants->poisson, s, e);
-  for (int d = 0; d < 3 && normal; d++) normal[d] = NAN;
-  *value = parameter == SAM_FATIGUE_CROSSLAND || parameter == SAM_FATIGUE_DANG_VAN ? OfDeviators(&c, scratch)
-                                                                                   : LargestOverPlanes(&c, normal);
-  PetscCall(PetscFree2(scratch, strain));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* ---- on the surface ---- */
 
-void SamFatigueRuiz(PetscInt states, const double stress[], const double shear[], const double slip[], double *d1,
-                    double *d2)
+/* There the stresses xz and yz are the shear but for its sign, which does not count. */
+double SamFatigueRuiz(const SamFatigueCycle *c, double more[])
 {
+  const PetscInt      n = c->states;
+  const double *const s = c->stress, *const slip = c->slip;
   double work = 0, longest = 0, way[3] = {0, 0, 0}, tension = 0;
 
-  for (PetscInt k = 0; k < states; k++) {
-    const PetscInt next = (k + 1) % states;
-    const double   x = slip[next] - slip[k], y = slip[states + next] - slip[states + k], length = hypot(x, y);
+  more[0] = NAN;
+  if (!slip) return NAN;
+  for (PetscInt k = 0; k < n; k++) {
+    const PetscInt next = (k + 1) % n;
+    const double   x = slip[next] - slip[k], y = slip[n + next] - slip[n + k], length = hypot(x, y);
 
-    work += fabs(shear[next] * x + shear[states + next] * y); /* a cell slips under the shear of the step's end */
+    work += fabs(s[XZ * n + next] * x + s[YZ * n + next] * y); /* a cell slips under the shear of the step's end */
     if (length <= longest) continue;
     longest = length;
     way[0]  = x / length;
     way[1]  = y / length;
   }
-  for (PetscInt k = 0; k < states; k++) {
-    double along;
-
-    Project(1,
-            (const double[]){stress[XX * states + k], stress[YY * states + k], stress[ZZ * states + k],
-                             stress[XY * states + k], stress[XZ * states + k], stress[YZ * states + k]},
-            way, way, 1, &along);
-    tension = fmax(tension, along);
-  }
-  *d1 = work / 4;
-  *d2 = tension * work / 4;
+  Project(n, s, way, way, 1, c->scratch);
+  for (PetscInt k = 0; k < n; k++) tension = fmax(tension, c->scratch[k]);
+  more[0] = tension * work / 4;
+  return work / 4;
 }

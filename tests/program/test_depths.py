@@ -68,7 +68,7 @@ def test_mistakes_in_depths_are_explained(petsam, stress, tmp_path):
     for options, says in (
         (
             dict(input="apart.h5", depths="0,1a"),
-            ["-depths", "no chosen step of apart.h5", "give depths in m, or other"],
+            ["-depths", "no chosen step of -input apart.h5", "give depths in m, or other"],
         ),
         (dict(input="r.h5", depths="0,1a,1e-6"), ["-depths 0,1a,1e-6", "1e-06 follows", "increase"]),
         (dict(input="r.h5", depths="0,0.5b"), ["-depths 0,0.5b", "in m or as 0.5a in half widths"]),

@@ -3,7 +3,9 @@
 
 #include <petsam/embed.h>
 #include <petsam/evaluation.h>
+#include <petsam/stress.h>
 
+#define BULK 3e7
 #define OPTIONS \
   "-body1_young 210e9 -body1_poisson 0.3 -body2_young 70e9 -body2_poisson 0.2 -gap_type sphere -gap_radius1 0.1 " \
   "-gap_radius2 inf -grid_n 24,21 -grid_size 3e-3 -friction 0.3 -bulk2_stress_xx 3e7"
@@ -16,17 +18,17 @@ enum { NX = 24, NY = 21, DEPTHS = 3, STEPS = 3 };
 typedef struct {
   SamGrid grid;
   double *xx[2][2]; /* stress xx of (step, depth) */
-  int     calls[SAM_QUANTITIES];
+  int     calls[SAM_STRESS_DATASETS];
 } Kept;
 
-static PetscErrorCode Keep(void *context, SamQuantity quantity, PetscInt component, PetscInt step, PetscInt depth,
-                           PetscInt depths, const double values[])
+static PetscErrorCode Keep(void *context, PetscInt dataset, const PetscInt start[], const PetscInt count[],
+                           const double values[])
 {
   Kept *const kept = (Kept *)context;
 
-  kept->calls[quantity]++;
-  if (depths == 1 && quantity == SAM_QUANTITY_STRESS && component == 0)
-    memcpy(kept->xx[step][depth], values, sizeof(double) * (size_t)kept->grid->cells);
+  kept->calls[dataset]++;
+  if (count[SAM_Z] == 1 && dataset == 0)
+    memcpy(kept->xx[start[SAM_TIME]][start[SAM_Z]], values, sizeof(double) * (size_t)kept->grid->cells);
   return 0;
 }
 
@@ -71,9 +73,40 @@ static PetscErrorCode Read(void *context, PetscInt step, SamStepField field, dou
   return 0;
 }
 
-static void GiveSteps(SamEvaluation e, Given *given, const double bulk[][SAM_BULK_AND_CASES])
+static PetscErrorCode ReadNumber(void *context, PetscInt step, SamStepNumber number, double *value)
 {
-  sam_call(SamEvaluationSetSource(e, &(SamEvaluationSource){.steps = 2, .bulk = bulk, .read = Read, .context = given}));
+  (void)context;
+  *value = number == SAM_STEP_TIME ? step : 0;
+  return 0;
+}
+
+static PetscErrorCode ReadBulk(void *context, PetscInt step, PetscInt body, double bulk[SAM_BULK_AND_CASES])
+{
+  (void)context;
+  (void)step;
+  memset(bulk, 0, sizeof(*bulk) * SAM_BULK_AND_CASES);
+  bulk[SAM_BULK_XX] = body == 2 ? BULK : 0;
+  return 0;
+}
+
+/* An evaluation of these options; of no steps, or those that are given. */
+static PetscErrorCode NewEvaluation(const char *options, SamElasticity elasticity, Given *given, SamEvaluation *e)
+{
+  const SamStressSource source = {
+    .steps = given ? 2 : 0, .read = Read, .number = ReadNumber, .bulk = ReadBulk, .context = given};
+  PetscOptions   database;
+  PetscErrorCode code;
+
+  *e = NULL;
+  sam_call(PetscOptionsCreate(&database));
+  sam_call(PetscOptionsPush(database));
+  sam_call(PetscOptionsInsertString(NULL, options));
+  code = SamEvaluationCreateFromOptions(&(SamOptions){PETSC_COMM_WORLD, NULL}, e);
+  sam_call(PetscOptionsPop());
+  sam_call(PetscOptionsDestroy(&database));
+  if (!code && elasticity) sam_call(SamEvaluationSetBodies(*e, elasticity, NULL, "these bodies"));
+  if (!code) sam_call(SamEvaluationSetSource(*e, &source));
+  return code;
 }
 
 static void DestroyGiven(Given *given)
@@ -121,32 +154,27 @@ static int IsMap(SamElasticity elasticity, const Kept *kept, int step, Vec press
 
 static void test_steps_have_the_stresses_of_their_tractions(void **state)
 {
-  const PetscReal depths[2]                   = {0, 1e-4};
-  const PetscBool wants[SAM_QUANTITIES]       = {[SAM_QUANTITY_STRESS] = PETSC_TRUE, [SAM_QUANTITY_SWT] = PETSC_TRUE};
-  Sphere          s                           = NewSphereOf(NewPair(210e9, 0.3, 70e9, 0.2), 24, 1.5);
-  const double    bulk[2][SAM_BULK_AND_CASES] = {{3e7}, {3e7}};
-  Kept            kept                        = {.grid = s.grid};
-  Given           given                       = {.grid = s.grid};
-  SamEvaluation   e;
-  SamLargest      largest;
+  Sphere           s     = NewSphereOf(NewPair(210e9, 0.3, 70e9, 0.2), 24, 1.5);
+  Kept             kept  = {.grid = s.grid};
+  Given            given = {.grid = s.grid};
+  SamEvaluation    e;
+  SamLargestSeries largest;
 
   (void)state;
-  sam_call(SamEvaluationCreate(PETSC_COMM_WORLD, &e));
-  sam_call(SamEvaluationSetDepths(e, 2, depths));
-  sam_call(SamEvaluationSetQuantities(e, wants));
-  sam_call(SamEvaluationSetElasticity(e, s.elasticity, NULL, "these bodies"));
   for (int step = 0; step < 2; step++) {
     NewTractions(s.grid, step ? -0.2 : 0.3, &given.pressure[step], &given.shear[step]);
     for (int d = 0; d < 2; d++) kept.xx[step][d] = (double *)calloc((size_t)kept.grid->cells + 1, sizeof(double));
   }
-  GiveSteps(e, &given, bulk);
+  sam_call(NewEvaluation("-depths 0,1e-4 -quantities stress -fatigue swt", s.elasticity, &given, &e));
   sam_call(SamEvaluationCompute(e, Keep, &kept));
-  sam_assert(kept.calls[SAM_QUANTITY_STRESS] == 2 * 2 * SAM_STRESS_COMPONENTS && kept.calls[SAM_QUANTITY_MISES] == 0);
-  sam_assert(kept.calls[SAM_QUANTITY_SWT] == 2 * SamQuantityComponents(SAM_QUANTITY_SWT));
+  sam_assert(SamEvaluationGetLayout(e)->datasets == SAM_STRESS_COMPONENTS + 4);
+  for (int k = 0; k < SAM_STRESS_COMPONENTS + 4; k++)
+    sam_assert(kept.calls[k] == (k < SAM_STRESS_COMPONENTS ? 2 * 2 : 2));
   for (int step = 0; step < 2; step++)
-    sam_assert(IsMap(s.elasticity, &kept, step, given.pressure[step], given.shear[step], 3e7));
-  sam_call(SamEvaluationGetLargest(e, SAM_QUANTITY_SWT, 0, &largest));
-  sam_assert(largest.value > 0 && largest.place[2] == 0);
+    sam_assert(IsMap(s.elasticity, &kept, step, given.pressure[step], given.shear[step], BULK));
+  for (int k = 0; k < 4; k++) sam_assert(SamEvaluationGetLargest(e, k, &largest) && largest.count == 2);
+  sam_assert(SamEvaluationGetLargest(e, 4, &largest) && !strcmp(largest.name, "swt") && largest.of_cycle);
+  sam_assert(largest.step->value > 0 && largest.step->place[2] == 0 && !SamEvaluationGetLargest(e, 5, &largest));
   for (int step = 0; step < 2; step++)
     for (int d = 0; d < 2; d++) free(kept.xx[step][d]);
   DestroyGiven(&given);
@@ -156,36 +184,37 @@ static void test_steps_have_the_stresses_of_their_tractions(void **state)
 
 static void test_settings_that_cannot_be_are_refused(void **state)
 {
-  const PetscReal wrong[2] = {1e-4, 0}, little = 1e-15;
-  const PetscBool ruiz[SAM_QUANTITIES]        = {[SAM_QUANTITY_RUIZ] = PETSC_TRUE};
-  Sphere          s                           = NewSphereOf(NewPair(210e9, 0.3, 210e9, 0.3), 24, 1.5);
-  const double    bulk[2][SAM_BULK_AND_CASES] = {{0}};
-  Given           given                       = {.grid = s.grid};
-  SamEvaluation   e;
+  static const struct {
+    const char *options;
+    int         given, set_up, compute; /* whether there are steps; the errors */
+  } wrong[]           = {{"-depths 1e-15", 1, SAM_ERR_USER, 0},
+                         {"-fatigue ruiz", 0, SAM_ERR_USER, 0}, /* no cycle */
+                         {"-fatigue ruiz -depths 1e-4", 1, SAM_ERR_USER, 0},
+                         {"-depths 0.5a", 1, SAM_ERR_USER, 0}, /* the steps have no area */
+                         {"-section y=1", 1, SAM_ERR_USER, 0},
+                         {"-quantities none -fatigue ruiz -section y=0", 1, 0, SAM_ERR_USER}}; /* without slip */
+  Sphere        s     = NewSphereOf(NewPair(210e9, 0.3, 210e9, 0.3), 24, 1.5);
+  Given         given = {.grid = s.grid};
+  SamEvaluation e;
 
   (void)state;
   for (int step = 0; step < 2; step++) NewTractions(s.grid, 0.1, &given.pressure[step], &given.shear[step]);
-  sam_call(SamEvaluationCreate(PETSC_COMM_WORLD, &e));
   BeginCatching();
-  sam_assert(SamEvaluationSetBody(e, 3) == SAM_ERR_USER && strstr(CaughtMessage(), "body 3: expected 1 or 2"));
-  sam_assert(SamEvaluationSetDepths(e, 2, wrong) == SAM_ERR_USER);
-  sam_assert(SamEvaluationSetUp(e) == PETSC_ERR_ORDER);
-  sam_call(SamEvaluationSetElasticity(e, s.elasticity, NULL, "these bodies"));
-  sam_call(SamEvaluationSetDepths(e, 1, &little));
-  sam_assert(SamEvaluationSetUp(e) == SAM_ERR_USER);
-  sam_call(SamEvaluationSetDepths(e, 1, wrong));
-  sam_call(SamEvaluationSetQuantities(e, ruiz));
-  sam_assert(SamEvaluationSetUp(e) == SAM_ERR_USER); /* no cycle */
-  GiveSteps(e, &given, bulk);
-  sam_assert(SamEvaluationSetUp(e) == SAM_ERR_USER); /* not on the surface */
-  sam_call(SamEvaluationSetDepths(e, 1, &wrong[1]));
-  sam_call(SamEvaluationSetUp(e));
-  sam_call(SamEvaluationSetSection(e, SAM_SECTION_X, 1));
-  sam_assert(SamEvaluationSetUp(e) == SAM_ERR_USER);
-  sam_call(SamEvaluationSetSection(e, SAM_SECTION_X, 0));
-  sam_assert(SamEvaluationCompute(e, Keep, NULL) == SAM_ERR_USER); /* without slip */
-  EndCatching();
+  sam_assert(NewEvaluation("-body 3", NULL, NULL, &e) == SAM_ERR_USER &&
+             strstr(CaughtMessage(), "body 3: expected 1 or 2"));
   sam_call(SamEvaluationDestroy(&e));
+  sam_assert(NewEvaluation("-depths 1e-4,0", NULL, NULL, &e) == SAM_ERR_USER);
+  sam_call(SamEvaluationDestroy(&e));
+  sam_call(NewEvaluation("", NULL, NULL, &e));
+  sam_assert(SamEvaluationSetUp(e) == PETSC_ERR_ORDER);
+  sam_call(SamEvaluationDestroy(&e));
+  for (size_t k = 0; k < sizeof(wrong) / sizeof(wrong[0]); k++) {
+    sam_call(NewEvaluation(wrong[k].options, s.elasticity, wrong[k].given ? &given : NULL, &e));
+    sam_assert((int)SamEvaluationSetUp(e) == wrong[k].set_up);
+    if (wrong[k].compute) sam_assert((int)SamEvaluationCompute(e, Keep, NULL) == wrong[k].compute);
+    sam_call(SamEvaluationDestroy(&e));
+  }
+  EndCatching();
   DestroyGiven(&given);
   DestroySphere(&s);
 }

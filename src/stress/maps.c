@@ -7,14 +7,14 @@
 /* Bytes that a cycle keeps of a point in a step: its stress, and slip for Ruiz's parameters. */
 static double CycleBytes(SamEvaluation e)
 {
-  return (double)sizeof(double) * (SAM_STRESS_COMPONENTS + (e->wants[SAM_QUANTITY_RUIZ] ? 2 : 0));
+  return (double)sizeof(double) * (SAM_STRESS_COMPONENTS + (SamQuantityWanted(e, SamFatigueRuiz) ? 2 : 0));
 }
 
 double SamMapsMemory(SamEvaluation e)
 {
   const double cells = (double)e->grid->cells;
 
-  return BYTES * cells + (SamCycleWanted(e) ? CycleBytes(e) * cells * (double)e->source.steps : 0);
+  return BYTES * cells + (e->cycle ? CycleBytes(e) * cells * (double)e->source.steps : 0);
 }
 
 /* The tractions of a step, where SamStressApply() takes them. */
@@ -39,7 +39,7 @@ static PetscErrorCode ComputeStep(SamEvaluation e, PetscInt step, const SamPoint
   PetscFunctionBegin;
   PetscCall(ReadTractions(e, step, field));
   PetscCall(SamStressApply(e->stress, field));
-  if (e->depth[p->depth] == 0) PetscCall(SamEdgeStressCompute(e, step, field));
+  if (e->depth[p->depth] == 0) PetscCall(SamLargestAtEdge(e, step, field));
   PetscCall(VecGetArray(field, &a));
   SamStressAddBulk(e, step, p, a);
   PetscCall(SamQuantitiesWrite(e, step, p, a));
@@ -54,20 +54,19 @@ static PetscErrorCode ComputeStep(SamEvaluation e, PetscInt step, const SamPoint
 PetscErrorCode SamMapsCompute(SamEvaluation e)
 {
   const SamGrid g = e->grid;
-  SamPoints     p = {.count = g->cells, .depths = 1};
+  SamPoints     p = {.count = g->cells, .depths = 1, .plane = g->cells};
   Vec           field;
   double        part;
 
   PetscFunctionBegin;
   PetscCall(SamGridCreateVec(g, SAM_STRESS_COMPONENTS, &field));
-  if (SamCycleWanted(e)) {
+  if (e->cycle) {
     const size_t values = (size_t)(e->source.steps * SAM_STRESS_COMPONENTS) * (size_t)p.count;
 
     PetscCall(SamAllocate(sizeof(double) * values, &p.stress));
     if (e->average) PetscCall(PetscArrayzero(p.stress, values));
   }
   for (p.depth = 0; p.depth < e->depths; p.depth++) {
-    p.first = ((double)p.depth * (double)g->ny + (double)g->row_start) * (double)g->nx;
     PetscCall(SamStressSetDepth(e->stress, e->depth[p.depth]));
     for (PetscInt step = 0; step < e->source.steps; step++) {
       PetscCall(ComputeStep(e, step, &p, field));
@@ -77,7 +76,6 @@ PetscErrorCode SamMapsCompute(SamEvaluation e)
     if (p.stress && !e->average) PetscCall(SamCycleWrite(e, &p, (double)p.depth / e->depths, 1.0 / e->depths));
   }
   p.depth = 0;
-  p.first = (double)g->row_start * (double)g->nx;
   if (e->average) PetscCall(SamCycleWrite(e, &p, 0, 1));
   SamFree(p.stress);
   PetscCall(VecDestroy(&field));

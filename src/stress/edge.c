@@ -26,12 +26,7 @@ static PetscErrorCode FillSquare(SamGrid g, Vec field, Vec square)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static void Keep(SamLargest *largest, double value, PetscReal x, PetscReal y)
-{
-  if (value > largest->value) *largest = (SamLargest){value, {(double)x, (double)y, 0}};
-}
-
-PetscErrorCode SamEdgeStressCompute(SamEvaluation e, PetscInt step, Vec field)
+PetscErrorCode SamLargestAtEdge(SamEvaluation e, PetscInt step, Vec field)
 {
   const SamGrid g = e->grid;
   double        bulk[SAM_BULK_COMPONENTS];
@@ -44,7 +39,7 @@ PetscErrorCode SamEdgeStressCompute(SamEvaluation e, PetscInt step, Vec field)
   PetscCall(SamGridCreateVec(g, 1, &square));
   PetscCall(FillSquare(g, field, square));
   PetscCall(SamEdgeReconstruct(g, square, NULL, &edge));
-  e->largest[step].edge_lost = edge.faces > 0 && edge.good < FOUND * edge.faces;
+  e->edge_lost += edge.faces > 0 && edge.good < FOUND * edge.faces;
   PetscCall(PetscMalloc1(PLANE * edge.count, &stress));
   PetscCall(SamStressAtEdge(e->stress, field, &edge, stress));
   for (PetscInt n = 0; n < edge.count && edge.good >= FOUND * edge.faces; n++) {
@@ -52,12 +47,13 @@ PetscErrorCode SamEdgeStressCompute(SamEvaluation e, PetscInt step, Vec field)
     const double  all[SAM_STRESS_COMPONENTS] = {[SAM_STRESS_XX] = s[XX] + bulk[SAM_BULK_XX],
                                                 [SAM_STRESS_YY] = s[YY] + bulk[SAM_BULK_YY],
                                                 [SAM_STRESS_XY] = s[XY] + bulk[SAM_BULK_XY]};
+    const double  place[3]                   = {(double)edge.x[n], (double)edge.y[n], 0};
     double        principal[3];
 
     if (isnan(s[XX])) continue;
     SamPrincipalOf(all, principal);
-    Keep(&e->largest[step].edge[0], all[SAM_STRESS_XX], edge.x[n], edge.y[n]);
-    Keep(&e->largest[step].edge[1], principal[0], edge.x[n], edge.y[n]);
+    SamLargestKeep(e, SAM_LARGEST_EDGE_XX, step, all[SAM_STRESS_XX], place);
+    SamLargestKeep(e, SAM_LARGEST_EDGE_PRINCIPAL, step, principal[0], place);
   }
   PetscCall(PetscFree(stress));
   PetscCall(SamEdgeDestroy(&edge));

@@ -16,29 +16,16 @@
 #define DEPTHS   16
 #define SHORTEST 1e-3 /* length of a mean, in cells */
 
-PetscErrorCode SamEvaluationSetFatigueLength(SamEvaluation e, PetscReal length, SamFatigueAverage average)
-{
-  PetscFunctionBegin;
-  PetscCheck(length > 0 && length < PETSC_INFINITY, e->comm, SAM_ERR_USER,
-             "%sfatigue_length %.6g: expected a number > 0", e->dash, (double)length);
-  e->length  = length;
-  e->average = average;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* The mean is of one material. */
 static PetscErrorCode CheckMaterial(SamEvaluation e)
 {
-  const SamPair   *pair;
-  const SamLayers *layers;
+  const SamLayers *layers  = SamLayersOf(e);
   const PetscReal  deepest = e->depth[e->depths - 1];
 
   PetscFunctionBegin;
-  PetscCall(SamElasticityGetPair(e->elasticity, &pair));
-  layers = &pair->layers[e->body - 1];
   PetscCheck(!layers->count || deepest < layers->thickness[0], e->comm, SAM_ERR_USER,
-             "%sfatigue_length: the mean reaches %.4g m deep, through the first layer of %.4g m: choose a shorter one",
-             e->dash, (double)deepest, (double)layers->thickness[0]);
+             "-fatigue_length: the mean reaches %.4g m deep, through the first layer of %.4g m: choose a shorter one",
+             (double)deepest, (double)layers->thickness[0]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -51,18 +38,12 @@ PetscErrorCode SamAverageSetUp(SamEvaluation e)
   PetscFunctionBegin;
   PetscCall(PetscFree(e->weight));
   if (e->average == SAM_AVERAGE_NONE) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCheck(
-    e->length >= SHORTEST * e->grid->side[0] && e->length <= 2 * e->grid->length, e->comm, SAM_ERR_USER,
-    "%sfatigue_length %.6g: expected a length from %.3g m, a thousandth of a cell, to the grid's width, %.3g m",
-    e->dash, (double)e->length, (double)(SHORTEST * e->grid->side[0]), 2 * (double)e->grid->length);
-  PetscCheck(SamCycleWanted(e), e->comm, SAM_ERR_USER, "%sfatigue_length is given without %sfatigue", e->dash, e->dash);
-  PetscCheck(!e->wants[SAM_QUANTITY_RUIZ], e->comm, SAM_ERR_USER,
-             "%sfatigue ruiz: is of the surface, and not of a mean over %sfatigue_length: omit one of them", e->dash,
-             e->dash);
-  for (PetscInt q = 0; q < SAM_QUANTITY_CROSSLAND; q++)
-    PetscCheck(!e->wants[q], e->comm, SAM_ERR_USER,
-               "%squantities: with %sfatigue_length there are means for fatigue parameters only: give none", e->dash,
-               e->dash);
+  PetscCheck(e->length >= SHORTEST * e->grid->side[0] && e->length <= 2 * e->grid->length, e->comm, SAM_ERR_USER,
+             "-fatigue_length %.6g: expected a length from %.3g m, a thousandth of a cell, to the grid's width, %.3g m",
+             (double)e->length, (double)(SHORTEST * e->grid->side[0]), 2 * (double)e->grid->length);
+  PetscCheck(e->cycle, e->comm, SAM_ERR_USER, "-fatigue_length is given without -fatigue");
+  PetscCheck(!SamQuantityWanted(e, SamFatigueRuiz), e->comm, SAM_ERR_USER,
+             "-fatigue ruiz: is of the surface, and not of a mean over -fatigue_length: omit one of them");
   PetscCall(PetscDTGaussQuadrature(n, 0, 1, t, w));
   PetscCall(PetscMalloc1(n, &e->weight));
   for (PetscInt k = 0; k < n; k++) {
@@ -72,7 +53,7 @@ PetscErrorCode SamAverageSetUp(SamEvaluation e)
     sum += e->weight[k];
   }
   for (PetscInt k = 0; k < n; k++) e->weight[k] /= sum;
-  PetscCall(SamEvaluationTakeDepths(e, "fatigue_length", n, z, NULL));
+  PetscCall(SamDepthsTake(e, "-fatigue_length", n, z, NULL));
   PetscCall(CheckMaterial(e));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

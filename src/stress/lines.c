@@ -21,7 +21,7 @@ static PetscInt Batch(SamEvaluation e)
 double SamLinesMemory(SamEvaluation e)
 {
   const PetscInt length = e->axis == SAM_SECTION_X ? e->grid->nx : e->grid->ny,
-                 steps  = SamCycleWanted(e) ? e->source.steps : Batch(e);
+                 steps  = e->cycle ? e->source.steps : Batch(e);
 
   return 24 * (double)e->grid->cells + (8 + 50 * (double)Batch(e)) * Cells(e) +
          48 * (double)steps * (double)length * (double)e->depths;
@@ -45,7 +45,7 @@ static PetscErrorCode ComputeSteps(SamEvaluation e, SamSection section, PetscInt
                                    const SamPoints *p, Vec tractions)
 {
   const ptrdiff_t size   = SAM_STRESS_COMPONENTS * (ptrdiff_t)p->count;
-  double *const   stress = p->stress + (SamCycleWanted(e) ? first : 0) * size;
+  double *const   stress = p->stress + (e->cycle ? first : 0) * size;
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < count; k++) PetscCall(AddStep(e, section, first + k, tractions));
@@ -60,8 +60,7 @@ static PetscErrorCode ComputeSteps(SamEvaluation e, SamSection section, PetscInt
 /* All steps at some depths from `depth` on; a mean of them is collected in `sum`, which is made here. */
 static PetscErrorCode ComputeDepths(SamEvaluation e, PetscInt depth, PetscInt depths, SamPoints *p, double **sum)
 {
-  const PetscInt batch = Batch(e), room = SamCycleWanted(e) ? e->source.steps : batch;
-  PetscInt       length;
+  const PetscInt batch = Batch(e), room = e->cycle ? e->source.steps : batch;
   ptrdiff_t      values;
   SamSection     section;
   Vec            tractions;
@@ -69,10 +68,9 @@ static PetscErrorCode ComputeDepths(SamEvaluation e, PetscInt depth, PetscInt de
 
   PetscFunctionBegin;
   PetscCall(SamSectionCreate(e->stress, e->axis, e->index, depths, e->depth + depth, &section));
-  PetscCall(SamSectionGetDepths(section, &p->depth, &p->depths, &length));
+  PetscCall(SamSectionGetDepths(section, &p->depth, &p->depths, &p->plane));
   p->depth += depth;
-  p->count = p->depths * length;
-  p->first = (double)p->depth * (double)length;
+  p->count = p->depths * p->plane;
   values   = room * SAM_STRESS_COMPONENTS * (ptrdiff_t)p->count;
   SamFree(p->stress);
   PetscCall(SamAllocate(sizeof(double) * (size_t)values, &p->stress));
@@ -82,13 +80,13 @@ static PetscErrorCode ComputeDepths(SamEvaluation e, PetscInt depth, PetscInt de
 
     PetscCall(ComputeSteps(e, section, first, count, p, tractions));
     part = ((double)depth + (double)depths * (double)(first + count) / (double)e->source.steps) / (double)e->depths;
-    PetscCall(SamEvaluationTell(e, "section", part, SamCycleWanted(e) ? 0 : part));
+    PetscCall(SamEvaluationTell(e, "section", part, e->cycle ? 0 : part));
   }
   if (e->average && !*sum) {
     PetscCall(SamAllocate(sizeof(double) * (size_t)values, sum));
     PetscCall(PetscArrayzero(*sum, values));
   }
-  if (e->average) PetscCall(SamAverageAdd(e, depth, length, values, p->stress, *sum));
+  if (e->average) PetscCall(SamAverageAdd(e, depth, p->plane, values, p->stress, *sum));
   PetscCall(VecDestroy(&tractions));
   PetscCall(SamSectionDestroy(&section));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -106,9 +104,8 @@ PetscErrorCode SamLinesCompute(SamEvaluation e)
     SamFree(p.stress);
     p.stress = sum;
     p.depth  = 0;
-    p.first  = 0;
   }
-  if (SamCycleWanted(e)) PetscCall(SamCycleWrite(e, &p, 0, 1));
+  if (e->cycle) PetscCall(SamCycleWrite(e, &p, 0, 1));
   SamFree(p.stress);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,5 +1,5 @@
 /* The options of petsam-stress that are not those of an evaluation. */
-#include "stressrun.h"
+#include "request.h"
 #include <petsam/private/baseimpl.h>
 #include <stdlib.h>
 #include <string.h>

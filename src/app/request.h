@@ -1,0 +1,24 @@
+/* The files and steps that petsam-stress is asked for, before any file is opened. */
+#ifndef PETSAM_APP_REQUEST_H
+#define PETSAM_APP_REQUEST_H
+
+#include <petsam/results.h>
+
+typedef struct {
+  char      input[PETSC_MAX_PATH_LEN], output[PETSC_MAX_PATH_LEN];
+  PetscBool all_steps, last_step;
+  PetscInt  first, last, stride; /* load steps from 1, where neither is set */
+  PetscBool of_cycle;            /* instead: the steps of a cycle of a life */
+  PetscReal cycle;
+} SamStressRequest;
+
+/* SamStressRequestRead - reads these options. Collective. Errors: SAM_ERR_USER. */
+PETSC_INTERN PetscErrorCode SamStressRequestRead(const SamOptions *from, SamStressRequest *request);
+/*
+  SamStressRequestSteps - the saved steps that are asked for, as numbers of saved steps from 0 on; the caller frees
+  them with PetscFree(). Collective. Errors: SAM_ERR_USER for steps that are not there or have not been saved.
+*/
+PETSC_INTERN PetscErrorCode SamStressRequestSteps(const SamStressRequest *request, SamResults results, PetscInt *count,
+                                                  PetscInt **saved);
+
+#endif

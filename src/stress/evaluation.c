@@ -1,0 +1,269 @@
+/* The stresses under the tractions of load steps: settings, steps, and the order of the work. */
+#include "evaluationimpl.h"
+
+/* ---- life ---- */
+
+static PetscErrorCode ForgetSetUp(SamEvaluation e)
+{
+  PetscFunctionBegin;
+  PetscCall(SamStressDestroy(&e->stress));
+  PetscCall(PetscFree(e->bulk));
+  PetscCall(PetscFree(e->largest));
+  e->ready = PETSC_FALSE;
+  for (int d = 0; d < SAM_STRESS_AXES; d++) PetscCall(PetscFree(e->coordinate[d]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamEvaluationDestroy(SamEvaluation *evaluation)
+{
+  SamEvaluation e = *evaluation;
+
+  PetscFunctionBegin;
+  *evaluation = NULL;
+  if (!e) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ForgetSetUp(e));
+  PetscCall(SamElasticityDestroy(&e->elasticity));
+  PetscCall(PetscFree2(e->depth, e->side));
+  PetscCall(PetscFree(e->weight));
+  PetscCall(PetscFree(e->depths_text));
+  PetscCall(PetscFree(e));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamEvaluationSetBodies(SamEvaluation e, SamElasticity elasticity, const SamFourierSettings *settings,
+                                      const char source[])
+{
+  PetscFunctionBegin;
+  PetscCall(SamElasticityReference(elasticity));
+  PetscCall(ForgetSetUp(e));
+  PetscCall(SamElasticityDestroy(&e->elasticity));
+  e->elasticity = elasticity;
+  e->settings   = settings;
+  e->of         = source;
+  PetscCall(SamElasticityGetGrid(elasticity, &e->grid));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamEvaluationSetMonitor(SamEvaluation e, SamEvaluationMonitor monitor, void *context)
+{
+  PetscFunctionBegin;
+  e->monitor         = monitor;
+  e->monitor_context = context;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamEvaluationSetSource(SamEvaluation e, const SamStressSource *source)
+{
+  PetscFunctionBegin;
+  PetscCall(ForgetSetUp(e));
+  e->source = *source;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- steps ---- */
+
+PetscErrorCode SamEvaluationReadTractions(SamEvaluation e, PetscInt step, double *const to[SAM_STRESS_TRACTIONS])
+{
+  PetscFunctionBegin;
+  PetscCall(PetscArraycpy(e->stress->cases, e->bulk[step] + SAM_BULK_COMPONENTS, SAM_CASES));
+  for (PetscInt t = 0; t < SAM_STRESS_TRACTIONS; t++)
+    PetscCall((*e->source.read)(e->source.context, step, (SamStepField)(SAM_STEP_PRESSURE + t), to[t]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+void SamBulkStressAt(SamEvaluation e, PetscInt step, PetscInt depth, double bulk[SAM_BULK_COMPONENTS])
+{
+  const double    *of = e->bulk[step];
+  const SamPair   *pair;
+  const SamLayers *layers = SamLayersOf(e);
+  const PetscInt   n      = SamLayerAt(e, depth);
+
+  PetscCallAbort(e->comm, SamElasticityGetPair(e->elasticity, &pair));
+  for (int k = 0; k < SAM_BULK_COMPONENTS; k++) bulk[k] = of[k];
+  if (n == layers->count) return;
+  if (!isinf(pair->young[e->body - 1])) {
+    const double nu = (double)pair->poisson[e->body - 1], own = (double)layers->poisson[n],
+                 ratio = (double)(layers->young[n] / pair->young[e->body - 1]);
+    const double xx = of[SAM_BULK_XX] - nu * of[SAM_BULK_YY], yy = of[SAM_BULK_YY] - nu * of[SAM_BULK_XX];
+
+    bulk[SAM_BULK_XX] = ratio * (xx + own * yy) / (1 - own * own);
+    bulk[SAM_BULK_YY] = ratio * (yy + own * xx) / (1 - own * own);
+    bulk[SAM_BULK_XY] = ratio * (1 + nu) / (1 + own) * of[SAM_BULK_XY];
+  }
+  bulk[SAM_BULK_XX] += (double)layers->stress[n][0];
+  bulk[SAM_BULK_YY] += (double)layers->stress[n][1];
+}
+
+void SamStressAddBulk(SamEvaluation e, PetscInt step, const SamPoints *p, double stress[])
+{
+  static const SamStressComponent component[SAM_BULK_COMPONENTS] = {SAM_STRESS_XX, SAM_STRESS_YY, SAM_STRESS_XY};
+
+  for (PetscInt depth = 0; depth < p->depths; depth++) {
+    double bulk[SAM_BULK_COMPONENTS];
+
+    SamBulkStressAt(e, step, p->depth + depth, bulk);
+    for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++) {
+      double *const s = stress + component[k] * (ptrdiff_t)p->count + depth * (ptrdiff_t)p->plane;
+
+      for (PetscInt i = 0; i < p->plane && bulk[k] != 0; i++) s[i] += bulk[k];
+    }
+  }
+}
+
+/* ---- set-up ---- */
+
+/* Finds the line of cells nearest to the section. */
+static PetscErrorCode FindLine(SamEvaluation e)
+{
+  const SamGrid   g     = e->grid;
+  const PetscBool row   = e->axis == SAM_SECTION_X;
+  const PetscInt  n     = row ? g->ny : g->nx;
+  const PetscReal first = row ? SamGridY(g, 0) : SamGridX(g, 0), step = row ? g->dy : g->dx;
+  const PetscReal at = (e->place - first) / step;
+
+  PetscFunctionBegin;
+  if (!e->section) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCheck(row || g->ny > 1, e->comm, SAM_ERR_USER,
+             "-section x=%.6g: a plane problem has no section along y: give y=0, or omit it", (double)e->place);
+  PetscCheck(at >= -0.5 - 1e-9 && at <= (PetscReal)n - 0.5 + 1e-9, e->comm, SAM_ERR_USER,
+             "-section %s=%.6g: outside of the grid, which reaches from %.6g to %.6g m", row ? "y" : "x",
+             (double)e->place, (double)(first - 0.5 * step), (double)(first + ((PetscReal)n - 0.5) * step));
+  e->index = (PetscInt)PetscMin(PetscMax(PetscFloorReal(at + 0.5), 0), (PetscReal)n - 1);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The stresses of the body that is asked for. */
+static PetscErrorCode CreateStress(SamEvaluation e)
+{
+  const SamPair      *pair;
+  SamElasticityTraits traits;
+  SamElasticityType   type;
+
+  PetscFunctionBegin;
+  PetscCall(SamElasticityGetTraits(e->elasticity, &traits));
+  PetscCall(SamElasticityGetType(e->elasticity, &type));
+  PetscCheck(traits.stress, e->comm, SAM_ERR_USER, "%s: stresses are not available for bodies of type %s", e->of, type);
+  PetscCall(SamElasticityGetPair(e->elasticity, &pair));
+  PetscCheck(!isinf(pair->young[e->body - 1]) || SamLayersOf(e)->count, e->comm, SAM_ERR_USER,
+             "-body %" PetscInt_FMT ": it is rigid, so its stresses are undetermined", e->body);
+  PetscCall(SamStressDestroy(&e->stress));
+  PetscCall(SamElasticityCreateStress(e->elasticity, e->body, e->settings, &e->stress));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* What the steps must be for a cycle, or for a point that passes under one of them. */
+static PetscErrorCode CheckCycle(SamEvaluation e)
+{
+  const PetscBool ruiz = SamQuantityWanted(e, SamFatigueRuiz);
+
+  PetscFunctionBegin;
+  PetscCheck(!e->passing || e->cycle, e->comm, SAM_ERR_USER, "-passing is given without -fatigue");
+  PetscCheck(!e->passing || e->source.steps == 1, e->comm, SAM_ERR_USER,
+             "-passing: %" PetscInt_FMT " steps are given: a point passes under those of one: give one step",
+             e->source.steps);
+  PetscCheck(!e->passing || !e->section || e->axis == SAM_SECTION_X, e->comm, SAM_ERR_USER,
+             "-passing: points pass along x: give a -section y=..., or none");
+  PetscCheck(!e->passing || !ruiz, e->comm, SAM_ERR_USER,
+             "-fatigue ruiz: needs the slip of steps, and not -passing: omit one of them");
+  PetscCheck(e->source.steps > 1 || e->passing || !e->cycle, e->comm, SAM_ERR_USER,
+             "-fatigue needs the steps of a cycle, two at least, and not %" PetscInt_FMT ": give more, or -passing",
+             e->source.steps);
+  PetscCheck(!ruiz || e->depth[0] == 0, e->comm, SAM_ERR_USER,
+             "-fatigue ruiz: it is defined on the surface: 0 must be one of -depths");
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Constants of fatigue are the same everywhere, or each layer's and the substrate's. */
+static PetscErrorCode CheckConstants(SamEvaluation e)
+{
+  const SamPair *pair;
+  PetscInt       materials;
+
+  PetscFunctionBegin;
+  PetscCall(SamElasticityGetPair(e->elasticity, &pair));
+  materials = SamLayersOf(e)->count + !isinf(pair->young[e->body - 1]);
+  PetscCheck(e->materials == 1 || e->materials == materials || !e->cycle, e->comm, SAM_ERR_USER,
+             "-fatigue: lists of %" PetscInt_FMT " constants for %" PetscInt_FMT
+             " materials in depth: give one number, or one for each layer and the substrate",
+             e->materials, materials);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The shape of the results, and their coordinates; a section has one y or one x. */
+static PetscErrorCode SetLayout(SamEvaluation e)
+{
+  const SamGrid    g   = e->grid;
+  const PetscBool  row = e->section && e->axis == SAM_SECTION_X, column = e->section && e->axis == SAM_SECTION_Y;
+  SamStressLayout *l = &e->layout;
+
+  PetscFunctionBegin;
+  l->body        = e->body;
+  l->section     = e->section;
+  l->cycle       = e->cycle;
+  l->n[SAM_TIME] = e->source.steps;
+  l->n[SAM_Z]    = e->average ? 1 : e->depths;
+  l->n[SAM_Y]    = row ? 1 : g->ny;
+  l->n[SAM_X]    = column ? 1 : g->nx;
+  l->row         = e->section ? 0 : g->row_start;
+  l->rows        = e->section ? l->n[SAM_Y] : g->rows;
+  l->memory      = e->section ? SamLinesMemory(e) : SamMapsMemory(e);
+  for (int d = 0; d < SAM_STRESS_AXES; d++) {
+    PetscCall(PetscFree(e->coordinate[d]));
+    PetscCall(PetscMalloc1(l->n[d] + 1, &e->coordinate[d]));
+    l->coordinate[d] = e->coordinate[d];
+  }
+  for (PetscInt k = 0; k < l->n[SAM_TIME]; k++)
+    PetscCall((*e->source.number)(e->source.context, k, SAM_STEP_TIME, &e->coordinate[SAM_TIME][k]));
+  for (PetscInt k = 0; k < l->n[SAM_Z]; k++) e->coordinate[SAM_Z][k] = e->average ? 0 : (double)e->depth[k];
+  for (PetscInt k = 0; k < l->n[SAM_Y]; k++) e->coordinate[SAM_Y][k] = (double)SamGridY(g, row ? e->index : k);
+  for (PetscInt k = 0; k < l->n[SAM_X]; k++) e->coordinate[SAM_X][k] = (double)SamGridX(g, column ? e->index : k);
+  SamQuantitiesList(e);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamEvaluationSetUp(SamEvaluation e)
+{
+  PetscFunctionBegin;
+  PetscCheck(e->elasticity, e->comm, PETSC_ERR_ORDER, "An evaluation without bodies");
+  if (e->ready) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(CreateStress(e));
+  PetscCall(CheckConstants(e));
+  PetscCall(SamAverageSetUp(e));
+  PetscCall(SamDepthsSetUp(e));
+  PetscCall(CheckCycle(e));
+  PetscCall(FindLine(e));
+  PetscCall(PetscFree(e->bulk));
+  PetscCall(PetscMalloc1(e->source.steps, &e->bulk));
+  for (PetscInt k = 0; k < e->source.steps; k++)
+    PetscCall((*e->source.bulk)(e->source.context, k, e->body, e->bulk[k]));
+  PetscCall(SetLayout(e));
+  e->ready = PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the work ---- */
+
+PetscErrorCode SamEvaluationTell(SamEvaluation e, const char work[], double part, double whole)
+{
+  PetscFunctionBegin;
+  if (e->monitor) PetscCall((*e->monitor)(e->monitor_context, work, part, whole));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamEvaluationCompute(SamEvaluation e, SamEvaluationWrite write, void *context)
+{
+  PetscFunctionBegin;
+  PetscCall(SamEvaluationSetUp(e));
+  PetscCall(SamLargestClear(e));
+  if (e->cycle && e->source.steps > 1) PetscCall(SamCycleCheckClosed(e)); /* one: of points that pass */
+  e->write         = write;
+  e->write_context = context;
+  PetscCall(e->section ? SamLinesCompute(e) : SamMapsCompute(e));
+  PetscCall(SamLargestAgree(e));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+const SamStressLayout *SamEvaluationGetLayout(SamEvaluation e)
+{
+  return &e->layout;
+}

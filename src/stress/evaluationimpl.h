@@ -1,0 +1,196 @@
+/* The inside of SamEvaluation. */
+#ifndef PETSAM_EVALUATIONIMPL_H
+#define PETSAM_EVALUATIONIMPL_H
+
+#include <petsam/evaluation.h>
+#include <petsam/fatigue.h>
+#include <petsam/private/stressimpl.h>
+
+/*
+  SamPoints - the points of which a rank has the stresses: of a map its rows at one depth, of a section its depths. The
+  stress of step s is stress + s * SAM_STRESS_COMPONENTS * count, component after component.
+*/
+typedef struct {
+  PetscInt count;         /* points */
+  PetscInt depth, depths; /* first depth, number of depths */
+  PetscInt plane;         /* points at a depth */
+  double  *stress;        /* Pa */
+} SamPoints;
+
+/* ---- quantities (quantities.c) ---- */
+
+/* A constant of a fatigue parameter, and its option. */
+typedef struct {
+  const char *name, *help;
+  SamRange    range;
+  size_t      place; /* in SamFatigueConstants */
+} SamQuantityConstant;
+
+/*
+  SamQuantity - a row of the table of all quantities, of a step or of the cycle, each with one function.
+    name       in -quantities, or -fatigue
+    part       its datasets, one for each component
+    of_step    computes `arrays` arrays from the stresses s at points; NULL: the stress itself. A row with the same
+               function as the one before takes these arrays over.
+    last       makes the component, in the place of the first array, from them; NULL: the arrays are the components
+    of_cycle   instead: a parameter of the cycle; `more`: the other components
+    shown      its name where the largest value is printed
+    with       the option that its constants need
+*/
+enum { SAM_QUANTITY_PARTS = SAM_STRESS_COMPONENTS, SAM_QUANTITIES = 24 /* most quantities */ };
+typedef struct {
+  const char *name;
+  struct {
+    const char *name, *unit, *text;
+  } part[SAM_QUANTITY_PARTS];
+  int arrays;
+  void (*of_step)(SamEvaluation e, const SamPoints *points, const double *const s[], double *const values[]);
+  void (*last)(PetscInt n, double *const values[]);
+  SamFatigueParameter *of_cycle;
+  const char          *shown, *with;
+  SamQuantityConstant  constant[2];
+} SamQuantity;
+PETSC_INTERN const SamQuantity SamQuantityTable[]; /* ends with a name of NULL */
+/* SamQuantityOf - the row of that function or parameter of the cycle. SamQuantityWanted - whether it is wanted. */
+PETSC_INTERN PetscBool SamQuantityWanted(SamEvaluation e, SamFatigueParameter *of_cycle);
+/* SamQuantityOption - the names of the quantities of a step, or of the cycle, with commas. Not collective. */
+PETSC_INTERN void SamQuantityNames(PetscBool of_cycle, char text[], size_t size);
+/* SamQuantitiesList - fills the list of datasets of the layout with those that are wanted. Not collective. */
+PETSC_INTERN void SamQuantitiesList(SamEvaluation e);
+/* SamQuantitiesWrite - computes what is wanted of a step's stresses and hands it over. Collective. */
+PETSC_INTERN PetscErrorCode SamQuantitiesWrite(SamEvaluation e, PetscInt step, const SamPoints *points,
+                                               const double stress[]);
+/* SamEvaluationHandOver - hands over component k of a quantity at points. Collective. */
+PETSC_INTERN PetscErrorCode SamEvaluationHandOver(SamEvaluation e, PetscInt quantity, PetscInt k, PetscInt step,
+                                                  const SamPoints *points, const double values[]);
+
+/* ---- the evaluation ---- */
+
+typedef enum { SAM_AVERAGE_NONE, SAM_AVERAGE_POINT, SAM_AVERAGE_LINE, SAM_AVERAGE_AREA } SamFatigueAverage;
+
+/* The numbers of largest values of a step: these, and from SAM_LARGEST_LAYERS on those of layers. */
+enum { SAM_LARGEST_MISES, SAM_LARGEST_PRINCIPAL, SAM_LARGEST_EDGE_XX, SAM_LARGEST_EDGE_PRINCIPAL, SAM_LARGEST_LAYERS };
+/* Of each layer: the von Mises stress, tension and shear at the bottom; of the substrate the first of them. */
+enum { SAM_LARGEST_LAYER_MISES, SAM_LARGEST_LAYER_TENSION, SAM_LARGEST_LAYER_SHEAR, SAM_LARGEST_LAYER };
+
+struct _n_SamEvaluation {
+  MPI_Comm comm;
+  /* what is asked for */
+  PetscInt            body;
+  char               *depths_text; /* of -depths */
+  PetscBool           section;
+  SamSectionAxis      axis;
+  PetscReal           place; /* of the section: y along x, x along y, m */
+  PetscBool           wants[SAM_QUANTITIES];
+  PetscBool           cycle;   /* a parameter of the cycle is wanted: the stresses of all steps are needed at a time */
+  PetscBool           passing; /* the states of a cycle are the stresses of a row of cells, and those far from it */
+  SamFatigueConstants constants[SAM_LAYERS + 1]; /* but for the body's */
+  PetscInt            materials; /* that have constants of their own, layers first; 1: all have the first ones */
+  SamFatigueAverage   average;
+  PetscReal           length; /* of the average, m */
+  /* bodies and steps */
+  SamElasticity             elasticity;
+  const SamFourierSettings *settings;
+  const char               *of; /* whose bodies they are */
+  SamGrid                   grid;
+  SamStress                 stress;
+  SamStressSource           source;
+  double (*bulk)[SAM_BULK_AND_CASES]; /* of each step */
+  /* where */
+  PetscInt        depths;
+  PetscReal      *depth;
+  int            *side;   /* of an interface at that depth: -1 above, 1 below, 0 not said, or none is there */
+  PetscReal      *weight; /* the part of each depth in the average */
+  PetscInt        index;  /* of the section's line of cells */
+  SamStressLayout layout;
+  double         *coordinate[SAM_STRESS_AXES];
+  PetscBool       ready; /* it has been set up */
+  /* results */
+  SamEvaluationWrite   write;
+  void                *write_context;
+  SamEvaluationMonitor monitor;
+  void                *monitor_context;
+  PetscInt             kinds;     /* numbers of largest values of a step */
+  SamLargest          *largest;   /* (kinds, steps), and those of the cycle for each quantity */
+  PetscInt             edge_lost; /* steps with an edge that is not found */
+};
+
+/* SamMapsCompute - everything on whole planes, one depth after another (maps.c). Collective. */
+PETSC_INTERN PetscErrorCode SamMapsCompute(SamEvaluation e);
+/* SamLinesCompute - everything on a section, some steps at a time (lines.c). Collective. */
+PETSC_INTERN PetscErrorCode SamLinesCompute(SamEvaluation e);
+/* SamMapsMemory, SamLinesMemory - the memory of this rank, bytes. Not collective. */
+PETSC_INTERN double SamMapsMemory(SamEvaluation e);
+PETSC_INTERN double SamLinesMemory(SamEvaluation e);
+/* SamEvaluationReadTractions - pressure and both shears of a step, this rank's rows. Collective. */
+PETSC_INTERN PetscErrorCode SamEvaluationReadTractions(SamEvaluation e, PetscInt step,
+                                                       double *const to[SAM_STRESS_TRACTIONS]);
+/*
+  SamBulkStressAt - the bulk stress of a step and the residual stress at a depth: of bulk stress a layer has the strains
+  of the substrate. SamStressAddBulk - adds them to the stresses of points. Neither is collective.
+*/
+PETSC_INTERN void SamBulkStressAt(SamEvaluation e, PetscInt step, PetscInt depth, double bulk[SAM_BULK_COMPONENTS]);
+PETSC_INTERN void SamStressAddBulk(SamEvaluation e, PetscInt step, const SamPoints *points, double stress[]);
+/* SamEvaluationTell - calls the monitor. Not collective. */
+PETSC_INTERN PetscErrorCode SamEvaluationTell(SamEvaluation e, const char work[], double part, double whole);
+
+/* ---- depths (depths.c) ---- */
+
+/* SamLayersOf - the layers of the body. SamLayerAt - that which has a depth; their number: the substrate. */
+PETSC_INTERN const SamLayers *SamLayersOf(SamEvaluation e);
+PETSC_INTERN PetscInt         SamLayerAt(SamEvaluation e, PetscInt depth);
+/*
+  SamDepthsRead - the depths of -depths, those in half widths of the contact of this one (m).
+  SamDepthsSetUp - finds the half width if it is needed, and the sides of interfaces, and checks the depths.
+  SamDepthsTake - takes over depths, which `said` names in messages, and the sides of interfaces there, NULL: both.
+  Collective. Errors: SAM_ERR_USER.
+*/
+PETSC_INTERN PetscErrorCode SamDepthsRead(SamEvaluation e, PetscReal half);
+PETSC_INTERN PetscErrorCode SamDepthsSetUp(SamEvaluation e);
+PETSC_INTERN PetscErrorCode SamDepthsTake(SamEvaluation e, const char said[], PetscInt n, const PetscReal depths[],
+                                          const int sides[]);
+/* SamDivide - divides a text at a character, in place; returns the number of parts, of which `most` are given. */
+PETSC_INTERN int SamDivide(char text[], char at, char *parts[], int most);
+/* SamReadNumber - whether a text is a finite number. Not collective. */
+PETSC_INTERN PetscBool SamReadNumber(const char text[], double *value);
+
+/* ---- largest values (largest.c) ---- */
+
+/* SamLargestClear - begins without any. SamLargestAgree - finds those of all ranks. Collective. */
+PETSC_INTERN PetscErrorCode SamLargestClear(SamEvaluation e);
+PETSC_INTERN PetscErrorCode SamLargestAgree(SamEvaluation e);
+/* SamLargestOfStep - keeps the largest of the stresses s, with their von Mises stresses, at points. Not collective. */
+PETSC_INTERN void SamLargestOfStep(SamEvaluation e, PetscInt step, const SamPoints *points,
+                                   const double *const s[SAM_STRESS_COMPONENTS], const double mises[]);
+/* SamLargestOfCycle - keeps the value of a quantity at the i-th point. Not collective. */
+PETSC_INTERN void SamLargestOfCycle(SamEvaluation e, PetscInt quantity, const SamPoints *points, PetscInt i,
+                                    double value);
+/*
+  SamLargestAtEdge - keeps the largest stresses at the contact's edge of a step, whose map at depth 0, without bulk
+  stress, is in `field` (edge.c). Collective.
+*/
+PETSC_INTERN PetscErrorCode SamLargestAtEdge(SamEvaluation e, PetscInt step, Vec field);
+/* SamLargestKeep - keeps a value at a place if it is the largest so far of that kind. Not collective. */
+PETSC_INTERN void SamLargestKeep(SamEvaluation e, PetscInt kind, PetscInt step, double value, const double place[3]);
+
+/* ---- cycles ---- */
+
+/*
+  SamCycleWrite - computes the fatigue parameters from the stresses of all steps and hands them over (cycle.c). `done`
+  is the part of all points that came before, `share` that of these. Collective.
+  SamCycleCheckClosed - warns if the step before the first one has not the tractions of the last: the steps are not a
+  closed cycle then, or it has not become steady; of steps that hold more than one cycle, or what leads to it; and of
+  those of several cycles of a life (closed.c). Collective.
+*/
+PETSC_INTERN PetscErrorCode SamCycleWrite(SamEvaluation e, const SamPoints *points, double done, double share);
+PETSC_INTERN PetscErrorCode SamCycleCheckClosed(SamEvaluation e);
+/*
+  SamAverageSetUp - the depths of the average, and their parts (average.c). Errors: SAM_ERR_USER.
+  SamAverageAdd - adds the part of depth k in it: `from` and `to` are n values, lines of `length` points. Neither is
+  collective.
+*/
+PETSC_INTERN PetscErrorCode SamAverageSetUp(SamEvaluation e);
+PETSC_INTERN PetscErrorCode SamAverageAdd(SamEvaluation e, PetscInt k, PetscInt length, ptrdiff_t n,
+                                          const double from[], double to[]);
+
+#endif
