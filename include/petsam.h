@@ -5,7 +5,7 @@
 #include <petsam/base.h>
 #include <petsam/grid.h>
 #include <petsam/parameters.h>
-#include <petsam/material.h>
+#include <petsam/body.h>
 #include <petsam/gap.h>
 #include <petsam/fourier.h>
 #include <petsam/elasticity.h>

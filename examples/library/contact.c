@@ -3,22 +3,25 @@
 
 int main(int argc, char **argv)
 {
-  const PetscInt  n[2]     = {256, 256};
-  const PetscReal width[2] = {2.6e-3, 2.6e-3}, center[2] = {0, 0}, young[2] = {210e9, 210e9}, poisson[2] = {0.3, 0.3};
-  SamPair         bodies;
-  SamGrid         grid;
-  SamElasticity   elasticity;
-  SamProblem      problem;
-  SamGap          gap;
-  SamContact      contact;
-  SamControl      control;
-  SamStep         step;
-  Vec             separation;
+  const PetscInt    n[2]     = {256, 256};
+  const PetscReal   width[2] = {2.6e-3, 2.6e-3}, center[2] = {0, 0};
+  const SamMaterial steel = {.young = 210e9, .poisson = 0.3};
+  SamBody           body;
+  SamPair           bodies;
+  SamGrid           grid;
+  SamElasticity     elasticity;
+  SamProblem        problem;
+  SamGap            gap;
+  SamContact        contact;
+  SamControl        control;
+  SamStep           step;
+  Vec               separation;
 
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
   PetscCall(SamGridCreate(PETSC_COMM_WORLD, n, width, center, &grid));
-  PetscCall(SamPairSet(&bodies, young, poisson));
-  PetscCall(SamElasticityCreate(grid, &bodies, &elasticity));
+  PetscCall(SamBodyCreate(1, &steel, &body));
+  PetscCall(SamPairCreate(body, body, &bodies));
+  PetscCall(SamElasticityCreate(grid, bodies, &elasticity));
   PetscCall(SamProblemCreate(elasticity, &problem));
   PetscCall(SamProblemSetFriction(problem, 0.1));
   PetscCall(SamProblemGetGap(problem, &separation));
@@ -42,6 +45,8 @@ int main(int argc, char **argv)
   PetscCall(SamGapDestroy(&gap));
   PetscCall(SamProblemDestroy(&problem));
   PetscCall(SamElasticityDestroy(&elasticity));
+  PetscCall(SamPairDestroy(&bodies));
+  PetscCall(SamBodyDestroy(&body));
   PetscCall(SamGridDestroy(&grid));
   PetscCall(SamFinalize());
   return PetscFinalize();

@@ -4,7 +4,7 @@
 
 #include <petsam/control.h>
 #include <petsam/fourier.h>
-#include <petsam/material.h>
+#include <petsam/body.h>
 #include <petsam/parameters.h>
 
 /*
@@ -46,10 +46,10 @@ typedef struct {
 } SamElasticityTraits;
 
 /*
-  SamElasticityCreate - of type halfspace, on a grid of one row plane; copies the pair, references the grid. What
+  SamElasticityCreate - of type halfspace, on a grid of one row plane; references the pair and the grid. What
   products need is made when it is first needed. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamElasticityCreate(SamGrid grid, const SamPair *pair, SamElasticity *elasticity);
+PETSC_EXTERN PetscErrorCode SamElasticityCreate(SamGrid grid, SamPair pair, SamElasticity *elasticity);
 /*
   SamElasticityCreateRolling - the same bodies in steady rolling towards +x: u_t is the slip velocity by the tractions,
   relative to the rolling speed, and creepages stand for tangential rigid displacements. References the bodies.
@@ -91,8 +91,8 @@ PETSC_EXTERN PetscErrorCode SamElasticitySetUp(SamElasticity elasticity);
 PETSC_INTERN PetscErrorCode SamElasticityReference(SamElasticity elasticity);
 PETSC_EXTERN PetscErrorCode SamElasticityDestroy(SamElasticity *elasticity);
 
-PETSC_EXTERN PetscErrorCode SamElasticityGetGrid(SamElasticity elasticity, SamGrid *grid);        /* borrowed */
-PETSC_EXTERN PetscErrorCode SamElasticityGetPair(SamElasticity elasticity, const SamPair **pair); /* borrowed */
+PETSC_EXTERN PetscErrorCode SamElasticityGetGrid(SamElasticity elasticity, SamGrid *grid); /* borrowed */
+PETSC_EXTERN PetscErrorCode SamElasticityGetPair(SamElasticity elasticity, SamPair *pair); /* borrowed */
 PETSC_EXTERN PetscErrorCode SamElasticityGetTraits(SamElasticity elasticity, SamElasticityTraits *traits);
 /*
   SamElasticityPlaneFromOptions - whether -elasticity names a plane type, for the grid. Not collective.

@@ -114,7 +114,7 @@ typedef struct {
 /*
   SamLargestSeries - the largest values of each step: of the von Mises and the first principal stress, whether they are
   wanted or not; where there is a map of the surface, of the stress xx and the first principal stress at the edge of
-  contact (SamStressAtEdge()); in each layer in which a depth is, of the von Mises stress, and of the tension zz and the
+  contact (SamStressAtEdge()); in each of several materials in which a depth is, of the von Mises stress, and of the tension zz and the
   shear sqrt(xz^2 + yz^2) at its bottom. And the largest value of each fatigue parameter that is wanted.
 */
 typedef struct {
@@ -122,11 +122,11 @@ typedef struct {
   char              shown[64];          /* the same as it is printed; "": it is not */
   const char       *unit;
   PetscBool         of_cycle;
-  PetscInt          layer;   /* from 1; 0: it is of no layer */
-  PetscInt          places;  /* coordinates of the place: z is 0 at the edge, and not told */
-  PetscInt          missing; /* steps with an edge of which too little is smooth and resolved */
-  PetscInt          count;   /* steps; 1 of a cycle */
-  const SamLargest *step;    /* borrowed */
+  PetscInt          material; /* of which it is the largest value, from 1; 0: of all */
+  PetscInt          places;   /* coordinates of the place: z is 0 at the edge, and not told */
+  PetscInt          missing;  /* steps with an edge of which too little is smooth and resolved */
+  PetscInt          count;    /* steps; 1 of a cycle */
+  const SamLargest *step;     /* borrowed */
 } SamLargestSeries;
 /* SamEvaluationGetLargest - the k-th of them after SamEvaluationCompute(); false: there are no more. Not collective. */
 PETSC_EXTERN PetscBool SamEvaluationGetLargest(SamEvaluation evaluation, PetscInt k, SamLargestSeries *series);

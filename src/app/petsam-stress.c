@@ -19,7 +19,7 @@
 /* A depth, in widths of the grid, that a unit may explain. */
 #define DEEP 20.0
 
-#define SHOWN 8 /* layers of which all maxima are printed */
+#define SHOWN 9 /* materials of which all maxima are printed */
 
 /* A run of petsam-stress. */
 typedef struct {
@@ -293,34 +293,35 @@ static PetscInt MostOf(const SamLargestSeries *of)
   return most;
 }
 
-/* Whether a value of a layer is the largest of that kind in all layers. */
-static PetscBool IsLargestOfLayers(SamStressRun *run, const SamLargestSeries *of)
+/* Whether a value of a material is the largest of that kind in all materials. */
+static PetscBool IsLargestOfMaterials(SamStressRun *run, const SamLargestSeries *of)
 {
   const char *const kind = strrchr(of->name, '_');
   SamLargestSeries  other;
 
   for (PetscInt k = 0; SamEvaluationGetLargest(run->evaluation, k, &other); k++)
-    if (other.layer && !strcmp(strrchr(other.name, '_'), kind) &&
+    if (other.material && !strcmp(strrchr(other.name, '_'), kind) &&
         other.step[MostOf(&other)].value > of->step[MostOf(of)].value)
       return PETSC_FALSE;
   return PETSC_TRUE;
 }
 
-/* The largest values over all steps; of many layers only those that are largest of all. */
+/* The largest values over all steps; of many materials only those that are largest of all. */
 static PetscErrorCode PrintLargest(SamStressRun *run)
 {
   SamLargestSeries of;
-  PetscInt         layers = 0;
+  PetscInt         materials = 0;
 
   PetscFunctionBegin;
-  for (PetscInt k = 0; SamEvaluationGetLargest(run->evaluation, k, &of); k++) layers = PetscMax(layers, of.layer);
+  for (PetscInt k = 0; SamEvaluationGetLargest(run->evaluation, k, &of); k++)
+    materials = PetscMax(materials, of.material);
   for (PetscInt k = 0; SamEvaluationGetLargest(run->evaluation, k, &of); k++) {
     const PetscInt    most     = MostOf(&of);
     const SamLargest *at       = most < 0 ? &(SamLargest){NAN, {NAN, NAN, NAN}} : &of.step[most];
     char              step[32] = "", unit[16] = "";
     double            number = 0;
 
-    if (!of.shown[0] || (of.layer && layers > SHOWN + 1 && !IsLargestOfLayers(run, &of))) continue;
+    if (!of.shown[0] || (of.material && materials > SHOWN && !IsLargestOfMaterials(run, &of))) continue;
     if (strcmp(of.unit, "1")) (void)snprintf(unit, sizeof(unit), " %s", of.unit);
     if (!k) PetscCall(ReadNumber(run, PetscMax(most, 0), SAM_STEP_NUMBER, &number));
     if (!k) (void)snprintf(step, sizeof(step), " in step %.0f", number);

@@ -254,7 +254,7 @@ static PetscErrorCode Move(SamContact c, const PetscReal roll[2])
 {
   SamSolution *const s     = &c->generation[SAM_COMMITTED];
   PetscReal *const   rigid = s->rigid;
-  const SamPair     *pair;
+  SamPair            pair;
   SamStretch         e;
 
   PetscFunctionBegin;

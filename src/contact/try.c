@@ -81,7 +81,7 @@ PetscErrorCode SamContactRefuseSteady(SamContact c, const char prefix[], const c
 */
 static PetscErrorCode CheckBulkStress(SamContact c, SamControl *control)
 {
-  const SamPair    *pair;
+  SamPair           pair;
   SamElasticityType type;
 
   PetscFunctionBegin;
@@ -89,19 +89,19 @@ static PetscErrorCode CheckBulkStress(SamContact c, SamControl *control)
   PetscCall(SamElasticityGetType(c->elasticity, &type));
   for (PetscInt body = 0; body < 2; body++)
     for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++) {
-      const char  *name   = SAM_BULK_CONDITION(body, k)->name;
-      const double stress = (double)control->bulk_stress[body][k];
+      const SamMaterial *m      = SamBodyBulk(SamPairBody(pair, body));
+      const char        *name   = SAM_BULK_CONDITION(body, k)->name;
+      const double       stress = (double)control->bulk_stress[body][k];
 
-      PetscCheck(stress == 0 || !isinf(pair->young[body]), c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
+      PetscCheck(stress == 0 || !isinf(m->young), c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
                  "%s = %.6g: expected 0: a rigid body does not stretch", name, stress);
-      PetscCheck(fabs(stress) <= pair->young[body], c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-                 "%s = %.6g: expected at most Young's modulus, %.6g", name, stress, (double)pair->young[body]);
+      PetscCheck(fabs(stress) <= m->young, c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
+                 "%s = %.6g: expected at most Young's modulus, %.6g", name, stress, (double)m->young);
       PetscCheck(stress == 0 || c->traits.stretch, c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
                  "%s = %.6g: expected 0: bodies of type %s bear no bulk stress", name, stress, type);
       if (!c->traits.plane || k == SAM_BULK_XX) continue;
       /* without -0, of which nothing may depend */
-      control->bulk_stress[body][k] =
-        k == SAM_BULK_YY ? 0 + pair->poisson[body] * control->bulk_stress[body][SAM_BULK_XX] : 0;
+      control->bulk_stress[body][k] = k == SAM_BULK_YY ? 0 + m->poisson * control->bulk_stress[body][SAM_BULK_XX] : 0;
       PetscCheck(stress == 0 || stress == control->bulk_stress[body][k], c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
                  "%s = %.6g: expected 0: in plane strain yy follows from xx, and there is no xy", name, stress);
     }

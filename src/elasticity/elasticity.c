@@ -45,7 +45,7 @@ PetscErrorCode SamElasticityGetTypes(char types[], size_t size)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamElasticityCreate(SamGrid grid, const SamPair *pair, SamElasticity *elasticity)
+PetscErrorCode SamElasticityCreate(SamGrid grid, SamPair pair, SamElasticity *elasticity)
 {
   SamElasticity e;
 
@@ -54,7 +54,8 @@ PetscErrorCode SamElasticityCreate(SamGrid grid, const SamPair *pair, SamElastic
   PetscCall(RegisterAll());
   PetscCall(PetscNew(&e));
   e->references = 1;
-  e->pair       = *pair;
+  PetscCall(SamPairReference(pair));
+  e->pair = pair;
   for (PetscInt k = 0; k < 2; k++) e->factor[k] = 1;
   PetscCall(SamGridReference(grid));
   e->grid = grid;
@@ -132,7 +133,7 @@ static PetscErrorCode DescribeOthers(SamElasticity e, const SamOptions *from)
   PetscCall(SamTypesGet(SamElasticityList, &types, &count));
   for (int k = 0; k < count; k++) {
     if (!strcmp(types[k], e->type)) continue;
-    PetscCall(SamElasticityCreate(e->grid, &e->pair, &other));
+    PetscCall(SamElasticityCreate(e->grid, e->pair, &other));
     PetscCall(SamElasticitySetType(other, types[k]));
     if (other->ops.setfromoptions) PetscCall((*other->ops.setfromoptions)(other, from));
     PetscCall(SamElasticityDestroy(&other));
@@ -148,8 +149,8 @@ static PetscErrorCode CheckThicknesses(SamElasticity e, const SamOptions *from)
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < 2; b++)
-    for (PetscInt n = 0; n < e->pair.layers[b].count; n++) {
-      const PetscReal h = e->pair.layers[b].thickness[n];
+    for (PetscInt n = 0; n + 1 < e->pair->body[b]->count; n++) {
+      const PetscReal h = e->pair->body[b]->material[n].thickness;
 
       PetscCheck(h >= least && h <= most, from->comm, SAM_ERR_USER,
                  "-%sbody%" PetscInt_FMT "_layer_thickness %.6g: expected %.3g to %.3g m on this grid", e->prefix,
@@ -173,7 +174,7 @@ PetscErrorCode SamElasticitySetFromOptions(SamElasticity e)
   PetscCall(SamFourierSettingsFromOptions(&e->fft, &from));
   if (strcmp(type, e->type) || e->is_set_up || (e->inner && e->inner->is_set_up))
     PetscCall(SamElasticitySetType(e, type)); /* made anew with the settings */
-  PetscCheck(e->traits.layers || !SamPairHasLayers(&e->pair), from.comm, SAM_ERR_USER,
+  PetscCheck(e->traits.layers || SamPairIsUniform(e->pair), from.comm, SAM_ERR_USER,
              "-%selasticity %s: not supported with layers: use %s or %s", e->prefix, type, SAM_ELASTICITY_HALFSPACE,
              SAM_ELASTICITY_PERIODIC);
   PetscCall(CheckThicknesses(e, &from));
@@ -213,6 +214,7 @@ PetscErrorCode SamElasticityDestroy(SamElasticity *elasticity)
   *elasticity = NULL;
   if (!e || --e->references > 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Reset(e));
+  PetscCall(SamPairDestroy(&e->pair));
   PetscCall(SamGridDestroy(&e->grid));
   PetscCall(PetscFree(e));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -233,10 +235,10 @@ PetscErrorCode SamElasticityGetGrid(SamElasticity e, SamGrid *grid)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamElasticityGetPair(SamElasticity e, const SamPair **pair)
+PetscErrorCode SamElasticityGetPair(SamElasticity e, SamPair *pair)
 {
   PetscFunctionBegin;
-  *pair = &e->pair;
+  *pair = e->pair;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -249,15 +251,6 @@ PetscErrorCode SamElasticityGetTraits(SamElasticity e, SamElasticityTraits *trai
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscBool SamElasticityPairIsCoupled(const SamPair *pair)
-{
-  /* bodies of equal constants and layers cancel exactly; others may leave rounding */
-  if (SamPairHasLayers(pair))
-    return pair->young[0] != pair->young[1] || pair->poisson[0] != pair->poisson[1] ||
-           memcmp(&pair->layers[0], &pair->layers[1], offsetof(SamLayers, stress));
-  return PetscAbsReal(pair->dundurs) > 1e-14;
-}
-
 PetscErrorCode SamElasticityGetSelfInfluence(SamElasticity e, PetscReal *normal, PetscReal *tangential)
 {
   PetscFunctionBegin;
@@ -266,7 +259,7 @@ PetscErrorCode SamElasticityGetSelfInfluence(SamElasticity e, PetscReal *normal,
   if (!e->has_self) PetscCall((*e->ops.getselfinfluence)(e, &e->self[0], &e->self[1]));
   e->has_self = PETSC_TRUE;
   if (normal) *normal = e->self[0];
-  if (tangential) *tangential = e->self[1] + (e->traits.steady ? 0 : SamPairFilm(&e->pair));
+  if (tangential) *tangential = e->self[1] + (e->traits.steady ? 0 : SamPairFilm(e->pair));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -277,8 +270,8 @@ PetscErrorCode SamElasticityCreateStress(SamElasticity e, PetscInt body, const S
   SamElasticityWith(e, createstress);
   PetscCheck(e->ops.createstress, e->grid->comm, PETSC_ERR_SUP, "Elasticity of type %s: no stresses are available",
              e->type);
-  PetscCheck((body == 1 || body == 2) && (!isinf(e->pair.young[body - 1]) || e->pair.layers[body - 1].count),
-             e->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "Body %" PetscInt_FMT ": use 1 or 2, an elastic body", body);
+  PetscCheck((body == 1 || body == 2) && !SamBodyIsRigid(e->pair->body[body - 1]), e->grid->comm,
+             PETSC_ERR_ARG_OUTOFRANGE, "Body %" PetscInt_FMT ": use 1 or 2, an elastic body", body);
   PetscCall((*e->ops.createstress)(e, body, settings ? settings : &e->fft, stress));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -286,7 +279,7 @@ PetscErrorCode SamElasticityCreateStress(SamElasticity e, PetscInt body, const S
 PetscErrorCode SamElasticityAddParameters(SamElasticity e, SamParameters *p)
 {
   PetscFunctionBegin;
-  PetscCall(SamPairAddParameters(&e->pair, p));
+  PetscCall(SamPairAddParameters(e->pair, p));
   for (; !strcmp(e->type, SAM_ELASTICITY_ROLLING) || !strcmp(e->type, SAM_ELASTICITY_COMPLIANCE); e = e->inner)
     if (e->ops.addparameters) PetscCall((*e->ops.addparameters)(e, p)); /* options of their own tell these types */
   PetscCall(SamParametersAddText(p, "elasticity", PETSC_TRUE, e->type));
@@ -305,13 +298,14 @@ PetscErrorCode SamElasticityCreateFromParameters(SamGrid grid, const SamParamete
   char    types[256];
 
   PetscFunctionBegin;
-  PetscCall(SamPairSetFromParameters(&pair, grid->comm, p, source));
+  PetscCall(SamPairCreateFromParameters(grid->comm, p, source, &pair));
   PetscCheck(type, grid->comm, SAM_ERR_FILE, "%s: cannot be read: it lacks the attribute elasticity", source);
   PetscCall(SamElasticityGetTypes(types, sizeof(types)));
   PetscCall(PetscFunctionListFind(SamElasticityList, type->text, &create));
   PetscCheck(create, grid->comm, SAM_ERR_FILE, "%s: cannot be read: its elasticity is of type %s: expected %s", source,
              type->text, types);
-  PetscCall(SamElasticityCreate(grid, &pair, elasticity));
+  PetscCall(SamElasticityCreate(grid, pair, elasticity));
+  PetscCall(SamPairDestroy(&pair));
   PetscCall(SamElasticitySetType(*elasticity, type->text));
   PetscCheck((*elasticity)->traits.plane == (grid->axes == 1), grid->comm, SAM_ERR_FILE,
              "%s: cannot be read: its elasticity %s does not fit its grid of %" PetscInt_FMT " rows", source,
@@ -327,7 +321,7 @@ PetscErrorCode SamElasticitySetInner(SamElasticity e, SamElasticityType type)
   SamElasticity inner;
 
   PetscFunctionBegin;
-  PetscCall(SamElasticityCreate(e->grid, &e->pair, &inner));
+  PetscCall(SamElasticityCreate(e->grid, e->pair, &inner));
   inner->fft = e->fft;
   PetscCall(SamElasticitySetOptionsPrefix(inner, e->prefix));
   PetscCall(PetscArraycpy(inner->first, e->first, 2));
@@ -344,7 +338,7 @@ PetscErrorCode SamElasticityWrap(SamElasticity bodies, SamElasticityType type, S
   SamElasticity e;
 
   PetscFunctionBegin;
-  PetscCall(SamElasticityCreate(bodies->grid, &bodies->pair, &e));
+  PetscCall(SamElasticityCreate(bodies->grid, bodies->pair, &e));
   PetscCall(SamElasticitySetType(e, type));
   e->fft = bodies->fft;
   PetscCall(PetscStrncpy(e->prefix, bodies->prefix, sizeof(e->prefix)));
@@ -364,7 +358,7 @@ PetscErrorCode SamElasticityCreateLike(SamElasticity parent, SamGrid grid, const
   SamElasticity e;
 
   PetscFunctionBegin;
-  PetscCall(SamElasticityCreate(grid, &parent->pair, &e));
+  PetscCall(SamElasticityCreate(grid, parent->pair, &e));
   e->fft = parent->fft;
   for (PetscInt k = 0; k < 2; k++) {
     e->first[k]  = parent->first[k] + (first ? (PetscReal)first[k] * parent->factor[k] : 0);

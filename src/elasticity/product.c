@@ -55,7 +55,7 @@ static PetscErrorCode ApplySingle(SamElasticity e, MethodSingle method, SamEvent
 }
 
 /* In steady rolling the film's part is of the shear's differences (rolling.c). */
-#define FILM (e->traits.steady ? 0 : SamPairFilm(&e->pair))
+#define FILM (e->traits.steady ? 0 : SamPairFilm(e->pair))
 /* The public functions: a product of fields, or of arrays in single precision, by a method and under an event. */
 #define PRODUCT(Name, method, event, film) \
   PetscErrorCode Name(SamElasticity e, Vec in, Vec out) \

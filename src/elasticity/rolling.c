@@ -34,7 +34,7 @@ DIFFERENCES(CreateDifferencesSingle, float)
 
 static PetscErrorCode ApplyTangential(SamElasticity e, const double *const q[], double *const u[])
 {
-  const double  film   = (double)SamPairFilm(&e->pair);
+  const double  film   = (double)SamPairFilm(e->pair);
   SamElasticity bodies = e->inner;
   double       *d;
 
@@ -63,7 +63,7 @@ static PetscErrorCode ApplyNormalToTangential(SamElasticity e, const double *con
 
 static PetscErrorCode ApplyTangentialSingle(SamElasticity e, double factor, const float *const q[], float *const u[])
 {
-  const float   film   = (float)((double)SamPairFilm(&e->pair) * factor / (double)e->grid->dx);
+  const float   film   = (float)((double)SamPairFilm(e->pair) * factor / (double)e->grid->dx);
   SamElasticity bodies = e->inner;
   float        *d;
 

@@ -104,11 +104,11 @@ static PetscErrorCode Estimate(const SamSetup *s, PetscBool force, PetscReal val
   PetscFunctionBegin;
   half[1] = 0;
   if (s->grid->axes == 1)
-    PetscCall(SamGapEstimateLine(s->gap, force ? value / s->pair.modulus : 0, &half[0], known));
+    PetscCall(SamGapEstimateLine(s->gap, force ? value / SamPairModulus(s->pair) : 0, &half[0], known));
   else
-    PetscCall(SamGapEstimateContact(s->gap, force, force ? value / s->pair.modulus : value, half, known));
+    PetscCall(SamGapEstimateContact(s->gap, force, force ? value / SamPairModulus(s->pair) : value, half, known));
   for (int k = 0; k < s->grid->axes; k++)
-    if (!isfinite(half[k]) || half[k] <= 0 || SamPairHasLayers(&s->pair)) *known = PETSC_FALSE;
+    if (!isfinite(half[k]) || half[k] <= 0 || !SamPairIsUniform(s->pair)) *known = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -276,7 +276,8 @@ static void AdviseCells(Receiver *to, const SamSetup *s, const SamExtent *extent
 /* Numbers that another unit would explain: of bulk stress, and of the grid. */
 static void AdviseUnits(Receiver *to, const SamSetup *s, const SamLoadsMost *most)
 {
-  const double young = (double)PetscMin(s->pair.young[0], s->pair.young[1]);
+  const double young =
+    (double)PetscMin(SamBodyBulk(SamPairBody(s->pair, 0))->young, SamBodyBulk(SamPairBody(s->pair, 1))->young);
   const double width = (double)PetscMax(s->grid->width[0], s->grid->width[1]);
 
   if (most->bulk > 0 && (double)most->bulk < SLIGHT * young)
@@ -285,31 +286,20 @@ static void AdviseUnits(Receiver *to, const SamSetup *s, const SamLoadsMost *mos
   if (width > WIDEST) Advise(to, "grid_size", "the grid is %g m wide: check the unit, m", width);
 }
 
-/* Layers that the cells do not resolve, or that are as good as none or as endless. */
-static void AdviseLayers(Receiver *to, const SamSetup *s, const PetscReal half[2])
+/* What the bodies have to say of these cells and a contact of these half widths. */
+static PetscErrorCode AdviseBodies(Receiver *to, const SamSetup *s, const PetscReal half[2])
 {
-  const double cell = (double)s->grid->side[1], width = 2 * (double)PetscMax(half[0], half[1]);
+  const PetscReal width = 2 * PetscMax(half[0], half[1]);
+  const char     *option;
+  char            text[256];
 
-  for (int b = 0; b < 2; b++) {
-    const SamLayers *l     = &s->pair.layers[b];
-    PetscBool        other = PETSC_FALSE;
-    PetscInt         same  = 0; /* layers of about the modulus at the surface */
-
-    for (PetscInt n = 0; n < l->count; n++)
-      other = other || l->young[n] != s->pair.young[b] || l->poisson[n] != s->pair.poisson[b];
-    while (same < l->count && PetscAbsReal(l->young[same] / l->young[0] - 1) < 0.1) same++;
-    if (l->count && !other)
-      Advise(to, "", "all layers of body %d are of the substrate's material: they have no effect", b + 1);
-    else if (l->count && (double)SamLayersDepth(l, same) < cell)
-      Advise(to, "grid_n",
-             "the layer at the surface of body %d is %.2g cells thick: pressures on that scale are not resolved", b + 1,
-             (double)SamLayersDepth(l, same) / cell);
-    if (l->count && (double)l->thickness[0] > 100 * width)
-      Advise(to, "",
-             "-body%d_layer_thickness %g is %.2g times the width of the contact: the limit is 100: check the "
-             "unit, m",
-             b + 1, (double)l->thickness[0], (double)l->thickness[0] / width);
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < 4; k++) {
+    PetscCall(SamBodyAdvise(SamPairBody(s->pair, k / 2), k / 2 + 1, k % 2, s->grid->side[1], width, &option, text,
+                            sizeof(text)));
+    if (text[0]) Advise(to, option, "%s", text);
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamAdviseStep(const SamSetup *s, const SamStep *step, const SamExtent *extent, const SamLoadsMost *most,
@@ -329,7 +319,7 @@ PetscErrorCode SamAdviseStep(const SamSetup *s, const SamStep *step, const SamEx
     PetscCall(GetWidths(s, step, extent, half, &across));
     AdviseCells(&to, s, extent, half, across);
     PetscCall(Compare(s, half, ratio, sizeof(ratio), &large));
-    AdviseLayers(&to, s, half);
+    PetscCall(AdviseBodies(&to, s, half));
     if (large) Advise(&to, "", "contact too large for half-space theory: its half width %s", ratio);
   }
   PetscCall(to.error);

@@ -72,7 +72,7 @@ static PetscErrorCode CreateLocal(const SamSetup *s, Local *l)
     const PetscInt  n[2]     = {cells[k], cells[k]};
 
     PetscCall(SamGridCreate(PETSC_COMM_SELF, n, width, zero, &l->grid[k]));
-    PetscCall(SamElasticityCreate(l->grid[k], &s->pair, &l->elasticity[k]));
+    PetscCall(SamElasticityCreate(l->grid[k], s->pair, &l->elasticity[k]));
     PetscCall(SamGridCreateVec(l->grid[k], 1, &l->field[k]));
   }
   PetscCall(VecDuplicate(l->field[2], &l->pressure));
@@ -352,7 +352,7 @@ static PetscErrorCode Follow(const SamSetup *s, Local *l, Patch *a, SamExtent *e
   }
   PetscCall(Refine(l, CENTRAL, b, &solved));
   if (solved) other = PetscMin(TakePeak(b) / most - 1, SHARP);
-  tip = PetscMin(TIP * b->tip * s->pair.modulus / (cell * most), SHARP);
+  tip = PetscMin(TIP * b->tip * SamPairModulus(s->pair) / (cell * most), SHARP);
   if (fabs(other) > fabs(extent->change)) extent->change = other;
   if (tip > fabs(extent->change)) extent->change = tip;
   if (fabs(extent->change) > SETTLED && extent->finer == 1) extent->finer = 2;

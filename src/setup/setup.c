@@ -36,7 +36,7 @@ static PetscErrorCode ReadRolling(SamSetup *s, const SamOptions *from)
 static PetscErrorCode CreateProblem(SamSetup *s, const SamOptions *from)
 {
   PetscFunctionBegin;
-  PetscCall(SamElasticityCreate(s->grid, &s->pair, &s->elasticity));
+  PetscCall(SamElasticityCreate(s->grid, s->pair, &s->elasticity));
   PetscCall(SamElasticitySetOptionsPrefix(s->elasticity, from->prefix));
   PetscCall(SamElasticitySetFromOptions(s->elasticity));
   PetscCall(SamElasticityAddCompliances(&s->elasticity, from));
@@ -60,7 +60,7 @@ PetscErrorCode SamSetupReadOptions(SamSetup *s, const SamOptions *from)
   PetscCall(SamGapGetFileGrid(s->gap, n, width, center));
   PetscCall(SamElasticityPlaneFromOptions(from, &plane));
   PetscCall(SamGridCreateFromOptions(from, plane, n, width, center, &s->grid));
-  PetscCall(SamPairSetFromOptions(&s->pair, from));
+  PetscCall(SamPairCreateFromOptions(from, &s->pair));
   PetscCall(CreateProblem(s, from));
   PetscCall(SamGapSetFromOptions(s->gap));
   if (plane && !help) PetscCall(SamGapCheckPlane(s->gap));
@@ -100,6 +100,7 @@ PetscErrorCode SamSetupCreateCoarse(const SamSetup *s, const SamOptions *from, S
   Vec         fine, gap;
 
   PetscFunctionBegin;
+  PetscCall(SamPairReference(s->pair));
   *coarse = (SamSetup){.pair = s->pair};
   PetscCall(SamGridCoarsen(s->grid, &coarse->grid));
   PetscCall(CreateProblem(coarse, from));
@@ -122,6 +123,7 @@ PetscErrorCode SamSetupDestroy(SamSetup *s)
   PetscCall(SamContactDestroy(&s->contact));
   PetscCall(SamProblemDestroy(&s->problem));
   PetscCall(SamElasticityDestroy(&s->elasticity));
+  PetscCall(SamPairDestroy(&s->pair));
   PetscCall(SamGapDestroy(&s->gap));
   PetscCall(SamGridDestroy(&s->grid));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -3,7 +3,7 @@
 
 /* A coefficient of friction from the first of these on is likely to be percent; from the second on it means stick. */
 static const PetscReal percent[2] = {5, 100};
-/* Dundurs' beta, or what stands for it on layers, from which one step of the normal load is too coarse. */
+/* Dundurs' beta, or what stands for it where materials change with the depth, from which one step of the normal load is too coarse. */
 #define DISSIMILAR 0.05
 
 PetscErrorCode SamSimulationPrepareAdvice(SamSimulation s, PetscInt first)
@@ -37,7 +37,7 @@ PetscErrorCode SamSimulationPrepareAdvice(SamSimulation s, PetscInt first)
   PetscCall(SamProblemHasFriction(s->setup.problem, &rubs));
   PetscCall(SamContactGetSettings(s->setup.contact, &set));
   if (rubs && set.coupling && !SamContactIsSteady(s->setup.contact) && s->needs.steps == 1 &&
-      SamPairCoupling(&s->setup.pair, waves[0], waves[1]) > DISSIMILAR)
+      SamPairCoupling(s->setup.pair, waves[0], waves[1]) > DISSIMILAR)
     PetscCall(
       SamSimulationWarn(s,
                         "elastically dissimilar bodies with friction slip while the normal load grows, here in one "

@@ -160,23 +160,19 @@ static PetscErrorCode WarnOfJump(SamSimulation s, const SamLifeReport *r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Tells, once of a body, that its first layer is worn through; `ended`: the life ends there on request. */
-static PetscErrorCode WarnOfLayers(SamSimulation s, const SamLifeReport *r, PetscBool *ended)
+/* Tells, once of a body, that its first material is worn through; `ended`: the life ends there on request. */
+static PetscErrorCode WarnOfWorn(SamSimulation s, const SamLifeReport *r, PetscBool *ended)
 {
   PetscFunctionBegin;
   for (int b = 0; b < 2; b++) {
-    const SamLayers *layers = &s->setup.pair.layers[b];
-    char             text[160];
+    char worn[160], text[224];
 
-    if (!layers->count || !(r->depth[b] >= layers->thickness[0])) continue;
-    *ended = *ended || s->plan.stop_layer;
+    PetscCall(SamBodyAdviseWorn(SamPairBody(s->setup.pair, b), b + 1, r->depth[b], worn, sizeof(worn)));
+    if (!worn[0]) continue;
+    *ended = *ended || s->plan.stop_worn;
     if (s->worn[b]) continue;
     s->worn[b] = PETSC_TRUE;
-    (void)snprintf(
-      text, sizeof(text),
-      "after %.10g cycles: the first layer of body %d, %.4g m thick, is worn through: the elasticity stays "
-      "that of unworn layers",
-      (double)r->cycles, b + 1, (double)layers->thickness[0]);
+    (void)snprintf(text, sizeof(text), "after %.10g cycles: %s", (double)r->cycles, worn);
     PetscCall(SamSimulationWarn(s, text, ""));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -196,7 +192,7 @@ static PetscErrorCode ComputeCycle(SamSimulation s, PetscBool *ended)
   if (!s->warned && r.step.status == SAM_STATUS_CONVERGED) PetscCall(TellMessage(s, "", &r.step));
   s->warned = r.step.message[0] ? PETSC_TRUE : s->warned;
   PetscCall(WarnOfJump(s, &r));
-  PetscCall(WarnOfLayers(s, &r, ended));
+  PetscCall(WarnOfWorn(s, &r, ended));
   s->writing = PETSC_TRUE;
   PetscCall(SamLifeRecord(s->life, &r));
   if (s->output) PetscCall(SamOutputWriteCycle(s->output));

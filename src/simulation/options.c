@@ -19,13 +19,14 @@ static PetscErrorCode CheckBulkStress(SamSimulation s, const SamControl *control
   PetscCall(SamElasticityGetType(s->setup.elasticity, &type));
   for (PetscInt body = 0; body < 2; body++)
     for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++) {
-      const double stress = (double)control->bulk_stress[body][k], young = (double)s->setup.pair.young[body];
+      const double stress = (double)control->bulk_stress[body][k],
+                   young  = (double)SamBodyBulk(SamPairBody(s->setup.pair, body))->young;
 
       PetscCheck(fabs(stress) <= young, from->comm, SAM_ERR_USER,
                  "-%s%s, or its column in -history: %.6g exceeds Young's modulus, %.6g: check the unit, Pa", prefix,
                  SAM_BULK_CONDITION(body, k)->name, stress, young);
 
-      PetscCheck(stress == 0 || !isinf(s->setup.pair.young[body]), from->comm, SAM_ERR_USER,
+      PetscCheck(stress == 0 || !isinf(young), from->comm, SAM_ERR_USER,
                  "-%s%s, or its column in -history: %.6g: -%sbody%" PetscInt_FMT
                  "_young is inf: a rigid body does not stretch",
                  prefix, SAM_BULK_CONDITION(body, k)->name, stress, prefix, body + 1);

@@ -66,7 +66,7 @@ static PetscErrorCode ReadLife(SamPlan *w, const SamOptions *from)
                            &w->life.fixed));
   PetscCall(CheckWhole("wear_jump", w->life.jump, w->life.fixed, from));
   PetscCall(SamOptionsBool(from, "wear_stop_layer", "end where the first layer of a body is worn through",
-                           &w->stop_layer, NULL));
+                           &w->stop_worn, NULL));
   PetscCall(ReadOutputs(w, from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

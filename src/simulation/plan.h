@@ -11,7 +11,7 @@
 typedef struct {
   PetscReal       cycles; /* of a life; 0: the history runs once, and every step wears */
   SamLifeSettings life;
-  PetscBool       stop_layer; /* the life ends where a first layer is worn through */
+  PetscBool       stop_worn; /* the life ends where the first material of a body is worn through */
   PetscInt        outputs;
   PetscReal       output[SAM_PLAN_OUTPUTS]; /* cycles whose fields are written, increasing; the last ones always are */
   PetscInt        points;                   /* of the table of friction; 0: none */

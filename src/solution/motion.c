@@ -30,26 +30,27 @@ PetscErrorCode SamValuesRestore(const SamSolution *s, SamValues *v)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-SamStretch SamStretchOf(const SamPair *pair, const SamControl *control)
+SamStretch SamStretchOf(SamPair pair, const SamControl *control)
 {
   SamStretch e = {0, 0, 0};
 
   for (int body = 0; body < 2; body++) {
-    const PetscReal *s = control->bulk_stress[body], nu = pair->poisson[body], sign = body ? 1 : -1;
+    const SamMaterial *m = SamBodyBulk(SamPairBody(pair, body));
+    const PetscReal   *s = control->bulk_stress[body], nu = m->poisson, sign = body ? 1 : -1;
 
-    e.xx += sign * (s[SAM_BULK_XX] - nu * s[SAM_BULK_YY]) / pair->young[body];
-    e.yy += sign * (s[SAM_BULK_YY] - nu * s[SAM_BULK_XX]) / pair->young[body];
-    e.xy += sign * (1 + nu) * s[SAM_BULK_XY] / pair->young[body];
+    e.xx += sign * (s[SAM_BULK_XX] - nu * s[SAM_BULK_YY]) / m->young;
+    e.yy += sign * (s[SAM_BULK_YY] - nu * s[SAM_BULK_XX]) / m->young;
+    e.xy += sign * (1 + nu) * s[SAM_BULK_XY] / m->young;
   }
   return e;
 }
 
 PetscErrorCode SamMotionSet(SamMotion *m, SamProblem problem, const SamSolution *s)
 {
-  SamBalance     rigid[2] = {{.kind = SAM_BALANCE_NORMAL}, {.kind = SAM_BALANCE_TANGENTIAL}};
-  SamElasticity  elasticity;
-  SamGrid        grid;
-  const SamPair *pair;
+  SamBalance    rigid[2] = {{.kind = SAM_BALANCE_NORMAL}, {.kind = SAM_BALANCE_TANGENTIAL}};
+  SamElasticity elasticity;
+  SamGrid       grid;
+  SamPair       pair;
 
   PetscFunctionBegin;
   PetscCall(SamProblemGetGrid(problem, &grid));

@@ -232,7 +232,7 @@ static PetscErrorCode AddStretch(SamGrid grid, const SamStretch *e, Vec field)
 static PetscErrorCode CreateOffset(SamSolve *w, Vec *offset)
 {
   const SamStepTask *task = w->task;
-  const SamPair     *pair;
+  SamPair            pair;
   SamStretch         e;
   PetscBool          stretched;
   double            *slip;

@@ -19,13 +19,13 @@
 /* The mean is of one material. */
 static PetscErrorCode CheckMaterial(SamEvaluation e)
 {
-  const SamLayers *layers  = SamLayersOf(e);
-  const PetscReal  deepest = e->depth[e->depths - 1];
+  const PetscReal deepest = e->depth[e->depths - 1], bottom = SamBodyTop(SamEvaluationBody(e), 1);
 
   PetscFunctionBegin;
-  PetscCheck(!layers->count || deepest < layers->thickness[0], e->comm, SAM_ERR_USER,
-             "-fatigue_length: the mean reaches %.4g m deep, through the first layer of %.4g m: choose a shorter one",
-             (double)deepest, (double)layers->thickness[0]);
+  PetscCheck(
+    deepest < bottom, e->comm, SAM_ERR_USER,
+    "-fatigue_length: the mean reaches %.4g m deep, through the first material of %.4g m: choose a shorter one",
+    (double)deepest, (double)bottom);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -89,7 +89,7 @@ static void ComputePoint(Cycle *c, PetscInt quantity, PetscInt i, double values[
   const SamEvaluation e = c->e;
   const SamQuantity  *q = &SamQuantityTable[quantity];
   const PetscInt      n = c->points->count, depth = c->points->depth + i / c->points->plane;
-  SamFatigueConstants constants                 = e->constants[e->materials > 1 ? SamLayerAt(e, depth) : 0];
+  SamFatigueConstants constants = e->constants[e->materials > 1 ? SamBodyAt(SamEvaluationBody(e), e->depth[depth]) : 0];
   double              value[SAM_QUANTITY_PARTS] = {0};
 
   (e->passing ? GatherPassing : GatherStates)(c, i);

@@ -1,5 +1,5 @@
 /*
-  The depths of an evaluation: in m, in half widths of the contact, and at interfaces of layers.
+  The depths of an evaluation: in m, in half widths of the contact, and at interfaces of materials.
 
   The half width of a contact is the smaller half axis of the ellipse that has the area of the contact, to a part of a
   cell, and the axes' ratio of the second moments of its cells; of a plane contact half its length. It is that of the
@@ -196,58 +196,52 @@ static PetscErrorCode FindHalfWidth(SamEvaluation e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- layers ---- */
+/* ---- interfaces ---- */
 
-const SamLayers *SamLayersOf(SamEvaluation e)
+SamBody SamEvaluationBody(SamEvaluation e)
 {
-  const SamPair *pair;
+  SamPair pair;
 
   PetscCallAbort(e->comm, SamElasticityGetPair(e->elasticity, &pair));
-  return &pair->layers[e->body - 1];
+  return SamPairBody(pair, e->body - 1);
 }
 
-PetscInt SamLayerAt(SamEvaluation e, PetscInt depth)
-{
-  return SamLayersAt(SamLayersOf(e), e->depth[depth]);
-}
-
-/* The number of the layer whose bottom is at a depth, but for rounding; the number of layers: none. */
-static PetscInt InterfaceAt(const SamLayers *layers, PetscReal depth)
+/* The number of the material whose bottom is at a depth, but for rounding; that of the last one: none. */
+static PetscInt InterfaceAt(SamBody body, PetscReal depth)
 {
   PetscInt n = 0;
 
-  while (n < layers->count && PetscAbsReal(depth - SamLayersDepth(layers, n + 1)) > ROUNDING * depth) n++;
+  while (n + 1 < SamBodyCount(body) && PetscAbsReal(depth - SamBodyTop(body, n + 1)) > ROUNDING * depth) n++;
   return n;
 }
 
 /* At an interface the depth itself stands for the side above, the next number for that below; none is said: both. */
 static PetscErrorCode SplitInterfaces(SamEvaluation e)
 {
-  const SamPair   *pair;
-  const SamLayers *layers = SamLayersOf(e);
-  PetscReal       *depth;
-  int             *side;
-  PetscInt         n = 0;
+  const SamBody   body = SamEvaluationBody(e);
+  const PetscInt  last = SamBodyCount(body) - 1;
+  const PetscReal base = isinf(SamBodyBulk(body)->young) ? SamBodyTop(body, last) : PETSC_INFINITY; /* is rigid */
+  PetscReal      *depth;
+  int            *side;
+  PetscInt        n = 0;
 
   PetscFunctionBegin;
-  PetscCall(SamElasticityGetPair(e->elasticity, &pair));
   PetscCall(PetscMalloc2(2 * e->depths, &depth, 2 * e->depths, &side));
   for (PetscInt k = 0; k < e->depths; k++) {
-    const PetscInt  interface = InterfaceAt(layers, e->depth[k]);
-    const PetscReal bottom    = SamLayersDepth(layers, PetscMin(interface + 1, layers->count));
-    const PetscBool rigid     = (PetscBool)(interface == layers->count - 1 && isinf(pair->young[e->body - 1]));
+    const PetscInt  interface = InterfaceAt(body, e->depth[k]);
+    const PetscBool is        = (PetscBool)(interface < last);
+    const PetscReal bottom    = is ? SamBodyTop(body, interface + 1) : e->depth[k];
+    const PetscBool rigid     = (PetscBool)(is && bottom == base);
 
-    PetscCheck(!e->side[k] || interface < layers->count, e->comm, SAM_ERR_USER,
+    PetscCheck(!e->side[k] || is, e->comm, SAM_ERR_USER,
                "-depths: %.6g%c names a side of an interface, and there is none: omit the sign", (double)e->depth[k],
                e->side[k] < 0 ? '-' : '+');
-    PetscCheck(!layers->count || !isinf(pair->young[e->body - 1]) ||
-                 (interface < layers->count ? !rigid || e->side[k] <= 0 : e->depth[k] < bottom),
-               e->comm, SAM_ERR_USER, "-depths: %.6g m is in the rigid base, which begins at %.6g m",
-               (double)e->depth[k], (double)SamLayersDepth(layers, layers->count));
+    PetscCheck(rigid ? e->side[k] <= 0 : is || e->depth[k] < base, e->comm, SAM_ERR_USER,
+               "-depths: %.6g m is in the rigid base, which begins at %.6g m", (double)e->depth[k], (double)base);
     for (int s = -1; s <= 1; s += 2) {
-      if (interface < layers->count ? e->side[k] == -s || (rigid && s > 0) : s > 0) continue;
-      depth[n]  = interface == layers->count ? e->depth[k] : s < 0 ? bottom : nextafter(bottom, PETSC_INFINITY);
-      side[n++] = interface == layers->count ? 0 : s;
+      if (is ? e->side[k] == -s || (rigid && s > 0) : s > 0) continue;
+      depth[n]  = is && s > 0 ? nextafter(bottom, PETSC_INFINITY) : bottom;
+      side[n++] = is ? s : 0;
     }
   }
   PetscCall(PetscFree2(e->depth, e->side));

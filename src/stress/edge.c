@@ -35,7 +35,7 @@ PetscErrorCode SamLargestAtEdge(SamEvaluation e, PetscInt step, Vec field)
   double       *stress;
 
   PetscFunctionBegin;
-  SamBulkStressAt(e, step, 0, bulk);
+  SamBodyBulkStressAt(SamEvaluationBody(e), e->depth[0], e->bulk[step], bulk);
   PetscCall(SamGridCreateVec(g, 1, &square));
   PetscCall(FillSquare(g, field, square));
   PetscCall(SamEdgeReconstruct(g, square, NULL, &edge));

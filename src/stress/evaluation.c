@@ -71,29 +71,6 @@ PetscErrorCode SamEvaluationReadTractions(SamEvaluation e, PetscInt step, double
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-void SamBulkStressAt(SamEvaluation e, PetscInt step, PetscInt depth, double bulk[SAM_BULK_COMPONENTS])
-{
-  const double    *of = e->bulk[step];
-  const SamPair   *pair;
-  const SamLayers *layers = SamLayersOf(e);
-  const PetscInt   n      = SamLayerAt(e, depth);
-
-  PetscCallAbort(e->comm, SamElasticityGetPair(e->elasticity, &pair));
-  for (int k = 0; k < SAM_BULK_COMPONENTS; k++) bulk[k] = of[k];
-  if (n == layers->count) return;
-  if (!isinf(pair->young[e->body - 1])) {
-    const double nu = (double)pair->poisson[e->body - 1], own = (double)layers->poisson[n],
-                 ratio = (double)(layers->young[n] / pair->young[e->body - 1]);
-    const double xx = of[SAM_BULK_XX] - nu * of[SAM_BULK_YY], yy = of[SAM_BULK_YY] - nu * of[SAM_BULK_XX];
-
-    bulk[SAM_BULK_XX] = ratio * (xx + own * yy) / (1 - own * own);
-    bulk[SAM_BULK_YY] = ratio * (yy + own * xx) / (1 - own * own);
-    bulk[SAM_BULK_XY] = ratio * (1 + nu) / (1 + own) * of[SAM_BULK_XY];
-  }
-  bulk[SAM_BULK_XX] += (double)layers->stress[n][0];
-  bulk[SAM_BULK_YY] += (double)layers->stress[n][1];
-}
-
 void SamStressAddBulk(SamEvaluation e, PetscInt step, const SamPoints *p, double stress[])
 {
   static const SamStressComponent component[SAM_BULK_COMPONENTS] = {SAM_STRESS_XX, SAM_STRESS_YY, SAM_STRESS_XY};
@@ -101,7 +78,7 @@ void SamStressAddBulk(SamEvaluation e, PetscInt step, const SamPoints *p, double
   for (PetscInt depth = 0; depth < p->depths; depth++) {
     double bulk[SAM_BULK_COMPONENTS];
 
-    SamBulkStressAt(e, step, p->depth + depth, bulk);
+    SamBodyBulkStressAt(SamEvaluationBody(e), e->depth[p->depth + depth], e->bulk[step], bulk);
     for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++) {
       double *const s = stress + component[k] * (ptrdiff_t)p->count + depth * (ptrdiff_t)p->plane;
 
@@ -135,7 +112,6 @@ static PetscErrorCode FindLine(SamEvaluation e)
 /* The stresses of the body that is asked for. */
 static PetscErrorCode CreateStress(SamEvaluation e)
 {
-  const SamPair      *pair;
   SamElasticityTraits traits;
   SamElasticityType   type;
 
@@ -143,8 +119,7 @@ static PetscErrorCode CreateStress(SamEvaluation e)
   PetscCall(SamElasticityGetTraits(e->elasticity, &traits));
   PetscCall(SamElasticityGetType(e->elasticity, &type));
   PetscCheck(traits.stress, e->comm, SAM_ERR_USER, "%s: stresses are not available for bodies of type %s", e->of, type);
-  PetscCall(SamElasticityGetPair(e->elasticity, &pair));
-  PetscCheck(!isinf(pair->young[e->body - 1]) || SamLayersOf(e)->count, e->comm, SAM_ERR_USER,
+  PetscCheck(!SamBodyIsRigid(SamEvaluationBody(e)), e->comm, SAM_ERR_USER,
              "-body %" PetscInt_FMT ": it is rigid, so its stresses are undetermined", e->body);
   PetscCall(SamStressDestroy(&e->stress));
   PetscCall(SamElasticityCreateStress(e->elasticity, e->body, e->settings, &e->stress));
@@ -173,18 +148,16 @@ static PetscErrorCode CheckCycle(SamEvaluation e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Constants of fatigue are the same everywhere, or each layer's and the substrate's. */
+/* Constants of fatigue are the same everywhere, or each elastic material's. */
 static PetscErrorCode CheckConstants(SamEvaluation e)
 {
-  const SamPair *pair;
-  PetscInt       materials;
+  const SamBody  body      = SamEvaluationBody(e);
+  const PetscInt materials = SamBodyCount(body) - (isinf(SamBodyBulk(body)->young) ? 1 : 0);
 
   PetscFunctionBegin;
-  PetscCall(SamElasticityGetPair(e->elasticity, &pair));
-  materials = SamLayersOf(e)->count + !isinf(pair->young[e->body - 1]);
   PetscCheck(e->materials == 1 || e->materials == materials || !e->cycle, e->comm, SAM_ERR_USER,
              "-fatigue: lists of %" PetscInt_FMT " constants for %" PetscInt_FMT
-             " materials in depth: give one number, or one for each layer and the substrate",
+             " materials in depth: give one number, or one for each material from the surface down",
              e->materials, materials);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -68,10 +68,10 @@ PETSC_INTERN PetscErrorCode SamEvaluationHandOver(SamEvaluation e, PetscInt quan
 
 typedef enum { SAM_AVERAGE_NONE, SAM_AVERAGE_POINT, SAM_AVERAGE_LINE, SAM_AVERAGE_AREA } SamFatigueAverage;
 
-/* The numbers of largest values of a step: these, and from SAM_LARGEST_LAYERS on those of layers. */
-enum { SAM_LARGEST_MISES, SAM_LARGEST_PRINCIPAL, SAM_LARGEST_EDGE_XX, SAM_LARGEST_EDGE_PRINCIPAL, SAM_LARGEST_LAYERS };
-/* Of each layer: the von Mises stress, tension and shear at the bottom; of the substrate the first of them. */
-enum { SAM_LARGEST_LAYER_MISES, SAM_LARGEST_LAYER_TENSION, SAM_LARGEST_LAYER_SHEAR, SAM_LARGEST_LAYER };
+/* The numbers of largest values of a step: these, and from SAM_LARGEST_OWN on those of materials. */
+enum { SAM_LARGEST_MISES, SAM_LARGEST_PRINCIPAL, SAM_LARGEST_EDGE_XX, SAM_LARGEST_EDGE_PRINCIPAL, SAM_LARGEST_OWN };
+/* Of each material: the von Mises stress, tension and shear at the bottom; of the last one the first of them. */
+enum { SAM_OWN_MISES, SAM_OWN_TENSION, SAM_OWN_SHEAR, SAM_OWN };
 
 struct _n_SamEvaluation {
   MPI_Comm comm;
@@ -84,10 +84,10 @@ struct _n_SamEvaluation {
   PetscBool           wants[SAM_QUANTITIES];
   PetscBool           cycle;   /* a parameter of the cycle is wanted: the stresses of all steps are needed at a time */
   PetscBool           passing; /* the states of a cycle are the stresses of a row of cells, and those far from it */
-  SamFatigueConstants constants[SAM_LAYERS + 1]; /* but for the body's */
-  PetscInt            materials; /* that have constants of their own, layers first; 1: all have the first ones */
-  SamFatigueAverage   average;
-  PetscReal           length; /* of the average, m */
+  SamFatigueConstants constants[SAM_MATERIALS]; /* but for the body's */
+  PetscInt          materials; /* that have constants of their own, from the surface down; 1: all have the first ones */
+  SamFatigueAverage average;
+  PetscReal         length; /* of the average, m */
   /* bodies and steps */
   SamElasticity             elasticity;
   const SamFourierSettings *settings;
@@ -125,20 +125,15 @@ PETSC_INTERN double SamLinesMemory(SamEvaluation e);
 /* SamEvaluationReadTractions - pressure and both shears of a step, this rank's rows. Collective. */
 PETSC_INTERN PetscErrorCode SamEvaluationReadTractions(SamEvaluation e, PetscInt step,
                                                        double *const to[SAM_STRESS_TRACTIONS]);
-/*
-  SamBulkStressAt - the bulk stress of a step and the residual stress at a depth: of bulk stress a layer has the strains
-  of the substrate. SamStressAddBulk - adds them to the stresses of points. Neither is collective.
-*/
-PETSC_INTERN void SamBulkStressAt(SamEvaluation e, PetscInt step, PetscInt depth, double bulk[SAM_BULK_COMPONENTS]);
+/* SamStressAddBulk - adds the bulk stress of a step, and the residual stress, to those of points. Not collective. */
 PETSC_INTERN void SamStressAddBulk(SamEvaluation e, PetscInt step, const SamPoints *points, double stress[]);
 /* SamEvaluationTell - calls the monitor. Not collective. */
 PETSC_INTERN PetscErrorCode SamEvaluationTell(SamEvaluation e, const char work[], double part, double whole);
 
 /* ---- depths (depths.c) ---- */
 
-/* SamLayersOf - the layers of the body. SamLayerAt - that which has a depth; their number: the substrate. */
-PETSC_INTERN const SamLayers *SamLayersOf(SamEvaluation e);
-PETSC_INTERN PetscInt         SamLayerAt(SamEvaluation e, PetscInt depth);
+/* SamEvaluationBody - the body whose stresses are wanted; borrowed. Not collective. */
+PETSC_INTERN SamBody SamEvaluationBody(SamEvaluation e);
 /*
   SamDepthsRead - the depths of -depths, those in half widths of the contact of this one (m).
   SamDepthsSetUp - finds the half width if it is needed, and the sides of interfaces, and checks the depths.

@@ -16,11 +16,11 @@ static SamLargest *LargestOfQuantity(SamEvaluation e, PetscInt quantity)
 
 PetscErrorCode SamLargestClear(SamEvaluation e)
 {
-  const PetscInt layers = SamLayersOf(e)->count;
+  const PetscInt materials = SamBodyCount(SamEvaluationBody(e));
   SamLargest    *end;
 
   PetscFunctionBegin;
-  e->kinds     = SAM_LARGEST_LAYERS + (layers ? SAM_LARGEST_LAYER * layers + 1 : 0);
+  e->kinds     = SAM_LARGEST_OWN + (materials > 1 ? SAM_OWN * (materials - 1) + 1 : 0);
   e->edge_lost = 0;
   PetscCall(PetscFree(e->largest));
   PetscCall(PetscMalloc1(e->kinds * e->source.steps + SAM_QUANTITIES, &e->largest));
@@ -102,21 +102,20 @@ static void KeepPrincipal(SamEvaluation e, SamLargest *largest, const SamPoints 
   KeepAt(e, largest, principal[0], p, i);
 }
 
-/* Largest values of the layer of each depth, and at its bottom. */
-static void KeepLayers(SamEvaluation e, PetscInt step, const SamPoints *p, const double *const s[SAM_STRESS_COMPONENTS],
-                       const double mises[])
+/* Largest values of the material of each depth, and at its bottom. */
+static void KeepOwn(SamEvaluation e, PetscInt step, const SamPoints *p, const double *const s[SAM_STRESS_COMPONENTS],
+                    const double mises[])
 {
-  const PetscInt layers = SamLayersOf(e)->count;
+  const SamBody body = SamEvaluationBody(e);
 
-  for (PetscInt k = 0; k < p->depths && layers; k++) {
-    const PetscInt kind = SAM_LARGEST_LAYERS + SAM_LARGEST_LAYER * SamLayerAt(e, p->depth + k);
+  for (PetscInt k = 0; k < p->depths && SamBodyCount(body) > 1; k++) {
+    const PetscInt kind = SAM_LARGEST_OWN + SAM_OWN * SamBodyAt(body, e->depth[p->depth + k]);
 
     for (PetscInt i = k * p->plane; i < (k + 1) * p->plane; i++) {
-      KeepAt(e, LargestOf(e, kind + SAM_LARGEST_LAYER_MISES, step), mises[i], p, i);
+      KeepAt(e, LargestOf(e, kind + SAM_OWN_MISES, step), mises[i], p, i);
       if (e->side[p->depth + k] >= 0) continue;
-      KeepAt(e, LargestOf(e, kind + SAM_LARGEST_LAYER_TENSION, step), s[SAM_STRESS_ZZ][i], p, i);
-      KeepAt(e, LargestOf(e, kind + SAM_LARGEST_LAYER_SHEAR, step), hypot(s[SAM_STRESS_XZ][i], s[SAM_STRESS_YZ][i]), p,
-             i);
+      KeepAt(e, LargestOf(e, kind + SAM_OWN_TENSION, step), s[SAM_STRESS_ZZ][i], p, i);
+      KeepAt(e, LargestOf(e, kind + SAM_OWN_SHEAR, step), hypot(s[SAM_STRESS_XZ][i], s[SAM_STRESS_YZ][i]), p, i);
     }
   }
 }
@@ -136,7 +135,7 @@ void SamLargestOfStep(SamEvaluation e, PetscInt step, const SamPoints *p, const 
   for (PetscInt i = 0; i < p->count; i++)
     if (RoughBound(s, mises[i], i) >= largest->value && FineBound(s, mises[i], i) >= largest->value)
       KeepPrincipal(e, largest, p, s, i);
-  KeepLayers(e, step, p, s, mises);
+  KeepOwn(e, step, p, s, mises);
 }
 
 /* ---- of all ranks ---- */
@@ -169,30 +168,29 @@ PetscErrorCode SamLargestAgree(SamEvaluation e)
 /* What is largest, by the name of its dataset, and in words. */
 static const struct {
   const char *name, *text, *shown;
-} kinds[SAM_LARGEST_LAYERS] =
+} kinds[SAM_LARGEST_OWN] =
   {[SAM_LARGEST_MISES]          = {"mises", "maximum von Mises stress", "von Mises stress"},
    [SAM_LARGEST_PRINCIPAL]      = {"principal_1", "maximum principal stress", ""},
    [SAM_LARGEST_EDGE_XX]        = {"edge_stress_xx", "maximum stress xx at the contact edge, on the surface", ""},
    [SAM_LARGEST_EDGE_PRINCIPAL] = {"edge_principal_1", "maximum principal stress at the contact edge, on the surface",
                                    ""}},
-  of_layer[SAM_LARGEST_LAYER] = {
-    [SAM_LARGEST_LAYER_MISES]   = {"mises", "von Mises stress", "von Mises stress"},
-    [SAM_LARGEST_LAYER_TENSION] = {"tension", "tension at the bottom", "tension at its bottom"},
-    [SAM_LARGEST_LAYER_SHEAR]   = {"shear", "shear stress at the bottom", "shear at its bottom"}};
+  of_material[SAM_OWN] = {[SAM_OWN_MISES]   = {"mises", "von Mises stress", "von Mises stress"},
+                          [SAM_OWN_TENSION] = {"tension", "tension at the bottom", "tension at its bottom"},
+                          [SAM_OWN_SHEAR]   = {"shear", "shear stress at the bottom", "shear at its bottom"}};
 
-static PetscErrorCode DescribeLayer(SamEvaluation e, PetscInt layer, PetscInt kind, SamLargestSeries *of)
+static PetscErrorCode DescribeOwn(SamEvaluation e, PetscInt n, PetscInt kind, SamLargestSeries *of)
 {
-  const PetscBool substrate = layer == SamLayersOf(e)->count;
+  const PetscBool substrate = n + 1 == SamBodyCount(SamEvaluationBody(e));
   char            name[32] = "substrate", shown[32] = "substrate";
 
   PetscFunctionBegin;
-  if (!substrate) PetscCall(PetscSNPrintf(name, sizeof(name), "layer%" PetscInt_FMT, layer + 1));
-  if (!substrate) PetscCall(PetscSNPrintf(shown, sizeof(shown), "layer %" PetscInt_FMT, layer + 1));
-  PetscCall(PetscSNPrintf(of->name, sizeof(of->name), "%s_%s", name, of_layer[kind].name));
-  PetscCall(PetscSNPrintf(of->text, sizeof(of->text), "maximum %s of the %s", of_layer[kind].text,
+  if (!substrate) PetscCall(PetscSNPrintf(name, sizeof(name), "layer%" PetscInt_FMT, n + 1));
+  if (!substrate) PetscCall(PetscSNPrintf(shown, sizeof(shown), "layer %" PetscInt_FMT, n + 1));
+  PetscCall(PetscSNPrintf(of->name, sizeof(of->name), "%s_%s", name, of_material[kind].name));
+  PetscCall(PetscSNPrintf(of->text, sizeof(of->text), "maximum %s of the %s", of_material[kind].text,
                           substrate ? "substrate" : "layer"));
-  PetscCall(PetscSNPrintf(of->shown, sizeof(of->shown), "%s: %s", shown, of_layer[kind].shown));
-  of->layer = layer + 1;
+  PetscCall(PetscSNPrintf(of->shown, sizeof(of->shown), "%s: %s", shown, of_material[kind].shown));
+  of->material = n + 1;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -200,9 +198,9 @@ static PetscErrorCode Describe(SamEvaluation e, PetscInt kind, SamLargestSeries 
 {
   PetscFunctionBegin;
   *of = (SamLargestSeries){.unit = "Pa", .places = 3, .count = e->source.steps, .step = LargestOf(e, kind, 0)};
-  if (kind >= SAM_LARGEST_LAYERS) {
-    kind -= SAM_LARGEST_LAYERS;
-    PetscCall(DescribeLayer(e, kind / SAM_LARGEST_LAYER, kind % SAM_LARGEST_LAYER, of));
+  if (kind >= SAM_LARGEST_OWN) {
+    kind -= SAM_LARGEST_OWN;
+    PetscCall(DescribeOwn(e, kind / SAM_OWN, kind % SAM_OWN, of));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(PetscStrncpy(of->name, kinds[kind].name, sizeof(of->name)));
@@ -214,13 +212,13 @@ static PetscErrorCode Describe(SamEvaluation e, PetscInt kind, SamLargestSeries 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether there can be one: the edge is on maps of the surface, and not in each layer is a depth. */
+/* Whether there can be one: the edge is on maps of the surface, and not in each material is a depth. */
 static PetscBool Exists(SamEvaluation e, const SamLargestSeries *of)
 {
   if (of->places == 2) return !e->section && e->layout.coordinate[SAM_Z][0] == 0 ? PETSC_TRUE : PETSC_FALSE;
   for (PetscInt s = 0; s < of->count; s++)
     if (!isnan(of->step[s].value)) return PETSC_TRUE;
-  return !of->layer;
+  return !of->material;
 }
 
 PetscBool SamEvaluationGetLargest(SamEvaluation e, PetscInt k, SamLargestSeries *of)

@@ -77,18 +77,18 @@ static PetscReal *ConstantOf(SamEvaluation e, PetscInt material, const SamQuanti
 static PetscErrorCode ReadConstant(const SamOptions *from, SamEvaluation e, const SamQuantityConstant *k,
                                    PetscBool required)
 {
-  PetscReal values[SAM_LAYERS + 1];
+  PetscReal values[SAM_MATERIALS];
   PetscInt  n;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsReals(from, k->name, k->help, k->range, SAM_LAYERS + 1, values, &n));
+  PetscCall(SamOptionsReals(from, k->name, k->help, k->range, SAM_MATERIALS, values, &n));
   PetscCall(SamOptionsRequire(from, (PetscBool)(n > 0 || !required), k->name, k->help));
   PetscCheck(n <= 1 || e->materials <= 1 || n == e->materials, from->comm, SAM_ERR_USER,
              "-%s: %" PetscInt_FMT " numbers, but %" PetscInt_FMT
-             " in another list: give one number, or one for each layer and the substrate",
+             " in another list: give one number, or one for each material from the surface down",
              k->name, n, e->materials);
   e->materials = PetscMax(e->materials, n);
-  for (PetscInt m = 0; n > 0 && m <= SAM_LAYERS; m++) *ConstantOf(e, m, k) = values[n > 1 ? PetscMin(m, n - 1) : 0];
+  for (PetscInt m = 0; n > 0 && m < SAM_MATERIALS; m++) *ConstantOf(e, m, k) = values[n > 1 ? PetscMin(m, n - 1) : 0];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -181,7 +181,7 @@ PetscErrorCode SamEvaluationCreateFromOptions(const SamOptions *from, SamEvaluat
 PetscErrorCode SamEvaluationAddParameters(SamEvaluation e, SamParameters *p)
 {
   const PetscReal body = (PetscReal)e->body;
-  PetscReal       young, poisson, values[SAM_LAYERS + 1];
+  PetscReal       young, poisson, values[SAM_MATERIALS];
 
   PetscFunctionBegin;
   PetscCall(SamParametersAddReals(p, "body", PETSC_TRUE, 1, &body));

@@ -17,7 +17,7 @@ static inline SamElasticity NewCompliance(SamGrid grid, SamPair pair)
 {
   SamElasticity C;
 
-  sam_call(SamElasticityCreate(grid, &pair, &C));
+  sam_call(SamElasticityCreate(grid, pair, &C));
   return C;
 }
 

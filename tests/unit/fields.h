@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <petsam/private/bodyimpl.h>
 #include <petsam/elasticity.h>
 
 /* A number in [-1, 1) that depends on its arguments alone: fields made of it are the same on any number of ranks. */
@@ -161,13 +162,24 @@ static inline double Difference(Vec a, Vec b, NormType type)
   return norm;
 }
 
+/* The pair of two bodies of these materials, which lives as long as the test. */
+static inline SamPair NewPairOf(PetscInt count1, const SamMaterial first[], PetscInt count2, const SamMaterial second[])
+{
+  SamBody body[2];
+  SamPair pair;
+
+  sam_call(SamBodyCreate(count1, first, &body[0]));
+  sam_call(SamBodyCreate(count2, second, &body[1]));
+  sam_call(SamPairCreate(body[0], body[1], &pair));
+  for (int b = 0; b < 2; b++) sam_call(SamBodyDestroy(&body[b]));
+  return pair;
+}
+
 static inline SamPair NewPair(double young1, double poisson1, double young2, double poisson2)
 {
-  const PetscReal young[2] = {young1, young2}, poisson[2] = {poisson1, poisson2};
-  SamPair         pair;
+  const SamMaterial material[2] = {{.young = young1, .poisson = poisson1}, {.young = young2, .poisson = poisson2}};
 
-  sam_call(SamPairSet(&pair, young, poisson));
-  return pair;
+  return NewPairOf(1, &material[0], 1, &material[1]);
 }
 
 /* A sphere of radius R pressed on a plane by N: Hertz's contact of radius a = 1 mm, on a square grid about it. */
@@ -198,11 +210,11 @@ static inline Sphere NewSphereOn(MPI_Comm comm, SamPair pair, PetscInt n, double
   Sphere       s     = {.pair = pair, .R = 0.1, .a = 1e-3};
   const double at[3] = {s.R, x, y};
 
-  s.N    = 4 * pair.modulus * s.a * s.a * s.a / (3 * s.R);
+  s.N    = 4 * pair->modulus * s.a * s.a * s.a / (3 * s.R);
   s.p0   = 1.5 * s.N / (PETSC_PI * s.a * s.a);
   s.grid = NewGridOn(comm, n, n, 2 * half_width * s.a, 2 * half_width * s.a, x, y);
   s.h    = NewFrom(s.grid, ParaboloidAt, at);
-  sam_call(SamElasticityCreate(s.grid, &pair, &s.elasticity));
+  sam_call(SamElasticityCreate(s.grid, pair, &s.elasticity));
   return s;
 }
 

@@ -121,7 +121,7 @@ static inline Shown CreateShown(SamGrid grid)
   double       *h;
   Vec           gap;
 
-  sam_call(SamElasticityCreate(grid, &pair, &s.elasticity));
+  sam_call(SamElasticityCreate(grid, pair, &s.elasticity));
   sam_call(SamProblemCreate(s.elasticity, &s.problem));
   sam_call(SamProblemSetFriction(s.problem, friction));
   sam_call(SamProblemGetGap(s.problem, &gap));

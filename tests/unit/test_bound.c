@@ -40,7 +40,7 @@ static Planes NewPlanes(SamPair pair, double c, const char *fading)
   (void)snprintf(options, sizeof(options),
                  "-elasticity planes -coating_compliance %.17g -friction %g -coupling none %s", c, MU, fading);
   SetOptions(options);
-  sam_call(SamElasticityCreate(p.grid, &p.pair, &p.elasticity));
+  sam_call(SamElasticityCreate(p.grid, p.pair, &p.elasticity));
   sam_call(SamElasticitySetFromOptions(p.elasticity));
   sam_call(SamProblemCreate(p.elasticity, &p.problem));
   sam_call(SamProblemSetLawsFromOptions(p.problem, &(SamOptions){PETSC_COMM_WORLD, NULL}));

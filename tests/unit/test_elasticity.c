@@ -271,7 +271,7 @@ static void test_uniform_pressure_lowers_the_centre_as_love_says(void **state)
     sam_call(VecSet(u, 1));
     sam_call(SamElasticityApplyNormal(C, u, u));
     whole = Whole(grid, 1, u);
-    sam_assert_close(whole[(n[k][1] / 2) * n[k][0] + n[k][0] / 2] * PETSC_PI * pair.modulus, expected,
+    sam_assert_close(whole[(n[k][1] / 2) * n[k][0] + n[k][0] / 2] * PETSC_PI * pair->modulus, expected,
                      1e-12 * expected); /* closed forms to 1e-14, and transforms */
     free(whole);
     sam_call(VecDestroy(&u));
@@ -304,7 +304,7 @@ static double HertzError(PetscInt n)
     for (PetscInt i = 0; i < n; i++) {
       const double x = SamGridX(grid, i), y = SamGridY(grid, grid->row_start + j), r2 = x * x + y * y;
 
-      if (r2 < 0.25) error = fmax(error, fabs(a[j * n + i] * 4 * pair.modulus / (2 * PETSC_PI) - (1 - r2 / 2)));
+      if (r2 < 0.25) error = fmax(error, fabs(a[j * n + i] * 4 * pair->modulus / (2 * PETSC_PI) - (1 - r2 / 2)));
     }
   sam_call(VecRestoreArrayRead(u, &a));
   (void)MPI_Allreduce(MPI_IN_PLACE, &error, 1, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD);
@@ -415,17 +415,30 @@ static void test_rigid_body_contributes_nothing(void **state)
 
 static void test_impossible_bodies_are_refused(void **state)
 {
-  const PetscReal wrong_young[][2]   = {{0, 1}, {1, -1}, {NAN, 1}, {INFINITY, INFINITY}, {1e-320, 1}};
-  const PetscReal wrong_poisson[][2] = {{0.6, 0}, {0, -1}, {NAN, 0}, {INFINITY, 0}};
-  const PetscReal good_young[2] = {1, 1}, good_poisson[2] = {0.5, -0.9};
-  SamPair         pair;
+  static const struct {
+    PetscInt    count;
+    SamMaterial material[2];
+  } wrong[]               = {{1, {{.young = 0}}},
+                             {1, {{.young = -1}}},
+                             {1, {{.young = NAN}}},
+                             {1, {{.young = 1e-320}}},
+                             {1, {{1, 0.6, 0, {0}}}},
+                             {1, {{1, -1, 0, {0}}}},
+                             {1, {{1, NAN, 0, {0}}}},
+                             {1, {{1, INFINITY, 0, {0}}}},
+                             {0, {{1, 0.3, 0, {0}}}},
+                             {2, {{1, 0.3, 0, {0}}, {1, 0.3, 0, {0}}}},
+                             {2, {{INFINITY, 0.3, 1, {0}}, {1, 0.3, 0, {0}}}}};
+  const SamMaterial rigid = {.young = INFINITY};
+  SamBody           body;
+  SamPair           pair;
 
   (void)state;
-  for (size_t k = 0; k < sizeof(wrong_young) / sizeof(wrong_young[0]); k++)
-    sam_fails(SamPairSet(&pair, wrong_young[k], good_poisson), PETSC_ERR_ARG_OUTOFRANGE);
-  for (size_t k = 0; k < sizeof(wrong_poisson) / sizeof(wrong_poisson[0]); k++)
-    sam_fails(SamPairSet(&pair, good_young, wrong_poisson[k]), PETSC_ERR_ARG_OUTOFRANGE);
-  sam_call(SamPairSet(&pair, good_young, good_poisson));
+  for (size_t k = 0; k < sizeof(wrong) / sizeof(wrong[0]); k++)
+    sam_fails(SamBodyCreate(wrong[k].count, wrong[k].material, &body), PETSC_ERR_ARG_OUTOFRANGE);
+  sam_call(SamBodyCreate(1, &rigid, &body));
+  sam_fails(SamPairCreate(body, body, &pair), PETSC_ERR_ARG_OUTOFRANGE);
+  sam_call(SamBodyDestroy(&body));
 }
 
 /* ---- self-influence, coarse grids ---- */

@@ -195,7 +195,7 @@ static SamElasticity NewPlain(const Sphere *s)
 {
   SamElasticity plain;
 
-  sam_call(SamElasticityCreate(s->grid, &s->pair, &plain));
+  sam_call(SamElasticityCreate(s->grid, s->pair, &plain));
   return plain;
 }
 

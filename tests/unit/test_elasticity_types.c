@@ -12,7 +12,7 @@ static SamElasticity NewElasticity(SamGrid grid)
   const SamPair pair = NewPair(210e9, 0.3, 70e9, 0.2);
   SamElasticity e;
 
-  sam_call(SamElasticityCreate(grid, &pair, &e));
+  sam_call(SamElasticityCreate(grid, pair, &e));
   return e;
 }
 
@@ -33,7 +33,7 @@ typedef struct {
 
 static double Stiffness(SamElasticity e)
 {
-  return e->pair.modulus / ((const Springs *)e->data)->depth;
+  return e->pair->modulus / ((const Springs *)e->data)->depth;
 }
 
 static PetscErrorCode SpringsApply(SamElasticity e, const double *const p[], double *const u[])
@@ -156,10 +156,10 @@ static void test_a_type_from_outside_works(void **state)
   sam_call(SamElasticitySetFromOptions(e));
   AssertType(e, "springs");
   sam_call(SamElasticityApplyNormal(e, p, u));
-  sam_call(VecScale(u, e->pair.modulus / 0.01));
+  sam_call(VecScale(u, e->pair->modulus / 0.01));
   sam_assert_close(Difference(u, p, NORM_INFINITY), 0, 1e-14);
   sam_call(PreconditionNormal(e, p, u));
-  sam_call(VecScale(u, 0.01 / e->pair.modulus));
+  sam_call(VecScale(u, 0.01 / e->pair->modulus));
   sam_assert_close(Difference(u, p, NORM_INFINITY), 0, 1e-6);
   sam_call(SamElasticitySetUp(e));
   sam_assert(((const Springs *)e->data)->setups == 1);
@@ -191,10 +191,10 @@ static void AssertUnknown(SamGrid grid, SamParameters p, int k, const char name[
 /* The bodies that an elasticity has recorded are the same again on another grid; what makes none is refused. */
 static void test_bodies_come_back_from_their_parameters(void **state)
 {
-  SamGrid        grid = NewGrid(16, 12, 1, 1), other = NewGrid(20, 18, 2, 1);
-  SamElasticity  e = NewElasticity(grid), same;
-  SamParameters  p = {.count = 0};
-  const SamPair *pair;
+  SamGrid       grid = NewGrid(16, 12, 1, 1), other = NewGrid(20, 18, 2, 1);
+  SamElasticity e = NewElasticity(grid), same;
+  SamParameters p = {.count = 0};
+  SamPair       pair;
 
   (void)state;
   sam_call(SamElasticityRegister("springs", CreateSprings));
@@ -205,7 +205,9 @@ static void test_bodies_come_back_from_their_parameters(void **state)
   sam_call(SamElasticityCreateFromParameters(other, &p, "-input x.h5", &same));
   AssertType(same, "springs");
   sam_call(SamElasticityGetPair(same, &pair));
-  sam_assert(!memcmp(pair, &e->pair, sizeof(*pair)) && SelfInfluence(same) == SelfInfluence(e));
+  for (int b = 0; b < 2; b++)
+    sam_assert(!memcmp(pair->body[b]->material, e->pair->body[b]->material, sizeof(pair->body[b]->material)));
+  sam_assert(SelfInfluence(same) == SelfInfluence(e));
   for (int k = 0; k < 5; k++) AssertUnknown(other, p, k, "other"); /* the constants, and the type */
   p.list[1].value[0] = 0.7;
   AssertUnknown(other, p, 1, "body1_poisson");
@@ -228,7 +230,7 @@ static void test_stresses_that_are_not_known_are_refused(void **state)
   SamStress           stress;
 
   (void)state;
-  sam_call(SamElasticityCreate(grid, &pair, &e));
+  sam_call(SamElasticityCreate(grid, pair, &e));
   sam_call(SamElasticityGetTraits(e, &traits));
   sam_assert(traits.stress);
   for (PetscInt body = 0; body <= 3; body += body ? 1 : 2)

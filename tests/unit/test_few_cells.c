@@ -19,7 +19,7 @@ static Case NewCaseAt(double x, double y)
   const SamPair pair = NewPair(2e9, 0.3, 2e9, 0.3);
   Case          c    = {.grid = NewGridOn(PETSC_COMM_WORLD, NX, NY, NX * 1e-3, NY * 1e-3, x, y)};
 
-  sam_call(SamElasticityCreate(c.grid, &pair, &c.elasticity));
+  sam_call(SamElasticityCreate(c.grid, pair, &c.elasticity));
   c.h     = NewField(c.grid, 1);
   c.p     = NewField(c.grid, 1);
   c.bound = NewField(c.grid, 1);
@@ -238,7 +238,7 @@ static void test_sphere_above_a_row_of_cells(void **state)
     Case         c = {.grid = NewGridOn(PETSC_COMM_WORLD, 20, 20, 1, 0.5, 0.00881 - 1.1e-3 * k, -0.0125)};
     SamBalance   b = {.kind = SAM_BALANCE_NORMAL, .force = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE}, .load = {N, 0, 0}};
 
-    sam_call(SamElasticityCreate(c.grid, &pair, &c.elasticity));
+    sam_call(SamElasticityCreate(c.grid, pair, &c.elasticity));
     c.h     = NewFrom(c.grid, Paraboloid, &R);
     c.p     = NewField(c.grid, 1);
     c.bound = NewField(c.grid, 1);

@@ -12,9 +12,9 @@ static SamElasticity NewElasticity(SamGrid grid, SamElasticityType type, double 
   SamPair       pair = NewPair(210e9, 0.3, 70e9, 0.2);
   SamElasticity e;
 
-  pair.film[0] = film * 1e9;
-  pair.film[1] = 1e9;
-  sam_call(SamElasticityCreate(grid, &pair, &e));
+  pair->film[0] = film * 1e9;
+  pair->film[1] = 1e9;
+  sam_call(SamElasticityCreate(grid, pair, &e));
   sam_call(SamElasticitySetType(e, type));
   return e;
 }

@@ -55,7 +55,7 @@ static Read ReadFriction(const char *options, const char *prefix)
   const SamPair pair = Steel();
   Read          r    = {.grid = NewGrid(NX, NY, 1, 1)};
 
-  sam_call(SamElasticityCreate(r.grid, &pair, &r.elasticity));
+  sam_call(SamElasticityCreate(r.grid, pair, &r.elasticity));
   sam_call(SamProblemCreate(r.elasticity, &r.problem));
   sam_call(SamProblemSetFriction(r.problem, 0.125));
   SetOptions(options);

@@ -9,20 +9,15 @@
 
 enum { COMPONENTS = SAM_STRESS_COMPONENTS, GROUP = SAM_STRESS_GROUP, LAGS = 40 };
 
-/* A pair of a rigid body and one with layers: modulus, Poisson's ratio, thickness of each, the substrate last. */
-static SamPair PairOf(int count, const double layer[][3])
+/* A body with layers: modulus, Poisson's ratio, thickness of each, the substrate last. */
+static SamBody BodyOf(int count, const double layer[][3])
 {
-  SamLayers layers[2] = {{.count = 0}, {.count = count}};
-  SamPair   pair;
+  SamMaterial material[3] = {{0}};
+  SamBody     body;
 
-  for (int n = 0; n < count; n++) {
-    layers[1].young[n]     = layer[n][0];
-    layers[1].poisson[n]   = layer[n][1];
-    layers[1].thickness[n] = layer[n][2];
-  }
-  sam_call(SamPairSetLayered(&pair, (const PetscReal[]){INFINITY, layer[count][0]},
-                             (const PetscReal[]){0, layer[count][1]}, layers));
-  return pair;
+  for (int n = 0; n <= count; n++) material[n] = (SamMaterial){layer[n][0], layer[n][1], layer[n][2], {0}};
+  sam_call(SamBodyCreate(count + 1, material, &body));
+  return body;
 }
 
 static const double hard[][3] = {{4, 0.25, 1}, {1, 0.3, 0}}, soft[][3] = {{0.1, 0.45, 1}, {1, 0.3, 0}},
@@ -35,19 +30,19 @@ static const double hard[][3] = {{4, 0.25, 1}, {1, 0.3, 0}}, soft[][3] = {{0.1, 
   s_rr, s_tt, s_zz at (r, z) under a uniform pressure on a disc of radius 1, by Gauss' rule over the wave number; in the
   first layer on the axis only, where the half-space's are known (Johnson 1985, section 3.4).
 */
-static void Disc(const SamPair *pair, PetscInt layer, double z, double r, double stress[3])
+static void Disc(SamBody body, PetscInt layer, double z, double r, double stress[3])
 {
   static const double point[]  = {-0.9061798459386640, -0.5384693101056831, 0, 0.5384693101056831, 0.9061798459386640},
                       weight[] = {0.2369268850561891, 0.4786286704993665, 0.5688888888888889, 0.4786286704993665,
                                   0.2369268850561891};
-  const double step = 0.1, last = 80, root = sqrt(1 + z * z), nu = pair->layers[1].poisson[0];
+  const double step = 0.1, last = 80, root = sqrt(1 + z * z), nu = body->material[0].poisson;
   double       s[SAM_LAYERED_STRESSES], sum[3] = {0, 0, 0};
 
   for (int m = 0; m < last / step; m++)
     for (int g = 0; g < 5; g++) {
       const double k = (m + 0.5 + point[g] / 2) * step, w = j1(k) * weight[g] * step / 2, x = k * r;
 
-      SamLayeredStresses(pair, 2, layer, z, k, s);
+      SamBodyStresses(body, layer, z, k, s);
       sum[0] += w * s[0] * j0(x);
       sum[1] += w * s[2] * j0(x);
       sum[2] += w * s[3] * jn(2, x);
@@ -76,10 +71,10 @@ static void test_disc_has_reference_stresses(void **state)
 
   (void)state;
   for (size_t k = 0; k < sizeof(rows) / sizeof(rows[0]); k++) {
-    const SamPair pair = PairOf(rows[k].count, rows[k].body);
+    const SamBody body = BodyOf(rows[k].count, rows[k].body);
     double        stress[3];
 
-    Disc(&pair, rows[k].layer, rows[k].z, rows[k].r, stress);
+    Disc(body, rows[k].layer, rows[k].z, rows[k].r, stress);
     if (getenv("SAM_SHOW"))
       for (int c = 0; c < 3; c++) print_message("# %.10f %.10f\n", stress[c], rows[k].expected[c]);
     for (int c = 0; c < 3; c++) sam_assert_close(stress[c], rows[k].expected[c], 1e-9);
@@ -88,11 +83,11 @@ static void test_disc_has_reference_stresses(void **state)
 
 /* ---- rows of kernels ---- */
 
-static SamStress NewStress(SamGrid grid, const SamPair *pair)
+static SamStress NewStress(SamGrid grid, SamBody body)
 {
   SamStress stress;
 
-  sam_call(SamLayeredCreateStress(grid, NULL, 2, pair, &stress));
+  sam_call(SamLayeredCreateStress(grid, NULL, 2, body, &stress));
   return stress;
 }
 
@@ -121,7 +116,7 @@ static double DifferenceOf(Rows a, Rows b, int g)
   return most;
 }
 
-static void AssertSameRows(const SamPair *a, const SamPair *b, double depth, double tolerance)
+static void AssertSameRows(SamBody a, SamBody b, double depth, double tolerance)
 {
   static Rows rows[2];
   SamGrid     grid = NewGrid(37, 23, 5, 4);
@@ -141,22 +136,22 @@ static void AssertSameRows(const SamPair *a, const SamPair *b, double depth, dou
 /* In the lower part the functions are the whole stresses, in the whole layer they are added to closed forms. */
 static void test_layer_cut_in_two_is_one(void **state)
 {
-  const SamPair one = PairOf(1, thin), parts = PairOf(2, cut);
+  const SamBody one = BodyOf(1, thin), parts = BodyOf(2, cut);
 
   (void)state;
-  AssertSameRows(&one, &parts, 0.31, 1e-12);
-  AssertSameRows(&one, &parts, 0.5, 1e-12);
-  AssertSameRows(&one, &parts, 0.12, 1e-12);
-  AssertSameRows(&one, &parts, 0.7, 1e-12);
+  AssertSameRows(one, parts, 0.31, 1e-12);
+  AssertSameRows(one, parts, 0.5, 1e-12);
+  AssertSameRows(one, parts, 0.12, 1e-12);
+  AssertSameRows(one, parts, 0.7, 1e-12);
 }
 
 /* Of the substrate's material, the layer is no layer: closed forms, with their values at centres. */
 static void test_layer_of_the_substrates_material_is_none(void **state)
 {
   static Rows   rows;
-  const SamPair pair   = PairOf(1, alike);
+  const SamBody body   = BodyOf(1, alike);
   SamGrid       grid   = NewGrid(37, 23, 5, 4);
-  SamStress     stress = NewStress(grid, &pair);
+  SamStress     stress = NewStress(grid, body);
 
   (void)state;
   for (double depth = 0.1; depth < 1; depth += 0.41) {
@@ -224,9 +219,9 @@ static void test_sliding_has_reference_stresses(void **state)
     {30, 20, 0.25, {-0.4416382258, -0.3473601862, -0.8154782498, -0.0297038391, -0.2427627972, -0.0895965173}},
     {30, 20, 0.5, {0.3843873174, 0.4609366747, -0.6147015752, -0.0428066056, -0.1126825785, -0.0587985443}},
     {-100, 0, 0.5, {-0.0641674889, 0.1378583317, -0.1993715839, 0, 0.1322900517, 0}}};
-  const SamPair pair   = PairOf(1, thin);
+  const SamBody body   = BodyOf(1, thin);
   SamGrid       grid   = NewGrid(241, 241, 2.41, 2.41);
-  SamStress     stress = NewStress(grid, &pair);
+  SamStress     stress = NewStress(grid, body);
 
   (void)state;
   for (size_t k = 0; k < sizeof(rows) / sizeof(rows[0]); k++) {
@@ -249,10 +244,10 @@ static void test_sliding_has_reference_stresses(void **state)
 /* Tractions are continuous through an interface, the others jump by the strains, which are continuous in the plane. */
 static void test_interfaces_transmit_tractions_and_strains(void **state)
 {
-  const SamPair pair   = PairOf(2, two);
+  const SamBody body   = BodyOf(2, two);
   const double  bottom = 0.5, E[] = {4, 0.25}, nu[] = {0.2, 0.4};
   SamGrid       grid             = NewGrid(37, 23, 3.7, 2.3);
-  SamStress     stress           = NewStress(grid, &pair);
+  SamStress     stress           = NewStress(grid, body);
   double        most[COMPONENTS] = {0}, strain[2][3];
 
   (void)state;

@@ -125,7 +125,7 @@ static void test_sphere_wears_towards_popovs_shape(void **state)
   Joint *j = NewJoint(STEEL, 72, 1.4, mu, (Strokes){.approach = PETSC_TRUE, .steps = 8, .amplitude = 0.75 * mu * 1e-5},
                       SAM_LAW_ARCHARD, (SamLifeSettings){.rtol = 1e-2});
   const Sphere *s = &j->c.s;
-  const double  d = s->a * s->a / s->R, unit = s->a / (4 * K * s->pair.modulus * j->strokes.amplitude);
+  const double  d = s->a * s->a / s->R, unit = s->a / (4 * K * s->pair->modulus * j->strokes.amplitude);
 
   (void)state;
   for (int k = 0; k < 3; k++) {
@@ -150,7 +150,7 @@ static void test_volume_of_a_sliding_sphere_is_exact(void **state)
   Joint        *j         = NewJoint(STEEL, 64, 2.6, 1e-9, (Strokes){.steps = 4, .amplitude = u}, SAM_LAW_ARCHARD,
                                      (SamLifeSettings){.rtol = 1e-2});
   const Sphere *s         = &j->c.s;
-  const double  cycles[2] = {s->a / (4 * K * s->pair.modulus * u), 30 * s->a / (4 * K * s->pair.modulus * u)};
+  const double  cycles[2] = {s->a / (4 * K * s->pair->modulus * u), 30 * s->a / (4 * K * s->pair->modulus * u)};
   SamLifeReport r         = Live(j, cycles[0]);
 
   (void)state;
@@ -259,7 +259,7 @@ static void test_explicit_jumps_have_a_limit(void **state)
       NewJoint(STEEL, 48, 1.4, 0.1, (Strokes){.approach = PETSC_TRUE, .steps = 8, .amplitude = u}, SAM_LAW_ARCHARD,
                (SamLifeSettings){.type = k ? SAM_LIFE_EXPLICIT : SAM_LIFE_IMPLICIT, .rtol = 0.1});
 
-    r[k] = Live(j, tau * j->c.s.a / (4 * K * j->c.s.pair.modulus * u));
+    r[k] = Live(j, tau * j->c.s.a / (4 * K * j->c.s.pair->modulus * u));
     if (k == 1) sam_assert(r[k].jump <= r[k].limit);
     DestroyJoint(j);
   }

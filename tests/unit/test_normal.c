@@ -348,7 +348,7 @@ static void test_place_of_the_grid_does_not_matter(void **state)
   Vec           p = NewField(s.grid, 1), q = NewField(away, 1);
 
   (void)state;
-  sam_call(SamElasticityCreate(away, &s.pair, &elasticity));
+  sam_call(SamElasticityCreate(away, s.pair, &elasticity));
   SolveWell(s.elasticity, s.h, NULL, 1e-9, &balance, p);
   SolveWell(elasticity, s.h, NULL, 1e-9, &moved, q);
   sam_assert_close(Difference(q, p, NORM_2), 0,
@@ -395,7 +395,7 @@ static void test_units_do_not_matter(void **state)
     SamBalance    scaled = Forced(s.N * factor[k], 0, 0);
     SamElasticity elasticity;
 
-    sam_call(SamElasticityCreate(s.grid, &pair, &elasticity));
+    sam_call(SamElasticityCreate(s.grid, pair, &elasticity));
     SolveWell(elasticity, s.h, NULL, 0, &scaled, q);
     sam_call(VecScale(q, 1 / factor[k]));
     sam_assert_close(Difference(q, p, NORM_INFINITY), 0, 1e-7); /* as above */

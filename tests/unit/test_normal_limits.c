@@ -150,7 +150,7 @@ static void test_flat_body_touches_everywhere_on_any_grid(void **state)
     SamElasticity elasticity;
     PetscReal     least, most;
 
-    sam_call(SamElasticityCreate(grid, &pair, &elasticity));
+    sam_call(SamElasticityCreate(grid, pair, &elasticity));
     SolveWell(elasticity, h, NULL, 1e-10, &balance, p);
     sam_call(VecMin(p, NULL, &least));
     sam_assert(least > 0);

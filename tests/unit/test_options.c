@@ -354,7 +354,7 @@ static void test_prefix_that_does_not_fit_is_refused(void **state)
   SamElasticity e;
 
   (void)state;
-  sam_call(SamElasticityCreate(grid, &pair, &e));
+  sam_call(SamElasticityCreate(grid, pair, &e));
   memset(prefix, 'a', sizeof(prefix));
   prefix[64] = '\0';
   sam_fails(SamElasticitySetOptionsPrefix(e, prefix), PETSC_ERR_ARG_SIZ);

@@ -32,7 +32,7 @@ static SamElasticity NewOfType(SamGrid grid, SamElasticityType type)
   const SamPair pair = NewPair(young[0], poisson[0], young[1], poisson[1]);
   SamElasticity e;
 
-  sam_call(SamElasticityCreate(grid, &pair, &e));
+  sam_call(SamElasticityCreate(grid, pair, &e));
   sam_call(SamElasticitySetType(e, type));
   return e;
 }

@@ -23,7 +23,7 @@ static Case NewCase(PetscInt nx, PetscInt ny, double height, double (*shape)(dou
   c.grid = NewGrid(nx, ny, wavelength, height);
   c.h    = NewFrom(c.grid, shape, NULL);
   c.p    = NewField(c.grid, 1);
-  sam_call(SamElasticityCreate(c.grid, &c.pair, &c.elasticity));
+  sam_call(SamElasticityCreate(c.grid, c.pair, &c.elasticity));
   sam_call(SamElasticitySetType(c.elasticity, SAM_ELASTICITY_PERIODIC));
   return c;
 }
@@ -73,7 +73,7 @@ static double Wave(double x, double y, const void *context)
 /* The mean pressure that brings all of the surface into contact. */
 static double FullPressure(const Case *c)
 {
-  return PETSC_PI * c->pair.modulus * amplitude / wavelength;
+  return PETSC_PI * c->pair->modulus * amplitude / wavelength;
 }
 
 /* p = mean + p* cos(2 pi x/lambda), for a mean that is at least p*; displacements count from the mean surface. */
@@ -249,7 +249,7 @@ static void test_summits_under_a_light_load_are_hertz_contacts(void **state)
   Case         c = NewCase(256, 256, wavelength, Waves);
   SamBalance   b = {.kind = SAM_BALANCE_NORMAL};
   const double R = wavelength * wavelength / (4 * PETSC_PI * PETSC_PI * amplitude), a = 0.05 * wavelength,
-               E = c.pair.modulus, N = 4 * E * a * a * a / (3 * R), p0 = 2 * E * a / (PETSC_PI * R);
+               E = c.pair->modulus, N = 4 * E * a * a * a / (3 * R), p0 = 2 * E * a / (PETSC_PI * R);
   PetscReal most;
 
   (void)state;

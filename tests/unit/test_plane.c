@@ -100,7 +100,7 @@ static void test_kernels_are_the_closed_forms(void **state)
   Of layered bodies: the symbols' differences by quadrature over k, with 1/k cos(kx), or sin, over a cell; what remains
   of them at k = 0 is c0 exp(-kd), whose line load is -c0/pi ln(sqrt(x^2 + d^2)/D), or c0/pi atan(x/d).
 */
-static double LayeredKernel(const SamPair *pair, SamLayeredSymbol symbol, double x, double h, double datum)
+static double LayeredKernel(SamPair pair, SamLayeredSymbol symbol, double x, double h, double datum)
 {
   enum { PANELS = 30000 };
   static const double at[4][2] = {{-0.861136311594053, 0.347854845137454},
@@ -111,11 +111,11 @@ static double LayeredKernel(const SamPair *pair, SamLayeredSymbol symbol, double
   const double        d = 1e-4, least = log(1e-8), step = (log(6e5) - least) / PANELS; /* of ln k */
   double              total[SAM_LAYERED_SYMBOLS], limit[SAM_LAYERED_SYMBOLS], some[SAM_LAYERED_SYMBOLS], sum = 0;
 
-  SamLayeredSymbols(pair, 0, 1e-15, total, limit);
+  SamPairSymbols(pair, 1e-15, total, limit);
   for (int n = 0; n < 4 * PANELS; n++) {
     const double k = exp(least + step * (n / 4 + 0.5 + 0.5 * at[n % 4][0])), w = 0.5 * step * k * at[n % 4][1];
 
-    SamLayeredSymbols(pair, 0, k, total, some);
+    SamPairSymbols(pair, k, total, some);
     sum +=
       w * (some[symbol] - limit[symbol] * exp(-k * d)) / k * (odd ? sin(k * x) : cos(k * x)) * 2 * sin(k * h / 2) / k;
   }
@@ -129,19 +129,17 @@ static double LayeredKernel(const SamPair *pair, SamLayeredSymbol symbol, double
 
 static void test_layers_add_their_symbols(void **state)
 {
-  static const double           substrate[2] = {210e9, 70e9};
-  static const SamLayeredSymbol symbols[4]   = {SAM_LAYERED_ZZ, SAM_LAYERED_RR, SAM_LAYERED_TT, SAM_LAYERED_ZR};
-  const SamLayers               layers[2]    = {{.count = 1, .young = {120e9}, .poisson = {0.1}, .thickness = {1e-4}},
-                                                {2, {150e9, 60e9}, {0.2, 0.4}, {6e-5, 2e-4}, {{0}}}};
-  SamGrid                       grid         = NewGridOn(PETSC_COMM_WORLD, 37, 1, width, 1, 0, 0);
-  SamParameters                 p            = {.count = 0};
-  SamElasticity                 e;
-  SamPair                       pair;
-  double                       *all[4], datum;
+  static const SamLayeredSymbol symbols[4] = {SAM_LAYERED_ZZ, SAM_LAYERED_RR, SAM_LAYERED_TT, SAM_LAYERED_ZR};
+  const SamMaterial             one[2]     = {{120e9, 0.1, 1e-4, {0}}, {.young = 210e9, .poisson = poisson[0]}},
+                    two[3] = {{150e9, 0.2, 6e-5, {0}}, {60e9, 0.4, 2e-4, {0}}, {.young = 70e9, .poisson = poisson[1]}};
+  SamGrid       grid       = NewGridOn(PETSC_COMM_WORLD, 37, 1, width, 1, 0, 0);
+  SamParameters p          = {.count = 0};
+  SamElasticity e;
+  const SamPair pair = NewPairOf(2, one, 3, two);
+  double       *all[4], datum;
 
   (void)state;
-  sam_call(SamPairSetLayered(&pair, substrate, poisson, layers));
-  sam_call(SamElasticityCreate(grid, &pair, &e));
+  sam_call(SamElasticityCreate(grid, pair, &e));
   sam_call(SamElasticityAddParameters(e, &p));
   datum = (double)SamParametersFind(&p, "plane_datum")->value[0];
   for (int c = 0; c < 4; c++) { /* u_z by p, u_x by q_x, u_y by q_y, u_x by p */
@@ -158,11 +156,11 @@ static void test_layers_add_their_symbols(void **state)
   for (int c = 0; c < 4; c++)
     for (PetscInt i = 0; i < 37; i += i < 2 ? 1 : i < 3 ? 12 : 22) {
       const double h = grid->dx, x = (double)i * h, own = all[c][c == 2 ? 37 : 0];
-      const double lag      = c == 3 ? (i ? PETSC_PI * pair.coupling * h : 0)
-                                     : -2 * (pair.normal + (c == 2 ? pair.shear_xx : 0)) *
+      const double lag      = c == 3 ? (i ? PETSC_PI * pair->coupling * h : 0)
+                                     : -2 * (pair->normal + (c == 2 ? pair->shear_xx : 0)) *
                                     (double)(L(x + h / 2, datum) - L(x - h / 2, datum) - h);
       const double size     = c == 3 ? all[0][0] : own;
-      const double expected = lag + LayeredKernel(&pair, symbols[c], x, h, datum);
+      const double expected = lag + LayeredKernel(pair, symbols[c], x, h, datum);
 
       sam_assert_close(all[c][(c == 2 ? 37 : 0) + i], expected, 1e-11 * size);
     }
@@ -280,7 +278,7 @@ static void test_datum_is_one_on_all_grids(void **state)
   SamElasticity  e = NewOn(PETSC_COMM_WORLD, 64, SAM_ELASTICITY_PLANE), coarse, part;
   SamTransfer    transfer;
   SamWindow      window;
-  const SamPair *pair;
+  SamPair        pair;
   PetscReal      own[2];
 
   (void)state;

@@ -86,7 +86,7 @@ static Made MakeContact(SamGrid grid, Vec p[2], Vec q[2])
   SamState      state, made;
   Made          m;
 
-  sam_call(SamElasticityCreate(grid, &pair, &m.elasticity));
+  sam_call(SamElasticityCreate(grid, pair, &m.elasticity));
   sam_call(SamProblemCreate(m.elasticity, &m.problem));
   sam_call(SamProblemSetFriction(m.problem, MU));
   sam_call(SamContactCreate(m.problem, &m.contact));

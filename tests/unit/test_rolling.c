@@ -103,7 +103,7 @@ static SamBalance Creep(double x, double y, double spin)
 /* The creepage by which a sphere slides, mu p0/G, and its half of spin. */
 static double Unit(const Case *c)
 {
-  return mu * c->s.p0 / (c->s.pair.young[0] / 2 / (1 + c->s.pair.poisson[0]));
+  return mu * c->s.p0 / (c->s.pair->body[0]->material[0].young / 2 / (1 + c->s.pair->body[0]->material[0].poisson));
 }
 
 /* Lateral force by spin and moment by lateral creepage, without slip: C23 = C32. */

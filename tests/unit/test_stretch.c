@@ -9,7 +9,8 @@
 /* Bulk stresses of body 2 that stretch it by that much more than body 1, which is stretched as well. */
 static void SetStretch(const Case *c, SamControl *control, double xx, double yy, double xy)
 {
-  const double E[2] = {c->s.pair.young[0], c->s.pair.young[1]}, nu[2] = {c->s.pair.poisson[0], c->s.pair.poisson[1]};
+  const double E[2]    = {c->s.pair->body[0]->material[0].young, c->s.pair->body[1]->material[0].young},
+               nu[2]   = {c->s.pair->body[0]->material[0].poisson, c->s.pair->body[1]->material[0].poisson};
   const double some    = 0.3 * (fabs(xx) + fabs(yy) + fabs(xy)); /* strain of body 1, alike in x and y */
   const double e[2][3] = {{some, some, 0.5 * some}, {some + xx, some + yy, 0.5 * some + xy}};
 
@@ -120,8 +121,9 @@ static double ErrorOfMovedStickZone(PetscInt n, int body)
   double         sums[2] = {0, 0}, *q;
   SamStep        step;
 
-  control.bulk_stress[body][SAM_BULK_XX] = (body ? 1 : -1) * move * a * MU / c.s.R * pair.young[body];
-  step                                   = Solve(&c, &control);
+  control.bulk_stress[body][SAM_BULK_XX] =
+    (body ? 1 : -1) * move * a * MU / c.s.R * pair->body[body]->material[0].young;
+  step = Solve(&c, &control);
   AssertGood(&step);
   q = Whole(c.s.grid, 2, SolutionOf(&c)->shear);
   for (PetscInt k = 0; k < all; k++) {
@@ -178,7 +180,7 @@ static Case NewCaseAt(double x, double y)
   Sphere        s = NewSphereOf(pair, 45, 1.5), at = s;
 
   at.grid = NewGridOn(PETSC_COMM_WORLD, 45, 45, s.grid->width[0], s.grid->width[1], x, y);
-  sam_call(SamElasticityCreate(at.grid, &pair, &at.elasticity));
+  sam_call(SamElasticityCreate(at.grid, pair, &at.elasticity));
   at.h = Copy(s.h);
   DestroySphere(&s);
   return NewCaseOn(at, MU, NULL, "");

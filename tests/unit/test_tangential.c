@@ -54,7 +54,7 @@ static void test_cattaneo_mindlin_at_zero_poisson_ratio(void **state)
     /*
       Mindlin: d_x = d_0 (1 - (1 - T/mu N)^(2/3)); at nu = 0 shear meets the stiffness of pressure, and d_0 = mu a^2/R
     */
-    expected = 0.75 * c.T / (c.s.a * c.s.pair.modulus) * (1 - pow(1 - ratio[k], 2.0 / 3));
+    expected = 0.75 * c.T / (c.s.a * c.s.pair->modulus) * (1 - pow(1 - ratio[k], 2.0 / 3));
     if (getenv("SAM_SHOW")) print_message("# d_x/Mindlin %g\n", balance.rigid[0] / expected);
     sam_assert_close(balance.rigid[0], expected, 0.01 * expected); /* of the order of the error of q */
   }
@@ -147,7 +147,7 @@ static void test_both_types_agree(void **state)
     sam_assert_close(Difference(q, other, NORM_2), 0, 1e-4); /* rtol 1e-6 times the condition, about n */
     for (int i = 0; i < 3; i++)
       sam_assert_close(newton.rigid[i], gradient.rigid[i],
-                       1e-4 * c.T / (c.s.a * c.s.pair.modulus) / (i == 2 ? c.s.a : 1));
+                       1e-4 * c.T / (c.s.a * c.s.pair->modulus) / (i == 2 ? c.s.a : 1));
     sam_call(VecDestroy(&q));
     sam_call(VecDestroy(&other));
     DestroyCase(&c);
@@ -254,7 +254,7 @@ static void test_same_load_again_changes_nothing(void **state)
   SolveWell(&c, offset, NULL, 1e-8, &second, r);
   sam_assert_close(Difference(r, q, NORM_2), 0, 1e-5); /* as above */
   for (int k = 0; k < 3; k++)
-    sam_assert_close(second.rigid[k], first.rigid[k], 1e-5 * c.T / (c.s.a * c.s.pair.modulus) / (k == 2 ? c.s.a : 1));
+    sam_assert_close(second.rigid[k], first.rigid[k], 1e-5 * c.T / (c.s.a * c.s.pair->modulus) / (k == 2 ? c.s.a : 1));
   sam_call(VecDestroy(&offset));
   sam_call(VecDestroy(&q));
   sam_call(VecDestroy(&r));

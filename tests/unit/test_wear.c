@@ -218,7 +218,7 @@ static void test_sliding_sphere_has_its_volume_and_shape(void **state)
 {
   const PetscInt n = 90, strokes = 90;
   Case           c = NewCase(Steel(), n, 1.6, 1e-9, "");
-  const double   a = c.s.a, u = 1e-4, k = a / (2 * c.s.pair.modulus * u * strokes); /* a stroke is 2 u */
+  const double   a = c.s.a, u = 1e-4, k = a / (2 * c.s.pair->modulus * u * strokes); /* a stroke is 2 u */
   const double   d0   = a * a / c.s.R;
   double         path = 0;
   Vec            depth;
@@ -268,7 +268,7 @@ static double GrowthOf(int law, double excess)
   const double    u     = 1e-8;
   const PetscReal mu    = law == 1 ? 1e-6 : 1e-9;
   Case            c     = NewCase(Steel(), 48, 1.5, mu, "");
-  const double    limit = 1.16 * (double)(c.s.grid->dx / c.s.pair.modulus) / (2 * u);
+  const double    limit = 1.16 * (double)(c.s.grid->dx / c.s.pair->modulus) / (2 * u);
   const PetscReal k[2]  = {(PetscReal)(excess * limit * (law == 1 ? 1e6 : 1)), 0};
   double         *a, board[6];
   Vec             gap;

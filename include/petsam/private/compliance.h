@@ -32,22 +32,21 @@ struct _n_SamCompliance {
 };
 
 /*
-  SamComplianceRead - of body 0 or 1 with its layers, from the file that `option` (without dash) names; its load cases
+  SamComplianceRead - of body 0 or 1, which `of` is without it, from the file that `option` (without dash) names; its load cases
   become conditions. Collective. Errors: SAM_ERR_FILE for a file that cannot be read or does not fit, and where the body
   would gain energy under some traction.
 */
-PETSC_INTERN PetscErrorCode SamComplianceRead(MPI_Comm comm, PetscInt body, const SamLayers *layers,
-                                              const char option[], const char file[], SamCompliance *compliance);
+PETSC_INTERN PetscErrorCode SamComplianceRead(MPI_Comm comm, PetscInt body, SamBody of, const char option[],
+                                              const char file[], SamCompliance *compliance);
 PETSC_INTERN PetscErrorCode SamComplianceDestroy(SamCompliance *compliance);
 /* SamComplianceMeans - means of the orthonormal polynomials along axis 0 or 1 over an interval (m), m^-1/2. */
 PETSC_INTERN void SamComplianceMeans(SamCompliance compliance, PetscInt axis, double from, double to, double means[]);
 /*
   SamComplianceEnds - the smallest and the largest eigenvalue of the body's compliance relative to that of the
-  half-space with its layers, of tractions that are uniform on 20 x 20 cells of the patch. Of a rigid body: 0 if it is
+  body without it, of tractions that are uniform on 20 x 20 cells of the patch. Of a rigid body: 0 if it is
   semidefinite, else negative, and 1.
 */
-PETSC_INTERN PetscErrorCode SamComplianceEnds(SamCompliance compliance, const SamLayers *layers, double *least,
-                                              double *most);
+PETSC_INTERN PetscErrorCode SamComplianceEnds(SamCompliance compliance, SamBody of, double *least, double *most);
 /*
   SamComplianceCollect - c by tractions p, q_x, q_y on body 2. Collective.
   SamComplianceReadStress - the axes x, y, z (m), then the stresses at the points by each c and each load case; as many

@@ -2,7 +2,7 @@
 #ifndef PETSAM_ELASTICITYIMPL_H
 #define PETSAM_ELASTICITYIMPL_H
 
-#include <petsam/private/baseimpl.h>
+#include <petsam/private/bodyimpl.h>
 #include <petsam/elasticity.h>
 #include <petsam/fourier.h>
 
@@ -92,8 +92,6 @@ PETSC_INTERN PetscErrorCode SamElasticityWrap(SamElasticity bodies, SamElasticit
   while (!(e)->ops.method && (e)->inner) (e) = (e)->inner
 /* SamElasticityDestroyParts - forgets both parts. Collective. */
 PETSC_INTERN PetscErrorCode SamElasticityDestroyParts(SamElasticity elasticity);
-/* Whether the coupling coefficient of a pair is more than rounding. */
-PETSC_INTERN PetscBool SamElasticityPairIsCoupled(const SamPair *pair);
 
 PETSC_INTERN PetscErrorCode SamElasticityCreate_HalfSpace(SamElasticity elasticity);
 PETSC_INTERN PetscErrorCode SamElasticityCreate_Periodic(SamElasticity elasticity);

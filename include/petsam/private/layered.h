@@ -2,12 +2,11 @@
 #ifndef PETSAM_LAYERED_H
 #define PETSAM_LAYERED_H
 
-#include <petsam/private/baseimpl.h>
-#include <petsam/material.h>
+#include <petsam/private/bodyimpl.h>
 #include <petsam/private/halfspace.h>
 
 /*
-  The way of the data, for a pair whose bodies have layers (material.h):
+  The way of the data, for a pair of which a body has layers, that is, several materials:
     symbols.c  the layers of each body become symbols, functions of the wave number, by a recursion from the substrate
                up: the symbols themselves, and their differences from those of a half-space of the surface's material
     spline.c    functions of s = r^2 or s = k^2 become polynomials on short intervals, which are evaluated quickly
@@ -27,35 +26,35 @@
 typedef enum { SAM_LAYERED_ZZ, SAM_LAYERED_ZR, SAM_LAYERED_RR, SAM_LAYERED_TT, SAM_LAYERED_SYMBOLS } SamLayeredSymbol;
 
 /*
-  SamLayeredSymbols - the symbols of a pair at the wave number k > 0 (1/m): zz, rr, tt are sums over both bodies, zr is
-  that of body 2 less that of body 1; `difference`: less the symbols of half-spaces of the materials at the surface,
-  accurate also where it is as small as exp(-2 k h). `body`: of body 1 or 2 alone (zr: its own); 0: of the pair. Not
-  collective.
+  SamBodySymbols - the symbols of a body at the wave number k > 0 (1/m), added to `total`; `difference`: less those of a
+  half-space of the material at the surface, accurate also where it is as small as exp(-2 k h). `sign`: of zr.
+  SamPairSymbols - of a pair: zz, rr, tt are sums over both bodies, zr is that of body 2 less that of body 1.
+  Neither is collective.
 */
-PETSC_INTERN void SamLayeredSymbols(const SamPair *pair, PetscInt body, double k, double total[SAM_LAYERED_SYMBOLS],
-                                    double difference[SAM_LAYERED_SYMBOLS]);
+PETSC_INTERN void SamBodySymbols(SamBody body, double sign, double k, double total[SAM_LAYERED_SYMBOLS],
+                                 double difference[SAM_LAYERED_SYMBOLS]);
+PETSC_INTERN void SamPairSymbols(SamPair pair, double k, double total[SAM_LAYERED_SYMBOLS],
+                                 double difference[SAM_LAYERED_SYMBOLS]);
 
 /*
-  SamLayersReadFile - the layers of a body whose constants vary with the depth, from the text file that an option (its
+  SamBodyReadProfile - the layers of a body whose constants vary with the depth, from the text file that an option (its
   name without prefix) names: columns depth (m, from 0 on), young (Pa), poisson; constants between rows are linear, and
-  jump at a depth that two rows have. SAM_LAYERS layers at most, of the constants at their middle; `set`: whether the
+  jump at a depth that two rows have. SAM_MATERIALS - 1 at most, of the constants at their middle; `set`: whether the
   option is given. Collective. Errors: SAM_ERR_USER, SAM_ERR_FILE.
 */
-PETSC_INTERN PetscErrorCode SamLayersReadFile(const SamOptions *from, const char option[], SamLayers *layers,
-                                              PetscBool *set);
+PETSC_INTERN PetscErrorCode SamBodyReadProfile(const SamOptions *from, const char option[], SamMaterial layers[],
+                                               PetscInt *count, PetscBool *set);
 
 /*
-  SamLayeredStresses - of body 1 or 2, at a wave number k (1/m) and the depth z below the top of a layer (the last: the
-  substrate, which must be elastic): ten functions of which the stresses by unit waves of traction are made, in the
-  order of the transforms at the head of stress.c. In the first layer: less those of a half-space of its material. Not
-  collective.
+  SamBodyStresses - at a wave number k (1/m) and the depth z below the top of a material, which must be elastic: ten
+  functions of which the stresses by unit waves of traction are made, in the order of the transforms at the head of
+  stress.c. In the first of several materials: less those of a half-space of it. Not collective.
 */
 #define SAM_LAYERED_STRESSES 10
-PETSC_INTERN void SamLayeredStresses(const SamPair *pair, PetscInt body, PetscInt layer, double z, double k,
-                                     double s[SAM_LAYERED_STRESSES]);
-/* SamLayeredCreateStress - the stresses in body 1 or 2 of a pair, which has layers (stress.c). Collective. */
-PETSC_INTERN PetscErrorCode SamLayeredCreateStress(SamGrid grid, const SamFourierSettings *settings, PetscInt body,
-                                                   const SamPair *pair, SamStress *stress);
+PETSC_INTERN void SamBodyStresses(SamBody body, PetscInt material, double z, double k, double s[SAM_LAYERED_STRESSES]);
+/* SamLayeredCreateStress - the stresses in a body that has layers, body 1 or 2 of a pair (stress.c). Collective. */
+PETSC_INTERN PetscErrorCode SamLayeredCreateStress(SamGrid grid, const SamFourierSettings *settings, PetscInt number,
+                                                   SamBody body, SamStress *stress);
 
 /*
   SamSpline - functions of s >= 0 as polynomials of degree 9 on intervals: from 0 to `least`, then eight to each factor
@@ -94,7 +93,7 @@ typedef struct {
   double    depth; /* 2 h, h the thinner of both bodies' first layers: differences fall like exp(-depth k) */
   SamSpline symbols, radial, line;
 } * SamLayered;
-PETSC_INTERN PetscErrorCode SamLayeredCreate(const SamPair *pair, SamLayered *layered);
+PETSC_INTERN PetscErrorCode SamLayeredCreate(SamPair pair, SamLayered *layered);
 PETSC_INTERN PetscErrorCode SamLayeredReference(SamLayered from, SamLayered *to); /* in the place of another */
 PETSC_INTERN PetscErrorCode SamLayeredDestroy(SamLayered *layered);
 PETSC_INTERN PetscErrorCode SamLayeredPrepare(SamLayered layered, double r, const double k[2]);

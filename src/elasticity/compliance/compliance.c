@@ -420,7 +420,8 @@ static PetscErrorCode NotePatch(SamElasticity e, const SamOptions *from, SamComp
 /* The kernel to which the compliance is added must be the one from which it was computed. */
 static PetscErrorCode CheckConstants(SamElasticity e, const SamOptions *from, SamCompliance c)
 {
-  const double young = (double)e->pair.young[c->body], poisson = (double)e->pair.poisson[c->body];
+  const SamMaterial *bulk  = SamBodyBulk(e->pair->body[c->body]);
+  const double       young = (double)bulk->young, poisson = (double)bulk->poisson;
 
   PetscFunctionBegin;
   PetscCheck(young == c->young || fabs(young - c->young) <= 1e-6 * c->young, from->comm, SAM_ERR_USER,
@@ -452,7 +453,7 @@ static PetscErrorCode Add(SamElasticity *elasticity, const SamOptions *from, Pet
     *elasticity     = e;
     e->traits.patch = PETSC_TRUE;
   }
-  PetscCall(SamComplianceRead(from->comm, b, &e->pair.layers[b], option, file, &c));
+  PetscCall(SamComplianceRead(from->comm, b, e->pair->body[b], option, file, &c));
   ((Bodies *)e->data)->of[b] = c;
   PetscCall(CheckConstants(e, from, c));
   PetscCall(NotePatch(e, from, c));

@@ -50,21 +50,23 @@ static PetscErrorCode FillTable(SamElasticity e, double table[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The lower triangle of K of the half-space, with its layers, under a rigid body, by columns. */
-static PetscErrorCode Fill(SamCompliance c, const SamLayers *layers, const double d[2], double matrix[])
+/* The lower triangle of K of the body under a rigid one, by columns. */
+static PetscErrorCode Fill(SamBody body, const double d[2], double matrix[])
 {
-  const PetscReal young[2] = {INFINITY, c->young}, poisson[2] = {0, c->poisson};
-  const PetscReal width[2] = {LAGS * d[0], LAGS * d[1]}, center[2] = {0, 0};
-  const SamLayers both[2] = {{.count = 0}, *layers};
-  SamElasticity   e;
-  SamGrid         grid;
-  SamPair         pair;
-  double         *table;
+  const PetscReal   width[2] = {LAGS * d[0], LAGS * d[1]}, center[2] = {0, 0};
+  const SamMaterial rigid = {.young = PETSC_INFINITY};
+  SamElasticity     e;
+  SamGrid           grid;
+  SamBody           above;
+  SamPair           pair;
+  double           *table;
 
   PetscFunctionBegin;
-  PetscCall(SamPairSetLayered(&pair, young, poisson, both));
+  PetscCall(SamBodyCreate(1, &rigid, &above));
+  PetscCall(SamPairCreate(above, body, &pair));
+  PetscCall(SamBodyDestroy(&above));
   PetscCall(SamGridCreate(PETSC_COMM_SELF, (PetscInt[]){LAGS, LAGS}, width, center, &grid));
-  PetscCall(SamElasticityCreate(grid, &pair, &e));
+  PetscCall(SamElasticityCreate(grid, pair, &e));
   PetscCall(SamElasticitySetType(e, SAM_ELASTICITY_HALFSPACE));
   PetscCall(PetscCalloc1(9 * TABLE, &table));
   PetscCall(FillTable(e, table));
@@ -77,6 +79,7 @@ static PetscErrorCode Fill(SamCompliance c, const SamLayers *layers, const doubl
     }
   PetscCall(PetscFree(table));
   PetscCall(SamElasticityDestroy(&e));
+  PetscCall(SamPairDestroy(&pair));
   PetscCall(SamGridDestroy(&grid));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -99,7 +102,7 @@ static void FillMeans(SamCompliance c, const double d[2], double means[])
 }
 
 /* The compliance of the tractions on the cells relative to the half-space's, less the identity: D G. */
-static PetscErrorCode CreateRelative(SamCompliance c, const SamLayers *layers, Mat d, PetscInt n, Mat *relative)
+static PetscErrorCode CreateRelative(SamCompliance c, SamBody body, Mat d, PetscInt n, Mat *relative)
 {
   const double side[2] = {2 * c->half[0] / SIDE, 2 * c->half[1] / SIDE};
   Mat          matrix, means, solved, g;
@@ -109,7 +112,7 @@ static PetscErrorCode CreateRelative(SamCompliance c, const SamLayers *layers, M
   PetscCall(MatCreateSeqDense(PETSC_COMM_SELF, UNKNOWNS, UNKNOWNS, NULL, &matrix));
   PetscCall(MatCreateSeqDense(PETSC_COMM_SELF, UNKNOWNS, n, NULL, &means));
   PetscCall(MatDenseGetArray(matrix, &values));
-  PetscCall(Fill(c, layers, side, values));
+  PetscCall(Fill(body, side, values));
   PetscCall(MatDenseRestoreArray(matrix, &values));
   PetscCall(MatDenseGetArray(means, &values));
   FillMeans(c, side, values);
@@ -153,7 +156,7 @@ static PetscErrorCode FindEnds(Mat matrix, PetscInt n, double *least, double *mo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamComplianceEnds(SamCompliance c, const SamLayers *layers, double *least, double *most)
+PetscErrorCode SamComplianceEnds(SamCompliance c, SamBody of, double *least, double *most)
 {
   const PetscInt n = 3 * c->modes;
   double        *values, entry = 0;
@@ -168,7 +171,7 @@ PetscErrorCode SamComplianceEnds(SamCompliance c, const SamLayers *layers, doubl
     entry     = PetscMax(entry, fabs(values[k]));
   }
   PetscCall(MatDenseRestoreArray(d, &values));
-  if (!isinf(c->young)) PetscCall(CreateRelative(c, layers, d, n, &relative));
+  if (!isinf(c->young)) PetscCall(CreateRelative(c, of, d, n, &relative));
   PetscCall(MatNorm(relative ? relative : d, NORM_FROBENIUS, &norm));
   *least = *most = NAN; /* of what is not finite, by which LAPACK would end the process with exit code 0 */
   if (isfinite(norm)) PetscCall(FindEnds(relative ? relative : d, n, least, most));

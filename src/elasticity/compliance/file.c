@@ -330,8 +330,8 @@ static PetscErrorCode Look(SamFile f, const void *question, void *answer)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamComplianceRead(MPI_Comm comm, PetscInt body, const SamLayers *layers, const char option[],
-                                 const char file[], SamCompliance *compliance)
+PetscErrorCode SamComplianceRead(MPI_Comm comm, PetscInt body, SamBody of, const char option[], const char file[],
+                                 SamCompliance *compliance)
 {
   SamCompliance c;
   double        least, most;
@@ -345,7 +345,7 @@ PetscErrorCode SamComplianceRead(MPI_Comm comm, PetscInt body, const SamLayers *
   c->references = 1;
   c->body       = body;
   PetscCall(PetscStrncpy(c->file, file, sizeof(c->file)));
-  PetscCall(SamComplianceEnds(c, layers, &least, &most));
+  PetscCall(SamComplianceEnds(c, of, &least, &most));
   PetscCheck(least > 0 || (isinf(c->young) && least == 0), comm, SAM_ERR_FILE,
              "-%s %s: under some traction the body would gain energy: the smallest eigenvalue of its compliance is "
              "%.3g of the half-space's, degree %" PetscInt_FMT ", patch %.6g m x %.6g m: use a higher degree or a "

@@ -40,7 +40,7 @@ static Coefficients GetCoefficients(SamElasticity e, Kind kind)
                                              {SAM_INTEGRAL_XY},
                                              {SAM_INTEGRAL_X},
                                              {SAM_INTEGRAL_Y}};
-  const SamPair           *p              = &e->pair;
+  const SamPair            p              = e->pair;
   const double             factors[][2]   = {{p->normal},   {p->shear, p->shear_xx}, {p->shear, p->shear_xx},
                                              {p->shear_xx}, {p->coupling},           {p->coupling}};
 
@@ -253,9 +253,9 @@ static PetscErrorCode ApplyTangentialSingle(SamElasticity e, double factor, cons
 /* ---- the spectral preconditioner ---- */
 
 /*
-  On an infinite surface a wave of pressure exp(i k.x) gives the displacement 2 pi A/|k| times itself, A = pair.normal,
+  On an infinite surface a wave of pressure exp(i k.x) gives the displacement 2 pi A/|k| times itself, A = pair->normal,
   so that |k| is the inverse up to a factor. For shear the symbol is (2 pi (A + B)/|k|)(I - nu kk'/|k|^2), B =
-  pair.shear_xx, nu = B/(A + B), with the inverse (|k|/(2 pi (A + B)))(I + nu/(1 - nu) kk'/|k|^2). Here they act on the
+  pair->shear_xx, nu = B/(A + B), with the inverse (|k|/(2 pi (A + B)))(I + nu/(1 - nu) kk'/|k|^2). Here they act on the
   grid made periodic, which costs a quarter of a padded transform and needs as few iterations. The symbol is
   recomputed each time. Single precision suffices for an approximation. `local`: A or A + B. Layered bodies have symbols
   out of tables, which are all of the gain but the transforms' part.
@@ -272,11 +272,11 @@ static PetscErrorCode Precondition(SamElasticity e, PetscInt n, double factor, d
   s.step[1] = e->traits.plane ? s.step[0] : 2 * PETSC_PI / (double)hy * e->grid->length / e->grid->dy;
   s.gain    = factor / (2 * PETSC_PI * local * (double)hx * (double)hy * e->grid->length);
   s.mean    = 0.5 * PetscMin(s.step[0], s.step[1]);
-  s.film    = SamPairFilm(&e->pair) / (2 * PETSC_PI * local * e->grid->length);
+  s.film    = SamPairFilm(e->pair) / (2 * PETSC_PI * local * e->grid->length);
   if (layers) {
     PetscCall(SamLayeredSymbolSet(layers, e->grid->length, hx, hy, &s));
     s.gain     = factor / ((double)hx * (double)hy * e->grid->length);
-    s.film     = SamPairFilm(&e->pair) / e->grid->length;
+    s.film     = SamPairFilm(e->pair) / e->grid->length;
     s.inverse  = PETSC_TRUE;
     s.multiply = n == 1 ? SamLayeredMultiplyNormalSingle : SamLayeredMultiplyTangentialSingle;
   }
@@ -336,20 +336,20 @@ SAM_VECTORIZED static void DivideSlip(const SamSymbol *s, SamWaves at)
 
 static PetscErrorCode PreconditionNormal(SamElasticity e, double factor, const float *const r[], float *const p[])
 {
-  return Precondition(e, 1, factor, e->pair.normal, (SamSymbol){.multiply = SamSymbolDivideNormal}, r, p);
+  return Precondition(e, 1, factor, e->pair->normal, (SamSymbol){.multiply = SamSymbolDivideNormal}, r, p);
 }
 
 static PetscErrorCode PreconditionTangential(SamElasticity e, double factor, const float *const r[], float *const q[])
 {
-  const SamSymbol s = {.nu = e->pair.shear_xx / e->pair.shear, .multiply = DivideTangential};
+  const SamSymbol s = {.nu = e->pair->shear_xx / e->pair->shear, .multiply = DivideTangential};
 
-  return Precondition(e, 2, factor, e->pair.shear + e->pair.shear_xx, s, r, q);
+  return Precondition(e, 2, factor, e->pair->shear + e->pair->shear_xx, s, r, q);
 }
 
 static PetscErrorCode PreconditionSlip(SamElasticity e, double factor, const float *const r[], float *const q[])
 {
-  const double    local = e->pair.shear + e->pair.shear_xx;
-  const SamSymbol s     = {.nu       = e->pair.shear_xx / e->pair.shear,
+  const double    local = e->pair->shear + e->pair->shear_xx;
+  const SamSymbol s     = {.nu       = e->pair->shear_xx / e->pair->shear,
                            .lag      = e->grid->dx / e->grid->length,
                            .slip     = factor / (2 * PETSC_PI * local * e->grid->length),
                            .multiply = DivideSlip};
@@ -368,8 +368,10 @@ static PetscErrorCode Inherit(SamElasticity parent, SamElasticity child)
 static PetscErrorCode CreateStress(SamElasticity e, PetscInt body, const SamFourierSettings *settings,
                                    SamStress *stress)
 {
-  if (e->pair.layers[body - 1].count) return SamLayeredCreateStress(e->grid, settings, body, &e->pair, stress);
-  return SamHalfSpaceCreateStress(e->grid, settings, body, e->pair.young[body - 1], e->pair.poisson[body - 1], stress);
+  const SamBody of = e->pair->body[body - 1];
+
+  if (of->count > 1) return SamLayeredCreateStress(e->grid, settings, body, of, stress);
+  return SamHalfSpaceCreateStress(e->grid, settings, body, of->material[0].young, of->material[0].poisson, stress);
 }
 
 static PetscErrorCode SetUp(SamElasticity e)
@@ -393,9 +395,9 @@ PetscErrorCode SamElasticityCreate_HalfSpace(SamElasticity e)
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&data));
-  if (SamPairHasLayers(&e->pair)) PetscCall(SamLayeredCreate(&e->pair, &data->layers));
+  if (!SamPairIsUniform(e->pair)) PetscCall(SamLayeredCreate(e->pair, &data->layers));
   e->data   = data;
-  e->traits = (SamElasticityTraits){.coupled   = SamElasticityPairIsCoupled(&e->pair),
+  e->traits = (SamElasticityTraits){.coupled   = SamPairIsCoupled(e->pair),
                                     .stretch   = PETSC_TRUE,
                                     .rotations = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE},
                                     .mean      = PETSC_TRUE,

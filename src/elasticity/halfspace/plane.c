@@ -24,13 +24,13 @@ static double LeastDatum(SamElasticity e)
   double       farthest            = half_plane, limit[SAM_LAYERED_SYMBOLS], difference[SAM_LAYERED_SYMBOLS],
          sums[SAM_LAYERED_SYMBOLS] = {0};
 
-  if (!SamPairHasLayers(&e->pair)) return width / 2;
-  SamLayeredSymbols(&e->pair, 0, exp(2 * LONG) / width, limit, difference);
+  if (SamPairIsUniform(e->pair)) return width / 2;
+  SamPairSymbols(e->pair, exp(2 * LONG) / width, limit, difference);
   for (double x = LONG; x < SHORT; x += STEP) {
     const double k = exp(x), sinc = sin(k / 2) / (k / 2);
     double       c[SAM_LAYERED_SYMBOLS];
 
-    SamLayeredSymbols(&e->pair, 0, k / width, c, difference);
+    SamPairSymbols(e->pair, k / width, c, difference);
     for (int s = 0; s < SAM_LAYERED_SYMBOLS; s++) sums[s] += STEP * (c[s] * sinc * sinc - limit[s] / (1 + k * k));
   }
   /* on rigid bases there is no logarithm */
@@ -46,8 +46,8 @@ static PetscErrorCode CheckDatum(SamElasticity e, PetscErrorCode error, const ch
 
   PetscFunctionBegin;
   PetscCheck(datum >= least && isfinite(datum), e->grid->comm, error, "%s%s" DATUM " %.6g: give at least %s%.6g m%s",
-             source, before, datum, SamPairHasLayers(&e->pair) ? "" : "half the grid's width, ", least,
-             SamPairHasLayers(&e->pair) ? ", nearer than which loads pull these layers towards them" : "");
+             source, before, datum, SamPairIsUniform(e->pair) ? "half the grid's width, " : "", least,
+             SamPairIsUniform(e->pair) ? "" : ", nearer than which loads pull these layers towards them");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

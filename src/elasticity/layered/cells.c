@@ -199,17 +199,17 @@ PetscErrorCode SamRadialSetUp(void)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamLayeredCreate(const SamPair *pair, SamLayered *layered)
+PetscErrorCode SamLayeredCreate(SamPair pair, SamLayered *layered)
 {
   PetscFunctionBegin;
   PetscCall(SamRadialSetUp());
   PetscCall(PetscNew(layered));
   (*layered)->references = 1;
-  (*layered)->pair       = *pair;
   (*layered)->depth      = PETSC_INFINITY;
-  for (PetscInt b = 0; b < 2; b++)
-    if (pair->layers[b].count)
-      (*layered)->depth = PetscMin((*layered)->depth, 2 * (double)pair->layers[b].thickness[0]);
+  for (int b = 0; b < 2; b++)
+    (*layered)->depth = PetscMin((*layered)->depth, 2 * (double)pair->body[b]->material[0].thickness);
+  PetscCall(SamPairReference(pair));
+  (*layered)->pair = pair;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -232,6 +232,7 @@ PetscErrorCode SamLayeredDestroy(SamLayered *layered)
   PetscCall(SamSplineDestroy(&l->symbols));
   PetscCall(SamSplineDestroy(&l->radial));
   PetscCall(SamSplineDestroy(&l->line));
+  PetscCall(SamPairDestroy(&l->pair));
   PetscCall(PetscFree(l));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -249,7 +250,7 @@ static void DifferencesAt(const void *context, double k, double values[])
 {
   double total[SAM_LAYERED_SYMBOLS], difference[SAM_LAYERED_SYMBOLS];
 
-  SamLayeredSymbols(&((SamLayered)context)->pair, 0, k, total, difference);
+  SamPairSymbols(((SamLayered)context)->pair, k, total, difference);
   Combine(difference, values);
 }
 
@@ -259,12 +260,12 @@ static SamRadialSource SourceOf(SamLayered l)
   SamRadialSource of = {.functions = SAM_LAYERED_SYMBOLS, .depth = l->depth, .context = l};
 
   for (PetscInt b = 0; b < 2; b++) {
-    double total[SAM_LAYERED_SYMBOLS];
+    const SamBody body                       = l->pair->body[b];
+    double        total[SAM_LAYERED_SYMBOLS] = {0};
 
-    of.thickness[b] = (double)SamLayersDepth(&l->pair.layers[b], l->pair.layers[b].count);
+    of.thickness[b] = (double)SamBodyTop(body, body->count - 1);
     of.longest      = PetscMax(of.longest, of.thickness[b]);
-    SamLayeredSymbols(&l->pair, b + 1, SAM_LONG_WAVE / PetscMax(of.thickness[b], l->depth), total, of.image[b]);
-    if (!b) of.image[b][SAM_LAYERED_ZR] = -of.image[b][SAM_LAYERED_ZR];
+    SamBodySymbols(body, b ? 1 : -1, SAM_LONG_WAVE / PetscMax(of.thickness[b], l->depth), total, of.image[b]);
   }
   return of;
 }
@@ -307,7 +308,7 @@ static void RestsAt(const void *context, double k, double values[])
   double      total[SAM_LAYERED_SYMBOLS];
 
   k = PetscMax(k, PROPORTIONAL / rest->of.longest);
-  SamLayeredSymbols(&rest->l->pair, 0, k, total, values);
+  SamPairSymbols(rest->l->pair, k, total, values);
   for (int s = 0; s < SAM_LAYERED_SYMBOLS; s++) {
     for (int b = 0; b < 2; b++) values[s] -= rest->of.image[b][s] * exp(-k * rest->of.thickness[b]);
     values[s] /= k;
@@ -374,7 +375,7 @@ static void SymbolsAt(const void *context, double k2, double values[])
 {
   double difference[SAM_LAYERED_SYMBOLS];
 
-  SamLayeredSymbols(&((SamLayered)context)->pair, 0, sqrt(k2), values, difference);
+  SamPairSymbols(((SamLayered)context)->pair, sqrt(k2), values, difference);
 }
 
 PetscErrorCode SamLayeredPrepare(SamLayered l, double r, const double k[2])

@@ -52,22 +52,23 @@ static PetscBool IsPart(const SamTable *t, const PetscInt column[COLUMNS], Petsc
   return ValueOf(t, column, k + 1, DEPTH) > ValueOf(t, column, k, DEPTH) ? PETSC_TRUE : PETSC_FALSE;
 }
 
-static void AddLayers(const SamTable *t, const PetscInt column[COLUMNS], PetscInt k, PetscInt count, SamLayers *layers)
+static void AddLayers(const SamTable *t, const PetscInt column[COLUMNS], PetscInt k, PetscInt count,
+                      SamMaterial layers[])
 {
   const double from      = ValueOf(t, column, k, DEPTH),
                thickness = (ValueOf(t, column, k + 1, DEPTH) - from) / (double)count;
 
-  for (PetscInt n = 0; n < count; n++, layers->count++) {
+  for (PetscInt n = 0; n < count; n++) {
     const double at = ((double)n + 0.5) / (double)count;
 
-    layers->thickness[layers->count] = thickness;
-    layers->young[layers->count]     = (1 - at) * ValueOf(t, column, k, YOUNG) + at * ValueOf(t, column, k + 1, YOUNG);
-    layers->poisson[layers->count] =
-      (1 - at) * ValueOf(t, column, k, POISSON) + at * ValueOf(t, column, k + 1, POISSON);
+    layers[n].thickness = thickness;
+    layers[n].young     = (1 - at) * ValueOf(t, column, k, YOUNG) + at * ValueOf(t, column, k + 1, YOUNG);
+    layers[n].poisson   = (1 - at) * ValueOf(t, column, k, POISSON) + at * ValueOf(t, column, k + 1, POISSON);
   }
 }
 
-PetscErrorCode SamLayersReadFile(const SamOptions *from, const char option[], SamLayers *layers, PetscBool *set)
+PetscErrorCode SamBodyReadProfile(const SamOptions *from, const char option[], SamMaterial layers[], PetscInt *count,
+                                  PetscBool *set)
 {
   static const char *const names[COLUMNS + 1]       = {"depth", "young", "poisson", NULL};
   char                     file[PETSC_MAX_PATH_LEN] = "", name[96];
@@ -91,15 +92,16 @@ PetscErrorCode SamLayersReadFile(const SamOptions *from, const char option[], Sa
     parts += IsPart(&t, column, k) ? 1 : 0;
     change += IsPart(&t, column, k) ? ChangeOf(&t, column, k) : 0;
   }
-  PetscCheck(parts <= SAM_LAYERS, from->comm, SAM_ERR_USER, "%s: has %d rows: expected at most %d", file, (int)t.rows,
-             SAM_LAYERS);
+  PetscCheck(parts <= (SAM_MATERIALS - 1), from->comm, SAM_ERR_USER, "%s: has %d rows: expected at most %d", file,
+             (int)t.rows, SAM_MATERIALS - 1);
   for (PetscInt k = 0, shared = 0; k + 1 < t.rows; k++) {
     PetscInt share;
 
     if (!IsPart(&t, column, k)) continue;
     done += ChangeOf(&t, column, k);
-    share = change > 0 ? (PetscInt)floor((double)(SAM_LAYERS - parts) * (done / change) + 1e-9) : 0;
-    AddLayers(&t, column, k, 1 + share - shared, layers);
+    share = change > 0 ? (PetscInt)floor((double)((SAM_MATERIALS - 1) - parts) * (done / change) + 1e-9) : 0;
+    AddLayers(&t, column, k, 1 + share - shared, layers + *count);
+    *count += 1 + share - shared;
     shared = share;
   }
   PetscCall(SamTableDestroy(&t));

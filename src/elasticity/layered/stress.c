@@ -35,26 +35,21 @@
 #define THICK       8    /* cells of the first layer on which edges are those of a half-space */
 
 typedef struct {
-  SamPair   pair;
-  PetscInt  body, layer; /* the layer at the depth in use; the number of layers: the substrate */
-  double    z;           /* below the layer's top, m */
-  double    depth, base; /* in use, -1: none; of all layers */
+  SamBody   body;
+  PetscInt  material;    /* at the depth in use */
+  double    z;           /* below the material's top, m */
+  double    depth, base; /* in use, -1: none; at which the last material begins */
   double    decay;       /* functions fall like exp(-decay k), m */
   SamSpline table;
 } Layered;
-
-static const SamLayers *LayersOf(const Layered *l)
-{
-  return &l->pair.layers[l->body - 1];
-}
 
 /* ---- the functions ---- */
 
 static void StressesAt(const Layered *l, double k, double s[SAM_LAYERED_STRESSES])
 {
-  const double least = isinf(l->pair.young[l->body - 1]) ? LONG_WAVE / l->base : 0;
+  const double least = isinf(SamBodyBulk(l->body)->young) ? LONG_WAVE / l->base : 0;
 
-  SamLayeredStresses(&l->pair, l->body, l->layer, l->z, PetscMax(k, least), s);
+  SamBodyStresses(l->body, l->material, l->z, PetscMax(k, least), s);
 }
 
 static void FunctionsAt(const void *context, double k, double g[])
@@ -98,11 +93,11 @@ static PetscErrorCode UseDepth(SamStress stress, PetscReal depth)
   PetscFunctionBegin;
   if ((double)depth == l->depth) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamSplineDestroy(&l->table));
-  l->depth = (double)depth;
-  l->layer = SamLayersAt(LayersOf(l), depth);
-  l->z     = l->depth - (double)SamLayersDepth(LayersOf(l), l->layer);
-  l->decay = l->layer ? l->depth : 2 * (double)LayersOf(l)->thickness[0] - l->z;
-  PetscCheck(l->layer < LayersOf(l)->count || !isinf(l->pair.young[l->body - 1]), grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
+  l->depth    = (double)depth;
+  l->material = SamBodyAt(l->body, depth);
+  l->z        = l->depth - (double)SamBodyTop(l->body, l->material);
+  l->decay    = l->material ? l->depth : 2 * (double)l->body->material[0].thickness - l->z;
+  PetscCheck(!isinf(l->body->material[l->material].young), grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
              "Depth %.6g m: it is in the rigid base", l->depth);
   of.depth   = l->decay;
   of.longest = PetscMax(l->base, l->depth);
@@ -218,7 +213,7 @@ static void Row(SamStress stress, const double side[2], double depth, SamStressG
 {
   const Layered           *l      = (const Layered *)stress->data;
   const PetscBool          line   = stress->grid->axes == 1 ? PETSC_TRUE : PETSC_FALSE;
-  const SamHalfSpaceSource source = {{side[0], line ? INFINITY : side[1]}, depth, (double)LayersOf(l)->poisson[0]};
+  const SamHalfSpaceSource source = {{side[0], line ? INFINITY : side[1]}, depth, (double)l->body->material[0].poisson};
   const SamRadialKernels   of     = {.table   = &l->table,
                                      .depth   = l->decay,
                                      .kernels = SAM_STRESS_GROUP,
@@ -227,8 +222,8 @@ static void Row(SamStress stress, const double side[2], double depth, SamStressG
 
   for (int k = 0; k < SAM_STRESS_GROUP; k++) PetscCallVoid(PetscArrayzero(values[k], n));
   if (line && j > 0) return; /* there is one row */
-  if (!l->layer && group != SAM_STRESS_NORMAL_Z) SamHalfSpaceStressRow(&source, group, j, n, values);
-  if (!l->layer && group == SAM_STRESS_NORMAL_Z) {
+  if (!l->material && group != SAM_STRESS_NORMAL_Z) SamHalfSpaceStressRow(&source, group, j, n, values);
+  if (!l->material && group == SAM_STRESS_NORMAL_Z) {
     /* what p does to xz and yz */
     double *const rows[] = {values[2], values[0], values[1]};
 
@@ -246,35 +241,35 @@ static void Row(SamStress stress, const double side[2], double depth, SamStressG
 
 static void GetConstants(SamStress stress, PetscReal depth, PetscReal *young, PetscReal *poisson)
 {
-  const Layered  *l        = (const Layered *)stress->data;
-  const PetscInt  n        = SamLayersAt(LayersOf(l), depth);
-  const PetscBool in_layer = (PetscBool)(n < LayersOf(l)->count);
+  const SamBody      body = ((const Layered *)stress->data)->body;
+  const SamMaterial *m    = &body->material[SamBodyAt(body, depth)];
 
-  *young   = in_layer ? LayersOf(l)->young[n] : l->pair.young[l->body - 1];
-  *poisson = in_layer ? LayersOf(l)->poisson[n] : l->pair.poisson[l->body - 1];
+  *young   = m->young;
+  *poisson = m->poisson;
 }
 
 static PetscErrorCode Destroy(SamStress stress)
 {
   PetscFunctionBegin;
   PetscCall(SamSplineDestroy(&((Layered *)stress->data)->table));
+  PetscCall(SamBodyDestroy(&((Layered *)stress->data)->body));
   PetscCall(PetscFree(stress->data));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamLayeredCreateStress(SamGrid grid, const SamFourierSettings *settings, PetscInt body,
-                                      const SamPair *pair, SamStress *stress)
+PetscErrorCode SamLayeredCreateStress(SamGrid grid, const SamFourierSettings *settings, PetscInt number, SamBody body,
+                                      SamStress *stress)
 {
   Layered *l;
   int      thick;
 
   PetscFunctionBegin;
   PetscCall(SamRadialSetUp());
-  PetscCall(SamStressCreate(grid, settings, body, stress));
+  PetscCall(SamStressCreate(grid, settings, number, stress));
   PetscCall(PetscNew(&l));
-  *l                = (Layered){.pair = *pair, .body = body, .depth = -1};
-  l->base           = (double)SamLayersDepth(LayersOf(l), LayersOf(l)->count);
-  thick             = LayersOf(l)->thickness[0] >= THICK * grid->side[1];
+  PetscCall(SamBodyReference(body));
+  *l                = (Layered){.body = body, .depth = -1, .base = (double)SamBodyTop(body, body->count - 1)};
+  thick             = body->material[0].thickness >= THICK * grid->side[1];
   (*stress)->data   = l;
   (*stress)->groups = SAM_STRESS_GROUPS;
   (*stress)->ops    = (SamStressOps){.row          = Row,

@@ -53,12 +53,12 @@ typedef struct {
   Matrix D, A, mirror_D, mirror_A, half_space;
 } Material;
 
-static Material MaterialOf(double young, double poisson)
+static Material MaterialOf(const SamMaterial *of)
 {
-  const double mu = young / (2 * (1 + poisson));
-  Material     m  = {.mu = mu,
-                     .D  = {{{1, 0}, {1, 3 - 4 * poisson}}},
-                     .A  = {{{-2 * mu, -2 * mu * (1 - 2 * poisson)}, {-2 * mu, -4 * mu * (1 - poisson)}}}};
+  const double poisson = (double)of->poisson, mu = (double)of->young / (2 * (1 + poisson));
+  Material     m = {.mu = mu,
+                    .D  = {{{1, 0}, {1, 3 - 4 * poisson}}},
+                    .A  = {{{-2 * mu, -2 * mu * (1 - 2 * poisson)}, {-2 * mu, -4 * mu * (1 - poisson)}}}};
 
   for (int j = 0; j < 2; j++) {
     m.mirror_D.m[0][j] = m.D.m[0][j];
@@ -110,12 +110,12 @@ static void AddLayer(Surface *s, const Material *m, double kh)
   s->across            = 1 / m->mu + s->difference_across;
 }
 
-static Surface SubstrateOf(const SamPair *pair, PetscInt b)
+static Surface SubstrateOf(SamBody body)
 {
   Surface s = {.across = 0};
 
-  if (!isinf(pair->young[b])) {
-    const Material m = MaterialOf(pair->young[b], pair->poisson[b]);
+  if (!isinf(SamBodyBulk(body)->young)) {
+    const Material m = MaterialOf(SamBodyBulk(body));
 
     s.compliance = m.half_space;
     s.across     = 1 / m.mu;
@@ -123,38 +123,40 @@ static Surface SubstrateOf(const SamPair *pair, PetscInt b)
   return s;
 }
 
-static Surface SurfaceOf(const SamPair *pair, PetscInt b, double k)
+/* The surface of a body; `below`: also what lies below the n-th material at n + 1, NULL: not wanted. */
+static Surface SurfaceOf(SamBody body, double k, Surface below[])
 {
-  const SamLayers *layers = &pair->layers[b];
-  Surface          s      = SubstrateOf(pair, b);
+  Surface s = SubstrateOf(body);
 
-  for (PetscInt n = layers->count - 1; n >= 0; n--) {
-    const Material m = MaterialOf(layers->young[n], layers->poisson[n]);
+  for (PetscInt n = body->count - 1; n > 0; n--) {
+    const Material m = MaterialOf(&body->material[n - 1]);
 
-    AddLayer(&s, &m, k * layers->thickness[n]);
+    if (below) below[n] = s;
+    AddLayer(&s, &m, k * body->material[n - 1].thickness);
   }
   return s;
 }
 
-void SamLayeredSymbols(const SamPair *pair, PetscInt body, double k, double total[SAM_LAYERED_SYMBOLS],
-                       double difference[SAM_LAYERED_SYMBOLS])
+void SamBodySymbols(SamBody body, double sign, double k, double total[SAM_LAYERED_SYMBOLS],
+                    double difference[SAM_LAYERED_SYMBOLS])
+{
+  const Surface s = SurfaceOf(body, k, NULL);
+
+  for (int part = 0; part < 2; part++) {
+    const Matrix *m  = part ? &s.difference : &s.compliance;
+    double       *to = part ? difference : total;
+
+    to[SAM_LAYERED_ZZ] -= m->m[1][1];
+    to[SAM_LAYERED_ZR] -= sign * m->m[1][0];
+    to[SAM_LAYERED_RR] -= m->m[0][0];
+    to[SAM_LAYERED_TT] += part ? s.difference_across : s.across;
+  }
+}
+
+void SamPairSymbols(SamPair pair, double k, double total[SAM_LAYERED_SYMBOLS], double difference[SAM_LAYERED_SYMBOLS])
 {
   for (int c = 0; c < SAM_LAYERED_SYMBOLS; c++) total[c] = difference[c] = 0;
-  for (PetscInt b = 0; b < 2; b++) {
-    const double  sign = !body && b == 0 ? -1 : 1; /* of the coupling */
-    const Surface s    = SurfaceOf(pair, b, k);
-
-    if (body && b != body - 1) continue;
-    for (int part = 0; part < 2; part++) {
-      const Matrix *m  = part ? &s.difference : &s.compliance;
-      double       *to = part ? difference : total;
-
-      to[SAM_LAYERED_ZZ] -= m->m[1][1];
-      to[SAM_LAYERED_ZR] -= sign * m->m[1][0];
-      to[SAM_LAYERED_RR] -= m->m[0][0];
-      to[SAM_LAYERED_TT] += part ? s.difference_across : s.across;
-    }
-  }
+  for (int b = 0; b < 2; b++) SamBodySymbols(pair->body[b], b ? 1 : -1, k, total, difference);
 }
 
 /* ---- stresses ---- */
@@ -188,38 +190,29 @@ static void CombineStresses(double mu, double nu, Matrix moved, Matrix stress, d
 }
 
 /* In the substrate, at the depth z below its top. */
-static void Below(const SamPair *pair, PetscInt b, Wave top, double kz, double s[SAM_LAYERED_STRESSES])
+static void Below(const SamMaterial *of, Wave top, double kz, double s[SAM_LAYERED_STRESSES])
 {
-  const Material m = MaterialOf(pair->young[b], pair->poisson[b]);
+  const Material m = MaterialOf(of);
   const Matrix   a = Times(Decay(kz), Times(Inverse(m.A), top.stress));
   const double   v = -top.across / m.mu * exp(-kz);
 
-  CombineStresses(m.mu, pair->poisson[b], Times(m.D, a), Times(m.A, a), v, -m.mu * v, s);
+  CombineStresses(m.mu, of->poisson, Times(m.D, a), Times(m.A, a), v, -m.mu * v, s);
 }
 
-void SamLayeredStresses(const SamPair *pair, PetscInt body, PetscInt layer, double z, double k,
-                        double s[SAM_LAYERED_STRESSES])
+void SamBodyStresses(SamBody body, PetscInt material, double z, double k, double s[SAM_LAYERED_STRESSES])
 {
-  const PetscInt   b      = body - 1;
-  const SamLayers *layers = &pair->layers[b];
-  Surface          below[SAM_LAYERS + 1]; /* each layer */
-  Wave             top = {{{{0, -1}, {-1, 0}}}, -1};
+  Surface below[SAM_MATERIALS]; /* a material, at its number + 1 */
+  Wave    top = {{{{0, -1}, {-1, 0}}}, -1};
 
-  below[layers->count] = SubstrateOf(pair, b);
-  for (PetscInt n = layers->count - 1; n >= 0; n--) {
-    const Material m = MaterialOf(layers->young[n], layers->poisson[n]);
-
-    below[n] = below[n + 1];
-    AddLayer(&below[n], &m, k * layers->thickness[n]);
-  }
-  for (PetscInt n = 0; n < layers->count; n++) {
-    const Material   m  = MaterialOf(layers->young[n], layers->poisson[n]);
-    const double     kh = k * layers->thickness[n];
+  (void)SurfaceOf(body, k, below);
+  for (PetscInt n = 0; n + 1 < body->count; n++) {
+    const Material   m  = MaterialOf(&body->material[n]);
+    const double     kh = k * body->material[n].thickness;
     const Reflection r  = ReflectionOf(&below[n + 1], &m, kh);
     const Matrix a = Times(Inverse(Plus(m.A, 1, Times(m.mirror_A, r.P))), top.stress), b_ = Times(r.R, Times(r.F, a));
     const double v = -top.across / (m.mu * (1 - r.g));
 
-    if (n == layer) {
+    if (n == material) {
       const PetscBool first = (PetscBool)(n == 0);
       const Matrix    down  = Times(Decay(k * z),
                                 first ? Plus((Matrix){{{0}}}, -1, Times(Inverse(m.A), Times(m.mirror_A, Times(r.P, a))))
@@ -227,12 +220,12 @@ void SamLayeredStresses(const SamPair *pair, PetscInt body, PetscInt layer, doub
                    up       = Times(Decay(kh - k * z), b_);
       const double v_down = (first ? r.g : 1) * v * exp(-k * z), v_up = r.rho * v * exp(k * z - 2 * kh);
 
-      CombineStresses(m.mu, layers->poisson[n], Plus(Times(m.D, down), 1, Times(m.mirror_D, up)),
+      CombineStresses(m.mu, body->material[n].poisson, Plus(Times(m.D, down), 1, Times(m.mirror_D, up)),
                       Plus(Times(m.A, down), 1, Times(m.mirror_A, up)), v_down + v_up, m.mu * (v_up - v_down), s);
       return;
     }
     top.stress = Plus(Times(m.A, Times(r.F, a)), 1, Times(m.mirror_A, b_));
     top.across = m.mu * v * exp(-kh) * (r.rho - 1);
   }
-  Below(pair, b, top, k * z, s);
+  Below(SamBodyBulk(body), top, k * z, s);
 }

@@ -61,6 +61,6 @@ PetscErrorCode SamLayeredSymbolSet(SamLayered layered, PetscReal length, PetscIn
   PetscCall(SamLayeredPrepare(layered, 0, k));
   s->table = &layered->symbols;
   s->unit  = 1 / (length * length);
-  s->top   = 2 * PETSC_PI * layered->pair.normal;
+  s->top   = 2 * PETSC_PI * layered->pair->normal;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

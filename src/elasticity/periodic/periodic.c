@@ -1,9 +1,9 @@
 /*
   Two half-spaces of which the grid is one period: every field is a sum of waves exp(i k.x), and the operator acts on
-  each wave by itself. The transforms of the influence of a unit force (material.h) over the infinite surface are its
+  each wave by itself. The transforms of the influence of a unit force (bodyimpl.h) over the infinite surface are its
   symbols:
-    u_z from p:  2 pi A/|k|                                 A = pair.normal
-    u_t from q:  (2 pi (A + B)/|k|)(I - nu kk'/|k|^2)       B = pair.shear_xx, nu = B/(A + B)
+    u_z from p:  2 pi A/|k|                                 A = pair->normal
+    u_t from q:  (2 pi (A + B)/|k|)(I - nu kk'/|k|^2)       B = pair->shear_xx, nu = B/(A + B)
     u_t from p:  -2 pi i coupling k/|k|^2
     u_z from q:  +2 pi i coupling k'/|k|^2
   by the transforms of 1/r, 2 pi/|k|, of x_a x_b/r^3, (2 pi/|k|)(delta_ab - k_a k_b/|k|^2), and of x/r^2,
@@ -136,9 +136,9 @@ static SamLayered LayersOf(SamElasticity e)
 /* The symbol factor * amplitude * (a function of k of degree -1). */
 static SamSymbol SymbolOf(SamElasticity e, double factor, double amplitude, Product multiply)
 {
-  const SamGrid  grid = e->grid;
-  const SamPair *pair = &e->pair;
-  SamSymbol      s    = {.nu = pair->shear_xx / (pair->shear + pair->shear_xx), .multiply = multiply};
+  const SamGrid grid = e->grid;
+  const SamPair pair = e->pair;
+  SamSymbol     s    = {.nu = pair->shear_xx / (pair->shear + pair->shear_xx), .multiply = multiply};
 
   for (PetscInt c = 0; c < 2; c++) s.step[c] = 2 * PETSC_PI / grid->width[c] * grid->length;
   if (grid->axes == 1) s.step[1] = s.step[0]; /* of waves that do not exist */
@@ -153,7 +153,7 @@ static SamSymbol InverseOf(SamElasticity e, double factor, double amplitude, Pro
 {
   SamSymbol s = SymbolOf(e, factor, amplitude, multiply);
 
-  s.film    = SamPairFilm(&e->pair) / (amplitude * e->grid->length);
+  s.film    = SamPairFilm(e->pair) / (amplitude * e->grid->length);
   s.inverse = PETSC_TRUE;
   s.gain    = factor / (amplitude * e->grid->length * (double)e->grid->nx * (double)e->grid->ny);
   return s;
@@ -161,17 +161,17 @@ static SamSymbol InverseOf(SamElasticity e, double factor, double amplitude, Pro
 
 static double NormalAmplitude(SamElasticity e)
 {
-  return LayersOf(e) ? 1 : 2 * PETSC_PI * e->pair.normal;
+  return LayersOf(e) ? 1 : 2 * PETSC_PI * e->pair->normal;
 }
 
 static double TangentialAmplitude(SamElasticity e)
 {
-  return LayersOf(e) ? 1 : 2 * PETSC_PI * (e->pair.shear + e->pair.shear_xx);
+  return LayersOf(e) ? 1 : 2 * PETSC_PI * (e->pair->shear + e->pair->shear_xx);
 }
 
 static double CouplingAmplitude(SamElasticity e)
 {
-  return LayersOf(e) ? 1 : 2 * PETSC_PI * e->pair.coupling;
+  return LayersOf(e) ? 1 : 2 * PETSC_PI * e->pair->coupling;
 }
 
 static PetscErrorCode ApplyNormal(SamElasticity e, const double *const p[], double *const u_z[])
@@ -348,21 +348,20 @@ PetscErrorCode SamElasticityCreate_Periodic(SamElasticity e)
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&data));
-  if (SamPairHasLayers(&e->pair)) PetscCall(SamLayeredCreate(&e->pair, &data->layers));
+  if (!SamPairIsUniform(e->pair)) PetscCall(SamLayeredCreate(e->pair, &data->layers));
   e->data   = data;
-  e->traits = (SamElasticityTraits){
-    .coupled = SamElasticityPairIsCoupled(&e->pair), .periodic = PETSC_TRUE, .layers = PETSC_TRUE};
-  e->ops = (SamElasticityOps){.inherit                 = Inherit,
-                              .setup                   = SetUp,
-                              .destroy                 = Destroy,
-                              .applynormal             = ApplyNormal,
-                              .applytangential         = ApplyTangential,
-                              .applynormalsingle       = ApplyNormalSingle,
-                              .applytangentialsingle   = ApplyTangentialSingle,
-                              .preconditionnormal      = PreconditionNormal,
-                              .preconditiontangential  = PreconditionTangential,
-                              .getselfinfluence        = GetSelfInfluence,
-                              .applynormaltotangential = ApplyNormalToTangential,
-                              .applytangentialtonormal = ApplyTangentialToNormal};
+  e->traits = (SamElasticityTraits){.coupled = SamPairIsCoupled(e->pair), .periodic = PETSC_TRUE, .layers = PETSC_TRUE};
+  e->ops    = (SamElasticityOps){.inherit                 = Inherit,
+                                 .setup                   = SetUp,
+                                 .destroy                 = Destroy,
+                                 .applynormal             = ApplyNormal,
+                                 .applytangential         = ApplyTangential,
+                                 .applynormalsingle       = ApplyNormalSingle,
+                                 .applytangentialsingle   = ApplyTangentialSingle,
+                                 .preconditionnormal      = PreconditionNormal,
+                                 .preconditiontangential  = PreconditionTangential,
+                                 .getselfinfluence        = GetSelfInfluence,
+                                 .applynormaltotangential = ApplyNormalToTangential,
+                                 .applytangentialtonormal = ApplyTangentialToNormal};
   PetscFunctionReturn(PETSC_SUCCESS);
 }

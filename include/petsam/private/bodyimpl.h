@@ -1,0 +1,47 @@
+/* The inside of bodies and pairs, for types of elasticity. */
+#ifndef PETSAM_BODYIMPL_H
+#define PETSAM_BODYIMPL_H
+
+#include <petsam/body.h>
+#include <petsam/private/baseimpl.h>
+
+struct _n_SamBody {
+  PetscInt    references, count;
+  SamMaterial material[SAM_MATERIALS]; /* the last thickness is infinite */
+};
+
+/*
+  The sums of elastic constants of the materials at both surfaces that the displacements depend on (relative
+  displacements: elasticity.h). At a distance r on two half-spaces a unit force gives
+    u_z from p:   normal / r
+    u_x from q_x: shear / r + shear_xx x^2 / r^3,   u_y from q_x: shear_xx x y / r^3
+    u_x from p:   coupling x / r^2,                 u_z from q_x: -coupling x / r^2
+  (Johnson 1985, Contact Mechanics, sections 3.2 and 3.6). On bodies of several materials this is the limit for small r.
+*/
+struct _n_SamPair {
+  PetscInt  references;
+  SamBody   body[2];
+  PetscReal normal;   /* sum (1 - nu)/(2 pi G), 1/Pa */
+  PetscReal shear;    /* the same */
+  PetscReal shear_xx; /* sum nu/(2 pi G), 1/Pa */
+  PetscReal coupling; /* [(1 - 2 nu1)/G1 - (1 - 2 nu2)/G2]/(4 pi), 1/Pa */
+  PetscReal modulus;  /* E* = 1/(pi normal), Pa */
+  PetscReal dundurs;  /* Dundurs' beta = coupling/normal */
+  PetscReal film[2];  /* thickness (m) and shear modulus (Pa) of a film between the surfaces; 0: none */
+};
+
+/* SamPairFilm - what a unit of shear displaces the surfaces by in the film, m/Pa. Not collective. */
+PETSC_INTERN PetscReal SamPairFilm(SamPair pair);
+/* SamPairIsCoupled - whether pressure moves the surfaces tangentially by more than rounding. Not collective. */
+PETSC_INTERN PetscBool SamPairIsCoupled(SamPair pair);
+
+/*
+  A body's options and parameters, whose names begin with `prefix`, "body1_" for instance; `from` has it behind its own
+  prefix. Errors as those of the pair.
+*/
+PETSC_INTERN PetscErrorCode SamBodyCreateFromOptions(const SamOptions *from, SamBody *body);
+PETSC_INTERN PetscErrorCode SamBodyAddParameters(SamBody body, const char prefix[], SamParameters *parameters);
+PETSC_INTERN PetscErrorCode SamBodyCreateFromParameters(MPI_Comm comm, const SamParameters *parameters,
+                                                        const char prefix[], const char source[], SamBody *body);
+
+#endif

@@ -1,0 +1,355 @@
+/* Bodies: their materials from the surface down, options, records and advice. */
+#include <petsam/private/bodyimpl.h>
+#include <petsam/private/layered.h>
+#include <math.h>
+
+#define LAYERS (SAM_MATERIALS - 1) /* most materials above the last one */
+
+/* The fault of a material: a message that names its constants, which begin with `name`; empty without fault. */
+static PetscErrorCode FindFaultOf(const SamMaterial *m, const char name[], char message[], size_t size)
+{
+  const PetscReal inverse_shear = isinf(m->young) ? 0 : 2 * (1 + m->poisson) / m->young;
+
+  PetscFunctionBegin;
+  if (!(m->young > 0))
+    PetscCall(PetscSNPrintf(message, size, "%syoung %.6g: expected a number > 0 or inf", name, (double)m->young));
+  else if (!(m->poisson > -1 && m->poisson <= 0.5))
+    PetscCall(PetscSNPrintf(message, size, "%spoisson %.6g: expected a number above -1 and at most 0.5%s", name,
+                            (double)m->poisson, m->poisson > 1 ? ": 0.3, not 30 percent" : ""));
+  else if (!isfinite(inverse_shear) || (inverse_shear == 0 && !isinf(m->young)))
+    PetscCall(PetscSNPrintf(message, size, "%syoung %.6g: its compliance is out of range in double precision", name,
+                            (double)m->young));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The same of all materials of a body, whose constants have this prefix. */
+static PetscErrorCode FindFault(PetscInt count, const SamMaterial m[], const char prefix[], char message[], size_t size)
+{
+  char layer[128];
+
+  PetscFunctionBegin;
+  message[0] = '\0';
+  PetscCall(FindFaultOf(&m[count - 1], prefix, message, size));
+  PetscCall(PetscSNPrintf(layer, sizeof(layer), "%slayer_", prefix));
+  for (PetscInt n = 0; n + 1 < count && !message[0]; n++) {
+    PetscCall(FindFaultOf(&m[n], layer, message, size));
+    if (!message[0] && isinf(m[n].young))
+      PetscCall(
+        PetscSNPrintf(message, size, "%syoung inf: a layer cannot be rigid: expected a finite number > 0", layer));
+    else if (!message[0] && !(m[n].thickness > 0 && isfinite(m[n].thickness)))
+      PetscCall(
+        PetscSNPrintf(message, size, "%sthickness %.6g: expected a finite number > 0", layer, (double)m[n].thickness));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamBodyCreate(PetscInt count, const SamMaterial materials[], SamBody *body)
+{
+  char message[256];
+
+  PetscFunctionBegin;
+  PetscCheck(count > 0 && count <= SAM_MATERIALS, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
+             "A body of %" PetscInt_FMT " materials: expected 1 to %d", count, SAM_MATERIALS);
+  PetscCall(FindFault(count, materials, "", message, sizeof(message)));
+  PetscCheck(!message[0], PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "%s", message);
+  PetscCall(PetscNew(body));
+  (*body)->references = 1;
+  (*body)->count      = count;
+  PetscCall(PetscArraycpy((*body)->material, materials, count));
+  (*body)->material[count - 1].thickness = PETSC_INFINITY;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamBodyReference(SamBody body)
+{
+  PetscFunctionBegin;
+  body->references++;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamBodyDestroy(SamBody *body)
+{
+  PetscFunctionBegin;
+  if (*body && --(*body)->references == 0) PetscCall(PetscFree(*body));
+  *body = NULL;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- at a depth ---- */
+
+PetscInt SamBodyCount(SamBody body)
+{
+  return body->count;
+}
+
+PetscReal SamBodyTop(SamBody body, PetscInt n)
+{
+  PetscReal depth = 0;
+
+  for (PetscInt k = 0; k < n; k++) depth += body->material[k].thickness;
+  return depth;
+}
+
+PetscInt SamBodyAt(SamBody body, PetscReal depth)
+{
+  PetscInt n = 0;
+
+  while (n + 1 < body->count && depth > SamBodyTop(body, n + 1)) n++;
+  return n;
+}
+
+const SamMaterial *SamBodyBulk(SamBody body)
+{
+  return &body->material[body->count - 1];
+}
+
+PetscBool SamBodyIsRigid(SamBody body)
+{
+  return isinf(body->material[0].young) ? PETSC_TRUE : PETSC_FALSE;
+}
+
+void SamBodyBulkStressAt(SamBody body, PetscReal depth, const double bulk[3], double stress[3])
+{
+  const SamMaterial *last = SamBodyBulk(body), *m = &body->material[SamBodyAt(body, depth)];
+
+  for (int k = 0; k < 3; k++) stress[k] = bulk[k];
+  if (m == last) return;
+  if (!isinf(last->young)) {
+    const double nu = (double)last->poisson, own = (double)m->poisson, ratio = (double)(m->young / last->young);
+    const double xx = bulk[0] - nu * bulk[1], yy = bulk[1] - nu * bulk[0];
+
+    stress[0] = ratio * (xx + own * yy) / (1 - own * own);
+    stress[1] = ratio * (yy + own * xx) / (1 - own * own);
+    stress[2] = ratio * (1 + nu) / (1 + own) * bulk[2];
+  }
+  for (int k = 0; k < 2; k++) stress[k] += (double)m->stress[k];
+}
+
+/* ---- advice ---- */
+
+PetscErrorCode SamBodyAdvise(SamBody body, PetscInt number, PetscInt k, PetscReal cell, PetscReal width,
+                             const char **option, char text[], size_t size)
+{
+  const SamMaterial *m = body->material, *last = SamBodyBulk(body);
+  PetscBool          other = PETSC_FALSE;
+  PetscInt           same  = 0; /* layers of about the modulus at the surface */
+
+  PetscFunctionBegin;
+  text[0] = '\0';
+  *option = "";
+  if (body->count == 1) PetscFunctionReturn(PETSC_SUCCESS);
+  for (; m < last; m++) other = other || m->young != last->young || m->poisson != last->poisson;
+  m = body->material;
+  while (same + 1 < body->count && PetscAbsReal(m[same].young / m->young - 1) < 0.1) same++;
+  if (k && m->thickness > 100 * width)
+    (void)snprintf(text, size,
+                   "-body%d_layer_thickness %g is %.2g times the width of the contact: the limit is 100: check the "
+                   "unit, m",
+                   (int)number, (double)m->thickness, (double)(m->thickness / width));
+  else if (!k && !other)
+    (void)snprintf(text, size, "all layers of body %d are of the substrate's material: they have no effect",
+                   (int)number);
+  else if (!k && SamBodyTop(body, same) < cell) {
+    *option = "grid_n";
+    (void)snprintf(text, size,
+                   "the layer at the surface of body %d is %.2g cells thick: pressures on that scale are not resolved",
+                   (int)number, (double)(SamBodyTop(body, same) / cell));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamBodyAdviseWorn(SamBody body, PetscInt number, PetscReal depth, char text[], size_t size)
+{
+  PetscFunctionBegin;
+  text[0] = '\0';
+  if (depth >= body->material[0].thickness)
+    (void)snprintf(
+      text, size,
+      "the first layer of body %d, %.4g m thick, is worn through: the elasticity stays that of unworn layers",
+      (int)number, (double)body->material[0].thickness);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- options and parameters ---- */
+
+/* Lists with a number for each layer. */
+enum { YOUNG, POISSON, THICKNESS, LISTS };
+static const struct {
+  const char *name, *help;
+  SamRange    range;
+} lists[LISTS] = {[YOUNG]     = {"layer_young", "Young's modulus of each layer from the surface down (Pa)",
+                                 SAM_RANGE_POSITIVE_INF},
+                  [POISSON]   = {"layer_poisson", "Poisson's ratio of each layer, or one for all", SAM_RANGE_ANY},
+                  [THICKNESS] = {"layer_thickness", "thickness of each layer (m)", SAM_RANGE_ANY}};
+#define RESIDUAL "layer_stress"
+#define PROFILE  "layer_file"
+
+static PetscReal *MemberOf(SamMaterial *m, int list)
+{
+  return list == YOUNG ? &m->young : list == POISSON ? &m->poisson : &m->thickness;
+}
+
+static PetscErrorCode AddReals(SamParameters *p, const char prefix[], const char name[], PetscInt count,
+                               const PetscReal values[])
+{
+  char full[64];
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(full, sizeof(full), "%s%s", prefix, name));
+  PetscCall(SamParametersAddReals(p, full, PETSC_TRUE, count, values));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static const SamParameter *Find(const SamParameters *p, const char prefix[], const char name[])
+{
+  char full[64];
+
+  (void)snprintf(full, sizeof(full), "%s%s", prefix, name);
+  return SamParametersFind(p, full);
+}
+
+PetscErrorCode SamBodyAddParameters(SamBody body, const char prefix[], SamParameters *p)
+{
+  const PetscInt layers = body->count - 1;
+  PetscReal      values[LAYERS], stress[LAYERS][2];
+  PetscBool      stressed = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCall(AddReals(p, prefix, "young", 1, &SamBodyBulk(body)->young));
+  PetscCall(AddReals(p, prefix, "poisson", 1, &SamBodyBulk(body)->poisson));
+  for (int l = 0; l < LISTS && layers; l++) {
+    for (PetscInt n = 0; n < layers; n++) values[n] = *MemberOf(&body->material[n], l);
+    PetscCall(AddReals(p, prefix, lists[l].name, layers, values));
+  }
+  for (PetscInt n = 0; n < 2 * layers; n++) {
+    stress[n / 2][n % 2] = body->material[n / 2].stress[n % 2];
+    stressed             = stressed || stress[n / 2][n % 2] != 0;
+  }
+  if (stressed) PetscCall(AddReals(p, prefix, RESIDUAL, 2 * layers, stress[0]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The layers of a record; `fault`: the name of a list that has not as many numbers as the others, NULL: none. */
+static void TakeLayers(const SamParameters *p, const char prefix[], SamMaterial m[], PetscInt *layers,
+                       const char **fault)
+{
+  const SamParameter *found, *stress = Find(p, prefix, RESIDUAL);
+
+  *fault = NULL;
+  for (int l = 0; l < LISTS && !*fault; l++) {
+    found = Find(p, prefix, lists[l].name);
+    if (!l) *layers = found ? found->count : 0;
+    /* texts have no numbers, but are there */
+    if (found ? found->count != *layers || *layers < 1 || *layers > LAYERS : *layers > 0) *fault = lists[l].name;
+    for (PetscInt n = 0; n < *layers && !*fault; n++) *MemberOf(&m[n], l) = found->value[n];
+  }
+  if (stress && stress->count != 2 * *layers) *fault = RESIDUAL;
+  for (PetscInt n = 0; stress && !*fault && n < stress->count; n++) {
+    m[n / 2].stress[n % 2] = stress->value[n];
+    if (!isfinite(stress->value[n])) *fault = RESIDUAL;
+  }
+}
+
+PetscErrorCode SamBodyCreateFromParameters(MPI_Comm comm, const SamParameters *p, const char prefix[],
+                                           const char source[], SamBody *body)
+{
+  static const char *const own[]            = {"young", "poisson"};
+  SamMaterial              m[SAM_MATERIALS] = {{0}}, last = {0};
+  PetscInt                 layers;
+  const char              *fault;
+  char                     message[256];
+
+  PetscFunctionBegin;
+  for (int k = 0; k < 2; k++) {
+    const SamParameter *found = Find(p, prefix, own[k]);
+
+    PetscCheck(found && found->count == 1, comm, SAM_ERR_FILE, "%s: cannot be read: it lacks the attribute %s%s",
+               source, prefix, own[k]);
+    *MemberOf(&last, k) = found->value[0];
+  }
+  TakeLayers(p, prefix, m, &layers, &fault);
+  PetscCheck(!fault, comm, SAM_ERR_FILE, "%s: cannot be read: the attribute %s%s does not fit the layers", source,
+             prefix, fault);
+  m[layers] = last;
+  PetscCall(FindFault(layers + 1, m, prefix, message, sizeof(message)));
+  PetscCheck(!message[0], comm, SAM_ERR_FILE, "%s: cannot be read: %s", source, message);
+  PetscCall(SamBodyCreate(layers + 1, m, body));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Two numbers for each layer. */
+static PetscErrorCode ReadResidualStress(const SamOptions *from, SamMaterial m[], PetscInt layers)
+{
+  PetscReal values[2 * LAYERS];
+  PetscInt  count;
+
+  PetscFunctionBegin;
+  PetscCall(SamOptionsReals(from, RESIDUAL,
+                            "residual stress xx and yy of each layer (Pa), which only petsam-stress adds",
+                            SAM_RANGE_ANY, 2 * LAYERS, values, &count));
+  PetscCheck(!count || count == 2 * layers, from->comm, SAM_ERR_USER,
+             "-%s" RESIDUAL ": %" PetscInt_FMT " of %" PetscInt_FMT " numbers are given: give xx and yy of each layer",
+             SamOptionsPrefix(from), count, 2 * layers);
+  for (PetscInt n = 0; n < count; n++) m[n / 2].stress[n % 2] = values[n];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The layers, from a file or from lists that must have one length; one Poisson's ratio is for all. */
+static PetscErrorCode ReadLayers(const SamOptions *from, SamMaterial m[], PetscInt *layers)
+{
+  const char *const prefix = SamOptionsPrefix(from);
+  PetscReal         values[LISTS][LAYERS];
+  PetscInt          count[LISTS], most = 0;
+  PetscBool         print, graded;
+
+  PetscFunctionBegin;
+  PetscCall(SamPrintHelp(&print));
+  PetscCall(SamBodyReadProfile(from, PROFILE, m, layers, &graded));
+  for (int l = 0; l < LISTS; l++) {
+    PetscCall(SamOptionsReals(from, lists[l].name, lists[l].help, lists[l].range, LAYERS, values[l], &count[l]));
+    PetscCheck(!graded || !count[l], from->comm, SAM_ERR_USER, "-%s" PROFILE " and -%s%s exclude each other: omit one",
+               prefix, prefix, lists[l].name);
+    most = PetscMax(most, count[l]);
+  }
+  if (!most || print) PetscFunctionReturn(ReadResidualStress(from, m, *layers));
+  for (int l = 0; l < LISTS; l++)
+    PetscCall(SamOptionsRequire(from, count[l] > 0, lists[l].name, "the layers of a body need all three lists"));
+  if (count[POISSON] == 1)
+    for (; count[POISSON] < most; count[POISSON]++) values[POISSON][count[POISSON]] = values[POISSON][0];
+  for (int l = 0; l < LISTS; l++)
+    PetscCheck(count[l] == most, from->comm, SAM_ERR_USER,
+               "-%s%s is given for %" PetscInt_FMT " of %" PetscInt_FMT " layers: give a number for each", prefix,
+               lists[l].name, count[l], most);
+  for (int l = 0; l < LISTS; l++)
+    for (PetscInt n = 0; n < most; n++) *MemberOf(&m[n], l) = values[l][n];
+  *layers = most;
+  PetscCall(ReadResidualStress(from, m, most));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamBodyCreateFromOptions(const SamOptions *from, SamBody *body)
+{
+  SamMaterial m[SAM_MATERIALS] = {{0}}, last = {0};
+  PetscInt    layers = 0;
+  PetscBool   given, help;
+  char        message[256], prefix[128];
+
+  PetscFunctionBegin;
+  PetscCall(SamPrintHelp(&help));
+  PetscCall(SamOptionsReal(from, "young", "Young's modulus (Pa), inf: rigid: required", SAM_RANGE_POSITIVE_INF,
+                           &last.young, &given));
+  PetscCall(
+    SamOptionsRequire(from, given || help, "young", "Young's modulus, Pa (210e9 for steel), or inf: a rigid body"));
+  PetscCall(
+    SamOptionsReal(from, "poisson", "Poisson's ratio: required unless rigid", SAM_RANGE_ANY, &last.poisson, &given));
+  PetscCall(SamOptionsRequire(from, given || isinf(last.young) || help, "poisson",
+                              "Poisson's ratio (0.3 for steel; not needed for a rigid body)"));
+  PetscCall(ReadLayers(from, m, &layers));
+  if (help) last.young = 1;
+  m[layers] = last;
+  PetscCall(PetscSNPrintf(prefix, sizeof(prefix), "-%s", SamOptionsPrefix(from)));
+  PetscCall(FindFault(layers + 1, m, prefix, message, sizeof(message)));
+  PetscCheck(!message[0], from->comm, SAM_ERR_USER, "%s", message);
+  PetscCall(SamBodyCreate(layers + 1, m, body));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
