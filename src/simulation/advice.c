@@ -3,7 +3,7 @@
 
 /* A coefficient of friction from the first of these on is likely to be percent; from the second on it means stick. */
 static const PetscReal percent[2] = {5, 100};
-/* Dundurs' beta, or what stands for it where materials change with the depth, from which one step of the normal load is too coarse. */
+/* Dundurs' beta, or what stands for it in bodies of several materials, from which one step of N is too coarse. */
 #define DISSIMILAR 0.05
 
 PetscErrorCode SamSimulationPrepareAdvice(SamSimulation s, PetscInt first)

@@ -32,9 +32,9 @@ struct _n_SamCompliance {
 };
 
 /*
-  SamComplianceRead - of body 0 or 1, which `of` is without it, from the file that `option` (without dash) names; its load cases
-  become conditions. Collective. Errors: SAM_ERR_FILE for a file that cannot be read or does not fit, and where the body
-  would gain energy under some traction.
+  SamComplianceRead - of body 0 or 1, which `of` is without it, from the file that `option` (without dash) names; its
+  load cases become conditions. Collective. Errors: SAM_ERR_FILE for a file that cannot be read or does not fit, and
+  where the body would gain energy under some traction.
 */
 PETSC_INTERN PetscErrorCode SamComplianceRead(MPI_Comm comm, PetscInt body, SamBody of, const char option[],
                                               const char file[], SamCompliance *compliance);
