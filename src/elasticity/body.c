@@ -233,16 +233,22 @@ PetscErrorCode SamBodyAddParameters(SamBody body, const char prefix[], SamParame
 static void TakeLayers(const SamParameters *p, const char prefix[], SamMaterial m[], PetscInt *layers,
                        const char **fault)
 {
-  const SamParameter *found, *stress = Find(p, prefix, RESIDUAL);
+  const SamParameter *found[LISTS], *stress = Find(p, prefix, RESIDUAL);
+  PetscInt            count[LISTS];
 
   *fault = NULL;
-  for (int l = 0; l < LISTS && !*fault; l++) {
-    found = Find(p, prefix, lists[l].name);
-    if (!l) *layers = found ? found->count : 0;
+  for (int l = 0; l < LISTS; l++) {
+    found[l] = Find(p, prefix, lists[l].name);
+    count[l] = found[l] ? found[l]->count : 0;
     /* texts have no numbers, but are there */
-    if (found ? found->count != *layers || *layers < 1 || *layers > LAYERS : *layers > 0) *fault = lists[l].name;
-    for (PetscInt n = 0; n < *layers && !*fault; n++) *MemberOf(&m[n], l) = found->value[n];
+    if (found[l] && (count[l] < 1 || count[l] > LAYERS)) *fault = lists[l].name;
   }
+  for (int l = 0; l < LISTS && !*fault; l++)
+    if (count[l] != count[(l + 1) % LISTS] && count[l] != count[(l + 2) % LISTS]) *fault = lists[l].name;
+  if (*fault) return;
+  *layers = count[0];
+  for (int l = 0; l < LISTS; l++)
+    for (PetscInt n = 0; n < *layers; n++) *MemberOf(&m[n], l) = found[l]->value[n];
   if (stress && stress->count != 2 * *layers) *fault = RESIDUAL;
   for (PetscInt n = 0; stress && !*fault && n < stress->count; n++) {
     m[n / 2].stress[n % 2] = stress->value[n];
