@@ -114,8 +114,9 @@ typedef struct {
 /*
   SamLargestSeries - the largest values of each step: of the von Mises and the first principal stress, whether they are
   wanted or not; where there is a map of the surface, of the stress xx and the first principal stress at the edge of
-  contact (SamStressAtEdge()); in each of several materials in which a depth is, of the von Mises stress, and of the tension zz and the
-  shear sqrt(xz^2 + yz^2) at its bottom. And the largest value of each fatigue parameter that is wanted.
+  contact (SamStressAtEdge()); in each of several materials in which a depth is, of the von Mises stress, and of the
+  tension zz and the shear sqrt(xz^2 + yz^2) at its bottom. And the largest value of each fatigue parameter that is
+  wanted.
 */
 typedef struct {
   char              name[48], text[96]; /* of its dataset: name_max in each step; what it is */
