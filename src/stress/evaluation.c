@@ -156,8 +156,7 @@ static PetscErrorCode CheckConstants(SamEvaluation e)
 
   PetscFunctionBegin;
   PetscCheck(e->materials == 1 || e->materials == materials || !e->cycle, e->comm, SAM_ERR_USER,
-             "-fatigue: lists of %" PetscInt_FMT " constants for %" PetscInt_FMT
-             " materials in depth: give one number, or one for each material from the surface down",
+             "-fatigue: lists of %" PetscInt_FMT " constants for %" PetscInt_FMT " materials in depth: " SAM_ONE_EACH,
              e->materials, materials);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

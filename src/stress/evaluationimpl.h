@@ -73,6 +73,9 @@ enum { SAM_LARGEST_MISES, SAM_LARGEST_PRINCIPAL, SAM_LARGEST_EDGE_XX, SAM_LARGES
 /* Of each material: the von Mises stress, tension and shear at the bottom; of the last one the first of them. */
 enum { SAM_OWN_MISES, SAM_OWN_TENSION, SAM_OWN_SHEAR, SAM_OWN };
 
+/* What mends a list of constants of another length. */
+#define SAM_ONE_EACH "give one number, or one for each layer and the substrate"
+
 struct _n_SamEvaluation {
   MPI_Comm comm;
   /* what is asked for */

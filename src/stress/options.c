@@ -84,9 +84,8 @@ static PetscErrorCode ReadConstant(const SamOptions *from, SamEvaluation e, cons
   PetscCall(SamOptionsReals(from, k->name, k->help, k->range, SAM_MATERIALS, values, &n));
   PetscCall(SamOptionsRequire(from, (PetscBool)(n > 0 || !required), k->name, k->help));
   PetscCheck(n <= 1 || e->materials <= 1 || n == e->materials, from->comm, SAM_ERR_USER,
-             "-%s: %" PetscInt_FMT " numbers, but %" PetscInt_FMT
-             " in another list: give one number, or one for each material from the surface down",
-             k->name, n, e->materials);
+             "-%s: %" PetscInt_FMT " numbers, but %" PetscInt_FMT " in another list: " SAM_ONE_EACH, k->name, n,
+             e->materials);
   e->materials = PetscMax(e->materials, n);
   for (PetscInt m = 0; n > 0 && m < SAM_MATERIALS; m++) *ConstantOf(e, m, k) = values[n > 1 ? PetscMin(m, n - 1) : 0];
   PetscFunctionReturn(PETSC_SUCCESS);
