@@ -28,11 +28,8 @@ PETSC_EXTERN PetscErrorCode SamContactCreate(SamProblem problem, SamContact *con
 PETSC_EXTERN PetscErrorCode SamContactDestroy(SamContact *contact);
 /* SamContactSetOptionsPrefix - the prefix of its options and of its solvers'; NULL: none. Not collective. */
 PETSC_EXTERN PetscErrorCode SamContactSetOptionsPrefix(SamContact contact, const char prefix[]);
-/*
-  SamContactIsSteady - whether the contact rolls in steady state, as its elasticity does: each step is such a state.
-  Steps of time roll by SamControl. Not collective.
-*/
-PETSC_EXTERN PetscBool SamContactIsSteady(SamContact contact);
+/* SamContactGetMotion - the motion of its bodies. Not collective. */
+PETSC_EXTERN SamMotion SamContactGetMotion(SamContact contact);
 /*
   SamContactSettings - of a contact; its defaults are those of SamContactGetSettings() on a new one.
   With coupling the normal and the tangential problem of dissimilar materials are solved in turn, a pass each, until one
@@ -74,12 +71,6 @@ PETSC_EXTERN PetscErrorCode SamContactSetFromOptions(SamContact contact);
   SAM_ERR_USER.
 */
 PETSC_EXTERN PetscErrorCode SamContactSetUp(SamContact contact);
-/*
-  SamContactCheckRolling - refuses what has no meaning in a step: creepages without a rolled distance or steady rolling,
-  both of these, a distance on bodies that do not roll or beyond the grid's width. `where`: "file, line 3: " or "", for
-  the message. Not collective. Errors: SAM_ERR_USER.
-*/
-PETSC_INTERN PetscErrorCode SamContactCheckRolling(SamContact contact, const SamControl *control, const char where[]);
 /*
   SamContactOfferCondition - makes the k-th condition (control.h) a number of each step, and with a rolled distance the
   creepages. Collective.

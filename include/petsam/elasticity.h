@@ -17,6 +17,9 @@
 */
 typedef struct _n_SamElasticity *SamElasticity;
 
+/* SamMotion - how the bodies move over each other in a load step (private/motionimpl.h). */
+typedef const struct _n_SamMotion *SamMotion;
+
 typedef const char *SamElasticityType;
 #define SAM_ELASTICITY_HALFSPACE "halfspace" /* two half-spaces; tractions are constant on each cell */
 #define SAM_ELASTICITY_PERIODIC \
@@ -24,7 +27,7 @@ typedef const char *SamElasticityType;
 #define SAM_ELASTICITY_PLANE          "plane" /* half-spaces in plane strain, on a grid of one row; forces per metre */
 #define SAM_ELASTICITY_PLANE_PERIODIC "plane_periodic" /* the same of periodic */
 
-#define SAM_ELASTICITY_ROLLING "rolling" /* any of these in steady rolling, by SamElasticityCreateRolling() */
+#define SAM_ELASTICITY_ROLLING "rolling" /* any of these under a moving contact, by SamElasticityCreateRolling() */
 #define SAM_ELASTICITY_COMPLIANCE \
   "compliance" /* half-spaces and what finite bodies add, SamElasticityAddCompliances() */
 
@@ -34,12 +37,13 @@ typedef struct {
   PetscBool periodic; /* cells at opposite borders of the grid are neighbours; else contact at a border is cut off */
   PetscBool stretch;  /* the bodies may bear a uniform bulk stress */
   PetscBool rotations[3]; /* about x, y, z: a rigid rotation is possible, and a moment defined */
-  PetscBool mean;   /* a uniform traction displaces the surface; else displacements are relative to the mean planes */
-  PetscBool plane;  /* plane strain: the grid has one row */
-  PetscBool parts;  /* where only a part of the grid has traction, an operator on that part suffices */
-  PetscBool steady; /* rolls towards +x: u_t is a velocity relative to that of rolling, the operator not symmetric */
-  PetscBool layers; /* the bodies may have layers */
-  PetscBool patch;  /* the bodies have a place, and do not roll */
+  PetscBool mean;  /* a uniform traction displaces the surface; else displacements are relative to the mean planes */
+  PetscBool plane; /* plane strain: the grid has one row */
+  PetscBool parts; /* where only a part of the grid has traction, an operator on that part suffices */
+  PetscBool
+    upwind; /* the tangential operator is that of differences along x: not symmetric, it reaches a cell behind */
+  PetscBool layers;           /* the bodies may have layers */
+  PetscBool patch;            /* the bodies have a place, and do not roll */
   PetscBool cases[SAM_CASES]; /* which of the load cases of a control are those of these bodies */
   PetscInt  outside[2][2];    /* columns and rows at the low and high end of x, y where contact is not within a patch */
   PetscBool stress;           /* stresses in the bodies are available; set by the class */
@@ -51,8 +55,8 @@ typedef struct {
 */
 PETSC_EXTERN PetscErrorCode SamElasticityCreate(SamGrid grid, SamPair pair, SamElasticity *elasticity);
 /*
-  SamElasticityCreateRolling - the same bodies in steady rolling towards +x: u_t is the slip velocity by the tractions,
-  relative to the rolling speed, and creepages stand for tangential rigid displacements. References the bodies.
+  SamElasticityCreateRolling - the same bodies under a contact that rolls towards +x without change: u_t is the slip by
+  the tractions in 1 m of rolled distance, and creepages stand for tangential rigid displacements. References the bodies.
   Collective. Errors: PETSC_ERR_SUP for periodic bodies.
 */
 PETSC_INTERN PetscErrorCode SamElasticityCreateRolling(SamElasticity bodies, SamElasticity *rolling);
@@ -167,7 +171,7 @@ PETSC_INTERN PetscErrorCode SamElasticityPreconditionNormalSingle(SamElasticity 
 PETSC_INTERN PetscErrorCode SamElasticityPreconditionTangentialSingle(SamElasticity elasticity, double factor,
                                                                       const float residual[], float q[]);
 /*
-  For the tangential part of bodies in steady rolling where they slip, A being the operator of
+  For the tangential part of bodies that roll where they slip, A being the operator of
   SamElasticityCreateRolling(): of h A + 1 - h, h = SAM_SLIP_WEIGHT, before the sweep along x (halfspace.c). Collective.
 */
 #define SAM_SLIP_WEIGHT 0.5

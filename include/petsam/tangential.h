@@ -21,7 +21,7 @@ static inline SamSolver SamTangentialAsSolver(SamTangential tangential)
   return (SamSolver)tangential;
 }
 
-#define SAM_TANGENTIAL_ROLLING "rolling" /* steady rolling: generalised conjugate residuals along the stream */
+#define SAM_TANGENTIAL_ROLLING "rolling" /* rolling: generalised conjugate residuals along the stream */
 #define SAM_TANGENTIAL_NEWTON  "newton"  /* Newton on stick and slip with preconditioned projected CG, nested grids */
 
 /*

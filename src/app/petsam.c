@@ -103,7 +103,7 @@ static const double bytes_per_cell[2][2][2] = {{{85, 150}, {190, 400}},
 
 /* Of the direction of slip at mid step, bytes per cell; measured at 512 cells a side: 170, coupled 130. */
 #define TURN_BYTES 170
-/* Of steady rolling, bytes per cell: directions and their products. Measured at 1024: 250, for contact on 59 %. */
+/* Of an upwind operator, bytes per cell: directions and their products. Measured at 1024: 250, for contact on 59 %. */
 #define ROLLING_BYTES 280
 
 /* A -cycle_memory from here on is no estimate of what will be used, bytes. */
@@ -140,7 +140,7 @@ static PetscErrorCode EstimateMemory(SamSimulation simulation, double *bytes)
   PetscCall(PetscOptionsHasName(NULL, NULL, "-step_rtol", &divided));
   PetscCall(PetscOptionsGetString(NULL, NULL, "-cycle_memory", kept, sizeof(kept), NULL));
   cell = bytes_per_cell[needs.steps > 1][needs.friction][needs.coupled] + (double)needs.laws +
-         (needs.friction && (mid || divided) ? TURN_BYTES : 0) + (traits.steady ? ROLLING_BYTES : 0) +
+         (needs.friction && (mid || divided) ? TURN_BYTES : 0) + (traits.upwind ? ROLLING_BYTES : 0) +
          (needs.life ? LIFE_BYTES : 0) + (needs.stiffness ? stiffness_bytes[needs.friction][needs.coupled] : 0);
   *bytes = SAM_MEMORY_PROGRAM + cell * (double)setup->grid->cells;
   if (needs.grid_check) *bytes += 0.25 * cell * (double)setup->grid->cells;

@@ -1,5 +1,6 @@
 /* Prints a load step: in full, and as a line of a table. */
 #include "report.h"
+#include <petsam/private/motionimpl.h>
 
 #define ROUNDING 1e-11 /* a part of the size of a number's kind that is rounding, and is printed as 0 */
 #define REST     1e-9  /* the same of loads and displacements: solvers' tolerances leave more where symmetry has 0 */
@@ -14,6 +15,14 @@ static double Get(SamContact contact, const char name[])
   if (SamContactGetState(contact, &state)) return NAN;
   id = SamStateFindNumber(state, name);
   return id < 0 ? NAN : *SamStateReadNumbers(state, id);
+}
+
+/* What a number is called in the contact's motion. */
+static const char *NameOf(SamContact contact, const char usual[])
+{
+  const SamMotionName *name = SamMotionFindName(SamContactGetMotion(contact), usual);
+
+  return name ? name->name : usual;
 }
 
 /* ---- what is zero to rounding ---- */
@@ -54,20 +63,19 @@ static double Rounded(const SamStep *s, PetscInt c, const PetscReal values[], co
 
 static PetscErrorCode ViewSolution(const SamStep *s, SamContact c, const Sizes *sizes, PetscViewer viewer)
 {
-  const PetscBool rolls = SamContactIsSteady(c);
+  const SamMotion motion = SamContactGetMotion(c);
   SamGrid         grid;
   const double passes = Get(c, "coupling_iterations"), move = ROUNDING * sizes->rigid[0], work = sizes->load[0] * move;
 
   PetscFunctionBegin;
   PetscCall(SamContactGetGrid(c, &grid));
-  PetscCall(PetscViewerASCIIPrintf(
-    viewer, "  %-10s  contact %.6g %s, stick %.6g %s, dissipated %.6g %s\n", "areas", Get(c, "contact_area"),
-    SamUnitOn(grid, "m2"), Get(c, "stick_area"), SamUnitOn(grid, "m2"),
-    Clean(Get(c, rolls ? "rolling_energy" : "dissipated_energy"), work), SamUnitOn(grid, rolls ? "J/m" : "J")));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  contact %.6g %s, stick %.6g %s, dissipated %.6g %s\n", "areas",
+                                   Get(c, "contact_area"), SamUnitOn(grid, "m2"), Get(c, "stick_area"),
+                                   SamUnitOn(grid, "m2"), Clean(Get(c, motion->work), work),
+                                   SamUnitOn(grid, motion->work_unit)));
   PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  pressure %.6g Pa, shear %.6g Pa, slip %.6g%s\n", "maximum",
                                    Get(c, "pressure_max"), Get(c, "shear_max"),
-                                   Clean(Get(c, rolls ? "slip_velocity_max" : "slip_max"), move),
-                                   rolls ? " of the rolling speed" : " m"));
+                                   Clean(Get(c, NameOf(c, "slip_max")), move), motion->slip_unit));
   if (!isnan(Get(c, "contact_spots")))
     PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  %.0f, contact on %.4g %% of the grid, mean gap %.6g m\n",
                                      "spots", Get(c, "contact_spots"), 100 * Get(c, "contact_fraction"),
@@ -97,7 +105,8 @@ PetscErrorCode SamStepView(const SamStep *s, SamContact contact, PetscViewer vie
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
     const PetscInt          c     = order[k];
     const SamComponentName *name  = &SamComponentNames[c];
-    const PetscBool         creep = name->creep && SamContactIsSteady(contact), load = s->control.force[c];
+    const SamMotionName     rigid = SamMotionRigidName(SamContactGetMotion(contact), c);
+    const PetscBool         creep = rigid.name == name->creep, load = s->control.force[c];
     char                    fine[96] = "";
 
     if (grid->axes == 1 && (c == SAM_COMPONENT_MX || c == SAM_COMPONENT_MZ)) continue;
@@ -115,9 +124,8 @@ PetscErrorCode SamStepView(const SamStep *s, SamContact contact, PetscViewer vie
                                      : k == 3 ? "tangential"
                                               : "",
                                      name->load, Rounded(s, c, s->load, sizes.load), grid->axes == 1 ? 5 : 3,
-                                     SamUnitOn(grid, name->load_unit), creep ? name->creep : name->rigid,
-                                     Rounded(s, c, s->rigid, sizes.rigid), creep ? name->creep_unit : name->rigid_unit,
-                                     given[SamControlWay(&s->control, c)], fine));
+                                     SamUnitOn(grid, name->load_unit), rigid.name, Rounded(s, c, s->rigid, sizes.rigid),
+                                     rigid.unit, given[SamControlWay(&s->control, c)], fine));
   }
   if (s->status != SAM_STATUS_NO_EQUILIBRIUM) PetscCall(ViewSolution(s, contact, &sizes, viewer));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -180,7 +188,7 @@ static void WriteColumn(SamReport r, const SamStep *s, SamContact contact, int k
                         char text[], size_t size)
 {
   const Sizes  sizes  = GetSizes(s, contact);
-  const char  *name   = k == SLIP && SamContactIsSteady(contact) ? "slip_velocity_max" : columns[k].number;
+  const char  *name   = NameOf(contact, columns[k].number);
   const double number = name[0] ? Get(contact, name) : 0;
 
   if (k == STEP)
@@ -212,10 +220,11 @@ PetscErrorCode SamReportStepLine(SamReport r, const SamStep *s, SamContact conta
       if (!r->shown[k]) continue;
       WriteColumn(r, s, contact, k, seconds, left, text, sizeof(text));
       used += (size_t)snprintf(line + used, sizeof(line) - used, "%*s", columns[k].width,
-                               !heading                                   ? text
-                               : r->row && k >= LOADS && k < CONTACT + 2  ? per_metre[k - LOADS]
-                               : k == SLIP && SamContactIsSteady(contact) ? "slip/V"
-                                                                          : columns[k].heading);
+                               !heading                                  ? text
+                               : r->row && k >= LOADS && k < CONTACT + 2 ? per_metre[k - LOADS]
+                               : k == SLIP && SamContactGetMotion(contact)->slip_heading
+                                 ? SamContactGetMotion(contact)->slip_heading
+                                 : columns[k].heading);
     }
     PetscCall(PetscPrintf(r->comm, "%s\n", line));
     if (!heading) PetscFunctionReturn(PETSC_SUCCESS);

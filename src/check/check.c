@@ -155,7 +155,7 @@ static PetscErrorCode CheckNormal(SamProblem problem, SamState state, const SamS
   double        max[COUNT] = {0}, *gap;
   const double *p, *u, *h;
   PetscReal     limit;
-  SamMotion     motion;
+  SamRigid      motion;
   SamGrid       grid;
   Border        border;
   Vec           separation;
@@ -164,7 +164,7 @@ static PetscErrorCode CheckNormal(SamProblem problem, SamState state, const SamS
   PetscCall(SamProblemGetGrid(problem, &grid));
   PetscCall(SamSolutionCreateSeparation(problem, state, SAM_COMMITTED, &separation));
   border = BorderOf(problem, grid, s);
-  PetscCall(SamMotionSet(&motion, problem, s));
+  PetscCall(SamRigidSet(&motion, problem, s));
   PetscCall(SamProblemGetPressureLimit(problem, &limit));
   PetscCall(PetscMalloc1(grid->nx, &gap));
   PetscCall(VecGetArrayRead(s->pressure, &p));
@@ -173,7 +173,7 @@ static PetscErrorCode CheckNormal(SamProblem problem, SamState state, const SamS
   for (PetscInt j = 0; j < grid->rows; j++) {
     const ptrdiff_t k = (ptrdiff_t)j * grid->nx;
 
-    SamMotionGap(&motion, SamMotionOfGap(&motion, j), u + k, h + k, gap);
+    SamRigidGap(&motion, SamRigidOfGap(&motion, j), u + k, h + k, gap);
     NormalRow(grid->nx, p + k, gap, SAM_SATURATED * (double)limit, max);
     max[EDGE] = PetscMax(max[EDGE], EdgeOfRow(grid, &border, j, p + k));
   }

@@ -19,6 +19,7 @@ PetscErrorCode SamContactCreate(SamProblem problem, SamContact *contact)
   PetscCall(SamProblemGetElasticity(problem, &c->elasticity));
   PetscCall(SamProblemGetGrid(problem, &c->grid));
   PetscCall(SamElasticityGetTraits(c->elasticity, &c->traits));
+  c->motion = SamMotionOf(c->elasticity);
   PetscCall(SamNormalCreate(c->elasticity, &c->normal));
   PetscCall(SamTangentialCreate(c->elasticity, &c->tangential));
   PetscCall(SamStateCreate(c->grid, &c->state));
@@ -117,8 +118,8 @@ PetscErrorCode SamContactSetFromOptions(SamContact c)
                            &s.warm_start, NULL));
   PetscCall(SamOptionsReal(&from, "cycle_memory", "bytes to keep steps of a repeated cycle, from which the next starts",
                            SAM_RANGE_NONNEGATIVE, &s.cycle_memory, &keeps));
-  if (turns) PetscCall(SamContactRefuseSteady(c, "-", "slip_direction"));
-  if (keeps) PetscCall(SamContactRefuseSteady(c, "-", "cycle_memory"));
+  if (turns) PetscCall(SamMotionRefuse(c->motion, SAM_MOTION_HISTORY, c->grid->comm, "-", "slip_direction"));
+  if (keeps) PetscCall(SamMotionRefuse(c->motion, SAM_MOTION_HISTORY, c->grid->comm, "-", "cycle_memory"));
   PetscCall(SamOptionsBool(&from, "allow_edge_contact", "contact at the grid's edge is a warning, no error",
                            &s.allow_edge, NULL));
   PetscCall(RefuseDeferred(&from));
@@ -235,9 +236,9 @@ PetscErrorCode SamContactGetField(SamContact c, const char name[], Vec field)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscBool SamContactIsSteady(SamContact c)
+SamMotion SamContactGetMotion(SamContact c)
 {
-  return c->traits.steady;
+  return c->motion;
 }
 
 PetscErrorCode SamContactOfferCondition(SamContact c, PetscInt k)

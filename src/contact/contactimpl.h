@@ -14,6 +14,7 @@ struct _n_SamContact {
   SamElasticity       elasticity; /* of the problem; borrowed */
   SamGrid             grid;       /* of the problem; borrowed */
   SamElasticityTraits traits;
+  SamMotion           motion; /* of the elasticity */
   SamNormal           normal;
   SamTangential       tangential;
   /* its state */
@@ -25,7 +26,7 @@ struct _n_SamContact {
   PetscObjectState revision[SAM_GENERATIONS];   /* of the problem that the pressure was solved with; -1: another */
   PetscInt         tractions[3], displacements[2]; /* fields: pressure, bound, shear; u_z, u_t */
   PetscInt time, solution, given, creeps, control, residuals, counts, status, window, steps; /* numbers, see memory.c */
-  PetscInt rolling; /* numbers, of steady rolling only */
+  PetscInt rolling; /* numbers, of a motion that continues no step only */
 };
 
 /* Whether pressure and shear depend on each other. */
@@ -44,16 +45,14 @@ PETSC_INTERN PetscErrorCode SamContactBegin(SamContact contact, const SamControl
 PETSC_INTERN PetscErrorCode SamContactStore(SamContact contact, const SamStep *step);
 /* SamContactView - makes the views of the committed generation, and of that one step back. Collective. */
 PETSC_INTERN PetscErrorCode SamContactView(SamContact contact);
-/* Refuses an option (prefix "-") or a law that steady rolling gives no meaning, if it rolls so. Not collective. */
-PETSC_INTERN PetscErrorCode SamContactRefuseSteady(SamContact contact, const char prefix[], const char name[]);
 /*
   SamContactBefore - the committed solution, from which the tried one continues; NULL in the first step. Not collective.
 */
 PETSC_INTERN const SamSolution *SamContactBefore(SamContact contact);
-/* SamContactSlipBefore - the same if its slip is that from which this step slips on; not so in steady rolling. */
+/* SamContactSlipBefore - the same if its slip is that from which this step slips on. */
 static inline const SamSolution *SamContactSlipBefore(SamContact contact)
 {
-  return contact->traits.steady ? NULL : SamContactBefore(contact);
+  return contact->motion->continues ? SamContactBefore(contact) : NULL;
 }
 /* SamContactPredict - makes the guess for a step, where the steps before allow one (predict.c). Collective. */
 PETSC_INTERN PetscErrorCode SamContactPredict(SamContact contact, const SamControl *control, SamStepStart *start);

@@ -24,7 +24,7 @@ static PetscErrorCode DeclareFields(SamContact c)
   for (int k = 0; k < 2; k++) {
     SamStateField field = displacements[k];
 
-    if (k && c->traits.steady) field.result = SAM_RESULT_NONE; /* a velocity */
+    if (SamMotionFindName(c->motion, field.name)) field.result = SAM_RESULT_NONE;
     PetscCall(SamStateDeclareField(c->state, &field, &c->displacements[k]));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -49,21 +49,14 @@ static PetscErrorCode DeclareControl(SamContact c)
   PetscFunctionBegin;
   PetscCall(Declare(c, "time", "s", "time of the load step", SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE, &c->time));
   for (PetscInt n = 0; n < 2 * SAM_COMPONENTS; n++) {
-    const PetscInt          k    = n % SAM_COMPONENTS;
-    const SamComponentName *name = &SamComponentNames[k];
-    const PetscBool         load = n < SAM_COMPONENTS, creep = c->traits.steady && name->creep;
+    const PetscInt          k     = n % SAM_COMPONENTS;
+    const SamComponentName *name  = &SamComponentNames[k];
+    const SamMotionName     rigid = SamMotionRigidName(c->motion, k);
+    const PetscBool         load  = n < SAM_COMPONENTS;
 
-    PetscCall(Declare(c,
-                      load    ? name->load
-                      : creep ? name->creep
-                              : name->rigid,
-                      load    ? name->load_unit
-                      : creep ? name->creep_unit
-                              : name->rigid_unit,
-                      load    ? name->load_text
-                      : creep ? name->creep_text
-                              : name->rigid_text,
-                      SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE, n ? NULL : &c->solution));
+    PetscCall(Declare(c, load ? name->load : rigid.name, load ? name->load_unit : rigid.unit,
+                      load ? name->load_text : rigid.text, SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE,
+                      n ? NULL : &c->solution));
   }
   for (PetscInt n = 0; n < SAM_CONDITIONS && SamConditionIsUsed(n); n++) {
     const SamCondition *condition = &SamConditions[n];
@@ -174,17 +167,11 @@ PetscErrorCode SamContactFindEdge(SamContact c, SamEdgeOf which, Vec point, SamE
 
 static PetscErrorCode Offer(SamContact c)
 {
-  const PetscBool      steady    = c->traits.steady;
-  const char *const    unit      = steady ? "1" : "m";
   const SamStateResult results[] = {
-    {steady ? "slip_velocity_x" : "slip_x", unit,
-     steady ? "slip velocity along x, relative to the rolling speed"
-            : "relative tangential displacement along x since the start",
-     SAM_FIELD_REAL, SAM_RESULT_USUAL, Compute, c, SLIP_X, -1},
-    {steady ? "slip_velocity_y" : "slip_y", unit,
-     steady ? "slip velocity along y, relative to the rolling speed"
-            : "relative tangential displacement along y since the start",
-     SAM_FIELD_REAL, SAM_RESULT_USUAL, Compute, c, SLIP_Y, -1},
+    {"slip_x", "m", "relative tangential displacement along x since the start", SAM_FIELD_REAL, SAM_RESULT_USUAL,
+     Compute, c, SLIP_X, -1},
+    {"slip_y", "m", "relative tangential displacement along y since the start", SAM_FIELD_REAL, SAM_RESULT_USUAL,
+     Compute, c, SLIP_Y, -1},
     {"gap", "m", "gap between the deformed surfaces", SAM_FIELD_REAL, SAM_RESULT_OFFERED, Compute, c, GAP, -1},
     {"state", "1", "state of the cell", SAM_FIELD_STATE, SAM_RESULT_USUAL, Compute, c, STATE, -1},
     {"pressure_center", "Pa", "contact pressure at the centre of the cell", SAM_FIELD_REAL, SAM_RESULT_OFFERED, Compute,
@@ -201,10 +188,21 @@ static PetscErrorCode Offer(SamContact c)
      Compute, c, POWER, -1},
     {"wear_passage", "Pa m", "pressure times slip of a point that passes, the same along x", SAM_FIELD_REAL,
      SAM_RESULT_OFFERED, Compute, c, WEAR, -1}};
-  const size_t count = sizeof(results) / sizeof(results[0]) - (steady ? 0 : 2); /* the last two are of rolling */
+  const size_t count =
+    sizeof(results) / sizeof(results[0]) - (c->motion->continues ? 2 : 0); /* the last two are of steps by themselves */
 
   PetscFunctionBegin;
-  for (size_t k = 0; k < count; k++) PetscCall(SamStateOffer(c->state, &results[k]));
+  for (size_t k = 0; k < count; k++) {
+    const SamMotionName *name  = SamMotionFindName(c->motion, results[k].name);
+    SamStateResult       offer = results[k];
+
+    if (name) {
+      offer.name = name->name;
+      offer.unit = name->unit;
+      offer.text = name->text;
+    }
+    PetscCall(SamStateOffer(c->state, &offer));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -214,8 +212,8 @@ PetscErrorCode SamContactDeclare(SamContact c)
   PetscCall(DeclareFields(c));
   PetscCall(Offer(c));
   PetscCall(DeclareControl(c));
-  PetscCall(SamSolutionDeclareNumbers(c->state, c->traits.steady));
-  if (c->traits.steady) PetscCall(SamStepDeclareRolling(c->state, &c->rolling));
+  PetscCall(SamSolutionDeclareNumbers(c->state, c->motion));
+  if (!c->motion->continues) PetscCall(SamStepDeclareRolling(c->state, &c->rolling));
   PetscCall(DeclareOutcome(c));
   if (c->set.spots) PetscCall(SamSolutionDeclareSpots(c->state));
   PetscCall(SamProblemDeclare(c->problem, c->state));

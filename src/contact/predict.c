@@ -67,10 +67,10 @@ static double Continuation(const SamControl *before, const SamControl *now, cons
   return (across <= PREDICT_ACROSS * PREDICT_ACROSS * c.new_new && alpha <= PREDICT_FARTHEST) ? alpha : 0;
 }
 
-/* ---- steady rolling ---- */
+/* ---- steps that do not continue each other ---- */
 
 /*
-  A steady state is near the last one where loads and creepages change by at most this part of the last ones, over the
+  Such a step is near the last one where loads and creepages change by at most this part of the last ones, over the
   number of cells along a side: edges then move by about two cells.
 */
 #define PREDICT_NEAR 2.0
@@ -90,7 +90,7 @@ static double SizeOf(const PetscReal values[], PetscInt problem, double lever)
 }
 
 /*
-  Whether a steady state is near the last one, so that nested grids would cost more than they save: at 64 x 64 cells a
+  Whether such a step is near the last one, so that nested grids would cost more than they save: at 64 x 64 cells a
   fifth of a step, and a third if it is extrapolated. Friction that follows the slip may have other solutions near by.
 */
 static PetscBool IsNear(SamContact c, const SamControl *next)
@@ -101,7 +101,7 @@ static PetscBool IsNear(SamContact c, const SamControl *next)
   PetscReal          change[2][SAM_COMPONENTS] = {{0}};
   PetscBool          near                      = PETSC_TRUE;
 
-  if (!c->traits.steady || !c->set.warm_start || !SamContactBefore(c) || SamContactIsCoupled(c) ||
+  if (c->motion->continues || !c->set.warm_start || !SamContactBefore(c) || SamContactIsCoupled(c) ||
       SamProblemFollowsSlip(c->problem))
     return PETSC_FALSE;
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++)
@@ -278,7 +278,7 @@ PetscErrorCode SamContactPredict(SamContact c, const SamControl *control, SamSte
   }
   if (alpha > 0) PetscCall(Extrapolate(c, alpha, control->friction_scale, &found));
   start->pressure = found;
-  start->shear    = found && (near || !c->traits.steady);
+  start->shear    = found && (near || c->motion->continues);
   if (!found && near) {
     PetscCall(StartFromLastPressure(c, start));
     PetscCall(SamVecCopyNonzero(now->shear, c->generation[SAM_TRIED].shear));

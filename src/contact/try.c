@@ -67,14 +67,6 @@ static PetscErrorCode Judge(SamContact c, SamStep *step)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamContactRefuseSteady(SamContact c, const char prefix[], const char name[])
-{
-  PetscFunctionBegin;
-  PetscCheck(!c->traits.steady, c->grid->comm, SAM_ERR_USER,
-             "%s%s: has no meaning with -rolling steady, where no step continues another: omit it", prefix, name);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /*
   Bulk stress must be finite, and 0 in a rigid body, and in bodies that bear none: stretched ones are not periodic. In
   plane strain that along y follows from that along x.
@@ -105,40 +97,6 @@ static PetscErrorCode CheckBulkStress(SamContact c, SamControl *control)
       PetscCheck(stress == 0 || stress == control->bulk_stress[body][k], c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
                  "%s = %.6g: expected 0: in plane strain yy follows from xx, and there is no xy", name, stress);
     }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamContactCheckRolling(SamContact c, const SamControl *control, const char where[])
-{
-  const PetscReal   rolled = SamControlRolled(control);
-  SamElasticityType type;
-
-  PetscFunctionBegin;
-  PetscCall(SamElasticityGetType(c->elasticity, &type));
-  PetscCheck(isfinite(rolled), c->grid->comm, SAM_ERR_USER, "roll is not a finite number");
-  for (PetscInt k = 0; k < 2; k++)
-    PetscCheck(fabs(control->roll[k]) <= c->grid->width[k], c->grid->comm, SAM_ERR_USER,
-               "%s%s = %.6g: expected at most the width of the grid, %.6g m, in a step: use more steps", where,
-               SamConditions[SAM_CONDITION_ROLL + k].name, (double)control->roll[k], (double)c->grid->width[k]);
-  PetscCheck(rolled == 0 || !c->traits.steady, c->grid->comm, SAM_ERR_USER,
-             "%sroll = %.6g: has no meaning with -rolling steady: omit one of them", where, (double)rolled);
-  PetscCheck(rolled == 0 || !c->traits.patch, c->grid->comm, SAM_ERR_USER,
-             "%sroll = %.6g: expected 0: bodies with a compliance of their own have a place", where, (double)rolled);
-  PetscCheck(rolled == 0 || !c->traits.periodic, c->grid->comm, SAM_ERR_USER,
-             "%sroll = %.6g: expected 0: bodies of type %s do not roll", where, (double)rolled, type);
-  for (PetscInt k = 0; k < SAM_COMPONENTS; k++)
-    PetscCheck(!control->creep[k] || control->value[k] == 0 || rolled != 0 || c->traits.steady, c->grid->comm,
-               SAM_ERR_USER, "%s%s = %.6g: a creepage needs a rolled distance: give roll or roll_y, or -rolling steady",
-               where, SamComponentNames[k].creep, (double)control->value[k]);
-  for (PetscInt k = 0; k < SAM_COMPONENTS && c->traits.steady; k++)
-    PetscCheck(!SamComponentNames[k].creep || SamControlWay(control, k) != SAM_BY_RIGID ||
-                 (k >= SAM_COMPONENT_MX && !c->traits.rotations[k - SAM_COMPONENT_MX]),
-               c->grid->comm, SAM_ERR_USER, "%s has no meaning with -rolling steady: give %s or %s",
-               SamComponentNames[k].rigid, SamComponentNames[k].creep, SamComponentNames[k].load);
-  for (PetscInt k = 0; k < 2 * SAM_BULK_COMPONENTS && c->traits.steady; k++)
-    PetscCheck(SamControlPart(control, SAM_COMPONENTS + SAM_CONDITION_BULK + k) == 0, c->grid->comm, SAM_ERR_USER,
-               "%s has no meaning with -rolling steady: a uniform strain is a creepage: add it to creep_x",
-               SamConditions[SAM_CONDITION_BULK + k].name);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -181,7 +139,7 @@ static PetscErrorCode CheckControl(SamContact c, SamControl *control)
              "friction_scale = %.6g: expected a number >= 0", (double)control->friction_scale);
   PetscCall(CheckBulkStress(c, control));
   PetscCall(CheckCases(c, control));
-  PetscCall(SamContactCheckRolling(c, control, ""));
+  PetscCall(SamMotionCheck(c->elasticity, control, ""));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -197,12 +155,12 @@ PetscErrorCode SamContactSetUp(SamContact c)
   PetscCall(SamProblemGetPressureLimit(c->problem, &limit));
   PetscCall(SamProblemGetLaws(c->problem, &count, &laws));
   for (PetscInt k = 0; k < count; k++)
-    if (!laws[k]->steady)
-      PetscCall(
-        SamContactRefuseSteady(c, laws[k]->option ? "-" : "", laws[k]->option ? laws[k]->option : laws[k]->type));
-  PetscCheck(SamTangentialAsSolver(c->tangential)->steady == c->traits.steady, c->grid->comm, SAM_ERR_USER,
+    if (!laws[k]->any_motion)
+      PetscCall(SamMotionRefuse(c->motion, SAM_MOTION_HISTORY, c->grid->comm, laws[k]->option ? "-" : "",
+                                laws[k]->option ? laws[k]->option : laws[k]->type));
+  PetscCheck(SamTangentialAsSolver(c->tangential)->upwind == c->traits.upwind, c->grid->comm, SAM_ERR_USER,
              "-tangential_type: does not solve this problem: use %s",
-             c->traits.steady ? SAM_TANGENTIAL_ROLLING : SAM_TANGENTIAL_NEWTON);
+             c->traits.upwind ? SAM_TANGENTIAL_ROLLING : SAM_TANGENTIAL_NEWTON);
   PetscCall(SamNormalLimitsPressure(c->normal, &limits));
   PetscCheck(isinf(limit) || limits, c->grid->comm, SAM_ERR_USER,
              "-pressure_limit: not supported by this -normal_type: use %s", SAM_NORMAL_ACTIVESET);
@@ -382,6 +340,7 @@ static PetscErrorCode Solve(SamContact c, PetscBool same_pressure, SamStep *step
                       .elasticity    = c->elasticity,
                       .grid          = c->grid,
                       .traits        = c->traits,
+                      .motion        = c->motion,
                       .normal        = c->normal,
                       .tangential    = c->tangential,
                       .state         = c->state,
@@ -399,7 +358,7 @@ static PetscErrorCode Solve(SamContact c, PetscBool same_pressure, SamStep *step
 
   PetscFunctionBegin;
   PetscCall(SamContactPredict(c, &step->control, &task.start));
-  if (c->set.warm_start && !c->traits.steady && !SamContactIsCoupled(c) && !SamProblemFollowsSlip(c->problem))
+  if (c->set.warm_start && c->motion->continues && !SamContactIsCoupled(c) && !SamProblemFollowsSlip(c->problem))
     SamRecallFind(c->recall, &step->control, &task.start.kept);
   if (c->rolls) task.start.kept = NULL; /* its product is not where the slip has moved to */
   PetscCall(SamStepSolve(&task, step));

@@ -56,6 +56,7 @@ PetscErrorCode SamElasticityCreate(SamGrid grid, SamPair pair, SamElasticity *el
   e->references = 1;
   PetscCall(SamPairReference(pair));
   e->pair = pair;
+  e->film = SamPairFilm(pair);
   for (PetscInt k = 0; k < 2; k++) e->factor[k] = 1;
   PetscCall(SamGridReference(grid));
   e->grid = grid;
@@ -259,7 +260,7 @@ PetscErrorCode SamElasticityGetSelfInfluence(SamElasticity e, PetscReal *normal,
   if (!e->has_self) PetscCall((*e->ops.getselfinfluence)(e, &e->self[0], &e->self[1]));
   e->has_self = PETSC_TRUE;
   if (normal) *normal = e->self[0];
-  if (tangential) *tangential = e->self[1] + (e->traits.steady ? 0 : SamPairFilm(e->pair));
+  if (tangential) *tangential = e->self[1] + e->film;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -371,6 +372,7 @@ PetscErrorCode SamElasticityCreateLike(SamElasticity parent, SamGrid grid, const
     PetscCall(SamElasticityCreateLike(parent->inner, grid, first, &e->inner));
   }
   e->traits = parent->traits;
+  e->motion = parent->motion;
   if (parent->ops.inherit) PetscCall((*parent->ops.inherit)(parent, e));
   *child = e;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -54,8 +54,6 @@ static PetscErrorCode ApplySingle(SamElasticity e, MethodSingle method, SamEvent
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* In steady rolling the film's part is of the shear's differences (rolling.c). */
-#define FILM (e->traits.steady ? 0 : SamPairFilm(e->pair))
 /* The public functions: a product of fields, or of arrays in single precision, by a method and under an event. */
 #define PRODUCT(Name, method, event, film) \
   PetscErrorCode Name(SamElasticity e, Vec in, Vec out) \
@@ -75,11 +73,11 @@ static PetscErrorCode ApplySingle(SamElasticity e, MethodSingle method, SamEvent
   }
 
 PRODUCT(SamElasticityApplyNormal, applynormal, SAM_EVENT_APPLY_NORMAL, 0)
-PRODUCT(SamElasticityApplyTangential, applytangential, SAM_EVENT_APPLY_TANGENTIAL, FILM)
+PRODUCT(SamElasticityApplyTangential, applytangential, SAM_EVENT_APPLY_TANGENTIAL, e->film)
 PRODUCT(SamElasticityApplyNormalToTangential, applynormaltotangential, SAM_EVENT_APPLY_COUPLING, 0)
 PRODUCT(SamElasticityApplyTangentialToNormal, applytangentialtonormal, SAM_EVENT_APPLY_COUPLING, 0)
 PRODUCT_SINGLE(SamElasticityApplyNormalSingle, applynormalsingle, SAM_EVENT_APPLY_NORMAL, 0)
-PRODUCT_SINGLE(SamElasticityApplyTangentialSingle, applytangentialsingle, SAM_EVENT_APPLY_TANGENTIAL, FILM)
+PRODUCT_SINGLE(SamElasticityApplyTangentialSingle, applytangentialsingle, SAM_EVENT_APPLY_TANGENTIAL, e->film)
 PRODUCT_SINGLE(SamElasticityPreconditionNormalSingle, preconditionnormal, SAM_EVENT_PRECONDITION_NORMAL, 0)
 PRODUCT_SINGLE(SamElasticityPreconditionTangentialSingle, preconditiontangential, SAM_EVENT_PRECONDITION_TANGENTIAL, 0)
 

@@ -1,13 +1,13 @@
 /*
-  Bodies that roll towards +x in steady state, on top of a type of elasticity.
+  Bodies under a contact that rolls towards +x without change, on top of a type of elasticity.
 
   The grid moves with the contact; material enters at large x and moves towards -x, by a cell in the time in which its
   displacement changes from that of cell i + 1 to that of cell i. So where u = C q is the displacement of bodies at
-  rest, the slip velocity, in units of the rolling speed, is
+  rest, the slip in 1 m of rolled distance, which is the slip velocity in units of the rolling speed, is
       (u_i - u_(i+1))/dx - creepage = A q - creepage,     A = C D/dx,     (D q)_i = q_i - q_(i+1),
   as C does not depend on the place: one difference before the product. q is zero outside of the contact, and D q also
   in one cell behind it. A is positive, q.A q = (D q).C (D q)/(2 dx), but not symmetric. A creepage stands where a
-  displacement stands in the problem of bodies at rest, and u_t is a velocity; pressure moves the surfaces likewise.
+  displacement stands in the problem of bodies at rest, and u_t is A q; pressure moves the surfaces likewise.
 
   Source: J. J. Kalker, Three-dimensional Elastic Bodies in Rolling Contact (1990), chapter 4.
 */
@@ -94,16 +94,17 @@ PetscErrorCode SamElasticityCreate_Rolling(SamElasticity e)
                               .getselfinfluence      = GetSelfInfluence};
   PetscCall(SamElasticitySetInner(e, e->grid->axes == 1 ? SAM_ELASTICITY_PLANE : SAM_ELASTICITY_HALFSPACE));
   if (e->traits.coupled) e->ops.applynormaltotangential = ApplyNormalToTangential;
-  e->traits.steady = PETSC_TRUE;
+  e->traits.upwind = PETSC_TRUE;
+  e->film          = 0; /* it is a part of the operator */
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamElasticityCreateRolling(SamElasticity bodies, SamElasticity *rolling)
 {
   PetscFunctionBegin;
-  PetscCheck(!bodies->traits.periodic && !bodies->traits.steady, bodies->grid->comm, PETSC_ERR_SUP,
+  PetscCheck(!bodies->traits.periodic && !bodies->traits.upwind, bodies->grid->comm, PETSC_ERR_SUP,
              "Bodies of type %s do not roll", bodies->type);
   PetscCall(SamElasticityWrap(bodies, SAM_ELASTICITY_ROLLING, rolling));
-  (*rolling)->traits.steady = PETSC_TRUE;
+  (*rolling)->traits.upwind = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -18,7 +18,7 @@ typedef struct SamSymbol {
   double gain;    /* constants of the symbol, times a factor and the transforms' normalisation */
   double nu;      /* of the tangential symbols: nu, or nu/(1 - nu) */
   double mean;    /* stands for |k| at k = 0 in the inverses */
-  double lag;     /* of slip in steady rolling: the length of a cell along x, */
+  double lag;     /* of slip under an upwind operator: the length of a cell along x, */
   double slip;    /* and the inverse symbol over |k| */
   double film;    /* of the inverse tangential symbol: that is inverse to what it is without a film plus this */
   /* of layered bodies (layered/waves.c): */

@@ -55,7 +55,7 @@ static PetscErrorCode TakeStep(petsam_contact *c, Step *step)
     PetscBool has;
 
     PetscCall(SamContactHasField(c->setup->contact, names[f], &has));
-    for (ptrdiff_t k = 0; k < n && !has; k++) step->fields[f * n + k] = NAN; /* steady rolling has a velocity instead */
+    for (ptrdiff_t k = 0; k < n && !has; k++) step->fields[f * n + k] = NAN; /* the motion has another field instead */
     if (has) PetscCall(SamEmbedCopyField(c, names[f], step->fields + f * n));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

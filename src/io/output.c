@@ -4,6 +4,7 @@
   Datasets stay open and grow along time (steps.c); each rank writes its rows of the cells.
 */
 #include "ioimpl.h"
+#include <petsam/private/motionimpl.h>
 #include <string.h>
 
 /* ---- options ---- */
@@ -67,18 +68,17 @@ static PetscBool Names(const SamOutputSettings *set, const char name[])
 
 PetscErrorCode SamOutputSettingsAddLaws(SamOutputSettings *set, SamProblem problem)
 {
-  const SamLawType   *types;
-  PetscInt            count;
-  SamElasticity       elasticity;
-  SamElasticityTraits traits;
+  const SamLawType *types;
+  PetscInt          count;
+  SamElasticity     elasticity;
 
   PetscFunctionBegin;
   PetscCall(SamProblemGetElasticity(problem, &elasticity));
-  PetscCall(SamElasticityGetTraits(elasticity, &traits));
   set->sums = PETSC_TRUE;
   PetscCall(SamLawGetTypes(&count, &types));
   for (PetscInt k = 0; k < count; k++)
-    if (Names(set, types[k]) || (Names(set, "all") && !traits.steady)) PetscCall(SamProblemAddSum(problem, types[k]));
+    if (Names(set, types[k]) || (Names(set, "all") && SamMotionOf(elasticity)->continues))
+      PetscCall(SamProblemAddSum(problem, types[k]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

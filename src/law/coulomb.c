@@ -199,7 +199,7 @@ PetscErrorCode SamLawCreate_Coulomb(SamLaw law)
   PetscFunctionBegin;
   PetscCall(PetscNew(&c));
   law->data               = c;
-  law->steady             = PETSC_TRUE;
+  law->any_motion         = PETSC_TRUE;
   law->ops.setfromoptions = SetFromOptions;
   law->ops.addparameters  = AddParameters;
   law->ops.hasfriction    = HasFriction;

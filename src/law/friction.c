@@ -8,11 +8,12 @@
   falling    F = 2^(-speed/half speed), low = kinetic, where a step rolls; the speed is that of rolling times slip over
              rolled distance. With a memory F = t F_before + (1 - t) F_now, t = memory/(memory + slip), the slip being
              at least the memory's speed times the step's time. The bound follows the slip of the step, and there may be
-             more than one solution. In steady rolling a cell is a step of the material: the slip is the slip velocity
-             over that of rolling, times dx, and F_before that of the cell ahead; it is 1 at the leading edge.
+             more than one solution. Where the motion does not continue steps, a cell is a step of the material: the
+             slip is that of dx, and F_before that of the cell ahead; it is 1 at the leading edge.
   Source of falling friction: Vollebregt and Schuttelaars 2012, J. Sound Vib. 331, 2141-2155.
 */
 #include <petsam/private/lawimpl.h>
+#include <petsam/private/motionimpl.h>
 #include <math.h>
 
 typedef enum { PATH, PRESSURE, FALLING, KINDS } Kind;
@@ -57,7 +58,7 @@ static const struct {
 typedef struct {
   Kind      kind;
   PetscReal value[OPTIONS];
-  PetscBool steady; /* rolling: what is remembered stands in the cell ahead, and not in the state */
+  PetscReal cell; /* rolled distance of a cell, m, where what is remembered stands in the cell ahead; 0: in the state */
 } Friction;
 
 /* The solution that was found, where there may be several. */
@@ -142,8 +143,8 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
   PetscInt             id;
 
   PetscFunctionBegin;
-  if (memory->name && !f->steady) PetscCall(SamStateDeclareField(state, memory, &id));
-  if (f->steady && law->follows_slip) PetscCall(SamStateDeclareNumber(state, &branch, &id));
+  if (memory->name && f->cell == 0) PetscCall(SamStateDeclareField(state, memory, &id));
+  if (f->cell > 0 && law->follows_slip) PetscCall(SamStateDeclareNumber(state, &branch, &id));
   PetscCall(SamStateOffer(state, &coefficient));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -189,8 +190,8 @@ static PetscErrorCode Bound(SamLaw law, const SamBoundAt *given, const SamBound 
 {
   const Friction *f     = (const Friction *)law->data;
   const PetscInt  cells = law->grid->cells;
-  const char     *name  = f->steady ? NULL : kinds[f->kind].memory.name;
-  const double    step  = f->steady ? (double)law->grid->dx : 1; /* slip of a step over what is given as slip */
+  const char     *name  = f->cell > 0 ? NULL : kinds[f->kind].memory.name;
+  const double    step  = f->cell > 0 ? (double)f->cell : 1; /* slip of a step over what is given as slip */
   SamBoundAt of = *given, *const at = &of;
   const Vec in[]        = {at->pressure, at->slip,
                     name && at->state ? SamStateGetField(at->state, SamStateFindField(at->state, name), SAM_COMMITTED)
@@ -200,7 +201,7 @@ static PetscErrorCode Bound(SamLaw law, const SamBoundAt *given, const SamBound 
   double       *to[3] = {NULL}, memory = 0, change;
 
   PetscFunctionBegin;
-  if (f->steady) at->rolled = law->grid->dx;
+  if (f->cell > 0) at->rolled = f->cell;
   for (int k = 0; k < 3; k++) {
     if (in[k]) PetscCall(VecGetArrayRead(in[k], &from[k]));
     if (out[k]) PetscCall(VecGetArray(out[k], &to[k]));
@@ -209,11 +210,11 @@ static PetscErrorCode Bound(SamLaw law, const SamBoundAt *given, const SamBound 
     const PetscInt k = cells - 1 - n; /* from the leading edge */
     const double   p = from[0][k], slip = in[1] ? step * from[1][k] : 0;
 
-    if (!f->steady || n % law->grid->nx == 0) memory = in[2] ? from[2][k] : 0;
+    if (f->cell == 0 || n % law->grid->nx == 0) memory = in[2] ? from[2][k] : 0;
     if (p > 0)
       BoundCell(f, at, p, memory, slip, out[0] ? &to[0][k] : NULL, out[1] ? &to[1][k] : NULL,
                 out[2] ? &to[2][k] : NULL);
-    if (f->steady) memory = p > 0 ? 1 - FactorOf(f, p, memory, slip, at->rolled, &change) : 0;
+    if (f->cell > 0) memory = p > 0 ? 1 - FactorOf(f, p, memory, slip, at->rolled, &change) : 0;
   }
   for (int k = 0; k < 3; k++) {
     if (out[k]) PetscCall(VecRestoreArray(out[k], &to[k]));
@@ -234,7 +235,7 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
   Vec       before, after, path;
 
   PetscFunctionBegin;
-  if (f->steady && law->follows_slip) {
+  if (f->cell > 0 && law->follows_slip) {
     PetscCall(SamGridNorm(law->grid, SamStateReadField(step->state, SamStateFindField(step->state, "bound")), NORM_1,
                           &sums[0]));
     PetscCall(SamGridNorm(law->grid, step->pressure, NORM_1, &sums[1]));
@@ -267,23 +268,21 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
 
 PetscErrorCode SamLawCreate_Friction(SamLaw law)
 {
-  Friction           *f;
-  Kind                kind = PATH;
-  SamElasticityTraits traits;
+  Friction *f;
+  Kind      kind = PATH;
 
   PetscFunctionBegin;
-  PetscCall(SamElasticityGetTraits(law->elasticity, &traits));
   while (strcmp(law->type, kinds[kind].type)) kind++;
   PetscCall(PetscNew(&f));
-  f->kind   = kind;
-  f->steady = traits.steady;
+  f->kind = kind;
+  f->cell = SamMotionOf(law->elasticity)->continues ? 0 : law->grid->dx;
   for (PetscInt k = 0; k < OPTIONS; k++) f->value[k] = kinds[kind].option[k].usual;
   law->data               = f;
   law->option             = "friction_law";
   law->bytes              = kinds[kind].memory.name ? 16 : 0;
   law->needs_friction     = PETSC_TRUE;
   law->follows_slip       = kind == FALLING;
-  law->steady             = kind != PATH;
+  law->any_motion         = kind != PATH;
   law->forbids_jumps      = kinds[kind].memory.name ? PETSC_TRUE : PETSC_FALSE;
   law->ops.setfromoptions = SetFromOptions;
   law->ops.addparameters  = AddParameters;

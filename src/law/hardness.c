@@ -221,7 +221,7 @@ PetscErrorCode SamLawCreate_Hardness(SamLaw law)
   law->option             = "pressure_limit";
   law->bytes              = 40;
   law->forbids_jumps      = PETSC_TRUE;
-  law->steady             = PETSC_TRUE;
+  law->any_motion         = PETSC_TRUE;
   law->ops.setfromoptions = SetFromOptions;
   law->ops.addparameters  = AddParameters;
   law->ops.declare        = Declare;

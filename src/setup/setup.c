@@ -1,36 +1,8 @@
 /* A contact and all that it is made of, from options: what the programs and embedded contacts share. */
-#include <petsam/private/baseimpl.h>
+#include <petsam/private/motionimpl.h>
 #include <petsam/setup.h>
 #include <math.h>
 #include <string.h>
-
-/* Steady rolling is a property of the operator. */
-static PetscErrorCode ReadRolling(SamSetup *s, const SamOptions *from)
-{
-  static const char *const words[] = {"none", "steady", NULL};
-  SamElasticity            bodies  = s->elasticity;
-  SamElasticityTraits      traits;
-  SamElasticityType        type;
-  PetscInt                 rolling = 0;
-
-  PetscFunctionBegin;
-  PetscCall(SamOptionsEnum(from, "rolling", "steady: the contact rolls towards +x in steady state; or none", words,
-                           &rolling, NULL));
-  if (!rolling) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamElasticityGetTraits(bodies, &traits));
-  PetscCall(SamElasticityGetType(bodies, &type));
-  PetscCheck(!traits.periodic, from->comm, SAM_ERR_USER,
-             "-%srolling steady: has no meaning with -%selasticity %s, whose contact has no leading edge",
-             SamOptionsPrefix(from), SamOptionsPrefix(from), type);
-  PetscCheck(
-    !traits.patch, from->comm, SAM_ERR_USER,
-    "-%srolling steady: has no meaning with -body1_compliance or -body2_compliance, whose bodies have a place: "
-    "omit one of them",
-    SamOptionsPrefix(from));
-  PetscCall(SamElasticityCreateRolling(bodies, &s->elasticity));
-  PetscCall(SamElasticityDestroy(&bodies));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
 
 /* The elasticity and the laws on the grid. */
 static PetscErrorCode CreateProblem(SamSetup *s, const SamOptions *from)
@@ -40,7 +12,7 @@ static PetscErrorCode CreateProblem(SamSetup *s, const SamOptions *from)
   PetscCall(SamElasticitySetOptionsPrefix(s->elasticity, from->prefix));
   PetscCall(SamElasticitySetFromOptions(s->elasticity));
   PetscCall(SamElasticityAddCompliances(&s->elasticity, from));
-  PetscCall(ReadRolling(s, from));
+  PetscCall(SamMotionSetFromOptions(from, &s->elasticity));
   PetscCall(SamProblemCreate(s->elasticity, &s->problem));
   PetscCall(SamProblemSetLawsFromOptions(s->problem, from));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -184,6 +156,6 @@ PetscErrorCode SamSetupAddParameters(const SamSetup *s, SamParameters *p)
   PetscCall(AddGap(s, p));
   PetscCall(SamContactGetSettings(s->contact, &set));
   PetscCall(SamParametersAddText(p, "coupling", PETSC_TRUE, set.coupling ? "full" : "none"));
-  PetscCall(SamParametersAddText(p, "rolling", PETSC_TRUE, SamContactIsSteady(s->contact) ? "steady" : "none"));
+  PetscCall(SamParametersAddText(p, "rolling", PETSC_TRUE, SamMotionOf(s->elasticity)->word));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

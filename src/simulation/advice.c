@@ -36,7 +36,7 @@ PetscErrorCode SamSimulationPrepareAdvice(SamSimulation s, PetscInt first)
   }
   PetscCall(SamProblemHasFriction(s->setup.problem, &rubs));
   PetscCall(SamContactGetSettings(s->setup.contact, &set));
-  if (rubs && set.coupling && !SamContactIsSteady(s->setup.contact) && s->needs.steps == 1 &&
+  if (rubs && set.coupling && SamMotionOf(s->setup.elasticity)->continues && s->needs.steps == 1 &&
       SamPairCoupling(s->setup.pair, waves[0], waves[1]) > DISSIMILAR)
     PetscCall(
       SamSimulationWarn(s,

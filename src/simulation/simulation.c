@@ -96,11 +96,12 @@ static PetscErrorCode CheckRolling(SamSimulation s)
     if (end != (n < s->needs.steps)) continue;
     PetscCall(SamHistoryGetStep(s->history, k, &control));
     PetscCall(SamHistoryGetPlace(s->history, k, where, sizeof(where)));
-    PetscCall(SamContactCheckRolling(s->setup.contact, &control, where));
+    PetscCall(SamMotionCheck(s->setup.elasticity, &control, where));
     PetscCheck(SamControlRolled(&control) == 0 || !s->needs.life, s->comm, SAM_ERR_USER,
                "roll with -wear_cycles: surfaces that roll are worn step by step: omit one of them");
-    PetscCheck(s->step_rtol == 0 || (SamControlRolled(&control) == 0 && !SamContactIsSteady(s->setup.contact)), s->comm,
-               SAM_ERR_USER, "-step_rtol with rolling, which has no estimate of the energy's error: use -steps");
+    PetscCheck(s->step_rtol == 0 || (SamControlRolled(&control) == 0 && SamMotionOf(s->setup.elasticity)->continues),
+               s->comm, SAM_ERR_USER,
+               "-step_rtol with rolling, which has no estimate of the energy's error: use -steps");
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -3,7 +3,7 @@
 #define PETSAM_SIMULATIONIMPL_H
 
 #include <petsam.h>
-#include <petsam/private/baseimpl.h>
+#include <petsam/private/motionimpl.h>
 #include "plan.h"
 
 /* The position of a simulation in its load history. */

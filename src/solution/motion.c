@@ -45,7 +45,7 @@ SamStretch SamStretchOf(SamPair pair, const SamControl *control)
   return e;
 }
 
-PetscErrorCode SamMotionSet(SamMotion *m, SamProblem problem, const SamSolution *s)
+PetscErrorCode SamRigidSet(SamRigid *m, SamProblem problem, const SamSolution *s)
 {
   SamBalance    rigid[2] = {{.kind = SAM_BALANCE_NORMAL}, {.kind = SAM_BALANCE_TANGENTIAL}};
   SamElasticity elasticity;
@@ -64,29 +64,29 @@ PetscErrorCode SamMotionSet(SamMotion *m, SamProblem problem, const SamSolution 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-SamMotionRow SamMotionOfGap(const SamMotion *m, PetscInt j)
+SamRigidRow SamRigidOfGap(const SamRigid *m, PetscInt j)
 {
   const double *a = m->normal.fixed;
 
-  return (SamMotionRow){a[0] - a[1] * SamFrameEta(&m->normal, j), a[2]};
+  return (SamRigidRow){a[0] - a[1] * SamFrameEta(&m->normal, j), a[2]};
 }
 
 /* The rigid displacement minus the stretch. */
-static SamMotionRow RowOfSlip(const SamMotion *m, PetscInt component, PetscInt j)
+static SamRigidRow RowOfSlip(const SamRigid *m, PetscInt component, PetscInt j)
 {
   const SamGrid    grid = m->tangential.grid;
   const double    *a = m->tangential.fixed, eta = SamFrameEta(&m->tangential, j);
   const SamStretch e    = m->stretch;
   const double     y    = grid->center[1] + eta * grid->length;
   const double     at_x = component ? e.xy : e.xx, at_y = component ? e.yy : e.xy;
-  SamMotionRow     row = component ? (SamMotionRow){a[1], a[2]} : (SamMotionRow){SamFrameX(a, eta), 0};
+  SamRigidRow      row = component ? (SamRigidRow){a[1], a[2]} : (SamRigidRow){SamFrameX(a, eta), 0};
 
   row.a -= at_x * grid->center[0] + at_y * y;
   row.b -= at_x * grid->length;
   return row;
 }
 
-SAM_VECTORIZED static void SubtractRow(PetscInt n, const double *restrict u, SamMotionRow r, double xi0, double dxi,
+SAM_VECTORIZED static void SubtractRow(PetscInt n, const double *restrict u, SamRigidRow r, double xi0, double dxi,
                                        double *restrict value)
 {
   const double a = r.a, b = r.b;
@@ -95,7 +95,7 @@ SAM_VECTORIZED static void SubtractRow(PetscInt n, const double *restrict u, Sam
   for (PetscInt i = 0; i < n; i++) value[i] = u[i] - (a + b * (xi0 + (double)i * dxi));
 }
 
-SAM_VECTORIZED static void GapRow(PetscInt n, const double *restrict u, const double *restrict h, SamMotionRow r,
+SAM_VECTORIZED static void GapRow(PetscInt n, const double *restrict u, const double *restrict h, SamRigidRow r,
                                   double xi0, double dxi, double *restrict value)
 {
   const double a = r.a, b = r.b;
@@ -105,25 +105,25 @@ SAM_VECTORIZED static void GapRow(PetscInt n, const double *restrict u, const do
 }
 
 /* A component of the slip along row j. */
-static void SlipRow(const SamMotion *m, PetscInt component, PetscInt j, const double u[], double slip[])
+static void SlipRow(const SamRigid *m, PetscInt component, PetscInt j, const double u[], double slip[])
 {
   SubtractRow(m->normal.grid->nx, u, RowOfSlip(m, component, j), m->normal.xi0, m->normal.dxi, slip);
 }
 
-void SamMotionGap(const SamMotion *m, SamMotionRow row, const double u[], const double h[], double value[])
+void SamRigidGap(const SamRigid *m, SamRigidRow row, const double u[], const double h[], double value[])
 {
   GapRow(m->normal.grid->nx, u, h, row, m->normal.xi0, m->normal.dxi, value);
 }
 
 PetscErrorCode SamSolutionComputeSlip(SamProblem problem, const SamSolution *s, PetscInt component, double slip[])
 {
-  SamMotion     motion;
+  SamRigid      motion;
   SamGrid       grid;
   const double *u;
 
   PetscFunctionBegin;
   PetscCall(SamProblemGetGrid(problem, &grid));
-  PetscCall(SamMotionSet(&motion, problem, s));
+  PetscCall(SamRigidSet(&motion, problem, s));
   PetscCall(VecGetArrayRead(s->displacement_t, &u));
   for (PetscInt j = 0; j < grid->rows; j++) {
     const ptrdiff_t k = (ptrdiff_t)j * grid->nx;
@@ -147,10 +147,10 @@ PetscErrorCode SamIncrementCreate(SamProblem problem, const SamSolution *before,
   s->v_before = before ? before->displacement_t : NULL;
   PetscCall(PetscMalloc3(grid->nx, &s->row[0], grid->nx, &s->row[1], grid->nx, &s->scratch));
   PetscCall(PetscMalloc2(grid->nx, &s->slip[0], grid->nx, &s->slip[1]));
-  PetscCall(SamMotionSet(&s->now, problem, now));
+  PetscCall(SamRigidSet(&s->now, problem, now));
   PetscCall(VecGetArrayRead(s->v_now, &s->u_now));
   if (!before) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamMotionSet(&s->before, problem, before));
+  PetscCall(SamRigidSet(&s->before, problem, before));
   PetscCall(VecGetArrayRead(s->v_before, &s->u_before));
   s->mid_step     = now->mid_step;
   s->solutions[0] = before;
@@ -256,21 +256,21 @@ PetscErrorCode SamSolutionDestroySeparation(SamProblem problem, Vec *h)
 
 PetscErrorCode SamSolutionComputeGap(SamProblem problem, const SamSolution *s, Vec separation, Vec gap)
 {
-  SamMotion     motion;
+  SamRigid      motion;
   SamGrid       grid;
   const double *u, *h;
   double       *g;
 
   PetscFunctionBegin;
   PetscCall(SamProblemGetGrid(problem, &grid));
-  PetscCall(SamMotionSet(&motion, problem, s));
+  PetscCall(SamRigidSet(&motion, problem, s));
   PetscCall(VecGetArrayRead(separation, &h));
   PetscCall(VecGetArrayRead(s->displacement_z, &u));
   PetscCall(VecGetArrayWrite(gap, &g));
   for (PetscInt j = 0; j < grid->rows; j++) {
     const ptrdiff_t k = (ptrdiff_t)j * grid->nx;
 
-    SamMotionGap(&motion, SamMotionOfGap(&motion, j), u + k, h + k, g + k);
+    SamRigidGap(&motion, SamRigidOfGap(&motion, j), u + k, h + k, g + k);
   }
   PetscCall(VecRestoreArrayWrite(gap, &g));
   PetscCall(VecRestoreArrayRead(s->displacement_z, &u));

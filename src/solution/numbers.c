@@ -130,33 +130,18 @@ static const SamStateNumber declared[NUMBERS] = {
   REAL("stored_energy", "J", "elastic energy of both bodies", SAM_JOIN_LAST, 2),
   REAL("energy_error", "J", "estimated error of dissipated_energy by the length of the load step", SAM_JOIN_SUM, 0)};
 
-/* The same of steady rolling. */
-static const SamStateNumber steady_slip = REAL("slip_velocity_max", "1",
-                                               "maximum slip velocity of a cell in contact, relative to that of "
-                                               "rolling",
-                                               SAM_JOIN_LAST, 0),
-                            steady_work =
-                              REAL("rolling_energy_cells", "J/m",
-                                   "frictional work per rolled distance, summed over cells", SAM_JOIN_LAST, 0);
-
 /* Of the edge of contact: whether it is known, its area, faces and good faces. They hold while the pressure does. */
 enum { KNOWN, AREA, FACES, GOOD, EDGE };
 static const SamStateNumber contact_edge = {
   "contact_edge_sums", "1", "edge of contact", SAM_NUMBER_REAL, EDGE, PETSC_FALSE, PETSC_FALSE, SAM_JOIN_LAST, 0};
 
-PetscErrorCode SamSolutionDeclareNumbers(SamState state, PetscBool steady)
+PetscErrorCode SamSolutionDeclareNumbers(SamState state, SamMotion motion)
 {
   PetscInt id;
 
   PetscFunctionBegin;
   PetscCall(SamStateDeclareNumber(state, &contact_edge, &id));
-  for (PetscInt k = 0; k < NUMBERS; k++) {
-    const SamStateNumber *number = &declared[k];
-
-    if (steady && k == SLIP_MAX) number = &steady_slip;
-    if (steady && k == DISSIPATED_ENERGY) number = &steady_work;
-    PetscCall(SamStateDeclareNumber(state, number, &id));
-  }
+  for (PetscInt k = 0; k < NUMBERS; k++) PetscCall(SamMotionDeclareNumber(motion, state, &declared[k], &id));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -292,19 +277,19 @@ static PetscErrorCode FindEdges(SamProblem problem, const SamSolution *s, double
 PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamState state, const SamSolution *before,
                                          const SamSolution *s, PetscBool same_pressure, PetscBool edges)
 {
-  double *const       numbers = SamStateNumbers(state, SamStateFindNumber(state, declared[0].name), SAM_TRIED);
-  double *const       contact = SamStateNumbers(state, SamStateFindNumber(state, contact_edge.name), SAM_TRIED);
-  SamGrid             grid;
-  SamElasticity       elasticity;
-  SamElasticityTraits traits;
+  double *const numbers = SamStateNumbers(state, SamStateFindNumber(state, declared[0].name), SAM_TRIED);
+  double *const contact = SamStateNumbers(state, SamStateFindNumber(state, contact_edge.name), SAM_TRIED);
+  SamGrid       grid;
+  SamElasticity elasticity;
+  PetscBool     continues;
 
   PetscFunctionBegin;
   PetscCall(SamProblemGetGrid(problem, &grid));
   PetscCall(SamProblemGetElasticity(problem, &elasticity));
-  PetscCall(SamElasticityGetTraits(elasticity, &traits));
+  continues = SamMotionOf(elasticity)->continues;
   PetscCall(SumCells(problem, before, s, numbers));
-  if (traits.steady) numbers[STORED_ENERGY] = NAN;                                      /* u_t is a velocity */
-  if (traits.steady || SamControlRolled(&s->control) != 0) numbers[ENERGY_ERROR] = NAN; /* estimated at one place */
+  if (!continues) numbers[STORED_ENERGY] = NAN; /* u_t is that of a rolled distance */
+  if (!continues || SamControlRolled(&s->control) != 0) numbers[ENERGY_ERROR] = NAN; /* estimated at one place */
   for (PetscInt k = 0; k < SAM_CASES; k++)
     if (s->control.cases[k] != 0) numbers[STORED_ENERGY] = NAN; /* the displacements are not by the tractions alone */
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_EDGES], 0, 0, 0, 0));

@@ -32,7 +32,7 @@ static PetscErrorCode RegisterAll(SamSolverKind *kind)
   kind->next = kinds;
   kinds      = kind;
   PetscCall(PetscFunctionListAdd(&kind->types, kind->type, kind->create));
-  if (kind->steady) PetscCall(PetscFunctionListAdd(&kind->types, kind->steady, kind->createsteady));
+  if (kind->upwind) PetscCall(PetscFunctionListAdd(&kind->types, kind->upwind, kind->createupwind));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -52,7 +52,7 @@ static PetscErrorCode DestroyType(SamSolver s)
   if (s->ops.destroy) PetscCall(s->ops.destroy(s));
   PetscCall(PetscMemzero(&s->ops, sizeof(s->ops)));
   s->data          = NULL;
-  s->keeps_product = s->limits_pressure = s->steady = PETSC_FALSE;
+  s->keeps_product = s->limits_pressure = s->upwind = PETSC_FALSE;
   s->default_levels                                 = 1;
   s->default_max_it                                 = 1000;
   PetscFunctionReturn(PETSC_SUCCESS);

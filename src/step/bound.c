@@ -87,8 +87,7 @@ static PetscErrorCode Fail(SamSolve *w, PetscReal change)
   PetscCall(PetscSNPrintf(message, sizeof(message),
                           "the friction of the law %s did not converge with the slip within %d iterations, the last "
                           "relative change is %.2g: %s",
-                          laws[k]->type, PASSES, (double)change,
-                          w->task->traits.steady ? "use a longer memory of the friction" : "use smaller load steps"));
+                          laws[k]->type, PASSES, (double)change, w->task->motion->remedy));
   PetscCall(SamStepFail(w->step, SAM_STATUS_NOT_CONVERGED, message));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -2,16 +2,16 @@
   The start of a step from the same step one cycle before.
 
   In a load history that repeats itself, the change of the shear from one step to the next is nearly that of one cycle
-  before, and in steady state it is the same. So a step starts from q = q_now + (q_k - q_(k-1)), k being the step of the
+  before, and in the end it is the same. So a step starts from q = q_now + (q_k - q_(k-1)), k being the step of the
   cycle before; this keeps what sticks stuck. Its product C q follows from the committed displacement and the kept
   change of that of step k: the start costs no application of the operator. q may leave its discs by the distance from
-  the steady state; the solver's first trial then goes to the nearest admissible shear (newton.c), and a start whose
+  the repeated cycle; the solver's first trial then goes to the nearest admissible shear (newton.c), and a start whose
   error is too large is dropped for that of predict.c.
 
   Friction is odd: where all that causes shear is reversed, so is its change. So under the same normal loads the second
   half of a symmetric cycle repeats the first one with the other sign, and k is a step of the half cycle before.
 
-  On the way to the steady state the changes differ from it by parts that shrink by nearly the same factor m from one
+  On the way to the repeated cycle the changes differ from it by parts that shrink by nearly the same factor m from one
   repetition to the next, m < 0 for parts that reversal does not reverse. So of the last two repetitions, D and the
   older D', w D + (1 - w) D' with w = 1 + m is much nearer than D. w is what fits the changes of the last step best.
 

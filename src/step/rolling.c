@@ -1,5 +1,5 @@
 /*
-  The numbers of steady rolling: frictional work per rolled distance, and what finer grids would give.
+  The numbers of rolling without change: frictional work per rolled distance, and what finer grids would give.
 
   The work is that of the loads on the creepages, xi Tx + eta Ty + phi Mz. Summed over cells, as -q.s, it lacks the
   numerical damping of the upwind difference, (D q).C (D q)/2, which is first order in the cell's size.

@@ -17,7 +17,7 @@ static PetscErrorCode Begin(const SamStepTask *task, SamStep *step, SamSolve *w)
   for (PetscInt k = 0; k < 3; k++) {
     const PetscInt n = SamComponentsOf[SAM_BALANCE_TANGENTIAL][k];
 
-    if (w->s->control.creep[n] && !task->traits.steady)
+    if (w->s->control.creep[n] && task->motion->continues)
       w->tangential.rigid[k] =
         (w->task->before ? w->task->before->rigid[n] : 0) + SamControlRolled(&w->s->control) * w->s->control.value[n];
   }
@@ -92,7 +92,7 @@ PetscErrorCode SamStepSolve(const SamStepTask *task, SamStep *step)
     PetscCall(SamSolveCoupled(&w));
   else
     PetscCall(SolveOnce(&w));
-  if (task->traits.steady) PetscCall(SamSolveRolling(&w));
+  if (!task->motion->continues) PetscCall(SamSolveRolling(&w));
   PetscCall(End(&w));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

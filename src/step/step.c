@@ -143,8 +143,9 @@ static PetscErrorCode DescribeSliding(SamSolve *w, char message[], size_t size)
   PetscCall(SamTangentialGetLimit(w->task->tangential, &factor));
   PetscCall(PetscStrncpy(message, "gross slip: ", size));
   for (PetscInt k = 0; k < 3; k++) {
-    const SamComponentName *name = &SamComponentNames[SamComponentsOf[SAM_BALANCE_TANGENTIAL][k]];
-    const double            load = (double)w->tangential.load[k];
+    const SamComponent      component = SamComponentsOf[SAM_BALANCE_TANGENTIAL][k];
+    const SamComponentName *name      = &SamComponentNames[component];
+    const double            load      = (double)w->tangential.load[k];
     char                    text[96];
 
     if (!w->tangential.force[k] || load == 0) continue;
@@ -154,13 +155,13 @@ static PetscErrorCode DescribeSliding(SamSolve *w, char message[], size_t size)
                             follows ? " at the slip of the last iteration" : ""));
     PetscCall(PetscStrlcat(message, text, size));
     if (loaded > 1) PetscCall(PetscStrlcat(instead, ", ", sizeof(instead)));
-    PetscCall(
-      PetscStrlcat(instead, w->task->traits.steady || w->task->rolls ? name->creep : name->rigid, sizeof(instead)));
+    PetscCall(PetscStrlcat(instead, w->task->rolls ? name->creep : SamMotionRigidName(w->task->motion, component).name,
+                           sizeof(instead)));
   }
   PetscCall(SamProblemHasFriction(w->task->problem, &friction));
   PetscCall(PetscStrlcat(
     message, friction ? " cannot be balanced by |q| <= mu p" : " cannot be balanced without friction", size));
-  PetscCall(PetscStrlcat(message, follows && !w->task->traits.steady ? ": use smaller load steps" : instead, size));
+  PetscCall(PetscStrlcat(message, follows && w->task->motion->continues ? ": use smaller load steps" : instead, size));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -26,6 +26,7 @@ typedef struct {
   SamProblem                problem;
   SamElasticity             elasticity; /* of the problem */
   SamGrid                   grid;       /* of the problem */
+  SamMotion                 motion;
   SamElasticityTraits       traits;
   SamNormal                 normal;
   SamTangential             tangential;
@@ -35,7 +36,7 @@ typedef struct {
   const SamSolution        *committed;        /* from which the step continues; NULL in the first step */
   const SamSolution        *before;           /* the same if its slip is continued; else NULL */
   PetscInt                  displacements[2]; /* fields in the state: u_z, u_t */
-  PetscInt                  counts, rolling;  /* numbers in the state: of the solvers, of steady rolling */
+  PetscInt                  counts, rolling;  /* numbers in the state: of the solvers, of rolling.c */
   PetscObjectState          revision;         /* of the problem */
   PetscBool                 coupled;          /* pressure and shear depend on each other */
   PetscBool                 rolls;            /* in time */
@@ -53,7 +54,7 @@ PETSC_INTERN PetscErrorCode SamStepSolve(const SamStepTask *task, SamStep *step)
   possible: in the first step they then use the memory that the solvers have freed. Collective.
 */
 PETSC_INTERN PetscErrorCode SamStepSetDisplacements(SamState state, const PetscInt fields[2], SamSolution *tried);
-/* SamStepDeclareRolling - declares the numbers of steady rolling, and returns the first (rolling.c). Collective. */
+/* SamStepDeclareRolling - declares the numbers of a motion that continues no step, and returns the first (rolling.c). Collective. */
 PETSC_INTERN PetscErrorCode SamStepDeclareRolling(SamState state, PetscInt *first);
 
 #endif

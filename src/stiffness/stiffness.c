@@ -8,6 +8,7 @@
   motion.
 */
 #include "stiffnessimpl.h"
+#include <petsam/private/motionimpl.h>
 #include <math.h>
 
 enum { HALF = 3 }; /* normal or tangential motions */
@@ -150,14 +151,6 @@ static void Transform(const Systems *s, const PetscBool rotations[3], SamStiffne
     }
 }
 
-static PetscErrorCode CheckSteady(SamContact contact)
-{
-  PetscFunctionBegin;
-  PetscCheck(!SamContactIsSteady(contact), PETSC_COMM_SELF, SAM_ERR_USER,
-             "-stiffness: has no meaning with -rolling steady, where loads follow from creepages: omit it");
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* The part of the grid that the elasticity uses may be another one afterwards: each try chooses its own. */
 PetscErrorCode SamStiffnessCompute(SamContact contact, SamStiffnessDirection direction, SamStiffness *stiffness)
 {
@@ -167,7 +160,7 @@ PetscErrorCode SamStiffnessCompute(SamContact contact, SamStiffnessDirection dir
   SamProblem          problem;
 
   PetscFunctionBegin;
-  PetscCall(CheckSteady(contact));
+  PetscCall(SamMotionRefuse(SamContactGetMotion(contact), SAM_MOTION_STIFFNESS, PETSC_COMM_SELF, "-", "stiffness"));
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_STIFFNESS], 0, 0, 0, 0));
   PetscCall(SamContactGetProblem(contact, &problem));
   PetscCall(SamProblemGetElasticity(problem, &elasticity));
@@ -203,7 +196,7 @@ PetscErrorCode SamStiffnessDeclare(SamContact contact)
   PetscInt id;
 
   PetscFunctionBegin;
-  PetscCall(CheckSteady(contact));
+  PetscCall(SamMotionRefuse(SamContactGetMotion(contact), SAM_MOTION_STIFFNESS, PETSC_COMM_SELF, "-", "stiffness"));
   PetscCall(SamContactGetState(contact, &state));
   for (int k = 0; k < SAM_STIFFNESS_DIRECTIONS; k++) PetscCall(SamStateDeclareNumber(state, &numbers[k], &id));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -1,7 +1,7 @@
 /* Steady rolling: the operator, what holds exactly, and the solver against another method. */
 #include "tangentials.h"
 
-#include <petsam/private/elasticityimpl.h>
+#include <petsam/private/motionimpl.h>
 
 /* The case on bodies that roll, with the bodies at rest besides. */
 typedef struct {
@@ -14,7 +14,8 @@ static Rolling NewRolling(PetscInt n, double poisson)
   Rolling r = {.c = NewCase(n, poisson)};
 
   r.rest = r.c.s.elasticity;
-  sam_call(SamElasticityCreateRolling(r.rest, &r.c.s.elasticity));
+  sam_call(SamElasticityReference(r.rest));
+  sam_call(SamMotionSet(&SamMotionSteady, &(SamOptions){r.c.s.grid->comm, NULL}, &r.c.s.elasticity));
   return r;
 }
 

@@ -36,7 +36,7 @@ typedef struct {
   PetscErrorCode (*preconditionnormal)(SamElasticity, double factor, const float *const r[], float *const p[]);
   PetscErrorCode (*preconditiontangential)(SamElasticity, double factor, const float *const r[], float *const q[]);
   PetscErrorCode (*getselfinfluence)(SamElasticity, PetscReal *normal, PetscReal *tangential);
-  /* for slip in steady rolling; NULL: preconditiontangential */
+  /* for slip where the operator is upwind; NULL: preconditiontangential */
   PetscErrorCode (*preconditionslip)(SamElasticity, double factor, const float *const r[], float *const q[]);
   /* the stresses in a body that is not rigid */
   PetscErrorCode (*createstress)(SamElasticity, PetscInt body, const SamFourierSettings *, SamStress *);
@@ -62,7 +62,9 @@ struct _n_SamElasticity {
   SamElasticityOps    ops;
   SamElasticityTraits traits;
   void               *data;
-  SamElasticity       inner;   /* what the type adds to, by SamElasticitySetInner(); NULL: nothing */
+  SamMotion           motion; /* of the bodies, for those who use the operator; NULL: the usual one */
+  PetscReal           film;   /* m/Pa; of the pair, that the class adds to tangential products; 0 where the type does */
+  SamElasticity       inner;  /* what the type adds to, by SamElasticitySetInner(); NULL: nothing */
   SamFourier          fourier; /* made in setup by types that use one; the class trims and destroys it */
   PetscBool           is_set_up;
   PetscBool           has_self; /* of a cell on itself, which solvers ask for at each step */

@@ -26,8 +26,8 @@ typedef struct {
   SamState  state;          /* of the contact; NULL: nothing is remembered */
   PetscReal friction_scale; /* of the control */
   Vec       pressure;       /* Pa */
-  Vec       slip;           /* m: length of the slip of this step, in each cell; NULL: none. In steady rolling, where no
-                               step continues another, the slip velocity over that of rolling */
+  Vec       slip;           /* m: length of the slip of this step, in each cell; NULL: none. Of a motion that does not
+                               continue a step, in 1 m of rolled distance */
   PetscReal rolled;         /* m: rolled distance of the step (SamControlRolled()) */
 } SamBoundAt;
 
@@ -80,7 +80,7 @@ struct _n_SamLaw {
   PetscInt         bytes;          /* of memory that it takes for each cell */
   PetscBool        needs_friction; /* makes no sense without friction */
   PetscBool        forbids_jumps;  /* cannot be in a life with cycle jumps */
-  PetscBool        steady;         /* has a meaning in steady rolling: remembers and asks for no slip of steps */
+  PetscBool        any_motion;     /* has a meaning in every motion: remembers and asks for no slip of steps */
   void            *data;           /* the type's own, from PetscNew(); NULL: none */
   /* all may be NULL; collective */
   struct {

@@ -4,6 +4,7 @@
 
 #include <petsam/edges.h>
 #include <petsam/private/balanceimpl.h>
+#include <petsam/private/motionimpl.h>
 #include <petsam/private/problemimpl.h>
 #include <petsam/solution.h>
 
@@ -25,21 +26,21 @@ typedef struct {
 PETSC_INTERN SamStretch SamStretchOf(SamPair pair, const SamControl *control);
 
 /*
-  SamMotion - what is subtracted from a solution's elastic displacements to give its gap and its slip: the rigid
+  SamRigid - what is subtracted from a solution's elastic displacements to give its gap and its slip: the rigid
   displacement minus the stretch. Along a row of cells it is a + b xi (m), xi being the frame's dimensionless x.
 */
 typedef struct {
   SamFrame   normal, tangential; /* frames with all rigid displacements given */
   SamStretch stretch;
-} SamMotion;
+} SamRigid;
 typedef struct {
   double a, b;
-} SamMotionRow;
-PETSC_INTERN PetscErrorCode SamMotionSet(SamMotion *motion, SamProblem problem, const SamSolution *solution);
-PETSC_INTERN SamMotionRow   SamMotionOfGap(const SamMotion *motion, PetscInt j);
+} SamRigidRow;
+PETSC_INTERN PetscErrorCode SamRigidSet(SamRigid *motion, SamProblem problem, const SamSolution *solution);
+PETSC_INTERN SamRigidRow    SamRigidOfGap(const SamRigid *motion, PetscInt j);
 /* value = u + h - a - b xi along a row of the grid. */
-PETSC_INTERN void SamMotionGap(const SamMotion *motion, SamMotionRow row, const double u[], const double h[],
-                               double value[]);
+PETSC_INTERN void SamRigidGap(const SamRigid *motion, SamRigidRow row, const double u[], const double h[],
+                              double value[]);
 /*
   SamSolutionCreateSeparation - the separation (m) of the bodies: the gap of the problem and what its laws put between
   them, for the next step or in the last solution of a state (lawimpl.h; NULL: nothing). Borrowed from the problem
@@ -66,7 +67,7 @@ PETSC_INTERN PetscErrorCode SamSolutionComputeSlip(SamProblem problem, const Sam
 */
 typedef struct {
   SamGrid            grid;
-  SamMotion          now, before;
+  SamRigid           now, before;
   Vec                v_now, v_before;
   const double      *u_now, *u_before; /* elastic displacements; u_before NULL: no slip so far */
   double            *slip[2], *row[2], *scratch;
@@ -96,7 +97,7 @@ PETSC_INTERN PetscErrorCode SamSolutionComputeStates(const SamSolution *solution
 PETSC_INTERN PetscErrorCode SamSolutionComputeFriction(SamProblem problem, const SamSolution *before,
                                                        const SamSolution *now, Vec path, Vec pressed, Vec work);
 /*
-  SamSolutionComputeRolling - of steady rolling, with the centred slip velocity over that of rolling: the frictional
+  SamSolutionComputeRolling - of steps of 1 m of rolled distance, with the centred slip of a cell: the frictional
   power per area over the rolling speed (Pa); `wears`: instead the integral along x of pressure times slip (Pa m), the
   same in all cells of a row. Not collective.
 */
@@ -105,11 +106,11 @@ PETSC_INTERN PetscErrorCode SamSolutionComputeRolling(SamProblem problem, const 
 
 /*
   SamSolutionDeclareNumbers - the numbers of /history that SamSolutionComputeNumbers() fills in the tried generation:
-  cells and areas, by their counted cells or (`edges`) reconstructed edges, largest tractions and slip, energies; of
-  steady rolling (`steady`) slip velocity and frictional work per distance. With `same_pressure` that of the step
+  cells and areas, by their counted cells or (`edges`) reconstructed edges, largest tractions and slip, energies, by
+  their names in the motion. With `same_pressure` that of the step
   before, whose edge of contact it keeps. Collective.
 */
-PETSC_INTERN PetscErrorCode SamSolutionDeclareNumbers(SamState state, PetscBool steady);
+PETSC_INTERN PetscErrorCode SamSolutionDeclareNumbers(SamState state, SamMotion motion);
 PETSC_INTERN PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamState state, const SamSolution *before,
                                                       const SamSolution *now, PetscBool same_pressure, PetscBool edges);
 /* SamSolutionDeclareSpots, SamSolutionComputeSpots - likewise the number of contact spots, and the mean gap. */

@@ -86,10 +86,10 @@ struct _n_SamSolverKind {
   PetscErrorCode (*solvelevel)(SamSolver solver, SamLevel *level, SamStart start);
   /* the start of a level from the solution on the next coarser grid */
   PetscErrorCode (*prolong)(SamTransfer transfer, const SamLevel *coarse, SamLevel *fine);
-  /* the default type, and that for steady rolling (NULL: the same) */
-  SamSolverType type, steady;
+  /* the default type, and that for upwind operators (NULL: the same) */
+  SamSolverType type, upwind;
   PetscErrorCode (*create)(SamSolver);
-  PetscErrorCode (*createsteady)(SamSolver);
+  PetscErrorCode (*createupwind)(SamSolver);
   /* the registry */
   PetscFunctionList types;
   SamSolverKind    *next;
@@ -111,7 +111,7 @@ struct _n_SamSolver {
   PetscInt  default_levels, default_max_it;
   PetscBool keeps_product;
   PetscBool limits_pressure; /* normal: obeys frame.most */
-  PetscBool steady;          /* tangential: solves problems of steady rolling, and no others */
+  PetscBool upwind;          /* tangential: solves problems of upwind operators, and no others */
   /* what the user set; 0 stands for the type's default */
   char             type[64], prefix[SAM_PREFIX + 16]; /* the prefix with `<kind>_` */
   PetscReal        rtol;

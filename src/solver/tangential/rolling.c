@@ -1,5 +1,5 @@
 /*
-  Steady rolling: generalised conjugate residuals with kept directions and a sweep along the stream.
+  Rolling: generalised conjugate residuals with kept directions and a sweep along the stream.
 
   Problem: the shear q on the discs |q| <= b whose slip velocity s = A q + offset - creepage (elasticity/rolling.c) is
   zero where |q| < b and opposite to q where |q| = b, for given creepages or loads, or some of each. A is positive, but
@@ -438,7 +438,7 @@ PetscErrorCode SamTangentialCreate_Rolling(SamSolver solver)
 {
   PetscFunctionBegin;
   solver->ops.solve      = SamTangentialSolve_Rolling;
-  solver->steady         = PETSC_TRUE;
+  solver->upwind         = PETSC_TRUE;
   solver->default_levels = PETSC_MAX_INT;
   solver->default_max_it = 500;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -1,4 +1,4 @@
-/* The state of the method for steady rolling, and its loops over the contact cells of a row. */
+/* The state of the method for rolling, and its loops over the contact cells of a row. */
 #ifndef PETSAM_ROLLINGIMPL_H
 #define PETSAM_ROLLINGIMPL_H
 

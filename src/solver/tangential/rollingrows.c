@@ -1,5 +1,5 @@
 /*
-  The loops of the method for steady rolling over the contact cells of a row; see rolling.c. Each is vectorised but the
+  The loops of the method for rolling over the contact cells of a row; see rolling.c. Each is vectorised but the
   sweep, in which a cell depends on the next one. Sums over a row do not depend on the number of ranks. A cell that
   slips has the unit vector `normal` along its shear, P takes it off a vector.
 */

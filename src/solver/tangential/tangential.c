@@ -271,7 +271,7 @@ static PetscErrorCode Solve(SamSolver s, SamLevel *level, PetscBool guess)
   }
   PetscCall(SamGridGetSupport(level->grid, bound, first, size));
   PetscCall(SamElasticityGetTraits(level->elasticity, &traits));
-  if (traits.steady && first[0] > 0) { /* the difference of the shear reaches one cell behind the contact */
+  if (traits.upwind && first[0] > 0) { /* the difference of the shear reaches one cell behind the contact */
     first[0]--;
     size[0]++;
   }
@@ -290,8 +290,8 @@ static SamSolverKind kind = {
   .event              = SAM_EVENT_TANGENTIAL_SOLVE,
   .type               = SAM_TANGENTIAL_NEWTON,
   .create             = SamTangentialCreate_Newton,
-  .steady             = SAM_TANGENTIAL_ROLLING,
-  .createsteady       = SamTangentialCreate_Rolling,
+  .upwind             = SAM_TANGENTIAL_ROLLING,
+  .createupwind       = SamTangentialCreate_Rolling,
   .rtol               = 1e-6,
   .coarse_rtol        = 1e-3,
   .components         = 2,
@@ -318,7 +318,7 @@ PetscErrorCode SamTangentialCreate(SamElasticity elasticity, SamTangential *tang
   PetscFunctionBegin;
   PetscCall(SamSolverCreate(&kind, elasticity, &solver));
   PetscCall(SamElasticityGetTraits(elasticity, &traits));
-  if (traits.steady) PetscCall(SamSolverSetType(solver, SAM_TANGENTIAL_ROLLING));
+  if (traits.upwind) PetscCall(SamSolverSetType(solver, SAM_TANGENTIAL_ROLLING));
   *tangential = (SamTangential)solver;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,0 +1,118 @@
+/* The class of motions, and that of steps in time: the bodies rest on each other, or roll a distance in a step. */
+#include <math.h>
+#include <petsam/private/motionimpl.h>
+#include <string.h>
+
+static PetscErrorCode Check(SamElasticity e, const SamControl *control, PetscReal rolled, const char where[])
+{
+  PetscFunctionBegin;
+  PetscCheck(rolled == 0 || !e->traits.patch, e->grid->comm, SAM_ERR_USER,
+             "%sroll = %.6g: expected 0: bodies with a compliance of their own have a place", where, (double)rolled);
+  PetscCheck(rolled == 0 || !e->traits.periodic, e->grid->comm, SAM_ERR_USER,
+             "%sroll = %.6g: expected 0: bodies of type %s do not roll", where, (double)rolled, e->type);
+  for (PetscInt k = 0; k < SAM_COMPONENTS; k++)
+    PetscCheck(!control->creep[k] || control->value[k] == 0 || rolled != 0, e->grid->comm, SAM_ERR_USER,
+               "%s%s = %.6g: a creepage needs a rolled distance: give roll or roll_y, or -rolling steady", where,
+               SamComponentNames[k].creep, (double)control->value[k]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+const struct _n_SamMotion SamMotionInTime = {.word      = "none",
+                                             .continues = PETSC_TRUE,
+                                             .way       = SAM_BY_RIGID,
+                                             .work      = "dissipated_energy",
+                                             .work_unit = "J",
+                                             .slip_unit = " m",
+                                             .remedy    = "use smaller load steps",
+                                             .check     = Check};
+
+/* The first one is the usual one. */
+static const SamMotion motions[] = {&SamMotionInTime, &SamMotionSteady};
+#define MOTIONS ((PetscInt)(sizeof(motions) / sizeof(motions[0])))
+
+SamMotion SamMotionOf(SamElasticity elasticity)
+{
+  return elasticity->motion ? elasticity->motion : motions[0];
+}
+
+PetscErrorCode SamMotionSet(SamMotion motion, const SamOptions *from, SamElasticity *elasticity)
+{
+  SamElasticity bodies = *elasticity;
+
+  PetscFunctionBegin;
+  if (motion->wrap) {
+    PetscCall(motion->wrap(bodies, from, elasticity));
+    PetscCall(SamElasticityDestroy(&bodies));
+  }
+  (*elasticity)->motion = motion;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamMotionSetFromOptions(const SamOptions *from, SamElasticity *elasticity)
+{
+  const char *words[MOTIONS + 1];
+  PetscInt    k = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt n = 0; n < MOTIONS; n++) words[n] = motions[n]->word;
+  words[MOTIONS] = NULL;
+  PetscCall(
+    SamOptionsEnum(from, "rolling", "steady: the contact rolls towards +x in steady state; or none", words, &k, NULL));
+  PetscCall(SamMotionSet(motions[k], from, elasticity));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamMotionRefuse(SamMotion motion, SamMotionSubject subject, MPI_Comm comm, const char prefix[],
+                               const char name[])
+{
+  PetscFunctionBegin;
+  PetscCheck(!motion->meaningless[subject], comm, SAM_ERR_USER, "%s%s: has no meaning with -rolling %s, %s: omit it",
+             prefix, name, motion->word, motion->meaningless[subject]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+const SamMotionName *SamMotionFindName(SamMotion motion, const char usual[])
+{
+  for (const SamMotionName *n = motion->names; n && n->usual; n++)
+    if (!strcmp(n->usual, usual)) return n;
+  return NULL;
+}
+
+PetscErrorCode SamMotionDeclareNumber(SamMotion motion, SamState state, const SamStateNumber *number, PetscInt *id)
+{
+  const SamMotionName *name     = SamMotionFindName(motion, number->name);
+  SamStateNumber       declared = *number;
+
+  PetscFunctionBegin;
+  if (name) {
+    declared.name  = name->name;
+    declared.unit  = name->unit;
+    declared.text  = name->text;
+    declared.join  = SAM_JOIN_LAST;
+    declared.order = 0;
+  }
+  PetscCall(SamStateDeclareNumber(state, &declared, id));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+SamMotionName SamMotionRigidName(SamMotion motion, SamComponent component)
+{
+  const SamComponentName *c = &SamComponentNames[component];
+
+  if (c->creep && motion->way == SAM_BY_CREEP) return (SamMotionName){c->rigid, c->creep, c->creep_unit, c->creep_text};
+  return (SamMotionName){c->rigid, c->rigid, c->rigid_unit, c->rigid_text};
+}
+
+PetscErrorCode SamMotionCheck(SamElasticity e, const SamControl *control, const char where[])
+{
+  const PetscReal rolled = SamControlRolled(control);
+
+  PetscFunctionBegin;
+  PetscCheck(isfinite(rolled), e->grid->comm, SAM_ERR_USER, "roll is not a finite number");
+  for (PetscInt k = 0; k < 2; k++)
+    PetscCheck(fabs(control->roll[k]) <= e->grid->width[k], e->grid->comm, SAM_ERR_USER,
+               "%s%s = %.6g: expected at most the width of the grid, %.6g m, in a step: use more steps", where,
+               SamConditions[SAM_CONDITION_ROLL + k].name, (double)control->roll[k], (double)e->grid->width[k]);
+  PetscCall(SamMotionOf(e)->check(e, control, rolled, where));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

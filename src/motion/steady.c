@@ -1,0 +1,59 @@
+/*
+  Steady rolling towards +x: each load step is a steady state by itself, solved by the operator of the shear's
+  differences along x (elasticity/rolling.c). Steps are those of 1 m of rolled distance.
+*/
+#include <petsam/private/motionimpl.h>
+
+static const SamMotionName names[] = {
+  {"slip_x", "slip_velocity_x", "1", "slip velocity along x, relative to the rolling speed"},
+  {"slip_y", "slip_velocity_y", "1", "slip velocity along y, relative to the rolling speed"},
+  {"slip_max", "slip_velocity_max", "1", "maximum slip velocity of a cell in contact, relative to that of rolling"},
+  {"dissipated_energy", "rolling_energy_cells", "J/m", "frictional work per rolled distance, summed over cells"},
+  {"displacement", NULL, NULL, NULL}, /* that of the bodies at rest is not computed */
+  {NULL, NULL, NULL, NULL}};
+
+static PetscErrorCode Wrap(SamElasticity bodies, const SamOptions *from, SamElasticity *moving)
+{
+  PetscFunctionBegin;
+  PetscCheck(!bodies->traits.periodic, from->comm, SAM_ERR_USER,
+             "-%srolling steady: has no meaning with -%selasticity %s, whose contact has no leading edge",
+             SamOptionsPrefix(from), SamOptionsPrefix(from), bodies->type);
+  PetscCheck(
+    !bodies->traits.patch, from->comm, SAM_ERR_USER,
+    "-%srolling steady: has no meaning with -body1_compliance or -body2_compliance, whose bodies have a place: "
+    "omit one of them",
+    SamOptionsPrefix(from));
+  PetscCall(SamElasticityCreateRolling(bodies, moving));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Check(SamElasticity e, const SamControl *control, PetscReal rolled, const char where[])
+{
+  PetscFunctionBegin;
+  PetscCheck(rolled == 0, e->grid->comm, SAM_ERR_USER,
+             "%sroll = %.6g: has no meaning with -rolling steady: omit one of them", where, (double)rolled);
+  for (PetscInt k = 0; k < SAM_COMPONENTS; k++)
+    PetscCheck(!SamComponentNames[k].creep || SamControlWay(control, k) != SAM_BY_RIGID ||
+                 (k >= SAM_COMPONENT_MX && !e->traits.rotations[k - SAM_COMPONENT_MX]),
+               e->grid->comm, SAM_ERR_USER, "%s has no meaning with -rolling steady: give %s or %s",
+               SamComponentNames[k].rigid, SamComponentNames[k].creep, SamComponentNames[k].load);
+  for (PetscInt k = 0; k < 2 * SAM_BULK_COMPONENTS; k++)
+    PetscCheck(SamControlPart(control, SAM_COMPONENTS + SAM_CONDITION_BULK + k) == 0, e->grid->comm, SAM_ERR_USER,
+               "%s has no meaning with -rolling steady: a uniform strain is a creepage: add it to creep_x",
+               SamConditions[SAM_CONDITION_BULK + k].name);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+const struct _n_SamMotion SamMotionSteady = {.word         = "steady",
+                                             .way          = SAM_BY_CREEP,
+                                             .names        = names,
+                                             .work         = "rolling_energy",
+                                             .work_unit    = "J/m",
+                                             .slip_unit    = " of the rolling speed",
+                                             .slip_heading = "slip/V",
+                                             .remedy       = "use a longer memory of the friction",
+                                             .meaningless  = {[SAM_MOTION_HISTORY] = "where no step continues another",
+                                                              [SAM_MOTION_STIFFNESS] =
+                                                                "where loads follow from creepages"},
+                                             .wrap         = Wrap,
+                                             .check        = Check};
