@@ -3,7 +3,7 @@
 
 /* The part of the largest traction by which the ends of a cycle may differ. */
 #define CLOSED 0.01
-/* That by which they differ at most when a cycle comes again that is not yet steady. */
+/* The largest difference between the ends of a cycle that does not yet repeat itself. */
 #define AGAIN 0.05
 
 /* The tractions of the last step, of 3 components, and room for those of another one. */

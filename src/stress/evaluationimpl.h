@@ -177,7 +177,7 @@ PETSC_INTERN void SamLargestKeep(SamEvaluation e, PetscInt kind, PetscInt step, 
   SamCycleWrite - computes the fatigue parameters from the stresses of all steps and hands them over (cycle.c). `done`
   is the part of all points that came before, `share` that of these. Collective.
   SamCycleCheckClosed - warns if the step before the first one has not the tractions of the last: the steps are not a
-  closed cycle then, or it has not become steady; of steps that hold more than one cycle, or what leads to it; and of
+  closed cycle then, or does not yet repeat itself; of steps that hold more than one cycle, or what leads to it; and of
   those of several cycles of a life (closed.c). Collective.
 */
 PETSC_INTERN PetscErrorCode SamCycleWrite(SamEvaluation e, const SamPoints *points, double done, double share);
