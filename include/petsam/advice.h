@@ -12,18 +12,9 @@ typedef struct {
   PetscInt  zones;   /* connected by the sides of cells, as contact_spots; 0: the bodies do not touch */
   PetscReal across;  /* cells, of the narrow zones: SamGridMeasureZones(), a tenth of the cells left out */
   PetscReal half[2]; /* m: half widths of the rectangle that holds all of it */
-  PetscReal change;  /* of the peak pressure on cells half as wide, relative: SamSetupMeasurePeak() */
+  PetscReal change;  /* of the peak pressure on cells half as wide, relative: SamAdviceMeasurePeak() */
   PetscInt  finer;   /* cells so many times narrower resolve the peak; 0: none of up to 16384 in a row */
 } SamExtent;
-/* SamSetupMeasure - the extent of the contact in the last solution that was found. Collective. */
-PETSC_EXTERN PetscErrorCode SamSetupMeasure(const SamSetup *setup, SamExtent *extent);
-/*
-  SamSetupMeasurePeak - `change` and `finer` of the extent: solves the contact about the peak again on finer cells,
-  where all other pressure stays. The shape is that of the gap's type, other heights are interpolated. Where the cells
-  next to the peak have nearly its pressure, or the pressure is at its limit, nothing is solved, change = 0 and
-  finer = 1. Collective.
-*/
-PETSC_EXTERN PetscErrorCode SamSetupMeasurePeak(const SamSetup *setup, SamExtent *extent);
 #define SAM_LARGEST_ROW 16384 /* cells in a row of a grid that is advised */
 
 /* SamLoadsMost - the largest loads of several steps. To be zero at first. */
@@ -37,23 +28,49 @@ typedef struct {
   PetscReal bulk;     /* Pa: the largest component of the bulk stresses */
   PetscBool open;     /* the contact may be larger than a closed solution for these loads has it: rotations, wear */
 } SamLoadsMost;
-/* SamLoadsMostAdd - adds a step. Not collective. */
-PETSC_EXTERN void SamLoadsMostAdd(SamLoadsMost *most, const SamControl *control);
 
 /*
   SamAdviceFunction - receives advice: a text of one line, and the option (without dash) that mends it, where the text
   does not name it itself; else empty.
 */
 typedef PetscErrorCode (*SamAdviceFunction)(void *context, const char text[], const char setting[]);
+
+/* SamAdvice - looks at the steps of a contact. Its maker sets the first members; the others are zero at first. */
+typedef struct {
+  const SamSetup   *setup;
+  SamAdviceFunction receive;
+  void             *context;
+  PetscInt          steps; /* of the run */
+  SamLoadsMost      most;
+  PetscInt          largest;           /* step of the largest normal load or approach, from 0 */
+  PetscBool         examined;          /* whether the size of the contact was looked at */
+  PetscBool         advised[SAM_LAWS]; /* laws that have warned of a step */
+  const SamStep    *step;              /* that is looked at, */
+  SamExtent         extent;            /* with the contact there */
+  PetscReal      half[2], across; /* half widths (m) and cells across: of a closed solution if it is of this contact */
+  PetscErrorCode error;           /* the first of who receives it */
+} SamAdvice;
 /*
-  None of these is collective.
-  SamAdviseStep - gives a function what there is to say of a step that is solved: motions that are not small, bodies
+  SamAdviceAddLoads - adds the loads of step k to the largest ones. Not collective.
+  SamAdviceBegin - before the first step: options that are unlikely to be meant. Collective.
+  SamAdviceStep - after step k, with a solution: if it has the largest load, once, motions that are not small, bodies
   that do not touch, a contact of fewer than 20 cells across, a peak pressure that cells half as wide change by more
-  than 5 %, and a contact that is wider than a tenth of a radius of curvature.
-  SamAdviseEdge - appends to the message of a step that came to the grid's edge a grid on which these loads do not.
+  than 5 %, and a contact that is wider than a tenth of a radius of curvature; `found`: the contact, NULL if it has not
+  been looked at now. With `of_laws` what the laws have to say, each once. Collective.
+  SamAdviceEdge - appends to the message of a step that came to the grid's edge a grid on which these loads do not. Not
+  collective.
 */
-PETSC_EXTERN PetscErrorCode SamAdviseStep(const SamSetup *setup, const SamStep *step, const SamExtent *extent,
-                                          const SamLoadsMost *most, SamAdviceFunction receive, void *context);
-PETSC_EXTERN PetscErrorCode SamAdviseEdge(const SamSetup *setup, const SamLoadsMost *most, SamStep *step);
+PETSC_INTERN void           SamAdviceAddLoads(SamAdvice *advice, PetscInt k, const SamControl *control);
+PETSC_INTERN PetscErrorCode SamAdviceBegin(SamAdvice *advice);
+PETSC_INTERN PetscErrorCode SamAdviceStep(SamAdvice *advice, PetscInt k, PetscBool of_laws, const SamStep *step,
+                                          const SamExtent **found);
+PETSC_INTERN PetscErrorCode SamAdviceEdge(const SamAdvice *advice, SamStep *step);
+/*
+  SamAdviceMeasurePeak - `change` and `finer` of the extent: solves the contact about the peak again on finer cells,
+  where all other pressure stays (resolution.c). The shape is that of the gap's type, other heights are interpolated.
+  Where the cells next to the peak have nearly its pressure, or the pressure is at its limit, nothing is solved,
+  change = 0 and finer = 1. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamAdviceMeasurePeak(const SamSetup *setup, SamExtent *extent);
 
 #endif

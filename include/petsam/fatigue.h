@@ -34,8 +34,8 @@ typedef struct {
     SamFatigueRuiz         D1, J/m2: a quarter of the closed integral of |q . ds|, q the shear on the surface, which for
                            a reciprocating cycle is the shear times the slip amplitude; NaN below the surface
   Planes are searched by 10 degrees, then around the best of them down to a sixth of a degree. The normal of the best
-  one, its z not negative, goes to `more`; it is NaN where no plane is under tension (SWT). Of Ruiz's, D2 (Pa J/m2) does:
-  D1 times the maximum tension in the direction of the maximum change of slip. Not collective.
+  one, its z not negative, goes to `more`; it is NaN where no plane is under tension (SWT). Of Ruiz's, D2 (Pa J/m2)
+  does: D1 times the maximum tension in the direction of the maximum change of slip. Not collective.
   Sources: Smith, Watson and Topper 1970, J. Mater. 5, 767; Fatemi and Socie 1988, Fatigue Fract. Eng. Mater. Struct.
   11, 149; Papadopoulos 1997, Int. J. Fatigue 19, 219 (measures of the shear's path); Ruiz, Boddington and Chen 1984,
   Exp. Mech. 24, 208.

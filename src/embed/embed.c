@@ -293,7 +293,7 @@ int petsam_set_field(petsam_contact *c, const char *name, const double *values)
 static PetscErrorCode Try(petsam_contact *c, double time, const double roll[], const int force[], const double value[])
 {
   SamControl     control = c->control;
-  SamLoadsMost   most    = {.open = c->has_gap};
+  SamAdvice      advice  = {.setup = c->setup, .most.open = c->has_gap};
   PetscBool      moves;
   PetscErrorCode code;
 
@@ -317,9 +317,9 @@ static PetscErrorCode Try(petsam_contact *c, double time, const double roll[], c
   if (code) PetscCall(SamEmbedForget(c));
   PetscCall(code);
   PetscCall(SamProblemMoves(c->setup->problem, &moves));
-  if (moves) most.open = PETSC_TRUE;
-  SamLoadsMostAdd(&most, &control);
-  PetscCall(SamAdviseEdge(c->setup, &most, &c->last));
+  if (moves) advice.most.open = PETSC_TRUE;
+  SamAdviceAddLoads(&advice, 0, &control);
+  PetscCall(SamAdviceEdge(&advice, &c->last));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

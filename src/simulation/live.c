@@ -67,7 +67,7 @@ static PetscErrorCode WriteStep(void *context, PetscInt step, PetscReal cycles, 
   PetscCall(SamSimulationTell(
     s, &(SamSimulationNews){.kind = SAM_NEWS_CYCLE_STEP, .step = s->point.steps - 1, .result = &told}));
   PetscCall(SamSimulationWriteStep(s, &told, due || failed));
-  PetscCall(SamSimulationExamine(s, start + step, &told));
+  PetscCall(SamSimulationExamine(s, start + step, PETSC_FALSE, &told));
   s->told = SamStepIsSolved(&told) ? PETSC_FALSE : PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -169,6 +169,7 @@ static PetscErrorCode SetProgram(SamSimulation s, SamHistory history, PetscReal 
   PetscFunctionBegin;
   if (s->history != history) PetscCall(SamHistoryDestroy(&s->history));
   s->history    = history;
+  s->advice     = (SamAdvice){.setup = &s->setup, .receive = SamSimulationWarn, .context = s};
   s->needs.life = cycles > 0;
   PetscCall(SamHistoryGetCount(history, &s->needs.steps));
   PetscCall(SamPrintHelp(&help));
@@ -218,10 +219,8 @@ PetscErrorCode SamSimulationSetProgram(SamSimulation s, SamHistory *history, Pet
   PetscCall(SamLifeDestroy(&s->life));
   s->point   = (SamSimulationPoint){.steps = 0};
   s->start   = (SamSimulationStart){.steps = 0};
-  s->most    = (SamLoadsMost){.steps = 0};
   s->worn[0] = s->worn[1] = PETSC_FALSE;
-  s->prepared = s->stopped = s->examined = s->warned = s->told = PETSC_FALSE;
-  PetscCall(PetscArrayzero(s->advised, SAM_LAWS));
+  s->prepared = s->stopped = s->warned = s->told = PETSC_FALSE;
   PetscCall(SetProgram(s, h, cycles, &from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -58,6 +58,45 @@ PetscErrorCode SamSimulationWarn(void *simulation, const char text[], const char
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* ---- advice ---- */
+
+/* Before the first step: the loads of the steps from `first` on. */
+static PetscErrorCode BeginAdvice(SamSimulation s, PetscInt first)
+{
+  PetscFunctionBegin;
+  s->advice.steps = s->needs.steps;
+  for (PetscInt k = first; k < s->needs.steps; k++) {
+    SamControl control;
+
+    PetscCall(SamHistoryGetStep(s->history, k, &control));
+    SamAdviceAddLoads(&s->advice, k, &control);
+  }
+  PetscCall(SamAdviceBegin(&s->advice));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationAdviseEdge(SamSimulation s, SamStep *step)
+{
+  const size_t used = strlen(step->message);
+
+  PetscFunctionBegin;
+  PetscCall(SamAdviceEdge(&s->advice, step));
+  if (step->message[used] && step->status)
+    (void)strncat(step->message, "; to continue anyway: -allow_edge_contact",
+                  sizeof(step->message) - strlen(step->message) - 1);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationExamine(SamSimulation s, PetscInt k, PetscBool of_laws, const SamStep *step)
+{
+  const SamExtent *found;
+
+  PetscFunctionBegin;
+  PetscCall(SamAdviceStep(&s->advice, k, of_laws, step, &found));
+  if (found) PetscCall(SamSimulationTell(s, &(SamSimulationNews){.kind = SAM_NEWS_EXTENT, .step = k, .extent = found}));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* ---- set-up ---- */
 
 /* Makes numbers of each step what varies. */
@@ -208,7 +247,7 @@ static PetscErrorCode Begin(SamSimulation s, PetscBool writes)
   if (!writes) PetscCall(GuessTime(s, &start->seconds));
   SamSimulationDescribeCheckpoints(s, start->when, sizeof(start->when));
   PetscCall(SamSimulationTell(s, &(SamSimulationNews){.kind = SAM_NEWS_BEGIN, .start = start}));
-  PetscCall(SamSimulationPrepareAdvice(s, s->life ? 0 : PetscMin(s->point.steps, s->needs.steps - 1)));
+  PetscCall(BeginAdvice(s, s->life ? 0 : PetscMin(s->point.steps, s->needs.steps - 1)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -291,8 +330,7 @@ static PetscErrorCode SolveStep(SamSimulation s, PetscBool *ended)
   PetscCall(SamSimulationWriteStep(s, &step, due));
   /* after writing: a step that is told of is in the file */
   PetscCall(SamSimulationTell(s, &(SamSimulationNews){.kind = SAM_NEWS_STEP, .step = k, .result = &step}));
-  PetscCall(SamSimulationExamine(s, k, &step));
-  if (SamStepIsSolved(&step)) PetscCall(SamSimulationExamineLaws(s, k));
+  PetscCall(SamSimulationExamine(s, k, PETSC_TRUE, &step));
   if (!*ended && s->needs.grid_check) {
     PetscCall(SamContactGetState(s->setup.contact, &state));
     SamStateJoinNumbers(state, s->sums, PETSC_FALSE);

@@ -63,11 +63,8 @@ struct _n_SamSimulation {
   PetscReal              last_time; /* of the last step that was written, s; -infinity: none */
   PetscBool              writing;   /* a collective write is under way */
   char                   filename[PETSC_MAX_PATH_LEN];
-  SamLoadsMost           most;                    /* the largest loads of the steps from here on */
-  PetscInt               largest;                 /* step of the largest normal load or approach among them, from 0 */
+  SamAdvice              advice;
   double                 sums[SAM_STATE_NUMBERS]; /* numbers joined over all steps, for the check of the grid */
-  PetscBool              examined;                /* whether the size of the contact was looked at */
-  PetscBool              advised[SAM_LAWS];       /* laws that have warned of a step */
 };
 
 /*
@@ -129,16 +126,12 @@ PETSC_INTERN PetscErrorCode SamSimulationCheckpoint(SamSimulation simulation);
 PETSC_INTERN PetscErrorCode SamSimulationDescribePlace(SamSimulation simulation, PetscBool total, char text[],
                                                        size_t size);
 /*
-  What a user should know besides (advice.c). PrepareAdvice - before the first step: finds the largest loads of the
-  steps from `first` on, and warns of options that are unlikely to be meant. AdviseEdge - appends to the message of a
-  step at the grid's edge a grid that is large enough. Examine - after step k: if it has the largest load, warns of too
-  few cells, of a contact too large for half-spaces, of none, and of motions that are not small, once. ExamineLaws -
-  after step k, which has a solution: what the laws have to say, each once. Collective.
+  SamSimulationAdviseEdge - appends to the message of a step at the grid's edge a grid that is large enough.
+  SamSimulationExamine - after step k: what there is to advise (advice.h). Collective.
 */
-PETSC_INTERN PetscErrorCode SamSimulationPrepareAdvice(SamSimulation simulation, PetscInt first);
 PETSC_INTERN PetscErrorCode SamSimulationAdviseEdge(SamSimulation simulation, SamStep *step);
-PETSC_INTERN PetscErrorCode SamSimulationExamine(SamSimulation simulation, PetscInt k, const SamStep *step);
-PETSC_INTERN PetscErrorCode SamSimulationExamineLaws(SamSimulation simulation, PetscInt k);
+PETSC_INTERN PetscErrorCode SamSimulationExamine(SamSimulation simulation, PetscInt k, PetscBool of_laws,
+                                                 const SamStep *step);
 /*
   The check of the grid (gridcheck.c). ReadGridCheck reads -grid_check; CheckGrid, after the last step, solves all of
   them on half the cells and tells of the errors. Collective. Errors: SAM_ERR_USER.

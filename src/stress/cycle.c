@@ -37,7 +37,7 @@ static PetscErrorCode GatherLine(SamEvaluation e, const double field[], PetscInt
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The slip of all states on the surface, in the order of Cycle.slips; `length`: cells of a map's rows or of the line. */
+/* The slip of all states on the surface, in the order of Cycle.slips; `length`: cells of a map or of the line. */
 static PetscErrorCode ReadSlip(SamEvaluation e, PetscInt length, double slip[])
 {
   double *field;

@@ -1,6 +1,6 @@
 /*
-  The quantities of an evaluation: what options, datasets, files and other programs know of them stands here, once. A new
-  one is a row and a function.
+  The quantities of an evaluation: what options, datasets, files and other programs know of them stands here, once. A
+  new one is a row and a function.
 */
 #include "evaluationimpl.h"
 

@@ -361,7 +361,7 @@ static PetscErrorCode Follow(const SamSetup *s, Local *l, Patch *a, SamExtent *e
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamSetupMeasurePeak(const SamSetup *s, SamExtent *extent)
+PetscErrorCode SamAdviceMeasurePeak(const SamSetup *s, SamExtent *extent)
 {
   SamElasticityTraits traits;
   Local               l = {.gap = s->gap, .whole = s->grid};

@@ -18,6 +18,11 @@
 #define WIDEST 100.0
 /* Cells half as wide may change the peak pressure by this part of it. */
 #define PEAK 0.05
+/* A coefficient of friction from the first of these on is likely to be percent; from the second on it means stick. */
+#define PERCENT  5
+#define STICKING 100
+/* Dundurs' beta, or what stands for it in bodies of several materials, from which one step of N is too coarse. */
+#define DISSIMILAR 0.05
 
 #define NARROW    0.1  /* part of the contact's cells whose zones, the narrowest, do not count */
 #define ROOM      1.5  /* width of a good grid over that of the contact */
@@ -30,13 +35,14 @@
 
 /* ---- loads ---- */
 
-void SamLoadsMostAdd(SamLoadsMost *most, const SamControl *control)
+void SamAdviceAddLoads(SamAdvice *a, PetscInt step, const SamControl *control)
 {
-  const PetscReal *v = control->value, normal = v[SAM_COMPONENT_N];
-  const PetscBool *force = control->force;
-  const PetscBool *creep = control->creep;
-  const PetscReal  x     = force[SAM_COMPONENT_TX] || creep[SAM_COMPONENT_TX] ? 0 : v[SAM_COMPONENT_TX];
-  const PetscReal  y     = force[SAM_COMPONENT_TY] || creep[SAM_COMPONENT_TY] ? 0 : v[SAM_COMPONENT_TY];
+  SamLoadsMost *const most = &a->most;
+  const PetscReal    *v = control->value, normal = v[SAM_COMPONENT_N];
+  const PetscBool    *force = control->force;
+  const PetscBool    *creep = control->creep;
+  const PetscReal     x     = force[SAM_COMPONENT_TX] || creep[SAM_COMPONENT_TX] ? 0 : v[SAM_COMPONENT_TX];
+  const PetscReal     y     = force[SAM_COMPONENT_TY] || creep[SAM_COMPONENT_TY] ? 0 : v[SAM_COMPONENT_TY];
 
   for (PetscInt k = 0; k < 2 * SAM_BULK_COMPONENTS; k++)
     most->bulk = PetscMax(most->bulk, fabs(control->bulk_stress[k / SAM_BULK_COMPONENTS][k % SAM_BULK_COMPONENTS]));
@@ -44,6 +50,7 @@ void SamLoadsMostAdd(SamLoadsMost *most, const SamControl *control)
   most->slide = PetscMax(most->slide, hypot(x, y));
   for (PetscInt c = SAM_COMPONENT_MX; c < SAM_COMPONENTS; c++)
     if (!force[c] && !creep[c]) most->rotation = PetscMax(most->rotation, fabs(v[c]));
+  if (!most->steps || normal > most->normal) a->largest = step;
   if (!most->steps++ || normal > most->normal) most->normal = normal;
   for (PetscInt k = 0; k < 2; k++) {
     const SamComponent c = k ? SAM_COMPONENT_MX : SAM_COMPONENT_MY; /* My tips along x */
@@ -77,7 +84,7 @@ static void WritePair(const char option[], const double x[2], char text[AT_A_TIM
 
 /* ---- the extent ---- */
 
-PetscErrorCode SamSetupMeasure(const SamSetup *s, SamExtent *extent)
+static PetscErrorCode Measure(const SamSetup *s, SamExtent *extent)
 {
   const PetscReal     cell[2] = {s->grid->dx, s->grid->dy};
   const SamSolution  *solution;
@@ -91,7 +98,7 @@ PetscErrorCode SamSetupMeasure(const SamSetup *s, SamExtent *extent)
   PetscCall(SamGridCountZones(s->grid, solution->pressure, traits.periodic, &extent->zones));
   PetscCall(SamGridGetSupport(s->grid, solution->pressure, first, n));
   for (int k = 0; k < 2; k++) extent->half[k] = k >= s->grid->axes ? 0 : 0.5 * (PetscReal)n[k] * cell[k];
-  PetscCall(SamSetupMeasurePeak(s, extent));
+  PetscCall(SamAdviceMeasurePeak(s, extent));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -150,19 +157,20 @@ static void AdviseGrids(const SamSetup *s, const PetscReal half[2], double facto
   Half widths and cells across: by the closed solution where it is of this contact, which it is not after wear for
   example; else what was found.
 */
-static PetscErrorCode GetWidths(const SamSetup *s, const SamStep *step, const SamExtent *extent, PetscReal half[2],
-                                PetscReal *across)
+static PetscErrorCode GetWidths(SamAdvice *a)
 {
-  PetscReal closed[2], cells;
-  PetscBool known;
+  const SamSetup   *s       = a->setup;
+  const SamControl *control = &a->step->control;
+  PetscReal         closed[2], cells;
+  PetscBool         known;
 
   PetscFunctionBegin;
-  PetscCall(Estimate(s, step->control.force[SAM_COMPONENT_N], step->control.value[SAM_COMPONENT_N], closed, &known));
+  PetscCall(Estimate(s, control->force[SAM_COMPONENT_N], control->value[SAM_COMPONENT_N], closed, &known));
   cells =
     2 * (s->grid->axes == 1 ? closed[0] / s->grid->dx : PetscMin(closed[0] / s->grid->dx, closed[1] / s->grid->dy));
-  known   = known && fabs(cells - extent->across) <= SAME;
-  *across = known ? cells : extent->across;
-  for (int k = 0; k < 2; k++) half[k] = known ? closed[k] : extent->half[k];
+  known     = known && fabs(cells - a->extent.across) <= SAME;
+  a->across = known ? cells : a->extent.across;
+  for (int k = 0; k < 2; k++) a->half[k] = known ? closed[k] : a->extent.half[k];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -186,14 +194,7 @@ static PetscErrorCode Compare(const SamSetup *s, const PetscReal half[2], char t
 
 /* ---- a step ---- */
 
-/* Who receives the advice, and the first error there. */
-typedef struct {
-  SamAdviceFunction receive;
-  void             *context;
-  PetscErrorCode    error;
-} Receiver;
-
-static void Advise(Receiver *to, const char setting[], const char format[], ...)
+static void Advise(SamAdvice *a, const char setting[], const char format[], ...)
 {
   char    text[512];
   va_list values;
@@ -201,47 +202,53 @@ static void Advise(Receiver *to, const char setting[], const char format[], ...)
   va_start(values, format);
   (void)vsnprintf(text, sizeof(text), format, values);
   va_end(values);
-  if (!to->error) to->error = to->receive(to->context, text, setting);
+  if (!a->error) a->error = a->receive(a->context, text, setting);
 }
 
 /* Displacements and rotations that are not small, as the theory has them. */
-static void AdviseMotion(Receiver *to, const SamExtent *extent, const SamLoadsMost *most)
+static void Motion(SamAdvice *a)
 {
-  const double width = 2 * (double)PetscMax(extent->half[0], extent->half[1]);
+  const SamExtent    *extent = &a->extent;
+  const SamLoadsMost *most   = &a->most;
+  const double        width  = 2 * (double)PetscMax(extent->half[0], extent->half[1]);
 
   if (most->rotation > STEEPEST)
-    Advise(to, "", "a rotation of %g is prescribed: rotations must be small, up to about %g rad (a degree is 0.0175)",
+    Advise(a, "", "a rotation of %g is prescribed: rotations must be small, up to about %g rad (a degree is 0.0175)",
            (double)most->rotation, STEEPEST);
   else if (extent->zones && (double)most->slide > width)
     Advise(
-      to, "",
+      a, "",
       "the prescribed tangential displacement, %g m, exceeds the width of the contact, %.3g m: surfaces are not moved "
       "past each other, so it must be small: check the unit, m",
       (double)most->slide, width);
 }
 
-static void AdviseTouch(Receiver *to, SamGrid grid, const SamControl *control)
+static void Touch(SamAdvice *a)
 {
-  const PetscBool force = control->force[SAM_COMPONENT_N];
+  const SamControl *control = &a->step->control;
+  const PetscBool   force   = control->force[SAM_COMPONENT_N];
 
-  Advise(to, force ? "load_n" : "disp_z",
+  if (a->extent.zones) return;
+  Advise(a, force ? "load_n" : "disp_z",
          "the bodies do not touch in any step: the %s is %g %s at most, and must exceed %s",
          force ? "normal force" : "approach", (double)control->value[SAM_COMPONENT_N],
-         force ? SamUnitOn(grid, "N") : "m", force ? "0" : "0, or the smallest separation");
+         force ? SamUnitOn(a->setup->grid, "N") : "m", force ? "0" : "0, or the smallest separation");
 }
 
 /* A contact that is few cells across, or a peak of pressure that they do not resolve; grids on which it is not so. */
-static void AdviseCells(Receiver *to, const SamSetup *s, const SamExtent *extent, const PetscReal half[2],
-                        PetscReal across)
+static void Cells(SamAdvice *a)
 {
-  const PetscBool ends[2] = {2 * extent->half[0] < s->grid->width[0] - 0.5 * s->grid->dx,
-                             s->grid->axes == 2 && 2 * extent->half[1] < s->grid->width[1] - 0.5 * s->grid->dy};
-  const PetscBool strip = extent->zones == 1 && ends[0] != ends[1], refine[2] = {!strip || ends[0], !strip || ends[1]};
+  const SamSetup  *s       = a->setup;
+  const SamExtent *extent  = &a->extent;
+  const PetscReal *half    = a->half;
+  const PetscBool  ends[2] = {2 * extent->half[0] < s->grid->width[0] - 0.5 * s->grid->dx,
+                              s->grid->axes == 2 && 2 * extent->half[1] < s->grid->width[1] - 0.5 * s->grid->dy};
+  const PetscBool  strip = extent->zones == 1 && ends[0] != ends[1], refine[2] = {!strip || ends[0], !strip || ends[1]};
   /* of periodic bodies all cells may be in contact, and have no width */
   const PetscBool whole = !strip && extent->across > (PetscReal)PetscMin(s->grid->nx, s->grid->ny) - 0.5;
   const PetscBool few   = !whole && extent->across < FEW_CELLS;
   const PetscBool steep = fabs(extent->change) > PEAK, sharp = steep && !extent->finer;
-  const double    more   = few ? (FEW_CELLS + SAME) / (double)across : 0;
+  const double    more   = few ? (FEW_CELLS + SAME) / (double)a->across : 0;
   const double    factor = PetscMax(more, steep ? (double)extent->finer : 0);
   const PetscBool absurd = more * (double)PetscMax(s->grid->nx, s->grid->ny) > ABSURD;
   char cells[AT_A_TIME] = "", width[AT_A_TIME] = "", zones[AT_A_TIME] = "", size[96], spots[160] = "", peak[160] = "",
@@ -269,60 +276,142 @@ static void AdviseCells(Receiver *to, const SamSetup *s, const SamExtent *extent
                    100 * fabs((double)extent->change), extent->change > 0 ? "higher" : "lower",
                    sharp ? ", and further on finer ones, as at a sharp edge" : "");
   /* a grid that is enough for the number of cells alone is named after it */
-  Advise(to, "", "%s%s%s%s%s%s", spots, sharp ? better : "", few && steep ? "; " : "", peak, sharp ? "" : better,
+  Advise(a, "", "%s%s%s%s%s%s", spots, sharp ? better : "", few && steep ? "; " : "", peak, sharp ? "" : better,
          absurd ? "; or check the units, N, m, Pa" : "");
 }
 
 /* Numbers that another unit would explain: of bulk stress, and of the grid. */
-static void AdviseUnits(Receiver *to, const SamSetup *s, const SamLoadsMost *most)
+static void Units(SamAdvice *a)
 {
-  const double young =
+  const SamSetup     *s    = a->setup;
+  const SamLoadsMost *most = &a->most;
+  const double        young =
     (double)PetscMin(SamBodyBulk(SamPairBody(s->pair, 0))->young, SamBodyBulk(SamPairBody(s->pair, 1))->young);
   const double width = (double)PetscMax(s->grid->width[0], s->grid->width[1]);
 
   if (most->bulk > 0 && (double)most->bulk < SLIGHT * young)
-    Advise(to, "", "the largest bulk stress, %g Pa, is %.2g of Young's modulus: check the unit, Pa", (double)most->bulk,
+    Advise(a, "", "the largest bulk stress, %g Pa, is %.2g of Young's modulus: check the unit, Pa", (double)most->bulk,
            (double)most->bulk / young);
-  if (width > WIDEST) Advise(to, "grid_size", "the grid is %g m wide: check the unit, m", width);
+  if (width > WIDEST) Advise(a, "grid_size", "the grid is %g m wide: check the unit, m", width);
 }
 
 /* What the bodies have to say of these cells and a contact of these half widths. */
-static PetscErrorCode AdviseBodies(Receiver *to, const SamSetup *s, const PetscReal half[2])
+static void Bodies(SamAdvice *a)
 {
-  const PetscReal width = 2 * PetscMax(half[0], half[1]);
+  const PetscReal width = 2 * PetscMax(a->half[0], a->half[1]);
   const char     *option;
-  char            text[256];
+  char            text[256] = "";
 
-  PetscFunctionBegin;
-  for (PetscInt k = 0; k < 4; k++) {
-    PetscCall(SamBodyAdvise(SamPairBody(s->pair, k / 2), k / 2 + 1, k % 2, s->grid->side[1], width, &option, text,
-                            sizeof(text)));
-    if (text[0]) Advise(to, option, "%s", text);
+  for (PetscInt k = 0; k < 4 && !a->error; k++) {
+    a->error = SamBodyAdvise(SamPairBody(a->setup->pair, k / 2), k / 2 + 1, k % 2, a->setup->grid->side[1], width,
+                             &option, text, sizeof(text));
+    if (!a->error && text[0]) Advise(a, option, "%s", text);
   }
+}
+
+/* A contact that is wide beside its radius. */
+static void Size(SamAdvice *a)
+{
+  PetscBool large = PETSC_FALSE;
+  char      ratio[192];
+
+  if (!a->error) a->error = Compare(a->setup, a->half, ratio, sizeof(ratio), &large);
+  if (!a->error && large) Advise(a, "", "contact too large for half-space theory: its half width %s", ratio);
+}
+
+/* A coefficient of friction in percent. */
+static void Friction(SamAdvice *a)
+{
+  PetscReal friction;
+  SamLaw    law;
+
+  a->error = SamProblemGetLaw(a->setup->problem, SAM_LAW_COULOMB, &law);
+  if (!a->error) a->error = SamLawGetFriction(law, &friction);
+  if (a->error || friction < PERCENT || friction > STICKING) return;
+  Advise(a, "friction", "the coefficient of friction is %g: give a ratio, %g for %g percent", (double)friction,
+         (double)friction / 100, (double)friction);
+}
+
+/* Dissimilar bodies whose slip while the load grows is found in one step. */
+static void Steps(SamAdvice *a)
+{
+  const SamGrid      g        = a->setup->grid;
+  const double       waves[2] = {PETSC_PI / (double)g->length, PETSC_PI / (double)g->side[1]};
+  PetscBool          rubs     = PETSC_FALSE;
+  SamContactSettings set;
+
+  if (!a->error) a->error = SamProblemHasFriction(a->setup->problem, &rubs);
+  if (!a->error) a->error = SamContactGetSettings(a->setup->contact, &set);
+  if (!a->error && rubs && set.coupling && SamMotionOf(a->setup->elasticity)->continues && a->steps == 1 &&
+      SamPairCoupling(a->setup->pair, waves[0], waves[1]) > DISSIMILAR)
+    Advise(a, "steps",
+           "elastically dissimilar bodies with friction slip while the normal load grows, here in one step: use more "
+           "steps until the stick area converges");
+}
+
+/* All that may be said, in this order: before the first step, of the largest load, and of a contact there. */
+static const struct {
+  enum { BEFORE, LARGEST, CONTACT } when;
+  void (*look)(SamAdvice *advice);
+} advices[] = {{BEFORE, Friction}, {BEFORE, Steps},  {LARGEST, Units},  {LARGEST, Motion},
+               {LARGEST, Touch},   {CONTACT, Cells}, {CONTACT, Bodies}, {CONTACT, Size}};
+
+static PetscErrorCode LookAt(SamAdvice *a, int when)
+{
+  PetscFunctionBegin;
+  a->error = PETSC_SUCCESS;
+  for (size_t k = 0; k < sizeof(advices) / sizeof(advices[0]); k++)
+    if ((int)advices[k].when == when) (*advices[k].look)(a);
+  PetscCall(a->error);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamAdviseStep(const SamSetup *s, const SamStep *step, const SamExtent *extent, const SamLoadsMost *most,
-                             SamAdviceFunction receive, void *context)
+PetscErrorCode SamAdviceBegin(SamAdvice *a)
 {
-  Receiver  to = {.receive = receive, .context = context};
-  PetscReal half[2], across = extent->across;
-  PetscBool large;
-  char      ratio[192];
+  PetscBool moves;
 
   PetscFunctionBegin;
-  AdviseUnits(&to, s, most);
-  AdviseMotion(&to, extent, most);
-  if (!extent->zones) AdviseTouch(&to, s->grid, &step->control);
-  /* at the grid's edge it is the grid that decides how large the contact is */
-  if (extent->zones && step->check.edge <= 0) {
-    PetscCall(GetWidths(s, step, extent, half, &across));
-    AdviseCells(&to, s, extent, half, across);
-    PetscCall(Compare(s, half, ratio, sizeof(ratio), &large));
-    PetscCall(AdviseBodies(&to, s, half));
-    if (large) Advise(&to, "", "contact too large for half-space theory: its half width %s", ratio);
+  PetscCall(SamProblemMoves(a->setup->problem, &moves));
+  if (moves) a->most.open = PETSC_TRUE;
+  PetscCall(LookAt(a, BEFORE));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* What the laws have to say of a step, each once. */
+static PetscErrorCode LookAtLaws(SamAdvice *a, PetscInt k)
+{
+  char advice[400];
+
+  PetscFunctionBegin;
+  for (PetscInt law = 0;; law++) {
+    PetscCall(SamContactAdvise(a->setup->contact, &law, advice, sizeof(advice)));
+    if (!advice[0]) break;
+    if (a->advised[law]) continue;
+    a->advised[law] = PETSC_TRUE;
+    Advise(a, "steps", "step %" PetscInt_FMT ": %s", k + 1, advice);
   }
-  PetscCall(to.error);
+  PetscCall(a->error);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamAdviceStep(SamAdvice *a, PetscInt k, PetscBool of_laws, const SamStep *step, const SamExtent **found)
+{
+  PetscFunctionBegin;
+  *found = NULL;
+  if (!SamStepIsSolved(step)) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!a->examined && k >= a->largest) {
+    a->examined = PETSC_TRUE;
+    a->step     = step;
+    PetscCall(Measure(a->setup, &a->extent));
+    *found = &a->extent;
+    PetscCall(LookAt(a, LARGEST));
+    /* at the grid's edge it is the grid that decides how large the contact is */
+    if (a->extent.zones && step->check.edge <= 0) {
+      PetscCall(GetWidths(a));
+      PetscCall(LookAt(a, CONTACT));
+    }
+  }
+  if (of_laws) PetscCall(LookAtLaws(a, k));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -369,13 +458,15 @@ static void AdviseGrid(const SamSetup *s, const PetscReal half[2], const PetscRe
     (void)snprintf(text, size, "%s", one);
 }
 
-PetscErrorCode SamAdviseEdge(const SamSetup *s, const SamLoadsMost *most, SamStep *step)
+PetscErrorCode SamAdviceEdge(const SamAdvice *a, SamStep *step)
 {
-  const size_t used = strlen(step->message), size = sizeof(step->message) - used;
-  char *const  text = step->message + used;
-  PetscReal    half[2];
-  PetscBool    known, large;
-  char         grid[3 * AT_A_TIME], ratio[192] = "";
+  const SamSetup     *s    = a->setup;
+  const SamLoadsMost *most = &a->most;
+  const size_t        used = strlen(step->message), size = sizeof(step->message) - used;
+  char *const         text = step->message + used;
+  PetscReal           half[2];
+  PetscBool           known, large;
+  char                grid[3 * AT_A_TIME], ratio[192] = "";
 
   PetscFunctionBegin;
   if (!SamStepIsSolved(step) || strcmp(step->setting, "grid_size") || !most->steps) PetscFunctionReturn(PETSC_SUCCESS);
