@@ -6,7 +6,7 @@
 */
 #include <petsam/advice.h>
 #include <petsam/private/baseimpl.h>
-#include <petsam/private/motion.h>
+#include <petsam/private/motionimpl.h>
 #include <math.h>
 #include <stdarg.h>
 
