@@ -53,13 +53,7 @@ typedef struct {
 /* SamOptionsPrefix - the prefix, an empty text for none. Not collective. */
 PETSC_INTERN const char *SamOptionsPrefix(const SamOptions *from);
 
-/*
-  The functions that read options. Each looks up `-<prefix><name>` in PETSc's options database, and checks that the
-  whole text is a value of the type and lies in the range. While the help is printed, it also prints the option's line
-  of it. On entry `value` holds the default, which is kept when the option is absent; `set`, whether it was given, may
-  be NULL. Collective on the communicator; the database must be the same on all its ranks. Errors: SAM_ERR_USER with
-  the option's name, the text, and what was expected.
-*/
+/* SamRange - the values that a number may have. */
 typedef enum {
   SAM_RANGE_ANY,          /* any finite number */
   SAM_RANGE_NONNEGATIVE,  /* finite, >= 0 */
@@ -71,45 +65,64 @@ typedef enum {
 
 /* SamOptionsHeading - prints the title of a group of options, while the help is printed. */
 PETSC_EXTERN PetscErrorCode SamOptionsHeading(const SamOptions *from, const char title[]);
-/* SamOptionsReal, SamOptionsRealPair - one number, or two in the range separated by a comma; one stands for both. */
+/*
+  SamOptionRow - an option: its name, what the help says of it, what kind its value has, and where that stands among
+  its owner's settings (`member`, by offsetof()). The settings hold the default, which the help shows and which stays
+  when the option is absent; a real number without one is NaN, an integer 0, a text empty.
+
+  SAM_OPTION_REAL     PetscReal in `range`; `size` 2: two of them separated by a comma, of which one stands for both
+  SAM_OPTION_INT      PetscInt from `least` to `most` (0: any); `size` likewise
+  SAM_OPTION_BOOL     PetscBool: 1, true, yes, on, or 0, false, no, off, or no value for true; with `words`: whether it
+                      is not the first of them
+  SAM_OPTION_ENUM     an enumeration of C, by its place among `words`
+  SAM_OPTION_STRING   char[size]
+  SAM_OPTION_FILE     char[size], the name of a file
+  SAM_OPTION_WORD     char[size], one of `words`
+  SAM_OPTION_WORDS    char[size], some of `words` with commas between them, which the caller checks
+  SAM_OPTION_VIEWER   none: an ASCII viewer, created where it is used
+
+  `words` have commas between them. `needs`: another option, or option and value, without which the row's has no
+  meaning. `excludes`: options, with commas, that cannot be given with it; a truth excludes and needs where it is true.
+  `missing`: what the option is for, if it is required (with what it needs) unless there is a default. `recorded`: a
+  stopped run can only go on with the same value.
+*/
+typedef enum {
+  SAM_OPTION_REAL,
+  SAM_OPTION_INT,
+  SAM_OPTION_BOOL,
+  SAM_OPTION_ENUM,
+  SAM_OPTION_STRING,
+  SAM_OPTION_FILE,
+  SAM_OPTION_WORD,
+  SAM_OPTION_WORDS,
+  SAM_OPTION_VIEWER
+} SamOptionKind;
+typedef struct {
+  const char   *name, *text;
+  SamOptionKind kind;
+  size_t        member;
+  SamRange      range;
+  PetscInt      least, most, size;
+  const char   *words, *needs, *excludes, *missing;
+  PetscBool     recorded;
+} SamOptionRow;
+/*
+  SamOptionsRead - reads the options of a table from PETSc's options database, each as `-<prefix><name>`, into the
+  settings; `given`, whether each was, may be NULL. While the help is printed, it prints the heading (NULL: none) and a
+  line for each row, and requires nothing. Collective on the communicator; the database must be the same on all its
+  ranks. Errors: SAM_ERR_USER with the option's name, the text, and what was expected.
+  SamOptionsReal - reads one real number.
+  SamOptionsReals - a list of up to `most` numbers in the range, and how many; 0: the option is absent.
+  SamOptionsHas - whether an option is given, without dash and prefix; after a space a value that it must have.
+*/
+#define SAM_OPTION_ROWS(rows) (PetscInt)(sizeof(rows) / sizeof((rows)[0])), rows /* the count of a table, and it */
+PETSC_EXTERN PetscErrorCode SamOptionsRead(const SamOptions *from, const char heading[], PetscInt count,
+                                           const SamOptionRow rows[], void *settings, PetscBool given[]);
 PETSC_EXTERN PetscErrorCode SamOptionsReal(const SamOptions *from, const char name[], const char help[], SamRange range,
                                            PetscReal *value, PetscBool *set);
-PETSC_INTERN PetscErrorCode SamOptionsRealPair(const SamOptions *from, const char name[], const char help[],
-                                               SamRange range, PetscReal value[2], PetscBool *set);
-/* SamOptionsReals - a list of up to `most` numbers in the range, and how many; 0: the option is absent. */
-PETSC_INTERN PetscErrorCode SamOptionsReals(const SamOptions *from, const char name[], const char help[],
+PETSC_EXTERN PetscErrorCode SamOptionsReals(const SamOptions *from, const char name[], const char help[],
                                             SamRange range, PetscInt most, PetscReal values[], PetscInt *count);
-/* SamOptionsInt, SamOptionsIntPair - the same for whole numbers from `least` on. */
-PETSC_EXTERN PetscErrorCode SamOptionsInt(const SamOptions *from, const char name[], const char help[], PetscInt least,
-                                          PetscInt *value, PetscBool *set);
-PETSC_INTERN PetscErrorCode SamOptionsIntPair(const SamOptions *from, const char name[], const char help[],
-                                              PetscInt least, PetscInt value[2], PetscBool *set);
-/* SamOptionsBool - 1, true, yes, on, or 0, false, no, off; the option without a value means true. */
-PETSC_EXTERN PetscErrorCode SamOptionsBool(const SamOptions *from, const char name[], const char help[],
-                                           PetscBool *value, PetscBool *set);
-/* SamOptionsString - a text of fewer than `size` characters. */
-PETSC_EXTERN PetscErrorCode SamOptionsString(const SamOptions *from, const char name[], const char help[], char value[],
-                                             size_t size, PetscBool *set);
-/*
-  SamOptionsFile - the name of a file; SamOptionsWord, SamOptionsWords - one word or several with commas between them,
-  out of `words` (with commas likewise), which the help and the completion list and the caller checks. All are texts of
-  fewer than `size` characters.
-*/
-PETSC_EXTERN PetscErrorCode SamOptionsFile(const SamOptions *from, const char name[], const char help[], char value[],
-                                           size_t size, PetscBool *set);
-PETSC_EXTERN PetscErrorCode SamOptionsWord(const SamOptions *from, const char name[], const char help[],
-                                           const char words[], char value[], size_t size, PetscBool *set);
-PETSC_INTERN PetscErrorCode SamOptionsWords(const SamOptions *from, const char name[], const char help[],
-                                            const char words[], char value[], size_t size, PetscBool *set);
-/* SamOptionsEnum - one of the words of a NULL-terminated list; `value` is its index. */
-PETSC_EXTERN PetscErrorCode SamOptionsEnum(const SamOptions *from, const char name[], const char help[],
-                                           const char *const words[], PetscInt *value, PetscBool *set);
-/*
-  SamOptionsHasViewer - whether a viewer option is given; the viewer itself is created where it is used. Only ASCII
-  viewers are accepted. The option then counts as known, and the help lists it.
-*/
-PETSC_INTERN PetscErrorCode SamOptionsHasViewer(const SamOptions *from, const char name[], const char help[],
-                                                PetscBool *set);
+PETSC_EXTERN PetscErrorCode SamOptionsHas(const SamOptions *from, const char option[], PetscBool *has);
 /*
   SamOptionsPlugins - loads the shared libraries that -plugin names, and calls the function
 

@@ -19,13 +19,15 @@ static double AvailableMemory(void)
 PetscErrorCode SamMemoryRefuse(MPI_Comm comm, double bytes, const char option[], const char value[],
                                const SamOptions *from)
 {
-  double    need = bytes, worst;
-  char      memory[32];
-  MPI_Comm  node;
-  PetscBool check = PETSC_TRUE;
+  static const SamOptionRow row = {"memory_check", "stop if the estimate exceeds the available memory", SAM_OPTION_BOOL,
+                                   .member = 0};
+  double                    need = bytes, worst;
+  char                      memory[32];
+  MPI_Comm                  node;
+  PetscBool                 check = PETSC_TRUE;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsBool(from, "memory_check", "stop if the estimate exceeds the available memory", &check, NULL));
+  PetscCall(SamOptionsRead(from, NULL, 1, &row, &check, NULL));
   PetscCallMPI(MPI_Comm_split_type(comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &need, 1, MPI_DOUBLE, MPI_SUM, node));
   PetscCallMPI(MPI_Comm_free(&node));

@@ -170,9 +170,10 @@ static PetscErrorCode CheckFiles(const SamStressRequest *r, const SamArguments *
 /* Reads all options and the results' parameters; writes nothing. */
 static PetscErrorCode SetUp(void *context, const SamArguments *arguments)
 {
-  SamStressRun *const run  = (SamStressRun *)context;
-  const SamOptions    from = {PETSC_COMM_WORLD, NULL};
-  PetscBool           help;
+  static const SamOptionRow quiet = {"quiet", "print warnings and errors only", SAM_OPTION_BOOL, .member = 0};
+  SamStressRun *const       run   = (SamStressRun *)context;
+  const SamOptions          from  = {PETSC_COMM_WORLD, NULL};
+  PetscBool                 help;
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &run->rank));
@@ -181,7 +182,7 @@ static PetscErrorCode SetUp(void *context, const SamArguments *arguments)
   PetscCall(SamEvaluationCreateFromOptions(&from, &run->evaluation));
   PetscCall(SamOptionsHeading(&from, "Resources"));
   PetscCall(SamFourierSettingsFromOptions(&run->transforms, &from));
-  PetscCall(SamOptionsBool(&from, "quiet", "print warnings and errors only", &run->quiet, NULL));
+  PetscCall(SamOptionsRead(&from, NULL, 1, &quiet, &run->quiet, NULL));
   PetscCall(SamPrintHelp(&help));
   if (help) PetscCall(SamMemoryRefuse(PETSC_COMM_WORLD, 0, "", "", &from)); /* for its option */
   if (help) PetscFunctionReturn(PETSC_SUCCESS);

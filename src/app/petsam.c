@@ -168,9 +168,11 @@ static PetscErrorCode RefuseTooLarge(SamSimulation simulation, const SamOptions 
 
 static PetscErrorCode SetUp(void *context, const SamArguments *arguments)
 {
-  SamRun *const      run  = (SamRun *)context;
-  const SamOptions   from = {PETSC_COMM_WORLD, NULL};
-  SamSimulationFiles files;
+  static const SamOptionRow dry  = {"dry_run", "check everything, print memory, disk and time, and solve nothing",
+                                    SAM_OPTION_BOOL, .member = 0};
+  SamRun *const             run  = (SamRun *)context;
+  const SamOptions          from = {PETSC_COMM_WORLD, NULL};
+  SamSimulationFiles        files;
 
   PetscFunctionBegin;
   CatchSignals(PETSC_FALSE);
@@ -178,8 +180,7 @@ static PetscErrorCode SetUp(void *context, const SamArguments *arguments)
   PetscCall(SamSimulationSetSignals(run->simulation, signaled));
   PetscCall(SamSimulationSetFromOptions(run->simulation, &from, arguments));
   PetscCall(SamReportCreateFromOptions(&from, &run->report));
-  PetscCall(SamOptionsBool(&from, "dry_run", "check everything, print memory, disk and time, and solve nothing",
-                           &run->dry, NULL));
+  PetscCall(SamOptionsRead(&from, NULL, 1, &dry, &run->dry, NULL));
   PetscCall(SamSimulationGetFiles(run->simulation, &files));
   if (files.checkpoint) CatchSignals(PETSC_TRUE);
   PetscCall(CheckFiles(&files, arguments));

@@ -13,8 +13,6 @@
 #define AFTER    1.0  /* s; shorter steps show no line */
 #define INTERVAL 0.25 /* s between updates */
 
-static const char *const mode_words[] = {"auto", "always", "never", NULL};
-
 /*
   Whether the environment that this process was started with has a launcher's variables. getenv() would not do: MPI
   itself sets such variables in a process without a launcher.
@@ -50,17 +48,13 @@ static PetscBool OnTerminal(void)
   return !strncmp(target, "/dev/pts/", 9) || !strncmp(target, "/dev/tty", 8);
 }
 
-PetscErrorCode SamProgressSetFromOptions(SamReport r, const SamOptions *from)
+void SamProgressStart(SamReport r)
 {
-  PetscInt mode = SAM_PROGRESS_AUTO;
+  const SamProgressMode mode = r->progress.mode;
 
-  PetscFunctionBegin;
-  PetscCall(SamOptionsEnum(from, "progress", "line within long steps: auto (on a terminal), always or never",
-                           mode_words, &mode, NULL));
   r->progress.active =
     !r->quiet && !r->rank && (mode == SAM_PROGRESS_ALWAYS || (mode == SAM_PROGRESS_AUTO && OnTerminal()));
   r->progress.after = mode == SAM_PROGRESS_ALWAYS ? 0 : AFTER;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 void SamProgressErase(SamReport r)

@@ -22,6 +22,12 @@ static PetscErrorCode StartLog(SamReport r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static const SamOptionRow rows[] = {{"quiet", "print nothing on stdout; warnings and errors go to stderr",
+                                     SAM_OPTION_BOOL, .member = offsetof(struct _n_SamReport, quiet)},
+                                    {"progress", "line within long steps: auto (on a terminal), always or never",
+                                     SAM_OPTION_ENUM, offsetof(struct _n_SamReport, progress.mode),
+                                     .words = "auto,always,never"}};
+
 PetscErrorCode SamReportCreateFromOptions(const SamOptions *from, SamReport *report)
 {
   SamReport r;
@@ -33,10 +39,8 @@ PetscErrorCode SamReportCreateFromOptions(const SamOptions *from, SamReport *rep
   r->comm  = from->comm;
   r->start = r->first = r->begin = MPI_Wtime();
   PetscCallMPI(MPI_Comm_rank(from->comm, &r->rank));
-  PetscCall(SamOptionsHeading(from, "What the run prints"));
-  PetscCall(
-    SamOptionsBool(from, "quiet", "print nothing on stdout; warnings and errors go to stderr", &r->quiet, NULL));
-  PetscCall(SamProgressSetFromOptions(r, from));
+  PetscCall(SamOptionsRead(from, "What the run prints", SAM_OPTION_ROWS(rows), r, NULL));
+  SamProgressStart(r);
   if (!r->quiet) PetscCall(StartLog(r));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

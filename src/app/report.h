@@ -13,10 +13,11 @@ typedef enum { SAM_PROGRESS_AUTO, SAM_PROGRESS_ALWAYS, SAM_PROGRESS_NEVER } SamP
 
 /* The progress line within a step, which only rank 0 shows. */
 typedef struct {
-  PetscBool active;   /* whether this rank shows it */
-  double    after;    /* shown after so many seconds of a step */
-  double    shown_at; /* when it was updated last (MPI_Wtime) */
-  int       length;   /* characters on the terminal, to be erased */
+  SamProgressMode mode;
+  PetscBool       active;   /* whether this rank shows it */
+  double          after;    /* shown after so many seconds of a step */
+  double          shown_at; /* when it was updated last (MPI_Wtime) */
+  int             length;   /* characters on the terminal, to be erased */
 } SamProgress;
 
 /* A solution's largest residual so far, and its step. */
@@ -92,8 +93,8 @@ PETSC_INTERN void SamReportChooseColumns(SamReport report, const PetscBool loads
 /* Prints a step as a line, the first under the heading; `left`: estimated time (s) of the other steps. Collective. */
 PETSC_INTERN PetscErrorCode SamReportStepLine(SamReport report, const SamStep *step, SamContact contact, double seconds,
                                               double left);
-/* Reads -progress and decides whether to show the line: `auto` depends on where stdout goes. Collective. */
-PETSC_INTERN PetscErrorCode SamProgressSetFromOptions(SamReport report, const SamOptions *from);
+/* Decides by -progress whether to show the line: `auto` depends on where stdout goes. Not collective. */
+PETSC_INTERN void SamProgressStart(SamReport report);
 /* Adds monitors to a contact's solvers, once. Not collective. */
 PETSC_INTERN PetscErrorCode SamProgressWatch(SamReport report, SamContact contact);
 /* Erases the line on the terminal. Not collective. */

@@ -24,15 +24,13 @@ static int ReadNumbers(const char text[], PetscInt n[3])
   return 0;
 }
 
-static PetscErrorCode ReadSteps(const SamOptions *from, SamStressRequest *r)
+static PetscErrorCode TakeSteps(const SamOptions *from, SamStressRequest *r)
 {
-  char     text[128] = "last";
-  PetscInt n[3]      = {0, 0, 1};
-  int      count;
+  const char *text = r->steps;
+  PetscInt    n[3] = {0, 0, 1};
+  int         count;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsString(from, "steps", "load steps: last, all, a number, or first:last[:stride]", text,
-                             sizeof(text), NULL));
   r->all_steps = !strcmp(text, "all");
   r->last_step = !strcmp(text, "last");
   if (r->all_steps || r->last_step) PetscFunctionReturn(PETSC_SUCCESS);
@@ -46,25 +44,27 @@ static PetscErrorCode ReadSteps(const SamOptions *from, SamStressRequest *r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+#define MEMBER(name) offsetof(SamStressRequest, name)
+static const SamOptionRow files[] = {{"input", "results of petsam", SAM_OPTION_FILE, MEMBER(input),
+                                      .size = PETSC_MAX_PATH_LEN, .missing = "the results of petsam"},
+                                     {"output", "the new file", SAM_OPTION_FILE, MEMBER(output),
+                                      .size = PETSC_MAX_PATH_LEN, .missing = "the file to be written"}},
+                          times[] = {
+                            {"steps", "load steps: last, all, a number, or first:last[:stride]", SAM_OPTION_STRING,
+                             MEMBER(steps), .size = sizeof(((SamStressRequest *)NULL)->steps)},
+                            {"cycle", "a saved cycle of a wear simulation by its number, not -steps", SAM_OPTION_REAL,
+                             MEMBER(cycle), .range = SAM_RANGE_NONNEGATIVE, .excludes = "steps"}};
+
 PetscErrorCode SamStressRequestRead(const SamOptions *from, SamStressRequest *r)
 {
-  PetscBool set, print;
+  PetscBool given[2];
 
   PetscFunctionBegin;
-  PetscCall(PetscMemzero(r, sizeof(*r)));
-  PetscCall(SamPrintHelp(&print));
-  PetscCall(SamOptionsHeading(from, "Files"));
-  PetscCall(SamOptionsFile(from, "input", "results of petsam", r->input, sizeof(r->input), &set));
-  PetscCall(SamOptionsRequire(from, set || print, "input", "the results of petsam"));
-  PetscCall(SamOptionsFile(from, "output", "the new file", r->output, sizeof(r->output), &set));
-  PetscCall(SamOptionsRequire(from, set || print, "output", "the file to be written"));
-  PetscCall(SamOptionsHeading(from, "Where and when"));
-  PetscCall(ReadSteps(from, r));
-  PetscCall(SamOptionsReal(from, "cycle", "a saved cycle of a wear simulation by its number, not -steps",
-                           SAM_RANGE_NONNEGATIVE, &r->cycle, &r->of_cycle));
-  PetscCall(PetscOptionsHasName(NULL, from->prefix, "-steps", &set));
-  PetscCheck(!set || !r->of_cycle || print, from->comm, SAM_ERR_USER,
-             "-cycle and -steps are both given: omit one of them");
+  *r = (SamStressRequest){.steps = "last"};
+  PetscCall(SamOptionsRead(from, "Files", SAM_OPTION_ROWS(files), r, NULL));
+  PetscCall(SamOptionsRead(from, "Where and when", SAM_OPTION_ROWS(times), r, given));
+  r->of_cycle = given[1];
+  PetscCall(TakeSteps(from, r));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

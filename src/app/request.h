@@ -6,6 +6,7 @@
 
 typedef struct {
   char      input[PETSC_MAX_PATH_LEN], output[PETSC_MAX_PATH_LEN];
+  char      steps[128];
   PetscBool all_steps, last_step;
   PetscInt  first, last, stride; /* load steps from 1, where neither is set */
   PetscBool of_cycle;            /* instead: the steps of a cycle of a life */

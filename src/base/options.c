@@ -1,6 +1,9 @@
 /*
   Reading options, with errors that name the mistake.
 
+  An option is a row of a table. Help, reading, the checks of what it needs and excludes, and its record among the
+  parameters follow from the row.
+
   PETSc's own functions accept trailing text in some places, and report a wrong value with a stack trace that does not
   say which option was meant. Here the whole text must be a value, and the error names the option, the text and what was
   expected.
@@ -27,17 +30,6 @@ PetscErrorCode SamSetPrefix(char to[SAM_PREFIX], const char prefix[])
 const char *SamOptionsPrefix(const SamOptions *from)
 {
   return from->prefix ? from->prefix : "";
-}
-
-/* A line of the help for an option with this default. */
-static PetscErrorCode Describe(const SamOptions *from, const char name[], const char help[], const char argument[],
-                               const char value[])
-{
-  const SamOptionHelp option = {name, argument, help, value, ""};
-
-  PetscFunctionBegin;
-  PetscCall(SamOptionsDescribe(from, &option));
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* The most characters of a wrong value that a message quotes. */
@@ -92,29 +84,31 @@ PetscBool SamRangeHas(SamRange range, double value)
   return value > 0 && (range != SAM_RANGE_PART || value < 1);
 }
 
-/* What is read: one number, or two, real ones in a range, or whole ones from `least` on. */
-typedef struct {
-  PetscBool pair, whole;
-  SamRange  range;
-  PetscInt  least;
-} Kind;
+/* ---- numbers ---- */
+
+/* The most numbers of a row's option. */
+static PetscInt CountOf(const SamOptionRow *row)
+{
+  return PetscMax(row->size, 1);
+}
 
 /* Reads one number at *text and moves past it and a comma behind it; whether it is one of the kind. */
-static PetscBool ReadNumber(const Kind *kind, const char **text, double *value)
+static PetscBool ReadNumber(const SamOptionRow *row, const char **text, double *value)
 {
-  long long number = 0;
-  char     *end;
+  const PetscBool whole  = row->kind == SAM_OPTION_INT ? PETSC_TRUE : PETSC_FALSE;
+  long long       number = 0;
+  char           *end;
 
   errno = 0;
-  if (kind->whole)
+  if (whole)
     *value = (double)(number = strtoll(*text, &end, 10));
   else
     *value = strtod(*text, &end);
-  if (end == *text || (errno == ERANGE && (kind->whole || isinf(*value))) || (*end && *end != ',')) return PETSC_FALSE;
+  if (end == *text || (errno == ERANGE && (whole || isinf(*value))) || (*end && *end != ',')) return PETSC_FALSE;
   *text = *end ? end + 1 : end;
   if (*end && !end[1]) return PETSC_FALSE;
-  return kind->whole ? number >= kind->least && number <= PETSC_MAX_INT && number <= MOST_WHOLE
-                     : SamRangeHas(kind->range, *value);
+  return whole ? number >= row->least && number <= (row->most ? row->most : PETSC_MAX_INT) && number <= MOST_WHOLE
+               : SamRangeHas(row->range, *value);
 }
 
 /*
@@ -137,213 +131,293 @@ static PetscErrorCode RefuseDecimalComma(const SamOptions *from, const char name
           SamOptionsPrefix(from), name, text, numbers, point);
 }
 
-/* Describes an option of one or two numbers, and reads it; one number stands for both. */
-static PetscErrorCode ReadNumbers(const SamOptions *from, const char name[], const char help[], const Kind *kind,
-                                  double value[], PetscBool *set)
+/* Reads numbers of which some are given, as `expected` says; returns how many, 0: the option is absent. */
+static PetscErrorCode ReadNumbers(const SamOptions *from, const SamOptionRow *row, const char expected[], double v[],
+                                  PetscInt *n)
 {
-  const char *const argument[2][2] = {{"<number>", "<number>[,<number>]"}, {"<integer>", "<integer>[,<integer>]"}};
-  const int         digits         = kind->whole ? 17 : 6;
-  char              shown[64], expected[96], text[TEXT_SIZE];
-  const char       *rest = text;
-  double            v[2] = {0, 0};
-  PetscInt          n    = 0;
-  PetscBool         good = PETSC_TRUE, found;
+  char        text[TEXT_SIZE];
+  const char *rest = text;
+  PetscBool   good = PETSC_TRUE, found;
 
   PetscFunctionBegin;
-  (void)snprintf(shown, sizeof(shown), kind->pair ? "%.*g,%.*g" : "%.*g", digits, value[0], digits, value[kind->pair]);
-  if (isnan(value[0])) shown[0] = '\0'; /* no default */
-  PetscCall(Describe(from, name, help, argument[kind->whole][kind->pair], shown));
-  if (kind->whole)
-    (void)snprintf(expected, sizeof(expected), "an integer >= %lld", (long long)kind->least);
-  else
-    (void)snprintf(expected, sizeof(expected), "%s", SamRangeDescribe(kind->range));
-  if (kind->pair) PetscCall(PetscStrlcat(expected, ", or two separated by a comma", sizeof(expected)));
-  PetscCall(GetText(from, name, expected, text, sizeof(text), &found));
-  if (set) *set = found;
+  *n = 0;
+  PetscCall(GetText(from, row->name, expected, text, sizeof(text), &found));
   if (!found) PetscFunctionReturn(PETSC_SUCCESS);
-  while (good && *rest && n < 1 + (PetscInt)kind->pair) good = ReadNumber(kind, &rest, &v[n++]);
-  if (!good || n == 0 || *rest) {
+  while (good && *rest && *n < CountOf(row)) good = ReadNumber(row, &rest, &v[(*n)++]);
+  if (!good || *n == 0 || *rest) {
     const char *why = SamExplainNumber(text);
 
-    SETERRQ(from->comm, SAM_ERR_USER, "-%s%s %s: expected %s%s", SamOptionsPrefix(from), name, Quote(text), expected,
-            why);
+    SETERRQ(from->comm, SAM_ERR_USER, "-%s%s %s: expected %s%s", SamOptionsPrefix(from), row->name, Quote(text),
+            expected, why);
   }
-  if (n == 2 && kind->range == SAM_RANGE_POSITIVE) PetscCall(RefuseDecimalComma(from, name, text, v));
-  value[0] = v[0];
-  if (kind->pair) value[1] = v[n - 1];
+  if (*n == 2 && row->range == SAM_RANGE_POSITIVE) PetscCall(RefuseDecimalComma(from, row->name, text, v));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* One number or two, of which one stands for both. */
+static PetscErrorCode ReadNumberRow(const SamOptions *from, const SamOptionRow *row, void *member, PetscBool *given)
+{
+  static const char *const argument[2][2] = {{"<number>", "<number>[,<number>]"},
+                                             {"<integer>", "<integer>[,<integer>]"}};
+  const PetscBool          whole          = row->kind == SAM_OPTION_INT ? PETSC_TRUE : PETSC_FALSE;
+  const PetscInt           count          = CountOf(row);
+  const int                digits         = whole ? 17 : 6;
+  PetscReal *const         reals          = (PetscReal *)member;
+  PetscInt *const          wholes         = (PetscInt *)member;
+  char                     shown[64]      = "", expected[96];
+  double                   v[2];
+  PetscInt                 n;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < 2; k++) v[k] = whole ? (double)wholes[k % count] : (double)reals[k % count];
+  if (!isnan(v[0])) /* there is a default */
+    (void)snprintf(shown, sizeof(shown), count > 1 ? "%.*g,%.*g" : "%.*g", digits, v[0], digits, v[1]);
+  PetscCall(SamOptionsDescribe(from, &(SamOptionHelp){row->name, argument[whole][count - 1], row->text, shown, ""}));
+  if (whole && row->most)
+    (void)snprintf(expected, sizeof(expected), "an integer from %lld to %lld", (long long)row->least,
+                   (long long)row->most);
+  else if (whole)
+    (void)snprintf(expected, sizeof(expected), "an integer >= %lld", (long long)row->least);
+  else
+    (void)snprintf(expected, sizeof(expected), "%s", SamRangeDescribe(row->range));
+  if (count > 1) PetscCall(PetscStrlcat(expected, ", or two separated by a comma", sizeof(expected)));
+  PetscCall(ReadNumbers(from, row, expected, v, &n));
+  *given = n > 0 ? PETSC_TRUE : PETSC_FALSE;
+  for (PetscInt k = 0; k < count && n > 0; k++) {
+    if (whole)
+      wholes[k] = (PetscInt)v[k % n];
+    else
+      reals[k] = (PetscReal)v[k % n];
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOptionsReals(const SamOptions *from, const char name[], const char help[], SamRange range,
+                               PetscInt most, PetscReal values[], PetscInt *count)
+{
+  const SamOptionRow row = {name, help, SAM_OPTION_REAL, .range = range, .size = most};
+  char               expected[96];
+
+  PetscFunctionBegin;
+  PetscCall(SamOptionsDescribe(from, &(SamOptionHelp){name, "<number>[,...]", help, "", ""}));
+  (void)snprintf(expected, sizeof(expected), "%s, or at most %d separated by commas", SamRangeDescribe(range),
+                 (int)most);
+  PetscCall(ReadNumbers(from, &row, expected, values, count));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- words and texts ---- */
+
+/* The place of a text in a list with commas, -1: none. */
+static int FindWord(const char list[], const char text[])
+{
+  const size_t length = strlen(text);
+  int          w      = 0;
+
+  for (const char *word = list; *word; w++) {
+    const size_t n = strcspn(word, ",");
+
+    if (n == length && !strncmp(word, text, n)) return w;
+    word += n + (word[n] ? 1 : 0);
+  }
+  return -1;
+}
+
+/* Copies the word at this place. */
+static void CopyWord(const char list[], int place, char text[], size_t size)
+{
+  for (; place > 0 && *list; place--) {
+    list += strcspn(list, ",");
+    list += *list ? 1 : 0;
+  }
+  (void)snprintf(text, size, "%.*s", (int)strcspn(list, ","), list);
+}
+
+/* "a,b,c" as "a, b or c". */
+static void ListWords(const char words[], char text[], size_t size)
+{
+  const char *last = strrchr(words, ',');
+  size_t      used = 0;
+
+  for (; *words && used + 5 < size; words++) {
+    const char *between = *words != ',' ? NULL : words == last ? " or " : ", ";
+
+    used += (size_t)snprintf(text + used, size - used, between ? "%s" : "%.1s", between ? between : words);
+  }
+  text[used] = '\0';
+}
+
+/* A truth: the bare option means yes. */
+static PetscErrorCode ReadBool(const SamOptions *from, const SamOptionRow *row, PetscBool *value, PetscBool *given)
+{
+  char      dashed[128], text[TEXT_SIZE] = "";
+  PetscBool yes;
+
+  PetscFunctionBegin;
+  PetscCall(SamOptionsDescribe(from, &(SamOptionHelp){row->name, "[<bool>]", row->text, *value ? "true" : "false",
+                                                      "true,false"}));
+  PetscCall(PetscSNPrintf(dashed, sizeof(dashed), "-%s", row->name));
+  PetscCall(PetscOptionsGetString(NULL, from->prefix, dashed, text, sizeof(text), given));
+  if (!*given) PetscFunctionReturn(PETSC_SUCCESS);
+  yes = !text[0] || FindWord("1,true,yes,on", text) >= 0 ? PETSC_TRUE : PETSC_FALSE;
+  PetscCheck(yes || FindWord("0,false,no,off", text) >= 0, from->comm, SAM_ERR_USER, "-%s%s %s: expected true or false",
+             SamOptionsPrefix(from), row->name, Quote(text));
+  *value = yes;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* One word of the row's list, whose place, or whether it is not the first one, is the value. */
+static PetscErrorCode ReadChoice(const SamOptions *from, const SamOptionRow *row, void *member, PetscBool *given)
+{
+  char text[TEXT_SIZE], list[TEXT_SIZE];
+  int  place = row->kind == SAM_OPTION_BOOL ? (int)*(PetscBool *)member : *(int *)member;
+
+  PetscFunctionBegin;
+  ListWords(row->words, list, sizeof(list));
+  CopyWord(row->words, place, text, sizeof(text));
+  PetscCall(SamOptionsDescribe(from, &(SamOptionHelp){row->name, "<keyword>", row->text, text, row->words}));
+  PetscCall(GetText(from, row->name, list, text, sizeof(text), given));
+  if (!*given) PetscFunctionReturn(PETSC_SUCCESS);
+  place = FindWord(row->words, text);
+  PetscCheck(place >= 0, from->comm, SAM_ERR_USER, "-%s%s %s: expected %s", SamOptionsPrefix(from), row->name,
+             Quote(text), list);
+  if (row->kind == SAM_OPTION_BOOL)
+    *(PetscBool *)member = place > 0 ? PETSC_TRUE : PETSC_FALSE;
+  else
+    *(int *)member = place;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* A text, a file's name, one word, which is checked, or several. */
+static PetscErrorCode ReadText(const SamOptions *from, const SamOptionRow *row, char value[], PetscBool *given)
+{
+  static const char *const arguments[] = {[SAM_OPTION_STRING] = "<string>",
+                                          [SAM_OPTION_FILE]   = "<file>",
+                                          [SAM_OPTION_WORD]   = "<keyword>",
+                                          [SAM_OPTION_WORDS]  = "<keyword>[,...]"};
+  const char              *words       = row->words ? row->words : "";
+  char                     text[TEXT_SIZE], expected[640];
+
+  PetscFunctionBegin;
+  if (row->kind == SAM_OPTION_WORD)
+    ListWords(words, expected, sizeof(expected));
+  else if (row->kind == SAM_OPTION_WORDS)
+    (void)snprintf(expected, sizeof(expected), "some of %s", words);
+  else
+    (void)snprintf(expected, sizeof(expected), row->kind == SAM_OPTION_FILE ? "the name of a file" : "a string");
+  PetscCall(SamOptionsDescribe(from, &(SamOptionHelp){row->name, arguments[row->kind], row->text, value, words}));
+  PetscCall(GetText(from, row->name, expected, text, sizeof(text), given));
+  if (!*given) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCheck(row->kind != SAM_OPTION_WORD || FindWord(words, text) >= 0, from->comm, SAM_ERR_USER,
+             "-%s%s %s: expected %s", SamOptionsPrefix(from), row->name, Quote(text), expected);
+  PetscCheck(strlen(text) < (size_t)row->size, from->comm, SAM_ERR_USER, "-%s%s: expected at most %d characters",
+             SamOptionsPrefix(from), row->name, (int)row->size - 1);
+  PetscCall(PetscStrncpy(value, text, (size_t)row->size));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Whether a viewer is asked for, which is created where it is used. */
+static PetscErrorCode ReadViewer(const SamOptions *from, const SamOptionRow *row, PetscBool *given)
+{
+  char option[128], text[TEXT_SIZE] = "";
+
+  PetscFunctionBegin;
+  PetscCall(SamOptionsDescribe(from, &(SamOptionHelp){row->name, "[<viewer>]", row->text, "", ""}));
+  PetscCall(PetscSNPrintf(option, sizeof(option), "-%s", row->name));
+  PetscCall(PetscOptionsGetString(NULL, from->prefix, option, text, sizeof(text), given));
+  PetscCheck(!*given || !text[0] || !strncmp(text, "ascii", 5) || text[0] == ':', from->comm, SAM_ERR_USER,
+             "-%s%s %s: expected nothing, ascii or ascii:file", SamOptionsPrefix(from), row->name, Quote(text));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- tables ---- */
+
+static PetscErrorCode ReadRow(const SamOptions *from, const SamOptionRow *row, void *member, PetscBool *given)
+{
+  PetscFunctionBegin;
+  switch (row->kind) {
+  case SAM_OPTION_REAL:
+  case SAM_OPTION_INT:
+    PetscCall(ReadNumberRow(from, row, member, given));
+    break;
+  case SAM_OPTION_BOOL:
+  case SAM_OPTION_ENUM:
+    PetscCall(row->words ? ReadChoice(from, row, member, given) : ReadBool(from, row, (PetscBool *)member, given));
+    break;
+  case SAM_OPTION_VIEWER:
+    PetscCall(ReadViewer(from, row, given));
+    break;
+  default:
+    PetscCall(ReadText(from, row, (char *)member, given));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOptionsHas(const SamOptions *from, const char option[], PetscBool *has)
+{
+  char name[64] = "", value[64] = "", text[TEXT_SIZE] = "", dashed[80];
+
+  PetscFunctionBegin;
+  (void)sscanf(option, "%63[^ ,:] %63[^ ,:]", name, value);
+  PetscCall(PetscSNPrintf(dashed, sizeof(dashed), "-%s", name));
+  PetscCall(PetscOptionsGetString(NULL, from->prefix, dashed, text, sizeof(text), has));
+  if (value[0] && strcmp(text, value)) *has = PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Whether there is a value, that of a default. */
+static PetscBool HasDefault(const SamOptionRow *row, const void *member)
+{
+  if (row->kind == SAM_OPTION_REAL) return SamRangeHas(row->range, (double)*(const PetscReal *)member);
+  if (row->kind == SAM_OPTION_INT) return *(const PetscInt *)member >= row->least ? PETSC_TRUE : PETSC_FALSE;
+  return *(const char *)member ? PETSC_TRUE : PETSC_FALSE;
+}
+
+/* What a row needs, excludes, or lacks. */
+static PetscErrorCode CheckRow(const SamOptions *from, const SamOptionRow *row, const void *member, PetscBool given)
+{
+  const char *prefix = SamOptionsPrefix(from);
+  PetscBool   has    = PETSC_TRUE, both;
+
+  PetscFunctionBegin;
+  if (row->kind == SAM_OPTION_BOOL && !row->words) given = given && *(const PetscBool *)member;
+  if (row->needs) PetscCall(SamOptionsHas(from, row->needs, &has));
+  PetscCheck(!given || has, from->comm, SAM_ERR_USER, "-%s%s is given without -%s%s", prefix, row->name, prefix,
+             row->needs);
+  for (const char *other = row->excludes; other && given && *other;
+       other += strcspn(other, ","), other += *other == ',') {
+    PetscCall(SamOptionsHas(from, other, &both));
+    PetscCheck(!both, from->comm, SAM_ERR_USER, "-%s%s does not work with -%s%.*s: give one of them", prefix, row->name,
+               prefix, (int)strcspn(other, ","), other);
+  }
+  if (row->missing && has)
+    PetscCall(SamOptionsRequire(from, given || HasDefault(row, member), row->name, row->missing));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOptionsRead(const SamOptions *from, const char heading[], PetscInt count, const SamOptionRow rows[],
+                              void *settings, PetscBool given[])
+{
+  PetscBool help;
+
+  PetscFunctionBegin;
+  PetscCall(SamPrintHelp(&help));
+  if (heading) PetscCall(SamOptionsHeading(from, heading));
+  for (PetscInt k = 0; k < count; k++) {
+    void     *member = (char *)settings + rows[k].member;
+    PetscBool found;
+
+    PetscCall(ReadRow(from, &rows[k], member, &found));
+    if (!help) PetscCall(CheckRow(from, &rows[k], member, found));
+    if (given) given[k] = found;
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamOptionsReal(const SamOptions *from, const char name[], const char help[], SamRange range,
                               PetscReal *value, PetscBool *set)
 {
-  return ReadNumbers(from, name, help, &(Kind){.range = range}, value, set);
-}
+  const SamOptionRow row = {name, help, SAM_OPTION_REAL, .range = range};
 
-PetscErrorCode SamOptionsRealPair(const SamOptions *from, const char name[], const char help[], SamRange range,
-                                  PetscReal value[2], PetscBool *set)
-{
-  return ReadNumbers(from, name, help, &(Kind){.pair = PETSC_TRUE, .range = range}, value, set);
-}
-
-PetscErrorCode SamOptionsReals(const SamOptions *from, const char name[], const char help[], SamRange range,
-                               PetscInt most, PetscReal values[], PetscInt *count)
-{
-  const Kind  kind = {.range = range};
-  char        expected[96], text[TEXT_SIZE];
-  const char *rest = text;
-  double      number;
-  PetscBool   good = PETSC_TRUE, found;
-
-  PetscFunctionBegin;
-  *count = 0;
-  PetscCall(Describe(from, name, help, "<number>[,...]", ""));
-  (void)snprintf(expected, sizeof(expected), "%s, or at most %d separated by commas", SamRangeDescribe(range),
-                 (int)most);
-  PetscCall(GetText(from, name, expected, text, sizeof(text), &found));
-  if (!found) PetscFunctionReturn(PETSC_SUCCESS);
-  while (good && *rest && *count < most) {
-    good               = ReadNumber(&kind, &rest, &number);
-    values[(*count)++] = number;
-  }
-  PetscCheck(good && !*rest, from->comm, SAM_ERR_USER, "-%s%s %s: expected %s", SamOptionsPrefix(from), name,
-             Quote(text), expected);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamOptionsInt(const SamOptions *from, const char name[], const char help[], PetscInt least,
-                             PetscInt *value, PetscBool *set)
-{
-  double number = (double)*value;
-
-  PetscFunctionBegin;
-  PetscCall(ReadNumbers(from, name, help, &(Kind){.whole = PETSC_TRUE, .least = least}, &number, set));
-  *value = (PetscInt)number;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamOptionsIntPair(const SamOptions *from, const char name[], const char help[], PetscInt least,
-                                 PetscInt value[2], PetscBool *set)
-{
-  const Kind kind      = {.pair = PETSC_TRUE, .whole = PETSC_TRUE, .least = least};
-  double     number[2] = {(double)value[0], (double)value[1]};
-
-  PetscFunctionBegin;
-  PetscCall(ReadNumbers(from, name, help, &kind, number, set));
-  for (int k = 0; k < 2; k++) value[k] = (PetscInt)number[k];
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamOptionsBool(const SamOptions *from, const char name[], const char help[], PetscBool *value,
-                              PetscBool *set)
-{
-  static const char *const yes[] = {"1", "true", "yes", "on", NULL}, *const no[] = {"0", "false", "no", "off", NULL};
-  const SamOptionHelp option = {name, "[<bool>]", help, *value ? "true" : "false", "true,false"};
-  char                dashed[128], text[TEXT_SIZE] = "";
-  PetscBool           found, good;
-
-  PetscFunctionBegin;
-  PetscCall(SamOptionsDescribe(from, &option));
-  PetscCall(PetscSNPrintf(dashed, sizeof(dashed), "-%s", name));
-  PetscCall(PetscOptionsGetString(NULL, from->prefix, dashed, text, sizeof(text), &found));
-  if (set) *set = found;
-  if (!found) PetscFunctionReturn(PETSC_SUCCESS);
-  good = !text[0]; /* the bare option means yes */
-  if (good) *value = PETSC_TRUE;
-  for (PetscInt w = 0; yes[w] && !good; w++) {
-    *value = !strcmp(text, yes[w]);
-    good   = *value || !strcmp(text, no[w]);
-  }
-  PetscCheck(good, from->comm, SAM_ERR_USER, "-%s%s %s: expected true or false", SamOptionsPrefix(from), name,
-             Quote(text));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* What is expected of a text, for messages. */
-static void DescribeText(const SamOptionHelp *option, char text[], size_t size)
-{
-  if (option->words[0])
-    (void)snprintf(text, size, "%s of %s", strchr(option->argument, ',') ? "some" : "one", option->words);
-  else
-    (void)snprintf(text, size, "%s", strstr(option->argument, "file") ? "the name of a file" : "a string");
-}
-
-/* Reads a text of fewer than `size` characters, which is described by `option`. */
-static PetscErrorCode ReadText(const SamOptions *from, const SamOptionHelp *option, char value[], size_t size,
-                               PetscBool *set)
-{
-  char      text[TEXT_SIZE], expected[640];
-  PetscBool found;
-
-  PetscFunctionBegin;
-  DescribeText(option, expected, sizeof(expected));
-  PetscCall(SamOptionsDescribe(from, option));
-  PetscCall(GetText(from, option->name, expected, text, sizeof(text), &found));
-  if (set) *set = found;
-  if (!found) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCheck(strlen(text) < size, from->comm, SAM_ERR_USER, "-%s%s: expected at most %d characters",
-             SamOptionsPrefix(from), option->name, (int)size - 1);
-  PetscCall(PetscStrncpy(value, text, size));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamOptionsString(const SamOptions *from, const char name[], const char help[], char value[], size_t size,
-                                PetscBool *set)
-{
-  return ReadText(from, &(SamOptionHelp){name, "<string>", help, value, ""}, value, size, set);
-}
-
-PetscErrorCode SamOptionsFile(const SamOptions *from, const char name[], const char help[], char value[], size_t size,
-                              PetscBool *set)
-{
-  return ReadText(from, &(SamOptionHelp){name, "<file>", help, value, ""}, value, size, set);
-}
-
-PetscErrorCode SamOptionsWord(const SamOptions *from, const char name[], const char help[], const char words[],
-                              char value[], size_t size, PetscBool *set)
-{
-  return ReadText(from, &(SamOptionHelp){name, "<keyword>", help, value, words}, value, size, set);
-}
-
-PetscErrorCode SamOptionsWords(const SamOptions *from, const char name[], const char help[], const char words[],
-                               char value[], size_t size, PetscBool *set)
-{
-  return ReadText(from, &(SamOptionHelp){name, "<keyword>[,...]", help, value, words}, value, size, set);
-}
-
-PetscErrorCode SamOptionsEnum(const SamOptions *from, const char name[], const char help[], const char *const words[],
-                              PetscInt *value, PetscBool *set)
-{
-  char                text[TEXT_SIZE], list[TEXT_SIZE], commas[TEXT_SIZE];
-  const SamOptionHelp option = {name, "<keyword>", help, words[*value], commas};
-  PetscInt            chosen = -1, count = 0;
-  PetscBool           found;
-
-  PetscFunctionBegin;
-  while (words[count]) count++;
-  SamJoin(count, words, ", ", " or ", list, sizeof(list));
-  SamJoin(count, words, ",", ",", commas, sizeof(commas));
-  PetscCall(SamOptionsDescribe(from, &option));
-  PetscCall(GetText(from, name, list, text, sizeof(text), &found));
-  if (set) *set = found;
-  if (!found) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt w = 0; w < count; w++)
-    if (!strcmp(text, words[w])) chosen = w;
-  PetscCheck(chosen >= 0, from->comm, SAM_ERR_USER, "-%s%s %s: expected %s", SamOptionsPrefix(from), name, Quote(text),
-             list);
-  *value = chosen;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamOptionsHasViewer(const SamOptions *from, const char name[], const char help[], PetscBool *set)
-{
-  char option[128], text[TEXT_SIZE] = "";
-
-  PetscFunctionBegin;
-  PetscCall(Describe(from, name, help, "[<viewer>]", ""));
-  PetscCall(PetscSNPrintf(option, sizeof(option), "-%s", name));
-  PetscCall(PetscOptionsGetString(NULL, from->prefix, option, text, sizeof(text), set));
-  PetscCheck(!*set || !text[0] || !strncmp(text, "ascii", 5) || text[0] == ':', from->comm, SAM_ERR_USER,
-             "-%s%s %s: expected nothing, ascii or ascii:file", SamOptionsPrefix(from), name, Quote(text));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return SamOptionsRead(from, NULL, 1, &row, value, set);
 }

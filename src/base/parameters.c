@@ -50,6 +50,21 @@ PetscErrorCode SamParametersAddChecksum(SamParameters *p, const char name[], uin
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamParametersAddOptions(SamParameters *p, PetscInt count, const SamOptionRow rows[],
+                                       const void *settings)
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < count; k++) {
+    const PetscReal *value = (const PetscReal *)(const void *)((const char *)settings + rows[k].member);
+
+    if (!rows[k].recorded) continue;
+    PetscCheck(rows[k].kind == SAM_OPTION_REAL, PETSC_COMM_SELF, PETSC_ERR_SUP,
+               "Option %s: only real numbers are recorded", rows[k].name);
+    PetscCall(SamParametersAddReals(p, rows[k].name, PETSC_TRUE, PetscMax(rows[k].size, 1), value));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 const SamParameter *SamParametersFind(const SamParameters *p, const char name[])
 {
   for (PetscInt k = 0; k < p->count; k++)

@@ -32,14 +32,14 @@ static Register Load(const char file[], char fault[], size_t size)
 
 PetscErrorCode SamOptionsPlugins(const SamOptions *from)
 {
-  char   files[PETSC_MAX_PATH_LEN] = "", **file, fault[SAM_MESSAGE];
-  int    count;
-  double failed = 0;
+  static const SamOptionRow row = {"plugin", "shared libraries with further types, separated by commas",
+                                   SAM_OPTION_FILE, .size = PETSC_MAX_PATH_LEN};
+  char                      files[PETSC_MAX_PATH_LEN] = "", **file, fault[SAM_MESSAGE];
+  int                       count;
+  double                    failed = 0;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsHeading(from, "Plugins"));
-  PetscCall(SamOptionsFile(from, "plugin", "shared libraries with further types, separated by commas", files,
-                           sizeof(files), NULL));
+  PetscCall(SamOptionsRead(from, "Plugins", 1, &row, files, NULL));
   PetscCall(PetscStrToArray(files, ',', &count, &file));
   for (int k = 0; k < count; k++) {
     const Register function = Load(file[k], fault, sizeof(fault));

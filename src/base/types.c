@@ -50,23 +50,11 @@ PetscErrorCode SamTypesList(PetscFunctionList list, char text[], size_t size)
 PetscErrorCode SamTypesOption(PetscFunctionList list, const SamOptions *from, const char name[], const char help[],
                               char type[], size_t size, PetscBool *set)
 {
-  char words[512];
+  char               words[512];
+  const SamOptionRow row = {name, help, SAM_OPTION_WORD, .size = (PetscInt)size, .words = words};
 
   PetscFunctionBegin;
   PetscCall(Join(list, ",", ",", words, sizeof(words)));
-  PetscCall(SamOptionsWord(from, name, help, words, type, size, set));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamTypesCheckOption(PetscFunctionList list, const SamOptions *from, const char option[],
-                                   const char type[])
-{
-  void (*create)(void);
-  char types[512];
-
-  PetscFunctionBegin;
-  PetscCall(PetscFunctionListFind(list, type, &create));
-  PetscCall(SamTypesList(list, types, sizeof(types)));
-  PetscCheck(create, from->comm, SAM_ERR_USER, "-%s%s %s: expected %s", SamOptionsPrefix(from), option, type, types);
+  PetscCall(SamOptionsRead(from, NULL, 1, &row, type, set));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -92,44 +92,42 @@ static PetscErrorCode RefuseDeferred(const SamOptions *from)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+#define MEMBER(name) offsetof(SamContactSettings, name)
+static const SamOptionRow rows[] = {
+  {"coupling", "normal-tangential coupling of dissimilar materials: full or none", SAM_OPTION_BOOL, MEMBER(coupling),
+   .words = "none,full"},
+  {"coupling_rtol", "relative change of p and q between iterations", SAM_OPTION_REAL, MEMBER(coupling_rtol),
+   .range = SAM_RANGE_POSITIVE},
+  {"coupling_max_it", "maximum number of coupling iterations", SAM_OPTION_INT, MEMBER(coupling_max_it), .least = 1},
+  {"coupling_monitor", "print the change after each coupling iteration", SAM_OPTION_BOOL,
+   .member = MEMBER(coupling_monitor)},
+  {"slip_direction", "by the shear at mid or end of a step; auto: mid with -step_rtol", SAM_OPTION_ENUM,
+   MEMBER(slip_direction), .words = "auto,mid,end"},
+  {"warm_start", "start each step from the previous steps, on the finest grid only", SAM_OPTION_BOOL,
+   .member = MEMBER(warm_start)},
+  {"cycle_memory", "bytes to keep steps of a repeated cycle, from which the next starts", SAM_OPTION_REAL,
+   MEMBER(cycle_memory), .range = SAM_RANGE_NONNEGATIVE},
+  {"allow_edge_contact", "contact at the grid's edge is a warning, no error", SAM_OPTION_BOOL,
+   .member = MEMBER(allow_edge)},
+  {"edges", "reconstruct, none (count cells)", SAM_OPTION_BOOL, MEMBER(edges), .words = "none,reconstruct"},
+  {"contact_spots", "number of contact spots and mean gap of each step", SAM_OPTION_BOOL, .member = MEMBER(spots)},
+  {"contact_check", "print the check of each step", SAM_OPTION_BOOL, .member = MEMBER(print_check)}};
+
 PetscErrorCode SamContactSetFromOptions(SamContact c)
 {
-  static const char *const coupling_words[] = {"none", "full", NULL}, *const edge_words[] = {"none", "reconstruct",
-                                                                                             NULL};
-  static const char *const direction_words[] = {"auto", "mid", "end", NULL};
-  const SamOptions         from              = {c->grid->comm, c->prefix};
-  SamContactSettings       s                 = c->set;
-  PetscInt                 coupling = s.coupling ? 1 : 0, edges = s.edges ? 1 : 0, direction = s.slip_direction;
-  PetscBool                turns, keeps;
+  static const char *const unsteady[] = {"slip_direction", "cycle_memory"};
+  const SamOptions         from       = {c->grid->comm, c->prefix};
+  SamContactSettings       s          = c->set;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsHeading(&from, "Contact"));
-  PetscCall(SamOptionsEnum(&from, "coupling", "normal-tangential coupling of dissimilar materials: full or none",
-                           coupling_words, &coupling, NULL));
-  PetscCall(SamOptionsReal(&from, "coupling_rtol", "relative change of p and q between iterations", SAM_RANGE_POSITIVE,
-                           &s.coupling_rtol, NULL));
-  PetscCall(
-    SamOptionsInt(&from, "coupling_max_it", "maximum number of coupling iterations", 1, &s.coupling_max_it, NULL));
-  PetscCall(SamOptionsBool(&from, "coupling_monitor", "print the change after each coupling iteration",
-                           &s.coupling_monitor, NULL));
-  PetscCall(SamOptionsEnum(&from, "slip_direction", "by the shear at mid or end of a step; auto: mid with -step_rtol",
-                           direction_words, &direction, &turns));
-  PetscCall(SamOptionsBool(&from, "warm_start", "start each step from the previous steps, on the finest grid only",
-                           &s.warm_start, NULL));
-  PetscCall(SamOptionsReal(&from, "cycle_memory", "bytes to keep steps of a repeated cycle, from which the next starts",
-                           SAM_RANGE_NONNEGATIVE, &s.cycle_memory, &keeps));
-  if (turns) PetscCall(SamMotionRefuse(c->motion, SAM_MOTION_HISTORY, c->grid->comm, "-", "slip_direction"));
-  if (keeps) PetscCall(SamMotionRefuse(c->motion, SAM_MOTION_HISTORY, c->grid->comm, "-", "cycle_memory"));
-  PetscCall(SamOptionsBool(&from, "allow_edge_contact", "contact at the grid's edge is a warning, no error",
-                           &s.allow_edge, NULL));
   PetscCall(RefuseDeferred(&from));
-  PetscCall(SamOptionsEnum(&from, "edges", "reconstruct, none (count cells)", edge_words, &edges, NULL));
-  PetscCall(
-    SamOptionsBool(&from, "contact_spots", "number of contact spots and mean gap of each step", &s.spots, NULL));
-  PetscCall(SamOptionsBool(&from, "contact_check", "print the check of each step", &s.print_check, NULL));
-  s.coupling       = coupling != 0;
-  s.slip_direction = (SamSlipDirection)direction;
-  s.edges          = edges > 0;
+  PetscCall(SamOptionsRead(&from, "Contact", SAM_OPTION_ROWS(rows), &s, NULL));
+  for (int k = 0; k < 2; k++) {
+    PetscBool has;
+
+    PetscCall(SamOptionsHas(&from, unsteady[k], &has));
+    if (has) PetscCall(SamMotionRefuse(c->motion, SAM_MOTION_HISTORY, c->grid->comm, "-", unsteady[k]));
+  }
   PetscCall(SamContactSetSettings(c, &s));
   PetscCall(SamSolverSetFromOptions(SamNormalAsSolver(c->normal)));
   PetscCall(SamSolverSetFromOptions(SamTangentialAsSolver(c->tangential)));

@@ -171,7 +171,6 @@ PetscErrorCode SamElasticitySetFromOptions(SamElasticity e)
   PetscCall(SamOptionsHeading(&from, "Elasticity"));
   PetscCall(PetscStrncpy(type, e->type, sizeof(type)));
   PetscCall(SamTypesOption(SamElasticityList, &from, "elasticity", types, type, sizeof(type), NULL));
-  PetscCall(SamTypesCheckOption(SamElasticityList, &from, "elasticity", type));
   PetscCall(SamFourierSettingsFromOptions(&e->fft, &from));
   if (strcmp(type, e->type) || e->is_set_up || (e->inner && e->inner->is_set_up))
     PetscCall(SamElasticitySetType(e, type)); /* made anew with the settings */

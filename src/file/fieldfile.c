@@ -30,19 +30,18 @@ typedef struct {
 
 PetscErrorCode SamFieldFileSetFromOptions(SamFieldFile *source, const SamOptions *from, const char help[])
 {
-  const char *prefix = SamOptionsPrefix(from);
-  char        text[96];
-  PetscBool   set, print;
+  char text[96];
+
+  const SamOptionRow rows[] = {{source->file_option, help, SAM_OPTION_FILE, offsetof(SamFieldFile, file),
+                                .size = sizeof(source->file)},
+                               {source->dataset_option, text, SAM_OPTION_STRING, offsetof(SamFieldFile, dataset),
+                                .size = sizeof(source->dataset), .needs = source->file_option}};
 
   PetscFunctionBegin;
-  PetscCall(SamSetPrefix(source->prefix, prefix));
+  PetscCall(SamSetPrefix(source->prefix, SamOptionsPrefix(from)));
   if (!source->dataset[0]) PetscCall(PetscStrncpy(source->dataset, source->default_dataset, sizeof(source->dataset)));
   PetscCall(PetscSNPrintf(text, sizeof(text), "dataset in it: (ny, nx), %s", source->unit));
-  PetscCall(SamOptionsFile(from, source->file_option, help, source->file, sizeof(source->file), NULL));
-  PetscCall(SamOptionsString(from, source->dataset_option, text, source->dataset, sizeof(source->dataset), &set));
-  PetscCall(SamPrintHelp(&print));
-  PetscCheck(!set || source->file[0] || print, from->comm, SAM_ERR_USER, "-%s%s is given without -%s%s", prefix,
-             source->dataset_option, prefix, source->file_option);
+  PetscCall(SamOptionsRead(from, NULL, SAM_OPTION_ROWS(rows), source, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -23,9 +23,6 @@
 */
 #include "fourierimpl.h"
 
-static const char *const efforts[]   = {"estimate", "measure", "patient", NULL}; /* as in SamFourierSettings */
-static const char *const exchanges[] = {"auto", "transpose", NULL};              /* as `send` in it */
-
 /* Below this, measuring costs more than all transforms of a coarse grid. */
 #define ESTIMATE_BELOW 300
 
@@ -109,16 +106,14 @@ ptrdiff_t SamFourierDivideQuadrant(SamFourier F, ptrdiff_t *rows, ptrdiff_t *row
 
 PetscErrorCode SamFourierSettingsFromOptions(SamFourierSettings *settings, const SamOptions *from)
 {
-  PetscInt effort = (PetscInt)settings->effort, exchange = settings->send ? 1 : 0;
+  static const SamOptionRow rows[] = {{"fft_effort", "FFTW's planning: estimate, measure or patient", SAM_OPTION_ENUM,
+                                       offsetof(SamFourierSettings, effort), .words = "estimate,measure,patient"},
+                                      {"fft_exchange",
+                                       "between ranks of a node: auto (shared memory) or transpose (messages)",
+                                       SAM_OPTION_BOOL, offsetof(SamFourierSettings, send), .words = "auto,transpose"}};
 
   PetscFunctionBegin;
-  PetscCall(
-    SamOptionsEnum(from, "fft_effort", "FFTW's planning: estimate, measure or patient", efforts, &effort, NULL));
-  PetscCall(SamOptionsEnum(from, "fft_exchange",
-                           "between ranks of a node: auto (shared memory) or transpose (messages)", exchanges,
-                           &exchange, NULL));
-  settings->effort = effort == 2 ? SAM_FOURIER_PATIENT : (effort == 1 ? SAM_FOURIER_MEASURE : SAM_FOURIER_ESTIMATE);
-  settings->send   = exchange != 0;
+  PetscCall(SamOptionsRead(from, NULL, SAM_OPTION_ROWS(rows), settings, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

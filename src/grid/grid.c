@@ -108,32 +108,38 @@ static PetscErrorCode TakeRow(const SamOptions *from, PetscInt n[2], PetscReal w
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* What a user sets. */
+typedef struct {
+  PetscInt  n[2];
+  PetscReal width[2], center[2];
+} Settings;
+#define MEMBER(name) offsetof(Settings, name)
+
 PetscErrorCode SamGridCreateFromOptions(const SamOptions *from, PetscBool row, PetscInt n[2], PetscReal width[2],
                                         PetscReal center[2], SamGrid *grid)
 {
-  PetscBool         has_n, has_width, help;
+  Settings           set    = {{n[0], n[1]}, {width[0], width[1]}, {center[0], center[1]}};
+  const SamOptionRow rows[] = {
+    {"grid_n", "cells in x[,y]: required without a surface file", SAM_OPTION_INT, MEMBER(n), .least = row ? 1 : 2,
+     .size = 2, .missing = "the number of cells in x[,y], for example 256"},
+    {"grid_size", "full width in x[,y] (m): required without a surface file", SAM_OPTION_REAL, MEMBER(width),
+     .range = SAM_RANGE_POSITIVE, .size = 2,
+     .missing = "the full width of the grid in x[,y], m: about 1.5 times that of the contact"},
+    {"grid_center", "centre x,y (m)", SAM_OPTION_REAL, MEMBER(center), .range = SAM_RANGE_ANY, .size = 2}};
+  PetscBool         help;
   char              message[256], options[3][96];
   const char *const names[3] = {options[0], options[1], options[2]};
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsHeading(from, "Grid"));
-  PetscCall(
-    SamOptionsIntPair(from, "grid_n", "cells in x[,y]: required without a surface file", row ? 1 : 2, n, &has_n));
-  PetscCall(SamOptionsRealPair(from, "grid_size", "full width in x[,y] (m): required without a surface file",
-                               SAM_RANGE_POSITIVE, width, &has_width));
-  PetscCall(SamOptionsRealPair(from, "grid_center", "centre x,y (m)", SAM_RANGE_ANY, center, NULL));
+  PetscCall(SamOptionsRead(from, "Grid", SAM_OPTION_ROWS(rows), &set, NULL));
   PetscCall(SamPrintHelp(&help));
-  if (help) { /* the defaults are listed; any grid does */
-    n[0] = n[1] = 2;
-    width[0] = width[1] = 1;
-    has_n = has_width = PETSC_TRUE;
+  for (int k = 0; k < 2; k++) { /* the defaults are listed in the help; any grid does */
+    n[k]      = help ? 2 : set.n[k];
+    width[k]  = help ? 1 : set.width[k];
+    center[k] = set.center[k];
   }
-  PetscCall(PetscSNPrintf(options[0], sizeof(options[0]), "-%sgrid_n", SamOptionsPrefix(from)));
-  PetscCall(PetscSNPrintf(options[1], sizeof(options[1]), "-%sgrid_size", SamOptionsPrefix(from)));
-  PetscCall(PetscSNPrintf(options[2], sizeof(options[2]), "-%sgrid_center", SamOptionsPrefix(from)));
-  PetscCall(SamOptionsRequire(from, has_n || n[0], "grid_n", "the number of cells in x[,y], for example 256"));
-  PetscCall(SamOptionsRequire(from, has_width || width[0] > 0, "grid_size",
-                              "the full width of the grid in x[,y], m: about 1.5 times that of the contact"));
+  for (int k = 0; k < 3; k++)
+    PetscCall(PetscSNPrintf(options[k], sizeof(options[k]), "-%s%s", SamOptionsPrefix(from), rows[k].name));
   PetscCheck(row || n[1] != 1, from->comm, SAM_ERR_USER, "%s: one cell in y: a plane problem needs -%selasticity plane",
              names[0], SamOptionsPrefix(from));
   if (row) PetscCall(TakeRow(from, n, width, center));

@@ -18,14 +18,15 @@
 /* -output_fields: names between commas, and blanks. */
 static PetscErrorCode ReadFieldNames(SamOutputSettings *set, const SamOptions *from)
 {
-  char      text[1024] = "", **list;
-  PetscBool given;
-  int       count;
+  static const SamOptionRow row = {"output_fields", "fields to be saved by their names, all, or none", SAM_OPTION_WORDS,
+                                   .size = 1024, .words = WORDS};
+  char                      text[1024] = "", **list;
+  PetscBool                 given;
+  int                       count;
 
   PetscFunctionBegin;
   set->count = -1;
-  PetscCall(SamOptionsWords(from, "output_fields", "fields to be saved by their names, all, or none", WORDS, text,
-                            sizeof(text), &given));
+  PetscCall(SamOptionsRead(from, NULL, 1, &row, text, &given));
   if (!given) PetscFunctionReturn(PETSC_SUCCESS);
   for (char *c = text; *c; c++) *c = *c == ' ' ? ',' : *c;
   PetscCall(PetscStrToArray(text, ',', &count, &list));
@@ -36,6 +37,12 @@ static PetscErrorCode ReadFieldNames(SamOutputSettings *set, const SamOptions *f
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+#define MEMBER(name) offsetof(SamOutputSettings, name)
+static const SamOptionRow rows[] = {
+  {"output_compress", "level of compression of the fields, 0 (none) to 9", SAM_OPTION_INT, MEMBER(compress), .most = 9},
+  {"output_chunk", "most cells of a chunk of the file in x[,y]", SAM_OPTION_INT, MEMBER(chunk), .least = 1, .size = 2},
+  {"output_single", "fields in single precision: files of half the size", SAM_OPTION_BOOL, .member = MEMBER(single)}};
+
 PetscErrorCode SamOutputSettingsSetFromOptions(SamOutputSettings *set, const SamOptions *from)
 {
   const char *prefix = SamOptionsPrefix(from);
@@ -44,16 +51,10 @@ PetscErrorCode SamOutputSettingsSetFromOptions(SamOutputSettings *set, const Sam
   PetscFunctionBegin;
   *set = (SamOutputSettings){.compress = 0, .chunk = {1024, 256}};
   PetscCall(ReadFieldNames(set, from));
-  PetscCall(SamOptionsInt(from, "output_compress", "level of compression of the fields, 0 (none) to 9", 0,
-                          &set->compress, NULL));
-  PetscCheck(set->compress <= 9, from->comm, SAM_ERR_USER,
-             "-%soutput_compress %" PetscInt_FMT ": use an integer from 0 to 9", prefix, set->compress);
+  PetscCall(SamOptionsRead(from, NULL, SAM_OPTION_ROWS(rows), set, NULL));
   PetscCheck(set->compress == 0 || H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0, from->comm, SAM_ERR_USER,
              "-%soutput_compress %" PetscInt_FMT ": this HDF5 was built without zlib", prefix, set->compress);
-  PetscCall(SamOptionsIntPair(from, "output_chunk", "most cells of a chunk of the file in x[,y]", 1, set->chunk, NULL));
-  PetscCall(
-    SamOptionsBool(from, "output_single", "fields in single precision: files of half the size", &set->single, NULL));
-  PetscCall(PetscOptionsHasName(NULL, from->prefix, "-output_xdmf", &xdmf));
+  PetscCall(SamOptionsHas(from, "output_xdmf", &xdmf));
   PetscCheck(!xdmf, from->comm, SAM_ERR_USER,
              "-%soutput_xdmf: no XDMF file is written: ParaView 5.12 or later opens the results themselves", prefix);
   PetscFunctionReturn(PETSC_SUCCESS);

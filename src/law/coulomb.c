@@ -62,15 +62,16 @@ PetscErrorCode SamLawGetFriction(SamLaw law, PetscReal *friction)
 
 static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBool *asked)
 {
-  static const char *const law_words[] = {"coulomb", "slip_path", "pressure", "falling", NULL};
-
-  PetscInt       changes = 0;
-  Coulomb *const c       = (Coulomb *)law->data;
-  SamFieldFile   source  = {
-       .file_option     = "friction_file",
-       .dataset_option  = "friction_dataset",
-       .default_dataset = "/friction",
-       .unit            = "1",
+  Coulomb *const     c          = (Coulomb *)law->data;
+  char               words[512] = "coulomb", word[64] = "coulomb", text[600] = "how the coefficient changes: coulomb";
+  const SamOptionRow number  = {"friction", "Coulomb's coefficient", SAM_OPTION_REAL, .range = SAM_RANGE_NONNEGATIVE,
+                                .excludes = "friction_file"},
+                     changes = {"friction_law", text, SAM_OPTION_WORD, .size = sizeof(word), .words = words};
+  SamFieldFile source        = {
+           .file_option     = "friction_file",
+           .dataset_option  = "friction_dataset",
+           .default_dataset = "/friction",
+           .unit            = "1",
   };
   PetscReal      friction = c->friction;
   PetscBool      set, help;
@@ -79,14 +80,12 @@ static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBo
 
   PetscFunctionBegin;
   *asked = PETSC_TRUE; /* without options, of the coefficient 0 */
-  PetscCall(SamOptionsHeading(from, "Friction"));
-  PetscCall(SamOptionsReal(from, "friction", "Coulomb's coefficient", SAM_RANGE_NONNEGATIVE, &friction, &set));
+  PetscCall(SamLawListWords(law->elasticity, changes.name, ",", words, sizeof(words)));
+  PetscCall(SamLawListWords(law->elasticity, changes.name, ", ", text, sizeof(text)));
+  PetscCall(SamOptionsRead(from, "Friction", 1, &number, &friction, &set));
   PetscCall(SamFieldFileSetFromOptions(&source, from, "HDF5 file with a coefficient of friction per cell"));
-  PetscCall(SamOptionsEnum(from, "friction_law", "how the coefficient changes: coulomb, slip_path, pressure, falling",
-                           law_words, &changes, NULL)); /* friction.c */
+  PetscCall(SamOptionsRead(from, NULL, 1, &changes, word, NULL));
   PetscCall(SamPrintHelp(&help));
-  PetscCheck(!set || !source.file[0], from->comm, SAM_ERR_USER, "-%sfriction and -%sfriction_file: give one of them",
-             source.prefix, source.prefix);
   if (set) PetscCall(SamLawSetFriction(law, friction));
   if (!source.file[0] || help) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamGridCreateVec(law->grid, 1, &field));

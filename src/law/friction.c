@@ -22,44 +22,51 @@ enum { EXPONENT, REFERENCE, LIMIT };
 enum { KINETIC, HALF, SPEED, MEMORY, SLOWEST, OPTIONS };
 
 typedef struct {
-  const char *name, *text;
-  SamRange    range;
-  PetscReal   usual; /* NAN: required */
-} Option;
-
-/* A kind by its type of law and its word of -friction_law; the field that it remembers, NULL: none. */
-static const struct {
-  const char   *type, *word;
-  Option        option[OPTIONS];
-  SamStateField memory;
-} kinds[KINDS] = {
-  {SAM_LAW_PATH_FRICTION,
-   "slip_path",
-   {{"friction_path_final", "slip_path: coefficient after long slip", SAM_RANGE_NONNEGATIVE, NAN},
-    {"friction_path_length", "slip_path: slip (m) after which 1/e of the change is left", SAM_RANGE_POSITIVE, NAN}},
-   {"friction_path", "m", "slip under pressure, over all steps", 1, 2, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_OFFERED,
-    SAM_MOVES}},
-  {SAM_LAW_PRESSURE_FRICTION,
-   "pressure",
-   {{"friction_pressure_exponent", "pressure: exponent of p over the reference, > -1", SAM_RANGE_ANY, 0},
-    {"friction_pressure_reference", "pressure: where the coefficient is -friction (Pa)", SAM_RANGE_POSITIVE, 1},
-    {"friction_shear_limit", "pressure: maximum shear (Pa)", SAM_RANGE_POSITIVE_INF, INFINITY}},
-   {NULL}},
-  {SAM_LAW_FALLING_FRICTION,
-   "falling",
-   {{"friction_falling_kinetic", "falling: coefficient at high speed", SAM_RANGE_NONNEGATIVE, NAN},
-    {"friction_falling_half_speed", "falling: slip velocity (m/s) of half the change", SAM_RANGE_POSITIVE, NAN},
-    {"rolling_speed", "falling: speed of rolling (m/s)", SAM_RANGE_POSITIVE, NAN},
-    {"friction_falling_memory", "falling: slip (m) of the memory, 0: none", SAM_RANGE_NONNEGATIVE, 0},
-    {"friction_falling_memory_speed", "falling: least slip velocity for the memory (m/s)", SAM_RANGE_NONNEGATIVE, 0}},
-   {"friction_fallen", "1", "part of the change of friction that is reached", 1, 2, PETSC_TRUE, PETSC_FALSE,
-    SAM_RESULT_OFFERED, SAM_MOVES}}};
-
-typedef struct {
   Kind      kind;
   PetscReal value[OPTIONS];
   PetscReal cell; /* rolled distance of a cell, m, where what is remembered stands in the cell ahead; 0: in the state */
 } Friction;
+
+#define REAL(place, name, word, text, values) \
+  { \
+    "friction_" name, word ": " text, SAM_OPTION_REAL, offsetof(Friction, value[place]), \
+      .range = values, .needs = "friction_law " word, .missing = "required by -friction_law " word, \
+      .recorded = PETSC_TRUE \
+  }
+/* A kind by its type of law and its word of -friction_law; usual values, NAN: required; what it remembers, if it does. */
+static const struct {
+  const char   *type, *word;
+  SamOptionRow  row[OPTIONS];
+  PetscReal     usual[OPTIONS];
+  SamStateField memory;
+} kinds[KINDS] = {
+  {SAM_LAW_PATH_FRICTION,
+   "slip_path",
+   {REAL(FINAL, "path_final", "slip_path", "coefficient after long slip", SAM_RANGE_NONNEGATIVE),
+    REAL(LENGTH, "path_length", "slip_path", "slip (m) after which 1/e of the change is left", SAM_RANGE_POSITIVE)},
+   {NAN, NAN},
+   {"friction_path", "m", "slip under pressure, over all steps", 1, 2, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_OFFERED,
+    SAM_MOVES}},
+  {SAM_LAW_PRESSURE_FRICTION,
+   "pressure",
+   {REAL(EXPONENT, "pressure_exponent", "pressure", "exponent of p over the reference, > -1", SAM_RANGE_ANY),
+    REAL(REFERENCE, "pressure_reference", "pressure", "where the coefficient is -friction (Pa)", SAM_RANGE_POSITIVE),
+    REAL(LIMIT, "shear_limit", "pressure", "maximum shear (Pa)", SAM_RANGE_POSITIVE_INF)},
+   {0, 1, INFINITY},
+   {NULL}},
+  {SAM_LAW_FALLING_FRICTION,
+   "falling",
+   {REAL(KINETIC, "falling_kinetic", "falling", "coefficient at high speed", SAM_RANGE_NONNEGATIVE),
+    REAL(HALF, "falling_half_speed", "falling", "slip velocity (m/s) of half the change", SAM_RANGE_POSITIVE),
+    {"rolling_speed", "falling: speed of rolling (m/s)", SAM_OPTION_REAL, offsetof(Friction, value[SPEED]),
+     .range = SAM_RANGE_POSITIVE, .needs = "friction_law falling", .missing = "required by -friction_law falling",
+     .recorded = PETSC_TRUE},
+    REAL(MEMORY, "falling_memory", "falling", "slip (m) of the memory, 0: none", SAM_RANGE_NONNEGATIVE),
+    REAL(SLOWEST, "falling_memory_speed", "falling", "least slip velocity for the memory (m/s)",
+         SAM_RANGE_NONNEGATIVE)},
+   {NAN, NAN, NAN, 0, 0},
+   {"friction_fallen", "1", "part of the change of friction that is reached", 1, 2, PETSC_TRUE, PETSC_FALSE,
+    SAM_RESULT_OFFERED, SAM_MOVES}}};
 
 /* The solution that was found, where there may be several. */
 static const SamStateNumber branch = {"friction_mean",
@@ -77,38 +84,18 @@ static const SamStateNumber branch = {"friction_mean",
 
 static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBool *asked)
 {
-  Friction *const f      = (Friction *)law->data;
-  const char     *prefix = SamOptionsPrefix(from);
-  char            word[64];
+  const Friction *f = (const Friction *)law->data;
   PetscBool       given, help;
 
   PetscFunctionBegin;
-  PetscCall(PetscOptionsGetString(NULL, from->prefix, "-friction_law", word, sizeof(word), &given)); /* coulomb.c */
-  *asked = given && !strcmp(word, kinds[f->kind].word);
+  if (f->kind != PRESSURE || !*asked) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamPrintHelp(&help));
-  for (const Option *o = kinds[f->kind].option; o < kinds[f->kind].option + OPTIONS && o->name; o++) {
-    const PetscInt  k      = (PetscInt)(o - kinds[f->kind].option);
-    const PetscBool needed = isnan(o->usual) || (f->kind == PRESSURE && k == REFERENCE && f->value[EXPONENT] != 0);
-
-    PetscCall(SamOptionsReal(from, o->name, o->text, o->range, &f->value[k], &given));
-    PetscCheck(*asked || !given, from->comm, SAM_ERR_USER, "-%s%s is given without -%sfriction_law %s", prefix, o->name,
-               prefix, kinds[f->kind].word);
-    PetscCheck(!*asked || given || !needed || help, from->comm, SAM_ERR_USER, "-%sfriction_law %s: give -%s%s", prefix,
-               kinds[f->kind].word, prefix, o->name);
-  }
-  PetscCheck(f->kind != PRESSURE || f->value[EXPONENT] > -1, from->comm, SAM_ERR_USER,
-             "-%sfriction_pressure_exponent %.6g: expected a number > -1", prefix, (double)f->value[EXPONENT]);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode AddParameters(SamLaw law, SamParameters *p)
-{
-  const Friction *f = (const Friction *)law->data;
-
-  PetscFunctionBegin;
-  PetscCall(SamParametersAddText(p, "friction_law", PETSC_TRUE, kinds[f->kind].word));
-  for (PetscInt k = 0; k < OPTIONS && kinds[f->kind].option[k].name; k++)
-    PetscCall(SamParametersAddReals(p, kinds[f->kind].option[k].name, PETSC_TRUE, 1, &f->value[k]));
+  PetscCall(SamOptionsHas(from, "friction_pressure_reference", &given));
+  PetscCall(SamOptionsRequire(from, given || f->value[EXPONENT] == 0 || help, "friction_pressure_reference",
+                              "required by -friction_pressure_exponent"));
+  PetscCheck(f->value[EXPONENT] > -1, from->comm, SAM_ERR_USER,
+             "-%sfriction_pressure_exponent %.6g: expected a number > -1", SamOptionsPrefix(from),
+             (double)f->value[EXPONENT]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -276,16 +263,18 @@ PetscErrorCode SamLawCreate_Friction(SamLaw law)
   PetscCall(PetscNew(&f));
   f->kind = kind;
   f->cell = SamMotionOf(law->elasticity)->continues ? 0 : law->grid->dx;
-  for (PetscInt k = 0; k < OPTIONS; k++) f->value[k] = kinds[kind].option[k].usual;
-  law->data               = f;
-  law->option             = "friction_law";
+  PetscCall(PetscArraycpy(f->value, kinds[kind].usual, OPTIONS));
+  law->data   = f;
+  law->option = "friction_law";
+  law->word   = kinds[kind].word;
+  law->rows   = kinds[kind].row;
+  while (law->row_count < OPTIONS && law->rows[law->row_count].name) law->row_count++;
   law->bytes              = kinds[kind].memory.name ? 16 : 0;
   law->needs_friction     = PETSC_TRUE;
   law->follows_slip       = kind == FALLING;
   law->any_motion         = kind != PATH;
   law->forbids_jumps      = kinds[kind].memory.name ? PETSC_TRUE : PETSC_FALSE;
   law->ops.setfromoptions = SetFromOptions;
-  law->ops.addparameters  = AddParameters;
   law->ops.declare        = Declare;
   law->ops.bound          = Bound;
   law->ops.advance        = Advance;

@@ -32,22 +32,18 @@ PetscErrorCode SamLawSetHardness(SamLaw law, PetscReal limit)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static const SamOptionRow limit_row = {"pressure_limit",
+                                       "hardness: the maximum pressure, where the surfaces yield (Pa)",
+                                       SAM_OPTION_REAL,
+                                       offsetof(Hardness, limit),
+                                       .range    = SAM_RANGE_POSITIVE_INF,
+                                       .recorded = PETSC_TRUE};
+
 static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBool *asked)
 {
-  Hardness *const h = (Hardness *)law->data;
-
   PetscFunctionBegin;
-  PetscCall(SamOptionsHeading(from, "Plastic deformation"));
-  PetscCall(SamOptionsReal(from, "pressure_limit", "hardness: the maximum pressure, where the surfaces yield (Pa)",
-                           SAM_RANGE_POSITIVE_INF, &h->limit, NULL));
-  *asked = isfinite(h->limit) != 0;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode AddParameters(SamLaw law, SamParameters *p)
-{
-  PetscFunctionBegin;
-  PetscCall(SamParametersAddReals(p, "pressure_limit", PETSC_TRUE, 1, &((Hardness *)law->data)->limit));
+  (void)from;
+  *asked = isfinite(((Hardness *)law->data)->limit) != 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -218,12 +214,14 @@ PetscErrorCode SamLawCreate_Hardness(SamLaw law)
   PetscCall(PetscNew(&h));
   h->limit                = INFINITY; /* PETSC_INFINITY is a finite number */
   law->data               = h;
-  law->option             = "pressure_limit";
+  law->option             = limit_row.name;
+  law->heading            = "Plastic deformation";
+  law->rows               = &limit_row;
+  law->row_count          = 1;
   law->bytes              = 40;
   law->forbids_jumps      = PETSC_TRUE;
   law->any_motion         = PETSC_TRUE;
   law->ops.setfromoptions = SetFromOptions;
-  law->ops.addparameters  = AddParameters;
   law->ops.declare        = Declare;
   law->ops.separation     = Separation;
   law->ops.limit          = Limit;

@@ -116,8 +116,13 @@ PetscErrorCode SamLawDestroy(SamLaw *law)
 
 PetscErrorCode SamLawSetFromOptions(SamLaw law, const SamOptions *from, PetscBool *asked)
 {
+  char option[96];
+
   PetscFunctionBegin;
   *asked = PETSC_FALSE;
+  (void)snprintf(option, sizeof(option), "%s %s", law->option ? law->option : "", law->word ? law->word : "");
+  if (law->word) PetscCall(SamOptionsHas(from, option, asked));
+  PetscCall(SamOptionsRead(from, law->heading, law->row_count, law->rows, law->data, NULL));
   if (law->ops.setfromoptions) PetscCall(law->ops.setfromoptions(law, from, asked));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -125,7 +130,25 @@ PetscErrorCode SamLawSetFromOptions(SamLaw law, const SamOptions *from, PetscBoo
 PetscErrorCode SamLawAddParameters(SamLaw law, SamParameters *parameters)
 {
   PetscFunctionBegin;
+  if (law->word) PetscCall(SamParametersAddText(parameters, law->option, PETSC_TRUE, law->word));
+  PetscCall(SamParametersAddOptions(parameters, law->row_count, law->rows, law->data));
   if (law->ops.addparameters) PetscCall(law->ops.addparameters(law, parameters));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLawListWords(SamElasticity elasticity, const char option[], const char between[], char words[],
+                               size_t size)
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < count; k++) {
+    const size_t used = strlen(words);
+    SamLaw       law;
+
+    PetscCall(SamLawCreate(elasticity, names[k], &law));
+    if (law->word && !strcmp(law->option, option))
+      (void)snprintf(words + used, size - used, "%s%s", between, law->word);
+    PetscCall(SamLawDestroy(&law));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -20,11 +20,12 @@ static const Sum sums[] = {{FIELD(SAM_LAW_SLIP_PATH, "m", "accumulated slip: sum
 
 static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBool *asked)
 {
-  const Sum *sum = (const Sum *)law->data;
+  const Sum         *sum = (const Sum *)law->data;
+  const SamOptionRow row = {sum->option, sum->text, SAM_OPTION_BOOL, .member = 0};
 
   PetscFunctionBegin;
   if (!sum->work) PetscCall(SamOptionsHeading(from, "Sums over all steps"));
-  PetscCall(SamOptionsBool(from, sum->option, sum->text, asked, NULL));
+  PetscCall(SamOptionsRead(from, NULL, 1, &row, asked, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

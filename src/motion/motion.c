@@ -50,14 +50,16 @@ PetscErrorCode SamMotionSet(SamMotion motion, const SamOptions *from, SamElastic
 
 PetscErrorCode SamMotionSetFromOptions(const SamOptions *from, SamElasticity *elasticity)
 {
-  const char *words[MOTIONS + 1];
-  PetscInt    k = 0;
+  char               list[128] = "";
+  const SamOptionRow row = {"rolling", "steady: the contact rolls towards +x in steady state; or none", SAM_OPTION_ENUM,
+                            .words = list};
+  const char        *words[MOTIONS];
+  int                k = 0;
 
   PetscFunctionBegin;
   for (PetscInt n = 0; n < MOTIONS; n++) words[n] = motions[n]->word;
-  words[MOTIONS] = NULL;
-  PetscCall(
-    SamOptionsEnum(from, "rolling", "steady: the contact rolls towards +x in steady state; or none", words, &k, NULL));
+  SamJoin(MOTIONS, words, ",", ",", list, sizeof(list));
+  PetscCall(SamOptionsRead(from, NULL, 1, &row, &k, NULL));
   PetscCall(SamMotionSet(motions[k], from, elasticity));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -25,46 +25,32 @@ static double ReadDuration(const char text[])
   return -1;
 }
 
-static PetscErrorCode ReadLimit(SamCheckpoints *cp, const SamOptions *from, PetscBool *set)
-{
-  char text[64] = "";
-
-  PetscFunctionBegin;
-  PetscCall(SamOptionsString(from, "max_walltime", "stop in time, with a checkpoint: s, m:s or h:m:s from the start",
-                             text, sizeof(text), set));
-  if (!*set) PetscFunctionReturn(PETSC_SUCCESS);
-  cp->limit = ReadDuration(text);
-  PetscCheck(cp->limit > 0, from->comm, SAM_ERR_USER, "-max_walltime %s: expected a time > 0 as seconds, m:s or h:m:s",
-             text);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
+#define MEMBER(name) offsetof(SamCheckpoints, name)
+static const SamOptionRow rows[] = {
+  {"checkpoint", "file of the checkpoints; the one before is kept as file.1", SAM_OPTION_FILE, MEMBER(filename),
+   .size = PETSC_MAX_PATH_LEN - 8},
+  {"checkpoint_every", "load steps between them, 0: only on signals and before the limit", SAM_OPTION_INT,
+   MEMBER(every), .needs = "checkpoint"},
+  {"max_walltime", "stop in time, with a checkpoint: s, m:s or h:m:s from the start", SAM_OPTION_STRING,
+   MEMBER(duration), .size = sizeof(((SamCheckpoints *)NULL)->duration),
+   .needs = "checkpoint: the run could not continue from where it stops"},
+  {"restart", "continue from this checkpoint; a new -output begins a branch", SAM_OPTION_FILE, MEMBER(restart),
+   .size = PETSC_MAX_PATH_LEN},
+  {"restart_gap", "restart on a different gap, keeping the slip", SAM_OPTION_BOOL, MEMBER(other_gap),
+   .needs = "restart"},
+  {"overwrite", "start anew, replacing a checkpoint of this name", SAM_OPTION_BOOL, .member = MEMBER(overwrite)}};
 
 PetscErrorCode SamSimulationReadCheckpoints(SamSimulation s, const SamOptions *from)
 {
   SamCheckpoints *const cp = &s->checkpoints;
-  PetscBool             has_file, has_every, has_limit, has_gap, help;
 
   PetscFunctionBegin;
   cp->start = cp->step_start = MPI_Wtime();
-  PetscCall(SamPrintHelp(&help));
-  PetscCall(SamOptionsHeading(from, "Checkpoints"));
-  PetscCall(SamOptionsFile(from, "checkpoint", "file of the checkpoints; the one before is kept as file.1",
-                           cp->filename, sizeof(cp->filename), &has_file));
-  PetscCall(SamOptionsInt(from, "checkpoint_every", "load steps between them, 0: only on signals and before the limit",
-                          0, &cp->every, &has_every));
-  PetscCall(ReadLimit(cp, from, &has_limit));
-  PetscCall(SamOptionsFile(from, "restart", "continue from this checkpoint; a new -output begins a branch", cp->restart,
-                           sizeof(cp->restart), NULL));
-  PetscCall(
-    SamOptionsBool(from, "restart_gap", "restart on a different gap, keeping the slip", &cp->other_gap, &has_gap));
-  PetscCall(SamOptionsBool(from, "overwrite", "start anew, replacing a checkpoint of this name", &cp->overwrite, NULL));
-  PetscCheck(cp->restart[0] || !has_gap || help, from->comm, SAM_ERR_USER, "-restart_gap is given without -restart");
-  PetscCheck(has_file || !has_every || help, from->comm, SAM_ERR_USER,
-             "-checkpoint_every is given without -checkpoint");
-  PetscCheck(has_file || !has_limit || help, from->comm, SAM_ERR_USER,
-             "-max_walltime is given without -checkpoint: the run could not continue from where it stops");
-  PetscCheck(strlen(cp->filename) + 8 < sizeof(cp->filename), from->comm, SAM_ERR_USER,
-             "-checkpoint: expected at most %d characters", (int)sizeof(cp->filename) - 9);
+  PetscCall(SamOptionsRead(from, "Checkpoints", SAM_OPTION_ROWS(rows), cp, NULL));
+  if (!cp->duration[0]) PetscFunctionReturn(PETSC_SUCCESS);
+  cp->limit = ReadDuration(cp->duration);
+  PetscCheck(cp->limit > 0, from->comm, SAM_ERR_USER, "-max_walltime %s: expected a time > 0 as seconds, m:s or h:m:s",
+             cp->duration);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

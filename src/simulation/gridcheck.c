@@ -12,21 +12,14 @@
 
 PetscErrorCode SamSimulationReadGridCheck(SamSimulation s, const SamOptions *from)
 {
-  static const char *const without[] = {"-restart", "-friction_file", "-wear_cycles", "-step_rtol", "-rolling"};
-
-  PetscBool set, help;
+  static const SamOptionRow row = {"grid_check", "all steps on half the cells too; errors of the last numbers",
+                                   SAM_OPTION_BOOL, .excludes = "restart,friction_file,wear_cycles,step_rtol,rolling"};
 
   PetscFunctionBegin;
-  PetscCall(SamPrintHelp(&help));
-  PetscCall(SamOptionsBool(from, "grid_check", "all steps on half the cells too; errors of the last numbers",
-                           &s->needs.grid_check, NULL));
+  PetscCall(SamOptionsRead(from, NULL, 1, &row, &s->needs.grid_check, NULL));
   PetscCheck(!s->needs.grid_check ||
                (s->setup.grid->nx >= LEAST && (s->setup.grid->axes == 1 || s->setup.grid->ny >= LEAST)),
              from->comm, SAM_ERR_USER, "-grid_check needs at least %d cells in x and in y (-grid_n)", LEAST);
-  for (size_t k = 0; s->needs.grid_check && !help && k < sizeof(without) / sizeof(without[0]); k++) {
-    PetscCall(PetscOptionsHasName(NULL, NULL, without[k], &set));
-    PetscCheck(!set, from->comm, SAM_ERR_USER, "-grid_check does not work with %s: remove one of them", without[k]);
-  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

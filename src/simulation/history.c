@@ -179,9 +179,11 @@ static PetscErrorCode ReadFileName(const SamOptions *from, char file[], size_t s
 
 PetscErrorCode SamHistoryReadIncrements(const SamOptions *from, PetscInt *increments)
 {
+  static const SamOptionRow row = {"steps", "load steps per row of the history", SAM_OPTION_INT, .least = 1};
+
   PetscFunctionBegin;
   *increments = 1;
-  PetscCall(SamOptionsInt(from, "steps", "load steps per row of the history", 1, increments, NULL));
+  PetscCall(SamOptionsRead(from, NULL, 1, &row, increments, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

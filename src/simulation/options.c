@@ -106,37 +106,34 @@ static PetscErrorCode ReadPlan(SamSimulation s, PetscBool given, const SamOption
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+#define MEMBER(name) offsetof(struct _n_SamSimulation, name)
+static const SamOptionRow results[] =
+  {{"output", "HDF5 file of the results", SAM_OPTION_FILE, MEMBER(filename), .size = PETSC_MAX_PATH_LEN},
+   {"output_every", "write the fields of every m-th step, and of the last", SAM_OPTION_INT, MEMBER(output_every),
+    .least = 1},
+   {"output_at", "what -output_every counts: all steps, or those at rows of the history", SAM_OPTION_BOOL,
+    MEMBER(output_rows), .words = "steps,history"},
+   {"stiffness", "tangent stiffness of every step, for continued loading and reversal", SAM_OPTION_BOOL,
+    MEMBER(needs.stiffness), .needs = "output, the file that it goes to"}},
+                          flush = {"output_flush", "longest write delay (s) of steps without fields, 0: none",
+                                   SAM_OPTION_REAL, MEMBER(output_settings.flush), .range = SAM_RANGE_NONNEGATIVE};
+
 static PetscErrorCode ReadResults(SamSimulation s, const SamOptions *from)
 {
-  char        at[16] = "steps";
+  PetscBool   given[sizeof(results) / sizeof(results[0])];
   const char *ending;
-  PetscBool   help;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsHeading(from, "Results and resources"));
-  PetscCall(
-    SamOptionsFile(from, "output", "HDF5 file of the results", s->filename, sizeof(s->filename), &s->has_output));
-  ending = strrchr(s->filename, '.');
+  s->output_every = 1;
+  PetscCall(SamOptionsRead(from, "Results and resources", SAM_OPTION_ROWS(results), s, given));
+  s->has_output = given[0];
+  ending        = strrchr(s->filename, '.');
   PetscCheck(!ending || strcasecmp(ending, ".csv"), from->comm, SAM_ERR_USER,
              "-output %s: the results are an HDF5 file: name it .h5", s->filename);
-  s->output_every = 1;
-  PetscCall(SamOptionsInt(from, "output_every", "write the fields of every m-th step, and of the last", 1,
-                          &s->output_every, NULL));
-  PetscCall(SamOptionsWord(from, "output_at", "what -output_every counts: all steps, or those at rows of the history",
-                           "steps,history", at, sizeof(at), NULL));
-  PetscCheck(!strcmp(at, "steps") || !strcmp(at, "history"), from->comm, SAM_ERR_USER,
-             "-output_at %s: expected steps or history", at);
-  s->output_rows = (PetscBool)!strcmp(at, "history");
-  PetscCall(SamOptionsBool(from, "stiffness", "tangent stiffness of every step, for continued loading and reversal",
-                           &s->needs.stiffness, NULL));
   PetscCall(SamOutputSettingsSetFromOptions(&s->output_settings, from));
   s->output_settings.flush = FLUSH;
-  PetscCall(SamOptionsReal(from, "output_flush", "longest write delay (s) of steps without fields, 0: none",
-                           SAM_RANGE_NONNEGATIVE, &s->output_settings.flush, NULL));
+  PetscCall(SamOptionsRead(from, NULL, 1, &flush, s, NULL));
   PetscCall(SamOutputSettingsAddLaws(&s->output_settings, s->setup.problem));
-  PetscCall(SamPrintHelp(&help));
-  PetscCheck(!s->needs.stiffness || s->has_output || help, from->comm, SAM_ERR_USER,
-             "-stiffness is given without -output, the file that it goes to");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

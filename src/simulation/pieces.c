@@ -27,9 +27,11 @@
 
 PetscErrorCode SamSimulationReadPieces(SamSimulation s, const SamOptions *from)
 {
+  static const SamOptionRow row = {"step_rtol", "divide load steps until the energy has this estimated error; 0: never",
+                                   SAM_OPTION_REAL, .range = SAM_RANGE_NONNEGATIVE};
+
   PetscFunctionBegin;
-  PetscCall(SamOptionsReal(from, "step_rtol", "divide load steps until the energy has this estimated error; 0: never",
-                           SAM_RANGE_NONNEGATIVE, &s->step_rtol, NULL));
+  PetscCall(SamOptionsRead(from, NULL, 1, &row, &s->step_rtol, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -30,14 +30,37 @@ static PetscErrorCode CheckWhole(const char option[], PetscReal cycles, PetscBoo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode ReadOutputs(SamPlan *w, const SamOptions *from)
+/* What a user sets. */
+typedef struct {
+  PetscReal       cycles;
+  SamLifeSettings life;
+  PetscBool       stop_layer;
+  char            outputs[4096], friction[PETSC_MAX_PATH_LEN];
+} Settings;
+
+/* The options; those from TYPE on need a life. */
+enum { CYCLES, TYPE, RTOL, JUMP, STOP_LAYER, OUTPUT, FRICTION, ROWS };
+#define MEMBER(name) offsetof(Settings, name)
+#define LIFE         .needs = "wear_cycles"
+static const SamOptionRow rows[ROWS] = {
+  {"wear_cycles", "cycles to simulate; the history is one closed cycle", SAM_OPTION_REAL, MEMBER(cycles),
+   .range = SAM_RANGE_POSITIVE},
+  {"wear_type", "how cycles are jumped: implicit, or explicit", SAM_OPTION_ENUM, MEMBER(life.type),
+   .words = "implicit,explicit", LIFE},
+  {"wear_rtol", "relative error of depth and pressure per cycle jump; at most twice this", SAM_OPTION_REAL,
+   MEMBER(life.rtol), .range = SAM_RANGE_POSITIVE, LIFE},
+  {"wear_jump", "fixed jump length in cycles", SAM_OPTION_REAL, MEMBER(life.jump), .range = SAM_RANGE_POSITIVE, LIFE},
+  {"wear_stop_layer", "end where the first layer of a body is worn through", SAM_OPTION_BOOL, MEMBER(stop_layer), LIFE},
+  {"wear_output", "cycles whose fields are written, c[,c,...]; the last always", SAM_OPTION_STRING, MEMBER(outputs),
+   .size = sizeof(((Settings *)NULL)->outputs), LIFE},
+  {"wear_friction", "text file, columns cycle,friction: friction over the cycles", SAM_OPTION_FILE, MEMBER(friction),
+   .size = PETSC_MAX_PATH_LEN, .excludes = "friction,friction_file", LIFE}};
+
+static PetscErrorCode TakeOutputs(SamPlan *w, char text[], const SamOptions *from)
 {
-  char  text[4096] = "", *part, *rest;
-  char *end;
+  char *part, *rest, *end;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsString(from, "wear_output", "cycles whose fields are written, c[,c,...]; the last always", text,
-                             sizeof(text), NULL));
   for (part = strtok_r(text, ",", &rest); part; part = strtok_r(NULL, ",", &rest)) {
     const double cycle = strtod(part, &end);
 
@@ -48,45 +71,6 @@ static PetscErrorCode ReadOutputs(SamPlan *w, const SamOptions *from)
     w->output[w->outputs++] = cycle;
   }
   qsort(w->output, (size_t)w->outputs, sizeof(w->output[0]), Compare);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode ReadLife(SamPlan *w, const SamOptions *from)
-{
-  static const char *const types[] = {"implicit", "explicit", NULL};
-
-  PetscInt type = SAM_LIFE_IMPLICIT;
-
-  PetscFunctionBegin;
-  PetscCall(SamOptionsEnum(from, "wear_type", "how cycles are jumped: implicit, or explicit", types, &type, NULL));
-  w->life = (SamLifeSettings){.type = (SamLifeType)type, .rtol = 1e-2};
-  PetscCall(SamOptionsReal(from, "wear_rtol", "relative error of depth and pressure per cycle jump; at most twice this",
-                           SAM_RANGE_POSITIVE, &w->life.rtol, NULL));
-  PetscCall(SamOptionsReal(from, "wear_jump", "fixed jump length in cycles", SAM_RANGE_POSITIVE, &w->life.jump,
-                           &w->life.fixed));
-  PetscCall(CheckWhole("wear_jump", w->life.jump, w->life.fixed, from));
-  PetscCall(SamOptionsBool(from, "wear_stop_layer", "end where the first layer of a body is worn through",
-                           &w->stop_worn, NULL));
-  PetscCall(ReadOutputs(w, from));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Options that have no meaning without others. */
-static PetscErrorCode CheckPresent(const SamPlan *w, const SamOptions *from)
-{
-  static const char *const life[] = {"wear_type",   "wear_rtol",     "wear_jump",
-                                     "wear_output", "wear_friction", "wear_stop_layer"};
-
-  PetscBool set;
-
-  PetscFunctionBegin;
-  for (size_t k = 0; k < sizeof(life) / sizeof(life[0]) && w->cycles == 0; k++) {
-    char option[32];
-
-    PetscCall(PetscSNPrintf(option, sizeof(option), "-%s", life[k]));
-    PetscCall(PetscOptionsHasName(NULL, from->prefix, option, &set));
-    PetscCheck(!set, from->comm, SAM_ERR_USER, "%s is given without -wear_cycles", option);
-  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -111,24 +95,14 @@ static PetscErrorCode CheckTable(const SamTable *t, const char file[], PetscInt 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode ReadFriction(SamPlan *w, const SamOptions *from)
+static PetscErrorCode TakeFriction(SamPlan *w, const char file[], const SamOptions *from)
 {
   static const char *const names[] = {"cycle", "friction", NULL};
 
-  char      file[PETSC_MAX_PATH_LEN] = "";
-  PetscBool set, other;
-  SamTable  t;
-  PetscInt  cycle, friction;
+  SamTable t;
+  PetscInt cycle, friction;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsFile(from, "wear_friction", "text file, columns cycle,friction: friction over the cycles", file,
-                           sizeof(file), &set));
-  if (!set) PetscFunctionReturn(PETSC_SUCCESS);
-  for (int k = 0; k < 2; k++) {
-    PetscCall(PetscOptionsHasName(NULL, from->prefix, k ? "-friction_file" : "-friction", &other));
-    PetscCheck(!other, from->comm, SAM_ERR_USER, "-wear_friction and -friction%s are given: give one of them",
-               k ? "_file" : "");
-  }
   PetscCall(SamTableRead(from->comm, "wear_friction", file, names, &t));
   cycle    = SamTableFind(&t, "cycle");
   friction = SamTableFind(&t, "friction");
@@ -159,15 +133,20 @@ PetscReal SamPlanFriction(const SamPlan *w, PetscReal cycles)
 
 PetscErrorCode SamPlanSetFromOptions(SamPlan *w, PetscBool given, const SamOptions *from)
 {
+  Settings     set = {.life = {.type = SAM_LIFE_IMPLICIT, .rtol = 1e-2}};
+  SamOptionRow asked[ROWS];
+  PetscBool    has[ROWS];
+
   PetscFunctionBegin;
-  *w = (SamPlan){.cycles = 0};
+  PetscCall(PetscArraycpy(asked, rows, ROWS));
+  for (PetscInt k = TYPE; k < ROWS && given; k++) asked[k].needs = NULL;
   PetscCall(SamOptionsHeading(from, "Wear over cycles"));
-  if (!given)
-    PetscCall(SamOptionsReal(from, "wear_cycles", "cycles to simulate; the history is one closed cycle",
-                             SAM_RANGE_POSITIVE, &w->cycles, NULL));
-  if (!given) PetscCall(CheckPresent(w, from));
-  PetscCall(ReadLife(w, from));
-  PetscCall(ReadFriction(w, from));
+  PetscCall(SamOptionsRead(from, NULL, ROWS - given, asked + given, &set, has + given));
+  *w            = (SamPlan){.cycles = set.cycles, .life = set.life, .stop_worn = set.stop_layer};
+  w->life.fixed = has[JUMP];
+  PetscCall(CheckWhole("wear_jump", w->life.jump, w->life.fixed, from));
+  PetscCall(TakeOutputs(w, set.outputs, from));
+  if (has[FRICTION]) PetscCall(TakeFriction(w, set.friction, from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

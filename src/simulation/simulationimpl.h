@@ -23,9 +23,10 @@ typedef struct {
   /* what the user set */
   char      filename[PETSC_MAX_PATH_LEN], restart[PETSC_MAX_PATH_LEN]; /* empty: none */
   PetscBool other_gap;                                                 /* than in the checkpoint of -restart */
-  PetscBool overwrite; /* a new run may replace the checkpoint of an earlier one */
-  PetscInt  every;     /* load steps, 0: never */
-  double    limit;     /* seconds, 0: none */
+  PetscBool overwrite;    /* a new run may replace the checkpoint of an earlier one */
+  PetscInt  every;        /* load steps, 0: never */
+  char      duration[64]; /* of the run, as it is given; empty: any */
+  double    limit;        /* the same in seconds, 0: none */
   /* status */
   SamCheckpoint files;              /* NULL: none */
   double        start, step_start;  /* MPI_Wtime() at the start of the run, and of this step */

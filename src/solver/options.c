@@ -11,9 +11,7 @@ static PetscErrorCode SetTypeFromOptions(SamSolver s, const SamOptions *from)
   PetscCall(PetscStrncpy(type, s->type, sizeof(type)));
   PetscCall(SamTypesList(s->kind->types, types, sizeof(types)));
   PetscCall(SamTypesOption(s->kind->types, from, "type", types, type, sizeof(type), &set));
-  if (!set) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamTypesCheckOption(s->kind->types, from, "type", type));
-  PetscCall(SamSolverSetType(s, type));
+  if (set) PetscCall(SamSolverSetType(s, type));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -45,31 +43,40 @@ static PetscErrorCode DescribeOthers(SamSolver s, const SamOptions *from)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* What a user sets, but for the type. */
+typedef struct {
+  PetscReal rtol;
+  PetscInt  max_it, levels;
+  PetscBool monitor, error;
+} Settings;
+
 PetscErrorCode SamSolverSetFromOptions(SamSolver s)
 {
-  const SamOptions from   = {s->comm, s->prefix};
-  PetscReal        rtol   = s->rtol;
-  PetscInt         max_it = s->max_it, levels = s->levels;
-  PetscBool        monitor = s->monitor_error, error = s->error_if_not_converged, ignored, help;
-  char             title[64];
+  const SamOptions   from   = {s->comm, s->prefix};
+  Settings           set    = {s->rtol, s->max_it, s->levels, s->monitor_error, s->error_if_not_converged};
+  const SamOptionRow rows[] = {
+    {"rtol", s->kind->error_help, SAM_OPTION_REAL, offsetof(Settings, rtol), .range = SAM_RANGE_PART},
+    {"max_it", "maximum iterations on the finest grid; 0: default of the type", SAM_OPTION_INT,
+     .member = offsetof(Settings, max_it)},
+    {"levels", "number of nested grids; 0: default of the type", SAM_OPTION_INT, .member = offsetof(Settings, levels)},
+    {"monitor", "print the error after each iteration", SAM_OPTION_BOOL, .member = offsetof(Settings, monitor)},
+    {"error_if_not_converged", "raise an error without convergence", SAM_OPTION_BOOL,
+     .member = offsetof(Settings, error)},
+    {"converged_reason", "print the reason for stopping", SAM_OPTION_VIEWER, .member = 0},
+    {"view", "print the solver's settings", SAM_OPTION_VIEWER, .member = 0}};
+  PetscBool help;
+  char      title[64];
 
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(title, sizeof(title), "Solver of the %s problem", s->kind->name));
   PetscCall(SamOptionsHeading(&from, title));
   PetscCall(SetTypeFromOptions(s, &from));
-  PetscCall(SamOptionsReal(&from, "rtol", s->kind->error_help, SAM_RANGE_PART, &rtol, NULL));
-  PetscCall(
-    SamOptionsInt(&from, "max_it", "maximum iterations on the finest grid; 0: default of the type", 0, &max_it, NULL));
-  PetscCall(SamOptionsInt(&from, "levels", "number of nested grids; 0: default of the type", 0, &levels, NULL));
-  PetscCall(SamOptionsBool(&from, "monitor", "print the error after each iteration", &monitor, NULL));
-  PetscCall(SamOptionsBool(&from, "error_if_not_converged", "raise an error without convergence", &error, NULL));
-  PetscCall(SamOptionsHasViewer(&from, "converged_reason", "print the reason for stopping", &ignored));
-  PetscCall(SamOptionsHasViewer(&from, "view", "print the solver's settings", &ignored));
-  PetscCall(SamSolverSetTolerances(s, rtol, max_it));
-  PetscCall(SamSolverSetLevels(s, levels));
-  PetscCall(SamSolverSetErrorIfNotConverged(s, error));
-  if (monitor && !s->monitor_error) PetscCall(SamSolverMonitorSet(s, MonitorError, NULL));
-  s->monitor_error = monitor;
+  PetscCall(SamOptionsRead(&from, NULL, SAM_OPTION_ROWS(rows), &set, NULL));
+  PetscCall(SamSolverSetTolerances(s, set.rtol, set.max_it));
+  PetscCall(SamSolverSetLevels(s, set.levels));
+  PetscCall(SamSolverSetErrorIfNotConverged(s, set.error));
+  if (set.monitor && !s->monitor_error) PetscCall(SamSolverMonitorSet(s, MonitorError, NULL));
+  s->monitor_error = set.monitor;
   PetscCall(SamPrintHelp(&help));
   if (help) PetscCall(DescribeOthers(s, &from));
   if (s->ops.setfromoptions) PetscCall(s->ops.setfromoptions(s, &from));

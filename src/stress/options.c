@@ -6,27 +6,44 @@
 
 static const char *const averages[] = {"point", "line", "area"}; /* from SAM_AVERAGE_POINT on */
 
-static PetscErrorCode ReadDepths(const SamOptions *from, SamEvaluation e)
-{
-  char text[TEXT] = "0";
+/* What a user sets, but for lists of names. */
+typedef struct {
+  PetscInt  body;
+  char      depths[TEXT], section[128];
+  PetscBool passing;
+  PetscReal length;
+  int       average; /* a place among the averages */
+} Settings;
 
+#define MEMBER(name) offsetof(Settings, name)
+static const SamOptionRow where[] = {
+  {"body", "1 or 2; z points into it", SAM_OPTION_INT, MEMBER(body), .least = 1, .most = 2},
+  {"depths", "m: 0,1e-5 or first:last:number; 0.5a: half widths; 2e-6-, 2e-6+: sides", SAM_OPTION_STRING,
+   MEMBER(depths), .size = TEXT},
+  {"section", "only the cells nearest to a plane, y=0 or x=1e-4 (m); default: whole maps", SAM_OPTION_STRING,
+   MEMBER(section), .size = 128}};
+static const SamOptionRow passing = {"passing", "the cycle is that of a point that passes along x under one step",
+                                     SAM_OPTION_BOOL, .member = MEMBER(passing)};
+static const SamOptionRow mean[]  = {
+   {"fatigue_length", "length over which the stresses are averaged, m; default: not at all", SAM_OPTION_REAL,
+    MEMBER(length), .range = SAM_RANGE_POSITIVE},
+   {"fatigue_average", "point: at half the length deep; line: to twice the length; area: the half disc of it",
+    SAM_OPTION_ENUM, MEMBER(average), .words = "point,line,area", .needs = "fatigue_length"}};
+
+static PetscErrorCode TakeDepths(SamEvaluation e, const char text[])
+{
   PetscFunctionBegin;
-  PetscCall(SamOptionsString(from, "depths", "m: 0,1e-5 or first:last:number; 0.5a: half widths; 2e-6-, 2e-6+: sides",
-                             text, sizeof(text), NULL));
   PetscCall(PetscStrallocpy(text, &e->depths_text));
   if (!strchr(text, 'a')) PetscCall(SamDepthsRead(e, 1));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode ReadSection(const SamOptions *from, SamEvaluation e)
+static PetscErrorCode TakeSection(const SamOptions *from, SamEvaluation e, const char text[])
 {
-  char   text[128] = "";
-  double place     = 0;
+  double place = 0;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsString(from, "section",
-                             "only the cells nearest to a plane, y=0 or x=1e-4 (m); default: whole maps", text,
-                             sizeof(text), &e->section));
+  e->section = text[0] ? PETSC_TRUE : PETSC_FALSE;
   PetscCheck(!e->section || ((text[0] == 'x' || text[0] == 'y') && text[1] == '=' && SamReadNumber(text + 2, &place)),
              from->comm, SAM_ERR_USER, "-section %s: expected for example y=0 or x=1e-4", text);
   e->axis  = text[0] == 'y' ? SAM_SECTION_X : SAM_SECTION_Y;
@@ -39,9 +56,10 @@ static PetscErrorCode ReadNames(const SamOptions *from, PetscBool of_cycle, cons
                                 SamEvaluation e)
 {
   const char *const option = of_cycle ? "fatigue" : "quantities";
-  char      words[NAMES], list[NAMES + 8], known[NAMES + 8], help[2 * NAMES], whole[NAMES], *parts[SAM_QUANTITIES];
-  int       given;
-  PetscBool set;
+  char words[NAMES], list[NAMES + 8], known[NAMES + 8], help[2 * NAMES], whole[NAMES], *parts[SAM_QUANTITIES];
+  const SamOptionRow row = {option, help, SAM_OPTION_WORDS, .size = NAMES, .words = known};
+  int                given;
+  PetscBool          set;
 
   PetscFunctionBegin;
   SamQuantityNames(of_cycle, words, sizeof(words));
@@ -49,7 +67,7 @@ static PetscErrorCode ReadNames(const SamOptions *from, PetscBool of_cycle, cons
   (void)snprintf(known, sizeof(known), "%s%s%s", words, also[0] ? "," : "", also);
   (void)snprintf(help, sizeof(help), "%ssome of %s", of_cycle ? "parameters over the steps as one closed cycle: " : "",
                  list);
-  PetscCall(SamOptionsWords(from, option, help, known, text, NAMES, &set));
+  PetscCall(SamOptionsRead(from, NULL, 1, &row, text, &set));
   if (!text[0] && !set) PetscFunctionReturn(PETSC_SUCCESS);
   if (!strcmp(text, also)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscStrncpy(whole, text, sizeof(whole)));
@@ -109,27 +127,13 @@ static PetscErrorCode ReadConstants(const SamOptions *from, SamEvaluation e)
 }
 
 /* The length over which stresses are averaged; the depths and quantities of other results are not for it. */
-static PetscErrorCode ReadLength(const SamOptions *from, SamEvaluation e)
+static PetscErrorCode TakeLength(const SamOptions *from, SamEvaluation e, const Settings *set)
 {
-  char      text[NAMES] = "line";
-  PetscBool set, print, given[2], some = PETSC_FALSE;
-  int       k = 0;
+  PetscBool given[2], some = PETSC_FALSE;
 
   PetscFunctionBegin;
-  PetscCall(SamPrintHelp(&print));
-  PetscCall(SamOptionsReal(from, "fatigue_length",
-                           "length over which the stresses are averaged, m; default: not at all", SAM_RANGE_POSITIVE,
-                           &e->length, &set));
-  if (!set) SamOptionsKnow(from, "fatigue_average", "-fatigue_length");
-  if (!set && !print) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamOptionsWord(from, "fatigue_average",
-                           "point: at half the length deep; line: to twice the length; area: the half disc of it",
-                           "point,line,area", text, sizeof(text), NULL));
-  while (k < 3 && strcmp(text, averages[k])) k++;
-  PetscCheck(k < 3, from->comm, SAM_ERR_USER, "-fatigue_average %s: expected point, line or area", text);
-  if (print) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscOptionsHasName(NULL, from->prefix, "-depths", &given[0]));
-  PetscCall(PetscOptionsHasName(NULL, from->prefix, "-quantities", &given[1]));
+  PetscCall(SamOptionsHas(from, "depths", &given[0]));
+  PetscCall(SamOptionsHas(from, "quantities", &given[1]));
   for (const SamQuantity *q = SamQuantityTable; q->name; q++) {
     if (q->of_cycle) continue;
     some                           = some || e->wants[q - SamQuantityTable];
@@ -138,42 +142,37 @@ static PetscErrorCode ReadLength(const SamOptions *from, SamEvaluation e)
   PetscCheck(!given[0] && !(given[1] && some), from->comm, SAM_ERR_USER,
              "-fatigue_length: the mean has depths and quantities of its own: omit -%s",
              given[0] ? "depths" : "quantities");
-  e->average = (SamFatigueAverage)(SAM_AVERAGE_POINT + k);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode ReadFatigue(const SamOptions *from, SamEvaluation e)
-{
-  char text[NAMES] = "";
-
-  PetscFunctionBegin;
-  PetscCall(ReadNames(from, PETSC_TRUE, "", text, e));
-  PetscCall(SamOptionsBool(from, "passing", "the cycle is that of a point that passes along x under one step",
-                           &e->passing, NULL));
-  PetscCall(ReadConstants(from, e));
-  PetscCall(ReadLength(from, e));
+  e->length  = set->length;
+  e->average = (SamFatigueAverage)(SAM_AVERAGE_POINT + set->average);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamEvaluationCreateFromOptions(const SamOptions *from, SamEvaluation *evaluation)
 {
-  char          text[NAMES] = "stress,mises";
+  char          quantities[NAMES] = "stress,mises", fatigue[NAMES] = "";
+  Settings      set = {.body = 2, .depths = "0", .average = 1};
+  PetscBool     given[2], print;
   SamEvaluation e;
 
   PetscFunctionBegin;
   PetscCall(SamInitialize());
+  PetscCall(SamPrintHelp(&print));
   PetscCall(PetscNew(&e));
   *evaluation = e;
   e->comm     = from->comm;
-  e->body     = 2;
-  PetscCall(SamOptionsInt(from, "body", "1 or 2; z points into it", 1, &e->body, NULL));
-  PetscCheck(e->body <= 2, e->comm, SAM_ERR_USER, "-body %" PetscInt_FMT ": expected 1 or 2", e->body);
-  PetscCall(ReadDepths(from, e));
-  PetscCall(ReadSection(from, e));
+  PetscCall(SamOptionsRead(from, NULL, SAM_OPTION_ROWS(where), &set, NULL));
+  e->body = set.body;
+  PetscCall(TakeDepths(e, set.depths));
+  PetscCall(TakeSection(from, e, set.section));
   PetscCall(SamOptionsHeading(from, "Quantities"));
-  PetscCall(ReadNames(from, PETSC_FALSE, "none", text, e));
+  PetscCall(ReadNames(from, PETSC_FALSE, "none", quantities, e));
   PetscCall(SamOptionsHeading(from, "Fatigue"));
-  PetscCall(ReadFatigue(from, e));
+  PetscCall(ReadNames(from, PETSC_TRUE, "", fatigue, e));
+  PetscCall(SamOptionsRead(from, NULL, 1, &passing, &set, NULL));
+  e->passing = set.passing;
+  PetscCall(ReadConstants(from, e));
+  PetscCall(SamOptionsRead(from, NULL, SAM_OPTION_ROWS(mean), &set, given));
+  if (given[0] && !print) PetscCall(TakeLength(from, e, &set));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

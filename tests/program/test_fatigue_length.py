@@ -122,7 +122,7 @@ def test_means_do_not_depend_on_the_grid(launcher, contact):
         (dict(CYCLE, fatigue_length=1e-4, depths=0), "omit -depths"),
         (dict(CYCLE, fatigue_length=1e-4, quantities="mises"), "omit -quantities"),
         (dict(CYCLE, fatigue_length=1e-4, fatigue_average="disc"), "-fatigue_average disc"),
-        (dict(CYCLE, fatigue_average="line"), "-fatigue_average line: has no effect without -fatigue_length"),
+        (dict(CYCLE, fatigue_average="line"), "-fatigue_average is given without -fatigue_length"),
         (dict(fatigue="ruiz", fatigue_length=1e-4, steps="2:3"), "-fatigue ruiz: is of the surface"),
     ],
 )

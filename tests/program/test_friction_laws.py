@@ -156,13 +156,13 @@ def test_bits_do_not_depend_on_ranks(petsam, tmp_path, law, ranks):
         (dict(film_shear=1e9), ["-film_shear is given without -film_thickness"]),
         (dict(film_thickness=-1e-6, film_shear=1e9), ["-film_thickness"]),
         (dict(friction_law="rising"), ["-friction_law"]),
-        (dict(friction_law="slip_path"), ["-friction_law slip_path: give -friction_path_final"]),
+        (dict(friction_law="slip_path"), ["-friction_path_final is missing", "-friction_law slip_path"]),
         (dict(friction_path_length=1e-6), ["-friction_path_length is given without -friction_law slip_path"]),
         (
             dict(friction_law="pressure", friction_pressure_exponent=-1.0, friction_pressure_reference=1e8),
             ["-friction_pressure_exponent -1"],
         ),
-        (dict(friction_law="pressure", friction_pressure_exponent=0.5), ["give -friction_pressure_reference"]),
+        (dict(friction_law="pressure", friction_pressure_exponent=0.5), ["-friction_pressure_reference is missing"]),
         (dict(PATH, friction=0.0), ["-friction_law is given without -friction"]),
     ],
 )

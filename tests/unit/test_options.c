@@ -6,46 +6,37 @@
 #include <petsam/private/baseimpl.h>
 #include <petsam/private/help.h>
 
-static const char *const words[] = {"none", "some", "all", NULL};
-
-typedef enum { REAL, REAL_PAIR, INT, INT_PAIR, BOOL, STRING, FILE_NAME, WORD, WORDS, ENUM, VIEWER } Getter;
+typedef enum { REAL, REAL_PAIR, INT, INT_PAIR, BOOL, STRING, FILE_NAME, WORD, WORDS, ENUM, CHOICE, VIEWER } Getter;
 
 typedef struct {
   PetscReal real[2];
   PetscInt  whole[2];
   PetscBool truth;
+  int       place;
   char      text[8];
 } Value;
 
-/* Calls the getter for -pre_opt; range or least as it applies. */
+#define MEMBER(name) offsetof(Value, name)
+
+/* Reads -pre_opt; range or least as it applies. */
 static PetscErrorCode Get(Getter getter, int range, Value *v, PetscBool *set)
 {
-  const SamOptions from = {PETSC_COMM_WORLD, "pre_"};
+  const SamOptions   from   = {PETSC_COMM_WORLD, "pre_"};
+  const SamOptionRow rows[] = {
+    [REAL]      = {"opt", "", SAM_OPTION_REAL, MEMBER(real), .range = (SamRange)range},
+    [REAL_PAIR] = {"opt", "", SAM_OPTION_REAL, MEMBER(real), .range = (SamRange)range, .size = 2},
+    [INT]       = {"opt", "", SAM_OPTION_INT, MEMBER(whole), .least = range},
+    [INT_PAIR]  = {"opt", "", SAM_OPTION_INT, MEMBER(whole), .least = range, .size = 2},
+    [BOOL]      = {"opt", "", SAM_OPTION_BOOL, .member = MEMBER(truth)},
+    [STRING]    = {"opt", "", SAM_OPTION_STRING, MEMBER(text), .size = sizeof(v->text)},
+    [FILE_NAME] = {"opt", "", SAM_OPTION_FILE, MEMBER(text), .size = sizeof(v->text)},
+    [WORD]      = {"opt", "", SAM_OPTION_WORD, MEMBER(text), .size = sizeof(v->text), .words = "one,two"},
+    [WORDS]     = {"opt", "", SAM_OPTION_WORDS, MEMBER(text), .size = sizeof(v->text), .words = "one,two"},
+    [ENUM]      = {"opt", "", SAM_OPTION_ENUM, MEMBER(place), .words = "none,some,all"},
+    [CHOICE]    = {"opt", "", SAM_OPTION_BOOL, MEMBER(truth), .words = "none,some,all"},
+    [VIEWER]    = {"opt", "", SAM_OPTION_VIEWER, .member = 0}};
 
-  switch (getter) {
-  case REAL:
-    return SamOptionsReal(&from, "opt", "", (SamRange)range, v->real, set);
-  case REAL_PAIR:
-    return SamOptionsRealPair(&from, "opt", "", (SamRange)range, v->real, set);
-  case INT:
-    return SamOptionsInt(&from, "opt", "", range, v->whole, set);
-  case INT_PAIR:
-    return SamOptionsIntPair(&from, "opt", "", range, v->whole, set);
-  case BOOL:
-    return SamOptionsBool(&from, "opt", "", &v->truth, set);
-  case STRING:
-    return SamOptionsString(&from, "opt", "", v->text, sizeof(v->text), set);
-  case FILE_NAME:
-    return SamOptionsFile(&from, "opt", "", v->text, sizeof(v->text), set);
-  case WORD:
-    return SamOptionsWord(&from, "opt", "", "one,two", v->text, sizeof(v->text), set);
-  case WORDS:
-    return SamOptionsWords(&from, "opt", "", "one,two", v->text, sizeof(v->text), set);
-  case ENUM:
-    return SamOptionsEnum(&from, "opt", "", words, v->whole, set);
-  default:
-    return SamOptionsHasViewer(&from, "opt", "", set);
-  }
+  return SamOptionsRead(&from, NULL, 1, &rows[getter], v, set);
 }
 
 static void SetText(const char *text)
@@ -89,7 +80,7 @@ static void AssertRefused(Getter getter, int range, const char *text)
 
 static Value Read(Getter getter, int range, const char *text)
 {
-  Value     v = {.real = {7, 8}, .whole = {1, 2}, .text = "old"};
+  Value     v = {.real = {7, 8}, .whole = {1, 2}, .place = 1, .text = "old"};
   PetscBool set;
 
   SetText(text);
@@ -243,12 +234,15 @@ static void test_booleans(void **state)
 
 static void test_enums(void **state)
 {
-  const char *const wrong[] = {"", "nothing", "All", "al", "0", "none,some", "allall"};
+  const char *const words[] = {"none", "some", "all"}, *const wrong[] = {"",  "nothing",   "All",   "al",
+                                                                         "0", "none,some", "allall"};
 
   (void)state;
-  for (int k = 0; k < 3; k++) sam_assert(Read(ENUM, 0, words[k]).whole[0] == k);
-  sam_assert(Read(ENUM, 0, NULL).whole[0] == 1);
+  for (int k = 0; k < 3; k++) sam_assert(Read(ENUM, 0, words[k]).place == k);
+  for (int k = 0; k < 3; k++) sam_assert(Read(CHOICE, 0, words[k]).truth == (k > 0 ? PETSC_TRUE : PETSC_FALSE));
+  sam_assert(Read(ENUM, 0, NULL).place == 1);
   for (int k = 0; k < 7; k++) {
+    AssertRefused(CHOICE, 0, wrong[k]);
     AssertRefused(ENUM, 0, wrong[k]);
     sam_assert(strstr(message, "none, some or all")); /* what would be right is told */
   }
@@ -256,16 +250,58 @@ static void test_enums(void **state)
 
 static void test_strings(void **state)
 {
-  static const char *const expected[] = {"a string", "the name of a file", "one of one,two", "some of one,two"};
+  static const char *const expected[] = {"a string", "the name of a file", "one or two", "some of one,two"};
 
   (void)state;
   for (int getter = STRING; getter <= WORDS; getter++) {
-    sam_assert(!strcmp(Read((Getter)getter, 0, "seven77").text, "seven77"));
+    const char *good = getter == WORD ? "two" : "seven77";
+
+    sam_assert(!strcmp(Read((Getter)getter, 0, good).text, good));
     sam_assert(!strcmp(Read((Getter)getter, 0, NULL).text, "old"));
     AssertRefused((Getter)getter, 0, "eight888"); /* longer than there is room for */
     AssertRefused((Getter)getter, 0, "");
     sam_assert(strstr(message, expected[getter - STRING]));
   }
+}
+
+/* ---- what an option needs, excludes, and requires ---- */
+
+static const SamOptionRow joined[] = {
+  {"size", "", SAM_OPTION_REAL, MEMBER(real), .range = SAM_RANGE_POSITIVE, .missing = "how large"},
+  {"kind", "", SAM_OPTION_ENUM, MEMBER(place), .words = "none,some"},
+  {"part", "", SAM_OPTION_INT, MEMBER(whole), .least = 1, .needs = "kind some: in parts", .missing = "how many"},
+  {"all", "", SAM_OPTION_BOOL, MEMBER(truth), .needs = "size", .excludes = "other,part"}};
+
+static void test_options_that_belong_together(void **state)
+{
+  static const struct {
+    const char *given, *says; /* NULL: good */
+  } cases[]             = {{"-pre_size 2", NULL},
+                           {"-pre_kind none", "-pre_size is missing: how large"},
+                           {"-pre_size 2 -pre_kind some", "-pre_part is missing: how many"},
+                           {"-pre_size 2 -pre_kind some -pre_part 3", NULL},
+                           {"-pre_size 2 -pre_kind none -pre_part 3", "-pre_part is given without -pre_kind some: in parts"},
+                           {"-pre_size 2 -pre_part 3", "-pre_part is given without -pre_kind some: in parts"},
+                           {"-pre_size 2 -pre_all", NULL},
+                           {"-pre_size 2 -pre_all -pre_other 1", "-pre_all does not work with -pre_other: give one of them"},
+                           {"-pre_size 2 -pre_all false -pre_other 1", NULL}};
+  const SamOptions from = {PETSC_COMM_WORLD, "pre_"};
+
+  (void)state;
+  for (size_t k = 0; k < sizeof(cases) / sizeof(cases[0]); k++) {
+    Value          v = {.real = {NAN}};
+    PetscBool      given[4];
+    PetscErrorCode ierr;
+
+    sam_call(PetscOptionsClear(NULL));
+    sam_call(PetscOptionsInsertString(NULL, cases[k].given));
+    message[0] = '\0';
+    sam_call(PetscPushErrorHandler(KeepMessage, NULL));
+    ierr = SamOptionsRead(&from, NULL, SAM_OPTION_ROWS(joined), &v, given);
+    sam_call(PetscPopErrorHandler());
+    sam_assert(cases[k].says ? ierr == SAM_ERR_USER && !strcmp(message, cases[k].says) : !ierr && given[0]);
+  }
+  sam_call(PetscOptionsClear(NULL));
 }
 
 /* ---- what the help is told ---- */
@@ -286,22 +322,21 @@ static void test_help_is_told_all_of_an_option(void **state)
 {
   const SamOptions    from        = {PETSC_COMM_WORLD, "pre_"};
   const SamOptionHelp other       = {"other", "<list>", "read elsewhere", "1", "1,2"};
-  char                notes[2048] = "", text[8] = "one";
-  PetscReal           real[2] = {0.5, 2};
-  PetscInt            whole   = 1;
-  PetscBool           truth   = PETSC_TRUE;
+  const SamOptionRow  rows[]      = {{"pair", "two", SAM_OPTION_REAL, MEMBER(real), .size = 2,
+                                      .missing = "not asked for while there is help"},
+                                     {"real", "size: required", SAM_OPTION_REAL, .member = MEMBER(real)},
+                                     {"enum", "how much", SAM_OPTION_ENUM, MEMBER(place), .words = "none,some,all"},
+                                     {"bool", "whether", SAM_OPTION_BOOL, .member = MEMBER(truth)},
+                                     {"file", "where", SAM_OPTION_FILE, MEMBER(text), .size = 8},
+                                     {"words", "which", SAM_OPTION_WORDS, MEMBER(text), .size = 8, .words = "one,two"}};
+  char                notes[2048] = "";
+  Value               v           = {.real = {0.5, 2}, .place = 1, .truth = PETSC_TRUE, .text = "one"};
 
   (void)state;
   SamHelpSetFunction(Note, notes);
   sam_call(SamOptionsHeading(&from, "Not while there is no help"));
   sam_call(PetscOptionsSetValue(NULL, "-help", NULL));
-  sam_call(SamOptionsHeading(&from, "Group"));
-  sam_call(SamOptionsRealPair(&from, "pair", "two", SAM_RANGE_ANY, real, NULL));
-  sam_call(SamOptionsReal(&from, "real", "size: required", SAM_RANGE_ANY, real, NULL));
-  sam_call(SamOptionsEnum(&from, "enum", "how much", words, &whole, NULL));
-  sam_call(SamOptionsBool(&from, "bool", "whether", &truth, NULL));
-  sam_call(SamOptionsFile(&from, "file", "where", text, sizeof(text), NULL));
-  sam_call(SamOptionsWords(&from, "words", "which", "one,two", text, sizeof(text), NULL));
+  sam_call(SamOptionsRead(&from, "Group", SAM_OPTION_ROWS(rows), &v, NULL));
   sam_call(SamOptionsDescribe(&from, &other));
   sam_call(PetscOptionsClear(NULL));
   SamHelpSetFunction(NULL, NULL);
@@ -332,7 +367,7 @@ static void test_read_options_are_used(void **state)
 
   (void)state;
   for (int getter = REAL; getter <= VIEWER; getter++) {
-    const char *const text[] = {"1", "1", "1", "1", "1", "a", "a", "one", "one,two", "all", "ascii"};
+    const char *const text[] = {"1", "1", "1", "1", "1", "a", "a", "one", "one,two", "all", "all", "ascii"};
     Value             v      = {.text = ""};
     PetscBool         set;
 
@@ -463,6 +498,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_booleans),
     cmocka_unit_test(test_enums),
     cmocka_unit_test(test_strings),
+    cmocka_unit_test(test_options_that_belong_together),
     cmocka_unit_test(test_help_is_told_all_of_an_option),
     cmocka_unit_test(test_viewers_other_than_ascii_are_refused),
     cmocka_unit_test(test_read_options_are_used),

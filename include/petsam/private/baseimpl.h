@@ -235,12 +235,9 @@ PETSC_INTERN void SamJoin(PetscInt count, const char *const names[], const char 
 PETSC_INTERN PetscErrorCode SamTypesGet(PetscFunctionList list, const char ***types, int *count);
 /* SamTypesList - the names as a text, "a, b or c". Not collective. */
 PETSC_INTERN PetscErrorCode SamTypesList(PetscFunctionList list, char text[], size_t size);
-/* SamTypesOption - SamOptionsWord() for a type out of the registry, which SamTypesCheckOption() checks. */
+/* SamTypesOption - reads a type out of the registry. */
 PETSC_INTERN PetscErrorCode SamTypesOption(PetscFunctionList list, const SamOptions *from, const char name[],
                                            const char help[], char type[], size_t size, PetscBool *set);
-/* SamTypesCheckOption - raises SAM_ERR_USER, with the names, for an option whose value is no name in the registry. */
-PETSC_INTERN PetscErrorCode SamTypesCheckOption(PetscFunctionList list, const SamOptions *from, const char option[],
-                                                const char type[]);
 
 /* SamPrintHelp - whether the help is being printed, for which options are only listed. Not collective. */
 PETSC_EXTERN PetscErrorCode SamPrintHelp(PetscBool *print);

@@ -65,25 +65,35 @@ struct _n_SamLawStep {
 */
 PETSC_EXTERN PetscErrorCode SamLawStepGetFriction(SamLawStep *step, Vec *path, Vec *pressed, Vec *work);
 PETSC_INTERN PetscErrorCode SamLawAddToSum(SamState state, const char name[], Vec more);
-/* SamLawOrder - the place of a type among those registered. Not collective. */
-PETSC_INTERN PetscInt SamLawOrder(SamLawType type);
+/*
+  SamLawListWords - appends the words of an option that selects laws, each behind `between`. Collective.
+  SamLawOrder - the place of a type among those registered. Not collective.
+*/
+PETSC_INTERN PetscErrorCode SamLawListWords(SamElasticity elasticity, const char option[], const char between[],
+                                            char words[], size_t size);
+PETSC_INTERN PetscInt       SamLawOrder(SamLawType type);
 
 struct _n_SamLaw {
-  PetscInt         references;
-  char             type[64];
-  SamElasticity    elasticity;
-  SamGrid          grid;           /* of the elasticity; borrowed */
-  PetscObjectState revision;       /* to be raised by setters: the pressure has to be solved again */
-  PetscBool        follows_slip;   /* bound() depends on the slip of the step */
-  PetscBool        accumulates;    /* a sum over all steps: the field of the state that has the name of the type */
-  const char      *option;         /* that selects the law, without dash; NULL: none */
-  PetscInt         bytes;          /* of memory that it takes for each cell */
-  PetscBool        needs_friction; /* makes no sense without friction */
-  PetscBool        forbids_jumps;  /* cannot be in a life with cycle jumps */
-  PetscBool        any_motion;     /* has a meaning in every motion: remembers and asks for no slip of steps */
-  void            *data;           /* the type's own, from PetscNew(); NULL: none */
+  PetscInt            references;
+  char                type[64];
+  SamElasticity       elasticity;
+  SamGrid             grid;           /* of the elasticity; borrowed */
+  PetscObjectState    revision;       /* to be raised by setters: the pressure has to be solved again */
+  PetscBool           follows_slip;   /* bound() depends on the slip of the step */
+  PetscBool           accumulates;    /* a sum over all steps: the field of the state that has the name of the type */
+  const char         *option;         /* that selects the law, without dash; NULL: none */
+  const char         *word;           /* its value that does so, as of -friction_law; NULL: the option itself does */
+  const char         *heading;        /* of the options in the help; NULL: none */
+  const SamOptionRow *rows;           /* its options, whose settings are `data`; */
+  PetscInt            row_count;      /* how many */
+  PetscInt            bytes;          /* of memory that it takes for each cell */
+  PetscBool           needs_friction; /* makes no sense without friction */
+  PetscBool           forbids_jumps;  /* cannot be in a life with cycle jumps */
+  PetscBool           any_motion;     /* has a meaning in every motion: remembers and asks for no slip of steps */
+  void               *data;           /* the type's own, from PetscNew(); NULL: none */
   /* all may be NULL; collective */
   struct {
+    /* what the rows do not say of options and parameters; `asked` on entry: by the word */
     PetscErrorCode (*setfromoptions)(SamLaw law, const SamOptions *from, PetscBool *asked);
     PetscErrorCode (*addparameters)(SamLaw law, SamParameters *parameters);
     PetscErrorCode (*destroy)(SamLaw law); /* frees what `data` refers to; SamLawDestroy() frees `data` itself */

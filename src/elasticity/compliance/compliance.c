@@ -471,8 +471,10 @@ PetscErrorCode SamElasticityAddCompliances(SamElasticity *elasticity, const SamO
   PetscCall(SamPrintHelp(&help));
   for (PetscInt b = 0; b < 2; b++) SamOptionsKnow(from, names[b], NULL);
   for (PetscInt b = 0; b < 2; b++) {
-    PetscCall(SamOptionsFile(from, names[b], "HDF5 file of the body's own compliance, by petsam-compliance", file,
-                             sizeof(file), &given));
+    const SamOptionRow row = {names[b], "HDF5 file of the body's own compliance, by petsam-compliance", SAM_OPTION_FILE,
+                              .size = sizeof(file)};
+
+    PetscCall(SamOptionsRead(from, NULL, 1, &row, file, &given));
     if (given && !help) PetscCall(Add(elasticity, from, b, names[b], file));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -72,13 +72,14 @@ PetscErrorCode SamBodyReadProfile(const SamOptions *from, const char option[], S
 {
   static const char *const names[COLUMNS + 1]       = {"depth", "young", "poisson", NULL};
   char                     file[PETSC_MAX_PATH_LEN] = "", name[96];
+  const SamOptionRow       row = {option, "text file of depth, young, poisson: constants that vary with depth",
+                                  SAM_OPTION_STRING, .size = sizeof(file)};
   SamTable                 t;
   PetscInt                 column[COLUMNS], parts = 0;
   double                   change = 0, done = 0;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsString(from, option, "text file of depth, young, poisson: constants that vary with depth", file,
-                             sizeof(file), set));
+  PetscCall(SamOptionsRead(from, NULL, 1, &row, file, set));
   if (!*set) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscSNPrintf(name, sizeof(name), "%s%s", SamOptionsPrefix(from), option));
   PetscCall(SamTableRead(from->comm, name, file, names, &t));

@@ -154,15 +154,14 @@ static PetscErrorCode SetTypeFromOptions(SamGap gap, PetscBool help)
   PetscFunctionBegin;
   for (PetscInt k = 0; k < gap->ops.count; k++) {
     const SamGapParameter *parameter = &gap->ops.parameters[k];
-    PetscBool              set;
-    char                   text[256];
+    char                   text[256], missing[256];
+    const SamOptionRow row = {parameter->name, text, SAM_OPTION_REAL, .range = parameter->range, .missing = missing};
 
     PetscCall(PetscSNPrintf(text, sizeof(text), isnan(gap->values[k]) ? "%s: required by %s" : "%s, of %s",
                             parameter->help, gap->type));
-    PetscCall(SamOptionsReal(&from, parameter->name, text, parameter->range, &gap->values[k], &set));
-    PetscCall(
-      PetscSNPrintf(text, sizeof(text), "%s, required by -%sgap_type %s", parameter->help, gap->prefix, gap->type));
-    PetscCall(SamOptionsRequire(&from, set || help || !isnan(gap->values[k]), parameter->name, text));
+    PetscCall(PetscSNPrintf(missing, sizeof(missing), "%s, required by -%sgap_type %s", parameter->help, gap->prefix,
+                            gap->type));
+    PetscCall(SamOptionsRead(&from, NULL, 1, &row, &gap->values[k], NULL));
   }
   if (gap->ops.setfromoptions) PetscCall(gap->ops.setfromoptions(gap));
   if (!gap->ops.setfromoptions && !help) PetscCall(RefuseFile(gap));
@@ -228,7 +227,6 @@ PetscErrorCode SamGapSetFromOptions(SamGap gap)
     PetscCall(PrintTypes(gap));
   } else {
     PetscCall(SamOptionsRequire(&from, set || type[0], "gap_type", list));
-    PetscCall(SamTypesCheckOption(SamGapList, &from, "gap_type", type));
     PetscCall(KnowTypes(gap->comm, &from));
     if (strcmp(type, gap->type)) PetscCall(SamGapSetType(gap, type));
     PetscCall(SetTypeFromOptions(gap, PETSC_FALSE));
