@@ -27,7 +27,6 @@ typedef const char *SamElasticityType;
 #define SAM_ELASTICITY_PLANE          "plane" /* half-spaces in plane strain, on a grid of one row; forces per metre */
 #define SAM_ELASTICITY_PLANE_PERIODIC "plane_periodic" /* the same of periodic */
 
-#define SAM_ELASTICITY_ROLLING "rolling" /* any of these under a moving contact, by SamElasticityCreateRolling() */
 #define SAM_ELASTICITY_COMPLIANCE \
   "compliance" /* half-spaces and what finite bodies add, SamElasticityAddCompliances() */
 
@@ -54,12 +53,6 @@ typedef struct {
   products need is made when it is first needed. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamElasticityCreate(SamGrid grid, SamPair pair, SamElasticity *elasticity);
-/*
-  SamElasticityCreateRolling - the same bodies under a contact that rolls towards +x without change: u_t is the slip by
-  the tractions in 1 m of rolled distance, and creepages stand for tangential rigid displacements. References the bodies.
-  Collective. Errors: PETSC_ERR_SUP for periodic bodies.
-*/
-PETSC_INTERN PetscErrorCode SamElasticityCreateRolling(SamElasticity bodies, SamElasticity *rolling);
 /*
   SamElasticityAddCompliances - replaces the bodies by finite ones, whose compliances the files of -body1_compliance and
   -body2_compliance add (elasticity/compliance/); without these options does nothing. Collective. Errors: SAM_ERR_USER,

@@ -91,23 +91,29 @@ static PetscErrorCode Reset(SamElasticity e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode Create(SamElasticity e, SamElasticityType type, SamElasticityCreateFunction create)
+{
+  PetscFunctionBegin;
+  PetscCall(Reset(e));
+  e->create = create;
+  PetscCall(create(e));
+  PetscCall(PetscStrncpy(e->type, type, sizeof(e->type)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamElasticitySetType(SamElasticity e, SamElasticityType type)
 {
-  PetscErrorCode (*create)(SamElasticity);
-  char types[256];
+  SamElasticityCreateFunction create;
+  char                        types[256];
 
   PetscFunctionBegin;
   PetscCall(PetscFunctionListFind(SamElasticityList, type, &create));
-  if (!strcmp(type, SAM_ELASTICITY_ROLLING)) create = SamElasticityCreate_Rolling; /* not choices of the user's */
-  if (!strcmp(type, SAM_ELASTICITY_COMPLIANCE)) create = SamElasticityCreate_Compliance;
   PetscCall(SamElasticityGetTypes(types, sizeof(types)));
   PetscCheck(create, e->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "Elasticity of type %s is not registered: use %s", type,
              types);
   PetscCheck(e->references == 1, e->grid->comm, PETSC_ERR_ORDER,
              "The type of an elasticity must be set before a problem or a solver refers to it");
-  PetscCall(Reset(e));
-  PetscCall(create(e));
-  PetscCall(PetscStrncpy(e->type, type, sizeof(e->type)));
+  PetscCall(Create(e, type, create));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -280,7 +286,7 @@ PetscErrorCode SamElasticityAddParameters(SamElasticity e, SamParameters *p)
 {
   PetscFunctionBegin;
   PetscCall(SamPairAddParameters(e->pair, p));
-  for (; !strcmp(e->type, SAM_ELASTICITY_ROLLING) || !strcmp(e->type, SAM_ELASTICITY_COMPLIANCE); e = e->inner)
+  for (; e->wraps; e = e->inner)
     if (e->ops.addparameters) PetscCall((*e->ops.addparameters)(e, p)); /* options of their own tell these types */
   PetscCall(SamParametersAddText(p, "elasticity", PETSC_TRUE, e->type));
   if (e->inner) PetscCall(SamParametersAddText(p, "elasticity_inner", PETSC_TRUE, e->inner->type));
@@ -333,14 +339,16 @@ PetscErrorCode SamElasticitySetInner(SamElasticity e, SamElasticityType type)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamElasticityWrap(SamElasticity bodies, SamElasticityType type, SamElasticity *outer)
+PetscErrorCode SamElasticityWrap(SamElasticity bodies, SamElasticityType type, SamElasticityCreateFunction create,
+                                 SamElasticity *outer)
 {
   SamElasticity e;
 
   PetscFunctionBegin;
   PetscCall(SamElasticityCreate(bodies->grid, bodies->pair, &e));
-  PetscCall(SamElasticitySetType(e, type));
-  e->fft = bodies->fft;
+  PetscCall(Create(e, type, create));
+  e->wraps = PETSC_TRUE;
+  e->fft   = bodies->fft;
   PetscCall(PetscStrncpy(e->prefix, bodies->prefix, sizeof(e->prefix)));
   PetscCall(SamElasticityDestroy(&e->inner));
   PetscCall(SamElasticityReference(bodies));
@@ -365,7 +373,8 @@ PetscErrorCode SamElasticityCreateLike(SamElasticity parent, SamGrid grid, const
     e->factor[k] = parent->factor[k] * ratio[k];
   }
   PetscCall(SamElasticitySetOptionsPrefix(e, parent->prefix));
-  PetscCall(SamElasticitySetType(e, parent->type));
+  PetscCall(Create(e, parent->type, parent->create));
+  e->wraps = parent->wraps;
   if (parent->inner) {
     PetscCall(SamElasticityDestroy(&e->inner));
     PetscCall(SamElasticityCreateLike(parent->inner, grid, first, &e->inner));

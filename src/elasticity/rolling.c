@@ -86,7 +86,7 @@ static PetscErrorCode GetSelfInfluence(SamElasticity e, PetscReal *normal, Petsc
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamElasticityCreate_Rolling(SamElasticity e)
+static PetscErrorCode Create(SamElasticity e)
 {
   PetscFunctionBegin;
   e->ops = (SamElasticityOps){.applytangential       = ApplyTangential,
@@ -104,7 +104,7 @@ PetscErrorCode SamElasticityCreateRolling(SamElasticity bodies, SamElasticity *r
   PetscFunctionBegin;
   PetscCheck(!bodies->traits.periodic && !bodies->traits.upwind, bodies->grid->comm, PETSC_ERR_SUP,
              "Bodies of type %s do not roll", bodies->type);
-  PetscCall(SamElasticityWrap(bodies, SAM_ELASTICITY_ROLLING, rolling));
+  PetscCall(SamElasticityWrap(bodies, "rolling", Create, rolling));
   (*rolling)->traits.upwind = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

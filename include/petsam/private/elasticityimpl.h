@@ -51,6 +51,7 @@ typedef struct {
   SamElasticity elasticity;
 } SamElasticityPart;
 
+typedef PetscErrorCode (*SamElasticityCreateFunction)(SamElasticity elasticity);
 struct _n_SamElasticity {
   PetscInt references;
   SamGrid  grid;
@@ -59,16 +60,18 @@ struct _n_SamElasticity {
   char               type[64], prefix[SAM_PREFIX];
   SamFourierSettings fft;
   /* of the type, set by its create function; the data may be allocated there or in setup */
-  SamElasticityOps    ops;
-  SamElasticityTraits traits;
-  void               *data;
-  SamMotion           motion; /* of the bodies, for those who use the operator; NULL: the usual one */
-  PetscReal           film;   /* m/Pa; of the pair, that the class adds to tangential products; 0 where the type does */
-  SamElasticity       inner;  /* what the type adds to, by SamElasticitySetInner(); NULL: nothing */
-  SamFourier          fourier; /* made in setup by types that use one; the class trims and destroys it */
-  PetscBool           is_set_up;
-  PetscBool           has_self; /* of a cell on itself, which solvers ask for at each step */
-  PetscReal           self[2];
+  SamElasticityOps            ops;
+  SamElasticityTraits         traits;
+  SamElasticityCreateFunction create;
+  PetscBool                   wraps; /* made by SamElasticityWrap() */
+  void                       *data;
+  SamMotion                   motion; /* of the bodies, for those who use the operator; NULL: the usual one */
+  PetscReal     film;    /* m/Pa; of the pair, that the class adds to tangential products; 0 where the type does */
+  SamElasticity inner;   /* what the type adds to, by SamElasticitySetInner(); NULL: nothing */
+  SamFourier    fourier; /* made in setup by types that use one; the class trims and destroys it */
+  PetscBool     is_set_up;
+  PetscBool     has_self; /* of a cell on itself, which solvers ask for at each step */
+  PetscReal     self[2];
   /* the place on the finest grid: cell (i, j) reaches from first[0] + i factor[0] to first[0] + (i + 1) factor[0] */
   PetscReal first[2], factor[2];
   /* derived operators */
@@ -87,8 +90,12 @@ PETSC_EXTERN PetscErrorCode SamElasticitySetInner(SamElasticity elasticity, SamE
 */
 PETSC_INTERN PetscErrorCode SamElasticityCreateLike(SamElasticity parent, SamGrid grid, const PetscInt first[2],
                                                     SamElasticity *child);
-/* SamElasticityWrap - an object of a type that adds to these bodies, in the place of its own inner one. Collective. */
-PETSC_INTERN PetscErrorCode SamElasticityWrap(SamElasticity bodies, SamElasticityType type, SamElasticity *outer);
+/*
+  SamElasticityWrap - an object of a type that adds to these bodies, in the place of its own inner one, by its create
+  function: no user chooses such a type. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamElasticityWrap(SamElasticity bodies, SamElasticityType type,
+                                              SamElasticityCreateFunction create, SamElasticity *outer);
 /* The object that has a method: this one, or one within. */
 #define SamElasticityWith(e, method) \
   while (!(e)->ops.method && (e)->inner) (e) = (e)->inner
@@ -99,10 +106,14 @@ PETSC_INTERN PetscErrorCode SamElasticityCreate_HalfSpace(SamElasticity elastici
 PETSC_INTERN PetscErrorCode SamElasticityCreate_Periodic(SamElasticity elasticity);
 PETSC_INTERN PetscErrorCode SamElasticityCreate_Plane(SamElasticity elasticity);
 PETSC_INTERN PetscErrorCode SamElasticityCreate_PlanePeriodic(SamElasticity elasticity);
-PETSC_INTERN PetscErrorCode SamElasticityCreate_Rolling(SamElasticity elasticity);
-PETSC_INTERN PetscErrorCode SamElasticityCreate_Compliance(SamElasticity elasticity);
 /* SamElasticityAddRecordedCompliances - as SamElasticityAddCompliances(), from a record; `source` names it. */
 PETSC_INTERN PetscErrorCode SamElasticityAddRecordedCompliances(SamElasticity *elasticity, const SamParameters *p,
                                                                 const char source[]);
+/*
+  SamElasticityCreateRolling - the same bodies under a contact that rolls towards +x without change: u_t is the slip by
+  the tractions in 1 m of rolled distance, and creepages stand for tangential rigid displacements. References the
+  bodies. Collective. Errors: PETSC_ERR_SUP for periodic bodies.
+*/
+PETSC_INTERN PetscErrorCode SamElasticityCreateRolling(SamElasticity bodies, SamElasticity *rolling);
 
 #endif

@@ -361,7 +361,7 @@ static PetscErrorCode Destroy(SamElasticity e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamElasticityCreate_Compliance(SamElasticity e)
+static PetscErrorCode Create(SamElasticity e)
 {
   Bodies *data;
 
@@ -448,7 +448,7 @@ static PetscErrorCode Add(SamElasticity *elasticity, const SamOptions *from, Pet
              "-%s%s: is of a body of finite length, and -%selasticity %s of an endless one: omit one of them",
              SamOptionsPrefix(from), option, SamOptionsPrefix(from), e->type);
   if (!e->traits.patch) {
-    PetscCall(SamElasticityWrap(*elasticity, SAM_ELASTICITY_COMPLIANCE, &e));
+    PetscCall(SamElasticityWrap(*elasticity, SAM_ELASTICITY_COMPLIANCE, Create, &e));
     PetscCall(SamElasticityDestroy(elasticity));
     *elasticity     = e;
     e->traits.patch = PETSC_TRUE;
