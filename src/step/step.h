@@ -54,7 +54,10 @@ PETSC_INTERN PetscErrorCode SamStepSolve(const SamStepTask *task, SamStep *step)
   possible: in the first step they then use the memory that the solvers have freed. Collective.
 */
 PETSC_INTERN PetscErrorCode SamStepSetDisplacements(SamState state, const PetscInt fields[2], SamSolution *tried);
-/* SamStepDeclareRolling - declares the numbers of a motion that continues no step, and returns the first (rolling.c). Collective. */
+/*
+  SamStepDeclareRolling - declares the numbers of a motion that continues no step, and returns the first (rolling.c).
+  Collective.
+*/
 PETSC_INTERN PetscErrorCode SamStepDeclareRolling(SamState state, PetscInt *first);
 
 #endif
