@@ -54,16 +54,6 @@ typedef struct {
 */
 PETSC_EXTERN PetscErrorCode SamElasticityCreate(SamGrid grid, SamPair pair, SamElasticity *elasticity);
 /*
-  SamElasticityAddCompliances - replaces the bodies by finite ones, whose compliances the files of -body1_compliance and
-  -body2_compliance add (elasticity/compliance/); without these options does nothing. Collective. Errors: SAM_ERR_USER,
-  SAM_ERR_FILE.
-  SamElasticityAddCases - adds the relative displacements (m) by load cases of the bodies to a field: normal ones, one
-  component, or tangential ones, two. Collective.
-*/
-PETSC_INTERN PetscErrorCode SamElasticityAddCompliances(SamElasticity *elasticity, const SamOptions *from);
-PETSC_INTERN PetscErrorCode SamElasticityAddCases(SamElasticity elasticity, const SamControl *control,
-                                                  PetscBool tangential, Vec field);
-/*
   SamElasticitySetType - forgets the coarser operators and the parts. Collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for a
   type that is not registered; PETSC_ERR_ORDER when a problem or a solver refers to the elasticity already.
 */
@@ -74,8 +64,6 @@ PETSC_EXTERN PetscErrorCode SamElasticityGetType(SamElasticity elasticity, SamEl
   collective, but to be called on all ranks.
 */
 PETSC_EXTERN PetscErrorCode SamElasticityRegister(const char name[], PetscErrorCode (*create)(SamElasticity));
-/* SamElasticityGetTypes - the registered types as a text: a, b or c. Not collective. */
-PETSC_INTERN PetscErrorCode SamElasticityGetTypes(char types[], size_t size);
 /* SamElasticitySetOptionsPrefix - stands before the names of options; NULL: none. */
 PETSC_EXTERN PetscErrorCode SamElasticitySetOptionsPrefix(SamElasticity elasticity, const char prefix[]);
 /*
@@ -85,54 +73,18 @@ PETSC_EXTERN PetscErrorCode SamElasticitySetOptionsPrefix(SamElasticity elastici
 PETSC_EXTERN PetscErrorCode SamElasticitySetFromOptions(SamElasticity elasticity);
 /* SamElasticitySetUp - gets ready for products, which call it themselves; calling it again does nothing. Collective. */
 PETSC_EXTERN PetscErrorCode SamElasticitySetUp(SamElasticity elasticity);
-PETSC_INTERN PetscErrorCode SamElasticityReference(SamElasticity elasticity);
 PETSC_EXTERN PetscErrorCode SamElasticityDestroy(SamElasticity *elasticity);
 
 PETSC_EXTERN PetscErrorCode SamElasticityGetGrid(SamElasticity elasticity, SamGrid *grid); /* borrowed */
 PETSC_EXTERN PetscErrorCode SamElasticityGetPair(SamElasticity elasticity, SamPair *pair); /* borrowed */
 PETSC_EXTERN PetscErrorCode SamElasticityGetTraits(SamElasticity elasticity, SamElasticityTraits *traits);
 /*
-  SamElasticityPlaneFromOptions - whether -elasticity names a plane type, for the grid. Not collective.
-*/
-PETSC_INTERN PetscErrorCode SamElasticityPlaneFromOptions(const SamOptions *from, PetscBool *plane);
-/*
-  SamElasticityAddParameters - appends what defines the bodies, by the names of its options: elastic constants, type,
-  and what the type adds. Not collective.
   SamElasticityCreateFromParameters - the same bodies on a grid, from such a record. `source` names it in
   messages. Collective. Errors: SAM_ERR_FILE for a type that is not registered, and for parameters that
   are missing or make no bodies.
 */
-PETSC_INTERN PetscErrorCode SamElasticityAddParameters(SamElasticity elasticity, SamParameters *parameters);
 PETSC_EXTERN PetscErrorCode SamElasticityCreateFromParameters(SamGrid grid, const SamParameters *parameters,
                                                               const char source[], SamElasticity *elasticity);
-/*
-  SamElasticityGetCoarse - the operator on the next coarser grid, and the transfer to it; both borrowed, NULL when the
-  grid is too small to be halved (fewer than 32 cells in a direction, but for one row). Made at the first call.
-  Collective.
-*/
-PETSC_INTERN PetscErrorCode SamElasticityGetCoarse(SamElasticity elasticity, SamElasticity *coarse,
-                                                   SamTransfer *transfer);
-/*
-  SamElasticityTrim - frees the transforms' memory if it is large, until the next product. Collective.
-*/
-PETSC_INTERN PetscErrorCode SamElasticityTrim(SamElasticity elasticity);
-
-/*
-  The operator on a part of the grid; all collective, the window and the operator borrowed until another part is chosen,
-  NULL without one. One part is in use at a time. The one in use before is kept, so that reuse costs
-  nothing.
-  SamElasticityChoosePart - takes a part into use that holds the n[0] * n[1] cells from first[0], first[1] on and some
-  more about them; none where it would be hardly smaller than the grid, or the type has no parts. `keep`: the part in
-  use stays if it holds these cells and is not much too large.
-  SamElasticitySetPart - takes exactly these cells; n = 0: none.
-  SamElasticityGetPartPlace - the cells of the part in use, n = 0 for none. Not collective.
-*/
-PETSC_INTERN PetscErrorCode SamElasticityChoosePart(SamElasticity elasticity, const PetscInt first[2],
-                                                    const PetscInt n[2], PetscBool keep, SamWindow *window,
-                                                    SamElasticity *part);
-PETSC_INTERN PetscErrorCode SamElasticitySetPart(SamElasticity elasticity, const PetscInt first[2],
-                                                 const PetscInt n[2]);
-PETSC_INTERN PetscErrorCode SamElasticityGetPartPlace(SamElasticity elasticity, PetscInt first[2], PetscInt n[2]);
 
 /*
   Products, all collective. One-component fields p, u_z; two-component fields q, u_t. Input and output may be the same.
@@ -143,33 +95,6 @@ PETSC_EXTERN PetscErrorCode SamElasticityApplyNormalToTangential(SamElasticity e
                                                                  Vec u_t); /* u_t from p */
 PETSC_EXTERN PetscErrorCode SamElasticityApplyTangentialToNormal(SamElasticity elasticity, Vec q,
                                                                  Vec u_z); /* u_z from q */
-/*
-  The same in single precision: arrays of this rank's cells, two components one after the other; `factor` times the
-  product. For directions and corrections, whose product is small against what it is added to. Scale so that input and
-  result are of the order of one: floats end at 1e-38. Collective.
-*/
-PETSC_INTERN PetscErrorCode SamElasticityApplyNormalSingle(SamElasticity elasticity, double factor, const float p[],
-                                                           float u_z[]);
-PETSC_INTERN PetscErrorCode SamElasticityApplyTangentialSingle(SamElasticity elasticity, double factor, const float q[],
-                                                               float u_t[]);
-
-/*
-  Approximate inverses, symmetric positive definite. For half-spaces: |k| for the normal part and |k| (I + nu/(1 - nu)
-  kk'/|k|^2) for the tangential one, k being the wave vector on the grid made periodic; the mean gets half the gain of
-  the longest wave. For periodic bodies the same is the inverse itself but for the mean. Computed in single precision;
-  `factor` times the result in the functions of float arrays, which see above. Collective.
-*/
-PETSC_INTERN PetscErrorCode SamElasticityPreconditionNormalSingle(SamElasticity elasticity, double factor,
-                                                                  const float residual[], float p[]);
-PETSC_INTERN PetscErrorCode SamElasticityPreconditionTangentialSingle(SamElasticity elasticity, double factor,
-                                                                      const float residual[], float q[]);
-/*
-  For the tangential part of bodies that roll where they slip, A being the operator of
-  SamElasticityCreateRolling(): of h A + 1 - h, h = SAM_SLIP_WEIGHT, before the sweep along x (halfspace.c). Collective.
-*/
-#define SAM_SLIP_WEIGHT 0.5
-PETSC_INTERN PetscErrorCode SamElasticityPreconditionSlipSingle(SamElasticity elasticity, double factor,
-                                                                const float residual[], float q[]);
 
 /*
   SamElasticityGetSelfInfluence - displacement of a cell's centre under unit traction on that cell alone, m/Pa: u_z from

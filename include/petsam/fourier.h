@@ -1,27 +1,8 @@
-/* The distributed pruned Fourier transform and convolution with kernels that are even or odd in x and in y. */
+/* How the Fourier transforms of a grid's convolutions are made. */
 #ifndef PETSAM_FOURIER_H
 #define PETSAM_FOURIER_H
 
 #include <petsam/grid.h>
-
-/*
-  SamFourier - transforms of fields on a grid, for filters that act in the frequency domain. No array of the padded
-  size exists: rows are transformed one by one, columns a few at a time in a buffer that stays in cache, and only the
-  ny rows of half spectra are stored. Ranks of one node have them in shared memory, others exchange rows for columns by
-  FFTW's transposes. All transforms on a communicator share this memory, so only one may be under way at a time.
-*/
-typedef struct _n_SamFourier *SamFourier;
-
-typedef enum {
-  SAM_FOURIER_PERIODIC, /* period hx * hy */
-  SAM_FOURIER_PADDED    /* period 2hx * 2hy, the field being zero outside the grid: convolution is not cyclic */
-} SamFourierMode;
-
-/* The periods hx, hy of a grid's transforms. */
-typedef enum {
-  SAM_FOURIER_FAST, /* even numbers >= nx, ny that FFTW transforms fast */
-  SAM_FOURIER_EXACT /* nx, ny, whatever they are: the grid is one period */
-} SamFourierPeriod;
 
 /* How long FFTW tries transforms out before it chooses one. */
 typedef enum { SAM_FOURIER_ESTIMATE, SAM_FOURIER_MEASURE, SAM_FOURIER_PATIENT } SamFourierEffort;
@@ -34,106 +15,5 @@ typedef struct {
 
 /* SamFourierSettingsFromOptions - from -fft_effort and -fft_exchange. Collective. Errors: SAM_ERR_USER. */
 PETSC_EXTERN PetscErrorCode SamFourierSettingsFromOptions(SamFourierSettings *settings, const SamOptions *from);
-
-#define SAM_FOURIER_FIELDS 3 /* most fields in one pass */
-
-/*
-  SamFourierBlock - a few columns of spectra, handed to a filter. Phase 0 holds the even frequencies along y, phase 1
-  (only in padded mode) the odd ones: entry m of phase f of column b is frequency ky = phases * m + f of phases * hy,
-  kx = first + b of phases * hx, at data[field][(f * width + b) * stride + m][re, im] in double precision, or at
-  single[field][...] in single precision; the other array is NULL.
-  A grid of one row has no frequencies along y, and hy = phases = stride = 1 in both modes.
-*/
-typedef struct {
-  SamFourierMode mode;
-  PetscInt       phases; /* 1 periodic, 2 padded */
-  PetscInt       hx, hy;
-  PetscInt       first;   /* frequency kx of the first column */
-  PetscInt       local;   /* its index among this rank's columns */
-  PetscInt       columns; /* columns in this block, at most width */
-  PetscInt       width, stride;
-  double (*data[SAM_FOURIER_FIELDS])[2];
-  float (*single[SAM_FOURIER_FIELDS])[2];
-} SamFourierBlock;
-
-/*
-  SamFourierFilter - what is done with spectra: `apply` changes those of a block in place, from the input fields' to the
-  output fields'. It is called once a block, with the context.
-*/
-typedef struct {
-  SamFourierMode mode;
-  PetscInt       n_in, n_out; /* fields, at most SAM_FOURIER_FIELDS each */
-  void (*apply)(const SamFourierBlock *block, const void *context);
-  const void *context;
-} SamFourierFilter;
-
-/* SamFourierFastLength - an even length >= n for which FFTW is fast. Not collective. */
-PETSC_INTERN PetscInt SamFourierFastLength(PetscInt n);
-/* SamFourierCreate - NULL stands for the default settings. Plans are made when they are first needed. Collective. */
-PETSC_INTERN PetscErrorCode SamFourierCreate(SamGrid grid, SamFourierPeriod period, const SamFourierSettings *settings,
-                                             SamFourier *fourier);
-PETSC_INTERN PetscErrorCode SamFourierDestroy(SamFourier *fourier);
-/*
-  SamFourierTrim - frees the memory that all transforms on the communicator share, if it is large, until one of them
-  needs it again. Collective.
-*/
-PETSC_INTERN PetscErrorCode SamFourierTrim(SamFourier fourier);
-/* The periods hx, hy, without the doubling of padded mode. */
-PETSC_INTERN PetscErrorCode SamFourierGetPeriods(SamFourier fourier, PetscInt *hx, PetscInt *hy);
-
-/*
-  SamFourierApply - out = inverse transform of filter(transform of in). Fields are local arrays of (rows, nx); `out` may
-  be the same arrays as `in`. Transforms are not normalised: the filter brings in 1/(period in x * period in y).
-  Collective.
-*/
-PETSC_INTERN PetscErrorCode SamFourierApply(SamFourier fourier, const SamFourierFilter *filter,
-                                            const double *const in[], double *const out[]);
-/*
-  SamFourierApplySingle - the same in single precision, at half the cost, for what is refined afterwards. Collective.
-*/
-PETSC_INTERN PetscErrorCode SamFourierApplySingle(SamFourier fourier, const SamFourierFilter *filter,
-                                                  const float *const in[], float *const out[]);
-
-/*
-  SamKernel - the transform of a kernel in padded mode, for convolution without wrapping round. A kernel is even or odd
-  in x and in y, so its transform is real (or imaginary) and one quadrant suffices: (hx + 1)(hy + 1) doubles over
-  all ranks. The values contain the normalisation of the pair of transforms.
-*/
-typedef struct _n_SamKernel *SamKernel;
-
-/*
-  The values of n kernels at the lags (i, j), i = 0 ... count - 1, j >= 0: values[k][i] of the k-th one. For odd parity
-  those at lag 0 are not used.
-*/
-typedef void (*SamKernelRows)(PetscInt j, PetscInt count, double *const values[], const void *context);
-
-/*
-  SamKernelsCreate - tabulates and transforms n kernels, at most SAM_FOURIER_FIELDS, whose values are found together;
-  odd[k]: whether the k-th one is odd in x and in y. Collective.
-*/
-PETSC_INTERN PetscErrorCode SamKernelsCreate(SamFourier fourier, PetscInt n, const PetscBool odd[][2],
-                                             SamKernelRows rows, const void *context, SamKernel kernels[]);
-PETSC_INTERN PetscErrorCode SamKernelDestroy(SamKernel *kernel);
-
-/*
-  SamConvolve - out[o] = sum_i scale[o][i] * (kernel[o][i] convolved with in[i]), exact but for rounding. A NULL kernel
-  is zero. Fields are local arrays of (rows, nx); out may be the same arrays as in. Collective.
-  Source: Liu, Wang and Liu 2000, Wear 243, 101-111.
-*/
-typedef struct {
-  PetscInt  n_in, n_out;
-  SamKernel kernel[SAM_FOURIER_FIELDS][SAM_FOURIER_FIELDS];
-  double    scale[SAM_FOURIER_FIELDS][SAM_FOURIER_FIELDS];
-} SamKernelMatrix;
-
-PETSC_INTERN PetscErrorCode SamConvolve(SamFourier fourier, const SamKernelMatrix *matrix, const double *const in[],
-                                        double *const out[]);
-/*
-  SamConvolveSingle - `factor` times the same in single precision, for one field by an even kernel or two fields by a
-  symmetric matrix whose off-diagonal kernel is odd in x and in y. `factor` brings the result to a size that floats
-  hold. Collective.
-*/
-PETSC_INTERN PetscErrorCode SamConvolveSingle(SamFourier fourier, const SamKernelMatrix *matrix, double factor,
-                                              const float *const in[], float *const out[]);
 
 #endif

@@ -73,11 +73,8 @@ PETSC_EXTERN PetscErrorCode SamStateDeclareNumber(SamState state, const SamState
 /*
   SamStateOfferNumber - makes a declared number a column of /history, unless it is one; `before` is its value in steps
   of an earlier run whose results lack it. Not collective.
-  SamStateMissingNumber - that value, for the k-th declaration of numbers; 0 or NaN for those that were results from the
-  start. Not collective.
 */
 PETSC_EXTERN PetscErrorCode SamStateOfferNumber(SamState state, const char name[], double before);
-PETSC_INTERN double         SamStateMissingNumber(SamState state, PetscInt k);
 
 /*
   SamStateResult - a field that results offer: a component of a remembered field, or what `compute` writes into a vector
@@ -97,69 +94,25 @@ typedef struct {
 /* SamStateOffer - declares a computed field of the results. Not collective. */
 PETSC_EXTERN PetscErrorCode SamStateOffer(SamState state, const SamStateResult *result);
 
-/* SamStateCreate - an empty state for fields of this grid, which it references. Collective. */
-PETSC_INTERN PetscErrorCode SamStateCreate(SamGrid grid, SamState *state);
-/* SamStateCreateLike - another state with the same declarations and no values. Collective. */
-PETSC_INTERN PetscErrorCode SamStateCreateLike(SamState state, SamState *other);
-PETSC_INTERN PetscErrorCode SamStateDestroy(SamState *state);
-
-/*
-  SamStateBegin - begins a try: there is a tried generation, without fields; its results of real numbers are NaN, its
-  integers 0, and numbers that are no results as in the committed one. Not collective.
-  SamStateCommit - the tried generation becomes the committed one. Collective. Errors: PETSC_ERR_ORDER without one.
-  SamStateReject - forgets the tried generation, if there is one. Not collective.
-  SamStateForgetFields - forgets its fields, but not its numbers: of a step without a solution. Not collective.
-  SamStateHasTried - whether there is one. Not collective.
-  SamStateReset - forgets all values: as after its creation. Collective.
-*/
-PETSC_INTERN PetscErrorCode SamStateBegin(SamState state);
-PETSC_INTERN PetscErrorCode SamStateCommit(SamState state);
-PETSC_INTERN PetscErrorCode SamStateReject(SamState state);
-PETSC_INTERN PetscErrorCode SamStateForgetFields(SamState state);
-PETSC_INTERN PetscBool      SamStateHasTried(SamState state);
-PETSC_INTERN PetscErrorCode SamStateReset(SamState state);
-
-/*
-  SamStateMove - of a try: the committed generation becomes what it is after the grid has moved by `distance` (m), until
-  the try is rejected; a commit keeps it. Collective.
-  SamStateSwapMoved - the committed generation becomes what it was before that, and at the next call what it is after
-  it: for those who save it. Not collective.
-*/
-PETSC_INTERN PetscErrorCode SamStateMove(SamState state, const PetscReal distance[2]);
-PETSC_INTERN void           SamStateSwapMoved(SamState state);
-
 /*
   SamStateSetField - the vector of a field's tried generation, to be written to: zero when it is first made, later with
   old values. Collective.
-  SamStateGetField - the vector of a generation; NULL where nobody has set it. Borrowed. Not collective.
-  SamStateReadField - the tried vector if it has been set in this try, else the committed one; NULL for neither.
-  Borrowed until the next try, commit or rejection. Not collective.
-  SamStateNumbers - the place of numbers in a generation. Not collective.
-  SamStateReadNumbers - in the tried generation, without one in the committed one. Not collective.
 */
 PETSC_EXTERN PetscErrorCode SamStateSetField(SamState state, PetscInt id, Vec *field);
-PETSC_EXTERN Vec            SamStateGetField(SamState state, PetscInt id, SamGeneration generation);
-PETSC_EXTERN Vec            SamStateReadField(SamState state, PetscInt id);
-PETSC_INTERN double        *SamStateNumbers(SamState state, PetscInt id, SamGeneration generation);
-PETSC_EXTERN double        *SamStateReadNumbers(SamState state, PetscInt id);
+/* SamStateGetField - the vector of a generation; NULL where nobody has set it. Borrowed. Not collective. */
+PETSC_EXTERN Vec SamStateGetField(SamState state, PetscInt id, SamGeneration generation);
+/*
+  SamStateReadField - the tried vector if it has been set in this try, else the committed one; NULL for neither.
+  Borrowed until the next try, commit or rejection. Not collective.
+*/
+PETSC_EXTERN Vec SamStateReadField(SamState state, PetscInt id);
+/* SamStateReadNumbers - in the tried generation, without one in the committed one. Not collective. */
+PETSC_EXTERN double *SamStateReadNumbers(SamState state, PetscInt id);
 /*
   SamStateJoinNumbers - joins the numbers of the tried generation to `parts`, those of the parts of the step before it:
   SAM_STATE_NUMBERS values, at first 0. `to_step`: into the tried generation, else into `parts`. Not collective.
 */
 PETSC_EXTERN void SamStateJoinNumbers(SamState state, double parts[], PetscBool to_step);
-/*
-  SamStateRestoreField - the vector of a committed generation, or of that one step back, to be written to by who
-  restores a saved state. Collective.
-*/
-PETSC_INTERN PetscErrorCode SamStateRestoreField(SamState state, PetscInt id, SamGeneration generation, Vec *field);
-
-/*
-  SamStateCopy - the committed values, and those one step back, of another state on the same grid. Forgets a tried
-  generation. Fields that `from` does not have become zero, its numbers as in a new state. Collective. Errors:
-  PETSC_ERR_ARG_SIZ for another grid; PETSC_ERR_ARG_INCOMP for a field that only `from` has values of, which the message
-  names.
-*/
-PETSC_INTERN PetscErrorCode SamStateCopy(SamState from, SamState to);
 
 /*
   The declarations, in their order. None is collective.
@@ -170,17 +123,6 @@ PETSC_EXTERN const SamStateField  *SamStateFieldOf(SamState state, PetscInt id);
 PETSC_EXTERN PetscInt              SamStateFindField(SamState state, const char name[]);
 PETSC_EXTERN PetscInt              SamStateCountNumbers(SamState state);
 PETSC_EXTERN const SamStateNumber *SamStateNumberOf(SamState state, PetscInt k, PetscInt *id);
-PETSC_INTERN PetscInt              SamStateCountValues(SamState state); /* of all numbers */
 PETSC_EXTERN PetscInt              SamStateFindNumber(SamState state, const char name[]);
-PETSC_INTERN PetscInt              SamStateCountResults(SamState state);
-PETSC_INTERN const SamStateResult *SamStateResultOf(SamState state, PetscInt k);
-PETSC_INTERN PetscInt              SamStateFindResult(SamState state, const char name[]);
-/*
-  SamStateFindValues - a field of the results: the vector that holds it and its component there, one of the state's
-  (borrowed), or `work` (one component), into which it is computed or which is zero where it has no values yet.
-  Collective.
-*/
-PETSC_INTERN PetscErrorCode SamStateFindValues(SamState state, PetscInt result, Vec work, Vec *holder,
-                                               PetscInt *component);
 
 #endif

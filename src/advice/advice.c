@@ -6,6 +6,7 @@
 */
 #include <petsam/advice.h>
 #include <petsam/private/baseimpl.h>
+#include <petsam/private/grid.h>
 #include <petsam/private/motionimpl.h>
 #include <math.h>
 #include <stdarg.h>

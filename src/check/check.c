@@ -7,6 +7,7 @@
 */
 #include <petsam/check.h>
 #include <petsam/normal.h>
+#include <petsam/private/elasticity.h>
 #include <petsam/private/solutionimpl.h>
 #include <petsam/tangential.h>
 

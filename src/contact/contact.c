@@ -1,5 +1,6 @@
 /* The class SamContact: its parts, its settings, its state, and its results by name. */
 #include "contactimpl.h"
+#include <petsam/private/state.h>
 
 /* ---- creation ---- */
 

@@ -3,6 +3,7 @@
   declared by the laws of the problem.
 */
 #include "contactimpl.h"
+#include <petsam/private/state.h>
 
 #define DISPLACEMENT "relative elastic displacement" /* normal, and tangential */
 

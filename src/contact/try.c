@@ -1,7 +1,9 @@
 /* Steps of a contact that are tried, then committed or rejected. */
 #include "contactimpl.h"
 #include <math.h>
+#include <petsam/private/elasticity.h>
 #include <petsam/private/solverimpl.h>
+#include <petsam/private/state.h>
 
 /*
   The check includes rounding, which the solvers' recurrences omit. So its limits are the solvers' tolerances times a

@@ -1,5 +1,7 @@
 /* Influence operators: types, options, and the operators on coarser grids. */
+#include <petsam/private/elasticity.h>
 #include <petsam/private/elasticityimpl.h>
+#include <petsam/private/fourier.h>
 #include <math.h>
 #include <string.h>
 

@@ -3,6 +3,7 @@
   count, the transforms need no more than its size. Two parts are kept, because a contact tries a step, which may move
   the part, and goes back.
 */
+#include <petsam/private/elasticity.h>
 #include <petsam/private/elasticityimpl.h>
 
 /* A part is made where it has at most this share of the grid's cells, and replaced when it is this much too large. */

@@ -1,4 +1,5 @@
 /* Products and preconditioners: fields become arrays by component for the type's methods, and are logged. */
+#include <petsam/private/elasticity.h>
 #include <petsam/private/elasticityimpl.h>
 
 typedef PetscErrorCode (*Method)(SamElasticity, const double *const[], double *const[]);

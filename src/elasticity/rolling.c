@@ -11,6 +11,7 @@
 
   Source: J. J. Kalker, Three-dimensional Elastic Bodies in Rolling Contact (1990), chapter 4.
 */
+#include <petsam/private/elasticity.h>
 #include <petsam/private/elasticityimpl.h>
 
 /* The differences of the rows of n fields, times `factor`, as new arrays one after the other, for SamFree(). */

@@ -8,6 +8,8 @@
   beside 48 for the stresses and 48 for the spectra of a pass.
 */
 #include <petsam/edges.h>
+#include <petsam/private/fourier.h>
+#include <petsam/private/grid.h>
 #include <petsam/private/stressimpl.h>
 #include <math.h>
 

@@ -1,5 +1,6 @@
 /* Products of spectra with symbols, column by column. */
 #include "waves.h"
+#include <petsam/private/fourier.h>
 #include <math.h>
 
 /*

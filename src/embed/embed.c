@@ -6,6 +6,8 @@
 */
 #include "embedimpl.h"
 #include <petsam/private/arguments.h>
+#include <petsam/private/grid.h>
+#include <petsam/private/state.h>
 #include <stdarg.h>
 
 /* The message of petsam_create(), which may have no contact to hold it. */

@@ -1,5 +1,6 @@
 /* Load histories in another program: petsam_history(), petsam_live(); copies of contacts, and their reset. */
 #include "embedimpl.h"
+#include <petsam/private/grid.h>
 
 /* A run, and its monitor. */
 typedef struct {

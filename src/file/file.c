@@ -6,6 +6,7 @@
   can be closed.
 */
 #include "fileimpl.h"
+#include <petsam/private/grid.h>
 
 /* ---- errors ---- */
 

@@ -22,6 +22,7 @@
   single precision. Here is what both share.
 */
 #include "fourierimpl.h"
+#include <petsam/private/grid.h>
 
 /* Below this, measuring costs more than all transforms of a coarse grid. */
 #define ESTIMATE_BELOW 300

@@ -3,7 +3,7 @@
 #define PETSAM_FOURIERIMPL_H
 
 #include <petsam/private/baseimpl.h>
-#include <petsam/fourier.h>
+#include <petsam/private/fourier.h>
 #include <fftw3-mpi.h>
 
 /* Columns of one mode: 0 ... n-1 along x, of which this rank works on start ... start + count - 1. */

@@ -1,5 +1,6 @@
 /* The grid and its slab distribution. */
 #include "gridimpl.h"
+#include <petsam/private/grid.h>
 #include <math.h>
 #include <string.h>
 

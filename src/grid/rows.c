@@ -3,6 +3,7 @@
   unit of the messages, so that their numbers stay small.
 */
 #include "gridimpl.h"
+#include <petsam/private/grid.h>
 #include <petsam/private/rows.h>
 
 void SamGridRowsOf(SamGrid grid, PetscMPIInt ranks, PetscMPIInt rank, PetscInt *begin, PetscInt *end)

@@ -4,6 +4,7 @@
   other ranks are fetched, so that the bits are the same on any number of ranks.
 */
 #include "gridimpl.h"
+#include <petsam/private/grid.h>
 #include <petsam/private/rows.h>
 #include <math.h>
 

@@ -6,6 +6,7 @@
   done where the data lie, y after the rows that a rank needs have been fetched.
 */
 #include "gridimpl.h"
+#include <petsam/private/grid.h>
 #include <petsam/private/rows.h>
 #include <math.h>
 

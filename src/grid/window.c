@@ -4,6 +4,7 @@
   Both grids have their rows in slabs; which rows one side wants of the other, and how they come, is rows.c.
 */
 #include "gridimpl.h"
+#include <petsam/private/grid.h>
 #include <petsam/private/rows.h>
 #include <string.h>
 

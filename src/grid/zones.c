@@ -7,6 +7,7 @@
   integers are summed, so nothing depends on the number of ranks. Memory: labels of two rows, and a piece per zone.
 */
 #include "gridimpl.h"
+#include <petsam/private/grid.h>
 #include <petsam/private/rows.h>
 #include <math.h>
 

@@ -7,6 +7,7 @@
 */
 #include "ioimpl.h"
 #include <petsam/checkpoint.h>
+#include <petsam/private/grid.h>
 #include <petsam/private/lawimpl.h>
 #include <string.h>
 #include <unistd.h>

@@ -4,6 +4,7 @@
 
 #include <petsam/private/file.h>
 #include <petsam/output.h>
+#include <petsam/private/state.h>
 
 /*
   SamParametersWrite - writes all parameters as attributes of the root group.

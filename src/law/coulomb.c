@@ -1,4 +1,5 @@
 /* Coulomb's friction: |q| <= mu p, mu being a number or a field, times the factor of the control. */
+#include <petsam/private/grid.h>
 #include <petsam/private/lawimpl.h>
 #include <petsam/private/fieldfile.h>
 

@@ -14,6 +14,7 @@
 */
 #include <petsam/private/lawimpl.h>
 #include <petsam/private/motionimpl.h>
+#include <petsam/private/state.h>
 #include <math.h>
 
 typedef enum { PATH, PRESSURE, FALLING, KINDS } Kind;

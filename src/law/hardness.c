@@ -9,6 +9,7 @@
 */
 #include <petsam/private/lawimpl.h>
 #include <petsam/normal.h>
+#include <petsam/private/state.h>
 
 typedef struct {
   PetscReal limit; /* Pa */

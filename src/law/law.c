@@ -1,4 +1,5 @@
 /* The class SamLaw: its registry, and what all laws share. */
+#include <petsam/private/elasticity.h>
 #include <petsam/private/lawimpl.h>
 
 /* ---- the registry ---- */

@@ -1,4 +1,5 @@
 /* The problem of a contact: elasticity, gap and laws, and what follows from all laws together. */
+#include <petsam/private/elasticity.h>
 #include <petsam/private/problemimpl.h>
 #include <petsc/private/petscimpl.h> /* PetscObjectStateGet() */
 

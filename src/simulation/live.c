@@ -1,5 +1,6 @@
 /* The life of a joint: a cycle at a time is computed and written, then some are jumped over. */
 #include "simulationimpl.h"
+#include <petsam/private/state.h>
 
 /* An error of a fixed jump that is told. */
 #define LARGE 0.1

@@ -14,6 +14,7 @@
   those of global numbers of this step: the same on any number of ranks, and after a restart.
 */
 #include "simulationimpl.h"
+#include <petsam/private/state.h>
 
 /* The part of the tolerance that estimates may use; they are up to three times too small. */
 #define SAFETY 0.3

@@ -1,6 +1,7 @@
 /* The numbers of a step that follow from its solution: cells and areas, energies. */
 #include <petsam/private/rows.h>
 #include <petsam/private/solutionimpl.h>
+#include <petsam/private/state.h>
 
 /*
   Cells in contact and in stick, largest tractions and slip there, the elastic energy of both bodies, half the work of

@@ -1,5 +1,6 @@
 /* Numbers of rough contact: its spots, zones that are connected by the sides of their cells, and the mean gap. */
 #include <petsam/private/solutionimpl.h>
+#include <petsam/private/state.h>
 
 static const SamStateNumber declared[] = {{"contact_spots", "1", "contact spots, connected by the sides of cells",
                                            SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, 0},

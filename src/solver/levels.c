@@ -1,4 +1,5 @@
 /* Nested grids and windows of all solvers, and the counted work of a method on a level. */
+#include <petsam/private/elasticity.h>
 #include <petsam/private/solverimpl.h>
 #include <math.h>
 

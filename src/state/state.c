@@ -1,6 +1,7 @@
 /* The class SamState: declarations, and values in generations. */
 #include <petsam/private/baseimpl.h>
-#include <petsam/state.h>
+#include <petsam/private/grid.h>
+#include <petsam/private/state.h>
 
 /* A declared field: its vectors, and whether the tried one has been set in this try. */
 typedef struct {

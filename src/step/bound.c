@@ -14,6 +14,7 @@
   A bound that does not follow the slip takes one pass.
 */
 #include "stepimpl.h"
+#include <petsam/private/elasticity.h>
 
 #define PASSES 50
 /* Parts of the tolerance to which the bound, and the tangential problem of a pass, are solved: the check adds both. */

@@ -10,6 +10,8 @@
   farther on the average.
 */
 #include "stepimpl.h"
+#include <petsam/private/elasticity.h>
+#include <petsam/private/state.h>
 
 /* The numbers, side by side in the state: energies, then by component load and creepage. */
 enum { ENERGY, LOADS, CREEPS = LOADS + 3, NUMBERS = CREEPS + 3 };

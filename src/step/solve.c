@@ -6,6 +6,7 @@
   step. Dissimilar materials: see coupling.c.
 */
 #include "stepimpl.h"
+#include <petsam/private/state.h>
 
 static PetscErrorCode Begin(const SamStepTask *task, SamStep *step, SamSolve *w)
 {

@@ -1,5 +1,6 @@
 /* The two problems of a step: each solved once, and the messages where it has no solution. */
 #include "stepimpl.h"
+#include <petsam/private/elasticity.h>
 #include <math.h>
 
 /* Adds the counts of a solver's last solve to three numbers of the step. */

@@ -17,6 +17,7 @@
   inverse of s c along e.
 */
 #include "stiffnessimpl.h"
+#include <petsam/private/elasticity.h>
 #include <math.h>
 
 /*

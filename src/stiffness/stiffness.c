@@ -9,6 +9,7 @@
 */
 #include "stiffnessimpl.h"
 #include <petsam/private/motionimpl.h>
+#include <petsam/private/state.h>
 #include <math.h>
 
 enum { HALF = 3 }; /* normal or tangential motions */

@@ -1,5 +1,6 @@
 /* The stresses under the tractions of load steps: settings, steps, and the order of the work. */
 #include "evaluationimpl.h"
+#include <petsam/private/elasticity.h>
 
 /* ---- life ---- */
 

@@ -5,6 +5,7 @@
 */
 #include "../io/ioimpl.h"
 #include <petsam/evaluation.h>
+#include <petsam/private/grid.h>
 
 #define OPTION "output"
 

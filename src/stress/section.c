@@ -16,6 +16,8 @@
 
   A section along y is one along x with the axes exchanged.
 */
+#include <petsam/private/fourier.h>
+#include <petsam/private/grid.h>
 #include <petsam/private/stressimpl.h>
 #include <fftw3.h>
 

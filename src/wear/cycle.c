@@ -10,6 +10,7 @@
   This problem is what a jump changes (life.c).
 */
 #include "lifeimpl.h"
+#include <petsam/private/state.h>
 
 #define MOST_PASSES 20   /* cycles that are run to close the loop */
 #define CLOSED      0.1  /* change of the shear over mu p, and of the energy, over the tolerance of the jumps */

@@ -11,6 +11,7 @@
   extrapolation is L-stable, forward Euler's is the midpoint rule).
 */
 #include "lifeimpl.h"
+#include <petsam/private/state.h>
 #include <math.h>
 
 /* The next jump's size over the last one's: limits, and the part of what the error allows. */

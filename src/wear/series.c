@@ -1,5 +1,6 @@
 /* The numbers of computed cycles, by name. */
 #include "lifeimpl.h"
+#include <petsam/private/state.h>
 
 enum { CYCLE, JUMP, ERROR, VOLUME, DEPTH = VOLUME + 2, ENERGY = DEPTH + 2, AREA, PRESSURE, COMPUTED, NUMBERS };
 #define NUMBER(name, unit, text, kind) \

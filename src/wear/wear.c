@@ -1,5 +1,6 @@
 /* The laws of wear: what they remember, the separation that follows, and how they advance in a step. */
 #include "wearimpl.h"
+#include <petsam/private/state.h>
 
 #define WEARS "wears" /* 1 if the step added to the wear load, 0 in cycles */
 

@@ -6,7 +6,7 @@
   On one rank prints for each size the seconds of both (median) and their ratio; both planned by the same -fft_effort
   measure. On several ranks the plain way is FFTW's MPI transform of the padded array.
 */
-#include <petsam/fourier.h>
+#include <petsam/private/fourier.h>
 #include <fftw3-mpi.h>
 #include <math.h>
 #include <stdlib.h>

@@ -10,6 +10,7 @@
   pairs times the measured time of one pair. Memory: what a map needs, bytes a cell (of the first size).
 */
 #include <petsam/fatigue.h>
+#include <petsam/private/fourier.h>
 #include <petsam/private/halfspace.h>
 #include <math.h>
 #include <stdlib.h>

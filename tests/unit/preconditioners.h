@@ -2,6 +2,7 @@
 #ifndef PETSAM_PRECONDITIONERS_H
 #define PETSAM_PRECONDITIONERS_H
 
+#include <petsam/private/elasticity.h>
 #include <petsam/private/elasticityimpl.h>
 
 /* Scaled to what floats hold, and back. */

@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include <petsam/output.h>
-#include <petsam/state.h>
+#include <petsam/private/state.h>
 
 /* Grids that do not divide, one with fewer rows than ranks, and one of several chunks that ranks share. */
 static const PetscInt sizes[][2] = {{13, 7}, {5, 2}, {1030, 259}};

@@ -3,6 +3,8 @@
  * values, and not on how the cells lie on the ranks.
  */
 #include "checkpoints.h"
+#include <petsam/private/grid.h>
+#include <petsam/private/state.h>
 
 /* ---- checksums ---- */
 

@@ -3,6 +3,7 @@
 */
 #include "elasticities.h"
 
+#include <petsam/private/elasticity.h>
 #include <petsam/private/halfspace.h>
 
 /* Rounding of the transforms and of the sums they are compared to, n^2 terms of one sign. */

@@ -5,6 +5,7 @@
 #include "contacts.h"
 
 #include <petsam/normal.h>
+#include <petsam/private/elasticity.h>
 #include <petsam/private/elasticityimpl.h>
 #include <petsam/stress.h>
 

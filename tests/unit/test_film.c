@@ -3,7 +3,7 @@
  */
 #include "fields.h"
 
-#include <petsam/elasticity.h>
+#include <petsam/private/elasticity.h>
 
 #define FILM 3e-12 /* m/Pa */
 

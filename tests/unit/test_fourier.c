@@ -3,7 +3,7 @@
 */
 #include "fields.h"
 
-#include <petsam/fourier.h>
+#include <petsam/private/fourier.h>
 
 /* Sizes that do not divide, odd, prime, square, and fewer rows than ranks. */
 static const PetscInt sizes[][2] = {{7, 5}, {13, 11}, {16, 9},   {2, 3},    {17, 17},

@@ -2,6 +2,7 @@
   The grid, its rows, and moving fields between grids.
 */
 #include "fields.h"
+#include <petsam/private/grid.h>
 
 /* Even, odd, prime, and fewer rows than ranks. */
 static const PetscInt sizes[][2] = {{16, 12}, {13, 7}, {9, 2}, {3, 3}, {31, 17}, {8, 4}, {5, 16}};

@@ -1,5 +1,6 @@
 /* Laws: the order in which they act, one from outside that changes the bound and remembers, and what is refused. */
 #include "contacts.h"
+#include <petsam/private/state.h>
 
 /* ---- two laws that change the bound ---- */
 

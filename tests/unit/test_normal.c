@@ -1,6 +1,7 @@
 /* The normal solver: Hertz's contact, force and displacement control, moments, scaling. */
 #include "normals.h"
 #include "methods/methods.h"
+#include <petsam/private/elasticity.h>
 
 /* ---- Hertz ---- */
 

@@ -4,6 +4,7 @@
 #include "contacts.h"
 
 #include "../../src/contact/contactimpl.h"
+#include <petsam/private/state.h>
 
 /*
   Hertz's pressure of radius a, and of Cattaneo's shear under T = (1 - (c/a)^3) mu N: mu times it less that of radius

@@ -2,6 +2,7 @@
  * Rolling in steps of time: fields that move over the grid, and steps that are tried, rejected and saved.
  */
 #include "contacts.h"
+#include <petsam/private/grid.h>
 
 /* ---- fields ---- */
 

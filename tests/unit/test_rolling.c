@@ -1,6 +1,7 @@
 /* Steady rolling: the operator, what holds exactly, and the solver against another method. */
 #include "tangentials.h"
 
+#include <petsam/private/elasticity.h>
 #include <petsam/private/motionimpl.h>
 
 /* The case on bodies that roll, with the bodies at rest besides. */

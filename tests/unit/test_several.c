@@ -2,6 +2,7 @@
  * Several contacts in one process, solved in turn or at the same time: each is as if it were alone.
  */
 #include "contacts.h"
+#include <petsam/private/state.h>
 
 enum { STEPS = 3, BODIES = 2, N = 45 };
 

@@ -5,6 +5,7 @@
 #include "fields.h"
 #include "methods/methods.h"
 
+#include <petsam/private/elasticity.h>
 #include <petsam/private/help.h>
 #include <petsam/private/normalimpl.h>
 #include <petsam/private/tangentialimpl.h>

@@ -1,5 +1,6 @@
 /* The memory of a contact: declarations by name, generations, what is copied, and what is refused. */
 #include "contacts.h"
+#include <petsam/private/state.h>
 
 static const SamStateField field3 = {.name        = "three",
                                      .unit        = "m",

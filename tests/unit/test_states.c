@@ -2,6 +2,7 @@
  * Try, commit, reject: what is tried and rejected leaves nothing behind, to the last bit.
  */
 #include "contacts.h"
+#include <petsam/private/state.h>
 
 /* ---- random steps ---- */
 

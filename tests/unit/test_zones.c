@@ -2,6 +2,7 @@
   Connected zones of cells, against a flood fill of the whole grid by every rank, and against shapes of known width.
 */
 #include "fields.h"
+#include <petsam/private/grid.h>
 
 /* Square, odd, thin; fewer rows than ranks; four rows, which leave the last of three ranks without one. */
 static const PetscInt sizes[][2] = {{16, 16}, {23, 31}, {40, 2}, {7, 60}, {64, 50}, {5, 3}, {9, 4}};

@@ -4,7 +4,8 @@
 
 #include <petsam/private/bodyimpl.h>
 #include <petsam/elasticity.h>
-#include <petsam/fourier.h>
+#include <petsam/private/fourier.h>
+#include <petsam/private/grid.h>
 
 /*
   A type that adds something to another - a half-space and a smooth compliance, for instance - calls

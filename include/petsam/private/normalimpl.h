@@ -7,6 +7,7 @@
 #ifndef PETSAM_NORMALIMPL_H
 #define PETSAM_NORMALIMPL_H
 
+#include <petsam/private/grid.h>
 #include <petsam/private/solverimpl.h>
 #include <petsam/normal.h>
 

@@ -21,6 +21,7 @@
 
 #include <petsam/private/balanceimpl.h>
 #include <petsam/private/baseimpl.h>
+#include <petsam/private/grid.h>
 #include <petsam/solver.h>
 
 #define SAM_MONITORS 5 /* most of one solver */

@@ -4,6 +4,7 @@
 
 #include <petsam/control.h>
 #include <petsam/private/baseimpl.h>
+#include <petsam/private/fourier.h>
 #include <petsam/stress.h>
 
 /*

@@ -15,6 +15,7 @@
   and u is of body 2 less body 1, so that both bodies add.
 */
 #include <petsam/private/compliance.h>
+#include <petsam/private/elasticity.h>
 #include <math.h>
 #include <petscdt.h>
 #include <string.h>

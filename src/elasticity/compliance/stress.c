@@ -4,6 +4,7 @@
   at a coarse grid of points, between which they are interpolated linearly; beyond it in x and y they stay the same.
 */
 #include <petsam/private/compliance.h>
+#include <petsam/private/elasticity.h>
 
 typedef struct {
   SamElasticity bodies;

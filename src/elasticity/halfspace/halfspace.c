@@ -10,6 +10,8 @@
   Waves have the same symbols. Source: Johnson 1985, Contact Mechanics, sections 2.2 and 2.3.
 */
 #include "../waves.h"
+#include <petsam/private/elasticity.h>
+#include <petsam/private/fourier.h>
 #include <petsam/private/halfspace.h>
 #include <math.h>
 

@@ -35,6 +35,7 @@ typedef struct {
 #define Root(x) sqrtf(x)
 #define Name(x) x##Single
 #include "symbols.h"
+#include <petsam/private/fourier.h>
 
 /* Whether a wave number of that index is its own mirror image. */
 static inline double IsOwnMirror(PetscInt k, PetscInt n)

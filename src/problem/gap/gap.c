@@ -1,5 +1,5 @@
 /* The class SamGap: types, their parameters, roughness. Each shape is in a file of its own. */
-#include <petsam/elasticity.h>
+#include <petsam/private/elasticity.h>
 #include <petsam/private/gapimpl.h>
 #include <math.h>
 #include <stdlib.h>

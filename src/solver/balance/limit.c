@@ -7,6 +7,7 @@
   for a smoothing that is reduced step by step.
 */
 #include "projectionimpl.h"
+#include <petsam/private/grid.h>
 #include <math.h>
 
 /* An error of equilibrium, relative to the sum of the bound, that is ignored. */

@@ -2,6 +2,7 @@
   The normal problem as a kind of solver: how it starts, how it goes from grid to grid and into windows, and the cases
   without contact. The methods are in files of their own.
 */
+#include <petsam/private/elasticity.h>
 #include <petsam/private/normalimpl.h>
 
 /* ---- starts ---- */

@@ -31,6 +31,7 @@
   and Curnier 1991, CMAME 92, 353 (sets). The classical alternative is a Gauss-Seidel method, Vollebregt 2010.
 */
 #include "rollingimpl.h"
+#include <petsam/private/elasticity.h>
 #include <math.h>
 
 /* Iterations after which what carries the loads is made anew. */

@@ -3,6 +3,7 @@
   sweep, in which a cell depends on the next one. Sums over a row do not depend on the number of ranks. A cell that
   slips has the unit vector `normal` along its shear, P takes it off a vector.
 */
+#include <petsam/private/elasticity.h>
 #include "rollingimpl.h"
 #include <math.h>
 

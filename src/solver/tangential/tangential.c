@@ -2,6 +2,7 @@
   The tangential problem as a kind of solver: how it goes from grid to grid and into a window, the cases without shear,
   and the test for gross slip. The methods are in files of their own.
 */
+#include <petsam/private/elasticity.h>
 #include <petsam/private/tangentialimpl.h>
 #include <math.h>
 

@@ -1,0 +1,81 @@
+/* Grids: what the library's other rooms use besides petsam/grid.h. */
+#ifndef PETSAM_PRIVATE_GRID_H
+#define PETSAM_PRIVATE_GRID_H
+
+#include <petsam/grid.h>
+
+PETSC_INTERN PetscErrorCode SamGridReference(SamGrid grid);
+/* SamGridCoarsen - the same rectangle with half the cells in each direction, rounded up. Collective. */
+PETSC_INTERN PetscErrorCode SamGridCoarsen(SamGrid fine, SamGrid *coarse);
+/*
+  SamGridCheckVec - raises PETSC_ERR_ARG_SIZ, on all ranks, unless the vector has the layout of a field of this grid
+  with `components` values a cell; `words` says what it is. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamGridCheckVec(SamGrid grid, PetscInt components, Vec field, const char words[]);
+/* SamGridIsFinite - whether all values of a field are finite numbers. Collective. */
+PETSC_INTERN PetscErrorCode SamGridIsFinite(SamGrid grid, Vec field, PetscBool *is);
+/* SamVecZero - sets a field to zero without writing to what is. Collective. */
+PETSC_INTERN PetscErrorCode SamVecZero(Vec field);
+/* SamVecCopyNonzero - copies a field; does not write where both are zero, so that untouched pages take no memory. */
+PETSC_INTERN PetscErrorCode SamVecCopyNonzero(Vec from, Vec to);
+/* SamGridChecksum - a checksum of a field's values by cell, the same on any number of ranks. Collective. */
+PETSC_INTERN PetscErrorCode SamGridChecksum(SamGrid grid, Vec field, uint64_t *checksum);
+/*
+  SamGridMove - moves the grid by `distance` (m) over a field, which moves against it: at x it becomes what it was at
+  x + distance. Whole cells, within 1e-6 of one, without error, else by cubic interpolation. What enters is 0, or, with
+  `continues`, what was at the grid's border. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamGridMove(SamGrid grid, PetscInt components, const PetscReal distance[2],
+                                        PetscBool continues, Vec from, Vec to);
+/*
+  SamGridEntering - the columns and rows that are made of what enters, at the low and the high end of x, y. Not
+  collective.
+*/
+PETSC_INTERN void SamGridEntering(SamGrid grid, const PetscReal distance[2], PetscInt low[2], PetscInt high[2]);
+/*
+  SamTransfer - moves fields between two grids of the same rectangle: Restrict takes area averages (keeps sums times
+  cell area exactly), Prolong interpolates linearly between cell centres (constant beyond the outermost centres).
+*/
+typedef struct _n_SamTransfer *SamTransfer;
+PETSC_INTERN PetscErrorCode    SamTransferCreate(SamGrid fine, SamGrid coarse, SamTransfer *transfer);
+PETSC_INTERN PetscErrorCode    SamTransferDestroy(SamTransfer *transfer);
+/* Both take fields of any, but the same, number of components. Collective. */
+PETSC_INTERN PetscErrorCode SamTransferRestrict(SamTransfer transfer, Vec fine, Vec coarse);
+PETSC_INTERN PetscErrorCode SamTransferProlong(SamTransfer transfer, Vec coarse, Vec fine);
+/*
+  SamWindow - a rectangle of cells of a grid as a grid of its own, with its own slabs on all ranks.
+*/
+typedef struct _n_SamWindow *SamWindow;
+PETSC_INTERN PetscErrorCode  SamWindowGetGrid(SamWindow window, SamGrid *grid); /* borrowed */
+/* SamWindowCreate - the n[0] * n[1] cells from column first[0] and row first[1] on; n >= 2, or one row. Collective. */
+PETSC_INTERN PetscErrorCode SamWindowCreate(SamGrid grid, const PetscInt first[2], const PetscInt n[2],
+                                            SamWindow *window);
+PETSC_INTERN PetscErrorCode SamWindowDestroy(SamWindow *window);
+/* SamWindowGetPlace - first column and row, and their numbers. Not collective. */
+PETSC_INTERN PetscErrorCode SamWindowGetPlace(SamWindow window, PetscInt first[2], PetscInt n[2]);
+/* SamWindowCovers - whether all those cells lie in the window. Not collective. */
+PETSC_INTERN PetscBool SamWindowCovers(SamWindow window, const PetscInt first[2], const PetscInt n[2]);
+/* SamWindowTake, SamWindowPut - copy the window's part of a field out, or back in (zero elsewhere). Collective. */
+PETSC_INTERN PetscErrorCode SamWindowTake(SamWindow window, Vec whole, Vec part);
+PETSC_INTERN PetscErrorCode SamWindowPut(SamWindow window, Vec part, Vec whole);
+/*
+  SamGridGetSupport - the smallest rectangle that holds all cells where the first component of a field is positive; n is
+  0 when there is none. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamGridGetSupport(SamGrid grid, Vec field, PetscInt first[2], PetscInt n[2]);
+/*
+  SamGridCountZones - the number of zones of cells, connected by their sides, where the first component of a field is
+  positive; with `wrap` the cells at opposite borders of the grid are neighbours. The same on any number of ranks.
+  Collective.
+*/
+PETSC_INTERN PetscErrorCode SamGridCountZones(SamGrid grid, Vec field, PetscBool wrap, PetscInt *zones);
+/*
+  SamGridMeasureZones - how many cells across the narrow ones of these zones are, without `wrap`. Zones in which no more
+  than `part` of all these cells lie, the narrowest ones, do not count. A zone is as wide as the shorter side of its
+  bounding box, or as the ellipse of its second moments, if that is narrower; to a tenth of a cell. One that extends
+  from border to border along one axis only has no width along it. 0 without such cells. The same on any number of
+  ranks. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamGridMeasureZones(SamGrid grid, Vec field, PetscReal part, PetscReal *across);
+
+#endif
