@@ -177,20 +177,21 @@ static PetscErrorCode TimeFatigue(SamGrid grid, PetscInt depths, PetscInt states
 {
   const SamFatigueConstants constants = {.young = 200, .poisson = POISSON};
   const PetscInt            points    = depths * grid->nx;
-  double                   *stress, *one, value, start;
+  double                   *stress, *one, *scratch, value, start, normal[3];
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc2(states * SAM_STRESS_COMPONENTS * points, &stress, states * SAM_STRESS_COMPONENTS, &one));
+  PetscCall(PetscMalloc3(states * SAM_STRESS_COMPONENTS * points, &stress, states * SAM_STRESS_COMPONENTS, &one,
+                         states * SAM_FATIGUE_SCRATCH, &scratch));
   PetscCall(ComputeSection(grid, depths, states, stress, &value));
   start = MPI_Wtime();
   for (PetscInt i = 0; i < points; i++) {
     for (PetscInt s = 0; s < states; s++)
       for (PetscInt c = 0; c < SAM_STRESS_COMPONENTS; c++)
         one[c * states + s] = stress[(s * SAM_STRESS_COMPONENTS + c) * points + i];
-    PetscCall(SamFatigueCompute(SAM_FATIGUE_SWT, &constants, states, one, &value, NULL));
+    (void)SamFatigueSWT(&(SamFatigueCycle){&constants, states, one, NULL, scratch}, normal);
   }
   *seconds = MPI_Wtime() - start;
-  PetscCall(PetscFree2(stress, one));
+  PetscCall(PetscFree3(stress, one, scratch));
   PetscFunctionReturn(0);
 }
 
