@@ -15,13 +15,13 @@
 typedef struct _n_SamLaw *SamLaw;
 typedef const char       *SamLawType;
 #define SAM_LAW_COULOMB           "coulomb"           /* shear up to a coefficient times the pressure */
-#define SAM_LAW_PATH_FRICTION     "path_friction"     /* friction changes with the accumulated slip (law/friction.c) */
+#define SAM_LAW_SLIP_DEPENDENT    "slip_dependent"    /* friction changes with the accumulated slip (law/friction.c) */
 #define SAM_LAW_PRESSURE_FRICTION "pressure_friction" /* with the pressure */
 #define SAM_LAW_FALLING_FRICTION  "falling_friction"  /* with the slip velocity in rolling */
 #define SAM_LAW_ARCHARD           "archard"           /* wear in proportion to pressure and slip (wear.h) */
 #define SAM_LAW_ENERGY            "energy"            /* wear in proportion to the frictional work (wear.h) */
 #define SAM_LAW_HARDNESS          "hardness"          /* pressure up to a limit, where the surfaces yield */
-#define SAM_LAW_SLIP_PATH         "slip_path"         /* remembers the accumulated slip */
+#define SAM_LAW_ACCUMULATED_SLIP  "slip_path"         /* remembers the accumulated slip */
 #define SAM_LAW_FRICTION_ENERGY   "friction_energy"   /* remembers the frictional work */
 
 /*

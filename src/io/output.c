@@ -12,7 +12,7 @@
 /* For the help, which is printed before there is a contact to ask. */
 #define WORDS \
   "all,none,pressure,shear_x,shear_y,displacement_z,displacement_x,displacement_y,slip_x,slip_y,gap,state," \
-  "pressure_center,shear_center_x,shear_center_y,contact_edge,stick_edge," SAM_LAW_SLIP_PATH \
+  "pressure_center,shear_center_x,shear_center_y,contact_edge,stick_edge," SAM_LAW_ACCUMULATED_SLIP \
   "," SAM_LAW_FRICTION_ENERGY
 
 /* -output_fields: names between commas, and blanks. */
@@ -86,7 +86,7 @@ PetscErrorCode SamOutputSettingsAddLaws(SamOutputSettings *set, SamProblem probl
 /* The names that there are, also of sums (`sum`) that begin where they are named, with commas between them. */
 static void ListFields(SamState state, PetscBool sum, char names[], size_t size)
 {
-  static const char *const sums[] = {SAM_LAW_SLIP_PATH, SAM_LAW_FRICTION_ENERGY};
+  static const char *const sums[] = {SAM_LAW_ACCUMULATED_SLIP, SAM_LAW_FRICTION_ENERGY};
 
   const PetscInt count = SamStateCountResults(state);
   size_t         used  = 0;

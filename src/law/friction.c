@@ -41,7 +41,7 @@ static const struct {
   PetscReal     usual[OPTIONS];
   SamStateField memory;
 } kinds[KINDS] = {
-  {SAM_LAW_PATH_FRICTION,
+  {SAM_LAW_SLIP_DEPENDENT,
    "slip_path",
    {REAL(FINAL, "path_final", "slip_path", "coefficient after long slip", SAM_RANGE_NONNEGATIVE),
     REAL(LENGTH, "path_length", "slip_path", "slip (m) after which 1/e of the change is left", SAM_RANGE_POSITIVE)},

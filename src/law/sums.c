@@ -12,7 +12,7 @@ typedef struct {
   { \
     type, unit, text, 1, 2, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_OFFERED, SAM_MOVES \
   }
-static const Sum sums[] = {{FIELD(SAM_LAW_SLIP_PATH, "m", "accumulated slip: sum of |ds| over all steps"),
+static const Sum sums[] = {{FIELD(SAM_LAW_ACCUMULATED_SLIP, "m", "accumulated slip: sum of |ds| over all steps"),
                             "sum_slip_path", "accumulate the slip over all steps (field slip_path)", PETSC_FALSE},
                            {FIELD(SAM_LAW_FRICTION_ENERGY, "J/m2", "frictional work: sum of -q.ds over all steps"),
                             "sum_friction_energy",
@@ -62,7 +62,7 @@ static PetscErrorCode Create(SamLaw law, const Sum *sum)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamLawCreate_SlipPath(SamLaw law)
+PetscErrorCode SamLawCreate_AccumulatedSlip(SamLaw law)
 {
   PetscFunctionBegin;
   PetscCall(Create(law, &sums[0]));

@@ -170,7 +170,7 @@ def test_stresses_of_a_cycle_by_its_number(life, launcher, tmp_path):
         assert one["history/step"][:].tolist() == steps.tolist() and np.array_equal(one["swt"][:], two["swt"][:])
     for words, says in (
         (dict(cycle=500), "-cycle 500: the steps of that cycle are not in life.h5, those of 0, 30000, 100000 are"),
-        (dict(cycle=0, steps=1), "-cycle and -steps are both given"),
+        (dict(cycle=0, steps=1), "-cycle does not work with -steps"),
     ):
         done = conftest.execute(launcher, tmp_path, [dict(case, output="no.h5", **words)], 1, 2, program=program)
         assert says in done.stderr

@@ -311,12 +311,12 @@ static void test_sum_in_the_file_goes_on(void **state)
   SamLaw              law;
 
   (void)state;
-  sam_call(SamProblemAddLawOfType(one.problem, SAM_LAW_SLIP_PATH, NULL));
+  sam_call(SamProblemAddLawOfType(one.problem, SAM_LAW_ACCUMULATED_SLIP, NULL));
   for (int k = 0; k < 2; k++) SolveStep(&one, k, &a);
   Write(&one, &parameters, 0, NULL);
   DeclareOther(&refused, 0);
   sam_assert(Read(&refused) == SAM_ERR_USER && strstr(CaughtMessage(), "lacks other_field"));
-  sam_call(SamProblemGetLaw(refused.problem, SAM_LAW_SLIP_PATH, &law));
+  sam_call(SamProblemGetLaw(refused.problem, SAM_LAW_ACCUMULATED_SLIP, &law));
   sam_assert(!law);
   DestroyCase(&refused);
   sam_assert(!Read(&other));

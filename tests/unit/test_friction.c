@@ -3,6 +3,8 @@
  */
 #include "contacts.h"
 
+#include <petsam/private/lawimpl.h>
+
 #include <hdf5.h>
 #include <unistd.h>
 
@@ -138,7 +140,7 @@ static void test_wrong_friction_is_refused(void **state)
   (void)state;
   AssertRefused("-friction -0.1", SAM_ERR_USER, "-friction", "-0.1");
   AssertRefused("-friction inf", SAM_ERR_USER, "-friction", "inf");
-  AssertRefused("-friction 0.3 -friction_file f.h5", SAM_ERR_USER, "-friction and", "-friction_file");
+  AssertRefused("-friction 0.3 -friction_file f.h5", SAM_ERR_USER, "-friction does not work with", "-friction_file");
   AssertRefused("-friction_dataset /mu", SAM_ERR_USER, "-friction_dataset", "-friction_file");
   AssertRefused("-friction_file test_friction_none.h5", SAM_ERR_FILE, "-friction_file test_friction_none.h5", "read");
 }
@@ -156,12 +158,58 @@ static void test_wrong_values_of_the_file_are_named(void **state)
   Remove();
 }
 
+/* A law of another file, which is a word of -friction_law. */
+static const SamOptionRow rows[] = {{"friction_part", "part that is left", SAM_OPTION_REAL, .range = SAM_RANGE_PART,
+                                     .needs = "friction_law partial", .missing = "required by -friction_law partial",
+                                     .recorded = PETSC_TRUE}};
+
+static PetscErrorCode CreatePartial(SamLaw law)
+{
+  PetscReal *part;
+
+  sam_call(PetscNew(&part));
+  *part          = NAN;
+  law->data      = part;
+  law->option    = "friction_law";
+  law->word      = "partial";
+  law->rows      = rows;
+  law->row_count = 1;
+  return PETSC_SUCCESS;
+}
+
+static void test_words_are_those_of_the_registered_laws(void **state)
+{
+  static const struct {
+    const char *options, *says; /* NULL: the law is read */
+  } cases[] = {{"-friction_law partial -friction_part 0.25", NULL},
+               {"-friction_law partial", "-friction_part is missing: required by -friction_law partial"},
+               {"-friction_part 0.25", "-friction_part is given without -friction_law partial"},
+               {"-friction_law part", "expected coulomb, slip_path, pressure, falling or partial"}};
+
+  (void)state;
+  sam_call(SamLawRegister("partial_friction", CreatePartial));
+  for (size_t k = 0; k < sizeof(cases) / sizeof(cases[0]); k++) {
+    Read          r = ReadFriction(cases[k].options, NULL);
+    SamParameters p = {.count = 0};
+    SamLaw        law;
+
+    sam_assert(cases[k].says ? r.code == SAM_ERR_USER && strstr(CaughtMessage(), cases[k].says) : !r.code);
+    sam_call(SamProblemGetLaw(r.problem, "partial_friction", &law));
+    sam_assert(cases[k].says ? !law : law != NULL);
+    if (law) {
+      sam_call(SamLawAddParameters(law, &p));
+      sam_assert(p.count == 2 && !strcmp(SamParametersFind(&p, "friction_law")->text, "partial"));
+      sam_assert(SamParametersFind(&p, "friction_part")->value[0] == 0.25);
+    }
+    DestroyRead(&r);
+  }
+}
+
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_number_is_that_of_the_option),
-    cmocka_unit_test(test_field_is_that_of_the_file),
-    cmocka_unit_test(test_wrong_friction_is_refused),
+    cmocka_unit_test(test_number_is_that_of_the_option),           cmocka_unit_test(test_field_is_that_of_the_file),
+    cmocka_unit_test(test_words_are_those_of_the_registered_laws), cmocka_unit_test(test_wrong_friction_is_refused),
     cmocka_unit_test(test_wrong_values_of_the_file_are_named),
   };
 

@@ -38,8 +38,9 @@ static PetscErrorCode CreateTwo(SamLaw law)
 /* Laws act in the order in which their types were registered, whatever the order in which they are added. */
 static void test_laws_stand_in_the_order_of_their_types(void **state)
 {
-  static const char *const        added[]    = {SAM_LAW_SLIP_PATH, SAM_LAW_HARDNESS, SAM_LAW_ARCHARD},
-                           *const expected[] = {SAM_LAW_COULOMB, SAM_LAW_ARCHARD, SAM_LAW_HARDNESS, SAM_LAW_SLIP_PATH};
+  static const char *const        added[]    = {SAM_LAW_ACCUMULATED_SLIP, SAM_LAW_HARDNESS, SAM_LAW_ARCHARD},
+                           *const expected[] = {SAM_LAW_COULOMB, SAM_LAW_ARCHARD, SAM_LAW_HARDNESS,
+                                                SAM_LAW_ACCUMULATED_SLIP};
   Case                            c          = NewCase(Steel(), N, 1.5, MU, "");
   const SamLaw                   *laws;
   PetscInt                        count;

@@ -24,7 +24,7 @@ static void test_sums_are_those_of_the_committed_steps_and_the_tried_one(void **
   PetscBool has;
 
   (void)state;
-  sam_call(SamProblemAddLawOfType(c.problem, SAM_LAW_SLIP_PATH, NULL));
+  sam_call(SamProblemAddLawOfType(c.problem, SAM_LAW_ACCUMULATED_SLIP, NULL));
   sam_call(SamProblemAddLawOfType(c.problem, SAM_LAW_FRICTION_ENERGY, NULL));
   sam_fails(SamContactComputeFriction(c.contact, step[0], NULL, step[1]), PETSC_ERR_ORDER);
   for (int k = 0; k < STEPS; k++) {
@@ -81,7 +81,7 @@ static void test_sums_go_with_the_state(void **state)
     sam_call(SamContactGetState(one.contact, &held));
     sam_assert(SamStateFindField(held, "slip_path") >= 0 && SamStateFindField(held, "friction_energy") < 0);
     sam_fails(SamContactSetState(other.contact, held, PETSC_TRUE), PETSC_ERR_ARG_INCOMP); /* it would lose the sum */
-    sam_call(SamProblemAddLawOfType(other.problem, SAM_LAW_SLIP_PATH, NULL));
+    sam_call(SamProblemAddLawOfType(other.problem, SAM_LAW_ACCUMULATED_SLIP, NULL));
     sam_call(SamContactSetState(other.contact, held, PETSC_TRUE));
   }
   for (int k = 2; k < STEPS; k++) {

@@ -128,7 +128,7 @@ PETSC_INTERN PetscErrorCode SamLawCreate_Friction(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_Archard(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_Energy(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_Hardness(SamLaw law);
-PETSC_INTERN PetscErrorCode SamLawCreate_SlipPath(SamLaw law);
+PETSC_INTERN PetscErrorCode SamLawCreate_AccumulatedSlip(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_FrictionEnergy(SamLaw law);
 
 #endif
