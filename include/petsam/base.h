@@ -32,7 +32,7 @@
 #define SAM_ERR_FILE PETSC_ERR_FILE_OPEN
 
 /*
-  SamInitialize - registers petsam's classes and log events, and starts FFTW's MPI layer. Collective on
+  SamInitialize - registers petsam's classes and log events, and starts FFTW for MPI. Collective on
   PETSC_COMM_WORLD, after PetscInitialize(); calling it again does nothing. The public Create functions call it.
 */
 PETSC_EXTERN PetscErrorCode SamInitialize(void);

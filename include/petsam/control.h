@@ -24,12 +24,13 @@ typedef enum {
 /*
   SamComponentName - the names of a component's load, of its displacement and of its creepage, as options (without
   dash), histories and results spell them, with units and a description. Tx, Ty and Mz have a creepage, the change of
-  the displacement with the rolled distance; of the others its name is NULL.
+  the displacement with the rolled distance; of the others its name is NULL. In plane strain there is no Mx and no Mz.
 */
 typedef struct {
   const char *load, *load_unit, *load_text;
   const char *rigid, *rigid_unit, *rigid_text;
   const char *creep, *creep_unit, *creep_text;
+  PetscInt    axes; /* of a grid that has the component */
 } SamComponentName;
 PETSC_EXTERN const SamComponentName SamComponentNames[SAM_COMPONENTS];
 /* How a component is given. SamComponentNameOf - its name so, NULL: it cannot be given so. Not collective. */

@@ -6,7 +6,7 @@
 
 /*
   Where a traction t vanishes at the edge of a zone like the root of the distance, w = t^2 vanishes like the distance.
-  The cells next to the edge are wrong by a layer that is the same for all smooth edges; beyond it w is right, and a
+  The cells next to the edge are wrong in a margin that is the same for all smooth edges; beyond it w is right, and a
   quadratic function through it finds the edge: ten times more accurate than counting cells (theory: examples/edges).
 
   SamEdge - the edge of a zone.
@@ -31,8 +31,8 @@ typedef enum { SAM_EDGE_CONTACT, SAM_EDGE_STICK } SamEdgeOf;
   in any unit; 0 outside of the zone. When not NULL, `point` (one component) becomes w at the cells' centres: the
   reconstruction where it is accepted, negative beyond the edge, else w. Collective.
   A cell's reconstruction is accepted when there are enough cells behind it, they lie on a quadratic function, and what
-  it differs by from w is the layer of a smooth edge; and so for its eight neighbours. Rough surfaces and zones of a few
-  cells fail that, and are counted.
+  it differs by from w is that margin of a smooth edge; and so for its eight neighbours. Rough surfaces and zones of a
+  few cells fail that, and are counted.
 */
 PETSC_INTERN PetscErrorCode SamEdgeReconstruct(SamGrid grid, Vec w, Vec point, SamEdge *edge);
 /* SamEdgeDestroy - frees the points. Not collective. */

@@ -20,7 +20,9 @@ struct _n_SamGrid {
   PetscInt  cells;           /* this rank's cells: rows * nx */
   /* without what lies along y where fields do not vary with it, in the one row of plane strain: */
   PetscInt  axes;    /* 2: x and y; 1: x */
+  PetscInt  fewest;  /* cells along an axis */
   PetscReal side[2]; /* the shorter and the longer side of a cell (m) */
+  PetscReal area[2]; /* the sides in x, y of the area that a traction acts on (m); infinite along y where only x is */
   PetscReal length;  /* half the larger width: makes coordinates dimensionless (m) */
   PetscInt  references;
 };
@@ -54,6 +56,12 @@ PETSC_EXTERN PetscErrorCode SamGridCreateVec(SamGrid grid, PetscInt components, 
   on any number of ranks. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamGridNorm(SamGrid grid, Vec field, NormType type, PetscReal *norm);
+
+/* SamGridIsRow - whether fields do not vary along y: plane strain. Not collective. */
+static inline PetscBool SamGridIsRow(SamGrid grid)
+{
+  return grid->axes == 1 ? PETSC_TRUE : PETSC_FALSE;
+}
 
 /* Coordinates of the centre of column i and of row j (both global), m. */
 static inline PetscReal SamGridX(SamGrid grid, PetscInt i)

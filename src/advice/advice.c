@@ -112,7 +112,7 @@ static PetscErrorCode Estimate(const SamSetup *s, PetscBool force, PetscReal val
 {
   PetscFunctionBegin;
   half[1] = 0;
-  if (s->grid->axes == 1)
+  if (SamGridIsRow(s->grid))
     PetscCall(SamGapEstimateLine(s->gap, force ? value / SamPairModulus(s->pair) : 0, &half[0], known));
   else
     PetscCall(SamGapEstimateContact(s->gap, force, force ? value / SamPairModulus(s->pair) : value, half, known));
@@ -142,9 +142,9 @@ static void AdviseGrids(const SamSetup *s, const PetscReal half[2], double facto
     size[k] = PetscMin((double)s->grid->width[k], RoundUp(2 * ROOM * (double)half[k]));
     if (size[k] < 0.9 * (double)s->grid->width[k]) smaller = PETSC_TRUE;
   }
-  if (s->grid->axes == 1) {
-    more[1] = more[0];
-    size[1] = size[0];
+  for (PetscInt k = s->grid->axes; k < 2; k++) {
+    more[k] = more[0];
+    size[k] = size[0];
   }
   if (s->grid->nx == s->grid->ny && s->grid->width[0] == s->grid->width[1])
     size[0] = size[1] = PetscMax(size[0], size[1]);
@@ -163,13 +163,13 @@ static PetscErrorCode GetWidths(SamAdvice *a)
 {
   const SamSetup   *s       = a->setup;
   const SamControl *control = &a->step->control;
-  PetscReal         closed[2], cells;
+  const PetscReal   cell[2] = {s->grid->dx, s->grid->dy};
+  PetscReal         closed[2], cells = INFINITY;
   PetscBool         known;
 
   PetscFunctionBegin;
   PetscCall(Estimate(s, control->force[SAM_COMPONENT_N], control->value[SAM_COMPONENT_N], closed, &known));
-  cells =
-    2 * (s->grid->axes == 1 ? closed[0] / s->grid->dx : PetscMin(closed[0] / s->grid->dx, closed[1] / s->grid->dy));
+  for (PetscInt k = 0; k < s->grid->axes; k++) cells = PetscMin(cells, 2 * closed[k] / cell[k]);
   known     = known && fabs(cells - a->extent.across) <= SAME;
   a->across = known ? cells : a->extent.across;
   for (int k = 0; k < 2; k++) a->half[k] = known ? closed[k] : a->extent.half[k];
@@ -268,7 +268,7 @@ static void Cells(SamAdvice *a)
     (void)snprintf(zones, sizeof(zones), "in %lld spots, the narrow ones ", (long long)extent->zones);
   (void)snprintf(size, sizeof(size), "%.3g m by %.3g m on a grid of %.3g m by %.3g m", 2 * (double)half[0],
                  2 * (double)half[1], (double)s->grid->width[0], (double)s->grid->width[1]);
-  if (s->grid->axes == 1)
+  if (SamGridIsRow(s->grid))
     (void)snprintf(size, sizeof(size), "%.3g m on a grid of %.3g m", 2 * (double)half[0], (double)s->grid->width[0]);
   if (few)
     (void)snprintf(spots, sizeof(spots), "the contact is %s%.3g cells across (%s), fewer than %d", zones,
@@ -448,9 +448,9 @@ static void AdviseGrid(const SamSetup *s, const PetscReal half[2], const PetscRe
   if (n[0] == n[1] && s->grid->width[0] == s->grid->width[1]) width[0] = width[1] = PetscMax(width[0], width[1]);
   for (int k = 0; k < 2; k++)
     cells[k] = width[k] > (double)s->grid->width[k] ? 2 * ceil(0.5 * width[k] / (double)cell[k] - 1e-9) : n[k];
-  if (s->grid->axes == 1) {
-    width[1] = width[0];
-    cells[1] = cells[0];
+  for (PetscInt k = s->grid->axes; k < 2; k++) {
+    width[k] = width[0];
+    cells[k] = cells[0];
   }
   WritePair("grid_size", width, one);
   WritePair("grid_n", cells, other);

@@ -116,7 +116,7 @@ PetscErrorCode SamReportBanner(SamReport r, SamGrid grid, double bytes, const Sa
 
   PetscFunctionBegin;
   r->steps = start->steps;
-  r->row   = grid->axes == 1;
+  r->row   = SamGridIsRow(grid);
   SamReportChooseColumns(r, start->loads);
   if (r->quiet) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCallMPI(MPI_Comm_size(r->comm, &ranks));
@@ -128,7 +128,7 @@ PetscErrorCode SamReportBanner(SamReport r, SamGrid grid, double bytes, const Sa
   PetscCall(PetscPrintf(r->comm, "  %-10s  %d on %d node%s\n", "ranks", ranks, (int)nodes, nodes > 1 ? "s" : ""));
   PetscCall(PetscPrintf(r->comm, "  %-10s  %" PetscInt_FMT " x %" PetscInt_FMT " cells of %.6g m x %.6g m\n", "grid",
                         grid->nx, grid->ny, (double)grid->dx, (double)grid->dy));
-  if (grid->axes == 1)
+  if (r->row)
     PetscCall(PetscPrintf(r->comm, "  %-10s  strain: loads, areas, energies and volumes per metre of length%s\n",
                           "plane", ranks > 1 ? "; one rank works, the others wait" : ""));
   SamDescribeBytes(bytes, memory, sizeof(memory));

@@ -109,7 +109,7 @@ PetscErrorCode SamStepView(const SamStep *s, SamContact contact, PetscViewer vie
     const PetscBool         creep = rigid.name == name->creep, load = s->control.force[c];
     char                    fine[96] = "";
 
-    if (grid->axes == 1 && (c == SAM_COMPONENT_MX || c == SAM_COMPONENT_MZ)) continue;
+    if (name->axes > grid->axes) continue;
     if (creep) {
       double value;
 
@@ -123,9 +123,10 @@ PetscErrorCode SamStepView(const SamStep *s, SamContact contact, PetscViewer vie
                                      k == 0   ? "normal"
                                      : k == 3 ? "tangential"
                                               : "",
-                                     name->load, Rounded(s, c, s->load, sizes.load), grid->axes == 1 ? 5 : 3,
-                                     SamUnitOn(grid, name->load_unit), rigid.name, Rounded(s, c, s->rigid, sizes.rigid),
-                                     rigid.unit, given[SamControlWay(&s->control, c)], fine));
+                                     name->load, Rounded(s, c, s->load, sizes.load),
+                                     (int)strlen(SamUnitOn(grid, "N m")), SamUnitOn(grid, name->load_unit), rigid.name,
+                                     Rounded(s, c, s->rigid, sizes.rigid), rigid.unit,
+                                     given[SamControlWay(&s->control, c)], fine));
   }
   if (s->status != SAM_STATUS_NO_EQUILIBRIUM) PetscCall(ViewSolution(s, contact, &sizes, viewer));
   PetscFunctionReturn(PETSC_SUCCESS);

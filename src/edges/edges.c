@@ -3,12 +3,12 @@
 
   Take a straight edge. The discrete problem there is a Toeplitz system on a half-line, and by Wiener and Hopf's method
   every solution that grows like a root is, far from the edge, alpha (sqrt(j + s) + kappa(s) j^-3/2 + ...) in cell j: it
-  has an edge of its own between the cells, at -s. The error of first order is a layer of two cells. So:
+  has an edge of its own between the cells, at -s. The error of first order is a margin of two cells. So:
     1. Core: cells of the zone farther than BAND from any cell outside. A quadratic function is fitted to w in the core
        cells of a window about each cell of the band, and evaluated there.
-    2. The tail of the layer makes the core's edge lie too far out, by SHIFT of a cell in the mean over all places of an
+    2. The tail of the margin makes the core's edge lie too far out, by SHIFT of a cell in the mean over all places of an
        edge between centres. In plane strain the edge has one such place, and the shift is that of the place (Line()).
-    3. Guard: the difference to w must be that of the layer, whose shape is the same for all smooth edges.
+    3. Guard: the difference to w must be that of the margin, whose shape is the same for all smooth edges.
     4. Areas: the part of each cell of the band where the function is positive, by sub-cells. Where it is refused, a
        cell counts less FACE for each of its faces to a cell outside, unless w is BLUNT there.
   Distances are in cells.
@@ -17,7 +17,7 @@
 #include <math.h>
 
 #define BAND   2.5    /* distance of the core from the cells outside */
-#define LAST   6      /* largest squared distance of cells that the layer of an edge makes wrong */
+#define LAST   6      /* largest squared distance of cells that the margin of an edge makes wrong */
 #define WINDOW 5      /* half width of the window that they are reconstructed from, cells */
 #define SHIFT  0.0105 /* of the edge; fitted on circles and ellipses, within 5 % the same for all */
 #define BENT   0.005  /* largest deviation of the core from the function, rms over the slope of a cell */
@@ -27,8 +27,8 @@
 #define HALO   (WINDOW + 5)
 
 /* Layers of the band by squared distance, and the least and largest (w less its reconstruction)/slope in them. */
-static const int    layer_last[]  = {1, 4, LAST};
-static const double layer_least[] = {-0.15, -0.03, -0.03}, layer_most[] = {0.20, 0.12, 0.06};
+static const int    margin_last[]  = {1, 4, LAST};
+static const double margin_least[] = {-0.15, -0.03, -0.03}, margin_most[] = {0.20, 0.12, 0.06};
 
 #define OUT_LEAST (-0.2) /* a reconstruction over the slope, of a cell of the zone */
 #define IN_MOST   0.25   /* of a cell outside */
@@ -59,12 +59,12 @@ static double Line(const SamZone *z, PetscInt i, const double fit[SAM_FIT_TERMS]
   return c[0] + u * (c[1] + u * (c[2] + u * c[3]));
 }
 
-/* The function about a cell by the zone's cells behind the layer of the edge; false: there are too few of them. */
+/* The function about a cell by the zone's cells behind the margin of the edge; false: there are too few of them. */
 static PetscBool Extrapolate(const SamZone *z, const SamFitWindow *core, PetscInt i, PetscInt j,
                              double fit[SAM_FIT_TERMS], double *bent)
 {
   if (!SamFit(z, core, i, j, fit, bent)) return PETSC_FALSE;
-  fit[0] -= (z->grid->axes == 1 ? Line(z, i, fit) : SHIFT) * hypot(fit[1], fit[2]);
+  fit[0] -= (SamGridIsRow(z->grid) ? Line(z, i, fit) : SHIFT) * hypot(fit[1], fit[2]);
   return PETSC_TRUE;
 }
 
@@ -72,17 +72,17 @@ static PetscBool Extrapolate(const SamZone *z, const SamFitWindow *core, PetscIn
 static PetscBool Reconstruct(const SamZone *z, const SamFitWindow *core, PetscInt i, PetscInt j,
                              double fit[SAM_FIT_TERMS])
 {
-  const ptrdiff_t k     = SamZoneAt(z, i, j);
-  double          bent  = 0, slope, over;
-  int             layer = 0;
+  const ptrdiff_t k      = SamZoneAt(z, i, j);
+  double          bent   = 0, slope, over;
+  int             margin = 0;
 
   if (!Extrapolate(z, core, i, j, fit, &bent)) return PETSC_FALSE;
   slope = hypot(fit[1], fit[2]);
   if (!(bent < BENT * slope)) return PETSC_FALSE;
   if (z->distance[k] < 0) return fit[0] < IN_MOST * slope;
-  while (z->distance[k] > layer_last[layer]) layer++;
+  while (z->distance[k] > margin_last[margin]) margin++;
   over = (z->w[k] - fit[0]) / slope;
-  return fit[0] > OUT_LEAST * slope && over >= layer_least[layer] && over <= layer_most[layer];
+  return fit[0] > OUT_LEAST * slope && over >= margin_least[margin] && over <= margin_most[margin];
 }
 
 /* Whether a cell of the band and all its neighbours look like a smooth edge. */

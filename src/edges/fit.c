@@ -96,14 +96,14 @@ static PetscInt FactorOf(const SamZone *z, const SamFitWindow *window, PetscInt 
 {
   const PetscInt half  = window->half;
   const Range    range = RangeOf(z, half, i, j);
-  const PetscInt least = z->grid->axes == 1 ? SAM_FIT_LEAST_LINE : SAM_FIT_LEAST;
+  const PetscInt least = SamGridIsRow(z->grid) ? SAM_FIT_LEAST_LINE : SAM_FIT_LEAST;
   PetscInt       count = 0;
 
   for (int n = 0; n < PRODUCTS; n++) factor[n] = 0;
   for (PetscInt b = range.low; b <= range.high; b++)
     count += AddProducts(range.right - range.left + 1, z->distance + SamZoneAt(z, range.left, b), window->least,
                          window->products + (b - j + half) * (2 * half + 1) + range.left - i + half, factor);
-  return count >= least && Factor(z->grid->axes == 1, factor) ? count : 0;
+  return count >= least && Factor(SamGridIsRow(z->grid), factor) ? count : 0;
 }
 
 /* What the values of cells add to a fit: to the terms, and the sum of their squares. */

@@ -56,7 +56,7 @@ PetscErrorCode SamBodyCreate(PetscInt count, const SamMaterial materials[], SamB
   (*body)->references = 1;
   (*body)->count      = count;
   PetscCall(PetscArraycpy((*body)->material, materials, count));
-  (*body)->material[count - 1].thickness = PETSC_INFINITY;
+  (*body)->material[count - 1].thickness = INFINITY;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

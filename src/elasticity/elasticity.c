@@ -62,7 +62,7 @@ PetscErrorCode SamElasticityCreate(SamGrid grid, SamPair pair, SamElasticity *el
   for (PetscInt k = 0; k < 2; k++) e->factor[k] = 1;
   PetscCall(SamGridReference(grid));
   e->grid = grid;
-  PetscCall(SamElasticitySetType(e, grid->axes == 1 ? SAM_ELASTICITY_PLANE : SAM_ELASTICITY_HALFSPACE));
+  PetscCall(SamElasticitySetType(e, SamGridIsRow(grid) ? SAM_ELASTICITY_PLANE : SAM_ELASTICITY_HALFSPACE));
   *elasticity = e;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -199,7 +199,7 @@ PetscErrorCode SamElasticitySetUp(SamElasticity e)
 {
   PetscFunctionBegin;
   if (e->is_set_up) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCheck(e->traits.plane == (e->grid->axes == 1), e->grid->comm, PETSC_ERR_ARG_SIZ,
+  PetscCheck(e->traits.plane == SamGridIsRow(e->grid), e->grid->comm, PETSC_ERR_ARG_SIZ,
              "Elasticity of type %s: a grid of one row is for plane types, and these need one", e->type);
   e->is_set_up = PETSC_TRUE;
   if (e->inner) PetscCall(SamElasticitySetUp(e->inner));
@@ -315,7 +315,7 @@ PetscErrorCode SamElasticityCreateFromParameters(SamGrid grid, const SamParamete
   PetscCall(SamElasticityCreate(grid, pair, elasticity));
   PetscCall(SamPairDestroy(&pair));
   PetscCall(SamElasticitySetType(*elasticity, type->text));
-  PetscCheck((*elasticity)->traits.plane == (grid->axes == 1), grid->comm, SAM_ERR_FILE,
+  PetscCheck((*elasticity)->traits.plane == SamGridIsRow(grid), grid->comm, SAM_ERR_FILE,
              "%s: cannot be read: its elasticity %s does not fit its grid of %" PetscInt_FMT " rows", source,
              type->text, grid->ny);
   for (SamElasticity e = *elasticity; e; e = e->inner)
@@ -334,7 +334,7 @@ PetscErrorCode SamElasticitySetInner(SamElasticity e, SamElasticityType type)
   PetscCall(SamElasticitySetOptionsPrefix(inner, e->prefix));
   PetscCall(PetscArraycpy(inner->first, e->first, 2));
   PetscCall(PetscArraycpy(inner->factor, e->factor, 2));
-  PetscCall(SamElasticitySetType(inner, type));
+  if (type) PetscCall(SamElasticitySetType(inner, type));
   PetscCall(SamElasticityDestroy(&e->inner));
   e->inner  = inner;
   e->traits = inner->traits;
@@ -391,7 +391,7 @@ PetscErrorCode SamElasticityCreateLike(SamElasticity parent, SamGrid grid, const
 PetscErrorCode SamElasticityGetCoarse(SamElasticity e, SamElasticity *coarse, SamTransfer *transfer)
 {
   PetscFunctionBegin;
-  if (!e->coarse && (e->grid->axes == 1 ? e->grid->nx : PetscMin(e->grid->nx, e->grid->ny)) >= COARSEST) {
+  if (!e->coarse && e->grid->fewest >= COARSEST) {
     SamGrid grid;
 
     PetscCall(SamGridCoarsen(e->grid, &grid));

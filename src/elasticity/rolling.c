@@ -93,7 +93,7 @@ static PetscErrorCode Create(SamElasticity e)
   e->ops = (SamElasticityOps){.applytangential       = ApplyTangential,
                               .applytangentialsingle = ApplyTangentialSingle,
                               .getselfinfluence      = GetSelfInfluence};
-  PetscCall(SamElasticitySetInner(e, e->grid->axes == 1 ? SAM_ELASTICITY_PLANE : SAM_ELASTICITY_HALFSPACE));
+  PetscCall(SamElasticitySetInner(e, NULL));
   if (e->traits.coupled) e->ops.applynormaltotangential = ApplyNormalToTangential;
   e->traits.upwind = PETSC_TRUE;
   e->film          = 0; /* it is a part of the operator */

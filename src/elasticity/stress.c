@@ -99,7 +99,7 @@ static void GetRows(PetscInt j, PetscInt n, double *const values[], const void *
 {
   const Rows  *rows    = (const Rows *)context;
   SamStress    s       = rows->stress;
-  const double side[2] = {(double)s->grid->dx, (double)s->grid->dy};
+  const double side[2] = {(double)s->grid->area[0], (double)s->grid->area[1]};
 
   (*s->ops.row)(s, side, (double)s->depth, rows->group, j, n, values);
 }

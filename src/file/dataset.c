@@ -207,21 +207,21 @@ void SamFileReadBlock(SamFile f, hid_t dataset, hid_t type, const SamBlock *bloc
   (void)SamFileNote(f, H5Sclose(memory));
 }
 
-static SamBlock LayerOf(SamGrid grid, hsize_t layer)
+static SamBlock FrameOf(SamGrid grid, hsize_t frame)
 {
-  return (SamBlock){3, {layer, (hsize_t)grid->row_start, 0}, {1, (hsize_t)grid->rows, (hsize_t)grid->nx}};
+  return (SamBlock){3, {frame, (hsize_t)grid->row_start, 0}, {1, (hsize_t)grid->rows, (hsize_t)grid->nx}};
 }
 
-void SamFileWriteLayer(SamFile f, hid_t dataset, hid_t type, hsize_t layer, const void *values)
+void SamFileWriteFrame(SamFile f, hid_t dataset, hid_t type, hsize_t frame, const void *values)
 {
-  const SamBlock block = LayerOf(f->grid, layer);
+  const SamBlock block = FrameOf(f->grid, frame);
 
   SamFileWriteBlock(f, dataset, type, &block, values);
 }
 
-void SamFileReadLayer(SamFile f, hid_t dataset, hid_t type, hsize_t layer, void *values)
+void SamFileReadFrame(SamFile f, hid_t dataset, hid_t type, hsize_t frame, void *values)
 {
-  const SamBlock block = LayerOf(f->grid, layer);
+  const SamBlock block = FrameOf(f->grid, frame);
 
   SamFileReadBlock(f, dataset, type, &block, values);
 }

@@ -299,8 +299,7 @@ PetscErrorCode SamConvolve(SamFourier F, const SamKernelMatrix *M, const double 
   if (FindNine(M, &factors.nine)) factors.multiply = MultiplyThree;
   if (factors.multiply == MultiplyGeneral)
     for (PetscInt o = 0; o < M->n_out; o++)
-      PetscCall(
-        SamAllocate(sizeof(*factors.column[o]) * (size_t)(F->grid->axes == 1 ? F->hx + 1 : F->hy), &factors.column[o]));
+      PetscCall(SamAllocate(sizeof(*factors.column[o]) * (size_t)(F->row ? F->hx + 1 : F->hy), &factors.column[o]));
   PetscCall(SamFourierApply(F, &filter, in, out));
   for (PetscInt o = 0; o < M->n_out; o++) SamFree(factors.column[o]);
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -140,8 +140,9 @@ PetscErrorCode SamFourierCreate(SamGrid grid, SamFourierPeriod period, const Sam
   if (!settings) settings = &usual;
   PetscCall(SamGridReference(grid));
   F->grid   = grid;
+  F->row    = SamGridIsRow(grid);
   F->hx     = period == SAM_FOURIER_EXACT ? (ptrdiff_t)grid->nx : SamFourierFastLength(grid->nx);
-  F->hy     = period == SAM_FOURIER_EXACT || grid->axes == 1 ? (ptrdiff_t)grid->ny : SamFourierFastLength(grid->ny);
+  F->hy     = period == SAM_FOURIER_EXACT || F->row ? (ptrdiff_t)grid->ny : SamFourierFastLength(grid->ny);
   F->effort = PlanningFlag(settings, PetscMax(F->hx, F->hy));
   /* whole cache lines, and one more, so that the columns of a block do not compete for the same cache sets */
   F->stride = (PetscInt)(F->hy + 7) / 8 * 8 + 8;

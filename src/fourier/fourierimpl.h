@@ -91,6 +91,7 @@ struct _n_SamKernel {
 
 struct _n_SamFourier {
   SamGrid            grid;
+  PetscBool          row;    /* fields do not vary along y, and are transformed along x alone */
   unsigned           effort; /* FFTW's planning flag */
   ptrdiff_t          hx, hy;
   PetscInt           stride;     /* between columns in the buffers */

@@ -130,7 +130,7 @@ static PetscErrorCode TransformColumns(SamFourier F, SamKernel kernel, const Sam
   const ptrdiff_t n = F->hy + 1, even = F->hy / 2 + 1;
   const double    sign =
     (kernel->odd_x || kernel->odd_y) ? -1 : 1; /* odd in both: i^2; in one: Multiply's -i makes it 1 */
-  const double scale = sign / ((F->grid->axes == 1 ? 2.0 : 4.0) * (double)F->hx * (double)F->hy);
+  const double scale = sign / ((double)(1 << F->grid->axes) * (double)F->hx * (double)F->hy);
   double      *buffer;
   Mirrored     m;
 
@@ -144,7 +144,7 @@ static PetscErrorCode TransformColumns(SamFourier F, SamKernel kernel, const Sam
     if (k % BLOCK == 0) Gather(pieces, k, PetscMin(BLOCK, kernel->columns - k), F->stride, buffer);
     PetscCall(PetscArraycpy(m.line, buffer + k % BLOCK * F->stride, (size_t)n));
     from = MirroredTransform(&m);
-    if (F->grid->axes == 1) {
+    if (F->row) {
       kernel->values[k] = scale * from[0];
       continue;
     }

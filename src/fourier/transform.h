@@ -401,7 +401,7 @@ PetscErrorCode APPLY(SamFourier F, const SamFourierFilter *filter, const Real *c
     PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_FFT_TRANSPOSE], 0, 0, 0, 0));
   }
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_FFT_COLUMNS], 0, 0, 0, 0));
-  if (F->grid->axes == 1)
+  if (F->row)
     FilterRow(F, filter);
   else
     Columns(F, filter);

@@ -67,9 +67,17 @@ PetscErrorCode SamGridCreate(MPI_Comm comm, const PetscInt n[2], const PetscReal
   g->dx      = width[0] / (PetscReal)n[0];
   g->dy      = width[1] / (PetscReal)n[1];
   g->axes    = n[1] == 1 ? 1 : 2;
-  g->side[0] = g->axes == 1 ? g->dx : PetscMin(g->dx, g->dy);
-  g->side[1] = g->axes == 1 ? g->dx : PetscMax(g->dx, g->dy);
-  g->length  = 0.5 * (g->axes == 1 ? width[0] : PetscMax(width[0], width[1]));
+  g->fewest  = n[0];
+  g->side[0] = g->side[1] = g->area[0] = g->dx;
+  g->area[1]                           = INFINITY;
+  g->length                            = 0.5 * width[0];
+  if (!SamGridIsRow(g)) {
+    g->fewest  = PetscMin(n[0], n[1]);
+    g->side[0] = PetscMin(g->dx, g->dy);
+    g->side[1] = PetscMax(g->dx, g->dy);
+    g->area[1] = g->dy;
+    g->length  = 0.5 * PetscMax(width[0], width[1]);
+  }
   SamGridRowsOf(g, size, rank, &g->row_start, &end);
   g->rows  = end - g->row_start;
   g->cells = g->rows * n[0];

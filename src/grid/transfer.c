@@ -189,7 +189,7 @@ static void InterpolateComponent(SamTransfer t, const double rows[], double row[
 
     Between(t->fine->row_start + j, t->fine->ny, t->coarse->ny, &J, &ty);
     below = rows + (J - t->coarse_rows.first) * N;
-    above = t->coarse->ny > 1 ? below + N : below;
+    above = below + (t->coarse->axes - 1) * N;
     for (PetscInt l = 0; l < N; l++) row[l] = (1 - ty) * below[l] + ty * above[l];
     for (PetscInt i = 0; i < n; i++) {
       const PetscInt l  = t->left[i];

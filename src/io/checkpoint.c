@@ -66,9 +66,9 @@ static PetscErrorCode MoveField(SamFile f, const char name[], PetscInt component
   PetscCall(VecGetArray(field, &values));
   for (PetscInt c = 0; c < components; c++)
     if (f->writing)
-      SamFileWriteLayer(f, dataset, H5T_NATIVE_DOUBLE, (hsize_t)c, values + c * f->grid->cells);
+      SamFileWriteFrame(f, dataset, H5T_NATIVE_DOUBLE, (hsize_t)c, values + c * f->grid->cells);
     else
-      SamFileReadLayer(f, dataset, H5T_NATIVE_DOUBLE, (hsize_t)c, values + c * f->grid->cells);
+      SamFileReadFrame(f, dataset, H5T_NATIVE_DOUBLE, (hsize_t)c, values + c * f->grid->cells);
   PetscCall(VecRestoreArray(field, &values));
   if (dataset >= 0) (void)SamFileNote(f, H5Dclose(dataset));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -183,7 +183,7 @@ static PetscErrorCode GetFileValues(SamOutput to, PetscInt f, void *context, con
     *values = &to->points;
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  SamFileReadLayer(from->output->f, from->output->fields[f], type, from->index, from->cells);
+  SamFileReadFrame(from->output->f, from->output->fields[f], type, from->index, from->cells);
   *values = from->cells;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -107,7 +107,7 @@ typedef struct {
 /*
   SamFileCreateVTK - creates the group VTKHDF of the file; returns its attribute with the number of steps, -1 without
   one.
-  SamFileCountVTK - sets that number for a layer of cells that was created without a step.
+  SamFileCountVTK - sets that number for a sheet of cells that was created without a step.
   Both note their failures, and are collective.
 */
 PETSC_INTERN hid_t SamFileCreateVTK(SamFile file, const SamImage *image);

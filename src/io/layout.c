@@ -229,11 +229,11 @@ static void CreateSeries(SamOutput o, SamSeries kind)
   }
 }
 
-/* For VTK the results are one layer of cells. */
+/* For VTK the results are one sheet of cells. */
 static void CreateVTK(SamOutput o)
 {
-  const SamGrid g     = o->grid;
-  const double  dy    = g->axes == 1 ? g->dx : g->dy; /* a row of squares, not of sticks of 1 m */
+  const SamGrid g       = o->grid;
+  const double  sides[] = {g->dx, g->dy}, dy = sides[g->axes - 1]; /* a row of squares, not of sticks of 1 m */
   SamImage      image = {.cells   = PETSC_TRUE,
                          .n       = {(hsize_t)g->nx, (hsize_t)g->ny, 0},
                          .origin  = {SamGridX(g, 0) - 0.5 * g->dx, SamGridY(g, 0) - 0.5 * dy, 0},

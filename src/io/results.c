@@ -317,7 +317,7 @@ PetscErrorCode SamResultsRead(SamResults r, PetscInt k, SamResultsField field, d
   PetscCheck(r->facts.has[field], r->grid->comm, SAM_ERR_FILE, "-%s %s: has no dataset %s", r->file->option,
              r->file->filename, fields[field]);
   PetscCall(SamFileBegin(r->file));
-  SamFileReadLayer(r->file, r->field[field], H5T_NATIVE_DOUBLE, (hsize_t)k, values);
+  SamFileReadFrame(r->file, r->field[field], H5T_NATIVE_DOUBLE, (hsize_t)k, values);
   PetscCall(SamFileEnd(r->file));
   PetscCall(CheckFinite(r, r->grid->cells, values, fields[field], r->saved_step[k]));
   PetscFunctionReturn(PETSC_SUCCESS);

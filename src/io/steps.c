@@ -165,7 +165,7 @@ static void AppendField(SamOutput o, hid_t dataset, hid_t type, const void *valu
   const hsize_t size[3] = {o->saved + 1, (hsize_t)o->grid->ny, (hsize_t)o->grid->nx};
 
   (void)SamFileNote(o->f, H5Dset_extent(dataset, size));
-  SamFileWriteLayer(o->f, dataset, type, o->saved, values);
+  SamFileWriteFrame(o->f, dataset, type, o->saved, values);
 }
 
 /* In single precision, made here: HDF5 would have each rank write by itself, which compressed fields do not allow. */

@@ -4,7 +4,7 @@
   The group describes an image of cells or points, with a series of steps (VTKHDF file format 2.0, https://docs.vtk.org,
   "VTKHDF File Format"). It links to the datasets of the file, so that nothing is stored twice.
 
-  VTK (9.3 to 9.7) expects no dimension of time where there is one step. So a single layer of cells with one step is
+  VTK (9.3 to 9.7) expects no dimension of time where there is one step. So a single sheet of cells with one step is
   described as a slab whose third dimension is the time, until there is a second step; and a volume with one step is
   described as two steps with the same values.
 */

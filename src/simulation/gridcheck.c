@@ -17,9 +17,8 @@ PetscErrorCode SamSimulationReadGridCheck(SamSimulation s, const SamOptions *fro
 
   PetscFunctionBegin;
   PetscCall(SamOptionsRead(from, NULL, 1, &row, &s->needs.grid_check, NULL));
-  PetscCheck(!s->needs.grid_check ||
-               (s->setup.grid->nx >= LEAST && (s->setup.grid->axes == 1 || s->setup.grid->ny >= LEAST)),
-             from->comm, SAM_ERR_USER, "-grid_check needs at least %d cells in x and in y (-grid_n)", LEAST);
+  PetscCheck(!s->needs.grid_check || s->setup.grid->fewest >= LEAST, from->comm, SAM_ERR_USER,
+             "-grid_check needs at least %d cells in x and in y (-grid_n)", LEAST);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -87,7 +86,7 @@ static PetscErrorCode Compare(SamSimulation s, SamContact coarse, const double s
 {
   const SamGrid grid  = s->setup.grid;
   const double  cells = (double)grid->nx * (double)grid->ny / ((double)check->n[0] * (double)check->n[1]),
-               ratio  = grid->axes == 1 ? cells : sqrt(cells);
+               ratio  = SamGridIsRow(grid) ? cells : sqrt(cells);
   const SamSolution *fine;
 
   PetscFunctionBegin;

@@ -197,7 +197,7 @@ static PetscErrorCode SumCells(SamProblem problem, const SamSolution *last, cons
 /* Whether cell i of row j of the grid and those about it are in contact: the edge of contact is farther. */
 static PetscBool IsInside(const SamSeen *p, PetscInt i, PetscInt j)
 {
-  const PetscInt rows = p->rows.grid->axes == 1 ? 0 : BEHIND;
+  const PetscInt rows = (p->rows.grid->axes - 1) * BEHIND;
 
   for (PetscInt b = j - rows; b <= j + rows; b++)
     for (PetscInt a = i - BEHIND; a <= i + BEHIND; a++)
@@ -213,7 +213,7 @@ static double SquareAt(const SamSeen *p, double x, double y)
   const PetscInt nx = p->rows.grid->nx, i = (PetscInt)floor(x), j = (PetscInt)floor(y);
   const double   tx = x - (double)i, ty = y - (double)j, *q = p->at[0] + (ptrdiff_t)(j - p->rows.first) * nx + i;
 
-  if (p->rows.grid->axes == 1) return (1 - tx) * q[0] * q[0] + tx * q[1] * q[1];
+  if (SamGridIsRow(p->rows.grid)) return (1 - tx) * q[0] * q[0] + tx * q[1] * q[1];
   return (1 - ty) * ((1 - tx) * q[0] * q[0] + tx * q[1] * q[1]) +
          ty * ((1 - tx) * q[nx] * q[nx] + tx * q[nx + 1] * q[nx + 1]);
 }

@@ -6,14 +6,14 @@
 #include <string.h>
 
 const SamComponentName SamComponentNames[SAM_COMPONENTS] = {
-  {"load_n", "N", "normal force", "disp_z", "m", "rigid-body displacement along z (approach)", NULL, NULL, NULL},
+  {"load_n", "N", "normal force", "disp_z", "m", "rigid-body displacement along z (approach)", NULL, NULL, NULL, 1},
   {"load_tx", "N", "tangential force along x", "disp_x", "m", "rigid-body displacement along x", "creep_x", "1",
-   "creepage along x"},
+   "creepage along x", 1},
   {"load_ty", "N", "tangential force along y", "disp_y", "m", "rigid-body displacement along y", "creep_y", "1",
-   "creepage along y"},
-  {"load_mx", "N m", "moment about x", "rot_x", "rad", "rotation about x", NULL, NULL, NULL},
-  {"load_my", "N m", "moment about y", "rot_y", "rad", "rotation about y", NULL, NULL, NULL},
-  {"load_mz", "N m", "moment about z", "rot_z", "rad", "rotation about z", "creep_spin", "1/m", "spin"}};
+   "creepage along y", 1},
+  {"load_mx", "N m", "moment about x", "rot_x", "rad", "rotation about x", NULL, NULL, NULL, 2},
+  {"load_my", "N m", "moment about y", "rot_y", "rad", "rotation about y", NULL, NULL, NULL, 1},
+  {"load_mz", "N m", "moment about z", "rot_z", "rad", "rotation about z", "creep_spin", "1/m", "spin", 2}};
 
 #define BULK(body, k, component) \
   { \
@@ -79,7 +79,7 @@ const char *SamUnitOn(SamGrid grid, const char unit[])
                                          {"m3", "m3/m"},
                                          {"N/m, N/rad, N, N m/rad", "N/m2, N/(m rad), N/m, N/rad"}};
 
-  for (size_t k = 0; grid->axes == 1 && k < sizeof(units) / sizeof(units[0]); k++)
+  for (size_t k = 0; SamGridIsRow(grid) && k < sizeof(units) / sizeof(units[0]); k++)
     if (!strcmp(unit, units[k][0])) return units[k][1];
   return unit;
 }

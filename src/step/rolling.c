@@ -71,9 +71,11 @@ static PetscErrorCode CreateCoarse(SamSolve *w, Coarse *k)
   k->normal     = SamControlGetBalance(&w->s->control, SAM_BALANCE_NORMAL);
   k->tangential = SamControlGetBalance(&w->s->control, SAM_BALANCE_TANGENTIAL);
   for (PetscInt n = 0; n < 3; n++) { /* the loads that were found: the same contact; the creepages are the start */
+    const PetscInt c = SamComponentsOf[SAM_BALANCE_NORMAL][n];
+
     if (k->tangential.force[n]) k->tangential.rigid[n] = w->rigid[n];
-    k->normal.force[n] = n != 1 || k->grid->ny > 1; /* no Mx in plane strain */
-    k->normal.load[n]  = w->s->load[SamComponentsOf[SAM_BALANCE_NORMAL][n]];
+    k->normal.force[n] = SamComponentNames[c].axes <= k->grid->axes;
+    k->normal.load[n]  = w->s->load[c];
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -189,7 +189,7 @@ static PetscErrorCode FindHalfWidth(SamEvaluation e)
   PetscCall((*e->source.number)(e->source.context, most, SAM_STEP_NUMBER, &number));
   e->layout.half      = 0.5 * area;
   e->layout.half_step = (PetscInt)number;
-  if (e->grid->axes > 1) {
+  if (!SamGridIsRow(e->grid)) {
     PetscCall(RatioOfAxes(e, most, &ratio));
     e->layout.half = sqrt(area / PETSC_PI * ratio);
   }
@@ -220,7 +220,7 @@ static PetscErrorCode SplitInterfaces(SamEvaluation e)
 {
   const SamBody   body = SamEvaluationBody(e);
   const PetscInt  last = SamBodyCount(body) - 1;
-  const PetscReal base = isinf(SamBodyBulk(body)->young) ? SamBodyTop(body, last) : PETSC_INFINITY; /* is rigid */
+  const PetscReal base = isinf(SamBodyBulk(body)->young) ? SamBodyTop(body, last) : INFINITY; /* is rigid */
   PetscReal      *depth;
   int            *side;
   PetscInt        n = 0;

@@ -101,7 +101,7 @@ static PetscErrorCode FindLine(SamEvaluation e)
 
   PetscFunctionBegin;
   if (!e->section) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCheck(row || g->ny > 1, e->comm, SAM_ERR_USER,
+  PetscCheck((PetscInt)e->axis < g->axes, e->comm, SAM_ERR_USER,
              "-section x=%.6g: a plane problem has no section along y: give y=0, or omit it", (double)e->place);
   PetscCheck(at >= -0.5 - 1e-9 && at <= (PetscReal)n - 0.5 + 1e-9, e->comm, SAM_ERR_USER,
              "-section %s=%.6g: outside of the grid, which reaches from %.6g to %.6g m", row ? "y" : "x",

@@ -95,7 +95,7 @@ PetscErrorCode SamSectionCreate(SamStress stress, SamSectionAxis axis, PetscInt 
 {
   const SamGrid  grid    = stress->grid;
   const PetscInt cells[] = {grid->nx, grid->ny};
-  const double   sides[] = {(double)grid->dx, (double)grid->dy};
+  const double   sides[] = {(double)grid->area[0], (double)grid->area[1]};
   const PetscInt along = axis == SAM_SECTION_X ? 0 : 1, across = 1 - along;
   SamSection     s;
 

@@ -83,7 +83,7 @@ struct _n_SamElasticity {
   PetscBool         in_part;  /* it is in use; else none is */
 };
 
-/* SamElasticitySetInner - makes the object that a type adds to, in the place of one before. Collective. */
+/* SamElasticitySetInner - makes the object that a type adds to, in the place of one before; NULL: half-spaces. */
 PETSC_EXTERN PetscErrorCode SamElasticitySetInner(SamElasticity elasticity, SamElasticityType type);
 /*
   SamElasticityCreateLike - on another grid: the same type, bodies and settings. `first`: the cell of the parent's grid

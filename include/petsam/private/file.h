@@ -119,9 +119,9 @@ typedef struct {
 /* SamFileWriteBlock, SamFileReadBlock - write or read this rank's block of a dataset. */
 PETSC_INTERN void SamFileWriteBlock(SamFile file, hid_t dataset, hid_t type, const SamBlock *block, const void *values);
 PETSC_INTERN void SamFileReadBlock(SamFile file, hid_t dataset, hid_t type, const SamBlock *block, void *values);
-/* One layer of a dataset of shape (layers, ny, nx): each rank writes or reads its rows of the file's grid. */
-PETSC_INTERN void SamFileWriteLayer(SamFile file, hid_t dataset, hid_t type, hsize_t layer, const void *values);
-PETSC_INTERN void SamFileReadLayer(SamFile file, hid_t dataset, hid_t type, hsize_t layer, void *values);
+/* One frame of a dataset of shape (frames, ny, nx): each rank writes or reads its rows of the file's grid. */
+PETSC_INTERN void SamFileWriteFrame(SamFile file, hid_t dataset, hid_t type, hsize_t frame, const void *values);
+PETSC_INTERN void SamFileReadFrame(SamFile file, hid_t dataset, hid_t type, hsize_t frame, void *values);
 /*
   SamFileIsWhole - whether the data of a dataset lie within the file; in a damaged one they may be anywhere. `extent`:
   the places in each dimension that matter, NULL: all. `every`: all of them must have been written. On one rank, of a

@@ -54,7 +54,7 @@ static PetscErrorCode FillTable(SamElasticity e, double table[])
 static PetscErrorCode Fill(SamBody body, const double d[2], double matrix[])
 {
   const PetscReal   width[2] = {LAGS * d[0], LAGS * d[1]}, center[2] = {0, 0};
-  const SamMaterial rigid = {.young = PETSC_INFINITY};
+  const SamMaterial rigid = {.young = INFINITY};
   SamElasticity     e;
   SamGrid           grid;
   SamBody           above;

@@ -301,8 +301,7 @@ typedef struct {
 static void Row(SamStress stress, const double side[2], double depth, SamStressGroup group, PetscInt j, PetscInt n,
                 double *const values[SAM_STRESS_GROUP])
 {
-  const double             across = stress->grid->axes == 1 ? INFINITY : side[1];
-  const SamHalfSpaceSource source = {{side[0], across}, depth, (double)((const Constants *)stress->data)->poisson};
+  const SamHalfSpaceSource source = {{side[0], side[1]}, depth, (double)((const Constants *)stress->data)->poisson};
 
   SamHalfSpaceStressRow(&source, group, j, n, values);
 }

@@ -34,8 +34,7 @@ typedef struct {
 
 static PetscErrorCode CreateMap(SamGrid grid, PetscReal poisson, Vec field, Map *m)
 {
-  const double             dy     = grid->axes == 1 ? INFINITY : (double)grid->dy;
-  const SamHalfSpaceSource source = {{(double)grid->dx, dy}, 0, (double)poisson};
+  const SamHalfSpaceSource source = {{(double)grid->area[0], (double)grid->area[1]}, 0, (double)poisson};
 
   PetscFunctionBegin;
   *m = (Map){.grid = grid, .poisson = (double)poisson};
@@ -170,7 +169,7 @@ static void AddInside(const Map *m, PetscInt i, PetscInt j, const double at[2], 
                       double stress[PLANE])
 {
   const double dx = (double)m->grid->dx, dy = (double)m->grid->dy;
-  const int    line                       = m->grid->axes == 1;
+  const int    line                       = SamGridIsRow(m->grid);
   double       like[SAM_STRESS_TRACTIONS] = {0}, most = 0;
 
   for (PetscInt b = -1; b <= 1; b++)
@@ -210,7 +209,7 @@ PetscErrorCode SamHalfSpaceStressAtEdge(SamStress body, Vec field, const SamEdge
                              (double)((edge->y[n] - SamGridY(grid, j)) / grid->dy)};
     double         *to    = stress + (ptrdiff_t)PLANE * n;
     const PetscBool complete =
-      i > BLOCK && i + BLOCK + 1 < grid->nx && (grid->axes == 1 || (j > BLOCK && j + BLOCK + 1 < grid->ny));
+      i > BLOCK && i + BLOCK + 1 < grid->nx && (SamGridIsRow(grid) || (j > BLOCK && j + BLOCK + 1 < grid->ny));
 
     if (!complete) continue;
     for (int c = 0; c < PLANE; c++) to[c] = 0;

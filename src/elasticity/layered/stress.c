@@ -85,9 +85,9 @@ static PetscErrorCode UseDepth(SamStress stress, PetscReal depth)
   const SamGrid    grid          = stress->grid;
   Layered         *l             = (Layered *)stress->data;
   SamRadialSource  of            = {.functions = SAM_LAYERED_STRESSES,
-                                    .line      = grid->axes == 1 ? PETSC_TRUE : PETSC_FALSE,
-                                    .orders    = grid->axes == 1 ? line_orders : orders,
-                                    .values    = grid->axes == 1 ? LineFunctionsAt : FunctionsAt,
+                                    .line      = SamGridIsRow(grid),
+                                    .orders    = SamGridIsRow(grid) ? line_orders : orders,
+                                    .values    = SamGridIsRow(grid) ? LineFunctionsAt : FunctionsAt,
                                     .context   = l};
 
   PetscFunctionBegin;
@@ -212,8 +212,8 @@ static void Row(SamStress stress, const double side[2], double depth, SamStressG
                 double *const values[SAM_STRESS_GROUP])
 {
   const Layered           *l      = (const Layered *)stress->data;
-  const PetscBool          line   = stress->grid->axes == 1 ? PETSC_TRUE : PETSC_FALSE;
-  const SamHalfSpaceSource source = {{side[0], line ? INFINITY : side[1]}, depth, (double)l->body->material[0].poisson};
+  const PetscBool          line   = isinf(side[1]) ? PETSC_TRUE : PETSC_FALSE;
+  const SamHalfSpaceSource source = {{side[0], side[1]}, depth, (double)l->body->material[0].poisson};
   const SamRadialKernels   of     = {.table   = &l->table,
                                      .depth   = l->decay,
                                      .kernels = SAM_STRESS_GROUP,

@@ -141,8 +141,8 @@ static SamSymbol SymbolOf(SamElasticity e, double factor, double amplitude, Prod
   const SamPair pair = e->pair;
   SamSymbol     s    = {.nu = pair->shear_xx / (pair->shear + pair->shear_xx), .multiply = multiply};
 
-  for (PetscInt c = 0; c < 2; c++) s.step[c] = 2 * PETSC_PI / grid->width[c] * grid->length;
-  if (grid->axes == 1) s.step[1] = s.step[0]; /* of waves that do not exist */
+  for (PetscInt c = 0; c < 2; c++) /* along y as along x where there are no waves */
+    s.step[c] = 2 * PETSC_PI / grid->width[PetscMin(c, grid->axes - 1)] * grid->length;
   s.mean = 0.5 * PetscMin(s.step[0], s.step[1]);
   s.gain = factor * amplitude * grid->length / ((double)grid->nx * (double)grid->ny);
   if (LayersOf(e)) PetscCallAbort(grid->comm, SamLayeredSymbolSet(LayersOf(e), grid->length, grid->nx, grid->ny, &s));
