@@ -10,8 +10,8 @@
   a line of them (a section); the quantities that are wanted of them (src/stress/quantities.c); and fatigue parameters
   over the steps, taken as one closed cycle. Maps are evaluated depth by depth, and each step is read once per depth:
   the steps of a SamStressSource need not be in memory together. Fatigue parameters keep 48 bytes per cell and step.
-  Results are the same to the last bit on any number of ranks. Order of calls: Create, SetBodies, SetSource, SetUp,
-  Compute, GetLargest, Destroy.
+  Results are the same to the last bit on any number of ranks. Order of calls: Create, SetUp, Compute,
+  GetLargest, Destroy.
 */
 typedef struct _n_SamEvaluation *SamEvaluation;
 
@@ -21,12 +21,6 @@ typedef struct _n_SamEvaluation *SamEvaluation;
 */
 PETSC_EXTERN PetscErrorCode SamEvaluationCreateFromOptions(const SamOptions *from, SamEvaluation *evaluation);
 PETSC_EXTERN PetscErrorCode SamEvaluationDestroy(SamEvaluation *evaluation);
-/*
-  SamEvaluationSetBodies - the bodies, referenced; `settings` of the transforms, NULL: those of the elasticity. `source`
-  names the origin of the bodies in messages. Settings and source are not copied. Collective.
-*/
-PETSC_EXTERN PetscErrorCode SamEvaluationSetBodies(SamEvaluation evaluation, SamElasticity elasticity,
-                                                   const SamFourierSettings *settings, const char source[]);
 
 /* The fields of a step that an evaluation reads: tractions (Pa), and for Ruiz's parameters the slip (m). */
 typedef enum {
@@ -40,29 +34,32 @@ typedef enum {
 /* Numbers of a step: of the load step, 0 where steps have none; time (s); contact area (m2); the cycle of a life. */
 typedef enum { SAM_STEP_NUMBER, SAM_STEP_TIME, SAM_STEP_AREA, SAM_STEP_CYCLE } SamStepNumber;
 /*
-  SamStressSource - the load steps, which are read when they are needed, by collective functions: this rank's rows of a
-  field; a number; the bulk stress (Pa) of body 1 or 2, and the factors on load cases. Step -1 is the one before the
-  first, if there is one. `warn` receives a text on the steps as a cycle.
+  SamStressSource - the bodies, which are referenced, and the load steps, which are read when they are needed, by
+  collective functions: this rank's rows of a field; a number; the bulk stress (Pa) of body 1 or 2, and the factors on
+  load cases. Step -1 is the one before the first, if there is one. `warn` receives a text on the steps as a cycle.
+  `tell` is called now and then during SamEvaluationCompute() with the work under way, the done part of it, and the done
+  part of all work (0: unknown); NULL: nobody asks.
 */
 typedef struct {
-  PetscInt  steps;
-  PetscBool before;
+  SamElasticity             bodies;
+  const SamFourierSettings *settings; /* of the transforms, borrowed; NULL: those of the bodies */
+  const char               *name;     /* of the origin of the bodies, for messages; borrowed */
+  PetscInt                  steps;
+  PetscBool                 before;
   PetscErrorCode (*read)(void *context, PetscInt step, SamStepField field, double values[]);
   PetscErrorCode (*number)(void *context, PetscInt step, SamStepNumber number, double *value);
   PetscErrorCode (*bulk)(void *context, PetscInt step, PetscInt body, double bulk[SAM_BULK_AND_CASES]);
   PetscErrorCode (*warn)(void *context, const char text[]);
+  PetscErrorCode (*tell)(void *context, const char work[], double part, double whole);
   void *context;
 } SamStressSource;
-/* SamEvaluationSetSource - the steps; not copied are those that the context holds. Not collective. */
-PETSC_EXTERN PetscErrorCode SamEvaluationSetSource(SamEvaluation evaluation, const SamStressSource *source);
 /*
-  SamEvaluationSetUp - checks the settings together, and creates the stresses' kernels. SamEvaluationCompute() calls
-  it. Collective. Errors: SAM_ERR_USER for a body that is rigid or whose stresses are not available, a depth above zero
-  but below a millionth of a cell, a section outside of the grid, a cycle of one step, passing points of more than
-  one or below a section along y, Ruiz's parameters away from the surface or of passing points; PETSC_ERR_ORDER without
-  bodies.
+  SamEvaluationSetUp - takes a source, once, checks the settings together, and creates the stresses' kernels.
+  Collective. Errors: SAM_ERR_USER for a body that is rigid or whose stresses are not available, a depth above zero but
+  below a millionth of a cell, a section outside of the grid, a cycle of one step, passing points of more than one or
+  below a section along y, Ruiz's parameters away from the surface or of passing points.
 */
-PETSC_EXTERN PetscErrorCode SamEvaluationSetUp(SamEvaluation evaluation);
+PETSC_EXTERN PetscErrorCode SamEvaluationSetUp(SamEvaluation evaluation, const SamStressSource *source);
 
 /* A result: numbers of shape (time, z, y, x), or (z, y, x) of all steps together. */
 typedef struct {
@@ -90,13 +87,6 @@ PETSC_EXTERN const SamStressLayout *SamEvaluationGetLayout(SamEvaluation evaluat
   after SamEvaluationSetUp(). Not collective.
 */
 PETSC_EXTERN PetscErrorCode SamEvaluationAddParameters(SamEvaluation evaluation, SamParameters *parameters);
-/*
-  SamEvaluationSetMonitor - called now and then during SamEvaluationCompute() with the work under way, the done part of
-  it, and the done part of all work (0: unknown). Not collective.
-*/
-typedef PetscErrorCode (*SamEvaluationMonitor)(void *context, const char work[], double part, double whole);
-PETSC_EXTERN PetscErrorCode SamEvaluationSetMonitor(SamEvaluation evaluation, SamEvaluationMonitor monitor,
-                                                    void *context);
 /*
   SamEvaluationCompute - evaluates all steps and hands over each result as it is found: this rank's block of a dataset
   of the layout, which begins at `start` and has `count` numbers along each axis; those of a cycle begin at time 0. A

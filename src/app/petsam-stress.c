@@ -53,6 +53,25 @@ static PetscErrorCode Warn(void *context, const char option[], const char format
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* ---- progress ---- */
+
+/* A line on how far the run is, if the last one is some time ago. */
+static PetscErrorCode Tell(void *context, const char work[], double part, double whole)
+{
+  SamStressRun *const run = (SamStressRun *)context;
+  PetscLogDouble      now, spent;
+
+  PetscFunctionBegin;
+  PetscCall(PetscTime(&now));
+  spent = now - run->start;
+  if (run->quiet || now - run->told < PetscMax(TELL_SECONDS, TELL_PART * spent)) PetscFunctionReturn(PETSC_SUCCESS);
+  run->told = now;
+  PetscCall(PetscPrintf(run->grid->comm, "  %-24s%5.1f %%  %.1f s", work, 100 * part, spent));
+  if (whole > 0) PetscCall(PetscPrintf(run->grid->comm, ", %.1f s left", spent * (1 - whole) / whole));
+  PetscCall(PetscPrintf(run->grid->comm, "\n"));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* ---- the steps ---- */
 
 /* The number of a saved step of the k-th chosen one; -1: of that before the first, at the same distance. */
@@ -106,8 +125,6 @@ static PetscErrorCode WarnOfSteps(void *context, const char text[])
 /* Chooses the steps; warns of those that have not been solved. */
 static PetscErrorCode ChooseSteps(SamStressRun *run)
 {
-  SamStressSource source = {
-    .read = ReadField, .number = ReadNumber, .bulk = ReadBulk, .warn = WarnOfSteps, .context = run};
   PetscInt unsolved = 0, first[2] = {0, 0};
 
   PetscFunctionBegin;
@@ -126,24 +143,38 @@ static PetscErrorCode ChooseSteps(SamStressRun *run)
                    "petsam has not solved %ld of %ld steps: step %ld has the status %ld (/history/status): do not rely "
                    "on its stresses",
                    (long)unsolved, (long)run->steps, (long)first[0], (long)first[1]));
-  source.steps  = run->steps;
-  source.before = SavedStep(run, -1) >= 0 ? PETSC_TRUE : PETSC_FALSE;
-  PetscCall(SamEvaluationSetSource(run->evaluation, &source));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- set-up ---- */
 
-/* The bodies, by the elasticity that the results have recorded. */
-static PetscErrorCode CreateBodies(SamStressRun *run)
+/* The bodies, by the elasticity that the results have recorded, and the steps. */
+static PetscErrorCode SetUpEvaluation(SamStressRun *run)
 {
+  SamStressSource      source = {.settings = &run->transforms,
+                                 .name     = run->source,
+                                 .read     = ReadField,
+                                 .number   = ReadNumber,
+                                 .bulk     = ReadBulk,
+                                 .warn     = WarnOfSteps,
+                                 .tell     = Tell,
+                                 .context  = run};
   const SamParameters *parameters;
 
   PetscFunctionBegin;
   PetscCall(SamResultsGetParameters(run->results, &parameters));
   PetscCall(PetscSNPrintf(run->source, sizeof(run->source), "-input %s", run->request.input));
   PetscCall(SamElasticityCreateFromParameters(run->grid, parameters, run->source, &run->elasticity));
-  PetscCall(SamEvaluationSetBodies(run->evaluation, run->elasticity, &run->transforms, run->source));
+  PetscCall(ChooseSteps(run));
+  source.bodies = run->elasticity;
+  source.steps  = run->steps;
+  source.before = SavedStep(run, -1) >= 0 ? PETSC_TRUE : PETSC_FALSE;
+  PetscCall(SamEvaluationSetUp(run->evaluation, &source));
+  run->layout = SamEvaluationGetLayout(run->evaluation);
+  if (run->layout->half > 0 && !run->quiet)
+    PetscCall(PetscPrintf(run->grid->comm,
+                          "a = %.6g m, the half width (smaller half axis) of the contact of step %ld\n",
+                          run->layout->half, (long)run->layout->half_step));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -189,14 +220,7 @@ static PetscErrorCode SetUp(void *context, const SamArguments *arguments)
   PetscCall(CheckFiles(&run->request, arguments));
   PetscCall(SamResultsOpen(PETSC_COMM_WORLD, "input", run->request.input, &run->results));
   PetscCall(SamResultsGetGrid(run->results, &run->grid));
-  PetscCall(CreateBodies(run));
-  PetscCall(ChooseSteps(run));
-  PetscCall(SamEvaluationSetUp(run->evaluation));
-  run->layout = SamEvaluationGetLayout(run->evaluation);
-  if (run->layout->half > 0 && !run->quiet)
-    PetscCall(PetscPrintf(run->grid->comm,
-                          "a = %.6g m, the half width (smaller half axis) of the contact of step %ld\n",
-                          run->layout->half, (long)run->layout->half_step));
+  PetscCall(SetUpEvaluation(run));
   PetscCall(SamMemoryRefuse(run->grid->comm, MemoryOf(run), "-input", run->request.input, &from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -211,25 +235,6 @@ static PetscErrorCode TearDown(void *context)
   PetscCall(SamElasticityDestroy(&run->elasticity));
   PetscCall(SamResultsDestroy(&run->results));
   PetscCall(PetscFree(run->saved));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* ---- progress ---- */
-
-/* A line on how far the run is, if the last one is some time ago. */
-static PetscErrorCode Tell(void *context, const char work[], double part, double whole)
-{
-  SamStressRun *const run = (SamStressRun *)context;
-  PetscLogDouble      now, spent;
-
-  PetscFunctionBegin;
-  PetscCall(PetscTime(&now));
-  spent = now - run->start;
-  if (run->quiet || now - run->told < PetscMax(TELL_SECONDS, TELL_PART * spent)) PetscFunctionReturn(PETSC_SUCCESS);
-  run->told = now;
-  PetscCall(PetscPrintf(run->grid->comm, "  %-24s%5.1f %%  %.1f s", work, 100 * part, spent));
-  if (whole > 0) PetscCall(PetscPrintf(run->grid->comm, ", %.1f s left", spent * (1 - whole) / whole));
-  PetscCall(PetscPrintf(run->grid->comm, "\n"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -398,7 +403,6 @@ static PetscErrorCode Compute(void *context)
   run->told    = run->start;
   run->writing = PETSC_TRUE;
   PetscCall(CreateFile(run));
-  PetscCall(SamEvaluationSetMonitor(run->evaluation, Tell, run));
   PetscCall(SamEvaluationCompute(run->evaluation, SamStressFileWrite, run->file));
   if (run->told > run->start) { /* lines that have begun end with the whole */
     run->told = -INFINITY;

@@ -233,7 +233,9 @@ static PetscErrorCode Warn(void *context, const char text[])
 
 static PetscErrorCode Compute(petsam_contact *c, const char options[], PetscInt n, Steps *steps, SamEvaluation *e)
 {
-  const SamStressSource source = {.steps   = n,
+  const SamStressSource source = {.bodies  = c->setup->elasticity,
+                                  .name    = "-elasticity",
+                                  .steps   = n,
                                   .before  = steps->before && steps->before->fields,
                                   .read    = ReadField,
                                   .number  = ReadNumber,
@@ -243,9 +245,7 @@ static PetscErrorCode Compute(petsam_contact *c, const char options[], PetscInt 
 
   PetscFunctionBegin;
   PetscCall(ReadOptions(c, options, e));
-  PetscCall(SamEvaluationSetBodies(*e, c->setup->elasticity, NULL, "-elasticity"));
-  PetscCall(SamEvaluationSetSource(*e, &source));
-  PetscCall(SamEvaluationSetUp(*e));
+  PetscCall(SamEvaluationSetUp(*e, &source));
   PetscCall(CreateResults(c->stress, SamEvaluationGetLayout(*e)));
   PetscCall(SamEvaluationCompute(*e, Keep, c->stress));
   if (SamEvaluationGetLayout(*e)->section) PetscCall(GatherSection(c));

@@ -185,7 +185,7 @@ static PetscErrorCode FindHalfWidth(SamEvaluation e)
   PetscCheck(area > 0, e->comm, SAM_ERR_USER,
              "-depths: a is the half width of the contact, and no chosen step of %s has a contact area: give depths in "
              "m, or other -steps",
-             e->of);
+             e->source.name);
   PetscCall((*e->source.number)(e->source.context, most, SAM_STEP_NUMBER, &number));
   e->layout.half      = 0.5 * area;
   e->layout.half_step = (PetscInt)number;
@@ -202,7 +202,7 @@ SamBody SamEvaluationBody(SamEvaluation e)
 {
   SamPair pair;
 
-  PetscCallAbort(e->comm, SamElasticityGetPair(e->elasticity, &pair));
+  PetscCallAbort(e->comm, SamElasticityGetPair(e->source.bodies, &pair));
   return SamPairBody(pair, e->body - 1);
 }
 

@@ -28,14 +28,14 @@ static PetscErrorCode FillSquare(SamGrid g, Vec field, Vec square)
 
 PetscErrorCode SamLargestAtEdge(SamEvaluation e, PetscInt step, Vec field)
 {
-  const SamGrid g = e->grid;
-  double        bulk[SAM_BULK_COMPONENTS];
+  const SamGrid g                          = e->grid;
+  double        far[SAM_STRESS_COMPONENTS] = {0}; /* what is there without tractions */
   SamEdge       edge;
   Vec           square;
   double       *stress;
 
   PetscFunctionBegin;
-  SamBodyBulkStressAt(SamEvaluationBody(e), e->depth[0], e->bulk[step], bulk);
+  SamStressAddBulk(e, step, &(SamPoints){.count = 1, .depths = 1, .plane = 1}, far);
   PetscCall(SamGridCreateVec(g, 1, &square));
   PetscCall(FillSquare(g, field, square));
   PetscCall(SamEdgeReconstruct(g, square, NULL, &edge));
@@ -44,9 +44,9 @@ PetscErrorCode SamLargestAtEdge(SamEvaluation e, PetscInt step, Vec field)
   PetscCall(SamStressAtEdge(e->stress, field, &edge, stress));
   for (PetscInt n = 0; n < edge.count && edge.good >= FOUND * edge.faces; n++) {
     const double *s                          = stress + (ptrdiff_t)PLANE * n;
-    const double  all[SAM_STRESS_COMPONENTS] = {[SAM_STRESS_XX] = s[XX] + bulk[SAM_BULK_XX],
-                                                [SAM_STRESS_YY] = s[YY] + bulk[SAM_BULK_YY],
-                                                [SAM_STRESS_XY] = s[XY] + bulk[SAM_BULK_XY]};
+    const double  all[SAM_STRESS_COMPONENTS] = {[SAM_STRESS_XX] = s[XX] + far[SAM_STRESS_XX],
+                                                [SAM_STRESS_YY] = s[YY] + far[SAM_STRESS_YY],
+                                                [SAM_STRESS_XY] = s[XY] + far[SAM_STRESS_XY]};
     const double  place[3]                   = {(double)edge.x[n], (double)edge.y[n], 0};
     double        principal[3];
 

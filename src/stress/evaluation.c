@@ -4,17 +4,6 @@
 
 /* ---- life ---- */
 
-static PetscErrorCode ForgetSetUp(SamEvaluation e)
-{
-  PetscFunctionBegin;
-  PetscCall(SamStressDestroy(&e->stress));
-  PetscCall(PetscFree(e->bulk));
-  PetscCall(PetscFree(e->largest));
-  e->ready = PETSC_FALSE;
-  for (int d = 0; d < SAM_STRESS_AXES; d++) PetscCall(PetscFree(e->coordinate[d]));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode SamEvaluationDestroy(SamEvaluation *evaluation)
 {
   SamEvaluation e = *evaluation;
@@ -22,42 +11,15 @@ PetscErrorCode SamEvaluationDestroy(SamEvaluation *evaluation)
   PetscFunctionBegin;
   *evaluation = NULL;
   if (!e) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ForgetSetUp(e));
-  PetscCall(SamElasticityDestroy(&e->elasticity));
+  PetscCall(SamStressDestroy(&e->stress));
+  PetscCall(SamElasticityDestroy(&e->source.bodies));
   PetscCall(PetscFree2(e->depth, e->side));
   PetscCall(PetscFree(e->weight));
   PetscCall(PetscFree(e->depths_text));
+  PetscCall(PetscFree(e->bulk));
+  PetscCall(PetscFree(e->largest));
+  for (int d = 0; d < SAM_STRESS_AXES; d++) PetscCall(PetscFree(e->coordinate[d]));
   PetscCall(PetscFree(e));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamEvaluationSetBodies(SamEvaluation e, SamElasticity elasticity, const SamFourierSettings *settings,
-                                      const char source[])
-{
-  PetscFunctionBegin;
-  PetscCall(SamElasticityReference(elasticity));
-  PetscCall(ForgetSetUp(e));
-  PetscCall(SamElasticityDestroy(&e->elasticity));
-  e->elasticity = elasticity;
-  e->settings   = settings;
-  e->of         = source;
-  PetscCall(SamElasticityGetGrid(elasticity, &e->grid));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamEvaluationSetMonitor(SamEvaluation e, SamEvaluationMonitor monitor, void *context)
-{
-  PetscFunctionBegin;
-  e->monitor         = monitor;
-  e->monitor_context = context;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamEvaluationSetSource(SamEvaluation e, const SamStressSource *source)
-{
-  PetscFunctionBegin;
-  PetscCall(ForgetSetUp(e));
-  e->source = *source;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -117,13 +79,13 @@ static PetscErrorCode CreateStress(SamEvaluation e)
   SamElasticityType   type;
 
   PetscFunctionBegin;
-  PetscCall(SamElasticityGetTraits(e->elasticity, &traits));
-  PetscCall(SamElasticityGetType(e->elasticity, &type));
-  PetscCheck(traits.stress, e->comm, SAM_ERR_USER, "%s: stresses are not available for bodies of type %s", e->of, type);
+  PetscCall(SamElasticityGetTraits(e->source.bodies, &traits));
+  PetscCall(SamElasticityGetType(e->source.bodies, &type));
+  PetscCheck(traits.stress, e->comm, SAM_ERR_USER, "%s: stresses are not available for bodies of type %s",
+             e->source.name, type);
   PetscCheck(!SamBodyIsRigid(SamEvaluationBody(e)), e->comm, SAM_ERR_USER,
              "-body %" PetscInt_FMT ": it is rigid, so its stresses are undetermined", e->body);
-  PetscCall(SamStressDestroy(&e->stress));
-  PetscCall(SamElasticityCreateStress(e->elasticity, e->body, e->settings, &e->stress));
+  PetscCall(SamElasticityCreateStress(e->source.bodies, e->body, e->source.settings, &e->stress));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -181,7 +143,6 @@ static PetscErrorCode SetLayout(SamEvaluation e)
   l->rows        = e->section ? l->n[SAM_Y] : g->rows;
   l->memory      = e->section ? SamLinesMemory(e) : SamMapsMemory(e);
   for (int d = 0; d < SAM_STRESS_AXES; d++) {
-    PetscCall(PetscFree(e->coordinate[d]));
     PetscCall(PetscMalloc1(l->n[d] + 1, &e->coordinate[d]));
     l->coordinate[d] = e->coordinate[d];
   }
@@ -194,23 +155,22 @@ static PetscErrorCode SetLayout(SamEvaluation e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamEvaluationSetUp(SamEvaluation e)
+PetscErrorCode SamEvaluationSetUp(SamEvaluation e, const SamStressSource *source)
 {
   PetscFunctionBegin;
-  PetscCheck(e->elasticity, e->comm, PETSC_ERR_ORDER, "An evaluation without bodies");
-  if (e->ready) PetscFunctionReturn(PETSC_SUCCESS);
+  e->source = *source;
+  PetscCall(SamElasticityReference(source->bodies));
+  PetscCall(SamElasticityGetGrid(source->bodies, &e->grid));
   PetscCall(CreateStress(e));
   PetscCall(CheckConstants(e));
   PetscCall(SamAverageSetUp(e));
   PetscCall(SamDepthsSetUp(e));
   PetscCall(CheckCycle(e));
   PetscCall(FindLine(e));
-  PetscCall(PetscFree(e->bulk));
   PetscCall(PetscMalloc1(e->source.steps, &e->bulk));
   for (PetscInt k = 0; k < e->source.steps; k++)
     PetscCall((*e->source.bulk)(e->source.context, k, e->body, e->bulk[k]));
   PetscCall(SetLayout(e));
-  e->ready = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -219,14 +179,13 @@ PetscErrorCode SamEvaluationSetUp(SamEvaluation e)
 PetscErrorCode SamEvaluationTell(SamEvaluation e, const char work[], double part, double whole)
 {
   PetscFunctionBegin;
-  if (e->monitor) PetscCall((*e->monitor)(e->monitor_context, work, part, whole));
+  if (e->source.tell) PetscCall((*e->source.tell)(e->source.context, work, part, whole));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamEvaluationCompute(SamEvaluation e, SamEvaluationWrite write, void *context)
 {
   PetscFunctionBegin;
-  PetscCall(SamEvaluationSetUp(e));
   PetscCall(SamLargestClear(e));
   if (e->cycle && e->source.steps > 1) PetscCall(SamCycleCheckClosed(e)); /* one: of points that pass */
   e->write         = write;

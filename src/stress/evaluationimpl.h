@@ -92,12 +92,9 @@ struct _n_SamEvaluation {
   SamFatigueAverage average;
   PetscReal         length; /* of the average, m */
   /* bodies and steps */
-  SamElasticity             elasticity;
-  const SamFourierSettings *settings;
-  const char               *of; /* whose bodies they are */
-  SamGrid                   grid;
-  SamStress                 stress;
-  SamStressSource           source;
+  SamGrid         grid;
+  SamStress       stress;
+  SamStressSource source;
   double (*bulk)[SAM_BULK_AND_CASES]; /* of each step */
   /* where */
   PetscInt        depths;
@@ -107,15 +104,12 @@ struct _n_SamEvaluation {
   PetscInt        index;  /* of the section's line of cells */
   SamStressLayout layout;
   double         *coordinate[SAM_STRESS_AXES];
-  PetscBool       ready; /* it has been set up */
   /* results */
-  SamEvaluationWrite   write;
-  void                *write_context;
-  SamEvaluationMonitor monitor;
-  void                *monitor_context;
-  PetscInt             kinds;     /* numbers of largest values of a step */
-  SamLargest          *largest;   /* (kinds, steps), and those of the cycle for each quantity */
-  PetscInt             edge_lost; /* steps with an edge that is not found */
+  SamEvaluationWrite write;
+  void              *write_context;
+  PetscInt           kinds;     /* numbers of largest values of a step */
+  SamLargest        *largest;   /* (kinds, steps), and those of the cycle for each quantity */
+  PetscInt           edge_lost; /* steps with an edge that is not found */
 };
 
 /* SamMapsCompute - everything on whole planes, one depth after another (maps.c). Collective. */

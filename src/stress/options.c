@@ -188,7 +188,7 @@ PetscErrorCode SamEvaluationAddParameters(SamEvaluation e, SamParameters *p)
   SamStressGetConstants(e->stress, 0, &young, &poisson);
   PetscCall(SamParametersAddReals(p, "young", PETSC_TRUE, 1, &young));
   PetscCall(SamParametersAddReals(p, "poisson", PETSC_TRUE, 1, &poisson));
-  PetscCall(SamElasticityAddParameters(e->elasticity, p));
+  PetscCall(SamElasticityAddParameters(e->source.bodies, p));
   for (const SamQuantity *q = SamQuantityTable; q->name; q++)
     for (int k = 0; k < 2 && q->constant[k].name && e->wants[q - SamQuantityTable]; k++) {
       for (PetscInt m = 0; m < e->materials; m++) values[m] = *ConstantOf(e, m, &q->constant[k]);
