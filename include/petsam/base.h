@@ -120,7 +120,7 @@ PETSC_EXTERN PetscErrorCode SamOptionsRead(const SamOptions *from, const char he
                                            const SamOptionRow rows[], void *settings, PetscBool given[]);
 PETSC_EXTERN PetscErrorCode SamOptionsReal(const SamOptions *from, const char name[], const char help[], SamRange range,
                                            PetscReal *value, PetscBool *set);
-PETSC_EXTERN PetscErrorCode SamOptionsReals(const SamOptions *from, const char name[], const char help[],
+PETSC_INTERN PetscErrorCode SamOptionsReals(const SamOptions *from, const char name[], const char help[],
                                             SamRange range, PetscInt most, PetscReal values[], PetscInt *count);
 PETSC_EXTERN PetscErrorCode SamOptionsHas(const SamOptions *from, const char option[], PetscBool *has);
 /*

@@ -35,7 +35,7 @@ typedef struct {
 PETSC_EXTERN const SamComponentName SamComponentNames[SAM_COMPONENTS];
 /* How a component is given. SamComponentNameOf - its name so, NULL: it cannot be given so. Not collective. */
 typedef enum { SAM_BY_LOAD, SAM_BY_RIGID, SAM_BY_CREEP, SAM_WAYS } SamWay;
-PETSC_EXTERN const char *SamComponentNameOf(PetscInt component, SamWay way);
+PETSC_INTERN const char *SamComponentNameOf(PetscInt component, SamWay way);
 /* SamUnitOn - a number's unit on a grid: with one row of a load, area, volume or energy per metre. Not collective. */
 PETSC_EXTERN const char *SamUnitOn(SamGrid grid, const char unit[]);
 
@@ -83,14 +83,14 @@ enum {
   SAM_CONDITION_CASE = SAM_CONDITION_ROLL + 2,
   SAM_CONDITIONS     = SAM_CONDITION_CASE + SAM_CASES
 };
-PETSC_EXTERN const SamCondition SamConditions[SAM_CONDITIONS];
+PETSC_INTERN const SamCondition SamConditions[SAM_CONDITIONS];
 /*
   SamControlAddCase - the condition body1_case_<name> or body2_case_<name> (body 0 or 1), and its place in `cases`; one
   that was added before keeps its place. `room`: there was one. SamConditionIsUsed - whether an entry has a name: those
   of load cases that no file has are idle. Not collective, but to be called on all ranks.
 */
-PETSC_EXTERN PetscErrorCode SamControlAddCase(PetscInt body, const char name[], PetscInt *place, PetscBool *room);
-PETSC_EXTERN PetscBool      SamConditionIsUsed(PetscInt k);
+PETSC_INTERN PetscErrorCode SamControlAddCase(PetscInt body, const char name[], PetscInt *place, PetscBool *room);
+PETSC_INTERN PetscBool      SamConditionIsUsed(PetscInt k);
 /* The entry of a component of the bulk stress of body 0 or 1. */
 #define SAM_BULK_CONDITION(body, k) (&SamConditions[SAM_CONDITION_BULK + (body)*SAM_BULK_COMPONENTS + (k)])
 
@@ -101,23 +101,23 @@ PETSC_EXTERN PetscBool      SamConditionIsUsed(PetscInt k);
   Not collective.
 */
 #define SAM_CONTROL_PARTS (SAM_COMPONENTS + SAM_CONDITIONS)
-PETSC_EXTERN PetscReal   SamControlPart(const SamControl *control, PetscInt k);
-PETSC_EXTERN PetscReal  *SamControlPlace(SamControl *control, PetscInt k);
-PETSC_EXTERN const char *SamControlPartName(const SamControl *control, PetscInt k);
+PETSC_INTERN PetscReal   SamControlPart(const SamControl *control, PetscInt k);
+PETSC_INTERN PetscReal  *SamControlPlace(SamControl *control, PetscInt k);
+PETSC_INTERN const char *SamControlPartName(const SamControl *control, PetscInt k);
 PETSC_EXTERN SamWay      SamControlWay(const SamControl *control, PetscInt component);
 PETSC_EXTERN void        SamControlSetWay(SamControl *control, PetscInt component, SamWay way);
 /*
   SamControlRolled - the rolled distance by which creepages are multiplied, m: along x or along y alone as given, with
   its sign, else the length of the path. Not collective.
 */
-PETSC_EXTERN PetscReal SamControlRolled(const SamControl *control);
+PETSC_INTERN PetscReal SamControlRolled(const SamControl *control);
 
 /*
   SamControlPack, SamControlUnpack - a control as SAM_CONTROL_NUMBERS numbers, and back. Not collective.
 */
 #define SAM_CONTROL_NUMBERS (SAM_COMPONENTS + 1 + SAM_CONTROL_PARTS)
-PETSC_EXTERN void SamControlPack(const SamControl *control, double numbers[]);
-PETSC_EXTERN void SamControlUnpack(const double numbers[], SamControl *control);
+PETSC_INTERN void SamControlPack(const SamControl *control, double numbers[]);
+PETSC_INTERN void SamControlUnpack(const double numbers[], SamControl *control);
 
 /* SamControlInitialize - all loads given and 0, time 0, all conditions as usual. Not collective. */
 PETSC_EXTERN PetscErrorCode SamControlInitialize(SamControl *control);
@@ -130,7 +130,7 @@ PETSC_EXTERN PetscErrorCode SamControlSet(SamControl *control, const char name[]
   SamControlReadCondition - reads the k-th condition from its option, if it may be one; `set`: it was given. Collective.
   Errors: SAM_ERR_USER.
 */
-PETSC_EXTERN PetscErrorCode SamControlReadCondition(const SamOptions *from, PetscInt k, SamControl *control,
+PETSC_INTERN PetscErrorCode SamControlReadCondition(const SamOptions *from, PetscInt k, SamControl *control,
                                                     PetscBool *set);
 
 #endif

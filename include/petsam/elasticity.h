@@ -109,7 +109,7 @@ PETSC_EXTERN PetscErrorCode SamElasticityGetSelfInfluence(SamElasticity elastici
   `stress`; PETSC_ERR_ARG_OUTOFRANGE for another body, or a rigid one.
 */
 typedef struct _n_SamStress *SamStress;
-PETSC_EXTERN PetscErrorCode  SamElasticityCreateStress(SamElasticity elasticity, PetscInt body,
+PETSC_INTERN PetscErrorCode  SamElasticityCreateStress(SamElasticity elasticity, PetscInt body,
                                                        const SamFourierSettings *settings, SamStress *stress);
 
 #endif

@@ -35,7 +35,7 @@ typedef struct {
   does not offer.
 */
 PETSC_EXTERN PetscErrorCode SamOutputSettingsSetFromOptions(SamOutputSettings *settings, const SamOptions *from);
-PETSC_EXTERN PetscErrorCode SamOutputSettingsAddLaws(SamOutputSettings *settings, SamProblem problem);
+PETSC_INTERN PetscErrorCode SamOutputSettingsAddLaws(SamOutputSettings *settings, SamProblem problem);
 PETSC_EXTERN PetscErrorCode SamOutputSettingsPrepare(SamOutputSettings *settings, SamContact contact,
                                                      const SamOptions *from);
 
@@ -64,14 +64,14 @@ typedef struct {
   uint64_t times;  /* checksum of the times of these steps */
 } SamOutputPoint;
 /* SamOutputAddTime - the checksum of some times (0 of none) and one more (s). Not collective. */
-PETSC_EXTERN uint64_t SamOutputAddTime(uint64_t times, PetscReal time);
+PETSC_INTERN uint64_t SamOutputAddTime(uint64_t times, PetscReal time);
 /*
   SamOutputContinue - results that continue those of a stopped run: what these held at a point is copied to a new
   file (SamOutputNameTemporary()), which takes their name when it is complete. Collective.
   Errors: SAM_ERR_FILE for a file that cannot be read or written or lacks some of the steps, SAM_ERR_USER for one with
   other fixed parameters or other times; after an error the file is unchanged.
 */
-PETSC_EXTERN PetscErrorCode SamOutputContinue(SamGrid grid, const char filename[], const SamOutputSettings *settings,
+PETSC_INTERN PetscErrorCode SamOutputContinue(SamGrid grid, const char filename[], const SamOutputSettings *settings,
                                               const SamParameters *parameters, const SamOutputPoint *point,
                                               SamOutput *output);
 /* SamOutputSetParameters - stores parameters as attributes of the root group. Collective. Errors: SAM_ERR_FILE. */
@@ -80,9 +80,9 @@ PETSC_EXTERN PetscErrorCode SamOutputSetParameters(SamOutput output, const SamPa
   SamOutputSetReals, SamOutputSetText - store an attribute of the root group; a single number is stored as a scalar.
   Collective. Errors: SAM_ERR_FILE.
 */
-PETSC_EXTERN PetscErrorCode SamOutputSetReals(SamOutput output, const char name[], PetscInt count,
+PETSC_INTERN PetscErrorCode SamOutputSetReals(SamOutput output, const char name[], PetscInt count,
                                               const PetscReal values[]);
-PETSC_EXTERN PetscErrorCode SamOutputSetText(SamOutput output, const char name[], const char text[]);
+PETSC_INTERN PetscErrorCode SamOutputSetText(SamOutput output, const char name[], const char text[]);
 /*
   SamOutputWriteStep - appends the numbers of the contact's state (SamStateReadNumbers()) to /history and, with
   `fields`, the time and the fields. Then the file is complete up to here, whatever happens
@@ -100,26 +100,26 @@ PETSC_EXTERN PetscErrorCode SamOutputFlush(SamOutput output);
   SamOutputWriteFields - appends only the fields, of a step whose numbers are in the file already; `time` (s) is that of
   the step. Otherwise as SamOutputWriteStep(). Collective. Errors: SAM_ERR_FILE.
 */
-PETSC_EXTERN PetscErrorCode SamOutputWriteFields(SamOutput output, PetscReal time);
+PETSC_INTERN PetscErrorCode SamOutputWriteFields(SamOutput output, PetscReal time);
 /*
   SamOutputWriteCycle - appends the committed numbers of the settings' `cycles` to the second series, then flushes, as
   SamOutputWriteStep(). Collective. Errors: SAM_ERR_FILE; PETSC_ERR_ORDER for a file without that group.
 */
-PETSC_EXTERN PetscErrorCode SamOutputWriteCycle(SamOutput output);
+PETSC_INTERN PetscErrorCode SamOutputWriteCycle(SamOutput output);
 /*
   SamOutputGetSaved - the number of load steps in the file, the number of those with fields, and the time (s) of the
   last step with fields, -infinity without one; NULL for one that is not wanted. Not collective.
 */
-PETSC_EXTERN PetscErrorCode SamOutputGetSaved(SamOutput output, PetscInt *steps, PetscInt *saved, PetscReal *time);
+PETSC_INTERN PetscErrorCode SamOutputGetSaved(SamOutput output, PetscInt *steps, PetscInt *saved, PetscReal *time);
 /*
   SamOutputPlan - results without a file, of which only the size can be asked. Collective.
   SamOutputForecast - the size (bytes) of a file like this one of so many load steps and so many steps with fields,
   without compression. Not collective.
 */
-PETSC_EXTERN PetscErrorCode SamOutputPlan(SamGrid grid, const SamOutputSettings *settings, SamOutput *output);
-PETSC_EXTERN PetscErrorCode SamOutputForecast(SamOutput output, double steps, double saved, double *bytes);
+PETSC_INTERN PetscErrorCode SamOutputPlan(SamGrid grid, const SamOutputSettings *settings, SamOutput *output);
+PETSC_INTERN PetscErrorCode SamOutputForecast(SamOutput output, double steps, double saved, double *bytes);
 /* SamOutputHasReplaced - whether the file has replaced older results. Not collective. */
-PETSC_EXTERN PetscErrorCode SamOutputHasReplaced(SamOutput output, PetscBool *replaced);
+PETSC_INTERN PetscErrorCode SamOutputHasReplaced(SamOutput output, PetscBool *replaced);
 /*
   SamOutputDestroy - closes the file, frees the object and sets the handle to NULL, also when closing fails. Collective.
   Errors: SAM_ERR_FILE.

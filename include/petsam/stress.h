@@ -23,16 +23,16 @@ typedef enum { SAM_STRESS_P, SAM_STRESS_QX, SAM_STRESS_QY, SAM_STRESS_TRACTIONS 
 typedef struct _n_SamStress *SamStress;
 
 /* SamStressDestroy - of what SamElasticityCreateStress() has made; sets the handle to NULL. Collective. */
-PETSC_EXTERN PetscErrorCode SamStressDestroy(SamStress *stress);
+PETSC_INTERN PetscErrorCode SamStressDestroy(SamStress *stress);
 /* SamStressSetDepth - the plane z = depth (m, >= 0). Takes the time of some ten SamStressApply(). Collective. */
-PETSC_EXTERN PetscErrorCode SamStressSetDepth(SamStress stress, PetscReal depth);
+PETSC_INTERN PetscErrorCode SamStressSetDepth(SamStress stress, PetscReal depth);
 /*
   SamStressApply - the stresses (Pa, SAM_STRESS_COMPONENTS components) at the cells' centres, in place of the tractions:
   on entry the components zz, xz and yz of `field` are the pressure and the two components of the shear (Pa). These are
   uniform in each cell; the result is corrected to that of tractions that are smooth (stresscell.c of the half-space).
   Bulk stress is not in it. Collective. Errors: PETSC_ERR_ORDER before the depth is set.
 */
-PETSC_EXTERN PetscErrorCode SamStressApply(SamStress stress, Vec field);
+PETSC_INTERN PetscErrorCode SamStressApply(SamStress stress, Vec field);
 
 /*
   SamStressAtEdge - the stresses xx, yy and xy (Pa, three a point) on the surface at the points of the contact's edge,
