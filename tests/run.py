@@ -7,7 +7,7 @@ part of their name. Time limits grow with the load of the machine.
 
     python3 tests/run.py [--build build] [--ranks 1,3] [--units-only] [--slow] [name ...]
 
-With --slow it runs what it leaves out otherwise: units on 2 ranks, SLOW ones on any, tests marked as slow.
+With --slow it runs what it leaves out otherwise: units on 2 ranks, LONG ones on 3 too, tests marked as slow.
 """
 
 import argparse
@@ -23,7 +23,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 TIMEOUT = 300  # seconds for one unit test program on an idle machine
 SLOWEST = 30  # unit tests to print
-SLOW = {}  # unit tests of `make check-slow`
+LONG = {"test_life", "test_embed_program"}  # unit tests that run on the first number of ranks only
 WORKERS = 4  # most files of whole-program tests at a time; runs on several ranks share the cores
 
 
@@ -139,8 +139,9 @@ def main():
 
     def ranks(name):
         if args.slow:
-            return [1, 2, 3] if name in SLOW else [2]
-        return [int(n) for n in args.ranks.split(",")] if args.names or name not in SLOW else []
+            return [2, 3] if name in LONG else [2]
+        chosen = [int(n) for n in args.ranks.split(",")]
+        return chosen[:1] if name in LONG and not args.names else chosen
 
     passed, failed = run_units(programs, ranks)
     if not args.units_only:

@@ -17,6 +17,7 @@ import benchmark  # noqa: E402
 import problem  # noqa: E402
 import scaling  # noqa: E402
 
+pytestmark = pytest.mark.slow
 CASES = ("hertz", "rough_8", "periodic_8", "slip_tx", "slip_tx_mz", "cycle_16")
 N, SECONDS = 2048, (0.06, 0.033, 0.057)  # a convolution's on one rank, and on two by shared memory and by messages
 

@@ -546,7 +546,9 @@ def test_no_damaged_bit_is_taken_for_good(stopped, petsam):
 # ---------------------------------------------------------------- killed
 
 
-@pytest.mark.parametrize("ranks, kills", [(1, 3), (2, 2), pytest.param(1, 12, marks=pytest.mark.slow)])
+@pytest.mark.parametrize(
+    "ranks, kills", [(1, 3), *(pytest.param(*more, marks=pytest.mark.slow) for more in ((1, 12), (2, 4)))]
+)
 def test_run_that_is_killed_again_and_again_gets_to_the_same_end(launcher, folder, ranks, kills):
     """More of them: tests/program/kill_at_random.py --kills 50"""
     assert kill_at_random.torture(launcher, folder, kills, ranks, seed=ranks) >= 1
