@@ -294,6 +294,20 @@ static int Says(const petsam_contact *c, const char *words)
   return strstr(petsam_message(c), words) != NULL;
 }
 
+static void test_depths_in_half_widths_are_those_of_the_contact(void **state)
+{
+  petsam_contact *c = NewContact((int)MPI_Comm_c2f(PETSC_COMM_WORLD));
+  double          area, z[2];
+  int             shape[4];
+
+  (void)state;
+  sam_assert(petsam_stress(c, "-section y=0 -depths 0,2a", shape) == 0 && shape[1] == 2);
+  sam_assert(petsam_get_stress(c, "z", z) == 0 && petsam_get_number(c, "contact_area", &area) == 0);
+  sam_assert(z[0] == 0);
+  sam_assert_close(z[1], 2 * sqrt(area / PETSC_PI), 0.05 * z[1]); /* a circle of few cells, nearly */
+  petsam_destroy(&c);
+}
+
 static void test_mistakes_in_embedded_stresses_are_named(void **state)
 {
   petsam_contact *c     = NewContact((int)MPI_Comm_c2f(PETSC_COMM_WORLD)), *fresh;
@@ -329,6 +343,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_steps_have_the_stresses_of_their_tractions),
     cmocka_unit_test(test_settings_that_cannot_be_are_refused),
     cmocka_unit_test(test_embedded_stresses_do_not_depend_on_the_ranks),
+    cmocka_unit_test(test_depths_in_half_widths_are_those_of_the_contact),
     cmocka_unit_test(test_mistakes_in_embedded_stresses_are_named),
   };
 
