@@ -34,8 +34,8 @@ int main(int argc, char **argv)
   PetscCall(SamContactCreate(problem, &contact));
 
   PetscCall(SamControlInitialize(&control));
-  PetscCall(SamControlSet(&control, "load_n", 1000));
-  PetscCall(SamControlSet(&control, "load_tx", 60));
+  PetscCall(SamControlSet(&control, NULL, "load_n", 1000));
+  PetscCall(SamControlSet(&control, NULL, "load_tx", 60));
   PetscCall(SamContactTry(contact, &control, &step));
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "status %d, approach %.6e m, tangential displacement %.6e m\n",
                         (int)step.status, (double)step.rigid[SAM_COMPONENT_N], (double)step.rigid[SAM_COMPONENT_TX]));

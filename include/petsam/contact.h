@@ -72,10 +72,10 @@ PETSC_EXTERN PetscErrorCode SamContactSetFromOptions(SamContact contact);
 */
 PETSC_EXTERN PetscErrorCode SamContactSetUp(SamContact contact);
 /*
-  SamContactOfferCondition - makes the k-th condition (control.h) a number of each step, and with a rolled distance the
+  SamContactOfferCondition - makes a condition (control.h) a number of each step, and with a rolled distance the
   creepages. Collective.
 */
-PETSC_INTERN PetscErrorCode SamContactOfferCondition(SamContact contact, PetscInt k);
+PETSC_INTERN PetscErrorCode SamContactOfferCondition(SamContact contact, const SamCondition *condition);
 /*
   The objects of a contact, borrowed. Not collective, but for SamContactGetState(), which lets the laws declare what
   they remember. That state is for reading, and for what a program offers of its own.

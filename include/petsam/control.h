@@ -1,4 +1,4 @@
-/* What is prescribed in a load step: the six components, each by load, displacement or creepage, and the friction. */
+/* What is prescribed in a load step: the six components, each by load, displacement or creepage, and conditions. */
 #ifndef PETSAM_CONTROL_H
 #define PETSAM_CONTROL_H
 
@@ -39,98 +39,91 @@ PETSC_INTERN const char *SamComponentNameOf(PetscInt component, SamWay way);
 /* SamUnitOn - a number's unit on a grid: with one row of a load, area, volume or energy per metre. Not collective. */
 PETSC_EXTERN const char *SamUnitOn(SamGrid grid, const char unit[]);
 
-/* Load cases of the bodies' compliances: most of a process, and most letters of a name. */
-#define SAM_CASES     16
-#define SAM_CASE_NAME 20
-
-/* The components of a bulk stress, in the order used everywhere; before factors on load cases where both are kept. */
-typedef enum { SAM_BULK_XX, SAM_BULK_YY, SAM_BULK_XY, SAM_BULK_COMPONENTS } SamBulkComponent;
-#define SAM_BULK_AND_CASES (SAM_BULK_COMPONENTS + SAM_CASES)
+/*
+  SamCondition - what a step prescribes besides the six components: a factor on friction, a load of a body, a rolled
+  distance. Its owner adds it to the list of the problem; options, columns of histories, checkpoints, restarts, results
+  and steps in process follow from there. So a new one is an entry in its owner's file.
+*/
+typedef struct {
+  const char *name, *unit, *text;
+  const char *group;  /* those of a group are in results and parameters together, if one is given; NULL: itself */
+  PetscReal   usual;  /* its value when none is given */
+  SamRange    range;  /* of its value */
+  PetscBool   option; /* may be an option, and changes from `usual` to its first value; else it has that at once */
+  PetscBool   change; /* not a level but a change since the row before, of which each of the row's steps has its part */
+  PetscBool   bounds; /* acts on the bound of the shear only, which each step computes anew */
+  PetscBool   reverses; /* causes shear, and changes its sign in a reversed step */
+  PetscBool   couples;  /* displaces the surfaces in all directions, so that pressure and shear must be coupled */
+  PetscInt    place;    /* in its list, and in a control; set by SamConditionsAdd() */
+} SamCondition;
 
 /*
-  SamControl - what is prescribed in a load step. SamControlInitialize() sets the defaults, the user the rest.
-  A bulk stress stretches the surface of its body about x = y = 0 by Hooke's law, without stress normal to the surface;
-  tension is positive.
+  SamConditions - the list of the conditions of a problem.
+  SamConditionsCreate - an empty list. SamConditionsReference, SamConditionsDestroy - add a reference, and give one
+  back; the last one frees the list and its conditions.
+  SamConditionsAdd - adds a condition, whose texts are copied; `own`: the list's own, by which controls are asked; NULL:
+  not wanted. One of the same name is the same condition.
+  SamConditionsCount, SamConditionsGet - their number; the k-th.
+  SamConditionsFind - the condition of that name, NULL: none.
+  Conditions are borrowed. Not collective, but to be called on all ranks. Errors of SamConditionsAdd():
+  PETSC_ERR_ARG_OUTOFRANGE for more than SAM_CONDITIONS conditions.
+*/
+#define SAM_CONDITIONS 128
+typedef struct _n_SamConditions *SamConditions;
+PETSC_INTERN PetscErrorCode      SamConditionsCreate(SamConditions *conditions);
+PETSC_INTERN PetscErrorCode      SamConditionsReference(SamConditions conditions);
+PETSC_INTERN PetscErrorCode      SamConditionsDestroy(SamConditions *conditions);
+PETSC_EXTERN PetscErrorCode      SamConditionsAdd(SamConditions conditions, const SamCondition *condition,
+                                                  const SamCondition **own);
+PETSC_INTERN PetscInt            SamConditionsCount(SamConditions conditions);
+PETSC_INTERN const SamCondition *SamConditionsGet(SamConditions conditions, PetscInt k);
+PETSC_EXTERN const SamCondition *SamConditionsFind(SamConditions conditions, const char name[]);
+
+/*
+  SamControl - what is prescribed in a load step. SamControlInitialize() sets the defaults, the user the rest; it is
+  copied by assignment. The values of conditions are asked for by SamControlGet().
 */
 typedef struct {
   PetscReal time;                  /* s; stored with the results, the solution does not depend on it */
   PetscBool force[SAM_COMPONENTS]; /* true: the load is given and the displacement is found; false: the reverse */
   PetscBool creep[SAM_COMPONENTS]; /* true: not the displacement, but the creepage is given; then `force` is false */
   PetscReal value[SAM_COMPONENTS]; /* the given load (N, N m), displacement (m, rad) or creepage (1, 1/m) */
-  PetscReal roll[2];               /* m; rolled distance of the step towards +x, +y: the grid moves over the bodies */
-  PetscReal friction_scale;        /* factor on the coefficient of friction, >= 0 */
-  PetscReal bulk_stress[2][SAM_BULK_COMPONENTS]; /* Pa, of body 1 and 2: uniform, parallel to the surface */
-  PetscReal cases[SAM_CASES];                    /* factors on load cases, see SamControlAddCase() */
+  PetscReal condition[SAM_CONDITIONS]; /* by their places, those that are `given` */
+  unsigned char given[SAM_CONDITIONS];
 } SamControl;
-
-/*
-  SamCondition - what a step prescribes besides the six components: options, columns of histories, checkpoints, restarts
-  and results follow from the list of them, SamConditions. To add one: a member of SamControl, and an entry there.
-*/
-typedef struct {
-  const char *name, *unit, *text;
-  size_t      place; /* of its value in SamControl */
-  PetscReal   usual; /* its value when none is given */
-  SamRange    range;
-  PetscBool   option; /* may be an option, and changes from `usual` to its first value; else it has that at once */
-  PetscBool   change; /* not a level but a change since the row before, of which each of the row's steps has its part */
-  int         group;  /* those of a group are in results and parameters together, if one of them is given */
-} SamCondition;
-enum {
-  SAM_CONDITION_FRICTION,
-  SAM_CONDITION_BULK,
-  SAM_CONDITION_ROLL = SAM_CONDITION_BULK + 2 * SAM_BULK_COMPONENTS,
-  SAM_CONDITION_CASE = SAM_CONDITION_ROLL + 2,
-  SAM_CONDITIONS     = SAM_CONDITION_CASE + SAM_CASES
-};
-PETSC_INTERN const SamCondition SamConditions[SAM_CONDITIONS];
-/*
-  SamControlAddCase - the condition body1_case_<name> or body2_case_<name> (body 0 or 1), and its place in `cases`; one
-  that was added before keeps its place. `room`: there was one. SamConditionIsUsed - whether an entry has a name: those
-  of load cases that no file has are idle. Not collective, but to be called on all ranks.
-*/
-PETSC_INTERN PetscErrorCode SamControlAddCase(PetscInt body, const char name[], PetscInt *place, PetscBool *room);
-PETSC_INTERN PetscBool      SamConditionIsUsed(PetscInt k);
-/* The entry of a component of the bulk stress of body 0 or 1. */
-#define SAM_BULK_CONDITION(body, k) (&SamConditions[SAM_CONDITION_BULK + (body)*SAM_BULK_COMPONENTS + (k)])
-
-/*
-  What a control prescribes, in one row: the loads, displacements or creepages of the six components, then the
-  conditions. SamControlPart - the k-th of them. SamControlPlace - where it is. SamControlPartName - its name as an
-  option (without dash) or column, as it is given. SamControlWay - how a component is given; SamControlSetWay - sets it.
-  Not collective.
-*/
-#define SAM_CONTROL_PARTS (SAM_COMPONENTS + SAM_CONDITIONS)
-PETSC_INTERN PetscReal   SamControlPart(const SamControl *control, PetscInt k);
-PETSC_INTERN PetscReal  *SamControlPlace(SamControl *control, PetscInt k);
-PETSC_INTERN const char *SamControlPartName(const SamControl *control, PetscInt k);
-PETSC_EXTERN SamWay      SamControlWay(const SamControl *control, PetscInt component);
-PETSC_EXTERN void        SamControlSetWay(SamControl *control, PetscInt component, SamWay way);
-/*
-  SamControlRolled - the rolled distance by which creepages are multiplied, m: along x or along y alone as given, with
-  its sign, else the length of the path. Not collective.
-*/
-PETSC_INTERN PetscReal SamControlRolled(const SamControl *control);
-
-/*
-  SamControlPack, SamControlUnpack - a control as SAM_CONTROL_NUMBERS numbers, and back. Not collective.
-*/
-#define SAM_CONTROL_NUMBERS (SAM_COMPONENTS + 1 + SAM_CONTROL_PARTS)
-PETSC_INTERN void SamControlPack(const SamControl *control, double numbers[]);
-PETSC_INTERN void SamControlUnpack(const double numbers[], SamControl *control);
 
 /* SamControlInitialize - all loads given and 0, time 0, all conditions as usual. Not collective. */
 PETSC_EXTERN PetscErrorCode SamControlInitialize(SamControl *control);
 /*
-  SamControlSet - prescribes a component by the name of its load, displacement or creepage ("load_tx", "disp_x",
-  "creep_x"; N, N m, m, rad, 1 or 1/m). Not collective. Errors: PETSC_ERR_ARG_UNKNOWN_TYPE for any other name.
+  SamControlGet - the value of a condition; of no control (NULL), its usual one. SamControlSetCondition - sets it. Not
+  collective.
 */
-PETSC_EXTERN PetscErrorCode SamControlSet(SamControl *control, const char name[], PetscReal value);
+PETSC_EXTERN PetscReal SamControlGet(const SamControl *control, const SamCondition *condition);
+PETSC_INTERN void      SamControlSetCondition(SamControl *control, const SamCondition *condition, PetscReal value);
 /*
-  SamControlReadCondition - reads the k-th condition from its option, if it may be one; `set`: it was given. Collective.
+  SamControlSet - prescribes a component by the name of its load, displacement or creepage ("load_tx", "disp_x",
+  "creep_x"; N, N m, m, rad, 1 or 1/m), or a condition by its name. `conditions` NULL: none. Not collective. Errors:
+  PETSC_ERR_ARG_UNKNOWN_TYPE for any other name; the message has the nearest one.
+*/
+PETSC_EXTERN PetscErrorCode SamControlSet(SamControl *control, SamConditions conditions, const char name[],
+                                          PetscReal value);
+/* How a component is given, and setting it. Not collective. */
+PETSC_EXTERN SamWay SamControlWay(const SamControl *control, PetscInt component);
+PETSC_EXTERN void   SamControlSetWay(SamControl *control, PetscInt component, SamWay way);
+/*
+  What a control prescribes, in one row: the loads, displacements or creepages of the six components, then the
+  conditions of a list. SamControlCount - the number of these parts. SamControlPart - the k-th of them. SamControlSetPart
+  - sets it. SamControlPartName - its name as an option (without dash) or column, as it is given. Not collective.
+*/
+PETSC_INTERN PetscInt    SamControlCount(SamConditions conditions);
+PETSC_INTERN PetscReal   SamControlPart(const SamControl *control, SamConditions conditions, PetscInt k);
+PETSC_INTERN void        SamControlSetPart(SamControl *control, SamConditions conditions, PetscInt k, PetscReal value);
+PETSC_INTERN const char *SamControlPartName(const SamControl *control, SamConditions conditions, PetscInt k);
+/*
+  SamControlReadCondition - reads a condition from its option, if it may be one; `set`: it was given. Collective.
   Errors: SAM_ERR_USER.
 */
-PETSC_INTERN PetscErrorCode SamControlReadCondition(const SamOptions *from, PetscInt k, SamControl *control,
-                                                    PetscBool *set);
+PETSC_INTERN PetscErrorCode SamControlReadCondition(const SamOptions *from, const SamCondition *condition,
+                                                    SamControl *control, PetscBool *set);
 
 #endif

@@ -41,11 +41,10 @@ typedef struct {
   PetscBool parts; /* where only a part of the grid has traction, an operator on that part suffices */
   PetscBool
     upwind; /* the tangential operator is that of differences along x: not symmetric, it reaches a cell behind */
-  PetscBool layers;           /* the bodies may have layers */
-  PetscBool patch;            /* the bodies have a place, and do not roll */
-  PetscBool cases[SAM_CASES]; /* which of the load cases of a control are those of these bodies */
-  PetscInt  outside[2][2];    /* columns and rows at the low and high end of x, y where contact is not within a patch */
-  PetscBool stress;           /* stresses in the bodies are available; set by the class */
+  PetscBool layers;        /* the bodies may have layers */
+  PetscBool patch;         /* the bodies have a place, and do not roll */
+  PetscInt  outside[2][2]; /* columns and rows at the low and high end of x, y where contact is not within a patch */
+  PetscBool stress;        /* stresses in the bodies are available; set by the class */
 } SamElasticityTraits;
 
 /*

@@ -35,8 +35,7 @@ typedef enum {
 typedef enum { SAM_STEP_NUMBER, SAM_STEP_TIME, SAM_STEP_AREA, SAM_STEP_CYCLE } SamStepNumber;
 /*
   SamStressSource - the bodies, which are referenced, and the load steps, which are read when they are needed, by
-  collective functions: this rank's rows of a field; a number; the bulk stress (Pa) of body 1 or 2, and the factors on
-  load cases. Step -1 is the one before the first, if there is one. `warn` receives a text on the steps as a cycle.
+  collective functions: this rank's rows of a field; a number; the values of conditions of the bodies. Step -1 is the one before the first, if there is one. `warn` receives a text on the steps as a cycle.
   `tell` is called now and then during SamEvaluationCompute() with the work under way, the done part of it, and the done
   part of all work (0: unknown); NULL: nobody asks.
 */
@@ -48,7 +47,7 @@ typedef struct {
   PetscBool                 before;
   PetscErrorCode (*read)(void *context, PetscInt step, SamStepField field, double values[]);
   PetscErrorCode (*number)(void *context, PetscInt step, SamStepNumber number, double *value);
-  PetscErrorCode (*bulk)(void *context, PetscInt step, PetscInt body, double bulk[SAM_BULK_AND_CASES]);
+  PetscErrorCode (*conditions)(void *context, PetscInt step, SamConditions conditions, SamControl *control);
   PetscErrorCode (*warn)(void *context, const char text[]);
   PetscErrorCode (*tell)(void *context, const char work[], double part, double whole);
   void *context;

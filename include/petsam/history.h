@@ -12,7 +12,7 @@
 
   The file is text. Fields are separated by commas, semicolons or white space, # begins a comment, empty lines are
   ignored. The first line names the columns: `time`, any of the names of loads and displacements (load_n ... rot_z) and
-  of SamConditions. The rows follow, with increasing times (s). What has no column has the value of its option, or its
+  of conditions. The rows follow, with increasing times (s). What has no column has the value of its option, or its
   usual one, in all rows.
 */
 typedef struct _n_SamHistory *SamHistory;
@@ -28,21 +28,22 @@ PETSC_EXTERN PetscErrorCode SamHistoryClaimOption(void);
 
 /*
   SamHistoryCreateFromOptions - reads -history, -steps (increments), the twelve -load_, -disp_ and -rot_ options and the
-  six bulk stresses; reads and checks the whole file. Options that are given for this run must not have a column as
+  conditions that are options; reads and checks the whole file. Options that are given for this run must not have a column as
   well; of those in an options file the columns count instead, with a line on stderr; `arguments` tells them apart
-  (NULL: all are given for this run). Collective. Errors: SAM_ERR_USER naming the option, or the file and line;
+  (NULL: all are given for this run). `conditions`: what rows may prescribe besides loads and displacements; referenced.
+  Collective. Errors: SAM_ERR_USER naming the option, or the file and line;
   SAM_ERR_FILE for a file that cannot be read.
 */
 PETSC_INTERN PetscErrorCode SamHistoryCreateFromOptions(const SamOptions *from, const struct _n_SamArguments *arguments,
-                                                        SamHistory *history);
+                                                        SamConditions conditions, SamHistory *history);
 /*
   SamHistoryCreate - the same of rows in memory, `values` (rows, columns): `columns` names them, with commas, as the
-  first line of a file. `constant`: the values of what has no column, as bulk stresses. `before`: what the change to the
+  first line of a file. `constant`: the values of what has no column, as a bulk stress. `before`: what the change to the
   first row begins from; NULL: nothing, at time 0. Collective. Errors: SAM_ERR_USER naming the history's row.
 */
-PETSC_INTERN PetscErrorCode SamHistoryCreate(MPI_Comm comm, const SamControl *constant, const SamControl *before,
-                                             const char columns[], PetscInt rows, const double values[],
-                                             PetscInt increments, SamHistory *history);
+PETSC_INTERN PetscErrorCode SamHistoryCreate(MPI_Comm comm, SamConditions conditions, const SamControl *constant,
+                                             const SamControl *before, const char columns[], PetscInt rows,
+                                             const double values[], PetscInt increments, SamHistory *history);
 /* SamHistoryReadIncrements - reads -steps. Collective. Errors: SAM_ERR_USER. */
 PETSC_INTERN PetscErrorCode SamHistoryReadIncrements(const SamOptions *from, PetscInt *increments);
 /* SamHistoryDestroy - frees the history and sets the handle to NULL. Not collective. */

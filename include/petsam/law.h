@@ -23,6 +23,8 @@ typedef const char       *SamLawType;
 #define SAM_LAW_HARDNESS          "hardness"          /* pressure up to a limit, where the surfaces yield */
 #define SAM_LAW_ACCUMULATED_SLIP  "slip_path"         /* remembers the accumulated slip */
 #define SAM_LAW_FRICTION_ENERGY   "friction_energy"   /* remembers the frictional work */
+/* The condition of coulomb, a factor on the coefficient of friction. */
+#define SAM_FRICTION_SCALE "friction_scale"
 
 /*
   SamLawCreate - a law of that type, with the type's defaults; references the elasticity. Collective. Errors:
@@ -46,9 +48,12 @@ PETSC_INTERN PetscBool      SamLawIsRegistered(const char name[]);
 /*
   SamLawSetFromOptions - reads the law's options; `asked`: they select the law. Collective. Errors: SAM_ERR_USER,
   SAM_ERR_FILE.
+  SamLawAddConditions - adds what steps may prescribe for the law to the list of a problem, to which it then belongs. Not
+  collective. Errors: PETSC_ERR_ARG_WRONG for a law of another problem.
   SamLawAddParameters - appends what defines the law, by the names of its options. Collective.
 */
 PETSC_INTERN PetscErrorCode SamLawSetFromOptions(SamLaw law, const SamOptions *from, PetscBool *asked);
+PETSC_INTERN PetscErrorCode SamLawAddConditions(SamLaw law, SamConditions conditions);
 PETSC_INTERN PetscErrorCode SamLawAddParameters(SamLaw law, SamParameters *parameters);
 
 /*

@@ -16,6 +16,13 @@ PETSC_EXTERN PetscErrorCode SamProblemCreate(SamElasticity elasticity, SamProble
 PETSC_INTERN PetscErrorCode SamProblemReference(SamProblem problem);
 /* SamProblemDestroy - drops a reference, the last one frees the problem; sets the handle to NULL. Collective. */
 PETSC_EXTERN PetscErrorCode SamProblemDestroy(SamProblem *problem);
+/*
+  SamProblemGetConditions - what its steps prescribe besides loads and displacements: by the bodies, their motion and
+  the laws that have been added; borrowed. Not collective.
+  SamProblemGetRolled - the rolled distance of a step, as SamMotionRolled(). Not collective.
+*/
+PETSC_EXTERN PetscErrorCode SamProblemGetConditions(SamProblem problem, SamConditions *conditions);
+PETSC_INTERN PetscReal      SamProblemGetRolled(SamProblem problem, const SamControl *control, PetscReal distance[2]);
 /* The elasticity and its grid. Not collective. */
 PETSC_EXTERN PetscErrorCode SamProblemGetElasticity(SamProblem problem, SamElasticity *elasticity); /* borrowed */
 PETSC_EXTERN PetscErrorCode SamProblemGetGrid(SamProblem problem, SamGrid *grid);                   /* borrowed */

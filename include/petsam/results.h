@@ -46,15 +46,14 @@ PETSC_EXTERN PetscErrorCode SamResultsGetSaved(SamResults results, PetscInt k, P
 */
 PETSC_EXTERN PetscErrorCode SamResultsRead(SamResults results, PetscInt k, SamResultsField field, double values[]);
 /*
-  SamResultsReadBulkStress - the bulk stress (Pa) of body 0 or 1 at a load step (from 1), and the factors on the load
-  cases that are known by then, 0 where the file has no column of it. Collective. Errors: SAM_ERR_FILE, also for a value
-  that is no finite number.
+  SamResultsReadConditions - sets the conditions of a control to those of a load step (from 1), of a list; where the
+  file has no column of one, it is as usual. Collective. Errors: SAM_ERR_FILE, also for a value that is no finite number.
 */
-PETSC_EXTERN PetscErrorCode SamResultsReadBulkStress(SamResults results, PetscInt step, PetscInt body,
-                                                     double stress[SAM_BULK_AND_CASES]);
+PETSC_EXTERN PetscErrorCode SamResultsReadConditions(SamResults results, PetscInt step, SamConditions conditions,
+                                                     SamControl *control);
 /*
   SamResultsReadNumber - of a load step (from 1): the cycles before the one that it belongs to in a life, 0 in other
-  results; or its SamStatus. Collective. Errors: as SamResultsReadBulkStress().
+  results; or its SamStatus. Collective. Errors: as SamResultsReadConditions().
 */
 typedef enum { SAM_RESULTS_CYCLE, SAM_RESULTS_STATUS, SAM_RESULTS_CONTACT_AREA, SAM_RESULTS_NUMBERS } SamResultsNumber;
 PETSC_EXTERN PetscErrorCode SamResultsReadNumber(SamResults results, PetscInt step, SamResultsNumber number,

@@ -69,6 +69,16 @@ typedef struct {
 #define SAM_STATE_NUMBERS  512
 #define SAM_STATE_DECLARED 128 /* most declarations of numbers */
 PETSC_EXTERN PetscErrorCode SamStateDeclareNumber(SamState state, const SamStateNumber *number, PetscInt *id);
+/*
+  SamStateDeclareOptional - the same of numbers that another state or a checkpoint may lack, where they have their usual
+  value, as from the start.
+  SamStateIsOptional - whether the k-th declaration is of such; SamStateIsUsual - and all that is remembered of them is
+  as usual. Not collective.
+*/
+PETSC_INTERN PetscErrorCode SamStateDeclareOptional(SamState state, const SamStateNumber *number, double usual,
+                                                    PetscInt *id);
+PETSC_INTERN PetscBool      SamStateIsOptional(SamState state, PetscInt k);
+PETSC_INTERN PetscBool      SamStateIsUsual(SamState state, PetscInt k);
 
 /*
   SamStateOfferNumber - makes a declared number a column of /history, unless it is one; `before` is its value in steps

@@ -6,6 +6,7 @@
 */
 #include <petsam/advice.h>
 #include <petsam/private/baseimpl.h>
+#include <petsam/private/bulk.h>
 #include <petsam/private/grid.h>
 #include <petsam/private/motionimpl.h>
 #include <math.h>
@@ -45,9 +46,14 @@ void SamAdviceAddLoads(SamAdvice *a, PetscInt step, const SamControl *control)
   const PetscBool    *creep = control->creep;
   const PetscReal     x     = force[SAM_COMPONENT_TX] || creep[SAM_COMPONENT_TX] ? 0 : v[SAM_COMPONENT_TX];
   const PetscReal     y     = force[SAM_COMPONENT_TY] || creep[SAM_COMPONENT_TY] ? 0 : v[SAM_COMPONENT_TY];
+  PetscReal           bulk[SAM_BULK_COMPONENTS];
+  SamConditions       conditions;
 
-  for (PetscInt k = 0; k < 2 * SAM_BULK_COMPONENTS; k++)
-    most->bulk = PetscMax(most->bulk, fabs(control->bulk_stress[k / SAM_BULK_COMPONENTS][k % SAM_BULK_COMPONENTS]));
+  (void)SamProblemGetConditions(a->setup->problem, &conditions);
+  for (PetscInt body = 0; body < 2; body++) {
+    SamBulkGet(conditions, control, body, bulk);
+    for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++) most->bulk = PetscMax(most->bulk, fabs(bulk[k]));
+  }
   most->force = force[SAM_COMPONENT_N];
   most->slide = PetscMax(most->slide, hypot(x, y));
   for (PetscInt c = SAM_COMPONENT_MX; c < SAM_COMPONENTS; c++)

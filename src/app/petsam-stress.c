@@ -106,14 +106,14 @@ static PetscErrorCode ReadNumber(void *context, PetscInt k, SamStepNumber number
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode ReadBulk(void *context, PetscInt k, PetscInt body, double bulk[SAM_BULK_AND_CASES])
+static PetscErrorCode ReadConditions(void *context, PetscInt k, SamConditions conditions, SamControl *control)
 {
   const SamStressRun *const run = (const SamStressRun *)context;
   PetscInt                  step;
 
   PetscFunctionBegin;
   PetscCall(SamResultsGetSaved(run->results, SavedStep(run, k), &step, NULL));
-  PetscCall(SamResultsReadBulkStress(run->results, step, body - 1, bulk));
+  PetscCall(SamResultsReadConditions(run->results, step, conditions, control));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -151,14 +151,14 @@ static PetscErrorCode ChooseSteps(SamStressRun *run)
 /* The bodies, by the elasticity that the results have recorded, and the steps. */
 static PetscErrorCode SetUpEvaluation(SamStressRun *run)
 {
-  SamStressSource      source = {.settings = &run->transforms,
-                                 .name     = run->source,
-                                 .read     = ReadField,
-                                 .number   = ReadNumber,
-                                 .bulk     = ReadBulk,
-                                 .warn     = WarnOfSteps,
-                                 .tell     = Tell,
-                                 .context  = run};
+  SamStressSource      source = {.settings   = &run->transforms,
+                                 .name       = run->source,
+                                 .read       = ReadField,
+                                 .number     = ReadNumber,
+                                 .conditions = ReadConditions,
+                                 .warn       = WarnOfSteps,
+                                 .tell       = Tell,
+                                 .context    = run};
   const SamParameters *parameters;
 
   PetscFunctionBegin;

@@ -49,8 +49,8 @@ static PetscErrorCode ComputeDisplacements(SamProblem problem, PetscBool couplin
     PetscCall(SamVecZero(s->displacement_t));
   if (traits.coupled && coupling) PetscCall(AddCoupling(elasticity, grid, s));
   PetscCall(VecNorm(s->displacement_z, NORM_INFINITY, most));
-  PetscCall(SamElasticityAddCases(elasticity, &s->control, PETSC_FALSE, s->displacement_z));
-  PetscCall(SamElasticityAddCases(elasticity, &s->control, PETSC_TRUE, s->displacement_t));
+  PetscCall(SamProblemAddCases(problem, &s->control, PETSC_FALSE, s->displacement_z));
+  PetscCall(SamProblemAddCases(problem, &s->control, PETSC_TRUE, s->displacement_t));
   PetscCall(SamElasticityTrim(elasticity));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -91,11 +91,13 @@ static Border BorderOf(SamProblem problem, SamGrid grid, const SamSolution *s)
 {
   SamElasticity       elasticity;
   SamElasticityTraits traits;
+  PetscReal           roll[2];
   Border              b;
 
   (void)SamProblemGetElasticity(problem, &elasticity);
   (void)SamElasticityGetTraits(elasticity, &traits);
-  SamGridEntering(grid, s->control.roll, b.low, b.high);
+  (void)SamProblemGetRolled(problem, &s->control, roll);
+  SamGridEntering(grid, roll, b.low, b.high);
   for (int axis = 0; axis < grid->axes; axis++) {
     b.low[axis]  = PetscMax(b.low[axis], PetscMax(traits.outside[axis][0], 1));
     b.high[axis] = PetscMax(b.high[axis], PetscMax(traits.outside[axis][1], 1));
@@ -225,7 +227,7 @@ SAM_VECTORIZED static TangentialSums TangentialRow(PetscInt n, const double *res
 static PetscErrorCode CreateBound(SamProblem problem, SamState state, const SamSolution *before, const SamSolution *s,
                                   Vec *bound)
 {
-  SamBoundAt at = {state, s->control.friction_scale, NULL, NULL, SamControlRolled(&s->control)};
+  SamBoundAt at = {state, &s->control, NULL, NULL, SamProblemGetRolled(problem, &s->control, NULL)};
   SamGrid    grid;
   double    *b;
 

@@ -13,6 +13,7 @@ struct _n_SamContact {
   SamProblem          problem;
   SamElasticity       elasticity; /* of the problem; borrowed */
   SamGrid             grid;       /* of the problem; borrowed */
+  SamConditions       conditions; /* of the problem; borrowed */
   SamElasticityTraits traits;
   SamMotion           motion; /* of the elasticity */
   SamNormal           normal;
@@ -25,7 +26,7 @@ struct _n_SamContact {
   SamRecall        recall;                      /* steps of the cycle before */
   PetscObjectState revision[SAM_GENERATIONS];   /* of the problem that the pressure was solved with; -1: another */
   PetscInt         tractions[3], displacements[2]; /* fields: pressure, bound, shear; u_z, u_t */
-  PetscInt time, solution, given, creeps, control, residuals, counts, status, window, steps; /* numbers, see memory.c */
+  PetscInt time, solution, creeps, control, residuals, counts, status, window, steps; /* numbers, see memory.c */
   PetscInt rolling; /* numbers, of a motion that continues no step only */
 };
 

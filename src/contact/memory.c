@@ -5,6 +5,7 @@
 #include "contactimpl.h"
 #include <petsam/private/state.h>
 
+#define CONTROL      (1 + 2 * SAM_COMPONENTS)        /* numbers of a control besides its conditions */
 #define DISPLACEMENT "relative elastic displacement" /* normal, and tangential */
 
 /* ---- declarations ---- */
@@ -47,6 +48,8 @@ static PetscErrorCode Declare(SamContact c, const char name[], const char unit[]
 /* What is given and found of the six components, and what else is given, which is offered where it varies. */
 static PetscErrorCode DeclareControl(SamContact c)
 {
+  PetscInt id;
+
   PetscFunctionBegin;
   PetscCall(Declare(c, "time", "s", "time of the load step", SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE, &c->time));
   for (PetscInt n = 0; n < 2 * SAM_COMPONENTS; n++) {
@@ -59,11 +62,12 @@ static PetscErrorCode DeclareControl(SamContact c)
                       load ? name->load_text : rigid.text, SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE,
                       n ? NULL : &c->solution));
   }
-  for (PetscInt n = 0; n < SAM_CONDITIONS && SamConditionIsUsed(n); n++) {
-    const SamCondition *condition = &SamConditions[n];
+  for (PetscInt n = 0; n < SamConditionsCount(c->conditions); n++) {
+    const SamCondition  *one    = SamConditionsGet(c->conditions, n);
+    const SamStateNumber number = {
+      .name = one->name, .unit = one->unit, .text = one->text, .count = 1, .kept = PETSC_TRUE};
 
-    PetscCall(Declare(c, condition->name, condition->unit, condition->text, SAM_NUMBER_REAL, 1, PETSC_FALSE,
-                      PETSC_FALSE, n ? NULL : &c->given));
+    PetscCall(SamStateDeclareOptional(c->state, &number, (double)one->usual, &id));
   }
   for (PetscInt k = 0; k < 3; k++) {
     const SamComponentName *name = &SamComponentNames[SamComponentsOf[SAM_BALANCE_TANGENTIAL][k]];
@@ -71,8 +75,8 @@ static PetscErrorCode DeclareControl(SamContact c)
     PetscCall(Declare(c, name->creep, name->creep_unit, name->creep_text, SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_FALSE,
                       k ? NULL : &c->creeps));
   }
-  PetscCall(Declare(c, "control", "1", "what was prescribed", SAM_NUMBER_REAL, SAM_CONTROL_NUMBERS, PETSC_TRUE,
-                    PETSC_FALSE, &c->control));
+  PetscCall(
+    Declare(c, "control", "1", "what was prescribed", SAM_NUMBER_REAL, CONTROL, PETSC_TRUE, PETSC_FALSE, &c->control));
   PetscCall(Declare(c, "window", "1", "part of the grid that was solved on", SAM_NUMBER_INT, 4, PETSC_TRUE, PETSC_FALSE,
                     &c->window));
   PetscCall(Declare(c, "steps", "1", "committed load steps", SAM_NUMBER_INT, 1, PETSC_TRUE, PETSC_FALSE, &c->steps));
@@ -253,14 +257,12 @@ static PetscErrorCode Move(SamContact c, const PetscReal roll[2])
 {
   SamSolution *const s     = &c->generation[SAM_COMMITTED];
   PetscReal *const   rigid = s->rigid;
-  SamPair            pair;
   SamStretch         e;
 
   PetscFunctionBegin;
   PetscCall(SamStateMove(c->state, roll));
   PetscCall(SamContactView(c));
-  PetscCall(SamElasticityGetPair(c->elasticity, &pair));
-  e = SamStretchOf(pair, &s->control);
+  e = SamStretchOf(c->problem, &s->control);
   rigid[SAM_COMPONENT_TX] -= rigid[SAM_COMPONENT_MZ] * roll[1] + e.xx * roll[0] + e.xy * roll[1];
   rigid[SAM_COMPONENT_TY] += rigid[SAM_COMPONENT_MZ] * roll[0] - e.xy * roll[0] - e.yy * roll[1];
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -269,12 +271,13 @@ static PetscErrorCode Move(SamContact c, const PetscReal roll[2])
 PetscErrorCode SamContactBegin(SamContact c, const SamControl *control)
 {
   SamSolution *s = &c->generation[SAM_TRIED];
+  PetscReal    roll[2];
 
   PetscFunctionBegin;
   PetscCall(SamContactDeclare(c));
   PetscCall(SamStateBegin(c->state));
-  c->rolls = SamControlRolled(control) != 0;
-  if (c->rolls && SamContactBefore(c)) PetscCall(Move(c, control->roll));
+  c->rolls = SamProblemGetRolled(c->problem, control, roll) != 0;
+  if (c->rolls && SamContactBefore(c)) PetscCall(Move(c, roll));
   *s          = (SamSolution){.control = *control};
   s->mid_step = TurnsAtMidStep(c);
   PetscCall(SamStateSetField(c->state, c->tractions[0], &s->pressure));
@@ -282,6 +285,36 @@ PetscErrorCode SamContactBegin(SamContact c, const SamControl *control)
   PetscCall(SamStateSetField(c->state, c->tractions[2], &s->shear));
   PetscCall(SamProblemGetRevision(c->problem, &c->revision[SAM_TRIED]));
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* A control as numbers of the state: those of the six components in a row, conditions each by its name. */
+static void StoreControl(SamContact c, const SamControl *control, double n[])
+{
+  n[c->control] = control->time;
+  for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
+    n[c->control + 1 + k]                  = SamControlWay(control, k);
+    n[c->control + 1 + SAM_COMPONENTS + k] = control->value[k];
+  }
+  for (PetscInt k = 0; k < SamConditionsCount(c->conditions); k++) {
+    const SamCondition *one = SamConditionsGet(c->conditions, k);
+
+    n[SamStateFindNumber(c->state, one->name)] = SamControlGet(control, one);
+  }
+}
+
+static void ViewControl(SamContact c, const double n[], SamControl *control)
+{
+  *control = (SamControl){.time = n[c->control]};
+  for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
+    SamControlSetWay(control, k, (SamWay)n[c->control + 1 + k]);
+    control->value[k] = n[c->control + 1 + SAM_COMPONENTS + k];
+  }
+  for (PetscInt k = 0; k < SamConditionsCount(c->conditions) && n[c->steps] > 0; k++) {
+    const SamCondition *one = SamConditionsGet(c->conditions, k);
+    const PetscInt      id  = SamStateFindNumber(c->state, one->name);
+
+    if (id >= 0) SamControlSetCondition(control, one, n[id]);
+  }
 }
 
 PetscErrorCode SamContactStore(SamContact c, const SamStep *step)
@@ -296,16 +329,11 @@ PetscErrorCode SamContactStore(SamContact c, const SamStep *step)
     const PetscInt     m      = SamComponentsOf[SAM_BALANCE_TANGENTIAL][k];
     const SamSolution *before = SamContactBefore(c);
 
-    n[c->creeps + k] = step->control.creep[m]
-                         ? step->control.value[m]
-                         : (step->rigid[m] - (before ? before->rigid[m] : 0)) / SamControlRolled(&step->control);
+    n[c->creeps + k] = step->control.creep[m] ? step->control.value[m]
+                                              : (step->rigid[m] - (before ? before->rigid[m] : 0)) /
+                                                  SamProblemGetRolled(c->problem, &step->control, NULL);
   }
-  for (PetscInt k = 0; k < SAM_CONDITIONS; k++) { /* load cases may come later: they are found by name */
-    const PetscInt id = k < SAM_CONDITION_CASE ? c->given + k : SamStateFindNumber(c->state, SamConditions[k].name);
-
-    if (id >= 0) n[id] = SamControlPart(&step->control, SAM_COMPONENTS + k);
-  }
-  SamControlPack(&c->generation[SAM_TRIED].control, n + c->control);
+  StoreControl(c, &c->generation[SAM_TRIED].control, n);
   n[c->residuals]     = step->check.normal;
   n[c->residuals + 1] = step->check.tangential;
   n[c->residuals + 2] = step->check.equilibrium;
@@ -320,7 +348,7 @@ PetscErrorCode SamContactView(SamContact c)
     SamSolution *s = &c->generation[g];
     double      *n = SamStateNumbers(c->state, 0, g);
 
-    SamControlUnpack(n + c->control, &s->control);
+    ViewControl(c, n, &s->control);
     for (PetscInt k = 0; k < SAM_COMPONENTS; k++) { /* before the first step there are none: nothing has moved */
       s->load[k]  = n[c->steps] > 0 ? n[c->solution + k] : 0;
       s->rigid[k] = n[c->steps] > 0 ? n[c->solution + SAM_COMPONENTS + k] : 0;

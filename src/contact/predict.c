@@ -46,21 +46,25 @@ static void AddChange(double before, double now, double next, Changes *c)
   The length alpha of the change to the next step along the last change, in units of the last change; 0 when the
   prescribed values do not change in nearly the same proportions.
 */
-static double Continuation(const SamControl *before, const SamControl *now, const SamControl *next)
+static double Continuation(SamContact contact, const SamControl *before, const SamControl *now, const SamControl *next)
 {
-  Changes c = {0, 0, 0};
-  double  alpha, across;
+  const SamProblem p = contact->problem;
+  Changes          c = {0, 0, 0};
+  double           alpha, across;
 
-  if (SamControlRolled(now) != 0 || SamControlRolled(next) != 0) return 0; /* the slip moves, whatever changes */
+  if (SamProblemGetRolled(p, now, NULL) != 0 || SamProblemGetRolled(p, next, NULL) != 0)
+    return 0; /* the slip moves, whatever changes */
   for (PetscInt n = 0; n < SAM_COMPONENTS; n++) {
     const PetscInt k = SamComponentsOf[n / 3][n % 3];
 
     if (SamControlWay(next, k) != SamControlWay(now, k) || SamControlWay(now, k) != SamControlWay(before, k)) return 0;
     AddChange(before->value[k], now->value[k], next->value[k], &c);
   }
-  for (PetscInt k = SAM_COMPONENTS; k < SAM_CONTROL_PARTS; k++) /* the next bound is computed with the next friction */
-    if (k != SAM_COMPONENTS + SAM_CONDITION_FRICTION)
-      AddChange(SamControlPart(before, k), SamControlPart(now, k), SamControlPart(next, k), &c);
+  for (PetscInt k = 0; k < SamConditionsCount(contact->conditions); k++) {
+    const SamCondition *one = SamConditionsGet(contact->conditions, k);
+
+    if (!one->bounds) AddChange(SamControlGet(before, one), SamControlGet(now, one), SamControlGet(next, one), &c);
+  }
   if (c.old_old == 0 || c.old_new <= 0) return 0;
   alpha  = c.old_new / c.old_old;
   across = c.new_new - alpha * c.old_new; /* square of the part across the last change */
@@ -230,10 +234,10 @@ static PetscErrorCode ExtrapolateField(SamContact c, double alpha, PetscInt fiel
 }
 
 /* Extrapolates the pressure, and the shear under its bound; `found`: there is contact. */
-static PetscErrorCode Extrapolate(SamContact c, double alpha, double friction_scale, PetscBool *found)
+static PetscErrorCode Extrapolate(SamContact c, double alpha, const SamControl *control, PetscBool *found)
 {
   const SamSolution *next = &c->generation[SAM_TRIED];
-  const SamBoundAt   at   = {c->state, friction_scale, next->pressure, NULL, 0};
+  const SamBoundAt   at   = {c->state, control, next->pressure, NULL, 0};
   double             most = 0;
 
   PetscFunctionBegin;
@@ -270,13 +274,13 @@ PetscErrorCode SamContactPredict(SamContact c, const SamControl *control, SamSte
   PetscFunctionBegin;
   *start = (SamStepStart){.pressure = PETSC_FALSE};
   PetscCall(SamContactGetSteps(c, &steps));
-  if (steps > 1 && c->set.warm_start) alpha = Continuation(&before->control, &now->control, control);
+  if (steps > 1 && c->set.warm_start) alpha = Continuation(c, &before->control, &now->control, control);
   for (PetscInt k = 0; k < 3; k++) {
     const PetscInt n = SamComponentsOf[SAM_BALANCE_TANGENTIAL][k];
 
     start->rigid[k] = now->rigid[n] + alpha * (now->rigid[n] - before->rigid[n]);
   }
-  if (alpha > 0) PetscCall(Extrapolate(c, alpha, control->friction_scale, &found));
+  if (alpha > 0) PetscCall(Extrapolate(c, alpha, control, &found));
   start->pressure = found;
   start->shear    = found && (near || c->motion->continues);
   if (!found && near) {

@@ -1,5 +1,6 @@
 /* Steps of a contact that are tried, then committed or rejected. */
 #include "contactimpl.h"
+#include <petsam/private/bulk.h>
 #include <math.h>
 #include <petsam/private/elasticity.h>
 #include <petsam/private/solverimpl.h>
@@ -20,10 +21,12 @@
 static PetscErrorCode DescribeEntering(SamContact c, SamStep *step)
 {
   const PetscInt  cells[2] = {c->grid->nx, c->grid->ny};
-  const PetscReal size[2] = {c->grid->dx, c->grid->dy}, *roll = step->control.roll;
+  const PetscReal size[2]  = {c->grid->dx, c->grid->dy};
+  PetscReal       roll[2];
   PetscInt        first[2], n[2];
 
   PetscFunctionBegin;
+  (void)SamProblemGetRolled(c->problem, &step->control, roll);
   PetscCall(SamGridGetSupport(c->grid, c->generation[SAM_TRIED].pressure, first, n));
   for (PetscInt k = 0; k < 2; k++)
     if (first[k] == 0 || first[k] + n[k] == cells[k]) PetscFunctionReturn(PETSC_SUCCESS);
@@ -35,7 +38,7 @@ static PetscErrorCode DescribeEntering(SamContact c, SamStep *step)
                    "the contact reached material from outside of the grid, whose displacement is unknown (pressure "
                    "there up to %.2g times the maximum): %s = %.8g: at most %.8g m in a step: use more steps or a "
                    "wider grid",
-                   (double)step->check.edge, SamConditions[SAM_CONDITION_ROLL + k].name, (double)roll[k], (double)most);
+                   (double)step->check.edge, k ? "roll_y" : "roll", (double)roll[k], (double)most);
     (void)snprintf(step->setting, sizeof(step->setting), "steps");
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -75,17 +78,21 @@ static PetscErrorCode Judge(SamContact c, SamStep *step)
 */
 static PetscErrorCode CheckBulkStress(SamContact c, SamControl *control)
 {
+  PetscReal         all[SAM_BULK_COMPONENTS];
   SamPair           pair;
   SamElasticityType type;
 
   PetscFunctionBegin;
   PetscCall(SamElasticityGetPair(c->elasticity, &pair));
   PetscCall(SamElasticityGetType(c->elasticity, &type));
-  for (PetscInt body = 0; body < 2; body++)
+  for (PetscInt body = 0; body < 2; body++) {
+    SamBulkGet(c->conditions, control, body, all);
     for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++) {
-      const SamMaterial *m      = SamBodyBulk(SamPairBody(pair, body));
-      const char        *name   = SAM_BULK_CONDITION(body, k)->name;
-      const double       stress = (double)control->bulk_stress[body][k];
+      const SamMaterial  *m         = SamBodyBulk(SamPairBody(pair, body));
+      const SamCondition *condition = SamBulkCondition(c->conditions, body, k);
+      const char *const   name      = condition->name;
+      const double        stress    = (double)all[k];
+      double              follows;
 
       PetscCheck(stress == 0 || !isinf(m->young), c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
                  "%s = %.6g: expected 0: a rigid body does not stretch", name, stress);
@@ -95,24 +102,27 @@ static PetscErrorCode CheckBulkStress(SamContact c, SamControl *control)
                  "%s = %.6g: expected 0: bodies of type %s bear no bulk stress", name, stress, type);
       if (!c->traits.plane || k == SAM_BULK_XX) continue;
       /* without -0, of which nothing may depend */
-      control->bulk_stress[body][k] = k == SAM_BULK_YY ? 0 + m->poisson * control->bulk_stress[body][SAM_BULK_XX] : 0;
-      PetscCheck(stress == 0 || stress == control->bulk_stress[body][k], c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
+      follows = k == SAM_BULK_YY ? 0 + m->poisson * all[SAM_BULK_XX] : 0;
+      SamControlSetCondition(control, condition, follows);
+      PetscCheck(stress == 0 || stress == follows, c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
                  "%s = %.6g: expected 0: in plane strain yy follows from xx, and there is no xy", name, stress);
     }
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Load cases must be those of the bodies, and the pressure and the shear be solved with each other. */
-static PetscErrorCode CheckCases(SamContact c, const SamControl *control)
+/* Conditions must be in their range, and the pressure and the shear be solved with each other where they ask for it. */
+static PetscErrorCode CheckConditions(SamContact c, const SamControl *control)
 {
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < SAM_CASES; k++) {
-    const char  *name   = SamConditions[SAM_CONDITION_CASE + k].name;
-    const double factor = (double)control->cases[k];
+  for (PetscInt k = 0; k < SamConditionsCount(c->conditions); k++) {
+    const SamCondition *one   = SamConditionsGet(c->conditions, k);
+    const PetscReal     value = SamControlGet(control, one);
 
-    if (factor == 0) continue;
-    PetscCheck(isfinite(factor) && c->traits.cases[k] && SamContactIsCoupled(c), c->grid->comm, SAM_ERR_USER,
-               "%s = %.6g: expected 0, or a body with this load case and -coupling full", name, factor);
+    PetscCheck(SamRangeHas(one->range, value), c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "%s = %.6g: expected %s",
+               one->name, (double)value, SamRangeDescribe(one->range));
+    PetscCheck(value == one->usual || !one->couples || SamContactIsCoupled(c), c->grid->comm, SAM_ERR_USER,
+               "%s = %.6g: expected %.6g, or -coupling full", one->name, (double)value, (double)one->usual);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -125,7 +135,7 @@ static PetscErrorCode CheckControl(SamContact c, SamControl *control)
   PetscFunctionBegin;
   PetscCall(SamElasticityGetType(c->elasticity, &type));
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
-    const char *name = SamControlPartName(control, k);
+    const char *name = SamComponentNameOf(k, SamControlWay(control, k));
 
     PetscCheck(isfinite(control->value[k]), c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "%s is not a finite number", name);
     if (k < SAM_COMPONENT_MX || c->traits.rotations[k - SAM_COMPONENT_MX]) continue;
@@ -137,11 +147,9 @@ static PetscErrorCode CheckControl(SamContact c, SamControl *control)
   PetscCheck(!control->force[SAM_COMPONENT_N] || control->value[SAM_COMPONENT_N] >= 0, c->grid->comm,
              PETSC_ERR_ARG_OUTOFRANGE, "load_n = %.6g: expected a number >= 0",
              (double)control->value[SAM_COMPONENT_N]);
-  PetscCheck(control->friction_scale >= 0 && isfinite(control->friction_scale), c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-             "friction_scale = %.6g: expected a number >= 0", (double)control->friction_scale);
+  PetscCall(CheckConditions(c, control));
   PetscCall(CheckBulkStress(c, control));
-  PetscCall(CheckCases(c, control));
-  PetscCall(SamMotionCheck(c->elasticity, control, ""));
+  PetscCall(SamMotionCheck(c->elasticity, c->conditions, control, ""));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -268,8 +276,8 @@ static PetscErrorCode GetGap(SamLawStep *step, Vec gap)
 
 static PetscErrorCode GetSlope(SamLawStep *step, Vec by_pressure)
 {
-  const SamContact c = (SamContact)step->context;
-  SamBoundAt at      = {c->state, step->control->friction_scale, step->pressure, NULL, SamControlRolled(step->control)};
+  const SamContact c  = (SamContact)step->context;
+  SamBoundAt       at = {c->state, step->control, step->pressure, NULL, step->rolled};
 
   PetscFunctionBegin;
   if (SamProblemFollowsSlip(c->problem)) PetscCall(SamLawStepGetFriction(step, &at.slip, NULL, NULL));
@@ -285,6 +293,7 @@ static PetscErrorCode Advance(SamContact c, PetscBool same_pressure)
                              .state         = c->state,
                              .elasticity    = c->elasticity,
                              .control       = &s->control,
+                             .rolled        = SamProblemGetRolled(c->problem, &s->control, NULL),
                              .pressure      = s->pressure,
                              .shear         = s->shear,
                              .same_pressure = same_pressure,

@@ -121,7 +121,9 @@ static PetscErrorCode ReadConditions(petsam_contact *c, const SamOptions *from)
 
   PetscFunctionBegin;
   PetscCall(SamControlInitialize(&c->control));
-  for (PetscInt k = 0; k < SAM_CONDITIONS; k++) PetscCall(SamControlReadCondition(from, k, &c->control, &set));
+  PetscCall(SamProblemGetConditions(c->setup->problem, &c->conditions));
+  for (PetscInt k = 0; k < SamConditionsCount(c->conditions); k++)
+    PetscCall(SamControlReadCondition(from, SamConditionsGet(c->conditions, k), &c->control, &set));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -302,7 +304,8 @@ static PetscErrorCode Try(petsam_contact *c, double time, const double roll[], c
   PetscFunctionBegin;
   PetscCheck(isfinite(time), c->comm, SAM_ERR_USER, "petsam_try: time is not a finite number");
   control.time = time;
-  for (int k = 0; k < 2; k++) control.roll[k] = roll[k];
+  PetscCall(SamControlSet(&control, c->conditions, "roll", roll[0]));
+  PetscCall(SamControlSet(&control, c->conditions, "roll_y", roll[1]));
   for (int k = 0; k < SAM_COMPONENTS; k++) {
     const SamWay way = force[k] == 2 ? SAM_BY_CREEP : force[k] ? SAM_BY_LOAD : SAM_BY_RIGID;
 
@@ -313,8 +316,8 @@ static PetscErrorCode Try(petsam_contact *c, double time, const double roll[], c
     control.value[k] = value[k];
   }
   PetscCall(SamEmbedForget(c));
-  for (PetscInt k = SAM_CONDITION_ROLL; k < SAM_CONDITION_ROLL + 2 && SamControlRolled(&control) != 0; k++)
-    PetscCall(SamContactOfferCondition(c->setup->contact, k));
+  for (PetscInt k = 0; k < 2 && SamProblemGetRolled(c->setup->problem, &control, NULL) != 0; k++)
+    PetscCall(SamContactOfferCondition(c->setup->contact, SamConditionsFind(c->conditions, k ? "roll_y" : "roll")));
   code = SamContactTry(c->setup->contact, &control, &c->last);
   if (code) PetscCall(SamEmbedForget(c));
   PetscCall(code);

@@ -19,7 +19,8 @@ struct petsam_contact {
   PetscOptions    options; /* its own database */
   SamSimulation   simulation;
   const SamSetup *setup;      /* its own */
-  SamControl      control;    /* bulk stresses */
+  SamConditions   conditions; /* of its problem */
+  SamControl      control;    /* those that options gave */
   PetscInt        increments; /* of each row of a history */
   SamStep         last;       /* that was tried; after its rejection none, and no failure */
   Vec             work;

@@ -13,20 +13,19 @@ static int LeaveFile(petsam_contact *c, PetscErrorCode error)
 
 static PetscErrorCode CollectParameters(petsam_contact *c, SamParameters *parameters)
 {
-  SamElasticityTraits traits;
-
   PetscFunctionBegin;
-  PetscCall(SamElasticityGetTraits(c->setup->elasticity, &traits));
   *parameters = (SamParameters){.in_process = PETSC_TRUE};
   PetscCall(SamSetupAddParameters(c->setup, parameters));
   if (c->has_gap)
     PetscCall(SamParametersAddChecksum(parameters, "given_gap", c->gap));
   else
     PetscCall(SamParametersAddText(parameters, "given_gap", PETSC_TRUE, "none"));
-  for (PetscInt k = 0; k < SAM_CONDITIONS; k++)
-    if (SamConditions[k].option && (k < SAM_CONDITION_CASE || traits.cases[k - SAM_CONDITION_CASE]))
-      PetscCall(SamParametersAddReals(parameters, SamConditions[k].name, PETSC_TRUE, 1,
-                                      SamControlPlace(&c->control, SAM_COMPONENTS + k)));
+  for (PetscInt k = 0; k < SamConditionsCount(c->conditions); k++) {
+    const SamCondition *one   = SamConditionsGet(c->conditions, k);
+    const PetscReal     value = SamControlGet(&c->control, one);
+
+    if (one->option) PetscCall(SamParametersAddReals(parameters, one->name, PETSC_TRUE, 1, &value));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

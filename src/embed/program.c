@@ -92,8 +92,8 @@ static PetscErrorCode RunProgram(Run *run, const double *cycles, const char colu
   PetscCheck(!cycles || *cycles > 0, c->comm, SAM_ERR_USER, "petsam_live: cycles is %.6g: use a number > 0", *cycles);
   PetscCall(SamEmbedForget(c));
   PetscCall(GetCommitted(c, &last, &committed));
-  PetscCall(
-    SamHistoryCreate(c->comm, &c->control, committed ? &last : NULL, columns, rows, values, c->increments, &history));
+  PetscCall(SamHistoryCreate(c->comm, c->conditions, &c->control, committed ? &last : NULL, columns, rows, values,
+                             c->increments, &history));
   PetscCall(SamSimulationSetProgram(c->simulation, &history, cycles ? *cycles : 0));
   PetscCall(SamSimulationSetMonitor(c->simulation, Tell, run));
   c->advice[0] = '\0';

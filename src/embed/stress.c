@@ -213,13 +213,16 @@ static PetscErrorCode ReadNumber(void *context, PetscInt k, SamStepNumber number
   return PETSC_SUCCESS;
 }
 
-static PetscErrorCode ReadBulk(void *context, PetscInt k, PetscInt body, double bulk[SAM_BULK_AND_CASES])
+static PetscErrorCode ReadConditions(void *context, PetscInt k, SamConditions conditions, SamControl *control)
 {
-  const SamControl *const control = &((const Steps *)context)->step[k].control;
+  const Steps *const s = (const Steps *)context;
 
-  for (int b = 0; b < SAM_BULK_AND_CASES; b++)
-    bulk[b] =
-      (double)(b < SAM_BULK_COMPONENTS ? control->bulk_stress[body - 1][b] : control->cases[b - SAM_BULK_COMPONENTS]);
+  for (PetscInt n = 0; n < SamConditionsCount(conditions); n++) {
+    const SamCondition *one = SamConditionsGet(conditions, n);
+
+    SamControlSetCondition(control, one,
+                           SamControlGet(&s->step[k].control, SamConditionsFind(s->c->conditions, one->name)));
+  }
   return PETSC_SUCCESS;
 }
 
@@ -233,15 +236,15 @@ static PetscErrorCode Warn(void *context, const char text[])
 
 static PetscErrorCode Compute(petsam_contact *c, const char options[], PetscInt n, Steps *steps, SamEvaluation *e)
 {
-  const SamStressSource source = {.bodies  = c->setup->elasticity,
-                                  .name    = "-elasticity",
-                                  .steps   = n,
-                                  .before  = steps->before && steps->before->fields,
-                                  .read    = ReadField,
-                                  .number  = ReadNumber,
-                                  .bulk    = ReadBulk,
-                                  .warn    = Warn,
-                                  .context = steps};
+  const SamStressSource source = {.bodies     = c->setup->elasticity,
+                                  .name       = "-elasticity",
+                                  .steps      = n,
+                                  .before     = steps->before && steps->before->fields,
+                                  .read       = ReadField,
+                                  .number     = ReadNumber,
+                                  .conditions = ReadConditions,
+                                  .warn       = Warn,
+                                  .context    = steps};
 
   PetscFunctionBegin;
   PetscCall(ReadOptions(c, options, e));

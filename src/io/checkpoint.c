@@ -102,23 +102,24 @@ static void NameLacking(const char name[], char message[], size_t size)
                  name);
 }
 
-/* The kept numbers of a state. */
+/* The kept numbers of a state; those that may be lacking are in the file where they are not as usual. */
 static void MoveNumbers(SamFile f, SamState state, char message[], size_t size)
 {
   for (PetscInt k = 0; k < SamStateCountNumbers(state); k++) {
     PetscInt              id;
     const SamStateNumber *number = SamStateNumberOf(state, k, &id);
+    const PetscBool       usual  = SamStateIsUsual(state, k);
     char                  name[96];
 
     for (PetscInt g = SAM_COMMITTED; g < SAM_GENERATIONS && number->kept; g++) {
       double *const values = SamStateNumbers(state, id, (SamGeneration)g);
 
       NameOf("committed_", number->name, g, name);
-      if (f->writing)
+      if (f->writing && !usual)
         SamFileWriteAttribute(f, f->id, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, number->count, values);
-      else if (SamFileHasAttribute(f, name))
+      else if (!f->writing && SamFileHasAttribute(f, name))
         SamFileReadAttribute(f, f->id, name, H5T_NATIVE_DOUBLE, number->count, values);
-      else
+      else if (!usual)
         NameLacking(number->name, message, size);
     }
   }
@@ -162,6 +163,19 @@ static void ListFields(SamState state, char list[], size_t size)
   }
 }
 
+/* The conditions that are not as usual, likewise. */
+static void ListConditions(SamState state, char list[], size_t size)
+{
+  list[0] = '\0';
+  for (PetscInt k = 0; k < SamStateCountNumbers(state); k++) {
+    const SamStateNumber *number = SamStateNumberOf(state, k, NULL);
+    const size_t          used   = strlen(list);
+
+    if (SamStateIsOptional(state, k) && !SamStateIsUsual(state, k))
+      (void)snprintf(list + used, size - used, "%s%s", used ? "," : "", number->name);
+  }
+}
+
 static off_t CountBytes(SamGrid grid, SamState state)
 {
   off_t values = 0;
@@ -177,7 +191,7 @@ static PetscErrorCode WriteAll(SamFile f, SamContact contact, const Rest *rest)
 {
   SamState       state;
   PetscBool      is;
-  char           list[2048];
+  char           list[8192];
   uint64_t       gap[2];
   const SamNote  notes[] = {GAP(gap)};
   PetscErrorCode ierr;
@@ -196,6 +210,8 @@ static PetscErrorCode WriteAll(SamFile f, SamContact contact, const Rest *rest)
   PetscCall(MoveNotes(f, rest->n, rest->notes));
   MoveNumbers(f, state, NULL, 0);
   SamFileWriteTextAttribute(f, f->id, "fields", list);
+  ListConditions(state, list, sizeof(list));
+  if (list[0]) SamFileWriteTextAttribute(f, f->id, "conditions", list);
   SamStateSwapMoved(state); /* a tried step is not saved */
   ierr = MoveFields(f, state);
   SamStateSwapMoved(state);
@@ -362,6 +378,22 @@ static PetscErrorCode CreateState(SamContact contact, const char list[], PetscBo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The message names a condition of the file that the contact lacks. */
+static PetscErrorCode CheckConditions(SamState state, const char list[], char message[], size_t size)
+{
+  char **names;
+  int    count;
+
+  PetscFunctionBegin;
+  PetscCall(PetscStrToArray(list, ',', &count, &names));
+  for (int k = 0; k < count; k++)
+    if (SamStateFindNumber(state, names[k]) < 0)
+      (void)snprintf(message, size, "it has the condition %s, which this run lacks: give the options of its run",
+                     names[k]);
+  PetscCall(PetscStrToArrayDestroy(count, names));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode ReadState(SamFile f, SamContact contact, PetscBool sums, Content *c, char message[], size_t size)
 {
   const SamNote notes[] = {GAP(c->gap)};
@@ -372,6 +404,11 @@ static PetscErrorCode ReadState(SamFile f, SamContact contact, PetscBool sums, C
   SamFileReadTextAttribute(f, f->id, "fields", &list);
   PetscCall(CreateState(contact, list, sums, &c->state, message, size));
   PetscCall(PetscFree(list));
+  if (SamFileHasAttribute(f, "conditions")) {
+    SamFileReadTextAttribute(f, f->id, "conditions", &list);
+    PetscCall(CheckConditions(c->state, list, message, size));
+    PetscCall(PetscFree(list));
+  }
   MoveNumbers(f, c->state, message, size);
   PetscCall(MoveFields(f, c->state));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -18,7 +18,8 @@ typedef struct {
   SamParameters parameters;
   hsize_t       steps, saved;
   double        first; /* load steps before those of the file */
-  int           has[SAM_RESULTS_FIELDS], bulk[2][SAM_BULK_COMPONENTS], number[SAM_RESULTS_NUMBERS];
+  int           has[SAM_RESULTS_FIELDS], number[SAM_RESULTS_NUMBERS];
+  int           column[SAM_PARAMETERS]; /* whether a parameter is a column of the history, too */
 } Facts;
 
 struct _n_SamResults {
@@ -164,16 +165,12 @@ static PetscErrorCode Look(SamFile f, const void *question, void *answer)
   if (SamFileHasAttribute(f, SAM_OUTPUT_BRANCH)) PetscCall(GetNumbers(f, SAM_OUTPUT_BRANCH, 1, &facts->first));
   CHECK(f, IsPlausible(facts), "its parameters are not those of a run of petsam");
   PetscCall(ExamineFields(f, facts));
-  for (int n = 0; n < 2 * SAM_BULK_COMPONENTS; n++)
-    PetscCall(ExamineColumn(f, facts, SAM_BULK_CONDITION(0, n)->name,
-                            &facts->bulk[n / SAM_BULK_COMPONENTS][n % SAM_BULK_COMPONENTS]));
   for (int n = 0; n < SAM_RESULTS_NUMBERS; n++) PetscCall(ExamineColumn(f, facts, numbers[n], &facts->number[n]));
   for (PetscInt k = 0; k < facts->parameters.count; k++) { /* load cases are parameters, and columns */
     const char *name = facts->parameters.list[k].name;
-    int         has  = 1;
 
-    if (strstr(name, "_case_") == name + 5) PetscCall(ExamineColumn(f, facts, name, &has));
-    CHECK(f, has, "it has no column %s", name);
+    PetscCall(ExamineColumn(f, facts, name, &facts->column[k]));
+    CHECK(f, facts->column[k] || strstr(name, "_case_") != name + 5, "it has no column %s", name);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -337,19 +334,18 @@ static PetscErrorCode ReadNumber(SamResults r, const char column[], PetscInt ste
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamResultsReadBulkStress(SamResults r, PetscInt step, PetscInt body, double stress[SAM_BULK_AND_CASES])
+PetscErrorCode SamResultsReadConditions(SamResults r, PetscInt step, SamConditions conditions, SamControl *control)
 {
-  PetscFunctionBegin;
-  for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++) {
-    stress[k] = 0;
-    if (r->facts.bulk[body][k]) PetscCall(ReadNumber(r, SAM_BULK_CONDITION(body, k)->name, step, &stress[k]));
-  }
-  for (PetscInt k = 0; k < SAM_CASES; k++) {
-    const char *name = SamConditions[SAM_CONDITION_CASE + k].name;
+  const SamParameters *p = &r->facts.parameters;
 
-    stress[SAM_BULK_COMPONENTS + k] = 0;
-    if (SamParametersFind(&r->facts.parameters, name))
-      PetscCall(ReadNumber(r, name, step, &stress[SAM_BULK_COMPONENTS + k]));
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < SamConditionsCount(conditions); k++) {
+    const SamCondition *one   = SamConditionsGet(conditions, k);
+    const SamParameter *given = SamParametersFind(p, one->name);
+    double              value = (double)one->usual;
+
+    if (given && r->facts.column[given - p->list]) PetscCall(ReadNumber(r, one->name, step, &value));
+    SamControlSetCondition(control, one, value);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

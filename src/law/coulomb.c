@@ -1,4 +1,4 @@
-/* Coulomb's friction: |q| <= mu p, mu being a number or a field, times the factor of the control. */
+/* Coulomb's friction: |q| <= mu p, mu being a number or a field, times a factor of the step. */
 #include <petsam/private/grid.h>
 #include <petsam/private/lawimpl.h>
 #include <petsam/private/fieldfile.h>
@@ -6,6 +6,8 @@
 typedef struct {
   PetscReal friction;
   Vec       field; /* coefficients by cell; NULL: the number counts */
+
+  const SamCondition *scale;
 } Coulomb;
 
 /* The data of a law of this type. */
@@ -111,6 +113,20 @@ static PetscErrorCode AddParameters(SamLaw law, SamParameters *p)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode AddConditions(SamLaw law, SamConditions conditions)
+{
+  static const SamCondition scale = {.name   = SAM_FRICTION_SCALE,
+                                     .unit   = "1",
+                                     .text   = "factor on the coefficient of friction",
+                                     .usual  = 1,
+                                     .range  = SAM_RANGE_NONNEGATIVE,
+                                     .bounds = PETSC_TRUE};
+
+  PetscFunctionBegin;
+  PetscCall(SamConditionsAdd(conditions, &scale, &((Coulomb *)law->data)->scale));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode HasFriction(SamLaw law, PetscBool *has)
 {
   const Coulomb *c    = (const Coulomb *)law->data;
@@ -138,8 +154,9 @@ SAM_VECTORIZED static double BoundRow(PetscInt n, const double *restrict p, cons
 
 static PetscErrorCode FillValue(SamLaw law, const double *field, const SamBoundAt *at, Vec bound)
 {
-  const Coulomb *c  = (const Coulomb *)law->data;
-  const PetscInt nx = law->grid->nx;
+  const Coulomb *c     = (const Coulomb *)law->data;
+  const PetscInt nx    = law->grid->nx;
+  const double   scale = SamControlGet(at->control, c->scale);
   const double  *pressures;
   double        *bounds, *number, *row;
 
@@ -152,7 +169,7 @@ static PetscErrorCode FillValue(SamLaw law, const double *field, const SamBoundA
   else
     PetscCall(VecGetArrayRead(at->pressure, &pressures));
   for (ptrdiff_t k = 0; k < law->grid->cells; k += nx) {
-    const double sum = BoundRow(nx, pressures + k, field ? field + k : number, at->friction_scale, row);
+    const double sum = BoundRow(nx, pressures + k, field ? field + k : number, scale, row);
 
     /* a row without a bound is not written to, so that untouched pages take no memory */
     if (sum != 0)
@@ -169,6 +186,7 @@ static PetscErrorCode FillValue(SamLaw law, const double *field, const SamBoundA
 static PetscErrorCode Bound(SamLaw law, const SamBoundAt *at, const SamBound *bound)
 {
   const Coulomb *c     = (const Coulomb *)law->data;
+  const double   scale = SamControlGet(at->control, c->scale);
   const double  *field = NULL;
   double        *mu;
 
@@ -177,7 +195,7 @@ static PetscErrorCode Bound(SamLaw law, const SamBoundAt *at, const SamBound *bo
   if (bound->value) PetscCall(FillValue(law, field, at, bound->value));
   if (bound->by_pressure) {
     PetscCall(VecGetArrayWrite(bound->by_pressure, &mu));
-    for (PetscInt k = 0; k < law->grid->cells; k++) mu[k] = at->friction_scale * (field ? field[k] : c->friction);
+    for (PetscInt k = 0; k < law->grid->cells; k++) mu[k] = scale * (field ? field[k] : c->friction);
     PetscCall(VecRestoreArrayWrite(bound->by_pressure, &mu));
   }
   if (bound->by_slip) PetscCall(VecSet(bound->by_slip, 0));
@@ -202,6 +220,7 @@ PetscErrorCode SamLawCreate_Coulomb(SamLaw law)
   law->any_motion         = PETSC_TRUE;
   law->ops.setfromoptions = SetFromOptions;
   law->ops.addparameters  = AddParameters;
+  law->ops.conditions     = AddConditions;
   law->ops.hasfriction    = HasFriction;
   law->ops.bound          = Bound;
   law->ops.destroy        = Destroy;

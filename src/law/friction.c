@@ -23,8 +23,9 @@ enum { EXPONENT, REFERENCE, LIMIT };
 enum { KINETIC, HALF, SPEED, MEMORY, SLOWEST, OPTIONS };
 
 typedef struct {
-  Kind      kind;
-  PetscReal value[OPTIONS];
+  Kind                kind;
+  PetscReal           value[OPTIONS];
+  const SamCondition *scale; /* of coulomb */
   PetscReal cell; /* rolled distance of a cell, m, where what is remembered stands in the cell ahead; 0: in the state */
 } Friction;
 
@@ -100,6 +101,13 @@ static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode AddConditions(SamLaw law, SamConditions conditions)
+{
+  PetscFunctionBegin;
+  ((Friction *)law->data)->scale = SamConditionsFind(conditions, SAM_FRICTION_SCALE);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* ---- what is remembered, and results ---- */
 
 static PetscErrorCode ComputeCoefficient(void *owner, SamState state, PetscInt component, Vec coefficient)
@@ -157,12 +165,10 @@ static double FactorOf(const Friction *f, double p, double memory, double slip, 
   return t * (1 - memory) + (1 - t) * now;
 }
 
-static void BoundCell(const Friction *f, const SamBoundAt *at, double p, double memory, double slip, double *value,
-                      double *by_pressure, double *by_slip)
+static void BoundCell(const Friction *f, const SamBoundAt *at, double scale, double p, double memory, double slip,
+                      double *value, double *by_pressure, double *by_slip)
 {
-  const double low   = at->friction_scale * (f->kind == PATH      ? f->value[FINAL]
-                                             : f->kind == FALLING ? f->value[KINETIC]
-                                                                  : 0);
+  const double low   = scale * (f->kind == PATH ? f->value[FINAL] : f->kind == FALLING ? f->value[KINETIC] : 0);
   const double steep = f->kind == PRESSURE ? 1 + f->value[EXPONENT] : 1;
   double       change;
   const double factor = FactorOf(f, p, memory, slip, at->rolled, &change);
@@ -179,6 +185,7 @@ static PetscErrorCode Bound(SamLaw law, const SamBoundAt *given, const SamBound 
   const Friction *f     = (const Friction *)law->data;
   const PetscInt  cells = law->grid->cells;
   const char     *name  = f->cell > 0 ? NULL : kinds[f->kind].memory.name;
+  const double    scale = SamControlGet(given->control, f->scale);
   const double    step  = f->cell > 0 ? (double)f->cell : 1; /* slip of a step over what is given as slip */
   SamBoundAt of = *given, *const at = &of;
   const Vec in[]        = {at->pressure, at->slip,
@@ -200,7 +207,7 @@ static PetscErrorCode Bound(SamLaw law, const SamBoundAt *given, const SamBound 
 
     if (f->cell == 0 || n % law->grid->nx == 0) memory = in[2] ? from[2][k] : 0;
     if (p > 0)
-      BoundCell(f, at, p, memory, slip, out[0] ? &to[0][k] : NULL, out[1] ? &to[1][k] : NULL,
+      BoundCell(f, at, scale, p, memory, slip, out[0] ? &to[0][k] : NULL, out[1] ? &to[1][k] : NULL,
                 out[2] ? &to[2][k] : NULL);
     if (f->cell > 0) memory = p > 0 ? 1 - FactorOf(f, p, memory, slip, at->rolled, &change) : 0;
   }
@@ -216,7 +223,7 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
 {
   const Friction *f      = (const Friction *)law->data;
   const PetscInt  id     = kinds[f->kind].memory.name ? SamStateFindField(step->state, kinds[f->kind].memory.name) : -1;
-  const double    rolled = (double)SamControlRolled(step->control);
+  const double    rolled = (double)step->rolled;
   const double   *p, *slip, *old = NULL;
   double *new, change;
   PetscReal sums[2];
@@ -276,6 +283,7 @@ PetscErrorCode SamLawCreate_Friction(SamLaw law)
   law->any_motion         = kind != PATH;
   law->forbids_jumps      = kinds[kind].memory.name ? PETSC_TRUE : PETSC_FALSE;
   law->ops.setfromoptions = SetFromOptions;
+  law->ops.conditions     = AddConditions;
   law->ops.declare        = Declare;
   law->ops.bound          = Bound;
   law->ops.advance        = Advance;

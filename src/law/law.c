@@ -110,6 +110,7 @@ PetscErrorCode SamLawDestroy(SamLaw *law)
   if (!l || --l->references > 0) PetscFunctionReturn(PETSC_SUCCESS);
   if (l->ops.destroy) PetscCall(l->ops.destroy(l));
   PetscCall(PetscFree(l->data));
+  PetscCall(SamConditionsDestroy(&l->conditions));
   PetscCall(SamElasticityDestroy(&l->elasticity));
   PetscCall(PetscFree(l));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -125,6 +126,17 @@ PetscErrorCode SamLawSetFromOptions(SamLaw law, const SamOptions *from, PetscBoo
   if (law->word) PetscCall(SamOptionsHas(from, option, asked));
   PetscCall(SamOptionsRead(from, law->heading, law->row_count, law->rows, law->data, NULL));
   if (law->ops.setfromoptions) PetscCall(law->ops.setfromoptions(law, from, asked));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLawAddConditions(SamLaw law, SamConditions conditions)
+{
+  PetscFunctionBegin;
+  PetscCheck(!law->conditions, law->grid->comm, PETSC_ERR_ARG_WRONG, "The law %s belongs to another problem",
+             law->type);
+  PetscCall(SamConditionsReference(conditions));
+  law->conditions = conditions;
+  if (law->ops.conditions) PetscCall(law->ops.conditions(law, conditions));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

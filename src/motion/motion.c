@@ -3,9 +3,11 @@
 #include <petsam/private/motionimpl.h>
 #include <string.h>
 
-static PetscErrorCode Check(SamElasticity e, const SamControl *control, PetscReal rolled, const char where[])
+static PetscErrorCode Check(SamElasticity e, SamConditions conditions, const SamControl *control, PetscReal rolled,
+                            const char where[])
 {
   PetscFunctionBegin;
+  (void)conditions;
   PetscCheck(rolled == 0 || !e->traits.patch, e->grid->comm, SAM_ERR_USER,
              "%sroll = %.6g: expected 0: bodies with a compliance of their own have a place", where, (double)rolled);
   PetscCheck(rolled == 0 || !e->traits.periodic, e->grid->comm, SAM_ERR_USER,
@@ -105,16 +107,17 @@ SamMotionName SamMotionRigidName(SamMotion motion, SamComponent component)
   return (SamMotionName){c->rigid, c->rigid, c->rigid_unit, c->rigid_text};
 }
 
-PetscErrorCode SamMotionCheck(SamElasticity e, const SamControl *control, const char where[])
+PetscErrorCode SamMotionCheck(SamElasticity e, SamConditions conditions, const SamControl *control, const char where[])
 {
-  const PetscReal rolled = SamControlRolled(control);
+  PetscReal       roll[2];
+  const PetscReal rolled = SamMotionRolled(conditions, control, roll);
 
   PetscFunctionBegin;
   PetscCheck(isfinite(rolled), e->grid->comm, SAM_ERR_USER, "roll is not a finite number");
   for (PetscInt k = 0; k < 2; k++)
-    PetscCheck(fabs(control->roll[k]) <= e->grid->width[k], e->grid->comm, SAM_ERR_USER,
+    PetscCheck(fabs(roll[k]) <= e->grid->width[k], e->grid->comm, SAM_ERR_USER,
                "%s%s = %.6g: expected at most the width of the grid, %.6g m, in a step: use more steps", where,
-               SamConditions[SAM_CONDITION_ROLL + k].name, (double)control->roll[k], (double)e->grid->width[k]);
-  PetscCall(SamMotionOf(e)->check(e, control, rolled, where));
+               k ? "roll_y" : "roll", (double)roll[k], (double)e->grid->width[k]);
+  PetscCall(SamMotionOf(e)->check(e, conditions, control, rolled, where));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

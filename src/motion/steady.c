@@ -2,6 +2,7 @@
   Steady rolling towards +x: each load step is a steady state by itself, solved by the operator of the shear's
   differences along x (elasticity/rolling.c). Steps are those of 1 m of rolled distance.
 */
+#include <petsam/private/bulk.h>
 #include <petsam/private/elasticity.h>
 #include <petsam/private/motionimpl.h>
 
@@ -28,7 +29,8 @@ static PetscErrorCode Wrap(SamElasticity bodies, const SamOptions *from, SamElas
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Check(SamElasticity e, const SamControl *control, PetscReal rolled, const char where[])
+static PetscErrorCode Check(SamElasticity e, SamConditions conditions, const SamControl *control, PetscReal rolled,
+                            const char where[])
 {
   PetscFunctionBegin;
   PetscCheck(rolled == 0, e->grid->comm, SAM_ERR_USER,
@@ -38,10 +40,12 @@ static PetscErrorCode Check(SamElasticity e, const SamControl *control, PetscRea
                  (k >= SAM_COMPONENT_MX && !e->traits.rotations[k - SAM_COMPONENT_MX]),
                e->grid->comm, SAM_ERR_USER, "%s has no meaning with -rolling steady: give %s or %s",
                SamComponentNames[k].rigid, SamComponentNames[k].creep, SamComponentNames[k].load);
-  for (PetscInt k = 0; k < 2 * SAM_BULK_COMPONENTS; k++)
-    PetscCheck(SamControlPart(control, SAM_COMPONENTS + SAM_CONDITION_BULK + k) == 0, e->grid->comm, SAM_ERR_USER,
-               "%s has no meaning with -rolling steady: a uniform strain is a creepage: add it to creep_x",
-               SamConditions[SAM_CONDITION_BULK + k].name);
+  for (PetscInt k = 0; k < 2 * SAM_BULK_COMPONENTS; k++) {
+    const SamCondition *bulk = SamBulkCondition(conditions, k / SAM_BULK_COMPONENTS, k % SAM_BULK_COMPONENTS);
+
+    PetscCheck(SamControlGet(control, bulk) == 0, e->grid->comm, SAM_ERR_USER,
+               "%s has no meaning with -rolling steady: a uniform strain is a creepage: add it to creep_x", bulk->name);
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

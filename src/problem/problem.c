@@ -1,5 +1,6 @@
 /* The problem of a contact: elasticity, gap and laws, and what follows from all laws together. */
 #include <petsam/private/elasticity.h>
+#include <petsam/private/motionimpl.h>
 #include <petsam/private/problemimpl.h>
 #include <petsc/private/petscimpl.h> /* PetscObjectStateGet() */
 
@@ -8,6 +9,7 @@ struct _n_SamProblem {
   SamElasticity elasticity;
   SamGrid       grid; /* of the elasticity; borrowed */
   Vec           gap;  /* its revision is PETSc's object state, which grows with every change */
+  SamConditions conditions;
   PetscInt      laws;
   SamLaw        law[SAM_LAWS]; /* in the order in which their types were registered */
 };
@@ -25,7 +27,10 @@ PetscErrorCode SamProblemCreate(SamElasticity elasticity, SamProblem *problem)
   p->elasticity = elasticity;
   PetscCall(SamElasticityGetGrid(elasticity, &p->grid));
   PetscCall(SamGridCreateVec(p->grid, 1, &p->gap));
+  PetscCall(SamConditionsCreate(&p->conditions));
   PetscCall(SamProblemAddLawOfType(p, SAM_LAW_COULOMB, NULL));
+  PetscCall(SamElasticityAddConditions(elasticity, p->conditions));
+  PetscCall(SamMotionAddConditions(p->conditions));
   *problem = p;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -45,6 +50,7 @@ PetscErrorCode SamProblemDestroy(SamProblem *problem)
   *problem = NULL;
   if (!p || --p->references > 0) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt k = 0; k < p->laws; k++) PetscCall(SamLawDestroy(&p->law[k]));
+  PetscCall(SamConditionsDestroy(&p->conditions));
   PetscCall(VecDestroy(&p->gap));
   PetscCall(SamElasticityDestroy(&p->elasticity));
   PetscCall(PetscFree(p));
@@ -62,6 +68,25 @@ PetscErrorCode SamProblemGetGrid(SamProblem p, SamGrid *grid)
 {
   PetscFunctionBegin;
   *grid = p->grid;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamProblemGetConditions(SamProblem p, SamConditions *conditions)
+{
+  PetscFunctionBegin;
+  *conditions = p->conditions;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscReal SamProblemGetRolled(SamProblem p, const SamControl *control, PetscReal distance[2])
+{
+  return SamMotionRolled(p->conditions, control, distance);
+}
+
+PetscErrorCode SamProblemAddCases(SamProblem p, const SamControl *control, PetscBool tangential, Vec field)
+{
+  PetscFunctionBegin;
+  PetscCall(SamElasticityAddCases(p->elasticity, p->conditions, control, tangential, field));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -101,6 +126,7 @@ PetscErrorCode SamProblemAddLaw(SamProblem p, SamLaw law)
   PetscCall(SamProblemGetLaw(p, law->type, &known));
   PetscCheck(!known, p->grid->comm, PETSC_ERR_ARG_WRONG, "The problem has a law %s already", law->type);
   PetscCall(SamLawReference(law));
+  PetscCall(SamLawAddConditions(law, p->conditions));
   for (k = p->laws++; k > 0 && SamLawOrder(p->law[k - 1]->type) > SamLawOrder(law->type); k--)
     p->law[k] = p->law[k - 1];
   p->law[k] = law;

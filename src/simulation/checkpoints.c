@@ -104,9 +104,9 @@ static PetscBool TimeIsUp(const SamCheckpoints *cp, double now)
 
 /* ---- the position in the load history, and the history up to there ---- */
 
-#define COLUMNS (1 + SAM_CONTROL_PARTS) /* of the load history: time, and the parts of the control */
+#define COLUMNS (1 + SAM_COMPONENTS) /* of the load history: time, and the components */
 #define RESULTS (sizeof(((SamSimulationPoint *)NULL)->results) / sizeof(uint64_t)) /* a file's name, as its bytes */
-#define NOTES   4
+#define NOTES   4                                                                  /* besides those of conditions */
 
 /* What a checkpoint notes besides the state of the contact. */
 typedef union {
@@ -121,30 +121,51 @@ typedef union {
 typedef struct {
   Progress progress;
   uint64_t loads[COLUMNS], results[RESULTS], begin[2];
-  SamNote  note[NOTES];
+  uint64_t condition[SAM_CONDITIONS]; /* of each, its column of the load history; 0: as usual */
+  char     name[SAM_CONDITIONS][64];
+  SamNote  note[NOTES + SAM_CONDITIONS];
+  PetscInt count;
 } Notes;
 
-static void ListNotes(Notes *n)
+static void ListNotes(SamConditions conditions, Notes *n)
 {
+  n->count = NOTES;
+  for (PetscInt k = 0; k < SamConditionsCount(conditions); k++) {
+    (void)snprintf(n->name[k], sizeof(n->name[k]), "load_program_%s", SamConditionsGet(conditions, k)->name);
+    n->note[n->count++] = (SamNote){n->name[k], -1, &n->condition[k]};
+  }
   n->note[0] = (SamNote){"progress", 10, n->progress.word};
   n->note[1] = (SamNote){"load_program", COLUMNS, n->loads};
   n->note[2] = (SamNote){"results", -(PetscInt)RESULTS, n->results};
   n->note[3] = (SamNote){"results_begin", -2, n->begin};
 }
 
-/* Checksums of each column of the load history over the first steps; for a component, with its kind of control. */
-static PetscErrorCode ChecksumColumns(SamHistory history, PetscInt steps, uint64_t columns[COLUMNS])
+/*
+  Checksums of each column of the load history over the first steps; for a component, with its kind of control; for a
+  condition 0 as long as it is as usual.
+*/
+static PetscErrorCode ChecksumColumns(SamSimulation simulation, PetscInt steps, uint64_t columns[COLUMNS],
+                                      uint64_t conditions[SAM_CONDITIONS])
 {
+  const SamConditions list = simulation->conditions;
+
   PetscFunctionBegin;
   PetscCall(PetscArrayzero(columns, COLUMNS));
+  PetscCall(PetscArrayzero(conditions, SAM_CONDITIONS));
   for (PetscInt s = 0; s < steps; s++) {
     SamControl control;
 
-    PetscCall(SamHistoryGetStep(history, s, &control));
+    PetscCall(SamHistoryGetStep(simulation->history, s, &control));
     columns[0] = SamHashMix(columns[0] + SamHashBits(control.time));
-    for (PetscInt k = 0; k < SAM_CONTROL_PARTS; k++) {
-      columns[1 + k] = SamHashMix(columns[1 + k] + SamHashBits(SamControlPart(&control, k) + 0.0));
-      if (k < SAM_COMPONENTS) columns[1 + k] = SamHashMix(columns[1 + k] + 1 + (uint64_t)SamControlWay(&control, k));
+    for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
+      columns[1 + k] = SamHashMix(columns[1 + k] + SamHashBits(control.value[k] + 0.0));
+      columns[1 + k] = SamHashMix(columns[1 + k] + 1 + (uint64_t)SamControlWay(&control, k));
+    }
+    for (PetscInt k = 0; k < SamConditionsCount(list); k++) {
+      const SamCondition *one   = SamConditionsGet(list, k);
+      const PetscReal     value = SamControlGet(&control, one);
+
+      if (value != one->usual) conditions[k] = SamHashMix(conditions[k] + SamHashBits(value) + (uint64_t)s);
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -174,39 +195,42 @@ static PetscErrorCode Write(SamSimulation s)
   memcpy(n.results, p->results, sizeof(n.results));
   n.begin[0] = (uint64_t)p->first;
   n.begin[1] = (uint64_t)p->first_row;
-  PetscCall(ChecksumColumns(s->history, s->life ? s->needs.steps : p->steps, n.loads));
-  ListNotes(&n);
-  PetscCall(SamCheckpointWrite(cp->files, s->setup.contact, &s->parameters, NOTES, n.note));
+  PetscCall(ChecksumColumns(s, s->life ? s->needs.steps : p->steps, n.loads, n.condition));
+  ListNotes(s->conditions, &n);
+  PetscCall(SamCheckpointWrite(cp->files, s->setup.contact, &s->parameters, n.count, n.note));
   cp->writing = PetscMax(cp->writing, MPI_Wtime() - begin);
   cp->last    = p->steps;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Up to the checkpoint the load history must be that of the run that wrote it, whose checksums are `there`. */
-static PetscErrorCode CompareLoads(SamSimulation s, const uint64_t there[COLUMNS])
+static PetscErrorCode CompareLoads(SamSimulation s, const Notes *there)
 {
   const char *const file   = s->checkpoints.restart;
   const PetscInt    solved = s->life ? s->needs.steps : s->point.steps;
-  uint64_t          here[COLUMNS];
+  uint64_t          here[COLUMNS], conditions[SAM_CONDITIONS];
   SamControl        first;
 
   PetscFunctionBegin;
   PetscCheck(solved <= s->needs.steps, s->comm, SAM_ERR_USER,
              "-restart %s: does not fit: -history or -steps: there are %ld load steps, and %ld were solved there", file,
              (long)s->needs.steps, (long)solved);
-  PetscCall(ChecksumColumns(s->history, solved, here));
+  PetscCall(ChecksumColumns(s, solved, here, conditions));
   PetscCall(SamHistoryGetStep(s->history, 0, &first));
-  for (PetscInt k = 0; k < COLUMNS; k++) {
-    const PetscBool column = k > SAM_COMPONENTS && !SamConditions[k - 1 - SAM_COMPONENTS].option; /* only */
-    const char     *name   = k ? SamControlPartName(&first, k - 1) : "times";
-    char            what[96];
+  for (PetscInt k = 0; k <= SamControlCount(s->conditions); k++) {
+    const PetscInt      n         = k - COLUMNS;
+    const SamCondition *condition = n < 0 ? NULL : SamConditionsGet(s->conditions, n);
+    const PetscBool     column    = condition && !condition->option; /* only */
+    const PetscBool     same      = n < 0 ? here[k] == there->loads[k] : conditions[n] == there->condition[n];
+    const char         *name      = k ? SamControlPartName(&first, s->conditions, k - 1) : "times";
+    char                what[96];
 
     if (!k || column)
       (void)snprintf(what, sizeof(what), "history: the %s%s", column ? "values of " : "", name);
     else
       (void)snprintf(what, sizeof(what), "%s, or its column in -history: the values", name);
-    PetscCheck(here[k] == there[k], s->comm, SAM_ERR_USER, "-restart %s: does not fit: -%s up to step %ld differ", file,
-               what, (long)solved);
+    PetscCheck(same, s->comm, SAM_ERR_USER, "-restart %s: does not fit: -%s up to step %ld differ", file, what,
+               (long)solved);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -218,8 +242,8 @@ PetscErrorCode SamSimulationRestart(SamSimulation s)
   SamLifeState              life;
 
   PetscFunctionBegin;
-  ListNotes(&n);
-  PetscCall(SamCheckpointRead(s->checkpoints.restart, s->setup.contact, PETSC_TRUE, &s->parameters, NOTES, n.note));
+  ListNotes(s->conditions, &n);
+  PetscCall(SamCheckpointRead(s->checkpoints.restart, s->setup.contact, PETSC_TRUE, &s->parameters, n.count, n.note));
   p->steps     = (PetscInt)n.progress.at.steps;
   p->worst     = (SamStatus)n.progress.at.worst;
   p->rows      = (PetscInt)n.progress.at.rows;
@@ -235,7 +259,7 @@ PetscErrorCode SamSimulationRestart(SamSimulation s)
                                 .by_turns = n.progress.at.by_turns != 0};
   memcpy(p->results, n.results, sizeof(p->results));
   if (s->life) PetscCall(SamLifeSetState(s->life, &life));
-  PetscCall(CompareLoads(s, n.loads));
+  PetscCall(CompareLoads(s, &n));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -13,11 +13,14 @@ struct _n_SamHistory {
   SamControl constant; /* the kind of control of each component, and the values of those without a column */
   SamControl before;   /* what the first row's change begins from */
   PetscInt   rows, increments;
-  PetscInt   start;                     /* steps up to the first row */
-  SamTable   table;                     /* empty without a file */
-  PetscInt   time;                      /* column; -1: none */
-  PetscInt   column[SAM_CONTROL_PARTS]; /* of each part of the control, -1: constant */
-  char       file[PETSC_MAX_PATH_LEN];  /* of the table */
+  PetscInt   start;                    /* steps up to the first row */
+  SamTable   table;                    /* empty without a file */
+  PetscInt   time;                     /* column; -1: none */
+  PetscInt   parts;                    /* of the control: the components, and the conditions that there were */
+  PetscInt  *column;                   /* of each part, -1: constant */
+  char       file[PETSC_MAX_PATH_LEN]; /* of the table */
+
+  SamConditions conditions;
 };
 
 PetscErrorCode SamHistoryClaimOption(void)
@@ -72,7 +75,7 @@ static PetscErrorCode FindColumn(SamHistory h, MPI_Comm comm, const char file[],
     if (column < 0) continue;
     PetscCheck(h->column[c] < 0, comm, SAM_ERR_USER,
                "%s, line %" PetscInt_FMT ": the columns %s and %s are conjugate: give one of them", file,
-               h->table.header_line, SamControlPartName(&h->constant, c), name);
+               h->table.header_line, SamControlPartName(&h->constant, h->conditions, c), name);
     h->column[c] = column;
     SamControlSetWay(&h->constant, c, way);
   }
@@ -102,7 +105,7 @@ static PetscErrorCode ReadComponent(SamHistory h, const Reader *r, PetscInt c)
   PetscCall(FindColumn(h, from->comm, r->file, c));
   h->constant.value[c] = 0;
   for (SamWay way = SAM_BY_LOAD; way < SAM_WAYS; way++) {
-    const char *own = SamComponentNameOf(c, way), *other = SamControlPartName(&h->constant, c);
+    const char *own = SamComponentNameOf(c, way), *other = SamControlPartName(&h->constant, h->conditions, c);
 
     if (h->column[c] >= 0) PetscCall(Override(r, own, other, &has[way]));
     if (!has[way]) continue;
@@ -123,23 +126,22 @@ static PetscErrorCode ReadComponent(SamHistory h, const Reader *r, PetscInt c)
 /* Reads a condition, from an option or a column. */
 static PetscErrorCode ReadCondition(SamHistory h, const Reader *r, PetscInt k)
 {
-  const SamCondition *condition = &SamConditions[k - SAM_COMPONENTS];
-  PetscReal *const    constant  = SamControlPlace(&h->constant, k);
+  const SamCondition *condition = SamConditionsGet(h->conditions, k - SAM_COMPONENTS);
   PetscBool           set       = PETSC_FALSE;
 
   PetscFunctionBegin;
-  PetscCall(SamControlReadCondition(r->from, k - SAM_COMPONENTS, &h->constant, &set));
+  PetscCall(SamControlReadCondition(r->from, condition, &h->constant, &set));
   h->column[k] = SamTableFind(&h->table, condition->name);
   if (h->column[k] < 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Override(r, condition->name, condition->name, &set));
-  *constant = condition->usual;
+  SamControlSetCondition(&h->constant, condition, condition->usual);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Whether part k of the control may not be negative. */
 static PetscBool IsNonnegative(SamHistory h, PetscInt k)
 {
-  if (k >= SAM_COMPONENTS) return SamConditions[k - SAM_COMPONENTS].range == SAM_RANGE_NONNEGATIVE;
+  if (k >= SAM_COMPONENTS) return SamConditionsGet(h->conditions, k - SAM_COMPONENTS)->range == SAM_RANGE_NONNEGATIVE;
   return k == SAM_COMPONENT_N && h->constant.force[k];
 }
 
@@ -155,7 +157,7 @@ static PetscErrorCode CheckRows(SamHistory h, MPI_Comm comm, const char file[])
     PetscCheck(r == 0 || row[h->time] > before[h->time], comm, SAM_ERR_USER,
                "%s, line %" PetscInt_FMT ": time %.6g: expected more than %.6g, that of the row before", file,
                t->line[r], row[h->time], before[h->time]);
-    for (PetscInt k = 0; k < SAM_CONTROL_PARTS; k++)
+    for (PetscInt k = 0; k < h->parts; k++)
       PetscCheck(h->column[k] < 0 || !IsNonnegative(h, k) || row[h->column[k]] >= 0, comm, SAM_ERR_USER,
                  "%s, line %" PetscInt_FMT ": %s %.6g: expected a number >= 0", file, t->line[r], t->name[h->column[k]],
                  row[h->column[k]]);
@@ -192,6 +194,8 @@ PetscErrorCode SamHistoryDestroy(SamHistory *history)
   PetscFunctionBegin;
   if (!*history) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamTableDestroy(&(*history)->table));
+  PetscCall(PetscFree((*history)->column));
+  PetscCall(SamConditionsDestroy(&(*history)->conditions));
   PetscCall(PetscFree(*history));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -221,11 +225,11 @@ PetscErrorCode SamHistoryGives(SamHistory h, const SamCondition *condition, Pets
 {
   PetscFunctionBegin;
   *gives = PETSC_FALSE;
-  for (PetscInt k = SAM_COMPONENTS; k < SAM_CONTROL_PARTS; k++) {
-    const SamCondition *one = &SamConditions[k - SAM_COMPONENTS];
+  for (PetscInt k = SAM_COMPONENTS; k < h->parts; k++) {
+    const SamCondition *one = SamConditionsGet(h->conditions, k - SAM_COMPONENTS);
 
-    if (one->group != condition->group) continue;
-    if (h->column[k] >= 0 || SamControlPart(&h->constant, k) != one->usual) *gives = PETSC_TRUE;
+    if (strcmp(one->group, condition->group)) continue;
+    if (h->column[k] >= 0 || SamControlGet(&h->constant, one) != one->usual) *gives = PETSC_TRUE;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -274,24 +278,25 @@ static PetscErrorCode CheckChanges(SamHistory h, MPI_Comm comm, const char file[
 /* Part k of the control (SamControlPart()), which has a column, or is constant. */
 static double ValueOfRow(SamHistory h, PetscInt k, PetscInt r)
 {
-  const SamCondition *condition = k < SAM_COMPONENTS ? NULL : &SamConditions[k - SAM_COMPONENTS];
+  const SamCondition *condition = k < SAM_COMPONENTS ? NULL : SamConditionsGet(h->conditions, k - SAM_COMPONENTS);
 
   if (r < 0 && condition && condition->change) return 0;
-  if (r < 0 && (!condition || condition->option)) return (double)SamControlPart(&h->before, k);
-  return h->column[k] >= 0 ? Entry(h, h->column[k], PetscMax(r, 0)) : (double)SamControlPart(&h->constant, k);
+  if (r < 0 && (!condition || condition->option)) return (double)SamControlPart(&h->before, h->conditions, k);
+  return h->column[k] >= 0 ? Entry(h, h->column[k], PetscMax(r, 0))
+                           : (double)SamControlPart(&h->constant, h->conditions, k);
 }
 
 /* Whether nothing is prescribed in the first row that differs from the start. */
 static PetscBool IsAtRest(SamHistory h)
 {
-  for (PetscInt k = 0; k < SAM_CONTROL_PARTS; k++)
+  for (PetscInt k = 0; k < h->parts; k++)
     if (ValueOfRow(h, k, 0) != ValueOfRow(h, k, -1)) return PETSC_FALSE;
   return PETSC_TRUE;
 }
 
 /* The names of columns that there may be, NULL at the end. */
 #define NAMES (1 + SAM_WAYS * SAM_COMPONENTS + SAM_CONDITIONS + 1)
-static void ListNames(const char *names[NAMES])
+static void ListNames(SamHistory h, const char *names[NAMES])
 {
   PetscInt n = 0;
 
@@ -299,7 +304,7 @@ static void ListNames(const char *names[NAMES])
   for (SamWay way = SAM_BY_LOAD; way < SAM_WAYS; way++)
     for (PetscInt c = 0; c < SAM_COMPONENTS; c++)
       if (SamComponentNameOf(c, way)) names[n++] = SamComponentNameOf(c, way);
-  for (PetscInt k = 0; k < SAM_CONDITIONS && SamConditionIsUsed(k); k++) names[n++] = SamConditions[k].name;
+  for (PetscInt k = SAM_COMPONENTS; k < h->parts; k++) names[n++] = SamControlPartName(&h->constant, h->conditions, k);
   names[n] = NULL;
 }
 
@@ -309,7 +314,7 @@ static void TakeTable(SamHistory h)
   h->time = SamTableFind(&h->table, "time");
 }
 
-static PetscErrorCode Create(SamHistory *history)
+static PetscErrorCode Create(SamConditions conditions, SamHistory *history)
 {
   SamHistory h;
 
@@ -319,6 +324,10 @@ static PetscErrorCode Create(SamHistory *history)
   h->rows       = 1;
   h->increments = 1;
   h->time       = -1;
+  PetscCall(SamConditionsReference(conditions));
+  h->conditions = conditions;
+  h->parts      = SamControlCount(conditions);
+  PetscCall(PetscMalloc1(h->parts, &h->column));
   PetscCall(SamControlInitialize(&h->constant));
   PetscCall(SamControlInitialize(&h->before));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -335,9 +344,9 @@ static PetscErrorCode SetIncrements(SamHistory h, PetscInt increments, MPI_Comm 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamHistoryCreate(MPI_Comm comm, const SamControl *constant, const SamControl *before,
-                                const char columns[], PetscInt rows, const double values[], PetscInt increments,
-                                SamHistory *history)
+PetscErrorCode SamHistoryCreate(MPI_Comm comm, SamConditions conditions, const SamControl *constant,
+                                const SamControl *before, const char columns[], PetscInt rows, const double values[],
+                                PetscInt increments, SamHistory *history)
 {
   static const char what[] = "history";
 
@@ -345,11 +354,11 @@ PetscErrorCode SamHistoryCreate(MPI_Comm comm, const SamControl *constant, const
   SamHistory  h;
 
   PetscFunctionBegin;
-  PetscCall(Create(history));
+  PetscCall(Create(conditions, history));
   h           = *history;
   h->constant = *constant;
   PetscCall(PetscStrncpy(h->file, what, sizeof(h->file)));
-  ListNames(names);
+  ListNames(h, names);
   PetscCall(SamTableCreate(comm, what, columns, rows, values, names, &h->table));
   TakeTable(h);
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++) PetscCall(FindColumn(h, comm, what, c));
@@ -357,8 +366,8 @@ PetscErrorCode SamHistoryCreate(MPI_Comm comm, const SamControl *constant, const
              "%s: %" PetscInt_FMT " increments of %" PetscInt_FMT " rows: expected a number > 0 that can be counted",
              what, increments, rows);
   PetscCheck(h->column[SAM_COMPONENT_N] >= 0, comm, SAM_ERR_USER, "%s: expected the column load_n or disp_z", what);
-  for (PetscInt k = SAM_COMPONENTS; k < SAM_CONTROL_PARTS; k++)
-    h->column[k] = SamTableFind(&h->table, SamConditions[k - SAM_COMPONENTS].name);
+  for (PetscInt k = SAM_COMPONENTS; k < h->parts; k++)
+    h->column[k] = SamTableFind(&h->table, SamControlPartName(constant, conditions, k));
   if (before) h->before = *before;
   for (PetscInt c = 0; c < SAM_COMPONENTS && before; c++) /* a load and a displacement have nothing between them */
     if (SamControlWay(before, c) != SamControlWay(&h->constant, c)) h->before.value[c] = ValueOfRow(h, c, 0);
@@ -366,7 +375,8 @@ PetscErrorCode SamHistoryCreate(MPI_Comm comm, const SamControl *constant, const
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamHistoryCreateFromOptions(const SamOptions *from, const SamArguments *arguments, SamHistory *history)
+PetscErrorCode SamHistoryCreateFromOptions(const SamOptions *from, const SamArguments *arguments,
+                                           SamConditions conditions, SamHistory *history)
 {
   SamHistory  h;
   Reader      reader     = {.from = from, .arguments = arguments};
@@ -375,13 +385,13 @@ PetscErrorCode SamHistoryCreateFromOptions(const SamOptions *from, const SamArgu
   PetscBool   has_file;
 
   PetscFunctionBegin;
-  PetscCall(Create(history));
+  PetscCall(Create(conditions, history));
   h           = *history;
   reader.file = h->file;
   PetscCall(SamOptionsHeading(from, "Loads and displacements"));
   PetscCall(ReadFileName(from, h->file, sizeof(h->file), &has_file));
   PetscCall(SamHistoryReadIncrements(from, &increments));
-  ListNames(names);
+  ListNames(h, names);
   if (has_file) PetscCall(SamTableRead(from->comm, "history", h->file, names, &h->table));
   if (has_file) TakeTable(h);
   PetscCheck(increments <= PETSC_MAX_INT / h->rows, from->comm, SAM_ERR_USER,
@@ -392,7 +402,7 @@ PetscErrorCode SamHistoryCreateFromOptions(const SamOptions *from, const SamArgu
     for (PetscInt c = 0; c < SAM_COMPONENTS; c++)
       if (SamComponentNameOf(c, way)) SamOptionsKnow(from, SamComponentNameOf(c, way), NULL);
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++) PetscCall(ReadComponent(h, &reader, c));
-  for (PetscInt k = SAM_COMPONENTS; k < SAM_CONTROL_PARTS; k++) PetscCall(ReadCondition(h, &reader, k));
+  for (PetscInt k = SAM_COMPONENTS; k < h->parts; k++) PetscCall(ReadCondition(h, &reader, k));
   PetscCall(SetIncrements(h, increments, from->comm, h->file));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -426,10 +436,11 @@ PetscErrorCode SamHistoryGetPart(SamHistory h, PetscInt k, PetscReal part, SamCo
 /* linear between the rows; at a row exactly its own value */
 #define BETWEEN(before, after) (i == (double)steps ? (after) : (before) + way * ((after) - (before)))
   control->time = BETWEEN(TimeOfRow(h, r - 1), TimeOfRow(h, r));
-  for (PetscInt p = 0; p < SAM_CONTROL_PARTS; p++)
-    *SamControlPlace(control, p) = p >= SAM_COMPONENTS && SamConditions[p - SAM_COMPONENTS].change
-                                     ? ValueOfRow(h, p, r) / (double)steps
-                                     : BETWEEN(ValueOfRow(h, p, r - 1), ValueOfRow(h, p, r));
+  for (PetscInt p = 0; p < h->parts; p++)
+    SamControlSetPart(control, h->conditions, p,
+                      p >= SAM_COMPONENTS && SamConditionsGet(h->conditions, p - SAM_COMPONENTS)->change
+                        ? ValueOfRow(h, p, r) / (double)steps
+                        : BETWEEN(ValueOfRow(h, p, r - 1), ValueOfRow(h, p, r)));
 #undef BETWEEN
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -10,13 +10,14 @@
 /* Step `step` of the cycle; the steps before, up to the history's first row, lead to its start. */
 static PetscErrorCode Control(void *context, PetscInt step, PetscReal cycles, SamControl *control)
 {
-  SamSimulation s = (SamSimulation)context;
-  PetscInt      start;
+  SamSimulation       s     = (SamSimulation)context;
+  const SamCondition *scale = SamConditionsFind(s->conditions, SAM_FRICTION_SCALE);
+  PetscInt            start;
 
   PetscFunctionBegin;
   PetscCall(SamHistoryGetStart(s->history, &start));
   PetscCall(SamHistoryGetStep(s->history, start + step, control));
-  control->friction_scale *= SamPlanFriction(&s->plan, cycles);
+  SamControlSetCondition(control, scale, SamControlGet(control, scale) * SamPlanFriction(&s->plan, cycles));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

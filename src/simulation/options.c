@@ -1,6 +1,7 @@
 /* What a simulation reads: contact, load program or life, files; and what of it does not go together. */
 #include "simulationimpl.h"
 #include <petsam/private/arguments.h>
+#include <petsam/private/bulk.h>
 #include <petsam/private/lawimpl.h>
 #include <petsam/private/solutionimpl.h>
 #include <string.h>
@@ -13,32 +14,35 @@ static PetscErrorCode CheckBulkStress(SamSimulation s, const SamControl *control
                                       const SamOptions *from)
 {
   const char       *prefix = SamOptionsPrefix(from);
+  PetscReal         all[SAM_BULK_COMPONENTS];
   SamElasticityType type;
 
   PetscFunctionBegin;
   PetscCall(SamElasticityGetType(s->setup.elasticity, &type));
-  for (PetscInt body = 0; body < 2; body++)
+  for (PetscInt body = 0; body < 2; body++) {
+    SamBulkGet(s->conditions, control, body, all);
     for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++) {
-      const double stress = (double)control->bulk_stress[body][k],
-                   young  = (double)SamBodyBulk(SamPairBody(s->setup.pair, body))->young;
+      const char *const name   = SamBulkCondition(s->conditions, body, k)->name;
+      const double      stress = (double)all[k], young = (double)SamBodyBulk(SamPairBody(s->setup.pair, body))->young;
 
       PetscCheck(fabs(stress) <= young, from->comm, SAM_ERR_USER,
                  "-%s%s, or its column in -history: %.6g exceeds Young's modulus, %.6g: check the unit, Pa", prefix,
-                 SAM_BULK_CONDITION(body, k)->name, stress, young);
+                 name, stress, young);
 
       PetscCheck(stress == 0 || !isinf(young), from->comm, SAM_ERR_USER,
                  "-%s%s, or its column in -history: %.6g: -%sbody%" PetscInt_FMT
                  "_young is inf: a rigid body does not stretch",
-                 prefix, SAM_BULK_CONDITION(body, k)->name, stress, prefix, body + 1);
+                 prefix, name, stress, prefix, body + 1);
       PetscCheck(stress == 0 || traits.stretch, from->comm, SAM_ERR_USER,
                  "-%s%s, or its column in -history: %.6g: has no meaning with -%selasticity %s, whose bodies bear none",
-                 prefix, SAM_BULK_CONDITION(body, k)->name, stress, prefix, type);
+                 prefix, name, stress, prefix, type);
       PetscCheck(
         stress == 0 || !traits.plane || k == SAM_BULK_XX, from->comm, SAM_ERR_USER,
         "-%s%s, or its column in -history: %.6g: has no meaning in plane strain, where yy follows from xx, and "
         "there is no xy: give %s",
-        prefix, SAM_BULK_CONDITION(body, k)->name, stress, SAM_BULK_CONDITION(body, SAM_BULK_XX)->name);
+        prefix, name, stress, SamBulkCondition(s->conditions, body, SAM_BULK_XX)->name);
     }
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -63,13 +67,14 @@ static PetscErrorCode CheckComponents(SamSimulation s, const SamOptions *from)
       PetscBool given;
 
       if (control.value[c] == 0 || traits.rotations[c - SAM_COMPONENT_MX]) continue;
-      (void)snprintf(option, sizeof(option), "-%s", SamControlPartName(&control, c));
+      (void)snprintf(option, sizeof(option), "-%s", SamComponentNameOf(c, SamControlWay(&control, c)));
       PetscCall(PetscOptionsHasName(NULL, from->prefix, option, &given));
       PetscCall(SamHistoryGetPlace(s->history, k, place, sizeof(place)));
       if (given || !place[0]) (void)snprintf(place, sizeof(place), "-%s", SamOptionsPrefix(from));
       SETERRQ(from->comm, SAM_ERR_USER,
               "%s%s %.6g: has no meaning with -%selasticity %s, which has no such moment or rotation", place,
-              SamControlPartName(&control, c), (double)control.value[c], SamOptionsPrefix(from), type);
+              SamComponentNameOf(c, SamControlWay(&control, c)), (double)control.value[c], SamOptionsPrefix(from),
+              type);
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -144,6 +149,7 @@ static PetscErrorCode ReadContact(SamSimulation s, const SamOptions *from)
 
   PetscFunctionBegin;
   PetscCall(SamSetupReadOptions(&s->setup, from));
+  PetscCall(SamProblemGetConditions(s->setup.problem, &s->conditions));
   PetscCall(SamElasticityGetTraits(s->setup.elasticity, &traits));
   s->needs.coupled = traits.coupled;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -176,7 +182,7 @@ static PetscErrorCode SetProgram(SamSimulation s, SamHistory history, PetscReal 
   PetscCheck(s->step_rtol == 0 || !s->needs.life, from->comm, SAM_ERR_USER,
              "-step_rtol with -wear_cycles: all computed cycles must have the same load steps: use -steps");
   PetscCall(SamPlanSetCycles(&s->plan, cycles, s->setup.problem, from));
-  PetscCall(SamPlanCheckCycle(&s->plan, history, from));
+  PetscCall(SamPlanCheckCycle(&s->plan, history, s->conditions, from));
   PetscCall(CheckLaws(s, from));
   PetscCall(CheckComponents(s, from));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -186,7 +192,7 @@ PetscErrorCode SamSimulationSetFromOptions(SamSimulation s, const SamOptions *fr
 {
   PetscFunctionBegin;
   PetscCall(ReadContact(s, from));
-  PetscCall(SamHistoryCreateFromOptions(from, arguments, &s->history));
+  PetscCall(SamHistoryCreateFromOptions(from, arguments, s->conditions, &s->history));
   PetscCall(SamSimulationReadPieces(s, from));
   PetscCall(ReadPlan(s, PETSC_FALSE, from));
   PetscCall(SetProgram(s, s->history, s->plan.cycles, from));

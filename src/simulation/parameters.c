@@ -5,7 +5,7 @@
   What the last step prescribes. The steps of a history are in /history of the results, and checkpoints
   compare them themselves (checkpoints.c).
 */
-static PetscErrorCode AddLoads(SamParameters *p, SamHistory history)
+static PetscErrorCode AddLoads(SamParameters *p, SamHistory history, SamConditions conditions)
 {
   SamControl control;
   PetscInt   count, increments;
@@ -17,14 +17,14 @@ static PetscErrorCode AddLoads(SamParameters *p, SamHistory history)
   steps = (PetscReal)increments;
   PetscCall(SamParametersAddReals(p, "steps", PETSC_TRUE, 1, &steps));
   PetscCall(SamHistoryGetStep(history, count - 1, &control));
-  for (PetscInt k = 0; k < SAM_CONTROL_PARTS; k++) {
-    const SamCondition *condition = k < SAM_COMPONENTS ? NULL : &SamConditions[k - SAM_COMPONENTS];
-    const PetscReal     value     = SamControlPart(&control, k);
+  for (PetscInt k = 0; k < SamControlCount(conditions); k++) {
+    const SamCondition *condition = k < SAM_COMPONENTS ? NULL : SamConditionsGet(conditions, k - SAM_COMPONENTS);
+    const PetscReal     value     = SamControlPart(&control, conditions, k);
     PetscBool           given     = PETSC_TRUE;
 
     if (condition) PetscCall(SamHistoryGives(history, condition, &given));
     if (!given || (condition && !condition->option)) continue;
-    PetscCall(SamParametersAddReals(p, SamControlPartName(&control, k), PETSC_FALSE, 1, &value));
+    PetscCall(SamParametersAddReals(p, SamControlPartName(&control, conditions, k), PETSC_FALSE, 1, &value));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -57,7 +57,7 @@ PetscErrorCode SamSimulationCollectParameters(SamSimulation s)
   PetscFunctionBegin;
   s->parameters.count = 0;
   PetscCall(SamSetupAddParameters(&s->setup, &s->parameters));
-  PetscCall(AddLoads(&s->parameters, s->history));
+  PetscCall(AddLoads(&s->parameters, s->history, s->conditions));
   PetscCall(AddLife(&s->parameters, &s->plan));
   if (s->step_rtol > 0) PetscCall(SamParametersAddReals(&s->parameters, "step_rtol", PETSC_FALSE, 1, &s->step_rtol));
   s->parameters.free = s->checkpoints.other_gap ? "gap_" : NULL;

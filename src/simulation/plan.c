@@ -174,9 +174,9 @@ PetscErrorCode SamPlanDestroy(SamPlan *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamPlanCheckCycle(const SamPlan *w, SamHistory history, const SamOptions *from)
+PetscErrorCode SamPlanCheckCycle(const SamPlan *w, SamHistory history, SamConditions conditions, const SamOptions *from)
 {
-  PetscReal  range[SAM_CONTROL_PARTS] = {0}; /* of each part, about its value in the first row */
+  PetscReal  range[SAM_COMPONENTS + SAM_CONDITIONS] = {0}; /* of each part, about its value in the first row */
   SamControl first, last;
   PetscInt   count, increments, start;
 
@@ -190,14 +190,16 @@ PetscErrorCode SamPlanCheckCycle(const SamPlan *w, SamHistory history, const Sam
   PetscCall(SamHistoryGetStep(history, start - 1, &first));
   for (PetscInt k = start; k < count; k++) {
     PetscCall(SamHistoryGetStep(history, k, &last));
-    for (PetscInt c = 0; c < SAM_CONTROL_PARTS; c++)
-      range[c] = PetscMax(range[c], fabs(SamControlPart(&last, c) - SamControlPart(&first, c)));
+    for (PetscInt c = 0; c < SamControlCount(conditions); c++)
+      range[c] = PetscMax(range[c], fabs(SamControlPart(&last, conditions, c) - SamControlPart(&first, conditions, c)));
   }
-  for (PetscInt c = 0; c < SAM_CONTROL_PARTS; c++)
-    PetscCheck(fabs(SamControlPart(&last, c) - SamControlPart(&first, c)) <= ROUNDING * range[c], from->comm,
-               SAM_ERR_USER,
+  for (PetscInt c = 0; c < SamControlCount(conditions); c++)
+    PetscCheck(fabs(SamControlPart(&last, conditions, c) - SamControlPart(&first, conditions, c)) <=
+                 ROUNDING * range[c],
+               from->comm, SAM_ERR_USER,
                "-wear_cycles: -history is not a closed cycle: %s is %.6g in the last row and %.6g in the first",
-               SamControlPartName(&first, c), (double)SamControlPart(&last, c), (double)SamControlPart(&first, c));
+               SamControlPartName(&first, conditions, c), (double)SamControlPart(&last, conditions, c),
+               (double)SamControlPart(&first, conditions, c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -32,7 +32,8 @@ PETSC_INTERN PetscErrorCode SamPlanDestroy(SamPlan *plan);
   SamPlanCheckCycle - refuses a history that is no closed cycle: its last row must be its first one again.
   Collective. Errors: SAM_ERR_USER.
 */
-PETSC_INTERN PetscErrorCode SamPlanCheckCycle(const SamPlan *plan, SamHistory history, const SamOptions *from);
+PETSC_INTERN PetscErrorCode SamPlanCheckCycle(const SamPlan *plan, SamHistory history, SamConditions conditions,
+                                              const SamOptions *from);
 /* SamPlanNextStop - after so many cycles, up to where they may be jumped over. Not collective. */
 PETSC_INTERN PetscReal SamPlanNextStop(const SamPlan *plan, PetscReal cycles);
 /* SamPlanCountOutputs - the number of cycles whose fields are asked for. Not collective. */

@@ -103,12 +103,13 @@ PetscErrorCode SamSimulationExamine(SamSimulation s, PetscInt k, PetscBool of_la
 static PetscErrorCode Offer(SamSimulation s)
 {
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < SAM_CONDITIONS; k++) {
-    PetscBool given;
+  for (PetscInt k = 0; k < SamConditionsCount(s->conditions); k++) {
+    const SamCondition *one = SamConditionsGet(s->conditions, k);
+    PetscBool           given;
 
-    PetscCall(SamHistoryGives(s->history, &SamConditions[k], &given));
-    if (given || (k == SAM_CONDITION_FRICTION && s->plan.points))
-      PetscCall(SamContactOfferCondition(s->setup.contact, k));
+    PetscCall(SamHistoryGives(s->history, one, &given));
+    if (given || (s->plan.points && !strcmp(one->name, SAM_FRICTION_SCALE)))
+      PetscCall(SamContactOfferCondition(s->setup.contact, one));
   }
   if (s->needs.stiffness) PetscCall(SamStiffnessDeclare(s->setup.contact));
   PetscCall(SamSimulationDeclarePieces(s));
@@ -135,10 +136,11 @@ static PetscErrorCode CheckRolling(SamSimulation s)
     if (end != (n < s->needs.steps)) continue;
     PetscCall(SamHistoryGetStep(s->history, k, &control));
     PetscCall(SamHistoryGetPlace(s->history, k, where, sizeof(where)));
-    PetscCall(SamMotionCheck(s->setup.elasticity, &control, where));
-    PetscCheck(SamControlRolled(&control) == 0 || !s->needs.life, s->comm, SAM_ERR_USER,
+    PetscCall(SamMotionCheck(s->setup.elasticity, s->conditions, &control, where));
+    PetscCheck(SamProblemGetRolled(s->setup.problem, &control, NULL) == 0 || !s->needs.life, s->comm, SAM_ERR_USER,
                "roll with -wear_cycles: surfaces that roll are worn step by step: omit one of them");
-    PetscCheck(s->step_rtol == 0 || (SamControlRolled(&control) == 0 && SamMotionOf(s->setup.elasticity)->continues),
+    PetscCheck(s->step_rtol == 0 || (SamProblemGetRolled(s->setup.problem, &control, NULL) == 0 &&
+                                     SamMotionOf(s->setup.elasticity)->continues),
                s->comm, SAM_ERR_USER,
                "-step_rtol with rolling, which has no estimate of the energy's error: use -steps");
   }

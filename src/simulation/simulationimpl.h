@@ -42,6 +42,7 @@ struct _n_SamSimulation {
   void                  *context;
   volatile sig_atomic_t *signals; /* NULL: none */
   SamSetup               setup;
+  SamConditions          conditions; /* of the problem; borrowed */
   SamPlan                plan;
   SamLife                life; /* NULL: none */
   SamHistory             history;

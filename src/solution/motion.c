@@ -4,6 +4,7 @@
   They are not stored, but computed row by row where they are needed, always by these functions: so they are the same to
   the last bit in the check, in the next step and in the results.
 */
+#include <petsam/private/bulk.h>
 #include <petsam/private/solutionimpl.h>
 
 PetscErrorCode SamValuesGet(const SamSolution *s, SamValues *v)
@@ -30,14 +31,22 @@ PetscErrorCode SamValuesRestore(const SamSolution *s, SamValues *v)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-SamStretch SamStretchOf(SamPair pair, const SamControl *control)
+SamStretch SamStretchOf(SamProblem problem, const SamControl *control)
 {
-  SamStretch e = {0, 0, 0};
+  SamStretch    e = {0, 0, 0};
+  SamConditions conditions;
+  SamElasticity elasticity;
+  SamPair       pair;
 
+  (void)SamProblemGetConditions(problem, &conditions);
+  (void)SamProblemGetElasticity(problem, &elasticity);
+  (void)SamElasticityGetPair(elasticity, &pair);
   for (int body = 0; body < 2; body++) {
-    const SamMaterial *m = SamBodyBulk(SamPairBody(pair, body));
-    const PetscReal   *s = control->bulk_stress[body], nu = m->poisson, sign = body ? 1 : -1;
+    const SamMaterial *m  = SamBodyBulk(SamPairBody(pair, body));
+    const PetscReal    nu = m->poisson, sign = body ? 1 : -1;
+    PetscReal          s[SAM_BULK_COMPONENTS];
 
+    SamBulkGet(conditions, control, body, s);
     e.xx += sign * (s[SAM_BULK_XX] - nu * s[SAM_BULK_YY]) / m->young;
     e.yy += sign * (s[SAM_BULK_YY] - nu * s[SAM_BULK_XX]) / m->young;
     e.xy += sign * (1 + nu) * s[SAM_BULK_XY] / m->young;
@@ -60,7 +69,7 @@ PetscErrorCode SamRigidSet(SamRigid *m, SamProblem problem, const SamSolution *s
     for (PetscInt k = 0; k < 3; k++) rigid[kind].rigid[k] = s->rigid[SamComponentsOf[kind][k]];
   PetscCall(SamFrameSetGiven(&m->normal, grid, &rigid[0]));
   PetscCall(SamFrameSetGiven(&m->tangential, grid, &rigid[1]));
-  m->stretch = SamStretchOf(pair, &s->control);
+  m->stretch = SamStretchOf(problem, &s->control);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

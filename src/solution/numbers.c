@@ -283,16 +283,20 @@ PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamState state, con
   SamGrid       grid;
   SamElasticity elasticity;
   PetscBool     continues;
+  SamConditions conditions;
 
   PetscFunctionBegin;
   PetscCall(SamProblemGetGrid(problem, &grid));
   PetscCall(SamProblemGetElasticity(problem, &elasticity));
+  PetscCall(SamProblemGetConditions(problem, &conditions));
   continues = SamMotionOf(elasticity)->continues;
   PetscCall(SumCells(problem, before, s, numbers));
   if (!continues) numbers[STORED_ENERGY] = NAN; /* u_t is that of a rolled distance */
-  if (!continues || SamControlRolled(&s->control) != 0) numbers[ENERGY_ERROR] = NAN; /* estimated at one place */
-  for (PetscInt k = 0; k < SAM_CASES; k++)
-    if (s->control.cases[k] != 0) numbers[STORED_ENERGY] = NAN; /* the displacements are not by the tractions alone */
+  if (!continues || SamProblemGetRolled(problem, &s->control, NULL) != 0)
+    numbers[ENERGY_ERROR] = NAN;                                /* estimated at one place */
+  for (PetscInt k = 0; k < SamConditionsCount(conditions); k++) /* the displacements are not by the tractions alone */
+    if (SamConditionsGet(conditions, k)->couples && SamControlGet(&s->control, SamConditionsGet(conditions, k)) != 0)
+      numbers[STORED_ENERGY] = NAN;
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_EDGES], 0, 0, 0, 0));
   numbers[EDGE_ACCEPTED] = 0;
   if (!same_pressure) contact[KNOWN] = 0;

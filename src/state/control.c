@@ -1,8 +1,6 @@
 /* What a load step prescribes, and its names. */
 #include <petsam/private/baseimpl.h>
 #include <petsam/control.h>
-#include <math.h>
-#include <stddef.h>
 #include <string.h>
 
 const SamComponentName SamComponentNames[SAM_COMPONENTS] = {
@@ -15,59 +13,7 @@ const SamComponentName SamComponentNames[SAM_COMPONENTS] = {
   {"load_my", "N m", "moment about y", "rot_y", "rad", "rotation about y", NULL, NULL, NULL, 1},
   {"load_mz", "N m", "moment about z", "rot_z", "rad", "rotation about z", "creep_spin", "1/m", "spin", 2}};
 
-#define BULK(body, k, component) \
-  { \
-    "bulk" #body "_stress_" #component, "Pa", "bulk stress " #component " of body " #body ", tension positive", \
-      offsetof(SamControl, bulk_stress[body - 1][k]), 0, SAM_RANGE_ANY, PETSC_TRUE, PETSC_FALSE, 1 \
-  }
-#define ROLL(name, k, axis) \
-  { \
-    name, "m", "rolled distance of the load step along " axis, offsetof(SamControl, roll[k]), 0, SAM_RANGE_ANY, \
-      PETSC_FALSE, PETSC_TRUE, 2 \
-  }
-/* Names of load cases, which files give; until then none that could be given. */
-static char     case_names[SAM_CASES][sizeof("body1_case_") + SAM_CASE_NAME];
-static PetscInt cases_used = 0;
-
-#define CASE(k) \
-  { \
-    case_names[k], "1", "factor on a load case of a body", offsetof(SamControl, cases[k]), 0, SAM_RANGE_ANY, \
-      PETSC_TRUE, PETSC_FALSE, 3 + (k) \
-  }
-#define CASES(k) CASE(k), CASE((k) + 1), CASE((k) + 2), CASE((k) + 3)
-const SamCondition SamConditions[SAM_CONDITIONS] = {{"friction_scale", "1", "factor on the coefficient of friction",
-                                                     offsetof(SamControl, friction_scale), 1, SAM_RANGE_NONNEGATIVE,
-                                                     PETSC_FALSE, PETSC_FALSE, 0},
-                                                    BULK(1, SAM_BULK_XX, xx),
-                                                    BULK(1, SAM_BULK_YY, yy),
-                                                    BULK(1, SAM_BULK_XY, xy),
-                                                    BULK(2, SAM_BULK_XX, xx),
-                                                    BULK(2, SAM_BULK_YY, yy),
-                                                    BULK(2, SAM_BULK_XY, xy),
-                                                    ROLL("roll", 0, "x"),
-                                                    ROLL("roll_y", 1, "y"),
-                                                    CASES(0),
-                                                    CASES(4),
-                                                    CASES(8),
-                                                    CASES(12)};
-
-PetscErrorCode SamControlAddCase(PetscInt body, const char name[], PetscInt *place, PetscBool *room)
-{
-  char own[sizeof(case_names[0])];
-
-  PetscFunctionBegin;
-  (void)snprintf(own, sizeof(own), "body%d_case_%s", (int)body + 1, name);
-  for (*place = 0; *place < cases_used && strcmp(case_names[*place], own); (*place)++) continue;
-  *room = *place < SAM_CASES ? PETSC_TRUE : PETSC_FALSE;
-  if (!*room || *place < cases_used) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscStrncpy(case_names[cases_used++], own, sizeof(own)));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscBool SamConditionIsUsed(PetscInt k)
-{
-  return k < SAM_CONDITION_CASE + cases_used ? PETSC_TRUE : PETSC_FALSE;
-}
+/* ---- components ---- */
 
 const char *SamUnitOn(SamGrid grid, const char unit[])
 {
@@ -102,60 +48,155 @@ void SamControlSetWay(SamControl *control, PetscInt k, SamWay way)
   control->creep[k] = way == SAM_BY_CREEP;
 }
 
-PetscReal SamControlRolled(const SamControl *control)
-{
-  const PetscReal *roll = control->roll;
+/* ---- lists of conditions ---- */
 
-  return roll[1] == 0 ? roll[0] : roll[0] == 0 ? roll[1] : hypot(roll[0], roll[1]);
+struct _n_SamConditions {
+  PetscInt      references, count;
+  SamCondition *condition[SAM_CONDITIONS]; /* they stay where they are: others refer to them */
+};
+
+PetscErrorCode SamConditionsCreate(SamConditions *conditions)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscNew(conditions));
+  (*conditions)->references = 1;
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+PetscErrorCode SamConditionsReference(SamConditions list)
+{
+  PetscFunctionBegin;
+  list->references++;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamConditionsDestroy(SamConditions *conditions)
+{
+  SamConditions list = *conditions;
+
+  PetscFunctionBegin;
+  *conditions = NULL;
+  if (!list || --list->references > 0) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt k = 0; k < list->count; k++) {
+    SamCondition *const c = list->condition[k];
+
+    PetscCall(PetscFree(c->name));
+    PetscCall(PetscFree(c->unit));
+    PetscCall(PetscFree(c->text));
+    PetscCall(PetscFree(c->group));
+    PetscCall(PetscFree(list->condition[k]));
+  }
+  PetscCall(PetscFree(list));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamConditionsAdd(SamConditions list, const SamCondition *condition, const SamCondition **own)
+{
+  const SamCondition *found = SamConditionsFind(list, condition->name);
+  SamCondition       *c;
+
+  PetscFunctionBegin;
+  if (!found) {
+    PetscCheck(list->count < SAM_CONDITIONS, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
+               "The condition %s is one too many: a step has at most %d", condition->name, SAM_CONDITIONS);
+    PetscCall(PetscNew(&c));
+    *c = *condition;
+    PetscCall(PetscStrallocpy(condition->name, (char **)&c->name));
+    PetscCall(PetscStrallocpy(condition->unit, (char **)&c->unit));
+    PetscCall(PetscStrallocpy(condition->text, (char **)&c->text));
+    PetscCall(PetscStrallocpy(condition->group ? condition->group : condition->name, (char **)&c->group));
+    c->place                       = list->count;
+    list->condition[list->count++] = c;
+    found                          = c;
+  }
+  if (own) *own = found;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscInt SamConditionsCount(SamConditions list)
+{
+  return list->count;
+}
+
+const SamCondition *SamConditionsGet(SamConditions list, PetscInt k)
+{
+  return list->condition[k];
+}
+
+const SamCondition *SamConditionsFind(SamConditions list, const char name[])
+{
+  for (PetscInt k = 0; k < list->count; k++)
+    if (!strcmp(list->condition[k]->name, name)) return list->condition[k];
+  return NULL;
+}
+
+/* ---- controls ---- */
 
 PetscErrorCode SamControlInitialize(SamControl *control)
 {
   PetscFunctionBegin;
   PetscCall(PetscMemzero(control, sizeof(*control)));
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++) control->force[k] = PETSC_TRUE;
-  for (PetscInt k = 0; k < SAM_CONDITIONS; k++) *SamControlPlace(control, SAM_COMPONENTS + k) = SamConditions[k].usual;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static size_t OffsetOf(PetscInt k)
+PetscReal SamControlGet(const SamControl *control, const SamCondition *condition)
 {
-  return k < SAM_COMPONENTS ? offsetof(SamControl, value) + (size_t)k * sizeof(PetscReal)
-                            : SamConditions[k - SAM_COMPONENTS].place;
+  return control && control->given[condition->place] ? control->condition[condition->place] : condition->usual;
 }
 
-PetscReal *SamControlPlace(SamControl *control, PetscInt k)
+void SamControlSetCondition(SamControl *control, const SamCondition *condition, PetscReal value)
 {
-  return (PetscReal *)((char *)control + OffsetOf(k));
+  control->condition[condition->place] = value;
+  control->given[condition->place]     = 1;
 }
 
-PetscReal SamControlPart(const SamControl *control, PetscInt k)
+PetscInt SamControlCount(SamConditions conditions)
 {
-  return *(const PetscReal *)((const char *)control + OffsetOf(k));
+  return SAM_COMPONENTS + SamConditionsCount(conditions);
 }
 
-const char *SamControlPartName(const SamControl *control, PetscInt k)
+PetscReal SamControlPart(const SamControl *control, SamConditions conditions, PetscInt k)
 {
-  if (k >= SAM_COMPONENTS) return SamConditions[k - SAM_COMPONENTS].name;
-  return SamComponentNameOf(k, SamControlWay(control, k));
+  return k < SAM_COMPONENTS ? control->value[k]
+                            : SamControlGet(control, SamConditionsGet(conditions, k - SAM_COMPONENTS));
 }
 
-void SamControlPack(const SamControl *control, double n[])
+void SamControlSetPart(SamControl *control, SamConditions conditions, PetscInt k, PetscReal value)
 {
-  *n++ = control->time;
-  for (PetscInt k = 0; k < SAM_COMPONENTS; k++) *n++ = SamControlWay(control, k);
-  for (PetscInt k = 0; k < SAM_CONTROL_PARTS; k++) *n++ = SamControlPart(control, k);
+  if (k < SAM_COMPONENTS)
+    control->value[k] = value;
+  else
+    SamControlSetCondition(control, SamConditionsGet(conditions, k - SAM_COMPONENTS), value);
 }
 
-void SamControlUnpack(const double n[], SamControl *control)
+const char *SamControlPartName(const SamControl *control, SamConditions conditions, PetscInt k)
 {
-  control->time = *n++;
-  for (PetscInt k = 0; k < SAM_COMPONENTS; k++) SamControlSetWay(control, k, (SamWay)*n++);
-  for (PetscInt k = 0; k < SAM_CONTROL_PARTS; k++) *SamControlPlace(control, k) = *n++;
+  return k < SAM_COMPONENTS ? SamComponentNameOf(k, SamControlWay(control, k))
+                            : SamConditionsGet(conditions, k - SAM_COMPONENTS)->name;
 }
 
-PetscErrorCode SamControlSet(SamControl *control, const char name[], PetscReal value)
+/* Raises the error of a name that nothing has, with the nearest one. */
+static PetscErrorCode RefuseName(SamConditions conditions, const char name[])
 {
+  const char *names[SAM_WAYS * SAM_COMPONENTS + SAM_CONDITIONS], *nearest;
+  size_t      count = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < SAM_WAYS * SAM_COMPONENTS; k++)
+    if (SamComponentNameOf(k / SAM_WAYS, (SamWay)(k % SAM_WAYS)))
+      names[count++] = SamComponentNameOf(k / SAM_WAYS, (SamWay)(k % SAM_WAYS));
+  for (PetscInt k = 0; conditions && k < conditions->count; k++) names[count++] = conditions->condition[k]->name;
+  nearest = SamNearestName(name, count, names);
+  SETERRQ(PETSC_COMM_SELF, PETSC_ERR_ARG_UNKNOWN_TYPE,
+          "%s is not the name of a load, displacement, creepage or condition%s%s%s", name, nearest ? ": is " : "",
+          nearest ? nearest : "", nearest ? " meant?" : "");
+}
+
+PetscErrorCode SamControlSet(SamControl *control, SamConditions conditions, const char name[], PetscReal value)
+{
+  const SamCondition *condition = conditions ? SamConditionsFind(conditions, name) : NULL;
+
   PetscFunctionBegin;
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++)
     for (SamWay way = SAM_BY_LOAD; way < SAM_WAYS; way++) {
@@ -166,19 +207,22 @@ PetscErrorCode SamControlSet(SamControl *control, const char name[], PetscReal v
       control->value[k] = value;
       PetscFunctionReturn(PETSC_SUCCESS);
     }
-  SETERRQ(PETSC_COMM_SELF, PETSC_ERR_ARG_UNKNOWN_TYPE, "%s is not the name of a load, displacement or creepage", name);
+  if (!condition) PetscCall(RefuseName(conditions, name));
+  SamControlSetCondition(control, condition, value);
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamControlReadCondition(const SamOptions *from, PetscInt k, SamControl *control, PetscBool *set)
+PetscErrorCode SamControlReadCondition(const SamOptions *from, const SamCondition *condition, SamControl *control,
+                                       PetscBool *set)
 {
-  const SamCondition *condition = &SamConditions[k];
-  char                text[96];
+  PetscReal value = SamControlGet(control, condition);
+  char      text[96];
 
   PetscFunctionBegin;
   *set = PETSC_FALSE;
-  if (!condition->option || !SamConditionIsUsed(k)) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!condition->option) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscSNPrintf(text, sizeof(text), "%s (%s)", condition->text, condition->unit));
-  PetscCall(
-    SamOptionsReal(from, condition->name, text, condition->range, SamControlPlace(control, SAM_COMPONENTS + k), set));
+  PetscCall(SamOptionsReal(from, condition->name, text, condition->range, &value, set));
+  if (*set) SamControlSetCondition(control, condition, value);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -15,7 +15,8 @@ typedef struct {
   SamStateNumber declared;
   char           name[48], unit[32], text[96]; /* of it, as whoever declares it may go */
   PetscInt       id;                           /* place of the first value */
-  double         before;                       /* value of steps in which it was no result */
+  double         before;                       /* value of steps in which it was no result; the usual one */
+  PetscBool      optional;                     /* others may lack it, where it is as usual */
 } Number;
 
 struct _n_SamState {
@@ -53,7 +54,14 @@ PetscErrorCode SamStateCreateLike(SamState state, SamState *other)
   PetscFunctionBegin;
   PetscCall(SamStateCreate(state->grid, &s));
   for (PetscInt k = 0; k < state->fields; k++) PetscCall(SamStateDeclareField(s, &state->field[k].declared, &id));
-  for (PetscInt k = 0; k < state->numbers; k++) PetscCall(SamStateDeclareNumber(s, &state->number[k].declared, &id));
+  for (PetscInt k = 0; k < state->numbers; k++) {
+    const Number *n = &state->number[k];
+
+    if (n->optional)
+      PetscCall(SamStateDeclareOptional(s, &n->declared, n->before, &id));
+    else
+      PetscCall(SamStateDeclareNumber(s, &n->declared, &id));
+  }
   *other = s;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -139,6 +147,13 @@ static void SetNone(SamState s, const Number *n, SamGeneration g)
       n->declared.result && (n->declared.kind == SAM_NUMBER_REAL || n->declared.kind == SAM_NUMBER_MATRIX) ? NAN : 0;
 }
 
+/* The value of numbers from the start, before any step. */
+static void SetInitial(SamState s, const Number *n, SamGeneration g)
+{
+  SetNone(s, n, g);
+  for (PetscInt k = 0; k < n->declared.count && n->optional; k++) s->generation[g][n->id + k] = n->before;
+}
+
 PetscErrorCode SamStateDeclareNumber(SamState s, const SamStateNumber *number, PetscInt *id)
 {
   Number *n;
@@ -159,8 +174,36 @@ PetscErrorCode SamStateDeclareNumber(SamState s, const SamStateNumber *number, P
   n->id = *id = s->values;
   n->before   = number->kind == SAM_NUMBER_INT ? 0 : NAN;
   s->values += number->count;
-  for (PetscInt g = 0; g < SAM_GENERATIONS; g++) SetNone(s, n, (SamGeneration)g);
+  for (PetscInt g = 0; g < SAM_GENERATIONS; g++) SetInitial(s, n, (SamGeneration)g);
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamStateDeclareOptional(SamState s, const SamStateNumber *number, double usual, PetscInt *id)
+{
+  const PetscInt count = s->numbers;
+
+  PetscFunctionBegin;
+  PetscCall(SamStateDeclareNumber(s, number, id));
+  if (s->numbers == count) PetscFunctionReturn(PETSC_SUCCESS);
+  s->number[count].optional = PETSC_TRUE;
+  s->number[count].before   = usual;
+  for (PetscInt g = 0; g < SAM_GENERATIONS; g++) SetInitial(s, &s->number[count], (SamGeneration)g);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscBool SamStateIsOptional(SamState s, PetscInt k)
+{
+  return s->number[k].optional;
+}
+
+PetscBool SamStateIsUsual(SamState s, PetscInt k)
+{
+  const Number *n = &s->number[k];
+
+  for (PetscInt g = SAM_COMMITTED; g < SAM_GENERATIONS; g++)
+    for (PetscInt i = n->id; i < n->id + n->declared.count; i++)
+      if (s->generation[g][i] != n->before && !isnan(s->generation[g][i])) return PETSC_FALSE;
+  return n->optional;
 }
 
 PetscErrorCode SamStateOfferNumber(SamState s, const char name[], double before)
@@ -241,7 +284,7 @@ PetscErrorCode SamStateReset(SamState s)
   PetscCall(SamStateReject(s));
   PetscCall(DestroyFields(s));
   for (PetscInt k = 0; k < s->numbers; k++)
-    for (PetscInt g = 0; g < SAM_GENERATIONS; g++) SetNone(s, &s->number[k], (SamGeneration)g);
+    for (PetscInt g = 0; g < SAM_GENERATIONS; g++) SetInitial(s, &s->number[k], (SamGeneration)g);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -357,6 +400,13 @@ PetscErrorCode SamStateCopy(SamState from, SamState to)
     PetscCheck(SamStateFindField(to, name) >= 0 || !from->field[k].value[SAM_COMMITTED], to->grid->comm,
                PETSC_ERR_ARG_INCOMP, "The state to be copied has a field %s, which this contact does not have", name);
   }
+  for (PetscInt k = 0; k < from->numbers; k++) {
+    const Number *n = &from->number[k];
+
+    PetscCheck(!n->optional || SamStateFindNumber(to, n->name) >= 0 || SamStateIsUsual(from, k), to->grid->comm,
+               PETSC_ERR_ARG_INCOMP, "The state to be copied has %s = %.6g, which this contact does not have", n->name,
+               from->generation[SAM_COMMITTED][n->id]);
+  }
   for (PetscInt k = 0; k < to->fields; k++) {
     const PetscInt other = SamStateFindField(from, to->field[k].declared.name);
 
@@ -369,7 +419,7 @@ PetscErrorCode SamStateCopy(SamState from, SamState to)
 
     for (PetscInt g = SAM_COMMITTED; g < SAM_GENERATIONS; g++)
       if (other < 0)
-        SetNone(to, n, (SamGeneration)g);
+        SetInitial(to, n, (SamGeneration)g);
       else
         PetscCall(PetscArraycpy(to->generation[g] + n->id, from->generation[g] + other, n->declared.count));
   }

@@ -23,8 +23,8 @@
 
 PetscErrorCode SamSolveBound(SamSolve *w, Vec bound)
 {
-  const SamBoundAt at = {w->task->state, w->s->control.friction_scale, w->s->pressure, w->slip,
-                         SamControlRolled(&w->s->control)};
+  const SamBoundAt at = {w->task->state, &w->s->control, w->s->pressure, w->slip,
+                         SamProblemGetRolled(w->task->problem, &w->s->control, NULL)};
 
   PetscFunctionBegin;
   PetscCall(SamProblemComputeBound(w->task->problem, &at, &(SamBound){.value = bound}));
@@ -102,7 +102,7 @@ PetscErrorCode SamSolveShear(SamSolve *w, PetscBool has_shear, PetscReal rtol, S
 
   PetscFunctionBegin;
   if (w->task->coupled) PetscCall(SamElasticityApplyNormalToTangential(w->task->elasticity, w->s->pressure, w->pushed));
-  if (w->task->coupled) PetscCall(SamElasticityAddCases(w->task->elasticity, &w->s->control, PETSC_TRUE, w->pushed));
+  if (w->task->coupled) PetscCall(SamProblemAddCases(w->task->problem, &w->s->control, PETSC_TRUE, w->pushed));
   if (!SamProblemFollowsSlip(w->task->problem)) {
     PetscCall(SamSolveDirection(w, has_shear, rtol, effort));
     PetscFunctionReturn(PETSC_SUCCESS);

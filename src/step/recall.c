@@ -37,7 +37,9 @@
 #define MARGIN 1
 /* An upper bound of the influence of single cells' shear on their neighbours, in units of the self-influence. */
 #define SPREAD 4
-#define UNITS  1073741824.0
+/* What is compared of a control. */
+#define NUMBERS (2 * SAM_COMPONENTS + SAM_CONDITIONS)
+#define UNITS   1073741824.0
 /* Least and largest weight of the last of two repetitions. */
 #define LEAST_WEIGHT (-1.0)
 #define MOST_WEIGHT  2.0
@@ -70,7 +72,9 @@ struct _n_SamRecall {
   PetscInt count, newest, found, older; /* found, older: the last two steps like the next one; -1: none */
   double   weight;                      /* of the former, by what was best in the last step */
   Entry   *entry;                       /* a ring of STEPS; NULL until there is memory for it */
-  double   largest[SAM_CONTROL_NUMBERS];
+  double   largest[NUMBERS];
+
+  SamConditions conditions;
 };
 
 static void DestroyKept(SamRecall r, SamKept *kept)
@@ -87,11 +91,12 @@ static void DestroyKept(SamRecall r, SamKept *kept)
   *kept = NULL;
 }
 
-PetscErrorCode SamRecallCreate(SamGrid grid, SamRecall *recall)
+PetscErrorCode SamRecallCreate(SamGrid grid, SamConditions conditions, SamRecall *recall)
 {
   PetscFunctionBegin;
   PetscCall(SamAllocateZeros(sizeof(**recall), recall));
-  (*recall)->grid  = grid;
+  (*recall)->grid       = grid;
+  (*recall)->conditions = conditions;
   (*recall)->found = (*recall)->older = -1;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -123,34 +128,39 @@ PetscErrorCode SamRecallSetMemory(SamRecall r, PetscReal bytes)
 
 /* ---- which step this is ---- */
 
-/* The numbers of a control but its time. */
-static void Numbers(const SamControl *control, double numbers[SAM_CONTROL_NUMBERS])
+/* The numbers of a control but its time; returns how many there are. */
+static PetscInt Numbers(SamRecall r, const SamControl *control, double numbers[NUMBERS])
 {
-  SamControl timeless = *control;
+  PetscInt n = 0;
 
-  timeless.time = 0;
-  SamControlPack(&timeless, numbers);
+  for (PetscInt k = 0; k < SAM_COMPONENTS; k++) numbers[n++] = SamControlWay(control, k);
+  for (PetscInt k = 0; k < SamControlCount(r->conditions); k++)
+    numbers[n++] = SamControlPart(control, r->conditions, k);
+  return n;
 }
 
 static PetscBool IsSame(SamRecall r, const SamControl *a, const SamControl *b)
 {
-  double x[SAM_CONTROL_NUMBERS], y[SAM_CONTROL_NUMBERS];
+  double         x[NUMBERS], y[NUMBERS];
+  const PetscInt count = Numbers(r, a, x);
 
-  Numbers(a, x);
-  Numbers(b, y);
-  for (PetscInt k = 0; k < SAM_CONTROL_NUMBERS; k++)
+  (void)Numbers(r, b, y);
+  for (PetscInt k = 0; k < count; k++)
     if (fabs(x[k] - y[k]) > SAME * r->largest[k]) return PETSC_FALSE;
   return PETSC_TRUE;
 }
 
 /* The control with all that causes shear reversed. */
-static SamControl Reversed(const SamControl *control)
+static SamControl Reversed(SamRecall r, const SamControl *control)
 {
   SamControl reversed = *control;
 
   for (PetscInt k = 0; k < 3; k++) reversed.value[SamComponentsOf[SAM_BALANCE_TANGENTIAL][k]] *= -1;
-  for (PetscInt body = 0; body < 2; body++)
-    for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++) reversed.bulk_stress[body][k] *= -1;
+  for (PetscInt k = 0; k < SamConditionsCount(r->conditions); k++) {
+    const SamCondition *c = SamConditionsGet(r->conditions, k);
+
+    if (c->reverses) SamControlSetCondition(&reversed, c, -SamControlGet(control, c));
+  }
   return reversed;
 }
 
@@ -162,18 +172,19 @@ static PetscInt Before(SamRecall r, PetscInt k)
 
 void SamRecallFind(SamRecall r, const SamControl *next, SamKept *kept)
 {
-  double     numbers[SAM_CONTROL_NUMBERS];
+  double     numbers[NUMBERS];
+  PetscInt   count;
   SamControl to[2], from[2]; /* controls of the step: as they are, and reversed */
 
   *kept    = NULL;
   r->found = r->older = -1;
   if (r->limit <= 0) return;
-  Numbers(next, numbers);
-  for (PetscInt k = 0; k < SAM_CONTROL_NUMBERS; k++) r->largest[k] = PetscMax(r->largest[k], fabs(numbers[k]));
+  count = Numbers(r, next, numbers);
+  for (PetscInt k = 0; k < count; k++) r->largest[k] = PetscMax(r->largest[k], fabs(numbers[k]));
   to[0]   = *next;
-  to[1]   = Reversed(next);
+  to[1]   = Reversed(r, next);
   from[0] = r->entry[r->newest].control;
-  from[1] = Reversed(&from[0]);
+  from[1] = Reversed(r, &from[0]);
   for (PetscInt k = 0; k + 2 < r->count && r->older < 0; k++)
     for (int way = 0; way < 2; way++) {
       const PetscInt n = Before(r, k);

@@ -9,8 +9,11 @@
 typedef struct _n_SamRecall *SamRecall;
 typedef struct _n_SamKept   *SamKept;
 
-/* SamRecallCreate, SamRecallDestroy - nothing is kept until there is memory for it. The grid is borrowed. */
-PETSC_INTERN PetscErrorCode SamRecallCreate(SamGrid grid, SamRecall *recall);
+/*
+  SamRecallCreate, SamRecallDestroy - nothing is kept until there is memory for it. The grid and the conditions are
+  borrowed.
+*/
+PETSC_INTERN PetscErrorCode SamRecallCreate(SamGrid grid, SamConditions conditions, SamRecall *recall);
 PETSC_INTERN void           SamRecallDestroy(SamRecall *recall);
 /* SamRecallSetMemory - the bytes on all ranks that kept steps may take; 0: none are kept. Not collective. */
 PETSC_INTERN PetscErrorCode SamRecallSetMemory(SamRecall recall, PetscReal bytes);

@@ -19,8 +19,8 @@ static PetscErrorCode Begin(const SamStepTask *task, SamStep *step, SamSolve *w)
     const PetscInt n = SamComponentsOf[SAM_BALANCE_TANGENTIAL][k];
 
     if (w->s->control.creep[n] && task->motion->continues)
-      w->tangential.rigid[k] =
-        (w->task->before ? w->task->before->rigid[n] : 0) + SamControlRolled(&w->s->control) * w->s->control.value[n];
+      w->tangential.rigid[k] = (w->task->before ? w->task->before->rigid[n] : 0) +
+                               SamProblemGetRolled(w->task->problem, &w->s->control, NULL) * w->s->control.value[n];
   }
   PetscCall(PetscArraycpy(w->rigid, task->start.rigid, 3));
   PetscCall(SamSolutionCreateSeparation(task->problem, task->state, SAM_COMMITTED, &w->separation));

@@ -65,7 +65,7 @@ static PetscErrorCode GetSeparation(SamSolve *w, Vec *h)
 {
   PetscFunctionBegin;
   if (w->task->coupled) PetscCall(VecAXPY(w->h, 1, w->separation));
-  if (w->task->coupled) PetscCall(SamElasticityAddCases(w->task->elasticity, &w->s->control, PETSC_FALSE, w->h));
+  if (w->task->coupled) PetscCall(SamProblemAddCases(w->task->problem, &w->s->control, PETSC_FALSE, w->h));
   *h = w->task->coupled ? w->h : w->separation;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -234,15 +234,13 @@ static PetscErrorCode AddStretch(SamGrid grid, const SamStretch *e, Vec field)
 static PetscErrorCode CreateOffset(SamSolve *w, Vec *offset)
 {
   const SamStepTask *task = w->task;
-  SamPair            pair;
   SamStretch         e;
   PetscBool          stretched;
   double            *slip;
 
   PetscFunctionBegin;
-  *offset = NULL;
-  PetscCall(SamElasticityGetPair(task->elasticity, &pair));
-  e         = SamStretchOf(pair, &w->s->control);
+  *offset   = NULL;
+  e         = SamStretchOf(w->task->problem, &w->s->control);
   stretched = e.xx != 0 || e.yy != 0 || e.xy != 0;
   if (!w->task->coupled && !w->task->before && !stretched) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamGridCreateVec(task->grid, 2, offset));

@@ -45,7 +45,7 @@ static PetscErrorCode TakeField(SamWindow window, SamGrid grid, PetscInt compone
 /* The derivatives of the bound, the slip and the overlap of the tried step, for a motion that continues it. */
 static PetscErrorCode CreateMotion(SamContact contact, const SamSolution *s, SamWindow window, SamGrid grid, Vec f[])
 {
-  SamBoundAt at    = {NULL, s->control.friction_scale, s->pressure, NULL, SamControlRolled(&s->control)};
+  SamBoundAt at    = {.control = &s->control, .pressure = s->pressure};
   SamBound   bound = {NULL, NULL, NULL};
   SamProblem problem;
   SamGrid    whole;
@@ -53,6 +53,7 @@ static PetscErrorCode CreateMotion(SamContact contact, const SamSolution *s, Sam
 
   PetscFunctionBegin;
   PetscCall(SamContactGetProblem(contact, &problem));
+  at.rolled = SamProblemGetRolled(problem, &s->control, NULL);
   PetscCall(SamContactGetState(contact, &at.state));
   PetscCall(SamContactGetGrid(contact, &whole));
   PetscCall(SamGridCreateVec(whole, 1, &at.slip));

@@ -16,7 +16,8 @@ PetscErrorCode SamEvaluationDestroy(SamEvaluation *evaluation)
   PetscCall(PetscFree2(e->depth, e->side));
   PetscCall(PetscFree(e->weight));
   PetscCall(PetscFree(e->depths_text));
-  PetscCall(PetscFree(e->bulk));
+  PetscCall(PetscFree(e->control));
+  PetscCall(SamConditionsDestroy(&e->conditions));
   PetscCall(PetscFree(e->largest));
   for (int d = 0; d < SAM_STRESS_AXES; d++) PetscCall(PetscFree(e->coordinate[d]));
   PetscCall(PetscFree(e));
@@ -28,7 +29,8 @@ PetscErrorCode SamEvaluationDestroy(SamEvaluation *evaluation)
 PetscErrorCode SamEvaluationReadTractions(SamEvaluation e, PetscInt step, double *const to[SAM_STRESS_TRACTIONS])
 {
   PetscFunctionBegin;
-  PetscCall(PetscArraycpy(e->stress->cases, e->bulk[step] + SAM_BULK_COMPONENTS, SAM_CASES));
+  e->stress->conditions = e->conditions;
+  e->stress->control    = &e->control[step];
   for (PetscInt t = 0; t < SAM_STRESS_TRACTIONS; t++)
     PetscCall((*e->source.read)(e->source.context, step, (SamStepField)(SAM_STEP_PRESSURE + t), to[t]));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -39,9 +41,10 @@ void SamStressAddBulk(SamEvaluation e, PetscInt step, const SamPoints *p, double
   static const SamStressComponent component[SAM_BULK_COMPONENTS] = {SAM_STRESS_XX, SAM_STRESS_YY, SAM_STRESS_XY};
 
   for (PetscInt depth = 0; depth < p->depths; depth++) {
-    double bulk[SAM_BULK_COMPONENTS];
+    double given[SAM_BULK_COMPONENTS], bulk[SAM_BULK_COMPONENTS];
 
-    SamBodyBulkStressAt(SamEvaluationBody(e), e->depth[p->depth + depth], e->bulk[step], bulk);
+    SamBulkGet(e->conditions, &e->control[step], e->body - 1, given);
+    SamBodyBulkStressAt(SamEvaluationBody(e), e->depth[p->depth + depth], given, bulk);
     for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++) {
       double *const s = stress + component[k] * (ptrdiff_t)p->count + depth * (ptrdiff_t)p->plane;
 
@@ -167,9 +170,11 @@ PetscErrorCode SamEvaluationSetUp(SamEvaluation e, const SamStressSource *source
   PetscCall(SamDepthsSetUp(e));
   PetscCall(CheckCycle(e));
   PetscCall(FindLine(e));
-  PetscCall(PetscMalloc1(e->source.steps, &e->bulk));
+  PetscCall(SamConditionsCreate(&e->conditions));
+  PetscCall(SamElasticityAddConditions(e->source.bodies, e->conditions));
+  PetscCall(PetscCalloc1(e->source.steps, &e->control));
   for (PetscInt k = 0; k < e->source.steps; k++)
-    PetscCall((*e->source.bulk)(e->source.context, k, e->body, e->bulk[k]));
+    PetscCall((*e->source.conditions)(e->source.context, k, e->conditions, &e->control[k]));
   PetscCall(SetLayout(e));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -2,6 +2,7 @@
 #ifndef PETSAM_EVALUATIONIMPL_H
 #define PETSAM_EVALUATIONIMPL_H
 
+#include <petsam/private/bulk.h>
 #include <petsam/evaluation.h>
 #include <petsam/fatigue.h>
 #include <petsam/private/stressimpl.h>
@@ -95,7 +96,8 @@ struct _n_SamEvaluation {
   SamGrid         grid;
   SamStress       stress;
   SamStressSource source;
-  double (*bulk)[SAM_BULK_AND_CASES]; /* of each step */
+  SamConditions   conditions; /* of the bodies */
+  SamControl     *control;    /* of each step, their values */
   /* where */
   PetscInt        depths;
   PetscReal      *depth;

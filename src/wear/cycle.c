@@ -19,16 +19,17 @@
 /* ---- load reversals ---- */
 
 /* Notes the steps at which a part of the control turns, from its values at all steps. */
-static void NoteTurns(const SamControl controls[], PetscInt n, PetscInt c, PetscBool turns[])
+static void NoteTurns(const SamControl controls[], SamConditions conditions, PetscInt n, PetscInt c, PetscBool turns[])
 {
   PetscReal low = PETSC_INFINITY, high = PETSC_NINFINITY, last = 0;
 
   for (PetscInt k = 0; k < n; k++) {
-    low  = PetscMin(low, SamControlPart(&controls[k], c));
-    high = PetscMax(high, SamControlPart(&controls[k], c));
+    low  = PetscMin(low, SamControlPart(&controls[k], conditions, c));
+    high = PetscMax(high, SamControlPart(&controls[k], conditions, c));
   }
   for (PetscInt k = 0; k < n; k++) {
-    const PetscReal change = SamControlPart(&controls[k], c) - SamControlPart(&controls[k ? k - 1 : n - 1], c);
+    const PetscReal before = SamControlPart(&controls[k ? k - 1 : n - 1], conditions, c);
+    const PetscReal change = SamControlPart(&controls[k], conditions, c) - before;
 
     if (fabs(change) <= TURN * (high - low)) continue;
     if (k && change * last < 0) turns[k - 1] = PETSC_TRUE;
@@ -40,12 +41,14 @@ PetscErrorCode SamLifeFindTurns(SamLife l)
 {
   const PetscInt n = l->cycle.steps;
   SamControl    *controls;
+  SamConditions  conditions;
 
   PetscFunctionBegin;
+  PetscCall(SamProblemGetConditions(l->problem, &conditions));
   PetscCall(PetscCalloc1(n, &l->turns));
   PetscCall(PetscMalloc1(n, &controls));
   for (PetscInt k = 0; k < n; k++) PetscCall(l->cycle.control(l->cycle.context, k, 0, &controls[k]));
-  for (PetscInt c = 0; c < SAM_CONTROL_PARTS; c++) NoteTurns(controls, n, c, l->turns);
+  for (PetscInt c = 0; c < SamControlCount(conditions); c++) NoteTurns(controls, conditions, n, c, l->turns);
   l->turns[n - 1] = PETSC_TRUE;
   PetscCall(PetscFree(controls));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -117,10 +120,14 @@ static PetscErrorCode Begin(SamLife l, SamRate *rate, SamControl *mean)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Adds a tried step to the means: pressure, gap in `shift`, and of coupled bodies u_z in `coefficient`. */
+/*
+  Adds a tried step to the means: pressure, gap in `shift`, and of coupled bodies u_z in `coefficient`; conditions are
+  those of the last step.
+*/
 static PetscErrorCode Count(SamLife l, const SamStep *step, SamRate *rate, SamControl *mean)
 {
-  const PetscReal    part = 1 / (PetscReal)l->cycle.steps;
+  const PetscReal    part   = 1 / (PetscReal)l->cycle.steps;
+  const SamControl   so_far = *mean;
   const SamSolution *s;
   PetscReal          energy;
 
@@ -130,11 +137,8 @@ static PetscErrorCode Count(SamLife l, const SamStep *step, SamRate *rate, SamCo
   PetscCall(SamContactGetField(l->contact, "gap", l->gap));
   PetscCall(VecAXPY(rate->shift, part, l->gap));
   if (l->coupled) PetscCall(VecAXPY(rate->coefficient, part, s->displacement_z));
-  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) {
-    mean->force[c] = step->control.force[c];
-    mean->value[c] += part * step->control.value[c];
-  }
-  mean->friction_scale = step->control.friction_scale;
+  *mean = step->control;
+  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) mean->value[c] = so_far.value[c] + part * step->control.value[c];
   PetscCall(SamContactGetNumber(l->contact, "dissipated_energy", &energy));
   l->energy += energy;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -163,9 +167,9 @@ static PetscErrorCode FindShift(SamLife l, SamRate *rate)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode FindCoefficient(SamLife l, PetscReal friction_scale, SamRate *rate)
+static PetscErrorCode FindCoefficient(SamLife l, const SamControl *mean, SamRate *rate)
 {
-  const SamBoundAt at = {l->memory, friction_scale, rate->pressure, NULL, 0};
+  const SamBoundAt at = {l->memory, mean, rate->pressure, NULL, 0};
   const double    *p, *load, *path, *unit;
   double          *to, most = 0;
   Vec              cycle, slip;
@@ -310,6 +314,6 @@ PetscErrorCode SamLifeComputeRate(SamLife l, SamRate *rate, PetscReal cycles, Pe
   if (!*solved) PetscFunctionReturn(PETSC_SUCCESS);
   rate->balance = SamControlGetBalance(&mean, SAM_BALANCE_NORMAL);
   PetscCall(FindShift(l, rate));
-  PetscCall(FindCoefficient(l, mean.friction_scale, rate));
+  PetscCall(FindCoefficient(l, &mean, rate));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

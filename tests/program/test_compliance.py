@@ -338,6 +338,48 @@ def test_run_with_cases_goes_on_from_its_checkpoint(petsam, layer, tmp_path):
     assert "-body2_compliance is" in message
 
 
+def test_state_of_a_contact_with_cases_goes_on_in_another_process(layer, tmp_path):
+    """To the last bit, whatever cases contacts have had before in either; and more cases than any contact may have."""
+    ramp = np.zeros((6, 3))
+    ramp[1, 0] = 1e-4
+    other = layer(1, 2, cases=dict(alpha=np.full((6, 3), 1e-5)))
+    file = layer(1, 2, cases=dict(bend=np.full((6, 3), 2e-5), pull=ramp))
+    many = [layer(1, 2, cases={f"case_{8 * k + n}": np.full((6, 3), 1e-5) for n in range(8)}) for k in range(5)]
+    case = {**SPHERE, **bodies(2), "friction": 0.3}
+    del case["output_fields"]
+    begin = f"""
+import petsam
+case = {case!r}
+def go(contact, n):
+    for k in n:
+        history = dict(time=[k], load_n=[0.002], load_tx=[5e-5 * k], body2_case_bend=[0.2 * k], body2_case_pull=[1 - k])
+        step = contact.run(history)[-1]
+    return step
+"""
+    run_python(
+        begin
+        + f"""
+for name in {[str(other), *map(str, many)]!r}:
+    petsam.Contact(**case, body2_compliance=name).close()
+with petsam.Contact(**case, body2_compliance={str(file)!r}) as contact:
+    go(contact, (1, 2))
+    contact.save("c.h5")
+    open("whole.txt", "w").write(repr(go(contact, (3,)).disp_x))
+""",
+        tmp_path,
+    )
+    run_python(
+        begin
+        + f"""
+with petsam.Contact(**case, body2_compliance={str(file)!r}) as contact:
+    contact.load("c.h5")
+    open("parts.txt", "w").write(repr(go(contact, (3,)).disp_x))
+""",
+        tmp_path,
+    )
+    assert (tmp_path / "parts.txt").read_text() == (tmp_path / "whole.txt").read_text()
+
+
 # ---------------------------------------------------------------- stresses
 
 
@@ -505,7 +547,7 @@ def test_thin_layer_without_slopes_is_refused(petsam, layer):
         (
             dict(body2_case_pull=1, coupling="none"),
             2,
-            "body2_case_pull = 1: expected 0, or a body with this load case and -coupling full",
+            "body2_case_pull = 1: expected 0, or -coupling full",
         ),
         (dict(body2_compliance="none.h5"), 3, "-body2_compliance none.h5"),
         (dict(body2_compliance="roll.csv"), 3, "it is not an HDF5 file"),

@@ -78,10 +78,40 @@ static inline SamControl Loads(const Case *c, double N, double x, double y, doub
   return control;
 }
 
+/* Prescribes a component or a condition by its name. */
+static inline void Prescribe(SamProblem problem, SamControl *control, const char name[], PetscReal value)
+{
+  SamConditions conditions;
+
+  sam_call(SamProblemGetConditions(problem, &conditions));
+  sam_call(SamControlSet(control, conditions, name, value));
+}
+
+/* The value of a condition. */
+static inline PetscReal Prescribed(SamProblem problem, const SamControl *control, const char name[])
+{
+  SamConditions conditions;
+
+  sam_call(SamProblemGetConditions(problem, &conditions));
+  return SamControlGet(control, SamConditionsFind(conditions, name));
+}
+
+/* A step that prescribes nothing but this factor on the friction. */
+static inline SamControl Scaled(SamProblem problem, double scale)
+{
+  SamControl control;
+
+  sam_call(SamControlInitialize(&control));
+  Prescribe(problem, &control, SAM_FRICTION_SCALE, scale);
+  return control;
+}
+
 /* The largest shear under a pressure, by laws that remember nothing. */
 static inline void ComputeBound(SamProblem problem, double scale, Vec pressure, Vec bound)
 {
-  sam_call(SamProblemComputeBound(problem, &(SamBoundAt){.friction_scale = scale, .pressure = pressure},
+  const SamControl control = Scaled(problem, scale);
+
+  sam_call(SamProblemComputeBound(problem, &(SamBoundAt){.control = &control, .pressure = pressure},
                                   &(SamBound){.value = bound}));
 }
 

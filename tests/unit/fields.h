@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include <petsam/private/bodyimpl.h>
-#include <petsam/elasticity.h>
+#include <petsam/problem.h>
 
 /* A number in [-1, 1) that depends on its arguments alone: fields made of it are the same on any number of ranks. */
 static inline double Random(PetscInt seed, PetscInt component, PetscInt i, PetscInt j)
@@ -239,6 +239,30 @@ static inline void DestroySphere(Sphere *s)
 static inline double Hertz(const Sphere *s, double r)
 {
   return r < s->a ? s->p0 * sqrt(1 - r * r / (s->a * s->a)) : 0;
+}
+
+/* The conditions of half-spaces with friction, each at the place that it has in all such problems. */
+static inline SamConditions Conditions(void)
+{
+  static SamConditions conditions;
+
+  const PetscInt  n[2]     = {2, 2};
+  const PetscReal width[2] = {1, 1}, center[2] = {0, 0};
+  const SamPair   pair = NewPair(1, 0, 1, 0);
+  SamGrid         grid;
+  SamElasticity   elasticity;
+  SamProblem      problem;
+
+  if (conditions) return conditions;
+  sam_call(SamGridCreate(PETSC_COMM_SELF, n, width, center, &grid));
+  sam_call(SamElasticityCreate(grid, pair, &elasticity));
+  sam_call(SamProblemCreate(elasticity, &problem));
+  sam_call(SamProblemGetConditions(problem, &conditions));
+  sam_call(SamConditionsReference(conditions));
+  sam_call(SamProblemDestroy(&problem));
+  sam_call(SamElasticityDestroy(&elasticity));
+  sam_call(SamGridDestroy(&grid));
+  return conditions;
 }
 
 #endif

@@ -44,6 +44,11 @@ static inline void Write(const char *text)
   WriteBytes(text, strlen(text));
 }
 
+static inline PetscReal ConditionOf(const SamControl *control, const char name[])
+{
+  return SamControlGet(control, SamConditionsFind(Conditions(), name));
+}
+
 static inline void SetOptions(const char *options)
 {
   sam_call(PetscOptionsClear(NULL)); /* forgets the alias, too */
@@ -57,7 +62,7 @@ static inline SamHistory Read(const char *options)
   SamHistory h;
 
   SetOptions(options);
-  sam_call(SamHistoryCreateFromOptions(&(SamOptions){PETSC_COMM_WORLD, NULL}, NULL, &h));
+  sam_call(SamHistoryCreateFromOptions(&(SamOptions){PETSC_COMM_WORLD, NULL}, NULL, Conditions(), &h));
   SetOptions("");
   return h;
 }
@@ -94,7 +99,7 @@ static inline void AssertRefused(const char *options, PetscErrorCode code, const
 
   SetOptions(options);
   BeginCatching();
-  ierr = SamHistoryCreateFromOptions(&(SamOptions){PETSC_COMM_WORLD, NULL}, NULL, &h);
+  ierr = SamHistoryCreateFromOptions(&(SamOptions){PETSC_COMM_WORLD, NULL}, NULL, Conditions(), &h);
   EndCatching();
   SetOptions("");
   if (h) sam_call(SamHistoryDestroy(&h));

@@ -158,13 +158,16 @@ static inline void PutNumber(const Shown *s, const char *name, double value)
   if (id >= 0) *SamStateNumbers(s->state, id, SAM_TRIED) = value;
 }
 
+static const char *const bulk_names[6] = {"bulk1_stress_xx", "bulk1_stress_yy", "bulk1_stress_xy",
+                                          "bulk2_stress_xx", "bulk2_stress_yy", "bulk2_stress_xy"};
+
 static inline void PutNumbers(const Shown *s, int step)
 {
   sam_call(SamStateBegin(s->state));
   for (int c = 0; c < NUM_COLUMNS; c++) PutNumber(s, columns[c].name, columns[c].first + step);
   PutNumber(s, "status", statuses[step]);
   PutNumber(s, "friction_scale", 10 + step);
-  for (int n = 0; n < 6; n++) PutNumber(s, SAM_BULK_CONDITION(0, n)->name, 100 * (n + 1) + step);
+  for (int n = 0; n < 6; n++) PutNumber(s, bulk_names[n], 100 * (n + 1) + step);
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
     PutNumber(s, SamComponentNames[k].load, 1000 + 10 * (double)k + step);
     PutNumber(s, SamComponentNames[k].rigid, 2000 + 10 * (double)k + step);
@@ -201,14 +204,11 @@ static inline void Show(const Shown *s, int step)
 {
   static const char *const names[] = {"disp_z", "disp_x", "disp_y"};
   SamState                 state;
-  SamControl               control;
 
-  sam_call(SamControlInitialize(&control));
   sam_call(SamStateCreateLike(s->state, &state));
   FillFields(s, state, step);
   for (int k = 0; k < 3; k++) *SamStateNumbers(state, SamStateFindNumber(state, names[k]), SAM_COMMITTED) = moved[k];
   *SamStateNumbers(state, SamStateFindNumber(state, "steps"), SAM_COMMITTED) = 1;
-  SamControlPack(&control, SamStateNumbers(state, SamStateFindNumber(state, "control"), SAM_COMMITTED));
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
     *SamStateNumbers(state, SamStateFindNumber(state, SamComponentNames[k].load), SAM_COMMITTED) = 0;
     if (k >= SAM_COMPONENT_MX)

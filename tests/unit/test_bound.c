@@ -302,7 +302,8 @@ static void test_derivatives_of_the_bound(void **state)
   const double     eps = 1e-4, length = 1e-6;
   Case             c       = NewFading(Steel(), length, "");
   const SamControl control = Loads(&c, 1, 0.5, 0, 0);
-  SamBoundAt       at      = {NULL, 0.7, NewField(c.s.grid, 1), NewField(c.s.grid, 1), 0};
+  const SamControl scaled  = Scaled(c.problem, 0.7);
+  SamBoundAt       at      = {NULL, &scaled, NewField(c.s.grid, 1), NewField(c.s.grid, 1), 0};
   SamBound         b       = {NewField(c.s.grid, 1), NewField(c.s.grid, 1), NewField(c.s.grid, 1)};
   Vec              other   = NewField(c.s.grid, 1);
 

@@ -276,7 +276,8 @@ static void test_check_weighs_both_directions_alike(void **state)
 /* The stretch is part of the slip, so one that was not there when it was solved is found. */
 static void StretchBody(const Case *c, SamSolution *s)
 {
-  s->control.bulk_stress[1][SAM_BULK_YY] = 1e-3 * MU * c->s.a / c->s.R * c->s.pair->body[1]->material[0].young;
+  Prescribe(c->problem, &s->control, "bulk2_stress_yy",
+            1e-3 * MU * c->s.a / c->s.R * c->s.pair->body[1]->material[0].young);
 }
 
 static void test_check_finds_wrong_stretch(void **state)

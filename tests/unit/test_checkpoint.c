@@ -126,21 +126,22 @@ static int AssertSameStates(const Case *one, const Case *other)
 
 static void test_state_in_the_file_is_the_committed_one(void **state)
 {
+  static const char *const conditions[] = {"friction_scale", "bulk1_stress_xy", "bulk2_stress_yy"};
+  static const double      values[]     = {0.9, 1e6, -2e6};
+
   const SamParameters parameters = NewParameters(friction);
   Case                one = NewBody(), other = NewBody();
   const SamControl    control = Loads(&one, 1, -0.2, 0, 0);
   SamControl          second  = Loads(&one, 0.5, 0.2, 0, 0);
   const SamControl   *read;
-  SamControl          before;
+  const double       *before;
   SamStep             step;
 
   (void)state;
   SolveStep(&one, 0, &step);
   Displace(&second, SAM_COMPONENT_MZ, 1e-6);
-  second.time                        = 2.5;
-  second.friction_scale              = 0.9;
-  second.bulk_stress[0][SAM_BULK_XY] = 1e6;
-  second.bulk_stress[1][SAM_BULK_YY] = -2e6;
+  second.time = 2.5;
+  for (int k = 0; k < 3; k++) Prescribe(one.problem, &second, conditions[k], values[k]);
   (void)Solve(&one, &second);
   (void)Try(&one, &control);
   Write(&one, &parameters, 0, NULL);
@@ -151,16 +152,19 @@ static void test_state_in_the_file_is_the_committed_one(void **state)
   sam_assert(PlaceOf(&one)[2] > 0 && SameNumbers(4, PlaceOf(&one), PlaceOf(&other)));
   sam_assert(KeptOf(&other, "steps") == 2 && IsGapCurrent(&one) && IsGapCurrent(&other));
   read = &SolutionOf(&other)->control;
-  SamControlUnpack(SamStateNumbers(StateOf(&other), SamStateFindNumber(StateOf(&other), "control"), SAM_BEFORE),
-                   &before);
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++)
     sam_assert(read->value[k] == second.value[k] && read->force[k] == second.force[k] &&
                SolutionOf(&one)->load[k] == SolutionOf(&other)->load[k] &&
                SolutionOf(&one)->rigid[k] == SolutionOf(&other)->rigid[k]);
-  sam_assert(read->time == 2.5 && read->friction_scale == 0.9);
-  sam_assert(!memcmp(read->bulk_stress, second.bulk_stress, sizeof(second.bulk_stress)));
-  sam_assert(before.time == 0 && before.friction_scale == 1 && before.bulk_stress[0][SAM_BULK_XY] == 0 &&
-             before.value[SAM_COMPONENT_N] == 0.25 * one.s.N);
+  sam_assert(read->time == 2.5 && Prescribed(other.problem, read, "bulk1_stress_xx") == 0);
+  for (int k = 0; k < 3; k++) {
+    const PetscInt id = SamStateFindNumber(StateOf(&other), conditions[k]);
+
+    sam_assert(Prescribed(other.problem, read, conditions[k]) == values[k]);
+    sam_assert(*SamStateNumbers(StateOf(&other), id, SAM_BEFORE) == (k ? 0 : 1));
+  }
+  before = SamStateNumbers(StateOf(&other), SamStateFindNumber(StateOf(&other), "control"), SAM_BEFORE);
+  sam_assert(before[0] == 0 && before[1 + SAM_COMPONENTS + SAM_COMPONENT_N] == 0.25 * one.s.N);
   DestroyCase(&one);
   DestroyCase(&other);
   Remove();

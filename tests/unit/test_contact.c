@@ -220,10 +220,10 @@ static void test_controls_that_are_none_are_refused(void **state)
   bad[0].value[SAM_COMPONENT_N]  = -1;
   bad[1].value[SAM_COMPONENT_TY] = NAN;
   bad[2].value[SAM_COMPONENT_MX] = INFINITY;
-  bad[3].friction_scale          = -0.1;
-  bad[4].friction_scale          = NAN;
-  bad[5].bulk_stress[0][1]       = NAN;
-  bad[6].bulk_stress[1][2]       = INFINITY;
+  Prescribe(c.problem, &bad[3], "friction_scale", -0.1);
+  Prescribe(c.problem, &bad[4], "friction_scale", NAN);
+  Prescribe(c.problem, &bad[5], "bulk1_stress_yy", NAN);
+  Prescribe(c.problem, &bad[6], "bulk2_stress_xy", INFINITY);
   for (int k = 0; k < 7; k++) sam_fails(SamContactTry(c.contact, &bad[k], &step), PETSC_ERR_ARG_OUTOFRANGE);
   sam_fails(SamContactCommit(c.contact), PETSC_ERR_ORDER);
   step = Solve(&c, &good);

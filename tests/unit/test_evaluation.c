@@ -80,25 +80,24 @@ static PetscErrorCode ReadNumber(void *context, PetscInt step, SamStepNumber num
   return 0;
 }
 
-static PetscErrorCode ReadBulk(void *context, PetscInt step, PetscInt body, double bulk[SAM_BULK_AND_CASES])
+static PetscErrorCode ReadConditions(void *context, PetscInt step, SamConditions conditions, SamControl *control)
 {
   (void)context;
   (void)step;
-  memset(bulk, 0, sizeof(*bulk) * SAM_BULK_AND_CASES);
-  bulk[SAM_BULK_XX] = body == 2 ? BULK : 0;
+  sam_call(SamControlSet(control, conditions, "bulk2_stress_xx", BULK));
   return 0;
 }
 
 /* An evaluation of these options; with bodies it is set up, of no steps, or those that are given. */
 static PetscErrorCode NewEvaluation(const char *options, SamElasticity bodies, Given *given, SamEvaluation *e)
 {
-  const SamStressSource source = {.bodies  = bodies,
-                                  .name    = "these bodies",
-                                  .steps   = given ? 2 : 0,
-                                  .read    = Read,
-                                  .number  = ReadNumber,
-                                  .bulk    = ReadBulk,
-                                  .context = given};
+  const SamStressSource source = {.bodies     = bodies,
+                                  .name       = "these bodies",
+                                  .steps      = given ? 2 : 0,
+                                  .read       = Read,
+                                  .number     = ReadNumber,
+                                  .conditions = ReadConditions,
+                                  .context    = given};
   PetscOptions          database;
   PetscErrorCode        code;
 

@@ -138,8 +138,8 @@ static void test_step_holds_nothing_but_time_and_control(void **state)
 
   (void)state;
   sam_assert(step.value[SAM_COMPONENT_TY] == 0 && step.value[SAM_COMPONENT_MX] == 0);
-  sam_assert(step.friction_scale == 1);
-  for (PetscInt n = 0; n < 6; n++) sam_assert(step.bulk_stress[n / 3][n % 3] == 0);
+  for (PetscInt k = 0; k < SamConditionsCount(Conditions()); k++)
+    sam_assert(SamControlGet(&step, SamConditionsGet(Conditions(), k)) == SamConditionsGet(Conditions(), k)->usual);
   sam_call(SamHistoryDestroy(&h));
 }
 
@@ -259,11 +259,18 @@ static void test_first_row_has_a_start(void **state)
 
 /* ---- friction ---- */
 
-static PetscBool Gives(SamHistory h, PetscInt condition)
+static PetscReal FrictionOf(SamHistory h, PetscInt k)
+{
+  const SamControl step = StepOf(h, k);
+
+  return ConditionOf(&step, "friction_scale");
+}
+
+static PetscBool Gives(SamHistory h, const char condition[])
 {
   PetscBool gives;
 
-  sam_call(SamHistoryGives(h, &SamConditions[condition], &gives));
+  sam_call(SamHistoryGives(h, SamConditionsFind(Conditions(), condition), &gives));
   return gives;
 }
 
@@ -272,8 +279,8 @@ static void test_friction_scale_is_one_without_its_column(void **state)
   SamHistory h = Read("-load_n 1 -steps 3");
 
   (void)state;
-  sam_assert(!Gives(h, SAM_CONDITION_FRICTION));
-  for (PetscInt k = 0; k < 3; k++) sam_assert(StepOf(h, k).friction_scale == 1);
+  sam_assert(!Gives(h, "friction_scale"));
+  for (PetscInt k = 0; k < 3; k++) sam_assert(FrictionOf(h, k) == 1);
   sam_call(SamHistoryDestroy(&h));
 }
 
@@ -286,13 +293,13 @@ static void test_friction_scale_is_interpolated_between_rows(void **state)
   (void)state;
   Write("time,friction_scale,load_n\n1,0.5,1\n2,2,1\n3,0,1\n");
   h = Read("-history test_history.csv -steps 4");
-  sam_assert(Gives(h, SAM_CONDITION_FRICTION));
+  sam_assert(Gives(h, "friction_scale"));
   for (PetscInt k = 0; k < 12; k++) {
     const double t = (double)(k % 4 + 1) / 4;
 
-    sam_assert_close(StepOf(h, k).friction_scale, rows[k / 4] + t * (rows[k / 4 + 1] - rows[k / 4]), 1e-15);
+    sam_assert_close(FrictionOf(h, k), rows[k / 4] + t * (rows[k / 4 + 1] - rows[k / 4]), 1e-15);
   }
-  sam_assert(StepOf(h, 7).friction_scale == 2 && StepOf(h, 11).friction_scale == 0); /* the rows' own */
+  sam_assert(FrictionOf(h, 7) == 2 && FrictionOf(h, 11) == 0); /* the rows' own */
   sam_call(SamHistoryDestroy(&h));
 }
 
@@ -307,21 +314,21 @@ static void test_bulk_stress_goes_from_row_to_row(void **state)
   (void)state;
   Write("time,bulk1_stress_xy\n1,1e6\n2,-3e6\n3,0\n");
   h = Read("-history test_history.csv -steps 4 -load_n 1 -bulk2_stress_yy 8e6");
-  sam_assert(Gives(h, SAM_CONDITION_BULK));
+  sam_assert(Gives(h, "bulk1_stress_xx"));
   for (PetscInt k = 0; k < 12; k++) {
     const SamControl step = StepOf(h, k);
     const double     t    = (double)(k % 4 + 1) / 4;
 
-    sam_assert_close(step.bulk_stress[0][SAM_BULK_XY], xy[k / 4] + t * (xy[k / 4 + 1] - xy[k / 4]), 1e-8);
-    sam_assert_close(step.bulk_stress[1][SAM_BULK_YY], k < 4 ? 8e6 * t : 8e6, 1e-8);
-    sam_assert(step.bulk_stress[0][SAM_BULK_XX] == 0 && step.bulk_stress[1][SAM_BULK_XY] == 0);
+    sam_assert_close(ConditionOf(&step, "bulk1_stress_xy"), xy[k / 4] + t * (xy[k / 4 + 1] - xy[k / 4]), 1e-8);
+    sam_assert_close(ConditionOf(&step, "bulk2_stress_yy"), k < 4 ? 8e6 * t : 8e6, 1e-8);
+    sam_assert(ConditionOf(&step, "bulk1_stress_xx") == 0 && ConditionOf(&step, "bulk2_stress_xy") == 0);
   }
   sam_call(SamHistoryDestroy(&h));
   h = Read("-history test_history.csv -load_n 1");
-  sam_assert(Gives(h, SAM_CONDITION_BULK));
+  sam_assert(Gives(h, "bulk1_stress_xx"));
   sam_call(SamHistoryDestroy(&h));
   h = Read("-load_n 1 -bulk2_stress_yy 0");
-  sam_assert(!Gives(h, SAM_CONDITION_BULK));
+  sam_assert(!Gives(h, "bulk1_stress_xx"));
   sam_call(SamHistoryDestroy(&h));
 }
 
@@ -346,7 +353,7 @@ static void test_options_have_the_prefix(void **state)
   (void)state;
   Write("time,load_tx\n1,5\n2,6\n");
   SetOptions("-load_n 1 -steps 7 -a_load_n 2 -a_steps 3 -a_load_history test_history.csv");
-  sam_call(SamHistoryCreateFromOptions(&from, NULL, &h));
+  sam_call(SamHistoryCreateFromOptions(&from, NULL, Conditions(), &h));
   SetOptions("");
   sam_assert(CountOf(h) == 6 && StepOf(h, 5).value[SAM_COMPONENT_N] == 2 && StepOf(h, 5).value[SAM_COMPONENT_TX] == 6);
   sam_call(SamHistoryDestroy(&h));
@@ -402,8 +409,8 @@ static void test_history_on_one_rank_is_its_own(void **state)
   if (stream) (void)fclose(stream);
   sam_assert(good);
   SetOptions(options);
-  good = !SamHistoryCreateFromOptions(&myself, NULL, &h) && !SamHistoryGetCount(h, &steps) && steps == Rank() + 1 &&
-         !SamHistoryDestroy(&h);
+  good = !SamHistoryCreateFromOptions(&myself, NULL, Conditions(), &h) && !SamHistoryGetCount(h, &steps) &&
+         steps == Rank() + 1 && !SamHistoryDestroy(&h);
   SetOptions("");
   (void)unlink(name);
   sam_assert(good);

@@ -99,7 +99,7 @@ static SamHistory ReadWith(const char *options, char *given[], int givens)
   SamHistory         h;
 
   SetOptions(options);
-  sam_call(SamHistoryCreateFromOptions(&(SamOptions){PETSC_COMM_WORLD, NULL}, &arguments, &h));
+  sam_call(SamHistoryCreateFromOptions(&(SamOptions){PETSC_COMM_WORLD, NULL}, &arguments, Conditions(), &h));
   SetOptions("");
   return h;
 }
@@ -115,7 +115,7 @@ static void test_columns_replace_the_values_of_an_options_file(void **state)
   h    = ReadWith("-history test_history.csv -load_n 1000 -load_tx 60 -load_ty 4 -bulk1_stress_xx 99", names, 1);
   step = StepOf(h, 0);
   sam_assert(step.value[SAM_COMPONENT_N] == 7 && step.value[SAM_COMPONENT_TX] == 2e-6);
-  sam_assert(!step.force[SAM_COMPONENT_TX] && step.bulk_stress[0][0] == 5);
+  sam_assert(!step.force[SAM_COMPONENT_TX] && ConditionOf(&step, "bulk1_stress_xx") == 5);
   sam_assert(step.force[SAM_COMPONENT_TY] && step.value[SAM_COMPONENT_TY] == 4);
   sam_call(SamHistoryDestroy(&h));
 }
@@ -131,7 +131,7 @@ static void test_columns_do_not_replace_what_is_given_for_this_run(void **state)
   Write("time,load_n\n1,7\n");
   SetOptions("-history test_history.csv -load_n 1000");
   BeginCatching();
-  ierr = SamHistoryCreateFromOptions(&(SamOptions){PETSC_COMM_WORLD, NULL}, &arguments, &h);
+  ierr = SamHistoryCreateFromOptions(&(SamOptions){PETSC_COMM_WORLD, NULL}, &arguments, Conditions(), &h);
   EndCatching();
   SetOptions("");
   sam_assert(ierr == SAM_ERR_USER && strstr(CaughtMessage(), "-load_n: test_history.csv has the column load_n"));

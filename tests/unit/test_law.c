@@ -189,6 +189,7 @@ static void test_bounds_of_several_laws_are_in_order(void **state)
   Vec p = NewField(c.s.grid, 1), b = NewField(c.s.grid, 1), by_p = NewField(c.s.grid, 1), by_s = NewField(c.s.grid, 1);
   const SamLaw *laws;
   PetscInt      count;
+  SamControl    twice = Scaled(c.problem, 2);
 
   (void)state;
   sam_call(SamProblemAddLawOfType(c.problem, "adding", NULL));
@@ -198,11 +199,10 @@ static void test_bounds_of_several_laws_are_in_order(void **state)
   sam_assert(count == 4);
   for (PetscInt k = 0; k < count; k++) sam_assert(!strcmp(laws[k]->type, order[k]));
   sam_call(VecSet(p, 64));
-  sam_call(SamProblemComputeBound(c.problem, &(SamBoundAt){.friction_scale = 2, .pressure = p},
+  sam_call(SamProblemComputeBound(c.problem, &(SamBoundAt){.control = &twice, .pressure = p},
                                   &(SamBound){.value = b, .by_pressure = by_p, .by_slip = by_s}));
   sam_assert(IsEverywhere(b, 0.5 * 2 * 0.25 * 64 + 8) && IsEverywhere(by_p, 0.5 * 2 * 0.25) && IsEverywhere(by_s, 3));
-  sam_call(
-    SamProblemComputeBound(c.problem, &(SamBoundAt){.friction_scale = 2, .pressure = p}, &(SamBound){.value = p}));
+  sam_call(SamProblemComputeBound(c.problem, &(SamBoundAt){.control = &twice, .pressure = p}, &(SamBound){.value = p}));
   sam_assert(SameBits(p, b)); /* in place */
   sam_call(VecDestroy(&p));
   sam_call(VecDestroy(&b));

@@ -149,7 +149,7 @@ static void test_optional_columns_are_there_when_asked_for(void **state)
     Shown   s    = CreateShown(grid);
 
     if (asked & 1) sam_call(SamStateOfferNumber(s.state, "friction_scale", 1));
-    for (int n = 0; n < 6 && asked & 2; n++) sam_call(SamStateOfferNumber(s.state, SAM_BULK_CONDITION(0, n)->name, 0));
+    for (int n = 0; n < 6 && asked & 2; n++) sam_call(SamStateOfferNumber(s.state, bulk_names[n], 0));
     WriteFile(&s, filename, "");
     sam_assert(IsGood(filename, grid, STEPS, SAVED));
     if (Rank() == 0) {
@@ -158,9 +158,7 @@ static void test_optional_columns_are_there_when_asked_for(void **state)
       good = good && ReadColumn("friction_scale", STEPS, values) == (asked & 1);
       for (int step = 0; step < STEPS && asked & 1; step++) good = good && values[step] == 10 + step;
       for (int n = 0; n < 6; n++) {
-        const SamCondition *name = SAM_BULK_CONDITION(0, n);
-
-        good = good && ReadColumn(name->name, STEPS, values) == (asked & 2) / 2;
+        good = good && ReadColumn(bulk_names[n], STEPS, values) == (asked & 2) / 2;
         for (int step = 0; step < STEPS && asked & 2; step++) good = good && values[step] == 100 * (n + 1) + step;
       }
     }

@@ -68,6 +68,7 @@ static SamControl ControlOf(int step)
 static void SetGeneration(SamProblem problem, SamState s, SamGeneration g, int step, Vec p, Vec q)
 {
   const SamControl control = ControlOf(step);
+  double          *given;
   Vec              field;
 
   sam_call(SamStateRestoreField(s, SamStateFindField(s, "pressure"), g, &field));
@@ -76,7 +77,8 @@ static void SetGeneration(SamProblem problem, SamState s, SamGeneration g, int s
   sam_call(VecCopy(q, field));
   sam_call(SamStateRestoreField(s, SamStateFindField(s, "bound"), g, &field));
   ComputeBound(problem, 1, p, field);
-  SamControlPack(&control, SamStateNumbers(s, SamStateFindNumber(s, "control"), g));
+  given = SamStateNumbers(s, SamStateFindNumber(s, "control"), g);
+  for (PetscInt k = 0; k < SAM_COMPONENTS; k++) given[1 + SAM_COMPONENTS + k] = control.value[k]; /* all are loads */
   *SamStateNumbers(s, SamStateFindNumber(s, "steps"), g) = step + 1;
 }
 

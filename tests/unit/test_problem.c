@@ -216,7 +216,7 @@ static void test_friction_scale_is_a_factor_on_number_and_field(void **state)
       SamControl whole = Loads(&one, 1, T[k], 0, 0), scaled = whole;
       SamStep    a, b;
 
-      scaled.friction_scale = k == 1 ? 1 : 0.5;
+      Prescribe(other.problem, &scaled, "friction_scale", k == 1 ? 1 : 0.5);
       if (field) {
         SetField(&one, Constant, k == 1 ? &full : &half);
         SetField(&other, Constant, &full);
@@ -241,16 +241,16 @@ static void test_friction_that_falls_below_the_shear_makes_it_slip(void **state)
   SamControl same = Loads(&c, 1, 0.3, 0, 0), less = same;
 
   (void)state;
-  same.friction_scale = 0.4; /* |T| = 0.3 mu N is now 0.75 of the limit */
-  low                 = Solve(&c, &same);
+  Prescribe(c.problem, &same, "friction_scale", 0.4); /* |T| = 0.3 mu N is now 0.75 of the limit */
+  low = Solve(&c, &same);
   AssertGood(&high);
   AssertGood(&low);
   sam_assert(NumberOf(&c, "normal_iterations") == 0); /* the pressure does not know it */
   sam_assert(NumberOf(&c, "stick_area") < 0.7 * stick);
   sam_assert(NumberOf(&c, "dissipated_energy") > 0);
-  less.friction_scale = 0.29; /* less than the load needs */
+  Prescribe(c.problem, &less, "friction_scale", 0.29); /* less than the load needs */
   sam_assert(Try(&c, &less).status == SAM_STATUS_NO_EQUILIBRIUM);
-  less.friction_scale = 0;
+  Prescribe(c.problem, &less, "friction_scale", 0);
   sam_assert(Try(&c, &less).status == SAM_STATUS_NO_EQUILIBRIUM);
   DestroyCase(&c);
 }

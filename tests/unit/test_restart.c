@@ -32,7 +32,7 @@ static SamHistory NewHistory(const char *options)
   SamHistory h;
 
   SetOptions(options);
-  sam_call(SamHistoryCreateFromOptions(&(SamOptions){PETSC_COMM_WORLD, NULL}, NULL, &h));
+  sam_call(SamHistoryCreateFromOptions(&(SamOptions){PETSC_COMM_WORLD, NULL}, NULL, Conditions(), &h));
   SetOptions("");
   return h;
 }
@@ -70,6 +70,7 @@ static SamSimulation NewSimulation(const Case *c, SamHistory history, const char
   s->setup.grid    = c->s.grid;
   s->setup.contact = c->contact;
   s->history       = history;
+  s->conditions    = Conditions();
   sam_call(SamHistoryGetCount(history, &s->needs.steps));
   SetOptions(options);
   sam_call(SamSimulationReadCheckpoints(s, &(SamOptions){PETSC_COMM_WORLD, NULL}));

@@ -96,8 +96,8 @@ static SamControl Rolled(const Case *c, double cells, double cells_y)
 {
   SamControl control = Loads(c, 1, 0.6, 0.1, 0);
 
-  control.roll[0] = cells * c->s.grid->dx;
-  control.roll[1] = cells_y * c->s.grid->dy;
+  Prescribe(c->problem, &control, "roll", cells * c->s.grid->dx);
+  Prescribe(c->problem, &control, "roll_y", cells_y * c->s.grid->dy);
   return control;
 }
 
@@ -115,7 +115,7 @@ static void test_rejected_steps_leave_no_trace(void **state)
   SamStep    a, b;
 
   (void)state;
-  rolls_off.roll[0] = step.roll[0];
+  Prescribe(one.problem, &rolls_off, "roll", Prescribed(one.problem, &step, "roll"));
   Try(&one, &far);
   sam_call(SamContactReject(one.contact));
   sam_assert(SameBitsOf(&one, &other, NewSlip) && SameBitsOf(&one, &other, NewPath));

@@ -35,9 +35,10 @@ static SamControl RandomControl(const Case *c, int kind, int step, int attempt)
   if (CHANCE(4) < 0.2) Displace(&control, SAM_COMPONENT_N, d * (1.3 * CHANCE(5) - 0.2)); /* may be apart */
   if (CHANCE(6) < 0.3) Displace(&control, SAM_COMPONENT_TX, MU * d * (2 * CHANCE(7) - 1));
   if (CHANCE(8) < 0.3) Displace(&control, SAM_COMPONENT_TY, MU * d * (2 * CHANCE(9) - 1));
-  if (CHANCE(10) < 0.3) control.friction_scale = 0.5 + CHANCE(11);
+  if (CHANCE(10) < 0.3) Prescribe(c->problem, &control, "friction_scale", 0.5 + CHANCE(11));
   if (kind < 2 && CHANCE(12) < 0.3)
-    control.bulk_stress[1][0] = 0.1 * MU * c->s.a / c->s.R * CHANCE(13) * c->s.pair->body[1]->material[0].young;
+    Prescribe(c->problem, &control, "bulk2_stress_xx",
+              0.1 * MU * c->s.a / c->s.R * CHANCE(13) * c->s.pair->body[1]->material[0].young);
   return control;
 #undef CHANCE
 }

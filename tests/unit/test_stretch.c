@@ -15,11 +15,11 @@ static void SetStretch(const Case *c, SamControl *control, double xx, double yy,
   const double e[2][3] = {{some, some, 0.5 * some}, {some + xx, some + yy, 0.5 * some + xy}};
 
   for (int b = 0; b < 2; b++) {
-    PetscReal *s = control->bulk_stress[b];
+    const double plane = E[b] / (1 - nu[b] * nu[b]);
 
-    s[SAM_BULK_XX] = E[b] / (1 - nu[b] * nu[b]) * (e[b][0] + nu[b] * e[b][1]);
-    s[SAM_BULK_YY] = E[b] / (1 - nu[b] * nu[b]) * (e[b][1] + nu[b] * e[b][0]);
-    s[SAM_BULK_XY] = E[b] / (1 + nu[b]) * e[b][2];
+    Prescribe(c->problem, control, b ? "bulk2_stress_xx" : "bulk1_stress_xx", plane * (e[b][0] + nu[b] * e[b][1]));
+    Prescribe(c->problem, control, b ? "bulk2_stress_yy" : "bulk1_stress_yy", plane * (e[b][1] + nu[b] * e[b][0]));
+    Prescribe(c->problem, control, b ? "bulk2_stress_xy" : "bulk1_stress_xy", E[b] / (1 + nu[b]) * e[b][2]);
   }
 }
 
@@ -121,8 +121,8 @@ static double ErrorOfMovedStickZone(PetscInt n, int body)
   double         sums[2] = {0, 0}, *q;
   SamStep        step;
 
-  control.bulk_stress[body][SAM_BULK_XX] =
-    (body ? 1 : -1) * move * a * MU / c.s.R * pair->body[body]->material[0].young;
+  Prescribe(c.problem, &control, body ? "bulk2_stress_xx" : "bulk1_stress_xx",
+            (body ? 1 : -1) * move * a * MU / c.s.R * pair->body[body]->material[0].young);
   step = Solve(&c, &control);
   AssertGood(&step);
   q = Whole(c.s.grid, 2, SolutionOf(&c)->shear);

@@ -8,6 +8,7 @@
 #define SAM_COMPLIANCE_DEGREE 10 /* highest of the polynomials */
 #define SAM_COMPLIANCE_MODES  66 /* most polynomials: those up to this degree */
 #define SAM_COMPLIANCE_CASES  8  /* most load cases of a body */
+#define SAM_CASE_NAME         20 /* most letters of the name of one */
 
 /*
   SamCompliance - of one body. The displacement of its surface by a traction t, less that of the half-space, is
@@ -25,19 +26,25 @@ struct _n_SamCompliance {
   double   center[2], half[2]; /* of the patch, m */
   PetscInt modes, degree, power[SAM_COMPLIANCE_MODES][2];
   double   matrix[3][SAM_COMPLIANCE_MODES][3][SAM_COMPLIANCE_MODES]; /* m3/N, symmetric */
-  PetscInt cases, slot[SAM_COMPLIANCE_CASES];                        /* of SamConditions */
+  PetscInt cases;
   char     name[SAM_COMPLIANCE_CASES][32];
   PetscInt below[3]; /* points along x, y, z at which the stresses are known; 0: nowhere */
   double   field[SAM_COMPLIANCE_CASES][3][SAM_COMPLIANCE_MODES]; /* m2, displacements by the unit load case */
 };
 
 /*
-  SamComplianceRead - of body 0 or 1, which `of` is without it, from the file that `option` (without dash) names; its
-  load cases become conditions. Collective. Errors: SAM_ERR_FILE for a file that cannot be read or does not fit, and
+  SamComplianceRead - of body 0 or 1, which `of` is without it, from the file that `option` (without dash) names. Collective. Errors: SAM_ERR_FILE for a file that cannot be read or does not fit, and
   where the body would gain energy under some traction.
 */
 PETSC_INTERN PetscErrorCode SamComplianceRead(MPI_Comm comm, PetscInt body, SamBody of, const char option[],
                                               const char file[], SamCompliance *compliance);
+/*
+  SamComplianceAddConditions - adds its load cases to a list, as body1_case_<name> or body2_case_<name>.
+  SamComplianceFactor - the factor on load case l in a step. Not collective.
+*/
+PETSC_INTERN PetscErrorCode SamComplianceAddConditions(SamCompliance compliance, SamConditions conditions);
+PETSC_INTERN double SamComplianceFactor(SamCompliance compliance, SamConditions conditions, const SamControl *control,
+                                        PetscInt l);
 PETSC_INTERN PetscErrorCode SamComplianceDestroy(SamCompliance *compliance);
 /* SamComplianceMeans - means of the orthonormal polynomials along axis 0 or 1 over an interval (m), m^-1/2. */
 PETSC_INTERN void SamComplianceMeans(SamCompliance compliance, PetscInt axis, double from, double to, double means[]);

@@ -23,12 +23,12 @@
 
 /* What a bound of the shear depends on. */
 typedef struct {
-  SamState  state;          /* of the contact; NULL: nothing is remembered */
-  PetscReal friction_scale; /* of the control */
-  Vec       pressure;       /* Pa */
-  Vec       slip;           /* m: length of the slip of this step, in each cell; NULL: none. Of a motion that does not
+  SamState          state;    /* of the contact; NULL: nothing is remembered */
+  const SamControl *control;  /* of the step, from which laws read their conditions; NULL: all as usual */
+  Vec               pressure; /* Pa */
+  Vec               slip;     /* m: length of the slip of this step, in each cell; NULL: none. Of a motion that does not
                                continue a step, in 1 m of rolled distance */
-  PetscReal rolled;         /* m: rolled distance of the step (SamControlRolled()) */
+  PetscReal         rolled;   /* m: rolled distance of the step (SamProblemGetRolled()) */
 } SamBoundAt;
 
 /*
@@ -47,6 +47,7 @@ struct _n_SamLawStep {
   SamState          state;
   SamElasticity     elasticity;
   const SamControl *control;
+  PetscReal         rolled;          /* m: rolled distance of the step (SamProblemGetRolled()) */
   Vec               pressure, shear; /* Pa */
   PetscBool         same_pressure;   /* the pressure is that of the step before */
   PetscBool         moves;           /* to be set by a law that changes the separation, so that the pressure changes */
@@ -78,6 +79,7 @@ struct _n_SamLaw {
   char                type[64];
   SamElasticity       elasticity;
   SamGrid             grid;           /* of the elasticity; borrowed */
+  SamConditions       conditions;     /* of the problem that has the law; NULL: none has */
   PetscObjectState    revision;       /* to be raised by setters: the pressure has to be solved again */
   PetscBool           follows_slip;   /* bound() depends on the slip of the step */
   PetscBool           accumulates;    /* a sum over all steps: the field of the state that has the name of the type */
@@ -97,6 +99,8 @@ struct _n_SamLaw {
     PetscErrorCode (*setfromoptions)(SamLaw law, const SamOptions *from, PetscBool *asked);
     PetscErrorCode (*addparameters)(SamLaw law, SamParameters *parameters);
     PetscErrorCode (*destroy)(SamLaw law); /* frees what `data` refers to; SamLawDestroy() frees `data` itself */
+    /* adds what a step may prescribe for the law, which keeps SamConditionsAdd()'s own; once, when a problem gets it */
+    PetscErrorCode (*conditions)(SamLaw law, SamConditions conditions);
     /* declares fields and numbers */
     PetscErrorCode (*declare)(SamLaw law, SamState state);
     /*

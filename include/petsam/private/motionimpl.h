@@ -34,7 +34,8 @@ struct _n_SamMotion {
   /* refuses bodies that do not move so, and makes the operator of those that do; NULL: it is theirs. Collective. */
   PetscErrorCode (*wrap)(SamElasticity bodies, const SamOptions *from, SamElasticity *moving);
   /* refuses what has no meaning in a step; `rolled`: its rolled distance, m; `where` as below. Not collective. */
-  PetscErrorCode (*check)(SamElasticity bodies, const SamControl *control, PetscReal rolled, const char where[]);
+  PetscErrorCode (*check)(SamElasticity bodies, SamConditions conditions, const SamControl *control, PetscReal rolled,
+                          const char where[]);
 };
 
 /* SamMotionOf - the motion of bodies. Not collective. */
@@ -56,7 +57,15 @@ PETSC_INTERN PetscErrorCode SamMotionRefuse(SamMotion motion, SamMotionSubject s
   SamMotionCheck - refuses what has no meaning in a step, or beyond the grid's width. `where`: "file, line 3: " or "",
   for the message. Not collective. Errors: SAM_ERR_USER.
 */
-PETSC_INTERN PetscErrorCode SamMotionCheck(SamElasticity elasticity, const SamControl *control, const char where[]);
+PETSC_INTERN PetscErrorCode SamMotionCheck(SamElasticity elasticity, SamConditions conditions,
+                                           const SamControl *control, const char where[]);
+/*
+  SamMotionAddConditions - adds the rolled distances of a step to a list (roll.c). Not collective.
+  SamMotionRolled - that by which creepages are multiplied, m: along x or along y alone as given, with its sign, else
+  the length of the path. `distance`: along x and y, NULL: not wanted. Not collective.
+*/
+PETSC_INTERN PetscErrorCode SamMotionAddConditions(SamConditions conditions);
+PETSC_INTERN PetscReal      SamMotionRolled(SamConditions conditions, const SamControl *control, PetscReal distance[2]);
 /* SamMotionFindName - what the motion has instead of a number or field of this name; NULL: itself. Not collective. */
 PETSC_EXTERN const SamMotionName *SamMotionFindName(SamMotion motion, const char usual[]);
 /*

@@ -5,6 +5,12 @@
 #include <petsam/private/lawimpl.h>
 #include <petsam/problem.h>
 
+/*
+  SamProblemAddCases - adds the relative displacements (m) by load cases of the bodies in a step to a field: normal
+  ones, one component, or tangential ones, two. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamProblemAddCases(SamProblem problem, const SamControl *control, PetscBool tangential,
+                                               Vec field);
 /* SamProblemDeclare - the laws declare what they remember, unless the state has it already. Collective. */
 PETSC_INTERN PetscErrorCode SamProblemDeclare(SamProblem problem, SamState state);
 /*

@@ -23,7 +23,7 @@ PETSC_INTERN PetscErrorCode SamValuesRestore(const SamSolution *solution, SamVal
 typedef struct {
   PetscReal xx, yy, xy;
 } SamStretch;
-PETSC_INTERN SamStretch SamStretchOf(SamPair pair, const SamControl *control);
+PETSC_INTERN SamStretch SamStretchOf(SamProblem problem, const SamControl *control);
 
 /*
   SamRigid - what is subtracted from a solution's elastic displacements to give its gap and its slip: the rigid

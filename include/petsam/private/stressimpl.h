@@ -65,10 +65,11 @@ struct _n_SamStress {
   SamFourierSettings settings;
   SamStressOps       ops; /* set by the type, as the data, the groups and the sums */
   void              *data;
-  PetscInt           groups;           /* of kernels that the type has: all, or those before SAM_STRESS_NORMAL_Z */
-  PetscInt           sums;             /* numbers of reduce */
-  void              *smooth;           /* what reduce and add work with, if it is not the data */
-  double             cases[SAM_CASES]; /* factors on load cases, of the next tractions */
+  PetscInt           groups;     /* of kernels that the type has: all, or those before SAM_STRESS_NORMAL_Z */
+  PetscInt           sums;       /* numbers of reduce */
+  void              *smooth;     /* what reduce and add work with, if it is not the data */
+  SamConditions      conditions; /* of the step of the next tractions, borrowed; NULL: none */
+  const SamControl  *control;    /* of that step */
   double             sign[SAM_STRESS_TRACTIONS]; /* of the tractions that act on the body, seen from its inside */
   /* of the map in use */
   SamFourier fourier;

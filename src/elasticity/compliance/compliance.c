@@ -279,7 +279,41 @@ PRODUCT_SINGLE(ApplyTangentialSingle, applytangentialsingle, TANGENTIAL)
 
 /* ---- load cases ---- */
 
-PetscErrorCode SamElasticityAddCases(SamElasticity e, const SamControl *control, PetscBool tangential, Vec field)
+/* The name of the condition that is the factor on load case l. */
+static void NameCase(SamCompliance c, PetscInt l, char name[64])
+{
+  (void)snprintf(name, 64, "body%d_case_%s", (int)c->body + 1, c->name[l]);
+}
+
+PetscErrorCode SamComplianceAddConditions(SamCompliance c, SamConditions conditions)
+{
+  char name[64];
+
+  PetscFunctionBegin;
+  for (PetscInt l = 0; l < c->cases; l++) {
+    const SamCondition factor = {.name    = name,
+                                 .unit    = "1",
+                                 .text    = "factor on a load case of a body",
+                                 .range   = SAM_RANGE_ANY,
+                                 .option  = PETSC_TRUE,
+                                 .couples = PETSC_TRUE};
+
+    NameCase(c, l, name);
+    PetscCall(SamConditionsAdd(conditions, &factor, NULL));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+double SamComplianceFactor(SamCompliance c, SamConditions conditions, const SamControl *control, PetscInt l)
+{
+  char name[64];
+
+  NameCase(c, l, name);
+  return SamControlGet(control, SamConditionsFind(conditions, name));
+}
+
+PetscErrorCode SamElasticityAddCases(SamElasticity e, SamConditions conditions, const SamControl *control,
+                                     PetscBool tangential, Vec field)
 {
   const Kind   kind = tangential ? TANGENTIAL : NORMAL;
   Coefficients d[2];
@@ -292,14 +326,25 @@ PetscErrorCode SamElasticityAddCases(SamElasticity e, const SamControl *control,
   for (PetscInt b = 0; b < 2; b++) {
     const SamCompliance c = ((const Bodies *)e->data)->of[b];
 
-    for (PetscInt l = 0; c && l < c->cases; l++)
+    for (PetscInt l = 0; c && l < c->cases; l++) {
+      const double factor = SamComplianceFactor(c, conditions, control, l);
+
       for (PetscInt k = 0; k < 3; k++)
-        for (PetscInt m = 0; m < c->modes; m++)
-          d[b][k][m] += (b ? 1 : -1) * turned[b][k] * control->cases[c->slot[l]] * c->field[l][k][m];
+        for (PetscInt m = 0; m < c->modes; m++) d[b][k][m] += (b ? 1 : -1) * turned[b][k] * factor * c->field[l][k][m];
+    }
   }
   PetscCall(VecGetArray(field, &u));
   Spread(e, kind, d, (double *const[]){u, u + e->grid->cells});
   PetscCall(VecRestoreArray(field, &u));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode AddConditions(SamElasticity e, SamConditions conditions)
+{
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < 2; b++)
+    if (((const Bodies *)e->data)->of[b])
+      PetscCall(SamComplianceAddConditions(((const Bodies *)e->data)->of[b], conditions));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -370,6 +415,7 @@ static PetscErrorCode Create(SamElasticity e)
   PetscCall(PetscNew(&data));
   e->data = data;
   e->ops  = (SamElasticityOps){.inherit                 = Inherit,
+                               .conditions              = AddConditions,
                                .setup                   = SetUp,
                                .addparameters           = AddParameters,
                                .destroy                 = Destroy,
@@ -459,7 +505,6 @@ static PetscErrorCode Add(SamElasticity *elasticity, const SamOptions *from, Pet
   PetscCall(CheckConstants(e, from, c));
   PetscCall(NotePatch(e, from, c));
   if (Couples(c)) e->traits.coupled = PETSC_TRUE;
-  for (PetscInt l = 0; l < c->cases; l++) e->traits.cases[c->slot[l]] = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

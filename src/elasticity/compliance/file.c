@@ -1,5 +1,4 @@
 /* Reading a body's compliance; the whole of it is read where the file is examined, in a child process. */
-#include <petsam/control.h>
 #include <petsam/private/compliance.h>
 #include <petsam/private/file.h>
 #include <ctype.h>
@@ -355,13 +354,6 @@ PetscErrorCode SamComplianceRead(MPI_Comm comm, PetscInt body, SamBody of, const
              "-%s %s: under some traction the body is %.3g times as compliant as the half-space, limit %d: its "
              "pressures would be inaccurate: support the body more stiffly",
              option, file, most, SOFT);
-  for (PetscInt l = 0; l < c->cases; l++) {
-    PetscBool room;
-
-    PetscCall(SamControlAddCase(body, c->name[l], &c->slot[l], &room));
-    PetscCheck(room, comm, SAM_ERR_FILE, "-%s %s: its load case %s is one too many: expected at most %d in a process",
-               option, file, c->name[l], SAM_CASES);
-  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

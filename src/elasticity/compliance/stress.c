@@ -27,7 +27,9 @@ static PetscErrorCode Reduce(SamStress s, const double *const tractions[], doubl
   PetscCall(PetscArrayzero(sums, size));
   for (PetscInt n = 0; n < 3 * c->modes + c->cases; n++, from += size) {
     const PetscInt l      = n - 3 * c->modes;
-    const double   factor = l < 0 ? (c->body ? 1 : -1) * of[n % 3][n / 3] : s->cases[c->slot[l]];
+    const double   factor = l < 0           ? (c->body ? 1 : -1) * of[n % 3][n / 3]
+                            : s->conditions ? SamComplianceFactor(c, s->conditions, s->control, l)
+                                            : 0;
 
     for (PetscInt k = 0; k < size && factor != 0; k++) sums[k] += factor * from[k];
   }
