@@ -117,7 +117,7 @@ static const SamOptionRow rows[] = {
 
 PetscErrorCode SamContactSetFromOptions(SamContact c)
 {
-  static const char *const unsteady[] = {"slip_direction", "cycle_memory"};
+  static const char *const of_history[] = {"slip_direction", "cycle_memory"};
   const SamOptions         from       = {c->grid->comm, c->prefix};
   SamContactSettings       s          = c->set;
 
@@ -127,8 +127,8 @@ PetscErrorCode SamContactSetFromOptions(SamContact c)
   for (int k = 0; k < 2; k++) {
     PetscBool has;
 
-    PetscCall(SamOptionsHas(&from, unsteady[k], &has));
-    if (has) PetscCall(SamMotionRefuse(c->motion, SAM_MOTION_HISTORY, c->grid->comm, "-", unsteady[k]));
+    PetscCall(SamOptionsHas(&from, of_history[k], &has));
+    if (has) PetscCall(SamMotionRefuse(c->motion, SAM_MOTION_HISTORY, c->grid->comm, "-", of_history[k]));
   }
   PetscCall(SamContactSetSettings(c, &s));
   PetscCall(SamSolverSetFromOptions(SamNormalAsSolver(c->normal)));
