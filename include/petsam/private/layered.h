@@ -119,11 +119,10 @@ PETSC_INTERN PetscErrorCode SamRadialCreate(const SamRadialSource *of, double r,
 /*
   SamRadialKernels - at most three kernels, sums of terms: a factor, a function of a table and a polynomial of (x, y).
   Terms of one function follow each other.
-    SamRadialAddRow        adds the integrals over the cells at the lags (i, j), i = 0 ... n - 1, at a point that lies
-                           (i, j) cells from each; errors are 1e-12 of the functions
-    SamRadialAddLine       the same in plane strain, of a table by cosines and sines
-    SamRadialAddRectangle  adds those over a rectangle; `level` of its division: 0
-    SamRadialSetUp         must be called before both
+    SamRadialAddRow   adds the integrals over the cells at the lags (i, j), i = 0 ... n - 1, at a point that lies
+                      (i, j) cells from each; errors are 1e-12 of the functions
+    SamRadialAddLine  the same in plane strain, of a table by cosines and sines
+    SamRadialSetUp    must be called before both
   None is collective.
 */
 #define SAM_RADIAL_KERNELS 3
@@ -151,8 +150,6 @@ PETSC_INTERN PetscErrorCode SamRadialSetUp(void);
 PETSC_INTERN void           SamRadialAddRow(const SamRadialKernels *of, const double side[2], PetscInt j, PetscInt n,
                                             double *const values[]);
 PETSC_INTERN void SamRadialAddLine(const SamRadialKernels *of, double side, PetscInt n, double *const values[]);
-PETSC_INTERN void SamRadialAddRectangle(const SamRadialKernels *of, int level, const double centre[2],
-                                        const double side[2], double sums[]);
 
 /*
   SamLayeredAddRow - adds the integrals over the cells at the lags (i, j), i = 0 ... n - 1: the displacement at a point

@@ -62,8 +62,9 @@ static void Integrate(const SamRadialKernels *of, int n, const double centre[2],
     for (int i = 0; i < n; i++) sums[k] += rule->w[i] * values[k][i] * side[0] * side[1];
 }
 
-void SamRadialAddRectangle(const SamRadialKernels *of, int level, const double centre[2], const double side[2],
-                           double sums[])
+/* Adds the integrals over a rectangle, which is divided where it is near; `level` of the division: 0 at first. */
+static void AddRectangle(const SamRadialKernels *of, int level, const double centre[2], const double side[2],
+                         double sums[])
 {
   const double R2       = centre[0] * centre[0] + centre[1] * centre[1] + of->depth * of->depth;
   const int    parts[2] = {side[1] > 2 * side[0] ? 1 : 2, side[0] > 2 * side[1] ? 1 : 2};
@@ -77,7 +78,7 @@ void SamRadialAddRectangle(const SamRadialKernels *of, int level, const double c
     const double at[2]   = {centre[0] + (k % parts[0] - 0.5 * (parts[0] - 1)) * part[0],
                             centre[1] + (k / parts[0] - 0.5 * (parts[1] - 1)) * part[1]};
 
-    SamRadialAddRectangle(of, level + 1, at, part, sums);
+    AddRectangle(of, level + 1, at, part, sums);
   }
 }
 
@@ -129,7 +130,7 @@ void SamRadialAddRow(const SamRadialKernels *of, const double side[2], PetscInt 
     double       sums[SAM_RADIAL_KERNELS] = {0};
 
     if (i < parts)
-      SamRadialAddRectangle(of, 0, centre, side, sums);
+      AddRectangle(of, 0, centre, side, sums);
     else
       Integrate(of, i < fifth ? 5 : 4, centre, side, sums);
     for (int k = 0; k < of->kernels; k++) values[k][i] += sums[k];
