@@ -303,7 +303,7 @@ static void Units(SamAdvice *a)
   if (width > WIDEST) Advise(a, "grid_size", "the grid is %g m wide: check the unit, m", width);
 }
 
-/* What the bodies have to say of these cells and a contact of these half widths. */
+/* Passes on the advice of the bodies on these cells and a contact of these half widths. */
 static void Bodies(SamAdvice *a)
 {
   const PetscReal width = 2 * PetscMax(a->half[0], a->half[1]);
@@ -385,7 +385,7 @@ PetscErrorCode SamAdviceBegin(SamAdvice *a)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What the laws have to say of a step, each once. */
+/* Passes on the advice of the laws on a step, each once. */
 static PetscErrorCode LookAtLaws(SamAdvice *a, PetscInt k)
 {
   char advice[400];

@@ -299,7 +299,7 @@ static PetscInt MostOf(const SamLargestSeries *of)
   return most;
 }
 
-/* Whether a value of a material is the largest of that kind in all materials. */
+/* A value of a material is compared with those of that kind in all materials. */
 static PetscBool IsLargestOfMaterials(SamStressRun *run, const SamLargestSeries *of)
 {
   const char *const kind = strrchr(of->name, '_');

@@ -1,4 +1,4 @@
-/* Whether the steps are one closed cycle, as a fatigue parameter takes them. */
+/* Checks that the steps are one closed cycle, as a fatigue parameter takes them. */
 #include "evaluationimpl.h"
 
 /* The part of the largest traction by which the ends of a cycle may differ. */
@@ -61,7 +61,7 @@ static PetscErrorCode CheckLife(SamEvaluation e, PetscBool *life)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether the cycle closes: by the step before the first. */
+/* The cycle closes if the step before the first has the tractions of the last. */
 static PetscErrorCode CheckEnds(SamEvaluation e, const Ends *ends)
 {
   PetscReal most[4];

@@ -68,7 +68,7 @@ static void GatherStates(const Cycle *c, PetscInt point)
     c->slip[k % 2 * states + k / 2] = c->slips[k * (ptrdiff_t)c->surface + point];
 }
 
-/* Those of a point that passes all cells of its row, of which `point` is the first, and of none of them far away. */
+/* Gathers the stresses of a row of cells, whose first point is `point`, and those far away: a point passes all. */
 static void GatherPassing(const Cycle *c, PetscInt point)
 {
   const PetscInt  states = c->at.states, nx = states - 1, n = c->points->count;

@@ -92,7 +92,7 @@ static PetscErrorCode CreateStress(SamEvaluation e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What the steps must be for a cycle, or for a point that passes under one of them. */
+/* A cycle needs several steps, a point that passes needs one. */
 static PetscErrorCode CheckCycle(SamEvaluation e)
 {
   const PetscBool ruiz = SamQuantityWanted(e, SamFatigueRuiz);

@@ -63,7 +63,7 @@ static void FindEnds(PetscInt n, const double x[], PetscInt stride, double *leas
   }
 }
 
-/* What the shear amplitude of a plane with that normal stress is multiplied by. */
+/* The factor of the shear amplitude of a plane with that normal stress. */
 static double Factor(const Cycle *c, double normal)
 {
   const SamFatigueConstants *k = c->constants;

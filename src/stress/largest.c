@@ -8,7 +8,7 @@ static SamLargest *LargestOf(SamEvaluation e, PetscInt kind, PetscInt step)
   return &e->largest[kind * e->source.steps + step];
 }
 
-/* Those of the cycle follow those of all steps. */
+/* The values of the cycle follow those of all steps. */
 static SamLargest *LargestOfQuantity(SamEvaluation e, PetscInt quantity)
 {
   return LargestOf(e, e->kinds, 0) + quantity;
@@ -29,7 +29,7 @@ PetscErrorCode SamLargestClear(SamEvaluation e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether a place comes first, in the order z, y, x. */
+/* Places are compared in the order z, y, x. */
 static PetscBool IsBefore(const double a[3], const double b[3])
 {
   for (int d = 2; d >= 0; d--)
@@ -165,7 +165,7 @@ PetscErrorCode SamLargestAgree(SamEvaluation e)
 
 /* ---- by name ---- */
 
-/* What is largest, by the name of its dataset, and in words. */
+/* The largest values of a step have the names of their datasets, a text, and words for print. */
 static const struct {
   const char *name, *text, *shown;
 } kinds[SAM_LARGEST_OWN] =
@@ -212,7 +212,7 @@ static PetscErrorCode Describe(SamEvaluation e, PetscInt kind, SamLargestSeries 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether there can be one: the edge is on maps of the surface, and not in each material is a depth. */
+/* An edge is on maps of the surface, and not every material has a depth. */
 static PetscBool Exists(SamEvaluation e, const SamLargestSeries *of)
 {
   if (of->places == 2) return !e->section && e->layout.coordinate[SAM_Z][0] == 0 ? PETSC_TRUE : PETSC_FALSE;

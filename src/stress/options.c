@@ -7,7 +7,7 @@
 
 static const char *const averages[] = {"point", "line", "area"}; /* from SAM_AVERAGE_POINT on */
 
-/* What a user sets, but for lists of names. */
+/* The settings of a user, but for lists of names. */
 typedef struct {
   PetscInt  body;
   char      depths[TEXT], section[128];

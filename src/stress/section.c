@@ -403,7 +403,7 @@ static void AddSmooth(SamSection s, PetscInt step, PetscInt depth, double stress
   (*s->stress->ops.add)(s->stress, s->step[step].sums, first, way, s->length, to);
 }
 
-/* What is left of a depth: transforms back, and the tractions, which are known exactly, on the surface. */
+/* Finishes a depth: transforms back, and sets the tractions on the surface, which are known exactly. */
 static void Finish(SamSection s, const Work *w, PetscInt depth, double stress[])
 {
   for (PetscInt k = 0; k < s->steps; k++)
