@@ -29,6 +29,7 @@ PETSC_EXTERN PetscErrorCode SamBodyDestroy(SamBody *body);
   SamBodyCount - the number of materials.
   SamBodyAt - the number of the material at a depth (m), counted from 0 at the surface. An interface belongs to the one
   above it.
+  SamBodyMaterialAt - that material; borrowed.
   SamBodyTop - the depth (m) at which the n-th material begins; n = SamBodyCount(): infinite.
   SamBodyBulk - the last material, which bears the bulk stress; borrowed.
   SamBodyIsRigid - whether all of the body is.
@@ -38,6 +39,7 @@ PETSC_EXTERN PetscErrorCode SamBodyDestroy(SamBody *body);
 */
 PETSC_INTERN PetscInt           SamBodyCount(SamBody body);
 PETSC_INTERN PetscInt           SamBodyAt(SamBody body, PetscReal depth);
+PETSC_INTERN const SamMaterial *SamBodyMaterialAt(SamBody body, PetscReal depth);
 PETSC_INTERN PetscReal          SamBodyTop(SamBody body, PetscInt n);
 PETSC_INTERN const SamMaterial *SamBodyBulk(SamBody body);
 PETSC_INTERN PetscBool          SamBodyIsRigid(SamBody body);

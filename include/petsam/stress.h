@@ -43,8 +43,6 @@ PETSC_INTERN PetscErrorCode SamStressApply(SamStress stress, Vec field);
 */
 typedef struct _n_SamEdge   SamEdge;
 PETSC_INTERN PetscErrorCode SamStressAtEdge(SamStress stress, Vec field, const SamEdge *edge, double values[]);
-/* SamStressGetConstants - Young's modulus (Pa) and Poisson's ratio of the body at a depth (m). Not collective. */
-PETSC_INTERN void SamStressGetConstants(SamStress stress, PetscReal depth, PetscReal *young, PetscReal *poisson);
 
 /*
   SamSection - the stresses on a plane across the surface, through a row or a column of cells, at many depths: much

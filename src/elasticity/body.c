@@ -98,6 +98,11 @@ PetscInt SamBodyAt(SamBody body, PetscReal depth)
   return n;
 }
 
+const SamMaterial *SamBodyMaterialAt(SamBody body, PetscReal depth)
+{
+  return &body->material[SamBodyAt(body, depth)];
+}
+
 const SamMaterial *SamBodyBulk(SamBody body)
 {
   return &body->material[body->count - 1];
@@ -110,7 +115,7 @@ PetscBool SamBodyIsRigid(SamBody body)
 
 void SamBodyBulkStressAt(SamBody body, PetscReal depth, const double bulk[3], double stress[3])
 {
-  const SamMaterial *last = SamBodyBulk(body), *m = &body->material[SamBodyAt(body, depth)];
+  const SamMaterial *last = SamBodyBulk(body), *m = SamBodyMaterialAt(body, depth);
 
   for (int k = 0; k < 3; k++) stress[k] = bulk[k];
   if (m == last) return;

@@ -210,8 +210,3 @@ PetscErrorCode SamStressAtEdge(SamStress s, Vec field, const SamEdge *edge, doub
   if (s->ops.atedge) PetscCall((*s->ops.atedge)(s, field, edge, values));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
-
-void SamStressGetConstants(SamStress s, PetscReal depth, PetscReal *young, PetscReal *poisson)
-{
-  (*s->ops.getconstants)(s, depth, young, poisson);
-}

@@ -93,10 +93,11 @@ static void ComputePoint(Cycle *c, PetscInt quantity, PetscInt i, double values[
   double              value[SAM_QUANTITY_PARTS] = {0};
 
   (e->passing ? GatherPassing : GatherStates)(c, i);
-  SamStressGetConstants(e->stress, e->depth[depth], &constants.young, &constants.poisson);
-  c->at.constants = &constants;
-  c->at.slip      = i < c->surface ? c->slip : NULL;
-  value[0]        = (*q->of_cycle)(&c->at, value + 1);
+  constants.young   = SamBodyMaterialAt(SamEvaluationBody(e), e->depth[depth])->young;
+  constants.poisson = SamBodyMaterialAt(SamEvaluationBody(e), e->depth[depth])->poisson;
+  c->at.constants   = &constants;
+  c->at.slip        = i < c->surface ? c->slip : NULL;
+  value[0]          = (*q->of_cycle)(&c->at, value + 1);
   for (PetscInt k = 0; k < SAM_QUANTITY_PARTS && q->part[k].name; k++) values[k * (ptrdiff_t)n + i] = value[k];
   SamLargestOfCycle(e, quantity, c->points, i, value[0]);
 }

@@ -28,16 +28,15 @@ static void HalfDifference(PetscInt n, double *const values[])
 static void Strain(SamEvaluation e, const SamPoints *p, const double *const s[], double *const values[])
 {
   for (PetscInt k = 0; k < p->depths; k++) {
-    const double *from[SAM_STRESS_COMPONENTS];
-    double       *to[SAM_STRESS_COMPONENTS];
-    PetscReal     young, poisson;
+    const double      *from[SAM_STRESS_COMPONENTS];
+    double            *to[SAM_STRESS_COMPONENTS];
+    const SamMaterial *m = SamBodyMaterialAt(SamEvaluationBody(e), e->depth[p->depth + k]);
 
     for (PetscInt c = 0; c < SAM_STRESS_COMPONENTS; c++) {
       from[c] = s[c] + k * (ptrdiff_t)p->plane;
       to[c]   = values[c] + k * (ptrdiff_t)p->plane;
     }
-    SamStressGetConstants(e->stress, e->depth[p->depth + k], &young, &poisson);
-    SamStressStrain(p->plane, young, poisson, from, to);
+    SamStressStrain(p->plane, m->young, m->poisson, from, to);
   }
 }
 

@@ -100,7 +100,7 @@ static PetscErrorCode TimeMap(SamGrid grid, PetscInt repeats, double *first, dou
 
   PetscFunctionBegin;
   (void)getrusage(RUSAGE_SELF, &before);
-  PetscCall(SamHalfSpaceCreateStress(grid, NULL, 2, 1, POISSON, &stress));
+  PetscCall(SamHalfSpaceCreateStress(grid, NULL, 2, POISSON, &stress));
   PetscCall(SamGridCreateVec(grid, SAM_STRESS_COMPONENTS, &field));
   for (PetscInt k = -1; k < repeats; k++)
     for (int step = 0; step < 2; step++) {
@@ -137,7 +137,7 @@ static PetscErrorCode ComputeSection(SamGrid grid, PetscInt depths, PetscInt sta
   PetscCall(PetscMalloc1(depths, &depth));
   for (PetscInt k = 0; k < depths; k++) depth[k] = 1.5 * (double)k / (double)PetscMax(depths - 1, 1);
   PetscCall(SamGridCreateVec(grid, SAM_STRESS_TRACTIONS, &tractions));
-  PetscCall(SamHalfSpaceCreateStress(grid, NULL, 2, 1, POISSON, &body));
+  PetscCall(SamHalfSpaceCreateStress(grid, NULL, 2, POISSON, &body));
   PetscCall(SamSectionCreate(body, SAM_SECTION_X, grid->ny / 2, depths, depth, &section));
   for (PetscInt s = 0; s < states; s++) {
     const double now = MPI_Wtime();

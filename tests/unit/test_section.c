@@ -68,7 +68,7 @@ static SamStress NewStress(SamGrid grid, PetscInt body, Kind kind)
 {
   SamStress stress;
 
-  sam_call(SamHalfSpaceCreateStress(grid, NULL, body, 1, NU, &stress));
+  sam_call(SamHalfSpaceCreateStress(grid, NULL, body, NU, &stress));
   if (kind == ALL) {
     stress->groups  = SAM_STRESS_GROUPS;
     stress->ops.row = AllRows;

@@ -16,7 +16,7 @@ static Case NewCaseOf(SamGrid grid, PetscInt body, double poisson)
 {
   Case c = {.grid = grid, .p = NewField(grid, 1), .q = NewField(grid, 2), .s = NewField(grid, COMPONENTS)};
 
-  sam_call(SamHalfSpaceCreateStress(grid, NULL, body, 1, poisson, &c.stress));
+  sam_call(SamHalfSpaceCreateStress(grid, NULL, body, poisson, &c.stress));
   return c;
 }
 
@@ -384,9 +384,9 @@ static void test_wrong_arguments_are_refused(void **state)
 
   (void)state;
   sam_call(PetscPushErrorHandler(PetscIgnoreErrorHandler, NULL));
-  sam_assert(SamHalfSpaceCreateStress(c.grid, NULL, 3, 1, 0.3, &none));
-  sam_assert(SamHalfSpaceCreateStress(c.grid, NULL, 1, 1, 0.51, &none));
-  sam_assert(SamHalfSpaceCreateStress(c.grid, NULL, 1, 1, -1, &none));
+  sam_assert(SamHalfSpaceCreateStress(c.grid, NULL, 3, 0.3, &none));
+  sam_assert(SamHalfSpaceCreateStress(c.grid, NULL, 1, 0.51, &none));
+  sam_assert(SamHalfSpaceCreateStress(c.grid, NULL, 1, -1, &none));
   sam_assert(SamStressApply(c.stress, c.s));
   sam_assert(SamStressSetDepth(c.stress, -1e-9));
   sam_assert(SamStressSetDepth(c.stress, NAN));

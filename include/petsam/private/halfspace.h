@@ -59,7 +59,7 @@ PETSC_INTERN void SamHalfSpaceStressRow(const SamHalfSpaceSource *source, SamStr
   PETSC_ERR_ARG_OUTOFRANGE for another body or ratio.
 */
 PETSC_INTERN PetscErrorCode SamHalfSpaceCreateStress(SamGrid grid, const SamFourierSettings *settings, PetscInt body,
-                                                     PetscReal young, PetscReal poisson, SamStress *stress);
+                                                     PetscReal poisson, SamStress *stress);
 /* SamHalfSpaceStressAtEdge - see SamStressAtEdge(). Collective. */
 PETSC_INTERN PetscErrorCode SamHalfSpaceStressAtEdge(SamStress stress, Vec field, const SamEdge *edge, double values[]);
 

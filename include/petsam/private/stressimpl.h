@@ -41,7 +41,6 @@ PETSC_INTERN const PetscBool SamStressOdd[SAM_STRESS_GROUPS][SAM_STRESS_GROUP][2
                   of these sides, by unit traction on the cell that lies so far before it, z = depth >= 0 (all m). They
                   contain the correction of values at centres (elasticity/halfspace/stresscell.c). Not collective.
     usedepth      makes the tables of a depth, for the calls of row that follow. Not collective.
-    getconstants  required: Young's modulus (Pa) and Poisson's ratio at a depth. Not collective.
     atedge        as SamStressAtEdge(). Collective.
     reduce        finds the numbers, `sums` of them, that a smooth part of the stress depends on - of boundaries far
                   away, say - from this rank's tractions p, q_x, q_y; the same on all ranks. Collective.
@@ -52,7 +51,6 @@ typedef struct {
   void (*row)(SamStress, const double side[2], double depth, SamStressGroup, PetscInt j, PetscInt n,
               double *const values[SAM_STRESS_GROUP]);
   PetscErrorCode (*usedepth)(SamStress, PetscReal depth);
-  void (*getconstants)(SamStress, PetscReal depth, PetscReal *young, PetscReal *poisson);
   PetscErrorCode (*atedge)(SamStress, Vec field, const SamEdge *edge, double stress[]);
   PetscErrorCode (*reduce)(SamStress, const double *const tractions[], double sums[]);
   void (*add)(SamStress, const double sums[], const double first[3], const double step[2], PetscInt n,
@@ -65,6 +63,7 @@ struct _n_SamStress {
   SamFourierSettings settings;
   SamStressOps       ops; /* set by the type, as the data, the groups and the sums */
   void              *data;
+  PetscReal          poisson;    /* of the material at the surface; set by the type */
   PetscInt           groups;     /* of kernels that the type has: all, or those before SAM_STRESS_NORMAL_Z */
   PetscInt           sums;       /* numbers of reduce */
   void              *smooth;     /* what reduce and add work with, if it is not the data */

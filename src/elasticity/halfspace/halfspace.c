@@ -373,7 +373,7 @@ static PetscErrorCode CreateStress(SamElasticity e, PetscInt body, const SamFour
   const SamBody of = e->pair->body[body - 1];
 
   if (of->count > 1) return SamLayeredCreateStress(e->grid, settings, body, of, stress);
-  return SamHalfSpaceCreateStress(e->grid, settings, body, of->material[0].young, of->material[0].poisson, stress);
+  return SamHalfSpaceCreateStress(e->grid, settings, body, of->material[0].poisson, stress);
 }
 
 static PetscErrorCode SetUp(SamElasticity e)

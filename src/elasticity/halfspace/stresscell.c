@@ -294,47 +294,22 @@ void SamHalfSpaceStressRow(const SamHalfSpaceSource *source, SamStressGroup grou
 
 /* ---- the stresses of a body ---- */
 
-typedef struct {
-  PetscReal young, poisson;
-} Constants;
-
 static void Row(SamStress stress, const double side[2], double depth, SamStressGroup group, PetscInt j, PetscInt n,
                 double *const values[SAM_STRESS_GROUP])
 {
-  const SamHalfSpaceSource source = {{side[0], side[1]}, depth, (double)((const Constants *)stress->data)->poisson};
+  const SamHalfSpaceSource source = {{side[0], side[1]}, depth, (double)stress->poisson};
 
   SamHalfSpaceStressRow(&source, group, j, n, values);
 }
 
-static void GetConstants(SamStress stress, PetscReal depth, PetscReal *young, PetscReal *poisson)
-{
-  const Constants *c = (const Constants *)stress->data;
-
-  (void)depth; /* everywhere the same */
-  *young   = c->young;
-  *poisson = c->poisson;
-}
-
-static PetscErrorCode Destroy(SamStress stress)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscFree(stress->data));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode SamHalfSpaceCreateStress(SamGrid grid, const SamFourierSettings *settings, PetscInt body,
-                                        PetscReal young, PetscReal poisson, SamStress *stress)
+                                        PetscReal poisson, SamStress *stress)
 {
-  Constants *c;
-
   PetscFunctionBegin;
   PetscCheck(poisson > -1 && poisson <= 0.5, grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
              "Poisson's ratio %.6g: expected a number above -1, up to 0.5", (double)poisson);
   PetscCall(SamStressCreate(grid, settings, body, stress));
-  PetscCall(PetscNew(&c));
-  *c              = (Constants){young, poisson};
-  (*stress)->data = c;
-  (*stress)->ops =
-    (SamStressOps){.row = Row, .getconstants = GetConstants, .atedge = SamHalfSpaceStressAtEdge, .destroy = Destroy};
+  (*stress)->poisson = poisson;
+  (*stress)->ops     = (SamStressOps){.row = Row, .atedge = SamHalfSpaceStressAtEdge};
   PetscFunctionReturn(PETSC_SUCCESS);
 }

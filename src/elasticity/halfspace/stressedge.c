@@ -197,12 +197,10 @@ static void AddInside(const Map *m, PetscInt i, PetscInt j, const double at[2], 
 PetscErrorCode SamHalfSpaceStressAtEdge(SamStress body, Vec field, const SamEdge *edge, double stress[])
 {
   const SamGrid grid = body->grid;
-  PetscReal     young, poisson;
   Map           m;
 
   PetscFunctionBegin;
-  SamStressGetConstants(body, 0, &young, &poisson);
-  PetscCall(CreateMap(grid, poisson, field, &m));
+  PetscCall(CreateMap(grid, body->poisson, field, &m));
   for (PetscInt n = 0; n < edge->count; n++) {
     const PetscInt  i = edge->cell[n] % grid->nx, j = grid->row_start + edge->cell[n] / grid->nx;
     const double    at[2] = {(double)((edge->x[n] - SamGridX(grid, i)) / grid->dx),

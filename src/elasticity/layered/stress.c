@@ -213,7 +213,7 @@ static void Row(SamStress stress, const double side[2], double depth, SamStressG
 {
   const Layered           *l      = (const Layered *)stress->data;
   const PetscBool          line   = isinf(side[1]) ? PETSC_TRUE : PETSC_FALSE;
-  const SamHalfSpaceSource source = {{side[0], side[1]}, depth, (double)l->body->material[0].poisson};
+  const SamHalfSpaceSource source = {{side[0], side[1]}, depth, (double)stress->poisson};
   const SamRadialKernels   of     = {.table   = &l->table,
                                      .depth   = l->decay,
                                      .kernels = SAM_STRESS_GROUP,
@@ -239,15 +239,6 @@ static void Row(SamStress stress, const double side[2], double depth, SamStressG
 
 /* ---- the type ---- */
 
-static void GetConstants(SamStress stress, PetscReal depth, PetscReal *young, PetscReal *poisson)
-{
-  const SamBody      body = ((const Layered *)stress->data)->body;
-  const SamMaterial *m    = &body->material[SamBodyAt(body, depth)];
-
-  *young   = m->young;
-  *poisson = m->poisson;
-}
-
 static PetscErrorCode Destroy(SamStress stress)
 {
   PetscFunctionBegin;
@@ -268,14 +259,12 @@ PetscErrorCode SamLayeredCreateStress(SamGrid grid, const SamFourierSettings *se
   PetscCall(SamStressCreate(grid, settings, number, stress));
   PetscCall(PetscNew(&l));
   PetscCall(SamBodyReference(body));
-  *l                = (Layered){.body = body, .depth = -1, .base = (double)SamBodyTop(body, body->count - 1)};
-  thick             = body->material[0].thickness >= THICK * grid->side[1];
-  (*stress)->data   = l;
-  (*stress)->groups = SAM_STRESS_GROUPS;
-  (*stress)->ops    = (SamStressOps){.row          = Row,
-                                     .usedepth     = UseDepth,
-                                     .getconstants = GetConstants,
-                                     .atedge       = thick ? SamHalfSpaceStressAtEdge : NULL,
-                                     .destroy      = Destroy};
+  *l                 = (Layered){.body = body, .depth = -1, .base = (double)SamBodyTop(body, body->count - 1)};
+  thick              = body->material[0].thickness >= THICK * grid->side[1];
+  (*stress)->data    = l;
+  (*stress)->poisson = body->material[0].poisson;
+  (*stress)->groups  = SAM_STRESS_GROUPS;
+  (*stress)->ops     = (SamStressOps){
+        .row = Row, .usedepth = UseDepth, .atedge = thick ? SamHalfSpaceStressAtEdge : NULL, .destroy = Destroy};
   PetscFunctionReturn(PETSC_SUCCESS);
 }
