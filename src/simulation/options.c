@@ -63,12 +63,11 @@ static PetscErrorCode CheckComponents(SamSimulation s, const SamOptions *from)
     PetscCall(SamHistoryGetStep(s->history, k, &control));
     PetscCall(CheckBulkStress(s, &control, traits, from));
     for (PetscInt c = SAM_COMPONENT_MX; c < SAM_COMPONENTS; c++) {
-      char      place[PETSC_MAX_PATH_LEN + 32], option[64];
+      char      place[PETSC_MAX_PATH_LEN + 32];
       PetscBool given;
 
       if (control.value[c] == 0 || traits.rotations[c - SAM_COMPONENT_MX]) continue;
-      (void)snprintf(option, sizeof(option), "-%s", SamComponentNameOf(c, SamControlWay(&control, c)));
-      PetscCall(PetscOptionsHasName(NULL, from->prefix, option, &given));
+      PetscCall(SamOptionsHas(from, SamComponentNameOf(c, SamControlWay(&control, c)), &given));
       PetscCall(SamHistoryGetPlace(s->history, k, place, sizeof(place)));
       if (given || !place[0]) (void)snprintf(place, sizeof(place), "-%s", SamOptionsPrefix(from));
       SETERRQ(from->comm, SAM_ERR_USER,

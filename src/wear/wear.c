@@ -26,45 +26,30 @@ PetscErrorCode SamLawSetWear(SamLaw law, const PetscReal coefficient[2])
 
 /* ---- options ---- */
 
+#define ROW(name, text, body, ...) \
+  { \
+    name #body, text " of body " #body, SAM_OPTION_REAL, offsetof(SamWear, coefficient[body - 1]), \
+      .range = SAM_RANGE_NONNEGATIVE, .recorded = PETSC_TRUE, __VA_ARGS__ \
+  }
+#define ARCHARD(body) \
+  ROW("wear_coefficient", "Archard's wear, depth = k p |ds|: k (1/Pa)", body, .excludes = "wear_energy1,wear_energy2")
+#define ENERGY(body) ROW("wear_energy", "wear by energy, depth = alpha |q.ds|: alpha (m3/J)", body, .needs = NULL)
+static const SamOptionRow rows[2][2] = {{ARCHARD(1), ARCHARD(2)}, {ENERGY(1), ENERGY(2)}};
+
 static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBool *asked)
 {
-  SamWear *const           w     = (SamWear *)law->data;
-  const char *const        other = w->by_energy ? "wear_coefficient" : "wear_energy",
-                    *const text  = w->by_energy ? "wear by energy, depth = alpha |q.ds|: alpha (m3/J)"
-                                                : "Archard's wear, depth = k p |ds|: k (1/Pa)";
-  PetscBool                given = PETSC_FALSE;
+  const SamWear *w = (const SamWear *)law->data;
 
   PetscFunctionBegin;
-  if (!w->by_energy) PetscCall(SamOptionsHeading(from, "Wear"));
-  for (int body = 0; body < 2; body++) {
-    char      option[32], help[96];
-    PetscBool set, both;
-
-    PetscCall(PetscSNPrintf(option, sizeof(option), "%s%d", law->option, body + 1));
-    PetscCall(PetscSNPrintf(help, sizeof(help), "%s of body %d", text, body + 1));
-    PetscCall(SamOptionsReal(from, option, help, SAM_RANGE_NONNEGATIVE, &w->coefficient[body], &set));
-    if (set) given = PETSC_TRUE;
-    PetscCall(PetscSNPrintf(option, sizeof(option), "-%s%d", other, body + 1));
-    PetscCall(PetscOptionsHasName(NULL, from->prefix, option, &both));
-    PetscCheck(!given || !both, from->comm, SAM_ERR_USER,
-               "-wear_coefficient1 or 2 and -wear_energy1 or 2 are given: a run has one law of wear");
-  }
+  (void)from;
   *asked = w->coefficient[0] + w->coefficient[1] > 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode AddParameters(SamLaw law, SamParameters *p)
 {
-  const SamWear *w = (const SamWear *)law->data;
-
   PetscFunctionBegin;
-  PetscCall(SamParametersAddText(p, "wear", PETSC_TRUE, w->jumps ? "cycles" : "steps"));
-  for (int body = 0; body < 2; body++) {
-    char option[32];
-
-    PetscCall(PetscSNPrintf(option, sizeof(option), "%s%d", law->option, body + 1));
-    PetscCall(SamParametersAddReals(p, option, PETSC_TRUE, 1, &w->coefficient[body]));
-  }
+  PetscCall(SamParametersAddText(p, "wear", PETSC_TRUE, ((const SamWear *)law->data)->jumps ? "cycles" : "steps"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -216,6 +201,9 @@ static PetscErrorCode Create(SamLaw law, PetscBool by_energy)
   w->by_energy            = by_energy;
   law->data               = w;
   law->option             = by_energy ? "wear_energy" : "wear_coefficient";
+  law->heading            = by_energy ? NULL : "Wear";
+  law->rows               = rows[by_energy];
+  law->row_count          = 2;
   law->needs_friction     = PETSC_TRUE;
   law->bytes              = 56;
   law->ops.setfromoptions = SetFromOptions;

@@ -133,12 +133,11 @@ PetscErrorCode SamGapSetFile(SamGap gap, PetscBool rough, const char file[], con
 /* Refuses a file for a type that reads none: the surface in it would silently not count. */
 static PetscErrorCode RefuseFile(SamGap gap)
 {
-  char      option[64];
-  PetscBool set;
+  const SamOptions from = {gap->comm, gap->prefix};
+  PetscBool        set;
 
   PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(option, sizeof(option), "-%s", gap->source.file_option));
-  PetscCall(PetscOptionsHasName(NULL, gap->prefix, option, &set));
+  PetscCall(SamOptionsHas(&from, gap->source.file_option, &set));
   PetscCheck(!set, gap->comm, SAM_ERR_USER,
              "-%s%s: has no effect with -%sgap_type %s: expected -%sgap_type file, or -%s%s for a roughness on it",
              gap->prefix, gap->source.file_option, gap->prefix, gap->type, gap->prefix, gap->prefix,
@@ -220,7 +219,7 @@ PetscErrorCode SamGapSetFromOptions(SamGap gap)
   PetscCall(SamOptionsHeading(&from, "Gap"));
   PetscCall(SamTypesList(SamGapList, list, sizeof(list)));
   PetscCall(PetscSNPrintf(text, sizeof(text), "%s: required", list));
-  PetscCall(PetscOptionsHasName(NULL, gap->prefix, "-gap_file", &file));
+  PetscCall(SamOptionsHas(&from, "gap_file", &file));
   PetscCall(PetscStrncpy(type, file && !gap->type[0] ? SAM_GAP_FILE : gap->type, sizeof(type)));
   PetscCall(SamTypesOption(SamGapList, &from, "gap_type", text, type, sizeof(type), &set));
   if (help) {
@@ -246,8 +245,8 @@ PetscErrorCode SamGapGetFileGrid(SamGap gap, PetscInt n[2], PetscReal width[2], 
   PetscFunctionBegin;
   for (PetscInt d = 0; d < 2; d++) n[d] = 0, width[d] = center[d] = 0;
   PetscCall(SamPrintHelp(&help));
-  PetscCall(PetscOptionsHasName(NULL, gap->prefix, "-grid_n", &has_n));
-  PetscCall(PetscOptionsHasName(NULL, gap->prefix, "-grid_size", &has_size));
+  PetscCall(SamOptionsHas(&from, "grid_n", &has_n));
+  PetscCall(SamOptionsHas(&from, "grid_size", &has_size));
   if (help || (has_n && has_size)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscStrncpy(type, gap->type[0] ? gap->type : SAM_GAP_FILE, sizeof(type)));
   PetscCall(PetscOptionsGetString(NULL, gap->prefix, "-gap_type", type, sizeof(type), NULL));
