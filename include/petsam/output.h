@@ -40,40 +40,16 @@ PETSC_EXTERN PetscErrorCode SamOutputSettingsPrepare(SamOutputSettings *settings
                                                      const SamOptions *from);
 
 /*
-  SamOutputCreate - creates the file with the coordinates of the grid and no step yet; replaces older results of that
-  name. All ranks write together through MPI-IO. Until it is destroyed, no other run gets the file, but others may read
-  it. Collective. Errors: SAM_ERR_FILE when the file cannot be created, is being written by another run, or is there and
-  is not a results file of petsam; it is left unchanged then.
+  SamOutputCreate - creates the file with the coordinates of the grid and no step yet, under another name
+  (SamOutputNameTemporary()): it takes its own, and replaces older results, when it is first written, or closed. All
+  ranks write together through MPI-IO. Until it is destroyed, no other run gets the file, but others may read it.
+  Collective. Errors: SAM_ERR_FILE when the file cannot be created, is being written by another run, or is there and is
+  not a results file of petsam; it is left unchanged then.
 */
 PETSC_EXTERN PetscErrorCode SamOutputCreate(SamGrid grid, const char filename[], const SamOutputSettings *settings,
                                             SamOutput *output);
-/*
-  SamOutputNameTemporary - the name of the file in which SamOutputContinue() writes results again, and of a file of
-  stresses that is not complete; the caller frees it with PetscFree(). Not collective.
-*/
+/* SamOutputNameTemporary - the name of results until they are complete; the caller frees it. Not collective. */
 PETSC_EXTERN PetscErrorCode SamOutputNameTemporary(const char filename[], char **temporary);
-/*
-  How far the results of a stopped run go that are kept. Results that begin in the middle of a history have the root
-  attribute SAM_OUTPUT_BRANCH, a number: the load steps before the first of the file.
-*/
-#define SAM_OUTPUT_BRANCH "branch_step"
-typedef struct {
-  PetscInt first;  /* load steps before those of the file */
-  PetscInt steps;  /* of /history */
-  PetscInt cycles; /* of the second series */
-  uint64_t times;  /* checksum of the times of these steps */
-} SamOutputPoint;
-/* SamOutputAddTime - the checksum of some times (0 of none) and one more (s). Not collective. */
-PETSC_INTERN uint64_t SamOutputAddTime(uint64_t times, PetscReal time);
-/*
-  SamOutputContinue - results that continue those of a stopped run: what these held at a point is copied to a new
-  file (SamOutputNameTemporary()), which takes their name when it is complete. Collective.
-  Errors: SAM_ERR_FILE for a file that cannot be read or written or lacks some of the steps, SAM_ERR_USER for one with
-  other fixed parameters or other times; after an error the file is unchanged.
-*/
-PETSC_INTERN PetscErrorCode SamOutputContinue(SamGrid grid, const char filename[], const SamOutputSettings *settings,
-                                              const SamParameters *parameters, const SamOutputPoint *point,
-                                              SamOutput *output);
 /* SamOutputSetParameters - stores parameters as attributes of the root group. Collective. Errors: SAM_ERR_FILE. */
 PETSC_EXTERN PetscErrorCode SamOutputSetParameters(SamOutput output, const SamParameters *parameters);
 /*

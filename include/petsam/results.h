@@ -6,7 +6,7 @@
 #include <petsam/parameters.h>
 #include <petsam/grid.h>
 
-/* SamResults - a results file of petsam, open for reading, on any number of ranks. */
+/* SamResults - the results of a run, one file or its parts (output.h), open for reading, on any number of ranks. */
 typedef struct _n_SamResults *SamResults;
 
 /* The fields that can be read. */
@@ -20,9 +20,10 @@ typedef enum {
 } SamResultsField;
 
 /*
-  SamResultsOpen - opens a file that the option (without dash) has named. Its parameters, sizes and the places of its
-  data are examined by rank 0 in a child process first, so that a damaged file does no harm. Collective. Errors:
-  SAM_ERR_FILE for a file that cannot be read, is not of petsam, is damaged, or lacks what is needed.
+  SamResultsOpen - opens a file that the option (without dash) has named, and the parts that follow it. Their
+  parameters, sizes and the places of their data are examined by rank 0 in a child process first, so that a damaged file
+  does no harm. Collective. Errors: SAM_ERR_FILE for a file that cannot be read, is not of petsam, is damaged, lacks
+  what is needed, or begins after the end of the part before; the message names it.
 */
 PETSC_EXTERN PetscErrorCode SamResultsOpen(MPI_Comm comm, const char option[], const char filename[],
                                            SamResults *results);

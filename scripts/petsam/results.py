@@ -7,6 +7,7 @@ from functools import cached_property
 import h5py
 import numpy as np
 
+from . import parts
 from .errors import Error, Missing, one_line, short, there_are
 from .files import need_regular
 from .isolation import reading
@@ -149,7 +150,7 @@ class Datafile:
 
 
 class Results(Datafile):
-    """One results file, open for reading; Error where it cannot be read.
+    """The results of a run, one file or its parts (parts.py), open for reading; Error where they cannot be read.
 
     x, y        cell centres, m
     times       of the saved fields, s
@@ -163,7 +164,33 @@ class Results(Datafile):
     parameters  name of an option: value, all root attributes
     """
 
+    sources = ()
     first_row, last_row = 0, None  # rows of the history that count: see between()
+
+    def __init__(self, path, label=None):
+        super().__init__(path, label)
+        try:
+            self._follow()
+        except Error:
+            self.close()
+            raise
+
+    def _follow(self):
+        """Appends the parts that restarts have written."""
+        while os.path.exists(name := parts.name_of(self.path, len(self.sources) + 1)):
+            part = _Part(name)
+            if not parts.follows(part, self.sources[-1]):
+                part.close()
+                break
+            parts.append(self, part)
+        if not self.history["time"].size:
+            raise Error(f"{self.path}: has no load step yet")
+
+    def close(self):
+        """Close all parts; what has been read stays."""
+        super().close()
+        for part in self.sources[1:]:
+            part.close()
 
     def _read(self):
         self.x, self.y = self._read_axes(("x", "y"), (2, 1))
@@ -172,13 +199,16 @@ class Results(Datafile):
         self.times = self._row(_own(self.file, "time"), "time")
         if "friction_file" not in self.parameters:
             _ = self.parameters["friction"]  # which every other file has
-        time = self.history["time"]
-        if not time.size:
-            raise Error(f"{self.path}: has no load step yet")
         self.before = int(self.parameters.get("branch_step", 0))
+        self.cycles_before = int(self.parameters.get("branch_rows", 0))
         if self.before < 0:
             raise ValueError(f"it begins after step {self.before}")
-        self.steps = [self.before + int(np.argmin(np.abs(time - saved))) + 1 for saved in self.times]
+        self.complete = min((values.size for values in self.history.values()), default=0)
+        self.steps = [self.before + _row_of(self.history["time"], saved) + 1 for saved in self.times]
+        attributes = {name: _own(self.file, f"history/{name}").attrs for name in self.history}
+        self.fills = {name: float(of["value_before"]) for name, of in attributes.items() if "value_before" in of}
+        self.sources, self.places = [self], [(self, k) for k in range(self.times.size)]
+        self.held = self.times.size  # saved steps of this file alone
         self.wear, self.wear_units = Named(self.path, {}), {}
         if "wear" in self.file:
             self.wear, self.wear_units = self._read_table("wear")
@@ -318,18 +348,22 @@ class Results(Datafile):
     def depths(self):
         """Names of the fields of removed depth that the file has."""
         with reading(self.path):
-            return [name for name in DEPTHS if name in self.file]
+            return [name for name in DEPTHS if self._all_have(name)]
 
     # ------------------------------------------------------------ fields
 
     @cached_property
     def fields(self):
         """Names of all fields that the file has."""
-        shape = (self.times.size, self.y.size, self.x.size)
+        shape = (self.held, self.y.size, self.x.size)
         with reading(self.path):
             links = {name: self.file.get(name, getlink=True) for name in self.file}
             local = [name for name, link in links.items() if isinstance(link, h5py.HardLink)]
-            return [name for name in local if getattr(self.file[name], "shape", None) == shape]
+            return [name for name in local if getattr(self.file[name], "shape", None) == shape and self._all_have(name)]
+
+    def _all_have(self, name):
+        """Whether all parts have a dataset."""
+        return all(name in source.file for source in self.sources)
 
     @cached_property
     def vectors(self):
@@ -420,13 +454,14 @@ class Results(Datafile):
             wanted = f" {name}, or {','.join(f'{of}_x,{of}_y' for of in POWER_OF)}" if name == POWER else ""
             raise Error(f"{self.path}: {lack} (petsam -output_fields{wanted}){there}")
 
-    def _saved(self, name):
-        """The dataset of a field, or of an edge."""
-        if name not in self.file:
+    def _saved(self, name, source=None):
+        """The dataset of a field, or of an edge, in a part: the first unless told."""
+        source = source or self
+        if name not in source.file:
             names = [*self.fields, *self.edges]
             there = there_are(name, names, "it has") if names else "; it has no field at all"
-            raise Error(f"{self.path}: has no {short(name)} (petsam -output_fields){there}")
-        return _own(self.file, name)
+            raise Error(f"{source.path}: has no {short(name)} (petsam -output_fields){there}")
+        return _own(source.file, name)
 
     def field(self, name, index=-1, rows=slice(None), columns=slice(None), stride=1):
         """Field name (ny, nx) of a saved step, the last unless told, on a window, every stride-th cell.
@@ -437,47 +472,48 @@ class Results(Datafile):
             raise Error(f"{self.path}: {name} is no field: ask for edge({name!r})")
         low, high, _ = rows.indices(self.y.size)
         need_index(self, index)
+        source, index = self.places[index]
         try:
-            with reading(self.path):
-                data = self._saved(name)
+            with reading(source.path):
+                data = self._saved(name, source)
             if data.dtype.kind not in "biuf":
                 raise ValueError(f"/{name} has no numbers")
-            if data.shape != (self.times.size, self.y.size, self.x.size):
+            if data.shape != (source.held, self.y.size, self.x.size):
                 raise ValueError(f"/{name} has the shape {data.shape}")
-            index %= self.times.size
             block = stride * max(1, BLOCK // stride)
-            parts = []
+            blocks = []
             for k in range(low, high, block):
-                with reading(self.path):
+                with reading(source.path):
                     part = data[index, k : min(k + block, high), columns][::stride, ::stride]
-                    parts.append(part.astype(float) if part.dtype == np.float32 else part)  # of -output_single
+                    blocks.append(part.astype(float) if part.dtype == np.float32 else part)  # of -output_single
         except DAMAGED as error:
-            raise self._error(error) from error
-        return np.concatenate(parts)
+            raise source._error(error) from error
+        return np.concatenate(blocks)
 
     def edge(self, name, index=-1):
         """Points x, y (m) of contact_edge or stick_edge of a saved step, an array (points, 2)."""
         need_index(self, index)
+        source, index = self.places[index]
         try:
-            with reading(self.path):
-                data = self._saved(name)
-                if data.dtype.kind != "f" or data.ndim != 3 or data.shape[::2] != (self.times.size, 2):
+            with reading(source.path):
+                data = self._saved(name, source)
+                if data.dtype.kind != "f" or data.ndim != 3 or data.shape[::2] != (source.held, 2):
                     raise ValueError(f"/{name} is no edge: its shape is {data.shape}")
                 points = data[index]
         except DAMAGED as error:
-            raise self._error(error) from error
+            raise source._error(error) from error
         return points[np.isfinite(points).all(axis=1)]
 
     def has(self, names):
         """Whether the file has all datasets of these names."""
         with reading(self.path):
-            return all(name in self.file for name in names)
+            return all(self._all_have(name) for name in names)
 
     @cached_property
     def edges(self):
         """Which of contact_edge and stick_edge the file has."""
         with reading(self.path):
-            return [name for name in EDGES if name in self.file]
+            return [name for name in EDGES if self._all_have(name)]
 
     def contact_window(self, index, margin=0.15):
         """Rows and columns (slices) of the smallest rectangle about the contact, and a margin; all without contact.
@@ -493,6 +529,13 @@ class Results(Datafile):
             _window(np.flatnonzero(contact.any(axis=axis)) * stride, stride, size, margin)
             for axis, size in ((1, self.y.size), (0, self.x.size))
         )
+
+
+class _Part(Results):
+    """One of the files of a run."""
+
+    def _follow(self):
+        pass
 
 
 class Snapshot:
@@ -549,6 +592,11 @@ def _own(group, name):
     if found is None or isinstance(found, h5py.Dataset) and (found.external or found.is_virtual):
         raise ValueError(f"{name} is in another file")
     return found
+
+
+def _row_of(times, time):
+    """Row of the history of a saved step; -1 for the step before a part, whose fields are in the part."""
+    return int(np.argmin(np.abs(times - time))) if times.size and time >= times[0] else -1
 
 
 def _is_matrices(data):

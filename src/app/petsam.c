@@ -78,7 +78,6 @@ static PetscErrorCode CheckFiles(const SamSimulationFiles *f, const SamArguments
   }
   if (f->output) {
     PetscCall(SamOutputNameTemporary(f->output, &other));
-    if (!f->restart) PetscCall(PetscFree(other));
     PetscCall(SamFilesAddWritten(&files, "-output", f->output, NULL, other));
   }
   if (f->checkpoint) {

@@ -99,18 +99,28 @@ static PetscBool IsOwn(SamFileUse use, const char head[], size_t size)
   return Contains(head, size, "petsam_version");
 }
 
-/*
-  Whether a run that was killed in its first flush may have left a temporary file: HDF5 as petsam creates it, by the
-  version in its first block, that nobody can open.
-*/
-static PetscBool IsUnfinished(const char filename[], const char head[], size_t size)
+static off_t SizeOf(int file)
 {
-  static const char begin[9] = "\211HDF\r\n\032\n"; /* and version 0 */
+  struct stat status;
 
-  return size > sizeof(begin) && !memcmp(head, begin, sizeof(begin)) && !SamFileCanBeOpened(filename);
+  return fstat(file, &status) ? -1 : status.st_size;
 }
 
-static int CheckContent(const char filename[], int file, SamFileUse use)
+/*
+  Whether a run that was killed in its first flush may have left a temporary file: HDF5 as petsam creates it, by the
+  version in its first block, that ends before the end of data that this block names.
+*/
+static PetscBool IsUnfinished(int file, const char head[], size_t size)
+{
+  static const char begin[9] = "\211HDF\r\n\032\n"; /* and version 0 */
+  uint64_t          end      = 0;
+
+  if (size < 48 || memcmp(head, begin, sizeof(begin))) return PETSC_FALSE;
+  for (int k = 7; k >= 0; k--) end = end << 8 | (unsigned char)head[40 + k];
+  return (uint64_t)SizeOf(file) < end;
+}
+
+static int CheckContent(int file, SamFileUse use)
 {
   char   *head;
   ssize_t n;
@@ -119,19 +129,12 @@ static int CheckContent(const char filename[], int file, SamFileUse use)
   if (PetscMalloc1(HEAD, &head)) return ENOMEM;
   n     = pread(file, head, HEAD, 0);
   error = n < 0 ? errno : IsOwn(use, head, (size_t)n) ? 0 : FOREIGN;
-  if (error == FOREIGN && use == SAM_FILE_TEMPORARY && IsUnfinished(filename, head, (size_t)n)) error = 0;
+  if (error == FOREIGN && use == SAM_FILE_TEMPORARY && IsUnfinished(file, head, (size_t)n)) error = 0;
   (void)PetscFree(head);
   return error;
 }
 
 /* ---- space ---- */
-
-static off_t SizeOf(int file)
-{
-  struct stat status;
-
-  return fstat(file, &status) ? -1 : status.st_size;
-}
 
 /*
   Allocates so many bytes beyond the end of the file. With `keep` the file becomes longer, else it is as before, at
@@ -278,8 +281,7 @@ static int Take(const char filename[], SamFileUse use, SamHold *hold)
     hold->file = -1;
     return error;
   }
-  hold->before = SizeOf(hold->file);
-  error        = CheckContent(filename, hold->file, use);
+  error = CheckContent(hold->file, use);
   if (error) hold->use = SAM_FILE_RESULTS; /* somebody's file: not removed */
   if (!error) error = Reserve(hold->file, SAM_FILE_METADATA, PETSC_FALSE);
   if (error) SamHoldRelease(filename, hold);
@@ -313,20 +315,41 @@ PetscErrorCode SamFileCheckName(SamGrid grid, const char option[], const char fi
 
   PetscFunctionBegin;
   if (IsFirst(grid)) {
-    error = access(filename, F_OK) ? CheckFolderOf(filename) : Take(filename, use, &hold);
+    error = !access(filename, F_OK)       ? Take(filename, use, &hold)
+            : use == SAM_FILE_OLD_RESULTS ? ENOENT
+                                          : CheckFolderOf(filename);
     SamHoldRelease(filename, &hold);
   }
   PetscCall(SamFileRaise(grid, option, filename, error));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamHoldHadContent(SamGrid grid, const SamHold *hold, PetscBool *had)
+PetscErrorCode SamFileHasContent(SamGrid grid, const char filename[], PetscBool *has)
 {
-  int some = hold->file >= 0 && hold->before > 0;
+  struct stat status;
+  int         some = IsFirst(grid) && !stat(filename, &status) && status.st_size > 0;
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Bcast(&some, 1, MPI_INT, 0, grid->comm));
-  *had = some != 0;
+  *has = some != 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamFileContains(SamGrid grid, const char filename[], const char text[], PetscBool *contains)
+{
+  const int file = IsFirst(grid) ? open(filename, O_RDONLY | O_NONBLOCK) : -1;
+  char     *head;
+  int       is = 0;
+
+  PetscFunctionBegin;
+  if (file >= 0) {
+    PetscCall(PetscMalloc1(HEAD, &head));
+    is = Contains(head, (size_t)PetscMax(pread(file, head, HEAD, 0), 0), text);
+    PetscCall(PetscFree(head));
+    (void)close(file);
+  }
+  PetscCallMPI(MPI_Bcast(&is, 1, MPI_INT, 0, grid->comm));
+  *contains = is != 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

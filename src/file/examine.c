@@ -111,23 +111,6 @@ static void ExamineInChild(const Case *c, Outcome *outcome, size_t size)
   if (shared != MAP_FAILED) (void)munmap(shared, size);
 }
 
-static PetscErrorCode LookAtNothing(SamFile file, const void *question, void *answer)
-{
-  (void)file;
-  (void)question;
-  (void)answer;
-  return PETSC_SUCCESS;
-}
-
-PetscBool SamFileCanBeOpened(const char filename[])
-{
-  const Case c       = {"", filename, LookAtNothing, NULL};
-  Outcome    outcome = {.code = 0};
-
-  ExamineInChild(&c, &outcome, sizeof(outcome));
-  return outcome.code ? PETSC_FALSE : PETSC_TRUE;
-}
-
 PetscErrorCode SamFileExamine(MPI_Comm comm, const char option[], const char filename[], SamFileLook look,
                               const void *question, void *answer, size_t size)
 {

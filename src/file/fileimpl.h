@@ -9,9 +9,6 @@
 /* SamFileOpenAlone - opens a file to read it on this rank, without MPI-IO. Not collective. Errors: SAM_ERR_FILE. */
 PETSC_INTERN PetscErrorCode SamFileOpenAlone(const char option[], const char filename[], SamFile *file);
 
-/* SamFileCanBeOpened - whether HDF5, in a child process, can open a file. Not collective. */
-PETSC_INTERN PetscBool SamFileCanBeOpened(const char filename[]);
-
 /* SamFileRemoveLeftOvers - what MPI-IO has put beside an open file, and would leave after a kill. */
 PETSC_INTERN void SamFileRemoveLeftOvers(SamFile file);
 
@@ -21,7 +18,7 @@ PETSC_INTERN void SamFileRemoveLeftOvers(SamFile file);
 */
 PETSC_INTERN PetscErrorCode SamFileRaise(SamGrid grid, const char option[], const char filename[], int error);
 
-#define SAM_CHECKPOINT_FORMAT 7 /* version of a checkpoint's contents */
+#define SAM_CHECKPOINT_FORMAT 8 /* version of a checkpoint's contents */
 
 /* SamSealIsOne - whether the first bytes of a file are a seal. Not collective. */
 PETSC_INTERN PetscBool SamSealIsOne(const char head[], size_t size);

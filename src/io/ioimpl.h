@@ -3,8 +3,10 @@
 #define PETSAM_IOIMPL_H
 
 #include <petsam/private/file.h>
+#include <petsam/private/parts.h>
 #include <petsam/output.h>
 #include <petsam/private/state.h>
+#include <inttypes.h>
 
 /*
   SamParametersWrite - writes all parameters as attributes of the root group.
@@ -24,7 +26,7 @@ typedef enum { SAM_SERIES_HISTORY, SAM_SERIES_CYCLES, SAM_SERIES } SamSeries;
   SamOutputCreatePoints - creates a dataset for them, without a step.
   SamOutputCreatePointScales - creates the scales of all such datasets, which are there already, and attaches them.
   SamOutputGatherPoints - takes those of all ranks into the output, in the order of their rows.
-  SamOutputAppendPoints, SamOutputReadPoints - write those of a step, which is the next one; read them.
+  SamOutputAppendPoints - writes those of a step, which is the next one.
 */
 typedef struct {
   hsize_t count;
@@ -34,7 +36,8 @@ PETSC_INTERN hid_t          SamOutputCreatePoints(SamOutput output, const SamLab
 PETSC_INTERN void           SamOutputCreatePointScales(SamOutput output);
 PETSC_INTERN PetscErrorCode SamOutputGatherPoints(SamOutput output, const SamEdge *edge);
 PETSC_INTERN void SamOutputAppendPoints(SamOutput output, hid_t dataset, hsize_t step, const SamOutputPoints *points);
-PETSC_INTERN PetscErrorCode SamOutputReadPoints(SamOutput output, hid_t dataset, hsize_t step, SamOutputPoints *points);
+
+#define SAM_IDENTITY "results-%016" PRIx64 /* of a file, as a text */
 
 #define SAM_OUTPUT_WAIT 256 /* most steps that wait to be written: those of a chunk of the series */
 
@@ -43,8 +46,10 @@ struct _n_SamOutput {
   SamFile           f;
   SamOutputSettings set;
   /* what it owns; identifiers are negative where nothing is open */
-  hid_t           vtk_steps;             /* attribute: number of steps that VTK sees */
-  hid_t           closed;                /* attribute: whether the file was closed properly */
+  hid_t           vtk_steps; /* attribute: number of steps that VTK sees */
+  hid_t           closed;    /* attribute: whether the file was closed properly */
+  char           *name;      /* that the file gets when it is published; NULL: it has it */
+  uint64_t        identity;
   SamHold         hold;                  /* of a file that is written */
   PetscBool       replaced;              /* there were older results */
   SamState        state[SAM_SERIES];     /* whose numbers are the columns of a series; borrowed; NULL: none */
@@ -63,18 +68,14 @@ struct _n_SamOutput {
   hsize_t   rows[SAM_SERIES]; /* in the file: load steps in the history, computed cycles */
   hsize_t   saved;            /* steps with fields */
   PetscReal saved_time;       /* of the last step with fields */
-  PetscBool copying;          /* many steps at once: disk space is reserved, and the file flushed, by the caller */
   PetscBool broken;           /* a step could not be written: no collective call on the file may follow */
 };
 
 /*
   SamOutputCreateLayout - creates all datasets, without a step, and their attributes, and notes the first coordinate as
-  the mark of the file.
-  SamOutputOpenLayout - opens them in a file that has them, whose fields and precision become those of the settings.
-  Both note their failures. Collective.
+  the mark of the file. Notes its failures. Collective.
 */
 PETSC_INTERN PetscErrorCode SamOutputCreateLayout(SamOutput output);
-PETSC_INTERN PetscErrorCode SamOutputOpenLayout(SamOutput output);
 /* SamOutputFieldBytes - the size of the fields of one step, uncompressed. Not collective. */
 PETSC_INTERN off_t SamOutputFieldBytes(SamOutput output);
 /* SamOutputResult - field f of the state. Not collective. */
@@ -113,14 +114,6 @@ typedef struct {
 PETSC_INTERN hid_t SamFileCreateVTK(SamFile file, const SamImage *image);
 PETSC_INTERN void  SamFileCountVTK(SamFile file, hid_t number, int64_t steps);
 
-/* SamOutputReadSeries - reads `count` numbers, or matrices, of a series from index `first` on, on all ranks. */
-PETSC_INTERN void SamOutputReadSeries(SamOutput output, hid_t dataset, hid_t type, hsize_t first, hsize_t count,
-                                      void *values);
-/*
-  SamOutputCopyOrigin - copies the command line of the first run, and what the file says of the results that it follows.
-  Collective. Errors: SAM_ERR_FILE.
-*/
-PETSC_INTERN PetscErrorCode SamOutputCopyOrigin(SamOutput from, SamOutput to);
 /*
   SamOutputAllocate - an object for an open file, NULL for one that is yet to be opened; no dataset is open yet.
   SamOutputFree - frees the object, and leaves the file as it is. Neither is collective.
@@ -128,28 +121,6 @@ PETSC_INTERN PetscErrorCode SamOutputCopyOrigin(SamOutput from, SamOutput to);
 PETSC_INTERN PetscErrorCode SamOutputAllocate(SamGrid grid, SamFile file, const SamOutputSettings *set,
                                               SamOutput *output);
 PETSC_INTERN PetscErrorCode SamOutputFree(SamOutput *output);
-/*
-  SamOutputCreateAs - SamOutputCreate() for that use of the file: results, or a temporary file. Collective.
-  Errors: SAM_ERR_FILE.
-*/
-PETSC_INTERN PetscErrorCode SamOutputCreateAs(SamGrid grid, const char filename[], SamFileUse use,
-                                              const SamOutputSettings *set, SamOutput *output);
-/*
-  SamOutputAppend - appends the numbers of a step, all of the state (NULL: none) and its fields (`values` NULL: none).
-  Without fields the numbers may wait (SamOutputFlush()); otherwise the file is flushed unless `copying`. `values`
-  returns this rank's values of field f, doubles or bytes; it is called with `context`. Collective. Errors:
-  SAM_ERR_FILE.
-*/
-typedef PetscErrorCode (*SamOutputValues)(SamOutput output, PetscInt f, void *context, const void **values);
-PETSC_INTERN PetscErrorCode SamOutputAppend(SamOutput output, const double step[], PetscReal time,
-                                            SamOutputValues values, void *context);
-/*
-  SamOutputCopySeries - appends the first `count` rows of a series of another file; columns that are not there get NaN,
-  or 0. While `copying`.
-  SamOutputEndCopy - flushes the file: the end of `copying`.
-  Both are collective. Errors: SAM_ERR_FILE.
-*/
-PETSC_INTERN PetscErrorCode SamOutputCopySeries(SamOutput output, SamSeries kind, SamOutput from, hsize_t count);
-PETSC_INTERN PetscErrorCode SamOutputEndCopy(SamOutput output);
-
+/* SamOutputPublish - gives the file its name, unless it has it. Collective. Errors: SAM_ERR_FILE. */
+PETSC_INTERN PetscErrorCode SamOutputPublish(SamOutput output);
 #endif

@@ -211,8 +211,9 @@ static void CreateSeries(SamOutput o, SamSeries kind)
   if (!state) return;
   group = SamFileNote(o->f, H5Gcreate2(o->f->id, o->series[kind], H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
   for (PetscInt c = 0; c < SamStateCountNumbers(state); c++) {
-    const SamStateNumber *n     = SamStateNumberOf(state, c, NULL);
-    const SamLabel        label = {n->name, SamUnitOn(o->grid, n->unit), n->text};
+    const SamStateNumber *n      = SamStateNumberOf(state, c, NULL);
+    const SamLabel        label  = {n->name, SamUnitOn(o->grid, n->unit), n->text};
+    const double          before = SamStateMissingNumber(state, c); /* in parts of the run without the column */
 
     if (!n->result) continue;
     if (c == 0) {
@@ -225,6 +226,8 @@ static void CreateSeries(SamOutput o, SamSeries kind)
       scales[2] = CreateComponents(o, PETSC_FALSE);
     }
     to[c] = CreateColumn(o, group, n);
+    if (!isnan(before))
+      SamFileWriteAttribute(o->f, to[c], "value_before", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 1, &before);
     SamFileAttachScales(o->f, to[c], n->kind == SAM_NUMBER_MATRIX ? 3 : 1, scales);
   }
 }
@@ -248,103 +251,16 @@ static void CreateVTK(SamOutput o)
 PetscErrorCode SamOutputCreateLayout(SamOutput o)
 {
   const int8_t open = 0;
+  char         identity[32];
 
   PetscFunctionBegin;
   PetscCall(CreateFields(o));
   for (PetscInt k = 0; k < SAM_SERIES; k++) CreateSeries(o, (SamSeries)k);
   CreateVTK(o);
   SamFileWriteOrigin(o->f, "Partial-slip contact of elastic bodies", "petsam");
+  (void)snprintf(identity, sizeof(identity), SAM_IDENTITY, o->identity);
+  SamFileWriteTextAttribute(o->f, o->f->id, SAM_OUTPUT_IDENTITY, identity);
   SamFileWriteAttribute(o->f, o->f->id, "closed", H5T_STD_I8LE, H5T_NATIVE_INT8, 1, &open);
   o->closed = SamFileNote(o->f, H5Aopen(o->f->id, "closed", H5P_DEFAULT));
   PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* ---- reading ---- */
-
-/* Opens a dataset; an optional one may not be there, and stays closed then. */
-static void OpenDataset(SamOutput o, hid_t where, const char name[], PetscBool optional, hid_t *dataset)
-{
-  if (where < 0 || (optional && SamFileNote(o->f, H5Lexists(where, name, H5P_DEFAULT)) == 0)) return;
-  *dataset = SamFileNote(o->f, H5Dopen2(where, name, H5P_DEFAULT));
-}
-
-/* Declares a column that the file has and the state does not offer: it continues without values. */
-static PetscErrorCode DeclareColumn(SamOutput o, SamState state, hid_t group, const char name[])
-{
-  const hid_t    dataset = SamFileNote(o->f, H5Dopen2(group, name, H5P_DEFAULT));
-  const hid_t    type = dataset >= 0 ? H5Dget_type(dataset) : -1, space = dataset >= 0 ? H5Dget_space(dataset) : -1;
-  SamStateNumber number   = {name, "1", name, SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, 0};
-  char           unit[32] = "1", text[96] = "";
-  PetscInt       id;
-
-  PetscFunctionBegin;
-  if (dataset < 0) PetscFunctionReturn(PETSC_SUCCESS);
-  (void)SamTextRead(dataset, "units", unit, sizeof(unit));
-  (void)SamTextRead(dataset, "long_name", text, sizeof(text));
-  number.unit = unit;
-  number.text = text;
-  if (H5Tget_class(type) == H5T_INTEGER) number.kind = SAM_NUMBER_INT;
-  if (H5Sget_simple_extent_ndims(space) == 3) {
-    number.kind  = SAM_NUMBER_MATRIX;
-    number.count = SAM_COMPONENTS * SAM_COMPONENTS;
-  }
-  PetscCall(SamStateOfferNumber(state, name, NAN));
-  PetscCall(SamStateDeclareNumber(state, &number, &id));
-  (void)H5Sclose(space);
-  (void)H5Tclose(type);
-  (void)H5Dclose(dataset);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode OpenSeries(SamOutput o, SamSeries kind)
-{
-  const SamState state = o->state[kind];
-  H5G_info_t     info;
-  hid_t          group;
-  char           name[64];
-
-  PetscFunctionBegin;
-  if (!state) PetscFunctionReturn(PETSC_SUCCESS);
-  if (kind != SAM_SERIES_HISTORY && SamFileNote(o->f, H5Lexists(o->f->id, o->series[kind], H5P_DEFAULT)) == 0)
-    PetscFunctionReturn(PETSC_SUCCESS);
-  group = SamFileNote(o->f, H5Gopen2(o->f->id, o->series[kind], H5P_DEFAULT));
-  if (group < 0 || SamFileNote(o->f, H5Gget_info(group, &info)) < 0) PetscFunctionReturn(PETSC_SUCCESS);
-  for (hsize_t k = 0; k < info.nlinks; k++)
-    if (H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, k, name, sizeof(name), H5P_DEFAULT) > 0)
-      PetscCall(DeclareColumn(o, state, group, name));
-  for (PetscInt c = 0; c < SamStateCountNumbers(state); c++)
-    if (SamStateNumberOf(state, c, NULL)->result)
-      OpenDataset(o, group, SamStateNumberOf(state, c, NULL)->name, c > 0, &o->columns[kind][c]);
-  (void)SamFileNote(o->f, H5Gclose(group));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamOutputOpenLayout(SamOutput o)
-{
-  PetscFunctionBegin;
-  OpenDataset(o, o->f->id, "time", PETSC_FALSE, &o->time);
-  OpenDataset(o, o->f->id, "point", PETSC_TRUE, &o->point);
-  for (PetscInt k = 0; k < SAM_SERIES; k++) PetscCall(OpenSeries(o, (SamSeries)k));
-  for (PetscInt f = 0; f < SamOutputCount(o); f++) {
-    hid_t type;
-
-    OpenDataset(o, o->f->id, SamOutputResult(o, f)->name, PETSC_TRUE, &o->fields[f]);
-    o->wants[f] = o->fields[f] >= 0;
-    if (!o->wants[f] || SamOutputResult(o, f)->kind != SAM_FIELD_REAL) continue;
-    type          = SamFileNote(o->f, H5Dget_type(o->fields[f]));
-    o->set.single = H5Tget_size(type) == sizeof(float);
-    if (type >= 0) (void)SamFileNote(o->f, H5Tclose(type));
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-void SamOutputReadSeries(SamOutput o, hid_t dataset, hid_t type, hsize_t first, hsize_t count, void *values)
-{
-  SamBlock block = {.rank = 0};
-
-  block.rank = SamFileGetSize(o->f, dataset, 0, block.count);
-  if (!block.rank) return;
-  block.start[0] = first;
-  block.count[0] = count;
-  SamFileReadBlock(o->f, dataset, type, &block, values);
 }

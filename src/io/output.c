@@ -6,6 +6,8 @@
 #include "ioimpl.h"
 #include <petsam/private/motionimpl.h>
 #include <string.h>
+#include <time.h>
+#include <unistd.h>
 
 /* ---- options ---- */
 
@@ -171,59 +173,8 @@ PetscErrorCode SamOutputFree(SamOutput *output)
   PetscCall(PetscFree(o->states));
   PetscCall(PetscFree(o->singles));
   PetscCall(PetscFree(o->waiting));
+  PetscCall(PetscFree(o->name));
   PetscCall(PetscFree(o));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode CreateFile(SamOutput o, const char filename[], SamFileUse use)
-{
-  PetscFunctionBegin;
-  PetscCall(SamHoldTake(o->grid, "output", filename, use, &o->hold));
-  PetscCall(SamFileOpen(o->grid, SAM_EVENT_OUTPUT, "output", filename, SAM_FILE_CREATE, &o->f));
-  PetscCall(SamHoldHadContent(o->grid, &o->hold, &o->replaced));
-  PetscCall(SamFileBegin(o->f));
-  PetscCall(SamOutputCreateLayout(o));
-  (void)SamFileNote(o->f, H5Fflush(o->f->id, H5F_SCOPE_GLOBAL));
-  PetscCall(SamFileEnd(o->f));
-  SamHoldNoteSize(&o->hold);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamOutputCreateAs(SamGrid grid, const char filename[], SamFileUse use, const SamOutputSettings *set,
-                                 SamOutput *output)
-{
-  SamOutput      o;
-  PetscErrorCode ierr;
-
-  PetscFunctionBegin;
-  *output = NULL;
-  PetscCall(SamInitialize());
-  PetscCall(SamOutputAllocate(grid, NULL, set, &o));
-  ierr = CreateFile(o, filename, use);
-  if (!ierr) {
-    *output = o;
-  } else if (o->f) {
-    (void)SamOutputDestroy(&o);
-  } else {
-    SamHoldRelease(filename, &o->hold);
-    PetscCall(SamOutputFree(&o));
-  }
-  PetscCall(ierr);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamOutputCreate(SamGrid grid, const char filename[], const SamOutputSettings *set, SamOutput *output)
-{
-  PetscFunctionBegin;
-  PetscCall(SamOutputCreateAs(grid, filename, SAM_FILE_RESULTS, set, output));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamOutputPlan(SamGrid grid, const SamOutputSettings *set, SamOutput *output)
-{
-  PetscFunctionBegin;
-  PetscCall(SamInitialize());
-  PetscCall(SamOutputAllocate(grid, NULL, set, output));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -235,18 +186,14 @@ static void MarkClosed(SamOutput o)
   if (o->closed >= 0) (void)SamFileNote(o->f, H5Awrite(o->closed, H5T_NATIVE_INT8, &closed));
 }
 
-PetscErrorCode SamOutputDestroy(SamOutput *output)
+/* Closes the file, unless a write has failed, and frees the object. */
+static PetscErrorCode Close(SamOutput *output)
 {
-  SamOutput      o       = *output;
-  PetscErrorCode changed = 0, ierr;
+  SamOutput      o = *output;
+  PetscErrorCode ierr;
 
   PetscFunctionBegin;
-  *output = NULL;
-  if (o && !o->f) PetscCall(SamOutputFree(&o));
-  if (!o) PetscFunctionReturn(PETSC_SUCCESS);
-  if (!o->broken && o->waits) changed = SamOutputFlush(o);
-  if (!changed && o->f->writing && !o->broken && !o->copying)
-    changed = SamHoldCheck(o->grid, "output", o->f->filename, &o->hold);
+  *output      = NULL;
   o->f->failed = PETSC_FALSE; /* earlier failures have been raised */
   PetscCall(SamFileBegin(o->f));
   if (!o->broken) {
@@ -257,6 +204,104 @@ PetscErrorCode SamOutputDestroy(SamOutput *output)
   SamHoldRelease(o->f->filename, &o->hold);
   PetscCall(SamFileDestroy(&o->f, PETSC_FALSE));
   PetscCall(SamOutputFree(&o));
+  PetscCall(ierr);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* A number that no other file has. */
+static PetscErrorCode MakeIdentity(SamOutput o)
+{
+  struct timespec now;
+
+  PetscFunctionBegin;
+  (void)clock_gettime(CLOCK_REALTIME, &now);
+  o->identity = SamHashMix((uint64_t)now.tv_sec + SamHashMix((uint64_t)now.tv_nsec + SamHashMix((uint64_t)getpid())));
+  PetscCallMPI(MPI_Bcast(&o->identity, 1, MPI_UINT64_T, 0, o->grid->comm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Creates the file under a temporary name. */
+static PetscErrorCode CreateFile(SamOutput o, const char filename[])
+{
+  char          *temporary;
+  PetscErrorCode ierr;
+
+  PetscFunctionBegin;
+  PetscCall(PetscStrallocpy(filename, &o->name));
+  PetscCall(MakeIdentity(o));
+  PetscCall(SamFileCheckName(o->grid, "output", filename, SAM_FILE_RESULTS));
+  PetscCall(SamFileHasContent(o->grid, filename, &o->replaced));
+  PetscCall(SamOutputNameTemporary(filename, &temporary));
+  ierr = SamHoldTake(o->grid, "output", temporary, SAM_FILE_TEMPORARY, &o->hold);
+  if (!ierr) ierr = SamFileOpen(o->grid, SAM_EVENT_OUTPUT, "output", temporary, SAM_FILE_CREATE, &o->f);
+  if (ierr) SamHoldRelease(temporary, &o->hold);
+  PetscCall(PetscFree(temporary));
+  PetscCall(ierr);
+  PetscCall(SamFileBegin(o->f));
+  PetscCall(SamOutputCreateLayout(o));
+  PetscCall(SamFileEnd(o->f));
+  SamHoldNoteSize(&o->hold);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputCreate(SamGrid grid, const char filename[], const SamOutputSettings *set, SamOutput *output)
+{
+  SamOutput      o;
+  PetscErrorCode ierr;
+
+  PetscFunctionBegin;
+  *output = NULL;
+  PetscCall(SamInitialize());
+  PetscCall(SamOutputAllocate(grid, NULL, set, &o));
+  ierr = CreateFile(o, filename);
+  if (!ierr)
+    *output = o;
+  else if (o->f)
+    (void)Close(&o);
+  else
+    PetscCall(SamOutputFree(&o));
+  PetscCall(ierr);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputPublish(SamOutput o)
+{
+  PetscFunctionBegin;
+  if (!o->name) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamFileBegin(o->f));
+  (void)SamFileNote(o->f, H5Fflush(o->f->id, H5F_SCOPE_GLOBAL));
+  PetscCall(SamFileEnd(o->f));
+  SamHoldNoteSize(&o->hold);
+  PetscCall(SamHoldCheck(o->grid, "output", o->f->filename, &o->hold));
+  PetscCall(SamFileCheckName(o->grid, "output", o->name, SAM_FILE_RESULTS));
+  PetscCall(SamFileReplace(o->grid, "output", o->f->filename, o->name, NULL));
+  PetscCall(PetscFree(o->f->filename));
+  o->f->filename = o->name;
+  o->name        = NULL;
+  o->hold.use    = SAM_FILE_RESULTS;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputPlan(SamGrid grid, const SamOutputSettings *set, SamOutput *output)
+{
+  PetscFunctionBegin;
+  PetscCall(SamInitialize());
+  PetscCall(SamOutputAllocate(grid, NULL, set, output));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputDestroy(SamOutput *output)
+{
+  PetscErrorCode changed = 0, ierr = 0;
+  SamOutput      o = *output;
+
+  PetscFunctionBegin;
+  if (o && o->f && !o->broken) {
+    changed = o->waits ? SamOutputFlush(o) : SamOutputPublish(o);
+    if (!changed) changed = SamHoldCheck(o->grid, "output", o->f->filename, &o->hold);
+  }
+  if (o && o->f) ierr = Close(output);
+  if (*output) PetscCall(SamOutputFree(output));
   PetscCall(changed);
   PetscCall(ierr);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -272,6 +317,59 @@ PetscErrorCode SamOutputHasReplaced(SamOutput o, PetscBool *replaced)
 PetscErrorCode SamOutputNameTemporary(const char filename[], char **temporary)
 {
   return SamFileNameBeside(filename, ".tmp", temporary);
+}
+
+/* ---- parts ---- */
+
+PetscErrorCode SamOutputNamePart(const char filename[], PetscInt part, char **name)
+{
+  const char  *slash = strrchr(filename, '/'), *first = slash ? slash + 1 : filename, *dot = strrchr(first, '.');
+  const size_t stem = dot && dot != first ? (size_t)(dot - filename) : strlen(filename), size = strlen(filename) + 24;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(size, name));
+  if (part == 1)
+    (void)snprintf(*name, size, "%s", filename);
+  else
+    (void)snprintf(*name, size, "%.*s.part%ld%s", (int)stem, filename, (long)part, filename + stem);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputGetIdentity(SamOutput o, uint64_t *identity)
+{
+  PetscFunctionBegin;
+  *identity = o->identity;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputFollow(SamOutput o, uint64_t identity, PetscInt steps, PetscInt cycles)
+{
+  const PetscReal numbers[2] = {(PetscReal)steps, (PetscReal)cycles};
+  char            text[32];
+
+  PetscFunctionBegin;
+  (void)snprintf(text, sizeof(text), SAM_IDENTITY, identity);
+  PetscCall(SamOutputSetReals(o, SAM_OUTPUT_BRANCH, 1, &numbers[0]));
+  PetscCall(SamOutputSetReals(o, SAM_OUTPUT_CYCLES, 1, &numbers[1]));
+  if (identity) PetscCall(SamOutputSetText(o, SAM_OUTPUT_FOLLOWS, text));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamOutputCheckPart(SamGrid grid, const char filename[], uint64_t identity)
+{
+  char      text[32];
+  PetscBool is;
+
+  PetscFunctionBegin;
+  (void)snprintf(text, sizeof(text), SAM_IDENTITY, identity);
+  PetscCall(SamFileCheckName(grid, "output", filename, SAM_FILE_OLD_RESULTS));
+  PetscCall(SamFileContains(grid, filename, text, &is));
+  PetscCheck(
+    is, grid->comm, SAM_ERR_USER,
+    "-output %s: cannot be followed: the checkpoint belongs to other results; remove it, or give another name, "
+    "to begin a file with the steps after the checkpoint",
+    filename);
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- attributes ---- */

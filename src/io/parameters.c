@@ -122,31 +122,3 @@ PetscBool SamParametersDiffer(SamFile f, const SamParameters *parameters, char m
   if (FindOther(f, parameters, message, size, &other)) (void)SamFileNote(f, -1);
   return other;
 }
-
-PetscErrorCode SamOutputCopyOrigin(SamOutput from, SamOutput to)
-{
-  static const char *const texts[]   = {"options", "branch_checkpoint", "branch_results", "branch_gap"};
-  static const char *const numbers[] = {SAM_OUTPUT_BRANCH, "branch_cycles"};
-
-  PetscFunctionBegin;
-  PetscCall(SamFileBegin(from->f));
-  PetscCall(SamFileBegin(to->f));
-  for (size_t k = 0; k < sizeof(texts) / sizeof(texts[0]); k++) {
-    char *text = NULL;
-
-    if (!SamFileHasAttribute(from->f, texts[k])) continue;
-    SamFileReadTextAttribute(from->f, from->f->id, texts[k], &text);
-    SamFileWriteTextAttribute(to->f, to->f->id, texts[k], text);
-    PetscCall(PetscFree(text));
-  }
-  for (size_t k = 0; k < sizeof(numbers) / sizeof(numbers[0]); k++) {
-    double number = 0;
-
-    if (!SamFileHasAttribute(from->f, numbers[k])) continue;
-    SamFileReadAttribute(from->f, from->f->id, numbers[k], H5T_NATIVE_DOUBLE, 1, &number);
-    SamFileWriteAttribute(to->f, to->f->id, numbers[k], H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 1, &number);
-  }
-  PetscCall(SamFileEnd(to->f));
-  PetscCall(SamFileEnd(from->f));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}

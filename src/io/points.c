@@ -1,6 +1,6 @@
 /*
   Edges as points in a results file: datasets (time, point, 2) of x and y, whose rows end in NaN where a step has fewer
-  points than another one. Rank 0 writes and reads them. netCDF's readers want a scale for each dimension; those of
+  points than another one. Rank 0 writes them. netCDF's readers want a scale for each dimension; those of
   points and coordinates have no values, as the attribute says by which netCDF knows such scales.
 */
 #include "ioimpl.h"
@@ -81,23 +81,4 @@ void SamOutputAppendPoints(SamOutput o, hid_t dataset, hsize_t step, const SamOu
   (void)SamFileGetSize(o->f, o->point, 1, scale); /* is as long as the longest edge */
   if (scale[0] < size[1]) (void)SamFileNote(o->f, H5Dset_extent(o->point, &size[1]));
   SamFileWriteBlock(o->f, dataset, H5T_NATIVE_DOUBLE, &block, points->xy);
-}
-
-PetscErrorCode SamOutputReadPoints(SamOutput o, hid_t dataset, hsize_t step, SamOutputPoints *points)
-{
-  unsigned long long count = 0;
-  hsize_t            size[3];
-  SamBlock           block;
-
-  PetscFunctionBegin;
-  (void)SamFileGetSize(o->f, dataset, 3, size);
-  block = BlockOf(o, step, size[1]);
-  PetscCall(PetscFree(points->xy));
-  PetscCall(PetscMalloc1(2 * size[1], &points->xy));
-  SamFileReadBlock(o->f, dataset, H5T_NATIVE_DOUBLE, &block, points->xy);
-  if (o->f->rank == 0)
-    while (count < size[1] && !isnan(points->xy[2 * count])) count++;
-  PetscCallMPI(MPI_Bcast(&count, 1, MPI_UNSIGNED_LONG_LONG, 0, o->f->comm));
-  points->count = count;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }

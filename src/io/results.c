@@ -2,11 +2,13 @@
   Results of a run, read again.
 
   Rank 0 examines parameters, shapes, and where the data lie, so that a damaged file ends in a message, on all ranks
-  alike. Then all ranks open it and read their rows.
+  alike. Then all ranks open it and read their rows. The parts of a run that was restarted are read as one: of each, the
+  steps up to where the next one begins.
 */
 #include "ioimpl.h"
 #include <petsam/results.h>
 #include <string.h>
+#include <unistd.h>
 
 static const char *const numbers[SAM_RESULTS_NUMBERS] = {"cycle", "status", "contact_area"};
 static const char *const fields[SAM_RESULTS_FIELDS]   = {"/pressure", "/shear_x", "/shear_y", "/slip_x", "/slip_y"};
@@ -17,18 +19,34 @@ typedef struct {
   char          options[4096]; /* empty if they are longer */
   SamParameters parameters;
   hsize_t       steps, saved;
-  double        first; /* load steps before those of the file */
+  double        first;                     /* load steps before those of the file */
+  char          identity[32], follows[32]; /* of the file, and of the part before; empty: none */
   int           has[SAM_RESULTS_FIELDS], number[SAM_RESULTS_NUMBERS];
   int           column[SAM_PARAMETERS]; /* whether a parameter is a column of the history, too */
 } Facts;
 
+/* One file of the run. */
+typedef struct {
+  Facts    facts;
+  PetscInt steps; /* from the run's start to where the next part begins */
+  SamFile  file;
+  hid_t    field[SAM_RESULTS_FIELDS];
+} Part;
+
+/* Where the fields of a saved step are. */
+typedef struct {
+  const Part *part;
+  hsize_t     index;
+  double      time;
+  PetscInt    step; /* from 1 */
+} Saved;
+
+#define PARTS 4096 /* most parts */
 struct _n_SamResults {
-  Facts     facts;
-  SamGrid   grid;
-  SamFile   file;
-  hid_t     field[SAM_RESULTS_FIELDS];
-  double   *saved_time;
-  PetscInt *saved_step;
+  SamGrid  grid;
+  PetscInt count, saves;
+  Part    *part[PARTS];
+  Saved   *saved;
 };
 
 /* ---- examination, by one rank ---- */
@@ -120,7 +138,6 @@ static PetscErrorCode ExamineFields(SamFile f, Facts *facts)
   for (int k = 0; k < SAM_RESULTS_FIELDS; k++)
     CHECK(f, !facts->has[k] || SamFileIsWhole(f, dataset[k], shape, PETSC_TRUE),
           "it is damaged: %s is not in it as a whole", fields[k]);
-  CHECK(f, facts->saved > 0, "no step has been saved in it");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -163,6 +180,8 @@ static PetscErrorCode Look(SamFile f, const void *question, void *answer)
   GetParameters(f, &facts->parameters);
   GetText(f, "options", sizeof(facts->options), facts->options);
   if (SamFileHasAttribute(f, SAM_OUTPUT_BRANCH)) PetscCall(GetNumbers(f, SAM_OUTPUT_BRANCH, 1, &facts->first));
+  GetText(f, SAM_OUTPUT_IDENTITY, sizeof(facts->identity), facts->identity);
+  GetText(f, SAM_OUTPUT_FOLLOWS, sizeof(facts->follows), facts->follows);
   CHECK(f, IsPlausible(facts), "its parameters are not those of a run of petsam");
   PetscCall(ExamineFields(f, facts));
   for (int n = 0; n < SAM_RESULTS_NUMBERS; n++) PetscCall(ExamineColumn(f, facts, numbers[n], &facts->number[n]));
@@ -186,31 +205,98 @@ static void ReadSeries(SamFile file, const char name[], hsize_t first, hsize_t c
   (void)SamFileNote(file, H5Dclose(dataset));
 }
 
-/* Times, and the load steps that the saved ones are. */
-static PetscErrorCode ReadTimes(SamResults r)
+/* Opens a part and adds its saved steps; a step may be saved in the part before already. */
+static PetscErrorCode ReadTimes(SamResults r, Part *part)
 {
-  const hsize_t steps = r->facts.steps, saved = r->facts.saved;
-  double       *times;
-  hsize_t       step = 0;
+  const Facts  *facts = &part->facts;
+  const hsize_t steps = facts->steps, saved = facts->saved;
+  double       *times, *saves;
+  hsize_t       row = 0;
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc1(steps + 1, &times));
-  PetscCall(PetscCalloc1(saved, &r->saved_time));
-  PetscCall(PetscCalloc1(saved, &r->saved_step));
-  PetscCall(SamFileBegin(r->file));
-  ReadSeries(r->file, "/history/time", 0, steps, times);
-  ReadSeries(r->file, "/time", 0, saved, r->saved_time);
+  PetscCall(PetscCalloc1(saved + 1, &saves));
+  PetscCall(PetscRealloc(sizeof(Saved) * ((size_t)r->saves + saved + 1), &r->saved));
+  PetscCall(SamFileBegin(part->file));
+  ReadSeries(part->file, "/history/time", 0, steps, times);
+  ReadSeries(part->file, "/time", 0, saved, saves);
   for (int k = 0; k < SAM_RESULTS_FIELDS; k++)
-    if (r->facts.has[k]) r->field[k] = SamFileNote(r->file, H5Dopen2(r->file->id, fields[k], H5P_DEFAULT));
-  PetscCall(SamFileEnd(r->file));
+    if (facts->has[k]) part->field[k] = SamFileNote(part->file, H5Dopen2(part->file->id, fields[k], H5P_DEFAULT));
+  PetscCall(SamFileEnd(part->file));
   for (hsize_t k = 0; k < saved; k++) {
-    while (step < steps && times[step] < r->saved_time[k]) step++;
-    r->saved_step[k] = (PetscInt)r->facts.first + (PetscInt)step + 1;
-    if (step < steps && times[step] == r->saved_time[k]) continue;
-    r->facts.saved = k; /* a run that was killed may leave fields without their row */
-    break;
+    const PetscBool before = r->count > 1 && k == 0 && steps && saves[0] < times[0]; /* the last step before the part */
+    PetscInt        step;
+
+    while (row < steps && times[row] < saves[k]) row++;
+    step = (PetscInt)facts->first + (before ? 0 : (PetscInt)row + 1);
+    if (!before && !(row < steps && times[row] == saves[k]))
+      break; /* a killed run may leave fields without their row */
+    if (step <= part->steps && (!r->saves || step > r->saved[r->saves - 1].step))
+      r->saved[r->saves++] = (Saved){part, k, saves[k], step};
   }
   PetscCall(PetscFree(times));
+  PetscCall(PetscFree(saves));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Whether there is a file, by rank 0. */
+static PetscErrorCode Exists(MPI_Comm comm, const char filename[], PetscBool *exists)
+{
+  PetscMPIInt rank;
+  int         there = 0;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  if (!rank) there = !access(filename, F_OK);
+  PetscCallMPI(MPI_Bcast(&there, 1, MPI_INT, 0, comm));
+  *exists = there != 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Examines the part of that number, from 1, and takes it if it follows the one before; it need not be there. */
+static PetscErrorCode FindPart(SamResults r, MPI_Comm comm, const char option[], const char name[], PetscBool *found)
+{
+  Part *const before = r->count ? r->part[r->count - 1] : NULL;
+  Part       *part;
+
+  PetscFunctionBegin;
+  *found = PETSC_TRUE;
+  if (before) PetscCall(Exists(comm, name, found));
+  if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscNew(&part));
+  r->part[r->count++] = part; /* SamResultsDestroy() frees it */
+  PetscCall(SamFileExamine(comm, option, name, Look, NULL, &part->facts, sizeof(part->facts)));
+  part->steps = (PetscInt)part->facts.first + (PetscInt)part->facts.steps;
+  if (!before) PetscFunctionReturn(PETSC_SUCCESS);
+  *found = before->facts.identity[0] && !strcmp(part->facts.follows, before->facts.identity) ? PETSC_TRUE : PETSC_FALSE;
+  if (!*found) {
+    r->count--;
+    PetscCall(PetscFree(part));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCheck(part->facts.n[0] == before->facts.n[0] && part->facts.n[1] == before->facts.n[1] &&
+               part->facts.first >= before->facts.first && (PetscInt)part->facts.first <= before->steps,
+             comm, SAM_ERR_FILE,
+             "-%s %s: cannot be read: it does not fit the part before it, whose steps are %ld to %ld", option, name,
+             (long)before->facts.first + 1, (long)before->steps);
+  before->steps = (PetscInt)part->facts.first;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode FindParts(SamResults r, MPI_Comm comm, const char option[], const char filename[])
+{
+  PetscBool found = PETSC_TRUE;
+
+  PetscFunctionBegin;
+  while (found && r->count < PARTS) {
+    char          *name;
+    PetscErrorCode ierr;
+
+    PetscCall(SamOutputNamePart(filename, r->count + 1, &name));
+    ierr = FindPart(r, comm, option, name, &found);
+    PetscCall(PetscFree(name));
+    PetscCall(ierr);
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -224,16 +310,24 @@ PetscErrorCode SamResultsOpen(MPI_Comm comm, const char option[], const char fil
   PetscCall(SamInitialize());
   PetscCall(PetscNew(&r));
   *results = r;
-  PetscCall(SamFileExamine(comm, option, filename, Look, NULL, &r->facts, sizeof(r->facts)));
+  PetscCall(FindParts(r, comm, option, filename));
   for (int k = 0; k < 2; k++) {
-    n[k]      = (PetscInt)r->facts.n[k];
-    width[k]  = (PetscReal)r->facts.width[k];
-    center[k] = (PetscReal)r->facts.center[k];
+    n[k]      = (PetscInt)r->part[0]->facts.n[k];
+    width[k]  = (PetscReal)r->part[0]->facts.width[k];
+    center[k] = (PetscReal)r->part[0]->facts.center[k];
   }
   PetscCall(SamGridCreate(comm, n, width, center, &r->grid));
-  PetscCall(SamFileOpen(r->grid, SAM_EVENT_OUTPUT, option, filename, SAM_FILE_READ, &r->file));
-  PetscCall(ReadTimes(r));
-  PetscCheck(r->facts.saved > 0, comm, SAM_ERR_FILE, "-%s %s: cannot be read: no step has been saved in it", option,
+  for (PetscInt k = 0; k < r->count; k++) {
+    char          *name;
+    PetscErrorCode ierr;
+
+    PetscCall(SamOutputNamePart(filename, k + 1, &name));
+    ierr = SamFileOpen(r->grid, SAM_EVENT_OUTPUT, option, name, SAM_FILE_READ, &r->part[k]->file);
+    PetscCall(PetscFree(name));
+    PetscCall(ierr);
+    PetscCall(ReadTimes(r, r->part[k]));
+  }
+  PetscCheck(r->saves > 0, comm, SAM_ERR_FILE, "-%s %s: cannot be read: no step has been saved in it", option,
              filename);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -245,9 +339,11 @@ PetscErrorCode SamResultsDestroy(SamResults *results)
   PetscFunctionBegin;
   *results = NULL;
   if (!r) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamFileDestroy(&r->file, PETSC_TRUE));
-  PetscCall(PetscFree(r->saved_time));
-  PetscCall(PetscFree(r->saved_step));
+  for (PetscInt k = 0; k < r->count; k++) {
+    PetscCall(SamFileDestroy(&r->part[k]->file, PETSC_TRUE));
+    PetscCall(PetscFree(r->part[k]));
+  }
+  PetscCall(PetscFree(r->saved));
   PetscCall(SamGridDestroy(&r->grid));
   PetscCall(PetscFree(r));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -265,78 +361,90 @@ PetscErrorCode SamResultsGetGrid(SamResults r, SamGrid *grid)
 PetscErrorCode SamResultsGetParameters(SamResults r, const SamParameters **parameters)
 {
   PetscFunctionBegin;
-  *parameters = &r->facts.parameters;
+  *parameters = &r->part[0]->facts.parameters;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamResultsGetOptions(SamResults r, const char **options)
 {
   PetscFunctionBegin;
-  *options = r->facts.options;
+  *options = r->part[0]->facts.options;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamResultsGetSteps(SamResults r, PetscInt *steps, PetscInt *saved)
 {
   PetscFunctionBegin;
-  if (steps) *steps = (PetscInt)r->facts.first + (PetscInt)r->facts.steps;
-  if (saved) *saved = (PetscInt)r->facts.saved;
+  if (steps) *steps = r->part[r->count - 1]->steps;
+  if (saved) *saved = r->saves;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamResultsGetSaved(SamResults r, PetscInt k, PetscInt *step, PetscReal *time)
 {
   PetscFunctionBegin;
-  PetscCheck(k >= 0 && k < (PetscInt)r->facts.saved, r->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-             "Saved step %" PetscInt_FMT " of %" PetscInt_FMT, k, (PetscInt)r->facts.saved);
-  if (step) *step = r->saved_step[k];
-  if (time) *time = (PetscReal)r->saved_time[k];
+  PetscCheck(k >= 0 && k < r->saves, r->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
+             "Saved step %" PetscInt_FMT " of %" PetscInt_FMT, k, r->saves);
+  if (step) *step = r->saved[k].step;
+  if (time) *time = (PetscReal)r->saved[k].time;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Raises an error if a value on any rank is no finite number. */
-static PetscErrorCode CheckFinite(SamResults r, PetscInt n, const double values[], const char name[], PetscInt step)
+static PetscErrorCode CheckFinite(const Part *part, PetscInt n, const double values[], const char name[], PetscInt step)
 {
   PetscReal wrong = 0;
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < n && wrong == 0; k++) wrong = isfinite(values[k]) ? 0 : 1;
-  PetscCall(SamMax(r->grid->comm, 1, &wrong));
-  PetscCheck(wrong == 0, r->grid->comm, SAM_ERR_FILE,
-             "-%s %s: %s of step %" PetscInt_FMT " has values that are no finite numbers", r->file->option,
-             r->file->filename, name, step);
+  PetscCall(SamMax(part->file->comm, 1, &wrong));
+  PetscCheck(wrong == 0, part->file->comm, SAM_ERR_FILE,
+             "-%s %s: %s of step %" PetscInt_FMT " has values that are no finite numbers", part->file->option,
+             part->file->filename, name, step);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamResultsRead(SamResults r, PetscInt k, SamResultsField field, double values[])
 {
+  const Part *const part = r->saved[k].part;
+
   PetscFunctionBegin;
-  PetscCheck(r->facts.has[field], r->grid->comm, SAM_ERR_FILE, "-%s %s: has no dataset %s", r->file->option,
-             r->file->filename, fields[field]);
-  PetscCall(SamFileBegin(r->file));
-  SamFileReadFrame(r->file, r->field[field], H5T_NATIVE_DOUBLE, (hsize_t)k, values);
-  PetscCall(SamFileEnd(r->file));
-  PetscCall(CheckFinite(r, r->grid->cells, values, fields[field], r->saved_step[k]));
+  PetscCheck(part->facts.has[field], r->grid->comm, SAM_ERR_FILE, "-%s %s: has no dataset %s", part->file->option,
+             part->file->filename, fields[field]);
+  PetscCall(SamFileBegin(part->file));
+  SamFileReadFrame(part->file, part->field[field], H5T_NATIVE_DOUBLE, r->saved[k].index, values);
+  PetscCall(SamFileEnd(part->file));
+  PetscCall(CheckFinite(part, r->grid->cells, values, fields[field], r->saved[k].step));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The part that a step, from 1, is in. */
+static const Part *PartOf(SamResults r, PetscInt step)
+{
+  PetscInt k = 0;
+
+  while (k + 1 < r->count && step > r->part[k]->steps) k++;
+  return r->part[k];
+}
+
 /* A value of a column of the history, at a step from 1. */
-static PetscErrorCode ReadNumber(SamResults r, const char column[], PetscInt step, double *value)
+static PetscErrorCode ReadNumber(const Part *part, const char column[], PetscInt step, double *value)
 {
   char name[64];
 
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(name, sizeof(name), "/history/%s", column));
-  PetscCall(SamFileBegin(r->file));
-  ReadSeries(r->file, name, (hsize_t)(step - (PetscInt)r->facts.first) - 1, 1, value);
-  PetscCall(SamFileEnd(r->file));
-  PetscCall(CheckFinite(r, 1, value, name, step));
+  PetscCall(SamFileBegin(part->file));
+  ReadSeries(part->file, name, (hsize_t)(step - (PetscInt)part->facts.first) - 1, 1, value);
+  PetscCall(SamFileEnd(part->file));
+  PetscCall(CheckFinite(part, 1, value, name, step));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamResultsReadConditions(SamResults r, PetscInt step, SamConditions conditions, SamControl *control)
 {
-  const SamParameters *p = &r->facts.parameters;
+  const Part *const          part = PartOf(r, step);
+  const SamParameters *const p    = &part->facts.parameters;
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < SamConditionsCount(conditions); k++) {
@@ -344,7 +452,7 @@ PetscErrorCode SamResultsReadConditions(SamResults r, PetscInt step, SamConditio
     const SamParameter *given = SamParametersFind(p, one->name);
     double              value = (double)one->usual;
 
-    if (given && r->facts.column[given - p->list]) PetscCall(ReadNumber(r, one->name, step, &value));
+    if (given && part->facts.column[given - p->list]) PetscCall(ReadNumber(part, one->name, step, &value));
     SamControlSetCondition(control, one, value);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -352,8 +460,10 @@ PetscErrorCode SamResultsReadConditions(SamResults r, PetscInt step, SamConditio
 
 PetscErrorCode SamResultsReadNumber(SamResults r, PetscInt step, SamResultsNumber number, double *value)
 {
+  const Part *const part = PartOf(r, step);
+
   PetscFunctionBegin;
   *value = 0;
-  if (r->facts.number[number]) PetscCall(ReadNumber(r, numbers[number], step, value));
+  if (part->facts.number[number]) PetscCall(ReadNumber(part, numbers[number], step, value));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -51,7 +51,7 @@ static int MoveEnd(const char filename[], off_t end_of_data)
 */
 static void CutUnused(SamOutput o)
 {
-  const off_t unused = o->f->rank == 0 && !o->copying ? SamFileFindUnused(o->f) : -1;
+  const off_t unused = o->f->rank == 0 ? SamFileFindUnused(o->f) : -1;
 
   if (unused > 0 && o->hold.file >= 0 && !MoveEnd(o->f->filename, unused)) (void)!ftruncate(o->hold.file, unused);
 }
@@ -103,12 +103,8 @@ static void GatherColumn(const SamStateNumber *number, PetscInt id, const double
   }
 }
 
-/*
-  Appends rows of all numbers of its state to a series; or, with `from`, those of another file from `first` on, of which
-  the one row given has the columns that are not there.
-*/
-static PetscErrorCode AppendRows(SamOutput o, SamSeries kind, const double rows[], PetscInt count, SamOutput from,
-                                 hsize_t first)
+/* Appends rows of all numbers of its state to a series. */
+static PetscErrorCode AppendRows(SamOutput o, SamSeries kind, const double rows[], PetscInt count)
 {
   const SamState state = o->state[kind];
   double        *values;
@@ -121,40 +117,13 @@ static PetscErrorCode AppendRows(SamOutput o, SamSeries kind, const double rows[
     const PetscBool       whole = n->kind == SAM_NUMBER_INT || n->kind == SAM_NUMBER_STATUS;
     const hid_t           type  = whole ? H5T_NATIVE_INT64 : H5T_NATIVE_DOUBLE;
 
-    if (o->columns[kind][c] < 0) continue; /* no result, or a column that this file does not have */
-    if (from && from->columns[kind][c] >= 0)
-      SamOutputReadSeries(from, from->columns[kind][c], type, first, (hsize_t)count, values);
-    else
-      GatherColumn(n, id, rows, from ? 0 : o->values[kind], count, values);
+    if (o->columns[kind][c] < 0) continue; /* no result */
+    GatherColumn(n, id, rows, o->values[kind], count, values);
     Append(o, o->columns[kind][c], type, o->rows[kind], (hsize_t)count,
            n->kind == SAM_NUMBER_MATRIX ? SAM_COMPONENTS : 1, values);
   }
   o->rows[kind] += (hsize_t)count;
   PetscCall(PetscFree(values));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamOutputCopySeries(SamOutput o, SamSeries kind, SamOutput from, hsize_t count)
-{
-  const SamState state = o->state[kind];
-  double         missing[SAM_STATE_NUMBERS];
-  PetscErrorCode ierr;
-
-  PetscFunctionBegin;
-  for (PetscInt c = 0; state && c < SamStateCountNumbers(state); c++) {
-    PetscInt              id;
-    const SamStateNumber *n = SamStateNumberOf(state, c, &id);
-
-    for (PetscInt k = 0; k < n->count; k++) missing[id + k] = SamStateMissingNumber(state, c);
-  }
-  PetscCall(SamFileBegin(o->f));
-  PetscCall(SamFileBegin(from->f));
-  for (hsize_t k = 0; k < count; k += SAM_OUTPUT_WAIT)
-    PetscCall(AppendRows(o, kind, missing, (PetscInt)PetscMin((hsize_t)SAM_OUTPUT_WAIT, count - k), from, k));
-  PetscCall(SamFileEnd(from->f));
-  ierr = SamFileEnd(o->f);
-  if (ierr) o->broken = PETSC_TRUE;
-  PetscCall(ierr);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -175,15 +144,59 @@ static void AppendSingle(SamOutput o, hid_t dataset, const double values[])
   AppendField(o, dataset, H5T_NATIVE_FLOAT, o->singles);
 }
 
-static PetscErrorCode AppendFields(SamOutput o, SamOutputValues values, void *context)
+/* A field of the contact whose array is in use. */
+typedef struct {
+  Vec           field; /* whose array is in use; NULL: none */
+  const double *array;
+} ContactFields;
+
+static PetscErrorCode Release(ContactFields *from)
 {
+  PetscFunctionBegin;
+  if (from->field) PetscCall(VecRestoreArrayRead(from->field, &from->array));
+  from->field = NULL;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode GetValues(SamOutput o, PetscInt f, ContactFields *from, const void **values)
+{
+  const SamStateResult *field = SamOutputResult(o, f);
+  const PetscInt        cells = o->grid->cells;
+  const SamSolution    *solution;
+  PetscInt              component;
+  SamEdge               edge;
+
+  PetscFunctionBegin;
+  PetscCall(Release(from));
+  if (field->kind == SAM_FIELD_POINTS) {
+    PetscCall(SamContactFindEdge(o->set.contact, (SamEdgeOf)field->component, NULL, &edge));
+    PetscCall(SamOutputGatherPoints(o, &edge));
+    PetscCall(SamEdgeDestroy(&edge));
+    *values = &o->points;
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(SamContactGetSolution(o->set.contact, &solution)); /* makes the displacements */
+  if (!o->work) PetscCall(SamGridCreateVec(o->grid, 1, &o->work));
+  PetscCall(SamStateFindValues(o->state[SAM_SERIES_HISTORY], f, o->work, &from->field, &component));
+  PetscCall(VecGetArrayRead(from->field, &from->array));
+  *values = from->array + component * cells;
+  if (field->kind == SAM_FIELD_REAL) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt k = 0; k < cells; k++) o->states[k] = (signed char)from->array[k];
+  *values = o->states;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode AppendFields(SamOutput o)
+{
+  ContactFields from = {.field = NULL};
+
   PetscFunctionBegin;
   if (o->set.single && !o->singles) PetscCall(PetscMalloc1(o->grid->cells, &o->singles));
   for (PetscInt f = 0; f < SamOutputCount(o); f++) {
-    const void *cells;
+    const void *cells = NULL;
 
     if (o->fields[f] < 0) continue;
-    PetscCall(values(o, f, context, &cells));
+    PetscCall(GetValues(o, f, &from, &cells));
     switch (SamOutputResult(o, f)->kind) {
     case SAM_FIELD_POINTS:
       SamOutputAppendPoints(o, o->fields[f], o->saved, (const SamOutputPoints *)cells);
@@ -199,6 +212,7 @@ static PetscErrorCode AppendFields(SamOutput o, SamOutputValues values, void *co
       break;
     }
   }
+  PetscCall(Release(&from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -210,11 +224,12 @@ static PetscErrorCode AppendFields(SamOutput o, SamOutputValues values, void *co
 */
 static PetscErrorCode Begin(SamOutput o, off_t bytes)
 {
-  PetscErrorCode ierr = 0;
+  PetscErrorCode ierr;
 
   PetscFunctionBegin;
-  if (!o->copying) ierr = SamHoldCheck(o->grid, "output", o->f->filename, &o->hold);
-  if (!o->copying && !ierr) ierr = SamFileReserve(o->f, bytes);
+  ierr = SamOutputPublish(o);
+  if (!ierr) ierr = SamHoldCheck(o->grid, "output", o->f->filename, &o->hold);
+  if (!ierr) ierr = SamFileReserve(o->f, bytes);
   if (ierr) o->waits = 0;
   PetscCall(ierr);
   PetscCall(SamFileBegin(o->f));
@@ -226,7 +241,7 @@ static PetscErrorCode WriteWaiting(SamOutput o)
 {
   PetscFunctionBegin;
   if (!o->waits) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(AppendRows(o, SAM_SERIES_HISTORY, o->waiting, o->waits, NULL, 0));
+  PetscCall(AppendRows(o, SAM_SERIES_HISTORY, o->waiting, o->waits));
   o->waits = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -236,7 +251,7 @@ static PetscErrorCode End(SamOutput o)
   PetscErrorCode ierr;
 
   PetscFunctionBegin;
-  if (!o->copying) PetscCall(Flush(o));
+  PetscCall(Flush(o));
   ierr = SamFileEnd(o->f);
   if (ierr) o->broken = PETSC_TRUE;
   PetscCall(ierr);
@@ -267,11 +282,15 @@ static PetscErrorCode CheckWhole(SamOutput o)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamOutputAppend(SamOutput o, const double step[], PetscReal time, SamOutputValues values, void *context)
+/*
+  Appends the numbers of a step, all of the state (NULL: none), and its fields if asked for. Without fields the numbers
+  may wait (SamOutputFlush()); otherwise the file is flushed.
+*/
+static PetscErrorCode Write(SamOutput o, const double step[], PetscReal time, PetscBool fields)
 {
   const PetscInt n   = o->values[SAM_SERIES_HISTORY];
   const double   now = (double)time;
-  PetscBool      due = values != NULL;
+  PetscBool      due = fields;
 
   PetscFunctionBegin;
   PetscCall(CheckWhole(o));
@@ -279,25 +298,16 @@ PetscErrorCode SamOutputAppend(SamOutput o, const double step[], PetscReal time,
   if (step) PetscCall(PetscArraycpy(o->waiting + n * o->waits++, step, n));
   if (!due) PetscCall(IsDue(o, &due));
   if (!due) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(Begin(o, values ? SamOutputFieldBytes(o) : 0));
+  PetscCall(Begin(o, fields ? SamOutputFieldBytes(o) : 0));
   PetscCall(WriteWaiting(o));
-  if (values) {
+  if (fields) {
     Append(o, o->time, H5T_NATIVE_DOUBLE, o->saved, 1, 1, &now);
-    PetscCall(AppendFields(o, values, context));
+    PetscCall(AppendFields(o));
     SamFileCountVTK(o->f, o->vtk_steps, (int64_t)o->saved + 1);
     o->saved_time = time;
   }
   PetscCall(End(o));
-  o->saved += values ? 1 : 0;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamOutputEndCopy(SamOutput o)
-{
-  PetscFunctionBegin;
-  PetscCall(SamFileBegin(o->f));
-  o->copying = PETSC_FALSE;
-  PetscCall(End(o));
+  o->saved += fields ? 1 : 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -309,61 +319,6 @@ PetscErrorCode SamOutputFlush(SamOutput o)
   PetscCall(Begin(o, 0));
   PetscCall(WriteWaiting(o));
   PetscCall(End(o));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* ---- fields of a contact ---- */
-
-/* Gives SamOutputAppend() the fields of a contact. */
-typedef struct {
-  Vec           field; /* whose array is in use; NULL: none */
-  const double *array;
-} ContactFields;
-
-static PetscErrorCode Release(ContactFields *from)
-{
-  PetscFunctionBegin;
-  if (from->field) PetscCall(VecRestoreArrayRead(from->field, &from->array));
-  from->field = NULL;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode GetContactValues(SamOutput o, PetscInt f, void *context, const void **values)
-{
-  const SamStateResult *field = SamOutputResult(o, f);
-  const PetscInt        cells = o->grid->cells;
-  ContactFields        *from  = (ContactFields *)context;
-  const SamSolution    *solution;
-  PetscInt              component;
-  SamEdge               edge;
-
-  PetscFunctionBegin;
-  PetscCall(Release(from));
-  if (field->kind == SAM_FIELD_POINTS) {
-    PetscCall(SamContactFindEdge(o->set.contact, (SamEdgeOf)field->component, NULL, &edge));
-    PetscCall(SamOutputGatherPoints(o, &edge));
-    PetscCall(SamEdgeDestroy(&edge));
-    *values = &o->points;
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  PetscCall(SamContactGetSolution(o->set.contact, &solution)); /* makes the displacements */
-  if (!o->work) PetscCall(SamGridCreateVec(o->grid, 1, &o->work));
-  PetscCall(SamStateFindValues(o->state[SAM_SERIES_HISTORY], f, o->work, &from->field, &component));
-  PetscCall(VecGetArrayRead(from->field, &from->array));
-  *values = from->array + component * cells;
-  if (field->kind == SAM_FIELD_REAL) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt k = 0; k < cells; k++) o->states[k] = (signed char)from->array[k];
-  *values = o->states;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode Write(SamOutput o, const double step[], PetscReal time, PetscBool fields)
-{
-  ContactFields from = {.field = NULL};
-
-  PetscFunctionBegin;
-  PetscCall(SamOutputAppend(o, step, time, fields ? GetContactValues : NULL, &from));
-  PetscCall(Release(&from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -390,8 +345,7 @@ PetscErrorCode SamOutputWriteCycle(SamOutput o)
   PetscCall(CheckWhole(o));
   PetscCall(Begin(o, 0));
   PetscCall(WriteWaiting(o));
-  PetscCall(
-    AppendRows(o, SAM_SERIES_CYCLES, SamStateNumbers(o->state[SAM_SERIES_CYCLES], 0, SAM_COMMITTED), 1, NULL, 0));
+  PetscCall(AppendRows(o, SAM_SERIES_CYCLES, SamStateNumbers(o->state[SAM_SERIES_CYCLES], 0, SAM_COMMITTED), 1));
   PetscCall(End(o));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -111,16 +111,16 @@ static PetscBool TimeIsUp(const SamCheckpoints *cp, double now)
 /* What a checkpoint notes besides the state of the contact. */
 typedef union {
   struct {
-    uint64_t steps, worst, rows, times;
+    uint64_t steps, worst, rows;
     double   cycles, next, jump, error; /* of a life */
     uint64_t computed, by_turns;
   } at;
-  uint64_t word[10];
+  uint64_t word[9];
 } Progress;
 
 typedef struct {
   Progress progress;
-  uint64_t loads[COLUMNS], results[RESULTS], begin[2];
+  uint64_t loads[COLUMNS], results[RESULTS], part[2];
   uint64_t condition[SAM_CONDITIONS]; /* of each, its column of the load history; 0: as usual */
   char     name[SAM_CONDITIONS][64];
   SamNote  note[NOTES + SAM_CONDITIONS];
@@ -134,10 +134,10 @@ static void ListNotes(SamConditions conditions, Notes *n)
     (void)snprintf(n->name[k], sizeof(n->name[k]), "load_program_%s", SamConditionsGet(conditions, k)->name);
     n->note[n->count++] = (SamNote){n->name[k], -1, &n->condition[k]};
   }
-  n->note[0] = (SamNote){"progress", 10, n->progress.word};
+  n->note[0] = (SamNote){"progress", 9, n->progress.word};
   n->note[1] = (SamNote){"load_program", COLUMNS, n->loads};
   n->note[2] = (SamNote){"results", -(PetscInt)RESULTS, n->results};
-  n->note[3] = (SamNote){"results_begin", -2, n->begin};
+  n->note[3] = (SamNote){"results_part", -2, n->part};
 }
 
 /*
@@ -185,7 +185,6 @@ static PetscErrorCode Write(SamSimulation s)
   n.progress.at.steps    = (uint64_t)p->steps;
   n.progress.at.worst    = (uint64_t)p->worst;
   n.progress.at.rows     = (uint64_t)p->rows;
-  n.progress.at.times    = p->times;
   n.progress.at.cycles   = life.cycles;
   n.progress.at.next     = life.next;
   n.progress.at.jump     = life.jump;
@@ -193,8 +192,8 @@ static PetscErrorCode Write(SamSimulation s)
   n.progress.at.computed = (uint64_t)life.computed;
   n.progress.at.by_turns = life.by_turns;
   memcpy(n.results, p->results, sizeof(n.results));
-  n.begin[0] = (uint64_t)p->first;
-  n.begin[1] = (uint64_t)p->first_row;
+  n.part[0] = (uint64_t)p->part;
+  n.part[1] = p->identity;
   PetscCall(ChecksumColumns(s, s->life ? s->needs.steps : p->steps, n.loads, n.condition));
   ListNotes(s->conditions, &n);
   PetscCall(SamCheckpointWrite(cp->files, s->setup.contact, &s->parameters, n.count, n.note));
@@ -247,9 +246,8 @@ PetscErrorCode SamSimulationRestart(SamSimulation s)
   p->steps     = (PetscInt)n.progress.at.steps;
   p->worst     = (SamStatus)n.progress.at.worst;
   p->rows      = (PetscInt)n.progress.at.rows;
-  p->times     = n.progress.at.times;
-  p->first     = (PetscInt)n.begin[0];
-  p->first_row = (PetscInt)n.begin[1];
+  p->part      = (PetscInt)n.part[0];
+  p->identity  = n.part[1];
   p->restarted = PETSC_TRUE;
   life         = (SamLifeState){.cycles   = n.progress.at.cycles,
                                 .next     = n.progress.at.next,

@@ -65,7 +65,6 @@ static PetscErrorCode WriteStep(void *context, PetscInt step, PetscReal cycles, 
   PetscCall(Place(s, cycles, told.control.time));
   if (s->needs.stiffness) PetscCall(SamStiffnessRecord(s->setup.contact, &told));
   s->point.steps++;
-  s->point.times = SamOutputAddTime(s->point.times, told.control.time);
   PetscCall(SamSimulationTell(
     s, &(SamSimulationNews){.kind = SAM_NEWS_CYCLE_STEP, .step = s->point.steps - 1, .result = &told}));
   PetscCall(SamSimulationWriteStep(s, &told, due || failed));

@@ -1,6 +1,7 @@
-/* The results file of a simulation: created, gone on with, or begun as a branch; and how large it will be. */
+/* The results of a simulation: a new file, the next part, or a branch; and how large the file will be. */
 #include "simulationimpl.h"
 #include <petsam/private/file.h>
+#include <petsam/private/parts.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -11,7 +12,10 @@ static PetscErrorCode Create(SamSimulation s)
   char *all;
 
   PetscFunctionBegin;
-  PetscCall(SamOutputCreate(s->setup.grid, s->filename, &s->output_settings, &s->output));
+  PetscCall(PetscFree(s->written));
+  PetscCall(SamOutputNamePart(s->filename, s->point.part, &s->written));
+  PetscCall(SamOutputCreate(s->setup.grid, s->written, &s->output_settings, &s->output));
+  PetscCall(SamOutputGetIdentity(s->output, &s->point.identity));
   PetscCall(PetscOptionsGetAll(NULL, &all));
   PetscCall(SamOutputSetText(s->output, "options", all));
   PetscCall(PetscFree(all));
@@ -19,36 +23,49 @@ static PetscErrorCode Create(SamSimulation s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Opens the results of the stopped simulation, up to its checkpoint. */
+/* A file of the steps after the checkpoint, which follow those of the file of that identity; 0: none. */
+static PetscErrorCode Follow(SamSimulation s, uint64_t identity)
+{
+  SamSimulationPoint *p = &s->point;
+
+  PetscFunctionBegin;
+  PetscCall(Create(s));
+  PetscCall(SamOutputFollow(s->output, identity, p->steps, p->rows));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The next part of the results of the stopped simulation. */
 static PetscErrorCode Continue(SamSimulation s)
 {
-  const SamSimulationPoint *p     = &s->point;
-  const SamOutputPoint      point = {
-         .first = p->first, .steps = p->steps - p->first, .cycles = p->rows - p->first_row, .times = p->times};
-  SamControl last;
+  SamSimulationPoint *p        = &s->point;
+  const uint64_t      identity = p->identity;
+  SamControl          last;
+  char               *before;
+  PetscErrorCode      ierr;
 
   PetscFunctionBegin;
   if (!s->life) {
     PetscCall(SamHistoryGetStep(s->history, p->steps - 1, &last));
     s->last_time = last.time;
   }
-  PetscCall(SamOutputContinue(s->setup.grid, s->filename, &s->output_settings, &s->parameters, &point, &s->output));
+  PetscCall(SamOutputNamePart(s->filename, PetscMax(p->part, 1), &before));
+  ierr = SamOutputCheckPart(s->setup.grid, before, identity);
+  PetscCall(PetscFree(before));
+  PetscCall(ierr);
+  p->part++;
+  PetscCall(Follow(s, identity));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A file of the steps after the checkpoint. It says what they follow. */
+/* A file with results of its own. It says what they follow. */
 static PetscErrorCode Branch(SamSimulation s)
 {
-  SamSimulationPoint *p    = &s->point;
-  const PetscReal     step = (PetscReal)p->steps;
+  SamSimulationPoint *p = &s->point;
   SamLifeState        life;
 
   PetscFunctionBegin;
-  p->first     = p->steps;
-  p->first_row = p->rows;
-  p->times     = 0;
-  PetscCall(Create(s));
-  PetscCall(SamOutputSetReals(s->output, SAM_OUTPUT_BRANCH, 1, &step));
+  p->part = 1;
+  PetscCall(Follow(s, 0));
   PetscCall(SamOutputSetText(s->output, "branch_checkpoint", s->checkpoints.restart));
   PetscCall(SamOutputSetText(s->output, "branch_results", p->results[0] ? p->results : "none"));
   PetscCall(SamOutputSetText(s->output, "branch_gap", s->checkpoints.other_gap ? "of this run" : "as before"));
@@ -90,6 +107,7 @@ PetscErrorCode SamSimulationOpenResults(SamSimulation s)
     else /* where the stopped run's own file is missing, that is an error */
       PetscCall(Continue(s));
   } else {
+    s->point.part = 1;
     PetscCall(Create(s));
   }
   PetscCall(PetscStrncpy(s->point.results, s->filename, sizeof(s->point.results)));
@@ -118,49 +136,45 @@ static PetscInt CountSaved(SamSimulation s, PetscInt first, PetscInt last)
   return count;
 }
 
-/* The size of the whole file, and what is still to come of it. In a life the cycles that will be computed count not. */
-static PetscErrorCode Estimate(SamSimulation s, double *whole, double *rest)
+/* The size of the file. In a life the cycles that will be computed count not. */
+static PetscErrorCode Estimate(SamSimulation s, double *bytes)
 {
-  const SamSimulationPoint *p    = &s->point;
-  const PetscInt            last = s->needs.steps;
-  PetscInt                  start, cycles;
+  const PetscInt last = s->needs.steps, done = s->point.steps;
+  PetscInt       start, cycles;
 
   PetscFunctionBegin;
   if (s->life) {
     PetscCall(SamHistoryGetIncrements(s->history, &start));
     cycles = SamPlanCountOutputs(&s->plan);
     PetscCall(SamOutputForecast(s->output, (double)cycles * (double)(last - start),
-                                (double)cycles * (double)CountSaved(s, 0, last - start), whole));
-    *rest = *whole;
-    PetscFunctionReturn(PETSC_SUCCESS);
+                                (double)cycles * (double)CountSaved(s, 0, last - start), bytes));
+  } else {
+    PetscCall(SamOutputForecast(s->output, (double)(last - done), (double)CountSaved(s, done, last), bytes));
   }
-  PetscCall(SamOutputForecast(s->output, (double)(last - p->first), (double)CountSaved(s, p->first, last), whole));
-  PetscCall(SamOutputForecast(s->output, (double)(last - p->steps), (double)CountSaved(s, p->steps, last), rest));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamSimulationForecast(SamSimulation s, char text[], size_t size)
 {
-  double whole, rest, space;
-  char   words[3][32];
+  double bytes, space;
+  char   words[2][32];
   char   advice[PETSC_MAX_PATH_LEN + 200];
 
   PetscFunctionBegin;
-  PetscCall(Estimate(s, &whole, &rest));
+  PetscCall(Estimate(s, &bytes));
   PetscCall(SamFileGetSpace(s->setup.grid, "output", s->filename, &space));
-  SamDescribeBytes(whole, words[0], sizeof(words[0]));
-  SamDescribeBytes(rest, words[1], sizeof(words[1]));
-  SamDescribeBytes(space, words[2], sizeof(words[2]));
+  SamDescribeBytes(bytes, words[0], sizeof(words[0]));
+  SamDescribeBytes(space, words[1], sizeof(words[1]));
   (void)snprintf(text, size, "%s %s, %s free there",
                  s->life                           ? "at least"
                  : s->output_settings.compress > 0 ? "at most"
                                                    : "about",
-                 words[0], words[2]);
-  if (rest <= space) PetscFunctionReturn(PETSC_SUCCESS);
+                 words[0], words[1]);
+  if (bytes <= space) PetscFunctionReturn(PETSC_SUCCESS);
   (void)snprintf(advice, sizeof(advice),
                  "-output %s: needs %s %s, and %s are free there: a larger -output_every, fewer -output_fields, or "
                  "-output_single make it smaller",
-                 s->filename, s->output_settings.compress > 0 ? "up to" : "about", words[1], words[2]);
+                 s->filename, s->output_settings.compress > 0 ? "up to" : "about", words[0], words[1]);
   PetscCall(SamSimulationWarn(s, advice, ""));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -19,6 +19,7 @@ PetscErrorCode SamSimulationDestroy(SamSimulation *simulation)
   PetscFunctionBegin;
   if (!s) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamOutputDestroy(&s->output));
+  PetscCall(PetscFree(s->written));
   PetscCall(SamCheckpointDestroy(&s->checkpoints.files));
   PetscCall(SamLifeDestroy(&s->life));
   PetscCall(SamPlanDestroy(&s->plan));
@@ -242,7 +243,7 @@ static PetscErrorCode Begin(SamSimulation s, PetscBool writes)
   if (writes && s->has_output) PetscCall(SamSimulationOpenResults(s));
   if (!writes && s->has_output) PetscCall(SamOutputPlan(s->setup.grid, &s->output_settings, &s->output));
   if (s->output) {
-    start->results = s->filename;
+    start->results = s->written ? s->written : s->filename;
     PetscCall(SamOutputHasReplaced(s->output, &start->replaced));
     PetscCall(SamSimulationForecast(s, start->size, sizeof(start->size)));
   }
@@ -299,7 +300,7 @@ static PetscErrorCode Finish(SamSimulation s)
     PetscCall(SamOutputGetSaved(s->output, &steps, &saved, NULL));
     PetscCall(PetscSNPrintf(content, sizeof(content), "%" PetscInt_FMT " step%s, fields of %" PetscInt_FMT, steps,
                             steps == 1 ? "" : "s", saved));
-    PetscCall(TellFile(s, s->filename, content));
+    PetscCall(TellFile(s, s->written, content));
   }
   s->writing = PETSC_TRUE;
   PetscCall(SamOutputDestroy(&s->output));
@@ -340,7 +341,6 @@ static PetscErrorCode SolveStep(SamSimulation s, PetscBool *ended)
   if (!*ended) PetscCall(SamContactCommit(s->setup.contact));
   if (*ended || !s->point.worst) s->point.worst = step.status;
   s->point.steps++;
-  s->point.times = SamOutputAddTime(s->point.times, step.control.time);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -10,8 +10,8 @@
 typedef struct {
   PetscInt  steps;                       /* number of steps solved so far, of computed cycles in a life */
   PetscInt  rows;                        /* number of computed cycles that were written */
-  PetscInt  first, first_row;            /* steps, computed cycles, before those of the results file */
-  uint64_t  times;                       /* checksum of the times of the steps of the results file */
+  PetscInt  part;                        /* of the results, from 1; 0: none yet */
+  uint64_t  identity;                    /* of its file */
   SamStatus worst;                       /* worst status of the steps */
   char      results[PETSC_MAX_PATH_LEN]; /* the file, as it was named; empty: none */
   PetscBool restarted;                   /* continues from a checkpoint */
@@ -65,6 +65,7 @@ struct _n_SamSimulation {
   PetscReal              last_time; /* of the last step that was written, s; -infinity: none */
   PetscBool              writing;   /* a collective write is under way */
   char                   filename[PETSC_MAX_PATH_LEN];
+  char                  *written; /* name of the part of the results that is written; NULL: none */
   SamAdvice              advice;
   double                 sums[SAM_STATE_NUMBERS]; /* numbers joined over all steps, for the check of the grid */
 };
@@ -77,8 +78,8 @@ PETSC_INTERN PetscErrorCode SamSimulationTell(SamSimulation simulation, const Sa
 PETSC_INTERN PetscErrorCode SamSimulationWarn(void *simulation, const char text[], const char setting[]);
 /*
   SamSimulationFileExists - whether there is a file of that name, by rank 0. Collective.
-  SamSimulationOpenResults - opens the results. After a restart it extends a file that is there; a new name begins a
-  file with the steps from there on. Collective. Errors: SAM_ERR_FILE, SAM_ERR_USER.
+  SamSimulationOpenResults - opens the results. After a restart they are the next part of those that are there; a new
+  name begins a file with the steps from there on. Collective. Errors: SAM_ERR_FILE, SAM_ERR_USER.
   SamSimulationSaves - whether the fields of a step, from 1 to last, are saved. Not collective.
   SamSimulationForecast - how large the results will be, in words; warns where the disk has not that much space.
   Collective.

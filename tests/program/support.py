@@ -6,11 +6,11 @@ import sys
 from pathlib import Path
 from typing import NamedTuple
 
-import h5py
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
+import petsam  # noqa: E402
 from petsam import closed  # noqa: E402
 
 LOADS = ("load_n", "load_mx", "load_my", "load_tx", "load_ty", "load_mz")
@@ -188,16 +188,27 @@ class Run(NamedTuple):
         return [line for line in self.stderr.splitlines() if line.startswith("petsam: ")]
 
 
+def read_run(path):
+    """All values of a run, in all its parts, by name: x, y, time, fields (steps, ny, nx), history/..., wear/...."""
+    with petsam.open(path) as run:
+        steps = range(len(run.steps))
+        values = {"x": run.x, "y": run.y, "time": run.times, "step": np.array(run.steps)}
+        values.update({name: np.array([run.field(name, k) for k in steps]) for name in run.fields})
+        values.update({f"{name}/{k}": run.edge(name, k) for name in run.edges for k in steps})
+        values.update({f"history/{name}": column for name, column in {**run.history, **run.matrices}.items()})
+        return {**values, **{f"wear/{name}": column for name, column in run.wear.items()}}
+
+
 class Results:
-    """The last step of a results file: fields as attributes (ny, nx), scalars of /history as items."""
+    """The last step of a run's results: fields as attributes (ny, nx), scalars of /history as items."""
 
     def __init__(self, path, run=None):
         self.path, self.run = Path(path), run
-        with h5py.File(path, "r") as f:
-            self.x, self.y = f["x"][:], f["y"][:]
-            self.history = {name: data[-1] for name, data in f["history"].items()}
-            self.attributes = dict(f.attrs)
-            self.saved = f["pressure"].shape[0]
+        with petsam.open(path) as run:
+            self.x, self.y = run.x, run.y
+            self.history = {name: data[-1] for name, data in {**run.history, **run.matrices}.items()}
+            self.attributes = dict(run.parameters)
+            self.saved = len(run.steps)
         self.dx = np.diff(self.x).mean()
         self.dy = np.diff(self.y).mean() if self.y.size > 1 else 1.0  # a plane problem: per metre
         self.xx, self.yy = np.meshgrid(self.x, self.y)
@@ -215,8 +226,8 @@ class Results:
             "wear_passage",
         ):
             raise AttributeError(name)
-        with h5py.File(self.path, "r") as f:
-            value = f[name][-1]
+        with petsam.open(self.path) as run:
+            value = run.field(name)
         setattr(self, name, value)
         return value
 

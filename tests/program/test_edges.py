@@ -53,18 +53,6 @@ def test_unknown_field_is_refused_with_the_names_there_are(petsam, tmp_path):
     assert fields(tmp_path / "out.h5") == {"pressure", "gap"}
 
 
-def test_run_goes_on_with_the_fields_of_its_file(petsam, tmp_path):
-    (tmp_path / "h.csv").write_text("time, load_n\n1, 900\n2, 1000\n3, 1100\n4, 1200\n")
-    case = dict(SPHERE, load_n=None, grid_n=24, history="h.csv", output="out.h5", output_fields="gap,contact_edge")
-    petsam(case, dict(checkpoint="state.h5", checkpoint_every=2))
-    with h5py.File(tmp_path / "out.h5", "r") as file:
-        before = {name: file[name][:] for name in ("gap", "contact_edge")}
-    petsam(dict(case, output_fields=None, restart="state.h5.1"))
-    with h5py.File(tmp_path / "out.h5", "r") as file:
-        assert fields(tmp_path / "out.h5") == {"gap", "contact_edge"}
-        assert all(np.array_equal(file[name][:], before[name], equal_nan=True) for name in before)
-
-
 def test_file_without_fields_is_drawn_as_far_as_it_goes(petsam, draw, tmp_path):
     (tmp_path / "h.csv").write_text("time, load_tx\n1, 50\n2, -50\n3, 20\n")
     case = dict(SPHERE, grid_n=24, history="h.csv", output="out.h5", output_fields="contact_edge")

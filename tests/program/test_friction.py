@@ -4,7 +4,8 @@ import h5py
 import numpy as np
 import pytest
 
-from support import FIELDS, assert_close, assert_same, ball, history, kernels
+from kill_at_random import differences
+from support import FIELDS, assert_close, assert_same, ball, history, kernels, read_run
 
 BALL = ball(60, poisson=0.3)
 LIMIT = BALL["friction"] * BALL["load_n"]
@@ -192,7 +193,5 @@ def test_scale_that_begins_after_a_restart_is_in_the_results(petsam, solve, tmp_
     scaled = history(tmp_path / "scaled.csv", "time,load_tx,friction_scale", *rows, (4, 16.0, 0.75))
     petsam(run, scaled, dict(restart=tmp_path / "c.h5"), ranks=ranks)
     once = solve(BALL, scaled)
-    with h5py.File(tmp_path / "r.h5") as f, h5py.File(once.path) as g:
-        assert list(f["history/friction_scale"]) == [1.0, 1.0, 1.0, 0.75]
-        assert all(np.array_equal(f["history"][name], g["history"][name], equal_nan=True) for name in g["history"])
-        assert np.array_equal(f["shear_x"], g["shear_x"]) and np.array_equal(f["time"], g["time"])
+    assert list(read_run(tmp_path / "r.h5")["history/friction_scale"]) == [1.0, 1.0, 1.0, 0.75]
+    assert not differences(tmp_path / "r.h5", once.path)

@@ -46,22 +46,6 @@ def test_fields_are_the_nearest_singles(folder, petsam, ranks, more):
         assert (folder / "out.h5").stat().st_size < 0.7 * (folder / "double.h5").stat().st_size
 
 
-@pytest.mark.parametrize("ranks", [1, 2])
-@pytest.mark.parametrize("spoil", [False, True], ids=["closed", "killed"])
-def test_file_in_singles_goes_on_in_singles(folder, petsam, ranks, spoil):
-    """Also where they are not asked for again, and where the file is copied."""
-    single = dict(output_single=True)
-    petsam(CASE, single, dict(output="whole.h5"))
-    petsam(CASE, single, dict(checkpoint="state.h5", checkpoint_every=7), ranks=ranks)
-    if spoil:
-        with h5py.File(folder / "out.h5", "a") as f:
-            f.attrs["closed"] = np.int8(0)
-    petsam(CASE, dict(restart="state.h5.1"), ranks=ranks)
-    assert not differences(folder / "out.h5", folder / "whole.h5")
-    with h5py.File(folder / "out.h5") as f:
-        assert f["pressure"].dtype == np.float32
-
-
 def test_readers_cope_with_singles(folder, petsam):
     """Sums over a field are of doubles; the stresses are those of doubles to single precision."""
     case = dict(CASE, grid_n=32, output_every=8)
@@ -125,13 +109,10 @@ def test_forecast_of_compressed_results_is_an_upper_one(folder, petsam):
     assert word == "at most" and size > (folder / "out.h5").stat().st_size
 
 
-def test_forecast_after_a_restart_is_of_the_whole_file(folder, petsam):
-    """In the precision and with the fields that the file has."""
-    kept = dict(checkpoint="state.h5", checkpoint_every=7, output_single=True)
-    whole = forecast(petsam(CASE, kept).stdout)
-    assert forecast(petsam(CASE, dict(restart="state.h5", output_fields="none")).stdout) == whole
-    _, size = forecast(petsam(CASE, dict(restart="state.h5.1", output="branch.h5")).stdout)
-    assert size == pytest.approx((folder / "branch.h5").stat().st_size, rel=0.12)
+def test_forecast_after_a_restart_is_of_the_part(folder, petsam):
+    petsam(CASE, dict(checkpoint="state.h5", checkpoint_every=7))
+    _, size = forecast(petsam(CASE, dict(restart="state.h5.1")).stdout)
+    assert size == pytest.approx((folder / "out.part2.h5").stat().st_size, rel=0.12)
 
 
 def test_results_larger_than_the_disk_are_a_warning_at_the_start(small_disk, petsam):

@@ -36,14 +36,6 @@ def influence(nx, ny, dx, dy, young, nu):
     return apply
 
 
-def read(path, *fields):
-    with h5py.File(path) as f:
-        names = [name for name in (*support.FIELDS, "plastic_depth", *fields) if name in f]
-        data = {name: f[name][:] for name in (*names, "x", "y", "time")}
-        data.update({f"history/{name}": column[:] for name, column in f["history"].items()})
-        return data
-
-
 def motion(data, k):
     """The normal rigid displacement of every cell in step k."""
     x, y = np.meshgrid(data["x"], data["y"])
@@ -145,7 +137,7 @@ def test_flat_punch_bears_its_area_times_the_hardness(petsam, tmp_path):
     limit = H * base.sum() * (case["grid_size"] / n) ** 2
     for part in (0.4, 0.7, 0.999):
         petsam(case, dict(load_n=part * limit, output="o.h5"))
-        p = read(tmp_path / "o.h5")["pressure"][0]
+        p = support.read_run(tmp_path / "o.h5")["pressure"][0]
         assert p[~base].max() == 0 and p[base].min() > 0
         full = p[base] >= SATURATED * H
         assert 0 < full.mean() < part or full.mean() > 0.98
@@ -162,7 +154,7 @@ def test_load_beyond_the_grid_is_refused_with_the_limit(petsam, tmp_path):
     with h5py.File(tmp_path / "o.h5") as f:
         assert np.isnan(f["history/plastic_area"][-1]) and np.isnan(f["history/plastic_depth_max"][-1])
     petsam(SOFT, dict(load_n=H * area, allow_edge_contact=True, output="o.h5"))
-    data = read(tmp_path / "o.h5")
+    data = support.read_run(tmp_path / "o.h5")
     assert data["pressure"].min() >= SATURATED * H and data["gap"].min() > -1e-6 * data["history/disp_z"][0]
 
 
@@ -183,7 +175,7 @@ def test_moment_beyond_what_the_hardness_bears_is_refused_with_the_limit(petsam,
 def test_unloading_is_elastic_and_loading_again_comes_back(petsam, tmp_path):
     load = ball()["load_n"] * np.array([0.6, 1, 0.4, 0.05, 0.7, 1, 1, 1.1])
     petsam(SOFT, rows(tmp_path / "h.csv", load_n=load), dict(output="o.h5"))
-    data = read(tmp_path / "o.h5")
+    data = support.read_run(tmp_path / "o.h5")
     depth, p, most = data["plastic_depth"], data["pressure"], data["plastic_depth"][1].max()
     assert depth[0].max() > 0 and most > 1.5 * depth[0].max()
     for k in (2, 3, 4):
@@ -205,7 +197,7 @@ def test_unloading_is_elastic_and_loading_again_comes_back(petsam, tmp_path):
         SOFT, gap_type="file", gap_file="yielded.h5", gap_radius1=None, gap_radius2=None, pressure_limit=None
     )
     petsam(elastic, dict(load_n=load[2], output="e.h5"))
-    support.assert_close(p[2], read(tmp_path / "e.h5")["pressure"][0], 1e-6, "elastic")
+    support.assert_close(p[2], support.read_run(tmp_path / "e.h5")["pressure"][0], 1e-6, "elastic")
 
 
 def test_energy_of_a_loop_is_what_the_surfaces_yielded(petsam, tmp_path):
@@ -214,7 +206,7 @@ def test_energy_of_a_loop_is_what_the_surfaces_yielded(petsam, tmp_path):
     part = np.concatenate([np.arange(1, n + 1), np.arange(n - 1, -1, -1)]) / n
     d = 1.3 * support.hertz(ball()).approach
     petsam(SOFT, rows(tmp_path / "h.csv", disp_z=d * part - 1e-9), dict(output="o.h5"))
-    data = read(tmp_path / "o.h5")
+    data = support.read_run(tmp_path / "o.h5")
     load, disp = np.append(0, data["history/load_n"]), np.append(0, data["history/disp_z"])
     work = np.sum(0.5 * (load[1:] + load[:-1]) * np.diff(disp))
     assert load[-1] == 0
@@ -275,7 +267,7 @@ def test_random_cases_solve_the_problem(petsam, tmp_path, seed):
     case.update(output_fields="pressure,plastic_depth", pressure_limit=limit, allow_edge_contact=True)
     petsam(case, rows(tmp_path / "h.csv", **columns), dict(output="o.h5"), ranks=1 + seed % 8 // 7)
     apply = influence(*n, *(size / n), case["body1_young"], case["body1_poisson"])
-    assert errors(read(tmp_path / "o.h5"), h, limit, apply) < 1
+    assert errors(support.read_run(tmp_path / "o.h5"), h, limit, apply) < 1
 
 
 # ---- friction, dissimilar bodies, wear, periodic bodies
@@ -285,7 +277,7 @@ def test_shear_is_bounded_by_the_hardness_times_friction(petsam, tmp_path):
     force = ball()["load_n"] * ball()["friction"]
     history = rows(tmp_path / "h.csv", load_n=[180.0] * 4, load_tx=[0, 0.9 * force, -0.9 * force, 0.5 * force])
     petsam(SOFT, history, dict(output="o.h5"))
-    data = read(tmp_path / "o.h5")
+    data = support.read_run(tmp_path / "o.h5")
     q = np.hypot(data["shear_x"], data["shear_y"])
     assert q.max() == pytest.approx(SOFT["friction"] * H, rel=1e-9)
     assert np.array_equal(data["plastic_depth"][3], data["plastic_depth"][0])
@@ -297,7 +289,7 @@ def test_dissimilar_bodies(petsam, tmp_path):
     load = np.array([0.7, 1, 1, 0.4, 1.0])
     history = rows(tmp_path / "h.csv", load_n=180 * load, load_tx=[0, 30, -20, 0, 25.0])
     petsam(SOFT, history, dict(body2_young=10e9, body2_poisson=0.2, output="o.h5", pressure_limit=0.5 * H))
-    data, before = read(tmp_path / "o.h5"), 0
+    data, before = support.read_run(tmp_path / "o.h5"), 0
     assert data["history/coupling_iterations"].max() > 1
     for k, p in enumerate(data["pressure"]):
         full, depth = p >= SATURATED * 0.5 * H, data["plastic_depth"][k]
@@ -313,7 +305,7 @@ def test_wear_and_plastic_depth_add_up(petsam, tmp_path):
     mu, d = SOFT["friction"], 1.2 * support.hertz(ball()).approach
     history = rows(tmp_path / "h.csv", disp_z=[d] * 5, disp_x=0.6 * mu * d * np.array([0, 1, -1, 1, -1.0]))
     petsam(SOFT, history, dict(wear_coefficient1=1e-10, wear_coefficient2=2e-10, output="o.h5"))
-    data = read(tmp_path / "o.h5", "wear_depth1", "wear_depth2")
+    data = support.read_run(tmp_path / "o.h5")
     x, y = np.meshgrid(data["x"], data["y"])
     worn = np.append(np.zeros((1, 40, 40)), data["wear_depth1"] + data["wear_depth2"], axis=0)
     for k, p in enumerate(data["pressure"]):  # a step is solved with the wear before it
@@ -332,7 +324,7 @@ def test_periodic_bodies(petsam, tmp_path):
     case = dict(SOFT, grid_n=n, grid_size=width, elasticity="periodic", gap_type="file", gap_file="h.h5", friction=None)
     case.update(gap_radius1=None, gap_radius2=None, pressure_limit=5e7, disp_z=None)
     petsam(case, rows(tmp_path / "h.csv", disp_z=[2e-7, 9e-7, 5e-6, 4.9e-6, 5.1e-6]), dict(output="o.h5"))
-    data = read(tmp_path / "o.h5")
+    data = support.read_run(tmp_path / "o.h5")
     load = data["history/load_n"] / width**2
     assert 0 < load[0] < load[1] < load[2] and load[2] == pytest.approx(5e7)
     assert load[4] == pytest.approx(5e7, rel=1e-6) and load[3] < load[2]
@@ -368,15 +360,15 @@ def test_same_bits_on_any_number_of_ranks_and_after_a_restart(petsam, tmp_path):
 
     for ranks in (1, 2, 3):
         petsam(SOFT, history(5), dict(output=f"o{ranks}.h5", grid_n=(41, 43)), ranks=ranks)
-    one = read(tmp_path / "o1.h5")
+    one = support.read_run(tmp_path / "o1.h5")
     for count, ranks in ((2, 1), (3, 2)):
         go = dict(grid_n=(41, 43), output="r.h5", checkpoint="c.h5", checkpoint_every=1)
         petsam(SOFT, history(count), dict(go, overwrite=True), ranks=ranks)
         petsam(SOFT, history(5), dict(go, restart="c.h5"), ranks=3 - ranks)
-        for name, value in read(tmp_path / "r.h5").items():
+        for name, value in support.read_run(tmp_path / "r.h5").items():
             assert np.array_equal(value, one[name], equal_nan=True), name
     for ranks in (2, 3):
-        for name, value in read(tmp_path / f"o{ranks}.h5").items():
+        for name, value in support.read_run(tmp_path / f"o{ranks}.h5").items():
             assert np.array_equal(value, one[name], equal_nan=True), name
     run = petsam(SOFT, history(5), dict(go, restart="c.h5", pressure_limit=2 * H), check=2)
     assert "pressure_limit" in run.stderr

@@ -4,7 +4,7 @@ import h5py
 import numpy as np
 import pytest
 
-from support import SPHERE
+from support import SPHERE, read_run
 
 CASE = dict(SPHERE, grid_n=48, load_n=None, stiffness=True, output="out.h5")
 HISTORY = "time,load_n,load_tx\n1,1000,0\n2,1000,50\n3,1000,80\n4,1000,-20\n"
@@ -55,7 +55,7 @@ def test_results_go_on_with_and_without_matrices(petsam, history, tmp_path):
     part = dict(checkpoint="state.h5", checkpoint_every=1)
     petsam(dict(CASE, history="part.csv", stiffness=None), part)
     petsam(CASE, part, history, dict(restart="state.h5"))
-    (on, _), (expected, _) = matrices(tmp_path / "out.h5"), matrices(whole)
+    on, expected = (read_run(path)["history/stiffness"] for path in (tmp_path / "out.h5", whole))
     assert np.all(np.isnan(on[:2])) and np.array_equal(on[2:], expected[2:])
 
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import conftest
-from support import FIELDS, ball, flatten
+from support import ball, flatten, read_run
 
 BALL = ball(40, load_n=None)
 MU, RADIUS, D = BALL["friction"], BALL["gap_radius1"], 2e-6
@@ -24,15 +24,6 @@ def cycle(path, amplitude=0.6 * MU * D, steps=8, header="time,disp_z,disp_x", ap
     x = amplitude * np.interp(t, (0, 0.25, 0.75, 1), (0, 1, -1, last))
     path.write_text(header + "\n" + "".join(f"{a!r},{approach!r},{b!r}\n" for a, b in zip(t.tolist(), x.tolist())))
     return dict(history=path)
-
-
-def read(path):
-    with h5py.File(path) as f:
-        data = {name: f[name][:] for name in (*FIELDS, "time", "wear_depth1", "wear_depth2")}
-        for group in ("history", "wear"):
-            if group in f:
-                data.update({f"{group}/{name}": column[:] for name, column in f[group].items()})
-        return data
 
 
 def assert_equal(one, two, *without):
@@ -49,7 +40,7 @@ def life(petsam, tmp_path):
     def run(output="life.h5", ranks=1, **options):
         case = dict(BALL, **cycle(tmp_path / "cycle.csv"), wear_coefficient2=1e-14, wear_cycles=1e5, output=output)
         petsam({**case, **options}, ranks=ranks)
-        return read(tmp_path / output)
+        return read_run(tmp_path / output)
 
     return run
 
@@ -63,7 +54,7 @@ def test_volume_of_direct_wear_is_the_energy_of_friction(petsam, tmp_path, law):
     words = {f"wear_{law}{body}": rate for body, rate in zip((1, 2), rates)}
     steps = cycle(tmp_path / "h.csv", header="time,load_n,disp_x", approach=180.0, amplitude=3 * MU * 2e-6)
     petsam(BALL, steps, words, dict(output="direct.h5"))
-    r = read(tmp_path / "direct.h5")
+    r = read_run(tmp_path / "direct.h5")
     energy = np.cumsum(r["history/dissipated_energy"])
     cell = (BALL["grid_size"] / BALL["grid_n"]) ** 2
     for body, rate in zip((1, 2), (3e-14, 1e-14)):
@@ -76,7 +67,7 @@ def test_volume_of_direct_wear_is_the_energy_of_friction(petsam, tmp_path, law):
 def test_the_gap_follows_at_the_end_of_a_step(petsam, tmp_path):
     steps = cycle(tmp_path / "h.csv", amplitude=20 * MU * D)
     petsam(BALL, steps, dict(wear_coefficient1=1e-11, output="direct.h5"))
-    r = read(tmp_path / "direct.h5")
+    r = read_run(tmp_path / "direct.h5")
     x = (np.arange(40) - 19.5) * BALL["grid_size"] / 40
     unworn = (x[:, None] ** 2 + x**2) / (2 * RADIUS)
     removed = np.concatenate([0 * r["wear_depth1"][:1], r["wear_depth1"][:-1]])
@@ -224,7 +215,7 @@ def test_depth_never_falls(petsam, tmp_path):
     steps = cycle(tmp_path / "h.csv", header="time,load_n,disp_x", approach=100.0, amplitude=4e-7)
     words = dict(friction=None, wear_friction=tmp_path / "mu.csv", wear_coefficient2=1e-12, wear_jump=1000)
     petsam({**BALL, **words}, steps, dict(wear_cycles=1000, wear_output=0, output="hard.h5"))
-    r = read(tmp_path / "hard.h5")
+    r = read_run(tmp_path / "hard.h5")
     assert (r["wear_depth2"] >= 0).all() and r["wear/volume2"][-1] > 0
     cell = (BALL["grid_size"] / BALL["grid_n"]) ** 2
     assert r["wear_depth2"][-1].sum() * cell == pytest.approx(r["wear/volume2"][-1])
@@ -234,7 +225,7 @@ def test_joint_that_hardly_slips_takes_few_cycles(petsam, tmp_path):
     """It rocks where it sticks: what seems to slip is what the solvers leave open."""
     steps = cycle(tmp_path / "h.csv", header="time,load_n,load_my", approach=180.0, amplitude=0.01)
     petsam(BALL, steps, dict(load_tx=8, wear_coefficient2=1e-14, wear_cycles=1e6, output="few.h5"))
-    assert read(tmp_path / "few.h5")["wear/computed"][-1] <= 60
+    assert read_run(tmp_path / "few.h5")["wear/computed"][-1] <= 60
 
 
 def test_unstable_jumps_are_told(petsam, tmp_path):
@@ -269,7 +260,7 @@ def test_direct_wear_goes_on_to_the_same_bits(petsam, tmp_path):
     kept = dict(output="kept.h5", checkpoint="state.h5", checkpoint_every=4)
     petsam(*words, kept)
     petsam(*words, kept, dict(restart="state.h5.1"), ranks=2)
-    assert_equal(read(tmp_path / "kept.h5"), read(tmp_path / "whole.h5"))
+    assert_equal(read_run(tmp_path / "kept.h5"), read_run(tmp_path / "whole.h5"))
 
 
 def test_life_can_be_prolonged(life, petsam, tmp_path):
@@ -305,7 +296,7 @@ def test_force_that_is_no_longer_carried_ends_the_life(petsam, tmp_path):
     cycle(tmp_path / "h.csv", header="time,disp_z,load_tx", approach=D, amplitude=0.75 * MU * n)
     done = petsam(BALL, steps, case, check=11)
     assert "cycles, step" in done.stderr and "slip" in done.stderr
-    r = read(tmp_path / "end.h5")
+    r = read_run(tmp_path / "end.h5")
     assert len(r["wear/cycle"]) > 3 and (np.diff(r["wear/volume2"]) > 0).all()
     assert (r["history/status"][:-8] == 0).all()
 
@@ -314,7 +305,7 @@ def test_scar_at_the_edge_ends_the_life(petsam, tmp_path):
     case = dict(BALL, grid_size=1.15 * 2 * np.sqrt(RADIUS * D), wear_coefficient2=1e-13, wear_cycles=1e7, output="e.h5")
     done = petsam(case, cycle(tmp_path / "h.csv"), check=12)
     assert "edge" in done.stderr and "cycles, step" in done.stderr
-    assert 1 < len(read(tmp_path / "e.h5")["wear/cycle"]) < 100
+    assert 1 < len(read_run(tmp_path / "e.h5")["wear/cycle"]) < 100
 
 
 def test_step_that_fails_is_marked(petsam, tmp_path):

@@ -1,6 +1,6 @@
 /* Results for the tests of src/io: a contact with prescribed values, steps in a file, and reading them back. */
-#ifndef PETSAM_RESULTS_H
-#define PETSAM_RESULTS_H
+#ifndef PETSAM_TEST_RESULTS_H
+#define PETSAM_TEST_RESULTS_H
 
 #include "contacts.h"
 
@@ -450,43 +450,12 @@ static inline int CopyFile(const char *from, const char *to)
   return in && out && !fclose(in) && !fclose(out);
 }
 
-/* ---- going on after a stop ---- */
-
 static inline SamParameters NewParameters(PetscReal value)
 {
   SamParameters p = {.count = 0};
 
   sam_call(SamParametersAddReals(&p, "friction", PETSC_TRUE, 1, &value));
   return p;
-}
-
-/* Goes on after so many steps, whose times are shifted. */
-static inline PetscErrorCode ContinueWith(const Shown *s, const SamParameters *parameters, PetscInt steps,
-                                          PetscReal shift, SamOutput *output)
-{
-  const SamOutputSettings set   = SettingsOf(s->contact, "");
-  SamOutputPoint          point = {.steps = steps};
-
-  for (int k = 0; k < steps; k++) point.times = SamOutputAddTime(point.times, 0.5 + k + shift);
-  return SamOutputContinue(s->grid, filename, &set, parameters, &point, output);
-}
-
-static inline PetscErrorCode Continue(const Shown *s, PetscReal value, PetscInt steps, PetscReal shift,
-                                      SamOutput *output)
-{
-  const SamParameters parameters = NewParameters(value);
-
-  return ContinueWith(s, &parameters, steps, shift, output);
-}
-
-/* Asserts that results were not continued, in a message with this text. */
-static inline void AssertContinueFailed(PetscErrorCode ierr, const SamOutput output, PetscErrorCode code,
-                                        const char *word)
-{
-  const int good = ierr == code && strstr(CaughtMessage(), word) && strstr(CaughtMessage(), filename) && !output;
-
-  if (!good) print_error("error %d, expected %d: %s\n", (int)ierr, (int)code, CaughtMessage());
-  sam_assert(good);
 }
 
 #endif

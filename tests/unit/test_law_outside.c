@@ -222,19 +222,18 @@ static PetscErrorCode Restart(const Case *c)
   return ierr;
 }
 
-/* The rest of the run, in a contact of its own and after the same results. */
+/* The rest of the run, in a contact and results of its own. */
 static void GoOn(void)
 {
   Case                    c          = NewFading(PETSC_COMM_WORLD);
   const SamOutputSettings set        = SettingsFor(&c);
   const SamParameters     parameters = ParametersOf(&c);
-  SamOutputPoint          point      = {.steps = STOP};
   SamOutput               output;
 
-  for (int k = 0; k < STOP; k++) point.times = SamOutputAddTime(point.times, 1 + k);
   sam_assert(!Restart(&c));
   sam_assert(NumberOf(&c, "faded_steps") == STOP && NumberOf(&c, "faded_most") > 0);
-  sam_call(SamOutputContinue(c.s.grid, filename, &set, &parameters, &point, &output));
+  sam_call(SamOutputCreate(c.s.grid, filename, &set, &output));
+  sam_call(SamOutputSetParameters(output, &parameters));
   WriteRun(&c, output, STOP, LOADS);
   DestroyCase(&c);
 }
@@ -258,11 +257,13 @@ static double *Read(hid_t file, const char *name, hsize_t *count)
   return values;
 }
 
+/* Whether the other file holds the steps after the stop. */
 static int SameInFiles(hid_t one, hid_t other, const char *name)
 {
-  hsize_t   counts[2];
-  double   *a = Read(one, name, &counts[0]), *b = Read(other, name, &counts[1]);
-  const int same = counts[0] && counts[0] == counts[1] && !memcmp(a, b, counts[0] * sizeof(*a));
+  hsize_t       counts[2];
+  double       *a = Read(one, name, &counts[0]), *b = Read(other, name, &counts[1]);
+  const hsize_t skipped = counts[0] / LOADS * STOP;
+  const int     same = counts[1] && counts[0] == skipped + counts[1] && !memcmp(a + skipped, b, counts[1] * sizeof(*a));
 
   if (!same) print_error("%s differs\n", name);
   free(a);

@@ -191,7 +191,7 @@ static void test_steps_that_wait_are_not_lost(void **state)
     sam_call(SamOutputGetSaved(output, &steps, NULL, NULL));
     sam_assert(steps == STEPS);
     if (flushed) {
-      sam_assert(Rank() || ReadColumn("time", 0, values)); /* they do wait */
+      sam_assert(Rank() || access(filename, F_OK)); /* they do wait, and a file without a step has not its name yet */
       (void)MPI_Barrier(PETSC_COMM_WORLD);
       sam_call(SamOutputFlush(output));
     }
@@ -201,8 +201,8 @@ static void test_steps_that_wait_are_not_lost(void **state)
     sam_call(SamOutputDestroy(&output));
     DestroyShown(&s);
     sam_call(SamGridDestroy(&grid));
+    Remove(filename);
   }
-  Remove(filename);
 }
 
 /* A try without equilibrium: what was given is known, and the numbers of solvers; the rest is not. */

@@ -148,8 +148,8 @@ static void test_full_disk_is_an_error_on_all_ranks_and_costs_nothing(void **sta
     sam_call(SamOutputCreate(grid, filename, &set, &output));
     for (int step = 0; step < STEPS; step++) {
       Show(&s, step);
-      AssertNoRoom(output, PETSC_TRUE);
-      AssertNoRoom(output, PETSC_FALSE);
+      if (step) AssertNoRoom(output, PETSC_TRUE); /* the first write gives the file its name */
+      if (step) AssertNoRoom(output, PETSC_FALSE);
       sam_call(SamOutputWriteStep(output, step != 1));
     }
     PutNumber(&s, "time", 9);

@@ -144,6 +144,13 @@ typedef enum { SAM_FILE_RESULTS, SAM_FILE_OLD_RESULTS, SAM_FILE_CHECKPOINT, SAM_
   and not what petsam writes for that use. Changes nothing on the disk. Collective. Errors: SAM_ERR_FILE.
 */
 PETSC_INTERN PetscErrorCode SamFileCheckName(SamGrid grid, const char option[], const char filename[], SamFileUse use);
+/*
+  SamFileHasContent - whether there is a file of that name with something in it. SamFileContains - whether there is a
+  text among the attributes at the start of a file of results; nothing of it is interpreted. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamFileHasContent(SamGrid grid, const char filename[], PetscBool *has);
+PETSC_INTERN PetscErrorCode SamFileContains(SamGrid grid, const char filename[], const char text[],
+                                            PetscBool *contains);
 /* SamFileNameBeside - a name with an ending added; the caller frees it with PetscFree(). Not collective. */
 PETSC_INTERN PetscErrorCode SamFileNameBeside(const char filename[], const char ending[], char **name);
 /*
@@ -171,7 +178,6 @@ typedef struct {
   int        file; /* descriptor, negative: not held */
   SamFileUse use;
   PetscBool  created; /* was not there before */
-  off_t      before;  /* size when it was taken */
   off_t      size;    /* when it was noted */
   off_t      mark_at; /* where a number is that never changes, 0: none */
   double     mark;
@@ -181,7 +187,6 @@ typedef struct {
   SamHoldTakeNext - of the next file of a name whose file has been renamed.
   SamHoldCheck - raises an error if the file has been removed, replaced, has not the size that was noted, or its marked
   number has another value: it was cut while a step was written, and grew again.
-  SamHoldHadContent - whether there was something in the file before it was taken.
   These are collective. Errors: SAM_ERR_FILE.
   SamHoldNoteSize - notes the size.
   SamHoldRelease - gives up the file; removes it if it is temporary, or was created here and is still empty.
@@ -190,7 +195,6 @@ PETSC_INTERN PetscErrorCode SamHoldTake(SamGrid grid, const char option[], const
                                         SamHold *hold);
 PETSC_INTERN PetscErrorCode SamHoldTakeNext(SamGrid grid, const char option[], const char filename[], SamHold *hold);
 PETSC_INTERN PetscErrorCode SamHoldCheck(SamGrid grid, const char option[], const char filename[], const SamHold *hold);
-PETSC_INTERN PetscErrorCode SamHoldHadContent(SamGrid grid, const SamHold *hold, PetscBool *had);
 PETSC_INTERN void           SamHoldNoteSize(SamHold *hold);
 PETSC_INTERN void           SamHoldRelease(const char filename[], SamHold *hold);
 

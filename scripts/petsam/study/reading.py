@@ -19,7 +19,7 @@ NAME = re.compile(r"[A-Za-z]\w*")  # of an option or a parameter
 KEYS = ("options", "parameters", "files", "ranks", "stress", "results")
 EXAMPLE = ("options:", "  load_tx: [30, 60, 90]")
 # files in the folder of every case (runs.py), and of petsam
-FOLDER = re.compile(r"(petsam\.log|record\.json|lock|(results|stress)\.h5|checkpoint.*)(\..*)?")
+FOLDER = re.compile(r"(petsam\.log|record\.json|lock|(results(\.part\d+)?|stress)\.h5|checkpoint.*)(\..*)?")
 FILE_NAME = 251  # bytes: it is written as NAME.tmp first
 SCALARS = {"tag:yaml.org,2002:" + kind for kind in ("null", "bool", "int", "float", "str", "timestamp")}
 

@@ -198,7 +198,8 @@ class Run:
         if checkpoint_every and record(directory, self.case) and os.path.exists(os.path.join(self.folder, CHECKPOINT)):
             return True
         for name in os.listdir(self.folder):
-            if name in (RESULTS, RECORD, LOG, STRESSES) or name.startswith(os.path.splitext(CHECKPOINT)[0]):
+            begins = (os.path.splitext(CHECKPOINT)[0], os.path.splitext(RESULTS)[0] + ".part")
+            if name in (RESULTS, RECORD, LOG, STRESSES) or name.startswith(begins):
                 os.remove(os.path.join(self.folder, name))
         return False
 
