@@ -19,13 +19,12 @@ PetscErrorCode SamContactCreate(SamProblem problem, SamContact *contact)
                                     .edges           = PETSC_TRUE};
   PetscCall(SamProblemGetElasticity(problem, &c->elasticity));
   PetscCall(SamProblemGetGrid(problem, &c->grid));
-  PetscCall(SamProblemGetConditions(problem, &c->conditions));
   PetscCall(SamElasticityGetTraits(c->elasticity, &c->traits));
   c->motion = SamMotionOf(c->elasticity);
   PetscCall(SamNormalCreate(c->elasticity, &c->normal));
   PetscCall(SamTangentialCreate(c->elasticity, &c->tangential));
   PetscCall(SamStateCreate(c->grid, &c->state));
-  PetscCall(SamRecallCreate(c->grid, c->conditions, &c->recall));
+  PetscCall(SamRecallCreate(c->grid, &c->recall));
   PetscCall(SamContactDeclare(c));
   PetscCall(SamContactView(c));
   c->revision[SAM_COMMITTED] = -1;
@@ -118,8 +117,8 @@ static const SamOptionRow rows[] = {
 PetscErrorCode SamContactSetFromOptions(SamContact c)
 {
   static const char *const of_history[] = {"slip_direction", "cycle_memory"};
-  const SamOptions         from       = {c->grid->comm, c->prefix};
-  SamContactSettings       s          = c->set;
+  const SamOptions         from         = {c->grid->comm, c->prefix};
+  SamContactSettings       s            = c->set;
 
   PetscFunctionBegin;
   PetscCall(RefuseDeferred(&from));
@@ -241,9 +240,10 @@ SamMotion SamContactGetMotion(SamContact c)
   return c->motion;
 }
 
-PetscErrorCode SamContactOfferCondition(SamContact c, const SamCondition *condition)
+PetscErrorCode SamContactOfferCondition(SamContact c, PetscInt k)
 {
-  SamState state;
+  const SamCondition *condition = &SamConditions[k];
+  SamState            state;
 
   PetscFunctionBegin;
   PetscCall(SamContactGetState(c, &state));
