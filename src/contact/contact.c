@@ -19,12 +19,13 @@ PetscErrorCode SamContactCreate(SamProblem problem, SamContact *contact)
                                     .edges           = PETSC_TRUE};
   PetscCall(SamProblemGetElasticity(problem, &c->elasticity));
   PetscCall(SamProblemGetGrid(problem, &c->grid));
+  PetscCall(SamProblemGetConditions(problem, &c->conditions));
   PetscCall(SamElasticityGetTraits(c->elasticity, &c->traits));
   c->motion = SamMotionOf(c->elasticity);
   PetscCall(SamNormalCreate(c->elasticity, &c->normal));
   PetscCall(SamTangentialCreate(c->elasticity, &c->tangential));
   PetscCall(SamStateCreate(c->grid, &c->state));
-  PetscCall(SamRecallCreate(c->grid, &c->recall));
+  PetscCall(SamRecallCreate(c->grid, c->conditions, &c->recall));
   PetscCall(SamContactDeclare(c));
   PetscCall(SamContactView(c));
   c->revision[SAM_COMMITTED] = -1;
@@ -240,10 +241,9 @@ SamMotion SamContactGetMotion(SamContact c)
   return c->motion;
 }
 
-PetscErrorCode SamContactOfferCondition(SamContact c, PetscInt k)
+PetscErrorCode SamContactOfferCondition(SamContact c, const SamCondition *condition)
 {
-  const SamCondition *condition = &SamConditions[k];
-  SamState            state;
+  SamState state;
 
   PetscFunctionBegin;
   PetscCall(SamContactGetState(c, &state));
