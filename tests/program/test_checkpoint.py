@@ -482,7 +482,7 @@ def mixed(x):
     return x ^ x >> 33
 
 
-def sealed(path, version=7):
+def sealed(path, version=8):
     """The seal that a file should have, as the manual describes it: hashed by blocks, whose hashes are added."""
     data, block, total = path.read_bytes(), 1 << 20, 0
     for place, first in enumerate(range(512, len(data), block)):
@@ -508,7 +508,7 @@ def test_checkpoint_of_another_version_is_refused(stopped, petsam):
     path.write_bytes(sealed(path) + path.read_bytes()[512:])
     done = petsam(CASE, ON, check=2)
     assert "petsam" in done.complaint[0] and "written by petsam 0.0.9" in done.complaint[0]
-    path.write_bytes(sealed(path, 8) + path.read_bytes()[512:])
+    path.write_bytes(sealed(path, 9) + path.read_bytes()[512:])
     done = petsam(CASE, ON, check=3)
     assert "written by another version of petsam" in done.complaint[0] and "state.h5.1" in done.complaint[0]
 
