@@ -19,14 +19,15 @@ typedef struct {
 
 /* SamLoadsMost - the largest loads of several steps. To be zero at first. */
 typedef struct {
-  PetscInt  steps;    /* that have been added */
-  PetscBool force;    /* the normal force is given; false: the approach */
-  PetscReal normal;   /* the largest of it, N or m */
-  PetscReal lever[2]; /* m: the farthest that moments bring the centre of pressure from the origin along x and y */
-  PetscReal slide;    /* m: the farthest that displacements move the surfaces along them */
-  PetscReal rotation; /* rad: the largest that is prescribed */
-  PetscReal bulk;     /* Pa: the largest component of the bulk stresses */
-  PetscBool open;     /* the contact may be larger than a closed solution for these loads has it: rotations, wear */
+  PetscInt    steps;       /* that have been added */
+  PetscBool   force;       /* the normal force is given; false: the approach */
+  PetscReal   normal;      /* the largest of it, N or m */
+  PetscReal   lever[2];    /* m: the farthest that moments bring the centre of pressure from the origin along x and y */
+  PetscReal   slide;       /* m: the farthest that displacements move the surfaces along them */
+  PetscReal   rotation;    /* rad: the largest that is prescribed */
+  PetscReal   stress;      /* Pa: the largest prescribed stress, */
+  const char *stress_name; /* and of which group of conditions it is; borrowed */
+  PetscBool   open; /* the contact may be larger than a closed solution for these loads has it: rotations, wear */
 } SamLoadsMost;
 
 /*

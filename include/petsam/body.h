@@ -31,10 +31,8 @@ PETSC_EXTERN PetscErrorCode SamBodyDestroy(SamBody *body);
   above it.
   SamBodyMaterialAt - that material; borrowed.
   SamBodyTop - the depth (m) at which the n-th material begins; n = SamBodyCount(): infinite.
-  SamBodyBulk - the last material, which bears the bulk stress; borrowed.
+  SamBodyBulk - the last material; borrowed.
   SamBodyIsRigid - whether all of the body is.
-  SamBodyBulkStressAt - the stresses xx, yy, xy (Pa) at a depth (m) by a bulk stress: the last material has it, and the
-  others the same strain in the plane, and their residual stress.
   None is collective.
 */
 PETSC_INTERN PetscInt           SamBodyCount(SamBody body);
@@ -43,7 +41,6 @@ PETSC_INTERN const SamMaterial *SamBodyMaterialAt(SamBody body, PetscReal depth)
 PETSC_INTERN PetscReal          SamBodyTop(SamBody body, PetscInt n);
 PETSC_INTERN const SamMaterial *SamBodyBulk(SamBody body);
 PETSC_INTERN PetscBool          SamBodyIsRigid(SamBody body);
-PETSC_INTERN void SamBodyBulkStressAt(SamBody body, PetscReal depth, const double bulk[3], double stress[3]);
 /*
   SamBodyAdvise - a text for the user where the materials do not suit cells of this size and a contact of this width
   (m), the k-th one, k = 0 or 1; empty: none. `option`: the option that mends it, without dash; empty: none. `number`:

@@ -24,8 +24,9 @@ typedef enum { SAM_RESULT_NONE, SAM_RESULT_OFFERED, SAM_RESULT_USUAL } SamResult
 typedef enum { SAM_STAYS, SAM_MOVES, SAM_MOVES_CONTINUED } SamStateMotion;
 
 /*
-  SamStateField - the declaration of a remembered field. A field of two components is offered as name_x and name_y. The
-  names and texts of fields are not copied.
+  SamStateField - the declaration of a remembered field. A field of two components is offered as name_x and name_y. A
+  field with depth has its values in `layers` layers below each cell, one after the other from the first layer down, each
+  with all components; the layers are offered as name_1, name_2 and so on. The names and texts of fields are not copied.
 */
 typedef struct {
   const char    *name, *unit, *text;
@@ -35,7 +36,13 @@ typedef struct {
   PetscBool      optional;    /* a checkpoint may lack it; it is zero then */
   SamResultUse   result;
   SamStateMotion motion;
+  PetscInt       layers; /* below each cell; 0: a field of the surface */
 } SamStateField;
+/* SamStateFieldSize - values of a field for each cell: the components of its vectors. Not collective. */
+static inline PetscInt SamStateFieldSize(const SamStateField *field)
+{
+  return field->components * PetscMax(field->layers, 1);
+}
 /*
   SamStateDeclareField - declares a field; `id` is its handle. Declaring the same name again returns the same handle.
   Collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for more than SAM_STATE_MOST fields.

@@ -6,7 +6,6 @@
 */
 #include <petsam/advice.h>
 #include <petsam/private/baseimpl.h>
-#include <petsam/private/bulk.h>
 #include <petsam/private/grid.h>
 #include <petsam/private/motionimpl.h>
 #include <math.h>
@@ -16,7 +15,7 @@
 #define FEW_CELLS 20
 /* Half-space theory is taken to hold up to this ratio of the half width of the contact to a radius of curvature. */
 #define STEEPEST 0.1
-/* A bulk stress over Young's modulus below which it has no effect, and a grid's width (m) that units may explain. */
+/* A stress over Young's modulus below which it has no effect, and a grid's width (m) that units may explain. */
 #define SLIGHT 1e-8
 #define WIDEST 100.0
 /* Cells half as wide may change the peak pressure by this part of it. */
@@ -46,13 +45,15 @@ void SamAdviceAddLoads(SamAdvice *a, PetscInt step, const SamControl *control)
   const PetscBool    *creep = control->creep;
   const PetscReal     x     = force[SAM_COMPONENT_TX] || creep[SAM_COMPONENT_TX] ? 0 : v[SAM_COMPONENT_TX];
   const PetscReal     y     = force[SAM_COMPONENT_TY] || creep[SAM_COMPONENT_TY] ? 0 : v[SAM_COMPONENT_TY];
-  PetscReal           bulk[SAM_BULK_COMPONENTS];
   SamConditions       conditions;
 
   (void)SamProblemGetConditions(a->setup->problem, &conditions);
-  for (PetscInt body = 0; body < 2; body++) {
-    SamBulkGet(conditions, control, body, bulk);
-    for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++) most->bulk = PetscMax(most->bulk, fabs(bulk[k]));
+  for (PetscInt k = 0; k < SamConditionsCount(conditions); k++) {
+    const SamCondition *one    = SamConditionsGet(conditions, k);
+    const double        stress = strcmp(one->unit, "Pa") ? 0 : fabs((double)SamControlGet(control, one));
+
+    if (stress > most->stress) most->stress_name = one->group;
+    most->stress = PetscMax(most->stress, stress);
   }
   most->force = force[SAM_COMPONENT_N];
   most->slide = PetscMax(most->slide, hypot(x, y));
@@ -288,7 +289,7 @@ static void Cells(SamAdvice *a)
          absurd ? "; or check the units, N, m, Pa" : "");
 }
 
-/* Numbers that another unit would explain: of bulk stress, and of the grid. */
+/* Numbers that another unit would explain: of a prescribed stress, and of the grid. */
 static void Units(SamAdvice *a)
 {
   const SamSetup     *s    = a->setup;
@@ -297,9 +298,9 @@ static void Units(SamAdvice *a)
     (double)PetscMin(SamBodyBulk(SamPairBody(s->pair, 0))->young, SamBodyBulk(SamPairBody(s->pair, 1))->young);
   const double width = (double)PetscMax(s->grid->width[0], s->grid->width[1]);
 
-  if (most->bulk > 0 && (double)most->bulk < SLIGHT * young)
-    Advise(a, "", "the largest bulk stress, %g Pa, is %.2g of Young's modulus: check the unit, Pa", (double)most->bulk,
-           (double)most->bulk / young);
+  if (most->stress > 0 && (double)most->stress < SLIGHT * young)
+    Advise(a, "", "the largest %s, %g Pa, is %.2g of Young's modulus: check the unit, Pa", most->stress_name,
+           (double)most->stress, (double)most->stress / young);
   if (width > WIDEST) Advise(a, "grid_size", "the grid is %g m wide: check the unit, m", width);
 }
 

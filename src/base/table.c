@@ -67,7 +67,18 @@ static const char *FindMeant(const Reader *r, const char field[])
   return SamNearestName(plain, count, r->names);
 }
 
-/* Lists all names, those of the bulk stresses in short. */
+/* Whether a name is one of those of body 1 or 2 that begin with the same word as the next one: "bulk1_stress_xx". */
+static PetscBool IsInRun(const char name[], const char next[])
+{
+  const size_t length = strcspn(name, "12_");
+
+  return next && isdigit((unsigned char)name[length]) && !strncmp(name, next, length) &&
+             isdigit((unsigned char)next[length])
+           ? PETSC_TRUE
+           : PETSC_FALSE;
+}
+
+/* Lists all names, of a run of those of the bodies the first and the last one. */
 static void ListNames(const Reader *r, char list[], size_t size)
 {
   size_t    used   = 0;
@@ -75,16 +86,11 @@ static void ListNames(const Reader *r, char list[], size_t size)
 
   list[0] = '\0';
   for (size_t k = 0; r->names[k] && used < size; k++) {
-    const PetscBool bulk = strncmp(r->names[k], "bulk", 4) ? PETSC_FALSE : PETSC_TRUE;
-    const PetscBool next = r->names[k + 1] && !strncmp(r->names[k + 1], "bulk", 4);
+    const PetscBool next = IsInRun(r->names[k], r->names[k + 1]);
 
-    if (!(bulk && before && next))
-      used += (size_t)snprintf(list + used, size - used, "%s%s",
-                               k == 0           ? ""
-                               : bulk && before ? " ... "
-                                                : ", ",
-                               r->names[k]);
-    before = bulk;
+    if (!(before && next))
+      used += (size_t)snprintf(list + used, size - used, "%s%s", k == 0 ? "" : before ? " ... " : ", ", r->names[k]);
+    before = next;
   }
 }
 

@@ -28,8 +28,8 @@ static PetscErrorCode AddCoupling(SamElasticity elasticity, SamGrid grid, const 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* u_z unless it is given, and u_t, both with the coupling; the largest u_z without load cases, which may cancel it. */
-static PetscErrorCode ComputeDisplacements(SamProblem problem, PetscBool coupling, PetscBool u_z_known,
+/* u_z unless it is given, and u_t, both with the coupling; the largest u_z without offsets, which may cancel it. */
+static PetscErrorCode ComputeDisplacements(SamProblem problem, SamState state, PetscBool coupling, PetscBool u_z_known,
                                            const SamSolution *s, PetscReal *most)
 {
   SamElasticity       elasticity;
@@ -49,8 +49,8 @@ static PetscErrorCode ComputeDisplacements(SamProblem problem, PetscBool couplin
     PetscCall(SamVecZero(s->displacement_t));
   if (traits.coupled && coupling) PetscCall(AddCoupling(elasticity, grid, s));
   PetscCall(VecNorm(s->displacement_z, NORM_INFINITY, most));
-  PetscCall(SamProblemAddCases(problem, &s->control, PETSC_FALSE, s->displacement_z));
-  PetscCall(SamProblemAddCases(problem, &s->control, PETSC_TRUE, s->displacement_t));
+  PetscCall(
+    SamProblemAddOffset(problem, state, &s->control, u_z_known ? NULL : s->displacement_z, s->displacement_t, NULL));
   PetscCall(SamElasticityTrim(elasticity));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -341,7 +341,7 @@ PetscErrorCode SamCheckSolution(SamProblem problem, SamState state, PetscBool co
   PetscCall(SamProblemGetElasticity(problem, &elasticity));
   PetscCall(SamElasticityGetTraits(elasticity, &traits));
   PetscCall(SamProblemGetGrid(problem, &grid));
-  PetscCall(ComputeDisplacements(problem, coupling, u_z_known, solution, &most));
+  PetscCall(ComputeDisplacements(problem, state, coupling, u_z_known, solution, &most));
   PetscCall(CheckNormal(problem, state, solution, most, check));
   if (traits.periodic) check->edge = 0;
   PetscCall(CheckTangential(problem, state, before, solution, check));

@@ -12,14 +12,15 @@
 
 static PetscErrorCode DeclareFields(SamContact c)
 {
-  static const SamStateField tractions[3] = {
-    {"pressure", "Pa", "contact pressure, mean over the cell", 1, 3, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_USUAL,
-     SAM_STAYS},
-    {"bound", "Pa", NULL, 1, 3, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_NONE, SAM_STAYS},
-    {"shear", "Pa", "shear traction, mean over the cell", 2, 3, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_USUAL, SAM_STAYS}};
+  static const SamStateField tractions[3]     = {{"pressure", "Pa", "contact pressure, mean over the cell", 1, 3,
+                                                  PETSC_TRUE, PETSC_FALSE, SAM_RESULT_USUAL, SAM_STAYS, 0},
+                                                 {"bound", "Pa", NULL, 1, 3, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_NONE,
+                                                  SAM_STAYS, 0},
+                                                 {"shear", "Pa", "shear traction, mean over the cell", 2, 3, PETSC_TRUE,
+                                                  PETSC_FALSE, SAM_RESULT_USUAL, SAM_STAYS, 0}};
   static const SamStateField displacements[2] = {
-    {"displacement_z", "m", DISPLACEMENT, 1, 2, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_OFFERED, SAM_STAYS},
-    {"displacement", "m", DISPLACEMENT, 2, 2, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_OFFERED, SAM_MOVES_CONTINUED}};
+    {"displacement_z", "m", DISPLACEMENT, 1, 2, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_OFFERED, SAM_STAYS, 0},
+    {"displacement", "m", DISPLACEMENT, 2, 2, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_OFFERED, SAM_MOVES_CONTINUED, 0}};
 
   PetscFunctionBegin;
   for (int k = 0; k < 3; k++) PetscCall(SamStateDeclareField(c->state, &tractions[k], &c->tractions[k]));
@@ -251,18 +252,18 @@ static PetscBool TurnsAtMidStep(SamContact c)
 
 /*
   The committed solution as the next step finds it where the grid has moved: what belongs to the material has moved
-  through it. The rigid motion, and the stretch by bulk stress, are taken about the origin, which has moved along.
+  through it. The rigid motion, and the strain of the surfaces, are taken about the origin, which has moved along.
 */
 static PetscErrorCode Move(SamContact c, const PetscReal roll[2])
 {
   SamSolution *const s     = &c->generation[SAM_COMMITTED];
   PetscReal *const   rigid = s->rigid;
-  SamStretch         e;
+  SamStrain          e;
 
   PetscFunctionBegin;
   PetscCall(SamStateMove(c->state, roll));
   PetscCall(SamContactView(c));
-  e = SamStretchOf(c->problem, &s->control);
+  PetscCall(SamProblemGetStrain(c->problem, &s->control, &e));
   rigid[SAM_COMPONENT_TX] -= rigid[SAM_COMPONENT_MZ] * roll[1] + e.xx * roll[0] + e.xy * roll[1];
   rigid[SAM_COMPONENT_TY] += rigid[SAM_COMPONENT_MZ] * roll[0] - e.xy * roll[0] - e.yy * roll[1];
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -270,19 +271,21 @@ static PetscErrorCode Move(SamContact c, const PetscReal roll[2])
 
 PetscErrorCode SamContactBegin(SamContact c, const SamControl *control)
 {
-  SamSolution *s = &c->generation[SAM_TRIED];
-  PetscReal    roll[2];
+  SamSolution       *s      = &c->generation[SAM_TRIED];
+  const SamSolution *before = SamContactBefore(c);
+  PetscReal          roll[2];
 
   PetscFunctionBegin;
   PetscCall(SamContactDeclare(c));
   PetscCall(SamStateBegin(c->state));
   c->rolls = SamProblemGetRolled(c->problem, control, roll) != 0;
-  if (c->rolls && SamContactBefore(c)) PetscCall(Move(c, roll));
+  if (c->rolls && before) PetscCall(Move(c, roll));
   *s          = (SamSolution){.control = *control};
   s->mid_step = TurnsAtMidStep(c);
   PetscCall(SamStateSetField(c->state, c->tractions[0], &s->pressure));
   PetscCall(SamStateSetField(c->state, c->tractions[1], &s->bound));
   PetscCall(SamStateSetField(c->state, c->tractions[2], &s->shear));
+  PetscCall(SamProblemBegin(c->problem, c->state, control, before ? control->time - before->control.time : 0));
   PetscCall(SamProblemGetRevision(c->problem, &c->revision[SAM_TRIED]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,6 +1,5 @@
 /* Steps of a contact that are tried, then committed or rejected. */
 #include "contactimpl.h"
-#include <petsam/private/bulk.h>
 #include <math.h>
 #include <petsam/private/elasticity.h>
 #include <petsam/private/solverimpl.h>
@@ -72,45 +71,6 @@ static PetscErrorCode Judge(SamContact c, SamStep *step)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/*
-  Bulk stress must be finite, and 0 in a rigid body, and in bodies that bear none: stretched ones are not periodic. In
-  plane strain that along y follows from that along x.
-*/
-static PetscErrorCode CheckBulkStress(SamContact c, SamControl *control)
-{
-  PetscReal         all[SAM_BULK_COMPONENTS];
-  SamPair           pair;
-  SamElasticityType type;
-
-  PetscFunctionBegin;
-  PetscCall(SamElasticityGetPair(c->elasticity, &pair));
-  PetscCall(SamElasticityGetType(c->elasticity, &type));
-  for (PetscInt body = 0; body < 2; body++) {
-    SamBulkGet(c->conditions, control, body, all);
-    for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++) {
-      const SamMaterial  *m         = SamBodyBulk(SamPairBody(pair, body));
-      const SamCondition *condition = SamBulkCondition(c->conditions, body, k);
-      const char *const   name      = condition->name;
-      const double        stress    = (double)all[k];
-      double              follows;
-
-      PetscCheck(stress == 0 || !isinf(m->young), c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-                 "%s = %.6g: expected 0: a rigid body does not stretch", name, stress);
-      PetscCheck(fabs(stress) <= m->young, c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-                 "%s = %.6g: expected at most Young's modulus, %.6g", name, stress, (double)m->young);
-      PetscCheck(stress == 0 || c->traits.stretch, c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-                 "%s = %.6g: expected 0: bodies of type %s bear no bulk stress", name, stress, type);
-      if (!c->traits.plane || k == SAM_BULK_XX) continue;
-      /* without -0, of which nothing may depend */
-      follows = k == SAM_BULK_YY ? 0 + m->poisson * all[SAM_BULK_XX] : 0;
-      SamControlSetCondition(control, condition, follows);
-      PetscCheck(stress == 0 || stress == follows, c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
-                 "%s = %.6g: expected 0: in plane strain yy follows from xx, and there is no xy", name, stress);
-    }
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Conditions must be in their range, and the pressure and the shear be solved with each other where they ask for it. */
 static PetscErrorCode CheckConditions(SamContact c, const SamControl *control)
 {
@@ -130,7 +90,9 @@ static PetscErrorCode CheckConditions(SamContact c, const SamControl *control)
 /* Refuses a control that makes no sense. Rotations that the elasticity does not have are held at 0. */
 static PetscErrorCode CheckControl(SamContact c, SamControl *control)
 {
-  SamElasticityType type;
+  const SamCondition *wrong;
+  SamElasticityType   type;
+  char                why[192];
 
   PetscFunctionBegin;
   PetscCall(SamElasticityGetType(c->elasticity, &type));
@@ -148,7 +110,9 @@ static PetscErrorCode CheckControl(SamContact c, SamControl *control)
              PETSC_ERR_ARG_OUTOFRANGE, "load_n = %.6g: expected a number >= 0",
              (double)control->value[SAM_COMPONENT_N]);
   PetscCall(CheckConditions(c, control));
-  PetscCall(CheckBulkStress(c, control));
+  PetscCall(SamProblemCheckControl(c->problem, control, &wrong, why, sizeof(why)));
+  PetscCheck(!why[0], c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "%s = %.6g: %s", wrong->name,
+             (double)SamControlGet(control, wrong), why);
   PetscCall(SamMotionCheck(c->elasticity, c->conditions, control, ""));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -113,23 +113,6 @@ PetscBool SamBodyIsRigid(SamBody body)
   return isinf(body->material[0].young) ? PETSC_TRUE : PETSC_FALSE;
 }
 
-void SamBodyBulkStressAt(SamBody body, PetscReal depth, const double bulk[3], double stress[3])
-{
-  const SamMaterial *last = SamBodyBulk(body), *m = SamBodyMaterialAt(body, depth);
-
-  for (int k = 0; k < 3; k++) stress[k] = bulk[k];
-  if (m == last) return;
-  if (!isinf(last->young)) {
-    const double nu = (double)last->poisson, own = (double)m->poisson, ratio = (double)(m->young / last->young);
-    const double xx = bulk[0] - nu * bulk[1], yy = bulk[1] - nu * bulk[0];
-
-    stress[0] = ratio * (xx + own * yy) / (1 - own * own);
-    stress[1] = ratio * (yy + own * xx) / (1 - own * own);
-    stress[2] = ratio * (1 + nu) / (1 + own) * bulk[2];
-  }
-  for (int k = 0; k < 2; k++) stress[k] += (double)m->stress[k];
-}
-
 /* ---- advice ---- */
 
 PetscErrorCode SamBodyAdvise(SamBody body, PetscInt number, PetscInt k, PetscReal cell, PetscReal width,

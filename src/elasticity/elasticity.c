@@ -1,5 +1,4 @@
 /* Influence operators: types, options, and the operators on coarser grids. */
-#include <petsam/private/bulk.h>
 #include <petsam/private/elasticity.h>
 #include <petsam/private/elasticityimpl.h>
 #include <petsam/private/fourier.h>
@@ -130,15 +129,6 @@ PetscErrorCode SamElasticityGetType(SamElasticity e, SamElasticityType *type)
 PetscErrorCode SamElasticitySetOptionsPrefix(SamElasticity e, const char prefix[])
 {
   return SamSetPrefix(e->prefix, prefix);
-}
-
-PetscErrorCode SamElasticityAddConditions(SamElasticity e, SamConditions conditions)
-{
-  PetscFunctionBegin;
-  PetscCall(SamBulkAddConditions(conditions));
-  for (; e; e = e->inner)
-    if (e->ops.conditions) PetscCall((*e->ops.conditions)(e, conditions));
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* The help lists the options of the other types, too. */

@@ -89,7 +89,7 @@ static PetscErrorCode MoveFields(SamFile f, SamState state)
       NameOf("", field->name, g, name);
       if (f->writing ? !values : SamFileNote(f, H5Lexists(f->id, name, H5P_DEFAULT)) <= 0) continue;
       PetscCall(SamStateRestoreField(state, k, (SamGeneration)g, &values));
-      PetscCall(MoveField(f, name, field->components, values));
+      PetscCall(MoveField(f, name, SamStateFieldSize(field), values));
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -183,7 +183,7 @@ static off_t CountBytes(SamGrid grid, SamState state)
   for (PetscInt k = 0; k < SamStateCountFields(state); k++)
     for (PetscInt g = SAM_COMMITTED; g < SamStateFieldOf(state, k)->generations; g++)
       if (SamStateFieldOf(state, k)->kept && SamStateGetField(state, k, (SamGeneration)g))
-        values += SamStateFieldOf(state, k)->components;
+        values += SamStateFieldSize(SamStateFieldOf(state, k));
   return values * (off_t)sizeof(double) * grid->nx * grid->ny;
 }
 

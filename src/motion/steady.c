@@ -2,7 +2,6 @@
   Steady rolling towards +x: each load step is a steady state by itself, solved by the operator of the shear's
   differences along x (elasticity/rolling.c). Steps are those of 1 m of rolled distance.
 */
-#include <petsam/private/bulk.h>
 #include <petsam/private/elasticity.h>
 #include <petsam/private/motionimpl.h>
 
@@ -33,6 +32,7 @@ static PetscErrorCode Check(SamElasticity e, SamConditions conditions, const Sam
                             const char where[])
 {
   PetscFunctionBegin;
+  (void)conditions;
   PetscCheck(rolled == 0, e->grid->comm, SAM_ERR_USER,
              "%sroll = %.6g: has no meaning with -rolling steady: omit one of them", where, (double)rolled);
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++)
@@ -40,12 +40,6 @@ static PetscErrorCode Check(SamElasticity e, SamConditions conditions, const Sam
                  (k >= SAM_COMPONENT_MX && !e->traits.rotations[k - SAM_COMPONENT_MX]),
                e->grid->comm, SAM_ERR_USER, "%s has no meaning with -rolling steady: give %s or %s",
                SamComponentNames[k].rigid, SamComponentNames[k].creep, SamComponentNames[k].load);
-  for (PetscInt k = 0; k < 2 * SAM_BULK_COMPONENTS; k++) {
-    const SamCondition *bulk = SamBulkCondition(conditions, k / SAM_BULK_COMPONENTS, k % SAM_BULK_COMPONENTS);
-
-    PetscCheck(SamControlGet(control, bulk) == 0, e->grid->comm, SAM_ERR_USER,
-               "%s has no meaning with -rolling steady: a uniform strain is a creepage: add it to creep_x", bulk->name);
-  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

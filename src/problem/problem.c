@@ -16,6 +16,23 @@ struct _n_SamProblem {
 
 /* ---- creation ---- */
 
+/* Adds the laws that each problem with these bodies has. */
+static PetscErrorCode AddUsualLaws(SamProblem p)
+{
+  const SamLawType *types;
+  PetscInt          count;
+  SamLaw            law;
+
+  PetscFunctionBegin;
+  PetscCall(SamLawGetTypes(&count, &types));
+  for (PetscInt k = 0; k < count; k++) {
+    PetscCall(SamLawCreate(p->elasticity, types[k], &law));
+    if (law->always) PetscCall(SamProblemAddLaw(p, law));
+    PetscCall(SamLawDestroy(&law));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamProblemCreate(SamElasticity elasticity, SamProblem *problem)
 {
   SamProblem p;
@@ -29,7 +46,7 @@ PetscErrorCode SamProblemCreate(SamElasticity elasticity, SamProblem *problem)
   PetscCall(SamGridCreateVec(p->grid, 1, &p->gap));
   PetscCall(SamConditionsCreate(&p->conditions));
   PetscCall(SamProblemAddLawOfType(p, SAM_LAW_COULOMB, NULL));
-  PetscCall(SamElasticityAddConditions(elasticity, p->conditions));
+  PetscCall(AddUsualLaws(p));
   PetscCall(SamMotionAddConditions(p->conditions));
   *problem = p;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -81,13 +98,6 @@ PetscErrorCode SamProblemGetConditions(SamProblem p, SamConditions *conditions)
 PetscReal SamProblemGetRolled(SamProblem p, const SamControl *control, PetscReal distance[2])
 {
   return SamMotionRolled(p->conditions, control, distance);
-}
-
-PetscErrorCode SamProblemAddCases(SamProblem p, const SamControl *control, PetscBool tangential, Vec field)
-{
-  PetscFunctionBegin;
-  PetscCall(SamElasticityAddCases(p->elasticity, p->conditions, control, tangential, field));
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- the gap ---- */
@@ -220,6 +230,61 @@ PetscErrorCode SamProblemMoves(SamProblem p, PetscBool *moves)
   *moves = PETSC_FALSE;
   for (PetscInt k = 0; k < p->laws; k++)
     if (p->law[k]->ops.separation) *moves = PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- what displaces the surfaces besides the tractions ---- */
+
+PetscErrorCode SamProblemCheckControl(SamProblem p, SamControl *control, const SamCondition **wrong, char why[],
+                                      size_t size)
+{
+  PetscFunctionBegin;
+  why[0] = '\0';
+  for (PetscInt k = 0; k < p->laws && !why[0]; k++)
+    if (p->law[k]->ops.check) PetscCall(p->law[k]->ops.check(p->law[k], control, wrong, why, size));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamProblemBegin(SamProblem p, SamState state, const SamControl *control, PetscReal duration)
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < p->laws; k++)
+    if (p->law[k]->ops.begin) PetscCall(p->law[k]->ops.begin(p->law[k], state, control, duration));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscBool SamProblemHasOffset(SamProblem p)
+{
+  for (PetscInt k = 0; k < p->laws; k++)
+    if (p->law[k]->ops.offset) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+PetscErrorCode SamProblemAddOffset(SamProblem p, SamState state, const SamControl *control, Vec u_z, Vec u_t,
+                                   PetscBool *adds)
+{
+  PetscFunctionBegin;
+  if (adds) *adds = PETSC_FALSE;
+  for (PetscInt k = 0; k < p->laws; k++)
+    if (p->law[k]->ops.offset) PetscCall(p->law[k]->ops.offset(p->law[k], state, control, u_z, u_t, adds));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamProblemGetStrain(SamProblem p, const SamControl *control, SamStrain *strain)
+{
+  PetscFunctionBegin;
+  *strain = (SamStrain){0, 0, 0};
+  for (PetscInt k = 0; k < p->laws; k++)
+    if (p->law[k]->ops.strain) PetscCall(p->law[k]->ops.strain(p->law[k], control, strain));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamProblemAddStress(SamProblem p, const SamControl *control, PetscInt body, PetscReal depth,
+                                   double stress[])
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < p->laws; k++)
+    if (p->law[k]->ops.stress) PetscCall(p->law[k]->ops.stress(p->law[k], control, body, depth, stress));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

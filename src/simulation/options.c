@@ -1,7 +1,6 @@
 /* What a simulation reads: contact, load program or life, files; and what of it does not go together. */
 #include "simulationimpl.h"
 #include <petsam/private/arguments.h>
-#include <petsam/private/bulk.h>
 #include <petsam/private/lawimpl.h>
 #include <petsam/private/solutionimpl.h>
 #include <string.h>
@@ -9,49 +8,14 @@
 
 #define FLUSH 2.0 /* s that steps without fields wait to be written */
 
-/* Refuses bulk stress of a rigid body, and of bodies that bear none. */
-static PetscErrorCode CheckBulkStress(SamSimulation s, const SamControl *control, SamElasticityTraits traits,
-                                      const SamOptions *from)
-{
-  const char       *prefix = SamOptionsPrefix(from);
-  PetscReal         all[SAM_BULK_COMPONENTS];
-  SamElasticityType type;
-
-  PetscFunctionBegin;
-  PetscCall(SamElasticityGetType(s->setup.elasticity, &type));
-  for (PetscInt body = 0; body < 2; body++) {
-    SamBulkGet(s->conditions, control, body, all);
-    for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++) {
-      const char *const name   = SamBulkCondition(s->conditions, body, k)->name;
-      const double      stress = (double)all[k], young = (double)SamBodyBulk(SamPairBody(s->setup.pair, body))->young;
-
-      PetscCheck(fabs(stress) <= young, from->comm, SAM_ERR_USER,
-                 "-%s%s, or its column in -history: %.6g exceeds Young's modulus, %.6g: check the unit, Pa", prefix,
-                 name, stress, young);
-
-      PetscCheck(stress == 0 || !isinf(young), from->comm, SAM_ERR_USER,
-                 "-%s%s, or its column in -history: %.6g: -%sbody%" PetscInt_FMT
-                 "_young is inf: a rigid body does not stretch",
-                 prefix, name, stress, prefix, body + 1);
-      PetscCheck(stress == 0 || traits.stretch, from->comm, SAM_ERR_USER,
-                 "-%s%s, or its column in -history: %.6g: has no meaning with -%selasticity %s, whose bodies bear none",
-                 prefix, name, stress, prefix, type);
-      PetscCheck(
-        stress == 0 || !traits.plane || k == SAM_BULK_XX, from->comm, SAM_ERR_USER,
-        "-%s%s, or its column in -history: %.6g: has no meaning in plane strain, where yy follows from xx, and "
-        "there is no xy: give %s",
-        prefix, name, stress, SamBulkCondition(s->conditions, body, SAM_BULK_XX)->name);
-    }
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Refuses moments, rotations and bulk stress where the bodies have none, by the name that the user gave. */
+/* Refuses moments and rotations where the bodies have none, and what laws refuse, by the name that the user gave. */
 static PetscErrorCode CheckComponents(SamSimulation s, const SamOptions *from)
 {
+  const SamCondition *wrong;
   SamElasticityTraits traits;
   SamElasticityType   type;
   PetscInt            count;
+  char                why[192];
 
   PetscFunctionBegin;
   PetscCall(SamElasticityGetTraits(s->setup.elasticity, &traits));
@@ -61,7 +25,9 @@ static PetscErrorCode CheckComponents(SamSimulation s, const SamOptions *from)
     SamControl control;
 
     PetscCall(SamHistoryGetStep(s->history, k, &control));
-    PetscCall(CheckBulkStress(s, &control, traits, from));
+    PetscCall(SamProblemCheckControl(s->setup.problem, &control, &wrong, why, sizeof(why)));
+    PetscCheck(!why[0], from->comm, SAM_ERR_USER, "-%s%s, or its column in -history: %.6g: %s", SamOptionsPrefix(from),
+               wrong->name, (double)SamControlGet(&control, wrong), why);
     for (PetscInt c = SAM_COMPONENT_MX; c < SAM_COMPONENTS; c++) {
       char      place[PETSC_MAX_PATH_LEN + 32];
       PetscBool given;

@@ -1,10 +1,9 @@
 /*
-  Fields that follow from a solution: the gap u_z + h - rigid, the slip u_t + stretch - rigid, the state of each cell.
+  Fields that follow from a solution: the gap u_z + h - rigid, the slip u_t + strain - rigid, the state of each cell.
 
   They are not stored, but computed row by row where they are needed, always by these functions: so they are the same to
   the last bit in the check, in the next step and in the results.
 */
-#include <petsam/private/bulk.h>
 #include <petsam/private/solutionimpl.h>
 
 PetscErrorCode SamValuesGet(const SamSolution *s, SamValues *v)
@@ -31,29 +30,6 @@ PetscErrorCode SamValuesRestore(const SamSolution *s, SamValues *v)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-SamStretch SamStretchOf(SamProblem problem, const SamControl *control)
-{
-  SamStretch    e = {0, 0, 0};
-  SamConditions conditions;
-  SamElasticity elasticity;
-  SamPair       pair;
-
-  (void)SamProblemGetConditions(problem, &conditions);
-  (void)SamProblemGetElasticity(problem, &elasticity);
-  (void)SamElasticityGetPair(elasticity, &pair);
-  for (int body = 0; body < 2; body++) {
-    const SamMaterial *m  = SamBodyBulk(SamPairBody(pair, body));
-    const PetscReal    nu = m->poisson, sign = body ? 1 : -1;
-    PetscReal          s[SAM_BULK_COMPONENTS];
-
-    SamBulkGet(conditions, control, body, s);
-    e.xx += sign * (s[SAM_BULK_XX] - nu * s[SAM_BULK_YY]) / m->young;
-    e.yy += sign * (s[SAM_BULK_YY] - nu * s[SAM_BULK_XX]) / m->young;
-    e.xy += sign * (1 + nu) * s[SAM_BULK_XY] / m->young;
-  }
-  return e;
-}
-
 PetscErrorCode SamRigidSet(SamRigid *m, SamProblem problem, const SamSolution *s)
 {
   SamBalance    rigid[2] = {{.kind = SAM_BALANCE_NORMAL}, {.kind = SAM_BALANCE_TANGENTIAL}};
@@ -69,7 +45,7 @@ PetscErrorCode SamRigidSet(SamRigid *m, SamProblem problem, const SamSolution *s
     for (PetscInt k = 0; k < 3; k++) rigid[kind].rigid[k] = s->rigid[SamComponentsOf[kind][k]];
   PetscCall(SamFrameSetGiven(&m->normal, grid, &rigid[0]));
   PetscCall(SamFrameSetGiven(&m->tangential, grid, &rigid[1]));
-  m->stretch = SamStretchOf(problem, &s->control);
+  PetscCall(SamProblemGetStrain(problem, &s->control, &m->strain));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -80,15 +56,15 @@ SamRigidRow SamRigidOfGap(const SamRigid *m, PetscInt j)
   return (SamRigidRow){a[0] - a[1] * SamFrameEta(&m->normal, j), a[2]};
 }
 
-/* The rigid displacement minus the stretch. */
+/* The rigid displacement minus the strain's. */
 static SamRigidRow RowOfSlip(const SamRigid *m, PetscInt component, PetscInt j)
 {
-  const SamGrid    grid = m->tangential.grid;
-  const double    *a = m->tangential.fixed, eta = SamFrameEta(&m->tangential, j);
-  const SamStretch e    = m->stretch;
-  const double     y    = grid->center[1] + eta * grid->length;
-  const double     at_x = component ? e.xy : e.xx, at_y = component ? e.yy : e.xy;
-  SamRigidRow      row = component ? (SamRigidRow){a[1], a[2]} : (SamRigidRow){SamFrameX(a, eta), 0};
+  const SamGrid   grid = m->tangential.grid;
+  const double   *a = m->tangential.fixed, eta = SamFrameEta(&m->tangential, j);
+  const SamStrain e    = m->strain;
+  const double    y    = grid->center[1] + eta * grid->length;
+  const double    at_x = component ? e.xy : e.xx, at_y = component ? e.yy : e.xy;
+  SamRigidRow     row = component ? (SamRigidRow){a[1], a[2]} : (SamRigidRow){SamFrameX(a, eta), 0};
 
   row.a -= at_x * grid->center[0] + at_y * y;
   row.b -= at_x * grid->length;

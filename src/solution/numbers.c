@@ -282,21 +282,18 @@ PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamState state, con
   double *const contact = SamStateNumbers(state, SamStateFindNumber(state, contact_edge.name), SAM_TRIED);
   SamGrid       grid;
   SamElasticity elasticity;
-  PetscBool     continues;
-  SamConditions conditions;
+  PetscBool     continues, offset;
 
   PetscFunctionBegin;
   PetscCall(SamProblemGetGrid(problem, &grid));
   PetscCall(SamProblemGetElasticity(problem, &elasticity));
-  PetscCall(SamProblemGetConditions(problem, &conditions));
   continues = SamMotionOf(elasticity)->continues;
   PetscCall(SumCells(problem, before, s, numbers));
   if (!continues) numbers[STORED_ENERGY] = NAN; /* u_t is that of a rolled distance */
   if (!continues || SamProblemGetRolled(problem, &s->control, NULL) != 0)
-    numbers[ENERGY_ERROR] = NAN;                                /* estimated at one place */
-  for (PetscInt k = 0; k < SamConditionsCount(conditions); k++) /* the displacements are not by the tractions alone */
-    if (SamConditionsGet(conditions, k)->couples && SamControlGet(&s->control, SamConditionsGet(conditions, k)) != 0)
-      numbers[STORED_ENERGY] = NAN;
+    numbers[ENERGY_ERROR] = NAN; /* estimated at one place */
+  PetscCall(SamProblemAddOffset(problem, state, &s->control, NULL, NULL, &offset));
+  if (offset) numbers[STORED_ENERGY] = NAN; /* the displacements are not by the tractions alone */
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_EDGES], 0, 0, 0, 0));
   numbers[EDGE_ACCEPTED] = 0;
   if (!same_pressure) contact[KNOWN] = 0;

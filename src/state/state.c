@@ -102,26 +102,32 @@ PetscErrorCode SamStateOffer(SamState s, const SamStateResult *result)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Offers the components of a remembered field. */
+/* The name and the text of the c-th of the values of a field for each cell. */
+static void NameValue(const SamStateField *f, PetscInt c, char name[48], char text[], size_t size)
+{
+  const char axis[2] = {c % f->components ? 'y' : 'x', '\0'}, *const rest = strchr(f->text, ',');
+  const int word      = (int)strcspn(f->text, ",");
+  char      layer[24] = "", below[48] = "";
+
+  if (f->layers) (void)snprintf(layer, sizeof(layer), "_%d", (int)(c / f->components) + 1);
+  if (f->layers) (void)snprintf(below, sizeof(below), ", layer %d", (int)(c / f->components) + 1);
+  (void)snprintf(name, 48, "%s%s%s%s", f->name, layer, f->components > 1 ? "_" : "", f->components > 1 ? axis : "");
+  (void)snprintf(text, size, "%.*s%s%s%s%s", word, f->text, f->components > 1 ? " along " : "",
+                 f->components > 1 ? axis : "", rest ? rest : "", below);
+}
+
+/* Offers the values of a remembered field. */
 static PetscErrorCode OfferField(SamState s, PetscInt id)
 {
   const SamStateField *f = &s->field[id].declared;
 
   PetscFunctionBegin;
-  for (PetscInt c = 0; c < f->components; c++) {
-    SamStateResult result = {f->name, f->unit, f->text, SAM_FIELD_REAL, f->result, NULL, NULL, c, id};
-    char *const    name   = s->names[PetscMin(s->results, SAM_STATE_MOST - 1)];
+  for (PetscInt c = 0; c < SamStateFieldSize(f); c++) {
+    const PetscInt k = PetscMin(s->results, SAM_STATE_MOST - 1);
 
-    PetscCall(PetscSNPrintf(name, sizeof(s->names[0]), f->components > 1 ? "%s_%c" : "%s", f->name, c ? 'y' : 'x'));
-    result.name = name;
-    if (f->components > 1) {
-      char *const  text = s->texts[PetscMin(s->results, SAM_STATE_MOST - 1)];
-      const size_t word = strcspn(f->text, ",");
-
-      (void)snprintf(text, sizeof(s->texts[0]), "%.*s along %c%s", (int)word, f->text, c ? 'y' : 'x', f->text + word);
-      result.text = text;
-    }
-    PetscCall(SamStateOffer(s, &result));
+    NameValue(f, c, s->names[k], s->texts[k], sizeof(s->texts[k]));
+    PetscCall(SamStateOffer(s, &(SamStateResult){s->names[k], f->unit, s->texts[k], SAM_FIELD_REAL, f->result, NULL,
+                                                 NULL, c, id}));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -262,8 +268,8 @@ PetscErrorCode SamStateMove(SamState s, const PetscReal distance[2])
     Field *f = &s->field[k];
 
     if (f->declared.motion == SAM_STAYS || !f->value[SAM_COMMITTED]) continue;
-    PetscCall(SamGridCreateVec(s->grid, f->declared.components, &f->other));
-    PetscCall(SamGridMove(s->grid, f->declared.components, distance, f->declared.motion == SAM_MOVES_CONTINUED,
+    PetscCall(SamGridCreateVec(s->grid, SamStateFieldSize(&f->declared), &f->other));
+    PetscCall(SamGridMove(s->grid, SamStateFieldSize(&f->declared), distance, f->declared.motion == SAM_MOVES_CONTINUED,
                           f->value[SAM_COMMITTED], f->other));
   }
   SamStateSwapMoved(s);
@@ -327,7 +333,7 @@ PetscErrorCode SamStateRestoreField(SamState s, PetscInt id, SamGeneration g, Ve
   Field *f = &s->field[id];
 
   PetscFunctionBegin;
-  if (!f->value[g]) PetscCall(SamGridCreateVec(s->grid, f->declared.components, &f->value[g]));
+  if (!f->value[g]) PetscCall(SamGridCreateVec(s->grid, SamStateFieldSize(&f->declared), &f->value[g]));
   *field = f->value[g];
   PetscFunctionReturn(PETSC_SUCCESS);
 }

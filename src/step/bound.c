@@ -102,7 +102,9 @@ PetscErrorCode SamSolveShear(SamSolve *w, PetscBool has_shear, PetscReal rtol, S
 
   PetscFunctionBegin;
   if (w->task->coupled) PetscCall(SamElasticityApplyNormalToTangential(w->task->elasticity, w->s->pressure, w->pushed));
-  if (w->task->coupled) PetscCall(SamProblemAddCases(w->task->problem, &w->s->control, PETSC_TRUE, w->pushed));
+  if (w->pushed && !w->task->coupled) PetscCall(VecSet(w->pushed, 0));
+  if (w->pushed)
+    PetscCall(SamProblemAddOffset(w->task->problem, w->task->state, &w->s->control, NULL, w->pushed, NULL));
   if (!SamProblemFollowsSlip(w->task->problem)) {
     PetscCall(SamSolveDirection(w, has_shear, rtol, effort));
     PetscFunctionReturn(PETSC_SUCCESS);

@@ -25,10 +25,12 @@ static PetscErrorCode Begin(const SamStepTask *task, SamStep *step, SamSolve *w)
   PetscCall(PetscArraycpy(w->rigid, task->start.rigid, 3));
   PetscCall(SamSolutionCreateSeparation(task->problem, task->state, SAM_COMMITTED, &w->separation));
   if (task->coupled || w->s->mid_step) PetscCall(SamGridCreateVec(task->grid, 2, &w->shear_product.field));
-  if (!w->task->coupled) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamGridCreateVec(task->grid, 1, &w->h));
+  if (task->coupled || SamProblemHasOffset(task->problem)) {
+    PetscCall(SamGridCreateVec(task->grid, 1, &w->h));
+    PetscCall(SamGridCreateVec(task->grid, 2, &w->pushed));
+  }
+  if (!task->coupled) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamGridCreateVec(task->grid, 1, &w->lift));
-  PetscCall(SamGridCreateVec(task->grid, 2, &w->pushed));
   PetscCall(SamGridCreateVec(task->grid, 1, &w->pressure_product.field));
   PetscCall(SamGridCreateVec(task->grid, 1, &w->previous_pressure));
   PetscCall(SamGridCreateVec(task->grid, 2, &w->previous_shear));

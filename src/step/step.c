@@ -60,13 +60,14 @@ static PetscErrorCode TakePressure(SamSolve *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The separation for the normal problem: that of the bodies, plus the lift, which w->h holds, of coupled ones. */
+/* The separation for the normal problem: that of the bodies, the lift, which w->h holds, of coupled ones, offsets. */
 static PetscErrorCode GetSeparation(SamSolve *w, Vec *h)
 {
   PetscFunctionBegin;
   if (w->task->coupled) PetscCall(VecAXPY(w->h, 1, w->separation));
-  if (w->task->coupled) PetscCall(SamProblemAddCases(w->task->problem, &w->s->control, PETSC_FALSE, w->h));
-  *h = w->task->coupled ? w->h : w->separation;
+  if (w->h && !w->task->coupled) PetscCall(VecCopy(w->separation, w->h));
+  if (w->h) PetscCall(SamProblemAddOffset(w->task->problem, w->task->state, &w->s->control, w->h, NULL, NULL));
+  *h = w->h ? w->h : w->separation;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -208,8 +209,8 @@ PetscErrorCode SamSolveJudge(SamSolve *w, SamBalanceKind kind)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Adds the stretch of the surfaces by bulk stress to a field of tangential displacements. */
-static PetscErrorCode AddStretch(SamGrid grid, const SamStretch *e, Vec field)
+/* Adds a strain of the surfaces to a field of tangential displacements. */
+static PetscErrorCode AddStrain(SamGrid grid, const SamStrain *e, Vec field)
 {
   double *u;
 
@@ -234,15 +235,15 @@ static PetscErrorCode AddStretch(SamGrid grid, const SamStretch *e, Vec field)
 static PetscErrorCode CreateOffset(SamSolve *w, Vec *offset)
 {
   const SamStepTask *task = w->task;
-  SamStretch         e;
-  PetscBool          stretched;
+  SamStrain          e;
+  PetscBool          strained;
   double            *slip;
 
   PetscFunctionBegin;
-  *offset   = NULL;
-  e         = SamStretchOf(w->task->problem, &w->s->control);
-  stretched = e.xx != 0 || e.yy != 0 || e.xy != 0;
-  if (!w->task->coupled && !w->task->before && !stretched) PetscFunctionReturn(PETSC_SUCCESS);
+  *offset = NULL;
+  PetscCall(SamProblemGetStrain(task->problem, &w->s->control, &e));
+  strained = e.xx != 0 || e.yy != 0 || e.xy != 0;
+  if (!w->pushed && !w->task->before && !strained) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamGridCreateVec(task->grid, 2, offset));
   if (w->task->before) {
     PetscCall(VecGetArray(*offset, &slip));
@@ -251,8 +252,8 @@ static PetscErrorCode CreateOffset(SamSolve *w, Vec *offset)
     PetscCall(VecRestoreArray(*offset, &slip));
     PetscCall(VecScale(*offset, -1));
   }
-  if (w->task->coupled) PetscCall(VecAXPY(*offset, 1, w->pushed));
-  if (stretched) PetscCall(AddStretch(task->grid, &e, *offset));
+  if (w->pushed) PetscCall(VecAXPY(*offset, 1, w->pushed));
+  if (strained) PetscCall(AddStrain(task->grid, &e, *offset));
   if (w->turn) PetscCall(VecAXPY(*offset, -1, w->turn));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -275,7 +276,7 @@ PetscErrorCode SamSolveDisplace(SamSolve *w)
     PetscCall(VecCopy(w->shear_product.field, w->s->displacement_t));
   else
     PetscCall(SamElasticityApplyTangential(w->task->elasticity, w->s->shear, w->s->displacement_t));
-  if (w->task->coupled) PetscCall(VecAXPY(w->s->displacement_t, 1, w->pushed));
+  if (w->pushed) PetscCall(VecAXPY(w->s->displacement_t, 1, w->pushed));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -308,6 +309,7 @@ static PetscErrorCode GuessDirection(SamSolve *w, SamKept kept, Vec shear, const
   PetscFunctionBegin;
   PetscCall(SamStepSetDisplacements(w->task->state, w->task->displacements, w->s));
   PetscCall(VecCopy(product->field, w->s->displacement_t));
+  if (w->pushed) PetscCall(VecAXPY(w->s->displacement_t, 1, w->pushed));
   SamBalanceStore(&w->tangential, w->s->load, w->s->rigid);
   SamKeptGetMotion(kept, w->task->before, w->s->rigid);
   w->s->shear = shear;

@@ -20,11 +20,12 @@ typedef struct {
   Vec                slip;               /* the length of the slip of this step, by the last shear; NULL: none yet */
   SamProduct         shear_product;      /* C q of the tried solution; coupled, or at mid step only */
   Vec                turn;               /* at mid step: t of direction.c, m, two components; NULL: zero */
+  /* coupled, or with an offset, only */
+  Vec h;      /* separation plus lift plus offset */
+  Vec pushed; /* tangential displacement by pressure and offset, set by SamSolveShear() */
   /* coupled only */
-  Vec        h;                /* separation plus lift */
-  Vec        lift;             /* normal displacement by the shear that the pressure is solved with */
-  Vec        pushed;           /* tangential displacement by pressure and load cases, set by SamSolveShear() */
-  SamProduct pressure_product; /* S p of the tried solution */
+  Vec        lift;                              /* normal displacement by the shear that the pressure is solved with */
+  SamProduct pressure_product;                  /* S p of the tried solution */
   Vec        previous_pressure, previous_shear; /* of the previous pass */
 } SamSolve;
 

@@ -75,7 +75,7 @@ static void GatherPassing(const Cycle *c, PetscInt point)
   double          far[SAM_STRESS_COMPONENTS] = {0};
   const SamPoints there = {.count = 1, .depth = c->points->depth + point / c->points->plane, .depths = 1, .plane = 1};
 
-  SamStressAddBulk(c->e, 0, &there, far);
+  SamStressAddUniform(c->e, 0, &there, far);
   for (PetscInt k = 0; k < SAM_STRESS_COMPONENTS; k++) {
     for (PetscInt i = 0; i < nx; i++) /* no parameter depends on which end comes first */
       c->stress[k * states + i] = c->points->stress[k * (ptrdiff_t)n + point + i];

@@ -35,7 +35,7 @@ PetscErrorCode SamLargestAtEdge(SamEvaluation e, PetscInt step, Vec field)
   double       *stress;
 
   PetscFunctionBegin;
-  SamStressAddBulk(e, step, &(SamPoints){.count = 1, .depths = 1, .plane = 1}, far);
+  SamStressAddUniform(e, step, &(SamPoints){.count = 1, .depths = 1, .plane = 1}, far);
   PetscCall(SamGridCreateVec(g, 1, &square));
   PetscCall(FillSquare(g, field, square));
   PetscCall(SamEdgeReconstruct(g, square, NULL, &edge));

@@ -17,7 +17,7 @@ PetscErrorCode SamEvaluationDestroy(SamEvaluation *evaluation)
   PetscCall(PetscFree(e->weight));
   PetscCall(PetscFree(e->depths_text));
   PetscCall(PetscFree(e->control));
-  PetscCall(SamConditionsDestroy(&e->conditions));
+  PetscCall(SamProblemDestroy(&e->problem));
   PetscCall(PetscFree(e->largest));
   for (int d = 0; d < SAM_STRESS_AXES; d++) PetscCall(PetscFree(e->coordinate[d]));
   PetscCall(PetscFree(e));
@@ -29,26 +29,35 @@ PetscErrorCode SamEvaluationDestroy(SamEvaluation *evaluation)
 PetscErrorCode SamEvaluationReadTractions(SamEvaluation e, PetscInt step, double *const to[SAM_STRESS_TRACTIONS])
 {
   PetscFunctionBegin;
-  e->stress->conditions = e->conditions;
-  e->stress->control    = &e->control[step];
+  PetscCall(SamProblemGetConditions(e->problem, &e->stress->conditions));
+  e->stress->control = &e->control[step];
   for (PetscInt t = 0; t < SAM_STRESS_TRACTIONS; t++)
     PetscCall((*e->source.read)(e->source.context, step, (SamStepField)(SAM_STEP_PRESSURE + t), to[t]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-void SamStressAddBulk(SamEvaluation e, PetscInt step, const SamPoints *p, double stress[])
+/* The stresses at a depth that do not depend on x and y: residual stress, and what laws add in a step. */
+static void GetUniform(SamEvaluation e, PetscInt step, PetscReal depth, double stress[SAM_STRESS_COMPONENTS])
 {
-  static const SamStressComponent component[SAM_BULK_COMPONENTS] = {SAM_STRESS_XX, SAM_STRESS_YY, SAM_STRESS_XY};
+  const SamBody            body = SamEvaluationBody(e);
+  const SamMaterial *const m    = SamBodyMaterialAt(body, depth);
+
+  for (int k = 0; k < SAM_STRESS_COMPONENTS; k++) stress[k] = 0;
+  if (m != SamBodyBulk(body)) stress[SAM_STRESS_XX] = (double)m->stress[0];
+  if (m != SamBodyBulk(body)) stress[SAM_STRESS_YY] = (double)m->stress[1];
+  (void)SamProblemAddStress(e->problem, &e->control[step], e->body - 1, depth, stress);
+}
+
+void SamStressAddUniform(SamEvaluation e, PetscInt step, const SamPoints *p, double stress[])
+{
+  double uniform[SAM_STRESS_COMPONENTS];
 
   for (PetscInt depth = 0; depth < p->depths; depth++) {
-    double given[SAM_BULK_COMPONENTS], bulk[SAM_BULK_COMPONENTS];
+    GetUniform(e, step, e->depth[p->depth + depth], uniform);
+    for (PetscInt k = 0; k < SAM_STRESS_COMPONENTS; k++) {
+      double *const s = stress + k * (ptrdiff_t)p->count + depth * (ptrdiff_t)p->plane;
 
-    SamBulkGet(e->conditions, &e->control[step], e->body - 1, given);
-    SamBodyBulkStressAt(SamEvaluationBody(e), e->depth[p->depth + depth], given, bulk);
-    for (PetscInt k = 0; k < SAM_BULK_COMPONENTS; k++) {
-      double *const s = stress + component[k] * (ptrdiff_t)p->count + depth * (ptrdiff_t)p->plane;
-
-      for (PetscInt i = 0; i < p->plane && bulk[k] != 0; i++) s[i] += bulk[k];
+      for (PetscInt i = 0; i < p->plane && uniform[k] != 0; i++) s[i] += uniform[k];
     }
   }
 }
@@ -160,6 +169,8 @@ static PetscErrorCode SetLayout(SamEvaluation e)
 
 PetscErrorCode SamEvaluationSetUp(SamEvaluation e, const SamStressSource *source)
 {
+  SamConditions conditions;
+
   PetscFunctionBegin;
   e->source = *source;
   PetscCall(SamElasticityReference(source->bodies));
@@ -170,11 +181,11 @@ PetscErrorCode SamEvaluationSetUp(SamEvaluation e, const SamStressSource *source
   PetscCall(SamDepthsSetUp(e));
   PetscCall(CheckCycle(e));
   PetscCall(FindLine(e));
-  PetscCall(SamConditionsCreate(&e->conditions));
-  PetscCall(SamElasticityAddConditions(e->source.bodies, e->conditions));
+  PetscCall(SamProblemCreate(e->source.bodies, &e->problem));
+  PetscCall(SamProblemGetConditions(e->problem, &conditions));
   PetscCall(PetscCalloc1(e->source.steps, &e->control));
   for (PetscInt k = 0; k < e->source.steps; k++)
-    PetscCall((*e->source.conditions)(e->source.context, k, e->conditions, &e->control[k]));
+    PetscCall((*e->source.conditions)(e->source.context, k, conditions, &e->control[k]));
   PetscCall(SetLayout(e));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -2,9 +2,9 @@
 #ifndef PETSAM_EVALUATIONIMPL_H
 #define PETSAM_EVALUATIONIMPL_H
 
-#include <petsam/private/bulk.h>
 #include <petsam/evaluation.h>
 #include <petsam/fatigue.h>
+#include <petsam/private/problemimpl.h>
 #include <petsam/private/stressimpl.h>
 
 /*
@@ -96,8 +96,8 @@ struct _n_SamEvaluation {
   SamGrid         grid;
   SamStress       stress;
   SamStressSource source;
-  SamConditions   conditions; /* of the bodies */
-  SamControl     *control;    /* of each step, their values */
+  SamProblem      problem; /* of the bodies, for what laws add */
+  SamControl     *control; /* of each step, its conditions */
   /* where */
   PetscInt        depths;
   PetscReal      *depth;
@@ -124,8 +124,11 @@ PETSC_INTERN double SamLinesMemory(SamEvaluation e);
 /* SamEvaluationReadTractions - pressure and both shears of a step, this rank's rows. Collective. */
 PETSC_INTERN PetscErrorCode SamEvaluationReadTractions(SamEvaluation e, PetscInt step,
                                                        double *const to[SAM_STRESS_TRACTIONS]);
-/* SamStressAddBulk - adds the bulk stress of a step, and the residual stress, to those of points. Not collective. */
-PETSC_INTERN void SamStressAddBulk(SamEvaluation e, PetscInt step, const SamPoints *points, double stress[]);
+/*
+  SamStressAddUniform - adds to the stresses (Pa) of points what does not depend on x and y in a step: residual stress,
+  and what laws add. Not collective.
+*/
+PETSC_INTERN void SamStressAddUniform(SamEvaluation e, PetscInt step, const SamPoints *points, double stress[]);
 /* SamEvaluationTell - calls the monitor. Not collective. */
 PETSC_INTERN PetscErrorCode SamEvaluationTell(SamEvaluation e, const char work[], double part, double whole);
 
@@ -160,7 +163,7 @@ PETSC_INTERN void SamLargestOfStep(SamEvaluation e, PetscInt step, const SamPoin
 PETSC_INTERN void SamLargestOfCycle(SamEvaluation e, PetscInt quantity, const SamPoints *points, PetscInt i,
                                     double value);
 /*
-  SamLargestAtEdge - keeps the largest stresses at the contact's edge of a step, whose map at depth 0, without bulk
+  SamLargestAtEdge - keeps the largest stresses at the contact's edge of a step, whose map at depth 0, without uniform
   stress, is in `field` (edge.c). Collective.
 */
 PETSC_INTERN PetscErrorCode SamLargestAtEdge(SamEvaluation e, PetscInt step, Vec field);

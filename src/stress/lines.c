@@ -51,7 +51,7 @@ static PetscErrorCode ComputeSteps(SamEvaluation e, SamSection section, PetscInt
   for (PetscInt k = 0; k < count; k++) PetscCall(AddStep(e, section, first + k, tractions));
   PetscCall(SamSectionCompute(section, stress));
   for (PetscInt k = 0; k < count; k++) {
-    SamStressAddBulk(e, first + k, p, stress + k * size);
+    SamStressAddUniform(e, first + k, p, stress + k * size);
     PetscCall(SamQuantitiesWrite(e, first + k, p, stress + k * size));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -41,7 +41,7 @@ static PetscErrorCode ComputeStep(SamEvaluation e, PetscInt step, const SamPoint
   PetscCall(SamStressApply(e->stress, field));
   if (e->depth[p->depth] == 0) PetscCall(SamLargestAtEdge(e, step, field));
   PetscCall(VecGetArray(field, &a));
-  SamStressAddBulk(e, step, p, a);
+  SamStressAddUniform(e, step, p, a);
   PetscCall(SamQuantitiesWrite(e, step, p, a));
   if (p->stress && e->average)
     PetscCall(SamAverageAdd(e, p->depth, e->grid->nx, size, a, p->stress + step * size));

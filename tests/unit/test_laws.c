@@ -39,7 +39,7 @@ static PetscErrorCode CreateTwo(SamLaw law)
 static void test_laws_stand_in_the_order_of_their_types(void **state)
 {
   static const char *const        added[]    = {SAM_LAW_ACCUMULATED_SLIP, SAM_LAW_HARDNESS, SAM_LAW_ARCHARD},
-                           *const expected[] = {SAM_LAW_COULOMB, SAM_LAW_ARCHARD, SAM_LAW_HARDNESS,
+                           *const expected[] = {SAM_LAW_COULOMB, SAM_LAW_BULK_STRESS, SAM_LAW_ARCHARD, SAM_LAW_HARDNESS,
                                                 SAM_LAW_ACCUMULATED_SLIP};
   Case                            c          = NewCase(Steel(), N, 1.5, MU, "");
   const SamLaw                   *laws;
@@ -48,8 +48,8 @@ static void test_laws_stand_in_the_order_of_their_types(void **state)
   (void)state;
   for (int k = 0; k < 3; k++) sam_call(SamProblemAddLawOfType(c.problem, added[k], NULL));
   sam_call(SamProblemGetLaws(c.problem, &count, &laws));
-  sam_assert(count == 4);
-  for (int k = 0; k < 4; k++) sam_assert(!strcmp(laws[k]->type, expected[k]));
+  sam_assert(count == 5);
+  for (int k = 0; k < 5; k++) sam_assert(!strcmp(laws[k]->type, expected[k]));
   DestroyCase(&c);
 }
 

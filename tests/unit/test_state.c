@@ -132,6 +132,41 @@ static void test_results_are_the_components_of_fields(void **state)
   DestroyMemory(&m);
 }
 
+/* Its layers are results of their own, and move with the surface. */
+static void test_field_with_depth_has_its_layers(void **state)
+{
+  static const SamStateField below   = {.name        = "below",
+                                        .unit        = "1",
+                                        .text        = "strain, of body 2",
+                                        .components  = 2,
+                                        .generations = 2,
+                                        .kept        = PETSC_TRUE,
+                                        .result      = SAM_RESULT_OFFERED,
+                                        .motion      = SAM_MOVES,
+                                        .layers      = 3};
+  static const char *const   names[] = {"below_1_x", "below_1_y", "below_2_x", "below_2_y", "below_3_x", "below_3_y"};
+  Memory                     m       = NewMemory();
+  Vec                        work    = NewField(m.grid, 1), field, holder;
+  PetscInt                   id, component;
+
+  (void)state;
+  sam_call(SamStateDeclareField(m.state, &below, &id));
+  sam_assert(SamStateFieldSize(&below) == 6 && SamStateFieldSize(&field3) == 2);
+  for (PetscInt k = 0; k < 6; k++) sam_assert(SamStateFindResult(m.state, names[k]) == 2 + k);
+  sam_assert(!strcmp(SamStateResultOf(m.state, 5)->text, "strain along y, of body 2, layer 2"));
+  sam_call(SamStateBegin(m.state));
+  sam_call(SamStateSetField(m.state, id, &field));
+  sam_call(VecSet(field, 2));
+  sam_call(SamStateFindValues(m.state, 6, work, &holder, &component));
+  sam_assert(holder == field && component == 4);
+  sam_call(SamStateCommit(m.state));
+  sam_call(SamStateBegin(m.state));
+  sam_call(SamStateMove(m.state, (const PetscReal[2]){m.grid->dx, 0}));
+  sam_assert(Norm(SamStateGetField(m.state, id, SAM_COMMITTED), NORM_1) == 2. * 6 * 6 * 11); /* a column has left */
+  sam_call(VecDestroy(&work));
+  DestroyMemory(&m);
+}
+
 static void test_more_than_fits_is_refused(void **state)
 {
   Memory         m    = NewMemory();
@@ -438,6 +473,7 @@ int main(int argc, char **argv)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_same_declaration_gives_the_same_handle),
     cmocka_unit_test(test_results_are_the_components_of_fields),
+    cmocka_unit_test(test_field_with_depth_has_its_layers),
     cmocka_unit_test(test_more_than_fits_is_refused),
     cmocka_unit_test(test_generations_rotate_by_pointer),
     cmocka_unit_test(test_field_that_is_not_set_keeps_its_values),

@@ -222,6 +222,88 @@ static void test_rigid_displacement_takes_back_the_stretch_of_the_centre(void **
   DestroyCase(&there);
 }
 
+#define LIFT 1e-8 /* m */
+
+/* A law that displaces the surfaces by the strain in `data` and the lift, times the time of the step. */
+static PetscErrorCode Pull(SamLaw law, SamState state, const SamControl *control, Vec u_z, Vec u_t, PetscBool *adds)
+{
+  const SamStrain *e     = (const SamStrain *)law->data;
+  const PetscInt   cells = law->grid->cells;
+  double          *u;
+
+  PetscFunctionBegin;
+  (void)state;
+  if (adds) *adds = PETSC_TRUE;
+  if (u_z) PetscCall(VecShift(u_z, control->time * LIFT));
+  if (!u_t) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(VecGetArray(u_t, &u));
+  for (PetscInt k = 0; k < cells; k++) {
+    const double x = SamGridX(law->grid, k % law->grid->nx),
+                 y = SamGridY(law->grid, law->grid->row_start + k / law->grid->nx);
+
+    u[k] += control->time * (e->xx * x + e->xy * y);
+    u[k + cells] += control->time * (e->xy * x + e->yy * y);
+  }
+  PetscCall(VecRestoreArray(u_t, &u));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode BeginPull(SamLaw law, SamState state, const SamControl *control, PetscReal duration)
+{
+  static PetscReal before;
+
+  (void)state;
+  sam_assert(duration == (control->time > 1 ? control->time - before : 0)); /* 0 in the first step */
+  before = control->time;
+  law->revision++;
+  return PETSC_SUCCESS;
+}
+
+static PetscErrorCode CreatePull(SamLaw law)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscNew((SamStrain **)&law->data));
+  law->ops.begin  = BeginPull;
+  law->ops.offset = Pull;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* A law's displacement that is linear along the surface is a strain; a uniform one normal to it is an approach. */
+static void test_displacement_by_a_law_is_that_of_the_bodies(void **state)
+{
+  (void)state;
+  sam_call(SamLawRegister("pull", CreatePull));
+  for (int kind = 0; kind < 2; kind++) {
+    Case one = NewCase(kind ? Dissimilar() : Steel(), 45, 1.5, MU, ""),
+         two = NewCase(kind ? Dissimilar() : Steel(), 45, 1.5, MU, "");
+    SamLaw law;
+
+    sam_call(SamProblemAddLawOfType(two.problem, "pull", &law));
+    for (int k = 1; k < 4; k++) {
+      const double time  = k < 3 ? k : 1.5;
+      SamControl   given = Loads(&one, 1, 0.1 * k, 0, 0), bulk = given;
+      SamStep      a, b;
+
+      SetStretch(&one, &bulk, time * StrainOf(&one), -0.5 * time * StrainOf(&one), 0.3 * time * StrainOf(&one));
+      given.time = bulk.time = time;
+      if (k == 1) sam_call(SamProblemGetStrain(one.problem, &bulk, (SamStrain *)law->data));
+      a = Solve(&one, &bulk);
+      b = Solve(&two, &given);
+      AssertGood(&a);
+      AssertGood(&b);
+      sam_assert(Difference(SolutionOf(&two)->pressure, SolutionOf(&one)->pressure, NORM_2) < 1e-6);
+      sam_assert(Difference(SolutionOf(&two)->shear, SolutionOf(&one)->shear, NORM_2) < 1e-4);
+      sam_assert_close(b.rigid[SAM_COMPONENT_N], a.rigid[SAM_COMPONENT_N] + time * LIFT,
+                       1e-6 * a.rigid[SAM_COMPONENT_N]);
+      sam_assert_close(NumberOf(&two, "dissipated_energy"), NumberOf(&one, "dissipated_energy"),
+                       1e-3 * NumberOf(&one, "dissipated_energy"));
+      sam_assert(isnan(NumberOf(&two, "stored_energy")) && !isnan(NumberOf(&one, "stored_energy")));
+    }
+    DestroyCase(&one);
+    DestroyCase(&two);
+  }
+}
+
 /* Without a change of strain nothing slips. */
 static void test_stretch_that_stays_dissipates_nothing(void **state)
 {
@@ -277,6 +359,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_tension_moves_the_stick_zone),
     cmocka_unit_test(test_slip_is_displacement_and_stretch_less_rigid),
     cmocka_unit_test(test_rigid_displacement_takes_back_the_stretch_of_the_centre),
+    cmocka_unit_test(test_displacement_by_a_law_is_that_of_the_bodies),
     cmocka_unit_test(test_stretch_that_stays_dissipates_nothing),
     cmocka_unit_test(test_restart_keeps_the_stretch),
   };

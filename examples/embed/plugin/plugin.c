@@ -6,6 +6,7 @@ PetscErrorCode SamPluginRegister(void);
 PetscErrorCode SamPluginRegister(void)
 {
   PetscCall(SamLawRegister("fading", CreateFading));
+  PetscCall(SamLawRegister("swelling", CreateSwelling));
   PetscCall(SamElasticityRegister("coated", CreateCoated));
   PetscCall(SamGapRegister("cone", CreateCone));
   PetscCall(SamNormalRegister("spectral", CreateSpectral));

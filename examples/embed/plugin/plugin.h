@@ -2,6 +2,7 @@
 #include <petsam.h>
 
 PetscErrorCode CreateFading(SamLaw law);
+PetscErrorCode CreateSwelling(SamLaw law);
 PetscErrorCode CreateCoated(SamElasticity elasticity);
 PetscErrorCode CreateCone(SamGap gap);
 PetscErrorCode CreateSpectral(SamSolver solver);

@@ -11,14 +11,6 @@
   SAM_ERR_FILE.
 */
 PETSC_INTERN PetscErrorCode SamElasticityAddCompliances(SamElasticity *elasticity, const SamOptions *from);
-/*
-  SamElasticityAddCases - adds the relative displacements (m) by load cases of the bodies in a step with these
-  conditions to a field: normal ones, one component, or tangential ones, two. Collective.
-*/
-PETSC_INTERN PetscErrorCode SamElasticityAddCases(SamElasticity elasticity, SamConditions conditions,
-                                                  const SamControl *control, PetscBool tangential, Vec field);
-/* SamElasticityAddConditions - adds what steps may prescribe for the bodies to a list. Not collective. */
-PETSC_INTERN PetscErrorCode SamElasticityAddConditions(SamElasticity elasticity, SamConditions conditions);
 /* SamElasticityGetTypes - the registered types as a text: a, b or c. Not collective. */
 PETSC_INTERN PetscErrorCode SamElasticityGetTypes(char types[], size_t size);
 PETSC_INTERN PetscErrorCode SamElasticityReference(SamElasticity elasticity);

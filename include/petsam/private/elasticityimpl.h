@@ -25,8 +25,6 @@ typedef struct {
   PetscErrorCode (*setfromoptions)(SamElasticity, const SamOptions *from); /* the type's own options */
   PetscErrorCode (*inherit)(SamElasticity parent, SamElasticity child);    /* settings, to a coarse grid or a part */
   PetscErrorCode (*setup)(SamElasticity);
-  /* what steps may prescribe for the bodies besides loads and displacements, as a load case */
-  PetscErrorCode (*conditions)(SamElasticity, SamConditions);
   /* the type's own parameters, all of them always: recorded, also what identifies its files, and set from a record */
   PetscErrorCode (*addparameters)(SamElasticity, SamParameters *);
   PetscErrorCode (*setparameters)(SamElasticity, const SamParameters *, const char source[]);

@@ -12,14 +12,21 @@
       }
 
   What it remembers it declares in the state of a contact, once; it finds its fields there by name. In a step the
-  methods are called in this order: separation() and limit() of all laws, the normal problem, bound(), the tangential
-  problem, advance().
+  methods are called in this order: check(), begin(), offset(), separation() and limit() of all laws, the normal problem,
+  bound(), the tangential problem, offset() for the check, advance().
 */
 #ifndef PETSAM_LAWIMPL_H
 #define PETSAM_LAWIMPL_H
 
 #include <petsam/private/baseimpl.h>
 #include <petsam/law.h>
+
+/*
+  SamStrain - a tangential displacement that is linear in place: a point at (x, y) moves by (xx x + xy y, xy x + yy y), m.
+*/
+typedef struct {
+  PetscReal xx, yy, xy;
+} SamStrain;
 
 /* What a bound of the shear depends on. */
 typedef struct {
@@ -81,6 +88,7 @@ struct _n_SamLaw {
   SamGrid             grid;           /* of the elasticity; borrowed */
   SamConditions       conditions;     /* of the problem that has the law; NULL: none has */
   PetscObjectState    revision;       /* to be raised by setters: the pressure has to be solved again */
+  PetscBool           always;         /* each problem has it, without being asked for */
   PetscBool           follows_slip;   /* bound() depends on the slip of the step */
   PetscBool           accumulates;    /* a sum over all steps: the field of the state that has the name of the type */
   const char         *option;         /* that selects the law, without dash; NULL: none */
@@ -101,8 +109,36 @@ struct _n_SamLaw {
     PetscErrorCode (*destroy)(SamLaw law); /* frees what `data` refers to; SamLawDestroy() frees `data` itself */
     /* adds what a step may prescribe for the law, which keeps SamConditionsAdd()'s own; once, when a problem gets it */
     PetscErrorCode (*conditions)(SamLaw law, SamConditions conditions);
+    /*
+      Refuses values of its conditions that make no sense, and sets those that follow from others: `wrong` is the first
+      refused condition, and `why` says what is wrong with its value; empty: nothing.
+    */
+    PetscErrorCode (*check)(SamLaw law, SamControl *control, const SamCondition **wrong, char why[], size_t size);
     /* declares fields and numbers */
     PetscErrorCode (*declare)(SamLaw law, SamState state);
+    /*
+      Before a step is solved: the law's tried state, from which its offset in the step follows. `duration`: the time of
+      the step minus that of the step before, s; 0 in the first one. A law whose offset changes raises its revision.
+    */
+    PetscErrorCode (*begin)(SamLaw law, SamState state, const SamControl *control, PetscReal duration);
+    /*
+      Adds what displaces the surfaces in a step besides the tractions, body 2 relative to body 1 (m): to u_z (one
+      component) and to u_t (two components), where they are not NULL. It must follow from the control and the state
+      alone, as the independent check evaluates it, too. The displacements of a solution contain it, those of the step
+      before as well, so that gap, slip and what is derived from them need no more. `adds` (unless NULL) is set where it
+      is not zero; else left as it is.
+    */
+    PetscErrorCode (*offset)(SamLaw law, SamState state, const SamControl *control, Vec u_z, Vec u_t, PetscBool *adds);
+    /*
+      Adds the linear part of such a tangential displacement, which is no part of u_t: it is evaluated row by row, takes
+      no field, and follows the bodies when they roll.
+    */
+    PetscErrorCode (*strain)(SamLaw law, const SamControl *control, SamStrain *strain);
+    /*
+      Adds its stress in body 0 or 1 at a depth (m) in a step, where it is uniform along the surface: Pa, by
+      SamStressComponent.
+    */
+    PetscErrorCode (*stress)(SamLaw law, const SamControl *control, PetscInt body, PetscReal depth, double stress[]);
     /*
       Adds to a separation (m, one component) what the law has put between the bodies: SAM_COMMITTED: from which the
       next step starts; SAM_TRIED: with which the last solution has its gap, the tried one, or else the committed one.
@@ -128,6 +164,8 @@ struct _n_SamLaw {
 /* The laws that come with the library, in the order in which they act (register.c). */
 PETSC_INTERN PetscErrorCode SamLawRegisterAll(void);
 PETSC_INTERN PetscErrorCode SamLawCreate_Coulomb(SamLaw law);
+PETSC_INTERN PetscErrorCode SamLawCreate_BulkStress(SamLaw law);
+PETSC_INTERN PetscErrorCode SamLawCreate_LoadCases(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_Friction(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_Archard(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_Energy(SamLaw law);

@@ -17,21 +17,12 @@ PETSC_INTERN PetscErrorCode SamValuesGet(const SamSolution *solution, SamValues 
 PETSC_INTERN PetscErrorCode SamValuesRestore(const SamSolution *solution, SamValues *values);
 
 /*
-  SamStretch - the strains of body 2's surface by its bulk stress minus those of body 1's. They move a point at (x, y)
-  by (xx x + xy y, xy x + yy y).
-*/
-typedef struct {
-  PetscReal xx, yy, xy;
-} SamStretch;
-PETSC_INTERN SamStretch SamStretchOf(SamProblem problem, const SamControl *control);
-
-/*
   SamRigid - what is subtracted from a solution's elastic displacements to give its gap and its slip: the rigid
-  displacement minus the stretch. Along a row of cells it is a + b xi (m), xi being the frame's dimensionless x.
+  displacement minus that of the strain. Along a row of cells it is a + b xi (m), xi being the frame's dimensionless x.
 */
 typedef struct {
-  SamFrame   normal, tangential; /* frames with all rigid displacements given */
-  SamStretch stretch;
+  SamFrame  normal, tangential; /* frames with all rigid displacements given */
+  SamStrain strain;
 } SamRigid;
 typedef struct {
   double a, b;

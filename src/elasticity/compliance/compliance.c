@@ -320,7 +320,6 @@ PetscErrorCode SamElasticityAddCases(SamElasticity e, SamConditions conditions, 
   double      *u;
 
   PetscFunctionBegin;
-  if (strcmp(e->type, SAM_ELASTICITY_COMPLIANCE)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamElasticitySetUp(e));
   PetscCall(PetscMemzero(d, sizeof(d)));
   for (PetscInt b = 0; b < 2; b++) {
@@ -339,13 +338,24 @@ PetscErrorCode SamElasticityAddCases(SamElasticity e, SamConditions conditions, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode AddConditions(SamElasticity e, SamConditions conditions)
+PetscErrorCode SamElasticityAddConditions(SamElasticity e, SamConditions conditions)
 {
+  const PetscBool finite = strcmp(e->type, SAM_ELASTICITY_COMPLIANCE) ? PETSC_FALSE : PETSC_TRUE;
+
   PetscFunctionBegin;
-  for (PetscInt b = 0; b < 2; b++)
+  for (PetscInt b = 0; b < 2 && finite; b++)
     if (((const Bodies *)e->data)->of[b])
       PetscCall(SamComplianceAddConditions(((const Bodies *)e->data)->of[b], conditions));
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscBool SamElasticityHasCases(SamElasticity e)
+{
+  const PetscBool finite = strcmp(e->type, SAM_ELASTICITY_COMPLIANCE) ? PETSC_FALSE : PETSC_TRUE;
+
+  for (PetscInt b = 0; b < 2 && finite; b++)
+    if (((const Bodies *)e->data)->of[b] && ((const Bodies *)e->data)->of[b]->cases) return PETSC_TRUE;
+  return PETSC_FALSE;
 }
 
 /* ---- the type ---- */
@@ -415,7 +425,6 @@ static PetscErrorCode Create(SamElasticity e)
   PetscCall(PetscNew(&data));
   e->data = data;
   e->ops  = (SamElasticityOps){.inherit                 = Inherit,
-                               .conditions              = AddConditions,
                                .setup                   = SetUp,
                                .addparameters           = AddParameters,
                                .destroy                 = Destroy,

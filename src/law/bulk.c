@@ -1,0 +1,152 @@
+/*
+  Bulk stress: a uniform stress of a body, parallel to its surface, without stress normal to it. It stretches the surface
+  about x = y = 0 by Hooke's law; tension is positive.
+*/
+#include <petsam/private/lawimpl.h>
+#include <petsam/private/motionimpl.h>
+#include <petsam/stress.h>
+#include <math.h>
+
+enum { XX, YY, XY, COMPONENTS };
+static const char *const names[2][COMPONENTS] = {{"bulk1_stress_xx", "bulk1_stress_yy", "bulk1_stress_xy"},
+                                                 {"bulk2_stress_xx", "bulk2_stress_yy", "bulk2_stress_xy"}};
+
+static PetscErrorCode AddConditions(SamLaw law, SamConditions conditions)
+{
+  char text[64];
+
+  PetscFunctionBegin;
+  (void)law;
+  for (PetscInt body = 0; body < 2; body++)
+    for (PetscInt k = 0; k < COMPONENTS; k++) {
+      const char *const  name = names[body][k];
+      const SamCondition one  = {.name     = name,
+                                 .unit     = "Pa",
+                                 .text     = text,
+                                 .group    = "bulk stress",
+                                 .range    = SAM_RANGE_ANY,
+                                 .option   = PETSC_TRUE,
+                                 .reverses = PETSC_TRUE};
+
+      (void)snprintf(text, sizeof(text), "bulk stress %s of body %d, tension positive", strrchr(name, '_') + 1,
+                     (int)body + 1);
+      PetscCall(SamConditionsAdd(conditions, &one, NULL));
+    }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The bulk stress of body 0 or 1 in a step, Pa. */
+static void Get(SamLaw law, const SamControl *control, PetscInt body, PetscReal stress[COMPONENTS])
+{
+  for (PetscInt k = 0; k < COMPONENTS; k++)
+    stress[k] = SamControlGet(control, SamConditionsFind(law->conditions, names[body][k]));
+}
+
+/*
+  Bulk stress must be 0 in a rigid body, in bodies that bear none, as stretched ones are not periodic, and in steady
+  rolling, where a uniform strain is a creepage. In plane strain that along y follows from that along x.
+*/
+static PetscErrorCode CheckComponent(SamLaw law, PetscInt body, PetscInt k, const PetscReal all[], SamControl *control,
+                                     char why[], size_t size)
+{
+  const SamCondition *one    = SamConditionsFind(law->conditions, names[body][k]);
+  const double        stress = (double)all[k];
+  double              follows;
+  SamElasticityTraits traits;
+  SamElasticityType   type;
+  const SamMaterial  *m;
+  SamPair             pair;
+
+  PetscFunctionBegin;
+  PetscCall(SamElasticityGetPair(law->elasticity, &pair));
+  m = SamBodyBulk(SamPairBody(pair, body));
+  PetscCall(SamElasticityGetType(law->elasticity, &type));
+  PetscCall(SamElasticityGetTraits(law->elasticity, &traits));
+  follows = k == YY ? 0 + m->poisson * all[XX] : 0; /* without -0 */
+  if (traits.plane && k != XX && (stress == 0 || stress == follows))
+    SamControlSetCondition(control, one, follows);
+  else if (stress != 0 && isinf(m->young))
+    (void)snprintf(why, size, "body%d_young is inf: a rigid body does not stretch", (int)body + 1);
+  else if (!(fabs(stress) <= m->young))
+    (void)snprintf(why, size, "exceeds Young's modulus, %.6g: check the unit, Pa", (double)m->young);
+  else if (stress != 0 && !SamMotionOf(law->elasticity)->continues)
+    (void)snprintf(why, size, "has no meaning with -rolling steady: a uniform strain is a creepage: add it to creep_x");
+  else if (stress != 0 && !traits.stretch)
+    (void)snprintf(why, size, "has no meaning with bodies of type %s, which bear none", type);
+  else if (stress != 0 && traits.plane && k != XX)
+    (void)snprintf(why, size, "has no meaning in plane strain, where yy follows from xx, and there is no xy: give %s",
+                   names[body][XX]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Check(SamLaw law, SamControl *control, const SamCondition **wrong, char why[], size_t size)
+{
+  PetscReal stress[COMPONENTS];
+
+  PetscFunctionBegin;
+  for (PetscInt body = 0; body < 2 && !why[0]; body++) {
+    Get(law, control, body, stress);
+    for (PetscInt k = 0; k < COMPONENTS && !why[0]; k++) {
+      *wrong = SamConditionsFind(law->conditions, names[body][k]);
+      PetscCall(CheckComponent(law, body, k, stress, control, why, size));
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode AddStrain(SamLaw law, const SamControl *control, SamStrain *e)
+{
+  PetscReal s[COMPONENTS];
+  SamPair   pair;
+
+  PetscFunctionBegin;
+  PetscCall(SamElasticityGetPair(law->elasticity, &pair));
+  for (int body = 0; body < 2; body++) {
+    const SamMaterial *m  = SamBodyBulk(SamPairBody(pair, body));
+    const PetscReal    nu = m->poisson, sign = body ? 1 : -1;
+
+    Get(law, control, body, s);
+    e->xx += sign * (s[XX] - nu * s[YY]) / m->young;
+    e->yy += sign * (s[YY] - nu * s[XX]) / m->young;
+    e->xy += sign * (1 + nu) * s[XY] / m->young;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The last material of the body has the bulk stress, those above it have the same strain in the plane. */
+static PetscErrorCode AddStress(SamLaw law, const SamControl *control, PetscInt body, PetscReal depth, double stress[])
+{
+  const SamMaterial *m, *last;
+  SamPair            pair;
+  PetscReal          s[COMPONENTS];
+
+  PetscFunctionBegin;
+  PetscCall(SamElasticityGetPair(law->elasticity, &pair));
+  m    = SamBodyMaterialAt(SamPairBody(pair, body), depth);
+  last = SamBodyBulk(SamPairBody(pair, body));
+  Get(law, control, body, s);
+  if (m != last && !isinf(last->young)) {
+    const double nu = (double)last->poisson, own = (double)m->poisson, ratio = (double)(m->young / last->young);
+    const double xx = s[XX] - nu * s[YY], yy = s[YY] - nu * s[XX];
+
+    s[XX] = ratio * (xx + own * yy) / (1 - own * own);
+    s[YY] = ratio * (yy + own * xx) / (1 - own * own);
+    s[XY] = ratio * (1 + nu) / (1 + own) * s[XY];
+  }
+  stress[SAM_STRESS_XX] += s[XX];
+  stress[SAM_STRESS_YY] += s[YY];
+  stress[SAM_STRESS_XY] += s[XY];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLawCreate_BulkStress(SamLaw law)
+{
+  PetscFunctionBegin;
+  law->always         = PETSC_TRUE;
+  law->any_motion     = PETSC_TRUE;
+  law->ops.conditions = AddConditions;
+  law->ops.check      = Check;
+  law->ops.strain     = AddStrain;
+  law->ops.stress     = AddStress;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
