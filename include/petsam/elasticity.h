@@ -34,7 +34,7 @@ typedef const char *SamElasticityType;
 typedef struct {
   PetscBool coupled;  /* pressure moves the surfaces tangentially, and shear moves them normally */
   PetscBool periodic; /* cells at opposite borders of the grid are neighbours; else contact at a border is cut off */
-  PetscBool stretch;  /* the bodies may bear a uniform bulk stress */
+  PetscBool stretch;  /* the bodies may be stretched uniformly */
   PetscBool rotations[3]; /* about x, y, z: a rigid rotation is possible, and a moment defined */
   PetscBool mean;  /* a uniform traction displaces the surface; else displacements are relative to the mean planes */
   PetscBool plane; /* plane strain: the grid has one row */

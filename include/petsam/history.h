@@ -38,7 +38,7 @@ PETSC_INTERN PetscErrorCode SamHistoryCreateFromOptions(const SamOptions *from, 
                                                         SamConditions conditions, SamHistory *history);
 /*
   SamHistoryCreate - the same of rows in memory, `values` (rows, columns): `columns` names them, with commas, as the
-  first line of a file. `constant`: the values of what has no column, as a bulk stress. `before`: what the change to the
+  first line of a file. `constant`: the values of what has no column, as a stress. `before`: what the change to the
   first row begins from; NULL: nothing, at time 0. Collective. Errors: SAM_ERR_USER naming the history's row.
 */
 PETSC_INTERN PetscErrorCode SamHistoryCreate(MPI_Comm comm, SamConditions conditions, const SamControl *constant,

@@ -476,8 +476,8 @@ static PetscErrorCode NotePatch(SamElasticity e, const SamOptions *from, SamComp
 /* The kernel to which the compliance is added must be the one from which it was computed. */
 static PetscErrorCode CheckConstants(SamElasticity e, const SamOptions *from, SamCompliance c)
 {
-  const SamMaterial *bulk  = SamBodyBulk(e->pair->body[c->body]);
-  const double       young = (double)bulk->young, poisson = (double)bulk->poisson;
+  const SamMaterial *last  = SamBodyBulk(e->pair->body[c->body]);
+  const double       young = (double)last->young, poisson = (double)last->poisson;
 
   PetscFunctionBegin;
   PetscCheck(young == c->young || fabs(young - c->young) <= 1e-6 * c->young, from->comm, SAM_ERR_USER,
