@@ -35,7 +35,8 @@ typedef enum {
 typedef enum { SAM_STEP_NUMBER, SAM_STEP_TIME, SAM_STEP_AREA, SAM_STEP_CYCLE } SamStepNumber;
 /*
   SamStressSource - the bodies, which are referenced, and the load steps, which are read when they are needed, by
-  collective functions: this rank's rows of a field; a number; the values of conditions of the bodies. Step -1 is the one before the first, if there is one. `warn` receives a text on the steps as a cycle.
+  collective functions: this rank's rows of a field; a number; the values of conditions of the bodies.
+  Step -1 is the one before the first, if there is one. `warn` receives a text on the steps as a cycle.
   `tell` is called now and then during SamEvaluationCompute() with the work under way, the done part of it, and the done
   part of all work (0: unknown); NULL: nobody asks.
 */

@@ -48,7 +48,8 @@ PETSC_EXTERN PetscErrorCode SamResultsGetSaved(SamResults results, PetscInt k, P
 PETSC_EXTERN PetscErrorCode SamResultsRead(SamResults results, PetscInt k, SamResultsField field, double values[]);
 /*
   SamResultsReadConditions - sets the conditions of a control to those of a load step (from 1), of a list; where the
-  file has no column of one, it is as usual. Collective. Errors: SAM_ERR_FILE, also for a value that is no finite number.
+  file has no column of one, it is as usual. Collective. Errors: SAM_ERR_FILE, also for a value that is no finite
+  number.
 */
 PETSC_EXTERN PetscErrorCode SamResultsReadConditions(SamResults results, PetscInt step, SamConditions conditions,
                                                      SamControl *control);

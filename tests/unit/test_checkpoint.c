@@ -340,6 +340,39 @@ static void test_sum_in_the_file_goes_on(void **state)
   Remove();
 }
 
+/* A condition that the contact lacks must be as usual; one that the file lacks is. */
+static void test_conditions_that_only_one_has_must_be_as_usual(void **state)
+{
+  const SamCondition  heat       = {.name = "heat", .unit = "K", .text = "of a test", .usual = 3};
+  const SamParameters parameters = NewParameters(friction);
+
+  (void)state;
+  for (int given = 0; given < 2; given++) {
+    Case           one = NewBody(), other = NewBody();
+    SamControl     control = Loads(&one, 1, 0, 0, 0);
+    SamConditions  conditions;
+    PetscErrorCode ierr;
+
+    sam_call(SamProblemGetConditions(one.problem, &conditions));
+    sam_call(SamConditionsAdd(conditions, &heat, NULL));
+    Prescribe(one.problem, &control, "heat", given ? 2 : 3);
+    (void)Solve(&one, &control);
+    Write(&one, &parameters, 0, NULL);
+    BeginCatching();
+    ierr = SamCheckpointRead(filename, other.contact, PETSC_TRUE, &parameters, 0, NULL);
+    EndCatching();
+    sam_assert(given ? ierr == SAM_ERR_USER && strstr(CaughtMessage(), "heat") : !ierr);
+    control = Loads(&other, 1, 0, 0, 0);
+    (void)Solve(&other, &control);
+    Write(&other, &parameters, 0, NULL);
+    sam_call(SamCheckpointRead(filename, one.contact, PETSC_TRUE, &parameters, 0, NULL));
+    sam_assert(Prescribed(one.problem, &SolutionOf(&one)->control, "heat") == 3);
+    DestroyCase(&one);
+    DestroyCase(&other);
+    Remove();
+  }
+}
+
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {
@@ -351,6 +384,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_field_that_only_the_file_has_is_named),
     cmocka_unit_test(test_number_that_the_file_lacks_is_named),
     cmocka_unit_test(test_sum_in_the_file_goes_on),
+    cmocka_unit_test(test_conditions_that_only_one_has_must_be_as_usual),
   };
 
   return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
