@@ -112,8 +112,9 @@ PETSC_EXTERN SamWay SamControlWay(const SamControl *control, PetscInt component)
 PETSC_EXTERN void   SamControlSetWay(SamControl *control, PetscInt component, SamWay way);
 /*
   What a control prescribes, in one row: the loads, displacements or creepages of the six components, then the
-  conditions of a list. SamControlCount - the number of these parts. SamControlPart - the k-th of them. SamControlSetPart
-  - sets it. SamControlPartName - its name as an option (without dash) or column, as it is given. Not collective.
+  conditions of a list. SamControlCount - the number of these parts. SamControlPart - the k-th of them.
+  SamControlSetPart - sets it. SamControlPartName - its name as an option (without dash) or column, as it is given. Not
+  collective.
 */
 PETSC_INTERN PetscInt    SamControlCount(SamConditions conditions);
 PETSC_INTERN PetscReal   SamControlPart(const SamControl *control, SamConditions conditions, PetscInt k);

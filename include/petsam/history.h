@@ -28,10 +28,10 @@ PETSC_EXTERN PetscErrorCode SamHistoryClaimOption(void);
 
 /*
   SamHistoryCreateFromOptions - reads -history, -steps (increments), the twelve -load_, -disp_ and -rot_ options and the
-  conditions that are options; reads and checks the whole file. Options that are given for this run must not have a column as
-  well; of those in an options file the columns count instead, with a line on stderr; `arguments` tells them apart
-  (NULL: all are given for this run). `conditions`: what rows may prescribe besides loads and displacements; referenced.
-  Collective. Errors: SAM_ERR_USER naming the option, or the file and line;
+  conditions that are options; reads and checks the whole file. Options that are given for this run must not have a
+  column as well; of those in an options file the columns count instead, with a line on stderr; `arguments` tells them
+  apart (NULL: all are given for this run). `conditions`: what rows may prescribe besides loads and displacements;
+  referenced. Collective. Errors: SAM_ERR_USER naming the option, or the file and line;
   SAM_ERR_FILE for a file that cannot be read.
 */
 PETSC_INTERN PetscErrorCode SamHistoryCreateFromOptions(const SamOptions *from, const struct _n_SamArguments *arguments,

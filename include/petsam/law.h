@@ -50,8 +50,8 @@ PETSC_INTERN PetscBool      SamLawIsRegistered(const char name[]);
 /*
   SamLawSetFromOptions - reads the law's options; `asked`: they select the law. Collective. Errors: SAM_ERR_USER,
   SAM_ERR_FILE.
-  SamLawAddConditions - adds what steps may prescribe for the law to the list of a problem, to which it then belongs. Not
-  collective. Errors: PETSC_ERR_ARG_WRONG for a law of another problem.
+  SamLawAddConditions - adds what steps may prescribe for the law to the list of a problem, to which it then belongs.
+  Not collective. Errors: PETSC_ERR_ARG_WRONG for a law of another problem.
   SamLawAddParameters - appends what defines the law, by the names of its options. Collective.
 */
 PETSC_INTERN PetscErrorCode SamLawSetFromOptions(SamLaw law, const SamOptions *from, PetscBool *asked);

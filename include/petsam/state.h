@@ -25,8 +25,9 @@ typedef enum { SAM_STAYS, SAM_MOVES, SAM_MOVES_CONTINUED } SamStateMotion;
 
 /*
   SamStateField - the declaration of a remembered field. A field of two components is offered as name_x and name_y. A
-  field with depth has its values in `layers` layers below each cell, one after the other from the first layer down, each
-  with all components; the layers are offered as name_1, name_2 and so on. The names and texts of fields are not copied.
+  field with depth has its values in `layers` layers below each cell, one after the other from the first layer down,
+  each with all components; the layers are offered as name_1, name_2 and so on. The names and texts of fields are
+  not copied.
 */
 typedef struct {
   const char    *name, *unit, *text;

@@ -1,6 +1,6 @@
 /*
-  Bulk stress: a uniform stress of a body, parallel to its surface, without stress normal to it. It stretches the surface
-  about x = y = 0 by Hooke's law; tension is positive.
+  Bulk stress: a uniform stress of a body, parallel to its surface, without stress normal to it. It stretches the
+  surface about x = y = 0 by Hooke's law; tension is positive.
 */
 #include <petsam/private/lawimpl.h>
 #include <petsam/private/motionimpl.h>

@@ -35,7 +35,7 @@ typedef struct {
       .range = values, .needs = "friction_law " word, .missing = "required by -friction_law " word, \
       .recorded = PETSC_TRUE \
   }
-/* A kind by its type of law and its word of -friction_law; usual values, NAN: required; what it remembers, if it does. */
+/* A kind by its type of law and its word of -friction_law; usual values, NAN: required; what it remembers, or NULL. */
 static const struct {
   const char   *type, *word;
   SamOptionRow  row[OPTIONS];

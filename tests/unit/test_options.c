@@ -274,16 +274,18 @@ static const SamOptionRow joined[] = {
 
 static void test_options_that_belong_together(void **state)
 {
+  static const char without_some[] = "-pre_part is given without -pre_kind some: in parts",
+                    not_both[]     = "-pre_all does not work with -pre_other: give one of them";
   static const struct {
     const char *given, *says; /* NULL: good */
   } cases[]             = {{"-pre_size 2", NULL},
                            {"-pre_kind none", "-pre_size is missing: how large"},
                            {"-pre_size 2 -pre_kind some", "-pre_part is missing: how many"},
                            {"-pre_size 2 -pre_kind some -pre_part 3", NULL},
-                           {"-pre_size 2 -pre_kind none -pre_part 3", "-pre_part is given without -pre_kind some: in parts"},
-                           {"-pre_size 2 -pre_part 3", "-pre_part is given without -pre_kind some: in parts"},
+                           {"-pre_size 2 -pre_kind none -pre_part 3", without_some},
+                           {"-pre_size 2 -pre_part 3", without_some},
                            {"-pre_size 2 -pre_all", NULL},
-                           {"-pre_size 2 -pre_all -pre_other 1", "-pre_all does not work with -pre_other: give one of them"},
+                           {"-pre_size 2 -pre_all -pre_other 1", not_both},
                            {"-pre_size 2 -pre_all false -pre_other 1", NULL}};
   const SamOptions from = {PETSC_COMM_WORLD, "pre_"};
 

@@ -12,8 +12,8 @@
       }
 
   What it remembers it declares in the state of a contact, once; it finds its fields there by name. In a step the
-  methods are called in this order: check(), begin(), offset(), separation() and limit() of all laws, the normal problem,
-  bound(), the tangential problem, offset() for the check, advance().
+  methods are called in this order: check(), begin(), offset(), separation() and limit() of all laws, the normal
+  problem, bound(), the tangential problem, offset() for the check, advance().
 */
 #ifndef PETSAM_LAWIMPL_H
 #define PETSAM_LAWIMPL_H
@@ -22,7 +22,8 @@
 #include <petsam/law.h>
 
 /*
-  SamStrain - a tangential displacement that is linear in place: a point at (x, y) moves by (xx x + xy y, xy x + yy y), m.
+  SamStrain - a tangential displacement that is linear in place: a point at (x, y) moves by (xx x + xy y, xy x + yy y)
+  m.
 */
 typedef struct {
   PetscReal xx, yy, xy;

@@ -22,8 +22,8 @@ PETSC_INTERN PetscErrorCode SamProblemBegin(SamProblem problem, SamState state, 
   SamProblemAddOffset - adds them to u_z (m, one component) and u_t (m, two components), where they are not NULL. `adds`
   (NULL: not wanted): whether they are not zero. Collective.
   SamProblemGetStrain - the strain of the surfaces, whose displacements are no part of u_t. Not collective.
-  SamProblemAddStress - adds the stresses in body 0 or 1 at a depth (m), where they are uniform along the surface: Pa, by
-  SamStressComponent. Not collective.
+  SamProblemAddStress - adds the stresses in body 0 or 1 at a depth (m), where they are uniform along the surface: Pa,
+  by SamStressComponent. Not collective.
 */
 PETSC_INTERN PetscBool      SamProblemHasOffset(SamProblem problem);
 PETSC_INTERN PetscErrorCode SamProblemAddOffset(SamProblem problem, SamState state, const SamControl *control, Vec u_z,
