@@ -7,7 +7,7 @@
     1. Core: cells of the zone farther than BAND from any cell outside. A quadratic function is fitted to w in the core
        cells of a window about each cell of the band, and evaluated there.
     2. The tail of the margin makes the core's edge lie too far out, by SHIFT of a cell in the mean over all places of
-       an edge between centres. In plane strain the edge has one such place, and the shift is that of the place (Line()).
+       an edge between centres. In plane strain the edge has one such place, and the shift is that of it (Line()).
     3. Guard: the difference to w must be that of the margin, whose shape is the same for all smooth edges.
     4. Areas: the part of each cell of the band where the function is positive, by sub-cells. Where it is refused, a
        cell counts less FACE for each of its faces to a cell outside, unless w is BLUNT there.

@@ -544,11 +544,7 @@ def test_thin_layer_without_slopes_is_refused(petsam, layer):
         (dict(history="roll.csv", load_n=None), 2, "roll = 0.01: expected 0: bodies with a compliance"),
         (dict(history="case.csv", load_n=None), 2, "body2_case_no"),
         (dict(body2_case_no=1), 2, "body2_case_no"),
-        (
-            dict(body2_case_pull=1, coupling="none"),
-            2,
-            "body2_case_pull = 1: expected 0, or -coupling full",
-        ),
+        (dict(body2_case_pull=1, coupling="none"), 2, "body2_case_pull = 1: expected 0, or -coupling full"),
         (dict(body2_compliance="none.h5"), 3, "-body2_compliance none.h5"),
         (dict(body2_compliance="roll.csv"), 3, "it is not an HDF5 file"),
     ],

@@ -410,7 +410,10 @@ def test_dissimilar_bodies(petsam, n):
         (dict(creep_x=1e-3, slip_direction="mid"), "-slip_direction: has no meaning with -rolling steady"),
         (dict(creep_x=1e-3, cycle_memory=1e6), "-cycle_memory: has no meaning with -rolling steady"),
         (dict(creep_x=1e-3, stiffness=True, output="x.h5"), "-stiffness: has no meaning with -rolling steady"),
-        (dict(creep_x=1e-3, bulk1_stress_xx=1e6), "has no meaning with -rolling steady: a uniform strain is a creepage"),
+        (
+            dict(creep_x=1e-3, bulk1_stress_xx=1e6),
+            "has no meaning with -rolling steady: a uniform strain is a creepage",
+        ),
         (dict(creep_x=1e-3, tangential_type="newton"), "-tangential_type: does not solve this problem: use rolling"),
         (dict(creep_x=1e-3, output_fields="slip_x", output="x.h5"), "unknown field slip_x"),
         (dict(creep_x=1e-3, output_fields="displacement_x", output="x.h5"), "unknown field displacement_x"),
