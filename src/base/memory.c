@@ -92,7 +92,7 @@ void SamFree(void *pointer)
   free(pointer);
 }
 
-void SamReturnMemory(void)
+void SamMallocTrim(void)
 {
 #if defined(__GLIBC__)
   (void)malloc_trim(0);

@@ -25,7 +25,7 @@ PetscErrorCode SamContactCreate(SamProblem problem, SamContact *contact)
   PetscCall(SamNormalCreate(c->elasticity, &c->normal));
   PetscCall(SamTangentialCreate(c->elasticity, &c->tangential));
   PetscCall(SamStateCreate(c->grid, &c->state));
-  PetscCall(SamRecallCreate(c->grid, c->conditions, &c->recall));
+  PetscCall(SamStepCacheCreate(c->grid, c->conditions, &c->cache));
   PetscCall(SamContactDeclare(c));
   PetscCall(SamContactView(c));
   c->revision[SAM_COMMITTED] = -1;
@@ -42,7 +42,7 @@ PetscErrorCode SamContactDestroy(SamContact *contact)
   PetscCall(SamNormalDestroy(&c->normal));
   PetscCall(SamTangentialDestroy(&c->tangential));
   PetscCall(SamStateDestroy(&c->state));
-  SamRecallDestroy(&c->recall);
+  SamStepCacheDestroy(&c->cache);
   PetscCall(SamProblemDestroy(&c->problem));
   PetscCall(PetscFree(*contact));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -69,7 +69,7 @@ PetscErrorCode SamContactSetSettings(SamContact c, const SamContactSettings *set
   PetscCheck(settings->cycle_memory >= 0, c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
              "cycle memory = %.6g: expected a number >= 0", (double)settings->cycle_memory);
   c->set = *settings;
-  PetscCall(SamRecallSetMemory(c->recall, settings->cycle_memory));
+  PetscCall(SamStepCacheSetMemory(c->cache, settings->cycle_memory));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -179,7 +179,7 @@ PetscErrorCode SamContactSetState(SamContact c, SamState state, PetscBool gap_is
   PetscFunctionBegin;
   PetscCall(SamContactDeclare(c));
   PetscCall(SamStateCopy(state, c->state));
-  SamRecallForget(c->recall);
+  SamStepCacheForget(c->cache);
   PetscCall(SamContactView(c));
   PetscCall(SamContactReject(c));
   PetscCall(SamProblemGetRevision(c->problem, &c->revision[SAM_COMMITTED]));
@@ -191,7 +191,7 @@ PetscErrorCode SamContactReset(SamContact c)
 {
   PetscFunctionBegin;
   PetscCall(SamStateReset(c->state));
-  SamRecallForget(c->recall);
+  SamStepCacheForget(c->cache);
   PetscCall(SamContactView(c));
   PetscCall(SamContactReject(c));
   c->revision[SAM_COMMITTED] = -1;

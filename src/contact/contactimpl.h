@@ -23,7 +23,7 @@ struct _n_SamContact {
   PetscBool        has_tried;                   /* a tried solution */
   PetscBool        rolls;                       /* the tried step does, and the committed solution has moved for it */
   SamSolution      generation[SAM_GENERATIONS]; /* views of the state */
-  SamRecall        recall;                      /* steps of the cycle before */
+  SamStepCache     cache;                       /* steps of the cycle before */
   PetscObjectState revision[SAM_GENERATIONS];   /* of the problem that the pressure was solved with; -1: another */
   PetscInt         tractions[3], displacements[2]; /* fields: pressure, bound, shear; u_z, u_t */
   PetscInt time, solution, creeps, control, residuals, counts, status, window, steps; /* numbers, see memory.c */

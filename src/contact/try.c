@@ -285,7 +285,7 @@ static PetscErrorCode Conclude(SamContact c, PetscBool same_pressure, SamStep *s
 
   PetscFunctionBegin;
   /* that of the nested grids, before new fields are made: lowers the peak from 99 to 90 MB at 512 x 512 cells */
-  if (!last) SamReturnMemory();
+  if (!last) SamMallocTrim();
   PetscCall(SamStepSetDisplacements(c->state, c->displacements, s));
   if (same_pressure) PetscCall(SamVecCopyNonzero(last->displacement_z, s->displacement_z));
   PetscCall(SamCheckSolution(c->problem, c->state, c->set.coupling, same_pressure, before, s, &step->check));
@@ -334,7 +334,7 @@ static PetscErrorCode Solve(SamContact c, PetscBool same_pressure, SamStep *step
   PetscFunctionBegin;
   PetscCall(SamContactPredict(c, &step->control, &task.start));
   if (c->set.warm_start && c->motion->continues && !SamContactIsCoupled(c) && !SamProblemFollowsSlip(c->problem))
-    SamRecallFind(c->recall, &step->control, &task.start.kept);
+    SamStepCacheFind(c->cache, &step->control, &task.start.kept);
   if (c->rolls) task.start.kept = NULL; /* its product is not where the slip has moved to */
   PetscCall(SamStepSolve(&task, step));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -374,9 +374,9 @@ PetscErrorCode SamContactCommit(SamContact c)
   PetscCheck(c->has_tried, c->grid->comm, PETSC_ERR_ORDER, "There is no tried step to commit");
   *SamStateNumbers(c->state, c->steps, SAM_TRIED) += 1;
   if (c->rolls) /* what is put between the bodies may have moved, and kept pressures be wrong */
-    SamRecallForget(c->recall);
+    SamStepCacheForget(c->cache);
   else
-    PetscCall(SamRecallKeep(c->recall, SamContactBefore(c), &c->generation[SAM_TRIED], c->revision[SAM_TRIED]));
+    PetscCall(SamStepCacheKeep(c->cache, SamContactBefore(c), &c->generation[SAM_TRIED], c->revision[SAM_TRIED]));
   PetscCall(SamStateCommit(c->state));
   c->revision[SAM_COMMITTED] = c->revision[SAM_TRIED];
   c->has_tried               = PETSC_FALSE;

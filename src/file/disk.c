@@ -252,7 +252,7 @@ static int CheckPlace(const char filename[], SamFileUse use)
   return S_ISREG(status.st_mode) ? 0 : NOT_A_FILE;
 }
 
-void SamHoldRelease(const char filename[], SamHold *hold)
+void SamFileLockRelease(const char filename[], SamFileLock *hold)
 {
   if (hold->file < 0) return;
   if ((hold->use == SAM_FILE_TEMPORARY || (hold->created && SizeOf(hold->file) == 0)) && IsNameOf(filename, hold->file))
@@ -262,11 +262,11 @@ void SamHoldRelease(const char filename[], SamHold *hold)
 }
 
 /* Opens and locks a file, which is created if it is not there; checks that it can be written and may be replaced. */
-static int Take(const char filename[], SamFileUse use, SamHold *hold)
+static int Take(const char filename[], SamFileUse use, SamFileLock *hold)
 {
   int error = 0;
 
-  *hold = (SamHold){.use = use, .file = -1};
+  *hold = (SamFileLock){.use = use, .file = -1};
   do { /* again if another run renames or removes the file in between */
     if (hold->file >= 0) (void)close(hold->file);
     error = CheckPlace(filename, use);
@@ -284,11 +284,12 @@ static int Take(const char filename[], SamFileUse use, SamHold *hold)
   error = CheckContent(hold->file, use);
   if (error) hold->use = SAM_FILE_RESULTS; /* somebody's file: not removed */
   if (!error) error = Reserve(hold->file, SAM_FILE_METADATA, PETSC_FALSE);
-  if (error) SamHoldRelease(filename, hold);
+  if (error) SamFileLockRelease(filename, hold);
   return error;
 }
 
-PetscErrorCode SamHoldTake(SamGrid grid, const char option[], const char filename[], SamFileUse use, SamHold *hold)
+PetscErrorCode SamFileLockTake(SamGrid grid, const char option[], const char filename[], SamFileUse use,
+                               SamFileLock *hold)
 {
   int error = 0;
 
@@ -310,15 +311,15 @@ static int CheckFolderOf(const char filename[])
 
 PetscErrorCode SamFileCheckName(SamGrid grid, const char option[], const char filename[], SamFileUse use)
 {
-  SamHold hold  = {.file = -1};
-  int     error = 0;
+  SamFileLock hold  = {.file = -1};
+  int         error = 0;
 
   PetscFunctionBegin;
   if (IsFirst(grid)) {
     error = !access(filename, F_OK)       ? Take(filename, use, &hold)
             : use == SAM_FILE_OLD_RESULTS ? ENOENT
                                           : CheckFolderOf(filename);
-    SamHoldRelease(filename, &hold);
+    SamFileLockRelease(filename, &hold);
   }
   PetscCall(SamFileRaise(grid, option, filename, error));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -353,12 +354,12 @@ PetscErrorCode SamFileContains(SamGrid grid, const char filename[], const char t
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-void SamHoldNoteSize(SamHold *hold)
+void SamFileLockNoteSize(SamFileLock *hold)
 {
   if (hold->file >= 0) hold->size = SizeOf(hold->file);
 }
 
-static PetscBool HasMark(const SamHold *hold)
+static PetscBool HasMark(const SamFileLock *hold)
 {
   double found = 0;
 
@@ -366,7 +367,7 @@ static PetscBool HasMark(const SamHold *hold)
   return pread(hold->file, &found, sizeof(found), hold->mark_at) == (ssize_t)sizeof(found) && found == hold->mark;
 }
 
-PetscErrorCode SamHoldCheck(SamGrid grid, const char option[], const char filename[], const SamHold *hold)
+PetscErrorCode SamFileLockCheck(SamGrid grid, const char option[], const char filename[], const SamFileLock *hold)
 {
   struct stat status;
   int         error = 0;
@@ -387,10 +388,10 @@ PetscErrorCode SamHoldCheck(SamGrid grid, const char option[], const char filena
 #define PATIENCE 1000 /* milliseconds until a run that is refused has given up a file */
 
 /* Takes the next file of a name whose file has been renamed; only then the old one is given up. */
-static int TakeNext(const char filename[], SamHold *hold)
+static int TakeNext(const char filename[], SamFileLock *hold)
 {
-  SamHold next;
-  int     error = IN_USE;
+  SamFileLock next;
+  int         error = IN_USE;
 
   for (int k = 0; k < PATIENCE && error == IN_USE; k++) {
     if (k) (void)usleep(1000);
@@ -401,7 +402,7 @@ static int TakeNext(const char filename[], SamHold *hold)
   return error;
 }
 
-PetscErrorCode SamHoldTakeNext(SamGrid grid, const char option[], const char filename[], SamHold *hold)
+PetscErrorCode SamFileLockTakeNext(SamGrid grid, const char option[], const char filename[], SamFileLock *hold)
 {
   PetscFunctionBegin;
   PetscCall(SamFileRaise(grid, option, filename, hold->file >= 0 ? TakeNext(filename, hold) : 0));

@@ -93,10 +93,10 @@ PetscErrorCode SamRowsRestore(const SamRows *rows, const double **wanted)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamSee(SamGrid grid, Vec field, PetscInt components, PetscInt halo, SamSeen *seen)
+PetscErrorCode SamHaloBegin(SamGrid grid, Vec field, PetscInt components, PetscInt halo, SamHalo *seen)
 {
   PetscFunctionBegin;
-  *seen = (SamSeen){.field = field, .components = components};
+  *seen = (SamHalo){.field = field, .components = components};
   PetscCall(SamRowsCreateAbout(grid, halo, &seen->rows));
   PetscCall(VecGetArrayRead(field, &seen->own));
   for (PetscInt c = 0; c < components; c++)
@@ -104,7 +104,7 @@ PetscErrorCode SamSee(SamGrid grid, Vec field, PetscInt components, PetscInt hal
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamForget(SamSeen *seen)
+PetscErrorCode SamHaloEnd(SamHalo *seen)
 {
   PetscFunctionBegin;
   for (PetscInt c = seen->components; c-- > 0;) PetscCall(SamRowsRestore(&seen->rows, &seen->at[c]));

@@ -15,9 +15,9 @@
 #define OPTION "checkpoint"
 
 struct _n_SamCheckpoint {
-  SamGrid grid;
-  char   *filename, *before, *temporary;
-  SamHold hold; /* of the temporary file */
+  SamGrid     grid;
+  char       *filename, *before, *temporary;
+  SamFileLock hold; /* of the temporary file */
 };
 
 /* The checksum of the gap that a contact's problem has now. */
@@ -241,7 +241,7 @@ static PetscErrorCode WriteFile(SamCheckpoint cp, SamContact contact, const Rest
 static PetscErrorCode CheckNames(SamCheckpoint cp)
 {
   PetscFunctionBegin;
-  PetscCall(SamHoldCheck(cp->grid, OPTION, cp->temporary, &cp->hold));
+  PetscCall(SamFileLockCheck(cp->grid, OPTION, cp->temporary, &cp->hold));
   PetscCall(SamFileCheckName(cp->grid, OPTION, cp->filename, SAM_FILE_CHECKPOINT));
   PetscCall(SamFileCheckName(cp->grid, OPTION, cp->before, SAM_FILE_CHECKPOINT));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -259,8 +259,8 @@ PetscErrorCode SamCheckpointWrite(SamCheckpoint cp, SamContact contact, const Sa
   if (ierr && cp->hold.file >= 0) (void)!ftruncate(cp->hold.file, 0); /* gives back the space */
   PetscCall(ierr);
   PetscCall(SamFileReplace(cp->grid, OPTION, cp->temporary, cp->filename, cp->before));
-  PetscCall(SamHoldTakeNext(cp->grid, OPTION, cp->temporary, &cp->hold));
-  SamHoldNoteSize(&cp->hold);
+  PetscCall(SamFileLockTakeNext(cp->grid, OPTION, cp->temporary, &cp->hold));
+  SamFileLockNoteSize(&cp->hold);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -268,8 +268,8 @@ PetscErrorCode SamCheckpointWrite(SamCheckpoint cp, SamContact contact, const Sa
 static PetscErrorCode TakeNames(SamCheckpoint cp)
 {
   PetscFunctionBegin;
-  PetscCall(SamHoldTake(cp->grid, OPTION, cp->temporary, SAM_FILE_TEMPORARY, &cp->hold));
-  SamHoldNoteSize(&cp->hold);
+  PetscCall(SamFileLockTake(cp->grid, OPTION, cp->temporary, SAM_FILE_TEMPORARY, &cp->hold));
+  SamFileLockNoteSize(&cp->hold);
   PetscCall(CheckNames(cp));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -301,7 +301,7 @@ PetscErrorCode SamCheckpointDestroy(SamCheckpoint *checkpoint)
   PetscFunctionBegin;
   *checkpoint = NULL;
   if (!cp) PetscFunctionReturn(PETSC_SUCCESS);
-  SamHoldRelease(cp->temporary, &cp->hold);
+  SamFileLockRelease(cp->temporary, &cp->hold);
   PetscCall(SamGridDestroy(&cp->grid));
   PetscCall(PetscFree(cp->filename));
   PetscCall(PetscFree(cp->before));

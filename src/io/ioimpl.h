@@ -50,7 +50,7 @@ struct _n_SamOutput {
   hid_t           closed;    /* attribute: whether the file was closed properly */
   char           *name;      /* that the file gets when it is published; NULL: it has it */
   uint64_t        identity;
-  SamHold         hold;                  /* of a file that is written */
+  SamFileLock     hold;                  /* of a file that is written */
   PetscBool       replaced;              /* there were older results */
   SamState        state[SAM_SERIES];     /* whose numbers are the columns of a series; borrowed; NULL: none */
   const char     *series[SAM_SERIES];    /* their groups */

@@ -201,7 +201,7 @@ static PetscErrorCode Close(SamOutput *output)
     SamFileClose(o->f);
   }
   ierr = SamFileEnd(o->f);
-  SamHoldRelease(o->f->filename, &o->hold);
+  SamFileLockRelease(o->f->filename, &o->hold);
   PetscCall(SamFileDestroy(&o->f, PETSC_FALSE));
   PetscCall(SamOutputFree(&o));
   PetscCall(ierr);
@@ -232,15 +232,15 @@ static PetscErrorCode CreateFile(SamOutput o, const char filename[])
   PetscCall(SamFileCheckName(o->grid, "output", filename, SAM_FILE_RESULTS));
   PetscCall(SamFileHasContent(o->grid, filename, &o->replaced));
   PetscCall(SamOutputNameTemporary(filename, &temporary));
-  ierr = SamHoldTake(o->grid, "output", temporary, SAM_FILE_TEMPORARY, &o->hold);
+  ierr = SamFileLockTake(o->grid, "output", temporary, SAM_FILE_TEMPORARY, &o->hold);
   if (!ierr) ierr = SamFileOpen(o->grid, SAM_EVENT_OUTPUT, "output", temporary, SAM_FILE_CREATE, &o->f);
-  if (ierr) SamHoldRelease(temporary, &o->hold);
+  if (ierr) SamFileLockRelease(temporary, &o->hold);
   PetscCall(PetscFree(temporary));
   PetscCall(ierr);
   PetscCall(SamFileBegin(o->f));
   PetscCall(SamOutputCreateLayout(o));
   PetscCall(SamFileEnd(o->f));
-  SamHoldNoteSize(&o->hold);
+  SamFileLockNoteSize(&o->hold);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -271,8 +271,8 @@ PetscErrorCode SamOutputPublish(SamOutput o)
   PetscCall(SamFileBegin(o->f));
   (void)SamFileNote(o->f, H5Fflush(o->f->id, H5F_SCOPE_GLOBAL));
   PetscCall(SamFileEnd(o->f));
-  SamHoldNoteSize(&o->hold);
-  PetscCall(SamHoldCheck(o->grid, "output", o->f->filename, &o->hold));
+  SamFileLockNoteSize(&o->hold);
+  PetscCall(SamFileLockCheck(o->grid, "output", o->f->filename, &o->hold));
   PetscCall(SamFileCheckName(o->grid, "output", o->name, SAM_FILE_RESULTS));
   PetscCall(SamFileReplace(o->grid, "output", o->f->filename, o->name, NULL));
   PetscCall(PetscFree(o->f->filename));
@@ -298,7 +298,7 @@ PetscErrorCode SamOutputDestroy(SamOutput *output)
   PetscFunctionBegin;
   if (o && o->f && !o->broken) {
     changed = o->waits ? SamOutputFlush(o) : SamOutputPublish(o);
-    if (!changed) changed = SamHoldCheck(o->grid, "output", o->f->filename, &o->hold);
+    if (!changed) changed = SamFileLockCheck(o->grid, "output", o->f->filename, &o->hold);
   }
   if (o && o->f) ierr = Close(output);
   if (*output) PetscCall(SamOutputFree(output));
@@ -379,7 +379,7 @@ static PetscErrorCode End(SamOutput o)
 {
   PetscFunctionBegin;
   PetscCall(SamFileEnd(o->f));
-  SamHoldNoteSize(&o->hold);
+  SamFileLockNoteSize(&o->hold);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

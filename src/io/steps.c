@@ -228,7 +228,7 @@ static PetscErrorCode Begin(SamOutput o, off_t bytes)
 
   PetscFunctionBegin;
   ierr = SamOutputPublish(o);
-  if (!ierr) ierr = SamHoldCheck(o->grid, "output", o->f->filename, &o->hold);
+  if (!ierr) ierr = SamFileLockCheck(o->grid, "output", o->f->filename, &o->hold);
   if (!ierr) ierr = SamFileReserve(o->f, bytes);
   if (ierr) o->waits = 0;
   PetscCall(ierr);
@@ -256,7 +256,7 @@ static PetscErrorCode End(SamOutput o)
   if (ierr) o->broken = PETSC_TRUE;
   PetscCall(ierr);
   CutUnused(o);
-  SamHoldNoteSize(&o->hold);
+  SamFileLockNoteSize(&o->hold);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -195,7 +195,7 @@ static PetscErrorCode SumCells(SamProblem problem, const SamSolution *last, cons
 #define BEHIND 2 /* cells about a point of the stick edge that must be in contact */
 
 /* Whether cell i of row j of the grid and those about it are in contact: the edge of contact is farther. */
-static PetscBool IsInside(const SamSeen *p, PetscInt i, PetscInt j)
+static PetscBool IsInside(const SamHalo *p, PetscInt i, PetscInt j)
 {
   const PetscInt rows = (p->rows.grid->axes - 1) * BEHIND;
 
@@ -208,7 +208,7 @@ static PetscBool IsInside(const SamSeen *p, PetscInt i, PetscInt j)
 }
 
 /* p^2 at (x, y), in cells from the grid's first one, interpolated between the four cells about it. */
-static double SquareAt(const SamSeen *p, double x, double y)
+static double SquareAt(const SamHalo *p, double x, double y)
 {
   const PetscInt nx = p->rows.grid->nx, i = (PetscInt)floor(x), j = (PetscInt)floor(y);
   const double   tx = x - (double)i, ty = y - (double)j, *q = p->at[0] + (ptrdiff_t)(j - p->rows.first) * nx + i;
@@ -226,10 +226,10 @@ static double SquareAt(const SamSeen *p, double x, double y)
 static PetscErrorCode FindPeak(SamGrid grid, const SamSolution *s, const SamEdge *stick, double *peak)
 {
   const double *b;
-  SamSeen       p;
+  SamHalo       p;
 
   PetscFunctionBegin;
-  PetscCall(SamSee(grid, s->pressure, 1, BEHIND + 1, &p));
+  PetscCall(SamHaloBegin(grid, s->pressure, 1, BEHIND + 1, &p));
   PetscCall(VecGetArrayRead(s->bound, &b));
   for (PetscInt n = 0; n < stick->count; n++) {
     const PetscInt k = stick->cell[n];
@@ -242,7 +242,7 @@ static PetscErrorCode FindPeak(SamGrid grid, const SamSolution *s, const SamEdge
     if (IsInside(&p, i, j)) *peak = PetscMax(*peak, b[k] / p.own[k] * sqrt(SquareAt(&p, x, y)));
   }
   PetscCall(VecRestoreArrayRead(s->bound, &b));
-  PetscCall(SamForget(&p));
+  PetscCall(SamHaloEnd(&p));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

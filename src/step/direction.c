@@ -27,7 +27,7 @@
     2. If t is ds - R(q) ds up to a part of the tolerance, the step is solved.
     3. Else Anderson's method makes the next t of this and the last passes (fixedpoint.c).
   Plain passes multiply the error by about the larger of tan(a/2) and 1/2. If they do not converge, the step keeps the
-  rule at its end. The direction of a step that repeats one of the cycle before starts from that (recall.c).
+  rule at its end. The direction of a step that repeats one of the cycle before starts from that (stepcache.c).
 
   References: M. Ortiz, E. P. Popov, Accuracy and stability of integration algorithms for elastoplastic constitutive
   relations, Int. J. Numer. Methods Eng. 21 (1985) 1561-1576; the sources of fixedpoint.c.

@@ -106,8 +106,8 @@ PetscErrorCode SamSolveNormal(SamSolve *w, PetscBool has_pressure, PetscBool has
     PetscCall(TakePressure(w));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  if (SamKeptHasPressure(w->kept, &w->s->control, w->task->revision)) {
-    PetscCall(SamKeptGetPressure(w->kept, w->task->grid, w->s));
+  if (SamCachedStepHasPressure(w->kept, &w->s->control, w->task->revision)) {
+    PetscCall(SamCachedStepGetPressure(w->kept, w->task->grid, w->s));
     w->known_pressure = PETSC_TRUE;
     PetscFunctionReturn(PETSC_SUCCESS);
   }
@@ -302,7 +302,7 @@ PetscErrorCode SamSolveGetTurn(SamSolve *w, Vec turn)
 }
 
 /* Takes t of direction.c from a kept step and its product, and lessens the offset by it. */
-static PetscErrorCode GuessDirection(SamSolve *w, SamKept kept, Vec shear, const SamProduct *product, Vec offset)
+static PetscErrorCode GuessDirection(SamSolve *w, SamCachedStep kept, Vec shear, const SamProduct *product, Vec offset)
 {
   const Vec own = w->s->shear;
 
@@ -311,7 +311,7 @@ static PetscErrorCode GuessDirection(SamSolve *w, SamKept kept, Vec shear, const
   PetscCall(VecCopy(product->field, w->s->displacement_t));
   if (w->pushed) PetscCall(VecAXPY(w->s->displacement_t, 1, w->pushed));
   SamBalanceStore(&w->tangential, w->s->load, w->s->rigid);
-  SamKeptGetMotion(kept, w->task->before, w->s->rigid);
+  SamCachedStepGetMotion(kept, w->task->before, w->s->rigid);
   w->s->shear = shear;
   PetscCall(SamSolveGetTurn(w, w->turn));
   w->s->shear = own;
@@ -323,7 +323,7 @@ static PetscErrorCode GuessDirection(SamSolve *w, SamKept kept, Vec shear, const
   From the same step one cycle before: the shear under the bound, if that start is near. `solved`: it was, and the
   tangential problem is.
 */
-static PetscErrorCode SolveFromKept(SamSolve *w, SamKept kept, Vec offset, SamBalance *balance, PetscBool *solved)
+static PetscErrorCode SolveFromKept(SamSolve *w, SamCachedStep kept, Vec offset, SamBalance *balance, PetscBool *solved)
 {
   const SamStepTask *task    = w->task;
   SamProduct         product = {.rounding = 0};
@@ -334,7 +334,7 @@ static PetscErrorCode SolveFromKept(SamSolve *w, SamKept kept, Vec offset, SamBa
   *solved = PETSC_FALSE;
   PetscCall(SamGridCreateVec(task->grid, 2, &product.field));
   PetscCall(SamGridCreateVec(task->grid, 2, &shear));
-  PetscCall(SamKeptGetShear(kept, task->elasticity, w->task->before, w->s->bound, shear, &product, solved));
+  PetscCall(SamCachedStepGetShear(kept, task->elasticity, w->task->before, w->s->bound, shear, &product, solved));
   if (*solved) {
     if (w->s->mid_step) PetscCall(GuessDirection(w, kept, shear, &product, offset));
     SamSolverSetEffort(SamTangentialAsSolver(task->tangential), 0, SAM_EFFORT_NEAR);

@@ -4,7 +4,7 @@
 
 #include <petsam/contact.h>
 #include <petsam/private/solutionimpl.h>
-#include "recall.h"
+#include "stepcache.h"
 
 /* The numbers of the solvers, side by side in the state in this order. */
 enum {
@@ -16,9 +16,9 @@ enum {
 
 /* SamStepStart - the guess from which a step is solved. */
 typedef struct {
-  PetscBool pressure, shear; /* whether the tried solution holds a guess of the pressure; of the shear */
-  double    rigid[3];        /* guess of the tangential rigid displacements (m, m, rad) */
-  SamKept   kept;            /* the same step one cycle before; NULL: none */
+  PetscBool     pressure, shear; /* whether the tried solution holds a guess of the pressure; of the shear */
+  double        rigid[3];        /* guess of the tangential rigid displacements (m, m, rad) */
+  SamCachedStep kept;            /* the same step one cycle before; NULL: none */
 } SamStepStart;
 
 /* SamStepTask - a step to be solved, and what it is solved with; all is borrowed. */

@@ -11,7 +11,7 @@ typedef struct {
   const SamStepTask *task;
   SamSolution       *s; /* the tried solution */
   SamStep           *step;
-  SamKept            kept;               /* the same step one cycle before; NULL: none, or it has been used */
+  SamCachedStep      kept;               /* the same step one cycle before; NULL: none, or it has been used */
   PetscBool          known_pressure;     /* the pressure is that of the kept step */
   SamBalance         normal, tangential; /* as prescribed */
   double             rigid[3];           /* guess of the tangential rigid displacements */

@@ -14,7 +14,7 @@ enum { AXES = SAM_STRESS_AXES };
 struct _n_SamStressFile {
   SamGrid         grid;
   char           *filename, *temporary;
-  SamHold         hold; /* of the temporary file */
+  SamFileLock     hold; /* of the temporary file */
   SamFile         f;
   SamStressLayout layout;
   hid_t           dataset[SAM_STRESS_DATASETS], history, history_time;
@@ -137,7 +137,7 @@ PetscErrorCode SamStressFileCreate(SamGrid grid, const char filename[], const Sa
   PetscCall(PetscStrallocpy(filename, &s->filename));
   PetscCall(SamOutputNameTemporary(filename, &s->temporary));
   PetscCall(SamFileCheckName(grid, OPTION, filename, SAM_FILE_RESULTS));
-  PetscCall(SamHoldTake(grid, OPTION, s->temporary, SAM_FILE_TEMPORARY, &s->hold));
+  PetscCall(SamFileLockTake(grid, OPTION, s->temporary, SAM_FILE_TEMPORARY, &s->hold));
   PetscCall(SamFileOpen(grid, SAM_EVENT_OUTPUT, OPTION, s->temporary, SAM_FILE_CREATE, &s->f));
   PetscCall(SamFileReserve(s->f, Bytes(s)));
   PetscCall(SamFileBegin(s->f));
@@ -246,7 +246,7 @@ PetscErrorCode SamStressFileFinish(SamStressFile s)
 
 void SamStressFileAbandon(SamStressFile s)
 {
-  if (s) SamHoldRelease(s->temporary, &s->hold);
+  if (s) SamFileLockRelease(s->temporary, &s->hold);
 }
 
 PetscErrorCode SamStressFileDestroy(SamStressFile *file)
@@ -257,7 +257,7 @@ PetscErrorCode SamStressFileDestroy(SamStressFile *file)
   *file = NULL;
   if (!s) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamFileDestroy(&s->f, s->broken ? PETSC_FALSE : PETSC_TRUE));
-  SamHoldRelease(s->temporary, &s->hold);
+  SamFileLockRelease(s->temporary, &s->hold);
   PetscCall(PetscFree(s->filename));
   PetscCall(PetscFree(s->temporary));
   PetscCall(SamGridDestroy(&s->grid));

@@ -114,18 +114,18 @@ static inline void SamBoundRangeOfBoth(PetscInt n, const double one[], const dou
 #define SAM_CHUNK 256
 
 /*
-  Stretches: cells of a row that loops pass over together when none of them takes part, as on a rough surface few cells
-  are in contact. An array `busy` of one char per stretch, row after row, marks the stretches that take part.
+  Blocks: cells of a row that loops pass over together when none of them takes part, as on a rough surface few cells
+  are in contact. An array `busy` of one char per block, row after row, marks the blocks that take part.
 */
-#define SAM_STRETCH 64
+#define SAM_ROW_BLOCK 64
 
-static inline PetscInt SamStretches(SamGrid grid)
+static inline PetscInt SamRowBlocks(SamGrid grid)
 {
-  return (grid->nx + SAM_STRETCH - 1) / SAM_STRETCH;
+  return (grid->nx + SAM_ROW_BLOCK - 1) / SAM_ROW_BLOCK;
 }
 
 /*
-  SamNextBusy - the next cells first ... last - 1 of a row of nx, from column `last` on, whose stretches are all busy;
+  SamNextBusy - the next cells first ... last - 1 of a row of nx, from column `last` on, whose blocks are all busy;
   `busy` is that of the row, NULL: all. PETSC_FALSE when there are no more.
 */
 static inline PetscBool SamNextBusy(const char busy[], PetscInt nx, PetscInt *first, PetscInt *last)
@@ -133,11 +133,11 @@ static inline PetscBool SamNextBusy(const char busy[], PetscInt nx, PetscInt *fi
   PetscInt i = *last;
 
   if (busy)
-    while (i < nx && !busy[i / SAM_STRETCH]) i += SAM_STRETCH;
+    while (i < nx && !busy[i / SAM_ROW_BLOCK]) i += SAM_ROW_BLOCK;
   if (i >= nx) return PETSC_FALSE;
   *first = i;
   if (!busy) i = nx;
-  while (i < nx && busy[i / SAM_STRETCH]) i += SAM_STRETCH;
+  while (i < nx && busy[i / SAM_ROW_BLOCK]) i += SAM_ROW_BLOCK;
   *last = PetscMin(i, nx);
   return PETSC_TRUE;
 }
@@ -212,7 +212,7 @@ PETSC_EXTERN PetscErrorCode SamFrameProjectNormal(const SamFrame *frame, const f
 /* SamPressureStep - a step of a pressure, for the next function. Arrays of this rank's cells. */
 typedef struct {
   const float *mask; /* 1 on cells that may have pressure, 0 on others */
-  const char  *busy; /* stretches with cells in the mask, or with pressure */
+  const char  *busy; /* blocks with cells in the mask, or with pressure */
   const float *step; /* the pressure goes by `by` times this */
   double       by;
   PetscBool    nearest; /* find the nearest admissible pressure, even if that takes longer */

@@ -88,10 +88,10 @@ PETSC_INTERN void           SamFree(void *pointer);
 PETSC_INTERN void SamZero(PetscInt n, double x[]);
 
 /*
-  SamReturnMemory - returns freed memory that the C library keeps to the system. The next allocations have to map it
+  SamMallocTrim - returns freed memory that the C library keeps to the system. The next allocations have to map it
   again, which takes time, so call it only at the end of long stages.
 */
-PETSC_INTERN void SamReturnMemory(void);
+PETSC_INTERN void SamMallocTrim(void);
 /* SamDescribeBytes - a size for a person: "1.23 GB", where a GB is 1e9 bytes. Not collective. */
 PETSC_EXTERN void SamDescribeBytes(double bytes, char text[], size_t size);
 

@@ -171,8 +171,8 @@ PETSC_INTERN PetscErrorCode SamFileGetSpace(SamGrid grid, const char option[], c
 PETSC_INTERN PetscErrorCode SamFileReplace(SamGrid grid, const char option[], const char temporary[],
                                            const char filename[], const char kept[]);
 /*
-  SamHold - keeps a file that a run writes from other runs, and notices what other programs do to it. Held by rank 0;
-  ends with the process. Other programs can read the file.
+  SamFileLock - keeps a file that a run writes from other runs, and notices what other programs do to it. Held by rank
+  0; ends with the process. Other programs can read the file.
 */
 typedef struct {
   int        file; /* descriptor, negative: not held */
@@ -181,22 +181,24 @@ typedef struct {
   off_t      size;    /* when it was noted */
   off_t      mark_at; /* where a number is that never changes, 0: none */
   double     mark;
-} SamHold;
+} SamFileLock;
 /*
-  SamHoldTake - takes hold of a file, which is created if it is not there. Errors as SamFileCheckName().
-  SamHoldTakeNext - of the next file of a name whose file has been renamed.
-  SamHoldCheck - raises an error if the file has been removed, replaced, has not the size that was noted, or its marked
-  number has another value: it was cut while a step was written, and grew again.
+  SamFileLockTake - takes hold of a file, which is created if it is not there. Errors as SamFileCheckName().
+  SamFileLockTakeNext - of the next file of a name whose file has been renamed.
+  SamFileLockCheck - raises an error if the file has been removed, replaced, has not the size that was noted, or its
+  marked number has another value: it was cut while a step was written, and grew again.
   These are collective. Errors: SAM_ERR_FILE.
-  SamHoldNoteSize - notes the size.
-  SamHoldRelease - gives up the file; removes it if it is temporary, or was created here and is still empty.
+  SamFileLockNoteSize - notes the size.
+  SamFileLockRelease - gives up the file; removes it if it is temporary, or was created here and is still empty.
 */
-PETSC_INTERN PetscErrorCode SamHoldTake(SamGrid grid, const char option[], const char filename[], SamFileUse use,
-                                        SamHold *hold);
-PETSC_INTERN PetscErrorCode SamHoldTakeNext(SamGrid grid, const char option[], const char filename[], SamHold *hold);
-PETSC_INTERN PetscErrorCode SamHoldCheck(SamGrid grid, const char option[], const char filename[], const SamHold *hold);
-PETSC_INTERN void           SamHoldNoteSize(SamHold *hold);
-PETSC_INTERN void           SamHoldRelease(const char filename[], SamHold *hold);
+PETSC_INTERN PetscErrorCode SamFileLockTake(SamGrid grid, const char option[], const char filename[], SamFileUse use,
+                                            SamFileLock *hold);
+PETSC_INTERN PetscErrorCode SamFileLockTakeNext(SamGrid grid, const char option[], const char filename[],
+                                                SamFileLock *hold);
+PETSC_INTERN PetscErrorCode SamFileLockCheck(SamGrid grid, const char option[], const char filename[],
+                                             const SamFileLock *hold);
+PETSC_INTERN void           SamFileLockNoteSize(SamFileLock *hold);
+PETSC_INTERN void           SamFileLockRelease(const char filename[], SamFileLock *hold);
 
 #define SAM_SEAL 512 /* bytes at the start of a checkpoint: HDF5's user block, which holds the seal */
 /*

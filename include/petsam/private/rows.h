@@ -24,19 +24,19 @@ PETSC_INTERN PetscErrorCode SamRowsFetch(const SamRows *rows, PetscInt columns, 
                                          const double **wanted);
 PETSC_INTERN PetscErrorCode SamRowsRestore(const SamRows *rows, const double **wanted);
 
-#define SAM_SEEN_MOST 6
+#define SAM_HALO_MOST 6
 /*
-  SamSeen - a field in this rank's rows and `halo` more before and after them. SamSee - fetches it; `components`: at
-  most SAM_SEEN_MOST. SamForget - gives it back. Collective.
+  SamHalo - a field in this rank's rows and `halo` more before and after them. SamHaloBegin - fetches it;
+  `components`: at most SAM_HALO_MOST. SamHaloEnd - gives it back. Collective.
 */
 typedef struct {
   Vec           field;
   PetscInt      components;
   SamRows       rows;
-  const double *own, *at[SAM_SEEN_MOST]; /* the components of the rows that are seen */
-} SamSeen;
-PETSC_INTERN PetscErrorCode SamSee(SamGrid grid, Vec field, PetscInt components, PetscInt halo, SamSeen *seen);
-PETSC_INTERN PetscErrorCode SamForget(SamSeen *seen);
+  const double *own, *at[SAM_HALO_MOST]; /* the components of the rows that are seen */
+} SamHalo;
+PETSC_INTERN PetscErrorCode SamHaloBegin(SamGrid grid, Vec field, PetscInt components, PetscInt halo, SamHalo *seen);
+PETSC_INTERN PetscErrorCode SamHaloEnd(SamHalo *seen);
 
 /*
   SamGather - arrays of all ranks, n items of this one, one after the other on rank 0. `all`: the address of a pointer,

@@ -29,7 +29,7 @@ typedef struct {
   SamGrid   grid;
   double    poisson, kernel[SAM_STRESS_TRACTIONS][PLANE][LAGS][LAGS]; /* of the lags */
   PetscReal x[POINTS], w[POINTS];                                     /* of Gauss' rule on (0, 1) */
-  SamSeen   seen;
+  SamHalo   seen;
 } Map;
 
 static PetscErrorCode CreateMap(SamGrid grid, PetscReal poisson, Vec field, Map *m)
@@ -45,7 +45,7 @@ static PetscErrorCode CreateMap(SamGrid grid, PetscReal poisson, Vec field, Map 
       SamHalfSpaceStressRow(&source, (SamStressGroup)(SAM_STRESS_PLANE_P + t), j, LAGS, to);
     }
   PetscCall(PetscDTGaussQuadrature(POINTS, 0, 1, m->x, m->w));
-  PetscCall(SamSee(grid, field, SAM_STRESS_COMPONENTS, BLOCK + 1, &m->seen));
+  PetscCall(SamHaloBegin(grid, field, SAM_STRESS_COMPONENTS, BLOCK + 1, &m->seen));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -214,6 +214,6 @@ PetscErrorCode SamHalfSpaceStressAtEdge(SamStress body, Vec field, const SamEdge
     AddOutside(&m, i, j, at, to);
     AddInside(&m, i, j, at, edge->fit[n], to);
   }
-  PetscCall(SamForget(&m.seen));
+  PetscCall(SamHaloEnd(&m.seen));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

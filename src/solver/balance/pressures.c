@@ -16,7 +16,7 @@ typedef struct {
   const float  *mask;      /* 1 on the cells that take part, 0 on others; NULL: */
   Which         which;     /* these take part */
   float        *row;       /* then: a row of ones, or scratch for the mask of a row */
-  const char   *busy;      /* stretches with cells that take part, or with pressure; NULL: all */
+  const char   *busy;      /* blocks with cells that take part, or with pressure; NULL: all */
   const float  *step;      /* added to the field with the factor `by`; one row of zeros where that is 0 */
   double        by, scale; /* see SamPressureStep */
   float        *made;
@@ -110,7 +110,7 @@ SAM_VECTORIZED static void ApplyNormal(SamRow row, Pressures cells, const double
 */
 static void PassRows(const SamFrame *f, const Cells *c, const double a[3], double p[], float scratch[], SamTotal dual[])
 {
-  const PetscInt nx = f->grid->nx, stretches = SamStretches(f->grid);
+  const PetscInt nx = f->grid->nx, blocks = SamRowBlocks(f->grid);
 
   for (PetscInt j = 0; j < f->grid->rows; j++) {
     const ptrdiff_t k    = (ptrdiff_t)j * nx;
@@ -118,7 +118,7 @@ static void PassRows(const SamFrame *f, const Cells *c, const double a[3], doubl
     float          *made = c->made ? c->made + k : scratch;
     SamDual         sums = {0};
 
-    for (PetscInt i = 0, end = 0; SamNextBusy(c->busy ? c->busy + (ptrdiff_t)j * stretches : NULL, nx, &i, &end);) {
+    for (PetscInt i = 0, end = 0; SamNextBusy(c->busy ? c->busy + (ptrdiff_t)j * blocks : NULL, nx, &i, &end);) {
       const SamRow row = SamFrameRow(f, j, i, end);
 
       if (p)

@@ -79,8 +79,8 @@ static PetscErrorCode CreateWork(SamSolver solver, SamLevel *level, Work *w)
   PetscCall(VecGetArray(level->traction, &w->p));
   PetscCall(VecGetArrayRead(level->given[SAM_NORMAL_SEPARATION], &w->h));
   PetscCall(VecGetArray(w->vg, &w->g));
-  w->stretches = SamStretches(level->grid);
-  PetscCall(PetscCalloc2(w->rows * w->stretches, &w->busy, w->rows * w->stretches, &w->open));
+  w->blocks = SamRowBlocks(level->grid);
+  PetscCall(PetscCalloc2(w->rows * w->blocks, &w->busy, w->rows * w->blocks, &w->open));
   PetscCall(SamAllocate(sizeof(*w->z) * 5 * (size_t)w->cells, &w->z));
   w->active = w->z + w->cells;
   w->s      = w->active + w->cells;
@@ -126,21 +126,21 @@ static PetscBool NextBusy(const Work *w, PetscInt j, PetscInt *end, SamRow *row)
 {
   PetscInt first;
 
-  if (!SamNextBusy(w->busy + (ptrdiff_t)j * w->stretches, w->nx, &first, end)) return PETSC_FALSE;
+  if (!SamNextBusy(w->busy + (ptrdiff_t)j * w->blocks, w->nx, &first, end)) return PETSC_FALSE;
   *row = SamFrameRow(w->frame, j, first, *end);
   return PETSC_TRUE;
 }
 
-/* The same by single stretches. */
+/* The same by single blocks. */
 static PetscBool NextBusyStretch(const Work *w, PetscInt j, PetscInt *next, SamRow *row)
 {
-  const char *busy = w->busy + (ptrdiff_t)j * w->stretches;
+  const char *busy = w->busy + (ptrdiff_t)j * w->blocks;
   PetscInt    i    = *next;
 
-  while (i < w->nx && !busy[i / SAM_STRETCH]) i += SAM_STRETCH;
+  while (i < w->nx && !busy[i / SAM_ROW_BLOCK]) i += SAM_ROW_BLOCK;
   if (i >= w->nx) return PETSC_FALSE;
-  *next = i + SAM_STRETCH;
-  *row  = SamFrameRow(w->frame, j, i, PetscMin(i + SAM_STRETCH, w->nx));
+  *next = i + SAM_ROW_BLOCK;
+  *row  = SamFrameRow(w->frame, j, i, PetscMin(i + SAM_ROW_BLOCK, w->nx));
   return PETSC_TRUE;
 }
 
@@ -247,7 +247,7 @@ static PetscErrorCode TryGradient(Work *w, double motion[3], PetscBool *found)
   double most = 0;
 
   PetscFunctionBegin;
-  (void)memset(w->busy, 1, (size_t)(w->rows * w->stretches)); /* cells may enter anywhere */
+  (void)memset(w->busy, 1, (size_t)(w->rows * w->blocks)); /* cells may enter anywhere */
   for (PetscInt k = 0; k < w->cells; k++) {
     w->active[k] = 1;
     most         = PetscMax(most, w->p[k]);
@@ -266,9 +266,9 @@ static void SetLength(Work *w, double t, SamTotal contact[])
     SamRow     row;
 
     for (PetscInt end = 0; NextBusy(w, j, &end, &row);) SamActiveSetStepRow(w, row, t, &sums);
-    for (PetscInt i = 0, stretch = j * w->stretches; i < w->nx; i += SAM_STRETCH, stretch++) {
-      if (w->busy[stretch]) continue;
-      w->open[stretch] = SamActiveSetOpenRow(w, SamFrameRow(w->frame, j, i, PetscMin(i + SAM_STRETCH, w->nx)), t);
+    for (PetscInt i = 0, block = j * w->blocks; i < w->nx; i += SAM_ROW_BLOCK, block++) {
+      if (w->busy[block]) continue;
+      w->open[block] = SamActiveSetOpenRow(w, SamFrameRow(w->frame, j, i, PetscMin(i + SAM_ROW_BLOCK, w->nx)), t);
     }
     SamActiveSetAddRow(sums, SamFrameEta(w->frame, j), contact);
   }

@@ -85,7 +85,7 @@ static PetscErrorCode FinishGap(Work *w)
   PetscFunctionBegin;
   for (PetscInt k = 0; k < w->cells; k++) max[1] = w->p[k] > max[1] ? w->p[k] : max[1];
   for (PetscInt j = 0; j < w->rows; j++) max[0] = SamLarger(max[0], SamActiveSetGapRow(w, SamActiveSetRow(w, j)));
-  for (PetscInt k = 0; k < w->rows * w->stretches; k++) w->open[k] = -INFINITY;
+  for (PetscInt k = 0; k < w->rows * w->blocks; k++) w->open[k] = -INFINITY;
   PetscCall(SamMax(grid->comm, 2, max));
   w->displacement = max[0];
   w->floor        = SamGapRounding(max[1], w->self, (double)grid->nx * (double)grid->ny, w->motion[0], max[0]);
@@ -114,27 +114,27 @@ static PetscErrorCode Fit(Work *w, SamTotal totals[], double motion[3])
 }
 
 /*
-  Whether a stretch without pressure has no gap that `motion` could close. Evaluated as the gaps are, so that rounding
+  Whether a block without pressure has no gap that `motion` could close. Evaluated as the gaps are, so that rounding
   makes no difference.
 */
-static PetscBool IsClear(const Work *w, PetscInt stretch, SamRow row, const double motion[3])
+static PetscBool IsClear(const Work *w, PetscInt block, SamRow row, const double motion[3])
 {
   const double a = motion[0] - motion[1] * row.eta, b = motion[2];
   const double last = w->frame->xi0 + (double)(row.column + row.count - 1) * row.dxi;
 
-  return !w->busy[stretch] && w->open[stretch] > PetscMax(a + b * row.xi0, a + b * last);
+  return !w->busy[block] && w->open[block] > PetscMax(a + b * row.xi0, a + b * last);
 }
 
-/* A in a row, and which of its stretches are busy: by the gap that `motion` has moved back. */
+/* A in a row, and which of its blocks are busy: by the gap that `motion` has moved back. */
 static SamGapSums ChooseRow(Work *w, PetscInt j, double ease, const double motion[3])
 {
   SamGapSums sums = {0};
 
-  for (PetscInt i = 0, stretch = j * w->stretches; i < w->nx; i += SAM_STRETCH, stretch++) {
-    const SamRow row = SamFrameRow(w->frame, j, i, PetscMin(i + SAM_STRETCH, w->nx));
+  for (PetscInt i = 0, block = j * w->blocks; i < w->nx; i += SAM_ROW_BLOCK, block++) {
+    const SamRow row = SamFrameRow(w->frame, j, i, PetscMin(i + SAM_ROW_BLOCK, w->nx));
 
-    if (IsClear(w, stretch, row, motion)) continue; /* it has no cell of A, and gets none */
-    w->busy[stretch] = SamActiveSetChooseRow(w, row, ease, motion, &sums) ? 1 : 0;
+    if (IsClear(w, block, row, motion)) continue; /* it has no cell of A, and gets none */
+    w->busy[block] = SamActiveSetChooseRow(w, row, ease, motion, &sums) ? 1 : 0;
   }
   return sums;
 }

@@ -8,16 +8,16 @@ typedef struct {
   SamSolver       solver;
   SamLevel       *level;
   const SamFrame *frame;
-  PetscInt        nx, rows, cells, stretches; /* stretches: of a row */
-  Vec             vg;                         /* the field of g */
+  PetscInt        nx, rows, cells, blocks; /* blocks: of a row */
+  Vec             vg;                      /* the field of g */
   const double   *h;
   double         *p, *g;          /* pressure, Pa; gap, m */
   float          *z, *s, *u;      /* direction; last step; S s: z and s in units of unit/self, u in units of `unit` */
   float          *loss;           /* what is taken off the preconditioner; 0 on cells that were not in A at the time */
   float          *active;         /* 1 on cells of A, else 0 */
   float          *xi;             /* of the columns */
-  char           *busy;           /* stretches with cells of A, or with pressure */
-  double         *open;           /* of other stretches: the least gap after the last step; not known: -infinity */
+  char           *busy;           /* blocks with cells of A, or with pressure */
+  double         *open;           /* of other blocks: the least gap after the last step; not known: -infinity */
   double          unit;           /* m, of the iteration */
   double          self;           /* influence of a cell on itself, m/Pa */
   double          most;           /* maximum admissible pressure, Pa; infinite: none */
@@ -104,7 +104,7 @@ PETSC_INTERN void SamActiveSetPreconditionedRow(SamActiveSet *w, SamRow row, Sam
 PETSC_INTERN void SamActiveSetDirectionRow(SamActiveSet *w, SamRow row, const double motion[3], float beta);
 /* The slope of the step to the trial p; raises `shrink` and `largest`. */
 PETSC_INTERN double SamActiveSetTrialRow(SamActiveSet *w, SamRow row);
-/* s.u of at most SAM_STRETCH cells. */
+/* s.u of at most SAM_ROW_BLOCK cells. */
 PETSC_INTERN double SamActiveSetCurvatureRow(const SamActiveSet *w, SamRow row);
 /*
   Where the trial is at a bound, and t times the step would end before it by no more than rounding, moves the pressure

@@ -25,7 +25,7 @@
   each row, as integers in units of 2^-30 of their largest value, four times as accurate as floats of the same size. All
   decisions are those of global numbers: the same on any number of ranks.
 */
-#include "recall.h"
+#include "stepcache.h"
 #include <math.h>
 #include <petsam/private/tangentialimpl.h>
 
@@ -48,7 +48,7 @@
 
 enum { SHEAR_X, SHEAR_Y, PRODUCT_X, PRODUCT_Y, CHANGES };
 
-struct _n_SamKept {
+struct _n_SamCachedStep {
   PetscInt        *first, *last;    /* of each row of this rank */
   int32_t         *change[CHANGES]; /* of the step, one row after the other */
   double           unit[2];         /* of the shear (Pa), of the product (m) */
@@ -58,15 +58,15 @@ struct _n_SamKept {
   SamControl       control;
   double           load[3], rigid[3], moved[3]; /* normal; moved: the change of the tangential rigid displacements */
   double           sign, weight;                /* of the changes in the step that is to come; the rest is `other`'s */
-  SamKept          other;                       /* the next older such step; NULL: none */
+  SamCachedStep    other;                       /* the next older such step; NULL: none */
 };
 
 typedef struct {
-  SamControl control;
-  SamKept    kept; /* NULL: nothing is */
+  SamControl    control;
+  SamCachedStep kept; /* NULL: nothing is */
 } Entry;
 
-struct _n_SamRecall {
+struct _n_SamStepCache {
   SamGrid  grid;
   double   limit, bytes;                /* on all ranks */
   PetscInt count, newest, found, older; /* found, older: the last two steps like the next one; -1: none */
@@ -77,9 +77,9 @@ struct _n_SamRecall {
   SamConditions conditions;
 };
 
-static void DestroyKept(SamRecall r, SamKept *kept)
+static void DestroyKept(SamStepCache r, SamCachedStep *kept)
 {
-  const SamKept k = *kept;
+  const SamCachedStep k = *kept;
 
   if (!k) return;
   r->bytes -= k->bytes;
@@ -91,37 +91,37 @@ static void DestroyKept(SamRecall r, SamKept *kept)
   *kept = NULL;
 }
 
-PetscErrorCode SamRecallCreate(SamGrid grid, SamConditions conditions, SamRecall *recall)
+PetscErrorCode SamStepCacheCreate(SamGrid grid, SamConditions conditions, SamStepCache *cache)
 {
   PetscFunctionBegin;
-  PetscCall(SamAllocateZeros(sizeof(**recall), recall));
-  (*recall)->grid       = grid;
-  (*recall)->conditions = conditions;
-  (*recall)->found = (*recall)->older = -1;
+  PetscCall(SamAllocateZeros(sizeof(**cache), cache));
+  (*cache)->grid       = grid;
+  (*cache)->conditions = conditions;
+  (*cache)->found = (*cache)->older = -1;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-void SamRecallForget(SamRecall r)
+void SamStepCacheForget(SamStepCache r)
 {
   for (PetscInt k = 0; k < r->count; k++) DestroyKept(r, &r->entry[k].kept);
   r->count = r->newest = 0;
   r->found = r->older = -1;
 }
 
-void SamRecallDestroy(SamRecall *recall)
+void SamStepCacheDestroy(SamStepCache *cache)
 {
-  if (!*recall) return;
-  SamRecallForget(*recall);
-  SamFree((*recall)->entry);
-  SamFree(*recall);
-  *recall = NULL;
+  if (!*cache) return;
+  SamStepCacheForget(*cache);
+  SamFree((*cache)->entry);
+  SamFree(*cache);
+  *cache = NULL;
 }
 
-PetscErrorCode SamRecallSetMemory(SamRecall r, PetscReal bytes)
+PetscErrorCode SamStepCacheSetMemory(SamStepCache r, PetscReal bytes)
 {
   PetscFunctionBegin;
   r->limit = (double)bytes;
-  if (r->bytes > r->limit) SamRecallForget(r);
+  if (r->bytes > r->limit) SamStepCacheForget(r);
   if (bytes > 0 && !r->entry) PetscCall(SamAllocateZeros(STEPS * sizeof(*r->entry), &r->entry));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -129,7 +129,7 @@ PetscErrorCode SamRecallSetMemory(SamRecall r, PetscReal bytes)
 /* ---- which step this is ---- */
 
 /* The numbers of a control but its time; returns how many there are. */
-static PetscInt Numbers(SamRecall r, const SamControl *control, double numbers[NUMBERS])
+static PetscInt Numbers(SamStepCache r, const SamControl *control, double numbers[NUMBERS])
 {
   PetscInt n = 0;
 
@@ -139,7 +139,7 @@ static PetscInt Numbers(SamRecall r, const SamControl *control, double numbers[N
   return n;
 }
 
-static PetscBool IsSame(SamRecall r, const SamControl *a, const SamControl *b)
+static PetscBool IsSame(SamStepCache r, const SamControl *a, const SamControl *b)
 {
   double         x[NUMBERS], y[NUMBERS];
   const PetscInt count = Numbers(r, a, x);
@@ -151,7 +151,7 @@ static PetscBool IsSame(SamRecall r, const SamControl *a, const SamControl *b)
 }
 
 /* The control with all that causes shear reversed. */
-static SamControl Reversed(SamRecall r, const SamControl *control)
+static SamControl Reversed(SamStepCache r, const SamControl *control)
 {
   SamControl reversed = *control;
 
@@ -165,12 +165,12 @@ static SamControl Reversed(SamRecall r, const SamControl *control)
 }
 
 /* The k-th entry before the newest one. */
-static PetscInt Before(SamRecall r, PetscInt k)
+static PetscInt Before(SamStepCache r, PetscInt k)
 {
   return (r->newest - k + STEPS) % STEPS;
 }
 
-void SamRecallFind(SamRecall r, const SamControl *next, SamKept *kept)
+void SamStepCacheFind(SamStepCache r, const SamControl *next, SamCachedStep *kept)
 {
   double     numbers[NUMBERS];
   PetscInt   count;
@@ -208,7 +208,8 @@ void SamRecallFind(SamRecall r, const SamControl *next, SamKept *kept)
 /* ---- keeping ---- */
 
 /* Stores the changes of both components of a field from `before` to `now`, in units of their largest. */
-static PetscErrorCode KeepChange(SamRecall r, SamKept k, Vec before, Vec now, double *unit, int32_t *const to[2])
+static PetscErrorCode KeepChange(SamStepCache r, SamCachedStep k, Vec before, Vec now, double *unit,
+                                 int32_t *const to[2])
 {
   const SamGrid grid = r->grid;
   const double *a, *b;
@@ -243,13 +244,13 @@ static PetscErrorCode KeepChange(SamRecall r, SamKept k, Vec before, Vec now, do
 }
 
 /* Finds the parts of the rows, and makes room for them if the limit allows it, or older steps need not stay. */
-static PetscErrorCode CreateKept(SamRecall r, Vec bound_before, Vec bound, PetscBool pressure, SamKept *kept)
+static PetscErrorCode CreateKept(SamStepCache r, Vec bound_before, Vec bound, PetscBool pressure, SamCachedStep *kept)
 {
   const SamGrid grid = r->grid;
   const double *a, *b;
   size_t        cells = 0;
   double        total;
-  SamKept       k;
+  SamCachedStep k;
 
   PetscFunctionBegin;
   *kept = NULL;
@@ -288,7 +289,7 @@ static PetscErrorCode CreateKept(SamRecall r, Vec bound_before, Vec bound, Petsc
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode KeepPressure(SamRecall r, SamKept k, const SamSolution *now)
+static PetscErrorCode KeepPressure(SamStepCache r, SamCachedStep k, const SamSolution *now)
 {
   const SamGrid grid = r->grid;
   const double *p;
@@ -311,7 +312,7 @@ static PetscErrorCode KeepPressure(SamRecall r, SamKept k, const SamSolution *no
 }
 
 /* Adds `weight` times the kept changes of a component of the shear (0, 1) or the product (2, 3) to row j, n on. */
-static void AddRow(const SamKept k, double weight, PetscInt component, PetscInt j, ptrdiff_t n, double to[])
+static void AddRow(const SamCachedStep k, double weight, PetscInt component, PetscInt j, ptrdiff_t n, double to[])
 {
   const int32_t *change = k->change[component] + n;
   const double   unit   = weight * k->sign * k->unit[component / 2];
@@ -320,7 +321,7 @@ static void AddRow(const SamKept k, double weight, PetscInt component, PetscInt 
 }
 
 /* The weight with which the two kept steps would have been nearest to the shear's change from `before` to `now`. */
-static PetscErrorCode FindWeight(SamRecall r, const SamKept k, Vec before, Vec now)
+static PetscErrorCode FindWeight(SamStepCache r, const SamCachedStep k, Vec before, Vec now)
 {
   const PetscInt nx        = r->grid->nx;
   SamTotal       totals[2] = {{0}};
@@ -362,7 +363,8 @@ static PetscErrorCode FindWeight(SamRecall r, const SamKept k, Vec before, Vec n
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamRecallKeep(SamRecall r, const SamSolution *before, const SamSolution *now, PetscObjectState revision)
+PetscErrorCode SamStepCacheKeep(SamStepCache r, const SamSolution *before, const SamSolution *now,
+                                PetscObjectState revision)
 {
   Entry    *e;
   PetscBool pressure;
@@ -395,15 +397,15 @@ PetscErrorCode SamRecallKeep(SamRecall r, const SamSolution *before, const SamSo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- recalling ---- */
+/* ---- finding ---- */
 
-PetscBool SamKeptHasPressure(SamKept k, const SamControl *control, PetscObjectState revision)
+PetscBool SamCachedStepHasPressure(SamCachedStep k, const SamControl *control, PetscObjectState revision)
 {
   if (!k || !k->pressure || revision < 0 || k->revision != revision) return PETSC_FALSE;
   return SamControlIsSame(&k->control, control, SAM_BALANCE_NORMAL);
 }
 
-PetscErrorCode SamKeptGetPressure(SamKept k, SamGrid grid, SamSolution *s)
+PetscErrorCode SamCachedStepGetPressure(SamCachedStep k, SamGrid grid, SamSolution *s)
 {
   const double *from = k->pressure;
   double       *p;
@@ -447,9 +449,9 @@ static double TrimRow(PetscInt nx, PetscInt first, PetscInt last, const double b
   return lost;
 }
 
-void SamKeptGetMotion(SamKept kept, const SamSolution *now, PetscReal rigid[])
+void SamCachedStepGetMotion(SamCachedStep kept, const SamSolution *now, PetscReal rigid[])
 {
-  const SamKept parts[2] = {kept, kept->other};
+  const SamCachedStep parts[2] = {kept, kept->other};
 
   for (PetscInt c = 0; c < 3; c++) {
     const PetscInt k = SamComponentsOf[SAM_BALANCE_TANGENTIAL][c];
@@ -460,16 +462,16 @@ void SamKeptGetMotion(SamKept kept, const SamSolution *now, PetscReal rigid[])
   }
 }
 
-PetscErrorCode SamKeptGetShear(SamKept kept, SamElasticity elasticity, const SamSolution *now, Vec bound, Vec shear,
-                               SamProduct *product, PetscBool *found)
+PetscErrorCode SamCachedStepGetShear(SamCachedStep kept, SamElasticity elasticity, const SamSolution *now, Vec bound,
+                                     Vec shear, SamProduct *product, PetscBool *found)
 {
-  SamGrid       grid;
-  PetscReal     self;
-  double       *q, *u, open = 0, lost;
-  const double *b;
-  ptrdiff_t     at[2]    = {0, 0};
-  SamTotal      total    = {0};
-  const SamKept parts[2] = {kept, kept->other};
+  SamGrid             grid;
+  PetscReal           self;
+  double             *q, *u, open = 0, lost;
+  const double       *b;
+  ptrdiff_t           at[2]    = {0, 0};
+  SamTotal            total    = {0};
+  const SamCachedStep parts[2] = {kept, kept->other};
 
   PetscFunctionBegin;
   PetscCall(SamElasticityGetGrid(elasticity, &grid));
