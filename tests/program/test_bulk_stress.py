@@ -4,7 +4,7 @@ import h5py
 import numpy as np
 import pytest
 
-from support import SPHERE, assert_same, ball, history, slide_limit
+from support import SPHERE, assert_same, ball, history, read_run, slide_limit
 
 BALL = ball(48, load_tx=10.0)
 
@@ -56,8 +56,8 @@ def test_restart_goes_on_with_the_same_bulk_stress_only(petsam, tmp_path):
         return history(tmp_path / "h.csv", "time,bulk2_stress_xx", (1, 2e7), (2, second), *more)
 
     def shear(name):
-        with h5py.File(tmp_path / name) as f:
-            return f["shear_x"][-1], f["history/bulk2_stress_xx"][:].tolist()
+        run = read_run(tmp_path / name)
+        return run["shear_x"][-1], run["history/bulk2_stress_xx"].tolist()
 
     case, restart = ball(32, load_tx=8.0), dict(restart="c.h5", output="on.h5")
     petsam(case, steps(1e7), dict(checkpoint="c.h5", checkpoint_every=1, output="on.h5"))

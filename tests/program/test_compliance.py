@@ -6,7 +6,7 @@ import pytest
 
 import compliances
 import conftest
-from support import assert_same, history, l2
+from support import assert_same, history, l2, read_run
 from test_embed import run_python
 
 # E = 1, nu = 0.3, the patch is the grid: [-1, 1]^2
@@ -330,9 +330,9 @@ def test_run_with_cases_goes_on_from_its_checkpoint(petsam, layer, tmp_path):
     first = history(tmp_path / "first.csv", "time,load_n,load_tx,body2_case_bend", *rows[:3])
     petsam({**case, **first}, dict(output="part.h5", checkpoint="c.h5", checkpoint_every=1))
     petsam(case, dict(output="part.h5", restart="c.h5"))
-    with h5py.File(tmp_path / "whole.h5") as whole, h5py.File(tmp_path / "part.h5") as part:
-        for name in ("pressure", "shear_x", "slip_x", "history/body2_case_bend"):
-            assert np.array_equal(whole[name], part[name]), name
+    whole, parts = read_run(tmp_path / "whole.h5"), read_run(tmp_path / "part.h5")
+    for name in ("pressure", "shear_x", "slip_x", "history/body2_case_bend"):
+        assert np.array_equal(whole[name], parts[name]), name
     other = layer(1, 3, cases=dict(bend=np.full((10, 3), 1e-5)))
     message = petsam({**case, "body2_compliance": other}, dict(restart="c.h5"), check=2).complaint[0]
     assert "-body2_compliance is" in message

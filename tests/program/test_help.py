@@ -211,5 +211,5 @@ def test_gap_types_of_the_topic_are_all_there_are(petsam):
 def test_missing_text_is_named_by_what_it_is(petsam, option):
     case = {**ball(n=16), option: True}
     line = petsam(*words(case), check=2).complaint[0]
-    expected = {"gap_type": "one of curved,ellipsoid,file", "output_fields": "some of all,none,pressure"}
+    expected = {"gap_type": "curved, ellipsoid, file, flat", "output_fields": "some of all,none,pressure"}
     assert f"-{option} has no value: expected {expected.get(option, 'the name of a file')}" in line

@@ -53,6 +53,6 @@ def test_the_slowest_tests_are_printed_with_their_time():
     done = subprocess.run([sys.executable, *words], capture_output=True, text=True, env=environment(), timeout=300)
     assert done.returncode == 0, done.stdout + done.stderr
     *_, heading, first, second, last = done.stdout.splitlines()
-    assert heading == "slowest 10 unit tests (ranks)" and re.fullmatch(r"\d+ passed, 0 failed", last)
+    assert heading == "slowest 30 unit tests (ranks)" and re.fullmatch(r"\d+ passed, 0 failed", last)
     times = [float(re.fullmatch(r" +([\d.]+) s  test_lengths on [12]", line).group(1)) for line in (first, second)]
     assert times == sorted(times, reverse=True)

@@ -429,7 +429,7 @@ PetscErrorCode SamGapCheckPlane(SamGap gap)
   PetscFunctionBegin;
   for (PetscInt k = 0; k < gap->ops.count && gap->ops.cylinder; k++)
     PetscCheck(isnan(gap->ops.cylinder[k]) || fabs(gap->values[k]) == gap->ops.cylinder[k], gap->comm, SAM_ERR_USER,
-               "-%s%s %.6g: has no meaning with -%selasticity plane, whose bodies are cylinders along y: give %g",
+               "-%s%s %.6g: has no meaning with -%selasticity plane, whose bodies are cylinders along y: give %.6g",
                gap->prefix, gap->names[k], (double)gap->values[k], gap->prefix, (double)gap->ops.cylinder[k]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
