@@ -72,8 +72,8 @@ PETSC_EXTERN PetscErrorCode SamContactSetFromOptions(SamContact contact);
 */
 PETSC_EXTERN PetscErrorCode SamContactSetUp(SamContact contact);
 /*
-  SamContactOfferCondition - makes a condition (control.h) a number of each step, and with a rolled distance the
-  creepages. Collective.
+  SamContactOfferCondition - makes a condition (control.h) and others of its group numbers of each step, and with a
+  rolled distance the creepages. Collective.
 */
 PETSC_INTERN PetscErrorCode SamContactOfferCondition(SamContact contact, const SamCondition *condition);
 /*

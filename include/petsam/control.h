@@ -121,6 +121,12 @@ PETSC_INTERN PetscReal   SamControlPart(const SamControl *control, SamConditions
 PETSC_INTERN void        SamControlSetPart(SamControl *control, SamConditions conditions, PetscInt k, PetscReal value);
 PETSC_INTERN const char *SamControlPartName(const SamControl *control, SamConditions conditions, PetscInt k);
 /*
+  SamControlName - the k-th of all names that parts may have: of loads, displacements, creepages and conditions; NULL:
+  there are no more. SamControlFind - the part of that name, and how it gives a component; -1: none. Not collective.
+*/
+PETSC_INTERN const char *SamControlName(SamConditions conditions, PetscInt k);
+PETSC_INTERN PetscInt    SamControlFind(SamConditions conditions, const char name[], SamWay *way);
+/*
   SamControlReadCondition - reads a condition from its option, if it may be one; `set`: it was given. Collective.
   Errors: SAM_ERR_USER.
 */

@@ -65,11 +65,23 @@ int petsam_set_field(petsam_contact *c, const char *name, const double *values);
   and then the tangential ones. With -rolling steady each try is a steady state of rolling.
   petsam_roll - the same of a step in which the contact rolls by distance[0] towards +x and distance[1] towards +y (m):
   the grid moves over the bodies, and a creepage times the distance is the motion of body 1. Not with -rolling steady.
+  petsam_try_named - the same of a step that prescribes one value for each of the names, with commas between them, as
+  the columns of a history: "load_n,disp_x,bulk2_stress_xx,friction_scale". load_n or disp_z is one of them; other
+  components that are not named are loads of 0. Conditions hold for this step; those that are not named have the values
+  of the contact's options.
 */
 int petsam_try(petsam_contact *c, double time, const int force[6], const double value[6], double load[6],
                double rigid[6]);
 int petsam_roll(petsam_contact *c, double time, const double distance[2], const int force[6], const double value[6],
                 double load[6], double rigid[6]);
+int petsam_try_named(petsam_contact *c, double time, const char *names, const double values[], double load[6],
+                     double rigid[6]);
+/*
+  petsam_step_name - the k-th name that petsam_try_named() knows, with its unit (NULL: not wanted): six loads, six
+  displacements, six creepages, "" where there is none, and then the conditions; NULL: there are no more. It lives as
+  long as the contact. Not collective.
+*/
+const char *petsam_step_name(petsam_contact *c, int k, const char **unit);
 /*
   petsam_history - solves the steps of a history and commits each: `values` (rows, columns), and `columns` their names
   with commas between them, as in the first line of the program's file: "time,load_n,load_tx". The first row's change

@@ -110,11 +110,23 @@ PETSC_EXTERN PetscErrorCode SamSimulationRun(SamSimulation simulation);
     SetContactFromOptions  instead of SetFromOptions: reads all options but those of loads and the number of cycles
     SetProgram             takes over a history, which runs once (`cycles` 0), or is one cycle of a life;
                            SamSimulationRun() then goes on from the committed state; may be called again
+    SetGap                 the bodies' separation becomes another one than that of the options
   Stop - from a monitor: ends after this step. Collective. Errors: SAM_ERR_USER.
 */
 PETSC_INTERN PetscErrorCode SamSimulationSetContactFromOptions(SamSimulation simulation, const SamOptions *from);
 PETSC_INTERN PetscErrorCode SamSimulationSetProgram(SamSimulation simulation, SamHistory *history, PetscReal cycles);
+PETSC_INTERN PetscErrorCode SamSimulationSetGap(SamSimulation simulation, Vec gap);
 PETSC_EXTERN PetscErrorCode SamSimulationStop(SamSimulation simulation);
+
+/*
+  SamSimulationTryStep - tries a step; conditions that are not as usual become numbers of each step, and at the edge of
+  the grid the message has a larger one. After an error there is no tried step. Errors: those of SamContactTry().
+  SamSimulationCommitStep - commits it. `warning`: of a law about it; NULL: not wanted. Errors: PETSC_ERR_ORDER
+  without a tried solution, PETSC_ERR_NOT_CONVERGED. SamContactReject() forgets it. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamSimulationTryStep(SamSimulation simulation, const SamControl *control, SamStep *step);
+PETSC_INTERN PetscErrorCode SamSimulationCommitStep(SamSimulation simulation, const SamStep *step, char warning[],
+                                                    size_t size);
 
 /* SamSimulationNeeds - what its memory depends on besides the grid. */
 typedef struct {

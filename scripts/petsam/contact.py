@@ -26,10 +26,6 @@ from . import __version__
 from .environment import PREFIX, TREE
 from .errors import Error, Missing, short, there_are
 
-LOADS = ("load_n", "load_tx", "load_ty", "load_mx", "load_my", "load_mz")  # N, N m
-RIGIDS = ("disp_z", "disp_x", "disp_y", "rot_x", "rot_y", "rot_z")  # m, rad
-CREEPS = (None, "creep_x", "creep_y", None, None, "creep_spin")  # 1, 1, 1/m
-WAYS = (RIGIDS, LOADS, CREEPS)  # as petsam_try() numbers them
 # of a computed cycle, by their names in /wear
 CYCLE = (
     "cycle", "jump", "error", "volume1", "volume2", "depth_max1", "depth_max2", "dissipated_energy", "contact_area",
@@ -48,6 +44,10 @@ class ContactError(Error):
 
     def __str__(self):
         return self.message
+
+
+class PrescribedError(ContactError, TypeError):
+    """What a step was to prescribe was rejected: an unknown name, two for one component, a value out of range."""
 
 
 class NotConverged(ContactError):
@@ -75,17 +75,17 @@ class CycleWarning(UserWarning):
 
 
 class Step:
-    """A tried step: time (s), load and rigid in the order of LOADS and RIGIDS, each of them by its name, and the
+    """A tried step: time (s), load (N, Tx, Ty, Mx, My, Mz) and rigid in this order, each of them by its name, and the
     further numbers of /history, step.dissipated_energy, step.contact_area, ...; NaN where a step has none. In steady
     rolling rigid has the creepages, by their own names.
 
     numbers   {name: value} of loads, displacements and the further numbers
     """
 
-    def __init__(self, time, load, rigid, status, message, numbers=None, names=RIGIDS):
+    def __init__(self, time, load, rigid, status, message, numbers, names):
         self.time, self.load, self.rigid, self.status, self.message = time, load, rigid, status, message
-        self.numbers, self._names = dict(zip(LOADS + names, map(float, [*load, *rigid]))), LOADS + names
-        self.numbers.update(numbers or {})
+        self.numbers, self._names = dict(zip(names, map(float, [*load, *rigid]))), names
+        self.numbers.update(numbers)
         self.__dict__.update(self.numbers)
 
     def __repr__(self):
@@ -150,7 +150,7 @@ def _find():
     for name in _candidates():
         try:
             found = ctypes.CDLL(name)
-            for text in ("message", "field_name", "number_name", "stress_name"):
+            for text in ("message", "field_name", "number_name", "step_name", "stress_name"):
                 getattr(found, f"petsam_{text}").restype = ctypes.c_char_p
             found.petsam_destroy.restype = None
             return found
@@ -218,6 +218,7 @@ class Contact:
     n, size, center   cells, widths and centre (m) of the grid in x and y
     x, y              cell centres, m; y of this rank's rows
     first_row, rows   this rank's rows: fields are arrays of (rows, n[0])
+    prescribable      {name: unit} of all that try_step() takes
     """
 
     def __init__(self, *, comm=None, **options):
@@ -232,8 +233,7 @@ class Contact:
             )
             self._check(code)
         self._read_grid()
-        known = self._names("number")
-        self._rigids = tuple(rigid if rigid in known else creep for rigid, creep in zip(RIGIDS, CREEPS))
+        self._read_names()
 
     def _read_grid(self):
         n, size, center = (ctypes.c_int * 2)(), (ctypes.c_double * 2)(), (ctypes.c_double * 2)()
@@ -243,6 +243,16 @@ class Contact:
         self.first_row, self.rows = first.value, rows.value
         x, y = (self.center[k] + ((np.arange(self.n[k]) + 0.5) / self.n[k] - 0.5) * self.size[k] for k in range(2))
         self.x, self.y = x, y[self.first_row : self.first_row + self.rows]
+
+    def _read_names(self):
+        """Of what a step may prescribe, and of its loads and displacements."""
+        unit, known, names, self.prescribable = ctypes.c_char_p(), self._names("number"), [], {}
+        while (name := self._c.petsam_step_name(self._contact, len(names), ctypes.byref(unit))) is not None:
+            names.append(name.decode())
+            if name:
+                self.prescribable[names[-1]] = unit.value.decode()
+        self._loads, rigids, creeps = names[:6], names[6:12], names[12:18]
+        self._rigids = [rigid if rigid in known else creep for rigid, creep in zip(rigids, creeps)]
 
     # ------------------------------------------------------------ calls
 
@@ -278,52 +288,48 @@ class Contact:
         """Solve a step from the committed state: a Step.
 
         Each component is given by its load (load_n, N ... load_mz, N m), its displacement (disp_z, m ... rot_z, rad) or
-        its creepage (creep_x, creep_y, creep_spin, 1/m); what is not given is a load of 0. NoEquilibrium or
-        NotConverged where there is no solution, with the step; an EdgeContactWarning where the contact has reached the
-        edge of the grid. Replaces an earlier try. With rolling="steady" each try is a steady state of rolling.
+        its creepage (creep_x, creep_y, creep_spin, 1/m); what is not given is a load of 0. Besides them a step takes
+        the conditions that are columns of a history: friction_scale, bulk2_stress_xx (Pa), body2_case_NAME, the
+        distance by which the contact rolls (roll, roll_y, m), ... (contact.prescribable). They hold for this step; what
+        is not given has the value of the contact's option. NoEquilibrium or NotConverged where there is no
+        solution, with the step; an EdgeContactWarning where the contact has reached the edge of the grid. Replaces an
+        earlier try. With rolling="steady" each try is a steady state of rolling.
         """
-        return self._try("try_step", time, None, given)
+        return self._try("try_step", time, given)
 
     def roll(self, roll=0.0, roll_y=0.0, time=0.0, **given):
-        """The same of a step in which the contact rolls by roll towards +x and roll_y towards +y (m): a Step.
+        """try_step() of a step in which the contact rolls by roll towards +x and roll_y towards +y (m): a Step.
 
         The grid moves over the bodies; a creepage times the distance is the motion of body 1. Not for a contact of
         rolling="steady", which try_step() solves.
         """
-        distance = [_real(roll, "roll: roll"), _real(roll_y, "roll: roll_y")]
-        return self._try("roll", time, (ctypes.c_double * 2)(*[one.value for one in distance]), given)
+        return self._try("roll", time, dict(given, roll=roll, roll_y=roll_y))
 
-    def _try(self, function, time, distance, given):
-        force, value = (ctypes.c_int * 6)(*[1] * 6), (ctypes.c_double * 6)()
-        for name, number in given.items():
-            way = next((way for way, names in enumerate(WAYS) if name in names), None)
-            if way is None:
-                raise TypeError(f"{function}: {name}: expected {', '.join(filter(None, LOADS + RIGIDS + CREEPS))}")
-            k = WAYS[way].index(name)
-            both = [names[k] for names in (LOADS, RIGIDS, CREEPS) if names[k] in given]
-            if len(both) > 1:
-                raise TypeError(f"{function}: {both[0]} and {both[1]} are conjugate: give one of them")
-            force[k], value[k] = way, _real(number, f"{function}: {name}")
-        if "load_n" not in given and "disp_z" not in given:
-            raise TypeError(f"{function}: load_n or disp_z is missing")
-        load, rigid = np.full(6, np.nan), np.full(6, np.nan)
-        code = 0
+    def _try(self, function, time, given):
+        values = np.array([_real(number, f"{function}: {name}").value for name, number in given.items()])
+        seconds, load, rigid = _real(time, f"{function}: time"), np.full(6, np.nan), np.full(6, np.nan)
+        code, words = 0, [",".join(given).encode(), _pointer(values), _pointer(load), _pointer(rigid)]
         try:
-            begin = ["try" if distance is None else "roll", _real(time, f"{function}: time")]
-            begin += [] if distance is None else [distance]
-            code = self._call(*begin, force, value, _pointer(load), _pointer(rigid))
+            code = self._call("try_named", seconds, *words)
         except (NotConverged, NoEquilibrium) as error:
-            error.step = Step(time, load, rigid, error.code, str(error), self._numbers(), self._rigids)
+            error.step = self._step(time, load, rigid, error.code, str(error))
             raise
-        step = Step(time, load, rigid, code, self._message(), self._numbers(), self._rigids)
+        except ContactError as error:
+            if error.code != 2 or not self._contact:
+                raise
+            raise PrescribedError(error.code, f"{function}: {error.message}") from None
+        step = self._step(time, load, rigid, code, self._message())
         if code == EDGE:
             warnings.warn(step.message, EdgeContactWarning, stacklevel=3)
         return step
 
+    def _step(self, time, load, rigid, status, message):
+        return Step(time, load, rigid, status, message, self._numbers(), self._loads + self._rigids)
+
     def _numbers(self):
         """{name: value} of the further numbers of the last step; a history may add some. A microsecond each."""
         found, value = {}, ctypes.c_double()
-        names = [name for name in self._names("number") if name not in ("time", "status", *LOADS, *self._rigids)]
+        names = [name for name in self._names("number") if name not in ("time", "status", *self._loads, *self._rigids)]
         with _lock:
             for name in names:
                 if self._c.petsam_get_number(self._contact, name.encode(), ctypes.byref(value)) == 0:
@@ -412,8 +418,8 @@ class Contact:
         return found
 
     def _last_step(self, status=0, message=""):
-        load, rigid = (np.array([self.number(name) for name in names]) for names in (LOADS, self._rigids))
-        return Step(self.number("time"), load, rigid, status, message, self._numbers(), self._rigids)
+        load, rigid = (np.array([self.number(name) for name in names]) for names in (self._loads, self._rigids))
+        return self._step(self.number("time"), load, rigid, status, message)
 
     # ------------------------------------------------------------ fields and numbers
 

@@ -377,11 +377,7 @@ static PetscErrorCode LookAt(SamAdvice *a, int when)
 
 PetscErrorCode SamAdviceBegin(SamAdvice *a)
 {
-  PetscBool moves;
-
   PetscFunctionBegin;
-  PetscCall(SamProblemMoves(a->setup->problem, &moves));
-  if (moves) a->most.open = PETSC_TRUE;
   PetscCall(LookAt(a, BEFORE));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -474,7 +470,7 @@ PetscErrorCode SamAdviceEdge(const SamAdvice *a, SamStep *step)
   const size_t        used = strlen(step->message), size = sizeof(step->message) - used;
   char *const         text = step->message + used;
   PetscReal           half[2];
-  PetscBool           known, large;
+  PetscBool           known, large, moves;
   char                grid[3 * AT_A_TIME], ratio[192] = "";
 
   PetscFunctionBegin;
@@ -494,7 +490,8 @@ PetscErrorCode SamAdviceEdge(const SamAdvice *a, SamStep *step)
     (void)snprintf(text, size,
                    "; a surface from a file cannot be enlarged: give a file of a larger area, or less load");
   } else {
-    known = known && !most->open;
+    PetscCall(SamProblemMoves(s->problem, &moves));
+    known = known && !moves && !most->open;
     if (!known) Extrapolate(s, step, most, half);
     AdviseGrid(s, half, most->lever, grid, sizeof(grid));
     if (known) PetscCall(Compare(s, half, ratio, sizeof(ratio), &large));

@@ -247,7 +247,11 @@ PetscErrorCode SamContactOfferCondition(SamContact c, const SamCondition *condit
 
   PetscFunctionBegin;
   PetscCall(SamContactGetState(c, &state));
-  PetscCall(SamStateOfferNumber(state, condition->name, condition->usual));
+  for (PetscInt k = 0; k < SamConditionsCount(c->conditions); k++) {
+    const SamCondition *one = SamConditionsGet(c->conditions, k);
+
+    if (!strcmp(one->group, condition->group)) PetscCall(SamStateOfferNumber(state, one->name, one->usual));
+  }
   for (PetscInt n = 0; n < SAM_COMPONENTS && condition->change; n++)
     if (SamComponentNames[n].creep) PetscCall(SamStateOfferNumber(state, SamComponentNames[n].creep, NAN));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -57,6 +57,7 @@ static int CodeOf(PetscErrorCode code)
   switch ((int)code) {
   case SAM_ERR_USER:
   case PETSC_ERR_ARG_OUTOFRANGE:
+  case PETSC_ERR_ARG_UNKNOWN_TYPE:
   case PETSC_ERR_ORDER:
     return SAM_EMBED_USAGE;
   case SAM_ERR_FILE:
@@ -100,13 +101,11 @@ static PetscErrorCode RefuseOthers(const petsam_contact *c)
   static const char *const others[] = {"load_history", "wear_cycles"};
 
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < SAM_WAYS * SAM_COMPONENTS + 2; k++) {
-    const char *name = k >= SAM_WAYS * SAM_COMPONENTS ? others[k - SAM_WAYS * SAM_COMPONENTS]
-                                                      : SamComponentNameOf(k / SAM_WAYS, (SamWay)(k % SAM_WAYS));
+  for (PetscInt k = -2; k < 0 || SamControlName(NULL, k); k++) {
+    const char *name = k < 0 ? others[k + 2] : SamControlName(NULL, k);
     char        option[32];
     PetscBool   set;
 
-    if (!name) continue;
     PetscCall(PetscSNPrintf(option, sizeof(option), "-%s", name));
     PetscCall(PetscOptionsHasName(NULL, NULL, option, &set));
     PetscCheck(!set, c->comm, SAM_ERR_USER, "-%s: give loads, displacements and cycles with each call, not as options",
@@ -263,7 +262,7 @@ static PetscErrorCode SetGap(petsam_contact *c, Vec gap)
   PetscFunctionBegin;
   c->has_gap = PETSC_TRUE;
   PetscCall(SamGridChecksum(c->setup->grid, gap, &c->gap));
-  PetscCall(SamProblemSetGap(c->setup->problem, gap));
+  PetscCall(SamSimulationSetGap(c->simulation, gap));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -294,49 +293,45 @@ int petsam_set_field(petsam_contact *c, const char *name, const double *values)
 
 /* ---- steps ---- */
 
-static PetscErrorCode Try(petsam_contact *c, double time, const double roll[], const int force[], const double value[])
+/* Conditions that are not named have the values of the contact's options. */
+static PetscErrorCode Try(petsam_contact *c, double time, int count, const char *const names[], const double values[])
 {
-  SamControl     control = c->control;
-  SamAdvice      advice  = {.setup = c->setup, .most.open = c->has_gap};
-  PetscBool      moves;
-  PetscErrorCode code;
+  const char *given[SAM_COMPONENTS + SAM_CONDITIONS] = {NULL}; /* names, of each part of the control */
+  SamControl  control                                = c->control;
 
   PetscFunctionBegin;
-  PetscCheck(isfinite(time), c->comm, SAM_ERR_USER, "petsam_try: time is not a finite number");
+  PetscCheck(isfinite(time), c->comm, SAM_ERR_USER, "time is not a finite number");
   control.time = time;
-  PetscCall(SamControlSet(&control, c->conditions, "roll", roll[0]));
-  PetscCall(SamControlSet(&control, c->conditions, "roll_y", roll[1]));
-  for (int k = 0; k < SAM_COMPONENTS; k++) {
-    const SamWay way = force[k] == 2 ? SAM_BY_CREEP : force[k] ? SAM_BY_LOAD : SAM_BY_RIGID;
+  for (int k = 0; k < count; k++) {
+    SamWay   way;
+    PetscInt part;
 
-    PetscCheck(SamComponentNameOf(k, way), c->comm, SAM_ERR_USER,
+    PetscCheck(names[k], c->comm, SAM_ERR_USER,
                "petsam_try: force of %s is 2: it has no creepage: use 1 for a load, 0 for a displacement",
                SamComponentNames[k].load);
-    SamControlSetWay(&control, k, way);
-    control.value[k] = value[k];
+    PetscCall(SamControlSet(&control, c->conditions, names[k], values[k]));
+    part = SamControlFind(c->conditions, names[k], &way);
+    PetscCheck(!given[part], c->comm, SAM_ERR_USER, "%s and %s exclude each other: give one of them", given[part],
+               names[k]);
+    given[part] = names[k];
   }
+  PetscCheck(given[SAM_COMPONENT_N], c->comm, SAM_ERR_USER, "load_n or disp_z is missing");
   PetscCall(SamEmbedForget(c));
-  for (PetscInt k = 0; k < 2 && SamProblemGetRolled(c->setup->problem, &control, NULL) != 0; k++)
-    PetscCall(SamContactOfferCondition(c->setup->contact, SamConditionsFind(c->conditions, k ? "roll_y" : "roll")));
-  code = SamContactTry(c->setup->contact, &control, &c->last);
-  if (code) PetscCall(SamEmbedForget(c));
-  PetscCall(code);
-  PetscCall(SamProblemMoves(c->setup->problem, &moves));
-  if (moves) advice.most.open = PETSC_TRUE;
-  SamAdviceAddLoads(&advice, 0, &control);
-  PetscCall(SamAdviceEdge(&advice, &c->last));
+  PetscCall(SamSimulationTryStep(c->simulation, &control, &c->last));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static int TryTogether(petsam_contact *c, const char function[], double time, const double roll[], const int force[],
-                       const double value[], double load[], double rigid[])
+/* `given`: all pointers were. */
+static int TryTogether(petsam_contact *c, const char function[], PetscBool given, double time, int count,
+                       const char *const names[], const double values[], double load[], double rigid[])
 {
-  uint64_t sum = SamEmbedAdd(SamHashBits(time), force, SAM_COMPONENTS * sizeof(*force));
+  uint64_t sum = SamHashBits(time) + (uint64_t)count;
   int      code;
 
-  sum = SamEmbedAdd(SamEmbedAdd(sum, value, SAM_COMPONENTS * sizeof(*value)), roll, 2 * sizeof(*roll));
-  if (!SamEmbedEnterTogether(c, function, force && value && roll, sum)) return SAM_EMBED_USAGE;
-  code = SamEmbedLeave(c, Try(c, time, roll, force, value));
+  for (int k = 0; k < count && given; k++)
+    sum = SamEmbedAdd(SamEmbedAddText(sum, names[k]), &values[k], sizeof(*values));
+  if (!SamEmbedEnterTogether(c, function, given, sum)) return SAM_EMBED_USAGE;
+  code = SamEmbedLeave(c, Try(c, time, count, names, values));
   if (code) return code;
   for (int k = 0; k < SAM_COMPONENTS; k++) {
     if (load) load[k] = (double)c->last.load[k];
@@ -346,33 +341,75 @@ static int TryTogether(petsam_contact *c, const char function[], double time, co
   return (int)c->last.status;
 }
 
+int petsam_try_named(petsam_contact *c, double time, const char *names, const double values[], double load[6],
+                     double rigid[6])
+{
+  PetscBool given = names && values;
+  char    **list  = NULL;
+  int       count = 0, code;
+
+  if (given && PetscStrToArray(names, ',', &count, &list)) given = PETSC_FALSE;
+  code = TryTogether(c, __func__, given, time, count, (const char *const *)list, values, load, rigid);
+  if (list) (void)PetscStrToArrayDestroy(count, list);
+  return code;
+}
+
+/* The same of six components and of the rolled distance, of which all are given. */
+static int TryComponents(petsam_contact *c, const char function[], double time, const double distance[],
+                         const int force[], const double value[], double load[], double rigid[])
+{
+  const PetscBool given                      = distance && force && value;
+  const char     *names[SAM_COMPONENTS + 2]  = {NULL};
+  double          values[SAM_COMPONENTS + 2] = {0};
+
+  for (int k = 0; k < SAM_COMPONENTS + 2 && given; k++) {
+    const int along = k - SAM_COMPONENTS, way = along < 0 ? force[k] : 0;
+
+    names[k]  = along >= 0 ? along ? "roll_y" : "roll"
+                           : SamComponentNameOf(k, way == 2 ? SAM_BY_CREEP
+                                                   : way    ? SAM_BY_LOAD
+                                                            : SAM_BY_RIGID);
+    values[k] = along >= 0 ? distance[along] : value[k];
+  }
+  return TryTogether(c, function, given, time, SAM_COMPONENTS + 2, names, values, load, rigid);
+}
+
 int petsam_try(petsam_contact *c, double time, const int force[6], const double value[6], double load[6],
                double rigid[6])
 {
-  return TryTogether(c, __func__, time, (const double[2]){0, 0}, force, value, load, rigid);
+  return TryComponents(c, __func__, time, (const double[2]){0, 0}, force, value, load, rigid);
 }
 
 int petsam_roll(petsam_contact *c, double time, const double distance[2], const int force[6], const double value[6],
                 double load[6], double rigid[6])
 {
-  return TryTogether(c, __func__, time, distance, force, value, load, rigid);
+  return TryComponents(c, __func__, time, distance, force, value, load, rigid);
+}
+
+const char *petsam_step_name(petsam_contact *c, int k, const char **unit)
+{
+  const int               past    = k - SAM_WAYS * SAM_COMPONENTS; /* the components */
+  const SamComponentName *one     = &SamComponentNames[k < 0 ? 0 : k % SAM_COMPONENTS];
+  const char *const       units[] = {one->load_unit, one->rigid_unit, one->creep_unit};
+  const SamCondition     *condition;
+
+  if (!c || k < 0 || past >= SamConditionsCount(c->conditions)) return NULL;
+  if (past < 0) {
+    const char *name = SamComponentNameOf(k % SAM_COMPONENTS, (SamWay)(k / SAM_COMPONENTS));
+
+    if (unit && name) *unit = SamUnitOn(c->setup->grid, units[k / SAM_COMPONENTS]);
+    return name ? name : "";
+  }
+  condition = SamConditionsGet(c->conditions, past);
+  if (unit) *unit = condition->unit;
+  return condition->name;
 }
 
 static PetscErrorCode Commit(petsam_contact *c)
 {
-  PetscInt  law = 0;
-  PetscBool tried, committed;
-
   PetscFunctionBegin;
   PetscCheck(c->depth < 2, c->comm, PETSC_ERR_ORDER, "the step is committed after the monitor returns");
-  PetscCheck(c->last.status != SAM_STATUS_NO_EQUILIBRIUM, c->comm, PETSC_ERR_ORDER,
-             "the last try has no solution, and cannot be committed: %s", c->last.message);
-  PetscCall(SamContactHasStep(c->setup->contact, &tried, &committed));
-  PetscCheck(tried, c->comm, PETSC_ERR_ORDER, "there is no tried step to commit");
-  PetscCheck(SamStepIsSolved(&c->last), c->comm, PETSC_ERR_NOT_CONVERGED,
-             "the tried step did not converge, and cannot be committed: %s", c->last.message);
-  PetscCall(SamContactAdvise(c->setup->contact, &law, c->message, sizeof(c->message)));
-  PetscCall(SamContactCommit(c->setup->contact));
+  PetscCall(SamSimulationCommitStep(c->simulation, &c->last, c->message, sizeof(c->message)));
   PetscCall(SamEmbedRecord(c, &c->last));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

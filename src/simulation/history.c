@@ -300,12 +300,8 @@ static void ListNames(SamHistory h, const char *names[NAMES])
 {
   PetscInt n = 0;
 
-  names[n++] = "time";
-  for (SamWay way = SAM_BY_LOAD; way < SAM_WAYS; way++)
-    for (PetscInt c = 0; c < SAM_COMPONENTS; c++)
-      if (SamComponentNameOf(c, way)) names[n++] = SamComponentNameOf(c, way);
-  for (PetscInt k = SAM_COMPONENTS; k < h->parts; k++) names[n++] = SamControlPartName(&h->constant, h->conditions, k);
-  names[n] = NULL;
+  names[0] = "time";
+  while ((names[n + 1] = SamControlName(h->conditions, n))) n++;
 }
 
 static void TakeTable(SamHistory h)
@@ -398,9 +394,8 @@ PetscErrorCode SamHistoryCreateFromOptions(const SamOptions *from, const SamArgu
              "-%ssteps %" PetscInt_FMT ": times %" PetscInt_FMT
              " rows is more steps than can be counted (%" PetscInt_FMT ")",
              SamOptionsPrefix(from), increments, h->rows, PETSC_MAX_INT);
-  for (SamWay way = SAM_BY_LOAD; way < SAM_WAYS; way++) /* so that none is taken for another one misspelled */
-    for (PetscInt c = 0; c < SAM_COMPONENTS; c++)
-      if (SamComponentNameOf(c, way)) SamOptionsKnow(from, SamComponentNameOf(c, way), NULL);
+  for (PetscInt k = 0; SamControlName(NULL, k); k++) /* so that none is taken for another one misspelled */
+    SamOptionsKnow(from, SamControlName(NULL, k), NULL);
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++) PetscCall(ReadComponent(h, &reader, c));
   for (PetscInt k = SAM_COMPONENTS; k < h->parts; k++) PetscCall(ReadCondition(h, &reader, k));
   PetscCall(SetIncrements(h, increments, from->comm, h->file));

@@ -94,13 +94,13 @@ static PetscErrorCode Start(SamSimulation s, PetscBool *ended)
     SamStep    step;
 
     PetscCall(SamHistoryGetStep(s->history, k, &control));
-    PetscCall(SamContactTry(s->setup.contact, &control, &step));
+    PetscCall(SamSimulationTryStep(s, &control, &step));
     *ended = SamStepIsSolved(&step) ? PETSC_FALSE : PETSC_TRUE;
     if (*ended) {
       PetscCall(TellMessage(s, "before the first cycle", &step));
       s->point.worst = step.status;
     } else {
-      PetscCall(SamContactCommit(s->setup.contact));
+      PetscCall(SamSimulationCommitStep(s, &step, NULL, 0));
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -129,7 +129,7 @@ static PetscErrorCode EndLife(SamSimulation s, const SamLifeReport *r, const cha
   char    text[96];
 
   PetscFunctionBegin;
-  PetscCall(SamSimulationAdviseEdge(s, &said));
+  PetscCall(SamSimulationAdviseEdge(s, &said.control, &said));
   (void)snprintf(text, sizeof(text), "%s %.10g cycles, step %" PetscInt_FMT " of the cycle", where, (double)r->cycles,
                  r->at + 1);
   PetscCall(TellMessage(s, text, &said));

@@ -137,7 +137,7 @@ static PetscErrorCode SetProgram(SamSimulation s, SamHistory history, PetscReal 
   PetscFunctionBegin;
   if (s->history != history) PetscCall(SamHistoryDestroy(&s->history));
   s->history    = history;
-  s->advice     = (SamAdvice){.setup = &s->setup, .receive = SamSimulationWarn, .context = s};
+  s->advice     = (SamAdvice){.setup = &s->setup, .receive = SamSimulationWarn, .context = s, .most.open = s->has_gap};
   s->needs.life = cycles > 0;
   PetscCall(SamHistoryGetCount(history, &s->needs.steps));
   PetscCall(SamPrintHelp(&help));

@@ -73,22 +73,21 @@ static PetscErrorCode Judge(SamSimulation s, double length, PetscBool *enough, P
 
 PetscErrorCode SamSimulationTry(SamSimulation s, PetscInt k, SamStep *step)
 {
-  const SamContact contact                   = s->setup.contact;
-  double           before[SAM_STATE_NUMBERS] = {0}, done = 0, piece = MOST;
-  PetscBool        enough = PETSC_TRUE, longer = PETSC_FALSE;
-  SamControl       control;
-  SamState         state;
+  double     before[SAM_STATE_NUMBERS] = {0}, done = 0, piece = MOST;
+  PetscBool  enough = PETSC_TRUE, longer = PETSC_FALSE;
+  SamControl control;
+  SamState   state;
 
   PetscFunctionBegin;
   if (s->step_rtol == 0) {
     PetscCall(SamHistoryGetStep(s->history, k, &control));
-    PetscCall(SamContactTry(contact, &control, step));
+    PetscCall(SamSimulationTryStep(s, &control, step));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(SamContactGetState(contact, &state));
+  PetscCall(SamContactGetState(s->setup.contact, &state));
   while (PETSC_TRUE) {
     PetscCall(SamHistoryGetPart(s->history, k, done + piece, &control));
-    PetscCall(SamContactTry(contact, &control, step));
+    PetscCall(SamSimulationTryStep(s, &control, step));
     if (!SamStepIsSolved(step)) break;
     PetscCall(Judge(s, piece, &enough, &longer));
     if (!enough) {
@@ -97,7 +96,7 @@ PetscErrorCode SamSimulationTry(SamSimulation s, PetscInt k, SamStep *step)
     }
     if (done + piece == 1 || step->status != SAM_STATUS_CONVERGED) break;
     SamStateJoinNumbers(state, before, PETSC_FALSE);
-    PetscCall(SamContactCommit(contact));
+    PetscCall(SamSimulationCommitStep(s, step, NULL, 0));
     s->last_time = control.time; /* whose fields are the last ones if the next piece has no solution */
     done += piece;
     if (longer && piece < MOST && fmod(done, 2 * piece) == 0) piece *= 2;

@@ -76,18 +76,6 @@ static PetscErrorCode BeginAdvice(SamSimulation s, PetscInt first)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamSimulationAdviseEdge(SamSimulation s, SamStep *step)
-{
-  const size_t used = strlen(step->message);
-
-  PetscFunctionBegin;
-  PetscCall(SamAdviceEdge(&s->advice, step));
-  if (step->message[used] && step->status)
-    (void)strncat(step->message, "; to continue anyway: -allow_edge_contact",
-                  sizeof(step->message) - strlen(step->message) - 1);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode SamSimulationExamine(SamSimulation s, PetscInt k, PetscBool of_laws, const SamStep *step)
 {
   const SamExtent *found;
@@ -320,25 +308,19 @@ static PetscErrorCode SolveStep(SamSimulation s, PetscBool *ended)
 {
   const PetscInt k = s->point.steps, last = s->needs.steps - 1;
   SamStep        step;
-  SamState       state;
   PetscBool      due;
 
   PetscFunctionBegin;
   PetscCall(SamSimulationTell(s, &(SamSimulationNews){.kind = SAM_NEWS_STEP_BEGINS, .step = k}));
   PetscCall(SamSimulationTry(s, k, &step));
   if (s->needs.stiffness) PetscCall(SamStiffnessRecord(s->setup.contact, &step));
-  PetscCall(SamSimulationAdviseEdge(s, &step));
   *ended = step.status == SAM_STATUS_CONVERGED ? PETSC_FALSE : PETSC_TRUE;
   due    = (PetscBool)(SamSimulationSaves(s, k + 1, last + 1) || *ended);
   PetscCall(SamSimulationWriteStep(s, &step, due));
   /* after writing: a step that is told of is in the file */
   PetscCall(SamSimulationTell(s, &(SamSimulationNews){.kind = SAM_NEWS_STEP, .step = k, .result = &step}));
   PetscCall(SamSimulationExamine(s, k, PETSC_TRUE, &step));
-  if (!*ended && s->needs.grid_check) {
-    PetscCall(SamContactGetState(s->setup.contact, &state));
-    SamStateJoinNumbers(state, s->sums, PETSC_FALSE);
-  }
-  if (!*ended) PetscCall(SamContactCommit(s->setup.contact));
+  if (!*ended) PetscCall(SamSimulationCommitStep(s, &step, NULL, 0));
   if (*ended || !s->point.worst) s->point.worst = step.status;
   s->point.steps++;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -391,7 +373,9 @@ PetscErrorCode SamSimulationRun(SamSimulation s)
 
   PetscFunctionBegin;
   PetscCheck(s->history, s->comm, PETSC_ERR_ORDER, "There is no load history");
-  code = RunAll(s);
+  s->running = PETSC_TRUE;
+  code       = RunAll(s);
+  s->running = PETSC_FALSE;
   if (s->life) SamLifeEnd(s->life); /* the contact may be used on */
   PetscCall(code);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -437,6 +421,14 @@ PetscErrorCode SamSimulationGetSeries(SamSimulation s, SamState *series)
   PetscFunctionBegin;
   *series = NULL;
   if (s->life) PetscCall(SamLifeGetSeries(s->life, series, &name));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationSetGap(SamSimulation s, Vec gap)
+{
+  PetscFunctionBegin;
+  s->has_gap = PETSC_TRUE;
+  PetscCall(SamProblemSetGap(s->setup.problem, gap));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

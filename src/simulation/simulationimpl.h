@@ -55,6 +55,8 @@ struct _n_SamSimulation {
   SamSimulationPoint     point;     /* position in the load program; steps before a restart count too */
   PetscReal              step_rtol; /* relative error of a step's dissipated energy, by its estimate; 0: any */
   PetscBool              prepared;
+  PetscBool              running; /* the history or the life; else steps are given one by one */
+  PetscBool              has_gap; /* another one than that of the options */
   PetscBool              stopped; /* before its end, with a checkpoint */
   PetscInt               output_every;
   PetscBool              output_rows; /* it counts the rows of the load history */
@@ -129,10 +131,11 @@ PETSC_INTERN PetscErrorCode SamSimulationCheckpoint(SamSimulation simulation);
 PETSC_INTERN PetscErrorCode SamSimulationDescribePlace(SamSimulation simulation, PetscBool total, char text[],
                                                        size_t size);
 /*
-  SamSimulationAdviseEdge - appends to the message of a step at the grid's edge a grid that is large enough.
+  SamSimulationAdviseEdge - appends to the message of a step at the grid's edge a grid that is large enough: for all
+  steps of the run, or where steps are given one by one for this one (step.c).
   SamSimulationExamine - after step k: what there is to advise (advice.h). Collective.
 */
-PETSC_INTERN PetscErrorCode SamSimulationAdviseEdge(SamSimulation simulation, SamStep *step);
+PETSC_INTERN PetscErrorCode SamSimulationAdviseEdge(SamSimulation simulation, const SamControl *control, SamStep *step);
 PETSC_INTERN PetscErrorCode SamSimulationExamine(SamSimulation simulation, PetscInt k, PetscBool of_laws,
                                                  const SamStep *step);
 /*

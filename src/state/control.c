@@ -176,39 +176,41 @@ const char *SamControlPartName(const SamControl *control, SamConditions conditio
                             : SamConditionsGet(conditions, k - SAM_COMPONENTS)->name;
 }
 
-/* Raises the error of a name that nothing has, with the nearest one. */
-static PetscErrorCode RefuseName(SamConditions conditions, const char name[])
+const char *SamControlName(SamConditions conditions, PetscInt k)
 {
-  const char *names[SAM_WAYS * SAM_COMPONENTS + SAM_CONDITIONS], *nearest;
-  size_t      count = 0;
+  for (SamWay way = SAM_BY_LOAD; way < SAM_WAYS; way++)
+    for (PetscInt c = 0; c < SAM_COMPONENTS; c++)
+      if (SamComponentNameOf(c, way) && k-- == 0) return SamComponentNameOf(c, way);
+  return conditions && k < conditions->count ? conditions->condition[k]->name : NULL;
+}
 
-  PetscFunctionBegin;
-  for (PetscInt k = 0; k < SAM_WAYS * SAM_COMPONENTS; k++)
-    if (SamComponentNameOf(k / SAM_WAYS, (SamWay)(k % SAM_WAYS)))
-      names[count++] = SamComponentNameOf(k / SAM_WAYS, (SamWay)(k % SAM_WAYS));
-  for (PetscInt k = 0; conditions && k < conditions->count; k++) names[count++] = conditions->condition[k]->name;
-  nearest = SamNearestName(name, count, names);
-  SETERRQ(PETSC_COMM_SELF, PETSC_ERR_ARG_UNKNOWN_TYPE,
-          "%s is not the name of a load, displacement, creepage or condition%s%s%s", name, nearest ? ": is " : "",
-          nearest ? nearest : "", nearest ? " meant?" : "");
+PetscInt SamControlFind(SamConditions conditions, const char name[], SamWay *way)
+{
+  const SamCondition *condition = conditions ? SamConditionsFind(conditions, name) : NULL;
+
+  for (*way = SAM_BY_LOAD; *way < SAM_WAYS; (*way)++)
+    for (PetscInt c = 0; c < SAM_COMPONENTS; c++)
+      if (SamComponentNameOf(c, *way) && !strcmp(name, SamComponentNameOf(c, *way))) return c;
+  return condition ? SAM_COMPONENTS + condition->place : -1;
 }
 
 PetscErrorCode SamControlSet(SamControl *control, SamConditions conditions, const char name[], PetscReal value)
 {
-  const SamCondition *condition = conditions ? SamConditionsFind(conditions, name) : NULL;
+  const char    *names[SAM_WAYS * SAM_COMPONENTS + SAM_CONDITIONS + 1], *nearest;
+  size_t         count = 0;
+  SamWay         way;
+  const PetscInt part = SamControlFind(conditions, name, &way);
 
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < SAM_COMPONENTS; k++)
-    for (SamWay way = SAM_BY_LOAD; way < SAM_WAYS; way++) {
-      const char *own = SamComponentNameOf(k, way);
-
-      if (!own || strcmp(name, own)) continue;
-      SamControlSetWay(control, k, way);
-      control->value[k] = value;
-      PetscFunctionReturn(PETSC_SUCCESS);
-    }
-  if (!condition) PetscCall(RefuseName(conditions, name));
-  SamControlSetCondition(control, condition, value);
+  if (part < 0) {
+    while ((names[count] = SamControlName(conditions, (PetscInt)count))) count++;
+    nearest = SamNearestName(name, count, names);
+    SETERRQ(PETSC_COMM_SELF, PETSC_ERR_ARG_UNKNOWN_TYPE,
+            "%s is not the name of a load, displacement, creepage or condition%s%s%s", name, nearest ? ": is " : "",
+            nearest ? nearest : "", nearest ? " meant?" : "");
+  }
+  if (part < SAM_COMPONENTS) SamControlSetWay(control, part, way);
+  SamControlSetPart(control, conditions, part, value);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

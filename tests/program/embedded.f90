@@ -19,7 +19,11 @@ program embedded
     x = 1.3d0 * step
     if (step > 3) x = 1.3d0 * (6 - step) - 1.9d0
     value = [900d0 + 30 * step, 1d-7 * x, 5d0, 0d0, 0.01d0, 0d0]
-    code = petsam_try(c, real(step, c_double), force, value, load, rigid)
+    if (step < 5) then
+      code = petsam_try(c, real(step, c_double), force, value, load, rigid)
+    else
+      code = petsam_try_named(c, 5d0, "load_n,disp_x,load_ty,load_my" // c_null_char, value([1, 2, 3, 5]), load, rigid)
+    end if
     if (code == 0) code = petsam_commit(c)
     if (code == 0 .and. rank == 0) print '(12(z16.16,1x))', load, rigid
   end do

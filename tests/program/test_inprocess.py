@@ -2,7 +2,9 @@
 
 import h5py
 import numpy as np
+import pytest
 
+import compliances
 from support import ROOT
 from test_embed import CASE as EMBEDDED
 from test_embed import run_python
@@ -274,6 +276,57 @@ np.savez("found.npz", field=shear, **numbers)
         assert set(f["history"]) - {"time", "status"} <= set(found.files)
         for name in set(found.files) & {"creep_x", "creep_spin", "disp_x", "roll_y", "slip_max"}:
             assert found[name][1:].tobytes() == f["history"][name][1:].tobytes(), name
+
+
+STRETCHED = {"body2_case_pull": [1.0, 0.5, 0.7], "body2_case_turn": [0.0, 0.2, 0.2]}
+
+
+@pytest.mark.parametrize(
+    ("options", "columns"),
+    [
+        ({}, {"bulk2_stress_xx": [0.0, 4e7, 1e7], "friction_scale": [1.0, 0.7, 1.2], "disp_x": [0.0, 3e-7, 1e-7]}),
+        ({"bulk2_stress_yy": 2e7}, {"bulk2_stress_xx": [0.0, 4e7, 1e7], "load_tx": [0.0, 40.0, 10.0]}),
+        ({}, {"roll": [0.0, 1e-4, 5e-5], "roll_y": [0.0, 0.0, -2e-5], "friction_scale": [1.0, 1.0, 0.8]}),
+        ({"body2_compliance": "cases.h5"}, STRETCHED),
+    ],
+)
+def test_step_takes_the_conditions_of_a_history_with_its_bits(options, columns, tmp_path):
+    """Conditions that are named hold for that step; others have the values of the contact's options."""
+    flat = np.zeros((3, 3))
+    flat[1] = 1e-5, 2e-5, 0.0
+    cases = dict(pull=flat, turn=flat[:, ::-1])
+    compliances.write(tmp_path / "cases.h5", np.zeros((3, 3, 3, 3)), half=2e-3, young=70e9, poisson=0.2, cases=cases)
+    case = dict(CASE, **options)
+    run_python(
+        f"""
+import numpy as np, petsam
+columns = dict(load_n=[800.0, 900.0, 700.0], **{columns!r})
+with petsam.Contact(**{case!r}) as one, petsam.Contact(**{case!r}) as two:
+    assert set(columns) <= set(one.prescribable) and one.prescribable["load_n"] == "N"
+    steps = one.run(dict(time=[1, 2, 3], **columns))
+    for k, step in enumerate(steps):
+        given = {{name: value[k] for name, value in columns.items()}}
+        two.try_step(load_n=850, **{{name: 1.1 * value for name, value in given.items() if name != "load_n"}})
+        two.reject()
+        found = two.try_step(time=k + 1, **given)
+        two.commit()
+    assert found.numbers.keys() == step.numbers.keys(), (set(found.numbers) ^ set(step.numbers))
+    assert {{n: v for n, v in found.numbers.items() if v != step.numbers[n] and v == v}} == {{}}
+    for name in "pressure", "shear_x", "slip_y":
+        assert np.array_equal(one[name], two[name]), name
+    usual = two.try_step(load_n=700)
+    for name in set(columns) - {{"load_n", "load_tx", "disp_x"}}:
+        assert usual.numbers[name] == (name == "friction_scale"), name
+    assert usual.numbers.get("bulk2_stress_yy", 0) == {options.get("bulk2_stress_yy", 0)!r}
+    try:
+        two.try_step(load_n=700, bulk2_stres_xx=1.0)
+    except petsam.ContactError as error:
+        assert error.code == 2 and "bulk2_stres_xx is not" in str(error) and "bulk2_stress_xx meant?" in str(error)
+    else:
+        raise SystemExit("not refused")
+""",
+        tmp_path,
+    )
 
 
 def test_steady_rolling_in_process(petsam, tmp_path):

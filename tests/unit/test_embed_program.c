@@ -232,6 +232,42 @@ static void test_copy_of_another_contact_is_refused(void **state)
   (void)MPI_Comm_free(&reversed);
 }
 
+/* Steps given by names have the same bits on any ranks, and those of petsam_try(); what makes no sense is named. */
+static void test_steps_by_names(void **state)
+{
+  static const char names[]   = "disp_z,disp_x,bulk2_stress_xx,friction_scale";
+  const double      rows[][4] = {{7e-6, 1e-7, 0, 1}, {7.5e-6, 2e-7, 3e7, 0.8}}, odd[] = {500, 1, 1};
+  const char *const wrong[][2] = {{"load_n,bulk2_stres_xx", "is bulk2_stress_xx meant?"},
+                                  {"load_n,load_tx,disp_x", "load_tx and disp_x exclude each other"},
+                                  {"load_n,friction_scale,friction_scale", "friction_scale and friction_scale exclude"},
+                                  {"load_tx,friction_scale", "load_n or disp_z is missing"},
+                                  {"load_n,roll", "at most the width of the grid"}};
+  petsam_contact   *c = NewContact(World()), *d = NewContact(-1);
+  double            found[6], same[6], plain[6], rigid[6];
+  const char       *unit;
+
+  (void)state;
+  for (int k = 0; k < 2; k++) {
+    sam_assert(petsam_try_named(c, k + 1, names, rows[k], found, rigid) == 0 && petsam_commit(c) == 0);
+    sam_assert(petsam_try_named(d, k + 1, names, rows[k], same, NULL) == 0 && petsam_commit(d) == 0);
+    sam_assert(!memcmp(found, same, sizeof(found)) && rigid[1] == rows[k][1]);
+  }
+  sam_assert(petsam_try(c, 3, (int[6]){0, 0, 1, 1, 1, 1}, (double[6]){7.5e-6, 2e-7}, plain, NULL) == 0);
+  sam_assert(petsam_try_named(d, 3, "disp_x,disp_z", (double[2]){2e-7, 7.5e-6}, same, NULL) == 0);
+  sam_assert(!memcmp(plain, same, sizeof(same)) &&
+             plain[1] != found[1]); /* without bulk stress, and friction as usual */
+  for (size_t k = 0; k < sizeof(wrong) / sizeof(wrong[0]); k++)
+    sam_assert(petsam_try_named(c, 4, wrong[k][0], odd, NULL, NULL) == 2 && strstr(petsam_message(c), wrong[k][1]));
+  sam_assert(petsam_try_named(c, 4, NULL, odd, NULL, NULL) == 2 && petsam_try_named(c, 4, "", odd, NULL, NULL) == 2);
+  sam_assert(!strcmp(petsam_step_name(c, 6, &unit), "disp_z") && !strcmp(unit, "m"));
+  sam_assert(!petsam_step_name(c, -1, NULL) && !petsam_step_name(c, 1000, NULL) && !petsam_step_name(c, 12, NULL)[0]);
+  for (int k = 18; strcmp(petsam_step_name(c, k, &unit), "bulk2_stress_xx"); k++)
+    sam_assert(petsam_step_name(c, k, NULL) != NULL);
+  sam_assert(!strcmp(unit, "Pa"));
+  petsam_destroy(&c);
+  petsam_destroy(&d);
+}
+
 /* Ranks that call different functions, or with different arguments, would wait for each other for ever. */
 static void test_ranks_that_differ_are_refused(void **state)
 {
@@ -244,7 +280,7 @@ static void test_ranks_that_differ_are_refused(void **state)
   (void)MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   (void)MPI_Comm_size(PETSC_COMM_WORLD, &size);
   sam_assert(petsam_commit(NULL) == 2 && strstr(petsam_message(NULL), "petsam_commit: the contact is NULL"));
-  for (int k = 0; k < 10 && size > 1; k++) {
+  for (int k = 0; k < 11 && size > 1; k++) {
     const int    odd      = rank == size - 1;
     const double value[6] = {7e-6, odd && k == 0 ? 5e-7 : 0}, cycles = odd ? 0 : 10;
     const double rolled[2] = {1e-5, odd ? 1e-6 : 0};
@@ -257,9 +293,10 @@ static void test_ranks_that_differ_are_refused(void **state)
                              : k == 6 ? petsam_live(c, cycles, columns, ROWS, values, NULL, NULL)
                              : k == 7 ? petsam_save(c, odd ? "this.h5" : "that.h5")
                              : k == 8 ? petsam_roll(c, 1, rolled, none, value, NULL, NULL)
+                             : k == 9 ? petsam_try_named(c, 1, odd ? "disp_z" : "load_n", rolled, NULL, NULL)
                                       : petsam_create(World(), odd ? NULL : OPTIONS, &other);
 
-    sam_assert(code == 2 && strstr(petsam_message(k < 9 ? c : NULL), words));
+    sam_assert(code == 2 && strstr(petsam_message(k < 10 ? c : NULL), words));
   }
   sam_assert(!other && petsam_history(c, columns, ROWS, values, NULL, NULL) == 0);
   petsam_destroy(&c);
@@ -294,6 +331,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_copy_goes_on_and_reset_begins_anew),
     cmocka_unit_test(test_steps_after_a_life_wear),
     cmocka_unit_test(test_copy_of_another_contact_is_refused),
+    cmocka_unit_test(test_steps_by_names),
     cmocka_unit_test(test_ranks_that_differ_are_refused),
     cmocka_unit_test(test_mistakes_are_named),
   };

@@ -49,6 +49,15 @@ module petsam
       real(c_double), intent(out) :: load(6), rigid(6)
     end function
 
+    integer(c_int) function petsam_try_named(contact, time, names, values, load, rigid) bind(c)
+      import :: c_int, c_char, c_double, c_ptr
+      type(c_ptr), value :: contact
+      real(c_double), value :: time
+      character(kind=c_char), intent(in) :: names(*)
+      real(c_double), intent(in) :: values(*)
+      real(c_double), intent(out) :: load(6), rigid(6)
+    end function
+
     integer(c_int) function petsam_commit(contact) bind(c)
       import :: c_int, c_ptr
       type(c_ptr), value :: contact

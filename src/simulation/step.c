@@ -1,0 +1,54 @@
+/* A step, of a history or given by another program: tried, then committed or not. */
+#include "simulationimpl.h"
+#include <petsam/private/state.h>
+
+PetscErrorCode SamSimulationAdviseEdge(SamSimulation s, const SamControl *control, SamStep *step)
+{
+  const size_t used  = strlen(step->message);
+  SamAdvice    alone = {.setup = &s->setup, .most.open = s->has_gap};
+
+  PetscFunctionBegin;
+  if (!s->running) SamAdviceAddLoads(&alone, 0, control);
+  PetscCall(SamAdviceEdge(s->running ? &s->advice : &alone, step));
+  if (s->running && step->message[used] && step->status)
+    (void)strncat(step->message, "; to continue anyway: -allow_edge_contact",
+                  sizeof(step->message) - strlen(step->message) - 1);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationTryStep(SamSimulation s, const SamControl *control, SamStep *step)
+{
+  PetscErrorCode code;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < SamConditionsCount(s->conditions); k++) {
+    const SamCondition *one = SamConditionsGet(s->conditions, k);
+
+    if (SamControlGet(control, one) != one->usual) PetscCall(SamContactOfferCondition(s->setup.contact, one));
+  }
+  code = SamContactTry(s->setup.contact, control, step);
+  if (code) PetscCall(SamContactReject(s->setup.contact));
+  PetscCall(code);
+  PetscCall(SamSimulationAdviseEdge(s, control, step));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationCommitStep(SamSimulation s, const SamStep *step, char warning[], size_t size)
+{
+  PetscInt  law = 0;
+  PetscBool tried, committed;
+  SamState  state;
+
+  PetscFunctionBegin;
+  PetscCheck(step->status != SAM_STATUS_NO_EQUILIBRIUM, s->comm, PETSC_ERR_ORDER,
+             "the last try has no solution, and cannot be committed: %s", step->message);
+  PetscCall(SamContactHasStep(s->setup.contact, &tried, &committed));
+  PetscCheck(tried, s->comm, PETSC_ERR_ORDER, "there is no tried step to commit");
+  PetscCheck(SamStepIsSolved(step), s->comm, PETSC_ERR_NOT_CONVERGED,
+             "the tried step did not converge, and cannot be committed: %s", step->message);
+  if (warning) PetscCall(SamContactAdvise(s->setup.contact, &law, warning, size));
+  PetscCall(SamContactGetState(s->setup.contact, &state));
+  if (s->needs.grid_check) SamStateJoinNumbers(state, s->sums, PETSC_FALSE);
+  PetscCall(SamContactCommit(s->setup.contact));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
