@@ -31,7 +31,7 @@ PETSC_EXTERN PetscErrorCode SamBodyDestroy(SamBody *body);
   above it.
   SamBodyMaterialAt - that material; borrowed.
   SamBodyTop - the depth (m) at which the n-th material begins; n = SamBodyCount(): infinite.
-  SamBodyBulk - the last material; borrowed.
+  SamBodySubstrate - the last material; borrowed.
   SamBodyIsRigid - whether all of the body is.
   None is collective.
 */
@@ -39,7 +39,7 @@ PETSC_INTERN PetscInt           SamBodyCount(SamBody body);
 PETSC_INTERN PetscInt           SamBodyAt(SamBody body, PetscReal depth);
 PETSC_INTERN const SamMaterial *SamBodyMaterialAt(SamBody body, PetscReal depth);
 PETSC_INTERN PetscReal          SamBodyTop(SamBody body, PetscInt n);
-PETSC_INTERN const SamMaterial *SamBodyBulk(SamBody body);
+PETSC_INTERN const SamMaterial *SamBodySubstrate(SamBody body);
 PETSC_INTERN PetscBool          SamBodyIsRigid(SamBody body);
 /*
   SamBodyAdvise - a text for the user where the materials do not suit cells of this size and a contact of this width

@@ -292,11 +292,11 @@ static void Cells(SamAdvice *a)
 /* Numbers that another unit would explain: of a prescribed stress, and of the grid. */
 static void Units(SamAdvice *a)
 {
-  const SamSetup     *s    = a->setup;
-  const SamLoadsMost *most = &a->most;
-  const double        young =
-    (double)PetscMin(SamBodyBulk(SamPairBody(s->pair, 0))->young, SamBodyBulk(SamPairBody(s->pair, 1))->young);
-  const double width = (double)PetscMax(s->grid->width[0], s->grid->width[1]);
+  const SamSetup     *s     = a->setup;
+  const SamLoadsMost *most  = &a->most;
+  const double        young = (double)PetscMin(SamBodySubstrate(SamPairBody(s->pair, 0))->young,
+                                               SamBodySubstrate(SamPairBody(s->pair, 1))->young);
+  const double        width = (double)PetscMax(s->grid->width[0], s->grid->width[1]);
 
   if (most->stress > 0 && (double)most->stress < SLIGHT * young)
     Advise(a, "", "the largest %s, %g Pa, is %.2g of Young's modulus: check the unit, Pa", most->stress_name,

@@ -103,7 +103,7 @@ const SamMaterial *SamBodyMaterialAt(SamBody body, PetscReal depth)
   return &body->material[SamBodyAt(body, depth)];
 }
 
-const SamMaterial *SamBodyBulk(SamBody body)
+const SamMaterial *SamBodySubstrate(SamBody body)
 {
   return &body->material[body->count - 1];
 }
@@ -118,7 +118,7 @@ PetscBool SamBodyIsRigid(SamBody body)
 PetscErrorCode SamBodyAdvise(SamBody body, PetscInt number, PetscInt k, PetscReal cell, PetscReal width,
                              const char **option, char text[], size_t size)
 {
-  const SamMaterial *m = body->material, *last = SamBodyBulk(body);
+  const SamMaterial *m = body->material, *last = SamBodySubstrate(body);
   PetscBool          other = PETSC_FALSE;
   PetscInt           same  = 0; /* layers of about the modulus at the surface */
 
@@ -203,8 +203,8 @@ PetscErrorCode SamBodyAddParameters(SamBody body, const char prefix[], SamParame
   PetscBool      stressed = PETSC_FALSE;
 
   PetscFunctionBegin;
-  PetscCall(AddReals(p, prefix, "young", 1, &SamBodyBulk(body)->young));
-  PetscCall(AddReals(p, prefix, "poisson", 1, &SamBodyBulk(body)->poisson));
+  PetscCall(AddReals(p, prefix, "young", 1, &SamBodySubstrate(body)->young));
+  PetscCall(AddReals(p, prefix, "poisson", 1, &SamBodySubstrate(body)->poisson));
   for (int l = 0; l < LISTS && layers; l++) {
     for (PetscInt n = 0; n < layers; n++) values[n] = *MemberOf(&body->material[n], l);
     PetscCall(AddReals(p, prefix, lists[l].name, layers, values));

@@ -59,7 +59,7 @@ static PetscErrorCode CheckComponent(SamLaw law, PetscInt body, PetscInt k, cons
 
   PetscFunctionBegin;
   PetscCall(SamElasticityGetPair(law->elasticity, &pair));
-  m = SamBodyBulk(SamPairBody(pair, body));
+  m = SamBodySubstrate(SamPairBody(pair, body));
   PetscCall(SamElasticityGetType(law->elasticity, &type));
   PetscCall(SamElasticityGetTraits(law->elasticity, &traits));
   follows = k == YY ? 0 + m->poisson * all[XX] : 0; /* without -0 */
@@ -102,7 +102,7 @@ static PetscErrorCode AddStrain(SamLaw law, const SamControl *control, SamStrain
   PetscFunctionBegin;
   PetscCall(SamElasticityGetPair(law->elasticity, &pair));
   for (int body = 0; body < 2; body++) {
-    const SamMaterial *m  = SamBodyBulk(SamPairBody(pair, body));
+    const SamMaterial *m  = SamBodySubstrate(SamPairBody(pair, body));
     const PetscReal    nu = m->poisson, sign = body ? 1 : -1;
 
     Get(law, control, body, s);
@@ -123,7 +123,7 @@ static PetscErrorCode AddStress(SamLaw law, const SamControl *control, PetscInt 
   PetscFunctionBegin;
   PetscCall(SamElasticityGetPair(law->elasticity, &pair));
   m    = SamBodyMaterialAt(SamPairBody(pair, body), depth);
-  last = SamBodyBulk(SamPairBody(pair, body));
+  last = SamBodySubstrate(SamPairBody(pair, body));
   Get(law, control, body, s);
   if (m != last && !isinf(last->young)) {
     const double nu = (double)last->poisson, own = (double)m->poisson, ratio = (double)(m->young / last->young);

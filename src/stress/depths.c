@@ -220,7 +220,7 @@ static PetscErrorCode SplitInterfaces(SamEvaluation e)
 {
   const SamBody   body = SamEvaluationBody(e);
   const PetscInt  last = SamBodyCount(body) - 1;
-  const PetscReal base = isinf(SamBodyBulk(body)->young) ? SamBodyTop(body, last) : INFINITY; /* is rigid */
+  const PetscReal base = isinf(SamBodySubstrate(body)->young) ? SamBodyTop(body, last) : INFINITY; /* is rigid */
   PetscReal      *depth;
   int            *side;
   PetscInt        n = 0;

@@ -43,8 +43,8 @@ static void GetUniform(SamEvaluation e, PetscInt step, PetscReal depth, double s
   const SamMaterial *const m    = SamBodyMaterialAt(body, depth);
 
   for (int k = 0; k < SAM_STRESS_COMPONENTS; k++) stress[k] = 0;
-  if (m != SamBodyBulk(body)) stress[SAM_STRESS_XX] = (double)m->stress[0];
-  if (m != SamBodyBulk(body)) stress[SAM_STRESS_YY] = (double)m->stress[1];
+  if (m != SamBodySubstrate(body)) stress[SAM_STRESS_XX] = (double)m->stress[0];
+  if (m != SamBodySubstrate(body)) stress[SAM_STRESS_YY] = (double)m->stress[1];
   (void)SamProblemAddStress(e->problem, &e->control[step], e->body - 1, depth, stress);
 }
 
@@ -127,7 +127,7 @@ static PetscErrorCode CheckCycle(SamEvaluation e)
 static PetscErrorCode CheckConstants(SamEvaluation e)
 {
   const SamBody  body      = SamEvaluationBody(e);
-  const PetscInt materials = SamBodyCount(body) - (isinf(SamBodyBulk(body)->young) ? 1 : 0);
+  const PetscInt materials = SamBodyCount(body) - (isinf(SamBodySubstrate(body)->young) ? 1 : 0);
 
   PetscFunctionBegin;
   PetscCheck(e->materials == 1 || e->materials == materials || !e->cycle, e->comm, SAM_ERR_USER,

@@ -476,7 +476,7 @@ static PetscErrorCode NotePatch(SamElasticity e, const SamOptions *from, SamComp
 /* The kernel to which the compliance is added must be the one from which it was computed. */
 static PetscErrorCode CheckConstants(SamElasticity e, const SamOptions *from, SamCompliance c)
 {
-  const SamMaterial *last  = SamBodyBulk(e->pair->body[c->body]);
+  const SamMaterial *last  = SamBodySubstrate(e->pair->body[c->body]);
   const double       young = (double)last->young, poisson = (double)last->poisson;
 
   PetscFunctionBegin;

@@ -47,7 +47,7 @@ typedef struct {
 
 static void StressesAt(const Layered *l, double k, double s[SAM_LAYERED_STRESSES])
 {
-  const double least = isinf(SamBodyBulk(l->body)->young) ? LONG_WAVE / l->base : 0;
+  const double least = isinf(SamBodySubstrate(l->body)->young) ? LONG_WAVE / l->base : 0;
 
   SamBodyStresses(l->body, l->material, l->z, PetscMax(k, least), s);
 }

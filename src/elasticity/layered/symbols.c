@@ -114,8 +114,8 @@ static Surface SubstrateOf(SamBody body)
 {
   Surface s = {.across = 0};
 
-  if (!isinf(SamBodyBulk(body)->young)) {
-    const Material m = MaterialOf(SamBodyBulk(body));
+  if (!isinf(SamBodySubstrate(body)->young)) {
+    const Material m = MaterialOf(SamBodySubstrate(body));
 
     s.compliance = m.half_space;
     s.across     = 1 / m.mu;
@@ -227,5 +227,5 @@ void SamBodyStresses(SamBody body, PetscInt material, double z, double k, double
     top.stress = Plus(Times(m.A, Times(r.F, a)), 1, Times(m.mirror_A, b_));
     top.across = m.mu * v * exp(-kh) * (r.rho - 1);
   }
-  Below(SamBodyBulk(body), top, k * z, s);
+  Below(SamBodySubstrate(body), top, k * z, s);
 }
