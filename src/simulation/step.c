@@ -47,8 +47,10 @@ PetscErrorCode SamSimulationCommitStep(SamSimulation s, const SamStep *step, cha
   PetscCheck(SamStepIsSolved(step), s->comm, PETSC_ERR_NOT_CONVERGED,
              "the tried step did not converge, and cannot be committed: %s", step->message);
   if (warning) PetscCall(SamContactAdvise(s->setup.contact, &law, warning, size));
-  PetscCall(SamContactGetState(s->setup.contact, &state));
-  if (s->needs.grid_check) SamStateJoinNumbers(state, s->sums, PETSC_FALSE);
+  if (s->needs.grid_check) {
+    PetscCall(SamContactGetState(s->setup.contact, &state)); /* lets all parts declare what they remember again */
+    SamStateJoinNumbers(state, s->sums, PETSC_FALSE);
+  }
   PetscCall(SamContactCommit(s->setup.contact));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
