@@ -68,7 +68,8 @@ PetscErrorCode SamContactSetSettings(SamContact c, const SamContactSettings *set
              "coupling iterations max_it = %" PetscInt_FMT ": expected at least 1", settings->coupling_max_it);
   PetscCheck(settings->cycle_memory >= 0, c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
              "cycle memory = %.6g: expected a number >= 0", (double)settings->cycle_memory);
-  c->set = *settings;
+  c->set      = *settings;
+  c->declared = 0;
   PetscCall(SamStepCacheSetMemory(c->cache, settings->cycle_memory));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -27,7 +27,9 @@ struct _n_SamContact {
   PetscObjectState revision[SAM_GENERATIONS];   /* of the problem that the pressure was solved with; -1: another */
   PetscInt         tractions[3], displacements[2]; /* fields: pressure, bound, shear; u_z, u_t */
   PetscInt time, solution, creeps, control, residuals, counts, status, window, steps; /* numbers, see memory.c */
-  PetscInt rolling; /* numbers, of a motion that continues no step only */
+  PetscInt rolling;                   /* numbers, of a motion that continues no step only */
+  PetscInt condition[SAM_CONDITIONS]; /* numbers, by the places of conditions */
+  PetscObjectState declared;          /* what all of them follow from, when they were declared; 0: to be done */
 };
 
 /* Whether pressure and shear depend on each other. */
@@ -38,7 +40,7 @@ static inline PetscBool SamContactIsCoupled(SamContact c)
 
 /* ---- what is remembered (memory.c) ---- */
 
-/* SamContactDeclare - declares all that a contact remembers and offers. Collective. */
+/* SamContactDeclare - declares all that a contact remembers and offers, unless that is done. Collective. */
 PETSC_INTERN PetscErrorCode SamContactDeclare(SamContact contact);
 /* SamContactBegin - begins a try: an empty tried solution, whose tractions may be written to. Collective. */
 PETSC_INTERN PetscErrorCode SamContactBegin(SamContact contact, const SamControl *control);

@@ -49,8 +49,6 @@ static PetscErrorCode Declare(SamContact c, const char name[], const char unit[]
 /* What is given and found of the six components, and what else is given, which is offered where it varies. */
 static PetscErrorCode DeclareControl(SamContact c)
 {
-  PetscInt id;
-
   PetscFunctionBegin;
   PetscCall(Declare(c, "time", "s", "time of the load step", SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE, &c->time));
   for (PetscInt n = 0; n < 2 * SAM_COMPONENTS; n++) {
@@ -68,7 +66,7 @@ static PetscErrorCode DeclareControl(SamContact c)
     const SamStateNumber number = {
       .name = one->name, .unit = one->unit, .text = one->text, .count = 1, .kept = PETSC_TRUE};
 
-    PetscCall(SamStateDeclareOptional(c->state, &number, (double)one->usual, &id));
+    PetscCall(SamStateDeclareOptional(c->state, &number, (double)one->usual, &c->condition[n]));
   }
   for (PetscInt k = 0; k < 3; k++) {
     const SamComponentName *name = &SamComponentNames[SamComponentsOf[SAM_BALANCE_TANGENTIAL][k]];
@@ -212,9 +210,25 @@ static PetscErrorCode Offer(SamContact c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Grows with all that declarations follow from besides the settings: conditions, laws and what was set of them. */
+static PetscObjectState Declarations(SamContact c)
+{
+  PetscObjectState sum = SamConditionsCount(c->conditions);
+  const SamLaw    *laws;
+  PetscInt         count;
+
+  (void)SamProblemGetLaws(c->problem, &count, &laws);
+  for (PetscInt k = 0; k < count; k++) sum += 1 + laws[k]->revision;
+  return sum;
+}
+
 PetscErrorCode SamContactDeclare(SamContact c)
 {
+  const PetscObjectState now = Declarations(c);
+
   PetscFunctionBegin;
+  if (c->declared == now) PetscFunctionReturn(PETSC_SUCCESS);
+  c->declared = now;
   PetscCall(DeclareFields(c));
   PetscCall(Offer(c));
   PetscCall(DeclareControl(c));
@@ -298,11 +312,8 @@ static void StoreControl(SamContact c, const SamControl *control, double n[])
     n[c->control + 1 + k]                  = SamControlWay(control, k);
     n[c->control + 1 + SAM_COMPONENTS + k] = control->value[k];
   }
-  for (PetscInt k = 0; k < SamConditionsCount(c->conditions); k++) {
-    const SamCondition *one = SamConditionsGet(c->conditions, k);
-
-    n[SamStateFindNumber(c->state, one->name)] = SamControlGet(control, one);
-  }
+  for (PetscInt k = 0; k < SamConditionsCount(c->conditions); k++)
+    n[c->condition[k]] = SamControlGet(control, SamConditionsGet(c->conditions, k));
 }
 
 static void ViewControl(SamContact c, const double n[], SamControl *control)
@@ -312,12 +323,8 @@ static void ViewControl(SamContact c, const double n[], SamControl *control)
     SamControlSetWay(control, k, (SamWay)n[c->control + 1 + k]);
     control->value[k] = n[c->control + 1 + SAM_COMPONENTS + k];
   }
-  for (PetscInt k = 0; k < SamConditionsCount(c->conditions) && n[c->steps] > 0; k++) {
-    const SamCondition *one = SamConditionsGet(c->conditions, k);
-    const PetscInt      id  = SamStateFindNumber(c->state, one->name);
-
-    if (id >= 0) SamControlSetCondition(control, one, n[id]);
-  }
+  for (PetscInt k = 0; k < SamConditionsCount(c->conditions) && n[c->steps] > 0; k++)
+    SamControlSetCondition(control, SamConditionsGet(c->conditions, k), n[c->condition[k]]);
 }
 
 PetscErrorCode SamContactStore(SamContact c, const SamStep *step)
@@ -347,6 +354,7 @@ PetscErrorCode SamContactStore(SamContact c, const SamStep *step)
 PetscErrorCode SamContactView(SamContact c)
 {
   PetscFunctionBegin;
+  PetscCall(SamContactDeclare(c));
   for (SamGeneration g = SAM_COMMITTED; g <= SAM_BEFORE; g++) {
     SamSolution *s = &c->generation[g];
     double      *n = SamStateNumbers(c->state, 0, g);

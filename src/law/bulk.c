@@ -10,13 +10,15 @@
 enum { XX, YY, XY, COMPONENTS };
 static const char *const names[2][COMPONENTS] = {{"bulk1_stress_xx", "bulk1_stress_yy", "bulk1_stress_xy"},
                                                  {"bulk2_stress_xx", "bulk2_stress_yy", "bulk2_stress_xy"}};
+typedef struct {
+  const SamCondition *of[2][COMPONENTS]; /* by body and component */
+} Bulk;
 
 static PetscErrorCode AddConditions(SamLaw law, SamConditions conditions)
 {
   char text[64];
 
   PetscFunctionBegin;
-  (void)law;
   for (PetscInt body = 0; body < 2; body++)
     for (PetscInt k = 0; k < COMPONENTS; k++) {
       const char *const  name = names[body][k];
@@ -30,7 +32,7 @@ static PetscErrorCode AddConditions(SamLaw law, SamConditions conditions)
 
       (void)snprintf(text, sizeof(text), "bulk stress %s of body %d, tension positive", strrchr(name, '_') + 1,
                      (int)body + 1);
-      PetscCall(SamConditionsAdd(conditions, &one, NULL));
+      PetscCall(SamConditionsAdd(conditions, &one, &((Bulk *)law->data)->of[body][k]));
     }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -38,8 +40,7 @@ static PetscErrorCode AddConditions(SamLaw law, SamConditions conditions)
 /* The bulk stress of body 0 or 1 in a step, Pa. */
 static void Get(SamLaw law, const SamControl *control, PetscInt body, PetscReal stress[COMPONENTS])
 {
-  for (PetscInt k = 0; k < COMPONENTS; k++)
-    stress[k] = SamControlGet(control, SamConditionsFind(law->conditions, names[body][k]));
+  for (PetscInt k = 0; k < COMPONENTS; k++) stress[k] = SamControlGet(control, ((const Bulk *)law->data)->of[body][k]);
 }
 
 /*
@@ -49,7 +50,7 @@ static void Get(SamLaw law, const SamControl *control, PetscInt body, PetscReal 
 static PetscErrorCode CheckComponent(SamLaw law, PetscInt body, PetscInt k, const PetscReal all[], SamControl *control,
                                      char why[], size_t size)
 {
-  const SamCondition *one    = SamConditionsFind(law->conditions, names[body][k]);
+  const SamCondition *one    = ((const Bulk *)law->data)->of[body][k];
   const double        stress = (double)all[k];
   double              follows;
   SamElasticityTraits traits;
@@ -87,7 +88,7 @@ static PetscErrorCode Check(SamLaw law, SamControl *control, const SamCondition 
   for (PetscInt body = 0; body < 2 && !why[0]; body++) {
     Get(law, control, body, stress);
     for (PetscInt k = 0; k < COMPONENTS && !why[0]; k++) {
-      *wrong = SamConditionsFind(law->conditions, names[body][k]);
+      *wrong = ((const Bulk *)law->data)->of[body][k];
       PetscCall(CheckComponent(law, body, k, stress, control, why, size));
     }
   }
@@ -142,6 +143,7 @@ static PetscErrorCode AddStress(SamLaw law, const SamControl *control, PetscInt 
 PetscErrorCode SamLawCreate_BulkStress(SamLaw law)
 {
   PetscFunctionBegin;
+  PetscCall(PetscNew((Bulk **)&law->data));
   law->always         = PETSC_TRUE;
   law->any_motion     = PETSC_TRUE;
   law->ops.conditions = AddConditions;

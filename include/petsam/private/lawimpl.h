@@ -88,7 +88,7 @@ struct _n_SamLaw {
   SamElasticity       elasticity;
   SamGrid             grid;           /* of the elasticity; borrowed */
   SamConditions       conditions;     /* of the problem that has the law; NULL: none has */
-  PetscObjectState    revision;       /* to be raised by setters: the pressure has to be solved again */
+  PetscObjectState    revision;       /* to be raised by setters: declarations and the pressure follow from it */
   PetscBool           always;         /* each problem has it, without being asked for */
   PetscBool           follows_slip;   /* bound() depends on the slip of the step */
   PetscBool           accumulates;    /* a sum over all steps: the field of the state that has the name of the type */
@@ -115,7 +115,7 @@ struct _n_SamLaw {
       refused condition, and `why` says what is wrong with its value; empty: nothing.
     */
     PetscErrorCode (*check)(SamLaw law, SamControl *control, const SamCondition **wrong, char why[], size_t size);
-    /* declares fields and numbers */
+    /* declares fields and numbers; again when the law's revision has been raised */
     PetscErrorCode (*declare)(SamLaw law, SamState state);
     /*
       Before a step is solved: the law's tried state, from which its offset in the step follows. `duration`: the time of
