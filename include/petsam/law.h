@@ -16,7 +16,7 @@ typedef struct _n_SamLaw *SamLaw;
 typedef const char       *SamLawType;
 #define SAM_LAW_COULOMB           "coulomb"           /* shear up to a coefficient times the pressure */
 #define SAM_LAW_BULK_STRESS       "bulk_stress"       /* a uniform stress stretches a body (law/bulk.c) */
-#define SAM_LAW_LOAD_CASES        "load_cases"        /* loads of a finite body displace its surface (law/cases.c) */
+#define SAM_LAW_BODIES            "bodies"            /* what bodies remember, and their load cases (law/bodies.c) */
 #define SAM_LAW_SLIP_DEPENDENT    "slip_dependent"    /* friction changes with the accumulated slip (law/friction.c) */
 #define SAM_LAW_PRESSURE_FRICTION "pressure_friction" /* with the pressure */
 #define SAM_LAW_FALLING_FRICTION  "falling_friction"  /* with the slip velocity in rolling */

@@ -333,7 +333,8 @@ static PetscErrorCode Solve(SamContact c, PetscBool same_pressure, SamStep *step
 
   PetscFunctionBegin;
   PetscCall(SamContactPredict(c, &step->control, &task.start));
-  if (c->set.warm_start && c->motion->continues && !SamContactIsCoupled(c) && !SamProblemFollowsSlip(c->problem))
+  if (c->set.warm_start && c->motion->continues && !SamContactIsCoupled(c) && !SamProblemFollowsSlip(c->problem) &&
+      !SamProblemHasOffset(c->problem)) /* which kept displacements have in them */
     SamStepCacheFind(c->cache, &step->control, &task.start.kept);
   if (c->rolls) task.start.kept = NULL; /* its product is not where the slip has moved to */
   PetscCall(SamStepSolve(&task, step));

@@ -264,7 +264,7 @@ PetscErrorCode SamElasticityGetSelfInfluence(SamElasticity e, PetscReal *normal,
   PetscFunctionBegin;
   PetscCall(SamElasticitySetUp(e));
   SamElasticityWith(e, getselfinfluence);
-  if (!e->has_self) PetscCall((*e->ops.getselfinfluence)(e, &e->self[0], &e->self[1]));
+  if (!e->has_self || e->ops.begin) PetscCall((*e->ops.getselfinfluence)(e, &e->self[0], &e->self[1]));
   e->has_self = PETSC_TRUE;
   if (normal) *normal = e->self[0];
   if (tangential) *tangential = e->self[1] + e->film;

@@ -6,7 +6,7 @@ PetscErrorCode SamLawRegisterAll(void)
   PetscFunctionBegin;
   PetscCall(SamLawRegister(SAM_LAW_COULOMB, SamLawCreate_Coulomb));
   PetscCall(SamLawRegister(SAM_LAW_BULK_STRESS, SamLawCreate_BulkStress));
-  PetscCall(SamLawRegister(SAM_LAW_LOAD_CASES, SamLawCreate_LoadCases));
+  PetscCall(SamLawRegister(SAM_LAW_BODIES, SamLawCreate_Bodies));
   PetscCall(SamLawRegister(SAM_LAW_SLIP_DEPENDENT, SamLawCreate_Friction));
   PetscCall(SamLawRegister(SAM_LAW_PRESSURE_FRICTION, SamLawCreate_Friction));
   PetscCall(SamLawRegister(SAM_LAW_FALLING_FRICTION, SamLawCreate_Friction));

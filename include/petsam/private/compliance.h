@@ -33,28 +33,13 @@ struct _n_SamCompliance {
 };
 
 /*
-  The load cases of the bodies of an elasticity.
-  SamElasticityHasCases - whether there are any. Not collective.
-  SamElasticityAddConditions - adds the factors on them to a list of what steps may prescribe. Not collective.
-  SamElasticityAddCases - adds the relative displacements (m) by load cases, whose factors a step with these conditions
-  prescribes, to a field: normal ones, one component, or tangential ones, two. Collective.
-*/
-PETSC_INTERN PetscBool      SamElasticityHasCases(SamElasticity elasticity);
-PETSC_INTERN PetscErrorCode SamElasticityAddConditions(SamElasticity elasticity, SamConditions conditions);
-PETSC_INTERN PetscErrorCode SamElasticityAddCases(SamElasticity elasticity, SamConditions conditions,
-                                                  const SamControl *control, PetscBool tangential, Vec field);
-/*
   SamComplianceRead - of body 0 or 1, which `of` is without it, from the file that `option` (without dash) names.
   Collective. Errors: SAM_ERR_FILE for a file that cannot be read or does not fit, and where the body would gain energy
   under some traction.
 */
 PETSC_INTERN PetscErrorCode SamComplianceRead(MPI_Comm comm, PetscInt body, SamBody of, const char option[],
                                               const char file[], SamCompliance *compliance);
-/*
-  SamComplianceAddConditions - adds its load cases to a list, as body1_case_<name> or body2_case_<name>.
-  SamComplianceFactor - the factor on load case l in a step. Not collective.
-*/
-PETSC_INTERN PetscErrorCode SamComplianceAddConditions(SamCompliance compliance, SamConditions conditions);
+/* SamComplianceFactor - the factor on load case l in a step, body1_case_<name> or body2_case_<name>. Not collective. */
 PETSC_INTERN double SamComplianceFactor(SamCompliance compliance, SamConditions conditions, const SamControl *control,
                                         PetscInt l);
 PETSC_INTERN PetscErrorCode SamComplianceDestroy(SamCompliance *compliance);

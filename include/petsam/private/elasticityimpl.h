@@ -6,6 +6,7 @@
 #include <petsam/elasticity.h>
 #include <petsam/private/fourier.h>
 #include <petsam/private/grid.h>
+#include <petsam/state.h>
 
 /*
   A type that adds something to another - a half-space and a smooth compliance, for instance - calls
@@ -44,6 +45,18 @@ typedef struct {
   /* required with the trait coupled */
   PetscErrorCode (*applynormaltotangential)(SamElasticity, const double *const p[], double *const u_t[]);
   PetscErrorCode (*applytangentialtonormal)(SamElasticity, const double *const q[], double *const u_z[]);
+  /*
+    What bodies remember, and what displaces their surfaces besides the tractions of the step, by the law of bodies
+    (law/bodies.c), which calls these methods of each object, the outer ones first; as a law's of the same names
+    (lawimpl.h). Products, preconditioners and self-influences of a type that has begin() may be others in each step;
+    coarse grids and parts must follow. Tractions are those of the solved step.
+  */
+  PetscErrorCode (*conditions)(SamElasticity, SamConditions);
+  PetscErrorCode (*declare)(SamElasticity, SamState);
+  PetscErrorCode (*begin)(SamElasticity, SamState, const SamControl *, PetscReal duration);
+  PetscErrorCode (*offset)(SamElasticity, SamConditions, SamState, const SamControl *, Vec u_z, Vec u_t,
+                           PetscBool *adds);
+  PetscErrorCode (*advance)(SamElasticity, SamState, Vec pressure, Vec shear);
 } SamElasticityOps;
 
 /* Where only some cells have traction: those cells as a grid of their own, and the operator on it. */

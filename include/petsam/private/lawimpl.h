@@ -166,7 +166,7 @@ struct _n_SamLaw {
 PETSC_INTERN PetscErrorCode SamLawRegisterAll(void);
 PETSC_INTERN PetscErrorCode SamLawCreate_Coulomb(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_BulkStress(SamLaw law);
-PETSC_INTERN PetscErrorCode SamLawCreate_LoadCases(SamLaw law);
+PETSC_INTERN PetscErrorCode SamLawCreate_Bodies(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_Friction(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_Archard(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_Energy(SamLaw law);

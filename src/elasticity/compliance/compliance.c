@@ -285,21 +285,25 @@ static void NameCase(SamCompliance c, PetscInt l, char name[64])
   (void)snprintf(name, 64, "body%d_case_%s", (int)c->body + 1, c->name[l]);
 }
 
-PetscErrorCode SamComplianceAddConditions(SamCompliance c, SamConditions conditions)
+static PetscErrorCode AddConditions(SamElasticity e, SamConditions conditions)
 {
   char name[64];
 
   PetscFunctionBegin;
-  for (PetscInt l = 0; l < c->cases; l++) {
-    const SamCondition factor = {.name    = name,
-                                 .unit    = "1",
-                                 .text    = "factor on a load case of a body",
-                                 .range   = SAM_RANGE_ANY,
-                                 .option  = PETSC_TRUE,
-                                 .couples = PETSC_TRUE};
+  for (PetscInt b = 0; b < 2; b++) {
+    const SamCompliance c = ((const Bodies *)e->data)->of[b];
 
-    NameCase(c, l, name);
-    PetscCall(SamConditionsAdd(conditions, &factor, NULL));
+    for (PetscInt l = 0; c && l < c->cases; l++) {
+      const SamCondition factor = {.name    = name,
+                                   .unit    = "1",
+                                   .text    = "factor on a load case of a body",
+                                   .range   = SAM_RANGE_ANY,
+                                   .option  = PETSC_TRUE,
+                                   .couples = PETSC_TRUE};
+
+      NameCase(c, l, name);
+      PetscCall(SamConditionsAdd(conditions, &factor, NULL));
+    }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -312,14 +316,15 @@ double SamComplianceFactor(SamCompliance c, SamConditions conditions, const SamC
   return SamControlGet(control, SamConditionsFind(conditions, name));
 }
 
-PetscErrorCode SamElasticityAddCases(SamElasticity e, SamConditions conditions, const SamControl *control,
-                                     PetscBool tangential, Vec field)
+static PetscErrorCode AddOffset(SamElasticity e, SamConditions conditions, SamState state, const SamControl *control,
+                                Vec u_z, Vec u_t, PetscBool *adds)
 {
-  const Kind   kind = tangential ? TANGENTIAL : NORMAL;
+  const Vec    fields[] = {[NORMAL] = u_z, [TANGENTIAL] = u_t};
   Coefficients d[2];
   double      *u;
 
   PetscFunctionBegin;
+  (void)state;
   PetscCall(SamElasticitySetUp(e));
   PetscCall(PetscMemzero(d, sizeof(d)));
   for (PetscInt b = 0; b < 2; b++) {
@@ -328,34 +333,18 @@ PetscErrorCode SamElasticityAddCases(SamElasticity e, SamConditions conditions, 
     for (PetscInt l = 0; c && l < c->cases; l++) {
       const double factor = SamComplianceFactor(c, conditions, control, l);
 
+      if (adds && factor != 0) *adds = PETSC_TRUE;
       for (PetscInt k = 0; k < 3; k++)
         for (PetscInt m = 0; m < c->modes; m++) d[b][k][m] += (b ? 1 : -1) * turned[b][k] * factor * c->field[l][k][m];
     }
   }
-  PetscCall(VecGetArray(field, &u));
-  Spread(e, kind, d, (double *const[]){u, u + e->grid->cells});
-  PetscCall(VecRestoreArray(field, &u));
+  for (Kind kind = NORMAL; kind <= TANGENTIAL; kind++) {
+    if (!fields[kind]) continue;
+    PetscCall(VecGetArray(fields[kind], &u));
+    Spread(e, kind, d, (double *const[]){u, u + e->grid->cells});
+    PetscCall(VecRestoreArray(fields[kind], &u));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamElasticityAddConditions(SamElasticity e, SamConditions conditions)
-{
-  const PetscBool finite = strcmp(e->type, SAM_ELASTICITY_COMPLIANCE) ? PETSC_FALSE : PETSC_TRUE;
-
-  PetscFunctionBegin;
-  for (PetscInt b = 0; b < 2 && finite; b++)
-    if (((const Bodies *)e->data)->of[b])
-      PetscCall(SamComplianceAddConditions(((const Bodies *)e->data)->of[b], conditions));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscBool SamElasticityHasCases(SamElasticity e)
-{
-  const PetscBool finite = strcmp(e->type, SAM_ELASTICITY_COMPLIANCE) ? PETSC_FALSE : PETSC_TRUE;
-
-  for (PetscInt b = 0; b < 2 && finite; b++)
-    if (((const Bodies *)e->data)->of[b] && ((const Bodies *)e->data)->of[b]->cases) return PETSC_TRUE;
-  return PETSC_FALSE;
 }
 
 /* ---- the type ---- */
@@ -514,6 +503,10 @@ static PetscErrorCode Add(SamElasticity *elasticity, const SamOptions *from, Pet
   PetscCall(CheckConstants(e, from, c));
   PetscCall(NotePatch(e, from, c));
   if (Couples(c)) e->traits.coupled = PETSC_TRUE;
+  if (c->cases) {
+    e->ops.conditions = AddConditions;
+    e->ops.offset     = AddOffset;
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -1,0 +1,62 @@
+/* Bodies that remember, or whose surfaces more than the tractions displaces: what their elasticity has methods for. */
+#include <petsam/private/elasticityimpl.h>
+#include <petsam/private/lawimpl.h>
+
+/* Calls a method of each object that has it, with the law's elasticity as `o`. */
+#define CALL(law, method, ...) \
+  for (SamElasticity o = (law)->elasticity; o; o = o->inner) \
+    if (o->ops.method) PetscCall((*o->ops.method)(o, __VA_ARGS__))
+
+static PetscErrorCode AddConditions(SamLaw law, SamConditions conditions)
+{
+  PetscFunctionBegin;
+  CALL(law, conditions, conditions);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Declare(SamLaw law, SamState state)
+{
+  PetscFunctionBegin;
+  CALL(law, declare, state);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Begin(SamLaw law, SamState state, const SamControl *control, PetscReal duration)
+{
+  PetscFunctionBegin;
+  CALL(law, begin, state, control, duration);
+  law->revision++; /* the pressure has to be solved again */
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode AddOffset(SamLaw law, SamState state, const SamControl *control, Vec u_z, Vec u_t,
+                                PetscBool *adds)
+{
+  PetscFunctionBegin;
+  CALL(law, offset, law->conditions, state, control, u_z, u_t, adds);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
+{
+  PetscFunctionBegin;
+  CALL(law, advance, step->state, step->pressure, step->shear);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLawCreate_Bodies(SamLaw law)
+{
+  PetscFunctionBegin;
+  law->any_motion = PETSC_TRUE;
+  for (SamElasticity o = law->elasticity; o; o = o->inner) {
+    if (o->ops.offset) law->always = PETSC_TRUE;
+    if (o->ops.begin) law->forbids_jumps = PETSC_TRUE;
+    if (o->ops.begin) law->any_motion = PETSC_FALSE;
+    if (o->ops.conditions) law->ops.conditions = AddConditions;
+    if (o->ops.declare) law->ops.declare = Declare;
+    if (o->ops.begin) law->ops.begin = Begin;
+    if (o->ops.offset) law->ops.offset = AddOffset;
+    if (o->ops.advance) law->ops.advance = Advance;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
