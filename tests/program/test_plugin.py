@@ -217,6 +217,18 @@ def test_swelling_slips_and_sticks_and_goes_on_with_the_same_bits_on_any_number_
     assert np.abs(slides).max() > 1e-9
 
 
+def test_swelling_starts_no_step_of_a_cycle_from_displacements_that_it_made(petsam, plugin, tmp_path):
+    rows = "".join(f"{k},900,{40 * (0, 1, 2, 1, 0, -1, -2, -1)[k % 8]}\n" for k in range(16))
+    (tmp_path / "history.csv").write_text("time,load_n,load_tx\n" + rows)
+    case = (SPHERE, dict(SWELLING, swelling_rate=1e-9), dict(plugin=plugin, history="history.csv", output="out.h5"))
+    found = []
+    for memory in (0, 1e9):
+        petsam(*case, dict(cycle_memory=memory))
+        with h5py.File(tmp_path / "out.h5") as file:
+            found.append(file["history/disp_x"][:])
+    assert found[0].tobytes() == found[1].tobytes()
+
+
 def test_body_gap_and_method_are_chosen_by_options(petsam, plugin, tmp_path):
     cone = dict(SPHERE, plugin=plugin, gap_type="cone", gap_slope=4e-3, gap_radius1=None, gap_radius2=None, load_n=300)
     found = {}
