@@ -1,6 +1,7 @@
 """Fixtures that run the built program: build/bin/petsam, or that of the directory in PETSAM_BUILD."""
 
 import contextlib
+import fcntl
 import os
 import signal
 import subprocess
@@ -129,19 +130,32 @@ def kill_all(run, ranks):
             os.kill(process, signal.SIGKILL)
 
 
+@contextlib.contextmanager
+def turn(ranks):
+    """Runs on several ranks take turns with those of other processes of pytest.
+
+    Ranks that wait for messages spin: two such runs on the same cores take ten times as long as one after another.
+    """
+    with open(PROGRAM.parents[1] / "ranks.lock", "w") as file:
+        if ranks > 1:
+            fcntl.flock(file, fcntl.LOCK_EX)
+        yield
+
+
 def execute(launcher, directory, options, ranks, check, extra=None, program=PROGRAM):
     """One run; with more than one rank by the launcher."""
     command = (launcher + ["-n", str(ranks)] if ranks > 1 else []) + [str(program)] + support.flatten(options)
-    done = subprocess.run(
-        command,
-        capture_output=True,
-        text=True,
-        errors="replace",
-        cwd=directory,
-        timeout=TIMEOUT + 30,
-        env={**environment(), **(extra or {})},
-        stdin=subprocess.DEVNULL,
-    )
+    with turn(ranks):
+        done = subprocess.run(
+            command,
+            capture_output=True,
+            text=True,
+            errors="replace",
+            cwd=directory,
+            timeout=TIMEOUT + 30,
+            env={**environment(), **(extra or {})},
+            stdin=subprocess.DEVNULL,
+        )
     assert check is None or done.returncode == check, (
         f"exit code {done.returncode}, expected {check}: {' '.join(command)}\n"
         f"{done.stdout[-3000:]}\n{done.stderr[-3000:]}"

@@ -163,7 +163,7 @@ def test_program_on_the_installed_library_solves_a_contact(prefix, tmp_path, lau
         assert float(tangential) == pytest.approx(4.16312e-7, rel=1e-4)
 
 
-@pytest.mark.parametrize("compiler", ["mpicc -std=c11", "mpicxx -std=c++11"])
+@pytest.mark.parametrize("compiler", ["mpicc -std=c11", pytest.param("mpicxx -std=c++11", marks=pytest.mark.slow)])
 def test_every_installed_header_stands_alone(prefix, tmp_path, compiler):
     """In C and in C++, without warnings: a header includes what it needs."""
     sources = []

@@ -399,7 +399,7 @@ def advised(line, *names):
 
 
 @pytest.mark.parametrize(
-    "change", [dict(grid_size=2.6), dict(grid_size=9e-3), dict(grid_size=0.3, grid_n=(50, 64))], ids=str
+    "change", [dict(grid_size=2.6), dict(grid_size=9e-3), dict(grid_size=0.06, grid_n=(50, 64))], ids=str
 )
 @pytest.mark.parametrize("name", ["grid_size", "grid_n"])
 def test_advised_grid_has_enough_cells(petsam, change, name):

@@ -100,7 +100,7 @@ def forecast(text):
 )
 def test_forecast_is_the_size(folder, petsam, options):
     case = {**CASE, **options}
-    word, size = forecast(petsam(case, ranks=2).stdout)
+    word, size = forecast(petsam(case).stdout)
     assert word == "about" and size == pytest.approx((folder / "out.h5").stat().st_size, rel=0.12)
 
 
