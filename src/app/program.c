@@ -117,9 +117,12 @@ static PetscErrorCode StartPetsc(int *argc, char ***argv)
   PetscErrorCode   code;
 
   for (int k = 0; k < USUAL; k++) (void)sigaction(usual[k], NULL, &before[k]);
-  code = program->prepare ? program->prepare() : 0;
+  code = PetscOptionsCreateDefault();
+  if (!code) code = PetscOptionsSetValue(NULL, "-skip_petscrc", NULL); /* a file that nobody has named */
+  if (!code && program->prepare) code = program->prepare();
   if (!code) code = PetscPushErrorHandler(HandleErrorAtStart, NULL);
   if (!code) code = PetscInitialize(argc, argv, NULL, NULL);
+  if (!code) code = PetscOptionsClearValue(NULL, "-skip_petscrc");
   for (int k = 0; k < USUAL; k++) (void)sigaction(usual[k], &before[k], NULL);
   return code;
 }

@@ -161,14 +161,15 @@ static void RefuseWord(SamArguments *a, const char where[], const char word[], c
     Complain(a, SAM_ERR_USER, "%s%.160s: %s", where, word, text);
 }
 
-/* Keeps a text at the end of a list. */
-static void Keep(char ***list, int *count, const char text[])
+/* Keeps the name of an option, and where it stands. */
+static void Keep(SamArguments *a, const char name[], const char where[])
 {
-  char **more = (char **)realloc(*list, (size_t)(*count + 1) * sizeof(*more));
+  char **more = (char **)realloc(a->given, (size_t)(a->givens + 1) * sizeof(*more)), text[800];
 
   if (!more) return;
-  *list            = more;
-  more[(*count)++] = strdup(text);
+  (void)snprintf(text, sizeof(text), "%s %s", name, where);
+  a->given          = more;
+  more[a->givens++] = strdup(text);
 }
 
 static void ExamineWords(SamArguments *a, const char where[], int count, char **words)
@@ -184,7 +185,7 @@ static void ExamineWords(SamArguments *a, const char where[], int count, char **
       Complain(a, SAM_ERR_USER, "%s%s: options begin with one dash", where, words[k]);
     before = words[k];
     value  = valued ? words[k + 1] : NULL;
-    Keep(&a->given, &a->givens, before + 1);
+    Keep(a, before + 1, "");
     ExamineOption(a, where, before, value, 0);
     k += valued;
   }
@@ -195,7 +196,7 @@ static void ExamineWords(SamArguments *a, const char where[], int count, char **
 /* A line of an options file: an option and its value, a comment, or an alias. */
 static void ExamineLine(SamArguments *a, const char where[], char line[], int depth)
 {
-  char     *words[3], placed[800];
+  char     *words[3];
   const int quoted = strpbrk(line, "\"'") != NULL;
   int       count  = Split(line, words, 3);
 
@@ -212,34 +213,20 @@ static void ExamineLine(SamArguments *a, const char where[], char line[], int de
   else if (count > 2 && !quoted)
     Complain(a, SAM_ERR_USER, "%sexpected one option and its value on a line: %s is too much, unless after a #", where,
              words[2]);
-  (void)snprintf(placed, sizeof(placed), "%s %s", words[0] + 1, where);
-  Keep(&a->placed, &a->places, placed);
+  Keep(a, words[0] + 1, where);
   ExamineOption(a, where, words[0], count > 1 ? words[1] : NULL, depth);
 }
 
-static PetscBool IsYaml(const char name[])
-{
-  const char *ending = strrchr(name, '.');
-
-  return ending && (!strcmp(ending, ".yaml") || !strcmp(ending, ".yml"));
-}
-
-/* Lines of a file; YAML is left to PETSc, but for the options that are refused. */
 static void ExamineLines(SamArguments *a, const char where[], const char name[], FILE *file, int depth)
 {
   char  *line = NULL;
   size_t size = 0;
 
   for (long number = 1; !a->code && getline(&line, &size, file) >= 0; number++) {
-    char place[600], *words[1], option[128];
+    char place[600];
 
     (void)snprintf(place, sizeof(place), "%s%s, line %ld: ", where, name, number);
-    if (!IsYaml(name)) {
-      ExamineLine(a, place, line, depth);
-    } else if (Split(line, words, 1)) {
-      (void)snprintf(option, sizeof(option), "-%.*s", (int)strcspn(words[0], ":"), words[0]);
-      ExamineName(a, place, option);
-    }
+    ExamineLine(a, place, line, depth);
   }
   free(line);
 }
@@ -272,23 +259,6 @@ static void ExamineFile(SamArguments *a, const char where[], const char name[], 
       Complain(a, SAM_ERR_FILE, "%s%s: is not an options file: it has more than %d bytes", where, name, LONGEST);
     ExamineLines(a, where, name, file, depth);
     (void)fclose(file);
-  }
-}
-
-/* The files that PETSc reads without being told. */
-static void ExamineUsualFiles(SamArguments *a, int argc, char **argv)
-{
-  const char *home = getenv("HOME");
-  char        name[PETSC_MAX_PATH_LEN];
-
-  for (int k = 1; k < argc; k++)
-    if (!strcasecmp(argv[k], "-skip_petscrc")) return;
-  (void)snprintf(name, sizeof(name), "%s/.petscrc", home ? home : "");
-  for (int k = 0; k < 3; k++) {
-    const char *const file = k == 0 ? name : k == 1 ? ".petscrc" : "petscrc";
-    struct stat       status;
-
-    if (!stat(file, &status) && S_ISREG(status.st_mode)) ExamineFile(a, "", file, 0);
   }
 }
 
@@ -387,7 +357,7 @@ void SamArgumentsExamineText(MPI_Comm comm, const char text[], SamArguments *a)
 
 void SamArgumentsExamine(int *argc, char ***argv, SamArguments *a)
 {
-  static char *none[] = {"petsam", "-skip_petscrc", NULL};
+  static char *none[] = {"petsam", NULL};
   int          rank;
 
   memset(a, 0, sizeof(*a));
@@ -397,50 +367,33 @@ void SamArgumentsExamine(int *argc, char ***argv, SamArguments *a)
   if (rank == 0) {
     ExamineWords(a, "", *argc - 1, *argv + 1);
     ExamineText(a, "PETSC_OPTIONS: ", getenv("PETSC_OPTIONS"));
-    ExamineUsualFiles(a, *argc, *argv);
   }
   TellAll(MPI_COMM_WORLD, a);
   if (!a->code) return;
   (void)unsetenv("PETSC_OPTIONS");
   (void)unsetenv("PETSC_OPTIONS_YAML");
-  *argc = 2;
+  *argc = 1;
   *argv = none;
-}
-
-PetscErrorCode SamArgumentsHas(MPI_Comm comm, const SamArguments *a, const char name[], PetscBool *has)
-{
-  int rank, found = 0;
-
-  PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  for (int k = 0; k < a->givens && rank == 0; k++)
-    if (!strcasecmp(a->given[k], name)) found = 1;
-  PetscCallMPI(MPI_Bcast(&found, 1, MPI_INT, 0, comm));
-  *has = found != 0;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 void SamArgumentsFree(SamArguments *a)
 {
   for (int k = 0; k < a->count; k++) free(a->files[k]);
   for (int k = 0; k < a->givens; k++) free(a->given[k]);
-  for (int k = 0; k < a->places; k++) free(a->placed[k]);
   free(a->given);
-  free(a->placed);
-  a->given = a->placed = NULL;
-  a->count = a->givens = a->places = 0;
+  a->given = NULL;
+  a->count = a->givens = 0;
 }
 
 const char *SamArgumentsFindPlace(const SamArguments *a, const char name[])
 {
   const size_t length = strcspn(name, " :,");
-  const char  *place  = "";
+  const char  *place  = NULL;
 
-  for (int k = 0; a && k < a->places; k++)
-    if (!strncasecmp(a->placed[k], name, length) && a->placed[k][length] == ' ') place = a->placed[k] + length + 1;
   for (int k = 0; a && k < a->givens; k++)
-    if (!strncasecmp(a->given[k], name, length) && !a->given[k][length]) place = "";
-  return place;
+    if (!strncasecmp(a->given[k], name, length) && a->given[k][length] == ' ' && !(place && !place[0]))
+      place = a->given[k] + length + 1;
+  return place ? place : "";
 }
 
 PetscErrorCode SamArgumentsRefuseUnknown(MPI_Comm comm, const SamArguments *arguments)

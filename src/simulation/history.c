@@ -45,14 +45,15 @@ static PetscErrorCode Override(const Reader *r, const char name[], const char co
 {
   const char *prefix = SamOptionsPrefix(r->from);
   char        option[96];
-  PetscBool   given = PETSC_TRUE;
+  int         shared; /* whether it stands only in a file, which several runs may share */
   PetscMPIInt rank;
 
   PetscFunctionBegin;
   if (!*set) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscSNPrintf(option, sizeof(option), "%s%s", prefix, name));
-  if (r->arguments) PetscCall(SamArgumentsHas(r->from->comm, r->arguments, option, &given));
-  PetscCheck(!given, r->from->comm, SAM_ERR_USER, "-%s: %s has the column %s: give one of them", option, r->file,
+  shared = SamArgumentsFindPlace(r->arguments, option)[0] != '\0';
+  PetscCallMPI(MPI_Bcast(&shared, 1, MPI_INT, 0, r->from->comm));
+  PetscCheck(shared, r->from->comm, SAM_ERR_USER, "-%s: %s has the column %s: give one of them", option, r->file,
              column);
   *set = PETSC_FALSE;
   PetscCallMPI(MPI_Comm_rank(r->from->comm, &rank));

@@ -252,21 +252,16 @@ def test_output_is_not_the_history(petsam, tmp_path):
     assert done.code == 2 and "-output" in done.complaint[0]
 
 
-@pytest.mark.parametrize("how", ["command line", "capitals", "options file", "yaml", "environment", ".petscrc"])
+@pytest.mark.parametrize("how", ["command line", "capitals", "options file", "environment"])
 def test_history_file_is_never_written_to(petsam, tmp_path, how):
     """PETSc's own -history would append a log to it."""
     path = csv(tmp_path / "loads.csv", ("load_tx",), [20.0, 40.0])
     before, line, environment = (path.read_bytes(), path.stat().st_mtime_ns), words(dict(SPHERE, grid_n=16)), None
     if how == "environment":
         environment = dict(PETSC_OPTIONS="-history loads.csv")
-    elif how == ".petscrc":
-        (tmp_path / ".petscrc").write_text("-history loads.csv\n")
     elif how == "options file":
         (tmp_path / "study.opts").write_text("-history loads.csv\n")
         line += ["-options_file", "study.opts"]
-    elif how == "yaml":
-        (tmp_path / "study.yaml").write_text("history: loads.csv\n")
-        line += ["-options_file", "study.yaml"]
     else:
         line += ["-History" if how == "capitals" else "-history", "loads.csv"]
     petsam(*line, "-output", "out.h5", environment=environment)

@@ -92,7 +92,7 @@ static void test_first_row_with_a_load_is_divided(void **state)
   }
 }
 
-/* The history with options of a file, and those of this run by name. */
+/* The history with options, and where they stand. */
 static SamHistory ReadWith(const char *options, char *given[], int givens)
 {
   const SamArguments arguments = {.given = given, .givens = Rank() ? 0 : givens}; /* only rank 0 knows them */
@@ -106,13 +106,15 @@ static SamHistory ReadWith(const char *options, char *given[], int givens)
 
 static void test_columns_replace_the_values_of_an_options_file(void **state)
 {
-  char       given[] = "load_ty", *names[] = {given};
+  char       given[4][48] = {"load_ty ",
+                             "load_n a.opts, line 1: ", "load_tx a.opts, line 2: ", "bulk1_stress_xx a.opts, line 3: "};
+  char      *names[]      = {given[0], given[1], given[2], given[3]};
   SamHistory h;
   SamControl step;
 
   (void)state;
   Write("time,load_n,disp_x,bulk1_stress_xx\n1,7,2e-6,5\n2,8,3e-6,6\n");
-  h    = ReadWith("-history test_history.csv -load_n 1000 -load_tx 60 -load_ty 4 -bulk1_stress_xx 99", names, 1);
+  h    = ReadWith("-history test_history.csv -load_n 1000 -load_tx 60 -load_ty 4 -bulk1_stress_xx 99", names, 4);
   step = StepOf(h, 0);
   sam_assert(step.value[SAM_COMPONENT_N] == 7 && step.value[SAM_COMPONENT_TX] == 2e-6);
   sam_assert(!step.force[SAM_COMPONENT_TX] && ConditionOf(&step, "bulk1_stress_xx") == 5);
@@ -122,7 +124,7 @@ static void test_columns_replace_the_values_of_an_options_file(void **state)
 
 static void test_columns_do_not_replace_what_is_given_for_this_run(void **state)
 {
-  char               given[] = "Load_N", *names[] = {given};
+  char               given[] = "Load_N ", *names[] = {given};
   const SamArguments arguments = {.given = names, .givens = Rank() ? 0 : 1};
   SamHistory         h         = NULL;
   PetscErrorCode     ierr;

@@ -13,16 +13,14 @@ typedef struct _n_SamArguments {
   char           message[512]; /* that says what it is */
   char          *files[SAM_ARGUMENTS_FILES];
   int            count; /* of the options files, which must not be overwritten; known to rank 0 */
-  char         **given; /* names of the options in no file: on the command line or in PETSC_OPTIONS; known to rank 0 */
+  char         **given; /* the options: name, a space, and in a file "file, line n: "; known to rank 0 */
   int            givens;
-  char         **placed; /* the options in files: name, a space, and "file, line n: "; known to rank 0 */
-  int            places;
 } SamArguments;
 
 /*
   SamArgumentsExamine - takes -help, with the words after it, and -version from the command line, and looks through the
-  rest, the options files, PETSC_OPTIONS and .petscrc, for mistakes at which PETSc would end the program with a trace,
-  or wait for ever, and for options that load code or start programs. After a mistake nothing is left for PETSc to read.
+  rest, the options files and PETSC_OPTIONS, for mistakes at which PETSc would end the program with a trace, or wait for
+  ever, and for options that load code or start programs. After a mistake nothing is left for PETSc to read.
   To be called between MPI_Init() and PetscInitialize(). Collective over MPI_COMM_WORLD.
 */
 PETSC_EXTERN void SamArgumentsExamine(int *argc, char ***argv, SamArguments *arguments);
@@ -34,14 +32,8 @@ PETSC_INTERN void SamArgumentsSeparate(char text[]);
 */
 PETSC_INTERN void SamArgumentsExamineText(MPI_Comm comm, const char text[], SamArguments *arguments);
 /*
-  SamArgumentsHas - whether an option (without dash) stands on the command line or in PETSC_OPTIONS, both of which are
-  for this run, and not only in an options file, which several runs may share. Collective over `comm`.
-*/
-PETSC_INTERN PetscErrorCode SamArgumentsHas(MPI_Comm comm, const SamArguments *arguments, const char name[],
-                                            PetscBool *has);
-/*
-  SamArgumentsFindPlace - the file and line of an option's value, with a colon; "" for one that is in no file, and on
-  other ranks than 0. `name` ends at a space, colon or comma. Not collective.
+  SamArgumentsFindPlace - the file and line of an option's value, with a colon; "" for one that stands on the command
+  line or in PETSC_OPTIONS, and on other ranks than 0. `name` ends at a space, colon or comma. Not collective.
 */
 PETSC_EXTERN const char *SamArgumentsFindPlace(const SamArguments *arguments, const char name[]);
 PETSC_EXTERN void        SamArgumentsFree(SamArguments *arguments);
