@@ -24,7 +24,7 @@ int main(int argc, char **argv)
   PetscCall(SamElasticityCreate(grid, bodies, &elasticity));
   PetscCall(SamProblemCreate(elasticity, &problem));
   PetscCall(SamProblemSetFriction(problem, 0.1));
-  PetscCall(SamProblemGetGap(problem, &separation));
+  separation = SamProblemGetGap(problem);
   PetscCall(SamGapCreate(PETSC_COMM_WORLD, &gap));
   PetscCall(SamGapSetType(gap, SAM_GAP_SPHERE));
   PetscCall(SamGapSetParameter(gap, "radius1", 0.2));

@@ -81,10 +81,10 @@ PETSC_INTERN PetscErrorCode SamContactOfferCondition(SamContact contact, const S
   they remember. That state is for reading, and for what a program offers of its own.
 */
 PETSC_EXTERN PetscErrorCode SamContactGetState(SamContact contact, SamState *state);
-PETSC_INTERN PetscErrorCode SamContactGetProblem(SamContact contact, SamProblem *problem);
-PETSC_EXTERN PetscErrorCode SamContactGetGrid(SamContact contact, SamGrid *grid);
-PETSC_EXTERN PetscErrorCode SamContactGetNormal(SamContact contact, SamNormal *normal);
-PETSC_EXTERN PetscErrorCode SamContactGetTangential(SamContact contact, SamTangential *tangential);
+PETSC_INTERN SamProblem     SamContactGetProblem(SamContact contact);
+PETSC_EXTERN SamGrid        SamContactGetGrid(SamContact contact);
+PETSC_EXTERN SamNormal      SamContactGetNormal(SamContact contact);
+PETSC_EXTERN SamTangential  SamContactGetTangential(SamContact contact);
 
 /*
   SamContactTry - solves one load step from the committed state, checks the solution, and fills `step` with the numbers

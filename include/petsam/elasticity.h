@@ -56,8 +56,8 @@ PETSC_EXTERN PetscErrorCode SamElasticityCreate(SamGrid grid, SamPair pair, SamE
   SamElasticitySetType - forgets the coarser operators and the parts. Collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for a
   type that is not registered; PETSC_ERR_ORDER when a problem or a solver refers to the elasticity already.
 */
-PETSC_EXTERN PetscErrorCode SamElasticitySetType(SamElasticity elasticity, SamElasticityType type);
-PETSC_EXTERN PetscErrorCode SamElasticityGetType(SamElasticity elasticity, SamElasticityType *type); /* borrowed */
+PETSC_EXTERN PetscErrorCode    SamElasticitySetType(SamElasticity elasticity, SamElasticityType type);
+PETSC_EXTERN SamElasticityType SamElasticityGetType(SamElasticity elasticity); /* borrowed */
 /*
   SamElasticityRegister - adds a type; `create` sets an object's methods and traits, see private/elasticityimpl.h. Not
   collective, but to be called on all ranks.
@@ -74,8 +74,8 @@ PETSC_EXTERN PetscErrorCode SamElasticitySetFromOptions(SamElasticity elasticity
 PETSC_EXTERN PetscErrorCode SamElasticitySetUp(SamElasticity elasticity);
 PETSC_EXTERN PetscErrorCode SamElasticityDestroy(SamElasticity *elasticity);
 
-PETSC_EXTERN PetscErrorCode SamElasticityGetGrid(SamElasticity elasticity, SamGrid *grid); /* borrowed */
-PETSC_EXTERN PetscErrorCode SamElasticityGetPair(SamElasticity elasticity, SamPair *pair); /* borrowed */
+PETSC_EXTERN SamGrid        SamElasticityGetGrid(SamElasticity elasticity); /* borrowed */
+PETSC_EXTERN SamPair        SamElasticityGetPair(SamElasticity elasticity); /* borrowed */
 PETSC_EXTERN PetscErrorCode SamElasticityGetTraits(SamElasticity elasticity, SamElasticityTraits *traits);
 /*
   SamElasticityCreateFromParameters - the same bodies on a grid, from such a record. `source` names it in

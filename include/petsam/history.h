@@ -49,10 +49,10 @@ PETSC_INTERN PetscErrorCode SamHistoryReadIncrements(const SamOptions *from, Pet
 /* SamHistoryDestroy - frees the history and sets the handle to NULL. Not collective. */
 PETSC_INTERN PetscErrorCode SamHistoryDestroy(SamHistory *history);
 /* The number of load steps, and the number of increments for each row. Not collective. */
-PETSC_INTERN PetscErrorCode SamHistoryGetCount(SamHistory history, PetscInt *steps);
-PETSC_INTERN PetscErrorCode SamHistoryGetIncrements(SamHistory history, PetscInt *increments);
+PETSC_INTERN PetscInt SamHistoryGetCount(SamHistory history);
+PETSC_INTERN PetscInt SamHistoryGetIncrements(SamHistory history);
 /* SamHistoryGetStart - the number of load steps up to the first row: the increments, or 1. Not collective. */
-PETSC_INTERN PetscErrorCode SamHistoryGetStart(SamHistory history, PetscInt *steps);
+PETSC_INTERN PetscInt SamHistoryGetStart(SamHistory history);
 /*
   SamHistoryGives - whether it gives a condition of that one's group: has a column of it, or another value than usual.
   Not collective.

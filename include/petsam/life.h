@@ -102,7 +102,7 @@ typedef struct {
   PetscBool by_turns; /* on a changed gap, the turning points of the loads close the loop; else all steps do */
 } SamLifeState;
 /* SamLifeGetState, SamLifeSetState - between SamLifeJump() and SamLifeCompute(). Not collective. */
-PETSC_INTERN PetscErrorCode SamLifeGetState(SamLife life, SamLifeState *state);
+PETSC_INTERN SamLifeState   SamLifeGetState(SamLife life);
 PETSC_INTERN PetscErrorCode SamLifeSetState(SamLife life, const SamLifeState *state);
 
 #endif

@@ -95,7 +95,7 @@ PETSC_INTERN PetscErrorCode SamOutputGetSaved(SamOutput output, PetscInt *steps,
 PETSC_INTERN PetscErrorCode SamOutputPlan(SamGrid grid, const SamOutputSettings *settings, SamOutput *output);
 PETSC_INTERN PetscErrorCode SamOutputForecast(SamOutput output, double steps, double saved, double *bytes);
 /* SamOutputHasReplaced - whether the file has replaced older results. Not collective. */
-PETSC_INTERN PetscErrorCode SamOutputHasReplaced(SamOutput output, PetscBool *replaced);
+PETSC_INTERN PetscBool SamOutputHasReplaced(SamOutput output);
 /*
   SamOutputDestroy - closes the file, frees the object and sets the handle to NULL, also when closing fails. Collective.
   Errors: SAM_ERR_FILE.

@@ -21,11 +21,11 @@ PETSC_EXTERN PetscErrorCode SamProblemDestroy(SamProblem *problem);
   the laws that have been added; borrowed. Not collective.
   SamProblemGetRolled - the rolled distance of a step, as SamMotionRolled(). Not collective.
 */
-PETSC_EXTERN PetscErrorCode SamProblemGetConditions(SamProblem problem, SamConditions *conditions);
-PETSC_INTERN PetscReal      SamProblemGetRolled(SamProblem problem, const SamControl *control, PetscReal distance[2]);
+PETSC_EXTERN SamConditions SamProblemGetConditions(SamProblem problem);
+PETSC_INTERN PetscReal     SamProblemGetRolled(SamProblem problem, const SamControl *control, PetscReal distance[2]);
 /* The elasticity and its grid. Not collective. */
-PETSC_EXTERN PetscErrorCode SamProblemGetElasticity(SamProblem problem, SamElasticity *elasticity); /* borrowed */
-PETSC_EXTERN PetscErrorCode SamProblemGetGrid(SamProblem problem, SamGrid *grid);                   /* borrowed */
+PETSC_EXTERN SamElasticity SamProblemGetElasticity(SamProblem problem); /* borrowed */
+PETSC_EXTERN SamGrid       SamProblemGetGrid(SamProblem problem);       /* borrowed */
 
 /*
   SamProblemSetGap - copies the separation h (m, one component). Collective.
@@ -36,7 +36,7 @@ PETSC_EXTERN PetscErrorCode SamProblemGetGrid(SamProblem problem, SamGrid *grid)
   others. Not collective.
 */
 PETSC_EXTERN PetscErrorCode SamProblemSetGap(SamProblem problem, Vec h);
-PETSC_EXTERN PetscErrorCode SamProblemGetGap(SamProblem problem, Vec *h);
+PETSC_EXTERN Vec            SamProblemGetGap(SamProblem problem);
 PETSC_INTERN PetscErrorCode SamProblemGetRevision(SamProblem problem, PetscObjectState *revision);
 
 /*

@@ -36,11 +36,11 @@ PETSC_EXTERN PetscErrorCode SamResultsDestroy(SamResults *results);
   SamResultsGetSaved - load step (from 1) and time (s) of the k-th saved one (from 0).
   None is collective.
 */
-PETSC_EXTERN PetscErrorCode SamResultsGetGrid(SamResults results, SamGrid *grid);
-PETSC_EXTERN PetscErrorCode SamResultsGetParameters(SamResults results, const SamParameters **parameters);
-PETSC_EXTERN PetscErrorCode SamResultsGetOptions(SamResults results, const char **options);
-PETSC_EXTERN PetscErrorCode SamResultsGetSteps(SamResults results, PetscInt *steps, PetscInt *saved);
-PETSC_EXTERN PetscErrorCode SamResultsGetSaved(SamResults results, PetscInt k, PetscInt *step, PetscReal *time);
+PETSC_EXTERN SamGrid              SamResultsGetGrid(SamResults results);
+PETSC_EXTERN const SamParameters *SamResultsGetParameters(SamResults results);
+PETSC_EXTERN const char          *SamResultsGetOptions(SamResults results);
+PETSC_EXTERN PetscErrorCode       SamResultsGetSteps(SamResults results, PetscInt *steps, PetscInt *saved);
+PETSC_EXTERN PetscErrorCode       SamResultsGetSaved(SamResults results, PetscInt k, PetscInt *step, PetscReal *time);
 /*
   SamResultsRead - a field of the k-th saved step: this rank's rows. Collective. Errors: SAM_ERR_FILE, also for a field
   that the file does not have (only the slip may be missing), and for values that are no finite numbers.

@@ -145,12 +145,12 @@ typedef struct {
     GetStatus  the worst status of the steps so far, and whether it stopped before its end, with a checkpoint
     IsWriting  whether a collective write is under way
 */
-PETSC_EXTERN PetscErrorCode SamSimulationGetSetup(SamSimulation simulation, const SamSetup **setup);
-PETSC_EXTERN PetscErrorCode SamSimulationGetNeeds(SamSimulation simulation, SamSimulationNeeds *needs);
-PETSC_EXTERN PetscErrorCode SamSimulationGetFiles(SamSimulation simulation, SamSimulationFiles *files);
-PETSC_INTERN PetscErrorCode SamSimulationGetSeries(SamSimulation simulation, SamState *series);
-PETSC_EXTERN PetscErrorCode SamSimulationGetStatus(SamSimulation simulation, SamStatus *worst, PetscBool *stopped);
-PETSC_EXTERN PetscBool      SamSimulationIsWriting(SamSimulation simulation);
+PETSC_EXTERN const SamSetup    *SamSimulationGetSetup(SamSimulation simulation);
+PETSC_EXTERN SamSimulationNeeds SamSimulationGetNeeds(SamSimulation simulation);
+PETSC_EXTERN PetscErrorCode     SamSimulationGetFiles(SamSimulation simulation, SamSimulationFiles *files);
+PETSC_INTERN PetscErrorCode     SamSimulationGetSeries(SamSimulation simulation, SamState *series);
+PETSC_EXTERN PetscErrorCode     SamSimulationGetStatus(SamSimulation simulation, SamStatus *worst, PetscBool *stopped);
+PETSC_EXTERN PetscBool          SamSimulationIsWriting(SamSimulation simulation);
 /* SamSimulationAbandon - before the process ends without the others: leaves no temporary file. Not collective. */
 PETSC_EXTERN void SamSimulationAbandon(SamSimulation simulation);
 

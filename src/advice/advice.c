@@ -41,13 +41,12 @@ void SamAdviceAddLoads(SamAdvice *a, PetscInt step, const SamControl *control)
 {
   SamLoadsMost *const most = &a->most;
   const PetscReal    *v = control->value, normal = v[SAM_COMPONENT_N];
-  const PetscBool    *force = control->force;
-  const PetscBool    *creep = control->creep;
-  const PetscReal     x     = force[SAM_COMPONENT_TX] || creep[SAM_COMPONENT_TX] ? 0 : v[SAM_COMPONENT_TX];
-  const PetscReal     y     = force[SAM_COMPONENT_TY] || creep[SAM_COMPONENT_TY] ? 0 : v[SAM_COMPONENT_TY];
-  SamConditions       conditions;
+  const PetscBool    *force      = control->force;
+  const PetscBool    *creep      = control->creep;
+  const PetscReal     x          = force[SAM_COMPONENT_TX] || creep[SAM_COMPONENT_TX] ? 0 : v[SAM_COMPONENT_TX];
+  const PetscReal     y          = force[SAM_COMPONENT_TY] || creep[SAM_COMPONENT_TY] ? 0 : v[SAM_COMPONENT_TY];
+  const SamConditions conditions = SamProblemGetConditions(a->setup->problem);
 
-  (void)SamProblemGetConditions(a->setup->problem, &conditions);
   for (PetscInt k = 0; k < SamConditionsCount(conditions); k++) {
     const SamCondition *one    = SamConditionsGet(conditions, k);
     const double        stress = strcmp(one->unit, "Pa") ? 0 : fabs((double)SamControlGet(control, one));

@@ -151,18 +151,17 @@ static PetscErrorCode ChooseSteps(SamStressRun *run)
 /* The bodies, by the elasticity that the results have recorded, and the steps. */
 static PetscErrorCode SetUpEvaluation(SamStressRun *run)
 {
-  SamStressSource      source = {.settings   = &run->transforms,
-                                 .name       = run->source,
-                                 .read       = ReadField,
-                                 .number     = ReadNumber,
-                                 .conditions = ReadConditions,
-                                 .warn       = WarnOfSteps,
-                                 .tell       = Tell,
-                                 .context    = run};
-  const SamParameters *parameters;
+  SamStressSource      source     = {.settings   = &run->transforms,
+                                     .name       = run->source,
+                                     .read       = ReadField,
+                                     .number     = ReadNumber,
+                                     .conditions = ReadConditions,
+                                     .warn       = WarnOfSteps,
+                                     .tell       = Tell,
+                                     .context    = run};
+  const SamParameters *parameters = SamResultsGetParameters(run->results);
 
   PetscFunctionBegin;
-  PetscCall(SamResultsGetParameters(run->results, &parameters));
   PetscCall(PetscSNPrintf(run->source, sizeof(run->source), "-input %s", run->request.input));
   PetscCall(SamElasticityCreateFromParameters(run->grid, parameters, run->source, &run->elasticity));
   PetscCall(ChooseSteps(run));
@@ -219,7 +218,7 @@ static PetscErrorCode SetUp(void *context, const SamArguments *arguments)
   if (help) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(CheckFiles(&run->request, arguments));
   PetscCall(SamResultsOpen(PETSC_COMM_WORLD, "input", run->request.input, &run->results));
-  PetscCall(SamResultsGetGrid(run->results, &run->grid));
+  run->grid = SamResultsGetGrid(run->results);
   PetscCall(SetUpEvaluation(run));
   PetscCall(SamMemoryRefuse(run->grid->comm, MemoryOf(run), "-input", run->request.input, &from));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -243,7 +242,6 @@ static PetscErrorCode TearDown(void *context)
 static PetscErrorCode CreateFile(SamStressRun *run)
 {
   SamParameters parameters = {.count = 0};
-  const char   *of_run;
   char         *options;
 
   PetscFunctionBegin;
@@ -253,8 +251,7 @@ static PetscErrorCode CreateFile(SamStressRun *run)
   PetscCall(PetscOptionsGetAll(NULL, &options));
   PetscCall(SamStressFileSetText(run->file, "options", options));
   PetscCall(PetscFree(options));
-  PetscCall(SamResultsGetOptions(run->results, &of_run));
-  PetscCall(SamStressFileSetText(run->file, "input_options", of_run));
+  PetscCall(SamStressFileSetText(run->file, "input_options", SamResultsGetOptions(run->results)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -121,19 +121,17 @@ static const double stiffness_bytes[2][2] = {{400, 400}, {490, 880}}; /* [fricti
 /* The memory that this rank will need, bytes. */
 static PetscErrorCode EstimateMemory(SamSimulation simulation, double *bytes)
 {
-  const SamSetup     *setup;
-  SamElasticityTraits traits;
-  SamSimulationNeeds  needs;
-  PetscBool           mid, divided;
-  char                kept[32] = "";
-  PetscMPIInt         ranks;
-  double              cell;
+  SamElasticityTraits      traits;
+  PetscBool                mid, divided;
+  char                     kept[32] = "";
+  PetscMPIInt              ranks;
+  double                   cell;
+  const SamSetup          *setup = SamSimulationGetSetup(simulation);
+  const SamSimulationNeeds needs = SamSimulationGetNeeds(simulation);
 
   PetscFunctionBegin;
-  PetscCall(SamSimulationGetSetup(simulation, &setup));
   PetscCallMPI(MPI_Comm_size(setup->grid->comm, &ranks));
   PetscCall(SamElasticityGetTraits(setup->elasticity, &traits));
-  PetscCall(SamSimulationGetNeeds(simulation, &needs));
   /* the contact, which reads these, is made later */
   PetscCall(PetscOptionsHasName(NULL, NULL, "-slip_direction", &mid));
   PetscCall(PetscOptionsHasName(NULL, NULL, "-step_rtol", &divided));
@@ -150,12 +148,11 @@ static PetscErrorCode EstimateMemory(SamSimulation simulation, double *bytes)
 /* Refuses a run that a node has not enough memory for. */
 static PetscErrorCode RefuseTooLarge(SamSimulation simulation, const SamOptions *from)
 {
-  const SamSetup *setup;
   double          bytes;
   char            cells[64];
+  const SamSetup *setup = SamSimulationGetSetup(simulation);
 
   PetscFunctionBegin;
-  PetscCall(SamSimulationGetSetup(simulation, &setup));
   PetscCall(EstimateMemory(simulation, &bytes));
   PetscCall(PetscSNPrintf(cells, sizeof(cells), "%" PetscInt_FMT ",%" PetscInt_FMT, setup->grid->nx, setup->grid->ny));
   PetscCall(SamOptionsHeading(from, "Memory"));
@@ -198,7 +195,7 @@ static PetscErrorCode Tell(void *context, SamContact contact, const SamSimulatio
     const SamSetup *setup;
     double          bytes;
 
-    PetscCall(SamSimulationGetSetup(run->simulation, &setup));
+    setup = SamSimulationGetSetup(run->simulation);
     PetscCall(EstimateMemory(run->simulation, &bytes));
     PetscCall(SamReportBanner(run->report, setup->grid, bytes, news->start));
   } else {

@@ -114,12 +114,11 @@ static PetscErrorCode ListSaved(SamResults results, PetscBool cycles, char text[
 /* The saved steps of a cycle of a life. */
 static PetscErrorCode FindCycle(const SamStressRequest *r, SamResults results, PetscInt *count, PetscInt **list)
 {
-  PetscInt saved, step;
-  SamGrid  grid;
-  char     text[256];
+  PetscInt      saved, step;
+  char          text[256];
+  const SamGrid grid = SamResultsGetGrid(results);
 
   PetscFunctionBegin;
-  PetscCall(SamResultsGetGrid(results, &grid));
   PetscCall(SamResultsGetSteps(results, NULL, &saved));
   PetscCall(PetscMalloc1(saved, list));
   *count = 0;
@@ -138,16 +137,15 @@ static PetscErrorCode FindCycle(const SamStressRequest *r, SamResults results, P
 
 PetscErrorCode SamStressRequestSteps(const SamStressRequest *r, SamResults results, PetscInt *count, PetscInt **list)
 {
-  PetscInt steps, saved;
-  SamGrid  grid;
-  char     text[256];
+  PetscInt      steps, saved;
+  char          text[256];
+  const SamGrid grid = SamResultsGetGrid(results);
 
   PetscFunctionBegin;
   if (r->of_cycle) {
     PetscCall(FindCycle(r, results, count, list));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(SamResultsGetGrid(results, &grid));
   PetscCall(SamResultsGetSteps(results, &steps, &saved));
   *count = r->all_steps ? saved : r->last_step ? 1 : (r->last - r->first) / r->stride + 1;
   PetscCheck(r->all_steps || r->last_step || r->last <= steps, grid->comm, SAM_ERR_USER,

@@ -64,11 +64,10 @@ static double Rounded(const SamStep *s, PetscInt c, const PetscReal values[], co
 static PetscErrorCode ViewSolution(const SamStep *s, SamContact c, const Sizes *sizes, PetscViewer viewer)
 {
   const SamMotion motion = SamContactGetMotion(c);
-  SamGrid         grid;
-  const double passes = Get(c, "coupling_iterations"), move = ROUNDING * sizes->rigid[0], work = sizes->load[0] * move;
+  const double  passes = Get(c, "coupling_iterations"), move = ROUNDING * sizes->rigid[0], work = sizes->load[0] * move;
+  const SamGrid grid = SamContactGetGrid(c);
 
   PetscFunctionBegin;
-  PetscCall(SamContactGetGrid(c, &grid));
   PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  contact %.6g %s, stick %.6g %s, dissipated %.6g %s\n", "areas",
                                    Get(c, "contact_area"), SamUnitOn(grid, "m2"), Get(c, "stick_area"),
                                    SamUnitOn(grid, "m2"), Clean(Get(c, motion->work), work),
@@ -98,10 +97,9 @@ PetscErrorCode SamStepView(const SamStep *s, SamContact contact, PetscViewer vie
                                                SAM_COMPONENT_TX, SAM_COMPONENT_TY, SAM_COMPONENT_MZ};
   static const char *const  given[SAM_WAYS] = {"load", "displacement", "creepage"};
   const Sizes               sizes           = GetSizes(s, contact);
-  SamGrid                   grid;
+  const SamGrid             grid            = SamContactGetGrid(contact);
 
   PetscFunctionBegin;
-  PetscCall(SamContactGetGrid(contact, &grid));
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
     const PetscInt          c     = order[k];
     const SamComponentName *name  = &SamComponentNames[c];

@@ -32,14 +32,11 @@ static PetscErrorCode AddCoupling(SamElasticity elasticity, SamGrid grid, const 
 static PetscErrorCode ComputeDisplacements(SamProblem problem, SamState state, PetscBool coupling, PetscBool u_z_known,
                                            const SamSolution *s, PetscReal *most)
 {
-  SamElasticity       elasticity;
   SamElasticityTraits traits;
-  SamGrid             grid;
   PetscReal           shear;
+  const SamElasticity elasticity = SamProblemGetElasticity(problem);
 
   PetscFunctionBegin;
-  PetscCall(SamProblemGetElasticity(problem, &elasticity));
-  PetscCall(SamProblemGetGrid(problem, &grid));
   PetscCall(SamElasticityGetTraits(elasticity, &traits));
   if (!u_z_known) PetscCall(SamElasticityApplyNormal(elasticity, s->pressure, s->displacement_z));
   PetscCall(VecNorm(s->shear, NORM_INFINITY, &shear));
@@ -47,7 +44,7 @@ static PetscErrorCode ComputeDisplacements(SamProblem problem, SamState state, P
     PetscCall(SamElasticityApplyTangential(elasticity, s->shear, s->displacement_t));
   else
     PetscCall(SamVecZero(s->displacement_t));
-  if (traits.coupled && coupling) PetscCall(AddCoupling(elasticity, grid, s));
+  if (traits.coupled && coupling) PetscCall(AddCoupling(elasticity, SamProblemGetGrid(problem), s));
   PetscCall(VecNorm(s->displacement_z, NORM_INFINITY, most));
   PetscCall(
     SamProblemAddOffset(problem, state, &s->control, u_z_known ? NULL : s->displacement_z, s->displacement_t, NULL));
@@ -89,13 +86,11 @@ typedef struct {
 
 static Border BorderOf(SamProblem problem, SamGrid grid, const SamSolution *s)
 {
-  SamElasticity       elasticity;
   SamElasticityTraits traits;
   PetscReal           roll[2];
   Border              b;
 
-  (void)SamProblemGetElasticity(problem, &elasticity);
-  (void)SamElasticityGetTraits(elasticity, &traits);
+  (void)SamElasticityGetTraits(SamProblemGetElasticity(problem), &traits);
   (void)SamProblemGetRolled(problem, &s->control, roll);
   SamGridEntering(grid, roll, b.low, b.high);
   for (int axis = 0; axis < grid->axes; axis++) {
@@ -134,14 +129,11 @@ static void SetNormal(const double max[COUNT], double limit, SamCheck *check)
 /* By the largest pressure and shear. */
 static PetscErrorCode SetRounding(SamProblem problem, const SamSolution *s, const double max[COUNT], SamCheck *check)
 {
-  SamElasticity elasticity;
-  SamGrid       grid;
   PetscReal     self, shear;
+  const SamGrid grid = SamProblemGetGrid(problem);
 
   PetscFunctionBegin;
-  PetscCall(SamProblemGetElasticity(problem, &elasticity));
-  PetscCall(SamProblemGetGrid(problem, &grid));
-  PetscCall(SamElasticityGetSelfInfluence(elasticity, &self, NULL));
+  PetscCall(SamElasticityGetSelfInfluence(SamProblemGetElasticity(problem), &self, NULL));
   PetscCall(VecNorm(s->shear, NORM_INFINITY, &shear));
   if (max[DISPLACEMENT] > 0)
     check->rounding =
@@ -159,12 +151,11 @@ static PetscErrorCode CheckNormal(SamProblem problem, SamState state, const SamS
   const double *p, *u, *h;
   PetscReal     limit;
   SamRigid      motion;
-  SamGrid       grid;
   Border        border;
   Vec           separation;
+  const SamGrid grid = SamProblemGetGrid(problem);
 
   PetscFunctionBegin;
-  PetscCall(SamProblemGetGrid(problem, &grid));
   PetscCall(SamSolutionCreateSeparation(problem, state, SAM_COMMITTED, &separation));
   border = BorderOf(problem, grid, s);
   PetscCall(SamRigidSet(&motion, problem, s));
@@ -227,12 +218,11 @@ SAM_VECTORIZED static TangentialSums TangentialRow(PetscInt n, const double *res
 static PetscErrorCode CreateBound(SamProblem problem, SamState state, const SamSolution *before, const SamSolution *s,
                                   Vec *bound)
 {
-  SamBoundAt at = {state, &s->control, NULL, NULL, SamProblemGetRolled(problem, &s->control, NULL)};
-  SamGrid    grid;
-  double    *b;
+  SamBoundAt    at = {state, &s->control, NULL, NULL, SamProblemGetRolled(problem, &s->control, NULL)};
+  double       *b;
+  const SamGrid grid = SamProblemGetGrid(problem);
 
   PetscFunctionBegin;
-  PetscCall(SamProblemGetGrid(problem, &grid));
   PetscCall(SamGridCreateVec(grid, 1, bound));
   PetscCall(SamVecCopyNonzero(s->pressure, *bound));
   PetscCall(VecGetArray(*bound, &b));
@@ -280,22 +270,18 @@ static PetscErrorCode SumTangential(SamGrid grid, PetscReal self, const SamIncre
 static PetscErrorCode CheckTangential(SamProblem problem, SamState state, const SamSolution *before,
                                       const SamSolution *s, SamCheck *check)
 {
-  SamElasticity elasticity;
-  SamGrid       grid;
   PetscReal     self;
   SamIncrement  increment;
   const double *q, *b;
   Vec           bound;
 
   PetscFunctionBegin;
-  PetscCall(SamProblemGetElasticity(problem, &elasticity));
-  PetscCall(SamProblemGetGrid(problem, &grid));
-  PetscCall(SamElasticityGetSelfInfluence(elasticity, NULL, &self));
+  PetscCall(SamElasticityGetSelfInfluence(SamProblemGetElasticity(problem), NULL, &self));
   PetscCall(CreateBound(problem, state, before, s, &bound));
   PetscCall(SamIncrementCreate(problem, before, s, &increment));
   PetscCall(VecGetArrayRead(s->shear, &q));
   PetscCall(VecGetArrayRead(bound, &b));
-  PetscCall(SumTangential(grid, self, &increment, b, q, check));
+  PetscCall(SumTangential(SamProblemGetGrid(problem), self, &increment, b, q, check));
   PetscCall(VecRestoreArrayRead(bound, &b));
   PetscCall(VecRestoreArrayRead(s->shear, &q));
   PetscCall(SamIncrementDestroy(&increment));
@@ -329,18 +315,15 @@ static PetscErrorCode CheckEquilibrium(SamGrid grid, const SamBalance *given, Ve
 PetscErrorCode SamCheckSolution(SamProblem problem, SamState state, PetscBool coupling, PetscBool u_z_known,
                                 const SamSolution *before, SamSolution *solution, SamCheck *check)
 {
-  SamElasticity       elasticity;
   SamElasticityTraits traits;
-  SamGrid             grid;
   SamBalance          given[2];
   PetscReal           most;
+  const SamGrid       grid = SamProblemGetGrid(problem);
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_CHECK], 0, 0, 0, 0));
   PetscCall(PetscMemzero(check, sizeof(*check)));
-  PetscCall(SamProblemGetElasticity(problem, &elasticity));
-  PetscCall(SamElasticityGetTraits(elasticity, &traits));
-  PetscCall(SamProblemGetGrid(problem, &grid));
+  PetscCall(SamElasticityGetTraits(SamProblemGetElasticity(problem), &traits));
   PetscCall(ComputeDisplacements(problem, state, coupling, u_z_known, solution, &most));
   PetscCall(CheckNormal(problem, state, solution, most, check));
   if (traits.periodic) check->edge = 0;

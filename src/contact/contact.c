@@ -11,15 +11,15 @@ PetscErrorCode SamContactCreate(SamProblem problem, SamContact *contact)
   PetscFunctionBegin;
   PetscCall(PetscNew(&c));
   PetscCall(SamProblemReference(problem));
-  c->problem = problem;
-  c->set     = (SamContactSettings){.coupling        = PETSC_TRUE,
-                                    .coupling_rtol   = 1e-6,
-                                    .coupling_max_it = 100,
-                                    .warm_start      = PETSC_TRUE,
-                                    .edges           = PETSC_TRUE};
-  PetscCall(SamProblemGetElasticity(problem, &c->elasticity));
-  PetscCall(SamProblemGetGrid(problem, &c->grid));
-  PetscCall(SamProblemGetConditions(problem, &c->conditions));
+  c->problem    = problem;
+  c->set        = (SamContactSettings){.coupling        = PETSC_TRUE,
+                                       .coupling_rtol   = 1e-6,
+                                       .coupling_max_it = 100,
+                                       .warm_start      = PETSC_TRUE,
+                                       .edges           = PETSC_TRUE};
+  c->elasticity = SamProblemGetElasticity(problem);
+  c->grid       = SamProblemGetGrid(problem);
+  c->conditions = SamProblemGetConditions(problem);
   PetscCall(SamElasticityGetTraits(c->elasticity, &c->traits));
   c->motion = SamMotionOf(c->elasticity);
   PetscCall(SamNormalCreate(c->elasticity, &c->normal));
@@ -137,11 +137,9 @@ PetscErrorCode SamContactSetFromOptions(SamContact c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamContactGetProblem(SamContact c, SamProblem *problem)
+SamProblem SamContactGetProblem(SamContact c)
 {
-  PetscFunctionBegin;
-  *problem = c->problem;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return c->problem;
 }
 
 PetscErrorCode SamContactGetState(SamContact c, SamState *state)
@@ -152,25 +150,19 @@ PetscErrorCode SamContactGetState(SamContact c, SamState *state)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamContactGetGrid(SamContact c, SamGrid *grid)
+SamGrid SamContactGetGrid(SamContact c)
 {
-  PetscFunctionBegin;
-  *grid = c->grid;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return c->grid;
 }
 
-PetscErrorCode SamContactGetNormal(SamContact c, SamNormal *normal)
+SamNormal SamContactGetNormal(SamContact c)
 {
-  PetscFunctionBegin;
-  *normal = c->normal;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return c->normal;
 }
 
-PetscErrorCode SamContactGetTangential(SamContact c, SamTangential *tangential)
+SamTangential SamContactGetTangential(SamContact c)
 {
-  PetscFunctionBegin;
-  *tangential = c->tangential;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return c->tangential;
 }
 
 /* ---- states ---- */

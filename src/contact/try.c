@@ -90,12 +90,11 @@ static PetscErrorCode CheckConditions(SamContact c, const SamControl *control)
 /* Refuses a control that makes no sense. Rotations that the elasticity does not have are held at 0. */
 static PetscErrorCode CheckControl(SamContact c, SamControl *control)
 {
-  const SamCondition *wrong;
-  SamElasticityType   type;
-  char                why[192];
+  const SamCondition     *wrong;
+  char                    why[192];
+  const SamElasticityType type = SamElasticityGetType(c->elasticity);
 
   PetscFunctionBegin;
-  PetscCall(SamElasticityGetType(c->elasticity, &type));
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
     const char *name = SamComponentNameOf(k, SamControlWay(control, k));
 

@@ -119,11 +119,9 @@ PetscErrorCode SamElasticitySetType(SamElasticity e, SamElasticityType type)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamElasticityGetType(SamElasticity e, SamElasticityType *type)
+SamElasticityType SamElasticityGetType(SamElasticity e)
 {
-  PetscFunctionBegin;
-  *type = e->type;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return e->type;
 }
 
 PetscErrorCode SamElasticitySetOptionsPrefix(SamElasticity e, const char prefix[])
@@ -236,18 +234,14 @@ PetscErrorCode SamElasticityTrim(SamElasticity e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamElasticityGetGrid(SamElasticity e, SamGrid *grid)
+SamGrid SamElasticityGetGrid(SamElasticity e)
 {
-  PetscFunctionBegin;
-  *grid = e->grid;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return e->grid;
 }
 
-PetscErrorCode SamElasticityGetPair(SamElasticity e, SamPair *pair)
+SamPair SamElasticityGetPair(SamElasticity e)
 {
-  PetscFunctionBegin;
-  *pair = e->pair;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return e->pair;
 }
 
 PetscErrorCode SamElasticityGetTraits(SamElasticity e, SamElasticityTraits *traits)

@@ -71,7 +71,7 @@ PetscErrorCode SamElasticitySetPart(SamElasticity e, const PetscInt first[2], co
   if (!is) {
     PetscCall(DestroyPart(older));
     PetscCall(SamWindowCreate(e->grid, first, n, &older->window));
-    PetscCall(SamWindowGetGrid(older->window, &grid));
+    grid = SamWindowGetGrid(older->window);
     PetscCall(SamElasticityCreateLike(e, grid, first, &older->elasticity));
   }
   e->in_part = PETSC_TRUE;

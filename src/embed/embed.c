@@ -120,7 +120,7 @@ static PetscErrorCode ReadConditions(petsam_contact *c, const SamOptions *from)
 
   PetscFunctionBegin;
   PetscCall(SamControlInitialize(&c->control));
-  PetscCall(SamProblemGetConditions(c->setup->problem, &c->conditions));
+  c->conditions = SamProblemGetConditions(c->setup->problem);
   for (PetscInt k = 0; k < SamConditionsCount(c->conditions); k++)
     PetscCall(SamControlReadCondition(from, SamConditionsGet(c->conditions, k), &c->control, &set));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -156,7 +156,7 @@ static PetscErrorCode Create(petsam_contact *c, const char options[])
   PetscCall(SamEmbedInsertOptions(c, c->options, options));
   PetscCall(RefuseOthers(c));
   PetscCall(SamSimulationCreate(c->comm, &c->simulation));
-  PetscCall(SamSimulationGetSetup(c->simulation, &c->setup));
+  c->setup = SamSimulationGetSetup(c->simulation);
   PetscCall(SamSimulationSetContactFromOptions(c->simulation, &from));
   PetscCall(SamHistoryReadIncrements(&from, &c->increments));
   PetscCall(ReadConditions(c, &from));

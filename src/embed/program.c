@@ -157,7 +157,7 @@ static PetscErrorCode CheckCopy(petsam_contact *c, petsam_contact *from)
   for (int k = 0; k < 2; k++) {
     Vec values;
 
-    PetscCall(SamProblemGetGap(both[k]->setup->problem, &values));
+    values = SamProblemGetGap(both[k]->setup->problem);
     PetscCall(SamGridChecksum(both[k]->setup->grid, values, &gap[k]));
   }
   PetscCheck(gap[0] == gap[1], c->comm, SAM_ERR_USER, "petsam_copy: the contacts have different gaps");

@@ -66,11 +66,9 @@ PetscErrorCode SamWindowGetPlace(SamWindow w, PetscInt first[2], PetscInt n[2])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamWindowGetGrid(SamWindow w, SamGrid *grid)
+SamGrid SamWindowGetGrid(SamWindow w)
 {
-  PetscFunctionBegin;
-  *grid = w->part;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return w->part;
 }
 
 PetscBool SamWindowCovers(SamWindow w, const PetscInt first[2], const PetscInt n[2])

@@ -23,15 +23,11 @@ struct _n_SamCheckpoint {
 /* The checksum of the gap that a contact's problem has now. */
 static PetscErrorCode GapChecksum(SamContact contact, uint64_t *checksum)
 {
-  SamProblem problem;
-  SamGrid    grid;
-  Vec        gap;
+  Vec gap;
 
   PetscFunctionBegin;
-  PetscCall(SamContactGetGrid(contact, &grid));
-  PetscCall(SamContactGetProblem(contact, &problem));
-  PetscCall(SamProblemGetGap(problem, &gap));
-  PetscCall(SamGridChecksum(grid, gap, checksum));
+  gap = SamProblemGetGap(SamContactGetProblem(contact));
+  PetscCall(SamGridChecksum(SamContactGetGrid(contact), gap, checksum));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -329,15 +325,13 @@ typedef struct {
 /* Whether a law of this name only accumulates its field, which it then declares; `state` NULL: it does not. */
 static PetscErrorCode DeclareSum(SamContact contact, const char name[], SamState state, PetscBool *is)
 {
-  SamProblem    problem;
   SamElasticity elasticity;
   SamLaw        law;
 
   PetscFunctionBegin;
   *is = PETSC_FALSE;
   if (!SamLawIsRegistered(name)) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamContactGetProblem(contact, &problem));
-  PetscCall(SamProblemGetElasticity(problem, &elasticity));
+  elasticity = SamProblemGetElasticity(SamContactGetProblem(contact));
   PetscCall(SamLawCreate(elasticity, name, &law));
   *is = law->accumulates;
   if (*is && state) PetscCall(law->ops.declare(law, state));
@@ -442,13 +436,12 @@ static PetscErrorCode ReadAll(SamFile f, SamContact contact, const Rest *rest, C
 /* The caller destroys the state, also after an error. */
 static PetscErrorCode ReadFile(SamContact contact, const char filename[], const Rest *rest, Content *c)
 {
-  SamGrid        grid;
   SamFile        f;
   PetscErrorCode ierr;
+  const SamGrid  grid = SamContactGetGrid(contact);
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(c, sizeof(*c)));
-  PetscCall(SamContactGetGrid(contact, &grid));
   PetscCall(SamSealCheck(grid, "restart", filename));
   PetscCall(SamFileOpen(grid, SAM_EVENT_CHECKPOINT, "restart", filename, SAM_FILE_READ, &f));
   ierr = ReadAll(f, contact, rest, c);
@@ -479,14 +472,12 @@ static PetscErrorCode Advise(SamContact contact, const char filename[], const Re
 /* Lets the contact accumulate what has been read besides its own fields. */
 static PetscErrorCode AddSums(SamContact contact, SamState state)
 {
-  SamProblem problem;
-  SamState   own;
+  SamState own;
 
   PetscFunctionBegin;
-  PetscCall(SamContactGetProblem(contact, &problem));
   PetscCall(SamContactGetState(contact, &own));
   for (PetscInt k = SamStateCountFields(own); k < SamStateCountFields(state); k++)
-    PetscCall(SamProblemAddSum(problem, SamStateFieldOf(state, k)->name));
+    PetscCall(SamProblemAddSum(SamContactGetProblem(contact), SamStateFieldOf(state, k)->name));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -495,14 +486,12 @@ PetscErrorCode SamCheckpointRead(const char filename[], SamContact contact, Pets
 {
   const Rest     rest = {parameters, n, notes, sums};
   Content        c;
-  SamGrid        grid;
   uint64_t       gap;
   char           message[SAM_MESSAGE] = "", advice[2 * PETSC_MAX_PATH_LEN] = "";
   PetscErrorCode ierr;
 
   PetscFunctionBegin;
   PetscCall(SamInitialize());
-  PetscCall(SamContactGetGrid(contact, &grid));
   PetscCall(PetscPushErrorHandler(SamKeepMessage, message));
   ierr = ReadFile(contact, filename, &rest, &c);
   PetscCall(PetscPopErrorHandler());
@@ -513,6 +502,6 @@ PetscErrorCode SamCheckpointRead(const char filename[], SamContact contact, Pets
   }
   PetscCall(SamStateDestroy(&c.state));
   if (ierr == SAM_ERR_FILE) PetscCall(Advise(contact, filename, &rest, advice, sizeof(advice)));
-  PetscCheck(!ierr, grid->comm, ierr, "%s%s", message, advice);
+  PetscCheck(!ierr, SamContactGetGrid(contact)->comm, ierr, "%s%s", message, advice);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

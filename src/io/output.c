@@ -73,14 +73,12 @@ PetscErrorCode SamOutputSettingsAddLaws(SamOutputSettings *set, SamProblem probl
 {
   const SamLawType *types;
   PetscInt          count;
-  SamElasticity     elasticity;
 
   PetscFunctionBegin;
-  PetscCall(SamProblemGetElasticity(problem, &elasticity));
   set->sums = PETSC_TRUE;
   PetscCall(SamLawGetTypes(&count, &types));
   for (PetscInt k = 0; k < count; k++)
-    if (Names(set, types[k]) || (Names(set, "all") && SamMotionOf(elasticity)->continues))
+    if (Names(set, types[k]) || (Names(set, "all") && SamMotionOf(SamProblemGetElasticity(problem))->continues))
       PetscCall(SamProblemAddSum(problem, types[k]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -307,11 +305,9 @@ PetscErrorCode SamOutputDestroy(SamOutput *output)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamOutputHasReplaced(SamOutput o, PetscBool *replaced)
+PetscBool SamOutputHasReplaced(SamOutput o)
 {
-  PetscFunctionBegin;
-  *replaced = o->replaced;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return o->replaced;
 }
 
 PetscErrorCode SamOutputNameTemporary(const char filename[], char **temporary)
@@ -335,11 +331,9 @@ PetscErrorCode SamOutputNamePart(const char filename[], PetscInt part, char **na
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamOutputGetIdentity(SamOutput o, uint64_t *identity)
+uint64_t SamOutputGetIdentity(SamOutput o)
 {
-  PetscFunctionBegin;
-  *identity = o->identity;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return o->identity;
 }
 
 PetscErrorCode SamOutputFollow(SamOutput o, uint64_t identity, PetscInt steps, PetscInt cycles)

@@ -351,25 +351,19 @@ PetscErrorCode SamResultsDestroy(SamResults *results)
 
 /* ---- what is in it ---- */
 
-PetscErrorCode SamResultsGetGrid(SamResults r, SamGrid *grid)
+SamGrid SamResultsGetGrid(SamResults r)
 {
-  PetscFunctionBegin;
-  *grid = r->grid;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return r->grid;
 }
 
-PetscErrorCode SamResultsGetParameters(SamResults r, const SamParameters **parameters)
+const SamParameters *SamResultsGetParameters(SamResults r)
 {
-  PetscFunctionBegin;
-  *parameters = &r->part[0]->facts.parameters;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return &r->part[0]->facts.parameters;
 }
 
-PetscErrorCode SamResultsGetOptions(SamResults r, const char **options)
+const char *SamResultsGetOptions(SamResults r)
 {
-  PetscFunctionBegin;
-  *options = r->part[0]->facts.options;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return r->part[0]->facts.options;
 }
 
 PetscErrorCode SamResultsGetSteps(SamResults r, PetscInt *steps, PetscInt *saved)

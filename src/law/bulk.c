@@ -50,18 +50,15 @@ static void Get(SamLaw law, const SamControl *control, PetscInt body, PetscReal 
 static PetscErrorCode CheckComponent(SamLaw law, PetscInt body, PetscInt k, const PetscReal all[], SamControl *control,
                                      char why[], size_t size)
 {
-  const SamCondition *one    = ((const Bulk *)law->data)->of[body][k];
-  const double        stress = (double)all[k];
-  double              follows;
-  SamElasticityTraits traits;
-  SamElasticityType   type;
-  const SamMaterial  *m;
-  SamPair             pair;
+  const SamCondition     *one    = ((const Bulk *)law->data)->of[body][k];
+  const double            stress = (double)all[k];
+  double                  follows;
+  SamElasticityTraits     traits;
+  const SamMaterial      *m;
+  const SamElasticityType type = SamElasticityGetType(law->elasticity);
 
   PetscFunctionBegin;
-  PetscCall(SamElasticityGetPair(law->elasticity, &pair));
-  m = SamBodySubstrate(SamPairBody(pair, body));
-  PetscCall(SamElasticityGetType(law->elasticity, &type));
+  m = SamBodySubstrate(SamPairBody(SamElasticityGetPair(law->elasticity), body));
   PetscCall(SamElasticityGetTraits(law->elasticity, &traits));
   follows = k == YY ? 0 + m->poisson * all[XX] : 0; /* without -0 */
   if (traits.plane && k != XX && (stress == 0 || stress == follows))
@@ -98,12 +95,10 @@ static PetscErrorCode Check(SamLaw law, SamControl *control, const SamCondition 
 static PetscErrorCode AddStrain(SamLaw law, const SamControl *control, SamStrain *e)
 {
   PetscReal s[COMPONENTS];
-  SamPair   pair;
 
   PetscFunctionBegin;
-  PetscCall(SamElasticityGetPair(law->elasticity, &pair));
   for (int body = 0; body < 2; body++) {
-    const SamMaterial *m  = SamBodySubstrate(SamPairBody(pair, body));
+    const SamMaterial *m  = SamBodySubstrate(SamPairBody(SamElasticityGetPair(law->elasticity), body));
     const PetscReal    nu = m->poisson, sign = body ? 1 : -1;
 
     Get(law, control, body, s);
@@ -118,11 +113,10 @@ static PetscErrorCode AddStrain(SamLaw law, const SamControl *control, SamStrain
 static PetscErrorCode AddStress(SamLaw law, const SamControl *control, PetscInt body, PetscReal depth, double stress[])
 {
   const SamMaterial *m, *last;
-  SamPair            pair;
   PetscReal          s[COMPONENTS];
+  const SamPair      pair = SamElasticityGetPair(law->elasticity);
 
   PetscFunctionBegin;
-  PetscCall(SamElasticityGetPair(law->elasticity, &pair));
   m    = SamBodyMaterialAt(SamPairBody(pair, body), depth);
   last = SamBodySubstrate(SamPairBody(pair, body));
   Get(law, control, body, s);

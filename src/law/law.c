@@ -87,7 +87,7 @@ PetscErrorCode SamLawCreate(SamElasticity elasticity, SamLawType type, SamLaw *l
   l->references = 1;
   PetscCall(SamElasticityReference(elasticity));
   l->elasticity = elasticity;
-  PetscCall(SamElasticityGetGrid(elasticity, &l->grid));
+  l->grid       = SamElasticityGetGrid(elasticity);
   PetscCall(PetscStrncpy(l->type, names[k], sizeof(l->type)));
   PetscCall(creators[k](l));
   *law = l;

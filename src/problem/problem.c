@@ -42,7 +42,7 @@ PetscErrorCode SamProblemCreate(SamElasticity elasticity, SamProblem *problem)
   p->references = 1;
   PetscCall(SamElasticityReference(elasticity));
   p->elasticity = elasticity;
-  PetscCall(SamElasticityGetGrid(elasticity, &p->grid));
+  p->grid       = SamElasticityGetGrid(elasticity);
   PetscCall(SamGridCreateVec(p->grid, 1, &p->gap));
   PetscCall(SamConditionsCreate(&p->conditions));
   PetscCall(SamProblemAddLawOfType(p, SAM_LAW_COULOMB, NULL));
@@ -74,25 +74,19 @@ PetscErrorCode SamProblemDestroy(SamProblem *problem)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamProblemGetElasticity(SamProblem p, SamElasticity *elasticity)
+SamElasticity SamProblemGetElasticity(SamProblem p)
 {
-  PetscFunctionBegin;
-  *elasticity = p->elasticity;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return p->elasticity;
 }
 
-PetscErrorCode SamProblemGetGrid(SamProblem p, SamGrid *grid)
+SamGrid SamProblemGetGrid(SamProblem p)
 {
-  PetscFunctionBegin;
-  *grid = p->grid;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return p->grid;
 }
 
-PetscErrorCode SamProblemGetConditions(SamProblem p, SamConditions *conditions)
+SamConditions SamProblemGetConditions(SamProblem p)
 {
-  PetscFunctionBegin;
-  *conditions = p->conditions;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return p->conditions;
 }
 
 PetscReal SamProblemGetRolled(SamProblem p, const SamControl *control, PetscReal distance[2])
@@ -110,11 +104,9 @@ PetscErrorCode SamProblemSetGap(SamProblem p, Vec h)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamProblemGetGap(SamProblem p, Vec *h)
+Vec SamProblemGetGap(SamProblem p)
 {
-  PetscFunctionBegin;
-  *h = p->gap;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return p->gap;
 }
 
 PetscErrorCode SamProblemGetRevision(SamProblem p, PetscObjectState *revision)

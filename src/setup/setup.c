@@ -57,12 +57,10 @@ static PetscErrorCode CreateContact(SamSetup *s, const SamOptions *from)
 PetscErrorCode SamSetupCreateContact(SamSetup *s, const SamOptions *from)
 {
   PetscBool help;
-  Vec       gap;
 
   PetscFunctionBegin;
   PetscCall(SamPrintHelp(&help));
-  PetscCall(SamProblemGetGap(s->problem, &gap));
-  if (!help) PetscCall(SamGapFill(s->gap, s->grid, gap));
+  if (!help) PetscCall(SamGapFill(s->gap, s->grid, SamProblemGetGap(s->problem)));
   PetscCall(CreateContact(s, from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -70,18 +68,17 @@ PetscErrorCode SamSetupCreateContact(SamSetup *s, const SamOptions *from)
 PetscErrorCode SamSetupCreateCoarse(const SamSetup *s, const SamOptions *from, SamSetup *coarse)
 {
   SamTransfer transfer;
-  Vec         fine, gap;
+  Vec         gap;
 
   PetscFunctionBegin;
   PetscCall(SamPairReference(s->pair));
   *coarse = (SamSetup){.pair = s->pair};
   PetscCall(SamGridCoarsen(s->grid, &coarse->grid));
   PetscCall(CreateProblem(coarse, from));
-  PetscCall(SamProblemGetGap(s->problem, &fine));
-  PetscCall(SamProblemGetGap(coarse->problem, &gap));
+  gap = SamProblemGetGap(coarse->problem);
   if (SamGapIsFromFile(s->gap, PETSC_FALSE) || SamGapIsFromFile(s->gap, PETSC_TRUE)) {
     PetscCall(SamTransferCreate(s->grid, coarse->grid, &transfer));
-    PetscCall(SamTransferRestrict(transfer, fine, gap));
+    PetscCall(SamTransferRestrict(transfer, SamProblemGetGap(s->problem), gap));
     PetscCall(SamTransferDestroy(&transfer));
   } else {
     PetscCall(SamGapFill(s->gap, coarse->grid, gap));
@@ -124,17 +121,15 @@ static PetscErrorCode AddGap(const SamSetup *s, SamParameters *p)
   PetscInt           count;
   const char *const *names;
   const PetscReal   *values;
-  Vec                separation;
   uint64_t           checksum;
 
   PetscFunctionBegin;
   PetscCall(SamGapGetParameters(s->gap, &type, &count, &names, &values));
   PetscCall(SamParametersAddText(p, "gap_type", PETSC_TRUE, type));
   for (PetscInt k = 0; k < count; k++) PetscCall(SamParametersAddReals(p, names[k], PETSC_TRUE, 1, &values[k]));
-  PetscCall(SamProblemGetGap(s->problem, &separation));
   for (PetscInt k = 0; k < 2; k++) {
     if (SamGapIsFromFile(s->gap, k ? PETSC_TRUE : PETSC_FALSE)) {
-      PetscCall(SamGridChecksum(s->grid, separation, &checksum));
+      PetscCall(SamGridChecksum(s->grid, SamProblemGetGap(s->problem), &checksum));
       PetscCall(SamParametersAddChecksum(p, files[k], checksum));
     } else {
       PetscCall(SamParametersAddText(p, files[k], PETSC_TRUE, "none"));

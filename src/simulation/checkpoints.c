@@ -181,7 +181,7 @@ static PetscErrorCode Write(SamSimulation s)
 
   PetscFunctionBegin;
   if (s->output) PetscCall(SamOutputFlush(s->output));
-  if (s->life) PetscCall(SamLifeGetState(s->life, &life));
+  if (s->life) life = SamLifeGetState(s->life);
   n.progress.at.steps    = (uint64_t)p->steps;
   n.progress.at.worst    = (uint64_t)p->worst;
   n.progress.at.rows     = (uint64_t)p->rows;
@@ -270,7 +270,7 @@ PetscErrorCode SamSimulationDescribePlace(SamSimulation s, PetscBool total, char
 
   PetscFunctionBegin;
   if (s->life) {
-    PetscCall(SamLifeGetState(s->life, &life));
+    life = SamLifeGetState(s->life);
     if (total) (void)snprintf(of, sizeof(of), " of %.10g", (double)s->plan.cycles);
     (void)snprintf(text, size, "%.10g%s cycles", (double)life.cycles, of);
   } else {

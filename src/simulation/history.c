@@ -201,25 +201,19 @@ PetscErrorCode SamHistoryDestroy(SamHistory *history)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamHistoryGetCount(SamHistory h, PetscInt *steps)
+PetscInt SamHistoryGetCount(SamHistory h)
 {
-  PetscFunctionBegin;
-  *steps = h->start + (h->rows - 1) * h->increments;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return h->start + (h->rows - 1) * h->increments;
 }
 
-PetscErrorCode SamHistoryGetIncrements(SamHistory h, PetscInt *increments)
+PetscInt SamHistoryGetIncrements(SamHistory h)
 {
-  PetscFunctionBegin;
-  *increments = h->increments;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return h->increments;
 }
 
-PetscErrorCode SamHistoryGetStart(SamHistory h, PetscInt *steps)
+PetscInt SamHistoryGetStart(SamHistory h)
 {
-  PetscFunctionBegin;
-  *steps = h->start;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return h->start;
 }
 
 PetscErrorCode SamHistoryGives(SamHistory h, const SamCondition *condition, PetscBool *gives)

@@ -12,11 +12,9 @@ static PetscErrorCode Control(void *context, PetscInt step, PetscReal cycles, Sa
 {
   SamSimulation       s     = (SamSimulation)context;
   const SamCondition *scale = SamConditionsFind(s->conditions, SAM_FRICTION_SCALE);
-  PetscInt            start;
 
   PetscFunctionBegin;
-  PetscCall(SamHistoryGetStart(s->history, &start));
-  PetscCall(SamHistoryGetStep(s->history, start + step, control));
+  PetscCall(SamHistoryGetStep(s->history, SamHistoryGetStart(s->history) + step, control));
   SamControlSetCondition(control, scale, SamControlGet(control, scale) * SamPlanFriction(&s->plan, cycles));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -25,11 +23,9 @@ static PetscErrorCode Control(void *context, PetscInt step, PetscReal cycles, Sa
 static PetscErrorCode TimeOf(SamSimulation s, PetscReal cycles, PetscReal *time)
 {
   SamControl first, last;
-  PetscInt   start;
 
   PetscFunctionBegin;
-  PetscCall(SamHistoryGetStart(s->history, &start));
-  PetscCall(SamHistoryGetStep(s->history, start - 1, &first));
+  PetscCall(SamHistoryGetStep(s->history, SamHistoryGetStart(s->history) - 1, &first));
   PetscCall(SamHistoryGetStep(s->history, s->needs.steps - 1, &last));
   *time += cycles * (last.time - first.time);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -54,11 +50,10 @@ static PetscErrorCode WriteStep(void *context, PetscInt step, PetscReal cycles, 
   const SamSimulation s      = (SamSimulation)context;
   SamStep             told   = *result;
   const PetscBool     failed = told.status == SAM_STATUS_NOT_CONVERGED;
-  PetscInt            start;
   PetscBool           due;
+  const PetscInt      start = SamHistoryGetStart(s->history);
 
   PetscFunctionBegin;
-  PetscCall(SamHistoryGetStart(s->history, &start));
   due = (PetscBool)(SamPlanIsOutput(&s->plan, cycles) && SamSimulationSaves(s, step + 1, s->needs.steps - start));
   if (!step) s->last_time = PETSC_NINFINITY; /* the fields of the step before are not those of a step in the file */
   PetscCall(TimeOf(s, cycles, &told.control.time));
@@ -85,10 +80,9 @@ static PetscErrorCode TellMessage(SamSimulation s, const char where[], const Sam
 /* Solves the steps up to the history's first row, where the cycle starts. They do not wear and are not written. */
 static PetscErrorCode Start(SamSimulation s, PetscBool *ended)
 {
-  PetscInt start;
+  const PetscInt start = SamHistoryGetStart(s->history);
 
   PetscFunctionBegin;
-  PetscCall(SamHistoryGetStart(s->history, &start));
   for (PetscInt k = 0; k < start && !*ended; k++) {
     SamControl control;
     SamStep    step;
@@ -205,12 +199,10 @@ static PetscErrorCode ComputeCycle(SamSimulation s, PetscBool *ended)
 
 static PetscErrorCode Jump(SamSimulation s, PetscBool *ended)
 {
-  SamLifeState  state;
   SamLifeReport r;
 
   PetscFunctionBegin;
-  PetscCall(SamLifeGetState(s->life, &state));
-  PetscCall(SamLifeJump(s->life, SamPlanNextStop(&s->plan, state.cycles), &r));
+  PetscCall(SamLifeJump(s->life, SamPlanNextStop(&s->plan, SamLifeGetState(s->life).cycles), &r));
   *ended = SamStepIsSolved(&r.step) ? PETSC_FALSE : PETSC_TRUE;
   if (*ended) PetscCall(EndLife(s, &r, "in the cycles after"));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -234,12 +226,10 @@ PetscErrorCode SamSimulationCreateLife(SamSimulation s)
 {
   SamLifeCycle       cycle = {.control = Control, .solved = WriteStep, .context = s};
   SamOutputSettings *set   = &s->output_settings;
-  PetscInt           start;
 
   PetscFunctionBegin;
   if (s->plan.cycles == 0) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamHistoryGetStart(s->history, &start));
-  cycle.steps = s->needs.steps - start;
+  cycle.steps = s->needs.steps - SamHistoryGetStart(s->history);
   PetscCall(SamLifeCreate(s->setup.contact, &cycle, &s->plan.life, &s->life));
   PetscCall(SamLifeGetSeries(s->life, &set->cycles, &set->cycles_name));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -13,14 +13,11 @@ static PetscErrorCode CheckComponents(SamSimulation s, const SamOptions *from)
 {
   const SamCondition *wrong;
   SamElasticityTraits traits;
-  SamElasticityType   type;
-  PetscInt            count;
   char                why[192];
+  const PetscInt      count = SamHistoryGetCount(s->history);
 
   PetscFunctionBegin;
   PetscCall(SamElasticityGetTraits(s->setup.elasticity, &traits));
-  PetscCall(SamElasticityGetType(s->setup.elasticity, &type));
-  PetscCall(SamHistoryGetCount(s->history, &count));
   for (PetscInt k = 0; k < count; k++) {
     SamControl control;
 
@@ -39,7 +36,7 @@ static PetscErrorCode CheckComponents(SamSimulation s, const SamOptions *from)
       SETERRQ(from->comm, SAM_ERR_USER,
               "%s%s %.6g: has no meaning with -%selasticity %s, which has no such moment or rotation", place,
               SamComponentNameOf(c, SamControlWay(&control, c)), (double)control.value[c], SamOptionsPrefix(from),
-              type);
+              SamElasticityGetType(s->setup.elasticity));
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -114,7 +111,7 @@ static PetscErrorCode ReadContact(SamSimulation s, const SamOptions *from)
 
   PetscFunctionBegin;
   PetscCall(SamSetupReadOptions(&s->setup, from));
-  PetscCall(SamProblemGetConditions(s->setup.problem, &s->conditions));
+  s->conditions = SamProblemGetConditions(s->setup.problem);
   PetscCall(SamElasticityGetTraits(s->setup.elasticity, &traits));
   s->needs.coupled = traits.coupled;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -136,10 +133,10 @@ static PetscErrorCode SetProgram(SamSimulation s, SamHistory history, PetscReal 
 
   PetscFunctionBegin;
   if (s->history != history) PetscCall(SamHistoryDestroy(&s->history));
-  s->history    = history;
-  s->advice     = (SamAdvice){.setup = &s->setup, .receive = SamSimulationWarn, .context = s, .most.open = s->has_gap};
-  s->needs.life = cycles > 0;
-  PetscCall(SamHistoryGetCount(history, &s->needs.steps));
+  s->history     = history;
+  s->advice      = (SamAdvice){.setup = &s->setup, .receive = SamSimulationWarn, .context = s, .most.open = s->has_gap};
+  s->needs.life  = cycles > 0;
+  s->needs.steps = SamHistoryGetCount(history);
   PetscCall(SamPrintHelp(&help));
   if (help) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCheck(s->step_rtol == 0 || s->needs.friction, from->comm, SAM_ERR_USER,

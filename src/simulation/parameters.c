@@ -8,15 +8,12 @@
 static PetscErrorCode AddLoads(SamParameters *p, SamHistory history, SamConditions conditions)
 {
   SamControl control;
-  PetscInt   count, increments;
   PetscReal  steps;
 
   PetscFunctionBegin;
-  PetscCall(SamHistoryGetCount(history, &count));
-  PetscCall(SamHistoryGetIncrements(history, &increments));
-  steps = (PetscReal)increments;
+  steps = (PetscReal)SamHistoryGetIncrements(history);
   PetscCall(SamParametersAddReals(p, "steps", PETSC_TRUE, 1, &steps));
-  PetscCall(SamHistoryGetStep(history, count - 1, &control));
+  PetscCall(SamHistoryGetStep(history, SamHistoryGetCount(history) - 1, &control));
   for (PetscInt k = 0; k < SamControlCount(conditions); k++) {
     const SamCondition *condition = k < SAM_COMPONENTS ? NULL : SamConditionsGet(conditions, k - SAM_COMPONENTS);
     const PetscReal     value     = SamControlPart(&control, conditions, k);

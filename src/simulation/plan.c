@@ -176,16 +176,14 @@ PetscErrorCode SamPlanDestroy(SamPlan *w)
 
 PetscErrorCode SamPlanCheckCycle(const SamPlan *w, SamHistory history, SamConditions conditions, const SamOptions *from)
 {
-  PetscReal  range[SAM_COMPONENTS + SAM_CONDITIONS] = {0}; /* of each part, about its value in the first row */
-  SamControl first, last;
-  PetscInt   count, increments, start;
+  PetscReal      range[SAM_COMPONENTS + SAM_CONDITIONS] = {0}; /* of each part, about its value in the first row */
+  SamControl     first, last;
+  const PetscInt count = SamHistoryGetCount(history);
+  const PetscInt start = SamHistoryGetStart(history);
 
   PetscFunctionBegin;
   if (w->cycles == 0) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamHistoryGetCount(history, &count));
-  PetscCall(SamHistoryGetIncrements(history, &increments));
-  PetscCall(SamHistoryGetStart(history, &start));
-  PetscCheck(count > start + increments, from->comm, SAM_ERR_USER,
+  PetscCheck(count > start + SamHistoryGetIncrements(history), from->comm, SAM_ERR_USER,
              "-wear_cycles: a cycle needs a -history of three rows or more: the start and the path back to it");
   PetscCall(SamHistoryGetStep(history, start - 1, &first));
   for (PetscInt k = start; k < count; k++) {

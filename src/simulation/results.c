@@ -15,7 +15,7 @@ static PetscErrorCode Create(SamSimulation s)
   PetscCall(PetscFree(s->written));
   PetscCall(SamOutputNamePart(s->filename, s->point.part, &s->written));
   PetscCall(SamOutputCreate(s->setup.grid, s->written, &s->output_settings, &s->output));
-  PetscCall(SamOutputGetIdentity(s->output, &s->point.identity));
+  s->point.identity = SamOutputGetIdentity(s->output);
   PetscCall(PetscOptionsGetAll(NULL, &all));
   PetscCall(SamOutputSetText(s->output, "options", all));
   PetscCall(PetscFree(all));
@@ -73,7 +73,7 @@ static PetscErrorCode Branch(SamSimulation s)
   s->start.gap    = s->checkpoints.other_gap;
   PetscCall(PetscStrncpy(s->start.followed, p->results, sizeof(s->start.followed)));
   if (!s->life) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamLifeGetState(s->life, &life));
+  life = SamLifeGetState(s->life);
   PetscCall(SamOutputSetReals(s->output, "branch_cycles", 1, &life.cycles));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -121,8 +121,8 @@ PetscBool SamSimulationSaves(SamSimulation s, PetscInt step, PetscInt last)
   const PetscInt first      = s->output_rows && !s->life; /* the start is the first row */
   PetscInt       increments = 1, start = 0;
 
-  if (s->output_rows) PetscCallAbort(s->comm, SamHistoryGetIncrements(s->history, &increments));
-  if (s->output_rows && !s->life) PetscCallAbort(s->comm, SamHistoryGetStart(s->history, &start));
+  if (s->output_rows) increments = SamHistoryGetIncrements(s->history);
+  if (s->output_rows && !s->life) start = SamHistoryGetStart(s->history);
   return (PetscBool)(step == last || ((step - start) % increments == 0 &&
                                       ((step - start) / increments + first) % s->output_every == 0));
 }
@@ -144,7 +144,7 @@ static PetscErrorCode Estimate(SamSimulation s, double *bytes)
 
   PetscFunctionBegin;
   if (s->life) {
-    PetscCall(SamHistoryGetIncrements(s->history, &start));
+    start  = SamHistoryGetIncrements(s->history);
     cycles = SamPlanCountOutputs(&s->plan);
     PetscCall(SamOutputForecast(s->output, (double)cycles * (double)(last - start),
                                 (double)cycles * (double)CountSaved(s, 0, last - start), bytes));

@@ -112,15 +112,12 @@ static PetscErrorCode Offer(SamSimulation s)
 static PetscErrorCode CheckRolling(SamSimulation s)
 {
   SamControl control;
-  PetscInt   start, increments;
   char       where[PETSC_MAX_PATH_LEN + 32];
 
   PetscFunctionBegin;
-  PetscCall(SamHistoryGetStart(s->history, &start));
-  PetscCall(SamHistoryGetIncrements(s->history, &increments));
   for (PetscInt n = 0; n < 2 * s->needs.steps; n++) {
     const PetscInt  k   = n % s->needs.steps;
-    const PetscBool end = (k + 1 - start) % increments == 0;
+    const PetscBool end = (k + 1 - SamHistoryGetStart(s->history)) % SamHistoryGetIncrements(s->history) == 0;
 
     if (end != (n < s->needs.steps)) continue;
     PetscCall(SamHistoryGetStep(s->history, k, &control));
@@ -231,8 +228,8 @@ static PetscErrorCode Begin(SamSimulation s, PetscBool writes)
   if (writes && s->has_output) PetscCall(SamSimulationOpenResults(s));
   if (!writes && s->has_output) PetscCall(SamOutputPlan(s->setup.grid, &s->output_settings, &s->output));
   if (s->output) {
-    start->results = s->written ? s->written : s->filename;
-    PetscCall(SamOutputHasReplaced(s->output, &start->replaced));
+    start->results  = s->written ? s->written : s->filename;
+    start->replaced = SamOutputHasReplaced(s->output);
     PetscCall(SamSimulationForecast(s, start->size, sizeof(start->size)));
   }
   if (!writes) PetscCall(GuessTime(s, &start->seconds));
@@ -383,18 +380,14 @@ PetscErrorCode SamSimulationRun(SamSimulation s)
 
 /* ---- what others ask ---- */
 
-PetscErrorCode SamSimulationGetSetup(SamSimulation s, const SamSetup **setup)
+const SamSetup *SamSimulationGetSetup(SamSimulation s)
 {
-  PetscFunctionBegin;
-  *setup = &s->setup;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return &s->setup;
 }
 
-PetscErrorCode SamSimulationGetNeeds(SamSimulation s, SamSimulationNeeds *needs)
+SamSimulationNeeds SamSimulationGetNeeds(SamSimulation s)
 {
-  PetscFunctionBegin;
-  *needs = s->needs;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return s->needs;
 }
 
 PetscErrorCode SamSimulationGetFiles(SamSimulation s, SamSimulationFiles *files)

@@ -27,11 +27,10 @@ static PetscErrorCode FillSquares(const SamSolution *s, SamEdgeOf which, Vec w)
 
 PetscErrorCode SamSolutionFindEdge(SamProblem problem, const SamSolution *s, SamEdgeOf which, Vec point, SamEdge *edge)
 {
-  SamGrid grid;
-  Vec     w;
+  Vec           w;
+  const SamGrid grid = SamProblemGetGrid(problem);
 
   PetscFunctionBegin;
-  PetscCall(SamProblemGetGrid(problem, &grid));
   PetscCall(SamGridCreateVec(grid, 1, &w));
   PetscCall(FillSquares(s, which, w));
   PetscCall(SamEdgeReconstruct(grid, w, point, edge));

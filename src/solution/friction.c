@@ -52,13 +52,12 @@ static PetscErrorCode RestoreOptional(Vec field, double **values)
 */
 PetscErrorCode SamSolutionComputeRolling(SamProblem problem, const SamSolution *s, PetscBool wears, Vec field)
 {
-  SamGrid      grid;
-  SamIncrement increment;
-  SamValues    v;
-  double      *to;
+  SamIncrement  increment;
+  SamValues     v;
+  double       *to;
+  const SamGrid grid = SamProblemGetGrid(problem);
 
   PetscFunctionBegin;
-  PetscCall(SamProblemGetGrid(problem, &grid));
   PetscCall(SamIncrementCreate(problem, NULL, s, &increment));
   PetscCall(SamValuesGet(s, &v));
   PetscCall(VecGetArrayWrite(field, &to));
@@ -87,12 +86,11 @@ PetscErrorCode SamSolutionComputeFriction(SamProblem problem, const SamSolution 
                                           Vec pressed, Vec work)
 {
   const SamSolution *before = last ? last : s;
-  SamGrid            grid;
   SamIncrement       increment;
   Fields             f;
+  const SamGrid      grid = SamProblemGetGrid(problem);
 
   PetscFunctionBegin;
-  PetscCall(SamProblemGetGrid(problem, &grid));
   PetscCall(SamIncrementCreate(problem, last, s, &increment));
   PetscCall(SamValuesGet(s, &f.v));
   PetscCall(SamValuesGet(before, &f.before));

@@ -33,14 +33,9 @@ PetscErrorCode SamValuesRestore(const SamSolution *s, SamValues *v)
 PetscErrorCode SamRigidSet(SamRigid *m, SamProblem problem, const SamSolution *s)
 {
   SamBalance    rigid[2] = {{.kind = SAM_BALANCE_NORMAL}, {.kind = SAM_BALANCE_TANGENTIAL}};
-  SamElasticity elasticity;
-  SamGrid       grid;
-  SamPair       pair;
+  const SamGrid grid     = SamProblemGetGrid(problem);
 
   PetscFunctionBegin;
-  PetscCall(SamProblemGetGrid(problem, &grid));
-  PetscCall(SamProblemGetElasticity(problem, &elasticity));
-  PetscCall(SamElasticityGetPair(elasticity, &pair));
   for (PetscInt kind = 0; kind < 2; kind++)
     for (PetscInt k = 0; k < 3; k++) rigid[kind].rigid[k] = s->rigid[SamComponentsOf[kind][k]];
   PetscCall(SamFrameSetGiven(&m->normal, grid, &rigid[0]));
@@ -103,11 +98,10 @@ void SamRigidGap(const SamRigid *m, SamRigidRow row, const double u[], const dou
 PetscErrorCode SamSolutionComputeSlip(SamProblem problem, const SamSolution *s, PetscInt component, double slip[])
 {
   SamRigid      motion;
-  SamGrid       grid;
   const double *u;
+  const SamGrid grid = SamProblemGetGrid(problem);
 
   PetscFunctionBegin;
-  PetscCall(SamProblemGetGrid(problem, &grid));
   PetscCall(SamRigidSet(&motion, problem, s));
   PetscCall(VecGetArrayRead(s->displacement_t, &u));
   for (PetscInt j = 0; j < grid->rows; j++) {
@@ -122,10 +116,9 @@ PetscErrorCode SamSolutionComputeSlip(SamProblem problem, const SamSolution *s, 
 PetscErrorCode SamIncrementCreate(SamProblem problem, const SamSolution *before, const SamSolution *now,
                                   SamIncrement *s)
 {
-  SamGrid grid;
+  const SamGrid grid = SamProblemGetGrid(problem);
 
   PetscFunctionBegin;
-  PetscCall(SamProblemGetGrid(problem, &grid));
   PetscCall(PetscMemzero(s, sizeof(*s)));
   s->grid     = grid;
   s->v_now    = now->displacement_t;
@@ -213,16 +206,13 @@ PetscBool SamIncrementGetBound(const SamIncrement *s, ptrdiff_t k, double *bound
 PetscErrorCode SamSolutionCreateSeparation(SamProblem problem, SamState state, SamGeneration generation, Vec *h)
 {
   PetscBool adds;
-  SamGrid   grid;
-  Vec       gap;
+  const Vec gap = SamProblemGetGap(problem);
 
   PetscFunctionBegin;
-  PetscCall(SamProblemGetGap(problem, &gap));
   PetscCall(SamProblemAddSeparation(problem, state, generation, NULL, &adds));
   *h = gap;
   if (!adds) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamProblemGetGrid(problem, &grid));
-  PetscCall(SamGridCreateVec(grid, 1, h));
+  PetscCall(SamGridCreateVec(SamProblemGetGrid(problem), 1, h));
   PetscCall(VecCopy(gap, *h));
   PetscCall(SamProblemAddSeparation(problem, state, generation, *h, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -230,11 +220,8 @@ PetscErrorCode SamSolutionCreateSeparation(SamProblem problem, SamState state, S
 
 PetscErrorCode SamSolutionDestroySeparation(SamProblem problem, Vec *h)
 {
-  Vec gap;
-
   PetscFunctionBegin;
-  PetscCall(SamProblemGetGap(problem, &gap));
-  if (*h != gap) PetscCall(VecDestroy(h));
+  if (*h != SamProblemGetGap(problem)) PetscCall(VecDestroy(h));
   *h = NULL;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -242,12 +229,11 @@ PetscErrorCode SamSolutionDestroySeparation(SamProblem problem, Vec *h)
 PetscErrorCode SamSolutionComputeGap(SamProblem problem, const SamSolution *s, Vec separation, Vec gap)
 {
   SamRigid      motion;
-  SamGrid       grid;
   const double *u, *h;
   double       *g;
+  const SamGrid grid = SamProblemGetGrid(problem);
 
   PetscFunctionBegin;
-  PetscCall(SamProblemGetGrid(problem, &grid));
   PetscCall(SamRigidSet(&motion, problem, s));
   PetscCall(VecGetArrayRead(separation, &h));
   PetscCall(VecGetArrayRead(s->displacement_z, &u));

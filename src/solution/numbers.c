@@ -149,15 +149,14 @@ PetscErrorCode SamSolutionDeclareNumbers(SamState state, SamMotion motion)
 static PetscErrorCode SumCells(SamProblem problem, const SamSolution *last, const SamSolution *s,
                                double numbers[NUMBERS])
 {
-  SamTotal     totals[SUMS] = {{0}};
-  double       sums[SUMS], most[MOSTS] = {0}, area, *turned[2];
-  SamGrid      grid;
-  SamIncrement increment;
-  Fields       f;
-  const Vec    before = last ? last->bound : s->bound;
+  SamTotal      totals[SUMS] = {{0}};
+  double        sums[SUMS], most[MOSTS] = {0}, area, *turned[2];
+  SamIncrement  increment;
+  Fields        f;
+  const Vec     before = last ? last->bound : s->bound;
+  const SamGrid grid   = SamProblemGetGrid(problem);
 
   PetscFunctionBegin;
-  PetscCall(SamProblemGetGrid(problem, &grid));
   PetscCall(SamIncrementCreate(problem, last, s, &increment));
   PetscCall(SamValuesGet(s, &f.v));
   PetscCall(VecGetArrayRead(before, &f.b_before));
@@ -249,12 +248,11 @@ static PetscErrorCode FindPeak(SamGrid grid, const SamSolution *s, const SamEdge
 /* The areas by the edges of contact and stick, and the peak of the shear between stick and slip. */
 static PetscErrorCode FindEdges(SamProblem problem, const SamSolution *s, double contact[EDGE], double numbers[NUMBERS])
 {
-  SamEdge edge;
-  SamGrid grid;
-  double  peak = numbers[SHEAR_MAX];
+  SamEdge       edge;
+  double        peak = numbers[SHEAR_MAX];
+  const SamGrid grid = SamProblemGetGrid(problem);
 
   PetscFunctionBegin;
-  PetscCall(SamProblemGetGrid(problem, &grid));
   if (contact[KNOWN] == 0) {
     PetscCall(SamSolutionFindEdge(problem, s, SAM_EDGE_CONTACT, NULL, &edge));
     contact[KNOWN] = 1;
@@ -280,14 +278,11 @@ PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamState state, con
 {
   double *const numbers = SamStateNumbers(state, SamStateFindNumber(state, declared[0].name), SAM_TRIED);
   double *const contact = SamStateNumbers(state, SamStateFindNumber(state, contact_edge.name), SAM_TRIED);
-  SamGrid       grid;
-  SamElasticity elasticity;
   PetscBool     continues, offset;
+  const SamGrid grid = SamProblemGetGrid(problem);
 
   PetscFunctionBegin;
-  PetscCall(SamProblemGetGrid(problem, &grid));
-  PetscCall(SamProblemGetElasticity(problem, &elasticity));
-  continues = SamMotionOf(elasticity)->continues;
+  continues = SamMotionOf(SamProblemGetElasticity(problem))->continues;
   PetscCall(SumCells(problem, before, s, numbers));
   if (!continues) numbers[STORED_ENERGY] = NAN; /* u_t is that of a rolled distance */
   if (!continues || SamProblemGetRolled(problem, &s->control, NULL) != 0)

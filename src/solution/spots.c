@@ -21,11 +21,10 @@ static PetscErrorCode MeanGap(SamProblem problem, SamState state, const SamSolut
   SamTotal      total = {0};
   const double *g;
   double        sum;
-  SamGrid       grid;
   Vec           gap, h;
+  const SamGrid grid = SamProblemGetGrid(problem);
 
   PetscFunctionBegin;
-  PetscCall(SamProblemGetGrid(problem, &grid));
   PetscCall(SamGridCreateVec(grid, 1, &gap));
   PetscCall(SamSolutionCreateSeparation(problem, state, SAM_TRIED, &h));
   PetscCall(SamSolutionComputeGap(problem, s, h, gap));
@@ -47,16 +46,12 @@ static PetscErrorCode MeanGap(SamProblem problem, SamState state, const SamSolut
 PetscErrorCode SamSolutionComputeSpots(SamProblem problem, SamState state, const SamSolution *s)
 {
   double *const       numbers = SamStateNumbers(state, SamStateFindNumber(state, declared[0].name), SAM_TRIED);
-  SamElasticity       elasticity;
   SamElasticityTraits traits;
-  SamGrid             grid;
   PetscInt            zones;
 
   PetscFunctionBegin;
-  PetscCall(SamProblemGetGrid(problem, &grid));
-  PetscCall(SamProblemGetElasticity(problem, &elasticity));
-  PetscCall(SamElasticityGetTraits(elasticity, &traits));
-  PetscCall(SamGridCountZones(grid, s->pressure, traits.periodic, &zones));
+  PetscCall(SamElasticityGetTraits(SamProblemGetElasticity(problem), &traits));
+  PetscCall(SamGridCountZones(SamProblemGetGrid(problem), s->pressure, traits.periodic, &zones));
   numbers[0] = (double)zones;
   PetscCall(MeanGap(problem, state, s, &numbers[1]));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -30,7 +30,7 @@ PetscErrorCode SamLevelSolveNested(SamSolver s, SamLevel *level, PetscInt depth,
   PetscFunctionBegin;
   if (depth > 1 && !guess) PetscCall(SamElasticityGetCoarse(level->elasticity, &coarse.elasticity, &transfer));
   if (coarse.elasticity) {
-    PetscCall(SamElasticityGetGrid(coarse.elasticity, &coarse.grid));
+    coarse.grid = SamElasticityGetGrid(coarse.elasticity);
     PetscCall(CreateFields(s, level, &coarse));
     for (PetscInt k = 0; k < SAM_GIVEN; k++)
       if (level->given[k]) PetscCall(SamTransferRestrict(transfer, level->given[k], coarse.given[k]));
@@ -125,7 +125,7 @@ PetscErrorCode SamLevelSolveInWindow(SamSolver s, SamLevel *whole, SamWindow win
   SamProduct product = {.rounding = 0};
 
   PetscFunctionBegin;
-  PetscCall(SamWindowGetGrid(window, &level.grid));
+  level.grid = SamWindowGetGrid(window);
   PetscCall(CreateFields(s, whole, &level));
   for (PetscInt k = 0; k < SAM_GIVEN; k++)
     if (whole->given[k]) PetscCall(SamWindowTake(window, whole->given[k], level.given[k]));

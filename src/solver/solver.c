@@ -69,7 +69,7 @@ PetscErrorCode SamSolverCreate(SamSolverKind *kind, SamElasticity elasticity, Sa
   PetscCall(RegisterAll(kind));
   PetscCall(PetscNew(&s));
   PetscCall(SamElasticityReference(elasticity));
-  PetscCall(SamElasticityGetGrid(elasticity, &grid));
+  grid          = SamElasticityGetGrid(elasticity);
   s->kind       = kind;
   s->comm       = grid->comm;
   s->elasticity = elasticity;
@@ -226,7 +226,7 @@ PetscErrorCode SamSolverSolve(SamSolver s, const SamLevel *problem, PetscBool gu
   level.elasticity                              = s->elasticity;
   level.rtol                                    = s->enough > 0 ? s->enough : s->rtol;
   level.finest                                  = PETSC_TRUE;
-  PetscCall(SamElasticityGetGrid(s->elasticity, &level.grid));
+  level.grid                                    = SamElasticityGetGrid(s->elasticity);
   if (!s->keeps_product) {
     SamLevelForgetProduct(&level);
     level.product = NULL;

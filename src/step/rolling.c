@@ -61,7 +61,7 @@ typedef struct {
 static PetscErrorCode CreateCoarse(SamSolve *w, Coarse *k)
 {
   PetscFunctionBegin;
-  PetscCall(SamElasticityGetGrid(k->elasticity, &k->grid));
+  k->grid = SamElasticityGetGrid(k->elasticity);
   for (PetscInt n = 0; n < FIELDS; n++) PetscCall(SamGridCreateVec(k->grid, n < SHEAR ? 1 : 2, &k->field[n]));
   if (w->task->coupled) PetscCall(VecWAXPY(w->h, 1, w->lift, w->separation));
   PetscCall(SamTransferRestrict(k->transfer, w->task->coupled ? w->h : w->separation, k->field[SEPARATION]));

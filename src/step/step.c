@@ -22,7 +22,6 @@ static PetscErrorCode DescribeImpossible(SamSolve *w, char message[], size_t siz
   const SamGrid grid = w->task->grid;
   PetscBool     possible;
   PetscReal     sum, limit;
-  Vec           h;
 
   PetscFunctionBegin;
   PetscCall(SamProblemGetPressureLimit(w->task->problem, &limit));
@@ -34,8 +33,7 @@ static PetscErrorCode DescribeImpossible(SamSolve *w, char message[], size_t siz
     if (isfinite(limit)) PetscCall(PetscStrlcat(message, " within pressure_limit", size));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(SamProblemGetGap(w->task->problem, &h));
-  PetscCall(VecSum(h, &sum));
+  PetscCall(VecSum(SamProblemGetGap(w->task->problem), &sum));
   PetscCall(
     PetscSNPrintf(message, size,
                   "disp_z = %.8g m brings the mean planes together (limit %.8g, their mean separation): in full "

@@ -465,16 +465,15 @@ void SamCachedStepGetMotion(SamCachedStep kept, const SamSolution *now, PetscRea
 PetscErrorCode SamCachedStepGetShear(SamCachedStep kept, SamElasticity elasticity, const SamSolution *now, Vec bound,
                                      Vec shear, SamProduct *product, PetscBool *found)
 {
-  SamGrid             grid;
   PetscReal           self;
   double             *q, *u, open = 0, lost;
   const double       *b;
   ptrdiff_t           at[2]    = {0, 0};
   SamTotal            total    = {0};
   const SamCachedStep parts[2] = {kept, kept->other};
+  const SamGrid       grid     = SamElasticityGetGrid(elasticity);
 
   PetscFunctionBegin;
-  PetscCall(SamElasticityGetGrid(elasticity, &grid));
   PetscCall(SamElasticityGetSelfInfluence(elasticity, NULL, &self));
   PetscCall(VecCopy(now->shear, shear));
   PetscCall(VecCopy(now->displacement_t, product->field));

@@ -45,17 +45,15 @@ static PetscErrorCode TakeField(SamWindow window, SamGrid grid, PetscInt compone
 /* The derivatives of the bound, the slip and the overlap of the tried step, for a motion that continues it. */
 static PetscErrorCode CreateMotion(SamContact contact, const SamSolution *s, SamWindow window, SamGrid grid, Vec f[])
 {
-  SamBoundAt at    = {.control = &s->control, .pressure = s->pressure};
-  SamBound   bound = {NULL, NULL, NULL};
-  SamProblem problem;
-  SamGrid    whole;
-  Vec        field;
+  SamBoundAt       at    = {.control = &s->control, .pressure = s->pressure};
+  SamBound         bound = {NULL, NULL, NULL};
+  Vec              field;
+  const SamProblem problem = SamContactGetProblem(contact);
+  const SamGrid    whole   = SamContactGetGrid(contact);
 
   PetscFunctionBegin;
-  PetscCall(SamContactGetProblem(contact, &problem));
   at.rolled = SamProblemGetRolled(problem, &s->control, NULL);
   PetscCall(SamContactGetState(contact, &at.state));
-  PetscCall(SamContactGetGrid(contact, &whole));
   PetscCall(SamGridCreateVec(whole, 1, &at.slip));
   PetscCall(SamGridCreateVec(whole, 1, &field));
   PetscCall(SamContactComputeFriction(contact, at.slip, NULL, NULL));
@@ -189,11 +187,10 @@ static PetscErrorCode CreateWork(SamFrozen *f)
 /* Without a tried step there must be a committed one, at which the motion reverses. */
 static PetscErrorCode CheckStep(SamContact contact, SamStiffnessDirection direction)
 {
-  PetscBool tried, committed;
-  SamGrid   grid;
+  PetscBool     tried, committed;
+  const SamGrid grid = SamContactGetGrid(contact);
 
   PetscFunctionBegin;
-  PetscCall(SamContactGetGrid(contact, &grid));
   PetscCall(SamContactHasStep(contact, &tried, &committed));
   PetscCheck(tried || committed, grid->comm, PETSC_ERR_ORDER,
              "no step is tried or committed: try a step before its stiffness is computed");
@@ -207,21 +204,19 @@ PetscErrorCode SamFrozenCreate(SamContact contact, SamStiffnessDirection directi
 {
   SamElasticityTraits traits;
   const SamSolution  *s;
-  SamProblem          problem;
-  SamGrid             whole;
   SamWindow           window;
   SamElasticity       part;
   PetscInt            first[2], n[2];
   SamContactSettings  set;
   PetscBool           friction;
   Vec                 fields[FIELDS] = {NULL};
+  const SamProblem    problem        = SamContactGetProblem(contact);
+  const SamGrid       whole          = SamContactGetGrid(contact);
 
   PetscFunctionBegin;
   PetscCall(CheckStep(contact, direction));
-  *f = (SamFrozen){.part = SAM_FROZEN_BOTH};
-  PetscCall(SamContactGetProblem(contact, &problem));
-  PetscCall(SamContactGetGrid(contact, &whole));
-  PetscCall(SamProblemGetElasticity(problem, &f->elasticity));
+  *f            = (SamFrozen){.part = SAM_FROZEN_BOTH};
+  f->elasticity = SamProblemGetElasticity(problem);
   PetscCall(SamElasticityGetTraits(f->elasticity, &traits));
   PetscCall(SamContactGetSettings(contact, &set));
   PetscCall(SamProblemHasFriction(problem, &friction));
@@ -232,7 +227,7 @@ PetscErrorCode SamFrozenCreate(SamContact contact, SamStiffnessDirection directi
   PetscCall(SamElasticityChoosePart(f->elasticity, first, n, PETSC_TRUE, &window, &part));
   if (window) {
     f->elasticity = part;
-    PetscCall(SamWindowGetGrid(window, &f->grid));
+    f->grid       = SamWindowGetGrid(window);
   }
   PetscCall(SamElasticityGetSelfInfluence(f->elasticity, &f->self[0], &f->self[1]));
   PetscCall(SamFrameSet(&f->normal, f->grid, &(SamBalance){.kind = SAM_BALANCE_NORMAL}));

@@ -158,13 +158,11 @@ PetscErrorCode SamStiffnessCompute(SamContact contact, SamStiffnessDirection dir
   Systems             s = {.error = 0};
   SamElasticityTraits traits;
   SamElasticity       elasticity;
-  SamProblem          problem;
 
   PetscFunctionBegin;
   PetscCall(SamMotionRefuse(SamContactGetMotion(contact), SAM_MOTION_STIFFNESS, PETSC_COMM_SELF, "-", "stiffness"));
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_STIFFNESS], 0, 0, 0, 0));
-  PetscCall(SamContactGetProblem(contact, &problem));
-  PetscCall(SamProblemGetElasticity(problem, &elasticity));
+  elasticity = SamProblemGetElasticity(SamContactGetProblem(contact));
   PetscCall(SamElasticityGetTraits(elasticity, &traits));
   PetscCall(SamFrozenCreate(contact, direction, &s.f));
   if (s.f.coupled)

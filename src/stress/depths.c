@@ -200,10 +200,7 @@ static PetscErrorCode FindHalfWidth(SamEvaluation e)
 
 SamBody SamEvaluationBody(SamEvaluation e)
 {
-  SamPair pair;
-
-  PetscCallAbort(e->comm, SamElasticityGetPair(e->source.bodies, &pair));
-  return SamPairBody(pair, e->body - 1);
+  return SamPairBody(SamElasticityGetPair(e->source.bodies), e->body - 1);
 }
 
 /* The number of the material whose bottom is at a depth, but for rounding; that of the last one: none. */

@@ -29,8 +29,8 @@ PetscErrorCode SamEvaluationDestroy(SamEvaluation *evaluation)
 PetscErrorCode SamEvaluationReadTractions(SamEvaluation e, PetscInt step, double *const to[SAM_STRESS_TRACTIONS])
 {
   PetscFunctionBegin;
-  PetscCall(SamProblemGetConditions(e->problem, &e->stress->conditions));
-  e->stress->control = &e->control[step];
+  e->stress->conditions = SamProblemGetConditions(e->problem);
+  e->stress->control    = &e->control[step];
   for (PetscInt t = 0; t < SAM_STRESS_TRACTIONS; t++)
     PetscCall((*e->source.read)(e->source.context, step, (SamStepField)(SAM_STEP_PRESSURE + t), to[t]));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -87,12 +87,11 @@ static PetscErrorCode FindLine(SamEvaluation e)
 /* The stresses of the body that is asked for. */
 static PetscErrorCode CreateStress(SamEvaluation e)
 {
-  SamElasticityTraits traits;
-  SamElasticityType   type;
+  SamElasticityTraits     traits;
+  const SamElasticityType type = SamElasticityGetType(e->source.bodies);
 
   PetscFunctionBegin;
   PetscCall(SamElasticityGetTraits(e->source.bodies, &traits));
-  PetscCall(SamElasticityGetType(e->source.bodies, &type));
   PetscCheck(traits.stress, e->comm, SAM_ERR_USER, "%s: stresses are not available for bodies of type %s",
              e->source.name, type);
   PetscCheck(!SamBodyIsRigid(SamEvaluationBody(e)), e->comm, SAM_ERR_USER,
@@ -169,12 +168,10 @@ static PetscErrorCode SetLayout(SamEvaluation e)
 
 PetscErrorCode SamEvaluationSetUp(SamEvaluation e, const SamStressSource *source)
 {
-  SamConditions conditions;
-
   PetscFunctionBegin;
   e->source = *source;
   PetscCall(SamElasticityReference(source->bodies));
-  PetscCall(SamElasticityGetGrid(source->bodies, &e->grid));
+  e->grid = SamElasticityGetGrid(source->bodies);
   PetscCall(CreateStress(e));
   PetscCall(CheckConstants(e));
   PetscCall(SamAverageSetUp(e));
@@ -182,10 +179,9 @@ PetscErrorCode SamEvaluationSetUp(SamEvaluation e, const SamStressSource *source
   PetscCall(CheckCycle(e));
   PetscCall(FindLine(e));
   PetscCall(SamProblemCreate(e->source.bodies, &e->problem));
-  PetscCall(SamProblemGetConditions(e->problem, &conditions));
   PetscCall(PetscCalloc1(e->source.steps, &e->control));
   for (PetscInt k = 0; k < e->source.steps; k++)
-    PetscCall((*e->source.conditions)(e->source.context, k, conditions, &e->control[k]));
+    PetscCall((*e->source.conditions)(e->source.context, k, SamProblemGetConditions(e->problem), &e->control[k]));
   PetscCall(SetLayout(e));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -39,12 +39,11 @@ static void NoteTurns(const SamControl controls[], SamConditions conditions, Pet
 
 PetscErrorCode SamLifeFindTurns(SamLife l)
 {
-  const PetscInt n = l->cycle.steps;
-  SamControl    *controls;
-  SamConditions  conditions;
+  const PetscInt      n = l->cycle.steps;
+  SamControl         *controls;
+  const SamConditions conditions = SamProblemGetConditions(l->problem);
 
   PetscFunctionBegin;
-  PetscCall(SamProblemGetConditions(l->problem, &conditions));
   PetscCall(PetscCalloc1(n, &l->turns));
   PetscCall(PetscMalloc1(n, &controls));
   for (PetscInt k = 0; k < n; k++) PetscCall(l->cycle.control(l->cycle.context, k, 0, &controls[k]));
@@ -149,7 +148,6 @@ static PetscErrorCode Count(SamLife l, const SamStep *step, SamRate *rate, SamCo
 /* From the mean gap to the shift; u_z, in `coefficient`, is that of coupled bodies. */
 static PetscErrorCode FindShift(SamLife l, SamRate *rate)
 {
-  SamElasticity elasticity;
   const double *p;
   double       *shift;
 
@@ -160,8 +158,7 @@ static PetscErrorCode FindShift(SamLife l, SamRate *rate)
   PetscCall(VecRestoreArray(rate->shift, &shift));
   PetscCall(VecRestoreArrayRead(rate->pressure, &p));
   if (!l->coupled) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamProblemGetElasticity(l->problem, &elasticity));
-  PetscCall(SamElasticityApplyNormal(elasticity, rate->pressure, l->gap));
+  PetscCall(SamElasticityApplyNormal(SamProblemGetElasticity(l->problem), rate->pressure, l->gap));
   PetscCall(VecAXPY(rate->shift, 1, rate->coefficient));
   PetscCall(VecAXPY(rate->shift, -1, l->gap));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -64,12 +64,12 @@ PetscErrorCode SamLifeCreate(SamContact contact, const SamLifeCycle *cycle, cons
   SamLife             l;
 
   PetscFunctionBegin;
-  PetscCall(SamContactGetGrid(contact, &grid));
+  grid = SamContactGetGrid(contact);
   PetscCheck(settings->rtol > 0 && isfinite(settings->rtol), grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
              "tolerance %.6g of cycle jumps: expected a finite number > 0", (double)settings->rtol);
   PetscCheck(settings->jump >= 0 && isfinite(settings->jump), grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
              "first cycle jump of %.6g cycles: expected a finite number >= 0", (double)settings->jump);
-  PetscCall(SamContactGetProblem(contact, &problem));
+  problem = SamContactGetProblem(contact);
   PetscCall(FindLaw(problem, grid, &law));
   PetscCall(PetscNew(&l));
   l->contact = contact;
@@ -84,7 +84,7 @@ PetscErrorCode SamLifeCreate(SamContact contact, const SamLifeCycle *cycle, cons
   l->set        = *settings;
   l->state.next = settings->jump;
   l->open       = PETSC_TRUE;
-  PetscCall(SamProblemGetElasticity(l->problem, &elasticity));
+  elasticity    = SamProblemGetElasticity(l->problem);
   PetscCall(SamElasticityGetTraits(elasticity, &traits));
   l->coupled = traits.coupled;
   PetscCall(SamLifeFindTurns(l));
@@ -116,11 +116,9 @@ PetscErrorCode SamLifeDestroy(SamLife *life)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamLifeGetState(SamLife l, SamLifeState *state)
+SamLifeState SamLifeGetState(SamLife l)
 {
-  PetscFunctionBegin;
-  *state = l->state;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return l->state;
 }
 
 PetscErrorCode SamLifeSetState(SamLife l, const SamLifeState *state)
@@ -152,19 +150,16 @@ static PetscErrorCode SolvePressure(SamLife l, const SamRate *rate, PetscReal cy
 {
   const SamWear  *w       = (const SamWear *)l->law->data;
   SamBalance      balance = rate->balance;
-  SamNormal       normal;
   SamSolverReason reason;
-  Vec             gap;
+  const SamNormal normal = SamContactGetNormal(l->contact);
 
   PetscFunctionBegin;
   PetscCall(SamLifeSetLoad(l, load));
-  PetscCall(SamProblemGetGap(l->problem, &gap));
-  PetscCall(VecCopy(gap, l->gap));
+  PetscCall(VecCopy(SamProblemGetGap(l->problem), l->gap));
   PetscCall(SamProblemAddSeparation(l->problem, l->memory, SAM_COMMITTED, l->gap, NULL));
   PetscCall(VecAXPY(l->gap, 1, rate->shift));
   PetscCall(VecCopy(rate->coefficient, l->diagonal));
   PetscCall(VecScale(l->diagonal, cycles * (w->coefficient[0] + w->coefficient[1])));
-  PetscCall(SamContactGetNormal(l->contact, &normal));
   PetscCall(SamNormalSolveYielding(normal, l->gap, l->diagonal, &balance, PETSC_FALSE, l->p));
   PetscCall(SamSolverGetReason(SamNormalAsSolver(normal), &reason));
   *solved = reason > 0;

@@ -83,7 +83,7 @@ static inline void Prescribe(SamProblem problem, SamControl *control, const char
 {
   SamConditions conditions;
 
-  sam_call(SamProblemGetConditions(problem, &conditions));
+  conditions = SamProblemGetConditions(problem);
   sam_call(SamControlSet(control, conditions, name, value));
 }
 
@@ -92,7 +92,7 @@ static inline PetscReal Prescribed(SamProblem problem, const SamControl *control
 {
   SamConditions conditions;
 
-  sam_call(SamProblemGetConditions(problem, &conditions));
+  conditions = SamProblemGetConditions(problem);
   return SamControlGet(control, SamConditionsFind(conditions, name));
 }
 
@@ -125,8 +125,8 @@ static inline int HasCoefficient(SamProblem problem, double expected)
 
   sam_call(SamProblemGetLaw(problem, SAM_LAW_COULOMB, &law));
   sam_call(SamLawGetFriction(law, &number));
-  sam_call(SamProblemGetGrid(problem, &grid));
-  one = NewField(grid, 1);
+  grid = SamProblemGetGrid(problem);
+  one  = NewField(grid, 1);
   sam_call(VecSet(one, 1));
   ComputeBound(problem, 1, one, one);
   sam_call(VecMin(one, NULL, &least));
@@ -148,8 +148,8 @@ static inline void SetMostIterations(const Case *c, PetscInt normal, PetscInt ta
   SamNormal     n;
   SamTangential t;
 
-  sam_call(SamContactGetNormal(c->contact, &n));
-  sam_call(SamContactGetTangential(c->contact, &t));
+  n = SamContactGetNormal(c->contact);
+  t = SamContactGetTangential(c->contact);
   sam_call(SamSolverSetTolerances(SamNormalAsSolver(n), PETSC_DEFAULT, normal));
   sam_call(SamSolverSetTolerances(SamTangentialAsSolver(t), PETSC_DEFAULT, tangential));
 }

@@ -257,7 +257,7 @@ static inline SamConditions Conditions(void)
   sam_call(SamGridCreate(PETSC_COMM_SELF, n, width, center, &grid));
   sam_call(SamElasticityCreate(grid, pair, &elasticity));
   sam_call(SamProblemCreate(elasticity, &problem));
-  sam_call(SamProblemGetConditions(problem, &conditions));
+  conditions = SamProblemGetConditions(problem);
   sam_call(SamConditionsReference(conditions));
   sam_call(SamProblemDestroy(&problem));
   sam_call(SamElasticityDestroy(&elasticity));

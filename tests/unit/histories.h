@@ -71,7 +71,7 @@ static inline PetscInt CountOf(SamHistory h)
 {
   PetscInt steps;
 
-  sam_call(SamHistoryGetCount(h, &steps));
+  steps = SamHistoryGetCount(h);
   return steps;
 }
 

@@ -124,7 +124,7 @@ static inline Shown CreateShown(SamGrid grid)
   sam_call(SamElasticityCreate(grid, pair, &s.elasticity));
   sam_call(SamProblemCreate(s.elasticity, &s.problem));
   sam_call(SamProblemSetFriction(s.problem, friction));
-  sam_call(SamProblemGetGap(s.problem, &gap));
+  gap = SamProblemGetGap(s.problem);
   sam_call(VecGetArray(gap, &h));
   for (PetscInt k = 0; k < grid->cells; k++)
     h[k] = (double)(grid->row_start + k / grid->nx) + 0.5 * (double)(k % grid->nx);

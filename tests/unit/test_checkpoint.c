@@ -182,9 +182,9 @@ static void test_gap_that_has_changed_is_told(void **state)
     Vec     gap;
 
     SolveStep(&one, 3, &step);
-    sam_call(SamProblemGetGap(one.problem, &gap));
+    gap = SamProblemGetGap(one.problem);
     if (which & 1) AddAt(one.s.grid, 0, 36, 36, 1e-9, gap);
-    sam_call(SamProblemGetGap(other.problem, &gap));
+    gap = SamProblemGetGap(other.problem);
     if (which & 2) AddAt(one.s.grid, 0, 36, 36, 1e-9, gap);
     Write(&one, &parameters, 0, NULL);
     sam_call(SamCheckpointRead(filename, other.contact, PETSC_TRUE, &parameters, 0, NULL));
@@ -353,7 +353,7 @@ static void test_conditions_that_only_one_has_must_be_as_usual(void **state)
     SamConditions  conditions;
     PetscErrorCode ierr;
 
-    sam_call(SamProblemGetConditions(one.problem, &conditions));
+    conditions = SamProblemGetConditions(one.problem);
     sam_call(SamConditionsAdd(conditions, &heat, NULL));
     Prescribe(one.problem, &control, "heat", given ? 2 : 3);
     (void)Solve(&one, &control);

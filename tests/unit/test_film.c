@@ -25,10 +25,10 @@ static void AssertFilm(SamElasticity with, SamElasticity without)
   SamGrid grid;
   Vec     q, u, v;
 
-  sam_call(SamElasticityGetGrid(with, &grid));
-  q = NewRandom(grid, 2, 7);
-  u = NewField(grid, 2);
-  v = Copy(q);
+  grid = SamElasticityGetGrid(with);
+  q    = NewRandom(grid, 2, 7);
+  u    = NewField(grid, 2);
+  v    = Copy(q);
   sam_call(SamElasticityApplyTangential(with, q, u));
   sam_call(SamElasticityApplyTangential(with, v, v)); /* in place */
   sam_assert(Difference(u, v, NORM_INFINITY) == 0);
@@ -50,12 +50,12 @@ static void AssertSingle(SamElasticity e)
   float       *x, *y;
   Vec          q, u;
 
-  sam_call(SamElasticityGetGrid(e, &grid));
-  n = 2 * grid->cells;
-  q = NewRandom(grid, 2, 8);
-  u = NewField(grid, 2);
-  x = (float *)calloc((size_t)n + 1, sizeof(*x));
-  y = (float *)calloc((size_t)n + 1, sizeof(*y));
+  grid = SamElasticityGetGrid(e);
+  n    = 2 * grid->cells;
+  q    = NewRandom(grid, 2, 8);
+  u    = NewField(grid, 2);
+  x    = (float *)calloc((size_t)n + 1, sizeof(*x));
+  y    = (float *)calloc((size_t)n + 1, sizeof(*y));
   sam_assert(x && y);
   sam_call(SamElasticityApplyTangential(e, q, u));
   sam_call(VecGetArray(q, &exact));

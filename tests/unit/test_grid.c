@@ -107,8 +107,8 @@ static void test_messages_do_not_meet_the_caller_s(void **state)
   (void)MPI_Irecv(buffer, 1000, MPI_INT, MPI_ANY_SOURCE, MPI_ANY_TAG, PETSC_COMM_WORLD, &request);
   sam_call(SamWindowCreate(grid, first, n, &window));
   sam_call(SamGridDestroy(&other));
-  sam_call(SamWindowGetGrid(window, &other));
-  part = NewField(other, 1);
+  other = SamWindowGetGrid(window);
+  part  = NewField(other, 1);
   sam_call(SamWindowTake(window, whole, part));
   (void)MPI_Test(&request, &arrived, MPI_STATUS_IGNORE);
   if (!arrived) {
@@ -373,7 +373,7 @@ static void test_window_takes_its_cells_and_puts_them_back(void **state)
     PetscInt        wrong = 0;
 
     sam_call(SamWindowCreate(grid, first, n, &window));
-    sam_call(SamWindowGetGrid(window, &inner));
+    inner = SamWindowGetGrid(window);
     sam_assert(inner->nx == n[0] && inner->ny == n[1]);
     sam_assert_close(SamGridX(inner, 0), SamGridX(grid, first[0]), rounding);
     sam_assert_close(SamGridY(inner, n[1] - 1), SamGridY(grid, first[1] + n[1] - 1), rounding);

@@ -52,7 +52,7 @@ static void test_first_row_of_zeros_is_not_divided(void **state)
   Write("time,load_n,disp_x\n5,0,0\n6,100,0\n8,100,3\n");
   h = Read("-history test_history.csv -steps 2");
   sam_assert(CountOf(h) == 5);
-  sam_call(SamHistoryGetStart(h, &start));
+  start = SamHistoryGetStart(h);
   sam_assert(start == 1);
   for (PetscInt k = 0; k < 5; k++) {
     const SamControl step = StepOf(h, k);
@@ -85,8 +85,8 @@ static void test_first_row_with_a_load_is_divided(void **state)
 
     Write(cases[k].file);
     (void)snprintf(options, sizeof(options), "-history test_history.csv -steps 3%s", cases[k].options);
-    h = Read(options);
-    sam_call(SamHistoryGetStart(h, &start));
+    h     = Read(options);
+    start = SamHistoryGetStart(h);
     sam_assert(CountOf(h) == 6 && start == 3);
     sam_call(SamHistoryDestroy(&h));
   }

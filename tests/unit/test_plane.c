@@ -26,7 +26,7 @@ static SamGrid GridOf(SamElasticity e)
 {
   SamGrid grid;
 
-  sam_call(SamElasticityGetGrid(e, &grid));
+  grid = SamElasticityGetGrid(e);
   return grid;
 }
 
@@ -278,11 +278,9 @@ static void test_datum_is_one_on_all_grids(void **state)
   SamElasticity  e = NewOn(PETSC_COMM_WORLD, 64, SAM_ELASTICITY_PLANE), coarse, part;
   SamTransfer    transfer;
   SamWindow      window;
-  SamPair        pair;
   PetscReal      own[2];
 
   (void)state;
-  sam_call(SamElasticityGetPair(e, &pair));
   sam_call(SamElasticityGetCoarse(e, &coarse, &transfer));
   sam_assert(coarse && transfer && GridOf(coarse)->nx == 32 && GridOf(coarse)->ny == 1);
   sam_call(SamElasticityGetSelfInfluence(coarse, &own[0], &own[1]));
@@ -332,8 +330,8 @@ static void test_fields_of_one_row_move_between_grids(void **state)
   sam_call(SamWindowCreate(fine, (const PetscInt[]){9, 0}, (const PetscInt[]){11, 1}, &window));
   sam_call(VecDestroy(&y));
   sam_call(SamGridDestroy(&coarse));
-  sam_call(SamWindowGetGrid(window, &coarse));
-  y = NewField(coarse, 2);
+  coarse = SamWindowGetGrid(window);
+  y      = NewField(coarse, 2);
   sam_call(SamWindowTake(window, x, y));
   sam_call(SamWindowPut(window, y, z));
   after = Whole(fine, 2, z);

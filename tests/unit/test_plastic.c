@@ -165,7 +165,7 @@ static void test_verdict_refuses_a_pressure_beyond_the_limit(void **state)
 
   (void)state;
   sam_call(SamNormalRegister("without", CreateWithout));
-  sam_call(SamContactGetNormal(c.contact, &normal));
+  normal = SamContactGetNormal(c.contact);
   sam_call(SamSolverSetType(SamNormalAsSolver(normal), "without"));
   step = Try(&c, &control);
   sam_assert(step.status == SAM_STATUS_NOT_CONVERGED && strstr(step.message, "check disagrees"));

@@ -71,7 +71,7 @@ static SamSimulation NewSimulation(const Case *c, SamHistory history, const char
   s->setup.contact = c->contact;
   s->history       = history;
   s->conditions    = Conditions();
-  sam_call(SamHistoryGetCount(history, &s->needs.steps));
+  s->needs.steps   = SamHistoryGetCount(history);
   SetOptions(options);
   sam_call(SamSimulationReadCheckpoints(s, &(SamOptions){PETSC_COMM_WORLD, NULL}));
   SetOptions("");

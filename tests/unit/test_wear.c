@@ -273,7 +273,7 @@ static double GrowthOf(int law, double excess)
   double         *a, board[6];
   Vec             gap;
 
-  sam_call(SamProblemGetGap(c.problem, &gap));
+  gap = SamProblemGetGap(c.problem);
   sam_call(VecGetArray(gap, &a));
   for (PetscInt n = 0; n < c.s.grid->cells; n++)
     a[n] += (n % c.s.grid->nx + n / c.s.grid->nx + c.s.grid->row_start) % 2 ? 1e-11 : -1e-11;

@@ -46,7 +46,7 @@ PETSC_INTERN PetscErrorCode SamTransferProlong(SamTransfer transfer, Vec coarse,
   SamWindow - a rectangle of cells of a grid as a grid of its own, with its own slabs on all ranks.
 */
 typedef struct _n_SamWindow *SamWindow;
-PETSC_INTERN PetscErrorCode  SamWindowGetGrid(SamWindow window, SamGrid *grid); /* borrowed */
+PETSC_INTERN SamGrid         SamWindowGetGrid(SamWindow window); /* borrowed */
 /* SamWindowCreate - the n[0] * n[1] cells from column first[0] and row first[1] on; n >= 2, or one row. Collective. */
 PETSC_INTERN PetscErrorCode SamWindowCreate(SamGrid grid, const PetscInt first[2], const PetscInt n[2],
                                             SamWindow *window);

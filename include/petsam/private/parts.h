@@ -21,7 +21,7 @@
 #define SAM_OUTPUT_IDENTITY "part_identity" /* attribute, a text */
 #define SAM_OUTPUT_FOLLOWS  "part_follows"  /* likewise: identity of the part before */
 PETSC_INTERN PetscErrorCode SamOutputNamePart(const char filename[], PetscInt part, char **name);
-PETSC_INTERN PetscErrorCode SamOutputGetIdentity(SamOutput output, uint64_t *identity);
+PETSC_INTERN uint64_t       SamOutputGetIdentity(SamOutput output);
 PETSC_INTERN PetscErrorCode SamOutputFollow(SamOutput output, uint64_t identity, PetscInt steps, PetscInt cycles);
 PETSC_INTERN PetscErrorCode SamOutputCheckPart(SamGrid grid, const char filename[], uint64_t identity);
 
