@@ -74,9 +74,9 @@ PETSC_EXTERN PetscErrorCode SamElasticitySetFromOptions(SamElasticity elasticity
 PETSC_EXTERN PetscErrorCode SamElasticitySetUp(SamElasticity elasticity);
 PETSC_EXTERN PetscErrorCode SamElasticityDestroy(SamElasticity *elasticity);
 
-PETSC_EXTERN SamGrid        SamElasticityGetGrid(SamElasticity elasticity); /* borrowed */
-PETSC_EXTERN SamPair        SamElasticityGetPair(SamElasticity elasticity); /* borrowed */
-PETSC_EXTERN PetscErrorCode SamElasticityGetTraits(SamElasticity elasticity, SamElasticityTraits *traits);
+PETSC_EXTERN SamGrid             SamElasticityGetGrid(SamElasticity elasticity); /* borrowed */
+PETSC_EXTERN SamPair             SamElasticityGetPair(SamElasticity elasticity); /* borrowed */
+PETSC_EXTERN SamElasticityTraits SamElasticityGetTraits(SamElasticity elasticity);
 /*
   SamElasticityCreateFromParameters - the same bodies on a grid, from such a record. `source` names it in
   messages. Collective. Errors: SAM_ERR_FILE for a type that is not registered, and for parameters that

@@ -46,7 +46,7 @@ PETSC_EXTERN PetscErrorCode SamNormalRegister(const char name[], PetscErrorCode 
   PETSC_ERR_SUP; SamNormalLimitsPressure() - whether the current method has it.
 */
 PETSC_EXTERN PetscErrorCode SamNormalSetPressureLimit(SamNormal normal, PetscReal limit);
-PETSC_INTERN PetscErrorCode SamNormalLimitsPressure(SamNormal normal, PetscBool *limits);
+PETSC_INTERN PetscBool      SamNormalLimitsPressure(SamNormal normal);
 
 /*
   SamNormalSolve - finds p (Pa, one component) for the separation h (m, one component). With `guess` p holds a start,

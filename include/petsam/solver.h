@@ -37,7 +37,7 @@ PETSC_EXTERN const char *SamSolverReasonName(SamSolverReason reason);
   Errors: SAM_ERR_USER for an unknown type, with the list of registered types.
 */
 PETSC_EXTERN PetscErrorCode SamSolverSetType(SamSolver solver, SamSolverType type);
-PETSC_EXTERN PetscErrorCode SamSolverGetType(SamSolver solver, SamSolverType *type);
+PETSC_EXTERN SamSolverType  SamSolverGetType(SamSolver solver);
 
 /* SamSolverSetOptionsPrefix - what stands before `<kind>_` in the names of the options; NULL: nothing. */
 PETSC_EXTERN PetscErrorCode SamSolverSetOptionsPrefix(SamSolver solver, const char prefix[]);
@@ -79,7 +79,7 @@ PETSC_EXTERN PetscErrorCode SamSolverMonitorSet(SamSolver solver, SamSolverMonit
 PETSC_EXTERN PetscErrorCode SamSolverSetFromOptions(SamSolver solver);
 
 /* SamSolverGetReason - why the last solve stopped. Not collective. */
-PETSC_EXTERN PetscErrorCode SamSolverGetReason(SamSolver solver, SamSolverReason *reason);
+PETSC_EXTERN SamSolverReason SamSolverGetReason(SamSolver solver);
 
 /*
   SamSolverGetStatistics - of the last solve: the relative error reached, iterations, products with the influence

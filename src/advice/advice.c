@@ -94,16 +94,15 @@ static void WritePair(const char option[], const double x[2], char text[AT_A_TIM
 
 static PetscErrorCode Measure(const SamSetup *s, SamExtent *extent)
 {
-  const PetscReal     cell[2] = {s->grid->dx, s->grid->dy};
-  const SamSolution  *solution;
-  SamElasticityTraits traits;
-  PetscInt            first[2], n[2];
+  const PetscReal    cell[2] = {s->grid->dx, s->grid->dy};
+  const SamSolution *solution;
+  PetscInt           first[2], n[2];
 
   PetscFunctionBegin;
-  PetscCall(SamElasticityGetTraits(s->elasticity, &traits));
   PetscCall(SamContactGetSolution(s->contact, &solution));
   PetscCall(SamGridMeasureZones(s->grid, solution->pressure, NARROW, &extent->across));
-  PetscCall(SamGridCountZones(s->grid, solution->pressure, traits.periodic, &extent->zones));
+  PetscCall(
+    SamGridCountZones(s->grid, solution->pressure, SamElasticityGetTraits(s->elasticity).periodic, &extent->zones));
   PetscCall(SamGridGetSupport(s->grid, solution->pressure, first, n));
   for (int k = 0; k < 2; k++) extent->half[k] = k >= s->grid->axes ? 0 : 0.5 * (PetscReal)n[k] * cell[k];
   PetscCall(SamAdviceMeasurePeak(s, extent));

@@ -170,11 +170,10 @@ static PetscBool IsInner(PetscInt c, PetscInt margin)
 /* Solves the inner part of the finer patch under its load; `h` is the separation but for its own displacements. */
 static PetscErrorCode SolveInner(Local *l, const double h[], double p[], PetscBool *solved)
 {
-  SamBalance      balance = {.kind = SAM_BALANCE_NORMAL, .force = {PETSC_TRUE, PETSC_FALSE, PETSC_FALSE}};
-  double         *field, load = 0;
-  const double   *pressure;
-  SamSolverReason reason;
-  PetscInt        k = 0;
+  SamBalance    balance = {.kind = SAM_BALANCE_NORMAL, .force = {PETSC_TRUE, PETSC_FALSE, PETSC_FALSE}};
+  double       *field, load = 0;
+  const double *pressure;
+  PetscInt      k = 0;
 
   PetscFunctionBegin;
   PetscCall(VecGetArray(l->field[2], &field));
@@ -186,12 +185,11 @@ static PetscErrorCode SolveInner(Local *l, const double h[], double p[], PetscBo
   PetscCall(VecRestoreArray(l->field[2], &field));
   balance.load[0] = load * l->grid[2]->dx * l->grid[2]->dy;
   PetscCall(SamNormalSolve(l->normal, l->field[2], &balance, PETSC_FALSE, l->pressure));
-  PetscCall(SamSolverGetReason(SamNormalAsSolver(l->normal), &reason));
   PetscCall(VecGetArrayRead(l->pressure, &pressure));
   for (PetscInt c = k = 0; c < FINE * FINE; c++)
     if (IsInner(c, 0)) p[c] = pressure[k++];
   PetscCall(VecRestoreArrayRead(l->pressure, &pressure));
-  *solved = reason > 0 ? PETSC_TRUE : PETSC_FALSE;
+  *solved = SamSolverGetReason(SamNormalAsSolver(l->normal)) > 0 ? PETSC_TRUE : PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -363,24 +361,22 @@ static PetscErrorCode Follow(const SamSetup *s, Local *l, Patch *a, SamExtent *e
 
 PetscErrorCode SamAdviceMeasurePeak(const SamSetup *s, SamExtent *extent)
 {
-  SamElasticityTraits traits;
-  Local               l = {.gap = s->gap, .whole = s->grid};
-  Patch              *a;
-  PetscReal           limit;
-  PetscInt            at[2];
-  PetscBool           level;
-  double              most, numbers[2];
+  Local     l = {.gap = s->gap, .whole = s->grid};
+  Patch    *a;
+  PetscReal limit;
+  PetscInt  at[2];
+  PetscBool level;
+  double    most, numbers[2];
 
   PetscFunctionBegin;
   extent->change = 0;
   extent->finer  = 1;
-  PetscCall(SamElasticityGetTraits(s->elasticity, &traits));
   PetscCall(SamProblemGetPressureLimit(s->problem, &limit));
   PetscCall(SamContactGetSolution(s->contact, &l.solution));
   PetscCall(FindPeak(s->grid, l.solution->pressure, at, &most));
   if (!(most > 0) || most >= SAM_SATURATED * limit || PetscMin(s->grid->nx, s->grid->ny) < WIDE)
     PetscFunctionReturn(PETSC_SUCCESS);
-  l.wrap = traits.periodic;
+  l.wrap = SamElasticityGetTraits(s->elasticity).periodic;
   PetscCall(PetscNew(&a));
   PetscCall(FillPatch(s, &l, at, a, &level));
   if (!level) {

@@ -87,26 +87,20 @@ static void Show(SamReport r, const char kind[], PetscInt it, PetscReal error)
 
 static PetscErrorCode Watch(SamSolver solver, PetscInt it, PetscReal error, void *context)
 {
-  const SamReport r = (SamReport)context;
-  SamNormal       normal;
+  const SamReport r      = (SamReport)context;
+  const SamNormal normal = SamContactGetNormal(r->contact);
 
   PetscFunctionBegin;
-  PetscCall(SamContactGetNormal(r->contact, &normal));
   Show(r, solver == SamNormalAsSolver(normal) ? "normal" : "tangential", it, error);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamProgressWatch(SamReport r, SamContact contact)
 {
-  SamNormal     normal;
-  SamTangential tangential;
-
   PetscFunctionBegin;
   if (!r->progress.active || r->contact == contact) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamContactGetNormal(contact, &normal));
-  PetscCall(SamSolverMonitorSet(SamNormalAsSolver(normal), Watch, r));
-  PetscCall(SamContactGetTangential(contact, &tangential));
-  PetscCall(SamSolverMonitorSet(SamTangentialAsSolver(tangential), Watch, r));
+  PetscCall(SamSolverMonitorSet(SamNormalAsSolver(SamContactGetNormal(contact)), Watch, r));
+  PetscCall(SamSolverMonitorSet(SamTangentialAsSolver(SamContactGetTangential(contact)), Watch, r));
   r->contact = contact;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -37,7 +37,7 @@ static PetscErrorCode ComputeDisplacements(SamProblem problem, SamState state, P
   const SamElasticity elasticity = SamProblemGetElasticity(problem);
 
   PetscFunctionBegin;
-  PetscCall(SamElasticityGetTraits(elasticity, &traits));
+  traits = SamElasticityGetTraits(elasticity);
   if (!u_z_known) PetscCall(SamElasticityApplyNormal(elasticity, s->pressure, s->displacement_z));
   PetscCall(VecNorm(s->shear, NORM_INFINITY, &shear));
   if (shear != 0)
@@ -90,7 +90,7 @@ static Border BorderOf(SamProblem problem, SamGrid grid, const SamSolution *s)
   PetscReal           roll[2];
   Border              b;
 
-  (void)SamElasticityGetTraits(SamProblemGetElasticity(problem), &traits);
+  traits = SamElasticityGetTraits(SamProblemGetElasticity(problem));
   (void)SamProblemGetRolled(problem, &s->control, roll);
   SamGridEntering(grid, roll, b.low, b.high);
   for (int axis = 0; axis < grid->axes; axis++) {
@@ -315,18 +315,16 @@ static PetscErrorCode CheckEquilibrium(SamGrid grid, const SamBalance *given, Ve
 PetscErrorCode SamCheckSolution(SamProblem problem, SamState state, PetscBool coupling, PetscBool u_z_known,
                                 const SamSolution *before, SamSolution *solution, SamCheck *check)
 {
-  SamElasticityTraits traits;
-  SamBalance          given[2];
-  PetscReal           most;
-  const SamGrid       grid = SamProblemGetGrid(problem);
+  SamBalance    given[2];
+  PetscReal     most;
+  const SamGrid grid = SamProblemGetGrid(problem);
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_CHECK], 0, 0, 0, 0));
   PetscCall(PetscMemzero(check, sizeof(*check)));
-  PetscCall(SamElasticityGetTraits(SamProblemGetElasticity(problem), &traits));
   PetscCall(ComputeDisplacements(problem, state, coupling, u_z_known, solution, &most));
   PetscCall(CheckNormal(problem, state, solution, most, check));
-  if (traits.periodic) check->edge = 0;
+  if (SamElasticityGetTraits(SamProblemGetElasticity(problem)).periodic) check->edge = 0;
   PetscCall(CheckTangential(problem, state, before, solution, check));
   given[0] = SamControlGetBalance(&solution->control, SAM_BALANCE_NORMAL);
   given[1] = SamControlGetBalance(&solution->control, SAM_BALANCE_TANGENTIAL);

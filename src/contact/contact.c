@@ -20,8 +20,8 @@ PetscErrorCode SamContactCreate(SamProblem problem, SamContact *contact)
   c->elasticity = SamProblemGetElasticity(problem);
   c->grid       = SamProblemGetGrid(problem);
   c->conditions = SamProblemGetConditions(problem);
-  PetscCall(SamElasticityGetTraits(c->elasticity, &c->traits));
-  c->motion = SamMotionOf(c->elasticity);
+  c->traits     = SamElasticityGetTraits(c->elasticity);
+  c->motion     = SamMotionOf(c->elasticity);
   PetscCall(SamNormalCreate(c->elasticity, &c->normal));
   PetscCall(SamTangentialCreate(c->elasticity, &c->tangential));
   PetscCall(SamStateCreate(c->grid, &c->state));

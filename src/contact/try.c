@@ -121,7 +121,7 @@ PetscErrorCode SamContactSetUp(SamContact c)
   const SamLaw *laws;
   PetscInt      count;
   PetscReal     limit;
-  PetscBool     friction, limits;
+  PetscBool     friction;
 
   PetscFunctionBegin;
   PetscCall(SamProblemHasFriction(c->problem, &friction));
@@ -134,8 +134,7 @@ PetscErrorCode SamContactSetUp(SamContact c)
   PetscCheck(SamTangentialAsSolver(c->tangential)->upwind == c->traits.upwind, c->grid->comm, SAM_ERR_USER,
              "-tangential_type: does not solve this problem: use %s",
              c->traits.upwind ? SAM_TANGENTIAL_ROLLING : SAM_TANGENTIAL_NEWTON);
-  PetscCall(SamNormalLimitsPressure(c->normal, &limits));
-  PetscCheck(isinf(limit) || limits, c->grid->comm, SAM_ERR_USER,
+  PetscCheck(isinf(limit) || SamNormalLimitsPressure(c->normal), c->grid->comm, SAM_ERR_USER,
              "-pressure_limit: not supported by this -normal_type: use %s", SAM_NORMAL_ACTIVESET);
   PetscCall(SamNormalSetPressureLimit(c->normal, limit));
   PetscFunctionReturn(PETSC_SUCCESS);

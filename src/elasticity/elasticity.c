@@ -244,13 +244,13 @@ SamPair SamElasticityGetPair(SamElasticity e)
   return e->pair;
 }
 
-PetscErrorCode SamElasticityGetTraits(SamElasticity e, SamElasticityTraits *traits)
+SamElasticityTraits SamElasticityGetTraits(SamElasticity e)
 {
-  PetscFunctionBegin;
-  *traits = e->traits;
+  SamElasticityTraits traits = e->traits;
+
   SamElasticityWith(e, createstress);
-  traits->stress = e->ops.createstress != NULL;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  traits.stress = e->ops.createstress != NULL;
+  return traits;
 }
 
 PetscErrorCode SamElasticityGetSelfInfluence(SamElasticity e, PetscReal *normal, PetscReal *tangential)

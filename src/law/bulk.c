@@ -50,16 +50,15 @@ static void Get(SamLaw law, const SamControl *control, PetscInt body, PetscReal 
 static PetscErrorCode CheckComponent(SamLaw law, PetscInt body, PetscInt k, const PetscReal all[], SamControl *control,
                                      char why[], size_t size)
 {
-  const SamCondition     *one    = ((const Bulk *)law->data)->of[body][k];
-  const double            stress = (double)all[k];
-  double                  follows;
-  SamElasticityTraits     traits;
-  const SamMaterial      *m;
-  const SamElasticityType type = SamElasticityGetType(law->elasticity);
+  const SamCondition *one    = ((const Bulk *)law->data)->of[body][k];
+  const double        stress = (double)all[k];
+  double              follows;
+  SamElasticityTraits traits;
+  const SamMaterial  *m;
 
   PetscFunctionBegin;
-  m = SamBodySubstrate(SamPairBody(SamElasticityGetPair(law->elasticity), body));
-  PetscCall(SamElasticityGetTraits(law->elasticity, &traits));
+  m       = SamBodySubstrate(SamPairBody(SamElasticityGetPair(law->elasticity), body));
+  traits  = SamElasticityGetTraits(law->elasticity);
   follows = k == YY ? 0 + m->poisson * all[XX] : 0; /* without -0 */
   if (traits.plane && k != XX && (stress == 0 || stress == follows))
     SamControlSetCondition(control, one, follows);
@@ -70,7 +69,8 @@ static PetscErrorCode CheckComponent(SamLaw law, PetscInt body, PetscInt k, cons
   else if (stress != 0 && !SamMotionOf(law->elasticity)->continues)
     (void)snprintf(why, size, "has no meaning with -rolling steady: a uniform strain is a creepage: add it to creep_x");
   else if (stress != 0 && !traits.stretch)
-    (void)snprintf(why, size, "has no meaning with bodies of type %s, which bear none", type);
+    (void)snprintf(why, size, "has no meaning with bodies of type %s, which bear none",
+                   SamElasticityGetType(law->elasticity));
   else if (stress != 0 && traits.plane && k != XX)
     (void)snprintf(why, size, "has no meaning in plane strain, where yy follows from xx, and there is no xy: give %s",
                    names[body][XX]);

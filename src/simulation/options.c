@@ -12,12 +12,10 @@
 static PetscErrorCode CheckComponents(SamSimulation s, const SamOptions *from)
 {
   const SamCondition *wrong;
-  SamElasticityTraits traits;
   char                why[192];
   const PetscInt      count = SamHistoryGetCount(s->history);
 
   PetscFunctionBegin;
-  PetscCall(SamElasticityGetTraits(s->setup.elasticity, &traits));
   for (PetscInt k = 0; k < count; k++) {
     SamControl control;
 
@@ -29,7 +27,8 @@ static PetscErrorCode CheckComponents(SamSimulation s, const SamOptions *from)
       char      place[PETSC_MAX_PATH_LEN + 32];
       PetscBool given;
 
-      if (control.value[c] == 0 || traits.rotations[c - SAM_COMPONENT_MX]) continue;
+      if (control.value[c] == 0 || SamElasticityGetTraits(s->setup.elasticity).rotations[c - SAM_COMPONENT_MX])
+        continue;
       PetscCall(SamOptionsHas(from, SamComponentNameOf(c, SamControlWay(&control, c)), &given));
       PetscCall(SamHistoryGetPlace(s->history, k, place, sizeof(place)));
       if (given || !place[0]) (void)snprintf(place, sizeof(place), "-%s", SamOptionsPrefix(from));
@@ -107,13 +106,11 @@ static PetscErrorCode ReadResults(SamSimulation s, const SamOptions *from)
 /* Bodies, gap, friction; and files. */
 static PetscErrorCode ReadContact(SamSimulation s, const SamOptions *from)
 {
-  SamElasticityTraits traits;
 
   PetscFunctionBegin;
   PetscCall(SamSetupReadOptions(&s->setup, from));
-  s->conditions = SamProblemGetConditions(s->setup.problem);
-  PetscCall(SamElasticityGetTraits(s->setup.elasticity, &traits));
-  s->needs.coupled = traits.coupled;
+  s->conditions    = SamProblemGetConditions(s->setup.problem);
+  s->needs.coupled = SamElasticityGetTraits(s->setup.elasticity).coupled;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

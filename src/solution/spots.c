@@ -50,7 +50,7 @@ PetscErrorCode SamSolutionComputeSpots(SamProblem problem, SamState state, const
   PetscInt            zones;
 
   PetscFunctionBegin;
-  PetscCall(SamElasticityGetTraits(SamProblemGetElasticity(problem), &traits));
+  traits = SamElasticityGetTraits(SamProblemGetElasticity(problem));
   PetscCall(SamGridCountZones(SamProblemGetGrid(problem), s->pressure, traits.periodic, &zones));
   numbers[0] = (double)zones;
   PetscCall(MeanGap(problem, state, s, &numbers[1]));

@@ -62,16 +62,14 @@ static PetscErrorCode DestroyType(SamSolver s)
 PetscErrorCode SamSolverCreate(SamSolverKind *kind, SamElasticity elasticity, SamSolver *solver)
 {
   SamSolver s;
-  SamGrid   grid;
 
   PetscFunctionBegin;
   PetscCall(SamInitialize());
   PetscCall(RegisterAll(kind));
   PetscCall(PetscNew(&s));
   PetscCall(SamElasticityReference(elasticity));
-  grid          = SamElasticityGetGrid(elasticity);
   s->kind       = kind;
-  s->comm       = grid->comm;
+  s->comm       = SamElasticityGetGrid(elasticity)->comm;
   s->elasticity = elasticity;
   s->rtol       = kind->rtol;
 
@@ -112,11 +110,9 @@ PetscErrorCode SamSolverSetType(SamSolver s, SamSolverType type)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamSolverGetType(SamSolver s, SamSolverType *type)
+SamSolverType SamSolverGetType(SamSolver s)
 {
-  PetscFunctionBegin;
-  *type = s->type;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return s->type;
 }
 
 PetscErrorCode SamSolverSetOptionsPrefix(SamSolver s, const char prefix[])
@@ -250,11 +246,9 @@ PetscErrorCode SamSolverSolve(SamSolver s, const SamLevel *problem, PetscBool gu
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamSolverGetReason(SamSolver s, SamSolverReason *reason)
+SamSolverReason SamSolverGetReason(SamSolver s)
 {
-  PetscFunctionBegin;
-  *reason = s->reason;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return s->reason;
 }
 
 PetscErrorCode SamSolverGetStatistics(SamSolver s, PetscReal *error, PetscInt *iterations, PetscInt *applies,

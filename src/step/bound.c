@@ -55,13 +55,11 @@ static PetscErrorCode Pass(void *context, PetscInt pass, Vec found, SamPassEnd *
 {
   Passes *const   p = (Passes *)context;
   SamSolve *const w = p->w;
-  SamSolverReason reason;
   PetscReal       most[2];
 
   PetscFunctionBegin;
   PetscCall(SamSolveTangential(w, p->has_shear || pass > 1));
-  PetscCall(SamSolverGetReason(SamTangentialAsSolver(w->task->tangential), &reason));
-  if (reason < 0) {
+  if (SamSolverGetReason(SamTangentialAsSolver(w->task->tangential)) < 0) {
     *end     = p->mixed ? SAM_PASS_RESTARTS : SAM_PASS_FAILED;
     p->mixed = PETSC_FALSE;
     PetscFunctionReturn(PETSC_SUCCESS);

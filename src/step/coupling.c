@@ -69,7 +69,7 @@ static PetscErrorCode Solve(Passes *p, PetscInt pass)
   const PetscReal rtol      = p->sharper * PetscMax(TANGENTIAL_FINAL * PetscMin(p->rtol[0], p->rtol[1]), error);
   const SamEffort effort    = brief ? SAM_EFFORT_BRIEF : SAM_EFFORT_FULL;
   SamSolverReason reason;
-  PetscReal       limit, left;
+  PetscReal       left;
 
   PetscFunctionBegin;
   SamSolverSetEffort(SamNormalAsSolver(s->task->normal), PetscMax(NORMAL_FINAL * p->rtol[0], NORMAL_PART * error),
@@ -86,10 +86,9 @@ static PetscErrorCode Solve(Passes *p, PetscInt pass)
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(SamSolveShear(s, has_shear, rtol, effort));
-  PetscCall(SamSolverGetReason(SamTangentialAsSolver(s->task->tangential), &reason));
-  PetscCall(SamTangentialGetLimit(s->task->tangential, &limit));
+  reason    = SamSolverGetReason(SamTangentialAsSolver(s->task->tangential));
   p->stuck  = brief && reason == SAM_SOLVER_DIVERGED_ITS ? p->stuck + 1 : 0;
-  p->slides = reason == SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM && limit > 0;
+  p->slides = reason == SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM && SamTangentialGetLimit(s->task->tangential) > 0;
   PetscCall(SamSolverGetStatistics(SamTangentialAsSolver(s->task->tangential), &left, NULL, NULL, NULL));
   /* rounding may leave more than a pass asks for: the user's tolerance counts */
   if (!p->slides && !p->stuck && !(reason == SAM_SOLVER_DIVERGED_STAGNATED && left <= p->rtol[1]))
@@ -110,7 +109,7 @@ static PetscErrorCode Measure(Passes *p, Vec lift, PetscBool *solved)
   PetscCall(VecCopy(lift, s->h));
   SamSolverSetEffort(SamNormalAsSolver(s->task->normal), NORMAL_ENOUGH * p->rtol[0], SAM_EFFORT_MEASURE);
   PetscCall(SamSolveNormal(s, PETSC_TRUE, PETSC_FALSE));
-  PetscCall(SamSolverGetReason(SamNormalAsSolver(s->task->normal), &reason));
+  reason = SamSolverGetReason(SamNormalAsSolver(s->task->normal));
   if (reason < 0 && reason != SAM_SOLVER_DIVERGED_ITS) PetscCall(SamSolveJudge(s, SAM_BALANCE_NORMAL));
   PetscCall(SamSolverGetStatistics(SamNormalAsSolver(s->task->normal), &p->error, NULL, NULL, NULL));
   PetscCall(SamSolverGetStatistics(SamTangentialAsSolver(s->task->tangential), &error, NULL, NULL, NULL));

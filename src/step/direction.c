@@ -56,15 +56,13 @@ static PetscErrorCode Pass(void *context, PetscInt pass, Vec found, SamPassEnd *
   Passes *const   p      = (Passes *)context;
   SamSolve *const w      = p->w;
   const SamSolver solver = SamTangentialAsSolver(w->task->tangential);
-  SamSolverReason reason;
   PetscReal       self, change;
 
   PetscFunctionBegin;
   SamSolverSetEffort(solver, p->tolerance, p->effort);
   PetscCall(SamSolveTangential(w, p->has_shear || pass > 1));
-  PetscCall(SamSolverGetReason(solver, &reason));
   *end = SAM_PASS_FAILED;
-  if (reason < 0) PetscFunctionReturn(PETSC_SUCCESS);
+  if (SamSolverGetReason(solver) < 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamSolveDisplace(w));
   PetscCall(SamSolveGetTurn(w, found));
   PetscCall(SamElasticityGetSelfInfluence(w->task->elasticity, NULL, &self));
@@ -92,7 +90,7 @@ PetscErrorCode SamSolveDirection(SamSolve *w, PetscBool has_shear, PetscReal rto
   if (w->s->mid_step) {
     if (!w->turn) PetscCall(SamGridCreateVec(w->task->grid, 2, &w->turn));
     PetscCall(SamSolveFixedPoint(w, &turn, &p, w->turn, &end));
-    PetscCall(SamSolverGetReason(solver, &reason));
+    reason = SamSolverGetReason(solver);
     SamSolverSetEffort(solver, rtol, effort);
     solved = end == SAM_PASS_SOLVED ||
              reason == SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM || /* a later pass of dissimilar bodies tries again */

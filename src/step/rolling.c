@@ -121,7 +121,7 @@ static PetscErrorCode SolveCoarse(SamSolve *w, Coarse *k, SamSolverReason *reaso
   PetscCall(SamNormalSetPressureLimit(normal, limit));
   PetscCall(VecCopy(f[MEAN_PRESSURE], f[PRESSURE]));
   PetscCall(SamNormalSolve(normal, f[SEPARATION], &k->normal, PETSC_TRUE, f[PRESSURE]));
-  PetscCall(SamSolverGetReason(SamNormalAsSolver(normal), reason));
+  *reason = SamSolverGetReason(SamNormalAsSolver(normal));
   PetscCall(SamNormalDestroy(&normal));
   if (*reason < 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ComputeBound(k));
@@ -130,7 +130,7 @@ static PetscErrorCode SolveCoarse(SamSolve *w, Coarse *k, SamSolverReason *reaso
   PetscCall(TakeTolerance(SamTangentialAsSolver(w->task->tangential), SamTangentialAsSolver(tangential)));
   PetscCall(SamTangentialSolve(tangential, f[BOUND], w->task->coupled ? f[OFFSET] : NULL, &k->tangential, PETSC_TRUE,
                                f[SHEAR]));
-  PetscCall(SamSolverGetReason(SamTangentialAsSolver(tangential), reason));
+  *reason = SamSolverGetReason(SamTangentialAsSolver(tangential));
   PetscCall(SamTangentialDestroy(&tangential));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -139,7 +139,7 @@ PetscErrorCode SamSolveRolling(SamSolve *w)
 {
   double *const   numbers = SamStateNumbers(w->task->state, w->task->rolling, SAM_TRIED);
   Coarse          k       = {.elasticity = NULL};
-  SamSolverReason reason;
+  SamSolverReason reason  = SAM_SOLVER_ITERATING;
 
   PetscFunctionBegin;
   numbers[ENERGY] = 0;

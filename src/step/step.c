@@ -134,13 +134,11 @@ PetscErrorCode SamSolveNormal(SamSolve *w, PetscBool has_pressure, PetscBool has
 static PetscErrorCode DescribeSliding(SamSolve *w, char message[], size_t size)
 {
   const PetscBool follows = SamProblemFollowsSlip(w->task->problem);
-  PetscReal       factor;
-  PetscInt        loaded = 0;
+  PetscInt        loaded  = 0;
   PetscBool       friction;
   char            instead[64] = "; for gross slip give ";
 
   PetscFunctionBegin;
-  PetscCall(SamTangentialGetLimit(w->task->tangential, &factor));
   PetscCall(PetscStrncpy(message, "gross slip: ", size));
   for (PetscInt k = 0; k < 3; k++) {
     const SamComponent      component = SamComponentsOf[SAM_BALANCE_TANGENTIAL][k];
@@ -151,7 +149,7 @@ static PetscErrorCode DescribeSliding(SamSolve *w, char message[], size_t size)
     if (!w->tangential.force[k] || load == 0) continue;
     PetscCall(PetscSNPrintf(text, sizeof(text), "%s%s = %.8g %s (%s%.8g%s)", loaded++ ? ", " : "", name->load, load,
                             SamUnitOn(w->task->grid, name->load_unit), follows ? "" : "limit ",
-                            (double)factor * load + 0.0, /* and not -0 */
+                            (double)SamTangentialGetLimit(w->task->tangential) * load + 0.0, /* and not -0 */
                             follows ? " at the slip of the last iteration" : ""));
     PetscCall(PetscStrlcat(message, text, size));
     if (loaded > 1) PetscCall(PetscStrlcat(instead, ", ", sizeof(instead)));
@@ -193,11 +191,10 @@ PetscErrorCode SamSolveJudge(SamSolve *w, SamBalanceKind kind)
 {
   const PetscBool normal = kind == SAM_BALANCE_NORMAL;
   const SamSolver solver = normal ? SamNormalAsSolver(w->task->normal) : SamTangentialAsSolver(w->task->tangential);
-  SamSolverReason reason;
-  char            message[sizeof(w->step->message)];
+  const SamSolverReason reason = SamSolverGetReason(solver);
+  char                  message[sizeof(w->step->message)];
 
   PetscFunctionBegin;
-  PetscCall(SamSolverGetReason(solver, &reason));
   if (reason == SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM) {
     PetscCall((normal ? DescribeImpossible : DescribeSliding)(w, message, sizeof(message)));
     PetscCall(SamStepFail(w->step, SAM_STATUS_NO_EQUILIBRIUM, message));
@@ -325,7 +322,6 @@ static PetscErrorCode SolveFromKept(SamSolve *w, SamCachedStep kept, Vec offset,
 {
   const SamStepTask *task    = w->task;
   SamProduct         product = {.rounding = 0};
-  SamSolverReason    reason;
   Vec                shear;
 
   PetscFunctionBegin;
@@ -338,8 +334,7 @@ static PetscErrorCode SolveFromKept(SamSolve *w, SamCachedStep kept, Vec offset,
     SamSolverSetEffort(SamTangentialAsSolver(task->tangential), 0, SAM_EFFORT_NEAR);
     PetscCall(SamTangentialSolveKeeping(task->tangential, w->s->bound, offset, balance, PETSC_TRUE, shear, &product));
     SamSolverSetEffort(SamTangentialAsSolver(task->tangential), 0, SAM_EFFORT_FULL);
-    PetscCall(SamSolverGetReason(SamTangentialAsSolver(task->tangential), &reason));
-    *solved = reason > 0 ? PETSC_TRUE : PETSC_FALSE;
+    *solved = SamSolverGetReason(SamTangentialAsSolver(task->tangential)) > 0 ? PETSC_TRUE : PETSC_FALSE;
     if (!*solved) PetscCall(Count(SamTangentialAsSolver(task->tangential), w->counts + SAM_COUNT_TANGENTIAL));
   }
   if (*solved) PetscCall(SamVecCopyNonzero(shear, w->s->shear));

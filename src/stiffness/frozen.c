@@ -202,25 +202,23 @@ static PetscErrorCode CheckStep(SamContact contact, SamStiffnessDirection direct
 
 PetscErrorCode SamFrozenCreate(SamContact contact, SamStiffnessDirection direction, SamFrozen *f)
 {
-  SamElasticityTraits traits;
-  const SamSolution  *s;
-  SamWindow           window;
-  SamElasticity       part;
-  PetscInt            first[2], n[2];
-  SamContactSettings  set;
-  PetscBool           friction;
-  Vec                 fields[FIELDS] = {NULL};
-  const SamProblem    problem        = SamContactGetProblem(contact);
-  const SamGrid       whole          = SamContactGetGrid(contact);
+  const SamSolution *s;
+  SamWindow          window;
+  SamElasticity      part;
+  PetscInt           first[2], n[2];
+  SamContactSettings set;
+  PetscBool          friction;
+  Vec                fields[FIELDS] = {NULL};
+  const SamProblem   problem        = SamContactGetProblem(contact);
+  const SamGrid      whole          = SamContactGetGrid(contact);
 
   PetscFunctionBegin;
   PetscCall(CheckStep(contact, direction));
   *f            = (SamFrozen){.part = SAM_FROZEN_BOTH};
   f->elasticity = SamProblemGetElasticity(problem);
-  PetscCall(SamElasticityGetTraits(f->elasticity, &traits));
   PetscCall(SamContactGetSettings(contact, &set));
   PetscCall(SamProblemHasFriction(problem, &friction));
-  f->coupled = traits.coupled && set.coupling && friction;
+  f->coupled = SamElasticityGetTraits(f->elasticity).coupled && set.coupling && friction;
   f->grid    = whole;
   PetscCall(SamContactGetSolution(contact, &s));
   PetscCall(SamGridGetSupport(whole, s->pressure, first, n));

@@ -91,7 +91,7 @@ static PetscErrorCode CreateStress(SamEvaluation e)
   const SamElasticityType type = SamElasticityGetType(e->source.bodies);
 
   PetscFunctionBegin;
-  PetscCall(SamElasticityGetTraits(e->source.bodies, &traits));
+  traits = SamElasticityGetTraits(e->source.bodies);
   PetscCheck(traits.stress, e->comm, SAM_ERR_USER, "%s: stresses are not available for bodies of type %s",
              e->source.name, type);
   PetscCheck(!SamBodyIsRigid(SamEvaluationBody(e)), e->comm, SAM_ERR_USER,

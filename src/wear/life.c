@@ -56,12 +56,10 @@ static PetscErrorCode FindLaw(SamProblem problem, SamGrid grid, SamLaw *law)
 PetscErrorCode SamLifeCreate(SamContact contact, const SamLifeCycle *cycle, const SamLifeSettings *settings,
                              SamLife *life)
 {
-  SamElasticity       elasticity;
-  SamElasticityTraits traits;
-  SamProblem          problem;
-  SamGrid             grid;
-  SamLaw              law;
-  SamLife             l;
+  SamProblem problem;
+  SamGrid    grid;
+  SamLaw     law;
+  SamLife    l;
 
   PetscFunctionBegin;
   grid = SamContactGetGrid(contact);
@@ -84,9 +82,7 @@ PetscErrorCode SamLifeCreate(SamContact contact, const SamLifeCycle *cycle, cons
   l->set        = *settings;
   l->state.next = settings->jump;
   l->open       = PETSC_TRUE;
-  elasticity    = SamProblemGetElasticity(l->problem);
-  PetscCall(SamElasticityGetTraits(elasticity, &traits));
-  l->coupled = traits.coupled;
+  l->coupled    = SamElasticityGetTraits(SamProblemGetElasticity(l->problem)).coupled;
   PetscCall(SamLifeFindTurns(l));
   ((SamWear *)law->data)->jumps = PETSC_TRUE;
 
@@ -150,8 +146,7 @@ static PetscErrorCode SolvePressure(SamLife l, const SamRate *rate, PetscReal cy
 {
   const SamWear  *w       = (const SamWear *)l->law->data;
   SamBalance      balance = rate->balance;
-  SamSolverReason reason;
-  const SamNormal normal = SamContactGetNormal(l->contact);
+  const SamNormal normal  = SamContactGetNormal(l->contact);
 
   PetscFunctionBegin;
   PetscCall(SamLifeSetLoad(l, load));
@@ -161,9 +156,8 @@ static PetscErrorCode SolvePressure(SamLife l, const SamRate *rate, PetscReal cy
   PetscCall(VecCopy(rate->coefficient, l->diagonal));
   PetscCall(VecScale(l->diagonal, cycles * (w->coefficient[0] + w->coefficient[1])));
   PetscCall(SamNormalSolveYielding(normal, l->gap, l->diagonal, &balance, PETSC_FALSE, l->p));
-  PetscCall(SamSolverGetReason(SamNormalAsSolver(normal), &reason));
-  *solved = reason > 0;
-  if (!*solved) PetscCall(FailJump(l, cycles, reason));
+  *solved = SamSolverGetReason(SamNormalAsSolver(normal)) > 0;
+  if (!*solved) PetscCall(FailJump(l, cycles, SamSolverGetReason(SamNormalAsSolver(normal))));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -38,7 +38,7 @@ static inline Outcome Solve(SamElasticity elasticity, Vec h, SamSolverType type,
   if (type) sam_call(SamSolverSetType(SamNormalAsSolver(normal), type));
   if (rtol > 0) sam_call(SamSolverSetTolerances(SamNormalAsSolver(normal), rtol, PETSC_DEFAULT));
   sam_call(SamNormalSolve(normal, h, balance, PETSC_FALSE, p));
-  sam_call(SamSolverGetReason(SamNormalAsSolver(normal), &o.reason));
+  o.reason = SamSolverGetReason(SamNormalAsSolver(normal));
   sam_call(SamSolverGetStatistics(SamNormalAsSolver(normal), &o.error, &o.iterations, &o.applies, &o.preconditions));
   sam_call(SamNormalDestroy(&normal));
   if (getenv("SAM_SHOW"))

@@ -67,8 +67,8 @@ static inline Outcome Solve(const Case *c, Vec bound, Vec offset, SamSolverType 
   if (type) sam_call(SamSolverSetType(SamTangentialAsSolver(t), type));
   if (rtol > 0) sam_call(SamSolverSetTolerances(SamTangentialAsSolver(t), rtol, PETSC_DEFAULT));
   sam_call(SamTangentialSolve(t, bound, offset, balance, PETSC_FALSE, q));
-  sam_call(SamSolverGetReason(SamTangentialAsSolver(t), &o.reason));
-  sam_call(SamTangentialGetLimit(t, &o.limit));
+  o.reason = SamSolverGetReason(SamTangentialAsSolver(t));
+  o.limit  = SamTangentialGetLimit(t);
   sam_call(SamSolverGetStatistics(SamTangentialAsSolver(t), &o.error, &o.iterations, &o.applies, &o.preconditions));
   sam_call(SamTangentialDestroy(&t));
   if (getenv("SAM_SHOW"))

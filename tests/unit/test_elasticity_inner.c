@@ -366,8 +366,8 @@ static void test_all_else_is_the_inner_ones(void **state)
   Vec                 r = NewRandom(s.grid, 2, 1), a = NewField(s.grid, 2), b = NewField(s.grid, 2);
 
   (void)state;
-  sam_call(SamElasticityGetTraits(s.elasticity, &traits[0]));
-  sam_call(SamElasticityGetTraits(plain, &traits[1]));
+  traits[0] = SamElasticityGetTraits(s.elasticity);
+  traits[1] = SamElasticityGetTraits(plain);
   sam_assert(!memcmp(&traits[0], &traits[1], sizeof(traits[0])));
   sam_call(SamElasticityApplyTangentialToNormal(s.elasticity, r, a));
   sam_call(SamElasticityApplyTangentialToNormal(plain, r, b));

@@ -62,7 +62,7 @@ static SamSolverReason Press(const Case *c, SamBalance *balance)
 
   sam_call(SamNormalCreate(c->elasticity, &solver));
   sam_call(SamNormalSolve(solver, c->h, balance, PETSC_FALSE, c->p));
-  sam_call(SamSolverGetReason(SamNormalAsSolver(solver), &reason));
+  reason = SamSolverGetReason(SamNormalAsSolver(solver));
   sam_call(SamNormalDestroy(&solver));
   return reason;
 }
@@ -263,9 +263,9 @@ static Outcome ShearFrom(const Case *c, SamBalance *balance, PetscBool guess)
 
   sam_call(SamTangentialCreate(c->elasticity, &solver));
   sam_call(SamTangentialSolve(solver, c->bound, NULL, balance, guess, c->q));
-  sam_call(SamSolverGetReason(SamTangentialAsSolver(solver), &o.reason));
+  o.reason = SamSolverGetReason(SamTangentialAsSolver(solver));
   sam_call(SamSolverGetStatistics(SamTangentialAsSolver(solver), &o.error, NULL, NULL, NULL));
-  sam_call(SamTangentialGetLimit(solver, &o.limit));
+  o.limit = SamTangentialGetLimit(solver);
   sam_call(SamTangentialDestroy(&solver));
   return o;
 }

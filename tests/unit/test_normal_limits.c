@@ -114,7 +114,7 @@ static void test_too_few_iterations_are_a_reason_not_an_error(void **state)
     sam_call(SamSolverSetType(SamNormalAsSolver(normal), k ? SAM_NORMAL_POLONSKYKEER : SAM_NORMAL_ACTIVESET));
     sam_call(SamSolverSetTolerances(SamNormalAsSolver(normal), PETSC_DEFAULT, 2));
     sam_call(SamNormalSolve(normal, s.h, &balance, PETSC_FALSE, p));
-    sam_call(SamSolverGetReason(SamNormalAsSolver(normal), &reason));
+    reason = SamSolverGetReason(SamNormalAsSolver(normal));
     sam_assert(reason == SAM_SOLVER_DIVERGED_ITS);
     sam_call(SamNormalDestroy(&normal));
   }

@@ -31,7 +31,7 @@ static Outcome SolveYielding(const Sphere *s, SamSolverType type, Vec d, SamBala
   sam_call(SamNormalCreate(s->elasticity, &normal));
   sam_call(SamSolverSetType(SamNormalAsSolver(normal), type));
   sam_call(SamNormalSolveYielding(normal, s->h, d, balance, PETSC_FALSE, p));
-  sam_call(SamSolverGetReason(SamNormalAsSolver(normal), &o.reason));
+  o.reason = SamSolverGetReason(SamNormalAsSolver(normal));
   sam_call(SamSolverGetStatistics(SamNormalAsSolver(normal), &o.error, &o.iterations, &o.applies, &o.preconditions));
   sam_call(SamNormalDestroy(&normal));
   if (getenv("SAM_SHOW")) print_message("# %s its %d products %d\n", type, (int)o.iterations, (int)o.applies);

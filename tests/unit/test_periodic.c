@@ -326,7 +326,7 @@ static void test_uniform_tractions_displace_nothing(void **state)
   PetscReal           self[2];
 
   (void)state;
-  sam_call(SamElasticityGetTraits(e, &traits));
+  traits = SamElasticityGetTraits(e);
   sam_assert(traits.coupled && traits.periodic && !traits.stretch && !traits.mean && !traits.parts);
   for (int k = 0; k < 3; k++) sam_assert(!traits.rotations[k]);
   sam_call(SamElasticityGetSelfInfluence(e, &self[0], &self[1]));

@@ -50,7 +50,7 @@ static SamSolverReason Press(Case *c, SamSolverType type, double rtol, double me
   sam_call(SamSolverSetType(SamNormalAsSolver(normal), type));
   sam_call(SamSolverSetTolerances(SamNormalAsSolver(normal), rtol, PETSC_DEFAULT));
   sam_call(SamNormalSolve(normal, c->h, b, PETSC_FALSE, c->p));
-  sam_call(SamSolverGetReason(SamNormalAsSolver(normal), &reason));
+  reason = SamSolverGetReason(SamNormalAsSolver(normal));
   sam_call(SamSolverGetStatistics(SamNormalAsSolver(normal), NULL, &its, NULL, NULL));
   if (getenv("SAM_SHOW"))
     print_message("# %s %d x %d: %s, %d iterations, approach %.10g\n", type, (int)c->grid->nx, (int)c->grid->ny,
@@ -423,7 +423,7 @@ static double Shear(Case *c, SamSolverType type, double mean, double tx, double 
   sam_call(SamSolverSetType(SamTangentialAsSolver(tangential), type));
   sam_call(SamSolverSetTolerances(SamTangentialAsSolver(tangential), 1e-8, PETSC_DEFAULT));
   sam_call(SamTangentialSolve(tangential, bound, NULL, &t, PETSC_FALSE, q));
-  sam_call(SamSolverGetReason(SamTangentialAsSolver(tangential), &reason));
+  reason = SamSolverGetReason(SamTangentialAsSolver(tangential));
   sam_call(SamSolverGetStatistics(SamTangentialAsSolver(tangential), NULL, &its, NULL, NULL));
   residual = Residual(c, &t, bound, q, slips);
   if (getenv("SAM_SHOW"))

@@ -251,7 +251,7 @@ static void test_conditions_hold_with_two_bounds(void **state)
       sam_call(SamNormalCreate(s.elasticity, &normal));
       sam_call(SamNormalSetPressureLimit(normal, parts[k] * s.p0));
       sam_call(SamNormalSolve(normal, s.h, &b, start ? PETSC_TRUE : PETSC_FALSE, p));
-      sam_call(SamSolverGetReason(SamNormalAsSolver(normal), &reason));
+      reason = SamSolverGetReason(SamNormalAsSolver(normal));
       sam_assert(reason == SAM_SOLVER_CONVERGED_RTOL);
       sam_assert(Error(&s, &b, p, parts[k] * s.p0, &saturated) < 1.05e-8);
       before = k ? 0.3 * s.N / (parts[k] * s.p0 * s.grid->dx * s.grid->dy) : 5;
@@ -273,13 +273,13 @@ static void test_methods_without_an_upper_bound_refuse_it(void **state)
 
   (void)state;
   sam_call(SamNormalCreate(s.elasticity, &normal));
-  sam_call(SamNormalLimitsPressure(normal, &limits));
+  limits = SamNormalLimitsPressure(normal);
   sam_assert(limits);
   sam_fails(SamNormalSetPressureLimit(normal, 0), PETSC_ERR_ARG_OUTOFRANGE);
   sam_fails(SamNormalSetPressureLimit(normal, NAN), PETSC_ERR_ARG_OUTOFRANGE);
   sam_call(SamNormalSetPressureLimit(normal, s.p0));
   sam_call(SamSolverSetType(SamNormalAsSolver(normal), SAM_NORMAL_POLONSKYKEER));
-  sam_call(SamNormalLimitsPressure(normal, &limits));
+  limits = SamNormalLimitsPressure(normal);
   sam_assert(!limits);
   sam_fails(SamNormalSolve(normal, s.h, &b, PETSC_FALSE, p), PETSC_ERR_SUP);
   sam_call(SamNormalSetPressureLimit(normal, INFINITY));

@@ -210,11 +210,11 @@ static void test_normal_method_from_outside_is_selected_by_its_option(void **sta
   sam_call(SamNormalSolve(normal, s.h, &balance, PETSC_FALSE, p));
   sam_call(SamSolverSetOptionsPrefix(SamNormalAsSolver(normal), "mine_"));
   sam_call(SamSolverSetFromOptions(SamNormalAsSolver(normal)));
-  sam_call(SamSolverGetType(SamNormalAsSolver(normal), &type));
+  type = SamSolverGetType(SamNormalAsSolver(normal));
   sam_assert(!strcmp(type, "toy"));
   sam_assert(((Toy *)SamNormalAsSolver(normal)->data)->relaxation == 1.5);
   sam_call(SamNormalSolve(normal, s.h, &other, PETSC_FALSE, q));
-  sam_call(SamSolverGetReason(SamNormalAsSolver(normal), &reason));
+  reason = SamSolverGetReason(SamNormalAsSolver(normal));
   sam_call(SamSolverGetStatistics(SamNormalAsSolver(normal), NULL, &its, &applies, NULL));
   sam_assert(reason == SAM_SOLVER_CONVERGED_RTOL);
   sam_assert(its > 10 && applies == its);              /* a gradient method, and not the default */
@@ -253,7 +253,7 @@ static void test_tangential_method_from_outside_is_selected_by_its_option(void *
   sam_call(SamTangentialSolve(t, bound, NULL, &balance, PETSC_FALSE, q));
   sam_call(SamSolverSetFromOptions(SamTangentialAsSolver(t)));
   sam_call(SamTangentialSolve(t, bound, NULL, &other, PETSC_FALSE, r));
-  sam_call(SamSolverGetReason(SamTangentialAsSolver(t), &reason));
+  reason = SamSolverGetReason(SamTangentialAsSolver(t));
   sam_call(SamSolverGetStatistics(SamTangentialAsSolver(t), NULL, &its, NULL, &preconditions));
   sam_assert(reason == SAM_SOLVER_CONVERGED_RTOL);
   sam_assert(its > 10 && preconditions == 0);
@@ -303,7 +303,7 @@ static void test_unknown_type_names_those_registered(void **state)
   AssertFails(SamSolverSetType(SamNormalAsSolver(normal), "foo"), SAM_ERR_USER, "foo is not a type of normal solver",
               "activeset, polonskykeer");
   sam_call(PetscPopErrorHandler());
-  sam_call(SamSolverGetType(SamNormalAsSolver(normal), &type));
+  type = SamSolverGetType(SamNormalAsSolver(normal));
   sam_assert(!strcmp(type, SAM_NORMAL_ACTIVESET)); /* as it was */
   ClearOptions();
   sam_call(SamNormalDestroy(&normal));
@@ -368,11 +368,10 @@ static void test_balance_of_the_other_kind_is_refused(void **state)
 
 static void test_not_converging_is_an_error_where_that_is_asked_for(void **state)
 {
-  Sphere          s       = NewSphere(33, 1.5, 0.3);
-  SamBalance      balance = Loaded(SAM_BALANCE_NORMAL, s.N), other = balance;
-  Vec             p = NewField(s.grid, 1);
-  SamNormal       normal;
-  SamSolverReason reason;
+  Sphere     s       = NewSphere(33, 1.5, 0.3);
+  SamBalance balance = Loaded(SAM_BALANCE_NORMAL, s.N), other = balance;
+  Vec        p = NewField(s.grid, 1);
+  SamNormal  normal;
 
   (void)state;
   sam_call(SamNormalCreate(s.elasticity, &normal));
@@ -382,8 +381,7 @@ static void test_not_converging_is_an_error_where_that_is_asked_for(void **state
   sam_call(PetscPushErrorHandler(Listen, NULL));
   AssertFails(SamNormalSolve(normal, s.h, &other, PETSC_FALSE, p), PETSC_ERR_NOT_CONVERGED, "normal", "DIVERGED_ITS");
   sam_call(PetscPopErrorHandler());
-  sam_call(SamSolverGetReason(SamNormalAsSolver(normal), &reason));
-  sam_assert(reason == SAM_SOLVER_DIVERGED_ITS);
+  sam_assert(SamSolverGetReason(SamNormalAsSolver(normal)) == SAM_SOLVER_DIVERGED_ITS);
   sam_call(SamNormalDestroy(&normal));
   sam_call(VecDestroy(&p));
   DestroySphere(&s);
@@ -432,7 +430,7 @@ static void test_help_lists_the_options_of_methods_that_are_not_chosen(void **st
   Option("-help", NULL);
   sam_call(SamSolverSetFromOptions(SamNormalAsSolver(normal)));
   sam_assert(count == 2); /* of `toy` and of `zzz`, which have been registered by now */
-  sam_call(SamSolverGetType(SamNormalAsSolver(normal), &type));
+  type = SamSolverGetType(SamNormalAsSolver(normal));
   sam_assert(!strcmp(type, SAM_NORMAL_ACTIVESET));
   SamHelpSetFunction(NULL, NULL);
   ClearOptions();

@@ -230,16 +230,15 @@ static PetscErrorCode IsSeparated(const SamLevel *level, SamBalance *apart, Pets
 */
 static PetscErrorCode CanHold(SamSolver s, const SamLevel *level, PetscBool *can)
 {
-  const SamGrid       grid  = level->grid;
-  SamTotal            total = {0};
-  SamElasticityTraits traits;
-  double              sum;
-  const double       *h;
+  const SamGrid grid  = level->grid;
+  SamTotal      total = {0};
+  double        sum;
+  const double *h;
 
   PetscFunctionBegin;
   *can = PETSC_TRUE;
-  PetscCall(SamElasticityGetTraits(s->elasticity, &traits));
-  if (traits.mean || level->balance->force[0] || isfinite(s->pressure_limit)) PetscFunctionReturn(PETSC_SUCCESS);
+  if (SamElasticityGetTraits(s->elasticity).mean || level->balance->force[0] || isfinite(s->pressure_limit))
+    PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(VecGetArrayRead(level->given[SAM_NORMAL_SEPARATION], &h));
   for (PetscInt k = 0; k < grid->cells; k++) SamAdd(&total, h[k]);
   PetscCall(VecRestoreArrayRead(level->given[SAM_NORMAL_SEPARATION], &h));
@@ -327,11 +326,9 @@ PetscErrorCode SamNormalSetPressureLimit(SamNormal normal, PetscReal limit)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamNormalLimitsPressure(SamNormal normal, PetscBool *limits)
+PetscBool SamNormalLimitsPressure(SamNormal normal)
 {
-  PetscFunctionBegin;
-  *limits = SamNormalAsSolver(normal)->limits_pressure;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return SamNormalAsSolver(normal)->limits_pressure;
 }
 
 static PetscErrorCode SolveProblem(SamNormal normal, Vec h, Vec diagonal, SamBalance *balance, PetscBool guess, Vec p,

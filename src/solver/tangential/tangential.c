@@ -257,12 +257,11 @@ static PetscErrorCode SolveLoaded(SamSolver s, SamLevel *level, PetscBool guess)
 /* Shear acts only where there is a bound, and only there its displacement counts: the problem is that of a window. */
 static PetscErrorCode Solve(SamSolver s, SamLevel *level, PetscBool guess)
 {
-  const Vec           bound = level->given[SAM_TANGENTIAL_BOUND];
-  PetscInt            first[2], size[2];
-  PetscReal           most;
-  SamWindow           window;
-  SamElasticity       part;
-  SamElasticityTraits traits;
+  const Vec     bound = level->given[SAM_TANGENTIAL_BOUND];
+  PetscInt      first[2], size[2];
+  PetscReal     most;
+  SamWindow     window;
+  SamElasticity part;
 
   PetscFunctionBegin;
   PetscCall(VecMax(bound, NULL, &most));
@@ -271,8 +270,8 @@ static PetscErrorCode Solve(SamSolver s, SamLevel *level, PetscBool guess)
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(SamGridGetSupport(level->grid, bound, first, size));
-  PetscCall(SamElasticityGetTraits(level->elasticity, &traits));
-  if (traits.upwind && first[0] > 0) { /* the difference of the shear reaches one cell behind the contact */
+  /* an upwind difference of the shear reaches one cell behind the contact */
+  if (SamElasticityGetTraits(level->elasticity).upwind && first[0] > 0) {
     first[0]--;
     size[0]++;
   }
@@ -313,13 +312,11 @@ PetscErrorCode SamTangentialRegister(const char name[], PetscErrorCode (*create)
 
 PetscErrorCode SamTangentialCreate(SamElasticity elasticity, SamTangential *tangential)
 {
-  SamElasticityTraits traits;
-  SamSolver           solver;
+  SamSolver solver;
 
   PetscFunctionBegin;
   PetscCall(SamSolverCreate(&kind, elasticity, &solver));
-  PetscCall(SamElasticityGetTraits(elasticity, &traits));
-  if (traits.upwind) PetscCall(SamSolverSetType(solver, SAM_TANGENTIAL_ROLLING));
+  if (SamElasticityGetTraits(elasticity).upwind) PetscCall(SamSolverSetType(solver, SAM_TANGENTIAL_ROLLING));
   *tangential = (SamTangential)solver;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -349,9 +346,7 @@ PetscErrorCode SamTangentialSolve(SamTangential tangential, Vec bound, Vec offse
   return SamTangentialSolveKeeping(tangential, bound, offset, balance, guess, q, NULL);
 }
 
-PetscErrorCode SamTangentialGetLimit(SamTangential tangential, PetscReal *factor)
+PetscReal SamTangentialGetLimit(SamTangential tangential)
 {
-  PetscFunctionBegin;
-  *factor = SamTangentialAsSolver(tangential)->limit;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return SamTangentialAsSolver(tangential)->limit;
 }
