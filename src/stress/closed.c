@@ -11,15 +11,6 @@ typedef struct {
   double *last, *other;
 } Ends;
 
-/* The tractions of a step, of 3 components. */
-static PetscErrorCode ReadTractions(SamEvaluation e, PetscInt step, double to[])
-{
-  PetscFunctionBegin;
-  for (int f = SAM_STEP_PRESSURE; f <= SAM_STEP_SHEAR_Y; f++)
-    PetscCall((*e->source.read)(e->source.context, step, (SamStepField)f, to + f * (ptrdiff_t)e->grid->cells));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static PetscErrorCode NumberOf(SamEvaluation e, PetscInt step, SamStepNumber which, double *number)
 {
   return (*e->source.number)(e->source.context, step, which, number);
@@ -33,7 +24,8 @@ static PetscErrorCode CompareWithLast(SamEvaluation e, PetscInt step, const Ends
 
   PetscFunctionBegin;
   for (int k = 0; k < 4; k++) most[k] = 0;
-  PetscCall(ReadTractions(e, step, ends->other));
+  PetscCall(
+    SamEvaluationReadTractions(e, step, (double *[]){ends->other, ends->other + cells, ends->other + 2 * cells}));
   for (PetscInt k = 0; k < 3 * cells; k++) {
     PetscReal *const m = most + (k < cells ? 0 : 2);
 
@@ -149,7 +141,8 @@ PetscErrorCode SamCycleCheckClosed(SamEvaluation e)
   PetscCall(CheckLife(e, &life));
   if (life) PetscFunctionReturn(PETSC_SUCCESS); /* petsam has closed the loop */
   PetscCall(PetscMalloc2(3 * cells, &ends.last, 3 * cells, &ends.other));
-  PetscCall(ReadTractions(e, e->source.steps - 1, ends.last));
+  PetscCall(SamEvaluationReadTractions(e, e->source.steps - 1,
+                                       (double *[]){ends.last, ends.last + cells, ends.last + 2 * cells}));
   PetscCall(CheckEnds(e, &ends));
   PetscCall(NumberOf(e, 0, SAM_STEP_NUMBER, &number));
   if (number > 0) PetscCall(CheckOnce(e, &ends)); /* of steps that have been chosen by number */

@@ -30,7 +30,7 @@ PetscErrorCode SamEvaluationReadTractions(SamEvaluation e, PetscInt step, double
 {
   PetscFunctionBegin;
   e->stress->conditions = SamProblemGetConditions(e->problem);
-  e->stress->control    = &e->control[step];
+  e->stress->control    = step < 0 ? NULL : &e->control[step]; /* of the step before the first no stress is asked */
   for (PetscInt t = 0; t < SAM_STRESS_TRACTIONS; t++)
     PetscCall((*e->source.read)(e->source.context, step, (SamStepField)(SAM_STEP_PRESSURE + t), to[t]));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -18,6 +18,7 @@
 */
 #include <petsam/private/fourier.h>
 #include <petsam/private/grid.h>
+#include <petsam/private/rows.h>
 #include <petsam/private/stressimpl.h>
 #include <fftw3.h>
 
@@ -183,22 +184,6 @@ static PetscErrorCode FindLines(SamSection s, const double field[], PetscInt *fi
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* All rows of a component on every rank. */
-static PetscErrorCode GatherAll(SamGrid g, const double field[], double all[])
-{
-  PetscMPIInt  ranks, *counts, *starts, mine[2] = {(PetscMPIInt)g->cells, (PetscMPIInt)(g->row_start * g->nx)};
-  MPI_Datatype number = MPI_DOUBLE;
-
-  PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_size(g->comm, &ranks));
-  PetscCall(PetscMalloc2(ranks, &counts, ranks, &starts));
-  PetscCallMPI(MPI_Allgather(&mine[0], 1, MPI_INT, counts, 1, MPI_INT, g->comm));
-  PetscCallMPI(MPI_Allgather(&mine[1], 1, MPI_INT, starts, 1, MPI_INT, g->comm));
-  PetscCallMPI(MPI_Allgatherv(field, mine[0], number, all, counts, starts, number, g->comm));
-  PetscCall(PetscFree2(counts, starts));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Transforms the lines of one traction, seen in the section's axes. */
 static void TransformLines(SamSection s, Step *step, PetscInt traction, const double all[])
 {
@@ -220,9 +205,9 @@ static void TransformLines(SamSection s, Step *step, PetscInt traction, const do
 PetscErrorCode SamSectionAddStep(SamSection s, Vec tractions)
 {
   const SamGrid g = s->grid;
-  const double *field;
-  double       *all;
+  const double *field, *all;
   Step          step = {.first = 0};
+  SamRows       rows;
 
   PetscFunctionBegin;
   PetscCall(SamGridCheckVec(g, SAM_STRESS_TRACTIONS, tractions, "The tractions"));
@@ -234,14 +219,15 @@ PetscErrorCode SamSectionAddStep(SamSection s, Vec tractions)
   PetscCall(FindLines(s, field, &step.first, &step.count));
   PetscCall(SamAllocate(sizeof(*step.lines) * (size_t)(step.count * SAM_STRESS_TRACTIONS) * (size_t)s->n, &step.lines));
   for (PetscInt t = 0; t < SAM_STRESS_TRACTIONS; t++) PetscCall(PetscCalloc1(s->length, &step.surface[t]));
-  PetscCall(SamAllocate(sizeof(*all) * (size_t)g->nx * (size_t)g->ny, &all));
+  PetscCall(SamRowsCreate(g, 0, g->ny, &rows)); /* all */
   for (PetscInt t = 0; t < SAM_STRESS_TRACTIONS; t++) {
     const PetscInt from = s->axis == SAM_SECTION_X ? t : exchanged_traction[t];
 
-    PetscCall(GatherAll(g, field + from * g->cells, all));
+    PetscCall(SamRowsFetch(&rows, g->nx, field + from * g->cells, &all));
     TransformLines(s, &step, t, all);
+    PetscCall(SamRowsRestore(&rows, &all));
   }
-  SamFree(all);
+  PetscCall(SamRowsDestroy(&rows));
   PetscCall(PetscMalloc1(s->stress->sums, &step.sums));
   if (s->stress->sums)
     PetscCall((*s->stress->ops.reduce)(s->stress, (const double *[]){field, field + g->cells, field + 2 * g->cells},

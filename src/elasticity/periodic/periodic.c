@@ -256,7 +256,10 @@ static inline double Multiplicity(PetscInt k, PetscInt n)
   return k == 0 || 2 * k == n ? 1 : 2;
 }
 
-/* Sums over the waves of one ky of 1/|k|, kx^2/|k|^3 and ky^2/|k|^3. */
+/*
+  Sums over the waves of one ky of 1/|k|, kx^2/|k|^3 and ky^2/|k|^3; of layered bodies, of u_z from p, u_x from q_x, and
+  u_y from q_y.
+*/
 static void SumWaves(SamElasticity e, const SamSymbol *s, PetscInt m, double sums[3])
 {
   const double ky = s->step[1] * (double)m, weight = Multiplicity(m, e->grid->ny);
@@ -266,26 +269,17 @@ static void SumWaves(SamElasticity e, const SamSymbol *s, PetscInt m, double sum
     const double kx = s->step[0] * (double)l, k2 = kx * kx + ky * ky,
                  part = weight * Multiplicity(l, e->grid->nx) / sqrt(k2);
 
-    sums[0] += part;
-    sums[1] += part * kx * kx / k2;
-    sums[2] += part * ky * ky / k2;
-  }
-}
+    if (s->table) {
+      const double along = SymbolAt(s, SAM_LAYERED_RR, k2), across = SymbolAt(s, SAM_LAYERED_TT, k2);
 
-/* The same for layered bodies: of u_z from p, u_x from q_x, and u_y from q_y. */
-static void SumLayeredWaves(SamElasticity e, const SamSymbol *s, PetscInt m, double sums[3])
-{
-  const double ky = s->step[1] * (double)m, weight = Multiplicity(m, e->grid->ny);
-
-  sums[0] = sums[1] = sums[2] = 0;
-  for (PetscInt l = m ? 0 : 1; l <= e->grid->nx / 2; l++) {
-    const double kx = s->step[0] * (double)l, k2 = kx * kx + ky * ky,
-                 part = weight * Multiplicity(l, e->grid->nx) / sqrt(k2), along = SymbolAt(s, SAM_LAYERED_RR, k2),
-                 across = SymbolAt(s, SAM_LAYERED_TT, k2);
-
-    sums[0] += part * SymbolAt(s, SAM_LAYERED_ZZ, k2);
-    sums[1] += part * (along * kx * kx + across * ky * ky) / k2;
-    sums[2] += part * (along * ky * ky + across * kx * kx) / k2;
+      sums[0] += part * SymbolAt(s, SAM_LAYERED_ZZ, k2);
+      sums[1] += part * (along * kx * kx + across * ky * ky) / k2;
+      sums[2] += part * (along * ky * ky + across * kx * kx) / k2;
+    } else {
+      sums[0] += part;
+      sums[1] += part * kx * kx / k2;
+      sums[2] += part * ky * ky / k2;
+    }
   }
 }
 
@@ -304,10 +298,7 @@ static PetscErrorCode ComputeSelfInfluence(SamElasticity e, Periodic *data)
   PetscCallMPI(MPI_Comm_rank(e->grid->comm, &rank));
   PetscCallMPI(MPI_Comm_size(e->grid->comm, &ranks));
   for (PetscInt m = rank; m <= e->grid->ny / 2; m += ranks) {
-    if (data->layers)
-      SumLayeredWaves(e, &s, m, sums);
-    else
-      SumWaves(e, &s, m, sums);
+    SumWaves(e, &s, m, sums);
     SamAddAll(3, totals, sums);
   }
   PetscCall(SamSumTotals(e->grid->comm, 3, totals, sums));
