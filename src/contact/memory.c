@@ -193,7 +193,7 @@ static PetscErrorCode Offer(SamContact c)
     {"wear_passage", "Pa m", "pressure times slip of a point that passes, the same along x", SAM_FIELD_REAL,
      SAM_RESULT_OFFERED, Compute, c, WEAR, -1}};
   const size_t count =
-    sizeof(results) / sizeof(results[0]) - (c->motion->continues ? 2 : 0); /* the last two are of steps by themselves */
+    sizeof(results) / sizeof(results[0]) - (c->motion->streams ? 0 : 2); /* the last two are of a rolled distance */
 
   PetscFunctionBegin;
   for (size_t k = 0; k < count; k++) {
@@ -233,7 +233,7 @@ PetscErrorCode SamContactDeclare(SamContact c)
   PetscCall(Offer(c));
   PetscCall(DeclareControl(c));
   PetscCall(SamSolutionDeclareNumbers(c->state, c->motion));
-  if (!c->motion->continues) PetscCall(SamStepDeclareRolling(c->state, &c->rolling));
+  if (c->motion->streams) PetscCall(SamStepDeclareRolling(c->state, &c->rolling));
   PetscCall(DeclareOutcome(c));
   if (c->set.spots) PetscCall(SamSolutionDeclareSpots(c->state));
   PetscCall(SamProblemDeclare(c->problem, c->state));

@@ -66,7 +66,7 @@ static PetscErrorCode CheckComponent(SamLaw law, PetscInt body, PetscInt k, cons
     (void)snprintf(why, size, "body%d_young is inf: a rigid body does not stretch", (int)body + 1);
   else if (!(fabs(stress) <= m->young))
     (void)snprintf(why, size, "exceeds Young's modulus, %.6g: check the unit, Pa", (double)m->young);
-  else if (stress != 0 && !SamMotionOf(law->elasticity)->continues)
+  else if (stress != 0 && SamMotionOf(law->elasticity)->streams)
     (void)snprintf(why, size, "has no meaning with -rolling steady: a uniform strain is a creepage: add it to creep_x");
   else if (stress != 0 && !traits.stretch)
     (void)snprintf(why, size, "has no meaning with bodies of type %s, which bear none",

@@ -270,7 +270,7 @@ PetscErrorCode SamLawCreate_Friction(SamLaw law)
   while (strcmp(law->type, kinds[kind].type)) kind++;
   PetscCall(PetscNew(&f));
   f->kind = kind;
-  f->cell = SamMotionOf(law->elasticity)->continues ? 0 : law->grid->dx;
+  f->cell = SamMotionOf(law->elasticity)->streams ? law->grid->dx : 0;
   PetscCall(PetscArraycpy(f->value, kinds[kind].usual, OPTIONS));
   law->data   = f;
   law->option = "friction_law";

@@ -44,6 +44,7 @@ static PetscErrorCode Check(SamElasticity e, SamConditions conditions, const Sam
 }
 
 const struct _n_SamMotion SamMotionSteady = {.word         = "steady",
+                                             .streams      = PETSC_TRUE,
                                              .way          = SAM_BY_CREEP,
                                              .names        = names,
                                              .work         = "rolling_energy",

@@ -278,14 +278,14 @@ PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamState state, con
 {
   double *const numbers = SamStateNumbers(state, SamStateFindNumber(state, declared[0].name), SAM_TRIED);
   double *const contact = SamStateNumbers(state, SamStateFindNumber(state, contact_edge.name), SAM_TRIED);
-  PetscBool     continues, offset;
+  PetscBool     streams, offset;
   const SamGrid grid = SamProblemGetGrid(problem);
 
   PetscFunctionBegin;
-  continues = SamMotionOf(SamProblemGetElasticity(problem))->continues;
+  streams = SamMotionOf(SamProblemGetElasticity(problem))->streams;
   PetscCall(SumCells(problem, before, s, numbers));
-  if (!continues) numbers[STORED_ENERGY] = NAN; /* u_t is that of a rolled distance */
-  if (!continues || SamProblemGetRolled(problem, &s->control, NULL) != 0)
+  if (streams) numbers[STORED_ENERGY] = NAN; /* u_t is that of a rolled distance */
+  if (streams || SamProblemGetRolled(problem, &s->control, NULL) != 0)
     numbers[ENERGY_ERROR] = NAN; /* estimated at one place */
   PetscCall(SamProblemAddOffset(problem, state, &s->control, NULL, NULL, &offset));
   if (offset) numbers[STORED_ENERGY] = NAN; /* the displacements are not by the tractions alone */

@@ -95,7 +95,7 @@ PetscErrorCode SamStepSolve(const SamStepTask *task, SamStep *step)
     PetscCall(SamSolveCoupled(&w));
   else
     PetscCall(SolveOnce(&w));
-  if (!task->motion->continues) PetscCall(SamSolveRolling(&w));
+  if (task->motion->streams) PetscCall(SamSolveRolling(&w));
   PetscCall(End(&w));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -87,7 +87,7 @@ PETSC_INTERN PetscErrorCode SamSolveGetChange(SamSolve *solve, Vec argument, Vec
   SamSolveShear - the tangential problem under the bound of the tried solution. A bound that follows the slip changes
   with it; `rtol` is what both are solved to then (bound.c). Collective.
   SamSolveCoupled - both problems of dissimilar bodies with friction (coupling.c). Collective.
-  SamSolveRolling - the numbers of a motion that continues no step, of the solved one (rolling.c). Collective.
+  SamSolveRolling - the numbers of a motion in which material streams, of the solved one (rolling.c). Collective.
 */
 PETSC_INTERN PetscErrorCode SamSolveDirection(SamSolve *solve, PetscBool has_shear, PetscReal rtol, SamEffort effort);
 PETSC_INTERN PetscErrorCode SamSolveBound(SamSolve *solve, Vec bound);

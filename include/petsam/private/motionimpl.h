@@ -10,9 +10,9 @@
   with such a table and a line in motion.c, and where its displacements are not those of bodies at rest, a type of
   elasticity that adds to another one.
 
-  Tangential displacements, slips, and works are always those of a step. A motion that does not continue the step before
-  has steps of 1 m of rolled distance: a rigid-body displacement of it is a creepage, and a slip relative to that
-  distance is a velocity relative to that of rolling. Its `names` say so.
+  Tangential displacements, slips, and works are always those of a step. Where material streams through the contact, a
+  step is one of 1 m of rolled distance: a rigid-body displacement of it is a creepage, and a slip relative to that
+  distance is a velocity relative to that of rolling. The motion's `names` say so.
 */
 typedef struct {
   const char *usual;              /* the name of a number or a field for steps in time */
@@ -23,11 +23,12 @@ typedef struct {
 typedef enum { SAM_MOTION_HISTORY, SAM_MOTION_STIFFNESS, SAM_MOTION_SUBJECTS } SamMotionSubject;
 
 struct _n_SamMotion {
-  const char          *word;             /* of -rolling */
-  PetscBool            continues;        /* a step continues displacements and slip of the one before */
-  SamWay               way;              /* whose name and unit tangential rigid-body displacements have */
-  const SamMotionName *names;            /* the last one has no usual name; NULL: all names are the usual ones */
-  const char          *work, *work_unit; /* the number of the frictional work of a step */
+  const char          *word;      /* of -rolling */
+  PetscBool            continues; /* a step continues displacements and slip of the one before */
+  PetscBool            streams;   /* new material enters all the time: steps are those of 1 m of rolled distance */
+  SamWay               way;       /* whose name and unit tangential rigid-body displacements have */
+  const SamMotionName *names;     /* the last one has no usual name; NULL: all names are the usual ones */
+  const char          *work, *work_unit;                 /* the number of the frictional work of a step */
   const char          *slip_unit, *slip_heading;         /* of the slip in the report; heading NULL: the usual one */
   const char          *remedy;                           /* of friction that does not converge with the slip */
   const char          *meaningless[SAM_MOTION_SUBJECTS]; /* why a subject has no meaning; NULL: it has one */
