@@ -6,7 +6,12 @@
 #define BOTH_RIGID "%sbody1_young and %sbody2_young: both bodies are rigid, at least one must be elastic"
 
 static const char *const prefixes[2] = {"body1_", "body2_"};
-static const char *const films[2]    = {"film_thickness", "film_shear"};
+#define FILM(k) offsetof(struct _n_SamPair, film[k])
+static const SamOptionRow films[2] = {
+  {"film_thickness", "thickness (m) of a film between the surfaces, which shear displaces", SAM_OPTION_REAL, FILM(0),
+   .range = SAM_RANGE_POSITIVE, .needs = "film_shear", .recorded = PETSC_TRUE},
+  {"film_shear", "its shear modulus (Pa)", SAM_OPTION_REAL, FILM(1), .range = SAM_RANGE_POSITIVE,
+   .needs = "film_thickness", .recorded = PETSC_TRUE}};
 
 static PetscBool AreRigid(const SamBody body[2])
 {
@@ -123,7 +128,6 @@ PetscErrorCode SamPairCreateFromOptions(const SamOptions *from, SamPair *pair)
 {
   const char *const prefix = SamOptionsPrefix(from);
   SamBody           body[2];
-  PetscBool         given[2];
   char              own[2][SAM_PREFIX + 8], dash[SAM_PREFIX + 2];
 
   PetscFunctionBegin;
@@ -139,11 +143,7 @@ PetscErrorCode SamPairCreateFromOptions(const SamOptions *from, SamPair *pair)
   PetscCall(PetscSNPrintf(dash, sizeof(dash), "-%s", prefix));
   PetscCheck(!AreRigid(body), from->comm, SAM_ERR_USER, BOTH_RIGID, dash, dash);
   PetscCall(CreateOf(body, pair));
-  PetscCall(SamOptionsReal(from, films[0], "thickness (m) of a film between the surfaces, which shear displaces",
-                           SAM_RANGE_POSITIVE, &(*pair)->film[0], &given[0]));
-  PetscCall(SamOptionsReal(from, films[1], "its shear modulus (Pa)", SAM_RANGE_POSITIVE, &(*pair)->film[1], &given[1]));
-  PetscCheck(given[0] == given[1], from->comm, SAM_ERR_USER, "%s%s is given without %s%s: a film has both: give both",
-             dash, films[given[0] ? 0 : 1], dash, films[given[0] ? 1 : 0]);
+  PetscCall(SamOptionsRead(from, NULL, SAM_OPTION_ROWS(films), *pair, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -151,8 +151,7 @@ PetscErrorCode SamPairAddParameters(SamPair pair, SamParameters *p)
 {
   PetscFunctionBegin;
   for (int b = 0; b < 2; b++) PetscCall(SamBodyAddParameters(pair->body[b], prefixes[b], p));
-  for (int k = 0; k < 2 && pair->film[0] > 0; k++)
-    PetscCall(SamParametersAddReals(p, films[k], PETSC_TRUE, 1, &pair->film[k]));
+  if (pair->film[0] > 0) PetscCall(SamParametersAddOptions(p, SAM_OPTION_ROWS(films), pair));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -165,7 +164,7 @@ PetscErrorCode SamPairCreateFromParameters(MPI_Comm comm, const SamParameters *p
   PetscCheck(!AreRigid(body), comm, SAM_ERR_FILE, "%s: cannot be read: " BOTH_RIGID, source, "", "");
   PetscCall(CreateOf(body, pair));
   for (int k = 0; k < 2; k++) {
-    const SamParameter *found = SamParametersFind(p, films[k]);
+    const SamParameter *found = SamParametersFind(p, films[k].name);
 
     if (found && found->count == 1) (*pair)->film[k] = found->value[0];
   }
