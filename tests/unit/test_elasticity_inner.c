@@ -394,6 +394,112 @@ static void test_all_else_is_the_inner_ones(void **state)
   DestroySphere(&s);
 }
 
+/* ---- bodies that remember ---- */
+
+/* Each step leaves a dent, K p deep; by it times the next step's duration the bodies have sunk in. */
+#define K(e) (0.1 * (e)->grid->length / (e)->pair->modulus)
+static const SamStateField dent = {.name = "dent", .components = 1, .generations = 2, .kept = PETSC_TRUE},
+                           sunk = {.name = "sunk", .components = 1, .generations = 2, .kept = PETSC_TRUE};
+
+static PetscErrorCode DeclareDent(SamElasticity e, SamState state)
+{
+  PetscInt id;
+
+  PetscFunctionBegin;
+  (void)e;
+  PetscCall(SamStateDeclareField(state, &dent, &id));
+  PetscCall(SamStateDeclareField(state, &sunk, &id));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The tried values of a field: `factor` times the committed dent, and K times a pressure, unless it is NULL. */
+static PetscErrorCode SetField(SamElasticity e, SamState state, const char name[], PetscReal factor, Vec p)
+{
+  const Vec before = SamStateGetField(state, SamStateFindField(state, dent.name), SAM_COMMITTED);
+  Vec       field;
+
+  PetscFunctionBegin;
+  PetscCall(SamStateSetField(state, SamStateFindField(state, name), &field));
+  PetscCall(VecSet(field, 0));
+  if (before) PetscCall(VecAXPY(field, factor, before));
+  if (p) PetscCall(VecAXPY(field, K(e), p));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode BeginSinking(SamElasticity e, SamState state, const SamControl *control, PetscReal duration)
+{
+  (void)control;
+  return SetField(e, state, sunk.name, duration, NULL);
+}
+
+static PetscErrorCode AddSunk(SamElasticity e, SamConditions conditions, SamState state, const SamControl *control,
+                              Vec u_z, Vec u_t, PetscBool *adds)
+{
+  PetscFunctionBegin;
+  (void)e;
+  (void)conditions;
+  (void)control;
+  (void)u_t;
+  if (adds) *adds = PETSC_TRUE;
+  if (u_z) PetscCall(VecAXPY(u_z, 1, SamStateReadField(state, SamStateFindField(state, sunk.name))));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode AdvanceDent(SamElasticity e, SamState state, Vec pressure, Vec shear)
+{
+  (void)shear;
+  return SetField(e, state, dent.name, 1, pressure);
+}
+
+static PetscErrorCode CreateDented(SamElasticity e)
+{
+  PetscFunctionBegin;
+  e->ops = (SamElasticityOps){.declare = DeclareDent, .begin = BeginSinking, .offset = AddSunk, .advance = AdvanceDent};
+  PetscCall(SamElasticitySetInner(e, SAM_ELASTICITY_HALFSPACE));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The pressure of each step is that of a half-space with the dents of the steps before in its gap. */
+static void test_bodies_remember_what_a_step_left(void **state)
+{
+  static const double times[] = {1, 1.75, 4};
+
+  Sphere s = NewSphereOn(PETSC_COMM_WORLD, Steel(), 41, 2, 0, 0);
+  Vec    p = NewField(s.grid, 1), q = NewField(s.grid, 1), left = NewField(s.grid, 1);
+  Case   c;
+
+  (void)state;
+  sam_call(SamElasticityRegister("dented", CreateDented));
+  sam_call(SamElasticitySetType(s.elasticity, "dented"));
+  c = NewCaseOn(s, 0.1, NULL, "");
+  for (int k = 0; k < 3; k++) {
+    Sphere     t       = NewSphereOn(PETSC_COMM_WORLD, Steel(), 41, 2, 0, 0);
+    SamControl control = Loads(&c, 1, 0.4, 0, 0);
+    PetscReal  error;
+    Case       d;
+
+    control.time = times[k];
+    (void)Try(&c, &control);
+    sam_call(SamContactReject(c.contact));
+    sam_assert(Solve(&c, &control).status == SAM_STATUS_CONVERGED);
+    sam_call(SamContactGetField(c.contact, "pressure", p));
+    if (k) sam_call(VecAXPY(t.h, times[k] - times[k - 1], left));
+    d = NewCaseOn(t, 0.1, NULL, "");
+    (void)Solve(&d, &control);
+    sam_call(SamContactGetField(d.contact, "pressure", q));
+    sam_call(VecAXPY(q, -1, p));
+    sam_call(VecNorm(q, NORM_INFINITY, &error));
+    sam_assert_close(error, 0, 1e-5 * s.p0);
+    sam_assert_close(NumberOf(&c, "disp_z"), NumberOf(&d, "disp_z"), 1e-6 * NumberOf(&d, "disp_z"));
+    sam_call(VecAXPY(left, K(s.elasticity), p));
+    DestroyCase(&d);
+  }
+  DestroyCase(&c);
+  sam_call(VecDestroy(&left));
+  sam_call(VecDestroy(&q));
+  sam_call(VecDestroy(&p));
+}
+
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {
@@ -402,6 +508,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_results_are_the_same_on_any_number_of_ranks),
     cmocka_unit_test(test_grids_and_parts_know_their_place),
     cmocka_unit_test(test_all_else_is_the_inner_ones),
+    cmocka_unit_test(test_bodies_remember_what_a_step_left),
   };
 
   return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
