@@ -71,15 +71,19 @@ PetscErrorCode SamSum(MPI_Comm comm, PetscInt n, double values[])
 
 PetscErrorCode SamSumTotals(MPI_Comm comm, PetscInt n, const SamTotal totals[], double sums[])
 {
-  SamTotal all[SAM_TOTALS];
+  enum { TOGETHER = 16 };
+  SamTotal all[TOGETHER];
 
   PetscFunctionBegin;
-  PetscCheck(n <= SAM_TOTALS, PETSC_COMM_SELF, PETSC_ERR_PLIB, "At most %d totals", SAM_TOTALS);
-  PetscCallMPI(MPI_Allreduce(totals, all, (PetscMPIInt)n, total_type, add_totals, comm));
-  for (PetscInt k = 0; k < n; k++) { /* sum and rest may cancel: first without loss */
-    const double lacks = SamAddExactly(&all[k].sum, all[k].rest);
+  for (PetscInt k = 0; k < n; k++) {
+    SamTotal *const one = &all[k % TOGETHER];
+    double          lacks;
 
-    sums[k] = all[k].sum + (lacks + all[k].last);
+    if (one == all)
+      PetscCallMPI(
+        MPI_Allreduce(totals + k, all, (PetscMPIInt)PetscMin(TOGETHER, n - k), total_type, add_totals, comm));
+    lacks   = SamAddExactly(&one->sum, one->rest); /* sum and rest may cancel: first without loss */
+    sums[k] = one->sum + (lacks + one->last);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -120,22 +120,21 @@ PetscErrorCode SamFrozenTakeSlip(const SamFrozen *f, PetscInt k, double slip[])
 PetscErrorCode SamFrozenDots(const SamFrozen *f, PetscInt n, double *const fields[], const double field[],
                              double dots[])
 {
+  SamTotal *totals;
+
   PetscFunctionBegin;
-  for (PetscInt from = 0; from < n; from += SAM_TOTALS) {
-    const PetscInt some               = PetscMin(n - from, SAM_TOTALS);
-    SamTotal       totals[SAM_TOTALS] = {{0}};
+  PetscCall(PetscCalloc1(n, &totals));
+  for (PetscInt k = 0; k < n; k++)
+    for (PetscInt j = 0; j < f->grid->rows; j++) {
+      double row = 0;
 
-    for (PetscInt k = 0; k < some; k++)
-      for (PetscInt j = 0; j < f->grid->rows; j++) {
-        double row = 0;
-
-        for (PetscInt c = 0; c < Components(f); c++)
-          for (PetscInt m = f->start[j] + c * f->count; m < f->start[j + 1] + c * f->count; m++)
-            row += fields[from + k][m] * field[m];
-        SamAdd(&totals[k], row);
-      }
-    PetscCall(SamSumTotals(f->grid->comm, some, totals, dots + from));
-  }
+      for (PetscInt c = 0; c < Components(f); c++)
+        for (PetscInt m = f->start[j] + c * f->count; m < f->start[j + 1] + c * f->count; m++)
+          row += fields[k][m] * field[m];
+      SamAdd(&totals[k], row);
+    }
+  PetscCall(SamSumTotals(f->grid->comm, n, totals, dots));
+  PetscCall(PetscFree(totals));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

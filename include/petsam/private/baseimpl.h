@@ -207,7 +207,6 @@ static inline void SamAddAll(PetscInt n, SamTotal totals[], const double values[
 {
   for (PetscInt k = 0; k < n; k++) SamAdd(&totals[k], values[k]);
 }
-#define SAM_TOTALS 16 /* most totals in one call */
 /* SamSumTotals - adds n totals over the ranks and returns them as doubles. Collective. */
 PETSC_EXTERN PetscErrorCode SamSumTotals(MPI_Comm comm, PetscInt n, const SamTotal totals[], double sums[]);
 

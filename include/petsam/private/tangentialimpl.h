@@ -79,6 +79,8 @@ static inline SamRow SamStickSlipRow(const SamStickSlip *state, PetscInt j)
 {
   return SamFrameRow(state->frame, j, state->first[j], state->last[j]);
 }
+/* SamStickSlipClearMargins - z = 0, of two components, outside of the contact's part of each row. Not collective. */
+PETSC_INTERN void SamStickSlipClearMargins(const SamStickSlip *state, float z[]);
 /* SamStickSlipComputeSlip - s = C q + offset - motion, in double precision. Collective. */
 PETSC_EXTERN PetscErrorCode SamStickSlipComputeSlip(SamStickSlip *state);
 /*

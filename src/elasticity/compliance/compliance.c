@@ -137,13 +137,10 @@ ROWS(SumRowSingle, AddRowSingle, float)
 static PetscErrorCode Total(SamElasticity e, SamCompliance of, Kind in, const SamTotal part[], Coefficients c)
 {
   PetscFunctionBegin;
-  for (PetscInt l = first_of[in]; l < first_of[in] + count_of[in]; l++, part += of->modes)
-    for (PetscInt m = 0; m < of->modes; m += SAM_TOTALS) {
-      const PetscInt count = PetscMin(SAM_TOTALS, of->modes - m);
-
-      PetscCall(SamSumTotals(e->grid->comm, count, part + m, c[l] + m));
-      for (PetscInt k = m; k < m + count; k++) c[l][k] *= turned[of->body][l] * e->grid->dx * e->grid->dy;
-    }
+  for (PetscInt l = first_of[in]; l < first_of[in] + count_of[in]; l++, part += of->modes) {
+    PetscCall(SamSumTotals(e->grid->comm, of->modes, part, c[l]));
+    for (PetscInt m = 0; m < of->modes; m++) c[l][m] *= turned[of->body][l] * e->grid->dx * e->grid->dy;
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -76,6 +76,56 @@ typedef SamNewton Work;
 #define SPACE    ((PetscInt)(sizeof(SamNewtonSpace) / sizeof(double)))
 #define PRODUCTS ((PetscInt)(sizeof(SamNewtonProducts) / sizeof(double)))
 
+/* ---- fields ---- */
+
+/* The root of the number of cells in contact. */
+static PetscErrorCode FindReach(Work *w)
+{
+  const SamStickSlip *u = &w->base;
+
+  PetscFunctionBegin;
+  w->reach = 0;
+  for (PetscInt j = 0; j < u->rows; j++)
+    for (ptrdiff_t k = (ptrdiff_t)j * u->nx + u->first[j]; k < (ptrdiff_t)j * u->nx + u->last[j]; k++)
+      w->reach += u->bound[k] > 0;
+  PetscCall(SamSum(u->level->grid->comm, 1, &w->reach));
+  w->reach = sqrt(w->reach);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Create(SamSolver solver, SamLevel *level, Work *w)
+{
+  const SamFrame *f = &level->frame;
+  PetscInt        cells;
+
+  PetscFunctionBegin;
+  PetscCall(SamStickSlipCreate(solver, level, &w->base));
+  cells = w->base.cells;
+  PetscCall(SamAllocateZeros(sizeof(*w->trial) * 2 * (size_t)cells, &w->trial));
+  PetscCall(SamAllocateZeros(sizeof(*w->weight) * 11 * (size_t)cells, &w->weight));
+  w->normal = w->weight + cells;
+  w->r      = w->normal + 2 * cells;
+  w->z      = w->r + 2 * cells;
+  w->step   = w->z + 2 * cells;
+  w->u      = w->step + 2 * cells;
+  PetscCall(PetscMalloc1(w->base.nx, &w->xi));
+  for (PetscInt i = 0; i < w->base.nx; i++) w->xi[i] = (float)(f->xi0 + (double)i * f->dxi);
+  PetscCall(FindReach(w));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Destroy(Work *w)
+{
+  PetscFunctionBegin;
+  SamFree(w->trial);
+  SamFree(w->weight); /* with the others behind it */
+  PetscCall(PetscFree(w->xi));
+  PetscCall(SamStickSlipDestroy(&w->base));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the steps ---- */
+
 typedef void (*RowSums)(const SamNewton *w, SamRow row, double sums[]);
 
 /* The sums of a loop over all rows, at most PRODUCTS, in twice the digits. */
@@ -92,22 +142,6 @@ static PetscErrorCode SumRows(const Work *w, RowSums add, PetscInt n, double sum
     SamAddAll(n, totals, row);
   }
   PetscCall(SamSumTotals(u->level->grid->comm, n, totals, sums));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* z = 0 outside of the contact's part of each row, which is all that the loops write to. */
-static PetscErrorCode ClearMargins(const Work *w)
-{
-  const SamStickSlip *u = &w->base;
-
-  PetscFunctionBegin;
-  for (PetscInt c = 0; c < 2; c++)
-    for (PetscInt j = 0; j < u->rows; j++) {
-      float *z = w->z + c * u->cells + j * u->nx;
-
-      PetscCall(PetscArrayzero(z, u->first[j]));
-      PetscCall(PetscArrayzero(z + u->last[j], u->nx - u->last[j]));
-    }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -154,7 +188,7 @@ static PetscErrorCode Advance(Work *w, double t)
   w->unit = PetscMax(most, LEAST_UNIT * u->self * u->scale);
   if (w->unit == 0) w->unit = 1;
   w->work = space.work;
-  PetscCall(ClearMargins(w));
+  SamStickSlipClearMargins(u, w->z);
   for (PetscInt j = 0; j < u->rows; j++) {
     double row[SAM_SQUARES] = {0};
 
@@ -429,7 +463,7 @@ static PetscErrorCode SamTangentialSolve_Newton(SamSolver solver, SamLevel *leve
   PetscBool       found    = PETSC_TRUE;
 
   PetscFunctionBegin;
-  PetscCall(SamNewtonCreate(solver, level, &w));
+  PetscCall(Create(solver, level, &w));
   PetscCall(Start(&w, &found));
   best   = u->error;
   reason = found ? Reason(&w, stagnant) : SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM;
@@ -456,7 +490,7 @@ static PetscErrorCode SamTangentialSolve_Newton(SamSolver solver, SamLevel *leve
   solver->error  = Error(&w);
   for (PetscInt c = 0; c < 3; c++) level->rigid[c] = u->motion[c];
   if (level->product && isfinite(u->error)) PetscCall(SamStickSlipKeepProduct(u, w.rounding));
-  PetscCall(SamNewtonDestroy(&w));
+  PetscCall(Destroy(&w));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -36,10 +36,6 @@ typedef struct {
   double z[3], e[3], v[3], zr, zv, ev, er;
 } SamNewtonProducts;
 
-/* SamNewtonCreate, SamNewtonDestroy - the fields of a solve; `alpha` is the caller's. Collective. */
-PETSC_INTERN PetscErrorCode SamNewtonCreate(SamSolver solver, SamLevel *level, SamNewton *newton);
-PETSC_INTERN PetscErrorCode SamNewtonDestroy(SamNewton *newton);
-
 /*
   Makes the step of length t: q += t (trial - q), s += by u - the motion a. Chooses stick and slip, adds to the sums,
   and returns the maximum slip in the tangent space.

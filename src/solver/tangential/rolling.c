@@ -89,26 +89,6 @@ static PetscErrorCode Destroy(Work *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* z = 0 outside of the contact's part of each row, which is all that the loops write to. */
-static void ClearMargins(const SamStickSlip *u, float z[])
-{
-  for (PetscInt c = 0; c < 2; c++)
-    for (PetscInt j = 0; j < u->rows; j++) {
-      float *row = z + c * (ptrdiff_t)u->cells + (ptrdiff_t)j * u->nx;
-
-      for (PetscInt i = 0; i < u->nx; i++)
-        if (i < u->first[j] || i >= u->last[j]) row[i] = 0;
-    }
-}
-
-static PetscErrorCode SumAll(const SamStickSlip *u, PetscInt n, const SamTotal totals[], double sums[])
-{
-  PetscFunctionBegin;
-  for (PetscInt k = 0; k < n; k += SAM_TOTALS)
-    PetscCall(SamSumTotals(u->level->grid->comm, PetscMin(SAM_TOTALS, n - k), totals + k, sums + k));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* ---- steps 1 to 3 ---- */
 
 /* The sets, the error, and the shear with the phi. */
@@ -128,7 +108,7 @@ static PetscErrorCode ChooseSets(Work *w, double load[3])
     SamAddAll(3, totals + SAM_SQUARES, row.load);
   }
   PetscCall(SamStickSlipSetError(u, totals));
-  PetscCall(SumAll(u, SUMS, totals, sums));
+  PetscCall(SamSumTotals(u->level->grid->comm, SUMS, totals, sums));
   PetscCall(PetscArraycpy(load, sums + SAM_SQUARES, 3));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -142,15 +122,15 @@ static PetscErrorCode MakeDirection(Work *w, const double *a, float z[])
 
   PetscFunctionBegin;
   for (PetscInt j = 0; j < u->rows; j++) SamRollingRightRow(w, SamStickSlipRow(u, j), a, z);
-  ClearMargins(u, z);
+  SamStickSlipClearMargins(u, z);
   PetscCall(SamLevelPreconditionSingle(u->solver, u->level, factor, z, z));
   if (w->slipping) {
-    ClearMargins(u, slip);
+    SamStickSlipClearMargins(u, slip);
     u->solver->preconditions += u->level->finest ? 1 : 0;
     PetscCall(SamElasticityPreconditionSlipSingle(u->level->elasticity, factor, slip, slip));
   }
   for (PetscInt j = 0; j < u->rows; j++) SamRollingSweepRow(w, SamStickSlipRow(u, j), z, a ? 0 : 1);
-  ClearMargins(u, z);
+  SamStickSlipClearMargins(u, z);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -248,7 +228,7 @@ static PetscErrorCode Combine(Work *w, double a[3])
     SamRollingGramRow(w, SamStickSlipRow(u, j), row);
     SamAddAll(n, totals, row);
   }
-  PetscCall(SumAll(u, n, totals, sums));
+  PetscCall(SamSumTotals(u->level->grid->comm, n, totals, sums));
   FitColumns(columns, sums, x);
   for (PetscInt j = 0; j < u->rows; j++) SamRollingCombineRow(w, SamStickSlipRow(u, j), x);
   for (PetscInt c = 0; c < 3; c++) {

@@ -73,6 +73,17 @@ PetscErrorCode SamStickSlipDestroy(SamStickSlip *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+void SamStickSlipClearMargins(const SamStickSlip *w, float z[])
+{
+  for (PetscInt c = 0; c < 2; c++)
+    for (PetscInt j = 0; j < w->rows; j++) {
+      float *const row = z + c * (ptrdiff_t)w->cells + (ptrdiff_t)j * w->nx;
+
+      (void)memset(row, 0, sizeof(*row) * (size_t)w->first[j]);
+      (void)memset(row + w->last[j], 0, sizeof(*row) * (size_t)(w->nx - w->last[j]));
+    }
+}
+
 /* Adds `times` the offset less the motion, where there is contact. */
 static void AddGiven(const SamStickSlip *w, double s[], double times)
 {
