@@ -63,9 +63,9 @@ typedef struct {
   PETSC_ERR_ARG_OUTOFRANGE for a number that is not positive.
   SamContactSetFromOptions - reads the options above, and those of both solvers. Collective. Errors: SAM_ERR_USER.
 */
-PETSC_EXTERN PetscErrorCode SamContactSetSettings(SamContact contact, const SamContactSettings *settings);
-PETSC_EXTERN PetscErrorCode SamContactGetSettings(SamContact contact, SamContactSettings *settings);
-PETSC_EXTERN PetscErrorCode SamContactSetFromOptions(SamContact contact);
+PETSC_EXTERN PetscErrorCode     SamContactSetSettings(SamContact contact, const SamContactSettings *settings);
+PETSC_EXTERN SamContactSettings SamContactGetSettings(SamContact contact);
+PETSC_EXTERN PetscErrorCode     SamContactSetFromOptions(SamContact contact);
 /*
   SamContactSetUp - checks that settings, laws and solvers go together; SamContactTry() calls it. Collective. Errors:
   SAM_ERR_USER.
@@ -155,7 +155,7 @@ PETSC_INTERN PetscErrorCode SamContactFindEdge(SamContact contact, SamEdgeOf whi
 */
 PETSC_EXTERN PetscErrorCode SamContactSetState(SamContact contact, SamState state, PetscBool gap_is_current);
 PETSC_EXTERN PetscErrorCode SamContactReset(SamContact contact);
-PETSC_INTERN PetscErrorCode SamContactGetSteps(SamContact contact, PetscInt *steps);
+PETSC_INTERN PetscInt       SamContactGetSteps(SamContact contact);
 /* SamContactIsGapCurrent - whether the committed pressure was solved with the problem's gap of now. Collective. */
 PETSC_INTERN PetscErrorCode SamContactIsGapCurrent(SamContact contact, PetscBool *current);
 

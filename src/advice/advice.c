@@ -342,14 +342,13 @@ static void Friction(SamAdvice *a)
 /* Dissimilar bodies whose slip while the load grows is found in one step. */
 static void Steps(SamAdvice *a)
 {
-  const SamGrid      g        = a->setup->grid;
-  const double       waves[2] = {PETSC_PI / (double)g->length, PETSC_PI / (double)g->side[1]};
-  PetscBool          rubs     = PETSC_FALSE;
-  SamContactSettings set;
+  const SamGrid g        = a->setup->grid;
+  const double  waves[2] = {PETSC_PI / (double)g->length, PETSC_PI / (double)g->side[1]};
+  PetscBool     rubs     = PETSC_FALSE;
 
   if (!a->error) a->error = SamProblemHasFriction(a->setup->problem, &rubs);
-  if (!a->error) a->error = SamContactGetSettings(a->setup->contact, &set);
-  if (!a->error && rubs && set.coupling && SamMotionOf(a->setup->elasticity)->continues && a->steps == 1 &&
+  if (!a->error && rubs && SamContactGetSettings(a->setup->contact).coupling &&
+      SamMotionOf(a->setup->elasticity)->continues && a->steps == 1 &&
       SamPairCoupling(a->setup->pair, waves[0], waves[1]) > DISSIMILAR)
     Advise(a, "steps",
            "elastically dissimilar bodies with friction slip while the normal load grows, here in one step: use more "

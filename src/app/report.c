@@ -202,14 +202,12 @@ static PetscErrorCode KeepEnergy(SamReport r, SamContact contact)
 
 static PetscErrorCode KeepEdges(SamReport r, SamContact contact)
 {
-  PetscReal          area, accepted;
-  SamContactSettings set;
+  PetscReal area, accepted;
 
   PetscFunctionBegin;
-  PetscCall(SamContactGetSettings(contact, &set));
   PetscCall(SamContactGetNumber(contact, "contact_area", &area));
   PetscCall(SamContactGetNumber(contact, "edge_accepted", &accepted));
-  if (!set.edges || !(area > 0)) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!SamContactGetSettings(contact).edges || !(area > 0)) PetscFunctionReturn(PETSC_SUCCESS);
   if (!r->edges.step || accepted < r->edges.residual) r->edges = (SamReportWorst){accepted, r->number + 1};
   PetscFunctionReturn(PETSC_SUCCESS);
 }

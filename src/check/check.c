@@ -32,19 +32,18 @@ static PetscErrorCode AddCoupling(SamElasticity elasticity, SamGrid grid, const 
 static PetscErrorCode ComputeDisplacements(SamProblem problem, SamState state, PetscBool coupling, PetscBool u_z_known,
                                            const SamSolution *s, PetscReal *most)
 {
-  SamElasticityTraits traits;
   PetscReal           shear;
   const SamElasticity elasticity = SamProblemGetElasticity(problem);
 
   PetscFunctionBegin;
-  traits = SamElasticityGetTraits(elasticity);
   if (!u_z_known) PetscCall(SamElasticityApplyNormal(elasticity, s->pressure, s->displacement_z));
   PetscCall(VecNorm(s->shear, NORM_INFINITY, &shear));
   if (shear != 0)
     PetscCall(SamElasticityApplyTangential(elasticity, s->shear, s->displacement_t));
   else
     PetscCall(SamVecZero(s->displacement_t));
-  if (traits.coupled && coupling) PetscCall(AddCoupling(elasticity, SamProblemGetGrid(problem), s));
+  if (SamElasticityGetTraits(elasticity).coupled && coupling)
+    PetscCall(AddCoupling(elasticity, SamProblemGetGrid(problem), s));
   PetscCall(VecNorm(s->displacement_z, NORM_INFINITY, most));
   PetscCall(
     SamProblemAddOffset(problem, state, &s->control, u_z_known ? NULL : s->displacement_z, s->displacement_t, NULL));

@@ -74,11 +74,9 @@ PetscErrorCode SamContactSetSettings(SamContact c, const SamContactSettings *set
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamContactGetSettings(SamContact c, SamContactSettings *settings)
+SamContactSettings SamContactGetSettings(SamContact c)
 {
-  PetscFunctionBegin;
-  *settings = c->set;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return c->set;
 }
 
 /* A keyword of earlier versions, which is not one of those that are listed. */

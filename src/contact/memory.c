@@ -247,11 +247,9 @@ const SamSolution *SamContactBefore(SamContact c)
   return *SamStateNumbers(c->state, c->steps, SAM_COMMITTED) > 0 ? &c->generation[SAM_COMMITTED] : NULL;
 }
 
-PetscErrorCode SamContactGetSteps(SamContact c, PetscInt *steps)
+PetscInt SamContactGetSteps(SamContact c)
 {
-  PetscFunctionBegin;
-  *steps = (PetscInt)*SamStateNumbers(c->state, c->steps, SAM_COMMITTED);
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return (PetscInt)*SamStateNumbers(c->state, c->steps, SAM_COMMITTED);
 }
 
 /*

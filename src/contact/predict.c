@@ -268,13 +268,11 @@ PetscErrorCode SamContactPredict(SamContact c, const SamControl *control, SamSte
 {
   const SamSolution *now = &c->generation[SAM_COMMITTED], *before = &c->generation[SAM_BEFORE];
   double             alpha = 0;
-  PetscInt           steps;
   PetscBool          found = PETSC_FALSE, near = IsNear(c, control);
 
   PetscFunctionBegin;
   *start = (SamStepStart){.pressure = PETSC_FALSE};
-  PetscCall(SamContactGetSteps(c, &steps));
-  if (steps > 1 && c->set.warm_start) alpha = Continuation(c, &before->control, &now->control, control);
+  if (SamContactGetSteps(c) > 1 && c->set.warm_start) alpha = Continuation(c, &before->control, &now->control, control);
   for (PetscInt k = 0; k < 3; k++) {
     const PetscInt n = SamComponentsOf[SAM_BALANCE_TANGENTIAL][k];
 

@@ -23,11 +23,9 @@ struct _n_SamCheckpoint {
 /* The checksum of the gap that a contact's problem has now. */
 static PetscErrorCode GapChecksum(SamContact contact, uint64_t *checksum)
 {
-  Vec gap;
 
   PetscFunctionBegin;
-  gap = SamProblemGetGap(SamContactGetProblem(contact));
-  PetscCall(SamGridChecksum(SamContactGetGrid(contact), gap, checksum));
+  PetscCall(SamGridChecksum(SamContactGetGrid(contact), SamProblemGetGap(SamContactGetProblem(contact)), checksum));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -325,14 +323,12 @@ typedef struct {
 /* Whether a law of this name only accumulates its field, which it then declares; `state` NULL: it does not. */
 static PetscErrorCode DeclareSum(SamContact contact, const char name[], SamState state, PetscBool *is)
 {
-  SamElasticity elasticity;
-  SamLaw        law;
+  SamLaw law;
 
   PetscFunctionBegin;
   *is = PETSC_FALSE;
   if (!SamLawIsRegistered(name)) PetscFunctionReturn(PETSC_SUCCESS);
-  elasticity = SamProblemGetElasticity(SamContactGetProblem(contact));
-  PetscCall(SamLawCreate(elasticity, name, &law));
+  PetscCall(SamLawCreate(SamProblemGetElasticity(SamContactGetProblem(contact)), name, &law));
   *is = law->accumulates;
   if (*is && state) PetscCall(law->ops.declare(law, state));
   PetscCall(SamLawDestroy(&law));

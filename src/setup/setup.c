@@ -140,9 +140,8 @@ static PetscErrorCode AddGap(const SamSetup *s, SamParameters *p)
 
 PetscErrorCode SamSetupAddParameters(const SamSetup *s, SamParameters *p)
 {
-  SamContactSettings set;
-  const SamLaw      *laws;
-  PetscInt           count;
+  const SamLaw *laws;
+  PetscInt      count;
 
   PetscFunctionBegin;
   PetscCall(AddGrid(p, s->grid));
@@ -150,8 +149,8 @@ PetscErrorCode SamSetupAddParameters(const SamSetup *s, SamParameters *p)
   PetscCall(SamProblemGetLaws(s->problem, &count, &laws));
   for (PetscInt k = 0; k < count; k++) PetscCall(SamLawAddParameters(laws[k], p));
   PetscCall(AddGap(s, p));
-  PetscCall(SamContactGetSettings(s->contact, &set));
-  PetscCall(SamParametersAddText(p, "coupling", PETSC_TRUE, set.coupling ? "full" : "none"));
+  PetscCall(
+    SamParametersAddText(p, "coupling", PETSC_TRUE, SamContactGetSettings(s->contact).coupling ? "full" : "none"));
   PetscCall(SamParametersAddText(p, "rolling", PETSC_TRUE, SamMotionOf(s->elasticity)->word));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

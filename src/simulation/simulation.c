@@ -149,10 +149,9 @@ static PetscErrorCode Prepare(SamSimulation s, const SamOptions *from)
 /* Steps in pieces have the order that their estimate assumes, unless the user wants another one. */
 static PetscErrorCode SlipAtMidStep(SamContact contact)
 {
-  SamContactSettings set;
+  SamContactSettings set = SamContactGetSettings(contact);
 
   PetscFunctionBegin;
-  PetscCall(SamContactGetSettings(contact, &set));
   if (set.slip_direction == SAM_SLIP_AUTO) set.slip_direction = SAM_SLIP_MID;
   PetscCall(SamContactSetSettings(contact, &set));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -205,7 +204,6 @@ static PetscErrorCode GuessTime(SamSimulation s, double *seconds)
 static PetscErrorCode Begin(SamSimulation s, PetscBool writes)
 {
   SamSimulationStart *const start = &s->start;
-  PetscInt                  committed;
 
   PetscFunctionBegin;
   s->last_time  = PETSC_NINFINITY;
@@ -218,8 +216,8 @@ static PetscErrorCode Begin(SamSimulation s, PetscBool writes)
     for (PetscInt c = 0; c < SAM_COMPONENTS; c++)
       if (!control.force[c] || control.value[c] != 0) start->loads[c] = PETSC_TRUE;
   }
-  PetscCall(SamContactGetSteps(s->setup.contact, &committed));
-  if (s->checkpoints.restart[0] && !(committed > 0)) { /* else the state is that of a later step */
+  /* with committed steps the state is that of a later step */
+  if (s->checkpoints.restart[0] && !(SamContactGetSteps(s->setup.contact) > 0)) {
     start->restart = s->checkpoints.restart;
     PetscCall(SamSimulationRestart(s));
     PetscCall(SamSimulationDescribePlace(s, PETSC_FALSE, start->after, sizeof(start->after)));

@@ -45,13 +45,12 @@ static PetscErrorCode MeanGap(SamProblem problem, SamState state, const SamSolut
 
 PetscErrorCode SamSolutionComputeSpots(SamProblem problem, SamState state, const SamSolution *s)
 {
-  double *const       numbers = SamStateNumbers(state, SamStateFindNumber(state, declared[0].name), SAM_TRIED);
-  SamElasticityTraits traits;
-  PetscInt            zones;
+  double *const numbers = SamStateNumbers(state, SamStateFindNumber(state, declared[0].name), SAM_TRIED);
+  PetscInt      zones;
 
   PetscFunctionBegin;
-  traits = SamElasticityGetTraits(SamProblemGetElasticity(problem));
-  PetscCall(SamGridCountZones(SamProblemGetGrid(problem), s->pressure, traits.periodic, &zones));
+  PetscCall(SamGridCountZones(SamProblemGetGrid(problem), s->pressure,
+                              SamElasticityGetTraits(SamProblemGetElasticity(problem)).periodic, &zones));
   numbers[0] = (double)zones;
   PetscCall(MeanGap(problem, state, s, &numbers[1]));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -206,7 +206,6 @@ PetscErrorCode SamFrozenCreate(SamContact contact, SamStiffnessDirection directi
   SamWindow          window;
   SamElasticity      part;
   PetscInt           first[2], n[2];
-  SamContactSettings set;
   PetscBool          friction;
   Vec                fields[FIELDS] = {NULL};
   const SamProblem   problem        = SamContactGetProblem(contact);
@@ -216,9 +215,8 @@ PetscErrorCode SamFrozenCreate(SamContact contact, SamStiffnessDirection directi
   PetscCall(CheckStep(contact, direction));
   *f            = (SamFrozen){.part = SAM_FROZEN_BOTH};
   f->elasticity = SamProblemGetElasticity(problem);
-  PetscCall(SamContactGetSettings(contact, &set));
   PetscCall(SamProblemHasFriction(problem, &friction));
-  f->coupled = SamElasticityGetTraits(f->elasticity).coupled && set.coupling && friction;
+  f->coupled = SamElasticityGetTraits(f->elasticity).coupled && SamContactGetSettings(contact).coupling && friction;
   f->grid    = whole;
   PetscCall(SamContactGetSolution(contact, &s));
   PetscCall(SamGridGetSupport(whole, s->pressure, first, n));

@@ -155,13 +155,11 @@ static void Transform(const Systems *s, const PetscBool rotations[3], SamStiffne
 /* The part of the grid that the elasticity uses may be another one afterwards: each try chooses its own. */
 PetscErrorCode SamStiffnessCompute(SamContact contact, SamStiffnessDirection direction, SamStiffness *stiffness)
 {
-  Systems       s = {.error = 0};
-  SamElasticity elasticity;
+  Systems s = {.error = 0};
 
   PetscFunctionBegin;
   PetscCall(SamMotionRefuse(SamContactGetMotion(contact), SAM_MOTION_STIFFNESS, PETSC_COMM_SELF, "-", "stiffness"));
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_STIFFNESS], 0, 0, 0, 0));
-  elasticity = SamProblemGetElasticity(SamContactGetProblem(contact));
   PetscCall(SamFrozenCreate(contact, direction, &s.f));
   if (s.f.coupled)
     PetscCall(Solve(&s, SAM_FROZEN_BOTH, 0, SAM_COMPONENTS, direction == SAM_STIFFNESS_REVERSAL));
@@ -173,7 +171,7 @@ PetscErrorCode SamStiffnessCompute(SamContact contact, SamStiffnessDirection dir
   stiffness->columns       = SAM_COMPONENTS;
   stiffness->applies       = s.f.applies;
   stiffness->preconditions = s.f.preconditions;
-  Transform(&s, SamElasticityGetTraits(elasticity).rotations, stiffness);
+  Transform(&s, SamElasticityGetTraits(SamProblemGetElasticity(SamContactGetProblem(contact))).rotations, stiffness);
   PetscCall(SamFrozenDestroy(&s.f));
   PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_STIFFNESS], 0, 0, 0, 0));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -87,13 +87,11 @@ static PetscErrorCode FindLine(SamEvaluation e)
 /* The stresses of the body that is asked for. */
 static PetscErrorCode CreateStress(SamEvaluation e)
 {
-  SamElasticityTraits     traits;
   const SamElasticityType type = SamElasticityGetType(e->source.bodies);
 
   PetscFunctionBegin;
-  traits = SamElasticityGetTraits(e->source.bodies);
-  PetscCheck(traits.stress, e->comm, SAM_ERR_USER, "%s: stresses are not available for bodies of type %s",
-             e->source.name, type);
+  PetscCheck(SamElasticityGetTraits(e->source.bodies).stress, e->comm, SAM_ERR_USER,
+             "%s: stresses are not available for bodies of type %s", e->source.name, type);
   PetscCheck(!SamBodyIsRigid(SamEvaluationBody(e)), e->comm, SAM_ERR_USER,
              "-body %" PetscInt_FMT ": it is rigid, so its stresses are undetermined", e->body);
   PetscCall(SamElasticityCreateStress(e->source.bodies, e->body, e->source.settings, &e->stress));

@@ -56,13 +56,12 @@ static PetscErrorCode FindLaw(SamProblem problem, SamGrid grid, SamLaw *law)
 PetscErrorCode SamLifeCreate(SamContact contact, const SamLifeCycle *cycle, const SamLifeSettings *settings,
                              SamLife *life)
 {
-  SamProblem problem;
-  SamGrid    grid;
-  SamLaw     law;
-  SamLife    l;
+  SamProblem    problem;
+  const SamGrid grid = SamContactGetGrid(contact);
+  SamLaw        law;
+  SamLife       l;
 
   PetscFunctionBegin;
-  grid = SamContactGetGrid(contact);
   PetscCheck(settings->rtol > 0 && isfinite(settings->rtol), grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
              "tolerance %.6g of cycle jumps: expected a finite number > 0", (double)settings->rtol);
   PetscCheck(settings->jump >= 0 && isfinite(settings->jump), grid->comm, PETSC_ERR_ARG_OUTOFRANGE,

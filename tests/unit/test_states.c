@@ -189,7 +189,7 @@ static PetscInt StepsOf(const Case *c)
 {
   PetscInt steps;
 
-  sam_call(SamContactGetSteps(c->contact, &steps));
+  steps = SamContactGetSteps(c->contact);
   return steps;
 }
 
