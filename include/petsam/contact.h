@@ -100,8 +100,8 @@ PETSC_EXTERN PetscErrorCode SamContactTry(SamContact contact, const SamControl *
 PETSC_EXTERN PetscErrorCode SamContactCommit(SamContact contact);
 /* SamContactReject - discards the tried state, if there is one. Collective. */
 PETSC_EXTERN PetscErrorCode SamContactReject(SamContact contact);
-/* SamContactHasStep - whether there is a tried solution; and a committed one. Not collective. */
-PETSC_EXTERN PetscErrorCode SamContactHasStep(SamContact contact, PetscBool *tried, PetscBool *committed);
+/* SamContactHasStep - whether there is a tried solution, or a committed one. Not collective. */
+PETSC_EXTERN PetscBool SamContactHasStep(SamContact contact, SamGeneration generation);
 /*
   SamContactGetSolution - the solution of the tried state if there is one, else of the committed one. Borrowed until the
   next try, commit or rejection. Collective.

@@ -57,7 +57,7 @@ PETSC_INTERN PetscInt SamHistoryGetStart(SamHistory history);
   SamHistoryGives - whether it gives a condition of that one's group: has a column of it, or another value than usual.
   Not collective.
 */
-PETSC_INTERN PetscErrorCode SamHistoryGives(SamHistory history, const SamCondition *one, PetscBool *gives);
+PETSC_INTERN PetscBool SamHistoryGives(SamHistory history, const SamCondition *one);
 /*
   SamHistoryGetStep - the control of step k (from 0). The increments up to the first row start from zero loads,
   displacements and usual conditions at time 0; if the first row's time is not positive, they start before it by the
@@ -65,8 +65,8 @@ PETSC_INTERN PetscErrorCode SamHistoryGives(SamHistory history, const SamConditi
   the start. Not collective.
   SamHistoryGetPart - after a part of the step, more than 0, at most 1. Not collective.
 */
-PETSC_INTERN PetscErrorCode SamHistoryGetStep(SamHistory history, PetscInt k, SamControl *control);
-PETSC_INTERN PetscErrorCode SamHistoryGetPart(SamHistory history, PetscInt k, PetscReal part, SamControl *control);
+PETSC_INTERN SamControl SamHistoryGetStep(SamHistory history, PetscInt k);
+PETSC_INTERN SamControl SamHistoryGetPart(SamHistory history, PetscInt k, PetscReal part);
 /* SamHistoryGetPlace - the row that step k leads to, for messages: "file, line 3: ", empty without a file. */
 PETSC_INTERN PetscErrorCode SamHistoryGetPlace(SamHistory history, PetscInt k, char text[], size_t size);
 

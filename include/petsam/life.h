@@ -74,10 +74,10 @@ PETSC_INTERN PetscErrorCode SamLifeDestroy(SamLife *life);
 */
 PETSC_INTERN void SamLifeEnd(SamLife life);
 /*
-  SamLifeGetSeries - the numbers of computed cycles, as a state that results may offer as a series beside /history, and
-  the name of that; borrowed. SamLifeRecord - sets its committed numbers. Not collective.
+  SamLifeGetSeries - the numbers of computed cycles, as a state that results may offer as a series beside /history;
+  borrowed. SamLifeRecord - sets its committed numbers. Not collective.
 */
-PETSC_INTERN PetscErrorCode SamLifeGetSeries(SamLife life, SamState *series, const char **name);
+PETSC_INTERN SamState       SamLifeGetSeries(SamLife life);
 PETSC_INTERN PetscErrorCode SamLifeRecord(SamLife life, const SamLifeReport *report);
 /*
   SamLifeCompute - a cycle on the wear so far. When a step of it has no solution or did not converge, the report's step

@@ -53,7 +53,7 @@ PETSC_INTERN PetscErrorCode SamProblemGetRevision(SamProblem problem, PetscObjec
 PETSC_EXTERN PetscErrorCode SamProblemAddLaw(SamProblem problem, SamLaw law);
 PETSC_EXTERN PetscErrorCode SamProblemAddLawOfType(SamProblem problem, SamLawType type, SamLaw *law);
 PETSC_INTERN PetscErrorCode SamProblemAddSum(SamProblem problem, SamLawType type);
-PETSC_EXTERN PetscErrorCode SamProblemGetLaw(SamProblem problem, SamLawType type, SamLaw *law);
+PETSC_EXTERN SamLaw         SamProblemGetLaw(SamProblem problem, SamLawType type);
 PETSC_EXTERN PetscErrorCode SamProblemGetLaws(SamProblem problem, PetscInt *count, const SamLaw **laws);
 PETSC_EXTERN PetscErrorCode SamProblemSetLawsFromOptions(SamProblem problem, const SamOptions *from);
 
@@ -61,8 +61,8 @@ PETSC_EXTERN PetscErrorCode SamProblemSetLawsFromOptions(SamProblem problem, con
   SamProblemGetBytes - memory that the laws take for each cell, bytes. Not collective.
   SamProblemMoves - whether a law changes the separation in time. Not collective.
 */
-PETSC_INTERN PetscErrorCode SamProblemGetBytes(SamProblem problem, PetscInt *bytes);
-PETSC_INTERN PetscErrorCode SamProblemMoves(SamProblem problem, PetscBool *moves);
+PETSC_INTERN PetscInt  SamProblemGetBytes(SamProblem problem);
+PETSC_INTERN PetscBool SamProblemMoves(SamProblem problem);
 
 /*
   SamProblemSetFriction, SamProblemSetFrictionField - set the coefficient of the law coulomb (law.h). Collective.

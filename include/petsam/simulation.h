@@ -148,7 +148,7 @@ typedef struct {
 PETSC_EXTERN const SamSetup    *SamSimulationGetSetup(SamSimulation simulation);
 PETSC_EXTERN SamSimulationNeeds SamSimulationGetNeeds(SamSimulation simulation);
 PETSC_EXTERN PetscErrorCode     SamSimulationGetFiles(SamSimulation simulation, SamSimulationFiles *files);
-PETSC_INTERN PetscErrorCode     SamSimulationGetSeries(SamSimulation simulation, SamState *series);
+PETSC_INTERN SamState           SamSimulationGetSeries(SamSimulation simulation);
 PETSC_EXTERN PetscErrorCode     SamSimulationGetStatus(SamSimulation simulation, SamStatus *worst, PetscBool *stopped);
 PETSC_EXTERN PetscBool          SamSimulationIsWriting(SamSimulation simulation);
 /* SamSimulationAbandon - before the process ends without the others: leaves no temporary file. Not collective. */

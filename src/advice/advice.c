@@ -330,10 +330,8 @@ static void Size(SamAdvice *a)
 static void Friction(SamAdvice *a)
 {
   PetscReal friction;
-  SamLaw    law;
 
-  a->error = SamProblemGetLaw(a->setup->problem, SAM_LAW_COULOMB, &law);
-  if (!a->error) a->error = SamLawGetFriction(law, &friction);
+  a->error = SamLawGetFriction(SamProblemGetLaw(a->setup->problem, SAM_LAW_COULOMB), &friction);
   if (a->error || friction < PERCENT || friction > STICKING) return;
   Advise(a, "friction", "the coefficient of friction is %g: give a ratio, %g for %g percent", (double)friction,
          (double)friction / 100, (double)friction);
@@ -467,7 +465,7 @@ PetscErrorCode SamAdviceEdge(const SamAdvice *a, SamStep *step)
   const size_t        used = strlen(step->message), size = sizeof(step->message) - used;
   char *const         text = step->message + used;
   PetscReal           half[2];
-  PetscBool           known, large, moves;
+  PetscBool           known, large;
   char                grid[3 * AT_A_TIME], ratio[192] = "";
 
   PetscFunctionBegin;
@@ -487,8 +485,7 @@ PetscErrorCode SamAdviceEdge(const SamAdvice *a, SamStep *step)
     (void)snprintf(text, size,
                    "; a surface from a file cannot be enlarged: give a file of a larger area, or less load");
   } else {
-    PetscCall(SamProblemMoves(s->problem, &moves));
-    known = known && !moves && !most->open;
+    known = known && !SamProblemMoves(s->problem) && !most->open;
     if (!known) Extrapolate(s, step, most, half);
     AdviseGrid(s, half, most->lever, grid, sizeof(grid));
     if (known) PetscCall(Compare(s, half, ratio, sizeof(ratio), &large));

@@ -3,6 +3,7 @@
 
   Times are those of petsam's log events, each from the rank where it is largest.
 */
+#include "program.h"
 #include "report.h"
 #include <stdio.h>
 #include <string.h>
@@ -160,15 +161,10 @@ static PetscErrorCode PrintFiles(SamReport r)
 */
 static double LargestMemory(void)
 {
-  FILE         *file = fopen("/proc/self/status", "r");
-  char          line[128];
-  double        kilobytes = 0;
+  const double  bytes = SamMemoryRead("/proc/self/status", "VmHWM:");
   struct rusage used;
 
-  while (file && fgets(line, sizeof(line), file))
-    if (sscanf(line, "VmHWM: %lf", &kilobytes) == 1) break;
-  if (file) fclose(file);
-  if (kilobytes > 0) return 1024 * kilobytes;
+  if (bytes > 0) return bytes;
   getrusage(RUSAGE_SELF, &used);
   return 1024 * (double)used.ru_maxrss;
 }

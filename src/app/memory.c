@@ -1,18 +1,18 @@
 /* Whether each node has the memory that a run needs. */
 #include "program.h"
 #include <petsam/private/baseimpl.h>
+#include <stdlib.h>
 
-/* Available memory of this node, bytes; 0 if that is not known. */
-static double AvailableMemory(void)
+double SamMemoryRead(const char name[], const char row[])
 {
-  FILE  *file = fopen("/proc/meminfo", "r");
-  char   line[128];
-  double kilobytes = 0;
+  const size_t length = strlen(row);
+  FILE        *file   = fopen(name, "r");
+  char         line[128];
+  double       kilobytes = 0;
 
-  if (!file) return 0;
-  while (fgets(line, sizeof(line), file))
-    if (sscanf(line, "MemAvailable: %lf", &kilobytes) == 1) break;
-  fclose(file);
+  while (file && fgets(line, sizeof(line), file))
+    if (!strncmp(line, row, length)) kilobytes = strtod(line + length, NULL);
+  if (file) fclose(file);
   return 1024 * kilobytes;
 }
 
@@ -31,7 +31,7 @@ PetscErrorCode SamMemoryRefuse(MPI_Comm comm, double bytes, const char option[],
   PetscCallMPI(MPI_Comm_split_type(comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &need, 1, MPI_DOUBLE, MPI_SUM, node));
   PetscCallMPI(MPI_Comm_free(&node));
-  worst = AvailableMemory();
+  worst = SamMemoryRead("/proc/meminfo", "MemAvailable:");
   worst = worst > 0 ? need / worst : 0;
   PetscCall(SamMax(comm, 1, &worst));
   SamDescribeBytes(need, memory, sizeof(memory));

@@ -203,7 +203,7 @@ static PetscErrorCode SetUp(void *context, const SamArguments *arguments)
   static const SamOptionRow quiet = {"quiet", "print warnings and errors only", SAM_OPTION_BOOL, .member = 0};
   SamStressRun *const       run   = (SamStressRun *)context;
   const SamOptions          from  = {PETSC_COMM_WORLD, NULL};
-  PetscBool                 help;
+  const PetscBool           help  = SamPrintHelp();
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &run->rank));
@@ -213,7 +213,6 @@ static PetscErrorCode SetUp(void *context, const SamArguments *arguments)
   PetscCall(SamOptionsHeading(&from, "Resources"));
   PetscCall(SamFourierSettingsFromOptions(&run->transforms, &from));
   PetscCall(SamOptionsRead(&from, NULL, 1, &quiet, &run->quiet, NULL));
-  PetscCall(SamPrintHelp(&help));
   if (help) PetscCall(SamMemoryRefuse(PETSC_COMM_WORLD, 0, "", "", &from)); /* for its option */
   if (help) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(CheckFiles(&run->request, arguments));

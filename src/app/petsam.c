@@ -191,12 +191,10 @@ static PetscErrorCode Tell(void *context, SamContact contact, const SamSimulatio
 
   PetscFunctionBegin;
   if (news->kind == SAM_NEWS_BEGIN) {
-    const SamSetup *setup;
-    double          bytes;
+    double bytes;
 
-    setup = SamSimulationGetSetup(run->simulation);
     PetscCall(EstimateMemory(run->simulation, &bytes));
-    PetscCall(SamReportBanner(run->report, setup->grid, bytes, news->start));
+    PetscCall(SamReportBanner(run->report, SamSimulationGetSetup(run->simulation)->grid, bytes, news->start));
   } else {
     PetscCall(SamReportNews(run->report, contact, news));
   }

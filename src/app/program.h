@@ -41,6 +41,8 @@ PETSC_INTERN int SamProgramMain(const SamProgram *program, int argc, char **argv
 */
 PETSC_INTERN PetscErrorCode SamProgramHelp(const SamProgram *program, const SamArguments *arguments);
 
+/* SamMemoryRead - the bytes that a row of a file of /proc names; 0: not known. Not collective. */
+PETSC_INTERN double SamMemoryRead(const char file[], const char row[]);
 #define SAM_MEMORY_PROGRAM 50e6 /* bytes of a program and its libraries, on each rank */
 /*
   SamMemoryRefuse - refuses a run that needs more memory than a node has, before the system would kill it; `bytes`: the

@@ -13,33 +13,28 @@ void SamHelpSetFunction(SamHelpFunction function, void *context)
   receiver = context;
 }
 
-PetscErrorCode SamPrintHelp(PetscBool *print)
+PetscBool SamPrintHelp(void)
 {
-  PetscFunctionBegin;
-  PetscCall(PetscOptionsHasHelp(NULL, print));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  PetscBool print = PETSC_FALSE;
+
+  return !PetscOptionsHasHelp(NULL, &print) && print ? PETSC_TRUE : PETSC_FALSE;
 }
 
 PetscErrorCode SamOptionsHeading(const SamOptions *from, const char title[])
 {
-  PetscBool help;
-
   PetscFunctionBegin;
-  PetscCall(SamPrintHelp(&help));
-  if (help) PetscCall((*receive)(receiver, from->comm, title, NULL));
+  if (SamPrintHelp()) PetscCall((*receive)(receiver, from->comm, title, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamOptionsDescribe(const SamOptions *from, const SamOptionHelp *option)
 {
   SamOptionHelp prefixed = *option;
-  PetscBool     help;
   char          name[128];
 
   PetscFunctionBegin;
   SamOptionsKnow(from, option->name, NULL);
-  PetscCall(SamPrintHelp(&help));
-  if (!help) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!SamPrintHelp()) PetscFunctionReturn(PETSC_SUCCESS);
   (void)snprintf(name, sizeof(name), "%s%s", SamOptionsPrefix(from), option->name);
   prefixed.name = name;
   if (strstr(option->text, "required")) prefixed.value = "";

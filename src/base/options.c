@@ -398,17 +398,14 @@ static PetscErrorCode CheckRow(const SamOptions *from, const SamOptionRow *row, 
 PetscErrorCode SamOptionsRead(const SamOptions *from, const char heading[], PetscInt count, const SamOptionRow rows[],
                               void *settings, PetscBool given[])
 {
-  PetscBool help;
-
   PetscFunctionBegin;
-  PetscCall(SamPrintHelp(&help));
   if (heading) PetscCall(SamOptionsHeading(from, heading));
   for (PetscInt k = 0; k < count; k++) {
     void     *member = (char *)settings + rows[k].member;
     PetscBool found;
 
     PetscCall(ReadRow(from, &rows[k], member, &found));
-    if (!help) PetscCall(CheckRow(from, &rows[k], member, found));
+    if (!SamPrintHelp()) PetscCall(CheckRow(from, &rows[k], member, found));
     if (given) given[k] = found;
   }
   PetscFunctionReturn(PETSC_SUCCESS);

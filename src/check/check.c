@@ -85,11 +85,10 @@ typedef struct {
 
 static Border BorderOf(SamProblem problem, SamGrid grid, const SamSolution *s)
 {
-  SamElasticityTraits traits;
-  PetscReal           roll[2];
-  Border              b;
+  const SamElasticityTraits traits = SamElasticityGetTraits(SamProblemGetElasticity(problem));
+  PetscReal                 roll[2];
+  Border                    b;
 
-  traits = SamElasticityGetTraits(SamProblemGetElasticity(problem));
   (void)SamProblemGetRolled(problem, &s->control, roll);
   SamGridEntering(grid, roll, b.low, b.high);
   for (int axis = 0; axis < grid->axes; axis++) {

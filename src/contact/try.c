@@ -392,10 +392,7 @@ PetscErrorCode SamContactReject(SamContact c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamContactHasStep(SamContact c, PetscBool *tried, PetscBool *committed)
+PetscBool SamContactHasStep(SamContact c, SamGeneration generation)
 {
-  PetscFunctionBegin;
-  *tried     = c->has_tried;
-  *committed = SamContactBefore(c) != NULL;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return generation == SAM_TRIED ? c->has_tried : SamContactBefore(c) != NULL;
 }

@@ -294,10 +294,9 @@ static PetscErrorCode ReadLayers(const SamOptions *from, SamMaterial m[], PetscI
   const char *const prefix = SamOptionsPrefix(from);
   PetscReal         values[LISTS][LAYERS];
   PetscInt          count[LISTS], most = 0;
-  PetscBool         print, graded;
+  PetscBool         graded;
 
   PetscFunctionBegin;
-  PetscCall(SamPrintHelp(&print));
   PetscCall(SamBodyReadProfile(from, PROFILE, m, layers, &graded));
   for (int l = 0; l < LISTS; l++) {
     PetscCall(SamOptionsReals(from, lists[l].name, lists[l].help, lists[l].range, LAYERS, values[l], &count[l]));
@@ -305,7 +304,7 @@ static PetscErrorCode ReadLayers(const SamOptions *from, SamMaterial m[], PetscI
                prefix, prefix, lists[l].name);
     most = PetscMax(most, count[l]);
   }
-  if (!most || print) PetscFunctionReturn(ReadResidualStress(from, m, *layers));
+  if (!most || SamPrintHelp()) PetscFunctionReturn(ReadResidualStress(from, m, *layers));
   for (int l = 0; l < LISTS; l++)
     PetscCall(SamOptionsRequire(from, count[l] > 0, lists[l].name, "the layers of a body need all three lists"));
   if (count[POISSON] == 1)
@@ -323,13 +322,13 @@ static PetscErrorCode ReadLayers(const SamOptions *from, SamMaterial m[], PetscI
 
 PetscErrorCode SamBodyCreateFromOptions(const SamOptions *from, SamBody *body)
 {
-  SamMaterial m[SAM_MATERIALS] = {{0}}, last = {0};
-  PetscInt    layers = 0;
-  PetscBool   given, help;
-  char        message[256], prefix[128];
+  SamMaterial     m[SAM_MATERIALS] = {{0}}, last = {0};
+  PetscInt        layers = 0;
+  PetscBool       given;
+  char            message[256], prefix[128];
+  const PetscBool help = SamPrintHelp();
 
   PetscFunctionBegin;
-  PetscCall(SamPrintHelp(&help));
   PetscCall(SamOptionsReal(from, "young", "Young's modulus (Pa), inf: rigid: required", SAM_RANGE_POSITIVE_INF,
                            &last.young, &given));
   PetscCall(

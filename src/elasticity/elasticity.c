@@ -170,7 +170,6 @@ PetscErrorCode SamElasticitySetFromOptions(SamElasticity e)
 {
   const SamOptions from = {e->grid->comm, e->prefix};
   char             type[sizeof(e->type)], types[256];
-  PetscBool        help;
 
   PetscFunctionBegin;
   PetscCall(SamElasticityGetTypes(types, sizeof(types)));
@@ -188,8 +187,7 @@ PetscErrorCode SamElasticitySetFromOptions(SamElasticity e)
     o->fft = e->fft;
     if (o->ops.setfromoptions) PetscCall((*o->ops.setfromoptions)(o, &from));
   }
-  PetscCall(SamPrintHelp(&help));
-  if (help) PetscCall(DescribeOthers(e, &from));
+  if (SamPrintHelp()) PetscCall(DescribeOthers(e, &from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -426,12 +426,11 @@ int petsam_reject(petsam_contact *c)
 
 static PetscErrorCode Stiffness(petsam_contact *c, PetscBool reversal, double k[])
 {
-  SamStiffness s;
-  char         text[SAM_MESSAGE];
-  PetscBool    tried, committed;
+  SamStiffness    s;
+  char            text[SAM_MESSAGE];
+  const PetscBool tried = SamContactHasStep(c->setup->contact, SAM_TRIED);
 
   PetscFunctionBegin;
-  PetscCall(SamContactHasStep(c->setup->contact, &tried, &committed));
   PetscCheck(!tried || SamStepIsSolved(&c->last), c->comm, PETSC_ERR_NOT_CONVERGED,
              "the tried step did not converge, and has no stiffness: %s", c->last.message);
   PetscCall(SamStiffnessCompute(c->setup->contact, reversal ? SAM_STIFFNESS_REVERSAL : SAM_STIFFNESS_FORWARD, &s));
@@ -464,10 +463,11 @@ PetscErrorCode SamEmbedCopyField(petsam_contact *c, const char name[], double va
 
 static PetscErrorCode GetField(petsam_contact *c, const char name[], double values[])
 {
-  PetscBool found, tried, committed;
+  PetscBool       found;
+  const PetscBool tried     = SamContactHasStep(c->setup->contact, SAM_TRIED);
+  const PetscBool committed = SamContactHasStep(c->setup->contact, SAM_COMMITTED);
 
   PetscFunctionBegin;
-  PetscCall(SamContactHasStep(c->setup->contact, &tried, &committed));
   PetscCheck(tried || committed, c->comm, PETSC_ERR_ORDER, "%s: no step has been solved yet", name);
   PetscCall(SamContactHasField(c->setup->contact, name, &found));
   PetscCheck(found, c->comm, SAM_ERR_USER, "%s: there is no field of this name", name);
@@ -518,17 +518,16 @@ static PetscErrorCode GetNumber(petsam_contact *c, const char name[], double *va
 {
   static const char cycle[] = "wear/";
 
-  const size_t skip = strncmp(name, cycle, strlen(cycle)) ? 0 : strlen(cycle);
-  const char  *found;
-  SamState     state;
-  PetscInt     id;
-  PetscBool    tried, committed;
+  const size_t    skip = strncmp(name, cycle, strlen(cycle)) ? 0 : strlen(cycle);
+  const char     *found;
+  SamState        state;
+  PetscInt        id;
+  const PetscBool committed = SamContactHasStep(c->setup->contact, SAM_COMMITTED);
 
   PetscFunctionBegin;
-  PetscCall(SamContactHasStep(c->setup->contact, &tried, &committed));
   PetscCall(SamContactGetState(c->setup->contact, &state)); /* one without a solution has numbers, too */
   PetscCheck(committed || SamStateHasTried(state), c->comm, PETSC_ERR_ORDER, "%s: no step has been tried yet", name);
-  if (skip) PetscCall(SamSimulationGetSeries(c->simulation, &state));
+  if (skip) state = SamSimulationGetSeries(c->simulation);
   PetscCheck(state, c->comm, PETSC_ERR_ORDER, "%s: no cycles have been computed", name);
   id = FindNumber(state, 0, name + skip, &found);
   PetscCheck(id >= 0, c->comm, SAM_ERR_USER, "%s: there is no number of this name", name);

@@ -31,13 +31,12 @@ static PetscErrorCode CollectParameters(petsam_contact *c, SamParameters *parame
 
 static PetscErrorCode Save(petsam_contact *c, const char file[])
 {
-  SamCheckpoint  checkpoint;
-  SamParameters  parameters;
-  PetscErrorCode code;
-  PetscBool      tried, committed;
+  SamCheckpoint   checkpoint;
+  SamParameters   parameters;
+  PetscErrorCode  code;
+  const PetscBool committed = SamContactHasStep(c->setup->contact, SAM_COMMITTED);
 
   PetscFunctionBegin;
-  PetscCall(SamContactHasStep(c->setup->contact, &tried, &committed));
   PetscCheck(committed, c->comm, PETSC_ERR_ORDER, "%s: no step has been committed yet", file);
   PetscCall(CollectParameters(c, &parameters));
   PetscCall(SamCheckpointCreate(c->setup->grid, file, &checkpoint));

@@ -68,10 +68,9 @@ static PetscErrorCode Tell(void *context, SamContact contact, const SamSimulatio
 static PetscErrorCode GetCommitted(petsam_contact *c, SamControl *control, PetscBool *committed)
 {
   const SamSolution *s;
-  PetscBool          tried;
 
   PetscFunctionBegin;
-  PetscCall(SamContactHasStep(c->setup->contact, &tried, committed));
+  *committed = SamContactHasStep(c->setup->contact, SAM_COMMITTED);
   if (!*committed) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamContactGetSolution(c->setup->contact, &s));
   *control = s->control;
@@ -155,9 +154,8 @@ static PetscErrorCode CheckCopy(petsam_contact *c, petsam_contact *from)
                !memcmp(to->center, of->center, sizeof(to->center)),
              c->comm, SAM_ERR_USER, "petsam_copy: the contacts have different grids");
   for (int k = 0; k < 2; k++) {
-    Vec values;
+    Vec values = SamProblemGetGap(both[k]->setup->problem);
 
-    values = SamProblemGetGap(both[k]->setup->problem);
     PetscCall(SamGridChecksum(both[k]->setup->grid, values, &gap[k]));
   }
   PetscCheck(gap[0] == gap[1], c->comm, SAM_ERR_USER, "petsam_copy: the contacts have different gaps");

@@ -273,12 +273,12 @@ static PetscErrorCode Evaluate(petsam_contact *c, const char options[], PetscInt
 
 static PetscErrorCode StressOfStep(petsam_contact *c, const char options[], int shape[4])
 {
-  Step           step = {.fields = NULL};
-  PetscErrorCode code;
-  PetscBool      tried, committed;
+  Step            step = {.fields = NULL};
+  PetscErrorCode  code;
+  const PetscBool tried     = SamContactHasStep(c->setup->contact, SAM_TRIED);
+  const PetscBool committed = SamContactHasStep(c->setup->contact, SAM_COMMITTED);
 
   PetscFunctionBegin;
-  PetscCall(SamContactHasStep(c->setup->contact, &tried, &committed));
   PetscCheck(tried || committed, c->comm, PETSC_ERR_ORDER, "no step has been solved yet");
   if (!c->stress) PetscCall(PetscNew(&c->stress));
   PetscCall(TakeStep(c, &step));
@@ -296,11 +296,11 @@ int petsam_stress(petsam_contact *c, const char *options, int shape[4])
 
 PetscErrorCode SamEmbedRecordAnew(petsam_contact *c)
 {
-  PetscBool tried, committed;
+  const PetscBool tried     = SamContactHasStep(c->setup->contact, SAM_TRIED);
+  const PetscBool committed = SamContactHasStep(c->setup->contact, SAM_COMMITTED);
 
   PetscFunctionBegin;
   SamEmbedForgetSteps(c);
-  PetscCall(SamContactHasStep(c->setup->contact, &tried, &committed));
   if (c->stress && c->stress->recording && committed && !tried) PetscCall(TakeStep(c, &c->stress->before));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

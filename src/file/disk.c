@@ -325,14 +325,13 @@ PetscErrorCode SamFileCheckName(SamGrid grid, const char option[], const char fi
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamFileHasContent(SamGrid grid, const char filename[], PetscBool *has)
+PetscErrorCode SamFileGetBytes(MPI_Comm comm, const char filename[], double *bytes)
 {
   struct stat status;
-  int         some = IsFirst(grid) && !stat(filename, &status) && status.st_size > 0;
 
   PetscFunctionBegin;
-  PetscCallMPI(MPI_Bcast(&some, 1, MPI_INT, 0, grid->comm));
-  *has = some != 0;
+  *bytes = stat(filename, &status) ? -1 : (double)status.st_size;
+  PetscCallMPI(MPI_Bcast(bytes, 1, MPI_DOUBLE, 0, comm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

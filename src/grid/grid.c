@@ -135,13 +135,12 @@ PetscErrorCode SamGridCreateFromOptions(const SamOptions *from, PetscBool row, P
      .range = SAM_RANGE_POSITIVE, .size = 2,
      .missing = "the full width of the grid in x[,y], m: about 1.5 times that of the contact"},
     {"grid_center", "centre x,y (m)", SAM_OPTION_REAL, MEMBER(center), .range = SAM_RANGE_ANY, .size = 2}};
-  PetscBool         help;
   char              message[256], options[3][96];
   const char *const names[3] = {options[0], options[1], options[2]};
+  const PetscBool   help     = SamPrintHelp();
 
   PetscFunctionBegin;
   PetscCall(SamOptionsRead(from, "Grid", SAM_OPTION_ROWS(rows), &set, NULL));
-  PetscCall(SamPrintHelp(&help));
   for (int k = 0; k < 2; k++) { /* the defaults are listed in the help; any grid does */
     n[k]      = help ? 2 : set.n[k];
     width[k]  = help ? 1 : set.width[k];

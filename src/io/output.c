@@ -222,13 +222,15 @@ static PetscErrorCode MakeIdentity(SamOutput o)
 static PetscErrorCode CreateFile(SamOutput o, const char filename[])
 {
   char          *temporary;
+  double         bytes;
   PetscErrorCode ierr;
 
   PetscFunctionBegin;
   PetscCall(PetscStrallocpy(filename, &o->name));
   PetscCall(MakeIdentity(o));
   PetscCall(SamFileCheckName(o->grid, "output", filename, SAM_FILE_RESULTS));
-  PetscCall(SamFileHasContent(o->grid, filename, &o->replaced));
+  PetscCall(SamFileGetBytes(o->grid->comm, filename, &bytes));
+  o->replaced = bytes > 0 ? PETSC_TRUE : PETSC_FALSE;
   PetscCall(SamOutputNameTemporary(filename, &temporary));
   ierr = SamFileLockTake(o->grid, "output", temporary, SAM_FILE_TEMPORARY, &o->hold);
   if (!ierr) ierr = SamFileOpen(o->grid, SAM_EVENT_OUTPUT, "output", temporary, SAM_FILE_CREATE, &o->f);

@@ -8,7 +8,6 @@
 #include "ioimpl.h"
 #include <petsam/results.h>
 #include <string.h>
-#include <unistd.h>
 
 static const char *const numbers[SAM_RESULTS_NUMBERS] = {"cycle", "status", "contact_area"};
 static const char *const fields[SAM_RESULTS_FIELDS]   = {"/pressure", "/shear_x", "/shear_y", "/slip_x", "/slip_y"};
@@ -239,29 +238,16 @@ static PetscErrorCode ReadTimes(SamResults r, Part *part)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether there is a file, by rank 0. */
-static PetscErrorCode Exists(MPI_Comm comm, const char filename[], PetscBool *exists)
-{
-  PetscMPIInt rank;
-  int         there = 0;
-
-  PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  if (!rank) there = !access(filename, F_OK);
-  PetscCallMPI(MPI_Bcast(&there, 1, MPI_INT, 0, comm));
-  *exists = there != 0;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Examines the part of that number, from 1, and takes it if it follows the one before; it need not be there. */
 static PetscErrorCode FindPart(SamResults r, MPI_Comm comm, const char option[], const char name[], PetscBool *found)
 {
   Part *const before = r->count ? r->part[r->count - 1] : NULL;
   Part       *part;
+  double      bytes = 0;
 
   PetscFunctionBegin;
-  *found = PETSC_TRUE;
-  if (before) PetscCall(Exists(comm, name, found));
+  if (before) PetscCall(SamFileGetBytes(comm, name, &bytes));
+  *found = bytes < 0 ? PETSC_FALSE : PETSC_TRUE;
   if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscNew(&part));
   r->part[r->count++] = part; /* SamResultsDestroy() frees it */

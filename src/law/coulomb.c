@@ -77,7 +77,7 @@ static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBo
            .unit            = "1",
   };
   PetscReal      friction = c->friction;
-  PetscBool      set, help;
+  PetscBool      set;
   PetscErrorCode ierr = 0;
   Vec            field;
 
@@ -88,9 +88,8 @@ static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBo
   PetscCall(SamOptionsRead(from, "Friction", 1, &number, &friction, &set));
   PetscCall(SamFieldFileSetFromOptions(&source, from, "HDF5 file with a coefficient of friction per cell"));
   PetscCall(SamOptionsRead(from, NULL, 1, &changes, word, NULL));
-  PetscCall(SamPrintHelp(&help));
   if (set) PetscCall(SamLawSetFriction(law, friction));
-  if (!source.file[0] || help) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!source.file[0] || SamPrintHelp()) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamGridCreateVec(law->grid, 1, &field));
   ierr = SamFieldFileRead(&source, law->grid, field);
   if (!ierr) PetscCall(SamLawSetFrictionField(law, field));

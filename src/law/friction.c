@@ -87,13 +87,12 @@ static const SamStateNumber branch = {"friction_mean",
 static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBool *asked)
 {
   const Friction *f = (const Friction *)law->data;
-  PetscBool       given, help;
+  PetscBool       given;
 
   PetscFunctionBegin;
   if (f->kind != PRESSURE || !*asked) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamPrintHelp(&help));
   PetscCall(SamOptionsHas(from, "friction_pressure_reference", &given));
-  PetscCall(SamOptionsRequire(from, given || f->value[EXPONENT] == 0 || help, "friction_pressure_reference",
+  PetscCall(SamOptionsRequire(from, given || f->value[EXPONENT] == 0 || SamPrintHelp(), "friction_pressure_reference",
                               "required by -friction_pressure_exponent"));
   PetscCheck(f->value[EXPONENT] > -1, from->comm, SAM_ERR_USER,
              "-%sfriction_pressure_exponent %.6g: expected a number > -1", SamOptionsPrefix(from),

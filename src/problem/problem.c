@@ -121,11 +121,10 @@ PetscErrorCode SamProblemGetRevision(SamProblem p, PetscObjectState *revision)
 
 PetscErrorCode SamProblemAddLaw(SamProblem p, SamLaw law)
 {
-  SamLaw   known;
-  PetscInt k;
+  PetscInt     k;
+  const SamLaw known = SamProblemGetLaw(p, law->type);
 
   PetscFunctionBegin;
-  PetscCall(SamProblemGetLaw(p, law->type, &known));
   PetscCheck(!known, p->grid->comm, PETSC_ERR_ARG_WRONG, "The problem has a law %s already", law->type);
   PetscCall(SamLawReference(law));
   PetscCall(SamLawAddConditions(law, p->conditions));
@@ -141,7 +140,7 @@ PetscErrorCode SamProblemAddLawOfType(SamProblem p, SamLawType type, SamLaw *law
   SamLaw found, made;
 
   PetscFunctionBegin;
-  PetscCall(SamProblemGetLaw(p, type, &found));
+  found = SamProblemGetLaw(p, type);
   if (!found) {
     PetscCall(SamLawCreate(p->elasticity, type, &made));
     PetscCall(SamProblemAddLaw(p, made));
@@ -165,13 +164,11 @@ PetscErrorCode SamProblemAddSum(SamProblem p, SamLawType type)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamProblemGetLaw(SamProblem p, SamLawType type, SamLaw *law)
+SamLaw SamProblemGetLaw(SamProblem p, SamLawType type)
 {
-  PetscFunctionBegin;
-  *law = NULL;
   for (PetscInt k = 0; k < p->laws; k++)
-    if (!strcmp(p->law[k]->type, type)) *law = p->law[k];
-  PetscFunctionReturn(PETSC_SUCCESS);
+    if (!strcmp(p->law[k]->type, type)) return p->law[k];
+  return NULL;
 }
 
 PetscErrorCode SamProblemGetLaws(SamProblem p, PetscInt *count, const SamLaw **laws)
@@ -194,7 +191,7 @@ PetscErrorCode SamProblemSetLawsFromOptions(SamProblem p, const SamOptions *from
     PetscBool      asked = PETSC_FALSE;
     SamLaw         known, law;
 
-    PetscCall(SamProblemGetLaw(p, types[k], &known));
+    known = SamProblemGetLaw(p, types[k]);
     if (known) {
       PetscCall(SamLawSetFromOptions(known, from, &asked));
       continue;
@@ -208,21 +205,19 @@ PetscErrorCode SamProblemSetLawsFromOptions(SamProblem p, const SamOptions *from
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamProblemGetBytes(SamProblem p, PetscInt *bytes)
+PetscInt SamProblemGetBytes(SamProblem p)
 {
-  PetscFunctionBegin;
-  *bytes = 0;
-  for (PetscInt k = 0; k < p->laws; k++) *bytes += p->law[k]->bytes;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  PetscInt bytes = 0;
+
+  for (PetscInt k = 0; k < p->laws; k++) bytes += p->law[k]->bytes;
+  return bytes;
 }
 
-PetscErrorCode SamProblemMoves(SamProblem p, PetscBool *moves)
+PetscBool SamProblemMoves(SamProblem p)
 {
-  PetscFunctionBegin;
-  *moves = PETSC_FALSE;
   for (PetscInt k = 0; k < p->laws; k++)
-    if (p->law[k]->ops.separation) *moves = PETSC_TRUE;
-  PetscFunctionReturn(PETSC_SUCCESS);
+    if (p->law[k]->ops.separation) return PETSC_TRUE;
+  return PETSC_FALSE;
 }
 
 /* ---- what displaces the surfaces besides the tractions ---- */

@@ -23,10 +23,9 @@ PetscErrorCode SamSetupReadOptions(SamSetup *s, const SamOptions *from)
 {
   PetscInt  n[2];
   PetscReal width[2], center[2];
-  PetscBool plane, help;
+  PetscBool plane;
 
   PetscFunctionBegin;
-  PetscCall(SamPrintHelp(&help));
   PetscCall(SamOptionsPlugins(from));
   PetscCall(SamGapCreate(from->comm, &s->gap));
   PetscCall(SamGapSetOptionsPrefix(s->gap, from->prefix));
@@ -36,31 +35,25 @@ PetscErrorCode SamSetupReadOptions(SamSetup *s, const SamOptions *from)
   PetscCall(SamPairCreateFromOptions(from, &s->pair));
   PetscCall(CreateProblem(s, from));
   PetscCall(SamGapSetFromOptions(s->gap));
-  if (plane && !help) PetscCall(SamGapCheckPlane(s->gap));
+  if (plane && !SamPrintHelp()) PetscCall(SamGapCheckPlane(s->gap));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Makes the contact, which reads its options. */
 static PetscErrorCode CreateContact(SamSetup *s, const SamOptions *from)
 {
-  PetscBool help;
-
   PetscFunctionBegin;
-  PetscCall(SamPrintHelp(&help));
   PetscCall(SamContactCreate(s->problem, &s->contact));
   PetscCall(SamContactSetOptionsPrefix(s->contact, from->prefix));
   PetscCall(SamContactSetFromOptions(s->contact));
-  if (!help) PetscCall(SamContactSetUp(s->contact));
+  if (!SamPrintHelp()) PetscCall(SamContactSetUp(s->contact));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamSetupCreateContact(SamSetup *s, const SamOptions *from)
 {
-  PetscBool help;
-
   PetscFunctionBegin;
-  PetscCall(SamPrintHelp(&help));
-  if (!help) PetscCall(SamGapFill(s->gap, s->grid, SamProblemGetGap(s->problem)));
+  if (!SamPrintHelp()) PetscCall(SamGapFill(s->gap, s->grid, SamProblemGetGap(s->problem)));
   PetscCall(CreateContact(s, from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

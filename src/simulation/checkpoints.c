@@ -1,5 +1,6 @@
 /* When a simulation writes checkpoints, when it stops before its end, and how it continues from a checkpoint. */
 #include "simulationimpl.h"
+#include <petsam/private/file.h>
 #include <stdlib.h>
 
 #define MARGIN 1.1 /* the next step is assumed to take this times the slowest of the last steps */
@@ -76,16 +77,16 @@ void SamSimulationDescribeCheckpoints(SamSimulation s, char text[], size_t size)
 PetscErrorCode SamSimulationBeginCheckpoints(SamSimulation s)
 {
   SamCheckpoints *const cp = &s->checkpoints;
-  PetscBool             exists;
+  double                bytes;
 
   PetscFunctionBegin;
   cp->step_start = MPI_Wtime();
   cp->seen       = s->point.steps;
   cp->last       = 0;
   if (!cp->filename[0] || cp->files) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamSimulationFileExists(s, cp->filename, &exists));
+  PetscCall(SamFileGetBytes(s->comm, cp->filename, &bytes));
   PetscCall(SamCheckpointCreate(s->setup.grid, cp->filename, &cp->files));
-  PetscCheck(!exists || cp->restart[0] || cp->overwrite, s->comm, SAM_ERR_USER,
+  PetscCheck(bytes < 0 || cp->restart[0] || cp->overwrite, s->comm, SAM_ERR_USER,
              "-checkpoint %s: is the checkpoint of an earlier run: continue that with -restart %s, or start anew with "
              "-overwrite",
              cp->filename, cp->filename);
@@ -153,9 +154,8 @@ static PetscErrorCode ChecksumColumns(SamSimulation simulation, PetscInt steps, 
   PetscCall(PetscArrayzero(columns, COLUMNS));
   PetscCall(PetscArrayzero(conditions, SAM_CONDITIONS));
   for (PetscInt s = 0; s < steps; s++) {
-    SamControl control;
+    SamControl control = SamHistoryGetStep(simulation->history, s);
 
-    PetscCall(SamHistoryGetStep(simulation->history, s, &control));
     columns[0] = SamHashMix(columns[0] + SamHashBits(control.time));
     for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
       columns[1 + k] = SamHashMix(columns[1 + k] + SamHashBits(control.value[k] + 0.0));
@@ -208,14 +208,13 @@ static PetscErrorCode CompareLoads(SamSimulation s, const Notes *there)
   const char *const file   = s->checkpoints.restart;
   const PetscInt    solved = s->life ? s->needs.steps : s->point.steps;
   uint64_t          here[COLUMNS], conditions[SAM_CONDITIONS];
-  SamControl        first;
+  const SamControl  first = SamHistoryGetStep(s->history, 0);
 
   PetscFunctionBegin;
   PetscCheck(solved <= s->needs.steps, s->comm, SAM_ERR_USER,
              "-restart %s: does not fit: -history or -steps: there are %ld load steps, and %ld were solved there", file,
              (long)s->needs.steps, (long)solved);
   PetscCall(ChecksumColumns(s, solved, here, conditions));
-  PetscCall(SamHistoryGetStep(s->history, 0, &first));
   for (PetscInt k = 0; k <= SamControlCount(s->conditions); k++) {
     const PetscInt      n         = k - COLUMNS;
     const SamCondition *condition = n < 0 ? NULL : SamConditionsGet(s->conditions, n);

@@ -30,9 +30,8 @@ static PetscErrorCode SolveAll(SamSimulation s, SamContact contact, double sums[
   PetscFunctionBegin;
   PetscCall(SamContactGetState(contact, &state));
   for (PetscInt k = 0; k < s->needs.steps; k++) {
-    SamControl control;
+    SamControl control = SamHistoryGetStep(s->history, k);
 
-    PetscCall(SamHistoryGetStep(s->history, k, &control));
     PetscCall(SamContactTry(contact, &control, step));
     if (step->status != SAM_STATUS_CONVERGED) break;
     SamStateJoinNumbers(state, sums, PETSC_FALSE);

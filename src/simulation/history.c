@@ -90,7 +90,7 @@ static PetscErrorCode ReadComponent(SamHistory h, const Reader *r, PetscInt c)
   const SamComponentName *name            = &SamComponentNames[c];
   const char             *prefix          = SamOptionsPrefix(from);
   PetscReal               value[SAM_WAYS] = {c ? 0 : NAN, NAN, NAN}; /* without any the load is 0, but for N */
-  PetscBool               has[SAM_WAYS] = {PETSC_FALSE}, given = PETSC_FALSE, help;
+  PetscBool               has[SAM_WAYS] = {PETSC_FALSE}, given = PETSC_FALSE;
   char                    text[96];
 
   PetscFunctionBegin;
@@ -118,8 +118,7 @@ static PetscErrorCode ReadComponent(SamHistory h, const Reader *r, PetscInt c)
     SamControlSetWay(&h->constant, c, way);
   }
   if (c != SAM_COMPONENT_N) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamPrintHelp(&help));
-  PetscCall(SamOptionsRequire(from, given || h->column[c] >= 0 || help, "load_n or -disp_z",
+  PetscCall(SamOptionsRequire(from, given || h->column[c] >= 0 || SamPrintHelp(), "load_n or -disp_z",
                               "the normal force (N) or the approach (m)"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -216,17 +215,15 @@ PetscInt SamHistoryGetStart(SamHistory h)
   return h->start;
 }
 
-PetscErrorCode SamHistoryGives(SamHistory h, const SamCondition *condition, PetscBool *gives)
+PetscBool SamHistoryGives(SamHistory h, const SamCondition *condition)
 {
-  PetscFunctionBegin;
-  *gives = PETSC_FALSE;
   for (PetscInt k = SAM_COMPONENTS; k < h->parts; k++) {
     const SamCondition *one = SamConditionsGet(h->conditions, k - SAM_COMPONENTS);
 
     if (strcmp(one->group, condition->group)) continue;
-    if (h->column[k] >= 0 || SamControlGet(&h->constant, one) != one->usual) *gives = PETSC_TRUE;
+    if (h->column[k] >= 0 || SamControlGet(&h->constant, one) != one->usual) return PETSC_TRUE;
   }
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return PETSC_FALSE;
 }
 
 /* Row r of a column. Below, row -1 stands for the start, before the first row. */
@@ -411,26 +408,25 @@ PetscErrorCode SamHistoryGetPlace(SamHistory h, PetscInt k, char text[], size_t 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamHistoryGetStep(SamHistory h, PetscInt k, SamControl *control)
+SamControl SamHistoryGetStep(SamHistory h, PetscInt k)
 {
-  return SamHistoryGetPart(h, k, 1, control);
+  return SamHistoryGetPart(h, k, 1);
 }
 
-PetscErrorCode SamHistoryGetPart(SamHistory h, PetscInt k, PetscReal part, SamControl *control)
+SamControl SamHistoryGetPart(SamHistory h, PetscInt k, PetscReal part)
 {
   const PetscInt r = RowOf(h, k), steps = r ? h->increments : h->start;
   const double   i = (double)(r ? (k - h->start) % h->increments : k) + (double)part, way = i / (double)steps;
+  SamControl     control = h->constant;
 
-  PetscFunctionBegin;
-  *control = h->constant;
 /* linear between the rows; at a row exactly its own value */
 #define BETWEEN(before, after) (i == (double)steps ? (after) : (before) + way * ((after) - (before)))
-  control->time = BETWEEN(TimeOfRow(h, r - 1), TimeOfRow(h, r));
+  control.time = BETWEEN(TimeOfRow(h, r - 1), TimeOfRow(h, r));
   for (PetscInt p = 0; p < h->parts; p++)
-    SamControlSetPart(control, h->conditions, p,
+    SamControlSetPart(&control, h->conditions, p,
                       p >= SAM_COMPONENTS && SamConditionsGet(h->conditions, p - SAM_COMPONENTS)->change
                         ? ValueOfRow(h, p, r) / (double)steps
                         : BETWEEN(ValueOfRow(h, p, r - 1), ValueOfRow(h, p, r)));
 #undef BETWEEN
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return control;
 }

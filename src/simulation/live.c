@@ -14,7 +14,7 @@ static PetscErrorCode Control(void *context, PetscInt step, PetscReal cycles, Sa
   const SamCondition *scale = SamConditionsFind(s->conditions, SAM_FRICTION_SCALE);
 
   PetscFunctionBegin;
-  PetscCall(SamHistoryGetStep(s->history, SamHistoryGetStart(s->history) + step, control));
+  *control = SamHistoryGetStep(s->history, SamHistoryGetStart(s->history) + step);
   SamControlSetCondition(control, scale, SamControlGet(control, scale) * SamPlanFriction(&s->plan, cycles));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -22,12 +22,10 @@ static PetscErrorCode Control(void *context, PetscInt step, PetscReal cycles, Sa
 /* The time of a step in the life: all cycles take as long as the first one. */
 static PetscErrorCode TimeOf(SamSimulation s, PetscReal cycles, PetscReal *time)
 {
-  SamControl first, last;
+  const SamControl last = SamHistoryGetStep(s->history, s->needs.steps - 1);
 
   PetscFunctionBegin;
-  PetscCall(SamHistoryGetStep(s->history, SamHistoryGetStart(s->history) - 1, &first));
-  PetscCall(SamHistoryGetStep(s->history, s->needs.steps - 1, &last));
-  *time += cycles * (last.time - first.time);
+  *time += cycles * (last.time - SamHistoryGetStep(s->history, SamHistoryGetStart(s->history) - 1).time);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -87,7 +85,7 @@ static PetscErrorCode Start(SamSimulation s, PetscBool *ended)
     SamControl control;
     SamStep    step;
 
-    PetscCall(SamHistoryGetStep(s->history, k, &control));
+    control = SamHistoryGetStep(s->history, k);
     PetscCall(SamSimulationTryStep(s, &control, &step));
     *ended = SamStepIsSolved(&step) ? PETSC_FALSE : PETSC_TRUE;
     if (*ended) {
@@ -231,6 +229,7 @@ PetscErrorCode SamSimulationCreateLife(SamSimulation s)
   if (s->plan.cycles == 0) PetscFunctionReturn(PETSC_SUCCESS);
   cycle.steps = s->needs.steps - SamHistoryGetStart(s->history);
   PetscCall(SamLifeCreate(s->setup.contact, &cycle, &s->plan.life, &s->life));
-  PetscCall(SamLifeGetSeries(s->life, &set->cycles, &set->cycles_name));
+  set->cycles      = SamLifeGetSeries(s->life);
+  set->cycles_name = "wear";
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -17,9 +17,8 @@ static PetscErrorCode CheckComponents(SamSimulation s, const SamOptions *from)
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < count; k++) {
-    SamControl control;
+    SamControl control = SamHistoryGetStep(s->history, k);
 
-    PetscCall(SamHistoryGetStep(s->history, k, &control));
     PetscCall(SamProblemCheckControl(s->setup.problem, &control, &wrong, why, sizeof(why)));
     PetscCheck(!why[0], from->comm, SAM_ERR_USER, "-%s%s, or its column in -history: %.6g: %s", SamOptionsPrefix(from),
                wrong->name, (double)SamControlGet(&control, wrong), why);
@@ -119,23 +118,20 @@ static PetscErrorCode ReadFiles(SamSimulation s, const SamOptions *from)
   PetscFunctionBegin;
   PetscCall(SamSimulationReadCheckpoints(s, from));
   PetscCall(ReadResults(s, from));
-  PetscCall(SamProblemGetBytes(s->setup.problem, &s->needs.laws));
+  s->needs.laws = SamProblemGetBytes(s->setup.problem);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Takes over a load program, and `cycles` of it (0: once). */
 static PetscErrorCode SetProgram(SamSimulation s, SamHistory history, PetscReal cycles, const SamOptions *from)
 {
-  PetscBool help;
-
   PetscFunctionBegin;
   if (s->history != history) PetscCall(SamHistoryDestroy(&s->history));
   s->history     = history;
   s->advice      = (SamAdvice){.setup = &s->setup, .receive = SamSimulationWarn, .context = s, .most.open = s->has_gap};
   s->needs.life  = cycles > 0;
   s->needs.steps = SamHistoryGetCount(history);
-  PetscCall(SamPrintHelp(&help));
-  if (help) PetscFunctionReturn(PETSC_SUCCESS);
+  if (SamPrintHelp()) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCheck(s->step_rtol == 0 || s->needs.friction, from->comm, SAM_ERR_USER,
              "-step_rtol without -friction: no energy is dissipated: give -friction, or remove it");
   PetscCheck(s->step_rtol == 0 || !s->needs.life, from->comm, SAM_ERR_USER,

@@ -7,20 +7,17 @@
 */
 static PetscErrorCode AddLoads(SamParameters *p, SamHistory history, SamConditions conditions)
 {
-  SamControl control;
-  PetscReal  steps;
+  PetscReal        steps;
+  const SamControl control = SamHistoryGetStep(history, SamHistoryGetCount(history) - 1);
 
   PetscFunctionBegin;
   steps = (PetscReal)SamHistoryGetIncrements(history);
   PetscCall(SamParametersAddReals(p, "steps", PETSC_TRUE, 1, &steps));
-  PetscCall(SamHistoryGetStep(history, SamHistoryGetCount(history) - 1, &control));
   for (PetscInt k = 0; k < SamControlCount(conditions); k++) {
     const SamCondition *condition = k < SAM_COMPONENTS ? NULL : SamConditionsGet(conditions, k - SAM_COMPONENTS);
     const PetscReal     value     = SamControlPart(&control, conditions, k);
-    PetscBool           given     = PETSC_TRUE;
 
-    if (condition) PetscCall(SamHistoryGives(history, condition, &given));
-    if (!given || (condition && !condition->option)) continue;
+    if (condition && (!condition->option || !SamHistoryGives(history, condition))) continue;
     PetscCall(SamParametersAddReals(p, SamControlPartName(&control, conditions, k), PETSC_FALSE, 1, &value));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

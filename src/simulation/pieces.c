@@ -80,13 +80,13 @@ PetscErrorCode SamSimulationTry(SamSimulation s, PetscInt k, SamStep *step)
 
   PetscFunctionBegin;
   if (s->step_rtol == 0) {
-    PetscCall(SamHistoryGetStep(s->history, k, &control));
+    control = SamHistoryGetStep(s->history, k);
     PetscCall(SamSimulationTryStep(s, &control, step));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(SamContactGetState(s->setup.contact, &state));
   while (PETSC_TRUE) {
-    PetscCall(SamHistoryGetPart(s->history, k, done + piece, &control));
+    control = SamHistoryGetPart(s->history, k, done + piece);
     PetscCall(SamSimulationTryStep(s, &control, step));
     if (!SamStepIsSolved(step)) break;
     PetscCall(Judge(s, piece, &enough, &longer));

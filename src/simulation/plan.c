@@ -152,12 +152,9 @@ PetscErrorCode SamPlanSetFromOptions(SamPlan *w, PetscBool given, const SamOptio
 
 PetscErrorCode SamPlanSetCycles(SamPlan *w, PetscReal cycles, SamProblem problem, const SamOptions *from)
 {
-  PetscBool moves;
-
   PetscFunctionBegin;
   PetscCall(CheckWhole("wear_cycles", cycles, PETSC_TRUE, from));
-  PetscCall(SamProblemMoves(problem, &moves));
-  PetscCheck(moves || cycles == 0, from->comm, SAM_ERR_USER,
+  PetscCheck(SamProblemMoves(problem) || cycles == 0, from->comm, SAM_ERR_USER,
              "-wear_cycles is given, but no wear: give one of -wear_coefficient1, -wear_coefficient2, -wear_energy1, "
              "-wear_energy2 a number > 0");
   PetscCheck(!w->outputs || cycles == 0 || w->output[w->outputs - 1] <= cycles, from->comm, SAM_ERR_USER,
@@ -176,18 +173,18 @@ PetscErrorCode SamPlanDestroy(SamPlan *w)
 
 PetscErrorCode SamPlanCheckCycle(const SamPlan *w, SamHistory history, SamConditions conditions, const SamOptions *from)
 {
-  PetscReal      range[SAM_COMPONENTS + SAM_CONDITIONS] = {0}; /* of each part, about its value in the first row */
-  SamControl     first, last;
-  const PetscInt count = SamHistoryGetCount(history);
-  const PetscInt start = SamHistoryGetStart(history);
+  PetscReal        range[SAM_COMPONENTS + SAM_CONDITIONS] = {0}; /* of each part, about its value in the first row */
+  SamControl       last;
+  const PetscInt   count = SamHistoryGetCount(history);
+  const PetscInt   start = SamHistoryGetStart(history);
+  const SamControl first = SamHistoryGetStep(history, start - 1);
 
   PetscFunctionBegin;
   if (w->cycles == 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCheck(count > start + SamHistoryGetIncrements(history), from->comm, SAM_ERR_USER,
              "-wear_cycles: a cycle needs a -history of three rows or more: the start and the path back to it");
-  PetscCall(SamHistoryGetStep(history, start - 1, &first));
   for (PetscInt k = start; k < count; k++) {
-    PetscCall(SamHistoryGetStep(history, k, &last));
+    last = SamHistoryGetStep(history, k);
     for (PetscInt c = 0; c < SamControlCount(conditions); c++)
       range[c] = PetscMax(range[c], fabs(SamControlPart(&last, conditions, c) - SamControlPart(&first, conditions, c)));
   }

@@ -3,7 +3,6 @@
 #include <petsam/private/file.h>
 #include <petsam/private/parts.h>
 #include <string.h>
-#include <unistd.h>
 
 /* ---- opening ---- */
 
@@ -45,7 +44,7 @@ static PetscErrorCode Continue(SamSimulation s)
 
   PetscFunctionBegin;
   if (!s->life) {
-    PetscCall(SamHistoryGetStep(s->history, p->steps - 1, &last));
+    last         = SamHistoryGetStep(s->history, p->steps - 1);
     s->last_time = last.time;
   }
   PetscCall(SamOutputNamePart(s->filename, PetscMax(p->part, 1), &before));
@@ -78,31 +77,19 @@ static PetscErrorCode Branch(SamSimulation s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamSimulationFileExists(SamSimulation s, const char filename[], PetscBool *exists)
-{
-  PetscMPIInt rank, there = 0;
-
-  PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_rank(s->comm, &rank));
-  if (!rank) there = access(filename, F_OK) == 0;
-  PetscCallMPI(MPI_Bcast(&there, 1, MPI_INT, 0, s->comm));
-  *exists = there != 0;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode SamSimulationOpenResults(SamSimulation s)
 {
-  PetscBool exists;
+  double bytes;
 
   PetscFunctionBegin;
   if (s->checkpoints.restart[0]) {
-    PetscCall(SamSimulationFileExists(s, s->filename, &exists));
+    PetscCall(SamFileGetBytes(s->comm, s->filename, &bytes));
     PetscCheck(
-      !exists || !s->checkpoints.other_gap, s->comm, SAM_ERR_USER,
+      bytes < 0 || !s->checkpoints.other_gap, s->comm, SAM_ERR_USER,
       "-output %s: is there, and results with another gap (-restart_gap) need a file of their own: give another "
       "name",
       s->filename);
-    if (!exists && strcmp(s->filename, s->point.results))
+    if (bytes < 0 && strcmp(s->filename, s->point.results))
       PetscCall(Branch(s));
     else /* where the stopped run's own file is missing, that is an error */
       PetscCall(Continue(s));

@@ -67,9 +67,8 @@ static PetscErrorCode BeginAdvice(SamSimulation s, PetscInt first)
   PetscFunctionBegin;
   s->advice.steps = s->needs.steps;
   for (PetscInt k = first; k < s->needs.steps; k++) {
-    SamControl control;
+    SamControl control = SamHistoryGetStep(s->history, k);
 
-    PetscCall(SamHistoryGetStep(s->history, k, &control));
     SamAdviceAddLoads(&s->advice, k, &control);
   }
   PetscCall(SamAdviceBegin(&s->advice));
@@ -94,10 +93,8 @@ static PetscErrorCode Offer(SamSimulation s)
   PetscFunctionBegin;
   for (PetscInt k = 0; k < SamConditionsCount(s->conditions); k++) {
     const SamCondition *one = SamConditionsGet(s->conditions, k);
-    PetscBool           given;
 
-    PetscCall(SamHistoryGives(s->history, one, &given));
-    if (given || (s->plan.points && !strcmp(one->name, SAM_FRICTION_SCALE)))
+    if (SamHistoryGives(s->history, one) || (s->plan.points && !strcmp(one->name, SAM_FRICTION_SCALE)))
       PetscCall(SamContactOfferCondition(s->setup.contact, one));
   }
   if (s->needs.stiffness) PetscCall(SamStiffnessDeclare(s->setup.contact));
@@ -111,16 +108,15 @@ static PetscErrorCode Offer(SamSimulation s)
 */
 static PetscErrorCode CheckRolling(SamSimulation s)
 {
-  SamControl control;
-  char       where[PETSC_MAX_PATH_LEN + 32];
+  char where[PETSC_MAX_PATH_LEN + 32];
 
   PetscFunctionBegin;
   for (PetscInt n = 0; n < 2 * s->needs.steps; n++) {
-    const PetscInt  k   = n % s->needs.steps;
-    const PetscBool end = (k + 1 - SamHistoryGetStart(s->history)) % SamHistoryGetIncrements(s->history) == 0;
+    const PetscInt   k       = n % s->needs.steps;
+    const PetscBool  end     = (k + 1 - SamHistoryGetStart(s->history)) % SamHistoryGetIncrements(s->history) == 0;
+    const SamControl control = SamHistoryGetStep(s->history, k);
 
     if (end != (n < s->needs.steps)) continue;
-    PetscCall(SamHistoryGetStep(s->history, k, &control));
     PetscCall(SamHistoryGetPlace(s->history, k, where, sizeof(where)));
     PetscCall(SamMotionCheck(s->setup.elasticity, s->conditions, &control, where));
     PetscCheck(SamProblemGetRolled(s->setup.problem, &control, NULL) == 0 || !s->needs.life, s->comm, SAM_ERR_USER,
@@ -159,13 +155,10 @@ static PetscErrorCode SlipAtMidStep(SamContact contact)
 
 PetscErrorCode SamSimulationSetUp(SamSimulation s, const SamOptions *from)
 {
-  PetscBool help;
-
   PetscFunctionBegin;
-  PetscCall(SamPrintHelp(&help));
   PetscCall(SamSetupCreateContact(&s->setup, from));
   if (s->step_rtol > 0) PetscCall(SlipAtMidStep(s->setup.contact));
-  if (s->history && !help) PetscCall(Prepare(s, from));
+  if (s->history && !SamPrintHelp()) PetscCall(Prepare(s, from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -210,9 +203,8 @@ static PetscErrorCode Begin(SamSimulation s, PetscBool writes)
   start->steps  = s->needs.steps;
   start->cyclic = s->plan.cycles > 0 ? PETSC_TRUE : PETSC_FALSE;
   for (PetscInt k = 0; k < s->needs.steps; k++) {
-    SamControl control;
+    SamControl control = SamHistoryGetStep(s->history, k);
 
-    PetscCall(SamHistoryGetStep(s->history, k, &control));
     for (PetscInt c = 0; c < SAM_COMPONENTS; c++)
       if (!control.force[c] || control.value[c] != 0) start->loads[c] = PETSC_TRUE;
   }
@@ -405,14 +397,9 @@ PetscErrorCode SamSimulationGetStatus(SamSimulation s, SamStatus *worst, PetscBo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamSimulationGetSeries(SamSimulation s, SamState *series)
+SamState SamSimulationGetSeries(SamSimulation s)
 {
-  const char *name;
-
-  PetscFunctionBegin;
-  *series = NULL;
-  if (s->life) PetscCall(SamLifeGetSeries(s->life, series, &name));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return s->life ? SamLifeGetSeries(s->life) : NULL;
 }
 
 PetscErrorCode SamSimulationSetGap(SamSimulation s, Vec gap)

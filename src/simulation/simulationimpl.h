@@ -79,14 +79,12 @@ struct _n_SamSimulation {
 PETSC_INTERN PetscErrorCode SamSimulationTell(SamSimulation simulation, const SamSimulationNews *news);
 PETSC_INTERN PetscErrorCode SamSimulationWarn(void *simulation, const char text[], const char setting[]);
 /*
-  SamSimulationFileExists - whether there is a file of that name, by rank 0. Collective.
   SamSimulationOpenResults - opens the results. After a restart they are the next part of those that are there; a new
   name begins a file with the steps from there on. Collective. Errors: SAM_ERR_FILE, SAM_ERR_USER.
   SamSimulationSaves - whether the fields of a step, from 1 to last, are saved. Not collective.
   SamSimulationForecast - how large the results will be, in words; warns where the disk has not that much space.
   Collective.
 */
-PETSC_INTERN PetscErrorCode SamSimulationFileExists(SamSimulation simulation, const char filename[], PetscBool *exists);
 PETSC_INTERN PetscErrorCode SamSimulationOpenResults(SamSimulation simulation);
 PETSC_INTERN PetscBool      SamSimulationSaves(SamSimulation simulation, PetscInt step, PetscInt last);
 PETSC_INTERN PetscErrorCode SamSimulationForecast(SamSimulation simulation, char text[], size_t size);

@@ -35,14 +35,13 @@ PetscErrorCode SamSimulationTryStep(SamSimulation s, const SamControl *control, 
 
 PetscErrorCode SamSimulationCommitStep(SamSimulation s, const SamStep *step, char warning[], size_t size)
 {
-  PetscInt  law = 0;
-  PetscBool tried, committed;
-  SamState  state;
+  PetscInt        law = 0;
+  SamState        state;
+  const PetscBool tried = SamContactHasStep(s->setup.contact, SAM_TRIED);
 
   PetscFunctionBegin;
   PetscCheck(step->status != SAM_STATUS_NO_EQUILIBRIUM, s->comm, PETSC_ERR_ORDER,
              "the last try has no solution, and cannot be committed: %s", step->message);
-  PetscCall(SamContactHasStep(s->setup.contact, &tried, &committed));
   PetscCheck(tried, s->comm, PETSC_ERR_ORDER, "there is no tried step to commit");
   PetscCheck(SamStepIsSolved(step), s->comm, PETSC_ERR_NOT_CONVERGED,
              "the tried step did not converge, and cannot be committed: %s", step->message);

@@ -64,8 +64,7 @@ PetscErrorCode SamSolverSetFromOptions(SamSolver s)
      .member = offsetof(Settings, error)},
     {"converged_reason", "print the reason for stopping", SAM_OPTION_VIEWER, .member = 0},
     {"view", "print the solver's settings", SAM_OPTION_VIEWER, .member = 0}};
-  PetscBool help;
-  char      title[64];
+  char title[64];
 
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(title, sizeof(title), "Solver of the %s problem", s->kind->name));
@@ -77,8 +76,7 @@ PetscErrorCode SamSolverSetFromOptions(SamSolver s)
   PetscCall(SamSolverSetErrorIfNotConverged(s, set.error));
   if (set.monitor && !s->monitor_error) PetscCall(SamSolverMonitorSet(s, MonitorError, NULL));
   s->monitor_error = set.monitor;
-  PetscCall(SamPrintHelp(&help));
-  if (help) PetscCall(DescribeOthers(s, &from));
+  if (SamPrintHelp()) PetscCall(DescribeOthers(s, &from));
   if (s->ops.setfromoptions) PetscCall(s->ops.setfromoptions(s, &from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

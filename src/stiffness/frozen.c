@@ -187,11 +187,11 @@ static PetscErrorCode CreateWork(SamFrozen *f)
 /* Without a tried step there must be a committed one, at which the motion reverses. */
 static PetscErrorCode CheckStep(SamContact contact, SamStiffnessDirection direction)
 {
-  PetscBool     tried, committed;
-  const SamGrid grid = SamContactGetGrid(contact);
+  const SamGrid   grid      = SamContactGetGrid(contact);
+  const PetscBool tried     = SamContactHasStep(contact, SAM_TRIED);
+  const PetscBool committed = SamContactHasStep(contact, SAM_COMMITTED);
 
   PetscFunctionBegin;
-  PetscCall(SamContactHasStep(contact, &tried, &committed));
   PetscCheck(tried || committed, grid->comm, PETSC_ERR_ORDER,
              "no step is tried or committed: try a step before its stiffness is computed");
   PetscCheck(tried || direction == SAM_STIFFNESS_REVERSAL, grid->comm, PETSC_ERR_ORDER,

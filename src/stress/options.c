@@ -112,10 +112,9 @@ static PetscErrorCode ReadConstant(const SamOptions *from, SamEvaluation e, cons
 
 static PetscErrorCode ReadConstants(const SamOptions *from, SamEvaluation e)
 {
-  PetscBool print;
+  const PetscBool print = SamPrintHelp();
 
   PetscFunctionBegin;
-  PetscCall(SamPrintHelp(&print));
   e->materials = 1;
   for (const SamQuantity *q = SamQuantityTable; q->name; q++)
     for (int k = 0; k < 2 && q->constant[k].name; k++) {
@@ -152,12 +151,11 @@ PetscErrorCode SamEvaluationCreateFromOptions(const SamOptions *from, SamEvaluat
 {
   char          quantities[NAMES] = "stress,mises", fatigue[NAMES] = "";
   Settings      set = {.body = 2, .depths = "0", .average = 1};
-  PetscBool     given[2], print;
+  PetscBool     given[2];
   SamEvaluation e;
 
   PetscFunctionBegin;
   PetscCall(SamInitialize());
-  PetscCall(SamPrintHelp(&print));
   PetscCall(PetscNew(&e));
   *evaluation = e;
   e->comm     = from->comm;
@@ -173,7 +171,7 @@ PetscErrorCode SamEvaluationCreateFromOptions(const SamOptions *from, SamEvaluat
   e->passing = set.passing;
   PetscCall(ReadConstants(from, e));
   PetscCall(SamOptionsRead(from, NULL, SAM_OPTION_ROWS(mean), &set, given));
-  if (given[0] && !print) PetscCall(TakeLength(from, e, &set));
+  if (given[0] && !SamPrintHelp()) PetscCall(TakeLength(from, e, &set));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -56,17 +56,16 @@ static PetscErrorCode FindLaw(SamProblem problem, SamGrid grid, SamLaw *law)
 PetscErrorCode SamLifeCreate(SamContact contact, const SamLifeCycle *cycle, const SamLifeSettings *settings,
                              SamLife *life)
 {
-  SamProblem    problem;
-  const SamGrid grid = SamContactGetGrid(contact);
-  SamLaw        law;
-  SamLife       l;
+  const SamProblem problem = SamContactGetProblem(contact);
+  const SamGrid    grid    = SamContactGetGrid(contact);
+  SamLaw           law;
+  SamLife          l;
 
   PetscFunctionBegin;
   PetscCheck(settings->rtol > 0 && isfinite(settings->rtol), grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
              "tolerance %.6g of cycle jumps: expected a finite number > 0", (double)settings->rtol);
   PetscCheck(settings->jump >= 0 && isfinite(settings->jump), grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
              "first cycle jump of %.6g cycles: expected a finite number >= 0", (double)settings->jump);
-  problem = SamContactGetProblem(contact);
   PetscCall(FindLaw(problem, grid, &law));
   PetscCall(PetscNew(&l));
   l->contact = contact;

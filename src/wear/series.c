@@ -31,12 +31,9 @@ PetscErrorCode SamLifeDeclare(SamLife l)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamLifeGetSeries(SamLife l, SamState *series, const char **name)
+SamState SamLifeGetSeries(SamLife l)
 {
-  PetscFunctionBegin;
-  *series = l->series;
-  *name   = "wear";
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return l->series;
 }
 
 PetscErrorCode SamLifeRecord(SamLife l, const SamLifeReport *r)

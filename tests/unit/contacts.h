@@ -123,7 +123,7 @@ static inline int HasCoefficient(SamProblem problem, double expected)
   PetscReal number, least, most;
   Vec       one;
 
-  sam_call(SamProblemGetLaw(problem, SAM_LAW_COULOMB, &law));
+  law = SamProblemGetLaw(problem, SAM_LAW_COULOMB);
   sam_call(SamLawGetFriction(law, &number));
   grid = SamProblemGetGrid(problem);
   one  = NewField(grid, 1);

@@ -80,7 +80,7 @@ static inline SamControl StepOf(SamHistory h, PetscInt k)
   SamControl step;
 
   memset(&step, 0x55, sizeof(step)); /* every member must be set */
-  sam_call(SamHistoryGetStep(h, k, &step));
+  step = SamHistoryGetStep(h, k);
   return step;
 }
 

@@ -320,11 +320,11 @@ static void test_sum_in_the_file_goes_on(void **state)
   Write(&one, &parameters, 0, NULL);
   DeclareOther(&refused, 0);
   sam_assert(Read(&refused) == SAM_ERR_USER && strstr(CaughtMessage(), "lacks other_field"));
-  sam_call(SamProblemGetLaw(refused.problem, SAM_LAW_ACCUMULATED_SLIP, &law));
+  law = SamProblemGetLaw(refused.problem, SAM_LAW_ACCUMULATED_SLIP);
   sam_assert(!law);
   DestroyCase(&refused);
   sam_assert(!Read(&other));
-  sam_call(SamProblemGetLaw(other.problem, SAM_LAW_FRICTION_ENERGY, &law));
+  law = SamProblemGetLaw(other.problem, SAM_LAW_FRICTION_ENERGY);
   sam_assert(!law);
   sam_assert(AssertSameStates(&one, &other) == 9 && LargestOf(&other, "slip_path") > 0);
   for (int k = 2; k < 4; k++) {

@@ -268,10 +268,7 @@ static PetscReal FrictionOf(SamHistory h, PetscInt k)
 
 static PetscBool Gives(SamHistory h, const char condition[])
 {
-  PetscBool gives;
-
-  sam_call(SamHistoryGives(h, SamConditionsFind(Conditions(), condition), &gives));
-  return gives;
+  return SamHistoryGives(h, SamConditionsFind(Conditions(), condition));
 }
 
 static void test_friction_scale_is_one_without_its_column(void **state)

@@ -308,9 +308,9 @@ static void test_limit_is_positive_and_of_its_law(void **state)
 
   (void)state;
   SetLimit(&c, INFINITY);
-  sam_call(SamProblemGetLaw(c.problem, SAM_LAW_HARDNESS, &law));
+  law = SamProblemGetLaw(c.problem, SAM_LAW_HARDNESS);
   sam_fails(SamLawSetHardness(law, -1), PETSC_ERR_ARG_OUTOFRANGE);
-  sam_call(SamProblemGetLaw(c.problem, SAM_LAW_COULOMB, &law));
+  law = SamProblemGetLaw(c.problem, SAM_LAW_COULOMB);
   sam_fails(SamLawSetHardness(law, 1), PETSC_ERR_ARG_WRONG);
   DestroyCase(&c);
 }

@@ -327,7 +327,7 @@ static void test_bound_follows_the_friction_that_was_set_last(void **state)
 
   (void)state;
   SetField(&c, Constant, &two);
-  sam_call(SamProblemGetLaw(c.problem, SAM_LAW_COULOMB, &law));
+  law = SamProblemGetLaw(c.problem, SAM_LAW_COULOMB);
   sam_call(SamLawGetFriction(law, &number));
   sam_assert(number == 0); /* a field counts */
   ComputeBound(c.problem, 4, p, b);

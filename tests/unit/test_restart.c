@@ -96,8 +96,8 @@ static PetscBool TakeStep(SamSimulation s, const Case *c)
   SamControl control;
   SamStep    step;
 
-  sam_call(SamHistoryGetStep(s->history, s->point.steps, &control));
-  step = Solve(c, &control);
+  control = SamHistoryGetStep(s->history, s->point.steps);
+  step    = Solve(c, &control);
   sam_assert(step.status == SAM_STATUS_CONVERGED);
   s->point.steps++;
   s->stopped = PETSC_FALSE;

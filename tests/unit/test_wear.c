@@ -317,7 +317,7 @@ static void test_wear_that_cannot_be_is_refused(void **state)
       sam_fails(SamLawSetWear(law, k), PETSC_ERR_ARG_OUTOFRANGE);
     }
   }
-  sam_call(SamProblemGetLaw(c.problem, SAM_LAW_COULOMB, &law));
+  law = SamProblemGetLaw(c.problem, SAM_LAW_COULOMB);
   sam_fails(SamLawSetWear(law, both), PETSC_ERR_ARG_WRONG);
   DestroyCase(&c);
 }

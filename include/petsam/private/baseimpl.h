@@ -239,7 +239,7 @@ PETSC_INTERN PetscErrorCode SamTypesOption(PetscFunctionList list, const SamOpti
                                            const char help[], char type[], size_t size, PetscBool *set);
 
 /* SamPrintHelp - whether the help is being printed, for which options are only listed. Not collective. */
-PETSC_EXTERN PetscErrorCode SamPrintHelp(PetscBool *print);
+PETSC_EXTERN PetscBool SamPrintHelp(void);
 
 /* Messages of several places: an option without dash, its file, and a reason; a plan of FFTW. */
 #define SAM_CANNOT_READ "-%s %s: cannot be read: %s"

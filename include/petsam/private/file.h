@@ -145,10 +145,10 @@ typedef enum { SAM_FILE_RESULTS, SAM_FILE_OLD_RESULTS, SAM_FILE_CHECKPOINT, SAM_
 */
 PETSC_INTERN PetscErrorCode SamFileCheckName(SamGrid grid, const char option[], const char filename[], SamFileUse use);
 /*
-  SamFileHasContent - whether there is a file of that name with something in it. SamFileContains - whether there is a
-  text among the attributes at the start of a file of results; nothing of it is interpreted. Collective.
+  SamFileGetBytes - the size of the file of that name, by rank 0; negative: there is none. SamFileContains - whether
+  there is a text among the attributes at the start of a file of results; nothing of it is interpreted. Collective.
 */
-PETSC_INTERN PetscErrorCode SamFileHasContent(SamGrid grid, const char filename[], PetscBool *has);
+PETSC_INTERN PetscErrorCode SamFileGetBytes(MPI_Comm comm, const char filename[], double *bytes);
 PETSC_INTERN PetscErrorCode SamFileContains(SamGrid grid, const char filename[], const char text[],
                                             PetscBool *contains);
 /* SamFileNameBeside - a name with an ending added; the caller frees it with PetscFree(). Not collective. */

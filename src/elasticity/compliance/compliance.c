@@ -509,18 +509,17 @@ static PetscErrorCode Add(SamElasticity *elasticity, const SamOptions *from, Pet
 
 PetscErrorCode SamElasticityAddCompliances(SamElasticity *elasticity, const SamOptions *from)
 {
-  PetscBool help, given;
+  PetscBool given;
   char      file[PETSC_MAX_PATH_LEN] = "";
 
   PetscFunctionBegin;
-  PetscCall(SamPrintHelp(&help));
   for (PetscInt b = 0; b < 2; b++) SamOptionsKnow(from, names[b], NULL);
   for (PetscInt b = 0; b < 2; b++) {
     const SamOptionRow row = {names[b], "HDF5 file of the body's own compliance, by petsam-compliance", SAM_OPTION_FILE,
                               .size = sizeof(file)};
 
     PetscCall(SamOptionsRead(from, NULL, 1, &row, file, &given));
-    if (given && !help) PetscCall(Add(elasticity, from, b, names[b], file));
+    if (given && !SamPrintHelp()) PetscCall(Add(elasticity, from, b, names[b], file));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

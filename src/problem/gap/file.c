@@ -4,12 +4,10 @@
 static PetscErrorCode SamGapSetFromOptions_File(SamGap gap)
 {
   const SamOptions from = {gap->comm, gap->prefix};
-  PetscBool        help;
 
   PetscFunctionBegin;
   PetscCall(SamFieldFileSetFromOptions(&gap->source, &from, "HDF5 file with the separation: required by file"));
-  PetscCall(SamPrintHelp(&help));
-  PetscCheck(gap->source.file[0] || help, gap->comm, SAM_ERR_USER,
+  PetscCheck(gap->source.file[0] || SamPrintHelp(), gap->comm, SAM_ERR_USER,
              "-%sgap_file is missing: the HDF5 file with the separation, required by -%sgap_type %s", gap->prefix,
              gap->prefix, gap->type);
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -212,10 +212,10 @@ PetscErrorCode SamGapSetFromOptions(SamGap gap)
 {
   const SamOptions from = {gap->comm, gap->prefix};
   char             type[64], list[512], text[600];
-  PetscBool        set, help, file;
+  PetscBool        set, file;
+  const PetscBool  help = SamPrintHelp();
 
   PetscFunctionBegin;
-  PetscCall(SamPrintHelp(&help));
   PetscCall(SamOptionsHeading(&from, "Gap"));
   PetscCall(SamTypesList(SamGapList, list, sizeof(list)));
   PetscCall(PetscSNPrintf(text, sizeof(text), "%s: required", list));
@@ -240,14 +240,13 @@ PetscErrorCode SamGapGetFileGrid(SamGap gap, PetscInt n[2], PetscReal width[2], 
   const SamOptions from = {gap->comm, gap->prefix};
   SamFieldFile     sources[2];
   char             type[64];
-  PetscBool        has_n, has_size, help;
+  PetscBool        has_n, has_size;
 
   PetscFunctionBegin;
   for (PetscInt d = 0; d < 2; d++) n[d] = 0, width[d] = center[d] = 0;
-  PetscCall(SamPrintHelp(&help));
   PetscCall(SamOptionsHas(&from, "grid_n", &has_n));
   PetscCall(SamOptionsHas(&from, "grid_size", &has_size));
-  if (help || (has_n && has_size)) PetscFunctionReturn(PETSC_SUCCESS);
+  if (SamPrintHelp() || (has_n && has_size)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscStrncpy(type, gap->type[0] ? gap->type : SAM_GAP_FILE, sizeof(type)));
   PetscCall(PetscOptionsGetString(NULL, gap->prefix, "-gap_type", type, sizeof(type), NULL));
   sources[0] = gap->source;
