@@ -24,7 +24,7 @@ import conftest
 import petsam
 from support import SPHERE, flatten, read_run
 
-STEPS = 60
+STEPS = 40
 CASE = dict(SPHERE, load_n=None, grid_n=32, history="history.csv", output="out.h5")
 KEPT = dict(checkpoint="state.h5", checkpoint_every=1)
 

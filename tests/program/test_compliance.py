@@ -115,9 +115,7 @@ def test_compliance_of_zero_changes_no_bit(number, solve, layer):
 
 def test_same_bits_on_any_number_of_ranks(solve, layer):
     case = [SPHERE, bodies(2), SHEAR, dict(grid_n=[70, 61], body2_compliance=layer(1, 5))]
-    one = solve(*case)
-    for ranks in (2, 3):
-        assert_same(solve(*case, ranks=ranks), one, 0)
+    assert_same(solve(*case, ranks=3), solve(*case), 0)
 
 
 def test_skew_matrix_turns_over_with_its_body(solve, tmp_path):

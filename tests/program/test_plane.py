@@ -210,7 +210,7 @@ def test_given_displacements_give_the_loads(solve):
 def test_any_number_of_ranks_gives_the_same_bits(solve, type):
     case = dict(CYLINDER, elasticity=type, body2_young=70e9, body2_poisson=0.2, grid_n=150, load_tx=2e4, load_ty=1e4)
     case.update(grid_size=1.3e-3)
-    runs = [solve(case, ranks=ranks) for ranks in (1, 2, 3)] + [solve(case, dict(fft_exchange="transpose"), ranks=2)]
+    runs = [solve(case, ranks=ranks) for ranks in (1, 3)] + [solve(case, dict(fft_exchange="transpose"), ranks=2)]
     for other in runs[1:]:
         assert_same(runs[0], other, 0)
 

@@ -222,8 +222,8 @@ def test_quiet_leaves_warnings_and_errors(petsam, ranks):
 
 # ---- progress
 
-# several seconds: a fine grid without coarser ones
-LONG = dict(ball(1500), normal_levels=1, tangential_levels=1, load_tx=20.0)
+# two seconds: a fine grid without coarser ones
+LONG = dict(ball(1000), normal_levels=1, tangential_levels=1, load_tx=20.0)
 
 
 def on_terminal(words, folder):
@@ -275,7 +275,7 @@ def test_no_progress_gets_into_a_file(launcher, tmp_path, ranks):
 
 
 def test_progress_may_be_asked_for(petsam):
-    assert progress(petsam(LONG, "-progress", "always").stdout)
+    assert progress(petsam(LONG, dict(grid_n=300), "-progress", "always").stdout)
 
 
 # ---- help and version

@@ -45,21 +45,22 @@ def read(path):
         return {**{name: f[name][-1] for name in ("pressure", "gap")}, **{n: d[-1] for n, d in f["history"].items()}}
 
 
-@pytest.mark.parametrize("load", [20.0, 300.0, 3000.0])
-@pytest.mark.parametrize("elasticity", ["halfspace", "periodic"])
-def test_numbers_are_those_of_the_fields(petsam, tmp_path, case, elasticity, load):
-    found = {}
-    for ranks in (1, 2, 3, 7):
+@pytest.mark.parametrize(
+    "elasticity, load, several",
+    [("halfspace", 20.0, 7), ("halfspace", 3000.0, 3), ("periodic", 300.0, 3), ("periodic", 3000.0, 2)],
+)
+def test_numbers_are_those_of_the_fields(petsam, tmp_path, case, elasticity, load, several):
+    found = []
+    for ranks in (1, several):
         petsam(case, SPOTS, dict(elasticity=elasticity, load_n=load), ranks=ranks)
-        found[ranks] = read(tmp_path / "out.h5")
-    one = found[1]
+        found.append(read(tmp_path / "out.h5"))
+    one, other = found
     contact = one["pressure"] > 0
     assert one["contact_spots"] == spots(contact, elasticity == "periodic") > 2
     assert one["contact_cells"] == contact.sum()
     assert one["contact_fraction"] == pytest.approx(one["contact_area"] / (2.6e-3 * 2.1e-3), rel=1e-12)
     assert one["gap_mean"] == pytest.approx(one["gap"].mean(), rel=1e-12)
-    for other in found.values():
-        assert all(other[name] == one[name] for name in ("contact_spots", "contact_fraction", "gap_mean", "slip_max"))
+    assert all(other[name] == one[name] for name in ("contact_spots", "contact_fraction", "gap_mean", "slip_max"))
 
 
 def test_mean_gap_has_the_plastic_depth(petsam, tmp_path, case):
