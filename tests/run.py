@@ -54,6 +54,7 @@ def run_unit(program, launcher, folder):
     seconds = limit(TIMEOUT)
     # ranks that wait yield their core: several runs share the cores; one rank alone needs no daemon of Open MPI
     env = dict(environment(), MPIEXEC_TIMEOUT=str(int(seconds)), OMPI_MCA_mpi_yield_when_idle="1")
+    env.update(OMPI_MCA_hwloc_base_binding_policy="none")
     if not launcher:
         env.update(OMPI_MCA_ess_singleton_isolated="1")
     try:
@@ -72,34 +73,32 @@ def run_unit(program, launcher, folder):
     return passed, failed, out if failed else ""
 
 
-def run_units(programs, ranks):
-    """All programs on the ranks(their name), each in a folder of its own.
+def take_core(cores):
+    """The calling thread and its programs stay on one of these, where ranks yield to each other and none spins."""
+    if cores:
+        os.sched_setaffinity(0, {cores.pop()})
 
-    Ranks that wait for messages spin, so that two runs on several ranks on the same cores take several times as long:
-    they come one after another, beside those on one rank.
-    """
-    cores = min(os.cpu_count() or 1, WORKERS)
-    tasks = [(n, program) for program in programs for n in ranks(program.name)]
-    launchers = {n: mpirun(n) if n > 1 else [] for n in {n for n, _ in tasks}}
-    most = max(launchers, default=1)
+
+def run_units(programs, ranks):
+    """As many programs at a time as there are cores, each in a folder of its own, on the ranks(its name) in turn."""
+    launchers = {n: mpirun(n) if n > 1 else [] for n in {n for program in programs for n in ranks(program.name)}}
+    cores = list(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else []
     times = []
 
-    def run(task):
-        n, program = task
-        start = time.time()
-        with tempfile.TemporaryDirectory(prefix=f"{program.name}-") as folder:
-            passed, failed, out = run_unit(program, launchers[n], folder)
-        times.append((time.time() - start, f"{program.name} on {n}"))
-        said = f"{times[-1][1]}: {passed} passed, {failed} failed ({times[-1][0]:.1f} s)"
-        print(said + ("\n" + out if out else ""), flush=True)
+    def run(program):
+        passed = failed = 0
+        for n in ranks(program.name):
+            start, launcher = time.time(), launchers[n]
+            with tempfile.TemporaryDirectory(prefix=f"{program.name}-") as folder:
+                p, f, out = run_unit(program, launcher, folder)
+            passed, failed = passed + p, failed + f
+            times.append((time.time() - start, f"{program.name} on {n}"))
+            said = f"{times[-1][1]}: {p} passed, {f} failed ({times[-1][0]:.1f} s)"
+            print(said + ("\n" + out if out else ""), flush=True)
         return passed, failed
 
-    with (
-        ThreadPoolExecutor(max(1, cores // most)) as several,
-        ThreadPoolExecutor(max(1, cores - (most > 1))) as single,
-    ):
-        counts = [(several if task[0] > 1 else single).submit(run, task) for task in tasks]
-    counts = [count.result() for count in counts]
+    with ThreadPoolExecutor(min(len(cores) or os.cpu_count() or 1, WORKERS), "", take_core, (cores,)) as pool:
+        counts = list(pool.map(run, programs))
     print(f"slowest {SLOWEST} unit tests (ranks)")
     for seconds, name in sorted(times, reverse=True)[:SLOWEST]:
         print(f"{seconds:8.1f} s  {name}")

@@ -1,7 +1,6 @@
 """Fixtures that run the built program: build/bin/petsam, or that of the directory in PETSAM_BUILD."""
 
 import contextlib
-import fcntl
 import os
 import signal
 import subprocess
@@ -22,6 +21,11 @@ SLOWEST = 30  # tests whose CPU times are printed
 
 def pytest_configure(config):
     config.addinivalue_line("markers", "slow: run by `make check-slow`, not by `make test`")
+    worker = os.environ.get("PYTEST_XDIST_WORKER")
+    if worker and hasattr(os, "sched_setaffinity"):
+        # a core of its own, also for the ranks of its runs: there each yields to the others, and none waits by spinning
+        cores = sorted(os.sched_getaffinity(0))
+        os.sched_setaffinity(0, {cores[int(worker[2:]) % len(cores)]})
 
 
 def pytest_collection_modifyitems(items):
@@ -77,10 +81,12 @@ subprocess.Popen = Popen
 def environment():
     """Open MPI refuses to run as root, as a container does, unless told twice; PETSC_OPTIONS would add options.
 
-    Ranks that wait yield their core: several tests share the cores. A run that hangs ends after MPIEXEC_TIMEOUT.
+    Ranks that wait yield their core: several tests share the cores. mpirun would bind two ranks to a core each, where a
+    rank that yields to a busy process gets no time. A run that hangs ends after MPIEXEC_TIMEOUT.
     """
     env = {name: value for name, value in os.environ.items() if name != "PETSC_OPTIONS"}
-    env.update(OMP_NUM_THREADS="1", OMPI_MCA_mpi_yield_when_idle="1", MPIEXEC_TIMEOUT=str(int(support.limit(TIMEOUT))))
+    env.update(OMPI_MCA_mpi_yield_when_idle="1", OMPI_MCA_hwloc_base_binding_policy="none")
+    env.update(OMP_NUM_THREADS="1", MPIEXEC_TIMEOUT=str(int(support.limit(TIMEOUT))))
     if os.geteuid() == 0:
         env.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
     return env
@@ -130,32 +136,19 @@ def kill_all(run, ranks):
             os.kill(process, signal.SIGKILL)
 
 
-@contextlib.contextmanager
-def turn(ranks):
-    """Runs on several ranks take turns with those of other processes of pytest.
-
-    Ranks that wait for messages spin: two such runs on the same cores take ten times as long as one after another.
-    """
-    with open(PROGRAM.parents[1] / "ranks.lock", "w") as file:
-        if ranks > 1:
-            fcntl.flock(file, fcntl.LOCK_EX)
-        yield
-
-
 def execute(launcher, directory, options, ranks, check, extra=None, program=PROGRAM):
     """One run; with more than one rank by the launcher."""
     command = (launcher + ["-n", str(ranks)] if ranks > 1 else []) + [str(program)] + support.flatten(options)
-    with turn(ranks):
-        done = subprocess.run(
-            command,
-            capture_output=True,
-            text=True,
-            errors="replace",
-            cwd=directory,
-            timeout=TIMEOUT + 30,
-            env={**environment(), **(extra or {})},
-            stdin=subprocess.DEVNULL,
-        )
+    done = subprocess.run(
+        command,
+        capture_output=True,
+        text=True,
+        errors="replace",
+        cwd=directory,
+        timeout=TIMEOUT + 30,
+        env={**environment(), **(extra or {})},
+        stdin=subprocess.DEVNULL,
+    )
     assert check is None or done.returncode == check, (
         f"exit code {done.returncode}, expected {check}: {' '.join(command)}\n"
         f"{done.stdout[-3000:]}\n{done.stderr[-3000:]}"

@@ -43,7 +43,7 @@ def test_limits_of_time_grow_with_the_load(monkeypatch, load, seconds):
 
 def test_ranks_that_wait_yield_their_core_and_a_run_that_hangs_ends(launcher, tmp_path):
     env = {**environment(), "MPIEXEC_TIMEOUT": "1"}
-    assert env["OMPI_MCA_mpi_yield_when_idle"] == "1"
+    assert env["OMPI_MCA_mpi_yield_when_idle"] == "1" and env["OMPI_MCA_hwloc_base_binding_policy"] == "none"
     done = subprocess.run([*launcher, "-n", "2", "sleep", "600"], env=env, capture_output=True, timeout=300)
     assert done.returncode != 0
 
