@@ -314,7 +314,7 @@ def test_no_write_of_a_step_without_fields_harms_the_steps_before(deadly, folder
     die(deadly, folder, options, DIE_LOG="log")
     writes = len((folder / "log").read_text().split())
     tried = 0
-    for n in range(writes // 3, writes, max(1, writes // 60)):
+    for n in range(writes // 3, writes, max(1, writes // 30)):
         steps, code = die(deadly, folder, options, DIE_AT=str(n))
         if code == 0 or not steps:
             continue

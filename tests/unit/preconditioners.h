@@ -59,4 +59,59 @@ static inline void ApplySingle(SamElasticity e, SamGrid grid, PetscInt component
   free(work);
 }
 
+typedef PetscErrorCode (*Product)(SamElasticity, Vec, Vec);
+
+/* The four products, and the components of what goes in and comes out: 0, 1 tangential, 2 normal. */
+static const struct {
+  Product  apply;
+  PetscInt first_in, n_in, first_out, n_out;
+} products[4] = {{SamElasticityApplyNormal, 2, 1, 2, 1},
+                 {SamElasticityApplyTangential, 0, 2, 0, 2},
+                 {SamElasticityApplyNormalToTangential, 2, 1, 0, 2},
+                 {SamElasticityApplyTangentialToNormal, 0, 2, 2, 1}};
+
+/* All products of a field, in both precisions, of the whole grid: 12 fields, then the self influences. */
+static inline double *AllProducts(SamElasticity e, size_t *count)
+{
+  const SingleProduct single[4] = {SamElasticityApplyNormalSingle, SamElasticityApplyTangentialSingle,
+                                   SamElasticityPreconditionNormalSingle, SamElasticityPreconditionTangentialSingle};
+  SamGrid             grid;
+  double             *all, *to;
+
+  sam_call(SamElasticityGetGrid(e, &grid));
+  *count = (size_t)(12 * grid->nx * grid->ny + 2);
+  to = all = (double *)calloc(*count, sizeof(*all));
+  for (int c = 0; c < 8; c++) {
+    const PetscInt n_in = c < 4 ? products[c].n_in : c % 2 + 1, n_out = c < 4 ? products[c].n_out : n_in;
+    Vec            in = NewRandom(grid, n_in, 7), out = c < 4 ? NewField(grid, n_out) : Copy(in);
+    double        *whole;
+
+    if (c < 4)
+      sam_call(products[c].apply(e, in, out));
+    else
+      ApplySingle(e, grid, n_in, single[c - 4], c < 6 ? 1e15 : 1e-15, out);
+    whole = Whole(grid, n_out, out);
+    memcpy(to, whole, sizeof(*to) * (size_t)(n_out * grid->nx * grid->ny));
+    to += n_out * grid->nx * grid->ny;
+    free(whole);
+    sam_call(VecDestroy(&in));
+    sam_call(VecDestroy(&out));
+  }
+  sam_call(SamElasticityGetSelfInfluence(e, &to[0], &to[1]));
+  return all;
+}
+
+/* Of two operators, which are destroyed, to the last bit. */
+static inline void AssertSameProducts(SamElasticity e[2])
+{
+  size_t        count[2];
+  double *const one = AllProducts(e[0], &count[0]), *const two = AllProducts(e[1], &count[1]);
+
+  sam_assert(count[0] == count[1] && !memcmp(one, two, sizeof(*one) * count[0]));
+  for (size_t k = 0; k < count[0]; k++) sam_assert(isfinite(one[k]));
+  free(one);
+  free(two);
+  for (int k = 0; k < 2; k++) sam_call(SamElasticityDestroy(&e[k]));
+}
+
 #endif
