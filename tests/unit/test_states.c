@@ -6,12 +6,12 @@
 
 /* ---- random steps ---- */
 
-enum { BODIES = 4, COMMITS = 5, TRIES = 3 };
+enum { BODIES = 4, COMMITS = 7, TRIES = 3 };
 
-/* Similar and dissimilar bodies, half-spaces and periodic ones; 35 rows on 2 or 3 ranks do not divide. */
+/* Similar and dissimilar bodies, half-spaces and periodic ones; 45 rows on 2 ranks do not divide. */
 static Case NewBodies(int kind)
 {
-  Sphere s = NewSphereOf(kind % 2 ? Dissimilar() : Steel(), 35, 2);
+  Sphere s = NewSphereOf(kind % 2 ? Dissimilar() : Steel(), 45, 2);
 
   if (kind / 2) sam_call(SamElasticitySetType(s.elasticity, SAM_ELASTICITY_PERIODIC));
   return NewCaseOn(s, MU, NULL, "");
