@@ -75,10 +75,9 @@ static inline double *AllProducts(SamElasticity e, size_t *count)
 {
   const SingleProduct single[4] = {SamElasticityApplyNormalSingle, SamElasticityApplyTangentialSingle,
                                    SamElasticityPreconditionNormalSingle, SamElasticityPreconditionTangentialSingle};
-  SamGrid             grid;
+  const SamGrid       grid      = SamElasticityGetGrid(e);
   double             *all, *to;
 
-  sam_call(SamElasticityGetGrid(e, &grid));
   *count = (size_t)(12 * grid->nx * grid->ny + 2);
   to = all = (double *)calloc(*count, sizeof(*all));
   for (int c = 0; c < 8; c++) {
