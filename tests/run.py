@@ -55,8 +55,8 @@ def run_unit(program, launcher, folder):
     # ranks that wait yield their core: several runs share the cores; one rank alone needs no daemon of Open MPI
     env = dict(environment(), MPIEXEC_TIMEOUT=str(int(seconds)), OMPI_MCA_mpi_yield_when_idle="1")
     env.update(OMPI_MCA_hwloc_base_binding_policy="none")
-    if not launcher:
-        env.update(OMPI_MCA_ess_singleton_isolated="1")
+    if not launcher:  # such programs would share a folder of Open MPI, which the first to end removes
+        env.update(OMPI_MCA_ess_singleton_isolated="1", OMPI_MCA_orte_tmpdir_base=str(folder))
     try:
         done = subprocess.run(
             launcher + [str(program)], capture_output=True, text=True, env=env, timeout=seconds + 30, cwd=folder
