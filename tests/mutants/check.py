@@ -134,7 +134,9 @@ def command_of(tree, test):
 
 def passes(tree, test):
     """Whether a test does not notice."""
-    variables = dict(environment(), PETSAM_BUILD=str(tree / "build"), OMPI_MCA_ess_singleton_isolated="1")
+    build = str(tree / "build")
+    variables = dict(environment(), PETSAM_BUILD=build, OMPI_MCA_ess_singleton_isolated="1")
+    variables["OMPI_MCA_orte_tmpdir_base"] = build  # else such programs share a folder, which the first to end removes
     try:
         done = subprocess.run(
             command_of(tree, test), cwd=tree, env=variables, capture_output=True, timeout=TIMEOUT + 30
