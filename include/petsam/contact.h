@@ -72,6 +72,13 @@ PETSC_EXTERN PetscErrorCode     SamContactSetFromOptions(SamContact contact);
 */
 PETSC_EXTERN PetscErrorCode SamContactSetUp(SamContact contact);
 /*
+  SamContactCheckConditions - refuses conditions of a step that are out of their range, or that need a coupling of
+  pressure and shear that the contact does not have. `where`: "file, line 3: " or "", for the message. Not collective.
+  Errors: PETSC_ERR_ARG_OUTOFRANGE, SAM_ERR_USER.
+*/
+PETSC_INTERN PetscErrorCode SamContactCheckConditions(SamContact contact, const SamControl *control,
+                                                      const char where[]);
+/*
   SamContactOfferCondition - makes a condition (control.h) and others of its group numbers of each step, and with a
   rolled distance the creepages. Collective.
 */

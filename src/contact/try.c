@@ -71,18 +71,17 @@ static PetscErrorCode Judge(SamContact c, SamStep *step)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Conditions must be in their range, and the pressure and the shear be solved with each other where they ask for it. */
-static PetscErrorCode CheckConditions(SamContact c, const SamControl *control)
+PetscErrorCode SamContactCheckConditions(SamContact c, const SamControl *control, const char where[])
 {
   PetscFunctionBegin;
   for (PetscInt k = 0; k < SamConditionsCount(c->conditions); k++) {
     const SamCondition *one   = SamConditionsGet(c->conditions, k);
     const PetscReal     value = SamControlGet(control, one);
 
-    PetscCheck(SamRangeHas(one->range, value), c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "%s = %.6g: expected %s",
-               one->name, (double)value, SamRangeDescribe(one->range));
+    PetscCheck(SamRangeHas(one->range, value), c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "%s%s = %.6g: expected %s",
+               where, one->name, (double)value, SamRangeDescribe(one->range));
     PetscCheck(value == one->usual || !one->couples || SamContactIsCoupled(c), c->grid->comm, SAM_ERR_USER,
-               "%s = %.6g: expected %.6g, or -coupling full", one->name, (double)value, (double)one->usual);
+               "%s%s = %.6g: expected %.6g, or -coupling full", where, one->name, (double)value, (double)one->usual);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -108,7 +107,7 @@ static PetscErrorCode CheckControl(SamContact c, SamControl *control)
   PetscCheck(!control->force[SAM_COMPONENT_N] || control->value[SAM_COMPONENT_N] >= 0, c->grid->comm,
              PETSC_ERR_ARG_OUTOFRANGE, "load_n = %.6g: expected a number >= 0",
              (double)control->value[SAM_COMPONENT_N]);
-  PetscCall(CheckConditions(c, control));
+  PetscCall(SamContactCheckConditions(c, control, ""));
   PetscCall(SamProblemCheckControl(c->problem, control, &wrong, why, sizeof(why)));
   PetscCheck(!why[0], c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "%s = %.6g: %s", wrong->name,
              (double)SamControlGet(control, wrong), why);

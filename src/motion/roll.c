@@ -28,5 +28,5 @@ PetscReal SamMotionRolled(SamConditions conditions, const SamControl *control, P
 
   for (int k = 0; k < 2; k++) roll[k] = SamControlGet(control, SamConditionsFind(conditions, along[k].name));
   for (int k = 0; k < 2 && distance; k++) distance[k] = roll[k];
-  return roll[1] == 0 ? roll[0] : roll[0] == 0 ? roll[1] : hypot(roll[0], roll[1]);
+  return hypot(roll[0], roll[1]);
 }

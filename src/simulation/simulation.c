@@ -106,7 +106,7 @@ static PetscErrorCode Offer(SamSimulation s)
   Refuses a load history with a step that has no meaning, before the first is solved; ends of rows first, whose values
   are those of the file.
 */
-static PetscErrorCode CheckRolling(SamSimulation s)
+static PetscErrorCode CheckSteps(SamSimulation s)
 {
   char where[PETSC_MAX_PATH_LEN + 32];
 
@@ -118,6 +118,7 @@ static PetscErrorCode CheckRolling(SamSimulation s)
 
     if (end != (n < s->needs.steps)) continue;
     PetscCall(SamHistoryGetPlace(s->history, k, where, sizeof(where)));
+    PetscCall(SamContactCheckConditions(s->setup.contact, &control, where));
     PetscCall(SamMotionCheck(s->setup.elasticity, s->conditions, &control, where));
     PetscCheck(SamProblemGetRolled(s->setup.problem, &control, NULL) == 0 || !s->needs.life, s->comm, SAM_ERR_USER,
                "roll with -wear_cycles: surfaces that roll are worn step by step: omit one of them");
@@ -134,7 +135,7 @@ static PetscErrorCode Prepare(SamSimulation s, const SamOptions *from)
 {
   PetscFunctionBegin;
   PetscCall(SamSimulationCreateLife(s));
-  PetscCall(CheckRolling(s));
+  PetscCall(CheckSteps(s));
   PetscCall(Offer(s));
   PetscCall(SamOutputSettingsPrepare(&s->output_settings, s->setup.contact, from));
   PetscCall(SamSimulationCollectParameters(s));

@@ -253,6 +253,16 @@ def test_polynomials_keep_their_values_outside_of_the_patch(solve, tmp_path):
     assert r.displacement_z - plain.displacement_z == pytest.approx(turned, abs=1e-4 * slope)
 
 
+def test_case_without_coupling_is_refused_before_the_first_step(petsam, tmp_path):
+    file = compliances.write(tmp_path / "c.h5", np.zeros((3, 3, 3, 3)), half=0.5, cases=dict(pull=np.ones((3, 3))))
+    case = [{**SPHERE, "grid_n": 8}, STEEL, dict(body2_compliance=file, coupling="none", output="kept.h5")]
+    (tmp_path / "kept.h5").write_text("results of an earlier run")
+    rows = history(tmp_path / "h.csv", "time,load_n,body2_case_pull", (0, 1e-4, 0), (1, 1e-4, 1e-3))
+    done = petsam(*case, rows, check=2)
+    assert "h.csv, line 3: body2_case_pull = 0.001: expected 0, or -coupling full" in done.complaint[0]
+    assert (tmp_path / "kept.h5").read_text() == "results of an earlier run"
+
+
 @pytest.mark.parametrize("number, signs", [(1, (-1, 1, 1)), (2, (1, 1, 1))])
 def test_case_that_moves_the_surface_moves_the_body(number, signs, solve, layer, tmp_path):
     field = np.zeros((1, 3))
@@ -578,6 +588,8 @@ def change(name, value):
         ("@poisson", 0.6, "poisson 0.6: expected a modulus > 0"),
         ("patch/half", None, "has no dataset /patch/half: make the file by petsam-compliance"),
         ("patch/half", [1.0, 0.0], "/patch/half is 1, 0: expected lengths > 0"),
+        ("patch/half", [1e100, 1e100], "/patch/half is 1e+100, 1e+100, /patch/center 0, 0: expected at most 10000 m"),
+        ("patch/half", [1e3, 1e-3], "sides that differ at most by a factor of 1000: check the unit of the file"),
         ("patch/center", [0.0, np.nan], "number 1 of /patch/center is not finite"),
         ("basis/degree_xy", np.zeros((6, 3)), "/basis/degree_xy has a shape that does not fit"),
         ("basis/degree_xy", np.full((6, 2), 11), "/basis/degree_xy has 11: expected whole numbers from 0 to 10"),

@@ -72,6 +72,21 @@ def test_given_creepages_give_back_the_loads(roll):
     assert np.allclose(given["disp_x"], found["disp_x"], rtol=1e-9)
 
 
+@pytest.mark.parametrize("turn", [0, 1, 2])
+def test_direction_of_rolling_turns_the_solution_and_keeps_the_sign_of_creepage(roll, turn):
+    """Rolling towards +x, -x, and -x with a rolled distance of rounding along y: loads are the same, shear is mirrored."""
+    side = 2 * CELL
+    case = dict(CASE_C, grid_n=20, grid_size=20 * side, grid_center=0)
+    length, beside = [(side, 0), (-side, 0), (-side, 1e-12 * side)][turn]
+    forth = roll(case, "time,creep_x,creep_y,roll", *[(k, 1e-3, 5e-4, side) for k in range(6)])
+    turned = roll(
+        case, "time,creep_x,creep_y,roll,roll_y", *[(k, 1e-3, 5e-4, length, beside) for k in range(6)], name="turned"
+    )
+    assert forth["load_tx"][-1] > 0.1 * MU * N
+    for load in ("load_tx", "load_ty", "creep_x"):
+        assert np.allclose(turned[load], forth[load], rtol=1e-6)
+
+
 def test_rows_are_divided(roll):
     one = roll(CASE_C, "time,load_tx,roll", *cattaneo(12))
     rows = [(0, 0.0, 0.0), (1, TX, 0.0), (2, TX, 12 * CELL)]

@@ -62,8 +62,8 @@ PETSC_INTERN PetscErrorCode SamMotionCheck(SamElasticity elasticity, SamConditio
                                            const SamControl *control, const char where[]);
 /*
   SamMotionAddConditions - adds the rolled distances of a step to a list (roll.c). Not collective.
-  SamMotionRolled - that by which creepages are multiplied, m: along x or along y alone as given, with its sign, else
-  the length of the path. `distance`: along x and y, NULL: not wanted. Not collective.
+  SamMotionRolled - the length of the rolled path, m, by which creepages are multiplied: whatever the direction of
+  rolling, a positive creepage makes a positive load. `distance`: along x and y, NULL: not wanted. Not collective.
 */
 PETSC_INTERN PetscErrorCode SamMotionAddConditions(SamConditions conditions);
 PETSC_INTERN PetscReal      SamMotionRolled(SamConditions conditions, const SamControl *control, PetscReal distance[2]);
