@@ -193,6 +193,13 @@ def _words(options):
     return " ".join(words)
 
 
+def _text(words):
+    """Words for the library, which would take those up to a NUL only."""
+    if "\0" in words:
+        raise ValueError(f"{short(repr(words))}: expected words without a NUL character")
+    return words.encode()
+
+
 def _number(value, name):
     return str(value) if isinstance(value, (str, int, np.integer)) else repr(_real(value, name).value)
 
@@ -229,7 +236,7 @@ class Contact:
         self._c = _load()
         with _lock:
             code = self._c.petsam_create(
-                ctypes.c_int(-1 if comm is None else comm.py2f()), _words(options).encode(), ctypes.byref(self._contact)
+                ctypes.c_int(-1 if comm is None else comm.py2f()), _text(_words(options)), ctypes.byref(self._contact)
             )
             self._check(code)
         self._read_grid()
@@ -308,7 +315,7 @@ class Contact:
     def _try(self, function, time, given):
         values = np.array([_real(number, f"{function}: {name}").value for name, number in given.items()])
         seconds, load, rigid = _real(time, f"{function}: time"), np.full(6, np.nan), np.full(6, np.nan)
-        code, words = 0, [",".join(given).encode(), _pointer(values), _pointer(load), _pointer(rigid)]
+        code, words = 0, [_text(",".join(given)), _pointer(values), _pointer(load), _pointer(rigid)]
         try:
             code = self._call("try_named", seconds, *words)
         except (NotConverged, NoEquilibrium) as error:
@@ -332,7 +339,7 @@ class Contact:
         names = [name for name in self._names("number") if name not in ("time", "status", *self._loads, *self._rigids)]
         with _lock:
             for name in names:
-                if self._c.petsam_get_number(self._contact, name.encode(), ctypes.byref(value)) == 0:
+                if self._c.petsam_get_number(self._contact, _text(name), ctypes.byref(value)) == 0:
                     found[name] = value.value
         return found
 
@@ -400,7 +407,7 @@ class Contact:
             code = self._call(
                 name,
                 *first,
-                ",".join(columns).encode(),
+                _text(",".join(columns)),
                 ctypes.c_int(len(values)),
                 _pointer(values),
                 _MONITOR(tell),
@@ -456,7 +463,7 @@ class Contact:
     def _ask(self, function, name, target):
         """Call a function that takes a name; an unknown name is an error that lists the known ones."""
         try:
-            self._call(function, name.encode(), target)
+            self._call(function, _text(name), target)
         except ContactError as error:
             what = function.split("_")[1]
             names = self._names(what) if self._contact else [name]
@@ -468,10 +475,12 @@ class Contact:
     def set_field(self, name, values):
         """Give the gap (separation of the undeformed, unworn bodies, m) or the friction: (rows, n[0]) or a number."""
         values = np.asarray(values)
-        if not isinstance(name, str) or values.dtype.kind not in "biufO":
+        if not isinstance(name, str):
+            raise TypeError(f"{name!r} is no name of a field: expected gap or friction")
+        if values.dtype.kind not in "biufO":
             raise TypeError(f"{name}: expected real numbers, and not {values.dtype}")
         values = np.array(np.broadcast_to(values, (self.rows, self.n[0])), dtype=float, order="C")
-        self._call("set_field", name.encode(), _pointer(values))
+        self._call("set_field", _text(name), _pointer(values))
         self._given[name] = values
 
     __setitem__ = set_field
@@ -530,7 +539,7 @@ class Contact:
         words = _words({name: value for name, value in options.items() if value is not None})
         shape, dimensions, found = (ctypes.c_int * 4)(), ctypes.c_int(), {}
         with _lock:
-            self._call(function, words.encode(), shape)
+            self._call(function, _text(words), shape)
             message = self._message()
             sizes = dict(zip(("time", "z", "y", "x"), shape))
             while name := self._c.petsam_stress_name(self._contact, len(found), ctypes.byref(dimensions)):

@@ -160,8 +160,10 @@ static PetscErrorCode SetUpEvaluation(SamStressRun *run)
                                      .tell       = Tell,
                                      .context    = run};
   const SamParameters *parameters = SamResultsGetParameters(run->results);
+  const SamParameter  *rolling    = SamParametersFind(parameters, "rolling");
 
   PetscFunctionBegin;
+  source.steady = rolling && !strcmp(rolling->text, "steady") ? PETSC_TRUE : PETSC_FALSE;
   PetscCall(PetscSNPrintf(run->source, sizeof(run->source), "-input %s", run->request.input));
   PetscCall(SamElasticityCreateFromParameters(run->grid, parameters, run->source, &run->elasticity));
   PetscCall(ChooseSteps(run));

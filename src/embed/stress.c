@@ -7,6 +7,7 @@
 #include "embedimpl.h"
 #include <petsam/private/arguments.h>
 #include <petsam/evaluation.h>
+#include <petsam/private/motionimpl.h>
 
 enum { AXES = SAM_STRESS_AXES };
 
@@ -240,6 +241,7 @@ static PetscErrorCode Compute(petsam_contact *c, const char options[], PetscInt 
                                   .name       = "-elasticity",
                                   .steps      = n,
                                   .before     = steps->before && steps->before->fields,
+                                  .steady     = !SamMotionOf(c->setup->elasticity)->continues,
                                   .read       = ReadField,
                                   .number     = ReadNumber,
                                   .conditions = ReadConditions,

@@ -137,7 +137,7 @@ PetscErrorCode SamDepthsRead(SamEvaluation e, PetscReal half)
 
   PetscFunctionBegin;
   PetscCall(PetscStrncpy(text, e->depths_text, sizeof(text)));
-  PetscCall(PetscSNPrintf(whole, sizeof(whole), "-depths %s", text));
+  PetscCall(PetscSNPrintf(whole, sizeof(whole), "-depths %.60s%s", text, strlen(text) > 60 ? "..." : ""));
   PetscCall((strchr(text, ':') ? ReadRange : ReadList)(e->comm, whole, text, half, &n, &depths, &sides));
   PetscCall(SamDepthsTake(e, whole, n, depths, sides));
   PetscCall(PetscFree2(depths, sides));

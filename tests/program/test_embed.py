@@ -248,6 +248,8 @@ told(petsam.ContactError, contact.number, "area")
 told(petsam.ContactError, contact.number, "qqq")
 told(petsam.ContactError, contact.field, "contact_edge")
 told(TypeError, contact.number, 3)
+told(ValueError, contact.number, "contact_area\\0x")
+told(ValueError, contact.field, "pressure\\0")
 told(petsam.ContactError, contact.fatigue, None)
 for kind, function, words in (
     ("time", contact.try_step, ("x",)),
@@ -256,6 +258,7 @@ for kind, function, words in (
     ("each", contact.run, (dict(time=[1], load_n=[1]), 3)),
     ("out", contact.field, ("pressure", 3)),
     ("gap", contact.set_field, ("gap", 1j)),
+    ("name of a field", contact.set_field, (5, 0.0)),
     ("comm", lambda: petsam.Contact(comm=3, **case), ()),
     ("friction", lambda: petsam.Contact(**dict(case, friction=1j)), ()),
 ):
