@@ -180,8 +180,7 @@ PetscErrorCode SamEdgeDestroy(SamEdge *edge)
 static PetscErrorCode Examine(Band *band)
 {
   const SamZone  *z     = &band->zone;
-  const PetscInt  nx    = z->grid->nx;
-  const ptrdiff_t cells = (ptrdiff_t)z->count * nx;
+  const ptrdiff_t cells = (ptrdiff_t)z->count * z->width;
   const PetscInt  begin = PetscMax(z->grid->row_start - 1, z->first), /* of the rows whose cells are needed */
     end                 = PetscMin(z->grid->row_start + z->grid->rows + 1, z->first + z->count);
   SamFitWindow core;
@@ -190,11 +189,11 @@ static PetscErrorCode Examine(Band *band)
   SamFitWindowInitialize(WINDOW, LAST + 1, &core);
   PetscCall(PetscMalloc1(cells, &band->slot));
   for (PetscInt j = z->first; j < z->first + z->count; j++)
-    for (ptrdiff_t k = SamZoneAt(z, 0, j), last = k + nx; k < last; k++)
+    for (ptrdiff_t k = SamZoneAt(z, z->left, j), last = k + z->width; k < last; k++)
       band->slot[k] = j >= begin && j < end && z->distance[k] >= NEXT && z->distance[k] <= LAST ? band->band++ : -1;
   PetscCall(PetscMalloc2(band->band, &band->smooth, SAM_FIT_TERMS * band->band, &band->fit));
   for (PetscInt j = begin; j < end; j++)
-    for (PetscInt i = 0; i < nx; i++) {
+    for (PetscInt i = PetscMax(z->left, -1); i < PetscMin(z->left + z->width, z->grid->nx + 1); i++) {
       const PetscInt k = band->slot[SamZoneAt(z, i, j)];
 
       if (k >= 0) band->smooth[k] = (char)Reconstruct(z, &core, i, j, band->fit + SAM_FIT_TERMS * (ptrdiff_t)k);
@@ -211,14 +210,14 @@ static PetscErrorCode Destroy(Band *band)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamEdgeReconstruct(SamGrid grid, Vec w, Vec point, SamEdge *edge)
+PetscErrorCode SamEdgeReconstruct(SamGrid grid, PetscBool periodic, Vec w, Vec point, SamEdge *edge)
 {
   SamTotal totals[SUMS] = {{0}};
   Band     band         = {.band = 0};
   double  *points       = NULL, sums[SUMS];
 
   PetscFunctionBegin;
-  PetscCall(SamZoneCreate(grid, w, HALO, BAND, &band.zone));
+  PetscCall(SamZoneCreate(grid, periodic, w, HALO, BAND, &band.zone));
   PetscCall(Examine(&band));
   edge->count = 0;
   PetscCall(PetscMalloc4(band.band, &edge->x, band.band, &edge->y, band.band, &edge->cell, band.band, &edge->fit));

@@ -10,29 +10,32 @@
   SamZone - rows of a field about this rank's, and the zone of cells where it is positive. Distances are between
   centres, in cells, and known where they are at most `reach`: distance[] holds their squares, of cells of the zone to
   the nearest cell outside, of cells outside minus those to the nearest cell of the zone; else SAM_FAR or -SAM_FAR.
-  Cells beyond the grid are neither.
+  Cells beyond the grid are neither; where the grid is periodic, cells on the other side of it stand there.
 */
 #define SAM_FAR 127
 typedef struct {
-  SamGrid       grid;
-  PetscInt      first, count; /* rows that are seen */
-  Vec           field;
-  const double *own, *w; /* the field's rows on this rank, and those that are seen */
-  signed char  *distance;
-  SamRows       rows;
+  SamGrid      grid;
+  PetscInt     first, count; /* rows that are seen */
+  PetscInt     left, width;  /* columns that are seen */
+  double      *w;
+  signed char *distance;
 } SamZone;
-/* SamZoneCreate - `halo`: rows that are seen before and after this rank's; reach: at most 11 cells. Collective. */
-PETSC_INTERN PetscErrorCode SamZoneCreate(SamGrid grid, Vec field, PetscInt halo, PetscReal reach, SamZone *zone);
+/*
+  SamZoneCreate - `halo`: rows that are seen before and after this rank's, and where the grid is periodic, columns on
+  both sides; reach: at most 11 cells. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamZoneCreate(SamGrid grid, PetscBool periodic, Vec field, PetscInt halo, PetscReal reach,
+                                          SamZone *zone);
 PETSC_INTERN PetscErrorCode SamZoneDestroy(SamZone *zone);
 
 /* Whether a cell is seen, and its place among those that are. */
 static inline PetscBool SamZoneHas(const SamZone *z, PetscInt i, PetscInt j)
 {
-  return i >= 0 && i < z->grid->nx && j >= z->first && j < z->first + z->count;
+  return i >= z->left && i < z->left + z->width && j >= z->first && j < z->first + z->count;
 }
 static inline ptrdiff_t SamZoneAt(const SamZone *z, PetscInt i, PetscInt j)
 {
-  return (ptrdiff_t)(j - z->first) * z->grid->nx + i;
+  return (ptrdiff_t)(j - z->first) * z->width + i - z->left;
 }
 
 /* A quadratic function about a cell's centre: the terms 1, x, y, x^2, x y, y^2 of places in cells from it. */

@@ -30,7 +30,7 @@ typedef struct {
 
 static Range RangeOf(const SamZone *z, PetscInt half, PetscInt i, PetscInt j)
 {
-  return (Range){PetscMax(i - half, 0), PetscMin(i + half, z->grid->nx - 1), PetscMax(j - half, z->first),
+  return (Range){PetscMax(i - half, z->left), PetscMin(i + half, z->left + z->width - 1), PetscMax(j - half, z->first),
                  PetscMin(j + half, z->first + z->count - 1)};
 }
 

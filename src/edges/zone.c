@@ -52,45 +52,85 @@ static void Mark(SamZone *z, const Disc *disc, const char in[], PetscInt i, Pets
 */
 static PetscErrorCode FindDistances(SamZone *z, PetscReal reach)
 {
-  const PetscInt nx = z->grid->nx;
+  const PetscInt n = z->width;
   char          *in, *wide[2], *any;
   Disc           disc;
 
   PetscFunctionBegin;
   FillDisc(reach, &disc);
-  PetscCall(PetscMalloc4(z->count * nx, &in, z->count * nx, &wide[0], z->count * nx, &wide[1], nx, &any));
+  PetscCall(PetscMalloc4(z->count * n, &in, z->count * n, &wide[0], z->count * n, &wide[1], n, &any));
   for (PetscInt j = 0; j < z->count; j++) {
-    for (PetscInt i = 0, k = j * nx; i < nx; i++, k++) {
+    for (PetscInt i = 0, k = j * n; i < n; i++, k++) {
       in[k]          = z->w[k] > 0 ? 1 : 0;
       any[i]         = 1 - in[k]; /* cells outside */
       z->distance[k] = in[k] ? SAM_FAR : -SAM_FAR;
     }
-    Widen(nx, any, wide[0] + j * nx);
-    Widen(nx, in + j * nx, wide[1] + j * nx);
+    Widen(n, any, wide[0] + j * n);
+    Widen(n, in + j * n, wide[1] + j * n);
   }
   for (PetscInt j = 0; j < z->count; j++) {
-    const PetscInt before = PetscMax(j - 1, 0) * nx, here = j * nx, after = PetscMin(j + 1, z->count - 1) * nx;
+    const PetscInt before = PetscMax(j - 1, 0) * n, here = j * n, after = PetscMin(j + 1, z->count - 1) * n;
 
-    for (PetscInt i = 0; i < nx; i++)
+    for (PetscInt i = 0; i < n; i++)
       any[i] = in[here + i] ? wide[0][before + i] | wide[0][here + i] | wide[0][after + i]
                             : wide[1][before + i] | wide[1][here + i] | wide[1][after + i];
-    for (PetscInt i = 0; i < nx; i++)
-      if (any[i]) Mark(z, &disc, in, i, z->first + j);
+    for (PetscInt i = 0; i < n; i++)
+      if (any[i]) Mark(z, &disc, in, z->left + i, z->first + j);
   }
   PetscCall(PetscFree4(in, wide[0], wide[1], any));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamZoneCreate(SamGrid grid, Vec field, PetscInt halo, PetscReal reach, SamZone *z)
+/* Copies rows of the grid to the first column of the grid and the rows from `at` on. Collective. */
+static PetscErrorCode CopyRows(SamZone *z, const double own[], PetscInt first, PetscInt count, PetscInt at)
 {
+  const PetscInt nx = z->grid->nx;
+  const double  *seen;
+  SamRows        rows;
+
   PetscFunctionBegin;
-  *z = (SamZone){.grid = grid, .field = field};
-  PetscCall(SamRowsCreateAbout(grid, halo, &z->rows));
-  z->first = z->rows.first;
-  z->count = z->rows.count;
-  PetscCall(VecGetArrayRead(field, &z->own));
-  PetscCall(SamRowsFetch(&z->rows, grid->nx, z->own, &z->w));
-  PetscCall(PetscMalloc1(z->count * grid->nx, &z->distance));
+  PetscCall(SamRowsCreate(z->grid, count > 0 ? first : 0, PetscMax(count, 0), &rows));
+  PetscCall(SamRowsFetch(&rows, nx, own, &seen));
+  for (PetscInt j = 0; j < count; j++)
+    PetscCall(PetscArraycpy(z->w + SamZoneAt(z, 0, at + j), seen + (ptrdiff_t)j * nx, nx));
+  PetscCall(SamRowsRestore(&rows, &seen));
+  PetscCall(SamRowsDestroy(&rows));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The field's rows that are seen; those of a periodic grid, and columns, from its other side too. Collective. */
+static PetscErrorCode Fetch(SamZone *z, Vec field)
+{
+  const PetscInt nx = z->grid->nx, ny = z->grid->ny, end = z->first + z->count;
+  const PetscInt begin = PetscMax(z->first, 0), stop = PetscMin(end, ny);
+  const double  *own;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(field, &own));
+  PetscCall(CopyRows(z, own, z->first + ny, begin - z->first, z->first));
+  PetscCall(CopyRows(z, own, begin, stop - begin, begin));
+  PetscCall(CopyRows(z, own, 0, end - stop, stop));
+  PetscCall(VecRestoreArrayRead(field, &own));
+  for (PetscInt j = z->first; j < end; j++)
+    for (PetscInt i = z->left; i < 0; i++) {
+      z->w[SamZoneAt(z, i, j)]          = z->w[SamZoneAt(z, i + nx, j)];
+      z->w[SamZoneAt(z, nx - 1 - i, j)] = z->w[SamZoneAt(z, -1 - i, j)];
+    }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamZoneCreate(SamGrid grid, PetscBool periodic, Vec field, PetscInt halo, PetscReal reach, SamZone *z)
+{
+  const PetscInt  columns = periodic ? PetscMin(halo, grid->nx) : 0, rows = PetscMin(halo, grid->ny);
+  const PetscInt  begin = grid->row_start - rows, end = grid->row_start + grid->rows + rows;
+  const PetscBool wraps = periodic && grid->ny > 1;
+
+  PetscFunctionBegin;
+  *z       = (SamZone){.grid = grid, .left = -columns, .width = grid->nx + 2 * columns};
+  z->first = wraps ? begin : PetscMax(begin, 0);
+  z->count = grid->rows ? (wraps ? end : PetscMin(end, grid->ny)) - z->first : 0;
+  PetscCall(PetscMalloc2(z->count * z->width, &z->w, z->count * z->width, &z->distance));
+  PetscCall(Fetch(z, field));
   PetscCall(FindDistances(z, reach));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -98,9 +138,6 @@ PetscErrorCode SamZoneCreate(SamGrid grid, Vec field, PetscInt halo, PetscReal r
 PetscErrorCode SamZoneDestroy(SamZone *z)
 {
   PetscFunctionBegin;
-  PetscCall(PetscFree(z->distance));
-  PetscCall(SamRowsRestore(&z->rows, &z->w));
-  PetscCall(VecRestoreArrayRead(z->field, &z->own));
-  PetscCall(SamRowsDestroy(&z->rows));
+  PetscCall(PetscFree2(z->w, z->distance));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -27,13 +27,14 @@ static PetscErrorCode FillSquares(const SamSolution *s, SamEdgeOf which, Vec w)
 
 PetscErrorCode SamSolutionFindEdge(SamProblem problem, const SamSolution *s, SamEdgeOf which, Vec point, SamEdge *edge)
 {
-  Vec           w;
-  const SamGrid grid = SamProblemGetGrid(problem);
+  const SamGrid   grid     = SamProblemGetGrid(problem);
+  const PetscBool periodic = SamElasticityGetTraits(SamProblemGetElasticity(problem)).periodic;
+  Vec             w;
 
   PetscFunctionBegin;
   PetscCall(SamGridCreateVec(grid, 1, &w));
   PetscCall(FillSquares(s, which, w));
-  PetscCall(SamEdgeReconstruct(grid, w, point, edge));
+  PetscCall(SamEdgeReconstruct(grid, periodic, w, point, edge));
   PetscCall(VecDestroy(&w));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
