@@ -71,7 +71,8 @@ def spread(table):
             "cases": int(chosen.sum()),
             "radius": float(np.max(np.abs(table["radius"] - table["radius_exact"])[chosen])),
             "energy": float(np.max(np.abs(table["deviation"][chosen]))),
-            "mu": float(max(np.max(np.abs(one / energies[0] - 1.0)) for one in energies)),
+            # below the solvers' tolerance it is rounding, which differs from machine to machine
+            "mu": float(max(1e-7, *(np.max(np.abs(one / energies[0] - 1.0)) for one in energies))),
         }
 
 
@@ -86,7 +87,7 @@ class Comparison:
         """The largest deviations."""
         yield (
             "Against the closed form (maximum differences: c/a; W relative), and between friction coefficients",
-            "nu = nu:g; cases = cases:d; c/a = radius:.1e; W = energy:.1e; W between mu = mu:.1e",
+            "nu = nu:g; cases = cases:d; c/a = radius:.1e; W = energy:.1e; W between mu, at most = mu:.1e",
             self.numbers["nu"],
         )
 

@@ -56,10 +56,15 @@ class Campaign:
         self.codes = collections.defaultdict(collections.Counter)
         self.failures = collections.Counter()
 
+    def work(self, seeds):
+        """Trials until the time is over or no seed is left."""
+        for seed in seeds:
+            if time.monotonic() > self.end:
+                return
+            self.one(seed)
+
     def one(self, seed):
         """One trial, which its seed repeats."""
-        if time.monotonic() > self.end:
-            return
         chance = random.Random(seed)
         kind, ranks = chance.choice(self.kinds), chance.choice(self.ranks)
         with tempfile.TemporaryDirectory(prefix="petsam-fuzz-") as folder:
@@ -71,9 +76,10 @@ class Campaign:
                 print(f"seed {seed}, {kind}, {ranks} ranks: {failure!r}\n  {trial.command}", flush=True)
 
     def run(self):
-        seeds = range(self.set.seed, self.set.seed + (self.set.trials or 10**6))
+        last = sys.maxsize if self.set.trials is None else self.set.seed + self.set.trials
+        seeds = iter(range(self.set.seed, last))  # its next() is atomic: each seed goes to one of the threads
         with ThreadPoolExecutor(self.set.jobs) as pool:
-            list(pool.map(self.one, seeds))
+            list(pool.map(self.work, [seeds] * self.set.jobs))
         for kind in self.kinds:
             codes = ", ".join(f"{n} x exit {code}" for code, n in sorted(self.codes[kind].items(), key=str))
             print(f"{kind:12} {sum(self.codes[kind].values()) + self.failures[kind]:6} trials, ", end="")

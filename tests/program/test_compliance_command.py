@@ -103,6 +103,14 @@ def test_a_coarser_mesh_estimates_the_error(compliance, block, tmp_path):
         assert 1e-5 < file["/checks/mesh_change"][()] < 2e-2
 
 
+def test_coarser_mesh_is_read_before_the_work_on_the_fine_one(compliance, block, tmp_path, monkeypatch):
+    from petsam.compliance import model
+
+    monkeypatch.setattr(model, "remainder", None)  # a call of it would be another error
+    (tmp_path / "coarse.inp").write_text("*NODE\n1, 0, 0, 0\n")
+    assert "coarse.inp" in compliance(*block, "--coarse-mesh", "coarse.inp", check=3)[0]
+
+
 def test_millimetres_and_a_frame_in_the_model(compliance, tmp_path):
     body = bricks(moduli=(210000.0, 0.3))
     body.nodes = body.nodes @ np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]) + [5.0, 6.0, 7.0]

@@ -242,6 +242,7 @@ def computed(path, options, command, progress):
     model = Model(path, options)
     plane = checks.need_plane(model.mesh, model.patch, model.contact)
     checks.need_inside(model.mesh, model.patch, model.contact)
+    other = Model(options.coarse_mesh, options) if options.coarse_mesh else None  # its mistakes before the work
     method, reason = choose(model, plane)
     found, solver, remarks = remainder(model, method, plane, progress)
     if reason:
@@ -256,8 +257,7 @@ def computed(path, options, command, progress):
     if options.stress:
         progress("stresses")
         body.stress = _stress(model, found, body.cases)
-    if options.coarse_mesh:
-        other = Model(options.coarse_mesh, options)
+    if other:
         compliance = remainder(other, method, plane, progress)[0].compliance
         change = np.linalg.norm(compliance - found.compliance, 2) / np.linalg.norm(found.compliance, 2)
         body.checks["mesh_change"] = float(change)
