@@ -84,9 +84,11 @@ static PetscErrorCode UseDepth(SamStress s, PetscReal depth)
   const double       most = w->values[n[0] + n[1] + n[2] - 1];
 
   PetscFunctionBegin;
-  PetscCheck(depth <= most * (1 + 1e-9), s->grid->comm, SAM_ERR_USER,
-             "-depths %.6g: %s has stresses to a depth of %.6g m: expected at most that", (double)depth, w->c->file,
-             most);
+  PetscCheck(
+    depth <= most * (1 + 1e-9), s->grid->comm, SAM_ERR_USER,
+    "-depths %.6g: %s has stresses to a depth of %.6g m: expected at most that, or a file that petsam-compliance "
+    "made with --depth %.3g",
+    (double)depth, w->c->file, most, (double)depth);
   if (w->inner.usedepth) PetscCall((*w->inner.usedepth)(s, depth));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
