@@ -72,7 +72,7 @@ typedef enum { SAM_AVERAGE_NONE, SAM_AVERAGE_POINT, SAM_AVERAGE_LINE, SAM_AVERAG
 /* The numbers of largest values of a step: these, and from SAM_LARGEST_OWN on those of materials. */
 enum { SAM_LARGEST_MISES, SAM_LARGEST_PRINCIPAL, SAM_LARGEST_EDGE_XX, SAM_LARGEST_EDGE_PRINCIPAL, SAM_LARGEST_OWN };
 /* Each material has the von Mises stress, tension and shear at the bottom; the last one has the first of them. */
-enum { SAM_OWN_MISES, SAM_OWN_TENSION, SAM_OWN_SHEAR, SAM_OWN };
+enum { SAM_OWN_MISES, SAM_OWN_PRINCIPAL, SAM_OWN_TENSION, SAM_OWN_SHEAR, SAM_OWN };
 
 /* The remedy for a list of constants of another length. */
 #define SAM_ONE_EACH "give one number, or one for each layer and the substrate"

@@ -20,7 +20,7 @@ PetscErrorCode SamLargestClear(SamEvaluation e)
   SamLargest    *end;
 
   PetscFunctionBegin;
-  e->kinds     = SAM_LARGEST_OWN + (materials > 1 ? SAM_OWN * (materials - 1) + 1 : 0);
+  e->kinds     = SAM_LARGEST_OWN + (materials > 1 ? SAM_OWN * (materials - 1) + SAM_OWN_TENSION : 0);
   e->edge_lost = 0;
   PetscCall(PetscFree(e->largest));
   PetscCall(PetscMalloc1(e->kinds * e->source.steps + SAM_QUANTITIES, &e->largest));
@@ -102,16 +102,33 @@ static void KeepPrincipal(SamEvaluation e, SamLargest *largest, const SamPoints 
   KeepAt(e, largest, principal[0], p, i);
 }
 
-/* Largest values of the material of each depth, and at its bottom. */
+/* The largest principal stress of some points: found exactly only where the bounds allow the largest. */
+static void KeepLargestPrincipal(SamEvaluation e, SamLargest *largest, const SamPoints *p,
+                                 const double *const s[SAM_STRESS_COMPONENTS], const double mises[], PetscInt begin,
+                                 PetscInt end)
+{
+  PetscInt most = begin;
+
+  for (PetscInt i = begin; i < end; i++)
+    if (RoughBound(s, mises[i], i) > RoughBound(s, mises[most], most)) most = i;
+  if (begin < end) KeepPrincipal(e, largest, p, s, most);
+  for (PetscInt i = begin; i < end; i++)
+    if (RoughBound(s, mises[i], i) >= largest->value && FineBound(s, mises[i], i) >= largest->value)
+      KeepPrincipal(e, largest, p, s, i);
+}
+
+/* Largest values of the material of each depth, and at the interface below it. */
 static void KeepOwn(SamEvaluation e, PetscInt step, const SamPoints *p, const double *const s[SAM_STRESS_COMPONENTS],
                     const double mises[])
 {
   const SamBody body = SamEvaluationBody(e);
 
   for (PetscInt k = 0; k < p->depths && SamBodyCount(body) > 1; k++) {
-    const PetscInt kind = SAM_LARGEST_OWN + SAM_OWN * SamBodyAt(body, e->depth[p->depth + k]);
+    const PetscInt kind  = SAM_LARGEST_OWN + SAM_OWN * SamBodyAt(body, e->depth[p->depth + k]);
+    const PetscInt begin = k * p->plane, end = begin + p->plane;
 
-    for (PetscInt i = k * p->plane; i < (k + 1) * p->plane; i++) {
+    KeepLargestPrincipal(e, LargestOf(e, kind + SAM_OWN_PRINCIPAL, step), p, s, mises, begin, end);
+    for (PetscInt i = begin; i < end; i++) {
       KeepAt(e, LargestOf(e, kind + SAM_OWN_MISES, step), mises[i], p, i);
       if (e->side[p->depth + k] >= 0) continue;
       KeepAt(e, LargestOf(e, kind + SAM_OWN_TENSION, step), s[SAM_STRESS_ZZ][i], p, i);
@@ -120,21 +137,11 @@ static void KeepOwn(SamEvaluation e, PetscInt step, const SamPoints *p, const do
   }
 }
 
-/* The principal stress is found exactly only where the bounds allow the largest. */
 void SamLargestOfStep(SamEvaluation e, PetscInt step, const SamPoints *p, const double *const s[SAM_STRESS_COMPONENTS],
                       const double mises[])
 {
-  SamLargest *const largest = LargestOf(e, SAM_LARGEST_PRINCIPAL, step);
-  PetscInt          most    = 0;
-
-  for (PetscInt i = 0; i < p->count; i++) {
-    KeepAt(e, LargestOf(e, SAM_LARGEST_MISES, step), mises[i], p, i);
-    if (RoughBound(s, mises[i], i) > RoughBound(s, mises[most], most)) most = i;
-  }
-  if (p->count) KeepPrincipal(e, largest, p, s, most);
-  for (PetscInt i = 0; i < p->count; i++)
-    if (RoughBound(s, mises[i], i) >= largest->value && FineBound(s, mises[i], i) >= largest->value)
-      KeepPrincipal(e, largest, p, s, i);
+  for (PetscInt i = 0; i < p->count; i++) KeepAt(e, LargestOf(e, SAM_LARGEST_MISES, step), mises[i], p, i);
+  KeepLargestPrincipal(e, LargestOf(e, SAM_LARGEST_PRINCIPAL, step), p, s, mises, 0, p->count);
   KeepOwn(e, step, p, s, mises);
 }
 
@@ -174,9 +181,12 @@ static const struct {
    [SAM_LARGEST_EDGE_XX]        = {"edge_stress_xx", "maximum stress xx at the contact edge, on the surface", ""},
    [SAM_LARGEST_EDGE_PRINCIPAL] = {"edge_principal_1", "maximum principal stress at the contact edge, on the surface",
                                    ""}},
-  of_material[SAM_OWN] = {[SAM_OWN_MISES]   = {"mises", "von Mises stress", "von Mises stress"},
-                          [SAM_OWN_TENSION] = {"tension", "tension at the bottom", "tension at its bottom"},
-                          [SAM_OWN_SHEAR]   = {"shear", "shear stress at the bottom", "shear at its bottom"}};
+  of_material[SAM_OWN] = {[SAM_OWN_MISES]     = {"mises", "von Mises stress", "von Mises stress"},
+                          [SAM_OWN_PRINCIPAL] = {"principal_1", "principal stress", "principal stress"},
+                          [SAM_OWN_TENSION]   = {"tension", "tension across the interface below, sigma_zz,",
+                                                 "tension across the interface below"},
+                          [SAM_OWN_SHEAR]     = {"shear", "shear stress along the interface below",
+                                                 "shear along the interface below"}};
 
 static PetscErrorCode DescribeOwn(SamEvaluation e, PetscInt n, PetscInt kind, SamLargestSeries *of)
 {

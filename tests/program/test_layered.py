@@ -274,6 +274,10 @@ def test_stresses_through_layers(solve, petsam_stress, tmp_path):
         mises, history = f["mises"][0], f["history"]
         for name, depths in (("layer1", (0, 1, 2)), ("layer2", (3, 4)), ("substrate", (5, 6))):
             assert history[name + "_mises_max"][0] == max(mises[k].max() for k in depths), name
+            xx, yy, zz, xy, xz, yz = (f["stress_" + n][0][list(depths)] for n in ("xx", "yy", "zz", "xy", "xz", "yz"))
+            matrices = np.moveaxis(np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]), (0, 1), (-2, -1))
+            largest = np.linalg.eigvalsh(matrices).max()
+            assert history[name + "_principal_1_max"][0] == pytest.approx(largest, rel=1e-9), name
         for layer, depth in (("layer1", 2), ("layer2", 4)):
             assert history[layer + "_tension_max"][0] == f["stress_zz"][0, depth].max()
             shear = np.hypot(f["stress_xz"][0, depth], f["stress_yz"][0, depth]).max()
