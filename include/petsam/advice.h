@@ -44,6 +44,7 @@ typedef struct {
   PetscInt          steps; /* of the run */
   SamLoadsMost      most;
   PetscInt          largest;           /* step of the largest normal load or approach, from 0 */
+  PetscBool         doubtful;          /* the heights are of another unit, or tilted: nothing is said of the contact */
   PetscBool         examined;          /* whether the size of the contact was looked at */
   PetscBool         advised[SAM_LAWS]; /* laws that have warned of a step */
   const SamStep    *step;              /* that is looked at, */
@@ -53,11 +54,11 @@ typedef struct {
 } SamAdvice;
 /*
   SamAdviceAddLoads - adds the loads of step k to the largest ones. Not collective.
-  SamAdviceBegin - before the first step: options that are unlikely to be meant. Collective.
+  SamAdviceBegin - before the first step: heights and options that are unlikely to be meant. Collective.
   SamAdviceStep - after step k, with a solution: if it has the largest load, once, motions that are not small, bodies
   that do not touch, a contact of fewer than 20 cells across, a peak pressure that cells half as wide change by more
-  than 5 %, and a contact that is wider than a tenth of a radius of curvature; `found`: the contact, NULL if it has not
-  been looked at now. With `of_laws` what the laws have to say, each once. Collective.
+  than 5 %, a contact that is wider than a tenth of a radius of curvature, or a pressure above 0.2 E*; `found`: the
+  contact, NULL if it has not been looked at now. With `of_laws` what the laws have to say, each once. Collective.
   SamAdviceEdge - appends to the message of a step that came to the grid's edge a grid on which these loads do not. Not
   collective.
 */

@@ -107,6 +107,11 @@ typedef struct {
 } SamGapSteepness;
 PETSC_INTERN PetscErrorCode SamGapGetSteepness(SamGap gap, const PetscReal half[2], SamGapSteepness *steepness);
 /*
+  SamGapAdvise - a text for the user where the heights of the gap's file, or of its roughness, are of another unit, or,
+  with `periodic`, of a tilted surface; empty: none. `h`: the separation. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamGapAdvise(SamGap gap, SamGrid grid, Vec h, PetscBool periodic, char text[], size_t size);
+/*
   SamGapCheckPlane - refuses a shape that is not the same along y, of which a section would not tell. Collective.
   Errors: SAM_ERR_USER with the option that bends it.
   SamGapIsFromFile - whether the gap, or with `rough` its roughness, comes from a file. Not collective.

@@ -13,8 +13,10 @@
 
 /* A contact of fewer cells across than these is not resolved. */
 #define FEW_CELLS 20
-/* Half-space theory is taken to hold up to this ratio of the half width of the contact to a radius of curvature. */
+/* Half-space theory is taken to hold up to this ratio of the half width of the contact to a radius of curvature, */
 #define STEEPEST 0.1
+/* and linear elasticity up to this pressure over E*. */
+#define HARDEST 0.2
 /* A stress over Young's modulus below which it has no effect, and a grid's width (m) that units may explain. */
 #define SLIGHT 1e-8
 #define WIDEST 100.0
@@ -302,6 +304,18 @@ static void Units(SamAdvice *a)
   if (width > WIDEST) Advise(a, "grid_size", "the grid is %g m wide: check the unit, m", width);
 }
 
+/* Heights of another unit, after which the grid is not the question. */
+static void Surfaces(SamAdvice *a)
+{
+  const SamSetup *s                              = a->setup;
+  char            text[PETSC_MAX_PATH_LEN + 400] = "";
+
+  a->error = SamGapAdvise(s->gap, s->grid, SamProblemGetGap(s->problem), SamElasticityGetTraits(s->elasticity).periodic,
+                          text, sizeof(text));
+  a->doubtful = text[0] ? PETSC_TRUE : PETSC_FALSE;
+  if (!a->error && a->doubtful) Advise(a, "", "%s", text);
+}
+
 /* Passes on the advice of the bodies on these cells and a contact of these half widths. */
 static void Bodies(SamAdvice *a)
 {
@@ -316,14 +330,41 @@ static void Bodies(SamAdvice *a)
   }
 }
 
-/* A contact that is wide beside its radius. */
+/* E* of the stiffest materials of both bodies. */
+static double Stiffest(SamPair pair)
+{
+  double compliance = 0;
+
+  for (PetscInt b = 0; b < 2; b++) {
+    const SamBody body  = SamPairBody(pair, b);
+    double        least = INFINITY;
+
+    for (PetscInt n = 1; n <= SamBodyCount(body); n++) {
+      const SamMaterial *m = SamBodyMaterialAt(body, SamBodyTop(body, n)); /* an interface is of the one above it */
+
+      least = PetscMin(least, (1 - (double)(m->poisson * m->poisson)) / (double)m->young);
+    }
+    compliance += least;
+  }
+  return 1 / compliance;
+}
+
+/* A contact that is wide beside its radius, or a pressure that no linear elasticity bears. */
 static void Size(SamAdvice *a)
 {
-  PetscBool large = PETSC_FALSE;
-  char      ratio[192];
+  const double modulus = Stiffest(a->setup->pair);
+  PetscBool    large   = PETSC_FALSE;
+  PetscReal    most    = 0;
+  char         ratio[192];
 
   if (!a->error) a->error = Compare(a->setup, a->half, ratio, sizeof(ratio), &large);
-  if (!a->error && large) Advise(a, "", "contact too large for half-space theory: its half width %s", ratio);
+  if (!a->error) a->error = SamContactGetNumber(a->setup->contact, "pressure_max", &most);
+  if (!a->error && large)
+    Advise(a, "", "contact too large for half-space theory: its half width %s", ratio);
+  else if (!a->error && most > HARDEST * modulus)
+    Advise(a, "", "the maximum pressure, %.3g Pa, is %.2g of E*, linear elasticity holds up to about %g: check the %s",
+           (double)most, (double)most / modulus, HARDEST,
+           IsFromFile(a->setup) ? "unit of the dataset, and N, m, Pa" : "units, N, m, Pa");
 }
 
 /* A coefficient of friction in percent. */
@@ -357,8 +398,8 @@ static void Steps(SamAdvice *a)
 static const struct {
   enum { BEFORE, LARGEST, CONTACT } when;
   void (*look)(SamAdvice *advice);
-} advices[] = {{BEFORE, Friction}, {BEFORE, Steps},  {LARGEST, Units},  {LARGEST, Motion},
-               {LARGEST, Touch},   {CONTACT, Cells}, {CONTACT, Bodies}, {CONTACT, Size}};
+} advices[] = {{BEFORE, Surfaces}, {BEFORE, Friction}, {BEFORE, Steps},   {LARGEST, Units}, {LARGEST, Motion},
+               {LARGEST, Touch},   {CONTACT, Cells},   {CONTACT, Bodies}, {CONTACT, Size}};
 
 static PetscErrorCode LookAt(SamAdvice *a, int when)
 {
@@ -406,7 +447,7 @@ PetscErrorCode SamAdviceStep(SamAdvice *a, PetscInt k, PetscBool of_laws, const 
     *found = &a->extent;
     PetscCall(LookAt(a, LARGEST));
     /* at the grid's edge it is the grid that decides how large the contact is */
-    if (a->extent.zones && step->check.edge <= 0) {
+    if (a->extent.zones && step->check.edge <= 0 && !a->doubtful) {
       PetscCall(GetWidths(a));
       PetscCall(LookAt(a, CONTACT));
     }

@@ -19,8 +19,10 @@ PAD = dict(FLAT, gap_type="pad", gap_half_flat_x=5e-4, gap_edge_radius_x=0.1)
 PIN = dict(FLAT, gap_type="curved", gap_radius1_x=0.01, gap_radius2_x=-0.01005)
 PLANE = dict(elasticity="plane", grid_n=64)
 FILE = dict(gap_type="file", gap_radius1=None, gap_radius2=None, grid_n=(7, 6))
+PERIOD = dict(elasticity="periodic", grid_n=(7, 6))
 HISTORY = dict(load_n=None, history="loads.csv")
 DRIVEN = {**SPHERE, **HISTORY}
+UNIT = "check the unit of the dataset"
 LOADS = "time,load_n\n1,500\n2,1000\n"
 
 
@@ -333,6 +335,33 @@ WARNINGS = [
         says=["too large for half-space theory", "-gap_radius1 0.2", "0.1"],
     ),
     mistake(
+        "heights in um",
+        {**FILE, **PERIOD},
+        "-gap_file",
+        "um.h5",
+        code=0,
+        says=["-gap_file um.h5, /height", "vary by 1.8 m", UNIT],
+    ),
+    mistake(
+        "roughness in mm", PERIOD, "-gap_rough_file", "mm.h5", code=0, says=["-gap_rough_file", "slope", "0.5:", UNIT]
+    ),
+    mistake(
+        "pressure above elasticity",
+        dict(FILE, elasticity="periodic", grid_n=64, load_n=1e5),
+        "-gap_file",
+        "steep.h5",
+        code=0,
+        says=["maximum pressure", "of E*", "about 0.2", "unit of the dataset"],
+    ),
+    mistake(
+        "tilted scan of a period",
+        {**FILE, **PERIOD},
+        "-gap_file",
+        "tilt.h5",
+        code=0,
+        says=["-gap_file tilt.h5", "m along y, a step", "border of the period", "--level tilt"],
+    ),
+    mistake(
         "value of an options file in the history too",
         HISTORY,
         "-options_file",
@@ -353,6 +382,12 @@ def folder(tmp_path):
     with h5py.File(tmp_path / "wide.h5", "w") as f:
         f["height"], f["notes"] = np.zeros((6, 7)), np.arange(3.0)
         f.create_group("measured")
+    rough = np.cos(np.arange(42.0).reshape(6, 7))
+    wave = np.cos(4 * np.pi * (np.arange(64) + 0.5) / 64)
+    heights = dict(um=0.9 * rough, mm=5e-4 * rough, tilt=1e-6 * (rough + np.arange(6.0)[:, None]))
+    for name, values in dict(heights, steep=9e-5 * (wave + wave[:, None])).items():
+        with h5py.File(tmp_path / f"{name}.h5", "w") as f:
+            f["height"] = values
     return tmp_path
 
 
