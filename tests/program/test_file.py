@@ -6,6 +6,9 @@ import h5py
 import numpy as np
 import pytest
 
+from conftest import PROGRAM, execute
+from petsam.results import Results
+from petsam.stresses import Stresses
 from support import FIELDS, LOADS, RIGID, SPHERE, assert_same, ball
 
 CASE = dict(
@@ -175,6 +178,19 @@ def test_results_replace_an_older_file(petsam, tmp_path):
     assert "results in out.h5, replacing those there" in done.stdout
     with h5py.File(tmp_path / "out.h5") as f:
         assert f["pressure"].shape == (1, 41, 34)
+
+
+def test_an_open_reader_keeps_the_run_that_it_has_opened(petsam, launcher, tmp_path):
+    """Loads that were read before another run of the name, and fields after it, are of one run."""
+    stress = dict(input="out.h5", output="s.h5", depths="0")
+    readers, largest = [], []
+    for load in (100.0, 200.0):
+        petsam(dict(CASE, load_n=load, output="out.h5"))
+        execute(launcher, tmp_path, [stress], 1, 0, program=PROGRAM.with_name("petsam-stress"))
+        readers += [Results(tmp_path / "out.h5"), Stresses(tmp_path / "s.h5")]
+        largest += [readers[-2].field("pressure").max(), readers[-1].field("mises").max()]
+    assert largest == [readers[k].field(("pressure", "mises")[k % 2]).max() for k in range(4)]
+    assert len({*largest}) == 4
 
 
 def write_hdf5(path):
