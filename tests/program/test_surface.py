@@ -177,13 +177,14 @@ def test_missing_points_are_refused_with_number_and_place(surface, tmp_path):
     values[4, 5] = np.nan
     values[5, 1] = np.inf
     np.save(tmp_path / "z.npy", values)
-    for more, x in (([], 1.5), (["--first-row", "top", "--mirror", "x"], -1.5)):
-        (said,) = surface("z.npy", "--body", 2, "--units", "um", "--pixel", "1", *more, check=3)
+    for more, x in (([], 1.5e-3), (["--first-row", "top", "--mirror", "x"], -1.5e-3)):
+        (said,) = surface("z.npy", "--body", 2, "--units", "um", "--pixel", "1mm", *more, check=3)
         assert "2 points are missing, of 48" in said and "--fill smooth" in said
         first = "row 4, column 5" if not more else "row 5, column 1"
-        assert first in said and (more or f"x = {x:g} m, y = 1.5 m" in said)
+        assert first in said and (more or f"x = {x:g} m, y = 0.0015 m" in said)
     assert not (tmp_path / "z.h5").exists()
-    surface("z.npy", "--body", 2, "--units", "um", "--pixel", "1", "--window", "-4,4,-3,1")  # without the holes
+    window = ["--window", "-4mm,4mm,-3mm,1mm"]  # without the holes
+    surface("z.npy", "--body", 2, "--units", "um", "--pixel", "1mm", *window)
     assert np.array_equal(stored(tmp_path / "z.h5"), values[:4] * 1e-6)
 
 
@@ -202,6 +203,14 @@ def test_values_that_are_no_heights_are_told(surface, tmp_path):
         np.save(tmp_path / "z.npy", values)
         said = surface("z.npy", "--body", 2, *KNOWS, "--no-picture", check=code, warnings=value == 2e3)
         assert not code or "up to 3.4e+32 m" in said[0] and "--missing" in said[0]
+
+
+@pytest.mark.parametrize(
+    "size, warned", [(["--pixel", "1"], True), (["--pixel", "1um"], False), (["--size", "1"], True)]
+)
+def test_a_surface_as_wide_as_a_room_is_doubted(surface, tmp_path, size, warned):
+    np.save(tmp_path / "z.npy", np.arange(12.0).reshape(3, 4))
+    surface("z.npy", "--body", 2, "--units", "nm", *size, "--no-picture", warnings=warned)
 
 
 def test_nothing_but_missing_points(surface, tmp_path):
@@ -540,7 +549,8 @@ def test_files_of_others_and_inputs_are_not_replaced(surface, tmp_path):
 
 @pytest.mark.parametrize("words, says", [
     ([], "FILE"), (["a.npy", "b.npy", "c.npy"], "3 files"), (["a.npy", "--body", "3"], "--body"),
-    (["a.npy", "--body", "1,2"], "--body"), (["a.npy", "--units", "inches of rain"], "--units"),
+    (["a.npy", "--body", "1,2"], "--body"), (["a.npy", "b.npy", "--body", "2"], "1,2 for two files"),
+    (["a.npy", "--units", "inches of rain"], "--units"),
     (["a.npy", "--size", "2,6mm"], "2,6mm"), (["a.npy", "--size", "2,6e-3"], "decimals have a point"),
     (["a.npy", "--size", "0"], "--size"), (["a.npy", "--size", "1e-3", "--pixel", "1e-6"], "--pixel"),
     (["a.npy", "--window", "1,2,3"], "X0,X1,Y0,Y1"), (["a.npy", "--window", "2,1,3,4"], "X0 < X1"),
@@ -635,6 +645,9 @@ def test_two_surfaces_make_the_separation_that_petsam_adds(surface, solve, tmp_p
     assert "--grid-n" in surface("ball.npy", "wave.npy", "--body", "1,2", *size, "-o", "pair.h5", check=3)[0]
     surface("ball.npy", "wave.npy", "--body", "1,2", *size, "-o", "pair.h5", "--grid-n", N)
     surface("ball.h5", "wave.h5", "-o", "again.h5")
+    (said,) = surface("ball.npy", "ball.npy", "--body", "1,1", *size, "-o", "no.h5", check=3)
+    assert "both are heights of body 1: give --body 1,2, or convert one of them again, by --body 2" in said
+    assert "both are heights of body 2" in surface("wave.h5", "wave.h5", "-o", "no.h5", check=3)[0]
     pair = stored(tmp_path / "pair.h5", "separation")
     assert np.array_equal(pair, stored(tmp_path / "again.h5", "separation"))
     assert np.array_equal(pair, -stored(tmp_path / "ball.h5") - stored(tmp_path / "wave.h5"))

@@ -35,6 +35,7 @@ from .reading import FORMATS, read_map
 from .resampling import resampled
 
 MOST = 1 << 16  # cells in x or y
+WIDE = 1.0  # m: few instruments measure a surface of this size
 OF_FILES = (
     "units", "pixel", "first_row", "transpose", "mirror", "depths", "missing", "format", "skip_rows", "skip_columns",
     "dataset", "channel", "window", "fill", "level", "grid_size",
@@ -172,8 +173,8 @@ def arguments(words):
     _check_random(parser, options)
     if len(options.files) > 2:
         parser.error(f"{len(options.files)} files: use one, or two for a separation")
-    if options.body and len(options.body) not in (1, len(options.files)):
-        parser.error(f"--body: {len(options.body)} bodies for {len(options.files)} file: give one for each")
+    if options.body and len(options.body) != max(1, len(options.files)):
+        parser.error("--body: give 1 or 2, and 1,2 for two files: one body for each")
     if options.separation and options.depths:
         parser.error("--depths applies to heights, not to a separation")
     base = os.path.splitext(os.path.basename(options.files[0]))[0] if options.files else "random"
@@ -257,15 +258,17 @@ def _joined(words):
 
 
 def warn_of_unit(one, name, more=""):
-    """A warning of heights beyond the size."""
-    if peak_to_valley(one) > max(one.size):
-        texts = [shown(value) for value in (peak_to_valley(one), max(one.size))]
-        print(
-            "petsam-surface: warning: {}: peak to valley {} is more than the size {}: check the unit{}".format(
-                short(name), *texts, more
-            ),
-            file=sys.stderr,
+    """Warnings of heights beyond the size, and of a size beyond measured ones."""
+    high, wide = peak_to_valley(one), max(one.size)
+    texts = []
+    if high > wide:
+        texts.append(f"peak to valley {shown(high)} is more than the size {shown(wide)}: check the unit{more}")
+    if wide >= WIDE:
+        texts.append(
+            f"the surface is {wide:.4g} m wide: check the unit of --size or --pixel, as in 1um; a number alone is in m"
         )
+    for text in texts:
+        print(f"petsam-surface: warning: {short(name)}: {text}", file=sys.stderr)
 
 
 def prepared(path, options, quantity):
@@ -323,9 +326,7 @@ def carry_out(options, words):
         if any(same(name, path) for path in options.files):
             raise Error(f"{name}: is an input file; choose another name by --output")
     need_own(options.output, writing.SIGN, "petsam-surface")
-    quantities = ["separation"] if options.separation else options.body or [None]
-    if len(quantities) < len(options.files):
-        quantities = quantities * len(options.files)
+    quantities = options.body or ["separation" if options.separation else None] * len(options.files)
     maps = [prepared(path, options, quantity) for path, quantity in zip(options.files, quantities)]
     maps = maps or [random_map(options)]
     one = maps[0] if len(maps) == 1 else combined(*maps)

@@ -93,7 +93,14 @@ def cut(one, window):
 
 
 def combined(one, other):
-    """The separation of two surfaces on the same cells, centre on centre."""
+    """The separation of two surfaces on the same cells, centre on centre; of heights one of each body's."""
+    if one.quantity == other.quantity != "separation":
+        body = one.quantity[-1]
+        raise Error(
+            f"{one.name} and {other.name}: both are heights of body {body}: give --body 1,2, or convert one of them "
+            f"again, by --body {3 - int(body)}; body 1 is turned over, --mirror x or y, if it was measured from its "
+            "own side"
+        )
     if one.n != other.n or not np.allclose(one.size, other.size, rtol=SAME, atol=0.0):
         texts = ["{} x {} cells on {} x {}".format(*m.n, *map(shown, m.size)) for m in (one, other)]
         raise Error(
