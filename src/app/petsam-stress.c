@@ -36,6 +36,7 @@ typedef struct {
   PetscLogDouble         start, told; /* when the computation began, and the last line was printed, s */
 
   char               source[PETSC_MAX_PATH_LEN + 16]; /* of the bodies, for messages */
+  char               doubt[512];                      /* warnings of the steps as a cycle; empty: none */
   SamFourierSettings transforms;
 } SamStressRun;
 
@@ -117,8 +118,13 @@ static PetscErrorCode ReadConditions(void *context, PetscInt k, SamConditions co
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The file keeps the warning, for who reads the parameters later. */
 static PetscErrorCode WarnOfSteps(void *context, const char text[])
 {
+  char *const  doubt = ((SamStressRun *)context)->doubt;
+  const size_t used  = strlen(doubt);
+
+  (void)snprintf(doubt + used, sizeof(((SamStressRun *)context)->doubt) - used, "%s%s", used ? "; " : "", text);
   return Warn(context, "-steps: ", "%s", text);
 }
 
@@ -408,6 +414,7 @@ static PetscErrorCode Compute(void *context)
   }
   PetscCall(WriteStepNumbers(run));
   PetscCall(WriteLargest(run));
+  if (run->doubt[0]) PetscCall(SamStressFileSetText(run->file, "cycle_warning", run->doubt));
   PetscCall(SamStressFileFinish(run->file));
   run->writing = PETSC_FALSE;
   PetscCall(PetscTime(&end));

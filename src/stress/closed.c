@@ -16,7 +16,7 @@ static PetscErrorCode NumberOf(SamEvaluation e, PetscInt step, SamStepNumber whi
   return (*e->source.number)(e->source.context, step, which, number);
 }
 
-/* The largest difference and size, of the pressure and of the shear, of a step and the last one. */
+/* The largest difference and size, of the pressure and of the shear, of a step and the last one; before all: zero. */
 static PetscErrorCode CompareWithLast(SamEvaluation e, PetscInt step, const Ends *ends, PetscReal most[4])
 {
   const PetscInt      cells = e->grid->cells;
@@ -24,8 +24,10 @@ static PetscErrorCode CompareWithLast(SamEvaluation e, PetscInt step, const Ends
 
   PetscFunctionBegin;
   for (int k = 0; k < 4; k++) most[k] = 0;
-  PetscCall(
-    SamEvaluationReadTractions(e, step, (double *[]){ends->other, ends->other + cells, ends->other + 2 * cells}));
+  PetscCall(PetscArrayzero(ends->other, 3 * cells));
+  if (step >= 0 || e->source.before)
+    PetscCall(
+      SamEvaluationReadTractions(e, step, (double *[]){ends->other, ends->other + cells, ends->other + 2 * cells}));
   for (PetscInt k = 0; k < 3 * cells; k++) {
     PetscReal *const m = most + (k < cells ? 0 : 2);
 
@@ -53,30 +55,33 @@ static PetscErrorCode CheckLife(SamEvaluation e, PetscBool *life)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The cycle closes if the step before the first has the tractions of the last. */
+/* The cycle closes if the step before the first, or no load before step 1, has the tractions of the last. */
 static PetscErrorCode CheckEnds(SamEvaluation e, const Ends *ends)
 {
   PetscReal most[4];
   double    step[2];
+  int       f;
   char      text[256], names[2][64] = {"the last recorded step", "that before the first"};
 
   PetscFunctionBegin;
-  if (!e->source.before) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(NumberOf(e, e->source.steps - 1, SAM_STEP_NUMBER, &step[0]));
-  PetscCall(NumberOf(e, -1, SAM_STEP_NUMBER, &step[1]));
+  PetscCall(NumberOf(e, e->source.before ? -1 : 0, SAM_STEP_NUMBER, &step[1]));
+  if (!e->source.before && step[1] != 1) PetscFunctionReturn(PETSC_SUCCESS);
   if (step[0] > 0) {
     (void)snprintf(names[0], sizeof(names[0]), "step %.0f, the last one,", step[0]);
-    (void)snprintf(names[1], sizeof(names[1]), "that of step %.0f, before the first,", step[1]);
+    if (e->source.before)
+      (void)snprintf(names[1], sizeof(names[1]), "that of step %.0f, before the first,", step[1]);
+    else
+      (void)snprintf(names[1], sizeof(names[1]), "none before step 1");
   }
   PetscCall(CompareWithLast(e, -1, ends, most));
-  for (int f = 0; f < 2; f++) {
-    if (most[2 * f] <= CLOSED * most[2 * f + 1]) continue;
-    (void)snprintf(text, sizeof(text),
-                   "not a closed cycle, or not a steady one: the %s of %s differs from %s by up to %.0f %% of the "
-                   "maximum",
-                   f ? "shear" : "pressure", names[0], names[1], 100 * (double)(most[2 * f] / most[2 * f + 1]));
-    PetscCall((*e->source.warn)(e->source.context, text));
-  }
+  f = most[2] * most[1] > most[0] * most[3]; /* the larger of both parts */
+  if (most[2 * f] <= CLOSED * most[2 * f + 1]) PetscFunctionReturn(PETSC_SUCCESS);
+  (void)snprintf(text, sizeof(text),
+                 "not a closed cycle, or not a steady one: the %s of %s differs from %s by up to %.0f %% of the "
+                 "maximum",
+                 f ? "shear" : "pressure", names[0], names[1], 100 * (double)(most[2 * f] / most[2 * f + 1]));
+  PetscCall((*e->source.warn)(e->source.context, text));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -103,7 +108,7 @@ static PetscErrorCode WarnOfMore(SamEvaluation e, PetscInt k)
   Whether the cycle comes more than once, or after what leads to it: a step is as the last, with others between and
   before. So neither steps near the cycle's start count nor those at which the loads are held.
 */
-static PetscErrorCode CheckOnce(SamEvaluation e, const Ends *ends)
+static PetscErrorCode CheckOnce(SamEvaluation e, const Ends *ends, PetscBool *more)
 {
   const PetscInt last      = e->source.steps - 1;
   PetscReal      least     = AGAIN;
@@ -121,6 +126,7 @@ static PetscErrorCode CheckOnce(SamEvaluation e, const Ends *ends)
       has_begun = PETSC_TRUE;
       if (nearest < 0) continue;
       PetscCall(WarnOfMore(e, nearest));
+      *more = PETSC_TRUE;
       break;
     }
     if (!has_begun || difference > least) continue;
@@ -133,7 +139,7 @@ static PetscErrorCode CheckOnce(SamEvaluation e, const Ends *ends)
 PetscErrorCode SamCycleCheckClosed(SamEvaluation e)
 {
   const PetscInt cells = e->grid->cells;
-  PetscBool      life  = PETSC_FALSE;
+  PetscBool      life = PETSC_FALSE, more = PETSC_FALSE;
   double         number;
   Ends           ends;
 
@@ -143,9 +149,9 @@ PetscErrorCode SamCycleCheckClosed(SamEvaluation e)
   PetscCall(PetscMalloc2(3 * cells, &ends.last, 3 * cells, &ends.other));
   PetscCall(SamEvaluationReadTractions(e, e->source.steps - 1,
                                        (double *[]){ends.last, ends.last + cells, ends.last + 2 * cells}));
-  PetscCall(CheckEnds(e, &ends));
   PetscCall(NumberOf(e, 0, SAM_STEP_NUMBER, &number));
-  if (number > 0) PetscCall(CheckOnce(e, &ends)); /* of steps that have been chosen by number */
+  if (number > 0) PetscCall(CheckOnce(e, &ends, &more)); /* of steps that have been chosen by number */
+  if (!more) PetscCall(CheckEnds(e, &ends));
   PetscCall(PetscFree2(ends.last, ends.other));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

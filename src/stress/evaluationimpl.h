@@ -175,9 +175,9 @@ PETSC_INTERN void SamLargestKeep(SamEvaluation e, PetscInt kind, PetscInt step, 
 /*
   SamCycleWrite - computes the fatigue parameters from the stresses of all steps and hands them over (cycle.c). `done`
   is the part of all points that came before, `share` that of these. Collective.
-  SamCycleCheckClosed - warns if the step before the first one has not the tractions of the last: the steps are not a
-  closed cycle then, or does not yet repeat itself; of steps that hold more than one cycle, or what leads to it; and of
-  those of several cycles of a life (closed.c). Collective.
+  SamCycleCheckClosed - warns of steps of several cycles of a life; of more than one cycle, or what leads to it; and if
+  the step before the first one, or no load before step 1, has not the tractions of the last: the steps are not a closed
+  cycle then, or one that does not yet repeat itself (closed.c). Collective.
 */
 PETSC_INTERN PetscErrorCode SamCycleWrite(SamEvaluation e, const SamPoints *points, double done, double share);
 PETSC_INTERN PetscErrorCode SamCycleCheckClosed(SamEvaluation e);

@@ -292,6 +292,20 @@ def test_layers_have_their_own_moduli(fatigue, folder, launcher):
     assert says in fatigue("--material", "m.yaml", "--criteria", "crack", "layered.h5", check=3)
 
 
+def test_lives_of_an_open_cycle_are_warned_of(folder, launcher, monkeypatch, capfd):
+    monkeypatch.chdir(folder)
+    words = ["--material", "m.yaml", "--criteria", "swt", "--no-picture"]
+    (folder / "h.csv").write_text("time,load_tx\n" + "".join(f"{k},{20 * (-1) ** k}\n" for k in range(6)))
+    conftest.execute(launcher, folder, [ball(n=32), dict(history="h.csv", output="cycles.h5")], 1, 0)
+    for name, steps in (("open", "1:3"), ("closed", "5:6")):
+        run = dict(input="cycles.h5", output=f"{name}.h5", section="y=0", steps=steps, fatigue="swt")
+        conftest.execute(launcher, folder, [run], 1, 0, program=STRESS)
+        command.carry_out(command.arguments([*words, f"{name}.h5"]))
+        out = capfd.readouterr()
+        said = f"petsam-fatigue: warning: {name}.h5: not a closed cycle, or not a steady one: the "
+        assert (said in out.err) == (name == "open") == ("; see the warning" in out.out), out
+
+
 def test_means_over_a_length_are_named(fatigue, folder, launcher):
     run = dict(input="c.h5", output="mean.h5", steps="4:9", fatigue="swt", fatigue_length=5e-5)
     conftest.execute(launcher, folder, [run], 1, 0, program=STRESS)

@@ -161,6 +161,7 @@ def test_cycle_that_is_not_closed_is_warned_of(stress):
     common = dict(input="c.h5", output="w.h5", section="y=0", fatigue="swt", quantities="none")
     assert "not a closed cycle" in stress(dict(common, steps="41:48")).stderr  # half of one
     assert "shear of step 24" in stress(dict(common, steps="9:24")).stderr  # not yet steady
+    assert "differs from none before step 1 by up to 100 %" in stress(dict(common, steps="1:8")).stderr  # a first load
     assert "more than one" not in stress(dict(common, steps=CYCLE)).stderr
     assert "more than one" not in stress(dict(common, steps="40:56")).stderr  # both ends
 

@@ -135,7 +135,8 @@ def _report(options, cycles, name, found):
         least = evaluation.least(cycle, values)
         text = f"life {_lived(least.value)}" if is_life else f"safety factor {least.value:.4g}"
         mean = f", of means over {cycle.averaged:g} m" if cycle.averaged else ""
-        print(f"{cycle.path}: {title}: {text} {_where(least)}{mean}")
+        doubt = "; see the warning" if cycle.doubt else ""
+        print(f"{cycle.path}: {title}: {text} {_where(least)}{mean}{doubt}")
     if is_life and (len(cycles) > 1 or options.counts != [1.0]):
         damage = strength.damage(found, options.counts)
         most = evaluation.least(cycles[0], -damage)
@@ -191,6 +192,17 @@ def _cycles(options):
     return [Cycle(Stresses(path)) for path in options.files]
 
 
+def _warn(cycles):
+    """Warnings of cycles that petsam-stress has warned of."""
+    for cycle in cycles:
+        if cycle.doubt:
+            print(
+                f"petsam-fatigue: warning: {cycle.path}: {cycle.doubt}: the values are not those of one closed cycle; "
+                "give petsam-stress its -steps",
+                file=sys.stderr,
+            )
+
+
 def carry_out(options):
     """Compute, print and draw."""
     constants = {**(materials.read(options.material) if options.material else {}), **dict(options.constant)}
@@ -225,6 +237,7 @@ def carry_out(options):
         figure.savefig(options.output)
         plt.close(figure)
         print("wrote " + options.output)
+    _warn(cycles)
 
 
 def _child(options):

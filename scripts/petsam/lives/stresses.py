@@ -4,7 +4,7 @@ import os
 
 import numpy as np
 
-from ..errors import Error, short, there_are
+from ..errors import Error, one_line, short, there_are
 from ..stresses import FATIGUE, Stresses
 
 
@@ -52,6 +52,12 @@ class Cycle:
     def averaged(self):
         """Length over which the stresses have been averaged (petsam-stress -fatigue_length), m; 0: not at all."""
         return float(self.file.parameters.get("fatigue_length", 0.0)) if self.file else 0.0
+
+    @property
+    def doubt(self):
+        """Warning of petsam-stress that the steps are no closed cycle, or more than one; "" for none."""
+        words = self.file.parameters.get("cycle_warning", "") if self.file else ""
+        return one_line(words.decode(errors="replace") if isinstance(words, bytes) else words, 480)
 
     def __contains__(self, name):
         return name in self.source and name not in ("x", "y", "z", "time")
