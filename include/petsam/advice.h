@@ -25,6 +25,7 @@ typedef struct {
   PetscReal   lever[2];    /* m: the farthest that moments bring the centre of pressure from the origin along x and y */
   PetscReal   slide;       /* m: the farthest that displacements move the surfaces along them */
   PetscReal   rotation;    /* rad: the largest that is prescribed */
+  PetscReal   creep, spin; /* the largest creepage along x or y, and spin (1/m), that are prescribed */
   PetscReal   stress;      /* Pa: the largest prescribed stress, */
   const char *stress_name; /* and of which group of conditions it is; borrowed */
   PetscBool   open; /* the contact may be larger than a closed solution for these loads has it: rotations, wear */

@@ -60,6 +60,11 @@ void SamAdviceAddLoads(SamAdvice *a, PetscInt step, const SamControl *control)
   most->slide = PetscMax(most->slide, hypot(x, y));
   for (PetscInt c = SAM_COMPONENT_MX; c < SAM_COMPONENTS; c++)
     if (!force[c] && !creep[c]) most->rotation = PetscMax(most->rotation, fabs(v[c]));
+  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) {
+    PetscReal *const own = c == SAM_COMPONENT_MZ ? &most->spin : &most->creep;
+
+    if (creep[c]) *own = PetscMax(*own, fabs(v[c]));
+  }
   if (!most->steps || normal > most->normal) a->largest = step;
   if (!most->steps++ || normal > most->normal) most->normal = normal;
   for (PetscInt k = 0; k < 2; k++) {
@@ -214,7 +219,7 @@ static void Advise(SamAdvice *a, const char setting[], const char format[], ...)
   if (!a->error) a->error = a->receive(a->context, text, setting);
 }
 
-/* Displacements and rotations that are not small, as the theory has them. */
+/* Displacements, rotations and creepages that are not small, as the theory has them. */
 static void Motion(SamAdvice *a)
 {
   const SamExtent    *extent = &a->extent;
@@ -224,6 +229,16 @@ static void Motion(SamAdvice *a)
   if (most->rotation > STEEPEST)
     Advise(a, "", "a rotation of %g is prescribed: rotations must be small, up to about %g rad (a degree is 0.0175)",
            (double)most->rotation, STEEPEST);
+  else if (most->creep > STEEPEST)
+    Advise(a, "",
+           "a creepage of %g is prescribed: it is the slip over the rolled distance, up to about %g (1 %% is 0.01)",
+           (double)most->creep, STEEPEST);
+  else if (0.5 * (double)most->spin * width > STEEPEST)
+    Advise(
+      a, "",
+      "creep_spin %g 1/m is prescribed: its slip at the contact's edge is %.2g of the rolled distance, the limit is "
+      "about %g: check the unit, 1/m",
+      (double)most->spin, 0.5 * (double)most->spin * width, STEEPEST);
   else if (extent->zones && (double)most->slide > width)
     Advise(
       a, "",

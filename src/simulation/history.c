@@ -83,8 +83,11 @@ static PetscErrorCode FindColumn(SamHistory h, MPI_Comm comm, const char file[],
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Reads one component: load, displacement or creepage, from an option or a column, but only one of these. */
-static PetscErrorCode ReadComponent(SamHistory h, const Reader *r, PetscInt c)
+/*
+  Reads one component: load, displacement or creepage, from an option or a column, but only one of these; `left`: none
+  is given.
+*/
+static PetscErrorCode ReadComponent(SamHistory h, const Reader *r, PetscInt c, PetscBool *left)
 {
   const SamOptions *const from            = r->from;
   const SamComponentName *name            = &SamComponentNames[c];
@@ -117,9 +120,28 @@ static PetscErrorCode ReadComponent(SamHistory h, const Reader *r, PetscInt c)
     h->constant.value[c] = value[way];
     SamControlSetWay(&h->constant, c, way);
   }
+  *left = given || h->column[c] >= 0 ? PETSC_FALSE : PETSC_TRUE;
   if (c != SAM_COMPONENT_N) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamOptionsRequire(from, given || h->column[c] >= 0 || SamPrintHelp(), "load_n or -disp_z",
-                              "the normal force (N) or the approach (m)"));
+  PetscCall(
+    SamOptionsRequire(from, !*left || SamPrintHelp(), "load_n or -disp_z", "the normal force (N) or the approach (m)"));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Spin drives the contact sideways: a user who gives nothing along y may expect no creepage there. */
+static PetscErrorCode WarnOfSpin(SamHistory h, const SamOptions *from, const PetscBool left[])
+{
+  const PetscInt spin   = SAM_COMPONENT_MZ;
+  const char    *prefix = SamOptionsPrefix(from);
+  PetscMPIInt    rank;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(from->comm, &rank));
+  if (rank == 0 && left[SAM_COMPONENT_TY] && h->constant.creep[spin] &&
+      (h->column[spin] >= 0 || h->constant.value[spin] != 0))
+    fprintf(stderr,
+            "petsam: warning: creep_spin is given without creep_y: creep_y is found, for load_ty = 0: give -%screep_y "
+            "0 for spin alone, or -%sload_ty 0 for this\n",
+            prefix, prefix);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -370,7 +392,7 @@ PetscErrorCode SamHistoryCreateFromOptions(const SamOptions *from, const SamArgu
   Reader      reader     = {.from = from, .arguments = arguments};
   PetscInt    increments = 1;
   const char *names[NAMES];
-  PetscBool   has_file;
+  PetscBool   has_file, left[SAM_COMPONENTS];
 
   PetscFunctionBegin;
   PetscCall(Create(conditions, history));
@@ -388,7 +410,8 @@ PetscErrorCode SamHistoryCreateFromOptions(const SamOptions *from, const SamArgu
              SamOptionsPrefix(from), increments, h->rows, PETSC_MAX_INT);
   for (PetscInt k = 0; SamControlName(NULL, k); k++) /* so that none is taken for another one misspelled */
     SamOptionsKnow(from, SamControlName(NULL, k), NULL);
-  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) PetscCall(ReadComponent(h, &reader, c));
+  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) PetscCall(ReadComponent(h, &reader, c, &left[c]));
+  PetscCall(WarnOfSpin(h, from, left));
   for (PetscInt k = SAM_COMPONENTS; k < h->parts; k++) PetscCall(ReadCondition(h, &reader, k));
   PetscCall(SetIncrements(h, increments, from->comm, h->file));
   PetscFunctionReturn(PETSC_SUCCESS);

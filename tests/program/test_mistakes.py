@@ -19,6 +19,7 @@ PAD = dict(FLAT, gap_type="pad", gap_half_flat_x=5e-4, gap_edge_radius_x=0.1)
 PIN = dict(FLAT, gap_type="curved", gap_radius1_x=0.01, gap_radius2_x=-0.01005)
 PLANE = dict(elasticity="plane", grid_n=64)
 FILE = dict(gap_type="file", gap_radius1=None, gap_radius2=None, grid_n=(7, 6))
+ROLLING = dict(rolling="steady", friction=0.3, output_fields="pressure")
 PERIOD = dict(elasticity="periodic", grid_n=(7, 6))
 HISTORY = dict(load_n=None, history="loads.csv")
 DRIVEN = {**SPHERE, **HISTORY}
@@ -333,6 +334,13 @@ WARNINGS = [
         dict(load_n=4e8, grid_size=0.2),
         code=0,
         says=["too large for half-space theory", "-gap_radius1 0.2", "0.1"],
+    ),
+    mistake("creepage in percent", dict(ROLLING, creep_x=2.0), code=0, says=["a creepage of 2 is", "1 % is 0.01"]),
+    mistake(
+        "spin in 1/mm", dict(ROLLING, creep_y=0.0, creep_spin=1e3), code=0, says=["creep_spin 1000 1/m", "unit, 1/m"]
+    ),
+    mistake(
+        "spin alone", dict(ROLLING, creep_spin=1.0), code=0, says=["creep_y is found, for load_ty = 0", "-creep_y 0"]
     ),
     mistake(
         "heights in um",
