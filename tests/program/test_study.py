@@ -240,6 +240,11 @@ def test_a_file_of_any_option_is_found_and_its_change_noticed(tmp_path, option):
         ("t.yaml", "options:\n  load_tx: {a: 1}\n", "t.yaml: options: load_tx: expected a value or a list"),
         ("t.yaml", "options:\n  load_tx: 1\nfiles:\n  ../a: b\n", "t.yaml: files: expected names without folders"),
         ("t.yaml", "options:\n  a: 1\nparameters:\n  a: 1\n", "t.yaml: a: is both"),
+        (
+            "t.yaml",
+            "options:\n  load_n: [1, 2]\n  history: h.csv\nfiles:\n  h.csv: |\n    # N\n    time, load_n\n    1, 2\n",
+            "t.yaml: load_n is an option and a column of h.csv: make it one of `parameters`",
+        ),
     ],
 )
 def test_a_bad_table_is_exit_code_2_with_its_place(run, tmp_path, name, text, message):
@@ -247,6 +252,23 @@ def test_a_bad_table_is_exit_code_2_with_its_place(run, tmp_path, name, text, me
     said = run(name, check=2).splitlines()
     assert len(said) == 1 and said[0].startswith("petsam-study: error: ") and message in said[0]
     assert not (tmp_path / "t").exists()
+
+
+def test_a_history_outside_of_the_table_has_no_column_that_is_an_option(tmp_path):
+    (tmp_path / "h.csv").write_text("time;load_ty\n1;2\n")
+    path = table(tmp_path, "load_tx,history\n1,h.csv\n2,h.csv\n")
+    assert len(study_cases.read(str(path))) == 2
+    with pytest.raises(study_cases.TableError, match="load_ty is an option and a column of "):
+        study_cases.read(str(path), {"load_ty": "1"})
+
+
+def test_an_empty_cell_is_warned_of(tmp_path, monkeypatch, capsys):
+    """It leaves the option out: the case has no friction."""
+    path = table(tmp_path, "load_tx,friction\n1,0.3\n2,\n3,\n")
+    code, said = in_process(monkeypatch, capsys, path, "--list")
+    assert code == 0 and len(said.splitlines()) == 1
+    assert "friction is empty in 2 of 3 cases, the first load_tx=2: they run without -friction" in said
+    assert in_process(monkeypatch, capsys, path, "--list", "--quiet") == (0, "")
 
 
 @pytest.mark.parametrize("text", ["parameters: {a: 1}\n", "load_tx: [30, 60]\n", "30\n", ""])
@@ -456,7 +478,7 @@ def test_a_spoiled_table_never_ends_in_a_traceback(tmp_path, monkeypatch, capsys
             at = chance.randrange(len(data))
             data[at : at + chance.randint(0, 3)] = chance.choice(pieces)
         (tmp_path / name).write_bytes(data)
-        code, said = in_process(monkeypatch, capsys, tmp_path / name, "--list")
+        code, said = in_process(monkeypatch, capsys, tmp_path / name, "--list", "--quiet")
         assert (code, said) == (0, "") or code == 2 and refused(said), bytes(data)
 
 

@@ -216,6 +216,24 @@ def _check_name(name, where, seen):
         raise TableError(f"{where}: the same name, {name}, as {seen[name]}; add a column `case` with names")
 
 
+def _columns(text):
+    """Names of a history's columns; none where it has no line of names."""
+    lines = (line.split("#")[0].strip() for line in text.splitlines())
+    return re.split(r"[,;\s]+", next(filter(None, lines), ""))
+
+
+def _check_history(path, options, files):
+    """Error where a column of the history is an option of the case, too, as it would be in every case."""
+    name = options.get("history") or options.get("load_history")
+    text = files.get(name) if name in files else _content(name) if name else ""
+    for column in _columns(text):
+        if column in options:
+            raise TableError(
+                f"{path}: {column} is an option and a column of {short(name)}: make it one of `parameters`, which the "
+                f"file has as {{{column}}}, or leave one out"
+            )
+
+
 def read(path, common=None, ranks=1):
     """The cases of a table, with options common to all (which override the table's) and the default number of ranks."""
     kind = _yaml_cases if path.lower().endswith((".yaml", ".yml")) else _csv_cases
@@ -228,15 +246,9 @@ def read(path, common=None, ranks=1):
             raise TableError(f"{where}: stress: -{option}: petsam-study chooses the file; remove the option")
         _check_name(name, where, seen)
         seen[name] = where
+        located = {**_located(options, files, folder), **common}
+        _check_history(path, located, files)
         cases.append(
-            Case(
-                len(cases) + 1,
-                name,
-                inputs,
-                {**_located(options, files, folder), **common},
-                files,
-                _ranks(count, place) if count else ranks,
-                *rest,
-            )
+            Case(len(cases) + 1, name, inputs, located, files, _ranks(count, place) if count else ranks, *rest)
         )
     return cases

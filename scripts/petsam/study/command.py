@@ -214,9 +214,23 @@ def write(options, cases):
         raise Error(complaint)
 
 
+def warn_of_gaps(options, cases):
+    """Warnings of columns with empty cells, which leave the option out: petsam takes its default, of friction 0."""
+    for name in dict.fromkeys(name for case in cases for name in case.inputs):
+        without = [case.name for case in cases if name not in case.inputs]
+        if without:
+            print(
+                f"petsam-study: warning: {options.table}: {name} is empty in {len(without)} of {len(cases)} cases, the "
+                f"first {without[0]}: they run without -{name}",
+                file=sys.stderr,
+            )
+
+
 def carry_out(options):
     """Carry out the options; the exit code."""
     cases = read(options.table, common_options(options.words), options.ranks)
+    if not options.quiet and options.case is None:
+        warn_of_gaps(options, cases)
     if options.list:
         for case in cases:
             print(f"{case.number:5d}  {standing(options.directory, case):11s}  {case.name}")
