@@ -11,6 +11,7 @@
 typedef struct {
   PetscInt  zones;   /* connected by the sides of cells, as contact_spots; 0: the bodies do not touch */
   PetscReal across;  /* cells, of the narrow zones: SamGridMeasureZones(), a tenth of the cells left out */
+  PetscBool whole;   /* the widest zone spans the grid */
   PetscReal half[2]; /* m: half widths of the rectangle that holds all of it */
   PetscReal change;  /* of the peak pressure on cells half as wide, relative: SamAdviceMeasurePeak() */
   PetscInt  finer;   /* cells so many times narrower resolve the peak; 0: none of up to 16384 in a row */

@@ -76,6 +76,8 @@ typedef struct {
   other than CONVERGED that the step already has is kept. Not collective: all ranks have the same numbers.
 */
 PETSC_INTERN PetscErrorCode SamStepJudge(SamStep *step, const SamCheckLimits *limits);
+/* SamCheckDescribeEdge - what the pressure at the edge is, for messages; returns the text. Not collective. */
+PETSC_INTERN const char *SamCheckDescribeEdge(const SamCheck *check, char text[], size_t size);
 /* SamStepFail - sets status and message unless the step has failed already: later failures follow from the first. */
 PETSC_INTERN PetscErrorCode SamStepFail(SamStep *step, SamStatus status, const char message[]);
 

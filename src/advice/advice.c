@@ -112,6 +112,11 @@ static PetscErrorCode Measure(const SamSetup *s, SamExtent *extent)
     SamGridCountZones(s->grid, solution->pressure, SamElasticityGetTraits(s->elasticity).periodic, &extent->zones));
   PetscCall(SamGridGetSupport(s->grid, solution->pressure, first, n));
   for (int k = 0; k < 2; k++) extent->half[k] = k >= s->grid->axes ? 0 : 0.5 * (PetscReal)n[k] * cell[k];
+  /* a row that is in contact from border to border has no width along x */
+  extent->whole =
+    (SamGridIsRow(s->grid) && extent->zones == 1 ? (PetscReal)n[0] : extent->across) > (PetscReal)s->grid->fewest - 0.5
+      ? PETSC_TRUE
+      : PETSC_FALSE;
   PetscCall(SamAdviceMeasurePeak(s, extent));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -99,12 +99,15 @@ static PetscErrorCode PrintTimes(SamReport r)
 /* How well the grid resolves the contact. */
 static PetscErrorCode PrintExtent(SamReport r)
 {
-  char size[48] = "none", spots[48] = "";
+  const SamExtent *e        = &r->extent;
+  char             size[48] = "none", spots[48] = "";
 
   PetscFunctionBegin;
   if (!r->extent_step) PetscFunctionReturn(PETSC_SUCCESS);
-  if (r->extent.zones) (void)snprintf(size, sizeof(size), "%.1f cells across", (double)r->extent.across);
-  if (r->extent.zones > 1) (void)snprintf(spots, sizeof(spots), "%ld spots, the narrow ones ", (long)r->extent.zones);
+  if (e->zones)
+    (void)snprintf(size, sizeof(size), e->whole ? "spans the grid" : "%.1f cells across", (double)e->across);
+  if (e->zones > 1)
+    (void)snprintf(spots, sizeof(spots), "%ld spots, the %s ", (long)e->zones, e->whole ? "largest" : "narrow ones");
   PetscCall(PetscPrintf(r->comm, "  %-10s  %s%s", "contact", spots, size));
   if (r->steps > 1) PetscCall(PetscPrintf(r->comm, " (step %" PetscInt_FMT ", at the largest load)", r->extent_step));
   PetscCall(PetscPrintf(r->comm, "\n"));

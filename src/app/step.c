@@ -123,7 +123,7 @@ PetscErrorCode SamStepView(const SamStep *s, SamContact contact, PetscViewer vie
                                               : "",
                                      name->load, Rounded(s, c, s->load, sizes.load),
                                      (int)strlen(SamUnitOn(grid, "N m")), SamUnitOn(grid, name->load_unit), rigid.name,
-                                     Rounded(s, c, s->rigid, sizes.rigid), rigid.unit,
+                                     Rounded(s, c, s->rigid, sizes.rigid), strcmp(rigid.unit, "1") ? rigid.unit : "",
                                      given[SamControlWay(&s->control, c)], fine));
   }
   if (s->status != SAM_STATUS_NO_EQUILIBRIUM) PetscCall(ViewSolution(s, contact, &sizes, viewer));

@@ -148,7 +148,7 @@ static PetscErrorCode ReadNumbers(const SamOptions *from, const SamOptionRow *ro
     const char *why = SamExplainNumber(text);
 
     SETERRQ(from->comm, SAM_ERR_USER, "-%s%s %s: expected %s%s", SamOptionsPrefix(from), row->name, Quote(text),
-            expected, why);
+            expected, !why[0] && row->words ? row->words : why);
   }
   if (*n == 2 && row->range == SAM_RANGE_POSITIVE) PetscCall(RefuseDecimalComma(from, row->name, text, v));
   PetscFunctionReturn(PETSC_SUCCESS);

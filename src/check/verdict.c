@@ -18,10 +18,19 @@ static PetscBool Agrees(const SamCheck *check, const SamCheckLimits *limits)
          check->equilibrium <= limits->equilibrium && check->cone <= limits->cone;
 }
 
+const char *SamCheckDescribeEdge(const SamCheck *check, char text[], size_t size)
+{
+  if (check->edge >= 0.995) /* it would be printed as 1 */
+    (void)snprintf(text, size, "the maximum pressure is there");
+  else
+    (void)snprintf(text, size, "pressure there up to %.2g times the maximum", (double)check->edge);
+  return text;
+}
+
 PetscErrorCode SamStepJudge(SamStep *step, const SamCheckLimits *limits)
 {
   const SamCheck *check = &step->check;
-  char            message[sizeof(step->message)];
+  char            message[sizeof(step->message)], place[64];
 
   PetscFunctionBegin;
   if (!Agrees(check, limits)) {
@@ -36,9 +45,8 @@ PetscErrorCode SamStepJudge(SamStep *step, const SamCheckLimits *limits)
   if (check->edge == 0 || step->status != SAM_STATUS_CONVERGED) PetscFunctionReturn(PETSC_SUCCESS);
   if (!limits->edge) step->status = SAM_STATUS_EDGE_CONTACT;
   PetscCall(PetscSNPrintf(step->message, sizeof(step->message),
-                          "the contact reached the edge of the grid (pressure there up to %.2g times the maximum): the "
-                          "answer depends on the size of the grid",
-                          (double)check->edge));
+                          "the contact reached the edge of the grid (%s): the answer depends on the size of the grid",
+                          SamCheckDescribeEdge(check, place, sizeof(place))));
   PetscCall(PetscStrncpy(step->setting, "grid_size", sizeof(step->setting)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -23,6 +23,7 @@ static PetscErrorCode DescribeEntering(SamContact c, SamStep *step)
   const PetscReal size[2]  = {c->grid->dx, c->grid->dy};
   PetscReal       roll[2];
   PetscInt        first[2], n[2];
+  char            place[64];
 
   PetscFunctionBegin;
   (void)SamProblemGetRolled(c->problem, &step->control, roll);
@@ -34,10 +35,10 @@ static PetscErrorCode DescribeEntering(SamContact c, SamStep *step)
 
     if (fabs(roll[k]) <= most) continue;
     (void)snprintf(step->message, sizeof(step->message),
-                   "the contact reached material from outside of the grid, whose displacement is unknown (pressure "
-                   "there up to %.2g times the maximum): %s = %.8g: at most %.8g m in a step: use more steps or a "
-                   "wider grid",
-                   (double)step->check.edge, k ? "roll_y" : "roll", (double)roll[k], (double)most);
+                   "the contact reached material from outside of the grid, whose displacement is unknown (%s): %s = "
+                   "%.8g: at most %.8g m in a step: use more steps or a wider grid",
+                   SamCheckDescribeEdge(&step->check, place, sizeof(place)), k ? "roll_y" : "roll", (double)roll[k],
+                   (double)most);
     (void)snprintf(step->setting, sizeof(step->setting), "steps");
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -47,6 +48,7 @@ static PetscErrorCode Judge(SamContact c, SamStep *step)
 {
   const SamCheck *check  = &step->check;
   SamCheckLimits  limits = {.equilibrium = CHECK_EQUILIBRIUM, .cone = CHECK_CONE, .edge = c->set.allow_edge};
+  char            place[64];
 
   PetscFunctionBegin;
   PetscCall(SamSolverGetTolerances(SamNormalAsSolver(c->normal), &limits.normal, NULL));
@@ -63,9 +65,9 @@ static PetscErrorCode Judge(SamContact c, SamStep *step)
   if (c->rolls && check->edge > 0 && SamStepIsSolved(step)) PetscCall(DescribeEntering(c, step));
   if (c->traits.patch && check->edge > 0 && SamStepIsSolved(step)) {
     (void)snprintf(step->message, sizeof(step->message),
-                   "the contact reached the border of the patch of a body's compliance, or of the grid (pressure there "
-                   "up to %.2g times the maximum): use a larger grid, up to the patch, then a larger patch",
-                   (double)check->edge);
+                   "the contact reached the border of the patch of a body's compliance, or of the grid (%s): use a "
+                   "larger grid, up to the patch, then a larger patch",
+                   SamCheckDescribeEdge(check, place, sizeof(place)));
     step->setting[0] = '\0';
   }
   PetscFunctionReturn(PETSC_SUCCESS);

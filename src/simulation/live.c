@@ -4,6 +4,8 @@
 
 /* An error of a fixed jump that is told. */
 #define LARGE 0.1
+/* Cycles that explicit wear could jump over, below which one cycle wears so much that the unit is doubted. */
+#define FAST 0.1
 
 /* ---- what the life asks for ---- */
 
@@ -121,7 +123,17 @@ static PetscErrorCode EndLife(SamSimulation s, const SamLifeReport *r, const cha
   char    text[96];
 
   PetscFunctionBegin;
-  PetscCall(SamSimulationAdviseEdge(s, &said.control, &said));
+  if (s->fast && said.status == SAM_STATUS_EDGE_CONTACT) {
+    const size_t used = strlen(said.message);
+
+    said.setting[0] = '\0'; /* no grid holds such a scar */
+    (void)snprintf(said.message + used, sizeof(said.message) - used,
+                   "; the worn depth is %.3g m: check the unit of "
+                   "the coefficient of wear",
+                   (double)PetscMax(r->depth[0], r->depth[1]));
+  } else {
+    PetscCall(SamSimulationAdviseEdge(s, &said.control, &said));
+  }
   (void)snprintf(text, sizeof(text), "%s %.10g cycles, step %" PetscInt_FMT " of the cycle", where, (double)r->cycles,
                  r->at + 1);
   PetscCall(TellMessage(s, text, &said));
@@ -150,6 +162,22 @@ static PetscErrorCode WarnOfJump(SamSimulation s, const SamLifeReport *r)
                    (double)r->cycles, (double)r->error);
   s->warned = said.message[0] ? PETSC_TRUE : s->warned;
   PetscCall(TellMessage(s, "", &said));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Wear in a cycle of a depth that no surface loses, once. */
+static PetscErrorCode WarnOfUnit(SamSimulation s, const SamLifeReport *r)
+{
+  char text[256];
+
+  PetscFunctionBegin;
+  if (s->fast || r->limit >= FAST) PetscFunctionReturn(PETSC_SUCCESS);
+  s->fast = PETSC_TRUE;
+  (void)snprintf(text, sizeof(text),
+                 "a cycle wears %.2g times the limit of a step, 1.16 (p/E*) h, h the cell width: check the unit of the "
+                 "coefficient, 1/Pa or m3/J (1 mm3/(N m) is 1e-9 1/Pa)",
+                 1 / (double)r->limit);
+  PetscCall(SamSimulationWarn(s, text, ""));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -185,6 +213,7 @@ static PetscErrorCode ComputeCycle(SamSimulation s, PetscBool *ended)
   if (!s->warned && r.step.status == SAM_STATUS_CONVERGED) PetscCall(TellMessage(s, "", &r.step));
   s->warned = r.step.message[0] ? PETSC_TRUE : s->warned;
   PetscCall(WarnOfJump(s, &r));
+  PetscCall(WarnOfUnit(s, &r));
   PetscCall(WarnOfWorn(s, &r, ended));
   s->writing = PETSC_TRUE;
   PetscCall(SamLifeRecord(s->life, &r));

@@ -178,7 +178,7 @@ PetscErrorCode SamSimulationSetProgram(SamSimulation s, SamHistory *history, Pet
   s->point   = (SamSimulationPoint){.steps = 0};
   s->start   = (SamSimulationStart){.steps = 0};
   s->worn[0] = s->worn[1] = PETSC_FALSE;
-  s->prepared = s->stopped = s->warned = s->told = PETSC_FALSE;
+  s->prepared = s->stopped = s->warned = s->told = s->fast = PETSC_FALSE;
   PetscCall(SetProgram(s, h, cycles, &from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

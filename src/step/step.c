@@ -137,6 +137,7 @@ static PetscErrorCode DescribeSliding(SamSolve *w, char message[], size_t size)
   PetscInt        loaded  = 0;
   PetscBool       friction;
   char            instead[64] = "; for gross slip give ";
+  const char     *cure;
 
   PetscFunctionBegin;
   PetscCall(PetscStrncpy(message, "gross slip: ", size));
@@ -157,9 +158,10 @@ static PetscErrorCode DescribeSliding(SamSolve *w, char message[], size_t size)
                            sizeof(instead)));
   }
   PetscCall(SamProblemHasFriction(w->task->problem, &friction));
-  PetscCall(PetscStrlcat(
-    message, friction ? " cannot be balanced by |q| <= mu p" : " cannot be balanced without friction", size));
-  PetscCall(PetscStrlcat(message, follows && w->task->motion->continues ? ": use smaller load steps" : instead, size));
+  cure = follows && w->task->motion->continues ? ": use smaller load steps" : instead;
+  PetscCall(PetscStrlcat(message, " cannot be balanced ", size));
+  PetscCall(PetscStrlcat(message, friction ? "by |q| <= mu p" : "without friction: give -friction", size));
+  if (friction) PetscCall(PetscStrlcat(message, cure, size));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

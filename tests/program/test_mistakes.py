@@ -56,6 +56,7 @@ MISTAKES = [
     ),
     mistake("GPa", dict(body1_young="210GPa"), says=["-body1_young 210GPa", "without a unit", "Pa"]),
     mistake("mm", dict(gap_radius1="200mm"), says=["-gap_radius1 200mm", "2.6e-3 for 2.6 mm"]),
+    mistake("negative radius", dict(gap_radius2=-0.3), says=["-gap_radius2 -0.3", "> 0 or inf", "-gap_type curved"]),
     mistake("percent sign", dict(friction="30%"), says=["-friction 30%", "0.3, not 30"]),
     mistake("Poisson's ratio in percent", dict(body1_poisson=30.0), says=["-body1_poisson 30", "at most 0.5", "0.3"]),
     mistake("negative friction", dict(friction=-0.3), says=["-friction -0.3", ">= 0"]),
@@ -269,7 +270,12 @@ MISTAKES = [
     history("value given twice", LOADS, ["-load_n", "loads.csv", "give one of them"], "-load_n", "1000"),
     history("no normal load", "time,load_tx\n1,2\n", ["-load_n or -disp_z is missing"]),
     # ---- loads that cannot be carried
-    mistake("force without friction", dict(friction=None, load_tx=60.0), code=11, says=["load_tx = 60 N", "friction"]),
+    mistake(
+        "force without friction",
+        dict(friction=None, load_tx=60.0),
+        code=11,
+        says=["load_tx = 60 N", "friction: give -friction"],
+    ),
     mistake("force beyond friction", dict(load_tx=600.0), code=11, says=["gross slip", "load_tx = 600 N (limit 100"]),
     mistake("force without bounds", dict(load_tx=-1e308), code=11, says=["load_tx = -1e+308 N (limit -100"]),
     mistake("moment in N mm", dict(load_my=200.0), code=11, says=["load_my = 200 N m under load_n = 1000 N", "limits"]),
@@ -313,7 +319,12 @@ MISTAKES = [
         code=11,
         says=["lies at x = 0", "grid's cells from 0.0007"],
     ),
-    mistake("two planes", FLAT, code=12, says=["axis along x and y", "-elasticity periodic", "-allow_edge_contact"]),
+    mistake(
+        "two planes",
+        FLAT,
+        code=12,
+        says=["(the maximum pressure is there)", "axis along x and y", "-elasticity periodic", "-allow_edge_contact"],
+    ),
 ]
 
 WARNINGS = [
@@ -429,6 +440,22 @@ def test_doubt_is_told_once(petsam, folder, change, words, says, code, files):
     done = petsam(prepare(folder, change, words, files), *words, check=code)
     assert_helps(done, ["warning: ", *says])
     assert len(done.complaint) == 1 and (folder / "results.h5").exists(), done.stderr
+
+
+def test_a_coefficient_of_wear_of_another_unit_is_doubted(petsam, tmp_path):
+    """1e-4 mm3/(N m) is 1e-13 1/Pa; no grid holds the scar of 1e-4 1/Pa, and none is advised."""
+    (tmp_path / "c.csv").write_text("time,disp_x\n0,1e-5\n1,-1e-5\n2,1e-5\n")
+    case = dict(SPHERE, grid_n=48, history="c.csv", wear_cycles=10)
+    assert petsam(case, dict(wear_coefficient1=1e-13)).stderr == ""
+    warning, error = petsam(case, dict(wear_coefficient1=1e-4), check=12).complaint
+    assert "e+06 times the limit of a step" in warning and "1 mm3/(N m) is 1e-9 1/Pa" in warning
+    assert error.endswith("check the unit of the coefficient of wear") and "-grid_size" not in error
+
+
+@pytest.mark.parametrize("kind", ["periodic", "plane_periodic"])
+def test_a_contact_without_an_end_has_no_cells_across(petsam, kind):
+    done = petsam({**SPHERE, **FLAT, "elasticity": kind})
+    assert "  contact     spans the grid\n" in done.stdout and done.stderr == ""
 
 
 # ---------------------------------------------------------------- advice that is followed helps

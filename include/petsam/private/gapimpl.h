@@ -53,6 +53,7 @@ struct _n_SamGap {
     PetscBool (*concave)(const PetscReal values[]);
     PetscErrorCode (*check)(SamGap gap);
     const PetscReal *cylinder;
+    const char      *beyond; /* ends the error about a parameter outside of its range; NULL: nothing */
   } ops;
   const char *names[SAM_GAP_PARAMETERS]; /* of the parameters */
 };

@@ -33,6 +33,7 @@ from .stresses import Cycle
 
 ROWS = 10  # of the line that are printed
 CRITERIA = tuple(evaluation.CRITERIA)
+MOST = f"{strength.MOST:.0e}".replace("+", "")
 
 
 def _constant(text):
@@ -124,7 +125,7 @@ def _where(one):
 
 def _lived(life):
     if np.isinf(life):
-        return f"more than {strength.MOST:g} cycles"
+        return f"more than {MOST} cycles"
     return f"{life:.4g} cycles" + (", fails at once" if life <= strength.LEAST else "")
 
 
@@ -146,13 +147,18 @@ def _report(options, cycles, name, found):
     return [{f"{word}_{name}": ("1", values)} for values in found]
 
 
+def _shown(value):
+    """A number of the line; of lives only is one infinite."""
+    return ">" + MOST if np.isinf(value) else f"{value:.4g}"
+
+
 def _print_line(line):
     """Some rows of a line's columns; a factor is the limit over its parameter."""
     columns = {name: column for name, column in line.columns.items() if not name.startswith("factor")}
     widths = [10, *(max(10, len(name), len(unit)) for name, (unit, _) in columns.items())]
     rows = [("z", *columns), ("m", *(unit for unit, _ in columns.values()))]
     for k in sorted({round(k) for k in np.linspace(0, line.z.size - 1, min(ROWS, line.z.size))}):
-        rows.append([f"{value:.4g}" for value in (line.z[k], *(values[k] for _, values in columns.values()))])
+        rows.append([_shown(value) for value in (line.z[k], *(values[k] for _, values in columns.values()))])
     for row in rows:
         print("  " + "  ".join(f"{word:>{width}}" for word, width in zip(row, widths)))
 

@@ -51,8 +51,10 @@ def checked(name, value, where):
     except ValueError:
         raise Error(f"{where}: {name} {short(value)} is not a number; give it in SI units, without a unit") from None
     if not one.low < number < one.high:
-        limits = f"outside {one.low:g} to {one.high:g}{unit}"
-        raise Error(f"{where}: {name} {number:g}{unit} is {limits}; give it in SI units")
+        cure = "; give it in SI units" if unit else ""
+        if one.low < -number < one.high:  # tables of materials also have exponents without their sign
+            cure = f": give {-number:g}, with its sign"
+        raise Error(f"{where}: {name} {number:g}{unit} is outside {one.low:g} to {one.high:g}{unit}{cure}")
     return number
 
 

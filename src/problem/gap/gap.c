@@ -154,7 +154,12 @@ static PetscErrorCode SetTypeFromOptions(SamGap gap, PetscBool help)
   for (PetscInt k = 0; k < gap->ops.count; k++) {
     const SamGapParameter *parameter = &gap->ops.parameters[k];
     char                   text[256], missing[256];
-    const SamOptionRow row = {parameter->name, text, SAM_OPTION_REAL, .range = parameter->range, .missing = missing};
+    const SamOptionRow     row = {.name    = parameter->name,
+                                  .text    = text,
+                                  .kind    = SAM_OPTION_REAL,
+                                  .range   = parameter->range,
+                                  .words   = gap->ops.beyond,
+                                  .missing = missing};
 
     PetscCall(PetscSNPrintf(text, sizeof(text), isnan(gap->values[k]) ? "%s: required by %s" : "%s, of %s",
                             parameter->help, gap->type));

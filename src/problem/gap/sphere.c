@@ -37,5 +37,6 @@ PetscErrorCode SamGapCreate_Sphere(SamGap gap)
   gap->ops.height     = Height_Sphere;
   gap->ops.contact    = Contact_Sphere;
   gap->ops.steepness  = Steepness_Sphere;
+  gap->ops.beyond     = "; a concave body has negative radii with -gap_type curved";
   PetscFunctionReturn(PETSC_SUCCESS);
 }
