@@ -32,6 +32,7 @@ CYCLE = (
     "pressure_max", "computed",
 )  # fmt: skip
 NOT_CONVERGED, NO_EQUILIBRIUM, EDGE = 10, 11, 12
+RIGID = ("disp_z", "disp_x", "disp_y", "rot_x", "rot_y", "rot_z")  # in the order of the loads and of stiffness()
 _MONITOR = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int)
 
 
@@ -215,6 +216,24 @@ def _real(value, name):
 # ---------------------------------------------------------------- contacts
 
 
+def _condensed(k, names):
+    """The stiffness k of the displacements of these names, or that name, while the loads of the others stay."""
+    several = [names] if isinstance(names, str) else list(names)
+    for name in several:
+        if name not in RIGID:
+            raise ContactError(2, f"stiffness: condense {short(name)}: is no displacement{there_are(name, RIGID)}")
+    kept = [RIGID.index(name) for name in several]
+    # without those that the bodies do not have, and, where nothing rubs, those without stiffness
+    free = [c for c in range(6) if c not in kept and k[c, c] != 0.0 and not np.isnan(k[c, c])]
+    scale = np.sqrt(np.abs(np.diag(k)[free]))
+    try:
+        follow = np.linalg.solve(k[np.ix_(free, free)] / np.outer(scale, scale), k[np.ix_(free, kept)] / scale[:, None])
+    except np.linalg.LinAlgError:
+        raise ContactError(2, "stiffness: condense: the other components have no stiffness together") from None
+    found = k[np.ix_(kept, kept)] - k[np.ix_(kept, free)] @ (follow / scale[:, None])
+    return float(found[0, 0]) if isinstance(names, str) else found
+
+
 class Contact:
     """A contact of two bodies that have never touched.
 
@@ -357,15 +376,19 @@ class Contact:
         """Forget the tried step: later ones are, to the last bit, as if it had not been tried."""
         self._call("reject")
 
-    def stiffness(self, reversal=False):
+    def stiffness(self, reversal=False, condense=None):
         """d(loads)/d(displacements) of the tried step, (6, 6): N/m, N/rad, N, N m/rad.
 
         Cells that slip go on slipping: the derivative of try_step(); or, with reversal, all cells in contact stick,
         without a tried step those of the committed one.
+
+        condense is "disp_x" or another displacement: the stiffness (a number) of its load while the other five loads
+        stay, and their displacements follow; or several of them, for a matrix. Of components that are held take the
+        whole matrix.
         """
         k = np.empty((6, 6))
         self._call("stiffness", ctypes.c_int(bool(reversal)), _pointer(k))
-        return k
+        return k if condense is None else _condensed(k, condense)
 
     # ------------------------------------------------------------ histories and lives
 

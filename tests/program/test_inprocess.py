@@ -178,6 +178,41 @@ refused("-wear_cycles: ", lambda: petsam.Contact(wear_cycles=10, wear_coefficien
     )
 
 
+def test_a_condensed_stiffness_is_that_of_a_displacement_while_the_other_loads_stay(tmp_path):
+    """Dissimilar bodies that touch beside the origin, where all six components go together: 36 % below the diagonal."""
+    run_python(
+        """
+import numpy as np, petsam
+case = dict(body1_young=210e9, body1_poisson=.3, body2_young=70e9, body2_poisson=.2, friction=.5,
+            gap_type="flat", grid_n=32, grid_size=2e-3)
+with petsam.Contact(**case) as contact:
+    x, y = np.meshgrid(contact.x, contact.y)
+    contact["gap"] = ((x - 2e-4) ** 2 + (y - 4e-4) ** 2) / 0.2
+    step = contact.try_step(load_n=100, rot_x=0, rot_y=0, load_tx=10)
+    held = dict(load_n=100, load_mx=step.load_mx, load_my=step.load_my)
+    for load in (10.0, 10.1, 10.2):
+        contact.commit()
+        step = contact.try_step(load_tx=load, **held)
+    full, one, two = (contact.stiffness(condense=name) for name in (None, "disp_x", ["rot_z", "disp_x"]))
+    contact.reject()
+    other = contact.try_step(disp_x=step.disp_x + 1e-10, **held)
+    assert abs(one / ((other.load_tx - step.load_tx) / 1e-10) - 1) < 1e-3 and one < 0.8 * full[1, 1]
+    assert np.allclose(two, np.linalg.inv(np.linalg.inv(full)[np.ix_([5, 1], [5, 1])]), rtol=1e-9)
+    try:
+        contact.stiffness(condense="disp_q")
+    except petsam.ContactError as error:
+        assert "condense disp_q: is no displacement: is disp_" in str(error)
+    else:
+        raise SystemExit("not refused")
+del case["friction"]
+with petsam.Contact(**dict(case, gap_type="sphere", gap_radius1=0.1, gap_radius2=0.1)) as contact:
+    contact.try_step(load_n=100)
+    assert abs(contact.stiffness(condense="disp_z") / contact.stiffness()[0, 0] - 1) < 1e-9
+""",
+        tmp_path,
+    )
+
+
 def test_files_of_other_contacts_are_refused_and_leave_the_contact_alone(petsam, tmp_path):
     """Files of programs' runs. The sum of another contact is left out, and is not accumulated either."""
     petsam(dict(CASE, load_n=500.0), dict(checkpoint="run.h5", checkpoint_every=1))
