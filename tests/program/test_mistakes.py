@@ -458,6 +458,16 @@ def test_a_contact_without_an_end_has_no_cells_across(petsam, kind):
     assert "  contact     spans the grid\n" in done.stdout and done.stderr == ""
 
 
+@pytest.mark.parametrize("slope, tilted", [(0.0, False), (3e-6, True)])
+def test_a_wave_of_a_period_is_no_tilt(petsam, tmp_path, slope, tilted):
+    """Its plane by least squares rises by 1.9 amplitudes, its rms is 0.7; but it goes on over the border."""
+    x = (np.arange(32) + 0.5) / 32 - 0.5
+    with h5py.File(tmp_path / "w.h5", "w") as f:
+        f["height"] = np.tile(1e-6 * np.sin(2 * np.pi * x) + slope * x, (30, 1))
+    case = {**SPHERE, **FLAT, **FILE, "grid_n": (32, 30), "elasticity": "periodic", "load_n": 30.0}
+    assert ("border of the period" in petsam(case, dict(gap_file="w.h5")).stderr) == tilted
+
+
 # ---------------------------------------------------------------- advice that is followed helps
 
 
