@@ -12,6 +12,7 @@ import petsam
 from petsam.errors import Error
 from petsam.lives import command, cracks, evaluation, materials, strength
 from petsam.lives.stresses import Cycle
+from petsam.study.expressions import Expander
 from support import ball, slide_limit
 
 STRESS = conftest.PROGRAM.with_name("petsam-stress")
@@ -55,6 +56,13 @@ def test_a_life_by_basquin_has_goodmans_mean_stress():
     assert strength.basquin(400e6, 0.0, 1000e6, -0.1, 600e6) == pytest.approx(by_hand, rel=1e-9)
     assert strength.basquin(0.0, -600e6, 1000e6, -0.1, 600e6) == pytest.approx(by_hand, rel=1e-9)
     assert strength.basquin(650e6, 600e6, 1000e6, -0.1, 600e6) == strength.LEAST
+
+
+def test_exponents_without_their_sign_are_refused():
+    with pytest.raises(ValueError, match="give them with their sign"):
+        strength.swt(1e6, **{**SWT, "b": 0.104, "c": 0.69})
+    with pytest.raises(ValueError, match=r"\{life_basquin\(1e8, -1e8, 1e9, 0.1\)\}: the curve does not fall"):
+        Expander({}).expand("{life_basquin(1e8, -1e8, 1e9, 0.1)}")
 
 
 def test_ends_of_lives_factors_and_damage():

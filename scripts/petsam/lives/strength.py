@@ -18,7 +18,11 @@ HALVINGS = 60  # of the interval of log N: to rounding
 
 
 def _life(curve, values):
-    """Cycles N at which a curve, falling with N, has the values."""
+    """Cycles N at which a curve, falling with N, has the values; ValueError of one that rises."""
+    if np.any(curve(MOST) >= curve(LEAST)):
+        raise ValueError(
+            "the curve does not fall with the cycles: its exponents are negative, give them with their sign"
+        )
     values = np.asarray(values, dtype=float)
     low, high = np.full(values.shape, np.log(LEAST)), np.full(values.shape, np.log(MOST))
     for _ in range(HALVINGS):
