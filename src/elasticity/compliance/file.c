@@ -11,9 +11,9 @@
 #define POINTS      100000 /* most at which a load case is given */
 #define INDEPENDENT 1e-6   /* least element over the largest on the diagonal of R, for points that determine them */
 #define REST        1e-2   /* of a load case's range: the most by which polynomials may differ from it */
-#define SLENDER     1000  /* most that the sides of a patch differ: the kernel of slender cells is summed over squares */
+#define SLENDER     1000 /* most that the sides of a patch differ: the kernel of slender cells is summed over squares */
 #define LARGE       10000 /* m: most of a patch's half sides and of its centre's distance from the origin */
-#define SOFT        10000  /* times the half-space's compliance: by as much errors of pressures exceed the tolerance */
+#define SOFT        10000 /* times the half-space's compliance: by as much errors of pressures exceed the tolerance */
 
 /* `size` 0 in a dimension: any number up to `most`, which it becomes. */
 typedef struct {
@@ -72,12 +72,13 @@ static PetscErrorCode ReadBasis(SamFile f, SamCompliance c)
   PetscCall(ReadNumbers(f, "/patch/half", &pair, c->half));
   PetscCheck(c->half[0] > 0 && c->half[1] > 0, f->comm, SAM_ERR_FILE,
              "-%s %s: /patch/half is %.6g, %.6g: expected lengths > 0", f->option, f->filename, c->half[0], c->half[1]);
-  PetscCheck(PetscMax(c->half[0], c->half[1]) <= SLENDER * PetscMin(c->half[0], c->half[1]) && c->half[0] <= LARGE &&
-               PetscMax(PetscAbsReal(c->center[0]), PetscAbsReal(c->center[1])) <= LARGE,
-             f->comm, SAM_ERR_FILE,
-             "-%s %s: /patch/half is %.6g, %.6g, /patch/center %.6g, %.6g: expected at most %d m, and sides that differ "
-             "at most by a factor of %d: check the unit of the file",
-             f->option, f->filename, c->half[0], c->half[1], c->center[0], c->center[1], LARGE, SLENDER);
+  PetscCheck(
+    PetscMax(c->half[0], c->half[1]) <= SLENDER * PetscMin(c->half[0], c->half[1]) && c->half[0] <= LARGE &&
+      PetscMax(PetscAbsReal(c->center[0]), PetscAbsReal(c->center[1])) <= LARGE,
+    f->comm, SAM_ERR_FILE,
+    "-%s %s: /patch/half is %.6g, %.6g, /patch/center %.6g, %.6g: expected at most %d m, and sides that differ "
+    "at most by a factor of %d: check the unit of the file",
+    f->option, f->filename, c->half[0], c->half[1], c->center[0], c->center[1], LARGE, SLENDER);
   PetscCall(ReadNumbers(f, "/basis/degree_xy", &table, power[0]));
   c->modes = (PetscInt)table.size[0];
   for (PetscInt m = 0; m < c->modes; m++)
