@@ -28,8 +28,9 @@ typedef enum { SAM_EDGE_CONTACT, SAM_EDGE_STICK } SamEdgeOf;
 
 /*
   SamEdgeReconstruct - the edge of the zone where w > 0. `w` (one component): the square of what vanishes at the edge,
-  in any unit; 0 outside of the zone. `periodic`: the edge goes on over the border of the grid. When not NULL, `point` (one component) becomes w at the cells' centres: the
-  reconstruction where it is accepted, negative beyond the edge, else w. Collective.
+  in any unit; 0 outside of the zone. `periodic`: the edge goes on over the border of the grid. When not NULL,
+  `point` (one component) becomes w at the cells' centres: the reconstruction where it is accepted, negative beyond the
+  edge, else w. Collective.
   A cell's reconstruction is accepted when there are enough cells behind it, they lie on a quadratic function, and what
   it differs by from w is that margin of a smooth edge; and so for its eight neighbours. Rough surfaces and zones of a
   few cells fail that, and are counted.
