@@ -74,7 +74,7 @@ def test_given_creepages_give_back_the_loads(roll):
 
 @pytest.mark.parametrize("turn", [0, 1, 2])
 def test_direction_of_rolling_turns_the_solution_and_keeps_the_sign_of_creepage(roll, turn):
-    """Rolling towards +x, -x, and -x with a rolled distance of rounding along y: loads are the same, shear is mirrored."""
+    """Towards +x, -x, and -x with a rolled distance of rounding along y: loads are the same, shear is mirrored."""
     side = 2 * CELL
     case = dict(CASE_C, grid_n=20, grid_size=20 * side, grid_center=0)
     length, beside = [(side, 0), (-side, 0), (-side, 1e-12 * side)][turn]
