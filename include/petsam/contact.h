@@ -37,17 +37,17 @@ PETSC_EXTERN SamMotion SamContactGetMotion(SamContact contact);
   the last pass. Contact spots are cells in contact connected by their sides, not by corners alone; over the edges of a
   grid that is one period, too.
   The slip of a step is opposite to the mean direction of the shear in it (mid), or to that at its end (end), whose
-  error is of first order in the steps where the shear turns; auto: end, and mid where a simulation divides its steps.
-  End is used in the first step, where the friction follows the slip, and where mid does not converge.
+  error is of first order in the steps where the shear turns. The end is used in the first step, in steps that roll, and
+  while all tangential loads lie on a line, where the shear does not turn.
 */
-typedef enum { SAM_SLIP_AUTO, SAM_SLIP_MID, SAM_SLIP_END } SamSlipDirection;
+typedef enum { SAM_SLIP_MID, SAM_SLIP_END } SamSlipDirection;
 typedef struct {
   PetscBool        coupling;      /* normal-tangential coupling is taken into account (true; -coupling full or none) */
   PetscReal        coupling_rtol; /* (1e-6; -coupling_rtol) */
   PetscInt         coupling_max_it;  /* most passes (100; -coupling_max_it) */
   PetscBool        coupling_monitor; /* print the change after each pass (false; -coupling_monitor) */
   PetscBool        warm_start;     /* start a step from the steps before, on the finest grid only (true; -warm_start) */
-  SamSlipDirection slip_direction; /* (auto; -slip_direction) */
+  SamSlipDirection slip_direction; /* (mid; -slip_direction) */
   PetscReal cycle_memory; /* bytes on all ranks for steps of a repeated load cycle: a step that the cycle before had
                                  starts from that, with the same solution within the tolerances; what is kept is in no
                                  state and no checkpoint, from which the bits differ then (0: none; -cycle_memory) */

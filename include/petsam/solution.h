@@ -23,6 +23,7 @@ static inline SamCellState SamCellStateOf(PetscReal p, PetscReal qx, PetscReal q
 typedef struct {
   SamControl control;              /* what was prescribed */
   PetscBool  mid_step;             /* slip follows the direction of the shear at mid step, not at the end of the step */
+  PetscBool  lags;                 /* it follows that at the end although the loads may turn it */
   PetscReal  load[SAM_COMPONENTS]; /* N, N m: given or found */
   PetscReal  rigid[SAM_COMPONENTS]; /* m, rad: given or found */
   Vec        pressure;              /* Pa */
@@ -30,6 +31,11 @@ typedef struct {
   Vec        shear;                 /* Pa, two components: acts on body 2 */
   Vec        displacement_z;        /* m: relative elastic displacement u_z */
   Vec        displacement_t;        /* m, two components: relative elastic displacement u_t */
+  /*
+    m, two components; NULL: zero. Part of the slip of the step that the shear at its end does not oppose: where there was
+    contact before, by the turn of the shear, else what the surfaces have moved over each other until they touched.
+  */
+  Vec aside;
 } SamSolution;
 
 #endif

@@ -10,7 +10,7 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 
-#define SMALL 0.01 /* error of the dissipated energy, relative to it, up to which nothing is said of it */
+#define LARGE 0.02 /* error of the dissipated energy by the steps, relative to it, from which on it is warned of */
 #define FOUND 0.5  /* share of the edges from which nothing is said of them */
 
 /* A row of the table: the sum of the times of one or more events. */
@@ -129,18 +129,36 @@ static PetscErrorCode PrintEdges(SamReport r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Whether there is an estimate of the dissipated energy's error: of steps in time, with friction. */
+static PetscBool HasEnergy(SamReport r)
+{
+  return r->steps > 1 && r->energy[0] > 0 && r->energy[1] >= 0;
+}
+
 static PetscErrorCode PrintEnergy(SamReport r)
+{
+  PetscFunctionBegin;
+  if (HasEnergy(r))
+    PetscCall(PetscPrintf(r->comm, "  %-10s  %.4g J dissipated, error by the length of the load steps about %.2g %%\n",
+                          "energy", (double)r->energy[0], 100 * (double)(r->energy[1] / r->energy[0])));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode WarnOfEnergy(SamReport r)
 {
   static const char *const without[] = {"-step_rtol", "-wear_cycles", "-grid_check"}; /* or it has one already */
   PetscBool                given     = PETSC_FALSE;
 
   PetscFunctionBegin;
-  if (r->steps < 2 || r->energy[1] <= SMALL * r->energy[0]) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!HasEnergy(r) || r->energy[1] <= LARGE * r->energy[0]) PetscFunctionReturn(PETSC_SUCCESS);
   for (size_t k = 0; !given && k < sizeof(without) / sizeof(without[0]); k++)
     PetscCall(PetscOptionsHasName(NULL, NULL, without[k], &given));
-  PetscCall(PetscPrintf(
-    r->comm, "  %-10s  %.4g J dissipated, wrong by about %.0f %% as load steps are long: use a larger -steps%s\n",
-    "energy", (double)r->energy[0], 100 * (double)(r->energy[1] / r->energy[0]), given ? "" : ", or -step_rtol"));
+  if (r->rank) PetscFunctionReturn(PETSC_SUCCESS);
+  fflush(stdout);
+  fprintf(stderr,
+          "petsam: warning: dissipated_energy: the load steps are long: an error of about %.2g %%: "
+          "use %smore rows, or a larger -steps\n",
+          100 * (double)(r->energy[1] / r->energy[0]), given ? "" : "-step_rtol, ");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -197,6 +215,7 @@ PetscErrorCode SamReportClosing(SamReport r)
   static const char *const names[] = {"normal", "tangential", "equilibrium"};
 
   PetscFunctionBegin;
+  PetscCall(WarnOfEnergy(r));
   if (r->quiet) PetscFunctionReturn(PETSC_SUCCESS);
   if (r->logging) PetscCall(PrintTimes(r));
   for (PetscInt k = 0; k < 3 && r->worst[0].step; k++) { /* of the steps with a solution */

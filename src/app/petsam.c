@@ -121,7 +121,6 @@ static const double stiffness_bytes[2][2] = {{400, 400}, {490, 880}}; /* [fricti
 /* The memory that this rank will need, bytes. */
 static PetscErrorCode EstimateMemory(SamSimulation simulation, double *bytes)
 {
-  PetscBool                mid, divided;
   char                     kept[32] = "";
   PetscMPIInt              ranks;
   double                   cell;
@@ -131,11 +130,9 @@ static PetscErrorCode EstimateMemory(SamSimulation simulation, double *bytes)
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_size(setup->grid->comm, &ranks));
   /* the contact, which reads these, is made later */
-  PetscCall(PetscOptionsHasName(NULL, NULL, "-slip_direction", &mid));
-  PetscCall(PetscOptionsHasName(NULL, NULL, "-step_rtol", &divided));
   PetscCall(PetscOptionsGetString(NULL, NULL, "-cycle_memory", kept, sizeof(kept), NULL));
   cell = bytes_per_cell[needs.steps > 1][needs.friction][needs.coupled] + (double)needs.laws +
-         (needs.friction && (mid || divided) ? TURN_BYTES : 0) +
+         (needs.friction && needs.steps > 1 ? TURN_BYTES : 0) +
          (SamElasticityGetTraits(setup->elasticity).upwind ? ROLLING_BYTES : 0) + (needs.life ? LIFE_BYTES : 0) +
          (needs.stiffness ? stiffness_bytes[needs.friction][needs.coupled] : 0);
   *bytes = SAM_MEMORY_PROGRAM + cell * (double)setup->grid->cells;

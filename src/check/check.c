@@ -251,7 +251,7 @@ static PetscErrorCode SumTangential(SamGrid grid, PetscReal self, const SamIncre
     TangentialSums      row;
 
     SamIncrementComputeRow(increment, j);
-    if (increment->mid_step) SamIncrementTurnRow(increment, j, increment->row);
+    SamIncrementOpposeRow(increment, j);
     row = TangentialRow(grid->nx, bound + k, qs, ds, 1 / self);
     SamAddAll(4, totals, row.sums);
     max[0] = SamLarger(max[0], row.over);

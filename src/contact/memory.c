@@ -4,9 +4,16 @@
 */
 #include "contactimpl.h"
 #include <petsam/private/state.h>
+#include <math.h>
 
 #define CONTROL      (1 + 2 * SAM_COMPONENTS)        /* numbers of a control besides its conditions */
 #define DISPLACEMENT "relative elastic displacement" /* normal, and tangential */
+
+/*
+  Numbers of the slip: the line on which loads lay at first (0: there were none), whether they have left it, and whether
+  the slip of the step was turned.
+*/
+enum { LINE_X, LINE_Y, LEFT, TURNED, SLIP_NUMBERS };
 
 /* ---- declarations ---- */
 
@@ -22,8 +29,11 @@ static PetscErrorCode DeclareFields(SamContact c)
     {"displacement_z", "m", DISPLACEMENT, 1, 2, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_OFFERED, SAM_STAYS, 0},
     {"displacement", "m", DISPLACEMENT, 2, 2, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_OFFERED, SAM_MOVES_CONTINUED, 0}};
 
+  static const SamStateField aside = {"aside", "m", NULL, 2, 2, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_NONE, SAM_STAYS, 0};
+
   PetscFunctionBegin;
   for (int k = 0; k < 3; k++) PetscCall(SamStateDeclareField(c->state, &tractions[k], &c->tractions[k]));
+  PetscCall(SamStateDeclareField(c->state, &aside, &c->aside));
   for (int k = 0; k < 2; k++) {
     SamStateField field = displacements[k];
 
@@ -78,6 +88,8 @@ static PetscErrorCode DeclareControl(SamContact c)
     Declare(c, "control", "1", "what was prescribed", SAM_NUMBER_REAL, CONTROL, PETSC_TRUE, PETSC_FALSE, &c->control));
   PetscCall(Declare(c, "window", "1", "part of the grid that was solved on", SAM_NUMBER_INT, 4, PETSC_TRUE, PETSC_FALSE,
                     &c->window));
+  PetscCall(
+    Declare(c, "slip", "1", "direction of slip", SAM_NUMBER_REAL, SLIP_NUMBERS, PETSC_TRUE, PETSC_FALSE, &c->slip));
   PetscCall(Declare(c, "steps", "1", "committed load steps", SAM_NUMBER_INT, 1, PETSC_TRUE, PETSC_FALSE, &c->steps));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -252,14 +264,34 @@ PetscInt SamContactGetSteps(SamContact c)
   return (PetscInt)*SamStateNumbers(c->state, c->steps, SAM_COMMITTED);
 }
 
+/* Loads or displacements whose directions differ by less lie on a line. */
+#define SAME_DIRECTION 1e-10
+
 /*
-  Whether the slip of a step is in the direction at mid step. A bound that follows the slip needs its own passes; of a
-  step that rolls the shear before is that of other material.
+  Whether all that has caused shear so far, with this step, lies on one line: tangential loads or displacements without
+  moment, of bodies that pressure does not shear, nor strain or a law. Then the shear does not turn from step to step.
 */
-static PetscBool TurnsAtMidStep(SamContact c)
+static PetscErrorCode LieOnLine(SamContact c, const SamControl *control, PetscBool *on)
 {
-  return SamContactSlipBefore(c) && !SamProblemFollowsSlip(c->problem) && !c->rolls &&
-         c->set.slip_direction == SAM_SLIP_MID;
+  double *const n = SamStateNumbers(c->state, c->slip, SAM_TRIED);
+  const double  x = (double)control->value[SAM_COMPONENT_TX], y = (double)control->value[SAM_COMPONENT_TY];
+  PetscBool     strained, other_way;
+  SamStrain     e;
+
+  PetscFunctionBegin;
+  PetscCall(SamProblemGetStrain(c->problem, control, &e));
+  strained  = c->grid->axes > 1 && (e.xx != 0 || e.yy != 0 || e.xy != 0);
+  other_way = x != 0 && y != 0 && SamControlWay(control, SAM_COMPONENT_TX) != SamControlWay(control, SAM_COMPONENT_TY);
+  if (n[LINE_X] == 0 && n[LINE_Y] == 0) {
+    n[LINE_X] = x;
+    n[LINE_Y] = y;
+  }
+  if (SamContactIsCoupled(c) || c->rolls || SamProblemHasOffset(c->problem) || strained || other_way ||
+      control->value[SAM_COMPONENT_MZ] != 0 ||
+      fabs(n[LINE_X] * y - n[LINE_Y] * x) > SAME_DIRECTION * hypot(n[LINE_X], n[LINE_Y]) * hypot(x, y))
+    n[LEFT] = 1;
+  *on = n[LEFT] == 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /*
@@ -286,14 +318,19 @@ PetscErrorCode SamContactBegin(SamContact c, const SamControl *control)
   SamSolution       *s      = &c->generation[SAM_TRIED];
   const SamSolution *before = SamContactBefore(c);
   PetscReal          roll[2];
+  PetscBool          straight = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(SamContactDeclare(c));
   PetscCall(SamStateBegin(c->state));
   c->rolls = SamProblemGetRolled(c->problem, control, roll) != 0;
   if (c->rolls && before) PetscCall(Move(c, roll));
-  *s          = (SamSolution){.control = *control};
-  s->mid_step = TurnsAtMidStep(c);
+  *s = (SamSolution){.control = *control};
+  PetscCall(LieOnLine(c, control, &straight));
+  s->mid_step = SamContactSlipBefore(c) && !straight && !c->rolls && c->set.slip_direction == SAM_SLIP_MID;
+  s->lags     = !straight && !s->mid_step;
+
+  SamStateNumbers(c->state, c->slip, SAM_TRIED)[TURNED] = s->mid_step;
   PetscCall(SamStateSetField(c->state, c->tractions[0], &s->pressure));
   PetscCall(SamStateSetField(c->state, c->tractions[1], &s->bound));
   PetscCall(SamStateSetField(c->state, c->tractions[2], &s->shear));
@@ -367,6 +404,7 @@ PetscErrorCode SamContactView(SamContact c)
     PetscCall(SamStateRestoreField(c->state, c->tractions[2], g, &s->shear));
     s->displacement_z = g == SAM_BEFORE ? NULL : SamStateGetField(c->state, c->displacements[0], g);
     s->displacement_t = g == SAM_BEFORE ? NULL : SamStateGetField(c->state, c->displacements[1], g);
+    s->aside          = g == SAM_COMMITTED && n[c->slip + TURNED] ? SamStateGetField(c->state, c->aside, g) : NULL;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -43,15 +43,17 @@ static void AddChange(double before, double now, double next, Changes *c)
 }
 
 /*
-  The length alpha of the change to the next step along the last change, in units of the last change; 0 when the
-  prescribed values do not change in nearly the same proportions.
+  The length of the change to the next step along the last change, in units of the last change, or 0. `straight`: the
+  prescribed values change in nearly the same proportions.
 */
-static double Continuation(SamContact contact, const SamControl *before, const SamControl *now, const SamControl *next)
+static double Continuation(SamContact contact, const SamControl *before, const SamControl *now, const SamControl *next,
+                           PetscBool *straight)
 {
   const SamProblem p = contact->problem;
   Changes          c = {0, 0, 0};
   double           alpha, across;
 
+  *straight = PETSC_FALSE;
   if (SamProblemGetRolled(p, now, NULL) != 0 || SamProblemGetRolled(p, next, NULL) != 0)
     return 0; /* the slip moves, whatever changes */
   for (PetscInt n = 0; n < SAM_COMPONENTS; n++) {
@@ -66,9 +68,10 @@ static double Continuation(SamContact contact, const SamControl *before, const S
     if (!one->bounds) AddChange(SamControlGet(before, one), SamControlGet(now, one), SamControlGet(next, one), &c);
   }
   if (c.old_old == 0 || c.old_new <= 0) return 0;
-  alpha  = c.old_new / c.old_old;
-  across = c.new_new - alpha * c.old_new; /* square of the part across the last change */
-  return (across <= PREDICT_ACROSS * PREDICT_ACROSS * c.new_new && alpha <= PREDICT_FARTHEST) ? alpha : 0;
+  alpha     = c.old_new / c.old_old;
+  across    = c.new_new - alpha * c.old_new; /* square of the part across the last change */
+  *straight = across <= PREDICT_ACROSS * PREDICT_ACROSS * c.new_new && alpha <= PREDICT_FARTHEST;
+  return PetscMin(alpha, PREDICT_FARTHEST);
 }
 
 /* ---- steps that do not continue each other ---- */
@@ -268,11 +271,12 @@ PetscErrorCode SamContactPredict(SamContact c, const SamControl *control, SamSte
 {
   const SamSolution *now = &c->generation[SAM_COMMITTED], *before = &c->generation[SAM_BEFORE];
   double             alpha = 0;
-  PetscBool          found = PETSC_FALSE, near = IsNear(c, control);
+  PetscBool          found = PETSC_FALSE, near = IsNear(c, control), straight = PETSC_FALSE;
 
   PetscFunctionBegin;
   *start = (SamStepStart){.pressure = PETSC_FALSE};
-  if (SamContactGetSteps(c) > 1 && c->set.warm_start) alpha = Continuation(c, &before->control, &now->control, control);
+  if (SamContactGetSteps(c) > 1) start->along = Continuation(c, &before->control, &now->control, control, &straight);
+  if (straight && c->set.warm_start) alpha = start->along;
   for (PetscInt k = 0; k < 3; k++) {
     const PetscInt n = SamComponentsOf[SAM_BALANCE_TANGENTIAL][k];
 

@@ -322,6 +322,8 @@ static PetscErrorCode Solve(SamContact c, PetscBool same_pressure, SamStep *step
                       .s             = &c->generation[SAM_TRIED],
                       .committed     = SamContactBefore(c),
                       .before        = SamContactSlipBefore(c),
+                      .earlier       = &c->generation[SAM_BEFORE],
+                      .aside         = c->aside,
                       .displacements = {c->displacements[0], c->displacements[1]},
                       .counts        = c->counts,
                       .rolling       = c->rolling,

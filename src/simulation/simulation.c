@@ -143,22 +143,10 @@ static PetscErrorCode Prepare(SamSimulation s, const SamOptions *from)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Steps in pieces have the order that their estimate assumes, unless the user wants another one. */
-static PetscErrorCode SlipAtMidStep(SamContact contact)
-{
-  SamContactSettings set = SamContactGetSettings(contact);
-
-  PetscFunctionBegin;
-  if (set.slip_direction == SAM_SLIP_AUTO) set.slip_direction = SAM_SLIP_MID;
-  PetscCall(SamContactSetSettings(contact, &set));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode SamSimulationSetUp(SamSimulation s, const SamOptions *from)
 {
   PetscFunctionBegin;
   PetscCall(SamSetupCreateContact(&s->setup, from));
-  if (s->step_rtol > 0) PetscCall(SlipAtMidStep(s->setup.contact));
   if (s->history && !SamPrintHelp()) PetscCall(Prepare(s, from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

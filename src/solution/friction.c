@@ -6,28 +6,22 @@
 
 /* What of a step is needed, and where it goes, or is added to; NULL: not wanted. */
 typedef struct {
-  SamValues v, before;
-  double   *path, *pressed, *work;
+  double *path, *pressed, *work;
 } Fields;
 
 static void FrictionRow(const Fields *f, const SamIncrement *increment, ptrdiff_t first)
 {
-  const double *p = f->v.p, *b = f->v.b, *q = f->v.q, *p_before = f->before.p, *b_before = f->before.b;
   const double *sx = increment->row[0], *sy = increment->row[1];
 
   for (PetscInt i = 0; i < increment->grid->nx; i++) {
-    const ptrdiff_t k = first + i, l = k + f->v.cells;
+    const ptrdiff_t k      = first + i;
     const double    length = hypot(sx[i], sy[i]);
-    PetscBool       slips  = SamCellStateOf(p[k], q[k], q[l], b[k]) == SAM_CELL_SLIP;
-    double          bound = 0, start = 0.5;
+    double          share[2];
 
-    if (increment->mid_step) slips = SamIncrementGetBound(increment, k, &bound, &start);
+    (void)SamIncrementGetSlide(increment, k, share);
     if (f->path) f->path[k] = length;
-    if (f->pressed) f->pressed[k] = slips ? (start * p_before[k] + (1 - start) * p[k]) * length : 0;
-    if (f->work && increment->mid_step)
-      f->work[k] = slips ? bound * length : 0;
-    else if (f->work)
-      f->work[k] = slips && b[k] > 0 ? -(q[k] * sx[i] + q[l] * sy[i]) * 0.5 * (b_before[k] + b[k]) / b[k] : 0;
+    if (f->pressed) f->pressed[k] = SamIncrementMix(share, increment->at_before.p, increment->at_now.p, k) * length;
+    if (f->work) f->work[k] = SamIncrementMix(share, increment->at_before.b, increment->at_now.b, k) * length;
   }
 }
 
@@ -85,15 +79,12 @@ PetscErrorCode SamSolutionComputeRolling(SamProblem problem, const SamSolution *
 PetscErrorCode SamSolutionComputeFriction(SamProblem problem, const SamSolution *last, const SamSolution *s, Vec path,
                                           Vec pressed, Vec work)
 {
-  const SamSolution *before = last ? last : s;
-  SamIncrement       increment;
-  Fields             f;
-  const SamGrid      grid = SamProblemGetGrid(problem);
+  SamIncrement  increment;
+  Fields        f;
+  const SamGrid grid = SamProblemGetGrid(problem);
 
   PetscFunctionBegin;
   PetscCall(SamIncrementCreate(problem, last, s, &increment));
-  PetscCall(SamValuesGet(s, &f.v));
-  PetscCall(SamValuesGet(before, &f.before));
   PetscCall(GetOptional(path, &f.path));
   PetscCall(GetOptional(pressed, &f.pressed));
   PetscCall(GetOptional(work, &f.work));
@@ -104,8 +95,6 @@ PetscErrorCode SamSolutionComputeFriction(SamProblem problem, const SamSolution 
   PetscCall(RestoreOptional(work, &f.work));
   PetscCall(RestoreOptional(pressed, &f.pressed));
   PetscCall(RestoreOptional(path, &f.path));
-  PetscCall(SamValuesRestore(before, &f.before));
-  PetscCall(SamValuesRestore(s, &f.v));
   PetscCall(SamIncrementDestroy(&increment));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

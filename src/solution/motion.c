@@ -127,21 +127,23 @@ PetscErrorCode SamIncrementCreate(SamProblem problem, const SamSolution *before,
   PetscCall(PetscMalloc2(grid->nx, &s->slip[0], grid->nx, &s->slip[1]));
   PetscCall(SamRigidSet(&s->now, problem, now));
   PetscCall(VecGetArrayRead(s->v_now, &s->u_now));
+  s->solutions[1] = now;
+  s->follows_slip = SamProblemFollowsSlip(problem);
+  PetscCall(SamValuesGet(now, &s->at_now));
   if (!before) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamRigidSet(&s->before, problem, before));
   PetscCall(VecGetArrayRead(s->v_before, &s->u_before));
-  s->mid_step     = now->mid_step;
   s->solutions[0] = before;
-  s->solutions[1] = now;
   PetscCall(SamValuesGet(before, &s->at_before));
-  PetscCall(SamValuesGet(now, &s->at_now));
+  if (now->aside) PetscCall(VecGetArrayRead(now->aside, &s->aside));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamIncrementDestroy(SamIncrement *s)
 {
   PetscFunctionBegin;
-  if (s->solutions[1]) PetscCall(SamValuesRestore(s->solutions[1], &s->at_now));
+  if (s->aside) PetscCall(VecRestoreArrayRead(s->solutions[1]->aside, &s->aside));
+  PetscCall(SamValuesRestore(s->solutions[1], &s->at_now));
   if (s->solutions[0]) PetscCall(SamValuesRestore(s->solutions[0], &s->at_before));
   if (s->v_before) PetscCall(VecRestoreArrayRead(s->v_before, &s->u_before));
   PetscCall(VecRestoreArrayRead(s->v_now, &s->u_now));
@@ -150,8 +152,16 @@ PetscErrorCode SamIncrementDestroy(SamIncrement *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Whether contact is made there in the step. */
+static PetscBool Enters(const SamIncrement *s, ptrdiff_t k)
+{
+  return s->at_before.p[k] <= 0 && s->at_now.p[k] > 0;
+}
+
 void SamIncrementComputeRow(const SamIncrement *s, PetscInt j)
 {
+  const ptrdiff_t cells = s->grid->cells;
+
   for (PetscInt c = 0; c < 2; c++) {
     const ptrdiff_t k = (ptrdiff_t)c * s->grid->cells + (ptrdiff_t)j * s->grid->nx;
 
@@ -161,7 +171,18 @@ void SamIncrementComputeRow(const SamIncrement *s, PetscInt j)
     else
       (void)memset(s->scratch, 0, sizeof(*s->scratch) * (size_t)s->grid->nx);
     for (PetscInt i = 0; i < s->grid->nx; i++) s->row[c][i] = s->slip[c][i] - s->scratch[i];
+    for (PetscInt i = 0; s->aside && i < s->grid->nx; i++)
+      s->row[c][i] -= Enters(s, k + i - c * cells) ? s->aside[k + i] : 0;
   }
+}
+
+void SamIncrementOpposeRow(const SamIncrement *s, PetscInt j)
+{
+  const ptrdiff_t cells = s->grid->cells, first = (ptrdiff_t)j * s->grid->nx;
+
+  for (PetscInt c = 0; c < 2 && s->aside; c++)
+    for (PetscInt i = 0; i < s->grid->nx; i++)
+      s->row[c][i] -= Enters(s, first + i) ? 0 : s->aside[c * cells + first + i];
 }
 
 void SamIncrementTurnRow(const SamIncrement *s, PetscInt j, double *const to[2])
@@ -186,21 +207,28 @@ void SamIncrementTurnRow(const SamIncrement *s, PetscInt j, double *const to[2])
 }
 
 /*
-  A cell that slid before, too, slides at a bound between those before and after. One that stuck begins within the step,
-  and slides most at its end, where contact is left under next to no bound. Where contact is made, or left sliding, the
-  mean of the bounds is half of one: near the contact edge p goes like the square root of the distance, and without the
-  cells that are left the work would lack a part of the order of the step to 1.5.
+  A cell slides under the mean of the bounds before and after, also where contact is made or left: then the bounds of
+  all cells together are friction times N, and what slides as a whole dissipates what its loads do. One that stuck begins
+  at any time within the step: on an average under b1 - (b1 - b0)/4, b0 and b1 being the bounds before and after; where
+  it is the slip that changes the bound, under their mean, too.
 */
-PetscBool SamIncrementGetBound(const SamIncrement *s, ptrdiff_t k, double *bound, double *start)
+SamSlide SamIncrementGetSlide(const SamIncrement *s, ptrdiff_t k, double share[2])
 {
   const SamValues   *a = &s->at_before, *b = &s->at_now;
   const ptrdiff_t    l      = k + s->grid->cells;
-  const SamCellState before = SamCellStateOf(a->p[k], a->q[k], a->q[l], a->b[k]),
-                     now    = SamCellStateOf(b->p[k], b->q[k], b->q[l], b->b[k]);
+  const SamCellState now    = SamCellStateOf(b->p[k], b->q[k], b->q[l], b->b[k]);
+  SamCellState       before = SAM_CELL_OPEN;
+  SamSlide           slide  = SAM_SLIDE_NONE;
 
-  *start = now == SAM_CELL_SLIP && before == SAM_CELL_STICK ? 0 : 0.5;
-  *bound = *start * a->b[k] + (1 - *start) * b->b[k];
-  return now == SAM_CELL_SLIP || (now == SAM_CELL_OPEN && before == SAM_CELL_SLIP) ? PETSC_TRUE : PETSC_FALSE;
+  if (s->solutions[0]) before = SamCellStateOf(a->p[k], a->q[k], a->q[l], a->b[k]);
+  if (now == SAM_CELL_OPEN && before == SAM_CELL_SLIP) slide = SAM_SLIDE_LEAVES;
+  if (now == SAM_CELL_SLIP && before == SAM_CELL_SLIP) slide = SAM_SLIDE_ALWAYS;
+  if (now == SAM_CELL_SLIP && before == SAM_CELL_STICK) slide = SAM_SLIDE_BEGINS;
+  if (now == SAM_CELL_SLIP && before == SAM_CELL_OPEN) slide = s->solutions[0] ? SAM_SLIDE_ENTERS : SAM_SLIDE_FIRST;
+  share[0] = slide == SAM_SLIDE_NONE || slide == SAM_SLIDE_FIRST ? 0 : 0.5;
+  if (slide == SAM_SLIDE_BEGINS && !s->follows_slip) share[0] = 0.25;
+  share[1] = slide == SAM_SLIDE_NONE ? 0 : 1 - share[0];
+  return slide;
 }
 
 PetscErrorCode SamSolutionCreateSeparation(SamProblem problem, SamState state, SamGeneration generation, Vec *h)

@@ -104,7 +104,9 @@ PetscErrorCode SamSolveShear(SamSolve *w, PetscBool has_shear, PetscReal rtol, S
   if (w->pushed)
     PetscCall(SamProblemAddOffset(w->task->problem, w->task->state, &w->s->control, NULL, w->pushed, NULL));
   if (!SamProblemFollowsSlip(w->task->problem)) {
-    PetscCall(SamSolveDirection(w, has_shear, rtol, effort));
+    SamSolverSetEffort(solver, rtol, effort);
+    PetscCall(SamSolveTangential(w, has_shear));
+    SamSolverSetEffort(solver, 0, SAM_EFFORT_FULL);
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   SamSolverSetEffort(solver, SHEAR_PART * rtol, effort);

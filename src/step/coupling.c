@@ -54,6 +54,7 @@ typedef struct {
   PetscReal least;   /* the least error so far */
   PetscInt  waits;   /* passes since it was found */
   PetscReal sharper; /* factor on the tolerance of the shear */
+  PetscBool rough;   /* the slip's direction is not known yet */
 } Passes;
 
 /* Steps 1 and 2. The first pass starts from what the start has a guess of, later ones from the last one. */
@@ -66,7 +67,8 @@ static PetscErrorCode Solve(Passes *p, PetscInt pass)
   const PetscBool has_shear = pass > 1 ? (p->error <= NEAR && !p->stuck) : start->shear;
   const PetscBool brief     = p->error > EXACT && p->stuck < PATIENCE;
   const PetscReal error     = PetscMin(p->error, FIRST);
-  const PetscReal rtol      = p->sharper * PetscMax(TANGENTIAL_FINAL * PetscMin(p->rtol[0], p->rtol[1]), error);
+  const PetscReal rtol      = p->sharper * PetscMax(TANGENTIAL_FINAL * PetscMin(p->rtol[0], p->rtol[1]),
+                                               p->rough ? PetscMin(error, SAM_ROUGH * p->rtol[1]) : error);
   const SamEffort effort    = brief ? SAM_EFFORT_BRIEF : SAM_EFFORT_FULL;
   SamSolverReason reason;
   PetscReal       left;
@@ -85,6 +87,7 @@ static PetscErrorCode Solve(Passes *p, PetscInt pass)
     PetscCall(SamSolveSkipTangential(s));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
+  if (pass == 1) PetscCall(SamSolveSetAside(s, PETSC_FALSE));
   PetscCall(SamSolveShear(s, has_shear, rtol, effort));
   reason    = SamSolverGetReason(SamTangentialAsSolver(s->task->tangential));
   p->stuck  = brief && reason == SAM_SOLVER_DIVERGED_ITS ? p->stuck + 1 : 0;
@@ -170,6 +173,12 @@ static PetscErrorCode Pass(void *context, PetscInt pass, Vec lift, SamPassEnd *e
   if (step->status != SAM_STATUS_CONVERGED) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Compare(p, pass, &solved));
   *end = solved ? SAM_PASS_SOLVED : SAM_PASS_GOES_ON;
+  if (p->rough && !p->slides && !p->stuck && p->error <= SAM_ROUGH * p->rtol[1]) {
+    PetscCall(SamSolveSetAside(p->s, PETSC_TRUE));
+    p->rough = PETSC_FALSE;
+    p->least = INFINITY;
+    *end     = SAM_PASS_RESTARTS;
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -194,8 +203,13 @@ PetscErrorCode SamSolveCoupled(SamSolve *s)
   const SamSolver     normal = SamNormalAsSolver(task->normal), tangential = SamTangentialAsSolver(task->tangential);
   const SamFixedPoint iteration = {.components = 1, .most = task->set->coupling_max_it, .pass = Pass};
   const PetscBool     shear     = task->start.shear;
-  Passes     p = {.s = s, .looks = PETSC_TRUE, .error = shear ? GUESS : FIRST, .least = INFINITY, .sharper = 1};
-  SamPassEnd end;
+  Passes              p         = {.s       = s,
+                                   .looks   = PETSC_TRUE,
+                                   .error   = shear ? GUESS : FIRST,
+                                   .least   = INFINITY,
+                                   .sharper = 1,
+                                   .rough   = s->task->before && !s->task->rolls};
+  SamPassEnd          end;
 
   PetscFunctionBegin;
   PetscCall(SamSolverGetTolerances(normal, &p.rtol[0], NULL));

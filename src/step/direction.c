@@ -1,104 +1,218 @@
 /*
-  The direction of the slip in a step.
+  The slip in a step: its direction, and where it begins.
 
-  Where a point slides, its slip velocity is opposite to the shear at every instant, while |q| = b. From one step to the
-  next, from q0 under b0 to q under b, this has to be integrated. With r = q/b, the slip ds of the step is opposite to
+  Direction. Where a point slides, its slip velocity is opposite to the shear at every instant, while |q| = b. From one
+  step to the next, from q0 under b0 to q under b, this has to be integrated. With r = q/b, the slip ds of the step is
+  opposite to
 
     at the end of the step   r
     at mid step              r + w r0,  w = max(0, r0.(r0 + r)/2)
 
-  Order of the error. Let q turn by the angle a in a step. A slip opposite to r is that of a shear half a step ahead:
-  ds is turned by a/2. So the solution itself, and with it the energy, are wrong to first order in the steps wherever
-  the shear turns, as under T_x and T_y out of phase; the mean of the bounds before and after in the energy (numbers.c)
-  does not help. Where it does not turn, both rules agree, the solution has no error of its own, and with that mean the
-  energy is second order. r + r0 bisects the angle: its error is of third order in a step, of second order in all, and
-  w is 1 up to a^2 where a cell slides all the time. Where a cell stuck before, its slip begins within the step in a
-  direction between r0 and r; there are few such cells, in proportion to the step, so that any w does to second order.
-  A w that vanishes with r0 and at a reversal, where r0 = -r, keeps the rule continuous, and its slope by the angle at
-  most 1/2, which the iteration below needs. At the end |q| = b holds with both rules, unlike with the midpoint rule of
+  Let q turn by the angle a in a step. A slip opposite to r is that of a shear half a step ahead: ds is turned by a/2. So
+  the solution itself, and with it the energy, are wrong to first order in the steps wherever the shear turns, as under
+  T_x and T_y out of phase. Where it does not turn, both rules agree. r + r0 bisects the angle: its error is of third
+  order in a step, of second order in all, and w is 1 up to a^2 where a cell slides all the time. Where a cell stuck
+  before, its slip begins within the step in a direction between r0 and r; there are few such cells, in proportion to the
+  step, so that any w does to second order. At the end |q| = b holds with both rules, unlike with the midpoint rule of
   plasticity, which holds it at mid step only, and rings where stick turns to slip.
 
-  At mid step the work is the mean of the bounds times |ds|, also where contact was left (solutionimpl.h).
+  Where it begins. A cell that comes into contact within the step has moved freely before. Held at its place before the
+  step it would take too much shear, of the first order in the step. Where the whole contact sticks and N grows, the
+  shear grows like the pressure, dq = tau dp with tau = dT/dN, whatever the shape (Ciavarella 1998, Jaeger 1998). Then
+  surfaces that are g0 apart before the step have moved over each other until they touch by
+
+    -kappa tau' g0,  tau' = tau min(1, mu/|tau|)
+
+  kappa being the ratio of the tangential to the normal compliance. Slip in the step begins there. If contact has not
+  grown by N, or there was none, this is zero, as at a place that contact leaves. Of bodies with layers or a shape of
+  their own kappa is that of the materials at the surface. Where the bodies tilt as well, it counts by the part of the
+  pressure's growth at the edge that N makes. Of what M_z, tilting and bulk stress move there, nothing is known: their
+  error stays of first order. So is what the pressure of dissimilar bodies moves, which is the
+  other way: from a Dundurs' constant of MOST_DUNDURS on both are left out, as they cancel in part.
 
   Algorithm. R(q) turns r + w r0 to r; so R ds is opposite to r, and with t = ds - R ds known, the tangential problem
-  with the offset lessened by t is that with the rule at the end. A pass:
-    1. The tangential problem with t, from the last shear on, gives q and ds. From the second pass on it is solved to a
-       part of the last change of t only.
-    2. If t is ds - R(q) ds up to a part of the tolerance, the step is solved.
-    3. Else Anderson's method makes the next t of this and the last passes (fixedpoint.c).
-  Plain passes multiply the error by about the larger of tan(a/2) and 1/2. If they do not converge, the step keeps the
-  rule at its end. The direction of a step that repeats one of the cycle before starts from that (stepcache.c).
+  with the offset lessened by t is that with the rule at the end.
+    1. The tangential problem with t of the step before, times the square of the ratio of the steps, gives q and ds; its
+       tolerance is of second order in a step.
+    2. t = ds - R(q) ds of the cells that slide. Its error is of second order in the step, relative to ds.
+    3. The tangential problem with this t, from that q on.
+  Of dissimilar bodies 1 and 3 are the passes of coupling.c. While all loads lie on a line, step 3 is all: the shear does
+  not turn, but for what Poisson's ratio makes of it across, whose work cancels. What cells have moved by until contact
+  is made is known with the loads: if these are found, after step 1.
 
   References: M. Ortiz, E. P. Popov, Accuracy and stability of integration algorithms for elastoplastic constitutive
-  relations, Int. J. Numer. Methods Eng. 21 (1985) 1561-1576; the sources of fixedpoint.c.
+  relations, Int. J. Numer. Methods Eng. 21 (1985) 1561-1576; M. Ciavarella, The generalized Cattaneo partial slip plane
+  contact problem, Int. J. Solids Struct. 35 (1998) 2349-2378; J. Jaeger, A new principle in contact mechanics, J.
+  Tribol. 120 (1998) 677-684.
 */
 #include "stepimpl.h"
+#include <math.h>
+#include <petsam/private/bodyimpl.h>
+#include <petsam/private/elasticity.h>
+#include <petsam/private/state.h>
 
-#define PASSES 50
-/* Parts of the tolerance to which t, and the tangential problem of a pass, are solved: the check adds both. */
-#define TURN_PART  0.3
-#define SHEAR_PART 0.7
-/* Part of the tolerance that a t may leave over which the problem was solved to all of it. */
-#define REST 0.05
-/* The part of the last change of t to which the tangential problem is solved. */
-#define CHANGE_PART 0.03
+/* Largest size of Dundurs' constant of the surfaces for which shear alone says how they move over each other. */
+#define MOST_DUNDURS 0.15
 
-typedef struct {
-  SamSolve *w;
-  PetscBool has_shear;
-  SamEffort effort;
-  PetscReal rtol, tolerance; /* of the step, and of the tangential problem of the next pass */
-} Passes;
-
-/* Steps 1 and 2. A tangential problem that is not solved ends the passes. */
-static PetscErrorCode Pass(void *context, PetscInt pass, Vec found, SamPassEnd *end)
+/* Whether contact there was before grows with N, and shear says how the surfaces move where it is made. */
+static PetscBool Grows(SamSolve *w)
 {
-  Passes *const   p      = (Passes *)context;
-  SamSolve *const w      = p->w;
-  const SamSolver solver = SamTangentialAsSolver(w->task->tangential);
-  PetscReal       self, change;
+  const SamSolution *before = w->task->before;
+  const SamPair      pair   = SamElasticityGetPair(w->task->elasticity);
+
+  return before && !w->task->rolls && before->load[SAM_COMPONENT_N] > 0 &&
+         w->s->load[SAM_COMPONENT_N] > before->load[SAM_COMPONENT_N] &&
+         !(w->task->coupled && fabs((double)pair->dundurs) > MOST_DUNDURS);
+}
+
+PetscBool SamSolveIsTwice(SamSolve *w)
+{
+  return w->s->mid_step || (Grows(w) && !(w->tangential.force[0] && w->tangential.force[1]));
+}
+
+/* kappa of x or y. */
+static double RatioOfCompliances(SamSolve *w, int c)
+{
+  const SamPair pair = SamElasticityGetPair(w->task->elasticity);
+
+  return (double)((pair->shear + (w->task->traits.plane ? c : (PetscReal)0.5) * pair->shear_xx) / pair->normal);
+}
+
+/* How the bodies approach each other in the step: uniformly, about the centre of the pressure before, and by tilting. */
+typedef struct {
+  double center[2], uniform, tilt[2];
+} Approach;
+
+static Approach ApproachOf(const SamSolution *before, const SamSolution *now)
+{
+  double   change[SAM_COMPONENTS];
+  Approach a;
+
+  for (PetscInt k = 0; k < SAM_COMPONENTS; k++) change[k] = (double)(now->rigid[k] - before->rigid[k]);
+  a.center[0] = (double)(before->load[SAM_COMPONENT_MY] / before->load[SAM_COMPONENT_N]);
+  a.center[1] = -(double)(before->load[SAM_COMPONENT_MX] / before->load[SAM_COMPONENT_N]);
+  a.tilt[0]   = change[SAM_COMPONENT_MY];
+  a.tilt[1]   = -change[SAM_COMPONENT_MX];
+  a.uniform   = change[SAM_COMPONENT_N] + a.tilt[0] * a.center[0] + a.tilt[1] * a.center[1];
+  return a;
+}
+
+/* The part of the pressure's change at the contact edge near a point that N makes: of a tilted punch. */
+static double PartOfN(const Approach *a, double x, double y)
+{
+  const double tilt = a->tilt[0] * (x - a->center[0]) + a->tilt[1] * (y - a->center[1]);
+
+  return a->uniform > 0 ? a->uniform / (a->uniform + 2 * PetscMax(0, tilt)) : 0;
+}
+
+/* Sets what the surfaces have moved by in cells that come into contact, by the loads, given or `found`. */
+static PetscErrorCode SetEntering(SamSolve *w, PetscBool found, Vec aside)
+{
+  const SamSolution *before = w->task->before, *s = w->s;
+  const SamGrid      grid     = w->task->grid;
+  const PetscInt     cells    = grid->cells;
+  const Approach     approach = ApproachOf(before, s);
+  const double       kappa[2] = {RatioOfCompliances(w, 0), RatioOfCompliances(w, 1)};
+  double             tau[2], size, *to;
+  const double      *p0, *p, *b, *g;
+  Vec                gap;
 
   PetscFunctionBegin;
-  SamSolverSetEffort(solver, p->tolerance, p->effort);
-  PetscCall(SamSolveTangential(w, p->has_shear || pass > 1));
-  *end = SAM_PASS_FAILED;
-  if (SamSolverGetReason(solver) < 0) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamSolveDisplace(w));
-  PetscCall(SamSolveGetTurn(w, found));
-  PetscCall(SamElasticityGetSelfInfluence(w->task->elasticity, NULL, &self));
-  PetscCall(SamSolveGetChange(w, w->turn, found, self, &change, NULL));
-  if (change <= (p->tolerance > SHEAR_PART * p->rtol ? REST : TURN_PART) * p->rtol) {
-    *end         = p->tolerance <= p->rtol ? SAM_PASS_SOLVED : SAM_PASS_REPEATS;
-    p->tolerance = SHEAR_PART * p->rtol;
-  } else {
-    *end         = SAM_PASS_GOES_ON;
-    p->tolerance = PetscMax(SHEAR_PART * p->rtol, CHANGE_PART * change);
+  for (PetscInt c = 0; c < 2; c++) {
+    const PetscInt  k   = SamComponentsOf[SAM_BALANCE_TANGENTIAL][c];
+    const PetscReal now = found ? s->load[k] : (w->tangential.force[c] ? w->tangential.load[c] : before->load[k]);
+
+    tau[c] = (double)((now - before->load[k]) / (s->load[SAM_COMPONENT_N] - before->load[SAM_COMPONENT_N]));
   }
+  size = hypot(tau[0], tau[1]);
+  if (size == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamGridCreateVec(w->task->grid, 1, &gap));
+  PetscCall(SamSolutionComputeGap(w->task->problem, before, w->separation, gap));
+  PetscCall(VecGetArrayRead(gap, &g));
+  PetscCall(VecGetArrayRead(before->pressure, &p0));
+  PetscCall(VecGetArrayRead(s->pressure, &p));
+  PetscCall(VecGetArrayRead(s->bound, &b));
+  PetscCall(VecGetArray(aside, &to));
+  for (PetscInt k = 0; k < cells; k++) {
+    double part;
+
+    if (p0[k] > 0 || p[k] <= 0 || g[k] <= 0) continue;
+    part = PetscMin(1, b[k] / (p[k] * size)) *
+           PartOfN(&approach, SamGridX(grid, k % grid->nx), SamGridY(grid, grid->row_start + k / grid->nx));
+    for (int c = 0; c < 2; c++) to[k + c * cells] = -kappa[c] * tau[c] * part * g[k];
+  }
+  PetscCall(VecRestoreArray(aside, &to));
+  PetscCall(VecRestoreArrayRead(s->bound, &b));
+  PetscCall(VecRestoreArrayRead(s->pressure, &p));
+  PetscCall(VecRestoreArrayRead(before->pressure, &p0));
+  PetscCall(VecRestoreArrayRead(gap, &g));
+  PetscCall(VecDestroy(&gap));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamSolveDirection(SamSolve *w, PetscBool has_shear, PetscReal rtol, SamEffort effort)
+/* Sets t of cells that slide all the time or begin to. */
+static PetscErrorCode SetTurn(SamSolve *w, Vec aside)
 {
-  static const SamFixedPoint turn   = {.components = 2, .most = PASSES, .pass = Pass};
-  const SamSolver            solver = SamTangentialAsSolver(w->task->tangential);
-  Passes                     p = {.w = w, .has_shear = has_shear, .effort = effort, .rtol = rtol, .tolerance = rtol};
-  PetscBool                  solved = PETSC_FALSE;
-  SamPassEnd                 end;
-  SamSolverReason            reason;
+  const SamGrid grid = w->task->grid;
+  SamIncrement  increment;
+  double       *t, *to[2], share[2];
 
   PetscFunctionBegin;
-  if (w->s->mid_step) {
-    if (!w->turn) PetscCall(SamGridCreateVec(w->task->grid, 2, &w->turn));
-    PetscCall(SamSolveFixedPoint(w, &turn, &p, w->turn, &end));
-    reason = SamSolverGetReason(solver);
-    SamSolverSetEffort(solver, rtol, effort);
-    solved = end == SAM_PASS_SOLVED ||
-             reason == SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM || /* a later pass of dissimilar bodies tries again */
-             (reason == SAM_SOLVER_DIVERGED_ITS && effort == SAM_EFFORT_BRIEF);
-    if (!solved) w->s->mid_step = PETSC_FALSE;
-    if (!solved) PetscCall(VecDestroy(&w->turn));
+  PetscCall(SamSolveDisplace(w));
+  PetscCall(SamIncrementCreate(w->task->problem, w->task->before, w->s, &increment));
+  PetscCall(VecGetArray(aside, &t));
+  for (PetscInt j = 0; j < grid->rows; j++) {
+    const ptrdiff_t first = (ptrdiff_t)j * grid->nx;
+
+    for (PetscInt c = 0; c < 2; c++) to[c] = t + first + c * (ptrdiff_t)grid->cells;
+    SamIncrementComputeRow(&increment, j);
+    SamIncrementTurnRow(&increment, j, to);
+    for (PetscInt i = 0; i < grid->nx; i++) {
+      const SamSlide  slide = SamIncrementGetSlide(&increment, first + i, share);
+      const PetscBool turns = slide == SAM_SLIDE_ALWAYS || slide == SAM_SLIDE_BEGINS;
+
+      for (PetscInt c = 0; c < 2; c++) to[c][i] = turns ? increment.row[c][i] - to[c][i] : 0;
+    }
   }
-  if (!solved) PetscCall(SamSolveTangential(w, has_shear));
-  SamSolverSetEffort(solver, 0, SAM_EFFORT_FULL);
+  PetscCall(VecRestoreArray(aside, &t));
+  PetscCall(SamIncrementDestroy(&increment));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* t by that of the step before, where there was contact before that, in proportion to the square of the step. */
+static PetscErrorCode PredictTurn(SamSolve *w, Vec aside)
+{
+  const SamSolution *last  = w->task->before;
+  const double       scale = w->task->start.along * w->task->start.along;
+  const PetscInt     cells = w->task->grid->cells;
+  const double      *p, *p0, *t;
+  double            *to;
+
+  PetscFunctionBegin;
+  if (scale == 0 || !last->aside) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(VecGetArrayRead(w->task->earlier->pressure, &p));
+  PetscCall(VecGetArrayRead(last->pressure, &p0));
+  PetscCall(VecGetArrayRead(last->aside, &t));
+  PetscCall(VecGetArray(aside, &to));
+  for (PetscInt k = 0; k < 2 * cells; k++) to[k] = PetscMin(p[k % cells], p0[k % cells]) > 0 ? scale * t[k] : 0;
+  PetscCall(VecRestoreArray(aside, &to));
+  PetscCall(VecRestoreArrayRead(last->aside, &t));
+  PetscCall(VecRestoreArrayRead(last->pressure, &p0));
+  PetscCall(VecRestoreArrayRead(w->task->earlier->pressure, &p));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSolveSetAside(SamSolve *w, PetscBool solved)
+{
+  Vec aside;
+
+  PetscFunctionBegin;
+  if (!w->s->mid_step && !Grows(w)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamGridCreateVec(w->task->grid, 2, &aside));
+  if (w->s->mid_step) PetscCall((solved ? SetTurn : PredictTurn)(w, aside));
+  if (Grows(w)) PetscCall(SetEntering(w, solved, aside));
+  PetscCall(SamStateSetField(w->task->state, w->task->aside, &w->s->aside));
+  PetscCall(VecCopy(aside, w->s->aside));
+  PetscCall(VecDestroy(&aside));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,6 +1,5 @@
 /*
-  Fixed-point iterations x <- g(x) on fields with Anderson's acceleration: the driver of coupling.c, bound.c and
-  direction.c.
+  Fixed-point iterations x <- g(x) on fields with Anderson's acceleration: the driver of coupling.c and bound.c.
 
   The next x is sum t_i g(x_i) over the last iterates, with the t of sum 1 for which sum t_i (g(x_i) - x_i) is smallest.
   For a linear g that is what a Krylov method makes of it, so that an iteration with the eigenvalues +- i r, which

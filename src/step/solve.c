@@ -24,7 +24,7 @@ static PetscErrorCode Begin(const SamStepTask *task, SamStep *step, SamSolve *w)
   }
   PetscCall(PetscArraycpy(w->rigid, task->start.rigid, 3));
   PetscCall(SamSolutionCreateSeparation(task->problem, task->state, SAM_COMMITTED, &w->separation));
-  if (task->coupled || w->s->mid_step) PetscCall(SamGridCreateVec(task->grid, 2, &w->shear_product.field));
+  if (task->coupled) PetscCall(SamGridCreateVec(task->grid, 2, &w->shear_product.field));
   if (task->coupled || SamProblemHasOffset(task->problem)) {
     PetscCall(SamGridCreateVec(task->grid, 1, &w->h));
     PetscCall(SamGridCreateVec(task->grid, 2, &w->pushed));
@@ -41,7 +41,6 @@ static PetscErrorCode End(SamSolve *w)
 {
   PetscFunctionBegin;
   PetscCall(SamSolutionDestroySeparation(w->task->problem, &w->separation));
-  PetscCall(VecDestroy(&w->turn));
   PetscCall(VecDestroy(&w->slip));
   PetscCall(VecDestroy(&w->pushed));
   PetscCall(VecDestroy(&w->lift));
@@ -53,10 +52,13 @@ static PetscErrorCode End(SamSolve *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The bound, and the tangential problem with it, unless the normal one has failed. */
+/* The bound, and the tangential problem with it, twice if need be, unless the normal one has failed. */
 static PetscErrorCode SolveShear(SamSolve *w, PetscBool has_shear)
 {
-  PetscReal rtol;
+  const PetscBool     twice  = SamSolveIsTwice(w);
+  const SamCachedStep kept   = w->kept;
+  SamSolverReason     reason = SAM_SOLVER_CONVERGED_RTOL;
+  PetscReal           rtol;
 
   PetscFunctionBegin;
   PetscCall(SamSolveBound(w, w->s->bound));
@@ -66,7 +68,15 @@ static PetscErrorCode SolveShear(SamSolve *w, PetscBool has_shear)
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(SamSolverGetTolerances(SamTangentialAsSolver(w->task->tangential), &rtol, NULL));
-  PetscCall(SamSolveShear(w, has_shear, rtol, SAM_EFFORT_FULL));
+  PetscCall(SamSolveSetAside(w, PETSC_FALSE));
+  if (twice) {
+    PetscCall(SamGridCreateVec(w->task->grid, 2, &w->shear_product.field));
+    PetscCall(SamSolveShear(w, has_shear, SAM_ROUGH * rtol, SAM_EFFORT_FULL));
+    reason = SamSolverGetReason(SamTangentialAsSolver(w->task->tangential));
+    if (reason > 0) PetscCall(SamSolveSetAside(w, PETSC_TRUE));
+    w->kept = kept; /* nearer than the solution so far, where the cycle repeats itself */
+  }
+  if (reason > 0) PetscCall(SamSolveShear(w, has_shear || twice, rtol, SAM_EFFORT_FULL));
   PetscCall(SamSolveJudge(w, SAM_BALANCE_TANGENTIAL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

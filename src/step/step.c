@@ -251,7 +251,7 @@ static PetscErrorCode CreateOffset(SamSolve *w, Vec *offset)
   }
   if (w->pushed) PetscCall(VecAXPY(*offset, 1, w->pushed));
   if (strained) PetscCall(AddStrain(task->grid, &e, *offset));
-  if (w->turn) PetscCall(VecAXPY(*offset, -1, w->turn));
+  if (w->s->aside) PetscCall(VecAXPY(*offset, -1, w->s->aside));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -265,7 +265,7 @@ PetscErrorCode SamStepSetDisplacements(SamState state, const PetscInt fields[2],
 
 PetscErrorCode SamSolveDisplace(SamSolve *w)
 {
-  const PetscBool known = w->s->mid_step && w->shear_product.n[0] > 0 ? PETSC_TRUE : PETSC_FALSE;
+  const PetscBool known = w->shear_product.n[0] > 0 ? PETSC_TRUE : PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(SamStepSetDisplacements(w->task->state, w->task->displacements, w->s));
@@ -277,45 +277,6 @@ PetscErrorCode SamSolveDisplace(SamSolve *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamSolveGetTurn(SamSolve *w, Vec turn)
-{
-  const SamGrid grid = w->task->grid;
-  SamIncrement  increment;
-  double       *t, *to[2];
-
-  PetscFunctionBegin;
-  PetscCall(SamIncrementCreate(w->task->problem, w->task->before, w->s, &increment));
-  PetscCall(VecGetArrayWrite(turn, &t));
-  for (PetscInt j = 0; j < grid->rows; j++) {
-    for (PetscInt k = 0; k < 2; k++) to[k] = t + (ptrdiff_t)j * grid->nx + (ptrdiff_t)k * grid->cells;
-    SamIncrementComputeRow(&increment, j);
-    SamIncrementTurnRow(&increment, j, to);
-    for (PetscInt k = 0; k < 2; k++)
-      for (PetscInt i = 0; i < grid->nx; i++) to[k][i] = increment.row[k][i] - to[k][i];
-  }
-  PetscCall(VecRestoreArrayWrite(turn, &t));
-  PetscCall(SamIncrementDestroy(&increment));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Takes t of direction.c from a kept step and its product, and lessens the offset by it. */
-static PetscErrorCode GuessDirection(SamSolve *w, SamCachedStep kept, Vec shear, const SamProduct *product, Vec offset)
-{
-  const Vec own = w->s->shear;
-
-  PetscFunctionBegin;
-  PetscCall(SamStepSetDisplacements(w->task->state, w->task->displacements, w->s));
-  PetscCall(VecCopy(product->field, w->s->displacement_t));
-  if (w->pushed) PetscCall(VecAXPY(w->s->displacement_t, 1, w->pushed));
-  SamBalanceStore(&w->tangential, w->s->load, w->s->rigid);
-  SamCachedStepGetMotion(kept, w->task->before, w->s->rigid);
-  w->s->shear = shear;
-  PetscCall(SamSolveGetTurn(w, w->turn));
-  w->s->shear = own;
-  PetscCall(VecAXPY(offset, -1, w->turn));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /*
   From the same step one cycle before: the shear under the bound, if that start is near. `solved`: it was, and the
   tangential problem is.
@@ -323,6 +284,9 @@ static PetscErrorCode GuessDirection(SamSolve *w, SamCachedStep kept, Vec shear,
 static PetscErrorCode SolveFromKept(SamSolve *w, SamCachedStep kept, Vec offset, SamBalance *balance, PetscBool *solved)
 {
   const SamStepTask *task    = w->task;
+  const SamSolver    solver  = SamTangentialAsSolver(task->tangential);
+  const SamEffort    effort  = solver->effort;
+  const PetscReal    enough  = solver->enough;
   SamProduct         product = {.rounding = 0};
   Vec                shear;
 
@@ -332,15 +296,14 @@ static PetscErrorCode SolveFromKept(SamSolve *w, SamCachedStep kept, Vec offset,
   PetscCall(SamGridCreateVec(task->grid, 2, &shear));
   PetscCall(SamCachedStepGetShear(kept, task->elasticity, w->task->before, w->s->bound, shear, &product, solved));
   if (*solved) {
-    if (w->s->mid_step) PetscCall(GuessDirection(w, kept, shear, &product, offset));
-    SamSolverSetEffort(SamTangentialAsSolver(task->tangential), 0, SAM_EFFORT_NEAR);
+    SamSolverSetEffort(solver, enough, SAM_EFFORT_NEAR);
     PetscCall(SamTangentialSolveKeeping(task->tangential, w->s->bound, offset, balance, PETSC_TRUE, shear, &product));
-    SamSolverSetEffort(SamTangentialAsSolver(task->tangential), 0, SAM_EFFORT_FULL);
-    *solved = SamSolverGetReason(SamTangentialAsSolver(task->tangential)) > 0 ? PETSC_TRUE : PETSC_FALSE;
-    if (!*solved) PetscCall(Count(SamTangentialAsSolver(task->tangential), w->counts + SAM_COUNT_TANGENTIAL));
+    SamSolverSetEffort(solver, enough, effort);
+    *solved = SamSolverGetReason(solver) > 0 ? PETSC_TRUE : PETSC_FALSE;
+    if (!*solved) PetscCall(Count(solver, w->counts + SAM_COUNT_TANGENTIAL));
   }
   if (*solved) PetscCall(SamVecCopyNonzero(shear, w->s->shear));
-  if (*solved && w->s->mid_step) {
+  if (*solved && w->shear_product.field) {
     PetscCall(VecDestroy(&w->shear_product.field));
     w->shear_product = product;
     product.field    = NULL;

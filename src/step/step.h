@@ -18,6 +18,7 @@ enum {
 typedef struct {
   PetscBool     pressure, shear; /* whether the tried solution holds a guess of the pressure; of the shear */
   double        rigid[3];        /* guess of the tangential rigid displacements (m, m, rad) */
+  double        along;           /* part of the step's change along that of the last step, in units of it; >= 0 */
   SamCachedStep kept;            /* the same step one cycle before; NULL: none */
 } SamStepStart;
 
@@ -35,7 +36,9 @@ typedef struct {
   SamSolution              *s;                /* the tried solution, with its control and tractions */
   const SamSolution        *committed;        /* from which the step continues; NULL in the first step */
   const SamSolution        *before;           /* the same if its slip is continued; else NULL */
+  const SamSolution        *earlier;          /* one step before that, whose tractions are known */
   PetscInt                  displacements[2]; /* fields in the state: u_z, u_t */
+  PetscInt                  aside;            /* field in the state */
   PetscInt                  counts, rolling;  /* numbers in the state: of the solvers, of rolling.c */
   PetscObjectState          revision;         /* of the problem */
   PetscBool                 coupled;          /* pressure and shear depend on each other */

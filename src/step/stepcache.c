@@ -56,9 +56,9 @@ struct _n_SamCachedStep {
   double           bytes, cells;    /* on all ranks */
   PetscObjectState revision;        /* of the problem that the pressure was solved with */
   SamControl       control;
-  double           load[3], rigid[3], moved[3]; /* normal; moved: the change of the tangential rigid displacements */
-  double           sign, weight;                /* of the changes in the step that is to come; the rest is `other`'s */
-  SamCachedStep    other;                       /* the next older such step; NULL: none */
+  double           load[3], rigid[3]; /* normal */
+  double           sign, weight;      /* of the changes in the step that is to come; the rest is `other`'s */
+  SamCachedStep    other;             /* the next older such step; NULL: none */
 };
 
 typedef struct {
@@ -386,11 +386,6 @@ PetscErrorCode SamStepCacheKeep(SamStepCache r, const SamSolution *before, const
   PetscCall(KeepChange(r, e->kept, before->shear, now->shear, &e->kept->unit[0], &e->kept->change[SHEAR_X]));
   PetscCall(KeepChange(r, e->kept, before->displacement_t, now->displacement_t, &e->kept->unit[1],
                        &e->kept->change[PRODUCT_X]));
-  for (PetscInt c = 0; c < 3; c++) {
-    const PetscInt n = SamComponentsOf[SAM_BALANCE_TANGENTIAL][c];
-
-    e->kept->moved[c] = now->rigid[n] - before->rigid[n];
-  }
   e->kept->revision = revision;
   e->kept->control  = now->control;
   if (pressure) PetscCall(KeepPressure(r, e->kept, now));
@@ -447,19 +442,6 @@ static double TrimRow(PetscInt nx, PetscInt first, PetscInt last, const double b
     qx[i] = qy[i] = 0;
   }
   return lost;
-}
-
-void SamCachedStepGetMotion(SamCachedStep kept, const SamSolution *now, PetscReal rigid[])
-{
-  const SamCachedStep parts[2] = {kept, kept->other};
-
-  for (PetscInt c = 0; c < 3; c++) {
-    const PetscInt k = SamComponentsOf[SAM_BALANCE_TANGENTIAL][c];
-
-    rigid[k] = now->rigid[k];
-    for (int n = 0; n < 2 && parts[n]; n++)
-      rigid[k] += (n ? 1 - kept->weight : kept->weight) * parts[n]->sign * parts[n]->moved[c];
-  }
 }
 
 PetscErrorCode SamCachedStepGetShear(SamCachedStep kept, SamElasticity elasticity, const SamSolution *now, Vec bound,

@@ -36,13 +36,11 @@ PETSC_INTERN PetscErrorCode SamStepCacheKeep(SamStepCache cache, const SamSoluti
   SamCachedStepGetPressure - that pressure (Pa), with its normal loads and rigid displacements. Not collective.
   SamCachedStepGetShear - a start of the shear (Pa), zero outside of the bound, and its product with the operator (m),
   for a step after the solution `now`. `found`: the contact is where it was. Collective.
-  SamCachedStepGetMotion - the tangential rigid displacements, among all six, that belong to this shear. Not collective.
 */
 PETSC_INTERN PetscBool      SamCachedStepHasPressure(SamCachedStep kept, const SamControl *control,
                                                      PetscObjectState revision);
 PETSC_INTERN PetscErrorCode SamCachedStepGetPressure(SamCachedStep kept, SamGrid grid, SamSolution *solution);
 PETSC_INTERN PetscErrorCode SamCachedStepGetShear(SamCachedStep kept, SamElasticity elasticity, const SamSolution *now,
                                                   Vec bound, Vec shear, SamProduct *product, PetscBool *found);
-PETSC_INTERN void           SamCachedStepGetMotion(SamCachedStep kept, const SamSolution *now, PetscReal rigid[]);
 
 #endif

@@ -18,8 +18,7 @@ typedef struct {
   double            *counts;             /* of the solvers, in the state */
   Vec                separation;         /* of the bodies as they were after the step before */
   Vec                slip;               /* the length of the slip of this step, by the last shear; NULL: none yet */
-  SamProduct         shear_product;      /* C q of the tried solution; coupled, or at mid step only */
-  Vec                turn;               /* at mid step: t of direction.c, m, two components; NULL: zero */
+  SamProduct         shear_product;      /* C q of the tried solution; coupled, or solved twice only */
   /* coupled, or with an offset, only */
   Vec h;      /* separation plus lift plus offset */
   Vec pushed; /* tangential displacement by pressure and offset, set by SamSolveShear() */
@@ -42,8 +41,6 @@ PETSC_INTERN PetscErrorCode SamSolveTangential(SamSolve *solve, PetscBool has_sh
 PETSC_INTERN PetscErrorCode SamSolveSkipTangential(SamSolve *solve);
 /* SamSolveDisplace - gives the tried solution its tangential displacement by shear and pressure. Collective. */
 PETSC_INTERN PetscErrorCode SamSolveDisplace(SamSolve *solve);
-/* SamSolveGetTurn - ds - R(q) ds of direction.c, by the tried shear and displacement. Collective. */
-PETSC_INTERN PetscErrorCode SamSolveGetTurn(SamSolve *solve, Vec turn);
 /* SamSolveJudge - records in the step whether the last solve of a problem failed. Collective. */
 PETSC_INTERN PetscErrorCode SamSolveJudge(SamSolve *solve, SamBalanceKind kind);
 
@@ -81,15 +78,18 @@ PETSC_INTERN PetscErrorCode SamSolveGetChange(SamSolve *solve, Vec argument, Vec
                                               PetscReal *change, PetscReal *largest);
 
 /*
-  SamSolveDirection - the tangential problem with the direction of slip that the step has, to the tolerance `rtol`
-  (direction.c). Collective.
+  SamSolveSetAside - sets `aside` of the tried solution, to whose pressure and bound it belongs: by its shear, if the
+  step has been `solved`, to a tolerance SAM_ROUGH times that of the shear (direction.c). Collective.
+  SamSolveIsTwice - whether that is needed, by the tried pressure. Not collective.
   SamSolveBound - a bound of the shear, from the pressure and the last slip. Collective.
   SamSolveShear - the tangential problem under the bound of the tried solution. A bound that follows the slip changes
   with it; `rtol` is what both are solved to then (bound.c). Collective.
   SamSolveCoupled - both problems of dissimilar bodies with friction (coupling.c). Collective.
   SamSolveRolling - the numbers of a motion in which material streams, of the solved one (rolling.c). Collective.
 */
-PETSC_INTERN PetscErrorCode SamSolveDirection(SamSolve *solve, PetscBool has_shear, PetscReal rtol, SamEffort effort);
+#define SAM_ROUGH 100
+PETSC_INTERN PetscErrorCode SamSolveSetAside(SamSolve *solve, PetscBool solved);
+PETSC_INTERN PetscBool      SamSolveIsTwice(SamSolve *solve);
 PETSC_INTERN PetscErrorCode SamSolveBound(SamSolve *solve, Vec bound);
 PETSC_INTERN PetscErrorCode SamSolveShear(SamSolve *solve, PetscBool has_shear, PetscReal rtol, SamEffort effort);
 PETSC_INTERN PetscErrorCode SamSolveCoupled(SamSolve *solve);

@@ -340,7 +340,9 @@ static void test_derivatives_of_the_bound(void **state)
 */
 static Case NewFaded(SamPair pair, double final, PetscReal rigid[SAM_COMPONENTS])
 {
-  Case       c = NewCase(pair, 40, 1.4, MU, "-normal_rtol 1e-11 -tangential_rtol 1e-10 -coupling_rtol 1e-10");
+  Case       c = NewCase(pair, 40, 1.4, MU,
+                         "-normal_rtol 1e-11 -tangential_rtol 1e-10 -coupling_rtol 1e-10 "
+                               "-slip_direction end");
   SamControl control;
   SamStep    step;
 

@@ -148,7 +148,7 @@ static void test_state_in_the_file_is_the_committed_one(void **state)
   sam_call(SamCheckpointRead(filename, other.contact, PETSC_TRUE, &parameters, 0, NULL));
   sam_call(SamContactReject(one.contact));
   AssertSameFields(&one, &other);
-  sam_assert(AssertSameStates(&one, &other) == 8);
+  sam_assert(AssertSameStates(&one, &other) == 9);
   sam_assert(PlaceOf(&one)[2] > 0 && SameNumbers(4, PlaceOf(&one), PlaceOf(&other)));
   sam_assert(KeptOf(&other, "steps") == 2 && IsGapCurrent(&one) && IsGapCurrent(&other));
   read = &SolutionOf(&other)->control;
@@ -326,14 +326,14 @@ static void test_sum_in_the_file_goes_on(void **state)
   sam_assert(!Read(&other));
   law = SamProblemGetLaw(other.problem, SAM_LAW_FRICTION_ENERGY);
   sam_assert(!law);
-  sam_assert(AssertSameStates(&one, &other) == 9 && LargestOf(&other, "slip_path") > 0);
+  sam_assert(AssertSameStates(&one, &other) == 10 && LargestOf(&other, "slip_path") > 0);
   for (int k = 2; k < 4; k++) {
     const double before = LargestOf(&other, "slip_path");
 
     SolveStep(&one, k, &a);
     SolveStep(&other, k, &b);
     AssertSameSteps(&one, &a, &other, &b);
-    sam_assert(AssertSameStates(&one, &other) == 9 && LargestOf(&other, "slip_path") > before);
+    sam_assert(AssertSameStates(&one, &other) == 10 && LargestOf(&other, "slip_path") > before);
   }
   DestroyCase(&one);
   DestroyCase(&other);

@@ -1,7 +1,5 @@
-/* The direction of the slip in a step, and the error of the dissipated energy by the length of the steps. */
+/* The slip in a step, its direction and where it begins, and the error of the dissipated energy by the steps. */
 #include "contacts.h"
-
-#define MID "-slip_direction mid"
 
 /* What a cycle of N, T_x, T_y, and M_z dissipates, the sum of the estimates, and what the balance of work lacks. */
 typedef struct {
@@ -69,40 +67,96 @@ static void test_energy_is_second_order_at_mid_step(void **state)
 
   (void)state;
   sam_on_one_rank();
-  one  = RunCycle(Dissimilar(), MID, 0.3, 0.2, 24, 1);
-  two  = RunCycle(Dissimilar(), MID, 0.3, 0.2, 24, 2);
-  many = RunCycle(Dissimilar(), MID, 0.3, 0.2, 24, 5);
+  one  = RunCycle(Dissimilar(), "", 0.3, 0.2, 24, 1);
+  two  = RunCycle(Dissimilar(), "", 0.3, 0.2, 24, 2);
+  many = RunCycle(Dissimilar(), "", 0.3, 0.2, 24, 5);
   sam_assert(Differ(two, many) < 0.4 * Differ(one, many));
   sam_assert(two.lack < 0.35 * one.lack && one.lack < 0.02);
   AssertEstimate(one, many);
   AssertEstimate(two, many);
 }
 
-/* A cycle of 24 steps has the energy of one of many, with the direction of slip at mid step only. */
+/* A cycle of 24 steps has the energy of one of many. */
 static void test_few_steps_do_for_a_cycle(void **state)
 {
-  Cycle many, few, end;
+  const Cycle many = RunCycle(Steel(), "", 0.3, 0, 24, 5), few = RunCycle(Steel(), "", 0.3, 0, 24, 1),
+              end = RunCycle(Steel(), "-slip_direction end", 0.3, 0, 24, 1);
+
+  (void)state;
+  sam_assert(Differ(few, many) < 0.02);
+  sam_assert(Differ(end, many) > 0.05);
+  AssertEstimate(few, many);
+  AssertEstimate(end, many);
+}
+
+/* The energy of a cycle in which T_x, at the angle `turn` of its plane, follows N, which varies by 80 %. */
+static Cycle RunGrowing(SamPair pair, const char *options, double turn, PetscInt rows, PetscInt steps)
+{
+  Case    c     = NewCase(pair, 24, 1.5, MU, options);
+  Cycle   cycle = {.energy = 0};
+  double  n = 0.55, x = 0;
+  SamStep step;
+
+  for (PetscInt k = 0; k <= rows; k++) {
+    const double t = 2 * PETSC_PI * (double)k / (double)rows, n1 = 0.55 * (1 + 0.8 * sin(t)),
+                 x1 = 0.6 * n1 * sin(t + 1.9);
+
+    for (PetscInt m = 1; m <= steps; m++) {
+      const double     part = (double)m / (double)steps, along = x + part * (x1 - x);
+      const SamControl next = Loads(&c, n + part * (n1 - n), cos(turn) * along, sin(turn) * along, 0);
+
+      step = Solve(&c, &next);
+      AssertGood(&step);
+      if (k) cycle.energy += NumberOf(&c, "dissipated_energy");
+    }
+    n = n1;
+    x = x1;
+  }
+  DestroyCase(&c);
+  return cycle;
+}
+
+/* Cells that come into contact late in a step have not been held from its beginning: that would be 3 to 5 % less. */
+static void test_slip_begins_with_contact(void **state)
+{
+  const Cycle many = RunGrowing(Steel(), "", 0.5, 24, 6), few = RunGrowing(Steel(), "", 0.5, 24, 1);
 
   (void)state;
   sam_on_one_rank();
-  many = RunCycle(Steel(), MID, 0.3, 0, 72, 1);
-  few  = RunCycle(Steel(), MID, 0.3, 0, 24, 1);
-  end  = RunCycle(Steel(), "-slip_direction end", 0.3, 0, 24, 1);
   sam_assert(Differ(few, many) < 0.01);
-  sam_assert(Differ(end, many) > 0.05);
 }
 
-/* The direction is that at the end of the step unless the other one is asked for; estimates differ. */
-static void test_direction_is_that_at_the_end_by_default(void **state)
+/* On a line the shear does not turn: the direction at the end of the step does, to the last bit. */
+static void test_loads_on_a_line_are_solved_once(void **state)
 {
-  const Cycle usual = RunCycle(Steel(), "", 0, 0, 12, 1), end = RunCycle(Steel(), "-slip_direction end", 0, 0, 12, 1),
-              mid = RunCycle(Steel(), MID, 0, 0, 12, 1), many = RunCycle(Steel(), MID, 0, 0, 12, 5);
+  const Cycle usual = RunGrowing(Steel(), "", 0.5, 12, 1), end = RunGrowing(Steel(), "-slip_direction end", 0.5, 12, 1);
 
   (void)state;
-  sam_assert(usual.energy == end.energy && usual.error == end.error);
-  sam_assert(Differ(mid, many) < 0.4 * Differ(end, many));
-  AssertEstimate(end, many);
-  AssertEstimate(mid, many);
+  sam_assert(usual.energy == end.energy);
+}
+
+/* Across the line, back on it after that, and with a moment. */
+static void test_loads_off_their_line_turn_the_shear(void **state)
+{
+  (void)state;
+  for (int k = 0; k < 3; k++) {
+    PetscReal energy[2];
+
+    for (int end = 0; end < 2; end++) {
+      Case       c       = NewCase(Steel(), 20, 1.5, MU, end ? "-slip_direction end" : "");
+      SamControl control = Loads(&c, 1, 0.4, 0, 0);
+      SamStep    step    = Solve(&c, &control);
+
+      control = k == 2 ? Loads(&c, 1, 0.4, 0, 0.3) : Loads(&c, 1, 0.4, 0.4, 0);
+      if (k == 0) step = Solve(&c, &control);
+      if (k == 0) control = Loads(&c, 1, 0.7, 0, 0);
+      step = Solve(&c, &control);
+      AssertGood(&step);
+      energy[end] = NumberOf(&c, "dissipated_energy");
+      DestroyCase(&c);
+    }
+    sam_assert(fabs(energy[0] / energy[1] - 1) > 0.01);
+  }
 }
 
 int main(int argc, char **argv)
@@ -110,7 +164,9 @@ int main(int argc, char **argv)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_energy_is_second_order_at_mid_step),
     cmocka_unit_test(test_few_steps_do_for_a_cycle),
-    cmocka_unit_test(test_direction_is_that_at_the_end_by_default),
+    cmocka_unit_test(test_slip_begins_with_contact),
+    cmocka_unit_test(test_loads_on_a_line_are_solved_once),
+    cmocka_unit_test(test_loads_off_their_line_turn_the_shear),
   };
 
   return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));

@@ -3,12 +3,13 @@
 
 #define STEPS 12
 
-/* Step k of a cycle: N varies by `swing` of its mean, the tangential loads about it. */
-static SamControl Step(const Case *c, PetscInt k, double swing)
+/* Step k of a cycle: N varies by `swing` of its mean, the tangential loads along a line, or `across` it, too. */
+static SamControl Step(const Case *c, PetscInt k, double swing, double across)
 {
   const double turn = 2 * PETSC_PI / STEPS * (double)(k % STEPS);
 
-  return Loads(c, 1 + swing * sin(turn), 0.5 * cos(turn), 0.1 * sin(turn), 0.05 * cos(turn));
+  return Loads(c, 1 + swing * sin(turn), 0.5 * cos(turn), 0.1 * cos(turn) + across * sin(turn),
+               0.5 * across * cos(turn));
 }
 
 /* Applications of both operators in so many cycles, those of the last cycle; all steps are good. */
@@ -16,12 +17,12 @@ typedef struct {
   double normal, tangential;
 } Work;
 
-static Work RunCycles(const Case *c, PetscInt cycles, double swing)
+static Work RunCycles(const Case *c, PetscInt cycles, double swing, double across)
 {
   Work work = {0, 0};
 
   for (PetscInt k = 0; k < cycles * STEPS; k++) {
-    const SamControl control = Step(c, k, swing);
+    const SamControl control = Step(c, k, swing, across);
     const SamStep    step    = Solve(c, &control);
 
     AssertGood(&step);
@@ -46,12 +47,12 @@ static double ShearDifference(const Case *a, const Case *b)
 }
 
 /* Runs cycles with and without memory for them, and compares the ends. */
-static void Compare(double swing, const char *memory, Work *with, Work *without)
+static void Compare(double swing, double across, const char *memory, Work *with, Work *without)
 {
   Case c = NewCase(Steel(), 31, 1.5, MU, memory), d = NewCase(Steel(), 31, 1.5, MU, "");
 
-  *with    = RunCycles(&c, 5, swing);
-  *without = RunCycles(&d, 5, swing);
+  *with    = RunCycles(&c, 5, swing, across);
+  *without = RunCycles(&d, 5, swing, across);
   sam_assert(ShearDifference(&c, &d) < 3e-4); /* the shear's tolerance, 1e-6, times the condition at the edges */
   DestroyCase(&c);
   DestroyCase(&d);
@@ -62,8 +63,18 @@ static void test_repeated_cycle_takes_half_the_products_under_constant_normal_lo
   Work with, without;
 
   (void)state;
-  Compare(0, "-cycle_memory 1e9", &with, &without);
+  Compare(0, 0, "-cycle_memory 1e9", &with, &without);
   sam_assert(with.tangential < 0.6 * without.tangential);
+}
+
+/* Where the shear turns, the step is solved twice, from there both times. */
+static void test_repeated_cycle_takes_less_where_loads_turn(void **state)
+{
+  Work with, without;
+
+  (void)state;
+  Compare(0, 0.1, "-cycle_memory 1e9", &with, &without);
+  sam_assert(with.tangential < 0.8 * without.tangential);
 }
 
 /* The second half reverses the first, and the last two half cycles tell how the next one differs. */
@@ -74,7 +85,7 @@ static void test_half_cycle_that_reverses_the_last_one_starts_from_it(void **sta
 
   (void)state;
   for (PetscInt k = 0; k < 5 * STEPS / 2; k++) {
-    const SamControl control = Step(&c, k, 0);
+    const SamControl control = Step(&c, k, 0, 0);
     SamStep          step    = Solve(&c, &control);
 
     AssertGood(&step);
@@ -94,7 +105,7 @@ static void test_repeated_pressure_is_not_solved_again(void **state)
   Work with, without;
 
   (void)state;
-  Compare(0.3, "-cycle_memory 1e9", &with, &without);
+  Compare(0.3, 0, "-cycle_memory 1e9", &with, &without);
   sam_assert(with.normal == 0 && without.normal > STEPS);
   sam_assert(with.tangential < 0.6 * without.tangential);
 }
@@ -104,7 +115,7 @@ static void test_without_room_nothing_is_kept(void **state)
   Work with, without;
 
   (void)state;
-  Compare(0.3, "-cycle_memory 100", &with, &without);
+  Compare(0.3, 0, "-cycle_memory 100", &with, &without);
   sam_assert(with.normal == without.normal && with.tangential == without.tangential);
 }
 
@@ -113,7 +124,7 @@ static void test_part_of_a_cycle_that_fits_is_used(void **state)
   Work with, without;
 
   (void)state;
-  Compare(0, "-cycle_memory 2e4", &with, &without); /* half a cycle takes about 3.5e4 */
+  Compare(0, 0, "-cycle_memory 2e4", &with, &without); /* half a cycle takes about 3.5e4 */
   sam_assert(with.tangential < 0.9 * without.tangential && with.tangential > 0.6 * without.tangential);
 }
 
@@ -132,8 +143,8 @@ static void test_steps_that_repeat_none_make_room(void **state)
     step = Solve(&d, &control);
     AssertGood(&step);
   }
-  with    = RunCycles(&c, 4, 0);
-  without = RunCycles(&d, 4, 0);
+  with    = RunCycles(&c, 4, 0, 0);
+  without = RunCycles(&d, 4, 0, 0);
   sam_assert(with.tangential < 0.6 * without.tangential);
   DestroyCase(&c);
   DestroyCase(&d);
@@ -146,7 +157,7 @@ static void test_cycle_after_another_load_has_the_same_solution(void **state)
 
   (void)state;
   for (PetscInt k = 0; k < 4 * STEPS + 5; k++) {
-    const SamControl control = k == 3 * STEPS + 4 ? Loads(&c, 1, -0.8, 0.3, 0) : Step(&c, k, 0);
+    const SamControl control = k == 3 * STEPS + 4 ? Loads(&c, 1, -0.8, 0.3, 0) : Step(&c, k, 0, 0);
     SamStep          step    = Solve(&c, &control);
 
     AssertGood(&step);
@@ -164,8 +175,8 @@ static void test_another_gap_needs_another_pressure(void **state)
   SamControl control;
 
   (void)state;
-  (void)RunCycles(&c, 3, 0.3);
-  control = Step(&c, 0, 0.3);
+  (void)RunCycles(&c, 3, 0.3, 0);
+  control = Step(&c, 0, 0.3, 0);
   (void)Try(&c, &control);
   sam_assert(NumberOf(&c, "normal_applies") == 0);
   sam_call(VecScale(c.s.h, 1.01));
@@ -181,10 +192,10 @@ static void test_reset_forgets_the_cycles(void **state)
   Case c = NewCase(Steel(), 31, 1.5, MU, "-cycle_memory 1e9"), d = NewCase(Steel(), 31, 1.5, MU, "-cycle_memory 1e9");
 
   (void)state;
-  (void)RunCycles(&c, 3, 0.3);
+  (void)RunCycles(&c, 3, 0.3, 0);
   sam_call(SamContactReset(c.contact));
-  (void)RunCycles(&c, 2, 0.3);
-  (void)RunCycles(&d, 2, 0.3);
+  (void)RunCycles(&c, 2, 0.3, 0);
+  (void)RunCycles(&d, 2, 0.3, 0);
   sam_assert(ShearDifference(&c, &d) == 0);
   DestroyCase(&c);
   DestroyCase(&d);
@@ -194,6 +205,7 @@ int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_repeated_cycle_takes_half_the_products_under_constant_normal_load),
+    cmocka_unit_test(test_repeated_cycle_takes_less_where_loads_turn),
     cmocka_unit_test(test_half_cycle_that_reverses_the_last_one_starts_from_it),
     cmocka_unit_test(test_repeated_pressure_is_not_solved_again),
     cmocka_unit_test(test_without_room_nothing_is_kept),

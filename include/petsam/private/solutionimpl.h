@@ -50,11 +50,13 @@ PETSC_INTERN PetscErrorCode SamSolutionComputeSlip(SamProblem problem, const Sam
 /*
   SamIncrement - the slip of a step: the slip of a solution minus that of the previous one (NULL: no slip so far).
   ComputeRow writes the slip (m) of the step along x and y of this rank's row j to row[0] and row[1], and that since the
-  start to slip[0] and slip[1]. Creation and destruction are collective.
+  start to slip[0] and slip[1]; where contact is made, the slip of the step begins there. Creation and destruction are
+  collective.
 
   SamIncrementTurnRow - after ComputeRow, and only where there is a solution before: turns the slip of row j by the
-  angle from the mean direction of the shear in the step to that at its end, into `to`, which may be row. For a step
-  that slips in the direction at mid step the law of friction then holds as for one with the direction at its end.
+  angle from the mean direction of the shear in the step to that at its end, into `to`. Not collective.
+  SamIncrementOpposeRow - after ComputeRow: takes from the slip of row j what the shear at the end of the step does not
+  oppose. Then the law of friction holds with that shear. Not collective.
 */
 typedef struct {
   SamGrid            grid;
@@ -62,22 +64,38 @@ typedef struct {
   Vec                v_now, v_before;
   const double      *u_now, *u_before; /* elastic displacements; u_before NULL: no slip so far */
   double            *slip[2], *row[2], *scratch;
-  const SamSolution *solutions[2];      /* before and after the step; both NULL: no slip so far */
+  const SamSolution *solutions[2];      /* before and after the step; the former NULL: no slip so far */
   SamValues          at_before, at_now; /* their values */
-  PetscBool          mid_step;          /* the slip is in the direction at mid step */
+  const double      *aside;             /* of the solution after the step; NULL: zero */
+  PetscBool          follows_slip;      /* the bound does */
 } SamIncrement;
 PETSC_INTERN PetscErrorCode SamIncrementCreate(SamProblem problem, const SamSolution *before, const SamSolution *now,
                                                SamIncrement *increment);
 PETSC_INTERN PetscErrorCode SamIncrementDestroy(SamIncrement *increment);
 PETSC_INTERN void           SamIncrementComputeRow(const SamIncrement *increment, PetscInt j);
 PETSC_INTERN void           SamIncrementTurnRow(const SamIncrement *increment, PetscInt j, double *const to[2]);
+PETSC_INTERN void           SamIncrementOpposeRow(const SamIncrement *increment, PetscInt j);
 
 /*
-  SamIncrementGetBound - of a step that slips in the direction at mid step: the bound (Pa) that the slip of this rank's
-  cell k works against, and `start`, the share in it of the bound before the step; false where the cell has not slid.
-  Not collective.
+  SamSlide - how a cell slid in a step: not at all; all the time; from some time on; since contact was made; until it
+  was left; in the first step.
+  SamIncrementGetSlide - how this rank's cell k slid, and, if it did, the shares of the bounds (or pressures) before and
+  after the step in the one that its slip worked against. Not collective.
 */
-PETSC_INTERN PetscBool SamIncrementGetBound(const SamIncrement *increment, ptrdiff_t k, double *bound, double *start);
+typedef enum {
+  SAM_SLIDE_NONE,
+  SAM_SLIDE_ALWAYS,
+  SAM_SLIDE_BEGINS,
+  SAM_SLIDE_ENTERS,
+  SAM_SLIDE_LEAVES,
+  SAM_SLIDE_FIRST
+} SamSlide;
+PETSC_INTERN SamSlide SamIncrementGetSlide(const SamIncrement *increment, ptrdiff_t k, double share[2]);
+/* SamIncrementMix - the mean of a field's values before and after the step by these shares. Not collective. */
+static inline double SamIncrementMix(const double share[2], const double before[], const double now[], ptrdiff_t k)
+{
+  return (share[0] > 0 ? share[0] * before[k] : 0) + (share[1] > 0 ? share[1] * now[k] : 0);
+}
 
 /* SamSolutionComputeStates - the state of each cell, a SamCellState as a real number. Not collective. */
 PETSC_INTERN PetscErrorCode SamSolutionComputeStates(const SamSolution *solution, Vec states);
