@@ -6,6 +6,7 @@ import h5py
 import numpy as np
 import pytest
 
+from random_energies import compare
 from support import ball, history, slide_limit
 
 CASE = ball(n=20)
@@ -32,14 +33,17 @@ def energies(path):
 
 
 def test_steps_are_divided_until_the_energy_is_right(loads, solve):
-    few, many = solve(loads), solve(loads, dict(steps=40, output_every=1000, slip_direction="mid"))
+    few, many = solve(loads), solve(loads, dict(steps=40, output_every=1000))
     found, error = energies(solve(loads, dict(step_rtol=1e-3)).path)
     exact = energies(many.path)[0]
     assert len(found) == ROWS + 2
     assert abs(found.sum() / exact.sum() - 1) < 1e-3 and error.sum() < 1e-3 * found.sum()
     coarse, estimate = energies(few.path)
     assert abs(coarse.sum() / exact.sum() - 1) > 1e-2 and estimate.sum() > 1e-2 * coarse.sum()
-    assert "wrong by about" in few.run.stdout and "wrong by about" not in many.run.stdout
+    said = "dissipated, error by the length of the load steps about"
+    assert said in few.run.stdout and said in many.run.stdout
+    assert "dissipated_energy: the load steps are long" in few.run.stderr and "-step_rtol" in few.run.stderr
+    assert "dissipated_energy" not in many.run.stderr
 
 
 def test_divided_steps_are_the_same_on_ranks_and_after_a_restart(loads, petsam, tmp_path):
@@ -85,3 +89,9 @@ def test_runs_with_and_without_divided_steps_do_not_continue_each_other(loads, p
     petsam(loads, dict(checkpoint="c.h5", checkpoint_every=4))
     done = petsam(loads, dict(step_rtol=1e-2, restart="c.h5.1"), check=2)
     assert "lacks step_rtol" in done.complaint[0]
+
+
+@pytest.mark.parametrize("seed", [6, 10, 12])
+def test_estimate_is_within_a_factor_of_three_of_the_error(seed, solve, tmp_path):
+    energy, error, estimate = compare(seed, lambda case, steps: solve(case, dict(steps=steps)).path, tmp_path)
+    assert error / 3 < estimate < 3 * error < 0.06 * energy
