@@ -100,8 +100,8 @@ static PetscErrorCode CheckFiles(const SamSimulationFiles *f, const SamArguments
 static const double bytes_per_cell[2][2][2] = {{{85, 150}, {190, 400}},
                                                {{265, 365}, {350, 520}}}; /* [several steps][friction][coupled] */
 
-/* Of the direction of slip at mid step, bytes per cell; measured at 512 cells a side: 170, coupled 130. */
-#define TURN_BYTES 170
+/* Of the slip in a step (step/direction.c), bytes per cell; measured at 512 cells a side: 57, coupled 4. */
+#define TURN_BYTES 70
 /* Of an upwind operator, bytes per cell: directions and their products. Measured at 1024: 250, for contact on 59 %. */
 #define ROLLING_BYTES 280
 

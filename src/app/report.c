@@ -246,6 +246,7 @@ static PetscErrorCode CountStep(SamReport r, SamContact contact, PetscInt number
     PetscCall(KeepEdges(r, contact));
     PetscCall(KeepEnergy(r, contact));
   }
+  if (!SamStepIsSolved(step)) r->energy[1] = -INFINITY; /* what a run that failed dissipated is nobody's question */
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

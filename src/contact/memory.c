@@ -13,7 +13,7 @@
   Numbers of the slip: the line on which loads lay at first (0: there were none), whether they have left it, and whether
   the slip of the step was turned.
 */
-enum { LINE_X, LINE_Y, LEFT, TURNED, SLIP_NUMBERS };
+enum { LINE_X, LINE_Y, LEFT, ASIDE, SLIP_NUMBERS };
 
 /* ---- declarations ---- */
 
@@ -132,7 +132,21 @@ static PetscErrorCode DeclareOutcome(SamContact c)
 
 /* ---- fields that are computed ---- */
 
-enum { SLIP_X, SLIP_Y, GAP, STATE, PRESSURE_CENTER, SHEAR_CENTER_X, SHEAR_CENTER_Y, POWER, WEAR };
+enum { SLIP_X, SLIP_Y, GAP, STATE, PRESSURE_CENTER, SHEAR_CENTER_X, SHEAR_CENTER_Y, ASIDE_X, ASIDE_Y, POWER, WEAR };
+
+static PetscErrorCode GetComponent(SamGrid grid, Vec from, PetscInt component, Vec to)
+{
+  const double *values;
+  double       *array;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(from, &values));
+  PetscCall(VecGetArrayWrite(to, &array));
+  PetscCall(PetscArraycpy(array, values + component * grid->cells, grid->cells));
+  PetscCall(VecRestoreArrayWrite(to, &array));
+  PetscCall(VecRestoreArrayRead(from, &values));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
 static PetscErrorCode Compute(void *owner, SamState state, PetscInt which, Vec field)
 {
@@ -149,6 +163,11 @@ static PetscErrorCode Compute(void *owner, SamState state, PetscInt which, Vec f
     PetscCall(VecGetArrayWrite(field, &slips));
     PetscCall(SamSolutionComputeSlip(c->problem, s, which - SLIP_X, slips));
     PetscCall(VecRestoreArrayWrite(field, &slips));
+    break;
+  case ASIDE_X:
+  case ASIDE_Y:
+    PetscCall(VecSet(field, 0));
+    if (s->aside) PetscCall(GetComponent(c->grid, s->aside, which - ASIDE_X, field));
     break;
   case GAP:
     PetscCall(SamSolutionCreateSeparation(c->problem, state, SAM_TRIED, &h));
@@ -196,6 +215,10 @@ static PetscErrorCode Offer(SamContact c)
      Compute, c, SHEAR_CENTER_X, -1},
     {"shear_center_y", "Pa", "shear traction along y at the centre of the cell", SAM_FIELD_REAL, SAM_RESULT_OFFERED,
      Compute, c, SHEAR_CENTER_Y, -1},
+    {"slip_aside_x", "m", "part of the step's slip that the shear at its end does not oppose, along x", SAM_FIELD_REAL,
+     SAM_RESULT_OFFERED, Compute, c, ASIDE_X, -1},
+    {"slip_aside_y", "m", "part of the step's slip that the shear at its end does not oppose, along y", SAM_FIELD_REAL,
+     SAM_RESULT_OFFERED, Compute, c, ASIDE_Y, -1},
     {"contact_edge", "m", "points of the contact edge, x and y", SAM_FIELD_POINTS, SAM_RESULT_OFFERED, NULL, c,
      SAM_EDGE_CONTACT, -1},
     {"stick_edge", "m", "points of the stick-slip boundary, x and y", SAM_FIELD_POINTS, SAM_RESULT_OFFERED, NULL, c,
@@ -329,8 +352,6 @@ PetscErrorCode SamContactBegin(SamContact c, const SamControl *control)
   PetscCall(LieOnLine(c, control, &straight));
   s->mid_step = SamContactSlipBefore(c) && !straight && !c->rolls && c->set.slip_direction == SAM_SLIP_MID;
   s->lags     = !straight && !s->mid_step;
-
-  SamStateNumbers(c->state, c->slip, SAM_TRIED)[TURNED] = s->mid_step;
   PetscCall(SamStateSetField(c->state, c->tractions[0], &s->pressure));
   PetscCall(SamStateSetField(c->state, c->tractions[1], &s->bound));
   PetscCall(SamStateSetField(c->state, c->tractions[2], &s->shear));
@@ -367,7 +388,8 @@ PetscErrorCode SamContactStore(SamContact c, const SamStep *step)
   double *const n = SamStateNumbers(c->state, 0, SAM_TRIED);
 
   PetscFunctionBegin;
-  n[c->time] = step->control.time;
+  n[c->time]         = step->control.time;
+  n[c->slip + ASIDE] = c->generation[SAM_TRIED].aside != NULL;
   PetscCall(PetscArraycpy(n + c->solution, step->load, SAM_COMPONENTS));
   PetscCall(PetscArraycpy(n + c->solution + SAM_COMPONENTS, step->rigid, SAM_COMPONENTS));
   for (PetscInt k = 0; k < 3 && c->rolls; k++) {
@@ -404,7 +426,7 @@ PetscErrorCode SamContactView(SamContact c)
     PetscCall(SamStateRestoreField(c->state, c->tractions[2], g, &s->shear));
     s->displacement_z = g == SAM_BEFORE ? NULL : SamStateGetField(c->state, c->displacements[0], g);
     s->displacement_t = g == SAM_BEFORE ? NULL : SamStateGetField(c->state, c->displacements[1], g);
-    s->aside          = g == SAM_COMMITTED && n[c->slip + TURNED] ? SamStateGetField(c->state, c->aside, g) : NULL;
+    s->aside          = g == SAM_COMMITTED && n[c->slip + ASIDE] ? SamStateGetField(c->state, c->aside, g) : NULL;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -210,7 +210,8 @@ void SamIncrementTurnRow(const SamIncrement *s, PetscInt j, double *const to[2])
   A cell slides under the mean of the bounds before and after, also where contact is made or left: then the bounds of
   all cells together are friction times N, and what slides as a whole dissipates what its loads do. One that stuck begins
   at any time within the step: on an average under b1 - (b1 - b0)/4, b0 and b1 being the bounds before and after; where
-  it is the slip that changes the bound, under their mean, too.
+  it is the slip that changes the bound, under their mean, too. Where no contact is left, what the surfaces spring back by
+  is not counted.
 */
 SamSlide SamIncrementGetSlide(const SamIncrement *s, ptrdiff_t k, double share[2])
 {
@@ -221,7 +222,8 @@ SamSlide SamIncrementGetSlide(const SamIncrement *s, ptrdiff_t k, double share[2
   SamSlide           slide  = SAM_SLIDE_NONE;
 
   if (s->solutions[0]) before = SamCellStateOf(a->p[k], a->q[k], a->q[l], a->b[k]);
-  if (now == SAM_CELL_OPEN && before == SAM_CELL_SLIP) slide = SAM_SLIDE_LEAVES;
+  if (now == SAM_CELL_OPEN && before == SAM_CELL_SLIP && s->solutions[1]->load[SAM_COMPONENT_N] > 0)
+    slide = SAM_SLIDE_LEAVES;
   if (now == SAM_CELL_SLIP && before == SAM_CELL_SLIP) slide = SAM_SLIDE_ALWAYS;
   if (now == SAM_CELL_SLIP && before == SAM_CELL_STICK) slide = SAM_SLIDE_BEGINS;
   if (now == SAM_CELL_SLIP && before == SAM_CELL_OPEN) slide = s->solutions[0] ? SAM_SLIDE_ENTERS : SAM_SLIDE_FIRST;

@@ -60,8 +60,8 @@ static PetscBool Grows(SamSolve *w)
   const SamSolution *before = w->task->before;
   const SamPair      pair   = SamElasticityGetPair(w->task->elasticity);
 
-  return before && !w->task->rolls && before->load[SAM_COMPONENT_N] > 0 &&
-         w->s->load[SAM_COMPONENT_N] > before->load[SAM_COMPONENT_N] &&
+  return before && w->task->set->slip_direction == SAM_SLIP_MID && !w->task->rolls &&
+         before->load[SAM_COMPONENT_N] > 0 && w->s->load[SAM_COMPONENT_N] > before->load[SAM_COMPONENT_N] &&
          !(w->task->coupled && fabs((double)pair->dundurs) > MOST_DUNDURS);
 }
 

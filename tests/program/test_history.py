@@ -461,12 +461,13 @@ def test_dissipation_of_a_cycle_is_the_area_of_its_loop(drive):
 def test_work_of_the_end_loads_is_dissipated_or_stored(drive, rough):
     """sum T_k (d_k - d_(k-1)) = sum D_k + sum q_k (u_k - u_(k-1)) dA for any path of tangential loads, nu = 0.34.
 
-    The pressure stays: where it changes, the work of friction is that of the mean bound of a step.
+    The pressure stays: where it changes, the work of friction is that of the mean bound of a step. So does the direction
+    of slip, which at mid step makes it that of the mean shear.
     """
     rows = six(12)
     rows[:, :3] = rows[0, :3]
     rows = np.vstack([rows, rows[:1]])  # closed
-    s = drive(rough(64, load_n=None), LOADS, rows)
+    s = drive(rough(64, load_n=None, slip_direction="end"), LOADS, rows)
     work = sum(s[load][1:] * np.diff(s[rigid]) for load, rigid in zip(LOADS[3:], RIGID[3:]))
     stored = (
         sum(
@@ -532,8 +533,9 @@ def test_dissipation_of_a_step_is_never_negative(drive, rough):
 
 def test_driven_by_its_displacements_the_path_gives_back_its_loads(drive, rough):
     rows = six(12)
-    forced = drive(rough(64, load_n=None), LOADS, rows)
-    driven = drive(rough(64, load_n=None), RIGID, np.column_stack([forced[name] for name in RIGID]))
+    case = rough(64, load_n=None, slip_direction="end")  # at mid step a guess of it depends on what is prescribed
+    forced = drive(case, LOADS, rows)
+    driven = drive(case, RIGID, np.column_stack([forced[name] for name in RIGID]))
     radius = hertz(ball()).radius
     for k, name in enumerate(LOADS):
         scale = (180.0 if name in LOADS[:3] else MU_N) * (radius if name[5] == "m" else 1)
@@ -543,9 +545,10 @@ def test_driven_by_its_displacements_the_path_gives_back_its_loads(drive, rough)
 def test_mixed_control_gives_back_the_path(drive, rough):
     """Some components by their displacements, the others by their loads."""
     rows = six(12)
-    forced = drive(rough(64, load_n=None), LOADS, rows)
+    case = rough(64, load_n=None, slip_direction="end")
+    forced = drive(case, LOADS, rows)
     columns = ("load_n", "rot_x", "load_my", "disp_x", "load_ty", "rot_z")
-    driven = drive(rough(64, load_n=None), columns, np.column_stack([forced[name] for name in columns]))
+    driven = drive(case, columns, np.column_stack([forced[name] for name in columns]))
     for names, scale in (
         (("shear_x", "shear_y"), FRICTION * forced.pressure.max()),
         (("pressure",), forced.pressure.max()),
@@ -568,6 +571,8 @@ def assert_coulomb(s, case, exact=1e-12):
     assert_close(s.slip_x, sx, exact, "slip_x", size + np.abs(rx).max())
     assert_close(s.slip_y, sy, exact, "slip_y", size + np.abs(ry).max())
     dx, dy = (np.diff(v, axis=0, prepend=0 * v[:1]) for v in (sx, sy))
+    if hasattr(s, "slip_aside_x"):  # else of steps that turn no shear, and whose contact does not grow
+        dx, dy = dx - s.slip_aside_x, dy - s.slip_aside_y
     p, qx, qy = s.pressure, s.shear_x, s.shear_y
     q = np.hypot(qx, qy)
     assert np.all(q <= friction * p * (1 + 1e-12)) and np.all(p >= 0)
