@@ -32,8 +32,9 @@ typedef struct {
   Vec        displacement_z;        /* m: relative elastic displacement u_z */
   Vec        displacement_t;        /* m, two components: relative elastic displacement u_t */
   /*
-    m, two components; NULL: zero. Part of the slip of the step that the shear at its end does not oppose: where there was
-    contact before, by the turn of the shear, else what the surfaces have moved over each other until they touched.
+    m, two components; NULL: zero. Part of the slip of the step that the shear at its end does not oppose: where there
+    was contact before, by the turn of the shear, else what the surfaces have moved over each other until they
+    touched.
   */
   Vec aside;
 } SamSolution;

@@ -208,10 +208,10 @@ void SamIncrementTurnRow(const SamIncrement *s, PetscInt j, double *const to[2])
 
 /*
   A cell slides under the mean of the bounds before and after, also where contact is made or left: then the bounds of
-  all cells together are friction times N, and what slides as a whole dissipates what its loads do. One that stuck begins
-  at any time within the step: on an average under b1 - (b1 - b0)/4, b0 and b1 being the bounds before and after; where
-  it is the slip that changes the bound, under their mean, too. Where no contact is left, what the surfaces spring back by
-  is not counted.
+  all cells together are friction times N, and what slides as a whole dissipates what its loads do. One that stuck
+  begins at any time within the step: on an average under b1 - (b1 - b0)/4, b0 and b1 being the bounds before and
+  after; where it is the slip that changes the bound, under their mean, too. Where no contact is left, what the
+  surfaces spring back by is not counted.
 */
 SamSlide SamIncrementGetSlide(const SamIncrement *s, ptrdiff_t k, double share[2])
 {

@@ -8,13 +8,13 @@
     at the end of the step   r
     at mid step              r + w r0,  w = max(0, r0.(r0 + r)/2)
 
-  Let q turn by the angle a in a step. A slip opposite to r is that of a shear half a step ahead: ds is turned by a/2. So
-  the solution itself, and with it the energy, are wrong to first order in the steps wherever the shear turns, as under
-  T_x and T_y out of phase. Where it does not turn, both rules agree. r + r0 bisects the angle: its error is of third
-  order in a step, of second order in all, and w is 1 up to a^2 where a cell slides all the time. Where a cell stuck
-  before, its slip begins within the step in a direction between r0 and r; there are few such cells, in proportion to the
-  step, so that any w does to second order. At the end |q| = b holds with both rules, unlike with the midpoint rule of
-  plasticity, which holds it at mid step only, and rings where stick turns to slip.
+  Let q turn by the angle a in a step. A slip opposite to r is that of a shear half a step ahead: ds is turned by a/2.
+  So the solution itself, and with it the energy, are wrong to first order in the steps wherever the shear turns, as
+  under T_x and T_y out of phase. Where it does not turn, both rules agree. r + r0 bisects the angle: its error is of
+  third order in a step, of second order in all, and w is 1 up to a^2 where a cell slides all the time. Where a cell
+  stuck before, its slip begins within the step in a direction between r0 and r; there are few such cells, in
+  proportion to the step, so that any w does to second order. At the end |q| = b holds with both rules, unlike with
+  the midpoint rule of plasticity, which holds it at mid step only, and rings where stick turns to slip.
 
   Where it begins. A cell that comes into contact within the step has moved freely before. Held at its place before the
   step it would take too much shear, of the first order in the step. Where the whole contact sticks and N grows, the
@@ -27,18 +27,18 @@
   grown by N, or there was none, this is zero, as at a place that contact leaves. Of bodies with layers or a shape of
   their own kappa is that of the materials at the surface. Where the bodies tilt as well, it counts by the part of the
   pressure's growth at the edge that N makes. Of what M_z, tilting and bulk stress move there, nothing is known: their
-  error stays of first order. So is what the pressure of dissimilar bodies moves, which is the
-  other way: from a Dundurs' constant of MOST_DUNDURS on both are left out, as they cancel in part.
+  error stays of first order. So is what the pressure of dissimilar bodies moves, which is the other way: from a
+  Dundurs' constant of MOST_DUNDURS on both are left out, as they cancel in part.
 
   Algorithm. R(q) turns r + w r0 to r; so R ds is opposite to r, and with t = ds - R ds known, the tangential problem
   with the offset lessened by t is that with the rule at the end.
-    1. The tangential problem with t of the step before, times the square of the ratio of the steps, gives q and ds; its
-       tolerance is of second order in a step.
+    1. The tangential problem with t of the step before, times the square of the ratio of the steps, gives q and ds, to
+       a tolerance that t bears.
     2. t = ds - R(q) ds of the cells that slide. Its error is of second order in the step, relative to ds.
     3. The tangential problem with this t, from that q on.
-  Of dissimilar bodies 1 and 3 are the passes of coupling.c. While all loads lie on a line, step 3 is all: the shear does
-  not turn, but for what Poisson's ratio makes of it across, whose work cancels. What cells have moved by until contact
-  is made is known with the loads: if these are found, after step 1.
+  Of dissimilar bodies 1 and 3 are the passes of coupling.c. While all loads lie on a line, step 3 is all: the shear
+  does not turn, but for what Poisson's ratio makes of it across, whose work cancels. What cells have moved by until
+  contact is made is known with the loads: if these are found, after step 1.
 
   References: M. Ortiz, E. P. Popov, Accuracy and stability of integration algorithms for elastoplastic constitutive
   relations, Int. J. Numer. Methods Eng. 21 (1985) 1561-1576; M. Ciavarella, The generalized Cattaneo partial slip plane
@@ -78,7 +78,7 @@ static double RatioOfCompliances(SamSolve *w, int c)
   return (double)((pair->shear + (w->task->traits.plane ? c : (PetscReal)0.5) * pair->shear_xx) / pair->normal);
 }
 
-/* How the bodies approach each other in the step: uniformly, about the centre of the pressure before, and by tilting. */
+/* How the bodies approach each other in a step: uniformly, about the centre of the pressure before, and by tilting. */
 typedef struct {
   double center[2], uniform, tilt[2];
 } Approach;

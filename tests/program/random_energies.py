@@ -38,7 +38,13 @@ def random_case(seed, folder, cells=32):
     rows = [(0.5, loads[0][0], 0.0, 0.0)] + [(1.0 + k, *row) for k, row in enumerate(loads)]
     names = "time,load_n,load_tx,load_ty"
     case = dict(
-        gap_type="sphere", gap_radius1=0.05, gap_radius2=float("inf"), friction=FRICTION, grid_n=cells, grid_size=1.4e-3, output_every=1000
+        gap_type="sphere",
+        gap_radius1=0.05,
+        gap_radius2=float("inf"),
+        friction=FRICTION,
+        grid_n=cells,
+        grid_size=1.4e-3,
+        output_every=1000,
     )
     case.update({f"body{b}_{name}": value for b in (1, 2) for name, value in (("young", 200e9), ("poisson", 0.3))})
     return {**case, **history(Path(folder) / "h.csv", names, *rows)}
@@ -74,7 +80,9 @@ def main():
                 return folder / f"{steps}.h5"
 
             energy, error, estimate = compare(seed, solve, folder, arguments.cells)
-        print(f"seed {seed}: {energy:.3g} J, error {100 * error / energy:.3f} %, estimate {100 * estimate / energy:.3f} %")
+        print(
+            f"seed {seed}: {energy:.3g} J, error {100 * error / energy:.3f} %, estimate {100 * estimate / energy:.3f} %"
+        )
         if error > 1e-3 * energy:
             ratios.append(estimate / error)
     good = sum(1 / 3 < ratio < 3 for ratio in ratios)

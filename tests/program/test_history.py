@@ -29,7 +29,7 @@ class Path:
         with h5py.File(path, "r") as f:
             self.x, self.y, self.time = f["x"][:], f["y"][:], f["time"][:]
             self.history = {name: data[:] for name, data in f["history"].items()}
-            for name in FIELDS:
+            for name in (*FIELDS, "slip_aside_x", "slip_aside_y"):
                 setattr(self, name, f[name][:])
         self.xx, self.yy = np.meshgrid(self.x, self.y)
         self.area = np.diff(self.x).mean() * np.diff(self.y).mean()
@@ -571,8 +571,7 @@ def assert_coulomb(s, case, exact=1e-12):
     assert_close(s.slip_x, sx, exact, "slip_x", size + np.abs(rx).max())
     assert_close(s.slip_y, sy, exact, "slip_y", size + np.abs(ry).max())
     dx, dy = (np.diff(v, axis=0, prepend=0 * v[:1]) for v in (sx, sy))
-    if hasattr(s, "slip_aside_x"):  # else of steps that turn no shear, and whose contact does not grow
-        dx, dy = dx - s.slip_aside_x, dy - s.slip_aside_y
+    dx, dy = dx - s.slip_aside_x, dy - s.slip_aside_y
     p, qx, qy = s.pressure, s.shear_x, s.shear_y
     q = np.hypot(qx, qy)
     assert np.all(q <= friction * p * (1 + 1e-12)) and np.all(p >= 0)
