@@ -73,7 +73,7 @@ def main():
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
 
-            def solve(case, steps, folder=folder):
+            def solve(case, steps, folder=folder, seed=seed):
                 done = conftest.execute(launcher, folder, [dict(case, steps=steps, output=f"{steps}.h5")], 1, None)
                 if done.code:
                     sys.exit(f"seed {seed}: {done.stderr}")

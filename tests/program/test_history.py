@@ -461,8 +461,8 @@ def test_dissipation_of_a_cycle_is_the_area_of_its_loop(drive):
 def test_work_of_the_end_loads_is_dissipated_or_stored(drive, rough):
     """sum T_k (d_k - d_(k-1)) = sum D_k + sum q_k (u_k - u_(k-1)) dA for any path of tangential loads, nu = 0.34.
 
-    The pressure stays: where it changes, the work of friction is that of the mean bound of a step. So does the direction
-    of slip, which at mid step makes it that of the mean shear.
+    The pressure stays: where it changes, the work of friction is that of the mean bound of a step. So does the
+    direction of slip, which at mid step makes it that of the mean shear.
     """
     rows = six(12)
     rows[:, :3] = rows[0, :3]
