@@ -104,8 +104,7 @@ PetscErrorCode SamSolveShear(SamSolve *w, PetscBool has_shear, PetscReal rtol, S
   if (w->pushed)
     PetscCall(SamProblemAddOffset(w->task->problem, w->task->state, &w->s->control, NULL, w->pushed, NULL));
   if (!SamProblemFollowsSlip(w->task->problem)) {
-    SamSolverSetEffort(solver, rtol, effort);
-    PetscCall(SamSolveTangential(w, has_shear));
+    PetscCall(SamSolveTangential(w, has_shear)); /* with the effort that the caller has set */
     SamSolverSetEffort(solver, 0, SAM_EFFORT_FULL);
     PetscFunctionReturn(PETSC_SUCCESS);
   }
