@@ -133,6 +133,13 @@ def test_iterations_on_films(young, thickness, load, most, solve):
     assert r["normal_iterations"] <= most
 
 
+@pytest.mark.parametrize("young, poisson, thickness, n", [(180, 0.2, 0.0165, 192), (200, 0.3, 0.0091, 256)])
+def test_thin_stiff_films_converge(young, poisson, thickness, n, solve):
+    """The preconditioner is too strong for them: steps stay short, also over gradient steps."""
+    r = solve(sphere([(young, poisson, thickness)], 2.6, n=n), dict(load_n=4 / 3 * E / 0.91 * A**3))
+    assert r["normal_iterations"] <= 80
+
+
 def test_coupled_bodies_slip_at_much_friction(solve):
     """A hard film on one body: coupled, with friction 1; solved and checked, and the same on any number of ranks."""
     case = sphere(HARD, 2.6, n=48, other=SOFT, friction=1.0, load_n=0.2 * E * A**3)

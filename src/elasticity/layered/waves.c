@@ -4,8 +4,9 @@
   On a part of the surface the inverse is a preconditioner. It holds the surface about a contact in place, as if it were
   clamped, and a hard film on a soft bed resists that like a plate, far more than with the free surface that it has: on
   the contact, the inverse is up to E1/E2 times too large at the edge. Where c is more than that of the surface's
-  material, c_top, the normal inverse therefore takes c_top (c/c_top)^(3/4). Measured at E1/E2 = 100 and a film of a
-  hundredth of the contact's radius: 15 to 80 iterations at 64 to 512 cells; with c itself 21 to no convergence.
+  material, c_top, the normal inverse therefore takes c_top (c/c_top)^(1/2). Measured at E1/E2 = 30 to 300 and films of
+  0.003 to 0.1 of the contact's radius, 900 cases at 64 to 512 cells: all converge, in 30 iterations in the mean; with
+  the power 5/8 one of 300 does not, with 3/4 more.
 */
 #include "../waves.h"
 #include <math.h>
@@ -34,8 +35,8 @@ static PetscInt Gains(const SamSymbol *s, const SamWaves *at, PetscInt first, Sa
   }
   SamSplineRow(s->table, symbol, n, argument, gain);
   for (PetscInt m = 0; m < n; m++) {
-    const double k = sqrt(k2[m]), ratio = gain[m] / s->top, root = sqrt(PetscMax(ratio, 1)),
-                 eased = symbol == SAM_LAYERED_ZZ && ratio > 1 ? root * sqrt(root) : PetscMax(ratio, LEAST);
+    const double k = sqrt(k2[m]), ratio = gain[m] / s->top,
+                 eased = symbol == SAM_LAYERED_ZZ && ratio > 1 ? sqrt(ratio) : PetscMax(ratio, LEAST);
 
     gain[m] = s->inverse ? s->gain * k / (s->top * eased + film * k) : s->gain * gain[m] / k;
   }

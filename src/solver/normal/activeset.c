@@ -50,8 +50,13 @@
 #define LOSS_OLD 0.01
 /* A direction's least descent, as a part of that of the preconditioned residual. */
 #define DESCENT 0.1
-/* The trial's length follows the best one, by at most the root of this factor in an iteration. */
-#define FOLLOW 2.0
+/*
+  The trial's length follows the best one, by at most the root of these factors in an iteration, and is kept over
+  gradient steps. Under a stiff film the preconditioner is 8 to 16 times too strong: a length that falls slowly, or
+  that a gradient step forgets, is cut at the bounds again and again.
+*/
+#define RISE 2.0
+#define FALL 16.0
 /* Iterations without progress before cells are made to part, a gradient step, and giving up because of rounding. */
 #define PARTING    8
 #define PATIENCE   10
@@ -364,7 +369,7 @@ static PetscErrorCode Iterate(Work *w, PetscBool gradient, PetscBool *downhill, 
   PetscCall(Step(w, &best, contact));
   *downhill = best > 0;
   if (!*downhill) PetscFunctionReturn(PETSC_SUCCESS);
-  w->alpha = gradient ? 1 : w->alpha * sqrt(PetscMin(PetscMax(best, 1 / FOLLOW), FOLLOW));
+  if (!gradient) w->alpha *= sqrt(PetscMin(PetscMax(best, 1 / FALL), RISE));
   PetscCall(SamActiveSetChoose(w, contact));
   PetscCall(SamLevelIterated(w->solver, w->level, w->error / w->displacement));
   PetscFunctionReturn(PETSC_SUCCESS);
