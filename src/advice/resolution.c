@@ -5,8 +5,8 @@
   two may be that of a rounded edge, which finer cells raise, or of an edge that happens to lie well on the grid. So the
   contact about the peak is solved again on cells half as wide:
 
-  1. A patch of 18 x 18 cells about the peak. Displacements by all pressure outside of it are the gap minus the shape
-     minus the patch's own displacements; they are smooth, and interpolated to the finer cells.
+  1. A patch of 18 x 18 cells about the peak, of 18 in plane strain. Displacements by all pressure outside of it are
+     the gap minus the shape minus the patch's own displacements; they are smooth, and interpolated to the finer cells.
   2. The separation there: the shape itself, and these. Roughness, heights from a file and wear are interpolated, too.
   3. The pressure of the outer three cells stays as it is; within them the normal problem is solved under the same load
      and without rotation.
@@ -25,21 +25,21 @@
 #include <petsam/private/baseimpl.h>
 #include <math.h>
 
-#define RING    3                       /* cells about the part that is solved again */
-#define WIDE    18                      /* cells of a patch in each direction, */
-#define FINE    (2 * WIDE)              /* on the finer grid, */
-#define INNER   (FINE - 4 * RING)       /* and of the part that is solved again there */
-#define MARGIN  4                       /* finer cells of that part, at its border, where no peak is looked for */
-#define LEVEL   0.9                     /* a peak next to which no cell has less than this part of it is resolved */
-#define PEAK    (WIDE / 2 * (WIDE + 1)) /* the cell of the largest pressure on the first patch */
-#define CENTRAL 6                       /* places of an interpolation, */
-#define VARYING 4                       /* of one that leaves edges aside */
-#define TIP     0.08                    /* part of the fourth differences that counts */
-#define SHARP   0.4                     /* the change at a sharp edge, the most that interpolation can tell of */
-#define SETTLED 0.03                    /* change of the peak on cells half as wide of a grid that is advised */
+#define RING    3                 /* cells about the part that is solved again */
+#define WIDE    18                /* cells of a patch in each direction, */
+#define FINE    (2 * WIDE)        /* on the finer grid, */
+#define INNER   (FINE - 4 * RING) /* and of the part that is solved again there */
+#define MARGIN  4                 /* finer cells of that part, at its border, where no peak is looked for */
+#define LEVEL   0.9               /* a peak next to which no cell has less than this part of it is resolved */
+#define CENTRAL 6                 /* places of an interpolation, */
+#define VARYING 4                 /* of one that leaves edges aside */
+#define TIP     0.08              /* part of the fourth differences that counts */
+#define SHARP   0.4               /* the change at a sharp edge, the most that interpolation can tell of */
+#define SETTLED 0.03              /* change of the peak on cells half as wide of a grid that is advised */
 
-/* Pressure and gap without the shape of n * n cells, on the last patch. */
+/* Pressure and gap without the shape of the cells of the last patch. */
 typedef struct {
+  PetscInt  axes;               /* 2, or 1 for one row of cells */
   PetscReal corner[2], cell[2]; /* m: of the first cell, and its widths */
   double    p[FINE * FINE];     /* Pa */
   double    g[FINE * FINE];     /* m, times `scale` */
@@ -60,6 +60,18 @@ typedef struct {
   SamNormal          normal;
 } Local;
 
+/* Rows of a patch of so many cells in each direction. */
+static PetscInt Rows(PetscInt axes, PetscInt n)
+{
+  return axes == 1 ? 1 : n;
+}
+
+/* The cell of the largest pressure on the first patch. */
+static PetscInt PeakOf(const Patch *a)
+{
+  return Rows(a->axes, WIDE) / 2 * WIDE + WIDE / 2;
+}
+
 static PetscErrorCode CreateLocal(const SamSetup *s, Local *l)
 {
   const PetscInt  cells[3] = {WIDE, FINE, INNER};
@@ -68,8 +80,8 @@ static PetscErrorCode CreateLocal(const SamSetup *s, Local *l)
   PetscFunctionBegin;
   for (int k = 0; k < 3; k++) {
     const PetscReal part     = k ? 0.5 * (PetscReal)cells[k] : (PetscReal)cells[k];
-    const PetscReal width[2] = {part * s->grid->dx, part * s->grid->dy};
-    const PetscInt  n[2]     = {cells[k], cells[k]};
+    const PetscReal width[2] = {part * s->grid->dx, SamGridIsRow(s->grid) ? s->grid->dy : part * s->grid->dy};
+    const PetscInt  n[2]     = {cells[k], Rows(s->grid->axes, cells[k])};
 
     PetscCall(SamGridCreate(PETSC_COMM_SELF, n, width, zero, &l->grid[k]));
     PetscCall(SamElasticityCreate(l->grid[k], s->pair, &l->elasticity[k]));
@@ -110,14 +122,14 @@ static PetscErrorCode AddDisplacements(const Local *l, int k, const double p[], 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Subtracts (sign -1) or adds the shape at the cells of a patch of n * n cells. */
+/* Subtracts (sign -1) or adds the shape at the cells of a patch with rows of n. */
 static void AddShape(const Local *l, const Patch *a, PetscInt n, double sign, double g[])
 {
-  for (PetscInt c = 0; c < n * n; c++) {
+  for (PetscInt c = 0; c < n * Rows(a->axes, n); c++) {
     PetscReal x[2] = {a->corner[0] + ((PetscReal)(c % n) + 0.5) * a->cell[0],
                       a->corner[1] + ((PetscReal)(c / n) + 0.5) * a->cell[1]};
 
-    for (int k = 0; k < 2 && l->wrap; k++)
+    for (int k = 0; k < a->axes && l->wrap; k++)
       x[k] -= l->whole->width[k] * floor((x[k] - l->whole->center[k]) / l->whole->width[k] + 0.5);
     g[c] += sign * a->scale * SamGapGetHeight(l->gap, x[0], x[1]);
   }
@@ -160,25 +172,26 @@ static void Interpolate(PetscInt points, const double from[], double to[], ptrdi
   }
 }
 
-static PetscBool IsInner(PetscInt c, PetscInt margin)
+static PetscBool IsInner(PetscInt axes, PetscInt c, PetscInt margin)
 {
   const PetscInt i = c % FINE, j = c / FINE, least = 2 * RING + margin, most = FINE - least;
 
-  return i >= least && i < most && j >= least && j < most ? PETSC_TRUE : PETSC_FALSE;
+  return i >= least && i < most && (axes == 1 || (j >= least && j < most)) ? PETSC_TRUE : PETSC_FALSE;
 }
 
 /* Solves the inner part of the finer patch under its load; `h` is the separation but for its own displacements. */
 static PetscErrorCode SolveInner(Local *l, const double h[], double p[], PetscBool *solved)
 {
-  SamBalance    balance = {.kind = SAM_BALANCE_NORMAL, .force = {PETSC_TRUE, PETSC_FALSE, PETSC_FALSE}};
-  double       *field, load = 0;
-  const double *pressure;
-  PetscInt      k = 0;
+  SamBalance     balance = {.kind = SAM_BALANCE_NORMAL, .force = {PETSC_TRUE, PETSC_FALSE, PETSC_FALSE}};
+  const PetscInt axes = l->whole->axes, count = l->grid[1]->cells;
+  double        *field, load                  = 0;
+  const double  *pressure;
+  PetscInt       k = 0;
 
   PetscFunctionBegin;
   PetscCall(VecGetArray(l->field[2], &field));
-  for (PetscInt c = 0; c < FINE * FINE; c++)
-    if (IsInner(c, 0)) {
+  for (PetscInt c = 0; c < count; c++)
+    if (IsInner(axes, c, 0)) {
       load += p[c];
       field[k++] = h[c];
     }
@@ -186,8 +199,8 @@ static PetscErrorCode SolveInner(Local *l, const double h[], double p[], PetscBo
   balance.load[0] = load * l->grid[2]->dx * l->grid[2]->dy;
   PetscCall(SamNormalSolve(l->normal, l->field[2], &balance, PETSC_FALSE, l->pressure));
   PetscCall(VecGetArrayRead(l->pressure, &pressure));
-  for (PetscInt c = k = 0; c < FINE * FINE; c++)
-    if (IsInner(c, 0)) p[c] = pressure[k++];
+  for (PetscInt c = k = 0; c < count; c++)
+    if (IsInner(axes, c, 0)) p[c] = pressure[k++];
   PetscCall(VecRestoreArrayRead(l->pressure, &pressure));
   *solved = SamSolverGetReason(SamNormalAsSolver(l->normal)) > 0 ? PETSC_TRUE : PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -196,13 +209,14 @@ static PetscErrorCode SolveInner(Local *l, const double h[], double p[], PetscBo
 /* Fourth differences of the patch's interpolated heights about the peak where all is in contact. */
 static double FindTip(const Patch *a, const double heights[])
 {
-  double most = 0;
+  const PetscInt beside = a->axes - 1;
+  double         most   = 0;
 
-  for (PetscInt j = -1; j <= 1; j++)
+  for (PetscInt j = -beside; j <= beside; j++)
     for (PetscInt i = -1; i <= 1; i++)
-      for (PetscInt k = 0; k < 2; k++) {
-        const PetscInt stride = k ? WIDE : 1;
-        const double  *h = heights + PEAK + j * WIDE + i, *p = a->p + PEAK + j * WIDE + i;
+      for (PetscInt k = 0; k < a->axes; k++) {
+        const PetscInt stride = k ? WIDE : 1, at = PeakOf(a) + j * WIDE + i;
+        const double  *h = heights + at, *p = a->p + at;
         PetscBool      closed = PETSC_TRUE;
 
         for (PetscInt c = -2; c <= 2; c++)
@@ -213,45 +227,48 @@ static double FindTip(const Patch *a, const double heights[])
   return most;
 }
 
-/* From WIDE * WIDE cells to the FINE * FINE ones in their place, with another pressure within the outer cells. */
+/* From WIDE cells in each direction to the FINE ones in their place, with another pressure within the outer cells. */
 static PetscErrorCode Refine(Local *l, PetscInt points, Patch *a, PetscBool *solved)
 {
-  double   rows[FINE * WIDE], h[FINE * FINE], p[FINE * FINE];
-  PetscInt c;
+  const PetscInt count = l->grid[1]->cells;
+  double         rows[FINE * WIDE], h[FINE * FINE], p[FINE * FINE];
+  PetscInt       c;
 
   PetscFunctionBegin;
   PetscCall(AddDisplacements(l, 0, a->p, -1, a->g));
   if (a->scale == 1) a->tip = FindTip(a, a->g);
-  for (c = 0; c < WIDE; c++) Interpolate(points, a->g + c, rows + c, WIDE);
-  for (c = 0; c < FINE; c++) Interpolate(points, rows + c * WIDE, a->g + c * FINE, 1);
-  for (int k = 0; k < 2; k++) a->cell[k] *= 0.5;
-  for (c = 0; c < FINE * FINE; c++) p[c] = a->p[c / FINE / 2 * WIDE + c % FINE / 2];
-  for (c = 0; c < FINE * FINE; c++) a->p[c] = IsInner(c, 0) ? 0 : p[c];
-  PetscCall(PetscArraycpy(h, a->g, FINE * FINE));
+  if (a->axes == 1) PetscCall(PetscArraycpy(rows, a->g, WIDE));
+  for (c = 0; c < WIDE && a->axes == 2; c++) Interpolate(points, a->g + c, rows + c, WIDE);
+  for (c = 0; c < Rows(a->axes, FINE); c++) Interpolate(points, rows + c * WIDE, a->g + c * FINE, 1);
+  for (int k = 0; k < a->axes; k++) a->cell[k] *= 0.5;
+  for (c = 0; c < count; c++) p[c] = a->p[c / FINE / 2 * WIDE + c % FINE / 2];
+  for (c = 0; c < count; c++) a->p[c] = IsInner(a->axes, c, 0) ? 0 : p[c];
+  PetscCall(PetscArraycpy(h, a->g, count));
   AddShape(l, a, FINE, 1, h);
   PetscCall(AddDisplacements(l, 1, a->p, 1, h));
-  PetscCall(PetscArraycpy(a->p, p, FINE * FINE));
+  PetscCall(PetscArraycpy(a->p, p, count));
   PetscCall(SolveInner(l, h, a->p, solved));
   PetscCall(AddDisplacements(l, 1, a->p, 1, a->g));
-  for (c = 0; c < FINE * FINE; c++) a->g[c] *= 2;
+  for (c = 0; c < count; c++) a->g[c] *= 2;
   a->scale *= 2;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The peak of a finer patch; takes the patch of WIDE * WIDE cells about it out. */
+/* The peak of a finer patch; takes the patch about it out. */
 static double TakePeak(Patch *a)
 {
-  PetscInt peak = FINE * (FINE + 1) / 2, first[2];
-  double   most;
+  const PetscInt rows = Rows(a->axes, WIDE);
+  PetscInt       peak = Rows(a->axes, FINE) / 2 * FINE + FINE / 2, first[2];
+  double         most;
 
-  for (PetscInt c = 0; c < FINE * FINE; c++)
-    if (IsInner(c, MARGIN) && a->p[c] > a->p[peak]) peak = c;
+  for (PetscInt c = 0; c < FINE * Rows(a->axes, FINE); c++)
+    if (IsInner(a->axes, c, MARGIN) && a->p[c] > a->p[peak]) peak = c;
   most = a->p[peak];
 
   first[0] = peak % FINE - WIDE / 2;
-  first[1] = peak / FINE - WIDE / 2;
+  first[1] = peak / FINE - rows / 2;
   for (int k = 0; k < 2; k++) a->corner[k] += (PetscReal)first[k] * a->cell[k];
-  for (PetscInt c = 0; c < WIDE * WIDE; c++) {
+  for (PetscInt c = 0; c < WIDE * rows; c++) {
     const PetscInt from = (first[1] + c / WIDE) * FINE + first[0] + c % WIDE;
 
     a->p[c] = a->p[from];
@@ -282,17 +299,17 @@ static PetscErrorCode FindPeak(SamGrid grid, Vec pressure, PetscInt at[2], doubl
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The values of a field in the WIDE * WIDE cells about one, on all ranks; beyond the grid's edge those at the edge. */
+/* The values of a field in the patch about a cell, on all ranks; beyond the grid's edge those at the edge. */
 static PetscErrorCode Gather(const Local *l, Vec field, const PetscInt at[2], double values[])
 {
   const SamGrid  grid = l->whole;
-  const PetscInt n[2] = {grid->nx, grid->ny};
+  const PetscInt n[2] = {grid->nx, grid->ny}, rows = Rows(grid->axes, WIDE);
   const double  *f;
 
   PetscFunctionBegin;
   PetscCall(VecGetArrayRead(field, &f));
-  for (PetscInt c = 0; c < WIDE * WIDE; c++) {
-    PetscInt place[2] = {at[0] - WIDE / 2 + c % WIDE, at[1] - WIDE / 2 + c / WIDE}, row;
+  for (PetscInt c = 0; c < WIDE * rows; c++) {
+    PetscInt place[2] = {at[0] - WIDE / 2 + c % WIDE, at[1] - rows / 2 + c / WIDE}, row;
 
     for (int k = 0; k < 2; k++)
       place[k] = l->wrap ? (place[k] + n[k]) % n[k] : PetscMin(PetscMax(place[k], 0), n[k] - 1);
@@ -300,7 +317,7 @@ static PetscErrorCode Gather(const Local *l, Vec field, const PetscInt at[2], do
     values[c] = row >= 0 && row < grid->rows ? f[(ptrdiff_t)row * grid->nx + place[0]] : 0;
   }
   PetscCall(VecRestoreArrayRead(field, &f));
-  PetscCall(SamSum(grid->comm, WIDE * WIDE, values));
+  PetscCall(SamSum(grid->comm, WIDE * rows, values));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -308,17 +325,23 @@ static PetscErrorCode Gather(const Local *l, Vec field, const PetscInt at[2], do
 static PetscErrorCode FillPatch(const SamSetup *s, const Local *l, const PetscInt at[2], Patch *a, PetscBool *level)
 {
   const PetscReal cell[2] = {s->grid->dx, s->grid->dy};
-  const double   *p       = a->p + PEAK;
+  const double   *p;
+  double          least;
   Vec             gap;
 
   PetscFunctionBegin;
   a->scale = 1;
+  a->axes  = s->grid->axes;
   for (int k = 0; k < 2; k++) {
+    const PetscReal before = k < a->axes ? 0.5 * (PetscReal)(WIDE + 1) : 0.5; /* cells from the corner to the peak */
+
     a->cell[k]   = cell[k];
-    a->corner[k] = (k ? SamGridY(s->grid, at[k]) : SamGridX(s->grid, at[k])) - 0.5 * (PetscReal)(WIDE + 1) * cell[k];
+    a->corner[k] = (k ? SamGridY(s->grid, at[k]) : SamGridX(s->grid, at[k])) - before * cell[k];
   }
   PetscCall(Gather(l, l->solution->pressure, at, a->p));
-  *level = PetscMin(PetscMin(p[-1], p[1]), PetscMin(p[-WIDE], p[WIDE])) >= LEVEL * p[0] ? PETSC_TRUE : PETSC_FALSE;
+  p      = a->p + PeakOf(a);
+  least  = a->axes == 1 ? p[0] : PetscMin(p[-WIDE], p[WIDE]);
+  *level = PetscMin(least, PetscMin(p[-1], p[1])) >= LEVEL * p[0] ? PETSC_TRUE : PETSC_FALSE;
   if (*level) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamGridCreateVec(s->grid, 1, &gap));
   PetscCall(SamContactGetField(s->contact, "gap", gap));
@@ -332,7 +355,7 @@ static PetscErrorCode FillPatch(const SamSetup *s, const Local *l, const PetscIn
 static PetscErrorCode Follow(const SamSetup *s, Local *l, Patch *a, SamExtent *extent)
 {
   const PetscInt n    = PetscMax(s->grid->nx, s->grid->ny);
-  const double   most = a->p[PEAK], cell = s->grid->side[0];
+  const double   most = a->p[PeakOf(a)], cell = s->grid->side[0];
   double         before = most, change = 1, other = 0, tip;
   PetscBool      solved;
   Patch         *b;
@@ -374,8 +397,7 @@ PetscErrorCode SamAdviceMeasurePeak(const SamSetup *s, SamExtent *extent)
   PetscCall(SamProblemGetPressureLimit(s->problem, &limit));
   PetscCall(SamContactGetSolution(s->contact, &l.solution));
   PetscCall(FindPeak(s->grid, l.solution->pressure, at, &most));
-  if (!(most > 0) || most >= SAM_SATURATED * limit || PetscMin(s->grid->nx, s->grid->ny) < WIDE)
-    PetscFunctionReturn(PETSC_SUCCESS);
+  if (!(most > 0) || most >= SAM_SATURATED * limit || s->grid->fewest < WIDE) PetscFunctionReturn(PETSC_SUCCESS);
   l.wrap = SamElasticityGetTraits(s->elasticity).periodic;
   PetscCall(PetscNew(&a));
   PetscCall(FillPatch(s, &l, at, a, &level));

@@ -66,6 +66,19 @@ def test_peak_of_a_rounded_pad_is_right_or_warned_of(petsam, tmp_path):
         assert better > n if warned else abs(pressure / true - 1) < LIMIT, n
 
 
+@pytest.mark.parametrize("edge", [2e-3, 2e-2, 2e-1])
+@pytest.mark.parametrize("bodies", ["plane", "plane_periodic"])
+def test_peak_of_a_pad_in_plane_strain_is_right_or_warned_of(petsam, edge, bodies):
+    case = dict(BODIES, elasticity=bodies, gap_type="pad", gap_half_flat_x=1e-3, gap_edge_radius_x=edge, load_n=5e4)
+    found = {n: peak(petsam(case, dict(grid_n=n, grid_size=3.2e-3))) for n in (48, 64, 100, 128, 192, 256, 2048)}
+    true, warned, _ = found[2048]
+    assert not warned
+    for n, (pressure, warned, better) in found.items():
+        assert better > n if warned else abs(pressure / true - 1) < LIMIT, n
+    assert edge > 2e-3 or all(found[n][1] for n in (48, 64, 100))
+    assert edge < 2e-1 or not any(warned for _, warned, _ in found.values())
+
+
 # heights relative to the width of the grid; the load (N); periodic bodies
 GAPS = {
     "sphere": (lambda x, y: 0.01 * (x**2 + y**2), 10.0, False),
