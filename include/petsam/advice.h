@@ -48,6 +48,8 @@ typedef struct {
   PetscInt          largest;           /* step of the largest normal load or approach, from 0 */
   PetscBool         doubtful;          /* the heights are of another unit, or tilted: nothing is said of the contact */
   PetscBool         examined;          /* whether the size of the contact was looked at */
+  char              after[48];         /* "after 1e6 cycles: ", when it is looked at again; empty: the first time */
+  PetscInt          finer;             /* cells so many times narrower have been advised; 0: none */
   PetscBool         advised[SAM_LAWS]; /* laws that have warned of a step */
   const SamStep    *step;              /* that is looked at, */
   SamExtent         extent;            /* with the contact there */
@@ -61,6 +63,8 @@ typedef struct {
   that do not touch, a contact of fewer than 20 cells across, a peak pressure that cells half as wide change by more
   than 5 %, a contact that is wider than a tenth of a radius of curvature, or a pressure above 0.2 E*; `found`: the
   contact, NULL if it has not been looked at now. With `of_laws` what the laws have to say, each once. Collective.
+  SamAdviceRenew - the next SamAdviceStep() of such a load looks again at how the contact, which has been worn, is
+  resolved. `after`: when that is, for the message. Not collective.
   SamAdviceEdge - appends to the message of a step that came to the grid's edge a grid on which these loads do not. Not
   collective.
 */
@@ -68,6 +72,7 @@ PETSC_INTERN void           SamAdviceAddLoads(SamAdvice *advice, PetscInt k, con
 PETSC_INTERN PetscErrorCode SamAdviceBegin(SamAdvice *advice);
 PETSC_INTERN PetscErrorCode SamAdviceStep(SamAdvice *advice, PetscInt k, PetscBool of_laws, const SamStep *step,
                                           const SamExtent **found);
+PETSC_INTERN void           SamAdviceRenew(SamAdvice *advice, const char after[]);
 PETSC_INTERN PetscErrorCode SamAdviceEdge(const SamAdvice *advice, SamStep *step);
 /*
   SamAdviceMeasurePeak - `change` and `finer` of the extent: solves the contact about the peak again on finer cells,

@@ -283,7 +283,8 @@ static void Cells(SamAdvice *a)
   char cells[AT_A_TIME] = "", width[AT_A_TIME] = "", zones[AT_A_TIME] = "", size[96], spots[160] = "", peak[160] = "",
        better[3 * AT_A_TIME];
 
-  if (!few && !steep) return;
+  if ((!few && !steep) || (a->finer && (sharp || factor <= (double)a->finer))) return;
+  a->finer = PetscMax(1, (PetscInt)factor);
   if (factor > 0) AdviseGrids(s, half, factor, refine, cells, width);
   if (factor > 0 && IsFromFile(s))
     (void)snprintf(better, sizeof(better), ": a file with heights at smaller distances%s%s", cells[0] ? ", and " : "",
@@ -305,8 +306,8 @@ static void Cells(SamAdvice *a)
                    100 * fabs((double)extent->change), extent->change > 0 ? "higher" : "lower",
                    sharp ? ", and further on finer ones, as at a sharp edge" : "");
   /* a grid that is enough for the number of cells alone is named after it */
-  Advise(a, "", "%s%s%s%s%s%s", spots, sharp ? better : "", few && steep ? "; " : "", peak, sharp ? "" : better,
-         absurd ? "; or check the units, N, m, Pa" : "");
+  Advise(a, "", "%s%s%s%s%s%s%s", a->after, spots, sharp ? better : "", few && steep ? "; " : "", peak,
+         sharp ? "" : better, absurd ? "; or check the units, N, m, Pa" : "");
 }
 
 /* Numbers that another unit would explain: of a prescribed stress, and of the grid. */
@@ -414,12 +415,12 @@ static void Steps(SamAdvice *a)
            "steps until the stick area converges");
 }
 
-/* All that may be said, in this order: before the first step, of the largest load, and of a contact there. */
+/* All that may be said, in this order: before the first step, of the largest load, of a contact, and of a worn one. */
 static const struct {
-  enum { BEFORE, LARGEST, CONTACT } when;
+  enum { BEFORE, LARGEST, CONTACT, WORN } when;
   void (*look)(SamAdvice *advice);
 } advices[] = {{BEFORE, Surfaces}, {BEFORE, Friction}, {BEFORE, Steps},   {LARGEST, Units}, {LARGEST, Motion},
-               {LARGEST, Touch},   {CONTACT, Cells},   {CONTACT, Bodies}, {CONTACT, Size}};
+               {LARGEST, Touch},   {CONTACT, Cells},   {CONTACT, Bodies}, {CONTACT, Size},  {WORN, Cells}};
 
 static PetscErrorCode LookAt(SamAdvice *a, int when)
 {
@@ -455,6 +456,13 @@ static PetscErrorCode LookAtLaws(SamAdvice *a, PetscInt k)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+void SamAdviceRenew(SamAdvice *a, const char after[])
+{
+  if (!a->examined) return;
+  a->examined = PETSC_FALSE;
+  (void)snprintf(a->after, sizeof(a->after), "%s", after);
+}
+
 PetscErrorCode SamAdviceStep(SamAdvice *a, PetscInt k, PetscBool of_laws, const SamStep *step, const SamExtent **found)
 {
   PetscFunctionBegin;
@@ -464,12 +472,12 @@ PetscErrorCode SamAdviceStep(SamAdvice *a, PetscInt k, PetscBool of_laws, const 
     a->examined = PETSC_TRUE;
     a->step     = step;
     PetscCall(Measure(a->setup, &a->extent));
-    *found = &a->extent;
-    PetscCall(LookAt(a, LARGEST));
+    if (!a->after[0]) *found = &a->extent;
+    if (!a->after[0]) PetscCall(LookAt(a, LARGEST));
     /* at the grid's edge it is the grid that decides how large the contact is */
     if (a->extent.zones && step->check.edge <= 0 && !a->doubtful) {
       PetscCall(GetWidths(a));
-      PetscCall(LookAt(a, CONTACT));
+      PetscCall(LookAt(a, a->after[0] ? WORN : CONTACT));
     }
   }
   if (of_laws) PetscCall(LookAtLaws(a, k));

@@ -10,10 +10,18 @@
 
 #define LEAST 4 /* cells in a row, of which half are a grid */
 
+/* The history, or the life, on half the cells. */
+typedef struct {
+  SamSetup setup;
+  double   sums[SAM_STATE_NUMBERS]; /* numbers joined over all steps */
+  SamLife  life;                    /* NULL: none */
+  SamStep  step;                    /* the last one */
+} Coarse;
+
 PetscErrorCode SamSimulationReadGridCheck(SamSimulation s, const SamOptions *from)
 {
   static const SamOptionRow row = {"grid_check", "all steps on half the cells too; errors of the last numbers",
-                                   SAM_OPTION_BOOL, .excludes = "restart,friction_file,wear_cycles,step_rtol,rolling"};
+                                   SAM_OPTION_BOOL, .excludes = "restart,friction_file,step_rtol,rolling"};
 
   PetscFunctionBegin;
   PetscCall(SamOptionsRead(from, NULL, 1, &row, &s->needs.grid_check, NULL));
@@ -22,19 +30,24 @@ PetscErrorCode SamSimulationReadGridCheck(SamSimulation s, const SamOptions *fro
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Solves the history on a coarser contact; the numbers that add up over the steps, and the last step. */
-static PetscErrorCode SolveAll(SamSimulation s, SamContact contact, double sums[], SamStep *step)
+/* Solves the history on the coarser contact, or as many cycles of the life. */
+static PetscErrorCode SolveAll(SamSimulation s, Coarse *c)
 {
-  SamState state;
+  const SamContact contact = c->setup.contact;
+  SamState         state;
 
   PetscFunctionBegin;
+  if (s->life) {
+    PetscCall(SamSimulationLiveCoarse(s, contact, SamLifeGetState(s->life).cycles, &c->life, &c->step));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   PetscCall(SamContactGetState(contact, &state));
   for (PetscInt k = 0; k < s->needs.steps; k++) {
     SamControl control = SamHistoryGetStep(s->history, k);
 
-    PetscCall(SamContactTry(contact, &control, step));
-    if (step->status != SAM_STATUS_CONVERGED) break;
-    SamStateJoinNumbers(state, sums, PETSC_FALSE);
+    PetscCall(SamContactTry(contact, &control, &c->step));
+    if (c->step.status != SAM_STATUS_CONVERGED) break;
+    SamStateJoinNumbers(state, c->sums, PETSC_FALSE);
     PetscCall(SamContactCommit(contact));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -46,6 +59,8 @@ static void Add(SamGrid grid, SamGridCheck *check, double ratio, const char name
 {
   const double error = (value - coarse) / (pow(ratio, (double)order) - 1);
 
+  for (PetscInt k = 0; k < check->count; k++)
+    if (!strcmp(check->row[k].name, name)) return; /* that of a cycle, before that of its last step */
   if (check->count == (PetscInt)(sizeof(check->row) / sizeof(check->row[0]))) return;
   check->row[check->count++] = (SamGridCheckRow){.name         = name,
                                                  .unit         = SamUnitOn(grid, unit),
@@ -56,15 +71,11 @@ static void Add(SamGrid grid, SamGridCheck *check, double ratio, const char name
                                                  .extrapolated = value + error};
 }
 
-/* Compares the numbers above 0 whose error has an order. */
-static PetscErrorCode CompareNumbers(SamSimulation s, SamContact coarse, const double sums[], double ratio,
+/* Compares the numbers above 0 of two states whose error has an order; `sums`: joined, NULL: those are left out. */
+static PetscErrorCode CompareNumbers(SamSimulation s, SamState state, SamState other, const double sums[], double ratio,
                                      SamGridCheck *check)
 {
-  SamState state, other;
-
   PetscFunctionBegin;
-  PetscCall(SamContactGetState(s->setup.contact, &state));
-  PetscCall(SamContactGetState(coarse, &other));
   for (PetscInt k = 0; k < SamStateCountNumbers(state); k++) {
     PetscInt              id;
     const SamStateNumber *n    = SamStateNumberOf(state, k, &id);
@@ -72,7 +83,7 @@ static PetscErrorCode CompareNumbers(SamSimulation s, SamContact coarse, const d
     const PetscBool       sum  = n->join == SAM_JOIN_SUM ? PETSC_TRUE : PETSC_FALSE;
     const double          fine = sum ? s->sums[id] : *SamStateReadNumbers(state, id);
 
-    if (same >= 0 && fine > 0)
+    if (same >= 0 && fine > 0 && (!sum || sums))
       Add(s->setup.grid, check, ratio, n->name, n->unit, n->order, fine,
           sum ? sums[same] : *SamStateReadNumbers(other, same));
   }
@@ -80,50 +91,57 @@ static PetscErrorCode CompareNumbers(SamSimulation s, SamContact coarse, const d
 }
 
 /* Compares the last steps on both grids: numbers, and of loads and displacements those that are found. */
-static PetscErrorCode Compare(SamSimulation s, SamContact coarse, const double sums[], const SamStep *step,
-                              SamGridCheck *check)
+static PetscErrorCode Compare(SamSimulation s, const Coarse *coarse, SamGridCheck *check)
 {
-  const SamGrid grid  = s->setup.grid;
-  const double  cells = (double)grid->nx * (double)grid->ny / ((double)check->n[0] * (double)check->n[1]),
-               ratio  = SamGridIsRow(grid) ? cells : sqrt(cells);
+  const SamStep *step  = &coarse->step;
+  const SamGrid  grid  = s->setup.grid;
+  const double   cells = (double)grid->nx * (double)grid->ny / ((double)check->n[0] * (double)check->n[1]),
+               ratio   = SamGridIsRow(grid) ? cells : sqrt(cells);
   const SamSolution *fine;
+  SamState           state, other;
 
   PetscFunctionBegin;
-  PetscCall(CompareNumbers(s, coarse, sums, ratio, check));
+  if (s->life) {
+    state = SamLifeGetSeries(s->life);
+    PetscCall(CompareNumbers(s, state, SamLifeGetSeries(coarse->life), NULL, ratio, check));
+  }
+  PetscCall(SamContactGetState(s->setup.contact, &state));
+  PetscCall(SamContactGetState(coarse->setup.contact, &other));
+  PetscCall(CompareNumbers(s, state, other, s->life ? NULL : coarse->sums, ratio, check));
   PetscCall(SamContactGetSolution(s->setup.contact, &fine));
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++) {
-    const SamComponentName *name = &SamComponentNames[c];
+    const SamComponentName *component = &SamComponentNames[c];
 
     if (step->control.value[c] == 0) continue;
     if (step->control.force[c])
-      Add(grid, check, ratio, name->rigid, name->rigid_unit, 2, (double)fine->rigid[c], (double)step->rigid[c]);
+      Add(grid, check, ratio, component->rigid, component->rigid_unit, 2, (double)fine->rigid[c],
+          (double)step->rigid[c]);
     else
-      Add(grid, check, ratio, name->load, name->load_unit, 2, (double)fine->load[c], (double)step->load[c]);
+      Add(grid, check, ratio, component->load, component->load_unit, 2, (double)fine->load[c], (double)step->load[c]);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamSimulationCheckGrid(SamSimulation s)
 {
-  const SamOptions from = {s->comm, NULL};
-  SamSetup         coarse;
-  SamGridCheck     check                   = {.count = 0};
-  double           sums[SAM_STATE_NUMBERS] = {0};
-  SamStep          step;
+  const SamOptions from   = {s->comm, NULL};
+  Coarse           coarse = {.life = NULL};
+  SamGridCheck     check  = {.count = 0};
   char             text[SAM_MESSAGE + 64];
 
   PetscFunctionBegin;
-  PetscCall(SamSetupCreateCoarse(&s->setup, &from, &coarse));
-  check.n[0] = coarse.grid->nx;
-  check.n[1] = coarse.grid->ny;
-  PetscCall(SolveAll(s, coarse.contact, sums, &step));
-  if (step.status == SAM_STATUS_CONVERGED) {
-    PetscCall(Compare(s, coarse.contact, sums, &step, &check));
+  PetscCall(SamSetupCreateCoarse(&s->setup, &from, &coarse.setup));
+  check.n[0] = coarse.setup.grid->nx;
+  check.n[1] = coarse.setup.grid->ny;
+  PetscCall(SolveAll(s, &coarse));
+  if (coarse.step.status == SAM_STATUS_CONVERGED) {
+    PetscCall(Compare(s, &coarse, &check));
     PetscCall(SamSimulationTell(s, &(SamSimulationNews){.kind = SAM_NEWS_GRID_CHECK, .check = &check}));
   } else {
-    (void)snprintf(text, sizeof(text), "no errors are estimated: on half the cells %s", step.message);
+    (void)snprintf(text, sizeof(text), "no errors are estimated: on half the cells %s", coarse.step.message);
     PetscCall(SamSimulationWarn(s, text, "grid_check"));
   }
-  PetscCall(SamSetupDestroy(&coarse));
+  PetscCall(SamLifeDestroy(&coarse.life));
+  PetscCall(SamSetupDestroy(&coarse.setup));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -52,6 +52,7 @@ static PetscErrorCode WriteStep(void *context, PetscInt step, PetscReal cycles, 
   const PetscBool     failed = told.status == SAM_STATUS_NOT_CONVERGED;
   PetscBool           due;
   const PetscInt      start = SamHistoryGetStart(s->history);
+  char                after[48];
 
   PetscFunctionBegin;
   due = (PetscBool)(SamPlanIsOutput(&s->plan, cycles) && SamSimulationSaves(s, step + 1, s->needs.steps - start));
@@ -63,6 +64,10 @@ static PetscErrorCode WriteStep(void *context, PetscInt step, PetscReal cycles, 
   PetscCall(SamSimulationTell(
     s, &(SamSimulationNews){.kind = SAM_NEWS_CYCLE_STEP, .step = s->point.steps - 1, .result = &told}));
   PetscCall(SamSimulationWriteStep(s, &told, due || failed));
+  if (!step && SamPlanIsOutput(&s->plan, cycles)) {
+    (void)snprintf(after, sizeof(after), "after %.10g cycles: ", (double)cycles);
+    SamAdviceRenew(&s->advice, after);
+  }
   PetscCall(SamSimulationExamine(s, start + step, PETSC_FALSE, &told));
   s->told = SamStepIsSolved(&told) ? PETSC_FALSE : PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -246,6 +251,33 @@ PetscErrorCode SamSimulationLive(SamSimulation s)
     if (!ended) PetscCall(Jump(s, &ended));
     if (!ended) PetscCall(SamSimulationCheckpoint(s));
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationLiveCoarse(SamSimulation s, SamContact contact, PetscReal cycles, SamLife *life,
+                                       SamStep *step)
+{
+  const PetscInt start = SamHistoryGetStart(s->history);
+  SamLifeCycle   cycle = {.control = Control, .context = s};
+  SamLifeReport  r;
+
+  PetscFunctionBegin;
+  cycle.steps = s->needs.steps - start;
+  PetscCall(SamLifeCreate(contact, &cycle, &s->plan.life, life));
+  for (PetscInt k = 0; k < start; k++) {
+    const SamControl control = SamHistoryGetStep(s->history, k);
+
+    PetscCall(SamContactTry(contact, &control, step));
+    if (step->status != SAM_STATUS_CONVERGED) PetscFunctionReturn(PETSC_SUCCESS);
+    PetscCall(SamContactCommit(contact));
+  }
+  PetscCall(SamLifeCompute(*life, &r));
+  while (r.step.status == SAM_STATUS_CONVERGED && r.cycles < cycles) {
+    PetscCall(SamLifeJump(*life, PetscMin(cycles, SamPlanNextStop(&s->plan, r.cycles)), &r));
+    if (r.step.status == SAM_STATUS_CONVERGED) PetscCall(SamLifeCompute(*life, &r));
+  }
+  PetscCall(SamLifeRecord(*life, &r));
+  *step = r.step;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

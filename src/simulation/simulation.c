@@ -295,6 +295,7 @@ static PetscErrorCode SolveStep(SamSimulation s, PetscBool *ended)
   PetscCall(SamSimulationWriteStep(s, &step, due));
   /* after writing: a step that is told of is in the file */
   PetscCall(SamSimulationTell(s, &(SamSimulationNews){.kind = SAM_NEWS_STEP, .step = k, .result = &step}));
+  if (k == last && SamProblemMoves(s->setup.problem)) SamAdviceRenew(&s->advice, "in the last step: ");
   PetscCall(SamSimulationExamine(s, k, PETSC_TRUE, &step));
   if (!*ended) PetscCall(SamSimulationCommitStep(s, &step, NULL, 0));
   if (*ended || !s->point.worst) s->point.worst = step.status;
@@ -329,7 +330,7 @@ static PetscErrorCode RunAll(SamSimulation s)
   else
     PetscCall(SolveSteps(s));
   PetscCall(Finish(s));
-  if (s->needs.grid_check && s->point.steps == s->needs.steps && s->point.worst == SAM_STATUS_CONVERGED)
+  if (s->needs.grid_check && s->point.worst == SAM_STATUS_CONVERGED && !s->stopped)
     PetscCall(SamSimulationCheckGrid(s));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

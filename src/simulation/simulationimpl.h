@@ -91,8 +91,14 @@ PETSC_INTERN PetscBool      SamSimulationSaves(SamSimulation simulation, PetscIn
 PETSC_INTERN PetscErrorCode SamSimulationForecast(SamSimulation simulation, char text[], size_t size);
 /* SamSimulationCreateLife - makes the life, if cycles are asked for, once there is a contact. Collective. */
 PETSC_INTERN PetscErrorCode SamSimulationCreateLife(SamSimulation simulation);
-/* SamSimulationLive - the cycles of a life, with their results and checkpoints. Collective. */
+/*
+  SamSimulationLive - the cycles of a life, with their results and checkpoints. Collective.
+  SamSimulationLiveCoarse - so many cycles of the same life on another contact, without either; the last step, or the
+  first one that is not converged. Collective.
+*/
 PETSC_INTERN PetscErrorCode SamSimulationLive(SamSimulation simulation);
+PETSC_INTERN PetscErrorCode SamSimulationLiveCoarse(SamSimulation simulation, SamContact contact, PetscReal cycles,
+                                                    SamLife *life, SamStep *step);
 /*
   SamSimulationWriteLastFields - makes sure that the fields of the step that was solved last are in the file, at the
   time of the last step that was written; for when the next one has no solution. Collective.

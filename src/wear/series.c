@@ -3,22 +3,22 @@
 #include <petsam/private/state.h>
 
 enum { CYCLE, JUMP, ERROR, VOLUME, DEPTH = VOLUME + 2, ENERGY = DEPTH + 2, AREA, PRESSURE, COMPUTED, NUMBERS };
-#define NUMBER(name, unit, text, kind) \
+#define NUMBER(name, unit, text, kind, order) \
   { \
-    name, unit, text, kind, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, 0 \
+    name, unit, text, kind, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, order \
   }
 static const SamStateNumber declared[NUMBERS] = {
-  NUMBER("cycle", "1", "cycles before this one", SAM_NUMBER_REAL),
-  NUMBER("jump", "1", "cycles skipped before this one", SAM_NUMBER_REAL),
-  NUMBER("error", "1", "estimated relative error of the cycle jump", SAM_NUMBER_REAL),
-  NUMBER("volume1", "m3", "volume removed of body 1", SAM_NUMBER_REAL),
-  NUMBER("volume2", "m3", "volume removed of body 2", SAM_NUMBER_REAL),
-  NUMBER("depth_max1", "m", "maximum depth removed of body 1", SAM_NUMBER_REAL),
-  NUMBER("depth_max2", "m", "maximum depth removed of body 2", SAM_NUMBER_REAL),
-  NUMBER("dissipated_energy", "J", "frictional work of the cycle", SAM_NUMBER_REAL),
-  NUMBER("contact_area", "m2", "area in contact at the end of the cycle", SAM_NUMBER_REAL),
-  NUMBER("pressure_max", "Pa", "maximum pressure at the end of the cycle", SAM_NUMBER_REAL),
-  NUMBER("computed", "1", "cycles computed so far", SAM_NUMBER_INT)};
+  NUMBER("cycle", "1", "cycles before this one", SAM_NUMBER_REAL, 0),
+  NUMBER("jump", "1", "cycles skipped before this one", SAM_NUMBER_REAL, 0),
+  NUMBER("error", "1", "estimated relative error of the cycle jump", SAM_NUMBER_REAL, 0),
+  NUMBER("volume1", "m3", "volume removed of body 1", SAM_NUMBER_REAL, 2),
+  NUMBER("volume2", "m3", "volume removed of body 2", SAM_NUMBER_REAL, 2),
+  NUMBER("depth_max1", "m", "maximum depth removed of body 1", SAM_NUMBER_REAL, 1),
+  NUMBER("depth_max2", "m", "maximum depth removed of body 2", SAM_NUMBER_REAL, 1),
+  NUMBER("dissipated_energy", "J", "frictional work of the cycle", SAM_NUMBER_REAL, 2),
+  NUMBER("contact_area", "m2", "area in contact at the end of the cycle", SAM_NUMBER_REAL, 1),
+  NUMBER("pressure_max", "Pa", "maximum pressure at the end of the cycle", SAM_NUMBER_REAL, 1),
+  NUMBER("computed", "1", "cycles computed so far", SAM_NUMBER_INT, 0)};
 
 PetscErrorCode SamLifeDeclare(SamLife l)
 {

@@ -16,12 +16,12 @@ def check(done):
     return {name: [float(word) for word in words] for name, *words in rows}
 
 
-def numbers(petsam, folder, *options):
-    """Numbers of the last step of a run, frictional work of all steps, as printed."""
+def numbers(petsam, folder, *options, series=("history",)):
+    """Numbers of the last step of a run, frictional work of all steps, as printed; or those of its last cycle."""
     petsam(*options, "-output", "one.h5", "-overwrite")
     with h5py.File(folder / "one.h5") as f:
-        values = {name: data[-1] for name, data in f["history"].items()}
-        return dict(values, dissipated_energy=f["history/dissipated_energy"][:].sum())
+        values = {name: data[-1] for group in series for name, data in f[group].items()}
+        return values if "wear" in series else dict(values, dissipated_energy=f["history/dissipated_energy"][:].sum())
 
 
 def test_both_grids_and_their_order(petsam, tmp_path):
@@ -43,6 +43,22 @@ def test_both_grids_and_their_order(petsam, tmp_path):
         assert order == (2 if "disp" in name or "energy" in name else 1)
     two = check(petsam(case, "-grid_check", ranks=2))
     assert two == rows
+
+
+def test_a_life_is_lived_again_on_half_the_cells(petsam, tmp_path):
+    """Numbers of the last cycle, then those of its last step that the cycle does not have."""
+    (tmp_path / "cycle.csv").write_text("time,load_tx\n0,0\n1,60\n2,-60\n3,0\n")
+    case = dict(SPHERE, friction=0.1, grid_n=40, history="cycle.csv", steps=2, wear_coefficient1=1e-14, wear_cycles=1e5,
+                wear_output=(1e3, 1e4))  # fmt: skip
+    rows = check(petsam(case, "-grid_check"))
+    expected = {}
+    for k, n in enumerate((40, 20)):
+        expected[k] = numbers(petsam, tmp_path, case, dict(grid_n=n), series=("history", "wear"))
+    assert {"volume1", "depth_max1", "dissipated_energy", "pressure_max", "stick_area", "disp_z"} <= set(rows)
+    assert "volume2" not in rows
+    for name, row in rows.items():
+        assert np.allclose(row[:2], [expected[0][name], expected[1][name]], rtol=2e-5), name
+        assert row[4] == (2 if any(word in name for word in ("volume", "energy", "disp")) else 1), name
 
 
 def test_heights_of_a_file_are_averaged(petsam, tmp_path):
