@@ -33,6 +33,31 @@ typedef struct {
 } SamLoadsMost;
 
 /*
+  SamSlip - the dissipated energy of the steps so far, and how far the cells resolve it (slip.c). Branches lie between
+  load reversals; lengths in cells.
+*/
+typedef struct {
+  PetscBool reversed, known;               /* the branch is not of first loading; there is a closed form of all */
+  PetscReal friction;                      /* coefficient */
+  double    line[2], bound;                /* direction of T; mu N (N) */
+  double    start, last, limit;            /* N: T where the branch began, after the last step, and its end at most */
+  double    start_moved[2], last_moved[2]; /* m: displacement along x, y there */
+  double    before, energy;                /* J: of the branches before, and of this one */
+} SamSlipPath;
+typedef struct {
+  PetscInt    steps;
+  PetscBool   rolls;         /* nothing is known */
+  double      energy, error; /* J: the sum over cells, and its error, estimated */
+  double      closed;        /* J: by the closed form; NaN: there is none */
+  double      work;          /* J: T disp, the most of a step */
+  double      branch, worst; /* J: energy of the branch; the largest error of one, */
+  PetscReal   narrow[2];     /* and width of the slip zone and length of the edge there */
+  PetscReal   width, length; /* the same after the last step */
+  PetscReal   stick_cells;   /* after the last step */
+  SamSlipPath path;
+} SamSlip;
+
+/*
   SamAdviceFunction - receives advice: a text of one line, and the option (without dash) that mends it, where the text
   does not name it itself; else empty.
 */
@@ -53,6 +78,7 @@ typedef struct {
   PetscBool         advised[SAM_LAWS]; /* laws that have warned of a step */
   const SamStep    *step;              /* that is looked at, */
   SamExtent         extent;            /* with the contact there */
+  SamSlip           slip;              /* of the steps so far; of the last computed cycle */
   PetscReal      half[2], across; /* half widths (m) and cells across: of a closed solution if it is of this contact */
   PetscErrorCode error;           /* the first of who receives it */
 } SamAdvice;
@@ -65,6 +91,9 @@ typedef struct {
   contact, NULL if it has not been looked at now. With `of_laws` what the laws have to say, each once. Collective.
   SamAdviceRenew - the next SamAdviceStep() of such a load looks again at how the contact, which has been worn, is
   resolved. `after`: when that is, for the message. Not collective.
+  SamAdviceBeginCycle - before a computed cycle of a life: its energy alone counts. Not collective.
+  SamAdviceEnd - after the last step: a dissipated energy that the slip zones, narrow beside the cells, make wrong by
+  more than 5 %. `found`: the energy, NULL if there is none. Collective.
   SamAdviceEdge - appends to the message of a step that came to the grid's edge a grid on which these loads do not. Not
   collective.
 */
@@ -72,6 +101,8 @@ PETSC_INTERN void           SamAdviceAddLoads(SamAdvice *advice, PetscInt k, con
 PETSC_INTERN PetscErrorCode SamAdviceBegin(SamAdvice *advice);
 PETSC_INTERN PetscErrorCode SamAdviceStep(SamAdvice *advice, PetscInt k, PetscBool of_laws, const SamStep *step,
                                           const SamExtent **found);
+PETSC_INTERN void           SamAdviceBeginCycle(SamAdvice *advice);
+PETSC_INTERN PetscErrorCode SamAdviceEnd(SamAdvice *advice, const SamSlip **found);
 PETSC_INTERN void           SamAdviceRenew(SamAdvice *advice, const char after[]);
 PETSC_INTERN PetscErrorCode SamAdviceEdge(const SamAdvice *advice, SamStep *step);
 /*

@@ -25,6 +25,7 @@ typedef enum {
   SAM_NEWS_MESSAGE,    /* the message of `result` about what `text` names */
   SAM_NEWS_ADVICE,     /* `text`, and the option that mends it, `setting` (without dash; empty: none) */
   SAM_NEWS_EXTENT,     /* `extent` of the contact in `step` */
+  SAM_NEWS_SLIP,       /* `slip` of all steps */
   SAM_NEWS_GRID_CHECK, /* `check` of the last step */
   SAM_NEWS_FILE,       /* the file `text` was written, and holds `setting` */
   SAM_NEWS_STOPPED     /* before the end, with a checkpoint: `text` says where and why */
@@ -70,6 +71,7 @@ typedef struct {
   PetscReal                 cycles;
   const SamSimulationStart *start;
   const SamExtent          *extent;
+  const SamSlip            *slip;
   const SamGridCheck       *check;
   const char               *text, *setting;
 } SamSimulationNews;

@@ -4,8 +4,7 @@
   Sizes of grids follow from closed-form solutions where there are any, which hold even where the grid resolves nothing
   or ends within the contact; else from the contact that was found.
 */
-#include <petsam/advice.h>
-#include <petsam/private/baseimpl.h>
+#include "adviceimpl.h"
 #include <petsam/private/grid.h>
 #include <petsam/private/motionimpl.h>
 #include <math.h>
@@ -140,7 +139,7 @@ static PetscErrorCode Estimate(const SamSetup *s, PetscBool force, PetscReal val
 
 /* ---- what would be better ---- */
 
-static PetscBool IsFromFile(const SamSetup *s)
+PetscBool SamAdviceIsFromFile(const SamSetup *s)
 {
   return SamGapIsFromFile(s->gap, PETSC_FALSE) || SamGapIsFromFile(s->gap, PETSC_TRUE) ? PETSC_TRUE : PETSC_FALSE;
 }
@@ -213,7 +212,7 @@ static PetscErrorCode Compare(const SamSetup *s, const PetscReal half[2], char t
 
 /* ---- a step ---- */
 
-static void Advise(SamAdvice *a, const char setting[], const char format[], ...)
+void SamAdviceSay(SamAdvice *a, const char setting[], const char format[], ...)
 {
   char    text[512];
   va_list values;
@@ -232,20 +231,21 @@ static void Motion(SamAdvice *a)
   const double        width  = 2 * (double)PetscMax(extent->half[0], extent->half[1]);
 
   if (most->rotation > STEEPEST)
-    Advise(a, "", "a rotation of %g is prescribed: rotations must be small, up to about %g rad (a degree is 0.0175)",
-           (double)most->rotation, STEEPEST);
+    SamAdviceSay(a, "",
+                 "a rotation of %g is prescribed: rotations must be small, up to about %g rad (a degree is 0.0175)",
+                 (double)most->rotation, STEEPEST);
   else if (most->creep > STEEPEST)
-    Advise(a, "",
-           "a creepage of %g is prescribed: it is the slip over the rolled distance, up to about %g (1 %% is 0.01)",
-           (double)most->creep, STEEPEST);
+    SamAdviceSay(
+      a, "", "a creepage of %g is prescribed: it is the slip over the rolled distance, up to about %g (1 %% is 0.01)",
+      (double)most->creep, STEEPEST);
   else if (0.5 * (double)most->spin * width > STEEPEST)
-    Advise(
+    SamAdviceSay(
       a, "",
       "creep_spin %g 1/m is prescribed: its slip at the contact's edge is %.2g of the rolled distance, the limit is "
       "about %g: check the unit, 1/m",
       (double)most->spin, 0.5 * (double)most->spin * width, STEEPEST);
   else if (extent->zones && (double)most->slide > width)
-    Advise(
+    SamAdviceSay(
       a, "",
       "the prescribed tangential displacement, %g m, exceeds the width of the contact, %.3g m: surfaces are not moved "
       "past each other, so it must be small: check the unit, m",
@@ -258,40 +258,59 @@ static void Touch(SamAdvice *a)
   const PetscBool   force   = control->force[SAM_COMPONENT_N];
 
   if (a->extent.zones) return;
-  Advise(a, force ? "load_n" : "disp_z",
-         "the bodies do not touch in any step: the %s is %g %s at most, and must exceed %s",
-         force ? "normal force" : "approach", (double)control->value[SAM_COMPONENT_N],
-         force ? SamUnitOn(a->setup->grid, "N") : "m", force ? "0" : "0, or the smallest separation");
+  SamAdviceSay(a, force ? "load_n" : "disp_z",
+               "the bodies do not touch in any step: the %s is %g %s at most, and must exceed %s",
+               force ? "normal force" : "approach", (double)control->value[SAM_COMPONENT_N],
+               force ? SamUnitOn(a->setup->grid, "N") : "m", force ? "0" : "0, or the smallest separation");
+}
+
+/* Along which axes the contact ends within the grid. One spot that does along one only is a strip. */
+static PetscBool IsStrip(const SamAdvice *a, PetscBool ends[2])
+{
+  const SamGrid g = a->setup->grid;
+
+  ends[0] = 2 * a->extent.half[0] < g->width[0] - 0.5 * g->dx ? PETSC_TRUE : PETSC_FALSE;
+  ends[1] = g->axes == 2 && 2 * a->extent.half[1] < g->width[1] - 0.5 * g->dy ? PETSC_TRUE : PETSC_FALSE;
+  return a->extent.zones == 1 && ends[0] != ends[1] ? PETSC_TRUE : PETSC_FALSE;
+}
+
+void SamAdviceGrids(const SamAdvice *a, double factor, char text[SAM_ADVICE_GRIDS])
+{
+  const SamSetup *s = a->setup;
+  PetscBool       ends[2];
+  const PetscBool strip = IsStrip(a, ends), refine[2] = {!strip || ends[0], !strip || ends[1]};
+  char            cells[AT_A_TIME] = "", width[AT_A_TIME] = "";
+
+  text[0] = '\0';
+  if (!(factor > 0) || !(a->half[0] > 0)) return;
+  AdviseGrids(s, a->half, factor, refine, cells, width);
+  if (SamAdviceIsFromFile(s))
+    (void)snprintf(text, SAM_ADVICE_GRIDS, ": a file with heights at smaller distances%s%s", cells[0] ? ", and " : "",
+                   cells);
+  else
+    (void)snprintf(text, SAM_ADVICE_GRIDS, "%s%s%s%s%s", cells[0] || width[0] ? ": " : "", width,
+                   width[0] ? " (in m)" : "", width[0] && cells[0] ? " or " : "", cells);
 }
 
 /* A contact that is few cells across, or a peak of pressure that they do not resolve; grids on which it is not so. */
 static void Cells(SamAdvice *a)
 {
-  const SamSetup  *s       = a->setup;
-  const SamExtent *extent  = &a->extent;
-  const PetscReal *half    = a->half;
-  const PetscBool  ends[2] = {2 * extent->half[0] < s->grid->width[0] - 0.5 * s->grid->dx,
-                              s->grid->axes == 2 && 2 * extent->half[1] < s->grid->width[1] - 0.5 * s->grid->dy};
-  const PetscBool  strip = extent->zones == 1 && ends[0] != ends[1], refine[2] = {!strip || ends[0], !strip || ends[1]};
+  const SamSetup  *s      = a->setup;
+  const SamExtent *extent = &a->extent;
+  const PetscReal *half   = a->half;
+  PetscBool        ends[2];
   /* of periodic bodies all cells may be in contact, and have no width */
-  const PetscBool whole = !strip && extent->across > (PetscReal)PetscMin(s->grid->nx, s->grid->ny) - 0.5;
+  const PetscBool whole = !IsStrip(a, ends) && extent->across > (PetscReal)PetscMin(s->grid->nx, s->grid->ny) - 0.5;
   const PetscBool few   = !whole && extent->across < FEW_CELLS;
   const PetscBool steep = fabs(extent->change) > PEAK, sharp = steep && !extent->finer;
-  const double    more   = few ? (FEW_CELLS + SAME) / (double)a->across : 0;
-  const double    factor = PetscMax(more, steep ? (double)extent->finer : 0);
-  const PetscBool absurd = more * (double)PetscMax(s->grid->nx, s->grid->ny) > ABSURD;
-  char cells[AT_A_TIME] = "", width[AT_A_TIME] = "", zones[AT_A_TIME] = "", size[96], spots[160] = "", peak[160] = "",
-       better[3 * AT_A_TIME];
+  const double    more             = few ? (FEW_CELLS + SAME) / (double)a->across : 0;
+  const double    factor           = PetscMax(more, steep ? (double)extent->finer : 0);
+  const PetscBool absurd           = more * (double)PetscMax(s->grid->nx, s->grid->ny) > ABSURD;
+  char            zones[AT_A_TIME] = "", size[96], spots[160] = "", peak[160] = "", better[SAM_ADVICE_GRIDS];
 
   if ((!few && !steep) || (a->finer && (sharp || factor <= (double)a->finer))) return;
   a->finer = PetscMax(1, (PetscInt)factor);
-  if (factor > 0) AdviseGrids(s, half, factor, refine, cells, width);
-  if (factor > 0 && IsFromFile(s))
-    (void)snprintf(better, sizeof(better), ": a file with heights at smaller distances%s%s", cells[0] ? ", and " : "",
-                   cells);
-  else
-    (void)snprintf(better, sizeof(better), "%s%s%s%s%s", cells[0] || width[0] ? ": " : "", width,
-                   width[0] ? " (in m)" : "", width[0] && cells[0] ? " or " : "", cells);
+  SamAdviceGrids(a, factor, better);
   if (extent->zones > 1)
     (void)snprintf(zones, sizeof(zones), "in %lld spots, the narrow ones ", (long long)extent->zones);
   (void)snprintf(size, sizeof(size), "%.3g m by %.3g m on a grid of %.3g m by %.3g m", 2 * (double)half[0],
@@ -306,8 +325,8 @@ static void Cells(SamAdvice *a)
                    100 * fabs((double)extent->change), extent->change > 0 ? "higher" : "lower",
                    sharp ? ", and further on finer ones, as at a sharp edge" : "");
   /* a grid that is enough for the number of cells alone is named after it */
-  Advise(a, "", "%s%s%s%s%s%s%s", a->after, spots, sharp ? better : "", few && steep ? "; " : "", peak,
-         sharp ? "" : better, absurd ? "; or check the units, N, m, Pa" : "");
+  SamAdviceSay(a, "", "%s%s%s%s%s%s%s", a->after, spots, sharp ? better : "", few && steep ? "; " : "", peak,
+               sharp ? "" : better, absurd ? "; or check the units, N, m, Pa" : "");
 }
 
 /* Numbers that another unit would explain: of a prescribed stress, and of the grid. */
@@ -320,9 +339,9 @@ static void Units(SamAdvice *a)
   const double        width = (double)PetscMax(s->grid->width[0], s->grid->width[1]);
 
   if (most->stress > 0 && (double)most->stress < SLIGHT * young)
-    Advise(a, "", "the largest %s, %g Pa, is %.2g of Young's modulus: check the unit, Pa", most->stress_name,
-           (double)most->stress, (double)most->stress / young);
-  if (width > WIDEST) Advise(a, "grid_size", "the grid is %g m wide: check the unit, m", width);
+    SamAdviceSay(a, "", "the largest %s, %g Pa, is %.2g of Young's modulus: check the unit, Pa", most->stress_name,
+                 (double)most->stress, (double)most->stress / young);
+  if (width > WIDEST) SamAdviceSay(a, "grid_size", "the grid is %g m wide: check the unit, m", width);
 }
 
 /* Heights of another unit, after which the grid is not the question. */
@@ -334,7 +353,7 @@ static void Surfaces(SamAdvice *a)
   a->error = SamGapAdvise(s->gap, s->grid, SamProblemGetGap(s->problem), SamElasticityGetTraits(s->elasticity).periodic,
                           text, sizeof(text));
   a->doubtful = text[0] ? PETSC_TRUE : PETSC_FALSE;
-  if (!a->error && a->doubtful) Advise(a, "", "%s", text);
+  if (!a->error && a->doubtful) SamAdviceSay(a, "", "%s", text);
 }
 
 /* Passes on the advice of the bodies on these cells and a contact of these half widths. */
@@ -347,7 +366,7 @@ static void Bodies(SamAdvice *a)
   for (PetscInt k = 0; k < 4 && !a->error; k++) {
     a->error = SamBodyAdvise(SamPairBody(a->setup->pair, k / 2), k / 2 + 1, k % 2, a->setup->grid->side[1], width,
                              &option, text, sizeof(text));
-    if (!a->error && text[0]) Advise(a, option, "%s", text);
+    if (!a->error && text[0]) SamAdviceSay(a, option, "%s", text);
   }
 }
 
@@ -381,11 +400,12 @@ static void Size(SamAdvice *a)
   if (!a->error) a->error = Compare(a->setup, a->half, ratio, sizeof(ratio), &large);
   if (!a->error) a->error = SamContactGetNumber(a->setup->contact, "pressure_max", &most);
   if (!a->error && large)
-    Advise(a, "", "contact too large for half-space theory: its half width %s", ratio);
+    SamAdviceSay(a, "", "contact too large for half-space theory: its half width %s", ratio);
   else if (!a->error && most > HARDEST * modulus)
-    Advise(a, "", "the maximum pressure, %.3g Pa, is %.2g of E*, linear elasticity holds up to about %g: check the %s",
-           (double)most, (double)most / modulus, HARDEST,
-           IsFromFile(a->setup) ? "unit of the dataset, and N, m, Pa" : "units, N, m, Pa");
+    SamAdviceSay(a, "",
+                 "the maximum pressure, %.3g Pa, is %.2g of E*, linear elasticity holds up to about %g: check the %s",
+                 (double)most, (double)most / modulus, HARDEST,
+                 SamAdviceIsFromFile(a->setup) ? "unit of the dataset, and N, m, Pa" : "units, N, m, Pa");
 }
 
 /* A coefficient of friction in percent. */
@@ -395,8 +415,8 @@ static void Friction(SamAdvice *a)
 
   a->error = SamLawGetFriction(SamProblemGetLaw(a->setup->problem, SAM_LAW_COULOMB), &friction);
   if (a->error || friction < PERCENT || friction > STICKING) return;
-  Advise(a, "friction", "the coefficient of friction is %g: give a ratio, %g for %g percent", (double)friction,
-         (double)friction / 100, (double)friction);
+  SamAdviceSay(a, "friction", "the coefficient of friction is %g: give a ratio, %g for %g percent", (double)friction,
+               (double)friction / 100, (double)friction);
 }
 
 /* Dissimilar bodies whose slip while the load grows is found in one step. */
@@ -410,9 +430,10 @@ static void Steps(SamAdvice *a)
   if (!a->error && rubs && SamContactGetSettings(a->setup->contact).coupling &&
       SamMotionOf(a->setup->elasticity)->continues && a->steps == 1 &&
       SamPairCoupling(a->setup->pair, waves[0], waves[1]) > DISSIMILAR)
-    Advise(a, "steps",
-           "elastically dissimilar bodies with friction slip while the normal load grows, here in one step: use more "
-           "steps until the stick area converges");
+    SamAdviceSay(
+      a, "steps",
+      "elastically dissimilar bodies with friction slip while the normal load grows, here in one step: use more "
+      "steps until the stick area converges");
 }
 
 /* All that may be said, in this order: before the first step, of the largest load, of a contact, and of a worn one. */
@@ -450,10 +471,15 @@ static PetscErrorCode LookAtLaws(SamAdvice *a, PetscInt k)
     if (!advice[0]) break;
     if (a->advised[law]) continue;
     a->advised[law] = PETSC_TRUE;
-    Advise(a, "steps", "step %" PetscInt_FMT ": %s", k + 1, advice);
+    SamAdviceSay(a, "steps", "step %" PetscInt_FMT ": %s", k + 1, advice);
   }
   PetscCall(a->error);
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+void SamAdviceBeginCycle(SamAdvice *a)
+{
+  a->slip = (SamSlip){.steps = 0};
 }
 
 void SamAdviceRenew(SamAdvice *a, const char after[])
@@ -481,6 +507,17 @@ PetscErrorCode SamAdviceStep(SamAdvice *a, PetscInt k, PetscBool of_laws, const 
     }
   }
   if (of_laws) PetscCall(LookAtLaws(a, k));
+  PetscCall(SamAdviceAddSlip(a, k, step));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamAdviceEnd(SamAdvice *a, const SamSlip **found)
+{
+  PetscFunctionBegin;
+  a->error = PETSC_SUCCESS;
+  SamAdviceSlip(a);
+  *found = a->slip.energy > 0 ? &a->slip : NULL;
+  PetscCall(a->error);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -550,7 +587,7 @@ PetscErrorCode SamAdviceEdge(const SamAdvice *a, SamStep *step)
       : isinf(half[0])                 ? "x"
                                        : "y",
       isinf(half[0]) ? "" : "plane, a section with loads per metre, or ");
-  } else if (IsFromFile(s)) {
+  } else if (SamAdviceIsFromFile(s)) {
     (void)snprintf(text, size,
                    "; a surface from a file cannot be enlarged: give a file of a larger area, or less load");
   } else {

@@ -162,6 +162,18 @@ static PetscErrorCode WarnOfEnergy(SamReport r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The dissipated energy beside its closed form. */
+static PetscErrorCode PrintSlip(SamReport r)
+{
+  const char *const unit = r->row ? "J/m" : "J";
+
+  PetscFunctionBegin;
+  if (!r->slip.steps || isnan(r->slip.closed)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscPrintf(r->comm, "  %-10s  %.4g %s dissipated, %.4g %s in closed form; slip zones %.2g cells wide\n",
+                        "slip", r->slip.energy, unit, r->slip.closed, unit, (double)r->slip.narrow[0]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode PrintFiles(SamReport r)
 {
   PetscFunctionBegin;
@@ -227,6 +239,7 @@ PetscErrorCode SamReportClosing(SamReport r)
   PetscCall(PrintExtent(r));
   PetscCall(PrintEdges(r));
   PetscCall(PrintEnergy(r));
+  PetscCall(PrintSlip(r));
   PetscCall(PrintFiles(r));
   PetscCall(PrintResources(r));
   PetscFunctionReturn(PETSC_SUCCESS);

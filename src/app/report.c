@@ -392,6 +392,9 @@ PetscErrorCode SamReportNews(SamReport r, SamContact contact, const SamSimulatio
     r->extent      = *news->extent;
     r->extent_step = news->step + 1;
     break;
+  case SAM_NEWS_SLIP:
+    r->slip = *news->slip;
+    break;
   case SAM_NEWS_GRID_CHECK:
     PetscCall(PrintGridCheck(r, news->check));
     break;

@@ -54,6 +54,7 @@ struct _n_SamReport {
   SamContact     contact;     /* whose monitors are set; borrowed */
   SamExtent      extent;      /* of the contact in step `extent_step`, */
   PetscInt       extent_step; /* from 1; 0: not known */
+  SamSlip        slip;        /* of all steps; without steps: not known */
   PetscBool      edge_told;   /* that the contact is at the edge, which is allowed */
   /* files written */
   char    *name[SAM_REPORT_FILES], *content[SAM_REPORT_FILES];

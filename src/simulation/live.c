@@ -64,6 +64,7 @@ static PetscErrorCode WriteStep(void *context, PetscInt step, PetscReal cycles, 
   PetscCall(SamSimulationTell(
     s, &(SamSimulationNews){.kind = SAM_NEWS_CYCLE_STEP, .step = s->point.steps - 1, .result = &told}));
   PetscCall(SamSimulationWriteStep(s, &told, due || failed));
+  if (!step) SamAdviceBeginCycle(&s->advice);
   if (!step && SamPlanIsOutput(&s->plan, cycles)) {
     (void)snprintf(after, sizeof(after), "after %.10g cycles: ", (double)cycles);
     SamAdviceRenew(&s->advice, after);

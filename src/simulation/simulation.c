@@ -319,6 +319,7 @@ static PetscErrorCode SolveSteps(SamSimulation s)
 static PetscErrorCode RunAll(SamSimulation s)
 {
   PetscErrorCode code;
+  const SamSlip *slip = NULL;
 
   PetscFunctionBegin;
   if (!s->prepared) PetscCall(Prepare(s, &(SamOptions){s->comm, NULL}));
@@ -329,6 +330,8 @@ static PetscErrorCode RunAll(SamSimulation s)
     PetscCall(SamSimulationLive(s));
   else
     PetscCall(SolveSteps(s));
+  if (s->point.worst == SAM_STATUS_CONVERGED) PetscCall(SamAdviceEnd(&s->advice, &slip));
+  if (slip) PetscCall(SamSimulationTell(s, &(SamSimulationNews){.kind = SAM_NEWS_SLIP, .slip = slip}));
   PetscCall(Finish(s));
   if (s->needs.grid_check && s->point.worst == SAM_STATUS_CONVERGED && !s->stopped)
     PetscCall(SamSimulationCheckGrid(s));

@@ -121,9 +121,9 @@ static const SamStateNumber declared[NUMBERS] = {
   REAL("energy_error", "J", "estimated error of dissipated_energy by the length of the load step", SAM_JOIN_SUM, 0)};
 
 /* Of the edge of contact: whether it is known, its area, faces and good faces. They hold while the pressure does. */
-enum { KNOWN, AREA, FACES, GOOD, EDGE };
+enum { KNOWN = SAM_CONTACT_EDGE_KNOWN, AREA, FACES = SAM_CONTACT_EDGE_FACES, GOOD, EDGE };
 static const SamStateNumber contact_edge = {
-  "contact_edge_sums", "1", "edge of contact", SAM_NUMBER_REAL, EDGE, PETSC_FALSE, PETSC_FALSE, SAM_JOIN_LAST, 0};
+  SAM_CONTACT_EDGE, "1", "edge of contact", SAM_NUMBER_REAL, EDGE, PETSC_FALSE, PETSC_FALSE, SAM_JOIN_LAST, 0};
 
 PetscErrorCode SamSolutionDeclareNumbers(SamState state, SamMotion motion)
 {

@@ -1,9 +1,11 @@
 """Numbers that a grid gets wrong by more than 5 % are warned of; ordinary ones are right without a word."""
 
+import math
 import re
 
 import pytest
 
+SLIP = "slip zones are"
 PEAK = "the peak pressure is not resolved"
 STEEL = dict(body1_young=210e9, body2_young=210e9, body1_poisson=0.0, body2_poisson=0.0)
 
@@ -49,3 +51,96 @@ def test_peak_of_a_contact_that_wears_step_by_step_is_looked_at_in_the_last_step
     worn = said(petsam(case, dict(wear_coefficient1=2e-9)), PEAK)
     assert len(worn) == 1 and "in the last step: " in worn[0]
     assert not said(petsam(case, dict(wear_coefficient1=1e-12)), PEAK)
+
+
+# ---------------------------------------------------------------- narrow slip zones
+
+MU, LOAD = 0.3, 100.0
+SPHERE = dict(STEEL, friction=MU, gap_type="sphere", gap_radius1=0.1, gap_radius2=float("inf"))
+RADIUS = (3 * LOAD * 0.1 / (4 * 105e9)) ** (1 / 3)  # of the contact, m
+COMPLIANCE = 2 * 2 / (8 * 105e9 * RADIUS)  # disp_x/T_x of both bodies without slip, nu = 0
+
+
+def loaded(folder, t, load=LOAD):
+    """N, then T_x = t mu N to and fro, in four steps each."""
+    tx = t * MU * load
+    return dict(history(folder, "load_n,load_tx", (load, 0.0), (load, tx), (load, -tx), (load, tx)), steps=4)
+
+
+def mindlin(t):
+    """Energy (J) of the first loading and both reversals of spheres: 5 times that of the first."""
+    f = 1 - (1 - t) ** (5 / 3) - 5 / 6 * t * (1 + (1 - t) ** (2 / 3))
+    return 9 * COMPLIANCE * (MU * LOAD) ** 2 * f
+
+
+def cylinder(t, load, modulus):
+    """The same per metre of cylinders."""
+    x = 1 - t
+    return 5 * (MU * load) ** 2 / (math.pi * modulus) * (x * math.log(x) + 0.5 * (1 - x * x))
+
+
+def energies(done):
+    """Dissipated, and in closed form."""
+    found = re.search(r"^  slip +(\S+) J\S* dissipated, (\S+) J\S* in closed form", done.stdout, re.M)
+    return [float(word) for word in found.groups()]
+
+
+@pytest.mark.parametrize("n", [32, 48, 64])
+@pytest.mark.parametrize("t", [0.0625, 0.125, 0.5])
+def test_energy_of_a_thin_annulus_is_right_or_warned_of(petsam, tmp_path, n, t):
+    done = petsam(SPHERE, loaded(tmp_path, t), dict(grid_n=n, grid_size=3 * RADIUS))
+    energy, closed = energies(done)
+    warned = bool(said(done, SLIP))
+    assert closed == pytest.approx(mindlin(t), rel=0.006)
+    assert warned == (abs(energy / closed - 1) > 0.05)
+    assert t < 0.5 or not warned
+    assert t > 0.1 or warned
+
+
+@pytest.mark.parametrize("n", [40, 64, 128])
+@pytest.mark.parametrize("t", [0.125, 0.25, 0.5])
+def test_energy_of_a_cylinder_is_right_or_warned_of(petsam, tmp_path, n, t):
+    case = dict(STEEL, friction=MU, elasticity="plane", gap_type="ellipsoid", gap_radius_x=0.1,
+                gap_radius_y=float("inf"), grid_n=n, grid_size=1.1e-3)  # fmt: skip
+    done = petsam(case, loaded(tmp_path, t, 1e5))
+    energy, closed = energies(done)
+    assert closed == pytest.approx(cylinder(t, 1e5, 105e9), rel=1e-3)
+    assert bool(said(done, SLIP)) == (abs(energy / closed - 1) > 0.05)
+
+
+@pytest.mark.parametrize("n", [32, 48, 96])
+def test_energy_of_a_pad_is_right_or_warned_of(petsam, tmp_path, n):
+    case = dict(STEEL, friction=MU, elasticity="plane", gap_type="pad", gap_half_flat_x=1e-3, gap_edge_radius_x=2e-2,
+                grid_size=3e-3)  # fmt: skip
+    fine, coarse = (petsam(case, loaded(tmp_path, 0.25, 1e5), dict(grid_n=k)) for k in (2048, n))
+    assert not fine.complaint and said(coarse, SLIP)
+
+
+def test_energy_follows_loops_within_loops(petsam, tmp_path):
+    """The closed form holds as far as the reversal before the last one, and for no other path."""
+    grid = dict(grid_n=64, grid_size=3 * RADIUS)
+    rows = [(LOAD, t * MU * LOAD) for t in (0.0, 0.6, 0.0, 0.4)]
+    done = petsam(SPHERE, grid, history(tmp_path, "load_n,load_tx", *rows), dict(steps=4))
+    branches = [mindlin(0.6) / 5, *(2 * mindlin(t) / 5 for t in (0.3, 0.2))]
+    assert energies(done)[1] == pytest.approx(sum(branches), rel=0.003)
+    for more in ((LOAD, 0.7), (1.1 * LOAD, 0.1)):
+        beyond = petsam(SPHERE, grid, history(tmp_path, "load_n,load_tx", *rows, (more[0], more[1] * MU * LOAD)))
+        assert "closed form" not in beyond.stdout
+    turned = petsam(
+        SPHERE, grid, history(tmp_path, "load_n,load_tx,load_ty", *((n, 0.6 * t, 0.8 * t) for n, t in rows))
+    )
+    assert energies(turned)[1] == pytest.approx(sum(branches), rel=0.003)
+    bent = petsam(SPHERE, grid, history(tmp_path, "load_n,load_tx,load_ty", *((*r, k) for k, r in enumerate(rows))))
+    assert "closed form" not in bent.stdout
+
+
+def test_words_on_slip_zones_are_the_same_on_any_number_of_ranks(petsam, tmp_path):
+    case = (SPHERE, loaded(tmp_path, 0.125), dict(grid_n=33, grid_size=3 * RADIUS))
+    one, three = (petsam(*case, ranks=ranks) for ranks in (1, 3))
+    assert one.complaint == three.complaint and said(one, SLIP) and energies(one) == energies(three)
+
+
+def test_contacts_without_an_edge_or_tangential_load_have_no_slip_zone(petsam):
+    flat = dict(STEEL, friction=MU, gap_type="flat", elasticity="periodic", grid_n=32, grid_size=1e-3, load_n=10.0)
+    assert not petsam(flat, dict(load_tx=1.0)).complaint
+    assert not petsam(SPHERE, dict(grid_n=64, grid_size=3 * RADIUS, load_n=LOAD)).complaint

@@ -118,7 +118,11 @@ PETSC_INTERN PetscErrorCode SamSolutionComputeRolling(SamProblem problem, const 
   cells and areas, by their counted cells or (`edges`) reconstructed edges, largest tractions and slip, energies, by
   their names in the motion. With `same_pressure` that of the step
   before, whose edge of contact it keeps. Collective.
+  SAM_CONTACT_EDGE - the number in the state that has the contact's edge: whether it is known, 0 or 1, and the faces of
+  cells there to cells outside.
 */
+#define SAM_CONTACT_EDGE "contact_edge_sums"
+enum { SAM_CONTACT_EDGE_KNOWN, SAM_CONTACT_EDGE_FACES = 2 };
 PETSC_INTERN PetscErrorCode SamSolutionDeclareNumbers(SamState state, SamMotion motion);
 PETSC_INTERN PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamState state, const SamSolution *before,
                                                       const SamSolution *now, PetscBool same_pressure, PetscBool edges);

@@ -1,0 +1,27 @@
+/* What the files of the advice share. */
+#ifndef PETSAM_ADVICEIMPL_H
+#define PETSAM_ADVICEIMPL_H
+
+#include <petsam/advice.h>
+#include <petsam/private/baseimpl.h>
+
+#define SAM_ADVICE_GRIDS 192 /* characters of advised grids */
+/*
+  SamAdviceSay - passes on advice, by a format of printf(); `setting`: see SamAdviceFunction.
+  SamAdviceGrids - grids with this factor more cells across the contact: ": -grid_n 64" for the end of a message. Empty:
+  there is none.
+  SamAdviceIsFromFile - whether heights of the gap are from a file.
+  None is collective.
+*/
+PETSC_INTERN void SamAdviceSay(SamAdvice *advice, const char setting[], const char format[], ...)
+  PETSC_ATTRIBUTE_FORMAT(3, 4);
+PETSC_INTERN void      SamAdviceGrids(const SamAdvice *advice, double factor, char text[SAM_ADVICE_GRIDS]);
+PETSC_INTERN PetscBool SamAdviceIsFromFile(const SamSetup *setup);
+/*
+  The dissipated energy (slip.c). AddSlip adds a step. Collective. Slip says, after the last step, whether the cells
+  resolve it.
+*/
+PETSC_INTERN PetscErrorCode SamAdviceAddSlip(SamAdvice *advice, PetscInt k, const SamStep *step);
+PETSC_INTERN void           SamAdviceSlip(SamAdvice *advice);
+
+#endif
