@@ -57,6 +57,14 @@ typedef struct {
   SamSlipPath path;
 } SamSlip;
 
+/* SamRollingError - the largest error of a load or creepage that was found in steady rolling (rolling.c). */
+typedef struct {
+  double      error;       /* relative */
+  PetscInt    step;        /* from 0 */
+  const char *name;        /* borrowed */
+  double      value, fine; /* as found, and extrapolated to fine grids */
+} SamRollingError;
+
 /*
   SamAdviceFunction - receives advice: a text of one line, and the option (without dash) that mends it, where the text
   does not name it itself; else empty.
@@ -78,6 +86,7 @@ typedef struct {
   PetscBool         advised[SAM_LAWS]; /* laws that have warned of a step */
   const SamStep    *step;              /* that is looked at, */
   SamExtent         extent;            /* with the contact there */
+  SamRollingError   rolling;           /* of the steps so far */
   SamSlip           slip;              /* of the steps so far; of the last computed cycle */
   PetscReal      half[2], across; /* half widths (m) and cells across: of a closed solution if it is of this contact */
   PetscErrorCode error;           /* the first of who receives it */
@@ -93,7 +102,8 @@ typedef struct {
   resolved. `after`: when that is, for the message. Not collective.
   SamAdviceBeginCycle - before a computed cycle of a life: its energy alone counts. Not collective.
   SamAdviceEnd - after the last step: a dissipated energy that the slip zones, narrow beside the cells, make wrong by
-  more than 5 %. `found`: the energy, NULL if there is none. Collective.
+  more than 5 %; in steady rolling a load or a creepage that finer cells change by more than 2 %. `found`: the energy,
+  NULL if there is none. Collective.
   SamAdviceEdge - appends to the message of a step that came to the grid's edge a grid on which these loads do not. Not
   collective.
 */

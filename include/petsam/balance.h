@@ -12,7 +12,8 @@
     tangential: loads Tx, Ty (N), Mz (N m)  with d_x, d_y (m), r_z (rad)
                 sum q dA = T, sum (x q_y - y q_x) dA = Mz;   rigid-body displacement (d_x - y r_z, d_y + x r_z)
   Moments and rotations are about x = y = 0. Where `force` is true the load is given and the displacement a result;
-  otherwise the other way round.
+  otherwise the other way round. In steady rolling the rotation displaces a cell as if it were by `ahead` (m) farther
+  along x, d_y + (x + ahead) r_z, where its slip is (elasticity/rolling.c).
 */
 typedef enum { SAM_BALANCE_NORMAL, SAM_BALANCE_TANGENTIAL } SamBalanceKind;
 
@@ -21,6 +22,7 @@ typedef struct {
   PetscBool      force[3];
   PetscReal      load[3];
   PetscReal      rigid[3];
+  PetscReal      ahead;
 } SamBalance;
 
 /* The components (SamComponent) of a kind of balance, in its order. */

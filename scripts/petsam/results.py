@@ -428,8 +428,8 @@ class Results(Datafile):
     def _power(self, index=-1, rows=slice(None), columns=slice(None), stride=1):
         """Frictional power over the rolling speed as petsam saves it (power_density): of the centred slip velocity.
 
-        The saved slip velocity belongs to the side ahead of a cell, with the creepage at its centre: at the centre it
-        is the mean of the cell's and that of the cell behind, whose creepage spin has changed by spin times dx.
+        The saved slip velocity belongs to the side ahead of a cell, with the creepage a sixth of a cell ahead: at the
+        centre it is the mean of the cell's and that of the cell behind, which spin has changed by spin times dx/3.
         """
         low, high, _ = columns.indices(self.x.size)
         spin = (0.0, self.history["creep_spin"][self.row(index % self.times.size)] * (self.x[1] - self.x[0]))
@@ -442,7 +442,8 @@ class Results(Datafile):
             else:
                 rest = self.field(name, index, rows, slice(stride - 1, max(stride, high) - 1), stride)
                 behind = np.hstack([slip[:, :1] + turn, rest])  # the first cell has none behind
-            power = power - self.field(f"shear_{axis}", index, rows, columns, stride) * (slip + behind - turn) / 2.0
+            centred = (slip + behind - 2 / 3 * turn) / 2
+            power = power - self.field(f"shear_{axis}", index, rows, columns, stride) * centred
         return power
 
     def need_quantity(self, name, option=None):

@@ -507,7 +507,10 @@ PetscErrorCode SamAdviceStep(SamAdvice *a, PetscInt k, PetscBool of_laws, const 
     }
   }
   if (of_laws) PetscCall(LookAtLaws(a, k));
-  PetscCall(SamAdviceAddSlip(a, k, step));
+  if (SamMotionOf(a->setup->elasticity)->continues)
+    PetscCall(SamAdviceAddSlip(a, k, step));
+  else
+    PetscCall(SamAdviceAddRolling(a, k, step));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -516,6 +519,7 @@ PetscErrorCode SamAdviceEnd(SamAdvice *a, const SamSlip **found)
   PetscFunctionBegin;
   a->error = PETSC_SUCCESS;
   SamAdviceSlip(a);
+  SamAdviceRolling(a);
   *found = a->slip.energy > 0 ? &a->slip : NULL;
   PetscCall(a->error);
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -18,10 +18,12 @@ PETSC_INTERN void SamAdviceSay(SamAdvice *advice, const char setting[], const ch
 PETSC_INTERN void      SamAdviceGrids(const SamAdvice *advice, double factor, char text[SAM_ADVICE_GRIDS]);
 PETSC_INTERN PetscBool SamAdviceIsFromFile(const SamSetup *setup);
 /*
-  The dissipated energy (slip.c). AddSlip adds a step. Collective. Slip says, after the last step, whether the cells
-  resolve it.
+  AddSlip, AddRolling - add a step to what is known of the dissipated energy (slip.c), and of loads and creepages in
+  steady rolling (rolling.c). Collective. Slip, Rolling - say, after the last step, what the cells do not resolve.
 */
 PETSC_INTERN PetscErrorCode SamAdviceAddSlip(SamAdvice *advice, PetscInt k, const SamStep *step);
 PETSC_INTERN void           SamAdviceSlip(SamAdvice *advice);
+PETSC_INTERN PetscErrorCode SamAdviceAddRolling(SamAdvice *advice, PetscInt k, const SamStep *step);
+PETSC_INTERN void           SamAdviceRolling(SamAdvice *advice);
 
 #endif

@@ -30,7 +30,6 @@
 #include "adviceimpl.h"
 #include <petsam/private/bodyimpl.h>
 #include <petsam/private/lawimpl.h>
-#include <petsam/private/motionimpl.h>
 #include <petsam/private/solutionimpl.h>
 #include <math.h>
 
@@ -212,8 +211,7 @@ PetscErrorCode SamAdviceAddSlip(SamAdvice *a, PetscInt k, const SamStep *step)
   PetscBool       usual;
 
   PetscFunctionBegin;
-  if (!SamMotionOf(s->elasticity)->continues || SamProblemGetRolled(s->problem, &step->control, NULL) != 0)
-    slip->rolls = PETSC_TRUE;
+  if (SamProblemGetRolled(s->problem, &step->control, NULL) != 0) slip->rolls = PETSC_TRUE;
   if (slip->rolls) PetscFunctionReturn(PETSC_SUCCESS);
   if (!slip->steps++ && k == 0) PetscCall(HasClosedForm(a, &slip->path.friction, &slip->path.known));
   PetscCall(GetNumbers(s, &n));

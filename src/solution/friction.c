@@ -48,8 +48,9 @@ PetscErrorCode SamSolutionComputeRolling(SamProblem problem, const SamSolution *
 {
   SamIncrement  increment;
   SamValues     v;
-  double       *to;
   const SamGrid grid = SamProblemGetGrid(problem);
+  const double  turn = (double)(SamElasticitySpinAhead(SamProblemGetElasticity(problem)) * s->rigid[SAM_COMPONENT_MZ]);
+  double       *to;
 
   PetscFunctionBegin;
   PetscCall(SamIncrementCreate(problem, NULL, s, &increment));
@@ -63,7 +64,7 @@ PetscErrorCode SamSolutionComputeRolling(SamProblem problem, const SamSolution *
     for (PetscInt i = 0; i < grid->nx; i++) {
       const ptrdiff_t k = first + i, l = k + v.cells, behind = i ? 1 : 0;
       const double    sx = increment.slip[0][i] - 0.5 * (v.u_t[k] - v.u_t[k - behind]),
-                   sy    = increment.slip[1][i] - 0.5 * (v.u_t[l] - v.u_t[l - behind]);
+                   sy    = increment.slip[1][i] + turn - 0.5 * (v.u_t[l] - v.u_t[l - behind]);
 
       to[k] = -(v.q[k] * sx + v.q[l] * sy);
       sum += v.p[k] * hypot(sx, sy) * (double)grid->dx;

@@ -38,6 +38,7 @@ PetscErrorCode SamRigidSet(SamRigid *m, SamProblem problem, const SamSolution *s
   PetscFunctionBegin;
   for (PetscInt kind = 0; kind < 2; kind++)
     for (PetscInt k = 0; k < 3; k++) rigid[kind].rigid[k] = s->rigid[SamComponentsOf[kind][k]];
+  rigid[1].ahead = SamElasticitySpinAhead(SamProblemGetElasticity(problem));
   PetscCall(SamFrameSetGiven(&m->normal, grid, &rigid[0]));
   PetscCall(SamFrameSetGiven(&m->tangential, grid, &rigid[1]));
   PetscCall(SamProblemGetStrain(problem, &s->control, &m->strain));

@@ -68,8 +68,9 @@ static PetscErrorCode CreateCoarse(SamSolve *w, Coarse *k)
   PetscCall(SamTransferRestrict(k->transfer, w->s->pressure, k->field[MEAN_PRESSURE]));
   PetscCall(SamTransferRestrict(k->transfer, w->s->bound, k->field[MEAN_BOUND]));
   PetscCall(SamTransferRestrict(k->transfer, w->s->shear, k->field[SHEAR]));
-  k->normal     = SamControlGetBalance(&w->s->control, SAM_BALANCE_NORMAL);
-  k->tangential = SamControlGetBalance(&w->s->control, SAM_BALANCE_TANGENTIAL);
+  k->normal           = SamControlGetBalance(&w->s->control, SAM_BALANCE_NORMAL);
+  k->tangential       = SamControlGetBalance(&w->s->control, SAM_BALANCE_TANGENTIAL);
+  k->tangential.ahead = SamElasticitySpinAhead(k->elasticity);
   for (PetscInt n = 0; n < 3; n++) { /* the loads that were found: the same contact; the creepages are the start */
     const PetscInt c = SamComponentsOf[SAM_BALANCE_NORMAL][n];
 

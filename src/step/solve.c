@@ -11,10 +11,11 @@
 static PetscErrorCode Begin(const SamStepTask *task, SamStep *step, SamSolve *w)
 {
   PetscFunctionBegin;
-  *w            = (SamSolve){.task = task, .s = task->s, .step = step, .kept = task->start.kept};
-  w->counts     = SamStateNumbers(task->state, task->counts, SAM_TRIED);
-  w->normal     = SamControlGetBalance(&w->s->control, SAM_BALANCE_NORMAL);
-  w->tangential = SamControlGetBalance(&w->s->control, SAM_BALANCE_TANGENTIAL);
+  *w                  = (SamSolve){.task = task, .s = task->s, .step = step, .kept = task->start.kept};
+  w->counts           = SamStateNumbers(task->state, task->counts, SAM_TRIED);
+  w->normal           = SamControlGetBalance(&w->s->control, SAM_BALANCE_NORMAL);
+  w->tangential       = SamControlGetBalance(&w->s->control, SAM_BALANCE_TANGENTIAL);
+  w->tangential.ahead = SamElasticitySpinAhead(task->elasticity);
   for (PetscInt k = 0; k < 3; k++) {
     const PetscInt n = SamComponentsOf[SAM_BALANCE_TANGENTIAL][k];
 

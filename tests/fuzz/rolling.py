@@ -76,7 +76,7 @@ def faults(case, bodies, film, mu, f):
     u = np.array([convolve(xx, dq[0]) + convolve(xy, dq[1]), convolve(xy, dq[0]) + convolve(yy, dq[1])]) + film * dq
     by_pressure = np.array([convolve(px, dp), convolve(py, dp)])
     x, y = np.meshgrid(x, y)
-    w = np.array([h["creep_x"] - h["creep_spin"] * y, h["creep_y"] + h["creep_spin"] * x])
+    w = np.array([h["creep_x"] - h["creep_spin"] * y, h["creep_y"] + h["creep_spin"] * (x + d[0] / 6)])
     s = (u + by_pressure) / d[0] - w
     bound, c = mu * p, ((xx.max() + yy.max()) / 2 + film) / d[0]
     z = q - s / c

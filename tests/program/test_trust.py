@@ -3,6 +3,7 @@
 import math
 import re
 
+import h5py
 import pytest
 
 SLIP = "slip zones are"
@@ -144,3 +145,30 @@ def test_contacts_without_an_edge_or_tangential_load_have_no_slip_zone(petsam):
     flat = dict(STEEL, friction=MU, gap_type="flat", elasticity="periodic", grid_n=32, grid_size=1e-3, load_n=10.0)
     assert not petsam(flat, dict(load_tx=1.0)).complaint
     assert not petsam(SPHERE, dict(grid_n=64, grid_size=3 * RADIUS, load_n=LOAD)).complaint
+
+
+# ---------------------------------------------------------------- spin
+
+WHEEL = dict(STEEL, body1_poisson=0.28, body2_poisson=0.28, friction=MU, rolling="steady", gap_type="ellipsoid",
+             gap_radius_x=0.1, gap_radius_y=0.1)  # fmt: skip
+
+
+@pytest.mark.parametrize("n", [24, 32, 44])
+@pytest.mark.parametrize("creep", [(0.3, -0.3, 0.5), (0.0, 0.0, 2.0), (0.0, 0.0, 0.2), (0.3, 0.1, 0.0)])
+def test_loads_of_spin_are_right_or_warned_of(petsam, tmp_path, creep, n):
+    """Against the extrapolation from a grid four times as fine."""
+    modulus = 210e9 / (2 * (1 - 0.28**2))
+    radius = (3 * LOAD * 0.1 / (4 * modulus)) ** (1 / 3)
+    unit = MU * 1.5 * LOAD / (math.pi * radius**2) / (210e9 / 2.56)
+    given = dict(creep_x=creep[0] * unit, creep_y=creep[1] * unit, creep_spin=creep[2] * unit / radius, load_n=LOAD)
+    found = {}
+    for k in (n, 4 * n):
+        done = petsam(WHEEL, given, dict(grid_n=k, grid_size=2.3 * radius, output="one.h5", overwrite=True))
+        with h5py.File(tmp_path / "one.h5") as f:
+            found[k] = {name: float(f[f"history/{name}"][0]) for name in f["history"] if "load_" in name}
+        found[k]["warned"] = bool(said(done, "_extrapolated"))
+    fine, here = found[4 * n], found[n]
+    both = math.hypot(here["load_tx"], here["load_ty"])
+    wrong = max(abs(here[name] - fine[f"{name}_extrapolated"]) for name in ("load_tx", "load_ty")) / both
+    assert here["warned"] or wrong < 0.03
+    assert creep[2] in (0.0, 0.2) or wrong < 0.03

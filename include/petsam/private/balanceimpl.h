@@ -6,7 +6,9 @@
     normal      1, -eta, xi
     tangential  (1, 0), (0, 1), (-eta, xi)          xi = (x - xc)/length, eta = (y - yc)/length,
   which are well conditioned wherever the grid lies. The force-controlled components span a subspace of them; its
-  orthonormal basis is the `count` rows of `basis`. The given displacements are the combination `fixed`.
+  orthonormal basis is the `count` rows of `basis`. The given displacements are the combination `fixed`. Where a
+  rotation is taken ahead of the cells, the displacements that belong to the basis are the rows of `motion`; else they
+  are those of the basis.
 */
 #ifndef PETSAM_BALANCEIMPL_H
 #define PETSAM_BALANCEIMPL_H
@@ -20,6 +22,8 @@ typedef struct {
   PetscInt       count;        /* force-controlled components */
   PetscInt       component[3]; /* which they are */
   double         basis[3][3];  /* (count, 3) */
+  double         motion[3][3]; /* (count, 3) */
+  double         ahead;        /* of rotations, relative to the length */
   double         lower[3][3];  /* the components as combinations of the phi = lower * basis */
   double         target[3];    /* what sum phi traction must be along the basis: loads/(dx dy) in the basis */
   double         fixed[3];     /* the given rigid-body displacement as a combination of the phi */
@@ -37,6 +41,8 @@ PETSC_INTERN void SamFrameGetComponent(SamGrid grid, SamBalanceKind kind, PetscI
 PETSC_INTERN PetscErrorCode SamFrameSet(SamFrame *frame, SamGrid grid, const SamBalance *balance);
 /* SamFrameSetGiven - the same with all rigid-body displacements given as they stand in the balance. */
 PETSC_INTERN PetscErrorCode SamFrameSetGiven(SamFrame *frame, SamGrid grid, const SamBalance *balance);
+/* SamFrameMove - adds to a combination of the phi, times `times`, what rotations move cells that are ahead by. */
+PETSC_INTERN void SamFrameMove(const SamFrame *frame, double times, double a[3]);
 /* SamFrameGetRigid - rigid-body displacements of the force-controlled components, from a combination a of the phi. */
 PETSC_INTERN void SamFrameGetRigid(const SamFrame *frame, const double a[3], SamBalance *balance);
 

@@ -127,7 +127,9 @@ PETSC_INTERN PetscErrorCode SamElasticityAddRecordedCompliances(SamElasticity *e
   SamElasticityCreateRolling - the same bodies under a contact that rolls towards +x without change: u_t is the slip by
   the tractions in 1 m of rolled distance, and creepages stand for tangential rigid displacements. References the
   bodies. Collective. Errors: PETSC_ERR_SUP for periodic bodies.
+  SamElasticitySpinAhead - how far ahead of a cell's centre spin is taken in it, m; 0 for other bodies. Not collective.
 */
+PETSC_INTERN PetscReal      SamElasticitySpinAhead(SamElasticity elasticity);
 PETSC_INTERN PetscErrorCode SamElasticityCreateRolling(SamElasticity bodies, SamElasticity *rolling);
 
 #endif

@@ -47,16 +47,22 @@ double SamOrthonormalize(PetscInt m, double basis[3][3], const double row[3], do
   return norm;
 }
 
+void SamFrameMove(const SamFrame *f, double times, double a[3])
+{
+  a[1] += times * f->ahead * a[2];
+}
+
 PetscErrorCode SamFrameSet(SamFrame *f, SamGrid grid, const SamBalance *balance)
 {
   PetscFunctionBegin;
   PetscCall(PetscMemzero(f, sizeof(*f)));
-  f->grid = grid;
-  f->kind = balance->kind;
-  f->most = INFINITY;
-  f->dxi  = grid->dx / grid->length;
-  f->deta = grid->dy / grid->length;
-  f->xi0  = (0.5 - 0.5 * (double)grid->nx) * f->dxi;
+  f->grid  = grid;
+  f->kind  = balance->kind;
+  f->most  = INFINITY;
+  f->dxi   = grid->dx / grid->length;
+  f->deta  = grid->dy / grid->length;
+  f->xi0   = (0.5 - 0.5 * (double)grid->nx) * f->dxi;
+  f->ahead = balance->ahead / grid->length;
   for (PetscInt k = 0; k < 3; k++) {
     double row[3];
 
@@ -74,6 +80,11 @@ PetscErrorCode SamFrameSet(SamFrame *f, SamGrid grid, const SamBalance *balance)
       for (PetscInt i = 0; i < 3; i++) f->fixed[i] += balance->rigid[k] * row[i];
     }
   }
+  SamFrameMove(f, 1, f->fixed);
+  for (PetscInt k = 0; k < f->count; k++) {
+    PetscCall(PetscArraycpy(f->motion[k], f->basis[k], 3));
+    SamFrameMove(f, 1, f->motion[k]);
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -89,11 +100,12 @@ PetscErrorCode SamFrameSetGiven(SamFrame *f, SamGrid grid, const SamBalance *bal
 
 void SamFrameGetRigid(const SamFrame *f, const double a[3], SamBalance *balance)
 {
-  double d[3];
+  double d[3], still[3] = {a[0], a[1], a[2]};
 
+  SamFrameMove(f, -1, still);
   /* a = basis' b with b = lower' d */
   for (PetscInt k = f->count - 1; k >= 0; k--) {
-    double b = SamFrameDot(a, f->basis[k]);
+    double b = SamFrameDot(still, f->basis[k]);
 
     for (PetscInt m = k + 1; m < f->count; m++) b -= f->lower[m][k] * d[m];
     d[k]                            = b / f->lower[k][k];

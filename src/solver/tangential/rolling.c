@@ -233,7 +233,7 @@ static PetscErrorCode Combine(Work *w, double a[3])
   for (PetscInt j = 0; j < u->rows; j++) SamRollingCombineRow(w, SamStickSlipRow(u, j), x);
   for (PetscInt c = 0; c < 3; c++) {
     a[c] = 0;
-    for (PetscInt k = 0; k < u->frame->count; k++) a[c] += w->unit_s * x[w->kept + 1 + k] * u->frame->basis[k][c];
+    for (PetscInt k = 0; k < u->frame->count; k++) a[c] += w->unit_s * x[w->kept + 1 + k] * u->frame->motion[k][c];
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -274,7 +274,7 @@ static PetscErrorCode Iterate(Work *w, PetscBool renew, const double load[3])
   double        a[3];
 
   PetscFunctionBegin;
-  for (PetscInt k = 0; renew && k < u->frame->count; k++) PetscCall(MakeDirection(w, u->frame->basis[k], w->carry[k]));
+  for (PetscInt k = 0; renew && k < u->frame->count; k++) PetscCall(MakeDirection(w, u->frame->motion[k], w->carry[k]));
   PetscCall(MakeDirection(w, NULL, w->slot[0]));
   PetscCall(KeepLoads(w, load));
   PetscCall(SamLevelApplySingle(u->solver, u->level, 1 / u->self, w->slot[0], w->slot[0] + 2 * u->cells));
@@ -292,6 +292,7 @@ static PetscErrorCode TakeTrial(Work *w, double motion[3], PetscBool *found)
   PetscCall(SamFrameProjectTangential(u->frame, u->bound, NULL, PETSC_FALSE, w->trial, motion, found));
   if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscArraycpy(u->q, w->trial, 2 * u->cells));
+  if (motion) SamFrameMove(u->frame, 1, motion);
   for (PetscInt c = 0; motion && c < 3; c++) u->motion[c] += u->self * motion[c];
   PetscCall(SamStickSlipComputeSlip(u));
   PetscCall(SamStickSlipMeasure(u));

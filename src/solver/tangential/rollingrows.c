@@ -235,7 +235,7 @@ void SamRollingGramRow(const SamRollingWork *w, SamRow whole, double sums[SAM_RO
     row.xi0 += (double)from * row.dxi;
     row.count = PetscMin(CHUNK, whole.count - from);
     for (PetscInt k = 0; k < n; k++) DirectionColumn(w, row, w->slot[k], w->columns + 2 * CHUNK * k);
-    for (PetscInt k = 0; k < f->count; k++) CreepColumn(w, row, f->basis[k], w->columns + 2 * CHUNK * (n + k));
+    for (PetscInt k = 0; k < f->count; k++) CreepColumn(w, row, f->motion[k], w->columns + 2 * CHUNK * (n + k));
     ResidualColumn(w, row, w->columns + 2 * CHUNK * (columns - 1));
     for (PetscInt k = 0; k < columns; k++) {
       AddProducts(row.count, columns - k, w->columns + 2 * CHUNK * k, place);

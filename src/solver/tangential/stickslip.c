@@ -198,6 +198,7 @@ static void AddMotion(SamStickSlip *w, const double a[3])
 /* Fits the motion: least squares of s over the tangent space of q - inverse s. */
 static PetscErrorCode FitMotion(SamStickSlip *w, double inverse)
 {
+  SamFrame moves                = *w->frame; /* its basis is that of motions */
   SamTotal totals[3 + SAM_GRAM] = {{0}};
   double   sums[3 + SAM_GRAM], a[3];
 
@@ -210,7 +211,8 @@ static PetscErrorCode FitMotion(SamStickSlip *w, double inverse)
     SamAddAll(3 + SAM_GRAM, totals, row);
   }
   PetscCall(SamSumTotals(w->level->grid->comm, 3 + SAM_GRAM, totals, sums));
-  SamFrameSolve(w->frame, sums + 3, sums, a);
+  PetscCall(PetscArraycpy(moves.basis[0], w->frame->motion[0], 9));
+  SamFrameSolve(&moves, sums + 3, sums, a);
   AddMotion(w, a);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
