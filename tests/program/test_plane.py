@@ -125,7 +125,7 @@ def test_rounded_punch_in_partial_slip(solve, moment):
     r = solve(
         dict(CYLINDER, gap_type="punch", gap_radius_x=None, gap_radius_y=None),
         dict(gap_flat_radius=1e-3, gap_edge_radius=20e-3, load_n=load, load_my=moment, load_tx=shear),
-        dict(grid_n=1000, grid_size=3.2e-3),
+        dict(grid_n=1000, grid_size=3.2e-3, normal_rtol=1e-11),
     )
     contact = closed_plane.contact_under_moment(punch, load, moment)
     stick = closed_plane.stick_zone(punch, contact, shear, MU)
