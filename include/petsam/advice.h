@@ -47,13 +47,17 @@ typedef struct {
 typedef struct {
   PetscInt    steps;
   PetscBool   rolls;         /* nothing is known */
+  PetscBool   unsure;        /* of some steps the energy is not known for their length, and counts as 0 */
   double      energy, error; /* J: the sum over cells, and its error, estimated */
   double      closed;        /* J: by the closed form; NaN: there is none */
   double      work;          /* J: T disp, the most of a step */
   double      branch, worst; /* J: energy of the branch; the largest error of one, */
   PetscReal   narrow[2];     /* and width of the slip zone and length of the edge there */
   PetscReal   width, length; /* the same after the last step */
-  PetscReal   stick_cells;   /* after the last step */
+  double      sticks;        /* part of the cells in contact, after the last step */
+  PetscReal   widest;        /* cells: of all zones with slip */
+  PetscReal   across;        /* cells: of the stick zone after the last step */
+  PetscBool   pushed;        /* the last step has no tangential displacement given */
   SamSlipPath path;
 } SamSlip;
 

@@ -518,6 +518,7 @@ PetscErrorCode SamAdviceEnd(SamAdvice *a, const SamSlip **found)
 {
   PetscFunctionBegin;
   a->error = PETSC_SUCCESS;
+  PetscCall(SamAdviceMeasureStick(a));
   SamAdviceSlip(a);
   SamAdviceRolling(a);
   *found = a->slip.energy > 0 ? &a->slip : NULL;

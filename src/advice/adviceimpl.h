@@ -19,9 +19,11 @@ PETSC_INTERN void      SamAdviceGrids(const SamAdvice *advice, double factor, ch
 PETSC_INTERN PetscBool SamAdviceIsFromFile(const SamSetup *setup);
 /*
   AddSlip, AddRolling - add a step to what is known of the dissipated energy (slip.c), and of loads and creepages in
-  steady rolling (rolling.c). Collective. Slip, Rolling - say, after the last step, what the cells do not resolve.
+  steady rolling (rolling.c). MeasureStick - the cells across the stick zone now. Collective.
+  Slip, Rolling - say, after the last step, what the cells do not resolve. Not collective.
 */
 PETSC_INTERN PetscErrorCode SamAdviceAddSlip(SamAdvice *advice, PetscInt k, const SamStep *step);
+PETSC_INTERN PetscErrorCode SamAdviceMeasureStick(SamAdvice *advice);
 PETSC_INTERN void           SamAdviceSlip(SamAdvice *advice);
 PETSC_INTERN PetscErrorCode SamAdviceAddRolling(SamAdvice *advice, PetscInt k, const SamStep *step);
 PETSC_INTERN void           SamAdviceRolling(SamAdvice *advice);

@@ -40,15 +40,19 @@
 #define NARROW   0.25 /* cells: the width of a zone that is not known */
 #define ACCEPTED 0.9  /* share of the edges whose reconstruction tells that they are known */
 #define ALIKE    1e-6 /* coupling of bodies, or change of a load over the largest, that counts as none */
-#define REVERSED 1.02 /* stick cells over those of the step before, from which the loads were reversed */
+#define REVERSED 1.02 /* part of cells that stick, over that of the step before, of a reversal */
 #define NOTHING  1e-6 /* energy over the tangential work that counts as none */
+#define UNSURE   0.5  /* error of a step's energy by its length, relative to it, from which cells do not count */
+#define PEAKED   1.5  /* cells: a zone in which cells do not have the largest slip and shear to 5 % */
+#define SLIP     0.13 /* error of the largest slip over 1/w */
+#define STUCK    7    /* cells across a stick zone whose area is wrong by less than 5 % */
 #define LEAST    1.25 /* cells of a grid that is advised over those of this one */
 
 /* ---- the width of the zone ---- */
 
 /* Numbers of a step. */
 typedef struct {
-  PetscReal contact, stick, stick_cells, energy, accepted;
+  PetscReal contact, stick, contact_cells, stick_cells, energy, unsure, accepted;
   double    known, faces; /* whether the edge of contact is reconstructed; its faces between cells */
 } Numbers;
 
@@ -61,8 +65,10 @@ static PetscErrorCode GetNumbers(const SamSetup *s, Numbers *n)
   PetscCall(SamContactGetNumber(s->contact, "contact_area", &n->contact));
   PetscCall(SamContactGetNumber(s->contact, "stick_area", &n->stick));
   PetscCall(SamContactGetNumber(s->contact, "stick_cells", &n->stick_cells));
+  PetscCall(SamContactGetNumber(s->contact, "contact_cells", &n->contact_cells));
   PetscCall(SamContactGetNumber(s->contact, "edge_accepted", &n->accepted));
   PetscCall(SamContactGetNumber(s->contact, "dissipated_energy", &n->energy));
+  PetscCall(SamContactGetNumber(s->contact, "energy_error", &n->unsure));
   PetscCall(SamContactGetState(s->contact, &state));
   edge     = SamStateReadNumbers(state, SamStateFindNumber(state, SAM_CONTACT_EDGE));
   n->known = edge[SAM_CONTACT_EDGE_KNOWN];
@@ -206,7 +212,7 @@ PetscErrorCode SamAdviceAddSlip(SamAdvice *a, PetscInt k, const SamStep *step)
 {
   const SamSetup *s    = a->setup;
   SamSlip        *slip = &a->slip;
-  double          work = 0;
+  double          work = 0, sticks;
   Numbers         n;
   PetscBool       usual;
 
@@ -215,22 +221,84 @@ PetscErrorCode SamAdviceAddSlip(SamAdvice *a, PetscInt k, const SamStep *step)
   if (slip->rolls) PetscFunctionReturn(PETSC_SUCCESS);
   if (!slip->steps++ && k == 0) PetscCall(HasClosedForm(a, &slip->path.friction, &slip->path.known));
   PetscCall(GetNumbers(s, &n));
-  if (n.stick_cells > REVERSED * slip->stick_cells) EndBranch(slip);
+  sticks = n.contact_cells > 0 ? (double)(n.stick_cells / n.contact_cells) : 1;
+  if (sticks > REVERSED * slip->sticks) EndBranch(slip);
   Measure(s, &n, slip);
-  slip->stick_cells = n.stick_cells;
-  slip->branch += (double)n.energy;
   slip->energy += (double)n.energy;
+  slip->sticks = sticks;
+  if (n.energy > 0 && slip->width < INFINITY) slip->widest = PetscMax(slip->widest, slip->width);
+  /* N and T that grow together need not slip: what the length of a step may be all of is none of the cells' */
+  if (a->steps > 1 && n.unsure > UNSURE * n.energy && n.energy > 0) {
+    n.energy     = 0;
+    slip->unsure = PETSC_TRUE;
+  }
+  slip->branch += (double)n.energy;
   for (PetscInt c = SAM_COMPONENT_TX; c <= SAM_COMPONENT_MZ; c++)
     if (slip->width < INFINITY) work += fabs((double)(step->load[c] * step->rigid[c]));
   if (work > NOTHING * NOTHING * fabs((double)(step->load[SAM_COMPONENT_N] * step->rigid[SAM_COMPONENT_N])))
     slip->work = PetscMax(slip->work, work);
+  slip->pushed = step->control.force[SAM_COMPONENT_TX] && step->control.force[SAM_COMPONENT_TY] &&
+                 step->control.force[SAM_COMPONENT_MZ];
   PetscCall(IsUsual(s, &step->control, &usual));
   if (!usual || n.stick_cells == 0) slip->path.known = PETSC_FALSE; /* or all slides */
   if (slip->path.known) Follow(s, &slip->path, step);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-void SamAdviceSlip(SamAdvice *a)
+/* Says that the zones are too narrow for the largest slip and shear, which are those of cells. */
+static void Peaks(SamAdvice *a)
+{
+  const double width = (double)a->slip.widest;
+  char         better[SAM_ADVICE_GRIDS];
+
+  if (!(width > 0 && width < PEAKED)) return;
+  SamAdviceGrids(a, PetscMax(2 * PEAKED / PetscMax(width, NARROW), LEAST), better);
+  SamAdviceSay(
+    a, better[0] ? "" : "grid_n",
+    "the widest slip zone is %.2g times as wide as a cell: the maximum slip and shear may be wrong by %.0f %%%s", width,
+    100 * PetscMin(SLIP / width, 1), better);
+}
+
+PetscErrorCode SamAdviceMeasureStick(SamAdvice *a)
+{
+  const SamSetup *s = a->setup;
+  double         *state;
+  PetscReal       contact, stick;
+  PetscInt        cells;
+  Vec             zone;
+
+  PetscFunctionBegin;
+  a->slip.across = INFINITY;
+  if (a->slip.rolls || !(a->slip.work > 0)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamContactGetNumber(s->contact, "contact_cells", &contact));
+  PetscCall(SamContactGetNumber(s->contact, "stick_cells", &stick));
+  if (stick == contact || (stick == 0 && !a->slip.pushed)) PetscFunctionReturn(PETSC_SUCCESS); /* or all slides */
+  PetscCall(SamGridCreateVec(s->grid, 1, &zone));
+  PetscCall(SamContactGetField(s->contact, "state", zone));
+  PetscCall(VecGetLocalSize(zone, &cells));
+  PetscCall(VecGetArray(zone, &state));
+  for (PetscInt k = 0; k < cells; k++) state[k] = state[k] == SAM_CELL_STICK ? 1 : 0;
+  PetscCall(VecRestoreArray(zone, &state));
+  if (stick > 0) PetscCall(SamGridMeasureZones(s->grid, zone, 0, &a->slip.across));
+  if (stick == 0) a->slip.across = 0;
+  PetscCall(VecDestroy(&zone));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Says that the area of stick in the last step is that of too few cells. */
+static void Stick(SamAdvice *a)
+{
+  const double across = (double)a->slip.across;
+  char         better[SAM_ADVICE_GRIDS];
+
+  if (!(across < STUCK) || !(a->extent.across > 2 * STUCK)) return;
+  SamAdviceGrids(a, STUCK / PetscMax(across, 1), better);
+  SamAdviceSay(a, better[0] ? "" : "grid_n",
+               "the stick zone is %.2g cells across in the last step: its area may be wrong by more than 5 %%%s",
+               across, better);
+}
+
+static void Energy(SamAdvice *a)
 {
   SamSlip          *slip  = &a->slip;
   const PetscBool   known = slip->path.known;
@@ -238,12 +306,11 @@ void SamAdviceSlip(SamAdvice *a)
   double            most, error, times;
   char              better[SAM_ADVICE_GRIDS], wrong[96] = "is not resolved";
 
-  if (!slip->steps || slip->rolls) return;
   EndBranch(slip);
   slip->closed = known ? slip->path.before + slip->path.energy : NAN;
   if (known) slip->error = fabs(slip->closed - slip->energy);
   most  = known ? PetscMax(slip->closed, slip->energy) : slip->energy;
-  error = most > NOTHING * slip->work ? slip->error / most : slip->work > 0 && a->extent.finer ? 1 : 0;
+  error = most > NOTHING * slip->work ? slip->error / most : slip->work > 0 && a->extent.finer && !slip->unsure ? 1 : 0;
   if (error <= ALLOWED) return;
   times = ErrorOf(PetscMax(slip->narrow[0], NARROW), slip->narrow[1]) / GOOD;
   SamAdviceGrids(a, PetscMax(pow(times, slip->narrow[1] > 1 ? 0.4 : 0.5), LEAST), better);
@@ -254,4 +321,12 @@ void SamAdviceSlip(SamAdvice *a)
   SamAdviceSay(a, better[0] ? "" : "grid_n",
                "slip zones are %.2g times as wide as a cell: the dissipated energy, %.3g %s, %s%s",
                (double)slip->narrow[0], slip->energy, unit, wrong, better);
+}
+
+void SamAdviceSlip(SamAdvice *a)
+{
+  if (!a->slip.steps || a->slip.rolls) return;
+  Energy(a);
+  Peaks(a);
+  Stick(a);
 }

@@ -228,7 +228,37 @@ static PetscErrorCode FindPeak(SamGrid grid, const SamSolution *s, const SamEdge
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The areas by the edges of contact and stick, and the peak of the shear between stick and slip. */
+/*
+  In plane strain the largest slip at the edges of contact, which may be most of a cell beyond the cells in contact:
+  interpolated between the cells about them, as the surfaces are displaced outside, too.
+*/
+static PetscErrorCode FindSlip(SamProblem problem, SamGrid grid, const SamSolution *s, double *most)
+{
+  SamEdge edge;
+  double *slip;
+
+  PetscFunctionBegin;
+  PetscCall(SamSolutionFindEdge(problem, s, SAM_EDGE_CONTACT, NULL, &edge));
+  PetscCall(PetscMalloc1(2 * grid->cells, &slip));
+  for (PetscInt c = 0; c < 2; c++) PetscCall(SamSolutionComputeSlip(problem, s, c, slip + c * grid->cells));
+  for (PetscInt n = 0; n < edge.count; n++) {
+    const double   x = (double)((edge.x[n] - SamGridX(grid, 0)) / grid->dx);
+    const PetscInt i = PetscMin(PetscMax((PetscInt)floor(x), 0), grid->nx - 2);
+    double         value[2];
+
+    for (PetscInt c = 0; c < 2; c++) {
+      const double *at = slip + c * grid->cells + i;
+
+      value[c] = at[0] + (x - (double)i) * (at[1] - at[0]);
+    }
+    *most = PetscMax(*most, hypot(value[0], value[1]));
+  }
+  PetscCall(PetscFree(slip));
+  PetscCall(SamEdgeDestroy(&edge));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The areas by the edges of contact and stick, the largest shear, between stick and slip, and the largest slip. */
 static PetscErrorCode FindEdges(SamProblem problem, const SamSolution *s, double contact[EDGE], double numbers[NUMBERS])
 {
   SamEdge       edge;
@@ -247,6 +277,11 @@ static PetscErrorCode FindEdges(SamProblem problem, const SamSolution *s, double
   PetscCall(SamSolutionFindEdge(problem, s, SAM_EDGE_STICK, NULL, &edge));
   PetscCall(FindPeak(grid, s, &edge, &peak));
   PetscCall(SamMax(grid->comm, 1, &peak));
+  if (SamGridIsRow(grid) && SamMotionOf(SamProblemGetElasticity(problem))->continues &&
+      numbers[DISSIPATED_ENERGY] > 0) {
+    PetscCall(FindSlip(problem, grid, s, &numbers[SLIP_MAX]));
+    PetscCall(SamMax(grid->comm, 1, &numbers[SLIP_MAX]));
+  }
   numbers[SHEAR_MAX]    = peak;
   numbers[CONTACT_AREA] = contact[AREA];
   numbers[STICK_AREA]   = edge.area;

@@ -117,6 +117,19 @@ def test_energy_of_a_pad_is_right_or_warned_of(petsam, tmp_path, n):
     assert not fine.complaint and said(coarse, SLIP)
 
 
+@pytest.mark.parametrize("n", [40, 64, 100])
+def test_slip_at_the_edges_of_a_cylinder_is_right(petsam, tmp_path, n):
+    """The last cells in contact may end most of a cell before them."""
+    case = dict(STEEL, friction=MU, elasticity="plane", gap_type="ellipsoid", gap_radius_x=0.1,
+                gap_radius_y=float("inf"), load_n=1e5, load_tx=0.4 * MU * 1e5)  # fmt: skip
+    slip = []
+    for k in (n, 2048):
+        petsam(case, dict(grid_n=k, grid_size=1.1e-3, output="one.h5", overwrite=True))
+        with h5py.File(tmp_path / "one.h5") as f:
+            slip.append(f["history/slip_max"][0])
+    assert slip[0] == pytest.approx(slip[1], rel=0.04)
+
+
 def test_energy_follows_loops_within_loops(petsam, tmp_path):
     """The closed form holds as far as the reversal before the last one, and for no other path."""
     grid = dict(grid_n=64, grid_size=3 * RADIUS)
@@ -133,6 +146,35 @@ def test_energy_follows_loops_within_loops(petsam, tmp_path):
     assert energies(turned)[1] == pytest.approx(sum(branches), rel=0.003)
     bent = petsam(SPHERE, grid, history(tmp_path, "load_n,load_tx,load_ty", *((*r, k) for k, r in enumerate(rows))))
     assert "closed form" not in bent.stdout
+
+
+@pytest.mark.parametrize("n", [32, 48, 64])
+@pytest.mark.parametrize("t", [0.1, 0.2, 0.6])
+def test_largest_slip_and_shear_are_right_or_warned_of(petsam, tmp_path, n, t):
+    """Of the sphere by the closed form: the slip at the contact's edge."""
+    tx = t * MU * LOAD
+    case = dict(SPHERE, load_n=LOAD, load_tx=tx, grid_size=3 * RADIUS, grid_n=n)
+    done = petsam(case, dict(output="one.h5", overwrite=True))
+    with h5py.File(tmp_path / "one.h5") as f:
+        shear = f["history/shear_max"][0]
+    stick = (1 - t) ** (1 / 3)
+    true = MU * 1.5 * LOAD / (math.pi * RADIUS**2) * math.sqrt(1 - stick**2)
+    warned = any("maximum slip and shear" in line for line in done.complaint)
+    assert warned or abs(shear / true - 1) < 0.05
+    assert warned == (3 * RADIUS / n * 1.5 > RADIUS * (1 - stick**2) / 2 * 1.02) or abs(shear / true - 1) > 0.02
+
+
+@pytest.mark.parametrize("n", [32, 48, 64])
+@pytest.mark.parametrize("t", [0.5, 0.9, 0.99, 0.998])
+def test_stick_area_near_full_sliding_is_right_or_warned_of(petsam, tmp_path, n, t):
+    case = dict(SPHERE, load_n=LOAD, load_tx=t * MU * LOAD, grid_size=2.5 * RADIUS, grid_n=n)
+    done = petsam(case, dict(output="one.h5", overwrite=True))
+    with h5py.File(tmp_path / "one.h5") as f:
+        area = f["history/stick_area"][0]
+    true = math.pi * RADIUS**2 * (1 - t) ** (2 / 3)
+    warned = bool(said(done, "the stick zone is"))
+    assert warned or abs(area / true - 1) < 0.05
+    assert not warned if t < 0.95 else t < 0.998 or n == 64 or warned
 
 
 def test_words_on_slip_zones_are_the_same_on_any_number_of_ranks(petsam, tmp_path):
