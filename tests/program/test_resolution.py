@@ -56,7 +56,7 @@ def test_peak_of_a_rounded_pad_is_right_or_warned_of(petsam, tmp_path):
     """Heights from a file hide where the edge begins: the advised grid may need another one, until none is advised."""
 
     def pressed(n):
-        file = surface(tmp_path, n, lambda x, y: 8e-3 * sum(np.maximum(abs(t) - 0.25, 0) ** 2 for t in (x, y)))
+        file = surface(tmp_path, n, lambda x, y: 4e-3 * sum(np.maximum(abs(t) - 0.25, 0) ** 2 for t in (x, y)))
         return peak(petsam(BODIES, dict(gap_type="file", gap_file=file, grid_n=n, grid_size=4e-3, load_n=1200.0)))
 
     found = {n: pressed(n) for n in (48, 64, 96, 128, 192, 256, 384)}
