@@ -7,9 +7,8 @@
 
 #define ALLOWED 0.02 /* error, relative to the number */
 #define GOOD    0.015
-#define SMALL \
-  0.1 /* a moment over the force and the contact's radius, or a spin over creepages, below which it is small */
-#define LEAST 1.25
+#define SMALL   0.1 /* part of a moment over the radius of contact that counts for a force, and so on */
+#define LEAST   1.25
 
 /* The errors of T_x, T_y, M_z, or of the creepages that are theirs, relative to both forces and to the moment. */
 static PetscErrorCode Compare(SamAdvice *a, PetscInt k, const SamStep *step, PetscBool load, double radius)
@@ -23,9 +22,10 @@ static PetscErrorCode Compare(SamAdvice *a, PetscInt k, const SamStep *step, Pet
   both = hypot(value[0], value[1]);
   for (int n = 0; n < 3; n++) {
     const char *const name = load ? SamComponentNames[c[n]].load : SamComponentNames[c[n]].creep;
-    const double      size = n < 2 ? both : PetscMax(fabs(value[n]), SMALL * both * length);
-    char              text[64];
-    PetscReal         fine;
+    const double      size =
+      n < 2 ? PetscMax(both, SMALL * fabs(value[2]) / length) : PetscMax(fabs(value[n]), SMALL * both * length);
+    char      text[64];
+    PetscReal fine;
 
     if (step->control.force[c[n]] == load) continue;
     (void)snprintf(text, sizeof(text), "%s_extrapolated", name);

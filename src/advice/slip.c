@@ -52,7 +52,7 @@
 
 /* Numbers of a step. */
 typedef struct {
-  PetscReal contact, stick, contact_cells, stick_cells, energy, unsure, accepted;
+  PetscReal contact, stick, width, contact_cells, stick_cells, energy, unsure, accepted;
   double    known, faces; /* whether the edge of contact is reconstructed; its faces between cells */
 } Numbers;
 
@@ -64,6 +64,7 @@ static PetscErrorCode GetNumbers(const SamSetup *s, Numbers *n)
   PetscFunctionBegin;
   PetscCall(SamContactGetNumber(s->contact, "contact_area", &n->contact));
   PetscCall(SamContactGetNumber(s->contact, "stick_area", &n->stick));
+  PetscCall(SamContactGetNumber(s->contact, "slip_width", &n->width));
   PetscCall(SamContactGetNumber(s->contact, "stick_cells", &n->stick_cells));
   PetscCall(SamContactGetNumber(s->contact, "contact_cells", &n->contact_cells));
   PetscCall(SamContactGetNumber(s->contact, "edge_accepted", &n->accepted));
@@ -86,7 +87,10 @@ static void Measure(const SamSetup *s, const Numbers *n, SamSlip *slip)
                                       : 2 * sqrt(PETSC_PI * (double)n->contact) / cell;
   const double    area = (double)(n->contact - n->stick) / (row ? cell : cell * cell);
 
-  slip->width  = edge > 0 ? PetscMax(area / edge, 0) : INFINITY;
+  if (n->known > 0)
+    slip->width = n->faces > 0 ? n->width / cell : INFINITY;
+  else
+    slip->width = edge > 0 ? PetscMax(area / edge, 0) : INFINITY;
   slip->length = row || (n->accepted < ACCEPTED && !SamAdviceIsFromFile(s)) ? 1 : PetscMax(edge, 1);
 }
 

@@ -92,6 +92,7 @@ enum {
   SHEAR_MAX,
   SLIP_MAX,
   EDGE_ACCEPTED,
+  SLIP_WIDTH,
   DISSIPATED_ENERGY,
   STORED_ENERGY,
   ENERGY_ERROR,
@@ -116,6 +117,8 @@ static const SamStateNumber declared[NUMBERS] = {
   REAL("slip_max", "m", "maximum slip since the start of a cell in contact", SAM_JOIN_LAST, 1),
   REAL("edge_accepted", "1", "share of the contact edge and the stick-slip boundary that is reconstructed",
        SAM_JOIN_LAST, 0),
+  REAL("slip_width", "m", "mean width of the slip zone: its area over the length of the contact's edge", SAM_JOIN_LAST,
+       0),
   REAL("dissipated_energy", "J", "frictional work of the load step", SAM_JOIN_SUM, 2),
   REAL("stored_energy", "J", "elastic energy of both bodies", SAM_JOIN_LAST, 2),
   REAL("energy_error", "J", "estimated error of dissipated_energy by the length of the load step", SAM_JOIN_SUM, 0)};
@@ -259,6 +262,12 @@ static PetscErrorCode FindSlip(SamProblem problem, SamGrid grid, const SamSoluti
 }
 
 /* The areas by the edges of contact and stick, the largest shear, between stick and slip, and the largest slip. */
+/* The length (m, without unit in plane strain) of the edge of cells, whose faces go along both axes. */
+static double LengthOfEdge(SamGrid grid, double faces)
+{
+  return SamGridIsRow(grid) ? faces : PETSC_PI / 4 * faces * sqrt((double)(grid->dx * grid->dy));
+}
+
 static PetscErrorCode FindEdges(SamProblem problem, const SamSolution *s, double contact[EDGE], double numbers[NUMBERS])
 {
   SamEdge       edge;
@@ -285,6 +294,9 @@ static PetscErrorCode FindEdges(SamProblem problem, const SamSolution *s, double
   numbers[SHEAR_MAX]    = peak;
   numbers[CONTACT_AREA] = contact[AREA];
   numbers[STICK_AREA]   = edge.area;
+  numbers[SLIP_WIDTH]   = contact[FACES] > 0 /* flat periodic bodies have no edge */
+                            ? PetscMax(contact[AREA] - (double)edge.area, 0) / LengthOfEdge(grid, contact[FACES])
+                            : NAN;
   numbers[EDGE_ACCEPTED] =
     contact[FACES] + edge.faces > 0 ? (contact[GOOD] + edge.good) / (contact[FACES] + edge.faces) : 1;
   PetscCall(SamEdgeDestroy(&edge));
@@ -309,6 +321,7 @@ PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamState state, con
   if (offset) numbers[STORED_ENERGY] = NAN; /* the displacements are not by the tractions alone */
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_EDGES], 0, 0, 0, 0));
   numbers[EDGE_ACCEPTED] = 0;
+  numbers[SLIP_WIDTH]    = NAN;
   if (!same_pressure) contact[KNOWN] = 0;
   if (edges) PetscCall(FindEdges(problem, s, contact, numbers));
   PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_EDGES], 0, 0, 0, 0));

@@ -127,3 +127,11 @@ def test_counted_areas_are_whole_cells(solve):
 def test_shear_of_pressing_alone_is_none(solve):
     r = solve(dict(SPHERE, grid_n=48))
     assert r["shear_max"] <= 1e-9 * hertz(SPHERE).pressure
+
+
+def test_width_of_the_slip_zone_is_its_area_over_the_edge(solve):
+    """Of two concentric circles, below the width of a cell too."""
+    for share in (0.5, 0.05):
+        case, c = cattaneo(share)
+        r = solve(case)
+        assert r["slip_width"] == pytest.approx(hertz(case).radius * (1 - c**2) / 2, rel=0.02)

@@ -57,6 +57,7 @@ HISTORY = dict(
     stored_energy="J",
     energy_error="J",
     edge_accepted="1",
+    slip_width="m",
     pressure_max="Pa",
     shear_max="Pa",
 )

@@ -275,7 +275,7 @@ def test_no_progress_gets_into_a_file(launcher, tmp_path, ranks):
 
 
 def test_progress_may_be_asked_for(petsam):
-    assert progress(petsam(LONG, dict(grid_n=300), "-progress", "always").stdout)
+    assert progress(petsam(LONG, "-progress", "always").stdout)
 
 
 # ---- help and version

@@ -10,7 +10,7 @@ from kill_at_random import differences
 from support import SPHERE, ball
 from test_wear import BALL, cycle
 
-CASE = dict(SPHERE, load_n=None, grid_n=40, history="history.csv", output="out.h5")
+CASE = dict(SPHERE, load_n=None, grid_n=40, history="history.csv", output="out.h5", slip_direction="end")
 SUMS = dict(output_fields="slip_path,friction_energy")
 STEPS = 14
 
@@ -27,13 +27,16 @@ def folder(tmp_path):
 def summed(path, friction):
     """Both sums after each step, by the fields of every step."""
     with h5py.File(path) as f:
-        p, q = f["pressure"][:], np.stack((f["shear_x"], f["shear_y"]))
-        slip, slips = np.stack((f["slip_x"], f["slip_y"])), f["state"][:] == 2
-    ds = np.diff(slip, axis=1, prepend=0)
-    before = np.concatenate((p[:1], p[:-1]))
-    with np.errstate(invalid="ignore", divide="ignore"):
-        work = np.where(slips, -(q * ds).sum(axis=0) * 0.5 * (before + p) / p, 0)
-    return np.cumsum(np.hypot(*ds), axis=0), np.cumsum(work, axis=0)
+        bound, state = friction * f["pressure"][:], f["state"][:]  # 0 open, 1 stick, 2 slip
+        slip = np.stack((f["slip_x"], f["slip_y"]))
+    ds = np.hypot(*np.diff(slip, axis=1, prepend=0))
+    earlier = np.concatenate((np.zeros_like(state[:1]), state[:-1]))
+    slides = (state == 2) | ((state == 0) & (earlier == 2))
+    share = np.where(slides, 0.5, 0)  # of the bound before; cells begin to slide somewhere in the step
+    share[slides & (earlier == 1)] = 0.25
+    share[0] = 0
+    work = np.where(slides, (share * np.concatenate((bound[:1], bound[:-1])) + (1 - share) * bound) * ds, 0)
+    return np.cumsum(ds, axis=0), np.cumsum(work, axis=0)
 
 
 def sums(path):

@@ -51,12 +51,12 @@
 /* A direction's least descent, as a part of that of the preconditioned residual. */
 #define DESCENT 0.1
 /*
-  The trial's length follows the best one, by at most the root of these factors in an iteration, and is kept over
-  gradient steps. Under a stiff film the preconditioner is 8 to 16 times too strong: a length that falls slowly, or
-  that a gradient step forgets, is cut at the bounds again and again.
+  The trial's length follows the best one, by at most the root of these factors in an iteration. Under a stiff film the
+  preconditioner is 8 to 16 times too strong: a length that falls slowly, or that a gradient step forgets, is cut at the
+  bounds again and again. Of bodies without layers it is about right, and 1 is a good start after a gradient step.
 */
-#define RISE 2.0
-#define FALL 16.0
+#define FOLLOW 2.0
+#define FALL   16.0
 /* Iterations without progress before cells are made to part, a gradient step, and giving up because of rounding. */
 #define PARTING    8
 #define PATIENCE   10
@@ -71,14 +71,15 @@ static PetscErrorCode CreateWork(SamSolver solver, SamLevel *level, Work *w)
 {
   PetscFunctionBegin;
   PetscCall(PetscMemzero(w, sizeof(*w)));
-  w->solver = solver;
-  w->level  = level;
-  w->frame  = &level->frame;
-  w->nx     = level->grid->nx;
-  w->rows   = level->grid->rows;
-  w->cells  = level->grid->cells;
-  w->most   = w->frame->most;
-  w->alpha  = 1;
+  w->solver  = solver;
+  w->level   = level;
+  w->frame   = &level->frame;
+  w->nx      = level->grid->nx;
+  w->rows    = level->grid->rows;
+  w->cells   = level->grid->cells;
+  w->most    = w->frame->most;
+  w->alpha   = 1;
+  w->layered = (PetscBool)!SamPairIsUniform(SamElasticityGetPair(w->level->elasticity));
   PetscCall(SamElasticityGetSelfInfluence(level->elasticity, &w->self, NULL));
   PetscCall(SamGridCreateVec(level->grid, 1, &w->vg));
   PetscCall(VecGetArray(level->traction, &w->p));
@@ -369,7 +370,10 @@ static PetscErrorCode Iterate(Work *w, PetscBool gradient, PetscBool *downhill, 
   PetscCall(Step(w, &best, contact));
   *downhill = best > 0;
   if (!*downhill) PetscFunctionReturn(PETSC_SUCCESS);
-  if (!gradient) w->alpha *= sqrt(PetscMin(PetscMax(best, 1 / FALL), RISE));
+  if (!gradient)
+    w->alpha *= sqrt(PetscMin(PetscMax(best, 1 / (w->layered ? FALL : FOLLOW)), FOLLOW));
+  else if (!w->layered)
+    w->alpha = 1;
   PetscCall(SamActiveSetChoose(w, contact));
   PetscCall(SamLevelIterated(w->solver, w->level, w->error / w->displacement));
   PetscFunctionReturn(PETSC_SUCCESS);

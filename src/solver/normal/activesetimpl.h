@@ -32,6 +32,7 @@ typedef struct {
   double          largest;        /* largest pressure of the trial, Pa */
   double          curvature;      /* s.u; 0: no step yet */
   double          alpha;          /* length of the trial */
+  PetscBool       layered;        /* a body has layers, for which the preconditioner may be far too strong */
   PetscBool       stagnates;      /* the error has not fallen for some iterations */
   double          lost;           /* the largest change of a pressure in the step without a product, Pa */
 } SamActiveSet;
