@@ -46,7 +46,7 @@ typedef struct {
   const char               *name;     /* of the origin of the bodies, for messages; borrowed */
   PetscInt                  steps;
   PetscBool                 before;
-  PetscBool                 steady; /* states by themselves, which have velocities of slip instead of slips */
+  PetscBool                 slips; /* steps follow each other, and have slips, not velocities of slip */
   PetscErrorCode (*read)(void *context, PetscInt step, SamStepField field, double values[]);
   PetscErrorCode (*number)(void *context, PetscInt step, SamStepNumber number, double *value);
   PetscErrorCode (*conditions)(void *context, PetscInt step, SamConditions conditions, SamControl *control);

@@ -241,7 +241,7 @@ static PetscErrorCode Compute(petsam_contact *c, const char options[], PetscInt 
                                   .name       = "-elasticity",
                                   .steps      = n,
                                   .before     = steps->before && steps->before->fields,
-                                  .steady     = !SamMotionOf(c->setup->elasticity)->continues,
+                                  .slips      = SamMotionOf(c->setup->elasticity)->continues,
                                   .read       = ReadField,
                                   .number     = ReadNumber,
                                   .conditions = ReadConditions,

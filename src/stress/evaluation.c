@@ -112,11 +112,10 @@ static PetscErrorCode CheckCycle(SamEvaluation e)
              "-passing: points pass along x: give a -section y=..., or none");
   PetscCheck(!e->passing || !ruiz, e->comm, SAM_ERR_USER,
              "-fatigue ruiz: needs the slip of steps, and not -passing: omit one of them");
-  PetscCheck(
-    !e->source.steady || !ruiz, e->comm, SAM_ERR_USER,
-    "-fatigue ruiz: needs the slip of steps, and %s has states of -rolling steady: omit ruiz, or roll in steps of "
-    "time",
-    e->source.name);
+  PetscCheck(e->source.slips || !ruiz, e->comm, SAM_ERR_USER,
+             "-fatigue ruiz: needs the slip of steps, and %s has velocities of slip: omit ruiz, or roll in steps of "
+             "time",
+             e->source.name);
   PetscCheck(e->source.steps > 1 || e->passing || !e->cycle, e->comm, SAM_ERR_USER,
              "-fatigue needs the steps of a cycle, two at least, and not %" PetscInt_FMT ": give more, or -passing",
              e->source.steps);

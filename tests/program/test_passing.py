@@ -146,7 +146,7 @@ np.savez("f.npz", **contact.fatigue({case.pop("fatigue")!r}, **{case!r}))
         (dict(CASE, steps="1:2"), "-passing: 2 steps are given"),
         (dict(CASE, section="x=0"), "-passing: points pass along x: give a -section y=..."),
         (dict(passing=True, fatigue="ruiz"), "-fatigue ruiz: needs the slip of steps, and not -passing"),
-        (dict(fatigue="ruiz", steps="1:2"), "r.h5 has states of -rolling steady: omit ruiz"),
+        (dict(fatigue="ruiz", steps="1:2"), "r.h5 has velocities of slip: omit ruiz"),
         (dict(depths="x" * 2000), "x" * 51 + "...: expected depths separated by commas"),
         (dict(CASE, passing=None), "-fatigue needs the steps of a cycle"),
     ],
