@@ -8,7 +8,10 @@
   The derivative of a contact with friction depends on the direction of its motion. Two are computed:
     SAM_STIFFNESS_FORWARD   loading continues: cells that slip continue to slip. This is the derivative of the tried
                             step's loads with respect to its displacements, the step starting where it did. Friction
-                            may follow the slip of the step.
+                            may follow the slip of the step. What a step of second order takes aside of the slip
+                            (step/direction.c) counts as given: with it, where loads turn or N grows, the derivative is
+                            that of the step to the first order of its length (0.2 % in a test); with
+                            -slip_direction end it is exact.
                             Not symmetric: where cells slip, tangential loads depend on the approach, and not the
                             reverse. Across a step's own direction it counts that slip turns within the step: for a
                             path of small steps it tends to the stiffness of stick there.

@@ -184,7 +184,7 @@ def test_a_condensed_stiffness_is_that_of_a_displacement_while_the_other_loads_s
         """
 import numpy as np, petsam
 case = dict(body1_young=210e9, body1_poisson=.3, body2_young=70e9, body2_poisson=.2, friction=.5,
-            gap_type="flat", grid_n=32, grid_size=2e-3)
+            gap_type="flat", grid_n=32, grid_size=2e-3, slip_direction="end")
 with petsam.Contact(**case) as contact:
     x, y = np.meshgrid(contact.x, contact.y)
     contact["gap"] = ((x - 2e-4) ** 2 + (y - 4e-4) ** 2) / 0.2
