@@ -94,6 +94,7 @@ static PetscErrorCode NewEvaluation(const char *options, SamElasticity bodies, G
   const SamStressSource source = {.bodies     = bodies,
                                   .name       = "these bodies",
                                   .steps      = given ? 2 : 0,
+                                  .slips      = PETSC_TRUE,
                                   .read       = Read,
                                   .number     = ReadNumber,
                                   .conditions = ReadConditions,
