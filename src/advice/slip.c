@@ -82,7 +82,7 @@ static void Measure(const SamSetup *s, const Numbers *n, SamSlip *slip)
 {
   const PetscBool row  = SamGridIsRow(s->grid);
   const double    cell = row ? (double)s->grid->dx : sqrt((double)(s->grid->dx * s->grid->dy));
-  const double    edge = n->known > 0 ? (row ? n->faces : PETSC_PI / 4 * n->faces)
+  const double    edge = n->known > 0 ? SamContactEdgeLength(s->grid, n->faces) / (row ? 1 : cell)
                          : row        ? 2
                                       : 2 * sqrt(PETSC_PI * (double)n->contact) / cell;
   const double    area = (double)(n->contact - n->stick) / (row ? cell : cell * cell);

@@ -262,12 +262,6 @@ static PetscErrorCode FindSlip(SamProblem problem, SamGrid grid, const SamSoluti
 }
 
 /* The areas by the edges of contact and stick, the largest shear, between stick and slip, and the largest slip. */
-/* The length (m, without unit in plane strain) of the edge of cells, whose faces go along both axes. */
-static double LengthOfEdge(SamGrid grid, double faces)
-{
-  return SamGridIsRow(grid) ? faces : PETSC_PI / 4 * faces * sqrt((double)(grid->dx * grid->dy));
-}
-
 static PetscErrorCode FindEdges(SamProblem problem, const SamSolution *s, double contact[EDGE], double numbers[NUMBERS])
 {
   SamEdge       edge;
@@ -294,9 +288,9 @@ static PetscErrorCode FindEdges(SamProblem problem, const SamSolution *s, double
   numbers[SHEAR_MAX]    = peak;
   numbers[CONTACT_AREA] = contact[AREA];
   numbers[STICK_AREA]   = edge.area;
-  numbers[SLIP_WIDTH]   = contact[FACES] > 0 /* flat periodic bodies have no edge */
-                            ? PetscMax(contact[AREA] - (double)edge.area, 0) / LengthOfEdge(grid, contact[FACES])
-                            : NAN;
+  numbers[SLIP_WIDTH]   = NAN; /* flat periodic bodies have no edge */
+  if (contact[FACES] > 0)
+    numbers[SLIP_WIDTH] = PetscMax(contact[AREA] - (double)edge.area, 0) / SamContactEdgeLength(grid, contact[FACES]);
   numbers[EDGE_ACCEPTED] =
     contact[FACES] + edge.faces > 0 ? (contact[GOOD] + edge.good) / (contact[FACES] + edge.faces) : 1;
   PetscCall(SamEdgeDestroy(&edge));

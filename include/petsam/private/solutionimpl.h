@@ -123,6 +123,11 @@ PETSC_INTERN PetscErrorCode SamSolutionComputeRolling(SamProblem problem, const 
 */
 #define SAM_CONTACT_EDGE "contact_edge_sums"
 enum { SAM_CONTACT_EDGE_KNOWN, SAM_CONTACT_EDGE_FACES = 2 };
+/* SamContactEdgeLength - the length (m, in plane strain a number) of an edge that has these faces of cells. */
+static inline double SamContactEdgeLength(SamGrid grid, double faces)
+{
+  return SamGridIsRow(grid) ? faces : PETSC_PI / 4 * faces * sqrt((double)(grid->dx * grid->dy));
+}
 PETSC_INTERN PetscErrorCode SamSolutionDeclareNumbers(SamState state, SamMotion motion);
 PETSC_INTERN PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamState state, const SamSolution *before,
                                                       const SamSolution *now, PetscBool same_pressure, PetscBool edges);
