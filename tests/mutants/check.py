@@ -81,6 +81,22 @@ def parse(path, block):
     return Mutant(where, block[0][1].strip(), "\n".join(parts["-"]), "\n".join(parts["+"]), tests)
 
 
+def misfits(mutants):
+    """Entries whose text does not stand once in its file, or that name a test which does not exist."""
+    found = []
+    for mutant in mutants:
+        path = ROOT / mutant.file
+        count = path.read_text().count(mutant.old) if path.exists() else 0
+        if count != 1:
+            found.append(f"{mutant.where} {mutant.file}: the text stands there {count} times")
+        for test in mutant.tests:
+            file, _, name = test.partition("::")
+            path = ROOT / "tests" / (f"program/{file}" if ".py" in test else f"unit/{file.split('@')[0]}.c")
+            if not path.exists() or (name and f"def {name.split('[')[0]}(" not in path.read_text()):
+                found.append(f"{mutant.where}: there is no {test}")
+    return found
+
+
 def make_tree(folder):
     """A copy of the sources in which mutants are built; what has been built there before is kept."""
     folder.mkdir(parents=True, exist_ok=True)
@@ -149,9 +165,7 @@ def passes(tree, test):
 def try_mutant(tree, mutant):
     """What became of a mutant: caught, SURVIVED, or why it could not be tried."""
     path = tree / mutant.file
-    text = path.read_text() if path.exists() else ""
-    if text.count(mutant.old) != 1:
-        return f"NO SUCH TEXT: it stands there {text.count(mutant.old)} times"
+    text = path.read_text()
     path.write_text(text.replace(mutant.old, mutant.new))
     try:
         complaint = build(tree, targets_of(mutant.tests))
@@ -187,13 +201,21 @@ def check_originals(trees, mutants):
         sys.exit(f"mutants: without a change, too, fail: {' '.join(failed)}")
 
 
+def all_mutants():
+    """The entries of all lists."""
+    return [mutant for path in sorted(LISTS.glob("*.txt")) for mutant in read_list(path)]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--trees", type=int, default=2, help="how many are built at the same time")
     parser.add_argument("words", nargs="*")
     args = parser.parse_args()
-    mutants = [m for path in sorted(LISTS.glob("*.txt")) for m in read_list(path)]
-    mutants = [m for m in mutants if not args.words or any(word in m.file or word in m.old for word in args.words)]
+    mutants = [
+        m for m in all_mutants() if not args.words or any(word in m.file or word in m.old for word in args.words)
+    ]
+    if misfits(mutants):
+        sys.exit("mutants:\n" + "\n".join(misfits(mutants)))
     trees = [make_tree(ROOT / "build" / "mutants" / str(k)) for k in range(args.trees)]
     check_originals(trees, mutants)
     waiting, lock, results = queue.Queue(), threading.Lock(), []
