@@ -214,3 +214,4 @@ def test_loads_of_spin_are_right_or_warned_of(petsam, tmp_path, creep, n):
     wrong = max(abs(here[name] - fine[f"{name}_extrapolated"]) for name in ("load_tx", "load_ty")) / both
     assert here["warned"] or wrong < 0.03
     assert creep[2] in (0.0, 0.2) or wrong < 0.03
+    assert here["warned"] or not (creep[2] == 0.2 and n == 32)  # M_z is 4 % off
