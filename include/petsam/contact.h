@@ -49,8 +49,8 @@ typedef struct {
   PetscBool        warm_start;     /* start a step from the steps before, on the finest grid only (true; -warm_start) */
   SamSlipDirection slip_direction; /* (mid; -slip_direction) */
   PetscReal cycle_memory; /* bytes on all ranks for steps of a repeated load cycle: a step that the cycle before had
-                                 starts from that, with the same solution within the tolerances; what is kept is in no
-                                 state and no checkpoint, from which the bits differ then (0: none; -cycle_memory) */
+                                 starts from that, with the same solution within the tolerances (NaN, the default:
+                                 those of SamContactCycleMemory(); 0: none; -cycle_memory) */
   PetscBool allow_edge;   /* contact at the grid's edge is a warning, no status (false; -allow_edge_contact) */
   PetscBool edges;        /* areas, and tractions at points, by reconstructed contact and stick edges (edges.h);
                                  else by counted cells, wrong by a part of a cell along the edge (true; -edges
@@ -65,7 +65,9 @@ typedef struct {
 */
 PETSC_EXTERN PetscErrorCode     SamContactSetSettings(SamContact contact, const SamContactSettings *settings);
 PETSC_EXTERN SamContactSettings SamContactGetSettings(SamContact contact);
-PETSC_EXTERN PetscErrorCode     SamContactSetFromOptions(SamContact contact);
+/* SamContactCycleMemory - the usual bytes for kept steps on a grid: 20 fields, 16 MB to 1 GB. Not collective. */
+PETSC_EXTERN PetscReal      SamContactCycleMemory(SamGrid grid);
+PETSC_EXTERN PetscErrorCode SamContactSetFromOptions(SamContact contact);
 /*
   SamContactSetUp - checks that settings, laws and solvers go together; SamContactTry() calls it. Collective. Errors:
   SAM_ERR_USER.

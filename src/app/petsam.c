@@ -105,8 +105,8 @@ static const double bytes_per_cell[2][2][2] = {{{85, 150}, {190, 400}},
 /* Of an upwind operator, bytes per cell: directions and their products. Measured at 1024: 250, for contact on 59 %. */
 #define ROLLING_BYTES 280
 
-/* A -cycle_memory from here on is no estimate of what will be used, bytes. */
-#define UNLIMITED 1e15
+/* Of a kept step of a load cycle, bytes per cell at most. */
+#define KEPT_BYTES 24
 
 /* Of a life, bytes per cell. */
 #define LIFE_BYTES (16 * 8)
@@ -118,26 +118,41 @@ static const double bytes_per_cell[2][2][2] = {{{85, 150}, {190, 400}},
 */
 static const double stiffness_bytes[2][2] = {{400, 400}, {490, 880}}; /* [friction][coupled] */
 
+/* What kept steps take on all ranks, bytes; twice the steps of a cycle of a life. The contact is made later. */
+static PetscErrorCode EstimateKept(const SamSetup *setup, const SamSimulationNeeds *needs, double *bytes)
+{
+  const double steps = needs->life ? 2 * (double)needs->steps : (double)needs->steps;
+  char         kept[32];
+  PetscBool    given;
+
+  PetscFunctionBegin;
+  *bytes = 0;
+  if (needs->steps < 2 || needs->coupled || SamElasticityGetTraits(setup->elasticity).upwind)
+    PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscOptionsGetString(NULL, NULL, "-cycle_memory", kept, sizeof(kept), &given));
+  *bytes = PetscMin(given ? atof(kept) : (double)SamContactCycleMemory(setup->grid),
+                    KEPT_BYTES * steps * (double)setup->grid->nx * (double)setup->grid->ny);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* The memory that this rank will need, bytes. */
 static PetscErrorCode EstimateMemory(SamSimulation simulation, double *bytes)
 {
-  char                     kept[32] = "";
   PetscMPIInt              ranks;
-  double                   cell;
+  double                   cell, kept;
   const SamSetup          *setup = SamSimulationGetSetup(simulation);
   const SamSimulationNeeds needs = SamSimulationGetNeeds(simulation);
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_size(setup->grid->comm, &ranks));
-  /* the contact, which reads these, is made later */
-  PetscCall(PetscOptionsGetString(NULL, NULL, "-cycle_memory", kept, sizeof(kept), NULL));
+  PetscCall(EstimateKept(setup, &needs, &kept));
   cell = bytes_per_cell[needs.steps > 1][needs.friction][needs.coupled] + (double)needs.laws +
          (needs.friction && needs.steps > 1 ? TURN_BYTES : 0) +
          (SamElasticityGetTraits(setup->elasticity).upwind ? ROLLING_BYTES : 0) + (needs.life ? LIFE_BYTES : 0) +
          (needs.stiffness ? stiffness_bytes[needs.friction][needs.coupled] : 0);
   *bytes = SAM_MEMORY_PROGRAM + cell * (double)setup->grid->cells;
   if (needs.grid_check) *bytes += 0.25 * cell * (double)setup->grid->cells;
-  if (needs.steps > 1 && atof(kept) < UNLIMITED) *bytes += atof(kept) / ranks; /* not of NaN, which is refused */
+  *bytes += kept / ranks;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

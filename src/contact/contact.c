@@ -1,6 +1,7 @@
 /* The class SamContact: its parts, its settings, its state, and its results by name. */
 #include "contactimpl.h"
 #include <petsam/private/state.h>
+#include <math.h>
 
 /* ---- creation ---- */
 
@@ -16,7 +17,8 @@ PetscErrorCode SamContactCreate(SamProblem problem, SamContact *contact)
                                        .coupling_rtol   = 1e-6,
                                        .coupling_max_it = 100,
                                        .warm_start      = PETSC_TRUE,
-                                       .edges           = PETSC_TRUE};
+                                       .edges           = PETSC_TRUE,
+                                       .cycle_memory    = NAN};
   c->elasticity = SamProblemGetElasticity(problem);
   c->grid       = SamProblemGetGrid(problem);
   c->conditions = SamProblemGetConditions(problem);
@@ -66,11 +68,11 @@ PetscErrorCode SamContactSetSettings(SamContact c, const SamContactSettings *set
              "coupling tolerance rtol = %.6g: expected a number > 0", (double)settings->coupling_rtol);
   PetscCheck(settings->coupling_max_it > 0, c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
              "coupling iterations max_it = %" PetscInt_FMT ": expected at least 1", settings->coupling_max_it);
-  PetscCheck(settings->cycle_memory >= 0, c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
+  PetscCheck(isnan(settings->cycle_memory) || settings->cycle_memory >= 0, c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
              "cycle memory = %.6g: expected a number >= 0", (double)settings->cycle_memory);
   c->set      = *settings;
   c->declared = 0;
-  PetscCall(SamStepCacheSetMemory(c->cache, settings->cycle_memory));
+  SamStepCacheSetMemory(c->cache, isnan(settings->cycle_memory) ? SamStepCacheUsual(c->grid) : settings->cycle_memory);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -106,7 +108,7 @@ static const SamOptionRow rows[] = {
    .words = "mid,end"},
   {"warm_start", "start each step from the previous steps, on the finest grid only", SAM_OPTION_BOOL,
    .member = MEMBER(warm_start)},
-  {"cycle_memory", "bytes to keep steps of a repeated cycle, from which the next starts", SAM_OPTION_REAL,
+  {"cycle_memory", "bytes to keep steps of a repeated cycle; default: 20 fields, 16 MB to 1 GB", SAM_OPTION_REAL,
    MEMBER(cycle_memory), .range = SAM_RANGE_NONNEGATIVE},
   {"allow_edge_contact", "contact at the grid's edge is a warning, no error", SAM_OPTION_BOOL,
    .member = MEMBER(allow_edge)},
@@ -176,6 +178,16 @@ PetscErrorCode SamContactSetState(SamContact c, SamState state, PetscBool gap_is
   PetscCall(SamProblemGetRevision(c->problem, &c->revision[SAM_COMMITTED]));
   if (!gap_is_current) c->revision[SAM_COMMITTED] = -1;
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+SamStepCache SamContactGetCache(SamContact c)
+{
+  return c->cache;
+}
+
+PetscReal SamContactCycleMemory(SamGrid grid)
+{
+  return SamStepCacheUsual(grid);
 }
 
 PetscErrorCode SamContactReset(SamContact c)

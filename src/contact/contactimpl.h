@@ -21,6 +21,7 @@ struct _n_SamContact {
   /* its state */
   SamState         state;
   PetscBool        has_tried;                   /* a tried solution */
+  PetscBool        same_gap;                    /* the tried step has the gap of the committed pressure */
   PetscBool        rolls;                       /* the tried step does, and the committed solution has moved for it */
   SamSolution      generation[SAM_GENERATIONS]; /* views of the state */
   SamStepCache     cache;                       /* steps of the cycle before */
@@ -37,6 +38,14 @@ struct _n_SamContact {
 static inline PetscBool SamContactIsCoupled(SamContact c)
 {
   return c->traits.coupled && c->set.coupling;
+}
+
+/* Whether steps may start from the same steps one cycle before: nothing else is in their product, nor can turn out
+   otherwise. */
+static inline PetscBool SamContactRecalls(SamContact c)
+{
+  return c->set.warm_start && c->motion->continues && !SamContactIsCoupled(c) && !c->rolls &&
+         !SamProblemFollowsSlip(c->problem) && !SamProblemHasOffset(c->problem);
 }
 
 /* ---- what is remembered (memory.c) ---- */

@@ -187,12 +187,12 @@ PetscErrorCode SamContactIsGapCurrent(SamContact c, PetscBool *current)
 */
 static PetscErrorCode IsSamePressure(SamContact c, const SamControl *control, PetscBool *same)
 {
-  PetscBool current, moves;
+  PetscBool moves;
 
   PetscFunctionBegin;
-  PetscCall(SamContactIsGapCurrent(c, &current));
+  PetscCall(SamContactIsGapCurrent(c, &c->same_gap));
   PetscCall(SamProblemAddSeparation(c->problem, c->state, SAM_COMMITTED, NULL, &moves));
-  *same = !SamContactIsCoupled(c) && SamContactBefore(c) && current && !(c->rolls && moves) &&
+  *same = !SamContactIsCoupled(c) && SamContactBefore(c) && c->same_gap && !(c->rolls && moves) &&
           SamControlIsSame(&c->generation[SAM_COMMITTED].control, control, SAM_BALANCE_NORMAL);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -307,8 +307,17 @@ static void SetUnknown(SamStep *step)
   step->check = (SamCheck){.normal = NAN, .tangential = NAN, .equilibrium = NAN, .cone = NAN, .edge = NAN};
 }
 
-/* Finds a guess for the tried step, and solves it. */
-static PetscErrorCode Solve(SamContact c, PetscBool same_pressure, SamStep *step)
+/* What the tried step's pressure is solved with. */
+static PetscErrorCode GetStepOf(SamContact c, SamStepOf *of)
+{
+  PetscFunctionBegin;
+  *of = (SamStepOf){.same_gap = c->same_gap, .moves = c->revision[SAM_TRIED] < 0 ? PETSC_TRUE : PETSC_FALSE};
+  PetscCall(SamSolverGetTolerances(SamNormalAsSolver(c->normal), &of->rtol, NULL));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Finds a guess for the tried step besides a kept one, and solves it. */
+static PetscErrorCode Solve(SamContact c, SamCachedStep kept, PetscBool same_pressure, SamStep *step)
 {
   SamStepTask task = {.problem       = c->problem,
                       .elasticity    = c->elasticity,
@@ -327,25 +336,35 @@ static PetscErrorCode Solve(SamContact c, PetscBool same_pressure, SamStep *step
                       .displacements = {c->displacements[0], c->displacements[1]},
                       .counts        = c->counts,
                       .rolling       = c->rolling,
-                      .revision      = c->revision[SAM_TRIED],
                       .coupled       = SamContactIsCoupled(c),
                       .rolls         = c->rolls,
                       .same_pressure = same_pressure};
 
   PetscFunctionBegin;
-  PetscCall(SamContactPredict(c, &step->control, &task.start));
-  if (c->set.warm_start && c->motion->continues && !SamContactIsCoupled(c) && !SamProblemFollowsSlip(c->problem) &&
-      !SamProblemHasOffset(c->problem)) /* which kept displacements have in them */
-    SamStepCacheFind(c->cache, &step->control, &task.start.kept);
-  if (c->rolls) task.start.kept = NULL; /* its product is not where the slip has moved to */
+  PetscCall(SamContactPredict(c, &task.s->control, &task.start));
+  PetscCall(GetStepOf(c, &task.of));
+  if (SamContactRecalls(c)) task.start.kept = kept;
   PetscCall(SamStepSolve(&task, step));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Finds the same step one cycle before; normal loads that differ from its, or the last ones, by rounding are these. */
+static void FindKept(SamContact c, SamControl *control, SamCachedStep *kept)
+{
+  const PetscReal lever  = PetscMin(c->grid->width[0], c->grid->width[1]) / 2;
+  SamControl      before = *control;
+
+  SamStepCacheFind(c->cache, control, kept);
+  if (*kept) SamCachedStepGetControl(*kept, &before);
+  SamControlSnap(&before, lever, SAM_BALANCE_NORMAL, control);
+  if (SamContactBefore(c)) SamControlSnap(&c->generation[SAM_COMMITTED].control, lever, SAM_BALANCE_NORMAL, control);
+}
+
 PetscErrorCode SamContactTry(SamContact c, const SamControl *control, SamStep *step)
 {
-  SamControl given         = *control;
-  PetscBool  same_pressure = PETSC_FALSE;
+  SamControl    given         = *control;
+  PetscBool     same_pressure = PETSC_FALSE;
+  SamCachedStep kept;
 
   PetscFunctionBegin;
   PetscCall(SamContactReject(c));
@@ -353,9 +372,10 @@ PetscErrorCode SamContactTry(SamContact c, const SamControl *control, SamStep *s
   PetscCall(SamContactSetUp(c));
   PetscCall(PetscMemzero(step, sizeof(*step)));
   step->control = given;
+  FindKept(c, &given, &kept);
   PetscCall(SamContactBegin(c, &given));
   PetscCall(IsSamePressure(c, &given, &same_pressure));
-  PetscCall(Solve(c, same_pressure, step));
+  PetscCall(Solve(c, kept, same_pressure, step));
   if (step->status == SAM_STATUS_NO_EQUILIBRIUM) { /* there is no solution to check */
     SetUnknown(step);
     PetscCall(SamContactStore(c, step));
@@ -372,13 +392,16 @@ PetscErrorCode SamContactTry(SamContact c, const SamControl *control, SamStep *s
 
 PetscErrorCode SamContactCommit(SamContact c)
 {
+  SamStepOf of;
+
   PetscFunctionBegin;
   PetscCheck(c->has_tried, c->grid->comm, PETSC_ERR_ORDER, "There is no tried step to commit");
   *SamStateNumbers(c->state, c->steps, SAM_TRIED) += 1;
-  if (c->rolls) /* what is put between the bodies may have moved, and kept pressures be wrong */
+  PetscCall(GetStepOf(c, &of));
+  if (SamContactRecalls(c))
+    PetscCall(SamStepCacheKeep(c->cache, SamContactBefore(c), &c->generation[SAM_TRIED], &of));
+  else /* after a step that rolls, what is put between the bodies may have moved, and kept pressures be wrong */
     SamStepCacheForget(c->cache);
-  else
-    PetscCall(SamStepCacheKeep(c->cache, SamContactBefore(c), &c->generation[SAM_TRIED], c->revision[SAM_TRIED]));
   PetscCall(SamStateCommit(c->state));
   c->revision[SAM_COMMITTED] = c->revision[SAM_TRIED];
   c->has_tried               = PETSC_FALSE;

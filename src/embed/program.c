@@ -1,5 +1,6 @@
 /* Load histories in another program: petsam_history(), petsam_live(); copies of contacts, and their reset. */
 #include "embedimpl.h"
+#include <petsam/private/stepcache.h>
 #include <petsam/private/grid.h>
 
 /* A run, and its monitor. */
@@ -173,6 +174,7 @@ static PetscErrorCode Copy(petsam_contact *c, petsam_contact *from)
   PetscCall(SamContactGetState(from->setup->contact, &state));
   PetscCall(SamContactIsGapCurrent(from->setup->contact, &current));
   PetscCall(SamContactSetState(c->setup->contact, state, current));
+  PetscCall(SamStepCacheCopy(SamContactGetCache(from->setup->contact), SamContactGetCache(c->setup->contact)));
   PetscCall(SamEmbedRecordAnew(c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

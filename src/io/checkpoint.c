@@ -3,7 +3,7 @@
   program's notes.
 
   The fields are datasets (components, ny, nx), all else attributes of the root group; all is sealed (seal.c). What is
-  one step back has `before_` in front of its name.
+  one step back has `before_` in front of its name. Kept steps of a load cycle are in datasets of their own (kept.c).
 */
 #include "ioimpl.h"
 #include <petsam/checkpoint.h>
@@ -196,7 +196,7 @@ static PetscErrorCode WriteAll(SamFile f, SamContact contact, const Rest *rest)
   PetscCall(GapChecksum(contact, &gap[0]));
   gap[1] = is;
   ListFields(state, list, sizeof(list));
-  PetscCall(SamFileReserve(f, CountBytes(f->grid, state)));
+  PetscCall(SamFileReserve(f, CountBytes(f->grid, state) + SamKeptBytes(SamContactGetCache(contact))));
   PetscCall(SamFileBegin(f));
   SamFileWriteTextAttribute(f, f->id, "petsam_version", PETSAM_VERSION);
   SamParametersWrite(f, rest->parameters);
@@ -210,6 +210,7 @@ static PetscErrorCode WriteAll(SamFile f, SamContact contact, const Rest *rest)
   ierr = MoveFields(f, state);
   SamStateSwapMoved(state);
   PetscCall(ierr);
+  PetscCall(SamKeptWrite(f, SamContactGetCache(contact)));
   (void)SamFileNote(f, H5Fflush(f->id, H5F_SCOPE_GLOBAL));
   PetscCall(SamFileEnd(f));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -314,11 +315,20 @@ PetscErrorCode SamCheckpointNames(const char filename[], char **before, char **t
 
 /* ---- reading ---- */
 
-/* What is read besides the notes. The caller destroys the state. */
+/* What is read besides the notes. The caller destroys it, also after an error. */
 typedef struct {
-  SamState state;
-  uint64_t gap[2];
+  SamState     state;
+  SamStepCache cache;
+  uint64_t     gap[2];
 } Content;
+
+static PetscErrorCode DestroyContent(Content *c)
+{
+  PetscFunctionBegin;
+  PetscCall(SamStateDestroy(&c->state));
+  SamStepCacheDestroy(&c->cache);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
 /* Whether a law of this name only accumulates its field, which it then declares; `state` NULL: it does not. */
 static PetscErrorCode DeclareSum(SamContact contact, const char name[], SamState state, PetscBool *is)
@@ -401,6 +411,8 @@ static PetscErrorCode ReadState(SamFile f, SamContact contact, PetscBool sums, C
   }
   MoveNumbers(f, c->state, message, size);
   PetscCall(MoveFields(f, c->state));
+  PetscCall(SamStepCacheCreateLike(SamContactGetCache(contact), &c->cache));
+  PetscCall(SamKeptRead(f, c->cache));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -429,7 +441,6 @@ static PetscErrorCode ReadAll(SamFile f, SamContact contact, const Rest *rest, C
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The caller destroys the state, also after an error. */
 static PetscErrorCode ReadFile(SamContact contact, const char filename[], const Rest *rest, Content *c)
 {
   SamFile        f;
@@ -459,7 +470,7 @@ static PetscErrorCode Advise(SamContact contact, const char filename[], const Re
   if (!ReadFile(contact, before, rest, &c))
     (void)snprintf(advice, size, "; the checkpoint before it can be read: -restart %s", before);
   PetscCall(PetscPopErrorHandler());
-  PetscCall(SamStateDestroy(&c.state));
+  PetscCall(DestroyContent(&c));
   PetscCall(PetscFree(before));
   PetscCall(PetscFree(temporary));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -495,8 +506,9 @@ PetscErrorCode SamCheckpointRead(const char filename[], SamContact contact, Pets
     PetscCall(AddSums(contact, c.state));
     PetscCall(GapChecksum(contact, &gap));
     PetscCall(SamContactSetState(contact, c.state, c.gap[1] && gap == c.gap[0]));
+    PetscCall(SamStepCacheCopy(c.cache, SamContactGetCache(contact)));
   }
-  PetscCall(SamStateDestroy(&c.state));
+  PetscCall(DestroyContent(&c));
   if (ierr == SAM_ERR_FILE) PetscCall(Advise(contact, filename, &rest, advice, sizeof(advice)));
   PetscCheck(!ierr, SamContactGetGrid(contact)->comm, ierr, "%s%s", message, advice);
   PetscFunctionReturn(PETSC_SUCCESS);

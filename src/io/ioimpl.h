@@ -6,6 +6,7 @@
 #include <petsam/private/parts.h>
 #include <petsam/output.h>
 #include <petsam/private/state.h>
+#include <petsam/private/stepcache.h>
 #include <inttypes.h>
 
 /*
@@ -16,6 +17,16 @@
 */
 PETSC_INTERN void      SamParametersWrite(SamFile file, const SamParameters *parameters);
 PETSC_INTERN PetscBool SamParametersDiffer(SamFile file, const SamParameters *parameters, char message[], size_t size);
+
+/*
+  The kept steps of a load cycle in a checkpoint (kept.c).
+  SamKeptBytes - about their size in it. Not collective.
+  SamKeptWrite, SamKeptRead - write them; read them into an empty cache, if the file has some and its memory suffices.
+  Both note their failures. Collective.
+*/
+PETSC_INTERN off_t          SamKeptBytes(SamStepCache cache);
+PETSC_INTERN PetscErrorCode SamKeptWrite(SamFile file, SamStepCache cache);
+PETSC_INTERN PetscErrorCode SamKeptRead(SamFile file, SamStepCache cache);
 
 /* The series of a file: a row for each load step, and one for each of the settings' cycles. */
 typedef enum { SAM_SERIES_HISTORY, SAM_SERIES_CYCLES, SAM_SERIES } SamSeries;

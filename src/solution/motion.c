@@ -302,6 +302,32 @@ void SamBalanceStore(const SamBalance *balance, PetscReal load[], PetscReal rigi
   }
 }
 
+/* Loads that differ by less, relative to the largest of their kind, are the same but for rounding; likewise motions. */
+#define ROUNDING 1e-13
+
+void SamControlSnap(const SamControl *to, PetscReal lever, SamBalanceKind kind, SamControl *control)
+{
+  SamControl snapped = *control;
+
+  for (PetscInt k = 0; k < 3; k++) {
+    const PetscInt c    = SamComponentsOf[kind][k];
+    PetscReal      size = 0;
+
+    for (PetscInt n = 0; n < 3; n++) { /* in units of component c */
+      const PetscInt  other = SamComponentsOf[kind][n];
+      const int       power = (c >= SAM_COMPONENT_MX) - (other >= SAM_COMPONENT_MX);
+      const PetscReal unit  = power == 0 ? 1 : (power > 0) == (control->force[c] != 0) ? lever : 1 / lever;
+
+      if (control->force[other] == control->force[c]) size = PetscMax(size, unit * PetscAbsReal(control->value[other]));
+    }
+    if (SamControlWay(to, c) != SamControlWay(control, c) ||
+        PetscAbsReal(to->value[c] - control->value[c]) > ROUNDING * size)
+      return;
+    snapped.value[c] = to->value[c];
+  }
+  *control = snapped;
+}
+
 PetscBool SamControlIsSame(const SamControl *a, const SamControl *b, SamBalanceKind kind)
 {
   for (PetscInt k = 0; k < 3; k++) {

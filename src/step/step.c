@@ -94,6 +94,16 @@ static PetscErrorCode FollowPressure(SamGrid grid, Vec pressure_before, Vec pres
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Whether the same step one cycle before has the pressure. */
+static PetscBool IsKnown(const SamSolve *w)
+{
+  SamControl before = w->s->control;
+
+  if (!SamCachedStepHasPressure(w->kept, &w->task->of)) return PETSC_FALSE;
+  SamCachedStepGetControl(w->kept, &before);
+  return SamControlIsSame(&before, &w->s->control, SAM_BALANCE_NORMAL);
+}
+
 PetscErrorCode SamSolveNormal(SamSolve *w, PetscBool has_pressure, PetscBool has_shear)
 {
   SamBalance balance   = w->normal;
@@ -104,7 +114,7 @@ PetscErrorCode SamSolveNormal(SamSolve *w, PetscBool has_pressure, PetscBool has
     PetscCall(TakePressure(w));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  if (SamCachedStepHasPressure(w->kept, &w->s->control, w->task->revision)) {
+  if (IsKnown(w)) {
     PetscCall(SamCachedStepGetPressure(w->kept, w->task->grid, w->s));
     w->known_pressure = PETSC_TRUE;
     PetscFunctionReturn(PETSC_SUCCESS);

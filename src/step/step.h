@@ -4,7 +4,7 @@
 
 #include <petsam/contact.h>
 #include <petsam/private/solutionimpl.h>
-#include "stepcache.h"
+#include <petsam/private/stepcache.h>
 
 /* The numbers of the solvers, side by side in the state in this order. */
 enum {
@@ -40,7 +40,7 @@ typedef struct {
   PetscInt                  displacements[2]; /* fields in the state: u_z, u_t */
   PetscInt                  aside;            /* field in the state */
   PetscInt                  counts, rolling;  /* numbers in the state: of the solvers, of rolling.c */
-  PetscObjectState          revision;         /* of the problem */
+  SamStepOf                 of;               /* what its pressure is to be solved with */
   PetscBool                 coupled;          /* pressure and shear depend on each other */
   PetscBool                 rolls;            /* in time */
   PetscBool                 same_pressure;    /* the pressure is the committed one, and is not solved again */

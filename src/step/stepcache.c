@@ -16,200 +16,344 @@
   older D', w D + (1 - w) D' with w = 1 + m is much nearer than D. w is what fits the changes of the last step best.
 
   For bodies whose pressure does not depend on the shear, the pressure of step k is that of this step, if what is
-  prescribed of it and the gap are the same to the bit.
+  prescribed of it and the gap are the same (SamControlSnap() has made what differs by rounding the same).
 
   A step is recognised by what it prescribes and what the step before did, not by its number. It replaces the last but
   one that it repeats, and where the memory is full the last one. Steps that repeat none then replace the oldest ones,
   and those whose like is not kept are not either: of a cycle that does not fit, the part that does is used again and
   again. Changes are stored on the contact's part of
   each row, as integers in units of 2^-30 of their largest value, four times as accurate as floats of the same size. All
-  decisions are those of global numbers: the same on any number of ranks.
+  decisions are those of global numbers: the same on any number of ranks. So are the bytes that a cache may take, a rule
+  of the grid, and all that is kept is in checkpoints (io/kept.c): a restart has the same bits, on any machine.
+
+  All that is the same on all ranks is one table: a row for each step, the oldest first, after a row of the cache's own.
 */
-#include "stepcache.h"
+#include <petsam/private/stepcache.h>
 #include <math.h>
 #include <petsam/private/tangentialimpl.h>
 
-/* What was prescribed in so many of the last steps is remembered: longer cycles are not recognised. */
-#define STEPS 4096
+/* What was prescribed in so many of the last steps is remembered, half of them when the table is full. */
+#define STEPS 1024
 /* Numbers that differ by less, relative to the largest of their kind so far, prescribe the same. */
 #define SAME 1e-9
 /* Columns by which the part of a row is wider than the contact: it may change by a cell. */
 #define MARGIN 1
 /* An upper bound of the influence of single cells' shear on their neighbours, in units of the self-influence. */
 #define SPREAD 4
-/* What is compared of a control. */
-#define NUMBERS (2 * SAM_COMPONENTS + SAM_CONDITIONS)
-#define UNITS   1073741824.0
+#define UNITS  1073741824.0
 /* Least and largest weight of the last of two repetitions. */
 #define LEAST_WEIGHT (-1.0)
 #define MOST_WEIGHT  2.0
 
-/* ---- what is kept of a step ---- */
+/* The usual memory of a cache: so many fields of the grid, within these bytes. */
+#define USUAL_FIELDS 20
+#define USUAL_LEAST  16e6
+#define USUAL_MOST   1e9
 
-enum { SHEAR_X, SHEAR_Y, PRODUCT_X, PRODUCT_Y, CHANGES };
+/* ---- what is kept ---- */
+
+enum { SHEAR_X, SHEAR_Y, PRODUCT_X, PRODUCT_Y }; /* the changes of a step */
+
+/* A row of a step: what it prescribes, and then these numbers. */
+enum {
+  CELLS,        /* of its fields on all ranks; 0: nothing is kept */
+  UNIT_SHEAR,   /* of the changes (Pa) */
+  UNIT_PRODUCT, /* (m) */
+  GAP,          /* the number of the gap that the pressure was solved with; -1: it has moved since */
+  PRESSURE,     /* whether there is a pressure; else it is that of the step before */
+  RTOL,         /* of the normal solver */
+  LOAD,         /* normal loads and rigid displacements */
+  RIGID = LOAD + 3,
+  KEPT  = RIGID + 3
+};
+/* The cache's own row: the largest size of each number that was prescribed, and then these numbers. */
+enum {
+  WEIGHT, /* of the last of two repetitions, by what was best in the last step */
+  GAP_NOW /* the number of the last step's gap */
+};
+
+/* What is prescribed, as numbers: the components and the conditions, and how each component is given. */
+#define MOST_NUMBERS (2 * SAM_COMPONENTS + SAM_CONDITIONS)
+
+/* A kept step in the step that is to come: its row, and the sign and the weight of its changes. */
+typedef struct {
+  PetscInt      row; /* 0: none */
+  double        sign, weight;
+  double       *numbers;
+  SamStepFields fields;
+} Part;
 
 struct _n_SamCachedStep {
-  PetscInt        *first, *last;    /* of each row of this rank */
-  int32_t         *change[CHANGES]; /* of the step, one row after the other */
-  double           unit[2];         /* of the shear (Pa), of the product (m) */
-  double          *pressure;        /* NULL: that of the step before */
-  double           bytes, cells;    /* on all ranks */
-  PetscObjectState revision;        /* of the problem that the pressure was solved with */
-  SamControl       control;
-  double           load[3], rigid[3]; /* normal */
-  double           sign, weight;      /* of the changes in the step that is to come; the rest is `other`'s */
-  SamCachedStep    other;             /* the next older such step; NULL: none */
+  Part     part[2]; /* the last one, and the one before it */
+  double   gap;     /* the number of the last step's gap */
+  PetscInt count;   /* of numbers in front of those of a part */
 };
-
-typedef struct {
-  SamControl    control;
-  SamCachedStep kept; /* NULL: nothing is */
-} Entry;
 
 struct _n_SamStepCache {
-  SamGrid  grid;
-  double   limit, bytes;                /* on all ranks */
-  PetscInt count, newest, found, older; /* found, older: the last two steps like the next one; -1: none */
-  double   weight;                      /* of the former, by what was best in the last step */
-  Entry   *entry;                       /* a ring of STEPS; NULL until there is memory for it */
-  double   largest[NUMBERS];
-
-  SamConditions conditions;
+  SamGrid        grid;
+  SamConditions  conditions;
+  double         limit, bytes; /* on all ranks */
+  PetscInt       numbers;      /* of what is prescribed */
+  PetscInt       count;        /* of steps, the last of which is in this row */
+  double        *table;        /* (STEPS + 1) rows; NULL until the first step */
+  SamStepFields *fields;       /* of each row; NULL: nothing is kept */
+  SamCachedStep  start;        /* what the last search found */
 };
 
-static void DestroyKept(SamStepCache r, SamCachedStep *kept)
+static PetscInt Width(SamStepCache r)
 {
-  const SamCachedStep k = *kept;
+  return r->numbers + KEPT;
+}
 
-  if (!k) return;
-  r->bytes -= k->bytes;
-  for (PetscInt c = 0; c < CHANGES; c++) SamFree(k->change[c]);
-  SamFree(k->pressure);
-  SamFree(k->first);
-  SamFree(k->last);
-  SamFree(k);
-  *kept = NULL;
+static double *Row(SamStepCache r, PetscInt k)
+{
+  return r->table + k * Width(r);
+}
+
+/* A number of a row besides what is prescribed. */
+static double *At(SamStepCache r, PetscInt k, PetscInt number)
+{
+  return Row(r, k) + r->numbers + number;
+}
+
+static PetscInt CountNumbers(SamStepCache r)
+{
+  return SAM_COMPONENTS + SamControlCount(r->conditions);
+}
+
+static double BytesOf(SamStepCache r, const double row[])
+{
+  const double *kept = row + r->numbers;
+
+  if (kept[CELLS] == 0) return 0;
+  return kept[CELLS] * (double)(SAM_STEP_CHANGES * sizeof(int32_t) + (kept[PRESSURE] > 0 ? sizeof(double) : 0)) +
+         2 * sizeof(int32_t) * (double)r->grid->ny;
+}
+
+static void DestroyFields(SamStepFields *fields)
+{
+  const SamStepFields f = *fields;
+
+  *fields = NULL;
+  if (!f || --f->references > 0) return;
+  SamFree(f->range);
+  SamFree(f->change);
+  SamFree(f->pressure);
+  SamFree(f);
+}
+
+/* Nothing is kept of a step any more. */
+static void Drop(SamStepCache r, PetscInt k)
+{
+  r->bytes -= BytesOf(r, Row(r, k));
+  *At(r, k, CELLS) = 0;
+  DestroyFields(&r->fields[k]);
 }
 
 PetscErrorCode SamStepCacheCreate(SamGrid grid, SamConditions conditions, SamStepCache *cache)
 {
   PetscFunctionBegin;
   PetscCall(SamAllocateZeros(sizeof(**cache), cache));
+  PetscCall(SamAllocateZeros(sizeof(*(*cache)->start), &(*cache)->start));
   (*cache)->grid       = grid;
   (*cache)->conditions = conditions;
-  (*cache)->found = (*cache)->older = -1;
+  (*cache)->limit      = (double)SamStepCacheUsual(grid);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamStepCacheCreateLike(SamStepCache r, SamStepCache *other)
+{
+  PetscFunctionBegin;
+  PetscCall(SamStepCacheCreate(r->grid, r->conditions, other));
+  (*other)->limit = r->limit;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 void SamStepCacheForget(SamStepCache r)
 {
-  for (PetscInt k = 0; k < r->count; k++) DestroyKept(r, &r->entry[k].kept);
-  r->count = r->newest = 0;
-  r->found = r->older = -1;
+  for (PetscInt k = 1; k <= r->count; k++) DestroyFields(&r->fields[k]);
+  SamFree(r->table);
+  SamFree(r->fields);
+  r->table  = NULL;
+  r->fields = NULL;
+  r->count  = 0;
+  r->bytes  = 0;
+  *r->start = (struct _n_SamCachedStep){.part = {{0}}};
 }
 
 void SamStepCacheDestroy(SamStepCache *cache)
 {
   if (!*cache) return;
   SamStepCacheForget(*cache);
-  SamFree((*cache)->entry);
+  SamFree((*cache)->start);
   SamFree(*cache);
   *cache = NULL;
 }
 
-PetscErrorCode SamStepCacheSetMemory(SamStepCache r, PetscReal bytes)
+PetscReal SamStepCacheUsual(SamGrid grid)
+{
+  const double fields = USUAL_FIELDS * sizeof(double) * (double)grid->nx * (double)grid->ny;
+
+  return PetscMin(PetscMax(fields, USUAL_LEAST), USUAL_MOST);
+}
+
+void SamStepCacheSetMemory(SamStepCache r, PetscReal bytes)
+{
+  r->limit = (double)bytes;
+  if (r->bytes > r->limit || r->limit == 0) SamStepCacheForget(r);
+}
+
+/* Makes room for the first step, with numbers as they are now. */
+static PetscErrorCode MakeTable(SamStepCache r)
 {
   PetscFunctionBegin;
-  r->limit = (double)bytes;
+  if (r->table) PetscFunctionReturn(PETSC_SUCCESS);
+  r->numbers = CountNumbers(r);
+  PetscCall(SamAllocateZeros(sizeof(*r->table) * (size_t)((STEPS + 1) * Width(r)), &r->table));
+  PetscCall(SamAllocateZeros(sizeof(SamStepFields) * (STEPS + 1), &r->fields));
+  *At(r, 0, WEIGHT) = 1;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamStepCacheCopy(SamStepCache from, SamStepCache to)
+{
+  PetscFunctionBegin;
+  SamStepCacheForget(to);
+  if (!from->table) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamStepCacheSetTable(to, from->count + 1, Width(from), from->table));
+  for (PetscInt k = 1; k <= to->count; k++) {
+    to->fields[k] = from->fields[k];
+    if (to->fields[k]) to->fields[k]->references++;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- for those who save it ---- */
+
+void SamStepCacheGetTable(SamStepCache r, PetscInt *rows, PetscInt *width, double **table)
+{
+  *rows  = r->table ? r->count + 1 : 0;
+  *width = r->table ? Width(r) : 0;
+  *table = r->table;
+}
+
+PetscErrorCode SamStepCacheSetTable(SamStepCache r, PetscInt rows, PetscInt width, const double table[])
+{
+  PetscFunctionBegin;
+  SamStepCacheForget(r);
+  if (r->limit == 0 || rows < 1 || rows > STEPS + 1 || width != CountNumbers(r) + KEPT)
+    PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(MakeTable(r));
+  PetscCall(PetscArraycpy(r->table, table, rows * width));
+  r->count = rows - 1;
+  for (PetscInt k = 1; k <= r->count; k++) r->bytes += BytesOf(r, Row(r, k));
   if (r->bytes > r->limit) SamStepCacheForget(r);
-  if (bytes > 0 && !r->entry) PetscCall(SamAllocateZeros(STEPS * sizeof(*r->entry), &r->entry));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+SamStepFields SamStepCacheGetFields(SamStepCache r, PetscInt row)
+{
+  return r->fields[row];
+}
+
+PetscInt SamStepCacheCells(SamStepCache r, PetscInt row, PetscBool *pressure)
+{
+  *pressure = *At(r, row, PRESSURE) > 0 ? PETSC_TRUE : PETSC_FALSE;
+  return (PetscInt)*At(r, row, CELLS);
+}
+
+PetscErrorCode SamStepCacheAddFields(SamStepCache r, PetscInt row, const int32_t range[], SamStepFields *fields)
+{
+  const PetscInt rows = r->grid->rows;
+  SamStepFields  f;
+
+  PetscFunctionBegin;
+  PetscCall(SamAllocateZeros(sizeof(*f), &f));
+  f->references  = 1;
+  r->fields[row] = *fields = f;
+  PetscCall(SamAllocate(sizeof(*range) * (size_t)(2 * rows), &f->range));
+  PetscCall(PetscArraycpy(f->range, range, 2 * rows));
+  for (PetscInt j = 0; j < rows; j++) f->cells += range[2 * j + 1] - range[2 * j];
+  PetscCall(SamAllocate(sizeof(int32_t) * (size_t)(SAM_STEP_CHANGES * f->cells + 1), &f->change));
+  if (*At(r, row, PRESSURE) > 0) PetscCall(SamAllocate(sizeof(double) * (size_t)(f->cells + 1), &f->pressure));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- which step this is ---- */
 
-/* The numbers of a control but its time; returns how many there are. */
-static PetscInt Numbers(SamStepCache r, const SamControl *control, double numbers[NUMBERS])
+/* The numbers of a control but its time. */
+static void GetNumbers(SamStepCache r, const SamControl *control, double numbers[MOST_NUMBERS])
 {
-  PetscInt n = 0;
+  const PetscInt parts = SamControlCount(r->conditions);
 
-  for (PetscInt k = 0; k < SAM_COMPONENTS; k++) numbers[n++] = SamControlWay(control, k);
-  for (PetscInt k = 0; k < SamControlCount(r->conditions); k++)
-    numbers[n++] = SamControlPart(control, r->conditions, k);
-  return n;
+  for (PetscInt k = 0; k < parts; k++) numbers[k] = SamControlPart(control, r->conditions, k);
+  for (PetscInt k = 0; k < SAM_COMPONENTS; k++) numbers[parts + k] = SamControlWay(control, k);
 }
 
-static PetscBool IsSame(SamStepCache r, const SamControl *a, const SamControl *b)
+/* The same with all that causes shear reversed. */
+static void Reverse(SamStepCache r, const double numbers[MOST_NUMBERS], double reversed[MOST_NUMBERS])
 {
-  double         x[NUMBERS], y[NUMBERS];
-  const PetscInt count = Numbers(r, a, x);
+  memcpy(reversed, numbers, sizeof(*numbers) * (size_t)r->numbers);
+  for (PetscInt k = 0; k < 3; k++) reversed[SamComponentsOf[SAM_BALANCE_TANGENTIAL][k]] *= -1;
+  for (PetscInt k = 0; k < SamConditionsCount(r->conditions); k++)
+    if (SamConditionsGet(r->conditions, k)->reverses) reversed[SAM_COMPONENTS + k] *= -1;
+}
 
-  (void)Numbers(r, b, y);
+static PetscBool IsSame(PetscInt count, const double a[], const double b[], const double largest[])
+{
   for (PetscInt k = 0; k < count; k++)
-    if (fabs(x[k] - y[k]) > SAME * r->largest[k]) return PETSC_FALSE;
+    if (fabs(a[k] - b[k]) > SAME * largest[k]) return PETSC_FALSE;
   return PETSC_TRUE;
 }
 
-/* The control with all that causes shear reversed. */
-static SamControl Reversed(SamStepCache r, const SamControl *control)
+/* The controls of a step and of the step before it, as they are and reversed; what the numbers are relative to. */
+typedef struct {
+  double to[2][MOST_NUMBERS], from[2][MOST_NUMBERS], largest[MOST_NUMBERS];
+} Sought;
+
+/* Whether the step in this row did the same (1) or the reverse (-1) after the same or the reverse; 0: neither. */
+static int Compare(SamStepCache r, const Sought *s, PetscInt row)
 {
-  SamControl reversed = *control;
-
-  for (PetscInt k = 0; k < 3; k++) reversed.value[SamComponentsOf[SAM_BALANCE_TANGENTIAL][k]] *= -1;
-  for (PetscInt k = 0; k < SamConditionsCount(r->conditions); k++) {
-    const SamCondition *c = SamConditionsGet(r->conditions, k);
-
-    if (c->reverses) SamControlSetCondition(&reversed, c, -SamControlGet(control, c));
-  }
-  return reversed;
-}
-
-/* The k-th entry before the newest one. */
-static PetscInt Before(SamStepCache r, PetscInt k)
-{
-  return (r->newest - k + STEPS) % STEPS;
+  for (int way = 0; way < 2; way++)
+    if (IsSame(r->numbers, Row(r, row), s->to[way], s->largest) &&
+        IsSame(r->numbers, Row(r, row - 1), s->from[way], s->largest))
+      return way ? -1 : 1;
+  return 0;
 }
 
 void SamStepCacheFind(SamStepCache r, const SamControl *next, SamCachedStep *kept)
 {
-  double     numbers[NUMBERS];
-  PetscInt   count;
-  SamControl to[2], from[2]; /* controls of the step: as they are, and reversed */
+  const SamCachedStep start = r->start;
+  Part *const         part  = start->part;
+  Sought              s;
 
-  *kept    = NULL;
-  r->found = r->older = -1;
-  if (r->limit <= 0) return;
-  count = Numbers(r, next, numbers);
-  for (PetscInt k = 0; k < count; k++) r->largest[k] = PetscMax(r->largest[k], fabs(numbers[k]));
-  to[0]   = *next;
-  to[1]   = Reversed(r, next);
-  from[0] = r->entry[r->newest].control;
-  from[1] = Reversed(r, &from[0]);
-  for (PetscInt k = 0; k + 2 < r->count && r->older < 0; k++)
-    for (int way = 0; way < 2; way++) {
-      const PetscInt n = Before(r, k);
+  *kept  = NULL;
+  *start = (struct _n_SamCachedStep){.part = {{0}}};
+  if (r->table && r->numbers != CountNumbers(r)) SamStepCacheForget(r);
+  if (!r->table) return;
+  GetNumbers(r, next, s.to[0]);
+  Reverse(r, s.to[0], s.to[1]);
+  memcpy(s.from[0], Row(r, r->count), sizeof(double) * (size_t)r->numbers);
+  Reverse(r, s.from[0], s.from[1]);
+  for (PetscInt k = 0; k < r->numbers; k++) s.largest[k] = PetscMax(Row(r, 0)[k], fabs(s.to[0][k]));
+  for (PetscInt row = r->count, n = 0; row > 1 && n < 2; row--) {
+    const int sign = Compare(r, &s, row);
 
-      if (!IsSame(r, &r->entry[n].control, &to[way]) || !IsSame(r, &r->entry[Before(r, k + 1)].control, &from[way]))
-        continue;
-      if (r->found < 0)
-        r->found = n;
-      else
-        r->older = n;
-      if (r->entry[n].kept) r->entry[n].kept->sign = way ? -1 : 1;
-      break;
-    }
-  if (r->found >= 0) *kept = r->entry[r->found].kept;
-  if (!*kept) return;
-  (*kept)->other = r->older >= 0 ? r->entry[r->older].kept : NULL;
-  if ((*kept)->other && (*kept)->other->revision != (*kept)->revision) (*kept)->other = NULL; /* of another contact */
-  (*kept)->weight = (*kept)->other ? r->weight : 1;
+    if (sign) part[n++] = (Part){row, sign, 1, Row(r, row) + r->numbers, r->fields[row]};
+  }
+  if (!part[0].fields) return;
+  if (part[1].fields && part[1].numbers[GAP] != part[0].numbers[GAP]) part[1].fields = NULL; /* of another contact */
+  if (part[1].fields) part[0].weight = *At(r, 0, WEIGHT);
+  part[1].weight = 1 - part[0].weight;
+  start->gap     = *At(r, 0, GAP_NOW);
+  start->count   = r->numbers;
+  *kept          = start;
 }
 
 /* ---- keeping ---- */
 
 /* Stores the changes of both components of a field from `before` to `now`, in units of their largest. */
-static PetscErrorCode KeepChange(SamStepCache r, SamCachedStep k, Vec before, Vec now, double *unit,
-                                 int32_t *const to[2])
+static PetscErrorCode KeepChange(SamStepCache r, SamStepFields f, Vec before, Vec now, PetscInt first, double *unit)
 {
   const SamGrid grid = r->grid;
   const double *a, *b;
@@ -219,119 +363,129 @@ static PetscErrorCode KeepChange(SamStepCache r, SamCachedStep k, Vec before, Ve
   PetscCall(VecGetArrayRead(before, &a));
   PetscCall(VecGetArrayRead(now, &b));
   for (PetscInt pass = 0; pass < 2; pass++) {
+    const double scale = most > 0 ? UNITS / most : 0;
+
     for (PetscInt c = 0; c < 2; c++) {
-      ptrdiff_t n = 0;
+      int32_t *to = f->change + (first + c) * f->cells;
 
-      for (PetscInt j = 0; j < grid->rows; j++)
-        for (PetscInt i = k->first[j]; i < k->last[j]; i++, n++) {
-          const ptrdiff_t cell   = c * (ptrdiff_t)grid->cells + (ptrdiff_t)j * grid->nx + i;
-          const double    change = b[cell] - a[cell];
+      for (PetscInt j = 0; j < grid->rows; j++) {
+        const ptrdiff_t row = c * (ptrdiff_t)grid->cells + (ptrdiff_t)j * grid->nx;
 
+        for (PetscInt i = f->range[2 * j]; i < f->range[2 * j + 1]; i++)
           if (pass == 0)
-            most = PetscMax(most, fabs(change));
+            most = PetscMax(most, fabs(b[row + i] - a[row + i]));
           else
-            to[c][n] = *unit > 0 ? (int32_t)lrint(change / *unit) : 0;
-        }
+            *to++ = (int32_t)lrint((b[row + i] - a[row + i]) * scale);
+      }
     }
-    if (pass == 0) {
-      PetscCall(SamMax(grid->comm, 1, &most));
-      *unit = most / UNITS;
-    }
+    if (pass == 0) PetscCall(SamMax(grid->comm, 1, &most));
   }
+  *unit = most / UNITS;
   PetscCall(VecRestoreArrayRead(now, &b));
   PetscCall(VecRestoreArrayRead(before, &a));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Finds the parts of the rows, and makes room for them if the limit allows it, or older steps need not stay. */
-static PetscErrorCode CreateKept(SamStepCache r, Vec bound_before, Vec bound, PetscBool pressure, SamCachedStep *kept)
+/* Widens a part of a row by that in which any of two bounds has values, and by the margin. */
+static void Widen(PetscInt nx, const double one[], const double other[], int32_t range[2])
+{
+  PetscInt first, last;
+
+  SamBoundRangeOfBoth(nx, one, other, &first, &last);
+  if (first == last) return;
+  first    = PetscMax(first - MARGIN, 0);
+  last     = PetscMin(last + MARGIN, nx);
+  range[0] = (int32_t)(range[0] < range[1] ? PetscMin(first, range[0]) : first);
+  range[1] = (int32_t)PetscMax(last, range[1]);
+}
+
+/* Finds the parts of the rows: under the bounds, and under the pressure if that is kept; returns the cells of all. */
+static PetscErrorCode FindRanges(SamStepCache r, const SamSolution *before, const SamSolution *now, PetscBool pressure,
+                                 int32_t range[], double *cells)
 {
   const SamGrid grid = r->grid;
-  const double *a, *b;
-  size_t        cells = 0;
-  double        total;
-  SamCachedStep k;
+  const double *a, *b, *p;
 
   PetscFunctionBegin;
-  *kept = NULL;
-  PetscCall(SamAllocateZeros(sizeof(*k), &k));
-  PetscCall(SamAllocateZeros(sizeof(*k->first) * (size_t)(grid->rows + 1), &k->first));
-  PetscCall(SamAllocateZeros(sizeof(*k->last) * (size_t)(grid->rows + 1), &k->last));
-  PetscCall(VecGetArrayRead(bound_before, &a));
-  PetscCall(VecGetArrayRead(bound, &b));
+  *cells = 0;
+  PetscCall(VecGetArrayRead(before->bound, &a));
+  PetscCall(VecGetArrayRead(now->bound, &b));
+  PetscCall(VecGetArrayRead(now->pressure, &p));
   for (PetscInt j = 0; j < grid->rows; j++) {
     const ptrdiff_t row = (ptrdiff_t)j * grid->nx;
-    PetscInt        first, last;
 
-    SamBoundRangeOfBoth(grid->nx, a + row, b + row, &first, &last);
-    if (first == last) continue;
-    k->first[j] = PetscMax(first - MARGIN, 0);
-    k->last[j]  = PetscMin(last + MARGIN, grid->nx);
-    cells += (size_t)(k->last[j] - k->first[j]);
+    range[2 * j] = range[2 * j + 1] = 0;
+    Widen(grid->nx, a + row, b + row, range + 2 * j);
+    if (pressure) Widen(grid->nx, p + row, p + row, range + 2 * j);
+    *cells += range[2 * j + 1] - range[2 * j];
   }
-  PetscCall(VecRestoreArrayRead(bound, &b));
-  PetscCall(VecRestoreArrayRead(bound_before, &a));
-  total = (double)cells;
-  PetscCall(SamSum(grid->comm, 1, &total));
-  k->cells = total;
-  k->bytes = total * (double)(CHANGES * sizeof(int32_t) + (pressure ? sizeof(double) : 0));
-  r->bytes += k->bytes;
-  for (PetscInt n = r->count - 1; r->found < 0 && n > 0 && r->bytes > r->limit; n--)
-    DestroyKept(r, &r->entry[Before(r, n)].kept);
-  if (r->found >= 0 && r->bytes > r->limit) DestroyKept(r, &r->entry[r->found].kept);
-  if (r->bytes > r->limit) {
-    DestroyKept(r, &k);
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  for (PetscInt c = 0; c < CHANGES; c++) PetscCall(SamAllocate(sizeof(int32_t) * (cells + 1), &k->change[c]));
-  if (pressure) PetscCall(SamAllocate(sizeof(double) * (cells + 1), &k->pressure));
-  *kept = k;
+  PetscCall(VecRestoreArrayRead(now->pressure, &p));
+  PetscCall(VecRestoreArrayRead(now->bound, &b));
+  PetscCall(VecRestoreArrayRead(before->bound, &a));
+  PetscCall(SamSum(grid->comm, 1, cells));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode KeepPressure(SamStepCache r, SamCachedStep k, const SamSolution *now)
+/* Makes room for the last step if the limit allows it, or older steps need not stay. */
+static void MakeRoom(SamStepCache r, PetscInt found)
+{
+  r->bytes += BytesOf(r, Row(r, r->count));
+  for (PetscInt k = 1; !found && k < r->count && r->bytes > r->limit; k++)
+    if (r->fields[k]) Drop(r, k);
+  if (found && r->bytes > r->limit) Drop(r, found);
+  if (r->bytes > r->limit) Drop(r, r->count);
+}
+
+static PetscErrorCode KeepPressure(SamStepCache r, SamStepFields f, const SamSolution *now)
 {
   const SamGrid grid = r->grid;
   const double *p;
-  double       *to = k->pressure;
+  double       *to = f->pressure;
 
   PetscFunctionBegin;
   for (PetscInt c = 0; c < 3; c++) {
-    k->load[c]  = now->load[SamComponentsOf[SAM_BALANCE_NORMAL][c]];
-    k->rigid[c] = now->rigid[SamComponentsOf[SAM_BALANCE_NORMAL][c]];
+    *At(r, r->count, LOAD + c)  = now->load[SamComponentsOf[SAM_BALANCE_NORMAL][c]];
+    *At(r, r->count, RIGID + c) = now->rigid[SamComponentsOf[SAM_BALANCE_NORMAL][c]];
   }
   PetscCall(VecGetArrayRead(now->pressure, &p));
   for (PetscInt j = 0; j < grid->rows; j++) {
-    const PetscInt n = k->last[j] - k->first[j];
+    const PetscInt n = f->range[2 * j + 1] - f->range[2 * j];
 
-    PetscCall(PetscArraycpy(to, p + (ptrdiff_t)j * grid->nx + k->first[j], n));
+    PetscCall(PetscArraycpy(to, p + (ptrdiff_t)j * grid->nx + f->range[2 * j], n));
     to += n;
   }
   PetscCall(VecRestoreArrayRead(now->pressure, &p));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Adds `weight` times the kept changes of a component of the shear (0, 1) or the product (2, 3) to row j, n on. */
-static void AddRow(const SamCachedStep k, double weight, PetscInt component, PetscInt j, ptrdiff_t n, double to[])
+/* Adds the kept changes of a component of the shear (0, 1) or the product (2, 3) to row j, whose part begins at n. */
+static void AddRow(const Part *part, double weight, PetscInt component, PetscInt j, ptrdiff_t n, double to[])
 {
-  const int32_t *change = k->change[component] + n;
-  const double   unit   = weight * k->sign * k->unit[component / 2];
+  const SamStepFields f      = part->fields;
+  const int32_t      *change = f->change + component * (ptrdiff_t)f->cells + n;
+  const double        unit   = weight * part->sign * part->numbers[UNIT_SHEAR + component / 2];
 
-  for (PetscInt i = k->first[j]; i < k->last[j]; i++) to[i] += unit * (double)*change++;
+  for (PetscInt i = f->range[2 * j]; i < f->range[2 * j + 1]; i++) to[i] += unit * (double)*change++;
+}
+
+static PetscInt CellsInRow(const Part *part, PetscInt j)
+{
+  return part->fields->range[2 * j + 1] - part->fields->range[2 * j];
 }
 
 /* The weight with which the two kept steps would have been nearest to the shear's change from `before` to `now`. */
-static PetscErrorCode FindWeight(SamStepCache r, const SamCachedStep k, Vec before, Vec now)
+static PetscErrorCode FindWeight(SamStepCache r, Vec before, Vec now, double *weight)
 {
-  const PetscInt nx        = r->grid->nx;
-  SamTotal       totals[2] = {{0}};
-  const double  *a, *b;
-  double        *row, sums[2];
-  ptrdiff_t      n = 0, m = 0;
+  const Part *const part      = r->start->part;
+  const PetscInt    nx        = r->grid->nx;
+  SamTotal          totals[2] = {{0}};
+  const double     *a, *b;
+  double           *row, sums[2];
+  ptrdiff_t         at[2] = {0, 0};
 
   PetscFunctionBegin;
-  r->weight = 1;
-  if (!k || !k->other) PetscFunctionReturn(PETSC_SUCCESS);
+  *weight = 1;
+  if (!part[0].fields || !part[1].fields) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscMalloc1(2 * nx, &row));
   PetscCall(VecGetArrayRead(before, &a));
   PetscCall(VecGetArrayRead(now, &b));
@@ -339,86 +493,143 @@ static PetscErrorCode FindWeight(SamStepCache r, const SamCachedStep k, Vec befo
     double both[2] = {0, 0};
 
     for (PetscInt c = SHEAR_X; c <= SHEAR_Y; c++) {
-      const ptrdiff_t at = c * (ptrdiff_t)r->grid->cells + (ptrdiff_t)j * nx;
+      const ptrdiff_t cell = c * (ptrdiff_t)r->grid->cells + (ptrdiff_t)j * nx;
 
       PetscCall(PetscArrayzero(row, 2 * nx));
-      AddRow(k->other, 1, c, j, m, row);
-      AddRow(k, 1, c, j, n, row + nx);
+      AddRow(&part[1], 1, c, j, at[1], row);
+      AddRow(&part[0], 1, c, j, at[0], row + nx);
       for (PetscInt i = 0; i < nx; i++) {
         const double way = row[nx + i] - row[i];
 
-        both[0] += way * (b[at + i] - a[at + i] - row[i]);
+        both[0] += way * (b[cell + i] - a[cell + i] - row[i]);
         both[1] += way * way;
       }
     }
     SamAddAll(2, totals, both);
-    n += k->last[j] - k->first[j];
-    m += k->other->last[j] - k->other->first[j];
+    for (int n = 0; n < 2; n++) at[n] += CellsInRow(&part[n], j);
   }
   PetscCall(VecRestoreArrayRead(now, &b));
   PetscCall(VecRestoreArrayRead(before, &a));
   PetscCall(PetscFree(row));
   PetscCall(SamSumTotals(r->grid->comm, 2, totals, sums));
-  if (sums[1] > 0) r->weight = PetscMin(PetscMax(sums[0] / sums[1], LEAST_WEIGHT), MOST_WEIGHT);
+  if (sums[1] > 0) *weight = PetscMin(PetscMax(sums[0] / sums[1], LEAST_WEIGHT), MOST_WEIGHT);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamStepCacheKeep(SamStepCache r, const SamSolution *before, const SamSolution *now,
-                                PetscObjectState revision)
+/* Forgets the older half of the steps when the table is full. Returns how many rows are gone. */
+static PetscInt MoveTable(SamStepCache r)
 {
-  Entry    *e;
-  PetscBool pressure;
+  const PetscInt gone = r->count == STEPS ? STEPS / 2 : 0;
+
+  for (PetscInt k = 1; k <= gone; k++)
+    if (r->fields[k]) Drop(r, k);
+  if (!gone) return 0;
+  r->count -= gone;
+  memmove(Row(r, 1), Row(r, 1 + gone), sizeof(double) * (size_t)(r->count * Width(r)));
+  memmove(r->fields + 1, r->fields + 1 + gone, sizeof(SamStepFields) * (size_t)r->count);
+  memset(r->fields + 1 + r->count, 0, sizeof(SamStepFields) * (size_t)gone);
+  return gone;
+}
+
+/* Adds the row of a step, of which nothing is kept yet. */
+static void AddStep(SamStepCache r, const SamControl *control)
+{
+  double *row;
+
+  r->count++;
+  row = Row(r, r->count);
+  GetNumbers(r, control, row);
+  memset(row + r->numbers, 0, KEPT * sizeof(double));
+  for (PetscInt k = 0; k < r->numbers; k++) Row(r, 0)[k] = PetscMax(Row(r, 0)[k], fabs(row[k]));
+}
+
+/* Keeps the fields of the last step, which is like that in row `found` (0: like none). */
+static PetscErrorCode KeepFields(SamStepCache r, PetscInt found, const SamSolution *before, const SamSolution *now)
+{
+  const PetscBool pressure =
+    SamControlIsSame(&before->control, &now->control, SAM_BALANCE_NORMAL) ? PETSC_FALSE : PETSC_TRUE;
+  double *const numbers = At(r, r->count, 0);
+  int32_t      *range;
+  SamStepFields f;
 
   PetscFunctionBegin;
-  if (r->limit <= 0) PetscFunctionReturn(PETSC_SUCCESS);
-  if (before) PetscCall(FindWeight(r, r->found >= 0 ? r->entry[r->found].kept : NULL, before->shear, now->shear));
-  if (r->older >= 0) DestroyKept(r, &r->entry[r->older].kept);
-  r->newest = r->count ? (r->newest + 1) % STEPS : 0;
-  r->count  = PetscMin(r->count + 1, STEPS);
-  e         = &r->entry[r->newest];
-  DestroyKept(r, &e->kept);
-  e->control = now->control;
-  if (!before || !before->displacement_t) PetscFunctionReturn(PETSC_SUCCESS);
-  pressure = SamControlIsSame(&before->control, &now->control, SAM_BALANCE_NORMAL) ? PETSC_FALSE : PETSC_TRUE;
-  PetscCall(CreateKept(r, before->bound, now->bound, pressure, &e->kept));
-  r->found = r->older = -1;
-  if (!e->kept) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(KeepChange(r, e->kept, before->shear, now->shear, &e->kept->unit[0], &e->kept->change[SHEAR_X]));
-  PetscCall(KeepChange(r, e->kept, before->displacement_t, now->displacement_t, &e->kept->unit[1],
-                       &e->kept->change[PRODUCT_X]));
-  e->kept->revision = revision;
-  e->kept->control  = now->control;
-  if (pressure) PetscCall(KeepPressure(r, e->kept, now));
+  PetscCall(PetscMalloc1(2 * r->grid->rows, &range));
+  PetscCall(FindRanges(r, before, now, pressure, range, &numbers[CELLS]));
+  numbers[PRESSURE] = pressure;
+  MakeRoom(r, found);
+  if (numbers[CELLS] > 0) {
+    PetscCall(SamStepCacheAddFields(r, r->count, range, &f));
+    PetscCall(KeepChange(r, f, before->shear, now->shear, SHEAR_X, &numbers[UNIT_SHEAR]));
+    PetscCall(KeepChange(r, f, before->displacement_t, now->displacement_t, PRODUCT_X, &numbers[UNIT_PRODUCT]));
+    if (pressure) PetscCall(KeepPressure(r, f, now));
+  }
+  PetscCall(PetscFree(range));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamStepCacheKeep(SamStepCache r, const SamSolution *before, const SamSolution *now, const SamStepOf *of)
+{
+  PetscInt found, older;
+  double   weight = 1;
+
+  PetscFunctionBegin;
+  if (r->limit == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(MakeTable(r));
+  if (before) PetscCall(FindWeight(r, before->shear, now->shear, &weight));
+  *At(r, 0, WEIGHT) = weight;
+  found             = r->start->part[0].row;
+  older             = r->start->part[1].row;
+  *r->start         = (struct _n_SamCachedStep){.part = {{0}}};
+  if (older && r->fields[older]) Drop(r, older);
+  found = PetscMax(found - MoveTable(r), 0);
+  AddStep(r, &now->control);
+  if (!of->same_gap) *At(r, 0, GAP_NOW) += 1;
+  *At(r, r->count, GAP)  = of->moves ? -1 : *At(r, 0, GAP_NOW);
+  *At(r, r->count, RTOL) = (double)of->rtol;
+  if (before && before->displacement_t) PetscCall(KeepFields(r, found, before, now));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- finding ---- */
 
-PetscBool SamCachedStepHasPressure(SamCachedStep k, const SamControl *control, PetscObjectState revision)
+PetscBool SamCachedStepHasPressure(SamCachedStep kept, const SamStepOf *of)
 {
-  if (!k || !k->pressure || revision < 0 || k->revision != revision) return PETSC_FALSE;
-  return SamControlIsSame(&k->control, control, SAM_BALANCE_NORMAL);
+  const double *numbers = kept ? kept->part[0].numbers : NULL;
+
+  return numbers && numbers[PRESSURE] > 0 && of->same_gap && numbers[GAP] == kept->gap &&
+         numbers[RTOL] <= (double)of->rtol;
 }
 
-PetscErrorCode SamCachedStepGetPressure(SamCachedStep k, SamGrid grid, SamSolution *s)
+void SamCachedStepGetControl(SamCachedStep kept, SamControl *control)
 {
-  const double *from = k->pressure;
-  double       *p;
+  const double *row = kept->part[0].numbers - kept->count;
+
+  for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
+    control->value[k] = row[k];
+    SamControlSetWay(control, k, (SamWay)row[kept->count - SAM_COMPONENTS + k]);
+  }
+}
+
+PetscErrorCode SamCachedStepGetPressure(SamCachedStep kept, SamGrid grid, SamSolution *s)
+{
+  const Part *const part = &kept->part[0];
+  const double     *from = part->fields->pressure;
+  double           *p;
 
   PetscFunctionBegin;
   PetscCall(VecGetArrayWrite(s->pressure, &p));
   for (PetscInt j = 0; j < grid->rows; j++) {
     double        *row = p + (ptrdiff_t)j * grid->nx;
-    const PetscInt n   = k->last[j] - k->first[j];
+    const PetscInt n   = CellsInRow(part, j);
 
     PetscCall(PetscArrayzero(row, grid->nx));
-    PetscCall(PetscArraycpy(row + k->first[j], from, n));
+    PetscCall(PetscArraycpy(row + part->fields->range[2 * j], from, n));
     from += n;
   }
   PetscCall(VecRestoreArrayWrite(s->pressure, &p));
   for (PetscInt c = 0; c < 3; c++) {
-    s->load[SamComponentsOf[SAM_BALANCE_NORMAL][c]]  = k->load[c];
-    s->rigid[SamComponentsOf[SAM_BALANCE_NORMAL][c]] = k->rigid[c];
+    s->load[SamComponentsOf[SAM_BALANCE_NORMAL][c]]  = part->numbers[LOAD + c];
+    s->rigid[SamComponentsOf[SAM_BALANCE_NORMAL][c]] = part->numbers[RIGID + c];
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -447,13 +658,13 @@ static double TrimRow(PetscInt nx, PetscInt first, PetscInt last, const double b
 PetscErrorCode SamCachedStepGetShear(SamCachedStep kept, SamElasticity elasticity, const SamSolution *now, Vec bound,
                                      Vec shear, SamProduct *product, PetscBool *found)
 {
-  PetscReal           self;
-  double             *q, *u, open = 0, lost;
-  const double       *b;
-  ptrdiff_t           at[2]    = {0, 0};
-  SamTotal            total    = {0};
-  const SamCachedStep parts[2] = {kept, kept->other};
-  const SamGrid       grid     = SamElasticityGetGrid(elasticity);
+  PetscReal         self;
+  double           *q, *u, open = 0, lost;
+  const double     *b;
+  ptrdiff_t         at[2] = {0, 0};
+  SamTotal          total = {0};
+  const Part *const parts = kept->part;
+  const SamGrid     grid  = SamElasticityGetGrid(elasticity);
 
   PetscFunctionBegin;
   PetscCall(SamElasticityGetSelfInfluence(elasticity, NULL, &self));
@@ -466,13 +677,13 @@ PetscErrorCode SamCachedStepGetShear(SamCachedStep kept, SamElasticity elasticit
     const ptrdiff_t row   = (ptrdiff_t)j * grid->nx;
     PetscInt        first = 0, last = grid->nx;
 
-    for (int n = 0; n < 2 && parts[n]; n++) {
-      for (PetscInt c = 0; c < CHANGES; c++)
-        AddRow(parts[n], n ? 1 - kept->weight : kept->weight, c, j, at[n],
+    for (int n = 0; n < 2 && parts[n].fields; n++) {
+      for (PetscInt c = 0; c < SAM_STEP_CHANGES; c++)
+        AddRow(&parts[n], parts[n].weight, c, j, at[n],
                (c < PRODUCT_X ? q : u) + (c % 2) * (ptrdiff_t)grid->cells + row);
-      first = PetscMax(first, parts[n]->first[j]);
-      last  = PetscMin(last, parts[n]->last[j]);
-      at[n] += parts[n]->last[j] - parts[n]->first[j];
+      first = PetscMax(first, parts[n].fields->range[2 * j]);
+      last  = PetscMin(last, parts[n].fields->range[2 * j + 1]);
+      at[n] += CellsInRow(&parts[n], j);
     }
     SamAdd(&total, TrimRow(grid->nx, first, last, b + row, q + row, q + grid->cells + row, &open));
   }
@@ -485,9 +696,9 @@ PetscErrorCode SamCachedStepGetShear(SamCachedStep kept, SamElasticity elasticit
   product->n[0]                         = grid->nx;
   product->n[1]                         = grid->ny;
   product->rounding                     = SPREAD * sqrt(lost);
-  for (int n = 0; n < 2 && parts[n]; n++)
-    product->rounding += fabs(n ? 1 - kept->weight : kept->weight) * sqrt(parts[n]->cells) *
-                         (parts[n]->unit[1] / (double)self + SPREAD * parts[n]->unit[0]);
+  for (int n = 0; n < 2 && parts[n].fields; n++)
+    product->rounding += fabs(parts[n].weight) * sqrt(parts[n].numbers[CELLS]) *
+                         (parts[n].numbers[UNIT_PRODUCT] / (double)self + SPREAD * parts[n].numbers[UNIT_SHEAR]);
   *found = open > 0 ? PETSC_FALSE : PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -71,6 +71,12 @@ ROLLING = (
     "time, load_my, load_tx",
     lambda k: (0.05 * np.sin(k / 4), 10 * np.cos(k / 5)),
 )
+# a cycle whose steps start from those of the cycle before, which are kept with their pressures
+CYCLE = (
+    dict(CASE, load_mx=1e-3),
+    "time, load_n, load_tx, load_ty",
+    lambda k: (1000 + 200 * np.sin(k * np.pi / 3), 60 * np.cos(k * np.pi / 3), 30 * np.sin(k * np.pi / 3)),
+)
 
 
 def write(folder, header, values):
@@ -81,8 +87,8 @@ def write(folder, header, values):
 
 @pytest.mark.parametrize(
     "case, ranks",
-    [((CASE,), 1), ((DISSIMILAR,), 2), (CONSTANT, 1), (ROLLING, 3), (HELD, 1)],
-    ids=["similar", "dissimilar", "constant", "rolling", "held"],
+    [((CASE,), 1), ((DISSIMILAR,), 2), (CONSTANT, 1), (ROLLING, 3), (HELD, 1), (CYCLE, 1)],
+    ids=["similar", "dissimilar", "constant", "rolling", "held", "cycle"],
 )
 def test_run_goes_on_as_if_it_had_not_been_stopped(folder, petsam, case, ranks):
     """To the last bit, which asks for all of the state: what is lost of it shows at the solvers' tolerance."""
@@ -104,6 +110,23 @@ def test_run_goes_on_with_other_ranks(folder, petsam, before, after):
     petsam(CASE, dict(restart="state.h5.1"), ranks=after)
     assert steps(folder / "out.h5") == STEPS
     assert_same(Results(folder / "out.h5"), whole, 0)
+
+
+def test_kept_steps_of_a_cycle_are_read_on_other_ranks(folder, petsam):
+    """In batches, each rank its rows; with less memory they are left out, with another number of steps solved anew."""
+    write(folder, *CYCLE[1:])
+    petsam(CYCLE[0], KEPT, dict(cycle_memory=5e7), ranks=3)
+    whole = Results(shutil.copy(folder / "out.h5", folder / "whole.h5"))
+    with h5py.File(folder / "state.h5.1") as f:
+        steps, rows = f["kept_ranges"].shape[:2]
+        cells = np.diff(f["kept_ranges"]).sum()
+        assert rows == f["pressure"].shape[1] and 6 <= steps <= 13  # two cycles; the first step has none before it
+        assert f["kept_changes"].size == 4 * cells and 0 < f["kept_pressures"].size <= cells
+    for memory in (5e7, 0):
+        petsam(CYCLE[0], dict(restart="state.h5.1", cycle_memory=memory), ranks=2)
+        assert_same(Results(folder / "out.h5"), whole, 0 if memory else 1e-4)
+        with library.open(folder / "out.h5") as run:
+            assert (run.history["normal_applies"][14:17] == 0).all() == (memory > 0)
 
 
 def test_longer_history_goes_on(folder, petsam):

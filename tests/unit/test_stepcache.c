@@ -49,7 +49,7 @@ static double ShearDifference(const Case *a, const Case *b)
 /* Runs cycles with and without memory for them, and compares the ends. */
 static void Compare(double swing, double across, const char *memory, Work *with, Work *without)
 {
-  Case c = NewCase(Steel(), 31, 1.5, MU, memory), d = NewCase(Steel(), 31, 1.5, MU, "");
+  Case c = NewCase(Steel(), 31, 1.5, MU, memory), d = NewCase(Steel(), 31, 1.5, MU, "-cycle_memory 0");
 
   *with    = RunCycles(&c, 5, swing, across);
   *without = RunCycles(&d, 5, swing, across);
@@ -63,7 +63,7 @@ static void test_repeated_cycle_takes_half_the_products_under_constant_normal_lo
   Work with, without;
 
   (void)state;
-  Compare(0, 0, "-cycle_memory 1e9", &with, &without);
+  Compare(0, 0, "", &with, &without);
   sam_assert(with.tangential < 0.6 * without.tangential);
 }
 
@@ -73,14 +73,14 @@ static void test_repeated_cycle_takes_less_where_loads_turn(void **state)
   Work with, without;
 
   (void)state;
-  Compare(0, 0.1, "-cycle_memory 1e9", &with, &without);
+  Compare(0, 0.1, "", &with, &without);
   sam_assert(with.tangential < 0.8 * without.tangential);
 }
 
 /* The second half reverses the first, and the last two half cycles tell how the next one differs. */
 static void test_half_cycle_that_reverses_the_last_one_starts_from_it(void **state)
 {
-  Case   c = NewCase(Steel(), 31, 1.5, MU, "-cycle_memory 1e9"), d = NewCase(Steel(), 31, 1.5, MU, "");
+  Case   c = NewCase(Steel(), 31, 1.5, MU, ""), d = NewCase(Steel(), 31, 1.5, MU, "-cycle_memory 0");
   double with[5] = {0}, without[5] = {0};
 
   (void)state;
@@ -105,9 +105,120 @@ static void test_repeated_pressure_is_not_solved_again(void **state)
   Work with, without;
 
   (void)state;
-  Compare(0.3, 0, "-cycle_memory 1e9", &with, &without);
+  Compare(0.3, 0, "", &with, &without);
   sam_assert(with.normal == 0 && without.normal > STEPS);
   sam_assert(with.tangential < 0.6 * without.tangential);
+}
+
+/* Without friction there is a pressure all the same. */
+static void test_repeated_pressure_without_friction(void **state)
+{
+  Case c = NewCase(Steel(), 31, 1.5, 0, "");
+
+  (void)state;
+  for (PetscInt k = 0; k < 3 * STEPS; k++) {
+    const SamControl control = Loads(&c, 1 + 0.3 * sin(2 * PETSC_PI * k / STEPS), 0, 0, 0);
+    const SamStep    step    = Solve(&c, &control);
+
+    AssertGood(&step);
+    sam_assert(k < STEPS + 2 || NumberOf(&c, "normal_applies") == 0);
+  }
+  DestroyCase(&c);
+}
+
+/* A moment about zero and a normal load, both wrong by rounding of the size of the largest, as sines are. */
+static void test_loads_that_differ_by_rounding_have_the_same_pressure(void **state)
+{
+  Case c = NewCase(Steel(), 31, 1.5, MU, "");
+
+  (void)state;
+  for (PetscInt k = 0; k < 8; k++) {
+    const double wrong   = 1e-14 * Random(1, 2, k, 0);
+    SamControl   control = Loads(&c, 1 + (k < 4 ? 0 : 0.2 * (k % 2)) + wrong, 0.3 * sin((double)k), 0, 0);
+    SamStep      step;
+
+    control.value[SAM_COMPONENT_MX] = wrong * control.value[SAM_COMPONENT_N] * c.s.grid->dx;
+    step                            = Solve(&c, &control);
+    AssertGood(&step);
+    sam_assert(step.check.equilibrium < 1e-14);
+    sam_assert((NumberOf(&c, "normal_applies") == 0) == (k > 0 && k < 5)); /* and then with every step anew */
+  }
+  DestroyCase(&c);
+}
+
+/* Differences above rounding change the pressure; small ones that add up do, too. */
+static void test_loads_that_drift_have_another_pressure(void **state)
+{
+  Case     c      = NewCase(Steel(), 31, 1.5, MU, "");
+  PetscInt solved = 0;
+
+  (void)state;
+  for (PetscInt k = 0; k < 9; k++) {
+    const SamControl control = Loads(&c, 1 + 4e-14 * (double)k, 0.1, 0, 0);
+    const SamStep    step    = Solve(&c, &control);
+
+    AssertGood(&step);
+    sam_assert(step.check.equilibrium < 1e-13);
+    solved += NumberOf(&c, "normal_applies") > 0;
+  }
+  sam_assert(solved == 3); /* steps 0, 3 and 6 */
+  DestroyCase(&c);
+}
+
+/* A pressure of a looser tolerance is not taken for one of a tighter. */
+static void test_tighter_tolerance_needs_another_pressure(void **state)
+{
+  Case       c = NewCase(Steel(), 31, 1.5, MU, "-normal_rtol 1e-5");
+  SamControl control;
+
+  (void)state;
+  for (PetscInt k = 0; k < 2 * STEPS; k++) {
+    control = Step(&c, k, 0.3, 0);
+    (void)Solve(&c, &control);
+  }
+  sam_assert(NumberOf(&c, "normal_applies") == 0);
+  sam_call(SamSolverSetTolerances(SamNormalAsSolver(SamContactGetNormal(c.contact)), 1e-8, PETSC_DEFAULT));
+  control = Step(&c, 0, 0.3, 0);
+  (void)Try(&c, &control);
+  sam_assert(NumberOf(&c, "normal_applies") > 0);
+  DestroyCase(&c);
+}
+
+/* Tries of loads that are far off have no effect on which steps are the same. */
+static void test_rejected_tries_leave_no_trace(void **state)
+{
+  Case c = NewCase(Steel(), 31, 1.5, MU, ""), d = NewCase(Steel(), 31, 1.5, MU, "");
+
+  (void)state;
+  for (PetscInt k = 0; k < 2 * STEPS; k++) {
+    const SamControl control = Step(&c, k, 0.3, 0.1), far = Loads(&c, 1e9, 0, 0, 0);
+
+    (void)Solve(&c, &control);
+    (void)Try(&d, &far);
+    sam_call(SamContactReject(d.contact));
+    (void)Solve(&d, &control);
+    sam_assert(ShearDifference(&c, &d) == 0);
+  }
+  DestroyCase(&c);
+  DestroyCase(&d);
+}
+
+/* 20 fields, at least 16 MB, at most 1 GB. */
+static void test_usual_memory_follows_from_the_grid_alone(void **state)
+{
+  const PetscInt n[]     = {31, 500, 4000};
+  const double   bytes[] = {16e6, 40e6, 1e9};
+
+  (void)state;
+  for (int k = 0; k < 3; k++) {
+    const PetscInt  cells[] = {n[k], n[k]};
+    const PetscReal width[] = {1, 1};
+    SamGrid         grid;
+
+    sam_call(SamGridCreate(PETSC_COMM_WORLD, cells, width, (PetscReal[]){0, 0}, &grid));
+    sam_assert(SamContactCycleMemory(grid) == bytes[k]);
+    sam_call(SamGridDestroy(&grid));
+  }
 }
 
 static void test_without_room_nothing_is_kept(void **state)
@@ -131,7 +242,7 @@ static void test_part_of_a_cycle_that_fits_is_used(void **state)
 /* Steps that repeat none fill the memory twice before the cycles. */
 static void test_steps_that_repeat_none_make_room(void **state)
 {
-  Case c = NewCase(Steel(), 31, 1.5, MU, "-cycle_memory 1e5"), d = NewCase(Steel(), 31, 1.5, MU, "");
+  Case c = NewCase(Steel(), 31, 1.5, MU, "-cycle_memory 1e5"), d = NewCase(Steel(), 31, 1.5, MU, "-cycle_memory 0");
   Work with, without;
 
   (void)state;
@@ -153,7 +264,7 @@ static void test_steps_that_repeat_none_make_room(void **state)
 /* A load that was never met is followed by the cycle again, from another state than in the cycle before. */
 static void test_cycle_after_another_load_has_the_same_solution(void **state)
 {
-  Case c = NewCase(Steel(), 31, 1.5, MU, "-cycle_memory 1e9"), d = NewCase(Steel(), 31, 1.5, MU, "");
+  Case c = NewCase(Steel(), 31, 1.5, MU, ""), d = NewCase(Steel(), 31, 1.5, MU, "-cycle_memory 0");
 
   (void)state;
   for (PetscInt k = 0; k < 4 * STEPS + 5; k++) {
@@ -171,7 +282,7 @@ static void test_cycle_after_another_load_has_the_same_solution(void **state)
 
 static void test_another_gap_needs_another_pressure(void **state)
 {
-  Case       c = NewCase(Steel(), 31, 1.5, MU, "-cycle_memory 1e9");
+  Case       c = NewCase(Steel(), 31, 1.5, MU, "");
   SamControl control;
 
   (void)state;
@@ -189,7 +300,7 @@ static void test_another_gap_needs_another_pressure(void **state)
 /* After a reset the first cycle is the first: as in a new contact, to the last bit. */
 static void test_reset_forgets_the_cycles(void **state)
 {
-  Case c = NewCase(Steel(), 31, 1.5, MU, "-cycle_memory 1e9"), d = NewCase(Steel(), 31, 1.5, MU, "-cycle_memory 1e9");
+  Case c = NewCase(Steel(), 31, 1.5, MU, ""), d = NewCase(Steel(), 31, 1.5, MU, "");
 
   (void)state;
   (void)RunCycles(&c, 3, 0.3, 0);
@@ -208,6 +319,12 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_repeated_cycle_takes_less_where_loads_turn),
     cmocka_unit_test(test_half_cycle_that_reverses_the_last_one_starts_from_it),
     cmocka_unit_test(test_repeated_pressure_is_not_solved_again),
+    cmocka_unit_test(test_repeated_pressure_without_friction),
+    cmocka_unit_test(test_loads_that_differ_by_rounding_have_the_same_pressure),
+    cmocka_unit_test(test_loads_that_drift_have_another_pressure),
+    cmocka_unit_test(test_tighter_tolerance_needs_another_pressure),
+    cmocka_unit_test(test_rejected_tries_leave_no_trace),
+    cmocka_unit_test(test_usual_memory_follows_from_the_grid_alone),
     cmocka_unit_test(test_without_room_nothing_is_kept),
     cmocka_unit_test(test_part_of_a_cycle_that_fits_is_used),
     cmocka_unit_test(test_steps_that_repeat_none_make_room),
