@@ -7,8 +7,8 @@
     kept_changes    (numbers)
     kept_pressures  (cells)
 
-  The steps follow each other in batches, each of which a rank moves at once. In a batch the rows of the grid follow each
-  other, so that a rank's part is in one piece, and in a row the steps, and of a step the four changes.
+  The steps follow each other in batches, each of which a rank moves at once. In a batch the rows of the grid follow
+  each other, so that a rank's part is in one piece, and in a row the steps, and of a step the four changes.
 */
 #include "ioimpl.h"
 

@@ -352,6 +352,27 @@ void SamStepCacheFind(SamStepCache r, const SamControl *next, SamCachedStep *kep
 
 /* ---- keeping ---- */
 
+/* The largest change of n values. */
+SAM_VECTORIZED static double LargestChange(PetscInt n, const double before[], const double now[])
+{
+  double most = 0;
+
+#pragma omp simd reduction(max : most)
+  for (PetscInt i = 0; i < n; i++) {
+    const double change = fabs(now[i] - before[i]);
+
+    most = change > most ? change : most;
+  }
+  return most;
+}
+
+SAM_VECTORIZED static void StoreChange(PetscInt n, const double before[], const double now[], double scale,
+                                       int32_t *restrict to)
+{
+#pragma omp simd
+  for (PetscInt i = 0; i < n; i++) to[i] = (int32_t)rint((now[i] - before[i]) * scale);
+}
+
 /* Stores the changes of both components of a field from `before` to `now`, in units of their largest. */
 static PetscErrorCode KeepChange(SamStepCache r, SamStepFields f, Vec before, Vec now, PetscInt first, double *unit)
 {
@@ -369,13 +390,14 @@ static PetscErrorCode KeepChange(SamStepCache r, SamStepFields f, Vec before, Ve
       int32_t *to = f->change + (first + c) * f->cells;
 
       for (PetscInt j = 0; j < grid->rows; j++) {
-        const ptrdiff_t row = c * (ptrdiff_t)grid->cells + (ptrdiff_t)j * grid->nx;
+        const PetscInt  n  = f->range[2 * j + 1] - f->range[2 * j];
+        const ptrdiff_t at = c * (ptrdiff_t)grid->cells + (ptrdiff_t)j * grid->nx + f->range[2 * j];
 
-        for (PetscInt i = f->range[2 * j]; i < f->range[2 * j + 1]; i++)
-          if (pass == 0)
-            most = PetscMax(most, fabs(b[row + i] - a[row + i]));
-          else
-            *to++ = (int32_t)lrint((b[row + i] - a[row + i]) * scale);
+        if (pass == 0)
+          most = PetscMax(most, LargestChange(n, a + at, b + at));
+        else
+          StoreChange(n, a + at, b + at, scale, to);
+        to += n;
       }
     }
     if (pass == 0) PetscCall(SamMax(grid->comm, 1, &most));

@@ -154,8 +154,8 @@ PETSC_INTERN void SamBalanceStore(const SamBalance *balance, PetscReal load[], P
 
 /*
   SamControlIsSame - whether two controls prescribe the same for the components of one kind, to the bit.
-  SamControlSnap - takes the values of these components over from `to`, if they are the same but for rounding: loads that
-  differ by 1e-13 of the largest load, moments over the lever (m), and likewise motions.
+  SamControlSnap - takes the values of these components over from `to`, if they are the same but for rounding: loads
+  that differ by 1e-13 of the largest load, moments over the lever (m), and likewise motions.
 */
 PETSC_INTERN PetscBool SamControlIsSame(const SamControl *a, const SamControl *b, SamBalanceKind kind);
 PETSC_INTERN void      SamControlSnap(const SamControl *to, PetscReal lever, SamBalanceKind kind, SamControl *control);

@@ -76,8 +76,8 @@ PETSC_INTERN PetscErrorCode SamCachedStepGetShear(SamCachedStep kept, SamElastic
   For those who save and restore it: a table that is the same on all ranks, and the fields of some of its rows. Not
   collective.
   SamStepCacheGetTable - the table, borrowed; no rows: no steps.
-  SamStepCacheSetTable - forgets all steps, and takes over a table, if its width fits and there is memory for its fields;
-  they are to be added.
+  SamStepCacheSetTable - forgets all steps, and takes over a table, if its width fits and there is memory for its
+  fields; they are to be added.
   SamStepCacheCells - the cells on all ranks of the fields of a row, 0: it has none; whether a pressure is among them.
   SamStepCacheGetFields - the fields of a row, borrowed; NULL: none.
   SamStepCacheAddFields - adds them, with place for their values.
