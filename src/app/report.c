@@ -1,5 +1,6 @@
 /* The report: banner, a line for each load step, messages. */
 #include "report.h"
+#include <petsam/private/motionimpl.h>
 #include <fftw3-mpi.h>
 #include <hdf5.h>
 #include <string.h>
@@ -276,6 +277,7 @@ static PetscErrorCode BeginCycle(SamReport r, SamContact contact)
 {
   PetscFunctionBegin;
   r->living = PETSC_TRUE;
+  r->each   = r->row || SamContactGetMotion(contact)->streams;
   if (!r->cycles) PetscCall(SamReportGetOutputTime(r, &r->output_before));
   if (!r->cycles) r->first = MPI_Wtime();
   if (!r->cycles) r->begin = r->first; /* later ones begin with the jump before them */
@@ -310,9 +312,9 @@ static PetscErrorCode EndCycle(SamReport r, const SamLifeReport *c, PetscReal cy
   if (c->jump <= 0 && c->cycles < cycles) (void)snprintf(duration, sizeof(duration), "unknown");
   if (r->cycles == 1)
     PetscCall(PetscPrintf(r->comm, "%10s %8s %7s %9s %9s %9s %9s %9s %8s %8s %8s %6s %8s\n", "cycles", "jump", "error",
-                          r->row ? "vol.1/m2" : "vol.1/m3", r->row ? "vol.2/m2" : "vol.2/m3", "depth1/m", "depth2/m",
-                          r->row ? "en/(J/m)" : "energy/J", r->row ? "width/m" : "area/m2", "p max/Pa", "computed", "s",
-                          "left"));
+                          r->each ? "vol.1/m2" : "vol.1/m3", r->each ? "vol.2/m2" : "vol.2/m3", "depth1/m", "depth2/m",
+                          r->each ? "en/(J/m)" : "energy/J", r->row ? "width/m" : "area/m2", "p max/Pa", "computed",
+                          "s", "left"));
   PetscCall(PetscPrintf(r->comm,
                         "%10.9g %8.6g %7.1e %9.3g %9.3g %9.3g %9.3g %9.3g %8.3g %8.3g %8" PetscInt_FMT " %6.2f %8s\n",
                         (double)c->cycles, (double)c->jump, (double)c->error, (double)c->volume[0],

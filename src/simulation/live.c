@@ -16,7 +16,7 @@ static PetscErrorCode Control(void *context, PetscInt step, PetscReal cycles, Sa
   const SamCondition *scale = SamConditionsFind(s->conditions, SAM_FRICTION_SCALE);
 
   PetscFunctionBegin;
-  *control = SamHistoryGetStep(s->history, SamHistoryGetStart(s->history) + step);
+  *control = SamHistoryGetStep(s->history, SamPlanGetStart(&s->plan, s->history) + step);
   SamControlSetCondition(control, scale, SamControlGet(control, scale) * SamPlanFriction(&s->plan, cycles));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -24,10 +24,11 @@ static PetscErrorCode Control(void *context, PetscInt step, PetscReal cycles, Sa
 /* The time of a step in the life: all cycles take as long as the first one. */
 static PetscErrorCode TimeOf(SamSimulation s, PetscReal cycles, PetscReal *time)
 {
-  const SamControl last = SamHistoryGetStep(s->history, s->needs.steps - 1);
+  const PetscInt   start = SamPlanGetStart(&s->plan, s->history);
+  const SamControl last  = SamHistoryGetStep(s->history, s->needs.steps - 1);
 
   PetscFunctionBegin;
-  *time += cycles * (last.time - SamHistoryGetStep(s->history, SamHistoryGetStart(s->history) - 1).time);
+  *time += cycles * (last.time - (start ? SamHistoryGetStep(s->history, start - 1).time : 0));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -51,7 +52,7 @@ static PetscErrorCode WriteStep(void *context, PetscInt step, PetscReal cycles, 
   SamStep             told   = *result;
   const PetscBool     failed = told.status == SAM_STATUS_NOT_CONVERGED;
   PetscBool           due;
-  const PetscInt      start = SamHistoryGetStart(s->history);
+  const PetscInt      start = SamPlanGetStart(&s->plan, s->history);
   char                after[48];
 
   PetscFunctionBegin;
@@ -86,7 +87,7 @@ static PetscErrorCode TellMessage(SamSimulation s, const char where[], const Sam
 /* Solves the steps up to the history's first row, where the cycle starts. They do not wear and are not written. */
 static PetscErrorCode Start(SamSimulation s, PetscBool *ended)
 {
-  const PetscInt start = SamHistoryGetStart(s->history);
+  const PetscInt start = SamPlanGetStart(&s->plan, s->history);
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < start && !*ended; k++) {
@@ -258,7 +259,7 @@ PetscErrorCode SamSimulationLive(SamSimulation s)
 PetscErrorCode SamSimulationLiveCoarse(SamSimulation s, SamContact contact, PetscReal cycles, SamLife *life,
                                        SamStep *step)
 {
-  const PetscInt start = SamHistoryGetStart(s->history);
+  const PetscInt start = SamPlanGetStart(&s->plan, s->history);
   SamLifeCycle   cycle = {.control = Control, .context = s};
   SamLifeReport  r;
 
@@ -289,7 +290,7 @@ PetscErrorCode SamSimulationCreateLife(SamSimulation s)
 
   PetscFunctionBegin;
   if (s->plan.cycles == 0) PetscFunctionReturn(PETSC_SUCCESS);
-  cycle.steps = s->needs.steps - SamHistoryGetStart(s->history);
+  cycle.steps = s->needs.steps - SamPlanGetStart(&s->plan, s->history);
   PetscCall(SamLifeCreate(s->setup.contact, &cycle, &s->plan.life, &s->life));
   set->cycles      = SamLifeGetSeries(s->life);
   set->cycles_name = "wear";

@@ -1,6 +1,7 @@
 /* The -wear_ options: laws of wear, cycles of a life, friction that changes over it. */
 #include "plan.h"
 #include <petsam/private/baseimpl.h>
+#include <petsam/private/motionimpl.h>
 #include <petsam/history.h>
 #include <petsam/private/table.h>
 #include <math.h>
@@ -157,6 +158,7 @@ PetscErrorCode SamPlanSetCycles(SamPlan *w, PetscReal cycles, SamProblem problem
   PetscCheck(SamProblemMoves(problem) || cycles == 0, from->comm, SAM_ERR_USER,
              "-wear_cycles is given, but no wear: give one of -wear_coefficient1, -wear_coefficient2, -wear_energy1, "
              "-wear_energy2 a number > 0");
+  w->bands = SamMotionOf(SamProblemGetElasticity(problem))->streams;
   PetscCheck(!w->outputs || cycles == 0 || w->output[w->outputs - 1] <= cycles, from->comm, SAM_ERR_USER,
              "-wear_output: %.6g is more than -wear_cycles %.6g", (double)w->output[w->outputs - 1], (double)cycles);
   w->cycles = cycles;
@@ -171,6 +173,11 @@ PetscErrorCode SamPlanDestroy(SamPlan *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscInt SamPlanGetStart(const SamPlan *w, SamHistory history)
+{
+  return w->bands ? 0 : SamHistoryGetStart(history);
+}
+
 PetscErrorCode SamPlanCheckCycle(const SamPlan *w, SamHistory history, SamConditions conditions, const SamOptions *from)
 {
   PetscReal        range[SAM_COMPONENTS + SAM_CONDITIONS] = {0}; /* of each part, about its value in the first row */
@@ -181,6 +188,9 @@ PetscErrorCode SamPlanCheckCycle(const SamPlan *w, SamHistory history, SamCondit
 
   PetscFunctionBegin;
   if (w->cycles == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCheck(!w->bands || SamHistoryGetIncrements(history) == 1, from->comm, SAM_ERR_USER,
+             "-steps with -wear_cycles and -rolling steady: each row of -history is a passage: omit it");
+  if (w->bands) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCheck(count > start + SamHistoryGetIncrements(history), from->comm, SAM_ERR_USER,
              "-wear_cycles: a cycle needs a -history of three rows or more: the start and the path back to it");
   for (PetscInt k = start; k < count; k++) {

@@ -10,6 +10,7 @@
 
 typedef struct {
   PetscReal       cycles; /* of a life; 0: the history runs once, and every step wears */
+  PetscBool       bands;  /* in steady rolling: each row of the history is a passage, all of them are a cycle */
   SamLifeSettings life;
   PetscBool       stop_worn; /* the life ends where the first material of a body is worn through */
   PetscInt        outputs;
@@ -29,9 +30,11 @@ PETSC_INTERN PetscErrorCode SamPlanSetCycles(SamPlan *plan, PetscReal cycles, Sa
                                              const SamOptions *from);
 PETSC_INTERN PetscErrorCode SamPlanDestroy(SamPlan *plan);
 /*
-  SamPlanCheckCycle - refuses a history that is no closed cycle: its last row must be its first one again.
-  Collective. Errors: SAM_ERR_USER.
+  SamPlanGetStart - the step of the history with which the cycle begins. Not collective.
+  SamPlanCheckCycle - refuses a history that is no closed cycle: its last row must be its first one again; in steady
+  rolling one with steps between rows. Collective. Errors: SAM_ERR_USER.
 */
+PETSC_INTERN PetscInt       SamPlanGetStart(const SamPlan *plan, SamHistory history);
 PETSC_INTERN PetscErrorCode SamPlanCheckCycle(const SamPlan *plan, SamHistory history, SamConditions conditions,
                                               const SamOptions *from);
 /* SamPlanNextStop - after so many cycles, up to where they may be jumped over. Not collective. */

@@ -131,7 +131,7 @@ static PetscErrorCode Estimate(SamSimulation s, double *bytes)
 
   PetscFunctionBegin;
   if (s->life) {
-    start  = SamHistoryGetIncrements(s->history);
+    start  = SamPlanGetStart(&s->plan, s->history);
     cycles = SamPlanCountOutputs(&s->plan);
     PetscCall(SamOutputForecast(s->output, (double)cycles * (double)(last - start),
                                 (double)cycles * (double)CountSaved(s, 0, last - start), bytes));

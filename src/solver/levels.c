@@ -154,23 +154,50 @@ static Vec DiagonalOf(SamSolver s, const SamLevel *level)
   return s->kind->diagonal >= 0 ? level->given[s->kind->diagonal] : NULL;
 }
 
+/*
+  What the surfaces yield besides: a cell by its own traction; where material streams, a line by the integral along x,
+  which is symmetric as long as d is the same along x. Times `factor`, as a new array for SamFree().
+*/
+#define YIELD(Name, Real) \
+  static PetscErrorCode Name(const SamLevel *level, Vec diagonal, double factor, const Real t[], Real **yield) \
+  { \
+    const SamGrid   grid    = level->grid; \
+    const PetscBool streams = SamElasticityGetTraits(level->elasticity).upwind; \
+    const double   *d; \
+\
+    PetscFunctionBegin; \
+    PetscCall(SamAllocate(sizeof(**yield) * (size_t)grid->cells, yield)); \
+    PetscCall(VecGetArrayRead(diagonal, &d)); \
+    for (PetscInt first = 0; first < grid->cells; first += grid->nx) { \
+      double line = 0; \
+\
+      for (PetscInt k = first; streams && k < first + grid->nx; k++) line += (double)t[k] * (double)grid->dx; \
+      for (PetscInt k = first; k < first + grid->nx; k++) \
+        (*yield)[k] = streams ? (Real)(factor * d[k] * line) : (Real)(factor * d[k]) * t[k]; \
+    } \
+    PetscCall(VecRestoreArrayRead(diagonal, &d)); \
+    PetscFunctionReturn(PETSC_SUCCESS); \
+  }
+YIELD(CreateYield, double)
+YIELD(CreateYieldSingle, float)
+
 PetscErrorCode SamLevelApply(SamSolver s, SamLevel *level, Vec traction, Vec u)
 {
   const Vec     diagonal = DiagonalOf(s, level);
-  const double *d, *t;
-  double       *to;
+  const double *t;
+  double       *to, *yield;
 
   PetscFunctionBegin;
   s->applies += level->finest ? 1 : 0;
   PetscCall(s->kind->apply(level->elasticity, traction, u));
   if (!diagonal) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(VecGetArrayRead(diagonal, &d));
   PetscCall(VecGetArrayRead(traction, &t));
-  PetscCall(VecGetArray(u, &to));
-  for (PetscInt k = 0; k < level->grid->cells; k++) to[k] += d[k] * t[k];
-  PetscCall(VecRestoreArray(u, &to));
+  PetscCall(CreateYield(level, diagonal, 1, t, &yield));
   PetscCall(VecRestoreArrayRead(traction, &t));
-  PetscCall(VecRestoreArrayRead(diagonal, &d));
+  PetscCall(VecGetArray(u, &to));
+  for (PetscInt k = 0; k < level->grid->cells; k++) to[k] += yield[k];
+  PetscCall(VecRestoreArray(u, &to));
+  SamFree(yield);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -178,17 +205,11 @@ PetscErrorCode SamLevelApplySingle(SamSolver s, SamLevel *level, double factor, 
 {
   const Vec      diagonal = DiagonalOf(s, level);
   const PetscInt cells    = level->grid->cells;
-  const double  *d;
-  float         *more = NULL; /* input and output may be the same */
+  float         *more     = NULL; /* input and output may be the same */
 
   PetscFunctionBegin;
   s->applies += level->finest ? 1 : 0;
-  if (diagonal) {
-    PetscCall(SamAllocate(sizeof(*more) * (size_t)cells, &more));
-    PetscCall(VecGetArrayRead(diagonal, &d));
-    for (PetscInt k = 0; k < cells; k++) more[k] = (float)(factor * d[k]) * traction[k];
-    PetscCall(VecRestoreArrayRead(diagonal, &d));
-  }
+  if (diagonal) PetscCall(CreateYieldSingle(level, diagonal, factor, traction, &more));
   PetscCall(s->kind->applysingle(level->elasticity, factor, traction, u));
   for (PetscInt k = 0; k < cells && more; k++) u[k] += more[k];
   SamFree(more);
@@ -231,7 +252,7 @@ PetscErrorCode SamLevelPreconditionSingle(SamSolver s, SamLevel *level, double f
 
   PetscFunctionBegin;
   s->preconditions += level->finest ? 1 : 0;
-  if (diagonal)
+  if (diagonal && !SamElasticityGetTraits(level->elasticity).upwind) /* lines are few: it gains nothing for them */
     PetscCall(PreconditionYielding(s, level, diagonal, factor, r, z));
   else
     PetscCall(s->kind->preconditionsingle(level->elasticity, factor, r, z));

@@ -8,8 +8,15 @@
   the mean of the rigid displacements and of what the shear of dissimilar bodies lifts. In cells that are open in a part
   of the cycle both P and G are positive; on the gap h - G in these, P solves the normal problem of the mean loads.
   This problem is what a jump changes (life.c).
+
+  Where material streams through the contact, in steady rolling, a step is a passage: all of a line of the running band
+  wears by r = integral of p |s| along x, the pressure times the slip in a passage. There P is the integral of the mean
+  pressure along the line, and e = r/P its mean slip. As a line yields by e times the integral of its own pressure, the
+  operator of an implicit jump remains symmetric and positive, however the slip varies along the line. Lines without
+  contact have the e of the next line that has.
 */
 #include "lifeimpl.h"
+#include <petsam/private/motionimpl.h>
 #include <petsam/private/state.h>
 
 #define MOST_PASSES 20   /* cycles that are run to close the loop */
@@ -111,11 +118,41 @@ static PetscErrorCode Begin(SamLife l, SamRate *rate, SamControl *mean)
   PetscCall(Remembered(l, SAM_WEAR_PATH, &path));
   PetscCall(VecSet(cycle, 0));
   PetscCall(VecSet(path, 0));
+  PetscCall(VecSet(l->passage, 0));
   PetscCall(VecSet(rate->pressure, 0));
   PetscCall(VecSet(rate->shift, 0));
   PetscCall(VecSet(rate->coefficient, 0));
   PetscCall(SamControlInitialize(mean));
   l->energy = 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLifeIntegrate(SamGrid grid, Vec field)
+{
+  double *f;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArray(field, &f));
+  for (PetscInt first = 0; first < grid->cells; first += grid->nx) {
+    double sum = 0;
+
+    for (PetscInt k = first; k < first + grid->nx; k++) sum += f[k] * (double)grid->dx;
+    for (PetscInt k = first; k < first + grid->nx; k++) f[k] = sum;
+  }
+  PetscCall(VecRestoreArray(field, &f));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Adds what a passage wears a band by. */
+static PetscErrorCode AddPassage(SamLife l)
+{
+  const PetscBool by_energy = ((const SamWear *)l->law->data)->by_energy;
+
+  PetscFunctionBegin;
+  if (!l->band) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamContactGetField(l->contact, by_energy ? "power_density" : "wear_passage", l->gap));
+  if (by_energy) PetscCall(SamLifeIntegrate(l->grid, l->gap));
+  PetscCall(VecAXPY(l->passage, 1, l->gap));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -138,8 +175,9 @@ static PetscErrorCode Count(SamLife l, const SamStep *step, SamRate *rate, SamCo
   if (l->coupled) PetscCall(VecAXPY(rate->coefficient, part, s->displacement_z));
   *mean = step->control;
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++) mean->value[c] = so_far.value[c] + part * step->control.value[c];
-  PetscCall(SamContactGetNumber(l->contact, "dissipated_energy", &energy));
+  PetscCall(SamContactGetNumber(l->contact, SamContactGetMotion(l->contact)->work, &energy));
   l->energy += energy;
+  PetscCall(AddPassage(l));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -164,6 +202,40 @@ static PetscErrorCode FindShift(SamLife l, SamRate *rate)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The same for a band; `most`: its explicit limit's wear load per pressure. */
+static PetscErrorCode FindCoefficientOfBand(SamLife l, SamRate *rate, double *most)
+{
+  const SamGrid grid = l->grid;
+  const double *p, *passage, *line;
+  double       *slip, *to;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(grid->ny, &slip));
+  PetscCall(VecCopy(rate->pressure, l->gap));
+  PetscCall(SamLifeIntegrate(grid, l->gap));
+  PetscCall(VecGetArrayRead(rate->pressure, &p));
+  PetscCall(VecGetArrayRead(l->passage, &passage));
+  PetscCall(VecGetArrayRead(l->gap, &line));
+  for (PetscInt k = 0; k < grid->cells; k += grid->nx) {
+    double *mine = &slip[grid->row_start + k / grid->nx], cells = 0;
+
+    *mine = line[k] > 0 ? PetscMax(passage[k], 0) / line[k] : 0;
+    for (PetscInt i = k; i < k + grid->nx; i++) cells += p[i] > 0;
+    *most = PetscMax(*most, *mine * cells * (double)grid->dx);
+  }
+  PetscCall(VecRestoreArrayRead(l->gap, &line));
+  PetscCall(VecRestoreArrayRead(l->passage, &passage));
+  PetscCall(VecRestoreArrayRead(rate->pressure, &p));
+  PetscCall(SamSum(grid->comm, grid->ny, slip));
+  for (PetscInt j = 1; j < grid->ny; j++) slip[j] = slip[j] > 0 ? slip[j] : slip[j - 1];
+  for (PetscInt j = grid->ny - 1; j > 0; j--) slip[j - 1] = slip[j - 1] > 0 ? slip[j - 1] : slip[j];
+  PetscCall(VecGetArrayWrite(rate->coefficient, &to));
+  for (PetscInt k = 0; k < grid->cells; k++) to[k] = slip[grid->row_start + k / grid->nx];
+  PetscCall(VecRestoreArrayWrite(rate->coefficient, &to));
+  PetscCall(PetscFree(slip));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode FindCoefficient(SamLife l, const SamControl *mean, SamRate *rate)
 {
   const SamBoundAt at = {l->memory, mean, rate->pressure, NULL, 0};
@@ -172,6 +244,12 @@ static PetscErrorCode FindCoefficient(SamLife l, const SamControl *mean, SamRate
   Vec              cycle, slip;
 
   PetscFunctionBegin;
+  if (l->band) {
+    PetscCall(FindCoefficientOfBand(l, rate, &most));
+    PetscCall(SamMax(l->grid->comm, 1, &most));
+    PetscCall(SamWearGetLimit(l->law, (PetscReal)most, &rate->limit));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   PetscCall(VecSet(l->diagonal, 1)); /* wear load of a unit of slip per pressure */
   if (((const SamWear *)l->law->data)->by_energy)
     PetscCall(SamProblemComputeBound(l->problem, &at, &(SamBound){.by_pressure = l->diagonal}));
@@ -297,7 +375,7 @@ PetscErrorCode SamLifeComputeRate(SamLife l, SamRate *rate, PetscReal cycles, Pe
   l->step.status = SAM_STATUS_CONVERGED;
   if (l->open)
     PetscCall(FindWay(l, cycles, solved));
-  else
+  else if (!l->band)
     PetscCall(GoRound(l, cycles, &ignored, solved));
   PetscCall(Begin(l, rate, &mean));
   for (PetscInt k = 0; k < n && *solved; k++) {
@@ -307,7 +385,7 @@ PetscErrorCode SamLifeComputeRate(SamLife l, SamRate *rate, PetscReal cycles, Pe
     if (*solved) PetscCall(SamContactCommit(l->contact));
   }
   l->state.computed++;
-  l->open = *solved ? PETSC_FALSE : PETSC_TRUE;
+  l->open = *solved || l->band ? PETSC_FALSE : PETSC_TRUE;
   if (!*solved) PetscFunctionReturn(PETSC_SUCCESS);
   rate->balance = SamControlGetBalance(&mean, SAM_BALANCE_NORMAL);
   PetscCall(FindShift(l, rate));

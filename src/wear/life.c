@@ -4,13 +4,15 @@
   In a computed cycle a cell wears by r = e P, wear load a cycle, under the mean pressure P (cycle.c). In an implicit
   jump over m cycles e is taken as constant, and P as that at its end: it solves the normal problem on the gap
   h + m K e P, which is linear in P. In an explicit one P is that at its start; cells oscillate where m K e is more than
-  twice the smallest eigenvalue of the normal influence, that of a checkerboard.
+  twice the smallest eigenvalue of the normal influence, that of a checkerboard. In steady rolling a cycle is a passage,
+  and the same holds for lines of the running band, P being the integral of the pressure along them.
 
   A jump of m and two of m/2 give w1 and w2. These are of first order; 2 w2 - w1 is of second, and |w2 - w1| the error
   of w2 (Hairer, Norsett and Wanner 1993, Solving Ordinary Differential Equations I, II.4 and II.9; backward Euler's
   extrapolation is L-stable, forward Euler's is the midpoint rule).
 */
 #include "lifeimpl.h"
+#include <petsam/private/motionimpl.h>
 #include <petsam/private/state.h>
 #include <math.h>
 
@@ -32,7 +34,7 @@
   { \
     &(l)->start.coefficient, &(l)->start.pressure, &(l)->start.shift, &(l)->middle.coefficient, &(l)->middle.pressure, \
       &(l)->middle.shift, &(l)->load, &(l)->whole, &(l)->half, &(l)->halves, &(l)->p, &(l)->q, &(l)->diagonal, \
-      &(l)->gap, NULL \
+      &(l)->gap, &(l)->passage, NULL \
   }
 
 /* The law of wear of the life's problem; refuses laws that cycle jumps do not support. */
@@ -79,7 +81,8 @@ PetscErrorCode SamLifeCreate(SamContact contact, const SamLifeCycle *cycle, cons
   l->cycle      = *cycle;
   l->set        = *settings;
   l->state.next = settings->jump;
-  l->open       = PETSC_TRUE;
+  l->band       = SamContactGetMotion(contact)->streams;
+  l->open       = !l->band;
   l->coupled    = SamElasticityGetTraits(SamProblemGetElasticity(l->problem)).coupled;
   PetscCall(SamLifeFindTurns(l));
   ((SamWear *)law->data)->jumps = PETSC_TRUE;
@@ -168,7 +171,9 @@ static PetscErrorCode Jump(SamLife l, const SamRate *rate, PetscReal cycles, Vec
     PetscCall(VecCopy(rate->pressure, l->p));
   else
     PetscCall(SolvePressure(l, rate, cycles, load, solved));
-  PetscCall(VecPointwiseMult(to, rate->coefficient, l->p));
+  PetscCall(VecCopy(l->p, to));
+  if (l->band) PetscCall(SamLifeIntegrate(l->grid, to));
+  PetscCall(VecPointwiseMult(to, rate->coefficient, to));
   PetscCall(VecAYPX(to, cycles, load));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -11,7 +11,7 @@
   problem of the mean loads on the gap h + shift.
 */
 typedef struct {
-  Vec        coefficient; /* wear load of a cycle per mean pressure, m */
+  Vec        coefficient; /* wear load of a cycle per mean pressure, m; of a band per its integral along x, 1 */
   Vec        pressure;    /* mean over the cycle, Pa */
   Vec        shift;       /* m: what the shear of dissimilar bodies lifts, less what opens in a part of the cycle */
   SamBalance balance;     /* mean over the cycle */
@@ -29,6 +29,7 @@ struct _n_SamLife {
   SamLifeSettings set;
   SamLifeState    state;
   PetscBool       coupled;
+  PetscBool       band;                /* material streams through: lines along x wear alike, by passages */
   PetscBool       open;                /* the loop is not closed: a cycle is run before the one that is computed */
   PetscBool       known;               /* `start` has been computed */
   PetscBool      *turns;               /* of each step: whether a component turns there, or the cycle ends */
@@ -39,6 +40,7 @@ struct _n_SamLife {
   Vec             load;                /* wear load so far; the law has another one within a jump */
   Vec             whole, half, halves; /* wear loads: after the jump as a whole, after its first half, after both */
   Vec             p, q, diagonal, gap; /* scratch */
+  Vec             passage;             /* the wear load of a band in the cycle, Pa m */
   Vec             shear;               /* scratch, two components */
   Vec             before[SAM_LAWS];    /* of each law that accumulates, its sum before this cycle; else NULL */
 };
@@ -58,6 +60,9 @@ PETSC_INTERN PetscErrorCode SamLifeComputeRate(SamLife life, SamRate *rate, Pets
 PETSC_INTERN PetscErrorCode SamLifeSetLoad(SamLife life, Vec load);
 /* SamLifeGetSum - the committed values that law k accumulates, NULL: it does not. Collective. */
 PETSC_INTERN PetscErrorCode SamLifeGetSum(SamLife life, PetscInt k, Vec *sum);
+
+/* SamLifeIntegrate - a field becomes its integral along x, the same in all cells of a line. Not collective. */
+PETSC_INTERN PetscErrorCode SamLifeIntegrate(SamGrid grid, Vec field);
 
 /* SamLifeDeclare - the numbers of computed cycles, and that of each step's cycle (series.c). Collective. */
 PETSC_INTERN PetscErrorCode SamLifeDeclare(SamLife life);

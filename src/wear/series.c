@@ -1,5 +1,6 @@
 /* The numbers of computed cycles, by name. */
 #include "lifeimpl.h"
+#include <petsam/private/motionimpl.h>
 #include <petsam/private/state.h>
 
 enum { CYCLE, JUMP, ERROR, VOLUME, DEPTH = VOLUME + 2, ENERGY = DEPTH + 2, AREA, PRESSURE, COMPUTED, NUMBERS };
@@ -22,11 +23,20 @@ static const SamStateNumber declared[NUMBERS] = {
 
 PetscErrorCode SamLifeDeclare(SamLife l)
 {
-  PetscInt id;
+  const SamMotion motion = SamContactGetMotion(l->contact);
+  PetscInt        id;
 
   PetscFunctionBegin;
   PetscCall(SamStateCreate(l->grid, &l->series));
-  for (int k = 0; k < NUMBERS; k++) PetscCall(SamStateDeclareNumber(l->series, &declared[k], &id));
+  for (int k = 0; k < NUMBERS; k++) {
+    SamStateNumber number = declared[k];
+
+    if (k == ENERGY) number.unit = motion->work_unit;
+    if (k == ENERGY)
+      PetscCall(SamStateDeclareNumber(l->series, &number, &id));
+    else
+      PetscCall(SamMotionDeclareNumber(motion, l->series, &number, &id));
+  }
   PetscCall(SamStateDeclareNumber(l->memory, &declared[CYCLE], &id)); /* of each step */
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,5 +1,6 @@
 /* The laws of wear: what they remember, the separation that follows, and how they advance in a step. */
 #include "wearimpl.h"
+#include <petsam/private/motionimpl.h>
 #include <petsam/private/state.h>
 
 #define WEARS "wears" /* 1 if the step added to the wear load, 0 in cycles */
@@ -94,7 +95,7 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
   PetscCall(SamStateDeclareField(state, &load, &id));
   PetscCall(SamStateDeclareField(state, &cycle, &id));
   PetscCall(SamStateDeclareField(state, &path, &id));
-  for (int k = 0; k < 4; k++) PetscCall(SamStateDeclareNumber(state, &number[k], &id));
+  for (int k = 0; k < 4; k++) PetscCall(SamMotionDeclareNumber(SamMotionOf(law->elasticity), state, &number[k], &id));
   for (int k = 0; k < 2; k++) PetscCall(SamStateOffer(state, &depth[k]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -136,14 +137,15 @@ static PetscErrorCode Separation(SamLaw law, SamState state, SamGeneration gener
 
 PetscErrorCode SamWearGetVolumes(SamLaw law, Vec load, PetscReal volume[2], PetscReal depth[2])
 {
-  const SamWear *w   = (const SamWear *)law->data;
-  PetscReal      sum = 0, most = 0;
+  const SamWear  *w      = (const SamWear *)law->data;
+  const PetscReal length = SamMotionOf(law->elasticity)->streams ? law->grid->width[0] : 1;
+  PetscReal       sum = 0, most = 0;
 
   PetscFunctionBegin;
   if (load) PetscCall(SamGridNorm(law->grid, load, NORM_1, &sum)); /* it is never negative */
   if (load) PetscCall(VecMax(load, NULL, &most));
   for (int body = 0; body < 2; body++) {
-    volume[body] = w->coefficient[body] * sum * law->grid->dx * law->grid->dy;
+    volume[body] = w->coefficient[body] * sum * law->grid->dx * law->grid->dy / length;
     depth[body]  = w->coefficient[body] * most;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -151,14 +153,19 @@ PetscErrorCode SamWearGetVolumes(SamLaw law, Vec load, PetscReal volume[2], Pets
 
 /* ---- a step ---- */
 
-static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
+/* Adds what the step wears; in steady rolling the life does, as that of a passage. */
+static PetscErrorCode AddLoad(SamLaw law, SamLawStep *step)
 {
   const SamWear *w = (const SamWear *)law->data;
-  PetscReal      depth[2];
-  double        *numbers;
   Vec            path, worn, load;
 
   PetscFunctionBegin;
+  if (SamMotionOf(law->elasticity)->streams) {
+    PetscCheck(w->jumps, law->grid->comm, SAM_ERR_USER,
+               "-%s1 or 2: in steady rolling wear is that of passages, not of single steps: give -wear_cycles",
+               law->option);
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   PetscCall(SamLawStepGetFriction(step, &path, w->by_energy ? NULL : &worn, w->by_energy ? &worn : NULL));
   PetscCall(SamGridCreateVec(step->grid, 1, &load));
   PetscCall(VecCopy(worn, load));
@@ -166,6 +173,18 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
   PetscCall(SamLawAddToSum(step->state, w->jumps ? SAM_WEAR_CYCLE : SAM_WEAR_LOAD, load));
   if (w->jumps) PetscCall(SamLawAddToSum(step->state, SAM_WEAR_PATH, path));
   PetscCall(VecDestroy(&load));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
+{
+  const SamWear *w = (const SamWear *)law->data;
+  PetscReal      depth[2];
+  double        *numbers;
+  Vec            load;
+
+  PetscFunctionBegin;
+  PetscCall(AddLoad(law, step));
   load    = SamStateReadField(step->state, SamStateFindField(step->state, SAM_WEAR_LOAD));
   numbers = SamStateNumbers(step->state, SamStateFindNumber(step->state, "wear_volume1"), SAM_TRIED);
   PetscCall(SamWearGetVolumes(law, load, numbers, depth));
@@ -205,6 +224,8 @@ static PetscErrorCode Create(SamLaw law, PetscBool by_energy)
   law->rows               = rows[by_energy];
   law->row_count          = 2;
   law->needs_friction     = PETSC_TRUE;
+  law->any_motion         = PETSC_TRUE;
+  law->by_passages        = PETSC_TRUE;
   law->bytes              = 56;
   law->ops.setfromoptions = SetFromOptions;
   law->ops.addparameters  = AddParameters;

@@ -32,7 +32,8 @@ PETSC_INTERN PetscErrorCode SamWearGetLimit(SamLaw law, PetscReal most, PetscRea
 */
 PETSC_INTERN PetscErrorCode SamWearGetExcess(SamLaw law, SamLawStep *step, PetscReal *excess);
 /*
-  SamWearGetVolumes - the volumes (m3) that a wear load removes of both bodies, and the maximum depths (m). Collective.
+  SamWearGetVolumes - the volumes (m3; of a running band m3 per m of its length) that a wear load removes of both
+  bodies, and the maximum depths (m). Collective.
 */
 PETSC_INTERN PetscErrorCode SamWearGetVolumes(SamLaw law, Vec load, PetscReal volume[2], PetscReal depth[2]);
 

@@ -224,6 +224,8 @@ class Results:
             "friction_coefficient",
             "power_density",
             "wear_passage",
+            "wear_depth1",
+            "wear_depth2",
         ):
             raise AttributeError(name)
         with petsam.open(self.path) as run:

@@ -38,12 +38,13 @@ static Outcome SolveYielding(const Sphere *s, SamSolverType type, Vec d, SamBala
   return o;
 }
 
-/* The largest |g| where p > 0 and -g elsewhere, over the largest displacement. */
-static double Complementarity(const Sphere *s, Vec d, const SamBalance *balance, Vec p)
+/* The largest |g| where p > 0 and -g elsewhere, over the largest displacement; `lines`: they yield, not cells. */
+static double Complementarity(const Sphere *s, Vec d, const SamBalance *balance, Vec p, PetscBool lines)
 {
-  double        error = 0, most = 0, *u;
-  const double *h, *pressure, *yield;
-  Vec           gap = NewField(s->grid, 1);
+  const PetscInt nx    = s->grid->nx;
+  double         error = 0, most = 0, *u;
+  const double  *h, *pressure, *yield;
+  Vec            gap = NewField(s->grid, 1);
 
   sam_call(SamElasticityApplyNormal(s->elasticity, p, gap));
   sam_call(VecGetArray(gap, &u));
@@ -52,7 +53,11 @@ static double Complementarity(const Sphere *s, Vec d, const SamBalance *balance,
   sam_call(VecGetArrayRead(d, &yield));
   for (PetscInt k = 0; k < s->grid->cells; k++) {
     const double x = SamGridX(s->grid, k % s->grid->nx), y = SamGridY(s->grid, s->grid->row_start + k / s->grid->nx);
-    const double displacement = u[k] + yield[k] * pressure[k];
+    double       line = 0;
+
+    for (PetscInt i = k / nx * nx; i < (k / nx + 1) * nx; i++) line += pressure[i] * s->grid->dx;
+
+    const double displacement = u[k] + yield[k] * (lines ? line : pressure[k]);
     const double g = displacement + h[k] - (balance->rigid[0] - y * balance->rigid[1] + x * balance->rigid[2]);
 
     error = fmax(error, pressure[k] > 0 ? fabs(g) : -g);
@@ -85,12 +90,47 @@ static void test_solution_is_complementary(void **state)
         const Outcome   o = SolveYielding(&s, types[t], d, &balance, p);
 
         sam_assert(o.reason == SAM_SOLVER_CONVERGED_RTOL);
-        sam_assert(Complementarity(&s, d, &balance, p) < 3e-8);
+        sam_assert(Complementarity(&s, d, &balance, p, PETSC_FALSE) < 3e-8);
         if (forced) sam_assert_close(balance.load[0], s.N, 1e-12 * s.N);
         sam_call(VecDestroy(&p));
         sam_call(VecDestroy(&d));
         DestroySphere(&s);
       }
+}
+
+static double YieldOfLine(double x, double y, const void *context)
+{
+  const double *c = (const double *)context;
+
+  (void)x;
+  return c[0] * (1.2 + sin(2 * y / c[1]));
+}
+
+/* Where material streams through the contact, a line along x yields by the integral of its pressure. */
+static void test_lines_yield_in_steady_rolling(void **state)
+{
+  static const SamSolverType types[] = {SAM_NORMAL_ACTIVESET, SAM_NORMAL_POLONSKYKEER};
+  static const double        most[]  = {0.3, 60};
+
+  (void)state;
+  for (int t = 0; t < 2; t++)
+    for (int k = 0; k < 2; k++) {
+      Sphere     s = NewSphere(58, 2, 0.3), moving = s;
+      PetscReal  self;
+      SamBalance balance = Forced(s.N, 0, 0);
+      Vec        d, p = NewField(s.grid, 1);
+
+      sam_call(SamElasticityGetSelfInfluence(s.elasticity, &self, NULL));
+      d = NewFrom(s.grid, YieldOfLine, (const double[]){most[k] * self / s.a, 0.3 * s.a});
+      sam_call(SamElasticityCreateRolling(s.elasticity, &moving.elasticity));
+      sam_assert(SolveYielding(&moving, types[t], d, &balance, p).reason == SAM_SOLVER_CONVERGED_RTOL);
+      sam_assert(Complementarity(&s, d, &balance, p, PETSC_TRUE) < 3e-8);
+      sam_assert_close(balance.load[0], s.N, 1e-12 * s.N);
+      sam_call(SamElasticityDestroy(&moving.elasticity));
+      sam_call(VecDestroy(&p));
+      sam_call(VecDestroy(&d));
+      DestroySphere(&s);
+    }
 }
 
 /* Where nothing yields besides, the solution is the usual one, to the last bit. */
@@ -141,6 +181,7 @@ int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_solution_is_complementary),
+    cmocka_unit_test(test_lines_yield_in_steady_rolling),
     cmocka_unit_test(test_no_yield_changes_nothing),
     cmocka_unit_test(test_soft_yield_is_a_bed_of_springs),
   };

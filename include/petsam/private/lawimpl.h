@@ -101,6 +101,7 @@ struct _n_SamLaw {
   PetscBool           needs_friction; /* makes no sense without friction */
   PetscBool           forbids_jumps;  /* cannot be in a life with cycle jumps */
   PetscBool           any_motion;     /* has a meaning in every motion: remembers and asks for no slip of steps */
+  PetscBool           by_passages;    /* in steady rolling it acts in cycles of a life only */
   void               *data;           /* the type's own, from PetscNew(); NULL: none */
   /* all may be NULL; collective */
   struct {

@@ -113,7 +113,8 @@ def result_kinds(results):
     fields = ["maps", "profiles"][lines:] if all(one.steps and maps.usual(one) for one in results) else []
     if all(one.has_life for one in results):
         scars = any(wear.worn(one, one.of_last()) for one in results)
-        return [*fields, "fretting-log", *(["scar"] if scars else []), "life"]
+        loops = not any(one.is_steady for one in results)
+        return [*fields, *(["fretting-log"] if loops else []), *(["scar"] if scars else []), "life"]
     several = any(one.solved.size > 1 for one in results)
     if not any(one.solved.size and noise.works(one) for one in results):  # normal loads alone: no loop, no energy
         return [*fields, *(["history"] if several else [])] or ["maps", "profiles"][lines : lines + 1]

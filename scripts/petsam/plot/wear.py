@@ -191,11 +191,11 @@ def _scar_panel(panel, row, axis, units, whole):
 def scar(steps, at=None, whole=False):
     """Removed depth along x (left) and y (right) through its deepest point: one row per body, one line per step.
 
-    Of plane problems along x only.
+    Of plane problems along x only, of running bands across them.
     """
     need_few(len(steps), "steps and files")
     rows = _scar_rows(steps, at)
-    sides = sides_of(one for one, _ in steps)
+    sides = (1,) if all(one.is_steady for one, _ in steps) else sides_of([one for one, _ in steps])
     depth = largest(
         _line(one, name, index, axis, point)
         for one, indices, name, point in rows

@@ -64,7 +64,7 @@ def of_cycles(results, figures):
         return {}
     if not energies.size and not (figures.turns or figures.period or figures.numbers):
         return {}
-    unit = results.units[ENERGY]
+    unit = (results.wear_units if results.has_life else results.units)[ENERGY]
     last, before = [*[float("nan")] * 2, *energies.tolist()][:-3:-1]
     found = {"cycles": (count, "1"), ENERGY + "_cycle_last": (last, unit)}
     found[ENERGY + "_cycle_change"] = (last / before - 1.0 if before else float("nan"), "1")
