@@ -44,7 +44,7 @@ enum { CYCLES, TYPE, RTOL, JUMP, STOP_LAYER, OUTPUT, FRICTION, ROWS };
 #define MEMBER(name) offsetof(Settings, name)
 #define LIFE         .needs = "wear_cycles"
 static const SamOptionRow rows[ROWS] = {
-  {"wear_cycles", "cycles to simulate; the history is one closed cycle", SAM_OPTION_REAL, MEMBER(cycles),
+  {"wear_cycles", "cycles of a closed history; with -rolling steady passages", SAM_OPTION_REAL, MEMBER(cycles),
    .range = SAM_RANGE_POSITIVE},
   {"wear_type", "how cycles are jumped: implicit, or explicit", SAM_OPTION_ENUM, MEMBER(life.type),
    .words = "implicit,explicit", LIFE},

@@ -428,7 +428,6 @@ def test_dissimilar_bodies(petsam, n):
         (dict(disp_x=1e-6), "disp_x has no meaning with -rolling steady: give creep_x or load_tx"),
         (dict(rot_z=1e-6), "rot_z has no meaning with -rolling steady: give creep_spin or load_mz"),
         (dict(creep_x=1e-3, elasticity="periodic"), "has no meaning with -elasticity periodic"),
-        (dict(creep_x=1e-3, wear_coefficient1=1e-14), "has no meaning with -rolling steady"),
         (dict(creep_x=1e-3, sum_slip_path=True), "slip_path: has no meaning with -rolling steady"),
         (dict(creep_x=1e-3, slip_direction="mid"), "-slip_direction: has no meaning with -rolling steady"),
         (dict(creep_x=1e-3, cycle_memory=1e6), "-cycle_memory: has no meaning with -rolling steady"),

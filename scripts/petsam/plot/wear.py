@@ -208,7 +208,7 @@ def scar(steps, at=None, whole=False):
         len(rows), len(sides), figsize=size, squeeze=False, sharey="row", constrained_layout=True
     )
     for panels, row in zip(axes, rows):
-        for axis, panel in enumerate(panels):
+        for axis, panel in zip(sides, panels):
             _scar_panel(panel, row, axis, units, whole)
         panels[0].invert_yaxis()  # shared
         panels[0].set_ylabel(label(f"removed depth $w_{row[2][-1]}$", units[1][1]))
