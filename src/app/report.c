@@ -277,7 +277,7 @@ static PetscErrorCode BeginCycle(SamReport r, SamContact contact)
 {
   PetscFunctionBegin;
   r->living = PETSC_TRUE;
-  r->each   = r->row || SamContactGetMotion(contact)->streams;
+  r->each   = r->row + SamContactGetMotion(contact)->streams;
   if (!r->cycles) PetscCall(SamReportGetOutputTime(r, &r->output_before));
   if (!r->cycles) r->first = MPI_Wtime();
   if (!r->cycles) r->begin = r->first; /* later ones begin with the jump before them */
@@ -297,6 +297,9 @@ static double JumpsLeft(const SamLifeReport *c, PetscReal before, PetscReal left
 
 static PetscErrorCode EndCycle(SamReport r, const SamLifeReport *c, PetscReal cycles)
 {
+  static const char *const volumes[][2] = {{"vol.1/m3", "vol.2/m3"}, {"vol.1/m2", "vol.2/m2"}, {"vol.1/m", "vol.2/m"}};
+  static const char *const energies[]   = {"energy/J", "en/(J/m)", "en/(J/m2)"};
+
   const double now = MPI_Wtime(), seconds = now - r->begin;
   double       left;
   char         duration[32];
@@ -312,9 +315,8 @@ static PetscErrorCode EndCycle(SamReport r, const SamLifeReport *c, PetscReal cy
   if (c->jump <= 0 && c->cycles < cycles) (void)snprintf(duration, sizeof(duration), "unknown");
   if (r->cycles == 1)
     PetscCall(PetscPrintf(r->comm, "%10s %8s %7s %9s %9s %9s %9s %9s %8s %8s %8s %6s %8s\n", "cycles", "jump", "error",
-                          r->each ? "vol.1/m2" : "vol.1/m3", r->each ? "vol.2/m2" : "vol.2/m3", "depth1/m", "depth2/m",
-                          r->each ? "en/(J/m)" : "energy/J", r->row ? "width/m" : "area/m2", "p max/Pa", "computed",
-                          "s", "left"));
+                          volumes[r->each][0], volumes[r->each][1], "depth1/m", "depth2/m", energies[r->each],
+                          r->row ? "width/m" : "area/m2", "p max/Pa", "computed", "s", "left"));
   PetscCall(PetscPrintf(r->comm,
                         "%10.9g %8.6g %7.1e %9.3g %9.3g %9.3g %9.3g %9.3g %8.3g %8.3g %8" PetscInt_FMT " %6.2f %8s\n",
                         (double)c->cycles, (double)c->jump, (double)c->error, (double)c->volume[0],

@@ -280,7 +280,7 @@ PetscErrorCode SamLawCreate_Friction(SamLaw law)
   law->needs_friction     = PETSC_TRUE;
   law->follows_slip       = kind == FALLING;
   law->any_motion         = kind != PATH;
-  law->forbids_jumps      = kinds[kind].memory.name ? PETSC_TRUE : PETSC_FALSE;
+  law->forbids_jumps      = kinds[kind].memory.name && f->cell == 0; /* a steady state has no memory */
   law->ops.setfromoptions = SetFromOptions;
   law->ops.conditions     = AddConditions;
   law->ops.declare        = Declare;

@@ -143,15 +143,25 @@ PetscErrorCode SamLifeIntegrate(SamGrid grid, Vec field)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Adds what a passage wears a band by. */
+/*
+  Adds what a passage wears a band by, and its frictional work. That of the loads, the same for similar bodies, has a
+  part of the pressure's for dissimilar ones.
+*/
 static PetscErrorCode AddPassage(SamLife l)
 {
-  const PetscBool by_energy = ((const SamWear *)l->law->data)->by_energy;
+  SamTotal      total = {0};
+  double        power;
+  const double *line;
 
   PetscFunctionBegin;
-  if (!l->band) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamContactGetField(l->contact, by_energy ? "power_density" : "wear_passage", l->gap));
-  if (by_energy) PetscCall(SamLifeIntegrate(l->grid, l->gap));
+  PetscCall(SamContactGetField(l->contact, "power_density", l->gap));
+  PetscCall(SamLifeIntegrate(l->grid, l->gap));
+  PetscCall(VecGetArrayRead(l->gap, &line));
+  for (PetscInt j = 0; j < l->grid->rows; j++) SamAdd(&total, line[j * l->grid->nx]);
+  PetscCall(VecRestoreArrayRead(l->gap, &line));
+  PetscCall(SamSumTotals(l->grid->comm, 1, &total, &power));
+  l->energy += power * l->grid->dy;
+  if (!((const SamWear *)l->law->data)->by_energy) PetscCall(SamContactGetField(l->contact, "wear_passage", l->gap));
   PetscCall(VecAXPY(l->passage, 1, l->gap));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -175,9 +185,12 @@ static PetscErrorCode Count(SamLife l, const SamStep *step, SamRate *rate, SamCo
   if (l->coupled) PetscCall(VecAXPY(rate->coefficient, part, s->displacement_z));
   *mean = step->control;
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++) mean->value[c] = so_far.value[c] + part * step->control.value[c];
-  PetscCall(SamContactGetNumber(l->contact, SamContactGetMotion(l->contact)->work, &energy));
-  l->energy += energy;
-  PetscCall(AddPassage(l));
+  if (l->band) {
+    PetscCall(AddPassage(l));
+  } else {
+    PetscCall(SamContactGetNumber(l->contact, "dissipated_energy", &energy));
+    l->energy += energy;
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -5,7 +5,7 @@ import pytest
 
 import petsam
 from support import history
-from test_rolling import U, ellipse
+from test_rolling import YOUNG, U, ellipse
 
 SLOW = 1e-22  # 1/Pa: a passage changes no pressure
 FAST = 1e-13
@@ -37,6 +37,8 @@ def test_a_sliding_band_wears_by_the_creepage_and_the_pressure_of_its_lines(solv
 def test_energy_wears_its_volume(solve):
     case = ellipse(n=40, ratio=2, creep_x=0.4 * U, creep_y=-0.3 * U, creep_spin=U / 1e-3, wear_energy1=SLOW)
     s = solve(case, one_passage())
+    with petsam.open(s.path) as run:
+        assert run.wear["dissipated_energy"][-1] == pytest.approx(s["rolling_energy"], rel=1e-12)
     assert s["wear_volume1"] == pytest.approx(SLOW * s["rolling_energy"], rel=1e-12)
     lines = s.power_density.sum(axis=1) * s.dx
     assert np.abs(s.wear_depth1 / SLOW - lines[:, None]).max() <= 1e-12 * lines.max()
@@ -66,6 +68,26 @@ def test_depth_is_that_of_small_explicit_jumps_and_of_second_order(solve):
     middle = depths[0][12:28, 0]
     assert np.abs(np.diff(middle, 2)).max() <= 0.02 * middle.max()
     assert np.allclose(found[0].wear_depth1 * 2, found[0].wear_depth2)
+
+
+FALLING = dict(friction_law="falling", friction_falling_kinetic=0.15, friction_falling_half_speed=0.01)
+
+
+@pytest.mark.parametrize(
+    "more",
+    [
+        dict(body2_young=YOUNG / 3, body2_poisson=0.1, load_n=0.25 * ellipse()["load_n"], creep_x=U),
+        dict(creep_x=None, load_tx=0.3 * 0.5 * ellipse()["load_n"]),
+        dict(FALLING, rolling_speed=10.0),
+        dict(elasticity="plane", load_n=9e5, gap_radius_y="inf", grid_n=64, grid_size=2.6e-3),
+    ],
+)
+def test_implicit_jumps_agree_with_explicit_ones(solve, more):
+    """Of dissimilar bodies, under a given force, with friction that falls with slip, and of cylinders."""
+    case = dict(band(wear_jump=200, wear_cycles=1600), **more)
+    explicit, implicit = (solve(case, dict(wear_type=way)).wear_depth2 for way in ("explicit", "implicit"))
+    assert explicit.max() > 1e-7
+    assert np.abs(implicit - explicit).max() <= 5e-3 * explicit.max()
 
 
 def test_errors_steer_the_jumps_and_ranks_do_not(solve):
