@@ -64,7 +64,7 @@ def test_from_cattaneo_to_carter(roll):
 
 @pytest.mark.parametrize("cells, steps", [(41, 1), (82, 4)])
 def test_a_long_step_from_no_tractions_is_cattaneos_shift(roll, cells, steps):
-    """CONTACT's test bank, case 17 (0.0450 by its rule for cells that enter): the creepage that ends under the force."""
+    """CONTACT's test bank, case 17: the creepage that ends under the force; 0.0450 by its rule for cells that enter."""
     case = dict(CASE_C, grid_n=cells, grid_size=8.2, grid_center=(0.0, 0.0), load_n=None)
     shift = 3 * MU * N * (2 - 0.28) / (8 * 3.49991) * (1 - (1 - SHARE) ** (2 / 3))  # over Hertz's radius, G = 1
     rows = [(k + 1, N, shift / 0.4, 0.4 / steps) for k in range(steps)]
