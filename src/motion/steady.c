@@ -5,15 +5,21 @@
 #include <petsam/private/elasticity.h>
 #include <petsam/private/motionimpl.h>
 
+/* The volume that is removed of a body, by its number in /history or in /wear. */
+#define VOLUME(name, body) \
+  { \
+    name #body, name #body, "m2", "volume removed of body " #body " per length of its running band" \
+  }
+
 static const SamMotionName names[] = {
   {"slip_x", "slip_velocity_x", "1", "slip velocity along x, relative to the rolling speed"},
   {"slip_y", "slip_velocity_y", "1", "slip velocity along y, relative to the rolling speed"},
   {"slip_max", "slip_velocity_max", "1", "maximum slip velocity of a cell in contact, relative to that of rolling"},
   {"dissipated_energy", "rolling_energy_cells", "J/m", "frictional work per rolled distance, summed over cells"},
-  {"wear_volume1", "wear_volume1", "m2", "volume removed of body 1 per length of its running band"},
-  {"wear_volume2", "wear_volume2", "m2", "volume removed of body 2 per length of its running band"},
-  {"volume1", "volume1", "m2", "volume removed of body 1 per length of its running band"},
-  {"volume2", "volume2", "m2", "volume removed of body 2 per length of its running band"},
+  VOLUME("wear_volume", 1),
+  VOLUME("wear_volume", 2),
+  VOLUME("volume", 1),
+  VOLUME("volume", 2),
   {"displacement", NULL, NULL, NULL}, /* that of the bodies at rest is not computed */
   {NULL, NULL, NULL, NULL}};
 
