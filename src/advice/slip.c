@@ -43,8 +43,8 @@
 #define REVERSED 1.02 /* part of cells that stick, over that of the step before, of a reversal */
 #define NOTHING  1e-6 /* energy over the tangential work that counts as none */
 #define UNSURE   0.5  /* error of a step's energy by its length, relative to it, from which cells do not count */
-#define PEAKED   1.5  /* cells: a zone in which cells do not have the largest slip and shear to 5 % */
-#define SLIP     0.13 /* error of the largest slip over 1/w */
+#define PEAKED   1.25 /* cells: a zone in which the largest slip and shear are not right to 5 % */
+#define SLIP     0.06 /* error of both over 1/w */
 #define STUCK    7    /* cells across a stick zone whose area is wrong by less than 5 % */
 #define LEAST    1.25 /* cells of a grid that is advised over those of this one */
 

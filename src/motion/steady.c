@@ -14,7 +14,8 @@
 static const SamMotionName names[] = {
   {"slip_x", "slip_velocity_x", "1", "slip velocity along x, relative to the rolling speed"},
   {"slip_y", "slip_velocity_y", "1", "slip velocity along y, relative to the rolling speed"},
-  {"slip_max", "slip_velocity_max", "1", "maximum slip velocity of a cell in contact, relative to that of rolling"},
+  {"slip_max", "slip_velocity_max", "1",
+   "maximum slip velocity in contact, also at its edge between cells, relative to that of rolling"},
   {"dissipated_energy", "rolling_energy_cells", "J/m", "frictional work per rolled distance, summed over cells"},
   VOLUME("wear_volume", 1),
   VOLUME("wear_volume", 2),

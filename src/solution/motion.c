@@ -52,8 +52,7 @@ SamRigidRow SamRigidOfGap(const SamRigid *m, PetscInt j)
   return (SamRigidRow){a[0] - a[1] * SamFrameEta(&m->normal, j), a[2]};
 }
 
-/* The rigid displacement minus the strain's. */
-static SamRigidRow RowOfSlip(const SamRigid *m, PetscInt component, PetscInt j)
+SamRigidRow SamRigidOfSlip(const SamRigid *m, PetscInt component, PetscInt j)
 {
   const SamGrid   grid = m->tangential.grid;
   const double   *a = m->tangential.fixed, eta = SamFrameEta(&m->tangential, j);
@@ -88,7 +87,7 @@ SAM_VECTORIZED static void GapRow(PetscInt n, const double *restrict u, const do
 /* A component of the slip along row j. */
 static void SlipRow(const SamRigid *m, PetscInt component, PetscInt j, const double u[], double slip[])
 {
-  SubtractRow(m->normal.grid->nx, u, RowOfSlip(m, component, j), m->normal.xi0, m->normal.dxi, slip);
+  SubtractRow(m->normal.grid->nx, u, SamRigidOfSlip(m, component, j), m->normal.xi0, m->normal.dxi, slip);
 }
 
 void SamRigidGap(const SamRigid *m, SamRigidRow row, const double u[], const double h[], double value[])

@@ -113,8 +113,8 @@ static const SamStateNumber declared[NUMBERS] = {
   INT("contact_cells", "cells in contact"),
   INT("stick_cells", "cells in stick"),
   REAL("pressure_max", "Pa", "maximum pressure", SAM_JOIN_LAST, 1),
-  REAL("shear_max", "Pa", "maximum shear", SAM_JOIN_LAST, 1),
-  REAL("slip_max", "m", "maximum slip since the start of a cell in contact", SAM_JOIN_LAST, 1),
+  REAL("shear_max", "Pa", "maximum shear, also at the edge of stick between cells", SAM_JOIN_LAST, 1),
+  REAL("slip_max", "m", "maximum slip since the start in contact, also at its edge between cells", SAM_JOIN_LAST, 1),
   REAL("edge_accepted", "1", "share of the contact edge and the stick-slip boundary that is reconstructed",
        SAM_JOIN_LAST, 0),
   REAL("slip_width", "m", "mean width of the slip zone: its area over the length of the contact's edge", SAM_JOIN_LAST,
@@ -177,95 +177,10 @@ static PetscErrorCode SumCells(SamProblem problem, const SamSolution *last, cons
 
 /* ---- edges ---- */
 
-#define BEHIND 2 /* cells about a point of the stick edge that must be in contact */
-
-/* Whether cell i of row j of the grid and those about it are in contact: the edge of contact is farther. */
-static PetscBool IsInside(const SamHalo *p, PetscInt i, PetscInt j)
-{
-  const PetscInt rows = (p->rows.grid->axes - 1) * BEHIND;
-
-  for (PetscInt b = j - rows; b <= j + rows; b++)
-    for (PetscInt a = i - BEHIND; a <= i + BEHIND; a++)
-      if (a < 0 || a >= p->rows.grid->nx || b < p->rows.first || b >= p->rows.first + p->rows.count ||
-          !(p->at[0][(ptrdiff_t)(b - p->rows.first) * p->rows.grid->nx + a] > 0))
-        return PETSC_FALSE;
-  return PETSC_TRUE;
-}
-
-/* p^2 at (x, y), in cells from the grid's first one, interpolated between the four cells about it. */
-static double SquareAt(const SamHalo *p, double x, double y)
-{
-  const PetscInt nx = p->rows.grid->nx, i = (PetscInt)floor(x), j = (PetscInt)floor(y);
-  const double   tx = x - (double)i, ty = y - (double)j, *q = p->at[0] + (ptrdiff_t)(j - p->rows.first) * nx + i;
-
-  if (SamGridIsRow(p->rows.grid)) return (1 - tx) * q[0] * q[0] + tx * q[1] * q[1];
-  return (1 - ty) * ((1 - tx) * q[0] * q[0] + tx * q[1] * q[1]) +
-         ty * ((1 - tx) * q[nx] * q[nx] + tx * q[nx + 1] * q[nx + 1]);
-}
-
-/*
-  The largest shear at the edge of the stick zone, where it is mu p: larger than that of any cell, which is a mean. The
-  pressure is interpolated in p^2, which is smooth up to the contact's edge. Where that edge is near, cells count only,
-  as what slips there is not resolved.
-*/
-static PetscErrorCode FindPeak(SamGrid grid, const SamSolution *s, const SamEdge *stick, double *peak)
-{
-  const double *b;
-  SamHalo       p;
-
-  PetscFunctionBegin;
-  PetscCall(SamHaloBegin(grid, s->pressure, 1, BEHIND + 1, &p));
-  PetscCall(VecGetArrayRead(s->bound, &b));
-  for (PetscInt n = 0; n < stick->count; n++) {
-    const PetscInt k = stick->cell[n];
-    /* counted from the grid's first row and not from the rank's, whose sums would round otherwise */
-    const double x = (double)((stick->x[n] - SamGridX(grid, 0)) / grid->dx),
-                 y = (double)((stick->y[n] - SamGridY(grid, 0)) / grid->dy);
-
-    const PetscInt i = k % grid->nx, j = grid->row_start + k / grid->nx;
-
-    if (IsInside(&p, i, j)) *peak = PetscMax(*peak, b[k] / p.own[k] * sqrt(SquareAt(&p, x, y)));
-  }
-  PetscCall(VecRestoreArrayRead(s->bound, &b));
-  PetscCall(SamHaloEnd(&p));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/*
-  In plane strain the largest slip at the edges of contact, which may be most of a cell beyond the cells in contact:
-  interpolated between the cells about them, as the surfaces are displaced outside, too.
-*/
-static PetscErrorCode FindSlip(SamProblem problem, SamGrid grid, const SamSolution *s, double *most)
-{
-  SamEdge edge;
-  double *slip;
-
-  PetscFunctionBegin;
-  PetscCall(SamSolutionFindEdge(problem, s, SAM_EDGE_CONTACT, NULL, &edge));
-  PetscCall(PetscMalloc1(2 * grid->cells, &slip));
-  for (PetscInt c = 0; c < 2; c++) PetscCall(SamSolutionComputeSlip(problem, s, c, slip + c * grid->cells));
-  for (PetscInt n = 0; n < edge.count; n++) {
-    const double   x = (double)((edge.x[n] - SamGridX(grid, 0)) / grid->dx);
-    const PetscInt i = PetscMin(PetscMax((PetscInt)floor(x), 0), grid->nx - 2);
-    double         value[2];
-
-    for (PetscInt c = 0; c < 2; c++) {
-      const double *at = slip + c * grid->cells + i;
-
-      value[c] = at[0] + (x - (double)i) * (at[1] - at[0]);
-    }
-    *most = PetscMax(*most, hypot(value[0], value[1]));
-  }
-  PetscCall(PetscFree(slip));
-  PetscCall(SamEdgeDestroy(&edge));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* The areas by the edges of contact and stick, the largest shear, between stick and slip, and the largest slip. */
+/* The areas by the edges of contact and stick, and the largest shear, between stick and slip. */
 static PetscErrorCode FindEdges(SamProblem problem, const SamSolution *s, double contact[EDGE], double numbers[NUMBERS])
 {
   SamEdge       edge;
-  double        peak = numbers[SHEAR_MAX];
   const SamGrid grid = SamProblemGetGrid(problem);
 
   PetscFunctionBegin;
@@ -278,14 +193,7 @@ static PetscErrorCode FindEdges(SamProblem problem, const SamSolution *s, double
     PetscCall(SamEdgeDestroy(&edge));
   }
   PetscCall(SamSolutionFindEdge(problem, s, SAM_EDGE_STICK, NULL, &edge));
-  PetscCall(FindPeak(grid, s, &edge, &peak));
-  PetscCall(SamMax(grid->comm, 1, &peak));
-  if (SamGridIsRow(grid) && SamMotionOf(SamProblemGetElasticity(problem))->continues &&
-      numbers[DISSIPATED_ENERGY] > 0) {
-    PetscCall(FindSlip(problem, grid, s, &numbers[SLIP_MAX]));
-    PetscCall(SamMax(grid->comm, 1, &numbers[SLIP_MAX]));
-  }
-  numbers[SHEAR_MAX]    = peak;
+  PetscCall(SamSolutionFindShear(problem, s, &edge, &numbers[SHEAR_MAX]));
   numbers[CONTACT_AREA] = contact[AREA];
   numbers[STICK_AREA]   = edge.area;
   numbers[SLIP_WIDTH]   = NAN; /* flat periodic bodies have no edge */
@@ -318,6 +226,8 @@ PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamState state, con
   numbers[SLIP_WIDTH]    = NAN;
   if (!same_pressure) contact[KNOWN] = 0;
   if (edges) PetscCall(FindEdges(problem, s, contact, numbers));
+  if (edges && SamProblemGetRolled(problem, &s->control, NULL) == 0)
+    PetscCall(SamSolutionFindSlip(problem, state, s, &numbers[SLIP_MAX]));
   PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_EDGES], 0, 0, 0, 0));
   numbers[FRACTION] = numbers[CONTACT_AREA] / (grid->width[0] * grid->width[1]);
   PetscFunctionReturn(PETSC_SUCCESS);

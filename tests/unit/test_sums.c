@@ -104,10 +104,10 @@ static void test_sums_go_with_the_state(void **state)
   DestroyCase(&none);
 }
 
-/* A sphere is one spot, on any number of ranks; its numbers are those of the fields. */
+/* A sphere is one spot, on any number of ranks; without edges its numbers are those of the fields. */
 static void test_numbers_are_those_of_the_fields(void **state)
 {
-  Case          c       = NewCase(Steel(), 37, 1.5, MU, "-contact_spots");
+  Case          c       = NewCase(Steel(), 37, 1.5, MU, "-contact_spots -edges none");
   double        most[1] = {0}, sum;
   SamControl    control = Turn(&c, 1);
   Vec           slip, gap;

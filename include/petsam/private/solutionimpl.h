@@ -19,6 +19,7 @@ PETSC_INTERN PetscErrorCode SamValuesRestore(const SamSolution *solution, SamVal
 /*
   SamRigid - what is subtracted from a solution's elastic displacements to give its gap and its slip: the rigid
   displacement minus that of the strain. Along a row of cells it is a + b xi (m), xi being the frame's dimensionless x.
+  The rows of other ranks' cells have a j beyond this rank's.
 */
 typedef struct {
   SamFrame  normal, tangential; /* frames with all rigid displacements given */
@@ -29,6 +30,11 @@ typedef struct {
 } SamRigidRow;
 PETSC_INTERN PetscErrorCode SamRigidSet(SamRigid *motion, SamProblem problem, const SamSolution *solution);
 PETSC_INTERN SamRigidRow    SamRigidOfGap(const SamRigid *motion, PetscInt j);
+PETSC_INTERN SamRigidRow    SamRigidOfSlip(const SamRigid *motion, PetscInt component, PetscInt j);
+static inline double        SamRigidRowAt(SamRigidRow row, double xi)
+{
+  return row.a + row.b * xi;
+}
 /* value = u + h - a - b xi along a row of the grid. */
 PETSC_INTERN void SamRigidGap(const SamRigid *motion, SamRigidRow row, const double u[], const double h[],
                               double value[]);
@@ -131,6 +137,18 @@ static inline double SamContactEdgeLength(SamGrid grid, double faces)
 PETSC_INTERN PetscErrorCode SamSolutionDeclareNumbers(SamState state, SamMotion motion);
 PETSC_INTERN PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamState state, const SamSolution *before,
                                                       const SamSolution *now, PetscBool same_pressure, PetscBool edges);
+/*
+  SamSolutionFindSlip - the largest slip (m) in contact, in the tried generation of a state; at the edge between cells,
+  too (slip.c). With a film it stays as it is. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamSolutionFindSlip(SamProblem problem, SamState state, const SamSolution *now,
+                                                double *most);
+/*
+  SamSolutionFindShear - raises the largest shear (Pa) of cells to that at the edge of stick, between cells (peak.c);
+  `stick`: what is reconstructed of that edge. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamSolutionFindShear(SamProblem problem, const SamSolution *solution, const SamEdge *stick,
+                                                 double *most);
 /* SamSolutionDeclareSpots, SamSolutionComputeSpots - likewise the number of contact spots, and the mean gap. */
 PETSC_INTERN PetscErrorCode SamSolutionDeclareSpots(SamState state);
 PETSC_INTERN PetscErrorCode SamSolutionComputeSpots(SamProblem problem, SamState state, const SamSolution *now);
