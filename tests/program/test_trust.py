@@ -118,6 +118,23 @@ def test_energy_of_a_pad_is_right_or_warned_of(petsam, tmp_path, n):
     assert not fine.complaint and said(coarse, SLIP)
 
 
+NARROW = dict(body1_young=210e9, body1_poisson=0.3, body2_young=210e9, body2_poisson=0.3, elasticity="plane",
+              gap_type="pad", gap_half_flat_x=6.7e-5, gap_edge_radius_x=0.0112, grid_size=3.128e-4, friction=0.191,
+              load_n=4517.0, load_tx=815.0)  # fmt: skip
+
+
+@pytest.mark.parametrize("n", [66, 70, 74, 78, 84, 96])
+def test_energy_of_a_pad_with_zones_of_three_cells_is_right_or_warned_of(petsam, tmp_path, n):
+    energy = []
+    for k in (n, 1248):
+        done = petsam(NARROW, dict(grid_n=k, output="one.h5", overwrite=True))
+        with h5py.File(tmp_path / "one.h5") as f:
+            energy.append(f["history/dissipated_energy"][0])
+        if k == n:
+            warned = bool(said(done, SLIP))
+    assert warned or energy[0] == pytest.approx(energy[1], rel=0.05)
+
+
 CYLINDER = dict(STEEL, friction=MU, elasticity="plane", gap_type="ellipsoid", gap_radius_x=0.1,
                 gap_radius_y=float("inf"), load_n=1e5)  # fmt: skip
 WIDTH = math.sqrt(4 * 1e5 * 0.1 / (math.pi * 105e9))  # half of the cylinder's contact, m
