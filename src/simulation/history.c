@@ -128,7 +128,7 @@ static PetscErrorCode ReadComponent(SamHistory h, const Reader *r, PetscInt c, P
 }
 
 /* Spin drives the contact sideways: a user who gives nothing along y may expect no creepage there. */
-static PetscErrorCode WarnOfSpin(SamHistory h, const SamOptions *from, const PetscBool left[])
+static PetscErrorCode NoteSpin(SamHistory h, const SamOptions *from, const PetscBool left[])
 {
   const PetscInt spin   = SAM_COMPONENT_MZ;
   const char    *prefix = SamOptionsPrefix(from);
@@ -139,8 +139,8 @@ static PetscErrorCode WarnOfSpin(SamHistory h, const SamOptions *from, const Pet
   if (rank == 0 && left[SAM_COMPONENT_TY] && h->constant.creep[spin] &&
       (h->column[spin] >= 0 || h->constant.value[spin] != 0))
     fprintf(stderr,
-            "petsam: warning: creep_spin is given without creep_y: creep_y is found, for load_ty = 0: give -%screep_y "
-            "0 for spin alone, or -%sload_ty 0 for this\n",
+            "petsam: note: creep_spin is given without creep_y: creep_y is found, for load_ty = 0: give -%screep_y 0 "
+            "for spin alone, or -%sload_ty 0 for this\n",
             prefix, prefix);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -411,7 +411,7 @@ PetscErrorCode SamHistoryCreateFromOptions(const SamOptions *from, const SamArgu
   for (PetscInt k = 0; SamControlName(NULL, k); k++) /* so that none is taken for another one misspelled */
     SamOptionsKnow(from, SamControlName(NULL, k), NULL);
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++) PetscCall(ReadComponent(h, &reader, c, &left[c]));
-  PetscCall(WarnOfSpin(h, from, left));
+  PetscCall(NoteSpin(h, from, left));
   for (PetscInt k = SAM_COMPONENTS; k < h->parts; k++) PetscCall(ReadCondition(h, &reader, k));
   PetscCall(SetIncrements(h, increments, from->comm, h->file));
   PetscFunctionReturn(PETSC_SUCCESS);
