@@ -300,7 +300,7 @@ static void Cells(SamAdvice *a)
   const PetscReal *half   = a->half;
   PetscBool        ends[2];
   /* of periodic bodies all cells may be in contact, and have no width */
-  const PetscBool whole = !IsStrip(a, ends) && extent->across > (PetscReal)PetscMin(s->grid->nx, s->grid->ny) - 0.5;
+  const PetscBool whole = !IsStrip(a, ends) && extent->whole;
   const PetscBool few   = !whole && extent->across < FEW_CELLS;
   const PetscBool steep = fabs(extent->change) > PEAK, sharp = steep && !extent->finer;
   const double    more             = few ? (FEW_CELLS + SAME) / (double)a->across : 0;

@@ -114,3 +114,16 @@ def test_sharp_edge_is_resolved_by_no_grid(petsam):
     assert len(done[0]) == 1 and done[1] == done[0] == done[2]
     assert done[0][0].endswith("% higher on cells half as wide, and further on finer ones, as at a sharp edge")
     assert not petsam(case, dict(pressure_limit=1.5e6)).complaint
+
+
+@pytest.mark.parametrize("bodies", ["plane", "plane_periodic"])
+@pytest.mark.parametrize("n", [96, 768])
+def test_narrow_spots_in_plane_strain_are_few_cells(petsam, tmp_path, bodies, n):
+    """Cylinders side by side; the finer grid has them right."""
+    with h5py.File(tmp_path / "waves.h5", "w") as f:
+        x = (np.arange(n) + 0.5) / n - 0.5
+        f["height"] = 2e-7 * (1 - np.cos(6 * np.pi * x[None, :])) + (1e-6 * x[None, :] ** 2 if bodies == "plane" else 0)
+    case = dict(BODIES, elasticity=bodies, gap_type="file", gap_file="waves.h5", load_n=2e4)
+    done = petsam(case, dict(grid_n=n, grid_size=1e-3))
+    few = [line for line in done.complaint if "in 3 spots, the narrow ones" in line and "cells across" in line]
+    assert bool(few) == (n == 96)
