@@ -58,6 +58,10 @@ typedef struct {
   PetscReal   widest;        /* cells: of all zones with slip */
   PetscReal   across;        /* cells: of the stick zone after the last step */
   PetscBool   pushed;        /* the last step has no tangential displacement given */
+  PetscBool   joined;        /* the normal load has begun to grow, */
+  double      coupling; /* and does in one step of dissimilar bodies: their coupling over friction; 0: it does not */
+  double      share;    /* T over mu N at most before the first reversal */
+  double      first;    /* J: energy until then, with a reversal thereafter; 0: none so far */
   SamSlipPath path;
 } SamSlip;
 
@@ -67,6 +71,7 @@ typedef struct {
   PetscInt    step;        /* from 0 */
   const char *name;        /* borrowed */
   double      value, fine; /* as found, and extrapolated to fine grids */
+  PetscReal   width;       /* cells: of the slip zone in the last step */
 } SamRollingError;
 
 /*
@@ -106,8 +111,9 @@ typedef struct {
   resolved. `after`: when that is, for the message. Not collective.
   SamAdviceBeginCycle - before a computed cycle of a life: its energy alone counts. Not collective.
   SamAdviceEnd - after the last step: a dissipated energy that the slip zones, narrow beside the cells, make wrong by
-  more than 5 %; in steady rolling a load or a creepage that finer cells change by more than 2 %. `found`: the energy,
-  NULL if there is none. Collective.
+  more than 5 %, or one step of N on dissimilar bodies by more than 2 %; in steady rolling a load or a creepage that
+  finer cells change by more than 2 %; a maximum slip, shear or slip velocity, and an area of stick, of zones that are
+  few cells wide. `found`: the energy, NULL if there is none. Collective.
   SamAdviceEdge - appends to the message of a step that came to the grid's edge a grid on which these loads do not. Not
   collective.
 */

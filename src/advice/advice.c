@@ -24,8 +24,6 @@
 /* A coefficient of friction from the first of these on is likely to be percent; from the second on it means stick. */
 #define PERCENT  5
 #define STICKING 100
-/* Dundurs' beta, or what stands for it in bodies of several materials, from which one step of N is too coarse. */
-#define DISSIMILAR 0.05
 
 #define NARROW    0.1  /* part of the contact's cells whose zones, the narrowest, do not count */
 #define ROOM      1.5  /* width of a good grid over that of the contact */
@@ -419,29 +417,12 @@ static void Friction(SamAdvice *a)
                (double)friction / 100, (double)friction);
 }
 
-/* Dissimilar bodies whose slip while the load grows is found in one step. */
-static void Steps(SamAdvice *a)
-{
-  const SamGrid g        = a->setup->grid;
-  const double  waves[2] = {PETSC_PI / (double)g->length, PETSC_PI / (double)g->side[1]};
-  PetscBool     rubs     = PETSC_FALSE;
-
-  if (!a->error) a->error = SamProblemHasFriction(a->setup->problem, &rubs);
-  if (!a->error && rubs && SamContactGetSettings(a->setup->contact).coupling &&
-      SamMotionOf(a->setup->elasticity)->continues && a->steps == 1 &&
-      SamPairCoupling(a->setup->pair, waves[0], waves[1]) > DISSIMILAR)
-    SamAdviceSay(
-      a, "steps",
-      "elastically dissimilar bodies with friction slip while the normal load grows, here in one step: use more "
-      "steps until the stick area converges");
-}
-
 /* All that may be said, in this order: before the first step, of the largest load, of a contact, and of a worn one. */
 static const struct {
   enum { BEFORE, LARGEST, CONTACT, WORN } when;
   void (*look)(SamAdvice *advice);
-} advices[] = {{BEFORE, Surfaces}, {BEFORE, Friction}, {BEFORE, Steps},   {LARGEST, Units}, {LARGEST, Motion},
-               {LARGEST, Touch},   {CONTACT, Cells},   {CONTACT, Bodies}, {CONTACT, Size},  {WORN, Cells}};
+} advices[] = {{BEFORE, Surfaces}, {BEFORE, Friction}, {LARGEST, Units}, {LARGEST, Motion}, {LARGEST, Touch},
+               {CONTACT, Cells},   {CONTACT, Bodies},  {CONTACT, Size},  {WORN, Cells}};
 
 static PetscErrorCode LookAt(SamAdvice *a, int when)
 {
@@ -479,7 +460,7 @@ static PetscErrorCode LookAtLaws(SamAdvice *a, PetscInt k)
 
 void SamAdviceBeginCycle(SamAdvice *a)
 {
-  a->slip = (SamSlip){.steps = 0};
+  a->slip = (SamSlip){.joined = PETSC_TRUE};
 }
 
 void SamAdviceRenew(SamAdvice *a, const char after[])

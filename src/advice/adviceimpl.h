@@ -20,10 +20,12 @@ PETSC_INTERN PetscBool SamAdviceIsFromFile(const SamSetup *setup);
 /*
   AddSlip, AddRolling - add a step to what is known of the dissipated energy (slip.c), and of loads and creepages in
   steady rolling (rolling.c). MeasureStick - the cells across the stick zone now. Collective.
-  Slip, Rolling - say, after the last step, what the cells do not resolve. Not collective.
+  Slip, Rolling - say, after the last step, what the cells do not resolve. Stick - says that the stick zone is fewer
+  cells across than `least`. Not collective.
 */
 PETSC_INTERN PetscErrorCode SamAdviceAddSlip(SamAdvice *advice, PetscInt k, const SamStep *step);
 PETSC_INTERN PetscErrorCode SamAdviceMeasureStick(SamAdvice *advice);
+PETSC_INTERN void           SamAdviceStick(SamAdvice *advice, PetscReal least);
 PETSC_INTERN void           SamAdviceSlip(SamAdvice *advice);
 PETSC_INTERN PetscErrorCode SamAdviceAddRolling(SamAdvice *advice, PetscInt k, const SamStep *step);
 PETSC_INTERN void           SamAdviceRolling(SamAdvice *advice);

@@ -1,14 +1,23 @@
 /*
   How far a grid resolves steady rolling: loads and creepages that are found are of first order in the cells' size, and
   each step is solved on half the cells, too (step/rolling.c). Their extrapolation less the number is about its error.
+
+  Two other numbers of the last step are bound by the width of zones in cells. The maximum slip velocity is that of the
+  last cells, too small by the part 0.17/w, w the area of slip over the length of the contact's edge; and the area of
+  stick is too small by up to 0.9 over the cells across it. Measured against grids four times finer on 32 spheres of
+  random loads and creepages: 0.06 to 0.32, and 0.1 to 0.94.
 */
 #include "adviceimpl.h"
+#include <petsam/private/motionimpl.h>
 #include <math.h>
 
 #define ALLOWED 0.02 /* error, relative to the number */
 #define GOOD    0.015
 #define SMALL   0.1 /* part of a moment over the radius of contact that counts for a force, and so on */
 #define LEAST   1.25
+#define SLIP    0.06 /* error of the maximum slip velocity over 1/w, */
+#define NARROW  1.25 /* cells: w from which it is less than 5 % */
+#define STUCK   18   /* cells across a stick zone whose area is wrong by less than 5 % */
 
 /* The errors of T_x, T_y, M_z, or of the creepages that are theirs, relative to both forces and to the moment. */
 static PetscErrorCode Compare(SamAdvice *a, PetscInt k, const SamStep *step, PetscBool load, double radius)
@@ -39,16 +48,20 @@ static PetscErrorCode Compare(SamAdvice *a, PetscInt k, const SamStep *step, Pet
 
 PetscErrorCode SamAdviceAddRolling(SamAdvice *a, PetscInt k, const SamStep *step)
 {
-  PetscReal area;
+  const SamGrid grid = a->setup->grid;
+  const double  cell = (double)(grid->dx * grid->dy);
+  PetscReal     area, stick;
 
   PetscFunctionBegin;
   PetscCall(SamContactGetNumber(a->setup->contact, "contact_area", &area));
+  PetscCall(SamContactGetNumber(a->setup->contact, "stick_area", &stick));
   for (int load = 0; load < 2 && area > 0 && a->setup->grid->axes == 2; load++)
     PetscCall(Compare(a, k, step, load ? PETSC_TRUE : PETSC_FALSE, sqrt((double)area / PETSC_PI)));
+  a->rolling.width = area > 0 ? (area - stick) / (2 * sqrt(PETSC_PI * area * cell)) : 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-void SamAdviceRolling(SamAdvice *a)
+static void Loads(SamAdvice *a)
 {
   const SamRollingError *r = &a->rolling;
   char                   better[SAM_ADVICE_GRIDS], where[48] = "";
@@ -59,4 +72,25 @@ void SamAdviceRolling(SamAdvice *a)
   SamAdviceSay(a, better[0] ? "" : "grid_n",
                "%s%s = %.4g may be wrong by %.1f %%: %s_extrapolated = %.4g has the error of a finer grid%s", where,
                r->name, r->value, 100 * r->error, r->name, r->fine, better);
+}
+
+/* Says that the zone is too narrow for the maximum slip velocity. */
+static void Velocity(SamAdvice *a)
+{
+  const double width = (double)a->rolling.width;
+  char         better[SAM_ADVICE_GRIDS];
+
+  if (!(width > 0 && width < NARROW && a->slip.across < INFINITY)) return; /* nor where all sticks */
+  SamAdviceGrids(a, PetscMax(1.25 * NARROW / width, LEAST), better);
+  SamAdviceSay(a, better[0] ? "" : "grid_n",
+               "the slip zone is %.2g times as wide as a cell: the maximum slip velocity may be wrong by %.0f %%%s",
+               width, 100 * PetscMin(SLIP / width, 1), better);
+}
+
+void SamAdviceRolling(SamAdvice *a)
+{
+  if (SamMotionOf(a->setup->elasticity)->continues || a->setup->grid->axes < 2) return;
+  Loads(a);
+  Velocity(a);
+  SamAdviceStick(a, STUCK);
 }

@@ -111,9 +111,10 @@ PetscBool SamPairIsCoupled(SamPair pair)
 double SamPairCoupling(SamPair pair, double first, double last)
 {
   enum { SAMPLES = 32 };
-  double most = fabs((double)pair->dundurs);
+  double most = 0;
 
-  for (int m = 0; m < SAMPLES && !SamPairIsUniform(pair); m++) {
+  if (SamPairIsUniform(pair)) return fabs((double)pair->dundurs);
+  for (int m = 0; m < SAMPLES; m++) {
     double total[SAM_LAYERED_SYMBOLS], difference[SAM_LAYERED_SYMBOLS];
 
     SamPairSymbols(pair, first * pow(last / first, (double)m / (SAMPLES - 1)), total, difference);

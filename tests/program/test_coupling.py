@@ -323,8 +323,8 @@ def test_coupling_full_is_the_default(solve):
 @pytest.mark.parametrize("ranks", [1, 3])
 def test_too_few_passes_are_told(petsam, tmp_path, load, ranks):
     done = petsam(STEEL, load, dict(coupling_max_it=1, output="out.h5"), check=10, ranks=ranks)
-    advice, error = done.complaint
-    assert "warning: elastically dissimilar bodies" in advice and "-coupling_max_it" in error
+    (error,) = done.complaint
+    assert "-coupling_max_it" in error
     with h5py.File(tmp_path / "out.h5") as f:
         assert f["history/status"][:].tolist() == [10] and f["history/coupling_iterations"][:].tolist() == [1]
         assert f["pressure"].shape[0] == 1
@@ -337,7 +337,7 @@ def test_one_pass_is_enough_where_nothing_couples(petsam):
 
 
 def test_one_step_of_dissimilar_bodies_is_warned_of(petsam):
-    assert [line for line in petsam(STEEL).complaint if "(-steps)" in line]
+    assert [line for line in petsam(STEEL).complaint if "here in one step" in line and line.endswith("several -steps")]
     for case in similar(STEEL), dict(STEEL, friction=0), dict(STEEL, coupling="none"), dict(STEEL, steps=2):
         assert not petsam(case).complaint, case
 
@@ -412,7 +412,7 @@ def test_nearly_flat_periodic_bodies_converge(petsam, tmp_path, size, limit):
     """To the tolerance, or where the displacement is rounding of that by a uniform pressure, to that."""
     write_rough(tmp_path / "h.h5", size)
     done = petsam(PERIODIC, dict(load_n=100.0, load_tx=10.0, output="out.h5"))
-    assert done.stderr.count("\n") == 1 and "here in one step: use more steps" in done.stderr
+    assert not done.stderr  # nothing slips
     with h5py.File(tmp_path / "out.h5") as f:
         assert 0 < f["history/normal_residual"][0] <= limit and f["history/tangential_residual"][0] <= 1.05e-6
         assert f["history/coupling_iterations"][0] <= 30

@@ -289,6 +289,27 @@ def test_stick_area_near_full_sliding_is_right_or_warned_of(petsam, tmp_path, n,
     assert not warned if t < 0.95 else t < 0.998 or n == 64 or warned
 
 
+@pytest.mark.parametrize("n", [48, 64])
+def test_energy_of_a_round_punch_is_right_without_a_word(petsam, n):
+    """Its edge is not reconstructed, but lies everywhere on the cells."""
+    case = dict(STEEL, friction=MU, gap_type="punch", gap_flat_radius=1e-3, gap_edge_radius=2e-2, load_n=600.0,
+                load_tx=0.8 * MU * 600, grid_size=3e-3)  # fmt: skip
+    done = [petsam(case, dict(grid_n=k)) for k in (n, 192)]
+    here, fine = (float(re.search(r"dissipated (\S+) J", d.stdout)[1]) for d in done)
+    assert here == pytest.approx(fine, rel=0.03)
+    assert not said(done[0], SLIP) and not done[1].complaint
+
+
+@pytest.mark.parametrize("n", [48, 56])
+def test_stray_cells_that_stick_are_no_zone(petsam, tmp_path, n):
+    """Cells beside a large zone; its area is right."""
+    done = petsam(
+        coupled(0.3), history(tmp_path, "load_tx", *((0.15 * t * MU * LOAD,) for t in (0, 1, 0, -1, 0, 1))),
+        dict(grid_n=n, grid_size=2.5 * FLAT, load_n=LOAD),
+    )  # fmt: skip
+    assert not said(done, "the stick zone is")
+
+
 def test_words_on_slip_zones_are_the_same_on_any_number_of_ranks(petsam, tmp_path):
     case = (SPHERE, loaded(tmp_path, 0.125), dict(grid_n=33, grid_size=3 * RADIUS))
     one, three = (petsam(*case, ranks=ranks) for ranks in (1, 3))
@@ -299,6 +320,45 @@ def test_contacts_without_an_edge_or_tangential_load_have_no_slip_zone(petsam):
     flat = dict(STEEL, friction=MU, gap_type="flat", elasticity="periodic", grid_n=32, grid_size=1e-3, load_n=10.0)
     assert not petsam(flat, dict(load_tx=1.0)).complaint
     assert not petsam(SPHERE, dict(grid_n=64, grid_size=3 * RADIUS, load_n=LOAD)).complaint
+
+
+# ---------------------------------------------------------------- dissimilar bodies
+
+FLAT = (3 * LOAD * 0.1 / (4 * 210e9)) ** (1 / 3) * 0.9  # about the radius of contact on a rigid flat, m
+
+
+def coupled(ratio):
+    """A sphere on a rigid flat with Dundurs' beta of so many times the friction."""
+    beta = ratio * MU
+    return dict(SPHERE, body1_poisson=(1 - 2 * beta) / (2 - 2 * beta), body2_young=float("inf"), body2_poisson=None)
+
+
+@pytest.mark.parametrize("way", [(1,), (1, -1, 1)])
+@pytest.mark.parametrize("t", [0.3, 0.8])
+@pytest.mark.parametrize("ratio", [0.01, 0.06, 0.2, 0.4])
+def test_energy_of_dissimilar_bodies_that_are_loaded_in_one_step_is_right_or_warned_of(petsam, tmp_path, ratio, t, way):
+    case = dict(coupled(ratio), grid_n=40, grid_size=2.5 * FLAT)
+    rows = [(LOAD, sign * t * MU * LOAD) for sign in way]
+    done = petsam(case, history(tmp_path, "load_n,load_tx", *rows), dict(output="once.h5"))
+    history(tmp_path, "load_n,load_tx", (LOAD, 0.0), *rows)
+    petsam(case, dict(history="history.csv", steps=12, output="slow.h5"))
+    energy = []
+    for name in ("once.h5", "slow.h5"):
+        with h5py.File(tmp_path / name) as f:
+            energy.append(f["history/dissipated_energy"][:].sum())
+    wrong = energy[0] / energy[1] - 1
+    told = said(done, "here in one step")
+    assert bool(told) == (wrong > 0.02)
+    part = re.search(r"is (about|more than) (\d+) % too large", told[0]) if told else None
+    assert not told or part[1] == "more than" or 0.5 < 0.01 * float(part[2]) / wrong < (2 if ratio < 0.3 else 3)
+
+
+def test_layers_that_are_thin_beside_the_contact_hardly_couple(petsam):
+    """The waves of the contact's size count, not those of the layer's."""
+    case = dict(SPHERE, load_n=LOAD, load_tx=0.8 * MU * LOAD, grid_n=48, grid_size=3 * RADIUS)
+    steel = dict(body1_poisson=0.3, body2_poisson=0.3, body2_layer_young=105e9, body2_layer_poisson=0.3)
+    told = [said(petsam(case, steel, dict(body2_layer_thickness=h * RADIUS)), "one step") for h in (0.05, 1.0)]
+    assert not told[0] and told[1]
 
 
 # ---------------------------------------------------------------- spin
@@ -327,3 +387,27 @@ def test_loads_of_spin_are_right_or_warned_of(petsam, tmp_path, creep, n):
     assert here["warned"] or wrong < 0.03
     assert creep[2] in (0.0, 0.2) or wrong < 0.03
     assert here["warned"] or not (creep[2] == 0.2 and n == 32)  # M_z is 4 % off
+
+
+@pytest.mark.parametrize("n", [32, 64])
+@pytest.mark.parametrize("loads", [dict(load_tx=0.1), dict(load_tx=0.5), dict(creep_x=0.6), dict(creep_x=0.9)])
+def test_slip_and_stick_in_steady_rolling_are_right_or_warned_of(petsam, tmp_path, loads, n):
+    radius = (3 * LOAD * 0.1 / (4 * 210e9 / (2 * (1 - 0.28**2)))) ** (1 / 3)
+    ((name, value),) = loads.items()
+    size = MU * LOAD if name == "load_tx" else MU * radius / 0.1
+    found, done = [], []
+    for k in (n, 4 * n):
+        case = dict(WHEEL, load_n=LOAD, grid_n=k, grid_size=2.3 * radius, output="one.h5", overwrite=True)
+        done.append(petsam(case, {name: value * size}))
+        with h5py.File(tmp_path / "one.h5") as f:
+            found.append((f["history/slip_velocity_max"][0], f["history/stick_area"][0]))
+    slip, stick = (abs(here / fine - 1) for here, fine in zip(*found))
+    assert slip < 0.05 or said(done[0], "maximum slip velocity")
+    assert stick < 0.05 or said(done[0], "the stick zone is")
+    assert slip > 0.02 or not said(done[0], "maximum slip velocity")
+    assert stick > 0.02 or not said(done[0], "the stick zone is")
+
+
+def test_creepage_that_is_found_under_spin_is_noted(petsam):
+    done = petsam(WHEEL, dict(load_n=LOAD, creep_spin=0.1, grid_n=64, grid_size=2.5 * RADIUS))
+    assert [line.split(": ")[1] for line in done.complaint if "creep_y is found" in line] == ["note"]
