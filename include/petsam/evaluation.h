@@ -46,7 +46,8 @@ typedef struct {
   const char               *name;     /* of the origin of the bodies, for messages; borrowed */
   PetscInt                  steps;
   PetscBool                 before;
-  PetscBool                 slips; /* steps follow each other, and have slips, not velocities of slip */
+  PetscBool                 slides; /* the surfaces slide past each other, so that points of body 2 move */
+  PetscBool                 slips;  /* steps follow each other, and have slips, not velocities of slip */
   PetscErrorCode (*read)(void *context, PetscInt step, SamStepField field, double values[]);
   PetscErrorCode (*number)(void *context, PetscInt step, SamStepNumber number, double *value);
   PetscErrorCode (*conditions)(void *context, PetscInt step, SamConditions conditions, SamControl *control);

@@ -20,6 +20,7 @@ typedef const char       *SamLawType;
 #define SAM_LAW_SLIP_DEPENDENT    "slip_dependent"    /* friction changes with the accumulated slip (law/friction.c) */
 #define SAM_LAW_PRESSURE_FRICTION "pressure_friction" /* with the pressure */
 #define SAM_LAW_FALLING_FRICTION  "falling_friction"  /* with the slip velocity in rolling */
+#define SAM_LAW_SLIDE             "slide"             /* the surfaces move past each other (law/slide.c) */
 #define SAM_LAW_ARCHARD           "archard"           /* wear in proportion to pressure and slip (wear.h) */
 #define SAM_LAW_ENERGY            "energy"            /* wear in proportion to the frictional work (wear.h) */
 #define SAM_LAW_HARDNESS          "hardness"          /* pressure up to a limit, where the surfaces yield */
@@ -71,4 +72,9 @@ PETSC_EXTERN PetscErrorCode SamLawSetFrictionField(SamLaw law, Vec friction);
 /* SamLawGetFriction - coulomb: the coefficient, 0 where a field counts. Not collective. */
 PETSC_EXTERN PetscErrorCode SamLawGetFriction(SamLaw law, PetscReal *friction);
 PETSC_EXTERN PetscErrorCode SamLawSetHardness(SamLaw law, PetscReal hardness);
+/*
+  SamLawSetSurface - slide: the part of the separation (m, one component) that goes with body 2, at its points that lie
+  under the cells before anything has moved; copied. Collective. Errors: PETSC_ERR_ARG_WRONG for a law of another type.
+*/
+PETSC_EXTERN PetscErrorCode SamLawSetSurface(SamLaw law, Vec surface);
 #endif

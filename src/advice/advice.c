@@ -6,6 +6,7 @@
 */
 #include "adviceimpl.h"
 #include <petsam/private/grid.h>
+#include <petsam/private/lawimpl.h>
 #include <petsam/private/motionimpl.h>
 #include <math.h>
 #include <stdarg.h>
@@ -32,6 +33,7 @@
 #define SAME      2    /* cells by which two widths may differ that are counted or computed */
 #define ABSURD    4096 /* cells in a row of a grid that wrong units may ask for */
 #define BLIND     0.98 /* pressure at the edge over the largest, above which the pressure does not tell the size */
+#define STROKE    0.02 /* displacement over the half width of a worn contact, above which surfaces should slide */
 #define AT_A_TIME 64   /* characters of numbers */
 
 /* ---- loads ---- */
@@ -242,12 +244,29 @@ static void Motion(SamAdvice *a)
       "creep_spin %g 1/m is prescribed: its slip at the contact's edge is %.2g of the rolled distance, the limit is "
       "about %g: check the unit, 1/m",
       (double)most->spin, 0.5 * (double)most->spin * width, STEEPEST);
-  else if (extent->zones && (double)most->slide > width)
+  else if (extent->zones && (double)most->slide > width && !SamProblemGetLaw(a->setup->problem, SAM_LAW_SLIDE))
     SamAdviceSay(
       a, "",
-      "the prescribed tangential displacement, %g m, exceeds the width of the contact, %.3g m: surfaces are not moved "
-      "past each other, so it must be small: check the unit, m",
+      "the prescribed tangential displacement, %g m, exceeds the width of the contact, %.3g m: without -slide surfaces "
+      "are not moved past each other, so it must be small: give -slide, or check the unit, m",
       (double)most->slide, width);
+}
+
+/* The error of the worn depth of surfaces that are not moved past each other, as measured on worn cylinders. */
+static void Stroke(SamAdvice *a)
+{
+  const double  ratio = (double)(a->most.slide / PetscMax(a->extent.half[0], a->extent.half[1]));
+  PetscBool     worn  = PETSC_FALSE;
+  const SamLaw *laws;
+  PetscInt      count;
+
+  if (!a->error) a->error = SamProblemGetLaws(a->setup->problem, &count, &laws);
+  for (PetscInt k = 0; k < count && !a->error; k++) worn = worn || laws[k]->of_body2;
+  if (worn && ratio > STROKE && !SamProblemGetLaw(a->setup->problem, SAM_LAW_SLIDE))
+    SamAdviceSay(a, "",
+                 "%sthe surfaces move by %.3g m, %.2g times the half width of the contact, and body 2 wears, but "
+                 "without -slide they are not moved past each other: the depth is wrong by about %.2g %%: give -slide",
+                 a->after, (double)a->most.slide, ratio, 100 * PetscMin(9 * ratio * ratio, 0.66 * ratio));
 }
 
 static void Touch(SamAdvice *a)
@@ -422,7 +441,8 @@ static const struct {
   enum { BEFORE, LARGEST, CONTACT, WORN } when;
   void (*look)(SamAdvice *advice);
 } advices[] = {{BEFORE, Surfaces}, {BEFORE, Friction}, {LARGEST, Units}, {LARGEST, Motion}, {LARGEST, Touch},
-               {CONTACT, Cells},   {CONTACT, Bodies},  {CONTACT, Size},  {WORN, Cells}};
+               {CONTACT, Cells},   {CONTACT, Bodies},  {CONTACT, Size},  {WORN, Cells},
+               {WORN, Stroke}};
 
 static PetscErrorCode LookAt(SamAdvice *a, int when)
 {
@@ -550,6 +570,21 @@ static void AdviseGrid(const SamSetup *s, const PetscReal half[2], const PetscRe
     (void)snprintf(text, size, "%s", one);
 }
 
+/* The grid that holds the contact in all displacements of the run, body 2's surface being kept on it. */
+static PetscErrorCode AdviseStroke(const SamAdvice *a, const SamStep *step, char text[], size_t size)
+{
+  const PetscReal *moved    = &step->rigid[SAM_COMPONENT_TX];
+  const PetscReal  times    = PetscMax(1, a->most.slide / (PetscReal)hypot(moved[0], moved[1]));
+  const PetscReal  reach[2] = {times * PetscAbsReal(moved[0]) + a->most.lever[0],
+                               times * PetscAbsReal(moved[1]) + a->most.lever[1]};
+  SamExtent        extent;
+
+  PetscFunctionBegin;
+  PetscCall(Measure(a->setup, &extent));
+  AdviseGrid(a->setup, extent.half, reach, text, size);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamAdviceEdge(const SamAdvice *a, SamStep *step)
 {
   const SamSetup     *s    = a->setup;
@@ -561,6 +596,11 @@ PetscErrorCode SamAdviceEdge(const SamAdvice *a, SamStep *step)
   char                grid[3 * AT_A_TIME], ratio[192] = "";
 
   PetscFunctionBegin;
+  if (SamStepIsSolved(step) && !strcmp(step->setting, "slide")) {
+    PetscCall(AdviseStroke(a, step, grid, sizeof(grid)));
+    (void)snprintf(text, size, "; it needs about %s", grid);
+    step->setting[0] = '\0';
+  }
   if (!SamStepIsSolved(step) || strcmp(step->setting, "grid_size") || !most->steps) PetscFunctionReturn(PETSC_SUCCESS);
   step->setting[0] = '\0'; /* the text names the options */
   PetscCall(Estimate(s, most->force, most->normal, half, &known));

@@ -169,7 +169,8 @@ static PetscErrorCode SetUpEvaluation(SamStressRun *run)
   const SamParameter  *rolling    = SamParametersFind(parameters, "rolling");
 
   PetscFunctionBegin;
-  source.slips = rolling && !strcmp(rolling->text, "steady") ? PETSC_FALSE : PETSC_TRUE;
+  source.slides = SamParametersFind(parameters, "slide") != NULL;
+  source.slips  = rolling && !strcmp(rolling->text, "steady") ? PETSC_FALSE : PETSC_TRUE;
   PetscCall(PetscSNPrintf(run->source, sizeof(run->source), "-input %s", run->request.input));
   PetscCall(SamElasticityCreateFromParameters(run->grid, parameters, run->source, &run->elasticity));
   PetscCall(ChooseSteps(run));

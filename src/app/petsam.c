@@ -61,7 +61,7 @@ static void CatchSignals(PetscBool checkpoint)
 */
 static PetscErrorCode CheckFiles(const SamSimulationFiles *f, const SamArguments *arguments)
 {
-  static const char *const inputs[] = {"-gap_file",     "-gap_rough_file", "-friction_file",
+  static const char *const inputs[] = {"-gap_file",     "-gap_rough_file", "-friction_file", "-body2_surface_file",
                                        "-load_history", "-wear_friction",  "-restart"};
 
   SamFiles files = {.count = 0};

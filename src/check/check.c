@@ -78,19 +78,22 @@ SAM_VECTORIZED static void NormalRow(PetscInt n, const double *restrict p, const
   max[PRESSURE] = PetscMax(max[PRESSURE], pressure);
 }
 
-/* Columns and rows at the low and high end of x, y at the grid's border, beyond a patch, or of entered material. */
+/*
+  Columns and rows at the low and high end of x, y at the grid's border, beyond a patch or the surface that body 2 has
+  on the grid, or of entered material.
+*/
 typedef struct {
   PetscInt low[2], high[2];
 } Border;
 
-static Border BorderOf(SamProblem problem, SamGrid grid, const SamSolution *s)
+static Border BorderOf(SamProblem problem, SamState state, SamGrid grid, const SamSolution *s)
 {
   const SamElasticityTraits traits = SamElasticityGetTraits(SamProblemGetElasticity(problem));
-  PetscReal                 roll[2];
+  PetscReal                 enters[2];
   Border                    b;
 
-  (void)SamProblemGetRolled(problem, &s->control, roll);
-  SamGridEntering(grid, roll, b.low, b.high);
+  if (!SamProblemGetSlide(problem, state, SAM_TRIED, enters)) (void)SamProblemGetRolled(problem, &s->control, enters);
+  SamGridEntering(grid, enters, b.low, b.high);
   for (int axis = 0; axis < grid->axes; axis++) {
     b.low[axis]  = PetscMax(b.low[axis], PetscMax(traits.outside[axis][0], 1));
     b.high[axis] = PetscMax(b.high[axis], PetscMax(traits.outside[axis][1], 1));
@@ -155,7 +158,7 @@ static PetscErrorCode CheckNormal(SamProblem problem, SamState state, const SamS
 
   PetscFunctionBegin;
   PetscCall(SamSolutionCreateSeparation(problem, state, SAM_COMMITTED, &separation));
-  border = BorderOf(problem, grid, s);
+  border = BorderOf(problem, state, grid, s);
   PetscCall(SamRigidSet(&motion, problem, s));
   PetscCall(SamProblemGetPressureLimit(problem, &limit));
   PetscCall(PetscMalloc1(grid->nx, &gap));

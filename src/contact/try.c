@@ -16,6 +16,25 @@
 
 /* ---- a step ---- */
 
+/* Where only cells over the border of body 2's surface came into contact, the message is about that. */
+static PetscErrorCode DescribeBeyond(SamContact c, const PetscReal slide[2], SamStep *step)
+{
+  const PetscInt cells[2] = {c->grid->nx, c->grid->ny};
+  PetscInt       first[2], n[2];
+  char           place[64];
+
+  PetscFunctionBegin;
+  PetscCall(SamGridGetSupport(c->grid, c->generation[SAM_TRIED].pressure, first, n));
+  for (PetscInt k = 0; k < c->grid->axes; k++)
+    if (first[k] == 0 || first[k] + n[k] == cells[k]) PetscFunctionReturn(PETSC_SUCCESS);
+  (void)snprintf(step->message, sizeof(step->message),
+                 "the contact slid over the border of the surface that body 2 has on the grid (%s), slide_x, slide_y = "
+                 "%.6g, %.6g m: the grid must hold contact and stroke",
+                 SamCheckDescribeEdge(&step->check, place, sizeof(place)), (double)slide[0], (double)slide[1]);
+  (void)snprintf(step->setting, sizeof(step->setting), "slide");
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Where only material from outside of the grid came into contact, the message is about the rolled distance. */
 static PetscErrorCode DescribeEntering(SamContact c, SamStep *step)
 {
@@ -49,6 +68,7 @@ static PetscErrorCode Judge(SamContact c, SamStep *step)
   const SamCheck *check  = &step->check;
   SamCheckLimits  limits = {.equilibrium = CHECK_EQUILIBRIUM, .cone = CHECK_CONE, .edge = c->set.allow_edge};
   char            place[64];
+  PetscReal       slide[2];
 
   PetscFunctionBegin;
   PetscCall(SamSolverGetTolerances(SamNormalAsSolver(c->normal), &limits.normal, NULL));
@@ -63,6 +83,8 @@ static PetscErrorCode Judge(SamContact c, SamStep *step)
                           (double)check->cone, (double)check->edge));
   PetscCall(SamStepJudge(step, &limits));
   if (c->rolls && check->edge > 0 && SamStepIsSolved(step)) PetscCall(DescribeEntering(c, step));
+  if (check->edge > 0 && SamStepIsSolved(step) && SamProblemGetSlide(c->problem, c->state, SAM_TRIED, slide))
+    PetscCall(DescribeBeyond(c, slide, step));
   if (c->traits.patch && check->edge > 0 && SamStepIsSolved(step)) {
     (void)snprintf(step->message, sizeof(step->message),
                    "the contact reached the border of the patch of a body's compliance, or of the grid (%s): use a "
@@ -182,17 +204,21 @@ PetscErrorCode SamContactIsGapCurrent(SamContact c, PetscBool *current)
 }
 
 /*
-  Whether the next step has the committed pressure: same normal control, same separation, and no shear that acts on it.
+  Whether the tried step has the committed pressure: same normal control, same separation, and no shear that acts on it.
   That the surfaces yielded under it does not matter (law/hardness.c).
 */
 static PetscErrorCode IsSamePressure(SamContact c, const SamControl *control, PetscBool *same)
 {
   PetscBool moves;
+  PetscReal slide[2], last[2];
 
   PetscFunctionBegin;
+  (void)SamProblemGetSlide(c->problem, c->state, SAM_TRIED, slide);
+  (void)SamProblemGetSlide(c->problem, c->state, SAM_COMMITTED, last);
   PetscCall(SamContactIsGapCurrent(c, &c->same_gap));
   PetscCall(SamProblemAddSeparation(c->problem, c->state, SAM_COMMITTED, NULL, &moves));
   *same = !SamContactIsCoupled(c) && SamContactBefore(c) && c->same_gap && !(c->rolls && moves) &&
+          slide[0] == last[0] && slide[1] == last[1] &&
           SamControlIsSame(&c->generation[SAM_COMMITTED].control, control, SAM_BALANCE_NORMAL);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -307,11 +333,14 @@ static void SetUnknown(SamStep *step)
   step->check = (SamCheck){.normal = NAN, .tangential = NAN, .equilibrium = NAN, .cone = NAN, .edge = NAN};
 }
 
-/* What the tried step's pressure is solved with. */
+/* What the tried step's pressure is solved with. The revision does not tell where body 2 was. */
 static PetscErrorCode GetStepOf(SamContact c, SamStepOf *of)
 {
+  PetscReal slide[2];
+
   PetscFunctionBegin;
-  *of = (SamStepOf){.same_gap = c->same_gap, .moves = c->revision[SAM_TRIED] < 0 ? PETSC_TRUE : PETSC_FALSE};
+  *of       = (SamStepOf){.same_gap = c->same_gap};
+  of->moves = c->revision[SAM_TRIED] < 0 || SamProblemGetSlide(c->problem, c->state, SAM_TRIED, slide);
   PetscCall(SamSolverGetTolerances(SamNormalAsSolver(c->normal), &of->rtol, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

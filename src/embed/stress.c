@@ -241,6 +241,7 @@ static PetscErrorCode Compute(petsam_contact *c, const char options[], PetscInt 
                                   .name       = "-elasticity",
                                   .steps      = n,
                                   .before     = steps->before && steps->before->fields,
+                                  .slides     = SamProblemGetLaw(c->setup->problem, SAM_LAW_SLIDE) != NULL,
                                   .slips      = SamMotionOf(c->setup->elasticity)->continues,
                                   .read       = ReadField,
                                   .number     = ReadNumber,

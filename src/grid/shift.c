@@ -18,10 +18,18 @@ typedef struct {
   double   tap[TAPS];
 } Stencil;
 
-static Stencil StencilOf(PetscReal distance, PetscReal cell, PetscInt n)
+/* Beyond the grid's width nothing is left to interpolate, or the period begins again. */
+static double ShiftOf(PetscReal distance, PetscReal cell, PetscInt n, SamBorder border)
 {
-  const double shift = PetscMax(PetscMin((double)(distance / cell), n + 1.0), -(n + 1.0)), whole = round(shift);
-  const double t = shift - floor(shift);
+  const double shift = (double)(distance / cell);
+
+  if (border == SAM_BORDER_WRAPS) return fmod(shift, n);
+  return PetscMax(PetscMin(shift, n + 1.0), -(n + 1.0));
+}
+
+static Stencil StencilOf(double shift)
+{
+  const double whole = round(shift), t = shift - floor(shift);
 
   if (fabs(shift - whole) < WHOLE) return (Stencil){(PetscInt)whole, 1, {1}};
   return (Stencil){(PetscInt)floor(shift) - 1,
@@ -34,27 +42,28 @@ void SamGridEntering(SamGrid grid, const PetscReal distance[2], PetscInt low[2],
 {
   for (int axis = 0; axis < 2; axis++) {
     const PetscInt n = axis ? grid->ny : grid->nx;
-    const Stencil  s = StencilOf(distance[axis], axis ? grid->dy : grid->dx, n);
+    const Stencil  s = StencilOf(ShiftOf(distance[axis], axis ? grid->dy : grid->dx, n, SAM_BORDER_ZERO));
 
     low[axis]  = PetscMin(PetscMax(-s.first, 0), n);
     high[axis] = PetscMin(PetscMax(s.first + s.count - 1, 0), n);
   }
 }
 
-/* The entry that stands for entry i of n: beyond the first and the last one of these, or none, -1. */
-static PetscInt EntryFor(PetscInt i, PetscInt n, PetscBool continues)
+/* The entry that stands for entry i of n: beyond these the first or last one, one of the period, or none, -1. */
+static PetscInt EntryFor(PetscInt i, PetscInt n, SamBorder border)
 {
   if (i >= 0 && i < n) return i;
-  return continues ? (i < 0 ? 0 : n - 1) : -1;
+  if (border == SAM_BORDER_WRAPS) return (i % n + n) % n;
+  return border == SAM_BORDER_CONTINUES ? (i < 0 ? 0 : n - 1) : -1;
 }
 
-static void MoveRow(PetscInt n, const Stencil *s, PetscBool continues, const double from[], double to[])
+static void MoveRow(PetscInt n, const Stencil *s, SamBorder border, const double from[], double to[])
 {
   for (PetscInt i = 0; i < n; i++) {
     double sum = 0;
 
     for (PetscInt k = 0; k < s->count; k++) {
-      const PetscInt entry = EntryFor(i + s->first + k, n, continues);
+      const PetscInt entry = EntryFor(i + s->first + k, n, border);
 
       if (entry >= 0) sum += s->tap[k] * from[entry];
     }
@@ -63,11 +72,14 @@ static void MoveRow(PetscInt n, const Stencil *s, PetscBool continues, const dou
 }
 
 /* Moves a component along y in place. */
-static PetscErrorCode MoveColumns(SamGrid grid, const Stencil *s, PetscBool continues, double field[])
+static PetscErrorCode MoveColumns(SamGrid grid, const Stencil *s, SamBorder border, double field[])
 {
-  const PetscInt nx = grid->nx, ny = grid->ny, begin = grid->row_start + s->first;
-  const PetscInt first = PetscMax(PetscMin(begin, ny - 1), 0),
-                 last  = PetscMax(PetscMin(begin + grid->rows + s->count - 2, ny - 1), 0);
+  const PetscInt nx = grid->nx, ny = grid->ny, begin = grid->row_start + s->first,
+                 end = begin + grid->rows + s->count - 2;
+  const PetscBool both =
+    border == SAM_BORDER_WRAPS && (begin < 0 || end >= ny); /* rows at both ends: all are fetched */
+  const PetscInt first = both ? 0 : PetscMax(PetscMin(begin, ny - 1), 0),
+                 last  = both ? ny - 1 : PetscMax(PetscMin(end, ny - 1), 0);
   const double *seen;
   double       *moved;
   SamRows       rows;
@@ -78,7 +90,7 @@ static PetscErrorCode MoveColumns(SamGrid grid, const Stencil *s, PetscBool cont
   PetscCall(PetscCalloc1(grid->cells, &moved));
   for (PetscInt j = 0; j < grid->rows; j++)
     for (PetscInt k = 0; k < s->count; k++) {
-      const PetscInt row = EntryFor(begin + j + k, ny, continues);
+      const PetscInt row = EntryFor(begin + j + k, ny, border);
 
       if (row < 0) continue;
       for (PetscInt i = 0; i < nx; i++)
@@ -91,10 +103,11 @@ static PetscErrorCode MoveColumns(SamGrid grid, const Stencil *s, PetscBool cont
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamGridMove(SamGrid grid, PetscInt components, const PetscReal distance[2], PetscBool continues,
-                           Vec from, Vec to)
+PetscErrorCode SamGridMove(SamGrid grid, PetscInt components, const PetscReal distance[2], SamBorder border, Vec from,
+                           Vec to)
 {
-  const Stencil x = StencilOf(distance[0], grid->dx, grid->nx), y = StencilOf(distance[1], grid->dy, grid->ny);
+  const Stencil x = StencilOf(ShiftOf(distance[0], grid->dx, grid->nx, border)),
+                y = StencilOf(ShiftOf(distance[1], grid->dy, grid->ny, border));
   const double *f;
   double       *t;
 
@@ -105,8 +118,8 @@ PetscErrorCode SamGridMove(SamGrid grid, PetscInt components, const PetscReal di
     const ptrdiff_t first = (ptrdiff_t)c * grid->cells;
 
     for (PetscInt j = 0; j < grid->rows; j++)
-      MoveRow(grid->nx, &x, continues, f + first + (ptrdiff_t)j * grid->nx, t + first + (ptrdiff_t)j * grid->nx);
-    if (distance[1] != 0) PetscCall(MoveColumns(grid, &y, continues, t + first));
+      MoveRow(grid->nx, &x, border, f + first + (ptrdiff_t)j * grid->nx, t + first + (ptrdiff_t)j * grid->nx);
+    if (distance[1] != 0) PetscCall(MoveColumns(grid, &y, border, t + first));
   }
   PetscCall(VecRestoreArrayWrite(to, &t));
   PetscCall(VecRestoreArrayRead(from, &f));

@@ -364,6 +364,16 @@ PetscErrorCode SamProblemAddSeparation(SamProblem p, SamState state, SamGenerati
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscBool SamProblemGetSlide(SamProblem p, SamState state, SamGeneration generation, PetscReal slide[2])
+{
+  PetscBool depends = PETSC_FALSE;
+
+  for (PetscInt k = 0; k < p->laws; k++) depends = depends || p->law[k]->of_body2;
+  if (depends && SamSlideGet(state, generation, slide)) return PETSC_TRUE;
+  slide[0] = slide[1] = 0;
+  return PETSC_FALSE;
+}
+
 PetscErrorCode SamProblemAddOverlap(SamProblem p, SamState state, Vec overlap)
 {
   PetscFunctionBegin;

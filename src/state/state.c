@@ -269,7 +269,8 @@ PetscErrorCode SamStateMove(SamState s, const PetscReal distance[2])
 
     if (f->declared.motion == SAM_STAYS || !f->value[SAM_COMMITTED]) continue;
     PetscCall(SamGridCreateVec(s->grid, SamStateFieldSize(&f->declared), &f->other));
-    PetscCall(SamGridMove(s->grid, SamStateFieldSize(&f->declared), distance, f->declared.motion == SAM_MOVES_CONTINUED,
+    PetscCall(SamGridMove(s->grid, SamStateFieldSize(&f->declared), distance,
+                          f->declared.motion == SAM_MOVES_CONTINUED ? SAM_BORDER_CONTINUES : SAM_BORDER_ZERO,
                           f->value[SAM_COMMITTED], f->other));
   }
   SamStateSwapMoved(s);

@@ -112,6 +112,9 @@ static PetscErrorCode CheckCycle(SamEvaluation e)
              "-passing: points pass along x: give a -section y=..., or none");
   PetscCheck(!e->passing || !ruiz, e->comm, SAM_ERR_USER,
              "-fatigue ruiz: needs the slip of steps, and not -passing: omit one of them");
+  PetscCheck(!e->source.slides || !e->cycle || e->body == 1, e->comm, SAM_ERR_USER,
+             "-fatigue of body 2: with -slide its points move through the contact, and no step has them where they "
+             "were: give -body 1");
   PetscCheck(e->source.slips || !ruiz, e->comm, SAM_ERR_USER,
              "-fatigue ruiz: needs the slip of steps, and %s has velocities of slip: omit ruiz, or roll in steps of "
              "time",

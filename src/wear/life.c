@@ -301,7 +301,7 @@ static PetscErrorCode Report(SamLife l, SamLifeReport *r)
                        .computed          = l->state.computed,
                        .at                = l->at,
                        .step              = l->step};
-  PetscCall(SamWearGetVolumes(l->law, l->load, r->volume, r->depth));
+  PetscCall(SamWearGetVolumes(l->law, l->load, l->load, r->volume, r->depth));
   PetscCall(SamContactGetSolution(l->contact, &s));
   PetscCall(VecMax(s->pressure, NULL, &r->pressure));
   PetscFunctionReturn(PETSC_SUCCESS);

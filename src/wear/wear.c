@@ -1,6 +1,12 @@
-/* The laws of wear: what they remember, the separation that follows, and how they advance in a step. */
+/*
+  The laws of wear: what they remember, the separation that follows, and how they advance in a step.
+
+  Where the surfaces slide past each other each body has a wear load at its own points. A step wears by the mean of the
+  pressures before and after it; what each of these does to body 2 is written where it was read, by the transpose.
+*/
 #include "wearimpl.h"
 #include <petsam/private/motionimpl.h>
+#include <petsam/private/solverimpl.h>
 #include <petsam/private/state.h>
 
 #define WEARS "wears" /* 1 if the step added to the wear load, 0 in cycles */
@@ -21,6 +27,7 @@ PetscErrorCode SamLawSetWear(SamLaw law, const PetscReal coefficient[2])
     PetscCheck(coefficient[body] >= 0 && isfinite(coefficient[body]), law->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
                "wear coefficient %.6g of body %d: expected a finite number >= 0", (double)coefficient[body], body + 1);
   PetscCall(PetscArraycpy(w->coefficient, coefficient, 2));
+  law->of_body2 = coefficient[1] > 0;
   law->revision++;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -43,7 +50,8 @@ static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBo
 
   PetscFunctionBegin;
   (void)from;
-  *asked = w->coefficient[0] + w->coefficient[1] > 0;
+  *asked        = w->coefficient[0] + w->coefficient[1] > 0;
+  law->of_body2 = w->coefficient[1] > 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -56,10 +64,20 @@ static PetscErrorCode AddParameters(SamLaw law, SamParameters *p)
 
 /* ---- what is remembered ---- */
 
+/* The field that a body has its wear load in: both the same one, unless they slide. */
+static PetscInt LoadFieldOf(SamState state, PetscInt body)
+{
+  const PetscInt id = body ? SamStateFindField(state, SAM_WEAR_LOAD2) : -1;
+
+  return id >= 0 ? id : SamStateFindField(state, SAM_WEAR_LOAD);
+}
+
+/* Interpolation leaves depths of a little less than 0, which stay in the state for the sake of the volume. */
 static PetscErrorCode ComputeDepth(void *owner, SamState state, PetscInt body, Vec depth)
 {
   const SamLaw law  = (SamLaw)owner;
-  const Vec    load = SamStateReadField(state, SamStateFindField(state, SAM_WEAR_LOAD));
+  const Vec    load = SamStateReadField(state, LoadFieldOf(state, body));
+  double      *to;
 
   PetscFunctionBegin;
   if (load)
@@ -67,18 +85,22 @@ static PetscErrorCode ComputeDepth(void *owner, SamState state, PetscInt body, V
   else
     PetscCall(VecSet(depth, 0));
   PetscCall(VecScale(depth, ((const SamWear *)law->data)->coefficient[body]));
+  PetscCall(VecGetArray(depth, &to));
+  for (PetscInt k = 0; k < law->grid->cells; k++) to[k] = PetscMax(to[k], 0);
+  PetscCall(VecRestoreArray(depth, &to));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode Declare(SamLaw law, SamState state)
 {
-  static const SamStateField load      = {.name        = SAM_WEAR_LOAD,
-                                          .components  = 1,
-                                          .generations = 3,
-                                          .kept        = PETSC_TRUE,
-                                          .motion      = SAM_MOVES},
-                             cycle     = {.name = SAM_WEAR_CYCLE, .components = 1, .generations = 2},
-                             path      = {.name = SAM_WEAR_PATH, .components = 1, .generations = 2};
+  static const SamStateField load  = {.name        = SAM_WEAR_LOAD,
+                                      .components  = 1,
+                                      .generations = 3,
+                                      .kept        = PETSC_TRUE,
+                                      .motion      = SAM_MOVES},
+                             load2 = {.name = SAM_WEAR_LOAD2, .components = 1, .generations = 3, .kept = PETSC_TRUE},
+                             cycle = {.name = SAM_WEAR_CYCLE, .components = 1, .generations = 2},
+                             path  = {.name = SAM_WEAR_PATH, .components = 1, .generations = 2};
   static const SamStateNumber number[] = {
     {"wear_volume1", "m3", "volume removed of body 1", SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE, SAM_JOIN_LAST, 0},
     {"wear_volume2", "m3", "volume removed of body 2", SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE, SAM_JOIN_LAST, 0},
@@ -89,10 +111,14 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
   SamStateResult depth[2] = {
     {"wear_depth1", "m", "depth removed of body 1", SAM_FIELD_REAL, SAM_RESULT_USUAL, ComputeDepth, law, 0, -1},
     {"wear_depth2", "m", "depth removed of body 2", SAM_FIELD_REAL, SAM_RESULT_USUAL, ComputeDepth, law, 1, -1}};
-  PetscInt id;
+  PetscReal       slide[2];
+  const PetscBool slides = law->of_body2 && SamSlideGet(state, SAM_TRIED, slide);
+  PetscInt        id;
 
   PetscFunctionBegin;
+  if (slides) depth[1].text = "depth removed of body 2, at its own points: those that lay under the cells at slide 0";
   PetscCall(SamStateDeclareField(state, &load, &id));
+  if (slides) PetscCall(SamStateDeclareField(state, &load2, &id));
   PetscCall(SamStateDeclareField(state, &cycle, &id));
   PetscCall(SamStateDeclareField(state, &path, &id));
   for (int k = 0; k < 4; k++) PetscCall(SamMotionDeclareNumber(SamMotionOf(law->elasticity), state, &number[k], &id));
@@ -104,9 +130,9 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
   The wear load that opens the gap: what a step wears does so from the next step on. The last solution had the committed
   one when it is tried, else the one before, if it wore.
 */
-static Vec LoadOf(SamState state, SamGeneration generation)
+static Vec LoadOf(SamState state, SamGeneration generation, PetscInt body)
 {
-  const PetscInt id = SamStateFindField(state, SAM_WEAR_LOAD);
+  const PetscInt id = LoadFieldOf(state, body);
 
   if (id < 0) return NULL;
   if (generation == SAM_TRIED && !SamStateGetField(state, id, SAM_TRIED) &&
@@ -115,43 +141,112 @@ static Vec LoadOf(SamState state, SamGeneration generation)
   return SamStateGetField(state, id, SAM_COMMITTED);
 }
 
-static PetscErrorCode Separation(SamLaw law, SamState state, SamGeneration generation, Vec h, PetscBool *adds)
+/* Adds k times a wear load to a separation. */
+static PetscErrorCode AddDepth(SamGrid grid, double k, Vec load, Vec h)
 {
-  const SamWear *w    = (const SamWear *)law->data;
-  const double   k    = w->coefficient[0] + w->coefficient[1];
-  const Vec      load = LoadOf(state, generation);
-  const double  *worn;
-  double        *to;
+  const double *worn;
+  double       *to;
 
   PetscFunctionBegin;
-  if (!load) PetscFunctionReturn(PETSC_SUCCESS);
-  *adds = PETSC_TRUE;
-  if (!h) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(VecGetArrayRead(load, &worn));
   PetscCall(VecGetArray(h, &to));
-  for (PetscInt i = 0; i < law->grid->cells; i++) to[i] = k * worn[i] + to[i];
+  for (PetscInt i = 0; i < grid->cells; i++) to[i] = k * worn[i] + to[i];
   PetscCall(VecRestoreArray(h, &to));
   PetscCall(VecRestoreArrayRead(load, &worn));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamWearGetVolumes(SamLaw law, Vec load, PetscReal volume[2], PetscReal depth[2])
+static PetscErrorCode Separation(SamLaw law, SamState state, SamGeneration generation, Vec h, PetscBool *adds)
+{
+  const SamWear *w    = (const SamWear *)law->data;
+  const Vec      load = LoadOf(state, generation, 0), load2 = LoadOf(state, generation, 1);
+  PetscReal      slide[2];
+  Vec            seen;
+
+  PetscFunctionBegin;
+  if (!load) PetscFunctionReturn(PETSC_SUCCESS);
+  *adds = PETSC_TRUE;
+  if (!h) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(AddDepth(law->grid, w->coefficient[0] + (load2 == load ? w->coefficient[1] : 0), load, h));
+  if (load2 == load) PetscFunctionReturn(PETSC_SUCCESS);
+  (void)SamSlideGet(state, SAM_TRIED, slide);
+  PetscCall(SamGridCreateVec(law->grid, 1, &seen));
+  PetscCall(SamSlideRead(law->elasticity, slide, load2, seen));
+  PetscCall(AddDepth(law->grid, w->coefficient[1], seen, h));
+  PetscCall(VecDestroy(&seen));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamWearGetVolumes(SamLaw law, Vec load, Vec load2, PetscReal volume[2], PetscReal depth[2])
 {
   const SamWear  *w      = (const SamWear *)law->data;
   const PetscReal length = SamMotionOf(law->elasticity)->streams ? law->grid->width[0] : 1;
-  PetscReal       sum = 0, most = 0;
+  PetscReal       most = 0, sums[3] = {0};
 
   PetscFunctionBegin;
-  if (load) PetscCall(SamGridNorm(law->grid, load, NORM_1, &sum)); /* it is never negative */
+  if (load) PetscCall(SamGridNorm(law->grid, load, NORM_1, sums)); /* it is never negative */
   if (load) PetscCall(VecMax(load, NULL, &most));
   for (int body = 0; body < 2; body++) {
-    volume[body] = w->coefficient[body] * sum * law->grid->dx * law->grid->dy / length;
+    volume[body] = w->coefficient[body] * sums[0] * law->grid->dx * law->grid->dy / length;
     depth[body]  = w->coefficient[body] * most;
   }
+  if (load2 == load) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamBalanceGetLoads(law->grid, SAM_BALANCE_NORMAL, load2, sums));
+  PetscCall(VecMax(load2, NULL, &most));
+  volume[1] = w->coefficient[1] * sums[0];
+  depth[1]  = w->coefficient[1] * most;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- a step ---- */
+
+/*
+  The part of a step's wear load that is due to the pressure, or the bound of the shear, before it: half of that times
+  the path of the slip. The rest is due to the one after it.
+*/
+static PetscErrorCode FirstPart(SamLaw law, SamLawStep *step, Vec path, Vec load, Vec first)
+{
+  const char *const name = ((const SamWear *)law->data)->by_energy ? "bound" : "pressure";
+  const Vec         from = SamStateGetField(step->state, SamStateFindField(step->state, name), SAM_COMMITTED);
+  const double     *before, *way, *worn;
+  double           *to;
+
+  PetscFunctionBegin;
+  PetscCall(VecSet(first, 0));
+  if (!from) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(VecGetArrayRead(from, &before));
+  PetscCall(VecGetArrayRead(path, &way));
+  PetscCall(VecGetArrayRead(load, &worn));
+  PetscCall(VecGetArray(first, &to));
+  for (PetscInt k = 0; k < law->grid->cells; k++) to[k] = PetscMin(worn[k], 0.5 * before[k] * way[k]);
+  PetscCall(VecRestoreArray(first, &to));
+  PetscCall(VecRestoreArrayRead(load, &worn));
+  PetscCall(VecRestoreArrayRead(path, &way));
+  PetscCall(VecRestoreArrayRead(from, &before));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Writes a step's wear load to body 2's points: those under it before the step, and those after it. */
+static PetscErrorCode WearBody2(SamLaw law, SamLawStep *step, Vec path, Vec load)
+{
+  PetscReal slide[2];
+  Vec       part, written;
+
+  PetscFunctionBegin;
+  PetscCall(SamGridCreateVec(law->grid, 1, &part));
+  PetscCall(SamGridCreateVec(law->grid, 1, &written));
+  PetscCall(FirstPart(law, step, path, load, part));
+  (void)SamSlideGet(step->state, SAM_COMMITTED, slide);
+  PetscCall(SamSlideWrite(law->elasticity, slide, part, written));
+  PetscCall(SamLawAddToSum(step->state, SAM_WEAR_LOAD2, written));
+  PetscCall(VecAYPX(part, -1, load));
+  (void)SamSlideGet(step->state, SAM_TRIED, slide);
+  PetscCall(SamSlideWrite(law->elasticity, slide, part, written));
+  PetscCall(VecAXPY(SamStateReadField(step->state, LoadFieldOf(step->state, 1)), 1, written));
+  PetscCall(VecDestroy(&written));
+  PetscCall(VecDestroy(&part));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
 /* Adds what the step wears; in steady rolling the life does, as that of a passage. */
 static PetscErrorCode AddLoad(SamLaw law, SamLawStep *step)
@@ -172,6 +267,7 @@ static PetscErrorCode AddLoad(SamLaw law, SamLawStep *step)
   PetscCall(VecAbs(load));
   PetscCall(SamLawAddToSum(step->state, w->jumps ? SAM_WEAR_CYCLE : SAM_WEAR_LOAD, load));
   if (w->jumps) PetscCall(SamLawAddToSum(step->state, SAM_WEAR_PATH, path));
+  if (SamStateFindField(step->state, SAM_WEAR_LOAD2) >= 0) PetscCall(WearBody2(law, step, path, load));
   PetscCall(VecDestroy(&load));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -181,13 +277,12 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
   const SamWear *w = (const SamWear *)law->data;
   PetscReal      depth[2];
   double        *numbers;
-  Vec            load;
 
   PetscFunctionBegin;
   PetscCall(AddLoad(law, step));
-  load    = SamStateReadField(step->state, SamStateFindField(step->state, SAM_WEAR_LOAD));
   numbers = SamStateNumbers(step->state, SamStateFindNumber(step->state, "wear_volume1"), SAM_TRIED);
-  PetscCall(SamWearGetVolumes(law, load, numbers, depth));
+  PetscCall(SamWearGetVolumes(law, SamStateReadField(step->state, LoadFieldOf(step->state, 0)),
+                              SamStateReadField(step->state, LoadFieldOf(step->state, 1)), numbers, depth));
   numbers[3] = w->jumps ? 0 : 1;
   if (w->jumps) PetscFunctionReturn(PETSC_SUCCESS);
   step->moves = PETSC_TRUE;

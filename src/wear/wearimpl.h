@@ -5,8 +5,12 @@
 #include <petsam/private/lawimpl.h>
 #include <petsam/wear.h>
 
-/* What the laws remember: the wear load that has been removed; in a life that of the cycle so far, and its slip. */
+/*
+  What the laws remember: the wear load that has been removed, of surfaces that slide that of body 1, and at body 2's
+  own points that of body 2; in a life that of the cycle so far, and its slip.
+*/
 #define SAM_WEAR_LOAD  "wear_load"
+#define SAM_WEAR_LOAD2 "wear_load2"
 #define SAM_WEAR_CYCLE "wear_cycle_load"
 #define SAM_WEAR_PATH  "wear_cycle_path"
 
@@ -32,9 +36,9 @@ PETSC_INTERN PetscErrorCode SamWearGetLimit(SamLaw law, PetscReal most, PetscRea
 */
 PETSC_INTERN PetscErrorCode SamWearGetExcess(SamLaw law, SamLawStep *step, PetscReal *excess);
 /*
-  SamWearGetVolumes - the volumes (m3; of a running band m3 per m of its length) that a wear load removes of both
-  bodies, and the maximum depths (m). Collective.
+  SamWearGetVolumes - the volumes (m3; of a running band m3 per m of its length) that wear loads of both bodies, which
+  may be the same vector, remove, and the maximum depths (m). Collective.
 */
-PETSC_INTERN PetscErrorCode SamWearGetVolumes(SamLaw law, Vec load, PetscReal volume[2], PetscReal depth[2]);
+PETSC_INTERN PetscErrorCode SamWearGetVolumes(SamLaw law, Vec load, Vec load2, PetscReal volume[2], PetscReal depth[2]);
 
 #endif

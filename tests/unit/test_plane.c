@@ -328,7 +328,7 @@ static void test_fields_of_one_row_move_between_grids(void **state)
   after = Whole(fine, 2, z);
   for (PetscInt k = 0; k < 2 * 37; k++) sam_assert(after[k] == (k % 37 >= 9 && k % 37 < 20 ? before[k] : 0));
   free(after);
-  sam_call(SamGridMove(fine, 2, (const PetscReal[]){2 * fine->dx, 0}, PETSC_FALSE, x, z));
+  sam_call(SamGridMove(fine, 2, (const PetscReal[]){2 * fine->dx, 0}, SAM_BORDER_ZERO, x, z));
   after = Whole(fine, 2, z);
   for (PetscInt k = 0; k < 2 * 37; k++) sam_assert(after[k] == (k % 37 < 35 ? before[k + 2] : 0));
   free(after);

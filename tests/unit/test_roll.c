@@ -20,7 +20,7 @@ static double ErrorOf(PetscInt n, double roll, double roll_y)
   const double distance[2] = {roll, roll_y};
   double      *moved, error = 0;
 
-  sam_call(SamGridMove(grid, 1, distance, PETSC_TRUE, from, to));
+  sam_call(SamGridMove(grid, 1, distance, SAM_BORDER_CONTINUES, from, to));
   moved = Whole(grid, 1, to);
   for (PetscInt j = n / 4; j < n - n / 4; j++)
     for (PetscInt i = n / 4; i < n - n / 4; i++)
@@ -56,7 +56,7 @@ static void test_what_enters(void **state)
       const double distance[2] = {(double)shifts[s][0] * (1 + 1e-8), (double)shifts[s][1] * (1 - 1e-8)};
       PetscInt     low[2], high[2];
 
-      sam_call(SamGridMove(grid, 2, distance, continues ? PETSC_TRUE : PETSC_FALSE, from, to));
+      sam_call(SamGridMove(grid, 2, distance, continues ? SAM_BORDER_CONTINUES : SAM_BORDER_ZERO, from, to));
       after = Whole(grid, 2, to);
       SamGridEntering(grid, distance, low, high);
       for (PetscInt c = 0; c < 2; c++)

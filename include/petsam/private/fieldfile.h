@@ -19,6 +19,10 @@ typedef struct {
   PetscBool   row;     /* a dataset of one row is a surface, in plane strain */
   PetscBool is_length; /* a separation, or heights of one body: attributes say which, in which unit and on what size */
 } SamFieldFile;
+/* What they are for a dataset of lengths. */
+#define SAM_FIELD_FILE_OF_LENGTHS \
+  .default_dataset = "/height", .unit = "m unless its units say otherwise", .least = PETSC_NINFINITY, \
+  .is_length = PETSC_TRUE
 
 /*
   SamFieldFileSetFromOptions - reads the two options; `help` describes the file. Collective. Errors: SAM_ERR_USER when

@@ -22,11 +22,13 @@ PETSC_INTERN PetscErrorCode SamVecCopyNonzero(Vec from, Vec to);
 PETSC_INTERN PetscErrorCode SamGridChecksum(SamGrid grid, Vec field, uint64_t *checksum);
 /*
   SamGridMove - moves the grid by `distance` (m) over a field, which moves against it: at x it becomes what it was at
-  x + distance. Whole cells, within 1e-6 of one, without error, else by cubic interpolation. What enters is 0, or, with
-  `continues`, what was at the grid's border. Collective.
+  x + distance. Whole cells, within 1e-6 of one, without error, else by cubic interpolation. What enters is 0, or what
+  was at the grid's border, or, of a grid that is one period, what leaves at the other side. With 0 or a period the move
+  by -distance is the transpose, to rounding. Collective.
 */
+typedef enum { SAM_BORDER_ZERO, SAM_BORDER_CONTINUES, SAM_BORDER_WRAPS } SamBorder;
 PETSC_INTERN PetscErrorCode SamGridMove(SamGrid grid, PetscInt components, const PetscReal distance[2],
-                                        PetscBool continues, Vec from, Vec to);
+                                        SamBorder border, Vec from, Vec to);
 /*
   SamGridEntering - the columns and rows that are made of what enters, at the low and the high end of x, y. Not
   collective.

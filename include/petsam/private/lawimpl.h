@@ -75,6 +75,18 @@ struct _n_SamLawStep {
 PETSC_EXTERN PetscErrorCode SamLawStepGetFriction(SamLawStep *step, Vec *path, Vec *pressed, Vec *work);
 PETSC_INTERN PetscErrorCode SamLawAddToSum(SamState state, const char name[], Vec more);
 /*
+  The law slide. Under a point x of the grid, which goes with body 1, lies the point x + D of body 2, D being the slide
+  (m). What a law keeps at body 2's points it keeps at those under the cells at D = 0.
+  SamSlideGet - the slide of a generation, of SAM_TRIED without a try the committed one; FALSE: the contact has none,
+  and D = 0. Not collective.
+  SamSlideRead - what the cells see of a field that is kept at body 2's points; outside of the grid it is zero, or its
+  period. SamSlideWrite - the transpose: from cells to body 2's points, with the same sum. Other vectors, of one
+  component. Collective.
+*/
+PETSC_INTERN PetscBool      SamSlideGet(SamState state, SamGeneration generation, PetscReal slide[2]);
+PETSC_INTERN PetscErrorCode SamSlideRead(SamElasticity elasticity, const PetscReal slide[2], Vec body2, Vec field);
+PETSC_INTERN PetscErrorCode SamSlideWrite(SamElasticity elasticity, const PetscReal slide[2], Vec field, Vec body2);
+/*
   SamLawListWords - appends the words of an option that selects laws, each behind `between`. Collective.
   SamLawOrder - the place of a type among those registered. Not collective.
 */
@@ -100,6 +112,7 @@ struct _n_SamLaw {
   PetscInt            bytes;          /* of memory that it takes for each cell */
   PetscBool           needs_friction; /* makes no sense without friction */
   PetscBool           forbids_jumps;  /* cannot be in a life with cycle jumps */
+  PetscBool           of_body2;       /* adds to the separation what it keeps at body 2's points, if there is slide */
   PetscBool           any_motion;     /* has a meaning in every motion: remembers and asks for no slip of steps */
   PetscBool           by_passages;    /* in steady rolling it acts in cycles of a life only */
   void               *data;           /* the type's own, from PetscNew(); NULL: none */
@@ -169,6 +182,7 @@ PETSC_INTERN PetscErrorCode SamLawCreate_Coulomb(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_BulkStress(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_Bodies(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_Friction(SamLaw law);
+PETSC_INTERN PetscErrorCode SamLawCreate_Slide(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_Archard(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_Energy(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_Hardness(SamLaw law);

@@ -39,6 +39,12 @@ PETSC_INTERN PetscErrorCode SamProblemAddStress(SamProblem problem, const SamCon
 PETSC_INTERN PetscErrorCode SamProblemAddSeparation(SamProblem problem, SamState state, SamGeneration generation, Vec h,
                                                     PetscBool *adds);
 /*
+  SamProblemGetSlide - the slide (m) of a generation, as SamSlideGet(), if laws add what they keep at body 2's points;
+  FALSE and 0: the separation does not depend on it. Not collective.
+*/
+PETSC_INTERN PetscBool SamProblemGetSlide(SamProblem problem, SamState state, SamGeneration generation,
+                                          PetscReal slide[2]);
+/*
   SamProblemComputeBound - the largest shear that each cell bears, and its derivatives, by all laws. The pressure may be
   the same vector as the bound's value. Collective.
   SamProblemFollowsSlip - whether the bound depends on the slip of the step. Not collective.

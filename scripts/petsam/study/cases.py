@@ -26,7 +26,7 @@ from .expressions import Expander
 from .reading import TableError, read_csv, read_yaml
 
 # options that name files which are read; -load_history is another spelling of -history
-PATHS = ("options_file", "history", "load_history", "gap_file", "gap_rough_file", "friction_file")
+PATHS = ("options_file", "history", "load_history", "gap_file", "gap_rough_file", "body2_surface_file", "friction_file")
 # of these, small texts; of the others size and time tell whether they have changed
 HASHED = ("options_file", "history", "load_history")
 SMALL = 16 << 20  # bytes; a larger text is compared as the others are

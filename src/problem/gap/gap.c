@@ -43,12 +43,7 @@ PetscErrorCode SamGapRegister(const char name[], PetscErrorCode (*create)(SamGap
 
 PetscErrorCode SamGapCreate(MPI_Comm comm, SamGap *gap)
 {
-  const SamFieldFile source = {.file_option     = "gap_file",
-                               .dataset_option  = "gap_dataset",
-                               .default_dataset = "/height",
-                               .unit            = "m unless its units say otherwise",
-                               .least           = PETSC_NINFINITY,
-                               .is_length       = PETSC_TRUE};
+  const SamFieldFile source = {.file_option = "gap_file", .dataset_option = "gap_dataset", SAM_FIELD_FILE_OF_LENGTHS};
   SamGap             g;
 
   PetscFunctionBegin;

@@ -1,0 +1,283 @@
+/*
+  Surfaces that slide past each other. The grid goes with body 1; under its point x lies the point x + D of body 2. What
+  laws keep at body 2's own points, as it has been worn there, stays there and is read at x + D in each step:
+
+      h(x) = h1(x) + h2(x + D),   R: (R f)(x) = f(x + D) by cubic interpolation
+
+  What the pressure at x does to body 2 is written by the transpose of R. So volumes are exact, and the two together
+  cannot make waves that grow.
+
+  D is the rigid displacement minus ub, the elastic one under the contact, sum(p u_t) / sum(p) of the step before: it
+  vanishes while the contact sticks, to the increment of a step, and is exact in steady sliding. A displacement that the
+  step finds is that of the step before, too. The slip of the step does not depend on D.
+*/
+#include <petsam/private/elasticity.h>
+#include <petsam/private/fieldfile.h>
+#include <petsam/private/grid.h>
+#include <petsam/private/lawimpl.h>
+#include <petsam/private/state.h>
+#include <math.h>
+
+/* The numbers in the state, of which the first two are offered, and the change of D, parts of a cell, that counts. */
+enum { SLIDE_X, SLIDE_Y, LAG_X, LAG_Y };
+#define SLIDE_XY "slide_x"
+#define SLIDES   1e-3
+
+typedef struct {
+  PetscBool given;
+  Vec       surface; /* of body 2, a part of the separation (m); NULL: flat */
+} Slide;
+
+PetscBool SamSlideGet(SamState state, SamGeneration generation, PetscReal slide[2])
+{
+  const PetscInt id = SamStateFindNumber(state, SLIDE_XY);
+  const double  *n  = id < 0                    ? NULL
+                      : generation == SAM_TRIED ? SamStateReadNumbers(state, id)
+                                                : SamStateNumbers(state, id, generation);
+
+  for (int k = 0; k < 2; k++) slide[k] = n ? n[SLIDE_X + k] : 0;
+  return n != NULL;
+}
+
+PetscErrorCode SamSlideRead(SamElasticity elasticity, const PetscReal slide[2], Vec body2, Vec field)
+{
+  const PetscBool periodic = SamElasticityGetTraits(elasticity).periodic;
+
+  PetscFunctionBegin;
+  PetscCall(SamGridMove(SamElasticityGetGrid(elasticity), 1, slide, periodic ? SAM_BORDER_WRAPS : SAM_BORDER_ZERO,
+                        body2, field));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSlideWrite(SamElasticity elasticity, const PetscReal slide[2], Vec field, Vec body2)
+{
+  PetscFunctionBegin;
+  PetscCall(SamSlideRead(elasticity, (const PetscReal[]){-slide[0], -slide[1]}, field, body2));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLawSetSurface(SamLaw law, Vec surface)
+{
+  Slide *const s = (Slide *)law->data;
+
+  PetscFunctionBegin;
+  PetscCheck(!strcmp(law->type, SAM_LAW_SLIDE), law->grid->comm, PETSC_ERR_ARG_WRONG, "The law %s has no surface",
+             law->type);
+  PetscCall(SamGridCheckVec(law->grid, 1, surface, "The surface"));
+  if (!s->surface) PetscCall(SamGridCreateVec(law->grid, 1, &s->surface));
+  PetscCall(VecCopy(surface, s->surface));
+  law->of_body2 = PETSC_TRUE;
+  law->revision++;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- options ---- */
+
+static const SamOptionRow slide_row = {"slide", "the surfaces move past each other by the displacements of the history",
+                                       SAM_OPTION_BOOL, .member = offsetof(Slide, given)};
+
+/* What surfaces that slide do not go with, and why. */
+static PetscErrorCode Refuse(const SamOptions *from)
+{
+  static const char *const refused[][2] = {
+    {"body2_compliance", "body 2 moves away from the place that its compliance has: give it to body 1"},
+    {"pressure_limit", "one depth of yielding cannot stay with two surfaces"},
+    {"step_rtol", "what a part of a step wears depends on where body 2 is in it: use more steps"},
+    {"stiffness", "the gap changes with the displacements, which the tangent leaves out"}};
+
+  PetscFunctionBegin;
+  for (size_t k = 0; k < sizeof(refused) / sizeof(refused[0]); k++) {
+    PetscBool has;
+
+    PetscCall(SamOptionsHas(from, refused[k][0], &has));
+    PetscCheck(!has, from->comm, SAM_ERR_USER, "-%sslide does not work with -%s%s: %s", SamOptionsPrefix(from),
+               SamOptionsPrefix(from), refused[k][0], refused[k][1]);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBool *asked)
+{
+  SamFieldFile source = {
+    .file_option = "body2_surface_file", .dataset_option = "body2_surface_dataset", SAM_FIELD_FILE_OF_LENGTHS};
+  PetscErrorCode ierr;
+  Vec            surface;
+
+  PetscFunctionBegin;
+  *asked = ((const Slide *)law->data)->given;
+  PetscCall(SamFieldFileSetFromOptions(&source, from, "HDF5 file with heights added to the gap, which go with body 2"));
+  if (SamPrintHelp()) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCheck(*asked || !source.file[0], from->comm, SAM_ERR_USER,
+             "-%sbody2_surface_file is given without -%sslide: a surface that does not move is -%sgap_rough_file",
+             SamOptionsPrefix(from), SamOptionsPrefix(from), SamOptionsPrefix(from));
+  if (*asked) PetscCall(Refuse(from));
+  if (!source.file[0]) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamGridCreateVec(law->grid, 1, &surface));
+  ierr = SamFieldFileRead(&source, law->grid, surface);
+  if (!ierr) ierr = SamLawSetSurface(law, surface);
+  PetscCall(VecDestroy(&surface));
+  PetscCall(ierr);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode AddParameters(SamLaw law, SamParameters *p)
+{
+  const Slide *s = (const Slide *)law->data;
+  uint64_t     checksum;
+
+  PetscFunctionBegin;
+  PetscCall(SamParametersAddText(p, "slide", PETSC_TRUE, "true"));
+  if (!s->surface) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamGridChecksum(law->grid, s->surface, &checksum));
+  PetscCall(SamParametersAddChecksum(p, "body2_surface_file", checksum));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- a step ---- */
+
+#define SLIDE(axis) \
+  { \
+    "slide_" axis, "m", "displacement of body 1 over body 2 along " axis ", by which body 2's surface is read", \
+      SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE, SAM_JOIN_LAST, 0 \
+  }
+
+static PetscErrorCode Declare(SamLaw law, SamState state)
+{
+  static const SamStateNumber numbers[3] = {
+    SLIDE("x"), SLIDE("y"), {.name = "slide_lag", .unit = "m", .text = "", .count = 2, .kept = PETSC_TRUE}};
+  PetscInt id;
+
+  PetscFunctionBegin;
+  (void)law;
+  for (int k = 0; k < 3; k++) PetscCall(SamStateDeclareOptional(state, &numbers[k], 0, &id));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Check(SamLaw law, SamControl *control, const SamCondition **wrong, char why[], size_t size)
+{
+  static const char *const rolled[2] = {"roll", "roll_y"};
+
+  PetscFunctionBegin;
+  for (int k = 0; k < 2 && !why[0]; k++) {
+    const SamCondition *one = SamConditionsFind(law->conditions, rolled[k]);
+
+    if (SamControlGet(control, one) == one->usual) continue;
+    *wrong = one;
+    (void)snprintf(why, size, "expected 0 with -slide: in rolling both bodies move through the contact");
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* What is given, else what the step before has found: 0 before the first one. */
+static double Rigid(SamState state, const SamControl *control, SamComponent component)
+{
+  const double found =
+    *SamStateNumbers(state, SamStateFindNumber(state, SamComponentNames[component].rigid), SAM_COMMITTED);
+
+  if (SamControlWay(control, component) == SAM_BY_RIGID) return (double)control->value[component];
+  return isfinite(found) ? found : 0;
+}
+
+static PetscErrorCode Begin(SamLaw law, SamState state, const SamControl *control, PetscReal duration)
+{
+  static const SamComponent along[2] = {SAM_COMPONENT_TX, SAM_COMPONENT_TY};
+
+  const SamGrid   grid    = law->grid;
+  const PetscInt  id      = SamStateFindNumber(state, SLIDE_XY);
+  const double   *before  = SamStateNumbers(state, id, SAM_COMMITTED);
+  double *const   now     = SamStateNumbers(state, id, SAM_TRIED);
+  const PetscReal cell[2] = {grid->dx, grid->dy};
+  const double    turn    = fabs(Rigid(state, control, SAM_COMPONENT_MZ)),
+               most       = 2 * (double)(PetscMin(grid->dx, grid->dy) / PetscMax(grid->width[0], grid->width[1]));
+  PetscBool moves         = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  (void)duration;
+  PetscCheck(grid->axes < 2 || turn <= most, grid->comm, SAM_ERR_USER,
+             "%s of %.6g with -slide: expected at most %.6g, a cell at the border of the grid: surfaces slide without "
+             "turning over each other",
+             SamComponentNames[SAM_COMPONENT_MZ].rigid, turn, most);
+  for (int k = 0; k < grid->axes; k++) {
+    now[k] = Rigid(state, control, along[k]) - before[LAG_X + k];
+    moves  = moves || fabs(now[k] - before[k]) >= SLIDES * (double)cell[k];
+  }
+  for (int k = moves ? grid->axes : 0; k < 2; k++) now[k] = before[k];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Separation(SamLaw law, SamState state, SamGeneration generation, Vec h, PetscBool *adds)
+{
+  const Slide *s = (const Slide *)law->data;
+  PetscReal    slide[2];
+  Vec          seen;
+
+  PetscFunctionBegin;
+  (void)generation; /* from its begin on a try has its own D */
+  if (!s->surface) PetscFunctionReturn(PETSC_SUCCESS);
+  *adds = PETSC_TRUE;
+  if (!h) PetscFunctionReturn(PETSC_SUCCESS);
+  (void)SamSlideGet(state, SAM_TRIED, slide);
+  PetscCall(SamGridCreateVec(law->grid, 1, &seen));
+  PetscCall(SamSlideRead(law->elasticity, slide, s->surface, seen));
+  PetscCall(VecAXPY(h, 1, seen));
+  PetscCall(VecDestroy(&seen));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The elastic displacement under the contact, of which the next step is behind the rigid one. */
+static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
+{
+  const SamGrid grid      = law->grid;
+  const Vec     u_t       = SamStateReadField(step->state, SamStateFindField(step->state, "displacement"));
+  double *const n         = SamStateNumbers(step->state, SamStateFindNumber(step->state, SLIDE_XY), SAM_TRIED);
+  SamTotal      totals[3] = {{0}};
+  double        sums[3];
+  const double *p, *u;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(step->pressure, &p));
+  PetscCall(VecGetArrayRead(u_t, &u));
+  for (PetscInt j = 0; j < grid->rows; j++) {
+    double row[3] = {0, 0, 0};
+
+    for (ptrdiff_t k = (ptrdiff_t)j * grid->nx, end = k + grid->nx; k < end; k++) {
+      row[0] += p[k] * u[k];
+      row[1] += p[k] * u[k + grid->cells];
+      row[2] += p[k];
+    }
+    SamAddAll(3, totals, row);
+  }
+  PetscCall(VecRestoreArrayRead(u_t, &u));
+  PetscCall(VecRestoreArrayRead(step->pressure, &p));
+  PetscCall(SamSumTotals(grid->comm, 3, totals, sums));
+  for (int k = 0; k < 2 && sums[2] > 0; k++) n[LAG_X + k] = sums[k] / sums[2];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Destroy(SamLaw law)
+{
+  PetscFunctionBegin;
+  PetscCall(VecDestroy(&((Slide *)law->data)->surface));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLawCreate_Slide(SamLaw law)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscNew((Slide **)&law->data));
+  law->option             = "slide";
+  law->heading            = "Surfaces that slide past each other";
+  law->rows               = &slide_row;
+  law->row_count          = 1;
+  law->bytes              = 56;
+  law->forbids_jumps      = PETSC_TRUE;
+  law->ops.setfromoptions = SetFromOptions;
+  law->ops.addparameters  = AddParameters;
+  law->ops.declare        = Declare;
+  law->ops.check          = Check;
+  law->ops.begin          = Begin;
+  law->ops.separation     = Separation;
+  law->ops.advance        = Advance;
+  law->ops.destroy        = Destroy;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
