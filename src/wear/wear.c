@@ -267,7 +267,7 @@ static PetscErrorCode AddLoad(SamLaw law, SamLawStep *step)
   PetscCall(VecAbs(load));
   PetscCall(SamLawAddToSum(step->state, w->jumps ? SAM_WEAR_CYCLE : SAM_WEAR_LOAD, load));
   if (w->jumps) PetscCall(SamLawAddToSum(step->state, SAM_WEAR_PATH, path));
-  if (SamStateFindField(step->state, SAM_WEAR_LOAD2) >= 0) PetscCall(WearBody2(law, step, path, load));
+  if (!w->jumps && SamStateFindField(step->state, SAM_WEAR_LOAD2) >= 0) PetscCall(WearBody2(law, step, path, load));
   PetscCall(VecDestroy(&load));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
