@@ -20,7 +20,9 @@ typedef struct {
 /* How cycles are jumped over. */
 typedef enum {
   SAM_LIFE_IMPLICIT, /* by the pressure at the end of a jump: stable however long it is */
-  SAM_LIFE_EXPLICIT  /* by the wear of the computed cycle: jumps stay below the stability limit */
+  SAM_LIFE_EXPLICIT, /* by the wear of the computed cycle: jumps stay below the stability limit */
+  SAM_LIFE_MAGNIFIED /* step by step, each at its place and by the pressure at its end: for surfaces that slide; as
+                        stable as implicit jumps */
 } SamLifeType;
 
 /* How a life is computed. */
@@ -50,10 +52,11 @@ typedef struct {
 /*
   SamLife - carries a contact over many cycles by computing some of them. A cycle is computed on a fixed gap; then its
   wear is repeated some times over. Implicitly, the pressure that comes with the worn gap is solved for, as the normal
-  problem of surfaces that yield (SamNormalSolveYielding()). A jump is made once as a whole and once in two halves, with
-  a cycle computed between them; their difference is the error, and sets the size of the next jump; their
-  extrapolation, which is of second order, is kept. Jumps are whole numbers of cycles; one of a single cycle is taken
-  whatever its error: faster wear is for steps that wear one by one, without a life.
+  problem of surfaces that yield (SamNormalSolveYielding()); where surfaces slide past each other, in each step of a
+  magnified cycle. A jump is made once as a whole and once in two halves, with a cycle computed between them; their
+  difference is the error, and sets the size of the next jump; their extrapolation, which is of second order, is kept.
+  Jumps are whole numbers of cycles; one of a single cycle is taken whatever its error: faster wear is for steps that
+  wear one by one, without a life.
 
   SamLifeCompute() and SamLifeJump() take turns.
 */
@@ -63,8 +66,8 @@ typedef struct _n_SamLife *SamLife;
   SamLifeCreate - begins where the contact is: at the end of the cycle's last step, on loads and displacements of which
   a first cycle, which does not wear, makes a closed loop. Borrows the contact, whose steps do not wear until
   SamLifeEnd() or SamLifeDestroy(). Collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for a tolerance that is not positive,
-  or a jump below 0; PETSC_ERR_ARG_INCOMP for a contact without a law of wear, or with a law that cycle jumps do not
-  support.
+  or a jump below 0; PETSC_ERR_ARG_INCOMP for a contact without a law of wear, with a law that cycle jumps do not
+  support, or whose surfaces slide without magnified cycles.
 */
 PETSC_INTERN PetscErrorCode SamLifeCreate(SamContact contact, const SamLifeCycle *cycle,
                                           const SamLifeSettings *settings, SamLife *life);

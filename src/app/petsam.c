@@ -108,8 +108,9 @@ static const double bytes_per_cell[2][2][2] = {{{85, 150}, {190, 400}},
 /* Of a kept step of a load cycle, bytes per cell at most. */
 #define KEPT_BYTES 24
 
-/* Of a life, bytes per cell. */
-#define LIFE_BYTES (16 * 8)
+/* Of a life, bytes per cell; where surfaces slide in each body's load and each step, more between dissimilar bodies. */
+#define LIFE_BYTES                         (16 * 8)
+#define SLIDING_LIFE_BYTES(steps, coupled) (4 * 8 + ((coupled) ? 20 : 12) * (double)(steps))
 
 /*
   Of the tangent stiffness, bytes per cell: most of it solutions and search directions, which are of cells in contact.
@@ -150,6 +151,8 @@ static PetscErrorCode EstimateMemory(SamSimulation simulation, double *bytes)
          (needs.friction && needs.steps > 1 ? TURN_BYTES : 0) +
          (SamElasticityGetTraits(setup->elasticity).upwind ? ROLLING_BYTES : 0) + (needs.life ? LIFE_BYTES : 0) +
          (needs.stiffness ? stiffness_bytes[needs.friction][needs.coupled] : 0);
+  if (needs.life && SamProblemGetLaw(setup->problem, SAM_LAW_SLIDE))
+    cell += SLIDING_LIFE_BYTES(needs.steps, needs.coupled);
   *bytes = SAM_MEMORY_PROGRAM + cell * (double)setup->grid->cells;
   if (needs.grid_check) *bytes += 0.25 * cell * (double)setup->grid->cells;
   *bytes += kept / ranks;

@@ -39,6 +39,14 @@ PetscBool SamSlideGet(SamState state, SamGeneration generation, PetscReal slide[
   return n != NULL;
 }
 
+void SamSlideSet(SamState state, const PetscReal slide[2])
+{
+  const PetscInt id = SamStateFindNumber(state, SLIDE_XY);
+  double        *n  = id < 0 ? NULL : SamStateNumbers(state, id, SAM_COMMITTED);
+
+  for (int k = 0; k < 2 && n; k++) n[SLIDE_X + k] = slide[k];
+}
+
 PetscErrorCode SamSlideRead(SamElasticity elasticity, const PetscReal slide[2], Vec body2, Vec field)
 {
   const PetscBool periodic = SamElasticityGetTraits(elasticity).periodic;
@@ -270,7 +278,6 @@ PetscErrorCode SamLawCreate_Slide(SamLaw law)
   law->rows               = &slide_row;
   law->row_count          = 1;
   law->bytes              = 56;
-  law->forbids_jumps      = PETSC_TRUE;
   law->ops.setfromoptions = SetFromOptions;
   law->ops.addparameters  = AddParameters;
   law->ops.declare        = Declare;

@@ -13,6 +13,9 @@
 /* The most cycles of a life. */
 #define MOST_CYCLES 1e12
 
+/* The error of jumps that is allowed where surfaces slide, unless it is given. */
+#define SLIDING_RTOL 0.1
+
 /* ---- cycles ---- */
 
 static int Compare(const void *a, const void *b)
@@ -48,8 +51,8 @@ static const SamOptionRow rows[ROWS] = {
    .range = SAM_RANGE_POSITIVE},
   {"wear_type", "how cycles are jumped: implicit, or explicit", SAM_OPTION_ENUM, MEMBER(life.type),
    .words = "implicit,explicit", LIFE},
-  {"wear_rtol", "relative error of depth and pressure per cycle jump; at most twice this", SAM_OPTION_REAL,
-   MEMBER(life.rtol), .range = SAM_RANGE_POSITIVE, LIFE},
+  {"wear_rtol", "relative error of depth and pressure per cycle jump; at most twice this; 0.1 with -slide",
+   SAM_OPTION_REAL, MEMBER(life.rtol), .range = SAM_RANGE_POSITIVE, LIFE},
   {"wear_jump", "fixed jump length in cycles", SAM_OPTION_REAL, MEMBER(life.jump), .range = SAM_RANGE_POSITIVE, LIFE},
   {"wear_stop_layer", "end where the first layer of a body is worn through", SAM_OPTION_BOOL, MEMBER(stop_layer), LIFE},
   {"wear_output", "cycles whose fields are written, c[,c,...]; the last always", SAM_OPTION_STRING, MEMBER(outputs),
@@ -145,9 +148,21 @@ PetscErrorCode SamPlanSetFromOptions(SamPlan *w, PetscBool given, const SamOptio
   PetscCall(SamOptionsRead(from, NULL, ROWS - given, asked + given, &set, has + given));
   *w            = (SamPlan){.cycles = set.cycles, .life = set.life, .stop_worn = set.stop_layer};
   w->life.fixed = has[JUMP];
+  w->has_rtol   = has[RTOL];
   PetscCall(CheckWhole("wear_jump", w->life.jump, w->life.fixed, from));
   PetscCall(TakeOutputs(w, set.outputs, from));
   if (has[FRICTION]) PetscCall(TakeFriction(w, set.friction, from));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Surfaces that slide are worn by magnified cycles, whose errors of depth are far smaller than those of pressure. */
+static PetscErrorCode Magnify(SamPlan *w, const SamOptions *from)
+{
+  PetscFunctionBegin;
+  PetscCheck(w->life.type != SAM_LIFE_EXPLICIT, from->comm, SAM_ERR_USER,
+             "-wear_type explicit does not work with -slide, which wears each step at its place: omit it");
+  w->life.type = SAM_LIFE_MAGNIFIED;
+  if (!w->has_rtol) w->life.rtol = SLIDING_RTOL;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -162,6 +177,7 @@ PetscErrorCode SamPlanSetCycles(SamPlan *w, PetscReal cycles, SamProblem problem
   PetscCheck(!w->outputs || cycles == 0 || w->output[w->outputs - 1] <= cycles, from->comm, SAM_ERR_USER,
              "-wear_output: %.6g is more than -wear_cycles %.6g", (double)w->output[w->outputs - 1], (double)cycles);
   w->cycles = cycles;
+  if (cycles > 0 && SamProblemGetLaw(problem, SAM_LAW_SLIDE)) PetscCall(Magnify(w, from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

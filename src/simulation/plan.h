@@ -12,6 +12,7 @@ typedef struct {
   PetscReal       cycles; /* of a life; 0: the history runs once, and every step wears */
   PetscBool       bands;  /* in steady rolling: each row of the history is a passage, all of them are a cycle */
   SamLifeSettings life;
+  PetscBool       has_rtol;  /* the tolerance of the life is given */
   PetscBool       stop_worn; /* the life ends where the first material of a body is worn through */
   PetscInt        outputs;
   PetscReal       output[SAM_PLAN_OUTPUTS]; /* cycles whose fields are written, increasing; the last ones always are */

@@ -97,20 +97,30 @@ static PetscErrorCode Remembered(SamLife l, const char name[], Vec *field)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamLifeSetLoad(SamLife l, Vec load)
+PetscErrorCode SamLifeGetLoads(SamLife l, SamLoads loads)
 {
-  Vec to;
+  static const char *const names[SAM_WEAR_LOADS] = {SAM_WEAR_LOAD, SAM_WEAR_LOAD2};
 
   PetscFunctionBegin;
-  PetscCall(Remembered(l, SAM_WEAR_LOAD, &to));
-  PetscCall(VecCopy(load, to));
+  for (PetscInt k = 0; k < l->loads; k++) PetscCall(Remembered(l, names[k], &loads[k]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLifeSetLoads(SamLife l, const SamLoads loads)
+{
+  SamLoads to;
+
+  PetscFunctionBegin;
+  PetscCall(SamLifeGetLoads(l, to));
+  for (PetscInt k = 0; k < l->loads; k++) PetscCall(VecCopy(loads[k], to[k]));
   l->law->revision++;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode Begin(SamLife l, SamRate *rate, SamControl *mean)
 {
-  Vec cycle, path;
+  const SamSolution *s;
+  Vec                cycle, path;
 
   PetscFunctionBegin;
   PetscCall(BeginSums(l, rate == &l->middle));
@@ -119,7 +129,8 @@ static PetscErrorCode Begin(SamLife l, SamRate *rate, SamControl *mean)
   PetscCall(VecSet(cycle, 0));
   PetscCall(VecSet(path, 0));
   PetscCall(VecSet(l->passage, 0));
-  PetscCall(VecSet(rate->pressure, 0));
+  PetscCall(SamContactGetSolution(l->contact, &s));
+  PetscCall(rate->passes ? VecCopy(s->pressure, rate->pressure) : VecSet(rate->pressure, 0));
   PetscCall(VecSet(rate->shift, 0));
   PetscCall(VecSet(rate->coefficient, 0));
   PetscCall(SamControlInitialize(mean));
@@ -168,9 +179,9 @@ static PetscErrorCode AddPassage(SamLife l)
 
 /*
   Adds a tried step to the means: pressure, gap in `shift`, and of coupled bodies u_z in `coefficient`; conditions are
-  those of the last step.
+  those of the last step. Magnified cycles repeat the step itself.
 */
-static PetscErrorCode Count(SamLife l, const SamStep *step, SamRate *rate, SamControl *mean)
+static PetscErrorCode Count(SamLife l, PetscInt k, const SamStep *step, SamRate *rate, SamControl *mean)
 {
   const PetscReal    part   = 1 / (PetscReal)l->cycle.steps;
   const SamControl   so_far = *mean;
@@ -178,6 +189,14 @@ static PetscErrorCode Count(SamLife l, const SamStep *step, SamRate *rate, SamCo
   PetscReal          energy;
 
   PetscFunctionBegin;
+  if (l->band) {
+    PetscCall(AddPassage(l));
+  } else {
+    PetscCall(SamContactGetNumber(l->contact, "dissipated_energy", &energy));
+    l->energy += energy;
+  }
+  if (rate->passes) PetscCall(SamLifeNotePass(l, k, step, rate));
+  if (rate->passes) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamContactGetSolution(l->contact, &s));
   PetscCall(VecAXPY(rate->pressure, part, s->pressure));
   PetscCall(SamContactGetField(l->contact, "gap", l->gap));
@@ -185,12 +204,6 @@ static PetscErrorCode Count(SamLife l, const SamStep *step, SamRate *rate, SamCo
   if (l->coupled) PetscCall(VecAXPY(rate->coefficient, part, s->displacement_z));
   *mean = step->control;
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++) mean->value[c] = so_far.value[c] + part * step->control.value[c];
-  if (l->band) {
-    PetscCall(AddPassage(l));
-  } else {
-    PetscCall(SamContactGetNumber(l->contact, "dissipated_energy", &energy));
-    l->energy += energy;
-  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -380,7 +393,7 @@ PetscErrorCode SamLifeComputeRate(SamLife l, SamRate *rate, PetscReal cycles, Pe
 {
   const PetscInt n = l->cycle.steps;
   SamControl     mean;
-  PetscReal      ignored;
+  PetscReal      ignored, most;
   SamStep        step;
 
   PetscFunctionBegin;
@@ -394,12 +407,17 @@ PetscErrorCode SamLifeComputeRate(SamLife l, SamRate *rate, PetscReal cycles, Pe
   for (PetscInt k = 0; k < n && *solved; k++) {
     PetscCall(SolveStep(l, k, cycles, &step, solved));
     if (tell && l->cycle.solved) PetscCall(l->cycle.solved(l->cycle.context, k, cycles, &step));
-    if (*solved) PetscCall(Count(l, &step, rate, &mean));
+    if (*solved) PetscCall(Count(l, k, &step, rate, &mean));
     if (*solved) PetscCall(SamContactCommit(l->contact));
   }
   l->state.computed++;
   l->open = *solved || l->band ? PETSC_FALSE : PETSC_TRUE;
   if (!*solved) PetscFunctionReturn(PETSC_SUCCESS);
+  if (rate->passes) {
+    PetscCall(VecMax(rate->coefficient, NULL, &most));
+    PetscCall(SamWearGetLimit(l->law, most, &rate->limit));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   rate->balance = SamControlGetBalance(&mean, SAM_BALANCE_NORMAL);
   PetscCall(FindShift(l, rate));
   PetscCall(FindCoefficient(l, &mean, rate));

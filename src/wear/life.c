@@ -33,8 +33,8 @@
 #define FIELDS(l) \
   { \
     &(l)->start.coefficient, &(l)->start.pressure, &(l)->start.shift, &(l)->middle.coefficient, &(l)->middle.pressure, \
-      &(l)->middle.shift, &(l)->load, &(l)->whole, &(l)->half, &(l)->halves, &(l)->p, &(l)->q, &(l)->diagonal, \
-      &(l)->gap, &(l)->passage, NULL \
+      &(l)->middle.shift, &(l)->load[0], &(l)->load[1], &(l)->whole[0], &(l)->whole[1], &(l)->half[0], &(l)->half[1], \
+      &(l)->halves[0], &(l)->halves[1], &(l)->p, &(l)->q, &(l)->diagonal, &(l)->gap, &(l)->passage, NULL \
   }
 
 /* The law of wear of the life's problem; refuses laws that cycle jumps do not support. */
@@ -62,6 +62,7 @@ PetscErrorCode SamLifeCreate(SamContact contact, const SamLifeCycle *cycle, cons
   const SamGrid    grid    = SamContactGetGrid(contact);
   SamLaw           law;
   SamLife          l;
+  PetscReal        slide[2];
 
   PetscFunctionBegin;
   PetscCheck(settings->rtol > 0 && isfinite(settings->rtol), grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
@@ -84,6 +85,13 @@ PetscErrorCode SamLifeCreate(SamContact contact, const SamLifeCycle *cycle, cons
   l->band       = SamContactGetMotion(contact)->streams;
   l->open       = !l->band;
   l->coupled    = SamElasticityGetTraits(SamProblemGetElasticity(l->problem)).coupled;
+  PetscCheck(settings->type == SAM_LIFE_MAGNIFIED || !SamProblemGetSlide(problem, l->memory, SAM_COMMITTED, slide),
+             grid->comm, PETSC_ERR_ARG_INCOMP, "Surfaces that slide need magnified cycles");
+  l->loads = SamStateFindField(l->memory, SAM_WEAR_LOAD2) < 0 ? 1 : SAM_WEAR_LOADS;
+  if (settings->type == SAM_LIFE_MAGNIFIED) {
+    PetscCall(SamRateCreatePasses(l, &l->start));
+    PetscCall(SamRateCreatePasses(l, &l->middle));
+  }
   PetscCall(SamLifeFindTurns(l));
   ((SamWear *)law->data)->jumps = PETSC_TRUE;
 
@@ -108,6 +116,8 @@ PetscErrorCode SamLifeDestroy(SamLife *life)
   for (Vec **field = (Vec *[])FIELDS(l); *field; field++) PetscCall(VecDestroy(*field));
   PetscCall(VecDestroy(&l->shear));
   for (PetscInt k = 0; k < SAM_LAWS; k++) PetscCall(VecDestroy(&l->before[k]));
+  PetscCall(SamRateDestroyPasses(l, &l->start));
+  PetscCall(SamRateDestroyPasses(l, &l->middle));
   PetscCall(PetscFree(l->turns));
   PetscCall(PetscFree(l));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -142,39 +152,53 @@ static PetscErrorCode FailJump(SamLife l, PetscReal cycles, SamSolverReason reas
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The mean pressure, into l->p, after `cycles` more at a rate, from the wear load `load` on. */
-static PetscErrorCode SolvePressure(SamLife l, const SamRate *rate, PetscReal cycles, Vec load, PetscBool *solved)
+PetscErrorCode SamLifeSolveNormal(SamLife l, SamBalance balance, PetscReal cycles, PetscBool guess, Vec p,
+                                  PetscBool *solved)
 {
-  const SamWear  *w       = (const SamWear *)l->law->data;
-  SamBalance      balance = rate->balance;
-  const SamNormal normal  = SamContactGetNormal(l->contact);
+  const SamNormal normal = SamContactGetNormal(l->contact);
 
   PetscFunctionBegin;
-  PetscCall(SamLifeSetLoad(l, load));
-  PetscCall(VecCopy(SamProblemGetGap(l->problem), l->gap));
-  PetscCall(SamProblemAddSeparation(l->problem, l->memory, SAM_COMMITTED, l->gap, NULL));
-  PetscCall(VecAXPY(l->gap, 1, rate->shift));
-  PetscCall(VecCopy(rate->coefficient, l->diagonal));
-  PetscCall(VecScale(l->diagonal, cycles * (w->coefficient[0] + w->coefficient[1])));
-  PetscCall(SamNormalSolveYielding(normal, l->gap, l->diagonal, &balance, PETSC_FALSE, l->p));
+  PetscCall(SamNormalSolveYielding(normal, l->gap, l->diagonal, &balance, guess, p));
   *solved = SamSolverGetReason(SamNormalAsSolver(normal)) > 0;
   if (!*solved) PetscCall(FailJump(l, cycles, SamSolverGetReason(SamNormalAsSolver(normal))));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The wear load `to` after `cycles` more at a rate, from `load` on; l->p: the pressure that wears. */
-static PetscErrorCode Jump(SamLife l, const SamRate *rate, PetscReal cycles, Vec load, Vec to, PetscBool *solved)
+/* The mean pressure, into l->p, after `cycles` more at a rate, from the wear load `load` on. */
+static PetscErrorCode SolvePressure(SamLife l, const SamRate *rate, PetscReal cycles, const SamLoads load,
+                                    PetscBool *solved)
+{
+  const SamWear *w = (const SamWear *)l->law->data;
+
+  PetscFunctionBegin;
+  PetscCall(SamLifeSetLoads(l, load));
+  PetscCall(VecCopy(SamProblemGetGap(l->problem), l->gap));
+  PetscCall(SamProblemAddSeparation(l->problem, l->memory, SAM_COMMITTED, l->gap, NULL));
+  PetscCall(VecAXPY(l->gap, 1, rate->shift));
+  PetscCall(VecCopy(rate->coefficient, l->diagonal));
+  PetscCall(VecScale(l->diagonal, cycles * (w->coefficient[0] + w->coefficient[1])));
+  PetscCall(SamLifeSolveNormal(l, rate->balance, cycles, PETSC_FALSE, l->p, solved));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The wear loads `to` after `cycles` more at a rate, from `load` on; l->p: the mean pressure, if that wears. */
+static PetscErrorCode Jump(SamLife l, const SamRate *rate, PetscReal cycles, const SamLoads load, SamLoads to,
+                           PetscBool *solved)
 {
   PetscFunctionBegin;
   *solved = PETSC_TRUE;
+  if (rate->passes) {
+    PetscCall(SamLifeMagnify(l, rate, cycles, load, to, solved));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   if (l->set.type == SAM_LIFE_EXPLICIT)
     PetscCall(VecCopy(rate->pressure, l->p));
   else
     PetscCall(SolvePressure(l, rate, cycles, load, solved));
-  PetscCall(VecCopy(l->p, to));
-  if (l->band) PetscCall(SamLifeIntegrate(l->grid, to));
-  PetscCall(VecPointwiseMult(to, rate->coefficient, to));
-  PetscCall(VecAYPX(to, cycles, load));
+  PetscCall(VecCopy(l->p, to[0]));
+  if (l->band) PetscCall(SamLifeIntegrate(l->grid, to[0]));
+  PetscCall(VecPointwiseMult(to[0], rate->coefficient, to[0]));
+  PetscCall(VecAYPX(to[0], cycles, load[0]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -192,40 +216,73 @@ static PetscErrorCode RelativeDifference(SamLife l, Vec a, Vec b, NormType norm,
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/*
-  l->halves becomes its extrapolation with l->whole. Where that is less than at the start, at the contact's edge,
-  nothing is worn instead, and the rest a little less, so that the volume is the extrapolated one. Where that would be
-  less than at the start, the halves stay as they are.
-*/
-static PetscErrorCode Extrapolate(SamLife l)
+/* The sum of a wear load; interpolation may leave it a little below 0 in some cells. */
+static PetscErrorCode Volume(SamLife l, Vec load, PetscReal *volume)
 {
-  const Vec start = l->load;
-  PetscReal before, whole, halves, after, share;
+  PetscReal sums[3] = {0};
 
   PetscFunctionBegin;
-  PetscCall(SamGridNorm(l->grid, start, NORM_1, &before)); /* wear loads are never negative */
-  PetscCall(SamGridNorm(l->grid, l->whole, NORM_1, &whole));
-  PetscCall(SamGridNorm(l->grid, l->halves, NORM_1, &halves));
-  if (2 * halves - whole < before) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(VecAXPBY(l->halves, -1, 2, l->whole));
-  PetscCall(VecPointwiseMax(l->halves, l->halves, start));
-  PetscCall(SamGridNorm(l->grid, l->halves, NORM_1, &after));
-  share = after > before ? (2 * halves - whole - before) / (after - before) : 1;
-  PetscCall(VecAXPBY(l->halves, 1 - share, share, start));
+  PetscCall(SamBalanceGetLoads(l->grid, SAM_BALANCE_NORMAL, load, sums));
+  *volume = sums[0];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The size of a wear load that counts: depths far below what the tolerances of the solvers leave open do not. */
-static PetscErrorCode LeastLoad(SamLife l, PetscReal *least)
+/*
+  `halves` becomes its extrapolation with `whole`. Where that is less than at the start, at the contact's edge, nothing
+  is worn instead, and the rest a little less, so that the volume is the extrapolated one. Where that would be less than
+  at the start, the halves stay as they are.
+*/
+static PetscErrorCode Extrapolate(SamLife l, Vec start, Vec whole, Vec halves)
 {
-  const SamWear     *w = (const SamWear *)l->law->data;
+  PetscReal before = 0, once = 0, twice = 0, after = 0, share;
+
+  PetscFunctionBegin;
+  PetscCall(Volume(l, start, &before));
+  PetscCall(Volume(l, whole, &once));
+  PetscCall(Volume(l, halves, &twice));
+  if (2 * twice - once < before) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(VecAXPBY(halves, -1, 2, whole));
+  PetscCall(VecPointwiseMax(halves, halves, start));
+  PetscCall(Volume(l, halves, &after));
+  share = after > before ? (2 * twice - once - before) / (after - before) : 1;
+  PetscCall(VecAXPBY(halves, 1 - share, share, start));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* What a load wears per unit of it: body 1 and 2, or both. */
+static PetscReal CoefficientOf(SamLife l, PetscInt load)
+{
+  const PetscReal *k = ((const SamWear *)l->law->data)->coefficient;
+
+  return l->loads > 1 ? k[load] : k[0] + k[1];
+}
+
+/* The size of the depth that counts: depths far below what the tolerances of the solvers leave open do not. */
+static PetscErrorCode LeastDepth(SamLife l, PetscReal *least)
+{
   const SamSolution *s;
-  PetscReal          size;
 
   PetscFunctionBegin;
   PetscCall(SamContactGetSolution(l->contact, &s));
-  PetscCall(SamGridNorm(l->grid, s->displacement_z, NORM_2, &size));
-  *least = COUNTS * size / (w->coefficient[0] + w->coefficient[1]);
+  PetscCall(SamGridNorm(l->grid, s->displacement_z, NORM_2, least));
+  *least *= COUNTS;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The error of the depth, of that body for which it is larger; then the loads are extrapolated. */
+static PetscErrorCode FinishJump(SamLife l, PetscReal least, PetscReal *error)
+{
+  PetscFunctionBegin;
+  *error = 0;
+  for (PetscInt k = 0; k < l->loads; k++) {
+    const PetscReal unit = CoefficientOf(l, k);
+    PetscReal       depth;
+
+    if (unit == 0) continue; /* the bodies' surfaces stay as they are */
+    PetscCall(RelativeDifference(l, l->whole[k], l->halves[k], NORM_2, least / unit, &depth));
+    *error = PetscMax(*error, depth);
+  }
+  for (PetscInt k = 0; k < l->loads; k++) PetscCall(Extrapolate(l, l->load[k], l->whole[k], l->halves[k]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -240,18 +297,18 @@ static PetscErrorCode TryJump(SamLife l, PetscReal cycles, PetscReal *error, Pet
   PetscReal depth, pressure, least = 0;
 
   PetscFunctionBegin;
-  PetscCall(LeastLoad(l, &least));
+  PetscCall(LeastDepth(l, &least));
   PetscCall(Jump(l, &l->start, cycles, l->load, l->whole, solved));
   if (*solved) PetscCall(VecCopy(l->p, l->q));
   if (*solved) PetscCall(Jump(l, &l->start, 0.5 * cycles, l->load, l->half, solved));
-  if (*solved) PetscCall(SamLifeSetLoad(l, l->half));
+  if (*solved) PetscCall(SamLifeSetLoads(l, l->half));
   if (*solved) PetscCall(SamLifeComputeRate(l, &l->middle, l->state.cycles + 0.5 * cycles, PETSC_FALSE, solved));
   if (*solved) PetscCall(Jump(l, &l->middle, 0.5 * cycles, l->half, l->halves, solved));
   if (!*solved) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(RelativeDifference(l, l->whole, l->halves, NORM_2, least, &depth));
   PetscCall(RelativeDifference(l, l->q, l->p, NORM_1, 0, &pressure));
+  if (l->set.type == SAM_LIFE_MAGNIFIED) pressure = l->apart;
+  PetscCall(FinishJump(l, least, &depth));
   *error = l->set.type == SAM_LIFE_EXPLICIT ? depth : PetscMax(depth, pressure);
-  PetscCall(Extrapolate(l));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -301,7 +358,7 @@ static PetscErrorCode Report(SamLife l, SamLifeReport *r)
                        .computed          = l->state.computed,
                        .at                = l->at,
                        .step              = l->step};
-  PetscCall(SamWearGetVolumes(l->law, l->load, l->load, r->volume, r->depth));
+  PetscCall(SamWearGetVolumes(l->law, l->load[0], l->load[l->loads - 1], r->volume, r->depth));
   PetscCall(SamContactGetSolution(l->contact, &s));
   PetscCall(VecMax(s->pressure, NULL, &r->pressure));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -312,11 +369,11 @@ static PetscErrorCode Report(SamLife l, SamLifeReport *r)
 /* Remembers the wear load and the sums before a cycle. */
 static PetscErrorCode Keep(SamLife l)
 {
-  Vec load;
+  SamLoads loads;
 
   PetscFunctionBegin;
-  PetscCall(SamStateRestoreField(l->memory, SamStateFindField(l->memory, SAM_WEAR_LOAD), SAM_COMMITTED, &load));
-  PetscCall(VecCopy(load, l->load));
+  PetscCall(SamLifeGetLoads(l, loads));
+  for (PetscInt k = 0; k < l->loads; k++) PetscCall(VecCopy(loads[k], l->load[k]));
   for (PetscInt k = 0; k < SAM_LAWS; k++) {
     Vec sum;
 
@@ -369,14 +426,14 @@ PetscErrorCode SamLifeJump(SamLife l, PetscReal cycles, SamLifeReport *report)
   }
   PetscCall(JumpSums(l, accepted ? jump : 0));
   if (accepted) {
-    PetscCall(VecCopy(l->halves, l->load));
+    for (PetscInt k = 0; k < l->loads; k++) PetscCall(VecCopy(l->halves[k], l->load[k]));
     if (!l->set.fixed) l->state.next = next;
     l->state.jump   = jump;
     l->state.error  = error;
     l->state.cycles = jump == cycles - l->state.cycles ? cycles : l->state.cycles + jump;
     l->known        = PETSC_FALSE;
   }
-  PetscCall(SamLifeSetLoad(l, l->load));
+  PetscCall(SamLifeSetLoads(l, l->load));
   PetscCall(Report(l, report));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -6,6 +6,16 @@
 #include <petsam/private/problemimpl.h>
 #include "wearimpl.h"
 
+/* A step of a computed cycle, as magnified cycles repeat it (magnified.c). */
+typedef struct {
+  SamBalance balance;
+  PetscReal  slide[2]; /* m: body 2's point under a cell, minus that cell */
+  double     most;     /* wear load of the step per pressure, m, its maximum */
+  float     *wears;    /* the same in each cell, over that */
+  float     *lift;     /* m, what displaces the surfaces besides the pressure; NULL: nothing does */
+  float     *pressure; /* Pa, of the last magnified cycle from this one on; of those at the start of a jump only */
+} SamPass;
+
 /*
   The rate of wear by a computed cycle. `pressure` is the mean over the cycle's steps, and solves the normal
   problem of the mean loads on the gap h + shift.
@@ -16,7 +26,12 @@ typedef struct {
   Vec        shift;       /* m: what the shear of dissimilar bodies lifts, less what opens in a part of the cycle */
   SamBalance balance;     /* mean over the cycle */
   PetscReal  limit;       /* the longest explicit jump that is stable, cycles; infinite without wear */
+  SamPass   *passes;      /* of each step; NULL: jumps need the means only */
 } SamRate;
+
+/* The wear loads of a contact: one for both bodies, or one for each. */
+#define SAM_WEAR_LOADS 2
+typedef Vec SamLoads[SAM_WEAR_LOADS];
 
 struct _n_SamLife {
   SamContact      contact; /* borrowed */
@@ -35,10 +50,12 @@ struct _n_SamLife {
   PetscBool      *turns;               /* of each step: whether a component turns there, or the cycle ends */
   SamStep         step;                /* the first one of the last cycle that is not converged, else its last one */
   PetscInt        at;                  /* the step of the cycle that this is */
+  PetscReal       apart;               /* difference of the pressures of a jump and of its halves, over all steps */
   PetscReal       energy, area;        /* of the last cycle, J; m2, in contact in that step */
   SamRate         start, middle;       /* on the wear so far; after half of the jump */
-  Vec             load;                /* wear load so far; the law has another one within a jump */
-  Vec             whole, half, halves; /* wear loads: after the jump as a whole, after its first half, after both */
+  PetscInt        loads;               /* wear loads that the contact has */
+  SamLoads        load;                /* so far; the law has others within a jump */
+  SamLoads        whole, half, halves; /* after the jump as a whole, after its first half, after both */
   Vec             p, q, diagonal, gap; /* scratch */
   Vec             passage;             /* the wear load of a band in the cycle, Pa m */
   Vec             shear;               /* scratch, two components */
@@ -56,8 +73,32 @@ struct _n_SamLife {
 PETSC_INTERN PetscErrorCode SamLifeComputeRate(SamLife life, SamRate *rate, PetscReal cycles, PetscBool tell,
                                                PetscBool *solved);
 
-/* SamLifeSetLoad - the law's wear load, by which the separation grows, becomes a copy of this one. Collective. */
-PETSC_INTERN PetscErrorCode SamLifeSetLoad(SamLife life, Vec load);
+/*
+  SamLifeGetLoads - the law's wear loads, by which the separation grows; borrowed. SamLifeSetLoads - they become copies
+  of these. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamLifeGetLoads(SamLife life, SamLoads loads);
+PETSC_INTERN PetscErrorCode SamLifeSetLoads(SamLife life, const SamLoads loads);
+/*
+  SamLifeSolveNormal - the pressure p, from that which it holds if `guess`, on the gap l->gap of surfaces that yield by
+  l->diagonal; a failure is that of a jump over `cycles`. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamLifeSolveNormal(SamLife life, SamBalance balance, PetscReal cycles, PetscBool guess,
+                                               Vec p, PetscBool *solved);
+
+/*
+  Magnified cycles (magnified.c).
+  SamRateCreatePasses, SamRateDestroyPasses - memory for the steps of a cycle.
+  SamLifeNotePass - keeps a tried step; rate->pressure: the pressure before it, then that at its end.
+  SamLifeMagnify - the wear loads `to` after `cycles` more, from `from` on. Where they are l->whole, the pressures are
+  kept; where they are l->halves, l->apart compares with these.
+  All collective.
+*/
+PETSC_INTERN PetscErrorCode SamRateCreatePasses(SamLife life, SamRate *rate);
+PETSC_INTERN PetscErrorCode SamRateDestroyPasses(SamLife life, SamRate *rate);
+PETSC_INTERN PetscErrorCode SamLifeNotePass(SamLife life, PetscInt k, const SamStep *step, SamRate *rate);
+PETSC_INTERN PetscErrorCode SamLifeMagnify(SamLife life, const SamRate *rate, PetscReal cycles, const SamLoads from,
+                                           SamLoads to, PetscBool *solved);
 /* SamLifeGetSum - the committed values that law k accumulates, NULL: it does not. Collective. */
 PETSC_INTERN PetscErrorCode SamLifeGetSum(SamLife life, PetscInt k, Vec *sum);
 

@@ -256,7 +256,6 @@ def test_contact_over_the_border_of_body_2s_surface(petsam, slide, tmp_path):
         (dict(pressure_limit=1e9), "-slide does not work with -pressure_limit: one depth of yielding"),
         (dict(step_rtol=1e-2), "-slide does not work with -step_rtol: "),
         (dict(stiffness=True), "-slide does not work with -stiffness: the gap changes"),
-        (dict(wear_cycles=100), "-slide with -wear_cycles"),
         (dict(slide=None, body2_surface_file="none.h5"), "-body2_surface_file is given without -slide"),
         (dict(grid_check=True, body2_surface_file="two.h5"), "-grid_check does not work with -body2_surface_file"),
         (dict(column="roll"), "expected 0 with -slide: in rolling both bodies move"),

@@ -1,0 +1,240 @@
+"""Lives of surfaces that slide past each other: scars of both bodies over many cycles, by magnified cycles."""
+
+import h5py
+import numpy as np
+import pytest
+
+from support import history, read_run
+
+STEEL = dict(body1_young=200e9, body1_poisson=0.3, body2_young=200e9, body2_poisson=0.3)
+LINE = 18500.0  # N/m
+CYLINDER = dict(
+    STEEL,
+    elasticity="plane",
+    plane_datum=6e-3,
+    gap_type="ellipsoid",
+    gap_radius_x=6e-3,
+    gap_radius_y=float("inf"),
+    load_n=LINE,
+    rot_y=0,
+    friction=0.9,
+    slide=True,
+)
+K = (1.9e-14, 2.9e-14)  # 1/Pa
+SPHERE = dict(
+    STEEL,
+    body1_young=210e9,
+    body2_young=210e9,
+    gap_type="sphere",
+    gap_radius1=10e-3,
+    gap_radius2=float("inf"),
+    load_n=20.0,
+    disp_y=0,
+    rot_x=0,
+    rot_y=0,
+    rot_z=0,
+    friction=1e-13,
+    slide=True,
+    wear_coefficient1=1e-14,
+    wear_coefficient2=2e-14,
+    grid_n="96,48",
+    grid_size="1.2e-3,0.6e-3",
+)
+
+
+@pytest.fixture
+def life(petsam, tmp_path):
+    """life(case, stroke, places=(1, -1, 1), ...): results of a life to and fro through these parts of the stroke."""
+
+    def run(case, stroke, places=(1, -1, 1), name="life", ranks=1, **words):
+        rows = [(float(time), place * stroke) for time, place in enumerate(places)]
+        loads = history(tmp_path / f"{name}.csv", "time,disp_x", *rows)
+        petsam({**case, "output_every": 1000, "output": f"{name}.h5", **loads, **words}, ranks=ranks)
+        return read_run(tmp_path / f"{name}.h5")
+
+    return run
+
+
+def worn(r, body):
+    return r[f"wear_depth{body}"][-1]
+
+
+def width(r, body):
+    """Of a scar where it is a hundredth of its depth, interpolated."""
+    x, depth = r["x"], worn(r, body)[0]
+    least = 0.01 * depth.max()
+    first, last = np.flatnonzero(depth >= least)[[0, -1]]
+    left = np.interp(least, depth[first - 1 : first + 1], x[first - 1 : first + 1])
+    return np.interp(-least, -depth[last : last + 2], x[last : last + 2]) - left
+
+
+# ---- scars that are known
+
+
+def test_the_scars_of_mccoll(life):
+    """McColl, Ding and Leen 2004 after 18,000 cycles, as another program has them; area = k N times the path."""
+    r = life(
+        CYLINDER,
+        25e-6,
+        steps=8,
+        grid_n=256,
+        grid_size=0.8e-3,
+        wear_coefficient1=K[0],
+        wear_coefficient2=K[1],
+        wear_cycles=18000,
+    )
+    assert worn(r, 2).max() == pytest.approx(2.731e-6, rel=3e-3, abs=0)
+    assert width(r, 2) == pytest.approx(0.509e-3, rel=3e-3, abs=0)
+    assert r["wear/volume2"][-1] == pytest.approx(0.9483e-9, rel=3e-3, abs=0)
+    assert worn(r, 1).max() == pytest.approx(2.0413e-6, rel=3e-3, abs=0)
+    assert len(r["wear/cycle"]) < 40
+
+
+def test_a_sphere_and_its_flat(life):
+    """Depths of both bodies by another program; volumes are k N times the path."""
+    r = life(SPHERE, 0.15e-3, steps=6, wear_cycles=400, wear_jump=50)
+    assert worn(r, 1).max() == pytest.approx(0.8866e-6, rel=6e-4, abs=0)
+    assert worn(r, 2).max() == pytest.approx(0.9383e-6, rel=6e-4, abs=0)
+    for body in (1, 2):
+        exact = body * 1e-14 * 20.0 * 4 * 0.15e-3 * 400
+        assert r[f"wear/volume{body}"][-1] == pytest.approx(exact, rel=1e-12, abs=0)
+        assert worn(r, body).sum() * (1.2e-3 / 96) ** 2 == pytest.approx(exact, rel=1e-11, abs=0)
+
+
+@pytest.mark.parametrize(
+    "law, steps, shares, words",
+    [
+        ("coefficient", 7, (1, 2), dict(wear_jump=120)),
+        ("coefficient", 5, (0, 1), dict(wear_rtol=0.3)),
+        ("energy", 6, (1, 0.5), dict(wear_rtol=0.3)),
+    ],
+)
+def test_volumes_are_those_of_the_path(life, law, steps, shares, words):
+    """k N 4 S a cycle, whatever the stroke, the steps and the jumps are in cells."""
+    friction = 1e-13
+    rates = [1e-14 * share / (friction if law == "energy" else 1) for share in shares]
+    words.update({f"wear_{law}{body}": rate for body, rate in zip((1, 2), rates) if rate > 0})
+    r = life(CYLINDER, 23.7e-6, friction=friction, steps=steps, grid_n=96, grid_size=4e-4, wear_cycles=1000, **words)
+    for body, share in zip((1, 2), shares):
+        exact = share * 1e-14 * LINE * 4 * 23.7e-6 * 1000
+        assert r[f"wear/volume{body}"][-1] == pytest.approx(exact, rel=1e-12, abs=0)
+        assert worn(r, body).min() >= 0
+
+
+def test_waves_wear_each_other_off(life, tmp_path):
+    """Full contact of waves a1, a2: d(a1, a2)/ds = -(pi E*/wave) [[k1, k1 c], [k2 c, k2]] (a1, a2), c the mean cosine."""
+    wave, n, cells, e_star, path, a = 1e-4, 64, 8, 1e11, 0.04, (2e-8, 1e-8)
+    x = (np.arange(n) + 0.5) / n * wave
+    cosine = np.cos(2 * np.pi * x / wave)
+    for body in (1, 2):
+        with h5py.File(tmp_path / f"{body}.h5", "w") as f:
+            f.create_dataset("height", data=a[body - 1] * cosine[None, :])
+    case = dict(
+        elasticity="plane_periodic",
+        body1_young=2 * e_star,
+        body1_poisson=0.0,
+        body2_young=2 * e_star,
+        body2_poisson=0.0,
+        load_n=200e6 * wave,
+        friction=1e-9,
+        slide=True,
+        grid_n=n,
+        grid_size=wave,
+        gap_type="flat",
+        gap_rough_file="1.h5",
+        body2_surface_file="2.h5",
+        wear_coefficient1=2e-14,
+        wear_coefficient2=3e-14,
+    )
+    places = np.concatenate([np.arange(cells, -cells, -1), np.arange(-cells, cells)])
+    c, k = np.mean(np.cos(2 * np.pi * places / n)), np.array([[2e-14], [3e-14]])
+    values, vectors = np.linalg.eig(-np.pi * e_star / wave * path * k * np.array([[1, c], [c, 1]]))
+    exact = vectors @ (np.exp(values) * np.linalg.solve(vectors, a))
+    cycles, errors = round(path / (4 * cells * wave / n)), []
+    for jumps in (10, 20, 40):
+        r = life(case, cells * wave / n, steps=2 * cells, wear_cycles=cycles, wear_jump=cycles // jumps)
+        heights = [a[b - 1] * cosine + worn(r, b)[0] for b in (1, 2)]
+        errors.append(np.abs([2 * np.mean(h * cosine) for h in heights] - exact) / np.abs(exact))
+    assert np.all(errors[-1] < 4e-3)
+    for coarse, fine in zip(errors, errors[1:]):
+        assert np.all(coarse > 3 * fine)
+
+
+def test_a_block_on_a_ring_needs_not_move(life):
+    """Only body 1 wears, by much more than it is displaced: a chord of the ring, of the volume k N times the path."""
+    radius, load, k, path = 20e-3, 10833.3, 2e-15, 800.0
+    words = dict(
+        gap_radius_x=radius, load_n=load, body1_young=210e9, body2_young=210e9, wear_coefficient1=k, grid_n=180
+    )
+    r = life(CYLINDER, 1e-3, friction=0.1, steps=2, grid_size=3.6e-3, wear_cycles=path / 4e-3, **words)
+    half = np.cbrt(1.5 * radius * k * load * path)
+    assert worn(r, 1).max() == pytest.approx(16.1535e-6, rel=1.5e-3, abs=0)
+    assert worn(r, 1).max() == pytest.approx(half**2 / (2 * radius), rel=3e-3, abs=0)
+    assert worn(r, 2).max() == 0
+
+
+# ---- jumps
+
+
+@pytest.mark.parametrize("stroke, cycles", [(0.6e-6, 20000), (25e-6, 1600)], ids=["partial slip", "gross slip"])
+def test_jumps_are_of_second_order(life, stroke, cycles):
+    """From partial slip to gross slip by one method."""
+    case = dict(CYLINDER, grid_n=80, grid_size=4e-4, wear_coefficient1=K[0], wear_coefficient2=K[1], steps=6)
+    runs = [life(case, stroke, wear_cycles=cycles, wear_jump=cycles // jumps) for jumps in (8, 16, 32)]
+    for name in ("wear_depth1", "wear_depth2"):
+        coarse, fine, finer = (r[name][-1] for r in runs)
+        assert np.linalg.norm(fine - coarse) > 2.5 * np.linalg.norm(finer - fine), name
+        assert np.linalg.norm(finer - fine) < 2e-3 * np.linalg.norm(finer), name
+
+
+def test_where_nothing_slides_jumps_lead_where_they_did(life):
+    """In partial slip the surfaces hardly move: the life is that of `-slide` off but for what a step displaces."""
+    case = dict(CYLINDER, grid_n=64, grid_size=2e-4, wear_coefficient1=K[0], wear_coefficient2=K[1], steps=8)
+    one, other = (
+        life(case, 0.6e-6, places=(0, 1, -1, 0), wear_cycles=10000, wear_rtol=0.01, slide=slide, name=f"slide{slide}")
+        for slide in (True, None)
+    )
+    for body in (1, 2):
+        assert np.abs(worn(one, body) - worn(other, body)).max() < 0.01 * worn(other, body).max()
+
+
+def test_the_error_is_that_of_the_tolerance(life):
+    """0.1 unless it is given; a smaller one computes more cycles and errs less."""
+    case = dict(CYLINDER, grid_n=96, grid_size=3e-4, wear_coefficient1=K[0], wear_coefficient2=K[1], wear_cycles=1000)
+    runs = [
+        life(case, 25e-6, steps=6, name=f"{n}", **w)
+        for n, w in enumerate([{}, dict(wear_rtol=0.1), dict(wear_rtol=0.01)])
+    ]
+    for name in ("wear_depth1", "wear_depth2", "wear/error"):
+        assert np.array_equal(runs[0][name], runs[1][name]), name
+        coarse, fine = runs[0][name][-1], runs[2][name][-1]
+        assert name == "wear/error" or np.linalg.norm(coarse - fine) < 0.01 * np.linalg.norm(fine), name
+    assert runs[0]["wear/error"].max() <= 0.2 and runs[2]["wear/error"].max() <= 0.02
+    assert len(runs[0]["wear/cycle"]) < 0.5 * len(runs[2]["wear/cycle"])
+
+
+# ---- the same bits, and what is refused
+
+
+@pytest.mark.parametrize("ranks", [2, 3])
+def test_any_number_of_ranks_has_the_same_bits(life, ranks):
+    case = dict(SPHERE, friction=0.3, grid_n="48,24", disp_y=None, load_ty=0, steps=3, wear_cycles=90, wear_jump=30)
+    one, other = (life(case, 0.15e-3, ranks=count, name=f"on{count}") for count in (1, ranks))
+    for name in one:
+        assert np.array_equal(one[name], other[name], equal_nan=one[name].dtype.kind == "f"), name
+
+
+def test_a_life_goes_on_where_it_was_left(life, petsam, tmp_path):
+    case = dict(CYLINDER, grid_n=64, grid_size=3e-4, wear_coefficient1=K[0], wear_coefficient2=K[1], steps=4)
+    whole = life(case, 25e-6, wear_cycles=600, wear_output="200", name="whole")
+    life(case, 25e-6, wear_cycles=200, name="part", checkpoint="state.h5", checkpoint_every=1)
+    rest = life(case, 25e-6, wear_cycles=600, name="part", restart="state.h5")
+    for name in ("pressure", "wear_depth1", "wear_depth2", "wear/cycle", "wear/volume2", "wear/error"):
+        assert np.array_equal(whole[name][-1], rest[name][-1]), name
+
+
+def test_explicit_jumps_are_refused(petsam, tmp_path):
+    rows = history(tmp_path / "h.csv", "time,disp_x", (0.0, 1e-5), (1.0, -1e-5), (2.0, 1e-5))
+    case = dict(CYLINDER, **rows, grid_n=32, grid_size=3e-4, wear_coefficient2=1e-14, wear_cycles=10)
+    done = petsam(case, dict(wear_type="explicit"), check=2)
+    assert "-wear_type explicit does not work with -slide" in done.stderr
