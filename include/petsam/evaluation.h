@@ -10,6 +10,7 @@
   a line of them (a section); the quantities that are wanted of them (src/stress/quantities.c); and fatigue parameters
   over the steps, taken as one closed cycle. Maps are evaluated depth by depth, and each step is read once per depth:
   the steps of a SamStressSource need not be in memory together. Fatigue parameters keep 48 bytes per cell and step.
+  Where surfaces slide, results of body 2 are at its own points, those that lie under the cells at slide 0.
   Results are the same to the last bit on any number of ranks. Order of calls: Create, SetUp, Compute,
   GetLargest, Destroy.
 */
@@ -31,8 +32,18 @@ typedef enum {
   SAM_STEP_SLIP_Y,
   SAM_STEP_FIELDS
 } SamStepField;
-/* Numbers of a step: of the load step, 0 where steps have none; time (s); contact area (m2); the cycle of a life. */
-typedef enum { SAM_STEP_NUMBER, SAM_STEP_TIME, SAM_STEP_AREA, SAM_STEP_CYCLE } SamStepNumber;
+/*
+  Numbers of a step: of the load step, 0 where steps have none; time (s); contact area (m2); the cycle of a life; where
+  surfaces slide past each other, how far body 1 has slid over body 2 (m).
+*/
+typedef enum {
+  SAM_STEP_NUMBER,
+  SAM_STEP_TIME,
+  SAM_STEP_AREA,
+  SAM_STEP_CYCLE,
+  SAM_STEP_SLIDE_X,
+  SAM_STEP_SLIDE_Y
+} SamStepNumber;
 /*
   SamStressSource - the bodies, which are referenced, and the load steps, which are read when they are needed, by
   collective functions: this rank's rows of a field; a number; the values of conditions of the bodies.
@@ -73,7 +84,8 @@ enum { SAM_TIME, SAM_Z, SAM_Y, SAM_X, SAM_STRESS_AXES };
 /* SamStressLayout - the shape of the results, after SamEvaluationSetUp(). The arrays are borrowed. */
 typedef struct {
   PetscInt         body;
-  PetscBool        section, cycle;              /* below one line of cells; there are parameters of a cycle */
+  PetscBool        section, cycle; /* below one line of cells; there are parameters of a cycle */
+  PetscBool        own;            /* points are body 2's own, which lie under the cells before the surfaces slide */
   PetscInt         n[SAM_STRESS_AXES];          /* of all ranks */
   const double    *coordinate[SAM_STRESS_AXES]; /* s, m */
   PetscInt         row, rows;                   /* along y: this rank's part of maps, else all of it */
@@ -93,7 +105,8 @@ PETSC_EXTERN PetscErrorCode SamEvaluationAddParameters(SamEvaluation evaluation,
   SamEvaluationCompute - evaluates all steps and hands over each result as it is found: this rank's block of a dataset
   of the layout, which begins at `start` and has `count` numbers along each axis; those of a cycle begin at time 0. A
   map's blocks are its rows at one depth, a section's are some depths. The callback is called alike on all ranks, with
-  arrays that are the evaluation's. Collective.
+  arrays that are the evaluation's. Collective. Errors: SAM_ERR_USER for body 2 where its points under the contact are
+  not on the grid.
 */
 typedef PetscErrorCode (*SamEvaluationWrite)(void *context, PetscInt dataset, const PetscInt start[SAM_STRESS_AXES],
                                              const PetscInt count[SAM_STRESS_AXES], const double values[]);

@@ -12,8 +12,8 @@ typedef struct {
 
 /*
   SamFatigueCycle - the states of a closed cycle at a point, whose order counts for Ruiz's parameters only: component c
-  of state k is stress[c * states + k] (Pa), and of the slip (m) slip[c * states + k]; the last state is followed by the
-  first. There is room for SAM_FATIGUE_SCRATCH * states numbers in `scratch`.
+  of state k is stress[c * states + k] (Pa), and of the slip (m) since the state before slip[c * states + k]; the last
+  state is followed by the first. There is room for SAM_FATIGUE_SCRATCH * states numbers in `scratch`.
 */
 #define SAM_FATIGUE_SCRATCH 11
 typedef struct {

@@ -94,16 +94,18 @@ static PetscErrorCode ReadField(void *context, PetscInt step, SamStepField field
 
 static PetscErrorCode ReadNumber(void *context, PetscInt k, SamStepNumber number, double *value)
 {
-  const SamStressRun *const run = (const SamStressRun *)context;
-  PetscInt                  step;
-  PetscReal                 time;
+  static const SamResultsNumber of[] = {[SAM_STEP_AREA]    = SAM_RESULTS_CONTACT_AREA,
+                                        [SAM_STEP_CYCLE]   = SAM_RESULTS_CYCLE,
+                                        [SAM_STEP_SLIDE_X] = SAM_RESULTS_SLIDE_X,
+                                        [SAM_STEP_SLIDE_Y] = SAM_RESULTS_SLIDE_Y};
+  const SamStressRun *const     run  = (const SamStressRun *)context;
+  PetscInt                      step;
+  PetscReal                     time;
 
   PetscFunctionBegin;
   PetscCall(SamResultsGetSaved(run->results, SavedStep(run, k), &step, &time));
   *value = number == SAM_STEP_NUMBER ? (double)step : (double)time;
-  if (number == SAM_STEP_AREA || number == SAM_STEP_CYCLE)
-    PetscCall(SamResultsReadNumber(run->results, step,
-                                   number == SAM_STEP_AREA ? SAM_RESULTS_CONTACT_AREA : SAM_RESULTS_CYCLE, value));
+  if (number >= SAM_STEP_AREA) PetscCall(SamResultsReadNumber(run->results, step, of[number], value));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -336,8 +338,9 @@ static PetscErrorCode PrintLargest(SamStressRun *run)
     if (strcmp(of.unit, "1")) (void)snprintf(unit, sizeof(unit), " %s", of.unit);
     if (!k) PetscCall(ReadNumber(run, PetscMax(most, 0), SAM_STEP_NUMBER, &number));
     if (!k) (void)snprintf(step, sizeof(step), " in step %.0f", number);
-    PetscCall(PetscPrintf(run->grid->comm, "  %-11s %s %.6g%s at (%.4g, %.4g, %.4g) m%s\n", k ? "" : "maximum",
-                          of.shown, at->value, unit, at->place[0], at->place[1], at->place[2], step));
+    PetscCall(PetscPrintf(run->grid->comm, "  %-11s %s %.6g%s at %s(%.4g, %.4g, %.4g) m%s\n", k ? "" : "maximum",
+                          of.shown, at->value, unit, run->layout->own ? "body 2's own point " : "", at->place[0],
+                          at->place[1], at->place[2], step));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -14,8 +14,9 @@ enum { AXES = SAM_STRESS_AXES };
 /* A step whose stresses can be evaluated. */
 typedef struct {
   SamControl control;
-  double     area;   /* of contact, m2 */
-  double    *fields; /* (SAM_STEP_FIELDS, cells); NULL: there is no step */
+  double     area;     /* of contact, m2 */
+  PetscReal  slide[2]; /* m */
+  double    *fields;   /* (SAM_STEP_FIELDS, cells); NULL: there is no step */
 } Step;
 
 /* Coordinates, or a dataset of an evaluation. */
@@ -51,6 +52,8 @@ static PetscErrorCode TakeStep(petsam_contact *c, Step *step)
   PetscCall(SamContactGetSolution(c->setup->contact, &s));
   step->control = s->control;
   PetscCall(SamContactGetNumber(c->setup->contact, "contact_area", &step->area));
+  for (int k = 0; k < 2 && SamProblemGetLaw(c->setup->problem, SAM_LAW_SLIDE); k++)
+    PetscCall(SamContactGetNumber(c->setup->contact, k ? "slide_y" : "slide_x", &step->slide[k]));
   PetscCall(SamAllocate(sizeof(double) * SAM_STEP_FIELDS * (size_t)n, &step->fields));
   for (int f = 0; f < SAM_STEP_FIELDS; f++) {
     PetscBool has;
@@ -208,9 +211,13 @@ static PetscErrorCode ReadField(void *context, PetscInt k, SamStepField field, d
 
 static PetscErrorCode ReadNumber(void *context, PetscInt k, SamStepNumber number, double *value)
 {
-  const Steps *const s = (const Steps *)context;
+  const Steps *const s    = (const Steps *)context;
+  const Step *const  step = k < 0 ? s->before : &s->step[k];
 
-  *value = number == SAM_STEP_TIME ? (double)s->step[k].control.time : number == SAM_STEP_AREA ? s->step[k].area : 0;
+  *value = 0;
+  if (number == SAM_STEP_TIME) *value = (double)step->control.time;
+  if (number == SAM_STEP_AREA) *value = step->area;
+  if (number >= SAM_STEP_SLIDE_X) *value = (double)step->slide[number - SAM_STEP_SLIDE_X];
   return PETSC_SUCCESS;
 }
 

@@ -26,8 +26,8 @@ static PetscErrorCode CompareWithLast(SamEvaluation e, PetscInt step, const Ends
   for (int k = 0; k < 4; k++) most[k] = 0;
   PetscCall(PetscArrayzero(ends->other, 3 * cells));
   if (step >= 0 || e->source.before)
-    PetscCall(
-      SamEvaluationReadTractions(e, step, (double *[]){ends->other, ends->other + cells, ends->other + 2 * cells}));
+    PetscCall(SamEvaluationReadTractions(e, step, PETSC_TRUE,
+                                         (double *[]){ends->other, ends->other + cells, ends->other + 2 * cells}));
   for (PetscInt k = 0; k < 3 * cells; k++) {
     PetscReal *const m = most + (k < cells ? 0 : 2);
 
@@ -147,7 +147,7 @@ PetscErrorCode SamCycleCheckClosed(SamEvaluation e)
   PetscCall(CheckLife(e, &life));
   if (life) PetscFunctionReturn(PETSC_SUCCESS); /* petsam has closed the loop */
   PetscCall(PetscMalloc2(3 * cells, &ends.last, 3 * cells, &ends.other));
-  PetscCall(SamEvaluationReadTractions(e, e->source.steps - 1,
+  PetscCall(SamEvaluationReadTractions(e, e->source.steps - 1, PETSC_TRUE,
                                        (double *[]){ends.last, ends.last + cells, ends.last + 2 * cells}));
   PetscCall(NumberOf(e, 0, SAM_STEP_NUMBER, &number));
   if (number > 0) PetscCall(CheckOnce(e, &ends, &more)); /* of steps that have been chosen by number */

@@ -37,21 +37,36 @@ static PetscErrorCode GatherLine(SamEvaluation e, const double field[], PetscInt
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The slip of all states on the surface, in the order of Cycle.slips; `length`: cells of a map or of the line. */
+/*
+  The slip on the surface of each state since the one before, in the order of Cycle.slips; `length`: cells of a map or
+  of the line. Sums of slip are kept at the cells, under which other points of body 2 lay before.
+*/
 static PetscErrorCode ReadSlip(SamEvaluation e, PetscInt length, double slip[])
 {
-  double *field;
+  const PetscInt cells = e->grid->cells;
+  double        *since, *sum;
 
   PetscFunctionBegin;
-  PetscCall(SamAllocate(sizeof(double) * (size_t)e->grid->cells, &field));
-  for (PetscInt s = 0; s < e->source.steps; s++)
-    for (PetscInt c = 0; c < 2; c++) {
+  PetscCall(SamAllocate(sizeof(double) * (size_t)(2 * cells), &since));
+  sum = since + cells;
+  for (PetscInt c = 0; c < 2; c++) {
+    const SamStepField field = (SamStepField)(SAM_STEP_SLIP_X + c);
+
+    PetscCall((*e->source.read)(e->source.context, e->source.steps - 1, field, sum));
+    for (PetscInt s = 0; s < e->source.steps; s++) {
       double *const to = slip + (2 * s + c) * (ptrdiff_t)length;
 
-      PetscCall((*e->source.read)(e->source.context, s, (SamStepField)(SAM_STEP_SLIP_X + c), e->section ? field : to));
-      if (e->section) PetscCall(GatherLine(e, field, length, to));
+      PetscCall(PetscArraycpy(since, sum, cells));
+      PetscCall((*e->source.read)(e->source.context, s, field, sum));
+      for (PetscInt k = 0; k < cells; k++) since[k] = sum[k] - since[k];
+      PetscCall(SamPointsMove(e, s, since));
+      if (e->section)
+        PetscCall(GatherLine(e, since, length, to));
+      else
+        PetscCall(PetscArraycpy(to, since, cells));
     }
-  SamFree(field);
+  }
+  SamFree(since);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -28,11 +28,12 @@ static PetscErrorCode FillSquare(SamGrid g, Vec field, Vec square)
 
 PetscErrorCode SamLargestAtEdge(SamEvaluation e, PetscInt step, Vec field)
 {
-  const SamGrid g                          = e->grid;
-  double        far[SAM_STRESS_COMPONENTS] = {0}; /* what is there without tractions */
-  SamEdge       edge;
-  Vec           square;
-  double       *stress;
+  const SamGrid          g                          = e->grid;
+  const PetscReal *const slide                      = SamPointsSlide(e, step);
+  double                 far[SAM_STRESS_COMPONENTS] = {0}; /* what is there without tractions */
+  SamEdge                edge;
+  Vec                    square;
+  double                *stress;
 
   PetscFunctionBegin;
   SamStressAddUniform(e, step, &(SamPoints){.count = 1, .depths = 1, .plane = 1}, far);
@@ -47,8 +48,9 @@ PetscErrorCode SamLargestAtEdge(SamEvaluation e, PetscInt step, Vec field)
     const double  all[SAM_STRESS_COMPONENTS] = {[SAM_STRESS_XX] = s[XX] + far[SAM_STRESS_XX],
                                                 [SAM_STRESS_YY] = s[YY] + far[SAM_STRESS_YY],
                                                 [SAM_STRESS_XY] = s[XY] + far[SAM_STRESS_XY]};
-    const double  place[3]                   = {(double)edge.x[n], (double)edge.y[n], 0};
-    double        principal[3];
+    const double place[3] = {(double)(edge.x[n] + (slide ? slide[0] : 0)), (double)(edge.y[n] + (slide ? slide[1] : 0)),
+                             0};
+    double       principal[3];
 
     if (isnan(s[XX])) continue;
     SamPrincipalOf(all, principal);

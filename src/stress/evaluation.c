@@ -17,6 +17,7 @@ PetscErrorCode SamEvaluationDestroy(SamEvaluation *evaluation)
   PetscCall(PetscFree(e->weight));
   PetscCall(PetscFree(e->depths_text));
   PetscCall(PetscFree(e->control));
+  PetscCall(PetscFree(e->slide));
   PetscCall(SamProblemDestroy(&e->problem));
   PetscCall(PetscFree(e->largest));
   for (int d = 0; d < SAM_STRESS_AXES; d++) PetscCall(PetscFree(e->coordinate[d]));
@@ -26,13 +27,17 @@ PetscErrorCode SamEvaluationDestroy(SamEvaluation *evaluation)
 
 /* ---- steps ---- */
 
-PetscErrorCode SamEvaluationReadTractions(SamEvaluation e, PetscInt step, double *const to[SAM_STRESS_TRACTIONS])
+PetscErrorCode SamEvaluationReadTractions(SamEvaluation e, PetscInt step, PetscBool own,
+                                          double *const to[SAM_STRESS_TRACTIONS])
 {
   PetscFunctionBegin;
   e->stress->conditions = SamProblemGetConditions(e->problem);
   e->stress->control    = step < 0 ? NULL : &e->control[step]; /* of the step before the first no stress is asked */
-  for (PetscInt t = 0; t < SAM_STRESS_TRACTIONS; t++)
+  for (PetscInt t = 0; t < SAM_STRESS_TRACTIONS; t++) {
     PetscCall((*e->source.read)(e->source.context, step, (SamStepField)(SAM_STEP_PRESSURE + t), to[t]));
+    if (own && t == SAM_STRESS_P) PetscCall(SamPointsCheck(e, step, to[t]));
+    if (own) PetscCall(SamPointsMove(e, step, to[t]));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -112,9 +117,6 @@ static PetscErrorCode CheckCycle(SamEvaluation e)
              "-passing: points pass along x: give a -section y=..., or none");
   PetscCheck(!e->passing || !ruiz, e->comm, SAM_ERR_USER,
              "-fatigue ruiz: needs the slip of steps, and not -passing: omit one of them");
-  PetscCheck(!e->source.slides || !e->cycle || e->body == 1, e->comm, SAM_ERR_USER,
-             "-fatigue of body 2: with -slide its points move through the contact, and no step has them where they "
-             "were: give -body 1");
   PetscCheck(e->source.slips || !ruiz, e->comm, SAM_ERR_USER,
              "-fatigue ruiz: needs the slip of steps, and %s has velocities of slip: omit ruiz, or roll in steps of "
              "time",
@@ -150,6 +152,7 @@ static PetscErrorCode SetLayout(SamEvaluation e)
   PetscFunctionBegin;
   l->body        = e->body;
   l->section     = e->section;
+  l->own         = e->slide ? PETSC_TRUE : PETSC_FALSE;
   l->cycle       = e->cycle;
   l->n[SAM_TIME] = e->source.steps;
   l->n[SAM_Z]    = e->average ? 1 : e->depths;
@@ -187,6 +190,7 @@ PetscErrorCode SamEvaluationSetUp(SamEvaluation e, const SamStressSource *source
   PetscCall(PetscCalloc1(e->source.steps, &e->control));
   for (PetscInt k = 0; k < e->source.steps; k++)
     PetscCall((*e->source.conditions)(e->source.context, k, SamProblemGetConditions(e->problem), &e->control[k]));
+  PetscCall(SamPointsSetUp(e));
   PetscCall(SetLayout(e));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -98,6 +98,7 @@ struct _n_SamEvaluation {
   SamStressSource source;
   SamProblem      problem; /* of the bodies, for what laws add */
   SamControl     *control; /* of each step, its conditions */
+  PetscReal      *slide;   /* (steps + 1, 2), from step -1 on: m, of body 2's own points; NULL: points are the grid's */
   /* where */
   PetscInt        depths;
   PetscReal      *depth;
@@ -121,9 +122,23 @@ PETSC_INTERN PetscErrorCode SamLinesCompute(SamEvaluation e);
 /* SamMapsMemory, SamLinesMemory - the memory of this rank, bytes. Not collective. */
 PETSC_INTERN double SamMapsMemory(SamEvaluation e);
 PETSC_INTERN double SamLinesMemory(SamEvaluation e);
-/* SamEvaluationReadTractions - pressure and both shears of a step, this rank's rows. Collective. */
-PETSC_INTERN PetscErrorCode SamEvaluationReadTractions(SamEvaluation e, PetscInt step,
+/*
+  SamEvaluationReadTractions - pressure and both shears of a step, this rank's rows; `own`: as SamPointsMove() says.
+  Collective.
+*/
+PETSC_INTERN PetscErrorCode SamEvaluationReadTractions(SamEvaluation e, PetscInt step, PetscBool own,
                                                        double *const to[SAM_STRESS_TRACTIONS]);
+/*
+  The body's own points where surfaces slide (points.c).
+  SamPointsSetUp - reads how far the surfaces slide, if the body's points do not stay with the grid. Collective.
+  SamPointsSlide - how far the body's points are moved against the cells in a step, m; NULL: not at all. Not collective.
+  SamPointsMove - a field at the cells in a step becomes that at the body's points. Collective.
+  SamPointsCheck - whether all points under a pressure are on the grid. Collective. Errors: SAM_ERR_USER.
+*/
+PETSC_INTERN PetscErrorCode   SamPointsSetUp(SamEvaluation e);
+PETSC_INTERN const PetscReal *SamPointsSlide(SamEvaluation e, PetscInt step);
+PETSC_INTERN PetscErrorCode   SamPointsMove(SamEvaluation e, PetscInt step, double field[]);
+PETSC_INTERN PetscErrorCode   SamPointsCheck(SamEvaluation e, PetscInt step, const double pressure[]);
 /*
   SamStressAddUniform - adds to the stresses (Pa) of points what does not depend on x and y in a step: residual stress,
   and what laws add. Not collective.
@@ -163,8 +178,8 @@ PETSC_INTERN void SamLargestOfStep(SamEvaluation e, PetscInt step, const SamPoin
 PETSC_INTERN void SamLargestOfCycle(SamEvaluation e, PetscInt quantity, const SamPoints *points, PetscInt i,
                                     double value);
 /*
-  SamLargestAtEdge - keeps the largest stresses at the contact's edge of a step, whose map at depth 0, without uniform
-  stress, is in `field` (edge.c). Collective.
+  SamLargestAtEdge - keeps the largest stresses at the contact's edge of a step, whose map at depth 0 of the grid's
+  points, without uniform stress, is in `field` (edge.c). Collective.
 */
 PETSC_INTERN PetscErrorCode SamLargestAtEdge(SamEvaluation e, PetscInt step, Vec field);
 /* SamLargestKeep - keeps a value at a place if it is the largest so far of that kind. Not collective. */

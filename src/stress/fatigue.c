@@ -369,7 +369,7 @@ double SamFatigueRuiz(const SamFatigueCycle *c, double more[])
   if (!slip) return NAN;
   for (PetscInt k = 0; k < n; k++) {
     const PetscInt next = (k + 1) % n;
-    const double   x = slip[next] - slip[k], y = slip[n + next] - slip[n + k], length = hypot(x, y);
+    const double   x = slip[next], y = slip[n + next], length = hypot(x, y);
 
     work += fabs(s[XZ * n + next] * x + s[YZ * n + next] * y); /* a cell slips under the shear of the step's end */
     if (length <= longest) continue;

@@ -42,6 +42,8 @@ static const SamLabel    coordinate_labels[AXES] = {{"time", "s", "time of the l
                                                     {"z", "m", "depth below the surface"},
                                                     {"y", "m", "y of the cell centres"},
                                                     {"x", "m", "x of the cell centres"}};
+static const char *const own_points[AXES]        = {[SAM_Y] = "y of body 2's points under the cells before it slides",
+                                                    [SAM_X] = "x of body 2's points under the cells before it slides"};
 static const char *const axes[AXES]              = {"T", "Z", "Y", "X"};
 
 /* The spacing of coordinates, which VTK needs; 0 where they are unequal. A single one has that of the grid. */
@@ -87,9 +89,11 @@ static void CreateAll(SamStressFile s, const SamParameters *parameters)
   SamFileWriteOrigin(s->f, "Stresses under a partial-slip contact", "petsam-stress");
   SamParametersWrite(s->f, parameters);
   for (int d = 0; d < AXES; d++) {
-    shape = ShapeOf(s, d, 1);
-    scale[d] =
-      SamFileCreateScale(s->f, s->f->id, &coordinate_labels[d], axes[d], NULL, &shape, s->layout.coordinate[d]);
+    SamLabel label = coordinate_labels[d];
+
+    if (s->layout.own && own_points[d]) label.long_name = own_points[d];
+    shape    = ShapeOf(s, d, 1);
+    scale[d] = SamFileCreateScale(s->f, s->f->id, &label, axes[d], NULL, &shape, s->layout.coordinate[d]);
   }
   for (PetscInt k = 0; k < s->layout.datasets; k++) {
     const SamStressDataset *of    = &s->layout.dataset[k];

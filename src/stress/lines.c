@@ -34,7 +34,7 @@ static PetscErrorCode AddStep(SamEvaluation e, SamSection section, PetscInt step
 
   PetscFunctionBegin;
   PetscCall(VecGetArray(tractions, &a));
-  PetscCall(SamEvaluationReadTractions(e, step, (double *[]){a, a + cells, a + 2 * cells}));
+  PetscCall(SamEvaluationReadTractions(e, step, PETSC_TRUE, (double *[]){a, a + cells, a + 2 * cells}));
   PetscCall(VecRestoreArray(tractions, &a));
   PetscCall(SamSectionAddStep(section, tractions));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -17,8 +17,8 @@ double SamMapsMemory(SamEvaluation e)
   return BYTES * cells + (e->cycle ? CycleBytes(e) * cells * (double)e->source.steps : 0);
 }
 
-/* The tractions of a step, where SamStressApply() takes them. */
-static PetscErrorCode ReadTractions(SamEvaluation e, PetscInt step, Vec field)
+/* The stresses of a step at a depth, at the body's own points, or at the grid's. */
+static PetscErrorCode Apply(SamEvaluation e, PetscInt step, PetscBool own, Vec field)
 {
   const PetscInt cells = e->grid->cells;
   double        *a;
@@ -26,20 +26,24 @@ static PetscErrorCode ReadTractions(SamEvaluation e, PetscInt step, Vec field)
   PetscFunctionBegin;
   PetscCall(VecGetArray(field, &a));
   PetscCall(SamEvaluationReadTractions(
-    e, step, (double *[]){a + SAM_STRESS_ZZ * cells, a + SAM_STRESS_XZ * cells, a + SAM_STRESS_YZ * cells}));
+    e, step, own, (double *[]){a + SAM_STRESS_ZZ * cells, a + SAM_STRESS_XZ * cells, a + SAM_STRESS_YZ * cells}));
   PetscCall(VecRestoreArray(field, &a));
+  PetscCall(SamStressApply(e->stress, field));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode ComputeStep(SamEvaluation e, PetscInt step, const SamPoints *p, Vec field)
 {
-  const ptrdiff_t size = SAM_STRESS_COMPONENTS * (ptrdiff_t)p->count;
+  const ptrdiff_t size    = SAM_STRESS_COMPONENTS * (ptrdiff_t)p->count;
+  const PetscBool surface = e->depth[p->depth] == 0 ? PETSC_TRUE : PETSC_FALSE;
   double         *a;
 
   PetscFunctionBegin;
-  PetscCall(ReadTractions(e, step, field));
-  PetscCall(SamStressApply(e->stress, field));
-  if (e->depth[p->depth] == 0) PetscCall(SamLargestAtEdge(e, step, field));
+  if (surface) {
+    PetscCall(Apply(e, step, PETSC_FALSE, field)); /* an edge is found where it has not been interpolated */
+    PetscCall(SamLargestAtEdge(e, step, field));
+  }
+  if (!surface || SamPointsSlide(e, step)) PetscCall(Apply(e, step, PETSC_TRUE, field));
   PetscCall(VecGetArray(field, &a));
   SamStressAddUniform(e, step, p, a);
   PetscCall(SamQuantitiesWrite(e, step, p, a));

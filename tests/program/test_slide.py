@@ -5,7 +5,6 @@ import numpy as np
 import pytest
 
 import compliances
-import conftest
 from support import ball, closed, history, read_run
 
 STEEL = dict(body1_young=200e9, body1_poisson=0.3, body2_young=200e9, body2_poisson=0.3)
@@ -283,12 +282,3 @@ def test_a_long_stroke_without_slide_is_warned_of(petsam, slide, tmp_path):
         for words in (dict(slide=None), dict(), dict(slide=None, wear_coefficient2=None))
     ]
     assert said == [True, False, False]
-
-
-def test_fatigue_of_the_body_that_slides_away_is_refused(petsam, slide, tmp_path, launcher):
-    slide(CASE, HEADER, *ROWS, steps=2)
-    stress = conftest.PROGRAM.with_name("petsam-stress")
-    words = dict(input="slid.h5", output="s.h5", steps="all", fatigue="crossland", depths=1e-4)
-    words.update(fatigue_crossland_alpha=0.3)
-    done = conftest.execute(launcher, tmp_path, [dict(words, body=2)], 1, 2, program=stress)
-    assert "with -slide its points move through the contact" in done.stderr

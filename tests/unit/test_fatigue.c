@@ -332,8 +332,8 @@ static void test_ruiz_of_slip_to_and_fro(void **state)
   for (int k = 0; k < 2; k++) {
     stress[XZ * 2 + k] = q[k] * c;
     stress[YZ * 2 + k] = q[k] * s;
-    slip[k]            = -way[k] * c;
-    slip[2 + k]        = -way[k] * s;
+    slip[k]            = -2 * way[k] * c; /* since the other state */
+    slip[2 + k]        = -2 * way[k] * s;
   }
   stress[XX * 2] = 5; /* along the slip 5 cos^2 */
   d1             = SamFatigueRuiz(&(SamFatigueCycle){&constants, 2, stress, slip, scratch}, &d2);
