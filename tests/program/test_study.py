@@ -6,6 +6,7 @@ import os
 import random
 import re
 import signal
+import shutil
 import subprocess
 import sys
 import textwrap
@@ -513,6 +514,17 @@ def test_failures_are_listed_with_exit_code_and_message(run, tmp_path):
     assert "2 cases: 1 finished, 1 failed" in said and "slides  exit 11: gross slip" in said
     with h5py.File(tmp_path / "cases" / "results.h5", "r") as file:
         assert file["exit_code"][:].tolist() == [0, 11] and b"gross slip" in file["message"][1]
+
+
+def test_the_table_links_all_parts_of_a_run_that_went_on(run, tmp_path):
+    table(tmp_path, f"load_tx,case\n{float(0.3 * LIMIT)!r},one\n")
+    run("cases.csv", "--", *words(CASE))
+    with h5py.File(tmp_path / "cases" / "results.h5", "r") as file:
+        assert list(file["cases"]) == ["one"]
+    shutil.copy(tmp_path / "cases" / "one" / "results.h5", tmp_path / "cases" / "one" / "results.part2.h5")
+    run("cases.csv", "--", *words(CASE))
+    with h5py.File(tmp_path / "cases" / "results.h5", "r") as file:
+        assert list(file["cases"]) == ["one", "one.part2"] and "history" in file["cases/one.part2"]
 
 
 def test_the_energy_of_a_case_that_ends_in_gross_slip_is_that_of_the_steps_before(run, tmp_path):

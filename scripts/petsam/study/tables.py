@@ -26,7 +26,7 @@ from typing import NamedTuple, Optional
 import h5py
 import numpy as np
 
-from .. import cycles, isolation, sliding
+from .. import cycles, isolation, parts, sliding
 from ..errors import Error
 from ..files import need_replaceable
 from ..results import DAMAGED, Results
@@ -263,8 +263,17 @@ def write_hdf5(path, found, study):
         links = file.create_group("cases")
         for case, _, values in found:
             if values:
-                links[case.name] = h5py.ExternalLink(os.path.join(case.name, RESULTS), "/")
+                _link_parts(links, os.path.dirname(path), case.name)
     os.replace(path + ".tmp", path)
+
+
+def _link_parts(links, directory, case):
+    """Links to the results of a case: under its name the first part, then CASE.part2, ... of a run that went on."""
+    number, file = 1, RESULTS
+    while number == 1 or os.path.exists(os.path.join(directory, case, file)):
+        links[case if number == 1 else f"{case}.part{number}"] = h5py.ExternalLink(os.path.join(case, file), "/")
+        number += 1
+        file = parts.name_of(RESULTS, number)
 
 
 def write(directory, cases, study, figures=LAST):
