@@ -286,6 +286,47 @@ def test_a_body_that_does_not_wear_has_no_scar(one_body, direct):
     assert texts(axes[1]) == ("step", ["4"])
 
 
+PROFILE = "# from a stylus\nx_um,one_nm,two_nm\n-50,0,1\n0,-20,-10\n50,0,0\n"
+
+
+def test_measured_profiles_stand_beside_the_scar_of_their_body(life, tmp_path):
+    table = tmp_path / "profile.csv"
+    table.write_text(PROFILE)
+    for body, row in (("", 1), ("1", 0), ("2", 1)):
+        figure = wear.scar([(life, life.of_last())], measured=(body, str(table)))
+        lines = [axes.lines for axes in figure.axes]
+        assert [len(drawn) for drawn in lines] == [3 if k == 2 * row else 1 for k in range(4)]
+        unit = {"nm": 1e9, "µm": 1e6}[figure.axes[0].get_ylabel().split()[-1]]
+        across = {"mm": 1e3, "µm": 1e6}[figure.axes[0].get_xlabel().split()[-1]]
+        x, depth = lines[2 * row][1].get_data()
+        assert np.allclose(x, across * np.array([-5e-5, 0, 5e-5])) and np.allclose(depth, unit * np.array([0, 2e-8, 0]))
+        assert [line.get_label() for line in lines[2 * row][1:]] == ["measured: one", "measured: two"]
+
+
+@pytest.mark.parametrize(
+    "text, complaint",
+    [
+        ("x_mm,y_um\n", "expected a line of column names"),
+        ("x,y_um\n0,1\n1,2\n", "line 1: column x: expected a name and a unit"),
+        ("y_mm,x_um\n0,1\n1,2\n", "line 1: column y_mm: expected x first"),
+        ("#\nx_mm,y_um\n0,1\n1,a\n", "line 4: could not convert"),
+        ("x_mm,y_um\n0,1\n1,nan\n", "line 3: expected 2 finite numbers"),
+        ("x_mm,y_um\n0,1\n1,2,3\n", "line 3: expected 2 finite numbers"),
+    ],
+)
+def test_a_measured_profile_that_is_none_is_named_with_its_line(draw, path, tmp_path, text, complaint):
+    table = tmp_path / "profile.csv"
+    table.write_text(text)
+    code, (error,) = draw("--scar", "--measured", f"2:{table}", path)
+    assert code == 3 and complaint in error
+
+
+def test_a_measured_profile_of_a_body_that_does_not_wear_is_refused(draw, one_body, tmp_path):
+    (tmp_path / "profile.csv").write_text(PROFILE)
+    code, (error,) = draw("--scar", "--measured", f"1:{tmp_path}/profile.csv", one_body)
+    assert code == 3 and "body 1 does not wear" in error
+
+
 # ---------------------------------------------------------------- the life
 
 

@@ -65,6 +65,11 @@ def period(text):
         raise argparse.ArgumentTypeError(f"{short(text)}: expected a positive time, or T,START, in s") from None
 
 
+def measured(text):
+    """Reader of a body, 1: or 2:, which may be left out, and a file for argparse."""
+    return (text[0], text[2:]) if re.match("[12]:", text) else ("", text)
+
+
 def percentile(text):
     """Reader of a percentile for argparse."""
     values = numbers(float)(text)
@@ -146,6 +151,11 @@ def _pictures(parser):
     kinds.add_argument("--history", action="store_true", help="scalars over time or a creepage, or over --against")
     kinds.add_argument("--fretting-log", action="store_true", help="loops of up to eight cycles, with their energy")
     kinds.add_argument("--scar", action="store_true", help="removed depth along x and y through its deepest point")
+    kinds.add_argument(
+        "--measured", type=measured, metavar="[BODY:]FILE.csv",
+        help="heights of a worn surface beside its scar: columns with their units, x first: x_mm,height_um "
+        "(of the last body that wears)",
+    )  # fmt: skip
     kinds.add_argument("--life", action="store_true", help="volume, depth, energy, area and pressure over cycles")
 
 

@@ -12,6 +12,7 @@
     petsam-plot --fatigue --width 180 --csv both.csv a_fatigue.h5 b_fatigue.h5     two pads, also as numbers
     petsam-plot --against load_tx,friction --border life=1e6 study/results.h5   its regimes over two inputs
     petsam-plot --scar --cycle 0,1e5,1e6 life.h5    removed depth at three saved cycles
+    petsam-plot --scar --cycle -1 --measured 2:profile.csv life.h5     a measured profile beside body 2's
     petsam-plot --sections --component xx stress.h5     stresses under the surface, by petsam-stress
 
 Without a kind given, maps and profiles of the last saved step are drawn, and of several solved load steps the loop,
@@ -194,7 +195,7 @@ def draw_wear(options, results, kind):
         return wear.life(results)
     given = options.step or options.time or options.cycle
     steps = snapshots(options, results) if given else [(one, k) for one in results for k in wear.scar_steps(one)]
-    return wear.scar(steps, options.at, options.whole_grid)
+    return wear.scar(steps, options.at, options.whole_grid, options.measured)
 
 
 def ranged(options, results):

@@ -12,6 +12,7 @@ OF_RESULTS = {
     "range": ("loop", "history"), "load": ("loop", "fretting-log"), "turns": ("energy", "fretting-log"),
     "period": ("energy", "fretting-log"), "field": FIELDS, "scalar": ("history",), "against": ("history",),
     "at": ("profiles", "scar"), "whole_grid": (*FIELDS, "scar"), "limits": FIELDS, "percentile": ("maps",),
+    "measured": ("scar",),
     "log colors": ("maps",), "log x": ("profiles", "history", "energy"), "log y": ("profiles", "history", "energy"),
 }  # fmt: skip
 OF_STRESSES = {

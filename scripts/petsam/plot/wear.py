@@ -9,6 +9,7 @@ import numpy as np
 from ..errors import Error
 from ..results import BLOCK
 from .loops import LOOPS, cycle_energy, loop_axes, loop_energy, spread
+from .measured import read_profiles
 from .profiles import crossing, sides_of
 from .style import colors, curve, need_few, note, plt, tint
 from .symbols import SYMBOLS
@@ -23,6 +24,7 @@ LIFE = (
     (("contact_area",), "contact area"),
     (("pressure_max",), "maximum pressure"),
 )
+MEASURED = (":", "--", "-.")  # lines of measured profiles
 BODIES = (".-", "s--")  # lines of the first and the second body that wears
 LOOK = {"linewidth": 1.2, "markersize": 3.5, "markerfacecolor": "white"}
 
@@ -188,13 +190,38 @@ def _scar_panel(panel, row, axis, units, whole):
     panel.set_xlabel(label(f"${'xy'[axis]}$", unit))
 
 
-def scar(steps, at=None, whole=False):
+def _measured_rows(rows, measured):
+    """Which rows have profiles beside them, and these: of the body that is named, else of the last one that wears."""
+    if not measured:
+        return (), None
+    body, path = measured
+    bodies = sorted({row[2][-1] for row in rows})
+    if body and body not in bodies:
+        raise Error(f"--measured {body}:{path}: body {body} does not wear")
+    return [row for row in rows if row[2][-1] == (body or bodies[-1])], read_profiles(path)
+
+
+def _draw_measured(panel, profiles, units):
+    """Measured profiles as removed depths, within the panel's length."""
+    x, heights = profiles
+    limits = panel.get_xlim()
+    for k, (name, height) in enumerate(heights.items()):
+        text = f"measured: {plain(name)}" if len(heights) > 1 else "measured"
+        style = MEASURED[k % len(MEASURED)]
+        panel.plot(units[0][0] * x, -units[1][0] * height, style, color="black", linewidth=1.0, label=text)
+    panel.set_xlim(limits)
+    panel.legend(handles=panel.lines[-len(heights) :], loc="lower right")
+
+
+def scar(steps, at=None, whole=False, measured=None):
     """Removed depth along x (left) and y (right) through its deepest point: one row per body, one line per step.
 
-    Of plane problems along x only, of running bands across them.
+    Of plane problems along x only, of running bands across them. measured: a body, "1", "2" or "", and the name of a
+    file with profiles along the first of these that are drawn beside it.
     """
     need_few(len(steps), "steps and files")
     rows = _scar_rows(steps, at)
+    beside, profiles = _measured_rows(rows, measured)
     sides = (1,) if all(one.is_steady for one, _ in steps) else sides_of([one for one, _ in steps])
     depth = largest(
         _line(one, name, index, axis, point)
@@ -210,6 +237,8 @@ def scar(steps, at=None, whole=False):
     for panels, row in zip(axes, rows):
         for axis, panel in zip(sides, panels):
             _scar_panel(panel, row, axis, units, whole)
+        if row in beside:
+            _draw_measured(panels[0], profiles, units)
         panels[0].invert_yaxis()  # shared
         panels[0].set_ylabel(label(f"removed depth $w_{row[2][-1]}$", units[1][1]))
         _legend(panels[-1], _names(row[0], row[1])[1])

@@ -1,0 +1,53 @@
+"""Measured profiles beside computed scars: a CSV of heights of the worn surface over x."""
+
+import csv
+
+import numpy as np
+
+from ..errors import Error, short
+from ..files import need_regular
+from ..surface.lengths import KNOWN, metres
+
+
+def _column(path, number, name):
+    """What a column is called, and the metres of its unit: x_mm, flat_um."""
+    what, _, unit = name.strip().rpartition("_")
+    factor = metres(unit)
+    if not what or factor is None:
+        raise Error(f"{path}, line {number}: column {short(name)}: expected a name and a unit, such as x_mm or "
+                    f"height_um; units are {KNOWN}")  # fmt: skip
+    return what, factor
+
+
+def _values(path, number, cells, count):
+    try:
+        values = [float(cell) for cell in cells]
+    except ValueError as error:
+        raise Error(f"{path}, line {number}: {error}") from error
+    if len(values) != count or not np.all(np.isfinite(values)):
+        raise Error(f"{path}, line {number}: expected {count} finite numbers, as many as there are columns")
+    return values
+
+
+def read_profiles(path):
+    """The profiles of a file: x (m), and heights (m) by name.
+
+    Lines that begin with # are comments. The first other line names the columns with their units, x first: x_mm,
+    test1_um, ... Heights are those of the worn surface over the unworn one: a scar is negative.
+    """
+    need_regular(path)
+    try:
+        with open(path, encoding="utf-8", newline="") as file:
+            lines = [(n, line) for n, line in enumerate(file, 1) if line.strip() and not line.startswith("#")]
+        rows = [(n, next(csv.reader([line]))) for n, line in lines]
+    except (UnicodeDecodeError, csv.Error) as error:
+        raise Error(f"{path}: is no table in CSV: {error}") from error
+    if len(rows) < 3 or len(rows[0][1]) < 2:
+        raise Error(f"{path}: expected a line of column names, x_mm,height_um, and at least two lines of numbers")
+    number, names = rows[0]
+    columns = [_column(path, number, name) for name in names]
+    if columns[0][0] != "x":
+        raise Error(f"{path}, line {number}: column {short(names[0])}: expected x first, such as x_mm")
+    table = np.array([_values(path, n, cells, len(columns)) for n, cells in rows[1:]])
+    table *= [factor for _, factor in columns]
+    return table[:, 0], dict(zip([name for name, _ in columns[1:]], table.T[1:]))
