@@ -122,7 +122,7 @@ def test_volumes_are_those_of_the_path(life, law, steps, shares, words):
 
 
 def test_waves_wear_each_other_off(life, tmp_path):
-    """Full contact of waves a1, a2: d(a1, a2)/ds = -(pi E*/wave) [[k1, k1 c], [k2 c, k2]] (a1, a2), c the mean cosine."""
+    """Full contact, waves a: da/ds = -(pi E*/wave) [[k1, k1 c], [k2 c, k2]] a, c the mean cosine of the positions."""
     wave, n, cells, e_star, path, a = 1e-4, 64, 8, 1e11, 0.04, (2e-8, 1e-8)
     x = (np.arange(n) + 0.5) / n * wave
     cosine = np.cos(2 * np.pi * x / wave)
