@@ -441,8 +441,7 @@ static const struct {
   enum { BEFORE, LARGEST, CONTACT, WORN } when;
   void (*look)(SamAdvice *advice);
 } advices[] = {{BEFORE, Surfaces}, {BEFORE, Friction}, {LARGEST, Units}, {LARGEST, Motion}, {LARGEST, Touch},
-               {CONTACT, Cells},   {CONTACT, Bodies},  {CONTACT, Size},  {WORN, Cells},
-               {WORN, Stroke}};
+               {CONTACT, Cells},   {CONTACT, Bodies},  {CONTACT, Size},  {WORN, Cells},     {WORN, Stroke}};
 
 static PetscErrorCode LookAt(SamAdvice *a, int when)
 {
