@@ -153,7 +153,10 @@ class Comparison:
         yield "running-in of two rough surfaces; their roughness", columns, n["rough"]
         last = next(row for row in reversed(n["scars"]) if row["case"] == "petsam")
         error = last["depth"] / DEPTH - 1.0
-        yield f"\ncheck: area/(k N path) - 1 = {n['area']:+.1e} ({AREA_TOLERANCE:g}), depth {error:+.1e} ({DEPTH_TOLERANCE:g})"
+        yield (
+            f"\ncheck: area/(k N path) - 1 = {n['area']:+.1e} ({AREA_TOLERANCE:g}), depth {error:+.1e} "
+            f"({DEPTH_TOLERANCE:g})"
+        )
         if not (abs(n["area"]) < AREA_TOLERANCE and abs(error) < DEPTH_TOLERANCE):
             raise petsam.Error(f"{self.runs['moved'].path}: the scar is wrong")
 

@@ -434,7 +434,7 @@ def small_disk(folder):
 
 @pytest.mark.parametrize("ranks", [1, 2])
 def test_full_disk_ends_the_run_and_leaves_the_checkpoint_before(small_disk, petsam, ranks):
-    case = dict(CASE, grid_n=128)
+    case = dict(CASE, grid_n=128, cycle_memory=0)
     done = petsam(case, dict(checkpoint="away/state.h5", checkpoint_every=2), ranks=ranks, check=3)
     assert (
         len(done.complaint) == 1

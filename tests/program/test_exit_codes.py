@@ -142,8 +142,8 @@ def test_no_convergence_is_told_and_written(petsam, tmp_path, option):
     if option == "coupling_max_it":
         case.update(body2_young=5e9, body2_poisson=0.4)
     done = petsam(case, {option: 1}, check=10)
-    *advice, error = done.complaint
-    assert len(advice) == (option == "coupling_max_it") and option.split("_")[0] in error
+    (error,) = done.complaint
+    assert option.split("_")[0] in error
     s = Results(tmp_path / "out.h5")
     assert s["status"] == 10 and s.saved == 1 and np.all(np.isfinite(s.pressure))
 

@@ -250,7 +250,10 @@ def test_contact_over_the_border_of_body_2s_surface(petsam, slide, tmp_path):
 @pytest.mark.parametrize(
     "words, reason",
     [
-        (dict(rolling="steady"), "-slide: has no meaning with -rolling steady"),
+        (
+            dict(rolling="steady", wear_coefficient1=None, wear_coefficient2=None),
+            "-slide: has no meaning with -rolling steady",
+        ),
         (dict(body2_compliance="body.h5"), "-slide does not work with -body2_compliance: body 2 moves away"),
         (dict(pressure_limit=1e9), "-slide does not work with -pressure_limit: one depth of yielding"),
         (dict(step_rtol=1e-2), "-slide does not work with -step_rtol: "),

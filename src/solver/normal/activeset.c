@@ -372,7 +372,7 @@ static PetscErrorCode Iterate(Work *w, PetscBool gradient, PetscBool *downhill, 
   if (!*downhill) PetscFunctionReturn(PETSC_SUCCESS);
   if (!gradient)
     w->alpha *= sqrt(PetscMin(PetscMax(best, 1 / (w->layered ? FALL : FOLLOW)), FOLLOW));
-  else if (!w->layered)
+  else
     w->alpha = 1;
   PetscCall(SamActiveSetChoose(w, contact));
   PetscCall(SamLevelIterated(w->solver, w->level, w->error / w->displacement));
