@@ -3,7 +3,7 @@
 Reads moved.h5, fixed.h5, ring.h5, rough.h5 and the roughness of both bodies, which examples/mccoll/run.sh writes to a
 directory, and the published profiles beside this file, prints tables, draws mccoll.png and scars.png, and fails when a
 check does not hold:
-  area     the worn area of the flat is k N times the path of slip, which the energy of the cycles tells
+  area     the worn area of the flat is k N times the accumulated slip, which follows from the energy of the cycles
   depth    of the flat at 18,000 cycles within 3e-3 of 2.7313 um, another program's of the same method
 """
 

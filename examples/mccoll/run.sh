@@ -1,5 +1,5 @@
 #!/bin/sh
-# The public benchmark of fretting wear: a cylinder that slides to and fro on a flat, 18,000 cycles, beside Abaqus and the
+# The public benchmark of fretting wear: a cylinder that slides cyclically on a flat, 18,000 cycles, beside Abaqus and the
 # measurement; a block on a ring, over 3600 m; and the running-in of two rough surfaces.
 #
 #   examples/mccoll/run.sh
