@@ -146,7 +146,7 @@ static PetscErrorCode PrintEnergy(SamReport r)
 
 static PetscErrorCode WarnOfEnergy(SamReport r)
 {
-  static const char *const without[] = {"-step_rtol", "-wear_cycles", "-grid_check"}; /* or it has one already */
+  static const char *const without[] = {"-step_rtol", "-wear_cycles", "-grid_check", "-slide"}; /* or it has one */
   PetscBool                given     = PETSC_FALSE;
 
   PetscFunctionBegin;

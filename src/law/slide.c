@@ -197,14 +197,17 @@ static PetscErrorCode Begin(SamLaw law, SamState state, const SamControl *contro
   const PetscReal cell[2] = {grid->dx, grid->dy};
   const double    turn    = fabs(Rigid(state, control, SAM_COMPONENT_MZ)),
                most       = 2 * (double)(PetscMin(grid->dx, grid->dy) / PetscMax(grid->width[0], grid->width[1]));
-  PetscBool moves         = PETSC_FALSE;
+  const PetscBool given   = SamControlWay(control, SAM_COMPONENT_MZ) == SAM_BY_RIGID;
+  PetscBool       moves   = PETSC_FALSE;
 
   PetscFunctionBegin;
   (void)duration;
-  PetscCheck(grid->axes < 2 || turn <= most, grid->comm, SAM_ERR_USER,
-             "%s of %.6g with -slide: expected at most %.6g, a cell at the border of the grid: surfaces slide without "
-             "turning over each other",
-             SamComponentNames[SAM_COMPONENT_MZ].rigid, turn, most);
+  PetscCheck(
+    grid->axes < 2 || turn <= most, grid->comm, SAM_ERR_USER,
+    "%s of %.6g with -slide%s: expected at most %.6g, a cell at the border of the grid: surfaces slide without "
+    "turning over each other: %s",
+    SamComponentNames[SAM_COMPONENT_MZ].rigid, turn, given ? "" : ", found for load_mz in the step before", most,
+    given ? "give 0" : "give rot_z = 0 instead of load_mz");
   for (int k = 0; k < grid->axes; k++) {
     now[k] = Rigid(state, control, along[k]) - before[LAG_X + k];
     moves  = moves || fabs(now[k] - before[k]) >= SLIDES * (double)cell[k];
@@ -215,9 +218,10 @@ static PetscErrorCode Begin(SamLaw law, SamState state, const SamControl *contro
 
 static PetscErrorCode Separation(SamLaw law, SamState state, SamGeneration generation, Vec h, PetscBool *adds)
 {
-  const Slide *s = (const Slide *)law->data;
-  PetscReal    slide[2];
-  Vec          seen;
+  const Slide    *s        = (const Slide *)law->data;
+  const PetscBool periodic = SamElasticityGetTraits(law->elasticity).periodic;
+  PetscReal       slide[2];
+  Vec             seen;
 
   PetscFunctionBegin;
   (void)generation; /* from its begin on a try has its own D */
@@ -226,7 +230,7 @@ static PetscErrorCode Separation(SamLaw law, SamState state, SamGeneration gener
   if (!h) PetscFunctionReturn(PETSC_SUCCESS);
   (void)SamSlideGet(state, SAM_TRIED, slide);
   PetscCall(SamGridCreateVec(law->grid, 1, &seen));
-  PetscCall(SamSlideRead(law->elasticity, slide, s->surface, seen));
+  PetscCall(SamGridMove(law->grid, 1, slide, periodic ? SAM_BORDER_WRAPS : SAM_BORDER_CONTINUES, s->surface, seen));
   PetscCall(VecAXPY(h, 1, seen));
   PetscCall(VecDestroy(&seen));
   PetscFunctionReturn(PETSC_SUCCESS);

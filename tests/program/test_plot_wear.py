@@ -308,7 +308,9 @@ def test_measured_profiles_stand_beside_the_scar_of_their_body(life, tmp_path):
     [
         ("x_mm,y_um\n", "expected a line of column names"),
         ("x,y_um\n0,1\n1,2\n", "line 1: column x: expected a name and a unit"),
-        ("y_mm,x_um\n0,1\n1,2\n", "line 1: column y_mm: expected x first"),
+        ("z_mm,x_um\n0,1\n1,2\n", "line 1: column z_mm: expected x (or y) first"),
+        ("x_mm,y_um,y_mm\n0,1,1\n1,2,2\n", "line 1: two columns have the same name"),
+        ("x_m,y_um\n5,1\n6,2\n", "beside the scar: check its unit"),
         ("#\nx_mm,y_um\n0,1\n1,a\n", "line 4: could not convert"),
         ("x_mm,y_um\n0,1\n1,nan\n", "line 3: expected 2 finite numbers"),
         ("x_mm,y_um\n0,1\n1,2,3\n", "line 3: expected 2 finite numbers"),

@@ -67,6 +67,8 @@ def period(text):
 
 def measured(text):
     """Reader of a body, 1: or 2:, which may be left out, and a file for argparse."""
+    if not text or re.fullmatch(r"\d:.*", text) and (text[0] not in "12" or not text[2:]):
+        raise argparse.ArgumentTypeError(f"{short(text) or repr('')}: expected a file, or 1:FILE, 2:FILE")
     return (text[0], text[2:]) if re.match("[12]:", text) else ("", text)
 
 

@@ -33,21 +33,25 @@ def read_profiles(path):
     """The profiles of a file: x (m), and heights (m) by name.
 
     Lines that begin with # are comments. The first other line names the columns with their units, x first: x_mm,
-    test1_um, ... Heights are those of the worn surface over the unworn one: a scar is negative.
+    test1_um, ...; of a running band y. Heights are those of the worn surface over the unworn one: a scar is negative.
     """
     need_regular(path)
     try:
-        with open(path, encoding="utf-8", newline="") as file:
+        with open(path, encoding="utf-8-sig", newline="") as file:
             lines = [(n, line) for n, line in enumerate(file, 1) if line.strip() and not line.startswith("#")]
         rows = [(n, next(csv.reader([line]))) for n, line in lines]
     except (UnicodeDecodeError, csv.Error) as error:
         raise Error(f"{path}: is no table in CSV: {error}") from error
     if len(rows) < 3 or len(rows[0][1]) < 2:
-        raise Error(f"{path}: expected a line of column names, x_mm,height_um, and at least two lines of numbers")
+        raise Error(
+            f"{path}: expected a line of column names with commas, x_mm,height_um, and at least two lines of numbers"
+        )
     number, names = rows[0]
     columns = [_column(path, number, name) for name in names]
-    if columns[0][0] != "x":
-        raise Error(f"{path}, line {number}: column {short(names[0])}: expected x first, such as x_mm")
+    if columns[0][0] not in ("x", "y"):
+        raise Error(f"{path}, line {number}: column {short(names[0])}: expected x (or y) first, such as x_mm")
+    if len({name for name, _ in columns[1:]}) < len(columns) - 1:
+        raise Error(f"{path}, line {number}: two columns have the same name")
     table = np.array([_values(path, n, cells, len(columns)) for n, cells in rows[1:]])
     table *= [factor for _, factor in columns]
     return table[:, 0], dict(zip([name for name, _ in columns[1:]], table.T[1:]))

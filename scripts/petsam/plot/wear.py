@@ -205,6 +205,8 @@ def _draw_measured(panel, profiles, units):
     """Measured profiles as removed depths, within the panel's length."""
     x, heights = profiles
     limits = panel.get_xlim()
+    if units[0][0] * x.max() < limits[0] or units[0][0] * x.min() > limits[1]:
+        raise Error(f"--measured: the profile lies from {x.min():g} to {x.max():g} m, beside the scar: check its unit")
     for k, (name, height) in enumerate(heights.items()):
         text = f"measured: {plain(name)}" if len(heights) > 1 else "measured"
         style = MEASURED[k % len(MEASURED)]
