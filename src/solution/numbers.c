@@ -193,7 +193,8 @@ static PetscErrorCode FindEdges(SamProblem problem, const SamSolution *s, double
     PetscCall(SamEdgeDestroy(&edge));
   }
   PetscCall(SamSolutionFindEdge(problem, s, SAM_EDGE_STICK, NULL, &edge));
-  PetscCall(SamSolutionFindShear(problem, s, &edge, &numbers[SHEAR_MAX]));
+  if (numbers[STICK_CELLS] > 0 && numbers[STICK_CELLS] < numbers[CONTACT_CELLS])
+    PetscCall(SamSolutionFindShear(problem, s, &edge, &numbers[SHEAR_MAX]));
   numbers[CONTACT_AREA] = contact[AREA];
   numbers[STICK_AREA]   = edge.area;
   numbers[SLIP_WIDTH]   = NAN; /* flat periodic bodies have no edge */

@@ -23,10 +23,11 @@
 #define BEHIND   2     /* cells about a point of the reconstructed edge that must be in contact */
 #define FARTHEST 0.825 /* cells: an edge beyond is that of the next cell */
 
-/* What is seen of a solution; and whether the edge of stick is reconstructed in a cell, 1 or 0. */
+/* What is seen of a solution: fields, and of each cell its state, or KNOWN where the edge of stick is reconstructed. */
+#define KNOWN (-1)
 typedef struct {
   SamGrid grid;
-  SamHalo p, b, q, known;
+  SamHalo p, b, q, cell;
 } Seen;
 
 /* Whether cell i of row j of the grid and those about it are in contact: the edge of contact is farther. */
@@ -36,9 +37,7 @@ static PetscBool IsInside(const SamHalo *p, PetscInt i, PetscInt j)
 
   for (PetscInt b = j - rows; b <= j + rows; b++)
     for (PetscInt a = i - BEHIND; a <= i + BEHIND; a++)
-      if (a < 0 || a >= p->rows.grid->nx || b < p->rows.first || b >= p->rows.first + p->rows.count ||
-          !(p->at[0][(ptrdiff_t)(b - p->rows.first) * p->rows.grid->nx + a] > 0))
-        return PETSC_FALSE;
+      if (!(SamHaloAt(p, 0, a, b) > 0)) return PETSC_FALSE;
   return PETSC_TRUE;
 }
 
@@ -54,13 +53,10 @@ static double SquareAt(const SamHalo *p, double x, double y)
 }
 
 /* The largest shear at the points of the edge, whose cells become known. */
-static PetscErrorCode FindAtPoints(const Seen *s, const SamEdge *stick, Vec known, double *most)
+static void FindAtPoints(const Seen *s, const SamEdge *stick, double cell[], double *most)
 {
   const double *b = s->b.own;
-  double       *is;
 
-  PetscFunctionBegin;
-  PetscCall(VecGetArray(known, &is));
   for (PetscInt n = 0; n < stick->count; n++) {
     const PetscInt k = stick->cell[n], i = k % s->grid->nx, j = s->grid->row_start + k / s->grid->nx;
     /* counted from the grid's first row and not from the rank's, whose sums would round otherwise */
@@ -69,54 +65,36 @@ static PetscErrorCode FindAtPoints(const Seen *s, const SamEdge *stick, Vec know
     double shear   = 0;
 
     if (!IsInside(&s->p, i, j)) continue;
-    is[k] = 1;
-    shear = b[k] / s->p.own[k] * sqrt(SquareAt(&s->p, x, y));
-    *most = PetscMax(*most, shear);
+    cell[k] = KNOWN;
+    shear   = b[k] / s->p.own[k] * sqrt(SquareAt(&s->p, x, y));
+    *most   = PetscMax(*most, shear);
   }
-  PetscCall(VecRestoreArray(known, &is));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* The value of the cell in column i of the grid's row j; 0 beyond the grid. */
-static double ValueAt(const SamHalo *field, PetscInt component, PetscInt i, PetscInt j)
-{
-  const SamGrid grid = field->rows.grid;
-
-  if (i < 0 || i >= grid->nx || j < 0 || j >= grid->ny) return 0;
-  return field->at[component][(ptrdiff_t)(j - field->rows.first) * grid->nx + i];
-}
-
-static SamCellState StateAt(const Seen *s, PetscInt i, PetscInt j)
-{
-  return SamCellStateOf(ValueAt(&s->p, 0, i, j), ValueAt(&s->q, 0, i, j), ValueAt(&s->q, 1, i, j),
-                        ValueAt(&s->b, 0, i, j));
 }
 
 /* The slack over mu of a cell, in the direction of a shear. */
 static double SlackAt(const Seen *s, PetscInt i, PetscInt j, const double shear[2])
 {
-  const double p = ValueAt(&s->p, 0, i, j), b = ValueAt(&s->b, 0, i, j), size = hypot(shear[0], shear[1]);
+  const double p = SamHaloAt(&s->p, 0, i, j), b = SamHaloAt(&s->b, 0, i, j), size = hypot(shear[0], shear[1]);
 
-  return b > 0 ? p * (1 - (shear[0] * ValueAt(&s->q, 0, i, j) + shear[1] * ValueAt(&s->q, 1, i, j)) / (b * size)) : 0;
+  return b > 0 ? p * (1 - (shear[0] * SamHaloAt(&s->q, 0, i, j) + shear[1] * SamHaloAt(&s->q, 1, i, j)) / (b * size))
+               : 0;
 }
 
-/* The shear at the edge of stick between a cell that sticks and the next one in a direction; 0: there is none. */
+/* The shear at the edge of stick between a cell that sticks and the next one in a direction, which slips. */
 static double ShearAt(const Seen *s, PetscInt i, PetscInt j, PetscInt x, PetscInt y)
 {
-  const double p = ValueAt(&s->p, 0, i, j), next = ValueAt(&s->p, 0, i + x, j + y);
-  const double shear[] = {ValueAt(&s->q, 0, i + x, j + y), ValueAt(&s->q, 1, i + x, j + y)};
-  double       slack, behind, ratio, u;
+  const double p = SamHaloAt(&s->p, 0, i, j), next = SamHaloAt(&s->p, 0, i + x, j + y);
+  const double shear[] = {SamHaloAt(&s->q, 0, i + x, j + y), SamHaloAt(&s->q, 1, i + x, j + y)};
+  const double slack = SlackAt(s, i, j, shear), behind = SlackAt(s, i - x, j - y, shear);
+  double       ratio, u;
 
-  if (StateAt(s, i, j) != SAM_CELL_STICK || StateAt(s, i + x, j + y) != SAM_CELL_SLIP) return 0;
-  slack  = SlackAt(s, i, j, shear);
-  behind = SlackAt(s, i - x, j - y, shear);
   if (!(slack > 0 && behind > 0)) return 0;
   ratio = slack / behind;
   u     = PetscMin(-0.17551 + ratio * (1.01898 + ratio * (0.32267 + ratio * 0.36465)), FARTHEST);
-  return ValueAt(&s->b, 0, i, j) / p * sqrt(PetscMax(p * p + u * (next * next - p * p), 0));
+  return SamHaloAt(&s->b, 0, i, j) / p * sqrt(PetscMax(p * p + u * (next * next - p * p), 0));
 }
 
-/* The largest shear at the edge of stick beside a cell, 0 where the edge is known. */
+/* The largest shear at the edge of stick beside a cell that sticks, 0 where the edge is known. */
 static double ShearBeside(const Seen *s, PetscInt i, PetscInt j)
 {
   static const PetscInt x[] = {1, -1, 0, 0}, y[] = {0, 0, 1, -1};
@@ -126,13 +104,29 @@ static double ShearBeside(const Seen *s, PetscInt i, PetscInt j)
 
   for (PetscInt b = j - rows; b <= j + rows; b++)
     for (PetscInt a = i - 1; a <= i + 1; a++)
-      if (ValueAt(&s->known, 0, a, b) > 0) return 0;
+      if (SamHaloAt(&s->cell, 0, a, b) == KNOWN) return 0;
   for (PetscInt n = 0; n < 2 * s->grid->axes; n++) {
-    const double shear = ShearAt(s, i, j, x[n], y[n]);
+    const PetscBool slips = SamHaloAt(&s->cell, 0, i + x[n], j + y[n]) == SAM_CELL_SLIP;
+    const double    shear = slips ? ShearAt(s, i, j, x[n], y[n]) : 0;
 
     most = PetscMax(most, shear);
   }
   return most;
+}
+
+/* A field of the cells' states, by which neighbours are known without their fields. */
+static PetscErrorCode CreateCells(const Seen *s, const SamEdge *stick, const double q[], Vec *cells, double *most)
+{
+  double *cell;
+
+  PetscFunctionBegin;
+  PetscCall(SamGridCreateVec(s->grid, 1, cells));
+  PetscCall(VecGetArrayWrite(*cells, &cell));
+  for (PetscInt k = 0; k < s->grid->cells; k++)
+    cell[k] = SamCellStateOf(s->p.own[k], q[k], q[k + s->grid->cells], s->b.own[k]);
+  FindAtPoints(s, stick, cell, most);
+  PetscCall(VecRestoreArrayWrite(*cells, &cell));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamSolutionFindShear(SamProblem problem, const SamSolution *solution, const SamEdge *stick, double *most)
@@ -140,26 +134,25 @@ PetscErrorCode SamSolutionFindShear(SamProblem problem, const SamSolution *solut
   const SamGrid grid = SamProblemGetGrid(problem);
   const double  film = (double)SamPairFilm(SamElasticityGetPair(SamProblemGetElasticity(problem)));
   Seen          s    = {.grid = grid};
-  Vec           known;
+  Vec           cells;
 
   PetscFunctionBegin;
-  PetscCall(SamGridCreateVec(grid, 1, &known));
   PetscCall(SamHaloBegin(grid, solution->pressure, 1, BEHIND + 1, &s.p));
   PetscCall(SamHaloBegin(grid, solution->bound, 1, 1, &s.b));
-  PetscCall(FindAtPoints(&s, stick, known, most));
   PetscCall(SamHaloBegin(grid, solution->shear, 2, 1, &s.q));
-  PetscCall(SamHaloBegin(grid, known, 1, 1, &s.known));
-  for (PetscInt k = 0; k < grid->cells; k++) {
+  PetscCall(CreateCells(&s, stick, s.q.own, &cells, most));
+  PetscCall(SamHaloBegin(grid, cells, 1, 1, &s.cell));
+  for (PetscInt k = 0; k < grid->cells && !(film > 0); k++) {
     const double shear =
-      s.p.own[k] > 0 && !(film > 0) ? ShearBeside(&s, k % grid->nx, grid->row_start + k / grid->nx) : 0;
+      s.cell.own[k] == SAM_CELL_STICK ? ShearBeside(&s, k % grid->nx, grid->row_start + k / grid->nx) : 0;
 
     *most = PetscMax(*most, shear);
   }
-  PetscCall(SamHaloEnd(&s.known));
+  PetscCall(SamHaloEnd(&s.cell));
+  PetscCall(VecDestroy(&cells));
   PetscCall(SamHaloEnd(&s.q));
   PetscCall(SamHaloEnd(&s.b));
   PetscCall(SamHaloEnd(&s.p));
-  PetscCall(VecDestroy(&known));
   PetscCall(SamMax(grid->comm, 1, most));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

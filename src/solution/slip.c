@@ -82,35 +82,25 @@ static PetscErrorCode End(const SamSolution *s, Seen *seen)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Of the cell in column i of the grid's row j: whether it is on the grid, and its place among those that are seen. */
 static PetscBool Has(const Seen *s, PetscInt i, PetscInt j)
 {
   return i >= 0 && i < s->grid->nx && j >= 0 && j < s->grid->ny;
 }
-static ptrdiff_t At(const Seen *s, PetscInt i, PetscInt j)
-{
-  return (ptrdiff_t)(j - s->p.rows.first) * s->grid->nx + i;
-}
 
-static double PressureOf(const Seen *s, PetscInt i, PetscInt j)
-{
-  return Has(s, i, j) ? s->p.at[0][At(s, i, j)] : 0;
-}
 static PetscBool Touches(const Seen *s, PetscInt i, PetscInt j)
 {
-  return PressureOf(s, i, j) > 0;
+  return SamHaloAt(&s->p, 0, i, j) > 0;
 }
 
 /* The gap of a cell, which is 0 in contact; beyond the grid the nearest one's. */
 static double GapOf(const Seen *s, PetscInt i, PetscInt j)
 {
   const PetscInt    a = PetscClipInterval(i, 0, s->grid->nx - 1), b = PetscClipInterval(j, 0, s->grid->ny - 1);
-  const ptrdiff_t   k   = At(s, a, b);
   const SamRigidRow row = SamRigidOfGap(&s->rigid, b - s->grid->row_start);
   double            gap;
 
-  if (s->p.at[0][k] > 0) return 0;
-  gap = s->u_z.at[0][k] + s->separation.at[0][k] -
+  if (Touches(s, a, b)) return 0;
+  gap = SamHaloAt(&s->u_z, 0, a, b) + SamHaloAt(&s->separation, 0, a, b) -
         SamRigidRowAt(row, s->rigid.normal.xi0 + (double)a * s->rigid.normal.dxi);
   return PetscMax(gap, 0);
 }
@@ -129,10 +119,10 @@ static void SmoothOf(const Seen *s, const Face *face, PetscInt i, PetscInt j, do
   for (PetscInt c = 0; c < 2; c++) {
     const SamRigidRow row = SamRigidOfSlip(&s->rigid, c, j - s->grid->row_start);
 
-    slip[c] = s->u_t.at[c][At(s, i, j)] - SamRigidRowAt(row, s->rigid.normal.xi0 + (double)i * s->rigid.normal.dxi) -
+    slip[c] = SamHaloAt(&s->u_t, c, i, j) - SamRigidRowAt(row, s->rigid.normal.xi0 + (double)i * s->rigid.normal.dxi) -
               face->bend[c] * size;
   }
-  if (s->streams) slip[0] += face->strain * 0.5 * (PressureOf(s, i, j) + PressureOf(s, i + 1, j));
+  if (s->streams) slip[0] += face->strain * 0.5 * (SamHaloAt(&s->p, 0, i, j) + SamHaloAt(&s->p, 0, i + 1, j));
 }
 
 /*
@@ -177,11 +167,10 @@ static PetscBool SlipAtFace(const Seen *s, Face *face, ptrdiff_t k, double *size
   return PETSC_TRUE;
 }
 
-/* The largest slip of a cell in contact: at the edge, if it is there, else at its centre. */
-static double SlipOf(const Seen *s, PetscInt i, PetscInt j, ptrdiff_t k)
+/* The largest slip of a cell in contact at its faces to cells outside; negative: it has none. */
+static double SlipAtEdge(const Seen *s, PetscInt i, PetscInt j, ptrdiff_t k)
 {
-  double    most = 0, slip[2];
-  PetscBool edge = PETSC_FALSE;
+  double most = -1;
 
   for (PetscInt n = 0; n < 2 * s->grid->axes; n++) {
     const PetscInt sign = n % 2 ? 1 : -1;
@@ -189,13 +178,31 @@ static double SlipOf(const Seen *s, PetscInt i, PetscInt j, ptrdiff_t k)
     const PetscInt a = i + face.step[0], b = j + face.step[1];
     double         size;
 
-    if (!Has(s, a, b) || Touches(s, a, b) || !SlipAtFace(s, &face, k, &size)) continue;
+    if (Touches(s, a, b) || !Has(s, a, b) || !SlipAtFace(s, &face, k, &size)) continue;
     most = PetscMax(most, size);
-    edge = PETSC_TRUE;
   }
-  if (edge) return most;
-  SmoothOf(s, &(Face){.i = i, .j = j}, i, j, slip);
-  return hypot(slip[0], slip[1]);
+  return most;
+}
+
+/* The largest slip of the cells in contact of this rank's row j: at the edge, if it is there, else at their centres. */
+static double SlipOfRow(const Seen *s, PetscInt j)
+{
+  const SamRigidRow row[]  = {SamRigidOfSlip(&s->rigid, 0, j), SamRigidOfSlip(&s->rigid, 1, j)};
+  double            square = 0, most = 0;
+
+  for (PetscInt i = 0; i < s->grid->nx; i++) {
+    const ptrdiff_t k = (ptrdiff_t)j * s->grid->nx + i;
+    double          x, y, edge;
+
+    if (!(s->own.p[k] > 0)) continue;
+    edge = SlipAtEdge(s, i, s->grid->row_start + j, k);
+    most = PetscMax(most, edge);
+    if (edge >= 0) continue;
+    x = s->own.u_t[k] - SamRigidRowAt(row[0], s->rigid.normal.xi0 + (double)i * s->rigid.normal.dxi);
+    y = s->own.u_t[k + s->own.cells] - SamRigidRowAt(row[1], s->rigid.normal.xi0 + (double)i * s->rigid.normal.dxi);
+    square = PetscMax(square, x * x + y * y);
+  }
+  return PetscMax(most, sqrt(square));
 }
 
 PetscErrorCode SamSolutionFindSlip(SamProblem problem, SamState state, const SamSolution *s, double *most)
@@ -205,12 +212,14 @@ PetscErrorCode SamSolutionFindSlip(SamProblem problem, SamState state, const Sam
   Vec           separation;
 
   PetscFunctionBegin;
+  /* nothing slid, at no centre */
+  if (*most == 0) PetscFunctionReturn(PETSC_SUCCESS);
   if (SamPairFilm(SamElasticityGetPair(SamProblemGetElasticity(problem))) > 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamSolutionCreateSeparation(problem, state, SAM_TRIED, &separation));
   PetscCall(Begin(problem, s, separation, &seen));
   *most = 0;
-  for (PetscInt k = 0; k < grid->cells; k++) {
-    const double slip = seen.own.p[k] > 0 ? SlipOf(&seen, k % grid->nx, grid->row_start + k / grid->nx, k) : 0;
+  for (PetscInt j = 0; j < grid->rows; j++) {
+    const double slip = SlipOfRow(&seen, j);
 
     *most = PetscMax(*most, slip);
   }

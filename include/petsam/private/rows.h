@@ -28,6 +28,7 @@ PETSC_INTERN PetscErrorCode SamRowsRestore(const SamRows *rows, const double **w
 /*
   SamHalo - a field in this rank's rows and `halo` more before and after them. SamHaloBegin - fetches it;
   `components`: at most SAM_HALO_MOST. SamHaloEnd - gives it back. Collective.
+  SamHaloAt - a component in the cell in column i of the grid's row j; 0 beyond what is seen. Not collective.
 */
 typedef struct {
   Vec           field;
@@ -37,6 +38,12 @@ typedef struct {
 } SamHalo;
 PETSC_INTERN PetscErrorCode SamHaloBegin(SamGrid grid, Vec field, PetscInt components, PetscInt halo, SamHalo *seen);
 PETSC_INTERN PetscErrorCode SamHaloEnd(SamHalo *seen);
+static inline double        SamHaloAt(const SamHalo *seen, PetscInt component, PetscInt i, PetscInt j)
+{
+  const PetscInt row = j - seen->rows.first, nx = seen->rows.grid->nx;
+
+  return i < 0 || i >= nx || row < 0 || row >= seen->rows.count ? 0 : seen->at[component][(ptrdiff_t)row * nx + i];
+}
 
 /*
   SamGather - arrays of all ranks, n items of this one, one after the other on rank 0. `all`: the address of a pointer,

@@ -54,8 +54,7 @@ static double TractionAt(const Map *m, PetscInt t, PetscInt i, PetscInt j)
 {
   static const SamStressComponent components[] = {SAM_STRESS_ZZ, SAM_STRESS_XZ, SAM_STRESS_YZ};
 
-  if (i < 0 || i >= m->grid->nx || j < m->seen.rows.first || j >= m->seen.rows.first + m->seen.rows.count) return 0;
-  return -m->seen.at[components[t]][(ptrdiff_t)(j - m->seen.rows.first) * m->grid->nx + i];
+  return -SamHaloAt(&m->seen, components[t], i, j);
 }
 
 /* The kernel at a lag of any sign. */
