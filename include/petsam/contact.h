@@ -109,6 +109,12 @@ PETSC_EXTERN PetscErrorCode SamContactTry(SamContact contact, const SamControl *
 PETSC_EXTERN PetscErrorCode SamContactCommit(SamContact contact);
 /* SamContactReject - discards the tried state, if there is one. Collective. */
 PETSC_EXTERN PetscErrorCode SamContactReject(SamContact contact);
+/*
+  SamContactRewind - the tangential displacements (m) of all steps so far become less by these, and with them the slide:
+  of bodies that repeat themselves, by whole lengths of the grid, the contact is the same. There is no tried state.
+  Collective.
+*/
+PETSC_INTERN PetscErrorCode SamContactRewind(SamContact contact, const PetscReal by[2]);
 /* SamContactHasStep - whether there is a tried solution, or a committed one. Not collective. */
 PETSC_EXTERN PetscBool SamContactHasStep(SamContact contact, SamGeneration generation);
 /*

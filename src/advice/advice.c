@@ -223,12 +223,26 @@ void SamAdviceSay(SamAdvice *a, const char setting[], const char format[], ...)
   if (!a->error) a->error = a->receive(a->context, text, setting);
 }
 
+/* Whether a surface of body 2 is not the same everywhere, so that it matters where it is. */
+static PetscBool HasPlace(SamAdvice *a)
+{
+  PetscBool     has = PETSC_FALSE;
+  const SamLaw *laws;
+  PetscInt      count;
+
+  if (!a->error) a->error = SamProblemGetLaws(a->setup->problem, &count, &laws);
+  for (PetscInt k = 0; !a->error && k < count; k++) has = has || laws[k]->of_body2;
+  return has;
+}
+
 /* Displacements, rotations and creepages that are not small, as the theory has them. */
 static void Motion(SamAdvice *a)
 {
   const SamExtent    *extent = &a->extent;
   const SamLoadsMost *most   = &a->most;
   const double        width  = 2 * (double)PetscMax(extent->half[0], extent->half[1]);
+  const SamProblem    p      = a->setup->problem;
+  const PetscBool     wears  = SamProblemGetLaw(p, SAM_LAW_ARCHARD) || SamProblemGetLaw(p, SAM_LAW_ENERGY);
 
   if (most->rotation > STEEPEST)
     SamAdviceSay(a, "",
@@ -244,7 +258,8 @@ static void Motion(SamAdvice *a)
       "creep_spin %g 1/m is prescribed: its slip at the contact's edge is %.2g of the rolled distance, the limit is "
       "about %g: check the unit, 1/m",
       (double)most->spin, 0.5 * (double)most->spin * width, STEEPEST);
-  else if (extent->zones && (double)most->slide > width && !SamProblemGetLaw(a->setup->problem, SAM_LAW_SLIDE))
+  else if (extent->zones && (double)most->slide > width && (!wears || HasPlace(a)) &&
+           !SamProblemGetLaw(p, SAM_LAW_SLIDE))
     SamAdviceSay(
       a, "",
       "the prescribed tangential displacement, %g m, exceeds the width of the contact, %.3g m: without -slide surfaces "
@@ -255,14 +270,9 @@ static void Motion(SamAdvice *a)
 /* The error of the worn depth of surfaces that are not moved past each other, as measured on worn cylinders. */
 static void Stroke(SamAdvice *a)
 {
-  const double  ratio = (double)(a->most.slide / PetscMax(a->extent.half[0], a->extent.half[1]));
-  PetscBool     worn  = PETSC_FALSE;
-  const SamLaw *laws;
-  PetscInt      count;
+  const double ratio = (double)(a->most.slide / PetscMax(a->extent.half[0], a->extent.half[1]));
 
-  if (!a->error) a->error = SamProblemGetLaws(a->setup->problem, &count, &laws);
-  for (PetscInt k = 0; k < count && !a->error; k++) worn = worn || laws[k]->of_body2;
-  if (worn && ratio > STROKE && !SamProblemGetLaw(a->setup->problem, SAM_LAW_SLIDE))
+  if (HasPlace(a) && ratio > STROKE && !SamProblemGetLaw(a->setup->problem, SAM_LAW_SLIDE))
     SamAdviceSay(a, "",
                  "%sthe surfaces move by %.3g m, %.2g times the half width of the contact, and body 2 wears, but "
                  "without -slide they are not moved past each other: the depth is wrong by about %.2g %%: give -slide",

@@ -431,6 +431,25 @@ PetscErrorCode SamContactView(SamContact c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamContactRewind(SamContact c, const PetscReal by[2])
+{
+  static const SamComponent along[2] = {SAM_COMPONENT_TX, SAM_COMPONENT_TY};
+
+  PetscFunctionBegin;
+  for (SamGeneration g = SAM_COMMITTED; g <= SAM_BEFORE; g++) {
+    double *const n = SamStateNumbers(c->state, 0, g);
+
+    for (int k = 0; k < 2; k++) {
+      n[c->solution + SAM_COMPONENTS + along[k]] -= by[k];
+      if (c->generation[g].control.force[along[k]]) continue;
+      n[c->control + 1 + SAM_COMPONENTS + along[k]] -= by[k];
+    }
+    SamSlideRewind(c->state, g, by);
+  }
+  PetscCall(SamContactView(c));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamContactGetSolution(SamContact c, const SamSolution **solution)
 {
   SamSolution *s = &c->generation[SAM_COMMITTED];

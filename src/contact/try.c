@@ -285,6 +285,8 @@ static PetscErrorCode Advance(SamContact c, PetscBool same_pressure)
                              .rolled        = SamProblemGetRolled(c->problem, &s->control, NULL),
                              .pressure      = s->pressure,
                              .shear         = s->shear,
+                             .bound         = s->bound,
+                             .rigid         = s->rigid,
                              .same_pressure = same_pressure,
                              .friction      = GetFriction,
                              .gap           = GetGap,

@@ -7,9 +7,13 @@
   What the pressure at x does to body 2 is written by the transpose of R. So volumes are exact, and the two together
   cannot make waves that grow.
 
-  D is the rigid displacement minus ub, the elastic one under the contact, sum(p u_t) / sum(p) of the step before: it
-  vanishes while the contact sticks, to the increment of a step, and is exact in steady sliding. A displacement that the
-  step finds is that of the step before, too. The slip of the step does not depend on D.
+  A point x of body 1 is over the point x + d - u_t(x) of body 2, d being the rigid displacement: where it sticks, that
+  stays. D is that of the point that is the last to slip, so that nothing moves while any point sticks. It is a slider
+  that d pulls by a spring: it stays while the stretch d - D is at most L, and else follows at that length. Where all of
+  the contact slips along e, u_t is what the bound of the shear does along e, and L the largest part of that along e in
+  contact; elsewhere the surfaces move more than D, by what bends the bodies there. D so depends on d alone while the
+  surfaces slide, and returns with it. Within a step d and L are known when it is solved; before, d is that which is
+  given, or else that of the step before as L is. The slip of the step does not depend on D.
 */
 #include <petsam/private/elasticity.h>
 #include <petsam/private/fieldfile.h>
@@ -18,8 +22,11 @@
 #include <petsam/private/state.h>
 #include <math.h>
 
-/* The numbers in the state, of which the first two are offered, and the change of D, parts of a cell, that counts. */
-enum { SLIDE_X, SLIDE_Y, LAG_X, LAG_Y };
+/*
+  The numbers in the state: D of the step, which is offered, the slider at its end, also across the plane of plane
+  strain, and L. The change of D, parts of a cell, that counts.
+*/
+enum { SLIDE_X, SLIDE_Y, SLIDER_X, SLIDER_Y, LIMIT };
 #define SLIDE_XY "slide_x"
 #define SLIDES   1e-3
 
@@ -45,6 +52,17 @@ void SamSlideSet(SamState state, const PetscReal slide[2])
   double        *n  = id < 0 ? NULL : SamStateNumbers(state, id, SAM_COMMITTED);
 
   for (int k = 0; k < 2 && n; k++) n[SLIDE_X + k] = slide[k];
+}
+
+void SamSlideRewind(SamState state, SamGeneration generation, const PetscReal by[2])
+{
+  const PetscInt id = SamStateFindNumber(state, SLIDE_XY);
+  double        *n  = id < 0 ? NULL : SamStateNumbers(state, id, generation);
+
+  for (int k = 0; k < 2 && n; k++) {
+    n[SLIDE_X + k] -= by[k];
+    n[SLIDER_X + k] -= by[k];
+  }
 }
 
 PetscErrorCode SamSlideRead(SamElasticity elasticity, const PetscReal slide[2], Vec body2, Vec field)
@@ -152,7 +170,7 @@ static PetscErrorCode AddParameters(SamLaw law, SamParameters *p)
 static PetscErrorCode Declare(SamLaw law, SamState state)
 {
   static const SamStateNumber numbers[3] = {
-    SLIDE("x"), SLIDE("y"), {.name = "slide_lag", .unit = "m", .text = "", .count = 2, .kept = PETSC_TRUE}};
+    SLIDE("x"), SLIDE("y"), {.name = "slider", .unit = "m", .text = "", .count = 3, .kept = PETSC_TRUE}};
   PetscInt id;
 
   PetscFunctionBegin;
@@ -186,6 +204,14 @@ static double Rigid(SamState state, const SamControl *control, SamComponent comp
   return isfinite(found) ? found : 0;
 }
 
+/* The slider follows what pulls it by a spring that stretches no longer than the limit. */
+static void Pull(const double by[2], double limit, double slider[2])
+{
+  const double stretch = hypot(by[0] - slider[0], by[1] - slider[1]);
+
+  for (int k = 0; k < 2 && stretch > limit; k++) slider[k] = by[k] - (by[k] - slider[k]) * limit / stretch;
+}
+
 static PetscErrorCode Begin(SamLaw law, SamState state, const SamControl *control, PetscReal duration)
 {
   static const SamComponent along[2] = {SAM_COMPONENT_TX, SAM_COMPONENT_TY};
@@ -198,6 +224,8 @@ static PetscErrorCode Begin(SamLaw law, SamState state, const SamControl *contro
   const double    turn    = fabs(Rigid(state, control, SAM_COMPONENT_MZ)),
                most       = 2 * (double)(PetscMin(grid->dx, grid->dy) / PetscMax(grid->width[0], grid->width[1]));
   const PetscBool given   = SamControlWay(control, SAM_COMPONENT_MZ) == SAM_BY_RIGID;
+  const double    by[2]   = {Rigid(state, control, along[0]), Rigid(state, control, along[1])};
+  double          to[2]   = {before[SLIDER_X], before[SLIDER_Y]};
   PetscBool       moves   = PETSC_FALSE;
 
   PetscFunctionBegin;
@@ -208,11 +236,9 @@ static PetscErrorCode Begin(SamLaw law, SamState state, const SamControl *contro
     "turning over each other: %s",
     SamComponentNames[SAM_COMPONENT_MZ].rigid, turn, given ? "" : ", found for load_mz in the step before", most,
     given ? "give 0" : "give rot_z = 0 instead of load_mz");
-  for (int k = 0; k < grid->axes; k++) {
-    now[k] = Rigid(state, control, along[k]) - before[LAG_X + k];
-    moves  = moves || fabs(now[k] - before[k]) >= SLIDES * (double)cell[k];
-  }
-  for (int k = moves ? grid->axes : 0; k < 2; k++) now[k] = before[k];
+  Pull(by, before[LIMIT], to);
+  for (int k = 0; k < grid->axes; k++) moves = moves || fabs(to[k] - before[k]) >= SLIDES * (double)cell[k];
+  for (int k = 0; k < 2; k++) now[k] = moves && k < grid->axes ? to[k] : before[k];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -236,33 +262,53 @@ static PetscErrorCode Separation(SamLaw law, SamState state, SamGeneration gener
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The elastic displacement under the contact, of which the next step is behind the rigid one. */
-static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
+/* The limit of the stretch along a unit vector, under the pressure and the bound of the step. */
+static PetscErrorCode FindLimit(SamLawStep *step, const double along[2], double *limit)
 {
-  const SamGrid grid      = law->grid;
-  const Vec     u_t       = SamStateReadField(step->state, SamStateFindField(step->state, "displacement"));
-  double *const n         = SamStateNumbers(step->state, SamStateFindNumber(step->state, SLIDE_XY), SAM_TRIED);
-  SamTotal      totals[3] = {{0}};
-  double        sums[3];
-  const double *p, *u;
+  const PetscInt cells = step->grid->cells;
+  const double  *p, *bound, *u;
+  double        *q;
+  Vec            shear, bent;
 
   PetscFunctionBegin;
-  PetscCall(VecGetArrayRead(step->pressure, &p));
-  PetscCall(VecGetArrayRead(u_t, &u));
-  for (PetscInt j = 0; j < grid->rows; j++) {
-    double row[3] = {0, 0, 0};
-
-    for (ptrdiff_t k = (ptrdiff_t)j * grid->nx, end = k + grid->nx; k < end; k++) {
-      row[0] += p[k] * u[k];
-      row[1] += p[k] * u[k + grid->cells];
-      row[2] += p[k];
-    }
-    SamAddAll(3, totals, row);
+  *limit = 0;
+  PetscCall(SamGridCreateVec(step->grid, 2, &shear));
+  PetscCall(SamGridCreateVec(step->grid, 2, &bent));
+  PetscCall(VecGetArrayRead(step->bound, &bound));
+  PetscCall(VecGetArrayWrite(shear, &q));
+  for (PetscInt k = 0; k < cells; k++) {
+    q[k]         = bound[k] * along[0];
+    q[k + cells] = bound[k] * along[1];
   }
-  PetscCall(VecRestoreArrayRead(u_t, &u));
+  PetscCall(VecRestoreArrayWrite(shear, &q));
+  PetscCall(VecRestoreArrayRead(step->bound, &bound));
+  PetscCall(SamElasticityApplyTangential(step->elasticity, shear, bent));
+  PetscCall(VecGetArrayRead(step->pressure, &p));
+  PetscCall(VecGetArrayRead(bent, &u));
+  for (PetscInt k = 0; k < cells; k++)
+    if (p[k] > 0) *limit = PetscMax(*limit, u[k] * along[0] + u[k + cells] * along[1]);
+  PetscCall(VecRestoreArrayRead(bent, &u));
   PetscCall(VecRestoreArrayRead(step->pressure, &p));
-  PetscCall(SamSumTotals(grid->comm, 3, totals, sums));
-  for (int k = 0; k < 2 && sums[2] > 0; k++) n[LAG_X + k] = sums[k] / sums[2];
+  PetscCall(VecDestroy(&bent));
+  PetscCall(VecDestroy(&shear));
+  PetscCall(SamMax(step->grid->comm, 1, limit));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The slider at the end of the step, by what the step has found. */
+static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
+{
+  const PetscInt id     = SamStateFindNumber(step->state, SLIDE_XY);
+  const double  *before = SamStateNumbers(step->state, id, SAM_COMMITTED);
+  double *const  now    = SamStateNumbers(step->state, id, SAM_TRIED);
+  const double   by[2]  = {(double)step->rigid[SAM_COMPONENT_TX], (double)step->rigid[SAM_COMPONENT_TY]};
+  const double   x = by[0] - before[SLIDER_X], y = by[1] - before[SLIDER_Y], stretch = hypot(x, y);
+
+  PetscFunctionBegin;
+  (void)law;
+  PetscCall(FindLimit(step, stretch > 0 ? (double[]){x / stretch, y / stretch} : (double[]){1, 0}, &now[LIMIT]));
+  for (int k = SLIDER_X; k <= SLIDER_Y; k++) now[k] = before[k];
+  Pull(by, now[LIMIT], &now[SLIDER_X]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

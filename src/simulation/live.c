@@ -123,6 +123,27 @@ static PetscErrorCode WriteFailure(SamSimulation s, const SamLifeReport *r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamSimulationPlaceLast(SamSimulation s)
+{
+  const SamSolution *last;
+  SamStep            step = {.status = SAM_STATUS_CONVERGED};
+  SamState           state;
+
+  PetscFunctionBegin;
+  if (s->last_time > PETSC_NINFINITY || SamContactGetSteps(s->setup.contact) == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamContactGetSolution(s->setup.contact, &last));
+  step.control.time = last->control.time;
+  PetscCall(SamContactGetState(s->setup.contact, &state));
+  PetscCall(SamStateBegin(state));
+  PetscCall(PetscArraycpy(SamStateNumbers(state, 0, SAM_TRIED), SamStateNumbers(state, 0, SAM_COMMITTED),
+                          SamStateCountValues(state)));
+  PetscCall(Place(s, 0, step.control.time));
+  s->point.steps++;
+  PetscCall(SamSimulationWriteStep(s, &step, PETSC_FALSE));
+  PetscCall(SamContactReject(s->setup.contact));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Says where a step failed, or reached the edge, and ends the life there. */
 static PetscErrorCode EndLife(SamSimulation s, const SamLifeReport *r, const char where[])
 {

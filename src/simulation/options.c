@@ -140,7 +140,7 @@ static PetscErrorCode SetProgram(SamSimulation s, SamHistory history, PetscReal 
   PetscCheck(s->step_rtol == 0 || !s->needs.life, from->comm, SAM_ERR_USER,
              "-step_rtol with -wear_cycles: all computed cycles must have the same load steps: use -steps");
   PetscCall(SamPlanSetCycles(&s->plan, cycles, s->setup.problem, from));
-  PetscCall(SamPlanCheckCycle(&s->plan, history, s->conditions, from));
+  PetscCall(SamPlanCheckCycle(&s->plan, history, s->setup.problem, from));
   PetscCall(CheckLaws(s, from));
   PetscCall(CheckComponents(s, from));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -194,13 +194,29 @@ PetscInt SamPlanGetStart(const SamPlan *w, SamHistory history)
   return w->bands ? 0 : SamHistoryGetStart(history);
 }
 
-PetscErrorCode SamPlanCheckCycle(const SamPlan *w, SamHistory history, SamConditions conditions, const SamOptions *from)
+/* How far a part is from that in the first row; of bodies that repeat themselves and slide, but for whole lengths. */
+static PetscReal Apart(SamProblem problem, const SamControl *last, const SamControl *first, PetscInt c)
 {
-  PetscReal        range[SAM_COMPONENTS + SAM_CONDITIONS] = {0}; /* of each part, about its value in the first row */
-  SamControl       last;
-  const PetscInt   count = SamHistoryGetCount(history);
-  const PetscInt   start = SamHistoryGetStart(history);
-  const SamControl first = SamHistoryGetStep(history, start - 1);
+  const SamElasticity bodies = SamProblemGetElasticity(problem);
+  const SamGrid       grid   = SamElasticityGetGrid(bodies);
+  const PetscInt      axis   = c == SAM_COMPONENT_TX ? 0 : c == SAM_COMPONENT_TY ? 1 : grid->axes;
+  const PetscReal     apart  = SamControlPart(last, SamProblemGetConditions(problem), c) -
+                          SamControlPart(first, SamProblemGetConditions(problem), c);
+
+  if (axis >= grid->axes || !SamElasticityGetTraits(bodies).periodic || !SamProblemGetLaw(problem, SAM_LAW_SLIDE) ||
+      SamControlWay(first, c) != SAM_BY_RIGID)
+    return fabs(apart);
+  return fabs(remainder(apart, grid->width[axis]));
+}
+
+PetscErrorCode SamPlanCheckCycle(const SamPlan *w, SamHistory history, SamProblem problem, const SamOptions *from)
+{
+  const SamConditions conditions                             = SamProblemGetConditions(problem);
+  PetscReal           range[SAM_COMPONENTS + SAM_CONDITIONS] = {0}; /* of each part, about its value in the first row */
+  SamControl          last;
+  const PetscInt      count = SamHistoryGetCount(history);
+  const PetscInt      start = SamHistoryGetStart(history);
+  const SamControl    first = SamHistoryGetStep(history, start - 1);
 
   PetscFunctionBegin;
   if (w->cycles == 0) PetscFunctionReturn(PETSC_SUCCESS);
@@ -215,9 +231,7 @@ PetscErrorCode SamPlanCheckCycle(const SamPlan *w, SamHistory history, SamCondit
       range[c] = PetscMax(range[c], fabs(SamControlPart(&last, conditions, c) - SamControlPart(&first, conditions, c)));
   }
   for (PetscInt c = 0; c < SamControlCount(conditions); c++)
-    PetscCheck(fabs(SamControlPart(&last, conditions, c) - SamControlPart(&first, conditions, c)) <=
-                 ROUNDING * range[c],
-               from->comm, SAM_ERR_USER,
+    PetscCheck(Apart(problem, &last, &first, c) <= ROUNDING * range[c], from->comm, SAM_ERR_USER,
                "-wear_cycles: -history is not a closed cycle: %s is %.6g in the last row and %.6g in the first",
                SamControlPartName(&first, conditions, c), (double)SamControlPart(&last, conditions, c),
                (double)SamControlPart(&first, conditions, c));

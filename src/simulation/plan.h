@@ -32,11 +32,12 @@ PETSC_INTERN PetscErrorCode SamPlanSetCycles(SamPlan *plan, PetscReal cycles, Sa
 PETSC_INTERN PetscErrorCode SamPlanDestroy(SamPlan *plan);
 /*
   SamPlanGetStart - the step of the history with which the cycle begins. Not collective.
-  SamPlanCheckCycle - refuses a history that is no closed cycle: its last row must be its first one again; in steady
-  rolling one with steps between rows. Collective. Errors: SAM_ERR_USER.
+  SamPlanCheckCycle - refuses a history that is no closed cycle: its last row must be its first one again, but for
+  whole lengths by which bodies that repeat themselves slide; in steady rolling one with steps between rows. Collective.
+  Errors: SAM_ERR_USER.
 */
 PETSC_INTERN PetscInt       SamPlanGetStart(const SamPlan *plan, SamHistory history);
-PETSC_INTERN PetscErrorCode SamPlanCheckCycle(const SamPlan *plan, SamHistory history, SamConditions conditions,
+PETSC_INTERN PetscErrorCode SamPlanCheckCycle(const SamPlan *plan, SamHistory history, SamProblem problem,
                                               const SamOptions *from);
 /* SamPlanNextStop - after so many cycles, up to where they may be jumped over. Not collective. */
 PETSC_INTERN PetscReal SamPlanNextStop(const SamPlan *plan, PetscReal cycles);

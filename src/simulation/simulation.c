@@ -356,6 +356,11 @@ PetscErrorCode SamSimulationRun(SamSimulation s)
   s->running = PETSC_TRUE;
   code       = RunAll(s);
   s->running = PETSC_FALSE;
+  if (code == SAM_ERR_USER && s->output) { /* what a step has found may rule out the next one */
+    PetscCall(SamContactReject(s->setup.contact));
+    if (s->life) PetscCall(SamSimulationPlaceLast(s));
+    PetscCall(SamSimulationWriteLastFields(s));
+  }
   if (s->life) SamLifeEnd(s->life); /* the contact may be used on */
   PetscCall(code);
   PetscFunctionReturn(PETSC_SUCCESS);

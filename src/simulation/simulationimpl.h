@@ -100,6 +100,11 @@ PETSC_INTERN PetscErrorCode SamSimulationLive(SamSimulation simulation);
 PETSC_INTERN PetscErrorCode SamSimulationLiveCoarse(SamSimulation simulation, SamContact contact, PetscReal cycles,
                                                     SamLife *life, SamStep *step);
 /*
+  SamSimulationPlaceLast - where a life has ended in cycles before the first one that is written: its last step becomes
+  one of the file. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamSimulationPlaceLast(SamSimulation simulation);
+/*
   SamSimulationWriteLastFields - makes sure that the fields of the step that was solved last are in the file, at the
   time of the last step that was written; for when the next one has no solution. Collective.
 */

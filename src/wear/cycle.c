@@ -18,6 +18,7 @@
 #include "lifeimpl.h"
 #include <petsam/private/motionimpl.h>
 #include <petsam/private/state.h>
+#include <math.h>
 
 #define MOST_PASSES 20   /* cycles that are run to close the loop */
 #define CLOSED      0.1  /* change of the shear over mu p, and of the energy, over the tolerance of the jumps */
@@ -128,7 +129,7 @@ static PetscErrorCode Begin(SamLife l, SamRate *rate, SamControl *mean)
   PetscCall(Remembered(l, SAM_WEAR_PATH, &path));
   PetscCall(VecSet(cycle, 0));
   PetscCall(VecSet(path, 0));
-  PetscCall(VecSet(l->passage, 0));
+  if (l->passage) PetscCall(VecSet(l->passage, 0));
   PetscCall(SamContactGetSolution(l->contact, &s));
   PetscCall(rate->passes ? VecCopy(s->pressure, rate->pressure) : VecSet(rate->pressure, 0));
   PetscCall(VecSet(rate->shift, 0));
@@ -320,14 +321,44 @@ static PetscErrorCode SolveStep(SamLife l, PetscInt k, PetscReal cycles, SamStep
 
 /* ---- closing the loop ---- */
 
+/* Where the bodies are. */
+static PetscErrorCode Locate(SamLife l, PetscReal at[2])
+{
+  const SamSolution *s;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetSolution(l->contact, &s));
+  at[0] = s->rigid[SAM_COMPONENT_TX];
+  at[1] = s->rigid[SAM_COMPONENT_TY];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
+  A cycle in which surfaces that repeat themselves have slid by whole lengths since they were at `from` is closed: the
+  next one begins there. So does the one after a jump, whose cycles so need no count of lengths.
+*/
+static PetscErrorCode Rewind(SamLife l, const PetscReal from[2])
+{
+  PetscReal to[2], by[2] = {0, 0};
+
+  PetscFunctionBegin;
+  if (!SamElasticityGetTraits(SamProblemGetElasticity(l->problem)).periodic || !l->start.passes)
+    PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(Locate(l, to));
+  for (PetscInt k = 0; k < l->grid->axes; k++) by[k] = l->grid->width[k] * rint((to[k] - from[k]) / l->grid->width[k]);
+  if (by[0] != 0 || by[1] != 0) PetscCall(SamContactRewind(l->contact, by));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Solves the cycle by its load reversals or all steps; its wear does not count, but `energy` does. */
 static PetscErrorCode GoRound(SamLife l, PetscReal cycles, PetscReal *energy, PetscBool *solved)
 {
   SamStep   step;
-  PetscReal dissipated;
+  PetscReal dissipated, from[2];
 
   PetscFunctionBegin;
   *energy = 0;
+  PetscCall(Locate(l, from));
   for (PetscInt k = 0; k < l->cycle.steps && *solved; k++) {
     if (l->state.by_turns && !l->turns[k]) continue;
     PetscCall(SolveStep(l, k, cycles, &step, solved));
@@ -336,6 +367,7 @@ static PetscErrorCode GoRound(SamLife l, PetscReal cycles, PetscReal *energy, Pe
     *energy += dissipated;
     PetscCall(SamContactCommit(l->contact));
   }
+  if (*solved) PetscCall(Rewind(l, from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -393,7 +425,7 @@ PetscErrorCode SamLifeComputeRate(SamLife l, SamRate *rate, PetscReal cycles, Pe
 {
   const PetscInt n = l->cycle.steps;
   SamControl     mean;
-  PetscReal      ignored, most;
+  PetscReal      ignored, most, from[2];
   SamStep        step;
 
   PetscFunctionBegin;
@@ -404,6 +436,7 @@ PetscErrorCode SamLifeComputeRate(SamLife l, SamRate *rate, PetscReal cycles, Pe
   else if (!l->band)
     PetscCall(GoRound(l, cycles, &ignored, solved));
   PetscCall(Begin(l, rate, &mean));
+  PetscCall(Locate(l, from));
   for (PetscInt k = 0; k < n && *solved; k++) {
     PetscCall(SolveStep(l, k, cycles, &step, solved));
     if (tell && l->cycle.solved) PetscCall(l->cycle.solved(l->cycle.context, k, cycles, &step));
@@ -413,6 +446,7 @@ PetscErrorCode SamLifeComputeRate(SamLife l, SamRate *rate, PetscReal cycles, Pe
   l->state.computed++;
   l->open = *solved || l->band ? PETSC_FALSE : PETSC_TRUE;
   if (!*solved) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(Rewind(l, from));
   if (rate->passes) {
     PetscCall(VecMax(rate->coefficient, NULL, &most));
     PetscCall(SamWearGetLimit(l->law, most, &rate->limit));

@@ -34,7 +34,7 @@
   { \
     &(l)->start.coefficient, &(l)->start.pressure, &(l)->start.shift, &(l)->middle.coefficient, &(l)->middle.pressure, \
       &(l)->middle.shift, &(l)->load[0], &(l)->load[1], &(l)->whole[0], &(l)->whole[1], &(l)->half[0], &(l)->half[1], \
-      &(l)->halves[0], &(l)->halves[1], &(l)->p, &(l)->q, &(l)->diagonal, &(l)->gap, &(l)->passage, NULL \
+      &(l)->halves[0], &(l)->halves[1], &(l)->p, &(l)->q, &(l)->diagonal, &(l)->gap, NULL \
   }
 
 /* The law of wear of the life's problem; refuses laws that cycle jumps do not support. */
@@ -84,7 +84,8 @@ PetscErrorCode SamLifeCreate(SamContact contact, const SamLifeCycle *cycle, cons
   l->state.next = settings->jump;
   l->band       = SamContactGetMotion(contact)->streams;
   l->open       = !l->band;
-  l->coupled    = SamElasticityGetTraits(SamProblemGetElasticity(l->problem)).coupled;
+  if (l->band) PetscCall(SamGridCreateVec(grid, 1, &l->passage));
+  l->coupled = SamElasticityGetTraits(SamProblemGetElasticity(l->problem)).coupled;
   PetscCheck(settings->type == SAM_LIFE_MAGNIFIED || !SamProblemGetSlide(problem, l->memory, SAM_COMMITTED, slide),
              grid->comm, PETSC_ERR_ARG_INCOMP, "Surfaces that slide need magnified cycles");
   l->loads = SamStateFindField(l->memory, SAM_WEAR_LOAD2) < 0 ? 1 : SAM_WEAR_LOADS;
@@ -115,6 +116,7 @@ PetscErrorCode SamLifeDestroy(SamLife *life)
   PetscCall(SamStateDestroy(&l->series));
   for (Vec **field = (Vec *[])FIELDS(l); *field; field++) PetscCall(VecDestroy(*field));
   PetscCall(VecDestroy(&l->shear));
+  PetscCall(VecDestroy(&l->passage));
   for (PetscInt k = 0; k < SAM_LAWS; k++) PetscCall(VecDestroy(&l->before[k]));
   PetscCall(SamRateDestroyPasses(l, &l->start));
   PetscCall(SamRateDestroyPasses(l, &l->middle));

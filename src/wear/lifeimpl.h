@@ -57,7 +57,7 @@ struct _n_SamLife {
   SamLoads        load;                /* so far; the law has others within a jump */
   SamLoads        whole, half, halves; /* after the jump as a whole, after its first half, after both */
   Vec             p, q, diagonal, gap; /* scratch */
-  Vec             passage;             /* the wear load of a band in the cycle, Pa m */
+  Vec             passage;             /* the wear load of a band in the cycle, Pa m; else NULL */
   Vec             shear;               /* scratch, two components */
   Vec             before[SAM_LAWS];    /* of each law that accumulates, its sum before this cycle; else NULL */
 };

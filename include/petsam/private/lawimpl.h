@@ -57,6 +57,8 @@ struct _n_SamLawStep {
   const SamControl *control;
   PetscReal         rolled;          /* m: rolled distance of the step (SamProblemGetRolled()) */
   Vec               pressure, shear; /* Pa */
+  Vec               bound;           /* Pa, of the shear */
+  const PetscReal  *rigid;           /* m, rad: the displacements of the step, by SamComponent */
   PetscBool         same_pressure;   /* the pressure is that of the step before */
   PetscBool         moves;           /* to be set by a law that changes the separation, so that the pressure changes */
   /* made when first needed, by SamLawStepGetFriction(); the step's own */
@@ -78,13 +80,15 @@ PETSC_INTERN PetscErrorCode SamLawAddToSum(SamState state, const char name[], Ve
   The law slide. Under a point x of the grid, which goes with body 1, lies the point x + D of body 2, D being the slide
   (m). What a law keeps at body 2's points it keeps at those under the cells at D = 0.
   SamSlideGet - the slide of a generation, of SAM_TRIED without a try the committed one; FALSE: the contact has none,
-  and D = 0. SamSlideSet - of the committed one, if the contact has any. Not collective.
+  and D = 0. SamSlideSet - of the committed one, if the contact has any. SamSlideRewind - of a generation, and of what
+  it follows: less by a distance (m). Not collective.
   SamSlideRead - what the cells see of a field that is kept at body 2's points; outside of the grid it is zero, or its
   period. SamSlideWrite - the transpose: from cells to body 2's points, with the same sum. Other vectors, of one
   component. Collective.
 */
 PETSC_INTERN PetscBool      SamSlideGet(SamState state, SamGeneration generation, PetscReal slide[2]);
 PETSC_INTERN void           SamSlideSet(SamState state, const PetscReal slide[2]);
+PETSC_INTERN void           SamSlideRewind(SamState state, SamGeneration generation, const PetscReal by[2]);
 PETSC_INTERN PetscErrorCode SamSlideRead(SamElasticity elasticity, const PetscReal slide[2], Vec body2, Vec field);
 PETSC_INTERN PetscErrorCode SamSlideWrite(SamElasticity elasticity, const PetscReal slide[2], Vec field, Vec body2);
 /*
