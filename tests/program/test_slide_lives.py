@@ -4,6 +4,7 @@ import h5py
 import numpy as np
 import pytest
 
+import compliances
 from support import history, read_run
 
 STEEL = dict(body1_young=200e9, body1_poisson=0.3, body2_young=200e9, body2_poisson=0.3)
@@ -290,3 +291,33 @@ def test_a_run_that_its_own_rotation_ends_has_the_fields_of_its_last_step(petsam
     assert len(r["time"]) == 1 and r["time"][-1] == r["history/time"][-1]
     assert r["history/rot_z"][-1] > 2 / 24
     assert r["pressure"][-1].sum() * (8e-4 / 24) ** 2 == pytest.approx(20.0, rel=1e-9, abs=0)
+
+
+# ---- other bodies
+
+
+BODIES = {
+    "layer": dict(CYLINDER, body1_layer_young=800e9, body1_layer_poisson=0.2, body1_layer_thickness=2e-5),
+    "dissimilar": dict(CYLINDER, body1_young=20e9, body1_poisson=0.1, body2_young=400e9, friction=0.5),
+    "finite": dict(SPHERE, friction=0.3, body1_compliance="body.h5", grid_size=0.8e-3, grid_n=24),
+}
+
+
+@pytest.mark.parametrize("bodies", BODIES)
+def test_a_jump_leads_where_its_cycles_do(life, petsam, tmp_path, bodies):
+    """Two jumps for all cycles of a history, each step of which wears; volumes are k/friction times the work."""
+    compliances.write(tmp_path / "body.h5", 0.2 * np.eye(3).reshape(1, 3, 1, 3), half=4e-4, young=210e9)
+    plane = bodies != "finite"
+    k1, k2, stroke, cycles = (1e-14, 2e-14, 20e-6, 24) if plane else (2e-14, 4e-14, 6e-5, 12)
+    case = dict(BODIES[bodies], wear_coefficient1=k1, wear_coefficient2=k2, wear_jump=cycles // 2)
+    case.update(dict(grid_n=64, grid_size=2.5e-4) if plane else {})
+    one = life(case, stroke, steps=6, wear_cycles=cycles)
+    case["wear_jump"] = None
+    first, every = (
+        life(case, stroke, places=(1,) + (-1, 1) * count, steps=6, name=f"every{count}") for count in (0, cycles)
+    )
+    for body in (1, 2):
+        exact = (k1, k2)[body - 1] * np.nansum(every["history/dissipated_energy"][6:]) / case["friction"]
+        assert one[f"wear/volume{body}"][-1] == pytest.approx(exact, rel=2e-6, abs=0)
+        depth = worn(every, body) - worn(first, body)
+        assert np.abs(worn(one, body) - depth).max() < 4e-3 * depth.max()
