@@ -174,7 +174,7 @@ def test_a_block_on_a_ring_needs_not_move(life):
     assert worn(r, 2).max() == 0
 
 
-PIN = dict(CYLINDER, elasticity="plane_periodic", plane_datum=None, friction=1e-9, grid_size=4e-4)
+PIN = dict(CYLINDER, elasticity="plane_periodic", plane_datum=None, friction=0.5, grid_size=4e-4)
 
 
 @pytest.mark.parametrize("turns, k1", [(1, 1.9e-14), (-2, 0)])
@@ -186,9 +186,10 @@ def test_a_pin_wears_the_whole_track_of_a_disc_alike(life, turns, k1):
     r = life(PIN, size, places=places, grid_n=64, steps=16 * abs(turns), **words)
     for body, k in ((1, k1), (2, K[1])):
         exact = k * LINE * abs(turns) * cycles
-        assert r[f"wear/volume{body}"][-1] == pytest.approx(exact * size, rel=1e-12, abs=0)
+        assert r[f"wear/volume{body}"][-1] == pytest.approx(exact * size, rel=1e-8, abs=0)  # the tangential tolerance
         assert body == 1 or np.abs(worn(r, body) / exact - 1).max() < 0.02
     assert np.ptp(r["history/slide_x"]) < (abs(turns) + 0.01) * size  # no more in later cycles
+    assert np.all(np.sign(turns) * (r["history/disp_x"] - r["history/slide_x"]) > 0)  # behind, by what bends the bodies
 
 
 def test_a_ball_on_a_disc_wears_a_track_of_its_shape(life):
