@@ -71,7 +71,8 @@ PETSC_EXTERN PetscErrorCode SamOptionsHeading(const SamOptions *from, const char
   when the option is absent; a real number without one is NaN, an integer 0, a text empty.
 
   SAM_OPTION_REAL     PetscReal in `range`; `size` 2: two of them separated by a comma, of which one stands for both;
-                      `words`: the end of the error about a number outside of the range
+                      `words`: the end of the error about a number outside of the range. Its unit of SI stands in
+                      `text` in parentheses, as in "full width (m)", and others of its dimension may be given (mm)
   SAM_OPTION_INT      PetscInt from `least` to `most` (0: any); `size` likewise
   SAM_OPTION_BOOL     PetscBool: 1, true, yes, on, or 0, false, no, off, or no value for true; with `words`: whether it
                       is not the first of them

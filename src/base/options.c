@@ -92,23 +92,33 @@ static PetscInt CountOf(const SamOptionRow *row)
   return PetscMax(row->size, 1);
 }
 
-/* Reads one number at *text and moves past it and a comma behind it; whether it is one of the kind. */
-static PetscBool ReadNumber(const SamOptionRow *row, const char **text, double *value)
+/* Reads an integer at *text and moves to the end of the field; whether it is one that the row allows. */
+static PetscBool ReadInteger(const SamOptionRow *row, const char **text, double *value)
 {
-  const PetscBool whole  = row->kind == SAM_OPTION_INT ? PETSC_TRUE : PETSC_FALSE;
-  long long       number = 0;
   char           *end;
+  const long long number = (errno = 0, strtoll(*text, &end, 10));
+  const PetscBool good   = end != *text && !errno && (!*end || *end == ',') ? PETSC_TRUE : PETSC_FALSE;
 
-  errno = 0;
-  if (whole)
-    *value = (double)(number = strtoll(*text, &end, 10));
+  *value = (double)number;
+  *text  = end;
+  return good && number >= row->least && number <= (row->most ? row->most : PETSC_MAX_INT) && number <= MOST_WHOLE;
+}
+
+/*
+  Reads one number at *text and moves past it and a comma behind it; whether it is one of the kind. `unit`: one follows.
+*/
+static PetscBool ReadNumber(const SamOptionRow *row, const char **text, double *value, PetscBool *unit)
+{
+  const char *end  = *text;
+  PetscBool   good = PETSC_TRUE;
+
+  *unit = PETSC_FALSE;
+  if (row->kind == SAM_OPTION_INT)
+    good = ReadInteger(row, &end, value);
   else
-    *value = strtod(*text, &end);
-  if (end == *text || (errno == ERANGE && (whole || isinf(*value))) || (*end && *end != ',')) return PETSC_FALSE;
+    good = SamReadReal(row->text, *text, &end, value, unit) && SamRangeHas(row->range, *value);
   *text = *end ? end + 1 : end;
-  if (*end && !end[1]) return PETSC_FALSE;
-  return whole ? number >= row->least && number <= (row->most ? row->most : PETSC_MAX_INT) && number <= MOST_WHOLE
-               : SamRangeHas(row->range, *value);
+  return good && (!*end || end[1]);
 }
 
 /*
@@ -137,16 +147,19 @@ static PetscErrorCode ReadNumbers(const SamOptions *from, const SamOptionRow *ro
 {
   char        text[TEXT_SIZE];
   const char *rest = text;
-  PetscBool   good = PETSC_TRUE, found;
+  PetscBool   good = PETSC_TRUE, found, unit[2] = {PETSC_FALSE}; /* of the first number, and of this one */
+  char        why[192];
 
   PetscFunctionBegin;
   *n = 0;
   PetscCall(GetText(from, row->name, expected, text, sizeof(text), &found));
   if (!found) PetscFunctionReturn(PETSC_SUCCESS);
-  while (good && *rest && *n < CountOf(row)) good = ReadNumber(row, &rest, &v[(*n)++]);
+  while (good && *rest && *n < CountOf(row)) {
+    good = ReadNumber(row, &rest, &v[*n], &unit[*n > 0]) && (!*n || unit[0] == unit[1]);
+    ++*n;
+  }
   if (!good || *n == 0 || *rest) {
-    const char *why = SamExplainNumber(text);
-
+    SamExplainNumber(text, row->kind == SAM_OPTION_REAL ? row->text : "", why, sizeof(why));
     SETERRQ(from->comm, SAM_ERR_USER, "-%s%s %s: expected %s%s", SamOptionsPrefix(from), row->name, Quote(text),
             expected, !why[0] && row->words ? row->words : why);
   }

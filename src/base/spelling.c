@@ -193,19 +193,31 @@ PetscBool SamIsDecimalComma(const char text[])
   return strspn(text + first, "0123456789") == (size_t)(comma - text) - first;
 }
 
-const char *SamExplainNumber(const char text[])
+/* The text behind a number at the beginning, and behind white space; NULL without a number. */
+static const char *FindBehind(const char text[])
 {
-  char       *end;
-  const char *rest;
+  char *end;
 
+  (void)strtod(text, &end);
+  if (end == text) return NULL;
+  while (isspace((unsigned char)*end)) end++;
+  return end;
+}
+
+void SamExplainNumber(const char text[], const char help[], char why[], size_t size)
+{
+  const char *rest = FindBehind(text);
+  char        units[64];
+
+  SamListUnits(help, units, sizeof(units));
+  why[0] = '\0';
+  if (rest && *rest == '%') (void)snprintf(why, size, "; a fraction is meant, not percent: 0.3, not 30");
+  if (rest && (isalpha((unsigned char)*rest) || isalpha((unsigned char)text[strlen(text) - 1])))
+    (void)snprintf(why, size,
+                   units[0] ? "; the units allowed, behind each number: %s"
+                            : "; without a unit: all numbers are in SI units (m, N, Pa), 2.6e-3 for 2.6 mm",
+                   units);
   for (rest = text; *rest; rest++) /* anywhere, as in 2.6e-3,2,6e-3 */
     if ((rest == text || rest[-1] == ',') && SamIsDecimalComma(rest))
-      return "; numbers have a decimal point, not a comma";
-  (void)strtod(text, &end);
-  if (end == text) return "";
-  for (rest = end; isspace((unsigned char)*rest); rest++) continue;
-  if (*rest == '%') return "; a fraction is meant, not percent: 0.3, not 30";
-  if (isalpha((unsigned char)*rest))
-    return "; without a unit: all numbers are in SI units (m, N, Pa), 2.6e-3 for 2.6 mm";
-  return "";
+      (void)snprintf(why, size, "; numbers have a decimal point, not a comma");
 }

@@ -1,5 +1,6 @@
 /* The load program: made of options and a file, asked for its steps. */
 #include <petsam/history.h>
+#include <petsam/elasticity.h>
 #include <petsam/private/table.h>
 #include <petsam/private/arguments.h>
 #include <petsam/private/help.h>
@@ -95,9 +96,13 @@ static PetscErrorCode ReadComponent(SamHistory h, const Reader *r, PetscInt c, P
   PetscReal               value[SAM_WAYS] = {c ? 0 : NAN, NAN, NAN}; /* without any the load is 0, but for N */
   PetscBool               has[SAM_WAYS] = {PETSC_FALSE}, given = PETSC_FALSE;
   char                    text[96];
+  PetscBool               plane, repeated;
 
   PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(text, sizeof(text), "%s (%s), or instead %s", name->load_text, name->load_unit, name->rigid));
+  PetscCall(SamOptionsHas(from, "elasticity " SAM_ELASTICITY_PLANE, &plane));
+  PetscCall(SamOptionsHas(from, "elasticity " SAM_ELASTICITY_PLANE_PERIODIC, &repeated));
+  PetscCall(PetscSNPrintf(text, sizeof(text), "%s (%s%s), or instead %s", name->load_text, name->load_unit,
+                          plane || repeated ? "/m" : "", name->rigid));
   PetscCall(SamOptionsReal(from, name->load, text, c ? SAM_RANGE_ANY : SAM_RANGE_NONNEGATIVE, &value[SAM_BY_LOAD],
                            &has[SAM_BY_LOAD]));
   PetscCall(PetscSNPrintf(text, sizeof(text), "%s (%s)", name->rigid_text, name->rigid_unit));

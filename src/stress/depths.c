@@ -29,12 +29,12 @@ int SamDivide(char text[], char at, char *parts[], int most)
   return count;
 }
 
-PetscBool SamReadNumber(const char text[], double *value)
+PetscBool SamReadLength(const char text[], double *value)
 {
-  char *end;
+  const char *end;
+  PetscBool   unit;
 
-  *value = strtod(text, &end);
-  return end != text && *end == '\0' && isfinite(*value);
+  return SamReadReal("(m)", text, &end, value, &unit) && !*end && isfinite(*value);
 }
 
 static PetscBool ReadWhole(const char text[], PetscInt *value)
@@ -58,7 +58,8 @@ static int ReadSide(char text[])
 }
 
 #define EXPECTED \
-  "expected depths separated by commas, or first:last:number, first < last, in m or as 0.5a in half widths"
+  "expected depths separated by commas, or first:last:number, first < last, in m, mm, um, nm or as 0.5a in half " \
+  "widths"
 
 /* A depth in m, or behind a number `a`, in half widths of the contact (m). */
 static PetscBool ReadDepth(char text[], PetscReal half, double *value)
@@ -68,7 +69,7 @@ static PetscBool ReadDepth(char text[], PetscReal half, double *value)
   PetscBool       good;
 
   if (relative) text[length - 1] = '\0';
-  good = SamReadNumber(text, value);
+  good = SamReadLength(text, value);
   if (relative) *value *= (double)half;
   return good;
 }

@@ -163,8 +163,8 @@ PETSC_INTERN PetscErrorCode SamDepthsTake(SamEvaluation e, const char said[], Pe
                                           const int sides[]);
 /* SamDivide - divides a text at a character, in place; returns the number of parts, of which `most` are given. */
 PETSC_INTERN int SamDivide(char text[], char at, char *parts[], int most);
-/* SamReadNumber - whether a text is a finite number. Not collective. */
-PETSC_INTERN PetscBool SamReadNumber(const char text[], double *value);
+/* SamReadLength - whether a text is a finite number, in m or with a unit of length behind it. Not collective. */
+PETSC_INTERN PetscBool SamReadLength(const char text[], double *value);
 
 /* ---- largest values (largest.c) ---- */
 

@@ -19,14 +19,14 @@ typedef struct {
 #define MEMBER(name) offsetof(Settings, name)
 static const SamOptionRow where[] = {
   {"body", "1 or 2; z points into it", SAM_OPTION_INT, MEMBER(body), .least = 1, .most = 2},
-  {"depths", "m: 0,1e-5 or first:last:number; 0.5a: half widths; 2e-6-, 2e-6+: sides", SAM_OPTION_STRING,
+  {"depths", "(m): 0,1e-5 or first:last:number; 0.5a: half widths; 2e-6-, 2e-6+: sides", SAM_OPTION_STRING,
    MEMBER(depths), .size = TEXT},
   {"section", "only the cells nearest to a plane, y=0 or x=1e-4 (m); default: whole maps", SAM_OPTION_STRING,
    MEMBER(section), .size = 128}};
 static const SamOptionRow passing = {"passing", "the cycle is that of a point that passes along x under one step",
                                      SAM_OPTION_BOOL, .member = MEMBER(passing)};
 static const SamOptionRow mean[]  = {
-   {"fatigue_length", "length over which the stresses are averaged, m; default: not at all", SAM_OPTION_REAL,
+   {"fatigue_length", "length over which the stresses are averaged (m); default: not at all", SAM_OPTION_REAL,
     MEMBER(length), .range = SAM_RANGE_POSITIVE},
    {"fatigue_average", "point: at half the length deep; line: to twice the length; area: the half disc of it",
     SAM_OPTION_ENUM, MEMBER(average), .words = "point,line,area", .needs = "fatigue_length"}};
@@ -45,7 +45,7 @@ static PetscErrorCode TakeSection(const SamOptions *from, SamEvaluation e, const
 
   PetscFunctionBegin;
   e->section = text[0] ? PETSC_TRUE : PETSC_FALSE;
-  PetscCheck(!e->section || ((text[0] == 'x' || text[0] == 'y') && text[1] == '=' && SamReadNumber(text + 2, &place)),
+  PetscCheck(!e->section || ((text[0] == 'x' || text[0] == 'y') && text[1] == '=' && SamReadLength(text + 2, &place)),
              from->comm, SAM_ERR_USER, "-section %s: expected for example y=0 or x=1e-4", text);
   e->axis  = text[0] == 'y' ? SAM_SECTION_X : SAM_SECTION_Y;
   e->place = (PetscReal)place;

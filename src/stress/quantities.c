@@ -117,7 +117,7 @@ const SamQuantity SamQuantityTable[] = {
    .with     = "-fatigue fatemi_socie",
    .constant = {CONSTANT(fatemi_socie_k, "factor on the maximum normal stress, required by fatemi_socie",
                          SAM_RANGE_NONNEGATIVE),
-                CONSTANT(yield, "yield stress, Pa, required by fatemi_socie", SAM_RANGE_POSITIVE)}},
+                CONSTANT(yield, "yield stress (Pa), required by fatemi_socie", SAM_RANGE_POSITIVE)}},
   {.name     = "ruiz",
    .part     = {{"ruiz_1", "J/m2", "Ruiz's first parameter of the cycle: frictional work"},
                 {"ruiz_2", "Pa J/m2", "Ruiz's second parameter of the cycle: tension times frictional work"}},

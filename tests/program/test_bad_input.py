@@ -88,7 +88,7 @@ CASES = [
     *numbers("body1_young", ("0", "-1", "nan", "-inf", "abc", "210e9,1")),
     *numbers("body2_poisson", ("0.6", "-1", "-1.5", "nan", "inf", "abc", "1/3")),
     *numbers("friction", ("-0.1", "nan", "inf", "abc", "0,1")),
-    *numbers("load_n", ("-1", "nan", "inf", "-inf", "abc", "1e3N")),
+    *numbers("load_n", ("-1", "nan", "inf", "-inf", "abc", "1e3J")),
     *numbers("load_tx", ("nan", "inf", "abc", "1,2")),
     *numbers("load_mz", ("nan", "-inf")),
     *numbers("disp_x", ("nan", "inf", "abc")),

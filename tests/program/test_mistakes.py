@@ -50,12 +50,15 @@ MISTAKES = [
     ),
     mistake("one width a thousand times the other", dict(grid_size="2.6e-3,2.6"), says=["-grid_size", "hundredfold"]),
     mistake("decimal comma of a load", dict(load_n="1000,5"), says=["-load_n 1000,5", "decimal point, not a comma"]),
-    mistake("unit behind a number", dict(load_n="1000N"), says=["-load_n 1000N", "without a unit", "SI units"]),
+    mistake("unit of another kind", dict(load_n="1kPa"), says=["-load_n 1kPa", "allowed", "N, kN, MN or mN"]),
     mistake(
-        "unit as a word", {}, "-load_tx", "60", "N", says=["N:", "-load_tx 60 already has its value", "without a unit"]
+        "unit as a word", {}, "-load_tx", "60", "N", says=["N:", "-load_tx 60 already has its value", "no space before"]
     ),
-    mistake("GPa", dict(body1_young="210GPa"), says=["-body1_young 210GPa", "without a unit", "Pa"]),
-    mistake("mm", dict(gap_radius1="200mm"), says=["-gap_radius1 200mm", "2.6e-3 for 2.6 mm"]),
+    mistake("unknown unit", dict(body1_young="30Mpsi"), says=["-body1_young 30Mpsi", "Pa, kPa, MPa or GPa"]),
+    mistake("unit of one of two", dict(grid_size="2.6mm,3"), says=["-grid_size 2.6mm,3", "each number: m, mm"]),
+    mistake("decimal comma with a unit", dict(grid_size="2,6mm"), says=["-grid_size 2,6mm", "a decimal point"]),
+    mistake("unit of a ratio", dict(friction="0.3Pa"), says=["-friction 0.3Pa", "without a unit"]),
+    mistake("force in plane strain", dict(PLANE, load_n="1kN"), says=["-load_n 1kN", "N/m, kN/m, MN/m or N/mm"]),
     mistake("negative radius", dict(gap_radius2=-0.3), says=["-gap_radius2 -0.3", "> 0 or inf", "-gap_type curved"]),
     mistake("percent sign", dict(friction="30%"), says=["-friction 30%", "0.3, not 30"]),
     mistake("Poisson's ratio in percent", dict(body1_poisson=30.0), says=["-body1_poisson 30", "at most 0.5", "0.3"]),
@@ -163,8 +166,8 @@ MISTAKES = [
     mistake("no options file", {}, "-options_file", "s.opts", says=["s.opts", "No such file"], code=3),
     options_file(
         "value in a file",
-        "# N\n-load_n 1000N\n",
-        ["-options_file s.opts, line 2: -load_n 1000N: expected a number", "without a unit"],
+        "# N\n-load_n 1000m\n",
+        ["-options_file s.opts, line 2: -load_n 1000m: expected a number", "units allowed"],
         load_n=None,
     ),
     options_file(
@@ -478,6 +481,23 @@ def test_a_wave_of_a_period_is_no_tilt(petsam, tmp_path, slope, tilted):
     assert ("border of the period" in petsam(case, dict(gap_file="w.h5")).stderr) == tilted
 
 
+UNITS = dict(grid_size="2.6mm,2600um", body1_young="210GPa", body2_young="210e3MPa", gap_radius1="2e2mm", load_n="1kN")
+
+
+def test_numbers_with_units_are_those_in_si(launcher, petsam, folder):
+    """To the last bit, also among the parameters, and in petsam-stress's depths."""
+    petsam(SPHERE, dict(UNITS, load_tx="60N", output="units.h5"))
+    petsam(SPHERE, dict(output="si.h5", load_tx=60.0, grid_size="2.6e-3,2.6e-3", gap_radius1=0.2))
+    with h5py.File(folder / "units.h5") as units, h5py.File(folder / "si.h5") as si:
+        assert all(units.attrs[name] == si.attrs[name] for name in ("body1_young", "body2_young", "gap_radius1"))
+        for name in ("x", "pressure", "shear_x", "history/load_n"):
+            assert np.array_equal(units[name][:], si[name][:]), name
+    stress = ["-input", "si.h5", "-output", "s.h5", "-depths", "0,20um,0.1mm", "-section", "y=0.1mm"]
+    execute(launcher, folder, stress, 1, 0, program=PROGRAM.with_name("petsam-stress"))
+    with h5py.File(folder / "s.h5") as f:
+        assert f["z"][:].tolist() == [0.0, 20e-6, 0.1e-3]
+
+
 # ---------------------------------------------------------------- advice that is followed helps
 
 
@@ -619,8 +639,8 @@ def test_restart_with_another_option_names_it(petsam, folder, change):
         (["-input", "r.h5", "-body", "3"], 2, ["-body 3", "from 1 to 2"]),
         (["-input", "r.h5", "-depth", "1e-5"], 2, ["-depth 1e-5", "is -depths meant?"]),
         (["-input", "r.h5", "-depths", "-1e-5"], 2, ["-depths -1e-5"]),
-        (["-input", "r.h5", "-depths", "10um"], 2, ["-depths 10um", "first:last:number"]),
-        (["-input", "r.h5", "-depths", "0,1b"], 2, ["-depths 0,1b", "in m or as 0.5a in half widths"]),
+        (["-input", "r.h5", "-depths", "10kN"], 2, ["-depths 10kN", "first:last:number", "mm, um, nm"]),
+        (["-input", "r.h5", "-depths", "0,1b"], 2, ["-depths 0,1b", "in m, mm, um, nm or as 0.5a in half widths"]),
         (["-input", "r.h5", "-depths", "0,2a,1a"], 2, ["-depths 0,2a,1a", "expected depths that increase"]),
         (["-input", "r.h5", "-cycle", "2", "-steps", "1"], 2, ["-cycle does not work with -steps", "give one of them"]),
         (["-input", "r.h5", "-cycle", "7"], 2, ["-cycle 7: the steps of that cycle are not in r.h5, those of 0 are"]),

@@ -424,10 +424,41 @@ static void test_decimal_commas_are_refused(void **state)
   sam_assert(Read(REAL_PAIR, SAM_RANGE_ANY, "0,1e-4").real[1] == 1e-4); /* a place is no length */
 }
 
+/* A number with a unit is read like that in SI units. */
+static void test_units_change_the_exponent_alone(void **state)
+{
+  static const struct {
+    const char *help, *text;
+    double      value;
+  } good[] = {{"width (m)", "2.6mm", 2.6e-3},
+              {"x[,y] (m, inf: flat)", "-.7e1um", -.7e-5},
+              {"x (m)", "7E+3nm", 7e-6},
+              {"wear (1/Pa)", "1e-4mm3/Nm", 1e-13},
+              {"load (approach) (N m)", "3Nmm", 3e-3},
+              {"line load (N/m)", "3.3kN/m", 3.3e3},
+              {"modulus (Pa)", "210GPa", 210e9},
+              {"anything", "17", 17}};
+  static const struct {
+    const char *help, *text;
+  } bad[] = {{"width (m)", "2kN"}, {"width (m)", "2 mm"}, {"width", "2mm"},     {"x (m)", "infmm"},
+             {"x (m)", "0x1e3mm"}, {"x (N)", "1e308kN"},  {"width (m)", "2m3"}, {"x (m)", "mm"}};
+  const char *end;
+  double      value;
+  PetscBool   unit;
+
+  (void)state;
+  for (size_t k = 0; k < sizeof(good) / sizeof(good[0]); k++) {
+    sam_assert(SamReadReal(good[k].help, good[k].text, &end, &value, &unit) && !*end);
+    sam_assert(value == good[k].value && unit == (PetscBool)(value != 17));
+  }
+  for (size_t k = 0; k < sizeof(bad) / sizeof(bad[0]); k++)
+    sam_assert(!SamReadReal(bad[k].help, bad[k].text, &end, &value, &unit));
+}
+
 static void test_units_of_numbers_are_explained(void **state)
 {
   (void)state;
-  AssertRefused(REAL, SAM_RANGE_POSITIVE, "210GPa");
+  AssertRefused(REAL, SAM_RANGE_POSITIVE, "210GPa"); /* the option has no unit */
   sam_assert(strstr(message, "SI units"));
   AssertRefused(REAL, SAM_RANGE_POSITIVE, "2.6 mm");
   sam_assert(strstr(message, "SI units"));
@@ -505,6 +536,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_viewers_other_than_ascii_are_refused),
     cmocka_unit_test(test_read_options_are_used),
     cmocka_unit_test(test_decimal_commas_are_refused),
+    cmocka_unit_test(test_units_change_the_exponent_alone),
     cmocka_unit_test(test_units_of_numbers_are_explained),
     cmocka_unit_test(test_nearest_name_is_found),
     cmocka_unit_test(test_missing_option_is_looked_for_among_those_given),

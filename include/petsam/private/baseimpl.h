@@ -126,8 +126,22 @@ PETSC_EXTERN PetscErrorCode SamOptionsRequire(const SamOptions *from, PetscBool 
                                               const char text[]);
 /* SamIsDecimalComma - whether a text begins with digits, a comma, and a digit: 2,6e-3. */
 PETSC_INTERN PetscBool SamIsDecimalComma(const char text[]);
-/* SamExplainNumber - what is wrong with a text that is no number, to be appended to a message; may be empty. */
-PETSC_INTERN const char *SamExplainNumber(const char text[]);
+/*
+  SamExplainNumber - what is wrong with a text that is no number, to be appended to a message; may be empty. `help`: as
+  of SamReadReal().
+*/
+PETSC_INTERN void SamExplainNumber(const char text[], const char help[], char why[], size_t size);
+
+/* ---- units (units.c); not collective ---- */
+/*
+  SamReadReal - reads a number, which a unit may follow that the unit of SI in a help's text allows, as "width (m)" does
+  mm: whether it is one. `value`: in that unit of SI; `end`: the comma behind, or the end of the text; `unit`: whether
+  there is one.
+  SamListUnits - the units that may follow, "m, mm, um or nm"; empty: none.
+*/
+PETSC_INTERN PetscBool SamReadReal(const char help[], const char text[], const char **end, double *value,
+                                   PetscBool *unit);
+PETSC_INTERN void      SamListUnits(const char help[], char list[], size_t size);
 
 /* ---- checksums ---- */
 

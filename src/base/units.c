@@ -1,0 +1,82 @@
+/*
+  Units behind the numbers of options: 2.6mm is 2.6e-3, to the last bit.
+
+  The unit of SI of an option stands in its help, in parentheses. Powers of ten alone distinguish the units that may
+  follow a number, so the number is read with another exponent.
+*/
+#include <petsam/private/baseimpl.h>
+#include <errno.h>
+#include <stdlib.h>
+
+#define MOST 4 /* units that may follow */
+
+typedef struct {
+  const char *si, *name[MOST];
+  int         power[MOST];
+} Kind;
+
+static const Kind kinds[] = {{"m", {"m", "mm", "um", "nm"}, {0, -3, -6, -9}},
+                             {"N", {"N", "kN", "MN", "mN"}, {0, 3, 6, -3}},
+                             {"N/m", {"N/m", "kN/m", "MN/m", "N/mm"}, {0, 3, 6, 3}},
+                             {"N m", {"Nm", "kNm", "Nmm"}, {0, 3, -3}},
+                             {"Pa", {"Pa", "kPa", "MPa", "GPa"}, {0, 3, 6, 9}},
+                             {"m/s", {"m/s", "mm/s", "um/s"}, {0, -3, -6}},
+                             {"s", {"s", "ms"}, {0, -3}},
+                             {"rad", {"rad", "mrad"}, {0, -3}},
+                             {"1/Pa", {"m3/Nm", "mm3/Nm"}, {0, -9}}, /* no digit, which would be the number's */
+                             {"m3/J", {"m3/J", "mm3/J"}, {0, -9}}};
+
+/* The kind of unit that a help has in parentheses, to their end or to a comma; NULL: none. */
+static const Kind *FindKind(const char help[])
+{
+  for (; (help = strchr(help, '(')); help++)
+    for (size_t k = 0; k < sizeof(kinds) / sizeof(kinds[0]); k++) {
+      const size_t length = strlen(kinds[k].si);
+
+      if (!strncmp(help + 1, kinds[k].si, length) && strchr(",)", help[1 + length])) return &kinds[k];
+    }
+  return NULL;
+}
+
+/* The number of so many characters times a power of ten. */
+static double ReadScaled(const char number[], size_t length, int power)
+{
+  const size_t digits = PetscMin(length, strcspn(number, "eE"));
+  char         text[128];
+
+  (void)snprintf(text, sizeof(text), "%.*se%ld", (int)digits, number,
+                 power + (digits < length ? strtol(number + digits + 1, NULL, 10) : 0));
+  return strtod(text, NULL);
+}
+
+PetscBool SamReadReal(const char help[], const char text[], const char **end, double *value, PetscBool *unit)
+{
+  const Kind *kind = FindKind(help);
+  char       *name;
+  size_t      size, length;
+
+  errno  = 0;
+  *value = strtod(text, &name);
+  size   = (size_t)(name - text);
+  length = strcspn(name, ",");
+  *end   = name + length;
+  *unit  = length ? PETSC_TRUE : PETSC_FALSE;
+  if (!size || (errno == ERANGE && isinf(*value))) return PETSC_FALSE;
+  if (!length) return PETSC_TRUE;
+  if (size > 64 || strspn(text, "+-.0123456789eE") != size) return PETSC_FALSE; /* inf, 0x1p3 */
+  for (int k = 0; kind && k < MOST && kind->name[k]; k++)
+    if (strlen(kind->name[k]) == length && !strncmp(kind->name[k], name, length)) {
+      *value = ReadScaled(text, size, kind->power[k]);
+      return isfinite(*value) ? PETSC_TRUE : PETSC_FALSE;
+    }
+  return PETSC_FALSE;
+}
+
+void SamListUnits(const char help[], char list[], size_t size)
+{
+  const Kind *kind  = FindKind(help);
+  PetscInt    count = 0;
+
+  while (kind && count < MOST && kind->name[count]) count++;
+  SamJoin(count, kind ? kind->name : NULL, ", ", " or ", list, size);
+}
