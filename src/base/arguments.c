@@ -155,8 +155,8 @@ static void RefuseWord(SamArguments *a, const char where[], const char word[], c
     Complain(a, SAM_ERR_USER, "%s%.160s: %s; two values of %s are joined by a comma: %.40s,%.40s", where, word, text,
              before, value, word);
   else if (before && value)
-    Complain(a, SAM_ERR_USER, "%s%.160s: %s; %s %.40s already has its value; no space before a unit", where, word,
-             text, before, value);
+    Complain(a, SAM_ERR_USER, "%s%.160s: %s; %s %.40s already has its value; no space before a unit", where, word, text,
+             before, value);
   else
     Complain(a, SAM_ERR_USER, "%s%.160s: %s", where, word, text);
 }
