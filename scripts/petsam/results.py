@@ -1,6 +1,7 @@
 """Reading of petsam's results files, of any size: scalars whole, fields by step, window and stride. SI units."""
 
 import os
+import textwrap
 from copy import copy
 from functools import cached_property
 
@@ -125,6 +126,22 @@ class Datafile:
             raise ValueError(f"/{name} has no attribute units that is a text")
         return short(unit)
 
+    @property
+    def plot(self):
+        """Its pictures as matplotlib figures: plot.maps(), .loop(), .section(), ...; see petsam.plot.Pictures."""
+        from .plot import Pictures
+
+        return Pictures(self)
+
+    def _lines(self, kind, count, names):
+        """Lines of a listing: names with their units, as of arrays of one kind and shape."""
+        if not names:
+            return []
+        tie = "\0"  # between a name and its unit
+        words = ", ".join(name if unit in ("", "1") else f"{name} ({unit})".replace(" ", tie) for name, unit in names)
+        indents = {"initial_indent": f"  {kind:<10}{count}: ", "subsequent_indent": " " * 12}
+        return [textwrap.fill(words, 110, break_on_hyphens=False, **indents).replace(tie, " ")]
+
     def __enter__(self):
         return self
 
@@ -214,6 +231,26 @@ class Results(Datafile):
             self.wear, self.wear_units = self._read_table("wear")
             complete = min((values.size for values in self.wear.values()), default=0)  # see solved
             self.wear.update({name: values[:complete] for name, values in self.wear.items()})
+
+    def __str__(self):
+        """What the file holds: steps, grid, and the names, shapes and units of fields and numbers."""
+        count, version = self.history["time"].size, self.parameters.get("petsam_version", "of unknown version")
+        saved = f"fields of {_some(self.steps)}" if self.steps else "no fields"
+        size = [len(axis) * (axis[1] - axis[0]) if axis.size > 1 else 0.0 for axis in (self.x, self.y)]
+        lines = [
+            f"{self.path}: results of petsam {version}",
+            f"  steps     {count}, from {self.before + 1} on; {saved}"
+            + ("" if self.parameters.get("closed", 1) else "; not closed: a run writes to it, or was killed"),
+            f"  grid      {self.x.size} x {self.y.size} cells, {size[0]:.6g} m x {size[1]:.6g} m: x, y",
+        ]
+        fields = [(name, self.about(name)[0]) for name in self.fields]
+        lines += self._lines("fields", f"({self.times.size}, {self.y.size}, {self.x.size})", fields)
+        lines += [f"  edges     {', '.join(self.edges)} (m)"] if self.edges else []
+        lines += self._lines("history", f"({count},)", self.units.items())
+        lines += self._lines("matrices", f"({count}, 6, 6)", [(name, "") for name in self.matrices])
+        cycles = self.wear["cycle"].size if self.has_life else 0
+        lines += self._lines("wear", f"({cycles},)", self.wear_units.items())
+        return "\n".join(lines)
 
     # ------------------------------------------------------------ steps
 

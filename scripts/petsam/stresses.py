@@ -32,6 +32,21 @@ class Stresses(Datafile):
         self.steps = [int(number) for number in self.history["step"]]
         self.shape = (self.times.size, self.z.size, self.y.size, self.x.size)
 
+    def __str__(self):
+        """What the file holds: steps, points, and the names, shapes and units of stresses and numbers."""
+        what = f"a section along {self.along}" if self.along else "maps"
+        lines = [
+            f"{self.path}: stresses of petsam-stress in body {int(self.parameters['body'])}",
+            f"  steps     {_some(self.steps)}",
+            f"  points    {what}: x, y, z of {self.x.size}, {self.y.size}, {self.z.size}",
+        ]
+        with reading(self.path):
+            shapes = {name: self.file[name].shape for name in self.file if getattr(self.file[name], "ndim", 0) > 2}
+        for kind, shape in (("stresses", self.shape), ("cycle", self.shape[1:])):
+            names = [(name, self.unit(name)) for name in shapes if shapes[name] == shape]
+            lines += self._lines(kind, str(shape), names)
+        return "\n".join(lines + self._lines("history", f"({self.times.size},)", self.units.items()))
+
     def __contains__(self, name):
         return name in self.file and name not in AXES
 

@@ -7,7 +7,7 @@ import re
 import sys
 
 from ..cycles import PAIRS, read_period
-from ..errors import Parser, joined, short
+from ..errors import Error, Parser, joined, short
 from . import bodies
 
 FORMATS = (".png", ".pdf", ".svg")
@@ -264,15 +264,37 @@ def _check(parser, options):
         parser.error("--percentile: not allowed with --limits")
 
 
-def read(description):
-    """Read the command line."""
-    parser = Parser(prog="petsam-plot", description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+class _Caller(Parser):
+    """A command line that a program in Python has made: errors are raised."""
+
+    def error(self, message):
+        raise Error(f"plot: {message}")
+
+
+def _read(parser, words):
     parser.add_argument(
         "files", nargs="+", metavar="FILE.h5", help="of petsam, petsam-stress or petsam-study; several are compared"
     )
     for group in (_pictures, _quantities, _steps, _look):
         group(parser)
     parser.set_defaults(spelling="--scalar")
-    options = parser.parse_args(joined(sys.argv[1:]))
+    options = parser.parse_args(joined(words))
     _check(parser, options)
     return options
+
+
+def read(description):
+    """Read the command line."""
+    form = argparse.RawDescriptionHelpFormatter
+    return _read(Parser(prog="petsam-plot", description=description, formatter_class=form), sys.argv[1:])
+
+
+def given(kind, files, options):
+    """The options that a call has as keywords: field="shear_x", step=[20, -1], whole_grid=True."""
+    words = ["--" + kind]
+    for name, value in options.items():
+        if name in ("output", "csv", "format", "dpi"):
+            raise Error(f"plot: {name}: a file is written by the figure's savefig()")
+        one = ",".join(map(str, value)) if isinstance(value, (list, tuple)) else str(value)
+        words += ["--" + name.replace("_", "-"), *([] if value is True else [one])]
+    return _read(_Caller(prog="plot", add_help=False, allow_abbrev=False), [*words, "--", *files])

@@ -286,18 +286,35 @@ def need_options(options, results):
             raise Error(f"{results[0].path}: --{name}: a file of petsam-stress, whose stresses --component names")
 
 
+def usable(options, results):
+    """The kinds of picture; Error where an option has no use for them or for the files."""
+    need_options(options, results)
+    kinds = chosen(options, results)
+    uses.need_use(options, results, kinds)
+    return kinds
+
+
+def picture(kind, results, **given):
+    """One picture as a matplotlib figure: what petsam-plot --kind draws of results that are open, with its options."""
+    options = arguments.given(kind, [one.path for one in results], given)
+    usable(options, results)
+    with plt.rc_context(STYLE):
+        figure = draw(options, results, kind)
+        looks.adapt(figure, options.xlim, options.ylim, options.width)
+    plt.close(figure)  # of pyplot, which would show it twice in a notebook; the figure itself stays
+    return figure
+
+
 def draw_all(options):
     """All pictures that are asked for."""
     labels = options.labels.split(",") if options.labels else [None] * len(options.files)
     results = [open_any(*one) for one in zip(options.files, labels)]
-    need_options(options, results)
-    kinds = chosen(options, results)
-    uses.need_use(options, results, kinds)
+    kinds = usable(options, results)
     with plt.rc_context(STYLE):
         for kind in kinds:
             try:
-                picture, mode = path(options, kind, len(kinds) == 1), "w" if kind == kinds[0] else "a"
-                save(options, draw(options, results, kind), picture, mode)
+                name, mode = path(options, kind, len(kinds) == 1), "w" if kind == kinds[0] else "a"
+                save(options, draw(options, results, kind), name, mode)
             except NotSaved as error:  # of what --step, --time, --cycle or --range has asked for
                 raise Error(f"{error.path}: --{error.wanted}: {error.reason}") from error
             except OSError:  # of the picture; those of the results have been taken for Errors

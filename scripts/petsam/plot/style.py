@@ -5,7 +5,8 @@ import re
 
 import matplotlib
 
-matplotlib.use("Agg")
+if os.environ["MPLBACKEND"] == "Agg":  # see __init__.py: also where matplotlib has been imported before
+    matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend is chosen first)
 import numpy as np  # noqa: E402
 from matplotlib.ticker import LogFormatterMathtext, MaxNLocator  # noqa: E402

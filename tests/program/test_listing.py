@@ -1,0 +1,92 @@
+"""What print(results) says, the pictures as calls, and the readers that the page on results shows."""
+
+import re
+import shutil
+import subprocess
+
+import numpy as np
+import pytest
+
+import petsam
+from petsam.plot import command
+from support import ball
+
+CASE = dict(ball(32), grid_n=(32, 30), load_tx=20.0, steps=3, output_every=2)
+
+
+@pytest.fixture
+def results(solve):
+    with petsam.open(solve(CASE, dict(stiffness="true")).path) as opened:
+        yield opened
+
+
+def test_listing_names_all_with_shapes_and_units(results):
+    text = str(results)
+    words = re.sub(r"\s+", " ", text)
+    assert f"{results.path}: results of petsam {results.parameters['petsam_version']}" in text
+    assert "steps 3, from 1 on; fields of 2, 3" in words and "32 x 30 cells" in words
+    assert "fields (2, 30, 32): " in words and "history (3,): " in words
+    assert "matrices (3, 6, 6): stiffness, stiffness_reversal" in words
+    for name in (*results.fields, *results.history):
+        assert re.search(rf"\b{name}\b", words), name
+    assert "pressure (Pa)" in words and "load_mx (N m)" in words and "not closed" not in words
+    assert max(map(len, text.splitlines()[1:])) <= 110
+
+
+def test_listing_says_that_a_run_was_killed(results):
+    results.parameters["closed"] = 0
+    assert "not closed: a run writes to it, or was killed" in str(results)
+
+
+@pytest.mark.parametrize(
+    "kind, options, words",
+    [
+        ("maps", dict(step=[2, -1], field="shear_x"), ["--maps", "--step", "2,-1", "--field", "shear_x"]),
+        ("loop", dict(load="tx"), ["--loop", "--load", "tx"]),
+        ("section", dict(at=[0, 1e-4], whole_grid=True), ["--profiles", "--at", "0,1e-4", "--whole-grid"]),
+        ("history", dict(scalar="load_tx", log="y"), ["--scalar", "load_tx", "--log", "y"]),
+    ],
+)
+def test_a_call_draws_what_the_program_does(results, tmp_path, monkeypatch, kind, options, words):
+    getattr(results.plot, kind)(**options).savefig(tmp_path / "call.png", dpi=50)
+    monkeypatch.setattr("sys.argv", ["petsam-plot", *words, "--dpi", "50", "-o", str(tmp_path / "p.png"), results.path])
+    assert command.main() == 0
+    image = [command.plt.imread(tmp_path / name) for name in ("call.png", "p.png")]
+    assert image[0].shape == image[1].shape and np.array_equal(*image)
+
+
+@pytest.mark.parametrize(
+    "call, says",
+    [
+        (lambda plot: plot.maps(fiel="pressure"), "--fiel"),
+        (lambda plot: plot.maps(field="presure"), "is pressure meant?"),
+        (lambda plot: plot.maps(step=9), "step 9: there are 3 steps"),
+        (lambda plot: plot.maps(at=[0, 0]), "--at: has no effect on the picture maps"),
+        (lambda plot: plot.maps(output="a.png"), "savefig()"),
+        (lambda plot: plot.sections(), "use one of maps, profiles"),
+    ],
+)
+def test_a_mistake_in_a_call_is_an_error(results, call, says):
+    with pytest.raises(petsam.Error, match=re.escape(says)):
+        call(results.plot)
+
+
+def test_an_unknown_picture_names_those_that_there_are(results):
+    with pytest.raises(AttributeError, match="no picture mops: there are section, maps"):
+        _ = results.plot.mops
+
+
+def test_the_table_of_pandas_is_the_history(results):
+    pandas = pytest.importorskip("pandas", reason="pandas is not installed")
+    table = pandas.DataFrame(results.history).set_index("time")
+    assert list(table["load_tx"]) == list(results.history["load_tx"]) and len(table.columns) == len(results.history) - 1
+
+
+def test_octave_reads_the_file(results, tmp_path):
+    octave = shutil.which("octave")
+    if not octave:
+        pytest.skip("no octave")
+    lines = f'r = load("{results.path}"); printf("%.17g ", r.pressure(12, 7, end), r.history.load_tx, size(r.pressure))'
+    done = subprocess.run([octave, "--no-gui", "-q", "--eval", lines], capture_output=True, text=True, timeout=60)
+    found = [float(word) for word in done.stdout.split()]
+    assert found == [results.field("pressure")[6, 11], *results.history["load_tx"], 32, 30, 2]
