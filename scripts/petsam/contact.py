@@ -210,7 +210,7 @@ def _real(value, name):
     try:
         return ctypes.c_double(value)
     except TypeError as error:
-        raise TypeError(f"{name}: {error}") from None
+        raise TypeError(f"{name}: {error}: give a number in SI units") from None
 
 
 # ---------------------------------------------------------------- contacts

@@ -59,8 +59,15 @@ class Parser(argparse.ArgumentParser):
     """A command line whose errors are one line as all others are, without the usage before it."""
 
     def error(self, message):
-        """End with the message."""
-        self.exit(fail(self.prog, f"{message}; see {self.prog} --help", USAGE))
+        """End with the message; of an unknown option with that which is meant, if one is near."""
+        self.exit(fail(self.prog, f"{message}{self.meant(message)}; see {self.prog} --help", USAGE))
+
+    def meant(self, message):
+        """Which option may be meant by the first one that a message does not recognize."""
+        found = re.match(r"unrecognized arguments: --?([a-z][\w-]*)", message)
+        names = [name for name in self._option_string_actions if name.startswith("--")]
+        near = found and difflib.get_close_matches("--" + found[1].replace("_", "-"), names, 1)
+        return f": is {near[0]} meant?" if near else ""
 
 
 def joined(words):

@@ -1,6 +1,7 @@
 """Reading of petsam's results files, of any size: scalars whole, fields by step, window and stride. SI units."""
 
 import os
+import re
 import textwrap
 from copy import copy
 from functools import cached_property
@@ -675,8 +676,10 @@ def _reason(error):
     """The end of HDF5's chain of messages, in a line."""
     text = str(error.args[0] if isinstance(error, KeyError) else error).replace("\n", " ")
     if "file signature not found" in text:
-        return "is not an HDF5 file"
+        return "is not an HDF5 file: give results of petsam -output, petsam-stress or petsam-study"
     if "unable to lock file" in text.lower():
         return "is being written by a run"
+    if lacks := re.search(r"object '(\w+)' doesn't exist", text):
+        return f"is not a results file of petsam: has no /{lacks[1]}; petsam -output writes one"
     text = one_line(text or type(error).__name__, 300)
     return "cannot be read: " + text if isinstance(error, OSError) else "is not a results file of petsam: " + text

@@ -151,6 +151,9 @@ static void RefuseWord(SamArguments *a, const char where[], const char word[], c
              word + 3);
   else if (strstr(word, ".opts"))
     Complain(a, SAM_ERR_USER, "%s%.160s: %s: -options_file %.160s", where, word, text, word);
+  else if (strstr(word, ".h5"))
+    Complain(a, SAM_ERR_USER, "%s%.160s: %s; results are named by -output of petsam, -input of petsam-stress", where,
+             word, text);
   else if (before && value && end != word && !*end)
     Complain(a, SAM_ERR_USER, "%s%.160s: %s; two values of %s are joined by a comma: %.40s,%.40s", where, word, text,
              before, value, word);

@@ -6,13 +6,15 @@ has is not here again: those are all wrong values; these are slips of units, nam
 """
 
 import re
+import subprocess
+import sys
 
 import h5py
 import numpy as np
 import pytest
 
 from conftest import PROGRAM, execute
-from support import SPHERE, hertz
+from support import ROOT, SPHERE, hertz
 
 FLAT = dict(gap_type="flat", gap_radius1=None, gap_radius2=None)
 PAD = dict(FLAT, gap_type="pad", gap_half_flat_x=5e-4, gap_edge_radius_x=0.1)
@@ -259,6 +261,7 @@ MISTAKES = [
     history("units", "time [s],load_n [N]\n1,x\n", ["loads.csv, line 1", "time [s]", "no unit", "is time meant?"]),
     history("unit of a load", "time,load_n (N)\n1,x\n", ["loads.csv, line 1", "load_n (N)", "is load_n meant?"]),
     history("misspelled", "time,laod_n\n1,x\n", ["line 1", "unknown column laod_n", "is load_n meant?", "load_tx"]),
+    history("another letter", "time,load_x\n1,1\n", ["line 1", "unknown column load_x", "is load_tx meant?"]),
     history("unknown", "time,depth\n1,1\n", ["line 1", "unknown column depth", "expected time, load_n"]),
     history("without times", "load_n\n1000\n", ["loads.csv, line 1", "no column named time"]),
     history("twice a column", "time,load_n,load_n\n1,2,3\n", ["loads.csv, line 1", "two columns are named load_n"]),
@@ -635,6 +638,7 @@ def test_restart_with_another_option_names_it(petsam, folder, change):
         ([], 2, ["-input is missing", "results of petsam"]),
         (["-input", "none.h5"], 3, ["none.h5", "No such file"]),
         (["-input", "r.h5", "-output", "r.h5"], 2, ["-output r.h5", "-input"]),
+        (["r.h5"], 2, ["r.h5: expected an option", "-input of petsam-stress"]),
         (["-inptu", "r.h5"], 2, ["-input is missing", "is -inptu meant"]),
         (["-input", "r.h5", "-body", "3"], 2, ["-body 3", "from 1 to 2"]),
         (["-input", "r.h5", "-depth", "1e-5"], 2, ["-depth 1e-5", "is -depths meant?"]),
@@ -660,6 +664,32 @@ def test_mistake_with_stresses_is_explained(launcher, petsam, folder, words, cod
     complaint = [line for line in done.stderr.splitlines() if line.startswith("petsam-stress: ")]
     assert all(text in complaint[0] for text in says), (says, complaint)
     assert not (folder / "new.h5").exists()
+
+
+@pytest.mark.parametrize(
+    "words, code, says",
+    [
+        (["--filed", "pressure", "r.h5"], 2, "--filed: is --field meant?"),
+        (["-step", "3", "r.h5"], 2, "-step: is --step meant?"),
+        (["loads.csv"], 3, "loads.csv: is not an HDF5 file: give results of petsam -output"),
+        (["wide.h5"], 3, "wide.h5: is not a results file of petsam: has no /x; petsam -output writes one"),
+    ],
+)
+def test_mistake_with_pictures_is_explained(petsam, folder, words, code, says):
+    petsam(SPHERE, dict(output="r.h5"))
+    (folder / "loads.csv").write_text(LOADS)
+    plot = [sys.executable, str(ROOT / "scripts" / "petsam-plot"), *words]
+    done = subprocess.run(plot, cwd=folder, capture_output=True, text=True, timeout=60)
+    assert done.returncode == code and says in done.stderr, done.stderr
+
+
+def test_a_value_with_a_unit_in_a_step_is_explained():
+    import petsam as package
+
+    bodies = {name: value for name, value in SPHERE.items() if name not in ("load_n", "output_fields")}
+    with package.Contact(**bodies) as contact:
+        with pytest.raises(TypeError, match="load_n: .*give a number in SI units"):
+            contact.try_step(load_n="1kN")
 
 
 def test_numbers_of_another_unit_are_told(launcher, petsam, folder):

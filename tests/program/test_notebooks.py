@@ -28,6 +28,7 @@ def test_notebook_runs_and_shows_its_pictures(file, tmp_path, monkeypatch):
     nbformat = pytest.importorskip("nbformat")
     monkeypatch.setenv("PATH", f"{PROGRAM.parent}{os.pathsep}{os.environ['PATH']}")
     monkeypatch.setenv("PYTHONPATH", str(ROOT / "scripts"))
+    monkeypatch.delenv("MPLBACKEND", raising=False)  # which petsam sets in a process that has no notebook
     notebook = nbformat.read(file, as_version=4)
     nbclient.NotebookClient(notebook, timeout=60, resources={"metadata": {"path": str(tmp_path)}}).execute()
     for cell in notebook.cells:

@@ -268,7 +268,7 @@ class _Caller(Parser):
     """A command line that a program in Python has made: errors are raised."""
 
     def error(self, message):
-        raise Error(f"plot: {message}")
+        raise Error(f"plot: {message}{self.meant(message)}")
 
 
 def _read(parser, words):
