@@ -97,9 +97,8 @@ const char *SamNearestName(const char tried[], size_t count, const char *const n
   const char *nearest = NULL, *habit = FindHabit(tried);
   size_t      least = 2 * LENGTH;
 
-  for (size_t k = 0; k < count; k++) {
-    if (habit && !strcmp(habit, names[k])) return names[k];
-  }
+  for (size_t k = 0; k < count && habit; k++)
+    if (!strcmp(habit, names[k])) return names[k];
   for (size_t k = 0; k < count; k++) {
     const size_t slips = CountSlips(tried, names[k]);
 
@@ -143,7 +142,7 @@ PetscBool SamOptionsIsKnown(const char name[], const char **with)
 
 const char *SamOptionsNearest(const char tried[])
 {
-  const char *names[MOST + sizeof(petsc) / sizeof(petsc[0])], *habit = FindHabit(tried); /* known or not */
+  const char *names[MOST + sizeof(petsc) / sizeof(petsc[0])], *habit = FindHabit(tried);
   size_t      count = 0;
 
   if (habit) return habit;
