@@ -108,10 +108,11 @@ units: $(UNIT) ## build the unit tests
 
 bench-programs: $(BENCHES) ## build the benchmark's programs
 
-bench: all bench-programs venv peers ## run the benchmark, or go on with an unfinished one; the report is in build/bench/report: ARGS=--quick for a short one, ARGS=--anew to start over
+bench: all bench-programs venv peers ## run the benchmark, or go on with an unfinished one; the report is in build/bench/report: ARGS=--quick for a short one, ARGS=--anew to start over, CONTACT=folder beside a built CONTACT
 	$(PYTHON) tests/bench/benchmark.py --build $(B) --out $(B)/bench/report $(ARGS)
 	$(B)/venv/bin/python tests/bench/edges.py --build $(B)
 	$(PYTHON) tests/bench/rolling.py --build $(B)
+	$(if $(CONTACT),$(B)/venv/bin/python tests/bench/contact.py --build $(B) --contact '$(CONTACT)')
 
 # the programs that the benchmark compares with, built for this processor; the benchmark also runs without them
 peers: $(B)/peers/done ## install the programs that the benchmark compares with
