@@ -53,7 +53,7 @@ VERSION := $(shell sed -nE 's/^\#define SAM_VERSION_(MAJOR|MINOR|SUBMINOR) +//p'
 SONAME  := libpetsam.so.$(basename $(VERSION))
 HEADERS := include/petsam.h $(sort $(wildcard include/petsam/*.h include/petsam/private/*.h))
 
-.PHONY: all help pages units bench bench-programs peers venv test check-slow check-sanitize check-valgrind check-clang check-petsc check-mutants check-fuzz check-readmes format check-format lint install wheel clean
+.PHONY: all help pages units bench bench-programs peers venv test check-slow check-sanitize check-valgrind check-clang check-petsc check-mutants check-fuzz check-readmes format check-format lint install wheel site clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -240,9 +240,22 @@ $(B)/share/bash-completion/completions/%: $(B)/bin/% scripts/maintain/completion
 	$(say) COMPLETION $@
 	$(Q)$(PYTHON) scripts/maintain/completion.py $< > $@
 
-# the environment's Python has pip
-wheel: all pages $(B)/venv/done ## make a wheel of the Python package with the programs and the library in build/wheel
-	$(B)/venv/bin/python scripts/packaging/wheel.py --build $(B)
+# against libraries of its own in build/wheel/libraries; the environment's Python has pip
+WHEEL := build/wheel
+wheel: $(B)/venv/done ## make a wheel with programs and libraries, which needs no other installation but MPI's from PyPI, in build/wheel
+	scripts/packaging/wheel-libraries.sh $(WHEEL)/libraries
+	PATH="$(CURDIR)/$(WHEEL)/libraries/bin:$$PATH" PKG_CONFIG_PATH=$(CURDIR)/$(WHEEL)/libraries/lib/pkgconfig \
+	  $(MAKE) B=$(WHEEL)/petsam PETSC_DIR= CC=mpicc OPT=-O3 CFLAGS=-I$(CURDIR)/$(WHEEL)/libraries/include LDFLAGS="-L$(CURDIR)/$(WHEEL)/libraries/lib -Wl,-rpath,$(CURDIR)/$(WHEEL)/libraries/lib" all pages
+	$(B)/venv/bin/python scripts/packaging/wheel.py --build $(WHEEL)/petsam --libraries $(WHEEL)/libraries
+
+# the pages as a site that can be searched; a link that leads nowhere is an error
+site: $(B)/site-venv/done ## make the site of all pages in build/site
+	$(B)/site-venv/bin/python scripts/maintain/site.py --pages $(B)/site-pages --out $(B)/site
+$(B)/site-venv/done: scripts/maintain/site.txt
+	@mkdir -p $(B)
+	$(PYTHON) -m venv $(B)/site-venv
+	$(B)/site-venv/bin/python -m pip install -q --disable-pip-version-check -r $<
+	touch $@
 
 clean: ## remove what was built
 	rm -rf $(B)

