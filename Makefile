@@ -240,17 +240,18 @@ $(B)/share/bash-completion/completions/%: $(B)/bin/% scripts/maintain/completion
 	$(say) COMPLETION $@
 	$(Q)$(PYTHON) scripts/maintain/completion.py $< > $@
 
-# against libraries of its own in build/wheel/libraries; the environment's Python has pip
-WHEEL := build/wheel
-wheel: $(B)/venv/done ## make a wheel with programs and libraries, which needs no other installation but MPI's from PyPI, in build/wheel
-	scripts/packaging/wheel-libraries.sh $(WHEEL)/libraries
-	PATH="$(CURDIR)/$(WHEEL)/libraries/bin:$$PATH" PKG_CONFIG_PATH=$(CURDIR)/$(WHEEL)/libraries/lib/pkgconfig \
-	  $(MAKE) B=$(WHEEL)/petsam PETSC_DIR= CC=mpicc OPT=-O3 CFLAGS=-I$(CURDIR)/$(WHEEL)/libraries/include LDFLAGS="-L$(CURDIR)/$(WHEEL)/libraries/lib -Wl,-rpath,$(CURDIR)/$(WHEEL)/libraries/lib" all pages
-	$(B)/venv/bin/python scripts/packaging/wheel.py --build $(WHEEL)/petsam --libraries $(WHEEL)/libraries
+# built anew against libraries of its own, all below build/wheel; the environment's Python has pip
+WHEEL     := build/wheel
+LIBRARIES := $(CURDIR)/$(WHEEL)/libraries
+wheel: $(B)/venv/done ## make a wheel in build/wheel that carries programs and libraries and takes MPI from PyPI
+	scripts/packaging/wheel-libraries.sh $(LIBRARIES)
+	PATH="$(LIBRARIES)/bin:$$PATH" PKG_CONFIG_LIBDIR=$(LIBRARIES)/lib/pkgconfig $(MAKE) B=$(WHEEL)/petsam PETSC_DIR= CC=mpicc OPT=-O3 \
+	  CFLAGS=-I$(LIBRARIES)/include LDFLAGS="-L$(LIBRARIES)/lib -Wl,-rpath,$(LIBRARIES)/lib" all pages
+	$(B)/venv/bin/python scripts/packaging/wheel.py --build $(WHEEL)/petsam --libraries $(LIBRARIES)
 
 # the pages as a site that can be searched; a link that leads nowhere is an error
 site: $(B)/site-venv/done ## make the site of all pages in build/site
-	$(B)/site-venv/bin/python scripts/maintain/site.py --pages $(B)/site-pages --out $(B)/site
+	$(B)/site-venv/bin/python scripts/maintain/site_pages.py --pages $(B)/site-pages --out $(B)/site
 $(B)/site-venv/done: scripts/maintain/site.txt
 	@mkdir -p $(B)
 	$(PYTHON) -m venv $(B)/site-venv

@@ -69,9 +69,16 @@ cd petsc
 # the plain ones: whichever the system prefers may need more libraries
 blas=/usr/lib/$(gcc -print-multiarch)
 run python3 ./configure PETSC_ARCH=wheel --prefix="$prefix" --with-cc=mpicc --with-cxx=0 --with-fc=0 --with-debugging=0 \
-  --with-shared-libraries=1 --with-blaslapack-lib="[$blas/lapack/liblapack.so,$blas/blas/libblas.so]" --with-x=0 --with-make-np="$(nproc)" COPTFLAGS=-O2
+  --with-shared-libraries=1 --with-x=0 --with-make-np="$(nproc)" \
+  --with-blaslapack-lib="[$blas/lapack/liblapack.so,$blas/blas/libblas.so]" COPTFLAGS=-O2
 run make PETSC_DIR="$PWD" PETSC_ARCH=wheel all
 run make PETSC_DIR="$PWD" PETSC_ARCH=wheel install
 
+mkdir -p "$prefix/licenses"
+cp "$prefix/src/petsc/LICENSE" "$prefix/licenses/petsc"
+cp "$prefix/src/fftw3/COPYING" "$prefix/licenses/fftw3"
+cp "$prefix/src/hdf5/COPYING" "$prefix/licenses/hdf5"
+cp /usr/share/doc/liblapack3/copyright "$prefix/licenses/lapack"
+cp -L /usr/share/doc/libgfortran5/copyright "$prefix/licenses/gcc"
 rm -rf "$prefix/src"
 touch "$prefix/done"

@@ -22,15 +22,15 @@ PROGRAMS = ("petsam", "petsam-stress")
 MPI = "libmpi.so.12"  # of MPICH and those compatible with it
 # on every system: the C library, zlib and the compiler's own
 OF_THE_SYSTEM = re.compile(r"(lib(c|m|rt|dl|pthread|z|gcc_s)|ld-linux-[\w-]+)\.so\.\d+")
-# of the libraries that are carried, by the beginnings of their names
+# files in the folder licenses of the libraries that are carried, by the beginnings of their names
 LICENSES = {
-    "libpetsc": "BSD-2-Clause",
-    "libfftw3": "GPL-2.0-or-later",
-    "libhdf5": "BSD-3-Clause",
-    "libblas": "BSD-3-Clause",
-    "liblapack": "BSD-3-Clause",
-    "libgfortran": "GPL-3.0-or-later WITH GCC-exception-3.1",
-    "libquadmath": "LGPL-2.1-or-later",
+    "libpetsc": "petsc",
+    "libfftw3": "fftw3",
+    "libhdf5": "hdf5",
+    "libblas": "lapack",
+    "liblapack": "lapack",
+    "libgfortran": "gcc",
+    "libquadmath": "gcc",
 }
 
 
@@ -55,20 +55,14 @@ def carried(files):
         if name not in found:
             raise SystemExit(f"wheel.py: error: {name} not found")
         if not any(name.startswith(start) for start in LICENSES):
-            raise SystemExit(f"wheel.py: error: {name}: a library of unknown license")
+            raise SystemExit(f"wheel.py: error: {name}: a library of unknown license; add it to LICENSES")
         names[name] = found[name]
         left |= needed(found[name]) - set(names)
     return names
 
 
-def write(path, text):
-    """A file with its folder."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(text, encoding="utf-8")
-
-
 def copy(source, path):
-    """The same of a file's copy."""
+    """A file's copy, with its folder."""
     path.parent.mkdir(parents=True, exist_ok=True)
     shutil.copy(source, path)
 
@@ -87,10 +81,8 @@ def stage(build, libraries, tree):
         mpich = output(libraries / "bin/mpichversion", "--version").split()[2]
         with open(tree / "requirements.txt", "a", encoding="utf-8") as lines:
             lines.write(f"mpich>={mpich}\n")
-        terms = {license for start, license in LICENSES.items() if any(name.startswith(start) for name in others)}
-        write(tree / "data/share/petsam/CARRIED", "".join(sorted(f"{name} ({term})\n" for start, term in LICENSES.items()
-              for name in others if name.startswith(start))))  # fmt: skip
-        print(f"carried: {', '.join(sorted(others))}; licenses: {', '.join(sorted(terms))}")
+        shutil.copytree(libraries / "licenses", data / "share/petsam/licenses")
+        print("carried: " + ", ".join(sorted(others)))
     for path, source in places.items():
         copy(source, path)
         path.chmod(0o755)

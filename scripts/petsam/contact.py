@@ -127,14 +127,6 @@ def _candidates():
     return [*[str(folder / name) for folder in folders for name in names if (folder / name).exists()], "libpetsam.so"]
 
 
-def _needs(name):
-    """What a wheel says has to be installed where its library cannot be loaded."""
-    try:
-        return "; " + Path(name + ".needs").read_text(encoding="utf-8").strip()
-    except OSError:
-        return ""
-
-
 def _share_mpi():
     """Make MPI's symbols visible to the modules that it loads itself; HDF5's would disturb h5py's own."""
     try:
@@ -156,7 +148,7 @@ def _find():
             found.petsam_destroy.restype = None
             return found
         except OSError as error:
-            reason = reason or str(error) + _needs(name)
+            reason = reason or str(error)
         except AttributeError:
             reason = reason or f"{name} is another library, or an older one"
     raise Missing(

@@ -63,7 +63,7 @@ def test_every_package_is_in_the_table_with_how_far_it_was_tried():
     assert {name for name, _ in rows} == there
 
 
-def test_containers_are_built_from_files_that_exist_and_take_what_the_wheel_needs():
+def test_containers_are_built_from_files_that_exist():
     text = (FOLDER / "Containerfile").read_text()
     build, run = text.replace("\\\n", "").split("\nFROM ")[1:]
     sources = {word for line in re.findall(r"^COPY (?!--)(.*)$", build, re.M) for word in line.split()[:-1]}
@@ -71,12 +71,6 @@ def test_containers_are_built_from_files_that_exist_and_take_what_the_wheel_need
     assert all((ROOT / source).exists() for source in sources)
     for commands in (build, run):
         assert all(valid(command) for command in re.findall(r"^RUN (.*)$", commands, re.M))
-    # the packages are those that the wheel's message names
-    pattern = re.search(r"sed -n '(.*?)'", run).group(1)
-    message = "on Debian GNU/Linux 12 run: apt-get install libopenmpi3 openmpi-bin; elsewhere build petsam\n"
-    assert subprocess.run(["sed", "-n", pattern], input=message, text=True, capture_output=True).stdout == (
-        "libopenmpi3 openmpi-bin\n"
-    )
 
 
 def test_conda_recipe_asks_for_what_makefile_and_scripts_need():

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes the site of petsam's pages by MkDocs and its theme Material: make site.
 
-    python3 scripts/maintain/site.py --pages build/site-pages --out build/site
+    python3 scripts/maintain/site_pages.py --pages build/site-pages --out build/site
 
 The pages stay where they are and link to each other and to files of the repository relatively. Here they, and the files
 that they name, are copied beside each other in the same places, and MkDocs checks every link: one that leads to no page,
@@ -22,6 +22,7 @@ import yaml
 ROOT = Path(__file__).resolve().parents[2]
 MAINTAIN = Path(__file__).resolve().parent
 LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
+COMMAND = ("-m", "mkdocs", "build", "--strict", "-f")  # strict: a warning ends it with an error
 FENCE = re.compile(r"^```.*?^```$", re.M | re.S)
 # the parts of the site in their order: title, first page, others
 PARTS = (
@@ -106,10 +107,10 @@ def main():
     more = {"nav": navigation(parts), "docs_dir": str(options.pages.resolve()), "site_dir": str(options.out.resolve())}
     base = (MAINTAIN / "mkdocs.yml").read_text(encoding="utf-8")
     settings.write_text(base + yaml.safe_dump(more, allow_unicode=True, sort_keys=False), encoding="utf-8")
-    words = [sys.executable, "-m", "mkdocs", "build", "--strict", "-f", str(settings)]
-    done = subprocess.run(words, check=False, env={**os.environ, "NO_MKDOCS_2_WARNING": "1", "PYTHONPATH": str(MAINTAIN)})
+    environment = {**os.environ, "NO_MKDOCS_2_WARNING": "1", "PYTHONPATH": str(MAINTAIN)}
+    done = subprocess.run([sys.executable, *COMMAND, str(settings)], check=False, env=environment)
     if done.returncode:
-        sys.exit(f"site.py: error: the links above lead nowhere ({done.returncode})")
+        sys.exit(f"site_pages.py: error: the links above lead nowhere ({done.returncode})")
     print(f"wrote {options.out}/index.html ({sum(len(names) for _, names in parts)} pages)")
 
 
