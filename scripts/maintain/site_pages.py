@@ -3,10 +3,10 @@
 
     python3 scripts/maintain/site_pages.py --pages build/site-pages --out build/site
 
-The pages stay where they are and link to each other and to files of the repository relatively. Here they, and the files
-that they name, are copied beside each other in the same places, and MkDocs checks every link: one that leads to no page,
-file or heading is an error. README.md is the index of its folder. Material, as its search needs no server, works on a
-phone, and reads the pages as they are.
+The pages stay where they are and link to each other and to files of the repository relatively. They and the files that
+they name are copied to the same places beside each other, and MkDocs checks every link: a link to no page, file or
+heading is an error. README.md is the index of its folder. Material was chosen because its search needs no server, it
+fits a phone, and it takes the pages as they are. Its fixes end in May 2027; its successor Zensical reads its settings.
 """
 
 import argparse
@@ -29,7 +29,7 @@ PARTS = (
     ("petsam", "README.md", ()),
     ("Manual", "examples/README.md", ("examples/*.md",)),
     ("Examples", None, ("examples/*/README.md",)),
-    ("Tools and Python", "scripts/README.md", ("scripts/*/README.md",)),
+    ("Tools and Python", "scripts/README.md", ("scripts/*/*.md",)),
     ("Inside other programs", "include/README.md", ()),
     ("Method and sources", "src/README.md", ()),
     ("Tests and performance", "tests/README.md", ("tests/*/README.md",)),
@@ -49,8 +49,8 @@ def pages():
 
 
 def title_of(page):
-    """The first heading of a page."""
-    return re.search(r"^# (.*)$", (ROOT / page).read_text(encoding="utf-8"), re.M).group(1)
+    """The title or the first heading of a page."""
+    return re.search(r'^(?:# |title: )"?(.*?)"?$', (ROOT / page).read_text(encoding="utf-8"), re.M).group(1)
 
 
 def navigation(parts):

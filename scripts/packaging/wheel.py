@@ -2,10 +2,10 @@
 
     python3 scripts/packaging/wheel.py --build build/wheel/petsam --libraries build/wheel/libraries
 
-PETSc, FFTW, HDF5 and BLAS, with which petsam was built, go from the second folder (wheel-libraries.sh) into lib/petsam of
-the environment where the wheel is installed; MPI comes from PyPI's package mpich, which the wheel requires. All find each
-other by their places in the environment. The library is lib/libpetsam.so.MAJOR.MINOR. Without --libraries nothing is
-carried and nothing required: such a wheel runs where it was made.
+PETSc, FFTW, HDF5 and BLAS, with which petsam was built, go from the second folder (wheel-libraries.sh) into lib/petsam
+of the environment where the wheel is installed; MPI comes from PyPI's package mpich, which the wheel requires. Programs
+and libraries find each other by their places in the environment. The library is lib/libpetsam.so.MAJOR.MINOR. Without
+--libraries the wheel carries and requires no libraries, and runs where it was made.
 """
 
 import argparse

@@ -110,8 +110,11 @@ def split(text, what):
 
 
 def launcher(words=None):
-    """The MPI launcher's words, to which `-n RANKS PROGRAM` is added: words, $MPIRUN, or mpirun."""
-    text = words or os.environ.get("MPIRUN") or "mpirun"
+    """The MPI launcher's words, to which `-n RANKS PROGRAM` is added: words, $MPIRUN, or mpirun, if there is one the
+    one beside the installed petsam, as of a wheel's MPI."""
+    beside = PREFIX / "bin" / "mpirun"
+    own = shlex.quote(str(beside)) if os.access(beside, os.X_OK) and os.access(PREFIX / "bin/petsam", os.X_OK) else None
+    text = words or os.environ.get("MPIRUN") or own or "mpirun"
     command = split(text, "the MPI launcher")
     if not command or not shutil.which(command[0]):
         raise Missing(f"no MPI launcher {command[0] if command else repr(text)}: set MPIRUN")

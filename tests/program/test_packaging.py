@@ -63,6 +63,10 @@ def test_every_package_is_in_the_table_with_how_far_it_was_tried():
     assert {name for name, _ in rows} == there
 
 
+def test_the_script_of_the_wheels_libraries_can_be_read_by_the_shell():
+    assert valid((FOLDER / "wheel-libraries.sh").read_text())
+
+
 def test_containers_are_built_from_files_that_exist():
     text = (FOLDER / "Containerfile").read_text()
     build, run = text.replace("\\\n", "").split("\nFROM ")[1:]
