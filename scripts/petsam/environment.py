@@ -110,8 +110,8 @@ def split(text, what):
 
 
 def launcher(words=None):
-    """The MPI launcher's words, to which `-n RANKS PROGRAM` is added: words, $MPIRUN, or mpirun, if there is one the
-    one beside the installed petsam, as of a wheel's MPI."""
+    """The MPI launcher's words, to which `-n RANKS PROGRAM` is added: words, $MPIRUN, mpirun beside the installed
+    petsam (of a wheel's MPI), or mpirun on the PATH."""
     beside = PREFIX / "bin" / "mpirun"
     own = shlex.quote(str(beside)) if os.access(beside, os.X_OK) and os.access(PREFIX / "bin/petsam", os.X_OK) else None
     text = words or os.environ.get("MPIRUN") or own or "mpirun"
