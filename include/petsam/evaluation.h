@@ -34,7 +34,8 @@ typedef enum {
 } SamStepField;
 /*
   Numbers of a step: of the load step, 0 where steps have none; time (s); contact area (m2); the cycle of a life; where
-  surfaces slide past each other, how far body 1 has slid over body 2 (m).
+  surfaces slide past each other, how far body 1 has slid over body 2, and the contact has
+  rolled over body 1 (m).
 */
 typedef enum {
   SAM_STEP_NUMBER,
@@ -42,7 +43,9 @@ typedef enum {
   SAM_STEP_AREA,
   SAM_STEP_CYCLE,
   SAM_STEP_SLIDE_X,
-  SAM_STEP_SLIDE_Y
+  SAM_STEP_SLIDE_Y,
+  SAM_STEP_ROLLED_X,
+  SAM_STEP_ROLLED_Y
 } SamStepNumber;
 /*
   SamStressSource - the bodies, which are referenced, and the load steps, which are read when they are needed, by

@@ -73,8 +73,9 @@ PETSC_EXTERN PetscErrorCode SamLawSetFrictionField(SamLaw law, Vec friction);
 PETSC_EXTERN PetscErrorCode SamLawGetFriction(SamLaw law, PetscReal *friction);
 PETSC_EXTERN PetscErrorCode SamLawSetHardness(SamLaw law, PetscReal hardness);
 /*
-  SamLawSetSurface - slide: the part of the separation (m, one component) that goes with body 2, at its points that lie
-  under the cells before anything has moved; copied. Collective. Errors: PETSC_ERR_ARG_WRONG for a law of another type.
+  SamLawSetSurface - slide: the part of the separation (m, one component) that goes with a body, 0 or 1, at its
+  points that lie under the cells before anything has moved; copied. Collective. Errors: PETSC_ERR_ARG_WRONG for a
+  law of another type.
 */
-PETSC_EXTERN PetscErrorCode SamLawSetSurface(SamLaw law, Vec surface);
+PETSC_EXTERN PetscErrorCode SamLawSetSurface(SamLaw law, PetscInt body, Vec surface);
 #endif

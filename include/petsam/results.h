@@ -55,8 +55,8 @@ PETSC_EXTERN PetscErrorCode SamResultsReadConditions(SamResults results, PetscIn
                                                      SamControl *control);
 /*
   SamResultsReadNumber - of a load step (from 1): the cycles before the one that it belongs to in a life, 0 in other
-  results; or its SamStatus, contact area (m2), or slide (m), 0 where it is not in the file. Collective. Errors: as
-  SamResultsReadConditions().
+  results; or its SamStatus, contact area (m2), slide, or rolled distance (m), 0 where it is not in the file.
+  Collective. Errors: as SamResultsReadConditions().
 */
 typedef enum {
   SAM_RESULTS_CYCLE,
@@ -64,6 +64,8 @@ typedef enum {
   SAM_RESULTS_CONTACT_AREA,
   SAM_RESULTS_SLIDE_X,
   SAM_RESULTS_SLIDE_Y,
+  SAM_RESULTS_ROLLED_X,
+  SAM_RESULTS_ROLLED_Y,
   SAM_RESULTS_NUMBERS
 } SamResultsNumber;
 PETSC_EXTERN PetscErrorCode SamResultsReadNumber(SamResults results, PetscInt step, SamResultsNumber number,

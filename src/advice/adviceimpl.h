@@ -21,12 +21,14 @@ PETSC_INTERN PetscBool SamAdviceIsFromFile(const SamSetup *setup);
   AddSlip, AddRolling - add a step to what is known of the dissipated energy (slip.c), and of loads and creepages in
   steady rolling (rolling.c). MeasureStick - the cells across the stick zone now. Collective.
   Slip, Rolling - say, after the last step, what the cells do not resolve. Stick - says that the stick zone is fewer
-  cells across than `least`. Not collective.
+  cells across than `least`. Peaks - says that a slip zone is too narrow for the maximum of what is in it; `width`:
+  cells, `wanted`: how many times finer a grid is advised. Not collective.
 */
 PETSC_INTERN PetscErrorCode SamAdviceAddSlip(SamAdvice *advice, PetscInt k, const SamStep *step);
 PETSC_INTERN PetscErrorCode SamAdviceMeasureStick(SamAdvice *advice);
-PETSC_INTERN void           SamAdviceStick(SamAdvice *advice, PetscReal least);
-PETSC_INTERN void           SamAdviceSlip(SamAdvice *advice);
+PETSC_INTERN void SamAdvicePeaks(SamAdvice *advice, double width, double wanted, const char zone[], const char what[]);
+PETSC_INTERN void SamAdviceStick(SamAdvice *advice, PetscReal least);
+PETSC_INTERN void SamAdviceSlip(SamAdvice *advice);
 PETSC_INTERN PetscErrorCode SamAdviceAddRolling(SamAdvice *advice, PetscInt k, const SamStep *step);
 PETSC_INTERN void           SamAdviceRolling(SamAdvice *advice);
 

@@ -15,9 +15,8 @@
 #define GOOD    0.015
 #define SMALL   0.1 /* part of a moment over the radius of contact that counts for a force, and so on */
 #define LEAST   1.25
-#define SLIP    0.06 /* error of the maximum slip velocity over 1/w, */
-#define NARROW  1.25 /* cells: w from which it is less than 5 % */
-#define STUCK   18   /* cells across a stick zone whose area is wrong by less than 5 % */
+#define WIDE    1.5625 /* cells: w of the slip zone on a grid that is advised for its velocity */
+#define STUCK   18     /* cells across a stick zone whose area is wrong by less than 5 % */
 
 /* The errors of T_x, T_y, M_z, or of the creepages that are theirs, relative to both forces and to the moment. */
 static PetscErrorCode Compare(SamAdvice *a, PetscInt k, const SamStep *step, PetscBool load, double radius)
@@ -74,23 +73,11 @@ static void Loads(SamAdvice *a)
                r->name, r->value, 100 * r->error, r->name, r->fine, better);
 }
 
-/* Says that the zone is too narrow for the maximum slip velocity. */
-static void Velocity(SamAdvice *a)
-{
-  const double width = (double)a->rolling.width;
-  char         better[SAM_ADVICE_GRIDS];
-
-  if (!(width > 0 && width < NARROW && a->slip.across < INFINITY)) return; /* nor where all sticks */
-  SamAdviceGrids(a, PetscMax(1.25 * NARROW / width, LEAST), better);
-  SamAdviceSay(a, better[0] ? "" : "grid_n",
-               "the slip zone is %.2g times as wide as a cell: the maximum slip velocity may be wrong by %.0f %%%s",
-               width, 100 * PetscMin(SLIP / width, 1), better);
-}
-
 void SamAdviceRolling(SamAdvice *a)
 {
   if (SamMotionOf(a->setup->elasticity)->continues || a->setup->grid->axes < 2) return;
   Loads(a);
-  Velocity(a);
+  if (a->slip.across < INFINITY) /* not all sticks */
+    SamAdvicePeaks(a, (double)a->rolling.width, WIDE / (double)a->rolling.width, "slip zone", "slip velocity");
   SamAdviceStick(a, STUCK);
 }

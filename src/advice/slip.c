@@ -59,7 +59,7 @@
 #define UNSURE   0.5  /* error of a step's energy by its length, relative to it, from which cells do not count */
 #define ROUND    4    /* length of a round edge that is not reconstructed, over the part that counts */
 #define PEAKED   1.25 /* cells: a zone in which the largest slip and shear are not right to 5 % */
-#define SLIP     0.06 /* error of both over 1/w */
+#define SLIP     0.06 /* error of both, or of the slip velocity in rolling, over 1/w */
 #define LINE     0.36 /* m in plane strain */
 #define STUCK    7    /* cells across a stick zone whose area is wrong by less than 5 % */
 #define STRAY    0.1  /* part of the cells that stick whose zones, the narrowest, do not count */
@@ -338,18 +338,15 @@ PetscErrorCode SamAdviceAddSlip(SamAdvice *a, PetscInt k, const SamStep *step)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Says that the zones are too narrow for the largest slip and shear. */
-static void Peaks(SamAdvice *a)
+void SamAdvicePeaks(SamAdvice *a, double width, double wanted, const char zone[], const char what[])
 {
-  const double width = (double)a->slip.widest;
-  char         better[SAM_ADVICE_GRIDS];
+  char better[SAM_ADVICE_GRIDS];
 
   if (!(width > 0 && width < PEAKED)) return;
-  SamAdviceGrids(a, PetscMax(2 * PEAKED / PetscMax(width, NARROW), LEAST), better);
-  SamAdviceSay(
-    a, better[0] ? "" : "grid_n",
-    "the widest slip zone is %.2g times as wide as a cell: the maximum slip and shear may be wrong by %.0f %%%s", width,
-    100 * PetscMin(SLIP / width, 1), better);
+  SamAdviceGrids(a, wanted, better);
+  SamAdviceSay(a, better[0] ? "" : "grid_n",
+               "the %s is %.2g times as wide as a cell: the maximum %s may be wrong by %.0f %%%s", zone, width, what,
+               100 * PetscMin(SLIP / width, 1), better);
 }
 
 PetscErrorCode SamAdviceMeasureStick(SamAdvice *a)
@@ -420,6 +417,7 @@ void SamAdviceSlip(SamAdvice *a)
   if (!a->slip.steps || a->slip.rolls) return;
   Long(a);
   Energy(a);
-  Peaks(a);
+  SamAdvicePeaks(a, (double)a->slip.widest, 2 * PEAKED / PetscMax((double)a->slip.widest, NARROW), "widest slip zone",
+                 "slip and shear");
   SamAdviceStick(a, STUCK);
 }

@@ -94,13 +94,13 @@ static PetscErrorCode ReadField(void *context, PetscInt step, SamStepField field
 
 static PetscErrorCode ReadNumber(void *context, PetscInt k, SamStepNumber number, double *value)
 {
-  static const SamResultsNumber of[] = {[SAM_STEP_AREA]    = SAM_RESULTS_CONTACT_AREA,
-                                        [SAM_STEP_CYCLE]   = SAM_RESULTS_CYCLE,
-                                        [SAM_STEP_SLIDE_X] = SAM_RESULTS_SLIDE_X,
-                                        [SAM_STEP_SLIDE_Y] = SAM_RESULTS_SLIDE_Y};
-  const SamStressRun *const     run  = (const SamStressRun *)context;
-  PetscInt                      step;
-  PetscReal                     time;
+  static const SamResultsNumber of[] = {
+    [SAM_STEP_AREA] = SAM_RESULTS_CONTACT_AREA, [SAM_STEP_CYCLE] = SAM_RESULTS_CYCLE,
+    [SAM_STEP_SLIDE_X] = SAM_RESULTS_SLIDE_X,   [SAM_STEP_SLIDE_Y] = SAM_RESULTS_SLIDE_Y,
+    [SAM_STEP_ROLLED_X] = SAM_RESULTS_ROLLED_X, [SAM_STEP_ROLLED_Y] = SAM_RESULTS_ROLLED_Y};
+  const SamStressRun *const run = (const SamStressRun *)context;
+  PetscInt                  step;
+  PetscReal                 time;
 
   PetscFunctionBegin;
   PetscCall(SamResultsGetSaved(run->results, SavedStep(run, k), &step, &time));

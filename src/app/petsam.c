@@ -61,8 +61,10 @@ static void CatchSignals(PetscBool checkpoint)
 */
 static PetscErrorCode CheckFiles(const SamSimulationFiles *f, const SamArguments *arguments)
 {
-  static const char *const inputs[] = {"-gap_file",     "-gap_rough_file", "-friction_file", "-body2_surface_file",
-                                       "-load_history", "-wear_friction",  "-restart"};
+  static const char *const inputs[] = {"-gap_file",           "-gap_rough_file",
+                                       "-friction_file",      "-body1_surface_file",
+                                       "-body2_surface_file", "-load_history",
+                                       "-wear_friction",      "-restart"};
 
   SamFiles files = {.count = 0};
   char    *one, *other;

@@ -79,7 +79,7 @@ SAM_VECTORIZED static void NormalRow(PetscInt n, const double *restrict p, const
 }
 
 /*
-  Columns and rows at the low and high end of x, y at the grid's border, beyond a patch or the surface that body 2 has
+  Columns and rows at the low and high end of x, y at the grid's border, beyond a patch or the surface that a body has
   on the grid, or of entered material.
 */
 typedef struct {
@@ -89,11 +89,20 @@ typedef struct {
 static Border BorderOf(SamProblem problem, SamState state, SamGrid grid, const SamSolution *s)
 {
   const SamElasticityTraits traits = SamElasticityGetTraits(SamProblemGetElasticity(problem));
-  PetscReal                 enters[2];
-  Border                    b;
+  PetscReal                 enters[3][2];
+  Border                    b = {{0}, {0}};
 
-  if (!SamProblemGetSlide(problem, state, SAM_TRIED, enters)) (void)SamProblemGetRolled(problem, &s->control, enters);
-  SamGridEntering(grid, enters, b.low, b.high);
+  (void)SamProblemGetRolled(problem, &s->control, enters[2]);
+  for (PetscInt body = 0; body < 2; body++) (void)SamProblemGetOffset(problem, state, SAM_TRIED, body, enters[body]);
+  for (int k = 0; k < 3; k++) {
+    PetscInt low[2], high[2];
+
+    SamGridEntering(grid, enters[k], low, high);
+    for (int axis = 0; axis < 2; axis++) {
+      b.low[axis]  = PetscMax(b.low[axis], low[axis]);
+      b.high[axis] = PetscMax(b.high[axis], high[axis]);
+    }
+  }
   for (int axis = 0; axis < grid->axes; axis++) {
     b.low[axis]  = PetscMax(b.low[axis], PetscMax(traits.outside[axis][0], 1));
     b.high[axis] = PetscMax(b.high[axis], PetscMax(traits.outside[axis][1], 1));

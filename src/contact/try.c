@@ -16,22 +16,30 @@
 
 /* ---- a step ---- */
 
-/* Where only cells over the border of body 2's surface came into contact, the message is about that. */
-static PetscErrorCode DescribeBeyond(SamContact c, const PetscReal slide[2], SamStep *step)
+/* Where only cells over the border of a body's surface came into contact, the message is about that. */
+static PetscErrorCode DescribeBeyond(SamContact c, SamStep *step)
 {
   const PetscInt cells[2] = {c->grid->nx, c->grid->ny};
-  PetscInt       first[2], n[2];
+  PetscReal      way[2][2];
+  PetscInt       first[2], n[2], body = 0;
   char           place[64];
 
   PetscFunctionBegin;
+  for (PetscInt k = 0; k < 2; k++)
+    if (SamProblemGetOffset(c->problem, c->state, SAM_TRIED, k, way[k]) &&
+        (k == 0 || hypot(way[1][0], way[1][1]) >= hypot(way[0][0], way[0][1])))
+      body = k + 1;
+  if (body == 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamGridGetSupport(c->grid, c->generation[SAM_TRIED].pressure, first, n));
   for (PetscInt k = 0; k < c->grid->axes; k++)
     if (first[k] == 0 || first[k] + n[k] == cells[k]) PetscFunctionReturn(PETSC_SUCCESS);
   (void)snprintf(step->message, sizeof(step->message),
-                 "the contact slid over the border of the surface that body 2 has on the grid (%s), slide_x, slide_y = "
-                 "%.6g, %.6g m: the grid must hold contact and stroke",
-                 SamCheckDescribeEdge(&step->check, place, sizeof(place)), (double)slide[0], (double)slide[1]);
-  (void)snprintf(step->setting, sizeof(step->setting), "slide");
+                 "the contact %s over the border of the surface that body %d has on the grid (%s), %s = %.6g, %.6g m: "
+                 "the grid must hold contact and %s",
+                 c->rolls ? "rolled" : "slid", (int)body, SamCheckDescribeEdge(&step->check, place, sizeof(place)),
+                 c->rolls ? "offset along x, y" : "slide_x, slide_y", (double)way[body - 1][0],
+                 (double)way[body - 1][1], c->rolls ? "path" : "stroke");
+  (void)snprintf(step->setting, sizeof(step->setting), "%s", c->rolls ? "" : "slide");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -68,7 +76,6 @@ static PetscErrorCode Judge(SamContact c, SamStep *step)
   const SamCheck *check  = &step->check;
   SamCheckLimits  limits = {.equilibrium = CHECK_EQUILIBRIUM, .cone = CHECK_CONE, .edge = c->set.allow_edge};
   char            place[64];
-  PetscReal       slide[2];
 
   PetscFunctionBegin;
   PetscCall(SamSolverGetTolerances(SamNormalAsSolver(c->normal), &limits.normal, NULL));
@@ -83,8 +90,7 @@ static PetscErrorCode Judge(SamContact c, SamStep *step)
                           (double)check->cone, (double)check->edge));
   PetscCall(SamStepJudge(step, &limits));
   if (c->rolls && check->edge > 0 && SamStepIsSolved(step)) PetscCall(DescribeEntering(c, step));
-  if (check->edge > 0 && SamStepIsSolved(step) && SamProblemGetSlide(c->problem, c->state, SAM_TRIED, slide))
-    PetscCall(DescribeBeyond(c, slide, step));
+  if (check->edge > 0 && SamStepIsSolved(step)) PetscCall(DescribeBeyond(c, step));
   if (c->traits.patch && check->edge > 0 && SamStepIsSolved(step)) {
     (void)snprintf(step->message, sizeof(step->message),
                    "the contact reached the border of the patch of a body's compliance, or of the grid (%s): use a "
@@ -213,8 +219,8 @@ static PetscErrorCode IsSamePressure(SamContact c, const SamControl *control, Pe
   PetscReal slide[2], last[2];
 
   PetscFunctionBegin;
-  (void)SamProblemGetSlide(c->problem, c->state, SAM_TRIED, slide);
-  (void)SamProblemGetSlide(c->problem, c->state, SAM_COMMITTED, last);
+  (void)SamProblemGetOffset(c->problem, c->state, SAM_TRIED, 1, slide);
+  (void)SamProblemGetOffset(c->problem, c->state, SAM_COMMITTED, 1, last);
   PetscCall(SamContactIsGapCurrent(c, &c->same_gap));
   PetscCall(SamProblemAddSeparation(c->problem, c->state, SAM_COMMITTED, NULL, &moves));
   *same = !SamContactIsCoupled(c) && SamContactBefore(c) && c->same_gap && !(c->rolls && moves) &&
@@ -342,7 +348,7 @@ static PetscErrorCode GetStepOf(SamContact c, SamStepOf *of)
 
   PetscFunctionBegin;
   *of       = (SamStepOf){.same_gap = c->same_gap};
-  of->moves = c->revision[SAM_TRIED] < 0 || SamProblemGetSlide(c->problem, c->state, SAM_TRIED, slide);
+  of->moves = c->revision[SAM_TRIED] < 0 || SamProblemGetOffset(c->problem, c->state, SAM_TRIED, 1, slide);
   PetscCall(SamSolverGetTolerances(SamNormalAsSolver(c->normal), &of->rtol, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

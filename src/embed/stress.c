@@ -15,7 +15,7 @@ enum { AXES = SAM_STRESS_AXES };
 typedef struct {
   SamControl control;
   double     area;     /* of contact, m2 */
-  PetscReal  slide[2]; /* m */
+  PetscReal  slide[4]; /* m: slide, and rolled distance */
   double    *fields;   /* (SAM_STEP_FIELDS, cells); NULL: there is no step */
 } Step;
 
@@ -44,6 +44,7 @@ struct _n_SamEmbedStress {
 static PetscErrorCode TakeStep(petsam_contact *c, Step *step)
 {
   static const char *const names[SAM_STEP_FIELDS] = {"pressure", "shear_x", "shear_y", "slip_x", "slip_y"};
+  static const char *const slides[4]              = {"slide_x", "slide_y", "rolled_x", "rolled_y"};
 
   const ptrdiff_t    n = c->setup->grid->cells;
   const SamSolution *s;
@@ -52,8 +53,8 @@ static PetscErrorCode TakeStep(petsam_contact *c, Step *step)
   PetscCall(SamContactGetSolution(c->setup->contact, &s));
   step->control = s->control;
   PetscCall(SamContactGetNumber(c->setup->contact, "contact_area", &step->area));
-  for (int k = 0; k < 2 && SamProblemGetLaw(c->setup->problem, SAM_LAW_SLIDE); k++)
-    PetscCall(SamContactGetNumber(c->setup->contact, k ? "slide_y" : "slide_x", &step->slide[k]));
+  for (int k = 0; k < 4 && SamProblemGetLaw(c->setup->problem, SAM_LAW_SLIDE); k++)
+    PetscCall(SamContactGetNumber(c->setup->contact, slides[k], &step->slide[k]));
   PetscCall(SamAllocate(sizeof(double) * SAM_STEP_FIELDS * (size_t)n, &step->fields));
   for (int f = 0; f < SAM_STEP_FIELDS; f++) {
     PetscBool has;

@@ -49,15 +49,16 @@ PetscErrorCode SamFieldFileSetFromOptions(SamFieldFile *source, const SamOptions
 
 static PetscErrorCode CheckShape(SamFile f, const Wanted *w, hid_t space, hsize_t shape[2])
 {
-  const int rank = H5Sget_simple_extent_ndims(space);
+  const int     rank  = H5Sget_simple_extent_ndims(space);
+  const hsize_t least = w->grid ? 1 : 2, row = w->grid ? 0 : w->source->row;
 
   PetscFunctionBegin;
   PetscCheck(rank == 2 && H5Sget_simple_extent_dims(space, shape, NULL) == 2, f->comm, SAM_ERR_FILE,
              "-%s %s: %s has %d dimension(s), expected shape (ny, nx), rows are y", f->option, f->filename,
              w->source->dataset, rank);
-  PetscCheck(w->grid || (shape[0] + w->source->row > 1 && shape[1] > 1), f->comm, SAM_ERR_FILE,
-             "-%s %s: %s has shape (%lld, %lld), expected 2 or more of each", f->option, f->filename,
-             w->source->dataset, (long long)shape[0], (long long)shape[1]);
+  PetscCheck(shape[0] + row >= least && shape[1] >= least, f->comm, SAM_ERR_FILE,
+             "-%s %s: %s has shape (%lld, %lld), expected %d or more of each", f->option, f->filename,
+             w->source->dataset, (long long)shape[0], (long long)shape[1], (int)least);
   if (w->grid) {
     const long long ny = w->grid->ny, nx = w->grid->nx;
 
@@ -211,6 +212,20 @@ PetscErrorCode SamFieldFileRead(const SamFieldFile *source, SamGrid grid, Vec h)
   PetscCall(CheckValues(&w, array));
   PetscCall(VecRestoreArrayWrite(h, &array));
   if (answer.factor != 1) PetscCall(VecScale(h, answer.factor));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamFieldFileCreate(const SamFieldFile *source, SamGrid grid, Vec *field)
+{
+  PetscErrorCode ierr;
+
+  PetscFunctionBegin;
+  *field = NULL;
+  if (!source->file[0] || SamPrintHelp()) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamGridCreateVec(grid, 1, field));
+  ierr = SamFieldFileRead(source, grid, *field);
+  if (ierr) PetscCall(VecDestroy(field));
+  PetscCall(ierr);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

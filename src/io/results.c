@@ -9,7 +9,8 @@
 #include <petsam/results.h>
 #include <string.h>
 
-static const char *const numbers[SAM_RESULTS_NUMBERS] = {"cycle", "status", "contact_area", "slide_x", "slide_y"};
+static const char *const numbers[SAM_RESULTS_NUMBERS] = {"cycle",   "status",   "contact_area", "slide_x",
+                                                         "slide_y", "rolled_x", "rolled_y"};
 static const char *const fields[SAM_RESULTS_FIELDS]   = {"/pressure", "/shear_x", "/shear_y", "/slip_x", "/slip_y"};
 
 /* What the file says of its run. */

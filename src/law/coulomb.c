@@ -76,10 +76,9 @@ static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBo
            .default_dataset = "/friction",
            .unit            = "1",
   };
-  PetscReal      friction = c->friction;
-  PetscBool      set;
-  PetscErrorCode ierr = 0;
-  Vec            field;
+  PetscReal friction = c->friction;
+  PetscBool set;
+  Vec       field;
 
   PetscFunctionBegin;
   *asked = PETSC_TRUE; /* without options, of the coefficient 0 */
@@ -89,12 +88,9 @@ static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBo
   PetscCall(SamFieldFileSetFromOptions(&source, from, "HDF5 file with a coefficient of friction per cell"));
   PetscCall(SamOptionsRead(from, NULL, 1, &changes, word, NULL));
   if (set) PetscCall(SamLawSetFriction(law, friction));
-  if (!source.file[0] || SamPrintHelp()) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamGridCreateVec(law->grid, 1, &field));
-  ierr = SamFieldFileRead(&source, law->grid, field);
-  if (!ierr) PetscCall(SamLawSetFrictionField(law, field));
+  PetscCall(SamFieldFileCreate(&source, law->grid, &field));
+  if (field) PetscCall(SamLawSetFrictionField(law, field));
   PetscCall(VecDestroy(&field));
-  PetscCall(ierr);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -364,13 +364,14 @@ PetscErrorCode SamProblemAddSeparation(SamProblem p, SamState state, SamGenerati
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscBool SamProblemGetSlide(SamProblem p, SamState state, SamGeneration generation, PetscReal slide[2])
+PetscBool SamProblemGetOffset(SamProblem p, SamState state, SamGeneration generation, PetscInt body,
+                              PetscReal offset[2])
 {
   PetscBool depends = PETSC_FALSE;
 
-  for (PetscInt k = 0; k < p->laws; k++) depends = depends || p->law[k]->of_body2;
-  if (depends && SamSlideGet(state, generation, slide)) return PETSC_TRUE;
-  slide[0] = slide[1] = 0;
+  for (PetscInt k = 0; k < p->laws; k++) depends = depends || p->law[k]->of_body[body];
+  if (depends && SamSlideGetOffset(state, generation, body, offset)) return PETSC_TRUE;
+  offset[0] = offset[1] = 0;
   return PETSC_FALSE;
 }
 

@@ -20,9 +20,9 @@ typedef struct {
 
 PetscErrorCode SamSimulationReadGridCheck(SamSimulation s, const SamOptions *from)
 {
-  static const SamOptionRow row = {"grid_check", "all steps on half the cells too; errors of the last numbers",
-                                   SAM_OPTION_BOOL,
-                                   .excludes = "restart,friction_file,body2_surface_file,step_rtol,rolling"};
+  static const SamOptionRow row = {
+    "grid_check", "all steps on half the cells too; errors of the last numbers", SAM_OPTION_BOOL,
+    .excludes = "restart,friction_file,body1_surface_file,body2_surface_file,step_rtol,rolling"};
 
   PetscFunctionBegin;
   PetscCall(SamOptionsRead(from, NULL, 1, &row, &s->needs.grid_check, NULL));

@@ -42,9 +42,9 @@ static const SamLabel    coordinate_labels[AXES] = {{"time", "s", "time of the l
                                                     {"z", "m", "depth below the surface"},
                                                     {"y", "m", "y of the cell centres"},
                                                     {"x", "m", "x of the cell centres"}};
-static const char *const own_points[AXES]        = {[SAM_Y] = "y of body 2's points under the cells before it slides",
-                                                    [SAM_X] = "x of body 2's points under the cells before it slides"};
-static const char *const axes[AXES]              = {"T", "Z", "Y", "X"};
+static const char *const own_points[AXES] = {[SAM_Y] = "y of the body's own points, under the cells before it moves",
+                                             [SAM_X] = "x of the body's own points, under the cells before it moves"};
+static const char *const axes[AXES]       = {"T", "Z", "Y", "X"};
 
 /* The spacing of coordinates, which VTK needs; 0 where they are unequal. A single one has that of the grid. */
 static double Spacing(SamStressFile s, int d)

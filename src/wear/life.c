@@ -86,7 +86,7 @@ PetscErrorCode SamLifeCreate(SamContact contact, const SamLifeCycle *cycle, cons
   l->open       = !l->band;
   if (l->band) PetscCall(SamGridCreateVec(grid, 1, &l->passage));
   l->coupled = SamElasticityGetTraits(SamProblemGetElasticity(l->problem)).coupled;
-  PetscCheck(settings->type == SAM_LIFE_MAGNIFIED || !SamProblemGetSlide(problem, l->memory, SAM_COMMITTED, slide),
+  PetscCheck(settings->type == SAM_LIFE_MAGNIFIED || !SamProblemGetOffset(problem, l->memory, SAM_COMMITTED, 1, slide),
              grid->comm, PETSC_ERR_ARG_INCOMP, "Surfaces that slide need magnified cycles");
   l->loads = SamStateFindField(l->memory, SAM_WEAR_LOAD2) < 0 ? 1 : SAM_WEAR_LOADS;
   if (settings->type == SAM_LIFE_MAGNIFIED) {

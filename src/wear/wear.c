@@ -27,7 +27,7 @@ PetscErrorCode SamLawSetWear(SamLaw law, const PetscReal coefficient[2])
     PetscCheck(coefficient[body] >= 0 && isfinite(coefficient[body]), law->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
                "wear coefficient %.6g of body %d: expected a finite number >= 0", (double)coefficient[body], body + 1);
   PetscCall(PetscArraycpy(w->coefficient, coefficient, 2));
-  law->of_body2 = coefficient[1] > 0;
+  for (int body = 0; body < 2; body++) law->of_body[body] = coefficient[body] > 0;
   law->revision++;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -50,8 +50,8 @@ static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBo
 
   PetscFunctionBegin;
   (void)from;
-  *asked        = w->coefficient[0] + w->coefficient[1] > 0;
-  law->of_body2 = w->coefficient[1] > 0;
+  *asked = w->coefficient[0] + w->coefficient[1] > 0;
+  for (int body = 0; body < 2; body++) law->of_body[body] = w->coefficient[body] > 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -98,6 +98,7 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
                                       .generations = 3,
                                       .kept        = PETSC_TRUE,
                                       .motion      = SAM_MOVES},
+                             load1 = {.name = SAM_WEAR_LOAD, .components = 1, .generations = 3, .kept = PETSC_TRUE},
                              load2 = {.name = SAM_WEAR_LOAD2, .components = 1, .generations = 3, .kept = PETSC_TRUE},
                              cycle = {.name = SAM_WEAR_CYCLE, .components = 1, .generations = 2},
                              path  = {.name = SAM_WEAR_PATH, .components = 1, .generations = 2};
@@ -112,12 +113,14 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
     {"wear_depth1", "m", "depth removed of body 1", SAM_FIELD_REAL, SAM_RESULT_USUAL, ComputeDepth, law, 0, -1},
     {"wear_depth2", "m", "depth removed of body 2", SAM_FIELD_REAL, SAM_RESULT_USUAL, ComputeDepth, law, 1, -1}};
   PetscReal       slide[2];
-  const PetscBool slides = law->of_body2 && SamSlideGet(state, SAM_TRIED, slide);
+  const PetscBool own = SamSlideGet(state, SAM_TRIED, slide), slides = law->of_body[1] && own;
   PetscInt        id;
 
   PetscFunctionBegin;
-  if (slides) depth[1].text = "depth removed of body 2, at its own points: those that lay under the cells at slide 0";
-  PetscCall(SamStateDeclareField(state, &load, &id));
+  if (own) depth[0].text = "depth removed of body 1, at its own points: those that lay under the cells at rolled 0";
+  if (slides)
+    depth[1].text = "depth removed of body 2, at its own points: those that lay under the cells at rolled and slide 0";
+  PetscCall(SamStateDeclareField(state, own ? &load1 : &load, &id)); /* at own points it is never moved */
   if (slides) PetscCall(SamStateDeclareField(state, &load2, &id));
   PetscCall(SamStateDeclareField(state, &cycle, &id));
   PetscCall(SamStateDeclareField(state, &path, &id));
@@ -141,18 +144,25 @@ static Vec LoadOf(SamState state, SamGeneration generation, PetscInt body)
   return SamStateGetField(state, id, SAM_COMMITTED);
 }
 
-/* Adds k times a wear load to a separation. */
-static PetscErrorCode AddDepth(SamGrid grid, double k, Vec load, Vec h)
+/* Adds k times a wear load to a separation, where the body's points are. */
+static PetscErrorCode AddDepth(SamLaw law, SamState state, PetscInt body, double k, Vec load, Vec h)
 {
+  PetscReal     offset[2];
+  Vec           seen = load;
   const double *worn;
   double       *to;
 
   PetscFunctionBegin;
-  PetscCall(VecGetArrayRead(load, &worn));
+  if (SamSlideGetOffset(state, SAM_TRIED, body, offset)) {
+    PetscCall(SamGridCreateVec(law->grid, 1, &seen));
+    PetscCall(SamSlideRead(law->elasticity, offset, load, seen));
+  }
+  PetscCall(VecGetArrayRead(seen, &worn));
   PetscCall(VecGetArray(h, &to));
-  for (PetscInt i = 0; i < grid->cells; i++) to[i] = k * worn[i] + to[i];
+  for (PetscInt i = 0; i < law->grid->cells; i++) to[i] = k * worn[i] + to[i];
   PetscCall(VecRestoreArray(h, &to));
-  PetscCall(VecRestoreArrayRead(load, &worn));
+  PetscCall(VecRestoreArrayRead(seen, &worn));
+  if (seen != load) PetscCall(VecDestroy(&seen));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -160,20 +170,13 @@ static PetscErrorCode Separation(SamLaw law, SamState state, SamGeneration gener
 {
   const SamWear *w    = (const SamWear *)law->data;
   const Vec      load = LoadOf(state, generation, 0), load2 = LoadOf(state, generation, 1);
-  PetscReal      slide[2];
-  Vec            seen;
 
   PetscFunctionBegin;
   if (!load) PetscFunctionReturn(PETSC_SUCCESS);
   *adds = PETSC_TRUE;
   if (!h) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(AddDepth(law->grid, w->coefficient[0] + (load2 == load ? w->coefficient[1] : 0), load, h));
-  if (load2 == load) PetscFunctionReturn(PETSC_SUCCESS);
-  (void)SamSlideGet(state, SAM_TRIED, slide);
-  PetscCall(SamGridCreateVec(law->grid, 1, &seen));
-  PetscCall(SamSlideRead(law->elasticity, slide, load2, seen));
-  PetscCall(AddDepth(law->grid, w->coefficient[1], seen, h));
-  PetscCall(VecDestroy(&seen));
+  PetscCall(AddDepth(law, state, 0, w->coefficient[0] + (load2 == load ? w->coefficient[1] : 0), load, h));
+  if (load2 != load) PetscCall(AddDepth(law, state, 1, w->coefficient[1], load2, h));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -184,17 +187,14 @@ PetscErrorCode SamWearGetVolumes(SamLaw law, Vec load, Vec load2, PetscReal volu
   PetscReal       most = 0, sums[3] = {0};
 
   PetscFunctionBegin;
-  if (load) PetscCall(SamGridNorm(law->grid, load, NORM_1, sums)); /* it is never negative */
-  if (load) PetscCall(VecMax(load, NULL, &most));
   for (int body = 0; body < 2; body++) {
-    volume[body] = w->coefficient[body] * sums[0] * law->grid->dx * law->grid->dy / length;
+    const Vec one = body ? load2 : load;
+
+    if (one) PetscCall(SamBalanceGetLoads(law->grid, SAM_BALANCE_NORMAL, one, sums));
+    if (one) PetscCall(VecMax(one, NULL, &most));
+    volume[body] = w->coefficient[body] * sums[0] / length;
     depth[body]  = w->coefficient[body] * most;
   }
-  if (load2 == load) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamBalanceGetLoads(law->grid, SAM_BALANCE_NORMAL, load2, sums));
-  PetscCall(VecMax(load2, NULL, &most));
-  volume[1] = w->coefficient[1] * sums[0];
-  depth[1]  = w->coefficient[1] * most;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -226,23 +226,28 @@ static PetscErrorCode FirstPart(SamLaw law, SamLawStep *step, Vec path, Vec load
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Writes a step's wear load to body 2's points: those under it before the step, and those after it. */
-static PetscErrorCode WearBody2(SamLaw law, SamLawStep *step, Vec path, Vec load)
+/* Writes a step's wear load to body 1's points, and to those of body 2 under it before the step, and after it. */
+static PetscErrorCode WearOwn(SamLaw law, SamLawStep *step, Vec path, Vec load)
 {
-  PetscReal slide[2];
+  PetscReal offset[2];
   Vec       part, written;
 
   PetscFunctionBegin;
   PetscCall(SamGridCreateVec(law->grid, 1, &part));
   PetscCall(SamGridCreateVec(law->grid, 1, &written));
-  PetscCall(FirstPart(law, step, path, load, part));
-  (void)SamSlideGet(step->state, SAM_COMMITTED, slide);
-  PetscCall(SamSlideWrite(law->elasticity, slide, part, written));
-  PetscCall(SamLawAddToSum(step->state, SAM_WEAR_LOAD2, written));
-  PetscCall(VecAYPX(part, -1, load));
-  (void)SamSlideGet(step->state, SAM_TRIED, slide);
-  PetscCall(SamSlideWrite(law->elasticity, slide, part, written));
-  PetscCall(VecAXPY(SamStateReadField(step->state, LoadFieldOf(step->state, 1)), 1, written));
+  (void)SamSlideGetOffset(step->state, SAM_TRIED, 0, offset);
+  PetscCall(SamSlideWrite(law->elasticity, offset, load, written));
+  PetscCall(SamLawAddToSum(step->state, SAM_WEAR_LOAD, written));
+  if (law->of_body[1]) {
+    PetscCall(FirstPart(law, step, path, load, part));
+    (void)SamSlideGetOffset(step->state, SAM_COMMITTED, 1, offset);
+    PetscCall(SamSlideWrite(law->elasticity, offset, part, written));
+    PetscCall(SamLawAddToSum(step->state, SAM_WEAR_LOAD2, written));
+    PetscCall(VecAYPX(part, -1, load));
+    (void)SamSlideGetOffset(step->state, SAM_TRIED, 1, offset);
+    PetscCall(SamSlideWrite(law->elasticity, offset, part, written));
+    PetscCall(VecAXPY(SamStateReadField(step->state, LoadFieldOf(step->state, 1)), 1, written));
+  }
   PetscCall(VecDestroy(&written));
   PetscCall(VecDestroy(&part));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -252,6 +257,7 @@ static PetscErrorCode WearBody2(SamLaw law, SamLawStep *step, Vec path, Vec load
 static PetscErrorCode AddLoad(SamLaw law, SamLawStep *step)
 {
   const SamWear *w = (const SamWear *)law->data;
+  PetscReal      slide[2];
   Vec            path, worn, load;
 
   PetscFunctionBegin;
@@ -265,9 +271,11 @@ static PetscErrorCode AddLoad(SamLaw law, SamLawStep *step)
   PetscCall(SamGridCreateVec(step->grid, 1, &load));
   PetscCall(VecCopy(worn, load));
   PetscCall(VecAbs(load));
-  PetscCall(SamLawAddToSum(step->state, w->jumps ? SAM_WEAR_CYCLE : SAM_WEAR_LOAD, load));
+  if (!w->jumps && SamSlideGet(step->state, SAM_TRIED, slide))
+    PetscCall(WearOwn(law, step, path, load));
+  else
+    PetscCall(SamLawAddToSum(step->state, w->jumps ? SAM_WEAR_CYCLE : SAM_WEAR_LOAD, load));
   if (w->jumps) PetscCall(SamLawAddToSum(step->state, SAM_WEAR_PATH, path));
-  if (!w->jumps && SamStateFindField(step->state, SAM_WEAR_LOAD2) >= 0) PetscCall(WearBody2(law, step, path, load));
   PetscCall(VecDestroy(&load));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

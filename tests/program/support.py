@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 from typing import NamedTuple
 
+import h5py
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -370,3 +371,14 @@ def dead_links(file):
         if not target.exists() or (anchor and anchor not in anchors(target.read_text())):
             dead.append(link)
     return dead
+
+
+def waves(folder, n, wave, e_star, heights):
+    """Two plane periodic bodies with waves of these heights that slide, and the wave; each has half the compliance."""
+    cosine = np.cos(2 * np.pi * (np.arange(n) + 0.5) / n)
+    for body, height in zip((1, 2), heights):
+        with h5py.File(folder / f"{body}.h5", "w") as f:
+            f.create_dataset("height", data=height * cosine[None, :])
+    bodies = dict(body1_young=2 * e_star, body1_poisson=0.0, body2_young=2 * e_star, body2_poisson=0.0)
+    grid = dict(elasticity="plane_periodic", grid_n=n, grid_size=wave, gap_type="flat", slide=True)
+    return dict(bodies, **grid, gap_rough_file=folder / "1.h5", body2_surface_file=folder / "2.h5"), cosine

@@ -403,3 +403,35 @@ with petsam.Contact(**{case!r}) as contact:
 def test_examples_run(tmp_path):
     for name, says in ("history", "81 steps"), ("life", "  100000 cycles"), ("fatigue", "(33, 1, 96)"):
         assert says in run_python((ROOT / f"examples/embed/python/{name}.py").read_text(), tmp_path)
+
+
+def test_steps_that_slide_have_the_bits_of_the_program(petsam, tmp_path):
+    """Also where each was tried and rejected before, by another displacement; both bodies wear, and roll."""
+    case = dict(CASE, slide=True, wear_coefficient1=1e-14, wear_coefficient2=2e-14)
+    rows = [(1, 500.0, 0.0, 0.0), (2, 800.0, 3e-5, 0.0), (3, 700.0, -2e-5, 1.7e-5), (4, 900.0, 1e-5, -2e-5)]
+    columns = "time,load_n,disp_x,roll"
+    write(tmp_path / "h.csv", columns, rows)
+    petsam(dict(case, history="h.csv", steps=1, output="h.h5", output_fields="all"))
+    run_python(
+        f"""
+import numpy as np, petsam
+found = {{}}
+with petsam.Contact(**{case!r}) as contact:
+    for time, n, x, roll in {rows!r}:
+        for way in 1.3 * x + 1e-5, x:
+            contact.reject()
+            step = contact.try_step(time=time, load_n=n, disp_x=way, roll=roll)
+        contact.commit()
+    for number in "load_tx", "slide_x", "rolled_x", "wear_volume2":
+        found["history/" + number] = getattr(step, number)
+    for field in "pressure", "shear_x", "wear_depth1", "wear_depth2", "gap":
+        found[field] = contact.field(field)
+np.savez("found.npz", **found)
+""",
+        tmp_path,
+    )
+    found = np.load(tmp_path / "found.npz")
+    with h5py.File(tmp_path / "h.h5") as f:
+        assert f["history/slide_x"][-1] != 0 and f["history/wear_volume2"][-1] > 0
+        for key in found:
+            assert np.array_equal(found[key], f[key][-1]), key

@@ -314,6 +314,7 @@ def test_measured_profiles_stand_beside_the_scar_of_their_body(life, tmp_path):
         ("#\nx_mm,y_um\n0,1\n1,a\n", "line 4: could not convert"),
         ("x_mm,y_um\n0,1\n1,nan\n", "line 3: expected 2 finite numbers"),
         ("x_mm,y_um\n0,1\n1,2,3\n", "line 3: expected 2 finite numbers"),
+        ("x_mm,y_um\n0,1\n1_000,2\n", "line 3: expected 2 finite numbers"),
     ],
 )
 def test_a_measured_profile_that_is_none_is_named_with_its_line(draw, path, tmp_path, text, complaint):

@@ -1,11 +1,11 @@
-"""Surfaces that slide past each other: scars, tracks, waves on waves, the same bits, and what is refused."""
+"""Surfaces that slide past each other, or roll: scars, tracks, waves on waves, the same bits, and what is refused."""
 
 import h5py
 import numpy as np
 import pytest
 
 import compliances
-from support import ball, closed, history, read_run
+from support import ball, closed, history, read_run, waves
 
 STEEL = dict(body1_young=200e9, body1_poisson=0.3, body2_young=200e9, body2_poisson=0.3)
 CYLINDER = dict(
@@ -159,24 +159,8 @@ def test_the_slide_is_that_of_the_point_that_slips_last(slide, friction, amplitu
 
 def test_waves_on_waves_have_the_height_of_their_sum(slide, tmp_path):
     """Full contact of waves a1, a2: pmean +- pi E* A/lambda with the amplitude A of both where body 2 has moved to."""
-    wave, a1, a2, pressure = 1e-4, 2e-8, 1e-8, 200e6
-    n, e_star = 64, 1e11
-    x = (np.arange(n) + 0.5) / n * wave - wave / 2
-    with h5py.File(tmp_path / "one.h5", "w") as f:
-        f.create_dataset("height", data=a1 * np.cos(2 * np.pi * x / wave)[None, :])
-    case = dict(
-        elasticity="plane_periodic",
-        body1_young=2 * e_star,
-        body1_poisson=0.0,
-        body2_young=2 * e_star,
-        body2_poisson=0.0,
-        grid_n=n,
-        grid_size=wave,
-        gap_type="file",
-        gap_file=tmp_path / "one.h5",
-        slide=True,
-    )
-    case.update(surface(tmp_path / "two.h5", a2 * np.cos(2 * np.pi * x / wave)[None, :]))
+    wave, e_star, a1, a2, pressure = 1e-4, 1e11, 2e-8, 1e-8, 200e6
+    case = waves(tmp_path, 64, wave, e_star, (a1, a2))[0]
     places = [0, 0.25, 0.5, 2.75, -16.5]
     r = slide(case, "time,load_n,disp_x", *[(k, pressure * wave, d * wave) for k, d in enumerate(places)], steps=1)
     amplitude = np.abs(a1 + a2 * np.exp(2j * np.pi * np.array(places)))
@@ -289,7 +273,6 @@ def test_a_surface_of_one_height_changes_the_approach_alone(petsam, tmp_path):
         (dict(stiffness=True), "-slide does not work with -stiffness: the gap changes"),
         (dict(slide=None, body2_surface_file="none.h5"), "-body2_surface_file is given without -slide"),
         (dict(grid_check=True, body2_surface_file="two.h5"), "-grid_check does not work with -body2_surface_file"),
-        (dict(column="roll"), "expected 0 with -slide: in rolling both bodies move"),
         (dict(column="rot_z"), "surfaces slide without turning"),
     ],
     ids=lambda value: "" if isinstance(value, str) else value.get("column", list(value)[-1]),
@@ -318,3 +301,83 @@ def test_a_long_stroke_without_slide_is_warned_of(petsam, slide, tmp_path):
     for words in (alone, dict(alone, wear_coefficient1=None)):
         said.append("give -slide" in petsam({**CASE, **rows, "steps": 3, "output": "h.h5", **words}).stderr)
     assert said == [True, False, False, False, True]
+
+
+# ---- surfaces that roll
+
+
+LENGTH = 8 * HALF  # of the rolling grid, of 128 cells
+BUMPS = 2e-8 * np.cos(2 * np.pi * np.arange(128) / 16) * (1 + 0.3 * np.sin(np.arange(128) / 9))
+ROLLING = dict(CYLINDER, grid_n=128, grid_size=LENGTH, normal_rtol=1e-12, allow_edge_contact=None)
+
+
+def heights(folder, body, values):
+    return {f"body{body}_surface_file": surface(folder / f"of{body}.h5", values[None, :])["body2_surface_file"]}
+
+
+@pytest.mark.parametrize("cells", [5, -9])
+@pytest.mark.parametrize("body", [1, 2])
+def test_roughness_rolls_through_the_contact(slide, tmp_path, body, cells):
+    """By whole cells it is that of a body whose heights lie there; whichever body has them, and the mirror image."""
+    distance = cells * LENGTH / 128
+    rows = [(0, LINE, 0.0), (1, LINE, 0.4 * distance), (2, LINE, 0.6 * distance)]
+    rolled = slide({**ROLLING, **heights(tmp_path, body, BUMPS)}, "time,load_n,roll", *rows, steps=1)
+    there = heights(tmp_path, body, np.roll(BUMPS, -cells))
+    still = slide({**ROLLING, **there}, "time,load_n", (0, LINE), steps=1, name="still")
+    other = slide({**ROLLING, **heights(tmp_path, 3 - body, BUMPS)}, "time,load_n,roll", *rows, steps=1, name="other")
+    mirrored = [(t, n, -roll) for t, n, roll in rows]
+    mirror = {**ROLLING, **heights(tmp_path, body, BUMPS[::-1])}
+    mirror = slide(mirror, "time,load_n,roll", *mirrored, steps=1, name="mirror")
+    assert rolled["history/rolled_x"][-1] == pytest.approx(distance, rel=1e-14)
+    pressure = rolled["pressure"][-1]
+    assert np.array_equal(pressure, other["pressure"][-1])
+    for found in (still["pressure"][-1], mirror["pressure"][-1][:, ::-1]):
+        assert np.abs(pressure - found).max() < 1e-9 * pressure.max()
+    assert np.abs(pressure - rolled["pressure"][0]).max() > 0.1 * pressure.max()
+    assert pressure.sum() * LENGTH / 128 == pytest.approx(LINE, rel=1e-12)
+
+
+@pytest.mark.parametrize("step", [1.0, 0.37])
+def test_bodies_that_roll_with_creep_wear_evenly(slide, step):
+    """Gross slip by the creep: points of body 1 wear by k creep N in passing, of body 2, which pass faster, by less."""
+    creep, k, cell = 0.02, (1e-15, 3e-15), LENGTH / 128
+    count = round(96 / step)
+    case = dict(ROLLING, friction=1e-3, grid_n=256, grid_size=2 * LENGTH)
+    case.update(wear_coefficient1=k[0], wear_coefficient2=k[1])
+    rows = [(0, LINE, 0.0, 0.0), (1, LINE, -48 * cell, 0.0)]
+    rows += [(n + 2, LINE, step * cell, creep) for n in range(count)]
+    r = slide(case, "time,load_n,roll,creep_x", *rows, steps=1)
+    path = creep * count * step * cell
+    assert r["history/slide_x"][-1] == pytest.approx(path, rel=1e-3)
+    volumes = [r[f"history/wear_volume{body}"][-1] / k[body - 1] for body in (1, 2)]
+    assert volumes[1] == pytest.approx(volumes[0], rel=1e-12, abs=0)
+    assert volumes[0] == pytest.approx(LINE * path, rel=2e-4)
+    for body, faster in ((1, 1.0), (2, 1.0 + creep)):
+        depth = r[f"wear_depth{body}"][-1, 0, 112:144] / (k[body - 1] * creep * LINE / faster)
+        assert np.abs(depth - 1).max() < 1e-3
+
+
+@pytest.mark.parametrize("wave, lost", [(6, 2.5), (9, None)])
+def test_waves_of_few_cells_are_warned_of(petsam, tmp_path, wave, lost):
+    """By what cubic interpolation takes of them half way between points, unless they move by whole cells."""
+    t = 2 * np.pi / wave
+    two = heights(tmp_path, 2, 1e-9 * np.cos(t * np.arange(144)))
+    case = {**ROLLING, **two, "grid_n": 144, "load_n": LINE, "steps": 1, "overwrite": True, "output": "w.h5"}
+    for cells, warns in ((2.5, lost is not None), (2.0, False)):
+        rows = [(0, 0.0), (1, cells * LENGTH / 144)]
+        done = petsam({**case, **history(tmp_path / "w.csv", "time,disp_x", *rows), "friction": 1e-7})
+        told = [line for line in done.stderr.splitlines() if "waves of so few cells" in line]
+        assert len(told) == warns, done.stderr
+        if warns:
+            exact = 100 * (1 - (9 * np.cos(t / 2) - np.cos(3 * t / 2)) / 8)
+            assert exact == pytest.approx(lost, abs=0.1) and f"by up to {exact:.2g} %" in told[0]
+
+
+def test_rolling_over_the_border_of_a_surface_is_found(petsam, slide, tmp_path):
+    rows = [(0, LINE, 0.0), (1, LINE, 0.2 * LENGTH), (2, LINE, 0.25 * LENGTH)]
+    loads = history(tmp_path / "far.csv", "time,load_n,roll", *rows)
+    case = {**ROLLING, **heights(tmp_path, 1, BUMPS), **loads, "steps": 1, "output": "far.h5"}
+    line = " ".join(petsam(case, check=12).complaint)
+    assert "the contact rolled over the border of the surface that body 1 has on the grid" in line
+    assert "the grid must hold contact and path" in line
+    petsam(dict(case, body1_surface_file=None, overwrite=True))  # nothing of a body is on the grid

@@ -1,11 +1,10 @@
 """Lives of surfaces that slide past each other: scars of both bodies over many cycles, by magnified cycles."""
 
-import h5py
 import numpy as np
 import pytest
 
 import compliances
-from support import history, read_run
+from support import history, read_run, waves
 
 STEEL = dict(body1_young=200e9, body1_poisson=0.3, body2_young=200e9, body2_poisson=0.3)
 LINE = 18500.0  # N/m
@@ -125,28 +124,8 @@ def test_volumes_are_those_of_the_path(life, law, steps, shares, words):
 def test_waves_wear_each_other_off(life, tmp_path):
     """Full contact, waves a: da/ds = -(pi E*/wave) [[k1, k1 c], [k2 c, k2]] a, c the mean cosine of the positions."""
     wave, n, cells, e_star, path, a = 1e-4, 64, 8, 1e11, 0.04, (2e-8, 1e-8)
-    x = (np.arange(n) + 0.5) / n * wave
-    cosine = np.cos(2 * np.pi * x / wave)
-    for body in (1, 2):
-        with h5py.File(tmp_path / f"{body}.h5", "w") as f:
-            f.create_dataset("height", data=a[body - 1] * cosine[None, :])
-    case = dict(
-        elasticity="plane_periodic",
-        body1_young=2 * e_star,
-        body1_poisson=0.0,
-        body2_young=2 * e_star,
-        body2_poisson=0.0,
-        load_n=200e6 * wave,
-        friction=1e-9,
-        slide=True,
-        grid_n=n,
-        grid_size=wave,
-        gap_type="flat",
-        gap_rough_file="1.h5",
-        body2_surface_file="2.h5",
-        wear_coefficient1=2e-14,
-        wear_coefficient2=3e-14,
-    )
+    case, cosine = waves(tmp_path, n, wave, e_star, a)
+    case.update(load_n=200e6 * wave, friction=1e-9, wear_coefficient1=2e-14, wear_coefficient2=3e-14)
     places = np.concatenate([np.arange(cells, -cells, -1), np.arange(-cells, cells)])
     c, k = np.mean(np.cos(2 * np.pi * places / n)), np.array([[2e-14], [3e-14]])
     values, vectors = np.linalg.eig(-np.pi * e_star / wave * path * k * np.array([[1, c], [c, 1]]))

@@ -106,7 +106,7 @@ static Case Pressed(double friction, PetscBool bumps, const char *options)
   if (bumps) {
     Vec heights = NewFrom(c.s.grid, Bumps, &c.s);
 
-    sam_call(SamLawSetSurface(SamProblemGetLaw(c.problem, SAM_LAW_SLIDE), heights));
+    sam_call(SamLawSetSurface(SamProblemGetLaw(c.problem, SAM_LAW_SLIDE), 1, heights));
     sam_call(VecDestroy(&heights));
   }
   Solve(&c, &press);
@@ -292,7 +292,7 @@ static Rough NewRough(int first)
   sam_call(SamProblemSetLawsFromOptions(r.problem, &(SamOptions){r.grid->comm, NULL}));
   law = SamProblemGetLaw(r.problem, SAM_LAW_SLIDE);
   h   = NewFrom(r.grid, Heights, &second);
-  sam_call(SamLawSetSurface(law, h));
+  sam_call(SamLawSetSurface(law, 1, h));
   sam_call(VecDestroy(&h));
   sam_call(SamContactCreate(r.problem, &r.contact));
   sam_call(SamContactSetFromOptions(r.contact));

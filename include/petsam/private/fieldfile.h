@@ -37,6 +37,8 @@ PETSC_INTERN PetscErrorCode SamFieldFileSetFromOptions(SamFieldFile *source, con
   the grid's.
 */
 PETSC_INTERN PetscErrorCode SamFieldFileRead(const SamFieldFile *source, SamGrid grid, Vec field);
+/* SamFieldFileCreate - the same into a new field; NULL where no file is given, or for the help. */
+PETSC_INTERN PetscErrorCode SamFieldFileCreate(const SamFieldFile *source, SamGrid grid, Vec *field);
 /*
   SamFieldFileGetGrid - the grid on which a dataset of lengths is given: cells, full widths and centre (m) in x and y;
   a width of 0 is one that the file does not give. Collective. Errors: SAM_ERR_FILE, as for SamFieldFileRead().

@@ -82,13 +82,17 @@ PETSC_INTERN PetscErrorCode SamLawAddToSum(SamState state, const char name[], Ve
   SamSlideGet - the slide of a generation, of SAM_TRIED without a try the committed one; FALSE: the contact has none,
   and D = 0. SamSlideSet - of the committed one, if the contact has any. SamSlideRewind - of a generation, and of what
   it follows: less by a distance (m). Not collective.
-  SamSlideRead - what the cells see of a field that is kept at body 2's points; outside of the grid it is zero, or its
-  period. SamSlideWrite - the transpose: from cells to body 2's points, with the same sum. Other vectors, of one
-  component. Collective.
+  SamSlideGetOffset - how far from the cells the points of a body, 0 or 1, lie in it that are under the grid as it is
+  now: by what the contact has rolled over both, in the second body by the slide of the generation, too; FALSE: there is
+  no law slide. Not collective.
+  SamSlideRead - what the cells see of a field that is kept at a body's own points, by its offset; outside of the grid
+  it is zero, or its period. SamSlideWrite - the transpose: from cells to the body's points, with the same sum. Other
+  vectors, of one component. Collective.
 */
-PETSC_INTERN PetscBool      SamSlideGet(SamState state, SamGeneration generation, PetscReal slide[2]);
-PETSC_INTERN void           SamSlideSet(SamState state, const PetscReal slide[2]);
-PETSC_INTERN void           SamSlideRewind(SamState state, SamGeneration generation, const PetscReal by[2]);
+PETSC_INTERN PetscBool SamSlideGet(SamState state, SamGeneration generation, PetscReal slide[2]);
+PETSC_INTERN PetscBool SamSlideGetOffset(SamState state, SamGeneration generation, PetscInt body, PetscReal offset[2]);
+PETSC_INTERN void      SamSlideSet(SamState state, const PetscReal slide[2]);
+PETSC_INTERN void      SamSlideRewind(SamState state, SamGeneration generation, const PetscReal by[2]);
 PETSC_INTERN PetscErrorCode SamSlideRead(SamElasticity elasticity, const PetscReal slide[2], Vec body2, Vec field);
 PETSC_INTERN PetscErrorCode SamSlideWrite(SamElasticity elasticity, const PetscReal slide[2], Vec field, Vec body2);
 /*
@@ -117,7 +121,7 @@ struct _n_SamLaw {
   PetscInt            bytes;          /* of memory that it takes for each cell */
   PetscBool           needs_friction; /* makes no sense without friction */
   PetscBool           forbids_jumps;  /* cannot be in a life with cycle jumps */
-  PetscBool           of_body2;       /* adds to the separation what it keeps at body 2's points, if there is slide */
+  PetscBool           of_body[2];     /* adds to the separation what it keeps at a body's own points, if they slide */
   PetscBool           any_motion;     /* has a meaning in every motion: remembers and asks for no slip of steps */
   PetscBool           by_passages;    /* in steady rolling it acts in cycles of a life only */
   void               *data;           /* the type's own, from PetscNew(); NULL: none */

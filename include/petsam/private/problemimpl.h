@@ -39,11 +39,11 @@ PETSC_INTERN PetscErrorCode SamProblemAddStress(SamProblem problem, const SamCon
 PETSC_INTERN PetscErrorCode SamProblemAddSeparation(SamProblem problem, SamState state, SamGeneration generation, Vec h,
                                                     PetscBool *adds);
 /*
-  SamProblemGetSlide - the slide (m) of a generation, as SamSlideGet(), if laws add what they keep at body 2's points;
+  SamProblemGetOffset - the offset (m) of body 0 or 1, as SamSlideGetOffset(), if laws add what they keep at its points;
   FALSE and 0: the separation does not depend on it. Not collective.
 */
-PETSC_INTERN PetscBool SamProblemGetSlide(SamProblem problem, SamState state, SamGeneration generation,
-                                          PetscReal slide[2]);
+PETSC_INTERN PetscBool SamProblemGetOffset(SamProblem problem, SamState state, SamGeneration generation, PetscInt body,
+                                           PetscReal offset[2]);
 /*
   SamProblemComputeBound - the largest shear that each cell bears, and its derivatives, by all laws. The pressure may be
   the same vector as the bound's value. Collective.

@@ -24,7 +24,7 @@ def _values(path, number, cells, count):
         values = [float(cell) for cell in cells]
     except ValueError as error:
         raise Error(f"{path}, line {number}: {error}") from error
-    if len(values) != count or not np.all(np.isfinite(values)):
+    if len(values) != count or not np.all(np.isfinite(values)) or "_" in "".join(cells):  # float() takes 1_000
         raise Error(f"{path}, line {number}: expected {count} finite numbers, as many as there are columns")
     return values
 

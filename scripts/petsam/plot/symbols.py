@@ -33,6 +33,8 @@ def field(results, name):
     unit, text = results.about(name)
     if name in FIELDS:
         title, symbol = FIELDS[name]
+        if "at its own points" in text:  # not at the cells, which go with the contact
+            title += " at its own points,"
         return f"{title} {symbol}".strip(), symbol, unit
     if name not in results.fields:  # the magnitude of a vector
         text = name.replace("_", " ") + ", magnitude"
