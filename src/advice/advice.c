@@ -228,10 +228,10 @@ static PetscBool HasPlace(SamAdvice *a)
 {
   PetscBool     has = PETSC_FALSE;
   const SamLaw *laws;
-  PetscInt      count;
+  PetscInt      count = 0;
 
   if (!a->error) a->error = SamProblemGetLaws(a->setup->problem, &count, &laws);
-  for (PetscInt k = 0; !a->error && k < count; k++) has = has || laws[k]->of_body2;
+  for (PetscInt k = 0; !a->error && k < count; k++) has = has || laws[k]->of_body[1];
   return has;
 }
 
