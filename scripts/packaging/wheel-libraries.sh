@@ -1,6 +1,6 @@
 #!/bin/sh
 # Builds the libraries that the wheel carries into a folder: FFTW and HDF5 from Debian's sources, PETSc from PyPI's,
-# against the MPICH of PyPI. Called by `make wheel`; on two cores it takes about ten minutes, once.
+# against the MPICH of PyPI. Called by `make wheel`; it takes ten minutes or more on two cores, once.
 #
 #   scripts/packaging/wheel-libraries.sh build/wheel/libraries
 set -eu
