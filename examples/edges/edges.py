@@ -11,14 +11,11 @@ from pathlib import Path
 from typing import NamedTuple
 
 import h5py
-import matplotlib
 import numpy as np
 from scipy.special import ellipe, ellipk
 
 from petsam.closed.punch import Punch, punch_approach, punch_load, punch_pressure
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
+from petsam.plot.style import COLORS, STYLE, plt
 
 CELLS = (32, 64, 128, 256)
 PLACES = ((0.13, 0.27), (0.41, 0.07), (0.33, 0.49), (0.02, 0.31))  # of the body's centre, cells from the grid's
@@ -138,13 +135,13 @@ def table(petsam, folder, cells=CELLS, offsets=PLACES):
 
 
 def draw(errors, cells, filename):
+    plt.rcParams.update({**STYLE, "axes.prop_cycle": plt.cycler(color=COLORS)})
     figure, rows = plt.subplots(2, 3, figsize=(10, 6), sharex=True, constrained_layout=True)
     for column, name in enumerate(SHAPES):
         for row, (label, index) in enumerate((("pressure at the centres", 0), ("area of contact", 1))):
             ax = rows[row][column]
             for way, marker in zip(WAYS, "osD"):
                 ax.loglog(cells, [errors[name, way, n][index] for n in cells], f"{marker}-", label=LABELS[way])
-            ax.grid(alpha=0.3)
             if row == 0:
                 ax.set_title(name)
             if column == 0:
@@ -153,7 +150,7 @@ def draw(errors, cells, filename):
             ax.minorticks_off()
         rows[1][column].set_xlabel("cells in each direction")
     figure.legend(*rows[0][0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
-    figure.savefig(filename, dpi=110)
+    figure.savefig(filename)
 
 
 def main():

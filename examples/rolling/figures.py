@@ -219,7 +219,7 @@ def main():
     parser.add_argument("--directory", default="build/rolling")
     args = parser.parse_args()
     try:
-        with plt.rc_context({**STYLE, "savefig.dpi": 80}):
+        with plt.rc_context(STYLE):
             examples[args.example](args.directory)
     except (petsam.Error, OSError) as error:
         return fail(os.path.basename(sys.argv[0]), error, 1)

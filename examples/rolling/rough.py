@@ -117,7 +117,7 @@ def main():
     for what, rolled, limit in zip(("smooth", "grooves along x"), (planes[0.0], Rolled(args.cells, grooves)), limits):
         print(f"{what}: last time step {rolled.force[-1]:.4f}, steady {limit:.4f}")
     os.makedirs(args.out, exist_ok=True)
-    with plt.rc_context({**STYLE, "savefig.dpi": 80}):
+    with plt.rc_context(STYLE):
         draw(planes, limits[0], args.out)
 
 

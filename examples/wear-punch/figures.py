@@ -16,7 +16,7 @@ import numpy as np
 import petsam
 from petsam import comparison
 from petsam.errors import Missing
-from petsam.plot.style import frame, joined, plt, save, tint
+from petsam.plot.style import frame, joined, over_cycles, plt, save, tint
 
 VOLUME_TOLERANCE, SUM_TOLERANCE = 1e-2, 1e-9
 
@@ -103,12 +103,12 @@ class Comparison:
         """Four panels against the cycles."""
         life, rows = self.life, self.numbers["saved"]
         z = next(iter(self.stresses.values()))["z"] / life.c
-        million, saved = life.cycle * 1e-6, [row["cycle"] * 1e-6 for row in rows]
+        every, saved = life.cycle, np.array([row["cycle"] for row in rows], dtype=float)
         figure, axes = plt.subplots(2, 2, figsize=(9.0, 5.8), constrained_layout=True)
         panels = (
-            ("areas", "relative to the flat base", million, {
+            ("areas", "relative to the flat base", every, {
                 "contact": life.wear["contact_area"] / life.base, "stick zone": life.stick / life.base}),
-            ("maximum pressure", "$p$, MPa", million, {None: life.wear["pressure_max"] * 1e-6}),
+            ("maximum pressure", "$p$, MPa", every, {None: life.wear["pressure_max"] * 1e-6}),
             (f"maximum von Mises stress at $z$ = {z:g} $c$", "$\\sigma_M$, MPa", saved, {
                 None: [row["mises"] for row in rows]}),
             (f"maximum SWT parameter at $z$ = {z:g} $c$", "SWT, MPa", saved, {None: [row["swt"] for row in rows]}),
@@ -117,7 +117,8 @@ class Comparison:
             for k, (label, values) in enumerate(curves.items()):
                 joined(panel, cycles, values, tint(k, 2), "o-", label=label, markersize=3.6)
             top = 1.08 * max(np.max(values) for values in curves.values())
-            frame(panel, title, "million cycles", unit, None, (0.0, top))
+            frame(panel, title, "", unit, None, (0.0, top))
+            over_cycles(panel, [every])
         axes[0, 0].legend(loc="lower left")
         save(figure, directory, "wear.png")
 

@@ -5,9 +5,9 @@
 #include <petscsys.h>
 #include <petscvec.h>
 
-/* The version. SAM_VERSION_GE(0, 1, 0) is true from 0.1.0 on; programs are linked again when the first two change. */
-#define SAM_VERSION_MAJOR    0
-#define SAM_VERSION_MINOR    1
+/* The version. SAM_VERSION_GE(1, 0, 0) is true from 1.0.0 on; programs are linked again when the first two change. */
+#define SAM_VERSION_MAJOR    1
+#define SAM_VERSION_MINOR    0
 #define SAM_VERSION_SUBMINOR 0
 #define PETSAM_VERSION       PetscStringize(SAM_VERSION_MAJOR.SAM_VERSION_MINOR.SAM_VERSION_SUBMINOR)
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the tables of options in examples/OPTIONS.md from the programs' -help.
+"""Writes the tables of options in examples/OPTIONS.md from the programs' -help, and examples/INDEX.md, their index.
 
     python3 scripts/maintain/reference.py [--build build] [--check]
 
@@ -17,6 +17,7 @@ from options import read_options
 
 ROOT = Path(__file__).resolve().parents[2]
 REFERENCE = ROOT / "examples" / "OPTIONS.md"
+INDEX = ROOT / "examples" / "INDEX.md"
 PROGRAMS = ["petsam", "petsam-stress"]
 TABLE = re.compile(r"<!-- (petsam[\w-]*): (.+?) -->\n.*?<!-- end -->", re.S)
 
@@ -53,6 +54,23 @@ def fill(text, groups):
     return text
 
 
+def index(text, groups):
+    """The text of the index: every option with the heading above its table in the reference's text."""
+    entries = []
+    for found in TABLE.finditer(text):
+        program, group = found.groups()
+        heading = re.findall(r"^#+ (.*)$", text[: found.start()], re.M)[-1]
+        anchor = re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-")
+        entries += [(option.name, program, f"[{heading}](OPTIONS.md#{anchor})") for option in groups[program, group]]
+    rows = [f"| `{name}` | {program} | {link} |" for name, program, link in sorted(entries)]
+    return "\n".join([
+        "# Index of options", "",
+        "Every option by its name, and where [options](OPTIONS.md) explains it. `petsam -help NAME` prints one.", "",
+        "<!-- petsam: index, written by scripts/maintain/reference.py -->",
+        "| option | program | section |", "| --- | --- | --- |", *rows, "<!-- end -->", "",
+    ])  # fmt: skip
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--build", type=Path, default=ROOT / "build")
@@ -62,12 +80,12 @@ def main():
     for program in PROGRAMS:
         for group in read_options(arguments.build / "bin" / program):
             groups[program, group.name] = group.options
-    old = REFERENCE.read_text()
-    new = fill(old, groups)
-    if not arguments.check:
-        REFERENCE.write_text(new)
-    elif new != old:
-        sys.exit(f"{REFERENCE.relative_to(ROOT)} differs from -help: run python3 scripts/maintain/reference.py")
+    reference = fill(REFERENCE.read_text(), groups)
+    for file, new in (REFERENCE, reference), (INDEX, index(reference, groups)):
+        if not arguments.check:
+            file.write_text(new)
+        elif new != file.read_text():
+            sys.exit(f"{file.relative_to(ROOT)} differs from -help: run python3 scripts/maintain/reference.py")
 
 
 if __name__ == "__main__":

@@ -21,7 +21,7 @@ class Petsam(MakefilePackage):
     license("BSD-2-Clause", checked_by="petsam")
 
     version("main", branch="main")
-    version("0.1.0", tag="v0.1.0")
+    version("1.0.0", tag="v1.0.0")
 
     variant("scripts", default=True, description="Python libraries of petsam-plot and the other scripts")
 

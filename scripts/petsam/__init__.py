@@ -28,7 +28,7 @@ import os
 
 from .errors import Error, Missing
 
-__version__ = "0.1.0"
+__version__ = "1.0.0"
 __all__ = [
     "Contact",
     "ContactError",

@@ -6,6 +6,7 @@ import pytest
 
 import petsam
 from petsam.plot import loops, maps, profiles, series, wear
+from petsam.plot.style import over_cycles, plt
 from petsam.plot.units import counted, scale
 from support import ball, slide_limit
 
@@ -336,12 +337,21 @@ def test_a_measured_profile_of_a_body_that_does_not_wear_is_refused(draw, one_bo
 def test_life_is_the_table_over_the_cycles(life):
     axes = wear.life([life]).axes
     assert [panel.get_ylabel().split(",")[0] for panel in axes[:5]] == [title for _, title in wear.LIFE]
-    assert all(panel.get_xlabel() == "thousand cycles" for panel in axes[:5])
+    assert all(panel.get_xlabel() == "cycles" for panel in axes[:5])
     for panel, (names, _) in zip(axes, wear.LIFE):
         factor, unit = scale(life.wear_units[names[0]], max(life.wear[name].max() for name in names))
         assert panel.get_ylabel().endswith(", " + unit)
         for (x, y), name in zip(curves(panel), names):
-            assert np.allclose(x, 1e-3 * life.wear["cycle"]) and np.allclose(y, factor * life.wear[name])
+            assert np.allclose(x, life.wear["cycle"]) and np.allclose(y, factor * life.wear[name])
+
+
+@pytest.mark.parametrize("last, kind", [(40.0, "linear"), (5e3, "symlog")])
+def test_cycles_over_two_decades_are_on_a_logarithmic_axis_with_zero(last, kind):
+    panel = plt.figure().add_subplot()
+    over_cycles(panel, [np.array([0.0, last]), np.array([0.0, 20.0])])
+    assert panel.get_xscale() == kind and panel.get_xlabel() == "cycles"
+    assert kind == "linear" or panel.transData.transform((20.0, 0.0))[0] > panel.transData.transform((0.0, 0.0))[0] + 50
+    plt.close(panel.figure)
 
 
 def test_life_shows_the_bodies_that_wear(life, one_body):

@@ -240,7 +240,7 @@ def carry_out(options):
         from . import picture
 
         figure = picture.draw(lines, constants)
-        figure.savefig(options.output)
+        figure.savefig(options.output, dpi=picture.STYLE["savefig.dpi"])
         plt.close(figure)
         print("wrote " + options.output)
     _warn(cycles)

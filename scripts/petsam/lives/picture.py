@@ -71,7 +71,7 @@ def draw(lines, constants):
     panels += [same for kind in KINDS if (same := [name for name in names if name.startswith(kind + "_")])]
     cracked = [pair for pair in lines if "k_range" in pair[1].columns]
     count = len(panels) + 2 * bool(cracked)
-    columns = min(3, count)
+    columns = min(3, count) if count != 4 else 2
     rows = -(-count // columns)
     length, unit = scale("m", float(first.z[-1]))
     with plt.rc_context(STYLE):

@@ -10,9 +10,11 @@ from .style import COLORS, bar, logarithmic, need_few, plt
 from .tables import matching, numbers
 from .units import label, largest, plain, scale, written
 
-TINTS = ("#dfe3ee", "#8fa0d8", "#e9a03b", "#c44e52")  # of the regimes
+TINTS = ("#dfe3ee", "#8fb8d8", "#f5e0a0", "#cc79a7")  # of the regimes
 FILLED = 0.5  # of a grid of the distinct values that must have cases, or they are drawn as points
 LEVELS = 12
+FINE = 400  # points of a map of regimes in each direction
+TITLES = {"regime": "fretting regime"}
 
 
 def _grid(study, over, name, where, option="--scalar"):
@@ -34,23 +36,22 @@ def _grid(study, over, name, where, option="--scalar"):
     return xs, ys, grid
 
 
-def _edges(values, log):
-    """Borders between the cells about values, halfway on the axis."""
+def _between(values, log):
+    """FINE points from the first to the last value, and the weights of all values in each: linear on the axis."""
     at = np.log(values) if log else values
-    middle = 0.5 * (at[1:] + at[:-1])
-    edges = np.concatenate([[at[0] - (middle[0] - at[0])], middle, [at[-1] + (at[-1] - middle[-1])]])
-    return np.exp(edges) if log else edges
+    fine = np.linspace(at[0], at[-1], FINE)
+    weights = np.array([np.interp(fine, at, row) for row in np.eye(at.size)])
+    return np.exp(fine) if log else fine, weights
 
 
 def _regimes(panel, xs, ys, grid, logs):
-    """Cells of the regimes, with lines between cells of different ones."""
-    x, y = _edges(xs, "x" in logs), _edges(ys, "y" in logs)
-    panel.pcolormesh(x, y, np.ma.masked_invalid(grid), cmap=ListedColormap(TINTS), vmin=-0.5, vmax=len(REGIMES) - 0.5)
-    for j, i in np.argwhere(np.isfinite(grid)):
-        if i + 1 < xs.size and np.isfinite(grid[j, i + 1]) and grid[j, i + 1] != grid[j, i]:
-            panel.plot([x[i + 1]] * 2, y[j : j + 2], color="black", linewidth=1.4)
-        if j + 1 < ys.size and np.isfinite(grid[j + 1, i]) and grid[j + 1, i] != grid[j, i]:
-            panel.plot(x[i : i + 2], [y[j + 1]] * 2, color="black", linewidth=1.4)
+    """Areas of the regimes: at each place the one with the largest share of the cases about it, interpolated."""
+    (x, across), (y, up) = _between(xs, "x" in logs), _between(ys, "y" in logs)
+    shares = np.array([up.T @ (grid == k) @ across for k in range(len(REGIMES))])
+    shown = np.ma.masked_where(up.T @ np.isfinite(grid) @ across < 1.0 - 1e-9, np.argmax(shares, axis=0))
+    panel.pcolormesh(x, y, shown, cmap=ListedColormap(TINTS), vmin=-0.5, vmax=len(REGIMES) - 0.5, shading="nearest")
+    for k in np.unique(shown.compressed()):
+        panel.contour(x, y, np.ma.masked_where(shown.mask, shown == k), levels=[0.5], colors="black", linewidths=1.2)
     known = sorted({int(value) for value in grid[np.isfinite(grid)]})
     return [Patch(color=TINTS[k], label=REGIMES[k]) for k in known]
 
@@ -115,7 +116,9 @@ def planes(study, over, names=None, where=(), borders=(), logs=()):
         for (criterion, limit), color in zip(borders, COLORS[1:] * len(borders)):
             handles.append(_border(panel, study, over, where, criterion, limit, color))
         texts = [label(plain(one), written(study.unit_of_input(one))) for one in over]
+        title = TITLES.get(name, plain(name))
         panel.set(xlabel=texts[0], ylabel=texts[1])
+        panel.set_title(title, pad=6 + 15 * -(-len(handles) // 2))  # above the legend
         if handles:
             panel.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2)
     for panel in axes.flat[len(names) :]:

@@ -19,7 +19,7 @@ STYLE = {
     "legend.frameon": False, "legend.fontsize": 8.5, "legend.title_fontsize": 9,
     "savefig.dpi": 150, "mathtext.fontset": "dejavusans",
 }  # fmt: skip
-COLORS = ("#3b4cc0", "#c44e52", "#2a9d8f", "#e9a03b", "#7a5195", "#5a5a5a")
+COLORS = ("#0072b2", "#d55e00", "#009e73", "#e69f00", "#cc79a7", "#5a5a5a")  # of Okabe and Ito: for all eyes
 PANELS = 64  # of a picture at most, one below the other or side by side
 MARKED = 80  # points of a curve that are marked one by one; more would be a band
 TURNS = 20  # of the abscissa, of ten cycles; with more a curve over it is drawn as points
@@ -188,6 +188,20 @@ def logarithmic(panel, axes):
         axis = getattr(panel, name + "axis")
         axis.set_major_formatter(_Plain())
         axis.set_minor_formatter(_Plain())
+
+
+def over_cycles(panel, cycles):
+    """An axis of numbers of cycles, arrays: logarithmic, with 0 at its left, when they span two decades."""
+    first, last = (
+        pick([pick(one[one > 0.0], initial=start) for one in cycles])
+        for pick, start in ((np.min, np.inf), (np.max, 0.0))
+    )
+    panel.set_xlabel("cycles")
+    if last >= 100.0 * first:
+        decades = range(int(np.floor(np.log10(first))), int(np.floor(np.log10(last))) + 1)
+        panel.set_xscale("symlog", linthresh=10.0 ** decades[0], linscale=1.0)
+        panel.set_xlim(0.0, None)
+        panel.set_xticks([0.0, *(10.0**n for n in decades)], ["0", *(f"$10^{{{n}}}$" for n in decades)])
 
 
 def log_ticks(axes, values):

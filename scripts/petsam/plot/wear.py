@@ -11,7 +11,7 @@ from ..results import BLOCK
 from .loops import LOOPS, cycle_energy, loop_axes, loop_energy, spread
 from .measured import read_profiles
 from .profiles import crossing, sides_of
-from .style import colors, curve, need_few, note, plt, tint
+from .style import colors, curve, need_few, note, over_cycles, plt, tint
 from .symbols import SYMBOLS
 from .units import counted, label, largest, plain, scale
 
@@ -262,11 +262,11 @@ def _life_panel(panel, files, names, title):
         names = [name for name in names if name[-1] in bodies]
         title += f" of body {bodies[0]}" if len(names) == 1 else ""
     factor, unit = scale(files[0].wear_units[names[0]], largest(one.wear[name] for one in files for name in names))
-    many, words = counted(largest(one.wear["cycle"] for one in files))
     for one, color in zip(files, colors(len(files))):
         for name, style in zip(names, BODIES):
-            panel.plot(many * one.wear["cycle"], factor * one.wear[name], style, color=color, **LOOK)
-    panel.set(xlabel=words, ylabel=label(title, unit))
+            panel.plot(one.wear["cycle"], factor * one.wear[name], style, color=color, **LOOK)
+    over_cycles(panel, [one.wear["cycle"] for one in files])
+    panel.set(ylabel=label(title, unit))
 
 
 def _life_legend(panel, files):
