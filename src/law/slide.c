@@ -197,13 +197,12 @@ static PetscErrorCode AddParameters(SamLaw law, SamParameters *p)
 
 static PetscErrorCode Declare(SamLaw law, SamState state)
 {
-  static const SamStateNumber numbers[] = {
-    SLIDE("x"),
-    SLIDE("y"),
-    ROLLED("x"),
-    ROLLED("y"),
-    {.name = "slider", .unit = "m", .text = "", .count = 3, .kept = PETSC_TRUE}};
-  PetscInt id;
+  static const SamStateNumber numbers[] = {SLIDE("x"),
+                                           SLIDE("y"),
+                                           ROLLED("x"),
+                                           ROLLED("y"),
+                                           {.name = "slider", .unit = "m", .text = "", .count = 3, .kept = PETSC_TRUE}};
+  PetscInt                    id;
 
   PetscFunctionBegin;
   (void)law;

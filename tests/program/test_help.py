@@ -118,7 +118,7 @@ def test_beginning_of_two_topics_is_refused(petsam):
             "body1",
             ["-body1_young", "-body1_poisson"]
             + [f"-body1_layer_{name}" for name in ("file", "young", "poisson", "thickness", "stress")]
-            + ["-body1_compliance"],
+            + ["-body1_compliance", "-body1_surface_file", "-body1_surface_dataset"],
         ),
         ("restart", ["-restart", "-restart_gap"]),
         ("fft", ["-fft_effort", "-fft_exchange"]),
