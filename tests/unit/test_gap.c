@@ -425,7 +425,7 @@ static void test_wrong_options_are_named(void **state)
     {"-gap_type sphere -gap_radius1 -1 -gap_radius2 1", "-gap_radius1", "> 0"},
     {"-gap_type sphere -gap_radius1 0 -gap_radius2 1", "-gap_radius1", "> 0"},
     {"-gap_type sphere -gap_radius1 1 -gap_radius2 -inf", "-gap_radius2", "inf"},
-    {"-gap_type sphere -gap_radius1 1mm -gap_radius2 1", "-gap_radius1", "1mm"},
+    {"-gap_type sphere -gap_radius1 1kN -gap_radius2 1", "-gap_radius1", "1kN"},
     {"-gap_type sphere -gap_radius1 1e-320 -gap_radius2 1", "-gap_type sphere", "finite"},
     {"-gap_type ellipsoid -gap_radius_x 1", "-gap_radius_y", "missing"},
     {"-gap_type ellipsoid -gap_radius_x 1 -gap_radius_y nan", "-gap_radius_y", "nan"},
