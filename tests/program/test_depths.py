@@ -71,8 +71,8 @@ def test_mistakes_in_depths_are_explained(petsam, stress, tmp_path):
             ["-depths", "no chosen step of -input apart.h5", "give depths in m, or other"],
         ),
         (dict(input="r.h5", depths="0,1a,1e-6"), ["-depths 0,1a,1e-6", "1e-06 follows", "increase"]),
-        (dict(input="r.h5", depths="0,0.5b"), ["-depths 0,0.5b", "in m or as 0.5a in half widths"]),
-        (dict(input="r.h5", depths="0,a"), ["-depths 0,a", "in m or as 0.5a in half widths"]),
+        (dict(input="r.h5", depths="0,0.5b"), ["-depths 0,0.5b", "or as 0.5a in half widths"]),
+        (dict(input="r.h5", depths="0,a"), ["-depths 0,a", "or as 0.5a in half widths"]),
     ):
         line = stress(options, dict(output="s.h5"), check=2).stderr.splitlines()[0]
         assert all(text in line for text in says), line

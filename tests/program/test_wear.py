@@ -378,7 +378,7 @@ def test_open_cycle_is_refused(petsam, tmp_path):
 @pytest.mark.parametrize(
     "text, message",
     [
-        ("cycle,mu\n0,0.1\n", "line 1: unknown column mu; expected cycle, friction"),
+        ("cycle,mu\n0,0.1\n", "line 1: unknown column mu; is friction meant? expected cycle, friction"),
         ("cycle,friction\n5,0.1\n", "line 2: cycle 5: expected 0"),
         ("cycle,friction\n0,0.1\n9,0\n", "line 3: friction 0: expected a number > 0"),
         ("cycle,friction\n0,0.1\n0,0.2\n", "line 3: cycle 0: expected more"),
