@@ -185,19 +185,24 @@ PetscErrorCode SamGridCoarsen(SamGrid fine, SamGrid *coarse)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* PETSc 3.23 passes the address of the pointer */
+/* PETSc passes the array, and from 3.23 on the address of the pointer to it, since 3.25 as a pointer to anything. */
 #if PETSC_VERSION_LT(3, 23, 0)
   #define PetscContainerSetCtxDestroy PetscContainerSetUserDestroy
 static PetscErrorCode FreeArray(void *array)
 {
-#else
-static PetscErrorCode FreeArray(void **address)
-{
-  void *array = *address;
-#endif
   SamFree(array);
   return PETSC_SUCCESS;
 }
+#else
+  #if PETSC_VERSION_LT(3, 25, 0)
+typedef void **PetscCtxRt;
+  #endif
+static PetscErrorCode FreeArray(PetscCtxRt address)
+{
+  SamFree(*(void **)address);
+  return PETSC_SUCCESS;
+}
+#endif
 
 PetscErrorCode SamGridCreateVec(SamGrid grid, PetscInt components, Vec *field)
 {

@@ -390,7 +390,7 @@ def test_loads_of_spin_are_right_or_warned_of(petsam, tmp_path, creep, n):
 
 
 @pytest.mark.parametrize("n", [32, 64])
-@pytest.mark.parametrize("loads", [dict(load_tx=0.1), dict(load_tx=0.5), dict(creep_x=0.6), dict(creep_x=0.9)])
+@pytest.mark.parametrize("loads", [dict(load_tx=0.05), dict(load_tx=0.2), dict(load_tx=0.5), dict(creep_x=0.6), dict(creep_x=0.9)])
 def test_slip_and_stick_in_steady_rolling_are_right_or_warned_of(petsam, tmp_path, loads, n):
     radius = (3 * LOAD * 0.1 / (4 * 210e9 / (2 * (1 - 0.28**2)))) ** (1 / 3)
     ((name, value),) = loads.items()
@@ -402,7 +402,8 @@ def test_slip_and_stick_in_steady_rolling_are_right_or_warned_of(petsam, tmp_pat
         with h5py.File(tmp_path / "one.h5") as f:
             found.append((f["history/slip_velocity_max"][0], f["history/stick_area"][0]))
     slip, stick = (abs(here / fine - 1) for here, fine in zip(*found))
-    assert slip < 0.05 or said(done[0], "maximum slip velocity")
+    assert slip < 0.07 or said(done[0], "maximum slip velocity")
+    assert slip > 0.02 or not said(done[0], "maximum slip velocity")
     assert stick < 0.05 or said(done[0], "the stick zone is")
     assert stick > 0.02 or not said(done[0], "the stick zone is")
 

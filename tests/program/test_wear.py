@@ -225,7 +225,7 @@ def test_joint_that_hardly_slips_takes_few_cycles(petsam, tmp_path):
     """It rocks where it sticks: what seems to slip is what the solvers leave open."""
     steps = cycle(tmp_path / "h.csv", header="time,load_n,load_my", approach=180.0, amplitude=0.01)
     petsam(BALL, steps, dict(load_tx=8, wear_coefficient2=1e-14, wear_cycles=1e6, output="few.h5"))
-    assert read_run(tmp_path / "few.h5")["wear/computed"][-1] <= 60
+    assert read_run(tmp_path / "few.h5")["wear/computed"][-1] <= 30
 
 
 def test_unstable_jumps_are_told(petsam, tmp_path):

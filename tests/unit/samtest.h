@@ -154,7 +154,7 @@ static inline void EndCatching(void)
 #define sam_fails(petsc_call_expr, expected) \
   do { \
     PetscErrorCode sam_ierr_; \
-    sam_call(PetscPushErrorHandler(PetscIgnoreErrorHandler, NULL)); \
+    sam_call(PetscPushErrorHandler(PetscReturnErrorHandler, NULL)); \
     sam_ierr_ = (petsc_call_expr); \
     sam_call(PetscPopErrorHandler()); \
     sam_assert(sam_ierr_ == (expected)); \

@@ -158,6 +158,24 @@ static void test_peak_is_not_sought_where_slip_is_not_resolved(void **state)
   }
 }
 
+/* mu p at the stick radius, of zones of a third to three quarters of a cell, beside the contact's edge. */
+static void test_peak_of_a_thin_slip_zone_is_that_of_mindlin(void **state)
+{
+  static const double loads[] = {0.06, 0.08, 0.1, 0.12};
+
+  (void)state;
+  for (PetscInt n = 60; n <= 72; n += 12)
+    for (int k = 0; k < 4; k++) {
+      Case             c       = NewCase(PLAIN, n, 1.5, MU, "");
+      const SamControl control = Loads(&c, 1, loads[k], 0, 0);
+      const double     peak    = MU * c.s.p0 * sqrt(1 - pow(1 - loads[k], 2.0 / 3));
+
+      (void)Try(&c, &control);
+      sam_assert_close(NumberOf(&c, "shear_max") / peak, 1, 0.04);
+      DestroyCase(&c);
+    }
+}
+
 /* One point in each cell that the edge crosses, on the circle, to a part of a cell; together they go round it. */
 static void test_points_lie_on_the_edge(void **state)
 {
@@ -375,6 +393,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_edge_of_stick_is_cattaneos),
     cmocka_unit_test(test_step_has_the_areas_of_its_edges),
     cmocka_unit_test(test_peak_is_not_sought_where_slip_is_not_resolved),
+    cmocka_unit_test(test_peak_of_a_thin_slip_zone_is_that_of_mindlin),
     cmocka_unit_test(test_points_lie_on_the_edge),
     cmocka_unit_test(test_area_of_an_ellipse_of_exact_values),
     cmocka_unit_test(test_another_layer_at_the_edge_is_refused),

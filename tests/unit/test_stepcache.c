@@ -58,13 +58,14 @@ static void Compare(double swing, double across, const char *memory, Work *with,
   DestroyCase(&d);
 }
 
-static void test_repeated_cycle_takes_half_the_products_under_constant_normal_load(void **state)
+/* From the third cycle on with the weights of the last two. */
+static void test_repeated_cycle_takes_few_products_under_constant_normal_load(void **state)
 {
   Work with, without;
 
   (void)state;
   Compare(0, 0, "", &with, &without);
-  sam_assert(with.tangential < 0.6 * without.tangential);
+  sam_assert(with.tangential < 0.12 * without.tangential);
 }
 
 /* Where the shear turns, the step is solved twice, from there both times. */
@@ -315,7 +316,7 @@ static void test_reset_forgets_the_cycles(void **state)
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_repeated_cycle_takes_half_the_products_under_constant_normal_load),
+    cmocka_unit_test(test_repeated_cycle_takes_few_products_under_constant_normal_load),
     cmocka_unit_test(test_repeated_cycle_takes_less_where_loads_turn),
     cmocka_unit_test(test_half_cycle_that_reverses_the_last_one_starts_from_it),
     cmocka_unit_test(test_repeated_pressure_is_not_solved_again),

@@ -383,7 +383,7 @@ static void test_wrong_arguments_are_refused(void **state)
   SamStress none;
 
   (void)state;
-  sam_call(PetscPushErrorHandler(PetscIgnoreErrorHandler, NULL));
+  sam_call(PetscPushErrorHandler(PetscReturnErrorHandler, NULL));
   sam_assert(SamHalfSpaceCreateStress(c.grid, NULL, 3, 0.3, &none));
   sam_assert(SamHalfSpaceCreateStress(c.grid, NULL, 1, 0.51, &none));
   sam_assert(SamHalfSpaceCreateStress(c.grid, NULL, 1, -1, &none));
