@@ -195,7 +195,7 @@ static PetscErrorCode FreeArray(void *array)
 }
 #else
   #if PETSC_VERSION_LT(3, 25, 0)
-typedef void **PetscCtxRt;
+typedef void        **PetscCtxRt;
   #endif
 static PetscErrorCode FreeArray(PetscCtxRt address)
 {
