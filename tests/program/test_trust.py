@@ -390,7 +390,9 @@ def test_loads_of_spin_are_right_or_warned_of(petsam, tmp_path, creep, n):
 
 
 @pytest.mark.parametrize("n", [32, 64])
-@pytest.mark.parametrize("loads", [dict(load_tx=0.05), dict(load_tx=0.2), dict(load_tx=0.5), dict(creep_x=0.6), dict(creep_x=0.9)])
+@pytest.mark.parametrize(
+    "loads", [dict(load_tx=0.05), dict(load_tx=0.2), dict(load_tx=0.5), dict(creep_x=0.6), dict(creep_x=0.9)]
+)
 def test_slip_and_stick_in_steady_rolling_are_right_or_warned_of(petsam, tmp_path, loads, n):
     radius = (3 * LOAD * 0.1 / (4 * 210e9 / (2 * (1 - 0.28**2)))) ** (1 / 3)
     ((name, value),) = loads.items()
