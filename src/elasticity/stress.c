@@ -202,6 +202,34 @@ PetscErrorCode SamStressApply(SamStress s, Vec field)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamStressApplyTransposed(SamStress s, double field[])
+{
+  const PetscInt cells = s->grid->cells;
+  double        *sum[PASSES][SAM_STRESS_GROUP];
+  const double  *in[SAM_STRESS_GROUP];
+
+  PetscFunctionBegin;
+  PetscCheck(s->depth > 0 && !s->sums, s->grid->comm, PETSC_ERR_SUP, "Only below the surface of half-spaces");
+  for (PetscInt pass = 0; pass < PASSES; pass++) {
+    SamKernelMatrix matrix = {.n_in = SAM_STRESS_GROUP, .n_out = SAM_STRESS_TRACTIONS};
+
+    for (PetscInt o = 0; o < SAM_STRESS_GROUP; o++) {
+      in[o] = sum[pass][o] = field + components[pass][o] * cells;
+      for (PetscInt t = 0; t < SAM_STRESS_TRACTIONS; t++) {
+        const SamStressKernel k   = SamStressKernelOf(s, components[pass][o], t);
+        const PetscBool      *odd = SamStressOdd[k.group][k.member];
+
+        matrix.kernel[t][o] = s->kernels[k.group][k.member];
+        matrix.scale[t][o]  = odd[0] != odd[1] ? -s->sign[t] : s->sign[t];
+      }
+    }
+    PetscCall(SamConvolve(s->fourier, &matrix, in, sum[pass]));
+  }
+  for (PetscInt t = 0; t < SAM_STRESS_TRACTIONS; t++)
+    for (PetscInt k = 0; k < cells; k++) sum[NORMAL][t][k] += sum[PLANE][t][k];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamStressAtEdge(SamStress s, Vec field, const SamEdge *edge, double values[])
 {
   PetscFunctionBegin;

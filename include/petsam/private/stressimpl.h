@@ -86,6 +86,12 @@ PETSC_EXTERN PetscErrorCode SamStressCreate(SamGrid grid, const SamFourierSettin
                                             SamStress *stress);
 PETSC_INTERN PetscErrorCode SamStressUseDepth(SamStress stress, PetscReal depth);
 
+/*
+  SamStressApplyTransposed - the transpose of SamStressApply() at a depth > 0 in a half-space: the sums over the
+  components of an array of SAM_STRESS_COMPONENTS fields take the place that the tractions have there. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamStressApplyTransposed(SamStress stress, double field[]);
+
 /* SamPrincipalOf - the principal stresses of one stress, the largest first. Not collective. */
 PETSC_INTERN void SamPrincipalOf(const double s[SAM_STRESS_COMPONENTS], double p[3]);
 /* SamPrincipalDirection - a unit vector in the direction of one of them. Not collective. */

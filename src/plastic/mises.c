@@ -1,0 +1,96 @@
+/*
+  The return to von Mises' yield surface at the end of a step.
+
+  With xi(x) = 2 mu (d - e) - sum X/(1 + g x) the increment x of the accumulated plastic strain solves
+      sqrt(3/2) |xi(x)| = yield stress(p + x) + 3 mu x + sum C x/(1 + g x),
+  by Newton's method from 0; the plastic strain grows by sqrt(3/2) x xi/|xi|. The tangent's part that is not symmetric,
+  with g > 0, is left out: it is the matrix of conjugate gradients.
+
+  Source: J. L. Chaboche, Constitutive equations for cyclic plasticity and cyclic viscoplasticity, Int. J. Plast. 5 (1989)
+  247-302; J. C. Simo and T. J. R. Hughes, Computational Inelasticity (1998), chapter 3.
+*/
+#include "mises.h"
+
+#define STEPS 50
+#define ENOUGH 1e-14 /* of the yield stress */
+
+double SamMisesYield(const SamMises *m, double p, double *slope)
+{
+  double value, unused;
+
+  if (!slope) slope = &unused;
+  switch (m->hardening) {
+  case SAM_HARDENING_VOCE:
+    value  = m->voce[0] * exp(-m->voce[1] * p);
+    *slope = m->voce[1] * value;
+    return m->yield + m->voce[0] - value;
+  case SAM_HARDENING_SWIFT:
+    value  = m->yield * pow(1 + p / m->swift[0], m->swift[1]);
+    *slope = m->swift[1] * value / (m->swift[0] + p);
+    return value;
+  default:
+    *slope = m->modulus;
+    return m->yield + m->modulus * p;
+  }
+}
+
+double SamMisesExcess(const SamMises *m, const SamMisesAt *at, const double stress[PARTS])
+{
+  double xi[PARTS];
+
+  memcpy(xi, stress, sizeof(xi));
+  SamTensorDeviator(xi);
+  for (PetscInt b = 0; b < m->backstresses; b++)
+    for (PetscInt c = 0; c < PARTS; c++) xi[c] -= at->back[b][c];
+  return sqrt(1.5 * SamTensorDot(xi, xi)) - SamMisesYield(m, at->p, NULL);
+}
+
+/*
+  How far an increment x is from the yield surface (Pa), and its derivative by -x. xi is left at x, as a unit tensor;
+  `size`: its length.
+*/
+static double Residual(const SamMises *m, const double d[PARTS], const SamMisesAt *at, double x, double xi[PARTS],
+                       double *size, double *slope)
+{
+  double turn[PARTS] = {0}, left, more;
+
+  for (PetscInt c = 0; c < PARTS; c++) xi[c] = 2 * m->shear * (d[c] - at->e[c]);
+  left   = -SamMisesYield(m, at->p + x, &more) - 3 * m->shear * x;
+  *slope = 3 * m->shear + more;
+  for (PetscInt b = 0; b < m->backstresses; b++) {
+    const double g = m->back[b][1], part = 1 / (1 + g * x);
+
+    left -= m->back[b][0] * x * part;
+    *slope += m->back[b][0] * part * part;
+    for (PetscInt c = 0; c < PARTS; c++) {
+      xi[c] -= at->back[b][c] * part;
+      turn[c] += g * at->back[b][c] * part * part;
+    }
+  }
+  *size = sqrt(SamTensorDot(xi, xi));
+  for (PetscInt c = 0; c < PARTS && *size > 0; c++) xi[c] /= *size;
+  *slope -= sqrt(1.5) * SamTensorDot(xi, turn);
+  return left + sqrt(1.5) * *size;
+}
+
+PetscBool SamMisesReturn(const SamMises *m, const double d[PARTS], SamMisesAt *at, SamMisesTangent *t)
+{
+  double size, slope, x = 0, left = Residual(m, d, at, x, t->n, &size, &slope);
+
+  if (!(left > 0)) return PETSC_FALSE;
+  for (PetscInt k = 0; k < STEPS && fabs(left) > ENOUGH * m->yield; k++) {
+    x    = PetscMax(0, x + left / slope);
+    left = Residual(m, d, at, x, t->n, &size, &slope);
+  }
+  t->along  = 3 * m->shear / slope;
+  t->across = sqrt(6) * m->shear * x / size;
+  for (PetscInt c = 0; c < PARTS; c++) {
+    const double e = sqrt(1.5) * x * t->n[c];
+
+    at->e[c] += e;
+    for (PetscInt b = 0; b < m->backstresses; b++)
+      at->back[b][c] = (at->back[b][c] + 2.0 / 3 * m->back[b][0] * e) / (1 + m->back[b][1] * x);
+  }
+  at->p += x;
+  return PETSC_TRUE;
+}

@@ -1,0 +1,60 @@
+/* The material: von Mises' yield surface with isotropic and kinematic hardening. */
+#ifndef PETSAM_PLASTIC_MISES_H
+#define PETSAM_PLASTIC_MISES_H
+
+#include "plasticimpl.h"
+
+typedef enum { SAM_HARDENING_LINEAR, SAM_HARDENING_VOCE, SAM_HARDENING_SWIFT } SamHardening;
+#define SAM_BACKSTRESSES 4 /* most */
+
+/*
+  SamMises - a material that yields: the yield stress is Y + H p, Y + Q (1 - exp(-b p)), or Y (1 + p/e0)^n of the
+  accumulated plastic strain p. Each backstress follows Armstrong and Frederick, dX = 2/3 C de - g X dp.
+*/
+typedef struct {
+  double       shear, yield; /* shear modulus and Y, Pa; infinite: never yields */
+  SamHardening hardening;
+  double       modulus;            /* H, Pa */
+  double       voce[2];            /* Q (Pa), b */
+  double       swift[2];           /* e0, n */
+  PetscInt     backstresses;
+  double       back[SAM_BACKSTRESSES][2]; /* C (Pa), g */
+} SamMises;
+
+/* SamMisesAt - what a point remembers: plastic strain, accumulated plastic strain, backstresses (Pa). */
+typedef struct {
+  double e[PARTS], p, back[SAM_BACKSTRESSES][PARTS];
+} SamMisesAt;
+
+/*
+  SamMisesTangent - how the plastic strain follows the driver where a step yields: it has the part A of the driver's
+  change along n, a unit tensor, and the part B of the rest; both in [0, 1).
+*/
+typedef struct {
+  double n[PARTS], along, across;
+} SamMisesTangent;
+
+/* SamMisesYield - the yield stress (Pa), and its derivative by p (NULL: not wanted). Not collective. */
+PETSC_INTERN double SamMisesYield(const SamMises *material, double p, double *slope);
+/* SamMisesExcess - the yield function (Pa), positive beyond yield, of a stress in a state. Not collective. */
+PETSC_INTERN double SamMisesExcess(const SamMises *material, const SamMisesAt *at, const double stress[PARTS]);
+/*
+  SamMisesReturn - the state at the end of a step in which the driver, the deviator of stress/(2 mu) plus the plastic
+  strain, has become d, from the state at its beginning in place; whether the point yields. Not collective.
+*/
+PETSC_INTERN PetscBool SamMisesReturn(const SamMises *material, const double d[PARTS], SamMisesAt *at,
+                                      SamMisesTangent *tangent);
+
+/* a:b, and the deviator of a tensor. */
+static inline double SamTensorDot(const double a[PARTS], const double b[PARTS])
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2 * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);
+}
+static inline void SamTensorDeviator(double a[PARTS])
+{
+  const double mean = (a[0] + a[1] + a[2]) / 3;
+
+  for (PetscInt c = 0; c < 3; c++) a[c] -= mean;
+}
+
+#endif

@@ -1,0 +1,35 @@
+/* The inside of the room: the stresses by plastic strain, the material, and its solution together with the contact. */
+#ifndef PETSAM_PLASTICIMPL_H
+#define PETSAM_PLASTICIMPL_H
+
+#include <petsam/private/elasticityimpl.h>
+#include <petsam/private/stressimpl.h>
+
+/* Components of stress and strain, in the order of SamStressComponent; shear strains are those of the tensor. */
+enum { PARTS = SAM_STRESS_COMPONENTS };
+
+/*
+  SamResidual - what an eigenstrain e, constant over each layer and given at the cells' centres, does in a body: the
+  stress, as the mean over each layer, and the displacement of the surface; and the stress by tractions. A field e or s
+  has PARTS components for each layer, layer after layer from the surface down: component c of layer l begins at
+  (PARTS * l + c) * cells of an array of this rank's cells. The stress by e is symmetric, and minus it semidefinite, in
+  sum h e:s; the displacement by e is the transpose of the stress by tractions with these weights (to rounding).
+*/
+typedef struct _n_SamResidual *SamResidual;
+/*
+  SamResidualCreate - for body 1 or 2 of a uniform pair, of half-spaces that are periodic or not. `thickness`: of the
+  layers (m). Collective. Errors: SAM_ERR_USER for other types of elasticity, layered or rigid bodies.
+*/
+PETSC_INTERN PetscErrorCode SamResidualCreate(SamElasticity elasticity, PetscInt body, PetscInt layers,
+                                              const PetscReal thickness[], SamResidual *residual);
+PETSC_INTERN PetscErrorCode SamResidualDestroy(SamResidual *residual);
+/*
+  SamResidualApply - the stress s (Pa) and the displacement u of the surface (m) by e; what is NULL is not wanted. u is
+  what the body adds to the relative displacement of the surfaces, x, y, and z into the body. s may be e.
+  SamResidualLoad - the stress by the pressure p and the shear q_x, q_y between the bodies (Pa).
+  Both are collective.
+*/
+PETSC_INTERN PetscErrorCode SamResidualApply(SamResidual residual, const double e[], double s[], double *const u[3]);
+PETSC_INTERN PetscErrorCode SamResidualLoad(SamResidual residual, const double *const traction[3], double s[]);
+
+#endif

@@ -1,0 +1,335 @@
+/*
+  The class SamResidual: the operators of plastic strain on a grid, by waves (waves.c).
+
+  The transforms take three planes at a time; all spectra are kept, and each column of them is worked on once. Bodies
+  that are not periodic have waves of a padded period, whose images of the window are taken off again (images.c); the
+  stress by tractions on them is by the cells' kernels at the middle of each layer, and the displacement by plastic
+  strain by the transpose of these.
+*/
+#include "images.h"
+#include "waves.h"
+#include <petsam/private/elasticity.h>
+#include <petsam/private/fourier.h>
+
+struct _n_SamResidual {
+  SamGrid         grid;
+  SamFourier      fourier;
+  SamFourierMode  mode;
+  double          period; /* of the waves along x, in cells; along y it is `waves` */
+  SamWaveBody     body;
+  PetscReal      *thickness;
+  double          sign;           /* of the shear between the bodies, as it acts on this one */
+  PetscInt        first, columns; /* frequency of this rank's first column, and their number */
+  PetscInt        phases, waves;  /* of a column: see SamFourierBlock */
+  double         *ky;             /* of these waves, 1/m */
+  double complex *spectra;        /* (planes, columns, waves) */
+  double complex *displaced;      /* (3, columns, waves) */
+  /* not periodic only */
+  SamStress *stress; /* of each layer */
+  Vec        plane;  /* scratch, PARTS components */
+  SamImages  images;
+};
+
+/* ---- transforms ---- */
+
+/* What a pass of the transforms moves between the spectra and the blocks. */
+typedef struct {
+  SamResidual     r;
+  PetscInt        first, count; /* planes */
+  PetscBool       back;
+  double          scale;   /* on the way back */
+  double complex *spectra; /* NULL: counts the columns */
+} Move;
+
+static void CountBlock(SamResidual r, const SamFourierBlock *block)
+{
+  r->first  = block->first - block->local;
+  r->phases = block->phases;
+  r->waves  = block->phases * block->hy;
+  r->columns += block->columns;
+}
+
+static void MoveBlock(const SamFourierBlock *block, const void *context)
+{
+  const Move *move = (const Move *)context;
+  SamResidual r    = move->r;
+
+  if (!move->spectra) CountBlock(r, block);
+  for (PetscInt c = 0; move->spectra && c < move->count; c++)
+    for (PetscInt b = 0; b < block->columns; b++)
+      for (PetscInt f = 0; f < block->phases; f++) {
+        const ptrdiff_t column = (ptrdiff_t)(move->first + c) * r->columns + block->local + b;
+        double complex *kept   = move->spectra + column * r->waves + f * block->hy;
+        double complex *here   = (double complex *)block->data[c] + (f * block->width + b) * (ptrdiff_t)block->stride;
+
+        if (!move->back) memcpy(kept, here, sizeof(*kept) * (size_t)block->hy);
+        for (PetscInt m = 0; move->back && m < block->hy; m++) here[m] = move->scale * kept[m];
+      }
+}
+
+/* Fields to spectra, three at a time, or back (`in` NULL). */
+static PetscErrorCode Transform(SamResidual r, PetscInt planes, const double *const in[], double *const out[],
+                                double complex *spectra)
+{
+  Move             move   = {.r = r, .back = !in, .scale = 1 / (r->period * (double)r->waves), .spectra = spectra};
+  SamFourierFilter filter = {.mode = r->mode, .apply = MoveBlock, .context = &move};
+
+  PetscFunctionBegin;
+  for (; move.first < planes; move.first += move.count) {
+    move.count = PetscMin(SAM_FOURIER_FIELDS, planes - move.first);
+    if (in)
+      filter.n_in = move.count;
+    else
+      filter.n_out = move.count;
+    PetscCall(SamFourierApply(r->fourier, &filter, in ? in + move.first : NULL, in ? NULL : out + move.first));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Counts this rank's columns by a pass without fields, and makes room for their spectra. */
+static PetscErrorCode CreateSpectra(SamResidual r)
+{
+  const PetscInt planes = PARTS * r->body.layers;
+  Move           move   = {.r = r};
+  double        *zero, *field[1];
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(r->grid->cells, &zero));
+  field[0] = zero;
+  PetscCall(SamFourierApply(r->fourier, &(SamFourierFilter){.mode = r->mode, .n_in = 1, .apply = MoveBlock, .context = &move},
+                            (const double *const *)field, NULL));
+  PetscCall(PetscFree(zero));
+  PetscCall(SamAllocate(sizeof(*r->spectra) * (size_t)((planes + 3) * r->columns * r->waves), &r->spectra));
+  r->displaced = r->spectra + (ptrdiff_t)planes * r->columns * r->waves;
+  PetscCall(PetscMalloc1(r->waves, &r->ky));
+  for (PetscInt k = 0; k < r->waves; k++) {
+    const PetscInt hy = r->waves / r->phases, ky = r->phases * (k % hy) + k / hy;
+
+    r->ky[k] = 2 * PETSC_PI / ((double)r->waves * (double)r->grid->dy) * (double)(2 * ky <= r->waves ? ky : ky - r->waves);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- creation ---- */
+
+static PetscErrorCode CheckBodies(SamElasticity e, PetscInt body)
+{
+  const SamElasticityType type = SamElasticityGetType(e);
+
+  PetscFunctionBegin;
+  PetscCheck(!strcmp(type, SAM_ELASTICITY_HALFSPACE) || !strcmp(type, SAM_ELASTICITY_PERIODIC) ||
+               !strcmp(type, SAM_ELASTICITY_PLANE_PERIODIC),
+             e->grid->comm, SAM_ERR_USER, "-body%" PetscInt_FMT "_yield: not supported with bodies of type %s", body, type);
+  PetscCheck(SamPairIsUniform(e->pair), e->grid->comm, SAM_ERR_USER,
+             "-body%" PetscInt_FMT "_yield: not supported with layers", body);
+  PetscCheck(!SamBodyIsRigid(SamPairBody(e->pair, body - 1)), e->grid->comm, SAM_ERR_USER,
+             "-body%" PetscInt_FMT "_yield: the body is rigid", body);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The kernels at the middle of each layer, and what the images of the window add. */
+static PetscErrorCode CreateWindow(SamResidual r, SamElasticity e, PetscInt body)
+{
+  const PetscReal period[2] = {r->period * r->grid->dx, (PetscReal)r->waves * r->grid->dy};
+  PetscReal       top = 0;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(r->body.layers, &r->stress));
+  for (PetscInt l = 0; l < r->body.layers; l++) {
+    PetscCall(SamElasticityCreateStress(e, body, NULL, &r->stress[l]));
+    PetscCall(SamStressSetDepth(r->stress[l], top + r->thickness[l] / 2));
+    top += r->thickness[l];
+  }
+  PetscCall(SamGridCreateVec(r->grid, PARTS, &r->plane));
+  PetscCall(SamImagesCreate(r->grid, period, &r->body, &r->images));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamResidualCreate(SamElasticity e, PetscInt body, PetscInt layers, const PetscReal thickness[],
+                                 SamResidual *residual)
+{
+  const PetscBool    periodic = SamElasticityGetTraits(e).periodic;
+  const SamMaterial *material;
+  SamResidual        r;
+  PetscInt           h[2];
+
+  PetscFunctionBegin;
+  PetscCall(CheckBodies(e, body));
+  PetscCall(PetscNew(&r));
+  r->grid = SamElasticityGetGrid(e);
+  PetscCall(SamGridReference(r->grid));
+  material = SamBodyMaterialAt(SamPairBody(e->pair, body - 1), 0);
+  PetscCall(PetscMalloc1(layers, &r->thickness));
+  PetscCall(PetscArraycpy(r->thickness, thickness, layers));
+  r->body = (SamWaveBody){layers, r->thickness, material->young / (2 * (1 + material->poisson)), material->poisson};
+  r->sign = body == 1 ? -1 : 1;
+  r->mode = periodic ? SAM_FOURIER_PERIODIC : SAM_FOURIER_PADDED;
+  PetscCall(SamFourierCreate(r->grid, periodic ? SAM_FOURIER_EXACT : SAM_FOURIER_FAST, &e->fft, &r->fourier));
+  PetscCall(SamFourierGetPeriods(r->fourier, &h[0], &h[1]));
+  r->period = periodic ? h[0] : 2 * h[0];
+  PetscCall(CreateSpectra(r));
+  if (!periodic) PetscCall(CreateWindow(r, e, body));
+  *residual = r;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamResidualDestroy(SamResidual *residual)
+{
+  SamResidual r = *residual;
+
+  PetscFunctionBegin;
+  *residual = NULL;
+  if (!r) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt l = 0; r->stress && l < r->body.layers; l++) PetscCall(SamStressDestroy(&r->stress[l]));
+  PetscCall(PetscFree(r->stress));
+  PetscCall(SamImagesDestroy(&r->images));
+  PetscCall(VecDestroy(&r->plane));
+  PetscCall(PetscFree(r->thickness));
+  PetscCall(PetscFree(r->ky));
+  SamFree(r->spectra);
+  PetscCall(SamFourierDestroy(&r->fourier));
+  PetscCall(SamGridDestroy(&r->grid));
+  PetscCall(PetscFree(r));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- products ---- */
+
+/* The planes of a field, and those of all spectra in one column. */
+static PetscErrorCode GetPlanes(SamResidual r, PetscInt planes, const double field[], const double ***at)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(planes, at));
+  for (PetscInt k = 0; k < planes; k++) (*at)[k] = field + (ptrdiff_t)k * r->grid->cells;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+static void GetColumn(SamResidual r, PetscInt planes, PetscInt b, double complex *spectra, double complex *at[])
+{
+  for (PetscInt k = 0; k < planes; k++) at[k] = spectra + ((ptrdiff_t)k * r->columns + b) * r->waves;
+}
+static double WaveOf(SamResidual r, PetscInt b)
+{
+  return 2 * PETSC_PI / (r->period * (double)r->grid->dx) * (double)(r->first + b);
+}
+
+/* The stress, and the displacement, by waves. */
+static PetscErrorCode ApplyWaves(SamResidual r, const double e[], double s[], double *const u[3])
+{
+  const PetscInt   planes = PARTS * r->body.layers;
+  const double   **at;
+  double complex **column, *displaced[3];
+
+  PetscFunctionBegin;
+  PetscCall(GetPlanes(r, planes, e, &at));
+  PetscCall(PetscMalloc1(planes, &column));
+  PetscCall(Transform(r, planes, at, NULL, r->spectra));
+  for (PetscInt b = 0; b < r->columns; b++) {
+    GetColumn(r, planes, b, r->spectra, column);
+    GetColumn(r, 3, b, r->displaced, displaced);
+    PetscCall(SamWavesApply(&r->body, r->waves, WaveOf(r, b), r->ky, column, s != NULL, u ? displaced : NULL));
+  }
+  PetscCall(PetscFree(column));
+  PetscCall(PetscFree(at));
+  if (u) PetscCall(Transform(r, 3, NULL, u, r->displaced));
+  for (PetscInt k = 0; u && k < 2 * r->grid->cells; k++) u[k / r->grid->cells][k % r->grid->cells] *= r->sign;
+  if (!s) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(GetPlanes(r, planes, s, &at));
+  PetscCall(Transform(r, planes, NULL, (double *const *)at, r->spectra));
+  PetscCall(PetscFree(at));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The displacement by the transpose of the cells' kernels. */
+static PetscErrorCode DisplaceByCells(SamResidual r, const double e[], double *const u[3])
+{
+  const PetscInt cells = r->grid->cells;
+  double        *part;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArray(r->plane, &part));
+  for (PetscInt c = 0; c < 3; c++) PetscCall(PetscArrayzero(u[c], cells));
+  for (PetscInt l = 0; l < r->body.layers; l++) {
+    for (PetscInt k = 0; k < PARTS * cells; k++)
+      part[k] = (k < SAM_STRESS_XY * cells ? 1 : 2) * r->thickness[l] * e[(ptrdiff_t)l * PARTS * cells + k];
+    PetscCall(SamStressApplyTransposed(r->stress[l], part));
+    for (PetscInt k = 0; k < cells; k++) {
+      u[0][k] += part[SAM_STRESS_XZ * cells + k];
+      u[1][k] += part[SAM_STRESS_YZ * cells + k];
+      u[2][k] += part[SAM_STRESS_ZZ * cells + k];
+    }
+  }
+  PetscCall(VecRestoreArray(r->plane, &part));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamResidualApply(SamResidual r, const double e[], double s[], double *const u[3])
+{
+  PetscFunctionBegin;
+  if (!r->images) {
+    PetscCall(ApplyWaves(r, e, s, u));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  if (u) PetscCall(DisplaceByCells(r, e, u));
+  if (!s) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamImagesReduce(r->images, e));
+  PetscCall(ApplyWaves(r, e, s, NULL));
+  PetscCall(SamImagesAdd(r->images, s));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The stress by tractions, by waves, into s. */
+static PetscErrorCode LoadWaves(SamResidual r, const double *const traction[3], double s[])
+{
+  const PetscInt   planes = PARTS * r->body.layers;
+  const double   **at;
+  double complex **column, *given[3];
+
+  PetscFunctionBegin;
+  PetscCall(GetPlanes(r, planes, s, &at));
+  PetscCall(PetscMalloc1(planes, &column));
+  PetscCall(Transform(r, 3, traction, NULL, r->displaced));
+  for (PetscInt b = 0; b < r->columns; b++) {
+    GetColumn(r, planes, b, r->spectra, column);
+    GetColumn(r, 3, b, r->displaced, given);
+    for (PetscInt k = 0; k < r->waves; k++) {
+      given[1][k] *= r->sign;
+      given[2][k] *= r->sign;
+    }
+    PetscCall(SamWavesLoad(&r->body, r->waves, WaveOf(r, b), r->ky, (const double complex *const *)given, column));
+  }
+  PetscCall(Transform(r, planes, NULL, (double *const *)at, r->spectra));
+  PetscCall(PetscFree(column));
+  PetscCall(PetscFree(at));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode LoadCells(SamResidual r, const double *const traction[3], double s[])
+{
+  const PetscInt cells = r->grid->cells;
+
+  PetscFunctionBegin;
+  for (PetscInt l = 0; l < r->body.layers; l++) {
+    double *part;
+
+    PetscCall(VecGetArray(r->plane, &part));
+    PetscCall(PetscArraycpy(part + SAM_STRESS_ZZ * cells, traction[0], cells));
+    PetscCall(PetscArraycpy(part + SAM_STRESS_XZ * cells, traction[1], cells));
+    PetscCall(PetscArraycpy(part + SAM_STRESS_YZ * cells, traction[2], cells));
+    PetscCall(VecRestoreArray(r->plane, &part));
+    PetscCall(SamStressApply(r->stress[l], r->plane));
+    PetscCall(VecGetArray(r->plane, &part));
+    PetscCall(PetscArraycpy(s + (ptrdiff_t)l * PARTS * cells, part, PARTS * cells));
+    PetscCall(VecRestoreArray(r->plane, &part));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamResidualLoad(SamResidual r, const double *const traction[3], double s[])
+{
+  PetscFunctionBegin;
+  if (r->stress)
+    PetscCall(LoadCells(r, traction, s));
+  else
+    PetscCall(LoadWaves(r, traction, s));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
