@@ -24,6 +24,7 @@ typedef const char       *SamLawType;
 #define SAM_LAW_ARCHARD           "archard"           /* wear in proportion to pressure and slip (wear.h) */
 #define SAM_LAW_ENERGY            "energy"            /* wear in proportion to the frictional work (wear.h) */
 #define SAM_LAW_HARDNESS          "hardness"          /* pressure up to a limit, where the surfaces yield */
+#define SAM_LAW_PLASTIC           "plastic"           /* bodies that yield below the surface (plastic/plastic.c) */
 #define SAM_LAW_ACCUMULATED_SLIP  "slip_path"         /* remembers the accumulated slip */
 #define SAM_LAW_FRICTION_ENERGY   "friction_energy"   /* remembers the frictional work */
 /* The condition of coulomb, a factor on the coefficient of friction. */

@@ -163,6 +163,9 @@ PetscErrorCode SamContactSetUp(SamContact c)
   PetscCheck(SamTangentialAsSolver(c->tangential)->upwind == c->traits.upwind, c->grid->comm, SAM_ERR_USER,
              "-tangential_type: does not solve this problem: use %s",
              c->traits.upwind ? SAM_TANGENTIAL_ROLLING : SAM_TANGENTIAL_NEWTON);
+  for (PetscInt k = 0; k < count; k++)
+    PetscCheck(!laws[k]->ops.follow || (!friction && isinf(limit)), c->grid->comm, SAM_ERR_USER,
+               "-%s: not supported with %s", laws[k]->option, friction ? "friction" : "-pressure_limit");
   PetscCheck(isinf(limit) || SamNormalLimitsPressure(c->normal), c->grid->comm, SAM_ERR_USER,
              "-pressure_limit: not supported by this -normal_type: use %s", SAM_NORMAL_ACTIVESET);
   PetscCall(SamNormalSetPressureLimit(c->normal, limit));
@@ -281,7 +284,7 @@ static PetscErrorCode GetSlope(SamLawStep *step, Vec by_pressure)
 }
 
 /* All laws advance their tried state. */
-static PetscErrorCode Advance(SamContact c, PetscBool same_pressure)
+static PetscErrorCode Advance(SamContact c, PetscBool same_pressure, char failed[], size_t size)
 {
   const SamSolution *s    = &c->generation[SAM_TRIED];
   SamLawStep         step = {.grid          = c->grid,
@@ -301,6 +304,7 @@ static PetscErrorCode Advance(SamContact c, PetscBool same_pressure)
 
   PetscFunctionBegin;
   PetscCall(SamProblemAdvance(c->problem, &step));
+  (void)snprintf(failed, size, "%s", step.failed);
   if (step.moves) c->revision[SAM_TRIED] = -1;
   PetscCall(VecDestroy(&step.path));
   PetscCall(VecDestroy(&step.pressed));
@@ -315,6 +319,7 @@ static PetscErrorCode Conclude(SamContact c, PetscBool same_pressure, SamStep *s
 {
   SamSolution       *s    = &c->generation[SAM_TRIED];
   const SamSolution *last = SamContactBefore(c), *before = SamContactSlipBefore(c);
+  char               failed[sizeof(((SamLawStep *)0)->failed)];
 
   PetscFunctionBegin;
   /* that of the nested grids, before new fields are made: lowers the peak from 99 to 90 MB at 512 x 512 cells */
@@ -322,12 +327,13 @@ static PetscErrorCode Conclude(SamContact c, PetscBool same_pressure, SamStep *s
   PetscCall(SamStepSetDisplacements(c->state, c->displacements, s));
   if (same_pressure) PetscCall(SamVecCopyNonzero(last->displacement_z, s->displacement_z));
   PetscCall(SamCheckSolution(c->problem, c->state, c->set.coupling, same_pressure, before, s, &step->check));
-  PetscCall(Advance(c, same_pressure));
+  PetscCall(Advance(c, same_pressure, failed, sizeof(failed)));
   PetscCall(PetscArraycpy(step->load, s->load, SAM_COMPONENTS));
   PetscCall(PetscArraycpy(step->rigid, s->rigid, SAM_COMPONENTS));
   PetscCall(SamSolutionComputeNumbers(c->problem, c->state, before, s, same_pressure, c->set.edges));
   if (c->set.spots) PetscCall(SamSolutionComputeSpots(c->problem, c->state, s));
   PetscCall(Judge(c, step));
+  if (failed[0] && SamStepIsSolved(step)) PetscCall(SamStepFail(step, SAM_STATUS_NOT_CONVERGED, failed));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

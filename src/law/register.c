@@ -14,6 +14,7 @@ PetscErrorCode SamLawRegisterAll(void)
   PetscCall(SamLawRegister(SAM_LAW_ARCHARD, SamLawCreate_Archard));
   PetscCall(SamLawRegister(SAM_LAW_ENERGY, SamLawCreate_Energy));
   PetscCall(SamLawRegister(SAM_LAW_HARDNESS, SamLawCreate_Hardness));
+  PetscCall(SamLawRegister(SAM_LAW_PLASTIC, SamLawCreate_Plastic));
   PetscCall(SamLawRegister(SAM_LAW_ACCUMULATED_SLIP, SamLawCreate_AccumulatedSlip));
   PetscCall(SamLawRegister(SAM_LAW_FRICTION_ENERGY, SamLawCreate_FrictionEnergy));
   PetscFunctionReturn(PETSC_SUCCESS);

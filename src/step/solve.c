@@ -83,6 +83,38 @@ static PetscErrorCode SolveShear(SamSolve *w, PetscBool has_shear)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The normal problem again, for a law. */
+static PetscErrorCode SolveAgain(SamLawNormal *normal, PetscBool *solved)
+{
+  SamSolve *w = (SamSolve *)normal->context;
+
+  PetscFunctionBegin;
+  if (w->task->coupled) PetscCall(VecSet(w->h, 0)); /* without friction there is no lift */
+  PetscCall(SamSolveNormal(w, PETSC_TRUE, PETSC_FALSE));
+  PetscCall(SamSolveJudge(w, SAM_BALANCE_NORMAL));
+  *solved = w->step->status == SAM_STATUS_CONVERGED;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The pressure together with the state of a law that follows from it. */
+static PetscErrorCode FollowPressure(SamSolve *w)
+{
+  SamLawNormal  normal = {.state    = w->task->state,
+                          .balance  = &w->normal,
+                          .pressure = w->s->pressure,
+                          .solve    = SolveAgain,
+                          .context  = w};
+  const SamLaw *laws;
+  PetscInt      count;
+
+  PetscFunctionBegin;
+  PetscCall(SamProblemGetLaws(w->task->problem, &count, &laws));
+  for (PetscInt k = 0; k < count && w->step->status == SAM_STATUS_CONVERGED; k++)
+    if (laws[k]->ops.follow) PetscCall(laws[k]->ops.follow(laws[k], &normal));
+  if (normal.failed[0]) PetscCall(SamStepFail(w->step, SAM_STATUS_NOT_CONVERGED, normal.failed));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode SolveOnce(SamSolve *w)
 {
   const SamStepStart *start = &w->task->start;
@@ -91,6 +123,7 @@ static PetscErrorCode SolveOnce(SamSolve *w)
   if (w->task->coupled) PetscCall(VecSet(w->h, 0));
   PetscCall(SamSolveNormal(w, start->pressure, start->shear));
   if (!w->task->same_pressure && !w->known_pressure) PetscCall(SamSolveJudge(w, SAM_BALANCE_NORMAL));
+  PetscCall(FollowPressure(w));
   PetscCall(SolveShear(w, start->shear));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

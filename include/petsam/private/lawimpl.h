@@ -19,6 +19,7 @@
 #define PETSAM_LAWIMPL_H
 
 #include <petsam/private/baseimpl.h>
+#include <petsam/balance.h>
 #include <petsam/law.h>
 
 /*
@@ -48,6 +49,20 @@ typedef struct {
   Vec value, by_pressure, by_slip;
 } SamBound;
 
+/*
+  The normal problem of a step, for a law whose state follows from the pressure, and whose offset in turn changes that.
+  `solve` solves it with the offset of the tried state, from the last pressure on; `solved`: it has a solution. Collective.
+*/
+typedef struct _n_SamLawNormal SamLawNormal;
+struct _n_SamLawNormal {
+  SamState          state;
+  const SamBalance *balance;
+  Vec               pressure; /* Pa: the last solution */
+  char              failed[128]; /* to be set where the law finds none: why */
+  PetscErrorCode (*solve)(SamLawNormal *normal, PetscBool *solved);
+  void *context;
+};
+
 /* A step that is solved, for laws to advance their tried state. */
 typedef struct _n_SamLawStep SamLawStep;
 struct _n_SamLawStep {
@@ -60,6 +75,7 @@ struct _n_SamLawStep {
   Vec               bound;           /* Pa, of the shear */
   const PetscReal  *rigid;           /* m, rad: the displacements of the step, by SamComponent */
   PetscBool         same_pressure;   /* the pressure is that of the step before */
+  char              failed[128];     /* to be set by a law whose check of the step fails: why */
   PetscBool         moves;           /* to be set by a law that changes the separation, so that the pressure changes */
   /* made when first needed, by SamLawStepGetFriction(); the step's own */
   Vec path, pressed, work;
@@ -169,6 +185,11 @@ struct _n_SamLaw {
       h NULL: only sets `adds`, whether there is any.
     */
     PetscErrorCode (*separation)(SamLaw law, SamState state, SamGeneration generation, Vec h, PetscBool *adds);
+    /*
+      After the normal problem is solved: the law's tried state, and the pressure with its offset. Of one law of a
+      problem, without friction.
+    */
+    PetscErrorCode (*follow)(SamLaw law, SamLawNormal *normal);
     /* the largest pressure that the surfaces bear, Pa */
     PetscErrorCode (*limit)(SamLaw law, PetscReal *most);
     /* the largest shear of each cell; `has`: whether any cell bears shear */
@@ -195,6 +216,7 @@ PETSC_INTERN PetscErrorCode SamLawCreate_Slide(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_Archard(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_Energy(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_Hardness(SamLaw law);
+PETSC_INTERN PetscErrorCode SamLawCreate_Plastic(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_AccumulatedSlip(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_FrictionEnergy(SamLaw law);
 

@@ -1,0 +1,549 @@
+/*
+  Plastic strain and contact together, by Newton's method.
+
+  Unknown is the driver d in each cell of each layer. The material gives the plastic strain e(d) (mises.c), e the
+  displacement of the surface, the normal problem with it the pressure p, and both the stress; so the residual is
+      r = e + dev(R e + K p)/(2 mu) - d.
+  With P = de/dd, S the contact's stiffness on the cells that are in contact, and Bc = 1 + dev(R - K S K')/(2 mu), a
+  step solves (1 - Bc P) delta = r in the symmetric form
+      (1 - Q Bc Q) y = Q r,  delta = r + Bc Q y,  Q = root of P,
+  by conjugate gradients in the product sum 2 mu h a:b. The matrix is positive definite: 0 <= P < 1, R is negative
+  semidefinite, and 1 + R/(2 mu) as well as S positive semidefinite. A step is halved until the residual falls.
+
+  Source: J. C. Simo and T. J. R. Hughes, Computational Inelasticity (1998), chapter 3, for the tangent; A. Frerot, M.
+  Bonnet, J.-F. Molinari and G. Anciaux, Comput. Methods Appl. Mech. Engrg. 351 (2019) 951, for the integral equation.
+*/
+#include "newton.h"
+#include <petsam/private/balanceimpl.h>
+#include <petsam/private/elasticity.h>
+
+#define STEPS     30   /* of Newton's method */
+#define HALVINGS  8    /* of one step */
+#define PRODUCTS  200  /* of one step */
+#define ROUGH     0.1  /* a step's equations are solved at least to this part, */
+#define FORCING   0.3  /* and to this part of the residual relative to its first value */
+#define STIFFNESS 1e-3 /* the part to which the contact follows in a product */
+#define CONTACTS  200  /* iterations of that */
+
+/* The fields of a solve, each of all layers, and what a cell's tangent is. */
+typedef struct {
+  SamPlastic   *plastic;
+  SamLawNormal *normal;
+  PetscInt      n;                      /* values of a field on this rank */
+  double       *d, *r, *e, *s, *y, *v, *w, *z; /* driver, residual, strain, stress; the others: scratch of a step */
+  double       *direction, *along, *across;    /* the tangents: direction as a field, the rest one value a cell */
+  PetscBool     yields, solved;         /* any cell on any rank; the normal problem has a solution */
+  /* of the contact */
+  SamFrame frame;
+  double   gram[SAM_GRAM];
+  char    *touches;
+  Vec      p, u;
+  double  *x, *rest, *traction[3];
+} Solve;
+
+static inline const SamPlasticBody *BodyOf(const SamPlastic *p, PetscInt l)
+{
+  return &p->body[l / p->layers];
+}
+
+static inline PetscReal ThicknessOf(const SamPlastic *p, PetscInt l)
+{
+  return p->thickness[l % p->layers];
+}
+
+void SamPlasticRead(const SamPlastic *p, const double state[], PetscInt l, PetscInt k, SamMisesAt *at)
+{
+  const double *from = state + (ptrdiff_t)l * p->size * p->grid->cells + k;
+
+  for (PetscInt c = 0; c < PARTS; c++) at->e[c] = from[(ptrdiff_t)c * p->grid->cells];
+  at->p = from[(ptrdiff_t)PARTS * p->grid->cells];
+  for (PetscInt c = PARTS + 1; c < p->size; c++) (&at->back[0][0])[c - PARTS - 1] = from[(ptrdiff_t)c * p->grid->cells];
+}
+
+static void Write(const SamPlastic *p, const SamMisesAt *at, PetscInt l, PetscInt k, double state[])
+{
+  double *to = state + (ptrdiff_t)l * p->size * p->grid->cells + k;
+
+  for (PetscInt c = 0; c < PARTS; c++) to[(ptrdiff_t)c * p->grid->cells] = at->e[c];
+  to[(ptrdiff_t)PARTS * p->grid->cells] = at->p;
+  for (PetscInt c = PARTS + 1; c < p->size; c++) to[(ptrdiff_t)c * p->grid->cells] = (&at->back[0][0])[c - PARTS - 1];
+}
+
+/* The tensor of a cell of a field. */
+static inline void Take(const SamPlastic *p, const double field[], PetscInt l, PetscInt k, double to[PARTS])
+{
+  for (PetscInt c = 0; c < PARTS; c++) to[c] = field[((ptrdiff_t)l * PARTS + c) * p->grid->cells + k];
+}
+static inline void Put(const SamPlastic *p, const double from[PARTS], PetscInt l, PetscInt k, double field[])
+{
+  for (PetscInt c = 0; c < PARTS; c++) field[((ptrdiff_t)l * PARTS + c) * p->grid->cells + k] = from[c];
+}
+
+/* ---- the operators of all bodies ---- */
+
+/* The stress (NULL: not wanted) and the displacement (NULL: not wanted) by a strain. */
+static PetscErrorCode Respond(SamPlastic *p, const double e[], double s[], double *const u[3])
+{
+  const PetscInt cells = p->grid->cells;
+  double        *own[3], *more;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(3 * cells, &more));
+  for (PetscInt c = 0; c < 3; c++) own[c] = more + c * cells;
+  for (PetscInt c = 0; u && c < 3; c++) PetscCall(PetscArrayzero(u[c], cells));
+  for (PetscInt b = 0; b < p->bodies; b++) {
+    const ptrdiff_t at = (ptrdiff_t)p->body[b].first * PARTS * cells;
+
+    PetscCall(SamResidualApply(p->body[b].residual, e + at, s ? s + at : NULL, u ? own : NULL));
+    for (PetscInt k = 0; u && k < 3 * cells; k++) u[k / cells][k % cells] += more[k];
+  }
+  PetscCall(PetscFree(more));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Load(SamPlastic *p, const double *const traction[3], double s[])
+{
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < p->bodies; b++)
+    PetscCall(SamResidualLoad(p->body[b].residual, traction, s + (ptrdiff_t)p->body[b].first * PARTS * p->grid->cells));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The strains of a field of the state, as a field of their own. */
+static PetscErrorCode TakeStrain(SamPlastic *p, Vec state, double e[])
+{
+  const PetscInt cells = p->grid->cells, layers = p->bodies * p->layers;
+  const double  *from;
+
+  PetscFunctionBegin;
+  if (!state) PetscCall(PetscArrayzero(e, PARTS * layers * cells));
+  if (!state) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(VecGetArrayRead(state, &from));
+  for (PetscInt l = 0; l < layers; l++)
+    PetscCall(PetscArraycpy(e + (ptrdiff_t)l * PARTS * cells, from + (ptrdiff_t)l * p->size * cells, PARTS * cells));
+  PetscCall(VecRestoreArrayRead(state, &from));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamPlasticDisplace(SamPlastic *p, Vec state, double *const u[3])
+{
+  double *e;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(PARTS * p->bodies * p->layers * p->grid->cells, &e));
+  PetscCall(TakeStrain(p, state, e));
+  PetscCall(Respond(p, e, NULL, u));
+  PetscCall(PetscFree(e));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamPlasticStress(SamPlastic *p, Vec state, Vec pressure, Vec shear, double stress[])
+{
+  const PetscInt n = PARTS * p->bodies * p->layers * p->grid->cells;
+  const double  *by_p, *by_q;
+  double        *e;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(n, &e));
+  PetscCall(TakeStrain(p, state, e));
+  PetscCall(Respond(p, e, e, NULL));
+  PetscCall(VecGetArrayRead(pressure, &by_p));
+  PetscCall(VecGetArrayRead(shear, &by_q));
+  PetscCall(Load(p, (const double *const[3]){by_p, by_q, by_q + p->grid->cells}, stress));
+  PetscCall(VecRestoreArrayRead(shear, &by_q));
+  PetscCall(VecRestoreArrayRead(pressure, &by_p));
+  for (PetscInt k = 0; k < n; k++) stress[k] += e[k];
+  PetscCall(PetscFree(e));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- sums ---- */
+
+/* sum 2 mu h a:b, the same on any number of ranks. */
+static PetscErrorCode Dot(const Solve *w, const double a[], const double b[], double *dot)
+{
+  const SamPlastic *p     = w->plastic;
+  const SamGrid     grid  = p->grid;
+  SamTotal          total = {0};
+
+  PetscFunctionBegin;
+  for (PetscInt j = 0; j < grid->rows; j++)
+    for (PetscInt l = 0; l < p->bodies * p->layers; l++) {
+      double sum = 0;
+
+      for (PetscInt c = 0; c < PARTS; c++) {
+        const ptrdiff_t at = ((ptrdiff_t)l * PARTS + c) * grid->cells + j * (ptrdiff_t)grid->nx;
+        double          row = 0;
+
+        for (PetscInt i = 0; i < grid->nx; i++) row += a[at + i] * b[at + i];
+        sum += (c > SAM_STRESS_ZZ ? 2 : 1) * row;
+      }
+      SamAdd(&total, 2 * BodyOf(p, l)->material.shear * ThicknessOf(p, l) * sum);
+    }
+  PetscCall(SamSumTotals(grid->comm, 1, &total, dot));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The sum of products of two fields of the surface. */
+static PetscErrorCode DotSurface(const Solve *w, const double a[], const double b[], double *dot)
+{
+  const SamGrid grid  = w->plastic->grid;
+  SamTotal      total = {0};
+
+  PetscFunctionBegin;
+  for (PetscInt j = 0; j < grid->rows; j++) {
+    double row = 0;
+
+    for (PetscInt k = j * grid->nx; k < (j + 1) * grid->nx; k++) row += a[k] * b[k];
+    SamAdd(&total, row);
+  }
+  PetscCall(SamSumTotals(grid->comm, 1, &total, dot));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the contact, its cells frozen ---- */
+
+/* Notes the cells in contact. */
+static PetscErrorCode FreezeContact(Solve *w)
+{
+  const SamGrid grid = w->plastic->grid;
+  const double *p;
+  SamTotal      totals[SAM_GRAM] = {{0}};
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(w->normal->pressure, &p));
+  for (PetscInt j = 0; j < grid->rows; j++) {
+    double row[SAM_GRAM] = {0};
+
+    for (PetscInt i = 0; i < grid->nx; i++) {
+      const PetscInt k  = j * grid->nx + i;
+      const double   xi = w->frame.xi0 + (double)i * w->frame.dxi;
+
+      w->touches[k] = p[k] > 0;
+      if (p[k] > 0) SamGramNormalRow(row, 1, xi, xi * xi, SamFrameEta(&w->frame, j));
+    }
+    SamAddAll(SAM_GRAM, totals, row);
+  }
+  PetscCall(VecRestoreArrayRead(w->normal->pressure, &p));
+  PetscCall(SamSumTotals(grid->comm, SAM_GRAM, totals, w->gram));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Takes a field off the cells that are not in contact, and the loads out of it that are given. */
+static PetscErrorCode Project(const Solve *w, double z[])
+{
+  const SamGrid grid = w->plastic->grid;
+  SamTotal      totals[3] = {{0}};
+  double        sums[3], a[3];
+
+  PetscFunctionBegin;
+  for (PetscInt j = 0; j < grid->rows; j++) {
+    double row[3] = {0};
+
+    for (PetscInt i = 0; i < grid->nx; i++) {
+      double *at = &z[j * grid->nx + i];
+
+      if (!w->touches[j * grid->nx + i]) *at = 0;
+      row[0] += *at;
+      row[1] -= SamFrameEta(&w->frame, j) * *at;
+      row[2] += (w->frame.xi0 + (double)i * w->frame.dxi) * *at;
+    }
+    SamAddAll(3, totals, row);
+  }
+  if (!w->frame.count) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamSumTotals(grid->comm, 3, totals, sums));
+  SamFrameSolve(&w->frame, w->gram, sums, a);
+  for (PetscInt j = 0; j < grid->rows; j++)
+    for (PetscInt i = 0; i < grid->nx; i++)
+      if (w->touches[j * grid->nx + i])
+        z[j * grid->nx + i] -=
+          a[0] - a[1] * SamFrameEta(&w->frame, j) + a[2] * (w->frame.xi0 + (double)i * w->frame.dxi);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* p = minus the change of the pressure by a displacement u of the surface, of which `rest` is a copy to work on. */
+static PetscErrorCode FollowContact(Solve *w, double u[])
+{
+  const PetscInt cells = w->plastic->grid->cells;
+  double        *p, *q, size, first, before, step;
+
+  PetscFunctionBegin;
+  PetscCall(PetscArrayzero(w->x, cells));
+  PetscCall(Project(w, u));
+  PetscCall(DotSurface(w, u, u, &first));
+  PetscCall(VecGetArray(w->p, &p));
+  PetscCall(PetscArraycpy(p, u, cells));
+  PetscCall(VecRestoreArray(w->p, &p));
+  size = first;
+  for (PetscInt k = 0; k < CONTACTS && size > STIFFNESS * STIFFNESS * first; k++) {
+    PetscCall(SamElasticityApplyNormal(w->plastic->elasticity, w->p, w->u));
+    PetscCall(VecGetArray(w->p, &p));
+    PetscCall(VecGetArray(w->u, &q));
+    PetscCall(Project(w, q));
+    PetscCall(DotSurface(w, p, q, &step));
+    step = size / step;
+    for (PetscInt i = 0; i < cells; i++) {
+      w->x[i] += step * p[i];
+      u[i] -= step * q[i];
+    }
+    before = size;
+    PetscCall(DotSurface(w, u, u, &size));
+    for (PetscInt i = 0; i < cells; i++) p[i] = u[i] + size / before * p[i];
+    PetscCall(VecRestoreArray(w->u, &q));
+    PetscCall(VecRestoreArray(w->p, &p));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- a product ---- */
+
+/* to = root of P times a field; may be the same. */
+static void ApplyRoot(const Solve *w, const double from[], double to[])
+{
+  const SamPlastic *p     = w->plastic;
+  const PetscInt    cells = p->grid->cells;
+
+  for (PetscInt l = 0; l < p->bodies * p->layers; l++)
+    for (PetscInt k = 0; k < cells; k++) {
+      const double along = sqrt(w->along[l * cells + k]), across = sqrt(w->across[l * cells + k]);
+      double       x[PARTS], n[PARTS], dot;
+
+      Take(p, from, l, k, x);
+      Take(p, w->direction, l, k, n);
+      dot = SamTensorDot(x, n);
+      for (PetscInt c = 0; c < PARTS; c++) x[c] = across * x[c] + (along - across) * dot * n[c];
+      Put(p, x, l, k, to);
+    }
+}
+
+/* to = from + dev(s)/(2 mu) */
+static void AddDeviator(const SamPlastic *p, const double from[], const double s[], double to[])
+{
+  for (PetscInt l = 0; l < p->bodies * p->layers; l++)
+    for (PetscInt k = 0; k < p->grid->cells; k++) {
+      double x[PARTS], e[PARTS];
+
+      Take(p, s, l, k, x);
+      Take(p, from, l, k, e);
+      SamTensorDeviator(x);
+      for (PetscInt c = 0; c < PARTS; c++) x[c] = e[c] + x[c] / (2 * BodyOf(p, l)->material.shear);
+      Put(p, x, l, k, to);
+    }
+}
+
+/* to = Bc from */
+static PetscErrorCode Multiply(Solve *w, const double from[], double to[])
+{
+  const PetscInt cells = w->plastic->grid->cells;
+  double        *u[3];
+
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < 3; c++) u[c] = w->rest + c * cells;
+  PetscCall(Respond(w->plastic, from, w->s, u));
+  PetscCall(FollowContact(w, u[2]));
+  for (PetscInt k = 0; k < cells; k++) w->traction[0][k] = -w->x[k];
+  PetscCall(Load(w->plastic, (const double *const *)w->traction, to));
+  for (PetscInt k = 0; k < w->n; k++) w->s[k] += to[k];
+  AddDeviator(w->plastic, from, w->s, to);
+  w->plastic->products++;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The step of Newton's method into y, by conjugate gradients, from the residual. */
+static PetscErrorCode FindStep(Solve *w, double part)
+{
+  double *rest = w->e, first, size, before, step;
+
+  PetscFunctionBegin;
+  PetscCall(PetscArraycpy(w->y, w->r, w->n));
+  ApplyRoot(w, w->r, rest);
+  PetscCall(PetscArraycpy(w->z, rest, w->n));
+  PetscCall(Dot(w, rest, rest, &first));
+  size = first;
+  for (PetscInt k = 0; k < PRODUCTS && size > part * part * first; k++) {
+    ApplyRoot(w, w->z, w->v);
+    PetscCall(Multiply(w, w->v, w->w)); /* Bc Q z */
+    ApplyRoot(w, w->w, w->v);
+    for (PetscInt i = 0; i < w->n; i++) w->v[i] = w->z[i] - w->v[i];
+    PetscCall(Dot(w, w->z, w->v, &step));
+    PetscCheck(step > 0, w->plastic->grid->comm, PETSC_ERR_PLIB, "The operators of plastic strain are not symmetric");
+    step = size / step;
+    for (PetscInt i = 0; i < w->n; i++) {
+      w->y[i] += step * w->w[i];
+      rest[i] -= step * w->v[i];
+    }
+    before = size;
+    PetscCall(Dot(w, rest, rest, &size));
+    for (PetscInt i = 0; i < w->n; i++) w->z[i] = rest[i] + size / before * w->z[i];
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the residual ---- */
+
+/* Plastic strains of a driver, into the tried state, and the tangents. */
+static PetscErrorCode Return(Solve *w, Vec committed, Vec tried)
+{
+  const SamPlastic *p     = w->plastic;
+  const PetscInt    cells = p->grid->cells;
+  const double     *from  = NULL;
+  double           *to, yields = 0;
+
+  PetscFunctionBegin;
+  if (committed) PetscCall(VecGetArrayRead(committed, &from));
+  PetscCall(VecGetArray(tried, &to));
+  for (PetscInt l = 0; l < p->bodies * p->layers; l++)
+    for (PetscInt k = 0; k < cells; k++) {
+      SamMisesAt      at = {{0}, 0, {{0}}};
+      SamMisesTangent t  = {{0}, 0, 0};
+      double          d[PARTS];
+
+      if (from) SamPlasticRead(p, from, l, k, &at);
+      Take(p, w->d, l, k, d);
+      if (SamMisesReturn(&BodyOf(p, l)->material, d, &at, &t)) yields = 1;
+      Write(p, &at, l, k, to);
+      Put(p, at.e, l, k, w->e);
+      Put(p, t.n, l, k, w->direction);
+      w->along[l * cells + k]  = t.along;
+      w->across[l * cells + k] = t.across;
+    }
+  PetscCall(VecRestoreArray(tried, &to));
+  if (committed) PetscCall(VecRestoreArrayRead(committed, &from));
+  PetscCall(SamMax(p->grid->comm, 1, &yields));
+  w->yields = yields > 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The driver by the strains w->e and the pressure. */
+static PetscErrorCode GetDriver(Solve *w, double d[])
+{
+  const double *p;
+
+  PetscFunctionBegin;
+  PetscCall(Respond(w->plastic, w->e, w->s, NULL));
+  PetscCall(VecGetArrayRead(w->normal->pressure, &p));
+  PetscCall(PetscArraycpy(w->traction[0], p, w->plastic->grid->cells));
+  PetscCall(VecRestoreArrayRead(w->normal->pressure, &p));
+  PetscCall(Load(w->plastic, (const double *const *)w->traction, w->v));
+  for (PetscInt k = 0; k < w->n; k++) w->s[k] += w->v[k];
+  AddDeviator(w->plastic, w->e, w->s, d);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The residual of the driver, its norm, and its largest value relative to the strain at yield. */
+static PetscErrorCode Measure(Solve *w, PetscInt field, double *norm, double *largest)
+{
+  const SamPlastic *p = w->plastic;
+  Vec               tried;
+
+  PetscFunctionBegin;
+  PetscCall(SamStateSetField(w->normal->state, field, &tried));
+  PetscCall(Return(w, SamStateGetField(w->normal->state, field, SAM_COMMITTED), tried));
+  *norm = *largest = 0;
+  w->solved        = PETSC_TRUE;
+  PetscCall(w->normal->solve(w->normal, &w->solved));
+  if (!w->solved) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(GetDriver(w, w->r));
+  for (PetscInt k = 0; k < w->n; k++) w->r[k] -= w->d[k];
+  PetscCall(Dot(w, w->r, w->r, norm));
+  *norm = sqrt(*norm);
+  for (PetscInt l = 0; l < p->bodies * p->layers; l++)
+    for (PetscInt k = 0; k < p->grid->cells; k++) {
+      const SamMises *m = &BodyOf(p, l)->material;
+      double          r[PARTS];
+
+      Take(p, w->r, l, k, r);
+      *largest = SamLarger(*largest, sqrt(SamTensorDot(r, r)) * 3 * m->shear / m->yield);
+    }
+  PetscCall(SamMax(p->grid->comm, 1, largest));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the method ---- */
+
+static PetscErrorCode CreateWork(Solve *w)
+{
+  const SamPlastic *p     = w->plastic;
+  const PetscInt    cells = p->grid->cells;
+  double          **field[] = {&w->d, &w->r, &w->e, &w->s, &w->y, &w->v, &w->w, &w->z, &w->direction};
+
+  PetscFunctionBegin;
+  w->n = PARTS * p->bodies * p->layers * cells;
+  for (size_t k = 0; k < sizeof(field) / sizeof(field[0]); k++) PetscCall(PetscCalloc1(w->n, field[k]));
+  PetscCall(PetscCalloc2(w->n / PARTS, &w->along, w->n / PARTS, &w->across));
+  PetscCall(PetscCalloc4(cells, &w->x, 3 * cells, &w->rest, 3 * cells, &w->traction[0], cells, &w->touches));
+  for (PetscInt c = 1; c < 3; c++) w->traction[c] = w->traction[0] + c * cells;
+  PetscCall(SamGridCreateVec(p->grid, 1, &w->p));
+  PetscCall(SamGridCreateVec(p->grid, 1, &w->u));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode DestroyWork(Solve *w)
+{
+  double **field[] = {&w->d, &w->r, &w->e, &w->s, &w->y, &w->v, &w->w, &w->z, &w->direction};
+
+  PetscFunctionBegin;
+  for (size_t k = 0; k < sizeof(field) / sizeof(field[0]); k++) PetscCall(PetscFree(*field[k]));
+  PetscCall(PetscFree2(w->along, w->across));
+  PetscCall(PetscFree4(w->x, w->rest, w->traction[0], w->touches));
+  PetscCall(VecDestroy(&w->p));
+  PetscCall(VecDestroy(&w->u));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Goes along a step, half of it where that does not lower the residual, and so on. */
+static PetscErrorCode GoAlong(Solve *w, PetscInt field, double *norm, double *largest)
+{
+  const double before = *norm;
+  double       length = 1, *start, *step;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(w->n, &start, w->n, &step));
+  PetscCall(PetscArraycpy(start, w->d, w->n));
+  PetscCall(PetscArraycpy(step, w->y, w->n));
+  for (PetscInt k = 0; k < HALVINGS; k++, length /= 2) {
+    for (PetscInt i = 0; i < w->n; i++) w->d[i] = start[i] + length * step[i];
+    PetscCall(Measure(w, field, norm, largest));
+    if (!w->solved || *norm < before || *largest <= w->plastic->rtol) break;
+  }
+  PetscCall(PetscFree2(start, step));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* From the driver on. */
+static PetscErrorCode Iterate(Solve *w, PetscInt field)
+{
+  SamPlastic *p = w->plastic;
+  double      norm, first, largest;
+
+  PetscFunctionBegin;
+  PetscCall(Measure(w, field, &norm, &largest));
+  first = norm;
+  while (w->solved && largest > p->rtol && p->newton < STEPS) {
+    PetscCall(FreezeContact(w));
+    PetscCall(FindStep(w, PetscMin(ROUGH, FORCING * norm / first)));
+    p->newton++;
+    PetscCall(GoAlong(w, field, &norm, &largest));
+  }
+  if (w->solved && !(largest <= p->rtol))
+    (void)snprintf(w->normal->failed, sizeof(w->normal->failed),
+                   "the plastic strain did not converge within %" PetscInt_FMT " iterations, residual %.2g, tolerance %.2g",
+                   p->newton, largest, (double)p->rtol);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamPlasticSolve(SamPlastic *p, SamLawNormal *normal)
+{
+  const PetscInt field = SamStateFindField(normal->state, SAM_PLASTIC_FIELD);
+  Solve          w     = {.plastic = p, .normal = normal};
+
+  PetscFunctionBegin;
+  p->newton = p->products = 0;
+  PetscCall(CreateWork(&w));
+  PetscCall(SamFrameSet(&w.frame, p->grid, normal->balance));
+  PetscCall(TakeStrain(p, SamStateGetField(normal->state, field, SAM_COMMITTED), w.e));
+  PetscCall(GetDriver(&w, w.d));
+  PetscCall(Iterate(&w, field));
+  PetscCall(DestroyWork(&w));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

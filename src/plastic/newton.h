@@ -1,0 +1,45 @@
+/* Plastic strain and contact together. */
+#ifndef PETSAM_PLASTIC_NEWTON_H
+#define PETSAM_PLASTIC_NEWTON_H
+
+#include "mises.h"
+#include <petsam/private/lawimpl.h>
+
+/* A body that yields, and the place of its layers among those of both. */
+typedef struct {
+  SamMises    material;
+  SamResidual residual;
+  PetscInt    first;
+} SamPlasticBody;
+
+/*
+  SamPlastic - the bodies that yield, with their layers one after the other. What a cell of a layer remembers stands in
+  the state's field `field`: `size` values, the plastic strain, the accumulated plastic strain, the backstresses.
+*/
+typedef struct {
+  SamGrid        grid;
+  SamElasticity  elasticity;
+  PetscInt       bodies, layers; /* layers of each body */
+  PetscInt       size;
+  SamPlasticBody body[2];
+  PetscReal     *thickness;
+  PetscReal      rtol;
+  PetscInt       newton, products; /* of the last step */
+} SamPlastic;
+
+#define SAM_PLASTIC_FIELD "plastic"
+
+/*
+  SamPlasticSolve - the plastic strain of a step, which becomes the tried one, and its pressure. Collective.
+  SamPlasticDisplace - the displacements of the surfaces by the strain of a generation of the state (m). Collective.
+  SamPlasticStress - the stress by the strain of the state and by tractions (Pa), (layers of all bodies, PARTS).
+  Collective.
+*/
+PETSC_INTERN PetscErrorCode SamPlasticSolve(SamPlastic *plastic, SamLawNormal *normal);
+PETSC_INTERN PetscErrorCode SamPlasticDisplace(SamPlastic *plastic, Vec state, double *const u[3]);
+PETSC_INTERN PetscErrorCode SamPlasticStress(SamPlastic *plastic, Vec state, Vec pressure, Vec shear, double stress[]);
+/* SamPlasticRead, SamPlasticWrite - what cell k of layer l remembers, of an array of such a field. */
+PETSC_INTERN void SamPlasticRead(const SamPlastic *plastic, const double state[], PetscInt l, PetscInt k,
+                                 SamMisesAt *at);
+
+#endif

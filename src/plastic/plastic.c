@@ -1,0 +1,349 @@
+/*
+  The law of plastic strain: bodies that yield below their surface.
+
+  What a step solves is in newton.c. The law's offset is the displacement by the plastic strain of the state, so that
+  the gap, the check and all else have it; what a cell of a layer remembers is a field of the state. Whether a step is
+  right is checked anew from the state and the tractions: the stress by both lies on the yield surface where the strain
+  has grown, and nowhere outside of it.
+*/
+#include "newton.h"
+#include <petsam/private/state.h>
+
+typedef struct {
+  PetscReal    yield, modulus, voce_stress, voce_rate, swift_strain, swift_exponent;
+  SamHardening hardening;
+  PetscInt     count; /* of `back`: C, g, C, g ... */
+  PetscReal    back[2 * SAM_BACKSTRESSES];
+} Material;
+
+typedef struct {
+  Material   material[2];
+  PetscReal  depth, rtol;
+  PetscInt   layers;
+  SamPlastic plastic;
+} Plastic;
+
+/* Beyond this part of the yield stress, or this many tolerances, the check fails. */
+#define EXCESS 1e-5
+#define MARGIN 10
+
+/* The numbers of a step, one after the other from MOST on. */
+enum { MOST, CELLS, ERROR, NEWTON, PRODUCTS, NUMBERS };
+
+#define REAL_ROW(body, option, text, what, range_) \
+  {"body" #body "_" option, text, SAM_OPTION_REAL, offsetof(Plastic, material[body - 1].what), .range = (range_), .recorded = PETSC_TRUE}
+#define MATERIAL_ROWS(body) \
+  REAL_ROW(body, "yield", "yield stress: the body yields below its surface (Pa)", yield, SAM_RANGE_POSITIVE_INF), \
+    {"body" #body "_hardening", "hardening: linear, voce or swift", SAM_OPTION_ENUM, \
+     offsetof(Plastic, material[body - 1].hardening), .words = "linear,voce,swift"}, \
+    REAL_ROW(body, "hardening_modulus", "linear: slope of the yield stress (Pa)", modulus, SAM_RANGE_NONNEGATIVE), \
+    REAL_ROW(body, "voce_stress", "voce: growth of the yield stress (Pa)", voce_stress, SAM_RANGE_NONNEGATIVE), \
+    REAL_ROW(body, "voce_rate", "voce: its rate by the plastic strain", voce_rate, SAM_RANGE_NONNEGATIVE), \
+    REAL_ROW(body, "swift_strain", "swift: strain e0 of Y (1 + p/e0)^n", swift_strain, SAM_RANGE_POSITIVE), \
+    REAL_ROW(body, "swift_exponent", "swift: exponent n", swift_exponent, SAM_RANGE_NONNEGATIVE)
+
+static const SamOptionRow rows[] = {MATERIAL_ROWS(1), MATERIAL_ROWS(2),
+                                    {"plastic_depth", "depth below the surface that may yield (m)", SAM_OPTION_REAL,
+                                     offsetof(Plastic, depth), .range = SAM_RANGE_POSITIVE, .recorded = PETSC_TRUE},
+                                    {"plastic_layers", "layers of this depth", SAM_OPTION_INT,
+                                     offsetof(Plastic, layers), .least = 2, .most = 1000},
+                                    {"plastic_rtol", "tolerance of the plastic strain, relative to the strain at yield",
+                                     SAM_OPTION_REAL, offsetof(Plastic, rtol), .range = SAM_RANGE_PART}};
+
+static const char *const hardened[2] = {"body1_hardening", "body2_hardening"};
+static const char *const backstress[2] = {"body1_backstress", "body2_backstress"};
+
+static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBool *asked)
+{
+  Plastic *const x = (Plastic *)law->data;
+
+  PetscFunctionBegin;
+  *asked = PETSC_FALSE;
+  for (PetscInt b = 0; b < 2; b++) {
+    Material *m = &x->material[b];
+
+    PetscCall(SamOptionsReals(from, backstress[b], "pairs C (Pa), g of backstresses, with commas between",
+                              SAM_RANGE_NONNEGATIVE, 2 * SAM_BACKSTRESSES, m->back, &m->count));
+    PetscCheck(m->count % 2 == 0, from->comm, SAM_ERR_USER, "-%s%s: %" PetscInt_FMT " numbers: expected pairs C,g",
+               SamOptionsPrefix(from), backstress[b], m->count);
+    if (!isfinite(m->yield)) continue;
+    *asked = PETSC_TRUE;
+    if (m->hardening == SAM_HARDENING_SWIFT)
+      PetscCall(SamOptionsRequire(from, m->swift_strain > 0, b ? "body2_swift_strain" : "body1_swift_strain",
+                                  "strain e0 of Y (1 + p/e0)^n"));
+    law->option = b ? "body2_yield" : "body1_yield";
+  }
+  if (*asked)
+    PetscCall(SamOptionsRequire(from, x->depth > 0, "plastic_depth", "the depth below the surface that may yield (m)"));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode AddParameters(SamLaw law, SamParameters *parameters)
+{
+  const Plastic  *x      = (const Plastic *)law->data;
+  const PetscReal layers = (PetscReal)x->layers;
+
+  PetscFunctionBegin;
+  PetscCall(SamParametersAddReals(parameters, "plastic_layers", PETSC_TRUE, 1, &layers));
+  for (PetscInt b = 0; b < 2; b++) {
+    const Material *m         = &x->material[b];
+    const PetscReal hardening = (PetscReal)m->hardening;
+
+    PetscCall(SamParametersAddReals(parameters, hardened[b], PETSC_TRUE, 1, &hardening));
+    if (m->count) PetscCall(SamParametersAddReals(parameters, backstress[b], PETSC_TRUE, m->count, m->back));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The values that a cell of a layer remembers. */
+static PetscInt SizeOf(const Plastic *x)
+{
+  return PARTS + 1 + PARTS * PetscMax(x->material[0].count, x->material[1].count) / 2;
+}
+
+static PetscInt BodiesOf(const Plastic *x)
+{
+  return (isfinite(x->material[0].yield) != 0) + (isfinite(x->material[1].yield) != 0);
+}
+
+static PetscErrorCode Declare(SamLaw law, SamState state)
+{
+  const Plastic             *x                = (const Plastic *)law->data;
+  const SamStateField        field            = {.name        = SAM_PLASTIC_FIELD,
+                                                 .unit        = "1",
+                                                 .text        = "plastic strain, accumulated, and backstresses",
+                                                 .components  = SizeOf(x),
+                                                 .generations = 2,
+                                                 .kept        = PETSC_TRUE,
+                                                 .motion      = SAM_MOVES,
+                                                 .layers      = BodiesOf(x) * x->layers};
+  static const SamStateNumber numbers[NUMBERS] = {
+    {"plastic_strain_max", "1", "largest accumulated plastic strain", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE,
+     SAM_JOIN_LAST, 0},
+    {"yielding_cells", "1", "cells of layers that yield in the step", SAM_NUMBER_INT, 1, PETSC_FALSE, PETSC_TRUE,
+     SAM_JOIN_LAST, 0},
+    {"yield_error", "1", "largest error of the yield function over the yield stress", SAM_NUMBER_REAL, 1, PETSC_FALSE,
+     PETSC_TRUE, SAM_JOIN_GREATEST, 0},
+    {"plastic_newton", "1", "steps of Newton's method for the plastic strain", SAM_NUMBER_INT, 1, PETSC_FALSE,
+     PETSC_TRUE, SAM_JOIN_SUM, 0},
+    {"plastic_products", "1", "products of its conjugate gradients", SAM_NUMBER_INT, 1, PETSC_FALSE, PETSC_TRUE,
+     SAM_JOIN_SUM, 0}};
+  PetscInt id;
+
+  PetscFunctionBegin;
+  PetscCall(SamStateDeclareField(state, &field, &id));
+  for (PetscInt k = 0; k < NUMBERS; k++) PetscCall(SamStateDeclareNumber(state, &numbers[k], &id));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the operators ---- */
+
+static SamMises MaterialOf(const Material *from, const SamMaterial *elastic)
+{
+  SamMises m = {.shear        = (double)elastic->young / (2 * (1 + (double)elastic->poisson)),
+                .yield        = (double)from->yield,
+                .hardening    = from->hardening,
+                .modulus      = (double)from->modulus,
+                .voce         = {(double)from->voce_stress, (double)from->voce_rate},
+                .swift        = {(double)from->swift_strain, (double)from->swift_exponent},
+                .backstresses = from->count / 2};
+
+  for (PetscInt k = 0; k < from->count; k++) m.back[k / 2][k % 2] = (double)from->back[k];
+  return m;
+}
+
+static PetscErrorCode SetUp(SamLaw law)
+{
+  Plastic *const x = (Plastic *)law->data;
+  SamPlastic    *p = &x->plastic;
+  const SamPair  pair = SamElasticityGetPair(law->elasticity);
+
+  PetscFunctionBegin;
+  if (p->bodies) PetscFunctionReturn(PETSC_SUCCESS);
+  *p = (SamPlastic){.grid       = law->grid,
+                    .elasticity = law->elasticity,
+                    .layers     = x->layers,
+                    .size       = SizeOf(x),
+                    .rtol       = x->rtol};
+  PetscCall(PetscMalloc1(x->layers, &p->thickness));
+  for (PetscInt l = 0; l < x->layers; l++) p->thickness[l] = x->depth / (PetscReal)x->layers;
+  for (PetscInt b = 0; b < 2; b++) {
+    SamPlasticBody *body = &p->body[p->bodies];
+
+    if (!isfinite(x->material[b].yield)) continue;
+    PetscCall(SamResidualCreate(law->elasticity, b + 1, x->layers, p->thickness, &body->residual));
+    body->material = MaterialOf(&x->material[b], SamBodyMaterialAt(SamPairBody(pair, b), 0));
+    body->first    = p->bodies++ * x->layers;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Destroy(SamLaw law)
+{
+  SamPlastic *p = &((Plastic *)law->data)->plastic;
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < p->bodies; b++) PetscCall(SamResidualDestroy(&p->body[b].residual));
+  PetscCall(PetscFree(p->thickness));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Bulk stress is not part of the stress that yields. */
+static PetscErrorCode Check(SamLaw law, SamControl *control, const SamCondition **wrong, char why[], size_t size)
+{
+  static const char *const names[] = {"bulk1_stress_xx", "bulk1_stress_yy", "bulk1_stress_xy",
+                                      "bulk2_stress_xx", "bulk2_stress_yy", "bulk2_stress_xy"};
+
+  PetscFunctionBegin;
+  for (size_t k = 0; k < sizeof(names) / sizeof(names[0]); k++) {
+    const SamCondition *one = SamConditionsFind(law->conditions, names[k]);
+
+    if (!one || SamControlGet(control, one) == 0) continue;
+    *wrong = one;
+    (void)snprintf(why, size, "expected 0 with -%s", law->option);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- a step ---- */
+
+static PetscErrorCode Begin(SamLaw law, SamState state, const SamControl *control, PetscReal duration)
+{
+  PetscFunctionBegin;
+  (void)state;
+  (void)control;
+  (void)duration;
+  PetscCall(SetUp(law));
+  law->revision++; /* the pressure has to be solved again */
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode AddOffset(SamLaw law, SamState state, const SamControl *control, Vec u_z, Vec u_t,
+                                PetscBool *adds)
+{
+  const PetscInt cells = law->grid->cells;
+  const Vec      field = SamStateReadField(state, SamStateFindField(state, SAM_PLASTIC_FIELD));
+  double        *u, *to, *at[3];
+
+  PetscFunctionBegin;
+  (void)control;
+  if (!field) PetscFunctionReturn(PETSC_SUCCESS);
+  if (adds) *adds = PETSC_TRUE;
+  if (!u_z && !u_t) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SetUp(law));
+  PetscCall(PetscMalloc1(3 * cells, &u));
+  for (PetscInt c = 0; c < 3; c++) at[c] = u + c * cells;
+  PetscCall(SamPlasticDisplace(&((Plastic *)law->data)->plastic, field, at));
+  if (u_z) PetscCall(VecGetArray(u_z, &to));
+  for (PetscInt k = 0; u_z && k < cells; k++) to[k] += at[2][k];
+  if (u_z) PetscCall(VecRestoreArray(u_z, &to));
+  if (u_t) PetscCall(VecGetArray(u_t, &to));
+  for (PetscInt k = 0; u_t && k < 2 * cells; k++) to[k] += u[k];
+  if (u_t) PetscCall(VecRestoreArray(u_t, &to));
+  PetscCall(PetscFree(u));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Follow(SamLaw law, SamLawNormal *normal)
+{
+  PetscFunctionBegin;
+  PetscCall(SamPlasticSolve(&((Plastic *)law->data)->plastic, normal));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* From the state and the stress alone: the largest strain, the cells that yield, the error of the yield function. */
+static PetscErrorCode Judge(const SamPlastic *p, const double before[], const double now[], const double stress[],
+                            double numbers[NUMBERS])
+{
+  const PetscInt cells = p->grid->cells;
+  double         most[2] = {0}, yields = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt l = 0; l < p->bodies * p->layers; l++)
+    for (PetscInt k = 0; k < cells; k++) {
+      const SamMises *m    = &p->body[l / p->layers].material;
+      SamMisesAt      last = {{0}, 0, {{0}}}, at;
+      double          s[PARTS], excess;
+
+      for (PetscInt c = 0; c < PARTS; c++) s[c] = stress[((ptrdiff_t)l * PARTS + c) * cells + k];
+      if (before) SamPlasticRead(p, before, l, k, &last);
+      SamPlasticRead(p, now, l, k, &at);
+      excess  = SamMisesExcess(m, &at, s) / m->yield;
+      most[0] = PetscMax(most[0], at.p);
+      most[1] = SamLarger(most[1], at.p < last.p ? INFINITY : at.p > last.p ? fabs(excess) : excess);
+      yields += at.p > last.p;
+    }
+  PetscCall(SamMax(p->grid->comm, 2, most));
+  PetscCall(SamSum(p->grid->comm, 1, &yields));
+  numbers[MOST]  = most[0];
+  numbers[ERROR] = most[1];
+  numbers[CELLS] = yields;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
+{
+  Plastic *const x     = (Plastic *)law->data;
+  SamPlastic    *p     = &x->plastic;
+  const PetscInt id    = SamStateFindField(step->state, SAM_PLASTIC_FIELD);
+  const Vec      tried = SamStateReadField(step->state, id), before = SamStateGetField(step->state, id, SAM_COMMITTED);
+  double        *stress, *numbers;
+  const double  *now, *last = NULL;
+
+  PetscFunctionBegin;
+  if (!tried) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscMalloc1(PARTS * p->bodies * p->layers * p->grid->cells, &stress));
+  PetscCall(SamPlasticStress(p, tried, step->pressure, step->shear, stress));
+  PetscCall(VecGetArrayRead(tried, &now));
+  if (before) PetscCall(VecGetArrayRead(before, &last));
+  numbers = SamStateNumbers(step->state, SamStateFindNumber(step->state, "plastic_strain_max"), SAM_TRIED);
+  PetscCall(Judge(p, last, now, stress, numbers));
+  numbers[NEWTON]   = (double)p->newton;
+  numbers[PRODUCTS] = (double)p->products;
+  if (!(numbers[ERROR] <= PetscMax(EXCESS, MARGIN * p->rtol)))
+    (void)snprintf(step->failed, sizeof(step->failed), "the check of the plastic strain: the yield function is %.2g Y",
+                   numbers[ERROR]);
+  if (before) PetscCall(VecRestoreArrayRead(before, &last));
+  PetscCall(VecRestoreArrayRead(tried, &now));
+  PetscCall(PetscFree(stress));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode View(SamLaw law, SamState state, PetscViewer viewer)
+{
+  const double *numbers = SamStateReadNumbers(state, SamStateFindNumber(state, "plastic_strain_max"));
+
+  PetscFunctionBegin;
+  (void)law;
+  if (numbers[MOST] > 0)
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  strain up to %.6g, %.0f cells yield\n", "plastic", numbers[MOST],
+                                     numbers[CELLS]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLawCreate_Plastic(SamLaw law)
+{
+  Plastic *x;
+
+  PetscFunctionBegin;
+  PetscCall(PetscNew(&x));
+  x->material[0].yield = x->material[1].yield = INFINITY;
+  x->rtol                                                   = 1e-6;
+  x->layers                                                 = 32;
+  law->data                                                 = x;
+  law->heading                                              = "Plastic strain below the surface";
+  law->rows                                                 = rows;
+  law->row_count                                            = (PetscInt)(sizeof(rows) / sizeof(rows[0]));
+  law->forbids_jumps                                        = PETSC_TRUE;
+  law->ops.setfromoptions                                   = SetFromOptions;
+  law->ops.addparameters                                    = AddParameters;
+  law->ops.destroy                                          = Destroy;
+  law->ops.declare                                          = Declare;
+  law->ops.check                                            = Check;
+  law->ops.begin                                            = Begin;
+  law->ops.offset                                           = AddOffset;
+  law->ops.follow                                           = Follow;
+  law->ops.advance                                          = Advance;
+  law->ops.view                                             = View;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
