@@ -16,7 +16,8 @@ UNITS = (
     (r"load_(n|tx|ty)", "N"), (r"load_m[xyz]", "N m"), (r"disp_[xyz]|grid_(size|center)|gap_(\w+_)?radius\w*", "m"),
     (r"gap_half_flat_[xy]|gap_roller_\w+", "m"),
     (r"body[12]_layer_thickness|film_thickness", "m"), (r"body[12]_layer_(young|stress)|film_shear", "Pa"),
-    (r"rot_[xyz]", "rad"), (r"body[12]_young|pressure_limit|bulk[12]_stress_\w+", "Pa"),
+    (r"rot_[xyz]", "rad"), (r"body[12]_(young|yield|hardening_modulus|voce_stress)", "Pa"),
+    (r"pressure_limit|bulk[12]_stress_\w+", "Pa"),
     (r"wear_coefficient[12]", "1/Pa"), (r"wear_energy[12]", "m3/J"),
 )  # fmt: skip
 

@@ -19,17 +19,15 @@ struct _n_SamImages {
   SamGrid     grid;
   SamWaveBody body;
   double      node[2][ALONG], depth[DOWN];
-  double     *basis[3];                         /* at columns, this rank's rows, layers */
-  PetscInt    lag[ALONG][ALONG];                /* the place of the distance of two nodes along an axis */
-  Matrix    (*table)[LAGS][DOWN][DOWN];         /* by the lags along x and y, and the depths of point and source */
-  double      sums[PARTS][DOWN][ALONG][ALONG]; /* component, z, y, x */
+  double     *basis[3];                   /* at columns, this rank's rows, layers */
+  PetscInt    lag[ALONG][ALONG];          /* the place of the distance of two nodes along an axis */
+  Matrix (*table)[LAGS][DOWN][DOWN];      /* by the lags along x and y, and the depths of point and source */
+  double sums[PARTS][DOWN][ALONG][ALONG]; /* component, z, y, x */
 };
 
 /* Whether a component changes its sign with x or with y. */
-static const PetscBool odd[2][PARTS] = {
-  {[SAM_STRESS_XY] = PETSC_TRUE, [SAM_STRESS_XZ] = PETSC_TRUE},
-  {[SAM_STRESS_XY] = PETSC_TRUE, [SAM_STRESS_YZ] = PETSC_TRUE}
-};
+static const PetscBool odd[2][PARTS] = {{[SAM_STRESS_XY] = PETSC_TRUE, [SAM_STRESS_XZ] = PETSC_TRUE},
+                                        {[SAM_STRESS_XY] = PETSC_TRUE, [SAM_STRESS_YZ] = PETSC_TRUE}};
 
 /* ---- creation ---- */
 
@@ -59,7 +57,8 @@ static PetscErrorCode CreateBasis(SamImages m)
   for (PetscInt c = 0; c < 2; c++)
     SetNodes(ALONG, g->center[c] - g->width[c] / 2, g->center[c] + g->width[c] / 2, m->node[c]);
   SetNodes(DOWN, 0, all, m->depth);
-  PetscCall(PetscMalloc3(ALONG * g->nx, &m->basis[0], ALONG * g->rows, &m->basis[1], DOWN * m->body.layers, &m->basis[2]));
+  PetscCall(
+    PetscMalloc3(ALONG * g->nx, &m->basis[0], ALONG * g->rows, &m->basis[1], DOWN * m->body.layers, &m->basis[2]));
   for (PetscInt i = 0; i < g->nx; i++) SetBasis(ALONG, m->node[0], SamGridX(g, i), m->basis[0] + ALONG * i);
   for (PetscInt j = 0; j < g->rows; j++)
     SetBasis(ALONG, m->node[1], SamGridY(g, g->row_start + j), m->basis[1] + ALONG * j);
@@ -112,7 +111,9 @@ static PetscInt SetLags(SamImages m)
 
   for (PetscInt i = 0; i < ALONG; i++)
     for (PetscInt j = 0; j < i; j++)
-      m->lag[i][j] = m->lag[j][i] = i + j < ALONG - 1 ? lags++ : i + j > ALONG - 1 ? m->lag[ALONG - 1 - j][ALONG - 1 - i] : lags++;
+      m->lag[i][j] = m->lag[j][i] = i + j < ALONG - 1   ? lags++
+                                    : i + j > ALONG - 1 ? m->lag[ALONG - 1 - j][ALONG - 1 - i]
+                                                        : lags++;
   return lags;
 }
 
@@ -135,8 +136,7 @@ static PetscErrorCode FillTable(SamImages m, const double period[2])
     const double   lag[2] = {size[0][x], size[1][y]};
 
     for (PetscInt z = 0; z < DOWN; z++)
-      for (PetscInt c = 0; c < DOWN; c++)
-        SumImages(m, lag, period, m->depth[z], m->depth[c], m->table[x][y][z][c]);
+      for (PetscInt c = 0; c < DOWN; c++) SumImages(m, lag, period, m->depth[z], m->depth[c], m->table[x][y][z][c]);
   }
   PetscCall(SamSum(m->grid->comm, all, (double *)m->table));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -181,15 +181,16 @@ static void ReduceRow(SamImages m, PetscInt j, const double e[], double row[])
 
   memset(row, 0, sizeof(double) * PARTS * DOWN * ALONG);
   for (PetscInt k = 0; k < PARTS * m->body.layers; k++) {
-    const PetscInt l = k / PARTS;
-    const double  *from = e + (ptrdiff_t)k * g->cells + j * (ptrdiff_t)g->nx;
+    const PetscInt l          = k / PARTS;
+    const double  *from       = e + (ptrdiff_t)k * g->cells + j * (ptrdiff_t)g->nx;
     double         sum[ALONG] = {0};
 
     for (PetscInt i = 0; i < g->nx; i++)
       for (PetscInt n = 0; n < ALONG && from[i] != 0; n++) sum[n] += m->basis[0][ALONG * i + n] * from[i];
     for (PetscInt d = 0; d < DOWN; d++)
       for (PetscInt n = 0; n < ALONG; n++)
-        row[((k % PARTS) * DOWN + d) * ALONG + n] += m->basis[2][DOWN * l + d] * m->body.thickness[l] * g->dx * g->dy * sum[n];
+        row[((k % PARTS) * DOWN + d) * ALONG + n] +=
+          m->basis[2][DOWN * l + d] * m->body.thickness[l] * g->dx * g->dy * sum[n];
   }
 }
 

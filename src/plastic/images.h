@@ -19,8 +19,8 @@ PETSC_INTERN PetscErrorCode SamImagesAdd(SamImages images, double s[]);
 
 /*
   SamNucleus - the stress (Pa, tension positive) at a point in a half-space by an eigenstrain at another one, times its
-  volume: stress[a * PARTS + b] is component a by a unit (1 m3) of component b, which counts twice where b is a shear strain.
-  `between`: x and y of the point from the eigenstrain; then the depths of both (m). Not collective.
+  volume: stress[a * PARTS + b] is component a by a unit (1 m3) of component b, which counts twice where b is a shear
+  strain. `between`: x and y of the point from the eigenstrain; then the depths of both (m). Not collective.
 */
 PETSC_INTERN void SamNucleus(const double between[2], double depth, double source, double shear, double poisson,
                              double stress[PARTS * PARTS]);

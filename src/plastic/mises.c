@@ -6,12 +6,12 @@
   by Newton's method from 0; the plastic strain grows by sqrt(3/2) x xi/|xi|. The tangent's part that is not symmetric,
   with g > 0, is left out: it is the matrix of conjugate gradients.
 
-  Source: J. L. Chaboche, Constitutive equations for cyclic plasticity and cyclic viscoplasticity, Int. J. Plast. 5 (1989)
-  247-302; J. C. Simo and T. J. R. Hughes, Computational Inelasticity (1998), chapter 3.
+  Source: J. L. Chaboche, Constitutive equations for cyclic plasticity and cyclic viscoplasticity, Int. J. Plast. 5
+  (1989) 247-302; J. C. Simo and T. J. R. Hughes, Computational Inelasticity (1998), chapter 3.
 */
 #include "mises.h"
 
-#define STEPS 50
+#define STEPS  50
 #define ENOUGH 1e-14 /* of the yield stress */
 
 double SamMisesYield(const SamMises *m, double p, double *slope)
@@ -68,7 +68,7 @@ static double Residual(const SamMises *m, const double d[PARTS], const SamMisesA
     }
   }
   *size = sqrt(SamTensorDot(xi, xi));
-  for (PetscInt c = 0; c < PARTS && *size > 0; c++) xi[c] /= *size;
+  for (PetscInt c = 0; c<PARTS && * size> 0; c++) xi[c] /= *size;
   *slope -= sqrt(1.5) * SamTensorDot(xi, turn);
   return left + sqrt(1.5) * *size;
 }

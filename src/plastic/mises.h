@@ -14,9 +14,9 @@ typedef enum { SAM_HARDENING_LINEAR, SAM_HARDENING_VOCE, SAM_HARDENING_SWIFT } S
 typedef struct {
   double       shear, yield; /* shear modulus and Y, Pa; infinite: never yields */
   SamHardening hardening;
-  double       modulus;            /* H, Pa */
-  double       voce[2];            /* Q (Pa), b */
-  double       swift[2];           /* e0, n */
+  double       modulus;  /* H, Pa */
+  double       voce[2];  /* Q (Pa), b */
+  double       swift[2]; /* e0, n */
   PetscInt     backstresses;
   double       back[SAM_BACKSTRESSES][2]; /* C (Pa), g */
 } SamMises;

@@ -29,10 +29,10 @@
 typedef struct {
   SamPlastic   *plastic;
   SamLawNormal *normal;
-  PetscInt      n;                      /* values of a field on this rank */
+  PetscInt      n;                             /* values of a field on this rank */
   double       *d, *r, *e, *s, *y, *v, *w, *z; /* driver, residual, strain, stress; the others: scratch of a step */
   double       *direction, *along, *across;    /* the tangents: direction as a field, the rest one value a cell */
-  PetscBool     yields, solved;         /* any cell on any rank; the normal problem has a solution */
+  PetscBool     yields, solved;                /* any cell on any rank; the normal problem has a solution */
   /* of the contact */
   SamFrame frame;
   double   gram[SAM_GRAM];
@@ -172,7 +172,7 @@ static PetscErrorCode Dot(const Solve *w, const double a[], const double b[], do
       double sum = 0;
 
       for (PetscInt c = 0; c < PARTS; c++) {
-        const ptrdiff_t at = ((ptrdiff_t)l * PARTS + c) * grid->cells + j * (ptrdiff_t)grid->nx;
+        const ptrdiff_t at  = ((ptrdiff_t)l * PARTS + c) * grid->cells + j * (ptrdiff_t)grid->nx;
         double          row = 0;
 
         for (PetscInt i = 0; i < grid->nx; i++) row += a[at + i] * b[at + i];
@@ -232,7 +232,7 @@ static PetscErrorCode FreezeContact(Solve *w)
 /* Takes a field off the cells that are not in contact, and the loads out of it that are given. */
 static PetscErrorCode Project(const Solve *w, double z[])
 {
-  const SamGrid grid = w->plastic->grid;
+  const SamGrid grid      = w->plastic->grid;
   SamTotal      totals[3] = {{0}};
   double        sums[3], a[3];
 
@@ -463,8 +463,8 @@ static PetscErrorCode Measure(Solve *w, PetscInt field, double *norm, double *la
 
 static PetscErrorCode CreateWork(Solve *w)
 {
-  const SamPlastic *p     = w->plastic;
-  const PetscInt    cells = p->grid->cells;
+  const SamPlastic *p       = w->plastic;
+  const PetscInt    cells   = p->grid->cells;
   double          **field[] = {&w->d, &w->r, &w->e, &w->s, &w->y, &w->v, &w->w, &w->z, &w->direction};
 
   PetscFunctionBegin;
@@ -527,7 +527,8 @@ static PetscErrorCode Iterate(Solve *w, PetscInt field)
   }
   if (w->solved && !(largest <= p->rtol))
     (void)snprintf(w->normal->failed, sizeof(w->normal->failed),
-                   "the plastic strain did not converge within %" PetscInt_FMT " iterations, residual %.2g, tolerance %.2g",
+                   "the plastic strain did not converge within %" PetscInt_FMT
+                   " iterations, residual %.2g, tolerance %.2g",
                    p->newton, largest, (double)p->rtol);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

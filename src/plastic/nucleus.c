@@ -56,9 +56,9 @@ static void Displace(const double between[2], double depth, double source, doubl
   const Jet    x[2] = {{between[0], {1, 0, 0}, {-1, 0, 0}, {{0}}}, {between[1], {0, 1, 0}, {0, -1, 0}, {{0}}}};
   const Jet    z = {depth, {0, 0, 1}, {0}, {{0}}}, c = {source, {0}, {0, 0, 1}, {{0}}}, none = {0};
   const Jet    less = AddTimes(z, -1, c), more = AddTimes(z, 1, c), cz = Multiply(c, z);
-  const Jet    flat = AddTimes(Multiply(x[0], x[0]), 1, Multiply(x[1], x[1]));
+  const Jet    flat   = AddTimes(Multiply(x[0], x[0]), 1, Multiply(x[1], x[1]));
   const Jet    square = AddTimes(flat, 1, Multiply(more, more)), inverse = Power(square, -0.5);
-  const Jet    near = Power(AddTimes(flat, 1, Multiply(less, less)), -0.5);
+  const Jet    near  = Power(AddTimes(flat, 1, Multiply(less, less)), -0.5);
   const Jet    near3 = Multiply(near, Multiply(near, near)), far3 = Multiply(inverse, Multiply(inverse, inverse)),
             far5 = Multiply(far3, Multiply(inverse, inverse));
   const Jet sum = Power(AddTimes(Power(square, 0.5), 1, more), -1), cone = Multiply(inverse, sum);

@@ -31,7 +31,10 @@ typedef struct {
 enum { MOST, CELLS, ERROR, NEWTON, PRODUCTS, NUMBERS };
 
 #define REAL_ROW(body, option, text, what, range_) \
-  {"body" #body "_" option, text, SAM_OPTION_REAL, offsetof(Plastic, material[body - 1].what), .range = (range_), .recorded = PETSC_TRUE}
+  { \
+    "body" #body "_" option, text, SAM_OPTION_REAL, offsetof(Plastic, material[body - 1].what), .range = (range_), \
+                                                                                                .recorded = PETSC_TRUE \
+  }
 #define MATERIAL_ROWS(body) \
   REAL_ROW(body, "yield", "yield stress: the body yields below its surface (Pa)", yield, SAM_RANGE_POSITIVE_INF), \
     {"body" #body "_hardening", "hardening: linear, voce or swift", SAM_OPTION_ENUM, \
@@ -42,7 +45,8 @@ enum { MOST, CELLS, ERROR, NEWTON, PRODUCTS, NUMBERS };
     REAL_ROW(body, "swift_strain", "swift: strain e0 of Y (1 + p/e0)^n", swift_strain, SAM_RANGE_POSITIVE), \
     REAL_ROW(body, "swift_exponent", "swift: exponent n", swift_exponent, SAM_RANGE_NONNEGATIVE)
 
-static const SamOptionRow rows[] = {MATERIAL_ROWS(1), MATERIAL_ROWS(2),
+static const SamOptionRow rows[] = {MATERIAL_ROWS(1),
+                                    MATERIAL_ROWS(2),
                                     {"plastic_depth", "depth below the surface that may yield (m)", SAM_OPTION_REAL,
                                      offsetof(Plastic, depth), .range = SAM_RANGE_POSITIVE, .recorded = PETSC_TRUE},
                                     {"plastic_layers", "layers of this depth", SAM_OPTION_INT,
@@ -50,7 +54,7 @@ static const SamOptionRow rows[] = {MATERIAL_ROWS(1), MATERIAL_ROWS(2),
                                     {"plastic_rtol", "tolerance of the plastic strain, relative to the strain at yield",
                                      SAM_OPTION_REAL, offsetof(Plastic, rtol), .range = SAM_RANGE_PART}};
 
-static const char *const hardened[2] = {"body1_hardening", "body2_hardening"};
+static const char *const hardened[2]   = {"body1_hardening", "body2_hardening"};
 static const char *const backstress[2] = {"body1_backstress", "body2_backstress"};
 
 static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBool *asked)
@@ -62,8 +66,8 @@ static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBo
   for (PetscInt b = 0; b < 2; b++) {
     Material *m = &x->material[b];
 
-    PetscCall(SamOptionsReals(from, backstress[b], "pairs C (Pa), g of backstresses, with commas between",
-                              SAM_RANGE_NONNEGATIVE, 2 * SAM_BACKSTRESSES, m->back, &m->count));
+    PetscCall(SamOptionsReals(from, backstress[b], "pairs C (Pa), g of backstresses", SAM_RANGE_NONNEGATIVE,
+                              2 * SAM_BACKSTRESSES, m->back, &m->count));
     PetscCheck(m->count % 2 == 0, from->comm, SAM_ERR_USER, "-%s%s: %" PetscInt_FMT " numbers: expected pairs C,g",
                SamOptionsPrefix(from), backstress[b], m->count);
     if (!isfinite(m->yield)) continue;
@@ -108,26 +112,26 @@ static PetscInt BodiesOf(const Plastic *x)
 
 static PetscErrorCode Declare(SamLaw law, SamState state)
 {
-  const Plastic             *x                = (const Plastic *)law->data;
-  const SamStateField        field            = {.name        = SAM_PLASTIC_FIELD,
-                                                 .unit        = "1",
-                                                 .text        = "plastic strain, accumulated, and backstresses",
-                                                 .components  = SizeOf(x),
-                                                 .generations = 2,
-                                                 .kept        = PETSC_TRUE,
-                                                 .motion      = SAM_MOVES,
-                                                 .layers      = BodiesOf(x) * x->layers};
+  const Plastic              *x                = (const Plastic *)law->data;
+  const SamStateField         field            = {.name        = SAM_PLASTIC_FIELD,
+                                                  .unit        = "1",
+                                                  .text        = "plastic strain, accumulated, and backstresses",
+                                                  .components  = SizeOf(x),
+                                                  .generations = 2,
+                                                  .kept        = PETSC_TRUE,
+                                                  .motion      = SAM_MOVES,
+                                                  .layers      = BodiesOf(x) * x->layers};
   static const SamStateNumber numbers[NUMBERS] = {
-    {"plastic_strain_max", "1", "largest accumulated plastic strain", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE,
+    {"plastic_strain_max", "1", "maximum accumulated plastic strain", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE,
      SAM_JOIN_LAST, 0},
     {"yielding_cells", "1", "cells of layers that yield in the step", SAM_NUMBER_INT, 1, PETSC_FALSE, PETSC_TRUE,
      SAM_JOIN_LAST, 0},
-    {"yield_error", "1", "largest error of the yield function over the yield stress", SAM_NUMBER_REAL, 1, PETSC_FALSE,
+    {"yield_error", "1", "maximum error of the yield function over the yield stress", SAM_NUMBER_REAL, 1, PETSC_FALSE,
      PETSC_TRUE, SAM_JOIN_GREATEST, 0},
     {"plastic_newton", "1", "steps of Newton's method for the plastic strain", SAM_NUMBER_INT, 1, PETSC_FALSE,
      PETSC_TRUE, SAM_JOIN_SUM, 0},
-    {"plastic_products", "1", "products of its conjugate gradients", SAM_NUMBER_INT, 1, PETSC_FALSE, PETSC_TRUE,
-     SAM_JOIN_SUM, 0}};
+    {"plastic_products", "1", "operator applications of its conjugate gradients", SAM_NUMBER_INT, 1, PETSC_FALSE,
+     PETSC_TRUE, SAM_JOIN_SUM, 0}};
   PetscInt id;
 
   PetscFunctionBegin;
@@ -154,17 +158,14 @@ static SamMises MaterialOf(const Material *from, const SamMaterial *elastic)
 
 static PetscErrorCode SetUp(SamLaw law)
 {
-  Plastic *const x = (Plastic *)law->data;
-  SamPlastic    *p = &x->plastic;
+  Plastic *const x    = (Plastic *)law->data;
+  SamPlastic    *p    = &x->plastic;
   const SamPair  pair = SamElasticityGetPair(law->elasticity);
 
   PetscFunctionBegin;
   if (p->bodies) PetscFunctionReturn(PETSC_SUCCESS);
-  *p = (SamPlastic){.grid       = law->grid,
-                    .elasticity = law->elasticity,
-                    .layers     = x->layers,
-                    .size       = SizeOf(x),
-                    .rtol       = x->rtol};
+  *p = (SamPlastic){
+    .grid = law->grid, .elasticity = law->elasticity, .layers = x->layers, .size = SizeOf(x), .rtol = x->rtol};
   PetscCall(PetscMalloc1(x->layers, &p->thickness));
   for (PetscInt l = 0; l < x->layers; l++) p->thickness[l] = x->depth / (PetscReal)x->layers;
   for (PetscInt b = 0; b < 2; b++) {
@@ -255,7 +256,7 @@ static PetscErrorCode Follow(SamLaw law, SamLawNormal *normal)
 static PetscErrorCode Judge(const SamPlastic *p, const double before[], const double now[], const double stress[],
                             double numbers[NUMBERS])
 {
-  const PetscInt cells = p->grid->cells;
+  const PetscInt cells   = p->grid->cells;
   double         most[2] = {0}, yields = 0;
 
   PetscFunctionBegin;
@@ -328,22 +329,22 @@ PetscErrorCode SamLawCreate_Plastic(SamLaw law)
   PetscFunctionBegin;
   PetscCall(PetscNew(&x));
   x->material[0].yield = x->material[1].yield = INFINITY;
-  x->rtol                                                   = 1e-6;
-  x->layers                                                 = 32;
-  law->data                                                 = x;
-  law->heading                                              = "Plastic strain below the surface";
-  law->rows                                                 = rows;
-  law->row_count                                            = (PetscInt)(sizeof(rows) / sizeof(rows[0]));
-  law->forbids_jumps                                        = PETSC_TRUE;
-  law->ops.setfromoptions                                   = SetFromOptions;
-  law->ops.addparameters                                    = AddParameters;
-  law->ops.destroy                                          = Destroy;
-  law->ops.declare                                          = Declare;
-  law->ops.check                                            = Check;
-  law->ops.begin                                            = Begin;
-  law->ops.offset                                           = AddOffset;
-  law->ops.follow                                           = Follow;
-  law->ops.advance                                          = Advance;
-  law->ops.view                                             = View;
+  x->rtol                                     = 1e-6;
+  x->layers                                   = 32;
+  law->data                                   = x;
+  law->heading                                = "Plastic strain below the surface";
+  law->rows                                   = rows;
+  law->row_count                              = (PetscInt)(sizeof(rows) / sizeof(rows[0]));
+  law->forbids_jumps                          = PETSC_TRUE;
+  law->ops.setfromoptions                     = SetFromOptions;
+  law->ops.addparameters                      = AddParameters;
+  law->ops.destroy                            = Destroy;
+  law->ops.declare                            = Declare;
+  law->ops.check                              = Check;
+  law->ops.begin                              = Begin;
+  law->ops.offset                             = AddOffset;
+  law->ops.follow                             = Follow;
+  law->ops.advance                            = Advance;
+  law->ops.view                               = View;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

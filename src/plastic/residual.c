@@ -96,7 +96,8 @@ static PetscErrorCode CreateSpectra(SamResidual r)
   PetscFunctionBegin;
   PetscCall(PetscCalloc1(r->grid->cells, &zero));
   field[0] = zero;
-  PetscCall(SamFourierApply(r->fourier, &(SamFourierFilter){.mode = r->mode, .n_in = 1, .apply = MoveBlock, .context = &move},
+  PetscCall(SamFourierApply(r->fourier,
+                            &(SamFourierFilter){.mode = r->mode, .n_in = 1, .apply = MoveBlock, .context = &move},
                             (const double *const *)field, NULL));
   PetscCall(PetscFree(zero));
   PetscCall(SamAllocate(sizeof(*r->spectra) * (size_t)((planes + 3) * r->columns * r->waves), &r->spectra));
@@ -105,7 +106,8 @@ static PetscErrorCode CreateSpectra(SamResidual r)
   for (PetscInt k = 0; k < r->waves; k++) {
     const PetscInt hy = r->waves / r->phases, ky = r->phases * (k % hy) + k / hy;
 
-    r->ky[k] = 2 * PETSC_PI / ((double)r->waves * (double)r->grid->dy) * (double)(2 * ky <= r->waves ? ky : ky - r->waves);
+    r->ky[k] =
+      2 * PETSC_PI / ((double)r->waves * (double)r->grid->dy) * (double)(2 * ky <= r->waves ? ky : ky - r->waves);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -119,7 +121,8 @@ static PetscErrorCode CheckBodies(SamElasticity e, PetscInt body)
   PetscFunctionBegin;
   PetscCheck(!strcmp(type, SAM_ELASTICITY_HALFSPACE) || !strcmp(type, SAM_ELASTICITY_PERIODIC) ||
                !strcmp(type, SAM_ELASTICITY_PLANE_PERIODIC),
-             e->grid->comm, SAM_ERR_USER, "-body%" PetscInt_FMT "_yield: not supported with bodies of type %s", body, type);
+             e->grid->comm, SAM_ERR_USER, "-body%" PetscInt_FMT "_yield: not supported with bodies of type %s", body,
+             type);
   PetscCheck(SamPairIsUniform(e->pair), e->grid->comm, SAM_ERR_USER,
              "-body%" PetscInt_FMT "_yield: not supported with layers", body);
   PetscCheck(!SamBodyIsRigid(SamPairBody(e->pair, body - 1)), e->grid->comm, SAM_ERR_USER,
@@ -131,7 +134,7 @@ static PetscErrorCode CheckBodies(SamElasticity e, PetscInt body)
 static PetscErrorCode CreateWindow(SamResidual r, SamElasticity e, PetscInt body)
 {
   const PetscReal period[2] = {r->period * r->grid->dx, (PetscReal)r->waves * r->grid->dy};
-  PetscReal       top = 0;
+  PetscReal       top       = 0;
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc1(r->body.layers, &r->stress));

@@ -237,7 +237,7 @@ static void GetDisplacement(const Column *w, Wave *const u[3])
   for (PetscInt m = 0; m < n; m++) {
     const double k = w->v[K][m], c = w->v[COS][m], s = w->v[SIN][m];
     const Wave   rest = w->state[Y0][m] - w->state[X1][m];
-    Wave         along = Turn(-1 / k, rest), across = Turn(-2 / k, w->state[T0][m]), down = (w->state[X0][m] - rest) / k;
+    Wave along = Turn(-1 / k, rest), across = Turn(-2 / k, w->state[T0][m]), down = (w->state[X0][m] - rest) / k;
 
     if (k == 0) along = across = down = 0;
     for (PetscInt l = 0; k == 0 && l < w->body->layers; l++) {
@@ -308,7 +308,7 @@ static void AddTractions(const Column *w, const Wave *const traction[3], Wave s[
   for (PetscInt m = 0; m < n; m++) {
     const double e0 = w->v[E0][m], e1 = w->v[E1][m], c = w->v[COS][m], r = w->v[SIN][m];
     const Wave   p = traction[0][m], along = c * traction[1][m] + r * traction[2][m],
-               across = c * traction[2][m] - r * traction[1][m];
+               across    = c * traction[2][m] - r * traction[1][m];
     const PetscBool mean = w->v[K][m] == 0;
 
     s[ZZ * n + m] = Turn(e1, along) - (e0 + e1) * p;

@@ -99,11 +99,8 @@ static PetscErrorCode SolveAgain(SamLawNormal *normal, PetscBool *solved)
 /* The pressure together with the state of a law that follows from it. */
 static PetscErrorCode FollowPressure(SamSolve *w)
 {
-  SamLawNormal  normal = {.state    = w->task->state,
-                          .balance  = &w->normal,
-                          .pressure = w->s->pressure,
-                          .solve    = SolveAgain,
-                          .context  = w};
+  SamLawNormal normal = {
+    .state = w->task->state, .balance = &w->normal, .pressure = w->s->pressure, .solve = SolveAgain, .context = w};
   const SamLaw *laws;
   PetscInt      count;
 

@@ -9,16 +9,23 @@
 /* Four strains after each other; the accumulated plastic strain after each, and s_xx and s_xy after the last. */
 static void test_paths_have_reference_ends(void **state)
 {
-  static const double strain[4][PARTS] = {{4e-3, -2e-3, -2e-3}, {4e-3, -2e-3, -2e-3, 3e-3}, {-4e-3, 2e-3, 2e-3, 3e-3}, {-4e-3, 2e-3, 2e-3, -3e-3}};
+  static const double strain[4][PARTS] = {
+    {4e-3, -2e-3, -2e-3}, {4e-3, -2e-3, -2e-3, 3e-3}, {-4e-3, 2e-3, 2e-3, 3e-3}, {-4e-3, 2e-3, 2e-3, -3e-3}};
   static const struct {
     SamMises material;
     double   p[4], stress[2];
-  } paths[] = {
-    {{.shear = SHEAR, .yield = YIELD}, {0.00275, 0.00518272996566, 0.0115991540126, 0.0171979545597}, {-36.07087705, -170.3648111}},
-    {{.shear = SHEAR, .yield = YIELD, .modulus = 2000}, {0.00272727272727, 0.00512506983565, 0.0114308343999, 0.0168850841905}, {-43.17766205, -189.0395256}},
-    {{.shear = SHEAR, .yield = YIELD, .hardening = SAM_HARDENING_SWIFT, .swift = {0.002, 0.15}}, {0.00258437714864, 0.00482390823881, 0.0107344587937, 0.0158193805225}, {-66.02864572, -233.5603198}},
-    {{.shear = SHEAR, .yield = YIELD, .backstresses = 1, .back = {{10000, 0}}}, {0.00264, 0.00497542076704, 0.0111351878521, 0.0165100363773}, {-60.22804197, -182.7502187}}
-  };
+  } paths[] = {{{.shear = SHEAR, .yield = YIELD},
+                {0.00275, 0.00518272996566, 0.0115991540126, 0.0171979545597},
+                {-36.07087705, -170.3648111}},
+               {{.shear = SHEAR, .yield = YIELD, .modulus = 2000},
+                {0.00272727272727, 0.00512506983565, 0.0114308343999, 0.0168850841905},
+                {-43.17766205, -189.0395256}},
+               {{.shear = SHEAR, .yield = YIELD, .hardening = SAM_HARDENING_SWIFT, .swift = {0.002, 0.15}},
+                {0.00258437714864, 0.00482390823881, 0.0107344587937, 0.0158193805225},
+                {-66.02864572, -233.5603198}},
+               {{.shear = SHEAR, .yield = YIELD, .backstresses = 1, .back = {{10000, 0}}},
+                {0.00264, 0.00497542076704, 0.0111351878521, 0.0165100363773},
+                {-60.22804197, -182.7502187}}};
 
   (void)state;
   for (size_t n = 0; n < sizeof(paths) / sizeof(paths[0]); n++) {
@@ -55,8 +62,14 @@ static void test_backstress_saturates(void **state)
 /* Voce's hardening and two backstresses: the end lies on the yield surface, and elastic steps change nothing. */
 static void test_tangent_is_the_derivative(void **state)
 {
-  const SamMises m = {.shear = SHEAR, .yield = YIELD, .hardening = SAM_HARDENING_VOCE, .voce = {120, 80}, .backstresses = 2, .back = {{20000, 0}, {9000, 0}}};
-  const double   before[PARTS] = {5e-3, -3e-3, -2e-3, 1e-3, 2e-3, -1e-3}, after[PARTS] = {2e-3, -4e-3, 2e-3, 3e-3, -2e-3, 1e-3}, step = 1e-8;
+  const SamMises m             = {.shear        = SHEAR,
+                                  .yield        = YIELD,
+                                  .hardening    = SAM_HARDENING_VOCE,
+                                  .voce         = {120, 80},
+                                  .backstresses = 2,
+                                  .back         = {{20000, 0}, {9000, 0}}};
+  const double   before[PARTS] = {5e-3, -3e-3, -2e-3, 1e-3, 2e-3, -1e-3},
+               after[PARTS] = {2e-3, -4e-3, 2e-3, 3e-3, -2e-3, 1e-3}, step = 1e-8;
   SamMisesAt      start = {{0}, 0, {{0}}}, at, more;
   SamMisesTangent t, unused;
   double          stress[PARTS], d[PARTS], change[PARTS] = {0.3, -0.5, 0.2, 0.4, -0.1, 0.6};

@@ -94,30 +94,28 @@ static double PlaneDot(SamGrid grid, PetscInt planes, PetscInt plane, Vec field,
 static const struct {
   int    component;
   double s[3][6], u[3];
-} amplitudes[] = {
-  {SAM_STRESS_XX,
-   {{0.70190100874, 0.20914989025, -0.0047347079018, 0, -0.070712733231, 0},
-    {-2.1972540531, -0.66327853345, -0.013674391763, 0, 0.077825530894, 0},
-    {0.44792055588, 0.14859986089, 0.047412313739, 0, 0.20025412107, 0}},
-   {-0.12639628742, 0, -0.052190933899}                                                             },
-  {SAM_STRESS_ZZ,
-   {{0.0721289981, 0.021441227756, -0.00065823891338, 0, -0.0089835025104, 0},
-    {-0.013674391763, -0.0050722839993, -0.0032332215685, 0, -0.013846704894, 0},
-    {-0.020533023981, -0.0080393920957, -0.0062649496714, 0, -0.0071340371549, 0}},
-   {-0.022014419622, 0, -0.096219773143}                                                            },
-  {SAM_STRESS_XZ,
-   {{-0.62977201064, -0.18770866249, 0.0040764689885, 0, -0.06172923072, 0},
-    {-0.15565106179, -0.0383872956, 0.027693409788, 0, -0.15865771145, 0},
-    {0.26431204424, 0.099478619792, 0.067283355071, 0, -0.098514344583, 0}},
-   {-0.1043818678, 0, -0.044028839244}                                                              }
-};
+} amplitudes[] = {{SAM_STRESS_XX,
+                   {{0.70190100874, 0.20914989025, -0.0047347079018, 0, -0.070712733231, 0},
+                    {-2.1972540531, -0.66327853345, -0.013674391763, 0, 0.077825530894, 0},
+                    {0.44792055588, 0.14859986089, 0.047412313739, 0, 0.20025412107, 0}},
+                   {-0.12639628742, 0, -0.052190933899}},
+                  {SAM_STRESS_ZZ,
+                   {{0.0721289981, 0.021441227756, -0.00065823891338, 0, -0.0089835025104, 0},
+                    {-0.013674391763, -0.0050722839993, -0.0032332215685, 0, -0.013846704894, 0},
+                    {-0.020533023981, -0.0080393920957, -0.0062649496714, 0, -0.0071340371549, 0}},
+                   {-0.022014419622, 0, -0.096219773143}},
+                  {SAM_STRESS_XZ,
+                   {{-0.62977201064, -0.18770866249, 0.0040764689885, 0, -0.06172923072, 0},
+                    {-0.15565106179, -0.0383872956, 0.027693409788, 0, -0.15865771145, 0},
+                    {0.26431204424, 0.099478619792, 0.067283355071, 0, -0.098514344583, 0}},
+                   {-0.1043818678, 0, -0.044028839244}}};
 
 static void test_waves_have_reference_amplitudes(void **state)
 {
-  const PetscReal h[3] = {0.1, 0.1, 0.2};
-  const double    k[2] = {2, 0};
-  SamGrid         grid = NewGrid(8, 6, PETSC_PI, 1);
-  SamElasticity   b    = NewBodies(grid, SAM_ELASTICITY_PERIODIC);
+  const PetscReal h[3]    = {0.1, 0.1, 0.2};
+  const double    k[2]    = {2, 0};
+  SamGrid         grid    = NewGrid(8, 6, PETSC_PI, 1);
+  SamElasticity   b       = NewBodies(grid, SAM_ELASTICITY_PERIODIC);
   Vec             wave[2] = {NewFrom(grid, CosineOf, k), NewFrom(grid, SineOf, k)};
   SamResidual     r;
 
@@ -133,8 +131,8 @@ static void test_waves_have_reference_amplitudes(void **state)
       for (int c = 0; c < 6; c++) {
         const int turned = shear != (c == SAM_STRESS_XZ);
 
-        sam_assert_close(PlaneDot(grid, 18, 6 * l + c, s, wave[turned]) / 24,
-                         (turned ? -1 : 1) * amplitudes[n].s[l][c], 1e-10);
+        sam_assert_close(PlaneDot(grid, 18, 6 * l + c, s, wave[turned]) / 24, (turned ? -1 : 1) * amplitudes[n].s[l][c],
+                         1e-10);
       }
     for (int c = 0; c < 3; c++) {
       const int turned = shear != (c == 0);
@@ -249,11 +247,13 @@ static void test_operators_are_symmetric(void **state)
 
 static void test_nucleus_has_reference_stress(void **state)
 {
-  static const double between[2] = {0.7, -0.4}, expected[][7] = {
-    {SAM_STRESS_XX, 0.14925478819, 0.055939936171, -0.044091448569, 0.10930692895, 0.12906712861, -0.15670092811},
-    {SAM_STRESS_ZZ, -0.055988326108, 0.096038274651, 0.13783034223, 0.12899226731, 0.15656006255, -0.089462892888},
-    {SAM_STRESS_XZ, 0.17091596904, -0.11915914723, -0.075049594466, -0.30982555144, -0.33521556908, 0.30825985059}
-  };
+  static const double between[2]    = {0.7, -0.4},
+                      expected[][7] = {{SAM_STRESS_XX, 0.14925478819, 0.055939936171, -0.044091448569, 0.10930692895,
+                                        0.12906712861, -0.15670092811},
+                                       {SAM_STRESS_ZZ, -0.055988326108, 0.096038274651, 0.13783034223, 0.12899226731,
+                                        0.15656006255, -0.089462892888},
+                                       {SAM_STRESS_XZ, 0.17091596904, -0.11915914723, -0.075049594466, -0.30982555144,
+                                        -0.33521556908, 0.30825985059}};
   double s[36];
 
   (void)state;
@@ -271,16 +271,17 @@ static double BellOf(double x, double y, const void *context)
 /* A Gaussian in the second layer, in the fourth one at (0.15, 0.1): of cells with their centre there. */
 static void test_half_space_has_reference_stress(void **state)
 {
-  static const double expected[][7] = {
-    {SAM_STRESS_XX, 0.12017021472, 0.034940988292, 0.021526568346, -0.005247477715, -0.036862316792, -0.0015730785622},
-    {SAM_STRESS_ZZ, -0.0185524886, -0.014585083899, -0.057615056146, -0.0047608856406, -0.024629023266, -0.016419348844},
-    {SAM_STRESS_XY, -0.013273441173, -0.012211776717, -0.016004904682, 0.088328127178, -0.028986725032, -0.038492649437}
-  };
-  const PetscReal h[4] = {0.1, 0.1, 0.1, 0.1};
-  SamGrid         grid = NewGridOn(PETSC_COMM_WORLD, 40, 40, 2, 2, 0.025, 0.025);
-  SamElasticity   b    = NewBodies(grid, SAM_ELASTICITY_HALFSPACE);
-  Vec             bell = NewFrom(grid, BellOf, NULL), at = NewField(grid, 1);
-  SamResidual     r;
+  static const double expected[][7] = {{SAM_STRESS_XX, 0.12017021472, 0.034940988292, 0.021526568346, -0.005247477715,
+                                        -0.036862316792, -0.0015730785622},
+                                       {SAM_STRESS_ZZ, -0.0185524886, -0.014585083899, -0.057615056146,
+                                        -0.0047608856406, -0.024629023266, -0.016419348844},
+                                       {SAM_STRESS_XY, -0.013273441173, -0.012211776717, -0.016004904682,
+                                        0.088328127178, -0.028986725032, -0.038492649437}};
+  const PetscReal     h[4]          = {0.1, 0.1, 0.1, 0.1};
+  SamGrid             grid          = NewGridOn(PETSC_COMM_WORLD, 40, 40, 2, 2, 0.025, 0.025);
+  SamElasticity       b             = NewBodies(grid, SAM_ELASTICITY_HALFSPACE);
+  Vec                 bell = NewFrom(grid, BellOf, NULL), at = NewField(grid, 1);
+  SamResidual         r;
 
   (void)state;
   sam_call(SamResidualCreate(b, 2, 4, h, &r));

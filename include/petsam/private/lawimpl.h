@@ -51,13 +51,14 @@ typedef struct {
 
 /*
   The normal problem of a step, for a law whose state follows from the pressure, and whose offset in turn changes that.
-  `solve` solves it with the offset of the tried state, from the last pressure on; `solved`: it has a solution. Collective.
+  `solve` solves it with the offset of the tried state, from the last pressure on; `solved`: it has a solution.
+  Collective.
 */
 typedef struct _n_SamLawNormal SamLawNormal;
 struct _n_SamLawNormal {
   SamState          state;
   const SamBalance *balance;
-  Vec               pressure; /* Pa: the last solution */
+  Vec               pressure;    /* Pa: the last solution */
   char              failed[128]; /* to be set where the law finds none: why */
   PetscErrorCode (*solve)(SamLawNormal *normal, PetscBool *solved);
   void *context;

@@ -1,0 +1,156 @@
+"""-body2_yield: plastic strain below the surface, with spheres on half-spaces and periodic bodies."""
+
+import math
+
+import numpy as np
+import pytest
+
+import support
+
+# A rigid sphere of radius 1 m; at first yield (nu = 0.3) the pressure, the contact's radius, the load, the approach
+YIELD = 1e-3
+PEAK = YIELD / 0.6200410039
+RADIUS = math.pi / 2 * PEAK * 0.91
+LOAD = 2 / 3 * math.pi * RADIUS**2 * PEAK
+APPROACH = RADIUS**2
+
+
+def sphere(n, layers, load=6, **more):
+    width = 2.9 * 1.3 * 6 ** (1 / 3) * RADIUS
+    case = dict(
+        body1_young="inf",
+        body1_poisson=0.3,
+        body2_young=1,
+        body2_poisson=0.3,
+        gap_type="sphere",
+        gap_radius1=1,
+        gap_radius2="inf",
+        grid_n=(n, n),
+        grid_size=(width, width),
+        body2_yield=YIELD,
+        plastic_depth=2.1 / 2.9 * width,
+        plastic_layers=layers,
+        load_n=load * LOAD,
+    )
+    case.update(more)
+    return case
+
+
+def steps(path, **columns):
+    """A history of one step a value."""
+    count = len(next(iter(columns.values())))
+    rows = zip(map(float, range(1, count + 1)), *columns.values())
+    return dict(load_n=None, **support.history(path, ",".join(["time", *columns]), *rows))
+
+
+def all_steps(results):
+    """All steps of a run, by names of its history."""
+    run = support.read_run(results.path)
+    return {name[8:]: column for name, column in run.items() if name.startswith("history/")}
+
+
+def numbers(run, k=-1):
+    return [run["disp_z"][k] / APPROACH, run["pressure_max"][k] / YIELD, run["plastic_strain_max"][k] / YIELD]
+
+
+def test_sphere_has_reference_numbers(solve):
+    """Six times the load of first yield at once; of a prototype whose error is the image of its window, 4e-4."""
+    for n, layers, expected in (16, 10, (3.45363, 2.1287, 1.2083)), (24, 15, (3.45170, 2.1353, 1.2213)):
+        assert numbers(all_steps(solve(sphere(n, layers)))) == pytest.approx(expected, rel=1e-3)
+
+
+def test_periodic_sphere_is_that_of_tamaas(solve):
+    """Tamaas 2.9 tends to the same: 1.95351 and 1.94529 with 17 and 33 nodes of depth, 1.9426 in the limit."""
+    period = 8 * RADIUS
+    more = dict(
+        elasticity="periodic",
+        grid_size=(period, period),
+        grid_center=(period / 64, period / 64),
+        plastic_depth=4 * RADIUS,
+        body2_hardening_modulus=0.05,
+    )
+    for layers, peak in (16, 1.95024), (32, 1.94379):
+        assert numbers(all_steps(solve(sphere(32, layers, 3, **more))))[1] == pytest.approx(peak, abs=1e-5)
+
+
+def test_unloading_is_elastic_and_leaves_a_dent(solve, tmp_path):
+    """Without yielding on the way back; reloading is back at the same state; unloaded, the surface has the dent."""
+    loads = [x * LOAD for x in (6, 3, 0.01, 6)]
+    results = all_steps(solve(sphere(16, 10, **steps(tmp_path / "loads.csv", load_n=loads))))
+    assert list(results["plastic_newton"][1:]) == [0, 0, 0]
+    assert results["plastic_strain_max"][0] == results["plastic_strain_max"][3]
+    assert numbers(results, 3) == pytest.approx(numbers(results, 0), rel=1e-7)
+    assert 0.5 < results["disp_z"][2] / APPROACH < 0.7  # an elastic sphere: 0.046
+    assert np.all(results["yield_error"][:] < 1e-5)
+
+
+def test_given_approach_is_the_given_load(solve, tmp_path):
+    first = all_steps(solve(sphere(12, 6, 4)))
+    height = float(first["disp_z"][0])
+    second = all_steps(solve(sphere(12, 6, load_n=None, disp_z=height)))
+    assert second["load_n"][0] == pytest.approx(4 * LOAD, rel=1e-6)
+    assert numbers(second) == pytest.approx(numbers(first), rel=1e-6)
+
+
+def test_two_equal_bodies_are_one_in_half_the_gap(solve):
+    one = all_steps(solve(sphere(12, 6, 12, gap_radius1=2)))
+    two = all_steps(solve(sphere(12, 6, 12, body1_young=1, body1_yield=YIELD)))
+    assert numbers(two)[0] == pytest.approx(2 * numbers(one)[0], rel=1e-6)
+    assert numbers(two)[1:] == pytest.approx(numbers(one)[1:], rel=1e-6)
+
+
+HARDENING = {
+    "linear": dict(body2_hardening_modulus=0.1),
+    "voce": dict(body2_hardening="voce", body2_voce_stress=3e-4, body2_voce_rate=2000),
+    "swift": dict(body2_hardening="swift", body2_swift_strain=1e-3, body2_swift_exponent=0.2),
+    "backstresses": dict(body2_backstress="0.3,800,0.02,100"),
+}
+
+
+@pytest.mark.parametrize("kind", HARDENING)
+def test_hardening(solve, tmp_path, kind):
+    """A body that hardens yields less; loads that come back yield less and less."""
+    perfect = all_steps(solve(sphere(12, 6, 4)))
+    loads = [x * LOAD for x in (4, 0.5, 4, 5)]
+    results = all_steps(solve(sphere(12, 6, **HARDENING[kind], **steps(tmp_path / "loads.csv", load_n=loads))))
+    assert results["plastic_strain_max"][0] < 0.98 * perfect["plastic_strain_max"][0]
+    assert results["disp_z"][0] < perfect["disp_z"][0]
+    assert np.all(np.diff(results["plastic_strain_max"][:]) >= 0)
+    assert results["plastic_strain_max"][3] > results["plastic_strain_max"][2]
+
+
+FIELDS = ("pressure", "history/disp_z", "history/plastic_strain_max")
+
+
+def test_ranks_and_restart_give_the_same_bits(petsam, tmp_path):
+    loads = [x * LOAD for x in (2, 5, 1, 6)]
+    case = sphere(13, 5, **steps(tmp_path / "loads.csv", load_n=loads))
+    runs = []
+    for name, ranks in ("one", 1), ("three", 3):
+        petsam(case, dict(output=tmp_path / f"{name}.h5"), ranks=ranks)
+        run = support.read_run(tmp_path / f"{name}.h5")
+        runs.append([run[c] for c in FIELDS])
+    kept = dict(output=tmp_path / "on.h5", checkpoint=tmp_path / "state.h5", checkpoint_every=2)
+    petsam(case, kept)
+    petsam(case, dict(output=tmp_path / "on.h5", restart=tmp_path / "state.h5.1"), ranks=2)
+    run = support.read_run(tmp_path / "on.h5")
+    runs.append([run[c] for c in FIELDS])
+    for values in zip(*runs):
+        assert np.array_equal(values[0], values[1]) and np.array_equal(values[0], values[2])
+
+
+REFUSED = [
+    (dict(body1_yield=1), "-body1_yield: the body is rigid"),
+    (dict(friction=0.3), "-body2_yield: not supported with friction"),
+    (dict(pressure_limit=1e-3), "-body2_yield: not supported with -pressure_limit"),
+    (dict(body2_layer_young=2, body2_layer_poisson=0.3, body2_layer_thickness=1e-3), "not supported with layers"),
+    (dict(plastic_depth=None), "-plastic_depth is missing"),
+    (dict(body2_hardening="swift"), "-body2_swift_strain is missing"),
+    (dict(body2_backstress="1,2,3"), "3 numbers: expected pairs C,g"),
+    (dict(bulk2_stress_xx=1e-4), "bulk2_stress_xx"),
+]
+
+
+@pytest.mark.parametrize("wrong, message", REFUSED)
+def test_what_makes_no_sense_is_refused(petsam, wrong, message):
+    assert message in petsam(sphere(8, 4, **wrong), check=None).stderr
