@@ -23,6 +23,8 @@ typedef struct {
   SamPlastic plastic;
 } Plastic;
 
+/* Of memory for a cell of a layer, without backstresses. */
+#define BYTES 900
 /* Beyond this part of the yield stress, or this many tolerances, the check fails. */
 #define EXCESS 1e-5
 #define MARGIN 10
@@ -57,6 +59,17 @@ static const SamOptionRow rows[] = {MATERIAL_ROWS(1),
 static const char *const hardened[2]   = {"body1_hardening", "body2_hardening"};
 static const char *const backstress[2] = {"body1_backstress", "body2_backstress"};
 
+/* The values that a cell of a layer remembers. */
+static PetscInt SizeOf(const Plastic *x)
+{
+  return PARTS + 1 + PARTS * PetscMax(x->material[0].count, x->material[1].count) / 2;
+}
+
+static PetscInt BodiesOf(const Plastic *x)
+{
+  return (isfinite(x->material[0].yield) != 0) + (isfinite(x->material[1].yield) != 0);
+}
+
 static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBool *asked)
 {
   Plastic *const x = (Plastic *)law->data;
@@ -66,7 +79,7 @@ static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBo
   for (PetscInt b = 0; b < 2; b++) {
     Material *m = &x->material[b];
 
-    PetscCall(SamOptionsReals(from, backstress[b], "pairs C (Pa), g of backstresses", SAM_RANGE_NONNEGATIVE,
+    PetscCall(SamOptionsReals(from, backstress[b], "pairs C, g of backstresses, C in Pa", SAM_RANGE_NONNEGATIVE,
                               2 * SAM_BACKSTRESSES, m->back, &m->count));
     PetscCheck(m->count % 2 == 0, from->comm, SAM_ERR_USER, "-%s%s: %" PetscInt_FMT " numbers: expected pairs C,g",
                SamOptionsPrefix(from), backstress[b], m->count);
@@ -77,6 +90,7 @@ static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBo
                                   "strain e0 of Y (1 + p/e0)^n"));
     law->option = b ? "body2_yield" : "body1_yield";
   }
+  law->bytes = BYTES * x->layers * BodiesOf(x);
   if (*asked)
     PetscCall(SamOptionsRequire(from, x->depth > 0, "plastic_depth", "the depth below the surface that may yield (m)"));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -99,17 +113,6 @@ static PetscErrorCode AddParameters(SamLaw law, SamParameters *parameters)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The values that a cell of a layer remembers. */
-static PetscInt SizeOf(const Plastic *x)
-{
-  return PARTS + 1 + PARTS * PetscMax(x->material[0].count, x->material[1].count) / 2;
-}
-
-static PetscInt BodiesOf(const Plastic *x)
-{
-  return (isfinite(x->material[0].yield) != 0) + (isfinite(x->material[1].yield) != 0);
-}
-
 static PetscErrorCode Declare(SamLaw law, SamState state)
 {
   const Plastic              *x                = (const Plastic *)law->data;
@@ -119,7 +122,6 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
                                                   .components  = SizeOf(x),
                                                   .generations = 2,
                                                   .kept        = PETSC_TRUE,
-                                                  .motion      = SAM_MOVES,
                                                   .layers      = BodiesOf(x) * x->layers};
   static const SamStateNumber numbers[NUMBERS] = {
     {"plastic_strain_max", "1", "maximum accumulated plastic strain", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE,
@@ -189,11 +191,19 @@ static PetscErrorCode Destroy(SamLaw law)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Bulk stress is not part of the stress that yields. */
+/* Bulk stress is not part of the stress that yields, and what a cell remembers does not move along. */
 static PetscErrorCode Check(SamLaw law, SamControl *control, const SamCondition **wrong, char why[], size_t size)
 {
-  static const char *const names[] = {"bulk1_stress_xx", "bulk1_stress_yy", "bulk1_stress_xy",
-                                      "bulk2_stress_xx", "bulk2_stress_yy", "bulk2_stress_xy"};
+  static const char *const names[] = {"bulk1_stress_xx",
+                                      "bulk1_stress_yy",
+                                      "bulk1_stress_xy",
+                                      "bulk2_stress_xx",
+                                      "bulk2_stress_yy",
+                                      "bulk2_stress_xy",
+                                      "roll",
+                                      "roll_y",
+                                      "slide_x",
+                                      "slide_y"};
 
   PetscFunctionBegin;
   for (size_t k = 0; k < sizeof(names) / sizeof(names[0]); k++) {

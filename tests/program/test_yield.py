@@ -139,6 +139,11 @@ def test_ranks_and_restart_give_the_same_bits(petsam, tmp_path):
         assert np.array_equal(values[0], values[1]) and np.array_equal(values[0], values[2])
 
 
+def test_conditions_that_move_the_material_are_refused(petsam, tmp_path):
+    case = sphere(8, 4, **steps(tmp_path / "loads.csv", load_n=[LOAD, LOAD], roll=[0.0, 1e-3]))
+    assert "roll" in petsam(case, check=None).stderr
+
+
 REFUSED = [
     (dict(body1_yield=1), "-body1_yield: the body is rigid"),
     (dict(friction=0.3), "-body2_yield: not supported with friction"),
@@ -148,6 +153,7 @@ REFUSED = [
     (dict(body2_hardening="swift"), "-body2_swift_strain is missing"),
     (dict(body2_backstress="1,2,3"), "3 numbers: expected pairs C,g"),
     (dict(bulk2_stress_xx=1e-4), "bulk2_stress_xx"),
+    (dict(elasticity="plane", grid_n=8), "not supported with bodies of type plane"),
 ]
 
 
