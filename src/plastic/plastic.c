@@ -113,35 +113,6 @@ static PetscErrorCode AddParameters(SamLaw law, SamParameters *parameters)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Declare(SamLaw law, SamState state)
-{
-  const Plastic              *x                = (const Plastic *)law->data;
-  const SamStateField         field            = {.name        = SAM_PLASTIC_FIELD,
-                                                  .unit        = "1",
-                                                  .text        = "plastic strain, accumulated, and backstresses",
-                                                  .components  = SizeOf(x),
-                                                  .generations = 2,
-                                                  .kept        = PETSC_TRUE,
-                                                  .layers      = BodiesOf(x) * x->layers};
-  static const SamStateNumber numbers[NUMBERS] = {
-    {"plastic_strain_max", "1", "maximum accumulated plastic strain", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE,
-     SAM_JOIN_LAST, 0},
-    {"yielding_cells", "1", "cells of layers that yield in the step", SAM_NUMBER_INT, 1, PETSC_FALSE, PETSC_TRUE,
-     SAM_JOIN_LAST, 0},
-    {"yield_error", "1", "maximum error of the yield function over the yield stress", SAM_NUMBER_REAL, 1, PETSC_FALSE,
-     PETSC_TRUE, SAM_JOIN_GREATEST, 0},
-    {"plastic_newton", "1", "steps of Newton's method for the plastic strain", SAM_NUMBER_INT, 1, PETSC_FALSE,
-     PETSC_TRUE, SAM_JOIN_SUM, 0},
-    {"plastic_products", "1", "operator applications of its conjugate gradients", SAM_NUMBER_INT, 1, PETSC_FALSE,
-     PETSC_TRUE, SAM_JOIN_SUM, 0}};
-  PetscInt id;
-
-  PetscFunctionBegin;
-  PetscCall(SamStateDeclareField(state, &field, &id));
-  for (PetscInt k = 0; k < NUMBERS; k++) PetscCall(SamStateDeclareNumber(state, &numbers[k], &id));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* ---- the operators ---- */
 
 static SamMises MaterialOf(const Material *from, const SamMaterial *elastic)
@@ -177,6 +148,90 @@ static PetscErrorCode SetUp(SamLaw law)
     PetscCall(SamResidualCreate(law->elasticity, b + 1, x->layers, p->thickness, &body->residual));
     body->material = MaterialOf(&x->material[b], SamBodyMaterialAt(SamPairBody(pair, b), 0));
     body->first    = p->bodies++ * x->layers;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the state ---- */
+
+/* A field of the results: the displacement of the surface by the plastic strain, or the largest of that below a cell. */
+static PetscErrorCode Compute(void *owner, SamState state, PetscInt component, Vec field)
+{
+  const SamLaw   law   = (SamLaw)owner;
+  const PetscInt cells = law->grid->cells;
+  const Vec      now   = SamStateReadField(state, SamStateFindField(state, SAM_PLASTIC_FIELD));
+  SamPlastic    *p     = &((Plastic *)law->data)->plastic;
+  const double  *from;
+  double        *to, *u, *at[3];
+
+  PetscFunctionBegin;
+  PetscCall(VecSet(field, 0));
+  if (!now) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SetUp(law));
+  PetscCall(PetscMalloc1(3 * cells, &u));
+  for (PetscInt c = 0; c < 3; c++) at[c] = u + c * cells;
+  if (component < 3) PetscCall(SamPlasticDisplace(p, now, at));
+  PetscCall(VecGetArrayRead(now, &from));
+  PetscCall(VecGetArray(field, &to));
+  for (PetscInt k = 0; k < cells; k++) {
+    SamMisesAt of;
+
+    for (PetscInt l = 0; component == 3 && l < p->bodies * p->layers; l++) {
+      SamPlasticRead(p, from, l, k, &of);
+      to[k] = PetscMax(to[k], of.p);
+    }
+    if (component < 3) to[k] = at[component][k];
+  }
+  PetscCall(VecRestoreArray(field, &to));
+  PetscCall(VecRestoreArrayRead(now, &from));
+  PetscCall(PetscFree(u));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Declare(SamLaw law, SamState state)
+{
+  const Plastic              *x                = (const Plastic *)law->data;
+  const SamStateField         field            = {.name        = SAM_PLASTIC_FIELD,
+                                                  .unit        = "1",
+                                                  .text        = "plastic strain, accumulated, and backstresses",
+                                                  .components  = SizeOf(x),
+                                                  .generations = 2,
+                                                  .kept        = PETSC_TRUE,
+                                                  .layers      = BodiesOf(x) * x->layers};
+  static const SamStateNumber numbers[NUMBERS] = {
+    {"plastic_strain_max", "1", "maximum accumulated plastic strain", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE,
+     SAM_JOIN_LAST, 0},
+    {"yielding_cells", "1", "cells of layers that yield in the step", SAM_NUMBER_INT, 1, PETSC_FALSE, PETSC_TRUE,
+     SAM_JOIN_LAST, 0},
+    {"yield_error", "1", "maximum error of the yield function over the yield stress", SAM_NUMBER_REAL, 1, PETSC_FALSE,
+     PETSC_TRUE, SAM_JOIN_GREATEST, 0},
+    {"plastic_newton", "1", "steps of Newton's method for the plastic strain", SAM_NUMBER_INT, 1, PETSC_FALSE,
+     PETSC_TRUE, SAM_JOIN_SUM, 0},
+    {"plastic_products", "1", "operator applications of its conjugate gradients", SAM_NUMBER_INT, 1, PETSC_FALSE,
+     PETSC_TRUE, SAM_JOIN_SUM, 0}};
+  static const SamStateResult fields[4] = {
+    {.name = "residual_x", .unit = "m", .text = "displacement along x by plastic strain", .use = SAM_RESULT_OFFERED},
+    {.name = "residual_y", .unit = "m", .text = "displacement along y by plastic strain", .use = SAM_RESULT_OFFERED},
+    {.name = "residual_z",
+     .unit = "m",
+     .text = "displacement into the bodies by plastic strain",
+     .use  = SAM_RESULT_USUAL},
+    {.name = "plastic_strain",
+     .unit = "1",
+     .text = "maximum accumulated plastic strain below the cell",
+     .use  = SAM_RESULT_USUAL}};
+  PetscInt id;
+
+  PetscFunctionBegin;
+  PetscCall(SamStateDeclareField(state, &field, &id));
+  for (PetscInt k = 0; k < NUMBERS; k++) PetscCall(SamStateDeclareNumber(state, &numbers[k], &id));
+  for (PetscInt k = 0; k < 4; k++) {
+    SamStateResult result = fields[k];
+
+    result.compute   = Compute;
+    result.owner     = law;
+    result.component = k;
+    PetscCall(SamStateOffer(state, &result));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -76,12 +76,17 @@ def test_periodic_sphere_is_that_of_tamaas(solve):
 def test_unloading_is_elastic_and_leaves_a_dent(solve, tmp_path):
     """Without yielding on the way back; reloading is back at the same state; unloaded, the surface has the dent."""
     loads = [x * LOAD for x in (6, 3, 0.01, 6)]
-    results = all_steps(solve(sphere(16, 10, **steps(tmp_path / "loads.csv", load_n=loads))))
+    run = solve(sphere(16, 10, **steps(tmp_path / "loads.csv", load_n=loads)))
+    results = all_steps(run)
     assert list(results["plastic_newton"][1:]) == [0, 0, 0]
     assert results["plastic_strain_max"][0] == results["plastic_strain_max"][3]
     assert numbers(results, 3) == pytest.approx(numbers(results, 0), rel=1e-7)
     assert 0.5 < results["disp_z"][2] / APPROACH < 0.7  # an elastic sphere: 0.046
     assert np.all(results["yield_error"][:] < 1e-5)
+    # the mean of the four cells in the middle, of the prototype 0.5488
+    dent, strain = (support.read_run(run.path)[name] for name in ("residual_z", "plastic_strain"))
+    assert dent[2][7:9, 7:9].mean() / APPROACH == pytest.approx(0.5488, rel=4e-3)
+    assert strain[2].max() == results["plastic_strain_max"][2]
 
 
 def test_given_approach_is_the_given_load(solve, tmp_path):
