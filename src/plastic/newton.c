@@ -27,12 +27,12 @@
 
 /* The fields of a solve, each of all layers, and what a cell's tangent is. */
 typedef struct {
-  SamPlastic   *plastic;
-  SamLawNormal *normal;
-  PetscInt      n;                             /* values of a field on this rank */
-  double       *d, *r, *e, *s, *y, *v, *w, *z; /* driver, residual, strain, stress; the others: scratch of a step */
-  double       *direction, *along, *across;    /* the tangents: direction as a field, the rest one value a cell */
-  PetscBool     yields, solved;                /* any cell on any rank; the normal problem has a solution */
+  SamPlastic    *plastic;
+  SamLawContact *contact;
+  PetscInt       n;                             /* values of a field on this rank */
+  double        *d, *r, *e, *s, *y, *v, *w, *z; /* driver, residual, strain, stress; the others: scratch of a step */
+  double        *direction, *along, *across;    /* the tangents: direction as a field, the rest one value a cell */
+  PetscBool      yields, solved;                /* any cell on any rank; the normal problem has a solution */
   /* of the contact */
   SamFrame frame;
   double   gram[SAM_GRAM];
@@ -211,7 +211,7 @@ static PetscErrorCode FreezeContact(Solve *w)
   SamTotal      totals[SAM_GRAM] = {{0}};
 
   PetscFunctionBegin;
-  PetscCall(VecGetArrayRead(w->normal->pressure, &p));
+  PetscCall(VecGetArrayRead(w->contact->pressure, &p));
   for (PetscInt j = 0; j < grid->rows; j++) {
     double row[SAM_GRAM] = {0};
 
@@ -224,7 +224,7 @@ static PetscErrorCode FreezeContact(Solve *w)
     }
     SamAddAll(SAM_GRAM, totals, row);
   }
-  PetscCall(VecRestoreArrayRead(w->normal->pressure, &p));
+  PetscCall(VecRestoreArrayRead(w->contact->pressure, &p));
   PetscCall(SamSumTotals(grid->comm, SAM_GRAM, totals, w->gram));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -414,17 +414,19 @@ static PetscErrorCode Return(Solve *w, Vec committed, Vec tried)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The driver by the strains w->e and the pressure. */
+/* The driver by the strains w->e and the tractions. */
 static PetscErrorCode GetDriver(Solve *w, double d[])
 {
-  const double *p;
+  const PetscInt cells = w->plastic->grid->cells;
+  const double  *p, *q;
 
   PetscFunctionBegin;
   PetscCall(Respond(w->plastic, w->e, w->s, NULL));
-  PetscCall(VecGetArrayRead(w->normal->pressure, &p));
-  PetscCall(PetscArraycpy(w->traction[0], p, w->plastic->grid->cells));
-  PetscCall(VecRestoreArrayRead(w->normal->pressure, &p));
-  PetscCall(Load(w->plastic, (const double *const *)w->traction, w->v));
+  PetscCall(VecGetArrayRead(w->contact->pressure, &p));
+  PetscCall(VecGetArrayRead(w->contact->shear, &q));
+  PetscCall(Load(w->plastic, (const double *const[3]){p, q, q + cells}, w->v));
+  PetscCall(VecRestoreArrayRead(w->contact->shear, &q));
+  PetscCall(VecRestoreArrayRead(w->contact->pressure, &p));
   for (PetscInt k = 0; k < w->n; k++) w->s[k] += w->v[k];
   AddDeviator(w->plastic, w->e, w->s, d);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -437,11 +439,11 @@ static PetscErrorCode Measure(Solve *w, PetscInt field, double *norm, double *la
   Vec               tried;
 
   PetscFunctionBegin;
-  PetscCall(SamStateSetField(w->normal->state, field, &tried));
-  PetscCall(Return(w, SamStateGetField(w->normal->state, field, SAM_COMMITTED), tried));
+  PetscCall(SamStateSetField(w->contact->state, field, &tried));
+  PetscCall(Return(w, SamStateGetField(w->contact->state, field, SAM_COMMITTED), tried));
   *norm = *largest = 0;
   w->solved        = PETSC_TRUE;
-  PetscCall(w->normal->solve(w->normal, &w->solved));
+  PetscCall(w->contact->solve(w->contact, &w->solved));
   if (!w->solved) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(GetDriver(w, w->r));
   for (PetscInt k = 0; k < w->n; k++) w->r[k] -= w->d[k];
@@ -526,23 +528,23 @@ static PetscErrorCode Iterate(Solve *w, PetscInt field)
     PetscCall(GoAlong(w, field, &norm, &largest));
   }
   if (w->solved && !(largest <= p->rtol))
-    (void)snprintf(w->normal->failed, sizeof(w->normal->failed),
+    (void)snprintf(w->contact->failed, sizeof(w->contact->failed),
                    "the plastic strain did not converge within %" PetscInt_FMT
                    " iterations, residual %.2g, tolerance %.2g",
                    p->newton, largest, (double)p->rtol);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamPlasticSolve(SamPlastic *p, SamLawNormal *normal)
+PetscErrorCode SamPlasticSolve(SamPlastic *p, SamLawContact *contact)
 {
-  const PetscInt field = SamStateFindField(normal->state, SAM_PLASTIC_FIELD);
-  Solve          w     = {.plastic = p, .normal = normal};
+  const PetscInt field = SamStateFindField(contact->state, SAM_PLASTIC_FIELD);
+  Solve          w     = {.plastic = p, .contact = contact};
 
   PetscFunctionBegin;
   p->newton = p->products = 0;
   PetscCall(CreateWork(&w));
-  PetscCall(SamFrameSet(&w.frame, p->grid, normal->balance));
-  PetscCall(TakeStrain(p, SamStateGetField(normal->state, field, SAM_COMMITTED), w.e));
+  PetscCall(SamFrameSet(&w.frame, p->grid, contact->normal));
+  PetscCall(TakeStrain(p, SamStateGetField(contact->state, field, SAM_COMMITTED), w.e));
   PetscCall(GetDriver(&w, w.d));
   PetscCall(Iterate(&w, field));
   PetscCall(DestroyWork(&w));

@@ -30,12 +30,12 @@ typedef struct {
 #define SAM_PLASTIC_FIELD "plastic"
 
 /*
-  SamPlasticSolve - the plastic strain of a step, which becomes the tried one, and its pressure. Collective.
+  SamPlasticSolve - the plastic strain of a step, which becomes the tried one, and its tractions. Collective.
   SamPlasticDisplace - the displacements of the surfaces by the strain of a generation of the state (m). Collective.
   SamPlasticStress - the stress by the strain of the state and by tractions (Pa), (layers of all bodies, PARTS).
   Collective.
 */
-PETSC_INTERN PetscErrorCode SamPlasticSolve(SamPlastic *plastic, SamLawNormal *normal);
+PETSC_INTERN PetscErrorCode SamPlasticSolve(SamPlastic *plastic, SamLawContact *contact);
 PETSC_INTERN PetscErrorCode SamPlasticDisplace(SamPlastic *plastic, Vec state, double *const u[3]);
 PETSC_INTERN PetscErrorCode SamPlasticStress(SamPlastic *plastic, Vec state, Vec pressure, Vec shear, double stress[]);
 /* SamPlasticRead, SamPlasticWrite - what cell k of layer l remembers, of an array of such a field. */

@@ -310,10 +310,10 @@ static PetscErrorCode AddOffset(SamLaw law, SamState state, const SamControl *co
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Follow(SamLaw law, SamLawNormal *normal)
+static PetscErrorCode Follow(SamLaw law, SamLawContact *contact)
 {
   PetscFunctionBegin;
-  PetscCall(SamPlasticSolve(&((Plastic *)law->data)->plastic, normal));
+  PetscCall(SamPlasticSolve(&((Plastic *)law->data)->plastic, contact));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

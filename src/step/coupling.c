@@ -60,11 +60,10 @@ typedef struct {
 /* Steps 1 and 2. The first pass starts from what the start has a guess of, later ones from the last one. */
 static PetscErrorCode Solve(Passes *p, PetscInt pass)
 {
-  SamSolve           *s            = p->s;
-  const SamStepStart *start        = &s->task->start;
-  const PetscBool     has_pressure = pass > 1 || start->pressure;
+  SamSolve       *s            = p->s;
+  const PetscBool has_pressure = pass > 1 || s->has_pressure;
   /* far from the solution nested grids find the slip zones of the new pressure faster than the last ones would */
-  const PetscBool has_shear = pass > 1 ? (p->error <= NEAR && !p->stuck) : start->shear;
+  const PetscBool has_shear = pass > 1 ? (p->error <= NEAR && !p->stuck) : s->has_shear;
   const PetscBool brief     = p->error > EXACT && p->stuck < PATIENCE;
   const PetscReal error     = PetscMin(p->error, FIRST);
   const PetscReal rtol      = p->sharper * PetscMax(TANGENTIAL_FINAL * PetscMin(p->rtol[0], p->rtol[1]),
@@ -79,7 +78,7 @@ static PetscErrorCode Solve(Passes *p, PetscInt pass)
   /* of a pressure that is not smooth yet, Newton's method may get stuck on the shear; that is not worth its while */
   SamSolverSetEffort(SamTangentialAsSolver(s->task->tangential), rtol, effort);
   PetscCall(VecCopy(s->lift, s->h));
-  PetscCall(SamSolveNormal(s, has_pressure, pass == 1 && start->shear));
+  PetscCall(SamSolveNormal(s, has_pressure, pass == 1 && s->has_shear));
   PetscCall(SamSolveJudge(s, SAM_BALANCE_NORMAL));
   PetscCall(SamSolveBound(s, s->s->bound));
   p->slides = PETSC_FALSE;
@@ -202,7 +201,7 @@ PetscErrorCode SamSolveCoupled(SamSolve *s)
   const SamStepTask  *task   = s->task;
   const SamSolver     normal = SamNormalAsSolver(task->normal), tangential = SamTangentialAsSolver(task->tangential);
   const SamFixedPoint iteration = {.components = 1, .most = task->set->coupling_max_it, .pass = Pass};
-  const PetscBool     shear     = task->start.shear;
+  const PetscBool     shear     = s->has_shear;
   Passes              p         = {.s       = s,
                                    .looks   = PETSC_TRUE,
                                    .error   = shear ? GUESS : FIRST,

@@ -12,6 +12,8 @@ static PetscErrorCode Begin(const SamStepTask *task, SamStep *step, SamSolve *w)
 {
   PetscFunctionBegin;
   *w                  = (SamSolve){.task = task, .s = task->s, .step = step, .kept = task->start.kept};
+  w->has_pressure     = task->start.pressure;
+  w->has_shear        = task->start.shear;
   w->counts           = SamStateNumbers(task->state, task->counts, SAM_TRIED);
   w->normal           = SamControlGetBalance(&w->s->control, SAM_BALANCE_NORMAL);
   w->tangential       = SamControlGetBalance(&w->s->control, SAM_BALANCE_TANGENTIAL);
@@ -83,60 +85,66 @@ static PetscErrorCode SolveShear(SamSolve *w, PetscBool has_shear)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The normal problem again, for a law. */
-static PetscErrorCode SolveAgain(SamLawNormal *normal, PetscBool *solved)
+/* Both problems, with the offsets of the tried state. */
+static PetscErrorCode SolveProblems(SamSolve *w)
 {
-  SamSolve *w = (SamSolve *)normal->context;
+  PetscBool friction;
 
   PetscFunctionBegin;
-  if (w->task->coupled) PetscCall(VecSet(w->h, 0)); /* without friction there is no lift */
-  PetscCall(SamSolveNormal(w, PETSC_TRUE, PETSC_FALSE));
-  PetscCall(SamSolveJudge(w, SAM_BALANCE_NORMAL));
+  PetscCall(SamProblemHasFriction(w->task->problem, &friction));
+  if (w->task->coupled && friction) {
+    PetscCall(SamSolveCoupled(w));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  if (w->task->coupled) PetscCall(VecSet(w->h, 0));
+  PetscCall(SamSolveNormal(w, w->has_pressure, w->has_shear));
+  if (!w->task->same_pressure && !w->known_pressure) PetscCall(SamSolveJudge(w, SAM_BALANCE_NORMAL));
+  PetscCall(SolveShear(w, w->has_shear));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The same again, for a law. */
+static PetscErrorCode SolveAgain(SamLawContact *contact, PetscBool *solved)
+{
+  SamSolve *w = (SamSolve *)contact->context;
+
+  PetscFunctionBegin;
+  w->has_pressure = w->has_shear = PETSC_TRUE;
+  PetscCall(SolveProblems(w));
   *solved = w->step->status == SAM_STATUS_CONVERGED;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The pressure together with the state of a law that follows from it. */
-static PetscErrorCode FollowPressure(SamSolve *w)
+/* The tractions together with the state of a law that follows from them. */
+static PetscErrorCode FollowTractions(SamSolve *w)
 {
-  SamLawNormal normal = {
-    .state = w->task->state, .balance = &w->normal, .pressure = w->s->pressure, .solve = SolveAgain, .context = w};
+  SamLawContact contact = {.state      = w->task->state,
+                           .normal     = &w->normal,
+                           .tangential = &w->tangential,
+                           .pressure   = w->s->pressure,
+                           .shear      = w->s->shear,
+                           .bound      = w->s->bound,
+                           .solve      = SolveAgain,
+                           .context    = w};
   const SamLaw *laws;
   PetscInt      count;
 
   PetscFunctionBegin;
   PetscCall(SamProblemGetLaws(w->task->problem, &count, &laws));
   for (PetscInt k = 0; k < count && w->step->status == SAM_STATUS_CONVERGED; k++)
-    if (laws[k]->ops.follow) PetscCall(laws[k]->ops.follow(laws[k], &normal));
-  if (normal.failed[0]) PetscCall(SamStepFail(w->step, SAM_STATUS_NOT_CONVERGED, normal.failed));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode SolveOnce(SamSolve *w)
-{
-  const SamStepStart *start = &w->task->start;
-
-  PetscFunctionBegin;
-  if (w->task->coupled) PetscCall(VecSet(w->h, 0));
-  PetscCall(SamSolveNormal(w, start->pressure, start->shear));
-  if (!w->task->same_pressure && !w->known_pressure) PetscCall(SamSolveJudge(w, SAM_BALANCE_NORMAL));
-  PetscCall(FollowPressure(w));
-  PetscCall(SolveShear(w, start->shear));
+    if (laws[k]->ops.follow) PetscCall(laws[k]->ops.follow(laws[k], &contact));
+  if (contact.failed[0]) PetscCall(SamStepFail(w->step, SAM_STATUS_NOT_CONVERGED, contact.failed));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamStepSolve(const SamStepTask *task, SamStep *step)
 {
-  SamSolve  w;
-  PetscBool friction;
+  SamSolve w;
 
   PetscFunctionBegin;
   PetscCall(Begin(task, step, &w));
-  PetscCall(SamProblemHasFriction(task->problem, &friction));
-  if (task->coupled && friction)
-    PetscCall(SamSolveCoupled(&w));
-  else
-    PetscCall(SolveOnce(&w));
+  PetscCall(SolveProblems(&w));
+  PetscCall(FollowTractions(&w));
   if (task->motion->streams) PetscCall(SamSolveRolling(&w));
   PetscCall(End(&w));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -11,14 +11,15 @@ typedef struct {
   const SamStepTask *task;
   SamSolution       *s; /* the tried solution */
   SamStep           *step;
-  SamCachedStep      kept;               /* the same step one cycle before; NULL: none, or it has been used */
-  PetscBool          known_pressure;     /* the pressure is that of the kept step */
-  SamBalance         normal, tangential; /* as prescribed */
-  double             rigid[3];           /* guess of the tangential rigid displacements */
-  double            *counts;             /* of the solvers, in the state */
-  Vec                separation;         /* of the bodies as they were after the step before */
-  Vec                slip;               /* the length of the slip of this step, by the last shear; NULL: none yet */
-  SamProduct         shear_product;      /* C q of the tried solution; coupled, or solved twice only */
+  SamCachedStep      kept;                    /* the same step one cycle before; NULL: none, or it has been used */
+  PetscBool          has_pressure, has_shear; /* the tried solution holds a guess */
+  PetscBool          known_pressure;          /* the pressure is that of the kept step */
+  SamBalance         normal, tangential;      /* as prescribed */
+  double             rigid[3];                /* guess of the tangential rigid displacements */
+  double            *counts;                  /* of the solvers, in the state */
+  Vec                separation;              /* of the bodies as they were after the step before */
+  Vec                slip;          /* the length of the slip of this step, by the last shear; NULL: none yet */
+  SamProduct         shear_product; /* C q of the tried solution; coupled, or solved twice only */
   /* coupled, or with an offset, only */
   Vec h;      /* separation plus lift plus offset */
   Vec pushed; /* tangential displacement by pressure and offset, set by SamSolveShear() */

@@ -50,17 +50,17 @@ typedef struct {
 } SamBound;
 
 /*
-  The normal problem of a step, for a law whose state follows from the pressure, and whose offset in turn changes that.
-  `solve` solves it with the offset of the tried state, from the last pressure on; `solved`: it has a solution.
+  The contact of a step, for a law whose state follows from the tractions, and whose offset in turn changes these.
+  `solve` solves it with the offset of the tried state, from the last tractions on; `solved`: it has a solution.
   Collective.
 */
-typedef struct _n_SamLawNormal SamLawNormal;
-struct _n_SamLawNormal {
+typedef struct _n_SamLawContact SamLawContact;
+struct _n_SamLawContact {
   SamState          state;
-  const SamBalance *balance;
-  Vec               pressure;    /* Pa: the last solution */
-  char              failed[128]; /* to be set where the law finds none: why */
-  PetscErrorCode (*solve)(SamLawNormal *normal, PetscBool *solved);
+  const SamBalance *normal, *tangential;
+  Vec               pressure, shear, bound; /* Pa: the last solution */
+  char              failed[128];            /* to be set where the law finds none: why */
+  PetscErrorCode (*solve)(SamLawContact *contact, PetscBool *solved);
   void *context;
 };
 
@@ -187,10 +187,9 @@ struct _n_SamLaw {
     */
     PetscErrorCode (*separation)(SamLaw law, SamState state, SamGeneration generation, Vec h, PetscBool *adds);
     /*
-      After the normal problem is solved: the law's tried state, and the pressure with its offset. Of one law of a
-      problem, without friction.
+      After the contact is solved: the law's tried state, and the tractions with its offset. Of one law of a problem.
     */
-    PetscErrorCode (*follow)(SamLaw law, SamLawNormal *normal);
+    PetscErrorCode (*follow)(SamLaw law, SamLawContact *contact);
     /* the largest pressure that the surfaces bear, Pa */
     PetscErrorCode (*limit)(SamLaw law, PetscReal *most);
     /* the largest shear of each cell; `has`: whether any cell bears shear */
