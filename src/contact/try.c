@@ -286,7 +286,7 @@ static PetscErrorCode GetSlope(SamLawStep *step, Vec by_pressure)
 /* All laws advance their tried state. */
 static PetscErrorCode Advance(SamContact c, PetscBool same_pressure, char failed[], size_t size)
 {
-  const SamSolution *s    = &c->generation[SAM_TRIED];
+  const SamSolution *s = &c->generation[SAM_TRIED], *last = SamContactBefore(c);
   SamLawStep         step = {.grid          = c->grid,
                              .state         = c->state,
                              .elasticity    = c->elasticity,
@@ -294,6 +294,7 @@ static PetscErrorCode Advance(SamContact c, PetscBool same_pressure, char failed
                              .rolled        = SamProblemGetRolled(c->problem, &s->control, NULL),
                              .pressure      = s->pressure,
                              .shear         = s->shear,
+                             .last          = {last ? last->pressure : NULL, last ? last->shear : NULL},
                              .bound         = s->bound,
                              .rigid         = s->rigid,
                              .same_pressure = same_pressure,

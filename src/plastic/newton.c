@@ -2,28 +2,26 @@
   Plastic strain and contact together, by Newton's method.
 
   Unknown is the driver d in each cell of each layer. The material gives the plastic strain e(d) (mises.c), e the
-  displacement of the surface, the normal problem with it the pressure p, and both the stress; so the residual is
+  displacement of the surfaces, the contact with it the tractions p, and both the stress; so the residual is
       r = e + dev(R e + K p)/(2 mu) - d.
-  With P = de/dd, S the contact's stiffness on the cells that are in contact, and Bc = 1 + dev(R - K S K')/(2 mu), a
+  With P = de/dd, S the contact's stiffness on frozen sets of cells (reaction.c), and Bc = 1 + dev(R - K S K')/(2 mu), a
   step solves (1 - Bc P) delta = r in the symmetric form
       (1 - Q Bc Q) y = Q r,  delta = r + Bc Q y,  Q = root of P,
   by conjugate gradients in the product sum 2 mu h a:b. The matrix is positive definite: 0 <= P < 1, R is negative
-  semidefinite, and 1 + R/(2 mu) as well as S positive semidefinite. A step is halved until the residual falls.
+  semidefinite, and 1 + R/(2 mu) as well as S positive semidefinite; only what slips is not symmetric in S, which the
+  gradients bear. A step is halved until the residual falls.
 
   Source: J. C. Simo and T. J. R. Hughes, Computational Inelasticity (1998), chapter 3, for the tangent; A. Frerot, M.
   Bonnet, J.-F. Molinari and G. Anciaux, Comput. Methods Appl. Mech. Engrg. 351 (2019) 951, for the integral equation.
 */
 #include "newton.h"
-#include <petsam/private/balanceimpl.h>
-#include <petsam/private/elasticity.h>
+#include "reaction.h"
 
-#define STEPS     30   /* of Newton's method */
-#define HALVINGS  8    /* of one step */
-#define PRODUCTS  200  /* of one step */
-#define ROUGH     0.1  /* a step's equations are solved at least to this part, */
-#define FORCING   0.3  /* and to this part of the residual relative to its first value */
-#define STIFFNESS 1e-3 /* the part to which the contact follows in a product */
-#define CONTACTS  200  /* iterations of that */
+#define STEPS    30  /* of Newton's method */
+#define HALVINGS 8   /* of one step */
+#define PRODUCTS 200 /* of one step */
+#define ROUGH    0.1 /* a step's equations are solved at least to this part, */
+#define FORCING  0.3 /* and to this part of the residual relative to its first value */
 
 /* The fields of a solve, each of all layers, and what a cell's tangent is. */
 typedef struct {
@@ -33,12 +31,8 @@ typedef struct {
   double        *d, *r, *e, *s, *y, *v, *w, *z; /* driver, residual, strain, stress; the others: scratch of a step */
   double        *direction, *along, *across;    /* the tangents: direction as a field, the rest one value a cell */
   PetscBool      yields, solved;                /* any cell on any rank; the normal problem has a solution */
-  /* of the contact */
-  SamFrame frame;
-  double   gram[SAM_GRAM];
-  char    *touches;
-  Vec      p, u;
-  double  *x, *rest, *traction[3];
+  SamReaction    reaction;
+  double        *traction; /* (DIRECTIONS, cells) */
 } Solve;
 
 static inline const SamPlasticBody *BodyOf(const SamPlastic *p, PetscInt l)
@@ -184,117 +178,6 @@ static PetscErrorCode Dot(const Solve *w, const double a[], const double b[], do
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The sum of products of two fields of the surface. */
-static PetscErrorCode DotSurface(const Solve *w, const double a[], const double b[], double *dot)
-{
-  const SamGrid grid  = w->plastic->grid;
-  SamTotal      total = {0};
-
-  PetscFunctionBegin;
-  for (PetscInt j = 0; j < grid->rows; j++) {
-    double row = 0;
-
-    for (PetscInt k = j * grid->nx; k < (j + 1) * grid->nx; k++) row += a[k] * b[k];
-    SamAdd(&total, row);
-  }
-  PetscCall(SamSumTotals(grid->comm, 1, &total, dot));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* ---- the contact, its cells frozen ---- */
-
-/* Notes the cells in contact. */
-static PetscErrorCode FreezeContact(Solve *w)
-{
-  const SamGrid grid = w->plastic->grid;
-  const double *p;
-  SamTotal      totals[SAM_GRAM] = {{0}};
-
-  PetscFunctionBegin;
-  PetscCall(VecGetArrayRead(w->contact->pressure, &p));
-  for (PetscInt j = 0; j < grid->rows; j++) {
-    double row[SAM_GRAM] = {0};
-
-    for (PetscInt i = 0; i < grid->nx; i++) {
-      const PetscInt k  = j * grid->nx + i;
-      const double   xi = w->frame.xi0 + (double)i * w->frame.dxi;
-
-      w->touches[k] = p[k] > 0;
-      if (p[k] > 0) SamGramNormalRow(row, 1, xi, xi * xi, SamFrameEta(&w->frame, j));
-    }
-    SamAddAll(SAM_GRAM, totals, row);
-  }
-  PetscCall(VecRestoreArrayRead(w->contact->pressure, &p));
-  PetscCall(SamSumTotals(grid->comm, SAM_GRAM, totals, w->gram));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Takes a field off the cells that are not in contact, and the loads out of it that are given. */
-static PetscErrorCode Project(const Solve *w, double z[])
-{
-  const SamGrid grid      = w->plastic->grid;
-  SamTotal      totals[3] = {{0}};
-  double        sums[3], a[3];
-
-  PetscFunctionBegin;
-  for (PetscInt j = 0; j < grid->rows; j++) {
-    double row[3] = {0};
-
-    for (PetscInt i = 0; i < grid->nx; i++) {
-      double *at = &z[j * grid->nx + i];
-
-      if (!w->touches[j * grid->nx + i]) *at = 0;
-      row[0] += *at;
-      row[1] -= SamFrameEta(&w->frame, j) * *at;
-      row[2] += (w->frame.xi0 + (double)i * w->frame.dxi) * *at;
-    }
-    SamAddAll(3, totals, row);
-  }
-  if (!w->frame.count) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamSumTotals(grid->comm, 3, totals, sums));
-  SamFrameSolve(&w->frame, w->gram, sums, a);
-  for (PetscInt j = 0; j < grid->rows; j++)
-    for (PetscInt i = 0; i < grid->nx; i++)
-      if (w->touches[j * grid->nx + i])
-        z[j * grid->nx + i] -=
-          a[0] - a[1] * SamFrameEta(&w->frame, j) + a[2] * (w->frame.xi0 + (double)i * w->frame.dxi);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* p = minus the change of the pressure by a displacement u of the surface, of which `rest` is a copy to work on. */
-static PetscErrorCode FollowContact(Solve *w, double u[])
-{
-  const PetscInt cells = w->plastic->grid->cells;
-  double        *p, *q, size, first, before, step;
-
-  PetscFunctionBegin;
-  PetscCall(PetscArrayzero(w->x, cells));
-  PetscCall(Project(w, u));
-  PetscCall(DotSurface(w, u, u, &first));
-  PetscCall(VecGetArray(w->p, &p));
-  PetscCall(PetscArraycpy(p, u, cells));
-  PetscCall(VecRestoreArray(w->p, &p));
-  size = first;
-  for (PetscInt k = 0; k < CONTACTS && size > STIFFNESS * STIFFNESS * first; k++) {
-    PetscCall(SamElasticityApplyNormal(w->plastic->elasticity, w->p, w->u));
-    PetscCall(VecGetArray(w->p, &p));
-    PetscCall(VecGetArray(w->u, &q));
-    PetscCall(Project(w, q));
-    PetscCall(DotSurface(w, p, q, &step));
-    step = size / step;
-    for (PetscInt i = 0; i < cells; i++) {
-      w->x[i] += step * p[i];
-      u[i] -= step * q[i];
-    }
-    before = size;
-    PetscCall(DotSurface(w, u, u, &size));
-    for (PetscInt i = 0; i < cells; i++) p[i] = u[i] + size / before * p[i];
-    PetscCall(VecRestoreArray(w->u, &q));
-    PetscCall(VecRestoreArray(w->p, &p));
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* ---- a product ---- */
 
 /* to = root of P times a field; may be the same. */
@@ -335,14 +218,12 @@ static void AddDeviator(const SamPlastic *p, const double from[], const double s
 static PetscErrorCode Multiply(Solve *w, const double from[], double to[])
 {
   const PetscInt cells = w->plastic->grid->cells;
-  double        *u[3];
+  double *const z = w->traction, *const x = z + ALONG_X * cells, *const y = z + ALONG_Y * cells;
 
   PetscFunctionBegin;
-  for (PetscInt c = 0; c < 3; c++) u[c] = w->rest + c * cells;
-  PetscCall(Respond(w->plastic, from, w->s, u));
-  PetscCall(FollowContact(w, u[2]));
-  for (PetscInt k = 0; k < cells; k++) w->traction[0][k] = -w->x[k];
-  PetscCall(Load(w->plastic, (const double *const *)w->traction, to));
+  PetscCall(Respond(w->plastic, from, w->s, (double *const[3]){x, y, z}));
+  PetscCall(SamReactionApply(w->reaction, w->traction));
+  PetscCall(Load(w->plastic, (const double *const[3]){z, x, y}, to));
   for (PetscInt k = 0; k < w->n; k++) w->s[k] += to[k];
   AddDeviator(w->plastic, from, w->s, to);
   w->plastic->products++;
@@ -366,7 +247,9 @@ static PetscErrorCode FindStep(Solve *w, double part)
     ApplyRoot(w, w->w, w->v);
     for (PetscInt i = 0; i < w->n; i++) w->v[i] = w->z[i] - w->v[i];
     PetscCall(Dot(w, w->z, w->v, &step));
-    PetscCheck(step > 0, w->plastic->grid->comm, PETSC_ERR_PLIB, "The operators of plastic strain are not symmetric");
+    PetscCheck(step > 0 || SamReactionSlips(w->reaction), w->plastic->grid->comm, PETSC_ERR_PLIB,
+               "The operators of plastic strain are not symmetric");
+    if (!(step > 0)) break; /* what slips is not symmetric: so far, then */
     step = size / step;
     for (PetscInt i = 0; i < w->n; i++) {
       w->y[i] += step * w->w[i];
@@ -473,10 +356,8 @@ static PetscErrorCode CreateWork(Solve *w)
   w->n = PARTS * p->bodies * p->layers * cells;
   for (size_t k = 0; k < sizeof(field) / sizeof(field[0]); k++) PetscCall(PetscCalloc1(w->n, field[k]));
   PetscCall(PetscCalloc2(w->n / PARTS, &w->along, w->n / PARTS, &w->across));
-  PetscCall(PetscCalloc4(cells, &w->x, 3 * cells, &w->rest, 3 * cells, &w->traction[0], cells, &w->touches));
-  for (PetscInt c = 1; c < 3; c++) w->traction[c] = w->traction[0] + c * cells;
-  PetscCall(SamGridCreateVec(p->grid, 1, &w->p));
-  PetscCall(SamGridCreateVec(p->grid, 1, &w->u));
+  PetscCall(PetscCalloc1(DIRECTIONS * cells, &w->traction));
+  PetscCall(SamReactionCreate(p->elasticity, w->contact, &w->reaction));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -487,9 +368,8 @@ static PetscErrorCode DestroyWork(Solve *w)
   PetscFunctionBegin;
   for (size_t k = 0; k < sizeof(field) / sizeof(field[0]); k++) PetscCall(PetscFree(*field[k]));
   PetscCall(PetscFree2(w->along, w->across));
-  PetscCall(PetscFree4(w->x, w->rest, w->traction[0], w->touches));
-  PetscCall(VecDestroy(&w->p));
-  PetscCall(VecDestroy(&w->u));
+  PetscCall(PetscFree(w->traction));
+  PetscCall(SamReactionDestroy(&w->reaction));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -522,7 +402,7 @@ static PetscErrorCode Iterate(Solve *w, PetscInt field)
   PetscCall(Measure(w, field, &norm, &largest));
   first = norm;
   while (w->solved && largest > p->rtol && p->newton < STEPS) {
-    PetscCall(FreezeContact(w));
+    PetscCall(SamReactionFreeze(w->reaction));
     PetscCall(FindStep(w, PetscMin(ROUGH, FORCING * norm / first)));
     p->newton++;
     PetscCall(GoAlong(w, field, &norm, &largest));
@@ -543,7 +423,6 @@ PetscErrorCode SamPlasticSolve(SamPlastic *p, SamLawContact *contact)
   PetscFunctionBegin;
   p->newton = p->products = 0;
   PetscCall(CreateWork(&w));
-  PetscCall(SamFrameSet(&w.frame, p->grid, contact->normal));
   PetscCall(TakeStrain(p, SamStateGetField(contact->state, field, SAM_COMMITTED), w.e));
   PetscCall(GetDriver(&w, w.d));
   PetscCall(Iterate(&w, field));

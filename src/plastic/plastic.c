@@ -30,7 +30,7 @@ typedef struct {
 #define MARGIN 10
 
 /* The numbers of a step, one after the other from MOST on. */
-enum { MOST, CELLS, ERROR, NEWTON, PRODUCTS, NUMBERS };
+enum { MOST, CELLS, WORK, ERROR, NEWTON, PRODUCTS, NUMBERS };
 
 #define REAL_ROW(body, option, text, what, range_) \
   { \
@@ -199,10 +199,11 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
                                                   .kept        = PETSC_TRUE,
                                                   .layers      = BodiesOf(x) * x->layers};
   static const SamStateNumber numbers[NUMBERS] = {
-    {"plastic_strain_max", "1", "maximum accumulated plastic strain", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE,
+    {"plastic_max", "1", "maximum accumulated plastic strain", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE,
      SAM_JOIN_LAST, 0},
     {"yielding_cells", "1", "cells of layers that yield in the step", SAM_NUMBER_INT, 1, PETSC_FALSE, PETSC_TRUE,
      SAM_JOIN_LAST, 0},
+    {"plastic_work", "J", "work of plastic strain", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_SUM, 0},
     {"yield_error", "1", "maximum error of the yield function over the yield stress", SAM_NUMBER_REAL, 1, PETSC_FALSE,
      PETSC_TRUE, SAM_JOIN_GREATEST, 0},
     {"plastic_newton", "1", "steps of Newton's method for the plastic strain", SAM_NUMBER_INT, 1, PETSC_FALSE,
@@ -347,23 +348,54 @@ static PetscErrorCode Judge(const SamPlastic *p, const double before[], const do
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The work of the plastic strain of a step, by the mean of the stress before it, which `before` becomes, and after. */
+static PetscErrorCode AddWork(const SamPlastic *p, const double last[], const double now[], const double before[],
+                              const double after[], double *work)
+{
+  const SamGrid grid  = p->grid;
+  SamTotal      total = {0};
+
+  PetscFunctionBegin;
+  for (PetscInt j = 0; j < grid->rows; j++) {
+    double row = 0;
+
+    for (PetscInt l = 0; l < p->bodies * p->layers; l++)
+      for (PetscInt c = 0; c < PARTS; c++)
+        for (PetscInt k = j * grid->nx; k < (j + 1) * grid->nx; k++) {
+          const ptrdiff_t at = ((ptrdiff_t)l * p->size + c) * grid->cells + k,
+                          in = ((ptrdiff_t)l * PARTS + c) * grid->cells + k;
+
+          row += (c < SAM_STRESS_XY ? 0.5 : 1) * (double)p->thickness[l % p->layers] *
+                 (now[at] - (last ? last[at] : 0)) * (before[in] + after[in]);
+        }
+    SamAdd(&total, row);
+  }
+  PetscCall(SamSumTotals(grid->comm, 1, &total, work));
+  *work *= (double)(grid->dx * grid->dy);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
 {
   Plastic *const x     = (Plastic *)law->data;
   SamPlastic    *p     = &x->plastic;
   const PetscInt id    = SamStateFindField(step->state, SAM_PLASTIC_FIELD);
   const Vec      tried = SamStateReadField(step->state, id), before = SamStateGetField(step->state, id, SAM_COMMITTED);
-  double        *stress, *numbers;
+  const PetscInt n = PARTS * p->bodies * p->layers * p->grid->cells;
+  double        *stress, *start, *numbers;
   const double  *now, *last = NULL;
 
   PetscFunctionBegin;
   if (!tried) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscMalloc1(PARTS * p->bodies * p->layers * p->grid->cells, &stress));
+  PetscCall(PetscMalloc1(n, &stress));
+  PetscCall(PetscCalloc1(n, &start));
   PetscCall(SamPlasticStress(p, tried, step->pressure, step->shear, stress));
   PetscCall(VecGetArrayRead(tried, &now));
   if (before) PetscCall(VecGetArrayRead(before, &last));
-  numbers = SamStateNumbers(step->state, SamStateFindNumber(step->state, "plastic_strain_max"), SAM_TRIED);
+  numbers = SamStateNumbers(step->state, SamStateFindNumber(step->state, "plastic_max"), SAM_TRIED);
   PetscCall(Judge(p, last, now, stress, numbers));
+  if (numbers[CELLS] > 0 && step->last[0]) PetscCall(SamPlasticStress(p, before, step->last[0], step->last[1], start));
+  PetscCall(AddWork(p, last, now, start, stress, &numbers[WORK]));
   numbers[NEWTON]   = (double)p->newton;
   numbers[PRODUCTS] = (double)p->products;
   if (!(numbers[ERROR] <= PetscMax(EXCESS, MARGIN * p->rtol)))
@@ -371,13 +403,14 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
                    numbers[ERROR]);
   if (before) PetscCall(VecRestoreArrayRead(before, &last));
   PetscCall(VecRestoreArrayRead(tried, &now));
+  PetscCall(PetscFree(start));
   PetscCall(PetscFree(stress));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode View(SamLaw law, SamState state, PetscViewer viewer)
 {
-  const double *numbers = SamStateReadNumbers(state, SamStateFindNumber(state, "plastic_strain_max"));
+  const double *numbers = SamStateReadNumbers(state, SamStateFindNumber(state, "plastic_max"));
 
   PetscFunctionBegin;
   (void)law;

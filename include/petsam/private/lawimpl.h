@@ -73,6 +73,7 @@ struct _n_SamLawStep {
   const SamControl *control;
   PetscReal         rolled;          /* m: rolled distance of the step (SamProblemGetRolled()) */
   Vec               pressure, shear; /* Pa */
+  Vec               last[2];         /* those of the step before, NULL: none */
   Vec               bound;           /* Pa, of the shear */
   const PetscReal  *rigid;           /* m, rad: the displacements of the step, by SamComponent */
   PetscBool         same_pressure;   /* the pressure is that of the step before */
