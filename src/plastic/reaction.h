@@ -22,5 +22,6 @@ PETSC_INTERN PetscErrorCode    SamReactionCreate(SamElasticity elasticity, const
 PETSC_INTERN PetscErrorCode    SamReactionDestroy(SamReaction *reaction);
 PETSC_INTERN PetscErrorCode    SamReactionFreeze(SamReaction reaction);
 PETSC_INTERN PetscErrorCode    SamReactionApply(SamReaction reaction, double u[]);
+PETSC_INTERN PetscBool         SamReactionSlips(SamReaction reaction);
 
 #endif

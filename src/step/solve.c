@@ -73,7 +73,7 @@ static PetscErrorCode SolveShear(SamSolve *w, PetscBool has_shear)
   PetscCall(SamSolverGetTolerances(SamTangentialAsSolver(w->task->tangential), &rtol, NULL));
   PetscCall(SamSolveSetAside(w, PETSC_FALSE));
   if (twice) {
-    PetscCall(SamGridCreateVec(w->task->grid, 2, &w->shear_product.field));
+    if (!w->shear_product.field) PetscCall(SamGridCreateVec(w->task->grid, 2, &w->shear_product.field));
     SamSolverSetEffort(SamTangentialAsSolver(w->task->tangential), SAM_ROUGH * rtol, SAM_EFFORT_FULL);
     PetscCall(SamSolveShear(w, has_shear, SAM_ROUGH * rtol, SAM_EFFORT_FULL));
     reason = SamSolverGetReason(SamTangentialAsSolver(w->task->tangential));
