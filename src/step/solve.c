@@ -110,6 +110,7 @@ static PetscErrorCode SolveAgain(SamLawContact *contact, PetscBool *solved)
 
   PetscFunctionBegin;
   w->has_pressure = w->has_shear = PETSC_TRUE;
+  w->shear_product.n[0]          = 0; /* the shear follows the pressure first */
   PetscCall(SolveProblems(w));
   *solved = w->step->status == SAM_STATUS_CONVERGED;
   PetscFunctionReturn(PETSC_SUCCESS);
