@@ -61,6 +61,7 @@ typedef struct {
   PetscInt                  steps;
   PetscBool                 before;
   PetscBool                 slides; /* the surfaces slide past each other, so that points of body 2 move */
+  PetscBool                 yields; /* a body yields below its surface: refused */
   PetscBool                 slips;  /* steps follow each other, and have slips, not velocities of slip */
   PetscErrorCode (*read)(void *context, PetscInt step, SamStepField field, double values[]);
   PetscErrorCode (*number)(void *context, PetscInt step, SamStepNumber number, double *value);

@@ -172,6 +172,7 @@ static PetscErrorCode SetUpEvaluation(SamStressRun *run)
 
   PetscFunctionBegin;
   source.slides = SamParametersFind(parameters, "slide") != NULL;
+  source.yields = SamParametersFind(parameters, "plastic_layers") != NULL;
   source.slips  = rolling && !strcmp(rolling->text, "steady") ? PETSC_FALSE : PETSC_TRUE;
   PetscCall(PetscSNPrintf(run->source, sizeof(run->source), "-input %s", run->request.input));
   PetscCall(SamElasticityCreateFromParameters(run->grid, parameters, run->source, &run->elasticity));

@@ -164,8 +164,9 @@ PetscErrorCode SamContactSetUp(SamContact c)
              "-tangential_type: does not solve this problem: use %s",
              c->traits.upwind ? SAM_TANGENTIAL_ROLLING : SAM_TANGENTIAL_NEWTON);
   for (PetscInt k = 0; k < count; k++)
-    PetscCheck(!laws[k]->ops.follow || isinf(limit), c->grid->comm, SAM_ERR_USER,
-               "-%s: not supported with -pressure_limit", laws[k]->option);
+    for (PetscInt j = 0; laws[k]->ops.follow && j < count; j++)
+      PetscCheck(!laws[j]->ops.separation, c->grid->comm, SAM_ERR_USER, "-%s: not supported with -%s", laws[k]->option,
+                 laws[j]->option);
   PetscCheck(isinf(limit) || SamNormalLimitsPressure(c->normal), c->grid->comm, SAM_ERR_USER,
              "-pressure_limit: not supported by this -normal_type: use %s", SAM_NORMAL_ACTIVESET);
   PetscCall(SamNormalSetPressureLimit(c->normal, limit));

@@ -250,6 +250,7 @@ static PetscErrorCode Compute(petsam_contact *c, const char options[], PetscInt 
                                   .steps      = n,
                                   .before     = steps->before && steps->before->fields,
                                   .slides     = SamProblemGetLaw(c->setup->problem, SAM_LAW_SLIDE) != NULL,
+                                  .yields     = SamProblemGetLaw(c->setup->problem, SAM_LAW_PLASTIC) != NULL,
                                   .slips      = SamMotionOf(c->setup->elasticity)->continues,
                                   .read       = ReadField,
                                   .number     = ReadNumber,

@@ -131,7 +131,7 @@ PetscErrorCode SamPlasticDisplace(SamPlastic *p, Vec state, double *const u[3])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamPlasticStress(SamPlastic *p, Vec state, Vec pressure, Vec shear, double stress[])
+PetscErrorCode SamPlasticStress(SamPlastic *p, Vec state, Vec pressure, Vec shear, double stress[], double *energy)
 {
   const PetscInt n = PARTS * p->bodies * p->layers * p->grid->cells;
   const double  *by_p, *by_q;
@@ -140,7 +140,10 @@ PetscErrorCode SamPlasticStress(SamPlastic *p, Vec state, Vec pressure, Vec shea
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(n, &e));
   PetscCall(TakeStrain(p, state, e));
+  PetscCall(PetscArraycpy(stress, e, n));
   PetscCall(Respond(p, e, e, NULL));
+  if (energy) PetscCall(SamPlasticWork(p, stress, e, energy));
+  if (energy) *energy *= -0.5;
   PetscCall(VecGetArrayRead(pressure, &by_p));
   PetscCall(VecGetArrayRead(shear, &by_q));
   PetscCall(Load(p, (const double *const[3]){by_p, by_q, by_q + p->grid->cells}, stress));
@@ -153,17 +156,17 @@ PetscErrorCode SamPlasticStress(SamPlastic *p, Vec state, Vec pressure, Vec shea
 
 /* ---- sums ---- */
 
-/* sum 2 mu h a:b, the same on any number of ranks. */
-static PetscErrorCode Dot(const Solve *w, const double a[], const double b[], double *dot)
+/* The sum of h a:b over all cells, or weighted of 2 mu h a:b, the same on any number of ranks. */
+static PetscErrorCode Sum(const SamPlastic *p, PetscBool weighted, const double a[], const double b[], double *dot)
 {
-  const SamPlastic *p     = w->plastic;
-  const SamGrid     grid  = p->grid;
-  SamTotal          total = {0};
+  const SamGrid grid  = p->grid;
+  SamTotal      total = {0};
 
   PetscFunctionBegin;
   for (PetscInt j = 0; j < grid->rows; j++)
     for (PetscInt l = 0; l < p->bodies * p->layers; l++) {
-      double sum = 0;
+      const double weight = weighted ? 2 * BodyOf(p, l)->material.shear : 1;
+      double       sum    = 0;
 
       for (PetscInt c = 0; c < PARTS; c++) {
         const ptrdiff_t at  = ((ptrdiff_t)l * PARTS + c) * grid->cells + j * (ptrdiff_t)grid->nx;
@@ -172,9 +175,24 @@ static PetscErrorCode Dot(const Solve *w, const double a[], const double b[], do
         for (PetscInt i = 0; i < grid->nx; i++) row += a[at + i] * b[at + i];
         sum += (c > SAM_STRESS_ZZ ? 2 : 1) * row;
       }
-      SamAdd(&total, 2 * BodyOf(p, l)->material.shear * ThicknessOf(p, l) * sum);
+      SamAdd(&total, weight * ThicknessOf(p, l) * sum);
     }
   PetscCall(SamSumTotals(grid->comm, 1, &total, dot));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Dot(const Solve *w, const double a[], const double b[], double *dot)
+{
+  PetscFunctionBegin;
+  PetscCall(Sum(w->plastic, PETSC_TRUE, a, b, dot));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamPlasticWork(const SamPlastic *p, const double e[], const double s[], double *work)
+{
+  PetscFunctionBegin;
+  PetscCall(Sum(p, PETSC_FALSE, e, s, work));
+  *work *= (double)(p->grid->dx * p->grid->dy);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -32,12 +32,15 @@ typedef struct {
 /*
   SamPlasticSolve - the plastic strain of a step, which becomes the tried one, and its tractions. Collective.
   SamPlasticDisplace - the displacements of the surfaces by the strain of a generation of the state (m). Collective.
-  SamPlasticStress - the stress by the strain of the state and by tractions (Pa), (layers of all bodies, PARTS).
-  Collective.
+  SamPlasticStress - the stress by the strain of the state and by tractions (Pa), (layers of all bodies, PARTS), and
+  the elastic energy of that by the strain alone (J; NULL: not wanted). Collective.
+  SamPlasticWork - the work of such a stress on a strain (J). Collective.
 */
 PETSC_INTERN PetscErrorCode SamPlasticSolve(SamPlastic *plastic, SamLawContact *contact);
 PETSC_INTERN PetscErrorCode SamPlasticDisplace(SamPlastic *plastic, Vec state, double *const u[3]);
-PETSC_INTERN PetscErrorCode SamPlasticStress(SamPlastic *plastic, Vec state, Vec pressure, Vec shear, double stress[]);
+PETSC_INTERN PetscErrorCode SamPlasticStress(SamPlastic *plastic, Vec state, Vec pressure, Vec shear, double stress[],
+                                             double *energy);
+PETSC_INTERN PetscErrorCode SamPlasticWork(const SamPlastic *plastic, const double e[], const double s[], double *work);
 /* SamPlasticRead, SamPlasticWrite - what cell k of layer l remembers, of an array of such a field. */
 PETSC_INTERN void SamPlasticRead(const SamPlastic *plastic, const double state[], PetscInt l, PetscInt k,
                                  SamMisesAt *at);

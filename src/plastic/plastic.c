@@ -28,9 +28,11 @@ typedef struct {
 /* Beyond this part of the yield stress, or this many tolerances, the check fails. */
 #define EXCESS 1e-5
 #define MARGIN 10
+/* Growth of the plastic strain in a step that is none. */
+#define GROWTH 1e-6
 
 /* The numbers of a step, one after the other from MOST on. */
-enum { MOST, CELLS, WORK, ERROR, NEWTON, PRODUCTS, NUMBERS };
+enum { MOST, CELLS, WORK, ENERGY, ERROR, NEWTON, PRODUCTS, STILL, NUMBERS };
 
 #define REAL_ROW(body, option, text, what, range_) \
   { \
@@ -204,12 +206,16 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
     {"yielding_cells", "1", "cells of layers that yield in the step", SAM_NUMBER_INT, 1, PETSC_FALSE, PETSC_TRUE,
      SAM_JOIN_LAST, 0},
     {"plastic_work", "J", "work of plastic strain", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_SUM, 0},
+    {"residual_energy", "J", "elastic energy of the residual stress", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE,
+     SAM_JOIN_LAST, 0},
     {"yield_error", "1", "maximum error of the yield function over the yield stress", SAM_NUMBER_REAL, 1, PETSC_FALSE,
      PETSC_TRUE, SAM_JOIN_GREATEST, 0},
     {"plastic_newton", "1", "steps of Newton's method for the plastic strain", SAM_NUMBER_INT, 1, PETSC_FALSE,
      PETSC_TRUE, SAM_JOIN_SUM, 0},
     {"plastic_products", "1", "operator applications of its conjugate gradients", SAM_NUMBER_INT, 1, PETSC_FALSE,
-     PETSC_TRUE, SAM_JOIN_SUM, 0}};
+     PETSC_TRUE, SAM_JOIN_SUM, 0},
+    {"shaken_down", "1", "steps in a row, up to this one, in which plastic strain grew by less than 1e-6",
+     SAM_NUMBER_INT, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, 0}};
   static const SamStateResult fields[4] = {
     {.name = "residual_x", .unit = "m", .text = "displacement along x by plastic strain", .use = SAM_RESULT_OFFERED},
     {.name = "residual_y", .unit = "m", .text = "displacement along y by plastic strain", .use = SAM_RESULT_OFFERED},
@@ -323,7 +329,7 @@ static PetscErrorCode Judge(const SamPlastic *p, const double before[], const do
                             double numbers[NUMBERS])
 {
   const PetscInt cells   = p->grid->cells;
-  double         most[2] = {0}, yields = 0;
+  double         most[3] = {0}, yields = 0;
 
   PetscFunctionBegin;
   for (PetscInt l = 0; l < p->bodies * p->layers; l++)
@@ -338,40 +344,34 @@ static PetscErrorCode Judge(const SamPlastic *p, const double before[], const do
       excess  = SamMisesExcess(m, &at, s) / m->yield;
       most[0] = PetscMax(most[0], at.p);
       most[1] = SamLarger(most[1], at.p < last.p ? INFINITY : at.p > last.p ? fabs(excess) : excess);
+      most[2] = PetscMax(most[2], at.p - last.p);
       yields += at.p > last.p;
     }
-  PetscCall(SamMax(p->grid->comm, 2, most));
+  PetscCall(SamMax(p->grid->comm, 3, most));
   PetscCall(SamSum(p->grid->comm, 1, &yields));
   numbers[MOST]  = most[0];
   numbers[ERROR] = most[1];
   numbers[CELLS] = yields;
+  numbers[STILL] = most[2] > GROWTH ? 0 : 1;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The work of the plastic strain of a step, by the mean of the stress before it, which `before` becomes, and after. */
-static PetscErrorCode AddWork(const SamPlastic *p, const double last[], const double now[], const double before[],
-                              const double after[], double *work)
+/* The work of the plastic strain of a step by the sum of the stresses before and after it, which is scratch, halved. */
+static PetscErrorCode AddWork(const SamPlastic *p, const double last[], const double now[], double stress[],
+                              double *work)
 {
-  const SamGrid grid  = p->grid;
-  SamTotal      total = {0};
+  const PetscInt cells = p->grid->cells, n = PARTS * p->bodies * p->layers * cells;
+  double        *e;
 
   PetscFunctionBegin;
-  for (PetscInt j = 0; j < grid->rows; j++) {
-    double row = 0;
+  PetscCall(PetscMalloc1(n, &e));
+  for (PetscInt k = 0; k < n; k++) {
+    const ptrdiff_t l = k / (PARTS * cells), at = l * (p->size - PARTS) * cells + k;
 
-    for (PetscInt l = 0; l < p->bodies * p->layers; l++)
-      for (PetscInt c = 0; c < PARTS; c++)
-        for (PetscInt k = j * grid->nx; k < (j + 1) * grid->nx; k++) {
-          const ptrdiff_t at = ((ptrdiff_t)l * p->size + c) * grid->cells + k,
-                          in = ((ptrdiff_t)l * PARTS + c) * grid->cells + k;
-
-          row += (c < SAM_STRESS_XY ? 0.5 : 1) * (double)p->thickness[l % p->layers] *
-                 (now[at] - (last ? last[at] : 0)) * (before[in] + after[in]);
-        }
-    SamAdd(&total, row);
+    e[k] = 0.5 * (now[at] - (last ? last[at] : 0));
   }
-  PetscCall(SamSumTotals(grid->comm, 1, &total, work));
-  *work *= (double)(grid->dx * grid->dy);
+  PetscCall(SamPlasticWork(p, e, stress, work));
+  PetscCall(PetscFree(e));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -379,24 +379,29 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
 {
   Plastic *const x     = (Plastic *)law->data;
   SamPlastic    *p     = &x->plastic;
+  const PetscInt first = SamStateFindNumber(step->state, "plastic_max");
   const PetscInt id    = SamStateFindField(step->state, SAM_PLASTIC_FIELD);
   const Vec      tried = SamStateReadField(step->state, id), before = SamStateGetField(step->state, id, SAM_COMMITTED);
   const PetscInt n = PARTS * p->bodies * p->layers * p->grid->cells;
-  double        *stress, *start, *numbers;
+  double        *stress, *start, *numbers, energy;
   const double  *now, *last = NULL;
 
   PetscFunctionBegin;
   if (!tried) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscMalloc1(n, &stress));
   PetscCall(PetscCalloc1(n, &start));
-  PetscCall(SamPlasticStress(p, tried, step->pressure, step->shear, stress));
+  PetscCall(SamPlasticStress(p, tried, step->pressure, step->shear, stress, &energy));
   PetscCall(VecGetArrayRead(tried, &now));
   if (before) PetscCall(VecGetArrayRead(before, &last));
-  numbers = SamStateNumbers(step->state, SamStateFindNumber(step->state, "plastic_max"), SAM_TRIED);
+  numbers = SamStateNumbers(step->state, first, SAM_TRIED);
   PetscCall(Judge(p, last, now, stress, numbers));
-  if (numbers[CELLS] > 0 && step->last[0]) PetscCall(SamPlasticStress(p, before, step->last[0], step->last[1], start));
-  PetscCall(AddWork(p, last, now, start, stress, &numbers[WORK]));
-  numbers[NEWTON]   = (double)p->newton;
+  numbers[ENERGY] = energy;
+  if (numbers[CELLS] > 0 && step->last[0])
+    PetscCall(SamPlasticStress(p, before, step->last[0], step->last[1], start, NULL));
+  for (PetscInt k = 0; k < n; k++) stress[k] += start[k];
+  PetscCall(AddWork(p, last, now, stress, &numbers[WORK]));
+  numbers[NEWTON] = (double)p->newton;
+  numbers[STILL] *= 1 + SamStateNumbers(step->state, first, SAM_COMMITTED)[STILL];
   numbers[PRODUCTS] = (double)p->products;
   if (!(numbers[ERROR] <= PetscMax(EXCESS, MARGIN * p->rtol)))
     (void)snprintf(step->failed, sizeof(step->failed), "the check of the plastic strain: the yield function is %.2g Y",

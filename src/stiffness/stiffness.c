@@ -152,6 +152,15 @@ static void Transform(const Systems *s, const PetscBool rotations[3], SamStiffne
     }
 }
 
+static PetscErrorCode RefuseYield(SamContact contact)
+{
+  const SamLaw law = SamProblemGetLaw(SamContactGetProblem(contact), SAM_LAW_PLASTIC);
+
+  PetscFunctionBegin;
+  PetscCheck(!law, SamContactGetGrid(contact)->comm, SAM_ERR_USER, "-stiffness: not supported with -%s", law->option);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* The part of the grid that the elasticity uses may be another one afterwards: each try chooses its own. */
 PetscErrorCode SamStiffnessCompute(SamContact contact, SamStiffnessDirection direction, SamStiffness *stiffness)
 {
@@ -159,6 +168,7 @@ PetscErrorCode SamStiffnessCompute(SamContact contact, SamStiffnessDirection dir
 
   PetscFunctionBegin;
   PetscCall(SamMotionRefuse(SamContactGetMotion(contact), SAM_MOTION_STIFFNESS, PETSC_COMM_SELF, "-", "stiffness"));
+  PetscCall(RefuseYield(contact));
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_STIFFNESS], 0, 0, 0, 0));
   PetscCall(SamFrozenCreate(contact, direction, &s.f));
   if (s.f.coupled)
@@ -192,6 +202,7 @@ PetscErrorCode SamStiffnessDeclare(SamContact contact)
 
   PetscFunctionBegin;
   PetscCall(SamMotionRefuse(SamContactGetMotion(contact), SAM_MOTION_STIFFNESS, PETSC_COMM_SELF, "-", "stiffness"));
+  PetscCall(RefuseYield(contact));
   PetscCall(SamContactGetState(contact, &state));
   for (int k = 0; k < SAM_STIFFNESS_DIRECTIONS; k++) PetscCall(SamStateDeclareNumber(state, &numbers[k], &id));
   PetscFunctionReturn(PETSC_SUCCESS);

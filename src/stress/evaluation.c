@@ -177,6 +177,9 @@ static PetscErrorCode SetLayout(SamEvaluation e)
 PetscErrorCode SamEvaluationSetUp(SamEvaluation e, const SamStressSource *source)
 {
   PetscFunctionBegin;
+  PetscCheck(!source->yields, SamElasticityGetGrid(source->bodies)->comm, SAM_ERR_USER,
+             "%s: a body yields: stresses below the surface without those by its plastic strain would be wrong",
+             source->name);
   e->source = *source;
   PetscCall(SamElasticityReference(source->bodies));
   e->grid = SamElasticityGetGrid(source->bodies);
