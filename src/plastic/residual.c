@@ -22,6 +22,7 @@ struct _n_SamResidual {
   PetscInt        first, columns; /* frequency of this rank's first column, and their number */
   PetscInt        phases, waves;  /* of a column: see SamFourierBlock */
   double         *ky;             /* of these waves, 1/m */
+  PetscInt        nyquist;        /* the wave of two cells along y, which is also that of -ky; -1: none */
   double complex *spectra;        /* (planes, columns, waves) */
   double complex *displaced;      /* (3, columns, waves) */
   /* not periodic only */
@@ -103,9 +104,11 @@ static PetscErrorCode CreateSpectra(SamResidual r)
   PetscCall(SamAllocate(sizeof(*r->spectra) * (size_t)((planes + 3) * r->columns * r->waves), &r->spectra));
   r->displaced = r->spectra + (ptrdiff_t)planes * r->columns * r->waves;
   PetscCall(PetscMalloc1(r->waves, &r->ky));
+  r->nyquist = -1;
   for (PetscInt k = 0; k < r->waves; k++) {
     const PetscInt hy = r->waves / r->phases, ky = r->phases * (k % hy) + k / hy;
 
+    if (2 * ky == r->waves) r->nyquist = k;
     r->ky[k] =
       2 * PETSC_PI / ((double)r->waves * (double)r->grid->dy) * (double)(2 * ky <= r->waves ? ky : ky - r->waves);
   }
@@ -215,22 +218,59 @@ static double WaveOf(SamResidual r, PetscInt b)
   return 2 * PETSC_PI / (r->period * (double)r->grid->dx) * (double)(r->first + b);
 }
 
+/* What is done to a column of waves: the response to eigenstrains, or to tractions. */
+typedef enum { RESPOND, DISPLACE, RESPOND_AND_DISPLACE, LOAD } Task;
+
+static PetscErrorCode WorkOnWaves(SamResidual r, Task task, PetscInt n, double kx, const double ky[],
+                                  double complex *const column[], double complex *const surface[3])
+{
+  PetscFunctionBegin;
+  if (task == LOAD)
+    PetscCall(SamWavesLoad(&r->body, n, kx, ky, (const double complex *const *)surface, column));
+  else
+    PetscCall(SamWavesApply(&r->body, n, kx, ky, column, task != DISPLACE, task == RESPOND ? NULL : surface));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Works on a column; of the wave that is also one of -ky, the mean of both counts. */
+static PetscErrorCode WorkOnColumn(SamResidual r, Task task, PetscInt b, double complex *column[])
+{
+  const PetscInt  planes = PARTS * r->body.layers, m = r->nyquist;
+  double complex *surface[3], *kept, **at;
+  const double    back = m < 0 ? 0 : -r->ky[m];
+
+  PetscFunctionBegin;
+  GetColumn(r, planes, b, r->spectra, column);
+  GetColumn(r, 3, b, r->displaced, surface);
+  PetscCall(PetscMalloc2(planes + 3, &kept, planes + 3, &at));
+  for (PetscInt k = 0; k < planes + 3; k++) {
+    at[k] = &kept[k];
+    if (m >= 0) kept[k] = k < planes ? column[k][m] : surface[k - planes][m];
+  }
+  PetscCall(WorkOnWaves(r, task, r->waves, WaveOf(r, b), r->ky, column, surface));
+  if (m >= 0) PetscCall(WorkOnWaves(r, task, 1, WaveOf(r, b), &back, at, at + planes));
+  for (PetscInt k = 0; m >= 0 && k < planes + 3; k++) {
+    double complex *to = k < planes ? &column[k][m] : &surface[k - planes][m];
+
+    *to = 0.5 * (*to + kept[k]);
+  }
+  PetscCall(PetscFree2(kept, at));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* The stress, and the displacement, by waves. */
 static PetscErrorCode ApplyWaves(SamResidual r, const double e[], double s[], double *const u[3])
 {
   const PetscInt   planes = PARTS * r->body.layers;
   const double   **at;
-  double complex **column, *displaced[3];
+  double complex **column;
 
   PetscFunctionBegin;
   PetscCall(GetPlanes(r, planes, e, &at));
   PetscCall(PetscMalloc1(planes, &column));
   PetscCall(Transform(r, planes, at, NULL, r->spectra));
-  for (PetscInt b = 0; b < r->columns; b++) {
-    GetColumn(r, planes, b, r->spectra, column);
-    GetColumn(r, 3, b, r->displaced, displaced);
-    PetscCall(SamWavesApply(&r->body, r->waves, WaveOf(r, b), r->ky, column, s != NULL, u ? displaced : NULL));
-  }
+  for (PetscInt b = 0; b < r->columns; b++)
+    PetscCall(WorkOnColumn(r, !u ? RESPOND : s ? RESPOND_AND_DISPLACE : DISPLACE, b, column));
   PetscCall(PetscFree(column));
   PetscCall(PetscFree(at));
   if (u) PetscCall(Transform(r, 3, NULL, u, r->displaced));
@@ -292,13 +332,12 @@ static PetscErrorCode LoadWaves(SamResidual r, const double *const traction[3], 
   PetscCall(PetscMalloc1(planes, &column));
   PetscCall(Transform(r, 3, traction, NULL, r->displaced));
   for (PetscInt b = 0; b < r->columns; b++) {
-    GetColumn(r, planes, b, r->spectra, column);
     GetColumn(r, 3, b, r->displaced, given);
     for (PetscInt k = 0; k < r->waves; k++) {
       given[1][k] *= r->sign;
       given[2][k] *= r->sign;
     }
-    PetscCall(SamWavesLoad(&r->body, r->waves, WaveOf(r, b), r->ky, (const double complex *const *)given, column));
+    PetscCall(WorkOnColumn(r, LOAD, b, column));
   }
   PetscCall(Transform(r, planes, NULL, (double *const *)at, r->spectra));
   PetscCall(PetscFree(column));

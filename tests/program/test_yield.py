@@ -60,7 +60,9 @@ def test_sphere_has_reference_numbers(solve):
 
 
 def test_periodic_sphere_is_that_of_tamaas(solve):
-    """Tamaas 2.9 tends to the same: 1.95351 and 1.94529 with 17 and 33 nodes of depth, 1.9426 in the limit."""
+    """Tamaas 2.9 tends to the same: 1.95351 and 1.94529 with 17 and 33 nodes of depth, 1.9426 in the limit.
+
+    The numbers are those of a prototype that gives the shortest wave along y one sign."""
     period = 8 * RADIUS
     more = dict(
         elasticity="periodic",
@@ -70,7 +72,7 @@ def test_periodic_sphere_is_that_of_tamaas(solve):
         body2_hardening_modulus=0.05,
     )
     for layers, peak in (16, 1.95024), (32, 1.94379):
-        assert numbers(all_steps(solve(sphere(32, layers, 3, **more))))[1] == pytest.approx(peak, abs=1e-5)
+        assert numbers(all_steps(solve(sphere(32, layers, 3, **more))))[1] == pytest.approx(peak, abs=5e-5)
 
 
 def test_unloading_is_elastic_and_leaves_a_dent(solve, tmp_path):
@@ -124,12 +126,83 @@ def test_hardening(solve, tmp_path, kind):
     assert results["plastic_max"][3] > results["plastic_max"][2]
 
 
-FIELDS = ("pressure", "history/disp_z", "history/plastic_max")
+# ---------------------------------------------------------------- with friction
+
+FRICTION = 0.4
+PUSHED = FRICTION * 4 * LOAD
+
+
+def pushed(n, layers, path, parts, **more):
+    """Four times the load of first yield, then tangential loads that are parts of what friction bears."""
+    width = 2.9 * 1.3 * 4 ** (1 / 3) * RADIUS
+    case = sphere(n, layers, 4, grid_size=(width, width), plastic_depth=2.1 / 2.9 * width, friction=FRICTION)
+    columns = dict(load_n=[4 * LOAD] * len(parts), load_tx=[part * PUSHED for part in parts])
+    return {**case, **steps(path, **columns), **more}
+
+
+def test_partial_slip_has_reference_numbers(solve, tmp_path):
+    """Of a prototype with the shear along x alone, and with the images of its window, 4e-3 of the pressure."""
+    case = pushed(24, 15, tmp_path / "h.csv", (0, 0.2, 0.4), coupling="none", body2_hardening_modulus=0.02)
+    run = all_steps(solve(case))
+    assert run["disp_x"][1:] / APPROACH == pytest.approx([0.16346, 0.33901], rel=2e-3)
+    assert run["pressure_max"] / YIELD == pytest.approx([2.04541, 2.04156, 2.03050], rel=6e-3)
+    assert list(run["stick_cells"][1:]) == [124, 114]
+
+
+def test_contact_that_does_not_yield_is_elastic(solve, tmp_path):
+    case = pushed(16, 6, tmp_path / "h.csv", (0, 0.5, -0.2, 0.7))
+    high = all_steps(solve({**case, "body2_yield": 1.0}))
+    elastic = all_steps(solve({**case, "body2_yield": "inf"}))
+    for name in ("disp_z", "disp_x", "pressure_max", "dissipated_energy", "stick_cells"):
+        assert high[name] == pytest.approx(elastic[name], rel=5e-5)
+
+
+def test_work_is_friction_plastic_work_and_what_the_residual_stress_stores(solve, tmp_path):
+    """Up and down again by many steps; tangentially to and fro; unloaded nothing else stores energy."""
+    up = np.linspace(0, 4, 13)[1:]
+    force = np.concatenate([up, np.full(24, 4.0), up[::-1], [1e-3]])
+    turns = np.concatenate([0 * up, 0.6 * np.sin(np.linspace(0, 2 * math.pi, 25)[1:]), 0 * up, [0]])
+    case = pushed(12, 6, tmp_path / "h.csv", [0])
+    case.update(steps(tmp_path / "h.csv", load_n=(force * LOAD).tolist(), load_tx=(turns * PUSHED).tolist()))
+    run = all_steps(solve(case))
+    work = 0.0
+    for load, way in ("load_n", "disp_z"), ("load_tx", "disp_x"):
+        f, d = (np.concatenate([[0], run[name]]) for name in (load, way))
+        work += np.sum((f[1:] + f[:-1]) / 2 * np.diff(d))
+    spent = run["plastic_work"].sum() + run["dissipated_energy"].sum()
+    assert min(run["plastic_work"].sum(), run["dissipated_energy"].sum(), run["residual_energy"][-1]) > 0.05 * work
+    assert spent + run["residual_energy"][-1] == pytest.approx(work, rel=2e-2)
+
+
+def test_fretting_above_yield_shakes_down(solve, tmp_path):
+    parts = [0] + [0.6, -0.6] * 5
+    case = pushed(14, 8, tmp_path / "h.csv", parts, coupling="none", body2_backstress="0.3,800,0.02,100")
+    run = all_steps(solve(case))
+    assert run["plastic_work"][1] > 10 * run["plastic_work"][4] > 0
+    assert list(run["shaken_down"][:3]) == [0, 0, 0] and run["shaken_down"][-1] >= 3
+    assert run["dissipated_energy"][-1] == pytest.approx(run["dissipated_energy"][-2], rel=0.02)
+
+
+@pytest.mark.parametrize("other", [{}, dict(body1_young=1), dict(body1_young=3, body1_poisson=0.45, body1_yield=YIELD)])
+def test_loads_along_x_and_y_are_alike(solve, tmp_path, other):
+    """Also of dissimilar bodies that both yield; the other way round everything is turned, and nothing else."""
+    parts = (0, 0.6, -0.3, 0.8)
+    case = pushed(12, 6, tmp_path / "x.csv", parts, **other)
+    along = all_steps(solve(case))
+    columns = dict(load_n=[4 * LOAD] * 4, load_ty=[-part * PUSHED for part in parts])
+    across = all_steps(solve({**case, **steps(tmp_path / "y.csv", **columns)}))
+    assert across["disp_y"] == pytest.approx(-along["disp_x"], rel=1e-6, abs=1e-9 * APPROACH)
+    assert across["plastic_max"] == pytest.approx(along["plastic_max"], rel=1e-6)
+    assert np.all(along["yield_error"] < 1e-5) and along["plastic_max"][-1] > 1e-5
+
+
+FIELDS = ("pressure", "shear_x", "history/disp_z", "history/plastic_max", "history/plastic_work")
 
 
 def test_ranks_and_restart_give_the_same_bits(petsam, tmp_path):
     loads = [x * LOAD for x in (2, 5, 1, 6)]
-    case = sphere(13, 5, **steps(tmp_path / "loads.csv", load_n=loads))
+    turns = [0, 0.3 * LOAD, -0.1 * LOAD, 0.4 * LOAD]
+    case = sphere(13, 5, **steps(tmp_path / "loads.csv", load_n=loads, load_tx=turns), friction=0.2)
     runs = []
     for name, ranks in ("one", 1), ("three", 3):
         petsam(case, dict(output=tmp_path / f"{name}.h5"), ranks=ranks)
@@ -151,7 +224,9 @@ def test_conditions_that_move_the_material_are_refused(petsam, tmp_path):
 
 REFUSED = [
     (dict(body1_yield=1), "-body1_yield: the body is rigid"),
-    (dict(friction=0.3), "-body2_yield: not supported with friction"),
+    (dict(stiffness=True, output="r.h5"), "-stiffness: not supported with -body2_yield"),
+    (dict(friction=0.3, wear_coefficient1=1e-3), "-body2_yield: not supported with -wear_coefficient"),
+    (dict(friction=0.3, slide=True), "-body2_yield: not supported with -slide"),
     (dict(pressure_limit=1e-3), "-body2_yield: not supported with -pressure_limit"),
     (dict(body2_layer_young=2, body2_layer_poisson=0.3, body2_layer_thickness=1e-3), "not supported with layers"),
     (dict(plastic_depth=None), "-plastic_depth is missing"),
