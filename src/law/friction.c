@@ -55,7 +55,7 @@ static const struct {
     REAL(REFERENCE, "pressure_reference", "pressure", "where the coefficient is -friction (Pa)", SAM_RANGE_POSITIVE),
     REAL(LIMIT, "shear_limit", "pressure", "maximum shear (Pa)", SAM_RANGE_POSITIVE_INF)},
    {0, 1, INFINITY},
-   {NULL}},
+   {.name = NULL}},
   {SAM_LAW_FALLING_FRICTION,
    "falling",
    {REAL(KINETIC, "falling_kinetic", "falling", "coefficient at high speed", SAM_RANGE_NONNEGATIVE),

@@ -296,8 +296,8 @@ static int Says(const petsam_contact *c, const char *words)
 
 static void test_depths_in_half_widths_are_those_of_the_contact(void **state)
 {
-  petsam_contact *c = NewContact((int)MPI_Comm_c2f(PETSC_COMM_WORLD));
-  double          area, z[2];
+  petsam_contact *c    = NewContact((int)MPI_Comm_c2f(PETSC_COMM_WORLD));
+  double          area = 0, z[2];
   int             shape[4];
 
   (void)state;
