@@ -142,11 +142,12 @@ def pushed(n, layers, path, parts, **more):
 
 def test_partial_slip_has_reference_numbers(solve, tmp_path):
     """Of a prototype with the shear along x alone, and with the images of its window, 4e-3 of the pressure."""
-    case = pushed(24, 15, tmp_path / "h.csv", (0, 0.2, 0.4), coupling="none", body2_hardening_modulus=0.02)
+    case = pushed(24, 15, tmp_path / "h.csv", (0, 0.2, 0.4, 0.6, 0.8), coupling="none", body2_hardening_modulus=0.02)
     run = all_steps(solve(case))
-    assert run["disp_x"][1:] / APPROACH == pytest.approx([0.16346, 0.33901], rel=2e-3)
-    assert run["pressure_max"] / YIELD == pytest.approx([2.04541, 2.04156, 2.03050], rel=6e-3)
-    assert list(run["stick_cells"][1:]) == [124, 114]
+    assert run["disp_x"][[1, 2, 4]] / APPROACH == pytest.approx([0.16346, 0.33901, 0.82354], rel=2e-3)
+    assert run["pressure_max"][[0, 1, 2, 4]] / YIELD == pytest.approx([2.04541, 2.04156, 2.03050, 1.98404], rel=6e-3)
+    assert list(run["stick_cells"][1:3]) == [124, 114]
+    assert run["plastic_products"].sum() < 190  # more where what slips does not follow the pressure
 
 
 def test_contact_that_does_not_yield_is_elastic(solve, tmp_path):
@@ -154,7 +155,7 @@ def test_contact_that_does_not_yield_is_elastic(solve, tmp_path):
     high = all_steps(solve({**case, "body2_yield": 1.0}))
     elastic = all_steps(solve({**case, "body2_yield": "inf"}))
     for name in ("disp_z", "disp_x", "pressure_max", "dissipated_energy", "stick_cells"):
-        assert high[name] == pytest.approx(elastic[name], rel=5e-5)
+        assert high[name] == pytest.approx(elastic[name], rel=5e-4, abs=1e-6 * abs(elastic[name]).max())
 
 
 def test_work_is_friction_plastic_work_and_what_the_residual_stress_stores(solve, tmp_path):
@@ -171,7 +172,7 @@ def test_work_is_friction_plastic_work_and_what_the_residual_stress_stores(solve
         work += np.sum((f[1:] + f[:-1]) / 2 * np.diff(d))
     spent = run["plastic_work"].sum() + run["dissipated_energy"].sum()
     assert min(run["plastic_work"].sum(), run["dissipated_energy"].sum(), run["residual_energy"][-1]) > 0.05 * work
-    assert spent + run["residual_energy"][-1] == pytest.approx(work, rel=2e-2)
+    assert spent + run["residual_energy"][-1] == pytest.approx(work, rel=1e-2, abs=0)
 
 
 def test_fretting_above_yield_shakes_down(solve, tmp_path):
@@ -180,7 +181,7 @@ def test_fretting_above_yield_shakes_down(solve, tmp_path):
     run = all_steps(solve(case))
     assert run["plastic_work"][1] > 10 * run["plastic_work"][4] > 0
     assert list(run["shaken_down"][:3]) == [0, 0, 0] and run["shaken_down"][-1] >= 3
-    assert run["dissipated_energy"][-1] == pytest.approx(run["dissipated_energy"][-2], rel=0.02)
+    assert run["dissipated_energy"][-1] == pytest.approx(run["dissipated_energy"][-2], rel=0.02, abs=0)
 
 
 @pytest.mark.parametrize("other", [{}, dict(body1_young=1), dict(body1_young=3, body1_poisson=0.45, body1_yield=YIELD)])
