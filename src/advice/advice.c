@@ -20,6 +20,9 @@
 /* A stress over Young's modulus below which it has no effect, and a grid's width (m) that units may explain. */
 #define SLIGHT 1e-8
 #define WIDEST 100.0
+/* Plastic strain that is not small, and layers that it spans at least. */
+#define STRAINED 0.1
+#define LAYERS   4
 /* Cells half as wide may change the peak pressure by this part of it. */
 #define PEAK 0.05
 /* A coefficient of friction from the first of these on is likely to be percent; from the second on it means stick. */
@@ -416,6 +419,30 @@ static double Stiffest(SamPair pair)
   return 1 / compliance;
 }
 
+/* Plastic strain that is large, that spans few layers, or that comes to the end of what may yield. */
+static void Yield(SamAdvice *a)
+{
+  const SamContact contact = a->setup->contact;
+  PetscReal        most = 0, layers = 0, left = 0;
+
+  if (a->error || !SamProblemGetLaw(a->setup->problem, SAM_LAW_PLASTIC)) return;
+  a->error = SamContactGetNumber(contact, "plastic_max", &most);
+  if (!a->error) a->error = SamContactGetNumber(contact, "yielded_layers", &layers);
+  if (!a->error) a->error = SamContactGetNumber(contact, "yield_margin", &left);
+  if (a->error || !(most > 0)) return;
+  if (most > STRAINED)
+    SamAdviceSay(a, "", "plastic strain up to %.2g: strains are taken as small, up to about %g", (double)most,
+                 STRAINED);
+  if (layers < LAYERS)
+    SamAdviceSay(a, "plastic_layers",
+                 "plastic strain spans %g layers, fewer than %d: more -plastic_layers, or a smaller -plastic_depth",
+                 (double)layers, LAYERS);
+  if (left < 1)
+    SamAdviceSay(a, "plastic_depth",
+                 "plastic strain comes to the last layer or to the border of the grid: a larger -plastic_depth, or "
+                 "-grid_size");
+}
+
 /* A contact that is wide beside its radius, or a pressure that no linear elasticity bears. */
 static void Size(SamAdvice *a)
 {
@@ -531,6 +558,7 @@ PetscErrorCode SamAdviceEnd(SamAdvice *a, const SamSlip **found)
   PetscCall(SamAdviceMeasureStick(a));
   SamAdviceSlip(a);
   SamAdviceRolling(a);
+  Yield(a);
   *found = a->slip.energy > 0 ? &a->slip : NULL;
   PetscCall(a->error);
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -30,9 +30,11 @@ typedef struct {
 #define MARGIN 10
 /* Growth of the plastic strain in a step that is none. */
 #define GROWTH 1e-6
+/* The part of the maximum plastic strain that counts for its extent. */
+#define COUNTS 0.01
 
 /* The numbers of a step, one after the other from MOST on. */
-enum { MOST, CELLS, WORK, ENERGY, ERROR, NEWTON, PRODUCTS, STILL, NUMBERS };
+enum { MOST, CELLS, WORK, ENERGY, ERROR, NEWTON, PRODUCTS, STILL, LAYERS, LEFT, NUMBERS };
 
 #define REAL_ROW(body, option, text, what, range_) \
   { \
@@ -215,6 +217,10 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
     {"plastic_products", "1", "operator applications of its conjugate gradients", SAM_NUMBER_INT, 1, PETSC_FALSE,
      PETSC_TRUE, SAM_JOIN_SUM, 0},
     {"shaken_down", "1", "steps in a row, up to this one, in which plastic strain grew by less than 1e-6",
+     SAM_NUMBER_INT, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, 0},
+    {"yielded_layers", "1", "layers of a body with more than 1 % of the maximum plastic strain, the fewest",
+     SAM_NUMBER_INT, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, 0},
+    {"yield_margin", "1", "layers or cells from there to the last layer or the border of the grid, the fewest",
      SAM_NUMBER_INT, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, 0}};
   static const SamStateResult fields[4] = {
     {.name = "residual_x", .unit = "m", .text = "displacement along x by plastic strain", .use = SAM_RESULT_OFFERED},
@@ -356,6 +362,43 @@ static PetscErrorCode Judge(const SamPlastic *p, const double before[], const do
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* How many layers the strain spans, and how near it comes to the end of what may yield. */
+static PetscErrorCode Extent(const SamPlastic *p, const double now[], PetscBool periodic, double numbers[NUMBERS])
+{
+  const SamGrid  grid  = p->grid;
+  const PetscInt count = p->bodies * p->layers, cells = grid->cells;
+  double        *most, near                           = -(double)(grid->nx + grid->ny);
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(count + 1, &most));
+  for (PetscInt l = 0; l < count; l++)
+    for (PetscInt k = 0; k < cells; k++) {
+      const double   strain = now[((ptrdiff_t)l * p->size + PARTS) * cells + k];
+      const PetscInt i = k % grid->nx, j = grid->row_start + k / grid->nx;
+      const PetscInt x = PetscMin(i, grid->nx - 1 - i), y = PetscMin(j, grid->ny - 1 - j);
+
+      most[l] = PetscMax(most[l], strain);
+      if (!periodic && strain > COUNTS * numbers[MOST]) near = PetscMax(near, -(double)PetscMin(x, y));
+    }
+  most[count] = near;
+  PetscCall(SamMax(grid->comm, count + 1, most));
+  numbers[LAYERS] = numbers[MOST] > 0 ? (double)p->layers : 0;
+  numbers[LEFT]   = PetscMin(-most[count], (double)p->layers);
+  for (PetscInt b = 0; b < p->bodies; b++) {
+    PetscInt spans = 0, left = p->layers;
+
+    for (PetscInt l = 0; l < p->layers; l++)
+      if (most[b * p->layers + l] > COUNTS * numbers[MOST]) {
+        spans++;
+        left = p->layers - 1 - l;
+      }
+    if (spans) numbers[LAYERS] = PetscMin(numbers[LAYERS], (double)spans);
+    numbers[LEFT] = PetscMin(numbers[LEFT], (double)left);
+  }
+  PetscCall(PetscFree(most));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* The work of the plastic strain of a step by the sum of the stresses before and after it, which is scratch, halved. */
 static PetscErrorCode AddWork(const SamPlastic *p, const double last[], const double now[], double stress[],
                               double *work)
@@ -395,6 +438,7 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
   if (before) PetscCall(VecGetArrayRead(before, &last));
   numbers = SamStateNumbers(step->state, first, SAM_TRIED);
   PetscCall(Judge(p, last, now, stress, numbers));
+  PetscCall(Extent(p, now, SamElasticityGetTraits(law->elasticity).periodic, numbers));
   numbers[ENERGY] = energy;
   if (numbers[CELLS] > 0 && step->last[0])
     PetscCall(SamPlasticStress(p, before, step->last[0], step->last[1], start, NULL));

@@ -241,3 +241,22 @@ REFUSED = [
 @pytest.mark.parametrize("wrong, message", REFUSED)
 def test_what_makes_no_sense_is_refused(petsam, wrong, message):
     assert message in petsam(sphere(8, 4, **wrong), check=None).stderr
+
+
+@pytest.mark.parametrize(
+    "more, words",
+    [
+        ({}, []),
+        (dict(plastic_layers=4), ["fewer than 4: more -plastic_layers"]),
+        (dict(plastic_depth=2 * RADIUS), ["comes to the last layer"]),
+        (dict(body2_yield=0.1), ["strains are taken as small"]),
+    ],
+)
+def test_strain_that_is_not_resolved_is_warned_of(petsam, more, words):
+    case = sphere(16, 10)
+    case.update(more)
+    if "body2_yield" in more:  # the same in other units: lengths are proportional to the strain at yield
+        width = 100 * case["grid_size"][0]
+        case.update(grid_size=(width, width), plastic_depth=100 * case["plastic_depth"], load_n=6e6 * LOAD)
+    said = [line for line in petsam(case).complaint if "plastic strain" in line]
+    assert len(said) == len(words) and all(word in line for word, line in zip(words, said))
