@@ -118,10 +118,9 @@ def test_beginning_of_two_topics_is_refused(petsam):
             "body1",
             ["-body1_young", "-body1_poisson"]
             + [f"-body1_layer_{name}" for name in ("file", "young", "poisson", "thickness", "stress")]
-            + ["-body1_compliance"]
+            + ["-body1_compliance", "-body1_surface_file", "-body1_surface_dataset"]
             + [f"-body1_{name}" for name in ("yield", "hardening", "hardening_modulus", "voce_stress", "voce_rate")]
-            + ["-body1_swift_strain", "-body1_swift_exponent", "-body1_backstress"]
-            + ["-body1_surface_file", "-body1_surface_dataset"],
+            + ["-body1_swift_strain", "-body1_swift_exponent", "-body1_backstress"],
         ),
         ("restart", ["-restart", "-restart_gap"]),
         ("fft", ["-fft_effort", "-fft_exchange"]),
