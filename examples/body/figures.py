@@ -96,32 +96,33 @@ class Comparison:
     def draw(self, directory):
         """Pressures, and shear of the beam, along y = 0."""
         figure, panels = plt.subplots(1, 3, figsize=(13.0, 3.8), layout="constrained")
-        self._profile(panels[0], "block", "pressure", "block near an edge: pressure, MPa")
-        self._profile(panels[1], "beam", "pressure", "clamped beam, pulled: pressure, MPa")
-        self._profile(panels[2], "beam", "shear_x", "clamped beam, pulled: shear, MPa")
-        panels[0].legend()
+        self._profile(panels[0], "block", "pressure", "Block near an edge: pressure", "$p$, MPa")
+        self._profile(panels[1], "beam", "pressure", "Clamped beam, pulled: pressure", "$p$, MPa")
+        self._profile(panels[2], "beam", "shear_x", "Clamped beam, pulled: shear", "$q_x$, MPa")
+        panels[0].legend(loc="lower center")
         save(figure, directory, "body.png")
 
-    def _profile(self, panel, body, name, title):
-        for which, color, text in (
-            ("none", "0.6", "half-space"),
-            ("1", COLORS[3], "degree 1"),
-            ("6", COLORS[0], "degree 6"),
+    def _profile(self, panel, body, name, title, label):
+        for which, color, line, text in (
+            ("none", COLORS[5], ":", "half-space"),
+            ("1", COLORS[3], "--", "compliance of degree 1"),
+            ("6", COLORS[0], "-", "compliance of degree 6"),
         ):
             grid = self.grids[body].get(which)
             if grid is not None:
                 middle = grid.y.size // 2
                 values = 0.5 * (grid[name][middle] + grid[name][middle - 1]) / 1e6
-                panel.plot(grid.x * 1e3, values, color=color, linewidth=1.3, label=text)
+                panel.plot(grid.x * 1e3, values, line, color=color, linewidth=1.3, label=text)
         if self.full[body]:
             best = self.full[body][-1]
             row = best.y < 1e-9
-            points(panel, best.x[row], getattr(best, name)[row], COLORS[1], label=f"CalculiX, {best.size:g} mm")
+            points(
+                panel, best.x[row], getattr(best, name)[row], COLORS[1], label=f"CalculiX, elements of {best.size:g} mm"
+            )
             half = 1e3 * self.grids[body]["6"].x[-1]
             panel.set_xlim(-half, half)
-            panel.set_ylim(1.15 * min(0.0, getattr(best, name)[row].min()), 1.15 * getattr(best, name)[row].max())
         panel.xaxis.set_major_locator(plt.MultipleLocator(0.5))
-        frame(panel, title, "x, mm", "")
+        frame(panel, title, "$x$, mm", label)
 
 
 if __name__ == "__main__":

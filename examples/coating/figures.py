@@ -11,7 +11,7 @@ import numpy as np
 
 import petsam
 from petsam import comparison
-from petsam.plot.style import COLORS, frame, joined, plt, save
+from petsam.plot.style import COLORS, frame, joined, logarithmic, plt, save
 
 RATIOS = ("0.1", "0.5", "2", "10")
 THICKNESSES = ("0.1", "0.3", "1", "3")
@@ -152,21 +152,23 @@ class Comparison:
                 case.x / A, case["pressure"][row] / P0, color=TINTS[e], label=f"$E_1/E_2 = {e}$, $h = {h}\\,a$"
             )
         for panel in axes[:2]:
-            panel.set_xscale("log")
-        frame(axes[0], "Central pressure", "$h/a$", "$p/p_0$")
-        frame(axes[1], "Contact radius", "$h/a$", "radius$/a$")
-        frame(axes[2], "Pressure along x", "$x/a$", "$p/p_0$", (0.0, 1.6), (0.0, None))
+            logarithmic(panel, "x")
+        thickness = "thickness of the film $h/a$"
+        frame(axes[0], "Central pressure, relative to no film", thickness, "$p/p_0$")
+        frame(axes[1], "Contact radius, relative to no film", thickness, "radius$/a$")
+        frame(axes[2], "Pressure along $x$", "$x/a$", "$p/p_0$", (0.0, 1.6), (0.0, None))
         for panel in axes[1:]:
             panel.legend()
         save(figure, directory, "coating.png")
         figure, axes = plt.subplots(1, 2, figsize=(10.0, 4.0), constrained_layout=True)
-        for (name, pull), color in zip(self.pulls.items(), (*COLORS[:2], "#2a9d72", "0.35", "#b07aa1")):
+        for (name, pull), color in zip(self.pulls.items(), COLORS):
             behind = int(np.argmax(pull.principal[0]))
-            axes[0].plot(pull.x / pull.radius, pull.principal[0] / 1e6, color=color, label=PULLS[name])
-            axes[1].plot(pull.principal[:, behind] / 1e6, pull.z * 1e3, color=color)
-        frame(axes[0], "Maximum principal stress at the surface", "$x$ / radius", "MPa", (-1.6, 1.6))
-        frame(axes[1], "Below its maximum", "MPa", "depth, mm", None, (0.3, 0.0))
-        axes[0].legend()
+            axes[0].plot(pull.x / pull.radius, pull.principal[0] / 1e6, color=color)
+            axes[1].plot(pull.principal[:, behind] / 1e6, pull.z * 1e3, color=color, label=PULLS[name])
+        label = "maximum principal stress, MPa"
+        frame(axes[0], "At the surface, sliding to the right", "$x$ / contact radius", label, (-1.35, 1.35))
+        frame(axes[1], "Below the place of its maximum", label, "depth, mm", None, (0.3, 0.0))
+        axes[1].legend(title="film: modulus, thickness")
         save(figure, directory, "pull.png")
 
 

@@ -132,9 +132,9 @@ class Comparison:
             best = self.full[-1]
             count = len(best.load_n)
             force = pull(best.load_n, best.load_tx)
-            points(panel, 1e6 * self.rise[:count], force, COLORS[1], label=f"CalculiX, {best.size:g} mm")
+            points(panel, 1e6 * self.rise[:count], force, COLORS[1], label=f"CalculiX, elements of {best.size:g} mm")
         panel.legend()
-        frame(panel, "radial force on the flank, N", "rise of the grip, µm", "")
+        frame(panel, "Loading and cycles of the flank", "rise of the grip, µm", "radial force, N")
         self._profiles(panels[1])
         panel = panels[2]
         panel.grid(False)
@@ -142,24 +142,26 @@ class Comparison:
         image = panel.contourf(x, z, 1e-6 * self.swt, levels=30, cmap="inferno")
         cross(panel, 1e3 * self.place[0], 1e3 * self.place[1])
         bar(panel, image, "SWT, MPa", ticks=np.linspace(0.0, 1e-6 * self.swt.max(), 5).round(2))
-        frame(panel, "fatigue of the blade, y = 0", "x, mm", "depth z, mm")
+        text = f"Fatigue of the blade: maximum {1e-6 * self.swt.max():.2f} MPa"
+        frame(panel, text, "$x$, mm  at $y$ = 0", "depth $z$, mm")
         panel.set_ylim(z[-1], z[0])
         save(figure, directory, "dovetail.png")
 
     def _profiles(self, panel):
-        for step, color in ((4, COLORS[0]), (8, COLORS[2])):
+        for step, color, when in ((4, COLORS[0], "rise 20 µm"), (8, COLORS[1], "back to 12 µm")):
             grid = petsam.Snapshot(self.cycles, step - 1)
             middle = grid.y.size // 2
             for name, style in (("pressure", "-"), ("shear_x", "--")):
                 values = 0.5 * (grid[name][middle] + grid[name][middle - 1]) / 1e6
-                text = f"{'p' if name == 'pressure' else 'q'}, step {step}"
+                text = f"${'p' if name == 'pressure' else 'q_x'}$, {when}"
                 panel.plot(grid.x * 1e3, values, style, color=color, linewidth=1.3, label=text)
                 if self.full and step <= len(self.full[-1].load_n):
                     best = self.full[-1]
                     row = best.y < 1e-9
                     points(panel, best.x[row], getattr(best, name)[step - 1][row], color)
-        panel.legend()
-        frame(panel, "pressure and shear along the flank, MPa", "x, mm", "", (-0.75, 0.75))
+        panel.plot([], [], "o", color=COLORS[5], markerfacecolor="white", markersize=3.6, label="CalculiX")
+        panel.legend(loc="upper right")
+        frame(panel, "Pressure and shear along the flank", "$x$, mm  at $y$ = 0", "$p$, $q_x$, MPa", (-0.75, 0.75))
 
 
 if __name__ == "__main__":

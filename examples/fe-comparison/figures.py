@@ -23,10 +23,10 @@ import petsam
 from petsam import comparison
 from petsam.closed import cattaneo_shear, cattaneo_stick_radius, hertz_pressure
 from petsam.comparison import relative_l2
-from petsam.plot.style import frame, joined, plt, points, save
+from petsam.plot.style import COLORS, frame, joined, logarithmic, plt, points, save
 
 LAWS = ("small", "large", "neo")
-COLOUR_FE, COLOUR_PETSAM, COLOUR_LARGE, COLOUR_NEO = "#c0392b", "#1f5fa8", "#e08e0b", "#6a8f3c"
+COLOUR_PETSAM, COLOUR_FE, COLOUR_NEO, COLOUR_LARGE = COLORS[:4]
 
 
 # ---------------------------------------------------------------- reading
@@ -218,15 +218,15 @@ def draw_cost(axes, numbers):
         near = {"xytext": (5, 4), "textcoords": "offset points", "fontsize": 7.5, "color": colour}
         for row, place in zip(rows, places):
             axes.annotate(f"{row['memory']:.0f} MB", place, **near)
-    frame(axes, "Cost of the pressure on one core", "CPU time, s", "relative L2 error")
-    axes.set(xscale="log", yscale="log")
+    frame(axes, "Cost of the pressure on one core", "CPU time, s", "relative L2 error of the pressure")
+    logarithmic(axes, "xy")
     axes.margins(x=0.16, y=0.08)
     axes.legend(loc="upper right")
 
 
 def draw_ratio(axes, rows, key, label):
-    """A quantity over Hertz's for growing a/R."""
-    axes.axhspan(0.97, 1.03, color="0.93", zorder=0, linewidth=0.0)
+    """A quantity over Hertz's for growing a/R; grey: within 3 per cent."""
+    axes.axhspan(0.97, 1.03, color="0.93", zorder=0, linewidth=0.0, label="within 3 %")
     for name, style, colour, legend in (
         ("petsam", "o-", COLOUR_PETSAM, "petsam"),
         ("small", "s--", COLOUR_FE, "FE, small displacements"),
@@ -235,7 +235,12 @@ def draw_ratio(axes, rows, key, label):
     ):
         x, y = ([row[f"{name}_{quantity}"] for row in rows] for quantity in ("ratio", key))
         joined(axes, x, y, colour, style, linewidth=1.2, label=legend)
-    axes.set(xlabel="$a/R$", xlim=(0.0, 0.22), xticks=(0.0, 0.05, 0.1, 0.15, 0.2))
+    axes.set(
+        xlabel="contact radius / radius of the sphere, $a/R$",
+        ylabel="relative to Hertz",
+        xlim=(0.0, 0.22),
+        xticks=(0.0, 0.05, 0.1, 0.15, 0.2),
+    )
     axes.set_title(label, fontsize=10)
 
 
@@ -351,10 +356,10 @@ class Comparison:
         draw_shear(axes[1], self)
         draw_cost(axes[2], self.numbers)
         save(picture, directory, "comparison.png")
-        picture, axes = plt.subplots(1, 3, figsize=(10.4, 3.5), constrained_layout=True)
-        draw_ratio(axes[0], self.numbers["ratios"], "peak", "Peak pressure over Hertz's, same force")
-        draw_ratio(axes[1], self.numbers["ratios"], "radius", "Contact radius over Hertz's, same force")
-        draw_ratio(axes[2], self.numbers["ratios"], "force", "Force over Hertz's, same approach")
+        picture, axes = plt.subplots(1, 3, figsize=(12.0, 4.0), constrained_layout=True)
+        draw_ratio(axes[0], self.numbers["ratios"], "peak", "Peak pressure at the same force")
+        draw_ratio(axes[1], self.numbers["ratios"], "radius", "Contact radius at the same force")
+        draw_ratio(axes[2], self.numbers["ratios"], "force", "Force at the same approach")
         axes[0].legend(loc="lower left", borderpad=0.0, labelspacing=0.3)
         axes[0].set_ylim(bottom=0.82)
         save(picture, directory, "half-space.png")

@@ -25,14 +25,14 @@ from petsam import comparison
 from petsam.closed import Bodies, plane
 from petsam.closed.punch import Punch
 from petsam.comparison import relative_l2
-from petsam.plot.style import frame, joined, note, plt, points, save, tint
+from petsam.plot.style import COLORS, frame, joined, logarithmic, note, plt, points, save, tint
 from petsam.results import STICK
 
 RATIOS = ("2.5", "5", "10", "20", "40")
 VARIANTS = ("fine_r10", "sharp_r10", "nu0_r10")
 STUDIES = ("upright", "inclined")
 DRAWN = "10"
-COLOUR_P, COLOUR_Q = "#1f5fa8", "#c0392b"
+COLOUR_P, COLOUR_Q = COLORS[:2]
 
 
 def read_shape(path):
@@ -177,7 +177,7 @@ def draw_errors(axes, numbers):
     axes.plot(ratio, 0.024 / ratio**2, color="0.5", linewidth=1.0, linestyle="--")
     axes.text(8.0, 0.00018, "slope $-2$", color="0.4", fontsize=8.5, ha="right")
     frame(axes, "Error of the middle section", "length over width of the base, $L/c$", "relative L2 error")
-    axes.set(xscale="log", yscale="log")
+    logarithmic(axes, "xy")
     axes.set_xticks([float(r) for r in RATIOS], RATIOS)
     axes.xaxis.set_minor_locator(NullLocator())
     axes.set_ylim(1e-5, 0.6)

@@ -183,11 +183,11 @@ class Comparison:
         panels = axes.flat
         for panel, body, what in zip(panels, "21", ("flat (body 2)", "cylinder (body 1)")):
             for k, cycle in enumerate(CYCLES):
-                panel.plot(self.x, self.depth("moved", cycle, body), color=tint(k, 3), label=f"{cycle / 1e3:g}")
+                panel.plot(self.x, self.depth("moved", cycle, body), color=tint(k, 3), label=f"{cycle:,}")
             frame(
-                panel, f"Scar of the {what}", "$x$ of the body's own surface, mm", "worn depth, µm", None, (3.0, -0.1)
+                panel, f"Scar of the {what}", "$x$ of the body's own surface, mm", "worn depth, µm", None, (3.3, -0.1)
             )
-            panel.legend(title="thousand cycles", loc="lower left")
+            panel.legend(title="after cycles", loc="lower left")
         panel, x = panels[2], 1e3 * self.runs["ring"].x
         measured, heights = read_profiles(os.path.join(HERE, "ring_measured.csv"))
         for k, values in enumerate(heights.values()):
@@ -197,18 +197,20 @@ class Comparison:
         panel.plot(theirs[:, 1], -theirs[:, 2], "s", color=COLORS[1], markersize=4, markerfacecolor="white",
                    label="Abaqus")  # fmt: skip
         panel.plot(x, self.depth("ring", 900000, "1"), color=COLORS[0], label="petsam")
-        frame(panel, "Block on ring after 3600 m", "$x$, mm", "worn depth, µm", (-1.75, 1.75), (60, -6))
+        frame(panel, "Block on ring after 3600 m", "$x$, mm", "worn depth, µm", (-1.75, 1.75), (66, -6))
         panel.legend(loc="lower left")
         panel, inside = panels[3], np.abs(self.x) < 0.1
         for k, cycle in enumerate(RUNNING_IN):
             for body, shift in (("1", 0.0), ("2", 1.0)):
-                line = self.surface(body, cycle)[inside] + shift
+                line = -self.surface(body, cycle)[inside] - shift
                 panel.plot(self.x[inside], line, color=tint(k, 4), linewidth=1.0,
                            label=f"{cycle}" if body == "1" else None)  # fmt: skip
+        for text, height in ("body 1", 0.33), ("body 2, drawn 1 µm lower", -0.7):
+            panel.text(-0.1, height, text, fontsize=9)
         frame(panel, "Running-in of two rough surfaces", "$x$ of the body's own surface, mm",
-              "body 1, and 1 µm below body 2, µm", None, (1.55, -0.35))  # fmt: skip
+              "height outwards, µm", None, (-1.45, 0.45))  # fmt: skip
         panel.set_xticks([-0.1, -0.05, 0.0, 0.05, 0.1])
-        panel.legend(title="cycles", loc="center left", bbox_to_anchor=(1.0, 0.5))
+        panel.legend(title="after cycles", loc="center", ncol=4, columnspacing=1.0, bbox_to_anchor=(0.5, 0.5))
         save(figure, directory, "scars.png")
 
 

@@ -108,28 +108,28 @@ class Comparison:
         panel.plot(x, 1e-6 * self.exact, color=tints[1], linewidth=2.5, alpha=0.5, label="Nowell and Hills")
         panel.plot(x, 1e-6 * self.one["shear_x"][0], color=tints[0], linewidth=1.1, label="petsam")
         panel.legend(fontsize=8)
-        frame(panel, "cylinder with bulk tension in the flat", "$x$, mm", "$q_x$, MPa")
+        frame(panel, "Cylinder with bulk tension in the flat: shear", "$x$, mm", "$q_x$, MPa")
         panel = axes[0, 1]
         for k, depth in enumerate((0.0, 10e-6, 50e-6)):
             row = int(np.argmin(np.abs(self.fatigue.z - depth)))
-            name = "on the surface" if depth == 0 else f"{1e6 * depth:.0f} um below"
+            name = "on the surface" if depth == 0 else f"{1e6 * depth:.0f} µm below"
             panel.plot(1e3 * self.fatigue.x, 1e-6 * self.swt[row], color=tint(k, 3), linewidth=1.2, label=name)
         panel.legend(fontsize=8)
-        frame(panel, "rounded pad: Smith-Watson-Topper over its edges", "$x$, mm", "SWT, MPa")
+        frame(panel, "Rounded pad: fatigue parameter at its edges", "$x$, mm", "SWT, MPa")
         panel = axes[1, 0]
         for k, cycle in enumerate((1e4, 1e5, 1e6)):
             depth = self.life.field("wear_depth2", self.life.of_cycle(cycle))[0]
-            panel.plot(1e3 * self.life.x, 1e6 * depth, color=tint(k, 3), linewidth=1.2, label=f"{cycle:g} cycles")
+            panel.plot(1e3 * self.life.x, 1e6 * depth, color=tint(k, 3), linewidth=1.2, label=f"{cycle:,.0f} cycles")
         panel.invert_yaxis()
         panel.legend(fontsize=8, loc="lower center")
-        frame(panel, "its scar: the middle sticks, the edges wear", "$x$, mm", "removed depth, um")
+        frame(panel, "Scar of the pad: the middle sticks, the edges wear", "$x$, mm", "removed depth, µm")
         panel = axes[1, 1]
         x, p, q, one = self.section
         for values, line, name in ((p, one["pressure"][0], "$p$"), (10 * q, 10 * one["shear_x"][0], "$10\\,q_x$")):
             panel.plot(1e3 * one.x, 1e-6 * line, color=tints[1], linewidth=2.5, alpha=0.5)
             panel.plot(1e3 * x[::16], 1e-6 * values[::16], ".", color=tints[0], markersize=4)
             panel.annotate(name, (0.0, 1e-6 * line[line.size // 2]), xytext=(0, 4), textcoords="offset points")
-        frame(panel, "plane problem (lines), middle of a long punch (points)", "$x$, mm", "MPa")
+        frame(panel, "Plane problem (lines), middle of a long punch (points)", "$x$, mm", "$p$, $10\\,q_x$, MPa")
         save(figure, directory, "plane.png")
 
 

@@ -1,13 +1,13 @@
 """The dent of a ball and fretting above yield: numbers of the results that run.sh writes, and plastic.png."""
 
-import argparse
-import json
-from pathlib import Path
+import os
+import sys
 
 import numpy as np
 
 import petsam
-from petsam.plot.style import COLORS, STYLE, plt, save
+from petsam import comparison
+from petsam.plot.style import COLORS, frame, logarithmic, plt, save
 
 STEPS_OF_HALF = 4  # load steps of half a cycle
 
@@ -23,57 +23,59 @@ def row(results, name, step):
     return field[field.shape[0] // 2]
 
 
-def draw(folder, press, elastic, fret, hard):
-    x = 1e3 * np.asarray(press.x)
-    with plt.rc_context(STYLE):
-        figure, axes = plt.subplots(1, 3, figsize=(12, 3.8), layout="constrained")
-        axes[0].plot(x, 1e-6 * row(elastic, "pressure", 4), color=COLORS[1], ls="--", label="elastic")
-        axes[0].plot(x, 1e-6 * row(press, "pressure", 4), color=COLORS[0], label="yields at 600 MPa")
-        axes[0].set(xlabel="x, mm", ylabel="pressure, MPa", title="Under 100 N")
+class Comparison:
+    """The ball and the fretting contact, each with bodies that yield and with elastic ones."""
+
+    def __init__(self, directory):
+        self.press, self.elastic, self.fret, self.hard = (
+            petsam.open(os.path.join(directory, f"{name}.h5"))
+            for name in ("press", "press-elastic", "fret", "fret-elastic")
+        )
+        self.numbers = {
+            "peak_elastic_mpa": 1e-6 * self.elastic.history["pressure_max"][4],
+            "peak_mpa": 1e-6 * self.press.history["pressure_max"][4],
+            "strain": 100 * self.press.history["plastic_max"][4],
+            "dent_um": 1e6 * float(np.max(self.press.quantity("residual_z", 9))),
+            "plastic_work_uj": [1e6 * w for w in halves(self.fret, "plastic_work")],
+            "friction_uj": [1e6 * w for w in halves(self.fret, "dissipated_energy")],
+            "friction_elastic_uj": [1e6 * w for w in halves(self.hard, "dissipated_energy")],
+            "shaken_down": int(self.fret.history["shaken_down"][-1]),
+        }
+
+    def tables(self):
+        """What the page prints, as sentences."""
+        n = self.numbers
+        elastic, strain = n["peak_elastic_mpa"], n["strain"]
+        yield f"100 N: peak pressure {n['peak_mpa']:.0f} MPa, elastic {elastic:.0f} MPa; strain up to {strain:.2f} %"
+        yield f"unloaded: a dent of {n['dent_um']:.3f} um"
+        yield "plastic work of the half cycles: " + " ".join(f"{w:.2g}" for w in n["plastic_work_uj"]) + " uJ"
+        last, hard = n["friction_uj"][7], n["friction_elastic_uj"][7]
+        yield f"friction of the last half cycle {last:.3f} uJ, elastic {hard:.3f} uJ"
+        yield f"shaken down: the last {n['shaken_down']} steps add no plastic strain"
+
+    def draw(self, directory):
+        """Pressure and dent of the ball; energies of the half cycles of fretting."""
+        x = 1e3 * np.asarray(self.press.x)
+        figure, axes = plt.subplots(1, 3, figsize=(12.0, 3.8), layout="constrained")
+        axes[0].plot(x, 1e-6 * row(self.elastic, "pressure", 4), "--", color=COLORS[1], label="elastic")
+        axes[0].plot(x, 1e-6 * row(self.press, "pressure", 4), color=COLORS[0], label="yields at 600 MPa")
+        frame(axes[0], "Pressure under 100 N", "$x$, mm", "$p$, MPa")
         axes[0].legend()
-        axes[1].plot(x, 1e6 * row(press, "residual_z", 9), color=COLORS[0])
+        axes[1].plot(x, 1e6 * row(self.press, "residual_z", 9), color=COLORS[0])
         axes[1].invert_yaxis()
-        axes[1].set(xlabel="x, mm", ylabel="residual displacement, µm", title="The dent, unloaded")
-        k = np.arange(1, len(halves(fret, "plastic_work")) + 1)
-        axes[2].semilogy(k, 1e6 * halves(fret, "plastic_work"), "o-", color=COLORS[0], label="plastic work")
-        axes[2].semilogy(k, 1e6 * halves(fret, "dissipated_energy"), "s-", color=COLORS[2], label="friction")
-        axes[2].semilogy(k, 1e6 * halves(hard, "dissipated_energy"), "s--", color=COLORS[1], label="friction, elastic")
-        axes[2].set(xlabel="half cycle", ylabel="energy of a half cycle, µJ", title="Fretting above yield shakes down")
+        frame(axes[1], "The dent, unloaded", "$x$, mm", "residual displacement, µm")
+        for results, name, style, color, label in (
+            (self.fret, "plastic_work", "o-", COLORS[0], "plastic work"),
+            (self.fret, "dissipated_energy", "s-", COLORS[2], "friction"),
+            (self.hard, "dissipated_energy", "s--", COLORS[1], "friction, elastic"),
+        ):
+            energy = 1e6 * halves(results, name)
+            axes[2].plot(np.arange(1, len(energy) + 1), energy, style, color=color, label=label)
+        logarithmic(axes[2], "y")
+        frame(axes[2], "Fretting above yield shakes down", "half cycle", "energy of a half cycle, µJ")
         axes[2].legend()
-        save(figure, str(folder), "plastic.png")
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("folder", type=Path)
-    parser.add_argument("--json", type=Path)
-    args = parser.parse_args()
-    press, elastic, fret, hard = (
-        petsam.open(args.folder / f"{name}.h5") for name in ("press", "press-elastic", "fret", "fret-elastic")
-    )
-    numbers = {
-        "peak_elastic_mpa": 1e-6 * elastic.history["pressure_max"][4],
-        "peak_mpa": 1e-6 * press.history["pressure_max"][4],
-        "strain": 100 * press.history["plastic_max"][4],
-        "dent_um": 1e6 * float(np.max(press.quantity("residual_z", 9))),
-        "plastic_work_uj": [1e6 * w for w in halves(fret, "plastic_work")],
-        "friction_uj": [1e6 * w for w in halves(fret, "dissipated_energy")],
-        "friction_elastic_uj": [1e6 * w for w in halves(hard, "dissipated_energy")],
-        "shaken_down": int(fret.history["shaken_down"][-1]),
-    }
-    lines = (
-        "100 N: peak pressure {peak_mpa:.0f} MPa, elastic {peak_elastic_mpa:.0f} MPa; strain up to {strain:.2f} %",
-        "unloaded: a dent of {dent_um:.3f} um",
-        "plastic work of the half cycles: {work} uJ",
-        "friction of the last half cycle {friction_uj[7]:.3f} uJ, elastic {friction_elastic_uj[7]:.3f} uJ",
-        "shaken down: the last {shaken_down} steps add no plastic strain",
-    )
-    work = " ".join(f"{w:.2g}" for w in numbers["plastic_work_uj"])
-    print("\n".join(lines).format(work=work, **numbers))
-    draw(args.folder, press, elastic, fret, hard)
-    if args.json:
-        args.json.write_text(json.dumps(numbers, indent=1) + "\n")
+        save(figure, directory, "plastic.png")
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(comparison.main(Comparison, __doc__, "plastic"))

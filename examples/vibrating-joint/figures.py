@@ -12,13 +12,12 @@ import sys
 
 import joint
 import numpy as np
-from matplotlib import colors
 from vibrate import CYCLES, FORCES, WEARING
 
 import petsam
 from petsam import comparison
 from petsam.errors import Missing
-from petsam.plot.style import frame, plt, save, tint
+from petsam.plot.style import bar, extent, field, frame, logarithmic, plt, save, tint
 
 LINEAR, POWER, SAME = 0.02, 0.02, 1e-3
 RING = (14.0, 28.0)  # y of the scar, mm
@@ -118,23 +117,24 @@ class Comparison:
             left.plot(one["frequency"], 1e9 * one["amplitude"] / one["force"], ".-", color=color, label=label)
             x, t = 1e6 * (one["motion"][:, 0] - one["loads"][:, 0] / one["stiffness"]), one["loads"][:, 0] / joint.LIMIT
             middle.plot(np.append(x, x[0]), np.append(t, t[0]), color=color)
-        frame(left, "amplitude relative to the excitation", "frequency, Hz", "amplitude/force, nm/N")
+        frame(left, "Response: amplitude relative to the force", "frequency, Hz", "amplitude/force, nm/N")
+        logarithmic(left, "y")
         left.legend(title="excitation")
-        frame(middle, "loops at the peaks", "$d_x - T_x/k_c$, µm", "$T_x/(\\mu N)$")
-        self._draw_slip(figure, right, self.fresh[-1], f"{FORCES[-1] / 1e3:g} kN")
+        frame(middle, "Loops of the joint at the peaks", "displacement by slip $d_x - T_x/k_c$, µm", "$T_x/(\\mu N)$")
+        self._draw_slip(right, self.fresh[-1], f"{FORCES[-1] / 1e3:g} kN")
         save(figure, directory, "response.png")
 
-    def _draw_slip(self, figure, axis, one, label):
+    def _draw_slip(self, axis, one, label):
         r = self.life
         slip = 1e6 * one["slip"]
-        image = axis.pcolormesh(1e3 * r.x, 1e3 * r.y, slip, norm=colors.Normalize(0.0), rasterized=True)
+        image = field(axis, slip, extent(1e3 * r.x, 1e3 * r.y))
         axis.contour(1e3 * r.x, 1e3 * r.y, np.nan_to_num(slip), levels=[0.1], colors="w", linewidths=0.8)
-        axis.set_aspect("equal")
-        frame(axis, f"range of slip in a cycle at the peak, {label}", "$x$, mm", "$y$, mm")
-        figure.colorbar(image, ax=axis, label="range of $s_x$, µm")
+        axis.text(0.0, 0.0, "stick", color="w", ha="center", va="center")
+        frame(axis, f"Slip in a cycle at the peak, {label}", "$x$, mm", "$y$, mm", (-26.0, 26.0), (-26.0, 26.0))
+        bar(axis, image, "range of $s_x$, µm")
 
     def _draw_worn(self, directory):
-        figure, (left, right) = plt.subplots(1, 2, figsize=(9.0, 4.0), constrained_layout=True)
+        figure, (left, right) = plt.subplots(1, 2, figsize=(10.0, 4.2), constrained_layout=True)
         for k, (cycles, one) in enumerate(zip(CYCLES, self.worn)):
             color, label = tint(k, len(CYCLES)), f"{cycles:,} cycles"
             left.plot(one["frequency"], 1e9 * one["amplitude"] / one["force"], ".-", color=color, label=label)
@@ -146,9 +146,10 @@ class Comparison:
                     shown = (y > RING[0]) & (y < RING[1])
                     text = f"{cycles:,} cycles, {file.y.size}² cells"
                     right.plot(y[shown], depth[shown], color=color, markersize=4.0, label=text, **look)
-        frame(left, f"amplitude, excitation {WEARING / 1e3:g} kN", "frequency, Hz", "amplitude/force, nm/N")
-        left.legend()
-        frame(right, "depth removed of each face, line $x = 0$", "$y$, mm", "$w$, µm", RING)
+        title = f"Response of the worn joint, excitation {WEARING / 1e3:g} kN"
+        frame(left, title, "frequency, Hz", "amplitude/force, nm/N")
+        left.legend(title="after")
+        frame(right, "Scar of each face across the ring of slip", "$y$, mm  at $x$ = 0", "removed depth, µm", RING)
         right.legend(loc="upper left")
         save(figure, directory, "worn.png")
 

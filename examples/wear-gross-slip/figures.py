@@ -109,9 +109,9 @@ class Comparison:
         fine = np.linspace(0.0, last["radius"], 200)
         axes[1].plot(fine, 0.5 * (last["radius"] ** 2 - fine**2), "--", zorder=4, label="cap", **CLOSED)
         for panel in axes:
-            panel.legend(title=r"$\tau$")
-        frame(axes[0], "pressure, $y = 0$", "$x/a_0$", "$p/p_0$", (0.0, 2.9))
-        frame(axes[1], "removed depth, $y = 0$", "$x/a_0$", "$w/d_0$", (0.0, 2.9))
+            panel.legend(title=r"cycles, $\tau$")
+        frame(axes[0], "Pressure along $y = 0$", "$x/a_0$", "$p/p_0$", (0.0, 2.9))
+        frame(axes[1], "Removed depth along $y = 0$", "$x/a_0$", "$w/d_0$", (0.0, 2.9))
         save(figure, directory, "wear.png")
 
 

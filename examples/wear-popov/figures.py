@@ -18,7 +18,7 @@ import numpy as np
 import petsam
 from petsam import comparison
 from petsam.closed import Spheres
-from petsam.plot.style import CLOSED, frame, plt, points, save, thinned, tint
+from petsam.plot.style import CLOSED, frame, logarithmic, plt, points, save, thinned, tint
 
 GAMMA = 0.5
 LIMIT_RADIUS, LIMIT_VOLUME, LIMIT_DEPTH, LIMIT_LOAD = 1.2297905755, 0.7592985781, 0.29654947, 0.6875
@@ -139,16 +139,23 @@ class Comparison:
             axes[0].plot([], [], color=tint(k, len(life.saved)), label=f"{tau:.3g}")
         fine = np.linspace(0.3, 1.3, 1001)
         axes[0].plot(fine, limit_depth(fine), label="Popov", zorder=4, **CLOSED)
-        axes[0].legend(title=r"$\tau$")
-        frame(axes[0], "removed depth, $y = 0$", "$x/a_0$", "$w/d$", (0.3, 1.3))
+        axes[0].legend(title=r"cycles, $\tau$")
+        frame(axes[0], "Removed depth along $y = 0$", "$x/a_0$", "$w/d$", (0.3, 1.3))
         labels = ("volume$/(a_0^2 d)$", "maximum depth$/d$", "$N/N_0$", "$a/a_0$")
         for k, (name, label) in enumerate(zip(NAMES, labels)):
             color = tint(k, len(NAMES))
             axes[1].plot(life.tau[1:], life.curves[name][1:], "-", color=color, linewidth=1.0, label=label)
             points(axes[1], list(MODEL), [row[k] for row in MODEL.values()], color)
-        axes[1].set_xscale("log")
+        logarithmic(axes[1], "x")
         axes[1].legend(loc="center left")
-        frame(axes[1], "over the cycles; points: model", r"$\tau$", "", (0.01, 20.0), (0.0, 1.3))
+        frame(
+            axes[1],
+            "Over the cycles; points: one-dimensional model",
+            r"scaled cycles $\tau$",
+            "relative",
+            (0.01, 20.0),
+            (0.0, 1.3),
+        )
         save(figure, directory, "wear.png")
 
 

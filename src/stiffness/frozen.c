@@ -25,6 +25,11 @@
   cell sticks. Likewise an overlap that is less than this part of what the largest pressure moves a cell by is none.
 */
 #define STILL 1e-5
+/*
+  A cell at the contact's edge that bears hardly any pressure slips far for its bound, so it resists a turn of the slip
+  more than by this many times its own influence: it counts as if by that many, as what it bears makes no difference.
+*/
+#define STIFFEST 1e3
 
 /* ---- creation ---- */
 
@@ -134,7 +139,7 @@ static void SetSlip(SamFrozen *f, double still, const double *const v[FIELDS])
     f->e[0][m]   = q[k] / size;
     f->e[1][m]   = r[k] / size;
     f->follow[m] = v[SLOPE][k];
-    f->stiff[m]  = path / b;
+    f->stiff[m]  = PetscMin(path / b, STIFFEST * f->self[1]);
     if (v[RATE]) f->rate[m] = f->self[1] * v[RATE][k];
   }
 }

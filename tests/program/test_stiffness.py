@@ -79,3 +79,19 @@ def test_help_does_not_ask_for_a_file(petsam):
 
 def test_matrices_without_a_file_are_refused(petsam):
     assert "-output" in petsam(dict(CASE, output=None, load_n=1000), check=2).stderr
+
+
+def test_cells_that_bear_hardly_any_shear_are_as_if_without_friction(petsam, tmp_path):
+    """They slip far for their bound, and resist a turn of that 1e8 times as much as others move."""
+    found = []
+    for name, least in ("hardly", 1e-10), ("none", 0.0):
+        friction = np.full((32, 32), 0.3)
+        friction[14:17, 18:21] = least
+        with h5py.File(tmp_path / f"{name}.h5", "w") as f:
+            f["friction"] = friction
+        case = dict(SPHERE, grid_n=32, friction=None, friction_file=f"{name}.h5", load_tx=20.0, output=f"r{name}.h5")
+        petsam(case, "-stiffness")
+        with h5py.File(tmp_path / f"r{name}.h5") as f:
+            found.append(f["history/stiffness"][0])
+    assert np.isfinite(found[0]).all()
+    assert found[0] == pytest.approx(found[1], rel=1e-4, abs=1e-6 * np.abs(found[1]).max())

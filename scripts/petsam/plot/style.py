@@ -10,6 +10,7 @@ if os.environ["MPLBACKEND"] == "Agg":  # see __init__.py: also where matplotlib 
 import matplotlib.pyplot as plt  # noqa: E402  (the backend is chosen first)
 import numpy as np  # noqa: E402
 from matplotlib.ticker import LogFormatterMathtext, MaxNLocator  # noqa: E402
+from PIL import Image  # noqa: E402  (comes with matplotlib)
 
 from ..errors import Error  # noqa: E402
 
@@ -234,8 +235,11 @@ def note(figure, text, size=9):
 
 
 def save(figure, directory, name):
-    """Write one PNG and close the figure."""
+    """Write one PNG of 256 colours, a third of the size that it has with all, and close the figure."""
     path = os.path.join(directory, name)
     figure.savefig(path)
     plt.close(figure)
+    with Image.open(path) as image:
+        few = image.convert("RGB").quantize(256, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
+    few.save(path, optimize=True, dpi=[STYLE["savefig.dpi"]] * 2)
     print("wrote " + path)
