@@ -7,7 +7,7 @@ import numpy as np
 
 import petsam
 from petsam import comparison
-from petsam.plot.style import COLORS, frame, logarithmic, plt, save
+from petsam.plot.style import COLORS, bar, frame, logarithmic, plt, save
 
 STEPS_OF_HALF = 4  # load steps of half a cycle
 
@@ -36,11 +36,17 @@ class Comparison:
             "peak_mpa": 1e-6 * self.press.history["pressure_max"][4],
             "strain": 100 * self.press.history["plastic_max"][4],
             "dent_um": 1e6 * float(np.max(self.press.quantity("residual_z", 9))),
+            "residual_mpa": [1e-6 * float(edge(self.stress())) for edge in (np.min, np.max)],
             "plastic_work_uj": [1e6 * w for w in halves(self.fret, "plastic_work")],
             "friction_uj": [1e6 * w for w in halves(self.fret, "dissipated_energy")],
             "friction_elastic_uj": [1e6 * w for w in halves(self.hard, "dissipated_energy")],
             "shaken_down": int(self.fret.history["shaken_down"][-1]),
         }
+
+    def stress(self):
+        """Residual stress xx below the row beside y = 0 when the load is gone, Pa."""
+        values = self.press.field("plastic/residual_stress_xx", 9)
+        return values[:, values.shape[1] // 2]
 
     def tables(self):
         """What the page prints, as sentences."""
@@ -48,6 +54,7 @@ class Comparison:
         elastic, strain = n["peak_elastic_mpa"], n["strain"]
         yield f"100 N: peak pressure {n['peak_mpa']:.0f} MPa, elastic {elastic:.0f} MPa; strain up to {strain:.2f} %"
         yield f"unloaded: a dent of {n['dent_um']:.3f} um"
+        yield "residual stress along x: {:.0f} to {:.0f} MPa".format(*n["residual_mpa"])
         yield "plastic work of the half cycles: " + " ".join(f"{w:.2g}" for w in n["plastic_work_uj"]) + " uJ"
         last, hard = n["friction_uj"][7], n["friction_elastic_uj"][7]
         yield f"friction of the last half cycle {last:.3f} uJ, elastic {hard:.3f} uJ"
@@ -56,7 +63,8 @@ class Comparison:
     def draw(self, directory):
         """Pressure and dent of the ball; energies of the half cycles of fretting."""
         x = 1e3 * np.asarray(self.press.x)
-        figure, axes = plt.subplots(1, 3, figsize=(12.0, 3.8), layout="constrained")
+        figure, axes = plt.subplots(2, 2, figsize=(10.0, 7.0), layout="constrained")
+        axes = axes.flat
         axes[0].plot(x, 1e-6 * row(self.elastic, "pressure", 4), "--", color=COLORS[1], label="elastic")
         axes[0].plot(x, 1e-6 * row(self.press, "pressure", 4), color=COLORS[0], label="yields at 600 MPa")
         frame(axes[0], "Pressure under 100 N", "$x$, mm", "$p$, MPa")
@@ -64,16 +72,24 @@ class Comparison:
         axes[1].plot(x, 1e6 * row(self.press, "residual_z", 9), color=COLORS[0])
         axes[1].invert_yaxis()
         frame(axes[1], "The dent, unloaded", "$x$, mm", "residual displacement, µm")
+        z, stress = 1e3 * self.press.z, 1e-6 * self.stress()
+        most = float(np.abs(stress).max())
+        image = axes[2].contourf(x, z, stress, levels=np.linspace(-most, most, 25), cmap="RdBu_r")
+        axes[2].grid(False)
+        axes[2].set_xticks([-0.2, -0.1, 0.0, 0.1, 0.2])
+        axes[2].set_ylim(z[-1], z[0])
+        bar(axes[2], image, "residual $\\sigma_{xx}$, MPa", ticks=np.round(np.linspace(-most, most, 5), -1))
+        frame(axes[2], "Residual stress, unloaded", "$x$, mm  at $y$ = 0", "depth $z$, mm")
         for results, name, style, color, label in (
             (self.fret, "plastic_work", "o-", COLORS[0], "plastic work"),
             (self.fret, "dissipated_energy", "s-", COLORS[2], "friction"),
             (self.hard, "dissipated_energy", "s--", COLORS[1], "friction, elastic"),
         ):
             energy = 1e6 * halves(results, name)
-            axes[2].plot(np.arange(1, len(energy) + 1), energy, style, color=color, label=label)
-        logarithmic(axes[2], "y")
-        frame(axes[2], "Fretting above yield shakes down", "half cycle", "energy of a half cycle, µJ")
-        axes[2].legend()
+            axes[3].plot(np.arange(1, len(energy) + 1), energy, style, color=color, label=label)
+        logarithmic(axes[3], "y")
+        frame(axes[3], "Fretting above yield shakes down", "half cycle", "energy of a half cycle, µJ")
+        axes[3].legend()
         save(figure, directory, "plastic.png")
 
 

@@ -29,7 +29,8 @@ LC_ALL=C awk 'BEGIN { print "time,load_n,load_tx"; print "0,100,0"
 run() { # run CASE OPTION...: the case, and that of elastic bodies
     history=$1
     shift
-    solve_quietly "$history" -options_file "$here/ball.opts" -grid_n "$grid_n" -history "$out/$history.csv" "$@"
+    solve_quietly "$history" -options_file "$here/ball.opts" -grid_n "$grid_n" -history "$out/$history.csv" "$@" \
+        -output_fields usual,plastic
     solve_quietly "$history-elastic" -options_file "$here/ball.opts" -grid_n "$grid_n" -history "$out/$history.csv" "$@" \
         -body2_yield inf
 }

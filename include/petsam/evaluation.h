@@ -60,12 +60,18 @@ typedef struct {
   const char               *name;     /* of the origin of the bodies, for messages; borrowed */
   PetscInt                  steps;
   PetscBool                 before;
-  PetscBool                 slides; /* the surfaces slide past each other, so that points of body 2 move */
-  PetscBool                 yields; /* a body yields below its surface: refused */
-  PetscBool                 slips;  /* steps follow each other, and have slips, not velocities of slip */
+  PetscBool                 slides;        /* the surfaces slide past each other, so that points of body 2 move */
+  PetscBool                 yields[2];     /* whether body 1, body 2 yields below its surface, */
+  PetscInt                  layers;        /* in so many layers, */
+  PetscReal                 plastic_depth; /* down to this depth, m */
+  PetscBool                 slips;         /* steps follow each other, and have slips, not velocities of slip */
   PetscErrorCode (*read)(void *context, PetscInt step, SamStepField field, double values[]);
   PetscErrorCode (*number)(void *context, PetscInt step, SamStepNumber number, double *value);
   PetscErrorCode (*conditions)(void *context, PetscInt step, SamConditions conditions, SamControl *control);
+  /* the stress by the plastic strain of a body (1 or 2), a component of its mean over a layer, from the surface down:
+     this rank's rows, Pa; NULL: it is not known */
+  PetscErrorCode (*residual)(void *context, PetscInt step, PetscInt body, PetscInt component, PetscInt layer,
+                             double values[]);
   PetscErrorCode (*warn)(void *context, const char text[]);
   PetscErrorCode (*tell)(void *context, const char work[], double part, double whole);
   void *context;

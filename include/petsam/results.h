@@ -47,6 +47,16 @@ PETSC_EXTERN PetscErrorCode       SamResultsGetSaved(SamResults results, PetscIn
 */
 PETSC_EXTERN PetscErrorCode SamResultsRead(SamResults results, PetscInt k, SamResultsField field, double values[]);
 /*
+  SamResultsCountLayers - of a body (1 or 2) that yields, 0 of another one. SamResultsHasLayers - whether the stresses
+  by plastic strain have been saved. Neither is collective.
+  SamResultsReadLayer - a component of these stresses (Pa), the mean over a layer, of those of both bodies along z of
+  body 2: this rank's rows. Collective. Errors: as SamResultsRead().
+*/
+PETSC_EXTERN PetscInt       SamResultsCountLayers(SamResults results, PetscInt body);
+PETSC_EXTERN PetscBool      SamResultsHasLayers(SamResults results);
+PETSC_EXTERN PetscErrorCode SamResultsReadLayer(SamResults results, PetscInt k, PetscInt component, PetscInt layer,
+                                                double values[]);
+/*
   SamResultsReadConditions - sets the conditions of a control to those of a load step (from 1), of a list; where the
   file has no column of one, it is as usual. Collective. Errors: SAM_ERR_FILE, also for a value that is no finite
   number.

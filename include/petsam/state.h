@@ -96,10 +96,12 @@ PETSC_EXTERN PetscErrorCode SamStateOfferNumber(SamState state, const char name[
 
 /*
   SamStateResult - a field that results offer: a component of a remembered field, or what `compute` writes into a vector
-  of one component for the tried state, or without one for the committed state. The values are real numbers, states of
-  cells (stored as bytes), or the points of an edge. Remembered fields are offered by their declaration.
+  for the tried state, or without one for the committed state. The values are real numbers, states of cells (stored as
+  bytes), the points of an edge, or real numbers in layers below the cells: then the vector has as many components as
+  there are layers, and the name is that of a group, a slash, and a dataset. Remembered fields are offered by their
+  declaration.
 */
-typedef enum { SAM_FIELD_REAL, SAM_FIELD_STATE, SAM_FIELD_POINTS } SamFieldKind;
+typedef enum { SAM_FIELD_REAL, SAM_FIELD_STATE, SAM_FIELD_POINTS, SAM_FIELD_LAYERS } SamFieldKind;
 typedef struct {
   const char  *name, *unit, *text;
   SamFieldKind kind;
@@ -109,7 +111,13 @@ typedef struct {
   PetscInt component;
   PetscInt field; /* handle of the remembered field; set by SamStateDeclareField() */
 } SamStateResult;
-/* SamStateOffer - declares a computed field of the results. Not collective. */
+/*
+  SamStateOffer - declares a computed field of the results. Not collective.
+  SamStateSetLayers - the layers of all fields of that kind: z of their middles, rising: m below the surface of body 2,
+  negative in body 1. SamStateGetLayers - their number and z, borrowed. Neither is collective.
+*/
+PETSC_EXTERN PetscErrorCode SamStateSetLayers(SamState state, PetscInt count, const PetscReal z[]);
+PETSC_EXTERN PetscInt       SamStateGetLayers(SamState state, const PetscReal **z);
 PETSC_EXTERN PetscErrorCode SamStateOffer(SamState state, const SamStateResult *result);
 
 /*

@@ -246,6 +246,9 @@ class Results(Datafile):
         ]
         fields = [(name, self.about(name)[0]) for name in self.fields]
         lines += self._lines("fields", f"({self.times.size}, {self.y.size}, {self.x.size})", fields)
+        if self.layered:
+            shape = f"({self.times.size}, {self.z.size}, {self.y.size}, {self.x.size})"
+            lines += self._lines("layers", f"{shape}, z of /plastic", [(name, "") for name in self.layered])
         lines += [f"  edges     {', '.join(self.edges)} (m)"] if self.edges else []
         lines += self._lines("history", f"({count},)", self.units.items())
         lines += self._lines("matrices", f"({count}, 6, 6)", [(name, "") for name in self.matrices])
@@ -399,6 +402,22 @@ class Results(Datafile):
             local = [name for name, link in links.items() if isinstance(link, h5py.HardLink)]
             return [name for name in local if getattr(self.file[name], "shape", None) == shape and self._all_have(name)]
 
+    @cached_property
+    def layered(self):
+        """Names GROUP/NAME of the fields in layers below the cells (bodies that yield): field() has (nz, ny, nx)."""
+        with reading(self.path):
+            group = self.file.get("plastic") if "plastic" in self.file else None
+            names = [f"plastic/{name}" for name in group] if isinstance(group, h5py.Group) else []
+            return [name for name in names if getattr(self.file[name], "ndim", 0) == 4 and self._all_have(name)]
+
+    @cached_property
+    def z(self):
+        """Middles of the layers, m, into body 2: those of body 1 are negative; Error where there are none."""
+        if not self.layered:
+            raise Error(f"{self.path}: has no layers (petsam -body2_yield, -output_fields usual,plastic)")
+        with reading(self.path):
+            return self._row(_own(self.file, "plastic/z"), "plastic/z")
+
     def _all_have(self, name):
         """Whether all parts have a dataset."""
         return all(name in source.file for source in self.sources)
@@ -497,13 +516,15 @@ class Results(Datafile):
         """The dataset of a field, or of an edge, in a part: the first unless told."""
         source = source or self
         if name not in source.file:
-            names = [*self.fields, *self.edges]
+            names = [*self.fields, *self.layered, *self.edges]
             there = there_are(name, names, "it has") if names else "; it has no field at all"
             raise Error(f"{source.path}: has no {short(name)} (petsam -output_fields){there}")
         return _own(source.file, name)
 
     def field(self, name, index=-1, rows=slice(None), columns=slice(None), stride=1):
         """Field name (ny, nx) of a saved step, the last unless told, on a window, every stride-th cell.
+
+        Of layered fields (nz, ny, nx).
 
         index counts the saved steps from 0, or from the end with -1; of_step(K) is that of load step K.
         """
@@ -517,17 +538,18 @@ class Results(Datafile):
                 data = self._saved(name, source)
             if data.dtype.kind not in "biuf":
                 raise ValueError(f"/{name} has no numbers")
-            if data.shape != (source.held, self.y.size, self.x.size):
+            layers = (self.z.size,) if name in self.layered else ()
+            if data.shape != (source.held, *layers, self.y.size, self.x.size):
                 raise ValueError(f"/{name} has the shape {data.shape}")
             block = stride * max(1, BLOCK // stride)
             blocks = []
             for k in range(low, high, block):
                 with reading(source.path):
-                    part = data[index, k : min(k + block, high), columns][::stride, ::stride]
+                    part = data[index, ..., k : min(k + block, high), columns][..., ::stride, ::stride]
                     blocks.append(part.astype(float) if part.dtype == np.float32 else part)  # of -output_single
         except DAMAGED as error:
             raise source._error(error) from error
-        return np.concatenate(blocks)
+        return np.concatenate(blocks, axis=-2)
 
     def edge(self, name, index=-1):
         """Points x, y (m) of contact_edge or stick_edge of a saved step, an array (points, 2)."""

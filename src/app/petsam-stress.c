@@ -8,6 +8,7 @@
 #include "help/petsam-stress.h" /* from petsam-stress.help */
 #include <petsam/evaluation.h>
 #include <petsam/output.h>
+#include <petsam/stress.h>
 #include <petsam/private/baseimpl.h>
 #include <math.h>
 #include <petsctime.h>
@@ -156,6 +157,37 @@ static PetscErrorCode ChooseSteps(SamStressRun *run)
 
 /* ---- set-up ---- */
 
+/* The stress by plastic strain; in the results z points into body 2, so that the shears of body 1 change their sign. */
+static PetscErrorCode ReadResidual(void *context, PetscInt step, PetscInt body, PetscInt component, PetscInt layer,
+                                   double values[])
+{
+  const SamStressRun *const run    = (SamStressRun *)context;
+  const PetscBool           turns  = body == 1 && (component == SAM_STRESS_XZ || component == SAM_STRESS_YZ);
+  const PetscInt            layers = SamResultsCountLayers(run->results, 1);
+
+  PetscFunctionBegin;
+  PetscCall(SamResultsReadLayer(run->results, SavedStep(run, step), component,
+                                body == 1 ? layers - 1 - layer : layers + layer, values));
+  for (PetscInt k = 0; k < run->grid->cells && turns; k++) values[k] = -values[k];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Which bodies have yielded, and whether the results have the stresses by that. */
+static void SetYielding(const SamStressRun *run, SamStressSource *source)
+{
+  const SamParameters *parameters = SamResultsGetParameters(run->results);
+  const SamParameter  *depth      = SamParametersFind(parameters, "plastic_depth");
+
+  for (PetscInt b = 0; b < 2; b++) {
+    const PetscInt layers = SamResultsCountLayers(run->results, b + 1);
+
+    source->yields[b] = layers > 0;
+    source->layers    = PetscMax(source->layers, layers);
+  }
+  source->plastic_depth = depth ? depth->value[0] : 0;
+  source->residual      = SamResultsHasLayers(run->results) ? ReadResidual : NULL;
+}
+
 /* The bodies, by the elasticity that the results have recorded, and the steps. */
 static PetscErrorCode SetUpEvaluation(SamStressRun *run)
 {
@@ -172,8 +204,8 @@ static PetscErrorCode SetUpEvaluation(SamStressRun *run)
 
   PetscFunctionBegin;
   source.slides = SamParametersFind(parameters, "slide") != NULL;
-  source.yields = SamParametersFind(parameters, "plastic_layers") != NULL;
-  source.slips  = rolling && !strcmp(rolling->text, "steady") ? PETSC_FALSE : PETSC_TRUE;
+  SetYielding(run, &source);
+  source.slips = rolling && !strcmp(rolling->text, "steady") ? PETSC_FALSE : PETSC_TRUE;
   PetscCall(PetscSNPrintf(run->source, sizeof(run->source), "-input %s", run->request.input));
   PetscCall(SamElasticityCreateFromParameters(run->grid, parameters, run->source, &run->elasticity));
   PetscCall(ChooseSteps(run));

@@ -210,7 +210,7 @@ PetscErrorCode SamContactHasField(SamContact c, const char name[], PetscBool *ha
   PetscFunctionBegin;
   PetscCall(SamContactDeclare(c));
   k    = SamStateFindResult(c->state, name);
-  *has = k >= 0 && SamStateResultOf(c->state, k)->kind != SAM_FIELD_POINTS;
+  *has = k >= 0 && SamStateResultOf(c->state, k)->kind <= SAM_FIELD_STATE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -488,7 +488,7 @@ const char *petsam_field_name(petsam_contact *c, int k)
 
   if (!c || SamContactGetState(c->setup->contact, &state)) return NULL;
   for (PetscInt n = 0; n < SamStateCountResults(state); n++)
-    if (SamStateResultOf(state, n)->kind != SAM_FIELD_POINTS && k-- == 0) return SamStateResultOf(state, n)->name;
+    if (SamStateResultOf(state, n)->kind <= SAM_FIELD_STATE && k-- == 0) return SamStateResultOf(state, n)->name;
   return NULL;
 }
 

@@ -245,12 +245,13 @@ static PetscErrorCode Warn(void *context, const char text[])
 
 static PetscErrorCode Compute(petsam_contact *c, const char options[], PetscInt n, Steps *steps, SamEvaluation *e)
 {
+  const PetscBool       yields = SamProblemGetLaw(c->setup->problem, SAM_LAW_PLASTIC) != NULL;
   const SamStressSource source = {.bodies     = c->setup->elasticity,
                                   .name       = "-elasticity",
                                   .steps      = n,
                                   .before     = steps->before && steps->before->fields,
                                   .slides     = SamProblemGetLaw(c->setup->problem, SAM_LAW_SLIDE) != NULL,
-                                  .yields     = SamProblemGetLaw(c->setup->problem, SAM_LAW_PLASTIC) != NULL,
+                                  .yields     = {yields, yields}, /* whose stresses are in the program's results */
                                   .slips      = SamMotionOf(c->setup->elasticity)->continues,
                                   .read       = ReadField,
                                   .number     = ReadNumber,

@@ -141,22 +141,25 @@ static PetscBool ChunksAreWithin(hid_t dataset, hid_t creation, hsize_t size, co
 {
   const hid_t space = H5Dget_space(dataset);
   const int   rank  = H5Sget_simple_extent_ndims(space);
-  hsize_t     n[3] = {1, 1, 1}, chunk[3] = {1, 1, 1}, at[3];
-  PetscBool   good = rank > 0 && rank <= 3 && H5Sget_simple_extent_dims(space, n, NULL) == rank &&
-                   H5Pget_chunk(creation, rank, chunk) == rank && chunk[0] && chunk[1] && chunk[2];
+  hsize_t     n[SAM_SHAPE_RANK], chunk[SAM_SHAPE_RANK], at[SAM_SHAPE_RANK] = {0};
+  PetscBool   good = rank > 0 && rank <= SAM_SHAPE_RANK && H5Sget_simple_extent_dims(space, n, NULL) == rank &&
+                   H5Pget_chunk(creation, rank, chunk) == rank;
 
   if (space >= 0) (void)H5Sclose(space);
+  for (int d = 0; d < rank && good; d++) good = chunk[d] > 0;
   for (int d = 0; d < rank && good && extent; d++) n[d] = extent[d];
-  for (at[0] = 0; good && at[0] < n[0]; at[0] += chunk[0])
-    for (at[1] = 0; good && at[1] < n[1]; at[1] += chunk[1])
-      for (at[2] = 0; good && at[2] < n[2]; at[2] += chunk[2]) {
-        haddr_t  address = HADDR_UNDEF;
-        hsize_t  bytes   = 0;
-        unsigned filters = 0;
+  for (int d = 0; d < rank && good; d++)
+    if (n[d] == 0) return PETSC_TRUE;
+  while (good && at[0] < n[0]) {
+    haddr_t  address = HADDR_UNDEF;
+    hsize_t  bytes   = 0;
+    unsigned filters = 0;
+    int      d       = rank - 1;
 
-        good = H5Dget_chunk_info_by_coord(dataset, at, &filters, &address, &bytes) >= 0 &&
-               (address == HADDR_UNDEF ? !every : address <= size && bytes <= size - address);
-      }
+    good = H5Dget_chunk_info_by_coord(dataset, at, &filters, &address, &bytes) >= 0 &&
+           (address == HADDR_UNDEF ? !every : address <= size && bytes <= size - address);
+    for (at[d] += chunk[d]; d > 0 && at[d] >= n[d]; at[d] += chunk[d]) at[d--] = 0; /* the next one */
+  }
   return good;
 }
 

@@ -67,10 +67,11 @@ struct _n_SamOutput {
   const char     *series[SAM_SERIES];    /* their groups */
   PetscInt        values[SAM_SERIES];    /* in a row of them */
   PetscBool       wants[SAM_STATE_MOST]; /* which of the state's results are saved */
-  hid_t           time, point, fields[SAM_STATE_MOST], columns[SAM_SERIES][SAM_STATE_DECLARED];
+  hid_t           time, point, group, fields[SAM_STATE_MOST], columns[SAM_SERIES][SAM_STATE_DECLARED];
   signed char    *states;  /* of this rank's cells */
   float          *singles; /* the same; NULL until fields in single precision are written */
   Vec             work;    /* for fields that are computed; NULL until the first one */
+  Vec             layers;  /* the same for those of layers */
   SamOutputPoints points;  /* of the edge that is being written */
   /* status */
   double   *waiting;          /* numbers of steps that are not in the file yet, room for SAM_OUTPUT_WAIT; NULL: none */

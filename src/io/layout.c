@@ -13,6 +13,7 @@
 
 static const SamLabel x_label        = {"x", "m", "x of the cell centres"};
 static const SamLabel y_label        = {"y", "m", "y of the cell centres"};
+static const SamLabel z_label        = {"z", "m", "z of the middle of layers, into body 2"};
 static const SamLabel time_label     = {"time", "s", "time of the saved fields"};
 static const char     state_words[]  = "open stick slip"; /* SamCellState */
 static const char     status_words[] = "converged not_converged no_equilibrium edge_contact";
@@ -27,8 +28,8 @@ static const SamShape matrices = {3,
                                   {CHUNK_MATRICES, SAM_COMPONENTS, SAM_COMPONENTS},
                                   NULL};
 
-/* The coordinates of the cell centres along x (0) or y (1). */
-static PetscErrorCode CreateAxis(SamOutput o, const SamLabel *label, PetscInt direction, hid_t *scale)
+/* The coordinates of the cell centres along x (0) or y (1), in the root group or another one. */
+static PetscErrorCode CreateAxis(SamOutput o, hid_t where, const SamLabel *label, PetscInt direction, hid_t *scale)
 {
   const PetscInt n     = direction ? o->grid->ny : o->grid->nx;
   const SamShape shape = {1, {(hsize_t)n}, {(hsize_t)n}, {0}, NULL};
@@ -37,7 +38,7 @@ static PetscErrorCode CreateAxis(SamOutput o, const SamLabel *label, PetscInt di
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(n, &values));
   for (PetscInt k = 0; k < n; k++) values[k] = direction ? SamGridY(o->grid, k) : SamGridX(o->grid, k);
-  *scale = SamFileCreateScale(o->f, o->f->id, label, direction ? "Y" : "X",
+  *scale = SamFileCreateScale(o->f, where, label, direction ? "Y" : "X",
                               direction ? "projection_y_coordinate" : "projection_x_coordinate", &shape, values);
   PetscCall(PetscFree(values));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -66,9 +67,29 @@ static SamShape FieldShape(SamGrid grid, const SamOutputSettings *set)
                     NULL};
 }
 
+/* The same of so many layers, each with chunks of its own. */
+static SamShape LayersShape(SamGrid grid, const SamOutputSettings *set, PetscInt layers)
+{
+  const SamShape plane = FieldShape(grid, set);
+
+  return (SamShape){4,
+                    {0, (hsize_t)layers, plane.size[1], plane.size[2]},
+                    {H5S_UNLIMITED, (hsize_t)layers, plane.size[1], plane.size[2]},
+                    {1, 1, plane.chunk[1], plane.chunk[2]},
+                    NULL};
+}
+
 static hid_t StoredType(const SamStateResult *field, PetscBool single)
 {
   return field->kind == SAM_FIELD_STATE ? H5T_STD_I8LE : single ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
+}
+
+/* The planes of cells of a step that a field has. */
+static hsize_t PlanesOf(SamOutput o, PetscInt f)
+{
+  return SamOutputResult(o, f)->kind == SAM_FIELD_LAYERS
+           ? (hsize_t)SamStateGetLayers(o->state[SAM_SERIES_HISTORY], NULL)
+           : 1;
 }
 
 off_t SamOutputFieldBytes(SamOutput o)
@@ -82,7 +103,7 @@ off_t SamOutputFieldBytes(SamOutput o)
     if (SamOutputResult(o, f)->kind == SAM_FIELD_POINTS)
       points += EDGE * (shape.size[1] + shape.size[2]) * 2 * sizeof(double);
     else
-      bytes += H5Tget_size(StoredType(SamOutputResult(o, f), o->set.single));
+      bytes += H5Tget_size(StoredType(SamOutputResult(o, f), o->set.single)) * PlanesOf(o, f);
   }
   return (off_t)(cells * bytes + points);
 }
@@ -104,7 +125,7 @@ PetscErrorCode SamOutputForecast(SamOutput o, double steps, double saved, double
   PetscFunctionBegin;
   for (int d = 1; d < 3; d++) index *= (double)((shape.size[d] + shape.chunk[d] - 1) / shape.chunk[d]);
   *bytes = STRUCTURE + SeriesBytes(saved, CHUNK_STEPS, 1) + saved * (double)SamOutputFieldBytes(o);
-  for (PetscInt f = 0; f < SamOutputCount(o); f++) *bytes += o->wants[f] ? saved * index : 0;
+  for (PetscInt f = 0; f < SamOutputCount(o); f++) *bytes += o->wants[f] ? saved * index * (double)PlanesOf(o, f) : 0;
   for (PetscInt c = 0; c < SamStateCountNumbers(state); c++) {
     const SamStateNumber *n      = SamStateNumberOf(state, c, NULL);
     const PetscBool       matrix = n->kind == SAM_NUMBER_MATRIX;
@@ -131,15 +152,45 @@ static void Mark(SamOutput o, hid_t x)
   o->hold.mark_at = at != HADDR_UNDEF && H5Tequal(H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE) > 0 ? (off_t)at : 0;
 }
 
+/*
+  A field of layers, in its group, which is made with the first one and has coordinates of its own: all fields of layers
+  share the layers.
+*/
+static PetscErrorCode CreateLayers(SamOutput o, PetscInt f, hid_t scales[4])
+{
+  const PetscReal      *z;
+  const PetscInt        layers = SamStateGetLayers(o->state[SAM_SERIES_HISTORY], &z);
+  const SamStateResult *field  = SamOutputResult(o, f);
+  const SamShape        shape  = LayersShape(o->grid, &o->set, layers);
+  const SamShape        column = {1, {(hsize_t)layers}, {(hsize_t)layers}, {0}, NULL};
+  const char           *name   = strchr(field->name, '/') + 1;
+  const SamLabel        label  = {name, field->unit, field->text};
+  char                  group[64];
+
+  PetscFunctionBegin;
+  if (o->group < 0) {
+    (void)snprintf(group, sizeof(group), "%.*s", (int)(name - field->name - 1), field->name);
+    o->group  = SamFileNote(o->f, H5Gcreate2(o->f->id, group, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+    scales[0] = o->time;
+    scales[1] = SamFileCreateScale(o->f, o->group, &z_label, "Z", NULL, &column, z);
+    PetscCall(CreateAxis(o, o->group, &y_label, 1, &scales[2]));
+    PetscCall(CreateAxis(o, o->group, &x_label, 0, &scales[3]));
+  }
+  o->fields[f] =
+    SamFileCreateDataset(o->f, o->group, &label, StoredType(field, o->set.single), &shape, o->set.compress);
+  SamFileAttachScales(o->f, o->fields[f], 4, scales);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode CreateFields(SamOutput o)
 {
   const SamShape shape = FieldShape(o->grid, &o->set);
-  hid_t          scales[3]; /* of [time, y, x] */
+  hid_t          scales[3], below[4]; /* of [time, y, x] and of [time, z, y, x] */
   PetscBool      points = PETSC_FALSE;
 
   PetscFunctionBegin;
-  PetscCall(CreateAxis(o, &x_label, 0, &scales[2]));
-  PetscCall(CreateAxis(o, &y_label, 1, &scales[1]));
+  PetscCall(CreateAxis(o, o->f->id, &x_label, 0, &scales[2]));
+  PetscCall(CreateAxis(o, o->f->id, &y_label, 1, &scales[1]));
   scales[0] = o->time = SamFileCreateScale(o->f, o->f->id, &time_label, "T", "time", &series, NULL);
   for (PetscInt f = 0; f < SamOutputCount(o); f++) {
     const SamStateResult *field = SamOutputResult(o, f);
@@ -149,6 +200,10 @@ static PetscErrorCode CreateFields(SamOutput o)
     if (field->kind == SAM_FIELD_POINTS) {
       o->fields[f] = SamOutputCreatePoints(o, &label);
       points       = PETSC_TRUE;
+      continue;
+    }
+    if (field->kind == SAM_FIELD_LAYERS) {
+      PetscCall(CreateLayers(o, f, below));
       continue;
     }
     o->fields[f] =
@@ -243,7 +298,7 @@ static void CreateVTK(SamOutput o)
                          .spacing = {g->dx, dy, g->dx}};
 
   for (PetscInt f = 0; f < SamOutputCount(o); f++)
-    if (o->fields[f] >= 0 && SamOutputResult(o, f)->kind != SAM_FIELD_POINTS)
+    if (o->fields[f] >= 0 && SamOutputResult(o, f)->kind <= SAM_FIELD_STATE)
       image.names[image.count++] = SamOutputResult(o, f)->name;
   o->vtk_steps = SamFileCreateVTK(o->f, &image);
 }

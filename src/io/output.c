@@ -15,13 +15,13 @@
 #define WORDS \
   "all,none,pressure,shear_x,shear_y,displacement_z,displacement_x,displacement_y,slip_x,slip_y,gap,state," \
   "pressure_center,shear_center_x,shear_center_y,contact_edge,stick_edge," SAM_LAW_ACCUMULATED_SLIP \
-  "," SAM_LAW_FRICTION_ENERGY
+  "," SAM_LAW_FRICTION_ENERGY ",plastic,usual"
 
 /* -output_fields: names between commas, and blanks. */
 static PetscErrorCode ReadFieldNames(SamOutputSettings *set, const SamOptions *from)
 {
-  static const SamOptionRow row = {"output_fields", "fields to be saved by their names, all, or none", SAM_OPTION_WORDS,
-                                   .size = 1024, .words = WORDS};
+  static const SamOptionRow row        = {"output_fields", "fields to be saved by their names, all, usual, or none",
+                                          SAM_OPTION_WORDS, .size = 1024, .words = WORDS};
   char                      text[1024] = "", **list;
   PetscBool                 given;
   int                       count;
@@ -62,10 +62,27 @@ PetscErrorCode SamOutputSettingsSetFromOptions(SamOutputSettings *set, const Sam
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Whether a word of -output_fields is a field's name, or that of the group in it. */
+static PetscBool Means(const char word[], const char name[])
+{
+  const size_t group = strcspn(name, "/");
+
+  return !strcmp(word, name) || (name[group] && strlen(word) == group && !strncmp(word, name, group));
+}
+
 static PetscBool Names(const SamOutputSettings *set, const char name[])
 {
   for (PetscInt k = 0; k < set->count; k++)
-    if (!strcmp(set->names[k], name)) return PETSC_TRUE;
+    if (Means(set->names[k], name)) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+/* Whether a word of -output_fields means anything. */
+static PetscBool Knows(SamState state, const char word[])
+{
+  if (!strcmp(word, "all") || !strcmp(word, "usual")) return PETSC_TRUE;
+  for (PetscInt f = 0; f < SamStateCountResults(state); f++)
+    if (Means(word, SamStateResultOf(state, f)->name)) return PETSC_TRUE;
   return PETSC_FALSE;
 }
 
@@ -88,14 +105,18 @@ static void ListFields(SamState state, PetscBool sum, char names[], size_t size)
 {
   static const char *const sums[] = {SAM_LAW_ACCUMULATED_SLIP, SAM_LAW_FRICTION_ENERGY};
 
-  const PetscInt count = SamStateCountResults(state);
-  size_t         used  = 0;
+  const PetscInt count   = SamStateCountResults(state);
+  size_t         used    = 0;
+  PetscBool      grouped = PETSC_FALSE;
 
   names[0] = '\0';
   for (PetscInt f = 0; f < count + (sum ? 2 : 0) && used < size; f++) {
     const char *name = f < count ? SamStateResultOf(state, f)->name : sums[f - count];
 
-    if (f < count || SamStateFindResult(state, name) < 0)
+    if (f < count && SamStateResultOf(state, f)->kind == SAM_FIELD_LAYERS) {
+      if (!grouped) used += (size_t)snprintf(names + used, size - used, ", %.*s", (int)strcspn(name, "/"), name);
+      grouped = PETSC_TRUE;
+    } else if (f < count || SamStateFindResult(state, name) < 0)
       used += (size_t)snprintf(names + used, size - used, "%s%s", f ? ", " : "", name);
   }
 }
@@ -110,8 +131,8 @@ PetscErrorCode SamOutputSettingsPrepare(SamOutputSettings *set, SamContact conta
   PetscCall(SamContactGetState(contact, &state));
   ListFields(state, set->sums, names, sizeof(names));
   for (PetscInt k = 0; k < set->count; k++)
-    PetscCheck(SamStateFindResult(state, set->names[k]) >= 0 || !strcmp(set->names[k], "all"), from->comm, SAM_ERR_USER,
-               "-%soutput_fields: unknown field %s; one or more of %s, separated by commas, or all, or none",
+    PetscCheck(Knows(state, set->names[k]), from->comm, SAM_ERR_USER,
+               "-%soutput_fields: unknown field %s; one or more of %s, separated by commas, or all, usual, or none",
                SamOptionsPrefix(from), set->names[k], names);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -121,12 +142,12 @@ PetscErrorCode SamOutputSettingsPrepare(SamOutputSettings *set, SamContact conta
 /* Which of the state's results are saved. */
 static void Choose(SamOutput o)
 {
-  const PetscBool all = Names(&o->set, "all");
+  const PetscBool all = Names(&o->set, "all"), usual = o->set.count < 0 || Names(&o->set, "usual");
 
   for (PetscInt f = 0; f < SamOutputCount(o); f++) {
     const SamStateResult *r = SamOutputResult(o, f);
 
-    o->wants[f] = o->set.count < 0 ? r->use == SAM_RESULT_USUAL : all || Names(&o->set, r->name);
+    o->wants[f] = all || (usual && r->use == SAM_RESULT_USUAL) || Names(&o->set, r->name);
   }
 }
 
@@ -147,10 +168,10 @@ PetscErrorCode SamOutputAllocate(SamGrid grid, SamFile file, const SamOutputSett
   for (PetscInt k = 0; k < SAM_SERIES; k++)
     if (o->state[k]) o->values[k] = SamStateCountValues(o->state[k]);
   Choose(o);
-  o->time = o->point = o->vtk_steps = o->closed = -1;
-  o->hold.file                                  = -1;
-  o->saved_time                                 = PETSC_NINFINITY;
-  o->flushed                                    = MPI_Wtime();
+  o->time = o->point = o->group = o->vtk_steps = o->closed = -1;
+  o->hold.file                                             = -1;
+  o->saved_time                                            = PETSC_NINFINITY;
+  o->flushed                                               = MPI_Wtime();
   for (PetscInt f = 0; f < SAM_STATE_MOST; f++) o->fields[f] = -1;
   for (PetscInt k = 0; k < SAM_SERIES; k++)
     for (PetscInt c = 0; c < SAM_STATE_DECLARED; c++) o->columns[k][c] = -1;
@@ -167,6 +188,7 @@ PetscErrorCode SamOutputFree(SamOutput *output)
   *output = NULL;
   PetscCall(SamGridDestroy(&o->grid));
   PetscCall(VecDestroy(&o->work));
+  PetscCall(VecDestroy(&o->layers));
   PetscCall(PetscFree(o->points.xy));
   PetscCall(PetscFree(o->states));
   PetscCall(PetscFree(o->singles));

@@ -7,11 +7,16 @@
 */
 #include "ioimpl.h"
 #include <petsam/results.h>
+#include <petsam/stress.h>
 #include <string.h>
 
 static const char *const numbers[SAM_RESULTS_NUMBERS] = {"cycle",   "status",   "contact_area", "slide_x",
                                                          "slide_y", "rolled_x", "rolled_y"};
 static const char *const fields[SAM_RESULTS_FIELDS]   = {"/pressure", "/shear_x", "/shear_y", "/slip_x", "/slip_y"};
+
+static const char *const residuals[SAM_STRESS_COMPONENTS] = {
+  "/plastic/residual_stress_xx", "/plastic/residual_stress_yy", "/plastic/residual_stress_zz",
+  "/plastic/residual_stress_xy", "/plastic/residual_stress_xz", "/plastic/residual_stress_yz"};
 
 /* What the file says of its run. */
 typedef struct {
@@ -21,6 +26,7 @@ typedef struct {
   hsize_t       steps, saved;
   double        first;                     /* load steps before those of the file */
   char          identity[32], follows[32]; /* of the file, and of the part before; empty: none */
+  int           layers;                    /* whether it has the stresses by plastic strain */
   int           has[SAM_RESULTS_FIELDS], number[SAM_RESULTS_NUMBERS];
   int           column[SAM_PARAMETERS]; /* whether a parameter is a column of the history, too */
 } Facts;
@@ -30,7 +36,7 @@ typedef struct {
   Facts    facts;
   PetscInt steps; /* from the run's start to where the next part begins */
   SamFile  file;
-  hid_t    field[SAM_RESULTS_FIELDS];
+  hid_t    field[SAM_RESULTS_FIELDS], residual[SAM_STRESS_COMPONENTS];
 } Part;
 
 /* Where the fields of a saved step are. */
@@ -141,6 +147,37 @@ static PetscErrorCode ExamineFields(SamFile f, Facts *facts)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The layers of a body that yields, by the parameters of the run. */
+static PetscInt LayersOf(const SamParameters *parameters, PetscInt body)
+{
+  const SamParameter *yield  = SamParametersFind(parameters, body == 1 ? "body1_yield" : "body2_yield");
+  const SamParameter *layers = SamParametersFind(parameters, "plastic_layers");
+
+  return yield && layers && yield->count == 1 && isfinite(yield->value[0]) ? (PetscInt)layers->value[0] : 0;
+}
+
+/* The stresses by plastic strain, unless the first of their components is missing. */
+static PetscErrorCode ExamineLayers(SamFile f, Facts *facts)
+{
+  const PetscInt layers = LayersOf(&facts->parameters, 1) + LayersOf(&facts->parameters, 2);
+  hsize_t        shape[4];
+  hid_t          dataset;
+
+  PetscFunctionBegin;
+  facts->layers =
+    layers > 0 && H5Lexists(f->id, "/plastic", H5P_DEFAULT) > 0 && H5Lexists(f->id, residuals[0], H5P_DEFAULT) > 0;
+  for (int c = 0; c < SAM_STRESS_COMPONENTS && facts->layers; c++) {
+    PetscCall(Open(f, residuals[c], 4, shape, &dataset));
+    CHECK(f,
+          shape[0] >= facts->saved && (PetscInt)shape[1] == layers && (double)shape[2] == facts->n[1] &&
+            (double)shape[3] == facts->n[0],
+          "%s has another shape than the run", residuals[c]);
+    shape[0] = facts->saved;
+    CHECK(f, SamFileIsWhole(f, dataset, shape, PETSC_TRUE), "it is damaged: %s is not in it as a whole", residuals[c]);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* An optional column of the history: whether it is there. */
 static PetscErrorCode ExamineColumn(SamFile f, const Facts *facts, const char column[], int *has)
 {
@@ -184,6 +221,7 @@ static PetscErrorCode Look(SamFile f, const void *question, void *answer)
   GetText(f, SAM_OUTPUT_FOLLOWS, sizeof(facts->follows), facts->follows);
   CHECK(f, IsPlausible(facts), "its parameters are not those of a run of petsam");
   PetscCall(ExamineFields(f, facts));
+  PetscCall(ExamineLayers(f, facts));
   for (int n = 0; n < SAM_RESULTS_NUMBERS; n++) PetscCall(ExamineColumn(f, facts, numbers[n], &facts->number[n]));
   for (PetscInt k = 0; k < facts->parameters.count; k++) { /* load cases are parameters, and columns */
     const char *name = facts->parameters.list[k].name;
@@ -222,6 +260,8 @@ static PetscErrorCode ReadTimes(SamResults r, Part *part)
   ReadSeries(part->file, "/time", 0, saved, saves);
   for (int k = 0; k < SAM_RESULTS_FIELDS; k++)
     if (facts->has[k]) part->field[k] = SamFileNote(part->file, H5Dopen2(part->file->id, fields[k], H5P_DEFAULT));
+  for (int c = 0; c < SAM_STRESS_COMPONENTS && facts->layers; c++)
+    part->residual[c] = SamFileNote(part->file, H5Dopen2(part->file->id, residuals[c], H5P_DEFAULT));
   PetscCall(SamFileEnd(part->file));
   for (hsize_t k = 0; k < saved; k++) {
     const PetscBool before = r->count > 1 && k == 0 && steps && saves[0] < times[0]; /* the last step before the part */
@@ -396,6 +436,33 @@ PetscErrorCode SamResultsRead(SamResults r, PetscInt k, SamResultsField field, d
   SamFileReadFrame(part->file, part->field[field], H5T_NATIVE_DOUBLE, r->saved[k].index, values);
   PetscCall(SamFileEnd(part->file));
   PetscCall(CheckFinite(part, r->grid->cells, values, fields[field], r->saved[k].step));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscInt SamResultsCountLayers(SamResults r, PetscInt body)
+{
+  return LayersOf(&r->part[0]->facts.parameters, body);
+}
+
+PetscBool SamResultsHasLayers(SamResults r)
+{
+  for (PetscInt k = 0; k < r->count; k++)
+    if (!r->part[k]->facts.layers) return PETSC_FALSE;
+  return PETSC_TRUE;
+}
+
+PetscErrorCode SamResultsReadLayer(SamResults r, PetscInt k, PetscInt component, PetscInt layer, double values[])
+{
+  const Part *const part  = r->saved[k].part;
+  const SamBlock    block = {4,
+                             {r->saved[k].index, (hsize_t)layer, (hsize_t)r->grid->row_start, 0},
+                             {1, 1, (hsize_t)r->grid->rows, (hsize_t)r->grid->nx}};
+
+  PetscFunctionBegin;
+  PetscCall(SamFileBegin(part->file));
+  SamFileReadBlock(part->file, part->residual[component], H5T_NATIVE_DOUBLE, &block, values);
+  PetscCall(SamFileEnd(part->file));
+  PetscCall(CheckFinite(part, r->grid->cells, values, residuals[component], r->saved[k].step));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -186,6 +186,33 @@ static PetscErrorCode GetValues(SamOutput o, PetscInt f, ContactFields *from, co
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* A field of layers: each rank writes its rows of all of them. */
+static PetscErrorCode AppendLayers(SamOutput o, PetscInt f)
+{
+  const SamGrid         g      = o->grid;
+  const SamStateResult *field  = SamOutputResult(o, f);
+  const PetscInt        layers = SamStateGetLayers(o->state[SAM_SERIES_HISTORY], NULL);
+  const hsize_t         n = (hsize_t)layers, size[4] = {o->saved + 1, n, (hsize_t)g->ny, (hsize_t)g->nx};
+  const SamBlock        block = {4, {o->saved, 0, (hsize_t)g->row_start, 0}, {1, n, (hsize_t)g->rows, (hsize_t)g->nx}};
+  const double         *values;
+  float                *singles = NULL;
+
+  PetscFunctionBegin;
+  if (!o->layers) PetscCall(SamGridCreateVec(g, layers, &o->layers));
+  PetscCall((*field->compute)(field->owner, o->state[SAM_SERIES_HISTORY], field->component, o->layers));
+  (void)SamFileNote(o->f, H5Dset_extent(o->fields[f], size));
+  PetscCall(VecGetArrayRead(o->layers, &values));
+  if (o->set.single) {
+    PetscCall(PetscMalloc1(layers * g->cells, &singles));
+    for (PetscInt k = 0; k < layers * g->cells; k++) singles[k] = (float)values[k];
+  }
+  SamFileWriteBlock(o->f, o->fields[f], singles ? H5T_NATIVE_FLOAT : H5T_NATIVE_DOUBLE, &block,
+                    singles ? (const void *)singles : (const void *)values);
+  PetscCall(VecRestoreArrayRead(o->layers, &values));
+  PetscCall(PetscFree(singles));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode AppendFields(SamOutput o)
 {
   ContactFields from = {.field = NULL};
@@ -196,6 +223,10 @@ static PetscErrorCode AppendFields(SamOutput o)
     const void *cells = NULL;
 
     if (o->fields[f] < 0) continue;
+    if (SamOutputResult(o, f)->kind == SAM_FIELD_LAYERS) {
+      PetscCall(AppendLayers(o, f));
+      continue;
+    }
     PetscCall(GetValues(o, f, &from, &cells));
     switch (SamOutputResult(o, f)->kind) {
     case SAM_FIELD_POINTS:
@@ -209,6 +240,8 @@ static PetscErrorCode AppendFields(SamOutput o)
         AppendSingle(o, o->fields[f], (const double *)cells);
       else
         AppendField(o, o->fields[f], H5T_NATIVE_DOUBLE, cells);
+      break;
+    case SAM_FIELD_LAYERS:
       break;
     }
   }

@@ -144,11 +144,14 @@ PetscErrorCode SamPlasticStress(SamPlastic *p, Vec state, Vec pressure, Vec shea
   PetscCall(Respond(p, e, e, NULL));
   if (energy) PetscCall(SamPlasticWork(p, stress, e, energy));
   if (energy) *energy *= -0.5;
-  PetscCall(VecGetArrayRead(pressure, &by_p));
-  PetscCall(VecGetArrayRead(shear, &by_q));
-  PetscCall(Load(p, (const double *const[3]){by_p, by_q, by_q + p->grid->cells}, stress));
-  PetscCall(VecRestoreArrayRead(shear, &by_q));
-  PetscCall(VecRestoreArrayRead(pressure, &by_p));
+  PetscCall(PetscArrayzero(stress, n));
+  if (pressure) {
+    PetscCall(VecGetArrayRead(pressure, &by_p));
+    PetscCall(VecGetArrayRead(shear, &by_q));
+    PetscCall(Load(p, (const double *const[3]){by_p, by_q, by_q + p->grid->cells}, stress));
+    PetscCall(VecRestoreArrayRead(shear, &by_q));
+    PetscCall(VecRestoreArrayRead(pressure, &by_p));
+  }
   for (PetscInt k = 0; k < n; k++) stress[k] += e[k];
   PetscCall(PetscFree(e));
   PetscFunctionReturn(PETSC_SUCCESS);

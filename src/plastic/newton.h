@@ -32,8 +32,8 @@ typedef struct {
 /*
   SamPlasticSolve - the plastic strain of a step, which becomes the tried one, and its tractions. Collective.
   SamPlasticDisplace - the displacements of the surfaces by the strain of a generation of the state (m). Collective.
-  SamPlasticStress - the stress by the strain of the state and by tractions (Pa), (layers of all bodies, PARTS), and
-  the elastic energy of that by the strain alone (J; NULL: not wanted). Collective.
+  SamPlasticStress - the stress by the strain of the state and by tractions (Pa; NULL: by the strain alone), (layers of
+  all bodies, PARTS), and the elastic energy of that by the strain alone (J; NULL: not wanted). Collective.
   SamPlasticWork - the work of such a stress on a strain (J). Collective.
 */
 PETSC_INTERN PetscErrorCode SamPlasticSolve(SamPlastic *plastic, SamLawContact *contact);

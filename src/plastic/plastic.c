@@ -192,6 +192,85 @@ static PetscErrorCode Compute(void *owner, SamState state, PetscInt component, V
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The layers of body 1. */
+static PetscInt Above(const Plastic *x)
+{
+  return isfinite(x->material[0].yield) ? x->layers : 0;
+}
+
+/*
+  A field of layers in the results: the accumulated plastic strain (0), the plastic strain (1 to PARTS), and the
+  residual stress. In body 1, whose own z points against that of the results, the shears xz and yz change their sign.
+*/
+static PetscErrorCode ComputeLayers(void *owner, SamState state, PetscInt component, Vec field)
+{
+  const SamLaw   law   = (SamLaw)owner;
+  Plastic *const x     = (Plastic *)law->data;
+  const PetscInt cells = law->grid->cells, layers = BodiesOf(x) * x->layers;
+  const PetscInt part = (component + PARTS - 1) % PARTS, stored = component ? part : PARTS;
+  const Vec      now    = SamStateReadField(state, SamStateFindField(state, SAM_PLASTIC_FIELD));
+  double        *stress = NULL, *to;
+  const double  *from;
+
+  PetscFunctionBegin;
+  PetscCall(VecSet(field, 0));
+  if (!now) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SetUp(law));
+  if (component > PARTS) {
+    PetscCall(PetscMalloc1(PARTS * layers * cells, &stress));
+    PetscCall(SamPlasticStress(&x->plastic, now, NULL, NULL, stress, NULL));
+  }
+  PetscCall(VecGetArrayRead(now, &from));
+  PetscCall(VecGetArray(field, &to));
+  for (PetscInt m = 0; m < layers; m++) {
+    const PetscBool one  = m < Above(x);
+    const PetscInt  l    = one ? x->layers - 1 - m : m; /* body 1's are remembered from its surface on */
+    const PetscBool turn = one && component > 0 && (part == SAM_STRESS_XZ || part == SAM_STRESS_YZ);
+    const double   *of   = stress ? stress + ((ptrdiff_t)l * PARTS + part) * cells
+                                  : from + ((ptrdiff_t)l * x->plastic.size + stored) * cells;
+
+    for (PetscInt k = 0; k < cells; k++) to[m * (ptrdiff_t)cells + k] = turn ? -of[k] : of[k];
+  }
+  PetscCall(VecRestoreArray(field, &to));
+  PetscCall(VecRestoreArrayRead(now, &from));
+  PetscCall(PetscFree(stress));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode OfferLayers(SamLaw law, SamState state)
+{
+#define TENSOR(name, unit, text) \
+  {name "xx", unit, text " xx"}, {name "yy", unit, text " yy"}, {name "zz", unit, text " zz"}, \
+    {name "xy", unit, text " xy"}, {name "xz", unit, text " xz"}, \
+  { \
+    name "yz", unit, text " yz" \
+  }
+  static const char *const labels[1 + 2 * PARTS][3] = {
+    {"plastic/plastic_strain", "1", "accumulated plastic strain"},
+    TENSOR("plastic/plastic_strain_", "1", "plastic strain"),
+    TENSOR("plastic/residual_stress_", "Pa", "stress by the plastic strain alone, mean over the layer,"),
+  };
+  const Plastic *const x     = (const Plastic *)law->data;
+  const PetscInt       count = BodiesOf(x) * x->layers;
+  PetscReal           *z;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(count, &z));
+  for (PetscInt m = 0; m < count; m++) z[m] = x->depth / (PetscReal)x->layers * ((PetscReal)(m - Above(x)) + 0.5);
+  PetscCall(SamStateSetLayers(state, count, z));
+  PetscCall(PetscFree(z));
+  for (PetscInt k = 0; k < 1 + 2 * PARTS; k++)
+    PetscCall(SamStateOffer(state, &(SamStateResult){.name      = labels[k][0],
+                                                     .unit      = labels[k][1],
+                                                     .text      = labels[k][2],
+                                                     .kind      = SAM_FIELD_LAYERS,
+                                                     .use       = SAM_RESULT_OFFERED,
+                                                     .compute   = ComputeLayers,
+                                                     .owner     = law,
+                                                     .component = k}));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Declare(SamLaw law, SamState state)
 {
   const Plastic              *x                = (const Plastic *)law->data;
@@ -246,6 +325,7 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
     result.component = k;
     PetscCall(SamStateOffer(state, &result));
   }
+  PetscCall(OfferLayers(law, state));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

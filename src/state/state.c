@@ -25,6 +25,8 @@ struct _n_SamState {
   Field          field[SAM_STATE_MOST];
   Number         number[SAM_STATE_DECLARED];
   SamStateResult result[SAM_STATE_MOST];
+  PetscInt       layers; /* of fields of layers */
+  PetscReal     *z;
   char           names[SAM_STATE_MOST][48];   /* of results that are components of fields */
   char           texts[SAM_STATE_MOST][96];   /* and theirs */
   double        *generation[SAM_GENERATIONS]; /* the numbers */
@@ -86,6 +88,7 @@ PetscErrorCode SamStateDestroy(SamState *state)
   PetscCall(DestroyFields(s));
   for (PetscInt g = 0; g < SAM_GENERATIONS; g++) PetscCall(PetscFree(s->generation[g]));
   PetscCall(SamGridDestroy(&s->grid));
+  PetscCall(PetscFree(s->z));
   PetscCall(PetscFree(s));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -100,6 +103,22 @@ PetscErrorCode SamStateOffer(SamState s, const SamStateResult *result)
              SAM_STATE_MOST, result->name);
   s->result[s->results++] = *result;
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamStateSetLayers(SamState s, PetscInt count, const PetscReal z[])
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree(s->z));
+  PetscCall(PetscMalloc1(count, &s->z));
+  PetscCall(PetscArraycpy(s->z, z, count));
+  s->layers = count;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscInt SamStateGetLayers(SamState s, const PetscReal **z)
+{
+  if (z) *z = s->z;
+  return s->layers;
 }
 
 /* The name and the text of the c-th of the values of a field for each cell. */

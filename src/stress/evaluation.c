@@ -177,9 +177,6 @@ static PetscErrorCode SetLayout(SamEvaluation e)
 PetscErrorCode SamEvaluationSetUp(SamEvaluation e, const SamStressSource *source)
 {
   PetscFunctionBegin;
-  PetscCheck(!source->yields, SamElasticityGetGrid(source->bodies)->comm, SAM_ERR_USER,
-             "%s: a body yields: stresses below the surface without those by its plastic strain would be wrong",
-             source->name);
   e->source = *source;
   PetscCall(SamElasticityReference(source->bodies));
   e->grid = SamElasticityGetGrid(source->bodies);
@@ -187,6 +184,7 @@ PetscErrorCode SamEvaluationSetUp(SamEvaluation e, const SamStressSource *source
   PetscCall(CheckConstants(e));
   PetscCall(SamAverageSetUp(e));
   PetscCall(SamDepthsSetUp(e));
+  PetscCall(SamPlasticSetUp(e));
   PetscCall(CheckCycle(e));
   PetscCall(FindLine(e));
   PetscCall(SamProblemCreate(e->source.bodies, &e->problem));

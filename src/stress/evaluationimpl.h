@@ -144,6 +144,13 @@ PETSC_INTERN PetscErrorCode   SamPointsCheck(SamEvaluation e, PetscInt step, con
   and what laws add. Not collective.
 */
 PETSC_INTERN void SamStressAddUniform(SamEvaluation e, PetscInt step, const SamPoints *points, double stress[]);
+/*
+  SamPlasticSetUp - checks what is asked for of a body that yields (plastic.c). Collective. Errors: SAM_ERR_USER.
+  SamStressAddPlastic - adds to the stresses (Pa) of points those by the plastic strain of the body. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamPlasticSetUp(SamEvaluation e);
+PETSC_INTERN PetscErrorCode SamStressAddPlastic(SamEvaluation e, PetscInt step, const SamPoints *points,
+                                                double stress[]);
 /* SamEvaluationTell - calls the monitor. Not collective. */
 PETSC_INTERN PetscErrorCode SamEvaluationTell(SamEvaluation e, const char work[], double part, double whole);
 

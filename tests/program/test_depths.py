@@ -77,9 +77,3 @@ def test_mistakes_in_depths_are_explained(petsam, stress, tmp_path):
         line = stress(options, dict(output="s.h5"), check=2).stderr.splitlines()[0]
         assert all(text in line for text in says), line
     assert not (tmp_path / "s.h5").exists()
-
-
-def test_bodies_that_yield_are_refused(petsam, stress):
-    """What their plastic strain adds is not known."""
-    petsam(dict(SPHERE, body2_yield=1e12, plastic_depth=1e-4, plastic_layers=2, grid_n=12, output="r.h5"))
-    assert "a body yields" in stress(dict(input="r.h5"), dict(output="s.h5", depths="0"), check=2).stderr

@@ -272,7 +272,7 @@ def test_slip_is_needed_by_ruiz_only(stress, contact):
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGUSR1])  # others are ignored in the background
 def test_signal_leaves_no_file(contact, number):
-    words = flatten([dict(input="c.h5", output="long.h5", depths="0:1e-3:400", steps="all", **ALL)])
+    words = flatten([dict(input="c.h5", output="long.h5", depths="0:1e-3:60", steps="all", **ALL)])
     run = subprocess.Popen([str(PROGRAM), *words], cwd=contact, env=conftest.environment(), stdout=subprocess.DEVNULL)
     try:
         for _ in range(200):

@@ -1,0 +1,90 @@
+/*
+  Stresses of a body that yields below its surface: those by its plastic strain, the means over its layers, are added to
+  those by the tractions. Between the middles of layers they are interpolated linearly, as smooth strain has an error of
+  second order in the thickness anyway. On the surface zz, xz and yz are zero; the others are extrapolated from the
+  first two layers.
+*/
+#include "evaluationimpl.h"
+#include <petsam/private/grid.h>
+#include <math.h>
+
+static PetscReal Thickness(SamEvaluation e)
+{
+  return e->source.plastic_depth / (PetscReal)e->source.layers;
+}
+
+PetscErrorCode SamPlasticSetUp(SamEvaluation e)
+{
+  const PetscReal depth = e->depths ? e->depth[e->depths - 1] : 0;
+
+  PetscFunctionBegin;
+  if (!e->source.yields[e->body - 1]) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCheck(e->source.residual, e->comm, SAM_ERR_USER,
+             "%s: body %" PetscInt_FMT " yields, and the stresses by its plastic strain are not there: petsam "
+             "-output_fields usual,plastic saves them",
+             e->source.name, e->body);
+  PetscCheck(!e->passing, e->comm, SAM_ERR_USER,
+             "-passing: body %" PetscInt_FMT " yields, so the points of a row are not alike: omit it", e->body);
+  PetscCheck(depth <= e->source.plastic_depth * (1 + 1e-9), e->comm, SAM_ERR_USER,
+             "-depths: %.6g m is below the %.6g m of -plastic_depth, where the stresses by plastic strain are not "
+             "known: give depths down to it, or petsam a larger -plastic_depth",
+             (double)depth, (double)e->source.plastic_depth);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* What the mean over layer l counts for component c at a depth. */
+static double Weight(SamEvaluation e, PetscReal depth, PetscInt l, PetscInt c)
+{
+  const PetscInt last  = e->source.layers - 1;
+  const double   place = (double)(depth / Thickness(e)) - 0.5; /* in middles of layers, from the first */
+  const PetscInt below = (PetscInt)PetscMin(PetscMax(floor(place), 0), (double)last - 1);
+
+  if (place < 0 && (c == SAM_STRESS_ZZ || c == SAM_STRESS_XZ || c == SAM_STRESS_YZ)) return l ? 0 : 1 + 2 * place;
+  if (l == below) return 1 - (place - (double)below);
+  return l == below + 1 ? place - (double)below : 0;
+}
+
+/* The mean of a component over a layer at the points of one depth; on a section all ranks get all of the line. */
+static PetscErrorCode ReadPlane(SamEvaluation e, PetscInt step, PetscInt c, PetscInt l, PetscInt plane, double at[])
+{
+  const SamGrid g = e->grid;
+  double       *rows;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(g->cells, &rows));
+  PetscCall((*e->source.residual)(e->source.context, step, e->body, c, l, rows));
+  if (!e->section) PetscCall(PetscArraycpy(at, rows, plane));
+  if (e->section) {
+    PetscCall(PetscArrayzero(at, plane));
+    for (PetscInt k = 0; k < g->cells; k++) {
+      const PetscInt i = k % g->nx, j = g->row_start + k / g->nx;
+
+      if (e->index == (e->axis == SAM_SECTION_X ? j : i)) at[e->axis == SAM_SECTION_X ? i : j] = rows[k];
+    }
+    PetscCall(SamSum(g->comm, plane, at));
+  }
+  PetscCall(PetscFree(rows));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamStressAddPlastic(SamEvaluation e, PetscInt step, const SamPoints *p, double stress[])
+{
+  double *at;
+
+  PetscFunctionBegin;
+  if (!e->source.yields[e->body - 1]) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscMalloc1(p->plane, &at));
+  for (PetscInt l = 0; l < e->source.layers; l++)
+    for (PetscInt c = 0; c < SAM_STRESS_COMPONENTS; c++) {
+      if (!e->section && Weight(e, e->depth[p->depth], l, c) == 0) continue;
+      PetscCall(ReadPlane(e, step, c, l, p->plane, at));
+      for (PetscInt depth = 0; depth < p->depths; depth++) {
+        const double  weight = Weight(e, e->depth[p->depth + depth], l, c);
+        double *const s      = stress + c * (ptrdiff_t)p->count + depth * (ptrdiff_t)p->plane;
+
+        for (PetscInt i = 0; i < p->plane && weight != 0; i++) s[i] += weight * at[i];
+      }
+    }
+  PetscCall(PetscFree(at));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

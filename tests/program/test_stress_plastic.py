@@ -1,0 +1,166 @@
+"""Fields below the surface of bodies that yield, and petsam-stress with the stresses by their plastic strain."""
+
+import h5py
+import numpy as np
+import pytest
+
+import conftest
+import petsam
+
+CASE = dict(
+    gap_type="sphere", gap_radius1="10mm", gap_radius2="inf", grid_n=(24, 19), grid_size="0.4mm,0.34mm",
+    body1_young=210e9, body1_poisson=0.3, body2_young=210e9, body2_poisson=0.3, friction=0.4,
+    plastic_depth="0.3mm", plastic_layers=12, load_n=60, load_tx=10, output_fields="usual,plastic",
+)  # fmt: skip
+YIELD, DEPTH, LAYERS = 600e6, 0.3e-3, 12
+PARTS = ("xx", "yy", "zz", "xy", "xz", "yz")
+PROGRAM = conftest.PROGRAM.with_name("petsam-stress")
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory, launcher):
+    """A folder with both.h5, one.h5, two.h5: which bodies yield; and none.h5, which lacks what is below."""
+    folder = tmp_path_factory.mktemp("yield")
+    for name, bodies, more in (
+        ("both", (1, 2), {}),
+        ("one", (1,), {}),
+        ("two", (2,), {}),
+        ("none", (2,), {"output_fields": "usual"}),
+    ):
+        case = dict(CASE, output=f"{name}.h5", **{f"body{b}_yield": YIELD for b in bodies})
+        conftest.execute(launcher, folder, [{**case, **more}], 2 if name == "both" else 1, 0)
+    return folder
+
+
+@pytest.fixture
+def stress(folder, launcher):
+    """stress(options, ranks=1, check=0): the datasets of a run of petsam-stress, or what it says."""
+
+    def run(ranks=1, check=0, **options):
+        options = {"output": "s.h5", **options}
+        done = conftest.execute(launcher, folder, [options], ranks, check, program=PROGRAM)
+        if check:
+            return done.stderr
+        with h5py.File(folder / options["output"]) as f:
+            return {name: data[()] for name, data in f.items() if isinstance(data, h5py.Dataset)}
+
+    return run
+
+
+def middles():
+    return ",".join(repr((k + 0.5) * DEPTH / LAYERS) for k in range(LAYERS))
+
+
+def layers(path, name, body=2):
+    """A field of the only step, from the surface of a body down."""
+    with h5py.File(path) as f:
+        z, values = f["plastic/z"][()], f[f"plastic/{name}"][0]
+    return values[z > 0] if body == 2 else values[z < 0][::-1]
+
+
+def test_fields_have_their_layers_and_scales(folder):
+    with h5py.File(folder / "both.h5") as f:
+        group = f["plastic"]
+        strain = group["plastic_strain"]
+        assert strain.shape == (1, 2 * LAYERS, 19, 24) and strain.attrs["units"] == "1"
+        assert [dimension[0].name for dimension in strain.dims] == ["/time", "/plastic/z", "/plastic/y", "/plastic/x"]
+        assert group["z"][()] == pytest.approx((np.arange(-LAYERS, LAYERS) + 0.5) * DEPTH / LAYERS)
+        assert np.array_equal(group["x"][()], f["x"][()]) and np.array_equal(group["y"][()], f["y"][()])
+        assert np.array_equal(strain[0].max(axis=0), f["plastic_strain"][0])
+        assert set(group) == {"x", "y", "z", "plastic_strain"} | {
+            f"{name}_{part}" for name in ("plastic_strain", "residual_stress") for part in PARTS
+        }
+        tensor = {part: group[f"plastic_strain_{part}"][0] for part in PARTS}
+    assert np.abs(tensor["xx"] + tensor["yy"] + tensor["zz"]).max() < 1e-12 * strain_of(tensor).max()
+    # one step of a virgin body along one direction: the strain's own length is what has accumulated, or a little less
+    with h5py.File(folder / "both.h5") as f:
+        assert strain_of(tensor) == pytest.approx(f["plastic/plastic_strain"][0], abs=1e-9)
+    with h5py.File(folder / "none.h5") as f:
+        assert "plastic" not in f
+
+
+def strain_of(e):
+    """Equivalent strain of a tensor."""
+    square = sum(e[part] ** 2 for part in PARTS[:3]) + 2 * sum(e[part] ** 2 for part in PARTS[3:])
+    return np.sqrt(2 / 3 * square)
+
+
+def test_residual_stress_balances_itself(petsam, tmp_path):
+    """No force acts across any depth of a periodic body; along the surface one does, as its mean strain is held."""
+    petsam(dict(CASE, body2_yield=YIELD, elasticity="periodic", output="p.h5"))
+    for part in PARTS:
+        stress = layers(tmp_path / "p.h5", f"residual_stress_{part}")
+        means = np.abs(stress.mean(axis=(1, 2))).max() / np.abs(stress).max()
+        assert means < 1e-12 if "z" in part else part == "xy" or means > 1e-4, part
+
+
+def test_where_a_body_yields_its_stress_is_the_yield_stress(folder, stress):
+    """Tractions and plastic strain together, at the middles of layers; elsewhere it is less."""
+    for body in 1, 2:
+        mises = stress(input="both.h5", body=body, depths=middles(), quantities="mises")["mises"][0]
+        strain = layers(folder / "both.h5", "plastic_strain", body)
+        assert (strain > 1e-5).sum() > 100
+        assert mises[strain > 1e-5] == pytest.approx(YIELD, rel=1e-6)
+        assert mises.max() < YIELD * (1 + 1e-6)
+
+
+def test_surface_bears_the_tractions(folder, stress):
+    with h5py.File(folder / "two.h5") as f:
+        p, q = f["pressure"][0], f["shear_x"][0]
+    found = stress(input="two.h5", depths=0)
+    assert found["stress_zz"][0, 0] == pytest.approx(-p, abs=1e-6 * p.max())
+    assert found["stress_xz"][0, 0] == pytest.approx(-q, abs=1e-6 * p.max())
+    one = layers(folder / "two.h5", "residual_stress_xx")
+    elastic = stress(input="one.h5", body=2, depths=0)
+    assert np.abs(one[0]).max() > 5e6 and elastic["stress_xx"].shape == found["stress_xx"].shape
+
+
+def test_two_equal_bodies_have_mirrored_stresses(folder, stress):
+    """The shear on one is against that on the other: their stresses are those of each other seen from behind."""
+    one, two = (stress(input="both.h5", body=body, depths=middles()) for body in (1, 2))
+    for part in PARTS:
+        mirrored = -1 if part in ("xz", "yz") else 1
+        seen = one[f"stress_{part}"][0, :, ::-1, ::-1] * mirrored
+        assert seen == pytest.approx(two[f"stress_{part}"][0], abs=1e-3 * YIELD), part
+
+
+def test_body_that_does_not_yield_has_the_stress_of_its_tractions(stress):
+    """That of the other body is the same, whether it has yielded or not."""
+    saved = stress(input="two.h5", body=1, depths="0:0.3mm:3")
+    bare = stress(input="none.h5", body=1, depths="0:0.3mm:3")
+    for part in PARTS:
+        assert np.array_equal(saved[f"stress_{part}"], bare[f"stress_{part}"])
+
+
+@pytest.mark.parametrize("ranks", [1, 3])
+def test_sections_are_lines_of_the_maps(stress, ranks):
+    depths = "0,0.04mm,0.11mm,0.3mm"
+    maps = stress(input="both.h5", depths=depths, ranks=ranks)
+    along = stress(input="both.h5", depths=depths, section="y=0", ranks=ranks)
+    across = stress(input="both.h5", depths=depths, section="x=1e-5", ranks=ranks)
+    for part in PARTS:
+        name = f"stress_{part}"
+        assert along[name][0, :, 0] == pytest.approx(maps[name][0, :, 9], abs=1e-6 * YIELD)
+        assert across[name][0, :, :, 0] == pytest.approx(maps[name][0, :, :, 12], abs=1e-6 * YIELD)
+
+
+def test_ranks_give_the_same_bits(stress):
+    for words in dict(section="y=0"), {}:
+        one, three = (stress(input="both.h5", depths="0:0.3mm:5", ranks=ranks, **words) for ranks in (1, 3))
+        assert all(np.array_equal(one[name], three[name]) for name in one)
+
+
+def test_what_is_not_known_is_refused(stress):
+    assert "-output_fields usual,plastic" in stress(input="none.h5", depths=0, check=2)
+    said = stress(input="two.h5", depths="0:0.4mm:3", check=2)
+    assert "-depths" in said and "-plastic_depth" in said
+    assert "-passing" in stress(input="two.h5", depths="0:0.2mm:3", fatigue="swt", section="y=0", passing=True, check=2)
+
+
+def test_python_reads_the_layers(folder):
+    with petsam.open(folder / "two.h5") as results:
+        assert results.z.size == LAYERS and len(results.layered) == 13 and "plastic/plastic_strain" in str(results)
+        field = results.field("plastic/residual_stress_zz", rows=slice(3, 9), columns=slice(2, 20), stride=2)
+        assert np.array_equal(field, layers(folder / "two.h5", "residual_stress_zz")[:, 3:9:2, 2:20:2])
+    with petsam.open(folder / "none.h5") as results, pytest.raises(petsam.Error, match="usual,plastic"):
+        _ = results.z
