@@ -72,7 +72,7 @@ class Comparison:
         axes[1].plot(x, 1e6 * row(self.press, "residual_z", 9), color=COLORS[0])
         axes[1].invert_yaxis()
         frame(axes[1], "The dent, unloaded", "$x$, mm", "residual displacement, µm")
-        z, stress = 1e3 * self.press.z, 1e-6 * self.stress()
+        z, stress = 1e3 * self.press.layer_z, 1e-6 * self.stress()
         most = float(np.abs(stress).max())
         image = axes[2].contourf(x, z, stress, levels=np.linspace(-most, most, 25), cmap="RdBu_r")
         axes[2].grid(False)

@@ -247,7 +247,7 @@ class Results(Datafile):
         fields = [(name, self.about(name)[0]) for name in self.fields]
         lines += self._lines("fields", f"({self.times.size}, {self.y.size}, {self.x.size})", fields)
         if self.layered:
-            shape = f"({self.times.size}, {self.z.size}, {self.y.size}, {self.x.size})"
+            shape = f"({self.times.size}, {self.layer_z.size}, {self.y.size}, {self.x.size})"
             lines += self._lines("layers", f"{shape}, z of /plastic", [(name, "") for name in self.layered])
         lines += [f"  edges     {', '.join(self.edges)} (m)"] if self.edges else []
         lines += self._lines("history", f"({count},)", self.units.items())
@@ -411,7 +411,7 @@ class Results(Datafile):
             return [name for name in names if getattr(self.file[name], "ndim", 0) == 4 and self._all_have(name)]
 
     @cached_property
-    def z(self):
+    def layer_z(self):
         """Middles of the layers, m, into body 2: those of body 1 are negative; Error where there are none."""
         if not self.layered:
             raise Error(f"{self.path}: has no layers (petsam -body2_yield, -output_fields usual,plastic)")
@@ -538,7 +538,7 @@ class Results(Datafile):
                 data = self._saved(name, source)
             if data.dtype.kind not in "biuf":
                 raise ValueError(f"/{name} has no numbers")
-            layers = (self.z.size,) if name in self.layered else ()
+            layers = (self.layer_z.size,) if name in self.layered else ()
             if data.shape != (source.held, *layers, self.y.size, self.x.size):
                 raise ValueError(f"/{name} has the shape {data.shape}")
             block = stride * max(1, BLOCK // stride)

@@ -153,6 +153,7 @@ PetscErrorCode SamPlasticStress(SamPlastic *p, Vec state, Vec pressure, Vec shea
     PetscCall(VecRestoreArrayRead(pressure, &by_p));
   }
   for (PetscInt k = 0; k < n; k++) stress[k] += e[k];
+  SamPlasticAddInitial(p, stress);
   PetscCall(PetscFree(e));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -332,6 +333,7 @@ static PetscErrorCode GetDriver(Solve *w, double d[])
   PetscCall(VecRestoreArrayRead(w->contact->shear, &q));
   PetscCall(VecRestoreArrayRead(w->contact->pressure, &p));
   for (PetscInt k = 0; k < w->n; k++) w->s[k] += w->v[k];
+  SamPlasticAddInitial(w->plastic, w->s);
   AddDeviator(w->plastic, w->e, w->s, d);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -10,6 +10,7 @@ typedef struct {
   SamMises    material;
   SamResidual residual;
   PetscInt    first;
+  double     *initial; /* stress before any load, xx and yy of each layer (Pa); NULL: none; borrowed */
 } SamPlasticBody;
 
 /*
@@ -32,8 +33,8 @@ typedef struct {
 /*
   SamPlasticSolve - the plastic strain of a step, which becomes the tried one, and its tractions. Collective.
   SamPlasticDisplace - the displacements of the surfaces by the strain of a generation of the state (m). Collective.
-  SamPlasticStress - the stress by the strain of the state and by tractions (Pa; NULL: by the strain alone), (layers of
-  all bodies, PARTS), and the elastic energy of that by the strain alone (J; NULL: not wanted). Collective.
+  SamPlasticStress - the stress by the strain of the state, that before any load, and by tractions (Pa; NULL: none),
+  (layers of all bodies, PARTS), and the elastic energy of that by the strain alone (J; NULL: not wanted). Collective.
   SamPlasticWork - the work of such a stress on a strain (J). Collective.
 */
 PETSC_INTERN PetscErrorCode SamPlasticSolve(SamPlastic *plastic, SamLawContact *contact);
@@ -41,6 +42,14 @@ PETSC_INTERN PetscErrorCode SamPlasticDisplace(SamPlastic *plastic, Vec state, d
 PETSC_INTERN PetscErrorCode SamPlasticStress(SamPlastic *plastic, Vec state, Vec pressure, Vec shear, double stress[],
                                              double *energy);
 PETSC_INTERN PetscErrorCode SamPlasticWork(const SamPlastic *plastic, const double e[], const double s[], double *work);
+/*
+  SamPlasticReadInitial - reads the stress before any load from the file of an option, which is left out if it is not
+  given; in place of an older one. Collective. Errors: SAM_ERR_USER for wrong rows, and for a stress beyond yield.
+  SamPlasticAddInitial - adds it to the stress of all layers. Not collective.
+*/
+PETSC_INTERN PetscErrorCode SamPlasticReadInitial(const SamOptions *from, const char option[], PetscReal yield,
+                                                  PetscInt layers, PetscReal thickness, double **stress);
+PETSC_INTERN void           SamPlasticAddInitial(const SamPlastic *plastic, double s[]);
 /* SamPlasticRead, SamPlasticWrite - what cell k of layer l remembers, of an array of such a field. */
 PETSC_INTERN void SamPlasticRead(const SamPlastic *plastic, const double state[], PetscInt l, PetscInt k,
                                  SamMisesAt *at);

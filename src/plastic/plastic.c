@@ -14,6 +14,7 @@ typedef struct {
   SamHardening hardening;
   PetscInt     count; /* of `back`: C, g, C, g ... */
   PetscReal    back[2 * SAM_BACKSTRESSES];
+  double      *initial; /* stress before any load, xx and yy of each layer (Pa); NULL: none */
 } Material;
 
 typedef struct {
@@ -62,6 +63,7 @@ static const SamOptionRow rows[] = {MATERIAL_ROWS(1),
 
 static const char *const hardened[2]   = {"body1_hardening", "body2_hardening"};
 static const char *const backstress[2] = {"body1_backstress", "body2_backstress"};
+static const char *const initial[2]    = {"body1_initial_stress", "body2_initial_stress"};
 
 /* The values that a cell of a layer remembers. */
 static PetscInt SizeOf(const Plastic *x)
@@ -97,6 +99,10 @@ static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBo
   law->bytes = BYTES * x->layers * BodiesOf(x);
   if (*asked)
     PetscCall(SamOptionsRequire(from, x->depth > 0, "plastic_depth", "the depth below the surface that may yield (m)"));
+  for (PetscInt b = 0; b < 2; b++)
+    if (isfinite(x->material[b].yield) || SamPrintHelp())
+      PetscCall(SamPlasticReadInitial(from, initial[b], x->material[b].yield, x->layers,
+                                      x->depth / (PetscReal)x->layers, &x->material[b].initial));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -113,6 +119,10 @@ static PetscErrorCode AddParameters(SamLaw law, SamParameters *parameters)
 
     PetscCall(SamParametersAddReals(parameters, hardened[b], PETSC_TRUE, 1, &hardening));
     if (m->count) PetscCall(SamParametersAddReals(parameters, backstress[b], PETSC_TRUE, m->count, m->back));
+    if (m->initial)
+      PetscCall(SamParametersAddChecksum(parameters, initial[b],
+                                         SamHashBytes(0, (const unsigned char *)m->initial,
+                                                      sizeof(*m->initial) * 2 * (size_t)x->layers)));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -151,6 +161,7 @@ static PetscErrorCode SetUp(SamLaw law)
     if (!isfinite(x->material[b].yield)) continue;
     PetscCall(SamResidualCreate(law->elasticity, b + 1, x->layers, p->thickness, &body->residual));
     body->material = MaterialOf(&x->material[b], SamBodyMaterialAt(SamPairBody(pair, b), 0));
+    body->initial  = x->material[b].initial;
     body->first    = p->bodies++ * x->layers;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -210,17 +221,17 @@ static PetscErrorCode ComputeLayers(void *owner, SamState state, PetscInt compon
   const PetscInt part = (component + PARTS - 1) % PARTS, stored = component ? part : PARTS;
   const Vec      now    = SamStateReadField(state, SamStateFindField(state, SAM_PLASTIC_FIELD));
   double        *stress = NULL, *to;
-  const double  *from;
+  const double  *from   = NULL;
 
   PetscFunctionBegin;
   PetscCall(VecSet(field, 0));
-  if (!now) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!now && component <= PARTS) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SetUp(law));
   if (component > PARTS) {
     PetscCall(PetscMalloc1(PARTS * layers * cells, &stress));
     PetscCall(SamPlasticStress(&x->plastic, now, NULL, NULL, stress, NULL));
   }
-  PetscCall(VecGetArrayRead(now, &from));
+  if (now) PetscCall(VecGetArrayRead(now, &from));
   PetscCall(VecGetArray(field, &to));
   for (PetscInt m = 0; m < layers; m++) {
     const PetscBool one  = m < Above(x);
@@ -232,7 +243,7 @@ static PetscErrorCode ComputeLayers(void *owner, SamState state, PetscInt compon
     for (PetscInt k = 0; k < cells; k++) to[m * (ptrdiff_t)cells + k] = turn ? -of[k] : of[k];
   }
   PetscCall(VecRestoreArray(field, &to));
-  PetscCall(VecRestoreArrayRead(now, &from));
+  if (now) PetscCall(VecRestoreArrayRead(now, &from));
   PetscCall(PetscFree(stress));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -248,7 +259,7 @@ static PetscErrorCode OfferLayers(SamLaw law, SamState state)
   static const char *const labels[1 + 2 * PARTS][3] = {
     {"plastic/plastic_strain", "1", "accumulated plastic strain"},
     TENSOR("plastic/plastic_strain_", "1", "plastic strain"),
-    TENSOR("plastic/residual_stress_", "Pa", "stress by the plastic strain alone, mean over the layer,"),
+    TENSOR("plastic/residual_stress_", "Pa", "stress without tractions, mean over the layer,"),
   };
   const Plastic *const x     = (const Plastic *)law->data;
   const PetscInt       count = BodiesOf(x) * x->layers;
@@ -335,6 +346,7 @@ static PetscErrorCode Destroy(SamLaw law)
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < p->bodies; b++) PetscCall(SamResidualDestroy(&p->body[b].residual));
+  for (PetscInt b = 0; b < 2; b++) PetscCall(PetscFree(((Plastic *)law->data)->material[b].initial));
   PetscCall(PetscFree(p->thickness));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

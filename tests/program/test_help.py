@@ -120,7 +120,7 @@ def test_beginning_of_two_topics_is_refused(petsam):
             + [f"-body1_layer_{name}" for name in ("file", "young", "poisson", "thickness", "stress")]
             + ["-body1_compliance", "-body1_surface_file", "-body1_surface_dataset"]
             + [f"-body1_{name}" for name in ("yield", "hardening", "hardening_modulus", "voce_stress", "voce_rate")]
-            + ["-body1_swift_strain", "-body1_swift_exponent", "-body1_backstress"],
+            + [f"-body1_{name}" for name in ("swift_strain", "swift_exponent", "backstress", "initial_stress")],
         ),
         ("restart", ["-restart", "-restart_gap"]),
         ("fft", ["-fft_effort", "-fft_exchange"]),

@@ -159,8 +159,94 @@ def test_what_is_not_known_is_refused(stress):
 
 def test_python_reads_the_layers(folder):
     with petsam.open(folder / "two.h5") as results:
-        assert results.z.size == LAYERS and len(results.layered) == 13 and "plastic/plastic_strain" in str(results)
+        assert (
+            results.layer_z.size == LAYERS and len(results.layered) == 13 and "plastic/plastic_strain" in str(results)
+        )
         field = results.field("plastic/residual_stress_zz", rows=slice(3, 9), columns=slice(2, 20), stride=2)
         assert np.array_equal(field, layers(folder / "two.h5", "residual_stress_zz")[:, 3:9:2, 2:20:2])
     with petsam.open(folder / "none.h5") as results, pytest.raises(petsam.Error, match="usual,plastic"):
-        _ = results.z
+        _ = results.layer_z
+
+
+# ---------------------------------------------------------------- stress before any load
+
+
+def mean_of(profile, column):
+    """Means over the layers of a profile that is linear between its rows, and 0 below the last."""
+    depth, values = np.array(profile).T[[0, column]]
+    places = (np.arange(LAYERS * 100) + 0.5) * DEPTH / LAYERS / 100
+    return np.interp(places, depth, values, right=0.0).reshape(LAYERS, 100).mean(axis=1)
+
+
+def write_profile(path, rows):
+    path.write_text("depth,stress_xx,stress_yy\n" + "\n".join(",".join(map(repr, row)) for row in rows))
+
+
+PEENED = [(0.0, -2e8, -1e8), (0.05e-3, -3.5e8, -3e8), (0.12e-3, 8e7, 5e7), (0.25e-3, 0.0, 0.0)]
+
+
+def test_initial_stress_is_there_before_any_yielding(petsam, tmp_path):
+    write_profile(tmp_path / "i.csv", PEENED)
+    for elasticity in "halfspace", "periodic":
+        case = dict(CASE, body1_yield=YIELD, body1_initial_stress="i.csv", load_n=0.5, load_tx=0, output="r.h5")
+        petsam(dict(case, elasticity=elasticity))
+        for column, part in (1, "xx"), (2, "yy"):
+            found = layers(tmp_path / "r.h5", f"residual_stress_{part}", 1)
+            assert found == pytest.approx(np.broadcast_to(mean_of(PEENED, column)[:, None, None], found.shape), abs=1e5)
+        assert not layers(tmp_path / "r.h5", "plastic_strain", 1).any()
+
+
+def test_yielding_begins_where_the_sum_of_both_stresses_comes_to_the_yield_stress(petsam, launcher, tmp_path):
+    """The stress of an elastic contact, which petsam-stress knows, and the profile."""
+    write_profile(tmp_path / "i.csv", PEENED)
+    petsam(dict(CASE, body2_yield=1e12, load_n=12, load_tx=3, output="e.h5"))
+    words = dict(input="e.h5", output="s.h5", depths=middles())
+    conftest.execute(launcher, tmp_path, [words], 1, 0, program=PROGRAM)
+    with h5py.File(tmp_path / "s.h5") as f:
+        s = {part: f[f"stress_{part}"][0] for part in PARTS}
+    bare = mises_of(s).max()
+    for column, part in (1, "xx"), (2, "yy"):
+        s[part] = s[part] + mean_of(PEENED, column)[:, None, None]
+    most = mises_of(s).max()
+    assert abs(most / bare - 1) > 0.02
+    for part, yields in (1.01, False), (0.99, True):
+        case = dict(CASE, body2_yield=part * most, body2_initial_stress="i.csv", load_n=12, load_tx=3, output="y.h5")
+        petsam(case)
+        assert layers(tmp_path / "y.h5", "plastic_strain").any() == yields
+
+
+def mises_of(s):
+    xx, yy, zz, xy, xz, yz = (s[part] for part in PARTS)
+    normal = (xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2
+    return np.sqrt(normal / 2 + 3 * (xy**2 + xz**2 + yz**2))
+
+
+def test_peened_body_that_yields_has_the_yield_stress(petsam, launcher, tmp_path):
+    """From the sum of all stresses; a restart without the file, or with another one, is refused."""
+    write_profile(tmp_path / "i.csv", PEENED)
+    case = dict(CASE, body2_yield=YIELD, body2_initial_stress="i.csv", output="r.h5", steps=2)
+    petsam(dict(case, checkpoint="c.h5", checkpoint_every=1))
+    words = dict(input="r.h5", output="s.h5", depths=middles(), quantities="mises")
+    conftest.execute(launcher, tmp_path, [words], 2, 0, program=PROGRAM)
+    with h5py.File(tmp_path / "s.h5") as f, h5py.File(tmp_path / "r.h5") as results:
+        mises, strain = f["mises"][-1], results["plastic/plastic_strain"][-1]
+    assert (strain > 1e-5).sum() > 50 and mises[strain > 1e-5] == pytest.approx(YIELD, rel=1e-6)
+    assert mises.max() < YIELD * (1 + 1e-6)
+    write_profile(tmp_path / "i.csv", [(0.0, -1e8, -1e8), (0.1e-3, 0.0, 0.0)])
+    kept = next(tmp_path.glob("c.h5*")).name
+    assert "body2_initial_stress" in petsam(dict(case, restart=kept, output="n.h5"), check=2).stderr
+
+
+@pytest.mark.parametrize(
+    "text, words",
+    [
+        ("depth,stress_xx\n0,1e8\n1e-4,0", ["i.csv, line 1", "stress_yy"]),
+        ("depth,stress_xx,stress_yy\n1e-5,1e8,1e8\n1e-4,0,0", ["i.csv, line 2", "depth 0"]),
+        ("depth,stress_xx,stress_yy\n0,1e8,1e8\n1e-4,0,0\n1e-4,0,0", ["i.csv, line 4", "order the rows"]),
+        ("depth,stress_xx,stress_yy\n0,7e8,7e8\n3e-4,0,0", ["-body2_initial_stress i.csv", "yield stress"]),
+    ],
+)
+def test_profile_that_makes_no_sense_is_refused(petsam, tmp_path, text, words):
+    (tmp_path / "i.csv").write_text(text)
+    said = petsam(dict(CASE, body2_yield=YIELD, body2_initial_stress="i.csv"), check=2).stderr
+    assert all(word in said for word in words), said
