@@ -123,6 +123,13 @@ static PetscErrorCode Open(SamFile f, const char name[], int rank, hsize_t shape
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode CheckWhole(SamFile f, const char name[], hid_t dataset, const hsize_t shape[])
+{
+  PetscFunctionBegin;
+  CHECK(f, SamFileIsWhole(f, dataset, shape, PETSC_TRUE), "it is damaged: %s is not in it as a whole", name);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode ExamineFields(SamFile f, Facts *facts)
 {
   hsize_t shape[3];
@@ -142,8 +149,7 @@ static PetscErrorCode ExamineFields(SamFile f, Facts *facts)
   }
   shape[0] = facts->saved;
   for (int k = 0; k < SAM_RESULTS_FIELDS; k++)
-    CHECK(f, !facts->has[k] || SamFileIsWhole(f, dataset[k], shape, PETSC_TRUE),
-          "it is damaged: %s is not in it as a whole", fields[k]);
+    if (facts->has[k]) PetscCall(CheckWhole(f, fields[k], dataset[k], shape));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -173,7 +179,7 @@ static PetscErrorCode ExamineLayers(SamFile f, Facts *facts)
             (double)shape[3] == facts->n[0],
           "%s has another shape than the run", residuals[c]);
     shape[0] = facts->saved;
-    CHECK(f, SamFileIsWhole(f, dataset, shape, PETSC_TRUE), "it is damaged: %s is not in it as a whole", residuals[c]);
+    PetscCall(CheckWhole(f, residuals[c], dataset, shape));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
