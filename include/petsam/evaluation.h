@@ -63,6 +63,7 @@ typedef struct {
   PetscBool                 slides;        /* the surfaces slide past each other, so that points of body 2 move */
   PetscBool                 yields[2];     /* whether body 1, body 2 yields below its surface, */
   PetscInt                  layers;        /* in so many layers, */
+  const double             *middle;        /* the depths of whose middles are these, m, borrowed, */
   PetscReal                 plastic_depth; /* down to this depth, m */
   PetscBool                 slips;         /* steps follow each other, and have slips, not velocities of slip */
   PetscErrorCode (*read)(void *context, PetscInt step, SamStepField field, double values[]);

@@ -24,6 +24,7 @@ struct _n_SamGrid {
   PetscReal side[2]; /* the shorter and the longer side of a cell (m) */
   PetscReal area[2]; /* the sides in x, y of the area that a traction acts on (m); infinite along y where only x is */
   PetscReal length;  /* half the larger width: makes coordinates dimensionless (m) */
+  PetscBool coarse;  /* half the cells of another grid, by SamGridCoarsen() */
   PetscInt  references;
 };
 

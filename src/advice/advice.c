@@ -23,6 +23,10 @@
 /* Plastic strain that is not small, and layers that it spans at least. */
 #define STRAINED 0.1
 #define LAYERS   4
+/* Stress beyond yield where no layer is, over the yield stress, and a layer's thickness over the contact's half width
+   from which on the maximum plastic strain is more than 4 % low. */
+#define BEYOND 0.01
+#define THICK  0.2
 /* Cells half as wide may change the peak pressure by this part of it. */
 #define PEAK 0.05
 /* A coefficient of friction from the first of these on is likely to be percent; from the second on it means stick. */
@@ -423,13 +427,27 @@ static double Stiffest(SamPair pair)
 static void Yield(SamAdvice *a)
 {
   const SamContact contact = a->setup->contact;
-  PetscReal        most = 0, layers = 0, left = 0;
+  PetscReal        most = 0, layers = 0, left = 0, thick = 0, outside = 0;
 
   if (a->error || !SamProblemGetLaw(a->setup->problem, SAM_LAW_PLASTIC)) return;
   a->error = SamContactGetNumber(contact, "plastic_max", &most);
   if (!a->error) a->error = SamContactGetNumber(contact, "yielded_layers", &layers);
   if (!a->error) a->error = SamContactGetNumber(contact, "yield_margin", &left);
-  if (a->error || !(most > 0)) return;
+  if (!a->error) a->error = SamContactGetNumber(contact, "layer_thickness", &thick);
+  if (!a->error) a->error = SamContactGetNumber(contact, "yield_outside", &outside);
+  if (a->error) return;
+  if (thick > THICK && (most > 0 || outside > BEYOND))
+    SamAdviceSay(
+      a, "plastic_layers",
+      "where the contact yields first, layers are %.2g of its half width thick, more than %g: use %.2g times "
+      "as many -plastic_layers",
+      (double)thick, THICK, RoundUp((double)thick / THICK));
+  else if (outside > BEYOND)
+    SamAdviceSay(a, "plastic_depth",
+                 "the stress exceeds the yield stress by %.0f %% below the last layer, so the results are too elastic: "
+                 "omit -plastic_depth, which then follows from the grid",
+                 100 * (double)outside);
+  if (!(most > 0)) return;
   if (most > STRAINED)
     SamAdviceSay(a, "", "plastic strain up to %.2g: strains are taken as small, up to about %g", (double)most,
                  STRAINED);
@@ -437,7 +455,7 @@ static void Yield(SamAdvice *a)
     SamAdviceSay(a, "plastic_layers",
                  "plastic strain spans %g layers, fewer than %d: more -plastic_layers, or a smaller -plastic_depth",
                  (double)layers, LAYERS);
-  if (left < 1)
+  if (left < 1 && !(outside > BEYOND))
     SamAdviceSay(a, "plastic_depth",
                  "plastic strain comes to the last layer or to the border of the grid: a larger -plastic_depth, or "
                  "-grid_size");

@@ -26,6 +26,7 @@
 typedef struct {
   SamStressRequest       request;
   SamResults             results;
+  double                *middle; /* depths of the middles of layers, NULL: there are none */
   SamStressFile          file;
   SamGrid                grid;       /* of the results */
   SamElasticity          elasticity; /* the bodies, as the results have recorded them */
@@ -173,19 +174,25 @@ static PetscErrorCode ReadResidual(void *context, PetscInt step, PetscInt body, 
 }
 
 /* Which bodies have yielded, and whether the results have the stresses by that. */
-static void SetYielding(const SamStressRun *run, SamStressSource *source)
+static PetscErrorCode SetYielding(SamStressRun *run, SamStressSource *source)
 {
   const SamParameters *parameters = SamResultsGetParameters(run->results);
   const SamParameter  *depth      = SamParametersFind(parameters, "plastic_depth");
 
+  PetscFunctionBegin;
   for (PetscInt b = 0; b < 2; b++) {
     const PetscInt layers = SamResultsCountLayers(run->results, b + 1);
 
     source->yields[b] = layers > 0;
-    source->layers    = PetscMax(source->layers, layers);
+    if (layers) source->layers = layers; /* the same of both bodies */
   }
   source->plastic_depth = depth ? depth->value[0] : 0;
-  source->residual      = SamResultsHasLayers(run->results) ? ReadResidual : NULL;
+  if (!SamResultsHasLayers(run->results)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscMalloc1(source->layers, &run->middle));
+  PetscCall(SamResultsReadDepths(run->results, source->yields[1] ? 2 : 1, run->middle));
+  source->middle   = run->middle;
+  source->residual = ReadResidual;
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* The bodies, by the elasticity that the results have recorded, and the steps. */
@@ -204,7 +211,7 @@ static PetscErrorCode SetUpEvaluation(SamStressRun *run)
 
   PetscFunctionBegin;
   source.slides = SamParametersFind(parameters, "slide") != NULL;
-  SetYielding(run, &source);
+  PetscCall(SetYielding(run, &source));
   source.slips = rolling && !strcmp(rolling->text, "steady") ? PETSC_FALSE : PETSC_TRUE;
   PetscCall(PetscSNPrintf(run->source, sizeof(run->source), "-input %s", run->request.input));
   PetscCall(SamElasticityCreateFromParameters(run->grid, parameters, run->source, &run->elasticity));
@@ -275,6 +282,7 @@ static PetscErrorCode TearDown(void *context)
   PetscCall(SamStressFileDestroy(&run->file));
   PetscCall(SamEvaluationDestroy(&run->evaluation));
   PetscCall(SamElasticityDestroy(&run->elasticity));
+  PetscCall(PetscFree(run->middle));
   PetscCall(SamResultsDestroy(&run->results));
   PetscCall(PetscFree(run->saved));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -182,6 +182,7 @@ PetscErrorCode SamGridCoarsen(SamGrid fine, SamGrid *coarse)
 
   PetscFunctionBegin;
   PetscCall(SamGridCreate(fine->comm, n, fine->width, fine->center, coarse));
+  (*coarse)->coarse = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -18,6 +18,8 @@ static const char *const residuals[SAM_STRESS_COMPONENTS] = {
   "/plastic/residual_stress_xx", "/plastic/residual_stress_yy", "/plastic/residual_stress_zz",
   "/plastic/residual_stress_xy", "/plastic/residual_stress_xz", "/plastic/residual_stress_yz"};
 
+#define LAYERS_Z "/plastic/z"
+
 /* What the file says of its run. */
 typedef struct {
   double        n[2], width[2], center[2];
@@ -172,6 +174,11 @@ static PetscErrorCode ExamineLayers(SamFile f, Facts *facts)
   PetscFunctionBegin;
   facts->layers =
     layers > 0 && H5Lexists(f->id, "/plastic", H5P_DEFAULT) > 0 && H5Lexists(f->id, residuals[0], H5P_DEFAULT) > 0;
+  if (facts->layers) {
+    PetscCall(Open(f, LAYERS_Z, 1, shape, &dataset));
+    CHECK(f, (PetscInt)shape[0] == layers, LAYERS_Z " has another shape than the run");
+    PetscCall(CheckWhole(f, LAYERS_Z, dataset, shape));
+  }
   for (int c = 0; c < SAM_STRESS_COMPONENTS && facts->layers; c++) {
     PetscCall(Open(f, residuals[c], 4, shape, &dataset));
     CHECK(f,
@@ -455,6 +462,26 @@ PetscBool SamResultsHasLayers(SamResults r)
   for (PetscInt k = 0; k < r->count; k++)
     if (!r->part[k]->facts.layers) return PETSC_FALSE;
   return PETSC_TRUE;
+}
+
+PetscErrorCode SamResultsReadDepths(SamResults r, PetscInt body, double middle[])
+{
+  const Part *const part  = r->part[0];
+  const PetscInt    above = SamResultsCountLayers(r, 1), count = SamResultsCountLayers(r, body);
+  double           *z;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(above + SamResultsCountLayers(r, 2), &z));
+  PetscCall(SamFileBegin(part->file));
+  ReadSeries(part->file, LAYERS_Z, 0, (hsize_t)(above + SamResultsCountLayers(r, 2)), z);
+  PetscCall(SamFileEnd(part->file));
+  for (PetscInt l = 0; l < count; l++) {
+    middle[l] = body == 1 ? -z[above - 1 - l] : z[above + l];
+    PetscCheck(middle[l] > (l ? middle[l - 1] : 0), part->file->comm, SAM_ERR_FILE, SAM_CANNOT_READ, part->file->option,
+               part->file->filename, LAYERS_Z " does not rise");
+  }
+  PetscCall(PetscFree(z));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamResultsReadLayer(SamResults r, PetscInt k, PetscInt component, PetscInt layer, double values[])

@@ -54,7 +54,7 @@ static PetscErrorCode CheckStress(MPI_Comm comm, const char file[], const char o
 }
 
 PetscErrorCode SamPlasticReadInitial(const SamOptions *from, const char option[], PetscReal yield, PetscInt layers,
-                                     PetscReal thickness, double **stress)
+                                     const PetscReal thickness[], double **stress)
 {
   static const char *const names[COLUMNS + 1]       = {"depth", "stress_xx", "stress_yy", NULL};
   char                     file[PETSC_MAX_PATH_LEN] = "";
@@ -63,6 +63,7 @@ PetscErrorCode SamPlasticReadInitial(const SamOptions *from, const char option[]
   SamTable                 t;
   PetscInt                 column[COLUMNS];
   PetscBool                set;
+  PetscReal                top = 0;
 
   PetscFunctionBegin;
   PetscCall(SamOptionsRead(from, NULL, 1, &row, file, &set));
@@ -81,10 +82,9 @@ PetscErrorCode SamPlasticReadInitial(const SamOptions *from, const char option[]
 
     for (PetscInt k = 0; k < SAMPLES; k++)
       for (int c = 0; c < 2; c++)
-        at[c] += Interpolate(&t, column, (double)(thickness * (PetscReal)l) + (k + 0.5) / SAMPLES * (double)thickness,
-                             XX + c) /
-                 SAMPLES;
-    PetscCall(CheckStress(from->comm, file, option, yield, thickness * ((PetscReal)l + 0.5), at));
+        at[c] += Interpolate(&t, column, (double)(top + (k + 0.5) / SAMPLES * thickness[l]), XX + c) / SAMPLES;
+    PetscCall(CheckStress(from->comm, file, option, yield, top + thickness[l] / 2, at));
+    top += thickness[l];
   }
   PetscCall(SamTableDestroy(&t));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -23,7 +23,7 @@ typedef struct {
   PetscInt       bodies, layers; /* layers of each body */
   PetscInt       size;
   SamPlasticBody body[2];
-  PetscReal     *thickness;
+  PetscReal     *thickness; /* of a body's layers, m; borrowed */
   PetscReal      rtol;
   PetscInt       newton, products; /* of the last step */
 } SamPlastic;
@@ -43,13 +43,27 @@ PETSC_INTERN PetscErrorCode SamPlasticStress(SamPlastic *plastic, Vec state, Vec
                                              double *energy);
 PETSC_INTERN PetscErrorCode SamPlasticWork(const SamPlastic *plastic, const double e[], const double s[], double *work);
 /*
+  SamPlasticLookOutside - `excess`: the largest von Mises stress beyond yield, over the yield stress, below the last
+  layer and inside layers that are thick beside the contact, 0 if there is none; `thick`: the thickness of the layer in
+  which a contact yields first, over the contact's half width. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamPlasticLookOutside(SamPlastic *plastic, Vec state, Vec pressure, Vec shear,
+                                                  double *thick, double *excess);
+/*
   SamPlasticReadInitial - reads the stress before any load from the file of an option, which is left out if it is not
   given; in place of an older one. Collective. Errors: SAM_ERR_USER for wrong rows, and for a stress beyond yield.
   SamPlasticAddInitial - adds it to the stress of all layers. Not collective.
 */
 PETSC_INTERN PetscErrorCode SamPlasticReadInitial(const SamOptions *from, const char option[], PetscReal yield,
-                                                  PetscInt layers, PetscReal thickness, double **stress);
+                                                  PetscInt layers, const PetscReal thickness[], double **stress);
 PETSC_INTERN void           SamPlasticAddInitial(const SamPlastic *plastic, double s[]);
+/*
+  SamPlasticGrade - the thicknesses (m) of n layers down to a depth. The first one has the given thickness, and each is
+  thicker than the one above it by the same ratio; all are equal where the first one is thicker than depth/n.
+  SamPlasticFind - the layer of a body at a depth (m), the last one below all. Neither is collective.
+*/
+PETSC_INTERN void     SamPlasticGrade(PetscInt n, PetscReal first, PetscReal depth, PetscReal thickness[]);
+PETSC_INTERN PetscInt SamPlasticFind(const SamPlastic *plastic, PetscReal depth);
 /* SamPlasticRead, SamPlasticWrite - what cell k of layer l remembers, of an array of such a field. */
 PETSC_INTERN void SamPlasticRead(const SamPlastic *plastic, const double state[], PetscInt l, PetscInt k,
                                  SamMisesAt *at);

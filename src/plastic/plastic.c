@@ -19,8 +19,9 @@ typedef struct {
 
 typedef struct {
   Material   material[2];
-  PetscReal  depth, rtol;
+  PetscReal  depth, first, rtol; /* m, m, 1; depth and first 0: from the grid */
   PetscInt   layers;
+  PetscReal *thickness; /* of each layer, m */
   SamPlastic plastic;
 } Plastic;
 
@@ -33,9 +34,11 @@ typedef struct {
 #define GROWTH 1e-6
 /* The part of the maximum plastic strain that counts for its extent. */
 #define COUNTS 0.01
+/* Depth that may yield, over the width of the grid, at most. */
+#define DEEPEST 2
 
 /* The numbers of a step, one after the other from MOST on. */
-enum { MOST, CELLS, WORK, ENERGY, ERROR, NEWTON, PRODUCTS, STILL, LAYERS, LEFT, NUMBERS };
+enum { MOST, CELLS, WORK, ENERGY, ERROR, NEWTON, PRODUCTS, STILL, LAYERS, LEFT, THICK, OUTSIDE, NUMBERS };
 
 #define REAL_ROW(body, option, text, what, range_) \
   { \
@@ -52,14 +55,17 @@ enum { MOST, CELLS, WORK, ENERGY, ERROR, NEWTON, PRODUCTS, STILL, LAYERS, LEFT, 
     REAL_ROW(body, "swift_strain", "swift: strain e0 of Y (1 + p/e0)^n", swift_strain, SAM_RANGE_POSITIVE), \
     REAL_ROW(body, "swift_exponent", "swift: exponent n", swift_exponent, SAM_RANGE_NONNEGATIVE)
 
-static const SamOptionRow rows[] = {MATERIAL_ROWS(1),
-                                    MATERIAL_ROWS(2),
-                                    {"plastic_depth", "depth below the surface that may yield (m)", SAM_OPTION_REAL,
-                                     offsetof(Plastic, depth), .range = SAM_RANGE_POSITIVE, .recorded = PETSC_TRUE},
-                                    {"plastic_layers", "layers of this depth", SAM_OPTION_INT,
-                                     offsetof(Plastic, layers), .least = 2, .most = 1000},
-                                    {"plastic_rtol", "tolerance of the plastic strain, relative to the strain at yield",
-                                     SAM_OPTION_REAL, offsetof(Plastic, rtol), .range = SAM_RANGE_PART}};
+static const SamOptionRow rows[] = {
+  MATERIAL_ROWS(1),
+  MATERIAL_ROWS(2),
+  {"plastic_depth", "depth below the surface that may yield, 0: the grid's width (m)", SAM_OPTION_REAL,
+   offsetof(Plastic, depth), .range = SAM_RANGE_NONNEGATIVE, .recorded = PETSC_TRUE},
+  {"plastic_layers", "layers of this depth, thicker from the surface down", SAM_OPTION_INT, offsetof(Plastic, layers),
+   .least = 2, .most = 1000},
+  {"plastic_first", "thickness of the first layer, 0: half a cell (m)", SAM_OPTION_REAL, offsetof(Plastic, first),
+   .range = SAM_RANGE_NONNEGATIVE, .recorded = PETSC_TRUE},
+  {"plastic_rtol", "tolerance of the plastic strain, relative to the strain at yield", SAM_OPTION_REAL,
+   offsetof(Plastic, rtol), .range = SAM_RANGE_PART}};
 
 static const char *const hardened[2]   = {"body1_hardening", "body2_hardening"};
 static const char *const backstress[2] = {"body1_backstress", "body2_backstress"};
@@ -74,6 +80,36 @@ static PetscInt SizeOf(const Plastic *x)
 static PetscInt BodiesOf(const Plastic *x)
 {
   return (isfinite(x->material[0].yield) != 0) + (isfinite(x->material[1].yield) != 0);
+}
+
+/*
+  The thicknesses of the layers. What is not given follows from the grid, which a contact fits: the depth is its smaller
+  width, or of periodic bodies the larger one, and the first layer is half a cell thick. The check of the grid halves
+  the layers with the cells.
+*/
+static PetscErrorCode SetLayers(Plastic *x, const SamLaw law, const SamOptions *from)
+{
+  const SamGrid   grid     = law->grid;
+  const PetscBool periodic = SamElasticityGetTraits(law->elasticity).periodic, row = SamGridIsRow(grid);
+  const PetscReal x_width = grid->width[0], y_width = row ? x_width : grid->width[1],
+                  width = periodic ? PetscMax(x_width, y_width) : PetscMin(x_width, y_width);
+
+  PetscFunctionBegin;
+  PetscCheck(x->depth <= DEEPEST * width, from->comm, SAM_ERR_USER,
+             "-%splastic_depth %.6g: at most %d times the width of the grid, %.6g m, can yield: check the unit",
+             SamOptionsPrefix(from), (double)x->depth, DEEPEST, (double)width);
+  if (x->depth == 0) x->depth = width;
+  if (grid->coarse) x->layers = (x->layers + 1) / 2;
+  if (grid->coarse) x->first *= 2;
+  if (x->first == 0) x->first = PetscMin(grid->side[0] / 2, x->depth / (PetscReal)x->layers);
+  PetscCheck(x->first <= x->depth / (PetscReal)x->layers * (1 + 1e-9), from->comm, SAM_ERR_USER,
+             "-%splastic_first %.6g: the first layer is the thinnest: at most -plastic_depth over -plastic_layers, "
+             "%.6g m",
+             SamOptionsPrefix(from), (double)x->first, (double)x->depth / (double)x->layers);
+  PetscCall(PetscFree(x->thickness));
+  PetscCall(PetscMalloc1(x->layers, &x->thickness));
+  SamPlasticGrade(x->layers, x->first, x->depth, x->thickness);
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBool *asked)
@@ -97,12 +133,11 @@ static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBo
     law->option = b ? "body2_yield" : "body1_yield";
   }
   law->bytes = BYTES * x->layers * BodiesOf(x);
-  if (*asked)
-    PetscCall(SamOptionsRequire(from, x->depth > 0, "plastic_depth", "the depth below the surface that may yield (m)"));
+  if (*asked || SamPrintHelp()) PetscCall(SetLayers(x, law, from));
   for (PetscInt b = 0; b < 2; b++)
     if (isfinite(x->material[b].yield) || SamPrintHelp())
-      PetscCall(SamPlasticReadInitial(from, initial[b], x->material[b].yield, x->layers,
-                                      x->depth / (PetscReal)x->layers, &x->material[b].initial));
+      PetscCall(SamPlasticReadInitial(from, initial[b], x->material[b].yield, x->layers, x->thickness,
+                                      &x->material[b].initial));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -153,8 +188,7 @@ static PetscErrorCode SetUp(SamLaw law)
   if (p->bodies) PetscFunctionReturn(PETSC_SUCCESS);
   *p = (SamPlastic){
     .grid = law->grid, .elasticity = law->elasticity, .layers = x->layers, .size = SizeOf(x), .rtol = x->rtol};
-  PetscCall(PetscMalloc1(x->layers, &p->thickness));
-  for (PetscInt l = 0; l < x->layers; l++) p->thickness[l] = x->depth / (PetscReal)x->layers;
+  p->thickness = x->thickness;
   for (PetscInt b = 0; b < 2; b++) {
     SamPlasticBody *body = &p->body[p->bodies];
 
@@ -263,11 +297,17 @@ static PetscErrorCode OfferLayers(SamLaw law, SamState state)
   };
   const Plastic *const x     = (const Plastic *)law->data;
   const PetscInt       count = BodiesOf(x) * x->layers;
-  PetscReal           *z;
+  PetscReal           *z, top = 0;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(count, &z));
-  for (PetscInt m = 0; m < count; m++) z[m] = x->depth / (PetscReal)x->layers * ((PetscReal)(m - Above(x)) + 0.5);
+  for (PetscInt l = 0; l < x->layers; l++) {
+    const PetscReal middle = top + x->thickness[l] / 2;
+
+    top += x->thickness[l];
+    if (count > l + Above(x)) z[l + Above(x)] = middle;
+    if (Above(x)) z[Above(x) - 1 - l] = -middle;
+  }
   PetscCall(SamStateSetLayers(state, count, z));
   PetscCall(PetscFree(z));
   for (PetscInt k = 0; k < 1 + 2 * PARTS; k++)
@@ -311,7 +351,11 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
     {"yielded_layers", "1", "layers of a body with more than 1 % of the maximum plastic strain, the fewest",
      SAM_NUMBER_INT, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, 0},
     {"yield_margin", "1", "layers or cells from there to the last layer or the border of the grid, the fewest",
-     SAM_NUMBER_INT, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, 0}};
+     SAM_NUMBER_INT, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, 0},
+    {"layer_thickness", "1", "thickness of the layer that yields first over the largest half width of the contact",
+     SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE, SAM_JOIN_LAST, 0},
+    {"yield_outside", "1", "maximum stress beyond yield below the layers or inside thick ones, over the yield stress",
+     SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE, SAM_JOIN_LAST, 0}};
   static const SamStateResult fields[4] = {
     {.name = "residual_x", .unit = "m", .text = "displacement along x by plastic strain", .use = SAM_RESULT_OFFERED},
     {.name = "residual_y", .unit = "m", .text = "displacement along y by plastic strain", .use = SAM_RESULT_OFFERED},
@@ -347,7 +391,7 @@ static PetscErrorCode Destroy(SamLaw law)
   PetscFunctionBegin;
   for (PetscInt b = 0; b < p->bodies; b++) PetscCall(SamResidualDestroy(&p->body[b].residual));
   for (PetscInt b = 0; b < 2; b++) PetscCall(PetscFree(((Plastic *)law->data)->material[b].initial));
-  PetscCall(PetscFree(p->thickness));
+  PetscCall(PetscFree(((Plastic *)law->data)->thickness));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -510,6 +554,17 @@ static PetscErrorCode AddWork(const SamPlastic *p, const double last[], const do
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/*
+  The layers are judged by the largest contact so far: a small one, under a load that begins or ends, yields little.
+  Layers are the thinner beside a contact, the larger it is.
+*/
+static void KeepLargest(const double before[NUMBERS], double now[NUMBERS])
+{
+  if (!(before[THICK] > 0) || (now[THICK] > 0 && now[THICK] < before[THICK])) return;
+  now[OUTSIDE] = now[THICK] == before[THICK] ? PetscMax(now[OUTSIDE], before[OUTSIDE]) : before[OUTSIDE];
+  now[THICK]   = before[THICK];
+}
+
 static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
 {
   Plastic *const x     = (Plastic *)law->data;
@@ -531,6 +586,8 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
   numbers = SamStateNumbers(step->state, first, SAM_TRIED);
   PetscCall(Judge(p, last, now, stress, numbers));
   PetscCall(Extent(p, now, SamElasticityGetTraits(law->elasticity).periodic, numbers));
+  PetscCall(SamPlasticLookOutside(p, tried, step->pressure, step->shear, &numbers[THICK], &numbers[OUTSIDE]));
+  KeepLargest(SamStateNumbers(step->state, first, SAM_COMMITTED), numbers);
   numbers[ENERGY] = energy;
   if (numbers[CELLS] > 0 && step->last[0])
     PetscCall(SamPlasticStress(p, before, step->last[0], step->last[1], start, NULL));

@@ -13,6 +13,8 @@
 
 struct _n_SamResidual {
   SamGrid         grid;
+  SamElasticity   elasticity;
+  PetscInt        number; /* of the body, 1 or 2 */
   SamFourier      fourier;
   SamFourierMode  mode;
   double          period; /* of the waves along x, in cells; along y it is `waves` */
@@ -164,7 +166,9 @@ PetscErrorCode SamResidualCreate(SamElasticity e, PetscInt body, PetscInt layers
   PetscCall(PetscNew(&r));
   r->grid = SamElasticityGetGrid(e);
   PetscCall(SamGridReference(r->grid));
-  material = SamBodyMaterialAt(SamPairBody(e->pair, body - 1), 0);
+  r->elasticity = e; /* borrowed: the law that owns this one refers to it */
+  r->number     = body;
+  material      = SamBodyMaterialAt(SamPairBody(e->pair, body - 1), 0);
   PetscCall(PetscMalloc1(layers, &r->thickness));
   PetscCall(PetscArraycpy(r->thickness, thickness, layers));
   r->body = (SamWaveBody){layers, r->thickness, material->young / (2 * (1 + material->poisson)), material->poisson};
@@ -345,24 +349,30 @@ static PetscErrorCode LoadWaves(SamResidual r, const double *const traction[3], 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode LoadCells(SamResidual r, const double *const traction[3], double s[])
+/* The stress by tractions at the depth of such kernels. */
+static PetscErrorCode LoadPlane(SamResidual r, SamStress stress, const double *const traction[3], double s[])
 {
   const PetscInt cells = r->grid->cells;
+  double        *part;
 
   PetscFunctionBegin;
-  for (PetscInt l = 0; l < r->body.layers; l++) {
-    double *part;
+  PetscCall(VecGetArray(r->plane, &part));
+  PetscCall(PetscArraycpy(part + SAM_STRESS_ZZ * cells, traction[0], cells));
+  PetscCall(PetscArraycpy(part + SAM_STRESS_XZ * cells, traction[1], cells));
+  PetscCall(PetscArraycpy(part + SAM_STRESS_YZ * cells, traction[2], cells));
+  PetscCall(VecRestoreArray(r->plane, &part));
+  PetscCall(SamStressApply(stress, r->plane));
+  PetscCall(VecGetArray(r->plane, &part));
+  PetscCall(PetscArraycpy(s, part, PARTS * cells));
+  PetscCall(VecRestoreArray(r->plane, &part));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
-    PetscCall(VecGetArray(r->plane, &part));
-    PetscCall(PetscArraycpy(part + SAM_STRESS_ZZ * cells, traction[0], cells));
-    PetscCall(PetscArraycpy(part + SAM_STRESS_XZ * cells, traction[1], cells));
-    PetscCall(PetscArraycpy(part + SAM_STRESS_YZ * cells, traction[2], cells));
-    PetscCall(VecRestoreArray(r->plane, &part));
-    PetscCall(SamStressApply(r->stress[l], r->plane));
-    PetscCall(VecGetArray(r->plane, &part));
-    PetscCall(PetscArraycpy(s + (ptrdiff_t)l * PARTS * cells, part, PARTS * cells));
-    PetscCall(VecRestoreArray(r->plane, &part));
-  }
+static PetscErrorCode LoadCells(SamResidual r, const double *const traction[3], double s[])
+{
+  PetscFunctionBegin;
+  for (PetscInt l = 0; l < r->body.layers; l++)
+    PetscCall(LoadPlane(r, r->stress[l], traction, s + (ptrdiff_t)l * PARTS * r->grid->cells));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -373,5 +383,40 @@ PetscErrorCode SamResidualLoad(SamResidual r, const double *const traction[3], d
     PetscCall(LoadCells(r, traction, s));
   else
     PetscCall(LoadWaves(r, traction, s));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The stress by tractions at a depth, as the mean over a layer of no thickness below a layer down to there. */
+static PetscErrorCode LoadWavesAt(SamResidual r, PetscReal depth, const double *const traction[3], double s[])
+{
+  const SamWaveBody own          = r->body;
+  const PetscReal   thickness[2] = {depth, 0};
+  const PetscInt    n            = PARTS * r->grid->cells;
+  double           *both;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(2 * n, &both));
+  r->body.layers    = 2;
+  r->body.thickness = thickness;
+  PetscCall(LoadWaves(r, traction, both));
+  r->body = own;
+  PetscCall(PetscArraycpy(s, both + n, n));
+  PetscCall(PetscFree(both));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamResidualLoadAt(SamResidual r, PetscReal depth, const double *const traction[3], double s[])
+{
+  SamStress stress;
+
+  PetscFunctionBegin;
+  if (!r->stress) {
+    PetscCall(LoadWavesAt(r, depth, traction, s));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(SamElasticityCreateStress(r->elasticity, r->number, NULL, &stress));
+  PetscCall(SamStressSetDepth(stress, depth));
+  PetscCall(LoadPlane(r, stress, traction, s));
+  PetscCall(SamStressDestroy(&stress));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

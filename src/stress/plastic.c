@@ -8,11 +8,6 @@
 #include <petsam/private/grid.h>
 #include <math.h>
 
-static PetscReal Thickness(SamEvaluation e)
-{
-  return e->source.plastic_depth / (PetscReal)e->source.layers;
-}
-
 PetscErrorCode SamPlasticSetUp(SamEvaluation e)
 {
   const PetscReal depth = e->depths ? e->depth[e->depths - 1] : 0;
@@ -32,16 +27,19 @@ PetscErrorCode SamPlasticSetUp(SamEvaluation e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What the mean over layer l counts for component c at a depth. */
+/* The weight of the mean over layer l in component c at a depth. */
 static double Weight(SamEvaluation e, PetscReal depth, PetscInt l, PetscInt c)
 {
-  const PetscInt last  = e->source.layers - 1;
-  const double   place = (double)(depth / Thickness(e)) - 0.5; /* in middles of layers, from the first */
-  const PetscInt below = (PetscInt)PetscMin(PetscMax(floor(place), 0), (double)last - 1);
+  const double *const middle = e->source.middle;
+  const PetscInt      last   = e->source.layers - 1;
+  PetscInt            below  = 1; /* the second one of the two that count */
+  double              part;
 
-  if (place < 0 && (c == SAM_STRESS_ZZ || c == SAM_STRESS_XZ || c == SAM_STRESS_YZ)) return l ? 0 : 1 + 2 * place;
-  if (l == below) return 1 - (place - (double)below);
-  return l == below + 1 ? place - (double)below : 0;
+  if (depth < middle[0] && (c == SAM_STRESS_ZZ || c == SAM_STRESS_XZ || c == SAM_STRESS_YZ))
+    return l ? 0 : (double)depth / middle[0];
+  while (below < last && depth > middle[below]) below++;
+  part = ((double)depth - middle[below - 1]) / (middle[below] - middle[below - 1]);
+  return l == below ? part : l == below - 1 ? 1 - part : 0;
 }
 
 /* The mean of a component over a layer at the points of one depth; on a section all ranks get all of the line. */

@@ -33,6 +33,8 @@ def sphere(n, layers, load=6, **more):
         load_n=load * LOAD,
     )
     case.update(more)
+    if case["plastic_depth"]:  # the references have equal layers
+        case.setdefault("plastic_first", case["plastic_depth"] / case["plastic_layers"])
     return case
 
 
@@ -230,7 +232,8 @@ REFUSED = [
     (dict(friction=0.3, slide=True), "-body2_yield: not supported with -slide"),
     (dict(pressure_limit=1e-3), "-body2_yield: not supported with -pressure_limit"),
     (dict(body2_layer_young=2, body2_layer_poisson=0.3, body2_layer_thickness=1e-3), "not supported with layers"),
-    (dict(plastic_depth=None), "-plastic_depth is missing"),
+    (dict(plastic_depth=0.3), "-plastic_depth 0.3: at most 2 times the width of the grid"),
+    (dict(plastic_first=1), "-plastic_first 1: the first layer is the thinnest"),
     (dict(body2_hardening="swift"), "-body2_swift_strain is missing"),
     (dict(body2_backstress="1,2,3"), "3 numbers: expected pairs C,g"),
     (dict(bulk2_stress_xx=1e-4), "bulk2_stress_xx"),
@@ -254,7 +257,7 @@ def test_what_makes_no_sense_is_refused(petsam, wrong, message):
 )
 def test_strain_that_is_not_resolved_is_warned_of(petsam, more, words):
     case = sphere(16, 10)
-    case.update(more)
+    case.update(more, plastic_first=None)
     if "body2_yield" in more:  # the same in other units: lengths are proportional to the strain at yield
         width = 100 * case["grid_size"][0]
         case.update(grid_size=(width, width), plastic_depth=100 * case["plastic_depth"], load_n=6e6 * LOAD)

@@ -1,0 +1,74 @@
+/*
+  Whether a body yields where no layer shows it: below the last layer, or inside layers that are thick beside the
+  contact. An elastic contact yields first at 0.48 of its half width, below a sphere, and at 0.70, below a cylinder; deeper
+  than twice the half width no contact yields first. So the stress is looked at there, at points between which it varies
+  little, by the tractions and the residual stress of the nearest layer.
+*/
+#include "newton.h"
+
+/* Depths over the half width of the contact that are looked at, if they lie below the last layer or in a thick one. */
+static const double places[] = {0, 0.25, 0.48, 0.7, 1, 1.5, 2};
+#define PLACES ((PetscInt)(sizeof(places) / sizeof(places[0])))
+#define FIRST  0.48 /* where layers must be thin */
+#define THICK  0.25 /* a layer's thickness over the half width from which on its middle is too far from its borders */
+#define NARROW 0.1  /* part of the cells in contact whose zones, the narrowest, do not count */
+
+/* Adds a layer's residual stress and takes the tractions' stress at a depth; the largest excess over the yield stress. */
+static PetscErrorCode Look(SamPlastic *p, PetscInt b, PetscReal depth, const double state[], const double residual[],
+                           const double *const traction[3], double *excess)
+{
+  const SamPlasticBody *body  = &p->body[b];
+  const PetscInt        cells = p->grid->cells, l = body->first + SamPlasticFind(p, depth);
+  double               *s;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(PARTS * cells, &s));
+  PetscCall(SamResidualLoadAt(body->residual, depth, traction, s));
+  for (PetscInt k = 0; k < cells; k++) {
+    SamMisesAt at;
+    double     stress[PARTS];
+
+    SamPlasticRead(p, state, l, k, &at);
+    for (PetscInt c = 0; c < PARTS; c++)
+      stress[c] = s[c * cells + k] + residual[((ptrdiff_t)l * PARTS + c) * cells + k];
+    *excess = PetscMax(*excess, SamMisesExcess(&body->material, &at, stress) / body->material.yield);
+  }
+  PetscCall(PetscFree(s));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamPlasticLookOutside(SamPlastic *p, Vec state, Vec pressure, Vec shear, double *thick, double *excess)
+{
+  const PetscInt cells = p->grid->cells;
+  PetscReal      across, half, bottom = 0;
+  double        *residual = NULL;
+  const double  *now, *by_p, *by_q;
+
+  PetscFunctionBegin;
+  *thick = *excess = 0;
+  PetscCall(SamGridMeasureZones(p->grid, pressure, NARROW, &across));
+  half = across * p->grid->side[0] / 2;
+  if (!(half > 0)) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt l = 0; l < p->layers; l++) bottom += p->thickness[l];
+  *thick = (double)(p->thickness[SamPlasticFind(p, FIRST * half)] / half);
+  PetscCall(VecGetArrayRead(state, &now));
+  PetscCall(VecGetArrayRead(pressure, &by_p));
+  PetscCall(VecGetArrayRead(shear, &by_q));
+  for (PetscInt k = 0; k < PLACES; k++) {
+    const PetscReal depth = places[k] * half;
+
+    if (depth < bottom && p->thickness[SamPlasticFind(p, depth)] < THICK * half) continue;
+    if (!residual) {
+      PetscCall(PetscMalloc1(PARTS * p->bodies * p->layers * cells, &residual));
+      PetscCall(SamPlasticStress(p, state, NULL, NULL, residual, NULL));
+    }
+    for (PetscInt b = 0; b < p->bodies; b++)
+      PetscCall(Look(p, b, depth, now, residual, (const double *const[3]){by_p, by_q, by_q + cells}, excess));
+  }
+  PetscCall(VecRestoreArrayRead(shear, &by_q));
+  PetscCall(VecRestoreArrayRead(pressure, &by_p));
+  PetscCall(VecRestoreArrayRead(state, &now));
+  PetscCall(PetscFree(residual));
+  PetscCall(SamMax(p->grid->comm, 1, excess));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
