@@ -34,6 +34,35 @@ double SamMisesYield(const SamMises *m, double p, double *slope)
   }
 }
 
+/* The integral of the yield stress from p = 0 on (Pa). */
+static double Integral(const SamMises *m, double p)
+{
+  switch (m->hardening) {
+  case SAM_HARDENING_VOCE:
+    return (m->yield + m->voce[0]) * p +
+           (m->voce[1] > 0 ? m->voce[0] * expm1(-m->voce[1] * p) / m->voce[1] : -m->voce[0] * p);
+  case SAM_HARDENING_SWIFT:
+    return m->yield * m->swift[0] / (m->swift[1] + 1) * expm1((m->swift[1] + 1) * log1p(p / m->swift[0]));
+  default:
+    return (m->yield + m->modulus * p / 2) * p;
+  }
+}
+
+double SamMisesWork(const SamMises *m, const SamMisesAt *from, const SamMisesAt *to, double *change)
+{
+  double work = Integral(m, to->p) - Integral(m, from->p), back = 0;
+
+  for (PetscInt b = 0; b < m->backstresses; b++)
+    for (PetscInt c = 0; c < PARTS; c++) {
+      const double e = (c > SAM_STRESS_ZZ ? 2 : 1) * (to->e[c] - from->e[c]);
+
+      work += (from->back[b][c] + to->back[b][c]) / 2 * e;
+      back += (to->back[b][c] - from->back[b][c]) * e;
+    }
+  *change = fabs(back);
+  return work;
+}
+
 double SamMisesExcess(const SamMises *m, const SamMisesAt *at, const double stress[PARTS])
 {
   double xi[PARTS];

@@ -36,6 +36,13 @@ typedef struct {
 
 /* SamMisesYield - the yield stress (Pa), and its derivative by p (NULL: not wanted). Not collective. */
 PETSC_INTERN double SamMisesYield(const SamMises *material, double p, double *slope);
+/*
+  SamMisesWork - the work of plastic strain from one state to another (Pa = J/m3): that of the stress on the yield
+  surface, in the direction of the strain's growth, so that it does not depend on where in the step yielding began.
+  `change`: the growth of the backstresses times that of the strain (Pa). Not collective.
+*/
+PETSC_INTERN double SamMisesWork(const SamMises *material, const SamMisesAt *from, const SamMisesAt *to,
+                                 double *change);
 /* SamMisesExcess - the yield function (Pa), positive beyond yield, of a stress in a state. Not collective. */
 PETSC_INTERN double SamMisesExcess(const SamMises *material, const SamMisesAt *at, const double stress[PARTS]);
 /*
