@@ -44,11 +44,13 @@ PETSC_INTERN PetscErrorCode SamPlasticStress(SamPlastic *plastic, Vec state, Vec
 PETSC_INTERN PetscErrorCode SamPlasticWork(const SamPlastic *plastic, const double e[], const double s[], double *work);
 /*
   SamPlasticReadInitial - reads the stress before any load from the file of an option, which is left out if it is not
-  given; in place of an older one. Collective. Errors: SAM_ERR_USER for wrong rows, and for a stress beyond yield.
+  given; in place of an older one. `needs`: the option without which it is refused. Collective. Errors: SAM_ERR_USER for
+  wrong rows, for depths of another unit, and for a stress beyond yield.
   SamPlasticAddInitial - adds it to the stress of all layers. Not collective.
 */
-PETSC_INTERN PetscErrorCode SamPlasticReadInitial(const SamOptions *from, const char option[], PetscReal yield,
-                                                  PetscInt layers, PetscReal thickness, double **stress);
+PETSC_INTERN PetscErrorCode SamPlasticReadInitial(const SamOptions *from, const char option[], const char needs[],
+                                                  SamGrid grid, PetscReal yield, PetscInt layers, PetscReal thickness,
+                                                  double **stress);
 PETSC_INTERN void           SamPlasticAddInitial(const SamPlastic *plastic, double s[]);
 /* SamPlasticRead, SamPlasticWrite - what cell k of layer l remembers, of an array of such a field. */
 PETSC_INTERN void SamPlasticRead(const SamPlastic *plastic, const double state[], PetscInt l, PetscInt k,
