@@ -123,7 +123,7 @@ static PetscErrorCode CheckUnits(SamLaw law, const SamOptions *from, PetscInt bo
   for (PetscInt k = 0; k < m->count; k += 2)
     PetscCall(CheckStress(law, from, body, backstress[body], "", (double)m->back[k]));
   for (PetscInt k = 0; m->initial && k < 2 * x->layers; k++) most = PetscMax(most, fabs(m->initial[k]));
-  PetscCall(CheckStress(law, from, body, initial[body], ": the largest stress", most));
+  PetscCall(CheckStress(law, from, body, initial[body], ": the maximum stress", most));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

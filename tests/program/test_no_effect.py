@@ -66,7 +66,7 @@ def test_constants_of_the_hardening_are_taken(petsam, more):
         (dict(YIELDS, **dict(VOCE, body2_voce_stress=200)), "-body2_voce_stress 200: "),
         (dict(YIELDS, body2_backstress="50000,100"), "-body2_backstress 50000: "),
         (dict(YIELDS, body2_backstress="1e10,100,20000,10"), "-body2_backstress 20000: "),
-        (dict(YIELDS, body2_initial_stress="i.csv"), "-body2_initial_stress: the largest stress "),
+        (dict(YIELDS, body2_initial_stress="i.csv"), "-body2_initial_stress: the maximum stress "),
         (dict(SPHERE, film_thickness=1e-6, film_shear=1), "-film_shear 1: "),
         (dict(SPHERE, pressure_limit=2000), "-pressure_limit 2000: "),
         (dict(SPHERE, bulk2_stress_xx=300e9), "-bulk2_stress_xx, or its column in -history: 3e+11: "),
@@ -133,7 +133,7 @@ def test_quiet_run_that_leaves_nothing_is_told(petsam):
 
 
 def test_option_that_is_given_twice_is_told(petsam, tmp_path):
-    """With both values, of which the last one counts; the same value twice, and a value of a file replaced, are fine."""
+    """With both values, of which the last one counts; the same value twice, or one of a file replaced, is fine."""
     (tmp_path / "a.opts").write_text("-steps 1\n-grid_center 0\n-steps 2\n")
     (tmp_path / "b.opts").write_text("-options_file c.opts\n-steps 2\n")
     (tmp_path / "c.opts").write_text("-steps 1\n")

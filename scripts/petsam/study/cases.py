@@ -185,8 +185,8 @@ def _check_used(path, table):
     for name in table.parameters:
         if name not in used:
             raise TableError(
-                f"{path}, line {table.lines[name]}: parameters: {name}: nothing uses it; write {{{name}}} where its value "
-                "belongs, or remove it"
+                f"{path}, line {table.lines[name]}: parameters: {name}: nothing uses it; write {{{name}}} where its "
+                "value belongs, or remove it"
             )
 
 
