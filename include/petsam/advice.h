@@ -29,6 +29,7 @@ typedef struct {
   PetscReal   creep, spin; /* the largest creepage along x or y, and spin (1/m), that are prescribed */
   PetscReal   stress;      /* Pa: the largest prescribed stress, */
   const char *stress_name; /* and of which group of conditions it is; borrowed */
+  PetscReal   friction;    /* the largest factor on the coefficient of friction */
   PetscBool   open; /* the contact may be larger than a closed solution for these loads has it: rotations, wear */
 } SamLoadsMost;
 

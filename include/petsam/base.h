@@ -84,9 +84,9 @@ PETSC_EXTERN PetscErrorCode SamOptionsHeading(const SamOptions *from, const char
   SAM_OPTION_VIEWER   none: an ASCII viewer, created where it is used
 
   `words` have commas between them. `needs`: another option, or option and value, without which the row's has no
-  meaning. `excludes`: options, with commas, that cannot be given with it; a truth excludes and needs where it is true.
-  `missing`: what the option is for, if it is required (with what it needs) unless there is a default. `recorded`: a
-  stopped run can only go on with the same value.
+  meaning; " or -" separates several of which one is enough. `excludes`: options, with commas, that cannot be given with
+  it; a truth excludes and needs where it is true. `missing`: what the option is for, if it is required (with what it
+  needs) unless there is a default. `recorded`: a stopped run can only go on with the same value.
 */
 typedef enum {
   SAM_OPTION_REAL,
@@ -116,6 +116,7 @@ typedef struct {
   SamOptionsReal - reads one real number.
   SamOptionsReals - a list of up to `most` numbers in the range, and how many; 0: the option is absent.
   SamOptionsHas - whether an option is given, without dash and prefix; after a space a value that it must have.
+  SamOptionsNeed - refuses an option that is given without the one it needs, as `needs` of a row has it.
 */
 #define SAM_OPTION_ROWS(rows) (PetscInt)(sizeof(rows) / sizeof((rows)[0])), rows /* the count of a table, and it */
 PETSC_EXTERN PetscErrorCode SamOptionsRead(const SamOptions *from, const char heading[], PetscInt count,
@@ -125,6 +126,8 @@ PETSC_EXTERN PetscErrorCode SamOptionsReal(const SamOptions *from, const char na
 PETSC_INTERN PetscErrorCode SamOptionsReals(const SamOptions *from, const char name[], const char help[],
                                             SamRange range, PetscInt most, PetscReal values[], PetscInt *count);
 PETSC_EXTERN PetscErrorCode SamOptionsHas(const SamOptions *from, const char option[], PetscBool *has);
+PETSC_INTERN PetscErrorCode SamOptionsNeed(const SamOptions *from, PetscBool given, const char name[],
+                                           const char needs[]);
 /*
   SamOptionsPlugins - loads the shared libraries that -plugin names, and calls the function
 

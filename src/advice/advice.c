@@ -20,6 +20,10 @@
 /* A stress over Young's modulus below which it has no effect, and a grid's width (m) that units may explain. */
 #define SLIGHT 1e-8
 #define WIDEST 100.0
+/* A contact of a round body that is wider than this part of the period is no single one. */
+#define CROWDED 0.25
+/* A contact narrower than this part of its radius has a radius that may be in another unit. */
+#define FLATTEST 1e-3
 /* Plastic strain that is not small, and layers that it spans at least. */
 #define STRAINED 0.1
 #define LAYERS   4
@@ -61,6 +65,7 @@ void SamAdviceAddLoads(SamAdvice *a, PetscInt step, const SamControl *control)
 
     if (stress > most->stress) most->stress_name = one->group;
     most->stress = PetscMax(most->stress, stress);
+    if (!strcmp(one->name, SAM_FRICTION_SCALE)) most->friction = PetscMax(most->friction, SamControlGet(control, one));
   }
   most->force = force[SAM_COMPONENT_N];
   most->slide = PetscMax(most->slide, hypot(x, y));
@@ -214,6 +219,9 @@ static PetscErrorCode Compare(const SamSetup *s, const PetscReal half[2], char t
   if (*large)
     (void)snprintf(text + strlen(text), size - strlen(text), ", the limit is about %g: check the units, N, m, Pa%s",
                    STEEPEST, steepness.concave ? "; conforming bodies need finite elements" : "");
+  else if (steepness.ratio < FLATTEST)
+    (void)snprintf(text + strlen(text), size - strlen(text), ", and less than %g of it is rare: check the unit, m",
+                   FLATTEST);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -363,18 +371,28 @@ static void Cells(SamAdvice *a)
                sharp ? "" : better, absurd ? "; or check the units, N, m, Pa" : "");
 }
 
+/* Compares the largest prescribed stress with the moduli of both bodies; `why` is empty where the unit may be right. */
+static void ExplainLargest(const SamAdvice *a, char why[], size_t size)
+{
+  double young[2], stress = (double)a->most.stress;
+
+  for (PetscInt b = 0; b < 2; b++) young[b] = (double)SamBodySubstrate(SamPairBody(a->setup->pair, b))->young;
+  SamExplainStress(stress, PetscMin(young[0], young[1]), SLIGHT, INFINITY, why, size);
+  if (!why[0] && isinf(young[0])) young[0] = young[1];
+  if (!why[0] && isinf(young[1])) young[1] = young[0];
+  if (!why[0]) SamExplainStress(stress, PetscMax(young[0], young[1]), 0, HARDEST, why, size);
+}
+
 /* Numbers that another unit would explain: of a prescribed stress, and of the grid. */
 static void Units(SamAdvice *a)
 {
   const SamSetup     *s     = a->setup;
   const SamLoadsMost *most  = &a->most;
-  const double        young = (double)PetscMin(SamBodySubstrate(SamPairBody(s->pair, 0))->young,
-                                               SamBodySubstrate(SamPairBody(s->pair, 1))->young);
   const double        width = (double)PetscMax(s->grid->width[0], s->grid->width[1]);
+  char                why[160];
 
-  if (most->stress > 0 && (double)most->stress < SLIGHT * young)
-    SamAdviceSay(a, "", "the largest %s, %g Pa, is %.2g of Young's modulus: check the unit, Pa", most->stress_name,
-                 (double)most->stress, (double)most->stress / young);
+  ExplainLargest(a, why, sizeof(why));
+  if (why[0]) SamAdviceSay(a, "", "the largest %s, %g Pa, %s", most->stress_name, (double)most->stress, why);
   if (width > WIDEST) SamAdviceSay(a, "grid_size", "the grid is %g m wide: check the unit, m", width);
 }
 
@@ -461,6 +479,27 @@ static void Yield(SamAdvice *a)
                  "-grid_size");
 }
 
+/* A contact that is so wide beside the period that its images press on each other. */
+static void Images(SamAdvice *a)
+{
+  const SamSetup   *s       = a->setup;
+  const SamControl *control = &a->step->control;
+  PetscReal         closed[2];
+  double            share = 0;
+  PetscBool         known;
+
+  if (a->error || !SamElasticityGetTraits(s->elasticity).periodic) return;
+  a->error = Estimate(s, control->force[SAM_COMPONENT_N], control->value[SAM_COMPONENT_N], closed, &known);
+  if (a->error || !known) return;
+  for (PetscInt k = 0; k < s->grid->axes; k++)
+    share = PetscMax(share, 2 * (double)(a->extent.half[k] / s->grid->width[k]));
+  if (share > CROWDED)
+    SamAdviceSay(a, "",
+                 "the contact is %.2g of the period wide, and periodic images of it interact from about %g on: give a "
+                 "larger -grid_size, or -elasticity %s for a single contact",
+                 share, CROWDED, s->grid->axes > 1 ? "halfspace" : "plane");
+}
+
 /* A contact that is wide beside its radius, or a pressure that no linear elasticity bears. */
 static void Size(SamAdvice *a)
 {
@@ -480,12 +519,17 @@ static void Size(SamAdvice *a)
                  SamAdviceIsFromFile(a->setup) ? "unit of the dataset, and N, m, Pa" : "units, N, m, Pa");
 }
 
-/* A coefficient of friction in percent. */
+/* A coefficient of friction, or a factor on it, in percent. */
 static void Friction(SamAdvice *a)
 {
-  PetscReal friction;
+  PetscReal    friction;
+  const double scale = (double)a->most.friction;
 
   a->error = SamLawGetFriction(SamProblemGetLaw(a->setup->problem, SAM_LAW_COULOMB), &friction);
+  if (!a->error && friction < PERCENT && scale >= PERCENT && scale * (double)friction >= 1)
+    SamAdviceSay(a, "",
+                 SAM_FRICTION_SCALE " of %g makes the coefficient of friction %g: give a ratio, %g for %g percent",
+                 scale, scale * (double)friction, scale / 100, scale);
   if (a->error || friction < PERCENT || friction > STICKING) return;
   SamAdviceSay(a, "friction", "the coefficient of friction is %g: give a ratio, %g for %g percent", (double)friction,
                (double)friction / 100, (double)friction);
@@ -495,8 +539,9 @@ static void Friction(SamAdvice *a)
 static const struct {
   enum { BEFORE, LARGEST, CONTACT, WORN } when;
   void (*look)(SamAdvice *advice);
-} advices[] = {{BEFORE, Surfaces}, {BEFORE, Friction}, {LARGEST, Units}, {LARGEST, Motion}, {LARGEST, Touch},
-               {CONTACT, Cells},   {CONTACT, Bodies},  {CONTACT, Size},  {WORN, Cells},     {WORN, Stroke}};
+} advices[] = {{BEFORE, Surfaces}, {BEFORE, Friction}, {LARGEST, Units},  {LARGEST, Motion},
+               {LARGEST, Touch},   {CONTACT, Cells},   {CONTACT, Bodies}, {CONTACT, Images},
+               {CONTACT, Size},    {WORN, Cells},      {WORN, Stroke}};
 
 static PetscErrorCode LookAt(SamAdvice *a, int when)
 {
@@ -640,6 +685,22 @@ static PetscErrorCode AdviseStroke(const SamAdvice *a, const SamStep *step, char
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Appends to the message of a contact at the edge that a layer is too thick for any grid; `known`: one is. */
+static PetscErrorCode AdviseThickness(const SamAdvice *a, char text[], size_t size, PetscBool *known)
+{
+  const SamGrid g = a->setup->grid;
+  const char   *option;
+  char          layer[256] = "";
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < 2 && !layer[0]; b++)
+    PetscCall(SamBodyAdvise(SamPairBody(a->setup->pair, b), b + 1, 1, g->side[1], PetscMax(g->width[0], g->width[1]),
+                            &option, layer, sizeof(layer)));
+  if (layer[0]) (void)snprintf(text, size, "; %s", layer);
+  *known = layer[0] ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamAdviceEdge(const SamAdvice *a, SamStep *step)
 {
   const SamSetup     *s    = a->setup;
@@ -647,7 +708,7 @@ PetscErrorCode SamAdviceEdge(const SamAdvice *a, SamStep *step)
   const size_t        used = strlen(step->message), size = sizeof(step->message) - used;
   char *const         text = step->message + used;
   PetscReal           half[2];
-  PetscBool           known, large;
+  PetscBool           known, large, thick = PETSC_FALSE;
   char                grid[3 * AT_A_TIME], ratio[192] = "";
 
   PetscFunctionBegin;
@@ -658,6 +719,8 @@ PetscErrorCode SamAdviceEdge(const SamAdvice *a, SamStep *step)
   }
   if (!SamStepIsSolved(step) || strcmp(step->setting, "grid_size") || !most->steps) PetscFunctionReturn(PETSC_SUCCESS);
   step->setting[0] = '\0'; /* the text names the options */
+  PetscCall(AdviseThickness(a, text, size, &thick));
+  if (thick) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Estimate(s, most->force, most->normal, half, &known));
   if (isinf(half[0]) || isinf(half[1])) {
     (void)snprintf(

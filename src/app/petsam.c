@@ -90,6 +90,13 @@ static PetscErrorCode CheckFiles(const SamSimulationFiles *f, const SamArguments
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* A quiet run without a file leaves nothing but its exit code. */
+static void WarnOfQuiet(const SamRun *run, const SamSimulationFiles *f)
+{
+  if (run->report->quiet && !run->report->rank && !run->dry && !f->output && !f->checkpoint)
+    (void)fprintf(stderr, "petsam: warning: -quiet is given without -output: the run leaves no result: give -output\n");
+}
+
 /* ---- memory ---- */
 
 /*
@@ -196,6 +203,7 @@ static PetscErrorCode SetUp(void *context, const SamArguments *arguments)
   PetscCall(SamSimulationGetFiles(run->simulation, &files));
   if (files.checkpoint) CatchSignals(PETSC_TRUE);
   PetscCall(CheckFiles(&files, arguments));
+  WarnOfQuiet(run, &files);
   PetscCall(RefuseTooLarge(run->simulation, &from));
   PetscCall(SamSimulationSetUp(run->simulation, &from));
   PetscFunctionReturn(PETSC_SUCCESS);

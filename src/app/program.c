@@ -145,6 +145,7 @@ static PetscErrorCode Run(void)
     PetscCall(SamProgramHelp(program, &arguments));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
+  if (arguments.warning[0]) (void)fprintf(stderr, "%s: warning: %s\n", program->name, arguments.warning);
   PetscCall(program->setup(program->context, &arguments));
   PetscCall(SamArgumentsRefuseUnknown(PETSC_COMM_WORLD, &arguments));
   PetscCall(program->run(program->context));

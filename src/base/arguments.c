@@ -164,20 +164,40 @@ static void RefuseWord(SamArguments *a, const char where[], const char word[], c
     Complain(a, SAM_ERR_USER, "%s%.160s: %s", where, word, text);
 }
 
-/* Keeps the name of an option, and where it stands. */
-static void Keep(SamArguments *a, const char name[], const char where[])
+/*
+  Warns of an option that one source gives twice with different values, of which PETSc takes the last one. A command
+  line may replace the values of a file, and a file those of a file that it includes.
+*/
+static void WarnOfReplaced(SamArguments *a, const SamArgument *now)
 {
-  char **more = (char **)realloc(a->given, (size_t)(a->givens + 1) * sizeof(*more)), text[800];
+  for (int k = a->givens - 1; k >= 0 && !a->warning[0]; k--) {
+    const SamArgument *before = &a->given[k];
+
+    if (before->source != now->source || strcasecmp(before->name, now->name)) continue;
+    if (!strcmp(before->value, now->value) || !strcasecmp(now->name, "options_file")) return;
+    (void)snprintf(a->warning, sizeof(a->warning),
+                   "%s-%.60s %.60s is given after %s-%.60s %.60s, and replaces it: "
+                   "remove one of them",
+                   now->place, now->name, now->value, before->place, before->name, before->value);
+  }
+}
+
+/* Keeps an option, where it stands, and its value; NULL: none. */
+static void Keep(SamArguments *a, const char option[], const char where[], const char value[], int source)
+{
+  SamArgument *more = (SamArgument *)realloc(a->given, (size_t)(a->givens + 1) * sizeof(*more));
+  SamArgument  one  = {strdup(option), strdup(where), strdup(value ? value : ""), source};
 
   if (!more) return;
-  (void)snprintf(text, sizeof(text), "%s %s", name, where);
-  a->given          = more;
-  more[a->givens++] = strdup(text);
+  a->given = more;
+  WarnOfReplaced(a, &one);
+  more[a->givens++] = one;
 }
 
 static void ExamineWords(SamArguments *a, const char where[], int count, char **words)
 {
   const char *before = NULL, *value = NULL;
+  const int   source = ++a->sources;
 
   for (int k = 0; k < count; k++) {
     const PetscBool valued = k + 1 < count && !IsOption(words[k + 1]);
@@ -188,7 +208,7 @@ static void ExamineWords(SamArguments *a, const char where[], int count, char **
       Complain(a, SAM_ERR_USER, "%s%s: options begin with one dash", where, words[k]);
     before = words[k];
     value  = valued ? words[k + 1] : NULL;
-    Keep(a, before + 1, "");
+    Keep(a, before + 1, "", value, source);
     ExamineOption(a, where, before, value, 0);
     k += valued;
   }
@@ -197,7 +217,7 @@ static void ExamineWords(SamArguments *a, const char where[], int count, char **
 /* ---- files ---- */
 
 /* A line of an options file: an option and its value, a comment, or an alias. */
-static void ExamineLine(SamArguments *a, const char where[], char line[], int depth)
+static void ExamineLine(SamArguments *a, const char where[], char line[], int depth, int source)
 {
   char     *words[3];
   const int quoted = strpbrk(line, "\"'") != NULL;
@@ -216,20 +236,21 @@ static void ExamineLine(SamArguments *a, const char where[], char line[], int de
   else if (count > 2 && !quoted)
     Complain(a, SAM_ERR_USER, "%sexpected one option and its value on a line: %s is too much, unless after a #", where,
              words[2]);
-  Keep(a, words[0] + 1, where);
+  Keep(a, words[0] + 1, where, count > 1 ? words[1] : NULL, source);
   ExamineOption(a, where, words[0], count > 1 ? words[1] : NULL, depth);
 }
 
 static void ExamineLines(SamArguments *a, const char where[], const char name[], FILE *file, int depth)
 {
-  char  *line = NULL;
-  size_t size = 0;
+  char     *line   = NULL;
+  size_t    size   = 0;
+  const int source = ++a->sources;
 
   for (long number = 1; !a->code && getline(&line, &size, file) >= 0; number++) {
     char place[600];
 
     (void)snprintf(place, sizeof(place), "%s%s, line %ld: ", where, name, number);
-    ExamineLine(a, place, line, depth);
+    ExamineLine(a, place, line, depth, source);
   }
   free(line);
 }
@@ -382,7 +403,11 @@ void SamArgumentsExamine(int *argc, char ***argv, SamArguments *a)
 void SamArgumentsFree(SamArguments *a)
 {
   for (int k = 0; k < a->count; k++) free(a->files[k]);
-  for (int k = 0; k < a->givens; k++) free(a->given[k]);
+  for (int k = 0; k < a->givens; k++) {
+    free(a->given[k].name);
+    free(a->given[k].place);
+    free(a->given[k].value);
+  }
   free(a->given);
   a->given = NULL;
   a->count = a->givens = 0;
@@ -394,8 +419,8 @@ const char *SamArgumentsFindPlace(const SamArguments *a, const char name[])
   const char  *place  = NULL;
 
   for (int k = 0; a && k < a->givens; k++)
-    if (!strncasecmp(a->given[k], name, length) && a->given[k][length] == ' ' && !(place && !place[0]))
-      place = a->given[k] + length + 1;
+    if (!strncasecmp(a->given[k].name, name, length) && !a->given[k].name[length] && !(place && !place[0]))
+      place = a->given[k].place;
   return place ? place : "";
 }
 

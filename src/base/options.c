@@ -386,6 +386,26 @@ static PetscBool HasDefault(const SamOptionRow *row, const void *member)
   return *(const char *)member ? PETSC_TRUE : PETSC_FALSE;
 }
 
+PetscErrorCode SamOptionsNeed(const SamOptions *from, PetscBool given, const char name[], const char needs[])
+{
+  static const char between[] = " or -";
+  const char       *prefix    = SamOptionsPrefix(from);
+  const char       *next      = needs, *end;
+  PetscBool         has       = PETSC_FALSE;
+  char              one[128];
+
+  PetscFunctionBegin;
+  if (!given) PetscFunctionReturn(PETSC_SUCCESS);
+  while (next && !has) {
+    end = strstr(next, between);
+    (void)snprintf(one, sizeof(one), "%.*s", (int)(end ? (size_t)(end - next) : strlen(next)), next);
+    PetscCall(SamOptionsHas(from, one, &has));
+    next = end ? end + strlen(between) : NULL;
+  }
+  PetscCheck(has, from->comm, SAM_ERR_USER, "-%s%s is given without -%s%s", prefix, name, prefix, needs);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* What a row needs, excludes, or lacks. */
 static PetscErrorCode CheckRow(const SamOptions *from, const SamOptionRow *row, const void *member, PetscBool given)
 {
@@ -394,9 +414,8 @@ static PetscErrorCode CheckRow(const SamOptions *from, const SamOptionRow *row, 
 
   PetscFunctionBegin;
   if (row->kind == SAM_OPTION_BOOL && !row->words) given = given && *(const PetscBool *)member;
-  if (row->needs) PetscCall(SamOptionsHas(from, row->needs, &has));
-  PetscCheck(!given || has, from->comm, SAM_ERR_USER, "-%s%s is given without -%s%s", prefix, row->name, prefix,
-             row->needs);
+  if (row->needs) PetscCall(SamOptionsNeed(from, given, row->name, row->needs));
+  if (row->needs && row->missing) PetscCall(SamOptionsHas(from, row->needs, &has));
   for (const char *other = row->excludes; other && given && *other;
        other += strcspn(other, ","), other += *other == ',') {
     PetscCall(SamOptionsHas(from, other, &both));

@@ -80,3 +80,16 @@ void SamListUnits(const char help[], char list[], size_t size)
   while (kind && count < MOST && kind->name[count]) count++;
   SamJoin(count, kind ? kind->name : NULL, ", ", " or ", list, size);
 }
+
+void SamExplainStress(double stress, double young, double least, double most, char why[], size_t size)
+{
+  const double ratio = fabs(stress) / young;
+
+  why[0] = '\0';
+  if (isinf(young) || stress == 0) return;
+  if (ratio < least)
+    (void)snprintf(why, size, "is %.2g of Young's modulus, expected at least %g of it: check the unit, Pa", ratio,
+                   least);
+  else if (!(ratio <= most))
+    (void)snprintf(why, size, "is %.2g of Young's modulus, expected at most %g of it: check the unit, Pa", ratio, most);
+}

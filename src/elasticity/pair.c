@@ -6,7 +6,8 @@
 #define BOTH_RIGID "%sbody1_young and %sbody2_young: both bodies are rigid, at least one must be elastic"
 
 static const char *const prefixes[2] = {"body1_", "body2_"};
-#define FILM(k) offsetof(struct _n_SamPair, film[k])
+#define LEAST_FILM 1e-7 /* of Young's modulus: softer than any solid between metals */
+#define FILM(k)    offsetof(struct _n_SamPair, film[k])
 static const SamOptionRow films[2] = {
   {"film_thickness", "thickness (m) of a film between the surfaces, which shear displaces", SAM_OPTION_REAL, FILM(0),
    .range = SAM_RANGE_POSITIVE, .needs = "film_shear", .recorded = PETSC_TRUE},
@@ -125,6 +126,20 @@ double SamPairCoupling(SamPair pair, double first, double last)
 
 /* ---- options and parameters ---- */
 
+/* Refuses a shear modulus of the film that another unit explains. */
+static PetscErrorCode CheckFilm(const SamOptions *from, SamPair p)
+{
+  const double young =
+    (double)PetscMin(SamBodyMaterialAt(p->body[0], 0)->young, SamBodyMaterialAt(p->body[1], 0)->young);
+  char why[160];
+
+  PetscFunctionBegin;
+  SamExplainStress((double)p->film[1], young, LEAST_FILM, INFINITY, why, sizeof(why));
+  PetscCheck(!why[0], from->comm, SAM_ERR_USER, "-%s%s %.6g: %s", SamOptionsPrefix(from), films[1].name,
+             (double)p->film[1], why);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamPairCreateFromOptions(const SamOptions *from, SamPair *pair)
 {
   const char *const prefix = SamOptionsPrefix(from);
@@ -145,6 +160,7 @@ PetscErrorCode SamPairCreateFromOptions(const SamOptions *from, SamPair *pair)
   PetscCheck(!AreRigid(body), from->comm, SAM_ERR_USER, BOTH_RIGID, dash, dash);
   PetscCall(CreateOf(body, pair));
   PetscCall(SamOptionsRead(from, NULL, SAM_OPTION_ROWS(films), *pair, NULL));
+  PetscCall(CheckFilm(from, *pair));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

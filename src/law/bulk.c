@@ -65,7 +65,7 @@ static PetscErrorCode CheckComponent(SamLaw law, PetscInt body, PetscInt k, cons
   else if (stress != 0 && isinf(m->young))
     (void)snprintf(why, size, "body%d_young is inf: a rigid body does not stretch", (int)body + 1);
   else if (!(fabs(stress) <= m->young))
-    (void)snprintf(why, size, "exceeds Young's modulus, %.6g: check the unit, Pa", (double)m->young);
+    SamExplainStress(stress, (double)m->young, 0, 1, why, size);
   else if (stress != 0 && SamMotionOf(law->elasticity)->streams)
     (void)snprintf(why, size, "has no meaning with -rolling steady: a uniform strain is a creepage: add it to creep_x");
   else if (stress != 0 && !traits.stretch)

@@ -42,9 +42,19 @@ static const SamOptionRow limit_row = {"pressure_limit",
 
 static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBool *asked)
 {
+  const double limit = (double)((Hardness *)law->data)->limit;
+  double       young = 0; /* at the surface of the softer body */
+  char         why[160];
+
   PetscFunctionBegin;
-  (void)from;
-  *asked = isfinite(((Hardness *)law->data)->limit) != 0;
+  for (PetscInt b = 0; b < 2; b++) {
+    const double of = (double)SamBodyMaterialAt(SamPairBody(SamElasticityGetPair(law->elasticity), b), 0)->young;
+
+    young = b ? PetscMin(young, of) : of;
+  }
+  SamExplainStress(limit, young, SAM_LEAST_CONSTANT, INFINITY, why, sizeof(why));
+  PetscCheck(!why[0], from->comm, SAM_ERR_USER, "-%s%s %.6g: %s", SamOptionsPrefix(from), limit_row.name, limit, why);
+  *asked = isfinite(limit) != 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -8,7 +8,8 @@
 #include <math.h>
 
 enum { DEPTH, XX, YY, COLUMNS };
-#define SAMPLES 32 /* of a layer, for its mean */
+#define SAMPLES 32  /* of a layer, for its mean */
+#define DEEP    100 /* widths of the grid down to which a stress may go */
 
 static double ValueAt(const SamTable *t, const PetscInt column[COLUMNS], PetscInt row, int c)
 {
@@ -53,13 +54,27 @@ static PetscErrorCode CheckStress(MPI_Comm comm, const char file[], const char o
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamPlasticReadInitial(const SamOptions *from, const char option[], PetscReal yield, PetscInt layers,
-                                     const PetscReal thickness[], double **stress)
+/* A stress that ends far deeper than the grid is wide has depths in another unit. */
+static PetscErrorCode CheckDepth(MPI_Comm comm, const char file[], const char option[], SamGrid grid, double depth)
+{
+  const double width = 2 * (double)grid->length;
+
+  PetscFunctionBegin;
+  PetscCheck(
+    depth <= DEEP * width, comm, SAM_ERR_USER,
+    "-%s %s: the last depth, %.6g m, is %.3g times the width of the grid, expected at most %d times: check the "
+    "unit, m",
+    option, file, depth, depth / width, DEEP);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamPlasticReadInitial(const SamOptions *from, const char option[], const char needs[], SamGrid grid,
+                                     PetscReal yield, PetscInt layers, const PetscReal thickness[], double **stress)
 {
   static const char *const names[COLUMNS + 1]       = {"depth", "stress_xx", "stress_yy", NULL};
   char                     file[PETSC_MAX_PATH_LEN] = "";
   const SamOptionRow       row = {option, "text file of depth, stress_xx, stress_yy (m, Pa): stress before any load",
-                                  SAM_OPTION_STRING, .size = sizeof(file)};
+                                  SAM_OPTION_STRING, .size = sizeof(file), .needs = needs};
   SamTable                 t;
   PetscInt                 column[COLUMNS];
   PetscBool                set;
@@ -75,6 +90,7 @@ PetscErrorCode SamPlasticReadInitial(const SamOptions *from, const char option[]
                names[c]);
   }
   PetscCall(CheckRows(from->comm, &t, column, file));
+  PetscCall(CheckDepth(from->comm, file, option, grid, ValueAt(&t, column, t.rows - 1, DEPTH)));
   PetscCall(PetscFree(*stress));
   PetscCall(PetscCalloc1(2 * layers, stress));
   for (PetscInt l = 0; l < layers; l++) {

@@ -43,36 +43,53 @@ typedef struct {
 /* The numbers of a step, one after the other from MOST on. */
 enum { MOST, CELLS, WORK, ENERGY, ERROR, NEWTON, PRODUCTS, STILL, LAYERS, LEFT, THICK, OUTSIDE, UNSURE, NUMBERS };
 
-#define REAL_ROW(body, option, text, what, range_) \
+#define REAL_ROW(body, option, text, what, range_, ...) \
   { \
-    "body" #body "_" option, text, SAM_OPTION_REAL, offsetof(Plastic, material[body - 1].what), .range = (range_), \
-                                                                                                .recorded = PETSC_TRUE \
+    "body" #body "_" option, text, SAM_OPTION_REAL, offsetof(Plastic, material[body - 1].what), \
+      .range = (range_), .recorded = PETSC_TRUE, __VA_ARGS__ \
   }
+/* A constant of a hardening that is not the usual one. */
+#define OF_HARDENING(body, word) \
+  .needs = "body" #body "_hardening " word, .missing = "required by -body" #body "_hardening " word
 #define MATERIAL_ROWS(body) \
-  REAL_ROW(body, "yield", "yield stress: the body yields below its surface (Pa)", yield, SAM_RANGE_POSITIVE_INF), \
-    {"body" #body "_hardening", "hardening: linear, voce or swift", SAM_OPTION_ENUM, \
-     offsetof(Plastic, material[body - 1].hardening), .words = "linear,voce,swift"}, \
-    REAL_ROW(body, "hardening_modulus", "linear: slope of the yield stress (Pa)", modulus, SAM_RANGE_NONNEGATIVE), \
-    REAL_ROW(body, "voce_stress", "voce: growth of the yield stress (Pa)", voce_stress, SAM_RANGE_NONNEGATIVE), \
-    REAL_ROW(body, "voce_rate", "voce: its rate by the plastic strain", voce_rate, SAM_RANGE_NONNEGATIVE), \
-    REAL_ROW(body, "swift_strain", "swift: strain e0 of Y (1 + p/e0)^n", swift_strain, SAM_RANGE_POSITIVE), \
-    REAL_ROW(body, "swift_exponent", "swift: exponent n", swift_exponent, SAM_RANGE_NONNEGATIVE)
+  REAL_ROW(body, "yield", "yield stress: the body yields below its surface (Pa)", yield, SAM_RANGE_POSITIVE_INF, \
+           .needs = NULL), \
+    {"body" #body "_hardening", \
+     "hardening: linear, voce or swift", \
+     SAM_OPTION_ENUM, \
+     offsetof(Plastic, material[body - 1].hardening), \
+     .words = "linear,voce,swift", \
+     .needs = "body" #body "_yield"}, \
+    REAL_ROW(body, "hardening_modulus", "linear: slope of the yield stress (Pa)", modulus, SAM_RANGE_NONNEGATIVE, \
+             .needs    = "body" #body "_yield", \
+             .excludes = "body" #body "_hardening voce,body" #body "_hardening swift"), \
+    REAL_ROW(body, "voce_stress", "voce: growth of the yield stress (Pa)", voce_stress, SAM_RANGE_NONNEGATIVE, \
+             OF_HARDENING(body, "voce")), \
+    REAL_ROW(body, "voce_rate", "voce: its rate by the plastic strain", voce_rate, SAM_RANGE_NONNEGATIVE, \
+             OF_HARDENING(body, "voce")), \
+    REAL_ROW(body, "swift_strain", "swift: strain e0 of Y (1 + p/e0)^n", swift_strain, SAM_RANGE_POSITIVE, \
+             OF_HARDENING(body, "swift")), \
+    REAL_ROW(body, "swift_exponent", "swift: exponent n", swift_exponent, SAM_RANGE_NONNEGATIVE, \
+             OF_HARDENING(body, "swift"))
+
+#define YIELDING .needs = "body1_yield or -body2_yield"
 
 static const SamOptionRow rows[] = {
   MATERIAL_ROWS(1),
   MATERIAL_ROWS(2),
   {"plastic_depth", "depth below the surface that may yield, 0: the grid's width (m)", SAM_OPTION_REAL,
-   offsetof(Plastic, depth), .range = SAM_RANGE_NONNEGATIVE, .recorded = PETSC_TRUE},
+   offsetof(Plastic, depth), .range = SAM_RANGE_NONNEGATIVE, .recorded = PETSC_TRUE, YIELDING},
   {"plastic_layers", "layers of this depth, thicker from the surface down", SAM_OPTION_INT, offsetof(Plastic, layers),
-   .least = 2, .most = 1000},
+   .least = 2, .most = 1000, YIELDING},
   {"plastic_first", "thickness of the first layer, 0: half a cell (m)", SAM_OPTION_REAL, offsetof(Plastic, first),
-   .range = SAM_RANGE_NONNEGATIVE, .recorded = PETSC_TRUE},
+   .range = SAM_RANGE_NONNEGATIVE, .recorded = PETSC_TRUE, YIELDING},
   {"plastic_rtol", "tolerance of the plastic strain, relative to the strain at yield", SAM_OPTION_REAL,
-   offsetof(Plastic, rtol), .range = SAM_RANGE_PART}};
+   offsetof(Plastic, rtol), .range = SAM_RANGE_PART, YIELDING}};
 
 static const char *const hardened[2]   = {"body1_hardening", "body2_hardening"};
 static const char *const backstress[2] = {"body1_backstress", "body2_backstress"};
 static const char *const initial[2]    = {"body1_initial_stress", "body2_initial_stress"};
+static const char *const yielding[2]   = {"body1_yield", "body2_yield"};
 
 /* The values that a cell of a layer remembers. */
 static PetscInt SizeOf(const Plastic *x)
@@ -115,6 +132,48 @@ static PetscErrorCode SetLayers(Plastic *x, const SamLaw law, const SamOptions *
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode CheckStress(SamLaw law, const SamOptions *from, PetscInt body, const char option[],
+                                  const char what[], double stress)
+{
+  const SamPair pair  = SamElasticityGetPair(law->elasticity);
+  const double  young = (double)SamBodyMaterialAt(SamPairBody(pair, body), 0)->young;
+  char          why[160];
+
+  PetscFunctionBegin;
+  SamExplainStress(stress, young, SAM_LEAST_CONSTANT, INFINITY, why, sizeof(why));
+  PetscCheck(!why[0], from->comm, SAM_ERR_USER, "-%s%s%s %.6g: %s", SamOptionsPrefix(from), option, what, stress, why);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Refuses constants of a body that yields, and a stress before any load, that other units explain. */
+static PetscErrorCode CheckUnits(SamLaw law, const SamOptions *from, PetscInt body)
+{
+  static const char *const modulus[2] = {"body1_hardening_modulus", "body2_hardening_modulus"};
+  static const char *const voce[2]    = {"body1_voce_stress", "body2_voce_stress"};
+  const Plastic *const     x          = (const Plastic *)law->data;
+  const Material *const    m          = &x->material[body];
+  double                   most       = 0;
+
+  PetscFunctionBegin;
+  PetscCall(CheckStress(law, from, body, yielding[body], "", (double)m->yield));
+  PetscCall(CheckStress(law, from, body, modulus[body], "", (double)m->modulus));
+  PetscCall(CheckStress(law, from, body, voce[body], "", (double)m->voce_stress));
+  for (PetscInt k = 0; k < m->count; k += 2)
+    PetscCall(CheckStress(law, from, body, backstress[body], "", (double)m->back[k]));
+  for (PetscInt k = 0; m->initial && k < 2 * x->layers; k++) most = PetscMax(most, fabs(m->initial[k]));
+  PetscCall(CheckStress(law, from, body, initial[body], ": the maximum stress", most));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Constants of another hardening are 0. */
+static void SetUnused(Material *m)
+{
+  PetscReal *const constants[] = {&m->voce_stress, &m->voce_rate, &m->swift_exponent};
+
+  for (size_t k = 0; k < sizeof(constants) / sizeof(constants[0]); k++)
+    if (isnan(*constants[k])) *constants[k] = 0;
+}
+
 static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBool *asked)
 {
   Plastic *const x = (Plastic *)law->data;
@@ -128,19 +187,19 @@ static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBo
                               2 * SAM_BACKSTRESSES, m->back, &m->count));
     PetscCheck(m->count % 2 == 0, from->comm, SAM_ERR_USER, "-%s%s: %" PetscInt_FMT " numbers: expected pairs C,g",
                SamOptionsPrefix(from), backstress[b], m->count);
+    PetscCall(SamOptionsNeed(from, m->count > 0 && !SamPrintHelp(), backstress[b], yielding[b]));
+    SetUnused(m);
     if (!isfinite(m->yield)) continue;
-    *asked = PETSC_TRUE;
-    if (m->hardening == SAM_HARDENING_SWIFT)
-      PetscCall(SamOptionsRequire(from, m->swift_strain > 0, b ? "body2_swift_strain" : "body1_swift_strain",
-                                  "strain e0 of Y (1 + p/e0)^n"));
-    law->option = b ? "body2_yield" : "body1_yield";
+    *asked      = PETSC_TRUE;
+    law->option = yielding[b];
   }
   law->bytes = BYTES * x->layers * BodiesOf(x);
-  if (*asked || SamPrintHelp()) PetscCall(SetLayers(x, law, from));
-  for (PetscInt b = 0; b < 2; b++)
-    if (isfinite(x->material[b].yield) || SamPrintHelp())
-      PetscCall(SamPlasticReadInitial(from, initial[b], x->material[b].yield, x->layers, x->thickness,
-                                      &x->material[b].initial));
+  PetscCall(SetLayers(x, law, from));
+  for (PetscInt b = 0; b < 2; b++) {
+    PetscCall(SamPlasticReadInitial(from, initial[b], yielding[b], law->grid, x->material[b].yield, x->layers,
+                                    x->thickness, &x->material[b].initial));
+    if (isfinite(x->material[b].yield)) PetscCall(CheckUnits(law, from, b));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -641,22 +700,24 @@ PetscErrorCode SamLawCreate_Plastic(SamLaw law)
   PetscFunctionBegin;
   PetscCall(PetscNew(&x));
   x->material[0].yield = x->material[1].yield = INFINITY;
-  x->rtol                                     = 1e-6;
-  x->layers                                   = 32;
-  law->data                                   = x;
-  law->heading                                = "Plastic strain below the surface";
-  law->rows                                   = rows;
-  law->row_count                              = (PetscInt)(sizeof(rows) / sizeof(rows[0]));
-  law->forbids_jumps                          = PETSC_TRUE;
-  law->ops.setfromoptions                     = SetFromOptions;
-  law->ops.addparameters                      = AddParameters;
-  law->ops.destroy                            = Destroy;
-  law->ops.declare                            = Declare;
-  law->ops.check                              = Check;
-  law->ops.begin                              = Begin;
-  law->ops.offset                             = AddOffset;
-  law->ops.follow                             = Follow;
-  law->ops.advance                            = Advance;
-  law->ops.view                               = View;
+  for (PetscInt b = 0; b < 2; b++)
+    x->material[b].voce_stress = x->material[b].voce_rate = x->material[b].swift_exponent = NAN;
+  x->rtol                 = 1e-6;
+  x->layers               = 32;
+  law->data               = x;
+  law->heading            = "Plastic strain below the surface";
+  law->rows               = rows;
+  law->row_count          = (PetscInt)(sizeof(rows) / sizeof(rows[0]));
+  law->forbids_jumps      = PETSC_TRUE;
+  law->ops.setfromoptions = SetFromOptions;
+  law->ops.addparameters  = AddParameters;
+  law->ops.destroy        = Destroy;
+  law->ops.declare        = Declare;
+  law->ops.check          = Check;
+  law->ops.begin          = Begin;
+  law->ops.offset         = AddOffset;
+  law->ops.follow         = Follow;
+  law->ops.advance        = Advance;
+  law->ops.view           = View;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -52,7 +52,7 @@ static PetscErrorCode CheckLaws(SamSimulation s, const SamOptions *from)
     PetscCheck(!laws[k]->needs_friction || s->needs.friction, from->comm, SAM_ERR_USER,
                "-%s is given without -friction, on which it acts: give -friction, or remove it", laws[k]->option);
     PetscCheck(!laws[k]->by_passages || s->needs.life || !SamMotionOf(s->setup.elasticity)->streams, from->comm,
-               SAM_ERR_USER, "-%s1 or 2 with -rolling steady is that of passages: give their number, -wear_cycles",
+               SAM_ERR_USER, "-%s with -rolling steady is that of passages: give their number, -wear_cycles",
                laws[k]->option);
     PetscCheck(!laws[k]->forbids_jumps || !s->needs.life, from->comm, SAM_ERR_USER,
                "-%s with -wear_cycles: cycle jumps ignore what it changes in skipped cycles: repeat the rows in "

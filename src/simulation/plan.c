@@ -52,7 +52,7 @@ static const SamOptionRow rows[ROWS] = {
   {"wear_type", "how cycles are jumped: implicit, or explicit", SAM_OPTION_ENUM, MEMBER(life.type),
    .words = "implicit,explicit", LIFE},
   {"wear_rtol", "relative error of depth and pressure per cycle jump; at most twice this", SAM_OPTION_REAL,
-   MEMBER(life.rtol), .range = SAM_RANGE_POSITIVE, LIFE},
+   MEMBER(life.rtol), .range = SAM_RANGE_PART, LIFE},
   {"wear_jump", "fixed jump length in cycles", SAM_OPTION_REAL, MEMBER(life.jump), .range = SAM_RANGE_POSITIVE, LIFE},
   {"wear_stop_layer", "end where the first layer of a body is worn through", SAM_OPTION_BOOL, MEMBER(stop_layer), LIFE},
   {"wear_output", "cycles whose fields are written, c[,c,...]; the last always", SAM_OPTION_STRING, MEMBER(outputs),

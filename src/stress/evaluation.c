@@ -139,6 +139,14 @@ static PetscErrorCode CheckConstants(SamEvaluation e)
   PetscCheck(e->materials == 1 || e->materials == materials || !e->cycle, e->comm, SAM_ERR_USER,
              "-fatigue: lists of %" PetscInt_FMT " constants for %" PetscInt_FMT " materials in depth: " SAM_ONE_EACH,
              e->materials, materials);
+  for (PetscInt m = 0; m < (e->materials > 1 ? materials : 1); m++) {
+    const double yield = (double)e->constants[m].yield;
+    const double young = (double)SamBodyMaterialAt(body, SamBodyTop(body, m + 1))->young;
+    char         why[160];
+
+    SamExplainStress(yield, young, SAM_LEAST_CONSTANT, INFINITY, why, sizeof(why));
+    PetscCheck(!why[0], e->comm, SAM_ERR_USER, "-fatigue_yield %.6g: %s", yield, why);
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

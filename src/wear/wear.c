@@ -52,6 +52,7 @@ static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBo
   (void)from;
   *asked = w->coefficient[0] + w->coefficient[1] > 0;
   for (int body = 0; body < 2; body++) law->of_body[body] = w->coefficient[body] > 0;
+  law->option = law->rows[w->coefficient[0] > 0 ? 0 : 1].name;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -263,8 +264,7 @@ static PetscErrorCode AddLoad(SamLaw law, SamLawStep *step)
   PetscFunctionBegin;
   if (SamMotionOf(law->elasticity)->streams) {
     PetscCheck(w->jumps, law->grid->comm, SAM_ERR_USER,
-               "-%s1 or 2: in steady rolling wear is that of passages, not of single steps: give -wear_cycles",
-               law->option);
+               "-%s: in steady rolling wear is that of passages, not of single steps: give -wear_cycles", law->option);
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(SamLawStepGetFriction(step, &path, w->by_energy ? NULL : &worn, w->by_energy ? &worn : NULL));
@@ -322,7 +322,7 @@ static PetscErrorCode Create(SamLaw law, PetscBool by_energy)
   PetscCall(PetscNew(&w));
   w->by_energy            = by_energy;
   law->data               = w;
-  law->option             = by_energy ? "wear_energy" : "wear_coefficient";
+  law->option             = rows[by_energy][0].name;
   law->heading            = by_energy ? NULL : "Wear";
   law->rows               = rows[by_energy];
   law->row_count          = 2;

@@ -63,8 +63,16 @@ def words(options):
 
 
 def flatten(options):
-    """Words of strings and dicts in any order."""
-    return [word for item in options for word in (words(item) if isinstance(item, dict) else [str(item)])]
+    """Words of strings and dicts in any order; an option of a dict gives way to the same one of a later item."""
+    line, later = [], set()
+    for item in reversed(options):
+        if isinstance(item, dict):
+            line = words({name: value for name, value in item.items() if name not in later}) + line
+            later |= {name for name, value in item.items() if value is not None}
+        else:
+            line = [str(item), *line]
+            later.add(str(item)[1:])
+    return line
 
 
 # ---------------------------------------------------------------- cases

@@ -243,6 +243,7 @@ def test_arrays_of_a_contact_are_taken_too(folder):
         (["--criteria", "crossland", "high.h5"], ["high.h5: crossland: the data are missing", "-fatigue crossland"], 3),
         (["--constant", "sigma_f=900", "high.h5"], ["sigma_f 900 Pa is outside 100000 to 1e+12 Pa", "SI units"], 2),
         (["--constant", "b=0.1", "high.h5"], ["b 0.1 is outside -1 to 0: give -0.1, with its sign"], 2),
+        (["--constant", "epsilon_f=60", "high.h5"], ["epsilon_f 60 is outside", "give a ratio, 0.6 for 60 percent"], 2),
         (["--constant", "sigma_e=1e9", "high.h5"], ["sigma_e is no constant", "is sigma_f meant"], 2),
         (["--criteria", "sswt", "high.h5"], ["sswt: is no criterion: is swt meant?"], 2),
         (["--counts", "3", "low.h5", "high.h5"], ["--counts: 2 files need as many numbers above 0"], 2),

@@ -256,7 +256,7 @@ def test_what_has_no_meaning_is_refused(petsam, options, complaint):
         (dict(load_tx=1e6), "load_tx = 1000000 N/m (limit "),
         (dict(load_my=1e6), "load_my = 1e+06 N m/m under load_n = "),
         (dict(load_my=1e6, load_n=0), "load_my = 1e+06 N m/m needs a normal force"),
-        (dict(pressure_limit=1, friction=0), "N/m exceeds the load that the whole grid carries"),
+        (dict(pressure_limit=1e6, friction=0), "N/m exceeds the load that the whole grid carries"),
     ],
 )
 def test_messages_about_loads_are_per_metre(petsam, options, says):

@@ -214,9 +214,9 @@ def test_quiet_says_nothing_and_computes_the_same(petsam, tmp_path):
 @pytest.mark.parametrize("ranks", [1, 3])
 def test_quiet_leaves_warnings_and_errors(petsam, ranks):
     small = ball(40, half_width=0.9)
-    done = petsam(small, "-quiet", "-allow_edge_contact", ranks=ranks)
+    done = petsam(small, "-quiet", "-output", "a.h5", "-allow_edge_contact", ranks=ranks)
     assert done.stdout == "" and len(done.complaint) == 1 and "warning" in done.complaint[0]
-    done = petsam(small, "-quiet", ranks=ranks, check=12)
+    done = petsam(small, "-quiet", "-output", "b.h5", ranks=ranks, check=12)
     assert len(done.complaint) == 1 and "edge" in done.complaint[0]
 
 

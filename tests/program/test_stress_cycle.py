@@ -291,6 +291,10 @@ REFUSED = [
     (dict(fatigue="crossland", steps="all"), "-fatigue_crossland_alpha is missing"),
     (dict(fatigue="fatemi_socie", fatigue_fatemi_socie_k=1, steps="all"), "-fatigue_yield is missing"),
     (dict(fatigue="fatemi_socie", fatigue_fatemi_socie_k=1, fatigue_yield=0, steps="all"), "-fatigue_yield"),
+    (
+        dict(fatigue="fatemi_socie", fatigue_fatemi_socie_k=1, fatigue_yield=600, steps="all"),
+        "of it: check the unit, Pa",
+    ),
     (dict(fatigue="findley", fatigue_findley_k=-1, steps="all"), "-fatigue_findley_k"),
     (dict(fatigue="swt,rain", steps="all"), "-fatigue swt,rain"),
     (dict(fatigue="swt"), "-fatigue needs the steps of a cycle"),

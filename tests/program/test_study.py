@@ -243,6 +243,11 @@ def test_a_file_of_any_option_is_found_and_its_change_noticed(tmp_path, option):
         ("t.yaml", "options:\n  a: 1\nparameters:\n  a: 1\n", "t.yaml: a: is both"),
         (
             "t.yaml",
+            "options:\n  load_n: '{a}'\nparameters:\n  a: '{b}'\n  b: 1\n  c: '{d}'\n  d: 1\n",
+            "t.yaml, line 6: parameters: c: nothing uses it; write {c} where its value belongs, or remove it",
+        ),
+        (
+            "t.yaml",
             "options:\n  load_n: [1, 2]\n  history: h.csv\nfiles:\n  h.csv: |\n    # N\n    time, load_n\n    1, 2\n",
             "t.yaml: load_n is an option and a column of h.csv: make it one of `parameters`",
         ),
@@ -506,6 +511,12 @@ def test_tables_hold_inputs_and_scalars_of_the_last_step(run, tmp_path):
             assert float(row["load_tx_end"]) == history["load_tx"][-1]
             assert np.isclose(float(row["dissipated_energy_sum"]), history["dissipated_energy"][:].sum(), rtol=1e-14)
             assert int(row["steps"]) == history["time"].size
+
+
+def test_other_cases_run_after_one_with_a_wrong_option(run, tmp_path, fake):
+    table(tmp_path, "code,load_tx\n2,1\n0,2\n0,3\n")
+    said = run("cases.csv", "--cores", 1, check=1, **fake)
+    assert len(runs(tmp_path)) == 3 and "3 cases: 2 finished, 1 failed" in said and "exit 2" in said
 
 
 def test_failures_are_listed_with_exit_code_and_message(run, tmp_path):

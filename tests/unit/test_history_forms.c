@@ -93,7 +93,7 @@ static void test_first_row_with_a_load_is_divided(void **state)
 }
 
 /* The history with options, and where they stand. */
-static SamHistory ReadWith(const char *options, char *given[], int givens)
+static SamHistory ReadWith(const char *options, SamArgument given[], int givens)
 {
   const SamArguments arguments = {.given = given, .givens = Rank() ? 0 : givens}; /* only rank 0 knows them */
   SamHistory         h;
@@ -106,15 +106,16 @@ static SamHistory ReadWith(const char *options, char *given[], int givens)
 
 static void test_columns_replace_the_values_of_an_options_file(void **state)
 {
-  char       given[4][48] = {"load_ty ",
-                             "load_n a.opts, line 1: ", "load_tx a.opts, line 2: ", "bulk1_stress_xx a.opts, line 3: "};
-  char      *names[]      = {given[0], given[1], given[2], given[3]};
-  SamHistory h;
-  SamControl step;
+  char        names[4][24]  = {"load_ty", "load_n", "load_tx", "bulk1_stress_xx"};
+  char        places[4][24] = {"", "a.opts, line 1: ", "a.opts, line 2: ", "a.opts, line 3: "};
+  SamArgument given[4];
+  SamHistory  h;
+  SamControl  step;
 
   (void)state;
+  for (int k = 0; k < 4; k++) given[k] = (SamArgument){.name = names[k], .place = places[k]};
   Write("time,load_n,disp_x,bulk1_stress_xx\n1,7,2e-6,5\n2,8,3e-6,6\n");
-  h    = ReadWith("-history test_history.csv -load_n 1000 -load_tx 60 -load_ty 4 -bulk1_stress_xx 99", names, 4);
+  h    = ReadWith("-history test_history.csv -load_n 1000 -load_tx 60 -load_ty 4 -bulk1_stress_xx 99", given, 4);
   step = StepOf(h, 0);
   sam_assert(step.value[SAM_COMPONENT_N] == 7 && step.value[SAM_COMPONENT_TX] == 2e-6);
   sam_assert(!step.force[SAM_COMPONENT_TX] && ConditionOf(&step, "bulk1_stress_xx") == 5);
@@ -124,8 +125,9 @@ static void test_columns_replace_the_values_of_an_options_file(void **state)
 
 static void test_columns_do_not_replace_what_is_given_for_this_run(void **state)
 {
-  char               given[] = "Load_N ", *names[] = {given};
-  const SamArguments arguments = {.given = names, .givens = Rank() ? 0 : 1};
+  char               name[] = "Load_N", place[] = "";
+  SamArgument        given     = {.name = name, .place = place};
+  const SamArguments arguments = {.given = &given, .givens = Rank() ? 0 : 1};
   SamHistory         h         = NULL;
   PetscErrorCode     ierr;
 

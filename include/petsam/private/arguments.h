@@ -6,6 +6,13 @@
 
 #define SAM_ARGUMENTS_FILES 64 /* most options files */
 
+/* An option that is given. */
+typedef struct {
+  char *name, *place; /* without dash; in a file "file, line n: ", else "" */
+  char *value;        /* "": none */
+  int   source;       /* the same of all in one file, or in one text of words */
+} SamArgument;
+
 typedef struct _n_SamArguments {
   PetscBool      help, version;
   char           topic[64];    /* words after -help, "": none */
@@ -13,8 +20,9 @@ typedef struct _n_SamArguments {
   char           message[512]; /* that says what it is */
   char          *files[SAM_ARGUMENTS_FILES];
   int            count; /* of the options files, which must not be overwritten; known to rank 0 */
-  char         **given; /* the options: name, a space, and in a file "file, line n: "; known to rank 0 */
-  int            givens;
+  SamArgument   *given; /* known to rank 0, */
+  int            givens, sources;
+  char           warning[512]; /* as is what may not be meant; "": nothing */
 } SamArguments;
 
 /*

@@ -142,6 +142,13 @@ PETSC_INTERN void SamExplainNumber(const char text[], const char help[], char wh
 PETSC_INTERN PetscBool SamReadReal(const char help[], const char text[], const char **end, double *value,
                                    PetscBool *unit);
 PETSC_INTERN void      SamListUnits(const char help[], char list[], size_t size);
+/*
+  SamExplainStress - why the unit of a stress, or of a modulus, is likely to be wrong, to be appended to its value: its
+  ratio to Young's modulus (both Pa) is less than `least` without being 0, or more than `most`; empty: it is neither, or
+  the body is rigid.
+*/
+#define SAM_LEAST_CONSTANT 1e-6 /* of a material's constants, which are more in solids */
+PETSC_INTERN void SamExplainStress(double stress, double young, double least, double most, char why[], size_t size);
 
 /* ---- checksums ---- */
 

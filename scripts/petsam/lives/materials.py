@@ -25,11 +25,11 @@ CONSTANTS = {
     "poisson": Constant("1", -1.0, 0.5, "Poisson's ratio (the file's)"),
     "sigma_f": Constant(*STRESS, "fatigue strength coefficient"),
     "b": Constant("1", -1.0, 0.0, "fatigue strength exponent"),
-    "epsilon_f": Constant("1", 1e-5, 100.0, "fatigue ductility coefficient"),
+    "epsilon_f": Constant("1", 1e-5, 10.0, "fatigue ductility coefficient"),
     "c": Constant("1", -2.0, 0.0, "fatigue ductility exponent"),
     "tau_f": Constant(*STRESS, "the same four in shear: strength coefficient"),
     "b0": Constant("1", -1.0, 0.0, "its exponent"),
-    "gamma_f": Constant("1", 1e-5, 100.0, "ductility coefficient"),
+    "gamma_f": Constant("1", 1e-5, 10.0, "ductility coefficient"),
     "c0": Constant("1", -2.0, 0.0, "its exponent"),
     "ultimate": Constant(*STRESS, "ultimate strength: Goodman's correction of the S-N life"),
     "findley_limit": Constant(*STRESS, "value of Findley's parameter at the fatigue limit"),
@@ -52,6 +52,8 @@ def checked(name, value, where):
         raise Error(f"{where}: {name} {short(value)} is not a number; give it in SI units, without a unit") from None
     if not one.low < number < one.high:
         cure = "; give it in SI units" if unit else ""
+        if one.unit == "1" and 0 < one.low < number / 100 < one.high:  # a strain in percent
+            cure = f": give a ratio, {number / 100:g} for {number:g} percent"
         if one.low < -number < one.high:  # tables of materials also have exponents without their sign
             cure = f": give {-number:g}, with its sign"
         raise Error(f"{where}: {name} {number:g}{unit} is outside {one.low:g} to {one.high:g}{unit}{cure}")

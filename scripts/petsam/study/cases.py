@@ -22,7 +22,7 @@ from typing import NamedTuple
 
 from ..errors import Error, short
 from ..files import need_regular
-from .expressions import Expander
+from .expressions import Expander, names_in
 from .reading import TableError, read_csv, read_yaml
 
 # options that name files which are read; -load_history is another spelling of -history
@@ -172,9 +172,28 @@ def _need_few(path, count):
         raise TableError(f"{path}: {count:.6g} cases; use at most {CASES}")
 
 
+def _check_used(path, table):
+    """Error where nothing uses a parameter: its values would make no difference between cases."""
+    texts = [text for values in table.options.values() for text in values]
+    texts += [*table.files.values(), *table.stress.values(), table.ranks]
+    texts += [f"{{{expression}}}" for expression in table.results.values()]
+    used, waiting = {"ranks"}, names_in(texts)
+    while waiting:
+        name = waiting.pop()
+        used.add(name)
+        waiting |= names_in(table.parameters.get(name, ())) - used
+    for name in table.parameters:
+        if name not in used:
+            raise TableError(
+                f"{path}, line {table.lines[name]}: parameters: {name}: nothing uses it; write {{{name}}} where its "
+                "value belongs, or remove it"
+            )
+
+
 def _yaml_cases(path, common):
     """The same of each combination; expressions may use the common options, too."""
     table = read_yaml(path)
+    _check_used(path, table)
     choices = {**table.parameters, **table.options}
     choices.update({name: [value] for name, value in common.items() if name in table.options})
     count = math.prod(len(values) for values in choices.values())

@@ -92,6 +92,12 @@ def check(expression):
             raise
 
 
+def names_in(texts):
+    """Set of the names in the {expressions} of some texts; None has none."""
+    expressions = [expression for text in texts for expression in re.findall(r"\{([^{}]*)\}", text or "")]
+    return {name for expression in expressions for name in re.findall(r"[A-Za-z_]\w*", expression)}
+
+
 class Expander:
     """Replaces {expressions} by values of names, which may hold expressions themselves."""
 
