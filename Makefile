@@ -58,6 +58,7 @@ HEADERS := include/petsam.h $(sort $(wildcard include/petsam/*.h include/petsam/
 .SECONDARY:
 
 all: $(PROGRAMS:%=$(B)/bin/%) $(B)/lib/libpetsam.a $(B)/lib/libpetsam.so ## build the program and the libraries
+	@mkdir -p $(B)/run # where the commands of the pages write
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 18
