@@ -125,7 +125,16 @@ def test_the_rows_of_a_table_have_been_printed():
 
 # ---------------------------------------------------------------- the root of the repository
 
-AT_ROOT = {".clang-format", ".gitignore", ".ruff.toml", "CHANGES.md", "CITATION.cff", "LICENSE", "Makefile", "README.md"}
+AT_ROOT = {
+    ".clang-format",
+    ".gitignore",
+    ".ruff.toml",
+    "CHANGES.md",
+    "CITATION.cff",
+    "LICENSE",
+    "Makefile",
+    "README.md",
+}
 WRITING = r"(?:-output|--output|-o|-d|--directory|-checkpoint|--csv|>>?) +([^\s'\"]+)"
 
 
@@ -158,7 +167,12 @@ def test_no_command_of_the_pages_writes_to_the_root(file):
 
 
 def test_a_command_that_writes_to_the_root_is_found():
-    for command in "petsam -output a.h5", "scripts/petsam-plot build/run/a.h5", "seq 5 > a.csv", "petsam -checkpoint a.h5":
+    for command in (
+        "petsam -output a.h5",
+        "scripts/petsam-plot build/run/a.h5",
+        "seq 5 > a.csv",
+        "petsam -checkpoint a.h5",
+    ):
         assert writes_to_root(command), command
     assert not writes_to_root("scripts/petsam-plot -o build/run/a.png build/run/a.h5")
 
