@@ -56,7 +56,7 @@ static PetscErrorCode Declare(SamContact c, const char name[], const char unit[]
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Declares loads and displacements of the six components, and the other conditions (offered as columns if they vary). */
+/* Declares the loads and displacements, and the other conditions, which are offered as columns if they vary. */
 static PetscErrorCode DeclareControl(SamContact c)
 {
   PetscFunctionBegin;
