@@ -84,7 +84,7 @@ def test_an_environment_with_the_wheel_alone_solves_the_first_contact_of_the_REA
     package, pressure, libraries = shell(f'"{fresh}/bin/python" -c "{code}"', tmp_path).splitlines()
     assert package.startswith(str(fresh)) and set(libraries.split()) == {str(next(fresh.glob("lib/libpetsam.so.*.?")))}
     assert np.isclose(float(pressure), result["pressure_max"], rtol=1e-12)
-    for tool in ("petsam-plot --maps -o maps.png *.h5", "petsam-surface --help", "petsam-stress --version"):
+    for tool in ("petsam-plot --maps -o maps.png build/run/*.h5", "petsam-surface --help", "petsam-stress --version"):
         shell(tool, tmp_path, PATH=path)
     assert (tmp_path / "maps.png").exists()
 
