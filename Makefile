@@ -58,6 +58,7 @@ HEADERS := include/petsam.h $(sort $(wildcard include/petsam/*.h include/petsam/
 .SECONDARY:
 
 all: $(PROGRAMS:%=$(B)/bin/%) $(B)/lib/libpetsam.a $(B)/lib/libpetsam.so ## build the program and the libraries
+	@mkdir -p $(B)/run # where the commands of the pages write
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 18
@@ -112,6 +113,7 @@ bench: all bench-programs venv peers ## run the benchmark, or go on with an unfi
 	$(PYTHON) tests/bench/benchmark.py --build $(B) --out $(B)/bench/report $(ARGS)
 	$(B)/venv/bin/python tests/bench/edges.py --build $(B)
 	$(PYTHON) tests/bench/rolling.py --build $(B)
+	[ ! -e $(B)/peers/done ] || $(PYTHON) tests/bench/paired.py --build $(B)
 	$(if $(CONTACT),$(B)/venv/bin/python tests/bench/contact.py --build $(B) --contact '$(CONTACT)')
 
 # the programs that the benchmark compares with, built for this processor; the benchmark also runs without them

@@ -11,7 +11,7 @@ compared. Other blocks are text. A comment above a block or a table adds conditi
     <!-- slow: how long -->       it runs with --all only
     <!-- exit code 12 -->         its last command ends so, instead of with 0
     <!-- in this folder -->       it runs in the folder of its file, after make install prefix=$HOME/petsam
-    <!-- file: NAME -->           the text below is saved under this name
+    <!-- file: NAME -->           the text below is saved under this name, in build/run
     <!-- printed -->              what ran in this file has printed the figures of the table below, or the lines of the
                                   text, in which ... stands for anything. Figures agree when they differ by at most one
                                   in the last digit that is written; those below 1e-11 are left by rounding.
@@ -24,7 +24,7 @@ and one that stands for itself:
     <!-- run: COMMAND -->         runs a command whose text is in a paragraph; <!-- slow run: COMMAND --> with --all
     <!-- after: FILE, ... -->     those files are checked first; what they make and print is there
 
-Exit code 1 when a command ends otherwise, or a figure differs.
+Exit code 1 when a command ends otherwise or writes to the root of the repository, or a figure differs.
 """
 
 import argparse
@@ -173,7 +173,7 @@ class Checker:
             if name and (ROOT / name).is_file():
                 (self.tree / name).parent.mkdir(parents=True, exist_ok=True)
                 shutil.copy2(ROOT / name, self.tree / name)
-        (self.tree / "build").mkdir(parents=True)
+        (self.tree / "build/run").mkdir(parents=True)
         for name in ("bin", "lib", "obj", "venv", "bench", "peers"):
             if (build / name).exists():
                 (self.tree / "build" / name).symlink_to(build / name)
@@ -256,6 +256,14 @@ class Checker:
         return output
 
     def run_piece(self, file, piece, earlier):
+        """What a piece prints; a failure if it leaves anything new in the tree's root."""
+        before = {path.name for path in self.tree.iterdir()}
+        said = self.run_kind(file, piece, earlier)
+        if new := sorted({path.name for path in self.tree.iterdir()} - before):
+            self.fail(file, piece, f"writes to the root of the repository, not to build/run: {', '.join(new)}")
+        return said
+
+    def run_kind(self, file, piece, earlier):
         """What a piece prints; nothing, of a table or a text."""
         if piece.kind in ("run", "slow run"):
             return self.run(file, piece, piece.text)

@@ -40,7 +40,7 @@
 #define NARROW    0.1  /* part of the contact's cells whose zones, the narrowest, do not count */
 #define ROOM      1.5  /* width of a good grid over that of the contact */
 #define MARGIN    1.1  /* width of a sufficient grid over that of the contact, */
-#define BORDER    4    /* and so many cells more */
+#define BORDER    4    /* and its margin in cells */
 #define SAME      2    /* cells by which two widths may differ that are counted or computed */
 #define ABSURD    4096 /* cells in a row of a grid that wrong units may ask for */
 #define BLIND     0.98 /* pressure at the edge over the largest, above which the pressure does not tell the size */
@@ -363,7 +363,7 @@ static void Cells(SamAdvice *a)
     (void)snprintf(spots, sizeof(spots), "the contact is %s%.3g cells across (%s), fewer than %d", zones,
                    (double)extent->across, size, FEW_CELLS);
   if (steep)
-    (void)snprintf(peak, sizeof(peak), "the peak pressure is not resolved, about %.0f %% %s on cells half as wide%s",
+    (void)snprintf(peak, sizeof(peak), "the peak pressure is not resolved, about %.0f %% %s at half the cell size%s",
                    100 * fabs((double)extent->change), extent->change > 0 ? "higher" : "lower",
                    sharp ? ", and further on finer ones, as at a sharp edge" : "");
   /* a grid that is enough for the number of cells alone is named after it */

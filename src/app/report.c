@@ -338,7 +338,7 @@ static PetscErrorCode AddFile(SamReport r, const char name[], const char content
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What is said in words. */
+/* Prints a message. */
 static PetscErrorCode Say(SamReport r, const SamSimulationNews *news)
 {
   PetscFunctionBegin;

@@ -56,7 +56,7 @@ static PetscErrorCode Declare(SamContact c, const char name[], const char unit[]
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What is given and found of the six components, and what else is given, which is offered where it varies. */
+/* Declares the loads and displacements, and the other conditions, which are offered as columns if they vary. */
 static PetscErrorCode DeclareControl(SamContact c)
 {
   PetscFunctionBegin;

@@ -77,7 +77,7 @@ static void Solve(const double L[PRODUCTS], double b[TERMS])
   }
 }
 
-/* Adds the products of those of n cells of a row that the fit goes by; returns their number. */
+/* Adds the normal equations of the row's n cells that take part in the fit; returns their number. */
 SAM_VECTORIZED static PetscInt AddProducts(PetscInt n, const signed char *distance, int least,
                                            const double (*restrict products)[PRODUCTS], double *restrict sums)
 {

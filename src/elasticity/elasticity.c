@@ -281,7 +281,7 @@ PetscErrorCode SamElasticityAddParameters(SamElasticity e, SamParameters *p)
   PetscFunctionBegin;
   PetscCall(SamPairAddParameters(e->pair, p));
   for (; e->wraps; e = e->inner)
-    if (e->ops.addparameters) PetscCall((*e->ops.addparameters)(e, p)); /* options of their own tell these types */
+    if (e->ops.addparameters) PetscCall((*e->ops.addparameters)(e, p)); /* wrappers are recorded by their options */
   PetscCall(SamParametersAddText(p, "elasticity", PETSC_TRUE, e->type));
   if (e->inner) PetscCall(SamParametersAddText(p, "elasticity_inner", PETSC_TRUE, e->inner->type));
   for (; e; e = e->inner)

@@ -282,7 +282,7 @@ static int Take(const char filename[], SamFileUse use, SamFileLock *hold)
     return error;
   }
   error = CheckContent(hold->file, use);
-  if (error) hold->use = SAM_FILE_RESULTS; /* somebody's file: not removed */
+  if (error) hold->use = SAM_FILE_RESULTS; /* not created by petsam: keep */
   if (!error) error = Reserve(hold->file, SAM_FILE_METADATA, PETSC_FALSE);
   if (error) SamFileLockRelease(filename, hold);
   return error;

@@ -103,7 +103,7 @@ static PetscErrorCode RefuseThin(const SamOptions *from, const PetscInt n[2], co
           SamOptionsPrefix(from), numbers, SamOptionsPrefix(from));
 }
 
-/* One row of cells, of a width of 1 m: what is given along y counts for nothing but a number of cells. */
+/* Makes one row of cells, 1 m wide; the y values of -grid_size and -grid_center are ignored. */
 static PetscErrorCode TakeRow(const SamOptions *from, PetscInt n[2], PetscReal width[2], PetscReal center[2])
 {
   PetscFunctionBegin;

@@ -73,8 +73,8 @@ static const struct {
 /* The solution that was found, where there may be several. */
 static const SamStateNumber branch = {"friction_mean",
                                       "1",
-                                      "mean coefficient of friction of the solution next to friction at rest: others "
-                                      "may exist",
+                                      "mean coefficient of friction (solution branch continued from rest; others may "
+                                      "exist)",
                                       SAM_NUMBER_REAL,
                                       1,
                                       PETSC_FALSE,

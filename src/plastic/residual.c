@@ -124,6 +124,11 @@ static PetscErrorCode CheckBodies(SamElasticity e, PetscInt body)
   const SamElasticityType type = SamElasticityGetType(e);
 
   PetscFunctionBegin;
+  PetscCheck(strcmp(type, SAM_ELASTICITY_PLANE), e->grid->comm, SAM_ERR_USER,
+             "-body%" PetscInt_FMT
+             "_yield: not supported with -elasticity %s: use -elasticity %s, on a grid some ten times "
+             "as wide as the contact",
+             body, type, SAM_ELASTICITY_PLANE_PERIODIC);
   PetscCheck(!strcmp(type, SAM_ELASTICITY_HALFSPACE) || !strcmp(type, SAM_ELASTICITY_PERIODIC) ||
                !strcmp(type, SAM_ELASTICITY_PLANE_PERIODIC),
              e->grid->comm, SAM_ERR_USER, "-body%" PetscInt_FMT "_yield: not supported with bodies of type %s", body,

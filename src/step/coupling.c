@@ -34,7 +34,7 @@
 #define EXACT 1e-5
 /* Passes in a row that may end without it before. */
 #define PATIENCE 2
-/* After so many passes without a smaller error, first and then, the shear is solved this much more accurately. */
+/* Passes without progress before the tangential tolerance is tightened, first and later, and the factor on it. */
 #define WAITS      8
 #define WAITS_NEXT 4
 #define SHARPER    0.01

@@ -19,12 +19,12 @@
   prescribed of it and the gap are the same (SamControlSnap() has made what differs by rounding the same).
 
   A step is recognised by what it prescribes and what the step before did, not by its number. It replaces the last but
-  one that it repeats, and where the memory is full the last one. Steps that repeat none then replace the oldest ones,
-  and those whose like is not kept are not either: of a cycle that does not fit, the part that does is used again and
-  again. Changes are stored on the contact's part of
-  each row, as integers in units of 2^-30 of their largest value, four times as accurate as floats of the same size. All
-  decisions are those of global numbers: the same on any number of ranks. So are the bytes that a cache may take, a rule
-  of the grid, and all that is kept is in checkpoints (io/kept.c): a restart has the same bits, on any machine.
+  one that it repeats, and where the memory is full the last one. A step that repeats none then replaces the oldest
+  one, and a step without a kept counterpart is not stored: of a cycle that does not fit, the part that does is used
+  again and again. Changes are stored on the contact's part of each row, as integers in units of 2^-30 of their
+  largest value, four times as accurate as floats of the same size. All decisions are those of global numbers: the
+  same on any number of ranks. So are the bytes that a cache may take, a rule of the grid, and all that is kept is in
+  checkpoints (io/kept.c): a restart has the same bits, on any machine.
 
   All that is the same on all ranks is one table: a row for each step, the oldest first, after a row of the cache's own.
 */
@@ -32,7 +32,7 @@
 #include <math.h>
 #include <petsam/private/tangentialimpl.h>
 
-/* What was prescribed in so many of the last steps is remembered, half of them when the table is full. */
+/* Length of the history of prescriptions that is searched for a repetition; half of it when the table is full. */
 #define STEPS 1024
 /* Numbers that differ by less, relative to the largest of their kind so far, prescribe the same. */
 #define SAME 1e-9

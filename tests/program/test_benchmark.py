@@ -14,6 +14,8 @@ import support
 
 sys.path.insert(0, str(support.ROOT / "tests" / "bench"))
 import benchmark  # noqa: E402
+import paired  # noqa: E402
+import peer  # noqa: E402
 import problem  # noqa: E402
 import scaling  # noqa: E402
 
@@ -169,6 +171,28 @@ def test_loads_other_than_contact_s_fail(tmp_path):
     program.chmod(0o755)
     done = rolling(tmp_path, build=build)
     assert done.returncode == 1 and "T_x differs from CONTACT's on [64, 128] cells" in done.stderr
+
+
+@pytest.mark.parametrize("n, first, last", [(6, 0, 5), (9, 1, 7), (20, 5, 14)])
+def test_interval_of_a_median_is_that_of_order_statistics(n, first, last):
+    """It holds the median of the values with 95 %: by the binomial distribution, tabulated."""
+    assert paired.interval(list(range(n - 1, -1, -1))) == (first, last)
+
+
+def test_aspher_is_measured_on_the_periodic_plane():
+    assert peer.cannot("aspher", "periodic") is None and peer.settings("aspher", "periodic") == ["aspher periodic"]
+    assert "aspher periodic" not in peer.settings("aspher", "rough")
+
+
+@pytest.mark.skipif(not (BUILD / "peers/bin/python").exists(), reason="no other programs: make peers")
+def test_pair_is_measured_by_turns(tmp_path):
+    script = support.ROOT / "tests/bench/paired.py"
+    words = [sys.executable, script, "--build", BUILD, "--out", tmp_path, "--cells", "64"]
+    done = subprocess.run(list(map(str, words)), capture_output=True, text=True, timeout=300, env=ENVIRONMENT)
+    assert done.returncode == 0, done.stdout + done.stderr
+    (found,) = json.loads((tmp_path / "paired.json").read_text())["results"]
+    assert len(found["runs"]) == 6 and max(found["errors"].values()) <= benchmark.EXACT
+    assert "| 64² | ratio, with its interval |" in done.stdout
 
 
 def test_unknown_case_is_refused():

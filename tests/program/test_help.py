@@ -46,6 +46,12 @@ def test_topics_are_those_of_the_manual(ask):
     assert re.findall(r"`(\w+)`", listed) == topics
 
 
+def test_topics_name_no_types_that_only_the_tests_add(ask):
+    added = re.findall(r'define SAM_\w+ "(\w{5,})"', (ROOT / "tests/unit/methods/methods.h").read_text())
+    assert "polonskykeer" in added
+    assert not set(added) & set(re.findall(r"\w+", " ".join(topic["text"] for topic in described(ask)["topics"])))
+
+
 def test_every_option_is_in_one_topic(ask):
     whole = described(ask)
     every = options_in(ask("-help").stdout)

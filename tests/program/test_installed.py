@@ -31,6 +31,7 @@ def tree(tmp_path):
         shutil.copytree(ROOT / name, tree / name, ignore=shutil.ignore_patterns("__pycache__"))
     shutil.copy(ROOT / "Makefile", tree)  # by which the examples know the sources
     (tree / "build" / "bin").mkdir(parents=True)
+    (tree / "build" / "run").mkdir()
     (tree / "build" / "bin" / "petsam").symlink_to(PROGRAM)
     python = tree / "build" / "venv" / "bin" / "python"
     python.parent.mkdir(parents=True)
@@ -110,12 +111,12 @@ def test_five_commands_lead_from_a_clone_to_a_plotted_loop(tree):
     assert commands[2].startswith("make ") and {"all", "venv"} <= set(commands[2].split())
     for command in commands[3:]:
         shell(command.replace(" -grid_n 256", " -grid_n 48"), tree)
-    assert (tree / "loop.png").stat().st_size > 10000
+    assert (tree / "build/run/loop.png").stat().st_size > 10000
 
 
 def test_run_with_a_time_limit_goes_on_from_its_checkpoint(tree):
     first, again = blocks("examples/LOADS.md", "Checkpoints")
-    assert first.endswith("-max_walltime 0:01") and again.endswith("-max_walltime 10:00 -restart state.h5")
+    assert first.endswith("-max_walltime 0:01") and again.endswith("-max_walltime 10:00 -restart build/run/state.h5")
     assert again.startswith(first.replace("0:01", "10:00"))
     shell(first.replace(" -grid_n 256", " -grid_n 64").replace("0:01", "0.1"), tree, check=75)
     shell(again.replace(" -grid_n 256", " -grid_n 64"), tree)

@@ -72,7 +72,8 @@ def test_what_the_pages_name_is_there_after_import_petsam_alone():
 
 
 def test_the_snippets_of_the_page_of_the_scripts_run(path, tmp_path):
-    (tmp_path / "pad.h5").symlink_to(path)
+    (tmp_path / "build/run").mkdir(parents=True)
+    (tmp_path / "build/run/pad.h5").symlink_to(path)
     blocks = re.findall(r"```python\n(.*?)```", (SCRIPTS / "README.md").read_text(), re.DOTALL)
     assert blocks
     for block in blocks:

@@ -123,6 +123,60 @@ def test_the_rows_of_a_table_have_been_printed():
     assert check_readmes.missing(["40", "-50", "+40", "50"], [-40.0, 50.0]) == ["-50", "+40"]
 
 
+# ---------------------------------------------------------------- the root of the repository
+
+AT_ROOT = {
+    ".clang-format",
+    ".gitignore",
+    ".ruff.toml",
+    "CHANGES.md",
+    "CITATION.cff",
+    "LICENSE",
+    "Makefile",
+    "README.md",
+}
+WRITING = r"(?:-output|--output|-o|-d|--directory|-checkpoint|--csv|>>?) +([^\s'\"]+)"
+
+
+def test_no_results_and_nothing_else_unexpected_are_in_git():
+    listed = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True)
+    if listed.returncode:
+        pytest.skip("no repository of git")
+    names = listed.stdout.splitlines()
+    assert [name for name in names if name.endswith(".h5") and not name.startswith("tests/")] == []
+    assert {name for name in names if "/" not in name} == AT_ROOT
+
+
+def commands(file):
+    """The commands of a page that run in the repository's root, continued lines joined."""
+    for piece in check_readmes.read_pieces(file.read_text()):
+        if piece.kind in ("sh", "run", "slow run") and not {"in this folder", "not run"} & set(piece.marks):
+            yield from piece.text.replace("\\\n", " ").splitlines()
+
+
+def writes_to_root(command):
+    """Whether a command writes to the current folder, by name or by the default of its tool."""
+    named = re.findall(WRITING, command)
+    by_default = re.search(r"\bpetsam-(?:plot|study|fatigue|surface|compliance) ", command) and not named
+    return bool(by_default) or not all("/" in name for name in named)
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda file: str(file.relative_to(ROOT)))
+def test_no_command_of_the_pages_writes_to_the_root(file):
+    assert [command for command in commands(file) if writes_to_root(command)] == []
+
+
+def test_a_command_that_writes_to_the_root_is_found():
+    for command in (
+        "petsam -output a.h5",
+        "scripts/petsam-plot build/run/a.h5",
+        "seq 5 > a.csv",
+        "petsam -checkpoint a.h5",
+    ):
+        assert writes_to_root(command), command
+    assert not writes_to_root("scripts/petsam-plot -o build/run/a.png build/run/a.h5")
+
+
 @pytest.fixture
 def checked(tmp_path, monkeypatch):
     """checked(text, every=False): differences of a file, and what its commands left in the copy."""
@@ -139,18 +193,19 @@ def checked(tmp_path, monkeypatch):
 
 def test_commands_run_where_and_when_they_should(checked):
     failures, tree = checked(
-        "<!-- file: a.txt -->\n```text\n12.5\n```\n\n```sh\ncat a.txt > b.txt\ncat b.txt\n```\n"
-        "<!-- printed -->\n```text\n12.5\n```\n<!-- not run: why -->\n```sh\ntouch c\n```\n"
-        "<!-- slow: years -->\n```sh\ntouch d\n```\n<!-- exit code 3 -->\n```sh\nexit 3\n```\n"
-        "text\n<!-- run: touch e -->\n"
+        "<!-- file: build/run/a.txt -->\n```text\n12.5\n```\n\n```sh\ncd build/run\ncat a.txt > b.txt\ncat b.txt\n```\n"
+        "<!-- printed -->\n```text\n12.5\n```\n<!-- not run: why -->\n```sh\ntouch build/run/c\n```\n"
+        "<!-- slow: years -->\n```sh\ntouch build/run/d\n```\n<!-- exit code 3 -->\n```sh\nexit 3\n```\n"
+        "text\n<!-- run: touch build/run/e -->\n"
     )
-    assert failures == 0 and sorted(path.name for path in tree.glob("?*")) == ["a.txt", "b.txt", "build", "e"]
+    assert failures == 0 and sorted(path.name for path in tree.glob("build/run/*")) == ["a.txt", "b.txt", "e"]
 
 
 @pytest.mark.parametrize(
     "text",
     [
         "```sh\nfalse\ntrue\n```\n",
+        "```sh\ntouch loop.h5\n```\n",
         "<!-- exit code 3 -->\n```sh\ntrue\n```\n",
         "```sh\necho 2\n```\n<!-- printed -->\n```text\n4\n```\n",
         "```sh\necho 2\n```\n<!-- printed -->\n| a |\n| - |\n| 4 |\n",

@@ -11,7 +11,7 @@ from petsam.closed.punch import Punch, punch_pressure, punch_radius
 E_STAR = 110e9
 BODIES = dict(body1_young=2 * E_STAR, body1_poisson=0.0, body2_young=2 * E_STAR, body2_poisson=0.0)
 LIMIT = 0.05  # change of the peak that is to be warned of
-SAID = re.compile(r"the peak pressure is not resolved, about (\d+) % (higher|lower) on cells half as wide")
+SAID = re.compile(r"the peak pressure is not resolved, about (\d+) % (higher|lower) at half the cell size")
 
 
 def peak(done):
@@ -112,7 +112,7 @@ def test_sharp_edge_is_resolved_by_no_grid(petsam):
     case = dict(case, grid_n=49, grid_size=2e-3)
     done = [petsam(case, ranks=ranks).complaint for ranks in (1, 2, 3)]
     assert len(done[0]) == 1 and done[1] == done[0] == done[2]
-    assert done[0][0].endswith("% higher on cells half as wide, and further on finer ones, as at a sharp edge")
+    assert done[0][0].endswith("% higher at half the cell size, and further on finer ones, as at a sharp edge")
     assert not petsam(case, dict(pressure_limit=1.5e6)).complaint
 
 

@@ -71,8 +71,9 @@ def fresh(wheel, tmp_path):
 def test_an_environment_with_the_wheel_alone_solves_the_first_contact_of_the_README(fresh, tmp_path):
     path = f"{fresh}/bin:{os.environ['PATH']}"
     command = "mpirun --oversubscribe -n 2 petsam -grid_n " + re.sub(r"^\d+", "64", FIRST.group(1))
+    (tmp_path / "build/run").mkdir(parents=True)
     assert "check" in shell(command, tmp_path, PATH=path)
-    result = Results(next(tmp_path.glob("*.h5")))
+    result = Results(next(tmp_path.glob("build/run/*.h5")))
     assert np.isclose(result["load_n"], 1000, rtol=1e-12) and result.pressure.shape == (64, 64)
     # the same contact in process, by the library of the wheel
     code = (
@@ -83,7 +84,7 @@ def test_an_environment_with_the_wheel_alone_solves_the_first_contact_of_the_REA
     package, pressure, libraries = shell(f'"{fresh}/bin/python" -c "{code}"', tmp_path).splitlines()
     assert package.startswith(str(fresh)) and set(libraries.split()) == {str(next(fresh.glob("lib/libpetsam.so.*.?")))}
     assert np.isclose(float(pressure), result["pressure_max"], rtol=1e-12)
-    for tool in ("petsam-plot --maps -o maps.png *.h5", "petsam-surface --help", "petsam-stress --version"):
+    for tool in ("petsam-plot --maps -o maps.png build/run/*.h5", "petsam-surface --help", "petsam-stress --version"):
         shell(tool, tmp_path, PATH=path)
     assert (tmp_path / "maps.png").exists()
 

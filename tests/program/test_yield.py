@@ -237,7 +237,7 @@ REFUSED = [
     (dict(body2_hardening="swift"), "-body2_swift_strain is missing"),
     (dict(body2_backstress="1,2,3"), "3 numbers: expected pairs C,g"),
     (dict(bulk2_stress_xx=1e-4), "bulk2_stress_xx"),
-    (dict(elasticity="plane", grid_n=8), "not supported with bodies of type plane"),
+    (dict(elasticity="plane", grid_n=8), "use -elasticity plane_periodic"),
 ]
 
 
@@ -263,3 +263,26 @@ def test_strain_that_is_not_resolved_is_warned_of(petsam, more, words):
         case.update(grid_size=(width, width), plastic_depth=100 * case["plastic_depth"], load_n=6e6 * LOAD)
     said = [line for line in petsam(case).complaint if "plastic strain" in line]
     assert len(said) == len(words) and all(word in line for word, line in zip(words, said))
+
+
+# ---------------------------------------------------------------- plane strain
+
+
+def cylinder(rows, **more):
+    """A rigid cylinder of radius 1 m with twice the pressure of first yield of a sphere, on a wide period."""
+    half = 4 * PEAK * 0.91  # of the elastic contact
+    width = 10 * half
+    case = sphere(96, 8, grid_n=(96, rows), grid_size=(width, rows * width / 96), plastic_depth=3 * half)
+    case = {name: value for name, value in case.items() if not name.startswith("gap_radius")}
+    length = rows * width / 96 if rows > 1 else 1
+    load = math.pi * (2 * PEAK) ** 2 * 0.91 * length
+    return dict(case, gap_type="ellipsoid", gap_radius_x=1, gap_radius_y="inf", load_n=load, **more)
+
+
+def test_plane_strain_yields_as_one_period(solve):
+    """As four rows of periodic bodies do."""
+    row = all_steps(solve(dict(cylinder(1, elasticity="plane_periodic"), grid_n=96)))
+    four = all_steps(solve(cylinder(4, elasticity="periodic")))
+    assert row["plastic_max"][-1] > YIELD / 10
+    for name in ("plastic_max", "pressure_max"):
+        assert row[name][-1] == pytest.approx(four[name][-1], rel=1e-6)

@@ -138,7 +138,7 @@ static PetscReal Height_Curved(const PetscReal values[], PetscReal x, PetscReal 
   return 0.5 * (h[0] * x * x + h[2] * y * y) + h[1] * x * y;
 }
 
-/* Hertz's ellipse in its own axes, within the rectangle of which the half widths are. */
+/* Gives the bounding rectangle of Hertz's ellipse, which is rotated against the grid. */
 static SamGapContact Contact_Curved(const PetscReal values[], PetscReal half)
 {
   double          curvature[2];

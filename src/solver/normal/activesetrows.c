@@ -72,7 +72,7 @@ SAM_VECTORIZED double SamActiveSetMoveRow(SamActiveSet *w, SamRow row, const dou
     sum += v;
     error = wrong > error ? wrong : error;
   }
-  return isfinite(sum) ? error : NAN; /* the comparison above passes over what is not a number */
+  return isfinite(sum) ? error : NAN; /* NaN fails the comparison above */
 }
 
 SAM_VECTORIZED double SamActiveSetCountChanged(const SamActiveSet *w, SamRow row)
