@@ -38,7 +38,7 @@ typedef struct {
   PetscBool   loads[SAM_COMPONENTS];          /* those that are not 0 in all steps: given so, or found */
   const char *results;                        /* file; NULL: none */
   PetscBool   replaced;                       /* an older file of that name */
-  char        size[64];                       /* of the results, in words */
+  char        size[128];                      /* of the results, in words */
   double      seconds;                        /* that a step takes, roughly; 0: not known */
   char        when[PETSC_MAX_PATH_LEN + 256]; /* checkpoints are written, in words; empty: never */
   const char *restart;                        /* the checkpoint from which it goes on; NULL: none */

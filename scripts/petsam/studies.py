@@ -14,12 +14,46 @@ from .results import DAMAGED, WHOLE, _own, _reason
 # units of petsam's options, by their names
 UNITS = (
     (r"load_(n|tx|ty)", "N"), (r"load_m[xyz]", "N m"), (r"disp_[xyz]|grid_(size|center)|gap_(\w+_)?radius\w*", "m"),
-    (r"gap_half_flat_[xy]|gap_roller_\w+", "m"),
+    (r"gap_half_flat_[xy]|gap_roller_\w+|plastic_depth", "m"),
     (r"body[12]_layer_thickness|film_thickness", "m"), (r"body[12]_layer_(young|stress)|film_shear", "Pa"),
     (r"rot_[xyz]", "rad"), (r"body[12]_(young|yield|hardening_modulus|voce_stress)", "Pa"),
     (r"pressure_limit|bulk[12]_stress_\w+", "Pa"),
     (r"wear_coefficient[12]", "1/Pa"), (r"wear_energy[12]", "m3/J"),
 )  # fmt: skip
+
+
+# units that may follow a number, as petsam has them: the unit of SI, and a power of ten
+SUFFIXES = {
+    "m": ("m", 0), "mm": ("m", -3), "um": ("m", -6), "nm": ("m", -9),
+    "N": ("N", 0), "kN": ("N", 3), "MN": ("N", 6), "mN": ("N", -3),
+    "N/m": ("N/m", 0), "kN/m": ("N/m", 3), "MN/m": ("N/m", 6), "N/mm": ("N/m", 3),
+    "Nm": ("N m", 0), "kNm": ("N m", 3), "Nmm": ("N m", -3), "Nm/m": ("N m/m", 0),
+    "Pa": ("Pa", 0), "kPa": ("Pa", 3), "MPa": ("Pa", 6), "GPa": ("Pa", 9),
+    "m/s": ("m/s", 0), "mm/s": ("m/s", -3), "um/s": ("m/s", -6), "s": ("s", 0), "ms": ("s", -3),
+    "rad": ("rad", 0), "mrad": ("rad", -3),
+    "m3/Nm": ("1/Pa", 0), "mm3/Nm": ("1/Pa", -9), "m3/J": ("m3/J", 0), "mm3/J": ("m3/J", -9),
+}  # fmt: skip
+NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+))(?:[eE]([+-]?\d+))?([a-zA-Z].*)?")
+
+
+def _measured(text):
+    """A text as a number in SI units, and its unit ("": none); None where it is no such text."""
+    match = NUMBER.fullmatch(text.strip())
+    if not text.strip():
+        return float("nan"), ""
+    if not match or (match[3] or "N") not in SUFFIXES:
+        return None
+    unit, power = SUFFIXES[match[3]] if match[3] else ("", 0)
+    return float(f"{match[1]}e{int(match[2] or 0) + power}"), unit
+
+
+def _in_si(values):
+    """An input whose texts are numbers with units as numbers in SI units, and the unit; else as it is, and ""."""
+    read = [_measured(text) for text in values.tolist()] if values.dtype.kind == "U" else [None]
+    units = {unit for _, unit in filter(None, read)} - {""}
+    if None in read or len(units) != 1:
+        return values, ""
+    return np.array([number for number, _ in read]), units.pop()
 
 
 def unit_of_option(name):
@@ -32,7 +66,7 @@ class Study:
 
     cases     names of the cases
     codes     their exit codes, -1 where a case has not run
-    inputs    name: an array of numbers, or of texts, a value a case
+    inputs    name: an array of numbers, or of texts, a value a case; numbers with units (2.6mm) are in SI units
     results   name: an array of numbers, a value a case, NaN where there is none
     units     name: unit, of the results
     """
@@ -56,7 +90,10 @@ class Study:
         self.codes = self._column(file, "exit_code")
         groups = {name: _own(file, name) for name in ("inputs", "results") if name in file}
         columns = {group: {name: self._column(data, name) for name in data} for group, data in groups.items()}
-        self.inputs, self.results = columns.get("inputs", {}), columns.get("results", {})
+        measured = {name: _in_si(values) for name, values in columns.get("inputs", {}).items()}
+        self.inputs = {name: values for name, (values, _) in measured.items()}
+        self._input_units = {name: unit for name, (_, unit) in measured.items()}
+        self.results = columns.get("results", {})
         self.units = {name: short(str(groups["results"][name].attrs.get("units", "1"))) for name in self.results}
         for values in (*self.inputs.values(), *self.results.values(), self.codes):
             if values.size != self.cases.size:
@@ -89,9 +126,9 @@ class Study:
         return self.results[bare], self.units[bare]
 
     def unit_of_input(self, name):
-        """Unit of an input: that of the result of its name, in plane strain per metre; else of the option."""
+        """Unit of an input: that of the result of its name, in plane strain per metre; else of option or values."""
         unit = unit_of_option(name)
-        return self.units.get(name, unit) if unit else ""
+        return self.units.get(name, unit) if unit else self._input_units.get(name, "")
 
     @property
     def names(self):

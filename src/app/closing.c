@@ -23,6 +23,7 @@ typedef struct {
 /* These parts do not overlap; with set-up and the rest they make up the whole run. */
 static const Part parts[] = {{"normal problem", {SAM_EVENT_NORMAL_SOLVE}, 1},
                              {"tangential problem", {SAM_EVENT_TANGENTIAL_SOLVE}, 1},
+                             {"plastic strain", {SAM_EVENT_PLASTIC}, 1},
                              {"edges", {SAM_EVENT_EDGES}, 1},
                              {"check", {SAM_EVENT_CHECK}, 1},
                              {"results", {SAM_EVENT_OUTPUT}, 1},
@@ -70,6 +71,12 @@ static PetscErrorCode PrintRow(SamReport r, const char indent[], const char name
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Whether a part is one that only some runs have. */
+static PetscBool IsAskedFor(const Part *part)
+{
+  return part->events[0] == SAM_EVENT_STIFFNESS || part->events[0] == SAM_EVENT_PLASTIC ? PETSC_TRUE : PETSC_FALSE;
+}
+
 static PetscErrorCode PrintTimes(SamReport r)
 {
   double total = MPI_Wtime() - r->start, setup = r->first - r->start - r->output_before, rest, seconds;
@@ -82,8 +89,7 @@ static PetscErrorCode PrintTimes(SamReport r)
   PetscCall(PrintRow(r, "", "set-up", setup, total));
   for (PetscInt p = 0; p < PARTS; p++) {
     PetscCall(GetTime(r, &parts[p], &seconds));
-    if (seconds > 0 || parts[p].events[0] != SAM_EVENT_STIFFNESS) /* that only where it was asked for */
-      PetscCall(PrintRow(r, "", parts[p].name, seconds, total));
+    if (seconds > 0 || !IsAskedFor(&parts[p])) PetscCall(PrintRow(r, "", parts[p].name, seconds, total));
     rest -= seconds;
   }
   PetscCall(PrintRow(r, "", "other", PetscMax(rest, 0), total));

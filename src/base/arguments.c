@@ -240,16 +240,24 @@ static void ExamineLine(SamArguments *a, const char where[], char line[], int de
   ExamineOption(a, where, words[0], count > 1 ? words[1] : NULL, depth);
 }
 
+/* The byte order mark of UTF-8, with which some editors begin a file. */
+#define MARK "\xef\xbb\xbf"
+
 static void ExamineLines(SamArguments *a, const char where[], const char name[], FILE *file, int depth)
 {
-  char     *line   = NULL;
-  size_t    size   = 0;
+  char     *line = NULL;
+  size_t    size = 0;
+  ssize_t   length;
   const int source = ++a->sources;
 
-  for (long number = 1; !a->code && getline(&line, &size, file) >= 0; number++) {
+  for (long number = 1; !a->code && (length = getline(&line, &size, file)) >= 0; number++) {
     char place[600];
 
     (void)snprintf(place, sizeof(place), "%s%s, line %ld: ", where, name, number);
+    if (memchr(line, '\0', (size_t)length))
+      Complain(a, SAM_ERR_USER, "%sa byte of value 0: an options file is plain text: save it as UTF-8", place);
+    if (number == 1 && !strncmp(line, MARK, strlen(MARK)))
+      Complain(a, SAM_ERR_USER, "%sbegins with a byte order mark: save it as UTF-8 without one", place);
     ExamineLine(a, place, line, depth, source);
   }
   free(line);

@@ -23,9 +23,9 @@ static void MPIAPI AddTotals(void *in, void *inout, int *n, MPI_Datatype *type)
 PetscErrorCode SamInitialize(void)
 {
   static const char *const names[SAM_EVENT_COUNT] = {
-    "SamInfluence", "SamFFTRows",   "SamFFTColumns", "SamFFTTranspose", "SamApplyN",    "SamApplyT",
-    "SamApplyNT",   "SamPrecondN",  "SamPrecondT",   "SamNormalSolve",  "SamTangSolve", "SamCheck",
-    "SamEdges",     "SamStiffness", "SamOutput",     "SamCheckpoint"};
+    "SamInfluence", "SamFFTRows",  "SamFFTColumns", "SamFFTTranspose", "SamApplyN",    "SamApplyT",
+    "SamApplyNT",   "SamPrecondN", "SamPrecondT",   "SamNormalSolve",  "SamTangSolve", "SamPlastic",
+    "SamCheck",     "SamEdges",    "SamStiffness",  "SamOutput",       "SamCheckpoint"};
 
   PetscClassId id;
 

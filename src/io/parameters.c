@@ -1,5 +1,6 @@
 /* The parameters of a run, as attributes of its files; fields among them stand for themselves by a checksum. */
 #include "ioimpl.h"
+#include <math.h>
 #include <string.h>
 
 /* The attribute that names all fixed parameters of a file, with commas between them. */
@@ -74,21 +75,42 @@ static PetscBool IsFree(const SamParameters *parameters, const char name[])
   return parameters->free && !strncmp(name, parameters->free, strlen(parameters->free));
 }
 
-/* Whether the file has a fixed parameter that this run does not have. */
+/* Whether the file's value of a parameter is one that somebody has given: inf and 0 also stand for none. */
+static PetscErrorCode IsGivenThere(SamFile f, const char name[], PetscBool *given)
+{
+  SamParameter like = {.count = 0}, there;
+  hid_t        attribute, type;
+
+  PetscFunctionBegin;
+  PetscCall(PetscStrncpy(like.name, name, sizeof(like.name)));
+  attribute  = SamFileNote(f, H5Aopen(f->id, name, H5P_DEFAULT));
+  type       = SamFileNote(f, H5Aget_type(attribute));
+  like.count = type >= 0 && H5Tget_class(type) == H5T_FLOAT;
+  if (type >= 0) (void)SamFileNote(f, H5Tclose(type));
+  if (attribute >= 0) (void)SamFileNote(f, H5Aclose(attribute));
+  PetscCall(Read(f, &like, &there));
+  *given = !there.count || (isfinite(there.value[0]) && there.value[0] != 0) ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Whether the file has a fixed parameter that this run does not have; names the first one with a value. */
 static PetscErrorCode FindOther(SamFile f, const SamParameters *parameters, char message[], size_t size,
                                 PetscBool *found)
 {
-  char *names = NULL, **list;
-  int   count;
+  char     *names = NULL, **list;
+  PetscBool given = PETSC_FALSE;
+  int       count;
 
   PetscFunctionBegin;
   *found = PETSC_FALSE;
   if (!SamFileHasAttribute(f, NAMES)) PetscFunctionReturn(PETSC_SUCCESS);
   SamFileReadTextAttribute(f, f->id, NAMES, &names);
   PetscCall(PetscStrToArray(names ? names : "", ',', &count, &list));
-  for (int k = 0; k < count && !*found; k++) {
-    *found = !IsFree(parameters, list[k]) && !SamParametersFind(parameters, list[k]);
-    if (*found) (void)snprintf(message, size, "-%s is given there, and not here", list[k]);
+  for (int k = 0; k < count && !given; k++) {
+    if (IsFree(parameters, list[k]) || SamParametersFind(parameters, list[k])) continue;
+    PetscCall(IsGivenThere(f, list[k], &given));
+    if (given || !*found) (void)snprintf(message, size, "-%s is given there, and not here", list[k]);
+    *found = PETSC_TRUE;
   }
   PetscCall(PetscStrToArrayDestroy(count, list));
   PetscCall(PetscFree(names));

@@ -349,7 +349,9 @@ static PetscErrorCode Measure(Solve *w, PetscInt field, double *norm, double *la
   PetscCall(Return(w, SamStateGetField(w->contact->state, field, SAM_COMMITTED), tried));
   *norm = *largest = 0;
   w->solved        = PETSC_TRUE;
+  PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_PLASTIC], 0, 0, 0, 0)); /* both problems have their own events */
   PetscCall(w->contact->solve(w->contact, &w->solved));
+  PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_PLASTIC], 0, 0, 0, 0));
   if (!w->solved) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(GetDriver(w, w->r));
   for (PetscInt k = 0; k < w->n; k++) w->r[k] -= w->d[k];
@@ -415,11 +417,38 @@ static PetscErrorCode GoAlong(Solve *w, PetscInt field, double *norm, double *la
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Whether a layer of periodic bodies yields in all cells, without hardening: its stress has no strain of its own. */
+static PetscErrorCode Flows(const Solve *w, PetscBool *flows)
+{
+  const SamPlastic *p      = w->plastic;
+  const PetscInt    layers = p->bodies * p->layers, cells = p->grid->cells;
+  double           *holds;
+
+  PetscFunctionBegin;
+  *flows = PETSC_FALSE;
+  if (!SamElasticityGetTraits(p->elasticity).periodic) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscCalloc1(layers, &holds));
+  for (PetscInt l = 0; l < layers; l++) {
+    double slope;
+
+    (void)SamMisesYield(&BodyOf(p, l)->material, 0, &slope);
+    if (slope > 0 || BodyOf(p, l)->material.backstresses > 0) holds[l] = 1;
+    for (PetscInt k = 0; k < cells; k++)
+      if (!(w->along[l * cells + k] > 0)) holds[l] = 1;
+  }
+  PetscCall(SamMax(p->grid->comm, layers, holds));
+  for (PetscInt l = 0; l < layers; l++)
+    if (holds[l] == 0) *flows = PETSC_TRUE;
+  PetscCall(PetscFree(holds));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* From the driver on. */
 static PetscErrorCode Iterate(Solve *w, PetscInt field)
 {
   SamPlastic *p = w->plastic;
   double      norm, first, largest;
+  PetscBool   flows;
 
   PetscFunctionBegin;
   PetscCall(Measure(w, field, &norm, &largest));
@@ -430,7 +459,14 @@ static PetscErrorCode Iterate(Solve *w, PetscInt field)
     p->newton++;
     PetscCall(GoAlong(w, field, &norm, &largest));
   }
-  if (w->solved && !(largest <= p->rtol))
+  if (!w->solved || largest <= p->rtol) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(Flows(w, &flows));
+  if (flows)
+    (void)snprintf(
+      w->contact->failed, sizeof(w->contact->failed),
+      "a layer yields in all its cells, where no strain is unique without hardening: give it a hardening, or less "
+      "load");
+  else
     (void)snprintf(w->contact->failed, sizeof(w->contact->failed),
                    "the plastic strain did not converge within %" PetscInt_FMT
                    " iterations, residual %.2g, tolerance %.2g",

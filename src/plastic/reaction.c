@@ -14,6 +14,8 @@
 
 #define RTOL 1e-3 /* of the displacement */
 #define MOST 200  /* iterations */
+/* The part of a displacement that is rounding: all that is left of a rigid motion, as of a uniform strain. */
+#define ROUNDING 1e-13
 
 struct _n_SamReaction {
   SamElasticity        elasticity;
@@ -248,16 +250,18 @@ static PetscErrorCode Displace(SamReaction r, const double x[], double u[])
 static PetscErrorCode Solve(SamReaction w, const double u[], double x[])
 {
   const PetscInt n = DIRECTIONS * w->grid->cells;
-  double         first, size, before, step;
+  double         first, size, before, step, enough;
 
   PetscFunctionBegin;
   PetscCall(Displace(w, x, w->r));
   for (PetscInt k = 0; k < n; k++) w->r[k] = -w->r[k] - u[k];
+  PetscCall(Dot(w, w->r, w->r, &enough));
   PetscCall(Project(w, w->r));
   PetscCall(PetscArraycpy(w->p, w->r, n));
   PetscCall(Dot(w, w->r, w->r, &first));
-  size = first;
-  for (PetscInt it = 0; it < MOST && size > RTOL * RTOL * first; it++) {
+  size   = first;
+  enough = PetscMax(RTOL * RTOL * first, ROUNDING * ROUNDING * enough);
+  for (PetscInt it = 0; it < MOST && size > enough; it++) {
     PetscCall(Displace(w, w->p, w->Ap));
     PetscCall(Project(w, w->Ap));
     PetscCall(Dot(w, w->p, w->Ap, &step));

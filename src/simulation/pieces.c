@@ -12,8 +12,12 @@
     3. The last piece stays tried: it is the step, with the sums of all pieces.
   Pieces are halves of halves of the step, at least 1/1024, where the estimate is accepted as it is. All decisions are
   those of global numbers of this step: the same on any number of ranks, and after a restart.
+
+  A step from no contact applies N, then the tangential loads. So do its pieces: N and all but the tangential loads grow
+  in the first half of them, the tangential loads in the second.
 */
 #include "simulationimpl.h"
+#include <petsam/balance.h>
 #include <petsam/private/state.h>
 
 /* The part of the tolerance that estimates may use; they are up to three times too small. */
@@ -51,6 +55,33 @@ PetscErrorCode SamSimulationDeclarePieces(SamSimulation s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Whether there is no contact yet: the step to come is one from no load. */
+static PetscErrorCode IsApart(SamSimulation s, PetscBool *apart)
+{
+  const SamSolution *before;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetSolution(s->setup.contact, &before));
+  *apart = before->load[SAM_COMPONENT_N] > 0 ? PETSC_FALSE : PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* What is prescribed after a part of step k. */
+static SamControl ControlAt(SamSimulation s, PetscInt k, PetscBool apart, PetscReal part)
+{
+  SamControl control = SamHistoryGetPart(s->history, k, apart ? PetscMin(1, 2 * part) : part), later;
+
+  if (!apart) return control;
+  later        = SamHistoryGetPart(s->history, k, PetscMax(0, 2 * part - 1));
+  control.time = SamHistoryGetPart(s->history, k, part).time;
+  for (PetscInt c = 0; c < 3; c++) {
+    const PetscInt t = SamComponentsOf[SAM_BALANCE_TANGENTIAL][c];
+
+    control.value[t] = later.value[t];
+  }
+  return control;
+}
+
 /* Whether the tried piece, of this length, is good enough; and whether twice its length is likely to be. */
 static PetscErrorCode Judge(SamSimulation s, double length, PetscBool *enough, PetscBool *longer)
 {
@@ -74,7 +105,7 @@ static PetscErrorCode Judge(SamSimulation s, double length, PetscBool *enough, P
 PetscErrorCode SamSimulationTry(SamSimulation s, PetscInt k, SamStep *step)
 {
   double     before[SAM_STATE_NUMBERS] = {0}, done = 0, piece = MOST;
-  PetscBool  enough = PETSC_TRUE, longer = PETSC_FALSE;
+  PetscBool  enough = PETSC_TRUE, longer = PETSC_FALSE, apart = PETSC_FALSE;
   SamControl control;
   SamState   state;
 
@@ -85,8 +116,9 @@ PetscErrorCode SamSimulationTry(SamSimulation s, PetscInt k, SamStep *step)
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(SamContactGetState(s->setup.contact, &state));
+  PetscCall(IsApart(s, &apart));
   while (PETSC_TRUE) {
-    control = SamHistoryGetPart(s->history, k, done + piece);
+    control = ControlAt(s, k, apart, done + piece);
     PetscCall(SamSimulationTryStep(s, &control, step));
     if (!SamStepIsSolved(step)) break;
     PetscCall(Judge(s, piece, &enough, &longer));

@@ -141,6 +141,9 @@ static PetscErrorCode Estimate(SamSimulation s, double *bytes)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* A file of more bytes than this may be larger than was meant. */
+#define LARGE 1e8
+
 PetscErrorCode SamSimulationForecast(SamSimulation s, char text[], size_t size)
 {
   double bytes, space;
@@ -157,6 +160,8 @@ PetscErrorCode SamSimulationForecast(SamSimulation s, char text[], size_t size)
                  : s->output_settings.compress > 0 ? "at most"
                                                    : "about",
                  words[0], words[1]);
+  if (bytes > LARGE && s->output_every == 1 && s->needs.steps > 1)
+    (void)snprintf(text + strlen(text), size - strlen(text), "; -output_every m: the fields of every m-th step only");
   if (bytes <= space) PetscFunctionReturn(PETSC_SUCCESS);
   (void)snprintf(advice, sizeof(advice),
                  "-output %s: needs %s %s, and %s are free there: a larger -output_every, fewer -output_fields, or "

@@ -45,6 +45,7 @@ static void SumRow(const SamIncrement *increment, ptrdiff_t first, double sums[S
     of cells that slid all the time                TURNS b a^2/24 ds          ds is the chord of an arc
     of cells that begin to slide                   BEGINS abs(b - b_before)/4 ds   they begin anywhere in the step
     where contact is made or left                  CROSSES b/10 ds            0.5 of the bounds instead of 0.4
+    where contact is made, by a strain             abs(q) e r/2 besides   it is as if it had been there all the step
     of the first step                              all of it: loads in proportion need not slide at all
 
   The energy depends on the whole history of the slip, of which no single step knows: so these terms have the right
@@ -55,6 +56,21 @@ static void SumRow(const SamIncrement *increment, ptrdiff_t first, double sums[S
 #define TURNS   2.0
 #define BEGINS  0.6
 #define CROSSES 0.3
+#define STRAINS 0.5
+
+/* That of a cell where contact is made: bulk stress has moved the surfaces over each other before that, too. */
+static double ErrorOfEntering(const SamIncrement *increment, ptrdiff_t k)
+{
+  const SamGrid   grid = increment->grid;
+  const SamValues v    = increment->at_now;
+  const SamStrain e0 = increment->before.strain, e1 = increment->now.strain;
+  const double    xx = (double)(e1.xx - e0.xx), yy = (double)(e1.yy - e0.yy), xy = (double)(e1.xy - e0.xy);
+  const double    x = SamGridX(grid, k % grid->nx), y = SamGridY(grid, grid->row_start + k / grid->nx);
+
+  if (increment->at_before.p[k] > 0 || v.p[k] <= 0) return 0;
+  return STRAINS * hypot(v.q[k], v.q[k + grid->cells]) * hypot(xx * x + xy * y, xy * x + yy * y);
+}
+
 static double ErrorOfRow(const SamIncrement *increment, PetscInt j, double dissipated, double *const turned[2])
 {
   const double *b0 = increment->at_before.b, *b1 = increment->at_now.b, *sx = increment->row[0],
@@ -69,6 +85,7 @@ static double ErrorOfRow(const SamIncrement *increment, PetscInt j, double dissi
     const SamSlide  slide  = SamIncrementGetSlide(increment, k, share);
     const double    length = hypot(sx[i], sy[i]), work = SamIncrementMix(share, b0, b1, k) * length;
 
+    error += ErrorOfEntering(increment, k);
     if (work == 0) continue;
     if (slide == SAM_SLIDE_ALWAYS) {
       const double half = hypot(sx[i] - turned[0][i], sy[i] - turned[1][i]) / length;

@@ -8,6 +8,10 @@
   the fine ones, at a quarter of the cost; with h and H the sizes of the cells, F(h) + (F(h) - F(H)) h/(H - h) is as
   good as a much finer grid. A coarse bound that is the mean of the fine one would not do: it reaches half a cell
   farther on the average.
+
+  In plane strain the error depends on where the edges of contact and stick lie between the cells of the only row, and
+  has no order: of Carter's cylinders, on 32 to 1024 cells, creepages that are wrong by 0.02 to 1.9 % would be wrong by
+  0.1 to 3.5 %, 21 of 32 by more than before. So nothing is extrapolated there.
 */
 #include "stepimpl.h"
 #include <petsam/private/elasticity.h>
@@ -151,6 +155,7 @@ PetscErrorCode SamSolveRolling(SamSolve *w)
     numbers[LOADS + n] = numbers[CREEPS + n] = NAN;
   }
   if (w->step->status != SAM_STATUS_CONVERGED || w->s->load[SAM_COMPONENT_N] <= 0) PetscFunctionReturn(PETSC_SUCCESS);
+  if (w->task->traits.plane) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamElasticityGetCoarse(w->task->elasticity, &k.elasticity, &k.transfer));
   if (!k.elasticity) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(CreateCoarse(w, &k));

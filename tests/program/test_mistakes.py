@@ -165,6 +165,9 @@ MISTAKES = [
         "bulk stress of a rigid body", dict(body2_young="inf", bulk2_stress_xx=1e6), says=["-bulk2_stress_xx", "rigid"]
     ),
     # ---- files
+    options_file(
+        "byte of value 0", "-friction 0.3\n-load_n 10\x0000\n", says=["s.opts, line 2", "byte of value 0", "plain text"]
+    ),
     mistake("no options file", {}, "-options_file", "s.opts", says=["s.opts", "No such file"], code=3),
     options_file(
         "value in a file",
@@ -599,7 +602,22 @@ def test_rough_surface_is_warned_of_once(petsam, folder):
     done = petsam(SPHERE, dict(load_n=30.0), "-gap_rough_file", "rough.h5")
     assert len(done.complaint) == 1
     assert re.search(r"the contact is in \d+ spots, the narrow ones [\d.]+ cells across", done.complaint[0])
-    assert "a file with heights at smaller distances" in done.complaint[0]
+    assert ": use a file with heights at smaller distances" in done.complaint[0]
+
+
+def test_byte_order_mark_is_named(petsam, folder):
+    (folder / "s.opts").write_bytes(b"\xef\xbb\xbf-load_n 10\n")
+    done = petsam(SPHERE, "-options_file", "s.opts", check=2)
+    assert "s.opts, line 1: begins with a byte order mark: save it as UTF-8 without one" in done.complaint[0]
+
+
+def test_spots_on_all_of_the_grid_are_told_of_without_its_width_twice(petsam, folder):
+    rng = np.random.default_rng(3)
+    with h5py.File(folder / "rough.h5", "w") as f:
+        f["height"] = 1e-7 * rng.random((64, 64))
+    done = petsam({**SPHERE, **FLAT}, dict(elasticity="periodic", load_n=100.0), "-gap_rough_file", "rough.h5")
+    assert "cells across (on all of the grid), fewer than 20" in done.complaint[0]
+    assert "use a file with heights" in done.complaint[0]
 
 
 def test_checkpoint_says_when_it_is_written(petsam, folder):

@@ -108,3 +108,14 @@ def test_single_steps_and_steps_between_rows_do_not_wear(petsam):
     done = petsam(case, check=2)
     assert "-wear_coefficient1 with -rolling steady is that of passages" in done.stderr
     assert "each row of -history is a passage" in petsam(band(steps=2), check=2).stderr
+
+
+@pytest.mark.parametrize("n, warned", [(17, True), (64, False)])
+def test_a_worn_volume_that_is_too_large_is_warned_of(petsam, n, warned):
+    """By the error that it has relative to a fine grid; wear by energy has that of the loads."""
+    case = ellipse(n=n, ratio=1, creep_x=0.15 * U, creep_y=0.0, creep_spin=0.0)
+    said = [
+        line for line in petsam(case, dict(wear_coefficient2=SLOW), one_passage()).complaint if "worn volume" in line
+    ]
+    assert len(said) == warned and all("of passages may be too large by" in line and "-grid_n" in line for line in said)
+    assert "worn volume" not in petsam(case, dict(wear_energy2=SLOW), one_passage()).stderr

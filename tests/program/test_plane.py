@@ -169,8 +169,15 @@ def test_rolling_is_carter_s(solve):
     r = solve(CYLINDER, dict(friction=mu, load_tx=T, rolling="steady", grid_n=1000))
     exact = mu * A / R * (1 - np.sqrt(1 - T / (mu * N)))
     assert r["creep_x"] == pytest.approx(exact, rel=2e-3)
-    assert r["creep_x_extrapolated"] == pytest.approx(exact, rel=5e-3)
+    assert np.isnan(r["creep_x_extrapolated"]) and "fine grid" not in r.run.stdout  # its error has no order
     assert r["stick_area"] == pytest.approx(2 * A * np.sqrt(1 - T / (mu * N)), rel=5e-3)
+
+
+def test_moment_per_metre_has_units(solve):
+    """N m per metre is N."""
+    exact = solve(CYLINDER, dict(load_my=2.0))
+    for text in "2Nm/m", "2N", "2e-3kN":
+        assert solve(CYLINDER, dict(load_my=text))["rot_y"] == exact["rot_y"]
 
 
 def test_datum_moves_displacements_only(solve):

@@ -259,3 +259,25 @@ def test_tables_of_another_form_are_named(draw, path, change):
         change(file)
     code, (error,) = draw(path)
     assert code == 3 and error.startswith(f"petsam-plot: error: {path}: ") and "TRACEBACK" not in error
+
+
+def test_inputs_with_units_are_numbers(tmp_path):
+    """As petsam reads them, to the last bit, of any input; texts, and numbers of two kinds, remain texts."""
+    texts = {
+        "gap_radius1": ["2.6mm", "2.5e-3", "1e3um"],
+        "depth": ["1mm", "20um", "3e-1nm"],
+        "mu": ["0.1", "0.2", "0.3"],
+    }
+    texts |= {"mixed": ["1mm", "2kN", "3"], "shape": ["ball", "1mm", "2mm"]}
+    found = []
+    for k in range(3):
+        inputs = {name: values[k] for name, values in texts.items()}
+        done = {"exit_code": 0, "seconds": 1.0, "message": ""}
+        found.append((Case(k + 1, f"case{k}", inputs, {}, {}, 1), done, {"contact_area": (1e-6 * (k + 1), "m2")}))
+    write_hdf5(str(tmp_path / "results.h5"), found, "mine.yaml")
+    study = Study(tmp_path / "results.h5")
+    assert study.inputs["gap_radius1"].tolist() == [2.6e-3, 2.5e-3, 1e-3]
+    assert study.inputs["depth"].tolist() == [1e-3, 20e-6, 3e-10] and study.unit_of_input("depth") == "m"
+    assert study.inputs["mixed"].tolist() == texts["mixed"] and study.inputs["shape"].tolist() == texts["shape"]
+    assert tables.abscissa(study) in texts
+    assert len(tables.study([study], ["contact_area"], "gap_radius1").axes[0].lines) > 0

@@ -508,7 +508,7 @@ def test_falling_friction_under_a_film(solve, tmp_path):
     assert "displacement" not in done.run.stderr  # a creepage is none
     assert 0.33 > mean[0] > mean[1] > mean[2] > mean[3] > 0.14
     assert mean[3] == pytest.approx(0.33 * found[3], rel=1e-3)  # all slides
-    assert "friction at rest" in words and "others may exist" in words
+    assert "continued from rest" in words and "others may exist" in words
 
 
 def test_memory_marches_from_the_leading_edge(solve):

@@ -95,3 +95,15 @@ def test_runs_with_and_without_divided_steps_do_not_continue_each_other(loads, p
 def test_estimate_is_within_a_factor_of_three_of_the_error(seed, solve, tmp_path):
     energy, error, estimate = compare(seed, lambda case, steps: solve(case, dict(steps=steps)).path, tmp_path)
     assert error / 3 < estimate < 3 * error < 0.06 * energy
+
+
+def test_pieces_of_the_first_step_apply_the_normal_load_first(solve, tmp_path):
+    """A moment about z is balanced by less of N than in proportion to it; as in one step, it is applied after N."""
+    twist = 0.8 * float(slide_limit(CASE)[1])
+    case = {name: value for name, value in CASE.items() if name != "load_n"}
+    case = {**case, **history(tmp_path / "h.csv", "time,load_n,load_mz", (1.0, 180.0, twist), (2.0, 180.0, -twist))}
+    found = solve(case, dict(step_rtol=1e-3))
+    rows = [(1.0, 180.0, 0.0), (2.0, 180.0, twist), (3.0, 180.0, -twist)]
+    case |= history(tmp_path / "apart.csv", "time,load_n,load_mz", *rows)
+    exact = energies(solve(case, dict(steps=40, output_every=1000)).path)[0]
+    assert energies(found.path)[0].sum() == pytest.approx(exact.sum(), rel=3e-3)

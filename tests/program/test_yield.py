@@ -1,6 +1,7 @@
 """-body2_yield: plastic strain below the surface, with spheres on half-spaces and periodic bodies."""
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -250,7 +251,7 @@ def test_what_makes_no_sense_is_refused(petsam, wrong, message):
     "more, words",
     [
         ({}, []),
-        (dict(plastic_layers=4), ["fewer than 4: more -plastic_layers"]),
+        (dict(plastic_layers=4), ["times as many -plastic_layers"]),
         (dict(plastic_depth=2 * RADIUS), ["comes to the last layer"]),
         (dict(body2_yield=0.1), ["strains are taken as small"]),
     ],
@@ -263,6 +264,89 @@ def test_strain_that_is_not_resolved_is_warned_of(petsam, more, words):
         case.update(grid_size=(width, width), plastic_depth=100 * case["plastic_depth"], load_n=6e6 * LOAD)
     said = [line for line in petsam(case).complaint if "plastic strain" in line]
     assert len(said) == len(words) and all(word in line for word, line in zip(words, said))
+
+
+def test_numbers_that_are_too_small_are_named(petsam, solve):
+    """With a grid that is enough; the error of the dent is within the bound that is given."""
+    layers = dict(plastic_depth=None, plastic_first=None)
+    case = sphere(18, 32, 3, **layers)
+    said = [line for line in petsam(case).complaint if "plastic_max" in line]
+    assert len(said) == 1 and "residual_z may be too small by up to" in said[0]
+    n = int(re.search(r"-grid_n (\d+)", said[0]).group(1))
+    bound = float(re.search(r"up to ([\d.]+) %", said[0]).group(1)) / 100
+    fine = solve(sphere(n, 32, 3, **layers))
+    assert "plastic_max" not in fine.run.stderr
+    dent = [support.read_run(run.path)["residual_z"][-1].max() for run in (solve(case), fine)]
+    assert 0.03 < 1 - dent[0] / dent[1] < bound
+
+
+def test_a_contact_at_the_edge_is_told_of_a_larger_grid(petsam):
+    """What yields is wider than the elastic contact of its load, which the grid would hold."""
+    case = sphere(16, 8, 12)
+    width = 2.02 * 12 ** (1 / 3) * RADIUS * 1.05
+    done = petsam(case, dict(grid_size=(width, width)), check=12)
+    advised = float(re.search(r"-grid_size ([-+.e\d]+)", done.complaint[0]).group(1))
+    assert advised > 1.05 * width
+    petsam(case, dict(grid_size=(advised, advised)))
+
+
+def test_a_body_that_keeps_its_volume(solve):
+    """Poisson's ratio of 1/2 is the limit of those below it."""
+    half, below = (numbers(all_steps(solve(sphere(16, 8, 12, body2_poisson=nu)))) for nu in (0.5, 0.499))
+    more = numbers(all_steps(solve(sphere(16, 8, 12, body2_poisson=0.498))))
+    assert half == pytest.approx([2 * b - a for a, b in zip(more, below)], rel=1e-3)
+    assert half[2] > 0
+
+
+def test_plastic_strain_has_a_row_of_its_own_among_the_times(petsam):
+    text = petsam(sphere(24, 12)).stdout
+    seconds = dict(re.findall(r"^    ([a-z -]+?) +([\d.]+) s +[\d.]+ %$", text, re.M))
+    assert float(seconds["plastic strain"]) > 0.5 * float(seconds["total"]) > 2 * float(seconds["other"])
+    assert "plastic strain  " not in petsam(support.SPHERE).stdout
+
+
+def test_a_restart_names_the_body_that_yielded(petsam):
+    case = sphere(12, 6)
+    petsam(case, dict(checkpoint="s.h5", checkpoint_every=1))
+    case = {name: value for name, value in case.items() if not name.startswith(("plastic", "body2_yield"))}
+    done = petsam(case, dict(restart="s.h5"), check=2)
+    assert "-body2_yield is given there, and not here" in done.complaint[0]
+
+
+def test_a_large_file_is_told_of_before_the_run(petsam):
+    case = sphere(40, 32, output="r.h5", output_fields="plastic", steps=25, dry_run=True)
+    line = re.search("file size.*", petsam(case).stdout).group()
+    assert "MB" in line and "-output_every" in line
+    assert "-output_every" not in petsam(case, dict(output_every=5)).stdout
+
+
+def test_memory_is_not_estimated_too_small(petsam):
+    for more, most in ({}, 1.3), (dict(steps=2), 1.2), (dict(elasticity="periodic"), 1.6):
+        text = petsam(sphere(48, 24), more).stdout
+        estimate, used = (
+            float(re.search(rf"{word}.*?([\d.]+) MB", text).group(1)) for word in ("  memory", "and memory")
+        )
+        assert used < 1.02 * estimate < most * used, more
+
+
+def test_uniform_strain_of_a_periodic_body(solve):
+    """A flat on a flat: the plastic strain along the surface, where there is no strain, is compressed elastically."""
+    nu, shear, modulus, n = 0.3, 1 / 2.6, 0.05, 8
+    for pressure in 2.5 * YIELD, 6 * YIELD:
+        case = sphere(n, 4, gap_type="flat", gap_radius1=None, gap_radius2=None, elasticity="periodic")
+        case.update(grid_size=(1.0, 1.0), plastic_depth=0.5, load_n=pressure, body2_hardening_modulus=modulus)
+        found = all_steps(solve(case))
+        mises = pressure * (1 - 2 * nu) / (1 - nu)
+        relief = shear * (1 + nu) / (1 - nu)  # of mises by the uniaxial plastic strain
+        assert found["plastic_max"][0] == pytest.approx((mises - YIELD) / (modulus + relief), rel=1e-6)
+
+
+def test_uniform_flow_is_named(petsam):
+    """Shear beyond that at yield, of a flat on a flat that stick: with hardening there is a solution."""
+    case = sphere(6, 3, gap_type="flat", gap_radius1=None, gap_radius2=None, elasticity="periodic", friction=0.9)
+    case.update(grid_size=(1.0, 1.0), plastic_depth=0.5, load_n=YIELD, load_tx=0.7 * YIELD)
+    assert "a layer yields in all its cells" in petsam(case, check=10).complaint[0]
+    petsam(case, dict(body2_hardening_modulus=0.1))
 
 
 # ---------------------------------------------------------------- plane strain
