@@ -336,14 +336,11 @@ const SamOptionFile *SamOptionsFile(PetscInt k)
 /* A text, a file's name, one word, which is checked, or several. */
 static PetscErrorCode ReadText(const SamOptions *from, const SamOptionRow *row, char value[], PetscBool *given)
 {
-  static const char *const arguments[] = {[SAM_OPTION_STRING] = "<string>",
-                                          [SAM_OPTION_FILE]   = "<file>",
-                                          [SAM_OPTION_FILES]  = "<file>",
-                                          [SAM_OPTION_OUTPUT] = "<file>",
-                                          [SAM_OPTION_WORD]   = "<keyword>",
-                                          [SAM_OPTION_WORDS]  = "<keyword>[,...]"};
-  const char              *words       = row->words ? row->words : "";
-  char                     text[TEXT_SIZE], expected[640];
+  static const char *const arguments[] = {
+    [SAM_OPTION_STRING] = "<string>", [SAM_OPTION_FILE] = "<file>",    [SAM_OPTION_FILES] = "<file>",
+    [SAM_OPTION_OUTPUT] = "<file>",   [SAM_OPTION_WORD] = "<keyword>", [SAM_OPTION_WORDS] = "<keyword>[,...]"};
+  const char *words = row->words ? row->words : "";
+  char        text[TEXT_SIZE], expected[640];
 
   PetscFunctionBegin;
   if (row->kind == SAM_OPTION_WORD)

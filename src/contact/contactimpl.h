@@ -28,10 +28,11 @@ struct _n_SamContact {
   PetscObjectState revision[SAM_GENERATIONS];   /* of the problem that the pressure was solved with; -1: another */
   PetscInt         tractions[3], displacements[2]; /* fields: pressure, bound, shear; u_z, u_t */
   PetscInt         aside;                          /* field, of the last step that needed it */
-  PetscInt time, solution, apart, creeps, control, residuals, counts, status, window, slip, steps; /* numbers, see memory.c */
-  PetscInt rolling;                   /* numbers, of a motion in which material streams only */
-  PetscInt condition[SAM_CONDITIONS]; /* numbers, by the places of conditions */
-  PetscObjectState declared;          /* what all of them follow from, when they were declared; 0: to be done */
+  PetscInt         time, solution, apart, creeps, control, residuals, counts, status, window, slip,
+    steps;                                    /* numbers, see memory.c */
+  PetscInt         rolling;                   /* numbers, of a motion in which material streams only */
+  PetscInt         condition[SAM_CONDITIONS]; /* numbers, by the places of conditions */
+  PetscObjectState declared;                  /* what all of them follow from, when they were declared; 0: to be done */
 };
 
 /* Whether pressure and shear depend on each other. */

@@ -117,9 +117,7 @@ static int RunAll(petsam_contact *c, const char function[], const double *cycles
   code = SamEmbedLeave(c, RunProgram(&run, cycles, columns, rows, values));
   if (code) return code;
   (void)SamSimulationGetStatus(c->simulation, &worst, &stopped);
-  (void)snprintf(c->message, sizeof(c->message), "%s", worst         ? c->last.message
-                                                          : c->warnings ? c->warning[0]
-                                                                        : "");
+  (void)snprintf(c->message, sizeof(c->message), "%s", worst ? c->last.message : c->warnings ? c->warning[0] : "");
   return (int)worst;
 }
 

@@ -76,8 +76,8 @@ static PetscBool ReadDepth(char text[], PetscReal half, double *value)
 
 PetscBool SamDepthsAreRelative(const char depths[])
 {
-  char  text[TEXT], *parts[TEXT / 2];
-  int   count;
+  char   text[TEXT], *parts[TEXT / 2];
+  int    count;
   double value;
 
   (void)snprintf(text, sizeof(text), "%s", depths);

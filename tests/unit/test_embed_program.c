@@ -264,7 +264,7 @@ static void test_steps_by_names(void **state)
   for (size_t k = 0; k < sizeof(wrong) / sizeof(wrong[0]); k++)
     sam_assert(petsam_try_named(c, 4, wrong[k][0], odd, NULL, NULL) == 2 && strstr(petsam_message(c), wrong[k][1]));
   sam_assert(petsam_try_named(c, 4, NULL, odd, NULL, NULL) == 2 && petsam_try_named(c, 4, "", odd, NULL, NULL) == 2);
-  sam_assert(petsam_try_named(c, 4, "load_n", odd, NULL, NULL) == 0 && petsam_advise(c, NULL) == 2);
+  sam_assert(petsam_try_named(c, 4, "load_n", &odd[1], NULL, NULL) == 0 && petsam_advise(c, NULL) == 2);
   sam_assert(petsam_advise(c, &count) == 0 && count >= 1 && strstr(petsam_warning(c, 0), "cells across"));
   sam_assert(!petsam_warning(c, count) && !petsam_warning(c, -1) && petsam_reject(c) == 0 && !petsam_warning(c, 0));
   sam_assert(!strcmp(petsam_step_name(c, 6, &unit), "disp_z") && !strcmp(unit, "m"));
