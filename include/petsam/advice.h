@@ -129,8 +129,8 @@ PETSC_INTERN PetscErrorCode SamAdviceEdge(const SamAdvice *advice, SamStep *step
 /*
   SamAdviceMeasurePeak - `change` and `finer` of the extent: solves the contact about the peak again on finer cells,
   where all other pressure stays (resolution.c). The shape is that of the gap's type, other heights are interpolated.
-  Where the cells next to the peak have nearly its pressure, or the pressure is at its limit, nothing is solved,
-  change = 0 and finer = 1. Collective.
+  Where the cells next to the peak have nearly its pressure, the pressure is at its limit, or a body yields, nothing is
+  solved, change = 0 and finer = 1. Collective.
 */
 PETSC_INTERN PetscErrorCode SamAdviceMeasurePeak(const SamSetup *setup, SamExtent *extent);
 

@@ -78,7 +78,9 @@ PETSC_EXTERN PetscErrorCode SamOptionsHeading(const SamOptions *from, const char
                       is not the first of them
   SAM_OPTION_ENUM     an enumeration of C, by its place among `words`
   SAM_OPTION_STRING   char[size]
-  SAM_OPTION_FILE     char[size], the name of a file
+  SAM_OPTION_FILE     char[size], the name of a file that is read: no other file of the run may replace it
+  SAM_OPTION_FILES    char[size], several of them with commas between them
+  SAM_OPTION_OUTPUT   char[size], the name of a file that is written
   SAM_OPTION_WORD     char[size], one of `words`
   SAM_OPTION_WORDS    char[size], some of `words` with commas between them, which the caller checks
   SAM_OPTION_VIEWER   none: an ASCII viewer, created where it is used
@@ -95,6 +97,8 @@ typedef enum {
   SAM_OPTION_ENUM,
   SAM_OPTION_STRING,
   SAM_OPTION_FILE,
+  SAM_OPTION_FILES,
+  SAM_OPTION_OUTPUT,
   SAM_OPTION_WORD,
   SAM_OPTION_WORDS,
   SAM_OPTION_VIEWER

@@ -23,6 +23,8 @@ typedef struct _n_SamEdge {
   PetscReal (*fit)[6];
 } SamEdge;
 
+/* SAM_EDGE_FACE - part of a cell that is not counted for each of its sides at an edge that is not reconstructed. */
+#define SAM_EDGE_FACE 0.09
 /* The two edges of a solution. */
 typedef enum { SAM_EDGE_CONTACT, SAM_EDGE_STICK } SamEdgeOf;
 

@@ -66,8 +66,9 @@ int petsam_set_field(petsam_contact *c, const char *name, const double *values);
   petsam_roll - the same of a step in which the contact rolls by distance[0] towards +x and distance[1] towards +y (m):
   the grid moves over the bodies, and a creepage times the distance is the motion of body 1. Not with -rolling steady.
   petsam_try_named - the same of a step that prescribes one value for each of the names, with commas between them, as
-  the columns of a history: "load_n,disp_x,bulk2_stress_xx,friction_scale". load_n or disp_z is one of them; other
-  components that are not named are loads of 0. Conditions hold for this step; those that are not named have the values
+  the columns of a history: "load_n,disp_x,bulk2_stress_xx,friction_scale". As many values are read as there are commas,
+  and one more; an empty name is refused, and one with a blank. load_n or disp_z is one of them; other components that
+  are not named are loads of 0. Conditions hold for this step; those that are not named have the values
   of the contact's options.
 */
 int petsam_try(petsam_contact *c, double time, const int force[6], const double value[6], double load[6],
@@ -100,6 +101,16 @@ int petsam_history(petsam_contact *c, const char *columns, int rows, const doubl
                    void *context);
 int petsam_live(petsam_contact *c, double cycles, const char *columns, int rows, const double *values,
                 petsam_monitor monitor, void *context);
+/*
+  petsam_advise - the number of warnings of the tried step, or of the last run: of what is right for the grid, but may
+  not be what was meant, as a slip zone that is narrow beside the cells. They are those of the program after a history
+  of the committed steps and this one, without those of wear, which petsam_commit() has. Takes some time, which nobody
+  spends who does not call it.
+  petsam_warning - the k-th of them, a line of text that names the option that mends it; NULL after the last one. It
+  lives until the next step is tried. Not collective.
+*/
+int         petsam_advise(petsam_contact *c, int *count);
+const char *petsam_warning(const petsam_contact *c, int k);
 /*
   petsam_commit - the tried step becomes the state from which the next one goes on; bodies wear by it, if they do. A
   warning of petsam_message() then says that the step wears more than one may.

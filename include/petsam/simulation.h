@@ -125,7 +125,13 @@ PETSC_EXTERN PetscErrorCode SamSimulationStop(SamSimulation simulation);
   the grid the message has a larger one. After an error there is no tried step. Errors: those of SamContactTry().
   SamSimulationCommitStep - commits it. `warning`: of a law about it; NULL: not wanted. Errors: PETSC_ERR_ORDER
   without a tried solution, PETSC_ERR_NOT_CONVERGED. SamContactReject() forgets it. Collective.
+  SamSimulationAdviseStep - passes on the advice on the tried step, as after a history of the committed steps and this
+  one. Collective.
+  SamSimulationForgetAdvice - the steps from now on go on from another state. Not collective.
 */
+PETSC_INTERN PetscErrorCode SamSimulationAdviseStep(SamSimulation simulation, const SamStep *step,
+                                                    SamAdviceFunction receive, void *context);
+PETSC_INTERN void           SamSimulationForgetAdvice(SamSimulation simulation);
 PETSC_INTERN PetscErrorCode SamSimulationTryStep(SamSimulation simulation, const SamControl *control, SamStep *step);
 PETSC_INTERN PetscErrorCode SamSimulationCommitStep(SamSimulation simulation, const SamStep *step, char warning[],
                                                     size_t size);

@@ -30,6 +30,7 @@ from .errors import Error, Missing
 
 __version__ = "1.0.0"
 __all__ = [
+    "AdviceWarning",
     "Contact",
     "ContactError",
     "CycleWarning",
@@ -51,6 +52,7 @@ __all__ = [
 
 # names that need libraries: their modules are imported when they are first asked for
 _HOMES = {
+    "AdviceWarning": ".contact",
     "Contact": ".contact",
     "ContactError": ".contact",
     "CycleWarning": ".contact",

@@ -71,6 +71,10 @@ class WearWarning(UserWarning):
     """A step wears so much that the pressure of the next ones is uneven from cell to cell, and wrong."""
 
 
+class AdviceWarning(UserWarning):
+    """A solution is right for its grid, but may not be what was meant: cells that do not resolve it, units, sizes."""
+
+
 class CycleWarning(UserWarning):
     """The recorded steps are not a closed cycle, or not a steady one."""
 
@@ -143,7 +147,7 @@ def _find():
     for name in _candidates():
         try:
             found = ctypes.CDLL(name)
-            for text in ("message", "field_name", "number_name", "step_name", "stress_name"):
+            for text in ("message", "warning", "field_name", "number_name", "step_name", "stress_name"):
                 getattr(found, f"petsam_{text}").restype = ctypes.c_char_p
             found.petsam_destroy.restype = None
             return found
@@ -191,6 +195,15 @@ def _text(words):
     if "\0" in words:
         raise ValueError(f"{short(repr(words))}: expected words without a NUL character")
     return words.encode()
+
+
+def _joined(function, names):
+    """Names for the library, which counts them by the commas between them: one for each value."""
+    for name in names:
+        if not re.fullmatch(r"[^\s,;#\"]+", name):
+            what = f"{short(repr(name))} is no name: give one name for each value, without commas or blanks"
+            raise PrescribedError(2, f"{function}: {what}")
+    return _text(",".join(names))
 
 
 def _number(value, name):
@@ -243,7 +256,7 @@ class Contact:
         self._contact = ctypes.c_void_p()
         if comm is not None and not hasattr(comm, "py2f"):
             raise TypeError(f"comm: expected a communicator of mpi4py, and not {type(comm).__name__}")
-        self._made, self._given = dict(comm=comm, **options), {}
+        self._made, self._given, self._advised = dict(comm=comm, **options), {}, set()
         self._c = _load()
         with _lock:
             code = self._c.petsam_create(
@@ -310,8 +323,8 @@ class Contact:
         the conditions that are columns of a history: friction_scale, bulk2_stress_xx (Pa), body2_case_NAME, the
         distance by which the contact rolls (roll, roll_y, m), ... (contact.prescribable). They hold for this step; what
         is not given has the value of the contact's option. NoEquilibrium or NotConverged where there is no
-        solution, with the step; an EdgeContactWarning where the contact has reached the edge of the grid. Replaces an
-        earlier try. With rolling="steady" each try is a steady state of rolling.
+        solution, with the step; an EdgeContactWarning where the contact has reached the edge of the grid, an
+        AdviceWarning, once of each kind, where the grid does not resolve the step. Replaces an earlier try. With rolling="steady" each try is a steady state of rolling.
         """
         return self._try("try_step", time, given)
 
@@ -326,7 +339,7 @@ class Contact:
     def _try(self, function, time, given):
         values = np.array([_real(number, f"{function}: {name}").value for name, number in given.items()])
         seconds, load, rigid = _real(time, f"{function}: time"), np.full(6, np.nan), np.full(6, np.nan)
-        code, words = 0, [_text(",".join(given)), _pointer(values), _pointer(load), _pointer(rigid)]
+        code, words = 0, [_joined(function, given), _pointer(values), _pointer(load), _pointer(rigid)]
         try:
             code = self._call("try_named", seconds, *words)
         except (NotConverged, NoEquilibrium) as error:
@@ -339,7 +352,20 @@ class Contact:
         step = self._step(time, load, rigid, code, self._message())
         if code == EDGE:
             warnings.warn(step.message, EdgeContactWarning, stacklevel=3)
+        self._advise()
         return step
+
+    def _advise(self):
+        """Warn of what the grid does not resolve, of each kind once: those of a kind differ in their numbers only."""
+        count = ctypes.c_int()
+        self._call("advise", ctypes.byref(count))
+        with _lock:
+            lines = [self._c.petsam_warning(self._contact, k).decode(errors="replace") for k in range(count.value)]
+        for line in lines:
+            kind = re.sub(r"[-+]?\d[\d.]*(e[-+]?\d+)?", "", line)
+            if kind not in self._advised:
+                self._advised.add(kind)
+                warnings.warn(line, AdviceWarning, stacklevel=4)
 
     def _step(self, time, load, rigid, status, message):
         return Step(time, load, rigid, status, message, self._numbers(), self._loads + self._rigids)
@@ -422,7 +448,7 @@ class Contact:
             code = self._call(
                 name,
                 *first,
-                _text(",".join(columns)),
+                _joined("run" if name == "history" else name, columns),
                 ctypes.c_int(len(values)),
                 _pointer(values),
                 _MONITOR(tell),
@@ -434,9 +460,9 @@ class Contact:
             raise
         if failed:
             raise failed[0]
-        message = self._message()
-        if message:
-            warnings.warn(message, EdgeContactWarning if code == EDGE else UserWarning, stacklevel=3)
+        if code == EDGE:
+            warnings.warn(self._message(), EdgeContactWarning, stacklevel=3)
+        self._advise()
         return found
 
     def _last_step(self, status=0, message=""):

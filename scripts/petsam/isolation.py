@@ -8,12 +8,14 @@ import os
 import pickle
 import resource
 import signal
+import stat
 import sys
 import warnings
 
 from .errors import Error
 
 SECONDS = 20  # of CPU time for one reading
+EXAMINING = 5  # of CPU time for the names and attributes of a file, before this process opens it itself
 MEMORY = 4 << 30  # bytes that one reading may need: it is by blocks
 NAME = 4096  # bytes of a file's name that are noted
 PR_SET_PDEATHSIG = 1  # of Linux's prctl
@@ -23,6 +25,7 @@ DAMAGE = {
     for name in ("SIGSEGV", "SIGBUS", "SIGABRT", "SIGFPE", "SIGILL", "SIGTRAP", "SIGXCPU", "SIGSYS")
 }
 
+_examined = {}  # path: the state of the file that has been examined last, and the Ended that is raised for it, or None
 _note = None  # in a child: memory shared with the parent, with the name of the file that is being read
 
 
@@ -78,16 +81,52 @@ def _silence():
         os.close(before)
 
 
+def _walk(path):
+    """Read all names and attributes of a file, of which nothing is kept; what cannot be read is found out later."""
+    import h5py
+
+    def visit(_, item):
+        for name in item.attrs:
+            with contextlib.suppress(Exception):
+                _ = item.attrs[name]
+
+    with reading(path, min(SECONDS, EXAMINING)), contextlib.suppress(Exception), h5py.File(path, "r") as file:
+        visit("/", file)
+        file.visititems(visit)
+
+
+def _examine(path):
+    """Raise Ended where a child process does not get through the names and attributes of a file that is there."""
+    try:
+        status = os.stat(path)
+    except (OSError, ValueError):
+        return
+    if not stat.S_ISREG(status.st_mode):
+        return
+    name, now = os.fsencode(path), (status.st_dev, status.st_ino, status.st_size, status.st_mtime_ns)
+    if _examined.get(name, (None,))[0] != now:
+        import h5py  # noqa: F401  in the parent, so that no child loads it again
+
+        (answer,) = each(_walk, [path])
+        _examined[name] = now, answer if isinstance(answer, Ended) and answer.number in DAMAGE else None
+    if _examined[name][1]:
+        raise Ended(_examined[name][1].number, str(path))
+
+
 @contextlib.contextmanager
-def reading(path):
-    """HDF5 reads a file here. In a child, time and memory are limited and the parent knows which file it was."""
+def reading(path, seconds=None):
+    """HDF5 reads a file here. In a child, time and memory are limited and the parent knows which file it was.
+
+    Elsewhere a child examines the file before, once for each state of it.
+    """
     if _note is None:
+        _examine(path)
         yield
         return
     name = os.fsencode(path)[:NAME]
     _note[: len(name) + 1] = name + b"\0"
     used = resource.getrusage(resource.RUSAGE_SELF)
-    seconds = math.ceil(used.ru_utime + used.ru_stime) + SECONDS
+    seconds = math.ceil(used.ru_utime + used.ru_stime) + (seconds or SECONDS)
     try:
         with _silence(), _limits(RLIMIT_CPU=seconds, RLIMIT_AS=_addresses() + MEMORY):
             yield

@@ -26,7 +26,8 @@ def need_own(path, sign, command):
 
 @contextlib.contextmanager
 def replacing(path):
-    """An open HDF5 file, which takes this name when all is written."""
+    """An open HDF5 file, which takes this name when all is written; a symbolic link stays one."""
+    path = os.path.realpath(path)
     part = f"{path}.{os.getpid()}.tmp"
     try:
         with h5py.File(part, "w") as file:

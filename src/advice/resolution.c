@@ -382,13 +382,24 @@ static PetscErrorCode Follow(const SamSetup *s, Local *l, Patch *a, SamExtent *e
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Bodies that yield have other pressures on finer cells than the elastic patch would have. */
+static PetscErrorCode Yields(const SamSetup *s, PetscBool *yields)
+{
+  PetscReal strain = 0;
+
+  PetscFunctionBegin;
+  if (SamProblemGetLaw(s->problem, SAM_LAW_PLASTIC)) PetscCall(SamContactGetNumber(s->contact, "plastic_max", &strain));
+  *yields = strain > 0 ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamAdviceMeasurePeak(const SamSetup *s, SamExtent *extent)
 {
   Local     l = {.gap = s->gap, .whole = s->grid};
   Patch    *a;
   PetscReal limit;
   PetscInt  at[2];
-  PetscBool level;
+  PetscBool level, yields = PETSC_FALSE;
   double    most, numbers[2];
 
   PetscFunctionBegin;
@@ -397,7 +408,9 @@ PetscErrorCode SamAdviceMeasurePeak(const SamSetup *s, SamExtent *extent)
   PetscCall(SamProblemGetPressureLimit(s->problem, &limit));
   PetscCall(SamContactGetSolution(s->contact, &l.solution));
   PetscCall(FindPeak(s->grid, l.solution->pressure, at, &most));
-  if (!(most > 0) || most >= SAM_SATURATED * limit || s->grid->fewest < WIDE) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(Yields(s, &yields));
+  if (!(most > 0) || yields || most >= SAM_SATURATED * limit || s->grid->fewest < WIDE)
+    PetscFunctionReturn(PETSC_SUCCESS);
   l.wrap = SamElasticityGetTraits(s->elasticity).periodic;
   PetscCall(PetscNew(&a));
   PetscCall(FillPatch(s, &l, at, a, &level));

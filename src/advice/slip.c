@@ -328,7 +328,8 @@ PetscErrorCode SamAdviceAddSlip(SamAdvice *a, PetscInt k, const SamStep *step)
   slip->branch += (double)n.energy;
   for (PetscInt c = SAM_COMPONENT_TX; c <= SAM_COMPONENT_MZ; c++)
     if (slip->width < INFINITY) work += fabs((double)(step->load[c] * step->rigid[c]));
-  if (work > NOTHING * NOTHING * fabs((double)(step->load[SAM_COMPONENT_N] * step->rigid[SAM_COMPONENT_N])))
+  if (step->load[SAM_COMPONENT_N] != 0 &&
+      work > NOTHING * NOTHING * fabs((double)(step->load[SAM_COMPONENT_N] * step->rigid[SAM_COMPONENT_N])))
     slip->work = PetscMax(slip->work, work);
   slip->pushed = step->control.force[SAM_COMPONENT_TX] && step->control.force[SAM_COMPONENT_TY] &&
                  step->control.force[SAM_COMPONENT_MZ];

@@ -130,8 +130,9 @@ static PetscErrorCode PrintEdges(SamReport r)
   if (r->steps > 1)
     PetscCall(PetscSNPrintf(where, sizeof(where), " in step %" PetscInt_FMT " (the worst)", r->edges.step));
   PetscCall(PetscPrintf(r->comm,
-                        "  %-10s  reconstructed on %.0f %% of their length%s: the other areas are counted from cells\n",
-                        "edges", 100 * (double)r->edges.residual, where));
+                        "  %-10s  reconstructed on %.0f %% of their length%s: the other areas are counted from cells, "
+                        "less %g of a cell for each side at an edge\n",
+                        "edges", 100 * (double)r->edges.residual, where, SAM_EDGE_FACE));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -145,8 +146,8 @@ static PetscErrorCode PrintEnergy(SamReport r)
 {
   PetscFunctionBegin;
   if (HasEnergy(r))
-    PetscCall(PetscPrintf(r->comm, "  %-10s  %.4g J dissipated, error by the length of the load steps about %.2g %%\n",
-                          "energy", (double)r->energy[0], 100 * (double)(r->energy[1] / r->energy[0])));
+    PetscCall(PetscPrintf(r->comm, "  %-10s  %.4g %s dissipated, error by the length of the load steps about %.2g %%\n",
+                          "energy", (double)r->energy[0], r->energy_unit, 100 * (double)(r->energy[1] / r->energy[0])));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -171,7 +172,7 @@ static PetscErrorCode WarnOfEnergy(SamReport r)
 /* The dissipated energy beside its closed form. */
 static PetscErrorCode PrintSlip(SamReport r)
 {
-  const char *const unit = r->row ? "J/m" : "J";
+  const char *const unit = r->energy_unit;
 
   PetscFunctionBegin;
   if (!r->slip.steps || isnan(r->slip.closed)) PetscFunctionReturn(PETSC_SUCCESS);

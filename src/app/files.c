@@ -57,13 +57,7 @@ static PetscBool IsSameFile(const char a[], const char b[])
 
 /* ---- files that PETSc writes ---- */
 
-static const char *const viewers[] = {"-normal_view",
-                                      "-normal_converged_reason",
-                                      "-tangential_view",
-                                      "-tangential_converged_reason",
-                                      "-log_view",
-                                      "-memory_view",
-                                      NULL};
+static const char *const own[] = {"-log_view", "-memory_view"}; /* of PETSc, which no row declares */
 
 static PetscBool IsViewerFormat(const char text[])
 {
@@ -129,6 +123,33 @@ static PetscErrorCode AddViewer(MPI_Comm comm, const char option[], SamFiles *fi
 
 /* ---- all files ---- */
 
+/* True if a file of an option is there already, with the names that are derived from it. */
+static PetscBool Has(const SamFiles *f, const char option[])
+{
+  for (PetscInt k = 0; k < f->count; k++)
+    if (!strcmp(f->list[k].option, option)) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+/* The files that an option names by its declaration. */
+static PetscErrorCode AddDeclared(SamFiles *f, MPI_Comm comm, const SamOptionFile *one)
+{
+  char      value[PETSC_MAX_PATH_LEN] = "", **list;
+  PetscBool set;
+  int       count;
+
+  PetscFunctionBegin;
+  if (one->kind == SAM_OPTION_VIEWER) PetscCall(AddViewer(comm, one->name, f));
+  if (one->kind == SAM_OPTION_VIEWER || Has(f, one->shown)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscOptionsGetString(NULL, NULL, one->name, value, sizeof(value), &set));
+  if (!set) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscStrToArray(value, one->kind == SAM_OPTION_FILES ? ',' : '\n', &count, &list));
+  for (int k = 0; k < count; k++)
+    PetscCall(SamFilesAdd(f, one->shown, list[k], one->kind == SAM_OPTION_OUTPUT ? PETSC_TRUE : PETSC_FALSE));
+  PetscCall(PetscStrToArrayDestroy(count, list));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Files of options, and those of viewers. */
 static PetscErrorCode AddCommon(SamFiles *f, MPI_Comm comm, const SamArguments *arguments)
 {
@@ -136,7 +157,8 @@ static PetscErrorCode AddCommon(SamFiles *f, MPI_Comm comm, const SamArguments *
   for (int k = 0; k < arguments->count; k++)
     PetscCall(SamFilesAdd(f, "-options_file", arguments->files[k], PETSC_FALSE));
   PetscCall(CheckOptionsView(comm));
-  for (PetscInt k = 0; viewers[k]; k++) PetscCall(AddViewer(comm, viewers[k], f));
+  for (PetscInt k = 0; SamOptionsFile(k); k++) PetscCall(AddDeclared(f, comm, SamOptionsFile(k)));
+  for (size_t k = 0; k < sizeof(own) / sizeof(own[0]); k++) PetscCall(AddViewer(comm, own[k], f));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -241,7 +241,6 @@ static PetscErrorCode CheckFiles(const SamStressRequest *r, const SamArguments *
   char    *temporary;
 
   PetscFunctionBegin;
-  PetscCall(SamFilesAdd(&files, "-input", r->input, PETSC_FALSE));
   PetscCall(SamOutputNameTemporary(r->output, &temporary));
   PetscCall(SamFilesAddWritten(&files, "-output", r->output, NULL, temporary));
   PetscCall(SamFilesCheck(&files, PETSC_COMM_WORLD, arguments));

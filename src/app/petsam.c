@@ -61,23 +61,10 @@ static void CatchSignals(PetscBool checkpoint)
 */
 static PetscErrorCode CheckFiles(const SamSimulationFiles *f, const SamArguments *arguments)
 {
-  static const char *const inputs[] = {"-gap_file",           "-gap_rough_file",
-                                       "-friction_file",      "-body1_surface_file",
-                                       "-body2_surface_file", "-load_history",
-                                       "-wear_friction",      "-restart"};
-
   SamFiles files = {.count = 0};
   char    *one, *other;
 
   PetscFunctionBegin;
-  for (size_t k = 0; k < sizeof(inputs) / sizeof(inputs[0]); k++) {
-    char      name[PETSC_MAX_PATH_LEN];
-    PetscBool set;
-
-    PetscCall(PetscOptionsGetString(NULL, NULL, inputs[k], name, sizeof(name), &set));
-    if (set)
-      PetscCall(SamFilesAdd(&files, strcmp(inputs[k], "-load_history") ? inputs[k] : "-history", name, PETSC_FALSE));
-  }
   if (f->output) {
     PetscCall(SamOutputNameTemporary(f->output, &other));
     PetscCall(SamFilesAddWritten(&files, "-output", f->output, NULL, other));
@@ -202,10 +189,10 @@ static PetscErrorCode SetUp(void *context, const SamArguments *arguments)
   PetscCall(SamOptionsRead(&from, NULL, 1, &dry, &run->dry, NULL));
   PetscCall(SamSimulationGetFiles(run->simulation, &files));
   if (files.checkpoint) CatchSignals(PETSC_TRUE);
-  PetscCall(CheckFiles(&files, arguments));
   WarnOfQuiet(run, &files);
   PetscCall(RefuseTooLarge(run->simulation, &from));
   PetscCall(SamSimulationSetUp(run->simulation, &from));
+  PetscCall(CheckFiles(&files, arguments)); /* all options have been read, and no file is open yet */
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

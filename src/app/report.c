@@ -116,8 +116,9 @@ PetscErrorCode SamReportBanner(SamReport r, SamGrid grid, double bytes, const Sa
   char        libraries[512], memory[32];
 
   PetscFunctionBegin;
-  r->steps = start->steps;
-  r->row   = SamGridIsRow(grid);
+  r->steps       = start->steps;
+  r->row         = SamGridIsRow(grid);
+  r->energy_unit = SamUnitOn(grid, "J");
   SamReportChooseColumns(r, start->loads);
   if (r->quiet) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCallMPI(MPI_Comm_size(r->comm, &ranks));

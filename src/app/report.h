@@ -44,6 +44,7 @@ struct _n_SamReport {
   PetscInt       steps, number, done;
   PetscBool      shown[SAM_REPORT_COLUMNS]; /* columns of the table of steps */
   PetscBool      row;                       /* a grid of one row: loads per metre */
+  const char    *energy_unit;               /* J, of such a row J/m */
   PetscInt       each;                      /* wear is per metre: once of such a row, once of a running band */
   PetscInt       cycles;                    /* lines printed for computed cycles */
   PetscReal      jump;                      /* cycles, of the last of these */

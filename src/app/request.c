@@ -47,7 +47,7 @@ static PetscErrorCode TakeSteps(const SamOptions *from, SamStressRequest *r)
 #define MEMBER(name) offsetof(SamStressRequest, name)
 static const SamOptionRow files[] = {{"input", "results of petsam", SAM_OPTION_FILE, MEMBER(input),
                                       .size = PETSC_MAX_PATH_LEN, .missing = "the results of petsam"},
-                                     {"output", "the new file", SAM_OPTION_FILE, MEMBER(output),
+                                     {"output", "the new file", SAM_OPTION_OUTPUT, MEMBER(output),
                                       .size = PETSC_MAX_PATH_LEN, .missing = "the file to be written"}},
                           times[] = {
                             {"steps", "load steps: last, all, a number, or first:last[:stride]", SAM_OPTION_STRING,

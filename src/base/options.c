@@ -301,15 +301,46 @@ static PetscErrorCode ReadChoice(const SamOptions *from, const SamOptionRow *row
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* ---- files ---- */
+
+#define MOST_FILES 64
+
+static SamOptionFile named[MOST_FILES];
+static PetscInt      nameds = 0;
+
+static PetscBool IsFile(SamOptionKind kind)
+{
+  return kind == SAM_OPTION_FILE || kind == SAM_OPTION_FILES || kind == SAM_OPTION_OUTPUT ? PETSC_TRUE : PETSC_FALSE;
+}
+
+PetscErrorCode SamOptionsNoteFile(const SamOptions *from, SamOptionKind kind, const char name[], const char shown[])
+{
+  SamOptionFile one = {.kind = kind};
+
+  PetscFunctionBegin;
+  if (!IsFile(kind) && kind != SAM_OPTION_VIEWER) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscSNPrintf(one.name, sizeof(one.name), "-%s%s", SamOptionsPrefix(from), name));
+  PetscCall(PetscSNPrintf(one.shown, sizeof(one.shown), "-%s%s", SamOptionsPrefix(from), shown));
+  for (PetscInt k = 0; k < nameds; k++)
+    if (!strcmp(named[k].name, one.name)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCheck(nameds < MOST_FILES, from->comm, PETSC_ERR_ARG_OUTOFRANGE, "More than %d options name files", MOST_FILES);
+  named[nameds++] = one;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+const SamOptionFile *SamOptionsFile(PetscInt k)
+{
+  return k < nameds ? &named[k] : NULL;
+}
+
 /* A text, a file's name, one word, which is checked, or several. */
 static PetscErrorCode ReadText(const SamOptions *from, const SamOptionRow *row, char value[], PetscBool *given)
 {
-  static const char *const arguments[] = {[SAM_OPTION_STRING] = "<string>",
-                                          [SAM_OPTION_FILE]   = "<file>",
-                                          [SAM_OPTION_WORD]   = "<keyword>",
-                                          [SAM_OPTION_WORDS]  = "<keyword>[,...]"};
-  const char              *words       = row->words ? row->words : "";
-  char                     text[TEXT_SIZE], expected[640];
+  static const char *const arguments[] = {
+    [SAM_OPTION_STRING] = "<string>", [SAM_OPTION_FILE] = "<file>",    [SAM_OPTION_FILES] = "<file>",
+    [SAM_OPTION_OUTPUT] = "<file>",   [SAM_OPTION_WORD] = "<keyword>", [SAM_OPTION_WORDS] = "<keyword>[,...]"};
+  const char *words = row->words ? row->words : "";
+  char        text[TEXT_SIZE], expected[640];
 
   PetscFunctionBegin;
   if (row->kind == SAM_OPTION_WORD)
@@ -317,7 +348,8 @@ static PetscErrorCode ReadText(const SamOptions *from, const SamOptionRow *row, 
   else if (row->kind == SAM_OPTION_WORDS)
     (void)snprintf(expected, sizeof(expected), "some of %s", words);
   else
-    (void)snprintf(expected, sizeof(expected), row->kind == SAM_OPTION_FILE ? "the name of a file" : "a string");
+    (void)snprintf(expected, sizeof(expected), IsFile(row->kind) ? "the name of a file" : "a string");
+  PetscCall(SamOptionsNoteFile(from, row->kind, row->name, row->name));
   PetscCall(SamOptionsDescribe(from, &(SamOptionHelp){row->name, arguments[row->kind], row->text, value, words}));
   PetscCall(GetText(from, row->name, expected, text, sizeof(text), given));
   if (!*given) PetscFunctionReturn(PETSC_SUCCESS);
@@ -335,6 +367,7 @@ static PetscErrorCode ReadViewer(const SamOptions *from, const SamOptionRow *row
   char option[128], text[TEXT_SIZE] = "";
 
   PetscFunctionBegin;
+  PetscCall(SamOptionsNoteFile(from, row->kind, row->name, row->name));
   PetscCall(SamOptionsDescribe(from, &(SamOptionHelp){row->name, "[<viewer>]", row->text, "", ""}));
   PetscCall(PetscSNPrintf(option, sizeof(option), "-%s", row->name));
   PetscCall(PetscOptionsGetString(NULL, from->prefix, option, text, sizeof(text), given));

@@ -33,7 +33,7 @@ static Register Load(const char file[], char fault[], size_t size)
 PetscErrorCode SamOptionsPlugins(const SamOptions *from)
 {
   static const SamOptionRow row = {"plugin", "shared libraries with further types, separated by commas",
-                                   SAM_OPTION_FILE, .size = PETSC_MAX_PATH_LEN};
+                                   SAM_OPTION_FILES, .size = PETSC_MAX_PATH_LEN};
   char                      files[PETSC_MAX_PATH_LEN] = "", **file, fault[SAM_MESSAGE];
   int                       count;
   double                    failed = 0;

@@ -28,10 +28,11 @@ struct _n_SamContact {
   PetscObjectState revision[SAM_GENERATIONS];   /* of the problem that the pressure was solved with; -1: another */
   PetscInt         tractions[3], displacements[2]; /* fields: pressure, bound, shear; u_z, u_t */
   PetscInt         aside;                          /* field, of the last step that needed it */
-  PetscInt time, solution, creeps, control, residuals, counts, status, window, slip, steps; /* numbers, see memory.c */
-  PetscInt rolling;                   /* numbers, of a motion in which material streams only */
-  PetscInt condition[SAM_CONDITIONS]; /* numbers, by the places of conditions */
-  PetscObjectState declared;          /* what all of them follow from, when they were declared; 0: to be done */
+  PetscInt         time, solution, apart, creeps, control, residuals, counts, status, window, slip,
+    steps;                                    /* numbers, see memory.c */
+  PetscInt         rolling;                   /* numbers, of a motion in which material streams only */
+  PetscInt         condition[SAM_CONDITIONS]; /* numbers, by the places of conditions */
+  PetscObjectState declared;                  /* what all of them follow from, when they were declared; 0: to be done */
 };
 
 /* Whether pressure and shear depend on each other. */
@@ -54,7 +55,10 @@ static inline PetscBool SamContactRecalls(SamContact c)
 PETSC_INTERN PetscErrorCode SamContactDeclare(SamContact contact);
 /* SamContactBegin - begins a try: an empty tried solution, whose tractions may be written to. Collective. */
 PETSC_INTERN PetscErrorCode SamContactBegin(SamContact contact, const SamControl *control);
-/* SamContactStore - stores the numbers of the tried solution, and of a step, in the state. Not collective. */
+/*
+  SamContactStore - stores the numbers of the tried solution, and of a step, in the state. An approach that the step does
+  not have, and the solution was computed with, is kept aside. Not collective.
+*/
 PETSC_INTERN PetscErrorCode SamContactStore(SamContact contact, const SamStep *step);
 /* SamContactView - makes the views of the committed generation, and of that one step back. Collective. */
 PETSC_INTERN PetscErrorCode SamContactView(SamContact contact);

@@ -86,6 +86,8 @@ static PetscErrorCode DeclareControl(SamContact c)
   }
   PetscCall(
     Declare(c, "control", "1", "what was prescribed", SAM_NUMBER_REAL, CONTROL, PETSC_TRUE, PETSC_FALSE, &c->control));
+  PetscCall(Declare(c, "approach_apart", "m", "approach that bodies without contact and load are computed with",
+                    SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_FALSE, &c->apart));
   PetscCall(Declare(c, "window", "1", "part of the grid that was solved on", SAM_NUMBER_INT, 4, PETSC_TRUE, PETSC_FALSE,
                     &c->window));
   PetscCall(
@@ -392,6 +394,7 @@ PetscErrorCode SamContactStore(SamContact c, const SamStep *step)
   n[c->slip + ASIDE] = c->generation[SAM_TRIED].aside != NULL;
   PetscCall(PetscArraycpy(n + c->solution, step->load, SAM_COMPONENTS));
   PetscCall(PetscArraycpy(n + c->solution + SAM_COMPONENTS, step->rigid, SAM_COMPONENTS));
+  n[c->apart] = c->generation[SAM_TRIED].rigid[SAM_COMPONENT_N];
   for (PetscInt k = 0; k < 3 && c->rolls; k++) {
     const PetscInt     m      = SamComponentsOf[SAM_BALANCE_TANGENTIAL][k];
     const SamSolution *before = SamContactBefore(c);
@@ -421,6 +424,7 @@ PetscErrorCode SamContactView(SamContact c)
       s->load[k]  = n[c->steps] > 0 ? n[c->solution + k] : 0;
       s->rigid[k] = n[c->steps] > 0 ? n[c->solution + SAM_COMPONENTS + k] : 0;
     }
+    if (isnan(s->rigid[SAM_COMPONENT_N])) s->rigid[SAM_COMPONENT_N] = n[c->apart];
     PetscCall(SamStateRestoreField(c->state, c->tractions[0], g, &s->pressure));
     PetscCall(SamStateRestoreField(c->state, c->tractions[1], g, &s->bound));
     PetscCall(SamStateRestoreField(c->state, c->tractions[2], g, &s->shear));

@@ -316,6 +316,17 @@ static PetscErrorCode Advance(SamContact c, PetscBool same_pressure, char failed
 
 /* ---- a step ---- */
 
+/* Bodies that touch nowhere under the given normal load, which is 0, have no approach. */
+static PetscErrorCode ForgetApproach(SamContact c, SamStep *step)
+{
+  PetscReal cells;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetNumber(c, "contact_cells", &cells));
+  if (SamControlWay(&step->control, SAM_COMPONENT_N) == SAM_BY_LOAD && cells == 0) step->rigid[SAM_COMPONENT_N] = NAN;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Checks the tried solution and fills in the numbers of the step. */
 static PetscErrorCode Conclude(SamContact c, PetscBool same_pressure, SamStep *step)
 {
@@ -335,6 +346,7 @@ static PetscErrorCode Conclude(SamContact c, PetscBool same_pressure, SamStep *s
   PetscCall(SamSolutionComputeNumbers(c->problem, c->state, before, s, same_pressure, c->set.edges));
   if (c->set.spots) PetscCall(SamSolutionComputeSpots(c->problem, c->state, s));
   PetscCall(Judge(c, step));
+  PetscCall(ForgetApproach(c, step));
   if (failed[0] && SamStepIsSolved(step)) PetscCall(SamStepFail(step, SAM_STATUS_NOT_CONVERGED, failed));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -10,7 +10,7 @@
        an edge between centres. In plane strain the edge has one such place, and the shift is that of it (Line()).
     3. Guard: the difference to w must be that of the margin, whose shape is the same for all smooth edges.
     4. Areas: the part of each cell of the band where the function is positive, by sub-cells. Where it is refused, a
-       cell counts less FACE for each of its faces to a cell outside, unless w is BLUNT there.
+       cell counts less SAM_EDGE_FACE for each of its faces to a cell outside, unless w is BLUNT there.
   Distances are in cells.
 */
 #include "edgesimpl.h"
@@ -21,7 +21,6 @@
 #define WINDOW 5      /* half width of the window that they are reconstructed from, cells */
 #define SHIFT  0.0105 /* of the edge; fitted on circles and ellipses, within 5 % the same for all */
 #define BENT   0.005  /* largest deviation of the core from the function, rms over the slope of a cell */
-#define FACE   0.09   /* part of a cell a face */
 #define BLUNT  0.6    /* w of a cell at the edge over that of the cell behind it, where w does not vanish at the edge */
 #define NEXT   (-2)   /* a cell outside with this distance's square or nearer is beside the zone */
 #define HALO   (WINDOW + 5)
@@ -162,7 +161,9 @@ static void AddCell(const Band *band, PetscInt i, PetscInt j, double sums[SUMS],
     if (SamZoneHas(z, i + x[n], j + y[n]) && z->distance[SamZoneAt(z, i + x[n], j + y[n])] < 0) faces++;
   sums[FACES] += (double)faces;
   sums[GOOD] += good ? (double)faces : 0;
-  sums[AREA] += good ? SamFitPart(fit) : inside ? 1 - (faces && !IsBlunt(z, i, j) ? FACE * (double)faces : 0) : 0;
+  sums[AREA] += good     ? SamFitPart(fit)
+                : inside ? 1 - (faces && !IsBlunt(z, i, j) ? SAM_EDGE_FACE * (double)faces : 0)
+                         : 0;
   if (point) *point = good ? fit[0] : z->w[k];
   if (good) AddPoint(z->grid, fit, i, j, edge);
 }

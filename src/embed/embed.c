@@ -166,10 +166,66 @@ static PetscErrorCode Create(petsam_contact *c, const char options[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* ---- warnings ---- */
+
+PetscErrorCode SamEmbedWarn(petsam_contact *c, const char text[], const char setting[])
+{
+  char line[2 * SAM_MESSAGE];
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(line, sizeof(line), setting[0] ? "%s (-%s)" : "%s", text, setting));
+  PetscCall(PetscRealloc(sizeof(*c->warning) * ((size_t)c->warnings + 1), &c->warning));
+  PetscCall(PetscStrallocpy(line, &c->warning[c->warnings]));
+  c->warnings++;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Warn(void *contact, const char text[], const char setting[])
+{
+  return SamEmbedWarn((petsam_contact *)contact, text, setting);
+}
+
+static PetscErrorCode ForgetWarnings(petsam_contact *c)
+{
+  PetscFunctionBegin;
+  for (int k = 0; k < c->warnings; k++) PetscCall(PetscFree(c->warning[k]));
+  c->warnings = 0;
+  PetscCall(PetscFree(c->warning));
+  c->advised = PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Those of a step only if they are asked for, as they take time. */
+static PetscErrorCode Advise(petsam_contact *c, int *count)
+{
+  const PetscBool tried = SamContactHasStep(c->setup->contact, SAM_TRIED);
+
+  PetscFunctionBegin;
+  PetscCheck(c->depth < 2, c->comm, PETSC_ERR_ORDER, "petsam_advise: call it after the monitor returns");
+  if (!c->advised && tried && SamStepIsSolved(&c->last))
+    PetscCall(SamSimulationAdviseStep(c->simulation, &c->last, Warn, c));
+  c->advised = PETSC_TRUE;
+  *count     = c->warnings;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+int petsam_advise(petsam_contact *c, int *count)
+{
+  return SamEmbedEnterTogether(c, __func__, count != NULL, 0) ? SamEmbedLeave(c, Advise(c, count)) : SAM_EMBED_USAGE;
+}
+
+const char *petsam_warning(const petsam_contact *c, int k)
+{
+  return c && k >= 0 && k < c->warnings ? c->warning[k] : NULL;
+}
+
+/* ---- the end ---- */
+
 static PetscErrorCode Destroy(petsam_contact *c)
 {
   PetscFunctionBegin;
   PetscCall(SamEmbedDestroyStress(c));
+  PetscCall(ForgetWarnings(c));
   PetscCall(VecDestroy(&c->work));
   PetscCall(SamSimulationDestroy(&c->simulation));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -253,6 +309,7 @@ PetscErrorCode SamEmbedForget(petsam_contact *c)
   PetscCheck(c->depth < 2, c->comm, PETSC_ERR_ORDER, "a monitor may query fields and numbers only");
   PetscCall(SamContactReject(c->setup->contact));
   PetscCall(PetscMemzero(&c->last, sizeof(c->last)));
+  PetscCall(ForgetWarnings(c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -309,6 +366,9 @@ static PetscErrorCode Try(petsam_contact *c, double time, int count, const char 
     PetscCheck(names[k], c->comm, SAM_ERR_USER,
                "petsam_try: force of %s is 2: it has no creepage: use 1 for a load, 0 for a displacement",
                SamComponentNames[k].load);
+    PetscCheck(names[k][0] && !names[k][strcspn(names[k], SAM_EMBED_BETWEEN)], c->comm, SAM_ERR_USER,
+               "name %d, \"%s\", is empty or contains a blank: give one name for each value, with commas between them",
+               k + 1, names[k]);
     PetscCall(SamControlSet(&control, c->conditions, names[k], values[k]));
     part = SamControlFind(c->conditions, names[k], &way);
     PetscCheck(!given[part], c->comm, SAM_ERR_USER, "%s and %s exclude each other: give one of them", given[part],
@@ -341,16 +401,23 @@ static int TryTogether(petsam_contact *c, const char function[], PetscBool given
   return (int)c->last.status;
 }
 
+/* Each comma ends a name, also an empty one, so that as many values are read as there are names. */
 int petsam_try_named(petsam_contact *c, double time, const char *names, const double values[], double load[6],
                      double rigid[6])
 {
-  PetscBool given = names && values;
-  char    **list  = NULL;
-  int       count = 0, code;
+  char        *copy  = names && values ? strdup(names) : NULL;
+  const char **list  = copy ? (const char **)calloc(strlen(copy) + 1, sizeof(*list)) : NULL;
+  char        *next  = list ? copy : NULL;
+  int          count = 0, code;
 
-  if (given && PetscStrToArray(names, ',', &count, &list)) given = PETSC_FALSE;
-  code = TryTogether(c, __func__, given, time, count, (const char *const *)list, values, load, rigid);
-  if (list) (void)PetscStrToArrayDestroy(count, list);
+  while (next) {
+    list[count++] = next;
+    next          = strchr(next, ',');
+    if (next) *next++ = '\0';
+  }
+  code = TryTogether(c, __func__, list != NULL, time, count, list, values, load, rigid);
+  free(list);
+  free(copy);
   return code;
 }
 

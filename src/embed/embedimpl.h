@@ -10,6 +10,7 @@
 #include <petsam/stiffness.h>
 
 enum { SAM_EMBED_USAGE = 2, SAM_EMBED_FILE = 3 };
+#define SAM_EMBED_BETWEEN " \t\r\n\v\f" /* blanks, which no name contains */
 
 /* The steps that are recorded, and the results of petsam_stress() and petsam_fatigue() (stress.c). */
 typedef struct _n_SamEmbedStress *SamEmbedStress;
@@ -27,11 +28,16 @@ struct petsam_contact {
   PetscBool       has_gap; /* a gap has been given, */
   uint64_t        gap;     /* of this checksum */
   int             depth;   /* calls under way: 2 for one from a monitor */
-  char            message[SAM_MESSAGE], advice[SAM_MESSAGE];
+  char            message[SAM_MESSAGE];
+  char          **warning;  /* lines on the last tried step, or run, */
+  int             warnings; /* so many */
+  PetscBool       advised;  /* all of them */
 
   SamEmbedStress stress; /* NULL: nothing yet */
 };
 
+/* SamEmbedWarn - adds a warning; `setting`: the option that mends it, or empty. Not collective. */
+PETSC_INTERN PetscErrorCode SamEmbedWarn(petsam_contact *c, const char text[], const char setting[]);
 /*
   SamEmbedStart - starts MPI and PETSc if nobody has. Returns 0, or 2 with a message. Not collective.
 */

@@ -23,13 +23,7 @@ static PetscErrorCode AskHost(const Run *run, int cycle)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The first warning of a run becomes its message. */
-static void Keep(petsam_contact *c, const char text[])
-{
-  if (!c->advice[0]) (void)snprintf(c->advice, sizeof(c->advice), "%s", text);
-}
-
-/* Keeps the step as petsam_try() does, and the first message of all. */
+/* Keeps the step as petsam_try() does, and all warnings. */
 static PetscErrorCode Tell(void *context, SamContact contact, const SamSimulationNews *news)
 {
   const Run *const      run = (const Run *)context;
@@ -54,10 +48,10 @@ static PetscErrorCode Tell(void *context, SamContact contact, const SamSimulatio
     if (news->result->status)
       c->last = *news->result;
     else
-      Keep(c, news->result->message);
+      PetscCall(SamEmbedWarn(c, news->result->message, ""));
     break;
   case SAM_NEWS_ADVICE:
-    Keep(c, news->text);
+    PetscCall(SamEmbedWarn(c, news->text, news->setting));
     break;
   default:
     break;
@@ -96,11 +90,12 @@ static PetscErrorCode RunProgram(Run *run, const double *cycles, const char colu
                              c->increments, &history));
   PetscCall(SamSimulationSetProgram(c->simulation, &history, cycles ? *cycles : 0));
   PetscCall(SamSimulationSetMonitor(c->simulation, Tell, run));
-  c->advice[0] = '\0';
-  code         = SamSimulationRun(c->simulation);
+  code = SamSimulationRun(c->simulation);
   PetscCall(SamSimulationSetMonitor(c->simulation, NULL, NULL));
+  SamSimulationForgetAdvice(c->simulation);
   if (code) PetscCall(SamEmbedForget(c));
   PetscCall(code);
+  c->advised = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -114,7 +109,7 @@ static int RunAll(petsam_contact *c, const char function[], const double *cycles
   PetscBool stopped;
   int       code;
 
-  for (const char *comma = columns; comma && (comma = strchr(comma, ',')); comma++) row++;
+  for (const char *at = columns; at && *at && *at != '#'; at++) row += *at == ','; /* a comment has no columns */
   sum = SamEmbedAdd((uint64_t)rows + (monitor != NULL), cycles, sizeof(*cycles));
   sum =
     SamEmbedAdd(SamEmbedAddText(sum, columns), values, columns && rows > 0 ? row * (size_t)rows * sizeof(*values) : 0);
@@ -122,7 +117,7 @@ static int RunAll(petsam_contact *c, const char function[], const double *cycles
   code = SamEmbedLeave(c, RunProgram(&run, cycles, columns, rows, values));
   if (code) return code;
   (void)SamSimulationGetStatus(c->simulation, &worst, &stopped);
-  (void)snprintf(c->message, sizeof(c->message), "%s", worst ? c->last.message : c->advice);
+  (void)snprintf(c->message, sizeof(c->message), "%s", worst ? c->last.message : c->warnings ? c->warning[0] : "");
   return (int)worst;
 }
 
@@ -175,6 +170,7 @@ static PetscErrorCode Copy(petsam_contact *c, petsam_contact *from)
   PetscCall(SamContactIsGapCurrent(from->setup->contact, &current));
   PetscCall(SamContactSetState(c->setup->contact, state, current));
   PetscCall(SamStepCacheCopy(SamContactGetCache(from->setup->contact), SamContactGetCache(c->setup->contact)));
+  SamSimulationForgetAdvice(c->simulation);
   PetscCall(SamEmbedRecordAnew(c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -189,6 +185,7 @@ static PetscErrorCode Reset(petsam_contact *c)
   PetscFunctionBegin;
   PetscCall(SamEmbedForget(c));
   PetscCall(SamContactReset(c->setup->contact));
+  SamSimulationForgetAdvice(c->simulation);
   PetscCall(SamEmbedRecordAnew(c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

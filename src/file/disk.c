@@ -48,13 +48,35 @@ PetscErrorCode SamFileRaise(SamGrid grid, const char option[], const char filena
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+#define MOST_LINKS 40 /* that follow one another, as the system has it */
+
+/* The name behind symbolic links, whether there is a file or not: a link stays one when its file is replaced. */
+static void FollowLinks(const char filename[], char real[PETSC_MAX_PATH_LEN])
+{
+  (void)snprintf(real, PETSC_MAX_PATH_LEN, "%s", filename);
+  for (int k = 0; k < MOST_LINKS; k++) {
+    char          target[PETSC_MAX_PATH_LEN], folder[PETSC_MAX_PATH_LEN], next[2 * PETSC_MAX_PATH_LEN + 2];
+    const ssize_t length = readlink(real, target, sizeof(target) - 1);
+
+    if (length <= 0) return;
+    target[length] = '\0';
+    SamGetFolder(real, folder);
+    (void)snprintf(next, sizeof(next), "%s%s%s", target[0] == '/' ? "" : folder, target[0] == '/' ? "" : "/", target);
+    if (strlen(next) >= PETSC_MAX_PATH_LEN) return;
+    (void)strcpy(real, next);
+  }
+}
+
 PetscErrorCode SamFileNameBeside(const char filename[], const char ending[], char **name)
 {
-  const size_t size = strlen(filename) + strlen(ending) + 1;
+  char   real[PETSC_MAX_PATH_LEN];
+  size_t size;
 
   PetscFunctionBegin;
+  FollowLinks(filename, real);
+  size = strlen(real) + strlen(ending) + 1;
   PetscCall(PetscMalloc1(size, name));
-  (void)snprintf(*name, size, "%s%s", filename, ending);
+  (void)snprintf(*name, size, "%s%s", real, ending);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -199,13 +221,14 @@ PetscErrorCode SamFileReserve(SamFile f, off_t bytes)
 PetscErrorCode SamFileGetSpace(SamGrid grid, const char option[], const char filename[], double *bytes)
 {
   struct statvfs space;
-  char           folder[PETSC_MAX_PATH_LEN];
+  char           folder[PETSC_MAX_PATH_LEN], real[PETSC_MAX_PATH_LEN];
   PetscMPIInt    rank;
   int            error = 0;
 
   PetscFunctionBegin;
   *bytes = PETSC_INFINITY;
-  SamGetFolder(filename, folder);
+  FollowLinks(filename, real);
+  SamGetFolder(real, folder);
   PetscCallMPI(MPI_Comm_rank(grid->comm, &rank));
   if (rank == 0 && access(access(filename, F_OK) ? folder : filename, W_OK)) error = errno;
   if (rank == 0 && !statvfs(folder, &space)) *bytes = (double)space.f_bavail * (double)space.f_frsize;
@@ -303,9 +326,10 @@ PetscErrorCode SamFileLockTake(SamGrid grid, const char option[], const char fil
 /* Whether a file can be made there, without making one, which would stay if the run were killed just then. */
 static int CheckFolderOf(const char filename[])
 {
-  char folder[PETSC_MAX_PATH_LEN];
+  char folder[PETSC_MAX_PATH_LEN], real[PETSC_MAX_PATH_LEN];
 
-  SamGetFolder(filename, folder);
+  FollowLinks(filename, real);
+  SamGetFolder(real, folder);
   return access(folder, W_OK | X_OK) ? errno : 0;
 }
 
@@ -481,14 +505,16 @@ static int KeepAs(const char filename[], const char kept[])
 PetscErrorCode SamFileReplace(SamGrid grid, const char option[], const char temporary[], const char filename[],
                               const char kept[])
 {
-  int error = 0;
+  char real[PETSC_MAX_PATH_LEN];
+  int  error = 0;
 
   PetscFunctionBegin;
   if (IsFirst(grid)) {
+    FollowLinks(filename, real);
     error = Sync(temporary, O_RDONLY);
-    if (!error && kept) error = KeepAs(filename, kept);
-    if (!error && rename(temporary, filename)) error = errno;
-    if (!error) error = SyncFolderOf(filename);
+    if (!error && kept) error = KeepAs(real, kept);
+    if (!error && rename(temporary, real)) error = errno;
+    if (!error) error = SyncFolderOf(real);
   }
   PetscCall(SamFileRaise(grid, option, filename, error));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -74,7 +74,7 @@ PetscErrorCode SamPlasticReadInitial(const SamOptions *from, const char option[]
   static const char *const names[COLUMNS + 1]       = {"depth", "stress_xx", "stress_yy", NULL};
   char                     file[PETSC_MAX_PATH_LEN] = "";
   const SamOptionRow       row = {option, "text file of depth, stress_xx, stress_yy (m, Pa): stress before any load",
-                                  SAM_OPTION_STRING, .size = sizeof(file), .needs = needs};
+                                  SAM_OPTION_FILE, .size = sizeof(file), .needs = needs};
   SamTable                 t;
   PetscInt                 column[COLUMNS];
   PetscBool                set;

@@ -28,7 +28,7 @@ static double ReadDuration(const char text[])
 
 #define MEMBER(name) offsetof(SamCheckpoints, name)
 static const SamOptionRow rows[] = {
-  {"checkpoint", "file of the checkpoints; the one before is kept as file.1", SAM_OPTION_FILE, MEMBER(filename),
+  {"checkpoint", "file of the checkpoints; the one before is kept as file.1", SAM_OPTION_OUTPUT, MEMBER(filename),
    .size = PETSC_MAX_PATH_LEN - 8},
   {"checkpoint_every", "load steps between them, 0: only on signals and before the limit", SAM_OPTION_INT,
    MEMBER(every), .needs = "checkpoint"},

@@ -201,6 +201,7 @@ static PetscErrorCode ReadFileName(const SamOptions *from, char file[], size_t s
   PetscFunctionBegin;
   PetscCall(SamOptionsDescribe(from, &option));
   SamOptionsKnow(from, "load_history", NULL);
+  PetscCall(SamOptionsNoteFile(from, SAM_OPTION_FILE, "load_history", "history"));
   PetscCall(PetscOptionsGetString(NULL, from->prefix, "-load_history", file, size, set));
   PetscCheck(!*set || file[0], from->comm, SAM_ERR_USER, "-history has no value: expected the name of a file");
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -76,7 +76,7 @@ static PetscErrorCode ReadPlan(SamSimulation s, PetscBool given, const SamOption
 
 #define MEMBER(name) offsetof(struct _n_SamSimulation, name)
 static const SamOptionRow results[] =
-  {{"output", "HDF5 file of the results", SAM_OPTION_FILE, MEMBER(filename), .size = PETSC_MAX_PATH_LEN},
+  {{"output", "HDF5 file of the results", SAM_OPTION_OUTPUT, MEMBER(filename), .size = PETSC_MAX_PATH_LEN},
    {"output_every", "write the fields of every m-th step, and of the last", SAM_OPTION_INT, MEMBER(output_every),
     .least = 1},
    {"output_at", "what -output_every counts: all steps, or those at rows of the history", SAM_OPTION_BOOL,

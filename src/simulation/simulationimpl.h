@@ -70,6 +70,9 @@ struct _n_SamSimulation {
   char                   filename[PETSC_MAX_PATH_LEN];
   char                  *written; /* name of the part of the results that is written; NULL: none */
   SamAdvice              advice;
+  SamAdvice              single, tried; /* of the steps given one by one and committed, and with the tried one */
+  PetscInt               earlier;       /* 1: the state that these steps go on from has a step already */
+  PetscBool              advised;       /* the tried step has been looked at */
   double                 sums[SAM_STATE_NUMBERS]; /* numbers joined over all steps, for the check of the grid */
 };
 

@@ -26,10 +26,69 @@ PetscErrorCode SamSimulationTryStep(SamSimulation s, const SamControl *control, 
 
     if (SamControlGet(control, one) != one->usual) PetscCall(SamContactOfferCondition(s->setup.contact, one));
   }
-  code = SamContactTry(s->setup.contact, control, step);
+  s->advised = PETSC_FALSE;
+  code       = SamContactTry(s->setup.contact, control, step);
   if (code) PetscCall(SamContactReject(s->setup.contact));
   PetscCall(code);
   PetscCall(SamSimulationAdviseEdge(s, control, step));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- advice ---- */
+
+/* Adds the tried step to those before it; `examine`: with a look at its contact, if its normal load is the largest. */
+static PetscErrorCode Follow(SamSimulation s, const SamStep *step, PetscBool examine, SamAdvice *now)
+{
+  const PetscInt   k = s->earlier + now->most.steps;
+  const SamExtent *found;
+  PetscBool        examined;
+
+  PetscFunctionBegin;
+  now->setup = &s->setup;
+  now->steps = k + 1;
+  if (s->has_gap) now->most.open = PETSC_TRUE;
+  SamAdviceAddLoads(now, k, &step->control);
+  examined      = now->examined && now->largest != k ? PETSC_TRUE : PETSC_FALSE;
+  now->examined = examined || !examine ? PETSC_TRUE : PETSC_FALSE;
+  PetscCall(SamAdviceStep(now, k, PETSC_FALSE, step, &found));
+  now->examined = examined || examine ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationAdviseStep(SamSimulation s, const SamStep *step, SamAdviceFunction receive, void *context)
+{
+  const SamSlip *slip;
+  SamAdvice      now = s->single;
+
+  PetscFunctionBegin;
+  now.setup   = &s->setup;
+  now.receive = receive;
+  now.context = context;
+  if (!now.most.steps) PetscCall(SamAdviceBegin(&now));
+  PetscCall(Follow(s, step, PETSC_TRUE, &now));
+  s->tried   = now;
+  s->advised = PETSC_TRUE;
+  PetscCall(SamAdviceEnd(&now, &slip));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+void SamSimulationForgetAdvice(SamSimulation s)
+{
+  s->single  = (SamAdvice){.setup = &s->setup};
+  s->earlier = SamContactHasStep(s->setup.contact, SAM_COMMITTED) ? 1 : 0;
+  s->advised = PETSC_FALSE;
+}
+
+/* The steps that are advised on include the tried one from now on. */
+static PetscErrorCode CommitAdvice(SamSimulation s, const SamStep *step)
+{
+  PetscFunctionBegin;
+  if (s->running) PetscFunctionReturn(PETSC_SUCCESS);
+  if (s->advised)
+    s->single = s->tried;
+  else
+    PetscCall(Follow(s, step, PETSC_FALSE, &s->single));
+  s->advised = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -46,6 +105,7 @@ PetscErrorCode SamSimulationCommitStep(SamSimulation s, const SamStep *step, cha
   PetscCheck(SamStepIsSolved(step), s->comm, PETSC_ERR_NOT_CONVERGED,
              "the tried step did not converge, and cannot be committed: %s", step->message);
   if (warning) PetscCall(SamContactAdvise(s->setup.contact, &law, warning, size));
+  PetscCall(CommitAdvice(s, step));
   if (s->needs.grid_check) {
     PetscCall(SamContactGetState(s->setup.contact, &state)); /* lets all parts declare what they remember again */
     SamStateJoinNumbers(state, s->sums, PETSC_FALSE);

@@ -71,7 +71,26 @@ static PetscBool ReadDepth(char text[], PetscReal half, double *value)
   if (relative) text[length - 1] = '\0';
   good = SamReadLength(text, value);
   if (relative) *value *= (double)half;
-  return good;
+  return good && isfinite(*value) ? PETSC_TRUE : PETSC_FALSE;
+}
+
+PetscBool SamDepthsAreRelative(const char depths[])
+{
+  char   text[TEXT], *parts[TEXT / 2];
+  int    count;
+  double value;
+
+  (void)snprintf(text, sizeof(text), "%s", depths);
+  for (char *c = text; *c; c++)
+    if (*c == ':') *c = ',';
+  count = SamDivide(text, ',', parts, TEXT / 2);
+  for (int k = 0; k < count && k < TEXT / 2; k++) {
+    size_t length = strlen(parts[k]);
+
+    if (length > 1 && ReadSide(parts[k])) length--;
+    if (length && parts[k][length - 1] == 'a' && ReadDepth(parts[k], 1, &value)) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
 }
 
 /* first:last:number */
@@ -254,7 +273,7 @@ PetscErrorCode SamDepthsSetUp(SamEvaluation e)
   const PetscReal side = e->grid->side[0];
 
   PetscFunctionBegin;
-  if (!e->average && strchr(e->depths_text, 'a')) PetscCall(FindHalfWidth(e));
+  if (!e->average && SamDepthsAreRelative(e->depths_text)) PetscCall(FindHalfWidth(e));
   if (!e->average) PetscCall(SamDepthsRead(e, (PetscReal)e->layout.half));
   PetscCall(SplitInterfaces(e));
   PetscCheck(e->depth[e->depths - 1] <= MOST_DEPTH * 2 * e->grid->length, e->comm, SAM_ERR_USER,

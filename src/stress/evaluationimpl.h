@@ -159,11 +159,13 @@ PETSC_INTERN PetscErrorCode SamEvaluationTell(SamEvaluation e, const char work[]
 /* SamEvaluationBody - the body whose stresses are wanted; borrowed. Not collective. */
 PETSC_INTERN SamBody SamEvaluationBody(SamEvaluation e);
 /*
+  SamDepthsAreRelative - whether a depth of the text is a number of half widths, 0.5a. Not collective.
   SamDepthsRead - the depths of -depths, those in half widths of the contact of this one (m).
   SamDepthsSetUp - finds the half width if it is needed, and the sides of interfaces, and checks the depths.
   SamDepthsTake - takes over depths, which `said` names in messages, and the sides of interfaces there, NULL: both.
   Collective. Errors: SAM_ERR_USER.
 */
+PETSC_INTERN PetscBool      SamDepthsAreRelative(const char depths[]);
 PETSC_INTERN PetscErrorCode SamDepthsRead(SamEvaluation e, PetscReal half);
 PETSC_INTERN PetscErrorCode SamDepthsSetUp(SamEvaluation e);
 PETSC_INTERN PetscErrorCode SamDepthsTake(SamEvaluation e, const char said[], PetscInt n, const PetscReal depths[],

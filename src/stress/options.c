@@ -35,7 +35,7 @@ static PetscErrorCode TakeDepths(SamEvaluation e, const char text[])
 {
   PetscFunctionBegin;
   PetscCall(PetscStrallocpy(text, &e->depths_text));
-  if (!strchr(text, 'a')) PetscCall(SamDepthsRead(e, 1));
+  if (!SamDepthsAreRelative(text)) PetscCall(SamDepthsRead(e, 1));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

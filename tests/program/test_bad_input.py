@@ -507,6 +507,27 @@ def test_results_do_not_overwrite_the_options_file(petsam, sphere, tmp_path, opt
     assert path.read_text() == "-load_tx 10\n"
 
 
+INPUTS = dict(
+    history="time,load_n\n1,500\n",
+    body1_layer_file="depth,young,poisson\n0,2e11,0.3\n1e-3,2e11,0.3\n",
+    body1_initial_stress="depth,stress_xx,stress_yy\n0,0,0\n1e-3,0,0\n",
+)
+
+
+@pytest.mark.parametrize("written", ["normal_view", "tangential_converged_reason", "log_view", "output", "checkpoint"])
+@pytest.mark.parametrize("option", INPUTS)
+def test_nothing_replaces_a_file_that_an_option_declares_to_be_read(petsam, sphere, tmp_path, option, written):
+    path = tmp_path / "in.txt"
+    path.write_text(INPUTS[option])
+    case = dict(sphere, load_n=None) if option == "history" else sphere
+    if option == "body1_initial_stress":
+        case = dict(case, body1_yield=1e9, plastic_depth=1e-3, plastic_layers=4)
+    name = ":in.txt" if written.endswith(("view", "reason")) else "in.txt"
+    done = petsam(case, {option: path, written: name}, check=2)
+    assert f"-{written} in.txt: would overwrite the file of -{option}" in done.complaint[0]
+    assert path.read_text() == INPUTS[option]
+
+
 def test_command_line_overrides_the_options_file(petsam, sphere, tmp_path):
     from support import Results, words
 

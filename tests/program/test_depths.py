@@ -77,3 +77,11 @@ def test_mistakes_in_depths_are_explained(petsam, stress, tmp_path):
         line = stress(options, dict(output="s.h5"), check=2).stderr.splitlines()[0]
         assert all(text in line for text in says), line
     assert not (tmp_path / "s.h5").exists()
+
+
+@pytest.mark.parametrize("depths", ["nan", "inf", "0,nan", "nana", "1e400a", "nan:1e-4:3", "0:infa:3"])
+def test_a_depth_that_is_no_finite_number_is_told_as_it_is_written(petsam, stress, depths):
+    """Also of results without contact, of which no half width is known."""
+    petsam(dict(SPHERE, load_n=0, output="r.h5"))
+    done = stress(dict(input="r.h5", output="s.h5", depths=depths), check=2)
+    assert f"-depths {depths}: expected depths" in done.stderr

@@ -400,3 +400,21 @@ def test_effort_of_planning_does_not_change_the_answer(solve, effort):
     # other plans round otherwise: that shows up to the solvers' tolerances, here below what is asked
     case = ball(45, load_tx=30.0, normal_rtol=1e-11, tangential_rtol=1e-9)
     assert_same(solve(dict(case, fft_effort=effort)), solve(case), 1e-8)
+
+
+@pytest.mark.parametrize("there", [True, False], ids=["to a file", "to nothing yet"])
+def test_a_link_stays_one_and_the_file_behind_it_is_written(petsam, launcher, tmp_path, there):
+    """Results, checkpoints with the one before, and stresses; their temporary files are in the folder of the target."""
+    (tmp_path / "far").mkdir()
+    names = ("r.h5", "c.h5", "s.h5")
+    for name in names:
+        (tmp_path / name).symlink_to(f"far/{name}")
+    case = dict(CASE, steps=2, output="r.h5", checkpoint="c.h5", checkpoint_every=1)
+    for _ in range(1 + there):
+        petsam(case, "-overwrite")
+        stress = PROGRAM.with_name("petsam-stress")
+        execute(launcher, tmp_path, [dict(input="r.h5", output="s.h5", depths="1e-5")], 1, 0, program=stress)
+    assert all((tmp_path / name).is_symlink() and (tmp_path / "far" / name).stat().st_size > 1000 for name in names)
+    assert sorted(path.name for path in (tmp_path / "far").iterdir()) == ["c.h5", "c.h5.1", "r.h5", "s.h5"]
+    assert len(Results(tmp_path / "r.h5").history["time"]) == 2
+    petsam(case, dict(restart="c.h5", output="n.h5"))

@@ -1,5 +1,7 @@
 """Load histories through the whole program: files, steps, and mechanics that depend on the path."""
 
+import re
+
 import h5py
 import numpy as np
 import pytest
@@ -816,3 +818,22 @@ def test_limit_of_sliding_is_approached_in_steps(drive):
     """As near to gross slip as 0.999, there and back."""
     s = drive(dict(ball(64), load_n=None), ("load_n", "load_tx"), pushed(cycle(0.999 * slide_limit(ball(64))[0], 4)))
     assert not s["status"].any() and (s["stick_area"][1:] > 0).all()
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_without_contact_there_is_no_approach(petsam, tmp_path, ranks):
+    """It is NaN in the results and the table; the steps after it, also from a checkpoint, have the same bits."""
+    case = dict(SPHERE, load_n=None, checkpoint="c.h5", checkpoint_every=1)
+    (tmp_path / "h.csv").write_text("time,load_n,load_tx\n1,1000,20\n2,0,0\n3,500,10\n")
+    (tmp_path / "part.csv").write_text("time,load_n,load_tx\n1,1000,20\n2,0,0\n")
+    petsam(case, dict(history="h.csv", output="r.h5"), ranks=ranks)
+    said = petsam(case, dict(history="part.csv", output="p.h5"), "-overwrite", ranks=ranks)
+    petsam(case, dict(history="h.csv", output="n.h5", restart="c.h5"), ranks=ranks)
+    assert said.code == 0
+    with h5py.File(tmp_path / "r.h5") as whole, h5py.File(tmp_path / "n.h5") as rest:
+        approach = whole["history/disp_z"][:]
+        assert np.isnan(approach[1]) and approach[0] > approach[2] > 0 and whole["history/load_n"][1] == 0
+        assert not np.isnan(whole["history/disp_x"]).any()
+        assert rest["history/disp_z"][-1] == approach[2] and (rest["pressure"][-1] == whole["pressure"][-1]).all()
+    alone = petsam(dict(SPHERE, load_n=0)).stdout
+    assert re.search(r"load_n +0 N +disp_z +nan m", alone)

@@ -169,6 +169,11 @@ with petsam.Contact(wear_coefficient1=1e-14, **case) as contact:
     slides = dict(time=[1, 2, 3], load_n=[500] * 3, load_tx=[0, 100, 1e4])
     error = refused("gross slip", lambda: contact.run(slides), petsam.NoEquilibrium)
     assert len(error.steps) == 2 and error.step.time == 3 and abs(error.steps[1].load_tx - 100) < 1e-6
+    for name in ("", "load_tx,load_ty", "load_tx ", "load_tx;", "a\\nb"):  # each name has its value
+        refused("is no name", lambda: contact.try_step(load_n=1000, **{name: 1}), petsam.PrescribedError)
+        refused("is no name", lambda: contact.roll(1e-6, load_n=1000, **{name: 1}), petsam.PrescribedError)
+        refused("is no name", lambda: contact.run({"time": [1.0], "load_n": [1e3], name: [1.0]}))
+        refused("is no name", lambda: contact.live(10, {"time": [1.0], "load_n": [1e3], name: [1.0]}))
     assert contact.try_step(time=4, load_n=500, load_tx=120).status == 0
 with petsam.Contact(**case) as contact:
     refused("no wear", lambda: contact.live(10, dict(time=[0, 1, 2], load_n=[1, 1, 1], disp_x=[0, 1e-8, 0])))
@@ -435,3 +440,42 @@ np.savez("found.npz", **found)
         assert f["history/slide_x"][-1] != 0 and f["history/wear_volume2"][-1] > 0
         for key in found:
             assert np.array_equal(found[key], f[key][-1]), key
+
+
+def test_advice_on_a_step_reaches_a_contact_in_process(petsam, tmp_path):
+    """A slip zone narrow beside the cells: the lines of the program, once for each kind and contact."""
+    case = dict(EMBEDDED, grid_n=96, grid_size=2.6e-3, friction=0.1, body2_young=210e9, body2_poisson=0.3)
+    write(tmp_path / "h.csv", "time,load_n,load_tx", [(1, 1000.0, 0.0), (2, 1000.0, 5.0)])
+    lines = [line.split("warning: ")[1] for line in petsam(dict(case, history="h.csv")).stderr.splitlines()]
+    assert len(lines) >= 1 and all("slip zone" in line and "-grid_n" in line for line in lines)
+    run_python(
+        f"""
+import petsam, warnings
+case = {case!r}
+def said(contact, call):
+    with warnings.catch_warnings(record=True) as lines:
+        warnings.simplefilter("always")
+        call(contact)
+    assert all(issubclass(line.category, petsam.AdviceWarning) for line in lines)
+    return [str(line.message) for line in lines]
+def shear(contact):
+    contact.try_step(time=1, load_n=1000)
+    contact.commit()
+    contact.try_step(time=2, load_n=1000, load_tx=5)
+with petsam.Contact(**case) as contact:
+    assert said(contact, shear) == {lines!r}
+    assert said(contact, lambda contact: contact.try_step(load_n=1000, load_tx=5.5)) == []
+    assert said(contact, lambda contact: (contact.reset(), shear(contact))) == []
+    with contact.copy() as other:
+        assert said(other, shear) == {lines!r}
+with petsam.Contact(**case) as contact:
+    assert said(contact, lambda contact: contact.run("h.csv")) == {lines!r}
+    assert said(contact, lambda contact: contact.run("h.csv")) == []
+with petsam.Contact(**dict(case, grid_n=32)) as contact:
+    coarse = said(contact, lambda contact: contact.try_step(load_n=10))
+    assert any("cells across" in line for line in coarse), coarse
+with petsam.Contact(**case) as contact:
+    assert said(contact, lambda contact: contact.try_step(load_n=1000, load_tx=80)) == []
+""",
+        tmp_path,
+    )

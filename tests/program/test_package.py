@@ -96,6 +96,27 @@ def test_a_snapshot_has_the_fields_and_scalars_of_its_step(path):
         assert results.parameters["gap_radius1"] == CASE["gap_radius1"]
 
 
+def test_a_file_that_keeps_hdf5_busy_for_ever_is_damaged(path, tmp_path):
+    """Zeros over the names of its datasets, at several places: each is listed, or told of within seconds."""
+    data, damaged = path.read_bytes(), []
+    for place in range(2000, 3600, 400):
+        damaged.append(tmp_path / f"{place}.h5")
+        damaged[-1].write_bytes(data[:place] + bytes(500) + data[place + 500 :])
+    code = """
+import sys, petsam
+petsam.isolation.EXAMINING = 1
+for name in sys.argv[1:]:
+    try:
+        print(len(str(petsam.open(name))), "listed")
+    except petsam.Error as error:
+        print(error)
+"""
+    said = python("-c", code, *damaged).splitlines()
+    assert len(said) == len(damaged) and any(line.endswith(": is damaged") for line in said), said
+    with package.open(path) as results:
+        assert results.steps == [2, 4]
+
+
 def replace(name, value=None):
     """A change of a results file: another value instead of what has this name, or none."""
 

@@ -1,5 +1,7 @@
 """Plane strain: closed forms with the order of their errors, per metre of length; what else a line of cells must do."""
 
+import re
+
 import h5py
 import numpy as np
 import pytest
@@ -411,3 +413,8 @@ def test_wear_ends_with_contact_of_what_stuck_from_the_first(petsam, tmp_path):
     s = np.where(np.abs(x) < 0.9 * c, x, 0)
     exact = (load / np.pi + E_STAR / (4 * R) * (c * c - 2 * s * s)) / np.sqrt(c * c - s * s)
     assert np.abs(p / exact - 1)[np.abs(x) < 0.9 * c].max() < 5e-3
+
+
+def test_energies_of_the_closing_lines_are_per_metre(petsam):
+    said = petsam(CYLINDER, dict(load_tx=0.5 * MU * N, steps=4)).stdout
+    assert re.search(r"^  energy +\S+ J/m dissipated", said, re.M) and " J " not in said

@@ -329,4 +329,5 @@ def test_edges_that_are_not_found_are_told(petsam):
         r"^  edges +reconstructed on (\d+) % of their length in step (\d) \(the worst\)", told, re.M
     ).groups()
     assert int(share) < 50 and 1 <= int(step) <= 4
+    assert "from cells, less 0.09 of a cell for each side at an edge\n" in told
     assert "  edges " not in petsam(unlike, dict(edges="none")).stdout.split("worst")[1]

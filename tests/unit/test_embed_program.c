@@ -241,10 +241,15 @@ static void test_steps_by_names(void **state)
                                   {"load_n,load_tx,disp_x", "load_tx and disp_x exclude each other"},
                                   {"load_n,friction_scale,friction_scale", "friction_scale and friction_scale exclude"},
                                   {"load_tx,friction_scale", "load_n or disp_z is missing"},
+                                  {",load_n", "name 1, \"\", is empty"},
+                                  {"load_n,", "name 2, \"\", is empty"},
+                                  {"load_n,,load_tx", "name 2, \"\", is empty"},
+                                  {"load_n, load_tx", "name 2, \" load_tx\", is empty or contains a blank"},
                                   {"load_n,roll", "at most the width of the grid"}};
   petsam_contact   *c = NewContact(World()), *d = NewContact(-1);
   double            found[6], same[6], plain[6], rigid[6];
   const char       *unit;
+  int               count;
 
   (void)state;
   for (int k = 0; k < 2; k++) {
@@ -259,6 +264,9 @@ static void test_steps_by_names(void **state)
   for (size_t k = 0; k < sizeof(wrong) / sizeof(wrong[0]); k++)
     sam_assert(petsam_try_named(c, 4, wrong[k][0], odd, NULL, NULL) == 2 && strstr(petsam_message(c), wrong[k][1]));
   sam_assert(petsam_try_named(c, 4, NULL, odd, NULL, NULL) == 2 && petsam_try_named(c, 4, "", odd, NULL, NULL) == 2);
+  sam_assert(petsam_try_named(c, 4, "load_n", &odd[1], NULL, NULL) == 0 && petsam_advise(c, NULL) == 2);
+  sam_assert(petsam_advise(c, &count) == 0 && count >= 1 && strstr(petsam_warning(c, 0), "cells across"));
+  sam_assert(!petsam_warning(c, count) && !petsam_warning(c, -1) && petsam_reject(c) == 0 && !petsam_warning(c, 0));
   sam_assert(!strcmp(petsam_step_name(c, 6, &unit), "disp_z") && !strcmp(unit, "m"));
   sam_assert(!petsam_step_name(c, -1, NULL) && !petsam_step_name(c, 1000, NULL) && !petsam_step_name(c, 12, NULL)[0]);
   for (int k = 18; strcmp(petsam_step_name(c, k, &unit), "bulk2_stress_xx"); k++)

@@ -116,6 +116,19 @@ PETSC_EXTERN const char *SamNearestName(const char tried[], size_t count, const 
 PETSC_INTERN void SamOptionsKnow(const SamOptions *from, const char name[], const char with[]);
 /* SamOptionsIsKnown - whether there is one; with the prefix, without dash. `with` may be NULL. */
 PETSC_INTERN PetscBool SamOptionsIsKnown(const char name[], const char **with);
+/* SamOptionFile - an option that names files, by its declaration; both names have the prefix and a dash. */
+typedef struct {
+  char          name[96], shown[96]; /* in the options database, and in messages */
+  SamOptionKind kind;                /* SAM_OPTION_FILE, SAM_OPTION_FILES, SAM_OPTION_OUTPUT or SAM_OPTION_VIEWER */
+} SamOptionFile;
+/*
+  SamOptionsNoteFile - notes an option if its kind is one of these. SamOptionsRead() does so for each row; for those that
+  read options by other means.
+  SamOptionsFile - the k-th option of those that have been asked for; NULL: there are no more. Not collective.
+*/
+PETSC_INTERN PetscErrorCode       SamOptionsNoteFile(const SamOptions *from, SamOptionKind kind, const char name[],
+                                                     const char shown[]);
+PETSC_EXTERN const SamOptionFile *SamOptionsFile(PetscInt k);
 /* SamOptionsNearest - the option that may be meant by a name; NULL: none. */
 PETSC_INTERN const char *SamOptionsNearest(const char tried[]);
 /*

@@ -151,7 +151,10 @@ PETSC_INTERN PetscErrorCode SamFileCheckName(SamGrid grid, const char option[], 
 PETSC_INTERN PetscErrorCode SamFileGetBytes(MPI_Comm comm, const char filename[], double *bytes);
 PETSC_INTERN PetscErrorCode SamFileContains(SamGrid grid, const char filename[], const char text[],
                                             PetscBool *contains);
-/* SamFileNameBeside - a name with an ending added; the caller frees it with PetscFree(). Not collective. */
+/*
+  SamFileNameBeside - a name with an ending added, of a symbolic link that of the file behind it; the caller frees it with
+  PetscFree(). Not collective.
+*/
 PETSC_INTERN PetscErrorCode SamFileNameBeside(const char filename[], const char ending[], char **name);
 /*
   SamFileReserve - allocates disk space for so many bytes and HDF5's metadata: the file becomes longer, and HDF5 cuts
@@ -166,7 +169,7 @@ PETSC_INTERN PetscErrorCode SamFileGetSpace(SamGrid grid, const char option[], c
 /*
   SamFileReplace - flushes the complete file `temporary` to the disk and renames it to `filename`. A file of that name
   is replaced, or first named `kept` if that is not NULL. At every moment there is a complete file of one of these
-  names, if there was one. Collective. Errors: SAM_ERR_FILE.
+  names, if there was one. A symbolic link stays, and the file behind it is replaced. Collective. Errors: SAM_ERR_FILE.
 */
 PETSC_INTERN PetscErrorCode SamFileReplace(SamGrid grid, const char option[], const char temporary[],
                                            const char filename[], const char kept[]);

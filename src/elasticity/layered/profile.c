@@ -73,7 +73,7 @@ PetscErrorCode SamBodyReadProfile(const SamOptions *from, const char option[], S
   static const char *const names[COLUMNS + 1]       = {"depth", "young", "poisson", NULL};
   char                     file[PETSC_MAX_PATH_LEN] = "", name[96];
   const SamOptionRow       row = {option, "text file of depth, young, poisson: constants that vary with depth",
-                                  SAM_OPTION_STRING, .size = sizeof(file)};
+                                  SAM_OPTION_FILE, .size = sizeof(file)};
   SamTable                 t;
   PetscInt                 column[COLUMNS], parts = 0;
   double                   change = 0, done = 0;
