@@ -56,6 +56,11 @@ typedef struct {
   PetscReal   narrow[2];     /* and width of the slip zone and length of the edge there */
   PetscReal   width, length; /* the same after the last step */
   double      sticks;        /* part of the cells in contact, after the last step */
+  double      stuck;         /* of the shear's change over mu p at the edge, since all cells stick; 0: some slip */
+  double      tangential[2]; /* N: T after the last step, */
+  double      toward[2];     /* N: and its change in it */
+  double      zone, high;    /* J, Pa: energy of the zone of that branch, and shear at its end, by stuck.c */
+  double      missing;       /* J: energy of such zones of branches before */
   PetscReal   widest;        /* cells: of all zones with slip */
   PetscReal   across;        /* cells: of the stick zone after the last step */
   PetscBool   pushed;        /* the last step has no tangential displacement given */
@@ -91,6 +96,7 @@ typedef struct {
   PetscInt          largest;           /* step of the largest normal load or approach, from 0 */
   PetscBool         doubtful;          /* the heights are of another unit, or tilted: nothing is said of the contact */
   PetscBool         examined;          /* whether the size of the contact was looked at */
+  PetscBool         stepped;           /* heights from a file have a step in contact, of which the user knows */
   char              after[48];         /* "after 1e6 cycles: ", when it is looked at again; empty: the first time */
   PetscInt          finer;             /* cells so many times narrower have been advised; 0: none */
   PetscBool         advised[SAM_LAWS]; /* laws that have warned of a step */

@@ -109,8 +109,12 @@ PETSC_INTERN PetscErrorCode SamGapGetSteepness(SamGap gap, const PetscReal half[
 /*
   SamGapAdvise - a text for the user where the heights of the gap's file, or of its roughness, are of another unit, or,
   with `periodic`, of a tilted surface; empty: none. `h`: the separation. Collective.
+  SamGapAdviseStep - the same where the heights have a step in a contact with this pressure, of a surface with E*
+  `modulus` (Pa), that is high beside its elastic deformation. Collective.
 */
 PETSC_INTERN PetscErrorCode SamGapAdvise(SamGap gap, SamGrid grid, Vec h, PetscBool periodic, char text[], size_t size);
+PETSC_INTERN PetscErrorCode SamGapAdviseStep(SamGap gap, SamGrid grid, Vec h, Vec pressure, double modulus, char text[],
+                                             size_t size);
 /*
   SamGapCheckPlane - refuses a shape that is not the same along y, of which a section would not tell. Collective.
   Errors: SAM_ERR_USER with the option that bends it.

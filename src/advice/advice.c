@@ -452,6 +452,27 @@ static void Surfaces(SamAdvice *a)
   if (!a->error && a->doubtful) SamAdviceSay(a, "", "%s", text);
 }
 
+/* Steps of heights from a file, where the peak of the pressure has no limit, and no grid is advised for it. */
+static void Steps(SamAdvice *a)
+{
+  const SamSetup    *s = a->setup;
+  const SamSolution *solution;
+  PetscReal          limit                          = INFINITY;
+  char               text[PETSC_MAX_PATH_LEN + 400] = "";
+
+  a->error = SamProblemGetPressureLimit(s->problem, &limit);
+  if (a->error || limit < INFINITY) return;
+  a->error = SamContactGetSolution(s->contact, &solution);
+  if (!a->error)
+    a->error = SamGapAdviseStep(s->gap, s->grid, SamProblemGetGap(s->problem), solution->pressure,
+                                (double)SamPairModulus(s->pair), text, sizeof(text));
+  if (a->error || !text[0]) return;
+  SamAdviceSay(a, "", "%s", text);
+  a->extent.change = 0;
+  a->extent.finer  = 0;
+  a->stepped       = PETSC_TRUE;
+}
+
 /* Passes on the advice of the bodies on these cells and a contact of these half widths. */
 static void Bodies(SamAdvice *a)
 {
@@ -567,7 +588,7 @@ static void Size(SamAdvice *a)
   if (!a->error) a->error = SamContactGetNumber(a->setup->contact, "pressure_max", &most);
   if (!a->error && large)
     SamAdviceSay(a, "", "contact too large for half-space theory: its half width %s", ratio);
-  else if (!a->error && most > HARDEST * modulus)
+  else if (!a->error && most > HARDEST * modulus && !a->stepped)
     SamAdviceSay(a, "",
                  "the maximum pressure, %.3g Pa, is %.2g of E*, linear elasticity holds up to about %g: check the %s",
                  (double)most, (double)most / modulus, HARDEST,
@@ -594,9 +615,9 @@ static void Friction(SamAdvice *a)
 static const struct {
   enum { BEFORE, LARGEST, CONTACT, WORN } when;
   void (*look)(SamAdvice *advice);
-} advices[] = {{BEFORE, Surfaces}, {BEFORE, Friction}, {LARGEST, Units},  {LARGEST, Motion},
-               {LARGEST, Touch},   {CONTACT, Cells},   {CONTACT, Bodies}, {CONTACT, Images},
-               {CONTACT, Size},    {WORN, Cells},      {WORN, Stroke}};
+} advices[] = {{BEFORE, Surfaces}, {BEFORE, Friction}, {LARGEST, Units}, {LARGEST, Motion},
+               {LARGEST, Touch},   {CONTACT, Steps},   {CONTACT, Cells}, {CONTACT, Bodies},
+               {CONTACT, Images},  {CONTACT, Size},    {WORN, Cells},    {WORN, Stroke}};
 
 static PetscErrorCode LookAt(SamAdvice *a, int when)
 {

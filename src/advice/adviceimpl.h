@@ -24,6 +24,15 @@ PETSC_INTERN PetscBool SamAdviceIsFromFile(const SamSetup *setup);
   cells across than `least`. Peaks - says that a slip zone is too narrow for the maximum of what is in it; `width`:
   cells, `wanted`: how many times finer a grid is advised. Not collective.
 */
+/*
+  SamAdviceMeasureStuck - of a contact all of whose cells stick (stuck.c): `share` of the shear's change in this step at
+  the contact's edge over mu p, and what its zone would have at share 1. Collective.
+*/
+#define SAM_STUCK_WIDTH (2. / 3) /* cells: width of the zone at share 1 */
+typedef struct {
+  double work, shear; /* J: energy, in proportion to the third power; Pa: shear at its end, to the root */
+} SamStuck;
+PETSC_INTERN PetscErrorCode SamAdviceMeasureStuck(const SamSetup *setup, double *share, SamStuck *stuck);
 PETSC_INTERN PetscErrorCode SamAdviceAddSlip(SamAdvice *advice, PetscInt k, const SamStep *step);
 PETSC_INTERN PetscErrorCode SamAdviceMeasureStick(SamAdvice *advice);
 PETSC_INTERN void SamAdvicePeaks(SamAdvice *advice, double width, double wanted, const char zone[], const char what[]);

@@ -8,7 +8,8 @@
 
       w = (contact area - stick area)/(length of the contact's edge),
 
-  even where no cell is wide enough. Two estimates follow.
+  even where no cell is wide enough. Two estimates follow. Branches in which all cells stick have a zone, too, whose
+  energy is missing (stuck.c).
 
   1. For all contacts: of the energy of a branch the part 0.3/(w^2 sqrt(m)), with w and the length m of the edge in
      cells. The errors of cells along an edge cancel like those of chance. Straight edges have one place on the cells:
@@ -63,6 +64,7 @@
 #define LINE     0.36 /* m in plane strain */
 #define STUCK    7    /* cells across a stick zone whose area is wrong by less than 5 % */
 #define STRAY    0.1  /* part of the cells that stick whose zones, the narrowest, do not count */
+#define HIGHER   0.9  /* shear of a narrow zone, estimated, over the largest one found, from which it may be larger */
 #define UNKNOWN  0.02 /* error of the energy by one step of N */
 #define ONCE     0.75 /* part of the largest normal load that counts as all of it */
 #define SLIGHT   0.2  /* part of mu N from which T counts there */
@@ -150,13 +152,61 @@ static void EndBranch(SamSlip *slip)
   slip->branch = 0;
 }
 
+/* Adds the zone of the branch in which all cells stuck. */
+static void EndStuck(SamSlip *slip)
+{
+  slip->missing += slip->zone;
+  if (slip->zone > slip->worst) {
+    slip->worst     = slip->zone;
+    slip->narrow[0] = SAM_STUCK_WIDTH * slip->stuck;
+    slip->narrow[1] = slip->length;
+  }
+  slip->stuck = slip->zone = 0;
+}
+
+/* Whether shear and pressure of the bodies do not act on each other. */
+static PetscBool IsAlike(const SamSetup *s)
+{
+  const double waves[2] = {PETSC_PI / (double)s->grid->length, PETSC_PI / (double)s->grid->side[1]};
+
+  return SamPairCoupling(s->pair, waves[0], waves[1]) < ALIKE ? PETSC_TRUE : PETSC_FALSE;
+}
+
+/* Follows a branch while all cells stick. Collective. */
+static PetscErrorCode AddStuck(const SamSetup *s, const SamStep *step, PetscBool sticks, SamSlip *slip)
+{
+  double    change[2], share;
+  SamStuck  stuck;
+  PetscReal shear;
+
+  PetscFunctionBegin;
+  for (int k = 0; k < 2; k++) {
+    change[k] = (double)step->load[k ? SAM_COMPONENT_TY : SAM_COMPONENT_TX] - slip->tangential[k];
+    slip->tangential[k] += change[k];
+  }
+  if (change[0] * slip->toward[0] + change[1] * slip->toward[1] < 0) EndStuck(slip);
+  for (int k = 0; k < 2; k++) slip->toward[k] = change[k];
+  slip->high = 0;
+  if (!sticks) slip->stuck = slip->zone = 0; /* the branch has slipped, and its energy is known */
+  if (!(sticks || slip->width < PEAKED) || !IsAlike(s)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamAdviceMeasureStuck(s, &share, &stuck));
+  PetscCall(SamContactGetNumber(s->contact, "shear_max", &shear));
+  if (sticks) {
+    /* after a reversal the shear changes by twice the bound */
+    slip->stuck = PetscMin(slip->stuck + share / (slip->energy + slip->missing > 0 ? 2 : 1), 1);
+    slip->zone  = (slip->energy + slip->missing > 0 ? 2 : 1) * stuck.work * pow(slip->stuck, 3);
+  }
+  slip->high = stuck.shear * sqrt(sticks ? slip->stuck : 1);
+  if (slip->high < HIGHER * (double)shear) slip->high = 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* ---- the closed form ---- */
 
 /* Whether the bodies have one. */
 static PetscErrorCode HasClosedForm(const SamAdvice *a, PetscReal *friction, PetscBool *has)
 {
-  const SamSetup     *s        = a->setup;
-  const double        waves[2] = {PETSC_PI / (double)s->grid->length, PETSC_PI / (double)s->grid->side[1]};
+  const SamSetup     *s = a->setup;
   SamElasticityTraits traits;
   SamLaw              law;
   const SamLaw       *laws;
@@ -171,7 +221,7 @@ static PetscErrorCode HasClosedForm(const SamAdvice *a, PetscReal *friction, Pet
   for (PetscInt k = 0; k < count; k++)
     quadratic = quadratic && (laws[k] == law || laws[k]->always || laws[k]->accumulates);
   *has = quadratic && *friction > 0 && !a->most.open && !SamAdviceIsFromFile(s) && !traits.periodic && !traits.patch &&
-         SamPairIsUniform(s->pair) && SamPairFilm(s->pair) == 0 && SamPairCoupling(s->pair, waves[0], waves[1]) < ALIKE;
+         SamPairIsUniform(s->pair) && SamPairFilm(s->pair) == 0 && IsAlike(s);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -314,9 +364,10 @@ PetscErrorCode SamAdviceAddSlip(SamAdvice *a, PetscInt k, const SamStep *step)
   if (!slip->steps++ && k == 0) PetscCall(HasClosedForm(a, &slip->path.friction, &slip->path.known));
   PetscCall(GetNumbers(s, &n));
   sticks = n.contact_cells > 0 ? (double)(n.stick_cells / n.contact_cells) : 1;
-  if (sticks > REVERSED * slip->sticks) EndBranch(slip);
+  if (sticks > REVERSED * slip->sticks || (sticks == 1 && slip->sticks < 1)) EndBranch(slip);
   Measure(s, &n, slip);
   PetscCall(Join(a, step, &n));
+  PetscCall(AddStuck(s, step, n.stick_cells == n.contact_cells ? PETSC_TRUE : PETSC_FALSE, slip));
   slip->energy += (double)n.energy;
   slip->sticks = sticks;
   if (n.energy > 0 && slip->width < INFINITY) slip->widest = PetscMax(slip->widest, slip->width);
@@ -393,16 +444,19 @@ static void Energy(SamAdvice *a)
   SamSlip          *slip  = &a->slip;
   const PetscBool   known = slip->path.known;
   const char *const unit  = SamUnitOn(a->setup->grid, "J");
-  double            most, error, times;
+  double            most, error, width, times;
   char              better[SAM_ADVICE_GRIDS], wrong[96] = "is not resolved";
 
   EndBranch(slip);
+  EndStuck(slip);
+  if (!a->extent.finer) slip->missing = 0; /* at a sharp edge there is no such zone */
   slip->closed = known ? slip->path.before + slip->path.energy : NAN;
-  if (known) slip->error = fabs(slip->closed - slip->energy);
-  most  = known ? slip->closed : slip->energy;
+  slip->error  = known ? fabs(slip->closed - slip->energy) : slip->error + slip->missing;
+  most         = known ? slip->closed : slip->energy + slip->missing;
   error = most > NOTHING * slip->work ? slip->error / most : slip->work > 0 && a->extent.finer && !slip->unsure ? 1 : 0;
   if (error <= ALLOWED) return;
-  times = ErrorOf(PetscMax(slip->narrow[0], NARROW), slip->narrow[1]) / GOOD;
+  width = slip->missing > 0 && slip->missing >= slip->worst ? slip->narrow[0] : PetscMax(slip->narrow[0], NARROW);
+  times = ErrorOf(width, slip->narrow[1]) / GOOD;
   SamAdviceGrids(a, PetscMax(pow(times, slip->narrow[1] > 1 ? 0.4 : 0.5), LEAST), better);
   if (known)
     (void)snprintf(wrong, sizeof(wrong), "is %.3g %s in closed form", slip->closed, unit);
@@ -413,12 +467,29 @@ static void Energy(SamAdvice *a)
                (double)slip->narrow[0], slip->energy, unit, wrong, better);
 }
 
+/* The maximum shear of the last step, at the end of a zone that is narrow beside the widest. */
+static void LastPeak(SamAdvice *a, double width, double high)
+{
+  char better[SAM_ADVICE_GRIDS];
+
+  if (!(high > 0) || !a->extent.finer) return;
+  SamAdviceGrids(a, 2 * PEAKED / width, better);
+  SamAdviceSay(a, better[0] ? "" : "grid_n",
+               "the slip zone of the last step is about %.1g times as wide as a cell: the maximum shear there is about "
+               "%.2g Pa%s",
+               width, high, better);
+}
+
 void SamAdviceSlip(SamAdvice *a)
 {
+  const double zone  = SAM_STUCK_WIDTH * a->slip.stuck; /* before the last branch ends */
+  const double width = zone > 0 ? zone : PetscMax((double)a->slip.width, NARROW);
+
   if (!a->slip.steps || a->slip.rolls) return;
   Long(a);
   Energy(a);
   SamAdvicePeaks(a, (double)a->slip.widest, 2 * PEAKED / PetscMax((double)a->slip.widest, NARROW), "widest slip zone",
                  "slip and shear");
+  if (zone > 0 || !((double)a->slip.widest < PEAKED)) LastPeak(a, width, a->slip.high);
   SamAdviceStick(a, STUCK);
 }

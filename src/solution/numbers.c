@@ -9,7 +9,7 @@
   before and after the step that depends on how it slid (SamIncrementGetSlide()), which makes the sum over steps second
   order with the slip of step/direction.c. In the first step, and in steady rolling, it is -sum q.ds dA.
 */
-enum { CONTACT, STICK, DISSIPATED, STORED, ERROR, SUMS };
+enum { CONTACT, STICK, DISSIPATED, STORED, ERROR, TURNED, SUMS };
 enum { PRESSURE, SHEAR, SLIP, MOSTS }; /* of the last two the squares */
 
 static void SumRow(const SamIncrement *increment, ptrdiff_t first, double sums[SUMS], double most[MOSTS])
@@ -43,10 +43,13 @@ static void SumRow(const SamIncrement *increment, ptrdiff_t first, double sums[S
 
     slip in the direction at the end of the step   ENDS b abs(2 sin a/4) ds   first order: ds is turned by about a/2
     of cells that slid all the time                TURNS b a^2/24 ds          ds is the chord of an arc
+    of the same where the bound stays              STAYS b a^2/24 ds/f        likewise
     of cells that begin to slide                   BEGINS abs(b - b_before)/4 ds   they begin anywhere in the step
     where contact is made or left                  CROSSES b/10 ds            0.5 of the bounds instead of 0.4
-    where contact is made, by a strain             abs(q) e r/2 besides   it is as if it had been there all the step
     of the first step                              all of it: loads in proportion need not slide at all
+
+  f is the part of the contact that sticks, which bears the errors of the rest: each error of the slip moves the bodies
+  by more the less sticks. Under a bound that changes, other errors cancel this; between the two terms is a mean.
 
   The energy depends on the whole history of the slip, of which no single step knows: so these terms have the right
   order and are in proportion to the error, and their factors were fitted to the errors of random histories (examples/
@@ -54,30 +57,18 @@ static void SumRow(const SamIncrement *increment, ptrdiff_t first, double sums[S
 */
 #define ENDS    0.4
 #define TURNS   2.0
+#define STAYS   2.7
+#define LEAST   0.1  /* of f */
+#define CHANGES 0.05 /* change of the bound in a step, relative to it, from which on it does not stay */
 #define BEGINS  0.6
 #define CROSSES 0.3
-#define STRAINS 0.5
-
-/* That of a cell where contact is made: bulk stress has moved the surfaces over each other before that, too. */
-static double ErrorOfEntering(const SamIncrement *increment, ptrdiff_t k)
-{
-  const SamGrid   grid = increment->grid;
-  const SamValues v    = increment->at_now;
-  const SamStrain e0 = increment->before.strain, e1 = increment->now.strain;
-  const double    xx = (double)(e1.xx - e0.xx), yy = (double)(e1.yy - e0.yy), xy = (double)(e1.xy - e0.xy);
-  const double    x = SamGridX(grid, k % grid->nx), y = SamGridY(grid, grid->row_start + k / grid->nx);
-
-  if (increment->at_before.p[k] > 0 || v.p[k] <= 0) return 0;
-  return STRAINS * hypot(v.q[k], v.q[k + grid->cells]) * hypot(xx * x + xy * y, xy * x + yy * y);
-}
-
-static double ErrorOfRow(const SamIncrement *increment, PetscInt j, double dissipated, double *const turned[2])
+static void AddErrors(const SamIncrement *increment, PetscInt j, double *const turned[2], double sums[SUMS])
 {
   const double *b0 = increment->at_before.b, *b1 = increment->at_now.b, *sx = increment->row[0],
                *sy = increment->row[1];
-  double error     = 0;
 
-  if (!increment->solutions[0]) return fabs(dissipated);
+  if (!increment->solutions[0]) sums[ERROR] = fabs(sums[DISSIPATED]);
+  if (!increment->solutions[0]) return;
   SamIncrementTurnRow(increment, j, turned);
   for (PetscInt i = 0; i < increment->grid->nx; i++) {
     const ptrdiff_t k = (ptrdiff_t)j * increment->grid->nx + i;
@@ -85,17 +76,22 @@ static double ErrorOfRow(const SamIncrement *increment, PetscInt j, double dissi
     const SamSlide  slide  = SamIncrementGetSlide(increment, k, share);
     const double    length = hypot(sx[i], sy[i]), work = SamIncrementMix(share, b0, b1, k) * length;
 
-    error += ErrorOfEntering(increment, k);
     if (work == 0) continue;
     if (slide == SAM_SLIDE_ALWAYS) {
       const double half = hypot(sx[i] - turned[0][i], sy[i] - turned[1][i]) / length;
 
-      error += increment->solutions[1]->lags ? ENDS * half * work : TURNS / 6 * half * half * work;
+      const double stays = PetscMax(0, 1 - fabs(b1[k] - b0[k]) / (CHANGES * b1[k]));
+
+      if (increment->solutions[1]->lags) {
+        sums[ERROR] += ENDS * half * work;
+      } else {
+        sums[ERROR] += (1 - stays) * TURNS / 6 * half * half * work;
+        sums[TURNED] += stays * STAYS / 6 * half * half * work;
+      }
     }
-    if (slide == SAM_SLIDE_BEGINS) error += BEGINS / 4 * fabs(b1[k] - b0[k]) * length;
-    if (slide == SAM_SLIDE_ENTERS || slide == SAM_SLIDE_LEAVES) error += CROSSES / 5 * work;
+    if (slide == SAM_SLIDE_BEGINS) sums[ERROR] += BEGINS / 4 * fabs(b1[k] - b0[k]) * length;
+    if (slide == SAM_SLIDE_ENTERS || slide == SAM_SLIDE_LEAVES) sums[ERROR] += CROSSES / 5 * work;
   }
-  return error;
 }
 
 /* The numbers, side by side in the state in this order. */
@@ -171,7 +167,7 @@ static PetscErrorCode SumCells(SamProblem problem, const SamSolution *last, cons
 
     SamIncrementComputeRow(&increment, j);
     SumRow(&increment, (ptrdiff_t)j * grid->nx, row, most);
-    row[ERROR] = ErrorOfRow(&increment, j, row[DISSIPATED], turned);
+    AddErrors(&increment, j, turned, row);
     SamAddAll(SUMS, totals, row);
   }
   PetscCall(PetscFree2(turned[0], turned[1]));
@@ -188,7 +184,8 @@ static PetscErrorCode SumCells(SamProblem problem, const SamSolution *last, cons
   numbers[STICK_AREA]        = sums[STICK] * area;
   numbers[DISSIPATED_ENERGY] = sums[DISSIPATED] * area;
   numbers[STORED_ENERGY]     = sums[STORED] * area;
-  numbers[ENERGY_ERROR]      = sums[ERROR] * area;
+  sums[ERROR] += sums[TURNED] / PetscMax(sums[STICK] / PetscMax(sums[CONTACT], 1), LEAST);
+  numbers[ENERGY_ERROR] = sums[ERROR] * area;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

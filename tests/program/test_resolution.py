@@ -127,3 +127,34 @@ def test_narrow_spots_in_plane_strain_are_few_cells(petsam, tmp_path, bodies, n)
     done = petsam(case, dict(grid_n=n, grid_size=1e-3))
     few = [line for line in done.complaint if "in 3 spots, the narrow ones" in line and "cells across" in line]
     assert bool(few) == (n == 96)
+
+
+STEP = re.compile(r"step of (\S+) m between neighbouring cells in contact, at x = (\S+) m, y = (\S+) m")
+
+
+@pytest.mark.parametrize("n", [96, 128])
+def test_step_of_a_measured_surface_in_contact_is_warned_of_with_its_place(petsam, tmp_path, n):
+    """A wall of 100 um, beside which nothing else is said of the pressure, and which a limit of the pressure mends."""
+
+    def wall(x, y):
+        return 2e-4 * (x**2 + y**2) + 1e-4 * (x > 0.1)
+
+    case = dict(BODIES, gap_type="file", gap_file=surface(tmp_path, n, wall), grid_n=n, grid_size=4e-3, load_n=3000.0)
+    said = [line for line in petsam(case).complaint if "warning" in line]
+    found = STEP.search(said[0])
+    assert len(said) == 1 and said[0].endswith("-pressure_limit")
+    assert float(found[1]) == pytest.approx(1e-4, rel=0.05)
+    assert float(found[2]) == pytest.approx(0.4e-3, abs=4e-3 / n) and abs(float(found[3])) < 1.2e-3
+    assert not any(STEP.search(line) for line in petsam(case, dict(pressure_limit=2e9)).complaint)
+
+
+def test_step_outside_of_contact_and_roughness_are_no_step(petsam, tmp_path):
+    def far(x, y):
+        return 2e-4 * (x**2 + y**2) + 1e-4 * (x > 0.4)
+
+    def rough(x, y):
+        return 2e-4 * (x**2 + y**2) + 2e-6 * np.random.default_rng(3).standard_normal(x.shape)
+
+    for height in (far, rough):
+        case = dict(BODIES, gap_type="file", gap_file=surface(tmp_path, 64, height), grid_n=64, grid_size=4e-3)
+        assert not any(STEP.search(line) for line in petsam(case, dict(load_n=300.0)).complaint)

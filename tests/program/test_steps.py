@@ -46,6 +46,19 @@ def test_steps_are_divided_until_the_energy_is_right(loads, solve):
     assert "dissipated_energy" not in many.run.stderr
 
 
+@pytest.mark.parametrize("part", [0.3, 0.6])
+def test_error_of_loads_that_turn_at_constant_n_is_estimated_well(solve, tmp_path, part):
+    """The less sticks, the more an error of the slip moves the bodies."""
+    turns = [2 * math.pi * k / 24 for k in range(25)]
+    rows = [(1.0 + k, *(float(LIMIT) * part * f(t) for f in (math.cos, math.sin))) for k, t in enumerate(turns)]
+    case = {**CASE, **history(tmp_path / "h.csv", "time,load_tx,load_ty", (0.0, 0.0, 0.0), *rows)}
+    (found, estimate), (exact, _) = (
+        [x[-24 * n :].sum() for x in energies(solve(case, dict(steps=n, output_every=1000)).path)] for n in (1, 12)
+    )
+    error = abs(found - exact)
+    assert error > 5e-3 * exact and error / 1.5 < estimate < 1.5 * error
+
+
 def test_divided_steps_are_the_same_on_ranks_and_after_a_restart(loads, petsam, tmp_path):
     case = dict(loads, step_rtol=1e-2)
     petsam(case, dict(output="one.h5"))

@@ -118,6 +118,36 @@ def test_energy_of_a_pad_is_right_or_warned_of(petsam, tmp_path, n):
     assert not fine.complaint and said(coarse, SLIP)
 
 
+LAST = re.compile(
+    r"the slip zone of the last step is about \S+ times as wide as a cell: .* about (\S+) Pa: -grid_n (\d+)"
+)
+REVERSED = [
+    (dict(gap_half_flat_x=3.43947e-3, gap_edge_radius_x=1.659538e-2, grid_n=182, grid_size=1.08194618e-2,
+          friction=0.9247487, body1_young=115e9, body2_young=115e9, load_my=247.0147, steps=1),
+     "load_n,load_tx", (478784.4, 0.0), (478784.4, 418098.0), (478784.4, 134335.2)),
+    *((dict(gap_half_flat_x=1e-3, gap_edge_radius_x=5e-2, grid_n=64, grid_size=3e-3, friction=0.3, body1_young=210e9,
+            body2_young=210e9, steps=1), "load_n,bulk1_stress_xx", (3e5, 0.0), (3e5, bulk)) for bulk in (1e6, 3e6)),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("case", REVERSED)
+def test_shear_of_a_slip_zone_narrower_than_a_cell_is_warned_of_with_its_size(petsam, tmp_path, case):
+    """All cells of a pad stick after a reversal of T, and under bulk stress alone; its size by where cells end."""
+    options, head, *rows = case
+    options = dict(options, elasticity="plane", gap_type="pad", body1_poisson=0.33, body2_poisson=0.33,
+                   **history(tmp_path, head, *rows))  # fmt: skip
+    shear = []
+    for times in (1, 16):
+        done = petsam(options, dict(grid_n=times * options["grid_n"], output="o.h5", overwrite=True))
+        with h5py.File(tmp_path / "o.h5") as f:
+            shear.append(f["history/shear_max"][-1])
+        if times == 1:
+            told = [LAST.search(line) for line in done.complaint if LAST.search(line)]
+    assert abs(shear[0] / shear[1] - 1) > 0.05
+    assert len(told) == 1 and float(told[0][1]) == pytest.approx(shear[1], rel=0.4)
+    assert int(told[0][2]) > options["grid_n"]
+
+
 NARROW = dict(body1_young=210e9, body1_poisson=0.3, body2_young=210e9, body2_poisson=0.3, elasticity="plane",
               gap_type="pad", gap_half_flat_x=6.7e-5, gap_edge_radius_x=0.0112, grid_size=3.128e-4, friction=0.191,
               load_n=4517.0, load_tx=815.0)  # fmt: skip

@@ -4,6 +4,12 @@
   The heights are the separation without the shape. Their tilt along an axis is that of the means of the lines across
   it, by least squares. Waves may have one, too, but go on over the border; so the smaller of two rises counts: that of
   the tilt over the period, and that of the means from the first line to the last one.
+
+  A step is a difference between neighbouring cells beside which, two cells on, the differences are less than a quarter
+  of it. Rough surfaces have a few such differences, too; so steps count where they hold most of the squared slope: of
+  white noise they hold a sixth, of a wall in a smooth surface nearly all. At a step in contact the pressure grows like
+  E* times its height over the cells' width, until its lower side is open, and like the root of that beyond: it has no
+  limit on finer grids.
 */
 #include <petsam/private/gapimpl.h>
 #include <petsam/private/rows.h>
@@ -11,25 +17,53 @@
 
 /* Half-space theory is taken to hold up to this rms slope. */
 #define STEEPEST 0.5
+/* Differences beside a step over it at most; part of the squared slope that steps have at least where they count. */
+#define BESIDE 0.25
+#define MOSTLY 0.5
+/* E* times a step over the cells' width, relative to the largest pressure, from which the step changes the pressure. */
+#define HIGH 0.2
 
 typedef struct {
-  double range, rms, slope; /* m: largest minus smallest; about the mean; rms of the gradient */
+  double range, rms, slope; /* m: largest minus smallest; about the mean; rms of the gradient but for steps */
+  double steps;             /* part of the squared slope that steps have */
   double rise[2];           /* m: over the period in x, y */
 } Heights;
 
-/* Adds up squares of the heights and of their gradient, and the heights of each column, then of each row. */
-static void AddUp(const SamHalo *seen, SamGrid grid, double square[2], double sums[])
+/* The difference across the face before cell i of row j along an axis; 0 beyond the grid. */
+static double DifferenceAt(const SamHalo *seen, SamGrid grid, PetscInt axis, PetscInt i, PetscInt j)
+{
+  const PetscInt at = axis ? j : i, n = axis ? grid->ny : grid->nx;
+
+  return at < 1 || at >= n ? 0 : SamHaloAt(seen, 0, i, j) - SamHaloAt(seen, 0, i - !axis, j - axis);
+}
+
+/* The same if it is a step, else 0. */
+static double StepAt(const SamHalo *seen, SamGrid grid, PetscInt axis, PetscInt i, PetscInt j)
+{
+  const PetscInt along = axis ? 0 : 2, across = axis ? 2 : 0;
+  const double   step = DifferenceAt(seen, grid, axis, i, j),
+               beside = PetscMax(fabs(DifferenceAt(seen, grid, axis, i - along, j - across)),
+                                 fabs(DifferenceAt(seen, grid, axis, i + along, j + across)));
+
+  return beside < BESIDE * fabs(step) ? step : 0;
+}
+
+/* Adds up squares of the heights, of their gradient, and of that by steps, and the heights of each column and row. */
+static void AddUp(const SamHalo *seen, SamGrid grid, double square[3], double sums[])
 {
   const PetscReal cell[2] = {grid->dx, grid->dy};
   const double   *h       = seen->own;
 
   for (PetscInt c = 0; c < grid->cells; c++) {
     const PetscInt i = c % grid->nx, j = grid->row_start + c / grid->nx;
-    const double  *below   = seen->at[0] + (j - 1 - seen->rows.first) * (ptrdiff_t)grid->nx;
-    const double   step[2] = {i ? h[c] - h[c - 1] : 0, j ? h[c] - below[i] : 0};
 
     square[0] += h[c] * h[c];
-    for (PetscInt d = 0; d < grid->axes; d++) square[1] += step[d] * step[d] / (cell[d] * cell[d]);
+    for (PetscInt d = 0; d < grid->axes; d++) {
+      const double slope = DifferenceAt(seen, grid, d, i, j) / cell[d], step = StepAt(seen, grid, d, i, j) / cell[d];
+
+      square[1] += slope * slope;
+      square[2] += step * step;
+    }
     sums[i] += h[c];
     sums[grid->nx + j] += h[c];
   }
@@ -57,7 +91,7 @@ static PetscErrorCode Measure(SamGrid grid, Vec heights, Heights *found)
   const PetscInt n[2]  = {grid->nx, grid->ny};
   const double   cells = (double)n[0] * (double)n[1];
   PetscReal      mean, ends[2];
-  double        *sums, square[2] = {0, 0};
+  double        *sums, square[3] = {0, 0, 0};
   SamHalo        seen;
 
   PetscFunctionBegin;
@@ -66,13 +100,16 @@ static PetscErrorCode Measure(SamGrid grid, Vec heights, Heights *found)
   PetscCall(VecMean(heights, &mean));
   PetscCall(VecShift(heights, -mean));
   PetscCall(PetscCalloc1(n[0] + n[1], &sums));
-  PetscCall(SamHaloBegin(grid, heights, 1, 1, &seen));
+  PetscCall(SamHaloBegin(grid, heights, 1, 3, &seen));
   AddUp(&seen, grid, square, sums);
   PetscCall(SamHaloEnd(&seen));
-  PetscCall(SamSum(grid->comm, 2, square));
+  PetscCall(SamSum(grid->comm, 3, square));
   PetscCall(SamSum(grid->comm, n[0] + n[1], sums));
   for (PetscInt k = 0; k < n[0] + n[1]; k++) sums[k] /= (double)n[k < n[0]];
-  *found = (Heights){.range = ends[1] - ends[0], .rms = sqrt(square[0] / cells), .slope = sqrt(square[1] / cells)};
+  *found = (Heights){.range = ends[1] - ends[0], .rms = sqrt(square[0] / cells)};
+  if (square[1] > 0) found->steps = square[2] / square[1];
+  if (found->steps > MOSTLY) square[1] -= square[2];
+  found->slope = sqrt(square[1] / cells);
   for (PetscInt d = 0; d < grid->axes; d++) found->rise[d] = Rise(sums + d * n[0], n[d]);
   PetscCall(PetscFree(sums));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -98,27 +135,104 @@ static void Describe(const Heights *h, SamGrid grid, PetscBool periodic, char te
                    h->rise[axis], axis ? "y" : "x", h->rms);
 }
 
-PetscErrorCode SamGapAdvise(SamGap gap, SamGrid grid, Vec h, PetscBool periodic, char text[], size_t size)
+/* The heights without the shape; NULL: none are from a file. */
+static PetscErrorCode CreateHeights(SamGap gap, SamGrid grid, Vec h, Vec *heights)
+{
+  PetscScalar *array;
+
+  PetscFunctionBegin;
+  *heights = NULL;
+  if (!SamGapIsFromFile(gap, PETSC_FALSE) && !SamGapIsFromFile(gap, PETSC_TRUE)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(VecDuplicate(h, heights));
+  PetscCall(VecCopy(h, *heights));
+  PetscCall(VecGetArray(*heights, &array));
+  for (PetscInt c = 0; c < grid->cells; c++)
+    array[c] -= SamGapGetHeight(gap, SamGridX(grid, c % grid->nx), SamGridY(grid, grid->row_start + c / grid->nx));
+  PetscCall(VecRestoreArray(*heights, &array));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Writes a doubt about the file of the heights. */
+static void Blame(SamGap gap, const char doubt[], char text[], size_t size)
 {
   const SamFieldFile *file = SamGapIsFromFile(gap, PETSC_FALSE) ? &gap->source : &gap->rough;
-  PetscScalar        *array;
-  Vec                 heights;
-  Heights             found      = {.range = 0};
-  char                doubt[320] = "";
+
+  (void)snprintf(text, size, "-%s%s %s, %s: %s", gap->prefix, file->file_option, file->file, file->dataset, doubt);
+}
+
+PetscErrorCode SamGapAdvise(SamGap gap, SamGrid grid, Vec h, PetscBool periodic, char text[], size_t size)
+{
+  Vec     heights;
+  Heights found      = {.range = 0};
+  char    doubt[320] = "";
 
   PetscFunctionBegin;
   text[0] = '\0';
-  if (!SamGapIsFromFile(gap, PETSC_FALSE) && !SamGapIsFromFile(gap, PETSC_TRUE)) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(VecDuplicate(h, &heights));
-  PetscCall(VecCopy(h, heights));
-  PetscCall(VecGetArray(heights, &array));
-  for (PetscInt c = 0; c < grid->cells; c++)
-    array[c] -= SamGapGetHeight(gap, SamGridX(grid, c % grid->nx), SamGridY(grid, grid->row_start + c / grid->nx));
-  PetscCall(VecRestoreArray(heights, &array));
+  PetscCall(CreateHeights(gap, grid, h, &heights));
+  if (!heights) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Measure(grid, heights, &found));
   PetscCall(VecDestroy(&heights));
   Describe(&found, grid, periodic, doubt, sizeof(doubt));
-  if (doubt[0])
-    (void)snprintf(text, size, "-%s%s %s, %s: %s", gap->prefix, file->file_option, file->file, file->dataset, doubt);
+  if (doubt[0]) Blame(gap, doubt, text, size);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The highest step beside or in contact, and the cell and axis of the face that has it, as a place on the grid. */
+static PetscErrorCode FindStep(SamGrid grid, Vec heights, Vec pressure, double *most, double *place)
+{
+  SamHalo h, p;
+
+  PetscFunctionBegin;
+  *most  = 0;
+  *place = -1;
+  PetscCall(SamHaloBegin(grid, heights, 1, 3, &h));
+  PetscCall(SamHaloBegin(grid, pressure, 1, 1, &p));
+  for (PetscInt c = 0; c < 2 * grid->cells; c++) {
+    const PetscInt axis = c % 2, i = c / 2 % grid->nx, j = grid->row_start + c / 2 / grid->nx;
+    double         step;
+
+    if (axis >= grid->axes || (p.own[c / 2] <= 0 && SamHaloAt(&p, 0, i - !axis, j - axis) <= 0)) continue;
+    step = fabs(StepAt(&h, grid, axis, i, j));
+    if (step > *most) *place = 2 * ((double)j * (double)grid->nx + (double)i) + (double)axis;
+    *most = PetscMax(*most, step);
+  }
+  PetscCall(SamHaloEnd(&p));
+  PetscCall(SamHaloEnd(&h));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGapAdviseStep(SamGap gap, SamGrid grid, Vec h, Vec pressure, double modulus, char text[], size_t size)
+{
+  Vec       heights;
+  Heights   found = {.range = 0};
+  PetscReal peak;
+  PetscInt  axis, i, j;
+  double    own, most, place;
+  char      doubt[256];
+
+  PetscFunctionBegin;
+  text[0] = '\0';
+  PetscCall(CreateHeights(gap, grid, h, &heights));
+  if (!heights) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(Measure(grid, heights, &found));
+  PetscCall(FindStep(grid, heights, pressure, &own, &place));
+  PetscCall(VecDestroy(&heights));
+  PetscCall(VecMax(pressure, NULL, &peak));
+  most = own;
+  PetscCall(SamMax(grid->comm, 1, &most));
+  if (own < most) place = -1;
+  PetscCall(SamMax(grid->comm, 1, &place));
+  axis = place < 0 ? 0 : (PetscInt)fmod(place, 2);
+  if (place < 0 || found.steps <= MOSTLY ||
+      modulus * most / (double)(axis ? grid->dy : grid->dx) <= HIGH * (double)peak)
+    PetscFunctionReturn(PETSC_SUCCESS);
+  i = (PetscInt)fmod(floor(place / 2), (double)grid->nx);
+  j = (PetscInt)floor(place / 2 / (double)grid->nx);
+  (void)snprintf(doubt, sizeof(doubt),
+                 "the heights have a step of %.2g m between neighbouring cells in contact, at x = %.4g m, y = %.4g m, "
+                 "where the pressure has no limit on finer grids: give the hardness, -pressure_limit",
+                 most, (double)(SamGridX(grid, i) - (axis ? 0 : grid->dx / 2)),
+                 (double)(SamGridY(grid, j) - (axis ? grid->dy / 2 : 0)));
+  Blame(gap, doubt, text, size);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

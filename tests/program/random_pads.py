@@ -1,0 +1,125 @@
+#!/usr/bin/env python3
+"""Random pads in plane strain: numbers that are wrong without a warning, and right with one.
+
+Flat pads with rounded edges of all radii under N and T, with load reversals, moments, bulk stress, on 48 to 256 cells,
+against grids and steps four times finer. Wrong: one of the energy of all steps, the maximum shear, slip and pressure of
+the last step by more than 5 %; right: all within 2 %.
+
+    python3 tests/program/random_pads.py [--trials 100] [--seed 1] [--finer 4] [--show]
+"""
+
+import argparse
+import sys
+import tempfile
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+import conftest
+from support import history
+
+NUMBERS = ("shear_max", "slip_max", "pressure_max")
+WRONG, RIGHT = 0.05, 0.02
+
+
+def random_case(seed, folder, finer=1):
+    """Options of a pad and its history."""
+    rng = np.random.default_rng(seed)
+    flat = rng.uniform(0.5e-3, 5e-3)
+    edge = flat * 10 ** rng.uniform(0.3, 2.5)
+    young, poisson = rng.choice([70e9, 115e9, 210e9]), rng.choice([0.0, 0.3, 0.33])
+    modulus = young / (1 - poisson**2) / 2
+    pressure = modulus * 10 ** rng.uniform(-3.5, -2)
+    normal, friction = 2 * flat * pressure, rng.uniform(0.2, 1.0)
+    cells, steps = int(rng.integers(48, 257)), int(rng.choice([1, 2, 4, 8]))
+    part = rng.uniform(0.1, 0.95)
+    shape = rng.choice(["grows", "cycle", "returns", "small", "walk"])
+    last = 1 - 2 * 10 ** rng.uniform(-2, 0)
+    ways = dict(
+        grows=[0, 1], cycle=[0, 1, -1, 1], returns=[0, 1, 0], small=[0, 1, last], walk=[0, *rng.uniform(-1, 1, 3)]
+    )
+    loads = [1, *rng.uniform(0.6, 1, 3)] if shape == "walk" else [1] * 4
+    bulk = rng.choice([0.0, 1.0]) * 10 ** rng.uniform(-1.5, 0) * friction * pressure
+    part *= rng.choice([0.0, 1.0]) if bulk else 1  # bulk stress with T or alone
+    tilt = rng.choice([0.0, 0.0, 0.15]) * normal * flat
+    rows = [
+        (k, normal * load, part * friction * normal * load * way, tilt * load)
+        for k, (way, load) in enumerate(zip(ways[shape], loads))
+    ]
+    names = "time,load_n,load_tx,load_my"
+    if bulk:
+        rows = [(*row, bulk * way) for row, way in zip(rows, ways[shape])]
+        names += ",bulk1_stress_xx"
+    rows = [tuple(map(float, row)) for row in rows]
+    case = dict(
+        elasticity="plane",
+        gap_type="pad",
+        gap_half_flat_x=flat,
+        gap_edge_radius_x=edge,
+        friction=friction,
+        grid_n=cells * finer,
+        grid_size=2 * flat * rng.uniform(1.3, 2.0),
+        steps=steps * min(finer, 4),
+    )
+    case.update({f"body{b}_{name}": value for b in (1, 2) for name, value in (("young", young), ("poisson", poisson))})
+    return {**case, **history(Path(folder) / "h.csv", names, *rows)}
+
+
+def read(path):
+    """The numbers of a results file, with the energy of all steps, whether the last step slides, and the work of T."""
+    with h5py.File(path) as file:
+        every = {name: file[f"history/{name}"][:] for name in (*NUMBERS, "dissipated_energy", "stored_energy")}
+    numbers = {name: every[name][-1] for name in NUMBERS}
+    return dict(numbers, energy=every["dissipated_energy"].sum())
+
+
+def compare(found, true, least):
+    """The largest relative error, and its name; `least` by name: below it a number counts as none."""
+    errors = {name: abs(found[name] - true[name]) / max(abs(true[name]), least.get(name, 0), 1e-300) for name in true}
+    worst = max(errors, key=errors.get)
+    return errors[worst], worst
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--trials", type=int, default=100)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--finer", type=int, default=4)
+    parser.add_argument("--show", action="store_true")
+    arguments = parser.parse_args()
+    launcher = conftest.launcher_words()
+    silent, loud, solved, warned_wrong = [], [], 0, 0
+    for seed in range(arguments.seed, arguments.seed + arguments.trials):
+        found = []
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            for finer in (1, arguments.finer):
+                case = dict(random_case(seed, folder, finer), output=f"{finer}.h5")
+                done = conftest.execute(launcher, folder, [case], 1, None)
+                if done.code:
+                    break
+                found.append((read(folder / f"{finer}.h5"), done))
+        if len(found) < 2:
+            if arguments.show:
+                print(f"seed {seed}: not solved: {done.stderr.splitlines()[-1:]}")
+            continue
+        solved += 1
+        warnings = [line for line in found[0][1].stderr.splitlines() if "warning" in line]
+        error, number = compare(found[0][0], found[1][0], dict(energy=0, slip_max=0))
+        if error > WRONG and not warnings:
+            silent.append(seed)
+        warned_wrong += bool(error > WRONG and warnings)
+        if error < RIGHT and warnings:
+            loud.append(seed)
+        if arguments.show or (error > WRONG and not warnings) or (error < RIGHT and warnings):
+            print(f"seed {seed}: {number} wrong by {100 * error:.3g} %", *warnings, sep="\n    ", flush=True)
+    print(
+        f"{solved} solved: {len(silent)} wrong without a warning {silent}, {warned_wrong} wrong with one, "
+        f"{len(loud)} right with one {loud}"
+    )
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
