@@ -93,15 +93,17 @@ static PetscErrorCode ComputeDepth(void *owner, SamState state, PetscInt body, V
 
 static PetscErrorCode Declare(SamLaw law, SamState state)
 {
-  static const SamStateField load  = {.name        = SAM_WEAR_LOAD,
-                                      .components  = 1,
-                                      .generations = 3,
-                                      .kept        = PETSC_TRUE,
-                                      .motion      = SAM_MOVES},
-                             load1 = {.name = SAM_WEAR_LOAD, .components = 1, .generations = 3, .kept = PETSC_TRUE},
-                             load2 = {.name = SAM_WEAR_LOAD2, .components = 1, .generations = 3, .kept = PETSC_TRUE},
-                             cycle = {.name = SAM_WEAR_CYCLE, .components = 1, .generations = 2},
-                             path  = {.name = SAM_WEAR_PATH, .components = 1, .generations = 2};
+  static const SamStateField
+    load  = {.name        = SAM_WEAR_LOAD,
+             .components  = 1,
+             .generations = 3,
+             .kept        = PETSC_TRUE,
+             .motion      = SAM_MOVES,
+             .separates   = PETSC_TRUE},
+    load1 = {.name = SAM_WEAR_LOAD, .components = 1, .generations = 3, .kept = PETSC_TRUE, .separates = PETSC_TRUE},
+    load2 = {.name = SAM_WEAR_LOAD2, .components = 1, .generations = 3, .kept = PETSC_TRUE, .separates = PETSC_TRUE},
+    cycle = {.name = SAM_WEAR_CYCLE, .components = 1, .generations = 2},
+    path  = {.name = SAM_WEAR_PATH, .components = 1, .generations = 2};
   static const SamStateNumber number[] = {
     {"wear_volume1", "m3", "volume removed of body 1", SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE, SAM_JOIN_LAST, 0},
     {"wear_volume2", "m3", "volume removed of body 2", SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE, SAM_JOIN_LAST, 0},
