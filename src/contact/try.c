@@ -7,7 +7,9 @@
 
 /*
   The check includes rounding, which the solvers' recurrences omit. So its limits are the solvers' tolerances times a
-  margin; equilibrium and cone, which solvers meet to rounding, have limits of their own. A bound that follows the slip
+  margin. Where the displacement nearly vanishes, as in full contact when all waves are worn off, rounding of the gap is
+  no small part of the tolerance, which is at least that: the check rounds once more than the solver, and its limit is
+  the sum. Equilibrium and cone, which solvers meet to rounding, have limits of their own. A bound that follows the slip
   is as accurate as the slip.
 */
 #define CHECK_MARGIN      1.05
@@ -80,7 +82,7 @@ static PetscErrorCode Judge(SamContact c, SamStep *step)
   PetscFunctionBegin;
   PetscCall(SamSolverGetTolerances(SamNormalAsSolver(c->normal), &limits.normal, NULL));
   PetscCall(SamSolverGetTolerances(SamTangentialAsSolver(c->tangential), &limits.tangential, NULL));
-  limits.normal = CHECK_MARGIN * PetscMax(limits.normal, check->rounding);
+  limits.normal = CHECK_MARGIN * PetscMax(limits.normal, check->rounding) + check->rounding;
   limits.tangential *= CHECK_MARGIN;
   if (SamProblemFollowsSlip(c->problem)) limits.cone = limits.tangential;
   if (c->set.print_check)
