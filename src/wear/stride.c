@@ -2,12 +2,12 @@
   Steps that slide far.
 
   A step wears body 2 at the two places where its points are under the contact before and after the step: the
-  trapezoidal rule along the slide. Over a slide of the contact's length its points see one or two pressures each, and the depth
-  is a comb. With the load of the step spread over places between, its part of the pressure after the step growing linearly
-  from 0 to 1, the depth is that of many steps. The difference of the two, summed over a cycle and over the cycles of
-  all jumps, in the 2-norm relative to the load of body 2, estimates the error of the depth by the length of the steps.
-  For a pin that slides over a disc by 4, 2, 1 and 1/2 lengths of the contact per step it is within a third of the true
-  error; scars that conform, as in fretting, have a third of it.
+  trapezoidal rule along the slide. Over a slide of the contact's length its points see one or two pressures each, and
+  the depth is a comb. With the load of the step spread over places between, its part of the pressure after the step
+  growing linearly from 0 to 1, the depth is that of many steps. The difference of the two, summed over a cycle and
+  over the cycles of all jumps, in the 2-norm relative to the load of body 2, estimates the error of the depth by the
+  length of the steps. For a pin that slides over a disc by 4, 2, 1 and 1/2 lengths of the contact per step it is
+  within a third of the true error; scars that conform, as in fretting, have a third of it.
 */
 #include "lifeimpl.h"
 #include <petsam/private/grid.h>
