@@ -35,12 +35,14 @@ typedef struct {
 
 /* SamLifeReport - a computed cycle, and the jump before it. */
 typedef struct {
-  PetscReal cycles;            /* so far */
-  PetscReal jump;              /* the last one, cycles */
-  PetscReal error;             /* of this: the difference between the jump and two halves of it, relative */
-  PetscReal limit;             /* the longest jump that would be stable if it were explicit, cycles */
-  PetscReal volume[2];         /* m3, removed of body 1 and 2 so far */
-  PetscReal depth[2];          /* m, the largest, removed of body 1 and 2 so far */
+  PetscReal cycles;    /* so far */
+  PetscReal jump;      /* the last one, cycles */
+  PetscReal error;     /* of this: the difference between the jump and two halves of it, relative; or `stripes` */
+  PetscReal stripes;   /* error of body 2's depth so far by steps that slide far, relative */
+  PetscReal stride;    /* the longest slide of a step of the cycle, over the contact's length along it */
+  PetscReal limit;     /* the longest jump that would be stable if it were explicit, cycles */
+  PetscReal volume[2]; /* m3, removed of body 1 and 2 so far */
+  PetscReal depth[2];  /* m, the largest, removed of body 1 and 2 so far */
   PetscReal dissipated_energy; /* J, of this cycle */
   PetscReal contact_area;      /* m2, at its end */
   PetscReal pressure;          /* Pa, the largest at its end */
@@ -55,8 +57,8 @@ typedef struct {
   problem of surfaces that yield (SamNormalSolveYielding()); where surfaces slide past each other, in each step of a
   magnified cycle. A jump is made once as a whole and once in two halves, with a cycle computed between them; their
   difference is the error, and sets the size of the next jump; their extrapolation, which is of second order, is kept.
-  Jumps are whole numbers of cycles; one of a single cycle is taken whatever its error: faster wear is for steps that
-  wear one by one, without a life.
+  Jumps that the error sets are whole numbers of cycles, fixed ones any number; one of a single cycle is taken whatever
+  its error: faster wear is for steps that wear one by one, without a life.
 
   SamLifeCompute() and SamLifeJump() take turns.
 */

@@ -37,7 +37,8 @@ typedef struct {
   PetscBool      optional;    /* a checkpoint may lack it; it is zero then */
   SamResultUse   result;
   SamStateMotion motion;
-  PetscInt       layers; /* below each cell; 0: a field of the surface */
+  PetscInt       layers;    /* below each cell; 0: a field of the surface */
+  PetscBool      separates; /* the separation or the offset of later steps follows from it */
 } SamStateField;
 /* SamStateFieldSize - values of a field for each cell: the components of its vectors. Not collective. */
 static inline PetscInt SamStateFieldSize(const SamStateField *field)

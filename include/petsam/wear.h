@@ -19,4 +19,10 @@
 */
 PETSC_EXTERN PetscErrorCode SamLawSetWear(SamLaw law, const PetscReal coefficient[2]);
 
+/*
+  SamWearAdviseStride - a warning about a step that slides by so many lengths of the contact; empty: none. Not
+  collective.
+*/
+PETSC_INTERN PetscErrorCode SamWearAdviseStride(PetscReal stride, char text[], size_t size);
+
 #endif

@@ -20,16 +20,18 @@ enum { LINE_X, LINE_Y, LEFT, ASIDE, SLIP_NUMBERS };
 static PetscErrorCode DeclareFields(SamContact c)
 {
   static const SamStateField tractions[3]     = {{"pressure", "Pa", "contact pressure, mean over the cell", 1, 3,
-                                                  PETSC_TRUE, PETSC_FALSE, SAM_RESULT_USUAL, SAM_STAYS, 0},
+                                                  PETSC_TRUE, PETSC_FALSE, SAM_RESULT_USUAL, SAM_STAYS, 0, PETSC_FALSE},
                                                  {"bound", "Pa", NULL, 1, 3, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_NONE,
-                                                  SAM_STAYS, 0},
+                                                  SAM_STAYS, 0, PETSC_FALSE},
                                                  {"shear", "Pa", "shear traction, mean over the cell", 2, 3, PETSC_TRUE,
-                                                  PETSC_FALSE, SAM_RESULT_USUAL, SAM_STAYS, 0}};
-  static const SamStateField displacements[2] = {
-    {"displacement_z", "m", DISPLACEMENT, 1, 2, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_OFFERED, SAM_STAYS, 0},
-    {"displacement", "m", DISPLACEMENT, 2, 2, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_OFFERED, SAM_MOVES_CONTINUED, 0}};
+                                                  PETSC_FALSE, SAM_RESULT_USUAL, SAM_STAYS, 0, PETSC_FALSE}};
+  static const SamStateField displacements[2] = {{"displacement_z", "m", DISPLACEMENT, 1, 2, PETSC_TRUE, PETSC_FALSE,
+                                                  SAM_RESULT_OFFERED, SAM_STAYS, 0, PETSC_FALSE},
+                                                 {"displacement", "m", DISPLACEMENT, 2, 2, PETSC_TRUE, PETSC_FALSE,
+                                                  SAM_RESULT_OFFERED, SAM_MOVES_CONTINUED, 0, PETSC_FALSE}};
 
-  static const SamStateField aside = {"aside", "m", NULL, 2, 2, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_NONE, SAM_STAYS, 0};
+  static const SamStateField aside = {"aside",         "m",       NULL, 2,          2, PETSC_TRUE, PETSC_FALSE,
+                                      SAM_RESULT_NONE, SAM_STAYS, 0,    PETSC_FALSE};
 
   PetscFunctionBegin;
   for (int k = 0; k < 3; k++) PetscCall(SamStateDeclareField(c->state, &tractions[k], &c->tractions[k]));

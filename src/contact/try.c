@@ -7,7 +7,9 @@
 
 /*
   The check includes rounding, which the solvers' recurrences omit. So its limits are the solvers' tolerances times a
-  margin; equilibrium and cone, which solvers meet to rounding, have limits of their own. A bound that follows the slip
+  margin. Where the displacement nearly vanishes, as in full contact when all waves are worn off, rounding of the gap is
+  no small part of the tolerance, which is at least that: the check rounds once more than the solver, and its limit is
+  the sum. Equilibrium and cone, which solvers meet to rounding, have limits of their own. A bound that follows the slip
   is as accurate as the slip.
 */
 #define CHECK_MARGIN      1.05
@@ -80,7 +82,7 @@ static PetscErrorCode Judge(SamContact c, SamStep *step)
   PetscFunctionBegin;
   PetscCall(SamSolverGetTolerances(SamNormalAsSolver(c->normal), &limits.normal, NULL));
   PetscCall(SamSolverGetTolerances(SamTangentialAsSolver(c->tangential), &limits.tangential, NULL));
-  limits.normal = CHECK_MARGIN * PetscMax(limits.normal, check->rounding);
+  limits.normal = CHECK_MARGIN * PetscMax(limits.normal, check->rounding) + check->rounding;
   limits.tangential *= CHECK_MARGIN;
   if (SamProblemFollowsSlip(c->problem)) limits.cone = limits.tangential;
   if (c->set.print_check)
@@ -285,24 +287,24 @@ static PetscErrorCode GetSlope(SamLawStep *step, Vec by_pressure)
 }
 
 /* All laws advance their tried state. */
-static PetscErrorCode Advance(SamContact c, PetscBool same_pressure, char failed[], size_t size)
+static PetscErrorCode Advance(SamContact c, PetscBool known_pressure, char failed[], size_t size)
 {
   const SamSolution *s = &c->generation[SAM_TRIED], *last = SamContactBefore(c);
-  SamLawStep         step = {.grid          = c->grid,
-                             .state         = c->state,
-                             .elasticity    = c->elasticity,
-                             .control       = &s->control,
-                             .rolled        = SamProblemGetRolled(c->problem, &s->control, NULL),
-                             .pressure      = s->pressure,
-                             .shear         = s->shear,
-                             .last          = {last ? last->pressure : NULL, last ? last->shear : NULL},
-                             .bound         = s->bound,
-                             .rigid         = s->rigid,
-                             .same_pressure = same_pressure,
-                             .friction      = GetFriction,
-                             .gap           = GetGap,
-                             .slope         = GetSlope,
-                             .context       = c};
+  SamLawStep         step = {.grid           = c->grid,
+                             .state          = c->state,
+                             .elasticity     = c->elasticity,
+                             .control        = &s->control,
+                             .rolled         = SamProblemGetRolled(c->problem, &s->control, NULL),
+                             .pressure       = s->pressure,
+                             .shear          = s->shear,
+                             .last           = {last ? last->pressure : NULL, last ? last->shear : NULL},
+                             .bound          = s->bound,
+                             .rigid          = s->rigid,
+                             .known_pressure = known_pressure,
+                             .friction       = GetFriction,
+                             .gap            = GetGap,
+                             .slope          = GetSlope,
+                             .context        = c};
 
   PetscFunctionBegin;
   PetscCall(SamProblemAdvance(c->problem, &step));
@@ -328,7 +330,7 @@ static PetscErrorCode ForgetApproach(SamContact c, SamStep *step)
 }
 
 /* Checks the tried solution and fills in the numbers of the step. */
-static PetscErrorCode Conclude(SamContact c, PetscBool same_pressure, SamStep *step)
+static PetscErrorCode Conclude(SamContact c, PetscBool same_pressure, PetscBool known_pressure, SamStep *step)
 {
   SamSolution       *s    = &c->generation[SAM_TRIED];
   const SamSolution *last = SamContactBefore(c), *before = SamContactSlipBefore(c);
@@ -340,7 +342,7 @@ static PetscErrorCode Conclude(SamContact c, PetscBool same_pressure, SamStep *s
   PetscCall(SamStepSetDisplacements(c->state, c->displacements, s));
   if (same_pressure) PetscCall(SamVecCopyNonzero(last->displacement_z, s->displacement_z));
   PetscCall(SamCheckSolution(c->problem, c->state, c->set.coupling, same_pressure, before, s, &step->check));
-  PetscCall(Advance(c, same_pressure, failed, sizeof(failed)));
+  PetscCall(Advance(c, known_pressure, failed, sizeof(failed)));
   PetscCall(PetscArraycpy(step->load, s->load, SAM_COMPONENTS));
   PetscCall(PetscArraycpy(step->rigid, s->rigid, SAM_COMPONENTS));
   PetscCall(SamSolutionComputeNumbers(c->problem, c->state, before, s, same_pressure, c->set.edges));
@@ -367,14 +369,16 @@ static PetscErrorCode GetStepOf(SamContact c, SamStepOf *of)
   PetscReal slide[2];
 
   PetscFunctionBegin;
-  *of       = (SamStepOf){.same_gap = c->same_gap};
-  of->moves = c->revision[SAM_TRIED] < 0 || SamProblemGetOffset(c->problem, c->state, SAM_TRIED, 1, slide);
+  *of        = (SamStepOf){.same_gap = c->same_gap};
+  of->moves  = c->revision[SAM_TRIED] < 0 || SamProblemGetOffset(c->problem, c->state, SAM_TRIED, 1, slide);
+  of->yields = SamStateSeparates(c->state);
   PetscCall(SamSolverGetTolerances(SamNormalAsSolver(c->normal), &of->rtol, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Finds a guess for the tried step besides a kept one, and solves it. */
-static PetscErrorCode Solve(SamContact c, SamCachedStep kept, PetscBool same_pressure, SamStep *step)
+/* Finds a guess for the tried step besides a kept one, and solves it; `known_pressure`: its pressure was known. */
+static PetscErrorCode Solve(SamContact c, SamCachedStep kept, PetscBool same_pressure, SamStep *step,
+                            PetscBool *known_pressure)
 {
   SamStepTask task = {.problem       = c->problem,
                       .elasticity    = c->elasticity,
@@ -401,7 +405,7 @@ static PetscErrorCode Solve(SamContact c, SamCachedStep kept, PetscBool same_pre
   PetscCall(SamContactPredict(c, &task.s->control, &task.start));
   PetscCall(GetStepOf(c, &task.of));
   if (SamContactRecalls(c)) task.start.kept = kept;
-  PetscCall(SamStepSolve(&task, step));
+  PetscCall(SamStepSolve(&task, step, known_pressure));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -420,7 +424,7 @@ static void FindKept(SamContact c, SamControl *control, SamCachedStep *kept)
 PetscErrorCode SamContactTry(SamContact c, const SamControl *control, SamStep *step)
 {
   SamControl    given         = *control;
-  PetscBool     same_pressure = PETSC_FALSE;
+  PetscBool     same_pressure = PETSC_FALSE, known_pressure;
   SamCachedStep kept;
 
   PetscFunctionBegin;
@@ -432,7 +436,7 @@ PetscErrorCode SamContactTry(SamContact c, const SamControl *control, SamStep *s
   FindKept(c, &given, &kept);
   PetscCall(SamContactBegin(c, &given));
   PetscCall(IsSamePressure(c, &given, &same_pressure));
-  PetscCall(Solve(c, kept, same_pressure, step));
+  PetscCall(Solve(c, kept, same_pressure, step, &known_pressure));
   if (step->status == SAM_STATUS_NO_EQUILIBRIUM) { /* there is no solution to check */
     SetUnknown(step);
     PetscCall(SamContactStore(c, step));
@@ -442,7 +446,7 @@ PetscErrorCode SamContactTry(SamContact c, const SamControl *control, SamStep *s
   }
   c->has_tried = PETSC_TRUE;
   PetscCall(NoteWindow(c));
-  PetscCall(Conclude(c, same_pressure, step));
+  PetscCall(Conclude(c, same_pressure, known_pressure, step));
   PetscCall(SamContactStore(c, step));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -48,7 +48,7 @@ static const struct {
     REAL(LENGTH, "path_length", "slip_path", "slip (m) after which 1/e of the change is left", SAM_RANGE_POSITIVE)},
    {NAN, NAN},
    {"friction_path", "m", "slip under pressure, over all steps", 1, 2, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_OFFERED,
-    SAM_MOVES, 0}},
+    SAM_MOVES, 0, PETSC_FALSE}},
   {SAM_LAW_PRESSURE_FRICTION,
    "pressure",
    {REAL(EXPONENT, "pressure_exponent", "pressure", "exponent of p over the reference, > -1", SAM_RANGE_ANY),
@@ -68,7 +68,7 @@ static const struct {
          SAM_RANGE_NONNEGATIVE)},
    {NAN, NAN, NAN, 0, 0},
    {"friction_fallen", "1", "part of the change of friction that is reached", 1, 2, PETSC_TRUE, PETSC_FALSE,
-    SAM_RESULT_OFFERED, SAM_MOVES, 0}}};
+    SAM_RESULT_OFFERED, SAM_MOVES, 0, PETSC_FALSE}}};
 
 /* The solution that was found, where there may be several. */
 static const SamStateNumber branch = {"friction_mean",

@@ -67,7 +67,8 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
                                                   .generations = 2,
                                                   .kept        = PETSC_TRUE,
                                                   .result      = SAM_RESULT_USUAL,
-                                                  .motion      = SAM_MOVES};
+                                                  .motion      = SAM_MOVES,
+                                                  .separates   = PETSC_TRUE};
   static const SamStateNumber numbers[NUMBERS] = {
     {"plastic_cells", "1", "cells at the pressure limit", SAM_NUMBER_INT, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, 0},
     {"plastic_area", "m2", "area at the pressure limit", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, 0},
@@ -107,29 +108,42 @@ static PetscErrorCode Limit(SamLaw law, PetscReal *most)
 
 /* ---- a step ---- */
 
-/* The overlap of the step is added to the depth; `gap` is that before the surfaces yield. */
-static PetscErrorCode AddOverlap(SamLaw law, SamLawStep *step, Vec before, Vec depth)
+/* The overlap of the step, from the gap before the surfaces yield; `any`: there is some on any rank. */
+static PetscErrorCode FindOverlap(SamLaw law, SamLawStep *step, Vec overlap, PetscBool *any)
 {
   const double  saturated = SAM_SATURATED * ((Hardness *)law->data)->limit;
-  const double *p, *g;
-  double       *w;
-  Vec           gap;
+  const double *p;
+  double       *g, most = 0;
 
   PetscFunctionBegin;
-  PetscCall(SamGridCreateVec(step->grid, 1, &gap));
-  PetscCall(step->gap(step, gap));
-  if (before)
-    PetscCall(VecCopy(before, depth));
-  else
-    PetscCall(VecSet(depth, 0));
+  PetscCall(step->gap(step, overlap));
   PetscCall(VecGetArrayRead(step->pressure, &p));
-  PetscCall(VecGetArrayRead(gap, &g));
-  PetscCall(VecGetArray(depth, &w));
-  for (PetscInt k = 0; k < step->grid->cells; k++) w[k] += p[k] >= saturated && g[k] < 0 ? -g[k] : 0;
-  PetscCall(VecRestoreArray(depth, &w));
-  PetscCall(VecRestoreArrayRead(gap, &g));
+  PetscCall(VecGetArray(overlap, &g));
+  for (PetscInt k = 0; k < step->grid->cells; k++) {
+    g[k] = p[k] >= saturated && g[k] < 0 ? -g[k] : 0;
+    most = PetscMax(most, g[k]);
+  }
+  PetscCall(VecRestoreArray(overlap, &g));
   PetscCall(VecRestoreArrayRead(step->pressure, &p));
-  PetscCall(VecDestroy(&gap));
+  PetscCall(SamMax(step->grid->comm, 1, &most));
+  *any = most > 0 ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The overlap of the step is added to the depth, which is left alone without any: elastic steps keep the gap. */
+static PetscErrorCode AddOverlap(SamLaw law, SamLawStep *step, PetscInt id, Vec before, Vec *depth)
+{
+  Vec       overlap;
+  PetscBool any = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCall(SamGridCreateVec(step->grid, 1, &overlap));
+  PetscCall(FindOverlap(law, step, overlap, &any));
+  if (any || !before) {
+    PetscCall(SamStateSetField(step->state, id, depth));
+    PetscCall(before ? VecWAXPY(*depth, 1, before, overlap) : VecCopy(overlap, *depth));
+  }
+  PetscCall(VecDestroy(&overlap));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -183,11 +197,8 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
   Vec            depth  = before;
 
   PetscFunctionBegin;
-  /* a pressure that stays has yielded before; what is left of its gap is rounding */
-  if (!step->same_pressure || !before) {
-    PetscCall(SamStateSetField(step->state, id, &depth));
-    PetscCall(AddOverlap(law, step, before, depth));
-  }
+  /* a pressure that is known has yielded before; what is left of its gap is rounding */
+  if (!step->known_pressure || !before) PetscCall(AddOverlap(law, step, id, before, &depth));
   PetscCall(CountYielded(law, step, before, depth));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -10,7 +10,7 @@ typedef struct {
 
 #define FIELD(type, unit, text) \
   { \
-    type, unit, text, 1, 2, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_OFFERED, SAM_MOVES, 0 \
+    type, unit, text, 1, 2, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_OFFERED, SAM_MOVES, 0, PETSC_FALSE \
   }
 static const Sum sums[] = {{FIELD(SAM_LAW_ACCUMULATED_SLIP, "m", "accumulated slip: sum of |ds| over all steps"),
                             "sum_slip_path", "accumulate the slip over all steps (field slip_path)", PETSC_FALSE},

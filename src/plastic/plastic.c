@@ -395,7 +395,8 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
                                                   .components  = SizeOf(x),
                                                   .generations = 2,
                                                   .kept        = PETSC_TRUE,
-                                                  .layers      = BodiesOf(x) * x->layers};
+                                                  .layers      = BodiesOf(x) * x->layers,
+                                                  .separates   = PETSC_TRUE};
   static const SamStateNumber numbers[NUMBERS] = {
     {"plastic_max", "1", "maximum accumulated plastic strain", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE,
      SAM_JOIN_LAST, 0},

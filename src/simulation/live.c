@@ -1,6 +1,7 @@
 /* The life of a joint: a cycle at a time is computed and written, then some are jumped over. */
 #include "simulationimpl.h"
 #include <petsam/private/state.h>
+#include <petsam/wear.h>
 
 /* An error of a fixed jump that is told. */
 #define LARGE 0.1
@@ -185,7 +186,7 @@ static PetscErrorCode WarnOfJump(SamSimulation s, const SamLifeReport *r)
       "after %.10g cycles: explicit cycle jumps of more than %.4g cycles are unstable: pressure and depth are "
       "wrong",
       (double)r->cycles, (double)r->limit);
-  else if (r->error > LARGE)
+  else if (r->error > LARGE && r->error > r->stripes)
     (void)snprintf(said.message, sizeof(said.message), "after %.10g cycles: the error of the last jump is %.2g",
                    (double)r->cycles, (double)r->error);
   s->warned = said.message[0] ? PETSC_TRUE : s->warned;
@@ -206,6 +207,20 @@ static PetscErrorCode WarnOfUnit(SamSimulation s, const SamLifeReport *r)
                  "coefficient, 1/Pa or m3/J (1 mm3/(N m) is 1e-9 1/Pa)",
                  1 / (double)r->limit);
   PetscCall(SamSimulationWarn(s, text, ""));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Steps that slide far over the contact, once. */
+static PetscErrorCode WarnOfStride(SamSimulation s, const SamLifeReport *r)
+{
+  char advice[192], text[256];
+
+  PetscFunctionBegin;
+  PetscCall(SamWearAdviseStride(r->stride, advice, sizeof(advice)));
+  if (s->stripes || !advice[0]) PetscFunctionReturn(PETSC_SUCCESS);
+  s->stripes = PETSC_TRUE;
+  (void)snprintf(text, sizeof(text), "after %.10g cycles: %s", (double)r->cycles, advice);
+  PetscCall(SamSimulationWarn(s, text, "steps"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -242,6 +257,7 @@ static PetscErrorCode ComputeCycle(SamSimulation s, PetscBool *ended)
   s->warned = r.step.message[0] ? PETSC_TRUE : s->warned;
   PetscCall(WarnOfJump(s, &r));
   PetscCall(WarnOfUnit(s, &r));
+  PetscCall(WarnOfStride(s, &r));
   PetscCall(WarnOfWorn(s, &r, ended));
   s->writing = PETSC_TRUE;
   PetscCall(SamLifeRecord(s->life, &r));

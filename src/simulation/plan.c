@@ -10,8 +10,9 @@
 
 /* Loads and displacements of the first and last row of a cycle may differ by so much of their range. */
 #define ROUNDING 1e-9
-/* The most cycles of a life. */
+/* The most cycles of a life, and the most fixed jumps in it. */
 #define MOST_CYCLES 1e12
+#define MOST_JUMPS  1e9
 
 /* The error of jumps that is allowed where surfaces slide, unless it is given. */
 #define SLIDING_RTOL 0.1
@@ -53,7 +54,8 @@ static const SamOptionRow rows[ROWS] = {
    .words = "implicit,explicit", LIFE},
   {"wear_rtol", "relative error of depth and pressure per cycle jump; at most twice this", SAM_OPTION_REAL,
    MEMBER(life.rtol), .range = SAM_RANGE_PART, LIFE},
-  {"wear_jump", "fixed jump length in cycles", SAM_OPTION_REAL, MEMBER(life.jump), .range = SAM_RANGE_POSITIVE, LIFE},
+  {"wear_jump", "fixed jump length in cycles, not only integers", SAM_OPTION_REAL, MEMBER(life.jump),
+   .range = SAM_RANGE_POSITIVE, LIFE},
   {"wear_stop_layer", "end where the first layer of a body is worn through", SAM_OPTION_BOOL, MEMBER(stop_layer), LIFE},
   {"wear_output", "cycles whose fields are written, c[,c,...]; the last always", SAM_OPTION_STRING, MEMBER(outputs),
    .size = sizeof(((Settings *)NULL)->outputs), LIFE},
@@ -149,7 +151,6 @@ PetscErrorCode SamPlanSetFromOptions(SamPlan *w, PetscBool given, const SamOptio
   *w            = (SamPlan){.cycles = set.cycles, .life = set.life, .stop_worn = set.stop_layer};
   w->life.fixed = has[JUMP];
   w->has_rtol   = has[RTOL];
-  PetscCall(CheckWhole("wear_jump", w->life.jump, w->life.fixed, from));
   PetscCall(TakeOutputs(w, set.outputs, from));
   if (has[FRICTION]) PetscCall(TakeFriction(w, set.friction, from));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -173,6 +174,9 @@ PetscErrorCode SamPlanSetCycles(SamPlan *w, PetscReal cycles, SamProblem problem
   PetscCheck(SamProblemMoves(problem) || cycles == 0, from->comm, SAM_ERR_USER,
              "-wear_cycles is given, but no wear: give one of -wear_coefficient1, -wear_coefficient2, -wear_energy1, "
              "-wear_energy2 a number > 0");
+  PetscCheck(!w->life.fixed || cycles == 0 || (w->life.jump <= MOST_CYCLES && w->life.jump * MOST_JUMPS >= cycles),
+             from->comm, SAM_ERR_USER, "-wear_jump %.6g: expected a number from %.6g of -wear_cycles on, at most %.6g",
+             (double)w->life.jump, 1 / MOST_JUMPS, MOST_CYCLES);
   w->bands = SamMotionOf(SamProblemGetElasticity(problem))->streams;
   PetscCheck(!w->outputs || cycles == 0 || w->output[w->outputs - 1] <= cycles, from->comm, SAM_ERR_USER,
              "-wear_output: %.6g is more than -wear_cycles %.6g", (double)w->output[w->outputs - 1], (double)cycles);

@@ -63,6 +63,7 @@ struct _n_SamSimulation {
   PetscBool              has_output;
   PetscBool              told;      /* in a life: the step that failed is in the file */
   PetscBool              warned;    /* a warning has been printed in this life */
+  PetscBool              stripes;   /* steps that slide too far have been told */
   PetscBool              fast;      /* wear in a cycle is so fast that the unit is doubted, which has been told */
   PetscBool              worn[2];   /* the first material of a body is worn through, which has been told */
   PetscReal              last_time; /* of the last step that was written, s; -infinity: none */

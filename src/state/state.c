@@ -341,6 +341,13 @@ PetscErrorCode SamStateCommit(SamState s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscBool SamStateSeparates(SamState s)
+{
+  for (PetscInt k = 0; k < s->fields; k++)
+    if (s->field[k].set && s->field[k].declared.separates) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
 PetscBool SamStateHasTried(SamState s)
 {
   return s->tried;

@@ -138,7 +138,7 @@ static PetscErrorCode FollowTractions(SamSolve *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamStepSolve(const SamStepTask *task, SamStep *step)
+PetscErrorCode SamStepSolve(const SamStepTask *task, SamStep *step, PetscBool *known_pressure)
 {
   SamSolve w;
 
@@ -146,6 +146,7 @@ PetscErrorCode SamStepSolve(const SamStepTask *task, SamStep *step)
   PetscCall(Begin(task, step, &w));
   PetscCall(SolveProblems(&w));
   PetscCall(FollowTractions(&w));
+  *known_pressure = task->same_pressure || w.known_pressure ? PETSC_TRUE : PETSC_FALSE;
   if (task->motion->streams) PetscCall(SamSolveRolling(&w));
   PetscCall(End(&w));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -49,9 +49,10 @@ typedef struct {
 
 /*
   SamStepSolve - solves the normal and the tangential problem of a step, in turn when they are coupled. Failures are
-  reported in the status of `step` (solve.c). Collective.
+  reported in the status of `step` (solve.c). `known_pressure`: the pressure is the committed or a kept one, and has not
+  been solved. Collective.
 */
-PETSC_INTERN PetscErrorCode SamStepSolve(const SamStepTask *task, SamStep *step);
+PETSC_INTERN PetscErrorCode SamStepSolve(const SamStepTask *task, SamStep *step, PetscBool *known_pressure);
 /*
   SamStepSetDisplacements - gives the tried solution its displacements, these two fields of the state. Called as late as
   possible: in the first step they then use the memory that the solvers have freed. Collective.

@@ -16,7 +16,9 @@
   older D', w D + (1 - w) D' with w = 1 + m is much nearer than D. w is what fits the changes of the last step best.
 
   For bodies whose pressure does not depend on the shear, the pressure of step k is that of this step, if what is
-  prescribed of it and the gap are the same (SamControlSnap() has made what differs by rounding the same).
+  prescribed of it and the gap are the same (SamControlSnap() has made what differs by rounding the same). Gaps are
+  compared by a number, which grows with each change of the gap: of the problem's revision, and of the fields of the
+  state from which the separation follows by their declaration.
 
   A step is recognised by what it prescribes and what the step before did, not by its number. It replaces the last but
   one that it repeats, and where the memory is full the last one. A step that repeats none then replaces the oldest
@@ -59,7 +61,7 @@ enum {
   CELLS,        /* of its fields on all ranks; 0: nothing is kept */
   UNIT_SHEAR,   /* of the changes (Pa) */
   UNIT_PRODUCT, /* (m) */
-  GAP,          /* the number of the gap that the pressure was solved with; -1: it has moved since */
+  GAP,          /* the number of the gap that the pressure is right for; -1: it has moved since */
   PRESSURE,     /* whether there is a pressure; else it is that of the step before */
   RTOL,         /* of the normal solver */
   LOAD,         /* normal loads and rigid displacements */
@@ -69,7 +71,7 @@ enum {
 /* The cache's own row: the largest size of each number that was prescribed, and then these numbers. */
 enum {
   WEIGHT, /* of the last of two repetitions, by what was best in the last step */
-  GAP_NOW /* the number of the last step's gap */
+  GAP_NOW /* the number of the gap after the last step: it is raised by whatever changes the gap */
 };
 
 /* What is prescribed, as numbers: the components and the conditions, and how each component is given. */
@@ -85,7 +87,7 @@ typedef struct {
 
 struct _n_SamCachedStep {
   Part     part[2]; /* the last one, and the one before it */
-  double   gap;     /* the number of the last step's gap */
+  double   gap;     /* the number of the gap after the last step */
   PetscInt count;   /* of numbers in front of those of a part */
 };
 
@@ -605,7 +607,7 @@ PetscErrorCode SamStepCacheKeep(SamStepCache r, const SamSolution *before, const
   if (older && r->fields[older]) Drop(r, older);
   found = PetscMax(found - MoveTable(r), 0);
   AddStep(r, &now->control);
-  if (!of->same_gap) *At(r, 0, GAP_NOW) += 1;
+  if (!of->same_gap || of->yields) *At(r, 0, GAP_NOW) += 1;
   *At(r, r->count, GAP)  = of->moves ? -1 : *At(r, 0, GAP_NOW);
   *At(r, r->count, RTOL) = (double)of->rtol;
   if (before && before->displacement_t) PetscCall(KeepFields(r, found, before, now));

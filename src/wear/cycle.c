@@ -134,6 +134,7 @@ static PetscErrorCode Begin(SamLife l, SamRate *rate, SamControl *mean)
   PetscCall(rate->passes ? VecCopy(s->pressure, rate->pressure) : VecSet(rate->pressure, 0));
   PetscCall(VecSet(rate->shift, 0));
   PetscCall(VecSet(rate->coefficient, 0));
+  if (rate == &l->start && rate->passes) PetscCall(SamLifeBeginStrides(l));
   PetscCall(SamControlInitialize(mean));
   l->energy = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -448,6 +449,7 @@ PetscErrorCode SamLifeComputeRate(SamLife l, SamRate *rate, PetscReal cycles, Pe
   if (!*solved) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Rewind(l, from));
   if (rate->passes) {
+    if (rate == &l->start) PetscCall(SamLifeEndStrides(l));
     PetscCall(VecMax(rate->coefficient, NULL, &most));
     PetscCall(SamWearGetLimit(l->law, most, &rate->limit));
     PetscFunctionReturn(PETSC_SUCCESS);

@@ -22,6 +22,8 @@
 #define SAFETY     0.8
 /* The error of the halves over that of their extrapolation, which is what counts; measured on a sphere (test_life). */
 #define HALVES 2.0
+/* The part of a jump that is rounding of the cycles so far. */
+#define SAME 1e-6
 /* Depths that count, over the displacements. */
 #define COUNTS 1e-6
 /* An explicit jump over the longest stable one: the rate changes within it. */
@@ -117,6 +119,7 @@ PetscErrorCode SamLifeDestroy(SamLife *life)
   for (Vec **field = (Vec *[])FIELDS(l); *field; field++) PetscCall(VecDestroy(*field));
   PetscCall(VecDestroy(&l->shear));
   PetscCall(VecDestroy(&l->passage));
+  PetscCall(VecDestroy(&l->stripes));
   for (PetscInt k = 0; k < SAM_LAWS; k++) PetscCall(VecDestroy(&l->before[k]));
   PetscCall(SamRateDestroyPasses(l, &l->start));
   PetscCall(SamRateDestroyPasses(l, &l->middle));
@@ -322,14 +325,19 @@ static PetscReal Whole(PetscReal jump)
   return isfinite(jump) ? PetscMax(1, floor(jump)) : jump;
 }
 
-/* The jump that is tried first. */
+/*
+  The jump that is tried first. One that ends but for rounding where `cycles` are reached ends there: the sum of fixed
+  jumps that are no integers has rounding.
+*/
 static PetscReal FirstTry(const SamLife l, PetscReal cycles)
 {
-  PetscReal jump = l->state.next;
+  const PetscReal left = cycles - l->state.cycles;
+  PetscReal       jump = l->state.next;
 
   if (jump == 0) jump = FIRST * l->start.limit;
   if (l->set.type == SAM_LIFE_EXPLICIT && !l->set.fixed) jump = PetscMin(jump, STABLE * l->start.limit);
-  return PetscMin(l->set.fixed ? jump : Whole(jump), cycles - l->state.cycles);
+  if (!l->set.fixed) jump = Whole(jump);
+  return jump < left - SAME * jump ? jump : left;
 }
 
 /*
@@ -353,7 +361,9 @@ static PetscErrorCode Report(SamLife l, SamLifeReport *r)
   PetscFunctionBegin;
   *r = (SamLifeReport){.cycles            = l->state.cycles,
                        .jump              = l->state.jump,
-                       .error             = l->state.error,
+                       .error             = PetscMax(l->state.error, l->stripes_error),
+                       .stripes           = l->stripes_error,
+                       .stride            = l->stride,
                        .limit             = l->start.limit,
                        .dissipated_energy = l->energy,
                        .contact_area      = l->area,

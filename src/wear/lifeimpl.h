@@ -44,17 +44,20 @@ struct _n_SamLife {
   SamLifeSettings set;
   SamLifeState    state;
   PetscBool       coupled;
-  PetscBool       band;                /* material streams through: lines along x wear alike, by passages */
-  PetscBool       open;                /* the loop is not closed: a cycle is run before the one that is computed */
-  PetscBool       known;               /* `start` has been computed */
-  PetscBool      *turns;               /* of each step: whether a component turns there, or the cycle ends */
-  SamStep         step;                /* the first one of the last cycle that is not converged, else its last one */
-  PetscInt        at;                  /* the step of the cycle that this is */
-  PetscReal       apart;               /* difference of the pressures of a jump and of its halves, over all steps */
-  PetscReal       energy, area;        /* of the last cycle, J; m2, in contact in that step */
-  SamRate         start, middle;       /* on the wear so far; after half of the jump */
-  PetscInt        loads;               /* wear loads that the contact has */
-  SamLoads        load;                /* so far; the law has others within a jump */
+  PetscBool       band;          /* material streams through: lines along x wear alike, by passages */
+  PetscBool       open;          /* the loop is not closed: a cycle is run before the one that is computed */
+  PetscBool       known;         /* `start` has been computed */
+  PetscBool      *turns;         /* of each step: whether a component turns there, or the cycle ends */
+  SamStep         step;          /* the first one of the last cycle that is not converged, else its last one */
+  PetscInt        at;            /* the step of the cycle that this is */
+  PetscReal       apart;         /* difference of the pressures of a jump and of its halves, over all steps */
+  PetscReal       stride;        /* the longest slide of a step of the computed cycle, over the contact's length */
+  PetscReal       stripes_error; /* error of body 2's depth so far by the length of the steps */
+  Vec             stripes;       /* what a cycle wears body 2, less what many steps would; NULL: not made yet */
+  PetscReal       energy, area;  /* of the last cycle, J; m2, in contact in that step */
+  SamRate         start, middle; /* on the wear so far; after half of the jump */
+  PetscInt        loads;         /* wear loads that the contact has */
+  SamLoads        load;          /* so far; the law has others within a jump */
   SamLoads        whole, half, halves; /* after the jump as a whole, after its first half, after both */
   Vec             p, q, diagonal, gap; /* scratch */
   Vec             passage;             /* the wear load of a band in the cycle, Pa m; else NULL */
@@ -99,6 +102,14 @@ PETSC_INTERN PetscErrorCode SamRateDestroyPasses(SamLife life, SamRate *rate);
 PETSC_INTERN PetscErrorCode SamLifeNotePass(SamLife life, PetscInt k, const SamStep *step, SamRate *rate);
 PETSC_INTERN PetscErrorCode SamLifeMagnify(SamLife life, const SamRate *rate, PetscReal cycles, const SamLoads from,
                                            SamLoads to, PetscBool *solved);
+/*
+  Steps that slide far (stride.c).
+  SamLifeBeginStrides - of a cycle; SamLifeNoteStride - a tried step with this wear load and these pressures before and
+  after it; scratch: l->p and the loads of a jump. SamLifeEndStrides - sets l->stripes_error. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamLifeBeginStrides(SamLife life);
+PETSC_INTERN PetscErrorCode SamLifeNoteStride(SamLife life, Vec load, Vec before, Vec after);
+PETSC_INTERN PetscErrorCode SamLifeEndStrides(SamLife life);
 /* SamLifeGetSum - the committed values that law k accumulates, NULL: it does not. Collective. */
 PETSC_INTERN PetscErrorCode SamLifeGetSum(SamLife life, PetscInt k, Vec *sum);
 

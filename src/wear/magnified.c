@@ -104,6 +104,7 @@ PetscErrorCode SamLifeNotePass(SamLife l, PetscInt k, const SamStep *step, SamRa
   pass->balance = SamControlGetBalance(&step->control, SAM_BALANCE_NORMAL);
   (void)SamSlideGet(l->memory, SAM_TRIED, pass->slide);
   PetscCall(FindWear(l, s, rate));
+  if (rate == &l->start) PetscCall(SamLifeNoteStride(l, rate->shift, rate->pressure, s->pressure));
   PetscCall(VecGetArrayRead(s->pressure, &p));
   PetscCall(VecGetArrayRead(rate->pressure, &before));
   PetscCall(VecGetArrayRead(l->gap, &path));

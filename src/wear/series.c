@@ -11,7 +11,7 @@ enum { CYCLE, JUMP, ERROR, VOLUME, DEPTH = VOLUME + 2, ENERGY = DEPTH + 2, AREA,
 static const SamStateNumber declared[NUMBERS] = {
   NUMBER("cycle", "1", "cycles before this one", SAM_NUMBER_REAL, 0),
   NUMBER("jump", "1", "cycles skipped before this one", SAM_NUMBER_REAL, 0),
-  NUMBER("error", "1", "estimated relative error of the cycle jump", SAM_NUMBER_REAL, 0),
+  NUMBER("error", "1", "estimated relative error of the cycle jump, or of long slide steps", SAM_NUMBER_REAL, 0),
   NUMBER("volume1", "m3", "volume removed of body 1", SAM_NUMBER_REAL, 2),
   NUMBER("volume2", "m3", "volume removed of body 2", SAM_NUMBER_REAL, 2),
   NUMBER("depth_max1", "m", "maximum depth removed of body 1", SAM_NUMBER_REAL, 1),

@@ -9,7 +9,8 @@
 #include <petsam/private/solverimpl.h>
 #include <petsam/private/state.h>
 
-#define WEARS "wears" /* 1 if the step added to the wear load, 0 in cycles */
+#define WEARS  "wears"       /* 1 if the step added to the wear load, 0 in cycles */
+#define STRIDE "wear_stride" /* slide of the step over the length of the contact along it */
 
 PetscBool SamLawIsWear(SamLaw law)
 {
@@ -94,22 +95,27 @@ static PetscErrorCode ComputeDepth(void *owner, SamState state, PetscInt body, V
 
 static PetscErrorCode Declare(SamLaw law, SamState state)
 {
-  static const SamStateField load  = {.name        = SAM_WEAR_LOAD,
-                                      .components  = 1,
-                                      .generations = 3,
-                                      .kept        = PETSC_TRUE,
-                                      .motion      = SAM_MOVES},
-                             load1 = {.name = SAM_WEAR_LOAD, .components = 1, .generations = 3, .kept = PETSC_TRUE},
-                             load2 = {.name = SAM_WEAR_LOAD2, .components = 1, .generations = 3, .kept = PETSC_TRUE},
-                             cycle = {.name = SAM_WEAR_CYCLE, .components = 1, .generations = 2},
-                             path  = {.name = SAM_WEAR_PATH, .components = 1, .generations = 2};
+  static const SamStateField
+    load    = {.name        = SAM_WEAR_LOAD,
+               .components  = 1,
+               .generations = 3,
+               .kept        = PETSC_TRUE,
+               .motion      = SAM_MOVES,
+               .separates   = PETSC_TRUE},
+    load1   = {.name = SAM_WEAR_LOAD, .components = 1, .generations = 3, .kept = PETSC_TRUE, .separates = PETSC_TRUE},
+    load2   = {.name = SAM_WEAR_LOAD2, .components = 1, .generations = 3, .kept = PETSC_TRUE, .separates = PETSC_TRUE},
+    cycle   = {.name = SAM_WEAR_CYCLE, .components = 1, .generations = 2},
+    path    = {.name = SAM_WEAR_PATH, .components = 1, .generations = 2},
+    stripes = {.name = SAM_WEAR_STRIPES, .components = 1, .generations = 2, .kept = PETSC_TRUE, .optional = PETSC_TRUE};
   static const SamStateNumber number[] = {
     {"wear_volume1", "m3", "volume removed of body 1", SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE, SAM_JOIN_LAST, 0},
     {"wear_volume2", "m3", "volume removed of body 2", SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE, SAM_JOIN_LAST, 0},
     {"wear_excess", "1", "wear of the step relative to the stability limit", SAM_NUMBER_REAL, 1, PETSC_FALSE,
      PETSC_FALSE, SAM_JOIN_GREATEST, 0},
     {WEARS, "1", "whether the step added to the wear load", SAM_NUMBER_INT, 1, PETSC_TRUE, PETSC_FALSE, SAM_JOIN_LAST,
-     0}};
+     0},
+    {STRIDE, "1", "slide of the step relative to the length of the contact", SAM_NUMBER_REAL, 1, PETSC_FALSE,
+     PETSC_FALSE, SAM_JOIN_GREATEST, 0}};
   SamStateResult depth[2] = {
     {"wear_depth1", "m", "depth removed of body 1", SAM_FIELD_REAL, SAM_RESULT_USUAL, ComputeDepth, law, 0, -1},
     {"wear_depth2", "m", "depth removed of body 2", SAM_FIELD_REAL, SAM_RESULT_USUAL, ComputeDepth, law, 1, -1}};
@@ -123,9 +129,10 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
     depth[1].text = "depth removed of body 2, at its own points: those that lay under the cells at rolled and slide 0";
   PetscCall(SamStateDeclareField(state, own ? &load1 : &load, &id)); /* at own points it is never moved */
   if (slides) PetscCall(SamStateDeclareField(state, &load2, &id));
+  if (slides) PetscCall(SamStateDeclareField(state, &stripes, &id));
   PetscCall(SamStateDeclareField(state, &cycle, &id));
   PetscCall(SamStateDeclareField(state, &path, &id));
-  for (int k = 0; k < 4; k++) PetscCall(SamMotionDeclareNumber(SamMotionOf(law->elasticity), state, &number[k], &id));
+  for (int k = 0; k < 5; k++) PetscCall(SamMotionDeclareNumber(SamMotionOf(law->elasticity), state, &number[k], &id));
   for (int k = 0; k < 2; k++) PetscCall(SamStateOffer(state, &depth[k]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -280,6 +287,20 @@ static PetscErrorCode AddLoad(SamLaw law, SamLawStep *step)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* How far the step slides relative to the contact, if body 2 wears at its own points; else 0. */
+static PetscErrorCode FindStride(SamLaw law, SamLawStep *step, double *stride)
+{
+  PetscReal from[2], to[2], found = 0;
+
+  PetscFunctionBegin;
+  if (law->of_body[1] && SamSlideGet(step->state, SAM_TRIED, to)) {
+    (void)SamSlideGet(step->state, SAM_COMMITTED, from);
+    PetscCall(SamWearGetStride(step->grid, step->pressure, from, to, &found));
+  }
+  *stride = found;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
 {
   const SamWear *w = (const SamWear *)law->data;
@@ -292,6 +313,7 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
   PetscCall(SamWearGetVolumes(law, SamStateReadField(step->state, LoadFieldOf(step->state, 0)),
                               SamStateReadField(step->state, LoadFieldOf(step->state, 1)), numbers, depth));
   numbers[3] = w->jumps ? 0 : 1;
+  PetscCall(FindStride(law, step, &numbers[4]));
   if (w->jumps) PetscFunctionReturn(PETSC_SUCCESS);
   step->moves = PETSC_TRUE;
   PetscCall(SamWearGetExcess(law, step, &numbers[2]));
@@ -301,9 +323,11 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
 static PetscErrorCode Advise(SamLaw law, SamState state, char text[], size_t size)
 {
   const double excess = *SamStateReadNumbers(state, SamStateFindNumber(state, "wear_excess"));
+  const double stride = *SamStateReadNumbers(state, SamStateFindNumber(state, STRIDE));
 
   PetscFunctionBegin;
   text[0] = '\0';
+  PetscCall(SamWearAdviseStride(stride, text, size));
   if (((const SamWear *)law->data)->jumps || !(excess > 1)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(
     PetscSNPrintf(text, size,

@@ -13,6 +13,8 @@
 #define SAM_WEAR_LOAD2 "wear_load2"
 #define SAM_WEAR_CYCLE "wear_cycle_load"
 #define SAM_WEAR_PATH  "wear_cycle_path"
+/* What a life has worn body 2, less what many steps would have (stride.c). */
+#define SAM_WEAR_STRIPES "wear_stripes"
 
 /* The data of a law of wear. */
 typedef struct {
@@ -35,6 +37,12 @@ PETSC_INTERN PetscErrorCode SamWearGetLimit(SamLaw law, PetscReal most, PetscRea
   square cells. Collective.
 */
 PETSC_INTERN PetscErrorCode SamWearGetExcess(SamLaw law, SamLawStep *step, PetscReal *excess);
+/*
+  SamWearGetStride - how far a contact slides from one slide to another (m), over its length along that (stride.c).
+  Collective.
+*/
+PETSC_INTERN PetscErrorCode SamWearGetStride(SamGrid grid, Vec pressure, const PetscReal from[2], const PetscReal to[2],
+                                             PetscReal *stride);
 /*
   SamWearGetVolumes - the volumes (m3; of a running band m3 per m of its length) that wear loads of both bodies, which
   may be the same vector, remove, and the maximum depths (m). Collective.

@@ -140,6 +140,44 @@ def test_waves_wear_each_other_off(life, tmp_path):
         assert np.all(coarse > 3 * fine)
 
 
+@pytest.mark.parametrize("jump", [1000, 2500])
+def test_full_contact_without_waves_is_solved(life, tmp_path, jump):
+    """What is left of the waves is rounding of the depth worn: the limit of the check is not less than its error."""
+    wave, n, cells = 1e-4, 64, 8
+    case, _ = waves(tmp_path, n, wave, 1e11, (2e-8, 1e-8))
+    case.update(load_n=200e6 * wave, friction=1e-9, wear_coefficient1=2e-14, wear_coefficient2=3e-14)
+    r = life(case, cells * wave / n, steps=2 * cells, wear_cycles=40000, wear_jump=jump)
+    assert (r["pressure"][-1] > 0).all()
+
+
+# ---- steps that slide far
+
+
+PIN = dict(SPHERE, load_n=1.0, friction=0.3, grid_n="128,32", grid_size="0.8e-3,0.2e-3", wear_coefficient1=1e-15)
+
+
+@pytest.mark.parametrize(
+    "case, stroke, cycles, counts",
+    [(CYLINDER, 25e-6, 18000, (1,)), (dict(PIN, wear_coefficient2=1e-14), 0.2e-3, 400, (1, 2, 4))],
+)
+def test_steps_that_slide_far_are_told_with_their_error(petsam, tmp_path, case, stroke, cycles, counts):
+    """The estimate is within a factor of 3 of the error of the depth of body 2 against 32 steps per stroke."""
+    if case is CYLINDER:
+        case = dict(case, wear_coefficient1=K[0], wear_coefficient2=K[1], grid_n=256, grid_size=0.8e-3)
+    places = [(float(k), place * stroke) for k, place in enumerate((1, -1, 1))]
+    rows = history(tmp_path / "h.csv", "time,disp_x", *places)
+    depth = {}
+    for steps in (32, *counts):
+        words = dict(wear_cycles=cycles, steps=steps, output="life.h5", output_every=1000)
+        told = petsam(case, rows, words).stderr
+        r = read_run(tmp_path / "life.h5")
+        depth[steps] = r["wear/depth_max2"][-1]
+        assert ("of the contact's length (limit 0.25)" in told) == (steps < 32)
+        if steps < 32:
+            true = abs(depth[steps] / depth[32] - 1)
+            assert true / 3 < r["wear/error"][-1] < 3 * true
+
+
 def test_a_block_on_a_ring_needs_not_move(life):
     """Only body 1 wears, by much more than it is displaced: a chord of the ring, of the volume k N times the path."""
     radius, load, k, path = 20e-3, 10833.3, 2e-15, 800.0

@@ -197,6 +197,20 @@ def test_implicit_and_explicit_jumps_come_to_the_same(life):
     assert fixed["wear/volume2"][-1] == pytest.approx(implicit["wear/volume2"][-1], rel=0.05)
 
 
+def test_jumps_of_parts_of_cycles(petsam, tmp_path):
+    """Jumps of any length lead to the same wear, and end at the outputs and at the last cycle exactly."""
+    case = dict(BALL, wear_coefficient2=1e-11, wear_cycles=6, wear_output="3,6")
+    found = {}
+    for jump in (0.1, 0.7, 1):
+        petsam(case, dict(wear_jump=jump, output=f"{jump}.h5", **cycle(tmp_path / "cycle.csv")))
+        found[jump] = read_run(tmp_path / f"{jump}.h5")
+    assert found[0.7]["wear/cycle"] == pytest.approx([0, 0.7, 1.4, 2.1, 2.8, 3, 3.7, 4.4, 5.1, 5.8, 6], rel=1e-12)
+    for r in found.values():
+        assert r["wear/cycle"][-1] == 6 and 3 in r["wear/cycle"]
+        assert r["wear/volume2"][-1] == pytest.approx(found[1]["wear/volume2"][-1], rel=2e-3)
+    assert len(found[0.1]["wear/cycle"]) == 61
+
+
 def test_friction_changes_over_a_life(life, tmp_path):
     (tmp_path / "mu.csv").write_text(f"cycle,friction\n0,{MU / 2}\n20000,{MU}\n")
     r = life(friction=None, wear_friction=tmp_path / "mu.csv", wear_output=(0, 20000))
@@ -350,7 +364,8 @@ def test_stresses_of_a_computed_cycle_are_those_of_a_closed_one(life, launcher, 
         (dict(wear_cycles=None, wear_jump=10), "-wear_jump is given without -wear_cycles"),
         (dict(wear_jump="far"), "-wear_jump"),
         (dict(wear_jump=-1), "-wear_jump"),
-        (dict(wear_jump=1.5), "-wear_jump"),
+        (dict(wear_jump=0), "-wear_jump"),
+        (dict(wear_jump=1e-9), "-wear_jump 1e-09: expected a number from 1e-09 of -wear_cycles on"),
         (dict(wear_cycles=1.5), "-wear_cycles"),
         (dict(wear_cycles=1e300), "-wear_cycles"),
         (dict(wear_output="0,0.5"), "-wear_output"),

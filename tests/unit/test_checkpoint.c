@@ -200,8 +200,8 @@ static void test_gap_that_has_changed_is_told(void **state)
 /* Declares a field, which is 5 everywhere so far. */
 static void DeclareOther(const Case *c, PetscBool optional)
 {
-  const SamStateField field = {"other_field", "m",      "of another law", 1,         2,
-                               PETSC_TRUE,    optional, SAM_RESULT_NONE,  SAM_STAYS, 0};
+  const SamStateField field = {"other_field", "m", "of another law", 1, 2, PETSC_TRUE, optional, SAM_RESULT_NONE,
+                               SAM_STAYS,     0,   PETSC_FALSE};
   PetscInt            id;
   Vec                 values;
 

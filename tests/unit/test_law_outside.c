@@ -37,8 +37,8 @@ static PetscErrorCode AddParameters(SamLaw law, SamParameters *p)
 static PetscErrorCode Declare(SamLaw law, SamState state)
 {
   static const SamStateField fields[] = {
-    {"faded", "m", "slip so far", 1, 2, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_USUAL, SAM_MOVES, 0},
-    {"drift", "Pa", "sum of the shear", 2, 3, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_OFFERED, SAM_STAYS, 0}};
+    {"faded", "m", "slip so far", 1, 2, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_USUAL, SAM_MOVES, 0, PETSC_FALSE},
+    {"drift", "Pa", "sum of the shear", 2, 3, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_OFFERED, SAM_STAYS, 0, PETSC_FALSE}};
   static const SamStateNumber numbers[] = {
     {"faded_most", "m", "largest slip so far", SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE, SAM_JOIN_LAST, 0},
     {"faded_steps", "1", "steps so far", SAM_NUMBER_INT, 1, PETSC_TRUE, PETSC_TRUE, SAM_JOIN_LAST, 0}};

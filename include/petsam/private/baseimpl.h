@@ -198,7 +198,7 @@ static inline uint64_t SamHashBits(double value)
 /* ---- rounding ---- */
 
 /*
-  SamGapRounding - the error of a gap (m) by rounding, where that is more than 1e-10 of the `displacement` (m), which
+  SamGapRounding - the error of a gap (m) by rounding, where that is more than 1e-12 of the `displacement` (m), which
   then is nearly zero beside what it is the difference of; else 0. The rounding of tractions up to `traction` (Pa) on so
   many cells, each of which displaces itself by `self` (m/Pa): uniform ones displace nothing on periodic bodies, and
   their rounding does; and that of heights of the size of `approach` (m).
@@ -207,7 +207,7 @@ static inline double SamGapRounding(double traction, double self, double cells, 
 {
   const double rounding = PETSC_MACHINE_EPSILON * (16 * self * sqrt(cells) * traction + fabs(approach));
 
-  return rounding > 1e-10 * displacement ? rounding : 0;
+  return rounding > 1e-12 * displacement ? rounding : 0;
 }
 
 /* ---- sums and maxima over the ranks ---- */

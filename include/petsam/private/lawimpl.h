@@ -76,7 +76,7 @@ struct _n_SamLawStep {
   Vec               last[2];         /* those of the step before, NULL: none */
   Vec               bound;           /* Pa, of the shear */
   const PetscReal  *rigid;           /* m, rad: the displacements of the step, by SamComponent */
-  PetscBool         same_pressure;   /* the pressure is that of the step before */
+  PetscBool         known_pressure;  /* the pressure is that of an earlier step on the same gap, which it yielded to */
   char              failed[128];     /* to be set by a law whose check of the step fails: why */
   PetscBool         moves;           /* to be set by a law that changes the separation, so that the pressure changes */
   /* made when first needed, by SamLawStepGetFriction(); the step's own */

@@ -25,6 +25,11 @@ PETSC_INTERN PetscErrorCode SamStateCommit(SamState state);
 PETSC_INTERN PetscErrorCode SamStateReject(SamState state);
 /* SamStateForgetFields - forgets its fields, but not its numbers: of a step without a solution. Not collective. */
 PETSC_INTERN PetscErrorCode SamStateForgetFields(SamState state);
+/*
+  SamStateSeparates - whether the try has set a field from which the separation or the offset of later steps follows.
+  Not collective.
+*/
+PETSC_INTERN PetscBool SamStateSeparates(SamState state);
 /* SamStateHasTried - whether there is one. Not collective. */
 PETSC_INTERN PetscBool SamStateHasTried(SamState state);
 /* SamStateReset - forgets all values: as after its creation. Collective. */

@@ -47,7 +47,8 @@ PETSC_INTERN SamStepCache SamContactGetCache(SamContact contact);
 /* SamStepOf - what a step's pressure was or is to be solved with. */
 typedef struct {
   PetscBool same_gap; /* as the step before */
-  PetscBool moves;    /* the gap changes with the step */
+  PetscBool moves;    /* the gap changes with the step, so that its pressure is not right after it */
+  PetscBool yields;   /* the gap changes with the step to one for which its pressure is right, too */
   PetscReal rtol;     /* tolerance of the normal solver */
 } SamStepOf;
 /*
