@@ -352,6 +352,7 @@ PetscErrorCode SamContactBegin(SamContact c, const SamControl *control)
   PetscCall(LieOnLine(c, control, &straight));
   s->mid_step = SamContactSlipBefore(c) && !straight && !c->rolls && c->set.slip_direction == SAM_SLIP_MID;
   s->lags     = !straight && !s->mid_step;
+  s->touches  = SamContactIsCoupled(c) && c->motion->continues && !c->rolls && c->set.slip_direction == SAM_SLIP_MID;
   PetscCall(SamStateSetField(c->state, c->tractions[0], &s->pressure));
   PetscCall(SamStateSetField(c->state, c->tractions[1], &s->bound));
   PetscCall(SamStateSetField(c->state, c->tractions[2], &s->shear));

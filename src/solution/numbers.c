@@ -33,7 +33,9 @@ static void SumRow(const SamIncrement *increment, ptrdiff_t first, double sums[S
     sums[CONTACT] += 1;
     sums[STICK] += state == SAM_CELL_STICK ? 1 : 0;
     sums[STORED] += 0.5 * (p[k] * v->u_z[k] + q[k] * v->u_t[k] + q[l] * v->u_t[l]);
-    if (!increment->solutions[0]) sums[DISSIPATED] -= q[k] * dx[i] + q[l] * dy[i];
+    if (increment->solutions[0]) continue;
+    (void)SamIncrementGetSlide(increment, k, share);
+    sums[DISSIPATED] -= (share[1] > 0 ? share[1] : 1) * (q[k] * dx[i] + q[l] * dy[i]);
   }
 }
 
