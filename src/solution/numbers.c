@@ -9,8 +9,19 @@
   before and after the step that depends on how it slid (SamIncrementGetSlide()), which makes the sum over steps second
   order with the slip of step/direction.c. In the first step, and in steady rolling, it is -sum q.ds dA.
 */
-enum { CONTACT, STICK, DISSIPATED, STORED, ERROR, SUMS };
+enum { CONTACT, STICK, DISSIPATED, STORED, ERROR, BEFORE_TOUCH, SUMS };
 enum { PRESSURE, SHEAR, SLIP, MOSTS }; /* of the last two the squares */
+
+/* By how much the slip of this rank's cell k would work more if it had touched before the step (TOUCHES, below). */
+static double WorkBeforeTouch(const SamIncrement *increment, ptrdiff_t k, double dx, double dy)
+{
+  double         share[2];
+  const SamSlide slide = SamIncrementGetSlide(increment, k, share);
+  const double  *aside = increment->aside, *b = increment->at_now.b;
+
+  if (!aside || (slide != SAM_SLIDE_ENTERS && slide != SAM_SLIDE_FIRST)) return 0;
+  return b[k] * (0.5 * hypot(dx + aside[k], dy + aside[k + increment->grid->cells]) - share[1] * hypot(dx, dy));
+}
 
 static void SumRow(const SamIncrement *increment, ptrdiff_t first, double sums[SUMS], double most[MOSTS])
 {
@@ -26,6 +37,7 @@ static void SumRow(const SamIncrement *increment, ptrdiff_t first, double sums[S
 
     if (increment->solutions[0] && SamIncrementGetSlide(increment, k, share) != SAM_SLIDE_NONE)
       sums[DISSIPATED] += SamIncrementMix(share, increment->at_before.b, b, k) * hypot(dx[i], dy[i]);
+    if (increment->solutions[1]->touches) sums[BEFORE_TOUCH] += WorkBeforeTouch(increment, k, dx[i], dy[i]);
     if (state == SAM_CELL_OPEN) continue;
     most[PRESSURE] = PetscMax(most[PRESSURE], p[k]);
     most[SHEAR]    = PetscMax(most[SHEAR], q[k] * q[k] + q[l] * q[l]);
@@ -47,7 +59,8 @@ static void SumRow(const SamIncrement *increment, ptrdiff_t first, double sums[S
     of cells that slid all the time                TURNS b a^2/24 ds          ds is the chord of an arc
     of cells that begin to slide                   BEGINS abs(b - b_before)/4 ds   they begin anywhere in the step
     where contact is made or left                  CROSSES b/10 ds            0.5 of the bounds instead of 0.4
-    of the first step                              all of it: loads in proportion need not slide at all
+    of dissimilar bodies, where contact is made    TOUCHES w^2/(w + dissipated)   w is what was slip before they touch
+    of the first step of others                    all of it: loads in proportion need not slide at all
 
   The energy depends on the whole history of the slip, of which no single step knows: so these terms have the right
   order and are in proportion to the error, and their factors were fitted to the errors of random histories (examples/
@@ -57,13 +70,14 @@ static void SumRow(const SamIncrement *increment, ptrdiff_t first, double sums[S
 #define TURNS   2.0
 #define BEGINS  0.6
 #define CROSSES 0.3
+#define TOUCHES 0.5
 static double ErrorOfRow(const SamIncrement *increment, PetscInt j, double dissipated, double *const turned[2])
 {
   const double *b0 = increment->at_before.b, *b1 = increment->at_now.b, *sx = increment->row[0],
                *sy = increment->row[1];
   double error     = 0;
 
-  if (!increment->solutions[0]) return fabs(dissipated);
+  if (!increment->solutions[0]) return increment->solutions[1]->touches ? 0 : fabs(dissipated);
   SamIncrementTurnRow(increment, j, turned);
   for (PetscInt i = 0; i < increment->grid->nx; i++) {
     const ptrdiff_t k = (ptrdiff_t)j * increment->grid->nx + i;
@@ -83,6 +97,13 @@ static double ErrorOfRow(const SamIncrement *increment, PetscInt j, double dissi
   return error;
 }
 
+static double ErrorOfTouching(const double sums[SUMS])
+{
+  const double w = PetscMax(sums[BEFORE_TOUCH], 0);
+
+  return w > 0 ? TOUCHES * w * w / (w + sums[DISSIPATED]) : 0;
+}
+
 /* The numbers, side by side in the state in this order. */
 enum {
   CONTACT_AREA,
@@ -98,6 +119,7 @@ enum {
   DISSIPATED_ENERGY,
   STORED_ENERGY,
   ENERGY_ERROR,
+  ENTERING,
   NUMBERS
 };
 #define REAL(name, unit, text, ...) \
@@ -123,7 +145,8 @@ static const SamStateNumber declared[NUMBERS] = {
        0),
   REAL("dissipated_energy", "J", "frictional work of the load step", SAM_JOIN_SUM, 2),
   REAL("stored_energy", "J", "elastic energy of both bodies", SAM_JOIN_LAST, 2),
-  REAL("energy_error", "J", "estimated error of dissipated_energy by the length of the load step", SAM_JOIN_SUM, 0)};
+  REAL("energy_error", "J", "estimated error of dissipated_energy by the length of the load step", SAM_JOIN_SUM, 0),
+  {SAM_ENTERING, "J", NULL, SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_FALSE, SAM_JOIN_SUM, 0}};
 
 /* Of the edge of contact: whether it is known, its area, faces and good faces. They hold while the pressure does. */
 enum { KNOWN = SAM_CONTACT_EDGE_KNOWN, AREA, FACES = SAM_CONTACT_EDGE_FACES, GOOD, EDGE };
@@ -173,7 +196,8 @@ static PetscErrorCode SumCells(SamProblem problem, const SamSolution *last, cons
   numbers[STICK_AREA]        = sums[STICK] * area;
   numbers[DISSIPATED_ENERGY] = sums[DISSIPATED] * area;
   numbers[STORED_ENERGY]     = sums[STORED] * area;
-  numbers[ENERGY_ERROR]      = sums[ERROR] * area;
+  numbers[ENERGY_ERROR]      = (sums[ERROR] + ErrorOfTouching(sums)) * area;
+  numbers[ENTERING]          = sums[BEFORE_TOUCH] * area;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

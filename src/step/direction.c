@@ -30,6 +30,18 @@
   error stays of first order. So is what the pressure of dissimilar bodies moves, which is the other way: from a
   Dundurs' constant of MOST_DUNDURS on both are left out, as they cancel in part.
 
+  Of dissimilar bodies the pressure moves the surfaces all the time, outside of contact too, and most of the slip of a
+  growing contact is in cells that touch within the step. Of what they move by in the step, ds, the part
+
+    tau = d0/(d0 + d1),   d0 = (g0/G)^(2/3),   d1 = (p1/P)^2
+
+  is before they touch, g0 being the gap before the step, p1 the pressure after it, G and P the largest of both: the gap
+  grows like the power 3/2 of the distance from the old edge, the pressure like its root behind the new one. In a first
+  step, from nothing, it is the power 3/2 of the distance of the undeformed bodies, which a sphere's N grows like. The
+  rest works against 0.4 of the bound after the step: behind a moving edge slip fades. Measured on a rigid sphere on a
+  half-space, N alone in 3, 5, 10, 20 equal steps: the energy is too large by 44, 17, 4 and 1 %, and was by 330, 150,
+  53 and 18 %.
+
   Algorithm. R(q) turns r + w r0 to r; so R ds is opposite to r, and with t = ds - R ds known, the tangential problem
   with the offset lessened by t is that with the rule at the end.
     1. The tangential problem with t of the step before, times the square of the ratio of the steps, gives q and ds, to
@@ -242,11 +254,11 @@ static PetscErrorCode FindTimes(SamSolve *w, Vec time)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The same in the first step, in which all cells come into contact: by the distance of the undeformed bodies. */
+/* The same in a step from no contact, in which all cells come into contact: by the distance of the undeformed bodies. */
 static PetscErrorCode FindFirstTimes(SamSolve *w, Vec time)
 {
   const PetscInt cells = w->task->grid->cells, nx = w->task->grid->nx;
-  double        *t, most[2] = {-INFINITY, -INFINITY}; /* of the distance and of its negative */
+  double        *t, most[2]                       = {-INFINITY, -INFINITY}; /* of the distance and of its negative */
   const double  *p, *h;
   double        *zero;
   SamRigid       motion;
@@ -283,15 +295,16 @@ static PetscErrorCode FindFirstTimes(SamSolve *w, Vec time)
 /* Adds what the surfaces have moved by until they touched, by the slip of the solution so far. */
 static PetscErrorCode AddTouching(SamSolve *w, Vec aside)
 {
-  const SamGrid grid = w->task->grid;
-  SamIncrement  increment;
-  const double *t;
-  double       *to;
-  Vec           time;
+  const SamGrid   grid    = w->task->grid;
+  const PetscBool touched = w->task->before && w->task->before->load[SAM_COMPONENT_N] > 0;
+  SamIncrement    increment;
+  const double   *t;
+  double         *to;
+  Vec             time;
 
   PetscFunctionBegin;
   PetscCall(SamGridCreateVec(grid, 1, &time));
-  PetscCall((w->task->before ? FindTimes : FindFirstTimes)(w, time));
+  PetscCall((touched ? FindTimes : FindFirstTimes)(w, time));
   PetscCall(SamSolveDisplace(w));
   PetscCall(SamIncrementCreate(w->task->problem, w->task->before, w->s, &increment));
   PetscCall(VecGetArrayRead(time, &t));
