@@ -255,7 +255,7 @@ static PetscErrorCode FindTimes(SamSolve *w, Vec time)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The same in a step from no contact, in which all cells come into contact: by the distance of the undeformed bodies. */
+/* The same in a step from no contact, in which all cells touch: by the distance of the undeformed bodies. */
 static PetscErrorCode FindFirstTimes(SamSolve *w, Vec time)
 {
   const PetscInt cells = w->task->grid->cells, nx = w->task->grid->nx;
@@ -316,7 +316,7 @@ static PetscErrorCode AddTouching(SamSolve *w, Vec aside)
     SamIncrementComputeRow(&increment, j);
     for (PetscInt c = 0; c < 2; c++)
       for (PetscInt i = 0; i < grid->nx; i++)
-        to[first + i + c * (ptrdiff_t)grid->cells] += t[first + i] > 0 ? t[first + i] * increment.row[c][i] : 0;
+        if (t[first + i] > 0) to[first + i + c * (ptrdiff_t)grid->cells] += t[first + i] * increment.row[c][i];
   }
   PetscCall(VecRestoreArray(aside, &to));
   PetscCall(VecRestoreArrayRead(time, &t));
