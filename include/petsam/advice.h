@@ -66,8 +66,10 @@ typedef struct {
   PetscBool   pushed;        /* the last step has no tangential displacement given */
   PetscBool   joined;        /* the normal load has begun to grow, */
   double      coupling; /* and does in one step of dissimilar bodies: their coupling over friction; 0: it does not */
-  double      share;    /* T over mu N at most before the first reversal */
-  double      first;    /* J: energy until then, with a reversal thereafter; 0: none so far */
+  double      before_touch; /* J: what slip would work more if cells had touched before steps of dissimilar bodies */
+  PetscInt    growing;      /* steps in which they touch */
+  double      share;        /* T over mu N at most before the first reversal */
+  double      first;        /* J: energy until then, with a reversal thereafter; 0: none so far */
   SamSlipPath path;
 } SamSlip;
 

@@ -24,6 +24,7 @@ typedef struct {
   SamControl control;              /* what was prescribed */
   PetscBool  mid_step;             /* slip follows the direction of the shear at mid step, not at the end of the step */
   PetscBool  lags;                 /* it follows that at the end although the loads may turn it */
+  PetscBool  touches;              /* where contact is made, slip counts from the time at which cells touch */
   PetscReal  load[SAM_COMPONENTS]; /* N, N m: given or found */
   PetscReal  rigid[SAM_COMPONENTS]; /* m, rad: given or found */
   Vec        pressure;              /* Pa */

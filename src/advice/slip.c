@@ -66,6 +66,9 @@
 #define STRAY    0.1  /* part of the cells that stick whose zones, the narrowest, do not count */
 #define HIGHER   0.9  /* shear of a narrow zone, estimated, over the largest one found, from which it may be larger */
 #define UNKNOWN  0.02 /* error of the energy by one step of N */
+#define MAKING   0.33 /* part of all slip's work from which that before cells touch is too much */
+#define LESS     0.25 /* that over the energy which is left with enough steps; it falls like 1/steps^(1/FALLS) */
+#define FALLS    0.75
 #define ONCE     0.75 /* part of the largest normal load that counts as all of it */
 #define SLIGHT   0.2  /* part of mu N from which T counts there */
 #define WAVES    2.5  /* wave numbers there: from that of the contact up to so many times it */
@@ -89,6 +92,7 @@ static PetscBool HasType(SamGap gap, int count)
 /* Numbers of a step. */
 typedef struct {
   PetscReal contact, stick, width, contact_cells, stick_cells, energy, unsure, accepted;
+  double    before_touch; /* SAM_ENTERING */
   double    known, faces; /* whether the edge of contact is reconstructed; its faces between cells */
 } Numbers;
 
@@ -107,9 +111,10 @@ static PetscErrorCode GetNumbers(const SamSetup *s, Numbers *n)
   PetscCall(SamContactGetNumber(s->contact, "dissipated_energy", &n->energy));
   PetscCall(SamContactGetNumber(s->contact, "energy_error", &n->unsure));
   PetscCall(SamContactGetState(s->contact, &state));
-  edge     = SamStateReadNumbers(state, SamStateFindNumber(state, SAM_CONTACT_EDGE));
-  n->known = edge[SAM_CONTACT_EDGE_KNOWN];
-  n->faces = edge[SAM_CONTACT_EDGE_FACES];
+  edge            = SamStateReadNumbers(state, SamStateFindNumber(state, SAM_CONTACT_EDGE));
+  n->before_touch = SamStateReadNumbers(state, SamStateFindNumber(state, SAM_ENTERING))[0];
+  n->known        = edge[SAM_CONTACT_EDGE_KNOWN];
+  n->faces        = edge[SAM_CONTACT_EDGE_FACES];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -334,6 +339,21 @@ static void Long(SamAdvice *a)
     part, slip->share > ALIKE ? "give the normal load a row of its own (-history), and" : "use");
 }
 
+/* Says that most slip of dissimilar bodies is where contact is made, in several steps. */
+static void Few(SamAdvice *a)
+{
+  const SamSlip *slip = &a->slip;
+  const double   all  = slip->before_touch + slip->energy;
+
+  if (slip->coupling > 0 || !(slip->energy > NOTHING * slip->work && slip->before_touch > MAKING * all)) return;
+  SamAdviceSay(a, "steps",
+               "elastically dissimilar bodies slip while the normal load grows: %.0f %% of that slip is before cells "
+               "touch, in %" PetscInt_FMT " steps, and the dissipated energy and the shear may be wrong: let the load "
+               "grow in about %.0f steps",
+               100 * slip->before_touch / all, slip->growing,
+               ceil((double)slip->growing * pow(slip->before_touch / (LESS * slip->energy), FALLS)));
+}
+
 /* ---- the steps ---- */
 
 static PetscErrorCode IsUsual(const SamSetup *s, const SamControl *control, PetscBool *usual)
@@ -369,6 +389,8 @@ PetscErrorCode SamAdviceAddSlip(SamAdvice *a, PetscInt k, const SamStep *step)
   PetscCall(Join(a, step, &n));
   PetscCall(AddStuck(s, step, n.stick_cells == n.contact_cells ? PETSC_TRUE : PETSC_FALSE, slip));
   slip->energy += (double)n.energy;
+  slip->before_touch += PetscMax(n.before_touch, 0);
+  slip->growing += n.before_touch > 0 ? 1 : 0;
   slip->sticks = sticks;
   if (n.energy > 0 && slip->width < INFINITY) slip->widest = PetscMax(slip->widest, slip->width);
   /* N and T that grow together need not slip: what the length of a step may be all of is none of the cells' */
@@ -487,6 +509,7 @@ void SamAdviceSlip(SamAdvice *a)
 
   if (!a->slip.steps || a->slip.rolls) return;
   Long(a);
+  Few(a);
   Energy(a);
   SamAdvicePeaks(a, (double)a->slip.widest, 2 * PEAKED / PetscMax((double)a->slip.widest, NARROW), "widest slip zone",
                  "slip and shear");

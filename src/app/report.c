@@ -1,6 +1,8 @@
 /* The report: banner, a line for each load step, messages. */
 #include "report.h"
 #include <petsam/private/motionimpl.h>
+#include <petsam/private/solutionimpl.h>
+#include <petsam/private/state.h>
 #include <fftw3-mpi.h>
 #include <hdf5.h>
 #include <string.h>
@@ -191,14 +193,19 @@ static void KeepWorst(SamReport r, const SamStep *step)
 static PetscErrorCode KeepEnergy(SamReport r, SamContact contact)
 {
   PetscReal energy, error;
+  PetscBool touches;
+  SamState  state;
 
   PetscFunctionBegin;
   PetscCall(SamContactGetNumber(contact, "energy_error", &error));
+  PetscCall(SamContactGetState(contact, &state));
+  touches = SamStateReadNumbers(state, SamStateFindNumber(state, SAM_ENTERING))[0] > 0 ? PETSC_TRUE : PETSC_FALSE;
   if (isnan(error)) r->energy[1] = -INFINITY; /* of rolling: there is no estimate for all */
   if (isnan(error)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamContactGetNumber(contact, "dissipated_energy", &energy));
   r->energy[0] += energy;
-  if (r->number) r->energy[1] += error; /* the first step applies N, then the rest: that is no error */
+  /* the first step of similar bodies applies N, then the rest: that is no error */
+  if (r->number || touches) r->energy[1] += error;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

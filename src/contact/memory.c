@@ -340,6 +340,25 @@ static PetscErrorCode Move(SamContact c, const PetscReal roll[2])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscBool HasContact(const SamSolution *before)
+{
+  return before && before->load[SAM_COMPONENT_N] > 0;
+}
+
+/* Whether nothing moves the bodies along each other in a step from no contact: else it applies N, then the rest. */
+static PetscBool AppliesOnlyNormal(const SamSolution *before, const SamControl *control)
+{
+  PetscBool only = PETSC_TRUE;
+
+  for (PetscInt k = 0; k < 3; k++) {
+    const PetscInt  n    = SamComponentsOf[SAM_BALANCE_TANGENTIAL][k];
+    const PetscReal rest = before && !control->force[n] ? before->rigid[n] : 0;
+
+    only = only && control->value[n] == rest;
+  }
+  return only;
+}
+
 PetscErrorCode SamContactBegin(SamContact c, const SamControl *control)
 {
   SamSolution       *s      = &c->generation[SAM_TRIED];
@@ -356,6 +375,8 @@ PetscErrorCode SamContactBegin(SamContact c, const SamControl *control)
   PetscCall(LieOnLine(c, control, &straight));
   s->mid_step = SamContactSlipBefore(c) && !straight && !c->rolls && c->set.slip_direction == SAM_SLIP_MID;
   s->lags     = !straight && !s->mid_step;
+  s->touches  = c->set.slip_direction == SAM_SLIP_MID && SamContactIsCoupled(c) && c->motion->continues && !c->rolls &&
+               (HasContact(before) || AppliesOnlyNormal(before, control));
   PetscCall(SamStateSetField(c->state, c->tractions[0], &s->pressure));
   PetscCall(SamStateSetField(c->state, c->tractions[1], &s->bound));
   PetscCall(SamStateSetField(c->state, c->tractions[2], &s->shear));

@@ -130,12 +130,12 @@ PetscErrorCode SamIncrementCreate(SamProblem problem, const SamSolution *before,
   s->solutions[1] = now;
   s->follows_slip = SamProblemFollowsSlip(problem);
   PetscCall(SamValuesGet(now, &s->at_now));
+  if (now->aside) PetscCall(VecGetArrayRead(now->aside, &s->aside));
   if (!before) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamRigidSet(&s->before, problem, before));
   PetscCall(VecGetArrayRead(s->v_before, &s->u_before));
   s->solutions[0] = before;
   PetscCall(SamValuesGet(before, &s->at_before));
-  if (now->aside) PetscCall(VecGetArrayRead(now->aside, &s->aside));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -155,7 +155,7 @@ PetscErrorCode SamIncrementDestroy(SamIncrement *s)
 /* Whether contact is made there in the step. */
 static PetscBool Enters(const SamIncrement *s, ptrdiff_t k)
 {
-  return s->at_before.p[k] <= 0 && s->at_now.p[k] > 0;
+  return (!s->solutions[0] || s->at_before.p[k] <= 0) && s->at_now.p[k] > 0;
 }
 
 void SamIncrementComputeRow(const SamIncrement *s, PetscInt j)
@@ -206,6 +206,9 @@ void SamIncrementTurnRow(const SamIncrement *s, PetscInt j, double *const to[2])
   }
 }
 
+/* Of the bound after a step, the part that the slip in it works against since a cell touched (step/direction.c). */
+#define TOUCHED 0.4
+
 /*
   A cell slides under the mean of the bounds before and after, also where contact is made or left: then the bounds of
   all cells together are friction times N, and what slides as a whole dissipates what its loads do. One that stuck
@@ -230,6 +233,10 @@ SamSlide SamIncrementGetSlide(const SamIncrement *s, ptrdiff_t k, double share[2
   share[0] = slide == SAM_SLIDE_NONE || slide == SAM_SLIDE_FIRST ? 0 : 0.5;
   if (slide == SAM_SLIDE_BEGINS && !s->follows_slip) share[0] = 0.25;
   share[1] = slide == SAM_SLIDE_NONE ? 0 : 1 - share[0];
+  if (s->solutions[1]->touches && (slide == SAM_SLIDE_ENTERS || slide == SAM_SLIDE_FIRST)) {
+    share[0] = 0;
+    share[1] = TOUCHED;
+  }
   return slide;
 }
 

@@ -9,8 +9,19 @@
   before and after the step that depends on how it slid (SamIncrementGetSlide()), which makes the sum over steps second
   order with the slip of step/direction.c. In the first step, and in steady rolling, it is -sum q.ds dA.
 */
-enum { CONTACT, STICK, DISSIPATED, STORED, ERROR, TURNED, SUMS };
+enum { CONTACT, STICK, DISSIPATED, STORED, ERROR, TURNED, BEFORE_TOUCH, SUMS };
 enum { PRESSURE, SHEAR, SLIP, MOSTS }; /* of the last two the squares */
+
+/* By how much the slip of this rank's cell k would work more if it had touched before the step (TOUCHES, below). */
+static double WorkBeforeTouch(const SamIncrement *increment, ptrdiff_t k, double dx, double dy)
+{
+  double         share[2];
+  const SamSlide slide = SamIncrementGetSlide(increment, k, share);
+  const double  *aside = increment->aside, *b = increment->at_now.b;
+
+  if (!aside || (slide != SAM_SLIDE_ENTERS && slide != SAM_SLIDE_FIRST)) return 0;
+  return b[k] * (0.5 * hypot(dx + aside[k], dy + aside[k + increment->grid->cells]) - share[1] * hypot(dx, dy));
+}
 
 static void SumRow(const SamIncrement *increment, ptrdiff_t first, double sums[SUMS], double most[MOSTS])
 {
@@ -26,6 +37,7 @@ static void SumRow(const SamIncrement *increment, ptrdiff_t first, double sums[S
 
     if (increment->solutions[0] && SamIncrementGetSlide(increment, k, share) != SAM_SLIDE_NONE)
       sums[DISSIPATED] += SamIncrementMix(share, increment->at_before.b, b, k) * hypot(dx[i], dy[i]);
+    if (increment->solutions[1]->touches) sums[BEFORE_TOUCH] += WorkBeforeTouch(increment, k, dx[i], dy[i]);
     if (state == SAM_CELL_OPEN) continue;
     most[PRESSURE] = PetscMax(most[PRESSURE], p[k]);
     most[SHEAR]    = PetscMax(most[SHEAR], q[k] * q[k] + q[l] * q[l]);
@@ -33,7 +45,9 @@ static void SumRow(const SamIncrement *increment, ptrdiff_t first, double sums[S
     sums[CONTACT] += 1;
     sums[STICK] += state == SAM_CELL_STICK ? 1 : 0;
     sums[STORED] += 0.5 * (p[k] * v->u_z[k] + q[k] * v->u_t[k] + q[l] * v->u_t[l]);
-    if (!increment->solutions[0]) sums[DISSIPATED] -= q[k] * dx[i] + q[l] * dy[i];
+    if (increment->solutions[0]) continue;
+    (void)SamIncrementGetSlide(increment, k, share);
+    sums[DISSIPATED] -= (share[1] > 0 ? share[1] : 1) * (q[k] * dx[i] + q[l] * dy[i]);
   }
 }
 
@@ -46,7 +60,8 @@ static void SumRow(const SamIncrement *increment, ptrdiff_t first, double sums[S
     of the same where the bound stays              STAYS b a^2/24 ds/f        likewise
     of cells that begin to slide                   BEGINS abs(b - b_before)/4 ds   they begin anywhere in the step
     where contact is made or left                  CROSSES b/10 ds            0.5 of the bounds instead of 0.4
-    of the first step                              all of it: loads in proportion need not slide at all
+    of dissimilar bodies, where contact is made    TOUCHES w^2/(w + dissipated)   w is what was slip before they touch
+    of the first step of others                    all of it: loads in proportion need not slide at all
 
   f is the part of the contact that sticks, which bears the errors of the rest: each error of the slip moves the bodies
   by more the less sticks. Under a bound that changes, other errors cancel this; between the two terms is a mean.
@@ -62,12 +77,13 @@ static void SumRow(const SamIncrement *increment, ptrdiff_t first, double sums[S
 #define CHANGES 0.05 /* change of the bound in a step, relative to it, from which on it does not stay */
 #define BEGINS  0.6
 #define CROSSES 0.3
+#define TOUCHES 0.5
 static void AddErrors(const SamIncrement *increment, PetscInt j, double *const turned[2], double sums[SUMS])
 {
   const double *b0 = increment->at_before.b, *b1 = increment->at_now.b, *sx = increment->row[0],
                *sy = increment->row[1];
 
-  if (!increment->solutions[0]) sums[ERROR] = fabs(sums[DISSIPATED]);
+  if (!increment->solutions[0] && !increment->solutions[1]->touches) sums[ERROR] = fabs(sums[DISSIPATED]);
   if (!increment->solutions[0]) return;
   SamIncrementTurnRow(increment, j, turned);
   for (PetscInt i = 0; i < increment->grid->nx; i++) {
@@ -94,6 +110,13 @@ static void AddErrors(const SamIncrement *increment, PetscInt j, double *const t
   }
 }
 
+static double ErrorOfTouching(const double sums[SUMS])
+{
+  const double w = PetscMax(sums[BEFORE_TOUCH], 0);
+
+  return w > 0 ? TOUCHES * w * w / (w + sums[DISSIPATED]) : 0;
+}
+
 /* The numbers, side by side in the state in this order. */
 enum {
   CONTACT_AREA,
@@ -109,6 +132,7 @@ enum {
   DISSIPATED_ENERGY,
   STORED_ENERGY,
   ENERGY_ERROR,
+  ENTERING,
   NUMBERS
 };
 #define REAL(name, unit, text, ...) \
@@ -134,7 +158,8 @@ static const SamStateNumber declared[NUMBERS] = {
        0),
   REAL("dissipated_energy", "J", "frictional work of the load step", SAM_JOIN_SUM, 2),
   REAL("stored_energy", "J", "elastic energy of both bodies", SAM_JOIN_LAST, 2),
-  REAL("energy_error", "J", "estimated error of dissipated_energy by the length of the load step", SAM_JOIN_SUM, 0)};
+  REAL("energy_error", "J", "estimated error of dissipated_energy by the length of the load step", SAM_JOIN_SUM, 0),
+  {SAM_ENTERING, "J", NULL, SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_FALSE, SAM_JOIN_SUM, 0}};
 
 /* Of the edge of contact: whether it is known, its area, faces and good faces. They hold while the pressure does. */
 enum { KNOWN = SAM_CONTACT_EDGE_KNOWN, AREA, FACES = SAM_CONTACT_EDGE_FACES, GOOD, EDGE };
@@ -184,8 +209,9 @@ static PetscErrorCode SumCells(SamProblem problem, const SamSolution *last, cons
   numbers[STICK_AREA]        = sums[STICK] * area;
   numbers[DISSIPATED_ENERGY] = sums[DISSIPATED] * area;
   numbers[STORED_ENERGY]     = sums[STORED] * area;
-  sums[ERROR] += sums[TURNED] / PetscMax(sums[STICK] / PetscMax(sums[CONTACT], 1), LEAST);
+  sums[ERROR] += sums[TURNED] / PetscMax(sums[STICK] / PetscMax(sums[CONTACT], 1), LEAST) + ErrorOfTouching(sums);
   numbers[ENERGY_ERROR] = sums[ERROR] * area;
+  numbers[ENTERING]     = sums[BEFORE_TOUCH] * area;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

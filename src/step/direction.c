@@ -30,6 +30,19 @@
   error stays of first order. So is what the pressure of dissimilar bodies moves, which is the other way: from a
   Dundurs' constant of MOST_DUNDURS on both are left out, as they cancel in part.
 
+  Of dissimilar bodies the pressure moves the surfaces all the time, outside of contact too, and most of the slip of a
+  growing contact is in cells that touch within the step. Of what they move by in the step, ds, the part
+
+    tau = d0/(d0 + d1),   d0 = (g0/G)^(2/3),   d1 = (p1/P)^2
+
+  is before they touch, g0 being the gap before the step, p1 the pressure after it, G and P the largest of both: the gap
+  grows like the power 3/2 of the distance from the old edge, the pressure like its root behind the new one. In a first
+  step, from nothing, it is the power 3/2 of the distance of the undeformed bodies, which a sphere's N grows like; if
+  the step has tangential loads, too, it applies N first, and all slip counts. The
+  rest works against 0.4 of the bound after the step: behind a moving edge slip fades. Measured on a rigid sphere on a
+  half-space, N alone in 3, 5, 10, 20 equal steps: the energy is too large by 44, 17, 4 and 1 %, and was by 330, 150,
+  53 and 18 %.
+
   Algorithm. R(q) turns r + w r0 to r; so R ds is opposite to r, and with t = ds - R ds known, the tangential problem
   with the offset lessened by t is that with the rule at the end.
     1. The tangential problem with t of the step before, times the square of the ratio of the steps, gives q and ds, to
@@ -202,15 +215,126 @@ static PetscErrorCode PredictTurn(SamSolve *w, Vec aside)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The largest gap before and the largest pressure after the step of cells that come into contact; of all ranks. */
+static PetscErrorCode MeasureTouching(SamGrid grid, const double p0[], const double p[], const double g[],
+                                      double most[2])
+{
+  PetscFunctionBegin;
+  most[0] = most[1] = 0;
+  for (PetscInt k = 0; k < grid->cells; k++) {
+    if (p0[k] > 0 || p[k] <= 0) continue;
+    most[0] = PetscMax(most[0], g[k]);
+    most[1] = PetscMax(most[1], p[k]);
+  }
+  PetscCall(SamMax(grid->comm, 2, most));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The time at which cells touch, as a part of the step, where there was contact before. */
+static PetscErrorCode FindTimes(SamSolve *w, Vec time)
+{
+  const SamSolution *before = w->task->before;
+  const double      *p0, *p;
+  double            *t, most[2];
+
+  PetscFunctionBegin;
+  PetscCall(SamSolutionComputeGap(w->task->problem, before, w->separation, time));
+  PetscCall(VecGetArrayRead(before->pressure, &p0));
+  PetscCall(VecGetArrayRead(w->s->pressure, &p));
+  PetscCall(VecGetArray(time, &t));
+  PetscCall(MeasureTouching(w->task->grid, p0, p, t, most));
+  for (PetscInt k = 0; k < w->task->grid->cells; k++) {
+    const PetscBool touches = p0[k] <= 0 && p[k] > 0 && t[k] > 0;
+    const double    outside = touches ? pow(t[k] / most[0], 2.0 / 3) : 0, inside = touches ? p[k] / most[1] : 1;
+
+    t[k] = outside / (outside + inside * inside);
+  }
+  PetscCall(VecRestoreArray(time, &t));
+  PetscCall(VecRestoreArrayRead(w->s->pressure, &p));
+  PetscCall(VecRestoreArrayRead(before->pressure, &p0));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The same in a step from no contact, in which all cells touch: by the distance of the undeformed bodies. */
+static PetscErrorCode FindFirstTimes(SamSolve *w, Vec time)
+{
+  const PetscInt cells = w->task->grid->cells, nx = w->task->grid->nx;
+  double        *t, most[2]                       = {-INFINITY, -INFINITY}; /* of the distance and of its negative */
+  const double  *p, *h;
+  double        *zero;
+  SamRigid       motion;
+
+  PetscFunctionBegin;
+  PetscCall(SamRigidSet(&motion, w->task->problem, w->s));
+  PetscCall(PetscCalloc1(nx, &zero));
+  PetscCall(VecGetArrayRead(w->s->pressure, &p));
+  PetscCall(VecGetArrayRead(w->separation, &h));
+  PetscCall(VecGetArray(time, &t));
+  for (PetscInt j = 0; j < w->task->grid->rows; j++) {
+    const ptrdiff_t first = (ptrdiff_t)j * nx;
+
+    SamRigidGap(&motion, SamRigidOfGap(&motion, j), zero, h + first, t + first);
+  }
+  for (PetscInt k = 0; k < cells; k++) {
+    if (p[k] <= 0) continue;
+    most[0] = PetscMax(most[0], t[k]);
+    most[1] = PetscMax(most[1], -t[k]);
+  }
+  PetscCall(SamMax(w->task->grid->comm, 2, most));
+  for (PetscInt k = 0; k < cells; k++) {
+    const double part = p[k] > 0 && most[0] + most[1] > 0 ? (t[k] + most[1]) / (most[0] + most[1]) : 0;
+
+    t[k] = part * sqrt(part);
+  }
+  PetscCall(VecRestoreArray(time, &t));
+  PetscCall(VecRestoreArrayRead(w->separation, &h));
+  PetscCall(VecRestoreArrayRead(w->s->pressure, &p));
+  PetscCall(PetscFree(zero));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Adds what the surfaces have moved by until they touched, by the slip of the solution so far. */
+static PetscErrorCode AddTouching(SamSolve *w, Vec aside)
+{
+  const SamGrid   grid    = w->task->grid;
+  const PetscBool touched = w->task->before && w->task->before->load[SAM_COMPONENT_N] > 0;
+  SamIncrement    increment;
+  const double   *t;
+  double         *to;
+  Vec             time;
+
+  PetscFunctionBegin;
+  PetscCall(SamGridCreateVec(grid, 1, &time));
+  PetscCall((touched ? FindTimes : FindFirstTimes)(w, time));
+  PetscCall(SamSolveDisplace(w));
+  PetscCall(SamIncrementCreate(w->task->problem, w->task->before, w->s, &increment));
+  PetscCall(VecGetArrayRead(time, &t));
+  PetscCall(VecGetArray(aside, &to));
+  for (PetscInt j = 0; j < grid->rows; j++) {
+    const ptrdiff_t first = (ptrdiff_t)j * grid->nx;
+
+    SamIncrementComputeRow(&increment, j);
+    for (PetscInt c = 0; c < 2; c++)
+      for (PetscInt i = 0; i < grid->nx; i++)
+        if (t[first + i] > 0) to[first + i + c * (ptrdiff_t)grid->cells] += t[first + i] * increment.row[c][i];
+  }
+  PetscCall(VecRestoreArray(aside, &to));
+  PetscCall(VecRestoreArrayRead(time, &t));
+  PetscCall(SamIncrementDestroy(&increment));
+  PetscCall(VecDestroy(&time));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamSolveSetAside(SamSolve *w, PetscBool solved)
 {
   Vec aside;
 
   PetscFunctionBegin;
-  if (!w->s->mid_step && !Grows(w)) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!w->s->mid_step && !Grows(w) && !(solved && w->s->touches)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamGridCreateVec(w->task->grid, 2, &aside));
   if (w->s->mid_step) PetscCall((solved ? SetTurn : PredictTurn)(w, aside));
   if (Grows(w)) PetscCall(SetEntering(w, solved, aside));
+  if (solved && w->s->touches) PetscCall(AddTouching(w, aside));
   PetscCall(SamStateSetField(w->task->state, w->task->aside, &w->s->aside));
   PetscCall(VecCopy(aside, w->s->aside));
   PetscCall(VecDestroy(&aside));

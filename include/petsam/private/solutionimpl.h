@@ -134,6 +134,11 @@ static inline double SamContactEdgeLength(SamGrid grid, double faces)
 {
   return SamGridIsRow(grid) ? faces : PETSC_PI / 4 * faces * sqrt((double)(grid->dx * grid->dy));
 }
+/*
+  SAM_ENTERING - the number in the state that has what slip of dissimilar bodies would work more (J) if the cells in
+  which contact is made had touched before the step: 0 of others.
+*/
+#define SAM_ENTERING "entering_work"
 PETSC_INTERN PetscErrorCode SamSolutionDeclareNumbers(SamState state, SamMotion motion);
 PETSC_INTERN PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamState state, const SamSolution *before,
                                                       const SamSolution *now, PetscBool same_pressure, PetscBool edges);
