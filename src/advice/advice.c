@@ -24,10 +24,8 @@
 #define CROWDED 0.25
 /* A contact narrower than this part of its radius has a radius that may be in another unit. */
 #define FLATTEST 1e-3
-/* Stress beyond yield where no layer is, over the yield stress, and a layer's thickness over the contact's half width
-   from which on the maximum plastic strain is more than 4 % low. */
+/* Stress beyond yield where no layer is, over the yield stress. */
 #define BEYOND 0.01
-#define THICK  0.2
 /* Plastic strain that is not small. */
 #define STRAINED 0.1
 /*
@@ -533,12 +531,12 @@ static void Yield(SamAdvice *a)
   if (!a->error) a->error = SamContactGetNumber(contact, "layer_thickness", &thick);
   if (!a->error) a->error = SamContactGetNumber(contact, "yield_outside", &outside);
   if (a->error) return;
-  if (thick > THICK && (most > 0 || outside > BEYOND))
+  if (thick > SAM_PLASTIC_THICK && (most > 0 || outside > BEYOND))
     SamAdviceSay(a, "plastic_layers",
                  "where the contact yields first, layers are %.2g of its half width thick, more than %g, so that "
                  "plastic strain is "
                  "too small: use %.2g times as many -plastic_layers",
-                 (double)thick, THICK, RoundUp((double)thick / THICK));
+                 (double)thick, SAM_PLASTIC_THICK, RoundUp((double)thick / SAM_PLASTIC_THICK));
   else if (outside > BEYOND)
     SamAdviceSay(a, "plastic_depth",
                  "the stress exceeds the yield stress by %.0f %% below the last layer, so the results are too elastic: "
