@@ -41,7 +41,7 @@ typedef struct {
 #define DEEPEST 2
 
 /* The numbers of a step, one after the other from MOST on. */
-enum { MOST, CELLS, WORK, ENERGY, ERROR, NEWTON, PRODUCTS, STILL, LAYERS, LEFT, THICK, OUTSIDE, UNSURE, NUMBERS };
+enum { MOST, CELLS, WORK, ENERGY, ERROR, NEWTON, PRODUCTS, STILL, LAYERS, LEFT, THICK, OUTSIDE, UNSURE, DENT, NUMBERS };
 
 #define REAL_ROW(body, option, text, what, range_, ...) \
   { \
@@ -399,10 +399,10 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
                                                   .separates   = PETSC_TRUE};
   static const SamStateNumber numbers[NUMBERS] = {
     {"plastic_max", "1", "maximum accumulated plastic strain", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE,
-     SAM_JOIN_LAST, 0},
+     SAM_JOIN_LAST, 1},
     {"yielding_cells", "1", "cells of layers that yield in the step", SAM_NUMBER_INT, 1, PETSC_FALSE, PETSC_TRUE,
      SAM_JOIN_LAST, 0},
-    {"plastic_work", "J", "work of plastic strain", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_SUM, 0},
+    {"plastic_work", "J", "work of plastic strain", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_SUM, 2},
     {"residual_energy", "J", "elastic energy of the residual stress", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE,
      SAM_JOIN_LAST, 0},
     {"yield_error", "1", "maximum error of the yield function over the yield stress", SAM_NUMBER_REAL, 1, PETSC_FALSE,
@@ -422,7 +422,9 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
     {"yield_outside", "1", "maximum stress beyond yield below the layers or inside thick ones, over the yield stress",
      SAM_NUMBER_REAL, 1, PETSC_TRUE, PETSC_TRUE, SAM_JOIN_LAST, 0},
     {"plastic_work_error", "J", "estimated error of plastic_work by the length of the load step", SAM_NUMBER_REAL, 1,
-     PETSC_FALSE, PETSC_TRUE, SAM_JOIN_SUM, 0}};
+     PETSC_FALSE, PETSC_TRUE, SAM_JOIN_SUM, 0},
+    {"residual_z_max", "m", "maximum displacement into the bodies by plastic strain", SAM_NUMBER_REAL, 1, PETSC_TRUE,
+     PETSC_TRUE, SAM_JOIN_LAST, 2}};
   static const SamStateResult fields[4] = {
     {.name = "residual_x", .unit = "m", .text = "displacement along x by plastic strain", .use = SAM_RESULT_OFFERED},
     {.name = "residual_y", .unit = "m", .text = "displacement along y by plastic strain", .use = SAM_RESULT_OFFERED},
@@ -648,6 +650,25 @@ static void KeepLargest(const double before[NUMBERS], double now[NUMBERS])
   now[THICK]   = before[THICK];
 }
 
+/* The depth of the dent, which stays where no strain has grown. */
+static PetscErrorCode FindDent(SamPlastic *p, Vec state, double before, double numbers[NUMBERS])
+{
+  const PetscInt cells = p->grid->cells;
+  double        *u, *at[3], most = 0;
+
+  PetscFunctionBegin;
+  numbers[DENT] = before > 0 ? before : 0;
+  if (!(numbers[CELLS] > 0)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscMalloc1(3 * cells, &u));
+  for (PetscInt c = 0; c < 3; c++) at[c] = u + c * cells;
+  PetscCall(SamPlasticDisplace(p, state, at));
+  for (PetscInt k = 0; k < cells; k++) most = PetscMax(most, at[2][k]);
+  PetscCall(SamMax(p->grid->comm, 1, &most));
+  numbers[DENT] = most;
+  PetscCall(PetscFree(u));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
 {
   Plastic *const x     = (Plastic *)law->data;
@@ -671,6 +692,7 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
   PetscCall(Extent(p, now, SamElasticityGetTraits(law->elasticity).periodic, numbers));
   PetscCall(SamPlasticLookOutside(p, tried, step->pressure, step->shear, &numbers[THICK], &numbers[OUTSIDE]));
   KeepLargest(SamStateNumbers(step->state, first, SAM_COMMITTED), numbers);
+  PetscCall(FindDent(p, tried, SamStateNumbers(step->state, first, SAM_COMMITTED)[DENT], numbers));
   numbers[ENERGY] = energy;
   PetscCall(SumWork(p, last, now, work));
   numbers[WORK]   = work[0];

@@ -449,3 +449,12 @@ def test_contacts_of_few_cells_yield(solve, tmp_path):
     case.update(body2_hardening_modulus="1GPa", plastic_layers=12)
     run = all_steps(solve({**case, **loads}))
     assert 1 <= run["contact_cells"][0] <= 12 and np.all(np.diff(run["plastic_max"]) > 0)
+
+
+def test_grid_check_halves_the_layers_too(petsam, solve):
+    case = dict(BALL, grid_n=(24, 24))
+    text = petsam(dict(case, grid_check=True)).stdout
+    few = all_steps(solve(dict(case, grid_n=(12, 12), plastic_layers=16)))
+    for name in "plastic_max", "plastic_work", "residual_z_max":
+        coarse = float(re.search(rf"{name}/\S+ +\S+ +(\S+)", text).group(1))
+        assert coarse == pytest.approx(few[name][0], rel=1e-5)
