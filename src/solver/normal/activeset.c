@@ -33,8 +33,9 @@
   much of it.
 
   Rounding: steps and their products are in single precision, at half the cost; p and g are in double. g collects about
-  SAM_SINGLE_ROUNDING of the maximum error since the last product in double precision; before that matters there is
-  another one. Coarse grids, solved roughly, need none.
+  SAM_SINGLE_ROUNDING of the maximum error since the last product in double precision, and of the way that p came back
+  from a trial much farther than its step; before that matters there is another one. Coarse grids, solved roughly, need
+  none.
 
   References: Polonsky and Keer 1999, Wear 231, 206-219 (projected CG for contact); Dostal 2009, Optimal Quadratic
   Programming Algorithms, ch. 5 (active sets with CG); Stanley and Kato 1997, J. Tribol. 119, 481-485 (the spectrum);
@@ -280,13 +281,14 @@ static void SetLength(Work *w, double t, SamTotal contact[])
   }
 }
 
-/* s.u */
+/* s.u, and the largest |u| on this rank */
 static PetscErrorCode ComputeCurvature(Work *w)
 {
   SamTotal total = {0};
   SamRow   row;
 
   PetscFunctionBegin;
+  w->reach = 0;
   for (PetscInt j = 0; j < w->rows; j++) {
     double sum = 0;
 
@@ -326,6 +328,7 @@ static PetscErrorCode Step(Work *w, double *best, SamTotal contact[])
   t = *best * w->shrink > 1 ? 1 / w->shrink : *best;
   if (w->stagnates && t > 0 && t < 1) PetscCall(Part(w, t));
   SetLength(w, t, contact);
+  w->back = fabs(1 - t) * w->reach * w->unit;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -348,8 +351,11 @@ static PetscErrorCode TakeTrial(Work *w, const double motion[3], PetscBool *bett
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* One iteration. `downhill`: there was a way down, for the energy or the error. `found`: an admissible pressure was. */
-static PetscErrorCode Iterate(Work *w, PetscBool gradient, PetscBool *downhill, PetscBool *found)
+/*
+  One iteration. `gradient`: it takes a gradient step; also one that it falls back to, on return. `downhill`: there was
+  a way down, for the energy or the error. `found`: an admissible pressure was.
+*/
+static PetscErrorCode Iterate(Work *w, PetscBool *gradient, PetscBool *downhill, PetscBool *found)
 {
   SamTotal contact[SAM_GAP_TOTALS] = {{0}}, ignored[SAM_GAP_TOTALS] = {{0}};
   double   best = 0, motion[3];
@@ -357,20 +363,20 @@ static PetscErrorCode Iterate(Work *w, PetscBool gradient, PetscBool *downhill, 
   PetscFunctionBegin;
   w->unit = w->error;
   w->lost = 0;
-  if (!gradient) {
+  if (!*gradient) {
     PetscCall(NewDirection(w));
     PetscCall(Try(w, w->alpha, PETSC_FALSE, motion, found));
-    gradient = !*found || w->slope >= 0;
-    if (*found && gradient) SetLength(w, 0, ignored);
+    *gradient = (PetscBool)(!*found || w->slope >= 0);
+    if (*found && *gradient) SetLength(w, 0, ignored);
   }
-  if (gradient) PetscCall(TryGradient(w, motion, found));
+  if (*gradient) PetscCall(TryGradient(w, motion, found));
   *downhill = PETSC_FALSE;
   if (*found && w->slope == 0) PetscCall(TakeTrial(w, motion, downhill));
   if (!*found || w->slope == 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Step(w, &best, contact));
   *downhill = best > 0;
   if (!*downhill) PetscFunctionReturn(PETSC_SUCCESS);
-  if (!gradient)
+  if (!*gradient)
     w->alpha *= sqrt(PetscMin(PetscMax(best, 1 / (w->layered ? FALL : FOLLOW)), FOLLOW));
   else
     w->alpha = 1;
@@ -421,10 +427,10 @@ static PetscErrorCode SamNormalSolve_ActiveSet(SamSolver solver, SamLevel *level
   best = w.error;
   PetscCall(GetReason(&w, stagnant, downhill, found, &reason));
   while (!reason) {
-    const PetscBool gradient = stagnant > 0 && stagnant % PATIENCE == 0;
+    PetscBool gradient = (PetscBool)(stagnant > 0 && stagnant % PATIENCE == 0);
 
     w.stagnates = stagnant >= PARTING;
-    PetscCall(Iterate(&w, gradient, &downhill, &found));
+    PetscCall(Iterate(&w, &gradient, &downhill, &found));
     if (downhill && (gradient || w.lost > 0 || SamActiveSetIsStale(&w))) PetscCall(SamActiveSetRefresh(&w));
     stagnant = w.error < 0.9 * best ? 0 : stagnant + 1;
     best     = PetscMin(best, w.error);
