@@ -95,7 +95,7 @@ def dissimilar(rng, case, columns, folder):
 
 CAPABILITIES = [plane, periodic, hardness, wear, bulk, slip_path, pressure_law, film, strain, slide, roll, layers,
                 compliance, dissimilar]  # fmt: skip
-FREQUENT = {hardness: 4, strain: 4}  # how much more often than others: their surfaces change without a given motion
+FREQUENT = {hardness: 4, strain: 8}  # how much more often than others: their surfaces change without a given motion
 DRAWS = 20  # of a pair, until one is not refused
 
 

@@ -33,9 +33,9 @@
   much of it.
 
   Rounding: steps and their products are in single precision, at half the cost; p and g are in double. g collects about
-  SAM_SINGLE_ROUNDING of the maximum error since the last product in double precision, and of the way that p came back
-  from a trial much farther than its step; before that matters there is another one. Coarse grids, solved roughly, need
-  none.
+  SAM_SINGLE_ROUNDING of the maximum error since the last product in double precision; before that matters there is
+  another one, and after a gradient step, whose trial may be much farther than the step: p comes back from it with the
+  trial's rounding. Coarse grids, solved roughly, need none.
 
   References: Polonsky and Keer 1999, Wear 231, 206-219 (projected CG for contact); Dostal 2009, Optimal Quadratic
   Programming Algorithms, ch. 5 (active sets with CG); Stanley and Kato 1997, J. Tribol. 119, 481-485 (the spectrum);
@@ -281,14 +281,13 @@ static void SetLength(Work *w, double t, SamTotal contact[])
   }
 }
 
-/* s.u, and the largest |u| on this rank */
+/* s.u */
 static PetscErrorCode ComputeCurvature(Work *w)
 {
   SamTotal total = {0};
   SamRow   row;
 
   PetscFunctionBegin;
-  w->reach = 0;
   for (PetscInt j = 0; j < w->rows; j++) {
     double sum = 0;
 
@@ -328,7 +327,6 @@ static PetscErrorCode Step(Work *w, double *best, SamTotal contact[])
   t = *best * w->shrink > 1 ? 1 / w->shrink : *best;
   if (w->stagnates && t > 0 && t < 1) PetscCall(Part(w, t));
   SetLength(w, t, contact);
-  w->back = fabs(1 - t) * w->reach * w->unit;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

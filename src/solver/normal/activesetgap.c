@@ -151,20 +151,17 @@ static PetscErrorCode Choose(Work *w, double ease, double motion[3])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Adds to the motion: the gap and the error follow, A does not; and the account of rounding. */
+/* Adds to the motion: the gap and the error follow, A does not. */
 static PetscErrorCode Move(Work *w, const double motion[3])
 {
-  enum { ERROR, BACK, COUNT };
-  double most[COUNT] = {[BACK] = w->back};
+  double error = 0;
 
   PetscFunctionBegin;
   for (PetscInt c = 0; c < 3; c++) w->motion[c] += motion[c];
   for (PetscInt j = 0; j < w->rows; j++)
-    most[ERROR] = SamLarger(most[ERROR], SamActiveSetMoveRow(w, SamActiveSetRow(w, j), motion));
-  PetscCall(SamMax(w->level->grid->comm, COUNT, most));
-  w->error    = most[ERROR];
-  w->rounding = SamLarger(w->rounding, SAM_SINGLE_ROUNDING * SamLarger(most[ERROR], most[BACK]));
-  w->back     = 0;
+    error = SamLarger(error, SamActiveSetMoveRow(w, SamActiveSetRow(w, j), motion));
+  PetscCall(SamMax(w->level->grid->comm, 1, &error));
+  w->error = error;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -179,6 +176,7 @@ PetscErrorCode SamActiveSetChoose(Work *w, SamTotal contact[])
     PetscCall(Choose(w, 0, motion));
   PetscCall(Choose(w, 1 / (PATCH * w->self), motion));
   PetscCall(Move(w, motion));
+  w->rounding = SamLarger(w->rounding, SAM_SINGLE_ROUNDING * w->error);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -199,7 +197,6 @@ PetscErrorCode SamActiveSetRefresh(Work *w)
     PetscCall(FinishGap(w));
   }
   w->rounding = single ? SAM_SINGLE_ROUNDING * w->displacement : 0;
-  w->back     = 0;
   PetscCall(SamActiveSetChoose(w, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

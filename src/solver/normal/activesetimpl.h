@@ -26,8 +26,6 @@ typedef struct {
   double          displacement;   /* maximum |S p|, m */
   double          floor;          /* error that rounding leaves where the displacement is nearly zero, m */
   double          error;          /* maximum complementarity error, m */
-  double          reach;          /* largest |u| on this rank: how far the trial displaces */
-  double          back;           /* what the way back from the last trial to p displaces, on this rank, m */
   double          rounding;       /* bound of that of g, for the maximum error of a cell, m */
   double          slope;          /* of the energy along the step: s.g */
   double          shrink;         /* largest part of its distance from a bound that a cell loses in the step */
@@ -107,8 +105,8 @@ PETSC_INTERN void SamActiveSetPreconditionedRow(SamActiveSet *w, SamRow row, Sam
 PETSC_INTERN void SamActiveSetDirectionRow(SamActiveSet *w, SamRow row, const double motion[3], float beta);
 /* The slope of the step to the trial p; raises `shrink` and `largest`. */
 PETSC_INTERN double SamActiveSetTrialRow(SamActiveSet *w, SamRow row);
-/* s.u of at most SAM_ROW_BLOCK cells; raises `reach`. */
-PETSC_INTERN double SamActiveSetCurvatureRow(SamActiveSet *w, SamRow row);
+/* s.u of at most SAM_ROW_BLOCK cells. */
+PETSC_INTERN double SamActiveSetCurvatureRow(const SamActiveSet *w, SamRow row);
 /*
   Where the trial is at a bound, and t times the step would end before it by no more than rounding, moves the pressure
   by that, so that the step will end at the bound; returns the largest.

@@ -174,19 +174,13 @@ SAM_VECTORIZED double SamActiveSetTrialRow(SamActiveSet *w, SamRow row)
 }
 
 /* In single precision, which is why the cells are few. */
-SAM_VECTORIZED double SamActiveSetCurvatureRow(SamActiveSet *w, SamRow row)
+SAM_VECTORIZED double SamActiveSetCurvatureRow(const SamActiveSet *w, SamRow row)
 {
   const float *restrict s = w->s + row.first, *restrict u = w->u + row.first;
-  float sum = 0, reach = 0;
+  float sum = 0;
 
-#pragma omp simd reduction(+ : sum) reduction(max : reach)
-  for (int i = 0; i < row.count; i++) {
-    const float size = fabsf(u[i]);
-
-    sum += s[i] * u[i];
-    reach = size > reach ? size : reach;
-  }
-  w->reach = PetscMax(w->reach, (double)reach);
+#pragma omp simd reduction(+ : sum)
+  for (int i = 0; i < row.count; i++) sum += s[i] * u[i];
   return (double)sum;
 }
 
