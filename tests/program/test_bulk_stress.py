@@ -110,7 +110,7 @@ def stretched(folder, kind, phase):
     case |= {f"body{b}_{name}": value for b in (1, 2) for name, value in (("young", 200e9), ("poisson", 0.3))}
     if kind == "plane":
         case["elasticity"] = "plane"
-    return case | history(folder / "h.csv", "time,load_n,bulk2_stress_xx", *rows)
+    return case | history(folder / f"{kind}{phase}.csv", "time,load_n,bulk2_stress_xx", *rows)
 
 
 def of_a_cycle(run, steps, *names):
