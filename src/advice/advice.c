@@ -682,7 +682,7 @@ PetscErrorCode SamAdviceStep(SamAdvice *a, PetscInt k, PetscBool of_laws, const 
   }
   if (of_laws) PetscCall(LookAtLaws(a, k));
   if (SamMotionOf(a->setup->elasticity)->continues)
-    PetscCall(SamAdviceAddSlip(a, k, step));
+    PetscCall(SamAdviceAddSlip(a, step));
   else
     PetscCall(SamAdviceAddRolling(a, k, step));
   PetscFunctionReturn(PETSC_SUCCESS);

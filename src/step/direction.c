@@ -25,10 +25,16 @@
 
   kappa being the ratio of the tangential to the normal compliance. Slip in the step begins there. If contact has not
   grown by N, or there was none, this is zero, as at a place that contact leaves. Of bodies with layers or a shape of
-  their own kappa is that of the materials at the surface. Where the bodies tilt as well, it counts by the part of the
-  pressure's growth at the edge that N makes. Of what M_z, tilting and bulk stress move there, nothing is known: their
-  error stays of first order. So is what the pressure of dissimilar bodies moves, which is the other way: from a
-  Dundurs' constant of MOST_DUNDURS on both are left out, as they cancel in part.
+  their own kappa is that of the materials at the surface. At the edge pressure and shear grow like those of a punch
+  that sticks, and tau is the ratio there. A displacement that is linear in place about the centre counts twice at the
+  edge of a round punch, compared to a uniform one: so does tilting in the growth of the pressure, and the strain by
+  bulk stress, e, in that of the shear,
+
+    kappa tau = (kappa dT/dN d - 2 e r)/(d + 2 tilt),
+
+  d being the approach; in plane strain, where it has no limit, it is 4 dN/(pi E*). Of what M_z moves there, nothing is
+  known: its error stays of first order. So is what the pressure of dissimilar bodies moves, which is the other way:
+  from a Dundurs' constant of MOST_DUNDURS on both are left out, as they cancel in part.
 
   Of dissimilar bodies the pressure moves the surfaces all the time, outside of contact too, and most of the slip of a
   growing contact is in cells that touch within the step. Of what they move by in the step, ds, the part
@@ -91,31 +97,51 @@ static double RatioOfCompliances(SamSolve *w, int c)
   return (double)((pair->shear + (w->task->traits.plane ? c : (PetscReal)0.5) * pair->shear_xx) / pair->normal);
 }
 
-/* How the bodies approach each other in a step: uniformly, about the centre of the pressure before, and by tilting. */
+/*
+  What a step adds to the bodies' motion: the approach about the centre of the pressure before, tilting, the strain of
+  the surfaces, and the change of the tangential loads over that of N.
+*/
 typedef struct {
-  double center[2], uniform, tilt[2];
+  double    center[2], uniform, tilt[2], tau[2];
+  SamStrain strain;
 } Approach;
 
-static Approach ApproachOf(const SamSolution *before, const SamSolution *now)
+static PetscErrorCode FindApproach(SamSolve *w, PetscBool found, Approach *a)
 {
-  double   change[SAM_COMPONENTS];
-  Approach a;
+  const SamSolution *before = w->task->before, *now = w->s;
+  const double       normal = (double)(now->load[SAM_COMPONENT_N] - before->load[SAM_COMPONENT_N]);
+  SamStrain          e;
 
-  for (PetscInt k = 0; k < SAM_COMPONENTS; k++) change[k] = (double)(now->rigid[k] - before->rigid[k]);
-  a.center[0] = (double)(before->load[SAM_COMPONENT_MY] / before->load[SAM_COMPONENT_N]);
-  a.center[1] = -(double)(before->load[SAM_COMPONENT_MX] / before->load[SAM_COMPONENT_N]);
-  a.tilt[0]   = change[SAM_COMPONENT_MY];
-  a.tilt[1]   = -change[SAM_COMPONENT_MX];
-  a.uniform   = change[SAM_COMPONENT_N] + a.tilt[0] * a.center[0] + a.tilt[1] * a.center[1];
-  return a;
+  PetscFunctionBegin;
+  PetscCall(SamProblemGetStrain(w->task->problem, &now->control, &a->strain));
+  PetscCall(SamProblemGetStrain(w->task->problem, &before->control, &e));
+  a->strain    = (SamStrain){a->strain.xx - e.xx, a->strain.yy - e.yy, a->strain.xy - e.xy};
+  a->center[0] = (double)(before->load[SAM_COMPONENT_MY] / before->load[SAM_COMPONENT_N]);
+  a->center[1] = -(double)(before->load[SAM_COMPONENT_MX] / before->load[SAM_COMPONENT_N]);
+  a->tilt[0]   = (double)(now->rigid[SAM_COMPONENT_MY] - before->rigid[SAM_COMPONENT_MY]);
+  a->tilt[1]   = -(double)(now->rigid[SAM_COMPONENT_MX] - before->rigid[SAM_COMPONENT_MX]);
+  a->uniform   = (double)(now->rigid[SAM_COMPONENT_N] - before->rigid[SAM_COMPONENT_N]) + a->tilt[0] * a->center[0] +
+               a->tilt[1] * a->center[1];
+  if (w->task->traits.plane)
+    a->uniform = 4 * normal / (PETSC_PI * (double)SamPairModulus(SamElasticityGetPair(w->task->elasticity)));
+  for (PetscInt c = 0; c < 2; c++) {
+    const PetscInt  k    = SamComponentsOf[SAM_BALANCE_TANGENTIAL][c];
+    const PetscReal load = found ? now->load[k] : (w->tangential.force[c] ? w->tangential.load[c] : before->load[k]);
+
+    a->tau[c] = (double)(load - before->load[k]) / normal;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The part of the pressure's change at the contact edge near a point that N makes: of a tilted punch. */
-static double PartOfN(const Approach *a, double x, double y)
+/* The change of the shear over that of the pressure at the contact edge near a point, both of a punch that sticks. */
+static void ShearAtEdge(const Approach *a, const double kappa[2], double x, double y, double tau[2])
 {
-  const double tilt = a->tilt[0] * (x - a->center[0]) + a->tilt[1] * (y - a->center[1]);
+  const double    at_x = x - a->center[0], at_y = y - a->center[1];
+  const double    tilt = a->tilt[0] * at_x + a->tilt[1] * at_y, normal = a->uniform + 2 * PetscMax(0, tilt);
+  const SamStrain e        = a->strain;
+  const double    moved[2] = {e.xx * at_x + e.xy * at_y, e.xy * at_x + e.yy * at_y};
 
-  return a->uniform > 0 ? a->uniform / (a->uniform + 2 * PetscMax(0, tilt)) : 0;
+  for (int c = 0; c < 2; c++) tau[c] = a->uniform > 0 ? (a->tau[c] * a->uniform - 2 * moved[c] / kappa[c]) / normal : 0;
 }
 
 /* Sets what the surfaces have moved by in cells that come into contact, by the loads, given or `found`. */
@@ -124,21 +150,14 @@ static PetscErrorCode SetEntering(SamSolve *w, PetscBool found, Vec aside)
   const SamSolution *before = w->task->before, *s = w->s;
   const SamGrid      grid     = w->task->grid;
   const PetscInt     cells    = grid->cells;
-  const Approach     approach = ApproachOf(before, s);
   const double       kappa[2] = {RatioOfCompliances(w, 0), RatioOfCompliances(w, 1)};
-  double             tau[2], size, *to;
+  double            *to;
   const double      *p0, *p, *b, *g;
+  Approach           approach;
   Vec                gap;
 
   PetscFunctionBegin;
-  for (PetscInt c = 0; c < 2; c++) {
-    const PetscInt  k   = SamComponentsOf[SAM_BALANCE_TANGENTIAL][c];
-    const PetscReal now = found ? s->load[k] : (w->tangential.force[c] ? w->tangential.load[c] : before->load[k]);
-
-    tau[c] = (double)((now - before->load[k]) / (s->load[SAM_COMPONENT_N] - before->load[SAM_COMPONENT_N]));
-  }
-  size = hypot(tau[0], tau[1]);
-  if (size == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(FindApproach(w, found, &approach));
   PetscCall(SamGridCreateVec(w->task->grid, 1, &gap));
   PetscCall(SamSolutionComputeGap(w->task->problem, before, w->separation, gap));
   PetscCall(VecGetArrayRead(gap, &g));
@@ -147,11 +166,12 @@ static PetscErrorCode SetEntering(SamSolve *w, PetscBool found, Vec aside)
   PetscCall(VecGetArrayRead(s->bound, &b));
   PetscCall(VecGetArray(aside, &to));
   for (PetscInt k = 0; k < cells; k++) {
-    double part;
+    double tau[2], size, part;
 
     if (p0[k] > 0 || p[k] <= 0 || g[k] <= 0) continue;
-    part = PetscMin(1, b[k] / (p[k] * size)) *
-           PartOfN(&approach, SamGridX(grid, k % grid->nx), SamGridY(grid, grid->row_start + k / grid->nx));
+    ShearAtEdge(&approach, kappa, SamGridX(grid, k % grid->nx), SamGridY(grid, grid->row_start + k / grid->nx), tau);
+    size = hypot(tau[0], tau[1]);
+    part = size * p[k] > b[k] ? b[k] / (p[k] * size) : 1;
     for (int c = 0; c < 2; c++) to[k + c * cells] = -kappa[c] * tau[c] * part * g[k];
   }
   PetscCall(VecRestoreArray(aside, &to));
