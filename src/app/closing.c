@@ -131,7 +131,7 @@ static PetscErrorCode PrintEdges(SamReport r)
     PetscCall(PetscSNPrintf(where, sizeof(where), " in step %" PetscInt_FMT " (the worst)", r->edges.step));
   PetscCall(PetscPrintf(r->comm,
                         "  %-10s  reconstructed on %.0f %% of their length%s: the other areas are counted from cells, "
-                        "less %g of a cell for each side at an edge\n",
+                        "less %.2f of a cell for each side at an edge\n",
                         "edges", 100 * (double)r->edges.residual, where, SAM_EDGE_FACE));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
