@@ -67,15 +67,21 @@
 /* Largest size of Dundurs' constant of the surfaces for which shear alone says how they move over each other. */
 #define MOST_DUNDURS 0.15
 
-/* Whether contact there was before grows with N, and shear says how the surfaces move where it is made. */
+/* A load before the step: zero before the first one. */
+static PetscReal LoadBefore(SamSolve *w, PetscInt component)
+{
+  return w->task->before ? w->task->before->load[component] : 0;
+}
+
+/* Whether contact grows with N and the other loads, and shear says how the surfaces move where it is made. */
 static PetscBool Grows(SamSolve *w)
 {
-  const SamSolution *before = w->task->before;
-  const SamPair      pair   = SamElasticityGetPair(w->task->elasticity);
+  const SamPair   pair    = SamElasticityGetPair(w->task->elasticity);
+  const PetscReal before  = LoadBefore(w, SAM_COMPONENT_N);
+  const PetscBool touched = before > 0 || w->s->control.together ? PETSC_TRUE : PETSC_FALSE;
 
-  return before && w->task->set->slip_direction == SAM_SLIP_MID && !w->task->rolls &&
-         before->load[SAM_COMPONENT_N] > 0 && w->s->load[SAM_COMPONENT_N] > before->load[SAM_COMPONENT_N] &&
-         !(w->task->coupled && fabs((double)pair->dundurs) > MOST_DUNDURS);
+  return touched && w->task->set->slip_direction == SAM_SLIP_MID && w->task->motion->continues && !w->task->rolls &&
+         w->s->load[SAM_COMPONENT_N] > before && !(w->task->coupled && fabs((double)pair->dundurs) > MOST_DUNDURS);
 }
 
 PetscBool SamSolveIsTwice(SamSolve *w)
@@ -118,38 +124,87 @@ static double PartOfN(const Approach *a, double x, double y)
   return a->uniform > 0 ? a->uniform / (a->uniform + 2 * PetscMax(0, tilt)) : 0;
 }
 
+/* The gap before the step of cells that were open; of others 0. */
+static PetscErrorCode FindGaps(SamSolve *w, Vec gap)
+{
+  const double *p;
+  double       *g;
+
+  PetscFunctionBegin;
+  PetscCall(SamSolutionComputeGap(w->task->problem, w->task->before, w->separation, gap));
+  PetscCall(VecGetArrayRead(w->task->before->pressure, &p));
+  PetscCall(VecGetArray(gap, &g));
+  for (PetscInt k = 0; k < w->task->grid->cells; k++) g[k] = p[k] > 0 ? 0 : g[k];
+  PetscCall(VecRestoreArray(gap, &g));
+  PetscCall(VecRestoreArrayRead(w->task->before->pressure, &p));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The same in a step from no contact: the distance of the undeformed bodies, from where they touch first; of contact. */
+static PetscErrorCode FindDistances(SamSolve *w, Vec distance)
+{
+  const PetscInt nx    = w->task->grid->nx;
+  double         least = -INFINITY; /* its negative */
+  const double  *p, *h;
+  double        *zero, *g;
+  SamRigid       motion;
+
+  PetscFunctionBegin;
+  PetscCall(SamRigidSet(&motion, w->task->problem, w->s));
+  PetscCall(PetscCalloc1(nx, &zero));
+  PetscCall(VecGetArrayRead(w->s->pressure, &p));
+  PetscCall(VecGetArrayRead(w->separation, &h));
+  PetscCall(VecGetArray(distance, &g));
+  for (PetscInt j = 0; j < w->task->grid->rows; j++) {
+    const ptrdiff_t first = (ptrdiff_t)j * nx;
+
+    SamRigidGap(&motion, SamRigidOfGap(&motion, j), zero, h + first, g + first);
+  }
+  for (PetscInt k = 0; k < w->task->grid->cells; k++)
+    if (p[k] > 0) least = PetscMax(least, -g[k]);
+  PetscCall(SamMax(w->task->grid->comm, 1, &least));
+  for (PetscInt k = 0; k < w->task->grid->cells; k++) g[k] = p[k] > 0 ? g[k] + least : 0;
+  PetscCall(VecRestoreArray(distance, &g));
+  PetscCall(VecRestoreArrayRead(w->separation, &h));
+  PetscCall(VecRestoreArrayRead(w->s->pressure, &p));
+  PetscCall(PetscFree(zero));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Sets what the surfaces have moved by in cells that come into contact, by the loads, given or `found`. */
 static PetscErrorCode SetEntering(SamSolve *w, PetscBool found, Vec aside)
 {
-  const SamSolution *before = w->task->before, *s = w->s;
-  const SamGrid      grid     = w->task->grid;
-  const PetscInt     cells    = grid->cells;
-  const Approach     approach = ApproachOf(before, s);
+  const SamSolution *s     = w->s;
+  const PetscReal    load  = LoadBefore(w, SAM_COMPONENT_N);
+  const SamGrid      grid  = w->task->grid;
+  const PetscInt     cells = grid->cells;
+  const Approach     approach =
+    load > 0 ? ApproachOf(w->task->before, s) : (Approach){.uniform = 1}; /* from nothing: all that grows is by N */
   const double       kappa[2] = {RatioOfCompliances(w, 0), RatioOfCompliances(w, 1)};
   double             tau[2], size, *to;
-  const double      *p0, *p, *b, *g;
+  const double      *p, *b, *g;
   Vec                gap;
 
   PetscFunctionBegin;
   for (PetscInt c = 0; c < 2; c++) {
     const PetscInt  k   = SamComponentsOf[SAM_BALANCE_TANGENTIAL][c];
-    const PetscReal now = found ? s->load[k] : (w->tangential.force[c] ? w->tangential.load[c] : before->load[k]);
+    const PetscReal was = LoadBefore(w, k);
+    const PetscReal now = found ? s->load[k] : (w->tangential.force[c] ? w->tangential.load[c] : was);
 
-    tau[c] = (double)((now - before->load[k]) / (s->load[SAM_COMPONENT_N] - before->load[SAM_COMPONENT_N]));
+    tau[c] = (double)((now - was) / (s->load[SAM_COMPONENT_N] - load));
   }
   size = hypot(tau[0], tau[1]);
   if (size == 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamGridCreateVec(w->task->grid, 1, &gap));
-  PetscCall(SamSolutionComputeGap(w->task->problem, before, w->separation, gap));
+  PetscCall((load > 0 ? FindGaps : FindDistances)(w, gap));
   PetscCall(VecGetArrayRead(gap, &g));
-  PetscCall(VecGetArrayRead(before->pressure, &p0));
   PetscCall(VecGetArrayRead(s->pressure, &p));
   PetscCall(VecGetArrayRead(s->bound, &b));
   PetscCall(VecGetArray(aside, &to));
   for (PetscInt k = 0; k < cells; k++) {
     double part;
 
-    if (p0[k] > 0 || p[k] <= 0 || g[k] <= 0) continue;
+    if (p[k] <= 0 || g[k] <= 0) continue;
     part = PetscMin(1, b[k] / (p[k] * size)) *
            PartOfN(&approach, SamGridX(grid, k % grid->nx), SamGridY(grid, grid->row_start + k / grid->nx));
     for (int c = 0; c < 2; c++) to[k + c * cells] = -kappa[c] * tau[c] * part * g[k];
@@ -157,7 +212,6 @@ static PetscErrorCode SetEntering(SamSolve *w, PetscBool found, Vec aside)
   PetscCall(VecRestoreArray(aside, &to));
   PetscCall(VecRestoreArrayRead(s->bound, &b));
   PetscCall(VecRestoreArrayRead(s->pressure, &p));
-  PetscCall(VecRestoreArrayRead(before->pressure, &p0));
   PetscCall(VecRestoreArrayRead(gap, &g));
   PetscCall(VecDestroy(&gap));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -258,38 +312,15 @@ static PetscErrorCode FindTimes(SamSolve *w, Vec time)
 /* The same in a step from no contact, in which all cells touch: by the distance of the undeformed bodies. */
 static PetscErrorCode FindFirstTimes(SamSolve *w, Vec time)
 {
-  const PetscInt cells = w->task->grid->cells, nx = w->task->grid->nx;
-  double        *t, most[2]                       = {-INFINITY, -INFINITY}; /* of the distance and of its negative */
-  const double  *p, *h;
-  double        *zero;
-  SamRigid       motion;
+  double *t, most = 0;
 
   PetscFunctionBegin;
-  PetscCall(SamRigidSet(&motion, w->task->problem, w->s));
-  PetscCall(PetscCalloc1(nx, &zero));
-  PetscCall(VecGetArrayRead(w->s->pressure, &p));
-  PetscCall(VecGetArrayRead(w->separation, &h));
+  PetscCall(FindDistances(w, time));
   PetscCall(VecGetArray(time, &t));
-  for (PetscInt j = 0; j < w->task->grid->rows; j++) {
-    const ptrdiff_t first = (ptrdiff_t)j * nx;
-
-    SamRigidGap(&motion, SamRigidOfGap(&motion, j), zero, h + first, t + first);
-  }
-  for (PetscInt k = 0; k < cells; k++) {
-    if (p[k] <= 0) continue;
-    most[0] = PetscMax(most[0], t[k]);
-    most[1] = PetscMax(most[1], -t[k]);
-  }
-  PetscCall(SamMax(w->task->grid->comm, 2, most));
-  for (PetscInt k = 0; k < cells; k++) {
-    const double part = p[k] > 0 && most[0] + most[1] > 0 ? (t[k] + most[1]) / (most[0] + most[1]) : 0;
-
-    t[k] = part * sqrt(part);
-  }
+  for (PetscInt k = 0; k < w->task->grid->cells; k++) most = PetscMax(most, t[k]);
+  PetscCall(SamMax(w->task->grid->comm, 1, &most));
+  for (PetscInt k = 0; k < w->task->grid->cells && most > 0; k++) t[k] = pow(t[k] / most, 1.5);
   PetscCall(VecRestoreArray(time, &t));
-  PetscCall(VecRestoreArrayRead(w->separation, &h));
-  PetscCall(VecRestoreArrayRead(w->s->pressure, &p));
-  PetscCall(PetscFree(zero));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
