@@ -388,8 +388,8 @@ static PetscBool GrowTogether(SamSlip *slip, const SamStep *step)
 
 PetscErrorCode SamAdviceAddSlip(SamAdvice *a, PetscInt k, const SamStep *step)
 {
-  const SamSetup *s    = a->setup;
-  SamSlip        *slip = &a->slip;
+  const SamSetup *s      = a->setup;
+  SamSlip        *slip   = &a->slip;
   double          pushes = 0, work = 0, sticks;
   Numbers         n;
   PetscBool       usual;

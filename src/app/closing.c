@@ -11,7 +11,7 @@
 #include <sys/stat.h>
 
 #define LARGE 0.02 /* error of the dissipated energy by the steps, relative to it, from which on it is warned of */
-#define NONE 1e-4 /* energy over T disp that counts as none: N and T that grow in proportion need not slip */
+#define NONE  1e-4 /* energy over T disp that counts as none: N and T that grow in proportion need not slip */
 #define FOUND 0.5  /* share of the edges from which nothing is said of them */
 
 /* A row of the table: the sum of the times of one or more events. */
