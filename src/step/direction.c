@@ -40,8 +40,8 @@
   grows like the power 3/2 of the distance from the old edge, the pressure like its root behind the new one. In a first
   step, from nothing, it is the power 3/2 of the distance of the undeformed bodies, which a sphere's N grows like; if
   the step has tangential loads, too, and the next one does not continue it in proportion, it applies N first, and all
-  slip counts. The rest works against 0.4 of the bound after the step: behind a moving edge slip fades. Measured on a rigid sphere on a
-  half-space, N alone in 3, 5, 10, 20 equal steps: the energy is too large by 44, 17, 4 and 1 %, and was by 330, 150,
+  slip counts. The rest works against 0.4 of the bound after the step: behind a moving edge slip fades. Measured on a rigid
+  sphere on a half-space, N alone in 3, 5, 10, 20 equal steps: the energy is too large by 44, 17, 4 and 1 %, and was by 330, 150,
   53 and 18 %.
 
   Algorithm. R(q) turns r + w r0 to r; so R ds is opposite to r, and with t = ds - R ds known, the tangential problem
@@ -141,7 +141,7 @@ static PetscErrorCode FindGaps(SamSolve *w, Vec gap)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The same in a step from no contact: the distance of the undeformed bodies, from where they touch first; of contact. */
+/* The same in a step from no contact, of cells in contact after it: the distance of the undeformed bodies. */
 static PetscErrorCode FindDistances(SamSolve *w, Vec distance)
 {
   const PetscInt nx    = w->task->grid->nx;
