@@ -40,9 +40,9 @@
   grows like the power 3/2 of the distance from the old edge, the pressure like its root behind the new one. In a first
   step, from nothing, it is the power 3/2 of the distance of the undeformed bodies, which a sphere's N grows like; if
   the step has tangential loads, too, and the next one does not continue it in proportion, it applies N first, and all
-  slip counts. The rest works against 0.4 of the bound after the step: behind a moving edge slip fades. Measured on a rigid
-  sphere on a half-space, N alone in 3, 5, 10, 20 equal steps: the energy is too large by 44, 17, 4 and 1 %, and was by 330, 150,
-  53 and 18 %.
+  slip counts. The rest works against 0.4 of the bound after the step: behind a moving edge slip fades. Measured on a
+  rigid sphere on a half-space, N alone in 3, 5, 10, 20 equal steps: the energy is too large by 44, 17, 4 and 1 %, and
+  was by 330, 150, 53 and 18 %.
 
   Algorithm. R(q) turns r + w r0 to r; so R ds is opposite to r, and with t = ds - R ds known, the tangential problem
   with the offset lessened by t is that with the rule at the end.
