@@ -56,6 +56,8 @@ typedef struct {
   PetscReal widest;        /* cells: of all zones with slip */
   PetscReal across;        /* cells: of the stick zone after the last step */
   PetscBool pushed;        /* the last step has no tangential displacement given */
+  PetscBool together;      /* N and T have grown in proportion from nothing, */
+  double    part[2];       /* with this T over N */
   PetscBool joined;        /* the normal load has begun to grow, */
   double    coupling;      /* and does in one step of dissimilar bodies: their coupling over friction; 0: it does not */
   double    before_touch;  /* J: what slip would work more if cells had touched before steps of dissimilar bodies */

@@ -50,6 +50,7 @@
 #define ALIKE    1e-6 /* coupling of bodies, or change of a load over the largest, that counts as none */
 #define REVERSED 1.02 /* part of cells that stick, over that of the step before, of a reversal */
 #define NOTHING  1e-6 /* energy over the tangential work that counts as none */
+#define SLIVER   1e-3 /* the same of N and T that grow in proportion, by cells that the edge cuts */
 #define UNSURE   0.5  /* error of a step's energy by its length, relative to it, from which cells do not count */
 #define ROUND    4    /* length of a round edge that is not reconstructed, over the part that counts */
 #define PEAKED   1.25 /* cells: a zone in which the largest slip and shear are not right to 5 % */
@@ -274,11 +275,26 @@ static void Few(SamAdvice *a)
 
 /* ---- the steps ---- */
 
+/* Whether N and T have grown in proportion from nothing: then nothing need slip (step/direction.c). */
+static PetscBool GrowTogether(SamSlip *slip, const SamStep *step)
+{
+  const double load = (double)step->load[SAM_COMPONENT_N];
+
+  if (slip->steps == 1) slip->together = load > 0 && step->control.together ? PETSC_TRUE : PETSC_FALSE;
+  for (int k = 0; k < 2 && slip->together; k++) {
+    const double now = (double)step->load[SAM_COMPONENT_TX + k];
+
+    if (slip->steps == 1) slip->part[k] = now / load;
+    slip->together = fabs(now - slip->part[k] * load) <= ALIKE * load ? PETSC_TRUE : PETSC_FALSE;
+  }
+  return slip->together;
+}
+
 PetscErrorCode SamAdviceAddSlip(SamAdvice *a, const SamStep *step)
 {
-  const SamSetup *s    = a->setup;
-  SamSlip        *slip = &a->slip;
-  double          work = 0, sticks;
+  const SamSetup *s      = a->setup;
+  SamSlip        *slip   = &a->slip;
+  double          pushes = 0, work = 0, sticks;
   Numbers         n;
 
   PetscFunctionBegin;
@@ -292,6 +308,12 @@ PetscErrorCode SamAdviceAddSlip(SamAdvice *a, const SamStep *step)
   Measure(s, &n, slip);
   PetscCall(Join(a, step, &n));
   PetscCall(AddStuck(s, step, n.stick_cells == n.contact_cells ? PETSC_TRUE : PETSC_FALSE, slip));
+  for (PetscInt c = SAM_COMPONENT_TX; c <= SAM_COMPONENT_MZ; c++)
+    pushes += fabs((double)(step->load[c] * step->rigid[c]));
+  if (GrowTogether(slip, step) && n.energy < SLIVER * pushes) {
+    n.energy     = 0;
+    slip->unsure = PETSC_TRUE;
+  }
   slip->energy += (double)n.energy;
   slip->before_touch += PetscMax(n.before_touch, 0);
   slip->growing += n.before_touch > 0 ? 1 : 0;
@@ -303,8 +325,7 @@ PetscErrorCode SamAdviceAddSlip(SamAdvice *a, const SamStep *step)
     slip->unsure = PETSC_TRUE;
   }
   slip->branch += (double)n.energy;
-  for (PetscInt c = SAM_COMPONENT_TX; c <= SAM_COMPONENT_MZ; c++)
-    if (slip->width < INFINITY) work += fabs((double)(step->load[c] * step->rigid[c]));
+  if (slip->width < INFINITY) work = pushes;
   if (step->load[SAM_COMPONENT_N] != 0 &&
       work > NOTHING * NOTHING * fabs((double)(step->load[SAM_COMPONENT_N] * step->rigid[SAM_COMPONENT_N])))
     slip->work = PetscMax(slip->work, work);
