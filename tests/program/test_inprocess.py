@@ -14,7 +14,14 @@ COLUMNS = "time,load_n,disp_x,load_ty"
 ROWS = [(1, 500.0, 0.0, 0.0), (2, 800.0, 3e-7, 20.0), (3, 700.0, -2e-7, -30.0), (4.5, 900.0, 1e-7, 0.0)]
 CYCLE = [(k, 1000.0, 4e-7 * x) for k, x in enumerate((0, 0.5, 1, 0.5, 0, -0.5, -1, -0.5, 0))]
 HISTORY = f"dict(zip({COLUMNS.split(',')!r}, np.transpose({ROWS!r})))"
-BEGIN = f"import numpy as np, petsam\ncase = {CASE!r}\nhistory = {HISTORY}\n"
+BEGIN = (
+    f"import numpy as np, petsam\ncase = {CASE!r}\nhistory = {HISTORY}\n"
+    + '''
+def alike(a, b):
+    """The same numbers, also those that a step does not have."""
+    return a.keys() == b.keys() and all(np.array_equal(a[name], b[name], equal_nan=True) for name in a)
+'''
+)
 
 
 def write(path, columns, rows):
@@ -112,10 +119,10 @@ with petsam.Contact(**case) as contact:
         other.commit()
         shear = other["shear_x"]
     b = contact.try_step(time=9, load_n=600, load_tx=50)
-    assert np.array_equal(a.rigid, b.rigid) and a.numbers == b.numbers and np.array_equal(contact["shear_x"], shear)
+    assert np.array_equal(a.rigid, b.rigid) and alike(a.numbers, b.numbers) and np.array_equal(contact["shear_x"], shear)
     contact.reset()
     again = contact.run(history)
-    assert [s.numbers for s in again] == [s.numbers for s in first]
+    assert all(alike(a.numbers, b.numbers) for a, b in zip(again, first)) and len(again) == len(first)
 """,
         tmp_path,
     )
@@ -271,7 +278,7 @@ with petsam.Contact(restart="c.h5", **case) as contact, petsam.Contact(**case) a
         raise SystemExit("not refused")
     for steps, program in (2, history), (2, more):
         a, b = contact.run(program), whole.run(program)
-        assert len(a) == steps and [s.numbers for s in a] == [s.numbers for s in b[-steps:]]
+        assert len(a) == steps and all(alike(s.numbers, t.numbers) for s, t in zip(a, b[-steps:]))
 """,
         tmp_path,
     )
@@ -470,7 +477,7 @@ with petsam.Contact(**case) as contact:
         assert said(other, shear) == {lines!r}
 with petsam.Contact(**case) as contact:
     assert said(contact, lambda contact: contact.run("h.csv")) == {lines!r}
-    assert said(contact, lambda contact: contact.run("h.csv")) == []
+    assert said(contact, lambda contact: (contact.reset(), contact.run("h.csv"))) == []
 with petsam.Contact(**dict(case, grid_n=32)) as contact:
     coarse = said(contact, lambda contact: contact.try_step(load_n=10))
     assert any("cells across" in line for line in coarse), coarse

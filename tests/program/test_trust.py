@@ -119,7 +119,7 @@ def test_energy_of_a_pad_is_right_or_warned_of(petsam, tmp_path, n):
 
 
 LAST = re.compile(
-    r"the slip zone of the last step is about \S+ times as wide as a cell: .* about (\S+) Pa: -grid_n (\d+)"
+    r"the slip zone of the last step is about \S+ times as wide as a cell: .* about (\S+) Pa: use -grid_n (\d+)"
 )
 REVERSED = [
     (dict(gap_half_flat_x=3.43947e-3, gap_edge_radius_x=1.659538e-2, grid_n=182, grid_size=1.08194618e-2,
