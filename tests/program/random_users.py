@@ -52,7 +52,8 @@ NAMED = (
     ("the load steps are long|slip zones are|widest slip zone|before cells touch|in one step", FRICTIONAL),
     ("maximum shear there", ("shear_max",)),
     ("stick zone is", ("stick_area",)),
-    ("wears in stripes", ("depth_max1", "depth_max2", "pressure_max", "contact_area")),
+    ("wears in stripes", ("depth_max1", "depth_max2", "pressure_max", "shear_max", "contact_area")),
+    ("since the last load reversal", ("slip_max",)),
 )
 MODEL = "half-space theory|linear elasticity|strains are taken as small|periodic images|less than 0.001 of it"
 
