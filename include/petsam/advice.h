@@ -38,41 +38,34 @@ typedef struct {
   load reversals; lengths in cells.
 */
 typedef struct {
-  PetscBool reversed, known;               /* the branch is not of first loading; there is a closed form of all */
-  PetscReal friction;                      /* coefficient */
-  double    line[2], bound;                /* direction of T; mu N (N) */
-  double    start, last, limit;            /* N: T where the branch began, after the last step, and its end at most */
-  double    start_moved[2], last_moved[2]; /* m: displacement along x, y there */
-  double    before, energy;                /* J: of the branches before, and of this one */
-} SamSlipPath;
-typedef struct {
-  PetscInt    steps;
-  PetscBool   rolls;         /* nothing is known */
-  PetscBool   unsure;        /* of some steps the energy is not known for their length, and counts as 0 */
-  double      energy, error; /* J: the sum over cells, and its error, estimated */
-  double      closed;        /* J: by the closed form; NaN: there is none */
-  double      work;          /* J: T disp, the most of a step */
-  double      branch, worst; /* J: energy of the branch; the largest error of one, */
-  PetscReal   narrow[2];     /* and width of the slip zone and length of the edge there */
-  PetscReal   width, length; /* the same after the last step */
-  double      sticks;        /* part of the cells in contact, after the last step */
-  double      stuck;         /* of the shear's change over mu p at the edge, since all cells stick; 0: some slip */
-  double      tangential[2]; /* N: T after the last step, */
-  double      toward[2];     /* N: and its change in it */
-  double      zone, high;    /* J, Pa: energy of the zone of that branch, and shear at its end, by stuck.c */
-  double      missing;       /* J: energy of such zones of branches before */
-  PetscReal   widest;        /* cells: of all zones with slip */
-  double      slipped;       /* m: the maximum slip after the last step, */
-  double      turned;        /* m: and at the reversal before; 0: there was none */
-  PetscReal   across;        /* cells: of the stick zone after the last step */
-  PetscBool   pushed;        /* the last step has no tangential displacement given */
-  PetscBool   joined;        /* the normal load has begun to grow, */
-  double      coupling; /* and does in one step of dissimilar bodies: their coupling over friction; 0: it does not */
-  double      before_touch; /* J: what slip would work more if cells had touched before steps of dissimilar bodies */
-  PetscInt    growing;      /* steps in which they touch */
-  double      share;        /* T over mu N at most before the first reversal */
-  double      first;        /* J: energy until then, with a reversal thereafter; 0: none so far */
-  SamSlipPath path;
+  PetscInt  steps;
+  PetscBool rolls;         /* nothing is known */
+  PetscBool unsure;        /* of some steps the energy is not known for their length, and counts as 0 */
+  double    energy, error; /* J: the sum over cells, and its error, estimated */
+  double    closed;        /* J: by the closed form; NaN: there is none */
+  double    work;          /* J: T disp, the most of a step */
+  double    branch, worst; /* J: energy of the branch; the largest error of one, */
+  PetscReal narrow[2];     /* and width of the slip zone and length of the edge there */
+  PetscReal width, length; /* the same after the last step */
+  double    sticks;        /* part of the cells in contact, after the last step */
+  double    stuck;         /* of the shear's change over mu p at the edge, since all cells stick; 0: some slip */
+  double    tangential[2]; /* N: T after the last step, */
+  double    toward[2];     /* N: and its change in it */
+  double    zone, high;    /* J, Pa: energy of the zone of that branch, and shear at its end, by stuck.c */
+  double    missing;       /* J: energy of such zones of branches before */
+  PetscReal widest;        /* cells: of all zones with slip */
+  double    slipped;       /* m: the maximum slip after the last step, */
+  double    turned;        /* m: and at the reversal before; 0: there was none */
+  PetscReal across;        /* cells: of the stick zone after the last step */
+  PetscBool pushed;        /* the last step has no tangential displacement given */
+  PetscBool together;      /* N and T have grown in proportion from nothing, */
+  double    part[2];       /* with this T over N */
+  PetscBool joined;        /* the normal load has begun to grow, */
+  double    coupling;      /* and does in one step of dissimilar bodies: their coupling over friction; 0: it does not */
+  double    before_touch;  /* J: what slip would work more if cells had touched before steps of dissimilar bodies */
+  PetscInt  growing;       /* steps in which they touch */
+  double    share;         /* T over mu N at most before the first reversal */
+  double    first;         /* J: energy until then, with a reversal thereafter; 0: none so far */
 } SamSlip;
 
 /* SamRollingError - the largest error of a load or creepage that was found in steady rolling (rolling.c). */

@@ -88,6 +88,7 @@ typedef struct {
   PetscBool force[SAM_COMPONENTS]; /* true: the load is given and the displacement is found; false: the reverse */
   PetscBool creep[SAM_COMPONENTS]; /* true: not the displacement, but the creepage is given; then `force` is false */
   PetscReal value[SAM_COMPONENTS]; /* the given load (N, N m), displacement (m, rad) or creepage (1, 1/m) */
+  PetscBool together; /* from no contact: all loads grow in proportion; false: N first, then the tangential loads */
   PetscReal condition[SAM_CONDITIONS]; /* by their places, those that are `given` */
   unsigned char given[SAM_CONDITIONS];
 } SamControl;

@@ -119,8 +119,10 @@ PETSC_INTERN PetscErrorCode SamGapAdviseStep(SamGap gap, SamGrid grid, Vec h, Ve
   SamGapCheckPlane - refuses a shape that is not the same along y, of which a section would not tell. Collective.
   Errors: SAM_ERR_USER with the option that bends it.
   SamGapIsFromFile - whether the gap, or with `rough` its roughness, comes from a file. Not collective.
+  SamGapIsQuadratic - whether the gap is a quadratic function of place, without any heights from files. Not collective.
 */
 PETSC_EXTERN PetscErrorCode SamGapCheckPlane(SamGap gap);
 PETSC_EXTERN PetscBool      SamGapIsFromFile(SamGap gap, PetscBool rough);
+PETSC_INTERN PetscBool      SamGapIsQuadratic(SamGap gap);
 
 #endif

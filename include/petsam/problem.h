@@ -31,12 +31,16 @@ PETSC_EXTERN SamGrid       SamProblemGetGrid(SamProblem problem);       /* borro
   SamProblemSetGap - copies the separation h (m, one component). Collective.
   SamProblemGetGap - the problem's own field, borrowed. It may be changed through PETSc's functions (VecGetArray(),
   VecAXPY() ...), which raise its revision. Not collective.
+  SamProblemSetQuadratic - says that the gap, as it is now, is a quadratic function of place, or that it is not known to
+  be; SamProblemIsQuadratic - whether it still is: a change of the gap ends it. Collective.
   SamProblemGetRevision - a number on this rank that grows with each change of the gap, or of a law, that makes the
   pressure of a solved step wrong. Each rank counts for itself, so that one may write to its part of the gap without the
   others. Not collective.
 */
 PETSC_EXTERN PetscErrorCode SamProblemSetGap(SamProblem problem, Vec h);
 PETSC_EXTERN Vec            SamProblemGetGap(SamProblem problem);
+PETSC_INTERN PetscErrorCode SamProblemSetQuadratic(SamProblem problem, PetscBool quadratic);
+PETSC_INTERN PetscErrorCode SamProblemIsQuadratic(SamProblem problem, PetscBool *quadratic);
 PETSC_INTERN PetscErrorCode SamProblemGetRevision(SamProblem problem, PetscObjectState *revision);
 
 /*

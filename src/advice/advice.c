@@ -24,10 +24,8 @@
 #define CROWDED 0.25
 /* A contact narrower than this part of its radius has a radius that may be in another unit. */
 #define FLATTEST 1e-3
-/* Stress beyond yield where no layer is, over the yield stress, and a layer's thickness over the contact's half width
-   from which on the maximum plastic strain is more than 4 % low. */
+/* Stress beyond yield where no layer is, over the yield stress. */
 #define BEYOND 0.01
-#define THICK  0.2
 /* Plastic strain that is not small. */
 #define STRAINED 0.1
 /*
@@ -37,6 +35,8 @@
 */
 #define COARSE 7.0
 #define SHORT  0.05
+/* Plastic strain at the surface, extrapolated, exceeds that of all layers by this part of it. */
+#define SHALLOW 0.05
 /* Cells half as wide may change the peak pressure by this part of it. */
 #define PEAK 0.05
 /* A coefficient of friction from the first of these on is likely to be percent; from the second on it means stick. */
@@ -521,6 +521,19 @@ static void Coarse(SamAdvice *a)
                across, error, better);
 }
 
+/* Plastic strain that falls from the surface on within the first layers, as under friction. */
+static void Shallow(SamAdvice *a, double most)
+{
+  PetscReal surface = 0;
+
+  a->error = SamContactGetNumber(a->setup->contact, "plastic_surface", &surface);
+  if (a->error || !((1 - most / (double)surface) > SHALLOW)) return;
+  SamAdviceSay(a, "grid_n",
+               "plastic strain is largest at the surface, and falls within the first layers: plastic_max may be too "
+               "small by %.0f %%",
+               100 * (1 - most / (double)surface));
+}
+
 /* Plastic strain that is large, that spans few layers, or that comes to the end of what may yield. */
 static void Yield(SamAdvice *a)
 {
@@ -533,12 +546,12 @@ static void Yield(SamAdvice *a)
   if (!a->error) a->error = SamContactGetNumber(contact, "layer_thickness", &thick);
   if (!a->error) a->error = SamContactGetNumber(contact, "yield_outside", &outside);
   if (a->error) return;
-  if (thick > THICK && (most > 0 || outside > BEYOND))
+  if (thick > SAM_PLASTIC_THICK && (most > 0 || outside > BEYOND))
     SamAdviceSay(a, "plastic_layers",
                  "where the contact yields first, layers are %.2g of its half width thick, more than %g, so that "
                  "plastic strain is "
                  "too small: use %.2g times as many -plastic_layers",
-                 (double)thick, THICK, RoundUp((double)thick / THICK));
+                 (double)thick, SAM_PLASTIC_THICK, RoundUp((double)thick / SAM_PLASTIC_THICK));
   else if (outside > BEYOND)
     SamAdviceSay(a, "plastic_depth",
                  "the stress exceeds the yield stress by %.0f %% below the last layer, so the results are too elastic: "
@@ -549,6 +562,7 @@ static void Yield(SamAdvice *a)
     SamAdviceSay(a, "", "plastic strain up to %.2g: strains are taken as small, up to about %g", (double)most,
                  STRAINED);
   Coarse(a);
+  Shallow(a, (double)most);
   if (left < 1 && !(outside > BEYOND))
     SamAdviceSay(a, "plastic_depth",
                  "plastic strain comes to the last layer or to the border of the grid: use a larger -plastic_depth, "
@@ -684,7 +698,7 @@ PetscErrorCode SamAdviceStep(SamAdvice *a, PetscInt k, PetscBool of_laws, const 
   }
   if (of_laws) PetscCall(LookAtLaws(a, k));
   if (SamMotionOf(a->setup->elasticity)->continues)
-    PetscCall(SamAdviceAddSlip(a, k, step));
+    PetscCall(SamAdviceAddSlip(a, step));
   else
     PetscCall(SamAdviceAddRolling(a, k, step));
   PetscFunctionReturn(PETSC_SUCCESS);

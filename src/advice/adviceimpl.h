@@ -33,7 +33,7 @@ typedef struct {
   double work, shear; /* J: energy, in proportion to the third power; Pa: shear at its end, to the root */
 } SamStuck;
 PETSC_INTERN PetscErrorCode SamAdviceMeasureStuck(const SamSetup *setup, double *share, SamStuck *stuck);
-PETSC_INTERN PetscErrorCode SamAdviceAddSlip(SamAdvice *advice, PetscInt k, const SamStep *step);
+PETSC_INTERN PetscErrorCode SamAdviceAddSlip(SamAdvice *advice, const SamStep *step);
 PETSC_INTERN PetscErrorCode SamAdviceMeasureStick(SamAdvice *advice);
 PETSC_INTERN void SamAdvicePeaks(SamAdvice *advice, double width, double wanted, const char zone[], const char what[]);
 PETSC_INTERN void SamAdviceStick(SamAdvice *advice, PetscReal least);

@@ -11,6 +11,7 @@
 #include <sys/stat.h>
 
 #define LARGE 0.02 /* error of the dissipated energy by the steps, relative to it, from which on it is warned of */
+#define NONE  1e-4 /* energy over T disp that counts as none: N and T that grow in proportion need not slip */
 #define FOUND 0.5  /* share of the edges from which nothing is said of them */
 
 /* A row of the table: the sum of the times of one or more events. */
@@ -131,7 +132,7 @@ static PetscErrorCode PrintEdges(SamReport r)
     PetscCall(PetscSNPrintf(where, sizeof(where), " in step %" PetscInt_FMT " (the worst)", r->edges.step));
   PetscCall(PetscPrintf(r->comm,
                         "  %-10s  reconstructed on %.0f %% of their length%s: the other areas are counted from cells, "
-                        "less %g of a cell for each side at an edge\n",
+                        "less %.2f of a cell for each side at an edge\n",
                         "edges", 100 * (double)r->edges.residual, where, SAM_EDGE_FACE));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -157,7 +158,8 @@ static PetscErrorCode WarnOfEnergy(SamReport r)
   PetscBool                given     = PETSC_FALSE;
 
   PetscFunctionBegin;
-  if (!HasEnergy(r) || r->energy[1] <= LARGE * r->energy[0]) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!HasEnergy(r) || r->energy[1] <= LARGE * PetscMax(r->energy[0], NONE * r->work))
+    PetscFunctionReturn(PETSC_SUCCESS);
   for (size_t k = 0; !given && k < sizeof(without) / sizeof(without[0]); k++)
     PetscCall(PetscOptionsHasName(NULL, NULL, without[k], &given));
   if (r->rank) PetscFunctionReturn(PETSC_SUCCESS);

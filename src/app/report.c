@@ -190,9 +190,9 @@ static void KeepWorst(SamReport r, const SamStep *step)
   }
 }
 
-static PetscErrorCode KeepEnergy(SamReport r, SamContact contact)
+static PetscErrorCode KeepEnergy(SamReport r, SamContact contact, const SamStep *step)
 {
-  PetscReal energy, error;
+  PetscReal energy, error, work = 0;
   PetscBool touches;
   SamState  state;
 
@@ -204,6 +204,8 @@ static PetscErrorCode KeepEnergy(SamReport r, SamContact contact)
   if (isnan(error)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamContactGetNumber(contact, "dissipated_energy", &energy));
   r->energy[0] += energy;
+  for (PetscInt c = SAM_COMPONENT_TX; c <= SAM_COMPONENT_MZ; c++) work += fabs(step->load[c] * step->rigid[c]);
+  r->work = PetscMax(r->work, work);
   /* the first step of similar bodies applies N, then the rest: that is no error */
   if (r->number || touches) r->energy[1] += error;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -253,7 +255,7 @@ static PetscErrorCode CountStep(SamReport r, SamContact contact, PetscInt number
   if (step->status != SAM_STATUS_NO_EQUILIBRIUM) {
     KeepWorst(r, step);
     PetscCall(KeepEdges(r, contact));
-    PetscCall(KeepEnergy(r, contact));
+    PetscCall(KeepEnergy(r, contact, step));
   }
   if (!SamStepIsSolved(step)) r->energy[1] = -INFINITY; /* what a run that failed dissipated is nobody's question */
   PetscFunctionReturn(PETSC_SUCCESS);

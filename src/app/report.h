@@ -52,6 +52,7 @@ struct _n_SamReport {
   SamReportWorst worst[3];                  /* normal, tangential, equilibrium */
   SamReportWorst edges;     /* the least share of the edges that is reconstructed; step 0: none is asked for */
   PetscReal      energy[2]; /* dissipated so far, and the estimate of its error, J */
+  PetscReal      work;      /* T disp, the most of a step, J */
   SamProgress    progress;
   SamContact     contact;     /* whose monitors are set; borrowed */
   SamExtent      extent;      /* of the contact in step `extent_step`, */

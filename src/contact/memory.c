@@ -376,7 +376,7 @@ PetscErrorCode SamContactBegin(SamContact c, const SamControl *control)
   s->mid_step = SamContactSlipBefore(c) && !straight && !c->rolls && c->set.slip_direction == SAM_SLIP_MID;
   s->lags     = !straight && !s->mid_step;
   s->touches  = c->set.slip_direction == SAM_SLIP_MID && SamContactIsCoupled(c) && c->motion->continues && !c->rolls &&
-               (HasContact(before) || AppliesOnlyNormal(before, control));
+               (HasContact(before) || control->together || AppliesOnlyNormal(before, control));
   PetscCall(SamStateSetField(c->state, c->tractions[0], &s->pressure));
   PetscCall(SamStateSetField(c->state, c->tractions[1], &s->bound));
   PetscCall(SamStateSetField(c->state, c->tractions[2], &s->shear));

@@ -17,11 +17,12 @@
 #include "newton.h"
 #include "reaction.h"
 
-#define STEPS    30  /* of Newton's method */
-#define HALVINGS 8   /* of one step */
-#define PRODUCTS 200 /* of one step */
-#define ROUGH    0.1 /* a step's equations are solved at least to this part, */
-#define FORCING  0.3 /* and to this part of the residual relative to its first value */
+#define STEPS    30    /* of Newton's method */
+#define HALVINGS 8     /* of one step */
+#define PRODUCTS 200   /* of one step */
+#define ROUGH    0.1   /* a step's equations are solved at least to this part, */
+#define ROUNDING 1e-12 /* of a product relative to the square of its vector */
+#define FORCING  0.3   /* and to this part of the residual relative to its first value */
 
 /* The fields of a solve, each of all layers, and what a cell's tangent is. */
 typedef struct {
@@ -255,7 +256,7 @@ static PetscErrorCode Multiply(Solve *w, const double from[], double to[])
 /* The step of Newton's method into y, by conjugate gradients, from the residual. */
 static PetscErrorCode FindStep(Solve *w, double part)
 {
-  double *rest = w->e, first, size, before, step;
+  double *rest = w->e, first, size, before, step, square;
 
   PetscFunctionBegin;
   PetscCall(PetscArraycpy(w->y, w->r, w->n));
@@ -269,9 +270,11 @@ static PetscErrorCode FindStep(Solve *w, double part)
     ApplyRoot(w, w->w, w->v);
     for (PetscInt i = 0; i < w->n; i++) w->v[i] = w->z[i] - w->v[i];
     PetscCall(Dot(w, w->z, w->v, &step));
-    PetscCheck(step > 0 || SamReactionSlips(w->reaction), w->plastic->grid->comm, PETSC_ERR_PLIB,
+    PetscCall(Dot(w, w->z, w->z, &square));
+    PetscCheck(step > -ROUNDING * square || SamReactionSlips(w->reaction), w->plastic->grid->comm, PETSC_ERR_PLIB,
                "The operators of plastic strain are not symmetric");
-    if (!(step > 0)) break; /* what slips is not symmetric: so far, then */
+    if (!(step > ROUNDING * square))
+      break; /* what slips is not symmetric, or what flows has no stiffness: so far, then */
     step = size / step;
     for (PetscInt i = 0; i < w->n; i++) {
       w->y[i] += step * w->w[i];

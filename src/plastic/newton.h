@@ -45,7 +45,7 @@ PETSC_INTERN PetscErrorCode SamPlasticWork(const SamPlastic *plastic, const doub
 /*
   SamPlasticLookOutside - `excess`: the largest von Mises stress beyond yield, over the yield stress, below the last
   layer and inside layers that are thick beside the contact, 0 if there is none; `thick`: the thickness of the layer in
-  which a contact yields first, over the contact's half width. Collective.
+  which a contact yields first, over the contact's half width, thick above SAM_PLASTIC_THICK. Collective.
 */
 PETSC_INTERN PetscErrorCode SamPlasticLookOutside(SamPlastic *plastic, Vec state, Vec pressure, Vec shear,
                                                   double *thick, double *excess);

@@ -9,8 +9,8 @@
 /* Depths over the half width of the contact that are looked at, if they lie below the last layer or in a thick one. */
 static const double places[] = {0, 0.25, 0.48, 0.7, 1, 1.5, 2};
 #define PLACES ((PetscInt)(sizeof(places) / sizeof(places[0])))
-#define FIRST  0.48 /* where layers must be thin */
-#define THICK  0.25 /* a layer's thickness over the half width from which on its middle is too far from its borders */
+#define FIRST  0.48 /* where layers must be thin, */
+#define DEEP   0.7  /* and the deepest place at which a contact yields first */
 #define NARROW 0.1  /* part of the cells in contact whose zones, the narrowest, do not count */
 
 /* Adds a layer's residual stress and takes the tractions' stress at a depth; the largest excess over the yield stress. */
@@ -57,7 +57,7 @@ PetscErrorCode SamPlasticLookOutside(SamPlastic *p, Vec state, Vec pressure, Vec
   for (PetscInt k = 0; k < PLACES; k++) {
     const PetscReal depth = places[k] * half;
 
-    if (depth < bottom && p->thickness[SamPlasticFind(p, depth)] < THICK * half) continue;
+    if (depth < bottom && (*thick <= SAM_PLASTIC_THICK || places[k] > DEEP)) continue;
     if (!residual) {
       PetscCall(PetscMalloc1(PARTS * p->bodies * p->layers * cells, &residual));
       PetscCall(SamPlasticStress(p, state, NULL, NULL, residual, NULL));

@@ -9,9 +9,12 @@ struct _n_SamProblem {
   SamElasticity elasticity;
   SamGrid       grid; /* of the elasticity; borrowed */
   Vec           gap;  /* its revision is PETSc's object state, which grows with every change */
-  SamConditions conditions;
-  PetscInt      laws;
-  SamLaw        law[SAM_LAWS]; /* in the order in which their types were registered */
+  PetscBool     quadratic;
+
+  PetscObjectState quadratic_at; /* that of the gap then */
+  SamConditions    conditions;
+  PetscInt         laws;
+  SamLaw           law[SAM_LAWS]; /* in the order in which their types were registered */
 };
 
 /* ---- creation ---- */
@@ -107,6 +110,27 @@ PetscErrorCode SamProblemSetGap(SamProblem p, Vec h)
 Vec SamProblemGetGap(SamProblem p)
 {
   return p->gap;
+}
+
+PetscErrorCode SamProblemSetQuadratic(SamProblem p, PetscBool quadratic)
+{
+  PetscFunctionBegin;
+  p->quadratic = quadratic;
+  PetscCall(PetscObjectStateGet((PetscObject)p->gap, &p->quadratic_at));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamProblemIsQuadratic(SamProblem p, PetscBool *quadratic)
+{
+  PetscObjectState now;
+  double           changed;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectStateGet((PetscObject)p->gap, &now));
+  changed = now != p->quadratic_at; /* perhaps on some ranks only */
+  if (p->quadratic) PetscCall(SamMax(p->grid->comm, 1, &changed));
+  *quadratic = p->quadratic && changed == 0 ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamProblemGetRevision(SamProblem p, PetscObjectState *revision)

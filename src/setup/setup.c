@@ -54,6 +54,7 @@ PetscErrorCode SamSetupCreateContact(SamSetup *s, const SamOptions *from)
 {
   PetscFunctionBegin;
   if (!SamPrintHelp()) PetscCall(SamGapFill(s->gap, s->grid, SamProblemGetGap(s->problem)));
+  PetscCall(SamProblemSetQuadratic(s->problem, SamGapIsQuadratic(s->gap)));
   PetscCall(CreateContact(s, from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -76,6 +77,7 @@ PetscErrorCode SamSetupCreateCoarse(const SamSetup *s, const SamOptions *from, S
   } else {
     PetscCall(SamGapFill(s->gap, coarse->grid, gap));
   }
+  PetscCall(SamProblemSetQuadratic(coarse->problem, SamGapIsQuadratic(s->gap)));
   PetscCall(CreateContact(coarse, from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -241,6 +241,8 @@ PetscErrorCode SamSimulationRestart(SamSimulation s)
 
   PetscFunctionBegin;
   ListNotes(s->conditions, &n);
+  if (s->checkpoints.other_gap) /* which is not that of the steps so far */
+    PetscCall(SamProblemSetQuadratic(s->setup.problem, PETSC_FALSE));
   PetscCall(SamCheckpointRead(s->checkpoints.restart, s->setup.contact, PETSC_TRUE, &s->parameters, n.count, n.note));
   p->steps     = (PetscInt)n.progress.at.steps;
   p->worst     = (SamStatus)n.progress.at.worst;

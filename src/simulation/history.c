@@ -442,6 +442,25 @@ SamControl SamHistoryGetStep(SamHistory h, PetscInt k)
   return SamHistoryGetPart(h, k, 1);
 }
 
+/* Changes of two rows that differ by less, relative to the larger, are in proportion. */
+#define IN_PROPORTION 1e-9
+
+/* Whether all that is prescribed changes in the row after r as it does in r, but for the size of the change. */
+static PetscBool ContinuesAfter(SamHistory h, PetscInt r)
+{
+  const double now  = ValueOfRow(h, SAM_COMPONENT_N, r) - ValueOfRow(h, SAM_COMPONENT_N, r - 1);
+  const double next = r + 1 < h->rows ? ValueOfRow(h, SAM_COMPONENT_N, r + 1) - ValueOfRow(h, SAM_COMPONENT_N, r) : 0;
+
+  if (!(now * next > 0)) return PETSC_FALSE;
+  for (PetscInt p = 0; p < h->parts; p++) {
+    const double one   = next * (ValueOfRow(h, p, r) - ValueOfRow(h, p, r - 1)),
+                 other = now * (ValueOfRow(h, p, r + 1) - ValueOfRow(h, p, r));
+
+    if (fabs(one - other) > IN_PROPORTION * PetscMax(fabs(one), fabs(other))) return PETSC_FALSE;
+  }
+  return PETSC_TRUE;
+}
+
 SamControl SamHistoryGetPart(SamHistory h, PetscInt k, PetscReal part)
 {
   const PetscInt r = RowOf(h, k), steps = r ? h->increments : h->start;
@@ -457,5 +476,6 @@ SamControl SamHistoryGetPart(SamHistory h, PetscInt k, PetscReal part)
                         ? ValueOfRow(h, p, r) / (double)steps
                         : BETWEEN(ValueOfRow(h, p, r - 1), ValueOfRow(h, p, r)));
 #undef BETWEEN
+  control.together = (r ? (k - h->start) % h->increments : k) + 1 < steps || ContinuesAfter(h, r);
   return control;
 }

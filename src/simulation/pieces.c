@@ -13,8 +13,8 @@
   Pieces are halves of halves of the step, at least 1/1024, where the estimate is accepted as it is. All decisions are
   those of global numbers of this step: the same on any number of ranks, and after a restart.
 
-  A step from no contact applies N, then the tangential loads. So do its pieces: N and all but the tangential loads grow
-  in the first half of them, the tangential loads in the second.
+  A step from no contact applies N, then the tangential loads, unless the next step continues it in proportion. So do
+  its pieces: N and all but the tangential loads grow in the first half of them, the tangential loads in the second.
 */
 #include "simulationimpl.h"
 #include <petsam/balance.h>
@@ -55,14 +55,14 @@ PetscErrorCode SamSimulationDeclarePieces(SamSimulation s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether there is no contact yet: the step to come is one from no load. */
-static PetscErrorCode IsApart(SamSimulation s, PetscBool *apart)
+/* Whether there is no contact yet, and step k applies N, then the tangential loads. */
+static PetscErrorCode IsApart(SamSimulation s, PetscInt k, PetscBool *apart)
 {
   const SamSolution *before;
 
   PetscFunctionBegin;
   PetscCall(SamContactGetSolution(s->setup.contact, &before));
-  *apart = before->load[SAM_COMPONENT_N] > 0 ? PETSC_FALSE : PETSC_TRUE;
+  *apart = before->load[SAM_COMPONENT_N] > 0 || SamHistoryGetStep(s->history, k).together ? PETSC_FALSE : PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -116,7 +116,7 @@ PetscErrorCode SamSimulationTry(SamSimulation s, PetscInt k, SamStep *step)
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(SamContactGetState(s->setup.contact, &state));
-  PetscCall(IsApart(s, &apart));
+  PetscCall(IsApart(s, k, &apart));
   while (PETSC_TRUE) {
     control = ControlAt(s, k, apart, done + piece);
     PetscCall(SamSimulationTryStep(s, &control, step));

@@ -132,6 +132,7 @@ enum {
   DISSIPATED_ENERGY,
   STORED_ENERGY,
   ENERGY_ERROR,
+  CLOSED,
   ENTERING,
   NUMBERS
 };
@@ -159,6 +160,8 @@ static const SamStateNumber declared[NUMBERS] = {
   REAL("dissipated_energy", "J", "frictional work of the load step", SAM_JOIN_SUM, 2),
   REAL("stored_energy", "J", "elastic energy of both bodies", SAM_JOIN_LAST, 2),
   REAL("energy_error", "J", "estimated error of dissipated_energy by the length of the load step", SAM_JOIN_SUM, 0),
+  REAL("dissipated_energy_closed", "J", "the same in closed form, of alike bodies under T along a line", SAM_JOIN_SUM,
+       0),
   {SAM_ENTERING, "J", NULL, SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_FALSE, SAM_JOIN_SUM, 0}};
 
 /* Of the edge of contact: whether it is known, its area, faces and good faces. They hold while the pressure does. */
@@ -172,6 +175,7 @@ PetscErrorCode SamSolutionDeclareNumbers(SamState state, SamMotion motion)
 
   PetscFunctionBegin;
   PetscCall(SamStateDeclareNumber(state, &contact_edge, &id));
+  PetscCall(SamSolutionDeclareClosed(state));
   for (PetscInt k = 0; k < NUMBERS; k++) PetscCall(SamMotionDeclareNumber(motion, state, &declared[k], &id));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -257,6 +261,7 @@ PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamState state, con
   PetscFunctionBegin;
   streams = SamMotionOf(SamProblemGetElasticity(problem))->streams;
   PetscCall(SumCells(problem, before, s, numbers));
+  PetscCall(SamSolutionFollowClosed(problem, state, before, s, numbers[STICK_CELLS], &numbers[CLOSED]));
   if (streams) numbers[STORED_ENERGY] = NAN; /* u_t is that of a rolled distance */
   if (streams || SamProblemGetRolled(problem, &s->control, NULL) != 0)
     numbers[ENERGY_ERROR] = NAN; /* estimated at one place */

@@ -23,12 +23,19 @@
 
     -kappa tau' g0,  tau' = tau min(1, mu/|tau|)
 
-  kappa being the ratio of the tangential to the normal compliance. Slip in the step begins there. If contact has not
-  grown by N, or there was none, this is zero, as at a place that contact leaves. Of bodies with layers or a shape of
-  their own kappa is that of the materials at the surface. Where the bodies tilt as well, it counts by the part of the
-  pressure's growth at the edge that N makes. Of what M_z, tilting and bulk stress move there, nothing is known: their
-  error stays of first order. So is what the pressure of dissimilar bodies moves, which is the other way: from a
-  Dundurs' constant of MOST_DUNDURS on both are left out, as they cancel in part.
+  kappa being the ratio of the tangential to the normal compliance. Slip in the step begins there. In a step from
+  no contact g0 is the distance of the undeformed bodies, if all loads grow in proportion. If contact has not grown by
+  N, or N is applied first, this is zero, as at a place that contact leaves. Of bodies with layers or a shape of
+  their own kappa is that of the materials at the surface. At the edge pressure and shear grow like those of a punch
+  that sticks, and tau is the ratio there. A displacement that is linear in place about the centre counts twice at the
+  edge of a round punch, compared to a uniform one: so does tilting in the growth of the pressure, and the strain by
+  bulk stress, e, in that of the shear,
+
+    kappa tau = (kappa dT/dN d - 2 e r)/(d + 2 tilt),
+
+  d being the approach; in plane strain, where it has no limit, it is 4 dN/(pi E*); from no contact tau is that of N. Of what M_z moves there, nothing is
+  known: its error stays of first order. So is what the pressure of dissimilar bodies moves, which is the other way:
+  from a Dundurs' constant of MOST_DUNDURS on both are left out, as they cancel in part.
 
   Of dissimilar bodies the pressure moves the surfaces all the time, outside of contact too, and most of the slip of a
   growing contact is in cells that touch within the step. Of what they move by in the step, ds, the part
@@ -38,10 +45,10 @@
   is before they touch, g0 being the gap before the step, p1 the pressure after it, G and P the largest of both: the gap
   grows like the power 3/2 of the distance from the old edge, the pressure like its root behind the new one. In a first
   step, from nothing, it is the power 3/2 of the distance of the undeformed bodies, which a sphere's N grows like; if
-  the step has tangential loads, too, it applies N first, and all slip counts. The
-  rest works against 0.4 of the bound after the step: behind a moving edge slip fades. Measured on a rigid sphere on a
-  half-space, N alone in 3, 5, 10, 20 equal steps: the energy is too large by 44, 17, 4 and 1 %, and was by 330, 150,
-  53 and 18 %.
+  the step has tangential loads, too, and the next one does not continue it in proportion, it applies N first, and all
+  slip counts. The rest works against 0.4 of the bound after the step: behind a moving edge slip fades. Measured on a
+  rigid sphere on a half-space, N alone in 3, 5, 10, 20 equal steps: the energy is too large by 44, 17, 4 and 1 %, and
+  was by 330, 150, 53 and 18 %.
 
   Algorithm. R(q) turns r + w r0 to r; so R ds is opposite to r, and with t = ds - R ds known, the tangential problem
   with the offset lessened by t is that with the rule at the end.
@@ -67,15 +74,21 @@
 /* Largest size of Dundurs' constant of the surfaces for which shear alone says how they move over each other. */
 #define MOST_DUNDURS 0.15
 
-/* Whether contact there was before grows with N, and shear says how the surfaces move where it is made. */
+/* A load before the step: zero before the first one. */
+static PetscReal LoadBefore(SamSolve *w, PetscInt component)
+{
+  return w->task->before ? w->task->before->load[component] : 0;
+}
+
+/* Whether contact grows with N and the other loads, and shear says how the surfaces move where it is made. */
 static PetscBool Grows(SamSolve *w)
 {
-  const SamSolution *before = w->task->before;
-  const SamPair      pair   = SamElasticityGetPair(w->task->elasticity);
+  const SamPair   pair    = SamElasticityGetPair(w->task->elasticity);
+  const PetscReal before  = LoadBefore(w, SAM_COMPONENT_N);
+  const PetscBool touched = before > 0 || w->s->control.together ? PETSC_TRUE : PETSC_FALSE;
 
-  return before && w->task->set->slip_direction == SAM_SLIP_MID && !w->task->rolls &&
-         before->load[SAM_COMPONENT_N] > 0 && w->s->load[SAM_COMPONENT_N] > before->load[SAM_COMPONENT_N] &&
-         !(w->task->coupled && fabs((double)pair->dundurs) > MOST_DUNDURS);
+  return touched && w->task->set->slip_direction == SAM_SLIP_MID && w->task->motion->continues && !w->task->rolls &&
+         w->s->load[SAM_COMPONENT_N] > before && !(w->task->coupled && fabs((double)pair->dundurs) > MOST_DUNDURS);
 }
 
 PetscBool SamSolveIsTwice(SamSolve *w)
@@ -91,73 +104,144 @@ static double RatioOfCompliances(SamSolve *w, int c)
   return (double)((pair->shear + (w->task->traits.plane ? c : (PetscReal)0.5) * pair->shear_xx) / pair->normal);
 }
 
-/* How the bodies approach each other in a step: uniformly, about the centre of the pressure before, and by tilting. */
+/*
+  What a step adds to the bodies' motion: the approach about the centre of the pressure before, tilting, the strain of
+  the surfaces, and the change of the tangential loads over that of N.
+*/
 typedef struct {
-  double center[2], uniform, tilt[2];
+  double    center[2], uniform, tilt[2], tau[2];
+  SamStrain strain;
 } Approach;
 
-static Approach ApproachOf(const SamSolution *before, const SamSolution *now)
+static PetscErrorCode AddMotion(SamSolve *w, const SamSolution *before, double normal, Approach *a)
 {
-  double   change[SAM_COMPONENTS];
-  Approach a;
+  const SamSolution *now = w->s;
+  SamStrain          e;
 
-  for (PetscInt k = 0; k < SAM_COMPONENTS; k++) change[k] = (double)(now->rigid[k] - before->rigid[k]);
-  a.center[0] = (double)(before->load[SAM_COMPONENT_MY] / before->load[SAM_COMPONENT_N]);
-  a.center[1] = -(double)(before->load[SAM_COMPONENT_MX] / before->load[SAM_COMPONENT_N]);
-  a.tilt[0]   = change[SAM_COMPONENT_MY];
-  a.tilt[1]   = -change[SAM_COMPONENT_MX];
-  a.uniform   = change[SAM_COMPONENT_N] + a.tilt[0] * a.center[0] + a.tilt[1] * a.center[1];
-  return a;
+  PetscFunctionBegin;
+  PetscCall(SamProblemGetStrain(w->task->problem, &now->control, &a->strain));
+  PetscCall(SamProblemGetStrain(w->task->problem, &before->control, &e));
+  a->strain    = (SamStrain){a->strain.xx - e.xx, a->strain.yy - e.yy, a->strain.xy - e.xy};
+  a->center[0] = (double)(before->load[SAM_COMPONENT_MY] / before->load[SAM_COMPONENT_N]);
+  a->center[1] = -(double)(before->load[SAM_COMPONENT_MX] / before->load[SAM_COMPONENT_N]);
+  a->tilt[0]   = (double)(now->rigid[SAM_COMPONENT_MY] - before->rigid[SAM_COMPONENT_MY]);
+  a->tilt[1]   = -(double)(now->rigid[SAM_COMPONENT_MX] - before->rigid[SAM_COMPONENT_MX]);
+  a->uniform   = (double)(now->rigid[SAM_COMPONENT_N] - before->rigid[SAM_COMPONENT_N]) + a->tilt[0] * a->center[0] +
+               a->tilt[1] * a->center[1];
+  if (w->task->traits.plane)
+    a->uniform = 4 * normal / (PETSC_PI * (double)SamPairModulus(SamElasticityGetPair(w->task->elasticity)));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The part of the pressure's change at the contact edge near a point that N makes: of a tilted punch. */
-static double PartOfN(const Approach *a, double x, double y)
+static PetscErrorCode FindApproach(SamSolve *w, PetscBool found, Approach *a)
 {
-  const double tilt = a->tilt[0] * (x - a->center[0]) + a->tilt[1] * (y - a->center[1]);
+  const SamSolution *before = w->task->before, *now = w->s;
+  const PetscReal    load   = LoadBefore(w, SAM_COMPONENT_N);
+  const double       normal = (double)(now->load[SAM_COMPONENT_N] - load);
 
-  return a->uniform > 0 ? a->uniform / (a->uniform + 2 * PetscMax(0, tilt)) : 0;
+  PetscFunctionBegin;
+  *a = (Approach){.uniform = 1}; /* from no contact: all that grows is by N */
+  for (PetscInt c = 0; c < 2; c++) {
+    const PetscInt  k   = SamComponentsOf[SAM_BALANCE_TANGENTIAL][c];
+    const PetscReal was = LoadBefore(w, k);
+    const PetscReal is  = found ? now->load[k] : (w->tangential.force[c] ? w->tangential.load[c] : was);
+
+    a->tau[c] = (double)(is - was) / normal;
+  }
+  if (load > 0) PetscCall(AddMotion(w, before, normal, a));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The change of the shear over that of the pressure at the contact edge near a point, both of a punch that sticks. */
+static void ShearAtEdge(const Approach *a, const double kappa[2], double x, double y, double tau[2])
+{
+  const double    at_x = x - a->center[0], at_y = y - a->center[1];
+  const double    tilt = a->tilt[0] * at_x + a->tilt[1] * at_y, normal = a->uniform + 2 * PetscMax(0, tilt);
+  const SamStrain e        = a->strain;
+  const double    moved[2] = {e.xx * at_x + e.xy * at_y, e.xy * at_x + e.yy * at_y};
+
+  for (int c = 0; c < 2; c++) tau[c] = a->uniform > 0 ? (a->tau[c] * a->uniform - 2 * moved[c] / kappa[c]) / normal : 0;
+}
+
+/* The gap before the step of cells that were open; of others 0. */
+static PetscErrorCode FindGaps(SamSolve *w, Vec gap)
+{
+  const double *p;
+  double       *g;
+
+  PetscFunctionBegin;
+  PetscCall(SamSolutionComputeGap(w->task->problem, w->task->before, w->separation, gap));
+  PetscCall(VecGetArrayRead(w->task->before->pressure, &p));
+  PetscCall(VecGetArray(gap, &g));
+  for (PetscInt k = 0; k < w->task->grid->cells; k++) g[k] = p[k] > 0 ? 0 : g[k];
+  PetscCall(VecRestoreArray(gap, &g));
+  PetscCall(VecRestoreArrayRead(w->task->before->pressure, &p));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The same in a step from no contact, of cells in contact after it: the distance of the undeformed bodies. */
+static PetscErrorCode FindDistances(SamSolve *w, Vec distance)
+{
+  const PetscInt nx    = w->task->grid->nx;
+  double         least = -INFINITY; /* its negative */
+  const double  *p, *h;
+  double        *zero, *g;
+  SamRigid       motion;
+
+  PetscFunctionBegin;
+  PetscCall(SamRigidSet(&motion, w->task->problem, w->s));
+  PetscCall(PetscCalloc1(nx, &zero));
+  PetscCall(VecGetArrayRead(w->s->pressure, &p));
+  PetscCall(VecGetArrayRead(w->separation, &h));
+  PetscCall(VecGetArray(distance, &g));
+  for (PetscInt j = 0; j < w->task->grid->rows; j++) {
+    const ptrdiff_t first = (ptrdiff_t)j * nx;
+
+    SamRigidGap(&motion, SamRigidOfGap(&motion, j), zero, h + first, g + first);
+  }
+  for (PetscInt k = 0; k < w->task->grid->cells; k++)
+    if (p[k] > 0) least = PetscMax(least, -g[k]);
+  PetscCall(SamMax(w->task->grid->comm, 1, &least));
+  for (PetscInt k = 0; k < w->task->grid->cells; k++) g[k] = p[k] > 0 ? g[k] + least : 0;
+  PetscCall(VecRestoreArray(distance, &g));
+  PetscCall(VecRestoreArrayRead(w->separation, &h));
+  PetscCall(VecRestoreArrayRead(w->s->pressure, &p));
+  PetscCall(PetscFree(zero));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Sets what the surfaces have moved by in cells that come into contact, by the loads, given or `found`. */
 static PetscErrorCode SetEntering(SamSolve *w, PetscBool found, Vec aside)
 {
-  const SamSolution *before = w->task->before, *s = w->s;
+  const SamSolution *s        = w->s;
   const SamGrid      grid     = w->task->grid;
   const PetscInt     cells    = grid->cells;
-  const Approach     approach = ApproachOf(before, s);
   const double       kappa[2] = {RatioOfCompliances(w, 0), RatioOfCompliances(w, 1)};
-  double             tau[2], size, *to;
-  const double      *p0, *p, *b, *g;
+  double            *to;
+  const double      *p, *b, *g;
+  Approach           approach;
   Vec                gap;
 
   PetscFunctionBegin;
-  for (PetscInt c = 0; c < 2; c++) {
-    const PetscInt  k   = SamComponentsOf[SAM_BALANCE_TANGENTIAL][c];
-    const PetscReal now = found ? s->load[k] : (w->tangential.force[c] ? w->tangential.load[c] : before->load[k]);
-
-    tau[c] = (double)((now - before->load[k]) / (s->load[SAM_COMPONENT_N] - before->load[SAM_COMPONENT_N]));
-  }
-  size = hypot(tau[0], tau[1]);
-  if (size == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(FindApproach(w, found, &approach));
   PetscCall(SamGridCreateVec(w->task->grid, 1, &gap));
-  PetscCall(SamSolutionComputeGap(w->task->problem, before, w->separation, gap));
+  PetscCall((LoadBefore(w, SAM_COMPONENT_N) > 0 ? FindGaps : FindDistances)(w, gap));
   PetscCall(VecGetArrayRead(gap, &g));
-  PetscCall(VecGetArrayRead(before->pressure, &p0));
   PetscCall(VecGetArrayRead(s->pressure, &p));
   PetscCall(VecGetArrayRead(s->bound, &b));
   PetscCall(VecGetArray(aside, &to));
   for (PetscInt k = 0; k < cells; k++) {
-    double part;
+    double tau[2], size, part;
 
-    if (p0[k] > 0 || p[k] <= 0 || g[k] <= 0) continue;
-    part = PetscMin(1, b[k] / (p[k] * size)) *
-           PartOfN(&approach, SamGridX(grid, k % grid->nx), SamGridY(grid, grid->row_start + k / grid->nx));
+    if (p[k] <= 0 || g[k] <= 0) continue;
+    ShearAtEdge(&approach, kappa, SamGridX(grid, k % grid->nx), SamGridY(grid, grid->row_start + k / grid->nx), tau);
+    size = hypot(tau[0], tau[1]);
+    part = size * p[k] > b[k] ? b[k] / (p[k] * size) : 1;
     for (int c = 0; c < 2; c++) to[k + c * cells] = -kappa[c] * tau[c] * part * g[k];
   }
   PetscCall(VecRestoreArray(aside, &to));
   PetscCall(VecRestoreArrayRead(s->bound, &b));
   PetscCall(VecRestoreArrayRead(s->pressure, &p));
-  PetscCall(VecRestoreArrayRead(before->pressure, &p0));
   PetscCall(VecRestoreArrayRead(gap, &g));
   PetscCall(VecDestroy(&gap));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -258,38 +342,15 @@ static PetscErrorCode FindTimes(SamSolve *w, Vec time)
 /* The same in a step from no contact, in which all cells touch: by the distance of the undeformed bodies. */
 static PetscErrorCode FindFirstTimes(SamSolve *w, Vec time)
 {
-  const PetscInt cells = w->task->grid->cells, nx = w->task->grid->nx;
-  double        *t, most[2]                       = {-INFINITY, -INFINITY}; /* of the distance and of its negative */
-  const double  *p, *h;
-  double        *zero;
-  SamRigid       motion;
+  double *t, most = 0;
 
   PetscFunctionBegin;
-  PetscCall(SamRigidSet(&motion, w->task->problem, w->s));
-  PetscCall(PetscCalloc1(nx, &zero));
-  PetscCall(VecGetArrayRead(w->s->pressure, &p));
-  PetscCall(VecGetArrayRead(w->separation, &h));
+  PetscCall(FindDistances(w, time));
   PetscCall(VecGetArray(time, &t));
-  for (PetscInt j = 0; j < w->task->grid->rows; j++) {
-    const ptrdiff_t first = (ptrdiff_t)j * nx;
-
-    SamRigidGap(&motion, SamRigidOfGap(&motion, j), zero, h + first, t + first);
-  }
-  for (PetscInt k = 0; k < cells; k++) {
-    if (p[k] <= 0) continue;
-    most[0] = PetscMax(most[0], t[k]);
-    most[1] = PetscMax(most[1], -t[k]);
-  }
-  PetscCall(SamMax(w->task->grid->comm, 2, most));
-  for (PetscInt k = 0; k < cells; k++) {
-    const double part = p[k] > 0 && most[0] + most[1] > 0 ? (t[k] + most[1]) / (most[0] + most[1]) : 0;
-
-    t[k] = part * sqrt(part);
-  }
+  for (PetscInt k = 0; k < w->task->grid->cells; k++) most = PetscMax(most, t[k]);
+  PetscCall(SamMax(w->task->grid->comm, 1, &most));
+  for (PetscInt k = 0; k < w->task->grid->cells && most > 0; k++) t[k] = pow(t[k] / most, 1.5);
   PetscCall(VecRestoreArray(time, &t));
-  PetscCall(VecRestoreArrayRead(w->separation, &h));
-  PetscCall(VecRestoreArrayRead(w->s->pressure, &p));
-  PetscCall(PetscFree(zero));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

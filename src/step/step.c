@@ -250,7 +250,7 @@ static PetscErrorCode CreateOffset(SamSolve *w, Vec *offset)
   *offset = NULL;
   PetscCall(SamProblemGetStrain(task->problem, &w->s->control, &e));
   strained = e.xx != 0 || e.yy != 0 || e.xy != 0;
-  if (!w->pushed && !w->task->before && !strained) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!w->pushed && !w->task->before && !strained && !w->s->aside) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamGridCreateVec(task->grid, 2, offset));
   if (w->task->before) {
     PetscCall(VecGetArray(*offset, &slip));

@@ -96,3 +96,42 @@ def test_friction_limit_does_not_depend_on_the_bulk_stress(petsam):
     limit = slide_limit(BALL)[0]
     petsam(dict(BALL, load_tx=0.999 * limit, bulk2_stress_xx=3e7))
     petsam(dict(BALL, load_tx=1.001 * limit, bulk2_stress_xx=3e7), check=11)
+
+
+def stretched(folder, kind, phase):
+    """Two cycles of N, which varies by 70 %, and bulk stress, five rows each; `phase` 0: in proportion."""
+    load, stress = (400.0, 150e6) if kind == "sphere" else (1e5, 100e6)
+    turns = [2 * np.pi * k / 5 for k in range(11)]
+    rows = [
+        (float(k), load * (1 + 0.7 * float(np.sin(t))), stress * float(np.sin(t + phase))) for k, t in enumerate(turns)
+    ]
+    grid = dict(grid_n=40, grid_size=1.5e-3) if kind == "sphere" else dict(grid_n=120, grid_size=1.6e-3)
+    case = dict(grid, gap_type="sphere", gap_radius1=0.05, gap_radius2=float("inf"), friction=0.5, output_every=1000)
+    case |= {f"body{b}_{name}": value for b in (1, 2) for name, value in (("young", 200e9), ("poisson", 0.3))}
+    if kind == "plane":
+        case["elasticity"] = "plane"
+    return case | history(folder / f"{kind}{phase}.csv", "time,load_n,bulk2_stress_xx", *rows)
+
+
+def of_a_cycle(run, steps, *names):
+    with h5py.File(run.path) as f:
+        return [f[f"history/{name}"][-5 * steps :].sum() for name in names]
+
+
+@pytest.mark.parametrize("kind", ["sphere", "plane"])
+def test_slip_by_the_stretch_begins_with_contact(solve, tmp_path, kind):
+    """Held from the beginning of the step, cells that touch late in it would make 9 % too much of the energy."""
+    case = stretched(tmp_path, kind, 2.5)
+    few, many = (solve(case, dict(steps=steps)) for steps in (4, 32))
+    energy, estimate = of_a_cycle(few, 4, "dissipated_energy", "energy_error")
+    exact = of_a_cycle(many, 32, "dissipated_energy")[0]
+    error = abs(energy - exact)
+    assert error < 0.03 * exact and error / 3 < estimate < 3 * error
+
+
+def test_contact_that_is_stretched_in_proportion_to_the_load_sticks(solve, tmp_path):
+    """In plane strain the drift is exact."""
+    case = stretched(tmp_path, "plane", 0.0)
+    energy = of_a_cycle(solve(case), 1, "dissipated_energy")[0]
+    apart = of_a_cycle(solve(stretched(tmp_path, "plane", 0.7)), 1, "dissipated_energy")[0]
+    assert energy < 1e-5 * apart

@@ -352,21 +352,23 @@ def test_few_steps_of_dissimilar_bodies_are_warned_of(petsam):
     assert not petsam(similar(STEEL), dict(steps=3)).complaint
 
 
-def energy_of(petsam, tmp_path, steps):
-    """The dissipated energy of a rigid sphere as N grows, its estimated error, and that error as it is printed."""
-    done = petsam(RIGID, dict(steps=steps, output="out.h5"))
+def energy_of(petsam, tmp_path, steps, share):
+    """The dissipated energy of a rigid sphere as N grows, and T with it; its estimated error, also as it is printed."""
+    load = share * RIGID["friction"] * RIGID["load_n"]
+    done = petsam(RIGID, dict(steps=steps, load_tx=load, output="out.h5", overwrite=True))
     with h5py.File(tmp_path / "out.h5") as f:
         energy, error = (f["history"][name][:].sum() for name in ("dissipated_energy", "energy_error"))
     return energy, error, float(re.search(r"load steps about (\S+) %", done.stdout)[1]) / 100
 
 
-def test_energy_as_contact_grows(petsam, tmp_path):
-    """Slip counts from when cells touch; before, ten steps were wrong by 53 and twenty by 18 %."""
-    right = energy_of(petsam, tmp_path, 60)[0]
-    energy, error, printed = energy_of(petsam, tmp_path, 10)
+@pytest.mark.parametrize("share", [0, 0.5])
+def test_energy_as_contact_grows(petsam, tmp_path, share):
+    """Slip counts from when cells touch; before, ten steps were wrong by 53 and twenty by 18 % at T = 0."""
+    right = energy_of(petsam, tmp_path, 60, share)[0]
+    energy, error, printed = energy_of(petsam, tmp_path, 10, share)
     assert abs(energy - right) < 0.05 * right
     assert printed == pytest.approx(error / energy, rel=0.06)  # with the first step, where all cells touch
-    assert abs(energy_of(petsam, tmp_path, 20)[0] - right) < 0.02 * right
+    assert abs(energy_of(petsam, tmp_path, 20, share)[0] - right) < 0.02 * right
 
 
 def changes(done):

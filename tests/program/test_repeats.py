@@ -24,5 +24,5 @@ def test_a_load_comes_back_to_surfaces_that_have_yielded_since(petsam, tmp_path,
 
 @pytest.mark.parametrize("seed", range(1, 13))
 def test_random_pair(tmp_path, seed):
-    pair, codes, wrong = trial(seed, tmp_path)
+    pair, codes, wrong, _ = trial(seed, tmp_path)
     assert not wrong, f"{pair}: exit codes {codes}, {wrong}"

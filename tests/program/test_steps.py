@@ -120,3 +120,32 @@ def test_pieces_of_the_first_step_apply_the_normal_load_first(solve, tmp_path):
     case |= history(tmp_path / "apart.csv", "time,load_n,load_mz", *rows)
     exact = energies(solve(case, dict(steps=40, output_every=1000)).path)[0]
     assert energies(found.path)[0].sum() == pytest.approx(exact.sum(), rel=3e-3)
+
+
+# ---------------------------------------------------------------- N and T together from no contact
+
+
+def grow(petsam, tmp_path, *rows, steps=1, poisson=0.34):
+    """The last solution as the loads go through these parts of N = 180 and T_x = 20, and all energy over T d_x."""
+    loads = [(k + 1.0, 180 * n, 20 * t) for k, (n, t) in enumerate(rows)]
+    case = dict(ball(48, poisson=poisson, load_n=None), **history(tmp_path / "h.csv", "time,load_n,load_tx", *loads))
+    done = petsam(case, dict(steps=steps, output="grown.h5", overwrite=True))
+    with h5py.File(tmp_path / "grown.h5") as f:
+        p, q = f["pressure"][-1], f["shear_x"][-1]
+        return done, p, q, f["history/dissipated_energy"][:].sum() / (20 * f["history/disp_x"][-1])
+
+
+@pytest.mark.parametrize("rows, steps", [([(1, 1)], 3), ([(1 / 3, 1 / 3), (2 / 3, 2 / 3), (1, 1)], 1)])
+def test_loads_that_grow_in_proportion_from_nothing_slide_nothing(petsam, tmp_path, rows, steps):
+    """The shear is that part of the pressure, if Poisson's ratio makes none across; it was larger by a third."""
+    done, p, q, energy = grow(petsam, tmp_path, *rows, steps=steps, poisson=0.0)
+    assert np.abs(q - p / 9).max() < 1e-4 * p.max() / 9 and abs(energy) < 1e-6
+    done, p, q, energy = grow(petsam, tmp_path, *rows, steps=steps)
+    assert q.max() == pytest.approx(p.max() / 9, rel=0.03)
+    assert abs(energy) < 1e-3 and not [line for line in done.complaint if "energy" in line]
+
+
+@pytest.mark.parametrize("rows", [[(1, 1)], [(1, 1), (2, 1)]])
+def test_one_step_from_nothing_applies_the_normal_load_first(petsam, tmp_path, rows):
+    *_, p, q, energy = grow(petsam, tmp_path, *rows)
+    assert np.abs(q - p / 9 / rows[-1][0]).max() > 0.2 * p.max() / 9 and energy > 1e-3

@@ -289,6 +289,48 @@ def test_energy_follows_loops_within_loops(petsam, tmp_path):
     assert "closed form" not in bent.stdout
 
 
+def closed_by_steps(path):
+    with h5py.File(path) as f:
+        return f["history/dissipated_energy_closed"][:]
+
+
+def test_closed_form_is_in_the_history_with_the_same_bits_on_ranks_and_after_a_restart(petsam, tmp_path):
+    case = dict(SPHERE, **loaded(tmp_path, 0.0625), grid_n=32, grid_size=3 * RADIUS, output_every=1000)
+    done = petsam(case, dict(output="1.h5"))
+    closed = closed_by_steps(tmp_path / "1.h5")
+    assert closed.sum() == pytest.approx(energies(done)[1], rel=1e-5)
+    assert closed[4:8].sum() == pytest.approx(mindlin(0.0625) / 5, rel=0.006)
+    assert (closed[8:] > 0).all() and closed[:4].tolist() == [0, 0, 0, 0]
+    for ranks in (2, 3):
+        files = dict(output=f"{ranks}.h5", checkpoint=f"c{ranks}.h5", checkpoint_every=6)
+        petsam(case, files, ranks=ranks)
+        assert closed_by_steps(tmp_path / f"{ranks}.h5").tobytes() == closed.tobytes()
+    petsam(case, dict(restart="c2.h5.1", output="4.h5"))
+    again = closed_by_steps(tmp_path / "4.h5")
+    assert 0 < len(again) < len(closed) and again.tobytes() == closed[-len(again) :].tobytes()
+
+
+@pytest.mark.parametrize(
+    "more, head, last",
+    [
+        ({}, "load_n,load_tx", (1.1 * LOAD, 0.1)),
+        ({}, "load_n,load_tx,bulk1_stress_xx", (LOAD, 0.1, 1e4)),
+        ({}, "load_n,load_tx,load_my", (LOAD, 0.1, 1e-3)),
+        ({}, "load_n,load_tx,friction_scale", (LOAD, 0.1, 0.9)),
+        (dict(body1_poisson=0.3), "load_n,load_tx", (LOAD, 0.1)),
+        (dict(gap_type="punch", gap_radius1=None, gap_radius2=None, gap_flat_radius=1e-4, gap_edge_radius=0.1),
+         "load_n,load_tx", (LOAD, 0.1)),
+    ],
+)  # fmt: skip
+def test_closed_form_is_nan_where_there_is_none(petsam, tmp_path, more, head, last):
+    usual = (1.0,) if head.endswith("scale") else (0.0,) * (head.count(",") - 1)
+    rows = [(LOAD, t * MU * LOAD, *usual) for t in (0.0, 0.2)] + [(last[0], last[1] * MU * LOAD, *last[2:])]
+    petsam({**SPHERE, **more}, history(tmp_path, head, *rows),
+           dict(grid_n=32, grid_size=3 * RADIUS, output="n.h5"))  # fmt: skip
+    closed = closed_by_steps(tmp_path / "n.h5")
+    assert math.isnan(closed[2]) and math.isnan(closed[1]) == bool(more)
+
+
 @pytest.mark.parametrize("n", [32, 48, 64])
 @pytest.mark.parametrize("t", [0.1, 0.2, 0.6])
 def test_largest_slip_and_shear_are_right_or_warned_of(petsam, tmp_path, n, t):

@@ -3,6 +3,7 @@
 import math
 import re
 
+import h5py
 import numpy as np
 import pytest
 
@@ -379,3 +380,97 @@ def test_after_yielding_there_is_no_approach_without_contact(petsam, tmp_path):
     run = support.read_run(tmp_path / "r.h5")
     assert np.isnan(run["history/disp_z"][1]) and run["history/contact_area"][1] == 0
     assert "peak pressure" not in said.stderr
+
+
+# ---------------------------------------------------------------- layers
+
+BALL = dict(
+    body1_young="310GPa", body1_poisson=0.28, body2_young="210GPa", body2_poisson=0.3, gap_type="sphere",
+    gap_radius1="5mm", gap_radius2="inf", grid_n=(40, 40), grid_size="0.44mm", body2_yield="600MPa", load_n=100,
+)  # fmt: skip
+
+
+def test_layers_follow_from_the_grid(solve):
+    """The depth that may yield is the grid's width, the first layer half a cell thick; more of them change little."""
+    run = solve(dict(BALL, output_fields="usual,plastic"))
+    with h5py.File(run.path) as f:
+        z = f["plastic/z"][:]
+    assert z[0] == pytest.approx(0.44e-3 / 40 / 4, rel=1e-9) and z.size == 32 and z[-1] < 0.44e-3
+    usual = all_steps(run)
+    many = all_steps(solve(dict(BALL, plastic_layers=64)))
+    for name, part in ("pressure_max", 1e-3), ("plastic_work", 2e-3), ("plastic_max", 5e-3):
+        assert usual[name][0] == pytest.approx(many[name][0], rel=part)
+
+
+@pytest.mark.parametrize("depth, layers", [("1um", 8), ("50um", 8)])
+def test_yielding_below_the_layers_is_warned_of(petsam, depth, layers):
+    case = dict(BALL, grid_n=(26, 26), plastic_layers=layers)
+    said = [line for line in petsam(dict(case, plastic_depth=depth)).complaint if "below the last layer" in line]
+    assert len(said) == 1 and "omit -plastic_depth" in said[0]
+    assert not [line for line in petsam(dict(case, plastic_layers=16)).complaint if "layer" in line]
+
+
+@pytest.mark.parametrize("layers, warned", [(2, True), (8, True), (16, False)])
+def test_yielding_in_thick_layers_is_warned_of(petsam, layers, warned):
+    said = [line for line in petsam(dict(BALL, plastic_layers=layers)).complaint if "of its half width thick" in line]
+    assert len(said) == warned and all("times as many -plastic_layers" in line for line in said)
+
+
+def test_residual_stress_at_the_surface_settles(solve, tmp_path):
+    """CalculiX under the same pressures, 600 N on a ball of 10 mm and hardening of 2 GPa, has -308 MPa."""
+    case = dict(BALL, gap_radius1="10mm", body1_young="inf", body2_yield="800MPa", body2_hardening_modulus="2GPa")
+    case.update(grid_n=(41, 41), grid_size="1.2mm", output_fields="usual,plastic")
+    for layers, error in (16, 0.2), (32, 0.05), (64, 0.05):
+        loads = steps(tmp_path / "h.csv", load_n=(300, 600, 0))
+        with h5py.File(solve({**case, **loads, "plastic_layers": layers}).path) as f:
+            z, stress = f["plastic/z"][:2], f["plastic/residual_stress_xx"][-1, :2, 20, 20]
+        surface = stress[0] - (stress[1] - stress[0]) * z[0] / (z[1] - z[0])
+        assert surface == pytest.approx(-308e6, rel=error)
+
+
+@pytest.mark.parametrize("kind, most", [({}, 0.012), (dict(body2_hardening_modulus="20GPa"), 0.004)])
+def test_plastic_work_does_not_depend_on_the_steps(solve, tmp_path, kind, most):
+    """It is the yield stress times the strain, and its error is within what the step estimates."""
+    works, estimates = [], []
+    for n in 1, 2, 5, 20:
+        loads = steps(tmp_path / "h.csv", load_n=[60 * (k + 1) / n for k in range(n)])
+        run = all_steps(solve({**BALL, **kind, **loads, "grid_n": (32, 32), "grid_size": "0.4mm"}))
+        works.append(run["plastic_work"].sum())
+        estimates.append(run["plastic_work_error"].sum())
+    errors = [work / works[-1] - 1 for work in works]
+    assert np.abs(errors).max() < most
+    assert all(abs(error) * works[-1] < estimate for error, estimate in zip(errors, estimates))
+
+
+def test_contacts_of_few_cells_yield(solve, tmp_path):
+    """A cell or two move as a rigid body only, which the tangent of the contact takes off."""
+    loads = steps(tmp_path / "h.csv", load_n=[1, 2, 3, 4])
+    case = dict(BALL, body2_young="70GPa", grid_n=(32, 32), grid_size="1mm", body2_yield="100MPa")
+    case.update(body2_hardening_modulus="1GPa", plastic_layers=12)
+    run = all_steps(solve({**case, **loads}))
+    assert 1 <= run["contact_cells"][0] <= 12 and np.all(np.diff(run["plastic_max"]) > 0)
+
+
+def test_grid_check_halves_the_layers_too(petsam, solve):
+    case = dict(BALL, grid_n=(24, 24))
+    text = petsam(dict(case, grid_check=True)).stdout
+    few = all_steps(solve(dict(case, grid_n=(12, 12), plastic_layers=16)))
+    for name in "plastic_max", "plastic_work", "residual_z_max":
+        coarse = float(re.search(rf"{name}/\S+ +\S+ +(\S+)", text).group(1))
+        assert coarse == pytest.approx(few[name][0], rel=1e-5)
+
+
+@pytest.mark.parametrize("friction, part", [(0.0, 0.6), (0.33, 1.0)])
+def test_strain_that_is_largest_at_the_surface_is_named(petsam, tmp_path, friction, part):
+    """Under friction it falls within the first layers, and grows on finer grids; of first yield it lies below them."""
+    case = cylinder(1, elasticity="plane_periodic", friction=friction, plastic_depth=None, plastic_first=None)
+    load = part * case["load_n"]
+    case.update(steps(tmp_path / "h.csv", load_n=[load, load], load_tx=[0.0, 0.75 * friction * load]), steps=2)
+    case.update(plastic_layers=32)
+    found, told = [], []
+    for n in (160, 320):
+        done = petsam(case, dict(grid_n=n, output="o.h5"))
+        found.append(all_steps(support.Results(tmp_path / "o.h5"))["plastic_max"][-1])
+        told.append([line for line in done.complaint if "largest at the surface" in line])
+    assert len(told[0]) == (friction > 0)
+    assert (abs(found[0] / found[1] - 1) > 0.05) == (friction > 0)

@@ -124,6 +124,8 @@ PETSC_INTERN PetscErrorCode SamSolutionComputeRolling(SamProblem problem, const 
   cells and areas, by their counted cells or (`edges`) reconstructed edges, largest tractions and slip, energies, by
   their names in the motion. With `same_pressure` that of the step
   before, whose edge of contact it keeps. Collective.
+  SamSolutionDeclareClosed - what the closed form of the dissipated energy remembers. SamSolutionFollowClosed - the
+  energy (J) of the tried step by it, after that of all steps before; NAN: there is none (closed.c). Collective.
   SAM_CONTACT_EDGE - the number in the state that has the contact's edge: whether it is known, 0 or 1, and the faces of
   cells there to cells outside.
 */
@@ -140,6 +142,9 @@ static inline double SamContactEdgeLength(SamGrid grid, double faces)
 */
 #define SAM_ENTERING "entering_work"
 PETSC_INTERN PetscErrorCode SamSolutionDeclareNumbers(SamState state, SamMotion motion);
+PETSC_INTERN PetscErrorCode SamSolutionDeclareClosed(SamState state);
+PETSC_INTERN PetscErrorCode SamSolutionFollowClosed(SamProblem problem, SamState state, const SamSolution *before,
+                                                    const SamSolution *now, PetscReal stick_cells, PetscReal *energy);
 PETSC_INTERN PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamState state, const SamSolution *before,
                                                       const SamSolution *now, PetscBool same_pressure, PetscBool edges);
 /*

@@ -439,3 +439,14 @@ PetscBool SamGapIsFromFile(SamGap gap, PetscBool rough)
 
   return source->file[0] && (rough || gap->ops.setfromoptions) ? PETSC_TRUE : PETSC_FALSE;
 }
+
+PetscBool SamGapIsQuadratic(SamGap gap)
+{
+  static const char *const names[] = {SAM_GAP_SPHERE, SAM_GAP_ELLIPSOID, SAM_GAP_CURVED};
+  SamGapType               type;
+  PetscBool                is = PETSC_FALSE;
+
+  (void)SamGapGetParameters(gap, &type, NULL, NULL, NULL);
+  for (size_t k = 0; k < sizeof(names) / sizeof(names[0]) && type; k++) is = is || !strcmp(type, names[k]);
+  return is && !SamGapIsFromFile(gap, PETSC_FALSE) && !SamGapIsFromFile(gap, PETSC_TRUE) ? PETSC_TRUE : PETSC_FALSE;
+}

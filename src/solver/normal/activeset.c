@@ -34,7 +34,8 @@
 
   Rounding: steps and their products are in single precision, at half the cost; p and g are in double. g collects about
   SAM_SINGLE_ROUNDING of the maximum error since the last product in double precision; before that matters there is
-  another one. Coarse grids, solved roughly, need none.
+  another one, and after a gradient step, whose trial may be much farther than the step: p comes back from it with the
+  trial's rounding. Coarse grids, solved roughly, need none.
 
   References: Polonsky and Keer 1999, Wear 231, 206-219 (projected CG for contact); Dostal 2009, Optimal Quadratic
   Programming Algorithms, ch. 5 (active sets with CG); Stanley and Kato 1997, J. Tribol. 119, 481-485 (the spectrum);
@@ -348,8 +349,11 @@ static PetscErrorCode TakeTrial(Work *w, const double motion[3], PetscBool *bett
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* One iteration. `downhill`: there was a way down, for the energy or the error. `found`: an admissible pressure was. */
-static PetscErrorCode Iterate(Work *w, PetscBool gradient, PetscBool *downhill, PetscBool *found)
+/*
+  One iteration. `gradient`: it takes a gradient step; also one that it falls back to, on return. `downhill`: there was
+  a way down, for the energy or the error. `found`: an admissible pressure was.
+*/
+static PetscErrorCode Iterate(Work *w, PetscBool *gradient, PetscBool *downhill, PetscBool *found)
 {
   SamTotal contact[SAM_GAP_TOTALS] = {{0}}, ignored[SAM_GAP_TOTALS] = {{0}};
   double   best = 0, motion[3];
@@ -357,20 +361,20 @@ static PetscErrorCode Iterate(Work *w, PetscBool gradient, PetscBool *downhill, 
   PetscFunctionBegin;
   w->unit = w->error;
   w->lost = 0;
-  if (!gradient) {
+  if (!*gradient) {
     PetscCall(NewDirection(w));
     PetscCall(Try(w, w->alpha, PETSC_FALSE, motion, found));
-    gradient = !*found || w->slope >= 0;
-    if (*found && gradient) SetLength(w, 0, ignored);
+    *gradient = (PetscBool)(!*found || w->slope >= 0);
+    if (*found && *gradient) SetLength(w, 0, ignored);
   }
-  if (gradient) PetscCall(TryGradient(w, motion, found));
+  if (*gradient) PetscCall(TryGradient(w, motion, found));
   *downhill = PETSC_FALSE;
   if (*found && w->slope == 0) PetscCall(TakeTrial(w, motion, downhill));
   if (!*found || w->slope == 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Step(w, &best, contact));
   *downhill = best > 0;
   if (!*downhill) PetscFunctionReturn(PETSC_SUCCESS);
-  if (!gradient)
+  if (!*gradient)
     w->alpha *= sqrt(PetscMin(PetscMax(best, 1 / (w->layered ? FALL : FOLLOW)), FOLLOW));
   else
     w->alpha = 1;
@@ -421,10 +425,10 @@ static PetscErrorCode SamNormalSolve_ActiveSet(SamSolver solver, SamLevel *level
   best = w.error;
   PetscCall(GetReason(&w, stagnant, downhill, found, &reason));
   while (!reason) {
-    const PetscBool gradient = stagnant > 0 && stagnant % PATIENCE == 0;
+    PetscBool gradient = (PetscBool)(stagnant > 0 && stagnant % PATIENCE == 0);
 
     w.stagnates = stagnant >= PARTING;
-    PetscCall(Iterate(&w, gradient, &downhill, &found));
+    PetscCall(Iterate(&w, &gradient, &downhill, &found));
     if (downhill && (gradient || w.lost > 0 || SamActiveSetIsStale(&w))) PetscCall(SamActiveSetRefresh(&w));
     stagnant = w.error < 0.9 * best ? 0 : stagnant + 1;
     best     = PetscMin(best, w.error);
