@@ -48,6 +48,7 @@ FRICTIONAL = ("dissipated_energy", "shear_max", "slip_max", "stick_area", "last_
 # numbers that a warning names, or whose cause it is; others name all numbers
 NAMED = (
     ("plastic_max, plastic_work and residual_z", ("plastic_max", "plastic_work", "residual_z", "residual_energy")),
+    ("contact_area may be wrong", ("contact_area",)),
     ("largest at the surface", ("plastic_max",)),
     ("pressure is not resolved", ("pressure_max", "shear_max")),
     ("the load steps are long|slip zones are|widest slip zone|before cells touch|in one step", FRICTIONAL),
