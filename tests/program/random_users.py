@@ -367,7 +367,7 @@ def named(warnings):
     numbers = set()
     for line in warnings:
         names = [names for pattern, names in NAMED if re.search(pattern, line)]
-        if not names or "fewer than 20" in line:
+        if not names or "cells across (" in line:
             return None
         numbers.update(*names)
     return numbers
