@@ -54,6 +54,8 @@ typedef struct {
   double    zone, high;    /* J, Pa: energy of the zone of that branch, and shear at its end, by stuck.c */
   double    missing;       /* J: energy of such zones of branches before */
   PetscReal widest;        /* cells: of all zones with slip */
+  double    slipped;       /* m: the maximum slip after the last step, */
+  double    turned;        /* m: and at the reversal before; 0: there was none */
   PetscReal across;        /* cells: of the stick zone after the last step */
   PetscBool pushed;        /* the last step has no tangential displacement given */
   PetscBool together;      /* N and T have grown in proportion from nothing, */

@@ -35,6 +35,10 @@
 */
 #define COARSE 7.0
 #define SHORT  0.05
+/* Plastic strain at the surface, extrapolated, exceeds that of all layers by this part of it. */
+#define SHALLOW 0.05
+/* Share of the edges whose reconstruction tells that they are known. */
+#define KNOWN 0.9
 /* Cells half as wide may change the peak pressure by this part of it. */
 #define PEAK 0.05
 /* A coefficient of friction from the first of these on is likely to be percent; from the second on it means stick. */
@@ -519,6 +523,34 @@ static void Coarse(SamAdvice *a)
                across, error, better);
 }
 
+/* Plastic strain that falls from the surface on within the first layers, as under friction. */
+static void Shallow(SamAdvice *a, double most)
+{
+  PetscReal surface = 0;
+
+  a->error = SamContactGetNumber(a->setup->contact, "plastic_surface", &surface);
+  if (a->error || !((1 - most / (double)surface) > SHALLOW)) return;
+  SamAdviceSay(a, "grid_n",
+               "plastic strain is largest at the surface, and falls within the first layers: plastic_max may be too "
+               "small by %.0f %%",
+               100 * (1 - most / (double)surface));
+}
+
+/* The area of a row of few cells after the largest load, whose edges are not where those of elastic bodies are. */
+static void Unloaded(SamAdvice *a)
+{
+  PetscReal cells = 0, accepted = 1;
+
+  if (a->error || !SamGridIsRow(a->setup->grid) || a->extent.across < FEW_CELLS) return;
+  a->error = SamContactGetNumber(a->setup->contact, "contact_cells", &cells);
+  if (!a->error) a->error = SamContactGetNumber(a->setup->contact, "edge_accepted", &accepted);
+  if (a->error || !(cells > 0 && cells < FEW_CELLS) || accepted >= KNOWN) return;
+  SamAdviceSay(a, "grid_n",
+               "the contact of the last step is %.0f cells across, fewer than %d, and its edges are not reconstructed: "
+               "contact_area may be wrong by %.0f %%",
+               (double)cells, FEW_CELLS, 100 / (double)cells);
+}
+
 /* Plastic strain that is large, that spans few layers, or that comes to the end of what may yield. */
 static void Yield(SamAdvice *a)
 {
@@ -547,6 +579,8 @@ static void Yield(SamAdvice *a)
     SamAdviceSay(a, "", "plastic strain up to %.2g: strains are taken as small, up to about %g", (double)most,
                  STRAINED);
   Coarse(a);
+  Shallow(a, (double)most);
+  Unloaded(a);
   if (left < 1 && !(outside > BEYOND))
     SamAdviceSay(a, "plastic_depth",
                  "plastic strain comes to the last layer or to the border of the grid: use a larger -plastic_depth, "

@@ -41,7 +41,24 @@ typedef struct {
 #define DEEPEST 2
 
 /* The numbers of a step, one after the other from MOST on. */
-enum { MOST, CELLS, WORK, ENERGY, ERROR, NEWTON, PRODUCTS, STILL, LAYERS, LEFT, THICK, OUTSIDE, UNSURE, DENT, NUMBERS };
+enum {
+  MOST,
+  CELLS,
+  WORK,
+  ENERGY,
+  ERROR,
+  NEWTON,
+  PRODUCTS,
+  STILL,
+  LAYERS,
+  LEFT,
+  THICK,
+  OUTSIDE,
+  UNSURE,
+  DENT,
+  SURFACE,
+  NUMBERS
+};
 
 #define REAL_ROW(body, option, text, what, range_, ...) \
   { \
@@ -424,7 +441,9 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
     {"plastic_work_error", "J", "estimated error of plastic_work by the length of the load step", SAM_NUMBER_REAL, 1,
      PETSC_FALSE, PETSC_TRUE, SAM_JOIN_SUM, 0},
     {"residual_z_max", "m", "maximum displacement into the bodies by plastic strain", SAM_NUMBER_REAL, 1, PETSC_TRUE,
-     PETSC_TRUE, SAM_JOIN_LAST, 2}};
+     PETSC_TRUE, SAM_JOIN_LAST, 2},
+    {"plastic_surface", "1", "maximum plastic strain of the first layer, and as much more as it exceeds the second",
+     SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, 0}};
   static const SamStateResult fields[4] = {
     {.name = "residual_x", .unit = "m", .text = "displacement along x by plastic strain", .use = SAM_RESULT_OFFERED},
     {.name = "residual_y", .unit = "m", .text = "displacement along y by plastic strain", .use = SAM_RESULT_OFFERED},
@@ -607,6 +626,27 @@ static PetscErrorCode Extent(const SamPlastic *p, const double now[], PetscBool 
 }
 
 /*
+  The plastic strain of the first layers, and as much more as it exceeds that of the second ones: strain that
+  falls from the surface on within a layer or two, as under friction, is larger at the surface than in any layer.
+*/
+static PetscErrorCode FindSurface(const SamPlastic *p, const double now[], double numbers[NUMBERS])
+{
+  const PetscInt cells = p->grid->cells;
+  double         most  = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < p->bodies; b++)
+    for (PetscInt k = 0; k < cells; k++) {
+      const ptrdiff_t first = ((ptrdiff_t)b * p->layers * p->size + PARTS) * cells + k;
+
+      most = PetscMax(most, 2 * now[first] - now[first + (ptrdiff_t)p->size * cells]);
+    }
+  PetscCall(SamMax(p->grid->comm, 1, &most));
+  numbers[SURFACE] = most;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
   The work of the plastic strain of a step, and an estimate of its error by the length of the step: the part TURNS of
   what grows from a small strain on, as its direction changes, and the part BACK of its change by backstresses, which are
   of first order. Both parts were fitted to steps of a sphere pressed on half-spaces without and with hardening.
@@ -690,6 +730,7 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
   numbers = SamStateNumbers(step->state, first, SAM_TRIED);
   PetscCall(Judge(p, last, now, stress, numbers));
   PetscCall(Extent(p, now, SamElasticityGetTraits(law->elasticity).periodic, numbers));
+  PetscCall(FindSurface(p, now, numbers));
   PetscCall(SamPlasticLookOutside(p, tried, step->pressure, step->shear, &numbers[THICK], &numbers[OUTSIDE]));
   KeepLargest(SamStateNumbers(step->state, first, SAM_COMMITTED), numbers);
   PetscCall(FindDent(p, tried, SamStateNumbers(step->state, first, SAM_COMMITTED)[DENT], numbers));

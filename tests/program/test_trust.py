@@ -348,6 +348,23 @@ def test_largest_slip_and_shear_are_right_or_warned_of(petsam, tmp_path, n, t):
     assert not warned or wrong > 0.02
 
 
+@pytest.mark.parametrize("n, t", [(120, 0.113), (140, 0.113), (200, 0.113), (64, 0.3), (64, 0.6)])
+def test_slip_that_goes_back_is_right_or_warned_of(petsam, tmp_path, n, t):
+    """T returns to 0: the largest slip lies where the zone of the reversal ends, between cells if it is narrow."""
+    case = dict(STEEL, friction=MU, elasticity="plane", gap_type="ellipsoid", gap_radius_x=0.1,
+                gap_radius_y=float("inf"), grid_size=1.1e-3, steps=2)  # fmt: skip
+    case.update(history(tmp_path, "load_n,load_tx", (1e5, 0.0), (1e5, t * MU * 1e5), (1e5, 0.0)))
+    slips, told = [], []
+    for cells in (n, 4 * n):
+        told.append(petsam(case, dict(grid_n=cells, output="one.h5", overwrite=True)))
+        with h5py.File(tmp_path / "one.h5") as f:
+            slips.append(f["history/slip_max"][-1])
+    warned, wrong = bool(said(told[0], "maximum slip")), abs(slips[0] / slips[1] - 1)
+    assert warned or wrong < 0.05
+    assert not warned or wrong > 0.02
+    assert not said(told[1], "maximum slip")
+
+
 @pytest.mark.parametrize("n", [32, 48, 64])
 @pytest.mark.parametrize("t", [0.5, 0.9, 0.99, 0.998])
 def test_stick_area_near_full_sliding_is_right_or_warned_of(petsam, tmp_path, n, t):

@@ -458,3 +458,34 @@ def test_grid_check_halves_the_layers_too(petsam, solve):
     for name in "plastic_max", "plastic_work", "residual_z_max":
         coarse = float(re.search(rf"{name}/\S+ +\S+ +(\S+)", text).group(1))
         assert coarse == pytest.approx(few[name][0], rel=1e-5)
+
+
+@pytest.mark.parametrize("friction, part", [(0.0, 0.6), (0.33, 1.0)])
+def test_strain_that_is_largest_at_the_surface_is_named(petsam, tmp_path, friction, part):
+    """Under friction it falls within the first layers, and grows on finer grids; of first yield it lies below them."""
+    case = cylinder(1, elasticity="plane_periodic", friction=friction, plastic_depth=None, plastic_first=None)
+    load = part * case["load_n"]
+    case.update(steps(tmp_path / "h.csv", load_n=[load, load], load_tx=[0.0, 0.75 * friction * load]), steps=2)
+    case.update(plastic_layers=32)
+    found, told = [], []
+    for n in (160, 320):
+        done = petsam(case, dict(grid_n=n, output="o.h5"))
+        found.append(all_steps(support.Results(tmp_path / "o.h5"))["plastic_max"][-1])
+        told.append([line for line in done.complaint if "largest at the surface" in line])
+    assert len(told[0]) == (friction > 0)
+    assert (abs(found[0] / found[1] - 1) > 0.05) == (friction > 0)
+
+
+@pytest.mark.parametrize("part", [0.1, 0.6])
+def test_area_of_few_cells_after_unloading_is_named(petsam, tmp_path, part):
+    """It counts cells, as the edges of what has yielded are not reconstructed."""
+    case = cylinder(1, elasticity="plane_periodic", plastic_depth=None, plastic_first=None, plastic_layers=32)
+    load = case["load_n"]
+    case.update(steps(tmp_path / "h.csv", load_n=[load, part * load]), steps=2)
+    areas, told = [], []
+    for n in (200, 800):
+        done = petsam(case, dict(grid_n=n, output="o.h5"))
+        areas.append(all_steps(support.Results(tmp_path / "o.h5"))["contact_area"][-1])
+        told.append([line for line in done.complaint if "contact_area may be wrong" in line])
+    assert [len(lines) for lines in told] == [part < 0.5, 0]
+    assert abs(areas[0] / areas[1] - 1) < 0.05 or told[0]
