@@ -49,8 +49,8 @@ PETSC_EXTERN PetscErrorCode SamResultsRead(SamResults results, PetscInt k, SamRe
 /*
   SamResultsCountLayers - of a body (1 or 2) that yields, 0 of another one. SamResultsHasLayers - whether the stresses
   by plastic strain have been saved. Neither is collective.
-  SamResultsReadDepths - the depths of the middles of a body's layers below its surface (m), from there down. Collective.
-  Errors: SAM_ERR_FILE.
+  SamResultsReadDepths - the depths of the middles of a body's layers below its surface (m), from there down.
+  Collective. Errors: SAM_ERR_FILE.
   SamResultsReadLayer - a component of these stresses (Pa), the mean over a layer, of those of both bodies along z of
   body 2: this rank's rows. Collective. Errors: as SamResultsRead().
 */

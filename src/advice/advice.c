@@ -30,8 +30,8 @@
 #define STRAINED 0.1
 /*
   Plastic strain, its work and the dent are too small by up to COARSE/m^2, with m the cells across the contact. Measured
-  on spheres of three loads, by layers that follow from the grid, against 80 cells: the largest errors were 15 % at 6, 11 %
-  at 8, 5 % at 10, 2 % at 14 and 1.6 % at 16. They are warned of above SHORT.
+  on spheres of three loads, by layers that follow from the grid, against 80 cells: the largest errors were 15 % at 6,
+  11 % at 8, 5 % at 10, 2 % at 14 and 1.6 % at 16. They are warned of above SHORT.
 */
 #define COARSE 7.0
 #define SHORT  0.05

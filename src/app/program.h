@@ -68,8 +68,8 @@ typedef struct {
   SamFilesAddWritten - adds a file that is written, and up to two names that are derived from it (NULL: none), which it
   frees. Not collective.
   SamFilesCheck - adds files of options, those that the rows of options declare to be read or written, and those that
-  PETSc writes for its viewers; call it once all options have been read. Refuses a file that would replace another one, and viewers
-  that cannot be opened; frees the names. Collective. Errors: SAM_ERR_USER, SAM_ERR_FILE.
+  PETSc writes for its viewers; call it once all options have been read. Refuses a file that would replace another one,
+  and viewers that cannot be opened; frees the names. Collective. Errors: SAM_ERR_USER, SAM_ERR_FILE.
 */
 PETSC_INTERN PetscErrorCode SamFilesAdd(SamFiles *files, const char option[], const char name[], PetscBool written);
 PETSC_INTERN PetscErrorCode SamFilesAddWritten(SamFiles *files, const char option[], const char name[], char *derived,

@@ -56,8 +56,8 @@ PETSC_INTERN PetscErrorCode SamContactDeclare(SamContact contact);
 /* SamContactBegin - begins a try: an empty tried solution, whose tractions may be written to. Collective. */
 PETSC_INTERN PetscErrorCode SamContactBegin(SamContact contact, const SamControl *control);
 /*
-  SamContactStore - stores the numbers of the tried solution, and of a step, in the state. An approach that the step does
-  not have, and the solution was computed with, is kept aside. Not collective.
+  SamContactStore - stores the numbers of the tried solution, and of a step, in the state. An approach that the step
+  does not have, and the solution was computed with, is kept aside. Not collective.
 */
 PETSC_INTERN PetscErrorCode SamContactStore(SamContact contact, const SamStep *step);
 /* SamContactView - makes the views of the committed generation, and of that one step back. Collective. */

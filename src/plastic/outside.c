@@ -1,8 +1,8 @@
 /*
   Whether a body yields where no layer shows it: below the last layer, or inside layers that are thick beside the
-  contact. An elastic contact yields first at 0.48 of its half width, below a sphere, and at 0.70, below a cylinder; deeper
-  than twice the half width no contact yields first. So the stress is looked at there, at points between which it varies
-  little, by the tractions and the residual stress of the nearest layer.
+  contact. An elastic contact yields first at 0.48 of its half width, below a sphere, and at 0.70, below a cylinder;
+  deeper than twice the half width no contact yields first. So the stress is looked at there, at points between which it
+  varies little, by the tractions and the residual stress of the nearest layer.
 */
 #include "newton.h"
 
@@ -13,7 +13,9 @@ static const double places[] = {0, 0.25, 0.48, 0.7, 1, 1.5, 2};
 #define DEEP   0.7  /* and the deepest place at which a contact yields first */
 #define NARROW 0.1  /* part of the cells in contact whose zones, the narrowest, do not count */
 
-/* Adds a layer's residual stress and takes the tractions' stress at a depth; the largest excess over the yield stress. */
+/*
+  Adds a layer's residual stress and takes the tractions' stress at a depth; the largest excess over the yield stress.
+*/
 static PetscErrorCode Look(SamPlastic *p, PetscInt b, PetscReal depth, const double state[], const double residual[],
                            const double *const traction[3], double *excess)
 {

@@ -648,8 +648,8 @@ static PetscErrorCode FindSurface(const SamPlastic *p, const double now[], doubl
 
 /*
   The work of the plastic strain of a step, and an estimate of its error by the length of the step: the part TURNS of
-  what grows from a small strain on, as its direction changes, and the part BACK of its change by backstresses, which are
-  of first order. Both parts were fitted to steps of a sphere pressed on half-spaces without and with hardening.
+  what grows from a small strain on, as its direction changes, and the part BACK of its change by backstresses, which
+  are of first order. Both parts were fitted to steps of a sphere pressed on half-spaces without and with hardening.
 */
 static PetscErrorCode SumWork(const SamPlastic *p, const double last[], const double now[], double sums[2])
 {

@@ -27,8 +27,8 @@ PETSC_INTERN PetscErrorCode SamResidualDestroy(SamResidual *residual);
   SamResidualApply - the stress s (Pa) and the displacement u of the surface (m) by e; what is NULL is not wanted. u is
   what the body adds to the relative displacement of the surfaces, x, y, and z into the body. s may be e.
   SamResidualLoad - the stress by the pressure p and the shear q_x, q_y between the bodies (Pa).
-  SamResidualLoadAt - the same at a depth (m) in place of the layers, PARTS fields; it takes the time of some ten layers.
-  All are collective.
+  SamResidualLoadAt - the same at a depth (m) in place of the layers, PARTS fields; it takes the time of some ten
+  layers. All are collective.
 */
 PETSC_INTERN PetscErrorCode SamResidualApply(SamResidual residual, const double e[], double s[], double *const u[3]);
 PETSC_INTERN PetscErrorCode SamResidualLoad(SamResidual residual, const double *const traction[3], double s[]);

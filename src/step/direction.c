@@ -33,9 +33,9 @@
 
     kappa tau = (kappa dT/dN d - 2 e r)/(d + 2 tilt),
 
-  d being the approach; in plane strain, where it has no limit, it is 4 dN/(pi E*); from no contact tau is that of N. Of what M_z moves there, nothing is
-  known: its error stays of first order. So is what the pressure of dissimilar bodies moves, which is the other way:
-  from a Dundurs' constant of MOST_DUNDURS on both are left out, as they cancel in part.
+  d being the approach; in plane strain, where it has no limit, it is 4 dN/(pi E*); from no contact tau is that of N. Of
+  what M_z moves there, nothing is known: its error stays of first order. So is what the pressure of dissimilar bodies
+  moves, which is the other way: from a Dundurs' constant of MOST_DUNDURS on both are left out, as they cancel in part.
 
   Of dissimilar bodies the pressure moves the surfaces all the time, outside of contact too, and most of the slip of a
   growing contact is in cells that touch within the step. Of what they move by in the step, ds, the part

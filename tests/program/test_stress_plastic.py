@@ -10,7 +10,8 @@ import petsam
 CASE = dict(
     gap_type="sphere", gap_radius1="10mm", gap_radius2="inf", grid_n=(24, 19), grid_size="0.4mm,0.34mm",
     body1_young=210e9, body1_poisson=0.3, body2_young=210e9, body2_poisson=0.3, friction=0.4,
-    plastic_depth="0.3mm", plastic_layers=12, plastic_first="0.025mm", load_n=60, load_tx=10, output_fields="usual,plastic",
+    plastic_depth="0.3mm", plastic_layers=12, plastic_first="0.025mm", load_n=60, load_tx=10,
+    output_fields="usual,plastic",
 )  # fmt: skip
 YIELD, DEPTH, LAYERS = 600e6, 0.3e-3, 12
 PARTS = ("xx", "yy", "zz", "xy", "xz", "yz")

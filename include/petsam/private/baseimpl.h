@@ -122,8 +122,8 @@ typedef struct {
   SamOptionKind kind;                /* SAM_OPTION_FILE, SAM_OPTION_FILES, SAM_OPTION_OUTPUT or SAM_OPTION_VIEWER */
 } SamOptionFile;
 /*
-  SamOptionsNoteFile - notes an option if its kind is one of these. SamOptionsRead() does so for each row; for those that
-  read options by other means.
+  SamOptionsNoteFile - notes an option if its kind is one of these. SamOptionsRead() does so for each row; for those
+  that read options by other means.
   SamOptionsFile - the k-th option of those that have been asked for; NULL: there are no more. Not collective.
 */
 PETSC_INTERN PetscErrorCode       SamOptionsNoteFile(const SamOptions *from, SamOptionKind kind, const char name[],

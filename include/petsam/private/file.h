@@ -152,8 +152,8 @@ PETSC_INTERN PetscErrorCode SamFileGetBytes(MPI_Comm comm, const char filename[]
 PETSC_INTERN PetscErrorCode SamFileContains(SamGrid grid, const char filename[], const char text[],
                                             PetscBool *contains);
 /*
-  SamFileNameBeside - a name with an ending added, of a symbolic link that of the file behind it; the caller frees it with
-  PetscFree(). Not collective.
+  SamFileNameBeside - a name with an ending added, of a symbolic link that of the file behind it; the caller frees it
+  with PetscFree(). Not collective.
 */
 PETSC_INTERN PetscErrorCode SamFileNameBeside(const char filename[], const char ending[], char **name);
 /*

@@ -222,8 +222,8 @@ PETSC_INTERN PetscErrorCode SamLawCreate_AccumulatedSlip(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_FrictionEnergy(SamLaw law);
 
 /*
-  The thickness, over the half width of the contact, of the layer in which a body yields first, from which on the maximum
-  plastic strain is more than 4 % too small.
+  The thickness, over the half width of the contact, of the layer in which a body yields first, from which on the
+  maximum plastic strain is more than 4 % too small.
 */
 #define SAM_PLASTIC_THICK 0.2
 
