@@ -324,7 +324,8 @@ class Contact:
         distance by which the contact rolls (roll, roll_y, m), ... (contact.prescribable). They hold for this step; what
         is not given has the value of the contact's option. NoEquilibrium or NotConverged where there is no
         solution, with the step; an EdgeContactWarning where the contact has reached the edge of the grid, an
-        AdviceWarning, once of each kind, where the grid does not resolve the step. Replaces an earlier try. With rolling="steady" each try is a steady state of rolling.
+        AdviceWarning, once of each kind, where the grid does not resolve the step. Replaces an earlier try. With
+        rolling="steady" each try is a steady state of rolling.
         """
         return self._try("try_step", time, given)
 

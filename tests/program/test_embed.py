@@ -310,7 +310,8 @@ for rate in (1e-13, 1e-6):
         before = len(said)
         contact.commit()
     worn = [one for one in said if one.category is not petsam.AdviceWarning]  # the few cells are told of, too
-    print(before - len(said) + len(worn), [one.category.__name__ for one in worn], *("wear is" in str(one.message) for one in worn))
+    told = ("wear is" in str(one.message) for one in worn)
+    print(before - len(said) + len(worn), [one.category.__name__ for one in worn], *told)
 """,
         tmp_path,
     )
