@@ -756,7 +756,7 @@ static double ReachOf(const SamSetup *s, const PetscReal half[2], const PetscRea
   return (double)(half[k] + lever[k]) * MARGIN + fabs((double)s->grid->center[k]);
 }
 
-/* Whether the grid would hold a contact of these half widths. */
+/* True if the grid would hold a contact of these half widths. */
 static PetscBool Fits(const SamSetup *s, const PetscReal half[2], const PetscReal lever[2])
 {
   for (int k = 0; k < s->grid->axes; k++)

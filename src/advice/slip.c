@@ -73,7 +73,7 @@
 
 /* ---- the width of the zone ---- */
 
-/* Whether the gap has a shape with round edges. */
+/* True if the gap has a shape with round edges. */
 static PetscBool IsRound(SamGap gap)
 {
   static const char *const names[] = {SAM_GAP_SPHERE, SAM_GAP_ELLIPSOID, SAM_GAP_CURVED, SAM_GAP_PUNCH};
@@ -168,7 +168,7 @@ static void EndStuck(SamSlip *slip)
   slip->stuck = slip->zone = 0;
 }
 
-/* Whether shear and pressure of the bodies do not act on each other. */
+/* True if shear and pressure of the bodies do not act on each other. */
 static PetscBool IsAlike(const SamSetup *s)
 {
   const double waves[2] = {PETSC_PI / (double)s->grid->length, PETSC_PI / (double)s->grid->side[1]};
@@ -279,7 +279,7 @@ static void Few(SamAdvice *a)
 
 /* ---- the steps ---- */
 
-/* Whether N and T have grown in proportion from nothing: then nothing need slip (step/direction.c). */
+/* True if N and T have grown in proportion from nothing: then nothing need slip (step/direction.c). */
 static PetscBool GrowTogether(SamSlip *slip, const SamStep *step)
 {
   const double load = (double)step->load[SAM_COMPONENT_N];

@@ -72,7 +72,7 @@ static PetscErrorCode PrintRow(SamReport r, const char indent[], const char name
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether a part is one that only some runs have. */
+/* True if a part is one that only some runs have. */
 static PetscBool IsAskedFor(const Part *part)
 {
   return part->events[0] == SAM_EVENT_STIFFNESS || part->events[0] == SAM_EVENT_PLASTIC ? PETSC_TRUE : PETSC_FALSE;

@@ -349,7 +349,7 @@ static PetscBool MayGrow(const SamSolution *before, const SamControl *control)
   return load > 0 && !(control->force[n] && control->value[n] <= load);
 }
 
-/* Whether nothing moves the bodies along each other in a step from no contact: else it applies N, then the rest. */
+/* True if nothing moves the bodies along each other in a step from no contact: else it applies N, then the rest. */
 static PetscBool AppliesOnlyNormal(const SamSolution *before, const SamControl *control)
 {
   PetscBool only = PETSC_TRUE;

@@ -195,7 +195,7 @@ static PetscErrorCode ForgetWarnings(petsam_contact *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Those of a step only if they are asked for, as they take time. */
+/* Looks for warnings of a step only if they are asked for, as they take time. */
 static PetscErrorCode Advise(petsam_contact *c, int *count)
 {
   const PetscBool tried = SamContactHasStep(c->setup->contact, SAM_TRIED);

@@ -75,7 +75,7 @@ static PetscBool IsFree(const SamParameters *parameters, const char name[])
   return parameters->free && !strncmp(name, parameters->free, strlen(parameters->free));
 }
 
-/* Whether the file's value of a parameter is one that somebody has given: inf and 0 also stand for none. */
+/* True if the file's value of a parameter is one that somebody has given: inf and 0 also stand for none. */
 static PetscErrorCode IsGivenThere(SamFile f, const char name[], PetscBool *given)
 {
   SamParameter like = {.count = 0}, there;
@@ -93,7 +93,7 @@ static PetscErrorCode IsGivenThere(SamFile f, const char name[], PetscBool *give
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether the file has a fixed parameter that this run does not have; names the first one with a value. */
+/* True if the file has a fixed parameter that this run does not have; names the first one with a value. */
 static PetscErrorCode FindOther(SamFile f, const SamParameters *parameters, char message[], size_t size,
                                 PetscBool *found)
 {

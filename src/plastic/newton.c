@@ -420,7 +420,7 @@ static PetscErrorCode GoAlong(Solve *w, PetscInt field, double *norm, double *la
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether a layer of periodic bodies yields in all cells, without hardening: its stress has no strain of its own. */
+/* True if a layer of periodic bodies yields in all cells, without hardening: its stress has no strain of its own. */
 static PetscErrorCode Flows(const Solve *w, PetscBool *flows)
 {
   const SamPlastic *p      = w->plastic;

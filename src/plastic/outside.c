@@ -1,5 +1,5 @@
 /*
-  Whether a body yields where no layer shows it: below the last layer, or inside layers that are thick beside the
+  This finds yielding that no layer shows: below the last layer, or inside layers that are thick beside the
   contact. An elastic contact yields first at 0.48 of its half width, below a sphere, and at 0.70, below a cylinder;
   deeper than twice the half width no contact yields first. So the stress is looked at there, at points between which it
   varies little, by the tractions and the residual stress of the nearest layer.

@@ -25,7 +25,7 @@ typedef struct {
   SamPlastic plastic;
 } Plastic;
 
-/* Of memory for a cell of a layer, without backstresses. Measured at 64 and 96 cells a side: 980 to 1110. */
+/* Memory for a cell of a layer, bytes, without backstresses. Measured at 64 and 96 cells a side: 980 to 1110. */
 #define BYTES 1110
 /* Beyond this part of the yield stress, or this many tolerances, the check fails. */
 #define EXCESS 1e-5

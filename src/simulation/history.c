@@ -445,7 +445,7 @@ SamControl SamHistoryGetStep(SamHistory h, PetscInt k)
 /* Changes of two rows that differ by less, relative to the larger, are in proportion. */
 #define IN_PROPORTION 1e-9
 
-/* Whether all that is prescribed changes in the row after r as it does in r, but for the size of the change. */
+/* True if all that is prescribed changes in the row after r as it does in r, but for the size of the change. */
 static PetscBool ContinuesAfter(SamHistory h, PetscInt r)
 {
   const double now  = ValueOfRow(h, SAM_COMPONENT_N, r) - ValueOfRow(h, SAM_COMPONENT_N, r - 1);

@@ -55,7 +55,7 @@ PetscErrorCode SamSimulationDeclarePieces(SamSimulation s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether there is no contact yet, and step k applies N, then the tangential loads. */
+/* True if there is no contact yet, and step k applies N, then the tangential loads. */
 static PetscErrorCode IsApart(SamSimulation s, PetscInt k, PetscBool *apart)
 {
   const SamSolution *before;
@@ -66,7 +66,7 @@ static PetscErrorCode IsApart(SamSimulation s, PetscInt k, PetscBool *apart)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What is prescribed after a part of step k. */
+/* Gets the prescribed values after a part of step k. */
 static SamControl ControlAt(SamSimulation s, PetscInt k, PetscBool apart, PetscReal part)
 {
   SamControl control = SamHistoryGetPart(s->history, k, apart ? PetscMin(1, 2 * part) : part), later;

@@ -47,7 +47,7 @@ PetscErrorCode SamSolutionDeclareClosed(SamState state)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether the bodies and laws have a closed form. */
+/* True if the bodies and laws have a closed form. */
 static PetscErrorCode Has(SamProblem p, PetscReal *friction, PetscBool *has)
 {
   const SamElasticity       e      = SamProblemGetElasticity(p);
@@ -69,7 +69,7 @@ static PetscErrorCode Has(SamProblem p, PetscReal *friction, PetscBool *has)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether a step's motion is one of loads, or of displacements along x and y, alone. */
+/* True if a step's motion is one of loads, or of displacements along x and y, alone. */
 static PetscBool IsPlain(SamProblem p, const SamSolution *s)
 {
   const SamConditions conditions = SamProblemGetConditions(p);

@@ -206,7 +206,7 @@ void SamIncrementTurnRow(const SamIncrement *s, PetscInt j, double *const to[2])
   }
 }
 
-/* Of the bound after a step, the part that the slip in it works against since a cell touched (step/direction.c). */
+/* The part of the bound after a step that the slip in it works against since a cell touched (step/direction.c). */
 #define TOUCHED 0.4
 
 /*

@@ -80,7 +80,7 @@ static PetscReal LoadBefore(SamSolve *w, PetscInt component)
   return w->task->before ? w->task->before->load[component] : 0;
 }
 
-/* Whether contact grows with N and the other loads, and shear says how the surfaces move where it is made. */
+/* True if contact grows with N and the other loads, and shear says how the surfaces move where it is made. */
 static PetscBool Grows(SamSolve *w)
 {
   const SamPair   pair    = SamElasticityGetPair(w->task->elasticity);
