@@ -340,13 +340,16 @@ static PetscErrorCode Move(SamContact c, const PetscReal roll[2])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscBool HasContact(const SamSolution *before)
+{
+  return before && before->load[SAM_COMPONENT_N] > 0;
+}
+
 /* True if there is contact, and it may grow: by the normal load, or by an approach whose load is not known yet. */
 static PetscBool MayGrow(const SamSolution *before, const SamControl *control)
 {
-  const PetscInt  n    = SAM_COMPONENT_N;
-  const PetscReal load = !before ? 0 : before->control.force[n] ? before->control.value[n] : before->load[n];
-
-  return load > 0 && !(control->force[n] && control->value[n] <= load);
+  return HasContact(before) &&
+         !(control->force[SAM_COMPONENT_N] && control->value[SAM_COMPONENT_N] <= SamSolutionGetNormal(before));
 }
 
 /* True if nothing moves the bodies along each other in a step from no contact: else it applies N, then the rest. */
@@ -379,8 +382,9 @@ PetscErrorCode SamContactBegin(SamContact c, const SamControl *control)
   PetscCall(LieOnLine(c, control, &straight));
   s->mid_step = SamContactSlipBefore(c) && !straight && !c->rolls && c->set.slip_direction == SAM_SLIP_MID;
   s->lags     = !straight && !s->mid_step;
-  s->touches  = c->set.slip_direction == SAM_SLIP_MID && SamContactIsCoupled(c) && c->motion->continues && !c->rolls &&
-               (MayGrow(before, control) || control->together || AppliesOnlyNormal(before, control));
+  s->touches =
+    c->set.slip_direction == SAM_SLIP_MID && SamContactIsCoupled(c) && c->motion->continues && !c->rolls &&
+    (MayGrow(before, control) || (!HasContact(before) && (control->together || AppliesOnlyNormal(before, control))));
   PetscCall(SamStateSetField(c->state, c->tractions[0], &s->pressure));
   PetscCall(SamStateSetField(c->state, c->tractions[1], &s->bound));
   PetscCall(SamStateSetField(c->state, c->tractions[2], &s->shear));

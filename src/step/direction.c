@@ -84,11 +84,11 @@ static PetscReal LoadBefore(SamSolve *w, PetscInt component)
 static PetscBool Grows(SamSolve *w)
 {
   const SamPair   pair    = SamElasticityGetPair(w->task->elasticity);
-  const PetscReal before  = LoadBefore(w, SAM_COMPONENT_N);
+  const PetscReal before  = w->task->before ? SamSolutionGetNormal(w->task->before) : 0;
   const PetscBool touched = before > 0 || w->s->control.together ? PETSC_TRUE : PETSC_FALSE;
 
   return touched && w->task->set->slip_direction == SAM_SLIP_MID && w->task->motion->continues && !w->task->rolls &&
-         w->s->load[SAM_COMPONENT_N] > before && !(w->task->coupled && fabs((double)pair->dundurs) > MOST_DUNDURS);
+         SamSolutionGetNormal(w->s) > before && !(w->task->coupled && fabs((double)pair->dundurs) > MOST_DUNDURS);
 }
 
 PetscBool SamSolveIsTwice(SamSolve *w)

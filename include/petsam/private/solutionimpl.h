@@ -137,6 +137,14 @@ static inline double SamContactEdgeLength(SamGrid grid, double faces)
   return SamGridIsRow(grid) ? faces : PETSC_PI / 4 * faces * sqrt((double)(grid->dx * grid->dy));
 }
 /*
+  SamSolutionGetNormal - the normal load of a solution (N): the prescribed one if there is, so that a constant load does
+  not seem to grow by rounding. Not collective.
+*/
+static inline PetscReal SamSolutionGetNormal(const SamSolution *s)
+{
+  return s->control.force[SAM_COMPONENT_N] ? s->control.value[SAM_COMPONENT_N] : s->load[SAM_COMPONENT_N];
+}
+/*
   SAM_ENTERING - the number in the state that has what slip of dissimilar bodies would work more (J) if the cells in
   which contact is made had touched before the step: 0 of others.
 */
