@@ -156,7 +156,7 @@ def test_partial_slip_has_reference_numbers(solve, tmp_path):
 
 @pytest.mark.parametrize("coupling", [None, "none"])
 def test_contact_that_does_not_yield_is_elastic(solve, tmp_path, coupling):
-    """But for the slip of coupled bodies in the first step: slip before cells touch is taken off of elastic ones only."""
+    """But for the first slip of coupled bodies: only of elastic ones it counts from when cells touch."""
     case = pushed(16, 6, tmp_path / "h.csv", (0, 0.5, -0.2, 0.7), coupling=coupling)
     high = all_steps(solve({**case, "body2_yield": 1.0}))
     elastic = all_steps(solve({**case, "body2_yield": "inf"}))
