@@ -101,15 +101,16 @@ typedef struct {
   SamExtent         extent;            /* with the contact there */
   SamRollingError   rolling;           /* of the steps so far */
   SamSlip           slip;              /* of the steps so far; of the last computed cycle */
-  PetscReal      half[2], across; /* half widths (m) and cells across: of a closed solution if it is of this contact */
+  PetscReal      half[2], across; /* half widths (m) and cells across: of a closed solution if it is of this contact, */
+  PetscBool      closed;          /* which is then true */
   PetscErrorCode error;           /* the first of who receives it */
 } SamAdvice;
 /*
   SamAdviceAddLoads - adds the loads of step k to the largest ones. Not collective.
   SamAdviceBegin - before the first step: heights and options that are unlikely to be meant. Collective.
   SamAdviceStep - after step k, with a solution: if it has the largest load, once, motions that are not small, bodies
-  that do not touch, a contact of fewer than 20 cells across, a peak pressure that cells half as wide change by more
-  than 5 %, a contact that is wider than a tenth of a radius of curvature, or a pressure above 0.2 E*; `found`: the
+  that do not touch, a contact of fewer than 20 cells across (14 if a closed solution describes it), a peak pressure that
+  cells half as wide change by more than 5 % (10 % after wear), a contact that is wider than a tenth of a radius of curvature, or a pressure above 0.2 E*; `found`: the
   contact, NULL if it has not been looked at now. With `of_laws` what the laws have to say, each once. Collective.
   SamAdviceRenew - the next SamAdviceStep() of such a load looks again at how the contact, which has been worn, is
   resolved. `after`: when that is, for the message. Not collective.
