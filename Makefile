@@ -38,9 +38,9 @@ CLANG    := $(findstring clang,$(shell $(CC) --version 2>/dev/null))
 WARNINGS := -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wvla -Wpointer-arith $(if $(CLANG),-Wno-pass-failed) $(if $(WERROR),-Werror)
 ALL_CFLAGS = -std=c11 -D_GNU_SOURCE -fopenmp-simd -fno-math-errno -fno-trapping-math $(OPT) -fPIC -Iinclude -I$(B) $(PC_CFLAGS) $(WARNINGS) -MMD -MP $(CFLAGS)
 
-LIB_SRC := $(sort $(shell find src -name "*.c" ! -path "src/app/*"))
+LIB_SRC := $(sort $(shell find src -name "*.c" ! -path "src/front/app/*"))
 PROGRAMS := petsam petsam-stress
-APP_SRC := $(filter-out $(PROGRAMS:%=src/app/%.c),$(sort $(wildcard src/app/*.c src/app/*/*.c)))
+APP_SRC := $(filter-out $(PROGRAMS:%=src/front/app/%.c),$(sort $(wildcard src/front/app/*.c src/front/app/*/*.c)))
 LIB_OBJ := $(LIB_SRC:%.c=$(B)/obj/%.o)
 APP_OBJ := $(APP_SRC:%.c=$(B)/obj/%.o)
 BENCHES := $(patsubst tests/bench/%.c,$(B)/bench/%,$(wildcard tests/bench/*.c))
@@ -69,8 +69,8 @@ $(B)/obj/%.o: %.c
 	$(Q)$(CC) $(ALL_CFLAGS) -c $< -o $@
 
 # the text of -help
-$(PROGRAMS:%=$(B)/obj/src/app/%.o): $(B)/obj/src/app/%.o: $(B)/help/%.h
-$(B)/help/%.h: src/app/%.help scripts/maintain/help.awk include/petsam/base.h
+$(PROGRAMS:%=$(B)/obj/src/front/app/%.o): $(B)/obj/src/front/app/%.o: $(B)/help/%.h
+$(B)/help/%.h: src/front/app/%.help scripts/maintain/help.awk include/petsam/base.h
 	@mkdir -p $(@D)
 	$(Q)awk -v version=$(VERSION) -f scripts/maintain/help.awk $< > $@
 
@@ -90,7 +90,7 @@ $(B)/lib/libpetsam.so: $(LIB_OBJ) $(B)/lib/exports.map
 	$(Q)cd $(@D) && ln -sf $(@F).$(VERSION) $(SONAME) && ln -sf $(SONAME) $(@F)
 
 # with the shared library beside them, whose lists of types plugins add to
-$(PROGRAMS:%=$(B)/bin/%): $(B)/bin/%: $(B)/obj/src/app/%.o $(APP_OBJ) $(B)/lib/libpetsam.so
+$(PROGRAMS:%=$(B)/bin/%): $(B)/bin/%: $(B)/obj/src/front/app/%.o $(APP_OBJ) $(B)/lib/libpetsam.so
 	@mkdir -p $(@D)
 	$(say) LD $@
 	$(Q)$(CC) $(LDFLAGS) -o $@ $^ '-Wl,-rpath,$$ORIGIN/../lib' $(PC_LIBS)
@@ -203,7 +203,7 @@ check-format: $(B)/venv/tests-done ## check the format of C and Python, and the 
 	@$(PYTHON) scripts/maintain/check_words.py
 
 lint: $(PROGRAMS:%=$(B)/help/%.h) ## cppcheck over the sources
-	cppcheck -q --std=c11 --enable=warning,portability --error-exitcode=1 --inline-suppr -Iinclude -I$(B) --suppress=missingInclude --suppress=unknownMacro --suppress=ctuArrayIndex $(LIB_SRC) $(APP_SRC) $(PROGRAMS:%=src/app/%.c)
+	cppcheck -q --std=c11 --enable=warning,portability --error-exitcode=1 --inline-suppr -Iinclude -I$(B) --suppress=missingInclude --suppress=unknownMacro --suppress=ctuArrayIndex $(LIB_SRC) $(APP_SRC) $(PROGRAMS:%=src/front/app/%.c)
 
 # what is installed for users; scripts that build and maintain petsam are not
 SHARED = $(shell find scripts examples -type f ! -path '*/maintain/*' ! -path '*/__pycache__/*' ! -name setup.py ! -name install-dependencies.sh ! -name quickstart.sh)

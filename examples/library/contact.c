@@ -18,6 +18,7 @@ int main(int argc, char **argv)
   Vec               separation;
 
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
+  PetscCall(SamInitialize());
   PetscCall(SamGridCreate(PETSC_COMM_WORLD, n, width, center, &grid));
   PetscCall(SamBodyCreate(1, &steel, &body));
   PetscCall(SamPairCreate(body, body, &bodies));

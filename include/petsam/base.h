@@ -32,8 +32,8 @@
 #define SAM_ERR_FILE PETSC_ERR_FILE_OPEN
 
 /*
-  SamInitialize - registers petsam's classes and log events, and starts FFTW for MPI. Collective on
-  PETSC_COMM_WORLD, after PetscInitialize(); calling it again does nothing. The public Create functions call it.
+  SamInitialize - registers petsam's classes, its laws and its log events, and starts FFTW for MPI. To be called after
+  PetscInitialize(), before a problem gets laws; calling it again does nothing. Collective on PETSC_COMM_WORLD.
 */
 PETSC_EXTERN PetscErrorCode SamInitialize(void);
 

@@ -7,7 +7,7 @@
 
 /*
   SamEvaluation - the stresses in one body under the tractions of load steps: at depths below all cells (maps) or below
-  a line of them (a section); the quantities that are wanted of them (src/stress/quantities.c); and fatigue parameters
+  a line of them (a section); the quantities that are wanted of them (src/post/stress/quantities.c); and fatigue parameters
   over the steps, taken as one closed cycle. Maps are evaluated depth by depth, and each step is read once per depth:
   the steps of a SamStressSource need not be in memory together. Fatigue parameters keep 48 bytes per cell and step.
   Where surfaces slide, results of body 2 are at its own points, those that lie under the cells at slide 0.

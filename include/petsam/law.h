@@ -61,16 +61,13 @@ PETSC_INTERN PetscErrorCode SamLawAddConditions(SamLaw law, SamConditions condit
 PETSC_INTERN PetscErrorCode SamLawAddParameters(SamLaw law, SamParameters *parameters);
 
 /*
-  SamLawSetFriction - coulomb: the coefficient of friction, the same everywhere.
-  SamLawSetFrictionField - coulomb: one coefficient for each cell (one component), copied.
-  The later of the two calls counts. Collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for a coefficient that is negative or
-  not finite; PETSC_ERR_ARG_WRONG for a law of another type, as the next.
   SamLawSetHardness - hardness: the largest pressure (Pa), at which the surfaces yield; infinite: none. Not collective,
   the same on all ranks. Errors: PETSC_ERR_ARG_OUTOFRANGE unless it is > 0.
 */
-PETSC_EXTERN PetscErrorCode SamLawSetFriction(SamLaw law, PetscReal friction);
-PETSC_EXTERN PetscErrorCode SamLawSetFrictionField(SamLaw law, Vec friction);
-/* SamLawGetFriction - coulomb: the coefficient, 0 where a field counts. Not collective. */
+/*
+  SamLawGetFriction - coulomb: the coefficient of friction, 0 where a field counts. Not collective. Errors:
+  PETSC_ERR_ARG_WRONG for a law without one.
+*/
 PETSC_EXTERN PetscErrorCode SamLawGetFriction(SamLaw law, PetscReal *friction);
 PETSC_EXTERN PetscErrorCode SamLawSetHardness(SamLaw law, PetscReal hardness);
 /*

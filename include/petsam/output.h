@@ -41,15 +41,13 @@ PETSC_EXTERN PetscErrorCode SamOutputSettingsPrepare(SamOutputSettings *settings
 
 /*
   SamOutputCreate - creates the file with the coordinates of the grid and no step yet, under another name
-  (SamOutputNameTemporary()): it takes its own, and replaces older results, when it is first written, or closed. All
+  (SamFileNameTemporary()): it takes its own, and replaces older results, when it is first written, or closed. All
   ranks write together through MPI-IO. Until it is destroyed, no other run gets the file, but others may read it.
   Collective. Errors: SAM_ERR_FILE when the file cannot be created, is being written by another run, or is there and is
   not a results file of petsam; it is left unchanged then.
 */
 PETSC_EXTERN PetscErrorCode SamOutputCreate(SamGrid grid, const char filename[], const SamOutputSettings *settings,
                                             SamOutput *output);
-/* SamOutputNameTemporary - the name of results until they are complete; the caller frees it. Not collective. */
-PETSC_EXTERN PetscErrorCode SamOutputNameTemporary(const char filename[], char **temporary);
 /* SamOutputSetParameters - stores parameters as attributes of the root group. Collective. Errors: SAM_ERR_FILE. */
 PETSC_EXTERN PetscErrorCode SamOutputSetParameters(SamOutput output, const SamParameters *parameters);
 /*

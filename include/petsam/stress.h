@@ -37,7 +37,7 @@ PETSC_INTERN PetscErrorCode SamStressApply(SamStress stress, Vec field);
 /*
   SamStressAtEdge - the stresses xx, yy and xy (Pa, three a point) on the surface at the points of the contact's edge,
   of a reconstruction of the pressure's square: the maximum tension lies there, and the values of the map approach it
-  only with the square root of the cell size (src/elasticity/halfspace/stressedge.c). `field`: the map of
+  only with the square root of the cell size (src/bodies/elasticity/halfspace/stressedge.c). `field`: the map of
   SamStressApply() at depth 0. NaN within six cells of the grid's border, and where the type of elasticity has no such
   method. Collective.
 */

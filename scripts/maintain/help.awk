@@ -1,4 +1,4 @@
-# Turns the text of a program's help, src/app/*.help, into C: the array `topics`, whose first is the usage.
+# Turns the text of a program's help, src/front/app/*.help, into C: the array `topics`, whose first is the usage.
 # A line "== name: group; group" begins a topic, to which the options of these groups belong; empty lines before it
 # separate only. @VERSION@ stands for the variable `version`.
 

@@ -5,7 +5,7 @@
         for option in group.options:
             print(group.name, option.name, option.argument, option.text, option.default)
 
-src/app/help.c describes the whole, which read_help() returns.
+src/front/app/help.c describes the whole, which read_help() returns.
 """
 
 from __future__ import annotations

@@ -3,7 +3,7 @@
 #define PETSAM_CONTACTIMPL_H
 
 #include <petsam/contact.h>
-#include "../step/step.h"
+#include "step/step.h"
 
 struct _n_SamContact {
   /* what the user set */

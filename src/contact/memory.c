@@ -488,7 +488,7 @@ PetscErrorCode SamContactRewind(SamContact c, const PetscReal by[2])
       if (c->generation[g].control.force[along[k]]) continue;
       n[c->control + 1 + SAM_COMPONENTS + along[k]] -= by[k];
     }
-    SamSlideRewind(c->state, g, by);
+    SamFramesRewind(c->state, g, by);
   }
   PetscCall(SamContactView(c));
   PetscFunctionReturn(PETSC_SUCCESS);

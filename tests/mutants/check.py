@@ -10,7 +10,7 @@ listed, and the command ends with 1.
 
 An entry of a list, entries being separated by empty lines, # beginning a comment line:
 
-    src/contact/verdict.c                    the file
+    src/contact/check/verdict.c              the file
     - check->cone <= limits->cone            the text to be changed, which must stand there once
     + check->cone >= 0                       what it becomes (lines of several - and + are one text)
     ! test_verdict                           the tests: a unit test program, `test_x@2` on that many ranks, or

@@ -222,7 +222,7 @@ def test_nothing_but_missing_points(surface, tmp_path):
 
 
 def test_python_and_c_know_the_same_units():
-    text = (ROOT / "src/file/lengths.c").read_text()
+    text = (ROOT / "src/ground/file/lengths.c").read_text()
     pairs = re.findall(r'\{"([^"]+)", ([\d.e-]+)\}', text.split("} units[]")[1].split(";")[0])
     names = {name: float(value) for words, value in pairs for name in words.encode().decode("unicode_escape").split()}
     assert names == UNITS

@@ -1,4 +1,4 @@
-/* Checkpoints for the tests of src/io: a contact of dissimilar bodies, its parameters, and its files. */
+/* Checkpoints for the tests of src/run/io: a contact of dissimilar bodies, its parameters, and its files. */
 #ifndef PETSAM_CHECKPOINTS_H
 #define PETSAM_CHECKPOINTS_H
 

@@ -1,4 +1,4 @@
-/* Results for the tests of src/io: a contact with prescribed values, steps in a file, and reading them back. */
+/* Results for the tests of src/run/io: a contact with prescribed values, steps in a file, and reading them back. */
 #ifndef PETSAM_TEST_RESULTS_H
 #define PETSAM_TEST_RESULTS_H
 

@@ -100,7 +100,7 @@ static inline int SamTestMainWith(int argc, char **argv, CMFixtureFunction setup
   char folder[PETSC_MAX_PATH_LEN] = "";
   int  rank, failed;
 
-  if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;
+  if (PetscInitialize(&argc, &argv, NULL, NULL) || SamInitialize()) return 1;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   if (rank && (!freopen("/dev/null", "w", stdout) || !freopen("/dev/null", "w", stderr)))
     MPI_Abort(PETSC_COMM_WORLD, 1);

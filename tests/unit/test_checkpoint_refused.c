@@ -6,7 +6,7 @@
 
 #include <hdf5.h>
 
-#include "../../src/io/ioimpl.h"
+#include "../../src/run/io/ioimpl.h"
 
 /* Asserts that the file is refused on all ranks, in a message with these texts (NULL: none); the contact stays. */
 static void AssertUnreadable(const Case *c, const SamParameters *parameters, PetscErrorCode code,

@@ -1,7 +1,7 @@
 /* The return to the yield surface: paths with known ends, the yield function there, and the tangent by differences. */
 #include "samtest.h"
 
-#include "../../src/plastic/mises.h"
+#include "../../src/laws/plastic/mises.h"
 
 #define SHEAR 80000.0
 #define YIELD 300.0

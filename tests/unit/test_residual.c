@@ -4,7 +4,7 @@
 */
 #include "elasticities.h"
 
-#include "../../src/plastic/images.h"
+#include "../../src/laws/plastic/images.h"
 
 #define MU 1.0
 #define NU 0.3

@@ -32,6 +32,12 @@
   #define SAM_VECTORIZED
 #endif
 
+/*
+  SamBaseInitialize - the part of SamInitialize() that all parts of the library need; calling it again does nothing.
+  Collective on PETSC_COMM_WORLD.
+*/
+PETSC_INTERN PetscErrorCode SamBaseInitialize(void);
+
 /* ---- log events, for -log_view and the closing table of the program ---- */
 typedef enum {
   SAM_EVENT_SETUP_INFLUENCE,

@@ -3,7 +3,8 @@
 #define PETSAM_FILE_H
 
 #include <petsam/private/baseimpl.h>
-#include <petsam/grid.h>
+#include <petsam/parameters.h>
+#include <petsam/private/state.h>
 #include <hdf5.h>
 #include <sys/types.h>
 
@@ -135,6 +136,35 @@ PETSC_INTERN PetscBool SamFileIsWhole(SamFile file, hid_t dataset, const hsize_t
 */
 PETSC_INTERN PetscBool SamTextRead(hid_t object, const char name[], char text[], size_t size);
 
+/* ---- parameters and images (attributes.c, vtkhdf.c) ---- */
+
+/*
+  SamParametersWrite - writes all parameters as attributes of the root group.
+  SamParametersDiffer - whether a fixed parameter has another value in the file, or is missing there; the message names
+  it and both values.
+  Both note their failures. Collective.
+*/
+PETSC_INTERN void      SamParametersWrite(SamFile file, const SamParameters *parameters);
+PETSC_INTERN PetscBool SamParametersDiffer(SamFile file, const SamParameters *parameters, char message[], size_t size);
+/* The datasets `names` of the root group as an image for VTK: their values are at cells, or else at points. */
+typedef struct {
+  PetscBool   cells;
+  hsize_t     n[3];                  /* cells or points along x, y, z */
+  double      origin[3], spacing[3]; /* of the first point, a corner of the first cell, and between points; m */
+  int64_t     steps; /* in the datasets, whose first dimension is the time; -1: without this dimension */
+  double      time;  /* s, of a single step */
+  PetscInt    count;
+  const char *names[SAM_STATE_MOST];
+} SamImage;
+/*
+  SamFileCreateVTK - creates the group VTKHDF of the file; returns its attribute with the number of steps, -1 without
+  one.
+  SamFileCountVTK - sets that number for a sheet of cells that was created without a step.
+  Both note their failures, and are collective.
+*/
+PETSC_INTERN hid_t SamFileCreateVTK(SamFile file, const SamImage *image);
+PETSC_INTERN void  SamFileCountVTK(SamFile file, hid_t number, int64_t steps);
+
 /* ---- the disk (disk.c) ---- */
 
 /* What a file is written for. Old results must be there; a temporary file becomes one of the others by its name. */
@@ -202,6 +232,9 @@ PETSC_INTERN PetscErrorCode SamFileLockCheck(SamGrid grid, const char option[], 
                                              const SamFileLock *hold);
 PETSC_INTERN void           SamFileLockNoteSize(SamFileLock *hold);
 PETSC_INTERN void           SamFileLockRelease(const char filename[], SamFileLock *hold);
+
+/* SamFileNameTemporary - the name of a file until it is complete; the caller frees it. Not collective. */
+PETSC_EXTERN PetscErrorCode SamFileNameTemporary(const char filename[], char **temporary);
 
 #define SAM_SEAL 512 /* bytes at the start of a checkpoint: HDF5's user block, which holds the seal */
 /*

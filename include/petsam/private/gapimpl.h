@@ -1,4 +1,4 @@
-/* The inside of SamGap, for those who add a shape: src/problem/gap/sphere.c is the shortest example. */
+/* The inside of SamGap, for those who add a shape: src/contact/problem/gap/sphere.c is the shortest example. */
 #ifndef PETSAM_GAPIMPL_H
 #define PETSAM_GAPIMPL_H
 

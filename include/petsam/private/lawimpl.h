@@ -1,5 +1,5 @@
 /*
-  The inside of SamLaw, for those who add a law: src/law/sums.c is the shortest example, examples/embed/plugin/law.c one
+  The inside of SamLaw, for those who add a law: src/laws/sums.c is the shortest example, examples/embed/plugin/law.c one
   of friction that changes with slip.
 
   A law is a file. Its create function, registered by SamLawRegister(), sets the methods that it needs:
@@ -21,6 +21,7 @@
 #include <petsam/private/baseimpl.h>
 #include <petsam/balance.h>
 #include <petsam/law.h>
+#include <petsam/private/grid.h>
 
 /*
   SamStrain - a tangential displacement that is linear in place: a point at (x, y) moves by (xx x + xy y, xy x + yy y)
@@ -95,24 +96,38 @@ struct _n_SamLawStep {
 PETSC_EXTERN PetscErrorCode SamLawStepGetFriction(SamLawStep *step, Vec *path, Vec *pressed, Vec *work);
 PETSC_INTERN PetscErrorCode SamLawAddToSum(SamState state, const char name[], Vec more);
 /*
-  The law slide. Under a point x of the grid, which goes with body 1, lies the point x + D of body 2, D being the slide
-  (m). What a law keeps at body 2's points it keeps at those under the cells at D = 0.
-  SamSlideGet - the slide of a generation, of SAM_TRIED without a try the committed one; FALSE: the contact has none,
-  and D = 0. SamSlideSet - of the committed one, if the contact has any. SamSlideRewind - of a generation, and of what
-  it follows: less by a distance (m). Not collective.
-  SamSlideGetOffset - how far from the cells the points of a body, 0 or 1, lie in it that are under the grid as it is
-  now: by what the contact has rolled over both, in the second body by the slide of the generation, too; FALSE: there is
-  no law slide. Not collective.
-  SamSlideRead - what the cells see of a field that is kept at a body's own points, by its offset; outside of the grid
-  it is zero, or its period. SamSlideWrite - the transpose: from cells to the body's points, with the same sum. Other
-  vectors, of one component. Collective.
+  The frames of both bodies (frames.c). Under a point x of the grid, which goes with body 1, lies the point x + D of
+  body 2, D being the slide (m). A field of body 2 is kept at the points that lie under the cells at D = 0. The numbers
+  are those of the state, in this order, which the law slide declares: D and what has been rolled, the slider (m) and its
+  longest stretch (m).
+  SamFramesGetSlide - D of a generation, of SAM_TRIED without a try the committed one; FALSE: the surfaces do not slide,
+  and D = 0. SamFramesSetSlide - of the committed one, if they do. SamFramesRewind - takes a distance (m) off D, and off
+  what it follows, of a generation. Not collective.
+  SamFramesGetOffset - how far from the cells the points of a body, 0 or 1, lie in it that are under the grid as it is
+  now: by what the contact has rolled over both, in the second body by the slide of the generation, too; FALSE: the
+  surfaces do not slide. Not collective.
+  SamFramesRead - what the cells see of a field that is kept at a body's own points, by its offset; outside of the grid
+  it is zero, or its period. SamFramesReadBeyond - with another value outside. SamFramesWrite - the transpose: from
+  cells to the body's points, with the same sum. Other vectors, of one component. Collective.
 */
-PETSC_INTERN PetscBool SamSlideGet(SamState state, SamGeneration generation, PetscReal slide[2]);
-PETSC_INTERN PetscBool SamSlideGetOffset(SamState state, SamGeneration generation, PetscInt body, PetscReal offset[2]);
-PETSC_INTERN void      SamSlideSet(SamState state, const PetscReal slide[2]);
-PETSC_INTERN void      SamSlideRewind(SamState state, SamGeneration generation, const PetscReal by[2]);
-PETSC_INTERN PetscErrorCode SamSlideRead(SamElasticity elasticity, const PetscReal slide[2], Vec body2, Vec field);
-PETSC_INTERN PetscErrorCode SamSlideWrite(SamElasticity elasticity, const PetscReal slide[2], Vec field, Vec body2);
+enum {
+  SAM_FRAME_X,
+  SAM_FRAME_Y,
+  SAM_FRAME_ROLLED_X,
+  SAM_FRAME_ROLLED_Y,
+  SAM_FRAME_SLIDER_X,
+  SAM_FRAME_SLIDER_Y,
+  SAM_FRAME_LIMIT
+};
+#define SAM_FRAME "slide_x" /* name of the first number */
+PETSC_INTERN PetscBool SamFramesGetSlide(SamState state, SamGeneration generation, PetscReal slide[2]);
+PETSC_INTERN PetscBool SamFramesGetOffset(SamState state, SamGeneration generation, PetscInt body, PetscReal offset[2]);
+PETSC_INTERN void      SamFramesSetSlide(SamState state, const PetscReal slide[2]);
+PETSC_INTERN void      SamFramesRewind(SamState state, SamGeneration generation, const PetscReal by[2]);
+PETSC_INTERN PetscErrorCode SamFramesRead(SamElasticity elasticity, const PetscReal slide[2], Vec own, Vec seen);
+PETSC_INTERN PetscErrorCode SamFramesReadBeyond(SamElasticity elasticity, const PetscReal slide[2], SamBorder beyond,
+                                                Vec own, Vec seen);
+PETSC_INTERN PetscErrorCode SamFramesWrite(SamElasticity elasticity, const PetscReal slide[2], Vec seen, Vec own);
 /*
   SamLawListWords - appends the words of an option that selects laws, each behind `between`. Collective.
   SamLawOrder - the place of a type among those registered. Not collective.
@@ -195,7 +210,8 @@ struct _n_SamLaw {
     PetscErrorCode (*limit)(SamLaw law, PetscReal *most);
     /* the largest shear of each cell; `has`: whether any cell bears shear */
     PetscErrorCode (*bound)(SamLaw law, const SamBoundAt *at, const SamBound *bound);
-    PetscErrorCode (*hasfriction)(SamLaw law, PetscBool *has);
+    /* the coefficient of friction, 0 where a field counts; `has` (or NULL): any is above 0, which is collective */
+    PetscErrorCode (*friction)(SamLaw law, PetscReal *uniform, PetscBool *has);
     /* adds by how much the bodies overlap in the tried step where they bear no more, m; or NULL */
     PetscErrorCode (*overlap)(SamLaw law, SamState state, Vec overlap);
     /* the law's tried state, and numbers of the step */
@@ -207,7 +223,9 @@ struct _n_SamLaw {
   } ops;
 };
 
-/* The laws that come with the library, in the order in which they act (register.c). */
+/*
+  The laws that come with the library, in the order in which they act (laws/register.c); SamInitialize() registers them.
+*/
 PETSC_INTERN PetscErrorCode SamLawRegisterAll(void);
 PETSC_INTERN PetscErrorCode SamLawCreate_Coulomb(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_BulkStress(SamLaw law);

@@ -1,4 +1,4 @@
-"""Units of length, the same as petsam's (src/file/lengths.c), and lengths on the command line."""
+"""Units of length, the same as petsam's (src/ground/file/lengths.c), and lengths on the command line."""
 
 import argparse
 import re

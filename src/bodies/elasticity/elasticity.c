@@ -1,0 +1,397 @@
+/* Influence operators: types, options, and the operators on coarser grids. */
+#include <petsam/private/elasticity.h>
+#include <petsam/private/elasticityimpl.h>
+#include <petsam/private/fourier.h>
+#include <math.h>
+#include <string.h>
+
+#define THINNEST 1e-12 /* layer, in cells */
+
+/* Grids with fewer cells than this in a direction are solved directly, without a coarser one. */
+#define COARSEST 32
+
+static PetscFunctionList SamElasticityList = NULL;
+
+static PetscErrorCode FreeList(void)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFunctionListDestroy(&SamElasticityList));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode RegisterAll(void)
+{
+  PetscFunctionBegin;
+  if (SamElasticityList) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscFunctionListAdd(&SamElasticityList, SAM_ELASTICITY_HALFSPACE, SamElasticityCreate_HalfSpace));
+  PetscCall(PetscFunctionListAdd(&SamElasticityList, SAM_ELASTICITY_PERIODIC, SamElasticityCreate_Periodic));
+  PetscCall(PetscFunctionListAdd(&SamElasticityList, SAM_ELASTICITY_PLANE, SamElasticityCreate_Plane));
+  PetscCall(PetscFunctionListAdd(&SamElasticityList, SAM_ELASTICITY_PLANE_PERIODIC, SamElasticityCreate_PlanePeriodic));
+  PetscCall(PetscRegisterFinalize(FreeList));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticityRegister(const char name[], PetscErrorCode (*create)(SamElasticity))
+{
+  PetscFunctionBegin;
+  PetscCall(RegisterAll()); /* first, so that a type of the same name replaces ours */
+  PetscCall(PetscFunctionListAdd(&SamElasticityList, name, create));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticityGetTypes(char types[], size_t size)
+{
+  PetscFunctionBegin;
+  PetscCall(RegisterAll());
+  PetscCall(SamTypesList(SamElasticityList, types, size));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticityCreate(SamGrid grid, SamPair pair, SamElasticity *elasticity)
+{
+  SamElasticity e;
+
+  PetscFunctionBegin;
+  PetscCall(SamBaseInitialize());
+  PetscCall(RegisterAll());
+  PetscCall(PetscNew(&e));
+  e->references = 1;
+  PetscCall(SamPairReference(pair));
+  e->pair = pair;
+  e->film = SamPairFilm(pair);
+  for (PetscInt k = 0; k < 2; k++) e->factor[k] = 1;
+  PetscCall(SamGridReference(grid));
+  e->grid = grid;
+  PetscCall(SamElasticitySetType(e, SamGridIsRow(grid) ? SAM_ELASTICITY_PLANE : SAM_ELASTICITY_HALFSPACE));
+  *elasticity = e;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticityPlaneFromOptions(const SamOptions *from, PetscBool *plane)
+{
+  char type[64] = "";
+
+  PetscFunctionBegin;
+  PetscCall(PetscOptionsGetString(NULL, from->prefix, "-elasticity", type, sizeof(type), NULL));
+  *plane = !strcmp(type, SAM_ELASTICITY_PLANE) || !strcmp(type, SAM_ELASTICITY_PLANE_PERIODIC);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Destroys everything of the type and derived from it. */
+static PetscErrorCode Reset(SamElasticity e)
+{
+  PetscFunctionBegin;
+  if (e->ops.destroy) PetscCall((*e->ops.destroy)(e));
+  PetscCall(PetscFree(e->data));
+  PetscCall(SamFourierDestroy(&e->fourier));
+  PetscCall(SamTransferDestroy(&e->transfer));
+  PetscCall(SamElasticityDestroy(&e->coarse));
+  PetscCall(SamElasticityDestroyParts(e));
+  PetscCall(SamElasticityDestroy(&e->inner));
+  PetscCall(PetscMemzero(&e->ops, sizeof(e->ops)));
+  e->is_set_up = PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Create(SamElasticity e, SamElasticityType type, SamElasticityCreateFunction create)
+{
+  PetscFunctionBegin;
+  PetscCall(Reset(e));
+  e->create = create;
+  PetscCall(create(e));
+  PetscCall(PetscStrncpy(e->type, type, sizeof(e->type)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticitySetType(SamElasticity e, SamElasticityType type)
+{
+  SamElasticityCreateFunction create;
+  char                        types[256];
+
+  PetscFunctionBegin;
+  PetscCall(PetscFunctionListFind(SamElasticityList, type, &create));
+  PetscCall(SamElasticityGetTypes(types, sizeof(types)));
+  PetscCheck(create, e->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "Elasticity of type %s is not registered: use %s", type,
+             types);
+  PetscCheck(e->references == 1, e->grid->comm, PETSC_ERR_ORDER,
+             "The type of an elasticity must be set before a problem or a solver refers to it");
+  PetscCall(Create(e, type, create));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+SamElasticityType SamElasticityGetType(SamElasticity e)
+{
+  return e->type;
+}
+
+PetscErrorCode SamElasticitySetOptionsPrefix(SamElasticity e, const char prefix[])
+{
+  return SamSetPrefix(e->prefix, prefix);
+}
+
+/* The help lists the options of the other types, too. */
+static PetscErrorCode DescribeOthers(SamElasticity e, const SamOptions *from)
+{
+  const char  **types;
+  int           count;
+  SamElasticity other;
+
+  PetscFunctionBegin;
+  PetscCall(SamTypesGet(SamElasticityList, &types, &count));
+  for (int k = 0; k < count; k++) {
+    if (!strcmp(types[k], e->type)) continue;
+    PetscCall(SamElasticityCreate(e->grid, e->pair, &other));
+    PetscCall(SamElasticitySetType(other, types[k]));
+    if (other->ops.setfromoptions) PetscCall((*other->ops.setfromoptions)(other, from));
+    PetscCall(SamElasticityDestroy(&other));
+  }
+  PetscCall(PetscFree(types));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Thicknesses that the transforms of layered bodies resolve on this grid. */
+static PetscErrorCode CheckThicknesses(SamElasticity e, const SamOptions *from)
+{
+  const PetscReal least = THINNEST * e->grid->side[0], most = 2 * e->grid->length / THINNEST;
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < 2; b++)
+    for (PetscInt n = 0; n + 1 < e->pair->body[b]->count; n++) {
+      const PetscReal h = e->pair->body[b]->material[n].thickness;
+
+      PetscCheck(h >= least && h <= most, from->comm, SAM_ERR_USER,
+                 "-%sbody%" PetscInt_FMT "_layer_thickness %.6g: expected %.3g to %.3g m on this grid", e->prefix,
+                 b + 1, (double)h, (double)least, (double)most);
+    }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticitySetFromOptions(SamElasticity e)
+{
+  const SamOptions from = {e->grid->comm, e->prefix};
+  char             type[sizeof(e->type)], types[256];
+
+  PetscFunctionBegin;
+  PetscCall(SamElasticityGetTypes(types, sizeof(types)));
+  PetscCall(SamOptionsHeading(&from, "Elasticity"));
+  PetscCall(PetscStrncpy(type, e->type, sizeof(type)));
+  PetscCall(SamTypesOption(SamElasticityList, &from, "elasticity", types, type, sizeof(type), NULL));
+  PetscCall(SamFourierSettingsFromOptions(&e->fft, &from));
+  if (strcmp(type, e->type) || e->is_set_up || (e->inner && e->inner->is_set_up))
+    PetscCall(SamElasticitySetType(e, type)); /* made anew with the settings */
+  PetscCheck(e->traits.layers || SamPairIsUniform(e->pair), from.comm, SAM_ERR_USER,
+             "-%selasticity %s: not supported with layers: use %s or %s", e->prefix, type, SAM_ELASTICITY_HALFSPACE,
+             SAM_ELASTICITY_PERIODIC);
+  PetscCall(CheckThicknesses(e, &from));
+  for (SamElasticity o = e; o; o = o->inner) {
+    o->fft = e->fft;
+    if (o->ops.setfromoptions) PetscCall((*o->ops.setfromoptions)(o, &from));
+  }
+  if (SamPrintHelp()) PetscCall(DescribeOthers(e, &from));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticitySetUp(SamElasticity e)
+{
+  PetscFunctionBegin;
+  if (e->is_set_up) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCheck(e->traits.plane == SamGridIsRow(e->grid), e->grid->comm, PETSC_ERR_ARG_SIZ,
+             "Elasticity of type %s: a grid of one row is for plane types, and these need one", e->type);
+  e->is_set_up = PETSC_TRUE;
+  if (e->inner) PetscCall(SamElasticitySetUp(e->inner));
+  if (e->ops.setup) PetscCall((*e->ops.setup)(e));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticityReference(SamElasticity e)
+{
+  PetscFunctionBegin;
+  e->references++;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticityDestroy(SamElasticity *elasticity)
+{
+  SamElasticity e = *elasticity;
+
+  PetscFunctionBegin;
+  *elasticity = NULL;
+  if (!e || --e->references > 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(Reset(e));
+  PetscCall(SamPairDestroy(&e->pair));
+  PetscCall(SamGridDestroy(&e->grid));
+  PetscCall(PetscFree(e));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticityTrim(SamElasticity e)
+{
+  PetscFunctionBegin;
+  for (; e; e = e->inner)
+    if (e->fourier) PetscCall(SamFourierTrim(e->fourier));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+SamGrid SamElasticityGetGrid(SamElasticity e)
+{
+  return e->grid;
+}
+
+SamPair SamElasticityGetPair(SamElasticity e)
+{
+  return e->pair;
+}
+
+SamElasticityTraits SamElasticityGetTraits(SamElasticity e)
+{
+  SamElasticityTraits traits = e->traits;
+
+  SamElasticityWith(e, createstress);
+  traits.stress = e->ops.createstress != NULL;
+  return traits;
+}
+
+PetscErrorCode SamElasticityGetSelfInfluence(SamElasticity e, PetscReal *normal, PetscReal *tangential)
+{
+  PetscFunctionBegin;
+  PetscCall(SamElasticitySetUp(e));
+  SamElasticityWith(e, getselfinfluence);
+  if (!e->has_self || e->ops.begin) PetscCall((*e->ops.getselfinfluence)(e, &e->self[0], &e->self[1]));
+  e->has_self = PETSC_TRUE;
+  if (normal) *normal = e->self[0];
+  if (tangential) *tangential = e->self[1] + e->film;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticityCreateStress(SamElasticity e, PetscInt body, const SamFourierSettings *settings,
+                                         SamStress *stress)
+{
+  PetscFunctionBegin;
+  SamElasticityWith(e, createstress);
+  PetscCheck(e->ops.createstress, e->grid->comm, PETSC_ERR_SUP, "Elasticity of type %s: no stresses are available",
+             e->type);
+  PetscCheck((body == 1 || body == 2) && !SamBodyIsRigid(e->pair->body[body - 1]), e->grid->comm,
+             PETSC_ERR_ARG_OUTOFRANGE, "Body %" PetscInt_FMT ": use 1 or 2, an elastic body", body);
+  PetscCall((*e->ops.createstress)(e, body, settings ? settings : &e->fft, stress));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticityAddParameters(SamElasticity e, SamParameters *p)
+{
+  PetscFunctionBegin;
+  PetscCall(SamPairAddParameters(e->pair, p));
+  for (; e->wraps; e = e->inner)
+    if (e->ops.addparameters) PetscCall((*e->ops.addparameters)(e, p)); /* wrappers are recorded by their options */
+  PetscCall(SamParametersAddText(p, "elasticity", PETSC_TRUE, e->type));
+  if (e->inner) PetscCall(SamParametersAddText(p, "elasticity_inner", PETSC_TRUE, e->inner->type));
+  for (; e; e = e->inner)
+    if (e->ops.addparameters) PetscCall((*e->ops.addparameters)(e, p));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticityCreateFromParameters(SamGrid grid, const SamParameters *p, const char source[],
+                                                 SamElasticity *elasticity)
+{
+  const SamParameter *type = SamParametersFind(p, "elasticity");
+  PetscErrorCode (*create)(SamElasticity);
+  SamPair pair;
+  char    types[256];
+
+  PetscFunctionBegin;
+  PetscCall(SamPairCreateFromParameters(grid->comm, p, source, &pair));
+  PetscCheck(type, grid->comm, SAM_ERR_FILE, "%s: cannot be read: it lacks the attribute elasticity", source);
+  PetscCall(SamElasticityGetTypes(types, sizeof(types)));
+  PetscCall(PetscFunctionListFind(SamElasticityList, type->text, &create));
+  PetscCheck(create, grid->comm, SAM_ERR_FILE, "%s: cannot be read: its elasticity is of type %s: expected %s", source,
+             type->text, types);
+  PetscCall(SamElasticityCreate(grid, pair, elasticity));
+  PetscCall(SamPairDestroy(&pair));
+  PetscCall(SamElasticitySetType(*elasticity, type->text));
+  PetscCheck((*elasticity)->traits.plane == SamGridIsRow(grid), grid->comm, SAM_ERR_FILE,
+             "%s: cannot be read: its elasticity %s does not fit its grid of %" PetscInt_FMT " rows", source,
+             type->text, grid->ny);
+  for (SamElasticity e = *elasticity; e; e = e->inner)
+    if (e->ops.setparameters) PetscCall((*e->ops.setparameters)(e, p, source));
+  PetscCall(SamElasticityAddRecordedCompliances(elasticity, p, source));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticitySetInner(SamElasticity e, SamElasticityType type)
+{
+  SamElasticity inner;
+
+  PetscFunctionBegin;
+  PetscCall(SamElasticityCreate(e->grid, e->pair, &inner));
+  inner->fft = e->fft;
+  PetscCall(SamElasticitySetOptionsPrefix(inner, e->prefix));
+  PetscCall(PetscArraycpy(inner->first, e->first, 2));
+  PetscCall(PetscArraycpy(inner->factor, e->factor, 2));
+  if (type) PetscCall(SamElasticitySetType(inner, type));
+  PetscCall(SamElasticityDestroy(&e->inner));
+  e->inner  = inner;
+  e->traits = inner->traits;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticityWrap(SamElasticity bodies, SamElasticityType type, SamElasticityCreateFunction create,
+                                 SamElasticity *outer)
+{
+  SamElasticity e;
+
+  PetscFunctionBegin;
+  PetscCall(SamElasticityCreate(bodies->grid, bodies->pair, &e));
+  PetscCall(Create(e, type, create));
+  e->wraps = PETSC_TRUE;
+  e->fft   = bodies->fft;
+  PetscCall(PetscStrncpy(e->prefix, bodies->prefix, sizeof(e->prefix)));
+  PetscCall(SamElasticityDestroy(&e->inner));
+  PetscCall(SamElasticityReference(bodies));
+  e->inner  = bodies;
+  e->traits = bodies->traits;
+  *outer    = e;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticityCreateLike(SamElasticity parent, SamGrid grid, const PetscInt first[2],
+                                       SamElasticity *child)
+{
+  const PetscReal ratio[2] = {first ? 1 : (PetscReal)parent->grid->nx / (PetscReal)grid->nx,
+                              first ? 1 : (PetscReal)parent->grid->ny / (PetscReal)grid->ny};
+  SamElasticity e;
+
+  PetscFunctionBegin;
+  PetscCall(SamElasticityCreate(grid, parent->pair, &e));
+  e->fft = parent->fft;
+  for (PetscInt k = 0; k < 2; k++) {
+    e->first[k]  = parent->first[k] + (first ? (PetscReal)first[k] * parent->factor[k] : 0);
+    e->factor[k] = parent->factor[k] * ratio[k];
+  }
+  PetscCall(SamElasticitySetOptionsPrefix(e, parent->prefix));
+  PetscCall(Create(e, parent->type, parent->create));
+  e->wraps = parent->wraps;
+  if (parent->inner) {
+    PetscCall(SamElasticityDestroy(&e->inner));
+    PetscCall(SamElasticityCreateLike(parent->inner, grid, first, &e->inner));
+  }
+  e->traits = parent->traits;
+  e->motion = parent->motion;
+  if (parent->ops.inherit) PetscCall((*parent->ops.inherit)(parent, e));
+  *child = e;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamElasticityGetCoarse(SamElasticity e, SamElasticity *coarse, SamTransfer *transfer)
+{
+  PetscFunctionBegin;
+  if (!e->coarse && e->grid->fewest >= COARSEST) {
+    SamGrid grid;
+
+    PetscCall(SamGridCoarsen(e->grid, &grid));
+    PetscCall(SamElasticityCreateLike(e, grid, NULL, &e->coarse));
+    PetscCall(SamTransferCreate(e->grid, grid, &e->transfer));
+    PetscCall(SamGridDestroy(&grid));
+  }
+  *coarse   = e->coarse;
+  *transfer = e->transfer;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,398 @@
+/* The problem of a contact: elasticity, gap and laws, and what follows from all laws together. */
+#include <petsam/private/elasticity.h>
+#include <petsam/private/motionimpl.h>
+#include <petsam/private/problemimpl.h>
+#include <petsc/private/petscimpl.h> /* PetscObjectStateGet() */
+
+struct _n_SamProblem {
+  PetscInt      references;
+  SamElasticity elasticity;
+  SamGrid       grid; /* of the elasticity; borrowed */
+  Vec           gap;  /* its revision is PETSc's object state, which grows with every change */
+  PetscBool     quadratic;
+
+  PetscObjectState quadratic_at; /* that of the gap then */
+  SamConditions    conditions;
+  PetscInt         laws;
+  SamLaw           law[SAM_LAWS]; /* in the order in which their types were registered */
+};
+
+/* ---- creation ---- */
+
+/* Adds the laws that each problem with these bodies has. */
+static PetscErrorCode AddUsualLaws(SamProblem p)
+{
+  const SamLawType *types;
+  PetscInt          count;
+  SamLaw            law;
+
+  PetscFunctionBegin;
+  PetscCall(SamLawGetTypes(&count, &types));
+  for (PetscInt k = 0; k < count; k++) {
+    PetscCall(SamLawCreate(p->elasticity, types[k], &law));
+    if (law->always) PetscCall(SamProblemAddLaw(p, law));
+    PetscCall(SamLawDestroy(&law));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamProblemCreate(SamElasticity elasticity, SamProblem *problem)
+{
+  SamProblem p;
+
+  PetscFunctionBegin;
+  PetscCall(PetscNew(&p));
+  p->references = 1;
+  PetscCall(SamElasticityReference(elasticity));
+  p->elasticity = elasticity;
+  p->grid       = SamElasticityGetGrid(elasticity);
+  PetscCall(SamGridCreateVec(p->grid, 1, &p->gap));
+  PetscCall(SamConditionsCreate(&p->conditions));
+  PetscCall(SamProblemAddLawOfType(p, SAM_LAW_COULOMB, NULL));
+  PetscCall(AddUsualLaws(p));
+  PetscCall(SamMotionAddConditions(p->conditions));
+  *problem = p;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamProblemReference(SamProblem p)
+{
+  PetscFunctionBegin;
+  p->references++;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamProblemDestroy(SamProblem *problem)
+{
+  SamProblem p = *problem;
+
+  PetscFunctionBegin;
+  *problem = NULL;
+  if (!p || --p->references > 0) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt k = 0; k < p->laws; k++) PetscCall(SamLawDestroy(&p->law[k]));
+  PetscCall(SamConditionsDestroy(&p->conditions));
+  PetscCall(VecDestroy(&p->gap));
+  PetscCall(SamElasticityDestroy(&p->elasticity));
+  PetscCall(PetscFree(p));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+SamElasticity SamProblemGetElasticity(SamProblem p)
+{
+  return p->elasticity;
+}
+
+SamGrid SamProblemGetGrid(SamProblem p)
+{
+  return p->grid;
+}
+
+SamConditions SamProblemGetConditions(SamProblem p)
+{
+  return p->conditions;
+}
+
+PetscReal SamProblemGetRolled(SamProblem p, const SamControl *control, PetscReal distance[2])
+{
+  return SamMotionRolled(p->conditions, control, distance);
+}
+
+/* ---- the gap ---- */
+
+PetscErrorCode SamProblemSetGap(SamProblem p, Vec h)
+{
+  PetscFunctionBegin;
+  PetscCall(SamGridCheckVec(p->grid, 1, h, "The gap"));
+  PetscCall(VecCopy(h, p->gap));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+Vec SamProblemGetGap(SamProblem p)
+{
+  return p->gap;
+}
+
+PetscErrorCode SamProblemSetQuadratic(SamProblem p, PetscBool quadratic)
+{
+  PetscFunctionBegin;
+  p->quadratic = quadratic;
+  PetscCall(PetscObjectStateGet((PetscObject)p->gap, &p->quadratic_at));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamProblemIsQuadratic(SamProblem p, PetscBool *quadratic)
+{
+  PetscObjectState now;
+  double           changed;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectStateGet((PetscObject)p->gap, &now));
+  changed = now != p->quadratic_at; /* perhaps on some ranks only */
+  if (p->quadratic) PetscCall(SamMax(p->grid->comm, 1, &changed));
+  *quadratic = p->quadratic && changed == 0 ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamProblemGetRevision(SamProblem p, PetscObjectState *revision)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscObjectStateGet((PetscObject)p->gap, revision));
+  for (PetscInt k = 0; k < p->laws; k++) *revision += p->law[k]->revision;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- laws ---- */
+
+PetscErrorCode SamProblemAddLaw(SamProblem p, SamLaw law)
+{
+  PetscInt     k;
+  const SamLaw known = SamProblemGetLaw(p, law->type);
+
+  PetscFunctionBegin;
+  PetscCheck(!known, p->grid->comm, PETSC_ERR_ARG_WRONG, "The problem has a law %s already", law->type);
+  PetscCall(SamLawReference(law));
+  PetscCall(SamLawAddConditions(law, p->conditions));
+  for (k = p->laws++; k > 0 && SamLawOrder(p->law[k - 1]->type) > SamLawOrder(law->type); k--)
+    p->law[k] = p->law[k - 1];
+  p->law[k] = law;
+  PetscCall(PetscObjectStateIncrease((PetscObject)p->gap));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamProblemAddLawOfType(SamProblem p, SamLawType type, SamLaw *law)
+{
+  SamLaw found, made;
+
+  PetscFunctionBegin;
+  found = SamProblemGetLaw(p, type);
+  if (!found) {
+    PetscCall(SamLawCreate(p->elasticity, type, &made));
+    PetscCall(SamProblemAddLaw(p, made));
+    found = made;
+    PetscCall(SamLawDestroy(&made));
+  }
+  if (law) *law = found;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamProblemAddSum(SamProblem p, SamLawType type)
+{
+  SamLaw    law;
+  PetscBool accumulates;
+
+  PetscFunctionBegin;
+  PetscCall(SamLawCreate(p->elasticity, type, &law));
+  accumulates = law->accumulates;
+  PetscCall(SamLawDestroy(&law));
+  if (accumulates) PetscCall(SamProblemAddLawOfType(p, type, NULL));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+SamLaw SamProblemGetLaw(SamProblem p, SamLawType type)
+{
+  for (PetscInt k = 0; k < p->laws; k++)
+    if (!strcmp(p->law[k]->type, type)) return p->law[k];
+  return NULL;
+}
+
+PetscErrorCode SamProblemGetLaws(SamProblem p, PetscInt *count, const SamLaw **laws)
+{
+  PetscFunctionBegin;
+  *count = p->laws;
+  *laws  = p->law;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamProblemSetLawsFromOptions(SamProblem p, const SamOptions *from)
+{
+  const SamLawType *types;
+  PetscInt          count;
+
+  PetscFunctionBegin;
+  PetscCall(SamLawGetTypes(&count, &types));
+  for (PetscInt k = 0; k < count; k++) {
+    PetscErrorCode ierr;
+    PetscBool      asked = PETSC_FALSE;
+    SamLaw         known, law;
+
+    known = SamProblemGetLaw(p, types[k]);
+    if (known) {
+      PetscCall(SamLawSetFromOptions(known, from, &asked));
+      continue;
+    }
+    PetscCall(SamLawCreate(p->elasticity, types[k], &law));
+    ierr = SamLawSetFromOptions(law, from, &asked);
+    if (!ierr && asked) PetscCall(SamProblemAddLaw(p, law));
+    PetscCall(SamLawDestroy(&law));
+    PetscCall(ierr);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscInt SamProblemGetBytes(SamProblem p)
+{
+  PetscInt bytes = 0;
+
+  for (PetscInt k = 0; k < p->laws; k++) bytes += p->law[k]->bytes;
+  return bytes;
+}
+
+PetscBool SamProblemMoves(SamProblem p)
+{
+  for (PetscInt k = 0; k < p->laws; k++)
+    if (p->law[k]->ops.separation) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+/* ---- what displaces the surfaces besides the tractions ---- */
+
+PetscErrorCode SamProblemCheckControl(SamProblem p, SamControl *control, const SamCondition **wrong, char why[],
+                                      size_t size)
+{
+  PetscFunctionBegin;
+  why[0] = '\0';
+  for (PetscInt k = 0; k < p->laws && !why[0]; k++)
+    if (p->law[k]->ops.check) PetscCall(p->law[k]->ops.check(p->law[k], control, wrong, why, size));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamProblemBegin(SamProblem p, SamState state, const SamControl *control, PetscReal duration)
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < p->laws; k++)
+    if (p->law[k]->ops.begin) PetscCall(p->law[k]->ops.begin(p->law[k], state, control, duration));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscBool SamProblemHasOffset(SamProblem p)
+{
+  for (PetscInt k = 0; k < p->laws; k++)
+    if (p->law[k]->ops.offset) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+PetscErrorCode SamProblemAddOffset(SamProblem p, SamState state, const SamControl *control, Vec u_z, Vec u_t,
+                                   PetscBool *adds)
+{
+  PetscFunctionBegin;
+  if (adds) *adds = PETSC_FALSE;
+  for (PetscInt k = 0; k < p->laws; k++)
+    if (p->law[k]->ops.offset) PetscCall(p->law[k]->ops.offset(p->law[k], state, control, u_z, u_t, adds));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamProblemGetStrain(SamProblem p, const SamControl *control, SamStrain *strain)
+{
+  PetscFunctionBegin;
+  *strain = (SamStrain){0, 0, 0};
+  for (PetscInt k = 0; k < p->laws; k++)
+    if (p->law[k]->ops.strain) PetscCall(p->law[k]->ops.strain(p->law[k], control, strain));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamProblemAddStress(SamProblem p, const SamControl *control, PetscInt body, PetscReal depth,
+                                   double stress[])
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < p->laws; k++)
+    if (p->law[k]->ops.stress) PetscCall(p->law[k]->ops.stress(p->law[k], control, body, depth, stress));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- friction ---- */
+
+PetscErrorCode SamProblemHasFriction(SamProblem p, PetscBool *has)
+{
+  PetscReal uniform;
+
+  PetscFunctionBegin;
+  *has = PETSC_FALSE;
+  for (PetscInt k = 0; k < p->laws && !*has; k++)
+    if (p->law[k]->ops.friction) PetscCall(p->law[k]->ops.friction(p->law[k], &uniform, has));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamProblemComputeBound(SamProblem p, const SamBoundAt *given, const SamBound *bound)
+{
+  SamBoundAt at    = *given;
+  PetscInt   count = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < p->laws; k++) count += p->law[k]->ops.bound != NULL;
+  if (count > 1 && at.pressure == bound->value) { /* which the first law overwrites */
+    PetscCall(SamGridCreateVec(p->grid, 1, &at.pressure));
+    PetscCall(VecCopy(given->pressure, at.pressure));
+  }
+  for (PetscInt k = 0; k < p->laws; k++)
+    if (p->law[k]->ops.bound) PetscCall(p->law[k]->ops.bound(p->law[k], &at, bound));
+  if (at.pressure != given->pressure) PetscCall(VecDestroy(&at.pressure));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscBool SamProblemFollowsSlip(SamProblem p)
+{
+  for (PetscInt k = 0; k < p->laws; k++)
+    if (p->law[k]->follows_slip) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+/* ---- all else ---- */
+
+PetscErrorCode SamProblemGetPressureLimit(SamProblem p, PetscReal *limit)
+{
+  PetscFunctionBegin;
+  *limit = INFINITY; /* PETSC_INFINITY is a finite number */
+  for (PetscInt k = 0; k < p->laws; k++) {
+    PetscReal most = INFINITY;
+
+    if (p->law[k]->ops.limit) PetscCall(p->law[k]->ops.limit(p->law[k], &most));
+    *limit = PetscMin(*limit, most);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamProblemDeclare(SamProblem p, SamState state)
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < p->laws; k++)
+    if (p->law[k]->ops.declare) PetscCall(p->law[k]->ops.declare(p->law[k], state));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamProblemAddSeparation(SamProblem p, SamState state, SamGeneration generation, Vec h, PetscBool *adds)
+{
+  PetscBool any = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < p->laws && state; k++)
+    if (p->law[k]->ops.separation) PetscCall(p->law[k]->ops.separation(p->law[k], state, generation, h, &any));
+  if (adds) *adds = any;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscBool SamProblemGetOffset(SamProblem p, SamState state, SamGeneration generation, PetscInt body,
+                              PetscReal offset[2])
+{
+  PetscBool depends = PETSC_FALSE;
+
+  for (PetscInt k = 0; k < p->laws; k++) depends = depends || p->law[k]->of_body[body];
+  if (depends && SamFramesGetOffset(state, generation, body, offset)) return PETSC_TRUE;
+  offset[0] = offset[1] = 0;
+  return PETSC_FALSE;
+}
+
+PetscErrorCode SamProblemAddOverlap(SamProblem p, SamState state, Vec overlap)
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < p->laws; k++)
+    if (p->law[k]->ops.overlap) PetscCall(p->law[k]->ops.overlap(p->law[k], state, overlap));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamProblemAdvance(SamProblem p, SamLawStep *step)
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < p->laws; k++)
+    if (p->law[k]->ops.advance) PetscCall(p->law[k]->ops.advance(p->law[k], step));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,146 @@
+/* The parameters of a run, as attributes of its files; fields among them stand for themselves by a checksum. */
+#include <petsam/private/file.h>
+#include <math.h>
+#include <string.h>
+
+/* The attribute that names all fixed parameters of a file, with commas between them. */
+#define NAMES "fixed_parameters"
+
+void SamParametersWrite(SamFile f, const SamParameters *parameters)
+{
+  char names[SAM_PARAMETERS * 33] = "";
+
+  for (PetscInt k = 0; k < parameters->count; k++) {
+    const SamParameter *const p = &parameters->list[k];
+
+    if (p->count)
+      SamFileWriteAttribute(f, f->id, p->name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, p->count, p->value);
+    else
+      SamFileWriteTextAttribute(f, f->id, p->name, p->text);
+    if (p->fixed)
+      (void)snprintf(names + strlen(names), sizeof(names) - strlen(names), "%s%s", names[0] ? "," : "", p->name);
+  }
+  SamFileWriteTextAttribute(f, f->id, NAMES, names);
+}
+
+/* The number of values that an attribute has. */
+static PetscInt Count(SamFile f, const char name[])
+{
+  const hid_t attribute = SamFileNote(f, H5Aopen(f->id, name, H5P_DEFAULT)),
+              space     = SamFileNote(f, H5Aget_space(attribute));
+  const hssize_t count  = SamFileNote(f, H5Sget_simple_extent_npoints(space));
+
+  if (space >= 0) (void)SamFileNote(f, H5Sclose(space));
+  if (attribute >= 0) (void)SamFileNote(f, H5Aclose(attribute));
+  return (PetscInt)PetscMin(PetscMax(count, 1), SAM_PARAMETER_VALUES);
+}
+
+/* Reads the file's value of a parameter. */
+static PetscErrorCode Read(SamFile f, const SamParameter *like, SamParameter *read)
+{
+  char *text = NULL;
+
+  PetscFunctionBegin;
+  *read = *like;
+  if (like->count) {
+    read->count = Count(f, like->name);
+    SamFileReadAttribute(f, f->id, like->name, H5T_NATIVE_DOUBLE, read->count, read->value);
+  } else {
+    SamFileReadTextAttribute(f, f->id, like->name, &text);
+    PetscCall(PetscStrncpy(read->text, text ? text : "", sizeof(read->text)));
+    PetscCall(PetscFree(text));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static void Print(const SamParameter *p, char text[], size_t size)
+{
+  size_t at = 0;
+
+  (void)snprintf(text, size, "%s", p->text);
+  for (PetscInt k = 0; k < p->count && at < size; k++)
+    at += (size_t)snprintf(text + at, size - at, "%s%.15g", k ? "," : "", (double)p->value[k]);
+}
+
+static PetscBool Same(const SamParameter *a, const SamParameter *b)
+{
+  if (a->count != b->count) return PETSC_FALSE;
+  for (PetscInt k = 0; k < a->count; k++)
+    if (!(a->value[k] == b->value[k])) return PETSC_FALSE;
+  return strcmp(a->text, b->text) ? PETSC_FALSE : PETSC_TRUE;
+}
+
+static PetscBool IsFree(const SamParameters *parameters, const char name[])
+{
+  return parameters->free && !strncmp(name, parameters->free, strlen(parameters->free));
+}
+
+/* True if the file's value of a parameter is one that somebody has given: inf and 0 also stand for none. */
+static PetscErrorCode IsGivenThere(SamFile f, const char name[], PetscBool *given)
+{
+  SamParameter like = {.count = 0}, there;
+  hid_t        attribute, type;
+
+  PetscFunctionBegin;
+  PetscCall(PetscStrncpy(like.name, name, sizeof(like.name)));
+  attribute  = SamFileNote(f, H5Aopen(f->id, name, H5P_DEFAULT));
+  type       = SamFileNote(f, H5Aget_type(attribute));
+  like.count = type >= 0 && H5Tget_class(type) == H5T_FLOAT;
+  if (type >= 0) (void)SamFileNote(f, H5Tclose(type));
+  if (attribute >= 0) (void)SamFileNote(f, H5Aclose(attribute));
+  PetscCall(Read(f, &like, &there));
+  *given = !there.count || (isfinite(there.value[0]) && there.value[0] != 0) ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* True if the file has a fixed parameter that this run does not have; names the first one with a value. */
+static PetscErrorCode FindOther(SamFile f, const SamParameters *parameters, char message[], size_t size,
+                                PetscBool *found)
+{
+  char     *names = NULL, **list;
+  PetscBool given = PETSC_FALSE;
+  int       count;
+
+  PetscFunctionBegin;
+  *found = PETSC_FALSE;
+  if (!SamFileHasAttribute(f, NAMES)) PetscFunctionReturn(PETSC_SUCCESS);
+  SamFileReadTextAttribute(f, f->id, NAMES, &names);
+  PetscCall(PetscStrToArray(names ? names : "", ',', &count, &list));
+  for (int k = 0; k < count && !given; k++) {
+    if (IsFree(parameters, list[k]) || SamParametersFind(parameters, list[k])) continue;
+    PetscCall(IsGivenThere(f, list[k], &given));
+    if (given || !*found) (void)snprintf(message, size, "-%s is given there, and not here", list[k]);
+    *found = PETSC_TRUE;
+  }
+  PetscCall(PetscStrToArrayDestroy(count, list));
+  PetscCall(PetscFree(names));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscBool SamParametersDiffer(SamFile f, const SamParameters *parameters, char message[], size_t size)
+{
+  PetscBool other = PETSC_FALSE;
+
+  for (PetscInt k = 0; k < parameters->count; k++) {
+    const SamParameter *const now = &parameters->list[k];
+    SamParameter              there;
+    char                      text[2][sizeof(now->text)];
+
+    if (!now->fixed || IsFree(parameters, now->name)) continue;
+    if (SamFileNote(f, H5Aexists(f->id, now->name)) <= 0) {
+      (void)snprintf(message, size, "-%s is not given there", now->name);
+      return PETSC_TRUE;
+    }
+    if (Read(f, now, &there)) (void)SamFileNote(f, -1);
+    if (f->failed || Same(now, &there)) continue;
+    Print(&there, text[0], sizeof(text[0]));
+    Print(now, text[1], sizeof(text[1]));
+    if (!strcmp(now->name, "wear")) /* no option */
+      (void)snprintf(message, size, "the bodies wear by %s there, not by %s (-wear_cycles)", text[0], text[1]);
+    else
+      (void)snprintf(message, size, "-%s is %s there, not %s", now->name, text[0], text[1]);
+    return PETSC_TRUE;
+  }
+  if (FindOther(f, parameters, message, size, &other)) (void)SamFileNote(f, -1);
+  return other;
+}

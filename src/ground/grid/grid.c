@@ -1,0 +1,370 @@
+/* The grid and its slab distribution. */
+#include "gridimpl.h"
+#include <petsam/private/grid.h>
+#include <math.h>
+#include <string.h>
+
+#define MOST_RATIO (100 * (1 + 1e-12)) /* of the sides of a grid, and of its cells, but for rounding */
+
+/*
+  What no grid can be made of: a message, empty when all is well. The names stand for the arguments of SamGridCreate(),
+  or for options.
+*/
+static PetscErrorCode FindFault(const PetscInt n[2], const PetscReal width[2], const PetscReal center[2],
+                                const char *const names[3], char message[], size_t size)
+{
+  PetscFunctionBegin;
+  message[0] = '\0';
+  for (PetscInt k = 0; k < 2 && !message[0]; k++) {
+    const char *axis = k ? "y" : "x";
+
+    if (n[k] < (k ? 1 : 2))
+      PetscCall(PetscSNPrintf(message, size, "%s: %" PetscInt_FMT " cells in %s, expected at least %d", names[0], n[k],
+                              axis, k ? 1 : 2));
+    else if (!(width[k] > 0) || !isfinite(width[k]))
+      PetscCall(PetscSNPrintf(message, size, "%s: a width of %.6g m in %s, expected a number > 0", names[1],
+                              (double)width[k], axis));
+    else if (!isfinite(center[k]))
+      PetscCall(PetscSNPrintf(message, size, "%s: expected finite numbers", names[2]));
+    /* the centres must be told apart in double precision, and areas must not underflow or overflow */
+    else if (!(width[k] / (PetscReal)n[k] > 1e-12 * PetscAbsReal(center[k]) && width[k] > 1e-100 && width[k] < 1e100))
+      PetscCall(PetscSNPrintf(message, size,
+                              "%s: a width of %.6g m in %s about %.6g m cannot be resolved in double precision",
+                              names[1], (double)width[k], axis, (double)center[k]));
+  }
+  if (!message[0] && (double)n[0] * (double)n[1] * 2 >= (double)PETSC_MAX_INT)
+    PetscCall(PetscSNPrintf(message, size,
+                            "%s %" PetscInt_FMT ",%" PetscInt_FMT
+                            ": more cells than this PETSc can count; configure it with 64-bit indices",
+                            names[0], n[0], n[1]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGridCreate(MPI_Comm comm, const PetscInt n[2], const PetscReal width[2], const PetscReal center[2],
+                             SamGrid *grid)
+{
+  static const char *const names[3] = {"Number of cells", "Width of the grid", "Centre of the grid"};
+  PetscMPIInt              rank, size;
+  PetscInt                 end;
+  char                     message[256];
+  SamGrid                  g;
+
+  PetscFunctionBegin;
+  PetscCall(SamBaseInitialize());
+  PetscCall(FindFault(n, width, center, names, message, sizeof(message)));
+  PetscCheck(!message[0], comm, PETSC_ERR_ARG_OUTOFRANGE, "%s", message);
+  PetscCall(PetscNew(&g));
+  PetscCall(PetscCommDuplicate(comm, &g->comm, NULL));
+  PetscCallMPI(MPI_Comm_rank(g->comm, &rank));
+  PetscCallMPI(MPI_Comm_size(g->comm, &size));
+  g->references = 1;
+  g->nx         = n[0];
+  g->ny         = n[1];
+  for (PetscInt k = 0; k < 2; k++) {
+    g->width[k]  = width[k];
+    g->center[k] = center[k];
+  }
+  g->dx      = width[0] / (PetscReal)n[0];
+  g->dy      = width[1] / (PetscReal)n[1];
+  g->axes    = n[1] == 1 ? 1 : 2;
+  g->fewest  = n[0];
+  g->side[0] = g->side[1] = g->area[0] = g->dx;
+  g->area[1]                           = INFINITY;
+  g->length                            = 0.5 * width[0];
+  if (!SamGridIsRow(g)) {
+    g->fewest  = PetscMin(n[0], n[1]);
+    g->side[0] = PetscMin(g->dx, g->dy);
+    g->side[1] = PetscMax(g->dx, g->dy);
+    g->area[1] = g->dy;
+    g->length  = 0.5 * PetscMax(width[0], width[1]);
+  }
+  SamGridRowsOf(g, size, rank, &g->row_start, &end);
+  g->rows  = end - g->row_start;
+  g->cells = g->rows * n[0];
+  *grid    = g;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
+  Refuses widths that differ more than a hundredfold, unless the numbers of cells do so, too: -grid_size 2,600 is likely
+  to be one number with a comma in it.
+*/
+static PetscErrorCode RefuseThin(const SamOptions *from, const PetscInt n[2], const PetscReal width[2])
+{
+  const double ratio = (double)(width[0] / width[1]), cells = ratio * (double)n[1] / (double)n[0];
+  char         numbers[64];
+
+  PetscFunctionBegin;
+  if (fabs(log(ratio)) <= log(MOST_RATIO) || fabs(log(cells)) <= log(MOST_RATIO)) PetscFunctionReturn(PETSC_SUCCESS);
+  (void)snprintf(numbers, sizeof(numbers), "%g,%g", (double)width[0], (double)width[1]);
+  SETERRQ(from->comm, SAM_ERR_USER,
+          "-%sgrid_size %s: the comma separates two lengths, which differ more than a hundredfold, as do the sides of "
+          "the cells: expected one number, with a decimal point, or -%sgrid_n to match",
+          SamOptionsPrefix(from), numbers, SamOptionsPrefix(from));
+}
+
+/* Makes one row of cells, 1 m wide; the y values of -grid_size and -grid_center are ignored. */
+static PetscErrorCode TakeRow(const SamOptions *from, PetscInt n[2], PetscReal width[2], PetscReal center[2])
+{
+  PetscFunctionBegin;
+  PetscCheck(n[1] == 1 || n[1] == n[0], from->comm, SAM_ERR_USER,
+             "-%sgrid_n %" PetscInt_FMT ",%" PetscInt_FMT ": a plane problem has one row of cells: use %" PetscInt_FMT
+             ",1",
+             SamOptionsPrefix(from), n[0], n[1], n[0]);
+  n[1]      = 1;
+  width[1]  = 1;
+  center[1] = 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* What a user sets. */
+typedef struct {
+  PetscInt  n[2];
+  PetscReal width[2], center[2];
+} Settings;
+#define MEMBER(name) offsetof(Settings, name)
+
+PetscErrorCode SamGridCreateFromOptions(const SamOptions *from, PetscBool row, PetscInt n[2], PetscReal width[2],
+                                        PetscReal center[2], SamGrid *grid)
+{
+  Settings           set    = {{n[0], n[1]}, {width[0], width[1]}, {center[0], center[1]}};
+  const SamOptionRow rows[] = {
+    {"grid_n", "cells in x[,y]: required without a surface file", SAM_OPTION_INT, MEMBER(n), .least = row ? 1 : 2,
+     .size = 2, .missing = "the number of cells in x[,y], for example 256"},
+    {"grid_size", "full width in x[,y] (m): required without a surface file", SAM_OPTION_REAL, MEMBER(width),
+     .range = SAM_RANGE_POSITIVE, .size = 2,
+     .missing = "the full width of the grid in x[,y], m: about 1.5 times that of the contact"},
+    {"grid_center", "centre x,y (m)", SAM_OPTION_REAL, MEMBER(center), .range = SAM_RANGE_ANY, .size = 2}};
+  char              message[256], options[3][96];
+  const char *const names[3] = {options[0], options[1], options[2]};
+  const PetscBool   help     = SamPrintHelp();
+
+  PetscFunctionBegin;
+  PetscCall(SamOptionsRead(from, "Grid", SAM_OPTION_ROWS(rows), &set, NULL));
+  for (int k = 0; k < 2; k++) { /* the defaults are listed in the help; any grid does */
+    n[k]      = help ? 2 : set.n[k];
+    width[k]  = help ? 1 : set.width[k];
+    center[k] = set.center[k];
+  }
+  for (int k = 0; k < 3; k++)
+    PetscCall(PetscSNPrintf(options[k], sizeof(options[k]), "-%s%s", SamOptionsPrefix(from), rows[k].name));
+  PetscCheck(row || n[1] != 1, from->comm, SAM_ERR_USER, "%s: one cell in y: a plane problem needs -%selasticity plane",
+             names[0], SamOptionsPrefix(from));
+  if (row) PetscCall(TakeRow(from, n, width, center));
+  PetscCall(FindFault(n, width, center, names, message, sizeof(message)));
+  PetscCheck(!message[0], from->comm, SAM_ERR_USER, "%s", message);
+  if (!row) PetscCall(RefuseThin(from, n, width));
+  PetscCall(SamGridCreate(from->comm, n, width, center, grid));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGridReference(SamGrid grid)
+{
+  PetscFunctionBegin;
+  grid->references++;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGridDestroy(SamGrid *grid)
+{
+  PetscFunctionBegin;
+  if (*grid && --(*grid)->references == 0) {
+    PetscCall(PetscCommDestroy(&(*grid)->comm));
+    PetscCall(PetscFree(*grid));
+  }
+  *grid = NULL;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGridCoarsen(SamGrid fine, SamGrid *coarse)
+{
+  const PetscInt n[2] = {(fine->nx + 1) / 2, (fine->ny + 1) / 2};
+
+  PetscFunctionBegin;
+  PetscCall(SamGridCreate(fine->comm, n, fine->width, fine->center, coarse));
+  (*coarse)->coarse = PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* PETSc passes the array, and from 3.23 on the address of the pointer to it, since 3.25 as a pointer to anything. */
+#if PETSC_VERSION_LT(3, 23, 0)
+  #define PetscContainerSetCtxDestroy PetscContainerSetUserDestroy
+static PetscErrorCode FreeArray(void *array)
+{
+  SamFree(array);
+  return PETSC_SUCCESS;
+}
+#else
+  #if PETSC_VERSION_LT(3, 25, 0)
+typedef void        **PetscCtxRt;
+  #endif
+static PetscErrorCode FreeArray(PetscCtxRt address)
+{
+  SamFree(*(void **)address);
+  return PETSC_SUCCESS;
+}
+#endif
+
+PetscErrorCode SamGridCreateVec(SamGrid grid, PetscInt components, Vec *field)
+{
+  const PetscInt n = components * grid->cells, all = components * grid->nx * grid->ny;
+  PetscContainer owner;
+  PetscScalar   *array;
+  PetscMPIInt    ranks;
+
+  PetscFunctionBegin;
+  PetscCall(SamAllocateZeros(sizeof(*array) * (size_t)n, &array));
+  PetscCallMPI(MPI_Comm_size(grid->comm, &ranks));
+  if (ranks > 1)
+    PetscCall(VecCreateMPIWithArray(grid->comm, 1, n, all, array, field));
+  else
+    PetscCall(VecCreateSeqWithArray(grid->comm, 1, n, array, field));
+  PetscCall(PetscContainerCreate(PETSC_COMM_SELF, &owner));
+  PetscCall(PetscContainerSetPointer(owner, array));
+  PetscCall(PetscContainerSetCtxDestroy(owner, FreeArray));
+  PetscCall(PetscObjectCompose((PetscObject)*field, "sam_array", (PetscObject)owner));
+  PetscCall(PetscContainerDestroy(&owner));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGridCheckVec(SamGrid grid, PetscInt components, Vec field, const char words[])
+{
+  PetscInt here, all;
+  double   bad;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(field, &here));
+  PetscCall(VecGetSize(field, &all));
+  bad = here != components * grid->cells || all != components * grid->nx * grid->ny ? 1 : 0;
+  PetscCall(SamMax(grid->comm, 1, &bad));
+  PetscCheck(bad == 0, grid->comm, PETSC_ERR_ARG_SIZ,
+             "%s is not a field of %" PetscInt_FMT " component(s) on this grid of %" PetscInt_FMT " x %" PetscInt_FMT
+             " cells",
+             words, components, grid->nx, grid->ny);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGridIsFinite(SamGrid grid, Vec field, PetscBool *is)
+{
+  const PetscScalar *values;
+  PetscInt           n;
+  double             sum = 0, bad;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(field, &n));
+  PetscCall(VecGetArrayRead(field, &values));
+#pragma omp simd reduction(+ : sum)
+  for (PetscInt k = 0; k < n; k++) sum += 0 * values[k]; /* NaN when a value is not finite */
+  PetscCall(VecRestoreArrayRead(field, &values));
+  bad = isnan(sum) ? 1 : 0;
+  PetscCall(SamMax(grid->comm, 1, &bad));
+  *is = bad == 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamVecCopyNonzero(Vec from, Vec to)
+{
+  enum { CHUNK = 512 };
+  static const double zeros[CHUNK] = {0};
+  const double       *x;
+  double             *y;
+  PetscInt            n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(from, &n));
+  PetscCall(VecGetArrayRead(from, &x));
+  PetscCall(VecGetArray(to, &y));
+  for (PetscInt k = 0; k < n; k += CHUNK) {
+    const PetscInt count = PetscMin(CHUNK, n - k);
+
+    if (memcmp(x + k, zeros, sizeof(*x) * (size_t)count))
+      PetscCall(PetscArraycpy(y + k, x + k, count));
+    else
+      SamZero(count, y + k);
+  }
+  PetscCall(VecRestoreArray(to, &y));
+  PetscCall(VecRestoreArrayRead(from, &x));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamVecZero(Vec v)
+{
+  double  *x;
+  PetscInt n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(v, &n));
+  PetscCall(VecGetArray(v, &x));
+  SamZero(n, x);
+  PetscCall(VecRestoreArray(v, &x));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* A row's sums of |x| and of x^2. */
+SAM_VECTORIZED static void SumRow(PetscInt n, const double *restrict x, double sums[2])
+{
+  double sizes = 0, squares = 0;
+
+#pragma omp simd reduction(+ : sizes, squares)
+  for (PetscInt i = 0; i < n; i++) {
+    sizes += fabs(x[i]);
+    squares += x[i] * x[i];
+  }
+  sums[0] = sizes;
+  sums[1] = squares;
+}
+
+PetscErrorCode SamGridNorm(SamGrid grid, Vec field, NormType type, PetscReal *norm)
+{
+  SamTotal      totals[2] = {{0}};
+  double        sums[2];
+  const double *x;
+  PetscInt      n;
+
+  PetscFunctionBegin;
+  PetscCheck(type == NORM_1 || type == NORM_2, grid->comm, PETSC_ERR_SUP, "Only NORM_1 and NORM_2");
+  PetscCall(VecGetLocalSize(field, &n));
+  PetscCall(VecGetArrayRead(field, &x));
+  for (PetscInt k = 0; k < n; k += grid->nx) {
+    SumRow(grid->nx, x + k, sums);
+    SamAddAll(2, totals, sums);
+  }
+  PetscCall(VecRestoreArrayRead(field, &x));
+  PetscCall(SamSumTotals(grid->comm, 2, totals, sums));
+  *norm = type == NORM_1 ? sums[0] : PetscSqrtReal(sums[1]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGridMatch(SamGrid grid, Vec field, SamGrid other, Vec other_field, const char words[],
+                            PetscInt *components)
+{
+  PetscInt n, m;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetSize(field, &n));
+  PetscCall(VecGetSize(other_field, &m));
+  *components = n / (grid->nx * grid->ny);
+  PetscCheck(m == *components * other->nx * other->ny, grid->comm, PETSC_ERR_ARG_SIZ, "The fields do not belong to %s",
+             words);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* A sum over the cells of a hash of value and place. The order of the sum, hence of the ranks, does not matter. */
+PetscErrorCode SamGridChecksum(SamGrid grid, Vec field, uint64_t *checksum)
+{
+  const uint64_t cells = (uint64_t)grid->nx * (uint64_t)grid->ny,
+                 first = (uint64_t)grid->nx * (uint64_t)grid->row_start;
+  const PetscScalar *values;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  *checksum = 0;
+  PetscCall(VecGetLocalSize(field, &n));
+  PetscCall(VecGetArrayRead(field, &values));
+  for (PetscInt k = 0; k < n; k++)
+    *checksum += SamHashMix(SamHashBits(values[k]) +
+                            SamHashMix((uint64_t)(k / grid->cells) * cells + first + (uint64_t)(k % grid->cells) + 1));
+  PetscCall(VecRestoreArrayRead(field, &values));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, checksum, 1, MPI_UINT64_T, MPI_SUM, grid->comm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

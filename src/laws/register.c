@@ -1,0 +1,22 @@
+/* The laws that come with the library, in the order in which they act. */
+#include <petsam/private/lawimpl.h>
+
+PetscErrorCode SamLawRegisterAll(void)
+{
+  PetscFunctionBegin;
+  if (SamLawIsRegistered(SAM_LAW_COULOMB)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamLawRegister(SAM_LAW_COULOMB, SamLawCreate_Coulomb));
+  PetscCall(SamLawRegister(SAM_LAW_BULK_STRESS, SamLawCreate_BulkStress));
+  PetscCall(SamLawRegister(SAM_LAW_BODIES, SamLawCreate_Bodies));
+  PetscCall(SamLawRegister(SAM_LAW_SLIP_DEPENDENT, SamLawCreate_Friction));
+  PetscCall(SamLawRegister(SAM_LAW_PRESSURE_FRICTION, SamLawCreate_Friction));
+  PetscCall(SamLawRegister(SAM_LAW_FALLING_FRICTION, SamLawCreate_Friction));
+  PetscCall(SamLawRegister(SAM_LAW_SLIDE, SamLawCreate_Slide)); /* before those that keep fields of body 2 */
+  PetscCall(SamLawRegister(SAM_LAW_ARCHARD, SamLawCreate_Archard));
+  PetscCall(SamLawRegister(SAM_LAW_ENERGY, SamLawCreate_Energy));
+  PetscCall(SamLawRegister(SAM_LAW_HARDNESS, SamLawCreate_Hardness));
+  PetscCall(SamLawRegister(SAM_LAW_PLASTIC, SamLawCreate_Plastic));
+  PetscCall(SamLawRegister(SAM_LAW_ACCUMULATED_SLIP, SamLawCreate_AccumulatedSlip));
+  PetscCall(SamLawRegister(SAM_LAW_FRICTION_ENERGY, SamLawCreate_FrictionEnergy));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,515 @@
+/*
+  The state of a contact in a file: what its parts have declared as kept, the parameters that define the contact, and a
+  program's notes.
+
+  The fields are datasets (components, ny, nx), all else attributes of the root group; all is sealed (seal.c). What is
+  one step back has `before_` in front of its name. Kept steps of a load cycle are in datasets of their own (kept.c).
+*/
+#include "ioimpl.h"
+#include <petsam/checkpoint.h>
+#include <petsam/private/grid.h>
+#include <petsam/private/lawimpl.h>
+#include <string.h>
+#include <unistd.h>
+
+#define OPTION "checkpoint"
+
+struct _n_SamCheckpoint {
+  SamGrid     grid;
+  char       *filename, *before, *temporary;
+  SamFileLock hold; /* of the temporary file */
+};
+
+/* The checksum of the gap that a contact's problem has now. */
+static PetscErrorCode GapChecksum(SamContact contact, uint64_t *checksum)
+{
+
+  PetscFunctionBegin;
+  PetscCall(SamGridChecksum(SamContactGetGrid(contact), SamProblemGetGap(SamContactGetProblem(contact)), checksum));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- what is in a file: each of these writes it to a file that is written, and else reads it ---- */
+
+/* What is stored besides the state. */
+typedef struct {
+  const SamParameters *parameters;
+  PetscInt             n;
+  const SamNote       *notes;
+  PetscBool            sums; /* reading: whether sums that only the file has are read */
+} Rest;
+
+/* A name in the file, of values that are committed or one step back. */
+static void NameOf(const char committed[], const char name[], PetscInt generation, char text[96])
+{
+  (void)snprintf(text, 96, "%s%s", generation == SAM_BEFORE ? "before_" : committed, name);
+}
+
+/* A field as a dataset (components, ny, nx). */
+static PetscErrorCode MoveField(SamFile f, const char name[], PetscInt components, Vec field)
+{
+  const SamLabel label   = {.name = name};
+  const SamShape shape   = {.rank    = 3,
+                            .size    = {(hsize_t)components, (hsize_t)f->grid->ny, (hsize_t)f->grid->nx},
+                            .largest = {(hsize_t)components, (hsize_t)f->grid->ny, (hsize_t)f->grid->nx}};
+  const hid_t    dataset = f->writing ? SamFileCreateDataset(f, f->id, &label, H5T_IEEE_F64LE, &shape, 0)
+                                      : SamFileNote(f, H5Dopen2(f->id, name, H5P_DEFAULT));
+  PetscScalar   *values;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArray(field, &values));
+  for (PetscInt c = 0; c < components; c++)
+    if (f->writing)
+      SamFileWriteFrame(f, dataset, H5T_NATIVE_DOUBLE, (hsize_t)c, values + c * f->grid->cells);
+    else
+      SamFileReadFrame(f, dataset, H5T_NATIVE_DOUBLE, (hsize_t)c, values + c * f->grid->cells);
+  PetscCall(VecRestoreArray(field, &values));
+  if (dataset >= 0) (void)SamFileNote(f, H5Dclose(dataset));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The kept fields of a state. */
+static PetscErrorCode MoveFields(SamFile f, SamState state)
+{
+  char name[96];
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < SamStateCountFields(state); k++) {
+    const SamStateField *field = SamStateFieldOf(state, k);
+
+    for (PetscInt g = SAM_COMMITTED; g < field->generations && field->kept; g++) {
+      Vec values = SamStateGetField(state, k, (SamGeneration)g);
+
+      NameOf("", field->name, g, name);
+      if (f->writing ? !values : SamFileNote(f, H5Lexists(f->id, name, H5P_DEFAULT)) <= 0) continue;
+      PetscCall(SamStateRestoreField(state, k, (SamGeneration)g, &values));
+      PetscCall(MoveField(f, name, SamStateFieldSize(field), values));
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* What the contact remembers and the file lacks cannot begin in the middle; the message names it. */
+static void NameLacking(const char name[], char message[], size_t size)
+{
+  (void)snprintf(message, size, "it lacks %s, which has not been remembered since the start: omit it, or begin anew",
+                 name);
+}
+
+/* The kept numbers of a state; those that may be lacking are in the file where they are not as usual. */
+static void MoveNumbers(SamFile f, SamState state, char message[], size_t size)
+{
+  for (PetscInt k = 0; k < SamStateCountNumbers(state); k++) {
+    PetscInt              id;
+    const SamStateNumber *number = SamStateNumberOf(state, k, &id);
+    const PetscBool       usual  = SamStateIsUsual(state, k);
+    char                  name[96];
+
+    for (PetscInt g = SAM_COMMITTED; g < SAM_GENERATIONS && number->kept; g++) {
+      double *const values = SamStateNumbers(state, id, (SamGeneration)g);
+
+      NameOf("committed_", number->name, g, name);
+      if (f->writing && !usual)
+        SamFileWriteAttribute(f, f->id, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, number->count, values);
+      else if (!f->writing && SamFileHasAttribute(f, name))
+        SamFileReadAttribute(f, f->id, name, H5T_NATIVE_DOUBLE, number->count, values);
+      else if (!usual)
+        NameLacking(number->name, message, size);
+    }
+  }
+}
+
+static PetscErrorCode MoveNotes(SamFile f, PetscInt n, const SamNote notes[])
+{
+  PetscFunctionBegin;
+  for (const SamNote *note = notes; note < notes + n; note++) {
+    const PetscInt count = PetscAbsInt(note->count);
+
+    if (f->writing) {
+      SamFileWriteAttribute(f, f->id, note->name, H5T_STD_U64LE, H5T_NATIVE_UINT64, count, note->values);
+      continue;
+    }
+    PetscCall(PetscArrayzero(note->values, count));
+    if (note->count > 0 || SamFileHasAttribute(f, note->name))
+      SamFileReadAttribute(f, f->id, note->name, H5T_NATIVE_UINT64, count, note->values);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The gap that a state was solved with, as notes: its checksum, and whether it was still the problem's gap. */
+#define GAP(values) \
+  {"gap_checksum", 1, &(values)[0]}, \
+  { \
+    "gap_is_current", 1, &(values)[1] \
+  }
+
+/* ---- writing ---- */
+
+/* The fields that a state keeps, by their names with commas between them. */
+static void ListFields(SamState state, char list[], size_t size)
+{
+  list[0] = '\0';
+  for (PetscInt k = 0; k < SamStateCountFields(state); k++) {
+    const size_t used = strlen(list);
+
+    if (SamStateFieldOf(state, k)->kept)
+      (void)snprintf(list + used, size - used, "%s%s", used ? "," : "", SamStateFieldOf(state, k)->name);
+  }
+}
+
+/* The conditions that are not as usual, likewise. */
+static void ListConditions(SamState state, char list[], size_t size)
+{
+  list[0] = '\0';
+  for (PetscInt k = 0; k < SamStateCountNumbers(state); k++) {
+    const SamStateNumber *number = SamStateNumberOf(state, k, NULL);
+    const size_t          used   = strlen(list);
+
+    if (SamStateIsOptional(state, k) && !SamStateIsUsual(state, k))
+      (void)snprintf(list + used, size - used, "%s%s", used ? "," : "", number->name);
+  }
+}
+
+static off_t CountBytes(SamGrid grid, SamState state)
+{
+  off_t values = 0;
+
+  for (PetscInt k = 0; k < SamStateCountFields(state); k++)
+    for (PetscInt g = SAM_COMMITTED; g < SamStateFieldOf(state, k)->generations; g++)
+      if (SamStateFieldOf(state, k)->kept && SamStateGetField(state, k, (SamGeneration)g))
+        values += SamStateFieldSize(SamStateFieldOf(state, k));
+  return values * (off_t)sizeof(double) * grid->nx * grid->ny;
+}
+
+static PetscErrorCode WriteAll(SamFile f, SamContact contact, const Rest *rest)
+{
+  SamState       state;
+  PetscBool      is;
+  char           list[8192];
+  uint64_t       gap[2];
+  const SamNote  notes[] = {GAP(gap)};
+  PetscErrorCode ierr;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetState(contact, &state));
+  PetscCall(SamContactIsGapCurrent(contact, &is));
+  PetscCall(GapChecksum(contact, &gap[0]));
+  gap[1] = is;
+  ListFields(state, list, sizeof(list));
+  PetscCall(SamFileReserve(f, CountBytes(f->grid, state) + SamKeptBytes(SamContactGetCache(contact))));
+  PetscCall(SamFileBegin(f));
+  SamFileWriteTextAttribute(f, f->id, "petsam_version", PETSAM_VERSION);
+  SamParametersWrite(f, rest->parameters);
+  PetscCall(MoveNotes(f, 2, notes));
+  PetscCall(MoveNotes(f, rest->n, rest->notes));
+  MoveNumbers(f, state, NULL, 0);
+  SamFileWriteTextAttribute(f, f->id, "fields", list);
+  ListConditions(state, list, sizeof(list));
+  if (list[0]) SamFileWriteTextAttribute(f, f->id, "conditions", list);
+  SamStateSwapMoved(state); /* a tried step is not saved */
+  ierr = MoveFields(f, state);
+  SamStateSwapMoved(state);
+  PetscCall(ierr);
+  PetscCall(SamKeptWrite(f, SamContactGetCache(contact)));
+  (void)SamFileNote(f, H5Fflush(f->id, H5F_SCOPE_GLOBAL));
+  PetscCall(SamFileEnd(f));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Writes and seals the file, which has no name of its own yet. */
+static PetscErrorCode WriteFile(SamCheckpoint cp, SamContact contact, const Rest *rest)
+{
+  SamFile        f;
+  PetscErrorCode ierr;
+
+  PetscFunctionBegin;
+  PetscCall(SamFileOpen(cp->grid, SAM_EVENT_CHECKPOINT, OPTION, cp->temporary, SAM_FILE_CREATE_SEALED, &f));
+  ierr = WriteAll(f, contact, rest);
+  if (ierr) (void)SamFileDestroy(&f, PETSC_TRUE);
+  PetscCall(ierr);
+  PetscCall(SamFileDestroy(&f, PETSC_TRUE));
+  PetscCall(SamSealWrite(cp->grid, OPTION, cp->temporary));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Refuses names at which other programs have put files meanwhile. */
+static PetscErrorCode CheckNames(SamCheckpoint cp)
+{
+  PetscFunctionBegin;
+  PetscCall(SamFileLockCheck(cp->grid, OPTION, cp->temporary, &cp->hold));
+  PetscCall(SamFileCheckName(cp->grid, OPTION, cp->filename, SAM_FILE_CHECKPOINT));
+  PetscCall(SamFileCheckName(cp->grid, OPTION, cp->before, SAM_FILE_CHECKPOINT));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamCheckpointWrite(SamCheckpoint cp, SamContact contact, const SamParameters *parameters, PetscInt n,
+                                  const SamNote notes[])
+{
+  const Rest     rest = {parameters, n, notes, PETSC_FALSE};
+  PetscErrorCode ierr;
+
+  PetscFunctionBegin;
+  PetscCall(CheckNames(cp));
+  ierr = WriteFile(cp, contact, &rest);
+  if (ierr && cp->hold.file >= 0) (void)!ftruncate(cp->hold.file, 0); /* gives back the space */
+  PetscCall(ierr);
+  PetscCall(SamFileReplace(cp->grid, OPTION, cp->temporary, cp->filename, cp->before));
+  PetscCall(SamFileLockTakeNext(cp->grid, OPTION, cp->temporary, &cp->hold));
+  SamFileLockNoteSize(&cp->hold);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Takes hold of the temporary file. A run that has just renamed its own still holds the checkpoint itself. */
+static PetscErrorCode TakeNames(SamCheckpoint cp)
+{
+  PetscFunctionBegin;
+  PetscCall(SamFileLockTake(cp->grid, OPTION, cp->temporary, SAM_FILE_TEMPORARY, &cp->hold));
+  SamFileLockNoteSize(&cp->hold);
+  PetscCall(CheckNames(cp));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamCheckpointCreate(SamGrid grid, const char filename[], SamCheckpoint *checkpoint)
+{
+  SamCheckpoint  cp;
+  PetscErrorCode ierr;
+
+  PetscFunctionBegin;
+  PetscCall(SamBaseInitialize());
+  PetscCall(PetscNew(&cp));
+  PetscCall(SamGridReference(grid));
+  cp->grid      = grid;
+  cp->hold.file = -1;
+  PetscCall(PetscStrallocpy(filename, &cp->filename));
+  PetscCall(SamCheckpointNames(filename, &cp->before, &cp->temporary));
+  ierr = TakeNames(cp);
+  if (ierr) (void)SamCheckpointDestroy(&cp);
+  *checkpoint = cp;
+  PetscCall(ierr);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamCheckpointDestroy(SamCheckpoint *checkpoint)
+{
+  SamCheckpoint cp = *checkpoint;
+
+  PetscFunctionBegin;
+  *checkpoint = NULL;
+  if (!cp) PetscFunctionReturn(PETSC_SUCCESS);
+  SamFileLockRelease(cp->temporary, &cp->hold);
+  PetscCall(SamGridDestroy(&cp->grid));
+  PetscCall(PetscFree(cp->filename));
+  PetscCall(PetscFree(cp->before));
+  PetscCall(PetscFree(cp->temporary));
+  PetscCall(PetscFree(cp));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamCheckpointNames(const char filename[], char **before, char **temporary)
+{
+  PetscFunctionBegin;
+  PetscCall(SamFileNameBeside(filename, ".1", before));
+  PetscCall(SamFileNameTemporary(filename, temporary));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- reading ---- */
+
+/* What is read besides the notes. The caller destroys it, also after an error. */
+typedef struct {
+  SamState     state;
+  SamStepCache cache;
+  uint64_t     gap[2];
+} Content;
+
+static PetscErrorCode DestroyContent(Content *c)
+{
+  PetscFunctionBegin;
+  PetscCall(SamStateDestroy(&c->state));
+  SamStepCacheDestroy(&c->cache);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Whether a law of this name only accumulates its field, which it then declares; `state` NULL: it does not. */
+static PetscErrorCode DeclareSum(SamContact contact, const char name[], SamState state, PetscBool *is)
+{
+  SamLaw law;
+
+  PetscFunctionBegin;
+  *is = PETSC_FALSE;
+  if (!SamLawIsRegistered(name)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamLawCreate(SamProblemGetElasticity(SamContactGetProblem(contact)), name, &law));
+  *is = law->accumulates;
+  if (*is && state) PetscCall(law->ops.declare(law, state));
+  PetscCall(SamLawDestroy(&law));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
+  A state with the declarations of the contact's, and, if asked for, of sums that only the file has. The message names
+  another field that only one of them has.
+*/
+static PetscErrorCode CreateState(SamContact contact, const char list[], PetscBool sums, SamState *state,
+                                  char message[], size_t size)
+{
+  SamState  own;
+  PetscBool listed, is;
+  char    **names;
+  int       count;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetState(contact, &own));
+  PetscCall(SamStateCreateLike(own, state));
+  PetscCall(PetscStrToArray(list, ',', &count, &names));
+  for (int k = 0; k < count; k++) {
+    if (SamStateFindField(own, names[k]) >= 0) continue;
+    PetscCall(DeclareSum(contact, names[k], sums ? *state : NULL, &is));
+    if (!is)
+      (void)snprintf(message, size,
+                     "it has the field %s, which no law of this run remembers: give the options of its run", names[k]);
+  }
+  PetscCall(PetscStrToArrayDestroy(count, names));
+  for (PetscInt k = 0; k < SamStateCountFields(own); k++) {
+    const SamStateField *field = SamStateFieldOf(own, k);
+
+    PetscCall(PetscStrInList(field->name, list, ',', &listed));
+    if (field->kept && !listed && !field->optional) NameLacking(field->name, message, size);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The message names a condition of the file that the contact lacks. */
+static PetscErrorCode CheckConditions(SamState state, const char list[], char message[], size_t size)
+{
+  char **names;
+  int    count;
+
+  PetscFunctionBegin;
+  PetscCall(PetscStrToArray(list, ',', &count, &names));
+  for (int k = 0; k < count; k++)
+    if (SamStateFindNumber(state, names[k]) < 0)
+      (void)snprintf(message, size, "it has the condition %s, which this run lacks: give the options of its run",
+                     names[k]);
+  PetscCall(PetscStrToArrayDestroy(count, names));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ReadState(SamFile f, SamContact contact, PetscBool sums, Content *c, char message[], size_t size)
+{
+  const SamNote notes[] = {GAP(c->gap)};
+  char         *list    = NULL;
+
+  PetscFunctionBegin;
+  PetscCall(MoveNotes(f, 2, notes));
+  SamFileReadTextAttribute(f, f->id, "fields", &list);
+  PetscCall(CreateState(contact, list, sums, &c->state, message, size));
+  PetscCall(PetscFree(list));
+  if (SamFileHasAttribute(f, "conditions")) {
+    SamFileReadTextAttribute(f, f->id, "conditions", &list);
+    PetscCall(CheckConditions(c->state, list, message, size));
+    PetscCall(PetscFree(list));
+  }
+  MoveNumbers(f, c->state, message, size);
+  PetscCall(MoveFields(f, c->state));
+  PetscCall(SamStepCacheCreateLike(SamContactGetCache(contact), &c->cache));
+  PetscCall(SamKeptRead(f, c->cache));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ReadAll(SamFile f, SamContact contact, const Rest *rest, Content *c)
+{
+  char  message[256] = "";
+  char *version      = NULL;
+
+  PetscFunctionBegin;
+  PetscCall(SamFileBegin(f));
+  SamFileReadTextAttribute(f, f->id, "petsam_version", &version);
+  if (strcmp(version, PETSAM_VERSION))
+    (void)snprintf(message, sizeof(message), "it was written by petsam %s, this is %s", version, PETSAM_VERSION);
+  else if (rest->parameters->in_process && SamFileHasAttribute(f, "load_program"))
+    (void)snprintf(message, sizeof(message), "it is the checkpoint of a program's run: continue that with -restart");
+  else if (!rest->parameters->in_process && SamFileHasAttribute(f, "given_gap"))
+    (void)snprintf(message, sizeof(message), "a contact in process has saved it: load it in such a contact");
+  else if (!SamParametersDiffer(f, rest->parameters, message, sizeof(message)) && !f->failed) {
+    PetscCall(MoveNotes(f, rest->n, rest->notes));
+    PetscCall(ReadState(f, contact, rest->sums, c, message, sizeof(message)));
+  }
+  PetscCall(PetscFree(version));
+  PetscCall(SamFileEnd(f));
+  PetscCheck(!message[0], f->grid->comm, SAM_ERR_USER, "-restart %s: cannot continue from it: %s", f->filename,
+             message);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode ReadFile(SamContact contact, const char filename[], const Rest *rest, Content *c)
+{
+  SamFile        f;
+  PetscErrorCode ierr;
+  const SamGrid  grid = SamContactGetGrid(contact);
+
+  PetscFunctionBegin;
+  PetscCall(PetscMemzero(c, sizeof(*c)));
+  PetscCall(SamSealCheck(grid, "restart", filename));
+  PetscCall(SamFileOpen(grid, SAM_EVENT_CHECKPOINT, "restart", filename, SAM_FILE_READ, &f));
+  ierr = ReadAll(f, contact, rest, c);
+  if (ierr) (void)SamFileDestroy(&f, PETSC_TRUE);
+  PetscCall(ierr);
+  PetscCall(SamFileDestroy(&f, PETSC_TRUE));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Advice for a checkpoint that cannot be read: names the one before it, if that can be read. */
+static PetscErrorCode Advise(SamContact contact, const char filename[], const Rest *rest, char advice[], size_t size)
+{
+  Content c;
+  char    ignored[SAM_MESSAGE], *before, *temporary;
+
+  PetscFunctionBegin;
+  PetscCall(SamCheckpointNames(filename, &before, &temporary));
+  PetscCall(PetscPushErrorHandler(SamKeepMessage, ignored));
+  if (!ReadFile(contact, before, rest, &c))
+    (void)snprintf(advice, size, "; the checkpoint before it can be read: -restart %s", before);
+  PetscCall(PetscPopErrorHandler());
+  PetscCall(DestroyContent(&c));
+  PetscCall(PetscFree(before));
+  PetscCall(PetscFree(temporary));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Lets the contact accumulate what has been read besides its own fields. */
+static PetscErrorCode AddSums(SamContact contact, SamState state)
+{
+  SamState own;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetState(contact, &own));
+  for (PetscInt k = SamStateCountFields(own); k < SamStateCountFields(state); k++)
+    PetscCall(SamProblemAddSum(SamContactGetProblem(contact), SamStateFieldOf(state, k)->name));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamCheckpointRead(const char filename[], SamContact contact, PetscBool sums,
+                                 const SamParameters *parameters, PetscInt n, const SamNote notes[])
+{
+  const Rest     rest = {parameters, n, notes, sums};
+  Content        c;
+  uint64_t       gap;
+  char           message[SAM_MESSAGE] = "", advice[2 * PETSC_MAX_PATH_LEN] = "";
+  PetscErrorCode ierr;
+
+  PetscFunctionBegin;
+  PetscCall(SamBaseInitialize());
+  PetscCall(PetscPushErrorHandler(SamKeepMessage, message));
+  ierr = ReadFile(contact, filename, &rest, &c);
+  PetscCall(PetscPopErrorHandler());
+  if (!ierr) {
+    PetscCall(AddSums(contact, c.state));
+    PetscCall(GapChecksum(contact, &gap));
+    PetscCall(SamContactSetState(contact, c.state, c.gap[1] && gap == c.gap[0]));
+    PetscCall(SamStepCacheCopy(c.cache, SamContactGetCache(contact)));
+  }
+  PetscCall(DestroyContent(&c));
+  if (ierr == SAM_ERR_FILE) PetscCall(Advise(contact, filename, &rest, advice, sizeof(advice)));
+  PetscCheck(!ierr, SamContactGetGrid(contact)->comm, ierr, "%s%s", message, advice);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
