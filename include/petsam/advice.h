@@ -18,7 +18,7 @@ typedef struct {
 } SamExtent;
 #define SAM_LARGEST_ROW 16384 /* cells in a row of a grid that is advised */
 
-/* SamLoadsMost - the largest loads of several steps. To be zero at first. */
+/* SamLoadRange - the largest loads of several steps. To be zero at first. */
 typedef struct {
   PetscInt    steps;       /* that have been added */
   PetscBool   force;       /* the normal force is given; false: the approach */
@@ -31,7 +31,7 @@ typedef struct {
   const char *stress_name; /* and of which group of conditions it is; borrowed */
   PetscReal   friction;    /* the largest factor on the coefficient of friction */
   PetscBool   open; /* the contact may be larger than a closed solution for these loads has it: rotations, wear */
-} SamLoadsMost;
+} SamLoadRange;
 
 /*
   SamSlip - the dissipated energy of the steps so far, and how far the cells resolve it (slip.c). Branches lie between
@@ -68,7 +68,7 @@ typedef struct {
   double    first;         /* J: energy until then, with a reversal thereafter; 0: none so far */
 } SamSlip;
 
-/* SamRollingError - the largest error of a load or creepage that was found in steady rolling (rolling.c). */
+/* SamRollingError - the largest error of a load or creepage that was found in steady rolling (steadyerrors.c). */
 typedef struct {
   double      error;       /* relative */
   PetscInt    step;        /* from 0 */
@@ -89,7 +89,7 @@ typedef struct {
   SamAdviceFunction receive;
   void             *context;
   PetscInt          steps; /* of the run */
-  SamLoadsMost      most;
+  SamLoadRange      most;
   PetscInt          largest;           /* step of the largest normal load or approach, from 0 */
   PetscBool         doubtful;          /* the heights are of another unit, or tilted: nothing is said of the contact */
   PetscBool         examined;          /* whether the size of the contact was looked at */

@@ -146,11 +146,11 @@ PETSC_EXTERN PetscErrorCode SamContactGetNumber(SamContact contact, const char n
 PETSC_INTERN PetscErrorCode SamContactComputeFriction(SamContact contact, Vec path, Vec pressed, Vec work);
 
 /*
-  SamContactViewLaws - prints the laws' reports of the last step. Collective.
+  SamContactPrintLaws - prints the laws' reports of the last step. Collective.
   SamContactAdvise - a warning about the last step, from the first law from number *k on (0 at first) that has one; *k
   becomes the number of this law. Empty: no law has one. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamContactViewLaws(SamContact contact, PetscViewer viewer);
+PETSC_EXTERN PetscErrorCode SamContactPrintLaws(SamContact contact, PetscViewer viewer);
 PETSC_INTERN PetscErrorCode SamContactAdvise(SamContact contact, PetscInt *k, char text[], size_t size);
 
 /*

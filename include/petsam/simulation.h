@@ -14,22 +14,22 @@
 */
 typedef struct _n_SamSimulation *SamSimulation;
 
-/* SamNews - what a monitor is told of. */
+/* SamEventKind - what a monitor is told of. */
 typedef enum {
-  SAM_NEWS_BEGIN,       /* the first step is next: `start` */
-  SAM_NEWS_STEP_BEGINS, /* `step` */
-  SAM_NEWS_STEP,        /* `step` was solved, or failed, and is in the results: `result` */
-  SAM_NEWS_CYCLE_BEGINS,
-  SAM_NEWS_CYCLE_STEP, /* a step of a computed cycle, `step` of all these: `result` */
-  SAM_NEWS_CYCLE,      /* `cycle` was computed, and is in the results; of `cycles` in all */
-  SAM_NEWS_MESSAGE,    /* the message of `result` about what `text` names */
-  SAM_NEWS_ADVICE,     /* `text`, and the option that mends it, `setting` (without dash; empty: none) */
-  SAM_NEWS_EXTENT,     /* `extent` of the contact in `step` */
-  SAM_NEWS_SLIP,       /* `slip` of all steps */
-  SAM_NEWS_GRID_CHECK, /* `check` of the last step */
-  SAM_NEWS_FILE,       /* the file `text` was written, and holds `setting` */
-  SAM_NEWS_STOPPED     /* before the end, with a checkpoint: `text` says where and why */
-} SamNews;
+  SAM_NOTIFY_BEGIN,       /* the first step is next: `start` */
+  SAM_NOTIFY_STEP_BEGINS, /* `step` */
+  SAM_NOTIFY_STEP,        /* `step` was solved, or failed, and is in the results: `result` */
+  SAM_NOTIFY_CYCLE_BEGINS,
+  SAM_NOTIFY_CYCLE_STEP, /* a step of a computed cycle, `step` of all these: `result` */
+  SAM_NOTIFY_CYCLE,      /* `cycle` was computed, and is in the results; of `cycles` in all */
+  SAM_NOTIFY_MESSAGE,    /* the message of `result` about what `text` names */
+  SAM_NOTIFY_ADVICE,     /* `text`, and the option that mends it, `setting` (without dash; empty: none) */
+  SAM_NOTIFY_EXTENT,     /* `extent` of the contact in `step` */
+  SAM_NOTIFY_SLIP,       /* `slip` of all steps */
+  SAM_NOTIFY_GRID_CHECK, /* `check` of the last step */
+  SAM_NOTIFY_FILE,       /* the file `text` was written, and holds `setting` */
+  SAM_NOTIFY_STOPPED     /* before the end, with a checkpoint: `text` says where and why */
+} SamEventKind;
 
 /* SamSimulationStart - from where, and into which files. */
 typedef struct {
@@ -62,9 +62,9 @@ typedef struct {
   SamGridCheckRow row[24];
 } SamGridCheck;
 
-/* SamSimulationNews - with what belongs to the kind of news; all is borrowed. */
+/* SamSimulationEvent - with what belongs to the kind of news; all is borrowed. */
 typedef struct {
-  SamNews                   kind;
+  SamEventKind              kind;
   PetscInt                  step; /* from 0 */
   const SamStep            *result;
   const SamLifeReport      *cycle;
@@ -74,10 +74,10 @@ typedef struct {
   const SamSlip            *slip;
   const SamGridCheck       *check;
   const char               *text, *setting;
-} SamSimulationNews;
+} SamSimulationEvent;
 
 /* SamSimulationMonitor - is told what happens, on all ranks. Collective. An error ends the simulation. */
-typedef PetscErrorCode (*SamSimulationMonitor)(void *context, SamContact contact, const SamSimulationNews *news);
+typedef PetscErrorCode (*SamSimulationMonitor)(void *context, SamContact contact, const SamSimulationEvent *news);
 
 /* SamSimulationCreate - makes a simulation without a contact. SamSimulationDestroy - frees it. Collective. */
 PETSC_EXTERN PetscErrorCode SamSimulationCreate(MPI_Comm comm, SamSimulation *simulation);

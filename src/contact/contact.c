@@ -29,7 +29,7 @@ PetscErrorCode SamContactCreate(SamProblem problem, SamContact *contact)
   PetscCall(SamStateCreate(c->grid, &c->state));
   PetscCall(SamStepCacheCreate(c->grid, c->conditions, &c->cache));
   PetscCall(SamContactDeclare(c));
-  PetscCall(SamContactView(c));
+  PetscCall(SamContactRefresh(c));
   c->revision[SAM_COMMITTED] = -1;
   *contact                   = c;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -173,7 +173,7 @@ PetscErrorCode SamContactSetState(SamContact c, SamState state, PetscBool gap_is
   PetscCall(SamContactDeclare(c));
   PetscCall(SamStateCopy(state, c->state));
   SamStepCacheForget(c->cache);
-  PetscCall(SamContactView(c));
+  PetscCall(SamContactRefresh(c));
   PetscCall(SamContactReject(c));
   PetscCall(SamProblemGetRevision(c->problem, &c->revision[SAM_COMMITTED]));
   if (!gap_is_current) c->revision[SAM_COMMITTED] = -1;
@@ -195,7 +195,7 @@ PetscErrorCode SamContactReset(SamContact c)
   PetscFunctionBegin;
   PetscCall(SamStateReset(c->state));
   SamStepCacheForget(c->cache);
-  PetscCall(SamContactView(c));
+  PetscCall(SamContactRefresh(c));
   PetscCall(SamContactReject(c));
   c->revision[SAM_COMMITTED] = -1;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -272,7 +272,7 @@ PetscErrorCode SamContactGetNumber(SamContact c, const char name[], PetscReal *v
 
 /* ---- reports of the laws ---- */
 
-PetscErrorCode SamContactViewLaws(SamContact c, PetscViewer viewer)
+PetscErrorCode SamContactPrintLaws(SamContact c, PetscViewer viewer)
 {
   const SamLaw *laws;
   PetscInt      count;

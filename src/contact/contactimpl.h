@@ -49,7 +49,7 @@ static inline PetscBool SamContactRecalls(SamContact c)
          !SamProblemFollowsSlip(c->problem) && !SamProblemHasOffset(c->problem);
 }
 
-/* ---- what is remembered (memory.c) ---- */
+/* ---- what is remembered (generations.c) ---- */
 
 /* SamContactDeclare - declares all that a contact remembers and offers, unless that is done. Collective. */
 PETSC_INTERN PetscErrorCode SamContactDeclare(SamContact contact);
@@ -60,8 +60,8 @@ PETSC_INTERN PetscErrorCode SamContactBegin(SamContact contact, const SamControl
   does not have, and the solution was computed with, is kept aside. Not collective.
 */
 PETSC_INTERN PetscErrorCode SamContactStore(SamContact contact, const SamStep *step);
-/* SamContactView - makes the views of the committed generation, and of that one step back. Collective. */
-PETSC_INTERN PetscErrorCode SamContactView(SamContact contact);
+/* SamContactRefresh - makes the views of the committed generation, and of that one step back. Collective. */
+PETSC_INTERN PetscErrorCode SamContactRefresh(SamContact contact);
 /*
   SamContactBefore - the committed solution, from which the tried one continues; NULL in the first step. Not collective.
 */

@@ -239,7 +239,7 @@ static PetscErrorCode IsSamePressure(SamContact c, const SamControl *control, Pe
 static PetscErrorCode MoveBack(SamContact c)
 {
   PetscFunctionBegin;
-  if (c->rolls) PetscCall(SamContactView(c));
+  if (c->rolls) PetscCall(SamContactRefresh(c));
   c->rolls = PETSC_FALSE;
   PetscCall(RestoreWindow(c));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -466,7 +466,7 @@ PetscErrorCode SamContactCommit(SamContact c)
   PetscCall(SamStateCommit(c->state));
   c->revision[SAM_COMMITTED] = c->revision[SAM_TRIED];
   c->has_tried               = PETSC_FALSE;
-  PetscCall(SamContactView(c));
+  PetscCall(SamContactRefresh(c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -164,8 +164,8 @@ PetscInt SamSolverMaxIterations(SamSolver s)
 {
   const PetscInt most = s->max_it ? s->max_it : s->default_max_it;
 
-  if (s->effort == SAM_EFFORT_MEASURE) return 0;
-  return s->effort == SAM_EFFORT_BRIEF ? PetscMin(most, BRIEF) : most;
+  if (s->effort == SAM_EFFORT_RESIDUAL_ONLY) return 0;
+  return s->effort == SAM_EFFORT_FEW_ITERATIONS ? PetscMin(most, BRIEF) : most;
 }
 
 PetscInt SamSolverLevels(SamSolver s)
@@ -237,10 +237,10 @@ PetscErrorCode SamSolverSolve(SamSolver s, const SamLevel *problem, PetscBool gu
   }
   PetscCall(PetscLogEventEnd(SamEvents[kind->event], 0, 0, 0, 0));
   PetscCheck(s->reason, s->comm, PETSC_ERR_PLIB, "Method %s set no reason", s->type);
-  if (s->effort == SAM_EFFORT_MEASURE || s->effort == SAM_EFFORT_NEAR) PetscFunctionReturn(PETSC_SUCCESS);
+  if (s->effort == SAM_EFFORT_RESIDUAL_ONLY || s->effort == SAM_EFFORT_WARM) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamSolverViewFromOptions(s));
   PetscCheck(s->reason > 0 || !s->error_if_not_converged ||
-               (s->effort == SAM_EFFORT_BRIEF && s->reason == SAM_SOLVER_DIVERGED_ITS),
+               (s->effort == SAM_EFFORT_FEW_ITERATIONS && s->reason == SAM_SOLVER_DIVERGED_ITS),
              s->comm, PETSC_ERR_NOT_CONVERGED, "The %s solve did not converge due to %s", kind->name,
              SamSolverReasonName(s->reason));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -55,7 +55,7 @@ static void test_laws_stand_in_the_order_of_their_types(void **state)
 
 static void test_problem_has_one_law_of_a_type(void **state)
 {
-  Case   c = NewCase(Steel(), N, 1.5, MU, "");
+  Case      c = NewCase(Steel(), N, 1.5, MU, "");
   PetscReal friction;
   SamLaw    one, two, other;
 

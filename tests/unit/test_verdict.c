@@ -139,7 +139,7 @@ static PetscErrorCode LieOfPressure(SamSolver normal, SamLevel *level)
 
   PetscFunctionBegin;
   PetscCall(solve_normal(normal, level));
-  if (!level->finest || normal->effort == SAM_EFFORT_MEASURE) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!level->finest || normal->effort == SAM_EFFORT_RESIDUAL_ONLY) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(VecScale(level->traction, 1 + lie.pressure));
   PetscCall(VecNorm(level->traction, NORM_INFINITY, &most));
   if (lie.cell[0] >= 0) AddAt(level->grid, 0, lie.cell[0], lie.cell[1], lie.part * most, level->traction);

@@ -25,12 +25,12 @@ PETSC_INTERN PetscErrorCode SamNormalSolveKeeping(SamNormal normal, Vec h, SamBa
                                                   SamProduct *product);
 
 /*
-  SamNormalLookOutside - after a solve in a window of the level: whether the bodies are apart outside of the window, so
+  SamNormalCheckOutside - after a solve in a window of the level: whether the bodies are apart outside of the window, so
   that the solution is that of the whole grid. If not, first and size become the smallest rectangle that holds the
   contact and all cells that penetrate. Collective.
 */
-PETSC_INTERN PetscErrorCode SamNormalLookOutside(SamSolver solver, SamLevel *level, SamWindow window, PetscInt first[2],
-                                                 PetscInt size[2], PetscBool *apart);
+PETSC_INTERN PetscErrorCode SamNormalCheckOutside(SamSolver solver, SamLevel *level, SamWindow window,
+                                                  PetscInt first[2], PetscInt size[2], PetscBool *apart);
 
 PETSC_INTERN PetscErrorCode SamNormalCreate_ActiveSet(SamSolver solver);
 

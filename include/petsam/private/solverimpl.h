@@ -64,7 +64,13 @@ typedef enum {
   the start; or all of it if the start is NEAR. The last three may end with SAM_SOLVER_DIVERGED_ITS, which is no error
   then.
 */
-typedef enum { SAM_EFFORT_FULL, SAM_EFFORT_GLANCE, SAM_EFFORT_BRIEF, SAM_EFFORT_MEASURE, SAM_EFFORT_NEAR } SamEffort;
+typedef enum {
+  SAM_EFFORT_FULL,
+  SAM_EFFORT_CHECK_SUPPORT,
+  SAM_EFFORT_FEW_ITERATIONS,
+  SAM_EFFORT_RESIDUAL_ONLY,
+  SAM_EFFORT_WARM
+} SamEffort;
 #define SAM_NEAR 5e-3 /* the largest error of a start that is near */
 
 typedef struct _n_SamSolverKind SamSolverKind;

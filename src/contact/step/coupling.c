@@ -68,13 +68,13 @@ static PetscErrorCode Solve(Passes *p, PetscInt pass)
   const PetscReal error     = PetscMin(p->error, FIRST);
   const PetscReal rtol      = p->sharper * PetscMax(TANGENTIAL_FINAL * PetscMin(p->rtol[0], p->rtol[1]),
                                                p->rough ? PetscMin(error, SAM_ROUGH * p->rtol[1]) : error);
-  const SamEffort effort    = brief ? SAM_EFFORT_BRIEF : SAM_EFFORT_FULL;
+  const SamEffort effort    = brief ? SAM_EFFORT_FEW_ITERATIONS : SAM_EFFORT_FULL;
   SamSolverReason reason;
   PetscReal       left;
 
   PetscFunctionBegin;
   SamSolverSetEffort(SamNormalAsSolver(s->task->normal), PetscMax(NORMAL_FINAL * p->rtol[0], NORMAL_PART * error),
-                     p->looks ? SAM_EFFORT_FULL : SAM_EFFORT_GLANCE);
+                     p->looks ? SAM_EFFORT_FULL : SAM_EFFORT_CHECK_SUPPORT);
   /* of a pressure that is not smooth yet, Newton's method may get stuck on the shear; that is not worth its while */
   SamSolverSetEffort(SamTangentialAsSolver(s->task->tangential), rtol, effort);
   PetscCall(VecCopy(s->lift, s->h));
@@ -83,7 +83,7 @@ static PetscErrorCode Solve(Passes *p, PetscInt pass)
   PetscCall(SamSolveBound(s, s->s->bound));
   p->slides = PETSC_FALSE;
   if (s->step->status != SAM_STATUS_CONVERGED) {
-    PetscCall(SamSolveSkipTangential(s));
+    PetscCall(SamSolveZeroShear(s));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   if (pass == 1) PetscCall(SamSolveSetAside(s, PETSC_FALSE));
@@ -109,7 +109,7 @@ static PetscErrorCode Measure(Passes *p, Vec lift, PetscBool *solved)
   PetscFunctionBegin;
   PetscCall(SamElasticityApplyTangentialToNormal(s->task->elasticity, s->s->shear, lift));
   PetscCall(VecCopy(lift, s->h));
-  SamSolverSetEffort(SamNormalAsSolver(s->task->normal), NORMAL_ENOUGH * p->rtol[0], SAM_EFFORT_MEASURE);
+  SamSolverSetEffort(SamNormalAsSolver(s->task->normal), NORMAL_ENOUGH * p->rtol[0], SAM_EFFORT_RESIDUAL_ONLY);
   PetscCall(SamSolveNormal(s, PETSC_TRUE, PETSC_FALSE));
   reason = SamSolverGetReason(SamNormalAsSolver(s->task->normal));
   if (reason < 0 && reason != SAM_SOLVER_DIVERGED_ITS) PetscCall(SamSolveJudge(s, SAM_BALANCE_NORMAL));

@@ -67,7 +67,7 @@ static PetscErrorCode SolveShear(SamSolve *w, PetscBool has_shear)
   PetscCall(SamSolveBound(w, w->s->bound));
   w->counts[SAM_COUNT_COUPLING] = 1;
   if (w->step->status != SAM_STATUS_CONVERGED) {
-    PetscCall(SamSolveSkipTangential(w));
+    PetscCall(SamSolveZeroShear(w));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(SamSolverGetTolerances(SamTangentialAsSolver(w->task->tangential), &rtol, NULL));

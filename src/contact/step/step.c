@@ -306,7 +306,7 @@ static PetscErrorCode SolveFromKept(SamSolve *w, SamCachedStep kept, Vec offset,
   PetscCall(SamGridCreateVec(task->grid, 2, &shear));
   PetscCall(SamCachedStepGetShear(kept, task->elasticity, w->task->before, w->s->bound, shear, &product, solved));
   if (*solved) {
-    SamSolverSetEffort(solver, enough, SAM_EFFORT_NEAR);
+    SamSolverSetEffort(solver, enough, SAM_EFFORT_WARM);
     PetscCall(SamTangentialSolveKeeping(task->tangential, w->s->bound, offset, balance, PETSC_TRUE, shear, &product));
     SamSolverSetEffort(solver, enough, effort);
     *solved = SamSolverGetReason(solver) > 0 ? PETSC_TRUE : PETSC_FALSE;
@@ -349,7 +349,7 @@ PetscErrorCode SamSolveTangential(SamSolve *w, PetscBool has_shear)
 }
 
 /* The pressure is not right, so that no shear is sought: there is none, and displacements that are not given stay. */
-PetscErrorCode SamSolveSkipTangential(SamSolve *w)
+PetscErrorCode SamSolveZeroShear(SamSolve *w)
 {
   SamBalance balance = w->tangential;
 

@@ -35,11 +35,11 @@ typedef struct {
   SamSolveNormal - the normal problem of the step. `has_pressure`: the tried solution holds a guess; `has_shear`: of the
   shear too, which then follows the pressure. Collective.
   SamSolveTangential - the tangential problem under the bound of the tried solution; `has_shear` likewise. Collective.
-  SamSolveSkipTangential - no shear, as the pressure is not right. Collective.
+  SamSolveZeroShear - no shear, as the pressure is not right. Collective.
 */
 PETSC_INTERN PetscErrorCode SamSolveNormal(SamSolve *solve, PetscBool has_pressure, PetscBool has_shear);
 PETSC_INTERN PetscErrorCode SamSolveTangential(SamSolve *solve, PetscBool has_shear);
-PETSC_INTERN PetscErrorCode SamSolveSkipTangential(SamSolve *solve);
+PETSC_INTERN PetscErrorCode SamSolveZeroShear(SamSolve *solve);
 /* SamSolveDisplace - gives the tried solution its tangential displacement by shear and pressure. Collective. */
 PETSC_INTERN PetscErrorCode SamSolveDisplace(SamSolve *solve);
 /* SamSolveJudge - records in the step whether the last solve of a problem failed. Collective. */
@@ -86,7 +86,7 @@ PETSC_INTERN PetscErrorCode SamSolveGetChange(SamSolve *solve, Vec argument, Vec
   SamSolveShear - the tangential problem under the bound of the tried solution. A bound that follows the slip changes
   with it; `rtol` is what both are solved to then (bound.c). Collective.
   SamSolveCoupled - both problems of dissimilar bodies with friction (coupling.c). Collective.
-  SamSolveRolling - the numbers of a motion in which material streams, of the solved one (rolling.c). Collective.
+  SamSolveRolling - the numbers of a motion in which material streams, of the solved one (steadystep.c). Collective.
 */
 #define SAM_ROUGH 100
 PETSC_INTERN PetscErrorCode SamSolveSetAside(SamSolve *solve, PetscBool solved);

@@ -198,12 +198,12 @@ static PetscErrorCode SetUp(void *context, const SamArguments *arguments)
 }
 
 /* Passes the news of the simulation on to the report. */
-static PetscErrorCode Tell(void *context, SamContact contact, const SamSimulationNews *news)
+static PetscErrorCode Tell(void *context, SamContact contact, const SamSimulationEvent *news)
 {
   const SamRun *run = (const SamRun *)context;
 
   PetscFunctionBegin;
-  if (news->kind == SAM_NEWS_BEGIN) {
+  if (news->kind == SAM_NOTIFY_BEGIN) {
     double bytes;
 
     PetscCall(EstimateMemory(run->simulation, &bytes));

@@ -349,13 +349,13 @@ static PetscErrorCode AddFile(SamReport r, const char name[], const char content
 }
 
 /* Prints a message. */
-static PetscErrorCode Say(SamReport r, const SamSimulationNews *news)
+static PetscErrorCode Say(SamReport r, const SamSimulationEvent *news)
 {
   PetscFunctionBegin;
   SamProgressErase(r);
-  if (news->kind == SAM_NEWS_MESSAGE)
+  if (news->kind == SAM_NOTIFY_MESSAGE)
     PrintMessage(r, news->text, news->result);
-  else if (news->kind == SAM_NEWS_ADVICE)
+  else if (news->kind == SAM_NOTIFY_ADVICE)
     Warn(r, news->text, news->setting);
   else if (!r->rank)
     fprintf(stderr, "petsam: %s\n", news->text);
@@ -381,43 +381,43 @@ static PetscErrorCode PrintGridCheck(SamReport r, const SamGridCheck *check)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamReportNews(SamReport r, SamContact contact, const SamSimulationNews *news)
+PetscErrorCode SamReportNews(SamReport r, SamContact contact, const SamSimulationEvent *news)
 {
   PetscFunctionBegin;
   switch (news->kind) {
-  case SAM_NEWS_BEGIN:
+  case SAM_NOTIFY_BEGIN:
     break;
-  case SAM_NEWS_STEP_BEGINS:
+  case SAM_NOTIFY_STEP_BEGINS:
     PetscCall(BeginStep(r, news->step, contact));
     break;
-  case SAM_NEWS_STEP:
+  case SAM_NOTIFY_STEP:
     PetscCall(EndStep(r, contact, news->result));
     break;
-  case SAM_NEWS_CYCLE_BEGINS:
+  case SAM_NOTIFY_CYCLE_BEGINS:
     PetscCall(BeginCycle(r, contact));
     break;
-  case SAM_NEWS_CYCLE_STEP:
+  case SAM_NOTIFY_CYCLE_STEP:
     PetscCall(CountStep(r, contact, news->step, news->result));
     break;
-  case SAM_NEWS_CYCLE:
+  case SAM_NOTIFY_CYCLE:
     PetscCall(EndCycle(r, news->cycle, news->cycles));
     break;
-  case SAM_NEWS_EXTENT:
+  case SAM_NOTIFY_EXTENT:
     r->extent      = *news->extent;
     r->extent_step = news->step + 1;
     break;
-  case SAM_NEWS_SLIP:
+  case SAM_NOTIFY_SLIP:
     r->slip = *news->slip;
     break;
-  case SAM_NEWS_GRID_CHECK:
+  case SAM_NOTIFY_GRID_CHECK:
     PetscCall(PrintGridCheck(r, news->check));
     break;
-  case SAM_NEWS_FILE:
+  case SAM_NOTIFY_FILE:
     PetscCall(AddFile(r, news->text, news->setting));
     break;
-  case SAM_NEWS_MESSAGE:
-  case SAM_NEWS_ADVICE:
-  case SAM_NEWS_STOPPED:
+  case SAM_NOTIFY_MESSAGE:
+  case SAM_NOTIFY_ADVICE:
+  case SAM_NOTIFY_STOPPED:
     PetscCall(Say(r, news));
     break;
   }

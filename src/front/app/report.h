@@ -82,7 +82,7 @@ PETSC_INTERN PetscErrorCode SamReportBanner(SamReport report, SamGrid grid, doub
   and keeps what the closing table tells. That the contact is at the edge, where that is allowed, is said in the first
   such step only. Progress is shown by monitors, which it adds to the contact's solvers. Collective.
 */
-PETSC_INTERN PetscErrorCode SamReportNews(SamReport report, SamContact contact, const SamSimulationNews *news);
+PETSC_INTERN PetscErrorCode SamReportNews(SamReport report, SamContact contact, const SamSimulationEvent *news);
 /* SamReportClosing - prints times by part, worst residuals, files written, and time and memory used. Collective. */
 PETSC_INTERN PetscErrorCode SamReportClosing(SamReport report);
 

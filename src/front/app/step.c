@@ -79,7 +79,7 @@ static PetscErrorCode ViewSolution(const SamStep *s, SamContact c, const Sizes *
     PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  %.0f, contact on %.4g %% of the grid, mean gap %.6g m\n",
                                      "spots", Get(c, "contact_spots"), 100 * Get(c, "contact_fraction"),
                                      Get(c, "gap_mean")));
-  PetscCall(SamContactViewLaws(c, viewer));
+  PetscCall(SamContactPrintLaws(c, viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer,
                                    "  %-10s  normal %.0f (%.0f applications), tangential %.0f (%.0f applications)",
                                    "iterations", Get(c, "normal_iterations"), Get(c, "normal_applies"),

@@ -24,7 +24,7 @@ static PetscErrorCode AskHost(const Run *run, int cycle)
 }
 
 /* Keeps the step as petsam_try() does, and all warnings. */
-static PetscErrorCode Tell(void *context, SamContact contact, const SamSimulationNews *news)
+static PetscErrorCode Tell(void *context, SamContact contact, const SamSimulationEvent *news)
 {
   const Run *const      run = (const Run *)context;
   petsam_contact *const c   = run->c;
@@ -32,25 +32,25 @@ static PetscErrorCode Tell(void *context, SamContact contact, const SamSimulatio
   PetscFunctionBegin;
   (void)contact;
   switch (news->kind) {
-  case SAM_NEWS_STEP:
-  case SAM_NEWS_CYCLE_STEP:
+  case SAM_NOTIFY_STEP:
+  case SAM_NOTIFY_CYCLE_STEP:
     c->last = *news->result;
     if (news->result->status == SAM_STATUS_CONVERGED) PetscCall(SamEmbedRecord(c, news->result));
-    if (news->kind == SAM_NEWS_STEP) PetscCall(AskHost(run, 0));
+    if (news->kind == SAM_NOTIFY_STEP) PetscCall(AskHost(run, 0));
     break;
-  case SAM_NEWS_CYCLE_BEGINS: /* the last computed cycle is what fatigue is asked of */
+  case SAM_NOTIFY_CYCLE_BEGINS: /* the last computed cycle is what fatigue is asked of */
     SamEmbedForgetSteps(c);
     break;
-  case SAM_NEWS_CYCLE:
+  case SAM_NOTIFY_CYCLE:
     PetscCall(AskHost(run, 1));
     break;
-  case SAM_NEWS_MESSAGE:
+  case SAM_NOTIFY_MESSAGE:
     if (news->result->status)
       c->last = *news->result;
     else
       PetscCall(SamEmbedWarn(c, news->result->message, ""));
     break;
-  case SAM_NEWS_ADVICE:
+  case SAM_NOTIFY_ADVICE:
     PetscCall(SamEmbedWarn(c, news->text, news->setting));
     break;
   default:

@@ -68,7 +68,7 @@
 
 void SamAdviceAddLoads(SamAdvice *a, PetscInt step, const SamControl *control)
 {
-  SamLoadsMost *const most = &a->most;
+  SamLoadRange *const most = &a->most;
   const PetscReal    *v = control->value, normal = v[SAM_COMPONENT_N];
   const PetscBool    *force      = control->force;
   const PetscBool    *creep      = control->creep;
@@ -272,7 +272,7 @@ static PetscBool HasPlace(SamAdvice *a)
 static void Motion(SamAdvice *a)
 {
   const SamExtent    *extent = &a->extent;
-  const SamLoadsMost *most   = &a->most;
+  const SamLoadRange *most   = &a->most;
   const double        width  = 2 * (double)PetscMax(extent->half[0], extent->half[1]);
   const SamProblem    p      = a->setup->problem;
   const PetscBool     wears  = SamProblemGetLaw(p, SAM_LAW_ARCHARD) || SamProblemGetLaw(p, SAM_LAW_ENERGY);
@@ -450,7 +450,7 @@ static void ExplainLargest(const SamAdvice *a, char why[], size_t size)
 static void Units(SamAdvice *a)
 {
   const SamSetup     *s     = a->setup;
-  const SamLoadsMost *most  = &a->most;
+  const SamLoadRange *most  = &a->most;
   const double        width = (double)PetscMax(s->grid->width[0], s->grid->width[1]);
   char                why[160];
 
@@ -758,7 +758,7 @@ PetscErrorCode SamAdviceEnd(SamAdvice *a, const SamSlip **found)
   The half widths where no closed solution is at hand. The pressure at the grid's edge tells how far it is to the
   contact's, as for Hertz's pressure p0 sqrt(1 - r^2/a^2); widths grow at most like the root of the load.
 */
-static void Extrapolate(const SamSetup *s, const SamStep *step, const SamLoadsMost *most, PetscReal half[2])
+static void Extrapolate(const SamSetup *s, const SamStep *step, const SamLoadRange *most, PetscReal half[2])
 {
   const double edge   = PetscMin(BLIND, (double)step->check.edge);
   const double now    = (double)(most->force ? step->load[SAM_COMPONENT_N] : step->rigid[SAM_COMPONENT_N]);
@@ -843,7 +843,7 @@ static PetscErrorCode AdviseThickness(const SamAdvice *a, char text[], size_t si
 PetscErrorCode SamAdviceEdge(const SamAdvice *a, SamStep *step)
 {
   const SamSetup     *s    = a->setup;
-  const SamLoadsMost *most = &a->most;
+  const SamLoadRange *most = &a->most;
   const size_t        used = strlen(step->message), size = sizeof(step->message) - used;
   char *const         text = step->message + used;
   PetscReal           half[2];

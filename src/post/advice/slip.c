@@ -211,7 +211,7 @@ static PetscErrorCode AddStuck(const SamSetup *s, const SamStep *step, PetscBool
 static PetscErrorCode Join(SamAdvice *a, const SamStep *step, const Numbers *n)
 {
   const SamSetup     *s       = a->setup;
-  const SamLoadsMost *most    = &a->most;
+  const SamLoadRange *most    = &a->most;
   SamSlip            *slip    = &a->slip;
   const double        load    = (double)step->load[SAM_COMPONENT_N];
   const double        now     = most->force ? load : (double)step->rigid[SAM_COMPONENT_N];

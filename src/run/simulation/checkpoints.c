@@ -323,7 +323,7 @@ PetscErrorCode SamSimulationCheckpoint(SamSimulation s)
     PetscCall(SamSimulationDescribePlace(s, PETSC_TRUE, place, sizeof(place)));
     (void)snprintf(said, sizeof(said), "stopped after %s %s: continue with -restart %s", place,
                    any[1] > 0 ? "on a signal" : "before -max_walltime", cp->filename);
-    PetscCall(SamSimulationTell(s, &(SamSimulationNews){.kind = SAM_NEWS_STOPPED, .text = said, .setting = ""}));
+    PetscCall(SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_STOPPED, .text = said, .setting = ""}));
   }
   cp->seen       = steps;
   cp->step_start = MPI_Wtime();

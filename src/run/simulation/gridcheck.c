@@ -137,7 +137,7 @@ PetscErrorCode SamSimulationCheckGrid(SamSimulation s)
   PetscCall(SolveAll(s, &coarse));
   if (coarse.step.status == SAM_STATUS_CONVERGED) {
     PetscCall(Compare(s, &coarse, &check));
-    PetscCall(SamSimulationTell(s, &(SamSimulationNews){.kind = SAM_NEWS_GRID_CHECK, .check = &check}));
+    PetscCall(SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_GRID_CHECK, .check = &check}));
   } else {
     (void)snprintf(text, sizeof(text), "no errors are estimated: on half the cells %s", coarse.step.message);
     PetscCall(SamSimulationWarn(s, text, "grid_check"));

@@ -17,15 +17,15 @@ static PetscErrorCode Control(void *context, PetscInt step, PetscReal cycles, Sa
   const SamCondition *scale = SamConditionsFind(s->conditions, SAM_FRICTION_SCALE);
 
   PetscFunctionBegin;
-  *control = SamHistoryGetStep(s->history, SamPlanGetStart(&s->plan, s->history) + step);
-  SamControlSetCondition(control, scale, SamControlGet(control, scale) * SamPlanFriction(&s->plan, cycles));
+  *control = SamHistoryGetStep(s->history, SamLifeOptionsGetStart(&s->plan, s->history) + step);
+  SamControlSetCondition(control, scale, SamControlGet(control, scale) * SamLifeOptionsFriction(&s->plan, cycles));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* The time of a step in the life: all cycles take as long as the first one. */
 static PetscErrorCode TimeOf(SamSimulation s, PetscReal cycles, PetscReal *time)
 {
-  const PetscInt   start = SamPlanGetStart(&s->plan, s->history);
+  const PetscInt   start = SamLifeOptionsGetStart(&s->plan, s->history);
   const SamControl last  = SamHistoryGetStep(s->history, s->needs.steps - 1);
 
   PetscFunctionBegin;
@@ -53,21 +53,22 @@ static PetscErrorCode WriteStep(void *context, PetscInt step, PetscReal cycles, 
   SamStep             told   = *result;
   const PetscBool     failed = told.status == SAM_STATUS_NOT_CONVERGED;
   PetscBool           due;
-  const PetscInt      start = SamPlanGetStart(&s->plan, s->history);
+  const PetscInt      start = SamLifeOptionsGetStart(&s->plan, s->history);
   char                after[48];
 
   PetscFunctionBegin;
-  due = (PetscBool)(SamPlanIsOutput(&s->plan, cycles) && SamSimulationSaves(s, step + 1, s->needs.steps - start));
+  due =
+    (PetscBool)(SamLifeOptionsIsOutput(&s->plan, cycles) && SamSimulationSaves(s, step + 1, s->needs.steps - start));
   if (!step) s->last_time = PETSC_NINFINITY; /* the fields of the step before are not those of a step in the file */
   PetscCall(TimeOf(s, cycles, &told.control.time));
   PetscCall(Place(s, cycles, told.control.time));
   if (s->needs.stiffness) PetscCall(SamStiffnessRecord(s->setup.contact, &told));
   s->point.steps++;
-  PetscCall(SamSimulationTell(
-    s, &(SamSimulationNews){.kind = SAM_NEWS_CYCLE_STEP, .step = s->point.steps - 1, .result = &told}));
+  PetscCall(SamSimulationNotify(
+    s, &(SamSimulationEvent){.kind = SAM_NOTIFY_CYCLE_STEP, .step = s->point.steps - 1, .result = &told}));
   PetscCall(SamSimulationWriteStep(s, &told, due || failed));
   if (!step) SamAdviceBeginCycle(&s->advice);
-  if (!step && SamPlanIsOutput(&s->plan, cycles)) {
+  if (!step && SamLifeOptionsIsOutput(&s->plan, cycles)) {
     (void)snprintf(after, sizeof(after), "after %.10g cycles: ", (double)cycles);
     SamAdviceRenew(&s->advice, after);
   }
@@ -81,14 +82,14 @@ static PetscErrorCode WriteStep(void *context, PetscInt step, PetscReal cycles, 
 static PetscErrorCode TellMessage(SamSimulation s, const char where[], const SamStep *step)
 {
   PetscFunctionBegin;
-  PetscCall(SamSimulationTell(s, &(SamSimulationNews){.kind = SAM_NEWS_MESSAGE, .text = where, .result = step}));
+  PetscCall(SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_MESSAGE, .text = where, .result = step}));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Solves the steps up to the history's first row, where the cycle starts. They do not wear and are not written. */
 static PetscErrorCode Start(SamSimulation s, PetscBool *ended)
 {
-  const PetscInt start = SamPlanGetStart(&s->plan, s->history);
+  const PetscInt start = SamLifeOptionsGetStart(&s->plan, s->history);
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < start && !*ended; k++) {
@@ -248,7 +249,7 @@ static PetscErrorCode ComputeCycle(SamSimulation s, PetscBool *ended)
   SamLifeReport r;
 
   PetscFunctionBegin;
-  PetscCall(SamSimulationTell(s, &(SamSimulationNews){.kind = SAM_NEWS_CYCLE_BEGINS}));
+  PetscCall(SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_CYCLE_BEGINS}));
   PetscCall(SamLifeCompute(s->life, &r));
   *ended = r.cycles >= s->plan.cycles || r.step.status != SAM_STATUS_CONVERGED;
   if (r.step.status != SAM_STATUS_CONVERGED) PetscCall(EndLife(s, &r, "after"));
@@ -264,7 +265,8 @@ static PetscErrorCode ComputeCycle(SamSimulation s, PetscBool *ended)
   if (s->output) PetscCall(SamOutputWriteCycle(s->output));
   s->writing = PETSC_FALSE;
   s->point.rows++;
-  PetscCall(SamSimulationTell(s, &(SamSimulationNews){.kind = SAM_NEWS_CYCLE, .cycle = &r, .cycles = s->plan.cycles}));
+  PetscCall(
+    SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_CYCLE, .cycle = &r, .cycles = s->plan.cycles}));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -273,7 +275,7 @@ static PetscErrorCode Jump(SamSimulation s, PetscBool *ended)
   SamLifeReport r;
 
   PetscFunctionBegin;
-  PetscCall(SamLifeJump(s->life, SamPlanNextStop(&s->plan, SamLifeGetState(s->life).cycles), &r));
+  PetscCall(SamLifeJump(s->life, SamLifeOptionsNextStop(&s->plan, SamLifeGetState(s->life).cycles), &r));
   *ended = SamStepIsSolved(&r.step) ? PETSC_FALSE : PETSC_TRUE;
   if (*ended) PetscCall(EndLife(s, &r, "in the cycles after"));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -296,7 +298,7 @@ PetscErrorCode SamSimulationLive(SamSimulation s)
 PetscErrorCode SamSimulationLiveCoarse(SamSimulation s, SamContact contact, PetscReal cycles, SamLife *life,
                                        SamStep *step)
 {
-  const PetscInt start = SamPlanGetStart(&s->plan, s->history);
+  const PetscInt start = SamLifeOptionsGetStart(&s->plan, s->history);
   SamLifeCycle   cycle = {.control = Control, .context = s};
   SamLifeReport  r;
 
@@ -312,7 +314,7 @@ PetscErrorCode SamSimulationLiveCoarse(SamSimulation s, SamContact contact, Pets
   }
   PetscCall(SamLifeCompute(*life, &r));
   while (r.step.status == SAM_STATUS_CONVERGED && r.cycles < cycles) {
-    PetscCall(SamLifeJump(*life, PetscMin(cycles, SamPlanNextStop(&s->plan, r.cycles)), &r));
+    PetscCall(SamLifeJump(*life, PetscMin(cycles, SamLifeOptionsNextStop(&s->plan, r.cycles)), &r));
     if (r.step.status == SAM_STATUS_CONVERGED) PetscCall(SamLifeCompute(*life, &r));
   }
   PetscCall(SamLifeRecord(*life, &r));
@@ -327,7 +329,7 @@ PetscErrorCode SamSimulationCreateLife(SamSimulation s)
 
   PetscFunctionBegin;
   if (s->plan.cycles == 0) PetscFunctionReturn(PETSC_SUCCESS);
-  cycle.steps = s->needs.steps - SamPlanGetStart(&s->plan, s->history);
+  cycle.steps = s->needs.steps - SamLifeOptionsGetStart(&s->plan, s->history);
   PetscCall(SamLifeCreate(s->setup.contact, &cycle, &s->plan.life, &s->life));
   set->cycles      = SamLifeGetSeries(s->life);
   set->cycles_name = "wear";

@@ -65,10 +65,10 @@ static PetscErrorCode CheckLaws(SamSimulation s, const SamOptions *from)
 /* Reads how cycles are lived; a table of friction gives the problem its coefficient at the start. */
 static PetscErrorCode ReadPlan(SamSimulation s, PetscBool given, const SamOptions *from)
 {
-  SamPlan *const w = &s->plan;
+  SamLifeOptions *const w = &s->plan;
 
   PetscFunctionBegin;
-  PetscCall(SamPlanSetFromOptions(w, given, from));
+  PetscCall(SamLifeOptionsSetFromOptions(w, given, from));
   if (w->points) PetscCall(SamProblemSetFriction(s->setup.problem, w->friction[0]));
   PetscCall(SamProblemHasFriction(s->setup.problem, &s->needs.friction));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -139,8 +139,8 @@ static PetscErrorCode SetProgram(SamSimulation s, SamHistory history, PetscReal 
              "-step_rtol without -friction: no energy is dissipated: give -friction, or remove it");
   PetscCheck(s->step_rtol == 0 || !s->needs.life, from->comm, SAM_ERR_USER,
              "-step_rtol with -wear_cycles: all computed cycles must have the same load steps: use -steps");
-  PetscCall(SamPlanSetCycles(&s->plan, cycles, s->setup.problem, from));
-  PetscCall(SamPlanCheckCycle(&s->plan, history, s->setup.problem, from));
+  PetscCall(SamLifeOptionsSetCycles(&s->plan, cycles, s->setup.problem, from));
+  PetscCall(SamLifeOptionsCheckCycle(&s->plan, history, s->setup.problem, from));
   PetscCall(CheckLaws(s, from));
   PetscCall(CheckComponents(s, from));
   PetscFunctionReturn(PETSC_SUCCESS);

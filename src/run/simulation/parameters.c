@@ -24,7 +24,7 @@ static PetscErrorCode AddLoads(SamParameters *p, SamHistory history, SamConditio
 }
 
 /* A life can go on with more cycles, and in other jumps. */
-static PetscErrorCode AddLife(SamParameters *p, const SamPlan *w)
+static PetscErrorCode AddLife(SamParameters *p, const SamLifeOptions *w)
 {
   uint64_t sum = 0;
 

@@ -62,7 +62,7 @@ static const SamOptionRow rows[ROWS] = {
   {"wear_friction", "text file, columns cycle,friction: friction over the cycles", SAM_OPTION_FILE, MEMBER(friction),
    .size = PETSC_MAX_PATH_LEN, .excludes = "friction,friction_file", LIFE}};
 
-static PetscErrorCode TakeOutputs(SamPlan *w, char text[], const SamOptions *from)
+static PetscErrorCode TakeOutputs(SamLifeOptions *w, char text[], const SamOptions *from)
 {
   char *part, *rest, *end;
 
@@ -101,7 +101,7 @@ static PetscErrorCode CheckTable(const SamTable *t, const char file[], PetscInt 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode TakeFriction(SamPlan *w, const char file[], const SamOptions *from)
+static PetscErrorCode TakeFriction(SamLifeOptions *w, const char file[], const SamOptions *from)
 {
   static const char *const names[] = {"cycle", "friction", NULL};
 
@@ -124,7 +124,7 @@ static PetscErrorCode TakeFriction(SamPlan *w, const char file[], const SamOptio
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscReal SamPlanFriction(const SamPlan *w, PetscReal cycles)
+PetscReal SamLifeOptionsFriction(const SamLifeOptions *w, PetscReal cycles)
 {
   PetscInt r = 0;
 
@@ -137,7 +137,7 @@ PetscReal SamPlanFriction(const SamPlan *w, PetscReal cycles)
 
 /* ---- all of it ---- */
 
-PetscErrorCode SamPlanSetFromOptions(SamPlan *w, PetscBool given, const SamOptions *from)
+PetscErrorCode SamLifeOptionsSetFromOptions(SamLifeOptions *w, PetscBool given, const SamOptions *from)
 {
   Settings     set = {.life = {.type = SAM_LIFE_IMPLICIT, .rtol = 1e-2}};
   SamOptionRow asked[ROWS];
@@ -148,7 +148,7 @@ PetscErrorCode SamPlanSetFromOptions(SamPlan *w, PetscBool given, const SamOptio
   for (PetscInt k = TYPE; k < ROWS && given; k++) asked[k].needs = NULL;
   PetscCall(SamOptionsHeading(from, "Wear over cycles"));
   PetscCall(SamOptionsRead(from, NULL, ROWS - given, asked + given, &set, has + given));
-  *w            = (SamPlan){.cycles = set.cycles, .life = set.life, .stop_worn = set.stop_layer};
+  *w            = (SamLifeOptions){.cycles = set.cycles, .life = set.life, .stop_worn = set.stop_layer};
   w->life.fixed = has[JUMP];
   w->has_rtol   = has[RTOL];
   PetscCall(TakeOutputs(w, set.outputs, from));
@@ -157,7 +157,7 @@ PetscErrorCode SamPlanSetFromOptions(SamPlan *w, PetscBool given, const SamOptio
 }
 
 /* Surfaces that slide are worn by magnified cycles, whose errors of depth are far smaller than those of pressure. */
-static PetscErrorCode Magnify(SamPlan *w, const SamOptions *from)
+static PetscErrorCode Magnify(SamLifeOptions *w, const SamOptions *from)
 {
   PetscFunctionBegin;
   PetscCheck(w->life.type != SAM_LIFE_EXPLICIT, from->comm, SAM_ERR_USER,
@@ -167,7 +167,7 @@ static PetscErrorCode Magnify(SamPlan *w, const SamOptions *from)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamPlanSetCycles(SamPlan *w, PetscReal cycles, SamProblem problem, const SamOptions *from)
+PetscErrorCode SamLifeOptionsSetCycles(SamLifeOptions *w, PetscReal cycles, SamProblem problem, const SamOptions *from)
 {
   PetscFunctionBegin;
   PetscCall(CheckWhole("wear_cycles", cycles, PETSC_TRUE, from));
@@ -185,7 +185,7 @@ PetscErrorCode SamPlanSetCycles(SamPlan *w, PetscReal cycles, SamProblem problem
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamPlanDestroy(SamPlan *w)
+PetscErrorCode SamLifeOptionsDestroy(SamLifeOptions *w)
 {
   PetscFunctionBegin;
   PetscCall(PetscFree(w->at));
@@ -193,7 +193,7 @@ PetscErrorCode SamPlanDestroy(SamPlan *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscInt SamPlanGetStart(const SamPlan *w, SamHistory history)
+PetscInt SamLifeOptionsGetStart(const SamLifeOptions *w, SamHistory history)
 {
   return w->bands ? 0 : SamHistoryGetStart(history);
 }
@@ -213,7 +213,8 @@ static PetscReal Apart(SamProblem problem, const SamControl *last, const SamCont
   return fabs(remainder(apart, grid->width[axis]));
 }
 
-PetscErrorCode SamPlanCheckCycle(const SamPlan *w, SamHistory history, SamProblem problem, const SamOptions *from)
+PetscErrorCode SamLifeOptionsCheckCycle(const SamLifeOptions *w, SamHistory history, SamProblem problem,
+                                        const SamOptions *from)
 {
   const SamConditions conditions                             = SamProblemGetConditions(problem);
   PetscReal           range[SAM_COMPONENTS + SAM_CONDITIONS] = {0}; /* of each part, about its value in the first row */
@@ -242,7 +243,7 @@ PetscErrorCode SamPlanCheckCycle(const SamPlan *w, SamHistory history, SamProble
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscReal SamPlanNextStop(const SamPlan *w, PetscReal cycles)
+PetscReal SamLifeOptionsNextStop(const SamLifeOptions *w, PetscReal cycles)
 {
   PetscReal stop = w->cycles;
 
@@ -253,14 +254,14 @@ PetscReal SamPlanNextStop(const SamPlan *w, PetscReal cycles)
   return stop;
 }
 
-PetscBool SamPlanIsOutput(const SamPlan *w, PetscReal cycles)
+PetscBool SamLifeOptionsIsOutput(const SamLifeOptions *w, PetscReal cycles)
 {
   for (PetscInt k = 0; k < w->outputs; k++)
     if (w->output[k] == cycles) return PETSC_TRUE;
   return cycles == w->cycles;
 }
 
-PetscInt SamPlanCountOutputs(const SamPlan *w)
+PetscInt SamLifeOptionsCountOutputs(const SamLifeOptions *w)
 {
   PetscInt count = w->outputs && w->output[w->outputs - 1] == w->cycles ? 0 : 1;
 

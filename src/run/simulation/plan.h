@@ -18,34 +18,34 @@ typedef struct {
   PetscReal       output[SAM_PLAN_OUTPUTS]; /* cycles whose fields are written, increasing; the last ones always are */
   PetscInt        points;                   /* of the table of friction; 0: none */
   PetscReal      *at, *friction;            /* its cycles, increasing, and the coefficients there */
-} SamPlan;
+} SamLifeOptions;
 
 /*
-  SamPlanSetFromOptions - reads the -wear_ options of a life, and the table of friction; `given`: the cycles come from
-  SamPlanSetCycles(), which the other case calls too. Collective. Errors: SAM_ERR_USER naming the option, or file and
+  SamLifeOptionsSetFromOptions - reads the -wear_ options of a life, and the table of friction; `given`: the cycles come from
+  SamLifeOptionsSetCycles(), which the other case calls too. Collective. Errors: SAM_ERR_USER naming the option, or file and
   line; SAM_ERR_FILE for a table that cannot be read.
-  SamPlanSetCycles - how many cycles; 0: none, the steps wear one by one. Collective. Errors: SAM_ERR_USER.
+  SamLifeOptionsSetCycles - how many cycles; 0: none, the steps wear one by one. Collective. Errors: SAM_ERR_USER.
 */
-PETSC_INTERN PetscErrorCode SamPlanSetFromOptions(SamPlan *plan, PetscBool given, const SamOptions *from);
-PETSC_INTERN PetscErrorCode SamPlanSetCycles(SamPlan *plan, PetscReal cycles, SamProblem problem,
-                                             const SamOptions *from);
-PETSC_INTERN PetscErrorCode SamPlanDestroy(SamPlan *plan);
+PETSC_INTERN PetscErrorCode SamLifeOptionsSetFromOptions(SamLifeOptions *plan, PetscBool given, const SamOptions *from);
+PETSC_INTERN PetscErrorCode SamLifeOptionsSetCycles(SamLifeOptions *plan, PetscReal cycles, SamProblem problem,
+                                                    const SamOptions *from);
+PETSC_INTERN PetscErrorCode SamLifeOptionsDestroy(SamLifeOptions *plan);
 /*
-  SamPlanGetStart - the step of the history with which the cycle begins. Not collective.
-  SamPlanCheckCycle - refuses a history that is no closed cycle: its last row must be its first one again, but for
+  SamLifeOptionsGetStart - the step of the history with which the cycle begins. Not collective.
+  SamLifeOptionsCheckCycle - refuses a history that is no closed cycle: its last row must be its first one again, but for
   whole lengths by which bodies that repeat themselves slide; in steady rolling one with steps between rows. Collective.
   Errors: SAM_ERR_USER.
 */
-PETSC_INTERN PetscInt       SamPlanGetStart(const SamPlan *plan, SamHistory history);
-PETSC_INTERN PetscErrorCode SamPlanCheckCycle(const SamPlan *plan, SamHistory history, SamProblem problem,
-                                              const SamOptions *from);
-/* SamPlanNextStop - after so many cycles, up to where they may be jumped over. Not collective. */
-PETSC_INTERN PetscReal SamPlanNextStop(const SamPlan *plan, PetscReal cycles);
-/* SamPlanCountOutputs - the number of cycles whose fields are asked for. Not collective. */
-PETSC_INTERN PetscInt SamPlanCountOutputs(const SamPlan *plan);
-/* SamPlanIsOutput - whether the fields of the cycle after so many are asked for. Not collective. */
-PETSC_INTERN PetscBool SamPlanIsOutput(const SamPlan *plan, PetscReal cycles);
-/* SamPlanFriction - the friction after so many cycles over that at the start. Not collective. */
-PETSC_INTERN PetscReal SamPlanFriction(const SamPlan *plan, PetscReal cycles);
+PETSC_INTERN PetscInt       SamLifeOptionsGetStart(const SamLifeOptions *plan, SamHistory history);
+PETSC_INTERN PetscErrorCode SamLifeOptionsCheckCycle(const SamLifeOptions *plan, SamHistory history, SamProblem problem,
+                                                     const SamOptions *from);
+/* SamLifeOptionsNextStop - after so many cycles, up to where they may be jumped over. Not collective. */
+PETSC_INTERN PetscReal SamLifeOptionsNextStop(const SamLifeOptions *plan, PetscReal cycles);
+/* SamLifeOptionsCountOutputs - the number of cycles whose fields are asked for. Not collective. */
+PETSC_INTERN PetscInt SamLifeOptionsCountOutputs(const SamLifeOptions *plan);
+/* SamLifeOptionsIsOutput - whether the fields of the cycle after so many are asked for. Not collective. */
+PETSC_INTERN PetscBool SamLifeOptionsIsOutput(const SamLifeOptions *plan, PetscReal cycles);
+/* SamLifeOptionsFriction - the friction after so many cycles over that at the start. Not collective. */
+PETSC_INTERN PetscReal SamLifeOptionsFriction(const SamLifeOptions *plan, PetscReal cycles);
 
 #endif

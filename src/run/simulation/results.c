@@ -131,8 +131,8 @@ static PetscErrorCode Estimate(SamSimulation s, double *bytes)
 
   PetscFunctionBegin;
   if (s->life) {
-    start  = SamPlanGetStart(&s->plan, s->history);
-    cycles = SamPlanCountOutputs(&s->plan);
+    start  = SamLifeOptionsGetStart(&s->plan, s->history);
+    cycles = SamLifeOptionsCountOutputs(&s->plan);
     PetscCall(SamOutputForecast(s->output, (double)cycles * (double)(last - start),
                                 (double)cycles * (double)CountSaved(s, 0, last - start), bytes));
   } else {

@@ -22,7 +22,7 @@ PetscErrorCode SamSimulationDestroy(SamSimulation *simulation)
   PetscCall(PetscFree(s->written));
   PetscCall(SamCheckpointDestroy(&s->checkpoints.files));
   PetscCall(SamLifeDestroy(&s->life));
-  PetscCall(SamPlanDestroy(&s->plan));
+  PetscCall(SamLifeOptionsDestroy(&s->plan));
   PetscCall(SamHistoryDestroy(&s->history));
   PetscCall(SamSetupDestroy(&s->setup));
   PetscCall(PetscFree(*simulation));
@@ -44,7 +44,7 @@ PetscErrorCode SamSimulationSetSignals(SamSimulation s, volatile sig_atomic_t si
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamSimulationTell(SamSimulation s, const SamSimulationNews *news)
+PetscErrorCode SamSimulationNotify(SamSimulation s, const SamSimulationEvent *news)
 {
   PetscFunctionBegin;
   if (s->monitor) PetscCall(s->monitor(s->context, s->setup.contact, news));
@@ -54,8 +54,8 @@ PetscErrorCode SamSimulationTell(SamSimulation s, const SamSimulationNews *news)
 PetscErrorCode SamSimulationWarn(void *simulation, const char text[], const char setting[])
 {
   PetscFunctionBegin;
-  PetscCall(SamSimulationTell((SamSimulation)simulation,
-                              &(SamSimulationNews){.kind = SAM_NEWS_ADVICE, .text = text, .setting = setting}));
+  PetscCall(SamSimulationNotify((SamSimulation)simulation,
+                                &(SamSimulationEvent){.kind = SAM_NOTIFY_ADVICE, .text = text, .setting = setting}));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -81,7 +81,8 @@ PetscErrorCode SamSimulationExamine(SamSimulation s, PetscInt k, PetscBool of_la
 
   PetscFunctionBegin;
   PetscCall(SamAdviceStep(&s->advice, k, of_laws, step, &found));
-  if (found) PetscCall(SamSimulationTell(s, &(SamSimulationNews){.kind = SAM_NEWS_EXTENT, .step = k, .extent = found}));
+  if (found)
+    PetscCall(SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_EXTENT, .step = k, .extent = found}));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -213,7 +214,7 @@ static PetscErrorCode Begin(SamSimulation s, PetscBool writes)
   }
   if (!writes) PetscCall(GuessTime(s, &start->seconds));
   SamSimulationDescribeCheckpoints(s, start->when, sizeof(start->when));
-  PetscCall(SamSimulationTell(s, &(SamSimulationNews){.kind = SAM_NEWS_BEGIN, .start = start}));
+  PetscCall(SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_BEGIN, .start = start}));
   PetscCall(BeginAdvice(s, s->life ? 0 : PetscMin(s->point.steps, s->needs.steps - 1)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -249,7 +250,7 @@ PetscErrorCode SamSimulationWriteStep(SamSimulation s, const SamStep *step, Pets
 static PetscErrorCode TellFile(SamSimulation s, const char name[], const char content[])
 {
   PetscFunctionBegin;
-  PetscCall(SamSimulationTell(s, &(SamSimulationNews){.kind = SAM_NEWS_FILE, .text = name, .setting = content}));
+  PetscCall(SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_FILE, .text = name, .setting = content}));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -287,14 +288,14 @@ static PetscErrorCode SolveStep(SamSimulation s, PetscBool *ended)
   PetscBool      due;
 
   PetscFunctionBegin;
-  PetscCall(SamSimulationTell(s, &(SamSimulationNews){.kind = SAM_NEWS_STEP_BEGINS, .step = k}));
+  PetscCall(SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_STEP_BEGINS, .step = k}));
   PetscCall(SamSimulationTry(s, k, &step));
   if (s->needs.stiffness) PetscCall(SamStiffnessRecord(s->setup.contact, &step));
   *ended = step.status == SAM_STATUS_CONVERGED ? PETSC_FALSE : PETSC_TRUE;
   due    = (PetscBool)(SamSimulationSaves(s, k + 1, last + 1) || *ended);
   PetscCall(SamSimulationWriteStep(s, &step, due));
   /* after writing: a step that is told of is in the file */
-  PetscCall(SamSimulationTell(s, &(SamSimulationNews){.kind = SAM_NEWS_STEP, .step = k, .result = &step}));
+  PetscCall(SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_STEP, .step = k, .result = &step}));
   if (k == last && SamProblemMoves(s->setup.problem)) SamAdviceRenew(&s->advice, "in the last step: ");
   PetscCall(SamSimulationExamine(s, k, PETSC_TRUE, &step));
   if (!*ended) PetscCall(SamSimulationCommitStep(s, &step, NULL, 0));
@@ -331,7 +332,7 @@ static PetscErrorCode RunAll(SamSimulation s)
   else
     PetscCall(SolveSteps(s));
   if (s->point.worst == SAM_STATUS_CONVERGED) PetscCall(SamAdviceEnd(&s->advice, &slip));
-  if (slip) PetscCall(SamSimulationTell(s, &(SamSimulationNews){.kind = SAM_NEWS_SLIP, .slip = slip}));
+  if (slip) PetscCall(SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_SLIP, .slip = slip}));
   PetscCall(Finish(s));
   if (s->needs.grid_check && s->point.worst == SAM_STATUS_CONVERGED && !s->stopped)
     PetscCall(SamSimulationCheckGrid(s));

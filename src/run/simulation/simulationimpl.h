@@ -43,7 +43,7 @@ struct _n_SamSimulation {
   volatile sig_atomic_t *signals; /* NULL: none */
   SamSetup               setup;
   SamConditions          conditions; /* of the problem; borrowed */
-  SamPlan                plan;
+  SamLifeOptions         plan;
   SamLife                life; /* NULL: none */
   SamHistory             history;
   SamOutput              output;
@@ -78,10 +78,10 @@ struct _n_SamSimulation {
 };
 
 /*
-  SamSimulationTell - tells the monitor. SamSimulationWarn - a SamAdviceFunction that does so; `simulation`: a
+  SamSimulationNotify - tells the monitor. SamSimulationWarn - a SamAdviceFunction that does so; `simulation`: a
   SamSimulation. Collective.
 */
-PETSC_INTERN PetscErrorCode SamSimulationTell(SamSimulation simulation, const SamSimulationNews *news);
+PETSC_INTERN PetscErrorCode SamSimulationNotify(SamSimulation simulation, const SamSimulationEvent *news);
 PETSC_INTERN PetscErrorCode SamSimulationWarn(void *simulation, const char text[], const char setting[]);
 /*
   SamSimulationOpenResults - opens the results. After a restart they are the next part of those that are there; a new

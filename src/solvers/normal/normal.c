@@ -144,10 +144,10 @@ static PetscErrorCode SolveInWindows(SamSolver s, SamLevel *level)
     PetscCall(SamLevelSolveInWindow(s, level, window, part, PETSC_TRUE, SolveHere));
     if (s->reason == SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM) break; /* the window's cells cannot carry the loads */
     done = !level->finest || s->reason < 0;
-    if (!done && s->effort == SAM_EFFORT_GLANCE)
+    if (!done && s->effort == SAM_EFFORT_CHECK_SUPPORT)
       PetscCall(IsInside(level, window, first, size, &done));
     else if (!done)
-      PetscCall(SamNormalLookOutside(s, level, window, first, size, &done));
+      PetscCall(SamNormalCheckOutside(s, level, window, first, size, &done));
     if (done) PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(SolveHere(s, level, PETSC_TRUE));

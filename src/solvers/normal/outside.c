@@ -119,8 +119,8 @@ static PetscErrorCode FindTouching(SamSolver s, SamLevel *level, const SamFrame 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamNormalLookOutside(SamSolver s, SamLevel *level, SamWindow window, PetscInt first[2], PetscInt size[2],
-                                    PetscBool *apart)
+PetscErrorCode SamNormalCheckOutside(SamSolver s, SamLevel *level, SamWindow window, PetscInt first[2],
+                                     PetscInt size[2], PetscBool *apart)
 {
   SamBalance moved = *level->balance;
   SamFrame   frame;

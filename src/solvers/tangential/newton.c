@@ -467,7 +467,7 @@ static PetscErrorCode SamTangentialSolve_Newton(SamSolver solver, SamLevel *leve
   PetscCall(Start(&w, &found));
   best   = u->error;
   reason = found ? Reason(&w, stagnant) : SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM;
-  if (!reason && solver->effort == SAM_EFFORT_NEAR && u->error > SAM_NEAR) reason = SAM_SOLVER_DIVERGED_ITS;
+  if (!reason && solver->effort == SAM_EFFORT_WARM && u->error > SAM_NEAR) reason = SAM_SOLVER_DIVERGED_ITS;
   while (!reason) {
     const PetscBool gradient = stagnant > 0 && stagnant % PATIENCE == 0, whole = w.whole;
     PetscBool       downhill = PETSC_TRUE;

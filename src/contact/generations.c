@@ -336,7 +336,7 @@ static PetscErrorCode Move(SamContact c, const PetscReal roll[2])
 
   PetscFunctionBegin;
   PetscCall(SamStateMove(c->state, roll));
-  PetscCall(SamContactView(c));
+  PetscCall(SamContactRefresh(c));
   PetscCall(SamProblemGetStrain(c->problem, &s->control, &e));
   rigid[SAM_COMPONENT_TX] -= rigid[SAM_COMPONENT_MZ] * roll[1] + e.xx * roll[0] + e.xy * roll[1];
   rigid[SAM_COMPONENT_TY] += rigid[SAM_COMPONENT_MZ] * roll[0] - e.xy * roll[0] - e.yy * roll[1];
@@ -451,7 +451,7 @@ PetscErrorCode SamContactStore(SamContact c, const SamStep *step)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamContactView(SamContact c)
+PetscErrorCode SamContactRefresh(SamContact c)
 {
   PetscFunctionBegin;
   PetscCall(SamContactDeclare(c));
@@ -490,7 +490,7 @@ PetscErrorCode SamContactRewind(SamContact c, const PetscReal by[2])
     }
     SamFramesRewind(c->state, g, by);
   }
-  PetscCall(SamContactView(c));
+  PetscCall(SamContactRefresh(c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
