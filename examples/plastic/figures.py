@@ -40,7 +40,7 @@ class Comparison:
             "plastic_work_uj": [1e6 * w for w in halves(self.fret, "plastic_work")],
             "friction_uj": [1e6 * w for w in halves(self.fret, "dissipated_energy")],
             "friction_elastic_uj": [1e6 * w for w in halves(self.hard, "dissipated_energy")],
-            "shaken_down": int(self.fret.history["shaken_down"][-1]),
+            "steps_without_yield": int(self.fret.history["steps_without_yield"][-1]),
         }
 
     def stress(self):
@@ -58,7 +58,7 @@ class Comparison:
         yield "plastic work of the half cycles: " + " ".join(f"{w:.2g}" for w in n["plastic_work_uj"]) + " uJ"
         last, hard = n["friction_uj"][7], n["friction_elastic_uj"][7]
         yield f"friction of the last half cycle {last:.3f} uJ, elastic {hard:.3f} uJ"
-        yield f"shaken down: the last {n['shaken_down']} steps add no plastic strain"
+        yield f"shaken down: the last {n['steps_without_yield']} steps add no plastic strain"
 
     def draw(self, directory):
         """Pressure and dent of the ball; energies of the half cycles of fretting."""

@@ -13,7 +13,7 @@
                 sum q dA = T, sum (x q_y - y q_x) dA = Mz;   rigid-body displacement (d_x - y r_z, d_y + x r_z)
   Moments and rotations are about x = y = 0. Where `force` is true the load is given and the displacement a result;
   otherwise the other way round. In steady rolling the rotation displaces a cell as if it were by `ahead` (m) farther
-  along x, d_y + (x + ahead) r_z, where its slip is (elasticity/rolling.c).
+  along x, d_y + (x + ahead) r_z, where its slip is (elasticity/steadyoperator.c).
 */
 typedef enum { SAM_BALANCE_NORMAL, SAM_BALANCE_TANGENTIAL } SamBalanceKind;
 

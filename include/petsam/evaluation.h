@@ -64,7 +64,7 @@ typedef struct {
   PetscBool                 yields[2];     /* whether body 1, body 2 yields below its surface, */
   PetscInt                  layers;        /* in so many layers, */
   const double             *middle;        /* the depths of whose middles are these, m, borrowed, */
-  PetscReal                 plastic_depth; /* down to this depth, m */
+  PetscReal                 yield_depth; /* down to this depth, m */
   PetscBool                 slips;         /* steps follow each other, and have slips, not velocities of slip */
   PetscErrorCode (*read)(void *context, PetscInt step, SamStepField field, double values[]);
   PetscErrorCode (*number)(void *context, PetscInt step, SamStepNumber number, double *value);

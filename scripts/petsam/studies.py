@@ -14,7 +14,7 @@ from .results import DAMAGED, WHOLE, _own, _reason
 # units of petsam's options, by their names
 UNITS = (
     (r"load_(n|tx|ty)", "N"), (r"load_m[xyz]", "N m"), (r"disp_[xyz]|grid_(size|center)|gap_(\w+_)?radius\w*", "m"),
-    (r"gap_half_flat_[xy]|gap_roller_\w+|plastic_depth", "m"),
+    (r"gap_half_flat_[xy]|gap_roller_\w+|yield_depth", "m"),
     (r"body[12]_layer_thickness|film_thickness", "m"), (r"body[12]_layer_(young|stress)|film_shear", "Pa"),
     (r"rot_[xyz]", "rad"), (r"body[12]_(young|yield|hardening_modulus|voce_stress)", "Pa"),
     (r"pressure_limit|bulk[12]_stress_\w+", "Pa"),

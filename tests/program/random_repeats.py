@@ -29,7 +29,7 @@ PRESSURE = 6e8  # of the ball under 1.2 times that, about
 COLUMNS = dict(default=1e-4, dissipated_energy=2e-3, friction_work=2e-3)
 FIELDS = dict(pressure=1e-5, shear_x=2e-3, shear_y=2e-3, plastic_depth=1e-5, wear_depth1=1e-4, wear_depth2=1e-4)
 NAMES = ("load_n", "load_tx", "disp_z", "disp_x", "contact_area", "pressure_max", "dissipated_energy", "wear_volume1",
-         "wear_volume2", "plastic_depth_max", "plastic_area", "plastic_energy", "plastic_max")  # fmt: skip
+         "wear_volume2", "plastic_depth_max", "plastic_area", "hardness_work", "plastic_max")  # fmt: skip
 
 
 def hardness(rng, case, columns, folder):
@@ -58,7 +58,7 @@ def film(rng, case, columns, folder):
 
 
 def strain(rng, case, columns, folder):
-    case.update(body2_yield=2.5e8, body2_hardening_modulus=2e9, plastic_depth=8e-4, plastic_layers=4)
+    case.update(body2_yield=2.5e8, body2_hardening_modulus=2e9, yield_depth=8e-4, yield_layers=4)
 
 
 def slide(rng, case, columns, folder):

@@ -331,7 +331,7 @@ def options_of(kind, problem, folder, cells, steps):
             file["height"] = problem.heights(*np.meshgrid(x[0], x[1] if len(n) == 2 else [0.0]))
         case["gap_rough_file"] = "rough.h5"
     if kind == "yield":
-        case.update(plastic_layers=FINE_LAYERS if cells > 1 and len(n) == 1 else None, output_every=10000)
+        case.update(yield_layers=FINE_LAYERS if cells > 1 and len(n) == 1 else None, output_every=10000)
     elif kind == "slide":
         case.update(output_every=10000)
     return case

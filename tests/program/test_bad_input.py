@@ -521,7 +521,7 @@ def test_nothing_replaces_a_file_that_an_option_declares_to_be_read(petsam, sphe
     path.write_text(INPUTS[option])
     case = dict(sphere, load_n=None) if option == "history" else sphere
     if option == "body1_initial_stress":
-        case = dict(case, body1_yield=1e9, plastic_depth=1e-3, plastic_layers=4)
+        case = dict(case, body1_yield=1e9, yield_depth=1e-3, yield_layers=4)
     name = ":in.txt" if written.endswith(("view", "reason")) else "in.txt"
     done = petsam(case, {option: path, written: name}, check=2)
     assert f"-{written} in.txt: would overwrite the file of -{option}" in done.complaint[0]

@@ -4,7 +4,7 @@ import pytest
 
 from support import SPHERE
 
-YIELDS = dict(SPHERE, friction=0.0, load_n=10.0, grid_n=16, body2_yield=600e6, plastic_depth=1e-3, plastic_layers=4)
+YIELDS = dict(SPHERE, friction=0.0, load_n=10.0, grid_n=16, body2_yield=600e6, yield_depth=1e-3, yield_layers=4)
 VOCE = dict(body2_hardening="voce", body2_voce_stress=1e8, body2_voce_rate=10)
 SWIFT = dict(body2_hardening="swift", body2_swift_strain=1e-3, body2_swift_exponent=0.2)
 LAYER = dict(body1_layer_young=1e9, body1_layer_poisson=0.3, body1_layer_thickness=400)
@@ -21,9 +21,9 @@ def told(petsam, case, *words, code=2):
 @pytest.mark.parametrize(
     "option, value, needs",
     [
-        ("plastic_depth", 1e-3, "-body1_yield or -body2_yield"),
-        ("plastic_layers", 8, "-body1_yield or -body2_yield"),
-        ("plastic_rtol", 1e-3, "-body1_yield or -body2_yield"),
+        ("yield_depth", 1e-3, "-body1_yield or -body2_yield"),
+        ("yield_layers", 8, "-body1_yield or -body2_yield"),
+        ("yield_rtol", 1e-3, "-body1_yield or -body2_yield"),
         ("body2_hardening", "voce", "-body2_yield"),
         ("body2_hardening_modulus", 2e9, "-body2_yield"),
         ("body1_voce_stress", 1e8, "-body1_hardening voce"),

@@ -107,7 +107,7 @@ def test_plastic_area_comes_back_with_the_load(solve, tmp_path_factory):
     loads = enumerate((load, load / 9, load, 0.5 * load, load))
     table = support.history(tmp_path_factory.mktemp("history") / "h.csv", "time,load_n", *loads)
     with h5py.File(solve(dict(case, **table)).path) as f:
-        area, energy = f["history/plastic_area"][:], f["history/plastic_energy"][:]
+        area, energy = f["history/plastic_area"][:], f["history/hardness_work"][:]
     assert area[0] == area[2] == area[4] > 0 and area[1] == area[3] == 0
     assert abs(energy[1:]).max() < 1e-7 * energy[0]
 
@@ -180,7 +180,7 @@ def test_unloading_is_elastic_and_loading_again_comes_back(petsam, tmp_path):
     assert depth[0].max() > 0 and most > 1.5 * depth[0].max()
     for k in (2, 3, 4):
         assert np.array_equal(depth[k], depth[1])
-        assert data["history/plastic_cells"][k] == 0 and data["history/plastic_energy"][k] == 0
+        assert data["history/plastic_cells"][k] == 0 and data["history/hardness_work"][k] == 0
     support.assert_close(p[5], p[1], 1e-6, "pressure when loaded again")
     assert (depth[5] - depth[1]).max() < 1e-7 * most and (depth[6] - depth[1]).max() < 1e-7 * most
     assert (depth[7] - depth[1]).max() > 0.1 * most
@@ -210,7 +210,7 @@ def test_energy_of_a_loop_is_what_the_surfaces_yielded(petsam, tmp_path):
     load, disp = np.append(0, data["history/load_n"]), np.append(0, data["history/disp_z"])
     work = np.sum(0.5 * (load[1:] + load[:-1]) * np.diff(disp))
     assert load[-1] == 0
-    assert work == pytest.approx(data["history/plastic_energy"].sum(), rel=0.02)
+    assert work == pytest.approx(data["history/hardness_work"].sum(), rel=0.02)
 
 
 # ---- random cases
@@ -387,7 +387,7 @@ def test_depth_is_saved_with_a_limit_only(petsam, tmp_path):
             "plastic_cells",
             "plastic_area",
             "plastic_depth_max",
-            "plastic_energy",
+            "hardness_work",
         }
         assert f["history/plastic_depth_max"][0] == f["plastic_depth"][0].max()
         assert f"depth up to {f['history/plastic_depth_max'][0]:.6g} m" in line

@@ -10,7 +10,7 @@ import petsam
 CASE = dict(
     gap_type="sphere", gap_radius1="10mm", gap_radius2="inf", grid_n=(24, 19), grid_size="0.4mm,0.34mm",
     body1_young=210e9, body1_poisson=0.3, body2_young=210e9, body2_poisson=0.3, friction=0.4,
-    plastic_depth="0.3mm", plastic_layers=12, plastic_first="0.025mm", load_n=60, load_tx=10,
+    yield_depth="0.3mm", yield_layers=12, yield_first="0.025mm", load_n=60, load_tx=10,
     output_fields="usual,plastic",
 )  # fmt: skip
 YIELD, DEPTH, LAYERS = 600e6, 0.3e-3, 12
@@ -154,7 +154,7 @@ def test_ranks_give_the_same_bits(stress):
 def test_what_is_not_known_is_refused(stress):
     assert "-output_fields usual,plastic" in stress(input="none.h5", depths=0, check=2)
     said = stress(input="two.h5", depths="0:0.4mm:3", check=2)
-    assert "-depths" in said and "-plastic_depth" in said
+    assert "-depths" in said and "-yield_depth" in said
     assert "-passing" in stress(input="two.h5", depths="0:0.2mm:3", fatigue="swt", section="y=0", passing=True, check=2)
 
 

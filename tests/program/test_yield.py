@@ -30,13 +30,13 @@ def sphere(n, layers, load=6, **more):
         grid_n=(n, n),
         grid_size=(width, width),
         body2_yield=YIELD,
-        plastic_depth=2.1 / 2.9 * width,
-        plastic_layers=layers,
+        yield_depth=2.1 / 2.9 * width,
+        yield_layers=layers,
         load_n=load * LOAD,
     )
     case.update(more)
-    if case["plastic_depth"]:  # the references have equal layers
-        case.setdefault("plastic_first", case["plastic_depth"] / case["plastic_layers"])
+    if case["yield_depth"]:  # the references have equal layers
+        case.setdefault("yield_first", case["yield_depth"] / case["yield_layers"])
     return case
 
 
@@ -72,7 +72,7 @@ def test_periodic_sphere_is_that_of_tamaas(solve):
         elasticity="periodic",
         grid_size=(period, period),
         grid_center=(period / 64, period / 64),
-        plastic_depth=4 * RADIUS,
+        yield_depth=4 * RADIUS,
         body2_hardening_modulus=0.05,
     )
     for layers, peak in (16, 1.95024), (32, 1.94379):
@@ -139,7 +139,7 @@ PUSHED = FRICTION * 4 * LOAD
 def pushed(n, layers, path, parts, **more):
     """Four times the load of first yield, then tangential loads that are parts of what friction bears."""
     width = 2.9 * 1.3 * 4 ** (1 / 3) * RADIUS
-    case = sphere(n, layers, 4, grid_size=(width, width), plastic_depth=2.1 / 2.9 * width, friction=FRICTION)
+    case = sphere(n, layers, 4, grid_size=(width, width), yield_depth=2.1 / 2.9 * width, friction=FRICTION)
     columns = dict(load_n=[4 * LOAD] * len(parts), load_tx=[part * PUSHED for part in parts])
     return {**case, **steps(path, **columns), **more}
 
@@ -186,7 +186,7 @@ def test_fretting_above_yield_shakes_down(solve, tmp_path):
     case = pushed(14, 8, tmp_path / "h.csv", parts, coupling="none", body2_backstress="0.3,800,0.02,100")
     run = all_steps(solve(case))
     assert run["plastic_work"][1] > 10 * run["plastic_work"][4] > 0
-    assert list(run["shaken_down"][:3]) == [0, 0, 0] and run["shaken_down"][-1] >= 3
+    assert list(run["steps_without_yield"][:3]) == [0, 0, 0] and run["steps_without_yield"][-1] >= 3
     assert run["dissipated_energy"][-1] == pytest.approx(run["dissipated_energy"][-2], rel=0.02, abs=0)
 
 
@@ -236,8 +236,8 @@ REFUSED = [
     (dict(friction=0.3, slide=True), "-body2_yield: not supported with -slide"),
     (dict(pressure_limit=1e-3), "-body2_yield: not supported with -pressure_limit"),
     (dict(body2_layer_young=2, body2_layer_poisson=0.3, body2_layer_thickness=1e-3), "not supported with layers"),
-    (dict(plastic_depth=0.3), "-plastic_depth 0.3: at most 2 times the width of the grid"),
-    (dict(plastic_first=1), "-plastic_first 1: the first layer is the thinnest"),
+    (dict(yield_depth=0.3), "-yield_depth 0.3: at most 2 times the width of the grid"),
+    (dict(yield_first=1), "-yield_first 1: the first layer is the thinnest"),
     (dict(body2_hardening="swift"), "-body2_swift_strain is missing"),
     (dict(body2_backstress="1,2,3"), "3 numbers: expected pairs C,g"),
     (dict(bulk2_stress_xx=1e-4), "bulk2_stress_xx"),
@@ -254,24 +254,24 @@ def test_what_makes_no_sense_is_refused(petsam, wrong, message):
     "more, words",
     [
         ({}, []),
-        (dict(plastic_layers=4), ["times as many -plastic_layers"]),
-        (dict(plastic_depth=2 * RADIUS), ["comes to the last layer"]),
+        (dict(yield_layers=4), ["times as many -yield_layers"]),
+        (dict(yield_depth=2 * RADIUS), ["comes to the last layer"]),
         (dict(body2_yield=0.1), ["strains are taken as small"]),
     ],
 )
 def test_strain_that_is_not_resolved_is_warned_of(petsam, more, words):
     case = sphere(16, 10)
-    case.update(more, plastic_first=None)
+    case.update(more, yield_first=None)
     if "body2_yield" in more:  # the same in other units: lengths are proportional to the strain at yield
         width = 100 * case["grid_size"][0]
-        case.update(grid_size=(width, width), plastic_depth=100 * case["plastic_depth"], load_n=6e6 * LOAD)
+        case.update(grid_size=(width, width), yield_depth=100 * case["yield_depth"], load_n=6e6 * LOAD)
     said = [line for line in petsam(case).complaint if "plastic strain" in line]
     assert len(said) == len(words) and all(word in line for word, line in zip(words, said))
 
 
 def test_numbers_that_are_too_small_are_named(petsam, solve):
     """With a grid that is enough; the error of the dent is within the bound that is given."""
-    layers = dict(plastic_depth=None, plastic_first=None)
+    layers = dict(yield_depth=None, yield_first=None)
     case = sphere(18, 32, 3, **layers)
     said = [line for line in petsam(case).complaint if "plastic_max" in line]
     assert len(said) == 1 and "residual_z may be too small by up to" in said[0]
@@ -337,7 +337,7 @@ def test_uniform_strain_of_a_periodic_body(solve):
     nu, shear, modulus, n = 0.3, 1 / 2.6, 0.05, 8
     for pressure in 2.5 * YIELD, 6 * YIELD:
         case = sphere(n, 4, gap_type="flat", gap_radius1=None, gap_radius2=None, elasticity="periodic")
-        case.update(grid_size=(1.0, 1.0), plastic_depth=0.5, load_n=pressure, body2_hardening_modulus=modulus)
+        case.update(grid_size=(1.0, 1.0), yield_depth=0.5, load_n=pressure, body2_hardening_modulus=modulus)
         found = all_steps(solve(case))
         mises = pressure * (1 - 2 * nu) / (1 - nu)
         relief = shear * (1 + nu) / (1 - nu)  # of mises by the uniaxial plastic strain
@@ -347,7 +347,7 @@ def test_uniform_strain_of_a_periodic_body(solve):
 def test_uniform_flow_is_named(petsam):
     """Shear beyond that at yield, of a flat on a flat that stick: with hardening there is a solution."""
     case = sphere(6, 3, gap_type="flat", gap_radius1=None, gap_radius2=None, elasticity="periodic", friction=0.9)
-    case.update(grid_size=(1.0, 1.0), plastic_depth=0.5, load_n=YIELD, load_tx=0.7 * YIELD)
+    case.update(grid_size=(1.0, 1.0), yield_depth=0.5, load_n=YIELD, load_tx=0.7 * YIELD)
     assert "a layer yields in all its cells" in petsam(case, check=10).complaint[0]
     petsam(case, dict(body2_hardening_modulus=0.1))
 
@@ -359,7 +359,7 @@ def cylinder(rows, **more):
     """A rigid cylinder of radius 1 m with twice the pressure of first yield of a sphere, on a wide period."""
     half = 4 * PEAK * 0.91  # of the elastic contact
     width = 10 * half
-    case = sphere(96, 8, grid_n=(96, rows), grid_size=(width, rows * width / 96), plastic_depth=3 * half)
+    case = sphere(96, 8, grid_n=(96, rows), grid_size=(width, rows * width / 96), yield_depth=3 * half)
     case = {name: value for name, value in case.items() if not name.startswith("gap_radius")}
     length = rows * width / 96 if rows > 1 else 1
     load = math.pi * (2 * PEAK) ** 2 * 0.91 * length
@@ -399,23 +399,23 @@ def test_layers_follow_from_the_grid(solve):
         z = f["plastic/z"][:]
     assert z[0] == pytest.approx(0.44e-3 / 40 / 4, rel=1e-9) and z.size == 32 and z[-1] < 0.44e-3
     usual = all_steps(run)
-    many = all_steps(solve(dict(BALL, plastic_layers=64)))
+    many = all_steps(solve(dict(BALL, yield_layers=64)))
     for name, part in ("pressure_max", 1e-3), ("plastic_work", 2e-3), ("plastic_max", 5e-3):
         assert usual[name][0] == pytest.approx(many[name][0], rel=part)
 
 
 @pytest.mark.parametrize("depth, layers", [("1um", 8), ("50um", 8)])
 def test_yielding_below_the_layers_is_warned_of(petsam, depth, layers):
-    case = dict(BALL, grid_n=(26, 26), plastic_layers=layers)
-    said = [line for line in petsam(dict(case, plastic_depth=depth)).complaint if "below the last layer" in line]
-    assert len(said) == 1 and "omit -plastic_depth" in said[0]
-    assert not [line for line in petsam(dict(case, plastic_layers=16)).complaint if "layer" in line]
+    case = dict(BALL, grid_n=(26, 26), yield_layers=layers)
+    said = [line for line in petsam(dict(case, yield_depth=depth)).complaint if "below the last layer" in line]
+    assert len(said) == 1 and "omit -yield_depth" in said[0]
+    assert not [line for line in petsam(dict(case, yield_layers=16)).complaint if "layer" in line]
 
 
 @pytest.mark.parametrize("layers, warned", [(2, True), (8, True), (16, False)])
 def test_yielding_in_thick_layers_is_warned_of(petsam, layers, warned):
-    said = [line for line in petsam(dict(BALL, plastic_layers=layers)).complaint if "of its half width thick" in line]
-    assert len(said) == warned and all("times as many -plastic_layers" in line for line in said)
+    said = [line for line in petsam(dict(BALL, yield_layers=layers)).complaint if "of its half width thick" in line]
+    assert len(said) == warned and all("times as many -yield_layers" in line for line in said)
 
 
 def test_residual_stress_at_the_surface_settles(solve, tmp_path):
@@ -424,7 +424,7 @@ def test_residual_stress_at_the_surface_settles(solve, tmp_path):
     case.update(grid_n=(41, 41), grid_size="1.2mm", output_fields="usual,plastic")
     for layers, error in (16, 0.2), (32, 0.05), (64, 0.05):
         loads = steps(tmp_path / "h.csv", load_n=(300, 600, 0))
-        with h5py.File(solve({**case, **loads, "plastic_layers": layers}).path) as f:
+        with h5py.File(solve({**case, **loads, "yield_layers": layers}).path) as f:
             z, stress = f["plastic/z"][:2], f["plastic/residual_stress_xx"][-1, :2, 20, 20]
         surface = stress[0] - (stress[1] - stress[0]) * z[0] / (z[1] - z[0])
         assert surface == pytest.approx(-308e6, rel=error)
@@ -448,7 +448,7 @@ def test_contacts_of_few_cells_yield(solve, tmp_path):
     """A cell or two move as a rigid body only, which the tangent of the contact takes off."""
     loads = steps(tmp_path / "h.csv", load_n=[1, 2, 3, 4])
     case = dict(BALL, body2_young="70GPa", grid_n=(32, 32), grid_size="1mm", body2_yield="100MPa")
-    case.update(body2_hardening_modulus="1GPa", plastic_layers=12)
+    case.update(body2_hardening_modulus="1GPa", yield_layers=12)
     run = all_steps(solve({**case, **loads}))
     assert 1 <= run["contact_cells"][0] <= 12 and np.all(np.diff(run["plastic_max"]) > 0)
 
@@ -456,7 +456,7 @@ def test_contacts_of_few_cells_yield(solve, tmp_path):
 def test_grid_check_halves_the_layers_too(petsam, solve):
     case = dict(BALL, grid_n=(24, 24))
     text = petsam(dict(case, grid_check=True)).stdout
-    few = all_steps(solve(dict(case, grid_n=(12, 12), plastic_layers=16)))
+    few = all_steps(solve(dict(case, grid_n=(12, 12), yield_layers=16)))
     for name in "plastic_max", "plastic_work", "residual_z_max":
         coarse = float(re.search(rf"{name}/\S+ +\S+ +(\S+)", text).group(1))
         assert coarse == pytest.approx(few[name][0], rel=1e-5)
@@ -465,10 +465,10 @@ def test_grid_check_halves_the_layers_too(petsam, solve):
 @pytest.mark.parametrize("friction, part", [(0.0, 0.6), (0.33, 1.0)])
 def test_strain_that_is_largest_at_the_surface_is_named(petsam, tmp_path, friction, part):
     """Under friction it falls within the first layers, and grows on finer grids; of first yield it lies below them."""
-    case = cylinder(1, elasticity="plane_periodic", friction=friction, plastic_depth=None, plastic_first=None)
+    case = cylinder(1, elasticity="plane_periodic", friction=friction, yield_depth=None, yield_first=None)
     load = part * case["load_n"]
     case.update(steps(tmp_path / "h.csv", load_n=[load, load], load_tx=[0.0, 0.75 * friction * load]), steps=2)
-    case.update(plastic_layers=32)
+    case.update(yield_layers=32)
     found, told = [], []
     for n in (160, 320):
         done = petsam(case, dict(grid_n=n, output="o.h5"))
@@ -481,7 +481,7 @@ def test_strain_that_is_largest_at_the_surface_is_named(petsam, tmp_path, fricti
 @pytest.mark.parametrize("part", [0.1, 0.6])
 def test_area_of_few_cells_after_unloading_is_named(petsam, tmp_path, part):
     """It counts cells, as the edges of what has yielded are not reconstructed."""
-    case = cylinder(1, elasticity="plane_periodic", plastic_depth=None, plastic_first=None, plastic_layers=32)
+    case = cylinder(1, elasticity="plane_periodic", yield_depth=None, yield_first=None, yield_layers=32)
     load = case["load_n"]
     case.update(steps(tmp_path / "h.csv", load_n=[load, part * load]), steps=2)
     areas, told = [], []

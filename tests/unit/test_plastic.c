@@ -208,7 +208,7 @@ static void test_overlap_of_a_rejected_try_is_forgotten(void **state)
       SamStep          a, b                          = Solve(&other, &control);
 
       (void)Try(&one, &more);
-      sam_assert(NumberOf(&one, "plastic_energy") > 0);
+      sam_assert(NumberOf(&one, "hardness_work") > 0);
       sam_assert(NumberOf(&one, "plastic_depth_max") > NumberOf(&other, "plastic_depth_max"));
       sam_call(SamContactReject(one.contact));
       a = Solve(&one, &control);
@@ -281,11 +281,11 @@ static void test_depth_stays_without_the_limit(void **state)
   (void)state;
   (void)Solve(&c, &full);
   most = NumberOf(&c, "plastic_depth_max");
-  sam_assert(most > 0 && NumberOf(&c, "plastic_energy") > 0);
+  sam_assert(most > 0 && NumberOf(&c, "hardness_work") > 0);
   (void)Solve(&c, &half);
   depth = NewDepth(&c);
   sam_assert(NumberOf(&c, "plastic_depth_max") == most);
-  sam_assert(NumberOf(&c, "plastic_energy") == 0 && NumberOf(&c, "plastic_cells") == 0);
+  sam_assert(NumberOf(&c, "hardness_work") == 0 && NumberOf(&c, "plastic_cells") == 0);
   (void)Try(&c, &half);
   sam_assert(NumberOf(&c, "normal_applies") == 0); /* nothing has changed */
   SetLimit(&c, INFINITY);
@@ -293,7 +293,7 @@ static void test_depth_stays_without_the_limit(void **state)
   sam_assert(NumberOf(&c, "normal_applies") > 0); /* another limit is like another gap */
   again = Solve(&c, &full);
   now   = NewDepth(&c);
-  sam_assert(again.status == SAM_STATUS_CONVERGED && NumberOf(&c, "plastic_energy") == 0);
+  sam_assert(again.status == SAM_STATUS_CONVERGED && NumberOf(&c, "hardness_work") == 0);
   sam_assert(SameBits(depth, now));
   sam_call(VecDestroy(&depth));
   sam_call(VecDestroy(&now));
@@ -354,7 +354,7 @@ static void test_embedded_contact_yields_when_committed(void **state)
   Press(c, 2000);
   sam_assert(petsam_commit(c) == 0);
   Press(c, 100);
-  sam_assert(Number(c, "plastic_depth_max") == most && Number(c, "plastic_energy") == 0);
+  sam_assert(Number(c, "plastic_depth_max") == most && Number(c, "hardness_work") == 0);
   sam_assert(petsam_get_field(c, "plastic_depth", depth) == 0);
   Press(plain, 100);
   sam_assert(petsam_get_field(plain, "plastic_depth", depth) != 0);

@@ -1,6 +1,6 @@
 /*
   Steady rolling towards +x: each load step is a steady state by itself, solved by the operator of the shear's
-  differences along x (elasticity/rolling.c). Steps are those of 1 m of rolled distance.
+  differences along x (elasticity/steadyoperator.c). Steps are those of 1 m of rolled distance.
 */
 #include <petsam/private/elasticity.h>
 #include <petsam/private/motionimpl.h>

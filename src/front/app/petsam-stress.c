@@ -178,7 +178,7 @@ static PetscErrorCode ReadResidual(void *context, PetscInt step, PetscInt body, 
 static PetscErrorCode SetYielding(SamStressRun *run, SamStressSource *source)
 {
   const SamParameters *parameters = SamResultsGetParameters(run->results);
-  const SamParameter  *depth      = SamParametersFind(parameters, "plastic_depth");
+  const SamParameter  *depth      = SamParametersFind(parameters, "yield_depth");
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < 2; b++) {
@@ -187,7 +187,7 @@ static PetscErrorCode SetYielding(SamStressRun *run, SamStressSource *source)
     source->yields[b] = layers > 0;
     if (layers) source->layers = layers; /* the same of both bodies */
   }
-  source->plastic_depth = depth ? depth->value[0] : 0;
+  source->yield_depth = depth ? depth->value[0] : 0;
   if (!SamResultsHasLayers(run->results)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscMalloc1(source->layers, &run->middle));
   PetscCall(SamResultsReadDepths(run->results, source->yields[1] ? 2 : 1, run->middle));

@@ -36,7 +36,12 @@ static const struct {
               {"size", "grid_size"},
               {"o out output_file", "output"},
               {"i", "input"},
-              {"options file", "options_file"}};
+              {"options file", "options_file"},
+              /* their names before version 1.0.0 was released */
+              {"plastic_depth", "yield_depth"},
+              {"plastic_layers", "yield_layers"},
+              {"plastic_first", "yield_first"},
+              {"plastic_rtol", "yield_rtol"}};
 
 /* PETSc does not tell capitals from small letters in names; a dash within a name is a likely slip. */
 static char Plain(char c)

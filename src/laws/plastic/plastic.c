@@ -94,13 +94,13 @@ enum {
 static const SamOptionRow rows[] = {
   MATERIAL_ROWS(1),
   MATERIAL_ROWS(2),
-  {"plastic_depth", "depth below the surface that may yield, 0: the grid's width (m)", SAM_OPTION_REAL,
+  {"yield_depth", "depth below the surface that may yield, 0: the grid's width (m)", SAM_OPTION_REAL,
    offsetof(Plastic, depth), .range = SAM_RANGE_NONNEGATIVE, .recorded = PETSC_TRUE, YIELDING},
-  {"plastic_layers", "layers of this depth, thicker from the surface down", SAM_OPTION_INT, offsetof(Plastic, layers),
+  {"yield_layers", "layers of this depth, thicker from the surface down", SAM_OPTION_INT, offsetof(Plastic, layers),
    .least = 2, .most = 1000, YIELDING},
-  {"plastic_first", "thickness of the first layer, 0: half a cell (m)", SAM_OPTION_REAL, offsetof(Plastic, first),
+  {"yield_first", "thickness of the first layer, 0: half a cell (m)", SAM_OPTION_REAL, offsetof(Plastic, first),
    .range = SAM_RANGE_NONNEGATIVE, .recorded = PETSC_TRUE, YIELDING},
-  {"plastic_rtol", "tolerance of the plastic strain, relative to the strain at yield", SAM_OPTION_REAL,
+  {"yield_rtol", "tolerance of the plastic strain, relative to the strain at yield", SAM_OPTION_REAL,
    offsetof(Plastic, rtol), .range = SAM_RANGE_PART, YIELDING}};
 
 static const char *const hardened[2]   = {"body1_hardening", "body2_hardening"};
@@ -133,14 +133,14 @@ static PetscErrorCode SetLayers(Plastic *x, const SamLaw law, const SamOptions *
 
   PetscFunctionBegin;
   PetscCheck(x->depth <= DEEPEST * width, from->comm, SAM_ERR_USER,
-             "-%splastic_depth %.6g: at most %d times the width of the grid, %.6g m, can yield: check the unit",
+             "-%syield_depth %.6g: at most %d times the width of the grid, %.6g m, can yield: check the unit",
              SamOptionsPrefix(from), (double)x->depth, DEEPEST, (double)width);
   if (x->depth == 0) x->depth = width;
   if (grid->coarse) x->layers = (x->layers + 1) / 2;
   if (grid->coarse) x->first *= 2;
   if (x->first == 0) x->first = PetscMin(grid->side[0] / 2, x->depth / (PetscReal)x->layers);
   PetscCheck(x->first <= x->depth / (PetscReal)x->layers * (1 + 1e-9), from->comm, SAM_ERR_USER,
-             "-%splastic_first %.6g: the first layer is the thinnest: at most -plastic_depth over -plastic_layers, "
+             "-%syield_first %.6g: the first layer is the thinnest: at most -yield_depth over -yield_layers, "
              "%.6g m",
              SamOptionsPrefix(from), (double)x->first, (double)x->depth / (double)x->layers);
   PetscCall(PetscFree(x->thickness));
@@ -226,7 +226,7 @@ static PetscErrorCode AddParameters(SamLaw law, SamParameters *parameters)
   const PetscReal layers = (PetscReal)x->layers;
 
   PetscFunctionBegin;
-  PetscCall(SamParametersAddReals(parameters, "plastic_layers", PETSC_TRUE, 1, &layers));
+  PetscCall(SamParametersAddReals(parameters, "yield_layers", PETSC_TRUE, 1, &layers));
   for (PetscInt b = 0; b < 2; b++) {
     const Material *m         = &x->material[b];
     const PetscReal hardening = (PetscReal)m->hardening;
@@ -428,7 +428,7 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
      PETSC_TRUE, SAM_JOIN_SUM, 0},
     {"plastic_products", "1", "operator applications of its conjugate gradients", SAM_NUMBER_INT, 1, PETSC_FALSE,
      PETSC_TRUE, SAM_JOIN_SUM, 0},
-    {"shaken_down", "1", "steps in a row, up to this one, in which plastic strain grew by less than 1e-6",
+    {"steps_without_yield", "1", "steps in a row, up to this one, in which plastic strain grew by less than 1e-6",
      SAM_NUMBER_INT, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, 0},
     {"yielded_layers", "1", "layers of a body with more than 1 % of the maximum plastic strain, the fewest",
      SAM_NUMBER_INT, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, 0},

@@ -581,15 +581,15 @@ static void Yield(SamAdvice *a)
   if (!a->error) a->error = SamContactGetNumber(contact, "yield_outside", &outside);
   if (a->error) return;
   if (thick > SAM_PLASTIC_THICK && (most > 0 || outside > BEYOND))
-    SamAdviceSay(a, "plastic_layers",
+    SamAdviceSay(a, "yield_layers",
                  "where the contact yields first, layers are %.2g of its half width thick, more than %g, so that "
                  "plastic strain is "
-                 "too small: use %.2g times as many -plastic_layers",
+                 "too small: use %.2g times as many -yield_layers",
                  (double)thick, SAM_PLASTIC_THICK, RoundUp((double)thick / SAM_PLASTIC_THICK));
   else if (outside > BEYOND)
-    SamAdviceSay(a, "plastic_depth",
+    SamAdviceSay(a, "yield_depth",
                  "the stress exceeds the yield stress by %.0f %% below the last layer, so the results are too elastic: "
-                 "omit -plastic_depth, which then follows from the grid",
+                 "omit -yield_depth, which then follows from the grid",
                  100 * (double)outside);
   if (!(most > 0)) return;
   if (most > STRAINED)
@@ -599,8 +599,8 @@ static void Yield(SamAdvice *a)
   Shallow(a, (double)most);
   Unloaded(a);
   if (left < 1 && !(outside > BEYOND))
-    SamAdviceSay(a, "plastic_depth",
-                 "plastic strain comes to the last layer or to the border of the grid: use a larger -plastic_depth, "
+    SamAdviceSay(a, "yield_depth",
+                 "plastic strain comes to the last layer or to the border of the grid: use a larger -yield_depth, "
                  "or -grid_size");
 }
 

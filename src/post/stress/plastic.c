@@ -20,10 +20,10 @@ PetscErrorCode SamPlasticSetUp(SamEvaluation e)
              e->source.name, e->body);
   PetscCheck(!e->passing, e->comm, SAM_ERR_USER,
              "-passing: body %" PetscInt_FMT " yields, so the points of a row are not alike: omit it", e->body);
-  PetscCheck(depth <= e->source.plastic_depth * (1 + 1e-9), e->comm, SAM_ERR_USER,
-             "-depths: %.6g m is below the %.6g m of -plastic_depth, where the stresses by plastic strain are not "
-             "known: give depths down to it, or petsam a larger -plastic_depth",
-             (double)depth, (double)e->source.plastic_depth);
+  PetscCheck(depth <= e->source.yield_depth * (1 + 1e-9), e->comm, SAM_ERR_USER,
+             "-depths: %.6g m is below the %.6g m of -yield_depth, where the stresses by plastic strain are not "
+             "known: give depths down to it, or petsam a larger -yield_depth",
+             (double)depth, (double)e->source.yield_depth);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

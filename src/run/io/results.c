@@ -159,7 +159,7 @@ static PetscErrorCode ExamineFields(SamFile f, Facts *facts)
 static PetscInt LayersOf(const SamParameters *parameters, PetscInt body)
 {
   const SamParameter *yield  = SamParametersFind(parameters, body == 1 ? "body1_yield" : "body2_yield");
-  const SamParameter *layers = SamParametersFind(parameters, "plastic_layers");
+  const SamParameter *layers = SamParametersFind(parameters, "yield_layers");
 
   return yield && layers && yield->count == 1 && isfinite(yield->value[0]) ? (PetscInt)layers->value[0] : 0;
 }

@@ -309,8 +309,8 @@ SAM_VECTORIZED static void DivideTangential(const SamSymbol *s, SamWaves at)
 }
 
 /*
-  Where bodies that roll slip, rolling.c needs the inverse of h A + 1 - h, A = C (1 - S), S the shift by
-  a cell along x. With M = 1/C it is that of 1 - h S, which rolling.c applies along each row, times
+  Where bodies that roll slip, steadyoperator.c needs the inverse of h A + 1 - h, A = C (1 - S), S the shift by
+  a cell along x. With M = 1/C it is that of 1 - h S, which steadyoperator.c applies along each row, times
       M (1 - h S)/(h (1 - S) + (1 - h) M),
   here with h = SAM_SLIP_WEIGHT everywhere. M alone is right for the shortest waves only.
 */
