@@ -53,7 +53,7 @@ class Rolled:
         with made:
             for k in range(round(TRAVEL / dx) + 1):
                 made.gap = sphere - heights[:, k : k + cells]
-                step = made.roll(dx, load_n=LOAD, **CREEPAGES) if k else made.roll(load_n=LOAD)
+                step = made.try_step(roll=dx, load_n=LOAD, **CREEPAGES) if k else made.try_step(load_n=LOAD)
                 made.commit()
                 rows.append((k * dx, step.load_tx / (MU * LOAD), step.disp_z, step.contact_area))
             self.shear, self.x, self.y = made.field("shear_x"), made.x, made.y

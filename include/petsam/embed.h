@@ -58,27 +58,21 @@ int petsam_grid(petsam_contact *c, int n[2], double size[2], double center[2], i
 */
 int petsam_set_field(petsam_contact *c, const char *name, const double *values);
 /*
-  petsam_try - solves a step from the committed state. `time` (s) is only noted. force[i] is 0 where value[i] is a
-  displacement, 2 where it is a creepage (of Tx, Ty, Mz), else it is a load. `load` and `rigid` become all twelve, given
-  or found; NaN where there is none (NULL: not wanted). A try replaces an earlier one. After 0, 10 and 12 there is a
-  tried step, whose fields and numbers can be asked for; 10 cannot be committed. A step takes the new normal load first,
-  and then the tangential ones. With -rolling steady each try is a steady state of rolling.
-  petsam_roll - the same of a step in which the contact rolls by distance[0] towards +x and distance[1] towards +y (m):
-  the grid moves over the bodies, and a creepage times the distance is the motion of body 1. Not with -rolling steady.
-  petsam_try_named - the same of a step that prescribes one value for each of the names, with commas between them, as
-  the columns of a history: "load_n,disp_x,bulk2_stress_xx,friction_scale". As many values are read as there are commas,
-  and one more; an empty name is refused, and one with a blank. load_n or disp_z is one of them; other components that
-  are not named are loads of 0. Conditions hold for this step; those that are not named have the values
-  of the contact's options.
+  petsam_try - solves a step from the committed state. It prescribes one value for each of the names, with commas
+  between them, as the columns of a history: "load_n,disp_x,bulk2_stress_xx,friction_scale". As many values are read as
+  there are commas, and one more; an empty name is refused, and one with a blank. load_n or disp_z is one of them; other
+  components that are not named are loads of 0. Conditions hold for this step; those that are not named have the values
+  of the contact's options. `time` (s) is only noted. `load` and `rigid` become all twelve, given or found; NaN where
+  there is none (NULL: not wanted). A try replaces an earlier one. After 0, 10 and 12 there is a tried step, whose fields
+  and numbers can be asked for; 10 cannot be committed. A step takes the new normal load first, and then the tangential
+  ones.
+  With roll and roll_y the contact rolls by these distances towards +x and +y (m): the grid moves over the bodies, and a
+  creepage times the distance is the motion of body 1. With -rolling steady each try is a steady state of rolling.
 */
-int petsam_try(petsam_contact *c, double time, const int force[6], const double value[6], double load[6],
+int petsam_try(petsam_contact *c, double time, const char *names, const double values[], double load[6],
                double rigid[6]);
-int petsam_roll(petsam_contact *c, double time, const double distance[2], const int force[6], const double value[6],
-                double load[6], double rigid[6]);
-int petsam_try_named(petsam_contact *c, double time, const char *names, const double values[], double load[6],
-                     double rigid[6]);
 /*
-  petsam_step_name - the k-th name that petsam_try_named() knows, with its unit (NULL: not wanted): six loads, six
+  petsam_step_name - the k-th name that petsam_try() knows, with its unit (NULL: not wanted): six loads, six
   displacements, six creepages, "" where there is none, and then the conditions; NULL: there are no more. It lives as
   long as the contact. Not collective.
 */

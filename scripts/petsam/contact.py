@@ -320,39 +320,29 @@ class Contact:
 
         Each component is given by its load (load_n, N ... load_mz, N m), its displacement (disp_z, m ... rot_z, rad) or
         its creepage (creep_x, creep_y, creep_spin, 1/m); what is not given is a load of 0. Besides them a step takes
-        the conditions that are columns of a history: friction_scale, bulk2_stress_xx (Pa), body2_case_NAME, the
-        distance by which the contact rolls (roll, roll_y, m), ... (contact.prescribable). They hold for this step; what
+        the conditions that are columns of a history: friction_scale, bulk2_stress_xx (Pa), body2_case_NAME, ...
+        (contact.prescribable). With roll, roll_y (m) the contact rolls towards +x, +y: the grid moves over the bodies,
+        and a creepage times the distance is the motion of body 1. They hold for this step; what
         is not given has the value of the contact's option. NoEquilibrium or NotConverged where there is no
         solution, with the step; an EdgeContactWarning where the contact has reached the edge of the grid, an
         AdviceWarning, once of each kind, where the grid does not resolve the step. Replaces an earlier try. With
         rolling="steady" each try is a steady state of rolling.
         """
-        return self._try("try_step", time, given)
-
-    def roll(self, roll=0.0, roll_y=0.0, time=0.0, **given):
-        """try_step() of a step in which the contact rolls by roll towards +x and roll_y towards +y (m): a Step.
-
-        The grid moves over the bodies; a creepage times the distance is the motion of body 1. Not for a contact of
-        rolling="steady", which try_step() solves.
-        """
-        return self._try("roll", time, dict(given, roll=roll, roll_y=roll_y))
-
-    def _try(self, function, time, given):
-        values = np.array([_real(number, f"{function}: {name}").value for name, number in given.items()])
-        seconds, load, rigid = _real(time, f"{function}: time"), np.full(6, np.nan), np.full(6, np.nan)
-        code, words = 0, [_joined(function, given), _pointer(values), _pointer(load), _pointer(rigid)]
+        values = np.array([_real(number, f"try_step: {name}").value for name, number in given.items()])
+        seconds, load, rigid = _real(time, "try_step: time"), np.full(6, np.nan), np.full(6, np.nan)
+        code, words = 0, [_joined("try_step", given), _pointer(values), _pointer(load), _pointer(rigid)]
         try:
-            code = self._call("try_named", seconds, *words)
+            code = self._call("try", seconds, *words)
         except (NotConverged, NoEquilibrium) as error:
             error.step = self._step(time, load, rigid, error.code, str(error))
             raise
         except ContactError as error:
             if error.code != 2 or not self._contact:
                 raise
-            raise PrescribedError(error.code, f"{function}: {error.message}") from None
+            raise PrescribedError(error.code, f"try_step: {error.message}") from None
         step = self._step(time, load, rigid, code, self._message())
         if code == EDGE:
-            warnings.warn(step.message, EdgeContactWarning, stacklevel=3)
+            warnings.warn(step.message, EdgeContactWarning, stacklevel=2)
         self._advise()
         return step
 
@@ -366,7 +356,7 @@ class Contact:
             kind = re.sub(r"[-+]?\d[\d.]*(e[-+]?\d+)?", "", line)
             if kind not in self._advised:
                 self._advised.add(kind)
-                warnings.warn(line, AdviceWarning, stacklevel=4)
+                warnings.warn(line, AdviceWarning, stacklevel=3)
 
     def _step(self, time, load, rigid, status, message):
         return Step(time, load, rigid, status, message, self._numbers(), self._loads + self._rigids)
@@ -462,7 +452,7 @@ class Contact:
         if failed:
             raise failed[0]
         if code == EDGE:
-            warnings.warn(self._message(), EdgeContactWarning, stacklevel=3)
+            warnings.warn(self._message(), EdgeContactWarning, stacklevel=2)
         self._advise()
         return found
 

@@ -116,14 +116,13 @@ ENDED = """
 #include <petsam/embed.h>
 int main(int argc, char **argv)
 {
-  const int force[6] = {1, 1, 1, 1, 1, 1};
-  const double value[6] = {1000, 0, 0, 0, 0, 0};
+  const double load = 1000;
   petsam_contact *c;
 
   MPI_Init(&argc, &argv);
-  if (petsam_create(-1, argv[1], &c) || petsam_try(c, 0, force, value, 0, 0)) return 9;
+  if (petsam_create(-1, argv[1], &c) || petsam_try(c, 0, "load_n", &load, 0, 0)) return 9;
   MPI_Finalize();
-  if (petsam_try(c, 0, force, value, 0, 0) != 2) return 8;
+  if (petsam_try(c, 0, "load_n", &load, 0, 0) != 2) return 8;
   petsam_destroy(&c);
   return c ? 7 : 0;
 }

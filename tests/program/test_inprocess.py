@@ -179,7 +179,7 @@ with petsam.Contact(wear_coefficient1=1e-14, **case) as contact:
     assert len(error.steps) == 2 and error.step.time == 3 and abs(error.steps[1].load_tx - 100) < 1e-6
     for name in ("", "load_tx,load_ty", "load_tx ", "load_tx;", "a\\nb"):  # each name has its value
         refused("is no name", lambda: contact.try_step(load_n=1000, **{name: 1}), petsam.PrescribedError)
-        refused("is no name", lambda: contact.roll(1e-6, load_n=1000, **{name: 1}), petsam.PrescribedError)
+        refused("is no name", lambda: contact.try_step(roll=1e-6, load_n=1000, **{name: 1}), petsam.PrescribedError)
         refused("is no name", lambda: contact.run({"time": [1.0], "load_n": [1e3], name: [1.0]}))
         refused("is no name", lambda: contact.live(10, {"time": [1.0], "load_n": [1e3], name: [1.0]}))
     assert contact.try_step(time=4, load_n=500, load_tx=120).status == 0
@@ -301,15 +301,15 @@ with petsam.Contact(**case) as contact:
     for time, x, y, load_tx in {ROLLS!r}:
         given = dict(time=time, load_n=800, load_tx=load_tx)
         if time:
-            contact.roll(roll=3e-5, roll_y=1e-4, load_n=900, creep_x=1e-3)
+            contact.try_step(roll=3e-5, roll_y=1e-4, load_n=900, creep_x=1e-3)
             contact.reject()
-        found.append(contact.roll(roll=x, roll_y=y, **given) if time else contact.try_step(**given))
+        found.append(contact.try_step(roll=x, roll_y=y, **given) if time else contact.try_step(**given))
         last = found[-1]
         creeps = {{name: last.numbers.get(name) for name in ("creep_x", "creep_y", "creep_spin")}}
         if time:
-            same = contact.roll(roll=x, roll_y=y, time=time, load_n=800, **creeps)
+            same = contact.try_step(roll=x, roll_y=y, time=time, load_n=800, **creeps)
             assert np.allclose(same.load, last.load, rtol=1e-4, atol=0.01), (same, last)
-            contact.roll(roll=x, roll_y=y, **given)
+            contact.try_step(roll=x, roll_y=y, **given)
         contact.commit()
     shear = contact["shear_x"]
     assert contact.run(dict(time=[3], load_n=[800], load_tx=[95]))[0].roll == 0
@@ -397,7 +397,7 @@ with petsam.Contact(**{case!r}) as contact:
     assert again.tangential_iterations == 0 and again.load_tx == step.load_tx and again.rigid[2] == again.creep_y
     for says, wrong in ("no meaning with -rolling steady", dict(roll=1e-5)), ("load_n or disp_z is", dict(roll=0)):
         try:
-            contact.roll(**wrong, **(dict(load_n=800) if wrong["roll"] else dict()))
+            contact.try_step(**wrong, **(dict(load_n=800) if wrong["roll"] else dict()))
         except (petsam.ContactError, TypeError) as error:
             assert says in str(error), error
         else:

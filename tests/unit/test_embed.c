@@ -1,5 +1,6 @@
 /* A contact in another program: the same bits as the library, mistakes that are told, several contacts, its files. */
 #include "contacts.h"
+#include "embedded.h"
 
 #include <petsam/embed.h>
 #include <petsam/stiffness.h>
@@ -32,7 +33,7 @@ static int TryLoads(petsam_contact *c, double N, double T, double load[6], doubl
   const int    force[6] = {1, 1, 1, 1, 1, 1};
   const double value[6] = {N, T, 0, 0, 0, 0};
 
-  return petsam_try(c, 1, force, value, load, rigid);
+  return TryComponents(c, 1, force, value, load, rigid);
 }
 
 /* The gap of a sphere as the other tests compute it, which is that of the options but for rounding. */
@@ -174,8 +175,8 @@ static void test_mistakes_leave_a_contact_that_goes_on(void **state)
   sam_assert(petsam_get_number(c, "load_n", &number) == 2 && Says(c, "no step has been tried"));
   sam_assert(petsam_save(c, "early.h5") == 2);
   sam_assert(petsam_load(c, "nowhere.h5") == 3 && Says(c, "nowhere.h5"));
-  sam_assert(petsam_try(c, 0, force, wrong, NULL, NULL) == 2 && Says(c, "load_n is not a finite number"));
-  sam_assert(petsam_try(c, 0, force, pull, NULL, NULL) == 2 && Says(c, "load_n = -1"));
+  sam_assert(TryComponents(c, 0, force, wrong, NULL, NULL) == 2 && Says(c, "load_n is not a finite number"));
+  sam_assert(TryComponents(c, 0, force, pull, NULL, NULL) == 2 && Says(c, "load_n = -1"));
   sam_assert(TryLoads(c, 1000, 100, NULL, NULL) == 0 && petsam_message(c)[0] == '\0');
   sam_assert(petsam_get_field(c, "presure", field) == 2 && Says(c, "presure"));
   sam_assert(petsam_get_number(c, "load", &number) == 2);
@@ -184,16 +185,17 @@ static void test_mistakes_leave_a_contact_that_goes_on(void **state)
   sam_assert(petsam_set_field(c, "gap", field) == 2 && Says(c, "gap"));
   field[0] = -1;
   sam_assert(petsam_set_field(c, "friction", field) == 2);
-  sam_assert(petsam_stiffness(NULL, 0, k) == 2 && petsam_try(c, 0, NULL, NULL, NULL, NULL) == 2);
-  sam_assert(petsam_roll(c, 0, NULL, force, away, NULL, NULL) == 2 && Says(c, "petsam_roll: a pointer is NULL"));
-  sam_assert(petsam_roll(c, 0, (double[2]){0, NAN}, displaced, away, NULL, NULL) == 2 && Says(c, "roll_y = nan"));
+  sam_assert(petsam_stiffness(NULL, 0, k) == 2 && petsam_try(c, 0, NULL, NULL, NULL, NULL) == 2 &&
+             Says(c, "petsam_try: a pointer is NULL"));
+  sam_assert(petsam_try(c, 0, "disp_z,roll,roll_y", (double[]){-1e-6, 0, NAN}, NULL, NULL) == 2 &&
+             Says(c, "roll_y = nan"));
   /* more than friction bears: no solution, the numbers of the step are there, and nothing can be committed */
   sam_assert(TryLoads(c, 1000, 400, NULL, rigid) == 11 && Says(c, "gross slip"));
   sam_assert(isnan(rigid[1]) && petsam_get_number(c, "status", &number) == 0 && number == 11);
   sam_assert(petsam_commit(c) == 2 && Says(c, "gross slip"));
   sam_assert(!petsam_reject(c) && petsam_commit(c) == 2 && Says(c, "no tried step")); /* that try is forgotten */
-  sam_assert(petsam_try(c, NAN, force, away, NULL, NULL) == 2 && Says(c, "time"));
-  sam_assert(petsam_try(c, 0, displaced, away, NULL, NULL) == 0); /* bodies apart */
+  sam_assert(TryComponents(c, NAN, force, away, NULL, NULL) == 2 && Says(c, "time"));
+  sam_assert(TryComponents(c, 0, displaced, away, NULL, NULL) == 0); /* bodies apart */
   sam_assert(petsam_commit(c) == 0);
   sam_assert(TryLoads(c, 1000, 100, NULL, NULL) == 0 && petsam_commit(c) == 0);
   free(field);

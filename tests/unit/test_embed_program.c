@@ -1,5 +1,6 @@
 /* Histories and lives in another program: the same bits on any number of ranks, what a monitor may do, copies. */
 #include "contacts.h"
+#include "embedded.h"
 
 #include <petsam/embed.h>
 
@@ -92,7 +93,8 @@ static void test_monitor_stops_after_a_step(void **state)
   sam_assert(petsam_history(c, columns, ROWS, values, Note, &a) == 0 && a.count == 6);
   sam_assert(petsam_history(other, columns, 3, values, Note, &b) == 0 && b.count == 6);
   AssertSameLogs(&a, &b);
-  sam_assert(petsam_try(c, 9, force, given, load, NULL) == 0 && petsam_try(other, 9, force, given, same, NULL) == 0);
+  sam_assert(TryComponents(c, 9, force, given, load, NULL) == 0 &&
+             TryComponents(other, 9, force, given, same, NULL) == 0);
   sam_assert(!memcmp(load, same, sizeof(load)));
   petsam_destroy(&c);
   petsam_destroy(&other);
@@ -116,8 +118,8 @@ static void test_run_that_fails_keeps_what_it_committed(void **state)
   sam_assert(petsam_history(d, "time,load_n,load_tx", 1, next, Note, &b) == 0);
   AssertSameLogs(&a, &b);
   sam_assert_close(a.number[0][0], 75, 1e-6); /* half-way from the committed 100 N */
-  sam_assert(petsam_try(c, 11, (int[6]){1, 1, 1, 1, 1, 1}, (double[6]){800, 20}, load, NULL) == 0);
-  sam_assert(petsam_try(d, 11, (int[6]){1, 1, 1, 1, 1, 1}, (double[6]){800, 20}, same, NULL) == 0);
+  sam_assert(TryComponents(c, 11, (int[6]){1, 1, 1, 1, 1, 1}, (double[6]){800, 20}, load, NULL) == 0);
+  sam_assert(TryComponents(d, 11, (int[6]){1, 1, 1, 1, 1, 1}, (double[6]){800, 20}, same, NULL) == 0);
   sam_assert(!memcmp(load, same, sizeof(load)));
   free(field);
   petsam_destroy(&c);
@@ -174,7 +176,8 @@ static void test_copy_goes_on_and_reset_begins_anew(void **state)
   (void)state;
   sam_assert(petsam_history(c, columns, ROWS, values, Note, &first) == 0);
   sam_assert(petsam_copy(copy, c) == 0);
-  sam_assert(petsam_try(c, 9, force, given, load, NULL) == 0 && petsam_try(copy, 9, force, given, same, NULL) == 0);
+  sam_assert(TryComponents(c, 9, force, given, load, NULL) == 0 &&
+             TryComponents(copy, 9, force, given, same, NULL) == 0);
   sam_assert(!memcmp(load, same, sizeof(load)));
   sam_assert(petsam_reset(copy) == 0 && petsam_history(copy, columns, ROWS, values, Note, &again) == 0);
   AssertSameLogs(&first, &again);
@@ -197,7 +200,7 @@ static void test_steps_after_a_life_wear(void **state)
   sam_assert(petsam_live(c, 100, columns, ROWS, values, NULL, NULL) == 0 && petsam_save(c, "worn.h5") == 0);
   sam_assert(petsam_get_number(c, "wear_volume2", &before) == 0 && petsam_load(d, "worn.h5") == 0);
   sam_assert(petsam_history(d, columns, ROWS, values, Note, &a) == 0);
-  sam_assert(petsam_try(c, 9, (int[6]){0}, (double[6]){7e-6, 5e-7}, NULL, NULL) == 0);
+  sam_assert(TryComponents(c, 9, (int[6]){0}, (double[6]){7e-6, 5e-7}, NULL, NULL) == 0);
   sam_assert(petsam_get_number(c, "wear_volume2", &worn) == 0 && worn > before);
   sam_assert(petsam_load(c, "worn.h5") == 0 && petsam_history(c, columns, ROWS, values, Note, &b) == 0);
   AssertSameLogs(&a, &b);
@@ -232,7 +235,7 @@ static void test_copy_of_another_contact_is_refused(void **state)
   (void)MPI_Comm_free(&reversed);
 }
 
-/* Steps given by names have the same bits on any ranks, and those of petsam_try(); what makes no sense is named. */
+/* Steps given by names have the same bits on any ranks, and those of six components; what makes no sense is named. */
 static void test_steps_by_names(void **state)
 {
   static const char names[]   = "disp_z,disp_x,bulk2_stress_xx,friction_scale";
@@ -253,18 +256,18 @@ static void test_steps_by_names(void **state)
 
   (void)state;
   for (int k = 0; k < 2; k++) {
-    sam_assert(petsam_try_named(c, k + 1, names, rows[k], found, rigid) == 0 && petsam_commit(c) == 0);
-    sam_assert(petsam_try_named(d, k + 1, names, rows[k], same, NULL) == 0 && petsam_commit(d) == 0);
+    sam_assert(petsam_try(c, k + 1, names, rows[k], found, rigid) == 0 && petsam_commit(c) == 0);
+    sam_assert(petsam_try(d, k + 1, names, rows[k], same, NULL) == 0 && petsam_commit(d) == 0);
     sam_assert(!memcmp(found, same, sizeof(found)) && rigid[1] == rows[k][1]);
   }
-  sam_assert(petsam_try(c, 3, (int[6]){0, 0, 1, 1, 1, 1}, (double[6]){7.5e-6, 2e-7}, plain, NULL) == 0);
-  sam_assert(petsam_try_named(d, 3, "disp_x,disp_z", (double[2]){2e-7, 7.5e-6}, same, NULL) == 0);
+  sam_assert(TryComponents(c, 3, (int[6]){0, 0, 1, 1, 1, 1}, (double[6]){7.5e-6, 2e-7}, plain, NULL) == 0);
+  sam_assert(petsam_try(d, 3, "disp_x,disp_z", (double[2]){2e-7, 7.5e-6}, same, NULL) == 0);
   sam_assert(!memcmp(plain, same, sizeof(same)) &&
              plain[1] != found[1]); /* without bulk stress, and friction as usual */
   for (size_t k = 0; k < sizeof(wrong) / sizeof(wrong[0]); k++)
-    sam_assert(petsam_try_named(c, 4, wrong[k][0], odd, NULL, NULL) == 2 && strstr(petsam_message(c), wrong[k][1]));
-  sam_assert(petsam_try_named(c, 4, NULL, odd, NULL, NULL) == 2 && petsam_try_named(c, 4, "", odd, NULL, NULL) == 2);
-  sam_assert(petsam_try_named(c, 4, "load_n", &odd[1], NULL, NULL) == 0 && petsam_advise(c, NULL) == 2);
+    sam_assert(petsam_try(c, 4, wrong[k][0], odd, NULL, NULL) == 2 && strstr(petsam_message(c), wrong[k][1]));
+  sam_assert(petsam_try(c, 4, NULL, odd, NULL, NULL) == 2 && petsam_try(c, 4, "", odd, NULL, NULL) == 2);
+  sam_assert(petsam_try(c, 4, "load_n", &odd[1], NULL, NULL) == 0 && petsam_advise(c, NULL) == 2);
   sam_assert(petsam_advise(c, &count) == 0 && count >= 1 && strstr(petsam_warning(c, 0), "cells across"));
   sam_assert(!petsam_warning(c, count) && !petsam_warning(c, -1) && petsam_reject(c) == 0 && !petsam_warning(c, 0));
   sam_assert(!strcmp(petsam_step_name(c, 6, &unit), "disp_z") && !strcmp(unit, "m"));
@@ -292,16 +295,16 @@ static void test_ranks_that_differ_are_refused(void **state)
     const int    odd      = rank == size - 1;
     const double value[6] = {7e-6, odd && k == 0 ? 5e-7 : 0}, cycles = odd ? 0 : 10;
     const double rolled[2] = {1e-5, odd ? 1e-6 : 0};
-    const int    code      = k == 0   ? petsam_try(c, 1, none, value, NULL, NULL)
-                             : k == 1 ? petsam_try(c, odd, none, value, NULL, NULL)
-                             : k == 2 ? petsam_try(c, 1, odd ? NULL : none, value, NULL, NULL)
+    const int    code      = k == 0   ? TryComponents(c, 1, none, value, NULL, NULL)
+                             : k == 1 ? TryComponents(c, odd, none, value, NULL, NULL)
+                             : k == 2 ? petsam_try(c, 1, odd ? NULL : "disp_z", value, NULL, NULL)
                              : k == 3 ? (odd ? petsam_commit(c) : petsam_reject(c))
                              : k == 4 ? petsam_get_field(c, odd ? "gap" : "slip_x", NULL)
                              : k == 5 ? petsam_history(c, columns, ROWS - odd, values, NULL, NULL)
                              : k == 6 ? petsam_live(c, cycles, columns, ROWS, values, NULL, NULL)
                              : k == 7 ? petsam_save(c, odd ? "this.h5" : "that.h5")
-                             : k == 8 ? petsam_roll(c, 1, rolled, none, value, NULL, NULL)
-                             : k == 9 ? petsam_try_named(c, 1, odd ? "disp_z" : "load_n", rolled, NULL, NULL)
+                             : k == 8 ? petsam_try(c, 1, "roll,disp_z", rolled, NULL, NULL)
+                             : k == 9 ? petsam_try(c, 1, odd ? "disp_z" : "load_n", rolled, NULL, NULL)
                                       : petsam_create(World(), odd ? NULL : OPTIONS, &other);
 
     sam_assert(code == 2 && strstr(petsam_message(k < 10 ? c : NULL), words));

@@ -1,5 +1,6 @@
 /* Stresses and fatigue parameters of load steps, by the library's object and in other programs. */
 #include "fields.h"
+#include "embedded.h"
 
 #include <petsam/embed.h>
 #include <petsam/evaluation.h>
@@ -226,7 +227,7 @@ static int TryLoads(petsam_contact *c, double N, double T)
   const int    force[6] = {1, 1, 1, 1, 1, 1};
   const double value[6] = {N, T, 0, 0, 0, 0};
 
-  return petsam_try(c, 1, force, value, NULL, NULL) == 0 && petsam_commit(c) == 0;
+  return TryComponents(c, 1, force, value, NULL, NULL) == 0 && petsam_commit(c) == 0;
 }
 
 static petsam_contact *NewContact(int comm)

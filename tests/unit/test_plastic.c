@@ -2,6 +2,7 @@
  * Surfaces that yield at a limit of the pressure: the check, the verdict, the depth that stays, other programs.
  */
 #include "contacts.h"
+#include "embedded.h"
 
 #include <petsam/embed.h>
 #include <petsam/private/normalimpl.h> /* to register a method */
@@ -334,7 +335,7 @@ static void Press(petsam_contact *c, double N)
   const double value[6] = {N};
   double       load[6], rigid[6];
 
-  sam_assert(petsam_try(c, 1, force, value, load, rigid) == 0);
+  sam_assert(TryComponents(c, 1, force, value, load, rigid) == 0);
 }
 
 static void test_embedded_contact_yields_when_committed(void **state)

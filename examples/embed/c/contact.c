@@ -15,10 +15,9 @@ enum { N, TX, COMPONENTS = 6 };
 /* Tries the displacement d_x (m), all else being loads. Returns petsam's code. */
 static int Try(petsam_contact *c, double time, double d_x, double load[], double rigid[])
 {
-  const int    force[COMPONENTS] = {1, 0, 1, 1, 1, 1};
-  const double value[COMPONENTS] = {1000, d_x, 0, 0, 0, 0};
+  const double values[] = {1000, d_x};
 
-  return petsam_try(c, time, force, value, load, rigid);
+  return petsam_try(c, time, "load_n,disp_x", values, load, rigid);
 }
 
 /* Finds the displacement under which the contact bears T (N), from the one before. Returns petsam's code. */

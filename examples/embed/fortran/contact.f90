@@ -10,10 +10,9 @@ program contact
     "-body1_young 210e9 -body1_poisson 0.3 -body2_young 210e9 -body2_poisson 0.3 " // &
     "-gap_type sphere -gap_radius1 0.1 -gap_radius2 inf" // c_null_char
   real(c_double), parameter :: push(5) = [20d0, 40d0, 60d0, 0d0, -60d0]
-  integer(c_int), parameter :: all_loads(6) = 1
 
   type(c_ptr) :: joint
-  real(c_double) :: value(6), load(6), rigid(6), k(6, 6)
+  real(c_double) :: load(6), rigid(6), k(6, 6)
   integer :: code, rank, error, step
 
   call MPI_Init(error)
@@ -21,8 +20,7 @@ program contact
   code = petsam_create(int(MPI_COMM_WORLD, c_int), options, joint)
   do step = 1, size(push)
     if (code /= 0) exit
-    value = [1000d0, push(step), 0d0, 0d0, 0d0, 0d0]
-    code = petsam_try(joint, real(step, c_double), all_loads, value, load, rigid)
+    code = petsam_try(joint, real(step, c_double), "load_n,load_tx" // c_null_char, [1000d0, push(step)], load, rigid)
     if (code == 0) code = petsam_stiffness(joint, 0_c_int, k)
     if (code == 0) code = petsam_commit(joint)
     if (code == 0 .and. rank == 0) print '(a,f7.2,a,es14.6,a,es13.6,a)', "T", load(2), " N  d_x", rigid(2), &

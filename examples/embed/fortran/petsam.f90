@@ -30,26 +30,7 @@ module petsam
       real(c_double), intent(in) :: values(*)
     end function
 
-    integer(c_int) function petsam_try(contact, time, force, value, load, rigid) bind(c)
-      import :: c_int, c_double, c_ptr
-      type(c_ptr), value :: contact
-      real(c_double), value :: time
-      integer(c_int), intent(in) :: force(6)
-      real(c_double), intent(in) :: value(6)
-      real(c_double), intent(out) :: load(6), rigid(6)
-    end function
-
-    integer(c_int) function petsam_roll(contact, time, distance, force, value, load, rigid) bind(c)
-      import :: c_int, c_double, c_ptr
-      type(c_ptr), value :: contact
-      real(c_double), value :: time
-      real(c_double), intent(in) :: distance(2)
-      integer(c_int), intent(in) :: force(6)
-      real(c_double), intent(in) :: value(6)
-      real(c_double), intent(out) :: load(6), rigid(6)
-    end function
-
-    integer(c_int) function petsam_try_named(contact, time, names, values, load, rigid) bind(c)
+    integer(c_int) function petsam_try(contact, time, names, values, load, rigid) bind(c)
       import :: c_int, c_char, c_double, c_ptr
       type(c_ptr), value :: contact
       real(c_double), value :: time

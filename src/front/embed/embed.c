@@ -363,9 +363,6 @@ static PetscErrorCode Try(petsam_contact *c, double time, int count, const char 
     SamWay   way;
     PetscInt part;
 
-    PetscCheck(names[k], c->comm, SAM_ERR_USER,
-               "petsam_try: force of %s is 2: it has no creepage: use 1 for a load, 0 for a displacement",
-               SamComponentNames[k].load);
     PetscCheck(names[k][0] && !names[k][strcspn(names[k], SAM_EMBED_BETWEEN)], c->comm, SAM_ERR_USER,
                "name %d, \"%s\", is empty or contains a blank: give one name for each value, with commas between them",
                k + 1, names[k]);
@@ -381,16 +378,16 @@ static PetscErrorCode Try(petsam_contact *c, double time, int count, const char 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* `given`: all pointers were. */
-static int TryTogether(petsam_contact *c, const char function[], PetscBool given, double time, int count,
-                       const char *const names[], const double values[], double load[], double rigid[])
+/* `given`: no pointer was NULL. */
+static int TryTogether(petsam_contact *c, PetscBool given, double time, int count, const char *const names[],
+                       const double values[], double load[], double rigid[])
 {
   uint64_t sum = SamHashBits(time) + (uint64_t)count;
   int      code;
 
   for (int k = 0; k < count && given; k++)
     sum = SamEmbedAdd(SamEmbedAddText(sum, names[k]), &values[k], sizeof(*values));
-  if (!SamEmbedEnterTogether(c, function, given, sum)) return SAM_EMBED_USAGE;
+  if (!SamEmbedEnterTogether(c, "petsam_try", given, sum)) return SAM_EMBED_USAGE;
   code = SamEmbedLeave(c, Try(c, time, count, names, values));
   if (code) return code;
   for (int k = 0; k < SAM_COMPONENTS; k++) {
@@ -402,8 +399,8 @@ static int TryTogether(petsam_contact *c, const char function[], PetscBool given
 }
 
 /* Each comma ends a name, also an empty one, so that as many values are read as there are names. */
-int petsam_try_named(petsam_contact *c, double time, const char *names, const double values[], double load[6],
-                     double rigid[6])
+int petsam_try(petsam_contact *c, double time, const char *names, const double values[], double load[6],
+               double rigid[6])
 {
   char        *copy  = names && values ? strdup(names) : NULL;
   const char **list  = copy ? (const char **)calloc(strlen(copy) + 1, sizeof(*list)) : NULL;
@@ -415,42 +412,10 @@ int petsam_try_named(petsam_contact *c, double time, const char *names, const do
     next          = strchr(next, ',');
     if (next) *next++ = '\0';
   }
-  code = TryTogether(c, __func__, list != NULL, time, count, list, values, load, rigid);
+  code = TryTogether(c, list != NULL, time, count, list, values, load, rigid);
   free(list);
   free(copy);
   return code;
-}
-
-/* The same of six components and of the rolled distance, of which all are given. */
-static int TryComponents(petsam_contact *c, const char function[], double time, const double distance[],
-                         const int force[], const double value[], double load[], double rigid[])
-{
-  const PetscBool given                      = distance && force && value;
-  const char     *names[SAM_COMPONENTS + 2]  = {NULL};
-  double          values[SAM_COMPONENTS + 2] = {0};
-
-  for (int k = 0; k < SAM_COMPONENTS + 2 && given; k++) {
-    const int along = k - SAM_COMPONENTS, way = along < 0 ? force[k] : 0;
-
-    names[k]  = along >= 0 ? along ? "roll_y" : "roll"
-                           : SamComponentNameOf(k, way == 2 ? SAM_BY_CREEP
-                                                   : way    ? SAM_BY_LOAD
-                                                            : SAM_BY_RIGID);
-    values[k] = along >= 0 ? distance[along] : value[k];
-  }
-  return TryTogether(c, function, given, time, SAM_COMPONENTS + 2, names, values, load, rigid);
-}
-
-int petsam_try(petsam_contact *c, double time, const int force[6], const double value[6], double load[6],
-               double rigid[6])
-{
-  return TryComponents(c, __func__, time, (const double[2]){0, 0}, force, value, load, rigid);
-}
-
-int petsam_roll(petsam_contact *c, double time, const double distance[2], const int force[6], const double value[6],
-                double load[6], double rigid[6])
-{
-  return TryComponents(c, __func__, time, distance, force, value, load, rigid);
 }
 
 const char *petsam_step_name(petsam_contact *c, int k, const char **unit)
