@@ -233,7 +233,6 @@ CASES = [
     case("output in no directory", {}, "-output", "nowhere/out.h5", says=["-output", "nowhere/out.h5"], code=3),
     case("output in a file", {}, "-output", "text.h5/out.h5", says="-output", code=3),
     case("output is a directory", {}, "-output", "folder", says=["-output", "folder"], code=3),
-    case("XDMF file", {}, "-output_xdmf", "true", says=["-output_xdmf", "ParaView 5.12"]),
     case("options file of zeros", {}, "-options_file", "zeros", says=["zeros: is not an options file"], code=3),
     case("number of 2000 digits", dict(load_n="1" * 2000 + "N"), says=["-load_n 1111", "1...: expected", "unit"]),
     case("keyword of 2000 letters", dict(coupling="x" * 2000), says=["-coupling xxxx", "x...: expected none or full"]),

@@ -55,7 +55,6 @@ static void test_wrong_settings_are_refused(void **state)
   AssertRefused("-output_compress fast", "-output_compress");
   AssertRefused("-output_compress -1", "-output_compress");
   AssertRefused("-output_chunk 0", "-output_chunk");
-  AssertRefused("-output_xdmf false", "ParaView");
 }
 
 /* The message lists the fields that there are: also those of laws, and not those of laws that the problem lacks. */

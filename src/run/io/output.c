@@ -47,18 +47,13 @@ static const SamOptionRow rows[] = {
 
 PetscErrorCode SamOutputSettingsSetFromOptions(SamOutputSettings *set, const SamOptions *from)
 {
-  const char *prefix = SamOptionsPrefix(from);
-  PetscBool   xdmf;
-
   PetscFunctionBegin;
   *set = (SamOutputSettings){.compress = 0, .chunk = {1024, 256}};
   PetscCall(ReadFieldNames(set, from));
   PetscCall(SamOptionsRead(from, NULL, SAM_OPTION_ROWS(rows), set, NULL));
   PetscCheck(set->compress == 0 || H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0, from->comm, SAM_ERR_USER,
-             "-%soutput_compress %" PetscInt_FMT ": this HDF5 was built without zlib", prefix, set->compress);
-  PetscCall(SamOptionsHas(from, "output_xdmf", &xdmf));
-  PetscCheck(!xdmf, from->comm, SAM_ERR_USER,
-             "-%soutput_xdmf: no XDMF file is written: ParaView 5.12 or later opens the results themselves", prefix);
+             "-%soutput_compress %" PetscInt_FMT ": this HDF5 was built without zlib", SamOptionsPrefix(from),
+             set->compress);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
