@@ -109,9 +109,10 @@ typedef struct {
   SamAdviceAddLoads - adds the loads of step k to the largest ones. Not collective.
   SamAdviceBegin - before the first step: heights and options that are unlikely to be meant. Collective.
   SamAdviceStep - after step k, with a solution: if it has the largest load, once, motions that are not small, bodies
-  that do not touch, a contact of fewer than 20 cells across (14 if a closed solution describes it), a peak pressure that
-  cells half as wide change by more than 5 % (10 % after wear), a contact that is wider than a tenth of a radius of curvature, or a pressure above 0.2 E*; `found`: the
-  contact, NULL if it has not been looked at now. With `of_laws` what the laws have to say, each once. Collective.
+  that do not touch, a contact of fewer than 20 cells across (14 if a closed solution describes it), a peak pressure
+  that cells half as wide change by more than 5 % (10 % after wear), a contact that is wider than a tenth of a radius of
+  curvature, or a pressure above 0.2 E*; `found`: the contact, NULL if it has not been looked at now. With `of_laws`
+  what the laws have to say, each once. Collective.
   SamAdviceRenew - the next SamAdviceStep() of such a load looks again at how the contact, which has been worn, is
   resolved. `after`: when that is, for the message. Not collective.
   SamAdviceBeginCycle - before a computed cycle of a life: its energy alone counts. Not collective.

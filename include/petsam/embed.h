@@ -63,11 +63,11 @@ int petsam_set_field(petsam_contact *c, const char *name, const double *values);
   there are commas, and one more; an empty name is refused, and one with a blank. load_n or disp_z is one of them; other
   components that are not named are loads of 0. Conditions hold for this step; those that are not named have the values
   of the contact's options. `time` (s) is only noted. `load` and `rigid` become all twelve, given or found; NaN where
-  there is none (NULL: not wanted). A try replaces an earlier one. After 0, 10 and 12 there is a tried step, whose fields
-  and numbers can be asked for; 10 cannot be committed. A step takes the new normal load first, and then the tangential
-  ones.
-  With roll and roll_y the contact rolls by these distances towards +x and +y (m): the grid moves over the bodies, and a
-  creepage times the distance is the motion of body 1. With -rolling steady each try is a steady state of rolling.
+  there is none (NULL: not wanted). A try replaces an earlier one. After 0, 10 and 12 there is a tried step, whose
+  fields and numbers can be asked for; 10 cannot be committed. A step takes the new normal load first, and then the
+  tangential ones. With roll and roll_y the contact rolls by these distances towards +x and +y (m): the grid moves over
+  the bodies, and a creepage times the distance is the motion of body 1. With -rolling steady each try is a steady state
+  of rolling.
 */
 int petsam_try(petsam_contact *c, double time, const char *names, const double values[], double load[6],
                double rigid[6]);

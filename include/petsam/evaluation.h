@@ -7,12 +7,12 @@
 
 /*
   SamEvaluation - the stresses in one body under the tractions of load steps: at depths below all cells (maps) or below
-  a line of them (a section); the quantities that are wanted of them (src/post/stress/quantities.c); and fatigue parameters
-  over the steps, taken as one closed cycle. Maps are evaluated depth by depth, and each step is read once per depth:
-  the steps of a SamStressSource need not be in memory together. Fatigue parameters keep 48 bytes per cell and step.
-  Where surfaces slide, results of body 2 are at its own points, those that lie under the cells at slide 0.
-  Results are the same to the last bit on any number of ranks. Order of calls: Create, SetUp, Compute,
-  GetLargest, Destroy.
+  a line of them (a section); the quantities that are wanted of them (src/post/stress/quantities.c); and fatigue
+  parameters over the steps, taken as one closed cycle. Maps are evaluated depth by depth, and each step is read once
+  per depth: the steps of a SamStressSource need not be in memory together. Fatigue parameters keep 48 bytes per cell
+  and step. Where surfaces slide, results of body 2 are at its own points, those that lie under the cells at slide 0.
+  Results are the same to the last bit on any number of ranks. Order of calls: Create, SetUp, Compute, GetLargest,
+  Destroy.
 */
 typedef struct _n_SamEvaluation *SamEvaluation;
 
@@ -60,12 +60,12 @@ typedef struct {
   const char               *name;     /* of the origin of the bodies, for messages; borrowed */
   PetscInt                  steps;
   PetscBool                 before;
-  PetscBool                 slides;        /* the surfaces slide past each other, so that points of body 2 move */
-  PetscBool                 yields[2];     /* whether body 1, body 2 yields below its surface, */
-  PetscInt                  layers;        /* in so many layers, */
-  const double             *middle;        /* the depths of whose middles are these, m, borrowed, */
+  PetscBool                 slides;      /* the surfaces slide past each other, so that points of body 2 move */
+  PetscBool                 yields[2];   /* whether body 1, body 2 yields below its surface, */
+  PetscInt                  layers;      /* in so many layers, */
+  const double             *middle;      /* the depths of whose middles are these, m, borrowed, */
   PetscReal                 yield_depth; /* down to this depth, m */
-  PetscBool                 slips;         /* steps follow each other, and have slips, not velocities of slip */
+  PetscBool                 slips;       /* steps follow each other, and have slips, not velocities of slip */
   PetscErrorCode (*read)(void *context, PetscInt step, SamStepField field, double values[]);
   PetscErrorCode (*number)(void *context, PetscInt step, SamStepNumber number, double *value);
   PetscErrorCode (*conditions)(void *context, PetscInt step, SamConditions conditions, SamControl *control);

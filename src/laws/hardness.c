@@ -74,8 +74,8 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
     {"plastic_area", "m2", "area at the pressure limit", SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, 0},
     {"plastic_depth_max", "m", "maximum depth by which the surfaces have yielded", SAM_NUMBER_REAL, 1, PETSC_FALSE,
      PETSC_TRUE, SAM_JOIN_LAST, 0},
-    {"hardness_work", "J", "work of the pressure on the plastic depth in the load step", SAM_NUMBER_REAL, 1, PETSC_FALSE,
-     PETSC_TRUE, SAM_JOIN_SUM, 0}};
+    {"hardness_work", "J", "work of the pressure on the plastic depth in the load step", SAM_NUMBER_REAL, 1,
+     PETSC_FALSE, PETSC_TRUE, SAM_JOIN_SUM, 0}};
   PetscInt id;
 
   PetscFunctionBegin;

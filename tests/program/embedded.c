@@ -8,7 +8,7 @@
 int main(int argc, char **argv)
 {
   const char     *options = argv[1], *names = "load_n,disp_x,load_ty,load_mx,load_my,load_mz";
-  const int       world   = argc > 2 && !strcmp(argv[2], "world");
+  const int       world = argc > 2 && !strcmp(argv[2], "world");
   int             code, rank = 0;
   petsam_contact *c, *other;
   double          load[6], rigid[6], k[36], number;

@@ -102,7 +102,11 @@ def order():
 def upward(build):
     """Arrows from a floor or room to one above it."""
     places = order()
-    return {pair: names for pair, names in arrows(build).items() if places.index(room(pair[1])) < places.index(room(pair[0]))}
+    return {
+        pair: names
+        for pair, names in arrows(build).items()
+        if places.index(room(pair[1])) < places.index(room(pair[0]))
+    }
 
 
 def lines(pairs):
@@ -146,7 +150,9 @@ def test_rooms_form_no_circle(build):
 
 
 def test_no_folder_has_a_large_circle_of_files(build):
-    large = [circle for circle in circles_of_files(build) if len(circle) > CIRCLES.get(str(Path(circle[0]).parent), MOST)]
+    large = [
+        circle for circle in circles_of_files(build) if len(circle) > CIRCLES.get(str(Path(circle[0]).parent), MOST)
+    ]
     assert not large, "\n".join(map(" ".join, large))
 
 

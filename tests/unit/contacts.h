@@ -1,4 +1,7 @@
-/* Contacts, controls and steps for the tests of src/contact, src/run/io and src/front/app. All functions are collective. */
+/*
+  Contacts, controls and steps for the tests of src/contact, src/run/io and src/front/app. All functions are
+  collective.
+*/
 #ifndef PETSAM_CONTACTS_H
 #define PETSAM_CONTACTS_H
 

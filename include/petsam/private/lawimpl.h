@@ -1,6 +1,6 @@
 /*
-  The inside of SamLaw, for those who add a law: src/laws/sums.c is the shortest example, examples/embed/plugin/law.c one
-  of friction that changes with slip.
+  The inside of SamLaw, for those who add a law: src/laws/sums.c is the shortest example, examples/embed/plugin/law.c
+  one of friction that changes with slip.
 
   A law is a file. Its create function, registered by SamLawRegister(), sets the methods that it needs:
 
@@ -98,8 +98,8 @@ PETSC_INTERN PetscErrorCode SamLawAddToSum(SamState state, const char name[], Ve
 /*
   The frames of both bodies (frames.c). Under a point x of the grid, which goes with body 1, lies the point x + D of
   body 2, D being the slide (m). A field of body 2 is kept at the points that lie under the cells at D = 0. The numbers
-  are those of the state, in this order, which the law slide declares: D and what has been rolled, the slider (m) and its
-  longest stretch (m).
+  are those of the state, in this order, which the law slide declares: D and what has been rolled, the slider (m) and
+  its longest stretch (m).
   SamFramesGetSlide - D of a generation, of SAM_TRIED without a try the committed one; FALSE: the surfaces do not slide,
   and D = 0. SamFramesSetSlide - of the committed one, if they do. SamFramesRewind - takes a distance (m) off D, and off
   what it follows, of a generation. Not collective.

@@ -39,8 +39,8 @@ PETSC_INTERN PetscErrorCode SamProblemAddStress(SamProblem problem, const SamCon
 PETSC_INTERN PetscErrorCode SamProblemAddSeparation(SamProblem problem, SamState state, SamGeneration generation, Vec h,
                                                     PetscBool *adds);
 /*
-  SamProblemGetOffset - the offset (m) of body 0 or 1, as SamFramesGetOffset(), if laws add what they keep at its points;
-  FALSE and 0: the separation does not depend on it. Not collective.
+  SamProblemGetOffset - the offset (m) of body 0 or 1, as SamFramesGetOffset(), if laws add what they keep at its
+  points; FALSE and 0: the separation does not depend on it. Not collective.
 */
 PETSC_INTERN PetscBool SamProblemGetOffset(SamProblem problem, SamState state, SamGeneration generation, PetscInt body,
                                            PetscReal offset[2]);

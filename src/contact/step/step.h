@@ -59,8 +59,8 @@ PETSC_INTERN PetscErrorCode SamStepSolve(const SamStepTask *task, SamStep *step,
 */
 PETSC_INTERN PetscErrorCode SamStepSetDisplacements(SamState state, const PetscInt fields[2], SamSolution *tried);
 /*
-  SamStepDeclareRolling - declares the numbers of a motion in which material streams, and returns the first (steadystep.c).
-  Collective.
+  SamStepDeclareRolling - declares the numbers of a motion in which material streams, and returns the first
+  (steadystep.c). Collective.
 */
 PETSC_INTERN PetscErrorCode SamStepDeclareRolling(SamState state, PetscInt *first);
 

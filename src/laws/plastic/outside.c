@@ -6,12 +6,12 @@
 */
 #include "newton.h"
 
-/* Depths over the half width of the contact that are looked at, if they lie below the last layer or in a thick one. */
-static const double places[] = {0, 0.25, 0.48, 0.7, 1, 1.5, 2};
-#define PLACES ((PetscInt)(sizeof(places) / sizeof(places[0])))
-#define FIRST  0.48 /* where layers must be thin, */
-#define DEEP   0.7  /* and the deepest place at which a contact yields first */
+#define FIRST  0.48 /* depth over the half width of the contact where layers must be thin, */
+#define DEEP   0.7  /* and the deepest one at which a contact yields first */
 #define NARROW 0.1  /* part of the cells in contact whose zones, the narrowest, do not count */
+/* Depths over the half width that are looked at, if they lie below the last layer or in a thick one. */
+static const double places[] = {0, 0.25, FIRST, DEEP, 1, 1.5, 2};
+#define PLACES ((PetscInt)(sizeof(places) / sizeof(places[0])))
 
 /*
   Adds a layer's residual stress and takes the tractions' stress at a depth; the largest excess over the yield stress.

@@ -45,8 +45,8 @@
 #define KNOWN 0.9
 /*
   Cells half as wide may change the peak pressure by this part of it; after wear by this one, since the surface that is
-  worn on finer cells is smoother than heights interpolated between wide ones: in 7 random lives the change on four times
-  finer cells was a fourteenth to three quarters of what the interpolated heights said.
+  worn on finer cells is smoother than heights interpolated between wide ones: in 7 random lives the change on four
+  times finer cells was a fourteenth to three quarters of what the interpolated heights said.
 */
 #define PEAK      0.05
 #define WORN_PEAK 0.1

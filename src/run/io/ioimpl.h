@@ -23,8 +23,8 @@ PETSC_INTERN PetscErrorCode SamKeptRead(SamFile file, SamStepCache cache);
 typedef enum { SAM_SERIES_HISTORY, SAM_SERIES_CYCLES, SAM_SERIES } SamSeries;
 
 /*
-  The points of an edge: x and y (m) one after the other, on rank 0; the count on all ranks (edgepoints.c). The functions
-  note their failures. Collective.
+  The points of an edge: x and y (m) one after the other, on rank 0; the count on all ranks (edgepoints.c). The
+  functions note their failures. Collective.
   SamOutputCreatePoints - creates a dataset for them, without a step.
   SamOutputCreatePointScales - creates the scales of all such datasets, which are there already, and attaches them.
   SamOutputGatherPoints - takes those of all ranks into the output, in the order of their rows.

@@ -21,9 +21,9 @@ typedef struct {
 } SamLifeOptions;
 
 /*
-  SamLifeOptionsSetFromOptions - reads the -wear_ options of a life, and the table of friction; `given`: the cycles come from
-  SamLifeOptionsSetCycles(), which the other case calls too. Collective. Errors: SAM_ERR_USER naming the option, or file and
-  line; SAM_ERR_FILE for a table that cannot be read.
+  SamLifeOptionsSetFromOptions - reads the -wear_ options of a life, and the table of friction; `given`: the cycles come
+  from SamLifeOptionsSetCycles(), which the other case calls too. Collective. Errors: SAM_ERR_USER naming the option, or
+  file and line; SAM_ERR_FILE for a table that cannot be read.
   SamLifeOptionsSetCycles - how many cycles; 0: none, the steps wear one by one. Collective. Errors: SAM_ERR_USER.
 */
 PETSC_INTERN PetscErrorCode SamLifeOptionsSetFromOptions(SamLifeOptions *plan, PetscBool given, const SamOptions *from);
@@ -32,9 +32,9 @@ PETSC_INTERN PetscErrorCode SamLifeOptionsSetCycles(SamLifeOptions *plan, PetscR
 PETSC_INTERN PetscErrorCode SamLifeOptionsDestroy(SamLifeOptions *plan);
 /*
   SamLifeOptionsGetStart - the step of the history with which the cycle begins. Not collective.
-  SamLifeOptionsCheckCycle - refuses a history that is no closed cycle: its last row must be its first one again, but for
-  whole lengths by which bodies that repeat themselves slide; in steady rolling one with steps between rows. Collective.
-  Errors: SAM_ERR_USER.
+  SamLifeOptionsCheckCycle - refuses a history that is no closed cycle: its last row must be its first one again, but
+  for whole lengths by which bodies that repeat themselves slide; in steady rolling one with steps between rows.
+  Collective. Errors: SAM_ERR_USER.
 */
 PETSC_INTERN PetscInt       SamLifeOptionsGetStart(const SamLifeOptions *plan, SamHistory history);
 PETSC_INTERN PetscErrorCode SamLifeOptionsCheckCycle(const SamLifeOptions *plan, SamHistory history, SamProblem problem,
