@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the tables of options in examples/OPTIONS.md from the programs' -help, and examples/INDEX.md, their index.
+"""Writes the tables of options in examples/manual/OPTIONS.md from the programs' -help, and examples/manual/INDEX.md, their index.
 
     python3 scripts/maintain/reference.py [--build build] [--check]
 
@@ -16,8 +16,8 @@ from pathlib import Path
 from options import read_options
 
 ROOT = Path(__file__).resolve().parents[2]
-REFERENCE = ROOT / "examples" / "OPTIONS.md"
-INDEX = ROOT / "examples" / "INDEX.md"
+REFERENCE = ROOT / "examples" / "manual" / "OPTIONS.md"
+INDEX = ROOT / "examples" / "manual" / "INDEX.md"
 PROGRAMS = ["petsam", "petsam-stress"]
 TABLE = re.compile(r"<!-- (petsam[\w-]*): (.+?) -->\n.*?<!-- end -->", re.S)
 

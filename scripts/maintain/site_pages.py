@@ -27,7 +27,7 @@ FENCE = re.compile(r"^```.*?^```$", re.M | re.S)
 # the parts of the site in their order: title, first page, others
 PARTS = (
     ("petsam", "README.md", ()),
-    ("Manual", "examples/README.md", ("examples/*.md",)),
+    ("Manual", "examples/README.md", ("examples/manual/*.md",)),
     ("Examples", None, ("examples/*/README.md",)),
     ("Tools and Python", "scripts/README.md", ("scripts/*/*.md",)),
     ("Inside other programs", "include/README.md", ()),

@@ -242,7 +242,7 @@ def _condensed(k, names):
 class Contact:
     """A contact of two bodies that have never touched.
 
-    Keywords are the options of the program petsam (examples/OPTIONS.md): grid_n=256, grid_size=(2e-3, 1e-3),
+    Keywords are the options of the program petsam (examples/manual/OPTIONS.md): grid_n=256, grid_size=(2e-3, 1e-3),
     friction=0.1, gap_type="sphere", wear_coefficient1=1e-14, ... Loads are given to try_step(). comm, a communicator of
     mpi4py, spreads the contact over its ranks, which then call all functions together; None: this process alone.
 

@@ -40,7 +40,7 @@ def test_help_tells_its_topics(ask):
 
 
 def test_topics_are_those_of_the_manual(ask):
-    text = (ROOT / "examples" / "OPTIONS.md").read_text()
+    text = (ROOT / "examples" / "manual" / "OPTIONS.md").read_text()
     (listed,) = re.findall(rf"^- of {ask.name}: (.*?)[;.]$", text, re.M | re.S)
     topics = [topic["name"].replace(" ", "_") for topic in described(ask)["topics"]]
     assert re.findall(r"`(\w+)`", listed) == topics
@@ -202,7 +202,7 @@ def test_fatigue_is_found_in_the_other_program(petsam):
 
 def test_exit_codes_of_the_topic_are_those_of_the_manual(petsam):
     codes = re.findall(r"^  (\d+) ", topic(petsam, "exit codes"), re.M)
-    table = (ROOT / "examples" / "RESULTS.md").read_text().split("| exit code | meaning |")
+    table = (ROOT / "examples" / "manual" / "RESULTS.md").read_text().split("| exit code | meaning |")
     if len(table) == 2:  # the manual may have it elsewhere
         assert codes == re.findall(r"^\| (\d+) \|", table[1].split("\n\n")[0], re.M)
     assert codes == ["0", "2", "3", "10", "11", "12", "75"]

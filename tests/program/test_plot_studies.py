@@ -166,7 +166,7 @@ def test_an_input_has_the_unit_of_the_result_of_its_name(single):
 
 
 def test_units_of_options_are_those_of_the_reference():
-    text = (ROOT / "examples" / "OPTIONS.md").read_text()
+    text = (ROOT / "examples" / "manual" / "OPTIONS.md").read_text()
     known = re.findall(r"^\| `-(\w+) <number>(.*)$", text, re.MULTILINE)
     inputs = ("load", "disp", "rot", "grid", "gap", "body", "bulk", "wear_c", "wear_e", "pressure")
     checked = 0
