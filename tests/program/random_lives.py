@@ -36,6 +36,7 @@ def random_case(rng, folder):
         gap_radius2=float("inf"),
         load_n=100.0,
         grid_n=N,
+        slip_direction="end",  # the rule that the direction is checked by
     )
     case["body2_poisson"] = 0.25 if dissimilar else case["body1_poisson"]
     contact = hertz(case)

@@ -43,7 +43,7 @@ LAST = (
     "plastic_max",
     "residual_energy",
 )
-STEADY = ("slip_velocity_max", "rolling_energy", "load_tx", "load_ty", "creep_x", "creep_y")
+STEADY = ("slip_velocity_max", "rolling_energy", "load_tx", "load_ty", "creep_x", "creep_y", "creep_spin")
 SUMS = ("dissipated_energy", "plastic_work")
 LIFE = ("volume1", "volume2", "depth_max1", "depth_max2", "pressure_max", "contact_area", "dissipated_energy")
 FRICTIONAL = ("dissipated_energy", "shear_max", "slip_max", "stick_area", "last_energy")
@@ -367,7 +367,7 @@ def read(path):
     least = dict.fromkeys(("dissipated_energy", "plastic_work", "residual_energy"), SLACK * work)
     least.update(stick_area=1e-3 * numbers["contact_area"], shear_max=1e-4 * numbers["pressure_max"])
     least.update(slip_max=1e-5 * np.nanmax(np.abs(table["disp_z"])), plastic_max=1e-6)
-    least.update(load_tx=1e-3 * table["load_n"][-1], load_ty=1e-3 * table["load_n"][-1], creep_x=1e-7, creep_y=1e-7)
+    least.update(load_tx=1e-3 * table["load_n"][-1], load_ty=1e-3 * table["load_n"][-1], creep_x=1e-7, creep_y=1e-7, creep_spin=1e-2)
     return {name: float(value) for name, value in numbers.items() if np.isfinite(value)}, least
 
 

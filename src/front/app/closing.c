@@ -12,6 +12,7 @@
 
 #define LARGE 0.02 /* error of the dissipated energy by the steps, relative to it, from which on it is warned of */
 #define NONE  1e-4 /* energy over T disp that counts as none: N and T that grow in proportion need not slip */
+#define ZERO  1e-5 /* energy and its error, over T disp, that are none where all sticks */
 #define FOUND 0.5  /* share of the edges from which nothing is said of them */
 
 /* A row of the table: the sum of the times of one or more events. */
@@ -158,7 +159,8 @@ static PetscErrorCode WarnOfEnergy(SamReport r)
   PetscBool                given     = PETSC_FALSE;
 
   PetscFunctionBegin;
-  if (!HasEnergy(r) || r->energy[1] <= LARGE * PetscMax(r->energy[0], NONE * r->work))
+  if (!HasEnergy(r) || r->energy[1] <= LARGE * PetscMax(r->energy[0], NONE * r->work) ||
+      PetscMax(r->energy[0], r->energy[1]) <= ZERO * r->work)
     PetscFunctionReturn(PETSC_SUCCESS);
   for (size_t k = 0; !given && k < sizeof(without) / sizeof(without[0]); k++)
     PetscCall(PetscOptionsHasName(NULL, NULL, without[k], &given));

@@ -446,12 +446,63 @@ static PetscErrorCode Flows(const Solve *w, PetscBool *flows)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/*
+  The largest shear of the surfaces over what a body without hardening bears there, yield/sqrt(3), in pure shear: no
+  stress below balances more. 0: all bodies harden.
+*/
+static PetscErrorCode GetOverload(const Solve *w, double *overload)
+{
+  const SamPlastic *p     = w->plastic;
+  const PetscInt    cells = p->grid->cells;
+  const double     *q;
+  double            least = INFINITY;
+
+  PetscFunctionBegin;
+  *overload = 0;
+  for (PetscInt b = 0; b < p->bodies; b++) {
+    const SamMises *m = &p->body[b].material;
+    double          slope, yield = SamMisesYield(m, 0, &slope);
+
+    if (slope == 0 && m->backstresses == 0) least = PetscMin(least, yield);
+  }
+  PetscCall(VecGetArrayRead(w->contact->shear, &q));
+  for (PetscInt k = 0; k < cells; k++) *overload = PetscMax(*overload, sqrt(3.0) * hypot(q[k], q[k + cells]) / least);
+  PetscCall(VecRestoreArrayRead(w->contact->shear, &q));
+  PetscCall(SamMax(p->grid->comm, 1, overload));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode DescribeFailure(Solve *w, double largest)
+{
+  const size_t size = sizeof(w->contact->failed);
+  PetscBool    flows;
+  double       overload;
+
+  PetscFunctionBegin;
+  PetscCall(Flows(w, &flows));
+  PetscCall(GetOverload(w, &overload));
+  if (flows)
+    (void)snprintf(w->contact->failed, size,
+                   "a layer yields in all its cells, where no strain is unique without hardening: give it a hardening, "
+                   "or less load");
+  else if (overload > 1)
+    (void)snprintf(w->contact->failed, size,
+                   "the shear is %.2g times what the body bears without hardening, yield/sqrt(3): give "
+                   "it a hardening, or less friction",
+                   overload);
+  else
+    (void)snprintf(w->contact->failed, size,
+                   "the plastic strain did not converge within %" PetscInt_FMT
+                   " iterations, residual %.2g, tolerance %.2g",
+                   w->plastic->newton, largest, (double)w->plastic->rtol);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* From the driver on. */
 static PetscErrorCode Iterate(Solve *w, PetscInt field)
 {
   SamPlastic *p = w->plastic;
   double      norm, first, largest;
-  PetscBool   flows;
 
   PetscFunctionBegin;
   PetscCall(Measure(w, field, &norm, &largest));
@@ -462,18 +513,7 @@ static PetscErrorCode Iterate(Solve *w, PetscInt field)
     p->newton++;
     PetscCall(GoAlong(w, field, &norm, &largest));
   }
-  if (!w->solved || largest <= p->rtol) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(Flows(w, &flows));
-  if (flows)
-    (void)snprintf(
-      w->contact->failed, sizeof(w->contact->failed),
-      "a layer yields in all its cells, where no strain is unique without hardening: give it a hardening, or less "
-      "load");
-  else
-    (void)snprintf(w->contact->failed, sizeof(w->contact->failed),
-                   "the plastic strain did not converge within %" PetscInt_FMT
-                   " iterations, residual %.2g, tolerance %.2g",
-                   p->newton, largest, (double)p->rtol);
+  if (w->solved && largest > p->rtol) PetscCall(DescribeFailure(w, largest));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
