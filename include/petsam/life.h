@@ -17,20 +17,12 @@ typedef struct {
   void *context;
 } SamLifeCycle;
 
-/* How cycles are jumped over. */
-typedef enum {
-  SAM_LIFE_IMPLICIT, /* by the pressure at the end of a jump: stable however long it is */
-  SAM_LIFE_EXPLICIT, /* by the wear of the computed cycle: jumps stay below the stability limit */
-  SAM_LIFE_MAGNIFIED /* step by step, each at its place and by the pressure at its end: for surfaces that slide; as
-                        stable as implicit jumps */
-} SamLifeType;
-
 /* How a life is computed. */
 typedef struct {
-  SamLifeType type;
-  PetscReal   rtol;  /* error of a jump that is allowed: of depth and pressure, relative, in the mean over the scar */
-  PetscReal   jump;  /* cycles of the first jump, 0: as many as an explicit one could be */
-  PetscBool   fixed; /* all jumps are like the first one, whatever their error */
+  PetscBool magnified; /* jumps go through the steps of a cycle, each at its place, as surfaces that slide need */
+  PetscReal rtol;      /* error of a jump that is allowed: of depth and pressure, relative, in the mean over the scar */
+  PetscReal jump;      /* cycles of the first jump, 0: a part of those that wear as much as a single step may */
+  PetscBool fixed;     /* all jumps are like the first one, whatever their error */
 } SamLifeSettings;
 
 /* SamLifeReport - a computed cycle, and the jump before it. */
@@ -40,7 +32,7 @@ typedef struct {
   PetscReal error;     /* of this: the difference between the jump and two halves of it, relative; or `stripes` */
   PetscReal stripes;   /* error of body 2's depth so far by steps that slide far, relative */
   PetscReal stride;    /* the longest slide of a step of the cycle, over the contact's length along it */
-  PetscReal limit;     /* the longest jump that would be stable if it were explicit, cycles */
+  PetscReal limit;     /* cycles that wear as much as a single step may, infinite without wear */
   PetscReal volume[2]; /* m3, removed of body 1 and 2 so far */
   PetscReal depth[2];  /* m, the largest, removed of body 1 and 2 so far */
   PetscReal dissipated_energy; /* J, of this cycle */
@@ -53,12 +45,13 @@ typedef struct {
 
 /*
   SamLife - carries a contact over many cycles by computing some of them. A cycle is computed on a fixed gap; then its
-  wear is repeated some times over. Implicitly, the pressure that comes with the worn gap is solved for, as the normal
-  problem of surfaces that yield (SamNormalSolveYielding()); where surfaces slide past each other, in each step of a
-  magnified cycle. A jump is made once as a whole and once in two halves, with a cycle computed between them; their
-  difference is the error, and sets the size of the next jump; their extrapolation, which is of second order, is kept.
-  Jumps that the error sets are whole numbers of cycles, fixed ones any number; one of a single cycle is taken whatever
-  its error: faster wear is for steps that wear one by one, without a life.
+  wear is repeated some times over, by the pressure that comes with the worn gap: stable however long a jump is. This
+  pressure is that of the normal problem of surfaces that yield (SamNormalSolveYielding()); where surfaces slide past
+  each other, it is solved for in each step of a magnified cycle. A jump is made once as a whole and once in two halves,
+  with a cycle computed between them; their difference is the error, and sets the size of the next jump; their
+  extrapolation, which is of second order, is kept. Jumps that the error sets are whole numbers of cycles, fixed ones
+  any number; one of a single cycle is taken whatever its error: faster wear is for steps that wear one by one, without
+  a life.
 
   SamLifeCompute() and SamLifeJump() take turns.
 */

@@ -415,7 +415,7 @@ class Contact:
     def live(self, cycles, history, each=None):
         """Wear over so many cycles of a closed history (see run()), most of them jumped over: a list of Cycle.
 
-        The options wear_rtol, wear_type, wear_jump of the contact count. each(contact, cycle) as in run().
+        The options wear_rtol and wear_jump of the contact count. each(contact, cycle) as in run().
         """
         return self._run("live", (_real(cycles, "live: cycles"),), history, each)
 

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Random lives of joints that wear, each with a check that shares nothing with petsam but the results file.
 
-Similar and dissimilar bodies, smooth and rough gaps, every kind of control, moments, both laws, both types of jumps.
-Of the last step, by direct summation: the gap of the worn bodies is nowhere negative and closed under pressure, the
-shear lies in its cone, cells that stick do not slip and the others slip against the shear, loads are balanced. Of the
-life: what was removed is what friction did, V = k E/mu summed over the cycles. Ends with 0 when all of that holds.
+Similar and dissimilar bodies, smooth and rough gaps, every kind of control, moments, both laws. Of the last step, by
+direct summation: the gap of the worn bodies is nowhere negative and closed under pressure, the shear lies in its cone,
+cells that stick do not slip and the others slip against the shear, loads are balanced. Of the life: what was removed is
+what friction did, V = k E/mu summed over the cycles. Ends with 0 when all of that holds.
 
     python3 tests/program/random_lives.py [--lives 50] [--seed 1] [--ranks 1]
 """
@@ -84,7 +84,6 @@ def random_case(rng, folder):
     case["wear_cycles"] = float(
         np.floor(rng.uniform(0.05, 0.8) * approach / (1e-14 * contact.pressure * 0.2 * approach))
     )
-    case["wear_type"] = rng.choice(["implicit", "implicit", "explicit"])
     return dict(case, wear_rtol=3e-3, history="cycle.csv", output="life.h5", output_every=1)
 
 

@@ -292,13 +292,6 @@ def test_a_life_goes_on_where_it_was_left(life, petsam, tmp_path):
         assert np.array_equal(whole[name][-1], rest[name][-1]), name
 
 
-def test_explicit_jumps_are_refused(petsam, tmp_path):
-    rows = history(tmp_path / "h.csv", "time,disp_x", (0.0, 1e-5), (1.0, -1e-5), (2.0, 1e-5))
-    case = dict(CYLINDER, **rows, grid_n=32, grid_size=3e-4, wear_coefficient2=1e-14, wear_cycles=10)
-    done = petsam(case, dict(wear_type="explicit"), check=2)
-    assert "-wear_type explicit does not work with -slide" in done.stderr
-
-
 @pytest.mark.parametrize("cycles", [None, 100])
 def test_a_run_that_its_own_rotation_ends_has_the_fields_of_its_last_step(petsam, tmp_path, cycles):
     """A moment that is given turns the ball further in each stroke: in a life, before the first cycle is written."""

@@ -12,8 +12,8 @@
   Where material streams through the contact, in steady rolling, a step is a passage: all of a line of the running band
   wears by r = integral of p |s| along x, the pressure times the slip in a passage. There P is the integral of the mean
   pressure along the line, and e = r/P its mean slip. As a line yields by e times the integral of its own pressure, the
-  operator of an implicit jump remains symmetric and positive, however the slip varies along the line. Lines without
-  contact have the e of the next line that has.
+  operator of a jump remains symmetric and positive, however the slip varies along the line. Lines without contact have
+  the e of the next line that has.
 */
 #include "lifeimpl.h"
 #include <petsam/private/motionimpl.h>
@@ -230,7 +230,7 @@ static PetscErrorCode FindShift(SamLife l, SamRate *rate)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The same for a band; `most`: its explicit limit's wear load per pressure. */
+/* The coefficient of a band; `most`: its wear load per pressure, m, where that is largest. */
 static PetscErrorCode FindCoefficientOfBand(SamLife l, SamRate *rate, double *most)
 {
   const SamGrid grid = l->grid;

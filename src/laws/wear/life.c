@@ -1,15 +1,14 @@
 /*
   Jumps over cycles.
 
-  In a computed cycle a cell wears by r = e P, wear load a cycle, under the mean pressure P (cycle.c). In an implicit
-  jump over m cycles e is taken as constant, and P as that at its end: it solves the normal problem on the gap
-  h + m K e P, which is linear in P. In an explicit one P is that at its start; cells oscillate where m K e is more than
-  twice the smallest eigenvalue of the normal influence, that of a checkerboard. In steady rolling a cycle is a passage,
-  and the same holds for lines of the running band, P being the integral of the pressure along them.
+  In a computed cycle a cell wears by r = e P, wear load a cycle, under the mean pressure P (cycle.c). In a jump over
+  m cycles e is taken as constant, and P as that at its end: it solves the normal problem on the gap h + m K e P, which
+  is linear in P. In steady rolling a cycle is a passage, and the same holds for lines of the running band, P being the
+  integral of the pressure along them.
 
   A jump of m and two of m/2 give w1 and w2. These are of first order; 2 w2 - w1 is of second, and |w2 - w1| the error
   of w2 (Hairer, Norsett and Wanner 1993, Solving Ordinary Differential Equations I, II.4 and II.9; backward Euler's
-  extrapolation is L-stable, forward Euler's is the midpoint rule).
+  extrapolation is L-stable).
 */
 #include "lifeimpl.h"
 #include <petsam/private/motionimpl.h>
@@ -26,9 +25,7 @@
 #define SAME 1e-6
 /* Depths that count, over the displacements. */
 #define COUNTS 1e-6
-/* An explicit jump over the longest stable one: the rate changes within it. */
-#define STABLE 0.8
-/* The first jump relative to the longest stable one, where no other limit is given. */
+/* The first jump over the cycles that wear as much as a single step may, unless it is given. */
 #define FIRST 0.2
 
 /* The fields, to be created and destroyed. */
@@ -88,10 +85,10 @@ PetscErrorCode SamLifeCreate(SamContact contact, const SamLifeCycle *cycle, cons
   l->open       = !l->band;
   if (l->band) PetscCall(SamGridCreateVec(grid, 1, &l->passage));
   l->coupled = SamElasticityGetTraits(SamProblemGetElasticity(l->problem)).coupled;
-  PetscCheck(settings->type == SAM_LIFE_MAGNIFIED || !SamProblemGetOffset(problem, l->memory, SAM_COMMITTED, 1, slide),
-             grid->comm, PETSC_ERR_ARG_INCOMP, "Surfaces that slide need magnified cycles");
+  PetscCheck(settings->magnified || !SamProblemGetOffset(problem, l->memory, SAM_COMMITTED, 1, slide), grid->comm,
+             PETSC_ERR_ARG_INCOMP, "Surfaces that slide need magnified cycles");
   l->loads = SamStateFindField(l->memory, SAM_WEAR_LOAD2) < 0 ? 1 : SAM_WEAR_LOADS;
-  if (settings->type == SAM_LIFE_MAGNIFIED) {
+  if (settings->magnified) {
     PetscCall(SamRateCreatePasses(l, &l->start));
     PetscCall(SamRateCreatePasses(l, &l->middle));
   }
@@ -191,15 +188,11 @@ static PetscErrorCode Jump(SamLife l, const SamRate *rate, PetscReal cycles, con
                            PetscBool *solved)
 {
   PetscFunctionBegin;
-  *solved = PETSC_TRUE;
   if (rate->passes) {
     PetscCall(SamLifeMagnify(l, rate, cycles, load, to, solved));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  if (l->set.type == SAM_LIFE_EXPLICIT)
-    PetscCall(VecCopy(rate->pressure, l->p));
-  else
-    PetscCall(SolvePressure(l, rate, cycles, load, solved));
+  PetscCall(SolvePressure(l, rate, cycles, load, solved));
   PetscCall(VecCopy(l->p, to[0]));
   if (l->band) PetscCall(SamLifeIntegrate(l->grid, to[0]));
   PetscCall(VecPointwiseMult(to[0], rate->coefficient, to[0]));
@@ -295,7 +288,7 @@ static PetscErrorCode FinishJump(SamLife l, PetscReal least, PetscReal *error)
   A jump as a whole and in halves; l->halves becomes their extrapolation, which is nowhere less than at the start. The
   error is that of the depth and of the pressure at the end, in the mean over the scar (2-norm, 1-norm): the stick
   zone's edge, with the pressure's peak, moves by whole cells, and no jump is so short that the cells there would not
-  jump, too. Explicit jumps do not compute the pressure at their end.
+  jump, too.
 */
 static PetscErrorCode TryJump(SamLife l, PetscReal cycles, PetscReal *error, PetscBool *solved)
 {
@@ -311,9 +304,9 @@ static PetscErrorCode TryJump(SamLife l, PetscReal cycles, PetscReal *error, Pet
   if (*solved) PetscCall(Jump(l, &l->middle, 0.5 * cycles, l->half, l->halves, solved));
   if (!*solved) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(RelativeDifference(l, l->q, l->p, NORM_1, 0, &pressure));
-  if (l->set.type == SAM_LIFE_MAGNIFIED) pressure = l->apart;
+  if (l->set.magnified) pressure = l->apart;
   PetscCall(FinishJump(l, least, &depth));
-  *error = l->set.type == SAM_LIFE_EXPLICIT ? depth : PetscMax(depth, pressure);
+  *error = PetscMax(depth, pressure);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -335,7 +328,6 @@ static PetscReal FirstTry(const SamLife l, PetscReal cycles)
   PetscReal       jump = l->state.next;
 
   if (jump == 0) jump = FIRST * l->start.limit;
-  if (l->set.type == SAM_LIFE_EXPLICIT && !l->set.fixed) jump = PetscMin(jump, STABLE * l->start.limit);
   if (!l->set.fixed) jump = Whole(jump);
   return jump < left - SAME * jump ? jump : left;
 }

@@ -25,7 +25,7 @@ typedef struct {
   Vec        pressure;    /* mean over the cycle, Pa */
   Vec        shift;       /* m: what the shear of dissimilar bodies lifts, less what opens in a part of the cycle */
   SamBalance balance;     /* mean over the cycle */
-  PetscReal  limit;       /* the longest explicit jump that is stable, cycles; infinite without wear */
+  PetscReal  limit;       /* cycles that wear as much as a single step may; infinite without wear */
   SamPass   *passes;      /* of each step; NULL: jumps need the means only */
 } SamRate;
 

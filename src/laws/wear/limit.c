@@ -1,8 +1,8 @@
 /*
-  The limit of explicit wear, of steps and of jumps that wear by the pressure at their start.
+  The limit of what a single step may wear: its pressure is found before the gap follows.
 
-  A cell that bears more wears more, and bears less then. Depth w = k K p for a pressure p, where K is what the step or
-  cycle wears per pressure, adds E w to the gap, and by it the pressure falls by up to E w / e, e being the smallest
+  A cell that bears more wears more, and bears less then. Depth w = k K p for a pressure p, where K is what the step
+  wears per pressure, adds E w to the gap, and by it the pressure falls by up to E w / e, e being the smallest
   eigenvalue of the normal influence. Where k K > 2 e it falls by more than twice the unevenness there was: the next
   one is larger, from cell to cell.
 */

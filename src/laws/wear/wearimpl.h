@@ -27,8 +27,8 @@ typedef struct {
 /* SamLawIsWear - whether a law is of these types. Not collective. */
 PETSC_INTERN PetscBool SamLawIsWear(SamLaw law);
 /*
-  SamWearGetLimit - how many times a wear load of `most` per pressure (m) may be removed at once with explicit wear
-  (limit.c); infinite without wear. Collective.
+  SamWearGetLimit - how many times a single step may remove a wear load of `most` per pressure (m) (limit.c); infinite
+  without wear. Collective.
 */
 PETSC_INTERN PetscErrorCode SamWearGetLimit(SamLaw law, PetscReal most, PetscReal *times);
 /*

@@ -5,7 +5,7 @@
 
 /* An error of a fixed jump that is told. */
 #define LARGE 0.1
-/* Cycles that explicit wear could jump over, below which one cycle wears so much that the unit is doubted. */
+/* Cycles that wear as much as a single step may: below so many the unit of the coefficient is doubted. */
 #define FAST 0.1
 
 /* ---- what the life asks for ---- */
@@ -173,21 +173,14 @@ static PetscErrorCode EndLife(SamSimulation s, const SamLifeReport *r, const cha
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A jump that is beyond all bounds because the user has fixed it, once. */
+/* A large error of a jump whose length the user has fixed, once. */
 static PetscErrorCode WarnOfJump(SamSimulation s, const SamLifeReport *r)
 {
-  const SamLifeSettings *set  = &s->plan.life;
-  SamStep                said = {.status = SAM_STATUS_CONVERGED, .setting = "wear_jump"};
+  SamStep said = {.status = SAM_STATUS_CONVERGED, .setting = "wear_jump"};
 
   PetscFunctionBegin;
-  if (!set->fixed || s->warned) PetscFunctionReturn(PETSC_SUCCESS);
-  if (set->type == SAM_LIFE_EXPLICIT && r->jump > r->limit)
-    (void)snprintf(
-      said.message, sizeof(said.message),
-      "after %.10g cycles: explicit cycle jumps of more than %.4g cycles are unstable: pressure and depth are "
-      "wrong",
-      (double)r->cycles, (double)r->limit);
-  else if (r->error > LARGE && r->error > r->stripes)
+  if (!s->plan.life.fixed || s->warned) PetscFunctionReturn(PETSC_SUCCESS);
+  if (r->error > LARGE && r->error > r->stripes)
     (void)snprintf(said.message, sizeof(said.message), "after %.10g cycles: the error of the last jump is %.2g",
                    (double)r->cycles, (double)r->error);
   s->warned = said.message[0] ? PETSC_TRUE : s->warned;

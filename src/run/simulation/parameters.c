@@ -31,8 +31,6 @@ static PetscErrorCode AddLife(SamParameters *p, const SamLifeOptions *w)
   PetscFunctionBegin;
   if (w->cycles > 0) {
     PetscCall(SamParametersAddReals(p, "wear_cycles", PETSC_FALSE, 1, &w->cycles));
-    PetscCall(
-      SamParametersAddText(p, "wear_type", PETSC_FALSE, w->life.type == SAM_LIFE_EXPLICIT ? "explicit" : "implicit"));
     PetscCall(SamParametersAddReals(p, w->life.fixed ? "wear_jump" : "wear_rtol", PETSC_FALSE, 1,
                                     w->life.fixed ? &w->life.jump : &w->life.rtol));
   }

@@ -43,15 +43,13 @@ typedef struct {
   char            outputs[4096], friction[PETSC_MAX_PATH_LEN];
 } Settings;
 
-/* The options; those from TYPE on need a life. */
-enum { CYCLES, TYPE, RTOL, JUMP, STOP_LAYER, OUTPUT, FRICTION, ROWS };
+/* The options; those from RTOL on need a life. */
+enum { CYCLES, RTOL, JUMP, STOP_LAYER, OUTPUT, FRICTION, ROWS };
 #define MEMBER(name) offsetof(Settings, name)
 #define LIFE         .needs = "wear_cycles"
 static const SamOptionRow rows[ROWS] = {
   {"wear_cycles", "cycles of a closed history; with -rolling steady passages", SAM_OPTION_REAL, MEMBER(cycles),
    .range = SAM_RANGE_POSITIVE},
-  {"wear_type", "how cycles are jumped: implicit, or explicit", SAM_OPTION_ENUM, MEMBER(life.type),
-   .words = "implicit,explicit", LIFE},
   {"wear_rtol", "relative error of depth and pressure per cycle jump; at most twice this", SAM_OPTION_REAL,
    MEMBER(life.rtol), .range = SAM_RANGE_PART, LIFE},
   {"wear_jump", "fixed jump length in cycles, not only integers", SAM_OPTION_REAL, MEMBER(life.jump),
@@ -139,13 +137,13 @@ PetscReal SamLifeOptionsFriction(const SamLifeOptions *w, PetscReal cycles)
 
 PetscErrorCode SamLifeOptionsSetFromOptions(SamLifeOptions *w, PetscBool given, const SamOptions *from)
 {
-  Settings     set = {.life = {.type = SAM_LIFE_IMPLICIT, .rtol = 1e-2}};
+  Settings     set = {.life = {.rtol = 1e-2}};
   SamOptionRow asked[ROWS];
   PetscBool    has[ROWS];
 
   PetscFunctionBegin;
   PetscCall(PetscArraycpy(asked, rows, ROWS));
-  for (PetscInt k = TYPE; k < ROWS && given; k++) asked[k].needs = NULL;
+  for (PetscInt k = RTOL; k < ROWS && given; k++) asked[k].needs = NULL;
   PetscCall(SamOptionsHeading(from, "Wear over cycles"));
   PetscCall(SamOptionsRead(from, NULL, ROWS - given, asked + given, &set, has + given));
   *w            = (SamLifeOptions){.cycles = set.cycles, .life = set.life, .stop_worn = set.stop_layer};
@@ -157,14 +155,10 @@ PetscErrorCode SamLifeOptionsSetFromOptions(SamLifeOptions *w, PetscBool given, 
 }
 
 /* Surfaces that slide are worn by magnified cycles, whose errors of depth are far smaller than those of pressure. */
-static PetscErrorCode Magnify(SamLifeOptions *w, const SamOptions *from)
+static void Magnify(SamLifeOptions *w)
 {
-  PetscFunctionBegin;
-  PetscCheck(w->life.type != SAM_LIFE_EXPLICIT, from->comm, SAM_ERR_USER,
-             "-wear_type explicit does not work with -slide, which wears each step at its place: omit it");
-  w->life.type = SAM_LIFE_MAGNIFIED;
+  w->life.magnified = PETSC_TRUE;
   if (!w->has_rtol) w->life.rtol = SLIDING_RTOL;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamLifeOptionsSetCycles(SamLifeOptions *w, PetscReal cycles, SamProblem problem, const SamOptions *from)
@@ -181,7 +175,7 @@ PetscErrorCode SamLifeOptionsSetCycles(SamLifeOptions *w, PetscReal cycles, SamP
   PetscCheck(!w->outputs || cycles == 0 || w->output[w->outputs - 1] <= cycles, from->comm, SAM_ERR_USER,
              "-wear_output: %.6g is more than -wear_cycles %.6g", (double)w->output[w->outputs - 1], (double)cycles);
   w->cycles = cycles;
-  if (cycles > 0 && SamProblemGetLaw(problem, SAM_LAW_SLIDE)) PetscCall(Magnify(w, from));
+  if (cycles > 0 && SamProblemGetLaw(problem, SAM_LAW_SLIDE)) Magnify(w);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
