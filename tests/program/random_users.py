@@ -367,7 +367,13 @@ def read(path):
     least = dict.fromkeys(("dissipated_energy", "plastic_work", "residual_energy"), SLACK * work)
     least.update(stick_area=1e-3 * numbers["contact_area"], shear_max=1e-4 * numbers["pressure_max"])
     least.update(slip_max=1e-5 * np.nanmax(np.abs(table["disp_z"])), plastic_max=1e-6)
-    least.update(load_tx=1e-3 * table["load_n"][-1], load_ty=1e-3 * table["load_n"][-1], creep_x=1e-7, creep_y=1e-7, creep_spin=1e-2)
+    least.update(
+        load_tx=1e-3 * table["load_n"][-1],
+        load_ty=1e-3 * table["load_n"][-1],
+        creep_x=1e-7,
+        creep_y=1e-7,
+        creep_spin=1e-2,
+    )
     return {name: float(value) for name, value in numbers.items() if np.isfinite(value)}, least
 
 

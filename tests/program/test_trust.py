@@ -50,7 +50,7 @@ def test_peak_of_a_worn_contact_is_looked_at_in_cycles_that_are_written(petsam, 
 def test_peak_of_a_contact_that_wears_step_by_step_is_looked_at_in_the_last_step(petsam, tmp_path):
     rows = [(7.5e-6, x) for x in (0.0, *([5.625e-7, -5.625e-7] * 4), 0.0)]
     case = dict(POPOV, **history(tmp_path, "disp_z,disp_x", *rows), disp_z=None, steps=4, grid_n=48)
-    worn = said(petsam(case, dict(wear_coefficient1=2e-9)), PEAK)
+    worn = said(petsam(case, dict(wear_coefficient1=3e-9)), PEAK)
     assert len(worn) == 1 and "in the last step: " in worn[0]
     assert not said(petsam(case, dict(wear_coefficient1=1e-12)), PEAK)
 
