@@ -122,8 +122,8 @@ int petsam_reject(petsam_contact *c);
 int petsam_stiffness(petsam_contact *c, int reversal, double k[36]);
 /*
   petsam_get_field - a field of the tried step, else of the committed one, by its name in a results file
-  (examples/manual/RESULTS.md): "pressure", "shear_x", "slip_x", "state", "gap" (of the deformed bodies), "wear_depth1" ...
-  This rank's rows.
+  (examples/manual/RESULTS.md): "pressure", "shear_x", "slip_x", "state", "gap" (of the deformed bodies), "wear_depth1"
+  ... This rank's rows.
   petsam_get_number - a number of the last step that was tried, or after petsam_reject() of the committed one, by its
   name in /history: "contact_area", "dissipated_energy", "stored_energy", "status", "load_n" ...; with "wear/" before
   it one of the cycle that petsam_live() computed last, by its name in /wear.

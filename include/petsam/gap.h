@@ -46,8 +46,8 @@ PETSC_EXTERN PetscErrorCode SamGapSetParameter(SamGap gap, const char name[], Pe
 /*
   SamGapSetFile - the HDF5 file (NULL: none) and the dataset in it (NULL: /height) of the type `file`, or of a roughness
   (m) that is added to any type. Options -gap_file, -gap_dataset, and -gap_rough_file, -gap_rough_dataset. Datasets of
-  shape (ny, nx) are separations in m unless their attributes units and quantity say otherwise (examples/manual/SURFACES.md).
-  Not collective, the same on all ranks.
+  shape (ny, nx) are separations in m unless their attributes units and quantity say otherwise
+  (examples/manual/SURFACES.md). Not collective, the same on all ranks.
 */
 PETSC_EXTERN PetscErrorCode SamGapSetFile(SamGap gap, PetscBool rough, const char file[], const char dataset[]);
 /*

@@ -6,9 +6,9 @@
 #include <petsam/parameters.h>
 
 /*
-  SamOutput - a results file, to which one load step at a time is appended (layout: examples/manual/RESULTS.md). Every dataset
-  has the attributes `units` and `long_name`, and the dimension scales time, y, x, so that h5py and xarray (netcdf4)
-  open it. For ParaView the same datasets are linked in a group VTKHDF (read by VTK from 9.3 on).
+  SamOutput - a results file, to which one load step at a time is appended (layout: examples/manual/RESULTS.md). Every
+  dataset has the attributes `units` and `long_name`, and the dimension scales time, y, x, so that h5py and xarray
+  (netcdf4) open it. For ParaView the same datasets are linked in a group VTKHDF (read by VTK from 9.3 on).
 */
 typedef struct _n_SamOutput *SamOutput;
 

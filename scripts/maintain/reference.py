@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the tables of options in examples/manual/OPTIONS.md from the programs' -help, and examples/manual/INDEX.md, their index.
+"""Writes the tables of options in examples/manual/OPTIONS.md from the programs' -help, and INDEX.md, their index.
 
     python3 scripts/maintain/reference.py [--build build] [--check]
 
