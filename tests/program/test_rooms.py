@@ -14,8 +14,6 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 MOST = 3  # files of one folder in a circle
-# but in these folders
-CIRCLES = {"src/bodies/elasticity/compliance": 4, "src/ground/base": 5, "src/post/stress": 6, "src/run/simulation": 5}
 
 
 def floors():

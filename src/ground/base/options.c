@@ -27,11 +27,6 @@ PetscErrorCode SamSetPrefix(char to[SAM_PREFIX], const char prefix[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-const char *SamOptionsPrefix(const SamOptions *from)
-{
-  return from->prefix ? from->prefix : "";
-}
-
 /* The most characters of a wrong value that a message quotes. */
 #define QUOTED 60
 

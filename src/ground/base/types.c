@@ -17,16 +17,6 @@ PetscErrorCode SamTypesGet(PetscFunctionList list, const char ***types, int *cou
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-void SamJoin(PetscInt count, const char *const names[], const char between[], const char last[], char text[],
-             size_t size)
-{
-  size_t used = 0;
-
-  text[0] = '\0';
-  for (PetscInt k = 0; k < count && used < size; k++)
-    used += (size_t)snprintf(text + used, size - used, "%s%s", !k ? "" : k + 1 < count ? between : last, names[k]);
-}
-
 /* The names with this between them. */
 static PetscErrorCode Join(PetscFunctionList list, const char between[], const char last[], char text[], size_t size)
 {

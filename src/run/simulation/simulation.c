@@ -29,33 +29,10 @@ PetscErrorCode SamSimulationDestroy(SamSimulation *simulation)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamSimulationSetMonitor(SamSimulation s, SamSimulationMonitor monitor, void *context)
-{
-  PetscFunctionBegin;
-  s->monitor = monitor;
-  s->context = context;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode SamSimulationSetSignals(SamSimulation s, volatile sig_atomic_t signals[2])
 {
   PetscFunctionBegin;
   s->signals = signals;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamSimulationNotify(SamSimulation s, const SamSimulationEvent *news)
-{
-  PetscFunctionBegin;
-  if (s->monitor) PetscCall(s->monitor(s->context, s->setup.contact, news));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamSimulationWarn(void *simulation, const char text[], const char setting[])
-{
-  PetscFunctionBegin;
-  PetscCall(SamSimulationNotify((SamSimulation)simulation,
-                                &(SamSimulationEvent){.kind = SAM_NOTIFY_ADVICE, .text = text, .setting = setting}));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -1,0 +1,25 @@
+/* The monitor of a simulation, to which all events are passed on. */
+#include "simulationimpl.h"
+
+PetscErrorCode SamSimulationSetMonitor(SamSimulation s, SamSimulationMonitor monitor, void *context)
+{
+  PetscFunctionBegin;
+  s->monitor = monitor;
+  s->context = context;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationNotify(SamSimulation s, const SamSimulationEvent *news)
+{
+  PetscFunctionBegin;
+  if (s->monitor) PetscCall(s->monitor(s->context, s->setup.contact, news));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationWarn(void *simulation, const char text[], const char setting[])
+{
+  PetscFunctionBegin;
+  PetscCall(SamSimulationNotify((SamSimulation)simulation,
+                                &(SamSimulationEvent){.kind = SAM_NOTIFY_ADVICE, .text = text, .setting = setting}));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
