@@ -148,9 +148,7 @@ def test_rooms_form_no_circle(build):
 
 
 def test_no_folder_has_a_large_circle_of_files(build):
-    large = [
-        circle for circle in circles_of_files(build) if len(circle) > CIRCLES.get(str(Path(circle[0]).parent), MOST)
-    ]
+    large = [circle for circle in circles_of_files(build) if len(circle) > MOST]
     assert not large, "\n".join(map(" ".join, large))
 
 
