@@ -20,15 +20,10 @@
 #include <petsam/stiffness.h>
 #include <petsam/wear.h>
 #include <petsam/life.h>
-#include <petsam/output.h>
-#include <petsam/checkpoint.h>
 #include <petsam/setup.h>
 #include <petsam/advice.h>
 #include <petsam/history.h>
-#include <petsam/simulation.h>
-#include <petsam/results.h>
 #include <petsam/stress.h>
 #include <petsam/fatigue.h>
-#include <petsam/evaluation.h>
 
 #endif

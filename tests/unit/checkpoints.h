@@ -6,7 +6,7 @@
 
 #include <unistd.h>
 
-#include <petsam/checkpoint.h>
+#include <petsam/private/checkpoint.h>
 
 static const char filename[] = "test_checkpoint.h5";
 

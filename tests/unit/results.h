@@ -8,7 +8,7 @@
 #include <hdf5_hl.h>
 #include <unistd.h>
 
-#include <petsam/output.h>
+#include <petsam/private/output.h>
 #include <petsam/private/state.h>
 
 /* Grids that do not divide, one with fewer rows than ranks, and one of several chunks that ranks share. */

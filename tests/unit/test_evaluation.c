@@ -3,7 +3,7 @@
 #include "embedded.h"
 
 #include <petsam/embed.h>
-#include <petsam/evaluation.h>
+#include <petsam/private/evaluation.h>
 #include <petsam/stress.h>
 
 #define BULK 3e7

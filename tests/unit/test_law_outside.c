@@ -4,7 +4,7 @@
  */
 #include "results.h"
 
-#include <petsam/checkpoint.h>
+#include <petsam/private/checkpoint.h>
 #include <petsam/private/lawimpl.h>
 
 enum { N = 37, LOADS = 4, STOP = 2 };

@@ -4,7 +4,7 @@
 #include "results.h"
 
 #include <petsam/private/parts.h>
-#include <petsam/results.h>
+#include <petsam/private/results.h>
 
 static const char part_name[] = "test_output.part2.h5";
 

@@ -3,7 +3,7 @@
  */
 #include "contacts.h"
 
-#include <petsam/checkpoint.h>
+#include <petsam/private/checkpoint.h>
 #include <unistd.h>
 
 /* Bulk stresses of body 2 that stretch it by that much more than body 1, which is stretched as well. */

@@ -2,7 +2,7 @@
 #ifndef PETSAM_PARTS_H
 #define PETSAM_PARTS_H
 
-#include <petsam/output.h>
+#include <petsam/private/output.h>
 
 /*
   The results of a run that was stopped and restarted are in parts: the file that the user names, then one beside it for

@@ -6,8 +6,8 @@
 #include "program.h"
 #include "request.h"
 #include "help/petsam-stress.h" /* from petsam-stress.help */
-#include <petsam/evaluation.h>
-#include <petsam/output.h>
+#include <petsam/private/evaluation.h>
+#include <petsam/private/output.h>
 #include <petsam/private/file.h>
 #include <petsam/stress.h>
 #include <petsam/private/baseimpl.h>

@@ -8,8 +8,8 @@
 #include "program.h"
 #include "help/petsam.h" /* from petsam.help */
 #include "report.h"
-#include <petsam/checkpoint.h>
-#include <petsam/output.h>
+#include <petsam/private/checkpoint.h>
+#include <petsam/private/output.h>
 #include <petsam/private/file.h>
 #include <time.h>
 

@@ -3,7 +3,7 @@
 #define PETSAM_APP_REPORT_H
 
 #include <petsam/private/baseimpl.h>
-#include <petsam/simulation.h>
+#include <petsam/private/simulation.h>
 
 #define SAM_REPORT_FILES   8
 #define SAM_REPORT_COLUMNS 18 /* of the table of steps */

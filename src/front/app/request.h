@@ -2,7 +2,7 @@
 #ifndef PETSAM_APP_REQUEST_H
 #define PETSAM_APP_REQUEST_H
 
-#include <petsam/results.h>
+#include <petsam/private/results.h>
 
 typedef struct {
   char      input[PETSC_MAX_PATH_LEN], output[PETSC_MAX_PATH_LEN];

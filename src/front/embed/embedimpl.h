@@ -5,8 +5,8 @@
 #include <petsam/embed.h>
 #include <petsam/private/baseimpl.h>
 #include <petsam/advice.h>
-#include <petsam/checkpoint.h>
-#include <petsam/simulation.h>
+#include <petsam/private/checkpoint.h>
+#include <petsam/private/simulation.h>
 #include <petsam/stiffness.h>
 
 enum { SAM_EMBED_USAGE = 2, SAM_EMBED_FILE = 3 };

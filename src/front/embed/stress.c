@@ -6,7 +6,7 @@
 */
 #include "embedimpl.h"
 #include <petsam/private/arguments.h>
-#include <petsam/evaluation.h>
+#include <petsam/private/evaluation.h>
 #include <petsam/private/motionimpl.h>
 
 enum { AXES = SAM_STRESS_AXES };

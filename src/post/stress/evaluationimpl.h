@@ -2,7 +2,7 @@
 #ifndef PETSAM_EVALUATIONIMPL_H
 #define PETSAM_EVALUATIONIMPL_H
 
-#include <petsam/evaluation.h>
+#include <petsam/private/evaluation.h>
 #include <petsam/fatigue.h>
 #include <petsam/private/problemimpl.h>
 #include <petsam/private/stressimpl.h>

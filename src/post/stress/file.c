@@ -3,7 +3,7 @@
 
   The file is written beside its name and renamed when it is complete.
 */
-#include <petsam/evaluation.h>
+#include <petsam/private/evaluation.h>
 #include <petsam/private/file.h>
 #include <petsam/private/grid.h>
 

@@ -6,7 +6,7 @@
   one step back has `before_` in front of its name. Kept steps of a load cycle are in datasets of their own (kept.c).
 */
 #include "ioimpl.h"
-#include <petsam/checkpoint.h>
+#include <petsam/private/checkpoint.h>
 #include <petsam/private/grid.h>
 #include <petsam/private/lawimpl.h>
 #include <string.h>

@@ -4,7 +4,7 @@
 
 #include <petsam/private/file.h>
 #include <petsam/private/parts.h>
-#include <petsam/output.h>
+#include <petsam/private/output.h>
 #include <petsam/private/state.h>
 #include <petsam/private/stepcache.h>
 #include <inttypes.h>

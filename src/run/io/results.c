@@ -6,7 +6,7 @@
   steps up to where the next one begins.
 */
 #include "ioimpl.h"
-#include <petsam/results.h>
+#include <petsam/private/results.h>
 #include <petsam/stress.h>
 #include <string.h>
 

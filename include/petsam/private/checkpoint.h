@@ -2,7 +2,7 @@
 #ifndef PETSAM_CHECKPOINT_H
 #define PETSAM_CHECKPOINT_H
 
-#include <petsam/output.h>
+#include <petsam/private/output.h>
 
 /*
   SamNote - integers that a program adds to a checkpoint under a name, such as its position in a load program. With
