@@ -1,6 +1,6 @@
 /*
-  What a contact remembers, and what results offer of it: the solution of a step and what was prescribed. All else is
-  declared by the laws of the problem.
+  Declares the fields and numbers that a contact remembers and results offer: the solution of a step and its control.
+  All others are declared by the laws of the problem.
 */
 #include "contactimpl.h"
 #include <petsam/private/bodyimpl.h>
@@ -298,8 +298,8 @@ PetscInt SamContactGetSteps(SamContact c)
 #define SAME_DIRECTION 1e-10
 
 /*
-  Whether all that has caused shear so far, with this step, lies on one line: tangential loads or displacements without
-  moment, of bodies that pressure does not shear, nor strain or a law. Then the shear does not turn from step to step.
+  Finds out whether all causes of shear so far, including this step, lie on one line: tangential loads or displacements
+  without moment, while neither pressure, nor strain, nor a law shears the bodies. Then the shear keeps its direction.
 */
 static PetscErrorCode LieOnLine(SamContact c, const SamControl *control, PetscBool *on)
 {

@@ -97,8 +97,8 @@ static double SizeOf(const PetscReal values[], PetscInt problem, double lever)
 }
 
 /*
-  Whether such a step is near the last one, so that nested grids would cost more than they save: at 64 x 64 cells a
-  fifth of a step, and a third if it is extrapolated. Friction that follows the slip may have other solutions near by.
+  True if the next step is so near the last one that nested grids would cost more than they save: at 64 x 64 cells a
+  fifth of a step's time, and a third if it is extrapolated. Friction that depends on slip may have several solutions.
 */
 static PetscBool IsNear(SamContact c, const SamControl *next)
 {

@@ -216,8 +216,8 @@ PetscErrorCode SamContactIsGapCurrent(SamContact c, PetscBool *current)
 }
 
 /*
-  Whether the tried step has the committed pressure: same normal control, same separation, and no shear that acts on it.
-  That the surfaces yielded under it does not matter (law/hardness.c).
+  Finds out whether the tried step has the committed pressure: same normal control, same separation, and no shear that
+  acts on it. Yielding of the surfaces under this pressure does not matter (law/hardness.c).
 */
 static PetscErrorCode IsSamePressure(SamContact c, const SamControl *control, PetscBool *same)
 {
@@ -363,7 +363,7 @@ static void SetUnknown(SamStep *step)
   step->check = (SamCheck){.normal = NAN, .tangential = NAN, .equilibrium = NAN, .cone = NAN, .edge = NAN};
 }
 
-/* What the tried step's pressure is solved with. The revision does not tell where body 2 was. */
+/* Describes the inputs of the tried step's pressure. The revision does not tell where body 2 was. */
 static PetscErrorCode GetStepOf(SamContact c, SamStepOf *of)
 {
   PetscReal slide[2];

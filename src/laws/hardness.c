@@ -203,7 +203,7 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What the tried step has added to the depth. */
+/* Adds the increment of the plastic depth in the tried step to `overlap`. */
 static PetscErrorCode Overlap(SamLaw law, SamState state, Vec overlap)
 {
   const PetscInt id     = SamStateFindField(state, DEPTH);

@@ -4,8 +4,8 @@
 
       h(x) = h1(x) + h2(x + D),   R: (R f)(x) = f(x + D) by cubic interpolation
 
-  What the pressure at x does to body 2 is written by the transpose of R. So volumes are exact, and the two together
-  cannot make waves that grow.
+  Changes of body 2 by the pressure at x are written by the transpose of R. So volumes are conserved, and reading and
+  writing together cannot amplify waves.
 
   Where the bodies roll the grid moves over both, by o in all: under its point x lie the points x + o of body 1 and
   x + o + D of body 2, D growing by the creep. The shape stays with the grid. So surfaces and wear of both are read and
@@ -56,7 +56,7 @@ PetscErrorCode SamLawSetSurface(SamLaw law, PetscInt body, Vec surface)
 static const SamOptionRow slide_row = {"slide", "the surfaces move past each other by the displacements of the history",
                                        SAM_OPTION_BOOL, .member = offsetof(Slide, given)};
 
-/* What surfaces that slide do not go with, and why. */
+/* Rejects options that do not work with sliding surfaces, and says why. */
 static PetscErrorCode Refuse(const SamOptions *from)
 {
   static const char *const refused[][2] = {
@@ -141,7 +141,7 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What is given, else what the step before has found: 0 before the first one. A creepage adds to it. */
+/* Returns the given displacement, else that of the step before (0 before the first one). A creepage adds to it. */
 static double Rigid(SamState state, const SamControl *control, SamComponent component, PetscReal rolled)
 {
   const double found =

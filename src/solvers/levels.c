@@ -155,8 +155,8 @@ static Vec DiagonalOf(SamSolver s, const SamLevel *level)
 }
 
 /*
-  What the surfaces yield besides: a cell by its own traction; where material streams, a line by the integral along x,
-  which is symmetric as long as d is the same along x. Times `factor`, as a new array for SamFree().
+  Computes the additional local displacement, times `factor`, as a new array for SamFree(): a cell yields by its own
+  traction; where material streams, a line by the integral along x, which is symmetric as long as d is constant in x.
 */
 #define YIELD(Name, Real) \
   static PetscErrorCode Name(const SamLevel *level, Vec diagonal, double factor, const Real t[], Real **yield) \

@@ -43,7 +43,7 @@ static PetscErrorCode DescribeOthers(SamSolver s, const SamOptions *from)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What a user sets, but for the type. */
+/* Values that options set, except the type */
 typedef struct {
   PetscReal rtol;
   PetscInt  max_it, levels;

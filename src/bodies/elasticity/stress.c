@@ -104,7 +104,7 @@ static void GetRows(PetscInt j, PetscInt n, double *const values[], const void *
   (*s->ops.row)(s, side, (double)s->depth, rows->group, j, n, values);
 }
 
-/* Whether the zz, xz and yz of this depth are the tractions. */
+/* True at the surface, where the stresses zz, xz and yz are the tractions. */
 static PetscBool IsSurface(SamStress s)
 {
   return s->depth == 0;

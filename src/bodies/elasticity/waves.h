@@ -51,7 +51,7 @@ PETSC_INTERN void SamLayeredMultiplyTangential(const SamSymbol *symbol, SamWaves
 PETSC_INTERN void SamLayeredMultiplyNormalSingle(const SamSymbol *symbol, SamWaves waves);
 PETSC_INTERN void SamLayeredMultiplyTangentialSingle(const SamSymbol *symbol, SamWaves waves);
 
-/* SamHalfSpaceDatum - of half-spaces in plane strain, m; 0 in three dimensions. Not collective. */
+/* SamHalfSpaceDatum - returns the datum of half-spaces in plane strain, m; 0 in three dimensions. Not collective. */
 PETSC_INTERN PetscReal *SamHalfSpaceDatum(SamElasticity elasticity);
 
 #endif

@@ -23,7 +23,7 @@
 
 #define ALIKE 1e-6 /* coupling of bodies, or change of a load over the largest, that counts as none */
 
-/* What the state remembers of the loads so far: their path, in a plane of T. */
+/* Numbers that the state keeps of the load path so far, in a plane of T */
 typedef struct {
   double stage;                        /* of these: */
   double friction;                     /* coefficient */

@@ -152,7 +152,7 @@ PetscErrorCode SamIncrementDestroy(SamIncrement *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether contact is made there in the step. */
+/* True if cell k comes into contact in the step. */
 static PetscBool Enters(const SamIncrement *s, ptrdiff_t k)
 {
   return (!s->solutions[0] || s->at_before.p[k] <= 0) && s->at_now.p[k] > 0;

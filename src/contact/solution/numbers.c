@@ -164,7 +164,7 @@ static const SamStateNumber declared[NUMBERS] = {
        0),
   {SAM_ENTERING, "J", NULL, SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_FALSE, SAM_JOIN_SUM, 0}};
 
-/* Of the edge of contact: whether it is known, its area, faces and good faces. They hold while the pressure does. */
+/* Numbers of the contact edge: known or not, area, faces and good faces; valid as long as the pressure */
 enum { KNOWN = SAM_CONTACT_EDGE_KNOWN, AREA, FACES = SAM_CONTACT_EDGE_FACES, GOOD, EDGE };
 static const SamStateNumber contact_edge = {
   SAM_CONTACT_EDGE, "1", "edge of contact", SAM_NUMBER_REAL, EDGE, PETSC_FALSE, PETSC_FALSE, SAM_JOIN_LAST, 0};

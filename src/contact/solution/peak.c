@@ -23,14 +23,14 @@
 #define BEHIND   2     /* cells about a point of the reconstructed edge that must be in contact */
 #define FARTHEST 0.825 /* cells: an edge beyond is that of the next cell */
 
-/* What is seen of a solution: fields, and of each cell its state, or KNOWN where the edge of stick is reconstructed. */
+/* Fields of a solution with halos; `cell`: state of each cell, or KNOWN where the stick edge is reconstructed */
 #define KNOWN (-1)
 typedef struct {
   SamGrid grid;
   SamHalo p, b, q, cell;
 } Seen;
 
-/* Whether cell i of row j of the grid and those about it are in contact: the edge of contact is farther. */
+/* True if cell i of row j of the grid and its neighbours are in contact, so that the contact edge is farther away. */
 static PetscBool IsInside(const SamHalo *p, PetscInt i, PetscInt j)
 {
   const PetscInt rows = (p->rows.grid->axes - 1) * BEHIND;

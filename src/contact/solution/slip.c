@@ -38,7 +38,7 @@
 #define LEAST 1e-3 /* of the slip outside: less than this in contact is none, as where shear has no bound */
 #define HALO  2
 
-/* What is seen of a solution. */
+/* Values of a solution, of this rank's cells and with halos */
 typedef struct {
   SamGrid   grid;
   SamRigid  rigid;
@@ -111,7 +111,7 @@ typedef struct {
   double   bend[2], strain; /* and by pressure, the strain along x over it */
 } Face;
 
-/* What is smooth across the edge, of a cell. */
+/* Computes the part of a cell's slip that is smooth across the edge. */
 static void SmoothOf(const Seen *s, const Face *face, PetscInt i, PetscInt j, double slip[2])
 {
   const double gap = GapOf(s, i, j), size = s->streams ? (gap - GapOf(s, i + 1, j)) / (double)s->grid->dx : gap;

@@ -140,7 +140,7 @@ static PetscErrorCode ComputeChange(SamGrid grid, Vec now, Vec previous, PetscRe
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether the passes end, as neither p nor q changes any more. */
+/* Finds out whether the passes end because neither p nor q changes any more. */
 static PetscErrorCode Compare(Passes *p, PetscInt pass, PetscBool *solved)
 {
   SamSolve                 *s   = p->s;

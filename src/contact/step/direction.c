@@ -37,8 +37,8 @@
   what M_z moves there, nothing is known: its error stays of first order. So is what the pressure of dissimilar bodies
   moves, which is the other way: from a Dundurs' constant of MOST_DUNDURS on both are left out, as they cancel in part.
 
-  Of dissimilar bodies the pressure moves the surfaces all the time, outside of contact too, and most of the slip of a
-  growing contact is in cells that touch within the step. Of what they move by in the step, ds, the part
+  The pressure of dissimilar bodies moves the surfaces at all times, outside of contact too, and most of the slip of a
+  growing contact is in cells that touch within the step. If they move by ds in the step, the part
 
     tau = d0/(d0 + d1),   d0 = (g0/G)^(2/3),   d1 = (p1/P)^2
 
@@ -56,9 +56,9 @@
        a tolerance that t bears.
     2. t = ds - R(q) ds of the cells that slide. Its error is of second order in the step, relative to ds.
     3. The tangential problem with this t, from that q on.
-  Of dissimilar bodies 1 and 3 are the passes of coupling.c. While all loads lie on a line, step 3 is all: the shear
-  does not turn, but for what Poisson's ratio makes of it across, whose work cancels. What cells have moved by until
-  contact is made is known with the loads: if these are found, after step 1.
+  For dissimilar bodies 1 and 3 are the passes of coupling.c. While all loads lie on a line, step 3 suffices: the shear
+  keeps its direction, but for the part across that Poisson's ratio causes, whose work cancels. The motion of cells
+  before they touch is known with the loads: if loads are unknowns, after step 1.
 
   References: M. Ortiz, E. P. Popov, Accuracy and stability of integration algorithms for elastoplastic constitutive
   relations, Int. J. Numer. Methods Eng. 21 (1985) 1561-1576; M. Ciavarella, The generalized Cattaneo partial slip plane
@@ -71,7 +71,7 @@
 #include <petsam/private/elasticity.h>
 #include <petsam/private/state.h>
 
-/* Largest size of Dundurs' constant of the surfaces for which shear alone says how they move over each other. */
+/* Largest absolute Dundurs' constant of surfaces whose relative motion is determined by the shear alone */
 #define MOST_DUNDURS 0.15
 
 /* A load before the step: zero before the first one. */
@@ -105,8 +105,8 @@ static double RatioOfCompliances(SamSolve *w, int c)
 }
 
 /*
-  What a step adds to the bodies' motion: the approach about the centre of the pressure before, tilting, the strain of
-  the surfaces, and the change of the tangential loads over that of N.
+  Increment of the bodies' motion in a step: the approach about the centre of the pressure before, the tilt, the strain
+  of the surfaces, and the ratio of the changes of the tangential loads to that of N.
 */
 typedef struct {
   double    center[2], uniform, tilt[2], tau[2];

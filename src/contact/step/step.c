@@ -94,7 +94,7 @@ static PetscErrorCode FollowPressure(SamGrid grid, Vec pressure_before, Vec pres
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether the same step one cycle before has the pressure. */
+/* True if the same step one cycle before has the pressure of this step. */
 static PetscBool IsKnown(const SamSolve *w)
 {
   SamControl before = w->s->control;

@@ -74,10 +74,10 @@ enum {
   GAP_NOW /* the number of the gap after the last step: it is raised by whatever changes the gap */
 };
 
-/* What is prescribed, as numbers: the components and the conditions, and how each component is given. */
+/* Length of a control as a row of numbers: the components, how each one is given, and the conditions */
 #define MOST_NUMBERS (2 * SAM_COMPONENTS + SAM_CONDITIONS)
 
-/* A kept step in the step that is to come: its row, and the sign and the weight of its changes. */
+/* A kept step that the prediction of the next step is made of: its row, and the sign and weight of its changes */
 typedef struct {
   PetscInt      row; /* 0: none */
   double        sign, weight;
@@ -313,7 +313,7 @@ typedef struct {
   double to[2][MOST_NUMBERS], from[2][MOST_NUMBERS], largest[MOST_NUMBERS];
 } Sought;
 
-/* Whether the step in this row did the same (1) or the reverse (-1) after the same or the reverse; 0: neither. */
+/* 1 if the step in this row and the step before it repeat the sought ones, -1 if they are their reverse, else 0. */
 static int Compare(SamStepCache r, const Sought *s, PetscInt row)
 {
   for (int way = 0; way < 2; way++)

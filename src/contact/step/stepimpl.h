@@ -81,7 +81,7 @@ PETSC_INTERN PetscErrorCode SamSolveGetChange(SamSolve *solve, Vec argument, Vec
 /*
   SamSolveSetAside - sets `aside` of the tried solution, to whose pressure and bound it belongs: by its shear, if the
   step has been `solved`, to a tolerance SAM_ROUGH times that of the shear (direction.c). Collective.
-  SamSolveIsTwice - whether that is needed, by the tried pressure. Not collective.
+  SamSolveIsTwice - true if the tried pressure makes that necessary. Not collective.
   SamSolveBound - a bound of the shear, from the pressure and the last slip. Collective.
   SamSolveShear - the tangential problem under the bound of the tried solution. A bound that follows the slip changes
   with it; `rtol` is what both are solved to then (bound.c). Collective.

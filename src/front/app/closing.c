@@ -138,7 +138,7 @@ static PetscErrorCode PrintEdges(SamReport r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether there is an estimate of the dissipated energy's error: of steps in time, with friction. */
+/* True if the error of the dissipated energy has an estimate: there are several steps, and friction. */
 static PetscBool HasEnergy(SamReport r)
 {
   return r->steps > 1 && r->energy[0] > 0 && r->energy[1] >= 0;

@@ -106,7 +106,7 @@ static PetscErrorCode PrintAll(const SamProgram *program, const List *list)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether the group of this title belongs to a topic. */
+/* True if the group of this title belongs to the topic. */
 static PetscBool HasGroup(const SamTopic *topic, const char title[])
 {
   for (int k = 0; k < SAM_TOPIC_GROUPS && topic->group[k]; k++)
@@ -206,7 +206,7 @@ static PetscErrorCode PrintJson(const SamProgram *program, const List *list)
 
 /* ---- what was asked for ---- */
 
-/* Whether a name is this one, or begins with it if `part`; _ and - count as spaces. */
+/* True if `asked` is this name, or its beginning if `part`; _ and - count as spaces. */
 static PetscBool IsNamed(const char asked[], const char name[], PetscBool part)
 {
   size_t k = 0;

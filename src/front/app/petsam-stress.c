@@ -174,7 +174,7 @@ static PetscErrorCode ReadResidual(void *context, PetscInt step, PetscInt body, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Which bodies have yielded, and whether the results have the stresses by that. */
+/* Determines which bodies have yielded, and whether the results contain the stresses by plastic strain. */
 static PetscErrorCode SetYielding(SamStressRun *run, SamStressSource *source)
 {
   const SamParameters *parameters = SamResultsGetParameters(run->results);

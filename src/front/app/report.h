@@ -1,4 +1,4 @@
-/* What a run prints: a banner, a line for each load step, progress within long steps, and a closing table. */
+/* Printed report of a run: a banner, a line for each load step, progress within long steps, and a closing table. */
 #ifndef PETSAM_APP_REPORT_H
 #define PETSAM_APP_REPORT_H
 

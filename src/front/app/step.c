@@ -17,7 +17,7 @@ static double Get(SamContact contact, const char name[])
   return id < 0 ? NAN : *SamStateReadNumbers(state, id);
 }
 
-/* What a number is called in the contact's motion. */
+/* Returns the name of a number in the contact's motion. */
 static const char *NameOf(SamContact contact, const char usual[])
 {
   const SamMotionName *name = SamMotionFindName(SamContactGetMotion(contact), usual);
@@ -182,7 +182,7 @@ void SamReportChooseColumns(SamReport r, const PetscBool loads[SAM_COMPONENTS])
     }
 }
 
-/* What stands in column k of a step's line. */
+/* Writes the text of column k of a step's line. */
 static void WriteColumn(SamReport r, const SamStep *s, SamContact contact, int k, double seconds, double left,
                         char text[], size_t size)
 {

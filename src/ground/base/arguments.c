@@ -1,6 +1,6 @@
 /*
-  What PETSc reads at its start, looked through before: PETSc ends the program with a long trace at a mistake in an
-  options file, ignores words that are not options, and obeys options that load code or start programs.
+  Checks the arguments before PETSc reads them at its start: PETSc ends the program with a long trace at a mistake in
+  an options file, ignores words that are not options, and obeys options that load code or start programs.
 
   Rank 0 looks and tells the others. Words are examined one by one: an option, which may be followed by its value.
 */
@@ -19,7 +19,7 @@
 
 /* ---- words ---- */
 
-/* Whether PETSc takes a word for an option's name: a dash and a letter. A number is a value, also -inf. */
+/* True if PETSc takes a word for an option's name: a dash and a letter. A number is a value, also -inf. */
 static PetscBool IsOption(const char text[])
 {
   const char *name = text[0] == '-' && text[1] == '-' ? text + 1 : text;
@@ -127,7 +127,7 @@ static int Split(char text[], char *words[], int most)
   return count;
 }
 
-/* Whether a word begins with a dash that a text editor or a web page has made of the one on the keyboard. */
+/* True if a word begins with a typographic dash, by which text editors and web pages replace the keyboard's. */
 static PetscBool IsTypographic(const char word[])
 {
   static const char *const dashes[] = {"\xe2\x80\x90", "\xe2\x80\x91", "\xe2\x80\x92", "\xe2\x80\x93",
@@ -263,7 +263,7 @@ static void ExamineLines(SamArguments *a, const char where[], const char name[],
   free(line);
 }
 
-/* Whether a file has more bytes than an options file may have. */
+/* True if a file has more bytes than an options file may have. */
 static PetscBool IsTooLong(FILE *file)
 {
   char   block[4096];
@@ -315,7 +315,7 @@ static void SeparateEnvironment(void)
   free(text);
 }
 
-/* Whether a text ends within quotes. */
+/* True if a text ends within quotes. */
 static PetscBool IsOpen(const char text[])
 {
   int quotes = 0;

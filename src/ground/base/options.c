@@ -361,7 +361,7 @@ static PetscErrorCode ReadText(const SamOptions *from, const SamOptionRow *row, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether a viewer is asked for, which is created where it is used. */
+/* Finds out whether a viewer is asked for; it is created where it is used. */
 static PetscErrorCode ReadViewer(const SamOptions *from, const SamOptionRow *row, PetscBool *given)
 {
   char option[128], text[TEXT_SIZE] = "";
@@ -411,7 +411,7 @@ PetscErrorCode SamOptionsHas(const SamOptions *from, const char option[], PetscB
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether there is a value, that of a default. */
+/* True if the member already holds a valid value, which is the default. */
 static PetscBool HasDefault(const SamOptionRow *row, const void *member)
 {
   if (row->kind == SAM_OPTION_REAL) return SamRangeHas(row->range, (double)*(const PetscReal *)member);
@@ -439,7 +439,7 @@ PetscErrorCode SamOptionsNeed(const SamOptions *from, PetscBool given, const cha
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What a row needs, excludes, or lacks. */
+/* Checks that other options that a row needs are given, that those it excludes are not, and that its value is there. */
 static PetscErrorCode CheckRow(const SamOptions *from, const SamOptionRow *row, const void *member, PetscBool given)
 {
   const char *prefix = SamOptionsPrefix(from);

@@ -1,7 +1,7 @@
 /*
-  What a mistake in an option may have meant: the nearest name that there is, a decimal comma, a unit.
+  Suggests the intended meaning of a mistyped option: the nearest known name, a decimal comma, a unit.
 
-  The names that there are: those that have been asked for so far, whether they were given or not.
+  Known names are all options that have been queried so far, given or not.
 */
 #include <petsam/private/baseimpl.h>
 #include <ctype.h>
@@ -17,7 +17,7 @@ static PetscInt knowns = 0;
 /* Options that PETSc reads, whose names count as well. */
 static const char *const petsc[] = {"options_file", "log_view", "options_left", "help", "version"};
 
-/* What users of other programs and textbooks write, with spaces between, for an option. */
+/* Names that users of other programs and of textbooks write, separated by spaces, for an option */
 static const struct {
   const char *tried, *name;
 } habits[] = {{"mu cof friction_coefficient", "friction"},
@@ -89,7 +89,7 @@ static size_t CountSlips(const char a[], const char b[])
   return slips[n][m];
 }
 
-/* Whether one name may be another one misspelled. */
+/* True if one name may be a misspelling of the other. */
 static PetscBool IsNear(const char tried[], const char name[])
 {
   const size_t length = strlen(tried);

@@ -31,7 +31,7 @@ static void Rotate(PetscInt n, double A[], double V[], PetscInt i, PetscInt j)
   }
 }
 
-/* Whether all entries beside the diagonal are rounding. */
+/* True if all off-diagonal entries are rounding errors. */
 static PetscBool IsDiagonal(PetscInt n, const double A[])
 {
   double beside = 0, on = 0;

@@ -67,7 +67,7 @@ static const char *FindMeant(const Reader *r, const char field[])
   return SamNearestName(plain, count, r->names);
 }
 
-/* Whether a name is one of those of body 1 or 2 that begin with the same word as the next one: "body1_case_a". */
+/* True if this name and the next one begin with the same word and a body's number, as "body1_case_a". */
 static PetscBool IsInRun(const char name[], const char next[])
 {
   const size_t length = strcspn(name, "12_");

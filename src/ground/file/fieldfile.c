@@ -20,8 +20,8 @@ typedef struct {
 } Wanted;
 
 /*
-  What the file says: the dataset's shape, what its values are to be multiplied with, the surface's size and centre (0:
-  unknown).
+  Attributes of the file: the dataset's shape, the factor by which its values are to be multiplied, the surface's size
+  and centre (0: unknown)
 */
 typedef struct {
   hsize_t shape[2];

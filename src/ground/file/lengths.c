@@ -1,4 +1,4 @@
-/* What an HDF5 dataset of lengths says about itself: their unit, whether they are heights, the size of the surface. */
+/* Reads the attributes of an HDF5 dataset of lengths: their unit, whether they are heights, the size of the surface. */
 #include "fileimpl.h"
 #include <math.h>
 #include <stdlib.h>

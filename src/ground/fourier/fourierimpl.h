@@ -76,7 +76,7 @@ PETSC_INTERN PetscErrorCode SamWorkspaceTrim(SamWorkspace workspace);
 PETSC_INTERN PetscErrorCode SamWorkspaceReserve(SamWorkspace workspace, size_t bytes, PetscInt fields);
 /* SamWorkspaceSynchronize - makes all writes to shared slabs visible to all ranks. Collective. */
 PETSC_INTERN PetscErrorCode SamWorkspaceSynchronize(SamWorkspace workspace);
-/* Whether rows are sent to become columns. */
+/* True if a transposition sends data between ranks. */
 static inline PetscBool SamWorkspaceTransposes(SamWorkspace w)
 {
   return w->ranks > 1 && !w->shared;

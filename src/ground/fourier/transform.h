@@ -18,7 +18,7 @@ static inline ptrdiff_t HalfLength(SamFourier F, SamFourierMode mode)
   return mode == SAM_FOURIER_PADDED ? F->hx : F->hx / 2;
 }
 
-/* Whether a row has no halves. */
+/* True if a row is periodic and of odd length, so that it cannot be halved. */
 static inline PetscBool IsOdd(SamFourier F, SamFourierMode mode)
 {
   return mode == SAM_FOURIER_PERIODIC && F->hx % 2;

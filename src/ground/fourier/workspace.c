@@ -32,7 +32,7 @@ static PetscErrorCode CreateKeyvals(void)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether the workspace may share memory and all ranks are on one node. */
+/* Lets the workspace share memory if it may, and if all ranks are on one node. */
 static PetscErrorCode CanShare(SamWorkspace w)
 {
   MPI_Comm    node;

@@ -1,11 +1,11 @@
-/* What the files of this room share. */
+/* Declarations shared by the files of this folder. */
 #ifndef PETSAM_GRIDIMPL_H
 #define PETSAM_GRIDIMPL_H
 
 #include <petsam/private/baseimpl.h>
 #include <petsam/grid.h>
 
-/* The components that two fields have, one on each grid; an error with these words when they do not fit. */
+/* Finds the number of components of two fields, one on each grid; raises an error with these words if they differ. */
 PETSC_INTERN PetscErrorCode SamGridMatch(SamGrid grid, Vec field, SamGrid other, Vec other_field, const char words[],
                                          PetscInt *components);
 

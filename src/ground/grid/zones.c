@@ -3,7 +3,7 @@
 
   Each rank goes through its rows once and unites runs of cells that touch a piece in the row before (Hoshen and
   Kopelman 1976, Phys. Rev. B 14, 3438, with runs for cells). Zones that lie within a rank's rows are complete then.
-  Those in its first or last row may continue in the next rank: their pieces move to rank 0, which unites them. Only
+  Zones in its first or last row may continue on the next rank: their pieces move to rank 0, which unites them. Only
   integers are summed, so nothing depends on the number of ranks. Memory: labels of two rows, and a piece per zone.
 */
 #include "gridimpl.h"
@@ -11,7 +11,7 @@
 #include <petsam/private/rows.h>
 #include <math.h>
 
-/* What is known of a zone, or of a piece of one. All are sums or extremes, in cells. */
+/* Sums and extremes of a zone, or of a piece of one, in cells */
 typedef struct {
   int64_t least[2], most[2]; /* first and last column and row */
   int64_t cells, sum[2];     /* of columns and rows, */

@@ -25,7 +25,7 @@ struct _n_SamImages {
   double sums[PARTS][DOWN][ALONG][ALONG]; /* component, z, y, x */
 };
 
-/* Whether a component changes its sign with x or with y. */
+/* True where a component is odd in x; in y */
 static const PetscBool odd[2][PARTS] = {{[SAM_STRESS_XY] = PETSC_TRUE, [SAM_STRESS_XZ] = PETSC_TRUE},
                                         {[SAM_STRESS_XY] = PETSC_TRUE, [SAM_STRESS_YZ] = PETSC_TRUE}};
 
@@ -174,7 +174,7 @@ PetscErrorCode SamImagesDestroy(SamImages *images)
 
 /* ---- products ---- */
 
-/* Of a row of cells: its eigenstrain on the nodes along x and z. */
+/* Projects the eigenstrain of a row of cells onto the nodes along x and z. */
 static void ReduceRow(SamImages m, PetscInt j, const double e[], double row[])
 {
   const SamGrid g = m->grid;

@@ -35,7 +35,7 @@ struct _n_SamResidual {
 
 /* ---- transforms ---- */
 
-/* What a pass of the transforms moves between the spectra and the blocks. */
+/* Planes that a pass of the transforms moves between the spectra and the blocks */
 typedef struct {
   SamResidual     r;
   PetscInt        first, count; /* planes */
@@ -227,7 +227,7 @@ static double WaveOf(SamResidual r, PetscInt b)
   return 2 * PETSC_PI / (r->period * (double)r->grid->dx) * (double)(r->first + b);
 }
 
-/* What is done to a column of waves: the response to eigenstrains, or to tractions. */
+/* Response that is computed in a column of waves: to eigenstrains, or to tractions */
 typedef enum { RESPOND, DISPLACE, RESPOND_AND_DISPLACE, LOAD } Task;
 
 static PetscErrorCode WorkOnWaves(SamResidual r, Task task, PetscInt n, double kx, const double ky[],

@@ -210,7 +210,7 @@ static void AddOwn(const Column *w, const Wave e[], Wave s[])
   }
 }
 
-/* What the free surface sends back into a layer, of the waves that the upward sweep brings to it. */
+/* Adds the reflection from the free surface into a layer, of the waves that the upward sweep brings to the surface. */
 static void AddFreeSurface(const Column *w, Wave s[])
 {
   const PetscInt n  = w->n;

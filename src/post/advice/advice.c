@@ -1,5 +1,5 @@
 /*
-  What a user should know of a solution that may not be what was meant.
+  Advice on a solution that may not be the intended one.
 
   Sizes of grids follow from closed-form solutions where there are any, which hold even where the grid resolves nothing
   or ends within the contact; else from the contact that was found.
@@ -256,7 +256,7 @@ void SamAdviceSay(SamAdvice *a, const char setting[], const char format[], ...)
   if (!a->error) a->error = a->receive(a->context, text, setting);
 }
 
-/* Whether a surface of body 2 is not the same everywhere, so that it matters where it is. */
+/* True if the surface of body 2 varies from place to place, so that its position matters. */
 static PetscBool HasPlace(SamAdvice *a)
 {
   PetscBool     has = PETSC_FALSE;

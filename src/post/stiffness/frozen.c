@@ -125,7 +125,7 @@ static void SetReversal(SamFrozen *f, const double bound[])
   }
 }
 
-/* Which cells slip, and how stiff they are then; a slip is more than `still` (m). */
+/* Determines which cells slip, by more than `still` (m), and their stiffness in slip. */
 static void SetSlip(SamFrozen *f, double still, const double *const v[FIELDS])
 {
   const double *const q = v[SHEAR], *const r = v[SHEAR] + f->grid->cells;
@@ -144,7 +144,7 @@ static void SetSlip(SamFrozen *f, double still, const double *const v[FIELDS])
   }
 }
 
-/* Which cells yield in the step, and keep their pressure; an overlap is more than `still` (m). */
+/* Determines which cells yield in the step, by an overlap of more than `still` (m), and so keep their pressure. */
 static void SetYielding(SamFrozen *f, double still, const double overlap[])
 {
   for (PetscInt m = 0; m < f->count; m++)

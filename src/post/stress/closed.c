@@ -105,8 +105,9 @@ static PetscErrorCode WarnOfMore(SamEvaluation e, PetscInt k)
 }
 
 /*
-  Whether the cycle comes more than once, or after what leads to it: a step is as the last, with others between and
-  before. So neither steps near the cycle's start count nor those at which the loads are held.
+  Finds out whether the steps contain more than one cycle, or a lead-in before it: a step equals the last one, and
+  different steps lie between the two and before them. So steps near the cycle's start and steps of held loads do not
+  count.
 */
 static PetscErrorCode CheckOnce(SamEvaluation e, const Ends *ends, PetscBool *more)
 {

@@ -31,7 +31,7 @@ static PetscErrorCode GapChecksum(SamContact contact, uint64_t *checksum)
 
 /* ---- what is in a file: each of these writes it to a file that is written, and else reads it ---- */
 
-/* What is stored besides the state. */
+/* Parameters and notes, which are stored besides the state */
 typedef struct {
   const SamParameters *parameters;
   PetscInt             n;
@@ -89,7 +89,7 @@ static PetscErrorCode MoveFields(SamFile f, SamState state)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What the contact remembers and the file lacks cannot begin in the middle; the message names it. */
+/* Writes a message that names a memory of the contact that the file lacks: it cannot begin after the start. */
 static void NameLacking(const char name[], char message[], size_t size)
 {
   (void)snprintf(message, size, "it lacks %s, which has not been remembered since the start: omit it, or begin anew",
@@ -315,7 +315,7 @@ PetscErrorCode SamCheckpointNames(const char filename[], char **before, char **t
 
 /* ---- reading ---- */
 
-/* What is read besides the notes. The caller destroys it, also after an error. */
+/* Contents of a checkpoint besides the notes. The caller destroys them, also after an error. */
 typedef struct {
   SamState     state;
   SamStepCache cache;
@@ -330,7 +330,7 @@ static PetscErrorCode DestroyContent(Content *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether a law of this name only accumulates its field, which it then declares; `state` NULL: it does not. */
+/* Finds out whether a law of this name only accumulates its field; if so, declares it in `state` (NULL: does not). */
 static PetscErrorCode DeclareSum(SamContact contact, const char name[], SamState state, PetscBool *is)
 {
   SamLaw law;

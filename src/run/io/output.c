@@ -57,7 +57,7 @@ PetscErrorCode SamOutputSettingsSetFromOptions(SamOutputSettings *set, const Sam
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether a word of -output_fields is a field's name, or that of the group in it. */
+/* True if a word of -output_fields is a field's name, or the name of its group. */
 static PetscBool Means(const char word[], const char name[])
 {
   const size_t group = strcspn(name, "/");
@@ -72,7 +72,7 @@ static PetscBool Names(const SamOutputSettings *set, const char name[])
   return PETSC_FALSE;
 }
 
-/* Whether a word of -output_fields means anything. */
+/* True if a word of -output_fields selects any field. */
 static PetscBool Knows(SamState state, const char word[])
 {
   if (!strcmp(word, "all") || !strcmp(word, "usual")) return PETSC_TRUE;
@@ -134,7 +134,7 @@ PetscErrorCode SamOutputSettingsPrepare(SamOutputSettings *set, SamContact conta
 
 /* ---- the file ---- */
 
-/* Which of the state's results are saved. */
+/* Chooses the results of the state that are saved. */
 static void Choose(SamOutput o)
 {
   const PetscBool all = Names(&o->set, "all"), usual = o->set.count < 0 || Names(&o->set, "usual");

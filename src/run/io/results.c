@@ -20,7 +20,7 @@ static const char *const residuals[SAM_STRESS_COMPONENTS] = {
 
 #define LAYERS_Z "/plastic/z"
 
-/* What the file says of its run. */
+/* Description of the run in its results file */
 typedef struct {
   double        n[2], width[2], center[2];
   char          options[4096]; /* empty if they are longer */

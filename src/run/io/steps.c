@@ -293,7 +293,7 @@ static PetscErrorCode End(SamOutput o)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether no more may wait, by rank 0's clock. */
+/* Finds out whether waiting rows must be written now; rank 0's clock decides. */
 static PetscErrorCode IsDue(SamOutput o, PetscBool *due)
 {
   int late = o->waits == SAM_OUTPUT_WAIT;

@@ -108,7 +108,7 @@ static PetscErrorCode AddGrid(SamParameters *p, SamGrid grid)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What comes from a file is identified by its checksum, since a file may change and keep its name. */
+/* Adds the gap to the parameters; heights from a file by their checksum, since a file may change and keep its name. */
 static PetscErrorCode AddGap(const SamSetup *s, SamParameters *p)
 {
   static const char *const files[] = {"gap_file", "gap_rough_file"};

@@ -31,7 +31,7 @@ PetscErrorCode SamHistoryClaimOption(void)
   return code ? code : PetscOptionsSetAlias(NULL, "-history", "-load_history");
 }
 
-/* What reading needs: whose options, and the file. */
+/* Input of the reading functions: options, arguments and the file's name */
 typedef struct {
   const SamOptions   *from;
   const SamArguments *arguments;
@@ -165,7 +165,7 @@ static PetscErrorCode ReadCondition(SamHistory h, const Reader *r, PetscInt k)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether part k of the control may not be negative. */
+/* True if part k of the control may not be negative. */
 static PetscBool IsNonnegative(SamHistory h, PetscInt k)
 {
   if (k >= SAM_COMPONENTS) return SamConditionsGet(h->conditions, k - SAM_COMPONENTS)->range == SAM_RANGE_NONNEGATIVE;
@@ -306,7 +306,7 @@ static double ValueOfRow(SamHistory h, PetscInt k, PetscInt r)
                            : (double)SamControlPart(&h->constant, h->conditions, k);
 }
 
-/* Whether nothing is prescribed in the first row that differs from the start. */
+/* True if the first row prescribes the same values as the start. */
 static PetscBool IsAtRest(SamHistory h)
 {
   for (PetscInt k = 0; k < h->parts; k++)

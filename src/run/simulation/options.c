@@ -1,4 +1,4 @@
-/* What a simulation reads: contact, load program or life, files; and what of it does not go together. */
+/* Reads the options of a simulation (contact, load history or life, files), and rejects incompatible ones. */
 #include "simulationimpl.h"
 #include <petsam/private/arguments.h>
 #include <petsam/private/lawimpl.h>

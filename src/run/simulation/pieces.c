@@ -40,7 +40,7 @@ PetscErrorCode SamSimulationReadPieces(SamSimulation s, const SamOptions *from)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What the state remembers of all pieces: their energy (J), their length in steps; named like the option. */
+/* Sums over all pieces in the state: their energy (J), and their length in steps; named like the option */
 static const SamStateNumber so_far = {"step_rtol", "J",           NULL, SAM_NUMBER_REAL, 2, PETSC_TRUE,
                                       PETSC_FALSE, SAM_JOIN_LAST, 0};
 
@@ -82,7 +82,7 @@ static SamControl ControlAt(SamSimulation s, PetscInt k, PetscBool apart, PetscR
   return control;
 }
 
-/* Whether the tried piece, of this length, is good enough; and whether twice its length is likely to be. */
+/* Finds out whether the tried piece, of this length, is accurate enough, and whether one of twice its length may be. */
 static PetscErrorCode Judge(SamSimulation s, double length, PetscBool *enough, PetscBool *longer)
 {
   PetscReal energy, error, limit;

@@ -131,7 +131,7 @@ static PetscErrorCode CheckSteps(SamSimulation s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What follows from contact and load program together. */
+/* Prepares all objects that depend on both the contact and the load history. */
 static PetscErrorCode Prepare(SamSimulation s, const SamOptions *from)
 {
   PetscFunctionBegin;

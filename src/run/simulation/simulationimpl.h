@@ -1,4 +1,4 @@
-/* What the files of a simulation share. */
+/* Declarations shared by the files of a simulation. */
 #ifndef PETSAM_SIMULATIONIMPL_H
 #define PETSAM_SIMULATIONIMPL_H
 
@@ -86,7 +86,7 @@ PETSC_INTERN PetscErrorCode SamSimulationWarn(void *simulation, const char text[
 /*
   SamSimulationOpenResults - opens the results. After a restart they are the next part of those that are there; a new
   name begins a file with the steps from there on. Collective. Errors: SAM_ERR_FILE, SAM_ERR_USER.
-  SamSimulationSaves - whether the fields of a step, from 1 to last, are saved. Not collective.
+  SamSimulationSaves - true if the fields of a step, from 1 to last, are saved. Not collective.
   SamSimulationForecast - how large the results will be, in words; warns where the disk has not that much space.
   Collective.
 */

@@ -183,7 +183,7 @@ static PetscErrorCode Project(const SamFrame *f, const double bound[], const flo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether the loads are rounding of what the cells' shear could carry. */
+/* Finds out whether the loads are mere rounding errors of the load that the cells' shear could carry. */
 static PetscErrorCode AreRounding(const SamFrame *f, const double q[], PetscBool *are)
 {
   SamTotal total = {0};

@@ -106,7 +106,7 @@ static PetscInt FactorOf(const SamZone *z, const SamFitWindow *window, PetscInt 
   return count >= least && Factor(SamGridIsRow(z->grid), factor) ? count : 0;
 }
 
-/* What the values of cells add to a fit: to the terms, and the sum of their squares. */
+/* Right-hand side of the normal equations of a fit, and the sum of the squared values */
 typedef struct {
   double right[TERMS], squares;
 } Values;

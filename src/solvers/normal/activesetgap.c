@@ -11,9 +11,9 @@
   about the same pressure.
 */
 #define PATCH 6.0
-/* The part of the tolerance that rounding of g may be at the end. */
+/* Largest rounding of g at the end, relative to the tolerance */
 #define DOUBT 0.03
-/* What the last projection of a solve, which makes equilibrium exact, changes in S p, relative to it. */
+/* Relative change of S p by the last projection of a solve, which restores exact equilibrium */
 #define PROJECTION_ROUNDING 1e-9
 /* g is recomputed at the latest when the error has fallen by this factor, for then rounding may dominate it. */
 #define FALL 1e-3
@@ -114,7 +114,7 @@ static PetscErrorCode Fit(Work *w, SamTotal totals[], double motion[3])
 }
 
 /*
-  Whether a block without pressure has no gap that `motion` could close. Evaluated as the gaps are, so that rounding
+  True if a block without pressure has no gap that `motion` could close. It is evaluated like the gaps, so that rounding
   makes no difference.
 */
 static PetscBool IsClear(const Work *w, PetscInt block, SamRow row, const double motion[3])

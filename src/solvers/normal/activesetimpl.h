@@ -71,11 +71,11 @@ PETSC_INTERN PetscErrorCode SamActiveSetKeepProduct(SamActiveSet *w);
 /* Computes g by a product, and does step 1 by it. Collective. */
 PETSC_INTERN PetscErrorCode SamActiveSetRefresh(SamActiveSet *w);
 /*
-  Whether g is to be recomputed: when its rounding is too much for the tolerance, and either a product now will keep
-  it below that to the end, or the error has fallen so far that rounding may dominate.
+  True if g is to be recomputed: when its rounding is too large for the tolerance, and either a product now will keep
+  it small enough to the end, or the error has fallen so far that rounding may dominate.
 */
 PETSC_INTERN PetscBool SamActiveSetIsStale(const SamActiveSet *w);
-/* Whether the error is below the tolerance, which the present displacement decides. Collective. */
+/* Finds out whether the error is below the tolerance, which depends on the present displacement. Collective. */
 PETSC_INTERN PetscErrorCode SamActiveSetIsSolved(SamActiveSet *w, PetscBool *solved);
 
 /* ---- loops over some cells of a row ---- */

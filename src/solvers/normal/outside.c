@@ -57,7 +57,7 @@ static void NearestInRow(const SamFrame *f, PetscInt j, SamWindow window, const 
   nearest->displacement = PetscMax(nearest->displacement, within.displacement);
 }
 
-/* Whether in single precision no cell outside of the window comes near to touching. */
+/* Finds out, in single precision, whether all cells outside the window are far from touching. */
 static PetscErrorCode IsClear(SamSolver s, SamLevel *level, const SamFrame *frame, SamWindow window, PetscBool *clear)
 {
   const SamGrid grid = level->grid;

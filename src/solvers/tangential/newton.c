@@ -257,7 +257,7 @@ static PetscErrorCode TryGradient(Work *w, double motion[3], PetscBool *found)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether the step changes the energy by less than the rounding of the work of friction in it. */
+/* True if the step changes the energy by less than the rounding of the frictional work in it. */
 static PetscBool IsRounding(const Work *w)
 {
   return fabs(w->slope) * w->unit * w->unit / w->base.self <= ENERGY_ROUNDING * w->work;

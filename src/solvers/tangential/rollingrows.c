@@ -152,7 +152,7 @@ SAM_VECTORIZED void SamRollingLoadsRow(const SamRollingWork *w, SamRow row, floa
 
 #define CHUNK 128
 
-/* What a direction changes of the residual, in some cells of a row: x, then y. */
+/* Computes the change of the residual by a direction, in some cells of a row: x, then y. */
 SAM_VECTORIZED static void DirectionColumn(const SamRollingWork *w, SamRow row, const float slot[],
                                            float *restrict column)
 {
@@ -172,7 +172,7 @@ SAM_VECTORIZED static void DirectionColumn(const SamRollingWork *w, SamRow row, 
   }
 }
 
-/* What a creepage changes. */
+/* Computes the change of the residual by a creepage. */
 SAM_VECTORIZED static void CreepColumn(const SamRollingWork *w, SamRow row, const double a[3], float *restrict column)
 {
   const ptrdiff_t cells    = w->base.cells;

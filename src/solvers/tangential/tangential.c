@@ -15,9 +15,9 @@
 /* ---- nested grids ---- */
 
 /*
-  What is handed from a coarse grid to the next finer one: the shear in units of the bound, so that cells that slip do
-  so on the fine grid too. Direction and size are interpolated apart, as the mean of two directions is shorter than
-  either; and the size only over cells with a bound, by interpolating their indicator as well.
+  Fields that are interpolated from a coarse grid to the next finer one: the shear in units of the bound, so that cells
+  that slip do so on the fine grid too. Direction and size are interpolated apart, as the mean of two directions is
+  shorter than either; and the size only over cells with a bound, by interpolating their indicator as well.
 */
 enum { RATIO_X, RATIO_Y, RATIO_SIZE, RATIO_IN, RATIOS };
 

@@ -425,7 +425,7 @@ static PetscErrorCode Create(SamElasticity e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether the body's normal and tangential directions are coupled, or its load cases displace the surfaces. */
+/* True if the body couples normal and tangential directions, or its load cases displace the surfaces. */
 static PetscBool Couples(SamCompliance c)
 {
   double most = 0;

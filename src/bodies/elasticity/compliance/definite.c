@@ -1,6 +1,6 @@
 /*
-  Whether a body's compliance is positive: that of the half-space is, and so is the exact one of the body, but the sum
-  of the half-space and a projection need not be.
+  Checks that a body's compliance is positive definite. The compliance of the half-space is, and so is the exact one of
+  the body, but the sum of the half-space's compliance and a projection need not be.
 
   With K of the half-space on cells, Phi the polynomials' means (modes, cells), A the area of a cell and G =
   A Phi K^-1 Phi', the eigenvalues of K + A Phi'D Phi relative to K are 1 and 1 + those of D G.

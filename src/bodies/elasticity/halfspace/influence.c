@@ -57,7 +57,7 @@
 */
 enum { MAX_ORDER = 10, BLOCK = 64, MAX_SHAPES = 16 };
 
-/* What the bound may come to, relative to a value: of the order of what the summation rounds off. */
+/* Largest truncation bound relative to the value; it is of the order of the rounding of the sum. */
 static const double tolerance = 5e-15;
 
 /* A kernel is u^odd_u v^odd_v u^(2 square) r^-(root + 2 square), where u is x and v is y, or exchanged. */

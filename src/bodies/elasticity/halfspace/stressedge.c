@@ -66,7 +66,7 @@ static double KernelAt(const Map *m, PetscInt t, PetscInt c, PetscInt i, PetscIn
   return sign * m->kernel[t][c][PetscAbsInt(j)][PetscAbsInt(i)];
 }
 
-/* What the cells outside of the block about cell (i, j) do at the centre of its neighbour (i + a, j + b). */
+/* Computes the stress by the cells outside the block about cell (i, j), at the centre of cell (i + a, j + b). */
 static void OutsideOf(const Map *m, PetscInt i, PetscInt j, PetscInt a, PetscInt b, double stress[PLANE])
 {
   static const SamStressComponent components[] = {SAM_STRESS_XX, SAM_STRESS_YY, SAM_STRESS_XY};

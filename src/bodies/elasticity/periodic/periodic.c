@@ -37,7 +37,7 @@ typedef struct {
 #include "symbols.h"
 #include <petsam/private/fourier.h>
 
-/* Whether a wave number of that index is its own mirror image. */
+/* 1 if the wave number of index k is its own mirror image (the Nyquist wave), else 0. */
 static inline double IsOwnMirror(PetscInt k, PetscInt n)
 {
   return 2 * k == n ? 1 : 0;

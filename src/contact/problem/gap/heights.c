@@ -1,5 +1,5 @@
 /*
-  What heights from a file tell of their unit, and of a tilt, which is a step at the border of a period.
+  Examines heights from a file for a wrong unit, and for a tilt, which makes a step at the border of a period.
 
   The heights are the separation without the shape. Their tilt along an axis is that of the means of the lines across
   it, by least squares. Waves may have one, too, but go on over the border; so the smaller of two rises counts: that of
