@@ -3,7 +3,7 @@
 #include <petsam/private/solverimpl.h>
 #include <math.h>
 
-/* Fields on the level's grid, one for each that `like` has. */
+/* Creates a field on the level's grid for each one that `like` has. */
 static PetscErrorCode CreateFields(SamSolver s, const SamLevel *like, SamLevel *level)
 {
   PetscFunctionBegin;
@@ -252,7 +252,7 @@ PetscErrorCode SamLevelPreconditionSingle(SamSolver s, SamLevel *level, double f
 
   PetscFunctionBegin;
   s->preconditions += level->finest ? 1 : 0;
-  if (diagonal && !SamElasticityGetTraits(level->elasticity).upwind) /* lines are few: it gains nothing for them */
+  if (diagonal && !SamElasticityGetTraits(level->elasticity).upwind) /* no gain for lines, which are few */
     PetscCall(PreconditionYielding(s, level, diagonal, factor, r, z));
   else
     PetscCall(s->kind->preconditionsingle(level->elasticity, factor, r, z));

@@ -20,7 +20,7 @@ typedef struct SamSymbol {
   double mean;    /* stands for |k| at k = 0 in the inverses */
   double lag;     /* of slip under an upwind operator: the length of a cell along x, */
   double slip;    /* and the inverse symbol over |k| */
-  double film;    /* of the inverse tangential symbol: that is inverse to what it is without a film plus this */
+  double film;    /* added to the tangential symbol without a film before it is inverted */
   /* of layered bodies (layered/waves.c): */
   const SamSpline *table;   /* symbols times |k|, by k^2 in 1/m^2 */
   double           unit;    /* 1/m^2 in units of k^2 */

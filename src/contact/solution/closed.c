@@ -25,7 +25,7 @@
 
 /* Numbers that the state keeps of the load path so far, in a plane of T */
 typedef struct {
-  double stage;                        /* of these: */
+  double stage;                        /* one of the stages below */
   double friction;                     /* coefficient */
   double line[2], bound, moment[2];    /* direction of T; mu N (N); M_x and M_y (N m) */
   double reversed, start, last, limit; /* 1: not of first loading; N: T where the branch began, now, and its end */
@@ -109,7 +109,7 @@ static void Reverse(Path *path)
   for (int k = 0; k < 2; k++) path->start_moved[k] = path->moved[k];
 }
 
-/* The closed form of the energy after a step with constant N and T on a line. */
+/* Continues the closed form of the dissipated energy by a step with constant N and T on a line. */
 static void Follow(SamProblem p, Path *path, const SamSolution *s)
 {
   const PetscInt  c[2] = {SAM_COMPONENT_TX, SAM_COMPONENT_TY}, m[2] = {SAM_COMPONENT_MX, SAM_COMPONENT_MY};

@@ -65,7 +65,7 @@ PetscErrorCode SamSolutionComputePressureCenter(SamProblem problem, const SamSol
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The shear keeps its direction; its size is mu times what the pressure exceeds the slack by, both at the centre. */
+/* The shear keeps its direction; its size is mu times (pressure minus slack), both at the centre. */
 PetscErrorCode SamSolutionComputeShearCenter(SamProblem problem, const SamSolution *s, PetscInt component, Vec shear)
 {
   const double *at;

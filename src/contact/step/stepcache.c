@@ -450,7 +450,7 @@ static PetscErrorCode FindRanges(SamStepCache r, const SamSolution *before, cons
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Makes room for the last step if the limit allows it, or older steps need not stay. */
+/* Keeps the cache within its limit: drops the oldest steps, or the step `found` that the last repeats, or the last. */
 static void MakeRoom(SamStepCache r, PetscInt found)
 {
   r->bytes += BytesOf(r, Row(r, r->count));

@@ -16,7 +16,7 @@ typedef struct {
   PetscBool          known_pressure;          /* the pressure is that of the kept step */
   SamBalance         normal, tangential;      /* as prescribed */
   double             rigid[3];                /* guess of the tangential rigid displacements */
-  double            *counts;                  /* of the solvers, in the state */
+  double            *counts;                  /* iteration counts of the solvers, in the state */
   Vec                separation;              /* of the bodies as they were after the step before */
   Vec                slip;          /* the length of the slip of this step, by the last shear; NULL: none yet */
   SamProduct         shear_product; /* C q of the tried solution; coupled, or solved twice only */

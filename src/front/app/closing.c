@@ -173,7 +173,7 @@ static PetscErrorCode WarnOfEnergy(SamReport r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The dissipated energy beside its closed form. */
+/* Prints the dissipated energy beside its closed form. */
 static PetscErrorCode PrintSlip(SamReport r)
 {
   const char *const unit = r->energy_unit;

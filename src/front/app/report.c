@@ -257,7 +257,7 @@ static PetscErrorCode CountStep(SamReport r, SamContact contact, PetscInt number
     PetscCall(KeepEdges(r, contact));
     PetscCall(KeepEnergy(r, contact, step));
   }
-  if (!SamStepIsSolved(step)) r->energy[1] = -INFINITY; /* what a run that failed dissipated is nobody's question */
+  if (!SamStepIsSolved(step)) r->energy[1] = -INFINITY; /* no energy is reported for a failed run */
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -8,7 +8,7 @@
 
 /* ---- options ---- */
 
-/* One to three whole numbers with colons between them, which make up the whole text; returns how many, 0 for others. */
+/* Reads a text of one to three integers separated by colons; returns their number, 0 for any other text. */
 static int ReadNumbers(const char text[], PetscInt n[3])
 {
   for (int count = 0; count < 3; count++) {

@@ -167,7 +167,7 @@ static PetscErrorCode ReadNumbers(const SamOptions *from, const SamOptionRow *ro
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* One number or two, of which one stands for both. */
+/* Reads one number or two; a single one stands for both. */
 static PetscErrorCode ReadNumberRow(const SamOptions *from, const SamOptionRow *row, void *member, PetscBool *given)
 {
   static const char *const argument[2][2] = {{"<number>", "<number>[,<number>]"},

@@ -40,7 +40,7 @@ static double Metres(const char unit[])
   return 0;
 }
 
-/* The metres of the unit that a dataset's attribute names, 0 without the attribute. */
+/* Reads the unit that a dataset's attribute names, in metres; 0 without the attribute. */
 static PetscErrorCode ReadUnits(SamFile f, hid_t dataset, const char name[], double *metres)
 {
   char text[48];

@@ -24,7 +24,8 @@ static inline PetscErrorCode AllocateComplex(size_t count, Complex **pointer)
 }
 
 /*
-  Forward transforms, which keep their input, and backward ones if required, of arrays aligned as `in` and `out` are.
+  Plans forward transforms, which keep their input, and backward ones if required, of arrays aligned like `in` and
+  `out`.
 */
 static inline PetscErrorCode LineCreate(ptrdiff_t n, unsigned effort, PetscBool backward, Complex *in, Complex *out,
                                         LINE *l)
@@ -161,7 +162,7 @@ static inline void LineForward(const LINE *l, Complex *from, Complex *to)
              to + 2 * m, to + 3 * m);
 }
 
-/* Times n; what it comes from is overwritten. */
+/* Transforms backward, unnormalised (times n); `from` is overwritten. */
 static inline void LineBackward(const LINE *l, Complex *from, Complex *to)
 {
   const ptrdiff_t m = l->part;
@@ -187,7 +188,7 @@ static inline PetscErrorCode CreateTurns(ptrdiff_t n, Complex **turn)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* to[k] = from[n - k], k <= n. */
+/* Reverses an array: to[k] = from[n - k], k <= n. */
 SAM_VECTORIZED static inline void Mirror(ptrdiff_t n, const Complex *restrict from, Complex *restrict to)
 {
   for (ptrdiff_t k = 0; k <= n; k++) (void)memcpy(to[k], from[n - k], sizeof(Complex));

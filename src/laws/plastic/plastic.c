@@ -284,7 +284,7 @@ static PetscErrorCode SetUp(SamLaw law)
 
 /* ---- the state ---- */
 
-/* A field of the results: the displacement of the surface by plastic strain, or the largest strain below a cell. */
+/* Computes a result field: the displacement of the surface by plastic strain, or the largest strain below a cell. */
 static PetscErrorCode Compute(void *owner, SamState state, PetscInt component, Vec field)
 {
   const SamLaw   law   = (SamLaw)owner;

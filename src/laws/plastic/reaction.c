@@ -77,7 +77,7 @@ static double XiAt(const SamReaction r, PetscInt i)
   return r->frame[0].xi0 + (double)i * r->frame[0].dxi;
 }
 
-/* The Gram matrices of the sets. */
+/* Computes the Gram matrices of the sets of cells. */
 static PetscErrorCode SumGrams(SamReaction r)
 {
   SamTotal totals[2 * SAM_GRAM] = {{0}};

@@ -241,7 +241,7 @@ static PetscErrorCode WorkOnWaves(SamResidual r, Task task, PetscInt n, double k
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Works on a column; of the wave that is also one of -ky, the mean of both counts. */
+/* Computes the response in a column; the Nyquist wave, which is also that of -ky, gets the mean of both. */
 static PetscErrorCode WorkOnColumn(SamResidual r, Task task, PetscInt b, double complex *column[])
 {
   const PetscInt  planes = PARTS * r->body.layers, m = r->nyquist;
@@ -291,7 +291,7 @@ static PetscErrorCode ApplyWaves(SamResidual r, const double e[], double s[], do
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The displacement by the transpose of the cells' kernels. */
+/* Computes the displacement by eigenstrains, by the transpose of the cells' kernels. */
 static PetscErrorCode DisplaceByCells(SamResidual r, const double e[], double *const u[3])
 {
   const PetscInt cells = r->grid->cells;

@@ -15,7 +15,7 @@
 #include "waves.h"
 #include <petsam/private/baseimpl.h>
 
-/* Fields of a wave in its own directions. */
+/* Components of a wave along its own directions */
 enum { MM, TT, ZZ, MT, MZ, TZ };
 
 /* The numbers of a layer for each wave of a column, and the state of a sweep. */

@@ -21,7 +21,7 @@
 #define STEEPEST 0.1
 /* and linear elasticity up to this pressure over E*. */
 #define HARDEST 0.2
-/* A stress over Young's modulus below which it has no effect, and a grid's width (m) that units may explain. */
+/* Ratio of a stress to Young's modulus below which it has no effect; grid width (m) that suggests wrong units */
 #define SLIGHT 1e-8
 #define WIDEST 100.0
 /* A contact of a round body that is wider than this part of the period is no single one. */
@@ -371,7 +371,7 @@ static int DigitsOf(double a, double b)
   return digits;
 }
 
-/* The widths of a contact, and of its grid. */
+/* Writes the widths of a contact, and of its grid. */
 static void WriteSize(const SamAdvice *a, char text[], size_t size)
 {
   const SamGrid g         = a->setup->grid;
@@ -540,7 +540,7 @@ static void Coarse(SamAdvice *a)
                across, error, better);
 }
 
-/* Plastic strain that falls from the surface on within the first layers, as under friction. */
+/* Advises on plastic strain that is largest at the surface and falls within the first layers, as under friction. */
 static void Shallow(SamAdvice *a, double most)
 {
   PetscReal surface = 0;
@@ -755,8 +755,8 @@ PetscErrorCode SamAdviceEnd(SamAdvice *a, const SamSlip **found)
 /* ---- the edge ---- */
 
 /*
-  The half widths where no closed solution is at hand. The pressure at the grid's edge tells how far it is to the
-  contact's, as for Hertz's pressure p0 sqrt(1 - r^2/a^2); widths grow at most like the root of the load.
+  Estimates the half widths where there is no closed-form solution. The distance from the grid's edge to the contact's
+  follows from the pressure there, as for Hertz's p0 sqrt(1 - r^2/a^2); widths grow at most like the root of the load.
 */
 static void Extrapolate(const SamSetup *s, const SamStep *step, const SamLoadRange *most, PetscReal half[2])
 {
@@ -781,7 +781,7 @@ static PetscBool Fits(const SamSetup *s, const PetscReal half[2], const PetscRea
   return PETSC_TRUE;
 }
 
-/* The grid with the same cells that holds a contact of these half widths about the origin, or more. */
+/* Writes the grid with the same cells that holds a contact of these half widths about the origin, or more. */
 static void AdviseGrid(const SamSetup *s, const PetscReal half[2], const PetscReal lever[2], char text[], size_t size)
 {
   const PetscReal cell[2] = {s->grid->dx, s->grid->dy};

@@ -135,7 +135,7 @@ static void AddShape(const Local *l, const Patch *a, PetscInt n, double sign, do
   }
 }
 
-/* The difference of this order of the values from one on. */
+/* Returns the difference of the given order of the values that begin at f. */
 static double Difference(const double f[], ptrdiff_t stride, PetscInt order)
 {
   if (!order) return f[0];
@@ -279,7 +279,7 @@ static double TakePeak(Patch *a)
 
 /* ---- the patch on the grid ---- */
 
-/* The cell of the largest pressure, the first one of several; and its pressure. */
+/* Finds the cell of the largest pressure, the first one of several, and its pressure. */
 static PetscErrorCode FindPeak(SamGrid grid, Vec pressure, PetscInt at[2], double *most)
 {
   const double *p;

@@ -262,7 +262,7 @@ static void Long(SamAdvice *a)
     part, slip->share > ALIKE ? "give the normal load a row of its own (-history), and" : "use");
 }
 
-/* Says that most slip of dissimilar bodies is where contact is made, in several steps. */
+/* Advises more steps if much of the slip of dissimilar bodies occurs before cells touch. */
 static void Few(SamAdvice *a)
 {
   const SamSlip *slip = &a->slip;

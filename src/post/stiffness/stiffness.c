@@ -20,7 +20,7 @@ typedef struct {
   PetscInt  count; /* of systems */
   double   *b[SAM_COMPONENTS], *x[SAM_COMPONENTS];
   double   *slip[HALF];                        /* of the tangential motions, without coupling; NULL: not wanted */
-  double    k[SAM_COMPONENTS][SAM_COMPONENTS]; /* in the phi of the grid's frames, normal ones first */
+  double    k[SAM_COMPONENTS][SAM_COMPONENTS]; /* stiffness in the basis phi of the grid's frames, normal ones first */
   PetscReal error;
 } Systems;
 

@@ -22,7 +22,7 @@ typedef struct {
   const double *points;
   PetscInt      dimension;
   PetscInt     *order;   /* numbers of the points; those of the boundary of the last balls come first */
-  PetscInt      support; /* how many do */
+  PetscInt      support; /* number of points on the boundary */
   double        scale;   /* square of the size of the points' cloud */
   /* the boundary's points so far: directions, twice their squares, and the balls through the first ones */
   PetscInt count;

@@ -52,9 +52,9 @@ typedef struct {
   SamQuantityConstant  constant[2];
 } SamQuantity;
 PETSC_INTERN const SamQuantity SamQuantityTable[]; /* ends with a name of NULL */
-/* SamQuantityOf - the row of that function or parameter of the cycle. SamQuantityWanted - whether it is wanted. */
+/* SamQuantityWanted - true if that function or parameter of the cycle is wanted. Not collective. */
 PETSC_INTERN PetscBool SamQuantityWanted(SamEvaluation e, SamFatigueParameter *of_cycle);
-/* SamQuantityOption - the names of the quantities of a step, or of the cycle, with commas. Not collective. */
+/* SamQuantityNames - writes the names of the quantities of a step, or of the cycle, with commas. Not collective. */
 PETSC_INTERN void SamQuantityNames(PetscBool of_cycle, char text[], size_t size);
 /* SamQuantitiesList - fills the list of datasets of the layout with those that are wanted. Not collective. */
 PETSC_INTERN void SamQuantitiesList(SamEvaluation e);
@@ -112,7 +112,7 @@ struct _n_SamEvaluation {
   void              *write_context;
   PetscInt           kinds;     /* numbers of largest values of a step */
   SamLargest        *largest;   /* (kinds, steps), and those of the cycle for each quantity */
-  PetscInt           edge_lost; /* steps with an edge that is not found */
+  PetscInt           edge_lost; /* number of steps whose edge is not found */
 };
 
 /* SamMapsCompute - everything on whole planes, one depth after another (maps.c). Collective. */

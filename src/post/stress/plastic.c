@@ -1,8 +1,8 @@
 /*
-  Stresses of a body that yields below its surface: those by its plastic strain, the means over its layers, are added to
-  those by the tractions. Between the middles of layers they are interpolated linearly, as smooth strain has an error of
-  second order in the thickness anyway. On the surface zz, xz and yz are zero; the others are extrapolated from the
-  first two layers.
+  Stresses of a body that yields below its surface: the stresses by plastic strain, which are means over the layers, are
+  added to the stresses by tractions. They are interpolated linearly between the middles of layers, as smooth strain has
+  an error of second order in the thickness anyway. At the surface zz, xz and yz are zero; the others are extrapolated
+  from the first two layers.
 */
 #include "evaluationimpl.h"
 #include <petsam/private/grid.h>

@@ -29,7 +29,7 @@ static PetscErrorCode GapChecksum(SamContact contact, uint64_t *checksum)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- what is in a file: each of these writes it to a file that is written, and else reads it ---- */
+/* ---- contents of a file: each function writes its part if the file is being written, and else reads it ---- */
 
 /* Parameters and notes, which are stored besides the state */
 typedef struct {
@@ -232,7 +232,7 @@ static PetscErrorCode WriteFile(SamCheckpoint cp, SamContact contact, const Rest
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Refuses names at which other programs have put files meanwhile. */
+/* Checks that no other program has created files of these names in the meantime. */
 static PetscErrorCode CheckNames(SamCheckpoint cp)
 {
   PetscFunctionBegin;
@@ -346,8 +346,8 @@ static PetscErrorCode DeclareSum(SamContact contact, const char name[], SamState
 }
 
 /*
-  A state with the declarations of the contact's, and, if asked for, of sums that only the file has. The message names
-  another field that only one of them has.
+  Creates a state with the declarations of the contact's state, and, if `sums`, of sums that only the file has. The
+  message names another field that only one of them has.
 */
 static PetscErrorCode CreateState(SamContact contact, const char list[], PetscBool sums, SamState *state,
                                   char message[], size_t size)

@@ -291,7 +291,7 @@ static void CreateSeries(SamOutput o, SamSeries kind)
 static void CreateVTK(SamOutput o)
 {
   const SamGrid g       = o->grid;
-  const double  sides[] = {g->dx, g->dy}, dy = sides[g->axes - 1]; /* a row of squares, not of sticks of 1 m */
+  const double  sides[] = {g->dx, g->dy}, dy = sides[g->axes - 1]; /* plane strain: square cells, not 1 m wide */
   SamImage      image = {.cells   = PETSC_TRUE,
                          .n       = {(hsize_t)g->nx, (hsize_t)g->ny, 0},
                          .origin  = {SamGridX(g, 0) - 0.5 * g->dx, SamGridY(g, 0) - 0.5 * dy, 0},

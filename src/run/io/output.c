@@ -382,7 +382,7 @@ PetscErrorCode SamOutputCheckPart(SamGrid grid, const char filename[], uint64_t 
 
 /* ---- attributes ---- */
 
-/* After attributes have been written. */
+/* Ends writing to the file, after its attributes have been written. */
 static PetscErrorCode End(SamOutput o)
 {
   PetscFunctionBegin;

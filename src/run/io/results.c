@@ -83,8 +83,8 @@ static void GetText(SamFile f, const char name[], size_t size, char text[])
 }
 
 /*
-  The root attributes that parameters are stored as: numbers, not too many, and short texts. A constant of a body that
-  is none of these has the count -1, so that it is not taken for missing.
+  Reads the root attributes that may be parameters: few numbers, or a short text. A constant of a body that is stored
+  otherwise gets the count -1, so that it does not count as missing.
 */
 static void GetParameters(SamFile f, SamParameters *all)
 {

@@ -202,7 +202,7 @@ static PetscErrorCode Write(SamSimulation s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Up to the checkpoint the load history must be that of the run that wrote it, whose checksums are `there`. */
+/* Checks that the load history up to the checkpoint equals that of the run that wrote it, by the checksums `there`. */
 static PetscErrorCode CompareLoads(SamSimulation s, const Notes *there)
 {
   const char *const file   = s->checkpoints.restart;

@@ -10,7 +10,7 @@
 
 #define LEAST 4 /* cells in a row, of which half are a grid */
 
-/* The history, or the life, on half the cells. */
+/* Run of the history, or the life, on half the cells along each axis */
 typedef struct {
   SamSetup setup;
   double   sums[SAM_STATE_NUMBERS]; /* numbers joined over all steps */

@@ -46,7 +46,7 @@ static PetscErrorCode Override(const Reader *r, const char name[], const char co
 {
   const char *prefix = SamOptionsPrefix(r->from);
   char        option[96];
-  int         shared; /* whether it stands only in a file, which several runs may share */
+  int         shared; /* true if it is only in an options file, which several runs may share */
   PetscMPIInt rank;
 
   PetscFunctionBegin;
@@ -349,7 +349,7 @@ static PetscErrorCode Create(SamConditions conditions, SamHistory *history)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Divides the change of each row, and checks the table. */
+/* Sets the number of load steps per row, and checks the table. */
 static PetscErrorCode SetIncrements(SamHistory h, PetscInt increments, MPI_Comm comm, const char file[])
 {
   PetscFunctionBegin;

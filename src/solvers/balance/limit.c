@@ -19,10 +19,10 @@
 #define SMOOTHING_OF_SHEAR 6
 /* Rounding of a load or a lever that all pressures at their limit just bear, relative. */
 #define FULL 1e-12
-/* The part of the power that a step must promise for the power to measure its gain. */
+/* Least predicted gain of a step, relative to the power, at which the power is accurate enough to measure the gain */
 #define FLAT 1e-10
 
-/* A row's sums of t and of xi t. */
+/* Computes a row's sums of t and of xi t. */
 SAM_VECTORIZED static void SumRow(SamRow row, const double *restrict t, double sums[2])
 {
   double sum = 0, turn = 0;

@@ -333,8 +333,8 @@ static PetscErrorCode Step(Work *w, double *best, SamTotal contact[])
 /* ---- the method ---- */
 
 /*
-  The trial differs from the pressure by rounding, so this is the pressure. What may be wrong are cells with pressures
-  of that size, which the trial lets part, and the motion, which A leaves open if few cells are in it. `better`: the
+  The trial differs from the pressure by rounding, so this is the pressure. Two things may be wrong: cells of pressures
+  of that size, which the trial separates, and the motion, which A leaves open if few cells are in it. `better`: the
   error has fallen.
 */
 static PetscErrorCode TakeTrial(Work *w, const double motion[3], PetscBool *better)
@@ -383,7 +383,7 @@ static PetscErrorCode Iterate(Work *w, PetscBool *gradient, PetscBool *downhill,
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The reason to stop, when there is one. */
+/* Determines the reason to stop, if there is one. */
 static PetscErrorCode GetReason(Work *w, PetscInt stagnant, PetscBool downhill, PetscBool found,
                                 SamSolverReason *reason)
 {

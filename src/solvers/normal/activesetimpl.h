@@ -13,11 +13,11 @@ typedef struct {
   const double   *h;
   double         *p, *g;          /* pressure, Pa; gap, m */
   float          *z, *s, *u;      /* direction; last step; S s: z and s in units of unit/self, u in units of `unit` */
-  float          *loss;           /* what is taken off the preconditioner; 0 on cells that were not in A at the time */
+  float          *loss;           /* subtracted from the preconditioner; 0 on cells that were not in A at the time */
   float          *active;         /* 1 on cells of A, else 0 */
   float          *xi;             /* of the columns */
   char           *busy;           /* blocks with cells of A, or with pressure */
-  double         *open;           /* of other blocks: the least gap after the last step; not known: -infinity */
+  double         *open;           /* least gap of other blocks after the last step; not known: -infinity */
   double          unit;           /* m, of the iteration */
   double          self;           /* influence of a cell on itself, m/Pa */
   double          most;           /* maximum admissible pressure, Pa; infinite: none */

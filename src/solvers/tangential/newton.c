@@ -64,9 +64,12 @@
 #define STEADY 0.3
 /* A change of the shear that is rounding, relative to it. */
 #define STILL 1e-12
-/* Iterations without progress before the motion is looked for otherwise, before a gradient step, before giving up. */
+/*
+  Iterations without progress until the motion is determined in another way (SHIFT), until a gradient step (PATIENCE),
+  and until the solver gives up (STAGNATION)
+*/
 #define SHIFT 2
-/* The change of the motion, in parts of the maximum residual, from which on the fit is taken to leave it open. */
+/* Change of the motion, relative to the maximum residual, above which the fit does not determine the motion */
 #define OPEN       2
 #define PATIENCE   10
 #define STAGNATION 100

@@ -91,7 +91,7 @@ static PetscErrorCode Prolong(SamTransfer transfer, const SamLevel *coarse, SamL
 
 /* ---- one level ---- */
 
-/* The shear of the level becomes an admissible one near it; `found` is false when none carries the loads. */
+/* Replaces the level's shear by an admissible one near it; `found` is false when none carries the loads. */
 static PetscErrorCode MakeAdmissible(SamLevel *level, PetscBool *found)
 {
   const double *bound;
@@ -173,7 +173,7 @@ static PetscErrorCode CheckLimit(SamSolver s, const SamLevel *level)
 
 /* ---- the kind ---- */
 
-/* Nothing causes shear: q = 0 is the solution. */
+/* True if nothing causes shear: q = 0 is the solution. */
 static PetscBool IsUnloaded(const SamLevel *level)
 {
   const SamBalance *b = level->balance;

@@ -129,7 +129,7 @@ static PetscErrorCode SetUp(SamElasticity e)
 ROWS(SumRow, AddRow, double)
 ROWS(SumRowSingle, AddRowSingle, float)
 
-/* The factor in y of polynomial m of body b in this rank's row j. */
+/* Factor in y of polynomial m of body b, in row j of this rank */
 #define ALONG_Y(e, b, m, j) \
   ((const Bodies *)(e)->data)->along[b][1][(ptrdiff_t)of->power[m][1] * (e)->grid->ny + (e)->grid->row_start + (j)]
 
@@ -227,7 +227,7 @@ SPREAD(SpreadSingle, float, AddRowSingle)
 
 typedef PetscErrorCode (*Method)(SamElasticity, const double *const[], double *const[]);
 
-/* `method` NULL: the half-spaces have no such coupling. */
+/* Adds the compliance's displacements to those by `method` of the half-spaces; NULL: they have no such coupling. */
 static PetscErrorCode Apply(SamElasticity e, SamElasticity inner, Method method, Kind in, Kind out,
                             const double *const t[], double *const u[])
 {

@@ -50,7 +50,7 @@ static PetscErrorCode FillTable(SamElasticity e, double table[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The lower triangle of K of the body under a rigid one, by columns. */
+/* Fills in the lower triangle of K, by columns; K is the compliance of the body against a rigid one. */
 static PetscErrorCode Fill(SamBody body, const double d[2], double matrix[])
 {
   const PetscReal   width[2] = {LAGS * d[0], LAGS * d[1]}, center[2] = {0, 0};

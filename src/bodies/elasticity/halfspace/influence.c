@@ -83,7 +83,7 @@ typedef struct {
   double polynomial[MAX_ORDER + 1][MAX_ORDER + 2];
 } Expansion;
 
-/* The polynomial f of order k becomes that of its term's second derivative by u, times `factor`. */
+/* Replaces the polynomial f of order k by that of its term's second derivative by u, times `factor`. */
 static void DeriveU(const Kernel *kernel, int k, double factor, double f[])
 {
   double below = 0; /* what the power before leaves to this one */
@@ -98,7 +98,7 @@ static void DeriveU(const Kernel *kernel, int k, double factor, double f[])
   }
 }
 
-/* The same by v, where v^2 = r^2 - u^2. */
+/* Does the same for the second derivative by v, where v^2 = r^2 - u^2. */
 static void DeriveV(const Kernel *kernel, int k, double factor, double f[])
 {
   double below = 0;

@@ -52,7 +52,7 @@ static const double gauss[RULES][POINTS][2] = {
 
 /* ---- near: the corners ---- */
 
-/* 2 pi times the antiderivatives of a group at a corner. */
+/* Computes 2 pi times the antiderivatives of a group at a corner. */
 static void Corner(SamStressGroup group, double nu, double X, double Y, double z, double f[SAM_STRESS_GROUP])
 {
   const double r = sqrt(X * X + Y * Y + z * z), xz = X * X + z * z, yz = Y * Y + z * z, t = r + z,
@@ -157,7 +157,7 @@ static void Quadrature(const SamHalfSpaceSource *s, SamStressGroup group, int ru
 
 /* ---- both ---- */
 
-/* The rule for a cell whose centre is at that distance; RULES: the corners. */
+/* Chooses the quadrature rule for a cell whose centre is at the distance x, y; RULES: use the corners. */
 static int ChooseRule(const SamHalfSpaceSource *s, double x, double y)
 {
   const double h = PetscMax(s->side[0], s->side[1]), R2 = x * x + y * y + s->depth * s->depth;

@@ -37,7 +37,7 @@ static void Integrals(double ratio, double *K, double *E)
 
 #define STRAIGHT 1e-8 /* ratio of two radii of which the larger one counts as infinite */
 
-/* The ratio of the axes of Hertz's ellipse for that of the radii, at most 1: Johnson, eqs 4.25 and 4.26. */
+/* Returns the ratio of the axes of Hertz's ellipse for a ratio of radii of at most 1: Johnson, eqs 4.25 and 4.26. */
 static double RatioOfAxes(double radii)
 {
   double low = 0, high = 1, K, E;
@@ -115,7 +115,7 @@ static void Curvatures(const PetscReal v[], double h[3])
   h[2] = 1 / v[1] + s * s / v[2] + c * c / v[3];
 }
 
-/* The smaller and the larger principal relative curvature, and the angle of the direction of the smaller to x. */
+/* Computes the smaller and the larger principal relative curvature; returns the angle of the smaller one to x. */
 static double Principal(const PetscReal v[], double curvature[2])
 {
   double h[3], size = 0, deviation;
