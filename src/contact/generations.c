@@ -402,7 +402,7 @@ PetscErrorCode SamContactBegin(SamContact c, const SamControl *control)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A control as numbers of the state: those of the six components in a row, conditions each by its name. */
+/* Stores a control in numbers of the state: the six components in one row, each condition by its name. */
 static void StoreControl(SamContact c, const SamControl *control, double n[])
 {
   n[c->control] = control->time;

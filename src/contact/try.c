@@ -235,7 +235,7 @@ static PetscErrorCode IsSamePressure(SamContact c, const SamControl *control, Pe
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The committed solution becomes what it was before the grid moved for a tried step. */
+/* Restores the committed solution to its state before the grid moved for a tried step. */
 static PetscErrorCode MoveBack(SamContact c)
 {
   PetscFunctionBegin;
@@ -286,7 +286,7 @@ static PetscErrorCode GetSlope(SamLawStep *step, Vec by_pressure)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* All laws advance their tried state. */
+/* Advances the tried state of all laws. */
 static PetscErrorCode Advance(SamContact c, PetscBool known_pressure, char failed[], size_t size)
 {
   const SamSolution *s = &c->generation[SAM_TRIED], *last = SamContactBefore(c);
@@ -353,7 +353,7 @@ static PetscErrorCode Conclude(SamContact c, PetscBool same_pressure, PetscBool 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Without a solution only the prescribed loads and displacements are numbers, the others NaN. */
+/* Sets the loads and displacements of a step without solution: NaN, except the prescribed ones. */
 static void SetUnknown(SamStep *step)
 {
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {

@@ -151,7 +151,7 @@ static double Rigid(SamState state, const SamControl *control, SamComponent comp
   return (isfinite(found) ? found : 0) + (control->creep[component] ? (double)(rolled * control->value[component]) : 0);
 }
 
-/* The slider follows what pulls it by a spring that stretches no longer than the limit. */
+/* Moves the slider by a pull through a spring, which stretches up to the limit. */
 static void Pull(const double by[2], double limit, double slider[2])
 {
   const double stretch = hypot(by[0] - slider[0], by[1] - slider[1]);
@@ -213,7 +213,7 @@ static PetscErrorCode Separation(SamLaw law, SamState state, SamGeneration gener
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The limit of the stretch along a unit vector, under the pressure and the bound of the step. */
+/* Computes the limit of the stretch along a unit vector, under the pressure and the bound of the step. */
 static PetscErrorCode FindLimit(SamLawStep *step, const double along[2], double *limit)
 {
   const PetscInt cells = step->grid->cells;
@@ -246,7 +246,7 @@ static PetscErrorCode FindLimit(SamLawStep *step, const double along[2], double 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The slider at the end of the step, by what the step has found. */
+/* Moves the slider at the end of the step, by what the step has found. */
 static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
 {
   const PetscInt id     = SamStateFindNumber(step->state, SAM_FRAME);

@@ -10,7 +10,7 @@
 #define WORTH 0.8
 #define SLACK 1.5
 
-/* The part in use; NULL: none. */
+/* Returns the part in use; NULL: none. */
 static const SamElasticityPart *InUse(SamElasticity e)
 {
   return e->in_part ? &e->parts[e->newest] : NULL;

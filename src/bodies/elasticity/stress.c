@@ -153,7 +153,7 @@ static PetscErrorCode Pass(SamStress s, PetscInt pass, const double *const in[],
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The stresses on the surface that equal the tractions. */
+/* Sets the stresses zz, xz and yz on the surface, which equal the tractions. */
 static void TakeTractions(SamStress s, double *const tractions[])
 {
   for (PetscInt t = 0; t < SAM_STRESS_TRACTIONS; t++)

@@ -87,7 +87,7 @@ static PetscBool IsPlain(SamProblem p, const SamSolution *s)
   return plain;
 }
 
-/* The energy of a branch from the change t of T and that of disp, `moved`; `reversed`: not of first loading. */
+/* Returns the energy of a branch from the change t of T and that of disp, `moved`; `reversed`: not of first loading. */
 static double ClosedOf(SamProblem p, double bound, double t, double moved, PetscBool reversed)
 {
   const double x = 1 - t;
@@ -99,7 +99,7 @@ static double ClosedOf(SamProblem p, double bound, double t, double moved, Petsc
   return 1.2 * bound * moved / (1 - pow(x, 2. / 3)) * (1 - pow(x, 5. / 3) - 5 * t / 6 * (1 + pow(x, 2. / 3)));
 }
 
-/* T starts from the line's last point to another way: Masing's rule holds up to where the last reversal was. */
+/* Begins a branch at a reversal of T: Masing's rule holds until T returns to the point of the last reversal. */
 static void Reverse(Path *path)
 {
   path->before += path->energy;

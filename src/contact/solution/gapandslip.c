@@ -84,7 +84,7 @@ SAM_VECTORIZED static void GapRow(PetscInt n, const double *restrict u, const do
   for (PetscInt i = 0; i < n; i++) value[i] = u[i] + h[i] - (a + b * (xi0 + (double)i * dxi));
 }
 
-/* A component of the slip along row j. */
+/* Computes a component of the slip along row j. */
 static void SlipRow(const SamRigid *m, PetscInt component, PetscInt j, const double u[], double slip[])
 {
   SubtractRow(m->normal.grid->nx, u, SamRigidOfSlip(m, component, j), m->normal.xi0, m->normal.dxi, slip);

@@ -221,7 +221,7 @@ static PetscErrorCode SumCells(SamProblem problem, const SamSolution *last, cons
 
 /* ---- edges ---- */
 
-/* The areas by the edges of contact and stick, and the largest shear, between stick and slip. */
+/* Computes the areas by the edges of contact and stick, and the largest shear, between stick and slip. */
 static PetscErrorCode FindEdges(SamProblem problem, const SamSolution *s, double contact[EDGE], double numbers[NUMBERS])
 {
   SamEdge       edge;

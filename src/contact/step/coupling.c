@@ -126,7 +126,7 @@ static PetscErrorCode Measure(Passes *p, Vec lift, PetscBool *solved)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The relative change of a traction since the previous pass. Then `previous` becomes `now`. */
+/* Computes the relative change of a traction since the previous pass; copies `now` to `previous`. */
 static PetscErrorCode ComputeChange(SamGrid grid, Vec now, Vec previous, PetscReal *change)
 {
   PetscReal size;

@@ -74,7 +74,7 @@
 /* Largest absolute Dundurs' constant of surfaces whose relative motion is determined by the shear alone */
 #define MOST_DUNDURS 0.15
 
-/* A load before the step: zero before the first one. */
+/* Returns a load before the step: zero before the first one. */
 static PetscReal LoadBefore(SamSolve *w, PetscInt component)
 {
   return w->task->before ? w->task->before->load[component] : 0;
@@ -96,7 +96,7 @@ PetscBool SamSolveIsTwice(SamSolve *w)
   return w->s->mid_step || (Grows(w) && !(w->tangential.force[0] && w->tangential.force[1]));
 }
 
-/* kappa of x or y. */
+/* Returns kappa (top of this file) along x or y. */
 static double RatioOfCompliances(SamSolve *w, int c)
 {
   const SamPair pair = SamElasticityGetPair(w->task->elasticity);
@@ -152,7 +152,7 @@ static PetscErrorCode FindApproach(SamSolve *w, PetscBool found, Approach *a)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The change of the shear over that of the pressure at the contact edge near a point, both of a punch that sticks. */
+/* Computes tau, the ratio of the changes of shear and pressure of a sticking punch, at the contact edge at (x, y). */
 static void ShearAtEdge(const Approach *a, const double kappa[2], double x, double y, double tau[2])
 {
   const double    at_x = x - a->center[0], at_y = y - a->center[1];
@@ -163,7 +163,7 @@ static void ShearAtEdge(const Approach *a, const double kappa[2], double x, doub
   for (int c = 0; c < 2; c++) tau[c] = a->uniform > 0 ? (a->tau[c] * a->uniform - 2 * moved[c] / kappa[c]) / normal : 0;
 }
 
-/* The gap before the step of cells that were open; of others 0. */
+/* Computes the gap before the step of cells that were open; of others 0. */
 static PetscErrorCode FindGaps(SamSolve *w, Vec gap)
 {
   const double *p;
@@ -179,7 +179,7 @@ static PetscErrorCode FindGaps(SamSolve *w, Vec gap)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The same in a step from no contact, of cells in contact after it: the distance of the undeformed bodies. */
+/* Computes the distance of the undeformed bodies instead, in a step from no contact, of cells in contact after it. */
 static PetscErrorCode FindDistances(SamSolve *w, Vec distance)
 {
   const PetscInt nx    = w->task->grid->nx;
@@ -276,7 +276,7 @@ static PetscErrorCode SetTurn(SamSolve *w, Vec aside)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* t by that of the step before, where there was contact before that, in proportion to the square of the step. */
+/* Predicts t from the step before, in proportion to the square of the step, where there was contact before that. */
 static PetscErrorCode PredictTurn(SamSolve *w, Vec aside)
 {
   const SamSolution *last  = w->task->before;
@@ -299,7 +299,9 @@ static PetscErrorCode PredictTurn(SamSolve *w, Vec aside)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The largest gap before and the largest pressure after the step of cells that come into contact; of all ranks. */
+/*
+  Finds the largest gap before and the largest pressure after the step of cells that come into contact; of all ranks.
+*/
 static PetscErrorCode MeasureTouching(SamGrid grid, const double p0[], const double p[], const double g[],
                                       double most[2])
 {
@@ -314,7 +316,7 @@ static PetscErrorCode MeasureTouching(SamGrid grid, const double p0[], const dou
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The time at which cells touch, as a part of the step, where there was contact before. */
+/* Computes the time at which cells touch, as a part of the step, where there was contact before. */
 static PetscErrorCode FindTimes(SamSolve *w, Vec time)
 {
   const SamSolution *before = w->task->before;
@@ -339,7 +341,7 @@ static PetscErrorCode FindTimes(SamSolve *w, Vec time)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The same in a step from no contact, in which all cells touch: by the distance of the undeformed bodies. */
+/* Computes these times by the distance of the undeformed bodies in a step from no contact, in which all cells touch. */
 static PetscErrorCode FindFirstTimes(SamSolve *w, Vec time)
 {
   double *t, most = 0;

@@ -112,7 +112,7 @@ static double *Row(SamStepCache r, PetscInt k)
   return r->table + k * Width(r);
 }
 
-/* A number of a row besides what is prescribed. */
+/* Returns a number of a row besides what is prescribed. */
 static double *At(SamStepCache r, PetscInt k, PetscInt number)
 {
   return Row(r, k) + r->numbers + number;
@@ -144,7 +144,7 @@ static void DestroyFields(SamStepFields *fields)
   SamFree(f);
 }
 
-/* Nothing is kept of a step any more. */
+/* Drops the kept fields of a step. */
 static void Drop(SamStepCache r, PetscInt k)
 {
   r->bytes -= BytesOf(r, Row(r, k));
@@ -283,7 +283,7 @@ PetscErrorCode SamStepCacheAddFields(SamStepCache r, PetscInt row, const int32_t
 
 /* ---- which step this is ---- */
 
-/* The numbers of a control but its time. */
+/* Gets the numbers of a control but its time. */
 static void GetNumbers(SamStepCache r, const SamControl *control, double numbers[MOST_NUMBERS])
 {
   const PetscInt parts = SamControlCount(r->conditions);
@@ -292,7 +292,7 @@ static void GetNumbers(SamStepCache r, const SamControl *control, double numbers
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++) numbers[parts + k] = SamControlWay(control, k);
 }
 
-/* The same with all that causes shear reversed. */
+/* Copies the numbers of a control with all causes of shear reversed. */
 static void Reverse(SamStepCache r, const double numbers[MOST_NUMBERS], double reversed[MOST_NUMBERS])
 {
   memcpy(reversed, numbers, sizeof(*numbers) * (size_t)r->numbers);
@@ -354,7 +354,7 @@ void SamStepCacheFind(SamStepCache r, const SamControl *next, SamCachedStep *kep
 
 /* ---- keeping ---- */
 
-/* The largest change of n values. */
+/* Returns the largest change of n values. */
 SAM_VECTORIZED static double LargestChange(PetscInt n, const double before[], const double now[])
 {
   double most = 0;
@@ -497,7 +497,10 @@ static PetscInt CellsInRow(const Part *part, PetscInt j)
   return part->fields->range[2 * j + 1] - part->fields->range[2 * j];
 }
 
-/* The weight with which the two kept steps would have been nearest to the shear's change from `before` to `now`. */
+/*
+  Computes the weight with which the two kept steps would have been nearest to the shear's change from `before` to
+  `now`.
+*/
 static PetscErrorCode FindWeight(SamStepCache r, Vec before, Vec now, double *weight)
 {
   const Part *const part      = r->start->part;

@@ -104,7 +104,7 @@ static PetscErrorCode PrintTimes(SamReport r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* How well the grid resolves the contact. */
+/* Prints how well the grid resolves the contact. */
 static PetscErrorCode PrintExtent(SamReport r)
 {
   const SamExtent *e        = &r->extent;
@@ -122,7 +122,7 @@ static PetscErrorCode PrintExtent(SamReport r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* How much of the edges is not found. */
+/* Prints how much of the edges is not found. */
 static PetscErrorCode PrintEdges(SamReport r)
 {
   char where[48] = "";
@@ -200,8 +200,8 @@ static PetscErrorCode PrintFiles(SamReport r)
 }
 
 /*
-  The peak memory of this process so far, bytes. That of getrusage() may include the launcher, from before this program
-  was loaded.
+  Returns the peak memory of this process so far, bytes. That of getrusage() may include the launcher, from before this
+  program was loaded.
 */
 static double LargestMemory(void)
 {
@@ -213,7 +213,7 @@ static double LargestMemory(void)
   return 1024 * (double)used.ru_maxrss;
 }
 
-/* Time and memory, each the largest of all ranks. */
+/* Prints time and memory, each the largest of all ranks. */
 static PetscErrorCode PrintResources(SamReport r)
 {
   struct rusage used;

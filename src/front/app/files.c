@@ -131,7 +131,7 @@ static PetscBool Has(const SamFiles *f, const char option[])
   return PETSC_FALSE;
 }
 
-/* The files that an option names by its declaration. */
+/* Adds the files that an option names by its declaration. */
 static PetscErrorCode AddDeclared(SamFiles *f, MPI_Comm comm, const SamOptionFile *one)
 {
   char      value[PETSC_MAX_PATH_LEN] = "", **list;

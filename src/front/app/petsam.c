@@ -136,7 +136,7 @@ static PetscErrorCode EstimateKept(const SamSetup *setup, const SamSimulationNee
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The memory that this rank will need, bytes. */
+/* Estimates the memory that this rank will need, bytes. */
 static PetscErrorCode EstimateMemory(SamSimulation simulation, double *bytes)
 {
   PetscMPIInt              ranks;

@@ -6,7 +6,7 @@
 #define REST     1e-9  /* the same of loads and displacements: solvers' tolerances leave more where symmetry has 0 */
 #define WIDTH    120   /* of a line of the table */
 
-/* A number of the contact's last step; NaN where there is none of that name. */
+/* Returns a number of the contact's last step; NaN where there is none of that name. */
 static double Get(SamContact contact, const char name[])
 {
   SamState state;
@@ -53,7 +53,7 @@ static double Clean(double value, double least)
   return fabs(value) <= least ? 0 : value;
 }
 
-/* A load or displacement as it is printed: with its rounding if one of the two is given, and not as 0. */
+/* Returns a load or displacement as it is printed: with its rounding if one of the two is given, and not as 0. */
 static double Rounded(const SamStep *s, PetscInt c, const PetscReal values[], const double size[2])
 {
   return Clean((double)values[c], s->control.value[c] != 0 ? 0 : REST * size[c >= SAM_COMPONENT_MX]);

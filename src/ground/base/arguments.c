@@ -79,7 +79,7 @@ static void ExamineName(SamArguments *a, const char where[], const char option[]
     if (IsNamed(option, refused[k].names)) Complain(a, SAM_ERR_USER, "%s%s: %s", where, option, refused[k].reason);
 }
 
-/* An equals sign between an option and its value, as other programs have it. */
+/* Rejects an equals sign between an option and its value, as other programs have it. */
 static void RefuseEquals(SamArguments *a, const char where[], const char option[])
 {
   const char *sign = strchr(option, '=');
@@ -92,7 +92,7 @@ static void RefuseEquals(SamArguments *a, const char where[], const char option[
              option, (int)PetscMin(sign - option, 40), option);
 }
 
-/* An option, and the word after it if that is its value, else NULL. */
+/* Examines an option, and the word after it if that is its value, else NULL. */
 static void ExamineOption(SamArguments *a, const char where[], const char option[], const char value[], int depth)
 {
   ExamineName(a, where, option);
@@ -138,7 +138,7 @@ static PetscBool IsTypographic(const char word[])
   return PETSC_FALSE;
 }
 
-/* A word where an option is expected; `before` is the option before it, whose value is `value`. NULL: none. */
+/* Rejects a word where an option is expected; `before` is the option before it, whose value is `value`. NULL: none. */
 static void RefuseWord(SamArguments *a, const char where[], const char word[], const char before[], const char value[])
 {
   const char *text = "expected an option: it begins with a dash";
@@ -216,7 +216,7 @@ static void ExamineWords(SamArguments *a, const char where[], int count, char **
 
 /* ---- files ---- */
 
-/* A line of an options file: an option and its value, a comment, or an alias. */
+/* Examines a line of an options file: an option and its value, a comment, or an alias. */
 static void ExamineLine(SamArguments *a, const char where[], char line[], int depth, int source)
 {
   char     *words[3];
@@ -324,7 +324,7 @@ static PetscBool IsOpen(const char text[])
   return quotes % 2 != 0;
 }
 
-/* The words of a text, NULL: none. */
+/* Examines the words of a text, NULL: none. */
 static void ExamineText(SamArguments *a, const char where[], const char text[])
 {
   const size_t most  = text ? strlen(text) / 2 + 1 : 0;

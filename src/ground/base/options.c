@@ -35,7 +35,7 @@ const char *SamOptionsPrefix(const SamOptions *from)
 /* The most characters of a wrong value that a message quotes. */
 #define QUOTED 60
 
-/* A wrong value as a message quotes it. */
+/* Returns a wrong value as a message quotes it. */
 static const char *Quote(char text[])
 {
   if (strlen(text) > QUOTED) (void)strcpy(text + QUOTED, "...");
@@ -86,7 +86,7 @@ PetscBool SamRangeHas(SamRange range, double value)
 
 /* ---- numbers ---- */
 
-/* The most numbers of a row's option. */
+/* Returns the largest number of values of a row's option. */
 static PetscInt CountOf(const SamOptionRow *row)
 {
   return PetscMax(row->size, 1);
@@ -221,7 +221,7 @@ PetscErrorCode SamOptionsReals(const SamOptions *from, const char name[], const 
 
 /* ---- words and texts ---- */
 
-/* The place of a text in a list with commas, -1: none. */
+/* Returns the place of a text in a list with commas, -1: none. */
 static int FindWord(const char list[], const char text[])
 {
   const size_t length = strlen(text);
@@ -246,7 +246,7 @@ static void CopyWord(const char list[], int place, char text[], size_t size)
   (void)snprintf(text, size, "%.*s", (int)strcspn(list, ","), list);
 }
 
-/* "a,b,c" as "a, b or c". */
+/* Writes "a,b,c" as "a, b or c". */
 static void ListWords(const char words[], char text[], size_t size)
 {
   const char *last = strrchr(words, ',');
@@ -260,7 +260,7 @@ static void ListWords(const char words[], char text[], size_t size)
   text[used] = '\0';
 }
 
-/* A truth: the bare option means yes. */
+/* Reads a logical value; the bare option means yes. */
 static PetscErrorCode ReadBool(const SamOptions *from, const SamOptionRow *row, PetscBool *value, PetscBool *given)
 {
   char      dashed[128], text[TEXT_SIZE] = "";
@@ -279,7 +279,7 @@ static PetscErrorCode ReadBool(const SamOptions *from, const SamOptionRow *row, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* One word of the row's list, whose place, or whether it is not the first one, is the value. */
+/* Reads one word of the row's list, whose place, or whether it is not the first one, is the value. */
 static PetscErrorCode ReadChoice(const SamOptions *from, const SamOptionRow *row, void *member, PetscBool *given)
 {
   char text[TEXT_SIZE], list[TEXT_SIZE];
@@ -333,7 +333,7 @@ const SamOptionFile *SamOptionsFile(PetscInt k)
   return k < nameds ? &named[k] : NULL;
 }
 
-/* A text, a file's name, one word, which is checked, or several. */
+/* Reads a text, a file's name, one word, which is checked, or several. */
 static PetscErrorCode ReadText(const SamOptions *from, const SamOptionRow *row, char value[], PetscBool *given)
 {
   static const char *const arguments[] = {

@@ -49,7 +49,7 @@ static char Plain(char c)
   return c == '-' ? '_' : (char)tolower((unsigned char)c);
 }
 
-/* The option that such a name means; NULL: none. */
+/* Returns the option that such a name means; NULL: none. */
 static const char *FindHabit(const char name[])
 {
   for (size_t h = 0; h < sizeof(habits) / sizeof(habits[0]); h++)
@@ -65,8 +65,8 @@ static const char *FindHabit(const char name[])
 }
 
 /*
-  Twice the number of slips between two names: letters left out, put in, changed, or swapped with the next (optimal
-  string alignment distance). An underscore left out or put in is half a slip.
+  Returns twice the number of slips between two names: letters left out, put in, changed, or swapped with the next
+  (optimal string alignment distance). An underscore left out or put in is half a slip.
 */
 static size_t CountSlips(const char a[], const char b[])
 {
@@ -200,7 +200,7 @@ PetscBool SamIsDecimalComma(const char text[])
   return strspn(text + first, "0123456789") == (size_t)(comma - text) - first;
 }
 
-/* The text behind a number at the beginning, and behind white space; NULL without a number. */
+/* Returns the text behind a number at the beginning, and behind white space; NULL without a number. */
 static const char *FindBehind(const char text[])
 {
   char *end;

@@ -108,7 +108,7 @@ typedef struct {
   double        factor[3][3];
 } Nine;
 
-/* The fields whose turn is due. */
+/* Multiplies the fields that are due by -i. */
 static void Turn(const PetscBool due[3], ptrdiff_t n, double (*const column[3])[2])
 {
   for (PetscInt c = 0; c < 3; c++)

@@ -73,7 +73,7 @@ static inline ptrdiff_t LinePlace(const LINE *l, ptrdiff_t j)
   return (j & (LineParts(l) - 1)) * l->part + (j >> l->shift);
 }
 
-/* How many of the first n entries are in part q. */
+/* Returns how many of the first n entries are in part q. */
 static inline ptrdiff_t LineCount(const LINE *l, ptrdiff_t n, ptrdiff_t q)
 {
   return (n - q + LineParts(l) - 1) >> l->shift;
@@ -89,7 +89,7 @@ static inline void LineClear(const LINE *l, ptrdiff_t n, Complex *x)
   }
 }
 
-/* The first n entries from an array in order, and back. */
+/* Copies the first n entries from an array in order, and back. */
 static inline void LinePut(const LINE *l, ptrdiff_t n, const Complex *restrict from, Complex *restrict x)
 {
   if (!l->shift) (void)memcpy(x, from, sizeof(Complex) * (size_t)n);
@@ -130,7 +130,7 @@ SAM_VECTORIZED static inline void LineJoin(ptrdiff_t n, const Complex *restrict 
   }
 }
 
-/* The inverse: from the transform of the line to those of the parts. */
+/* Inverts LineJoin(): computes the transforms of the parts from that of the line. */
 SAM_VECTORIZED static inline void LineSplit(ptrdiff_t n, const Complex *restrict u, const Complex *restrict v,
                                             const Complex *restrict w, Complex *restrict a, Complex *restrict b,
                                             Complex *restrict c, Complex *restrict d)

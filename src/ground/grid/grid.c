@@ -300,7 +300,7 @@ PetscErrorCode SamVecZero(Vec v)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A row's sums of |x| and of x^2. */
+/* Computes a row's sums of |x| and of x^2. */
 SAM_VECTORIZED static void SumRow(PetscInt n, const double *restrict x, double sums[2])
 {
   double sizes = 0, squares = 0;
@@ -349,7 +349,9 @@ PetscErrorCode SamGridMatch(SamGrid grid, Vec field, SamGrid other, Vec other_fi
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A sum over the cells of a hash of value and place. The order of the sum, hence of the ranks, does not matter. */
+/*
+  Computes a sum over the cells of a hash of value and place. The order of the sum, hence of the ranks, does not matter.
+*/
 PetscErrorCode SamGridChecksum(SamGrid grid, Vec field, uint64_t *checksum)
 {
   const uint64_t cells = (uint64_t)grid->nx * (uint64_t)grid->ny,

@@ -9,7 +9,7 @@
 PETSC_INTERN PetscErrorCode SamGridMatch(SamGrid grid, Vec field, SamGrid other, Vec other_field, const char words[],
                                          PetscInt *components);
 
-/* Rows of a grid that belong to a rank of `ranks`: begin ... end - 1. */
+/* Gets the rows of a grid that belong to a rank of `ranks`: begin ... end - 1. */
 PETSC_INTERN void SamGridRowsOf(SamGrid grid, PetscMPIInt ranks, PetscMPIInt rank, PetscInt *begin, PetscInt *end);
 
 #endif

@@ -108,7 +108,7 @@ static const char *const backstress[2] = {"body1_backstress", "body2_backstress"
 static const char *const initial[2]    = {"body1_initial_stress", "body2_initial_stress"};
 static const char *const yielding[2]   = {"body1_yield", "body2_yield"};
 
-/* The values that a cell of a layer remembers. */
+/* Counts the values that a cell of a layer remembers. */
 static PetscInt SizeOf(const Plastic *x)
 {
   return PARTS + 1 + PARTS * PetscMax(x->material[0].count, x->material[1].count) / 2;
@@ -120,9 +120,9 @@ static PetscInt BodiesOf(const Plastic *x)
 }
 
 /*
-  The thicknesses of the layers. What is not given follows from the grid, which a contact fits: the depth is its smaller
-  width, or of periodic bodies the larger one, and the first layer is half a cell thick. The check of the grid halves
-  the layers with the cells.
+  Sets the thicknesses of the layers. What is not given follows from the grid, which a contact fits: the depth is its
+  smaller width, or of periodic bodies the larger one, and the first layer is half a cell thick. The check of the grid
+  halves the layers with the cells.
 */
 static PetscErrorCode SetLayers(Plastic *x, const SamLaw law, const SamOptions *from)
 {
@@ -318,15 +318,16 @@ static PetscErrorCode Compute(void *owner, SamState state, PetscInt component, V
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The layers of body 1. */
+/* Counts the layers of body 1. */
 static PetscInt Above(const Plastic *x)
 {
   return isfinite(x->material[0].yield) ? x->layers : 0;
 }
 
 /*
-  A field of layers in the results: the accumulated plastic strain (0), the plastic strain (1 to PARTS), and the
-  residual stress. In body 1, whose own z points against that of the results, the shears xz and yz change their sign.
+  Computes a field of layers in the results: the accumulated plastic strain (0), the plastic strain (1 to PARTS), and
+  the residual stress. In body 1, whose own z points against that of the results, the shears xz and yz change their
+  sign.
 */
 static PetscErrorCode ComputeLayers(void *owner, SamState state, PetscInt component, Vec field)
 {
@@ -690,7 +691,7 @@ static void KeepLargest(const double before[NUMBERS], double now[NUMBERS])
   now[THICK]   = before[THICK];
 }
 
-/* The depth of the dent, which stays where no strain has grown. */
+/* Finds the depth of the dent, which stays where no strain has grown. */
 static PetscErrorCode FindDent(SamPlastic *p, Vec state, double before, double numbers[NUMBERS])
 {
   const PetscInt cells = p->grid->cells;

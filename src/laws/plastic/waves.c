@@ -195,7 +195,7 @@ static void Pass(Column *w, double s, const Wave e[], Wave stress[])
   }
 }
 
-/* The stress of the sheet itself. */
+/* Adds the stress of the sheet itself. */
 static void AddOwn(const Column *w, const Wave e[], Wave s[])
 {
   const PetscInt n  = w->n;
@@ -228,7 +228,7 @@ static void AddFreeSurface(const Column *w, Wave s[])
   }
 }
 
-/* The displacement of the surface, of that sweep; of the mean, from the strains. */
+/* Computes the displacement of the surface, of that sweep; of the mean, from the strains. */
 static void GetDisplacement(const Column *w, Wave *const u[3])
 {
   const PetscInt n       = w->n;
@@ -299,7 +299,9 @@ PetscErrorCode SamWavesApply(const SamWaveBody *body, PetscInt n, double kx, con
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The stress of tractions p, and q along and across the wave, in a layer. A mean pressure leaves no lateral strain. */
+/*
+  Adds the stress of tractions p, and q along and across the wave, in a layer. A mean pressure leaves no lateral strain.
+*/
 static void AddTractions(const Column *w, const Wave *const traction[3], Wave s[])
 {
   const PetscInt n  = w->n;

@@ -47,7 +47,7 @@ static PetscErrorCode TakeField(SamWindow window, SamGrid grid, PetscInt compone
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The derivatives of the bound, the slip and the overlap of the tried step, for a motion that continues it. */
+/* Computes the derivatives of the bound, the slip and the overlap of the tried step, for a motion that continues it. */
 static PetscErrorCode CreateMotion(SamContact contact, const SamSolution *s, SamWindow window, SamGrid grid, Vec f[])
 {
   SamBoundAt       at    = {.control = &s->control, .pressure = s->pressure};
@@ -115,7 +115,7 @@ static PetscErrorCode FindCells(SamFrozen *f, const double p[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* All cells stick and bear. */
+/* Sets all cells to stick and to bear pressure. */
 static void SetReversal(SamFrozen *f, const double bound[])
 {
   for (PetscInt m = 0; m < f->count; m++) {
@@ -174,7 +174,7 @@ static PetscErrorCode PackCells(SamFrozen *f, const Vec from[FIELDS])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The fields that products are made with; zero outside of the contact. */
+/* Creates the fields that products are made with; zero outside of the contact. */
 static PetscErrorCode CreateWork(SamFrozen *f)
 {
   PetscFunctionBegin;

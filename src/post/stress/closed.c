@@ -16,7 +16,9 @@ static PetscErrorCode NumberOf(SamEvaluation e, PetscInt step, SamStepNumber whi
   return (*e->source.number)(e->source.context, step, which, number);
 }
 
-/* The largest difference and size, of the pressure and of the shear, of a step and the last one; before all: zero. */
+/*
+  Finds the largest difference and size, of the pressure and of the shear, of a step and the last one; before all: zero.
+*/
 static PetscErrorCode CompareWithLast(SamEvaluation e, PetscInt step, const Ends *ends, PetscReal most[4])
 {
   const PetscInt      cells = e->grid->cells;

@@ -41,7 +41,7 @@ PetscErrorCode SamEvaluationReadTractions(SamEvaluation e, PetscInt step, PetscB
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The stresses at a depth that do not depend on x and y: residual stress, and what laws add in a step. */
+/* Computes the stresses at a depth that do not depend on x and y: residual stress, and what laws add in a step. */
 static void GetUniform(SamEvaluation e, PetscInt step, PetscReal depth, double stress[SAM_STRESS_COMPONENTS])
 {
   const SamBody            body = SamEvaluationBody(e);
@@ -89,7 +89,7 @@ static PetscErrorCode FindLine(SamEvaluation e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The stresses of the body that is asked for. */
+/* Creates the stresses of the body that is asked for. */
 static PetscErrorCode CreateStress(SamEvaluation e)
 {
   const SamElasticityType type = SamElasticityGetType(e->source.bodies);
@@ -150,7 +150,7 @@ static PetscErrorCode CheckConstants(SamEvaluation e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The shape of the results, and their coordinates; a section has one y or one x. */
+/* Sets the shape of the results, and their coordinates; a section has one y or one x. */
 static PetscErrorCode SetLayout(SamEvaluation e)
 {
   const SamGrid    g   = e->grid;

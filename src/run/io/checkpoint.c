@@ -20,7 +20,7 @@ struct _n_SamCheckpoint {
   SamFileLock hold; /* of the temporary file */
 };
 
-/* The checksum of the gap that a contact's problem has now. */
+/* Computes the checksum of the gap that a contact's problem has now. */
 static PetscErrorCode GapChecksum(SamContact contact, uint64_t *checksum)
 {
 
@@ -39,13 +39,13 @@ typedef struct {
   PetscBool            sums; /* reading: whether sums that only the file has are read */
 } Rest;
 
-/* A name in the file, of values that are committed or one step back. */
+/* Writes a name in the file, of values that are committed or one step back. */
 static void NameOf(const char committed[], const char name[], PetscInt generation, char text[96])
 {
   (void)snprintf(text, 96, "%s%s", generation == SAM_BEFORE ? "before_" : committed, name);
 }
 
-/* A field as a dataset (components, ny, nx). */
+/* Writes or reads a field as a dataset (components, ny, nx). */
 static PetscErrorCode MoveField(SamFile f, const char name[], PetscInt components, Vec field)
 {
   const SamLabel label   = {.name = name};
@@ -68,7 +68,7 @@ static PetscErrorCode MoveField(SamFile f, const char name[], PetscInt component
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The kept fields of a state. */
+/* Writes or reads the kept fields of a state. */
 static PetscErrorCode MoveFields(SamFile f, SamState state)
 {
   char name[96];
@@ -96,7 +96,7 @@ static void NameLacking(const char name[], char message[], size_t size)
                  name);
 }
 
-/* The kept numbers of a state; those that may be lacking are in the file where they are not as usual. */
+/* Writes or reads the kept numbers of a state; optional ones are in the file only if they differ from the usual. */
 static void MoveNumbers(SamFile f, SamState state, char message[], size_t size)
 {
   for (PetscInt k = 0; k < SamStateCountNumbers(state); k++) {
@@ -145,7 +145,7 @@ static PetscErrorCode MoveNotes(SamFile f, PetscInt n, const SamNote notes[])
 
 /* ---- writing ---- */
 
-/* The fields that a state keeps, by their names with commas between them. */
+/* Lists the fields that a state keeps, by their names with commas between them. */
 static void ListFields(SamState state, char list[], size_t size)
 {
   list[0] = '\0';
@@ -157,7 +157,7 @@ static void ListFields(SamState state, char list[], size_t size)
   }
 }
 
-/* The conditions that are not as usual, likewise. */
+/* Lists the conditions that are not as usual, likewise. */
 static void ListConditions(SamState state, char list[], size_t size)
 {
   list[0] = '\0';
@@ -458,7 +458,7 @@ static PetscErrorCode ReadFile(SamContact contact, const char filename[], const 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Advice for a checkpoint that cannot be read: names the one before it, if that can be read. */
+/* Writes advice for a checkpoint that cannot be read: names the one before it, if that can be read. */
 static PetscErrorCode Advise(SamContact contact, const char filename[], const Rest *rest, char advice[], size_t size)
 {
   Content c;

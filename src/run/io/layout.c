@@ -28,7 +28,7 @@ static const SamShape matrices = {3,
                                   {CHUNK_MATRICES, SAM_COMPONENTS, SAM_COMPONENTS},
                                   NULL};
 
-/* The coordinates of the cell centres along x (0) or y (1), in the root group or another one. */
+/* Creates the coordinates of the cell centres along x (0) or y (1), in the root group or another one. */
 static PetscErrorCode CreateAxis(SamOutput o, hid_t where, const SamLabel *label, PetscInt direction, hid_t *scale)
 {
   const PetscInt n     = direction ? o->grid->ny : o->grid->nx;
@@ -84,7 +84,7 @@ static hid_t StoredType(const SamStateResult *field, PetscBool single)
   return field->kind == SAM_FIELD_STATE ? H5T_STD_I8LE : single ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
 }
 
-/* The planes of cells of a step that a field has. */
+/* Returns the number of the planes of cells of a step that a field has. */
 static hsize_t PlanesOf(SamOutput o, PetscInt f)
 {
   return SamOutputResult(o, f)->kind == SAM_FIELD_LAYERS
@@ -153,8 +153,8 @@ static void Mark(SamOutput o, hid_t x)
 }
 
 /*
-  A field of layers, in its group, which is made with the first one and has coordinates of its own: all fields of layers
-  share the layers.
+  Creates a field of layers, in its group, which is made with the first one and has coordinates of its own: all fields
+  of layers share the layers.
 */
 static PetscErrorCode CreateLayers(SamOutput o, PetscInt f, hid_t scales[4])
 {
@@ -216,7 +216,7 @@ static PetscErrorCode CreateFields(SamOutput o)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The rows or columns of matrices: the six loads, or the six rigid displacements, by name. */
+/* Creates the rows or columns of matrices: the six loads, or the six rigid displacements, by name. */
 static hid_t CreateComponents(SamOutput o, PetscBool loads)
 {
   static const SamLabel load             = {"load_component", "1", "component of the load"},

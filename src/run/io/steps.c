@@ -87,7 +87,7 @@ static void Append(SamOutput o, hid_t dataset, hid_t type, hsize_t index, hsize_
   SamFileWriteBlock(o->f, dataset, type, &block, numbers);
 }
 
-/* The values of a column in `count` rows of the state's numbers: real numbers, or integers of 64 bits. */
+/* Gathers the values of a column in `count` rows of the state's numbers: real numbers, or integers of 64 bits. */
 static void GatherColumn(const SamStateNumber *number, PetscInt id, const double *rows, PetscInt values, PetscInt count,
                          double column[])
 {

@@ -128,7 +128,7 @@ static PetscErrorCode UpdateLoss(Work *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The next busy cells of row j: see SamNextBusy(). Starts with a row whose end is column 0. */
+/* Finds the next busy cells of row j: see SamNextBusy(). Starts with a row whose end is column 0. */
 static PetscBool NextBusy(const Work *w, PetscInt j, PetscInt *end, SamRow *row)
 {
   PetscInt first;
@@ -138,7 +138,7 @@ static PetscBool NextBusy(const Work *w, PetscInt j, PetscInt *end, SamRow *row)
   return PETSC_TRUE;
 }
 
-/* The same by single blocks. */
+/* Finds the next busy cells of row j likewise, by single blocks. */
 static PetscBool NextBusyStretch(const Work *w, PetscInt j, PetscInt *next, SamRow *row)
 {
   const char *busy = w->busy + (ptrdiff_t)j * w->blocks;
@@ -281,7 +281,7 @@ static void SetLength(Work *w, double t, SamTotal contact[])
   }
 }
 
-/* s.u */
+/* Computes the curvature s.u. */
 static PetscErrorCode ComputeCurvature(Work *w)
 {
   SamTotal total = {0};

@@ -76,7 +76,7 @@ static PetscErrorCode Prolong(SamTransfer transfer, const SamLevel *coarse, SamL
 
 /* ---- one level ---- */
 
-/* The method on this grid; with `guess` from the pressure that the level has, made admissible. */
+/* Applies the method on this grid; with `guess` from the pressure that the level has, made admissible. */
 static PetscErrorCode SolveHere(SamSolver s, SamLevel *level, PetscBool guess)
 {
   PetscBool found;

@@ -84,7 +84,7 @@ static PetscErrorCode IsClear(SamSolver s, SamLevel *level, const SamFrame *fram
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The smallest rectangle that holds the contact and all cells that penetrate outside of the window. */
+/* Finds the smallest rectangle that holds the contact and all cells that penetrate outside of the window. */
 static PetscErrorCode FindTouching(SamSolver s, SamLevel *level, const SamFrame *frame, SamWindow window,
                                    PetscInt first[2], PetscInt size[2])
 {

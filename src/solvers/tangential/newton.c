@@ -81,7 +81,7 @@ typedef SamNewton Work;
 
 /* ---- fields ---- */
 
-/* The root of the number of cells in contact. */
+/* Computes the root of the number of cells in contact. */
 static PetscErrorCode FindReach(Work *w)
 {
   const SamStickSlip *u = &w->base;
@@ -131,7 +131,7 @@ static PetscErrorCode Destroy(Work *w)
 
 typedef void (*RowSums)(const SamNewton *w, SamRow row, double sums[]);
 
-/* The sums of a loop over all rows, at most PRODUCTS, in twice the digits. */
+/* Computes the sums of a loop over all rows, at most PRODUCTS, in twice the digits. */
 static PetscErrorCode SumRows(const Work *w, RowSums add, PetscInt n, double sums[])
 {
   const SamStickSlip *u                = &w->base;
@@ -317,7 +317,7 @@ static PetscErrorCode Step(Work *w, double *best)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The most that the error can be, rounding included. */
+/* Returns an upper bound of the error, rounding included. */
 static double Error(const Work *w)
 {
   return w->base.error + (w->rounding > 0 ? w->rounding / w->base.scale : 0);

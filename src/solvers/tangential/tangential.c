@@ -107,7 +107,9 @@ static PetscErrorCode MakeAdmissible(SamLevel *level, PetscBool *found)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The rigid-body displacement at the start of a level: of the guess or of the coarse solution, or the given part. */
+/*
+  Sets the rigid-body displacement at the start of a level: of the guess or of the coarse solution, or the given part.
+*/
 static PetscErrorCode StartRigid(SamSolver s, SamLevel *level, SamStart start)
 {
   SamFrame given;

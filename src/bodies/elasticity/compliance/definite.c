@@ -101,7 +101,7 @@ static void FillMeans(SamCompliance c, const double d[2], double means[])
           along[0][k % SIDE][c->power[m][0]] * along[1][k / SIDE][c->power[m][1]];
 }
 
-/* The compliance of the tractions on the cells relative to the half-space's, less the identity: D G. */
+/* Computes the compliance of the tractions on the cells relative to the half-space's, less the identity: D G. */
 static PetscErrorCode CreateRelative(SamCompliance c, SamBody body, Mat d, PetscInt n, Mat *relative)
 {
   const double side[2] = {2 * c->half[0] / SIDE, 2 * c->half[1] / SIDE};
@@ -131,7 +131,7 @@ static PetscErrorCode CreateRelative(SamCompliance c, SamBody body, Mat d, Petsc
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The smallest and the largest of the real eigenvalues of a matrix of order n. */
+/* Finds the smallest and the largest of the real eigenvalues of a matrix of order n. */
 static PetscErrorCode FindEnds(Mat matrix, PetscInt n, double *least, double *most)
 {
   double *real, *imaginary;

@@ -56,8 +56,8 @@ static Coefficients GetCoefficients(SamElasticity e, Kind kind)
 }
 
 /*
-  The integral of ln(|x|/D) over the cell at the lag i >= 0, m: in powers of the inverse lag, where the closed form
-  L(i + 1/2) - L(i - 1/2) cancels.
+  Returns the integral of ln(|x|/D) over the cell at the lag i >= 0, m: in powers of the inverse lag, where the closed
+  form L(i + 1/2) - L(i - 1/2) cancels.
 */
 static double PlaneIntegral(double dx, double datum, PetscInt i)
 {
@@ -119,7 +119,7 @@ static PetscErrorCode PrepareLayers(SamElasticity e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The influence of a cell on itself, m/Pa. */
+/* Returns the influence of a cell on itself, m/Pa. */
 static double SelfInfluence(SamElasticity e, Kind kind)
 {
   const Coefficients c = GetCoefficients(e, kind);
@@ -163,7 +163,7 @@ static PetscErrorCode GetKernel(SamElasticity e, Kind kind, SamKernel *kernel)
 
 /* ---- products ---- */
 
-/* The matrix of `scale` times these kernels, row by row. */
+/* Makes the matrix of `scale` times these kernels, row by row. */
 static PetscErrorCode GetMatrix(SamElasticity e, PetscInt n_out, PetscInt n_in, double scale, const Kind kinds[],
                                 SamKernelMatrix *matrix)
 {

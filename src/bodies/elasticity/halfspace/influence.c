@@ -138,8 +138,8 @@ static void Expand(Expansion *e, int order)
 }
 
 /*
-  The least order whose bound (top of this file) is within the tolerance for the cell at (x, y), both
-  >= 0; more than MAX_ORDER if there is none.
+  Returns the least order whose bound (top of this file) is within the tolerance for the cell at (x, y), both >= 0; more
+  than MAX_ORDER if there is none.
 */
 static int SelectOrder(const Expansion *e, double x, double y)
 {
@@ -161,8 +161,8 @@ static int SelectOrder(const Expansion *e, double x, double y)
 }
 
 /*
-  The integrals over the cells at ((first + 2 k) a, y), k < n <= BLOCK, by the expansion of that order.
-  The index is an int: without AVX-512DQ no vector of longer ones becomes one of doubles.
+  Evaluates the integrals over the cells at ((first + 2 k) a, y), k < n <= BLOCK, by the expansion of that order. The
+  index is an int: without AVX-512DQ no vector of longer ones becomes one of doubles.
 */
 SAM_VECTORIZED static void Evaluate(const Expansion *e, int order, double first, double y, int n,
                                     double *restrict values)
@@ -196,7 +196,7 @@ SAM_VECTORIZED static void Evaluate(const Expansion *e, int order, double first,
   }
 }
 
-/* A cell's expansion and those of its halves, none with polynomials yet. */
+/* Makes a cell's expansion and those of its halves, none with polynomials yet. */
 static void MakeShapes(SamIntegral kind, double a, double b, double scale, Expansion shapes[])
 {
   int slender = 1;
@@ -216,7 +216,7 @@ static void MakeShapes(SamIntegral kind, double a, double b, double scale, Expan
   }
 }
 
-/* The integral over a rectangle about (i a, j b), away from the origin; divided until an order suffices. */
+/* Returns the integral over a rectangle about (i a, j b), away from the origin; divided until an order suffices. */
 static double Rectangle(Expansion *e, double i, double j)
 {
   const int order = SelectOrder(e, fabs(i) * e->a, fabs(j) * e->b);
@@ -258,8 +258,8 @@ static ptrdiff_t BlockLength(ptrdiff_t i, ptrdiff_t n)
 }
 
 /*
-  The integrals over n cells (i + k, j), all in one block. The order depends on the block alone, not
-  on where the n cells begin or end in it, so that a cell has one value in whatever range it is computed.
+  Computes the integrals over n cells (i + k, j), all in one block. The order depends on the block alone, not on where
+  the n cells begin or end in it, so that a cell has one value in whatever range it is computed.
 */
 static void BlockIntegrals(Expansion *e, ptrdiff_t j, ptrdiff_t i, ptrdiff_t n, double *values)
 {

@@ -123,7 +123,7 @@ static Surface SubstrateOf(SamBody body)
   return s;
 }
 
-/* The surface of a body; `below`: also what lies below the n-th material at n + 1, NULL: not wanted. */
+/* Computes the surface of a body; `below`: also what lies below the n-th material at n + 1, NULL: not wanted. */
 static Surface SurfaceOf(SamBody body, double k, Surface below[])
 {
   Surface s = SubstrateOf(body);
@@ -167,7 +167,7 @@ typedef struct {
   double across;
 } Wave;
 
-/* The ten functions out of (U, W), (T, S) by p and q, and V, T across, in a material. */
+/* Computes the ten functions out of (U, W), (T, S) by p and q, and V, T across, in a material. */
 static void CombineStresses(double mu, double nu, Matrix moved, Matrix stress, double v, double across,
                             double s[SAM_LAYERED_STRESSES])
 {
@@ -189,7 +189,7 @@ static void CombineStresses(double mu, double nu, Matrix moved, Matrix stress, d
   s[9] = 0.25 * (xx[1] - yy[1]) - 0.5 * mu * v;
 }
 
-/* In the substrate, at the depth z below its top. */
+/* Computes the stress functions in the substrate, at the depth z below its top. */
 static void Below(const SamMaterial *of, Wave top, double kz, double s[SAM_LAYERED_STRESSES])
 {
   const Material m = MaterialOf(of);

@@ -18,7 +18,9 @@ static PetscReal Height_Ellipsoid(const PetscReal radius[], PetscReal x, PetscRe
   return 0.5 * x * x / radius[0] + 0.5 * y * y / radius[1];
 }
 
-/* The complete elliptic integrals K and E of modulus k = sqrt(1 - ratio^2), by the arithmetic-geometric mean. */
+/*
+  Computes the complete elliptic integrals K and E of modulus k = sqrt(1 - ratio^2), by the arithmetic-geometric mean.
+*/
 static void Integrals(double ratio, double *K, double *E)
 {
   double a = 1, b = ratio, square = 0.5 * (1 - ratio * ratio), power = 0.5;
@@ -105,7 +107,9 @@ static const SamGapParameter curved[] = {
 static const PetscReal curved_defaults[] = {INFINITY, INFINITY, INFINITY, INFINITY, 0},
                        curved_cylinder[] = {NAN, INFINITY, NAN, INFINITY, 0};
 
-/* The relative curvatures h_xx, h_xy, h_yy (1/m) of v: the radii along x and y of both bodies, and their angle. */
+/*
+  Computes the relative curvatures h_xx, h_xy, h_yy (1/m) of v: the radii along x and y of both bodies, and their angle.
+*/
 static void Curvatures(const PetscReal v[], double h[3])
 {
   const double angle = v[4] * PETSC_PI / 180, c = cos(angle), s = sin(angle);

@@ -339,7 +339,7 @@ PetscErrorCode SamGapGetParameters(SamGap gap, SamGapType *type, PetscInt *count
 
 #define HALVINGS 200 /* of an interval of half widths, more than doubles have digits and half of their exponents */
 
-/* The number of a contact that is compared with the prescribed value. */
+/* Returns the number of a contact that is compared with the prescribed value. */
 static PetscReal ValueOf(const SamGapContact *contact, PetscBool force)
 {
   return force ? contact->force : contact->approach;
