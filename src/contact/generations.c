@@ -252,7 +252,7 @@ static PetscErrorCode Offer(SamContact c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Grows with all that declarations follow from besides the settings: conditions, laws and what was set of them. */
+/* Returns a number that grows when conditions, laws or their settings change, from which declarations follow. */
 static PetscObjectState Declarations(SamContact c)
 {
   PetscObjectState sum = SamConditionsCount(c->conditions);

@@ -318,7 +318,7 @@ static PetscErrorCode Advance(SamContact c, PetscBool known_pressure, char faile
 
 /* ---- a step ---- */
 
-/* Bodies that touch nowhere under the given normal load, which is 0, have no approach. */
+/* Sets the approach to unknown where bodies touch nowhere under the given normal load, which is 0. */
 static PetscErrorCode ForgetApproach(SamContact c, SamStep *step)
 {
   PetscReal cells;

@@ -148,7 +148,7 @@ void SamLevelGetRigid(const SamLevel *level, SamBalance *balance)
   SamFrameGetRigid(&level->frame, a, balance);
 }
 
-/* The field added to the operator's diagonal; NULL: none. */
+/* Returns the field added to the operator's diagonal; NULL: none. */
 static Vec DiagonalOf(SamSolver s, const SamLevel *level)
 {
   return s->kind->diagonal >= 0 ? level->given[s->kind->diagonal] : NULL;

@@ -12,7 +12,7 @@
 enum { CONTACT, STICK, DISSIPATED, STORED, ERROR, TURNED, BEFORE_TOUCH, SUMS };
 enum { PRESSURE, SHEAR, SLIP, MOSTS }; /* of the last two the squares */
 
-/* By how much the slip of this rank's cell k would work more if it had touched before the step (TOUCHES, below). */
+/* Returns how much more work slip in this rank's cell k would do if it had touched before the step (TOUCHES, below). */
 static double WorkBeforeTouch(const SamIncrement *increment, ptrdiff_t k, double dx, double dy)
 {
   double         share[2];

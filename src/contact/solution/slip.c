@@ -105,7 +105,7 @@ static double GapOf(const Seen *s, PetscInt i, PetscInt j)
   return PetscMax(gap, 0);
 }
 
-/* A cell at the edge, the axis and side on which the cell outside is, and M q/p about there. */
+/* A face between a cell in contact, (i, j), and the cell outside it, in the direction `step`; M q/p near the face */
 typedef struct {
   PetscInt i, j, step[2];
   double   bend[2], strain; /* and by pressure, the strain along x over it */

@@ -48,7 +48,7 @@ typedef struct {
   SamSolve *s;
   PetscReal error;   /* of the normal problem with the lift by the shear of the last pass */
   PetscReal rtol[2]; /* of the normal and the tangential problem, as the user wants them */
-  PetscBool looks;   /* contact may be where it has not been looked for */
+  PetscBool looks;   /* contact may exist outside of the cells searched so far */
   PetscBool slides;  /* the bound of this pass cannot carry the loads */
   PetscInt  stuck;   /* number of passes in a row whose shear was not found within a few iterations */
   PetscReal least;   /* the least error so far */

@@ -241,7 +241,7 @@ static PetscErrorCode AddStrain(SamGrid grid, const SamStrain *e, Vec field)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* w - S of the tangential problem: what moves the surfaces besides the shear, less the slip so far; NULL for zero. */
+/* Computes w - S of the tangential problem: displacements not by the shear, minus the slip so far; NULL for zero. */
 static PetscErrorCode CreateOffset(SamSolve *w, Vec *offset)
 {
   const SamStepTask *task = w->task;

@@ -61,9 +61,9 @@ enum {
   CELLS,        /* of its fields on all ranks; 0: nothing is kept */
   UNIT_SHEAR,   /* of the changes (Pa) */
   UNIT_PRODUCT, /* (m) */
-  GAP,          /* the number of the gap that the pressure is right for; -1: it has moved since */
-  PRESSURE,     /* whether there is a pressure; else it is that of the step before */
-  RTOL,         /* of the normal solver */
+  GAP,          /* number of the gap for which the pressure was solved; -1: it has moved since */
+  PRESSURE,     /* 1: a pressure is stored; 0: it is that of the step before */
+  RTOL,         /* tolerance of the normal solver */
   LOAD,         /* normal loads and rigid displacements */
   RIGID = LOAD + 3,
   KEPT  = RIGID + 3

@@ -106,7 +106,7 @@ static void ReturnLargeFields(void)
 #endif
 }
 
-/* Signals at which PETSc would print a trace, though nothing is wrong in the program; nohup has one ignored. */
+/* Signals at which PETSc would print a trace though the program has no error; nohup ignores one of them */
 static const int usual[] = {SIGHUP, SIGQUIT, SIGTERM, SIGPIPE, SIGURG};
 enum { USUAL = sizeof(usual) / sizeof(usual[0]) };
 

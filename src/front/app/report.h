@@ -14,8 +14,8 @@ typedef enum { SAM_PROGRESS_AUTO, SAM_PROGRESS_ALWAYS, SAM_PROGRESS_NEVER } SamP
 /* The progress line within a step, which only rank 0 shows. */
 typedef struct {
   SamProgressMode mode;
-  PetscBool       active;   /* whether this rank shows it */
-  double          after;    /* shown after so many seconds of a step */
+  PetscBool       active;   /* true if this rank shows it */
+  double          after;    /* seconds of a step after which it is shown */
   double          shown_at; /* when it was updated last (MPI_Wtime) */
   int             length;   /* characters on the terminal, to be erased */
 } SamProgress;
@@ -58,7 +58,7 @@ struct _n_SamReport {
   SamExtent      extent;      /* of the contact in step `extent_step`, */
   PetscInt       extent_step; /* from 1; 0: not known */
   SamSlip        slip;        /* of all steps; without steps: not known */
-  PetscBool      edge_told;   /* that the contact is at the edge, which is allowed */
+  PetscBool      edge_told;   /* true once a contact at the grid's edge, which is allowed, has been reported */
   /* files written */
   char    *name[SAM_REPORT_FILES], *content[SAM_REPORT_FILES];
   PetscInt files;

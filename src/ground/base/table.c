@@ -94,7 +94,7 @@ static void ListNames(const Reader *r, char list[], size_t size)
   }
 }
 
-/* Refuses a name that is none of a column's. A unit is a likely reason. */
+/* Rejects a name that is not the name of a column. A unit in it is a likely reason. */
 static PetscErrorCode RefuseName(Reader *r, const char field[])
 {
   const char *meant = FindMeant(r, field);

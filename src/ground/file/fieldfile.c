@@ -71,7 +71,7 @@ static PetscErrorCode CheckShape(SamFile f, const Wanted *w, hid_t space, hsize_
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Finds out what the numbers mean, and whether the surface is as large as the grid. */
+/* Determines the unit and sign of the numbers, and checks that the surface is as large as the grid. */
 static PetscErrorCode CheckLengths(SamFile f, const Wanted *w, hid_t dataset, Answer *answer)
 {
   const SamGrid grid = w->grid;

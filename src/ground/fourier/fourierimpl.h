@@ -54,7 +54,7 @@ typedef struct {
 
 /* SamWorkspace - the slabs of all transforms on a communicator; see workspace.c. */
 typedef struct {
-  MPI_Comm    user; /* that of the grids, whose attribute this is */
+  MPI_Comm    user; /* communicator of the grids, whose attribute this workspace is */
   MPI_Comm    comm; /* a duplicate for its own messages */
   PetscMPIInt ranks, rank;
   PetscInt    references;

@@ -24,7 +24,7 @@
 /* Ratio of a stress to Young's modulus below which it has no effect; grid width (m) that suggests wrong units */
 #define SLIGHT 1e-8
 #define WIDEST 100.0
-/* A contact of a round body that is wider than this part of the period is no single one. */
+/* Part of the period above which the contact of a round body is affected by its periodic images */
 #define CROWDED 0.25
 /* A contact narrower than this part of its radius has a radius that may be in another unit. */
 #define FLATTEST 1e-3

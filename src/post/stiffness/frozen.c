@@ -189,7 +189,7 @@ static PetscErrorCode CreateWork(SamFrozen *f)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Without a tried step there must be a committed one, at which the motion reverses. */
+/* Checks the step: without a tried step there must be a committed one, at which the motion reverses. */
 static PetscErrorCode CheckStep(SamContact contact, SamStiffnessDirection direction)
 {
   const SamGrid   grid      = SamContactGetGrid(contact);

@@ -15,7 +15,7 @@ PetscInt SamFrozenSize(const SamFrozen *f)
   return Components(f) * f->count;
 }
 
-/* The pressure of a field, and its shear; NULL where the system has none. */
+/* Return the index of the pressure in a vector, and of the shear; -1 where the system has none. */
 static PetscInt PressureAt(const SamFrozen *f)
 {
   return f->part == SAM_FROZEN_TANGENTIAL ? -1 : 0;

@@ -23,7 +23,7 @@ enum { COARSE = 10, STARTS = 5 };
 /* The part of the best value from which on another start is tried. */
 #define NEARLY 0.9
 
-/* The part by which a step up must lead up. */
+/* Least relative increase of the parameter by a step of the search */
 #define CLIMB 1e-6
 
 #define DEGREE (PETSC_PI / 180)

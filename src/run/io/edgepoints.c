@@ -35,7 +35,7 @@ void SamOutputCreatePointScales(SamOutput o)
       SamFileAttachScales(o->f, o->fields[f], 3, scales);
 }
 
-/* Places beyond a step's last point are NaN. */
+/* Creates the dataset of edge points; places beyond a step's last point are NaN. */
 hid_t SamOutputCreatePoints(SamOutput o, const SamLabel *label)
 {
   const double   nothing = NAN;

@@ -55,7 +55,7 @@ static hsize_t ChunkSize(hsize_t n, hsize_t most)
   return (n + chunks - 1) / chunks;
 }
 
-/* Chunks are one step deep. */
+/* Returns the shape of a field's dataset; each chunk holds one step. */
 static SamShape FieldShape(SamGrid grid, const SamOutputSettings *set)
 {
   const hsize_t ny = (hsize_t)grid->ny, nx = (hsize_t)grid->nx;

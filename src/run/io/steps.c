@@ -186,7 +186,7 @@ static PetscErrorCode GetValues(SamOutput o, PetscInt f, ContactFields *from, co
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A field of layers: each rank writes its rows of all of them. */
+/* Appends a field of layers: each rank writes its rows of all layers. */
 static PetscErrorCode AppendLayers(SamOutput o, PetscInt f)
 {
   const SamGrid         g      = o->grid;
@@ -252,8 +252,8 @@ static PetscErrorCode AppendFields(SamOutput o)
 /* ---- writing ---- */
 
 /*
-  Before anything is written: raises an error if the file is not as it was left, and reserves disk space. What waits is
-  given up then: there is no file for it.
+  Prepares writing: raises an error if the file is not as it was left, and reserves disk space. After an error waiting
+  rows are given up: there is no file for them.
 */
 static PetscErrorCode Begin(SamOutput o, off_t bytes)
 {

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-/* The elasticity and the laws on the grid. */
+/* Creates the elasticity and the laws on the grid. */
 static PetscErrorCode CreateProblem(SamSetup *s, const SamOptions *from)
 {
   PetscFunctionBegin;

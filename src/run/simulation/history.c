@@ -39,8 +39,8 @@ typedef struct {
 } Reader;
 
 /*
-  A value that has a column too: refused if it is given for this run. One that is only in an options file does not
-  count, and that is said: such files are shared by several runs.
+  Rejects a value that has a column, too, if it is given for this run. A value that is only in an options file is
+  ignored with a warning: such files are shared by several runs.
 */
 static PetscErrorCode Override(const Reader *r, const char name[], const char column[], PetscBool *set)
 {
@@ -254,7 +254,7 @@ PetscBool SamHistoryGives(SamHistory h, const SamCondition *condition)
   return PETSC_FALSE;
 }
 
-/* Row r of a column. Below, row -1 stands for the start, before the first row. */
+/* Returns row r of a column. In the functions below, row -1 stands for the start, before the first row. */
 static double Entry(SamHistory h, PetscInt column, PetscInt r)
 {
   return h->table.value[r * h->table.columns + column];
@@ -295,7 +295,7 @@ static PetscErrorCode CheckChanges(SamHistory h, MPI_Comm comm, const char file[
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Part k of the control (SamControlPart()), which has a column, or is constant. */
+/* Returns part k of the control (SamControlPart()) in row r: from its column, or constant. */
 static double ValueOfRow(SamHistory h, PetscInt k, PetscInt r)
 {
   const SamCondition *condition = k < SAM_COMPONENTS ? NULL : SamConditionsGet(h->conditions, k - SAM_COMPONENTS);

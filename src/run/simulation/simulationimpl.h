@@ -14,7 +14,7 @@ typedef struct {
   uint64_t  identity;                    /* identity of that part's file */
   SamStatus worst;                       /* worst status of the steps */
   char      results[PETSC_MAX_PATH_LEN]; /* the file, as it was named; empty: none */
-  PetscBool restarted;                   /* continues from a checkpoint */
+  PetscBool restarted;                   /* true if the run continues from a checkpoint */
 } SamSimulationPoint;
 
 /* When checkpoints are written: every so many steps, when a signal asks for one, and before a time limit. */
@@ -33,7 +33,7 @@ typedef struct {
   double        recent[SAM_RECENT]; /* seconds of the last steps */
   double        writing;            /* seconds that the slowest checkpoint took */
   PetscInt      done, last;         /* number of steps in this run; step of the last checkpoint */
-  PetscInt      seen;               /* steps when a checkpoint was last considered */
+  PetscInt      seen;               /* number of steps when a checkpoint was last considered */
 } SamCheckpoints;
 
 struct _n_SamSimulation {

@@ -30,7 +30,7 @@
 /* Rounding of the dual's value, relative to its parts. */
 #define VALUE_ROUNDING 1e-13
 
-/* Error of equilibrium along the basis, as a combination of the phi; returns its size relative to the scale. */
+/* Computes the error of equilibrium along the basis, as a combination of the phi; returns its size over the scale. */
 static double Imbalance(const SamFrame *f, const SamDual *dual, double error[3])
 {
   double size = 0, load = 0;
@@ -68,10 +68,10 @@ typedef struct {
   double  a[3];
   SamDual dual;
   double  error[3], size; /* error of equilibrium, and its relative size */
-  double  rounding;       /* of the dual's value */
+  double  rounding;       /* rounding error of the dual's value */
 } Iterate;
 
-/* The dual, its gradient and rounding at a. */
+/* Computes the dual, its gradient and rounding at a. */
 static PetscErrorCode EvaluateAt(const SamFrame *f, SamDualPass pass, const void *context, Iterate *at)
 {
   SamTotal totals[SAM_DUAL] = {{0}};

@@ -58,7 +58,7 @@ static double Line(const SamZone *z, PetscInt i, const double fit[SAM_FIT_TERMS]
   return c[0] + u * (c[1] + u * (c[2] + u * c[3]));
 }
 
-/* The function about a cell by the zone's cells behind the margin of the edge; false: there are too few of them. */
+/* Fits the function about a cell to the zone's cells behind the margin of the edge; false: there are too few. */
 static PetscBool Extrapolate(const SamZone *z, const SamFitWindow *core, PetscInt i, PetscInt j,
                              double fit[SAM_FIT_TERMS], double *bent)
 {

@@ -26,7 +26,7 @@ typedef struct {
   double          displacement;   /* maximum |S p|, m */
   double          floor;          /* error that rounding leaves where the displacement is nearly zero, m */
   double          error;          /* maximum complementarity error, m */
-  double          rounding;       /* bound of that of g, for the maximum error of a cell, m */
+  double          rounding;       /* bound of the rounding of g, for the maximum error of a cell, m */
   double          slope;          /* of the energy along the step: s.g */
   double          shrink;         /* largest part of its distance from a bound that a cell loses in the step */
   double          largest;        /* largest pressure of the trial, Pa */
@@ -93,9 +93,9 @@ PETSC_INTERN PetscBool SamActiveSetChooseRow(SamActiveSet *w, SamRow row, double
   there is none, g where it is the largest admissible one.
 */
 PETSC_INTERN double SamActiveSetMoveRow(SamActiveSet *w, SamRow row, const double motion[3]);
-/* How many cells have a loss and are not in A, or the other way round. */
+/* Returns how many cells have a loss and are not in A, or the other way round. */
 PETSC_INTERN double SamActiveSetCountChanged(const SamActiveSet *w, SamRow row);
-/* loss becomes the part `off` of it on A, but never 0 there, and 0 elsewhere. */
+/* Multiplies the loss by `off` on A, where it never becomes 0, and sets it to 0 elsewhere. */
 PETSC_INTERN void SamActiveSetLossRow(SamActiveSet *w, SamRow row, float off);
 /* z = r, the residual: -g on A, in units. */
 PETSC_INTERN void SamActiveSetResidualRow(SamActiveSet *w, SamRow row);

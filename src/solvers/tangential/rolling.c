@@ -391,7 +391,7 @@ static PetscErrorCode Run(Work *w, SamSolverReason *reason)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Without a solution, no shear beyond its bound is left. */
+/* Leaves an admissible shear after a solve without solution: none beyond its bound. */
 static PetscErrorCode LeaveAdmissible(Work *w)
 {
   SamStickSlip *u     = &w->base;

@@ -177,7 +177,7 @@ static PetscErrorCode GetMatrix(SamElasticity e, PetscInt n_out, PetscInt n_in, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* In plane strain u_z and u_x, or u_x and p, by themselves, and u_y. */
+/* Applies the kernels in plane strain: output c depends on input c only, and is 0 without one. */
 static PetscErrorCode ApplyPlane(SamElasticity e, PetscInt n_out, PetscInt n_in, double scale, const Kind kinds[],
                                  const double *const in[], double *const out[])
 {
@@ -286,7 +286,7 @@ static PetscErrorCode Precondition(SamElasticity e, PetscInt n, double factor, d
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Times gain |k| (I + nu kk'/|k|^2), or, with a film, the inverse of the inverse of this plus the film. */
+/* Multiplies by B = gain |k| (I + nu kk'/|k|^2), or, with a film, by the inverse of (inverse of B, plus film). */
 SAM_VECTORIZED static void DivideTangential(const SamSymbol *s, SamWaves at)
 {
   const float gain = (float)s->gain, mean = (float)s->mean, extra = (float)s->nu, least = mean * mean,

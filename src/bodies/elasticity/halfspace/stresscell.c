@@ -21,8 +21,8 @@
     s_zz += M (hx dq_x/dx + hy dq_y/dy)/pi.
   With differences over two cells for the derivatives this changes the kernels at the neighbours of the cell only.
 
-  In plane strain, of a strip |x| < a, the closed forms of Johnson, section 2.5, with the angle that the strip is seen
-  under, and differences of fractions multiplied out, so that nothing cancels far away.
+  In plane strain, the stresses by a strip |x| < a are the closed forms of Johnson, section 2.5, by the angle subtended
+  by the strip. Differences of fractions are multiplied out, so that nothing cancels far away.
 
   References: Love 1929, Phil. Trans. R. Soc. A 228, 377; Johnson 1985, Contact Mechanics, ch. 3; Kalker 1990,
   Three-dimensional Elastic Bodies in Rolling Contact, ch. 4 and app. C.

@@ -90,7 +90,7 @@ static PetscInt FirstBeyond(double depth, double R, const double side[2], PetscI
   return x2 <= 0 ? 0 : (PetscInt)PetscMin(ceil(sqrt(x2) / side[0]), (double)n);
 }
 
-/* Lags first ... end - 1 of a row, by this many rows of points across a cell. */
+/* Adds the integrals at lags first ... end - 1 of a row, by this many rows of points across a cell. */
 static void AddFar(const SamRadialKernels *of, int across, const double side[2], PetscInt j, PetscInt first,
                    PetscInt end, double *const values[])
 {

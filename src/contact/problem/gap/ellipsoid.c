@@ -56,7 +56,7 @@ static double RatioOfAxes(double radii)
   return radii > 1 - 1e-7 ? 1 : high; /* there the difference above is only rounding */
 }
 
-/* Hertz: Johnson, eqs 4.25 to 4.30. For a cylinder they give the half width of the contact, not its length. */
+/* Returns Hertz's contact: Johnson, eqs 4.25 to 4.30. For a cylinder they give its half width, not its length. */
 static SamGapContact Contact_Ellipsoid(const PetscReal radius[], PetscReal half)
 {
   const int     x     = radius[0] >= radius[1] ? 0 : 1; /* along the longer axis */
