@@ -29,7 +29,7 @@ typedef struct SamSymbol {
   void (*multiply)(const struct SamSymbol *symbol, SamWaves waves); /* in place */
 } SamSymbol;
 
-/* The same symbol applied to n fields; `multiply` must be of the same precision. Collective. */
+/* Applies one symbol to n fields; its `multiply` must be of their precision. Collective. */
 PETSC_INTERN PetscErrorCode SamSymbolApply(SamElasticity elasticity, const SamSymbol *symbol, PetscInt n,
                                            const double *const in[], double *const out[]);
 PETSC_INTERN PetscErrorCode SamSymbolApplySingle(SamElasticity elasticity, const SamSymbol *symbol, PetscInt n,

@@ -206,7 +206,7 @@ void SamIncrementTurnRow(const SamIncrement *s, PetscInt j, double *const to[2])
   }
 }
 
-/* The part of the bound after a step that the slip in it works against since a cell touched (step/direction.c). */
+/* Shear against which a cell slips after it has touched in a step, relative to the final bound (step/direction.c) */
 #define TOUCHED 0.4
 
 /*

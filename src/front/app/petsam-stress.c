@@ -123,7 +123,7 @@ static PetscErrorCode ReadConditions(void *context, PetscInt k, SamConditions co
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The file keeps the warning, for who reads the parameters later. */
+/* Warns, and stores the warning in the file for later readers of the parameters. */
 static PetscErrorCode WarnOfSteps(void *context, const char text[])
 {
   char *const  doubt = ((SamStressRun *)context)->doubt;
@@ -235,7 +235,7 @@ static double MemoryOf(const SamStressRun *run)
   return run->layout->memory + SAM_MEMORY_PROGRAM;
 }
 
-/* The output and its temporary file must not replace a file that is read. */
+/* Checks that the output and its temporary file do not replace a file that is read. */
 static PetscErrorCode CheckFiles(const SamStressRequest *r, const SamArguments *arguments)
 {
   SamFiles files = {.count = 0};
@@ -408,7 +408,7 @@ static PetscErrorCode PrintBanner(SamStressRun *run)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The stresses of a contact fall off within its own size. */
+/* Warns of depths in another unit: the stresses of a contact decay within its own size. */
 static PetscErrorCode WarnOfDepths(SamStressRun *run)
 {
   const double width   = 2 * (double)run->grid->length,

@@ -78,7 +78,7 @@ static PetscErrorCode CheckFiles(const SamSimulationFiles *f, const SamArguments
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A quiet run without a file leaves nothing but its exit code. */
+/* Warns of a quiet run without a file, which leaves nothing but its exit code. */
 static void WarnOfQuiet(const SamRun *run, const SamSimulationFiles *f)
 {
   if (run->report->quiet && !run->report->rank && !run->dry && !f->output && !f->checkpoint)

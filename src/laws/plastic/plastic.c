@@ -35,7 +35,7 @@ typedef struct {
 /* Parts of the work of a step in its error: see SumWork(). */
 #define TURNS 0.01
 #define BACK  0.05
-/* The part of the maximum plastic strain that counts for its extent. */
+/* Least plastic strain that counts for its extent, relative to the maximum */
 #define COUNTS 0.01
 /* Depth that may yield, over the width of the grid, at most. */
 #define DEEPEST 2

@@ -14,7 +14,7 @@
 
 #define RTOL 1e-3 /* of the displacement */
 #define MOST 200  /* iterations */
-/* The part of a displacement that is rounding: all that is left of a rigid motion, as of a uniform strain. */
+/* Rounding error relative to a displacement: the remainder of a rigid motion, as by a uniform strain */
 #define ROUNDING 1e-13
 
 struct _n_SamReaction {

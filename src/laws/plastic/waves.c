@@ -104,7 +104,8 @@ static void SetLayer(Column *w, double h)
   }
 }
 
-/* The same where it is another layer than the last one; then the means from the surface to it, at this depth. */
+/* The first function sets layer l, unless it is as thick as the last one; the second one sets the means over a wave
+   from the surface to a layer whose top is at this depth. */
 static void UseLayer(Column *w, PetscInt l, double *last)
 {
   if (w->body->thickness[l] != *last) SetLayer(w, *last = w->body->thickness[l]);

@@ -7,7 +7,7 @@
 #include <petsam/elasticity.h>
 #include <petsam/stiffness.h>
 
-/* The part of the tractions that a linear system has as unknowns. */
+/* Tractions that are the unknowns of a linear system */
 typedef enum { SAM_FROZEN_NORMAL, SAM_FROZEN_TANGENTIAL, SAM_FROZEN_BOTH } SamFrozenPart;
 
 /*

@@ -1,7 +1,7 @@
 /* Checks that the steps are one closed cycle, as a fatigue parameter takes them. */
 #include "evaluationimpl.h"
 
-/* The part of the largest traction by which the ends of a cycle may differ. */
+/* Largest difference between the ends of a closed cycle, relative to the largest traction */
 #define CLOSED 0.01
 /* The largest difference between the ends of a cycle that does not yet repeat itself. */
 #define AGAIN 0.05

@@ -103,7 +103,7 @@ static PetscErrorCode CreateStress(SamEvaluation e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A cycle needs several steps, a point that passes needs one. */
+/* Checks the number of steps: a cycle needs several, a point that passes one. */
 static PetscErrorCode CheckCycle(SamEvaluation e)
 {
   const PetscBool ruiz = SamQuantityWanted(e, SamFatigueRuiz);

@@ -20,7 +20,7 @@ enum { COARSE = 10, STARTS = 5 };
 #define FIRST_STEP 5.0
 #define LAST_STEP  0.15
 #define ELSEWHERE  20.0
-/* The part of the best value from which on another start is tried. */
+/* Least ratio of a start's value to the best value at which this start is tried */
 #define NEARLY 0.9
 
 /* Least relative increase of the parameter by a step of the search */

@@ -378,7 +378,7 @@ static PetscErrorCode CreateState(SamContact contact, const char list[], PetscBo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The message names a condition of the file that the contact lacks. */
+/* Checks that the contact has all conditions of the file; the message names one that it lacks. */
 static PetscErrorCode CheckConditions(SamState state, const char list[], char message[], size_t size)
 {
   char **names;

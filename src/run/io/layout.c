@@ -67,7 +67,7 @@ static SamShape FieldShape(SamGrid grid, const SamOutputSettings *set)
                     NULL};
 }
 
-/* The same of so many layers, each with chunks of its own. */
+/* Returns the shape of a dataset of so many layers, each with chunks of its own. */
 static SamShape LayersShape(SamGrid grid, const SamOutputSettings *set, PetscInt layers)
 {
   const SamShape plane = FieldShape(grid, set);

@@ -20,14 +20,14 @@
 #include <petsam/balance.h>
 #include <petsam/private/state.h>
 
-/* The part of the tolerance that estimates may use; they are up to three times too small. */
+/* Largest estimate relative to the tolerance; estimates are up to three times too small. */
 #define SAFETY 0.3
 /* Twice the length has four times the error, relative to its energy; with some reserve. */
 #define DOUBLE 0.2
 #define LEAST  (1.0 / 1024)
 /* The longest piece: in a longer one, cells may slide and stick again, which its end, and so the estimate, misses. */
 #define MOST (1.0 / 4)
-/* The part of the average energy so far from which on a piece counts by its own. */
+/* Least energy to which a piece's error is related, relative to the average energy so far */
 #define LITTLE 0.2
 
 PetscErrorCode SamSimulationReadPieces(SamSimulation s, const SamOptions *from)

@@ -23,7 +23,7 @@
 /* The least fall of the value and the largest slope at the end of a step, as parts of the slope at its beginning. */
 #define ENOUGH_FALL 1e-4
 #define MUCH_SLOPE  0.9
-/* The part of an error of equilibrium from which on what the Hessian does not see of it decides the step. */
+/* If the error outside the Hessian's range exceeds this part of the error of equilibrium, the step goes along it. */
 #define UNSEEN 0.1
 /* A traction has vanished when its sum is this part of what it was. */
 #define VANISHED 1e-13

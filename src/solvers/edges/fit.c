@@ -23,7 +23,7 @@ void SamFitWindowInitialize(PetscInt half, int least, SamFitWindow *window)
     }
 }
 
-/* The part of a window that is seen. */
+/* Part of a fit's window that lies in the zone's window */
 typedef struct {
   PetscInt left, right, low, high;
 } Range;

@@ -46,7 +46,7 @@
 #include <math.h>
 #include <string.h>
 
-/* The part of the loss that is subtracted, and the part of A that may change before the loss is recomputed. */
+/* Part of the loss that is subtracted, and part of A that may change before the loss is recomputed */
 #define LOSS_OFF 0.5
 #define LOSS_OLD 0.01
 /* A direction's least descent, as a part of that of the preconditioned residual. */

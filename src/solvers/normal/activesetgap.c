@@ -27,13 +27,13 @@ static double Tolerance(const Work *w)
   return PetscMax(w->level->rtol * w->displacement, w->floor);
 }
 
-/* Single precision of S p suffices for the tolerance. */
+/* True if single precision of S p suffices for the tolerance. */
 static PetscBool IsSingleEnough(const Work *w)
 {
   return SAM_SINGLE_ROUNDING <= DOUBT * w->level->rtol;
 }
 
-/* The rounding of g is no more than the tolerance has room for. */
+/* True if the rounding of g is small enough for the tolerance. */
 static PetscBool IsTrusted(const Work *w)
 {
   return w->rounding <= DOUBT * Tolerance(w);
@@ -48,7 +48,7 @@ PetscBool SamActiveSetIsStale(const Work *w)
 
 /* ---- the gap and the active set ---- */
 
-/* g = S p in single precision. */
+/* Computes g = S p in single precision. */
 static PetscErrorCode ApplySingle(Work *w)
 {
   double most = 0, scale;
@@ -64,7 +64,7 @@ static PetscErrorCode ApplySingle(Work *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* g = S p */
+/* Computes g = S p. */
 static PetscErrorCode Apply(Work *w)
 {
   PetscFunctionBegin;

@@ -114,7 +114,7 @@ PETSC_INTERN double SamActiveSetCurvatureRow(const SamActiveSet *w, SamRow row);
 PETSC_INTERN double SamActiveSetPartRow(SamActiveSet *w, SamRow row, double t);
 /* From the trial, where p has gone by s, to t times that; adds to the sums over the cells between their bounds. */
 PETSC_INTERN void SamActiveSetStepRow(SamActiveSet *w, SamRow row, double t, SamGapSums *sums);
-/* The same where there is neither pressure nor a step: returns the least gap. */
+/* Moves the gap likewise in cells with neither pressure nor a step; returns the least gap. */
 PETSC_INTERN double SamActiveSetOpenRow(SamActiveSet *w, SamRow row, double t);
 /* The maximum |S p|. */
 PETSC_INTERN double SamActiveSetDisplacementRow(const SamActiveSet *w, SamRow row);

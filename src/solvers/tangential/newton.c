@@ -49,7 +49,7 @@
 /* Least and largest length of a step, in parts of that to the least energy, where these bound it. */
 #define LEAST_PART   0.5
 #define LARGEST_PART 1.8
-/* The part of the error that rounding of the slip may make up before the slip is recomputed. */
+/* Rounding of the slip, relative to the error, above which the slip is recomputed */
 #define DOUBT 0.2
 /* The least unit of slip, relative to what the shear displaces: the residual may be zero, and steps are not. */
 #define LEAST_UNIT 1e-13
@@ -419,7 +419,7 @@ static PetscErrorCode Iterate(Work *w, PetscBool gradient, PetscBool *downhill, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Steps of less than full length leave slipping cells a little within their circles: puts them on these. */
+/* Moves slipping cells onto their circles: steps of less than full length leave them a little inside. */
 static PetscErrorCode Finish(Work *w, PetscBool *found)
 {
   SamStickSlip *u = &w->base;

@@ -305,7 +305,7 @@ static PetscErrorCode TakeTrial(Work *w, double motion[3], PetscBool *found)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Step 5, and the end: an admissible shear nearby. */
+/* Makes the shear admissible, in step 5 and at the end. */
 static PetscErrorCode MakeAdmissible(Work *w, PetscBool *found)
 {
   const SamStickSlip *u = &w->base;

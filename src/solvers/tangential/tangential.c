@@ -138,7 +138,7 @@ static PetscErrorCode SolveLevel(SamSolver s, SamLevel *level, SamStart start)
 
 /* ---- gross slip ---- */
 
-/* When sliding is reached, its shear becomes that of the level. */
+/* Finds out whether sliding is reached; if so, takes the shear of sliding as that of the level. */
 static PetscErrorCode ComputeLimit(SamSolver s, const SamLevel *level, PetscBool *reached)
 {
   Vec shear;
@@ -186,7 +186,7 @@ static PetscBool IsUnloaded(const SamLevel *level)
   return PETSC_TRUE;
 }
 
-/* No friction, no contact or no load: q = 0, which carries no load. */
+/* Solves a problem without friction, contact or load: q = 0, which carries no load. */
 static PetscErrorCode SolveFree(SamSolver s, SamLevel *level)
 {
   SamBalance *b      = level->balance;

@@ -107,7 +107,7 @@ static void CoefficientRow(PetscInt j, PetscInt n, double *const values[], const
   if (c->layers) SamLayeredAddRow(c->layers, (SamIntegral)c->kind, c->dx, c->dy, j, n, values[0]);
 }
 
-/* The layers' part of kernels needs a table as far as the lags reach. */
+/* Makes the table for the layers' part of kernels, as far as the lags reach. */
 static PetscErrorCode PrepareLayers(SamElasticity e)
 {
   const SamGrid grid = e->grid;
