@@ -104,8 +104,10 @@ static void SetLayer(Column *w, double h)
   }
 }
 
-/* The first function sets layer l, unless it is as thick as the last one; the second one sets the means over a wave
-   from the surface to a layer whose top is at this depth. */
+/*
+  UseLayer() sets the means over layer l, unless it is as thick as the last one. SetDecay() then multiplies them by the
+  decay of the waves from the surface down to the layer's top (m).
+*/
 static void UseLayer(Column *w, PetscInt l, double *last)
 {
   if (w->body->thickness[l] != *last) SetLayer(w, *last = w->body->thickness[l]);
