@@ -27,7 +27,7 @@ void SamJoin(PetscInt count, const char *const names[], const char between[], co
     used += (size_t)snprintf(text + used, size - used, "%s%s", !k ? "" : k + 1 < count ? between : last, names[k]);
 }
 
-/* Writes the names with this between them. */
+/* The names with this between them. */
 static PetscErrorCode Join(PetscFunctionList list, const char between[], const char last[], char text[], size_t size)
 {
   const char **types;

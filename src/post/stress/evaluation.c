@@ -41,7 +41,7 @@ PetscErrorCode SamEvaluationReadTractions(SamEvaluation e, PetscInt step, PetscB
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Computes the stresses at a depth that do not depend on x and y: residual stress, and what laws add in a step. */
+/* The stresses at a depth that do not depend on x and y: residual stress, and what laws add in a step. */
 static void GetUniform(SamEvaluation e, PetscInt step, PetscReal depth, double stress[SAM_STRESS_COMPONENTS])
 {
   const SamBody            body = SamEvaluationBody(e);
