@@ -81,7 +81,7 @@ SamContactSettings SamContactGetSettings(SamContact c)
   return c->set;
 }
 
-/* A keyword of earlier versions, which is not one of those that are listed. */
+/* Rejects a keyword of earlier versions, which is not among the listed ones. */
 static PetscErrorCode RefuseDeferred(const SamOptions *from)
 {
   char word[16] = "";

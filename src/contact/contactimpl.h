@@ -35,14 +35,14 @@ struct _n_SamContact {
   PetscObjectState declared;                  /* what all of them follow from, when they were declared; 0: to be done */
 };
 
-/* Whether pressure and shear depend on each other. */
+/* True if pressure and shear depend on each other. */
 static inline PetscBool SamContactIsCoupled(SamContact c)
 {
   return c->traits.coupled && c->set.coupling;
 }
 
-/* Whether steps may start from the same steps one cycle before: nothing else is in their product, nor can turn out
-   otherwise. */
+/* True if steps may start from the same steps one cycle before: their displacements have no other cause than the
+   tractions, and a repeated step has the same solution. */
 static inline PetscBool SamContactRecalls(SamContact c)
 {
   return c->set.warm_start && c->motion->continues && !SamContactIsCoupled(c) && !c->rolls &&

@@ -1,6 +1,6 @@
 /*
-  What a contact remembers, and what results offer of it: the solution of a step and what was prescribed. All else is
-  declared by the laws of the problem.
+  Declares the fields and numbers that a contact remembers and results offer: the solution of a step and its control.
+  All others are declared by the laws of the problem.
 */
 #include "contactimpl.h"
 #include <petsam/private/bodyimpl.h>
@@ -252,7 +252,7 @@ static PetscErrorCode Offer(SamContact c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Grows with all that declarations follow from besides the settings: conditions, laws and what was set of them. */
+/* Returns a number that grows when conditions, laws or their settings change, from which declarations follow. */
 static PetscObjectState Declarations(SamContact c)
 {
   PetscObjectState sum = SamConditionsCount(c->conditions);
@@ -298,8 +298,8 @@ PetscInt SamContactGetSteps(SamContact c)
 #define SAME_DIRECTION 1e-10
 
 /*
-  Whether all that has caused shear so far, with this step, lies on one line: tangential loads or displacements without
-  moment, of bodies that pressure does not shear, nor strain or a law. Then the shear does not turn from step to step.
+  Finds out whether all causes of shear so far, including this step, lie on one line: tangential loads or displacements
+  without moment, while neither pressure, nor strain, nor a law shears the bodies. Then the shear keeps its direction.
 */
 static PetscErrorCode LieOnLine(SamContact c, const SamControl *control, PetscBool *on)
 {
@@ -402,7 +402,7 @@ PetscErrorCode SamContactBegin(SamContact c, const SamControl *control)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A control as numbers of the state: those of the six components in a row, conditions each by its name. */
+/* Stores a control in numbers of the state: the six components in one row, each condition by its name. */
 static void StoreControl(SamContact c, const SamControl *control, double n[])
 {
   n[c->control] = control->time;

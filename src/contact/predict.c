@@ -43,8 +43,8 @@ static void AddChange(double before, double now, double next, Changes *c)
 }
 
 /*
-  The length of the change to the next step along the last change, in units of the last change, or 0. `straight`: the
-  prescribed values change in nearly the same proportions.
+  Returns the length of the change to the next step along the last change, in units of the last change, or 0.
+  `straight`: the prescribed values change in nearly the same proportions.
 */
 static double Continuation(SamContact contact, const SamControl *before, const SamControl *now, const SamControl *next,
                            PetscBool *straight)
@@ -82,7 +82,7 @@ static double Continuation(SamContact contact, const SamControl *before, const S
 */
 #define PREDICT_NEAR 2.0
 
-/* The size of the three components of a problem; lever: of moments, or of rotations. */
+/* Returns the size of the three components of a problem; lever: of moments, or of rotations. */
 static double SizeOf(const PetscReal values[], PetscInt problem, double lever)
 {
   double sum = 0;
@@ -97,8 +97,8 @@ static double SizeOf(const PetscReal values[], PetscInt problem, double lever)
 }
 
 /*
-  Whether such a step is near the last one, so that nested grids would cost more than they save: at 64 x 64 cells a
-  fifth of a step, and a third if it is extrapolated. Friction that follows the slip may have other solutions near by.
+  True if the next step is so near the last one that nested grids would cost more than they save: at 64 x 64 cells a
+  fifth of a step's time, and a third if it is extrapolated. Friction that depends on slip may have several solutions.
 */
 static PetscBool IsNear(SamContact c, const SamControl *next)
 {
@@ -128,7 +128,7 @@ typedef struct {
   double       *next[FIELDS];
 } Tractions;
 
-/* The next p of n cells from index k on. */
+/* Extrapolates the next p of n cells from index k on. */
 SAM_VECTORIZED static void ExtrapolatePressure(const Tractions *t, double alpha, ptrdiff_t k, PetscInt n)
 {
   const double *restrict p0 = t->before[P] + k, *restrict p1 = t->now[P] + k;
@@ -142,7 +142,7 @@ SAM_VECTORIZED static void ExtrapolatePressure(const Tractions *t, double alpha,
   }
 }
 
-/* The next q of n cells from index k on, from the next bound. */
+/* Extrapolates the next q of n cells from index k on, from the next bound. */
 SAM_VECTORIZED static void ExtrapolateShear(const Tractions *t, double alpha, ptrdiff_t k, PetscInt n)
 {
   const double *restrict b0 = t->before[B] + k, *restrict qx0 = t->before[X] + k, *restrict qy0 = t->before[Y] + k;
@@ -254,7 +254,7 @@ static PetscErrorCode Extrapolate(SamContact c, double alpha, const SamControl *
 
 /* ---- the start ---- */
 
-/* The committed pressure as the guess, for a step in which only the gap has changed. */
+/* Takes the committed pressure as the guess, for a step in which only the gap has changed. */
 static PetscErrorCode StartFromLastPressure(SamContact c, SamStepStart *start)
 {
   PetscReal most;

@@ -216,8 +216,8 @@ PetscErrorCode SamContactIsGapCurrent(SamContact c, PetscBool *current)
 }
 
 /*
-  Whether the tried step has the committed pressure: same normal control, same separation, and no shear that acts on it.
-  That the surfaces yielded under it does not matter (law/hardness.c).
+  Finds out whether the tried step has the committed pressure: same normal control, same separation, and no shear that
+  acts on it. Yielding of the surfaces under this pressure does not matter (law/hardness.c).
 */
 static PetscErrorCode IsSamePressure(SamContact c, const SamControl *control, PetscBool *same)
 {
@@ -235,7 +235,7 @@ static PetscErrorCode IsSamePressure(SamContact c, const SamControl *control, Pe
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The committed solution becomes what it was before the grid moved for a tried step. */
+/* Restores the committed solution to its state before the grid moved for a tried step. */
 static PetscErrorCode MoveBack(SamContact c)
 {
   PetscFunctionBegin;
@@ -286,7 +286,7 @@ static PetscErrorCode GetSlope(SamLawStep *step, Vec by_pressure)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* All laws advance their tried state. */
+/* Advances the tried state of all laws. */
 static PetscErrorCode Advance(SamContact c, PetscBool known_pressure, char failed[], size_t size)
 {
   const SamSolution *s = &c->generation[SAM_TRIED], *last = SamContactBefore(c);
@@ -318,7 +318,7 @@ static PetscErrorCode Advance(SamContact c, PetscBool known_pressure, char faile
 
 /* ---- a step ---- */
 
-/* Bodies that touch nowhere under the given normal load, which is 0, have no approach. */
+/* Sets the approach to unknown where bodies touch nowhere under the given normal load, which is 0. */
 static PetscErrorCode ForgetApproach(SamContact c, SamStep *step)
 {
   PetscReal cells;
@@ -353,7 +353,7 @@ static PetscErrorCode Conclude(SamContact c, PetscBool same_pressure, PetscBool 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Without a solution only the prescribed loads and displacements are numbers, the others NaN. */
+/* Sets the loads and displacements of a step without solution: NaN, except the prescribed ones. */
 static void SetUnknown(SamStep *step)
 {
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
@@ -363,7 +363,7 @@ static void SetUnknown(SamStep *step)
   step->check = (SamCheck){.normal = NAN, .tangential = NAN, .equilibrium = NAN, .cone = NAN, .edge = NAN};
 }
 
-/* What the tried step's pressure is solved with. The revision does not tell where body 2 was. */
+/* Describes the inputs of the tried step's pressure. The revision does not tell where body 2 was. */
 static PetscErrorCode GetStepOf(SamContact c, SamStepOf *of)
 {
   PetscReal slide[2];

@@ -37,7 +37,7 @@ static PetscErrorCode AddConditions(SamLaw law, SamConditions conditions)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The bulk stress of body 0 or 1 in a step, Pa. */
+/* Computes the bulk stress of body 0 or 1 in a step, Pa. */
 static void Get(SamLaw law, const SamControl *control, PetscInt body, PetscReal stress[COMPONENTS])
 {
   for (PetscInt k = 0; k < COMPONENTS; k++) stress[k] = SamControlGet(control, ((const Bulk *)law->data)->of[body][k]);

@@ -146,7 +146,7 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
 
 /* ---- the bound ---- */
 
-/* The factor F by what is remembered and the slip of the step, and its derivative by this slip. */
+/* Returns the factor F by what is remembered and the slip of the step, and its derivative by this slip. */
 static double FactorOf(const Friction *f, double p, double memory, double slip, double rolled, double *by_slip)
 {
   const PetscReal *v = f->value;
@@ -217,7 +217,7 @@ static PetscErrorCode Bound(SamLaw law, const SamBoundAt *given, const SamBound 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The slip under pressure is added; of falling friction the part that is reached replaces the one before. */
+/* Adds the slip under pressure to the memory; for falling friction the part that is reached replaces the old one. */
 static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
 {
   const Friction *f      = (const Friction *)law->data;

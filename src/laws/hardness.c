@@ -108,7 +108,7 @@ static PetscErrorCode Limit(SamLaw law, PetscReal *most)
 
 /* ---- a step ---- */
 
-/* The overlap of the step, from the gap before the surfaces yield; `any`: there is some on any rank. */
+/* Computes the overlap of the step, from the gap before the surfaces yield; `any`: there is some on any rank. */
 static PetscErrorCode FindOverlap(SamLaw law, SamLawStep *step, Vec overlap, PetscBool *any)
 {
   const double  saturated = SAM_SATURATED * ((Hardness *)law->data)->limit;
@@ -130,7 +130,7 @@ static PetscErrorCode FindOverlap(SamLaw law, SamLawStep *step, Vec overlap, Pet
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The overlap of the step is added to the depth, which is left alone without any: elastic steps keep the gap. */
+/* Adds the overlap of the step to the depth, which is unchanged if there is none: elastic steps keep the gap. */
 static PetscErrorCode AddOverlap(SamLaw law, SamLawStep *step, PetscInt id, Vec before, Vec *depth)
 {
   Vec       overlap;
@@ -203,7 +203,7 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What the tried step has added to the depth. */
+/* Adds the increment of the plastic depth in the tried step to `overlap`. */
 static PetscErrorCode Overlap(SamLaw law, SamState state, Vec overlap)
 {
   const PetscInt id     = SamStateFindField(state, DEPTH);

@@ -4,8 +4,8 @@
 
       h(x) = h1(x) + h2(x + D),   R: (R f)(x) = f(x + D) by cubic interpolation
 
-  What the pressure at x does to body 2 is written by the transpose of R. So volumes are exact, and the two together
-  cannot make waves that grow.
+  Changes of body 2 by the pressure at x are written by the transpose of R. So volumes are conserved, and reading and
+  writing together cannot amplify waves.
 
   Where the bodies roll the grid moves over both, by o in all: under its point x lie the points x + o of body 1 and
   x + o + D of body 2, D growing by the creep. The shape stays with the grid. So surfaces and wear of both are read and
@@ -56,7 +56,7 @@ PetscErrorCode SamLawSetSurface(SamLaw law, PetscInt body, Vec surface)
 static const SamOptionRow slide_row = {"slide", "the surfaces move past each other by the displacements of the history",
                                        SAM_OPTION_BOOL, .member = offsetof(Slide, given)};
 
-/* What surfaces that slide do not go with, and why. */
+/* Rejects options that do not work with sliding surfaces, and says why. */
 static PetscErrorCode Refuse(const SamOptions *from)
 {
   static const char *const refused[][2] = {
@@ -141,7 +141,7 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What is given, else what the step before has found: 0 before the first one. A creepage adds to it. */
+/* Returns the given displacement, else that of the step before (0 before the first one). A creepage adds to it. */
 static double Rigid(SamState state, const SamControl *control, SamComponent component, PetscReal rolled)
 {
   const double found =
@@ -151,7 +151,7 @@ static double Rigid(SamState state, const SamControl *control, SamComponent comp
   return (isfinite(found) ? found : 0) + (control->creep[component] ? (double)(rolled * control->value[component]) : 0);
 }
 
-/* The slider follows what pulls it by a spring that stretches no longer than the limit. */
+/* Moves the slider by a pull through a spring, which stretches up to the limit. */
 static void Pull(const double by[2], double limit, double slider[2])
 {
   const double stretch = hypot(by[0] - slider[0], by[1] - slider[1]);
@@ -213,7 +213,7 @@ static PetscErrorCode Separation(SamLaw law, SamState state, SamGeneration gener
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The limit of the stretch along a unit vector, under the pressure and the bound of the step. */
+/* Computes the limit of the stretch along a unit vector, under the pressure and the bound of the step. */
 static PetscErrorCode FindLimit(SamLawStep *step, const double along[2], double *limit)
 {
   const PetscInt cells = step->grid->cells;
@@ -246,7 +246,7 @@ static PetscErrorCode FindLimit(SamLawStep *step, const double along[2], double 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The slider at the end of the step, by what the step has found. */
+/* Moves the slider at the end of the step, by what the step has found. */
 static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
 {
   const PetscInt id     = SamStateFindNumber(step->state, SAM_FRAME);

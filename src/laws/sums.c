@@ -1,7 +1,7 @@
 /* Laws that only remember: the accumulated slip, and the frictional work, cell by cell over all steps. */
 #include <petsam/private/lawimpl.h>
 
-/* What a sum adds in a step. */
+/* Field that a sum accumulates over the steps */
 typedef struct {
   SamStateField field;
   const char   *option, *text;

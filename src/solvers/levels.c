@@ -3,7 +3,7 @@
 #include <petsam/private/solverimpl.h>
 #include <math.h>
 
-/* Fields on the level's grid, one for each that `like` has. */
+/* Creates a field on the level's grid for each one that `like` has. */
 static PetscErrorCode CreateFields(SamSolver s, const SamLevel *like, SamLevel *level)
 {
   PetscFunctionBegin;
@@ -148,15 +148,15 @@ void SamLevelGetRigid(const SamLevel *level, SamBalance *balance)
   SamFrameGetRigid(&level->frame, a, balance);
 }
 
-/* The field added to the operator's diagonal; NULL: none. */
+/* Returns the field added to the operator's diagonal; NULL: none. */
 static Vec DiagonalOf(SamSolver s, const SamLevel *level)
 {
   return s->kind->diagonal >= 0 ? level->given[s->kind->diagonal] : NULL;
 }
 
 /*
-  What the surfaces yield besides: a cell by its own traction; where material streams, a line by the integral along x,
-  which is symmetric as long as d is the same along x. Times `factor`, as a new array for SamFree().
+  Computes the additional local displacement, times `factor`, as a new array for SamFree(): a cell yields by its own
+  traction; where material streams, a line by the integral along x, which is symmetric as long as d is constant in x.
 */
 #define YIELD(Name, Real) \
   static PetscErrorCode Name(const SamLevel *level, Vec diagonal, double factor, const Real t[], Real **yield) \
@@ -252,7 +252,7 @@ PetscErrorCode SamLevelPreconditionSingle(SamSolver s, SamLevel *level, double f
 
   PetscFunctionBegin;
   s->preconditions += level->finest ? 1 : 0;
-  if (diagonal && !SamElasticityGetTraits(level->elasticity).upwind) /* lines are few: it gains nothing for them */
+  if (diagonal && !SamElasticityGetTraits(level->elasticity).upwind) /* no gain for lines, which are few */
     PetscCall(PreconditionYielding(s, level, diagonal, factor, r, z));
   else
     PetscCall(s->kind->preconditionsingle(level->elasticity, factor, r, z));

@@ -23,7 +23,7 @@ static PetscErrorCode MonitorError(SamSolver s, PetscInt it, PetscReal error, vo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The help lists the options of all types. */
+/* Reads the options of the other types for the help, which lists those of all types. */
 static PetscErrorCode DescribeOthers(SamSolver s, const SamOptions *from)
 {
   char         type[sizeof(s->type)];
@@ -43,7 +43,7 @@ static PetscErrorCode DescribeOthers(SamSolver s, const SamOptions *from)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What a user sets, but for the type. */
+/* Values that options set, except the type */
 typedef struct {
   PetscReal rtol;
   PetscInt  max_it, levels;

@@ -1,4 +1,4 @@
-/* The base of all solvers: creation, the registries of types, settings, and the frame of a solve. */
+/* Base of all solvers: creation, the registries of types, settings, and the common part of a solve. */
 #include <petsam/private/elasticity.h>
 #include <petsam/private/solverimpl.h>
 #include <math.h>

@@ -5,7 +5,9 @@
 
 #define LAYERS (SAM_MATERIALS - 1) /* most materials above the last one */
 
-/* The fault of a material: a message that names its constants, which begin with `name`; empty without fault. */
+/*
+  Describes the fault of a material: a message that names its constants, which begin with `name`; empty without fault.
+*/
 static PetscErrorCode FindFaultOf(const SamMaterial *m, const char name[], char message[], size_t size)
 {
   const PetscReal inverse_shear = isinf(m->young) ? 0 : 2 * (1 + m->poisson) / m->young;
@@ -22,7 +24,7 @@ static PetscErrorCode FindFaultOf(const SamMaterial *m, const char name[], char 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The same of all materials of a body, whose constants have this prefix. */
+/* Describes the first fault of all materials of a body, whose constants have this prefix. */
 static PetscErrorCode FindFault(PetscInt count, const SamMaterial m[], const char prefix[], char message[], size_t size)
 {
   char layer[128];
@@ -217,7 +219,7 @@ PetscErrorCode SamBodyAddParameters(SamBody body, const char prefix[], SamParame
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The layers of a record; `fault`: the name of a list that has not as many numbers as the others, NULL: none. */
+/* Takes the layers of a record; `fault`: the name of a list that has not as many numbers as the others, NULL: none. */
 static void TakeLayers(const SamParameters *p, const char prefix[], SamMaterial m[], PetscInt *layers,
                        const char **fault)
 {
@@ -271,7 +273,7 @@ PetscErrorCode SamBodyCreateFromParameters(MPI_Comm comm, const SamParameters *p
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Two numbers for each layer. */
+/* Reads two numbers for each layer. */
 static PetscErrorCode ReadResidualStress(const SamOptions *from, SamMaterial m[], PetscInt layers)
 {
   PetscReal values[2 * LAYERS];
@@ -288,7 +290,7 @@ static PetscErrorCode ReadResidualStress(const SamOptions *from, SamMaterial m[]
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The layers, from a file or from lists that must have one length; one Poisson's ratio is for all. */
+/* Reads the layers, from a file or from lists that must have one length; one Poisson's ratio is for all. */
 static PetscErrorCode ReadLayers(const SamOptions *from, SamMaterial m[], PetscInt *layers)
 {
   const char *const prefix = SamOptionsPrefix(from);

@@ -129,7 +129,7 @@ PetscErrorCode SamElasticitySetOptionsPrefix(SamElasticity e, const char prefix[
   return SamSetPrefix(e->prefix, prefix);
 }
 
-/* The help lists the options of the other types, too. */
+/* Reads the options of the other types for the help, which lists them, too. */
 static PetscErrorCode DescribeOthers(SamElasticity e, const SamOptions *from)
 {
   const char  **types;

@@ -66,7 +66,7 @@ PetscErrorCode SamPairDestroy(SamPair *pair)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A pair of bodies that nothing else refers to. */
+/* Creates a pair of bodies that nothing else refers to. */
 static PetscErrorCode CreateOf(SamBody body[2], SamPair *pair)
 {
   PetscFunctionBegin;

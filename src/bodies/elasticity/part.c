@@ -10,7 +10,7 @@
 #define WORTH 0.8
 #define SLACK 1.5
 
-/* The part in use; NULL: none. */
+/* Returns the part in use; NULL: none. */
 static const SamElasticityPart *InUse(SamElasticity e)
 {
   return e->in_part ? &e->parts[e->newest] : NULL;
@@ -40,7 +40,7 @@ PetscErrorCode SamElasticityDestroyParts(SamElasticity e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether a part is just these cells. */
+/* Finds out whether a part consists of exactly these cells. */
 static PetscErrorCode IsAt(const SamElasticityPart *part, const PetscInt first[2], const PetscInt n[2], PetscBool *is)
 {
   PetscInt there[2], size[2];
@@ -78,7 +78,7 @@ PetscErrorCode SamElasticitySetPart(SamElasticity e, const PetscInt first[2], co
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether the part in use is suitable. */
+/* True if the part in use contains these cells, and is not much larger than they are. */
 static PetscBool Suits(SamElasticity e, const PetscInt first[2], const PetscInt n[2])
 {
   const SamElasticityPart *part = InUse(e);

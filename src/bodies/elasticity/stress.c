@@ -104,7 +104,7 @@ static void GetRows(PetscInt j, PetscInt n, double *const values[], const void *
   (*s->ops.row)(s, side, (double)s->depth, rows->group, j, n, values);
 }
 
-/* Whether the zz, xz and yz of this depth are the tractions. */
+/* True at the surface, where the stresses zz, xz and yz are the tractions. */
 static PetscBool IsSurface(SamStress s)
 {
   return s->depth == 0;
@@ -153,7 +153,7 @@ static PetscErrorCode Pass(SamStress s, PetscInt pass, const double *const in[],
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The stresses on the surface that equal the tractions. */
+/* Sets the stresses zz, xz and yz on the surface, which equal the tractions. */
 static void TakeTractions(SamStress s, double *const tractions[])
 {
   for (PetscInt t = 0; t < SAM_STRESS_TRACTIONS; t++)

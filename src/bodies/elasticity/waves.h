@@ -20,7 +20,7 @@ typedef struct SamSymbol {
   double mean;    /* stands for |k| at k = 0 in the inverses */
   double lag;     /* of slip under an upwind operator: the length of a cell along x, */
   double slip;    /* and the inverse symbol over |k| */
-  double film;    /* of the inverse tangential symbol: that is inverse to what it is without a film plus this */
+  double film;    /* added to the tangential symbol without a film before it is inverted */
   /* of layered bodies (layered/waves.c): */
   const SamSpline *table;   /* symbols times |k|, by k^2 in 1/m^2 */
   double           unit;    /* 1/m^2 in units of k^2 */
@@ -29,7 +29,7 @@ typedef struct SamSymbol {
   void (*multiply)(const struct SamSymbol *symbol, SamWaves waves); /* in place */
 } SamSymbol;
 
-/* The same symbol applied to n fields; `multiply` must be of the same precision. Collective. */
+/* Applies one symbol to n fields; its `multiply` must be of their precision. Collective. */
 PETSC_INTERN PetscErrorCode SamSymbolApply(SamElasticity elasticity, const SamSymbol *symbol, PetscInt n,
                                            const double *const in[], double *const out[]);
 PETSC_INTERN PetscErrorCode SamSymbolApplySingle(SamElasticity elasticity, const SamSymbol *symbol, PetscInt n,
@@ -51,7 +51,7 @@ PETSC_INTERN void SamLayeredMultiplyTangential(const SamSymbol *symbol, SamWaves
 PETSC_INTERN void SamLayeredMultiplyNormalSingle(const SamSymbol *symbol, SamWaves waves);
 PETSC_INTERN void SamLayeredMultiplyTangentialSingle(const SamSymbol *symbol, SamWaves waves);
 
-/* SamHalfSpaceDatum - of half-spaces in plane strain, m; 0 in three dimensions. Not collective. */
+/* SamHalfSpaceDatum - returns the datum of half-spaces in plane strain, m; 0 in three dimensions. Not collective. */
 PETSC_INTERN PetscReal *SamHalfSpaceDatum(SamElasticity elasticity);
 
 #endif

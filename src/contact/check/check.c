@@ -28,7 +28,7 @@ static PetscErrorCode AddCoupling(SamElasticity elasticity, SamGrid grid, const 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* u_z unless it is given, and u_t, both with the coupling; the largest u_z without offsets, which may cancel it. */
+/* Computes u_z unless it is given, u_t, both with the coupling, and max |u_z| without offsets, which may cancel it. */
 static PetscErrorCode ComputeDisplacements(SamProblem problem, SamState state, PetscBool coupling, PetscBool u_z_known,
                                            const SamSolution *s, PetscReal *most)
 {
@@ -110,7 +110,7 @@ static Border BorderOf(SamProblem problem, SamState state, SamGrid grid, const S
   return b;
 }
 
-/* The largest pressure in the cells of a row that lie there. */
+/* Returns the largest pressure in the cells of a row that lie there. */
 static double EdgeOfRow(SamGrid grid, const Border *b, PetscInt j, const double p[])
 {
   const PetscInt row = grid->row_start + j, nx = grid->nx;
@@ -122,7 +122,7 @@ static double EdgeOfRow(SamGrid grid, const Border *b, PetscInt j, const double 
   return most;
 }
 
-/* The errors that the maxima are, under a limit of the pressure. */
+/* Computes the errors of the normal problem from the maxima, under a limit of the pressure. */
 static void SetNormal(const double max[COUNT], double limit, SamCheck *check)
 {
   check->edge   = max[PRESSURE] > 0 ? max[EDGE] / max[PRESSURE] : 0;
@@ -136,7 +136,7 @@ static void SetNormal(const double max[COUNT], double limit, SamCheck *check)
   }
 }
 
-/* By the largest pressure and shear. */
+/* Computes the relative rounding error of the gap, from the largest pressure and shear. */
 static PetscErrorCode SetRounding(SamProblem problem, const SamSolution *s, const double max[COUNT], SamCheck *check)
 {
   PetscReal     self, shear;
@@ -201,7 +201,7 @@ typedef struct {
   double sums[4], over, most;
 } TangentialSums;
 
-/* The sums of one row, from its bound, its shear and its slip increment (x, y); `inverse` is 1/c. */
+/* Computes the sums of one row, from its bound, its shear and its slip increment (x, y); `inverse` is 1/c. */
 SAM_VECTORIZED static TangentialSums TangentialRow(PetscInt n, const double *restrict bound, const double *const q[2],
                                                    const double *const ds[2], double inverse)
 {
@@ -224,7 +224,7 @@ SAM_VECTORIZED static TangentialSums TangentialRow(PetscInt n, const double *res
   return (TangentialSums){{residual, shear, projected, least}, over, most};
 }
 
-/* The bound of the shear, recomputed from pressure and slip; where the pressure is negative the bound is 0. */
+/* Recomputes the bound of the shear from pressure and slip; where the pressure is negative the bound is 0. */
 static PetscErrorCode CreateBound(SamProblem problem, SamState state, const SamSolution *before, const SamSolution *s,
                                   Vec *bound)
 {
@@ -299,7 +299,7 @@ static PetscErrorCode CheckTangential(SamProblem problem, SamState state, const 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Relative errors of the given loads of one kind; see SamCheck for their scales. */
+/* Computes relative errors of the given loads of one kind; see SamCheck for their scales. */
 static PetscErrorCode CheckEquilibrium(SamGrid grid, const SamBalance *given, Vec traction, SamCheck *check)
 {
   PetscReal loads[3], total;

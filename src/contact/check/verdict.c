@@ -11,7 +11,7 @@ PetscErrorCode SamStepFail(SamStep *step, SamStatus status, const char message[]
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Written with <= so that a NaN is refused, too. */
+/* True if all residuals are within their limits. The comparisons use <= so that a NaN fails, too. */
 static PetscBool Agrees(const SamCheck *check, const SamCheckLimits *limits)
 {
   return check->normal <= limits->normal && check->tangential <= limits->tangential &&

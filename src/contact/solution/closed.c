@@ -23,9 +23,9 @@
 
 #define ALIKE 1e-6 /* coupling of bodies, or change of a load over the largest, that counts as none */
 
-/* What the state remembers of the loads so far: their path, in a plane of T. */
+/* Numbers that the state keeps of the load path so far, in a plane of T */
 typedef struct {
-  double stage;                        /* of these: */
+  double stage;                        /* one of the stages below */
   double friction;                     /* coefficient */
   double line[2], bound, moment[2];    /* direction of T; mu N (N); M_x and M_y (N m) */
   double reversed, start, last, limit; /* 1: not of first loading; N: T where the branch began, now, and its end */
@@ -87,7 +87,7 @@ static PetscBool IsPlain(SamProblem p, const SamSolution *s)
   return plain;
 }
 
-/* The energy of a branch from the change t of T and that of disp, `moved`; `reversed`: not of first loading. */
+/* Returns the energy of a branch from the change t of T and that of disp, `moved`; `reversed`: not of first loading. */
 static double ClosedOf(SamProblem p, double bound, double t, double moved, PetscBool reversed)
 {
   const double x = 1 - t;
@@ -99,7 +99,7 @@ static double ClosedOf(SamProblem p, double bound, double t, double moved, Petsc
   return 1.2 * bound * moved / (1 - pow(x, 2. / 3)) * (1 - pow(x, 5. / 3) - 5 * t / 6 * (1 + pow(x, 2. / 3)));
 }
 
-/* T starts from the line's last point to another way: Masing's rule holds up to where the last reversal was. */
+/* Begins a branch at a reversal of T: Masing's rule holds until T returns to the point of the last reversal. */
 static void Reverse(Path *path)
 {
   path->before += path->energy;
@@ -109,7 +109,7 @@ static void Reverse(Path *path)
   for (int k = 0; k < 2; k++) path->start_moved[k] = path->moved[k];
 }
 
-/* The closed form of the energy after a step with constant N and T on a line. */
+/* Continues the closed form of the dissipated energy by a step with constant N and T on a line. */
 static void Follow(SamProblem p, Path *path, const SamSolution *s)
 {
   const PetscInt  c[2] = {SAM_COMPONENT_TX, SAM_COMPONENT_TY}, m[2] = {SAM_COMPONENT_MX, SAM_COMPONENT_MY};

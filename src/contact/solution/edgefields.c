@@ -2,8 +2,8 @@
 #include <petsam/private/solutionimpl.h>
 
 /*
-  What vanishes at the edges like the distance, of this rank's cells: of the contact p^2, of the stick zone the square
-  of what the pressure exceeds |q|/mu by.
+  Fills in an edge function of this rank's cells, linear in the distance from the edge: p^2 for the contact,
+  (p - |q|/mu)^2 for the stick zone.
 */
 static PetscErrorCode FillSquares(const SamSolution *s, SamEdgeOf which, Vec w)
 {
@@ -65,7 +65,7 @@ PetscErrorCode SamSolutionComputePressureCenter(SamProblem problem, const SamSol
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The shear keeps its direction; its size is mu times what the pressure exceeds the slack by, both at the centre. */
+/* The shear keeps its direction; its size is mu times (pressure minus slack), both at the centre. */
 PetscErrorCode SamSolutionComputeShearCenter(SamProblem problem, const SamSolution *s, PetscInt component, Vec shear)
 {
   const double *at;

@@ -1,10 +1,10 @@
 /*
-  What friction does in a step, cell by cell: the length of the slip, that under pressure, and its work. With
-  numbers.c the one place that says what slip dissipates.
+  Computes the slip and the frictional work of a step, cell by cell: the length of the slip, its length under pressure,
+  and its work. Dissipation is defined here and in numbers.c only.
 */
 #include <petsam/private/solutionimpl.h>
 
-/* What of a step is needed, and where it goes, or is added to; NULL: not wanted. */
+/* Arrays that the values of a step are written or added to; NULL: not wanted */
 typedef struct {
   double *path, *pressed, *work;
 } Fields;

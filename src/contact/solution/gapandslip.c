@@ -84,7 +84,7 @@ SAM_VECTORIZED static void GapRow(PetscInt n, const double *restrict u, const do
   for (PetscInt i = 0; i < n; i++) value[i] = u[i] + h[i] - (a + b * (xi0 + (double)i * dxi));
 }
 
-/* A component of the slip along row j. */
+/* Computes a component of the slip along row j. */
 static void SlipRow(const SamRigid *m, PetscInt component, PetscInt j, const double u[], double slip[])
 {
   SubtractRow(m->normal.grid->nx, u, SamRigidOfSlip(m, component, j), m->normal.xi0, m->normal.dxi, slip);
@@ -152,7 +152,7 @@ PetscErrorCode SamIncrementDestroy(SamIncrement *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether contact is made there in the step. */
+/* True if cell k comes into contact in the step. */
 static PetscBool Enters(const SamIncrement *s, ptrdiff_t k)
 {
   return (!s->solutions[0] || s->at_before.p[k] <= 0) && s->at_now.p[k] > 0;
@@ -206,7 +206,7 @@ void SamIncrementTurnRow(const SamIncrement *s, PetscInt j, double *const to[2])
   }
 }
 
-/* The part of the bound after a step that the slip in it works against since a cell touched (step/direction.c). */
+/* Shear against which a cell slips after it has touched in a step, relative to the final bound (step/direction.c) */
 #define TOUCHED 0.4
 
 /*

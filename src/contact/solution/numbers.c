@@ -12,7 +12,7 @@
 enum { CONTACT, STICK, DISSIPATED, STORED, ERROR, TURNED, BEFORE_TOUCH, SUMS };
 enum { PRESSURE, SHEAR, SLIP, MOSTS }; /* of the last two the squares */
 
-/* By how much the slip of this rank's cell k would work more if it had touched before the step (TOUCHES, below). */
+/* Returns how much more work slip in this rank's cell k would do if it had touched before the step (TOUCHES, below). */
 static double WorkBeforeTouch(const SamIncrement *increment, ptrdiff_t k, double dx, double dy)
 {
   double         share[2];
@@ -164,7 +164,7 @@ static const SamStateNumber declared[NUMBERS] = {
        0),
   {SAM_ENTERING, "J", NULL, SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_FALSE, SAM_JOIN_SUM, 0}};
 
-/* Of the edge of contact: whether it is known, its area, faces and good faces. They hold while the pressure does. */
+/* Numbers of the contact edge: known or not, area, faces and good faces; valid as long as the pressure */
 enum { KNOWN = SAM_CONTACT_EDGE_KNOWN, AREA, FACES = SAM_CONTACT_EDGE_FACES, GOOD, EDGE };
 static const SamStateNumber contact_edge = {
   SAM_CONTACT_EDGE, "1", "edge of contact", SAM_NUMBER_REAL, EDGE, PETSC_FALSE, PETSC_FALSE, SAM_JOIN_LAST, 0};
@@ -221,7 +221,7 @@ static PetscErrorCode SumCells(SamProblem problem, const SamSolution *last, cons
 
 /* ---- edges ---- */
 
-/* The areas by the edges of contact and stick, and the largest shear, between stick and slip. */
+/* Computes the areas by the edges of contact and stick, and the largest shear, between stick and slip. */
 static PetscErrorCode FindEdges(SamProblem problem, const SamSolution *s, double contact[EDGE], double numbers[NUMBERS])
 {
   SamEdge       edge;

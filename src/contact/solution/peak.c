@@ -23,14 +23,14 @@
 #define BEHIND   2     /* cells about a point of the reconstructed edge that must be in contact */
 #define FARTHEST 0.825 /* cells: an edge beyond is that of the next cell */
 
-/* What is seen of a solution: fields, and of each cell its state, or KNOWN where the edge of stick is reconstructed. */
+/* Fields of a solution with halos; `cell`: state of each cell, or KNOWN where the stick edge is reconstructed */
 #define KNOWN (-1)
 typedef struct {
   SamGrid grid;
   SamHalo p, b, q, cell;
 } Seen;
 
-/* Whether cell i of row j of the grid and those about it are in contact: the edge of contact is farther. */
+/* True if cell i of row j of the grid and its neighbours are in contact, so that the contact edge is farther away. */
 static PetscBool IsInside(const SamHalo *p, PetscInt i, PetscInt j)
 {
   const PetscInt rows = (p->rows.grid->axes - 1) * BEHIND;
@@ -41,7 +41,7 @@ static PetscBool IsInside(const SamHalo *p, PetscInt i, PetscInt j)
   return PETSC_TRUE;
 }
 
-/* p^2 at (x, y), in cells from the grid's first one, interpolated between the four cells about it. */
+/* Returns p^2 at (x, y), in cells from the grid's first one, interpolated between the four cells about it. */
 static double SquareAt(const SamHalo *p, double x, double y)
 {
   const PetscInt nx = p->rows.grid->nx, i = (PetscInt)floor(x), j = (PetscInt)floor(y);
@@ -52,7 +52,7 @@ static double SquareAt(const SamHalo *p, double x, double y)
          ty * ((1 - tx) * q[nx] * q[nx] + tx * q[nx + 1] * q[nx + 1]);
 }
 
-/* The largest shear at the points of the edge, whose cells become known. */
+/* Finds the largest shear at the points of the edge, whose cells become known. */
 static void FindAtPoints(const Seen *s, const SamEdge *stick, double cell[], double *most)
 {
   const double *b = s->b.own;
@@ -71,7 +71,7 @@ static void FindAtPoints(const Seen *s, const SamEdge *stick, double cell[], dou
   }
 }
 
-/* The slack over mu of a cell, in the direction of a shear. */
+/* Returns the slack over mu of a cell, in the direction of a shear. */
 static double SlackAt(const Seen *s, PetscInt i, PetscInt j, const double shear[2])
 {
   const double p = SamHaloAt(&s->p, 0, i, j), b = SamHaloAt(&s->b, 0, i, j), size = hypot(shear[0], shear[1]);
@@ -80,7 +80,7 @@ static double SlackAt(const Seen *s, PetscInt i, PetscInt j, const double shear[
                : 0;
 }
 
-/* The shear at the edge of stick between a cell that sticks and the next one in a direction, which slips. */
+/* Returns the shear at the edge of stick between a cell that sticks and the next one in a direction, which slips. */
 static double ShearAt(const Seen *s, PetscInt i, PetscInt j, PetscInt x, PetscInt y)
 {
   const double p = SamHaloAt(&s->p, 0, i, j), next = SamHaloAt(&s->p, 0, i + x, j + y);
@@ -94,7 +94,7 @@ static double ShearAt(const Seen *s, PetscInt i, PetscInt j, PetscInt x, PetscIn
   return SamHaloAt(&s->b, 0, i, j) / p * sqrt(PetscMax(p * p + u * (next * next - p * p), 0));
 }
 
-/* The largest shear at the edge of stick beside a cell that sticks, 0 where the edge is known. */
+/* Returns the largest shear at the edge of stick beside a cell that sticks, 0 where the edge is known. */
 static double ShearBeside(const Seen *s, PetscInt i, PetscInt j)
 {
   static const PetscInt x[] = {1, -1, 0, 0}, y[] = {0, 0, 1, -1};
@@ -114,7 +114,7 @@ static double ShearBeside(const Seen *s, PetscInt i, PetscInt j)
   return most;
 }
 
-/* A field of the cells' states, by which neighbours are known without their fields. */
+/* Creates a field of the cells' states, by which neighbours are known without their fields. */
 static PetscErrorCode CreateCells(const Seen *s, const SamEdge *stick, const double q[], Vec *cells, double *most)
 {
   double *cell;

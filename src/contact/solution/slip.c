@@ -38,7 +38,7 @@
 #define LEAST 1e-3 /* of the slip outside: less than this in contact is none, as where shear has no bound */
 #define HALO  2
 
-/* What is seen of a solution. */
+/* Values of a solution, of this rank's cells and with halos */
 typedef struct {
   SamGrid   grid;
   SamRigid  rigid;
@@ -92,7 +92,7 @@ static PetscBool Touches(const Seen *s, PetscInt i, PetscInt j)
   return SamHaloAt(&s->p, 0, i, j) > 0;
 }
 
-/* The gap of a cell, which is 0 in contact; beyond the grid the nearest one's. */
+/* Returns the gap of a cell, which is 0 in contact; beyond the grid the nearest one's. */
 static double GapOf(const Seen *s, PetscInt i, PetscInt j)
 {
   const PetscInt    a = PetscClipInterval(i, 0, s->grid->nx - 1), b = PetscClipInterval(j, 0, s->grid->ny - 1);
@@ -105,13 +105,13 @@ static double GapOf(const Seen *s, PetscInt i, PetscInt j)
   return PetscMax(gap, 0);
 }
 
-/* A cell at the edge, the axis and side on which the cell outside is, and M q/p about there. */
+/* A face between a cell in contact, (i, j), and the cell outside it, in the direction `step`; M q/p near the face */
 typedef struct {
   PetscInt i, j, step[2];
   double   bend[2], strain; /* and by pressure, the strain along x over it */
 } Face;
 
-/* What is smooth across the edge, of a cell. */
+/* Computes the part of a cell's slip that is smooth across the edge. */
 static void SmoothOf(const Seen *s, const Face *face, PetscInt i, PetscInt j, double slip[2])
 {
   const double gap = GapOf(s, i, j), size = s->streams ? (gap - GapOf(s, i + 1, j)) / (double)s->grid->dx : gap;
@@ -126,8 +126,8 @@ static void SmoothOf(const Seen *s, const Face *face, PetscInt i, PetscInt j, do
 }
 
 /*
-  The place of the edge beyond the centre of the cell in contact, in cells along the face's axis; false: the other axis
-  is closer to the edge's normal, by the slope of the gap in the cell outside.
+  Finds the place of the edge beyond the centre of the cell in contact, in cells along the face's axis; false: the other
+  axis is closer to the edge's normal, by the slope of the gap in the cell outside.
 */
 static PetscBool FindPlace(const Seen *s, Face *face, double p, double *u)
 {
@@ -144,7 +144,7 @@ static PetscBool FindPlace(const Seen *s, Face *face, double p, double *u)
   return PETSC_TRUE;
 }
 
-/* The slip at the edge by a face of a cell in contact; false: it is not the face for it. */
+/* Computes the slip at the edge by a face of a cell in contact; false: it is not the face for it. */
 static PetscBool SlipAtFace(const Seen *s, Face *face, ptrdiff_t k, double *size)
 {
   /* the difference over a cell ahead belongs to the face between both */
@@ -167,7 +167,7 @@ static PetscBool SlipAtFace(const Seen *s, Face *face, ptrdiff_t k, double *size
   return PETSC_TRUE;
 }
 
-/* The largest slip of a cell in contact at its faces to cells outside; negative: it has none. */
+/* Returns the largest slip of a cell in contact at its faces to cells outside; negative: it has none. */
 static double SlipAtEdge(const Seen *s, PetscInt i, PetscInt j, ptrdiff_t k)
 {
   double most = -1;
@@ -184,7 +184,10 @@ static double SlipAtEdge(const Seen *s, PetscInt i, PetscInt j, ptrdiff_t k)
   return most;
 }
 
-/* The largest slip of the cells in contact of this rank's row j: at the edge, if it is there, else at their centres. */
+/*
+  Returns the largest slip of the cells in contact of this rank's row j: at the edge, if it is there, else at their
+  centres.
+*/
 static double SlipOfRow(const Seen *s, PetscInt j)
 {
   const SamRigidRow row[]  = {SamRigidOfSlip(&s->rigid, 0, j), SamRigidOfSlip(&s->rigid, 1, j)};

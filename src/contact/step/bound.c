@@ -31,7 +31,7 @@ PetscErrorCode SamSolveBound(SamSolve *w, Vec bound)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The length of the slip of the step, by the shear and the rigid displacements. */
+/* Computes the length of the slip of the step, by the shear and the rigid displacements. */
 static PetscErrorCode ComputeSlip(SamSolve *w)
 {
   PetscFunctionBegin;

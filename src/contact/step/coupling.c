@@ -48,7 +48,7 @@ typedef struct {
   SamSolve *s;
   PetscReal error;   /* of the normal problem with the lift by the shear of the last pass */
   PetscReal rtol[2]; /* of the normal and the tangential problem, as the user wants them */
-  PetscBool looks;   /* contact may be where it has not been looked for */
+  PetscBool looks;   /* contact may exist outside of the cells searched so far */
   PetscBool slides;  /* the bound of this pass cannot carry the loads */
   PetscInt  stuck;   /* number of passes in a row whose shear was not found within a few iterations */
   PetscReal least;   /* the least error so far */
@@ -126,7 +126,7 @@ static PetscErrorCode Measure(Passes *p, Vec lift, PetscBool *solved)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The relative change of a traction since the previous pass. Then `previous` becomes `now`. */
+/* Computes the relative change of a traction since the previous pass; copies `now` to `previous`. */
 static PetscErrorCode ComputeChange(SamGrid grid, Vec now, Vec previous, PetscReal *change)
 {
   PetscReal size;
@@ -140,7 +140,7 @@ static PetscErrorCode ComputeChange(SamGrid grid, Vec now, Vec previous, PetscRe
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether the passes end, as neither p nor q changes any more. */
+/* Finds out whether the passes end because neither p nor q changes any more. */
 static PetscErrorCode Compare(Passes *p, PetscInt pass, PetscBool *solved)
 {
   SamSolve                 *s   = p->s;

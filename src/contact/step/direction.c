@@ -37,8 +37,8 @@
   what M_z moves there, nothing is known: its error stays of first order. So is what the pressure of dissimilar bodies
   moves, which is the other way: from a Dundurs' constant of MOST_DUNDURS on both are left out, as they cancel in part.
 
-  Of dissimilar bodies the pressure moves the surfaces all the time, outside of contact too, and most of the slip of a
-  growing contact is in cells that touch within the step. Of what they move by in the step, ds, the part
+  The pressure of dissimilar bodies moves the surfaces at all times, outside of contact too, and most of the slip of a
+  growing contact is in cells that touch within the step. If they move by ds in the step, the part
 
     tau = d0/(d0 + d1),   d0 = (g0/G)^(2/3),   d1 = (p1/P)^2
 
@@ -56,9 +56,9 @@
        a tolerance that t bears.
     2. t = ds - R(q) ds of the cells that slide. Its error is of second order in the step, relative to ds.
     3. The tangential problem with this t, from that q on.
-  Of dissimilar bodies 1 and 3 are the passes of coupling.c. While all loads lie on a line, step 3 is all: the shear
-  does not turn, but for what Poisson's ratio makes of it across, whose work cancels. What cells have moved by until
-  contact is made is known with the loads: if these are found, after step 1.
+  For dissimilar bodies 1 and 3 are the passes of coupling.c. While all loads lie on a line, step 3 suffices: the shear
+  keeps its direction, but for the part across that Poisson's ratio causes, whose work cancels. The motion of cells
+  before they touch is known with the loads: if loads are unknowns, after step 1.
 
   References: M. Ortiz, E. P. Popov, Accuracy and stability of integration algorithms for elastoplastic constitutive
   relations, Int. J. Numer. Methods Eng. 21 (1985) 1561-1576; M. Ciavarella, The generalized Cattaneo partial slip plane
@@ -71,10 +71,10 @@
 #include <petsam/private/elasticity.h>
 #include <petsam/private/state.h>
 
-/* Largest size of Dundurs' constant of the surfaces for which shear alone says how they move over each other. */
+/* Largest absolute Dundurs' constant of surfaces whose relative motion is determined by the shear alone */
 #define MOST_DUNDURS 0.15
 
-/* A load before the step: zero before the first one. */
+/* Returns a load before the step: zero before the first one. */
 static PetscReal LoadBefore(SamSolve *w, PetscInt component)
 {
   return w->task->before ? w->task->before->load[component] : 0;
@@ -96,7 +96,7 @@ PetscBool SamSolveIsTwice(SamSolve *w)
   return w->s->mid_step || (Grows(w) && !(w->tangential.force[0] && w->tangential.force[1]));
 }
 
-/* kappa of x or y. */
+/* Returns kappa (top of this file) along x or y. */
 static double RatioOfCompliances(SamSolve *w, int c)
 {
   const SamPair pair = SamElasticityGetPair(w->task->elasticity);
@@ -105,8 +105,8 @@ static double RatioOfCompliances(SamSolve *w, int c)
 }
 
 /*
-  What a step adds to the bodies' motion: the approach about the centre of the pressure before, tilting, the strain of
-  the surfaces, and the change of the tangential loads over that of N.
+  Increment of the bodies' motion in a step: the approach about the centre of the pressure before, the tilt, the strain
+  of the surfaces, and the ratio of the changes of the tangential loads to that of N.
 */
 typedef struct {
   double    center[2], uniform, tilt[2], tau[2];
@@ -152,7 +152,7 @@ static PetscErrorCode FindApproach(SamSolve *w, PetscBool found, Approach *a)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The change of the shear over that of the pressure at the contact edge near a point, both of a punch that sticks. */
+/* Computes tau, the ratio of the changes of shear and pressure of a sticking punch, at the contact edge at (x, y). */
 static void ShearAtEdge(const Approach *a, const double kappa[2], double x, double y, double tau[2])
 {
   const double    at_x = x - a->center[0], at_y = y - a->center[1];
@@ -163,7 +163,7 @@ static void ShearAtEdge(const Approach *a, const double kappa[2], double x, doub
   for (int c = 0; c < 2; c++) tau[c] = a->uniform > 0 ? (a->tau[c] * a->uniform - 2 * moved[c] / kappa[c]) / normal : 0;
 }
 
-/* The gap before the step of cells that were open; of others 0. */
+/* Computes the gap before the step of cells that were open; of others 0. */
 static PetscErrorCode FindGaps(SamSolve *w, Vec gap)
 {
   const double *p;
@@ -179,7 +179,7 @@ static PetscErrorCode FindGaps(SamSolve *w, Vec gap)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The same in a step from no contact, of cells in contact after it: the distance of the undeformed bodies. */
+/* Computes the distance of the undeformed bodies instead, in a step from no contact, of cells in contact after it. */
 static PetscErrorCode FindDistances(SamSolve *w, Vec distance)
 {
   const PetscInt nx    = w->task->grid->nx;
@@ -276,7 +276,7 @@ static PetscErrorCode SetTurn(SamSolve *w, Vec aside)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* t by that of the step before, where there was contact before that, in proportion to the square of the step. */
+/* Predicts t from the step before, in proportion to the square of the step, where there was contact before that. */
 static PetscErrorCode PredictTurn(SamSolve *w, Vec aside)
 {
   const SamSolution *last  = w->task->before;
@@ -299,7 +299,9 @@ static PetscErrorCode PredictTurn(SamSolve *w, Vec aside)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The largest gap before and the largest pressure after the step of cells that come into contact; of all ranks. */
+/*
+  Finds the largest gap before and the largest pressure after the step of cells that come into contact; of all ranks.
+*/
 static PetscErrorCode MeasureTouching(SamGrid grid, const double p0[], const double p[], const double g[],
                                       double most[2])
 {
@@ -314,7 +316,7 @@ static PetscErrorCode MeasureTouching(SamGrid grid, const double p0[], const dou
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The time at which cells touch, as a part of the step, where there was contact before. */
+/* Computes the time at which cells touch, as a part of the step, where there was contact before. */
 static PetscErrorCode FindTimes(SamSolve *w, Vec time)
 {
   const SamSolution *before = w->task->before;
@@ -339,7 +341,7 @@ static PetscErrorCode FindTimes(SamSolve *w, Vec time)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The same in a step from no contact, in which all cells touch: by the distance of the undeformed bodies. */
+/* Computes these times by the distance of the undeformed bodies in a step from no contact, in which all cells touch. */
 static PetscErrorCode FindFirstTimes(SamSolve *w, Vec time)
 {
   double *t, most = 0;

@@ -14,7 +14,7 @@
 #define DEPTH 6
 /* Eigenvalues of the scaled matrix of products below this are rounding. */
 #define LEAST 1e-10
-/* The most that the parts' sizes may add up to, as errors of the results grow by that. */
+/* Largest sum of the absolute weights of the combined results; it bounds the amplification of their errors */
 #define MOST 10.0
 
 typedef struct {

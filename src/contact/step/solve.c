@@ -55,7 +55,7 @@ static PetscErrorCode End(SamSolve *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The bound, and the tangential problem with it, twice if need be, unless the normal one has failed. */
+/* Solves the tangential problem under a bound from the pressure, twice if need be, unless the normal one has failed. */
 static PetscErrorCode SolveShear(SamSolve *w, PetscBool has_shear)
 {
   const PetscBool     twice  = SamSolveIsTwice(w);
@@ -85,7 +85,7 @@ static PetscErrorCode SolveShear(SamSolve *w, PetscBool has_shear)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Both problems, with the offsets of the tried state. */
+/* Solves both problems, with the offsets of the tried state. */
 static PetscErrorCode SolveProblems(SamSolve *w)
 {
   PetscBool friction;
@@ -103,7 +103,7 @@ static PetscErrorCode SolveProblems(SamSolve *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The same again, for a law. */
+/* Solves both problems again, for a law. */
 static PetscErrorCode SolveAgain(SamLawContact *contact, PetscBool *solved)
 {
   SamSolve *w = (SamSolve *)contact->context;
@@ -116,7 +116,7 @@ static PetscErrorCode SolveAgain(SamLawContact *contact, PetscBool *solved)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The tractions together with the state of a law that follows from them. */
+/* Solves for the tractions together with the state of a law that depends on them. */
 static PetscErrorCode FollowTractions(SamSolve *w)
 {
   SamLawContact contact = {.state      = w->task->state,

@@ -111,7 +111,7 @@ static PetscErrorCode ComputeBound(Coarse *k)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The pressure under the same normal loads, and the shear. */
+/* Computes the pressure under the same normal loads, and the shear. */
 static PetscErrorCode SolveCoarse(SamSolve *w, Coarse *k, SamSolverReason *reason)
 {
   Vec *const    f = k->field;

@@ -16,7 +16,7 @@ static PetscErrorCode Count(SamSolver solver, double counts[3])
 
 /* ---- the normal problem ---- */
 
-/* The message for loads that no pressure balances, or for an approach that is too large, with the limit. */
+/* Writes the message for loads that no pressure balances, or for an approach that is too large, with the limit. */
 static PetscErrorCode DescribeImpossible(SamSolve *w, char message[], size_t size)
 {
   const SamGrid grid = w->task->grid;
@@ -58,7 +58,10 @@ static PetscErrorCode TakePressure(SamSolve *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The separation for the normal problem: that of the bodies, the lift, which w->h holds, of coupled ones, offsets. */
+/*
+  Computes the separation for the normal problem: that of the bodies, the lift, which w->h holds, of coupled ones,
+  offsets.
+*/
 static PetscErrorCode GetSeparation(SamSolve *w, Vec *h)
 {
   PetscFunctionBegin;
@@ -94,7 +97,7 @@ static PetscErrorCode FollowPressure(SamGrid grid, Vec pressure_before, Vec pres
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether the same step one cycle before has the pressure. */
+/* True if the same step one cycle before has the pressure of this step. */
 static PetscBool IsKnown(const SamSolve *w)
 {
   SamControl before = w->s->control;
@@ -138,8 +141,8 @@ PetscErrorCode SamSolveNormal(SamSolve *w, PetscBool has_pressure, PetscBool has
 /* ---- the tangential problem ---- */
 
 /*
-  The message for gross slip: the tangential loads, and the limit of each in the same proportions. Under a bound that
-  follows the slip that is no limit: smaller steps slip otherwise, and may reach more.
+  Writes the message for gross slip: the tangential loads, and the limit of each in the same proportions. Under a bound
+  that follows the slip that is no limit: smaller steps slip otherwise, and may reach more.
 */
 static PetscErrorCode DescribeSliding(SamSolve *w, char message[], size_t size)
 {
@@ -238,7 +241,7 @@ static PetscErrorCode AddStrain(SamGrid grid, const SamStrain *e, Vec field)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* w - S of the tangential problem: what moves the surfaces besides the shear, less the slip so far; NULL for zero. */
+/* Computes w - S of the tangential problem: displacements not by the shear, minus the slip so far; NULL for zero. */
 static PetscErrorCode CreateOffset(SamSolve *w, Vec *offset)
 {
   const SamStepTask *task = w->task;

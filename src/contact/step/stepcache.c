@@ -61,9 +61,9 @@ enum {
   CELLS,        /* of its fields on all ranks; 0: nothing is kept */
   UNIT_SHEAR,   /* of the changes (Pa) */
   UNIT_PRODUCT, /* (m) */
-  GAP,          /* the number of the gap that the pressure is right for; -1: it has moved since */
-  PRESSURE,     /* whether there is a pressure; else it is that of the step before */
-  RTOL,         /* of the normal solver */
+  GAP,          /* number of the gap for which the pressure was solved; -1: it has moved since */
+  PRESSURE,     /* 1: a pressure is stored; 0: it is that of the step before */
+  RTOL,         /* tolerance of the normal solver */
   LOAD,         /* normal loads and rigid displacements */
   RIGID = LOAD + 3,
   KEPT  = RIGID + 3
@@ -74,10 +74,10 @@ enum {
   GAP_NOW /* the number of the gap after the last step: it is raised by whatever changes the gap */
 };
 
-/* What is prescribed, as numbers: the components and the conditions, and how each component is given. */
+/* Length of a control as a row of numbers: the components, how each one is given, and the conditions */
 #define MOST_NUMBERS (2 * SAM_COMPONENTS + SAM_CONDITIONS)
 
-/* A kept step in the step that is to come: its row, and the sign and the weight of its changes. */
+/* A kept step that the prediction of the next step is made of: its row, and the sign and weight of its changes */
 typedef struct {
   PetscInt      row; /* 0: none */
   double        sign, weight;
@@ -112,7 +112,7 @@ static double *Row(SamStepCache r, PetscInt k)
   return r->table + k * Width(r);
 }
 
-/* A number of a row besides what is prescribed. */
+/* Returns a number of a row besides what is prescribed. */
 static double *At(SamStepCache r, PetscInt k, PetscInt number)
 {
   return Row(r, k) + r->numbers + number;
@@ -144,7 +144,7 @@ static void DestroyFields(SamStepFields *fields)
   SamFree(f);
 }
 
-/* Nothing is kept of a step any more. */
+/* Drops the kept fields of a step. */
 static void Drop(SamStepCache r, PetscInt k)
 {
   r->bytes -= BytesOf(r, Row(r, k));
@@ -283,7 +283,7 @@ PetscErrorCode SamStepCacheAddFields(SamStepCache r, PetscInt row, const int32_t
 
 /* ---- which step this is ---- */
 
-/* The numbers of a control but its time. */
+/* Gets the numbers of a control but its time. */
 static void GetNumbers(SamStepCache r, const SamControl *control, double numbers[MOST_NUMBERS])
 {
   const PetscInt parts = SamControlCount(r->conditions);
@@ -292,7 +292,7 @@ static void GetNumbers(SamStepCache r, const SamControl *control, double numbers
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++) numbers[parts + k] = SamControlWay(control, k);
 }
 
-/* The same with all that causes shear reversed. */
+/* Copies the numbers of a control with all causes of shear reversed. */
 static void Reverse(SamStepCache r, const double numbers[MOST_NUMBERS], double reversed[MOST_NUMBERS])
 {
   memcpy(reversed, numbers, sizeof(*numbers) * (size_t)r->numbers);
@@ -313,7 +313,7 @@ typedef struct {
   double to[2][MOST_NUMBERS], from[2][MOST_NUMBERS], largest[MOST_NUMBERS];
 } Sought;
 
-/* Whether the step in this row did the same (1) or the reverse (-1) after the same or the reverse; 0: neither. */
+/* 1 if the step in this row and the step before it repeat the sought ones, -1 if they are their reverse, else 0. */
 static int Compare(SamStepCache r, const Sought *s, PetscInt row)
 {
   for (int way = 0; way < 2; way++)
@@ -354,7 +354,7 @@ void SamStepCacheFind(SamStepCache r, const SamControl *next, SamCachedStep *kep
 
 /* ---- keeping ---- */
 
-/* The largest change of n values. */
+/* Returns the largest change of n values. */
 SAM_VECTORIZED static double LargestChange(PetscInt n, const double before[], const double now[])
 {
   double most = 0;
@@ -450,7 +450,7 @@ static PetscErrorCode FindRanges(SamStepCache r, const SamSolution *before, cons
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Makes room for the last step if the limit allows it, or older steps need not stay. */
+/* Keeps the cache within its limit: drops the oldest steps, or the step `found` that the last repeats, or the last. */
 static void MakeRoom(SamStepCache r, PetscInt found)
 {
   r->bytes += BytesOf(r, Row(r, r->count));
@@ -497,7 +497,10 @@ static PetscInt CellsInRow(const Part *part, PetscInt j)
   return part->fields->range[2 * j + 1] - part->fields->range[2 * j];
 }
 
-/* The weight with which the two kept steps would have been nearest to the shear's change from `before` to `now`. */
+/*
+  Computes the weight with which the two kept steps would have been nearest to the shear's change from `before` to
+  `now`.
+*/
 static PetscErrorCode FindWeight(SamStepCache r, Vec before, Vec now, double *weight)
 {
   const Part *const part      = r->start->part;

@@ -16,7 +16,7 @@ typedef struct {
   PetscBool          known_pressure;          /* the pressure is that of the kept step */
   SamBalance         normal, tangential;      /* as prescribed */
   double             rigid[3];                /* guess of the tangential rigid displacements */
-  double            *counts;                  /* of the solvers, in the state */
+  double            *counts;                  /* iteration counts of the solvers, in the state */
   Vec                separation;              /* of the bodies as they were after the step before */
   Vec                slip;          /* the length of the slip of this step, by the last shear; NULL: none yet */
   SamProduct         shear_product; /* C q of the tried solution; coupled, or solved twice only */
@@ -81,7 +81,7 @@ PETSC_INTERN PetscErrorCode SamSolveGetChange(SamSolve *solve, Vec argument, Vec
 /*
   SamSolveSetAside - sets `aside` of the tried solution, to whose pressure and bound it belongs: by its shear, if the
   step has been `solved`, to a tolerance SAM_ROUGH times that of the shear (direction.c). Collective.
-  SamSolveIsTwice - whether that is needed, by the tried pressure. Not collective.
+  SamSolveIsTwice - true if the tried pressure makes that necessary. Not collective.
   SamSolveBound - a bound of the shear, from the pressure and the last slip. Collective.
   SamSolveShear - the tangential problem under the bound of the tried solution. A bound that follows the slip changes
   with it; `rtol` is what both are solved to then (bound.c). Collective.

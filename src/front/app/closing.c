@@ -104,7 +104,7 @@ static PetscErrorCode PrintTimes(SamReport r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* How well the grid resolves the contact. */
+/* Prints how well the grid resolves the contact. */
 static PetscErrorCode PrintExtent(SamReport r)
 {
   const SamExtent *e        = &r->extent;
@@ -122,7 +122,7 @@ static PetscErrorCode PrintExtent(SamReport r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* How much of the edges is not found. */
+/* Prints how much of the edges is not found. */
 static PetscErrorCode PrintEdges(SamReport r)
 {
   char where[48] = "";
@@ -138,7 +138,7 @@ static PetscErrorCode PrintEdges(SamReport r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether there is an estimate of the dissipated energy's error: of steps in time, with friction. */
+/* True if the error of the dissipated energy has an estimate: there are several steps, and friction. */
 static PetscBool HasEnergy(SamReport r)
 {
   return r->steps > 1 && r->energy[0] > 0 && r->energy[1] >= 0;
@@ -173,7 +173,7 @@ static PetscErrorCode WarnOfEnergy(SamReport r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The dissipated energy beside its closed form. */
+/* Prints the dissipated energy beside its closed form. */
 static PetscErrorCode PrintSlip(SamReport r)
 {
   const char *const unit = r->energy_unit;
@@ -200,8 +200,8 @@ static PetscErrorCode PrintFiles(SamReport r)
 }
 
 /*
-  The peak memory of this process so far, bytes. That of getrusage() may include the launcher, from before this program
-  was loaded.
+  Returns the peak memory of this process so far, bytes. That of getrusage() may include the launcher, from before this
+  program was loaded.
 */
 static double LargestMemory(void)
 {
@@ -213,7 +213,7 @@ static double LargestMemory(void)
   return 1024 * (double)used.ru_maxrss;
 }
 
-/* Time and memory, each the largest of all ranks. */
+/* Prints time and memory, each the largest of all ranks. */
 static PetscErrorCode PrintResources(SamReport r)
 {
   struct rusage used;

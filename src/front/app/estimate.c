@@ -1,4 +1,4 @@
-/* Whether each node has the memory that a run needs. */
+/* Checks that each node has the memory that a run needs. */
 #include "program.h"
 #include <petsam/private/baseimpl.h>
 #include <stdlib.h>

@@ -31,7 +31,7 @@ PetscErrorCode SamFilesAddWritten(SamFiles *f, const char option[], const char n
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether two names are those of the same file; files that do not exist yet are compared by folder and name. */
+/* True if two names denote the same file; files that do not exist yet are compared by folder and name. */
 static PetscBool IsSameFile(const char a[], const char b[])
 {
   const char *const names[2] = {a, b};
@@ -66,7 +66,7 @@ static PetscBool IsViewerFormat(const char text[])
   return PETSC_FALSE;
 }
 
-/* Whether PETSc could open the file; it would report a failure on one rank only. Not collective. */
+/* 0 if the file can be written, else errno; PETSc would report a failure on one rank only. Not collective. */
 static int CheckPlace(const char name[])
 {
   char        folder[PETSC_MAX_PATH_LEN];
@@ -131,7 +131,7 @@ static PetscBool Has(const SamFiles *f, const char option[])
   return PETSC_FALSE;
 }
 
-/* The files that an option names by its declaration. */
+/* Adds the files that an option names by its declaration. */
 static PetscErrorCode AddDeclared(SamFiles *f, MPI_Comm comm, const SamOptionFile *one)
 {
   char      value[PETSC_MAX_PATH_LEN] = "", **list;
@@ -162,7 +162,7 @@ static PetscErrorCode AddCommon(SamFiles *f, MPI_Comm comm, const SamArguments *
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether one of two files may replace the other: a restart continues its checkpoints. */
+/* True if one of two files may replace the other: a restart continues its checkpoints. */
 static PetscBool MayMeet(const SamNamedFile *one, const SamNamedFile *other)
 {
   if (!strcmp(one->option, other->option)) return PETSC_TRUE;

@@ -78,7 +78,7 @@ static PetscErrorCode PrintLine(const Line *l)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The names of the topics with commas between them, in lines that are not too long; `first` columns are taken. */
+/* Lists the names of the topics with commas between them, in lines that are not too long; `first` columns are taken. */
 static void ListTopics(const SamTopic *topics, size_t first, char text[], size_t size)
 {
   size_t column = first, used = 0;
@@ -106,7 +106,7 @@ static PetscErrorCode PrintAll(const SamProgram *program, const List *list)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether the group of this title belongs to a topic. */
+/* True if the group of this title belongs to the topic. */
 static PetscBool HasGroup(const SamTopic *topic, const char title[])
 {
   for (int k = 0; k < SAM_TOPIC_GROUPS && topic->group[k]; k++)
@@ -206,7 +206,7 @@ static PetscErrorCode PrintJson(const SamProgram *program, const List *list)
 
 /* ---- what was asked for ---- */
 
-/* Whether a name is this one, or begins with it if `part`; _ and - count as spaces. */
+/* True if `asked` is this name, or its beginning if `part`; _ and - count as spaces. */
 static PetscBool IsNamed(const char asked[], const char name[], PetscBool part)
 {
   size_t k = 0;
@@ -220,7 +220,7 @@ static PetscBool IsNamed(const char asked[], const char name[], PetscBool part)
   return part || !name[k];
 }
 
-/* The topic of this name, or with `part` the only one that begins with it; NULL: none. */
+/* Returns the topic of this name, or with `part` the only one that begins with it; NULL: none. */
 static const SamTopic *FindAsked(const SamProgram *program, const char asked[], PetscBool part)
 {
   const SamTopic *found = NULL;
@@ -279,7 +279,7 @@ static PetscErrorCode RefuseTopic(const SamProgram *program, const char asked[])
           asked, topics);
 }
 
-/* A topic, an option, the beginning of a topic, the beginning of options: the first of these that there is. */
+/* Prints a topic, an option, the beginning of a topic, the beginning of options: the first of these that there is. */
 static PetscErrorCode PrintAsked(const SamProgram *program, const List *list, const char asked[])
 {
   PetscFunctionBegin;

@@ -59,7 +59,7 @@ static PetscErrorCode Warn(void *context, const char option[], const char format
 
 /* ---- progress ---- */
 
-/* A line on how far the run is, if the last one is some time ago. */
+/* Prints a line on how far the run is, if the last one is some time ago. */
 static PetscErrorCode Tell(void *context, const char work[], double part, double whole)
 {
   SamStressRun *const run = (SamStressRun *)context;
@@ -78,7 +78,7 @@ static PetscErrorCode Tell(void *context, const char work[], double part, double
 
 /* ---- the steps ---- */
 
-/* The number of a saved step of the k-th chosen one; -1: of that before the first, at the same distance. */
+/* Returns the number of a saved step of the k-th chosen one; -1: of that before the first, at the same distance. */
 static PetscInt SavedStep(const SamStressRun *run, PetscInt k)
 {
   return k >= 0 ? run->saved[k] : run->saved[0] - (run->steps > 1 ? run->saved[1] - run->saved[0] : 1);
@@ -123,7 +123,7 @@ static PetscErrorCode ReadConditions(void *context, PetscInt k, SamConditions co
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The file keeps the warning, for who reads the parameters later. */
+/* Warns, and stores the warning in the file for later readers of the parameters. */
 static PetscErrorCode WarnOfSteps(void *context, const char text[])
 {
   char *const  doubt = ((SamStressRun *)context)->doubt;
@@ -174,7 +174,7 @@ static PetscErrorCode ReadResidual(void *context, PetscInt step, PetscInt body, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Which bodies have yielded, and whether the results have the stresses by that. */
+/* Determines which bodies have yielded, and whether the results contain the stresses by plastic strain. */
 static PetscErrorCode SetYielding(SamStressRun *run, SamStressSource *source)
 {
   const SamParameters *parameters = SamResultsGetParameters(run->results);
@@ -196,7 +196,7 @@ static PetscErrorCode SetYielding(SamStressRun *run, SamStressSource *source)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The bodies, by the elasticity that the results have recorded, and the steps. */
+/* Sets up the bodies, by the elasticity that the results have recorded, and the steps. */
 static PetscErrorCode SetUpEvaluation(SamStressRun *run)
 {
   SamStressSource      source     = {.settings   = &run->transforms,
@@ -229,13 +229,13 @@ static PetscErrorCode SetUpEvaluation(SamStressRun *run)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The bytes of this rank. */
+/* Estimates the bytes of this rank. */
 static double MemoryOf(const SamStressRun *run)
 {
   return run->layout->memory + SAM_MEMORY_PROGRAM;
 }
 
-/* The output and its temporary file must not replace a file that is read. */
+/* Checks that the output and its temporary file do not replace a file that is read. */
 static PetscErrorCode CheckFiles(const SamStressRequest *r, const SamArguments *arguments)
 {
   SamFiles files = {.count = 0};
@@ -306,7 +306,7 @@ static PetscErrorCode CreateFile(SamStressRun *run)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The numbers of the load steps, as petsam counts them. */
+/* Writes the numbers of the load steps, as petsam counts them. */
 static PetscErrorCode WriteStepNumbers(SamStressRun *run)
 {
   double *numbers;
@@ -337,7 +337,7 @@ static PetscErrorCode WriteLargest(SamStressRun *run)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The step in which a value is largest; -1: there is none. */
+/* Returns the step in which a value is largest; -1: there is none. */
 static PetscInt MostOf(const SamLargestSeries *of)
 {
   PetscInt most = -1;
@@ -360,7 +360,7 @@ static PetscBool IsLargestOfMaterials(SamStressRun *run, const SamLargestSeries 
   return PETSC_TRUE;
 }
 
-/* The largest values over all steps; of many materials only those that are largest of all. */
+/* Prints the largest values over all steps; of many materials only those that are largest of all. */
 static PetscErrorCode PrintLargest(SamStressRun *run)
 {
   SamLargestSeries of;
@@ -408,7 +408,7 @@ static PetscErrorCode PrintBanner(SamStressRun *run)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The stresses of a contact fall off within its own size. */
+/* Warns of depths in another unit: the stresses of a contact decay within its own size. */
 static PetscErrorCode WarnOfDepths(SamStressRun *run)
 {
   const double width   = 2 * (double)run->grid->length,

@@ -78,7 +78,7 @@ static PetscErrorCode CheckFiles(const SamSimulationFiles *f, const SamArguments
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A quiet run without a file leaves nothing but its exit code. */
+/* Warns of a quiet run without a file, which leaves nothing but its exit code. */
 static void WarnOfQuiet(const SamRun *run, const SamSimulationFiles *f)
 {
   if (run->report->quiet && !run->report->rank && !run->dry && !f->output && !f->checkpoint)
@@ -97,26 +97,29 @@ static void WarnOfQuiet(const SamRun *run, const SamSimulationFiles *f)
 static const double bytes_per_cell[2][2][2] = {{{85, 150}, {190, 400}},
                                                {{265, 365}, {350, 520}}}; /* [several steps][friction][coupled] */
 
-/* Of the slip in a step (step/direction.c), bytes per cell; measured at 512 cells a side: 57, coupled 4. */
+/* Memory of the slip in a step (step/direction.c), bytes per cell; measured at 512 cells a side: 57, coupled 4 */
 #define TURN_BYTES 70
-/* Of an upwind operator, bytes per cell: directions and their products. Measured at 1024: 250, for contact on 59 %. */
+/* Memory of an upwind operator, directions and products, bytes per cell; at 1024 cells a side, 59 % in contact: 250 */
 #define ROLLING_BYTES 280
 
-/* Of a kept step of a load cycle, bytes per cell at most. */
+/* Largest memory of a kept step of a load cycle, bytes per cell */
 #define KEPT_BYTES 24
 
-/* Of a life, bytes per cell; where surfaces slide in each body's load and each step, more between dissimilar bodies. */
+/*
+  Memory of a wear simulation, bytes per cell. Sliding surfaces add the wear load of each body, and a part for each
+  step, which is larger for dissimilar bodies.
+*/
 #define LIFE_BYTES                         (16 * 8)
 #define SLIDING_LIFE_BYTES(steps, coupled) (4 * 8 + ((coupled) ? 20 : 12) * (double)(steps))
 
 /*
-  Of the tangent stiffness, bytes per cell: most of it solutions and search directions, which are of cells in contact.
+  Memory of the tangent stiffness, bytes per cell: mainly solutions and search directions on the cells in contact.
   Measured at 512 cells a side, for contact on 50 and 79 % of the grid: without friction 228 and 330, with friction 294
-  and 408, coupled 528 and 729; continued to all of the grid.
+  and 408, coupled 528 and 729; extrapolated to contact on all of the grid.
 */
 static const double stiffness_bytes[2][2] = {{400, 400}, {490, 880}}; /* [friction][coupled] */
 
-/* What kept steps take on all ranks, bytes; twice the steps of a cycle of a life. The contact is made later. */
+/* Estimates the memory of the kept steps on all ranks, bytes; a life keeps two cycles. The contact is made later. */
 static PetscErrorCode EstimateKept(const SamSetup *setup, const SamSimulationNeeds *needs, double *bytes)
 {
   const double steps = needs->life ? 2 * (double)needs->steps : (double)needs->steps;
@@ -133,7 +136,7 @@ static PetscErrorCode EstimateKept(const SamSetup *setup, const SamSimulationNee
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The memory that this rank will need, bytes. */
+/* Estimates the memory that this rank will need, bytes. */
 static PetscErrorCode EstimateMemory(SamSimulation simulation, double *bytes)
 {
   PetscMPIInt              ranks;

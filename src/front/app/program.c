@@ -22,9 +22,9 @@ static SamArguments      arguments;
 
 /* ---- errors ---- */
 
-/* Whether an error has occurred that the other ranks may not know of. */
+/* True if an error has occurred that the other ranks may not know of */
 static PetscBool alone = PETSC_FALSE;
-/* Whether an MPI launcher has started the program. */
+/* True if an MPI launcher has started the program */
 static PetscBool launched = PETSC_TRUE;
 
 /* Errors that a line explains; of all others PETSc prints a trace. */
@@ -33,7 +33,7 @@ static PetscBool IsPlain(PetscErrorCode code)
   return code == SAM_ERR_USER || code == SAM_ERR_FILE || code == PETSC_ERR_NOT_CONVERGED || code == PETSC_ERR_MEM;
 }
 
-/* Prints an error as one line: one that all ranks have met from rank 0. */
+/* Prints an error as one line; if all ranks have met it, from rank 0 only. */
 static PetscErrorCode HandleError(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode code,
                                   PetscErrorType type, const char *message, void *context)
 {
@@ -106,7 +106,7 @@ static void ReturnLargeFields(void)
 #endif
 }
 
-/* Signals at which PETSc would print a trace, though nothing is wrong in the program; nohup has one ignored. */
+/* Signals at which PETSc would print a trace though the program has no error; nohup ignores one of them */
 static const int usual[] = {SIGHUP, SIGQUIT, SIGTERM, SIGPIPE, SIGURG};
 enum { USUAL = sizeof(usual) / sizeof(usual[0]) };
 

@@ -1,4 +1,4 @@
-/* What the programs share: start and end, errors and exit codes, help, names of files, memory. */
+/* Functions shared by the programs: start and end, errors and exit codes, help, names of files, memory. */
 #ifndef PETSAM_APP_PROGRAM_H
 #define PETSAM_APP_PROGRAM_H
 

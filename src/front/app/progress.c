@@ -14,8 +14,8 @@
 #define INTERVAL 0.25 /* s between updates */
 
 /*
-  Whether the environment that this process was started with has a launcher's variables. getenv() would not do: MPI
-  itself sets such variables in a process without a launcher.
+  True if this process was started with the environment variables of a launcher. getenv() cannot be used: MPI itself
+  sets such variables in a process without a launcher.
 */
 static PetscBool LaunchedByMPI(void)
 {
@@ -33,7 +33,7 @@ static PetscBool LaunchedByMPI(void)
   return found;
 }
 
-/* Whether stdout goes to a terminal. */
+/* True if stdout goes to a terminal. */
 static PetscBool OnTerminal(void)
 {
   char    link[64], target[64];

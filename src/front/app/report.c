@@ -62,7 +62,7 @@ PetscErrorCode SamReportDestroy(SamReport *report)
 
 /* ---- banner ---- */
 
-/* The libraries with their versions: "PETSc 3.18.5, FFTW 3.3.10, HDF5 1.10.8, Open MPI v4.1.4". */
+/* Writes the libraries with their versions: "PETSc 3.18.5, FFTW 3.3.10, HDF5 1.10.8, Open MPI v4.1.4". */
 static PetscErrorCode DescribeLibraries(char text[], size_t size)
 {
   char        mpi[MPI_MAX_LIBRARY_VERSION_STRING], fftw[64];
@@ -98,7 +98,7 @@ static PetscErrorCode CountNodes(MPI_Comm comm, double *nodes)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* From where the run goes on. */
+/* Prints the checkpoint from which the run continues. */
 static PetscErrorCode PrintRestart(SamReport r, const SamSimulationStart *s)
 {
   PetscFunctionBegin;
@@ -167,7 +167,7 @@ static PetscErrorCode BeginStep(SamReport r, PetscInt number, SamContact contact
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The mean seconds of the last lines, `lines` so far, of which this took `seconds`. */
+/* Returns the mean seconds of the last lines, `lines` so far, of which this took `seconds`. */
 static double MeanTime(SamReport r, PetscInt lines, double seconds)
 {
   const PetscInt known = PetscMin(lines, SAM_REPORT_RECENT);
@@ -257,7 +257,7 @@ static PetscErrorCode CountStep(SamReport r, SamContact contact, PetscInt number
     PetscCall(KeepEdges(r, contact));
     PetscCall(KeepEnergy(r, contact, step));
   }
-  if (!SamStepIsSolved(step)) r->energy[1] = -INFINITY; /* what a run that failed dissipated is nobody's question */
+  if (!SamStepIsSolved(step)) r->energy[1] = -INFINITY; /* no energy is reported for a failed run */
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -295,7 +295,7 @@ static PetscErrorCode BeginCycle(SamReport r, SamContact contact)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The number of jumps over `left` cycles, if they go on to grow as the last one did from that `before`. */
+/* Estimates the number of jumps over `left` cycles, if they go on to grow as the last one did from that `before`. */
 static double JumpsLeft(const SamLifeReport *c, PetscReal before, PetscReal left)
 {
   const double growth = before > 0 ? PetscMin(1.5, PetscMax(1.0, (double)(c->jump / before))) : 1.5;

@@ -1,4 +1,4 @@
-/* What a run prints: a banner, a line for each load step, progress within long steps, and a closing table. */
+/* Printed report of a run: a banner, a line for each load step, progress within long steps, and a closing table. */
 #ifndef PETSAM_APP_REPORT_H
 #define PETSAM_APP_REPORT_H
 
@@ -14,8 +14,8 @@ typedef enum { SAM_PROGRESS_AUTO, SAM_PROGRESS_ALWAYS, SAM_PROGRESS_NEVER } SamP
 /* The progress line within a step, which only rank 0 shows. */
 typedef struct {
   SamProgressMode mode;
-  PetscBool       active;   /* whether this rank shows it */
-  double          after;    /* shown after so many seconds of a step */
+  PetscBool       active;   /* true if this rank shows it */
+  double          after;    /* seconds of a step after which it is shown */
   double          shown_at; /* when it was updated last (MPI_Wtime) */
   int             length;   /* characters on the terminal, to be erased */
 } SamProgress;
@@ -50,15 +50,15 @@ struct _n_SamReport {
   PetscReal      jump;                      /* cycles, of the last of these */
   PetscBool      living;                    /* the run is a life */
   SamReportWorst worst[3];                  /* normal, tangential, equilibrium */
-  SamReportWorst edges;     /* the least share of the edges that is reconstructed; step 0: none is asked for */
-  PetscReal      energy[2]; /* dissipated so far, and the estimate of its error, J */
-  PetscReal      work;      /* T disp, the most of a step, J */
+  SamReportWorst edges;     /* smallest reconstructed share of the edges; step 0: reconstruction is off */
+  PetscReal      energy[2]; /* energy dissipated so far, and the estimate of its error, J */
+  PetscReal      work;      /* largest T disp of a step, J */
   SamProgress    progress;
   SamContact     contact;     /* whose monitors are set; borrowed */
   SamExtent      extent;      /* of the contact in step `extent_step`, */
   PetscInt       extent_step; /* from 1; 0: not known */
   SamSlip        slip;        /* of all steps; without steps: not known */
-  PetscBool      edge_told;   /* that the contact is at the edge, which is allowed */
+  PetscBool      edge_told;   /* true once a contact at the grid's edge, which is allowed, has been reported */
   /* files written */
   char    *name[SAM_REPORT_FILES], *content[SAM_REPORT_FILES];
   PetscInt files;
@@ -78,9 +78,9 @@ PETSC_INTERN PetscErrorCode SamReportDestroy(SamReport *report);
 PETSC_INTERN PetscErrorCode SamReportBanner(SamReport report, SamGrid grid, double bytes,
                                             const SamSimulationStart *start);
 /*
-  SamReportNews - prints a line for a step, or a computed cycle, the only step of a run in full; messages and warnings;
-  and keeps what the closing table tells. That the contact is at the edge, where that is allowed, is said in the first
-  such step only. Progress is shown by monitors, which it adds to the contact's solvers. Collective.
+  SamReportNews - prints a line for a step or a computed cycle (the only step of a run in full), messages and warnings,
+  and collects the values of the closing table. A contact at the grid's edge, where that is allowed, is reported in the
+  first such step only. Progress is shown by monitors, which it adds to the contact's solvers. Collective.
 */
 PETSC_INTERN PetscErrorCode SamReportNews(SamReport report, SamContact contact, const SamSimulationEvent *news);
 /* SamReportClosing - prints times by part, worst residuals, files written, and time and memory used. Collective. */

@@ -8,7 +8,7 @@
 
 /* ---- options ---- */
 
-/* One to three whole numbers with colons between them, which make up the whole text; returns how many, 0 for others. */
+/* Reads a text of one to three integers separated by colons; returns their number, 0 for any other text. */
 static int ReadNumbers(const char text[], PetscInt n[3])
 {
   for (int count = 0; count < 3; count++) {
@@ -70,7 +70,7 @@ PetscErrorCode SamStressRequestRead(const SamOptions *from, SamStressRequest *r)
 
 /* ---- steps of the results ---- */
 
-/* The number of the saved step that is a load step, or -1. */
+/* Finds the number of the saved step that is a load step, or -1. */
 static PetscErrorCode FindSaved(SamResults results, PetscInt step, PetscInt *saved)
 {
   PetscInt count, there;
@@ -85,7 +85,9 @@ static PetscErrorCode FindSaved(SamResults results, PetscInt step, PetscInt *sav
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The saved steps, or with `cycles` the cycles of saved steps, in words: 1, 2, 3 and so on, but for repetitions. */
+/*
+  Lists the saved steps, or with `cycles` the cycles of saved steps, in words: 1, 2, 3 and so on, but for repetitions.
+*/
 static PetscErrorCode ListSaved(SamResults results, PetscBool cycles, char text[], size_t size)
 {
   double   last = -1;
@@ -111,7 +113,7 @@ static PetscErrorCode ListSaved(SamResults results, PetscBool cycles, char text[
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The saved steps of a cycle of a life. */
+/* Finds the saved steps of a cycle of a life. */
 static PetscErrorCode FindCycle(const SamStressRequest *r, SamResults results, PetscInt *count, PetscInt **list)
 {
   PetscInt      saved, step;

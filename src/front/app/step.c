@@ -6,7 +6,7 @@
 #define REST     1e-9  /* the same of loads and displacements: solvers' tolerances leave more where symmetry has 0 */
 #define WIDTH    120   /* of a line of the table */
 
-/* A number of the contact's last step; NaN where there is none of that name. */
+/* Returns a number of the contact's last step; NaN where there is none of that name. */
 static double Get(SamContact contact, const char name[])
 {
   SamState state;
@@ -17,7 +17,7 @@ static double Get(SamContact contact, const char name[])
   return id < 0 ? NAN : *SamStateReadNumbers(state, id);
 }
 
-/* What a number is called in the contact's motion. */
+/* Returns the name of a number in the contact's motion. */
 static const char *NameOf(SamContact contact, const char usual[])
 {
   const SamMotionName *name = SamMotionFindName(SamContactGetMotion(contact), usual);
@@ -53,7 +53,7 @@ static double Clean(double value, double least)
   return fabs(value) <= least ? 0 : value;
 }
 
-/* A load or displacement as it is printed: with its rounding if one of the two is given, and not as 0. */
+/* Returns a load or displacement as it is printed: with its rounding if one of the two is given, and not as 0. */
 static double Rounded(const SamStep *s, PetscInt c, const PetscReal values[], const double size[2])
 {
   return Clean((double)values[c], s->control.value[c] != 0 ? 0 : REST * size[c >= SAM_COMPONENT_MX]);
@@ -182,7 +182,7 @@ void SamReportChooseColumns(SamReport r, const PetscBool loads[SAM_COMPONENTS])
     }
 }
 
-/* What stands in column k of a step's line. */
+/* Writes the text of column k of a step's line. */
 static void WriteColumn(SamReport r, const SamStep *s, SamContact contact, int k, double seconds, double left,
                         char text[], size_t size)
 {

@@ -1,6 +1,6 @@
 /*
-  What PETSc reads at its start, looked through before: PETSc ends the program with a long trace at a mistake in an
-  options file, ignores words that are not options, and obeys options that load code or start programs.
+  Checks the arguments before PETSc reads them at its start: PETSc ends the program with a long trace at a mistake in
+  an options file, ignores words that are not options, and obeys options that load code or start programs.
 
   Rank 0 looks and tells the others. Words are examined one by one: an option, which may be followed by its value.
 */
@@ -19,7 +19,7 @@
 
 /* ---- words ---- */
 
-/* Whether PETSc takes a word for an option's name: a dash and a letter. A number is a value, also -inf. */
+/* True if PETSc takes a word for an option's name: a dash and a letter. A number is a value, also -inf. */
 static PetscBool IsOption(const char text[])
 {
   const char *name = text[0] == '-' && text[1] == '-' ? text + 1 : text;
@@ -79,7 +79,7 @@ static void ExamineName(SamArguments *a, const char where[], const char option[]
     if (IsNamed(option, refused[k].names)) Complain(a, SAM_ERR_USER, "%s%s: %s", where, option, refused[k].reason);
 }
 
-/* An equals sign between an option and its value, as other programs have it. */
+/* Rejects an equals sign between an option and its value, as other programs have it. */
 static void RefuseEquals(SamArguments *a, const char where[], const char option[])
 {
   const char *sign = strchr(option, '=');
@@ -92,7 +92,7 @@ static void RefuseEquals(SamArguments *a, const char where[], const char option[
              option, (int)PetscMin(sign - option, 40), option);
 }
 
-/* An option, and the word after it if that is its value, else NULL. */
+/* Examines an option, and the word after it if that is its value, else NULL. */
 static void ExamineOption(SamArguments *a, const char where[], const char option[], const char value[], int depth)
 {
   ExamineName(a, where, option);
@@ -127,7 +127,7 @@ static int Split(char text[], char *words[], int most)
   return count;
 }
 
-/* Whether a word begins with a dash that a text editor or a web page has made of the one on the keyboard. */
+/* True if a word begins with a typographic dash, by which text editors and web pages replace the keyboard's. */
 static PetscBool IsTypographic(const char word[])
 {
   static const char *const dashes[] = {"\xe2\x80\x90", "\xe2\x80\x91", "\xe2\x80\x92", "\xe2\x80\x93",
@@ -138,7 +138,7 @@ static PetscBool IsTypographic(const char word[])
   return PETSC_FALSE;
 }
 
-/* A word where an option is expected; `before` is the option before it, whose value is `value`. NULL: none. */
+/* Rejects a word where an option is expected; `before` is the option before it, whose value is `value`. NULL: none. */
 static void RefuseWord(SamArguments *a, const char where[], const char word[], const char before[], const char value[])
 {
   const char *text = "expected an option: it begins with a dash";
@@ -216,7 +216,7 @@ static void ExamineWords(SamArguments *a, const char where[], int count, char **
 
 /* ---- files ---- */
 
-/* A line of an options file: an option and its value, a comment, or an alias. */
+/* Examines a line of an options file: an option and its value, a comment, or an alias. */
 static void ExamineLine(SamArguments *a, const char where[], char line[], int depth, int source)
 {
   char     *words[3];
@@ -263,7 +263,7 @@ static void ExamineLines(SamArguments *a, const char where[], const char name[],
   free(line);
 }
 
-/* Whether a file has more bytes than an options file may have. */
+/* True if a file has more bytes than an options file may have. */
 static PetscBool IsTooLong(FILE *file)
 {
   char   block[4096];
@@ -315,7 +315,7 @@ static void SeparateEnvironment(void)
   free(text);
 }
 
-/* Whether a text ends within quotes. */
+/* True if a text ends within quotes. */
 static PetscBool IsOpen(const char text[])
 {
   int quotes = 0;
@@ -324,7 +324,7 @@ static PetscBool IsOpen(const char text[])
   return quotes % 2 != 0;
 }
 
-/* The words of a text, NULL: none. */
+/* Examines the words of a text, NULL: none. */
 static void ExamineText(SamArguments *a, const char where[], const char text[])
 {
   const size_t most  = text ? strlen(text) / 2 + 1 : 0;

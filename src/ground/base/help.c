@@ -42,7 +42,7 @@ PetscErrorCode SamOptionsDescribe(const SamOptions *from, const SamOptionHelp *o
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A name that is too long for its column gets a line of its own. */
+/* Prints an option or a title; a name that is too long for its column gets a line of its own. */
 PetscErrorCode SamHelpPrint(void *context, MPI_Comm comm, const char title[], const SamOptionHelp *option)
 {
   char left[160], shown[PETSC_MAX_PATH_LEN + 4] = "";

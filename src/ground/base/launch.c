@@ -1,4 +1,4 @@
-/* What surrounds a process when MPI starts. */
+/* Sets the environment of a process before MPI starts, and restores it. */
 #include <petsam/private/baseimpl.h>
 #include <stdlib.h>
 

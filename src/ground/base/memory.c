@@ -34,7 +34,7 @@ static void UseLargePages(void *p, size_t bytes)
 #endif
 }
 
-/* Maps zeros that begin at a large page: maps more and unmaps the excess at both ends. NULL when there is no memory. */
+/* Maps zeroed memory from a huge-page boundary on: maps more, unmaps the excess at both ends. NULL: out of memory. */
 static void *MapZeros(size_t bytes)
 {
   const size_t page = (size_t)sysconf(_SC_PAGESIZE), whole = (bytes + page - 1) / page * page;

@@ -30,7 +30,7 @@ PetscErrorCode SamSetPrefix(char to[SAM_PREFIX], const char prefix[])
 /* The most characters of a wrong value that a message quotes. */
 #define QUOTED 60
 
-/* A wrong value as a message quotes it. */
+/* Returns a wrong value as a message quotes it. */
 static const char *Quote(char text[])
 {
   if (strlen(text) > QUOTED) (void)strcpy(text + QUOTED, "...");
@@ -81,7 +81,7 @@ PetscBool SamRangeHas(SamRange range, double value)
 
 /* ---- numbers ---- */
 
-/* The most numbers of a row's option. */
+/* Returns the largest number of values of a row's option. */
 static PetscInt CountOf(const SamOptionRow *row)
 {
   return PetscMax(row->size, 1);
@@ -162,7 +162,7 @@ static PetscErrorCode ReadNumbers(const SamOptions *from, const SamOptionRow *ro
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* One number or two, of which one stands for both. */
+/* Reads one number or two; a single one stands for both. */
 static PetscErrorCode ReadNumberRow(const SamOptions *from, const SamOptionRow *row, void *member, PetscBool *given)
 {
   static const char *const argument[2][2] = {{"<number>", "<number>[,<number>]"},
@@ -216,7 +216,7 @@ PetscErrorCode SamOptionsReals(const SamOptions *from, const char name[], const 
 
 /* ---- words and texts ---- */
 
-/* The place of a text in a list with commas, -1: none. */
+/* Returns the place of a text in a list with commas, -1: none. */
 static int FindWord(const char list[], const char text[])
 {
   const size_t length = strlen(text);
@@ -241,7 +241,7 @@ static void CopyWord(const char list[], int place, char text[], size_t size)
   (void)snprintf(text, size, "%.*s", (int)strcspn(list, ","), list);
 }
 
-/* "a,b,c" as "a, b or c". */
+/* Writes "a,b,c" as "a, b or c". */
 static void ListWords(const char words[], char text[], size_t size)
 {
   const char *last = strrchr(words, ',');
@@ -255,7 +255,7 @@ static void ListWords(const char words[], char text[], size_t size)
   text[used] = '\0';
 }
 
-/* A truth: the bare option means yes. */
+/* Reads a logical value; the bare option means yes. */
 static PetscErrorCode ReadBool(const SamOptions *from, const SamOptionRow *row, PetscBool *value, PetscBool *given)
 {
   char      dashed[128], text[TEXT_SIZE] = "";
@@ -274,7 +274,7 @@ static PetscErrorCode ReadBool(const SamOptions *from, const SamOptionRow *row, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* One word of the row's list, whose place, or whether it is not the first one, is the value. */
+/* Reads one word of the row's list, whose place, or whether it is not the first one, is the value. */
 static PetscErrorCode ReadChoice(const SamOptions *from, const SamOptionRow *row, void *member, PetscBool *given)
 {
   char text[TEXT_SIZE], list[TEXT_SIZE];
@@ -328,7 +328,7 @@ const SamOptionFile *SamOptionsFile(PetscInt k)
   return k < nameds ? &named[k] : NULL;
 }
 
-/* A text, a file's name, one word, which is checked, or several. */
+/* Reads a text, a file's name, one word, which is checked, or several. */
 static PetscErrorCode ReadText(const SamOptions *from, const SamOptionRow *row, char value[], PetscBool *given)
 {
   static const char *const arguments[] = {
@@ -356,7 +356,7 @@ static PetscErrorCode ReadText(const SamOptions *from, const SamOptionRow *row, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether a viewer is asked for, which is created where it is used. */
+/* Finds out whether a viewer is asked for; it is created where it is used. */
 static PetscErrorCode ReadViewer(const SamOptions *from, const SamOptionRow *row, PetscBool *given)
 {
   char option[128], text[TEXT_SIZE] = "";
@@ -406,7 +406,7 @@ PetscErrorCode SamOptionsHas(const SamOptions *from, const char option[], PetscB
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether there is a value, that of a default. */
+/* True if the member already holds a valid value, which is the default. */
 static PetscBool HasDefault(const SamOptionRow *row, const void *member)
 {
   if (row->kind == SAM_OPTION_REAL) return SamRangeHas(row->range, (double)*(const PetscReal *)member);
@@ -434,7 +434,7 @@ PetscErrorCode SamOptionsNeed(const SamOptions *from, PetscBool given, const cha
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What a row needs, excludes, or lacks. */
+/* Checks that other options that a row needs are given, that those it excludes are not, and that its value is there. */
 static PetscErrorCode CheckRow(const SamOptions *from, const SamOptionRow *row, const void *member, PetscBool given)
 {
   const char *prefix = SamOptionsPrefix(from);

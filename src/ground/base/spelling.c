@@ -1,7 +1,7 @@
 /*
-  What a mistake in an option may have meant: the nearest name that there is, a decimal comma, a unit.
+  Suggests the intended meaning of a mistyped option: the nearest known name, a decimal comma, a unit.
 
-  The names that there are: those that have been asked for so far, whether they were given or not.
+  Known names are all options that have been queried so far, given or not.
 */
 #include <petsam/private/baseimpl.h>
 #include <ctype.h>
@@ -17,7 +17,7 @@ static PetscInt knowns = 0;
 /* Options that PETSc reads, whose names count as well. */
 static const char *const petsc[] = {"options_file", "log_view", "options_left", "help", "version"};
 
-/* What users of other programs and textbooks write, with spaces between, for an option. */
+/* Names that users of other programs and of textbooks write, separated by spaces, for an option */
 static const struct {
   const char *tried, *name;
 } habits[] = {{"mu cof friction_coefficient", "friction"},
@@ -49,7 +49,7 @@ static char Plain(char c)
   return c == '-' ? '_' : (char)tolower((unsigned char)c);
 }
 
-/* The option that such a name means; NULL: none. */
+/* Returns the option that such a name means; NULL: none. */
 static const char *FindHabit(const char name[])
 {
   for (size_t h = 0; h < sizeof(habits) / sizeof(habits[0]); h++)
@@ -65,8 +65,8 @@ static const char *FindHabit(const char name[])
 }
 
 /*
-  Twice the number of slips between two names: letters left out, put in, changed, or swapped with the next (optimal
-  string alignment distance). An underscore left out or put in is half a slip.
+  Returns twice the number of slips between two names: letters left out, put in, changed, or swapped with the next
+  (optimal string alignment distance). An underscore left out or put in is half a slip.
 */
 static size_t CountSlips(const char a[], const char b[])
 {
@@ -89,7 +89,7 @@ static size_t CountSlips(const char a[], const char b[])
   return slips[n][m];
 }
 
-/* Whether one name may be another one misspelled. */
+/* True if one name may be a misspelling of the other. */
 static PetscBool IsNear(const char tried[], const char name[])
 {
   const size_t length = strlen(tried);
@@ -200,7 +200,7 @@ PetscBool SamIsDecimalComma(const char text[])
   return strspn(text + first, "0123456789") == (size_t)(comma - text) - first;
 }
 
-/* The text behind a number at the beginning, and behind white space; NULL without a number. */
+/* Returns the text behind a number at the beginning, and behind white space; NULL without a number. */
 static const char *FindBehind(const char text[])
 {
   char *end;

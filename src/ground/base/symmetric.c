@@ -4,7 +4,7 @@
 
 #define SWEEPS 30
 
-/* One Jacobi rotation that removes entry (i, j) of the symmetric A of order n; V collects the rotations. */
+/* Applies one Jacobi rotation that removes entry (i, j) of the symmetric A of order n; V collects the rotations. */
 static void Rotate(PetscInt n, double A[], double V[], PetscInt i, PetscInt j)
 {
   const double entry = A[i * n + j];
@@ -31,7 +31,7 @@ static void Rotate(PetscInt n, double A[], double V[], PetscInt i, PetscInt j)
   }
 }
 
-/* Whether all entries beside the diagonal are rounding. */
+/* True if all off-diagonal entries are rounding errors. */
 static PetscBool IsDiagonal(PetscInt n, const double A[])
 {
   double beside = 0, on = 0;

@@ -29,7 +29,7 @@ static char *Trim(char *text)
   return text;
 }
 
-/* A field without the quotes that spreadsheets put about it. */
+/* Returns a field without the quotes that spreadsheets put about it. */
 static char *Unquote(char *field)
 {
   const size_t length = strlen(field);
@@ -39,7 +39,7 @@ static char *Unquote(char *field)
   return Trim(field + 1);
 }
 
-/* The next field of a line, its separator overwritten; NULL after the last. */
+/* Returns the next field of a line, its separator overwritten; NULL after the last. */
 static char *NextField(char **rest, char separator)
 {
   char *field = *rest, *end;
@@ -54,7 +54,7 @@ static char *NextField(char **rest, char separator)
 
 /* ---- names of columns ---- */
 
-/* The name that is meant by another: without its dash, quotes, capitals and unit; NULL: none. */
+/* Returns the name that is meant by another: without its dash, quotes, capitals and unit; NULL: none. */
 static const char *FindMeant(const Reader *r, const char field[])
 {
   char   plain[SAM_TABLE_NAME] = "";
@@ -67,7 +67,7 @@ static const char *FindMeant(const Reader *r, const char field[])
   return SamNearestName(plain, count, r->names);
 }
 
-/* Whether a name is one of those of body 1 or 2 that begin with the same word as the next one: "body1_case_a". */
+/* True if this name and the next one begin with the same word and a body's number, as "body1_case_a". */
 static PetscBool IsInRun(const char name[], const char next[])
 {
   const size_t length = strcspn(name, "12_");
@@ -94,7 +94,7 @@ static void ListNames(const Reader *r, char list[], size_t size)
   }
 }
 
-/* Refuses a name that is none of a column's. A unit is a likely reason. */
+/* Rejects a name that is not the name of a column. A unit in it is a likely reason. */
 static PetscErrorCode RefuseName(Reader *r, const char field[])
 {
   const char *meant = FindMeant(r, field);
@@ -176,7 +176,7 @@ static PetscErrorCode ReadRow(Reader *r, char *text)
 
 /* ---- files ---- */
 
-/* A line without its end. The first one may begin with the mark that some editors put before UTF-8. */
+/* Reads a line without its end. The first one may begin with the mark that some editors put before UTF-8. */
 static PetscErrorCode ReadLine(Reader *r, char *line)
 {
   static const char mark[] = "\xef\xbb\xbf";

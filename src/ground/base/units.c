@@ -27,7 +27,7 @@ static const Kind kinds[] = {{"m", {"m", "mm", "um", "nm"}, {0, -3, -6, -9}},
                              {"1/Pa", {"m3/Nm", "mm3/Nm"}, {0, -9}}, /* no digit, which would be the number's */
                              {"m3/J", {"m3/J", "mm3/J"}, {0, -9}}};
 
-/* The kind of unit that a help has in parentheses, to their end or to a comma; NULL: none. */
+/* Returns the kind of unit that a help has in parentheses, to their end or to a comma; NULL: none. */
 static const Kind *FindKind(const char help[])
 {
   for (; (help = strchr(help, '(')); help++)

@@ -23,7 +23,7 @@ void SamParametersWrite(SamFile f, const SamParameters *parameters)
   SamFileWriteTextAttribute(f, f->id, NAMES, names);
 }
 
-/* The number of values that an attribute has. */
+/* Returns the number of values that an attribute has. */
 static PetscInt Count(SamFile f, const char name[])
 {
   const hid_t attribute = SamFileNote(f, H5Aopen(f->id, name, H5P_DEFAULT)),

@@ -20,8 +20,8 @@ typedef struct {
 } Wanted;
 
 /*
-  What the file says: the dataset's shape, what its values are to be multiplied with, the surface's size and centre (0:
-  unknown).
+  Attributes of the file: the dataset's shape, the factor by which its values are to be multiplied, the surface's size
+  and centre (0: unknown)
 */
 typedef struct {
   hsize_t shape[2];
@@ -71,7 +71,7 @@ static PetscErrorCode CheckShape(SamFile f, const Wanted *w, hid_t space, hsize_
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Finds out what the numbers mean, and whether the surface is as large as the grid. */
+/* Determines the unit and sign of the numbers, and checks that the surface is as large as the grid. */
 static PetscErrorCode CheckLengths(SamFile f, const Wanted *w, hid_t dataset, Answer *answer)
 {
   const SamGrid grid = w->grid;
@@ -99,7 +99,7 @@ static PetscErrorCode CheckLengths(SamFile f, const Wanted *w, hid_t dataset, An
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Names of datasets in the file's root, and of groups with a slash behind them, as many as there is room for. */
+/* Lists names of datasets in the file's root, and of groups with a slash behind them, as many as there is room for. */
 static void ListNames(hid_t file, char list[], size_t size)
 {
   H5G_info_t info;
@@ -229,7 +229,7 @@ PetscErrorCode SamFieldFileCreate(const SamFieldFile *source, SamGrid grid, Vec 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Without the digits that coordinates have from rounding, so that the same size written as an option is the same. */
+/* Rounds off the last digits of sizes from coordinates, so that they equal the same sizes given as options. */
 static double RoundOff(double x)
 {
   char text[32];

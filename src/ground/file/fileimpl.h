@@ -9,7 +9,7 @@
 /* SamFileOpenAlone - opens a file to read it on this rank, without MPI-IO. Not collective. Errors: SAM_ERR_FILE. */
 PETSC_INTERN PetscErrorCode SamFileOpenAlone(const char option[], const char filename[], SamFile *file);
 
-/* SamFileRemoveLeftOvers - what MPI-IO has put beside an open file, and would leave after a kill. */
+/* SamFileRemoveLeftOvers - removes files that MPI-IO has put beside an open file, and would leave after a kill. */
 PETSC_INTERN void SamFileRemoveLeftOvers(SamFile file);
 
 /*
@@ -20,20 +20,20 @@ PETSC_INTERN PetscErrorCode SamFileRaise(SamGrid grid, const char option[], cons
 
 #define SAM_CHECKPOINT_FORMAT 8 /* version of a checkpoint's contents */
 
-/* SamSealIsOne - whether the first bytes of a file are a seal. Not collective. */
+/* SamSealIsOne - true if the first bytes of a file are a seal. Not collective. */
 PETSC_INTERN PetscBool SamSealIsOne(const char head[], size_t size);
 
 /* ---- lengths (lengths.c) ---- */
 
-/* What a dataset of lengths says about itself. */
+/* Attributes of a dataset of lengths */
 typedef struct {
   double factor;    /* values times this are a separation in m */
   double size[2];   /* full width in x and y (m); 0 where the file does not say */
   double center[2]; /* of x and y (m); likewise */
 } SamLengths;
 /*
-  SamLengthsRead - reads what a dataset `name` of shape (ny, nx), in a file that is examined, says about itself; each
-  part may be missing.
+  SamLengthsRead - reads the attributes of a dataset `name` of shape (ny, nx), in a file that is examined; each of them
+  may be missing.
 
   Attribute units: a unit of length (m). Attribute quantity: separation, or height1, height2, heights of body 1 or 2,
   positive out of the body; so a peak of either body reduces the separation (separation). The size: attribute size of

@@ -1,4 +1,4 @@
-/* What an HDF5 dataset of lengths says about itself: their unit, whether they are heights, the size of the surface. */
+/* Reads the attributes of an HDF5 dataset of lengths: their unit, whether they are heights, the size of the surface. */
 #include "fileimpl.h"
 #include <math.h>
 #include <stdlib.h>
@@ -27,7 +27,7 @@ static const struct {
 
 #define COUNT(array) (sizeof(array) / sizeof((array)[0]))
 
-/* The metres of a unit, 0 for one that is not known; full words may be plural. */
+/* Returns the metres of a unit, 0 for one that is not known; full words may be plural. */
 static double Metres(const char unit[])
 {
   size_t length = strlen(unit);
@@ -40,7 +40,7 @@ static double Metres(const char unit[])
   return 0;
 }
 
-/* The metres of the unit that a dataset's attribute names, 0 without the attribute. */
+/* Reads the unit that a dataset's attribute names, in metres; 0 without the attribute. */
 static PetscErrorCode ReadUnits(SamFile f, hid_t dataset, const char name[], double *metres)
 {
   char text[48];
@@ -91,7 +91,7 @@ static PetscErrorCode ReadSize(SamFile f, hid_t dataset, const char name[], Pets
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Width and centre of n cells whose centres a dataset holds, in its unit; NaN for another dataset. */
+/* Returns the width, and the centre, of n cells whose centres a dataset holds, in its unit; NaN for other datasets. */
 static double ReadWidth(hid_t axis, hsize_t n, double *center)
 {
   const hid_t space   = H5Dget_space(axis);

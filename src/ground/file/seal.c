@@ -50,7 +50,7 @@ static int HashBlocks(int file, off_t size, off_t first, off_t stride, uint64_t 
   return error;
 }
 
-/* The text of the seal that the file should have, the same on all ranks; error: an errno or 0. */
+/* Makes the text of the seal that the file should have, the same on all ranks; error: an errno or 0. */
 static PetscErrorCode MakeSeal(MPI_Comm comm, const char filename[], char seal[SAM_SEAL], int *error)
 {
   const int   file = open(filename, O_RDONLY | O_NONBLOCK);

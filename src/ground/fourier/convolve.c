@@ -108,7 +108,7 @@ typedef struct {
   double        factor[3][3];
 } Nine;
 
-/* The fields whose turn is due. */
+/* Multiplies the fields that are due by -i. */
 static void Turn(const PetscBool due[3], ptrdiff_t n, double (*const column[3])[2])
 {
   for (PetscInt c = 0; c < 3; c++)
@@ -149,7 +149,7 @@ static void Turn(const PetscBool due[3], ptrdiff_t n, double (*const column[3])[
 DEFINE_NINE(MultiplyRising, )
 DEFINE_NINE(MultiplyFalling, -)
 
-/* Whether a matrix is one of nine such kernels. */
+/* True if a matrix has 3 x 3 kernels whose symmetries fit the sign pattern of MultiplyThree(); fills in `nine`. */
 static PetscBool FindNine(const SamKernelMatrix *M, Nine *nine)
 {
   if (M->n_in != 3 || M->n_out != 3) return PETSC_FALSE;

@@ -78,7 +78,7 @@ void SamRootOfUnity(ptrdiff_t k, ptrdiff_t n, double root[2])
   if (acute < k) root[0] = -root[0];
 }
 
-/* The columns of this rank, and how many reals FFTW needs for a slab. */
+/* Determines the columns of this rank, and how many reals FFTW needs for a slab. */
 static PetscErrorCode DivideColumns(SamFourier F, SamFourierMode mode, ptrdiff_t *reals)
 {
   SamColumns *c = &F->columns[mode];
@@ -118,7 +118,7 @@ PetscErrorCode SamFourierSettingsFromOptions(SamFourierSettings *settings, const
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* FFTW's flag. */
+/* Returns FFTW's flag for planning. */
 static unsigned PlanningFlag(const SamFourierSettings *settings, ptrdiff_t largest)
 {
   if (settings->effort == SAM_FOURIER_PATIENT) return FFTW_PATIENT;

@@ -54,7 +54,7 @@ typedef struct {
 
 /* SamWorkspace - the slabs of all transforms on a communicator; see workspace.c. */
 typedef struct {
-  MPI_Comm    user; /* that of the grids, whose attribute this is */
+  MPI_Comm    user; /* communicator of the grids, whose attribute this workspace is */
   MPI_Comm    comm; /* a duplicate for its own messages */
   PetscMPIInt ranks, rank;
   PetscInt    references;
@@ -76,7 +76,7 @@ PETSC_INTERN PetscErrorCode SamWorkspaceTrim(SamWorkspace workspace);
 PETSC_INTERN PetscErrorCode SamWorkspaceReserve(SamWorkspace workspace, size_t bytes, PetscInt fields);
 /* SamWorkspaceSynchronize - makes all writes to shared slabs visible to all ranks. Collective. */
 PETSC_INTERN PetscErrorCode SamWorkspaceSynchronize(SamWorkspace workspace);
-/* Whether rows are sent to become columns. */
+/* True if a transposition sends data between ranks. */
 static inline PetscBool SamWorkspaceTransposes(SamWorkspace w)
 {
   return w->ranks > 1 && !w->shared;

@@ -55,7 +55,7 @@ static void MirroredDestroy(Mirrored *m)
   SamFree(m->line);
 }
 
-/* The real part of a line's transform, all there is when it is even, or the imaginary part. */
+/* Extracts the real part of a line's transform, all there is when it is even, or the imaginary part. */
 SAM_VECTORIZED static void RealPart(ptrdiff_t n, const Complex *restrict turn, const Complex *restrict z,
                                     const Complex *restrict m, double *restrict to)
 {
@@ -69,7 +69,7 @@ SAM_VECTORIZED static void ImaginaryPart(ptrdiff_t n, const Complex *restrict tu
     to[k] = 0.5 * (z[k][1] - m[k][1] + turn[k][0] * (z[k][1] + m[k][1]) - turn[k][1] * (z[k][0] - m[k][0]));
 }
 
-/* The transform of an even line, or the imaginary part of an odd one's: n + 1 values. */
+/* Returns the transform of an even line, or the imaginary part of an odd one's: n + 1 values. */
 static const double *MirroredTransform(Mirrored *m)
 {
   const ptrdiff_t n    = m->half.n;

@@ -24,7 +24,8 @@ static inline PetscErrorCode AllocateComplex(size_t count, Complex **pointer)
 }
 
 /*
-  Forward transforms, which keep their input, and backward ones if required, of arrays aligned as `in` and `out` are.
+  Plans forward transforms, which keep their input, and backward ones if required, of arrays aligned like `in` and
+  `out`.
 */
 static inline PetscErrorCode LineCreate(ptrdiff_t n, unsigned effort, PetscBool backward, Complex *in, Complex *out,
                                         LINE *l)
@@ -72,7 +73,7 @@ static inline ptrdiff_t LinePlace(const LINE *l, ptrdiff_t j)
   return (j & (LineParts(l) - 1)) * l->part + (j >> l->shift);
 }
 
-/* How many of the first n entries are in part q. */
+/* Returns how many of the first n entries are in part q. */
 static inline ptrdiff_t LineCount(const LINE *l, ptrdiff_t n, ptrdiff_t q)
 {
   return (n - q + LineParts(l) - 1) >> l->shift;
@@ -88,7 +89,7 @@ static inline void LineClear(const LINE *l, ptrdiff_t n, Complex *x)
   }
 }
 
-/* The first n entries from an array in order, and back. */
+/* Copies the first n entries from an array in order, and back. */
 static inline void LinePut(const LINE *l, ptrdiff_t n, const Complex *restrict from, Complex *restrict x)
 {
   if (!l->shift) (void)memcpy(x, from, sizeof(Complex) * (size_t)n);
@@ -129,7 +130,7 @@ SAM_VECTORIZED static inline void LineJoin(ptrdiff_t n, const Complex *restrict 
   }
 }
 
-/* The inverse: from the transform of the line to those of the parts. */
+/* Inverts LineJoin(): computes the transforms of the parts from that of the line. */
 SAM_VECTORIZED static inline void LineSplit(ptrdiff_t n, const Complex *restrict u, const Complex *restrict v,
                                             const Complex *restrict w, Complex *restrict a, Complex *restrict b,
                                             Complex *restrict c, Complex *restrict d)
@@ -161,7 +162,7 @@ static inline void LineForward(const LINE *l, Complex *from, Complex *to)
              to + 2 * m, to + 3 * m);
 }
 
-/* Times n; what it comes from is overwritten. */
+/* Transforms backward, unnormalised (times n); `from` is overwritten. */
 static inline void LineBackward(const LINE *l, Complex *from, Complex *to)
 {
   const ptrdiff_t m = l->part;
@@ -187,7 +188,7 @@ static inline PetscErrorCode CreateTurns(ptrdiff_t n, Complex **turn)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* to[k] = from[n - k], k <= n. */
+/* Reverses an array: to[k] = from[n - k], k <= n. */
 SAM_VECTORIZED static inline void Mirror(ptrdiff_t n, const Complex *restrict from, Complex *restrict to)
 {
   for (ptrdiff_t k = 0; k <= n; k++) (void)memcpy(to[k], from[n - k], sizeof(Complex));

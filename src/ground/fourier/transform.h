@@ -18,7 +18,7 @@ static inline ptrdiff_t HalfLength(SamFourier F, SamFourierMode mode)
   return mode == SAM_FOURIER_PADDED ? F->hx : F->hx / 2;
 }
 
-/* Whether a row has no halves. */
+/* True if a row is periodic and of odd length, so that it cannot be halved. */
 static inline PetscBool IsOdd(SamFourier F, SamFourierMode mode)
 {
   return mode == SAM_FOURIER_PERIODIC && F->hx % 2;
@@ -152,7 +152,7 @@ SAM_VECTORIZED static void Unpack(ptrdiff_t n, const Complex *restrict turn, con
   }
 }
 
-/* The way back, times 2. */
+/* Inverts Unpack(), times 2. */
 SAM_VECTORIZED static void Pack(ptrdiff_t n, const Complex *restrict turn, const Complex *restrict z,
                                 const Complex *restrict m, Complex *restrict to)
 {
@@ -260,7 +260,7 @@ SAM_VECTORIZED static void Untwist(ptrdiff_t n, const Complex *restrict twiddle,
   }
 }
 
-/* Columns of a slab from the k-th of this rank's on into the buffer, one after the other. */
+/* Gathers columns of a slab, from the k-th of this rank's on, in the buffer, one after the other. */
 static void Gather(const LINE *line, const SamPieces *pieces, ptrdiff_t k, ptrdiff_t count, ptrdiff_t stride,
                    Complex *restrict buffer)
 {
@@ -332,7 +332,7 @@ static void ColumnsBackward(SamFourier F, PetscInt phases, const SamPieces *piec
   Scatter(line, pieces, k, count, F->stride, (const Complex *)t->staging);
 }
 
-/* A grid of one row: its spectra take the filter where they are. */
+/* Filters the spectra of a grid of one row in place. */
 static void FilterRow(SamFourier F, const SamFourierFilter *filter)
 {
   const SamColumns *c     = &F->columns[filter->mode];

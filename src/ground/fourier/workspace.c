@@ -32,7 +32,7 @@ static PetscErrorCode CreateKeyvals(void)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether the workspace may share memory and all ranks are on one node. */
+/* Lets the workspace share memory if it may, and if all ranks are on one node. */
 static PetscErrorCode CanShare(SamWorkspace w)
 {
   MPI_Comm    node;
@@ -106,8 +106,8 @@ PetscErrorCode SamWorkspaceRelease(SamWorkspace *workspace)
 }
 
 /*
-  A new shared memory object, seen by all ranks under a name that is gone again when this returns; -1 when there is
-  none.
+  Creates a new shared memory object, seen by all ranks under a name that is gone again when this returns; -1 when there
+  is none.
 */
 static PetscErrorCode OpenShared(SamWorkspace w, size_t bytes, int *fd)
 {
@@ -140,8 +140,8 @@ static PetscErrorCode OpenShared(SamWorkspace w, size_t bytes, int *fd)
 }
 
 /*
-  A slab in shared memory, or none when there is no more of it. Not by MPI_Win_allocate_shared: when memory is short,
-  Open MPI reports that to one rank, and the others wait for ever.
+  Allocates a slab in shared memory, or none when there is no more of it. MPI_Win_allocate_shared is not used: when
+  memory is short, Open MPI reports that to one rank, and the others wait for ever.
 */
 static PetscErrorCode AllocateShared(SamWorkspace w, size_t bytes, SamSlab *slab, PetscBool *done)
 {

@@ -7,8 +7,8 @@
 #define MOST_RATIO (100 * (1 + 1e-12)) /* of the sides of a grid, and of its cells, but for rounding */
 
 /*
-  What no grid can be made of: a message, empty when all is well. The names stand for the arguments of SamGridCreate(),
-  or for options.
+  Checks the sizes of a grid and writes a message about the first fault; it is empty if there is none. The names are
+  those of the arguments of SamGridCreate(), or of options.
 */
 static PetscErrorCode FindFault(const PetscInt n[2], const PetscReal width[2], const PetscReal center[2],
                                 const char *const names[3], char message[], size_t size)
@@ -117,7 +117,7 @@ static PetscErrorCode TakeRow(const SamOptions *from, PetscInt n[2], PetscReal w
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What a user sets. */
+/* Values that options set */
 typedef struct {
   PetscInt  n[2];
   PetscReal width[2], center[2];
@@ -300,7 +300,7 @@ PetscErrorCode SamVecZero(Vec v)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A row's sums of |x| and of x^2. */
+/* Computes a row's sums of |x| and of x^2. */
 SAM_VECTORIZED static void SumRow(PetscInt n, const double *restrict x, double sums[2])
 {
   double sizes = 0, squares = 0;
@@ -349,7 +349,9 @@ PetscErrorCode SamGridMatch(SamGrid grid, Vec field, SamGrid other, Vec other_fi
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A sum over the cells of a hash of value and place. The order of the sum, hence of the ranks, does not matter. */
+/*
+  Computes a sum over the cells of a hash of value and place. The order of the sum, hence of the ranks, does not matter.
+*/
 PetscErrorCode SamGridChecksum(SamGrid grid, Vec field, uint64_t *checksum)
 {
   const uint64_t cells = (uint64_t)grid->nx * (uint64_t)grid->ny,

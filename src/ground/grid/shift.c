@@ -49,7 +49,9 @@ void SamGridEntering(SamGrid grid, const PetscReal distance[2], PetscInt low[2],
   }
 }
 
-/* The entry that stands for entry i of n: beyond these the first or last one, one of the period, or none, -1. */
+/*
+  Returns the entry that stands for entry i of n: beyond these the first or last one, one of the period, or none, -1.
+*/
 static PetscInt EntryFor(PetscInt i, PetscInt n, SamBorder border)
 {
   if (i >= 0 && i < n) return i;

@@ -3,7 +3,7 @@
 
   Each rank goes through its rows once and unites runs of cells that touch a piece in the row before (Hoshen and
   Kopelman 1976, Phys. Rev. B 14, 3438, with runs for cells). Zones that lie within a rank's rows are complete then.
-  Those in its first or last row may continue in the next rank: their pieces move to rank 0, which unites them. Only
+  Zones in its first or last row may continue on the next rank: their pieces move to rank 0, which unites them. Only
   integers are summed, so nothing depends on the number of ranks. Memory: labels of two rows, and a piece per zone.
 */
 #include "gridimpl.h"
@@ -11,7 +11,7 @@
 #include <petsam/private/rows.h>
 #include <math.h>
 
-/* What is known of a zone, or of a piece of one. All are sums or extremes, in cells. */
+/* Sums and extremes of a zone, or of a piece of one, in cells */
 typedef struct {
   int64_t least[2], most[2]; /* first and last column and row */
   int64_t cells, sum[2];     /* of columns and rows, */
@@ -69,7 +69,7 @@ static PetscInt Unite(Forest *f, PetscInt a, PetscInt b)
   return f->parent[PetscMax(a, b)] = PetscMin(a, b);
 }
 
-/* 0 + 1 + ... + n, and the sum of their squares. */
+/* Return 0 + 1 + ... + n, and the sum of the squares of these numbers. */
 static int64_t Sum(int64_t n)
 {
   return n * (n + 1) / 2;
@@ -80,7 +80,7 @@ static int64_t SumSquares(int64_t n)
   return n * (n + 1) * (2 * n + 1) / 6;
 }
 
-/* The run of cells from `first` to `last` of row y as a piece. */
+/* Returns the run of cells from `first` to `last` of row y as a piece. */
 static Piece PieceOf(int64_t first, int64_t last, int64_t y)
 {
   const int64_t n = last - first + 1, sum = Sum(last) - Sum(first - 1);
@@ -139,7 +139,7 @@ static PetscErrorCode ReadRow(SamGrid grid, const double p[], PetscInt y, Forest
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* This rank's pieces, and those that the cells of its first and last row belong to. */
+/* Reads this rank's pieces, and those that the cells of its first and last row belong to. */
 static PetscErrorCode ReadRows(SamGrid grid, Vec field, Forest *f, PetscInt *edge[2])
 {
   const double *p;
@@ -240,7 +240,7 @@ static PetscErrorCode Share(SamGrid grid, Forest *f, PetscInt *edge[2])
 
 /* ---- all of it ---- */
 
-/* This rank's zones, and on rank 0 those of several ranks; the roots that have cells count. */
+/* Finds this rank's zones, and on rank 0 those of several ranks; the roots that have cells count. */
 static PetscErrorCode FindZones(SamGrid grid, Vec field, PetscBool wrap, Forest *f)
 {
   PetscInt *edge[2];

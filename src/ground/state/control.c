@@ -1,4 +1,4 @@
-/* What a load step prescribes, and its names. */
+/* Control of a load step, and the names of its components. */
 #include <petsam/private/baseimpl.h>
 #include <petsam/control.h>
 #include <string.h>

@@ -121,7 +121,7 @@ PetscInt SamStateGetLayers(SamState s, const PetscReal **z)
   return s->layers;
 }
 
-/* The name and the text of the c-th of the values of a field for each cell. */
+/* Writes the name and the text of the c-th of the values of a field for each cell. */
 static void NameValue(const SamStateField *f, PetscInt c, char name[48], char text[], size_t size)
 {
   const char axis[2] = {c % f->components ? 'y' : 'x', '\0'}, *const rest = strchr(f->text, ',');
@@ -164,7 +164,7 @@ PetscErrorCode SamStateDeclareField(SamState s, const SamStateField *field, Pets
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The value of numbers of which a step has none. */
+/* Sets the value of numbers of which a step has none. */
 static void SetNone(SamState s, const Number *n, SamGeneration g)
 {
   for (PetscInt k = 0; k < n->declared.count; k++)
@@ -172,7 +172,7 @@ static void SetNone(SamState s, const Number *n, SamGeneration g)
       n->declared.result && (n->declared.kind == SAM_NUMBER_REAL || n->declared.kind == SAM_NUMBER_MATRIX) ? NAN : 0;
 }
 
-/* The value of numbers from the start, before any step. */
+/* Sets the value of numbers from the start, before any step. */
 static void SetInitial(SamState s, const Number *n, SamGeneration g)
 {
   SetNone(s, n, g);

@@ -25,13 +25,13 @@ struct _n_SamImages {
   double sums[PARTS][DOWN][ALONG][ALONG]; /* component, z, y, x */
 };
 
-/* Whether a component changes its sign with x or with y. */
+/* True where a component is odd in x; in y */
 static const PetscBool odd[2][PARTS] = {{[SAM_STRESS_XY] = PETSC_TRUE, [SAM_STRESS_XZ] = PETSC_TRUE},
                                         {[SAM_STRESS_XY] = PETSC_TRUE, [SAM_STRESS_YZ] = PETSC_TRUE}};
 
 /* ---- creation ---- */
 
-/* The zeros of Chebyshev's polynomial of order n, between two ends. */
+/* Computes the zeros of Chebyshev's polynomial of order n, between two ends. */
 static void SetNodes(PetscInt n, double low, double high, double node[])
 {
   for (PetscInt i = 0; i < n; i++) node[i] = (low + high) / 2 - (high - low) / 2 * cos(PETSC_PI * (i + 0.5) / n);
@@ -69,7 +69,7 @@ static PetscErrorCode CreateBasis(SamImages m)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The stress of all images for a lag. */
+/* Computes the stress of all images for a lag. */
 static void SumImages(SamImages m, const double lag[2], const double period[2], double depth, double source, Matrix sum)
 {
   static const PetscInt sizes[] = {1, 2, 4};
@@ -117,7 +117,7 @@ static PetscInt SetLags(SamImages m)
   return lags;
 }
 
-/* The table; each rank finds some of the lags. */
+/* Fills the table; each rank finds some of the lags. */
 static PetscErrorCode FillTable(SamImages m, const double period[2])
 {
   const PetscInt all = LAGS * LAGS * DOWN * DOWN * ENTRIES, lags = SetLags(m);
@@ -174,7 +174,7 @@ PetscErrorCode SamImagesDestroy(SamImages *images)
 
 /* ---- products ---- */
 
-/* Of a row of cells: its eigenstrain on the nodes along x and z. */
+/* Projects the eigenstrain of a row of cells onto the nodes along x and z. */
 static void ReduceRow(SamImages m, PetscInt j, const double e[], double row[])
 {
   const SamGrid g = m->grid;
@@ -228,7 +228,7 @@ static void AddNode(SamImages m, const PetscInt at[3], const PetscInt from[3], d
     }
 }
 
-/* The stress of the images at all nodes. */
+/* Computes the stress of the images at all nodes. */
 static void GetNodes(SamImages m, double s[NODES][PARTS])
 {
   memset(s, 0, sizeof(*s) * NODES);

@@ -1,4 +1,4 @@
-/* What the images of a window of eigenstrain, a period apart, add to the stress in it. */
+/* Stress in a window of eigenstrain by its periodic images. */
 #ifndef PETSAM_PLASTIC_IMAGES_H
 #define PETSAM_PLASTIC_IMAGES_H
 

@@ -41,7 +41,7 @@ static double Interpolate(const SamTable *t, const PetscInt column[COLUMNS], dou
   return 0;
 }
 
-/* A stress beyond yield is none that the body can have. */
+/* Rejects an initial stress beyond yield, which a body cannot have. */
 static PetscErrorCode CheckStress(MPI_Comm comm, const char file[], const char option[], PetscReal yield,
                                   PetscReal middle, const double stress[2])
 {

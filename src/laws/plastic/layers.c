@@ -7,7 +7,7 @@
 
 #define HALVINGS 60 /* of the interval that holds the ratio */
 
-/* The depth of n layers from the first one of thickness 1 on. */
+/* Returns the depth of n layers from the first one of thickness 1 on. */
 static double DepthOf(PetscInt n, double ratio)
 {
   return ratio > 1 ? expm1((double)n * log(ratio)) / (ratio - 1) : (double)n;

@@ -34,7 +34,7 @@ double SamMisesYield(const SamMises *m, double p, double *slope)
   }
 }
 
-/* The integral of the yield stress from p = 0 on (Pa). */
+/* Returns the integral of the yield stress from p = 0 on (Pa). */
 static double Integral(const SamMises *m, double p)
 {
   switch (m->hardening) {

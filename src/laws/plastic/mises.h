@@ -21,7 +21,7 @@ typedef struct {
   double       back[SAM_BACKSTRESSES][2]; /* C (Pa), g */
 } SamMises;
 
-/* SamMisesAt - what a point remembers: plastic strain, accumulated plastic strain, backstresses (Pa). */
+/* SamMisesAt - internal variables of a point: plastic strain, accumulated plastic strain, backstresses (Pa). */
 typedef struct {
   double e[PARTS], p, back[SAM_BACKSTRESSES][PARTS];
 } SamMisesAt;

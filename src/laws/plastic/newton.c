@@ -64,7 +64,7 @@ static void Write(const SamPlastic *p, const SamMisesAt *at, PetscInt l, PetscIn
   for (PetscInt c = PARTS + 1; c < p->size; c++) to[(ptrdiff_t)c * p->grid->cells] = (&at->back[0][0])[c - PARTS - 1];
 }
 
-/* The tensor of a cell of a field. */
+/* Takes the tensor of a cell of a field. */
 static inline void Take(const SamPlastic *p, const double field[], PetscInt l, PetscInt k, double to[PARTS])
 {
   for (PetscInt c = 0; c < PARTS; c++) to[c] = field[((ptrdiff_t)l * PARTS + c) * p->grid->cells + k];
@@ -76,7 +76,7 @@ static inline void Put(const SamPlastic *p, const double from[PARTS], PetscInt l
 
 /* ---- the operators of all bodies ---- */
 
-/* The stress (NULL: not wanted) and the displacement (NULL: not wanted) by a strain. */
+/* Computes the stress (NULL: not wanted) and the displacement (NULL: not wanted) by a strain. */
 static PetscErrorCode Respond(SamPlastic *p, const double e[], double s[], double *const u[3])
 {
   const PetscInt cells = p->grid->cells;
@@ -104,7 +104,7 @@ static PetscErrorCode Load(SamPlastic *p, const double *const traction[3], doubl
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The strains of a field of the state, as a field of their own. */
+/* Takes the strains of a field of the state, as a field of their own. */
 static PetscErrorCode TakeStrain(SamPlastic *p, Vec state, double e[])
 {
   const PetscInt cells = p->grid->cells, layers = p->bodies * p->layers;
@@ -161,7 +161,7 @@ PetscErrorCode SamPlasticStress(SamPlastic *p, Vec state, Vec pressure, Vec shea
 
 /* ---- sums ---- */
 
-/* The sum of h a:b over all cells, or weighted of 2 mu h a:b, the same on any number of ranks. */
+/* Computes the sum of h a:b over all cells, or weighted of 2 mu h a:b, the same on any number of ranks. */
 static PetscErrorCode Sum(const SamPlastic *p, PetscBool weighted, const double a[], const double b[], double *dot)
 {
   const SamGrid grid  = p->grid;
@@ -253,7 +253,7 @@ static PetscErrorCode Multiply(Solve *w, const double from[], double to[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The step of Newton's method into y, by conjugate gradients, from the residual. */
+/* Computes the step of Newton's method into y, by conjugate gradients, from the residual. */
 static PetscErrorCode FindStep(Solve *w, double part)
 {
   double *rest = w->e, first, size, before, step, square;
@@ -289,7 +289,7 @@ static PetscErrorCode FindStep(Solve *w, double part)
 
 /* ---- the residual ---- */
 
-/* Plastic strains of a driver, into the tried state, and the tangents. */
+/* Computes plastic strains of a driver, into the tried state, and the tangents. */
 static PetscErrorCode Return(Solve *w, Vec committed, Vec tried)
 {
   const SamPlastic *p     = w->plastic;
@@ -322,7 +322,7 @@ static PetscErrorCode Return(Solve *w, Vec committed, Vec tried)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The driver by the strains w->e and the tractions. */
+/* Computes the driver by the strains w->e and the tractions. */
 static PetscErrorCode GetDriver(Solve *w, double d[])
 {
   const PetscInt cells = w->plastic->grid->cells;
@@ -341,7 +341,7 @@ static PetscErrorCode GetDriver(Solve *w, double d[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The residual of the driver, its norm, and its largest value relative to the strain at yield. */
+/* Computes the residual of the driver, its norm, and its largest value relative to the strain at yield. */
 static PetscErrorCode Measure(Solve *w, PetscInt field, double *norm, double *largest)
 {
   const SamPlastic *p = w->plastic;

@@ -1,10 +1,10 @@
 /*
   The law of plastic strain: bodies that yield below their surface.
 
-  What a step solves is in newton.c. The law's offset is the displacement by the plastic strain of the state, so that
-  the gap, the check and all else have it; what a cell of a layer remembers is a field of the state. Whether a step is
-  right is checked anew from the state and the tractions: the stress by both lies on the yield surface where the strain
-  has grown, and nowhere outside of it.
+  The equations of a step are solved in newton.c. The law's offset is the displacement by the plastic strain of the
+  state, so that the gap, the check and all other functions include it; the internal variables of the layers' cells are
+  fields of the state. A solved step is checked independently, from the state and the tractions: the stress by both lies
+  on the yield surface where the plastic strain has grown, and nowhere outside of it.
 */
 #include "newton.h"
 #include <petsam/private/state.h>
@@ -35,7 +35,7 @@ typedef struct {
 /* Parts of the work of a step in its error: see SumWork(). */
 #define TURNS 0.01
 #define BACK  0.05
-/* The part of the maximum plastic strain that counts for its extent. */
+/* Least plastic strain that counts for its extent, relative to the maximum */
 #define COUNTS 0.01
 /* Depth that may yield, over the width of the grid, at most. */
 #define DEEPEST 2
@@ -108,7 +108,7 @@ static const char *const backstress[2] = {"body1_backstress", "body2_backstress"
 static const char *const initial[2]    = {"body1_initial_stress", "body2_initial_stress"};
 static const char *const yielding[2]   = {"body1_yield", "body2_yield"};
 
-/* The values that a cell of a layer remembers. */
+/* Counts the values that a cell of a layer remembers. */
 static PetscInt SizeOf(const Plastic *x)
 {
   return PARTS + 1 + PARTS * PetscMax(x->material[0].count, x->material[1].count) / 2;
@@ -120,9 +120,9 @@ static PetscInt BodiesOf(const Plastic *x)
 }
 
 /*
-  The thicknesses of the layers. What is not given follows from the grid, which a contact fits: the depth is its smaller
-  width, or of periodic bodies the larger one, and the first layer is half a cell thick. The check of the grid halves
-  the layers with the cells.
+  Sets the thicknesses of the layers. What is not given follows from the grid, which a contact fits: the depth is its
+  smaller width, or of periodic bodies the larger one, and the first layer is half a cell thick. The check of the grid
+  halves the layers with the cells.
 */
 static PetscErrorCode SetLayers(Plastic *x, const SamLaw law, const SamOptions *from)
 {
@@ -284,7 +284,7 @@ static PetscErrorCode SetUp(SamLaw law)
 
 /* ---- the state ---- */
 
-/* A field of the results: the displacement of the surface by plastic strain, or the largest strain below a cell. */
+/* Computes a result field: the displacement of the surface by plastic strain, or the largest strain below a cell. */
 static PetscErrorCode Compute(void *owner, SamState state, PetscInt component, Vec field)
 {
   const SamLaw   law   = (SamLaw)owner;
@@ -318,15 +318,16 @@ static PetscErrorCode Compute(void *owner, SamState state, PetscInt component, V
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The layers of body 1. */
+/* Counts the layers of body 1. */
 static PetscInt Above(const Plastic *x)
 {
   return isfinite(x->material[0].yield) ? x->layers : 0;
 }
 
 /*
-  A field of layers in the results: the accumulated plastic strain (0), the plastic strain (1 to PARTS), and the
-  residual stress. In body 1, whose own z points against that of the results, the shears xz and yz change their sign.
+  Computes a field of layers in the results: the accumulated plastic strain (0), the plastic strain (1 to PARTS), and
+  the residual stress. In body 1, whose own z points against that of the results, the shears xz and yz change their
+  sign.
 */
 static PetscErrorCode ComputeLayers(void *owner, SamState state, PetscInt component, Vec field)
 {
@@ -690,7 +691,7 @@ static void KeepLargest(const double before[NUMBERS], double now[NUMBERS])
   now[THICK]   = before[THICK];
 }
 
-/* The depth of the dent, which stays where no strain has grown. */
+/* Finds the depth of the dent, which stays where no strain has grown. */
 static PetscErrorCode FindDent(SamPlastic *p, Vec state, double before, double numbers[NUMBERS])
 {
   const PetscInt cells = p->grid->cells;

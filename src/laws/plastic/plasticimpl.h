@@ -9,9 +9,9 @@
 enum { PARTS = SAM_STRESS_COMPONENTS };
 
 /*
-  SamResidual - what an eigenstrain e, constant over each layer and given at the cells' centres, does in a body: the
-  stress, as the mean over each layer, and the displacement of the surface; and the stress by tractions. A field e or s
-  has PARTS components for each layer, layer after layer from the surface down: component c of layer l begins at
+  SamResidual - the response of a body to an eigenstrain e, constant over each layer and given at the cells' centres:
+  stress, as mean over each layer, and displacement of the surface; also the stress by tractions. A field e or s has
+  PARTS components for each layer, layer after layer from the surface down: component c of layer l begins at
   (PARTS * l + c) * cells of an array of this rank's cells. The stress by e is symmetric, and minus it semidefinite, in
   sum h e:s; the displacement by e is the transpose of the stress by tractions with these weights (to rounding).
 */

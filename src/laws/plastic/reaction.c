@@ -14,7 +14,7 @@
 
 #define RTOL 1e-3 /* of the displacement */
 #define MOST 200  /* iterations */
-/* The part of a displacement that is rounding: all that is left of a rigid motion, as of a uniform strain. */
+/* Rounding error relative to a displacement: the remainder of a rigid motion, as by a uniform strain */
 #define ROUNDING 1e-13
 
 struct _n_SamReaction {
@@ -77,7 +77,7 @@ static double XiAt(const SamReaction r, PetscInt i)
   return r->frame[0].xi0 + (double)i * r->frame[0].dxi;
 }
 
-/* The Gram matrices of the sets. */
+/* Computes the Gram matrices of the sets of cells. */
 static PetscErrorCode SumGrams(SamReaction r)
 {
   SamTotal totals[2 * SAM_GRAM] = {{0}};

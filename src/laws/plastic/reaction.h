@@ -14,7 +14,7 @@ enum { ALONG_Z, ALONG_X, ALONG_Y, DIRECTIONS };
   SamReactionFreeze - takes these sets, and the part of the pressure that the shear is, from the contact's tractions.
   SamReactionApply - u: a displacement of the surfaces (m), DIRECTIONS fields of this rank's cells one after the other,
   which becomes the change of the tractions by it (Pa). All are collective.
-  SamReactionSlips - whether any cell slips: then the reaction is not symmetric. Not collective.
+  SamReactionSlips - true if any cell slips: then the reaction is not symmetric. Not collective.
 */
 typedef struct _n_SamReaction *SamReaction;
 PETSC_INTERN PetscErrorCode    SamReactionCreate(SamElasticity elasticity, const SamLawContact *contact,

@@ -35,7 +35,7 @@ struct _n_SamResidual {
 
 /* ---- transforms ---- */
 
-/* What a pass of the transforms moves between the spectra and the blocks. */
+/* Planes that a pass of the transforms moves between the spectra and the blocks */
 typedef struct {
   SamResidual     r;
   PetscInt        first, count; /* planes */
@@ -140,7 +140,7 @@ static PetscErrorCode CheckBodies(SamElasticity e, PetscInt body)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The kernels at the middle of each layer, and what the images of the window add. */
+/* Creates the kernels at the middle of each layer, and what the images of the window add. */
 static PetscErrorCode CreateWindow(SamResidual r, SamElasticity e, PetscInt body)
 {
   const PetscReal period[2] = {r->period * r->grid->dx, (PetscReal)r->waves * r->grid->dy};
@@ -210,7 +210,7 @@ PetscErrorCode SamResidualDestroy(SamResidual *residual)
 
 /* ---- products ---- */
 
-/* The planes of a field, and those of all spectra in one column. */
+/* Gets the planes of a field, and those of all spectra in one column. */
 static PetscErrorCode GetPlanes(SamResidual r, PetscInt planes, const double field[], const double ***at)
 {
   PetscFunctionBegin;
@@ -227,7 +227,7 @@ static double WaveOf(SamResidual r, PetscInt b)
   return 2 * PETSC_PI / (r->period * (double)r->grid->dx) * (double)(r->first + b);
 }
 
-/* What is done to a column of waves: the response to eigenstrains, or to tractions. */
+/* Response that is computed in a column of waves: to eigenstrains, or to tractions */
 typedef enum { RESPOND, DISPLACE, RESPOND_AND_DISPLACE, LOAD } Task;
 
 static PetscErrorCode WorkOnWaves(SamResidual r, Task task, PetscInt n, double kx, const double ky[],
@@ -241,7 +241,7 @@ static PetscErrorCode WorkOnWaves(SamResidual r, Task task, PetscInt n, double k
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Works on a column; of the wave that is also one of -ky, the mean of both counts. */
+/* Computes the response in a column; the Nyquist wave, which is also that of -ky, gets the mean of both. */
 static PetscErrorCode WorkOnColumn(SamResidual r, Task task, PetscInt b, double complex *column[])
 {
   const PetscInt  planes = PARTS * r->body.layers, m = r->nyquist;
@@ -267,7 +267,7 @@ static PetscErrorCode WorkOnColumn(SamResidual r, Task task, PetscInt b, double 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The stress, and the displacement, by waves. */
+/* Computes the stress, and the displacement, by waves. */
 static PetscErrorCode ApplyWaves(SamResidual r, const double e[], double s[], double *const u[3])
 {
   const PetscInt   planes = PARTS * r->body.layers;
@@ -291,7 +291,7 @@ static PetscErrorCode ApplyWaves(SamResidual r, const double e[], double s[], do
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The displacement by the transpose of the cells' kernels. */
+/* Computes the displacement by eigenstrains, by the transpose of the cells' kernels. */
 static PetscErrorCode DisplaceByCells(SamResidual r, const double e[], double *const u[3])
 {
   const PetscInt cells = r->grid->cells;
@@ -329,7 +329,7 @@ PetscErrorCode SamResidualApply(SamResidual r, const double e[], double s[], dou
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The stress by tractions, by waves, into s. */
+/* Computes the stress by tractions, by waves, into s. */
 static PetscErrorCode LoadWaves(SamResidual r, const double *const traction[3], double s[])
 {
   const PetscInt   planes = PARTS * r->body.layers;
@@ -354,7 +354,7 @@ static PetscErrorCode LoadWaves(SamResidual r, const double *const traction[3], 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The stress by tractions at the depth of such kernels. */
+/* Computes the stress by tractions at the depth of such kernels. */
 static PetscErrorCode LoadPlane(SamResidual r, SamStress stress, const double *const traction[3], double s[])
 {
   const PetscInt cells = r->grid->cells;
@@ -391,7 +391,7 @@ PetscErrorCode SamResidualLoad(SamResidual r, const double *const traction[3], d
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The stress by tractions at a depth, as the mean over a layer of no thickness below a layer down to there. */
+/* Computes the stress by tractions at a depth, as the mean over a layer of no thickness below a layer down to there. */
 static PetscErrorCode LoadWavesAt(SamResidual r, PetscReal depth, const double *const traction[3], double s[])
 {
   const SamWaveBody own          = r->body;

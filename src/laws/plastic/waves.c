@@ -15,7 +15,7 @@
 #include "waves.h"
 #include <petsam/private/baseimpl.h>
 
-/* Fields of a wave in its own directions. */
+/* Components of a wave along its own directions */
 enum { MM, TT, ZZ, MT, MZ, TZ };
 
 /* The numbers of a layer for each wave of a column, and the state of a sweep. */
@@ -104,7 +104,10 @@ static void SetLayer(Column *w, double h)
   }
 }
 
-/* The same where it is another layer than the last one; then the means from the surface to it, at this depth. */
+/*
+  UseLayer() sets the means over layer l, unless it is as thick as the last one. SetDecay() then multiplies them by the
+  decay of the waves from the surface down to the layer's top (m).
+*/
 static void UseLayer(Column *w, PetscInt l, double *last)
 {
   if (w->body->thickness[l] != *last) SetLayer(w, *last = w->body->thickness[l]);
@@ -195,7 +198,7 @@ static void Pass(Column *w, double s, const Wave e[], Wave stress[])
   }
 }
 
-/* The stress of the sheet itself. */
+/* Adds the stress of the sheet itself. */
 static void AddOwn(const Column *w, const Wave e[], Wave s[])
 {
   const PetscInt n  = w->n;
@@ -210,7 +213,7 @@ static void AddOwn(const Column *w, const Wave e[], Wave s[])
   }
 }
 
-/* What the free surface sends back into a layer, of the waves that the upward sweep brings to it. */
+/* Adds the reflection from the free surface into a layer, of the waves that the upward sweep brings to the surface. */
 static void AddFreeSurface(const Column *w, Wave s[])
 {
   const PetscInt n  = w->n;
@@ -228,7 +231,7 @@ static void AddFreeSurface(const Column *w, Wave s[])
   }
 }
 
-/* The displacement of the surface, of that sweep; of the mean, from the strains. */
+/* Computes the displacement of the surface, of that sweep; of the mean, from the strains. */
 static void GetDisplacement(const Column *w, Wave *const u[3])
 {
   const PetscInt n       = w->n;
@@ -299,7 +302,9 @@ PetscErrorCode SamWavesApply(const SamWaveBody *body, PetscInt n, double kx, con
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The stress of tractions p, and q along and across the wave, in a layer. A mean pressure leaves no lateral strain. */
+/*
+  Adds the stress of tractions p, and q along and across the wave, in a layer. A mean pressure leaves no lateral strain.
+*/
 static void AddTractions(const Column *w, const Wave *const traction[3], Wave s[])
 {
   const PetscInt n  = w->n;

@@ -1,5 +1,5 @@
 /*
-  What a user should know of a solution that may not be what was meant.
+  Advice on a solution that may not be the intended one.
 
   Sizes of grids follow from closed-form solutions where there are any, which hold even where the grid resolves nothing
   or ends within the contact; else from the contact that was found.
@@ -21,10 +21,10 @@
 #define STEEPEST 0.1
 /* and linear elasticity up to this pressure over E*. */
 #define HARDEST 0.2
-/* A stress over Young's modulus below which it has no effect, and a grid's width (m) that units may explain. */
+/* Ratio of a stress to Young's modulus below which it has no effect; grid width (m) that suggests wrong units */
 #define SLIGHT 1e-8
 #define WIDEST 100.0
-/* A contact of a round body that is wider than this part of the period is no single one. */
+/* Part of the period above which the contact of a round body is affected by its periodic images */
 #define CROWDED 0.25
 /* A contact narrower than this part of its radius has a radius that may be in another unit. */
 #define FLATTEST 1e-3
@@ -116,7 +116,7 @@ static double RoundUp(double x)
   return ceil(x / unit * (1 - 1e-9)) * unit;
 }
 
-/* Two numbers as an option takes them: one for both if they are the same. */
+/* Writes two numbers as an option takes them: one for both if they are the same. */
 static void WritePair(const char option[], const double x[2], char text[AT_A_TIME])
 {
   if (x[0] == x[1])
@@ -150,8 +150,8 @@ static PetscErrorCode Measure(const SamSetup *s, SamExtent *extent)
 }
 
 /*
-  The half widths of the contact under these loads by a closed solution. `known`: there is one, and it ends within a
-  finite length.
+  Computes the half widths of the contact under these loads by a closed solution. `known`: there is one, and it ends
+  within a finite length.
 */
 static PetscErrorCode Estimate(const SamSetup *s, PetscBool force, PetscReal value, PetscReal half[2], PetscBool *known)
 {
@@ -256,7 +256,7 @@ void SamAdviceSay(SamAdvice *a, const char setting[], const char format[], ...)
   if (!a->error) a->error = a->receive(a->context, text, setting);
 }
 
-/* Whether a surface of body 2 is not the same everywhere, so that it matters where it is. */
+/* True if the surface of body 2 varies from place to place, so that its position matters. */
 static PetscBool HasPlace(SamAdvice *a)
 {
   PetscBool     has = PETSC_FALSE;
@@ -268,7 +268,7 @@ static PetscBool HasPlace(SamAdvice *a)
   return has;
 }
 
-/* Displacements, rotations and creepages that are not small, as the theory has them. */
+/* Advises on displacements, rotations and creepages that are not small, as the theory assumes. */
 static void Motion(SamAdvice *a)
 {
   const SamExtent    *extent = &a->extent;
@@ -300,7 +300,9 @@ static void Motion(SamAdvice *a)
       (double)most->slide, width);
 }
 
-/* The error of the worn depth of surfaces that are not moved past each other, as measured on worn cylinders. */
+/*
+  Advises on the error of the worn depth of surfaces that are not moved past each other, as measured on worn cylinders.
+*/
 static void Stroke(SamAdvice *a)
 {
   const double ratio = (double)(a->most.slide / PetscMax(a->extent.half[0], a->extent.half[1]));
@@ -352,13 +354,13 @@ void SamAdviceGrids(const SamAdvice *a, double factor, char text[SAM_ADVICE_GRID
                    width[0] ? " (in m)" : "", width[0] && cells[0] ? " or " : "", cells);
 }
 
-/* A length with so many digits, at most 9. */
+/* Writes a length with so many digits, at most 9. */
 static void WriteLength(double length, int digits, char text[AT_A_TIME])
 {
   (void)snprintf(text, AT_A_TIME, "%.*g", PetscMin(digits, 9), length);
 }
 
-/* The digits with which two lengths look different, if they are. */
+/* Returns the digits with which two lengths look different, if they are. */
 static int DigitsOf(double a, double b)
 {
   char one[AT_A_TIME], other[AT_A_TIME];
@@ -371,7 +373,7 @@ static int DigitsOf(double a, double b)
   return digits;
 }
 
-/* The widths of a contact, and of its grid. */
+/* Writes the widths of a contact, and of its grid. */
 static void WriteSize(const SamAdvice *a, char text[], size_t size)
 {
   const SamGrid g         = a->setup->grid;
@@ -394,13 +396,16 @@ static void WriteSize(const SamAdvice *a, char text[], size_t size)
     (void)PetscSNPrintf(text, size, "%s m by %s m on a grid of %s m by %s m", one[0], one[1], one[2], one[3]);
 }
 
-/* The fewest cells across that resolve the contact. */
+/* Returns the fewest cells across that resolve the contact. */
 static int Fewest(const SamAdvice *a)
 {
   return a->closed && !SamProblemGetLaw(a->setup->problem, SAM_LAW_PLASTIC) ? FEW_CLOSED : FEW_CELLS;
 }
 
-/* A contact that is few cells across, or a peak of pressure that they do not resolve; grids on which it is not so. */
+/*
+  Advises on a contact that is few cells across, or a peak of pressure that they do not resolve; grids on which it is
+  not so.
+*/
 static void Cells(SamAdvice *a)
 {
   const SamSetup  *s      = a->setup;
@@ -471,7 +476,9 @@ static void Surfaces(SamAdvice *a)
   if (!a->error && a->doubtful) SamAdviceSay(a, "", "%s", text);
 }
 
-/* Steps of heights from a file, where the peak of the pressure has no limit, and no grid is advised for it. */
+/*
+  Advises on steps of heights from a file, where the peak of the pressure has no limit, and no grid is advised for it.
+*/
 static void Steps(SamAdvice *a)
 {
   const SamSetup    *s = a->setup;
@@ -506,7 +513,7 @@ static void Bodies(SamAdvice *a)
   }
 }
 
-/* E* of the stiffest materials of both bodies. */
+/* Returns E* of the stiffest materials of both bodies. */
 static double Stiffest(SamPair pair)
 {
   double compliance = 0;
@@ -540,7 +547,7 @@ static void Coarse(SamAdvice *a)
                across, error, better);
 }
 
-/* Plastic strain that falls from the surface on within the first layers, as under friction. */
+/* Advises on plastic strain that is largest at the surface and falls within the first layers, as under friction. */
 static void Shallow(SamAdvice *a, double most)
 {
   PetscReal surface = 0;
@@ -553,7 +560,10 @@ static void Shallow(SamAdvice *a, double most)
                100 * (1 - most / (double)surface));
 }
 
-/* The area of a row of few cells after the largest load, whose edges are not where those of elastic bodies are. */
+/*
+  Advises on the area of a row of few cells after the largest load, whose edges are not where those of elastic bodies
+  are.
+*/
 static void Unloaded(SamAdvice *a)
 {
   PetscReal cells = 0, accepted = 1;
@@ -568,7 +578,7 @@ static void Unloaded(SamAdvice *a)
                (double)cells, FEW_CELLS, 100 / (double)cells);
 }
 
-/* Plastic strain that is large, that spans few layers, or that comes to the end of what may yield. */
+/* Advises on plastic strain that is large, that spans few layers, or that comes to the end of what may yield. */
 static void Yield(SamAdvice *a)
 {
   const SamContact contact = a->setup->contact;
@@ -604,7 +614,7 @@ static void Yield(SamAdvice *a)
                  "or -grid_size");
 }
 
-/* A contact that is so wide beside the period that its images press on each other. */
+/* Advises on a contact so wide relative to the period that its images interact. */
 static void Images(SamAdvice *a)
 {
   const SamSetup   *s       = a->setup;
@@ -625,7 +635,7 @@ static void Images(SamAdvice *a)
                  share, CROWDED, s->grid->axes > 1 ? "halfspace" : "plane");
 }
 
-/* A contact that is wide beside its radius, or a pressure that no linear elasticity bears. */
+/* Advises on a contact that is wide relative to its radius, or a pressure beyond linear elasticity. */
 static void Size(SamAdvice *a)
 {
   const double modulus = Stiffest(a->setup->pair);
@@ -644,7 +654,7 @@ static void Size(SamAdvice *a)
                  SamAdviceIsFromFile(a->setup) ? "unit of the dataset, and N, m, Pa" : "units, N, m, Pa");
 }
 
-/* A coefficient of friction, or a factor on it, in percent. */
+/* Advises on a coefficient of friction, or a factor on it, in percent. */
 static void Friction(SamAdvice *a)
 {
   PetscReal    friction;
@@ -755,8 +765,8 @@ PetscErrorCode SamAdviceEnd(SamAdvice *a, const SamSlip **found)
 /* ---- the edge ---- */
 
 /*
-  The half widths where no closed solution is at hand. The pressure at the grid's edge tells how far it is to the
-  contact's, as for Hertz's pressure p0 sqrt(1 - r^2/a^2); widths grow at most like the root of the load.
+  Estimates the half widths where there is no closed-form solution. The distance from the grid's edge to the contact's
+  follows from the pressure there, as for Hertz's p0 sqrt(1 - r^2/a^2); widths grow at most like the root of the load.
 */
 static void Extrapolate(const SamSetup *s, const SamStep *step, const SamLoadRange *most, PetscReal half[2])
 {
@@ -767,7 +777,10 @@ static void Extrapolate(const SamSetup *s, const SamStep *step, const SamLoadRan
   for (int k = 0; k < 2; k++) half[k] = 0.5 * s->grid->width[k] / sqrt(1 - edge * edge) * growth;
 }
 
-/* Half the width that a grid needs along an axis for a contact of this half width about the origin, or beside it. */
+/*
+  Returns half the width that a grid needs along an axis for a contact of this half width about the origin, or beside
+  it.
+*/
 static double ReachOf(const SamSetup *s, const PetscReal half[2], const PetscReal lever[2], int k)
 {
   return (double)(half[k] + lever[k]) * MARGIN + fabs((double)s->grid->center[k]);
@@ -781,7 +794,7 @@ static PetscBool Fits(const SamSetup *s, const PetscReal half[2], const PetscRea
   return PETSC_TRUE;
 }
 
-/* The grid with the same cells that holds a contact of these half widths about the origin, or more. */
+/* Writes the grid with the same cells that holds a contact of these half widths about the origin, or more. */
 static void AdviseGrid(const SamSetup *s, const PetscReal half[2], const PetscReal lever[2], char text[], size_t size)
 {
   const PetscReal cell[2] = {s->grid->dx, s->grid->dy};
@@ -809,7 +822,7 @@ static void AdviseGrid(const SamSetup *s, const PetscReal half[2], const PetscRe
     (void)snprintf(text, size, "%s", one);
 }
 
-/* The grid that holds the contact in all displacements of the run, body 2's surface being kept on it. */
+/* Writes the grid that holds the contact in all displacements of the run, body 2's surface being kept on it. */
 static PetscErrorCode AdviseStroke(const SamAdvice *a, const SamStep *step, char text[], size_t size)
 {
   const PetscReal *moved    = &step->rigid[SAM_COMPONENT_TX];

@@ -1,4 +1,4 @@
-/* What the files of the advice share. */
+/* Declarations shared by the files of the advice. */
 #ifndef PETSAM_ADVICEIMPL_H
 #define PETSAM_ADVICEIMPL_H
 
@@ -8,9 +8,9 @@
 #define SAM_ADVICE_GRIDS 192 /* characters of advised grids */
 /*
   SamAdviceSay - passes on advice, by a format of printf(); `setting`: see SamAdviceFunction.
-  SamAdviceGrids - grids with this factor more cells across the contact: ": -grid_n 64" for the end of a message. Empty:
-  there is none.
-  SamAdviceIsFromFile - whether heights of the gap are from a file.
+  SamAdviceGrids - writes the end of a message, ": -grid_n 64", that proposes a grid with this factor more cells across
+  the contact. Empty: there is none.
+  SamAdviceIsFromFile - true if heights of the gap are from a file.
   None is collective.
 */
 PETSC_INTERN void SamAdviceSay(SamAdvice *advice, const char setting[], const char format[], ...)
@@ -25,8 +25,8 @@ PETSC_INTERN PetscBool SamAdviceIsFromFile(const SamSetup *setup);
   cells, `wanted`: how many times finer a grid is advised. Not collective.
 */
 /*
-  SamAdviceMeasureStuck - of a contact all of whose cells stick (stuck.c): `share` of the shear's change in this step at
-  the contact's edge over mu p, and what its zone would have at share 1. Collective.
+  SamAdviceMeasureStuck - estimates the slip zone of a contact all of whose cells stick (stuck.c): `share` is the ratio
+  of the shear's change in this step at the contact's edge to mu p, `stuck` the zone's values at share 1. Collective.
 */
 #define SAM_STUCK_WIDTH (2. / 3) /* cells: width of the zone at share 1 */
 typedef struct {

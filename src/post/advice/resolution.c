@@ -60,13 +60,13 @@ typedef struct {
   SamNormal          normal;
 } Local;
 
-/* Rows of a patch of so many cells in each direction. */
+/* Returns the number of rows of a patch of so many cells in each direction. */
 static PetscInt Rows(PetscInt axes, PetscInt n)
 {
   return axes == 1 ? 1 : n;
 }
 
-/* The cell of the largest pressure on the first patch. */
+/* Returns the cell of the largest pressure on the first patch. */
 static PetscInt PeakOf(const Patch *a)
 {
   return Rows(a->axes, WIDE) / 2 * WIDE + WIDE / 2;
@@ -135,7 +135,7 @@ static void AddShape(const Local *l, const Patch *a, PetscInt n, double sign, do
   }
 }
 
-/* The difference of this order of the values from one on. */
+/* Returns the difference of the given order of the values that begin at f. */
 static double Difference(const double f[], ptrdiff_t stride, PetscInt order)
 {
   if (!order) return f[0];
@@ -206,7 +206,7 @@ static PetscErrorCode SolveInner(Local *l, const double h[], double p[], PetscBo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Fourth differences of the patch's interpolated heights about the peak where all is in contact. */
+/* Returns fourth differences of the patch's interpolated heights about the peak where all is in contact. */
 static double FindTip(const Patch *a, const double heights[])
 {
   const PetscInt beside = a->axes - 1;
@@ -254,7 +254,7 @@ static PetscErrorCode Refine(Local *l, PetscInt points, Patch *a, PetscBool *sol
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The peak of a finer patch; takes the patch about it out. */
+/* Returns the peak of a finer patch; takes the patch about it out. */
 static double TakePeak(Patch *a)
 {
   const PetscInt rows = Rows(a->axes, WIDE);
@@ -279,7 +279,7 @@ static double TakePeak(Patch *a)
 
 /* ---- the patch on the grid ---- */
 
-/* The cell of the largest pressure, the first one of several; and its pressure. */
+/* Finds the cell of the largest pressure, the first one of several, and its pressure. */
 static PetscErrorCode FindPeak(SamGrid grid, Vec pressure, PetscInt at[2], double *most)
 {
   const double *p;
@@ -299,7 +299,7 @@ static PetscErrorCode FindPeak(SamGrid grid, Vec pressure, PetscInt at[2], doubl
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The values of a field in the patch about a cell, on all ranks; beyond the grid's edge those at the edge. */
+/* Gathers the values of a field in the patch about a cell, on all ranks; beyond the grid's edge those at the edge. */
 static PetscErrorCode Gather(const Local *l, Vec field, const PetscInt at[2], double values[])
 {
   const SamGrid  grid = l->whole;

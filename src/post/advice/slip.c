@@ -117,7 +117,9 @@ static PetscErrorCode GetNumbers(const SamSetup *s, Numbers *n)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Width of the zone and length of the edge, in cells; flat periodic bodies have no edge, and an infinite width. */
+/*
+  Computes width of the zone and length of the edge, in cells; flat periodic bodies have no edge, and an infinite width.
+*/
 static void Measure(const SamSetup *s, const Numbers *n, SamSlip *slip)
 {
   const PetscBool row  = SamGridIsRow(s->grid);
@@ -134,7 +136,7 @@ static void Measure(const SamSetup *s, const Numbers *n, SamSlip *slip)
   slip->length = row ? LINE : PetscMax(slip->length, 1);
 }
 
-/* The error of a branch's energy, relative to it, unless it is larger than that. */
+/* Returns the error of a branch's energy, relative to it, unless it is larger than that. */
 static double ErrorOf(PetscReal width, PetscReal length)
 {
   return WRONG / ((double)(width * width) * sqrt((double)length));
@@ -235,7 +237,7 @@ static PetscErrorCode Join(SamAdvice *a, const SamStep *step, const Numbers *n)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The part by which the energy of first loading up to t is too large, of bodies that are loaded in one step. */
+/* Returns the part by which the energy of first loading up to t is too large, of bodies that are loaded in one step. */
 static double ExcessOf(double coupling, double t)
 {
   return coupling * coupling * (1.9 / (t * t) - 1.1);
@@ -262,7 +264,7 @@ static void Long(SamAdvice *a)
     part, slip->share > ALIKE ? "give the normal load a row of its own (-history), and" : "use");
 }
 
-/* Says that most slip of dissimilar bodies is where contact is made, in several steps. */
+/* Advises more steps if much of the slip of dissimilar bodies occurs before cells touch. */
 static void Few(SamAdvice *a)
 {
   const SamSlip *slip = &a->slip;
@@ -418,7 +420,7 @@ static void Energy(SamAdvice *a)
                (double)slip->narrow[0], slip->energy, unit, wrong, better);
 }
 
-/* The maximum shear of the last step, at the end of a zone that is narrow beside the widest. */
+/* Advises on the maximum shear of the last step, at the end of a zone that is narrow beside the widest. */
 static void LastPeak(SamAdvice *a, double width, double high)
 {
   char better[SAM_ADVICE_GRIDS];
@@ -432,9 +434,9 @@ static void LastPeak(SamAdvice *a, double width, double high)
 }
 
 /*
-  The maximum slip of the last step, much of which has gone back since a reversal: it then lies where the zone of the
-  reversal ends, between cells. Measured on 80 cylinders and spheres under N and T there and back; a straight edge has
-  one place on the cells, and twice the error.
+  Advises on the maximum slip of the last step, much of which has gone back since a reversal: it then lies where the
+  zone of the reversal ends, between cells. Measured on 80 cylinders and spheres under N and T there and back; a
+  straight edge has one place on the cells, and twice the error.
 */
 static void LastSlip(SamAdvice *a)
 {

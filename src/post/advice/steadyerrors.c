@@ -28,7 +28,9 @@
 #define ADVISED 0.04  /* and that on a grid that is advised for it */
 #define STUCK   18    /* cells across a stick zone whose area is wrong by less than 5 % */
 
-/* The errors of T_x, T_y, M_z, or of the creepages that are theirs, relative to both forces and to the moment. */
+/*
+  Computes the errors of T_x, T_y, M_z, or of the creepages that are theirs, relative to both forces and to the moment.
+*/
 static PetscErrorCode Compare(SamAdvice *a, PetscInt k, const SamStep *step, PetscBool load, double radius)
 {
   const PetscInt c[3]   = {SAM_COMPONENT_TX, SAM_COMPONENT_TY, SAM_COMPONENT_MZ};

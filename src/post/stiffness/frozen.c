@@ -47,7 +47,7 @@ static PetscErrorCode TakeField(SamWindow window, SamGrid grid, PetscInt compone
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The derivatives of the bound, the slip and the overlap of the tried step, for a motion that continues it. */
+/* Computes the derivatives of the bound, the slip and the overlap of the tried step, for a motion that continues it. */
 static PetscErrorCode CreateMotion(SamContact contact, const SamSolution *s, SamWindow window, SamGrid grid, Vec f[])
 {
   SamBoundAt       at    = {.control = &s->control, .pressure = s->pressure};
@@ -115,7 +115,7 @@ static PetscErrorCode FindCells(SamFrozen *f, const double p[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* All cells stick and bear. */
+/* Sets all cells to stick and to bear pressure. */
 static void SetReversal(SamFrozen *f, const double bound[])
 {
   for (PetscInt m = 0; m < f->count; m++) {
@@ -125,7 +125,7 @@ static void SetReversal(SamFrozen *f, const double bound[])
   }
 }
 
-/* Which cells slip, and how stiff they are then; a slip is more than `still` (m). */
+/* Determines which cells slip, by more than `still` (m), and their stiffness in slip. */
 static void SetSlip(SamFrozen *f, double still, const double *const v[FIELDS])
 {
   const double *const q = v[SHEAR], *const r = v[SHEAR] + f->grid->cells;
@@ -144,7 +144,7 @@ static void SetSlip(SamFrozen *f, double still, const double *const v[FIELDS])
   }
 }
 
-/* Which cells yield in the step, and keep their pressure; an overlap is more than `still` (m). */
+/* Determines which cells yield in the step, by an overlap of more than `still` (m), and so keep their pressure. */
 static void SetYielding(SamFrozen *f, double still, const double overlap[])
 {
   for (PetscInt m = 0; m < f->count; m++)
@@ -174,7 +174,7 @@ static PetscErrorCode PackCells(SamFrozen *f, const Vec from[FIELDS])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The fields that products are made with; zero outside of the contact. */
+/* Creates the fields that products are made with; zero outside of the contact. */
 static PetscErrorCode CreateWork(SamFrozen *f)
 {
   PetscFunctionBegin;
@@ -189,7 +189,7 @@ static PetscErrorCode CreateWork(SamFrozen *f)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Without a tried step there must be a committed one, at which the motion reverses. */
+/* Checks the step: without a tried step there must be a committed one, at which the motion reverses. */
 static PetscErrorCode CheckStep(SamContact contact, SamStiffnessDirection direction)
 {
   const SamGrid   grid      = SamContactGetGrid(contact);

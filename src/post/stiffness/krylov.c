@@ -32,7 +32,7 @@ typedef struct {
   double *v;
 } Direction;
 
-/* Direction k from the residual r, with a product normal to those before. `z`: scratch. */
+/* Makes direction k from the residual r, with a product normal to those before. `z`: scratch. */
 static PetscErrorCode NewDirection(SamFrozen *f, PetscInt k, const double r[], Direction d[], double z[], double *norm)
 {
   const PetscInt n = SamFrozenSize(f);

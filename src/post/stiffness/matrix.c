@@ -15,7 +15,7 @@ PetscInt SamFrozenSize(const SamFrozen *f)
   return Components(f) * f->count;
 }
 
-/* The pressure of a field, and its shear; NULL where the system has none. */
+/* Return the index of the pressure in a vector, and of the shear; -1 where the system has none. */
 static PetscInt PressureAt(const SamFrozen *f)
 {
   return f->part == SAM_FROZEN_TANGENTIAL ? -1 : 0;
@@ -25,7 +25,7 @@ static PetscInt ShearAt(const SamFrozen *f)
   return f->part == SAM_FROZEN_NORMAL ? -1 : f->part == SAM_FROZEN_BOTH ? f->count : 0;
 }
 
-/* How much of the unknown along e is shear: g. */
+/* Returns g, the share of shear in the unknown along e. */
 static double Share(const SamFrozen *f, PetscInt m)
 {
   return sqrt(fabs(f->rate[m]));
@@ -44,7 +44,7 @@ static void Project(const SamFrozen *f, PetscBool all, double y[])
   }
 }
 
-/* The part along e of a packed shear where the bound follows the slip, else 0. */
+/* Returns the part along e of a packed shear where the bound follows the slip, else 0. */
 static double Along(const SamFrozen *f, const double x[], PetscInt m)
 {
   return f->rate[m] != 0 ? x[m] * f->e[0][m] + x[m + f->count] * f->e[1][m] : 0;
@@ -165,7 +165,7 @@ static PetscErrorCode Pack(const SamFrozen *f, PetscInt components, Vec field, d
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* u_z and u_t of the tractions p and q, as far as the system has them. */
+/* Computes u_z and u_t of the tractions p and q, as far as the system has them. */
 static PetscErrorCode ComputeDisplacements(SamFrozen *f)
 {
   PetscFunctionBegin;

@@ -20,11 +20,13 @@ typedef struct {
   PetscInt  count; /* of systems */
   double   *b[SAM_COMPONENTS], *x[SAM_COMPONENTS];
   double   *slip[HALF];                        /* of the tangential motions, without coupling; NULL: not wanted */
-  double    k[SAM_COMPONENTS][SAM_COMPONENTS]; /* in the phi of the grid's frames, normal ones first */
+  double    k[SAM_COMPONENTS][SAM_COMPONENTS]; /* stiffness in the basis phi of the grid's frames, normal ones first */
   PetscReal error;
 } Systems;
 
-/* The part of the stiffness that symmetric systems give: of motion j with those before it, r being its residual. */
+/*
+  Adds the part of the stiffness that symmetric systems give: of motion j with those before it, r being its residual.
+*/
 static PetscErrorCode AddSymmetric(Systems *s, PetscInt first, PetscInt j, const double r[])
 {
   double some[SAM_COMPONENTS], more[SAM_COMPONENTS];
@@ -36,7 +38,7 @@ static PetscErrorCode AddSymmetric(Systems *s, PetscInt first, PetscInt j, const
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The loads of a motion's solution, where the matrix is not symmetric. */
+/* Adds the loads of a motion's solution, where the matrix is not symmetric. */
 static PetscErrorCode AddLoads(Systems *s, PetscInt j)
 {
   const PetscInt m = s->f.count;
@@ -132,7 +134,7 @@ static void SetMotions(SamGrid grid, double to[SAM_COMPONENTS][SAM_COMPONENTS])
     }
 }
 
-/* The stiffness of the six components, NaN of rotations that the bodies do not have. */
+/* Computes the stiffness of the six components, NaN of rotations that the bodies do not have. */
 static void Transform(const Systems *s, const PetscBool rotations[3], SamStiffness *stiffness)
 {
   double       to[SAM_COMPONENTS][SAM_COMPONENTS] = {{0}};

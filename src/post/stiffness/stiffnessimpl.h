@@ -7,7 +7,7 @@
 #include <petsam/elasticity.h>
 #include <petsam/stiffness.h>
 
-/* The part of the tractions that a linear system has as unknowns. */
+/* Tractions that are the unknowns of a linear system */
 typedef enum { SAM_FROZEN_NORMAL, SAM_FROZEN_TANGENTIAL, SAM_FROZEN_BOTH } SamFrozenPart;
 
 /*
@@ -57,10 +57,10 @@ PETSC_INTERN PetscErrorCode SamFrozenTakeSlip(const SamFrozen *frozen, PetscInt 
 PETSC_INTERN PetscErrorCode SamFrozenDots(const SamFrozen *frozen, PetscInt n, double *const fields[],
                                           const double field[], double dots[]);
 
-/* Of the residual of a system, relative. Symmetric parts of the stiffness are then right to 1e-8, others to 1e-5. */
+/* Relative residual of a linear system. Symmetric parts of the stiffness are then accurate to 1e-8, others to 1e-5. */
 #define SAM_STIFFNESS_RTOL 1e-4
 /*
-  SamKrylovSolve - x from A x = b, and the residual b - A x, by generalised conjugate residuals. `error` is the
+  SamKrylovSolve - solves A x = b by generalised conjugate residuals; returns the residual b - A x, too. `error` is the
   residual's norm relative to that of b. Collective.
 */
 PETSC_INTERN PetscErrorCode SamKrylovSolve(SamFrozen *frozen, const double b[], double x[], double residual[],

@@ -16,7 +16,7 @@
 #define DEPTHS   16
 #define SHORTEST 1e-3 /* length of a mean, in cells */
 
-/* The mean is of one material. */
+/* Checks that the mean is of one material. */
 static PetscErrorCode CheckMaterial(SamEvaluation e)
 {
   const PetscReal deepest = e->depth[e->depths - 1], bottom = SamBodyTop(SamEvaluationBody(e), 1);
@@ -58,7 +58,7 @@ PetscErrorCode SamAverageSetUp(SamEvaluation e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The integral of a line up to x cells from its beginning; sums[i]: of its first i cells. */
+/* Returns the integral of a line up to x cells from its beginning; sums[i]: of its first i cells. */
 static double IntegralTo(const double sums[], PetscInt length, double x)
 {
   const double   inside = PetscMin(PetscMax(x, 0), (double)length);

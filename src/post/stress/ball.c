@@ -22,7 +22,7 @@ typedef struct {
   const double *points;
   PetscInt      dimension;
   PetscInt     *order;   /* numbers of the points; those of the boundary of the last balls come first */
-  PetscInt      support; /* how many do */
+  PetscInt      support; /* number of points on the boundary */
   double        scale;   /* square of the size of the points' cloud */
   /* the boundary's points so far: directions, twice their squares, and the balls through the first ones */
   PetscInt count;
@@ -86,7 +86,7 @@ static void MoveToFront(Ball *b, PetscInt place)
   b->order[0] = number;
 }
 
-/* The smallest ball about the first n points of the list that has the boundary's points on it. */
+/* Finds the smallest ball about the first n points of the list that has the boundary's points on it. */
 static void Enclose(Ball *b, PetscInt n)
 {
   b->support = 0;
@@ -100,7 +100,7 @@ static void Enclose(Ball *b, PetscInt n)
     }
 }
 
-/* The place of the point that lies farthest outside, or -1. */
+/* Returns the place of the point that lies farthest outside, or -1. */
 static PetscInt Farthest(const Ball *b, PetscInt n)
 {
   PetscInt place = -1;

@@ -1,7 +1,7 @@
 /* Checks that the steps are one closed cycle, as a fatigue parameter takes them. */
 #include "evaluationimpl.h"
 
-/* The part of the largest traction by which the ends of a cycle may differ. */
+/* Largest difference between the ends of a closed cycle, relative to the largest traction */
 #define CLOSED 0.01
 /* The largest difference between the ends of a cycle that does not yet repeat itself. */
 #define AGAIN 0.05
@@ -16,7 +16,9 @@ static PetscErrorCode NumberOf(SamEvaluation e, PetscInt step, SamStepNumber whi
   return (*e->source.number)(e->source.context, step, which, number);
 }
 
-/* The largest difference and size, of the pressure and of the shear, of a step and the last one; before all: zero. */
+/*
+  Finds the largest difference and size, of the pressure and of the shear, of a step and the last one; before all: zero.
+*/
 static PetscErrorCode CompareWithLast(SamEvaluation e, PetscInt step, const Ends *ends, PetscReal most[4])
 {
   const PetscInt      cells = e->grid->cells;
@@ -105,8 +107,9 @@ static PetscErrorCode WarnOfMore(SamEvaluation e, PetscInt k)
 }
 
 /*
-  Whether the cycle comes more than once, or after what leads to it: a step is as the last, with others between and
-  before. So neither steps near the cycle's start count nor those at which the loads are held.
+  Finds out whether the steps contain more than one cycle, or a lead-in before it: a step equals the last one, and
+  different steps lie between the two and before them. So steps near the cycle's start and steps of held loads do not
+  count.
 */
 static PetscErrorCode CheckOnce(SamEvaluation e, const Ends *ends, PetscBool *more)
 {

@@ -19,7 +19,7 @@ typedef struct {
 
 /* ---- slip on the surface ---- */
 
-/* A field's values in the section's line of cells, on all ranks. */
+/* Gathers a field's values in the section's line of cells, on all ranks. */
 static PetscErrorCode GatherLine(SamEvaluation e, const double field[], PetscInt length, double line[])
 {
   const SamGrid g = e->grid;
@@ -38,8 +38,8 @@ static PetscErrorCode GatherLine(SamEvaluation e, const double field[], PetscInt
 }
 
 /*
-  The slip on the surface of each state since the one before, in the order of Cycle.slips; `length`: cells of a map or
-  of the line. Sums of slip are kept at the cells, under which other points of body 2 lay before.
+  Reads the slip on the surface of each state since the one before, in the order of Cycle.slips; `length`: cells of a
+  map or of the line. Sums of slip are kept at the cells, under which other points of body 2 lay before.
 */
 static PetscErrorCode ReadSlip(SamEvaluation e, PetscInt length, double slip[])
 {
@@ -117,7 +117,7 @@ static void ComputePoint(Cycle *c, PetscInt quantity, PetscInt i, double values[
   SamLargestOfCycle(e, quantity, c->points, i, value[0]);
 }
 
-/* The same at all points; those of a row pass all through the same. */
+/* Computes the quantity at all points; points of one row that pass have the same stress path. */
 static PetscErrorCode ComputeAll(Cycle *c, PetscInt quantity, double values[], double done, double share)
 {
   const PetscInt n = c->points->count, length = c->e->passing ? c->e->grid->nx : 1;

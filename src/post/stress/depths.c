@@ -61,7 +61,7 @@ static int ReadSide(char text[])
   "expected depths separated by commas, or first:last:number, first < last, in m, mm, um, nm or as 0.5a in half " \
   "widths"
 
-/* A depth in m, or behind a number `a`, in half widths of the contact (m). */
+/* Reads a depth in m, or behind a number `a`, in half widths of the contact (m). */
 static PetscBool ReadDepth(char text[], PetscReal half, double *value)
 {
   const size_t    length   = strlen(text);
@@ -166,7 +166,7 @@ PetscErrorCode SamDepthsRead(SamEvaluation e, PetscReal half)
 
 /* ---- the half width ---- */
 
-/* The second moments' ratio of axes, at most 1, of the cells in contact. */
+/* Computes the second moments' ratio of axes, at most 1, of the cells in contact. */
 static PetscErrorCode RatioOfAxes(SamEvaluation e, PetscInt step, double *ratio)
 {
   const SamGrid g = e->grid;
@@ -223,7 +223,7 @@ SamBody SamEvaluationBody(SamEvaluation e)
   return SamPairBody(SamElasticityGetPair(e->source.bodies), e->body - 1);
 }
 
-/* The number of the material whose bottom is at a depth, but for rounding; that of the last one: none. */
+/* Returns the number of the material whose bottom is at a depth, but for rounding; that of the last one: none. */
 static PetscInt InterfaceAt(SamBody body, PetscReal depth)
 {
   PetscInt n = 0;

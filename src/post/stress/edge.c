@@ -7,7 +7,7 @@
 
 enum { XX, YY, XY, PLANE = 3 };
 
-/* The square of the pressure, which on the surface is minus the stress zz. */
+/* Computes the square of the pressure, which on the surface is minus the stress zz. */
 static PetscErrorCode FillSquare(SamGrid g, Vec field, Vec square)
 {
   const double *stress;

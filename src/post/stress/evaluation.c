@@ -47,7 +47,7 @@ static PetscErrorCode FindLine(SamEvaluation e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The stresses of the body that is asked for. */
+/* Creates the stresses of the body that is asked for. */
 static PetscErrorCode CreateStress(SamEvaluation e)
 {
   const SamElasticityType type = SamElasticityGetType(e->source.bodies);
@@ -61,7 +61,7 @@ static PetscErrorCode CreateStress(SamEvaluation e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A cycle needs several steps, a point that passes needs one. */
+/* Checks the number of steps: a cycle needs several, a point that passes one. */
 static PetscErrorCode CheckCycle(SamEvaluation e)
 {
   const PetscBool ruiz = SamQuantityWanted(e, SamFatigueRuiz);
@@ -108,7 +108,7 @@ static PetscErrorCode CheckConstants(SamEvaluation e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The shape of the results, and their coordinates; a section has one y or one x. */
+/* Sets the shape of the results, and their coordinates; a section has one y or one x. */
 static PetscErrorCode SetLayout(SamEvaluation e)
 {
   const SamGrid    g   = e->grid;

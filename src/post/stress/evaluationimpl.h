@@ -52,9 +52,9 @@ typedef struct {
   SamQuantityConstant  constant[2];
 } SamQuantity;
 PETSC_INTERN const SamQuantity SamQuantityTable[]; /* ends with a name of NULL */
-/* SamQuantityOf - the row of that function or parameter of the cycle. SamQuantityWanted - whether it is wanted. */
+/* SamQuantityWanted - true if that function or parameter of the cycle is wanted. Not collective. */
 PETSC_INTERN PetscBool SamQuantityWanted(SamEvaluation e, SamFatigueParameter *of_cycle);
-/* SamQuantityOption - the names of the quantities of a step, or of the cycle, with commas. Not collective. */
+/* SamQuantityNames - writes the names of the quantities of a step, or of the cycle, with commas. Not collective. */
 PETSC_INTERN void SamQuantityNames(PetscBool of_cycle, char text[], size_t size);
 /* SamQuantitiesList - fills the list of datasets of the layout with those that are wanted. Not collective. */
 PETSC_INTERN void SamQuantitiesList(SamEvaluation e);
@@ -112,7 +112,7 @@ struct _n_SamEvaluation {
   void              *write_context;
   PetscInt           kinds;     /* numbers of largest values of a step */
   SamLargest        *largest;   /* (kinds, steps), and those of the cycle for each quantity */
-  PetscInt           edge_lost; /* steps with an edge that is not found */
+  PetscInt           edge_lost; /* number of steps whose edge is not found */
 };
 
 /* SamMapsCompute - everything on whole planes, one depth after another (maps.c). Collective. */
@@ -133,7 +133,7 @@ PETSC_INTERN PetscErrorCode SamEvaluationReadTractions(SamEvaluation e, PetscInt
   SamPointsSetUp - reads how far the surfaces slide, if the body's points do not stay with the grid. Collective.
   SamPointsSlide - how far the body's points are moved against the cells in a step, m; NULL: not at all. Not collective.
   SamPointsMove - a field at the cells in a step becomes that at the body's points. Collective.
-  SamPointsCheck - whether all points under a pressure are on the grid. Collective. Errors: SAM_ERR_USER.
+  SamPointsCheck - checks that all points under a pressure are on the grid. Collective. Errors: SAM_ERR_USER.
 */
 PETSC_INTERN PetscErrorCode   SamPointsSetUp(SamEvaluation e);
 PETSC_INTERN const PetscReal *SamPointsSlide(SamEvaluation e, PetscInt step);
@@ -159,7 +159,7 @@ PETSC_INTERN PetscErrorCode SamEvaluationTell(SamEvaluation e, const char work[]
 /* SamEvaluationBody - the body whose stresses are wanted; borrowed. Not collective. */
 PETSC_INTERN SamBody SamEvaluationBody(SamEvaluation e);
 /*
-  SamDepthsAreRelative - whether a depth of the text is a number of half widths, 0.5a. Not collective.
+  SamDepthsAreRelative - true if a depth of the text is a multiple of the half width, as 0.5a. Not collective.
   SamDepthsRead - the depths of -depths, those in half widths of the contact of this one (m).
   SamDepthsSetUp - finds the half width if it is needed, and the sides of interfaces, and checks the depths.
   SamDepthsTake - takes over depths, which `said` names in messages, and the sides of interfaces there, NULL: both.
@@ -172,7 +172,7 @@ PETSC_INTERN PetscErrorCode SamDepthsTake(SamEvaluation e, const char said[], Pe
                                           const int sides[]);
 /* SamDivide - divides a text at a character, in place; returns the number of parts, of which `most` are given. */
 PETSC_INTERN int SamDivide(char text[], char at, char *parts[], int most);
-/* SamReadLength - whether a text is a finite number, in m or with a unit of length behind it. Not collective. */
+/* SamReadLength - reads a length in m, or with a unit behind it; true if it is a finite number. Not collective. */
 PETSC_INTERN PetscBool SamReadLength(const char text[], double *value);
 
 /* ---- largest values (largest.c) ---- */

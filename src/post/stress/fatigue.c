@@ -20,10 +20,10 @@ enum { COARSE = 10, STARTS = 5 };
 #define FIRST_STEP 5.0
 #define LAST_STEP  0.15
 #define ELSEWHERE  20.0
-/* The part of the best value from which on another start is tried. */
+/* Least ratio of a start's value to the best value at which this start is tried */
 #define NEARLY 0.9
 
-/* The part by which a step up must lead up. */
+/* Least relative increase of the parameter by a step of the search */
 #define CLIMB 1e-6
 
 #define DEGREE (PETSC_PI / 180)
@@ -63,7 +63,7 @@ static void FindEnds(PetscInt n, const double x[], PetscInt stride, double *leas
   }
 }
 
-/* The factor of the shear amplitude of a plane with that normal stress. */
+/* Returns the factor of the shear amplitude of a plane with that normal stress. */
 static double Factor(const Cycle *c, double normal)
 {
   const SamFatigueConstants *k = c->constants;
@@ -73,7 +73,7 @@ static double Factor(const Cycle *c, double normal)
   return (1 + (double)k->fatemi_socie_k * normal / (double)k->yield) / G;
 }
 
-/* The parameter of a plane whose shear stress has that amplitude. */
+/* Returns the parameter of a plane whose shear stress has that amplitude. */
 static double Combine(const Cycle *c, double amplitude, double normal)
 {
   const double more = c->kind == FINDLEY ? (double)c->constants->findley_k * normal : 0;
@@ -81,7 +81,10 @@ static double Combine(const Cycle *c, double amplitude, double normal)
   return Factor(c, normal) * amplitude + more;
 }
 
-/* The size that the parameter would have if all of the stress were on one plane: what differences are compared with. */
+/*
+  Returns the size that the parameter would have if all of the stress were on one plane: what differences are compared
+  with.
+*/
 static double Scale(const Cycle *c)
 {
   double least, most, range = 0, size = 0;
@@ -94,7 +97,7 @@ static double Scale(const Cycle *c)
   return Combine(c, 0.5 * range, size);
 }
 
-/* A plane's normal and two directions in it. */
+/* Computes a plane's normal and two directions in it. */
 static void SetFrame(double theta, double phi, double n[3], double u[3], double v[3])
 {
   const double s = sin(theta), c = cos(theta), sp = sin(phi), cp = cos(phi);
@@ -110,7 +113,7 @@ static void SetFrame(double theta, double phi, double n[3], double u[3], double 
   v[2] = 0;
 }
 
-/* The parameter of a plane; anything below `best` stands for less. */
+/* Returns the parameter of a plane; anything below `best` stands for less. */
 static double OnPlane(const Cycle *c, double theta, double phi, double best)
 {
   double n[3], u[3], v[3], least, most, normal, ends[2][2], center[2];
@@ -162,7 +165,7 @@ static void Climb(const Cycle *c, Plane *at)
   }
 }
 
-/* The normal of a plane, or its opposite, so that its z is not negative. */
+/* Gets the normal of a plane, or its opposite, so that its z is not negative. */
 static void GetNormal(const Plane *plane, double normal[3])
 {
   double u[3], v[3];
@@ -201,7 +204,10 @@ static void Offer(Plane starts[STARTS], PetscInt *count, Plane plane)
   starts[place] = plane;
 }
 
-/* The plane across the direction of the largest principal stress of all states: there it is under tension if any is. */
+/*
+  Returns the plane across the direction of the largest principal stress of all states: there it is under tension if any
+  is.
+*/
 static Plane TensilePlane(const Cycle *c)
 {
   double   p[3], s[COMPONENTS], n[3], most = -INFINITY;
@@ -218,7 +224,10 @@ static Plane TensilePlane(const Cycle *c)
   return (Plane){acos(PetscMin(PetscMax(n[2], -1), 1)), atan2(n[1], n[0]), 0};
 }
 
-/* The planes to climb from: the best ones of a search by 10 degrees, and one under tension; returns the best value. */
+/*
+  Finds the planes to climb from: the best ones of a search by 10 degrees, and one under tension; returns the best
+  value.
+*/
 static double FindStarts(const Cycle *c, double margin, Plane starts[STARTS], PetscInt *count)
 {
   Plane  plane = TensilePlane(c);
@@ -252,7 +261,7 @@ static void ComputeStrains(const SamFatigueCycle *c, double strain[])
   SamStressStrain(c->states, c->constants->young, c->constants->poisson, s, e);
 }
 
-/* The parameter of the best plane, and its normal. */
+/* Returns the parameter of the best plane, and its normal. */
 static double LargestOverPlanes(Kind kind, const SamFatigueCycle *of, double normal[3])
 {
   const PetscBool swt   = kind == SWT; /* never negative */
@@ -293,7 +302,7 @@ double SamFatigueFatemiSocie(const SamFatigueCycle *c, double more[])
 
 /* ---- without planes ---- */
 
-/* The deviators' five coordinates in which sqrt(S:S) is the length, and the largest mean stress. */
+/* Computes the deviators' five coordinates in which sqrt(S:S) is the length, and the largest mean stress. */
 static double Deviators(PetscInt states, const double s[], double points[])
 {
   double most = -INFINITY;
@@ -312,7 +321,7 @@ static double Deviators(PetscInt states, const double s[], double points[])
   return most;
 }
 
-/* The largest shear stress of a deviator given by these coordinates. */
+/* Returns the largest shear stress of a deviator given by these coordinates. */
 static double LargestShear(const double p[])
 {
   double s[COMPONENTS], principal[3];

@@ -21,7 +21,7 @@ struct _n_SamStressFile {
   PetscBool       broken; /* a write has failed: no collective call on the file may follow */
 };
 
-/* The first dimension of a dataset: those of all steps together have no time. */
+/* Returns the first dimension of a dataset: those of all steps together have no time. */
 static int FirstAxis(SamStressFile s, PetscInt k)
 {
   return s->layout.dataset[k].of_cycle ? SAM_Z : SAM_TIME;
@@ -29,7 +29,7 @@ static int FirstAxis(SamStressFile s, PetscInt k)
 
 /* ---- creation ---- */
 
-/* The shape of a dataset that has the file's dimensions from `first` on. */
+/* Returns the shape of a dataset that has the file's dimensions from `first` on. */
 static SamShape ShapeOf(SamStressFile s, int first, int rank)
 {
   SamShape shape = {.rank = rank};
@@ -46,7 +46,7 @@ static const char *const own_points[AXES] = {[SAM_Y] = "y of the body's own poin
                                              [SAM_X] = "x of the body's own points, under the cells before it moves"};
 static const char *const axes[AXES]       = {"T", "Z", "Y", "X"};
 
-/* The spacing of coordinates, which VTK needs; 0 where they are unequal. A single one has that of the grid. */
+/* Returns the spacing of coordinates, which VTK needs; 0 where they are unequal. A single one has that of the grid. */
 static double Spacing(SamStressFile s, int d)
 {
   const PetscInt      n = s->layout.n[d];
@@ -111,7 +111,7 @@ static void CreateAll(SamStressFile s, const SamParameters *parameters)
                                        s->layout.coordinate[SAM_TIME]);
 }
 
-/* The size of all datasets, bytes. */
+/* Returns the size of all datasets, bytes. */
 static off_t Bytes(SamStressFile s)
 {
   off_t bytes = 0;
@@ -173,7 +173,7 @@ PetscErrorCode SamStressFileWrite(void *file, PetscInt dataset, const PetscInt s
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* As attributes of the dataset whose largest value it is. */
+/* Writes the largest value of a cycle as attributes of its dataset. */
 static PetscErrorCode WriteLargestOfCycle(SamStressFile s, const SamLargestSeries *of)
 {
   PetscInt k = 0;

@@ -81,7 +81,7 @@ static double RoughBound(const double *const s[SAM_STRESS_COMPONENTS], double mi
   return mean + mises * (2. / 3) * (1 + 1e-12);
 }
 
-/* A bound that is nearly the largest principal stress: by the cubic equation, and its rounding. */
+/* Returns a bound that is nearly the largest principal stress: by the cubic equation, and its rounding. */
 static double FineBound(const double *const s[SAM_STRESS_COMPONENTS], double mises, PetscInt i)
 {
   const double mean = (s[SAM_STRESS_XX][i] + s[SAM_STRESS_YY][i] + s[SAM_STRESS_ZZ][i]) / 3;
@@ -102,7 +102,7 @@ static void KeepPrincipal(SamEvaluation e, SamLargest *largest, const SamPoints 
   KeepAt(e, largest, principal[0], p, i);
 }
 
-/* The largest principal stress of some points: found exactly only where the bounds allow the largest. */
+/* Keeps the largest principal stress of some points: found exactly only where the bounds allow the largest. */
 static void KeepLargestPrincipal(SamEvaluation e, SamLargest *largest, const SamPoints *p,
                                  const double *const s[SAM_STRESS_COMPONENTS], const double mises[], PetscInt begin,
                                  PetscInt end)
@@ -117,7 +117,7 @@ static void KeepLargestPrincipal(SamEvaluation e, SamLargest *largest, const Sam
       KeepPrincipal(e, largest, p, s, i);
 }
 
-/* Largest values of the material of each depth, and at the interface below it. */
+/* Keeps largest values of the material of each depth, and at the interface below it. */
 static void KeepOwn(SamEvaluation e, PetscInt step, const SamPoints *p, const double *const s[SAM_STRESS_COMPONENTS],
                     const double mises[])
 {

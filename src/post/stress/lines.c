@@ -10,7 +10,7 @@ static double Cells(SamEvaluation e)
   return (double)e->grid->nx * (double)e->grid->ny;
 }
 
-/* The steps whose spectra are kept at a time. */
+/* Returns the number of the steps whose spectra are kept at a time. */
 static PetscInt Batch(SamEvaluation e)
 {
   const double room = PetscMax(SPECTRA_LEAST, SPECTRA_BYTES * Cells(e));
@@ -40,7 +40,7 @@ static PetscErrorCode AddStep(SamEvaluation e, SamSection section, PetscInt step
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The stresses of steps first ... first + count - 1. */
+/* Computes the stresses of steps first ... first + count - 1. */
 static PetscErrorCode ComputeSteps(SamEvaluation e, SamSection section, PetscInt first, PetscInt count,
                                    const SamPoints *p, Vec tractions)
 {
@@ -58,7 +58,7 @@ static PetscErrorCode ComputeSteps(SamEvaluation e, SamSection section, PetscInt
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* All steps at some depths from `depth` on; a mean of them is collected in `sum`, which is made here. */
+/* Computes all steps at some depths from `depth` on; a mean of them is collected in `sum`, which is made here. */
 static PetscErrorCode ComputeDepths(SamEvaluation e, PetscInt depth, PetscInt depths, SamPoints *p, double **sum)
 {
   const PetscInt batch = Batch(e), room = e->cycle ? e->source.steps : batch;

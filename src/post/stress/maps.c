@@ -17,7 +17,7 @@ double SamMapsMemory(SamEvaluation e)
   return BYTES * cells + (e->cycle ? CycleBytes(e) * cells * (double)e->source.steps : 0);
 }
 
-/* The stresses of a step at a depth, at the body's own points, or at the grid's. */
+/* Computes the stresses of a step at a depth, at the body's own points, or at the grid's. */
 static PetscErrorCode Apply(SamEvaluation e, PetscInt step, PetscBool own, Vec field)
 {
   const PetscInt cells = e->grid->cells;

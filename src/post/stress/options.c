@@ -126,7 +126,7 @@ static PetscErrorCode ReadConstants(const SamOptions *from, SamEvaluation e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The length over which stresses are averaged; the depths and quantities of other results are not for it. */
+/* Reads the length over which stresses are averaged; the depths and quantities of other results are not for it. */
 static PetscErrorCode TakeLength(const SamOptions *from, SamEvaluation e, const Settings *set)
 {
   PetscBool given[2], some = PETSC_FALSE;

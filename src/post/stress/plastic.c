@@ -1,8 +1,8 @@
 /*
-  Stresses of a body that yields below its surface: those by its plastic strain, the means over its layers, are added to
-  those by the tractions. Between the middles of layers they are interpolated linearly, as smooth strain has an error of
-  second order in the thickness anyway. On the surface zz, xz and yz are zero; the others are extrapolated from the
-  first two layers.
+  Stresses of a body that yields below its surface: the stresses by plastic strain, which are means over the layers, are
+  added to the stresses by tractions. They are interpolated linearly between the middles of layers, as smooth strain has
+  an error of second order in the thickness anyway. At the surface zz, xz and yz are zero; the others are extrapolated
+  from the first two layers.
 */
 #include "evaluationimpl.h"
 #include <petsam/private/grid.h>
@@ -27,7 +27,7 @@ PetscErrorCode SamPlasticSetUp(SamEvaluation e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The weight of the mean over layer l in component c at a depth. */
+/* Returns the weight of the mean over layer l in component c at a depth. */
 static double Weight(SamEvaluation e, PetscReal depth, PetscInt l, PetscInt c)
 {
   const double *const middle = e->source.middle;
@@ -42,7 +42,7 @@ static double Weight(SamEvaluation e, PetscReal depth, PetscInt l, PetscInt c)
   return l == below ? part : l == below - 1 ? 1 - part : 0;
 }
 
-/* The mean of a component over a layer at the points of one depth; on a section all ranks get all of the line. */
+/* Reads the mean of a component over a layer at the points of one depth; on a section all ranks get all of the line. */
 static PetscErrorCode ReadPlane(SamEvaluation e, PetscInt step, PetscInt c, PetscInt l, PetscInt plane, double at[])
 {
   const SamGrid g = e->grid;

@@ -18,13 +18,13 @@ static void Principal(SamEvaluation e, const SamPoints *p, const double *const s
   SamStressPrincipal(p->count, s, values);
 }
 
-/* Half the difference of the first and the third principal stress. */
+/* Computes half the difference of the first and the third principal stress. */
 static void HalfDifference(PetscInt n, double *const values[])
 {
   for (PetscInt i = 0; i < n; i++) values[0][i] = 0.5 * (values[0][i] - values[2][i]);
 }
 
-/* The strains at all points, by the constants of their depths. */
+/* Computes the strains at all points, by the constants of their depths. */
 static void Strain(SamEvaluation e, const SamPoints *p, const double *const s[], double *const values[])
 {
   for (PetscInt k = 0; k < p->depths; k++) {

@@ -162,7 +162,7 @@ PetscErrorCode SamSectionGetDepths(SamSection s, PetscInt *first, PetscInt *coun
 
 /* ---- steps ---- */
 
-/* The lines that have traction on any rank: n is 0 where there are none. */
+/* Finds the lines that have traction on any rank: n is 0 where there are none. */
 static PetscErrorCode FindLines(SamSection s, const double field[], PetscInt *first, PetscInt *n)
 {
   const SamGrid g       = s->grid;
@@ -279,7 +279,10 @@ static PetscErrorCode CreateWork(SamSection s, Work *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The transforms of all kernels at the distance of d lines: real ones, and imaginary parts of those that are odd. */
+/*
+  Computes the transforms of all kernels at the distance of d lines: real ones, and imaginary parts of those that are
+  odd.
+*/
 static void TransformKernels(SamSection s, double depth, PetscInt d, Work *w)
 {
   const double scale = 1 / (double)s->period;
@@ -306,7 +309,7 @@ static void TransformKernels(SamSection s, double depth, PetscInt d, Work *w)
 
 /* ---- products ---- */
 
-/* Sum and difference of two lines, either of which may be NULL for zero, as they are and times i. */
+/* Computes sum and difference of two lines, either of which may be NULL for zero, as they are and times i. */
 SAM_VECTORIZED static void Combine(PetscInt n, const Complex *restrict before, const Complex *restrict after,
                                    double   sign, Complex *restrict plain, Complex *restrict turned)
 {
@@ -332,7 +335,7 @@ SAM_VECTORIZED static void AddThree(PetscInt n, const double *restrict a, const 
   }
 }
 
-/* A line of a step, NULL where it has no traction. */
+/* Returns a line of a step, NULL where it has no traction. */
 static const Complex *Line(SamSection s, const Step *step, PetscInt line, PetscInt traction)
 {
   if (line < step->first || line >= step->first + step->count) return NULL;
@@ -363,7 +366,7 @@ static void AddLines(SamSection s, const Step *step, PetscInt d, Work *w, Comple
   }
 }
 
-/* The largest distance of a line with traction from the section. */
+/* Returns the largest distance of a line with traction from the section. */
 static PetscInt Farthest(SamSection s)
 {
   PetscInt most = -1;

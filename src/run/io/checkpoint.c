@@ -20,7 +20,7 @@ struct _n_SamCheckpoint {
   SamFileLock hold; /* of the temporary file */
 };
 
-/* The checksum of the gap that a contact's problem has now. */
+/* Computes the checksum of the gap that a contact's problem has now. */
 static PetscErrorCode GapChecksum(SamContact contact, uint64_t *checksum)
 {
 
@@ -29,9 +29,9 @@ static PetscErrorCode GapChecksum(SamContact contact, uint64_t *checksum)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- what is in a file: each of these writes it to a file that is written, and else reads it ---- */
+/* ---- contents of a file: each function writes its part if the file is being written, and else reads it ---- */
 
-/* What is stored besides the state. */
+/* Parameters and notes, which are stored besides the state */
 typedef struct {
   const SamParameters *parameters;
   PetscInt             n;
@@ -39,13 +39,13 @@ typedef struct {
   PetscBool            sums; /* reading: whether sums that only the file has are read */
 } Rest;
 
-/* A name in the file, of values that are committed or one step back. */
+/* Writes a name in the file, of values that are committed or one step back. */
 static void NameOf(const char committed[], const char name[], PetscInt generation, char text[96])
 {
   (void)snprintf(text, 96, "%s%s", generation == SAM_BEFORE ? "before_" : committed, name);
 }
 
-/* A field as a dataset (components, ny, nx). */
+/* Writes or reads a field as a dataset (components, ny, nx). */
 static PetscErrorCode MoveField(SamFile f, const char name[], PetscInt components, Vec field)
 {
   const SamLabel label   = {.name = name};
@@ -68,7 +68,7 @@ static PetscErrorCode MoveField(SamFile f, const char name[], PetscInt component
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The kept fields of a state. */
+/* Writes or reads the kept fields of a state. */
 static PetscErrorCode MoveFields(SamFile f, SamState state)
 {
   char name[96];
@@ -89,14 +89,14 @@ static PetscErrorCode MoveFields(SamFile f, SamState state)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What the contact remembers and the file lacks cannot begin in the middle; the message names it. */
+/* Writes a message that names a memory of the contact that the file lacks: it cannot begin after the start. */
 static void NameLacking(const char name[], char message[], size_t size)
 {
   (void)snprintf(message, size, "it lacks %s, which has not been remembered since the start: omit it, or begin anew",
                  name);
 }
 
-/* The kept numbers of a state; those that may be lacking are in the file where they are not as usual. */
+/* Writes or reads the kept numbers of a state; optional ones are in the file only if they differ from the usual. */
 static void MoveNumbers(SamFile f, SamState state, char message[], size_t size)
 {
   for (PetscInt k = 0; k < SamStateCountNumbers(state); k++) {
@@ -145,7 +145,7 @@ static PetscErrorCode MoveNotes(SamFile f, PetscInt n, const SamNote notes[])
 
 /* ---- writing ---- */
 
-/* The fields that a state keeps, by their names with commas between them. */
+/* Lists the fields that a state keeps, by their names with commas between them. */
 static void ListFields(SamState state, char list[], size_t size)
 {
   list[0] = '\0';
@@ -157,7 +157,7 @@ static void ListFields(SamState state, char list[], size_t size)
   }
 }
 
-/* The conditions that are not as usual, likewise. */
+/* Lists the conditions that are not as usual, likewise. */
 static void ListConditions(SamState state, char list[], size_t size)
 {
   list[0] = '\0';
@@ -232,7 +232,7 @@ static PetscErrorCode WriteFile(SamCheckpoint cp, SamContact contact, const Rest
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Refuses names at which other programs have put files meanwhile. */
+/* Checks that no other program has created files of these names in the meantime. */
 static PetscErrorCode CheckNames(SamCheckpoint cp)
 {
   PetscFunctionBegin;
@@ -315,7 +315,7 @@ PetscErrorCode SamCheckpointNames(const char filename[], char **before, char **t
 
 /* ---- reading ---- */
 
-/* What is read besides the notes. The caller destroys it, also after an error. */
+/* Contents of a checkpoint besides the notes. The caller destroys them, also after an error. */
 typedef struct {
   SamState     state;
   SamStepCache cache;
@@ -330,7 +330,7 @@ static PetscErrorCode DestroyContent(Content *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether a law of this name only accumulates its field, which it then declares; `state` NULL: it does not. */
+/* Finds out whether a law of this name only accumulates its field; if so, declares it in `state` (NULL: does not). */
 static PetscErrorCode DeclareSum(SamContact contact, const char name[], SamState state, PetscBool *is)
 {
   SamLaw law;
@@ -346,8 +346,8 @@ static PetscErrorCode DeclareSum(SamContact contact, const char name[], SamState
 }
 
 /*
-  A state with the declarations of the contact's, and, if asked for, of sums that only the file has. The message names
-  another field that only one of them has.
+  Creates a state with the declarations of the contact's state, and, if `sums`, of sums that only the file has. The
+  message names another field that only one of them has.
 */
 static PetscErrorCode CreateState(SamContact contact, const char list[], PetscBool sums, SamState *state,
                                   char message[], size_t size)
@@ -378,7 +378,7 @@ static PetscErrorCode CreateState(SamContact contact, const char list[], PetscBo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The message names a condition of the file that the contact lacks. */
+/* Checks that the contact has all conditions of the file; the message names one that it lacks. */
 static PetscErrorCode CheckConditions(SamState state, const char list[], char message[], size_t size)
 {
   char **names;
@@ -458,7 +458,7 @@ static PetscErrorCode ReadFile(SamContact contact, const char filename[], const 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Advice for a checkpoint that cannot be read: names the one before it, if that can be read. */
+/* Writes advice for a checkpoint that cannot be read: names the one before it, if that can be read. */
 static PetscErrorCode Advise(SamContact contact, const char filename[], const Rest *rest, char advice[], size_t size)
 {
   Content c;

@@ -13,7 +13,7 @@
 static const SamLabel point_label      = {"point", "1", "point of an edge"},
                       coordinate_label = {"coordinate", "1", "x and y of a point"};
 
-/* A scale without values. */
+/* Creates a scale without values. */
 static hid_t CreateScale(SamOutput o, const SamLabel *label, const SamShape *shape)
 {
   const hid_t scale = SamFileCreateDataset(o->f, o->f->id, label, H5T_STD_I8LE, shape, 0);
@@ -35,7 +35,7 @@ void SamOutputCreatePointScales(SamOutput o)
       SamFileAttachScales(o->f, o->fields[f], 3, scales);
 }
 
-/* Places beyond a step's last point are NaN. */
+/* Creates the dataset of edge points; places beyond a step's last point are NaN. */
 hid_t SamOutputCreatePoints(SamOutput o, const SamLabel *label)
 {
   const double   nothing = NAN;
@@ -62,7 +62,7 @@ PetscErrorCode SamOutputGatherPoints(SamOutput o, const SamEdge *edge)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The block of the first `count` points of a step; only rank 0 transfers any. */
+/* Returns the block of the first `count` points of a step; only rank 0 transfers any. */
 static SamBlock BlockOf(SamOutput o, hsize_t step, hsize_t count)
 {
   return (SamBlock){3, {step, 0, 0}, {1, o->f->rank ? 0 : count, 2}};

@@ -1,4 +1,4 @@
-/* What results and checkpoints share: the tables of what they hold, and how a results file is laid out. */
+/* Declarations shared by results and checkpoints: the tables of their contents, and the layout of a results file. */
 #ifndef PETSAM_IOIMPL_H
 #define PETSAM_IOIMPL_H
 

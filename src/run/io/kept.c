@@ -17,7 +17,7 @@
 
 typedef struct {
   hid_t   ranges, changes, pressures;
-  hsize_t changed, pressed; /* where the next batch begins in the latter */
+  hsize_t changed, pressed; /* start of the next batch in the changes, and in the pressures */
 } Places;
 
 /* ---- the table ---- */
@@ -108,7 +108,7 @@ static void Move(SamFile f, hid_t dataset, hid_t type, const SamBlock *block, vo
     SamFileReadBlock(f, dataset, type, block, values);
 }
 
-/* Copies between a place in a buffer, which moves on, and values. */
+/* Copies between values and a position in a buffer, which advances; reading or writing, as the file. */
 static void Pass(SamFile f, char **buffer, void *values, size_t bytes)
 {
   memcpy(f->writing ? (void *)*buffer : values, f->writing ? values : (void *)*buffer, bytes);

@@ -28,7 +28,7 @@ static const SamShape matrices = {3,
                                   {CHUNK_MATRICES, SAM_COMPONENTS, SAM_COMPONENTS},
                                   NULL};
 
-/* The coordinates of the cell centres along x (0) or y (1), in the root group or another one. */
+/* Creates the coordinates of the cell centres along x (0) or y (1), in the root group or another one. */
 static PetscErrorCode CreateAxis(SamOutput o, hid_t where, const SamLabel *label, PetscInt direction, hid_t *scale)
 {
   const PetscInt n     = direction ? o->grid->ny : o->grid->nx;
@@ -55,7 +55,7 @@ static hsize_t ChunkSize(hsize_t n, hsize_t most)
   return (n + chunks - 1) / chunks;
 }
 
-/* Chunks are one step deep. */
+/* Returns the shape of a field's dataset; each chunk holds one step. */
 static SamShape FieldShape(SamGrid grid, const SamOutputSettings *set)
 {
   const hsize_t ny = (hsize_t)grid->ny, nx = (hsize_t)grid->nx;
@@ -67,7 +67,7 @@ static SamShape FieldShape(SamGrid grid, const SamOutputSettings *set)
                     NULL};
 }
 
-/* The same of so many layers, each with chunks of its own. */
+/* Returns the shape of a dataset of so many layers, each with chunks of its own. */
 static SamShape LayersShape(SamGrid grid, const SamOutputSettings *set, PetscInt layers)
 {
   const SamShape plane = FieldShape(grid, set);
@@ -84,7 +84,7 @@ static hid_t StoredType(const SamStateResult *field, PetscBool single)
   return field->kind == SAM_FIELD_STATE ? H5T_STD_I8LE : single ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
 }
 
-/* The planes of cells of a step that a field has. */
+/* Returns the number of the planes of cells of a step that a field has. */
 static hsize_t PlanesOf(SamOutput o, PetscInt f)
 {
   return SamOutputResult(o, f)->kind == SAM_FIELD_LAYERS
@@ -153,8 +153,8 @@ static void Mark(SamOutput o, hid_t x)
 }
 
 /*
-  A field of layers, in its group, which is made with the first one and has coordinates of its own: all fields of layers
-  share the layers.
+  Creates a field of layers, in its group, which is made with the first one and has coordinates of its own: all fields
+  of layers share the layers.
 */
 static PetscErrorCode CreateLayers(SamOutput o, PetscInt f, hid_t scales[4])
 {
@@ -216,7 +216,7 @@ static PetscErrorCode CreateFields(SamOutput o)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The rows or columns of matrices: the six loads, or the six rigid displacements, by name. */
+/* Creates the rows or columns of matrices: the six loads, or the six rigid displacements, by name. */
 static hid_t CreateComponents(SamOutput o, PetscBool loads)
 {
   static const SamLabel load             = {"load_component", "1", "component of the load"},
@@ -291,7 +291,7 @@ static void CreateSeries(SamOutput o, SamSeries kind)
 static void CreateVTK(SamOutput o)
 {
   const SamGrid g       = o->grid;
-  const double  sides[] = {g->dx, g->dy}, dy = sides[g->axes - 1]; /* a row of squares, not of sticks of 1 m */
+  const double  sides[] = {g->dx, g->dy}, dy = sides[g->axes - 1]; /* plane strain: square cells, not 1 m wide */
   SamImage      image = {.cells   = PETSC_TRUE,
                          .n       = {(hsize_t)g->nx, (hsize_t)g->ny, 0},
                          .origin  = {SamGridX(g, 0) - 0.5 * g->dx, SamGridY(g, 0) - 0.5 * dy, 0},

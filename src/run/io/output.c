@@ -17,7 +17,7 @@
   "pressure_center,shear_center_x,shear_center_y,contact_edge,stick_edge," SAM_LAW_ACCUMULATED_SLIP \
   "," SAM_LAW_FRICTION_ENERGY ",plastic,usual"
 
-/* -output_fields: names between commas, and blanks. */
+/* Reads -output_fields: names separated by commas and blanks. */
 static PetscErrorCode ReadFieldNames(SamOutputSettings *set, const SamOptions *from)
 {
   static const SamOptionRow row        = {"output_fields", "fields to be saved by their names, all, usual, or none",
@@ -57,7 +57,7 @@ PetscErrorCode SamOutputSettingsSetFromOptions(SamOutputSettings *set, const Sam
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether a word of -output_fields is a field's name, or that of the group in it. */
+/* True if a word of -output_fields is a field's name, or the name of its group. */
 static PetscBool Means(const char word[], const char name[])
 {
   const size_t group = strcspn(name, "/");
@@ -72,7 +72,7 @@ static PetscBool Names(const SamOutputSettings *set, const char name[])
   return PETSC_FALSE;
 }
 
-/* Whether a word of -output_fields means anything. */
+/* True if a word of -output_fields selects any field. */
 static PetscBool Knows(SamState state, const char word[])
 {
   if (!strcmp(word, "all") || !strcmp(word, "usual")) return PETSC_TRUE;
@@ -95,7 +95,7 @@ PetscErrorCode SamOutputSettingsAddLaws(SamOutputSettings *set, SamProblem probl
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The names that there are, also of sums (`sum`) that begin where they are named, with commas between them. */
+/* Lists the names that there are, also of sums (`sum`) that begin where they are named, with commas between them. */
 static void ListFields(SamState state, PetscBool sum, char names[], size_t size)
 {
   static const char *const sums[] = {SAM_LAW_ACCUMULATED_SLIP, SAM_LAW_FRICTION_ENERGY};
@@ -134,7 +134,7 @@ PetscErrorCode SamOutputSettingsPrepare(SamOutputSettings *set, SamContact conta
 
 /* ---- the file ---- */
 
-/* Which of the state's results are saved. */
+/* Chooses the results of the state that are saved. */
 static void Choose(SamOutput o)
 {
   const PetscBool all = Names(&o->set, "all"), usual = o->set.count < 0 || Names(&o->set, "usual");
@@ -193,7 +193,7 @@ PetscErrorCode SamOutputFree(SamOutput *output)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Written last: a file that is not marked as closed was left by a run that did not get to its end. */
+/* Marks the file as closed, last of all: a file without the mark was left by a run that did not reach its end. */
 static void MarkClosed(SamOutput o)
 {
   const int8_t closed = 1;
@@ -223,7 +223,7 @@ static PetscErrorCode Close(SamOutput *output)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A number that no other file has. */
+/* Makes a number that no other file has. */
 static PetscErrorCode MakeIdentity(SamOutput o)
 {
   struct timespec now;
@@ -382,7 +382,7 @@ PetscErrorCode SamOutputCheckPart(SamGrid grid, const char filename[], uint64_t 
 
 /* ---- attributes ---- */
 
-/* After attributes have been written. */
+/* Ends writing to the file, after its attributes have been written. */
 static PetscErrorCode End(SamOutput o)
 {
   PetscFunctionBegin;

@@ -20,7 +20,7 @@ static const char *const residuals[SAM_STRESS_COMPONENTS] = {
 
 #define LAYERS_Z "/plastic/z"
 
-/* What the file says of its run. */
+/* Description of the run in its results file */
 typedef struct {
   double        n[2], width[2], center[2];
   char          options[4096]; /* empty if they are longer */
@@ -67,7 +67,7 @@ struct _n_SamResults {
     PetscCheck(is, (f)->comm, SAM_ERR_FILE, SAM_CANNOT_READ, (f)->option, (f)->filename, fault); \
   } while (0)
 
-/* A root attribute of one or two numbers. */
+/* Reads a root attribute of one or two numbers. */
 static PetscErrorCode GetNumbers(SamFile f, const char name[], PetscInt count, double values[])
 {
   PetscFunctionBegin;
@@ -76,15 +76,15 @@ static PetscErrorCode GetNumbers(SamFile f, const char name[], PetscInt count, d
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A root attribute that is a text shorter than `size`; empty if it is not there. */
+/* Reads a root attribute that is a text shorter than `size`; empty if it is not there. */
 static void GetText(SamFile f, const char name[], size_t size, char text[])
 {
   if (!SamTextRead(f->id, name, text, size) || strlen(text) + 1 == size) text[0] = '\0';
 }
 
 /*
-  The root attributes that parameters are stored as: numbers, not too many, and short texts. A constant of a body that
-  is none of these has the count -1, so that it is not taken for missing.
+  Reads the root attributes that may be parameters: few numbers, or a short text. A constant of a body that is stored
+  otherwise gets the count -1, so that it does not count as missing.
 */
 static void GetParameters(SamFile f, SamParameters *all)
 {
@@ -155,7 +155,7 @@ static PetscErrorCode ExamineFields(SamFile f, Facts *facts)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The layers of a body that yields, by the parameters of the run. */
+/* Returns the number of the layers of a body that yields, by the parameters of the run. */
 static PetscInt LayersOf(const SamParameters *parameters, PetscInt body)
 {
   const SamParameter *yield  = SamParametersFind(parameters, body == 1 ? "body1_yield" : "body2_yield");
@@ -164,7 +164,7 @@ static PetscInt LayersOf(const SamParameters *parameters, PetscInt body)
   return yield && layers && yield->count == 1 && isfinite(yield->value[0]) ? (PetscInt)layers->value[0] : 0;
 }
 
-/* The stresses by plastic strain, unless the first of their components is missing. */
+/* Examines the stresses by plastic strain, unless the first of their components is missing. */
 static PetscErrorCode ExamineLayers(SamFile f, Facts *facts)
 {
   const PetscInt layers = LayersOf(&facts->parameters, 1) + LayersOf(&facts->parameters, 2);
@@ -191,7 +191,7 @@ static PetscErrorCode ExamineLayers(SamFile f, Facts *facts)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* An optional column of the history: whether it is there. */
+/* Finds out whether an optional column of the history is there. */
 static PetscErrorCode ExamineColumn(SamFile f, const Facts *facts, const char column[], int *has)
 {
   hsize_t shape[1];
@@ -499,7 +499,7 @@ PetscErrorCode SamResultsReadLayer(SamResults r, PetscInt k, PetscInt component,
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The part that a step, from 1, is in. */
+/* Returns the part that a step, from 1, is in. */
 static const Part *PartOf(SamResults r, PetscInt step)
 {
   PetscInt k = 0;
@@ -508,7 +508,7 @@ static const Part *PartOf(SamResults r, PetscInt step)
   return r->part[k];
 }
 
-/* A value of a column of the history, at a step from 1. */
+/* Reads a value of a column of the history, at a step from 1. */
 static PetscErrorCode ReadNumber(const Part *part, const char column[], PetscInt step, double *value)
 {
   char name[64];

@@ -87,7 +87,7 @@ static void Append(SamOutput o, hid_t dataset, hid_t type, hsize_t index, hsize_
   SamFileWriteBlock(o->f, dataset, type, &block, numbers);
 }
 
-/* The values of a column in `count` rows of the state's numbers: real numbers, or integers of 64 bits. */
+/* Gathers the values of a column in `count` rows of the state's numbers: real numbers, or integers of 64 bits. */
 static void GatherColumn(const SamStateNumber *number, PetscInt id, const double *rows, PetscInt values, PetscInt count,
                          double column[])
 {
@@ -186,7 +186,7 @@ static PetscErrorCode GetValues(SamOutput o, PetscInt f, ContactFields *from, co
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A field of layers: each rank writes its rows of all of them. */
+/* Appends a field of layers: each rank writes its rows of all layers. */
 static PetscErrorCode AppendLayers(SamOutput o, PetscInt f)
 {
   const SamGrid         g      = o->grid;
@@ -252,8 +252,8 @@ static PetscErrorCode AppendFields(SamOutput o)
 /* ---- writing ---- */
 
 /*
-  Before anything is written: raises an error if the file is not as it was left, and reserves disk space. What waits is
-  given up then: there is no file for it.
+  Prepares writing: raises an error if the file is not as it was left, and reserves disk space. After an error waiting
+  rows are given up: there is no file for them.
 */
 static PetscErrorCode Begin(SamOutput o, off_t bytes)
 {
@@ -293,7 +293,7 @@ static PetscErrorCode End(SamOutput o)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether no more may wait, by rank 0's clock. */
+/* Finds out whether waiting rows must be written now; rank 0's clock decides. */
 static PetscErrorCode IsDue(SamOutput o, PetscBool *due)
 {
   int late = o->waits == SAM_OUTPUT_WAIT;

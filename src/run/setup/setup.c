@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-/* The elasticity and the laws on the grid. */
+/* Creates the elasticity and the laws on the grid. */
 static PetscErrorCode CreateProblem(SamSetup *s, const SamOptions *from)
 {
   PetscFunctionBegin;
@@ -108,7 +108,7 @@ static PetscErrorCode AddGrid(SamParameters *p, SamGrid grid)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What comes from a file is identified by its checksum, since a file may change and keep its name. */
+/* Adds the gap to the parameters; heights from a file by their checksum, since a file may change and keep its name. */
 static PetscErrorCode AddGap(const SamSetup *s, SamParameters *p)
 {
   static const char *const files[] = {"gap_file", "gap_rough_file"};

@@ -93,7 +93,7 @@ PetscErrorCode SamSimulationBeginCheckpoints(SamSimulation s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether the next step and a checkpoint after it would not end in time. */
+/* True if the time left is too short for the next step and a checkpoint after it. */
 static PetscBool TimeIsUp(const SamCheckpoints *cp, double now)
 {
   double slowest = 0;
@@ -109,7 +109,7 @@ static PetscBool TimeIsUp(const SamCheckpoints *cp, double now)
 #define RESULTS (sizeof(((SamSimulationPoint *)NULL)->results) / sizeof(uint64_t)) /* a file's name, as its bytes */
 #define NOTES   4                                                                  /* besides those of conditions */
 
-/* What a checkpoint notes besides the state of the contact. */
+/* Progress of the simulation, which a checkpoint stores besides the state of the contact */
 typedef union {
   struct {
     uint64_t steps, worst, rows;
@@ -202,7 +202,7 @@ static PetscErrorCode Write(SamSimulation s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Up to the checkpoint the load history must be that of the run that wrote it, whose checksums are `there`. */
+/* Checks that the load history up to the checkpoint equals that of the run that wrote it, by the checksums `there`. */
 static PetscErrorCode CompareLoads(SamSimulation s, const Notes *there)
 {
   const char *const file   = s->checkpoints.restart;
@@ -281,7 +281,7 @@ PetscErrorCode SamSimulationDescribePlace(SamSimulation s, PetscBool total, char
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What any rank asks for: a checkpoint, a checkpoint and the end; and whether no time is left. */
+/* Collects the requests of all ranks: a checkpoint, a checkpoint and the end; and the end for lack of time. */
 static PetscErrorCode Ask(SamSimulation s, double now, double any[3])
 {
   PetscFunctionBegin;

@@ -8,9 +8,9 @@
 #include "simulationimpl.h"
 #include <math.h>
 
-#define LEAST 4 /* cells in a row, of which half are a grid */
+#define LEAST 4 /* fewest cells in a row of which half still make a grid */
 
-/* The history, or the life, on half the cells. */
+/* Run of the history, or the life, on half the cells along each axis */
 typedef struct {
   SamSetup setup;
   double   sums[SAM_STATE_NUMBERS]; /* numbers joined over all steps */

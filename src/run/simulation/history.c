@@ -31,7 +31,7 @@ PetscErrorCode SamHistoryClaimOption(void)
   return code ? code : PetscOptionsSetAlias(NULL, "-history", "-load_history");
 }
 
-/* What reading needs: whose options, and the file. */
+/* Input of the reading functions: options, arguments and the file's name */
 typedef struct {
   const SamOptions   *from;
   const SamArguments *arguments;
@@ -39,14 +39,14 @@ typedef struct {
 } Reader;
 
 /*
-  A value that has a column too: refused if it is given for this run. One that is only in an options file does not
-  count, and that is said: such files are shared by several runs.
+  Rejects a value that has a column, too, if it is given for this run. A value that is only in an options file is
+  ignored with a warning: such files are shared by several runs.
 */
 static PetscErrorCode Override(const Reader *r, const char name[], const char column[], PetscBool *set)
 {
   const char *prefix = SamOptionsPrefix(r->from);
   char        option[96];
-  int         shared; /* whether it stands only in a file, which several runs may share */
+  int         shared; /* true if it is only in an options file, which several runs may share */
   PetscMPIInt rank;
 
   PetscFunctionBegin;
@@ -165,7 +165,7 @@ static PetscErrorCode ReadCondition(SamHistory h, const Reader *r, PetscInt k)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether part k of the control may not be negative. */
+/* True if part k of the control may not be negative. */
 static PetscBool IsNonnegative(SamHistory h, PetscInt k)
 {
   if (k >= SAM_COMPONENTS) return SamConditionsGet(h->conditions, k - SAM_COMPONENTS)->range == SAM_RANGE_NONNEGATIVE;
@@ -254,7 +254,7 @@ PetscBool SamHistoryGives(SamHistory h, const SamCondition *condition)
   return PETSC_FALSE;
 }
 
-/* Row r of a column. Below, row -1 stands for the start, before the first row. */
+/* Returns row r of a column. In the functions below, row -1 stands for the start, before the first row. */
 static double Entry(SamHistory h, PetscInt column, PetscInt r)
 {
   return h->table.value[r * h->table.columns + column];
@@ -295,7 +295,7 @@ static PetscErrorCode CheckChanges(SamHistory h, MPI_Comm comm, const char file[
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Part k of the control (SamControlPart()), which has a column, or is constant. */
+/* Returns part k of the control (SamControlPart()) in row r: from its column, or constant. */
 static double ValueOfRow(SamHistory h, PetscInt k, PetscInt r)
 {
   const SamCondition *condition = k < SAM_COMPONENTS ? NULL : SamConditionsGet(h->conditions, k - SAM_COMPONENTS);
@@ -306,7 +306,7 @@ static double ValueOfRow(SamHistory h, PetscInt k, PetscInt r)
                            : (double)SamControlPart(&h->constant, h->conditions, k);
 }
 
-/* Whether nothing is prescribed in the first row that differs from the start. */
+/* True if the first row prescribes the same values as the start. */
 static PetscBool IsAtRest(SamHistory h)
 {
   for (PetscInt k = 0; k < h->parts; k++)
@@ -349,7 +349,7 @@ static PetscErrorCode Create(SamConditions conditions, SamHistory *history)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Divides the change of each row, and checks the table. */
+/* Sets the number of load steps per row, and checks the table. */
 static PetscErrorCode SetIncrements(SamHistory h, PetscInt increments, MPI_Comm comm, const char file[])
 {
   PetscFunctionBegin;

@@ -1,4 +1,4 @@
-/* What a simulation reads: contact, load program or life, files; and what of it does not go together. */
+/* Reads the options of a simulation (contact, load history or life, files), and rejects incompatible ones. */
 #include "simulationimpl.h"
 #include <petsam/private/arguments.h>
 #include <petsam/private/lawimpl.h>
@@ -40,7 +40,7 @@ static PetscErrorCode CheckComponents(SamSimulation s, const SamOptions *from)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Refuses laws that do not go with the rest. */
+/* Rejects laws that are incompatible with the other options. */
 static PetscErrorCode CheckLaws(SamSimulation s, const SamOptions *from)
 {
   const SamLaw *laws;
@@ -105,7 +105,7 @@ static PetscErrorCode ReadResults(SamSimulation s, const SamOptions *from)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Bodies, gap, friction; and files. */
+/* Reads the options of the contact (bodies, gap, friction), and the files. */
 static PetscErrorCode ReadContact(SamSimulation s, const SamOptions *from)
 {
 

@@ -20,14 +20,14 @@
 #include <petsam/balance.h>
 #include <petsam/private/state.h>
 
-/* The part of the tolerance that estimates may use; they are up to three times too small. */
+/* Largest estimate relative to the tolerance; estimates are up to three times too small. */
 #define SAFETY 0.3
 /* Twice the length has four times the error, relative to its energy; with some reserve. */
 #define DOUBLE 0.2
 #define LEAST  (1.0 / 1024)
 /* The longest piece: in a longer one, cells may slide and stick again, which its end, and so the estimate, misses. */
 #define MOST (1.0 / 4)
-/* The part of the average energy so far from which on a piece counts by its own. */
+/* Least energy to which a piece's error is related, relative to the average energy so far */
 #define LITTLE 0.2
 
 PetscErrorCode SamSimulationReadPieces(SamSimulation s, const SamOptions *from)
@@ -40,7 +40,7 @@ PetscErrorCode SamSimulationReadPieces(SamSimulation s, const SamOptions *from)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What the state remembers of all pieces: their energy (J), their length in steps; named like the option. */
+/* Sums over all pieces in the state: their energy (J), and their length in steps; named like the option */
 static const SamStateNumber so_far = {"step_rtol", "J",           NULL, SAM_NUMBER_REAL, 2, PETSC_TRUE,
                                       PETSC_FALSE, SAM_JOIN_LAST, 0};
 
@@ -82,7 +82,7 @@ static SamControl ControlAt(SamSimulation s, PetscInt k, PetscBool apart, PetscR
   return control;
 }
 
-/* Whether the tried piece, of this length, is good enough; and whether twice its length is likely to be. */
+/* Finds out whether the tried piece, of this length, is accurate enough, and whether one of twice its length may be. */
 static PetscErrorCode Judge(SamSimulation s, double length, PetscBool *enough, PetscBool *longer)
 {
   PetscReal energy, error, limit;

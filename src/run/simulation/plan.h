@@ -1,4 +1,4 @@
-/* What a run is asked to wear: laws, and the cycles of a life. */
+/* Wear options of a run: the laws, and the cycles of a life. */
 #ifndef PETSAM_PLAN_H
 #define PETSAM_PLAN_H
 
@@ -43,9 +43,9 @@ PETSC_INTERN PetscErrorCode SamLifeOptionsCheckCycle(const SamLifeOptions *plan,
 PETSC_INTERN PetscReal SamLifeOptionsNextStop(const SamLifeOptions *plan, PetscReal cycles);
 /* SamLifeOptionsCountOutputs - the number of cycles whose fields are asked for. Not collective. */
 PETSC_INTERN PetscInt SamLifeOptionsCountOutputs(const SamLifeOptions *plan);
-/* SamLifeOptionsIsOutput - whether the fields of the cycle after so many are asked for. Not collective. */
+/* SamLifeOptionsIsOutput - true if the fields after this number of cycles are asked for. Not collective. */
 PETSC_INTERN PetscBool SamLifeOptionsIsOutput(const SamLifeOptions *plan, PetscReal cycles);
-/* SamLifeOptionsFriction - the friction after so many cycles over that at the start. Not collective. */
+/* SamLifeOptionsFriction - returns the ratio of the friction after `cycles` to that at the start. Not collective. */
 PETSC_INTERN PetscReal SamLifeOptionsFriction(const SamLifeOptions *plan, PetscReal cycles);
 
 #endif

@@ -22,7 +22,7 @@ static PetscErrorCode Create(SamSimulation s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A file of the steps after the checkpoint, which follow those of the file of that identity; 0: none. */
+/* Creates a file of the steps after the checkpoint, which follows the file of that identity; 0: follows none. */
 static PetscErrorCode Follow(SamSimulation s, uint64_t identity)
 {
   SamSimulationPoint *p = &s->point;
@@ -33,7 +33,7 @@ static PetscErrorCode Follow(SamSimulation s, uint64_t identity)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The next part of the results of the stopped simulation. */
+/* Creates the next part of the results of the stopped simulation. */
 static PetscErrorCode Continue(SamSimulation s)
 {
   SamSimulationPoint *p        = &s->point;
@@ -56,7 +56,7 @@ static PetscErrorCode Continue(SamSimulation s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A file with results of its own. It says what they follow. */
+/* Creates a file with separate results, which names the results that they follow. */
 static PetscErrorCode Branch(SamSimulation s)
 {
   SamSimulationPoint *p = &s->point;
@@ -114,7 +114,7 @@ PetscBool SamSimulationSaves(SamSimulation s, PetscInt step, PetscInt last)
                                       ((step - start) / increments + first) % s->output_every == 0));
 }
 
-/* Steps first + 1 ... last whose fields are saved. */
+/* Counts the steps first + 1 ... last whose fields are saved. */
 static PetscInt CountSaved(SamSimulation s, PetscInt first, PetscInt last)
 {
   PetscInt count = 0;
@@ -123,7 +123,7 @@ static PetscInt CountSaved(SamSimulation s, PetscInt first, PetscInt last)
   return count;
 }
 
-/* The size of the file. In a life the cycles that will be computed count not. */
+/* Estimates the size of the file. In a life, cycles that are still to be computed are not counted. */
 static PetscErrorCode Estimate(SamSimulation s, double *bytes)
 {
   const PetscInt last = s->needs.steps, done = s->point.steps;

@@ -38,7 +38,7 @@ PetscErrorCode SamSimulationSetSignals(SamSimulation s, volatile sig_atomic_t si
 
 /* ---- advice ---- */
 
-/* Before the first step: the loads of the steps from `first` on. */
+/* Passes the loads of the steps from `first` on to the advice, before the first step. */
 static PetscErrorCode BeginAdvice(SamSimulation s, PetscInt first)
 {
   PetscFunctionBegin;
@@ -108,7 +108,7 @@ static PetscErrorCode CheckSteps(SamSimulation s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What follows from contact and load program together. */
+/* Prepares all objects that depend on both the contact and the load history. */
 static PetscErrorCode Prepare(SamSimulation s, const SamOptions *from)
 {
   PetscFunctionBegin;
@@ -132,8 +132,8 @@ PetscErrorCode SamSimulationSetUp(SamSimulation s, const SamOptions *from)
 /* ---- results ---- */
 
 /*
-  A step's time (s), roughly: by that of products, which take half of it, on the half of the grid where contact is. With
-  friction most steps take 15 products for the shear, and 12 for the pressure without.
+  Estimates a step's time (s) roughly from the time of operator applications, which are half of it, with contact on half
+  of the grid. Most steps with friction take 15 of them for the shear, those without 12 for the pressure.
 */
 static PetscErrorCode GuessTime(SamSimulation s, double *seconds)
 {

@@ -1,4 +1,4 @@
-/* What the files of a simulation share. */
+/* Declarations shared by the files of a simulation. */
 #ifndef PETSAM_SIMULATIONIMPL_H
 #define PETSAM_SIMULATIONIMPL_H
 
@@ -10,11 +10,11 @@
 typedef struct {
   PetscInt  steps;                       /* number of steps solved so far, of computed cycles in a life */
   PetscInt  rows;                        /* number of computed cycles that were written */
-  PetscInt  part;                        /* of the results, from 1; 0: none yet */
-  uint64_t  identity;                    /* of its file */
+  PetscInt  part;                        /* number of the part of the results, from 1; 0: none yet */
+  uint64_t  identity;                    /* identity of that part's file */
   SamStatus worst;                       /* worst status of the steps */
   char      results[PETSC_MAX_PATH_LEN]; /* the file, as it was named; empty: none */
-  PetscBool restarted;                   /* continues from a checkpoint */
+  PetscBool restarted;                   /* true if the run continues from a checkpoint */
 } SamSimulationPoint;
 
 /* When checkpoints are written: every so many steps, when a signal asks for one, and before a time limit. */
@@ -33,7 +33,7 @@ typedef struct {
   double        recent[SAM_RECENT]; /* seconds of the last steps */
   double        writing;            /* seconds that the slowest checkpoint took */
   PetscInt      done, last;         /* number of steps in this run; step of the last checkpoint */
-  PetscInt      seen;               /* steps when a checkpoint was last considered */
+  PetscInt      seen;               /* number of steps when a checkpoint was last considered */
 } SamCheckpoints;
 
 struct _n_SamSimulation {
@@ -56,7 +56,7 @@ struct _n_SamSimulation {
   PetscReal              step_rtol; /* relative error of a step's dissipated energy, by its estimate; 0: any */
   PetscBool              prepared;
   PetscBool              running; /* the history or the life; else steps are given one by one */
-  PetscBool              has_gap; /* another one than that of the options */
+  PetscBool              has_gap; /* the gap is not that of the options */
   PetscBool              stopped; /* before its end, with a checkpoint */
   PetscInt               output_every;
   PetscBool              output_rows; /* it counts the rows of the load history */
@@ -71,7 +71,7 @@ struct _n_SamSimulation {
   char                   filename[PETSC_MAX_PATH_LEN];
   char                  *written; /* name of the part of the results that is written; NULL: none */
   SamAdvice              advice;
-  SamAdvice              single, tried; /* of the steps given one by one and committed, and with the tried one */
+  SamAdvice              single, tried; /* advice on steps given one by one: committed ones; with the tried one */
   PetscInt               earlier;       /* 1: the state that these steps go on from has a step already */
   PetscBool              advised;       /* the tried step has been looked at */
   double                 sums[SAM_STATE_NUMBERS]; /* numbers joined over all steps, for the check of the grid */
@@ -86,7 +86,7 @@ PETSC_INTERN PetscErrorCode SamSimulationWarn(void *simulation, const char text[
 /*
   SamSimulationOpenResults - opens the results. After a restart they are the next part of those that are there; a new
   name begins a file with the steps from there on. Collective. Errors: SAM_ERR_FILE, SAM_ERR_USER.
-  SamSimulationSaves - whether the fields of a step, from 1 to last, are saved. Not collective.
+  SamSimulationSaves - true if the fields of a step, from 1 to last, are saved. Not collective.
   SamSimulationForecast - how large the results will be, in words; warns where the disk has not that much space.
   Collective.
 */
@@ -153,8 +153,8 @@ PETSC_INTERN PetscErrorCode SamSimulationAdviseEdge(SamSimulation simulation, co
 PETSC_INTERN PetscErrorCode SamSimulationExamine(SamSimulation simulation, PetscInt k, PetscBool of_laws,
                                                  const SamStep *step);
 /*
-  The check of the grid (gridcheck.c). ReadGridCheck reads -grid_check; CheckGrid, after the last step, solves all of
-  them on half the cells and tells of the errors. Collective. Errors: SAM_ERR_USER.
+  The check of the grid (gridcheck.c). ReadGridCheck reads -grid_check; CheckGrid, after the last step, solves all steps
+  on half the cells and reports the estimated errors. Collective. Errors: SAM_ERR_USER.
 */
 PETSC_INTERN PetscErrorCode SamSimulationReadGridCheck(SamSimulation simulation, const SamOptions *from);
 PETSC_INTERN PetscErrorCode SamSimulationCheckGrid(SamSimulation simulation);

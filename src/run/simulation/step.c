@@ -79,7 +79,7 @@ void SamSimulationForgetAdvice(SamSimulation s)
   s->advised = PETSC_FALSE;
 }
 
-/* The steps that are advised on include the tried one from now on. */
+/* Adds the tried step to the steps that are advised on. */
 static PetscErrorCode CommitAdvice(SamSimulation s, const SamStep *step)
 {
   PetscFunctionBegin;

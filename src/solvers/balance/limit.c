@@ -19,10 +19,10 @@
 #define SMOOTHING_OF_SHEAR 6
 /* Rounding of a load or a lever that all pressures at their limit just bear, relative. */
 #define FULL 1e-12
-/* The part of the power that a step must promise for the power to measure its gain. */
+/* Least predicted gain of a step, relative to the power, at which the power is accurate enough to measure the gain */
 #define FLAT 1e-10
 
-/* A row's sums of t and of xi t. */
+/* Computes a row's sums of t and of xi t. */
 SAM_VECTORIZED static void SumRow(SamRow row, const double *restrict t, double sums[2])
 {
   double sum = 0, turn = 0;
@@ -224,7 +224,7 @@ static PetscErrorCode EvaluatePower(const SamFrame *f, const double bound[], con
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The free combinations orthogonal to the load F, as the basis of a frame for SamFrameSolve(). */
+/* Finds the free combinations orthogonal to the load F, as the basis of a frame for SamFrameSolve(). */
 static void OrthogonalTo(const SamFrame *f, const double F[3], SamFrame *across)
 {
   double   basis[3][3], lower[3];
@@ -238,7 +238,7 @@ static void OrthogonalTo(const SamFrame *f, const double F[3], SamFrame *across)
   for (PetscInt k = 0; k < 3 * across->count; k++) across->basis[k / 3][k % 3] = basis[k / 3 + 1][k % 3];
 }
 
-/* The Newton step within the directions of `across`; returns how fast the power falls along it. */
+/* Computes the Newton step within the directions of `across`; returns how fast the power falls along it. */
 static double FindStep(const SamFrame *across, const Power *now, double step[3])
 {
   double down[3], slope = 0;
@@ -282,7 +282,7 @@ static PetscErrorCode MinimizePower(const SamFrame *f, const SamFrame *across, c
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The shear along a smoothed motion a; a cell at the centre of rotation carries the rest. */
+/* Sets the shear along a smoothed motion a; a cell at the centre of rotation carries the rest. */
 static PetscErrorCode SetSliding(const SamFrame *f, const double bound[], const double a[3], double smoothing,
                                  Vec shear)
 {

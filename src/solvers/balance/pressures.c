@@ -135,7 +135,7 @@ static void PassNormal(const SamFrame *f, const void *context, const double a[3]
   PassRows(f, (const Cells *)context, a, NULL, NULL, dual);
 }
 
-/* p as it was before the changes in `made`. */
+/* Restores p as it was before the changes in `made`. */
 static void TakeBack(const SamFrame *f, const Cells *cells, double p[])
 {
   for (PetscInt k = 0; k < f->grid->cells; k++)

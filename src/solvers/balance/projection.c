@@ -23,14 +23,14 @@
 /* The least fall of the value and the largest slope at the end of a step, as parts of the slope at its beginning. */
 #define ENOUGH_FALL 1e-4
 #define MUCH_SLOPE  0.9
-/* The part of an error of equilibrium from which on what the Hessian does not see of it decides the step. */
+/* If the error outside the Hessian's range exceeds this part of the error of equilibrium, the step goes along it. */
 #define UNSEEN 0.1
 /* A traction has vanished when its sum is this part of what it was. */
 #define VANISHED 1e-13
 /* Rounding of the dual's value, relative to its parts. */
 #define VALUE_ROUNDING 1e-13
 
-/* Error of equilibrium along the basis, as a combination of the phi; returns its size relative to the scale. */
+/* Computes the error of equilibrium along the basis, as a combination of the phi; returns its size over the scale. */
 static double Imbalance(const SamFrame *f, const SamDual *dual, double error[3])
 {
   double size = 0, load = 0;
@@ -68,10 +68,10 @@ typedef struct {
   double  a[3];
   SamDual dual;
   double  error[3], size; /* error of equilibrium, and its relative size */
-  double  rounding;       /* of the dual's value */
+  double  rounding;       /* rounding error of the dual's value */
 } Iterate;
 
-/* The dual, its gradient and rounding at a. */
+/* Computes the dual, its gradient and rounding at a. */
 static PetscErrorCode EvaluateAt(const SamFrame *f, SamDualPass pass, const void *context, Iterate *at)
 {
   SamTotal totals[SAM_DUAL] = {{0}};

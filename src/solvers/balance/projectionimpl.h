@@ -34,13 +34,13 @@ PETSC_INTERN PetscErrorCode SamDualMinimize(const SamFrame *frame, SamDualPass p
                                             double a[3], PetscBool *found, PetscBool *near);
 
 /*
-  SamDualVanish - whether some a makes the traction vanish, to rounding of the traction at a = 0, when no load is to be
-  carried. Collective.
+  SamDualVanish - finds out whether some a makes the traction vanish when no load is to be carried, to rounding of the
+  traction at a = 0. Collective.
 */
 PETSC_INTERN PetscErrorCode SamDualVanish(const SamFrame *frame, SamDualPass pass, const void *context, double a[3],
                                           PetscBool *vanishes);
 
-/* SamDualIsBalanced - whether a traction with these totals is in equilibrium up to a relative error. Collective. */
+/* SamDualIsBalanced - checks if a traction with these totals is in equilibrium up to a relative error. Collective. */
 PETSC_INTERN PetscErrorCode SamDualIsBalanced(const SamFrame *frame, const SamTotal totals[], double limit,
                                               PetscBool *balanced);
 

@@ -17,7 +17,7 @@ typedef struct {
   const float  *weight; /* NULL: 1 */
 } Cells;
 
-/* Weights 1 for the cells of a chunk. */
+/* Returns weights 1 for the cells of a chunk. */
 static const float *Ones(void)
 {
   static float ones[SAM_CHUNK];
@@ -99,7 +99,7 @@ static void PassTangential(const SamFrame *f, const void *context, const double 
   }
 }
 
-/* The projection of some cells of a row in place of the shear, and its moments. */
+/* Replaces the shear of some cells of a row by its projection, and adds its moments. */
 SAM_VECTORIZED static void ApplyShears(SamRow row, double *restrict qx, double *restrict qy,
                                        const double *restrict bound, const float *restrict weight, const double a[3],
                                        SamDual *sums)
@@ -127,7 +127,7 @@ SAM_VECTORIZED static void ApplyShears(SamRow row, double *restrict qx, double *
   sums->sums[2] += turn - row.eta * x;
 }
 
-/* The projection that belongs to a, in place of q, and its moments. */
+/* Replaces q by the projection that belongs to a, and computes its moments. */
 static PetscErrorCode ApplyTangential(const SamFrame *f, const double bound[], const float weight[], const double a[3],
                                       double q[], SamTotal dual[])
 {
@@ -183,7 +183,7 @@ static PetscErrorCode Project(const SamFrame *f, const double bound[], const flo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether the loads are rounding of what the cells' shear could carry. */
+/* Finds out whether the loads are mere rounding errors of the load that the cells' shear could carry. */
 static PetscErrorCode AreRounding(const SamFrame *f, const double q[], PetscBool *are)
 {
   SamTotal total = {0};

@@ -58,7 +58,7 @@ static double Line(const SamZone *z, PetscInt i, const double fit[SAM_FIT_TERMS]
   return c[0] + u * (c[1] + u * (c[2] + u * c[3]));
 }
 
-/* The function about a cell by the zone's cells behind the margin of the edge; false: there are too few of them. */
+/* Fits the function about a cell to the zone's cells behind the margin of the edge; false: there are too few. */
 static PetscBool Extrapolate(const SamZone *z, const SamFitWindow *core, PetscInt i, PetscInt j,
                              double fit[SAM_FIT_TERMS], double *bent)
 {
@@ -84,7 +84,7 @@ static PetscBool Reconstruct(const SamZone *z, const SamFitWindow *core, PetscIn
   return fit[0] > OUT_LEAST * slope && over >= margin_least[margin] && over <= margin_most[margin];
 }
 
-/* Whether a cell of the band and all its neighbours look like a smooth edge. */
+/* True if a cell of the band and all its neighbours are marked as part of a smooth edge. */
 static PetscBool IsSmoothAbout(const Band *band, PetscInt i, PetscInt j)
 {
   const SamZone *z = &band->zone;
@@ -117,8 +117,8 @@ static void AddPoint(SamGrid grid, const double fit[SAM_FIT_TERMS], PetscInt i, 
 }
 
 /*
-  Whether w does not vanish at the edge of a cell, to judge by its neighbour farthest from the cells outside, which must
-  not lie at the edge itself. Worn surfaces end like that, and as many cells too many as too few are counted there.
+  True if w seems not to vanish at a cell's edge, judged by its neighbour farthest from the cells outside, which must
+  not lie at the edge itself. Worn surfaces end like that; there the errors of counting cells cancel on average.
 */
 static PetscBool IsBlunt(const SamZone *z, PetscInt i, PetscInt j)
 {

@@ -28,7 +28,7 @@ PETSC_INTERN PetscErrorCode SamZoneCreate(SamGrid grid, PetscBool periodic, Vec 
                                           SamZone *zone);
 PETSC_INTERN PetscErrorCode SamZoneDestroy(SamZone *zone);
 
-/* Whether a cell is seen, and its place among those that are. */
+/* True if a cell is in the zone's window; the second function returns its index there. */
 static inline PetscBool SamZoneHas(const SamZone *z, PetscInt i, PetscInt j)
 {
   return i >= z->left && i < z->left + z->width && j >= z->first && j < z->first + z->count;
@@ -46,7 +46,7 @@ static inline double SamFitAt(const double fit[SAM_FIT_TERMS], double x, double 
 }
 
 /*
-  SamFitWindow - which cells a fit goes by: those within `half` cells in both directions, at most
+  SamFitWindow - the cells that a fit uses: all within `half` cells in both directions, at most
   SAM_FIT_HALF, whose squared distance is at least `least`.
 */
 enum { SAM_FIT_HALF = 5, SAM_FIT_CELLS = (2 * SAM_FIT_HALF + 1) * (2 * SAM_FIT_HALF + 1), SAM_FIT_PRODUCTS = 21 };

@@ -23,7 +23,7 @@ void SamFitWindowInitialize(PetscInt half, int least, SamFitWindow *window)
     }
 }
 
-/* The part of a window that is seen. */
+/* Part of a fit's window that lies in the zone's window */
 typedef struct {
   PetscInt left, right, low, high;
 } Range;
@@ -91,7 +91,7 @@ SAM_VECTORIZED static PetscInt AddProducts(PetscInt n, const signed char *distan
   return count;
 }
 
-/* The factor of the fit's matrix; returns the number of cells that the fit goes by, 0 if it is singular. */
+/* Computes the factor of the fit's matrix; returns the number of cells in the fit, 0 if the matrix is singular. */
 static PetscInt FactorOf(const SamZone *z, const SamFitWindow *window, PetscInt i, PetscInt j, double factor[PRODUCTS])
 {
   const PetscInt half  = window->half;
@@ -106,7 +106,7 @@ static PetscInt FactorOf(const SamZone *z, const SamFitWindow *window, PetscInt 
   return count >= least && Factor(SamGridIsRow(z->grid), factor) ? count : 0;
 }
 
-/* What the values of cells add to a fit: to the terms, and the sum of their squares. */
+/* Right-hand side of the normal equations of a fit, and the sum of the squared values */
 typedef struct {
   double right[TERMS], squares;
 } Values;
@@ -147,7 +147,7 @@ PetscBool SamFit(const SamZone *z, const SamFitWindow *window, PetscInt i, Petsc
   return PETSC_TRUE;
 }
 
-/* The sum over sub-cells of their parts where the function, over the slope of a sub-cell, is positive. */
+/* Returns the sum over sub-cells of their parts where the function, over the slope of a sub-cell, is positive. */
 SAM_VECTORIZED static double SumParts(const double *restrict fit, double slope)
 {
   double sum = 0;
@@ -165,7 +165,7 @@ SAM_VECTORIZED static double SumParts(const double *restrict fit, double slope)
   return sum;
 }
 
-/* The part of a cell of a single row: on one side of its function's root. */
+/* Returns the part of a cell of a single row that lies on the positive side of its function's root. */
 static double LinePart(const double fit[TERMS])
 {
   const double square = fit[1] * fit[1] - 4 * fit[0] * fit[3], slope = fabs(fit[1]) + sqrt(PetscMax(square, 0));

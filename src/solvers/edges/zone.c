@@ -1,7 +1,7 @@
 /* Zones: distances from the edge, found from the cells outside that touch the zone. */
 #include "edgesimpl.h"
 
-/* For each cell of a row: whether it or one of its neighbours in the row is 1. */
+/* Marks each cell of a row that is 1, or has a neighbour in the row that is 1. */
 static void Widen(PetscInt n, const char in[], char out[])
 {
   out[0]     = in[0] | in[1];
@@ -29,7 +29,7 @@ static void FillDisc(PetscReal reach, Disc *disc)
       }
 }
 
-/* The cells of the other kind within the disc about a cell at the edge get their distance from it, if that is less. */
+/* Lowers the distances of cells of the other kind, within the disc about an edge cell, to those from this cell. */
 static void Mark(SamZone *z, const Disc *disc, const char in[], PetscInt i, PetscInt j)
 {
   const char inside = in[SamZoneAt(z, i, j)];
@@ -98,7 +98,7 @@ static PetscErrorCode CopyRows(SamZone *z, const double own[], PetscInt first, P
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The field's rows that are seen; those of a periodic grid, and columns, from its other side too. Collective. */
+/* Fetches the field's rows in the window; on a periodic grid, rows and columns from the other side, too. Collective. */
 static PetscErrorCode Fetch(SamZone *z, Vec field)
 {
   const PetscInt nx = z->grid->nx, ny = z->grid->ny, end = z->first + z->count;

@@ -46,7 +46,7 @@
 #include <math.h>
 #include <string.h>
 
-/* The part of the loss that is subtracted, and the part of A that may change before the loss is recomputed. */
+/* Part of the loss that is subtracted, and part of A that may change before the loss is recomputed */
 #define LOSS_OFF 0.5
 #define LOSS_OLD 0.01
 /* A direction's least descent, as a part of that of the preconditioned residual. */
@@ -128,7 +128,7 @@ static PetscErrorCode UpdateLoss(Work *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The next busy cells of row j: see SamNextBusy(). Starts with a row whose end is column 0. */
+/* Finds the next busy cells of row j: see SamNextBusy(). Starts with a row whose end is column 0. */
 static PetscBool NextBusy(const Work *w, PetscInt j, PetscInt *end, SamRow *row)
 {
   PetscInt first;
@@ -138,7 +138,7 @@ static PetscBool NextBusy(const Work *w, PetscInt j, PetscInt *end, SamRow *row)
   return PETSC_TRUE;
 }
 
-/* The same by single blocks. */
+/* Finds the next busy cells of row j likewise, by single blocks. */
 static PetscBool NextBusyStretch(const Work *w, PetscInt j, PetscInt *next, SamRow *row)
 {
   const char *busy = w->busy + (ptrdiff_t)j * w->blocks;
@@ -281,7 +281,7 @@ static void SetLength(Work *w, double t, SamTotal contact[])
   }
 }
 
-/* s.u */
+/* Computes the curvature s.u. */
 static PetscErrorCode ComputeCurvature(Work *w)
 {
   SamTotal total = {0};
@@ -333,8 +333,8 @@ static PetscErrorCode Step(Work *w, double *best, SamTotal contact[])
 /* ---- the method ---- */
 
 /*
-  The trial differs from the pressure by rounding, so this is the pressure. What may be wrong are cells with pressures
-  of that size, which the trial lets part, and the motion, which A leaves open if few cells are in it. `better`: the
+  The trial differs from the pressure by rounding, so this is the pressure. Two things may be wrong: cells of pressures
+  of that size, which the trial separates, and the motion, which A leaves open if few cells are in it. `better`: the
   error has fallen.
 */
 static PetscErrorCode TakeTrial(Work *w, const double motion[3], PetscBool *better)
@@ -383,7 +383,7 @@ static PetscErrorCode Iterate(Work *w, PetscBool *gradient, PetscBool *downhill,
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The reason to stop, when there is one. */
+/* Determines the reason to stop, if there is one. */
 static PetscErrorCode GetReason(Work *w, PetscInt stagnant, PetscBool downhill, PetscBool found,
                                 SamSolverReason *reason)
 {

@@ -11,9 +11,9 @@
   about the same pressure.
 */
 #define PATCH 6.0
-/* The part of the tolerance that rounding of g may be at the end. */
+/* Largest rounding of g at the end, relative to the tolerance */
 #define DOUBT 0.03
-/* What the last projection of a solve, which makes equilibrium exact, changes in S p, relative to it. */
+/* Relative change of S p by the last projection of a solve, which restores exact equilibrium */
 #define PROJECTION_ROUNDING 1e-9
 /* g is recomputed at the latest when the error has fallen by this factor, for then rounding may dominate it. */
 #define FALL 1e-3
@@ -27,13 +27,13 @@ static double Tolerance(const Work *w)
   return PetscMax(w->level->rtol * w->displacement, w->floor);
 }
 
-/* Single precision of S p suffices for the tolerance. */
+/* True if single precision of S p suffices for the tolerance. */
 static PetscBool IsSingleEnough(const Work *w)
 {
   return SAM_SINGLE_ROUNDING <= DOUBT * w->level->rtol;
 }
 
-/* The rounding of g is no more than the tolerance has room for. */
+/* True if the rounding of g is small enough for the tolerance. */
 static PetscBool IsTrusted(const Work *w)
 {
   return w->rounding <= DOUBT * Tolerance(w);
@@ -48,7 +48,7 @@ PetscBool SamActiveSetIsStale(const Work *w)
 
 /* ---- the gap and the active set ---- */
 
-/* g = S p in single precision. */
+/* Computes g = S p in single precision. */
 static PetscErrorCode ApplySingle(Work *w)
 {
   double most = 0, scale;
@@ -64,7 +64,7 @@ static PetscErrorCode ApplySingle(Work *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* g = S p */
+/* Computes g = S p. */
 static PetscErrorCode Apply(Work *w)
 {
   PetscFunctionBegin;
@@ -114,7 +114,7 @@ static PetscErrorCode Fit(Work *w, SamTotal totals[], double motion[3])
 }
 
 /*
-  Whether a block without pressure has no gap that `motion` could close. Evaluated as the gaps are, so that rounding
+  True if a block without pressure has no gap that `motion` could close. It is evaluated like the gaps, so that rounding
   makes no difference.
 */
 static PetscBool IsClear(const Work *w, PetscInt block, SamRow row, const double motion[3])

@@ -13,11 +13,11 @@ typedef struct {
   const double   *h;
   double         *p, *g;          /* pressure, Pa; gap, m */
   float          *z, *s, *u;      /* direction; last step; S s: z and s in units of unit/self, u in units of `unit` */
-  float          *loss;           /* what is taken off the preconditioner; 0 on cells that were not in A at the time */
+  float          *loss;           /* subtracted from the preconditioner; 0 on cells that were not in A at the time */
   float          *active;         /* 1 on cells of A, else 0 */
   float          *xi;             /* of the columns */
   char           *busy;           /* blocks with cells of A, or with pressure */
-  double         *open;           /* of other blocks: the least gap after the last step; not known: -infinity */
+  double         *open;           /* least gap of other blocks after the last step; not known: -infinity */
   double          unit;           /* m, of the iteration */
   double          self;           /* influence of a cell on itself, m/Pa */
   double          most;           /* maximum admissible pressure, Pa; infinite: none */
@@ -26,7 +26,7 @@ typedef struct {
   double          displacement;   /* maximum |S p|, m */
   double          floor;          /* error that rounding leaves where the displacement is nearly zero, m */
   double          error;          /* maximum complementarity error, m */
-  double          rounding;       /* bound of that of g, for the maximum error of a cell, m */
+  double          rounding;       /* bound of the rounding of g, for the maximum error of a cell, m */
   double          slope;          /* of the energy along the step: s.g */
   double          shrink;         /* largest part of its distance from a bound that a cell loses in the step */
   double          largest;        /* largest pressure of the trial, Pa */
@@ -71,11 +71,11 @@ PETSC_INTERN PetscErrorCode SamActiveSetKeepProduct(SamActiveSet *w);
 /* Computes g by a product, and does step 1 by it. Collective. */
 PETSC_INTERN PetscErrorCode SamActiveSetRefresh(SamActiveSet *w);
 /*
-  Whether g is to be recomputed: when its rounding is too much for the tolerance, and either a product now will keep
-  it below that to the end, or the error has fallen so far that rounding may dominate.
+  True if g is to be recomputed: when its rounding is too large for the tolerance, and either a product now will keep
+  it small enough to the end, or the error has fallen so far that rounding may dominate.
 */
 PETSC_INTERN PetscBool SamActiveSetIsStale(const SamActiveSet *w);
-/* Whether the error is below the tolerance, which the present displacement decides. Collective. */
+/* Finds out whether the error is below the tolerance, which depends on the present displacement. Collective. */
 PETSC_INTERN PetscErrorCode SamActiveSetIsSolved(SamActiveSet *w, PetscBool *solved);
 
 /* ---- loops over some cells of a row ---- */
@@ -93,9 +93,9 @@ PETSC_INTERN PetscBool SamActiveSetChooseRow(SamActiveSet *w, SamRow row, double
   there is none, g where it is the largest admissible one.
 */
 PETSC_INTERN double SamActiveSetMoveRow(SamActiveSet *w, SamRow row, const double motion[3]);
-/* How many cells have a loss and are not in A, or the other way round. */
+/* Returns how many cells have a loss and are not in A, or the other way round. */
 PETSC_INTERN double SamActiveSetCountChanged(const SamActiveSet *w, SamRow row);
-/* loss becomes the part `off` of it on A, but never 0 there, and 0 elsewhere. */
+/* Multiplies the loss by `off` on A, where it never becomes 0, and sets it to 0 elsewhere. */
 PETSC_INTERN void SamActiveSetLossRow(SamActiveSet *w, SamRow row, float off);
 /* z = r, the residual: -g on A, in units. */
 PETSC_INTERN void SamActiveSetResidualRow(SamActiveSet *w, SamRow row);
@@ -114,7 +114,7 @@ PETSC_INTERN double SamActiveSetCurvatureRow(const SamActiveSet *w, SamRow row);
 PETSC_INTERN double SamActiveSetPartRow(SamActiveSet *w, SamRow row, double t);
 /* From the trial, where p has gone by s, to t times that; adds to the sums over the cells between their bounds. */
 PETSC_INTERN void SamActiveSetStepRow(SamActiveSet *w, SamRow row, double t, SamGapSums *sums);
-/* The same where there is neither pressure nor a step: returns the least gap. */
+/* Moves the gap likewise in cells with neither pressure nor a step; returns the least gap. */
 PETSC_INTERN double SamActiveSetOpenRow(SamActiveSet *w, SamRow row, double t);
 /* The maximum |S p|. */
 PETSC_INTERN double SamActiveSetDisplacementRow(const SamActiveSet *w, SamRow row);

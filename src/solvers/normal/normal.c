@@ -76,7 +76,7 @@ static PetscErrorCode Prolong(SamTransfer transfer, const SamLevel *coarse, SamL
 
 /* ---- one level ---- */
 
-/* The method on this grid; with `guess` from the pressure that the level has, made admissible. */
+/* Applies the method on this grid; with `guess` from the pressure that the level has, made admissible. */
 static PetscErrorCode SolveHere(SamSolver s, SamLevel *level, PetscBool guess)
 {
   PetscBool found;
@@ -191,10 +191,10 @@ static PetscErrorCode ComputeOverlap(SamGrid grid, Vec separation, const SamFram
 }
 
 /*
-  Whether p = 0 is the solution: no load is to be carried, or the given displacements make no overlap, or bodies that
-  are free to tilt can clear each other. `apart`: the balance then. A rigid-body displacement that is not given is not
-  determined by the problem either: the approach becomes 0, or as far back as the bodies need to clear each other, and
-  rotations become 0, unless it takes others to clear.
+  Finds out whether p = 0 is the solution: no load is to be carried, or the given displacements make no overlap, or
+  bodies that are free to tilt can separate. `apart`: the balance then. A rigid-body displacement that is not given is
+  not determined by the problem either: the approach becomes 0, or as negative as separation requires, and rotations
+  become 0, unless separation requires others.
 */
 static PetscErrorCode IsSeparated(const SamLevel *level, SamBalance *apart, PetscBool *separated)
 {
@@ -224,8 +224,8 @@ static PetscErrorCode IsSeparated(const SamLevel *level, SamBalance *apart, Pets
 }
 
 /*
-  Whether a given approach can be held at all. Where a uniform pressure displaces nothing, displacements have no mean:
-  an approach beyond the mean separation leaves a gap below 0 somewhere under any pressure, and the mean itself is
+  Finds out whether a given approach has a solution. Where a uniform pressure displaces nothing, the mean displacement
+  is 0: an approach beyond the mean separation leaves a gap below 0 somewhere under any pressure, and the mean itself is
   reached by every pressure that is high enough. Where pressures have a limit, surfaces yield instead.
 */
 static PetscErrorCode CanHold(SamSolver s, const SamLevel *level, PetscBool *can)

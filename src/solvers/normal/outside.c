@@ -57,7 +57,7 @@ static void NearestInRow(const SamFrame *f, PetscInt j, SamWindow window, const 
   nearest->displacement = PetscMax(nearest->displacement, within.displacement);
 }
 
-/* Whether in single precision no cell outside of the window comes near to touching. */
+/* Finds out, in single precision, whether all cells outside the window are far from touching. */
 static PetscErrorCode IsClear(SamSolver s, SamLevel *level, const SamFrame *frame, SamWindow window, PetscBool *clear)
 {
   const SamGrid grid = level->grid;
@@ -84,7 +84,7 @@ static PetscErrorCode IsClear(SamSolver s, SamLevel *level, const SamFrame *fram
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The smallest rectangle that holds the contact and all cells that penetrate outside of the window. */
+/* Finds the smallest rectangle that holds the contact and all cells that penetrate outside of the window. */
 static PetscErrorCode FindTouching(SamSolver s, SamLevel *level, const SamFrame *frame, SamWindow window,
                                    PetscInt first[2], PetscInt size[2])
 {

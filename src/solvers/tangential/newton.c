@@ -49,7 +49,7 @@
 /* Least and largest length of a step, in parts of that to the least energy, where these bound it. */
 #define LEAST_PART   0.5
 #define LARGEST_PART 1.8
-/* The part of the error that rounding of the slip may make up before the slip is recomputed. */
+/* Rounding of the slip, relative to the error, above which the slip is recomputed */
 #define DOUBT 0.2
 /* The least unit of slip, relative to what the shear displaces: the residual may be zero, and steps are not. */
 #define LEAST_UNIT 1e-13
@@ -64,9 +64,12 @@
 #define STEADY 0.3
 /* A change of the shear that is rounding, relative to it. */
 #define STILL 1e-12
-/* Iterations without progress before the motion is looked for otherwise, before a gradient step, before giving up. */
+/*
+  Iterations without progress until the motion is determined in another way (SHIFT), until a gradient step (PATIENCE),
+  and until the solver gives up (STAGNATION)
+*/
 #define SHIFT 2
-/* The change of the motion, in parts of the maximum residual, from which on the fit is taken to leave it open. */
+/* Change of the motion, relative to the maximum residual, above which the fit does not determine the motion */
 #define OPEN       2
 #define PATIENCE   10
 #define STAGNATION 100
@@ -78,7 +81,7 @@ typedef SamNewton Work;
 
 /* ---- fields ---- */
 
-/* The root of the number of cells in contact. */
+/* Computes the root of the number of cells in contact. */
 static PetscErrorCode FindReach(Work *w)
 {
   const SamStickSlip *u = &w->base;
@@ -128,7 +131,7 @@ static PetscErrorCode Destroy(Work *w)
 
 typedef void (*RowSums)(const SamNewton *w, SamRow row, double sums[]);
 
-/* The sums of a loop over all rows, at most PRODUCTS, in twice the digits. */
+/* Computes the sums of a loop over all rows, at most PRODUCTS, in twice the digits. */
 static PetscErrorCode SumRows(const Work *w, RowSums add, PetscInt n, double sums[])
 {
   const SamStickSlip *u                = &w->base;
@@ -257,7 +260,7 @@ static PetscErrorCode TryGradient(Work *w, double motion[3], PetscBool *found)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether the step changes the energy by less than the rounding of the work of friction in it. */
+/* True if the step changes the energy by less than the rounding of the frictional work in it. */
 static PetscBool IsRounding(const Work *w)
 {
   return fabs(w->slope) * w->unit * w->unit / w->base.self <= ENERGY_ROUNDING * w->work;
@@ -314,7 +317,7 @@ static PetscErrorCode Step(Work *w, double *best)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The most that the error can be, rounding included. */
+/* Returns an upper bound of the error, rounding included. */
 static double Error(const Work *w)
 {
   return w->base.error + (w->rounding > 0 ? w->rounding / w->base.scale : 0);
@@ -416,7 +419,7 @@ static PetscErrorCode Iterate(Work *w, PetscBool gradient, PetscBool *downhill, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Steps of less than full length leave slipping cells a little within their circles: puts them on these. */
+/* Moves slipping cells onto their circles: steps of less than full length leave them a little inside. */
 static PetscErrorCode Finish(Work *w, PetscBool *found)
 {
   SamStickSlip *u = &w->base;

@@ -91,7 +91,7 @@ static PetscErrorCode Destroy(Work *w)
 
 /* ---- steps 1 to 3 ---- */
 
-/* The sets, the error, and the shear with the phi. */
+/* Chooses the sets of cells, and computes the error, and the products of the shear with the phi. */
 static PetscErrorCode ChooseSets(Work *w, double load[3])
 {
   enum { SUMS = SAM_SQUARES + 3 };
@@ -113,7 +113,10 @@ static PetscErrorCode ChooseSets(Work *w, double load[3])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The direction against the slip, or (a not NULL) along a creepage. N h r takes the new direction's product's place. */
+/*
+  Makes the direction against the slip, or (a not NULL) along a creepage. N h r takes the new direction's product's
+  place.
+*/
 static PetscErrorCode MakeDirection(Work *w, const double *a, float z[])
 {
   const SamStickSlip *u      = &w->base;
@@ -134,7 +137,10 @@ static PetscErrorCode MakeDirection(Work *w, const double *a, float z[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The loads that a direction carries, along the basis; first `project` times the part along the shear is taken off. */
+/*
+  Computes the loads that a direction carries, along the basis; first `project` times the part along the shear is taken
+  off.
+*/
 static PetscErrorCode SumLoads(const Work *w, float project, float z[], double load[3])
 {
   const SamStickSlip *u         = &w->base;
@@ -154,8 +160,8 @@ static PetscErrorCode SumLoads(const Work *w, float project, float z[], double l
 }
 
 /*
-  The least squares of columns by the products of all pairs of them, the last being what they are to make: the upper
-  triangle, row by row.
+  Solves the least-squares problem of columns from the products of all pairs of them, the last column being the
+  right-hand side: the upper triangle, row by row.
 */
 static void FitColumns(PetscInt n, const double gram[], double x[])
 {
@@ -213,7 +219,7 @@ static PetscErrorCode KeepLoads(Work *w, const double load[3])
 
 /* ---- step 4 ---- */
 
-/* The best combination of directions, in place of the new one, and of creepages, a. */
+/* Finds the best combination of directions, in place of the new one, and of creepages, a. */
 static PetscErrorCode Combine(Work *w, double a[3])
 {
   SamStickSlip  *u       = &w->base;
@@ -238,7 +244,7 @@ static PetscErrorCode Combine(Work *w, double a[3])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The length of the step, which is made and kept. */
+/* Computes the length of the step, makes the step and keeps it. */
 static PetscErrorCode Step(Work *w, const double a[3])
 {
   SamStickSlip *u                           = &w->base;
@@ -283,7 +289,7 @@ static PetscErrorCode Iterate(Work *w, PetscBool renew, const double load[3])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The nearest admissible shear to the trial, with its slip and its error, to rounding. */
+/* Takes the admissible shear nearest to the trial, with its slip and its error, to rounding. */
 static PetscErrorCode TakeTrial(Work *w, double motion[3], PetscBool *found)
 {
   SamStickSlip *u = &w->base;
@@ -299,7 +305,7 @@ static PetscErrorCode TakeTrial(Work *w, double motion[3], PetscBool *found)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Step 5, and the end: an admissible shear nearby. */
+/* Makes the shear admissible, in step 5 and at the end. */
 static PetscErrorCode MakeAdmissible(Work *w, PetscBool *found)
 {
   const SamStickSlip *u = &w->base;
@@ -345,7 +351,7 @@ static SamSolverReason Reason(const SamStickSlip *u, PetscBool failed)
   return SamLevelAtMaxIterations(u->solver, u->level) ? SAM_SOLVER_DIVERGED_ITS : SAM_SOLVER_ITERATING;
 }
 
-/* The iterations, from an admissible start. */
+/* Runs the iterations, from an admissible start. */
 static PetscErrorCode Run(Work *w, SamSolverReason *reason)
 {
   SamStickSlip *u    = &w->base;
@@ -385,7 +391,7 @@ static PetscErrorCode Run(Work *w, SamSolverReason *reason)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Without a solution, no shear beyond its bound is left. */
+/* Leaves an admissible shear after a solve without solution: none beyond its bound. */
 static PetscErrorCode LeaveAdmissible(Work *w)
 {
   SamStickSlip *u     = &w->base;

@@ -17,14 +17,14 @@ typedef struct {
   float       *normal;                     /* q/|q| where a cell slips, 0 where it sticks */
   float       *weight;                     /* c/(c + lambda); 0 outside of the contact */
   float       *r;                          /* a right-hand side, in the tangent space */
-  float       *carry[3];                   /* what carries a load along each free creepage */
+  float       *carry[3];                   /* shear that carries a load along each free creepage */
   float       *slot[SAM_ROLLING_KEPT + 1]; /* the new direction, then those kept, newest first: d, then A d */
   float       *columns;                    /* of the least squares, in some cells of a row */
   PetscInt     kept;
-  PetscBool    slipping; /* whether directions have N in slip, see rolling.c */
+  PetscBool    slipping; /* true if directions have N in slip, see rolling.c */
 } SamRollingWork;
 
-/* Sums over cells: of the projection equation's residual, and the shear with the phi. */
+/* Sums over cells: the projection equation's residual, and the products of the shear with the phi */
 typedef struct {
   double squares[SAM_SQUARES], load[3];
 } SamRollingSums;

@@ -55,8 +55,8 @@ SAM_VECTORIZED void SamRollingSetsRow(const SamRollingWork *w, SamRow row, SamRo
 }
 
 /*
-  The root of a weight. The slip of a cell with hardly any bound is large, and through the preconditioner the root would
-  have it move the cells beside it, on which its shear has no influence.
+  Returns the root of a weight. The slip of a cell with hardly any bound is large, and through the preconditioner the
+  root would have it move the cells beside it, on which its shear has no influence.
 */
 static inline float Root(float h)
 {
@@ -88,7 +88,7 @@ SAM_VECTORIZED void SamRollingRightRow(const SamRollingWork *w, SamRow row, cons
   }
 }
 
-/* The part of N: 0 in stick and beside it, where N for the true h is small; 1 where h is at most that of N. */
+/* Returns the part of N: 0 in stick and beside it, where N for the true h is small; 1 where h is at most that of N. */
 static float SlipPart(const float weight[], int count, int i)
 {
   float most = weight[i], part;
@@ -152,7 +152,7 @@ SAM_VECTORIZED void SamRollingLoadsRow(const SamRollingWork *w, SamRow row, floa
 
 #define CHUNK 128
 
-/* What a direction changes of the residual, in some cells of a row: x, then y. */
+/* Computes the change of the residual by a direction, in some cells of a row: x, then y. */
 SAM_VECTORIZED static void DirectionColumn(const SamRollingWork *w, SamRow row, const float slot[],
                                            float *restrict column)
 {
@@ -172,7 +172,7 @@ SAM_VECTORIZED static void DirectionColumn(const SamRollingWork *w, SamRow row, 
   }
 }
 
-/* What a creepage changes. */
+/* Computes the change of the residual by a creepage. */
 SAM_VECTORIZED static void CreepColumn(const SamRollingWork *w, SamRow row, const double a[3], float *restrict column)
 {
   const ptrdiff_t cells    = w->base.cells;
@@ -189,7 +189,7 @@ SAM_VECTORIZED static void CreepColumn(const SamRollingWork *w, SamRow row, cons
   }
 }
 
-/* The residual: slip that should not be, and shear that is not on its circle. */
+/* Computes the residual: slip that should not be, and shear that is not on its circle. */
 SAM_VECTORIZED static void ResidualColumn(const SamRollingWork *w, SamRow row, float *restrict column)
 {
   const SamStickSlip *u     = &w->base;

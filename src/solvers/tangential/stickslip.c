@@ -20,7 +20,7 @@ static void IncludeShear(const SamStickSlip *w, PetscInt j, PetscInt *first, Pet
   }
 }
 
-/* The columns between which each row has contact, or a start that is not admissible has shear. */
+/* Finds the columns between which each row has contact, or a start that is not admissible has shear. */
 static PetscErrorCode FindRows(SamStickSlip *w)
 {
   PetscInt *first, *last;
@@ -217,7 +217,9 @@ static PetscErrorCode FitMotion(SamStickSlip *w, double inverse)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The error of the start. The fit of the motion and the tangent space depend on each other, hence the sweeps. */
+/*
+  Computes the error of the start. The fit of the motion and the tangent space depend on each other, hence the sweeps.
+*/
 static PetscErrorCode MeasureStart(SamStickSlip *w)
 {
   PetscFunctionBegin;

@@ -15,9 +15,9 @@
 /* ---- nested grids ---- */
 
 /*
-  What is handed from a coarse grid to the next finer one: the shear in units of the bound, so that cells that slip do
-  so on the fine grid too. Direction and size are interpolated apart, as the mean of two directions is shorter than
-  either; and the size only over cells with a bound, by interpolating their indicator as well.
+  Fields that are interpolated from a coarse grid to the next finer one: the shear in units of the bound, so that cells
+  that slip do so on the fine grid too. Direction and size are interpolated apart, as the mean of two directions is
+  shorter than either; and the size only over cells with a bound, by interpolating their indicator as well.
 */
 enum { RATIO_X, RATIO_Y, RATIO_SIZE, RATIO_IN, RATIOS };
 
@@ -91,7 +91,7 @@ static PetscErrorCode Prolong(SamTransfer transfer, const SamLevel *coarse, SamL
 
 /* ---- one level ---- */
 
-/* The shear of the level becomes an admissible one near it; `found` is false when none carries the loads. */
+/* Replaces the level's shear by an admissible one near it; `found` is false when none carries the loads. */
 static PetscErrorCode MakeAdmissible(SamLevel *level, PetscBool *found)
 {
   const double *bound;
@@ -107,7 +107,9 @@ static PetscErrorCode MakeAdmissible(SamLevel *level, PetscBool *found)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The rigid-body displacement at the start of a level: of the guess or of the coarse solution, or the given part. */
+/*
+  Sets the rigid-body displacement at the start of a level: of the guess or of the coarse solution, or the given part.
+*/
 static PetscErrorCode StartRigid(SamSolver s, SamLevel *level, SamStart start)
 {
   SamFrame given;
@@ -136,7 +138,7 @@ static PetscErrorCode SolveLevel(SamSolver s, SamLevel *level, SamStart start)
 
 /* ---- gross slip ---- */
 
-/* When sliding is reached, its shear becomes that of the level. */
+/* Finds out whether sliding is reached; if so, takes the shear of sliding as that of the level. */
 static PetscErrorCode ComputeLimit(SamSolver s, const SamLevel *level, PetscBool *reached)
 {
   Vec shear;
@@ -173,7 +175,7 @@ static PetscErrorCode CheckLimit(SamSolver s, const SamLevel *level)
 
 /* ---- the kind ---- */
 
-/* Nothing causes shear: q = 0 is the solution. */
+/* True if nothing causes shear: q = 0 is the solution. */
 static PetscBool IsUnloaded(const SamLevel *level)
 {
   const SamBalance *b = level->balance;
@@ -184,7 +186,7 @@ static PetscBool IsUnloaded(const SamLevel *level)
   return PETSC_TRUE;
 }
 
-/* No friction, no contact or no load: q = 0, which carries no load. */
+/* Solves a problem without friction, contact or load: q = 0, which carries no load. */
 static PetscErrorCode SolveFree(SamSolver s, SamLevel *level)
 {
   SamBalance *b      = level->balance;

@@ -107,11 +107,11 @@ static PetscErrorCode SetUp(SamElasticity e)
 ROWS(SumRow, AddRow, double)
 ROWS(SumRowSingle, AddRowSingle, float)
 
-/* The factor in y of polynomial m of body b in this rank's row j. */
+/* Factor in y of polynomial m of body b, in row j of this rank */
 #define ALONG_Y(e, b, m, j) \
   ((const Bodies *)(e)->data)->along[b][1][(ptrdiff_t)of->power[m][1] * (e)->grid->ny + (e)->grid->row_start + (j)]
 
-/* c of body b, in its own frame, from this rank's part of it in that of the contact. */
+/* Computes c of body b, in the body's frame, from this rank's part of it in the contact's frame. */
 static PetscErrorCode Total(SamElasticity e, SamCompliance of, Kind in, const SamTotal part[], Coefficients c)
 {
   PetscFunctionBegin;
@@ -154,7 +154,7 @@ PetscErrorCode SamComplianceCollect(SamElasticity e, SamCompliance c, const doub
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* D c, turned into the contact's frame. */
+/* Computes d = D c, turned into the contact's frame, times `factor`. */
 static void Multiply(SamCompliance of, Kind in, Kind out, double factor, const Coefficients c, Coefficients d)
 {
   for (PetscInt k = first_of[out]; k < first_of[out] + count_of[out]; k++)
@@ -205,7 +205,7 @@ SPREAD(SpreadSingle, float, AddRowSingle)
 
 typedef PetscErrorCode (*Method)(SamElasticity, const double *const[], double *const[]);
 
-/* `method` NULL: the half-spaces have no such coupling. */
+/* Adds the compliance's displacements to those by `method` of the half-spaces; NULL: they have no such coupling. */
 static PetscErrorCode Apply(SamElasticity e, SamElasticity inner, Method method, Kind in, Kind out,
                             const double *const t[], double *const u[])
 {
@@ -254,7 +254,7 @@ PRODUCT_SINGLE(ApplyTangentialSingle, applytangentialsingle, TANGENTIAL)
 
 /* ---- load cases ---- */
 
-/* The name of the condition that is the factor on load case l. */
+/* Writes the name of the condition that is the factor on load case l. */
 static void NameCase(SamCompliance c, PetscInt l, char name[64])
 {
   (void)snprintf(name, 64, "body%d_case_%s", (int)c->body + 1, c->name[l]);
@@ -338,7 +338,7 @@ static PetscErrorCode Inherit(SamElasticity parent, SamElasticity child)
   return PETSC_SUCCESS;
 }
 
-/* With the file's full name, by which other programs find it. */
+/* Adds the parameters, with the file's full name, by which other programs find it. */
 static PetscErrorCode AddParameters(SamElasticity e, SamParameters *p)
 {
   char path[PETSC_MAX_PATH_LEN];
@@ -403,7 +403,7 @@ static PetscErrorCode Create(SamElasticity e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether the body's normal and tangential directions are coupled, or its load cases displace the surfaces. */
+/* True if the body couples normal and tangential directions, or its load cases displace the surfaces. */
 static PetscBool Couples(SamCompliance c)
 {
   double most = 0;
@@ -437,7 +437,7 @@ static PetscErrorCode NotePatch(SamElasticity e, const SamOptions *from, SamComp
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The kernel to which the compliance is added must be the one from which it was computed. */
+/* Checks that the kernel to which the compliance is added is the one from which it was computed. */
 static PetscErrorCode CheckConstants(SamElasticity e, const SamOptions *from, SamCompliance c)
 {
   const SamMaterial *last  = SamBodySubstrate(e->pair->body[c->body]);

@@ -1,6 +1,6 @@
 /*
-  Whether a body's compliance is positive: that of the half-space is, and so is the exact one of the body, but the sum
-  of the half-space and a projection need not be.
+  Checks that a body's compliance is positive definite. The compliance of the half-space is, and so is the exact one of
+  the body, but the sum of the half-space's compliance and a projection need not be.
 
   With K of the half-space on cells, Phi the polynomials' means (modes, cells), A the area of a cell and G =
   A Phi K^-1 Phi', the eigenvalues of K + A Phi'D Phi relative to K are 1 and 1 + those of D G.
@@ -50,7 +50,7 @@ static PetscErrorCode FillTable(SamElasticity e, double table[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The lower triangle of K of the body under a rigid one, by columns. */
+/* Fills in the lower triangle of K, by columns; K is the compliance of the body against a rigid one. */
 static PetscErrorCode Fill(SamBody body, const double d[2], double matrix[])
 {
   const PetscReal   width[2] = {LAGS * d[0], LAGS * d[1]}, center[2] = {0, 0};
@@ -101,7 +101,7 @@ static void FillMeans(SamCompliance c, const double d[2], double means[])
           along[0][k % SIDE][c->power[m][0]] * along[1][k / SIDE][c->power[m][1]];
 }
 
-/* The compliance of the tractions on the cells relative to the half-space's, less the identity: D G. */
+/* Computes the compliance of the tractions on the cells relative to the half-space's, less the identity: D G. */
 static PetscErrorCode CreateRelative(SamCompliance c, SamBody body, Mat d, PetscInt n, Mat *relative)
 {
   const double side[2] = {2 * c->half[0] / SIDE, 2 * c->half[1] / SIDE};
@@ -131,7 +131,7 @@ static PetscErrorCode CreateRelative(SamCompliance c, SamBody body, Mat d, Petsc
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The smallest and the largest of the real eigenvalues of a matrix of order n. */
+/* Finds the smallest and the largest of the real eigenvalues of a matrix of order n. */
 static PetscErrorCode FindEnds(Mat matrix, PetscInt n, double *least, double *most)
 {
   double *real, *imaginary;

@@ -92,7 +92,7 @@ static PetscErrorCode ReadBasis(SamFile f, SamCompliance c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The symmetric part. */
+/* Reads the matrix, of which the symmetric part is kept. */
 static PetscErrorCode ReadMatrix(SamFile f, SamCompliance c)
 {
   const hsize_t  m     = (hsize_t)c->modes;
@@ -109,7 +109,7 @@ static PetscErrorCode ReadMatrix(SamFile f, SamCompliance c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The polynomials at places along an axis. */
+/* Evaluates the polynomials at places along an axis. */
 static PetscErrorCode ValuesAt(SamCompliance c, int axis, PetscInt n, const double at[], PetscReal values[])
 {
   PetscInt   degrees[SAM_COMPLIANCE_DEGREE + 1];
@@ -186,7 +186,7 @@ static PetscErrorCode Fit(SamCompliance c, PetscInt n, const double *const at[2]
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A load case that is given at points of the patch: x, y and field (points, 3), m. */
+/* Reads a load case that is given at points of the patch: x, y and field (points, 3), m. */
 static PetscErrorCode ReadPoints(SamFile f, SamCompliance c, const char name[], double field[][3])
 {
   Shape       line = {1, {0}, POINTS}, table;
@@ -221,7 +221,7 @@ static PetscErrorCode ReadPoints(SamFile f, SamCompliance c, const char name[], 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The load cases, in the order of their names. */
+/* Reads the load cases, in the order of their names. */
 static PetscErrorCode ReadCases(SamFile f, SamCompliance c)
 {
   const hid_t group = H5Lexists(f->id, "/cases", H5P_DEFAULT) > 0 ? H5Gopen2(f->id, "/cases", H5P_DEFAULT) : -1;
@@ -258,7 +258,7 @@ static PetscErrorCode ReadCases(SamFile f, SamCompliance c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The points below the patch, if there are any; along each axis they increase. */
+/* Reads the points below the patch, if there are any; along each axis they increase. */
 static PetscErrorCode ReadAxes(SamFile f, SamCompliance c, double values[])
 {
   enum { MOST = 1024 };

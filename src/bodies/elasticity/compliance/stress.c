@@ -36,7 +36,7 @@ static PetscErrorCode Reduce(SamStress s, const double *const tractions[], doubl
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The point before a place along an axis of n points, and the part of the way to the next. */
+/* Finds the point before a place along an axis of n points, and the part of the way to the next. */
 static PetscInt Before(PetscInt n, const double axis[], double x, double *part)
 {
   PetscInt k = 0;

@@ -56,8 +56,8 @@ static Coefficients GetCoefficients(SamElasticity e, Kind kind)
 }
 
 /*
-  The integral of ln(|x|/D) over the cell at the lag i >= 0, m: in powers of the inverse lag, where the closed form
-  L(i + 1/2) - L(i - 1/2) cancels.
+  Returns the integral of ln(|x|/D) over the cell at the lag i >= 0, m: in powers of the inverse lag, where the closed
+  form L(i + 1/2) - L(i - 1/2) cancels.
 */
 static double PlaneIntegral(double dx, double datum, PetscInt i)
 {
@@ -107,7 +107,7 @@ static void CoefficientRow(PetscInt j, PetscInt n, double *const values[], const
   if (c->layers) SamLayeredAddRow(c->layers, (SamIntegral)c->kind, c->dx, c->dy, j, n, values[0]);
 }
 
-/* The layers' part of kernels needs a table as far as the lags reach. */
+/* Makes the table for the layers' part of kernels, as far as the lags reach. */
 static PetscErrorCode PrepareLayers(SamElasticity e)
 {
   const SamGrid grid = e->grid;
@@ -119,7 +119,7 @@ static PetscErrorCode PrepareLayers(SamElasticity e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The influence of a cell on itself, m/Pa. */
+/* Returns the influence of a cell on itself, m/Pa. */
 static double SelfInfluence(SamElasticity e, Kind kind)
 {
   const Coefficients c = GetCoefficients(e, kind);
@@ -163,7 +163,7 @@ static PetscErrorCode GetKernel(SamElasticity e, Kind kind, SamKernel *kernel)
 
 /* ---- products ---- */
 
-/* The matrix of `scale` times these kernels, row by row. */
+/* Makes the matrix of `scale` times these kernels, row by row. */
 static PetscErrorCode GetMatrix(SamElasticity e, PetscInt n_out, PetscInt n_in, double scale, const Kind kinds[],
                                 SamKernelMatrix *matrix)
 {
@@ -177,7 +177,7 @@ static PetscErrorCode GetMatrix(SamElasticity e, PetscInt n_out, PetscInt n_in, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* In plane strain u_z and u_x, or u_x and p, by themselves, and u_y. */
+/* Applies the kernels in plane strain: output c depends on input c only, and is 0 without one. */
 static PetscErrorCode ApplyPlane(SamElasticity e, PetscInt n_out, PetscInt n_in, double scale, const Kind kinds[],
                                  const double *const in[], double *const out[])
 {
@@ -286,7 +286,7 @@ static PetscErrorCode Precondition(SamElasticity e, PetscInt n, double factor, d
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Times gain |k| (I + nu kk'/|k|^2), or, with a film, the inverse of the inverse of this plus the film. */
+/* Multiplies by B = gain |k| (I + nu kk'/|k|^2), or, with a film, by the inverse of (inverse of B, plus film). */
 SAM_VECTORIZED static void DivideTangential(const SamSymbol *s, SamWaves at)
 {
   const float gain = (float)s->gain, mean = (float)s->mean, extra = (float)s->nu, least = mean * mean,

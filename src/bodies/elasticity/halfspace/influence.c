@@ -57,7 +57,7 @@
 */
 enum { MAX_ORDER = 10, BLOCK = 64, MAX_SHAPES = 16 };
 
-/* What the bound may come to, relative to a value: of the order of what the summation rounds off. */
+/* Largest truncation bound relative to the value; it is of the order of the rounding of the sum. */
 static const double tolerance = 5e-15;
 
 /* A kernel is u^odd_u v^odd_v u^(2 square) r^-(root + 2 square), where u is x and v is y, or exchanged. */
@@ -83,7 +83,7 @@ typedef struct {
   double polynomial[MAX_ORDER + 1][MAX_ORDER + 2];
 } Expansion;
 
-/* The polynomial f of order k becomes that of its term's second derivative by u, times `factor`. */
+/* Replaces the polynomial f of order k by that of its term's second derivative by u, times `factor`. */
 static void DeriveU(const Kernel *kernel, int k, double factor, double f[])
 {
   double below = 0; /* what the power before leaves to this one */
@@ -98,7 +98,7 @@ static void DeriveU(const Kernel *kernel, int k, double factor, double f[])
   }
 }
 
-/* The same by v, where v^2 = r^2 - u^2. */
+/* Does the same for the second derivative by v, where v^2 = r^2 - u^2. */
 static void DeriveV(const Kernel *kernel, int k, double factor, double f[])
 {
   double below = 0;
@@ -138,8 +138,8 @@ static void Expand(Expansion *e, int order)
 }
 
 /*
-  The least order whose bound (top of this file) is within the tolerance for the cell at (x, y), both
-  >= 0; more than MAX_ORDER if there is none.
+  Returns the least order whose bound (top of this file) is within the tolerance for the cell at (x, y), both >= 0; more
+  than MAX_ORDER if there is none.
 */
 static int SelectOrder(const Expansion *e, double x, double y)
 {
@@ -161,8 +161,8 @@ static int SelectOrder(const Expansion *e, double x, double y)
 }
 
 /*
-  The integrals over the cells at ((first + 2 k) a, y), k < n <= BLOCK, by the expansion of that order.
-  The index is an int: without AVX-512DQ no vector of longer ones becomes one of doubles.
+  Evaluates the integrals over the cells at ((first + 2 k) a, y), k < n <= BLOCK, by the expansion of that order. The
+  index is an int: without AVX-512DQ no vector of longer ones becomes one of doubles.
 */
 SAM_VECTORIZED static void Evaluate(const Expansion *e, int order, double first, double y, int n,
                                     double *restrict values)
@@ -196,7 +196,7 @@ SAM_VECTORIZED static void Evaluate(const Expansion *e, int order, double first,
   }
 }
 
-/* A cell's expansion and those of its halves, none with polynomials yet. */
+/* Makes a cell's expansion and those of its halves, none with polynomials yet. */
 static void MakeShapes(SamIntegral kind, double a, double b, double scale, Expansion shapes[])
 {
   int slender = 1;
@@ -216,7 +216,7 @@ static void MakeShapes(SamIntegral kind, double a, double b, double scale, Expan
   }
 }
 
-/* The integral over a rectangle about (i a, j b), away from the origin; divided until an order suffices. */
+/* Returns the integral over a rectangle about (i a, j b), away from the origin; divided until an order suffices. */
 static double Rectangle(Expansion *e, double i, double j)
 {
   const int order = SelectOrder(e, fabs(i) * e->a, fabs(j) * e->b);
@@ -258,8 +258,8 @@ static ptrdiff_t BlockLength(ptrdiff_t i, ptrdiff_t n)
 }
 
 /*
-  The integrals over n cells (i + k, j), all in one block. The order depends on the block alone, not
-  on where the n cells begin or end in it, so that a cell has one value in whatever range it is computed.
+  Computes the integrals over n cells (i + k, j), all in one block. The order depends on the block alone, not on where
+  the n cells begin or end in it, so that a cell has one value in whatever range it is computed.
 */
 static void BlockIntegrals(Expansion *e, ptrdiff_t j, ptrdiff_t i, ptrdiff_t n, double *values)
 {

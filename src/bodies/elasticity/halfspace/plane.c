@@ -5,7 +5,7 @@
 
 #define DATUM "plane_datum"
 
-/* Of the mean of ln k over a uniform load: the logarithms of the longest and the shortest waves times the width. */
+/* Limits and step of the integral over ln(k width) that gives the mean of ln k over a uniform load; Euler's constant */
 #define LONG  (-25.0)
 #define SHORT 12.0
 #define STEP  0.05

@@ -21,8 +21,8 @@
     s_zz += M (hx dq_x/dx + hy dq_y/dy)/pi.
   With differences over two cells for the derivatives this changes the kernels at the neighbours of the cell only.
 
-  In plane strain, of a strip |x| < a, the closed forms of Johnson, section 2.5, with the angle that the strip is seen
-  under, and differences of fractions multiplied out, so that nothing cancels far away.
+  In plane strain, the stresses by a strip |x| < a are the closed forms of Johnson, section 2.5, by the angle subtended
+  by the strip. Differences of fractions are multiplied out, so that nothing cancels far away.
 
   References: Love 1929, Phil. Trans. R. Soc. A 228, 377; Johnson 1985, Contact Mechanics, ch. 3; Kalker 1990,
   Three-dimensional Elastic Bodies in Rolling Contact, ch. 4 and app. C.
@@ -52,7 +52,7 @@ static const double gauss[RULES][POINTS][2] = {
 
 /* ---- near: the corners ---- */
 
-/* 2 pi times the antiderivatives of a group at a corner. */
+/* Computes 2 pi times the antiderivatives of a group at a corner. */
 static void Corner(SamStressGroup group, double nu, double X, double Y, double z, double f[SAM_STRESS_GROUP])
 {
   const double r = sqrt(X * X + Y * Y + z * z), xz = X * X + z * z, yz = Y * Y + z * z, t = r + z,
@@ -140,7 +140,7 @@ static const AddPoints add[GROUPS] = {
   [SAM_STRESS_NORMAL_P] = AddNormalP, [SAM_STRESS_NORMAL_T] = AddNormalT,
 };
 
-/* The n cells from (x0, y) on by one rule. */
+/* Integrates over the n cells from (x0, y) on by one rule. */
 static void Quadrature(const SamHalfSpaceSource *s, SamStressGroup group, int rule, double x0, double y, int n,
                        double *const to[SAM_STRESS_GROUP])
 {
@@ -157,7 +157,7 @@ static void Quadrature(const SamHalfSpaceSource *s, SamStressGroup group, int ru
 
 /* ---- both ---- */
 
-/* The rule for a cell whose centre is at that distance; RULES: the corners. */
+/* Chooses the quadrature rule for a cell whose centre is at the distance x, y; RULES: use the corners. */
 static int ChooseRule(const SamHalfSpaceSource *s, double x, double y)
 {
   const double h = PetscMax(s->side[0], s->side[1]), R2 = x * x + y * y + s->depth * s->depth;
@@ -167,7 +167,7 @@ static int ChooseRule(const SamHalfSpaceSource *s, double x, double y)
   return rule;
 }
 
-/* The n cells from (x0, y) on, in pieces of one rule. */
+/* Integrates over the n cells from (x0, y) on, in pieces of one rule. */
 static void Cells(const SamHalfSpaceSource *s, SamStressGroup group, double x0, double y, int n,
                   double *const to[SAM_STRESS_GROUP])
 {
@@ -191,7 +191,7 @@ static void Cells(const SamHalfSpaceSource *s, SamStressGroup group, double x0, 
 
 /* ---- plane strain ---- */
 
-/* The stresses at (x, z) by the strip |x| < a under unit tractions. */
+/* Computes the stresses at (x, z) by the strip |x| < a under unit tractions. */
 static void Strip(SamStressGroup group, double nu, double a, double x, double z, double f[SAM_STRESS_GROUP])
 {
   const double r1 = (x - a) * (x - a) + z * z, r2 = (x + a) * (x + a) + z * z, product = r1 * r2;
@@ -214,7 +214,7 @@ static void Strip(SamStressGroup group, double nu, double a, double x, double z,
   if (group == SAM_STRESS_NORMAL_T) f[2] = -angle / (2 * PETSC_PI);
 }
 
-/* All lengths in a power of two near the longer side: the stresses have no length in them. */
+/* Scales all lengths by a power of two near the longer side: the stresses depend on ratios of lengths only. */
 static double ScaleSource(SamHalfSpaceSource *s)
 {
   const double scale = scalbn(1, -ilogb(PetscMax(s->side[0], s->side[1])));
@@ -244,7 +244,7 @@ void SamHalfSpaceStressCell(const PetscReal side[2], PetscReal poisson, const Pe
 
 /* ---- rows of lags ---- */
 
-/* L and M of the correction (top of this file), over 2 pi: half the difference of the neighbours, over pi. */
+/* Computes L and M of the correction (top of this file), over 2 pi: half the difference of the neighbours, over pi. */
 static void Jumps(double depth, double side, double *L, double *M)
 {
   const double u = 2 * PETSC_PI * depth / side, t = exp(-u);

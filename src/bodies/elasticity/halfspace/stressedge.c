@@ -49,7 +49,10 @@ static PetscErrorCode CreateMap(SamGrid grid, PetscReal poisson, Vec field, Map 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A traction in a cell, as the body feels it: on the surface the stresses zz, xz and yz are minus these. 0 outside. */
+/*
+  Returns a traction in a cell, as the body feels it: on the surface the stresses zz, xz and yz are minus these. 0
+  outside.
+*/
 static double TractionAt(const Map *m, PetscInt t, PetscInt i, PetscInt j)
 {
   static const SamStressComponent components[] = {SAM_STRESS_ZZ, SAM_STRESS_XZ, SAM_STRESS_YZ};
@@ -57,7 +60,7 @@ static double TractionAt(const Map *m, PetscInt t, PetscInt i, PetscInt j)
   return -SamHaloAt(&m->seen, components[t], i, j);
 }
 
-/* The kernel at a lag of any sign. */
+/* Returns the kernel at a lag of any sign. */
 static double KernelAt(const Map *m, PetscInt t, PetscInt c, PetscInt i, PetscInt j)
 {
   const PetscBool *odd  = SamStressOdd[SAM_STRESS_PLANE_P + t][c];
@@ -66,7 +69,7 @@ static double KernelAt(const Map *m, PetscInt t, PetscInt c, PetscInt i, PetscIn
   return sign * m->kernel[t][c][PetscAbsInt(j)][PetscAbsInt(i)];
 }
 
-/* What the cells outside of the block about cell (i, j) do at the centre of its neighbour (i + a, j + b). */
+/* Computes the stress by the cells outside the block about cell (i, j), at the centre of cell (i + a, j + b). */
 static void OutsideOf(const Map *m, PetscInt i, PetscInt j, PetscInt a, PetscInt b, double stress[PLANE])
 {
   static const SamStressComponent components[] = {SAM_STRESS_XX, SAM_STRESS_YY, SAM_STRESS_XY};
@@ -97,7 +100,10 @@ static void AddOutside(const Map *m, PetscInt i, PetscInt j, const double at[2],
     }
 }
 
-/* The stresses at a point by unit tractions on a point that lies at -e from it, |e| = 1, times the squared distance. */
+/*
+  Computes the stresses at a point by unit tractions on a point that lies at -e from it, |e| = 1, times the squared
+  distance.
+*/
 static void PointKernels(double nu, const double e[2], double k[SAM_STRESS_TRACTIONS][PLANE])
 {
   const double x = e[0], y = e[1], xx = x * x, yy = y * y;
@@ -113,7 +119,7 @@ static void PointKernels(double nu, const double e[2], double k[SAM_STRESS_TRACT
   k[SAM_STRESS_QY][XY] = -x * (1 - 2 * nu + 6 * nu * yy) / (2 * PETSC_PI);
 }
 
-/* The same of lines along y, times the distance. */
+/* Computes the stresses by unit tractions on a line along y likewise, times the distance. */
 static void LineKernels(double nu, const double e[2], double k[SAM_STRESS_TRACTIONS][PLANE])
 {
   for (int t = 0; t < SAM_STRESS_TRACTIONS; t++)
@@ -141,7 +147,10 @@ static Ray MakeRay(const PetscReal fit[6], const double at[2], double angle)
   return ray;
 }
 
-/* The integrals of the tractions over the radius, along a ray; `like`: their ratios to p in cells without pressure. */
+/*
+  Computes the integrals of the tractions over the radius, along a ray; `like`: their ratios to p in cells without
+  pressure.
+*/
 static void AlongRay(const Map *m, const Ray *ray, PetscInt i, PetscInt j, const double at[2], const double like[],
                      double sums[SAM_STRESS_TRACTIONS])
 {

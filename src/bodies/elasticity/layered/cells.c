@@ -90,7 +90,7 @@ static PetscInt FirstBeyond(double depth, double R, const double side[2], PetscI
   return x2 <= 0 ? 0 : (PetscInt)PetscMin(ceil(sqrt(x2) / side[0]), (double)n);
 }
 
-/* Lags first ... end - 1 of a row, by this many rows of points across a cell. */
+/* Adds the integrals at lags first ... end - 1 of a row, by this many rows of points across a cell. */
 static void AddFar(const SamRadialKernels *of, int across, const double side[2], PetscInt j, PetscInt first,
                    PetscInt end, double *const values[])
 {
@@ -168,7 +168,7 @@ void SamRadialAddLine(const SamRadialKernels *of, double side, PetscInt n, doubl
 
 /* ---- the surface ---- */
 
-/* The kernel of displacements that has this integral of half-spaces. */
+/* Returns the kernel of displacements that has this integral of half-spaces. */
 static SamRadialKernels SurfaceKernel(SamLayered l, SamIntegral kind)
 {
   static const SamRadialTerm terms[][2] = {
@@ -238,7 +238,7 @@ PetscErrorCode SamLayeredDestroy(SamLayered *layered)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The functions of k whose transforms are N, A, B and C, out of differences of symbols. */
+/* Computes the functions of k whose transforms are N, A, B and C, out of differences of symbols. */
 static void Combine(const double symbols[], double g[])
 {
   g[SAM_RADIAL_N] = symbols[SAM_LAYERED_ZZ];
@@ -255,7 +255,7 @@ static void DifferencesAt(const void *context, double k, double values[])
   Combine(difference, values);
 }
 
-/* A source of these differences, whose images are those of the symbols. */
+/* Describes a source of these differences, whose images are those of the symbols. */
 static SamRadialSource SourceOf(SamLayered l)
 {
   SamRadialSource of = {.functions = SAM_LAYERED_SYMBOLS, .depth = l->depth, .context = l};
@@ -338,7 +338,7 @@ PetscErrorCode SamLayeredPrepareLine(SamLayered l, double r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The integrals of -ln(rho/D) and, odd, of atan(x/Z) over a cell about x. */
+/* Returns the integrals of -ln(rho/D) and, odd, of atan(x/Z) over a cell about x. */
 static double ImageOver(double x, double dx, double Z, double datum, PetscBool odd)
 {
   double sum = 0;

@@ -40,7 +40,7 @@ static PetscErrorCode CheckRows(const SamOptions *from, const SamTable *t, const
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* How much the constants change from row k to the next; 0: one layer will do. */
+/* Returns how much the constants change from row k to the next; 0: one layer suffices. */
 static double ChangeOf(const SamTable *t, const PetscInt column[COLUMNS], PetscInt k)
 {
   return fabs(log(ValueOf(t, column, k + 1, YOUNG) / ValueOf(t, column, k, YOUNG))) +

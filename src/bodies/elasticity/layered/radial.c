@@ -60,7 +60,7 @@ static void Sample(Transform *t)
   }
 }
 
-/* The imaginary part of ln Gamma(x + iy), by Stirling's series at a larger argument. */
+/* Returns the imaginary part of ln Gamma(x + iy), by Stirling's series at a larger argument. */
 static double ImaginaryLogGamma(double x, double y)
 {
   double complex z     = x + I * y, series;
@@ -72,7 +72,7 @@ static double ImaginaryLogGamma(double x, double y)
   return cimag(series) - shift;
 }
 
-/* From samples of a remainder to r f(r), in place. */
+/* Transforms samples of a remainder to r f(r), in place. */
 static PetscErrorCode Convolve(const Transform *t, double order, double samples[])
 {
   const int       n = t->n;
@@ -100,7 +100,7 @@ static PetscErrorCode Convolve(const Transform *t, double order, double samples[
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* weights[k] of the sample first + k, for the interpolation at ln r. */
+/* Computes weights[k] of the sample first + k, for the interpolation at ln r; returns `first`. */
 static int Interpolation(const Transform *t, double r, double weights[AROUND])
 {
   const double at    = (log(r) - t->y0) / STEP;
@@ -122,7 +122,7 @@ static int Interpolation(const Transform *t, double r, double weights[AROUND])
   return first;
 }
 
-/* f(r)/r^n by the series. */
+/* Returns f(r)/r^n by the series. */
 static double Series(const Transform *t, int f, double s)
 {
   const double n = OrderOf(t->of, f), x = -0.25 * s / (t->of->depth * t->of->depth);

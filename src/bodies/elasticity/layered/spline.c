@@ -29,7 +29,7 @@ static double StartOf(int number)
   return s;
 }
 
-/* matrix[n][p]: what the value at point p adds to the coefficient of t^n. */
+/* Computes matrix[n][p], the contribution of the value at point p to the coefficient of t^n. */
 static void MakeFit(double points[POINTS], double matrix[POINTS][POINTS])
 {
   double powers[POINTS][POINTS] = {{1}, {0, 1}}; /* of Chebyshev's polynomials */

@@ -189,7 +189,7 @@ static Jumps JumpsOf(const Layered *l, double side)
                  .xz = -sums[1]};
 }
 
-/* Adds the correction of values at centres at the lags (1, 0) and (0, 1). */
+/* Adds the corrections of the values at cells' centres, at the lags (1, 0) and (0, 1). */
 static void Correct(const Layered *l, const double side[2], SamStressGroup group, PetscInt j, PetscInt n,
                     double *const values[SAM_STRESS_GROUP])
 {

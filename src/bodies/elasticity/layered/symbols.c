@@ -4,7 +4,7 @@
   With u_x = U sin kx, u_z = W cos kx, s_xz = T sin kx, s_zz = S cos kx, solutions in a layer of shear modulus mu that
   decay downwards from its top are (U, W) = D F(kz) a, (T, S) = A F(kz) a, displacements being multiplied by k, with
     D = [1 0; 1 kappa],  A = -2 mu [1, 1 - 2 nu; 1, 2 (1 - nu)],  F(x) = exp(-x) [1 x; 0 1],  kappa = 3 - 4 nu.
-  Those that decay upwards from its bottom are the mirror images: D' = diag(1, -1) D, A' = diag(-1, 1) A. Nothing grows.
+  Solutions that decay upwards from its bottom are mirror images: D' = diag(1, -1) D, A' = diag(-1, 1) A. None grows.
 
   Algorithm, for the compliance C in (U, W) = C (T, S) from the substrate up, where C = D A^-1, or 0 if it is rigid:
     R = -(D' - C A')^-1 (D - C A),  P = F(kh) R F(kh),  C = C0 + (D' - C0 A') P (A + A' P)^-1,  C0 = D A^-1,
@@ -76,7 +76,7 @@ typedef struct {
   double across, difference_across;
 } Surface;
 
-/* Of a layer on what lies below it: F(kh), R, P, rho and g (top of this file). */
+/* Reflection of waves in a layer by the materials below it: F(kh), R, P, rho and g (top of this file) */
 typedef struct {
   Matrix F, R, P;
   double rho, g;
@@ -123,7 +123,7 @@ static Surface SubstrateOf(SamBody body)
   return s;
 }
 
-/* The surface of a body; `below`: also what lies below the n-th material at n + 1, NULL: not wanted. */
+/* Computes the surface of a body; `below`: also what lies below the n-th material at n + 1, NULL: not wanted. */
 static Surface SurfaceOf(SamBody body, double k, Surface below[])
 {
   Surface s = SubstrateOf(body);
@@ -167,7 +167,7 @@ typedef struct {
   double across;
 } Wave;
 
-/* The ten functions out of (U, W), (T, S) by p and q, and V, T across, in a material. */
+/* Computes the ten functions out of (U, W), (T, S) by p and q, and V, T across, in a material. */
 static void CombineStresses(double mu, double nu, Matrix moved, Matrix stress, double v, double across,
                             double s[SAM_LAYERED_STRESSES])
 {
@@ -189,7 +189,7 @@ static void CombineStresses(double mu, double nu, Matrix moved, Matrix stress, d
   s[9] = 0.25 * (xx[1] - yy[1]) - 0.5 * mu * v;
 }
 
-/* In the substrate, at the depth z below its top. */
+/* Computes the stress functions in the substrate, at the depth z below its top. */
 static void Below(const SamMaterial *of, Wave top, double kz, double s[SAM_LAYERED_STRESSES])
 {
   const Material m = MaterialOf(of);

@@ -14,12 +14,12 @@
 #define CHUNK 256
 #define LEAST 1e-12 /* c/c_top in inverses: less is rounding, on a rigid base */
 
-/* Of some waves: |k|^2, never 0, and the gains along and across them. */
+/* |k|^2 of at most CHUNK waves, never 0, and their gains along and across the wave */
 typedef struct {
   double k2[CHUNK], along[CHUNK], across[CHUNK];
 } Waves;
 
-/* At most CHUNK waves from the entry `first` on: |k|^2 and gain c/|k|, or its inverse; how many. */
+/* Computes |k|^2 and gain c/|k|, or its inverse, of up to CHUNK waves from entry `first` on; returns their number. */
 static PetscInt Gains(const SamSymbol *s, const SamWaves *at, PetscInt first, SamLayeredSymbol symbol, double k2[],
                       double gain[])
 {

@@ -37,7 +37,7 @@ typedef struct {
 #include "symbols.h"
 #include <petsam/private/fourier.h>
 
-/* Whether a wave number of that index is its own mirror image. */
+/* 1 if the wave number of index k is its own mirror image (the Nyquist wave), else 0. */
 static inline double IsOwnMirror(PetscInt k, PetscInt n)
 {
   return 2 * k == n ? 1 : 0;
@@ -45,7 +45,7 @@ static inline double IsOwnMirror(PetscInt k, PetscInt n)
 
 /* ---- coupling ---- */
 
-/* A symbol of layered bodies. */
+/* Returns a symbol of layered bodies. */
 static double SymbolAt(const SamSymbol *s, SamLayeredSymbol symbol, double k2)
 {
   const double argument = k2 * s->unit;
@@ -134,7 +134,7 @@ static SamLayered LayersOf(SamElasticity e)
   return ((const Periodic *)e->data)->layers;
 }
 
-/* The symbol factor * amplitude * (a function of k of degree -1). */
+/* Describes the symbol factor * amplitude * (a function of k of degree -1). */
 static SamSymbol SymbolOf(SamElasticity e, double factor, double amplitude, Product multiply)
 {
   const SamGrid grid = e->grid;
@@ -149,7 +149,7 @@ static SamSymbol SymbolOf(SamElasticity e, double factor, double amplitude, Prod
   return s;
 }
 
-/* Its inverse. */
+/* Describes the inverse of that symbol. */
 static SamSymbol InverseOf(SamElasticity e, double factor, double amplitude, Product multiply)
 {
   SamSymbol s = SymbolOf(e, factor, amplitude, multiply);
@@ -257,8 +257,8 @@ static inline double Multiplicity(PetscInt k, PetscInt n)
 }
 
 /*
-  Sums over the waves of one ky of 1/|k|, kx^2/|k|^3 and ky^2/|k|^3; of layered bodies, of u_z from p, u_x from q_x, and
-  u_y from q_y.
+  Computes sums over the waves of one ky of 1/|k|, kx^2/|k|^3 and ky^2/|k|^3; of layered bodies, of u_z from p, u_x from
+  q_x, and u_y from q_y.
 */
 static void SumWaves(SamElasticity e, const SamSymbol *s, PetscInt m, double sums[3])
 {

@@ -18,7 +18,9 @@ static PetscReal Height_Ellipsoid(const PetscReal radius[], PetscReal x, PetscRe
   return 0.5 * x * x / radius[0] + 0.5 * y * y / radius[1];
 }
 
-/* The complete elliptic integrals K and E of modulus k = sqrt(1 - ratio^2), by the arithmetic-geometric mean. */
+/*
+  Computes the complete elliptic integrals K and E of modulus k = sqrt(1 - ratio^2), by the arithmetic-geometric mean.
+*/
 static void Integrals(double ratio, double *K, double *E)
 {
   double a = 1, b = ratio, square = 0.5 * (1 - ratio * ratio), power = 0.5;
@@ -37,7 +39,7 @@ static void Integrals(double ratio, double *K, double *E)
 
 #define STRAIGHT 1e-8 /* ratio of two radii of which the larger one counts as infinite */
 
-/* The ratio of the axes of Hertz's ellipse for that of the radii, at most 1: Johnson, eqs 4.25 and 4.26. */
+/* Returns the ratio of the axes of Hertz's ellipse for a ratio of radii of at most 1: Johnson, eqs 4.25 and 4.26. */
 static double RatioOfAxes(double radii)
 {
   double low = 0, high = 1, K, E;
@@ -54,7 +56,7 @@ static double RatioOfAxes(double radii)
   return radii > 1 - 1e-7 ? 1 : high; /* there the difference above is only rounding */
 }
 
-/* Hertz: Johnson, eqs 4.25 to 4.30. For a cylinder they give the half width of the contact, not its length. */
+/* Returns Hertz's contact: Johnson, eqs 4.25 to 4.30. For a cylinder they give its half width, not its length. */
 static SamGapContact Contact_Ellipsoid(const PetscReal radius[], PetscReal half)
 {
   const int     x     = radius[0] >= radius[1] ? 0 : 1; /* along the longer axis */
@@ -105,7 +107,9 @@ static const SamGapParameter curved[] = {
 static const PetscReal curved_defaults[] = {INFINITY, INFINITY, INFINITY, INFINITY, 0},
                        curved_cylinder[] = {NAN, INFINITY, NAN, INFINITY, 0};
 
-/* The relative curvatures h_xx, h_xy, h_yy (1/m) of v: the radii along x and y of both bodies, and their angle. */
+/*
+  Computes the relative curvatures h_xx, h_xy, h_yy (1/m) of v: the radii along x and y of both bodies, and their angle.
+*/
 static void Curvatures(const PetscReal v[], double h[3])
 {
   const double angle = v[4] * PETSC_PI / 180, c = cos(angle), s = sin(angle);
@@ -115,7 +119,7 @@ static void Curvatures(const PetscReal v[], double h[3])
   h[2] = 1 / v[1] + s * s / v[2] + c * c / v[3];
 }
 
-/* The smaller and the larger principal relative curvature, and the angle of the direction of the smaller to x. */
+/* Computes the smaller and the larger principal relative curvature; returns the angle of the smaller one to x. */
 static double Principal(const PetscReal v[], double curvature[2])
 {
   double h[3], size = 0, deviation;

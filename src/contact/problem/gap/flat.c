@@ -10,7 +10,7 @@ static PetscReal Height_Flat(const PetscReal values[], PetscReal x, PetscReal y)
   return 0;
 }
 
-/* The contact of two planes has no end. */
+/* Returns the contact of two planes, which has no end. */
 static SamGapContact Contact_Flat(const PetscReal values[], PetscReal half)
 {
   (void)values;

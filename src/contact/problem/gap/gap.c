@@ -337,9 +337,9 @@ PetscErrorCode SamGapGetParameters(SamGap gap, SamGapType *type, PetscInt *count
 
 /* ---- the contact by a closed-form solution ---- */
 
-#define HALVINGS 200 /* of an interval of half widths, more than doubles have digits and half of their exponents */
+#define HALVINGS 200 /* bisections of an interval of half widths; enough for all digits and exponents of doubles */
 
-/* The number of a contact that is compared with the prescribed value. */
+/* Returns the number of a contact that is compared with the prescribed value. */
 static PetscReal ValueOf(const SamGapContact *contact, PetscBool force)
 {
   return force ? contact->force : contact->approach;

@@ -1,5 +1,5 @@
 /*
-  What heights from a file tell of their unit, and of a tilt, which is a step at the border of a period.
+  Examines heights from a file for a wrong unit, and for a tilt, which makes a step at the border of a period.
 
   The heights are the separation without the shape. Their tilt along an axis is that of the means of the lines across
   it, by least squares. Waves may have one, too, but go on over the border; so the smaller of two rises counts: that of
@@ -29,7 +29,7 @@ typedef struct {
   double rise[2];           /* m: over the period in x, y */
 } Heights;
 
-/* The difference across the face before cell i of row j along an axis; 0 beyond the grid. */
+/* Returns the difference across the face before cell i of row j along an axis; 0 beyond the grid. */
 static double DifferenceAt(const SamHalo *seen, SamGrid grid, PetscInt axis, PetscInt i, PetscInt j)
 {
   const PetscInt at = axis ? j : i, n = axis ? grid->ny : grid->nx;
@@ -37,7 +37,7 @@ static double DifferenceAt(const SamHalo *seen, SamGrid grid, PetscInt axis, Pet
   return at < 1 || at >= n ? 0 : SamHaloAt(seen, 0, i, j) - SamHaloAt(seen, 0, i - !axis, j - axis);
 }
 
-/* The same if it is a step, else 0. */
+/* Returns that difference if it is a step, else 0. */
 static double StepAt(const SamHalo *seen, SamGrid grid, PetscInt axis, PetscInt i, PetscInt j)
 {
   const PetscInt along = axis ? 0 : 2, across = axis ? 2 : 0;
@@ -69,7 +69,7 @@ static void AddUp(const SamHalo *seen, SamGrid grid, double square[3], double su
   }
 }
 
-/* The rise over n lines with these means. */
+/* Returns the rise over n lines with these means. */
 static double Rise(const double mean[], PetscInt n)
 {
   const double step = mean[n - 1] - mean[0];
@@ -135,7 +135,7 @@ static void Describe(const Heights *h, SamGrid grid, PetscBool periodic, char te
                    h->rise[axis], axis ? "y" : "x", h->rms);
 }
 
-/* The heights without the shape; NULL: none are from a file. */
+/* Computes the heights without the shape; NULL: none are from a file. */
 static PetscErrorCode CreateHeights(SamGap gap, SamGrid grid, Vec h, Vec *heights)
 {
   PetscScalar *array;
@@ -177,7 +177,9 @@ PetscErrorCode SamGapAdvise(SamGap gap, SamGrid grid, Vec h, PetscBool periodic,
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The highest step beside or in contact, and the cell and axis of the face that has it, as a place on the grid. */
+/*
+  Finds the highest step beside or in contact, and the cell and axis of the face that has it, as a place on the grid.
+*/
 static PetscErrorCode FindStep(SamGrid grid, Vec heights, Vec pressure, double *most, double *place)
 {
   SamHalo h, p;

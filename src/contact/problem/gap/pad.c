@@ -39,7 +39,7 @@ static PetscReal Height_Roller(const PetscReal v[], PetscReal x, PetscReal y)
   return 0.5 * x * x / v[0] + (s > 1 ? v[3] + end * (s - 1) : -v[2] * log1p(-part * s * s));
 }
 
-/* No closed-form solution but in plane strain; straight on along an axis, the contact has no end there. */
+/* Describes a contact without closed-form solution but in plane strain; it has no end along a straight axis. */
 static SamGapContact Contact_Pad(const PetscReal v[], PetscReal half)
 {
   (void)half;

@@ -14,7 +14,7 @@ static PetscReal Height_Sphere(const PetscReal radius[], PetscReal x, PetscReal 
   return 0.5 * (x * x + y * y) * (1 / radius[0] + 1 / radius[1]);
 }
 
-/* Hertz: Johnson, eqs 4.22 to 4.24. */
+/* Returns Hertz's contact: Johnson, eqs 4.22 to 4.24. */
 static SamGapContact Contact_Sphere(const PetscReal radius[], PetscReal half)
 {
   const PetscReal curvature = 1 / radius[0] + 1 / radius[1];
