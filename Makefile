@@ -79,9 +79,12 @@ $(B)/lib/libpetsam.a: $(LIB_OBJ)
 	$(say) AR $@
 	$(Q)rm -f $@ && $(AR) rcs $@ $^
 
-# the shared library exports what the headers declare by PETSC_EXTERN and not by PETSC_INTERN
-$(B)/lib/exports.map: $(B)/lib/libpetsam.a
-	$(Q){ echo '{ global:'; $(READELF) -sW $< | awk '($$4 == "FUNC" || $$4 == "OBJECT") && $$5 == "GLOBAL" && $$6 == "DEFAULT" && $$7 != "UND" && $$8 ~ /^(Sam|petsam_)[A-Za-z0-9_]+$$/ { print "  " $$8 ";" }'; echo 'local: *; };'; } > $@
+# the shared library exports what the headers declare by PETSC_EXTERN and not by PETSC_INTERN: under the version of the
+# interface what public headers declare, and what the programs and new types use of private ones without a promise
+$(B)/lib/exports.map: $(B)/lib/libpetsam.a $(HEADERS)
+	$(Q)$(READELF) -sW $< | awk '($$4 == "FUNC" || $$4 == "OBJECT") && $$5 == "GLOBAL" && $$6 == "DEFAULT" && $$7 != "UND" && $$8 ~ /^(Sam|petsam_)[A-Za-z0-9_]+$$/ { print $$8 }' | sort -u > $@.all
+	$(Q)grep -hE 'PETSC_EXTERN|petsam_' include/petsam/*.h | grep -oE '(Sam|petsam_)[A-Za-z0-9_]+' | sort -u > $@.public
+	$(Q){ echo 'PETSAM_$(firstword $(subst ., ,$(VERSION))) { global:'; comm -12 $@.all $@.public | sed 's/$$/;/'; echo 'local: *; };'; echo 'PETSAM_PRIVATE { global:'; comm -23 $@.all $@.public | sed 's/$$/;/'; echo '};'; } > $@
 
 $(B)/lib/libpetsam.so: $(LIB_OBJ) $(B)/lib/exports.map
 	@mkdir -p $(@D)

@@ -28,7 +28,7 @@ typedef struct {
 /* The components (SamComponent) of a kind of balance, in its order. */
 PETSC_INTERN const PetscInt SamComponentsOf[2][3];
 /* SamControlGetBalance - the components of one kind of a control, as the solvers take them. Not collective. */
-PETSC_EXTERN SamBalance SamControlGetBalance(const SamControl *control, SamBalanceKind kind);
+PETSC_INTERN SamBalance SamControlGetBalance(const SamControl *control, SamBalanceKind kind);
 
 /* SamBalanceGetLoads - the three loads that a field of traction (1 or 2 components, Pa) carries. Collective. */
 PETSC_INTERN PetscErrorCode SamBalanceGetLoads(SamGrid grid, SamBalanceKind kind, Vec traction, PetscReal loads[3]);

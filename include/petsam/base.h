@@ -129,7 +129,7 @@ PETSC_EXTERN PetscErrorCode SamOptionsReal(const SamOptions *from, const char na
                                            PetscReal *value, PetscBool *set);
 PETSC_INTERN PetscErrorCode SamOptionsReals(const SamOptions *from, const char name[], const char help[],
                                             SamRange range, PetscInt most, PetscReal values[], PetscInt *count);
-PETSC_EXTERN PetscErrorCode SamOptionsHas(const SamOptions *from, const char option[], PetscBool *has);
+PETSC_INTERN PetscErrorCode SamOptionsHas(const SamOptions *from, const char option[], PetscBool *has);
 PETSC_INTERN PetscErrorCode SamOptionsNeed(const SamOptions *from, PetscBool given, const char name[],
                                            const char needs[]);
 /*

@@ -80,7 +80,7 @@ PETSC_INTERN double    SamPairCoupling(SamPair pair, double first, double last);
   SamPairAddParameters - appends the constants by the names of these options. Not collective.
   SamPairCreateFromParameters - from such a record; `source` names it in messages. Collective. Errors: SAM_ERR_FILE.
 */
-PETSC_EXTERN PetscErrorCode SamPairCreateFromOptions(const SamOptions *from, SamPair *pair);
+PETSC_INTERN PetscErrorCode SamPairCreateFromOptions(const SamOptions *from, SamPair *pair);
 PETSC_INTERN PetscErrorCode SamPairAddParameters(SamPair pair, SamParameters *parameters);
 PETSC_INTERN PetscErrorCode SamPairCreateFromParameters(MPI_Comm comm, const SamParameters *parameters,
                                                         const char source[], SamPair *pair);

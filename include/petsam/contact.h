@@ -116,7 +116,7 @@ PETSC_EXTERN PetscErrorCode SamContactReject(SamContact contact);
 */
 PETSC_INTERN PetscErrorCode SamContactRewind(SamContact contact, const PetscReal by[2]);
 /* SamContactHasStep - whether there is a tried solution, or a committed one. Not collective. */
-PETSC_EXTERN PetscBool SamContactHasStep(SamContact contact, SamGeneration generation);
+PETSC_INTERN PetscBool SamContactHasStep(SamContact contact, SamGeneration generation);
 /*
   SamContactGetSolution - the solution of the tried state if there is one, else of the committed one. Borrowed until the
   next try, commit or rejection. Collective.
@@ -130,7 +130,7 @@ PETSC_EXTERN PetscErrorCode SamContactGetSolution(SamContact contact, const SamS
   PETSC_ERR_ARG_UNKNOWN_TYPE for an unknown name.
 */
 PETSC_EXTERN PetscErrorCode SamContactGetField(SamContact contact, const char name[], Vec field);
-PETSC_EXTERN PetscErrorCode SamContactHasField(SamContact contact, const char name[], PetscBool *has);
+PETSC_INTERN PetscErrorCode SamContactHasField(SamContact contact, const char name[], PetscBool *has);
 PETSC_EXTERN PetscErrorCode SamContactGetNumber(SamContact contact, const char name[], PetscReal *value);
 
 /*
@@ -168,7 +168,7 @@ PETSC_INTERN PetscErrorCode SamContactFindEdge(SamContact contact, SamEdgeOf whi
   SamContactReset - the bodies have never touched. Collective.
   SamContactGetSteps - the number of committed steps. Not collective.
 */
-PETSC_EXTERN PetscErrorCode SamContactSetState(SamContact contact, SamState state, PetscBool gap_is_current);
+PETSC_INTERN PetscErrorCode SamContactSetState(SamContact contact, SamState state, PetscBool gap_is_current);
 PETSC_EXTERN PetscErrorCode SamContactReset(SamContact contact);
 PETSC_INTERN PetscInt       SamContactGetSteps(SamContact contact);
 /* SamContactIsGapCurrent - whether the committed pressure was solved with the problem's gap of now. Collective. */

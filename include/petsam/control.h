@@ -77,7 +77,7 @@ PETSC_EXTERN PetscErrorCode      SamConditionsAdd(SamConditions conditions, cons
                                                   const SamCondition **own);
 PETSC_INTERN PetscInt            SamConditionsCount(SamConditions conditions);
 PETSC_INTERN const SamCondition *SamConditionsGet(SamConditions conditions, PetscInt k);
-PETSC_EXTERN const SamCondition *SamConditionsFind(SamConditions conditions, const char name[]);
+PETSC_INTERN const SamCondition *SamConditionsFind(SamConditions conditions, const char name[]);
 
 /*
   SamControl - what is prescribed in a load step. SamControlInitialize() sets the defaults, the user the rest; it is
@@ -110,7 +110,7 @@ PETSC_EXTERN PetscErrorCode SamControlSet(SamControl *control, SamConditions con
                                           PetscReal value);
 /* How a component is given, and setting it. Not collective. */
 PETSC_EXTERN SamWay SamControlWay(const SamControl *control, PetscInt component);
-PETSC_EXTERN void   SamControlSetWay(SamControl *control, PetscInt component, SamWay way);
+PETSC_INTERN void   SamControlSetWay(SamControl *control, PetscInt component, SamWay way);
 /*
   What a control prescribes, in one row: the loads, displacements or creepages of the six components, then the
   conditions of a list. SamControlCount - the number of these parts. SamControlPart - the k-th of them.

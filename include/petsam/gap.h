@@ -75,7 +75,7 @@ PETSC_EXTERN PetscErrorCode SamGapFill(SamGap gap, SamGrid grid, Vec h);
   SamGapGetHeight - the separation of the shape at a point (m), without roughness; 0 for a type that is given cell by
   cell. Not collective.
 */
-PETSC_EXTERN PetscReal SamGapGetHeight(SamGap gap, PetscReal x, PetscReal y);
+PETSC_INTERN PetscReal SamGapGetHeight(SamGap gap, PetscReal x, PetscReal y);
 /*
   SamGapGetParameters - the type, and the numbers that define the shape: how many, their names (those of the options,
   without dash and prefix) and values. All borrowed; NULL for one that is not wanted. Not collective.
@@ -121,8 +121,8 @@ PETSC_INTERN PetscErrorCode SamGapAdviseStep(SamGap gap, SamGrid grid, Vec h, Ve
   SamGapIsFromFile - whether the gap, or with `rough` its roughness, comes from a file. Not collective.
   SamGapIsQuadratic - whether the gap is a quadratic function of place, without any heights from files. Not collective.
 */
-PETSC_EXTERN PetscErrorCode SamGapCheckPlane(SamGap gap);
-PETSC_EXTERN PetscBool      SamGapIsFromFile(SamGap gap, PetscBool rough);
+PETSC_INTERN PetscErrorCode SamGapCheckPlane(SamGap gap);
+PETSC_INTERN PetscBool      SamGapIsFromFile(SamGap gap, PetscBool rough);
 PETSC_INTERN PetscBool      SamGapIsQuadratic(SamGap gap);
 
 #endif

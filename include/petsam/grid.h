@@ -42,7 +42,7 @@ PETSC_EXTERN PetscErrorCode SamGridCreate(MPI_Comm comm, const PetscInt n[2], co
   them, become those of the grid, and the first two are required where they are 0. `row`: one row of cells, 1 m wide.
   Collective. Errors: SAM_ERR_USER.
 */
-PETSC_EXTERN PetscErrorCode SamGridCreateFromOptions(const SamOptions *from, PetscBool row, PetscInt n[2],
+PETSC_INTERN PetscErrorCode SamGridCreateFromOptions(const SamOptions *from, PetscBool row, PetscInt n[2],
                                                      PetscReal width[2], PetscReal center[2], SamGrid *grid);
 PETSC_EXTERN PetscErrorCode SamGridDestroy(SamGrid *grid);
 

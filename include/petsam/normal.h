@@ -45,7 +45,7 @@ PETSC_EXTERN PetscErrorCode SamNormalRegister(const char name[], PetscErrorCode 
   collective. Errors: PETSC_ERR_ARG_OUTOFRANGE unless it is > 0. A method without such a bound rejects it,
   PETSC_ERR_SUP; SamNormalLimitsPressure() - whether the current method has it.
 */
-PETSC_EXTERN PetscErrorCode SamNormalSetPressureLimit(SamNormal normal, PetscReal limit);
+PETSC_INTERN PetscErrorCode SamNormalSetPressureLimit(SamNormal normal, PetscReal limit);
 PETSC_INTERN PetscBool      SamNormalLimitsPressure(SamNormal normal);
 
 /*

@@ -33,9 +33,9 @@ PETSC_EXTERN PetscErrorCode SamParametersAddReals(SamParameters *parameters, con
                                                   PetscInt count, const PetscReal values[]);
 PETSC_EXTERN PetscErrorCode SamParametersAddText(SamParameters *parameters, const char name[], PetscBool fixed,
                                                  const char text[]);
-PETSC_EXTERN PetscErrorCode SamParametersAddChecksum(SamParameters *parameters, const char name[], uint64_t checksum);
+PETSC_INTERN PetscErrorCode SamParametersAddChecksum(SamParameters *parameters, const char name[], uint64_t checksum);
 /* SamParametersAddOptions - appends the options of a table that are recorded, from the settings. Likewise. */
-PETSC_EXTERN PetscErrorCode SamParametersAddOptions(SamParameters *parameters, PetscInt count,
+PETSC_INTERN PetscErrorCode SamParametersAddOptions(SamParameters *parameters, PetscInt count,
                                                     const SamOptionRow rows[], const void *settings);
 /* SamParametersFind - the parameter of that name, NULL: none; borrowed. Not collective. */
 PETSC_EXTERN const SamParameter *SamParametersFind(const SamParameters *parameters, const char name[]);

@@ -58,8 +58,8 @@ PETSC_EXTERN PetscErrorCode SamProblemAddLaw(SamProblem problem, SamLaw law);
 PETSC_EXTERN PetscErrorCode SamProblemAddLawOfType(SamProblem problem, SamLawType type, SamLaw *law);
 PETSC_INTERN PetscErrorCode SamProblemAddSum(SamProblem problem, SamLawType type);
 PETSC_EXTERN SamLaw         SamProblemGetLaw(SamProblem problem, SamLawType type);
-PETSC_EXTERN PetscErrorCode SamProblemGetLaws(SamProblem problem, PetscInt *count, const SamLaw **laws);
-PETSC_EXTERN PetscErrorCode SamProblemSetLawsFromOptions(SamProblem problem, const SamOptions *from);
+PETSC_INTERN PetscErrorCode SamProblemGetLaws(SamProblem problem, PetscInt *count, const SamLaw **laws);
+PETSC_INTERN PetscErrorCode SamProblemSetLawsFromOptions(SamProblem problem, const SamOptions *from);
 
 /*
   SamProblemGetBytes - memory that the laws take for each cell, bytes. Not collective.

@@ -61,7 +61,7 @@ PETSC_INTERN PetscErrorCode SamSolverSetLevels(SamSolver solver, PetscInt levels
   SamSolverSetErrorIfNotConverged - whether a solve that does not converge is an error, PETSC_ERR_NOT_CONVERGED, and not
   only a reason. Option -<kind>_error_if_not_converged. Not collective.
 */
-PETSC_EXTERN PetscErrorCode SamSolverSetErrorIfNotConverged(SamSolver solver, PetscBool error);
+PETSC_INTERN PetscErrorCode SamSolverSetErrorIfNotConverged(SamSolver solver, PetscBool error);
 
 /*
   SamSolverMonitorSet - adds a function that is called after every iteration on the finest grid, with the number of

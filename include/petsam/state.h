@@ -93,7 +93,7 @@ PETSC_INTERN PetscBool      SamStateIsUsual(SamState state, PetscInt k);
   SamStateOfferNumber - makes a declared number a column of /history, unless it is one; `before` is its value in steps
   of an earlier run whose results lack it. Not collective.
 */
-PETSC_EXTERN PetscErrorCode SamStateOfferNumber(SamState state, const char name[], double before);
+PETSC_INTERN PetscErrorCode SamStateOfferNumber(SamState state, const char name[], double before);
 
 /*
   SamStateResult - a field that results offer: a component of a remembered field, or what `compute` writes into a vector
@@ -117,9 +117,9 @@ typedef struct {
   SamStateSetLayers - the layers of all fields of that kind: z of their middles, rising: m below the surface of body 2,
   negative in body 1. SamStateGetLayers - their number and z, borrowed. Neither is collective.
 */
-PETSC_EXTERN PetscErrorCode SamStateSetLayers(SamState state, PetscInt count, const PetscReal z[]);
-PETSC_EXTERN PetscInt       SamStateGetLayers(SamState state, const PetscReal **z);
-PETSC_EXTERN PetscErrorCode SamStateOffer(SamState state, const SamStateResult *result);
+PETSC_INTERN PetscErrorCode SamStateSetLayers(SamState state, PetscInt count, const PetscReal z[]);
+PETSC_INTERN PetscInt       SamStateGetLayers(SamState state, const PetscReal **z);
+PETSC_INTERN PetscErrorCode SamStateOffer(SamState state, const SamStateResult *result);
 
 /*
   SamStateSetField - the vector of a field's tried generation, to be written to: zero when it is first made, later with
@@ -139,17 +139,17 @@ PETSC_EXTERN double *SamStateReadNumbers(SamState state, PetscInt id);
   SamStateJoinNumbers - joins the numbers of the tried generation to `parts`, those of the parts of the step before it:
   SAM_STATE_NUMBERS values, at first 0. `to_step`: into the tried generation, else into `parts`. Not collective.
 */
-PETSC_EXTERN void SamStateJoinNumbers(SamState state, double parts[], PetscBool to_step);
+PETSC_INTERN void SamStateJoinNumbers(SamState state, double parts[], PetscBool to_step);
 
 /*
   The declarations, in their order. None is collective.
   SamStateFind... - the handle of a name, -1: there is none. For results the place in their list.
 */
-PETSC_EXTERN PetscInt              SamStateCountFields(SamState state);
-PETSC_EXTERN const SamStateField  *SamStateFieldOf(SamState state, PetscInt id);
+PETSC_INTERN PetscInt              SamStateCountFields(SamState state);
+PETSC_INTERN const SamStateField  *SamStateFieldOf(SamState state, PetscInt id);
 PETSC_EXTERN PetscInt              SamStateFindField(SamState state, const char name[]);
-PETSC_EXTERN PetscInt              SamStateCountNumbers(SamState state);
-PETSC_EXTERN const SamStateNumber *SamStateNumberOf(SamState state, PetscInt k, PetscInt *id);
+PETSC_INTERN PetscInt              SamStateCountNumbers(SamState state);
+PETSC_INTERN const SamStateNumber *SamStateNumberOf(SamState state, PetscInt k, PetscInt *id);
 PETSC_EXTERN PetscInt              SamStateFindNumber(SamState state, const char name[]);
 
 #endif

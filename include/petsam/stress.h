@@ -82,7 +82,7 @@ PETSC_INTERN PetscErrorCode SamSectionCompute(SamSection section, double stress[
     SamStressStrain     the strains by Hooke's law, tensor shear strains, in the order of the stresses; none in a rigid
                         body, of infinite modulus
 */
-PETSC_EXTERN void SamStressMises(PetscInt n, const double *const s[], double mises[]);
+PETSC_INTERN void SamStressMises(PetscInt n, const double *const s[], double mises[]);
 PETSC_INTERN void SamStressPrincipal(PetscInt n, const double *const s[], double *const p[3]);
 PETSC_INTERN void SamStressStrain(PetscInt n, PetscReal young, PetscReal poisson, const double *const s[],
                                   double *const e[]);

@@ -61,6 +61,6 @@ PETSC_EXTERN PetscErrorCode SamTangentialSolve(SamTangential tangential, Vec bou
   SamTangentialGetLimit - after gross slip: the factor on the given loads at which sliding begins; infinite when it was
   not looked for. Not collective.
 */
-PETSC_EXTERN PetscReal SamTangentialGetLimit(SamTangential tangential);
+PETSC_INTERN PetscReal SamTangentialGetLimit(SamTangential tangential);
 
 #endif

@@ -221,7 +221,7 @@ PetscErrorCode SamContactGetField(SamContact c, const char name[], Vec field)
   double            *to;
   Vec                holder;
   PetscInt           component, cells;
-  PetscBool          has;
+  PetscBool          has = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(SamGridCheckVec(c->grid, 1, field, name));

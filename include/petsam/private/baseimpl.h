@@ -142,7 +142,7 @@ PETSC_INTERN const char *SamOptionsNearest(const char tried[]);
   blank the name may go on with what else would do.
   Collective. Errors: SAM_ERR_USER unless it is given.
 */
-PETSC_EXTERN PetscErrorCode SamOptionsRequire(const SamOptions *from, PetscBool given, const char name[],
+PETSC_INTERN PetscErrorCode SamOptionsRequire(const SamOptions *from, PetscBool given, const char name[],
                                               const char text[]);
 /* SamIsDecimalComma - whether a text begins with digits, a comma, and a digit: 2,6e-3. */
 PETSC_INTERN PetscBool SamIsDecimalComma(const char text[]);

@@ -118,7 +118,7 @@ PETSC_EXTERN PetscErrorCode SamSimulationRun(SamSimulation simulation);
 PETSC_INTERN PetscErrorCode SamSimulationSetContactFromOptions(SamSimulation simulation, const SamOptions *from);
 PETSC_INTERN PetscErrorCode SamSimulationSetProgram(SamSimulation simulation, SamHistory *history, PetscReal cycles);
 PETSC_INTERN PetscErrorCode SamSimulationSetGap(SamSimulation simulation, Vec gap);
-PETSC_EXTERN PetscErrorCode SamSimulationStop(SamSimulation simulation);
+PETSC_INTERN PetscErrorCode SamSimulationStop(SamSimulation simulation);
 
 /*
   SamSimulationTryStep - tries a step; conditions that are not as usual become numbers of each step, and at the edge of

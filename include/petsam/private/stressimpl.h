@@ -82,7 +82,7 @@ struct _n_SamStress {
   SamStressUseDepth - gets the kernels of a depth ready. Errors: PETSC_ERR_ARG_OUTOFRANGE for what is none. Not
   collective.
 */
-PETSC_EXTERN PetscErrorCode SamStressCreate(SamGrid grid, const SamFourierSettings *settings, PetscInt body,
+PETSC_INTERN PetscErrorCode SamStressCreate(SamGrid grid, const SamFourierSettings *settings, PetscInt body,
                                             SamStress *stress);
 PETSC_INTERN PetscErrorCode SamStressUseDepth(SamStress stress, PetscReal depth);
 
