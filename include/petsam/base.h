@@ -78,12 +78,14 @@ PETSC_EXTERN PetscErrorCode SamOptionsHeading(const SamOptions *from, const char
   SAM_OPTION_INT      PetscInt from `least` to `most` (0: any); `size` likewise
   SAM_OPTION_BOOL     PetscBool: 1, true, yes, on, or 0, false, no, off, or no value for true; with `words`: one of
                       these, where the first means false and any other true
-  SAM_OPTION_ENUM     an enumeration of C, given by one of `words`, whose position is the value SAM_OPTION_STRING
-  char[size] SAM_OPTION_FILE     char[size], the name of a file that is read: no other file of the run may replace it
-  SAM_OPTION_FILES    char[size], the names of several such files, separated by commas SAM_OPTION_OUTPUT   char[size],
-  the name of a file that is written SAM_OPTION_WORD     char[size], one of `words` SAM_OPTION_WORDS    char[size], some
-  of `words`, separated by commas; the caller checks them SAM_OPTION_VIEWER   no member: an ASCII viewer, created where
-  it is used
+  SAM_OPTION_ENUM     an enumeration of C, given by one of `words`, whose position is the value
+  SAM_OPTION_STRING   char[size]
+  SAM_OPTION_FILE     char[size], the name of a file that is read: no other file of the run may replace it
+  SAM_OPTION_FILES    char[size], the names of several such files, separated by commas
+  SAM_OPTION_OUTPUT   char[size], the name of a file that is written
+  SAM_OPTION_WORD     char[size], one of `words`
+  SAM_OPTION_WORDS    char[size], some of `words`, separated by commas; the caller checks them
+  SAM_OPTION_VIEWER   no member: an ASCII viewer, created where it is used
 
   `words` are separated by commas. `needs`: another option, or option and value, without which this option has no
   meaning; " or -" separates alternatives. `excludes`: options, separated by commas, that cannot be given with this one.
@@ -125,8 +127,7 @@ typedef struct {
   SamOptionsNeed - rejects an option that is given without another one that it needs; the format is that of a row's
   `needs`.
 */
-#define SAM_OPTION_ROWS(rows) \
-  (PetscInt)(sizeof(rows) / sizeof((rows)[0])), rows /* number of rows of a table, and the table */
+#define SAM_OPTION_ROWS(rows) (PetscInt)(sizeof(rows) / sizeof((rows)[0])), rows /* the row count and the table */
 PETSC_EXTERN PetscErrorCode SamOptionsRead(const SamOptions *from, const char heading[], PetscInt count,
                                            const SamOptionRow rows[], void *settings, PetscBool given[]);
 PETSC_EXTERN PetscErrorCode SamOptionsReal(const SamOptions *from, const char name[], const char help[], SamRange range,

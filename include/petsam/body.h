@@ -32,7 +32,8 @@ PETSC_EXTERN PetscErrorCode SamBodyDestroy(SamBody *body);
   SamBodyMaterialAt - returns the material at a depth; borrowed.
   SamBodyTop - returns the depth (m) at which the n-th material begins; infinite for n = SamBodyCount().
   SamBodySubstrate - returns the last material; borrowed.
-  SamBodyIsRigid - returns true if the whole body is rigid. None is collective.
+  SamBodyIsRigid - returns true if the whole body is rigid.
+  None is collective.
 */
 PETSC_INTERN PetscInt           SamBodyCount(SamBody body);
 PETSC_INTERN PetscInt           SamBodyAt(SamBody body, PetscReal depth);
@@ -67,7 +68,8 @@ PETSC_EXTERN PetscErrorCode SamPairDestroy(SamPair *pair);
   SamPairModulus - returns E* (Pa) of the materials at the surfaces.
   SamPairIsUniform - returns true if each of the bodies has a single material.
   SamPairCoupling - returns the largest ratio of the normal displacement by shear to that by pressure, over waves with
-  wave numbers from `first` to `last` (1/m). For uniform bodies it is Dundurs' beta. None is collective.
+  wave numbers from `first` to `last` (1/m). For uniform bodies it is Dundurs' beta.
+  None is collective.
 */
 PETSC_INTERN SamBody   SamPairBody(SamPair pair, PetscInt body);
 PETSC_INTERN PetscReal SamPairModulus(SamPair pair);

@@ -41,9 +41,8 @@ PETSC_EXTERN PetscErrorCode SamCheckSolution(SamProblem problem, SamState state,
   SamStatus - the outcome of a load step. The values are stored in the results and are the exit codes of the program.
 */
 typedef enum {
-  SAM_STATUS_CONVERGED = 0,
-  SAM_STATUS_NOT_CONVERGED =
-    10, /* a solver or the coupling did not converge, or the check found errors above its limits */
+  SAM_STATUS_CONVERGED      = 0,
+  SAM_STATUS_NOT_CONVERGED  = 10, /* a solver or the coupling did not converge, or the check failed */
   SAM_STATUS_NO_EQUILIBRIUM = 11, /* gross slip under force control, or loads that no pressure can balance */
   SAM_STATUS_EDGE_CONTACT   = 12  /* the contact reached the edge of the grid */
 } SamStatus;
