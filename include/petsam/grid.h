@@ -18,14 +18,14 @@ struct _n_SamGrid {
   PetscReal dx, dy;          /* cell size (m) */
   PetscInt  row_start, rows; /* this rank's rows */
   PetscInt  cells;           /* this rank's cells: rows * nx */
-  /* in plane strain (one row) these members ignore y, along which fields do not vary: */ * /
-    PetscInt axes;    /* 2: x and y; 1: x */
-  PetscInt   fewest;  /* smallest number of cells along an axis */
-  PetscReal  side[2]; /* the shorter and the longer side of a cell (m) */
-  PetscReal  area[2]; /* sides in x, y of the area that a traction acts on (m); infinite along y in plane strain */
-  PetscReal  length;  /* half the larger width (m), which makes coordinates dimensionless */
-  PetscBool  coarse;  /* true: made by SamGridCoarsen(), with half the cells of another grid */
-  PetscInt   references;
+                             /* in plane strain (one row) these members ignore y, along which fields do not vary: */
+  PetscInt  axes;            /* 2: x and y; 1: x */
+  PetscInt  fewest;          /* smallest number of cells along an axis */
+  PetscReal side[2];         /* the shorter and the longer side of a cell (m) */
+  PetscReal area[2]; /* sides in x, y of the area that a traction acts on (m); infinite along y in plane strain */
+  PetscReal length;  /* half the larger width (m), which makes coordinates dimensionless */
+  PetscBool coarse;  /* true: made by SamGridCoarsen(), with half the cells of another grid */
+  PetscInt  references;
 };
 
 /*
