@@ -6,9 +6,9 @@
 
 /*
   The results of a run that was stopped and restarted are in parts: the file that the user names, then one more file for
-  each restart (r.h5, r.part2.h5, ...). A part is valid up to the step at which the next one begins. Each part has an identity, a
-  root attribute, and all but the first also name the identity of the previous part, so that no file of another run is
-  mistaken for a part.
+  each restart (r.h5, r.part2.h5, ...). A part is valid up to the step at which the next one begins. Each part has an
+  identity, a root attribute, and all but the first also name the identity of the previous part, so that no file of
+  another run is mistaken for a part.
 
   SamOutputNamePart - creates the name of a part, counted from 1; the caller frees it with PetscFree(). Not collective.
   SamOutputGetIdentity - returns the identity of the file. Not collective.
