@@ -1,4 +1,4 @@
-/* Access to rows of a grid that other ranks own. */
+/* Access to rows of a grid, also to those that other ranks own. */
 #ifndef PETSAM_ROWS_H
 #define PETSAM_ROWS_H
 

@@ -131,8 +131,8 @@ PETSC_INTERN PetscErrorCode SamSolutionComputeRolling(SamProblem problem, const 
   SamSolutionDeclareClosed - declares the numbers that the closed form of the dissipated energy stores.
   SamSolutionFollowClosed - computes the dissipated energy (J) of the tried step by this form, which must have followed
   all earlier steps; NAN if the form does not apply (closed.c). Collective.
-  SAM_CONTACT_EDGE - the name of the numbers of the contact edge in the state, which include 1 if the edge is known, else
-  0, and the number of faces to cells outside of the contact.
+  SAM_CONTACT_EDGE - the name of the numbers of the contact edge in the state, which include 1 if the edge is known,
+  else 0, and the number of faces to cells outside of the contact.
 */
 #define SAM_CONTACT_EDGE "contact_edge_sums"
 enum { SAM_CONTACT_EDGE_KNOWN, SAM_CONTACT_EDGE_FACES = 2 };
