@@ -73,7 +73,7 @@ typedef struct {
   double      error;       /* relative */
   PetscInt    step;        /* from 0 */
   const char *name;        /* borrowed */
-  double      value, fine; /* as found, and extrapolated to fine grids */
+  double      value, fine; /* computed value, and its extrapolation to fine grids */
   PetscReal   width;       /* cells: of the slip zone in the last step */
 } SamRollingError;
 

@@ -172,7 +172,8 @@ typedef struct _n_SamStressFile *SamStressFile;
 /*
   SamStressFileCreate - creates the file with all datasets under a temporary name. SamStressFileFinish() gives it its
   name, in place of an older file of petsam. Collective. Errors: SAM_ERR_FILE, also when there is no space for it.
-  SamStressFileWrite - a SamEvaluationWrite with the file as its context. Collective. Errors: SAM_ERR_FILE.
+  SamStressFileWrite - writes a block of results; it is a SamEvaluationWrite whose context is the file. Collective.
+  Errors: SAM_ERR_FILE.
   SamStressFileWriteLargest - writes largest values: those of steps in /history, as name_max and its place name_max_x,
   ...; those of a cycle as attributes of its dataset. Collective. Errors: SAM_ERR_FILE.
   SamStressFileSetText - stores a text as an attribute of the root group. Collective. Errors: SAM_ERR_FILE.

@@ -61,8 +61,8 @@ PETSC_INTERN PetscErrorCode SamSolverGetTolerances(SamSolver solver, PetscReal *
 PETSC_INTERN PetscErrorCode SamSolverSetLevels(SamSolver solver, PetscInt levels);
 
 /*
-  SamSolverSetErrorIfNotConverged - with true, makes a solve that does not converge an error, PETSC_ERR_NOT_CONVERGED;
-  else it only has a reason. Option -<kind>_error_if_not_converged. Not collective.
+  SamSolverSetErrorIfNotConverged - decides if a solve that does not converge is an error, PETSC_ERR_NOT_CONVERGED, or
+  only has a reason. Option -<kind>_error_if_not_converged. Not collective.
 */
 PETSC_EXTERN PetscErrorCode SamSolverSetErrorIfNotConverged(SamSolver solver, PetscBool error);
 

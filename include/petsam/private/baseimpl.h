@@ -33,8 +33,8 @@
 #endif
 
 /*
-  SamBaseInitialize - the part of SamInitialize() that all parts of the library need; calling it again does nothing.
-  Collective on PETSC_COMM_WORLD.
+  SamBaseInitialize - does the part of SamInitialize() that all parts of the library need; calling it again does
+  nothing. Collective on PETSC_COMM_WORLD.
 */
 PETSC_INTERN PetscErrorCode SamBaseInitialize(void);
 
@@ -176,7 +176,10 @@ PETSC_INTERN void SamExplainStress(double stress, double young, double least, do
 
 /* ---- checksums ---- */
 
-/* SamHashMix - the finalizer of MurmurHash3 (A. Appleby, public domain): every bit of x affects the whole result. */
+/*
+  SamHashMix - applies the finalizer of MurmurHash3 (A. Appleby, public domain): every bit of x affects all of the
+  result.
+*/
 static inline uint64_t SamHashMix(uint64_t x)
 {
   x = (x ^ x >> 33) * UINT64_C(0xff51afd7ed558ccd);

@@ -38,7 +38,7 @@ typedef struct {
   PetscErrorCode (*preconditionnormal)(SamElasticity, double factor, const float *const r[], float *const p[]);
   PetscErrorCode (*preconditiontangential)(SamElasticity, double factor, const float *const r[], float *const q[]);
   PetscErrorCode (*getselfinfluence)(SamElasticity, PetscReal *normal, PetscReal *tangential);
-  /* for slip where the operator is upwind; NULL: preconditiontangential */
+  /* preconditioner of the slip zone if the operator is upwind; NULL: preconditiontangential */
   PetscErrorCode (*preconditionslip)(SamElasticity, double factor, const float *const r[], float *const q[]);
   /* the stresses in a body that is not rigid */
   PetscErrorCode (*createstress)(SamElasticity, PetscInt body, const SamFourierSettings *, SamStress *);
@@ -76,7 +76,7 @@ struct _n_SamElasticity {
   /* settings */
   char               type[64], prefix[SAM_PREFIX];
   SamFourierSettings fft;
-  /* of the type, set by its create function; the data may be allocated there or in setup */
+  /* members of the type, set by its create function; the data may be allocated there or in setup */
   SamElasticityOps            ops;
   SamElasticityTraits         traits;
   SamElasticityCreateFunction create;

@@ -60,7 +60,7 @@ PETSC_INTERN void SamHalfSpaceStressRow(const SamHalfSpaceSource *source, SamStr
 */
 PETSC_INTERN PetscErrorCode SamHalfSpaceCreateStress(SamGrid grid, const SamFourierSettings *settings, PetscInt body,
                                                      PetscReal poisson, SamStress *stress);
-/* SamHalfSpaceStressAtEdge - see SamStressAtEdge(). Collective. */
+/* SamHalfSpaceStressAtEdge - does the work of SamStressAtEdge() in a half-space. Collective. */
 PETSC_INTERN PetscErrorCode SamHalfSpaceStressAtEdge(SamStress stress, Vec field, const SamEdge *edge, double values[]);
 
 #endif

@@ -5,7 +5,7 @@
 #include <petsam/base.h>
 
 typedef struct {
-  const char *name;     /* with its prefix, without dash */
+  const char *name;     /* name with prefix, without dash */
   const char *argument; /* kind of value: <number>[,<number>], [<bool>], ... */
   const char *text;     /* description */
   const char *value;    /* default; "": none, or required */

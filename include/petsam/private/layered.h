@@ -100,7 +100,7 @@ typedef struct {
   SamSpline symbols, radial, line;
 } * SamLayered;
 PETSC_INTERN PetscErrorCode SamLayeredCreate(SamPair pair, SamLayered *layered);
-PETSC_INTERN PetscErrorCode SamLayeredReference(SamLayered from, SamLayered *to); /* in the place of another */
+PETSC_INTERN PetscErrorCode SamLayeredReference(SamLayered from, SamLayered *to); /* replaces another one */
 PETSC_INTERN PetscErrorCode SamLayeredDestroy(SamLayered *layered);
 PETSC_INTERN PetscErrorCode SamLayeredPrepare(SamLayered layered, double r, const double k[2]);
 

@@ -23,7 +23,7 @@ typedef struct {
 typedef enum { SAM_MOTION_HISTORY, SAM_MOTION_STIFFNESS, SAM_MOTION_SUBJECTS } SamMotionSubject;
 
 struct _n_SamMotion {
-  const char          *word;             /* of -rolling */
+  const char          *word;             /* value of -rolling */
   PetscBool            continues;        /* true: a step continues displacements and slip of the previous step */
   PetscBool            streams;          /* true: new material enters all the time; a step is 1 m of rolled distance */
   SamWay               way;              /* way that gives names and units of tangential rigid-body displacements */

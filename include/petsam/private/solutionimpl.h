@@ -72,7 +72,7 @@ typedef struct {
   const double      *u_now, *u_before; /* elastic displacements; u_before NULL: no slip so far */
   double            *slip[2], *row[2], *scratch;
   const SamSolution *solutions[2];      /* solutions before and after the step; the first NULL: no slip so far */
-  SamValues          at_before, at_now; /* their values */
+  SamValues          at_before, at_now; /* values of these solutions */
   const double      *aside;             /* `aside` of the solution after the step; NULL: zero */
   PetscBool          follows_slip;      /* true: the bound depends on the slip */
 } SamIncrement;

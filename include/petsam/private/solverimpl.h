@@ -55,9 +55,9 @@ typedef struct {
 
 /* SamStart - the origin of a level's traction at the start of its solve. */
 typedef enum {
-  SAM_START_NONE,   /* nowhere: it is zero or not set */
-  SAM_START_COARSE, /* from the next coarser grid */
-  SAM_START_GUESS   /* from the caller */
+  SAM_START_NONE,   /* none: it is zero or not set */
+  SAM_START_COARSE, /* the next coarser grid */
+  SAM_START_GUESS   /* the caller's guess */
 } SamStart;
 
 /*

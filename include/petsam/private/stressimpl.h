@@ -29,7 +29,7 @@ typedef struct {
   SamStressGroup group;
   PetscInt       member;
 } SamStressKernel;
-PETSC_INTERN const SamStressKernel SamStressKernels[SAM_STRESS_COMPONENTS][SAM_STRESS_TRACTIONS]; /* of a half-space */
+PETSC_INTERN const SamStressKernel SamStressKernels[SAM_STRESS_COMPONENTS][SAM_STRESS_TRACTIONS]; /* in a half-space */
 PETSC_INTERN SamStressKernel       SamStressKernelOf(SamStress stress, PetscInt component, PetscInt traction);
 
 /* The parities of the kernels of a group: odd in x, odd in y. */
@@ -65,7 +65,7 @@ struct _n_SamStress {
   SamFourierSettings settings;
   SamStressOps       ops; /* set by the type, as the data, the groups and the sums */
   void              *data;
-  PetscReal          poisson;    /* of the material at the surface; set by the type */
+  PetscReal          poisson;    /* Poisson's ratio of the material at the surface; set by the type */
   PetscInt           groups;     /* number of groups of the type: all, or those before SAM_STRESS_NORMAL_Z */
   PetscInt           sums;       /* number of results of reduce */
   void              *smooth;     /* data of reduce and add, if other than `data` */
