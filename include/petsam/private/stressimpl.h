@@ -71,7 +71,7 @@ struct _n_SamStress {
   void              *smooth;     /* data of reduce and add, if other than `data` */
   SamConditions      conditions; /* conditions of the step of the next tractions, borrowed; NULL: none */
   const SamControl  *control;    /* control of that step */
-  double             sign[SAM_STRESS_TRACTIONS]; /* signs of the tractions on the body, in its own frame */
+  double             sign[SAM_STRESS_TRACTIONS]; /* signs of the tractions on the body: -1 for shear on body 1 */
   /* members of the map in use */
   SamFourier fourier;
   PetscReal  depth; /* -1: none */
