@@ -63,8 +63,7 @@ typedef struct {
 } SamContactSettings;
 /*
   SamContactSetSettings, SamContactGetSettings - set and return the settings. Not collective, the same on all ranks.
-  Errors:
-  PETSC_ERR_ARG_OUTOFRANGE for a number that is not positive.
+  Errors: PETSC_ERR_ARG_OUTOFRANGE for a number that is not positive.
   SamContactSetFromOptions - reads the options above, and those of both solvers. Collective. Errors: SAM_ERR_USER.
 */
 PETSC_EXTERN PetscErrorCode     SamContactSetSettings(SamContact contact, const SamContactSettings *settings);

@@ -73,8 +73,7 @@ PETSC_EXTERN PetscErrorCode SamLawSetHardness(SamLaw law, PetscReal hardness);
 /*
   SamLawSetSurface - sets, for the type slide, the part of the separation (m, one component) that moves with body 0 or
   1. Its values are at the points of the body that lie under the cells before any motion; copied. Collective. Errors:
-  PETSC_ERR_ARG_WRONG for a
-  law of another type.
+  PETSC_ERR_ARG_WRONG for a law of another type.
 */
 PETSC_EXTERN PetscErrorCode SamLawSetSurface(SamLaw law, PetscInt body, Vec surface);
 #endif

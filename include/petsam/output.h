@@ -28,8 +28,8 @@ typedef struct {
 } SamOutputSettings;
 /*
   SamOutputSettingsSetFromOptions - sets the defaults (the usual fields, no compression, chunks of 1024 x 256 cells,
-  double precision, each step written at once), then reads -output_fields, -output_compress,
-  -output_chunk and -output_single. Collective. Errors: SAM_ERR_USER.
+  double precision, each step written at once), then reads -output_fields, -output_compress, -output_chunk and
+  -output_single. Collective. Errors: SAM_ERR_USER.
   SamOutputSettingsAddLaws - adds to a problem the laws that only accumulate a field, if this field is to be saved.
   Collective.
   SamOutputSettingsPrepare - sets the contact whose results are written. Collective. Errors: SAM_ERR_USER for a field
