@@ -1,6 +1,6 @@
 /*
-  What a user should know of a solution that is right for its grid, but may not be what was meant: a grid that is too
-  coarse or too small, a contact too large for half-spaces. Each message says what would be better, by options.
+  Warnings about solutions that are correct for their grid but may not be what the user meant: the grid is too coarse or
+  too small, or the contact is too large for half-spaces. Each message names options that mend it.
 */
 #ifndef PETSAM_ADVICE_H
 #define PETSAM_ADVICE_H
@@ -9,119 +9,122 @@
 
 /* SamExtent - the size of a contact. */
 typedef struct {
-  PetscInt  zones;   /* connected by the sides of cells, as contact_spots; 0: the bodies do not touch */
-  PetscReal across;  /* cells, of the narrow zones: SamGridMeasureZones(), a tenth of the cells left out */
+  PetscInt  zones;   /* number of zones of contact, connected by the sides of cells, as contact_spots; 0: no contact */
+  PetscReal across;  /* width of the narrow zones in cells: SamGridMeasureZones() with part = 0.1 */
   PetscBool whole;   /* the widest zone spans the grid */
-  PetscReal half[2]; /* m: half widths of the rectangle that holds all of it */
-  PetscReal change;  /* of the peak pressure on cells half as wide, relative: SamAdviceMeasurePeak() */
-  PetscInt  finer;   /* cells so many times narrower resolve the peak; 0: none of up to 16384 in a row */
+  PetscReal half[2]; /* half widths of the bounding rectangle of the contact, m */
+  PetscReal change;  /* relative change of the peak pressure on cells half as wide: SamAdviceMeasurePeak() */
+  PetscInt  finer;   /* factor by which the cells must be narrower to resolve the peak; 0: not even 16384 in a row do */
 } SamExtent;
-#define SAM_LARGEST_ROW 16384 /* cells in a row of a grid that is advised */
+#define SAM_LARGEST_ROW 16384 /* most cells in a row of a grid that is advised */
 
-/* SamLoadRange - the largest loads of several steps. To be zero at first. */
+/* SamLoadRange - the largest loads of several steps. All members must be zero at first. */
 typedef struct {
-  PetscInt    steps;       /* that have been added */
-  PetscBool   force;       /* the normal force is given; false: the approach */
-  PetscReal   normal;      /* the largest of it, N or m */
-  PetscReal   lever[2];    /* m: the farthest that moments bring the centre of pressure from the origin along x and y */
-  PetscReal   slide;       /* m: the farthest that displacements move the surfaces along them */
-  PetscReal   rotation;    /* rad: the largest that is prescribed */
-  PetscReal   creep, spin; /* the largest creepage along x or y, and spin (1/m), that are prescribed */
-  PetscReal   stress;      /* Pa: the largest prescribed stress, */
-  const char *stress_name; /* and of which group of conditions it is; borrowed */
-  PetscReal   friction;    /* the largest factor on the coefficient of friction */
-  PetscBool   open; /* the contact may be larger than a closed solution for these loads has it: rotations, wear */
+  PetscInt  steps;    /* number of steps that have been added */
+  PetscBool force;    /* the normal force is given; false: the approach */
+  PetscReal normal;   /* largest normal load (N) or approach (m) */
+  PetscReal lever[2]; /* largest distance of the centre of pressure from the origin by the moments, along x and y, m */
+  PetscReal slide;    /* largest prescribed tangential displacement, m */
+  PetscReal rotation; /* largest prescribed rotation, rad */
+  PetscReal creep, spin;   /* largest prescribed creepage along x or y, and spin (1/m) */
+  PetscReal stress;        /* largest prescribed stress, Pa */
+  const char *stress_name; /* group of conditions that it belongs to; borrowed */
+  PetscReal   friction;    /* largest factor on the coefficient of friction */
+  PetscBool   open;        /* rotations or moments may make the contact larger than the closed-form solution */
 } SamLoadRange;
 
 /*
-  SamSlip - the dissipated energy of the steps so far, and how far the cells resolve it (slip.c). Branches lie between
-  load reversals; lengths in cells.
+  SamSlip - the dissipated energy of the steps so far, and how well the cells resolve it (slip.c). A branch is the
+  loading between two load reversals; lengths are in cells.
 */
 typedef struct {
   PetscInt  steps;
-  PetscBool rolls;         /* nothing is known */
-  PetscBool unsure;        /* of some steps the energy is not known for their length, and counts as 0 */
-  double    energy, error; /* J: the sum over cells, and its error, estimated */
-  double    closed;        /* J: by the closed form; NaN: there is none */
-  double    work;          /* J: T disp, the most of a step */
-  double    branch, worst; /* J: energy of the branch; the largest error of one, */
-  PetscReal narrow[2];     /* and width of the slip zone and length of the edge there */
-  PetscReal width, length; /* the same after the last step */
-  double    sticks;        /* part of the cells in contact, after the last step */
-  double    stuck;         /* of the shear's change over mu p at the edge, since all cells stick; 0: some slip */
-  double    tangential[2]; /* N: T after the last step, */
-  double    toward[2];     /* N: and its change in it */
-  double    zone, high;    /* J, Pa: energy of the zone of that branch, and shear at its end, by stuck.c */
-  double    missing;       /* J: energy of such zones of branches before */
-  PetscReal widest;        /* cells: of all zones with slip */
-  double    slipped;       /* m: the maximum slip after the last step, */
-  double    turned;        /* m: and at the reversal before; 0: there was none */
-  PetscReal across;        /* cells: of the stick zone after the last step */
-  PetscBool pushed;        /* the last step has no tangential displacement given */
-  PetscBool together;      /* N and T have grown in proportion from nothing, */
-  double    part[2];       /* with this T over N */
-  PetscBool joined;        /* the normal load has begun to grow, */
-  double    coupling;      /* and does in one step of dissimilar bodies: their coupling over friction; 0: it does not */
-  double    before_touch;  /* J: what slip would work more if cells had touched before steps of dissimilar bodies */
-  PetscInt  growing;       /* steps in which they touch */
-  double    share;         /* T over mu N at most before the first reversal */
-  double    first;         /* J: energy until then, with a reversal thereafter; 0: none so far */
+  PetscBool rolls;         /* true: the contact rolls, and the other members are not computed */
+  PetscBool unsure;        /* true: some steps are too long for their energy to be known; it counts as 0 */
+  double    energy, error; /* energy by the sum over cells, and its estimated error, J */
+  double    closed;        /* energy by the closed form, J; NaN: there is none */
+  double    work;          /* largest tangential work T disp of a step, J */
+  double    branch, worst; /* energy of the current branch, and the largest error of any branch, J */
+  PetscReal narrow[2];     /* width of the slip zone and length of the edge in the branch with that error */
+  PetscReal width, length; /* width of the slip zone and length of the edge after the last step */
+  double    sticks;        /* fraction of the cells in contact that stick after the last step */
+  double    stuck;         /* change of the shear over mu p at the edge since all cells stick; 0: some slip */
+  double    tangential[2]; /* T after the last step, N */
+  double    toward[2];     /* change of T in the last step, N */
+  double    zone, high;    /* energy (J) of the unresolved slip zone and shear (Pa) at its end, by stuck.c */
+  double    missing;       /* energy of the unresolved slip zones of earlier branches, J */
+  PetscReal widest;        /* largest width of a slip zone in any step */
+  double    slipped;       /* maximum slip after the last step, m */
+  double    turned;        /* maximum slip at the last reversal, m; 0: there was none */
+  PetscReal across;        /* width of the stick zone after the last step */
+  PetscBool pushed;        /* true: the last step prescribes no tangential displacement */
+  PetscBool together;      /* true: N and T have grown in proportion from zero */
+  double    part[2];       /* T over N in that case */
+  PetscBool joined;        /* true: the normal load has begun to grow */
+  double    coupling;      /* coupling over friction if N of dissimilar bodies grows in one step; else 0 */
+  double    before_touch;  /* extra work of slip if the cells of dissimilar bodies had touched before each step, J */
+  PetscInt  growing;       /* number of steps in which cells come into contact */
+  double    share;         /* largest T over mu N before the first reversal */
+  double    first;         /* energy of the first branch once it has ended, J; 0: not yet */
 } SamSlip;
 
-/* SamRollingError - the largest error of a load or creepage that was found in steady rolling (steadyerrors.c). */
+/* SamRollingError - the largest error of a computed load or creepage in steady rolling (steadyerrors.c). */
 typedef struct {
   double      error;       /* relative */
   PetscInt    step;        /* from 0 */
   const char *name;        /* borrowed */
-  double      value, fine; /* as found, and extrapolated to fine grids */
+  double      value, fine; /* computed value, and its extrapolation to fine grids */
   PetscReal   width;       /* cells: of the slip zone in the last step */
 } SamRollingError;
 
 /*
-  SamAdviceFunction - receives advice: a text of one line, and the option (without dash) that mends it, where the text
-  does not name it itself; else empty.
+  SamAdviceFunction - receives advice: a text of one line, and the option (without dash) that mends it; empty if the
+  text names the option itself.
 */
 typedef PetscErrorCode (*SamAdviceFunction)(void *context, const char text[], const char setting[]);
 
-/* SamAdvice - looks at the steps of a contact. Its maker sets the first members; the others are zero at first. */
+/*
+  SamAdvice - the examination of a contact's steps. Its owner sets the first members; the others must be zero at first.
+*/
 typedef struct {
   const SamSetup   *setup;
   SamAdviceFunction receive;
   void             *context;
-  PetscInt          steps; /* of the run */
+  PetscInt          steps; /* number of steps of the run */
   SamLoadRange      most;
-  PetscInt          largest;           /* step of the largest normal load or approach, from 0 */
-  PetscBool         doubtful;          /* the heights are of another unit, or tilted: nothing is said of the contact */
-  PetscBool         examined;          /* whether the size of the contact was looked at */
-  PetscBool         stepped;           /* heights from a file have a step in contact, of which the user knows */
-  char              after[48];         /* "after 1e6 cycles: ", when it is looked at again; empty: the first time */
-  PetscInt          finer;             /* cells so many times narrower have been advised; 0: none */
-  PetscBool         advised[SAM_LAWS]; /* laws that have warned of a step */
-  const SamStep    *step;              /* that is looked at, */
-  SamExtent         extent;            /* with the contact there */
-  SamRollingError   rolling;           /* of the steps so far */
-  SamSlip           slip;              /* of the steps so far; of the last computed cycle */
-  PetscReal      half[2], across; /* half widths (m) and cells across: of a closed solution if it is of this contact, */
-  PetscBool      closed;          /* which is then true */
-  PetscErrorCode error;           /* the first of who receives it */
+  PetscInt          largest;   /* step of the largest normal load or approach, from 0 */
+  PetscBool         doubtful;  /* true: the heights seem tilted or of another unit; the contact is not examined */
+  PetscBool         examined;  /* true: the size of the contact has been examined */
+  PetscBool         stepped;   /* true: heights from a file have a step in contact, and the user was warned of it */
+  char              after[48]; /* "after 1e6 cycles: " in a repeated examination; empty in the first */
+  PetscInt          finer;     /* factor of narrower cells that has been advised; 0: none */
+  PetscBool         advised[SAM_LAWS]; /* true for laws that have warned of a step */
+  const SamStep    *step;              /* step under examination */
+  SamExtent         extent;            /* size of its contact */
+  SamRollingError   rolling;           /* largest error so far */
+  SamSlip           slip;              /* energy of the steps so far, or of the last computed cycle */
+  PetscReal         half[2], across;   /* half widths (m) and cells across; by the closed-form solution if `closed` */
+  PetscBool         closed;            /* true: a closed-form solution describes this contact */
+  PetscErrorCode    error;             /* first error that `receive` returned */
 } SamAdvice;
 /*
-  SamAdviceAddLoads - adds the loads of step k to the largest ones. Not collective.
-  SamAdviceBegin - before the first step: heights and options that are unlikely to be meant. Collective.
-  SamAdviceStep - after step k, with a solution: if it has the largest load, once, motions that are not small, bodies
-  that do not touch, a contact of fewer than 20 cells across (14 if a closed solution describes it), a peak pressure
-  that cells half as wide change by more than 5 % (10 % after wear), a contact that is wider than a tenth of a radius of
-  curvature, or a pressure above 0.2 E*; `found`: the contact, NULL if it has not been looked at now. With `of_laws`
-  what the laws have to say, each once. Collective.
-  SamAdviceRenew - the next SamAdviceStep() of such a load looks again at how the contact, which has been worn, is
-  resolved. `after`: when that is, for the message. Not collective.
-  SamAdviceBeginCycle - before a computed cycle of a life: its energy alone counts. Not collective.
-  SamAdviceEnd - after the last step: a dissipated energy that the slip zones, narrow beside the cells, make wrong by
-  more than 5 %, or one step of N on dissimilar bodies by more than 2 %; in steady rolling a load or a creepage that
-  finer cells change by more than 2 %; a maximum slip, shear or slip velocity, and an area of stick, of zones that are
-  few cells wide. `found`: the energy, NULL if there is none. Collective.
-  SamAdviceEdge - appends to the message of a step that came to the grid's edge a grid on which these loads do not. Not
-  collective.
+  SamAdviceAddLoads - raises the largest loads (`most`) to those of step k. Not collective.
+  SamAdviceBegin - warns, before the first step, of heights and options that are unlikely to be intended. Collective.
+  SamAdviceStep - examines step k, which must have a solution. Once, at the largest load, it warns of motions that are
+  not small, bodies that do not touch, a contact of fewer than 20 cells across (14 if a closed-form solution describes
+  it), a peak pressure that cells half as wide change by more than 5 % (10 % after wear), a contact that is wider than a
+  tenth of a radius of curvature, and a pressure above 0.2 E*. `found`: the size of the contact, NULL if it was not
+  examined in this step. With `of_laws` it also passes on the warning of each law, once. Collective.
+  SamAdviceRenew - makes the next SamAdviceStep() at the largest load examine the worn contact again. `after`: the time
+  of that, for the message. Not collective.
+  SamAdviceBeginCycle - forgets the slip of earlier steps before a computed cycle of a wear simulation, so that only
+  this cycle's energy counts. Not collective.
+  SamAdviceEnd - warns, after the last step, of a dissipated energy that is wrong by more than 5 % because the slip
+  zones are only few cells wide, or by more than 2 % because N grows in one step on dissimilar bodies; in steady rolling
+  of a load or a creepage that finer cells change by more than 2 %; and of a maximum slip, shear or slip velocity and an
+  area of stick if the zones are few cells wide. `found`: the energy, NULL if there is none. Collective.
+  SamAdviceEdge - appends to the message of a step whose contact reached the grid's edge a grid that is large enough for
+  these loads. Not collective.
 */
 PETSC_INTERN void           SamAdviceAddLoads(SamAdvice *advice, PetscInt k, const SamControl *control);
 PETSC_INTERN PetscErrorCode SamAdviceBegin(SamAdvice *advice);
@@ -132,10 +135,10 @@ PETSC_INTERN PetscErrorCode SamAdviceEnd(SamAdvice *advice, const SamSlip **foun
 PETSC_INTERN void           SamAdviceRenew(SamAdvice *advice, const char after[]);
 PETSC_INTERN PetscErrorCode SamAdviceEdge(const SamAdvice *advice, SamStep *step);
 /*
-  SamAdviceMeasurePeak - `change` and `finer` of the extent: solves the contact about the peak again on finer cells,
-  where all other pressure stays (resolution.c). The shape is that of the gap's type, other heights are interpolated.
-  Where the cells next to the peak have nearly its pressure, the pressure is at its limit, or a body yields, nothing is
-  solved, change = 0 and finer = 1. Collective.
+  SamAdviceMeasurePeak - computes `change` and `finer` of the extent: solves the contact around the peak again on finer
+  cells, while all other pressure stays (resolution.c). The shape is that of the gap's type; other heights are
+  interpolated. If the cells next to the peak have nearly its pressure, the pressure is at its limit, or a body yields,
+  nothing is solved, and change = 0 and finer = 1. Collective.
 */
 PETSC_INTERN PetscErrorCode SamAdviceMeasurePeak(const SamSetup *setup, SamExtent *extent);
 

@@ -1,11 +1,11 @@
-/* Version, start and end of the library, its errors, and the reading of options. */
+/* Version of the library, its initialization and finalization, its errors, and the reading of options. */
 #ifndef PETSAM_BASE_H
 #define PETSAM_BASE_H
 
 #include <petscsys.h>
 #include <petscvec.h>
 
-/* The version. SAM_VERSION_GE(1, 0, 0) is true from 1.0.0 on; programs are linked again when the first two change. */
+/* The version. SAM_VERSION_GE(1, 0, 0) is true from 1.0.0 on. Programs must be linked again if the first two change. */
 #define SAM_VERSION_MAJOR    1
 #define SAM_VERSION_MINOR    0
 #define SAM_VERSION_SUBMINOR 0
@@ -26,31 +26,33 @@
   lines that names the option or the file:
     SAM_ERR_USER  a wrong, missing or contradictory value (the program ends with exit code 2)
     SAM_ERR_FILE  a file that cannot be read or written, or lacks what is needed (exit code 3)
-  These are raised on all ranks of the communicator. All other codes are PETSc's.
+  Both are raised on all ranks of the communicator. All other codes are PETSc's.
 */
 #define SAM_ERR_USER PETSC_ERR_USER_INPUT
 #define SAM_ERR_FILE PETSC_ERR_FILE_OPEN
 
 /*
-  SamInitialize - registers petsam's classes, its laws and its log events, and starts FFTW for MPI. To be called after
-  PetscInitialize(), before a problem gets laws; calling it again does nothing. Collective on PETSC_COMM_WORLD.
+  SamInitialize - registers petsam's classes, its laws and its log events, and starts FFTW for MPI. It must be called
+  after PetscInitialize() and before laws are added to a problem; calling it again does nothing. Collective on
+  PETSC_COMM_WORLD.
 */
 PETSC_EXTERN PetscErrorCode SamInitialize(void);
 
 /*
-  SamFinalize - frees what SamInitialize() made, and what FFTW remembers of plans. Collective, before PetscFinalize().
+  SamFinalize - frees the objects of SamInitialize() and the plans that FFTW has stored. It must be called before
+  PetscFinalize(). Collective.
 */
 PETSC_EXTERN PetscErrorCode SamFinalize(void);
 
 /*
-  SamOptions - for whom options are read: the communicator on which errors are raised and the help is printed, and the
-  prefix of the option names. Prefixes distinguish several objects of a kind in one program.
+  SamOptions - the context in which options are read: the communicator on which errors are raised and the help is
+  printed, and the prefix of the option names. Prefixes distinguish several objects of a kind in one program.
 */
 typedef struct {
   MPI_Comm    comm;
   const char *prefix; /* without dash; NULL: none */
 } SamOptions;
-/* SamOptionsPrefix - the prefix, an empty text for none. Not collective. */
+/* SamOptionsPrefix - returns the prefix, or an empty text if there is none. Not collective. */
 PETSC_INTERN const char *SamOptionsPrefix(const SamOptions *from);
 
 /* SamRange - the values that a number may have. */
@@ -66,29 +68,30 @@ typedef enum {
 /* SamOptionsHeading - prints the title of a group of options, while the help is printed. */
 PETSC_EXTERN PetscErrorCode SamOptionsHeading(const SamOptions *from, const char title[]);
 /*
-  SamOptionRow - an option: its name, what the help says of it, what kind its value has, and where that stands among
-  its owner's settings (`member`, by offsetof()). The settings hold the default, which the help shows and which stays
-  when the option is absent; a real number without one is NaN, an integer 0, a text empty.
+  SamOptionRow - an option: its name, its text in the help, the kind of its value, and the place of the value in the
+  settings of its owner (`member`, by offsetof()). The settings hold the default, which the help shows and which stays
+  if the option is absent. A real number without a default is NaN, an integer 0, a text empty.
 
-  SAM_OPTION_REAL     PetscReal in `range`; `size` 2: two of them separated by a comma, of which one stands for both;
-                      `words`: the end of the error about a number outside of the range. Its unit of SI stands in
-                      `text` in parentheses, as in "full width (m)", and others of its dimension may be given (mm)
+  SAM_OPTION_REAL     PetscReal in `range`; `size` 2: two numbers separated by a comma, or a single one for both;
+                      `words`: the end of the error message about a number outside of the range. `text` has its SI unit
+                      in parentheses, as in "full width (m)"; the user may give other units of that dimension (mm)
   SAM_OPTION_INT      PetscInt from `least` to `most` (0: any); `size` likewise
-  SAM_OPTION_BOOL     PetscBool: 1, true, yes, on, or 0, false, no, off, or no value for true; with `words`: whether it
-                      is not the first of them
-  SAM_OPTION_ENUM     an enumeration of C, by its place among `words`
+  SAM_OPTION_BOOL     PetscBool: 1, true, yes, on, or 0, false, no, off, or no value for true; with `words`: one of
+                      these, where the first means false and any other true
+  SAM_OPTION_ENUM     an enumeration of C, given by one of `words`, whose position is the value
   SAM_OPTION_STRING   char[size]
   SAM_OPTION_FILE     char[size], the name of a file that is read: no other file of the run may replace it
-  SAM_OPTION_FILES    char[size], several of them with commas between them
+  SAM_OPTION_FILES    char[size], the names of several such files, separated by commas
   SAM_OPTION_OUTPUT   char[size], the name of a file that is written
   SAM_OPTION_WORD     char[size], one of `words`
-  SAM_OPTION_WORDS    char[size], some of `words` with commas between them, which the caller checks
-  SAM_OPTION_VIEWER   none: an ASCII viewer, created where it is used
+  SAM_OPTION_WORDS    char[size], some of `words`, separated by commas; the caller checks them
+  SAM_OPTION_VIEWER   no member: an ASCII viewer, created where it is used
 
-  `words` have commas between them. `needs`: another option, or option and value, without which the row's has no
-  meaning; " or -" separates several of which one is enough. `excludes`: options, with commas, that cannot be given with
-  it; a truth excludes and needs where it is true. `missing`: what the option is for, if it is required (with what it
-  needs) unless there is a default. `recorded`: a stopped run can only go on with the same value.
+  `words` are separated by commas. `needs`: another option, or option and value, without which this option has no
+  meaning; " or -" separates alternatives. `excludes`: options, separated by commas, that cannot be given with this one.
+  For a boolean, `needs` and `excludes` apply only if it is true. `missing`: the purpose of an option that is required
+  (if the options that it needs are given) unless it has a default. `recorded`: a stopped run can only continue with the
+  same value.
 */
 typedef enum {
   SAM_OPTION_REAL,
@@ -114,15 +117,17 @@ typedef struct {
 } SamOptionRow;
 /*
   SamOptionsRead - reads the options of a table from PETSc's options database, each as `-<prefix><name>`, into the
-  settings; `given`, whether each was, may be NULL. While the help is printed, it prints the heading (NULL: none) and a
-  line for each row, and requires nothing. Collective on the communicator; the database must be the same on all its
-  ranks. Errors: SAM_ERR_USER with the option's name, the text, and what was expected.
+  settings. `given`: true for each option that was given; may be NULL. While the help is printed, it prints the heading
+  (NULL: none) and a line for each row, and requires nothing. Collective on the communicator; the database must be the
+  same on all its ranks. Errors: SAM_ERR_USER with the name of the option, the given text, and the expected values.
   SamOptionsReal - reads one real number.
-  SamOptionsReals - a list of up to `most` numbers in the range, and how many; 0: the option is absent.
-  SamOptionsHas - whether an option is given, without dash and prefix; after a space a value that it must have.
-  SamOptionsNeed - refuses an option that is given without the one it needs, as `needs` of a row has it.
+  SamOptionsReals - reads a list of up to `most` numbers in the range, and their count; 0: the option is absent.
+  SamOptionsHas - sets `has` to true if an option (its name without dash and prefix) is given; a value may follow the
+  name after a space, and the option must then have that value. Not collective.
+  SamOptionsNeed - rejects an option that is given without another one that it needs; the format is that of a row's
+  `needs`.
 */
-#define SAM_OPTION_ROWS(rows) (PetscInt)(sizeof(rows) / sizeof((rows)[0])), rows /* the count of a table, and it */
+#define SAM_OPTION_ROWS(rows) (PetscInt)(sizeof(rows) / sizeof((rows)[0])), rows /* the row count and the table */
 PETSC_EXTERN PetscErrorCode SamOptionsRead(const SamOptions *from, const char heading[], PetscInt count,
                                            const SamOptionRow rows[], void *settings, PetscBool given[]);
 PETSC_EXTERN PetscErrorCode SamOptionsReal(const SamOptions *from, const char name[], const char help[], SamRange range,
@@ -137,9 +142,10 @@ PETSC_INTERN PetscErrorCode SamOptionsNeed(const SamOptions *from, PetscBool giv
 
       PetscErrorCode SamPluginRegister(void)
 
-  of each, which registers types (SamGapRegister(), SamLawRegister(), ...); to be called before types are chosen, as
-  SamSetupReadOptions() does. They stay loaded. Collective. Errors: SAM_ERR_FILE for one that cannot be loaded, lacks
-  the function, or would register its types in another copy of petsam's library than that of the caller.
+  of each, which registers types (SamGapRegister(), SamLawRegister(), ...). It must be called before types are chosen,
+  as SamSetupReadOptions() does. The libraries stay loaded. Collective. Errors: SAM_ERR_FILE for a library that cannot
+  be loaded, lacks the function, or would register its types in another copy of petsam's library than that of the
+  caller.
 */
 PETSC_EXTERN PetscErrorCode SamOptionsPlugins(const SamOptions *from);
 

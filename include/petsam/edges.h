@@ -1,41 +1,44 @@
-/* Edges of contact and of stick, to a fraction of a cell. */
+/* Contact edges and stick-slip boundaries, to a fraction of a cell. */
 #ifndef PETSAM_EDGES_H
 #define PETSAM_EDGES_H
 
 #include <petsam/elasticity.h>
 
 /*
-  Where a traction t vanishes at the edge of a zone like the root of the distance, w = t^2 vanishes like the distance.
-  The cells next to the edge are wrong in a margin that is the same for all smooth edges; beyond it w is right, and a
-  quadratic function through it finds the edge: ten times more accurate than counting cells (theory: examples/edges).
+  If a traction t vanishes at the edge of a zone like the square root of the distance, w = t^2 is linear in the
+  distance. Only the cells in a margin along the edge, which is the same for all smooth edges, have errors; behind it w
+  is accurate, and a quadratic function fitted to it locates the edge ten times more accurately than counting cells
+  (theory: examples/edges).
 
   SamEdge - the edge of a zone.
 */
 typedef struct _n_SamEdge {
-  PetscReal area;        /* m2: by the reconstructed edge; where that is refused, cells less a part of a cell a face */
-  PetscInt  cells;       /* of the zone */
-  PetscReal faces, good; /* of these cells to cells outside; those where the reconstruction is accepted */
+  PetscReal area;  /* m2: by the reconstructed edge; where it is rejected, by cells minus SAM_EDGE_FACE per face */
+  PetscInt  cells; /* number of cells in the zone */
+  PetscReal faces, good; /* number of faces to cells outside, and of those with an accepted reconstruction */
   /* points of the reconstructed edge, one in each of this rank's cells that it crosses */
   PetscInt   count;
   PetscReal *x, *y; /* m */
   PetscInt  *cell;  /* index of the cell in this rank's part of the grid */
-  /* what vanishes at the edge, about each point's cell: its terms 1, x, y, x^2, x y, y^2, in cells from the centre */
+  /* coefficients of w around the cell of each point: terms 1, x, y, x^2, x y, y^2, in cells from its centre */
   PetscReal (*fit)[6];
 } SamEdge;
 
-/* SAM_EDGE_FACE - part of a cell that is not counted for each of its sides at an edge that is not reconstructed. */
+/*
+  SAM_EDGE_FACE - part of a cell that is subtracted from the area for each face at an edge that is not reconstructed.
+*/
 #define SAM_EDGE_FACE 0.09
-/* The two edges of a solution. */
+/* SamEdgeOf - the two edges of a solution: the contact edge and the stick-slip boundary. */
 typedef enum { SAM_EDGE_CONTACT, SAM_EDGE_STICK } SamEdgeOf;
 
 /*
-  SamEdgeReconstruct - the edge of the zone where w > 0. `w` (one component): the square of what vanishes at the edge,
-  in any unit; 0 outside of the zone. `periodic`: the edge goes on over the border of the grid. When not NULL,
-  `point` (one component) becomes w at the cells' centres: the reconstruction where it is accepted, negative beyond the
-  edge, else w. Collective.
-  A cell's reconstruction is accepted when there are enough cells behind it, they lie on a quadratic function, and what
-  it differs by from w is that margin of a smooth edge; and so for its eight neighbours. Rough surfaces and zones of a
-  few cells fail that, and are counted.
+  SamEdgeReconstruct - reconstructs the edge of the zone where w > 0. `w` (one component): the square of the traction
+  that vanishes at the edge, in any unit; 0 outside of the zone. `periodic`: the edge continues over the border of the
+  grid. `point` (one component), if not NULL, becomes w at the centres of the cells: the reconstruction where it is
+  accepted, negative beyond the edge, else w. Collective.
+  The reconstruction in a cell is accepted if there are enough cells behind it, their w lie on a quadratic function, and
+  the difference from w is that of the margin of a smooth edge, in the cell and in its eight neighbours. Rough surfaces
+  and zones of a few cells fail these tests, and their cells are counted.
 */
 PETSC_INTERN PetscErrorCode SamEdgeReconstruct(SamGrid grid, PetscBool periodic, Vec w, Vec point, SamEdge *edge);
 /* SamEdgeDestroy - frees the points. Not collective. */

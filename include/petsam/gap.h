@@ -5,8 +5,8 @@
 #include <petsam/grid.h>
 
 /*
-  SamGap - the shape of the bodies: computes the separation h (m) of the undeformed bodies at the cell centres when they
-  touch at x = y = 0 without load. Its types are registered by name; a new one is one file.
+  SamGap - the shape of the bodies: it gives the separation h (m) of the undeformed bodies at the cell centres when they
+  touch at x = y = 0 without load. Its types are registered by name; a new type is one file.
 */
 typedef struct _n_SamGap *SamGap;
 
@@ -21,7 +21,7 @@ typedef const char *SamGapType;
 #define SAM_GAP_FLAT   "flat"   /* two planes: 0 */
 #define SAM_GAP_FILE   "file"   /* -gap_file, -gap_dataset (/height): an HDF5 dataset of shape (ny, nx), m */
 
-/* SamGapCreate - a gap without a type. Its errors are raised on `comm`. Collective. */
+/* SamGapCreate - creates a gap without a type. Its errors are raised on `comm`. Collective. */
 PETSC_EXTERN PetscErrorCode SamGapCreate(MPI_Comm comm, SamGap *gap);
 /* SamGapDestroy - frees the gap and sets the handle to NULL. Not collective. */
 PETSC_EXTERN PetscErrorCode SamGapDestroy(SamGap *gap);
@@ -30,75 +30,75 @@ PETSC_EXTERN PetscErrorCode SamGapDestroy(SamGap *gap);
   <petsam/private/gapimpl.h>. Not collective, but to be called on all ranks.
 */
 PETSC_EXTERN PetscErrorCode SamGapRegister(const char name[], PetscErrorCode (*create)(SamGap));
-/* SamGapSetOptionsPrefix - the prefix of its options, before `gap_`; NULL: none. Not collective. */
+/* SamGapSetOptionsPrefix - sets the prefix of its options, before `gap_`; NULL: none. Not collective. */
 PETSC_EXTERN PetscErrorCode SamGapSetOptionsPrefix(SamGap gap, const char prefix[]);
 /*
-  SamGapSetType - chooses the shape; its parameters are not set then. Option -gap_type. Collective.
+  SamGapSetType - chooses the shape, whose parameters are then unset. Option -gap_type. Collective.
   Errors: SAM_ERR_USER for an unknown type, with the list of registered types.
 */
 PETSC_EXTERN PetscErrorCode SamGapSetType(SamGap gap, SamGapType type);
 /*
-  SamGapSetParameter - a number that defines the shape, by the name of its option; `gap_` before it may be left out:
-  "radius1" for -gap_radius1. Not collective, the same on all ranks. Errors: PETSC_ERR_ARG_OUTOFRANGE for a name that
-  the type does not have, or a value out of its range.
+  SamGapSetParameter - sets a number that defines the shape, by the name of its option. `gap_` may be omitted: "radius1"
+  for -gap_radius1. Not collective, the same on all ranks. Errors: PETSC_ERR_ARG_OUTOFRANGE for a name that the type
+  does not have, or a value out of its range.
 */
 PETSC_EXTERN PetscErrorCode SamGapSetParameter(SamGap gap, const char name[], PetscReal value);
 /*
-  SamGapSetFile - the HDF5 file (NULL: none) and the dataset in it (NULL: /height) of the type `file`, or of a roughness
-  (m) that is added to any type. Options -gap_file, -gap_dataset, and -gap_rough_file, -gap_rough_dataset. Datasets of
-  shape (ny, nx) are separations in m unless their attributes units and quantity say otherwise
-  (examples/manual/SURFACES.md). Not collective, the same on all ranks.
+  SamGapSetFile - sets the HDF5 file (NULL: none) and its dataset (NULL: /height) of the type `file`, or, with `rough`,
+  of a roughness (m) that is added to any type. Options -gap_file, -gap_dataset, and -gap_rough_file,
+  -gap_rough_dataset. Datasets of shape (ny, nx) are separations in m unless their attributes units and quantity say
+  otherwise (examples/SURFACES.md). Not collective, the same on all ranks.
 */
 PETSC_EXTERN PetscErrorCode SamGapSetFile(SamGap gap, PetscBool rough, const char file[], const char dataset[]);
 /*
-  SamGapGetFileGrid - the grid that the file of the gap or of the roughness is given on, from the setters or options:
-  cells, full widths and centre (m) in x and y, all 0 without a file. Does not look at files if there are -grid_n and
-  -grid_size; a width of 0, which the file does not give, is an error unless there is -grid_size. Collective. Errors:
+  SamGapGetFileGrid - gets the grid of the file of the gap or of the roughness, set by the setters or options: cells,
+  full widths and centre (m) in x and y, all 0 without a file. It does not read files if -grid_n and -grid_size are
+  given. A file that does not give its width (0) is an error unless -grid_size is given. Collective. Errors:
   SAM_ERR_USER, SAM_ERR_FILE.
 */
 PETSC_INTERN PetscErrorCode SamGapGetFileGrid(SamGap gap, PetscInt n[2], PetscReal width[2], PetscReal center[2]);
 /*
   SamGapSetFromOptions - reads -gap_type (required unless a type has been set, or there is -gap_file, whose type is
-  `file`), the options of that type, required unless they have been set or have a default, and those of a roughness.
-  While the help is printed, the options of all types are listed, none is required, and the gap is left flat.
+  `file`), the options of that type, required unless they have been set or have a default, and the options of a
+  roughness. While the help is printed, the options of all types are listed, none is required, and the gap stays flat.
   Collective. Errors: SAM_ERR_USER for missing or wrong values.
 */
 PETSC_EXTERN PetscErrorCode SamGapSetFromOptions(SamGap gap);
 /*
   SamGapFill - writes the separation with the roughness (m) into h (one component). Collective. Errors: PETSC_ERR_ORDER
   without a type; SAM_ERR_FILE for a file that cannot be read, is not HDF5, or lacks the dataset, and for a dataset of
-  another shape or size, with values that are not finite, or with an unknown unit or quantity; SAM_ERR_USER
-  when the shape's parameters overflow on this grid.
+  another shape or size, with values that are not finite, or with an unknown unit or quantity; SAM_ERR_USER if the
+  parameters of the shape overflow on this grid.
 */
 PETSC_EXTERN PetscErrorCode SamGapFill(SamGap gap, SamGrid grid, Vec h);
 /*
-  SamGapGetHeight - the separation of the shape at a point (m), without roughness; 0 for a type that is given cell by
-  cell. Not collective.
+  SamGapGetHeight - returns the separation (m) of the shape at a point (m), without roughness; 0 for a type whose
+  heights are given cell by cell. Not collective.
 */
 PETSC_INTERN PetscReal SamGapGetHeight(SamGap gap, PetscReal x, PetscReal y);
 /*
-  SamGapGetParameters - the type, and the numbers that define the shape: how many, their names (those of the options,
-  without dash and prefix) and values. All borrowed; NULL for one that is not wanted. Not collective.
+  SamGapGetParameters - gets the type, and the count, names (those of the options, without dash and prefix) and values
+  of the numbers that define the shape. All are borrowed; NULL for an unwanted output. Not collective.
 */
 PETSC_INTERN PetscErrorCode SamGapGetParameters(SamGap gap, SamGapType *type, PetscInt *count,
                                                 const char *const **names, const PetscReal **values);
 /*
-  SamGapEstimateContact - half widths (m) along x and y of the contact of the shape without friction, by a closed-form
-  solution (Hertz, Sneddon): under a central force over the composite modulus E* (m2), or, without `force`, at an
-  approach (m). Infinite along the axis of a cylinder; `known`: false for types without such a solution, and with a
-  roughness. Not collective.
+  SamGapEstimateContact - estimates the half widths (m) along x and y of the frictionless contact of the shape, by a
+  closed-form solution (Hertz, Sneddon): `value` is a central force over the composite modulus E* (m2) or, without
+  `force`, an approach (m). Infinite along the axis of a cylinder; `known`: false for types without such a solution, and
+  with a roughness. Not collective.
 */
 PETSC_INTERN PetscErrorCode SamGapEstimateContact(SamGap gap, PetscBool force, PetscReal value, PetscReal half[2],
                                                   PetscBool *known);
 /*
-  SamGapEstimateLine - the half width (m) along x of the contact in plane strain under a force per length over E* (m),
-  of shapes that are even in x; 0: there is none. `known` as above. Not collective.
+  SamGapEstimateLine - estimates the half width (m) along x of the contact in plane strain under a force per length over
+  E* (m), for shapes that are even in x; 0: there is none. `known` as above. Not collective.
 */
 PETSC_INTERN PetscErrorCode SamGapEstimateLine(SamGap gap, PetscReal value, PetscReal *half, PetscBool *known);
 /*
-  SamGapGetSteepness - the largest ratio of a contact's half widths (m, along x and y) to a radius of curvature, this
-  radius (m) and the name of the option (without dash and prefix) that gives it; 0 and NULL for types without radii.
-  `concave`: one of the bodies is. Not collective.
+  SamGapGetSteepness - computes the largest ratio of a contact's half widths (m, along x and y) to a radius of
+  curvature, and gets this radius (m) and the name of the option (without dash and prefix) that gives it; 0 and NULL for
+  types without radii. `concave`: true if one of the bodies is concave. Not collective.
 */
 typedef struct {
   PetscReal   ratio, radius;
@@ -107,19 +107,20 @@ typedef struct {
 } SamGapSteepness;
 PETSC_INTERN PetscErrorCode SamGapGetSteepness(SamGap gap, const PetscReal half[2], SamGapSteepness *steepness);
 /*
-  SamGapAdvise - a text for the user where the heights of the gap's file, or of its roughness, are of another unit, or,
-  with `periodic`, of a tilted surface; empty: none. `h`: the separation. Collective.
-  SamGapAdviseStep - the same where the heights have a step in a contact with this pressure, of a surface with E*
-  `modulus` (Pa), that is high beside its elastic deformation. Collective.
+  SamGapAdvise - writes a warning if the heights of the gap's file, or of its roughness, seem to have another unit, or,
+  with `periodic`, to be those of a tilted surface; else an empty text. `h`: the separation (m). Collective.
+  SamGapAdviseStep - writes a warning if the heights have a step in the contact that is high relative to the elastic
+  deformation under this pressure (Pa); `modulus`: E* at the surface (Pa). Collective.
 */
 PETSC_INTERN PetscErrorCode SamGapAdvise(SamGap gap, SamGrid grid, Vec h, PetscBool periodic, char text[], size_t size);
 PETSC_INTERN PetscErrorCode SamGapAdviseStep(SamGap gap, SamGrid grid, Vec h, Vec pressure, double modulus, char text[],
                                              size_t size);
 /*
-  SamGapCheckPlane - refuses a shape that is not the same along y, of which a section would not tell. Collective.
-  Errors: SAM_ERR_USER with the option that bends it.
-  SamGapIsFromFile - whether the gap, or with `rough` its roughness, comes from a file. Not collective.
-  SamGapIsQuadratic - whether the gap is a quadratic function of place, without any heights from files. Not collective.
+  SamGapCheckPlane - rejects a shape that varies along y, which plane strain would ignore. Collective. Errors:
+  SAM_ERR_USER with the option that makes it vary.
+  SamGapIsFromFile - returns true if the gap, or with `rough` its roughness, comes from a file. Not collective.
+  SamGapIsQuadratic - returns true if the gap is a quadratic function of x and y, without heights from files. Not
+  collective.
 */
 PETSC_INTERN PetscErrorCode SamGapCheckPlane(SamGap gap);
 PETSC_INTERN PetscBool      SamGapIsFromFile(SamGap gap, PetscBool rough);

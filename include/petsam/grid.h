@@ -1,4 +1,4 @@
-/* The grid of rectangular cells, how its rows are spread over the ranks, and moving fields between grids. */
+/* The grid of rectangular cells, the distribution of its rows over the ranks, and its fields. */
 #ifndef PETSAM_GRID_H
 #define PETSAM_GRID_H
 
@@ -18,53 +18,53 @@ struct _n_SamGrid {
   PetscReal dx, dy;          /* cell size (m) */
   PetscInt  row_start, rows; /* this rank's rows */
   PetscInt  cells;           /* this rank's cells: rows * nx */
-  /* without what lies along y where fields do not vary with it, in the one row of plane strain: */
-  PetscInt  axes;    /* 2: x and y; 1: x */
-  PetscInt  fewest;  /* cells along an axis */
-  PetscReal side[2]; /* the shorter and the longer side of a cell (m) */
-  PetscReal area[2]; /* the sides in x, y of the area that a traction acts on (m); infinite along y where only x is */
-  PetscReal length;  /* half the larger width: makes coordinates dimensionless (m) */
-  PetscBool coarse;  /* half the cells of another grid, by SamGridCoarsen() */
+                             /* in plane strain (one row) these members ignore y, along which fields do not vary: */
+  PetscInt  axes;            /* 2: x and y; 1: x */
+  PetscInt  fewest;          /* smallest number of cells along an axis */
+  PetscReal side[2];         /* the shorter and the longer side of a cell (m) */
+  PetscReal area[2]; /* sides in x, y of the area that a traction acts on (m); infinite along y in plane strain */
+  PetscReal length;  /* half the larger width (m), which makes coordinates dimensionless */
+  PetscBool coarse;  /* true: made by SamGridCoarsen(), with half the cells of another grid */
   PetscInt  references;
 };
 
 /*
-  SamGridCreate - n[0] * n[1] cells of full width `width` about `center` (m). Collective. The grid and all that is made
-  on it use a communicator of the library's own, PETSc's duplicate of `comm`, so that their messages never meet those
-  of the caller.
-  Errors: PETSC_ERR_ARG_OUTOFRANGE when n[0] < 2 or n[1] < 1, a width is not positive and finite, or the cells
-  cannot be counted in a PetscInt.
+  SamGridCreate - creates a grid of n[0] * n[1] cells of full width `width` about `center` (m). Collective. The grid and
+  all objects on it use a communicator of the library, PETSc's duplicate of `comm`, so that their messages never meet
+  those of the caller.
+  Errors: PETSC_ERR_ARG_OUTOFRANGE if n[0] < 2 or n[1] < 1, a width is not positive and finite, or the number of cells
+  overflows a PetscInt.
 */
 PETSC_EXTERN PetscErrorCode SamGridCreate(MPI_Comm comm, const PetscInt n[2], const PetscReal width[2],
                                           const PetscReal center[2], SamGrid *grid);
 /*
-  SamGridCreateFromOptions - from -grid_n, -grid_size, -grid_center. `n`, `width` and `center` are what counts without
-  them, become those of the grid, and the first two are required where they are 0. `row`: one row of cells, 1 m wide.
-  Collective. Errors: SAM_ERR_USER.
+  SamGridCreateFromOptions - creates a grid from -grid_n, -grid_size, -grid_center. On entry `n`, `width` and `center`
+  are the defaults; -grid_n and -grid_size are required if their default is 0. On return they are those of the grid.
+  `row`: one row of cells, 1 m wide. Collective. Errors: SAM_ERR_USER.
 */
 PETSC_INTERN PetscErrorCode SamGridCreateFromOptions(const SamOptions *from, PetscBool row, PetscInt n[2],
                                                      PetscReal width[2], PetscReal center[2], SamGrid *grid);
 PETSC_EXTERN PetscErrorCode SamGridDestroy(SamGrid *grid);
 
 /*
-  SamGridCreateVec - a field with `components` values a cell. On each rank the local part holds one component after
-  the other, each as (rows, nx). It is zero, and takes memory only as it is written to: a field that stays zero, as the
-  shear without friction, costs nothing. Collective.
+  SamGridCreateVec - creates a field with `components` values per cell. On each rank the local part holds one component
+  after the other, each as (rows, nx). It is zero, and takes memory only where it is written to, so that a field that
+  stays zero, as the shear without friction, costs nothing. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamGridCreateVec(SamGrid grid, PetscInt components, Vec *field);
 /*
-  SamGridNorm - NORM_1 or NORM_2 of a field of one or two components, as VecNorm() has it, but to the last bit the same
-  on any number of ranks. Collective.
+  SamGridNorm - computes the NORM_1 or NORM_2 of a field of one or two components, as VecNorm() does, but with a result
+  that is the same to the last bit on any number of ranks. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamGridNorm(SamGrid grid, Vec field, NormType type, PetscReal *norm);
 
-/* SamGridIsRow - whether fields do not vary along y: plane strain. Not collective. */
+/* SamGridIsRow - returns true in plane strain, where fields do not vary along y. Not collective. */
 static inline PetscBool SamGridIsRow(SamGrid grid)
 {
   return grid->axes == 1 ? PETSC_TRUE : PETSC_FALSE;
 }
 
-/* Coordinates of the centre of column i and of row j (both global), m. */
+/* SamGridX, SamGridY - return the coordinate of the centre of column i and of row j (both global), m. */
 static inline PetscReal SamGridX(SamGrid grid, PetscInt i)
 {
   return grid->center[0] + ((PetscReal)i + 0.5 - 0.5 * (PetscReal)grid->nx) * grid->dx;

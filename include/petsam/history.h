@@ -1,45 +1,46 @@
-/* The load program: which loads or displacements act at which step. */
+/* The load history: the loads or displacements of each step. */
 #ifndef PETSAM_HISTORY_H
 #define PETSAM_HISTORY_H
 
 #include <petsam/control.h>
 
 /*
-  SamHistory - a sequence of load steps: a time, and for each of the six components a load or a displacement, the same
-  choice in all steps. It comes from a file with one row for each step, or, as a single row, from the options. The
-  change from row to row may be divided into equal increments, each a load step. The first row's change is that from no
-  load; if there is none in it either, it is the start itself, and one step.
+  SamHistory - a sequence of load steps: each has a time, and for each of the six components a load or a displacement,
+  the same choice in all steps. It comes from a file of rows, or, as a single row, from the options. The change from row
+  to row may be divided into equal increments, each a load step. The change to the first row begins from zero load; if
+  the first row has zero load, too, it is the start itself, and one step.
 
   The file is text. Fields are separated by commas, semicolons or white space, # begins a comment, empty lines are
   ignored. The first line names the columns: `time`, any of the names of loads and displacements (load_n ... rot_z) and
-  of conditions. The rows follow, with increasing times (s). What has no column has the value of its option, or its
-  usual one, in all rows.
+  of conditions. The rows follow, with increasing times (s). A quantity without a column has the value of its option, or
+  its usual value, in all rows.
 */
 typedef struct _n_SamHistory *SamHistory;
 
 struct _n_SamArguments;
 
 /*
-  SamHistoryClaimOption - makes -history an alias of -load_history, the name in the options database. To be called
-  before PetscInitialize(): PETSc has an option -history of its own, which would append a log to the user's file. Not
-  collective.
+  SamHistoryClaimOption - makes -history an alias of -load_history, the name in the options database. It must be called
+  before PetscInitialize(), since PETSc has an option -history of its own, which would append a log to the user's file.
+  Not collective.
 */
 PETSC_EXTERN PetscErrorCode SamHistoryClaimOption(void);
 
 /*
   SamHistoryCreateFromOptions - reads -history, -steps (increments), the twelve -load_, -disp_ and -rot_ options and the
-  conditions that are options; reads and checks the whole file. Options that are given for this run must not have a
-  column as well; of those in an options file the columns count instead, with a line on stderr; `arguments` tells them
-  apart (NULL: all are given for this run). `conditions`: what rows may prescribe besides loads and displacements;
-  referenced. Collective. Errors: SAM_ERR_USER naming the option, or the file and line;
+  conditions that are options; reads and checks the whole file. An option that is given for this run must not have a
+  column as well; an option in an options file is ignored if it has a column, with a line on stderr. `arguments`
+  distinguishes the two (NULL: all options are given for this run). `conditions`: the conditions that rows may prescribe
+  besides loads and displacements; referenced. Collective. Errors: SAM_ERR_USER naming the option, or the file and line;
   SAM_ERR_FILE for a file that cannot be read.
 */
 PETSC_INTERN PetscErrorCode SamHistoryCreateFromOptions(const SamOptions *from, const struct _n_SamArguments *arguments,
                                                         SamConditions conditions, SamHistory *history);
 /*
-  SamHistoryCreate - the same of rows in memory, `values` (rows, columns): `columns` names them, with commas, as the
-  first line of a file. `constant`: the values of what has no column, as a stress. `before`: what the change to the
-  first row begins from; NULL: nothing, at time 0. Collective. Errors: SAM_ERR_USER naming the history's row.
+  SamHistoryCreate - creates a history from rows in memory, `values` (rows, columns). `columns` names the columns,
+  separated by commas, as the first line of a file does. `constant`: the values of quantities without a column, as a
+  stress. `before`: the control from which the change to the first row begins; NULL: zero loads at time 0. Collective.
+  Errors: SAM_ERR_USER naming the history's row.
 */
 PETSC_INTERN PetscErrorCode SamHistoryCreate(MPI_Comm comm, SamConditions conditions, const SamControl *constant,
                                              const SamControl *before, const char columns[], PetscInt rows,
@@ -48,26 +49,32 @@ PETSC_INTERN PetscErrorCode SamHistoryCreate(MPI_Comm comm, SamConditions condit
 PETSC_INTERN PetscErrorCode SamHistoryReadIncrements(const SamOptions *from, PetscInt *increments);
 /* SamHistoryDestroy - frees the history and sets the handle to NULL. Not collective. */
 PETSC_INTERN PetscErrorCode SamHistoryDestroy(SamHistory *history);
-/* The number of load steps, and the number of increments for each row. Not collective. */
+/*
+  SamHistoryGetCount, SamHistoryGetIncrements - return the number of load steps, and of increments per row. Not
+  collective.
+*/
 PETSC_INTERN PetscInt SamHistoryGetCount(SamHistory history);
 PETSC_INTERN PetscInt SamHistoryGetIncrements(SamHistory history);
-/* SamHistoryGetStart - the number of load steps up to the first row: the increments, or 1. Not collective. */
+/* SamHistoryGetStart - returns the number of load steps up to the first row: the increments, or 1. Not collective. */
 PETSC_INTERN PetscInt SamHistoryGetStart(SamHistory history);
 /*
-  SamHistoryGives - whether it gives a condition of that one's group: has a column of it, or another value than usual.
-  Not collective.
+  SamHistoryGives - returns true if the history gives any condition of the group of `one`: it has a column of it, or a
+  value other than the usual one. Not collective.
 */
 PETSC_INTERN PetscBool SamHistoryGives(SamHistory history, const SamCondition *one);
 /*
-  SamHistoryGetStep - the control of step k (from 0). The increments up to the first row start from zero loads,
+  SamHistoryGetStep - returns the control of step k (from 0). The increments up to the first row start from zero loads,
   displacements and usual conditions at time 0; if the first row's time is not positive, they start before it by the
-  time between the first two rows (1 s for a single row). A condition that is no option is that of the first row from
-  the start. Not collective.
-  SamHistoryGetPart - after a part of the step, more than 0, at most 1. Not collective.
+  time between the first two rows (1 s for a single row). A condition that is no option has the value of the first row
+  from the start. Not collective.
+  SamHistoryGetPart - returns the control after a part (> 0, <= 1) of the step. Not collective.
 */
 PETSC_INTERN SamControl SamHistoryGetStep(SamHistory history, PetscInt k);
 PETSC_INTERN SamControl SamHistoryGetPart(SamHistory history, PetscInt k, PetscReal part);
-/* SamHistoryGetPlace - the row that step k leads to, for messages: "file, line 3: ", empty without a file. */
+/*
+  SamHistoryGetPlace - writes the place of the row that step k leads to, for messages: "file, line 3: ", empty without a
+  file.
+*/
 PETSC_INTERN PetscErrorCode SamHistoryGetPlace(SamHistory history, PetscInt k, char text[], size_t size);
 
 #endif

@@ -5,15 +5,15 @@
 #include <petsam/solver.h>
 
 /*
-  SamNormal - a solver of the normal problem: find the pressure p with, in every cell,
+  SamNormal - a solver of the normal problem: find the pressure p so that in every cell
       p >= 0,  g >= 0,  p g = 0,      g = S p + h - (d_z - y r_x + x r_y)
   where g is the gap, S the normal influence operator and h the separation of the undeformed bodies; the balance gives
   the loads or rigid-body displacements. With a pressure limit H (SamNormalSetPressureLimit()) p <= H, and where p = H
-  the bodies may overlap, g <= 0: by that much they yield.
+  the bodies may overlap, g <= 0: the overlap is the depth by which they yield.
 */
 typedef struct _n_SamNormal *SamNormal;
 
-/* SamNormalAsSolver - the same object, for the functions of solver.h. Not collective. */
+/* SamNormalAsSolver - returns the same object for the functions of solver.h. Not collective. */
 static inline SamSolver SamNormalAsSolver(SamNormal normal)
 {
   return (SamSolver)normal;
@@ -22,8 +22,8 @@ static inline SamSolver SamNormalAsSolver(SamNormal normal)
 #define SAM_NORMAL_ACTIVESET "activeset" /* preconditioned projected CG on an active set, nested grids */
 
 /*
-  SamNormalCreate - a solver of the default type, activeset, for the grid of this elasticity, which it references.
-  Collective.
+  SamNormalCreate - creates a solver of the default type, activeset, for the grid of this elasticity, which it
+  references. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamNormalCreate(SamElasticity elasticity, SamNormal *normal);
 /* SamNormalDestroy - frees the solver and sets the handle to NULL. Collective. */
@@ -36,32 +36,33 @@ PETSC_EXTERN PetscErrorCode SamNormalDestroy(SamNormal *normal);
 PETSC_EXTERN PetscErrorCode SamNormalRegister(const char name[], PetscErrorCode (*create)(SamSolver));
 
 /*
-  A pressure that counts as the limit, relative to it: equilibrium may have shifted cells that bear it by rounding. That
-  displaces them by far less than the tolerance of the gap.
+  SAM_SATURATED - the pressure, relative to the limit, that counts as the limit: the projection onto equilibrium may
+  shift the pressure of cells at the limit by rounding. This displaces them by far less than the tolerance of the gap.
 */
 #define SAM_SATURATED (1 - 1e-9)
 /*
-  SamNormalSetPressureLimit - the maximum admissible pressure (Pa), of the next solves; infinite (default): none. Not
-  collective. Errors: PETSC_ERR_ARG_OUTOFRANGE unless it is > 0. A method without such a bound rejects it,
-  PETSC_ERR_SUP; SamNormalLimitsPressure() - whether the current method has it.
+  SamNormalSetPressureLimit - sets the maximum admissible pressure (Pa) of the next solves; infinite (default): none.
+  Not collective. Errors: PETSC_ERR_ARG_OUTOFRANGE unless it is > 0; PETSC_ERR_SUP if the method has no such bound.
+  SamNormalLimitsPressure - returns true if the current method has such a bound. Not collective.
 */
 PETSC_INTERN PetscErrorCode SamNormalSetPressureLimit(SamNormal normal, PetscReal limit);
 PETSC_INTERN PetscBool      SamNormalLimitsPressure(SamNormal normal);
 
 /*
-  SamNormalSolve - finds p (Pa, one component) for the separation h (m, one component). With `guess` p holds a start,
-  and only the finest grid is used; otherwise p is overwritten. On return the balance holds all loads and rigid-body
-  displacements. The relative error is the maximum |g| where p > 0 and the maximum -g elsewhere, over the maximum |S p|;
-  where p is at the limit, only g > 0 counts. Where displacements are measured from the mean planes
-  (SamElasticityTraits), a given approach must lie below the mean separation unless there is a limit, else
-  NO_EQUILIBRIUM; so is a load beyond the limit on all of the grid. Collective. Not converging is a reason, not an
-  error, unless SamSolverSetErrorIfNotConverged() makes it one. Errors: SAM_ERR_USER for a normal load below zero.
+  SamNormalSolve - finds p (Pa, one component) for the separation h (m, one component). With `guess` p is the initial
+  guess, and only the finest grid is used; otherwise p is overwritten. On return the balance holds all loads and
+  rigid-body displacements. The relative error is the maximum |g| where p > 0 and the maximum -g elsewhere, over the
+  maximum |S p|; where p is at the limit, only g > 0 counts. Where displacements are measured from the mean planes
+  (SamElasticityTraits), a given approach must be less than the mean separation unless there is a pressure limit; else
+  the reason is NO_EQUILIBRIUM. It is also NO_EQUILIBRIUM for a load that exceeds the limit on the whole grid.
+  Collective. A solve that does not converge has a reason, but is no error unless SamSolverSetErrorIfNotConverged()
+  makes it one. Errors: SAM_ERR_USER for a normal load below zero.
 */
 PETSC_EXTERN PetscErrorCode SamNormalSolve(SamNormal normal, Vec h, SamBalance *balance, PetscBool guess, Vec p);
 /*
-  SamNormalSolveYielding - the same for surfaces that yield besides: each cell by `diagonal` times its own pressure
-  (m/Pa, one component, >= 0), so that the gap is g = S p + diagonal p + h - (d_z - y r_x + x r_y). Wear whose rate
-  follows the pressure is of this kind (wear.h). Collective.
+  SamNormalSolveYielding - solves the same problem for surfaces that also recede in each cell by `diagonal` (m/Pa, one
+  component, >= 0) times the pressure of that cell, so that the gap is g = S p + diagonal p + h - (d_z - y r_x + x r_y).
+  Wear whose rate follows the pressure is of this kind (wear.h). Collective.
 */
 PETSC_INTERN PetscErrorCode SamNormalSolveYielding(SamNormal normal, Vec h, Vec diagonal, SamBalance *balance,
                                                    PetscBool guess, Vec p);

@@ -1,32 +1,32 @@
-/* What defines a run, and its bodies, by name: kept with results and checkpoints. */
+/* The parameters that define a run and its bodies, by name. Results and checkpoints store them. */
 #ifndef PETSAM_PARAMETERS_H
 #define PETSAM_PARAMETERS_H
 
 #include <petsam/base.h>
 
 /*
-  SamParameters - values by the names of the options (without dash) that give them. Where `fixed` is true, a stopped run
-  can only go on with the same value.
+  SamParameters - values by the names of the options (without dash) that give them. If `fixed` is true, a stopped run
+  can only continue with the same value.
 */
 #define SAM_PARAMETERS       64  /* most parameters of a run */
-#define SAM_PARAMETER_VALUES 128 /* most numbers of one */
+#define SAM_PARAMETER_VALUES 128 /* most numbers of a parameter */
 typedef struct {
   char      name[32];
   PetscBool fixed;
-  PetscInt  count; /* of values; 0: the parameter is a text */
+  PetscInt  count; /* number of values; 0: the parameter is a text */
   PetscReal value[SAM_PARAMETER_VALUES];
   char      text[256];
 } SamParameter;
 typedef struct {
   PetscInt     count;
   SamParameter list[SAM_PARAMETERS];
-  const char  *free;       /* parameters whose names begin like this may differ after all; NULL: none */
-  PetscBool    in_process; /* of a contact in process, whose files no program continues */
+  const char  *free;       /* prefix of names of parameters that may differ even if fixed; NULL: none */
+  PetscBool    in_process; /* true: of a contact in process, whose files no program can continue */
 } SamParameters;
 
 /*
   SamParametersAddReals, SamParametersAddText, SamParametersAddChecksum - append a parameter: 1 to SAM_PARAMETER_VALUES
-  numbers; a text, which is cut where it is too long; a checksum, say of what comes from a file. Not collective.
+  numbers; a text, which is truncated if it is too long; a checksum, for instance of data from a file. Not collective.
   Errors: PETSC_ERR_ARG_OUTOFRANGE for another count, or a parameter too many.
 */
 PETSC_EXTERN PetscErrorCode SamParametersAddReals(SamParameters *parameters, const char name[], PetscBool fixed,
@@ -34,10 +34,13 @@ PETSC_EXTERN PetscErrorCode SamParametersAddReals(SamParameters *parameters, con
 PETSC_EXTERN PetscErrorCode SamParametersAddText(SamParameters *parameters, const char name[], PetscBool fixed,
                                                  const char text[]);
 PETSC_INTERN PetscErrorCode SamParametersAddChecksum(SamParameters *parameters, const char name[], uint64_t checksum);
-/* SamParametersAddOptions - appends the options of a table that are recorded, from the settings. Likewise. */
+/*
+  SamParametersAddOptions - appends the values of the options of a table that are `recorded`, from the settings. Not
+  collective. Errors: as above.
+*/
 PETSC_INTERN PetscErrorCode SamParametersAddOptions(SamParameters *parameters, PetscInt count,
                                                     const SamOptionRow rows[], const void *settings);
-/* SamParametersFind - the parameter of that name, NULL: none; borrowed. Not collective. */
+/* SamParametersFind - returns the parameter of that name, NULL if there is none; borrowed. Not collective. */
 PETSC_EXTERN const SamParameter *SamParametersFind(const SamParameters *parameters, const char name[]);
 
 #endif

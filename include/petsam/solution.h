@@ -4,11 +4,16 @@
 
 #include <petsam/problem.h>
 
-/* State of a cell, as the results store it. */
+/* SamCellState - the state of a cell, as the results store it. */
 typedef enum { SAM_CELL_OPEN, SAM_CELL_STICK, SAM_CELL_SLIP } SamCellState;
-/* Relative margin: a cell in contact counts as slipping where |q| >= (1 - SAM_SLIP_MARGIN) of its bound. */
+/*
+  SAM_SLIP_MARGIN - relative margin: a cell in contact counts as slipping if |q| >= (1 - SAM_SLIP_MARGIN) of its bound.
+*/
 #define SAM_SLIP_MARGIN 1e-5
-/* SamCellStateOf - the state of a cell from its pressure, shear and the bound of that (all Pa). Not collective. */
+/*
+  SamCellStateOf - returns the state of a cell from its pressure, its shear and the bound of the shear (all Pa). Not
+  collective.
+*/
 static inline SamCellState SamCellStateOf(PetscReal p, PetscReal qx, PetscReal qy, PetscReal bound)
 {
   if (p <= 0) return SAM_CELL_OPEN;
@@ -21,21 +26,21 @@ static inline SamCellState SamCellStateOf(PetscReal p, PetscReal qx, PetscReal q
   shape and by the laws between them, the gap is g = u_z + h - rigid and the slip is s = u_t + stretch - rigid.
 */
 typedef struct {
-  SamControl control;              /* what was prescribed */
-  PetscBool  mid_step;             /* slip follows the direction of the shear at mid step, not at the end of the step */
-  PetscBool  lags;                 /* it follows that at the end although the loads may turn it */
-  PetscBool  touches;              /* where contact is made, slip counts from the time at which cells touch */
-  PetscReal  load[SAM_COMPONENTS]; /* N, N m: given or found */
+  SamControl control;               /* prescribed values */
+  PetscBool  mid_step;              /* true: slip follows the shear at mid step; false: at the end of the step */
+  PetscBool  lags;                  /* true: it follows the shear at the end although the loads may turn the shear */
+  PetscBool  touches;               /* true: in new contact, slip counts from the time at which the cells touch */
+  PetscReal  load[SAM_COMPONENTS];  /* N, N m: given or found */
   PetscReal  rigid[SAM_COMPONENTS]; /* m, rad: given or found */
   Vec        pressure;              /* Pa */
-  Vec        bound;                 /* Pa: the largest shear */
+  Vec        bound;                 /* largest shear, Pa */
   Vec        shear;                 /* Pa, two components: acts on body 2 */
   Vec        displacement_z;        /* m: relative elastic displacement u_z */
   Vec        displacement_t;        /* m, two components: relative elastic displacement u_t */
   /*
-    m, two components; NULL: zero. Part of the slip of the step that the shear at its end does not oppose: where there
-    was contact before, by the turn of the shear, else what the surfaces have moved over each other until they
-    touched.
+    Part of the slip of the step that the shear at its end does not oppose (m, two components; NULL: zero): in cells
+    that were in contact before, by the rotation of the shear; in others, the motion of the surfaces over each other
+    until they touched.
   */
   Vec aside;
 } SamSolution;

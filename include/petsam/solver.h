@@ -1,4 +1,4 @@
-/* What the solvers of the normal and of the tangential problem have in common. */
+/* The common interface of the solvers of the normal and of the tangential problem. */
 #ifndef PETSAM_SOLVER_H
 #define PETSAM_SOLVER_H
 
@@ -6,13 +6,13 @@
 #include <petsam/elasticity.h>
 
 /*
-  SamSolver - a method for one of the two contact problems, with its tolerances, monitors and counts. Its kinds are
-  SamNormal and SamTangential, types of their own: each has its functions to create, solve, destroy, and to register
-  methods. All else is done by the functions of this file, on SamNormalAsSolver(normal) or
-  SamTangentialAsSolver(tangential). Used like a KSP: create, set or read options, solve, get the reason.
+  SamSolver - a method for one of the two contact problems, with its tolerances, monitors and counts. Its kinds,
+  SamNormal and SamTangential, are separate types: each has its own functions to create, solve, destroy, and to register
+  methods. The functions of this file do all else, on SamNormalAsSolver(normal) or SamTangentialAsSolver(tangential). A
+  solver is used like a KSP: create, set or read options, solve, get the reason.
 
-  The names of options carry the kind, after the user's prefix: -normal_rtol, -tangential_rtol. Below, <kind> stands for
-  `normal` or `tangential`.
+  The names of options contain the kind, after the user's prefix: -normal_rtol, -tangential_rtol. Below, <kind> stands
+  for `normal` or `tangential`.
 */
 typedef struct _n_SamSolver *SamSolver;
 
@@ -22,14 +22,14 @@ typedef const char *SamSolverType;
 /* SamSolverReason - why a solver stopped: converged when > 0, not converged when < 0. */
 typedef enum {
   SAM_SOLVER_CONVERGED_RTOL          = 1,  /* the error is at most rtol */
-  SAM_SOLVER_CONVERGED_TRIVIAL       = 2,  /* zero traction solves it: separated bodies, or nothing that causes shear */
+  SAM_SOLVER_CONVERGED_TRIVIAL       = 2,  /* zero traction is the solution: separated bodies, or no cause of shear */
   SAM_SOLVER_ITERATING               = 0,  /* no solve has ended yet */
   SAM_SOLVER_DIVERGED_ITS            = -1, /* max_it reached */
-  SAM_SOLVER_DIVERGED_NAN            = -2, /* a number that is not finite, in the input or on the way */
-  SAM_SOLVER_DIVERGED_STAGNATED      = -3, /* no further progress, as a rule because of rounding */
+  SAM_SOLVER_DIVERGED_NAN            = -2, /* a number that is not finite, in the input or during the solve */
+  SAM_SOLVER_DIVERGED_STAGNATED      = -3, /* no further progress, usually because of rounding */
   SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM = -4  /* no admissible traction balances the loads; for shear: gross slip */
 } SamSolverReason;
-/* SamSolverReasonName - the reason as it is printed, CONVERGED_RTOL for instance. Not collective. */
+/* SamSolverReasonName - returns the printed name of a reason, for instance CONVERGED_RTOL. Not collective. */
 PETSC_EXTERN const char *SamSolverReasonName(SamSolverReason reason);
 
 /*
@@ -39,51 +39,55 @@ PETSC_EXTERN const char *SamSolverReasonName(SamSolverReason reason);
 PETSC_EXTERN PetscErrorCode SamSolverSetType(SamSolver solver, SamSolverType type);
 PETSC_EXTERN SamSolverType  SamSolverGetType(SamSolver solver);
 
-/* SamSolverSetOptionsPrefix - what stands before `<kind>_` in the names of the options; NULL: nothing. */
+/*
+  SamSolverSetOptionsPrefix - sets the prefix before `<kind>_` in the names of the options; NULL: none. Not collective.
+*/
 PETSC_EXTERN PetscErrorCode SamSolverSetOptionsPrefix(SamSolver solver, const char prefix[]);
 
 /*
-  SamSolverSetTolerances - `rtol`: the relative error, defined at SamNormalSolve() and SamTangentialSolve(), at which
-  the solver stops (option -<kind>_rtol); `max_it`: most iterations on the finest grid, 0: the type's default (option
-  -<kind>_max_it). PETSC_DEFAULT leaves a value as it is. SamSolverGetTolerances - the values in force; NULL for an
-  unused one. Not collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for a value below zero, or rtol 0.
+  SamSolverSetTolerances - sets the relative error `rtol`, defined at SamNormalSolve() and SamTangentialSolve(), at
+  which the solver stops (option -<kind>_rtol), and the maximum number of iterations on the finest grid, `max_it`; 0:
+  the type's default (option -<kind>_max_it). PETSC_DEFAULT leaves a value unchanged. SamSolverGetTolerances - gets the
+  values in force; NULL for an unused one. Not collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for a value below zero, or
+  rtol 0.
 */
 PETSC_EXTERN PetscErrorCode SamSolverSetTolerances(SamSolver solver, PetscReal rtol, PetscInt max_it);
 PETSC_INTERN PetscErrorCode SamSolverGetTolerances(SamSolver solver, PetscReal *rtol, PetscInt *max_it);
 
 /*
-  SamSolverSetLevels - most nested grids that a solve without a guess begins on; 1: the finest only, 0: the type's
-  default. Option -<kind>_levels. Not collective.
+  SamSolverSetLevels - sets the maximum number of nested grids for a solve without a guess; 1: the finest grid only, 0:
+  the type's default. Option -<kind>_levels. Not collective.
 */
 PETSC_INTERN PetscErrorCode SamSolverSetLevels(SamSolver solver, PetscInt levels);
 
 /*
-  SamSolverSetErrorIfNotConverged - whether a solve that does not converge is an error, PETSC_ERR_NOT_CONVERGED, and not
-  only a reason. Option -<kind>_error_if_not_converged. Not collective.
+  SamSolverSetErrorIfNotConverged - decides if a solve that does not converge is an error, PETSC_ERR_NOT_CONVERGED, or
+  only has a reason. Option -<kind>_error_if_not_converged. Not collective.
 */
 PETSC_INTERN PetscErrorCode SamSolverSetErrorIfNotConverged(SamSolver solver, PetscBool error);
 
 /*
-  SamSolverMonitorSet - adds a function that is called after every iteration on the finest grid, with the number of
-  iterations so far and the relative error; at most five. Option -<kind>_monitor adds one that prints the error. Not
-  collective; monitors are called on all ranks.
+  SamSolverMonitorSet - adds a function, at most five of them, that is called after every iteration on the finest grid,
+  with the number of iterations so far and the relative error. Option -<kind>_monitor adds one that prints the error.
+  Not collective; monitors are called on all ranks.
 */
 typedef PetscErrorCode (*SamSolverMonitor)(SamSolver solver, PetscInt it, PetscReal error, void *context);
 PETSC_EXTERN PetscErrorCode SamSolverMonitorSet(SamSolver solver, SamSolverMonitor monitor, void *context);
 
 /*
-  SamSolverSetFromOptions - reads the options named above and those of the type; -<kind>_view and
+  SamSolverSetFromOptions - reads the options named above, those of the type, and -<kind>_view and
   -<kind>_converged_reason, viewers that are used after every solve. Collective. Errors: SAM_ERR_USER with the option's
   name for a wrong value.
 */
 PETSC_EXTERN PetscErrorCode SamSolverSetFromOptions(SamSolver solver);
 
-/* SamSolverGetReason - why the last solve stopped. Not collective. */
+/* SamSolverGetReason - returns the reason why the last solve stopped. Not collective. */
 PETSC_EXTERN SamSolverReason SamSolverGetReason(SamSolver solver);
 
 /*
-  SamSolverGetStatistics - of the last solve: the relative error reached, iterations, products with the influence
-  operator and with the preconditioner, all on the finest grid; NULL for an unused one. Not collective.
+  SamSolverGetStatistics - gets the relative error of the last solve, and its numbers of iterations, of products with
+  the influence operator and of products with the preconditioner, all on the finest grid; NULL for an unused one. Not
+  collective.
 */
 PETSC_EXTERN PetscErrorCode SamSolverGetStatistics(SamSolver solver, PetscReal *error, PetscInt *iterations,
                                                    PetscInt *applies, PetscInt *preconditions);

@@ -1,46 +1,51 @@
-/* What a contact remembers: fields and numbers by name, in generations. */
+/* The state of a contact: fields and numbers by name, in generations. */
 #ifndef PETSAM_STATE_H
 #define PETSAM_STATE_H
 
 #include <petsam/grid.h>
 
 /*
-  SamState - fields and numbers that parts of a contact remember from one load step to the next, and what results offer.
-  Each is declared once, by the part that owns it; checkpoints, results, copies and lists follow from the declarations.
+  SamState - fields and numbers that parts of a contact keep from one load step to the next, and those that results
+  offer. Each is declared once, by the part that owns it; checkpoints, results, copies and lists follow from the
+  declarations.
 
-  A step is tried, and then committed or rejected. So there are generations: the tried one, the committed one, and that
-  one step back. SamStateBegin() begins a try; SamStateCommit() makes the tried generation the committed one, by
-  exchanging pointers; SamStateReject() forgets it. A field whose tried generation nobody asked for keeps its committed
+  A step is tried, and then committed or rejected. So there are generations: the tried one, the committed one, and the
+  one a step before that. SamStateBegin() begins a try; SamStateCommit() makes the tried generation the committed one,
+  by exchanging pointers; SamStateReject() discards it. A field whose tried generation was not set keeps its committed
   values.
 */
 typedef struct _n_SamState *SamState;
 typedef enum { SAM_TRIED, SAM_COMMITTED, SAM_BEFORE, SAM_GENERATIONS } SamGeneration;
 
-/* Whether results offer a field, and save it by default. */
+/* SamResultUse - the use of a field in results: none, offered, or saved by default. */
 typedef enum { SAM_RESULT_NONE, SAM_RESULT_OFFERED, SAM_RESULT_USUAL } SamResultUse;
 
-/* What becomes of a field when the grid moves: it belongs to the place, or to the material, what enters being 0 or as
-   at the border. */
+/*
+  SamStateMotion - the behaviour of a field when the grid moves: the field stays at its place, or it moves with the
+  material, and values that enter are 0 or those at the border.
+*/
 typedef enum { SAM_STAYS, SAM_MOVES, SAM_MOVES_CONTINUED } SamStateMotion;
 
 /*
-  SamStateField - the declaration of a remembered field. A field of two components is offered as name_x and name_y. A
-  field with depth has its values in `layers` layers below each cell, one after the other from the first layer down,
-  each with all components; the layers are offered as name_1, name_2 and so on. The names and texts of fields are
-  not copied.
+  SamStateField - the declaration of a stored field. A field of two components is offered as name_x and name_y. A field
+  with depth has values in `layers` layers below each cell, one after the other from the first layer down, each with all
+  components; the layers are offered as name_1, name_2 and so on. The names and texts of fields are not copied.
 */
 typedef struct {
   const char    *name, *unit, *text;
-  PetscInt       components;  /* values a cell, 1 or 2 */
-  PetscInt       generations; /* 2: tried and committed; 3: one step back too */
-  PetscBool      kept;        /* later steps depend on it, so that checkpoints have it */
-  PetscBool      optional;    /* a checkpoint may lack it; it is zero then */
+  PetscInt       components;  /* number of values per cell, 1 or 2 */
+  PetscInt       generations; /* 2: tried and committed; 3: also one step before */
+  PetscBool      kept;        /* true: later steps depend on it, so checkpoints contain it */
+  PetscBool      optional;    /* true: a checkpoint may lack it; it is then zero */
   SamResultUse   result;
   SamStateMotion motion;
-  PetscInt       layers;    /* below each cell; 0: a field of the surface */
-  PetscBool      separates; /* the separation or the offset of later steps follows from it */
+  PetscInt       layers;    /* number of layers below each cell; 0: a field of the surface */
+  PetscBool      separates; /* true: the separation or the offset of later steps depends on it */
 } SamStateField;
-/* SamStateFieldSize - values of a field for each cell: the components of its vectors. Not collective. */
+/*
+  SamStateFieldSize - returns the number of values of a field per cell, that is of components of its vectors. Not
+  collective.
+*/
 static inline PetscInt SamStateFieldSize(const SamStateField *field)
 {
   return field->components * PetscMax(field->layers, 1);
@@ -49,40 +54,39 @@ static inline PetscInt SamStateFieldSize(const SamStateField *field)
   SamStateDeclareField - declares a field; `id` is its handle. Declaring the same name again returns the same handle.
   Collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for more than SAM_STATE_MOST fields.
 */
-#define SAM_STATE_MOST 64 /* most fields; most results */
+#define SAM_STATE_MOST 64 /* most fields, and most results */
 PETSC_EXTERN PetscErrorCode SamStateDeclareField(SamState state, const SamStateField *field, PetscInt *id);
 
 /*
-  SamStateNumber - the declaration of numbers. Those that results offer are columns of /history: real numbers, which are
-  NaN where a step has none, integers (0), statuses, or a matrix with a row and a column for each component (NaN). The
-  first number of a state is the coordinate of the others. Names and texts are copied.
+  SamStateNumber - the declaration of numbers. Numbers that results offer are columns of /history: real numbers, which
+  are NaN if a step has none, integers (then 0), statuses, or a matrix with a row and a column for each component (then
+  NaN). The first number of a state is the coordinate of the others. Names and texts are copied.
 */
 typedef enum { SAM_NUMBER_REAL, SAM_NUMBER_INT, SAM_NUMBER_STATUS, SAM_NUMBER_MATRIX } SamNumberKind;
-/* How the numbers of the parts of a step make that of the whole step. */
+/* SamNumberJoin - the rule by which the numbers of the parts of a step give the number of the whole step. */
 typedef enum { SAM_JOIN_LAST, SAM_JOIN_SUM, SAM_JOIN_GREATEST } SamNumberJoin;
 typedef struct {
   const char   *name, *unit, *text;
   SamNumberKind kind;
-  PetscInt      count;  /* 1; of numbers that are no results any; of a matrix all its values */
-  PetscBool     kept;   /* checkpoints have it */
-  PetscBool     result; /* a column of /history */
+  PetscInt      count;  /* 1; all values of a matrix; any count for numbers that are no results */
+  PetscBool     kept;   /* true: checkpoints contain it */
+  PetscBool     result; /* true: a column of /history */
   SamNumberJoin join;
-  PetscInt      order; /* of its error in the width of the cells, for the check of the grid; 0: it is not estimated */
+  PetscInt      order; /* order of its error in the cell size, for -grid_check; 0: the error is not estimated */
 } SamStateNumber;
 /*
-  SamStateDeclareNumber - declares numbers; `id` is the place of the first: those declared one after the other lie side
-  by side. Declaring the same name again returns the same place. Not collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for
-  more than
-  SAM_STATE_DECLARED declarations, or SAM_STATE_NUMBERS values.
+  SamStateDeclareNumber - declares numbers; `id` is the place of the first. Numbers declared one after the other lie
+  side by side. Declaring the same name again returns the same place. Not collective. Errors: PETSC_ERR_ARG_OUTOFRANGE
+  for more than SAM_STATE_DECLARED declarations, or SAM_STATE_NUMBERS values.
 */
 #define SAM_STATE_NUMBERS  512
 #define SAM_STATE_DECLARED 128 /* most declarations of numbers */
 PETSC_EXTERN PetscErrorCode SamStateDeclareNumber(SamState state, const SamStateNumber *number, PetscInt *id);
 /*
-  SamStateDeclareOptional - the same of numbers that another state or a checkpoint may lack, where they have their usual
-  value, as from the start.
-  SamStateIsOptional - whether the k-th declaration is of such; SamStateIsUsual - and all that is remembered of them is
-  as usual. Not collective.
+  SamStateDeclareOptional - declares numbers that another state or a checkpoint may lack; they then have the value
+  `usual`, with which they also start.
+  SamStateIsOptional - returns true if the k-th declaration is optional. SamStateIsUsual - returns true if, in addition,
+  all their stored values are the usual one. Not collective.
 */
 PETSC_INTERN PetscErrorCode SamStateDeclareOptional(SamState state, const SamStateNumber *number, double usual,
                                                     PetscInt *id);
@@ -90,60 +94,64 @@ PETSC_INTERN PetscBool      SamStateIsOptional(SamState state, PetscInt k);
 PETSC_INTERN PetscBool      SamStateIsUsual(SamState state, PetscInt k);
 
 /*
-  SamStateOfferNumber - makes a declared number a column of /history, unless it is one; `before` is its value in steps
-  of an earlier run whose results lack it. Not collective.
+  SamStateOfferNumber - makes a declared number a column of /history, unless it is one already; `before` is its value in
+  steps of an earlier run whose results lack it. Not collective.
 */
 PETSC_INTERN PetscErrorCode SamStateOfferNumber(SamState state, const char name[], double before);
 
 /*
-  SamStateResult - a field that results offer: a component of a remembered field, or what `compute` writes into a vector
-  for the tried state, or without one for the committed state. The values are real numbers, states of cells (stored as
-  bytes), the points of an edge, or real numbers in layers below the cells: then the vector has as many components as
-  there are layers, and the name is that of a group, a slash, and a dataset. Remembered fields are offered by their
-  declaration.
+  SamStateResult - a field that results offer: a component of a stored field, or a field that `compute` writes into a
+  vector, for the tried state or, without one, for the committed state. The values are real numbers, states of cells
+  (stored as bytes), the points of an edge, or real numbers in layers below the cells. In the last case the vector has
+  as many components as there are layers, and the name consists of a group, a slash, and a dataset. The declaration of a
+  stored field offers it.
 */
 typedef enum { SAM_FIELD_REAL, SAM_FIELD_STATE, SAM_FIELD_POINTS, SAM_FIELD_LAYERS } SamFieldKind;
 typedef struct {
   const char  *name, *unit, *text;
   SamFieldKind kind;
   SamResultUse use;
-  PetscErrorCode (*compute)(void *owner, SamState state, PetscInt component, Vec field); /* NULL: it is remembered */
+  PetscErrorCode (*compute)(void *owner, SamState state, PetscInt component, Vec field); /* NULL: stored field */
   void    *owner;
   PetscInt component;
-  PetscInt field; /* handle of the remembered field; set by SamStateDeclareField() */
+  PetscInt field; /* handle of the stored field; set by SamStateDeclareField() */
 } SamStateResult;
 /*
   SamStateOffer - declares a computed field of the results. Not collective.
-  SamStateSetLayers - the layers of all fields of that kind: z of their middles, rising: m below the surface of body 2,
-  negative in body 1. SamStateGetLayers - their number and z, borrowed. Neither is collective.
+  SamStateSetLayers - sets the layers of all fields of kind SAM_FIELD_LAYERS: the increasing z of their middles, m below
+  the surface of body 2, negative in body 1. SamStateGetLayers - returns their number, and gets z, borrowed. Neither is
+  collective.
 */
 PETSC_INTERN PetscErrorCode SamStateSetLayers(SamState state, PetscInt count, const PetscReal z[]);
 PETSC_INTERN PetscInt       SamStateGetLayers(SamState state, const PetscReal **z);
 PETSC_INTERN PetscErrorCode SamStateOffer(SamState state, const SamStateResult *result);
 
 /*
-  SamStateSetField - the vector of a field's tried generation, to be written to: zero when it is first made, later with
-  old values. Collective.
+  SamStateSetField - gets the vector of a field's tried generation for writing: it is zero when it is created, and has
+  old values later. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamStateSetField(SamState state, PetscInt id, Vec *field);
-/* SamStateGetField - the vector of a generation; NULL where nobody has set it. Borrowed. Not collective. */
+/* SamStateGetField - returns the vector of a generation, NULL if it has not been set. Borrowed. Not collective. */
 PETSC_EXTERN Vec SamStateGetField(SamState state, PetscInt id, SamGeneration generation);
 /*
-  SamStateReadField - the tried vector if it has been set in this try, else the committed one; NULL for neither.
-  Borrowed until the next try, commit or rejection. Not collective.
+  SamStateReadField - returns the tried vector if it has been set in this try, else the committed one; NULL if there is
+  neither. Borrowed until the next try, commit or rejection. Not collective.
 */
 PETSC_EXTERN Vec SamStateReadField(SamState state, PetscInt id);
-/* SamStateReadNumbers - in the tried generation, without one in the committed one. Not collective. */
+/*
+  SamStateReadNumbers - returns the numbers in the tried generation, without a try in the committed one. Not collective.
+*/
 PETSC_EXTERN double *SamStateReadNumbers(SamState state, PetscInt id);
 /*
-  SamStateJoinNumbers - joins the numbers of the tried generation to `parts`, those of the parts of the step before it:
-  SAM_STATE_NUMBERS values, at first 0. `to_step`: into the tried generation, else into `parts`. Not collective.
+  SamStateJoinNumbers - joins the numbers of the tried generation, by the rules of their declarations, to `parts`, the
+  joined numbers of the earlier parts of the step: SAM_STATE_NUMBERS values, at first 0. `to_step`: true writes the
+  result into the tried generation, false into `parts`. Not collective.
 */
 PETSC_INTERN void SamStateJoinNumbers(SamState state, double parts[], PetscBool to_step);
 
 /*
-  The declarations, in their order. None is collective.
-  SamStateFind... - the handle of a name, -1: there is none. For results the place in their list.
+  The following functions return the declarations, in their order. None is collective. SamStateFind... - return the
+  handle of a name, for results its place in their list; -1 if there is none.
 */
 PETSC_INTERN PetscInt              SamStateCountFields(SamState state);
 PETSC_INTERN const SamStateField  *SamStateFieldOf(SamState state, PetscInt id);

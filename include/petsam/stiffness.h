@@ -5,18 +5,18 @@
 #include <petsam/contact.h>
 
 /*
-  The derivative of a contact with friction depends on the direction of its motion. Two are computed:
-    SAM_STIFFNESS_FORWARD   loading continues: cells that slip continue to slip. This is the derivative of the tried
-                            step's loads with respect to its displacements, the step starting where it did. Friction
-                            may follow the slip of the step. What a step of second order takes aside of the slip
-                            (step/direction.c) counts as given: with it, where loads turn or N grows, the derivative is
-                            that of the step to the first order of its length (0.2 % in a test); with
-                            -slip_direction end it is exact.
-                            Not symmetric: where cells slip, tangential loads depend on the approach, and not the
-                            reverse. Across a step's own direction it counts that slip turns within the step: for a
-                            path of small steps it tends to the stiffness of stick there.
-    SAM_STIFFNESS_REVERSAL  the motion reverses at the end of the step: all cells in contact stick, and none yields.
-                            Symmetric; also right where only the normal force grows, without a limit of the pressure.
+  The tangent stiffness of a contact with friction depends on the direction of its motion. Two directions are computed:
+    SAM_STIFFNESS_FORWARD   continued loading: cells that slip continue to slip. This is the derivative of the tried
+                            step's loads with respect to its displacements, for a fixed start of the step. Friction may
+                            depend on the slip of the step. The part of the slip that a step of second order sets aside
+                            (step/direction.c) counts as constant: so if loads turn or N grows, the derivative has an
+                            error of first order in the length of the step (0.2 % in a test); with -slip_direction end
+                            it has no error. It is not symmetric: if cells slip, tangential loads depend on the
+                            approach, but not the reverse. Perpendicular to the direction of the step it includes the
+                            turning of the slip within the step; for a path of small steps it tends to the stiffness of
+                            stick in that direction.
+    SAM_STIFFNESS_REVERSAL  reversal at the end of the step: all cells in contact stick, and none yields. It is
+                            symmetric, and also correct if only the normal force grows, without a pressure limit.
 */
 typedef enum { SAM_STIFFNESS_FORWARD, SAM_STIFFNESS_REVERSAL } SamStiffnessDirection;
 #define SAM_STIFFNESS_DIRECTIONS 2
@@ -24,14 +24,15 @@ typedef enum { SAM_STIFFNESS_FORWARD, SAM_STIFFNESS_REVERSAL } SamStiffnessDirec
 /* SamStiffness - d(load)/d(rigid displacement) in the order of SamComponent, and its cost. */
 typedef struct {
   PetscReal k[SAM_COMPONENTS][SAM_COMPONENTS]; /* k[i][j] = d(load i)/d(rigid j): N/m, N/rad, N, N m/rad */
-  PetscBool converged;                         /* else, and where rotations do not exist, k is NaN */
+  PetscBool converged;                         /* if false, and for rotations that do not exist, k is NaN */
   PetscReal error;                             /* largest residual of a column, relative */
-  PetscInt  columns, applies, preconditions;   /* systems solved; products with the operator and its inverse */
+  PetscInt  columns, applies, preconditions; /* numbers of systems solved, and of products with operator and inverse */
 } SamStiffness;
 
 /*
-  SamStiffnessCompute - the tangent stiffness of the tried step, if there is one, else at the reversal of the committed
-  one, whose slip, which the forward stiffness needs, is not kept. Displacements are relative to infinity.
+  SamStiffnessCompute - computes the tangent stiffness of the tried step if there is one. Else only that at the reversal
+  of the committed step is possible, since the forward stiffness needs the slip of the step, which is not kept.
+  Displacements are relative to infinity.
   The boundaries of contact, stick and slip do not move to first order: pressure vanishes at the edge of contact, and
   where stick meets slip both |q| = mu p and ds = 0 hold. So the sets of cells are frozen, and a column solves
     normal      S dp + B' dq = n on cells in contact; dp = 0 on those that yield, if loading continues,
@@ -46,14 +47,16 @@ PETSC_EXTERN PetscErrorCode SamStiffnessCompute(SamContact contact, SamStiffness
                                                 SamStiffness *stiffness);
 
 /*
-  SamStiffnessDeclare - makes both directions' stiffness numbers of a contact's steps: `stiffness`,
+  SamStiffnessDeclare - adds the stiffness of both directions to the numbers of a contact's steps: `stiffness`,
   `stiffness_reversal`.
   SamStiffnessRecord - computes them for the tried step, unless it has no solution; a failure becomes the step's
   message. Both are collective.
 */
 PETSC_INTERN PetscErrorCode SamStiffnessDeclare(SamContact contact);
 PETSC_INTERN PetscErrorCode SamStiffnessRecord(SamContact contact, SamStep *step);
-/* SamStiffnessDescribe - the message of a stiffness that did not converge; else empty. Not collective. */
+/*
+  SamStiffnessDescribe - writes the message of a stiffness that did not converge; else an empty text. Not collective.
+*/
 PETSC_INTERN void SamStiffnessDescribe(const SamStiffness *stiffness, char text[], size_t size);
 
 #endif

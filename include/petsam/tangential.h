@@ -5,17 +5,17 @@
 #include <petsam/solver.h>
 
 /*
-  SamTangential - a solver of one increment of the tangential problem: find the shear q, |q| <= b, b the
+  SamTangential - a solver of one increment of the tangential problem: find the shear q with |q| <= b, where b is the
   friction coefficient times the pressure, so that with
       s  = C q + w - (d_x - y r_z, d_y + x r_z),       ds = s - S,
   ds = 0 where |q| < b (stick), and ds = -lambda q with lambda >= 0 where |q| = b (slip). C is the tangential influence
-  operator, w a given displacement (that of the pressure, for dissimilar materials), S the slip at the end of the step
-  before; the balance gives the loads or rigid-body displacements. The problem is strictly convex, so it has one
+  operator, w a given displacement (that of the pressure, for dissimilar materials), S the slip at the end of the
+  previous step; the balance gives the loads or rigid-body displacements. The problem is strictly convex, so it has one
   solution.
 */
 typedef struct _n_SamTangential *SamTangential;
 
-/* SamTangentialAsSolver - the same object, for the functions of solver.h. Not collective. */
+/* SamTangentialAsSolver - returns the same object for the functions of solver.h. Not collective. */
 static inline SamSolver SamTangentialAsSolver(SamTangential tangential)
 {
   return (SamSolver)tangential;
@@ -25,8 +25,8 @@ static inline SamSolver SamTangentialAsSolver(SamTangential tangential)
 #define SAM_TANGENTIAL_NEWTON  "newton"  /* Newton on stick and slip with preconditioned projected CG, nested grids */
 
 /*
-  SamTangentialCreate - a solver of the default type, newton, for the grid of this elasticity, which it references.
-  Collective.
+  SamTangentialCreate - creates a solver of the default type, newton, for the grid of this elasticity, which it
+  references. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamTangentialCreate(SamElasticity elasticity, SamTangential *tangential);
 /* SamTangentialDestroy - frees the solver and sets the handle to NULL. Collective. */
@@ -39,27 +39,27 @@ PETSC_EXTERN PetscErrorCode SamTangentialDestroy(SamTangential *tangential);
 PETSC_EXTERN PetscErrorCode SamTangentialRegister(const char name[], PetscErrorCode (*create)(SamSolver));
 
 /*
-  The relative residual measures the shear by its norm, but by no less than this part of the norm of the bound: where a
-  history of displacements leaves hardly any shear, all of it is rounding.
+  SAM_SHEAR_FLOOR - the residual is relative to the norm of the shear, but at least to this part of the norm of the
+  bound: if a history of displacements leaves almost no shear, the shear is only rounding.
 */
 #define SAM_SHEAR_FLOOR 1e-8
 
 /*
-  SamTangentialSolve - finds q (Pa, two components) for the bound of each cell's shear (Pa, one component, >= 0) and the
-  offset w - S (m, two components; NULL: zero). With `guess` q and the rigid-body displacements in the balance are a
-  start, and only the finest grid is used. On return the balance holds all loads and rigid-body displacements; after
-  gross slip, SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM, it is as it was, unless there was no friction at all, and q is the
-  shear of sliding, which carries the loads at their limit. The relative error is the
+  SamTangentialSolve - finds q (Pa, two components) for the bound of the shear in each cell (Pa, one component, >= 0)
+  and the offset w - S (m, two components; NULL: zero). With `guess` q and the rigid-body displacements in the balance
+  are the initial guess, and only the finest grid is used. On return the balance holds all loads and rigid-body
+  displacements. After gross slip (SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM) the balance is unchanged, unless there was no
+  friction at all, and q is the shear of sliding, which carries the loads at their limit. The relative error is the
   residual of the projection equation q = D(q - ds/c), D the projection onto the discs |q| <= bound and c the
-  self-influence of a cell: |q - D(q - ds/c)| over the larger of |q| and |D(q - ds/c)|, in the 2-norm. Collective. Not
-  converging is a reason, not an error, unless SamSolverSetErrorIfNotConverged() makes it one.
+  self-influence of a cell: |q - D(q - ds/c)| over the larger of |q| and |D(q - ds/c)|, in the 2-norm. Collective. A
+  solve that does not converge has a reason, but is no error unless SamSolverSetErrorIfNotConverged() makes it one.
 */
 PETSC_EXTERN PetscErrorCode SamTangentialSolve(SamTangential tangential, Vec bound, Vec offset, SamBalance *balance,
                                                PetscBool guess, Vec q);
 
 /*
-  SamTangentialGetLimit - after gross slip: the factor on the given loads at which sliding begins; infinite when it was
-  not looked for. Not collective.
+  SamTangentialGetLimit - returns, after gross slip, the factor on the given loads at which sliding begins; infinite if
+  it was not computed. Not collective.
 */
 PETSC_INTERN PetscReal SamTangentialGetLimit(SamTangential tangential);
 

@@ -7,21 +7,21 @@
 /*
   The laws `archard` (removed depth = k p |ds|, k in 1/Pa) and `energy` (removed depth = alpha |q . ds|, alpha in m3/J)
   of a problem. Each body's depth is its coefficient times the same field, the wear load: the sum of p |ds| (Pa m) or of
-  |q . ds| (J/m2) in cells that slip. The gap of a step is that of the bodies as they were before it; its depths are
-  those at its end. Both bodies lose material at the place on the grid where the surfaces slip: right while the stroke
-  is small against the scar.
+  |q . ds| (J/m2) in cells that slip. The gap of a step is that of the bodies before the step; its depths are those at
+  its end. Both bodies lose material at the place on the grid where the surfaces slip, which is accurate while the
+  stroke is small compared with the scar.
 */
 
 /*
-  SamLawSetWear - the coefficients of body 1 and 2 of a law of these types. Not collective, the same on all ranks.
-  Errors: PETSC_ERR_ARG_OUTOFRANGE for one that is negative or not finite; PETSC_ERR_ARG_WRONG for a law of another
-  type.
+  SamLawSetWear - sets the wear coefficients of body 1 and 2 for a law of these types. Not collective, the same on all
+  ranks. Errors: PETSC_ERR_ARG_OUTOFRANGE for a coefficient that is negative or not finite; PETSC_ERR_ARG_WRONG for a
+  law of another type.
 */
 PETSC_EXTERN PetscErrorCode SamLawSetWear(SamLaw law, const PetscReal coefficient[2]);
 
 /*
-  SamWearAdviseStride - a warning about a step that slides by so many lengths of the contact; empty: none. Not
-  collective.
+  SamWearAdviseStride - writes a warning about a step that slides too far; `stride`: its slide divided by the length of
+  the contact. Else an empty text. Not collective.
 */
 PETSC_INTERN PetscErrorCode SamWearAdviseStride(PetscReal stride, char text[], size_t size);
 

@@ -1,4 +1,4 @@
-/* What all parts of the library share: differences between PETSc versions, log events, memory, sums over the ranks. */
+/* Helpers for all parts of the library: differences between PETSc versions, log events, memory, sums over the ranks. */
 #ifndef PETSAM_BASEIMPL_H
 #define PETSAM_BASEIMPL_H
 
@@ -22,8 +22,8 @@
 #endif
 
 /*
-  SAM_VECTORIZED - for functions that loop over contiguous doubles: compiled for several generations of x86, of which
-  the program chooses one at its start. So an installed program needs no -march=native.
+  SAM_VECTORIZED - attribute of functions that loop over contiguous doubles: they are compiled for several generations
+  of x86, and the program selects one at its start. So an installed program needs no -march=native.
 */
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__linux__) && \
   !defined(__SANITIZE_ADDRESS__)
@@ -33,8 +33,8 @@
 #endif
 
 /*
-  SamBaseInitialize - the part of SamInitialize() that all parts of the library need; calling it again does nothing.
-  Collective on PETSC_COMM_WORLD.
+  SamBaseInitialize - does the part of SamInitialize() that all parts of the library need; calling it again does
+  nothing. Collective on PETSC_COMM_WORLD.
 */
 PETSC_INTERN PetscErrorCode SamBaseInitialize(void);
 
@@ -62,7 +62,7 @@ typedef enum {
 PETSC_EXTERN PetscLogEvent SamEvents[SAM_EVENT_COUNT];
 
 /* ---- errors ---- */
-/* SamKeepMessage - an error handler of PETSc that keeps the first message in `context`, SAM_MESSAGE characters. */
+/* SamKeepMessage - an error handler for PETSc that stores the first message in `context`, SAM_MESSAGE characters. */
 #define SAM_MESSAGE 1024
 PETSC_INTERN PetscErrorCode SamKeepMessage(MPI_Comm comm, int line, const char *function, const char *file,
                                            PetscErrorCode code, PetscErrorType type, const char *message,
@@ -70,11 +70,11 @@ PETSC_INTERN PetscErrorCode SamKeepMessage(MPI_Comm comm, int line, const char *
 
 /* ---- start ---- */
 /*
-  SamPrepareMPI - to be called before MPI_Init(). Returns whether an MPI launcher has started the process. Without one
-  no network is needed: Open MPI would look for one and start a daemon, which takes longer than a small problem and is
-  not possible everywhere. Settings of the user are not changed. Not collective.
-  SamForgetPreparation - takes the settings back after MPI_Init(), so that programs that the process starts can be
-  launched with MPI.
+  SamPrepareMPI - returns true if an MPI launcher has started the process; it must be called before MPI_Init(). Without
+  a launcher no network is needed, and it keeps Open MPI from searching for one and starting a daemon, which takes
+  longer than a small problem and is not possible everywhere. Settings of the user are not changed. Not collective.
+  SamForgetPreparation - restores the settings after MPI_Init(), so that programs that the process starts can be
+  launched with MPI. Not collective.
 */
 PETSC_EXTERN PetscBool SamPrepareMPI(void);
 PETSC_INTERN void      SamForgetPreparation(void);
@@ -89,17 +89,17 @@ PETSC_INTERN PetscErrorCode SamAllocateZeros(size_t bytes, void *pointer);
 PETSC_INTERN void           SamFree(void *pointer);
 
 /*
-  SamZero - sets n doubles to zero; does not write where they are zero, so that untouched pages take no memory. It reads
-  them: not for memory that malloc() has given and nobody has written.
+  SamZero - sets n doubles to zero. It does not write where they are already zero, so that untouched pages take no
+  memory. It must not be used for uninitialized memory, since it reads the numbers.
 */
 PETSC_INTERN void SamZero(PetscInt n, double x[]);
 
 /*
-  SamMallocTrim - returns freed memory that the C library keeps to the system. The next allocations have to map it
-  again, which takes time, so call it only at the end of long stages.
+  SamMallocTrim - returns freed memory, which the C library would keep, to the system. The next allocations must map it
+  again, which takes time, so it should be called only at the end of long stages.
 */
 PETSC_INTERN void SamMallocTrim(void);
-/* SamDescribeBytes - a size for a person: "1.23 GB", where a GB is 1e9 bytes. Not collective. */
+/* SamDescribeBytes - writes a size in readable form: "1.23 GB", where a GB is 1e9 bytes. Not collective. */
 PETSC_EXTERN void SamDescribeBytes(double bytes, char text[], size_t size);
 
 /* ---- options ---- */
@@ -108,71 +108,78 @@ PETSC_EXTERN void SamDescribeBytes(double bytes, char text[], size_t size);
 #define SAM_PREFIX 64
 PETSC_INTERN PetscErrorCode SamSetPrefix(char to[SAM_PREFIX], const char prefix[]);
 
-/* SamRangeHas - whether a value lies in a range. SamRangeDescribe - the range in words. Not collective. */
+/*
+  SamRangeHas - returns true if a value lies in a range. SamRangeDescribe - returns the range in words. Not collective.
+*/
 PETSC_INTERN PetscBool   SamRangeHas(SamRange range, double value);
 PETSC_INTERN const char *SamRangeDescribe(SamRange range);
 
 /* ---- mistakes in options and names (spelling.c); none is collective, but for SamOptionsRequire() ---- */
-/* SamNearestName - the name out of these that may be meant; NULL: none. */
+/* SamNearestName - returns the most similar of several names to one that was tried; NULL if none is similar. */
 PETSC_EXTERN const char *SamNearestName(const char tried[], size_t count, const char *const names[]);
 /*
-  SamOptionsKnow - notes that there is an option of this name (without dash and prefix), for suggestions. `with`: what
-  else must be given for it to have an effect, NULL: nothing, or not known.
+  SamOptionsKnow - notes that an option of this name (without dash and prefix) exists, for suggestions. `with`: the
+  option that must also be given for it to have an effect; NULL: none, or not known.
 */
 PETSC_INTERN void SamOptionsKnow(const SamOptions *from, const char name[], const char with[]);
-/* SamOptionsIsKnown - whether there is one; with the prefix, without dash. `with` may be NULL. */
+/*
+  SamOptionsIsKnown - returns true if an option of this name (with the prefix, without dash) exists; `with` may be NULL.
+*/
 PETSC_INTERN PetscBool SamOptionsIsKnown(const char name[], const char **with);
-/* SamOptionFile - an option that names files, by its declaration; both names have the prefix and a dash. */
+/* SamOptionFile - an option whose value names files; both names have the prefix and a dash. */
 typedef struct {
-  char          name[96], shown[96]; /* in the options database, and in messages */
+  char          name[96], shown[96]; /* name in the options database, and in messages */
   SamOptionKind kind;                /* SAM_OPTION_FILE, SAM_OPTION_FILES, SAM_OPTION_OUTPUT or SAM_OPTION_VIEWER */
 } SamOptionFile;
 /*
-  SamOptionsNoteFile - notes an option if its kind is one of these. SamOptionsRead() does so for each row; for those
-  that read options by other means.
-  SamOptionsFile - the k-th option of those that have been asked for; NULL: there are no more. Not collective.
+  SamOptionsNoteFile - notes an option if its kind is one of these. SamOptionsRead() calls it for each row; code that
+  reads options by other means must call it.
+  SamOptionsFile - returns the k-th noted option; NULL if there are no more. Not collective.
 */
 PETSC_INTERN PetscErrorCode       SamOptionsNoteFile(const SamOptions *from, SamOptionKind kind, const char name[],
                                                      const char shown[]);
 PETSC_EXTERN const SamOptionFile *SamOptionsFile(PetscInt k);
-/* SamOptionsNearest - the option that may be meant by a name; NULL: none. */
+/* SamOptionsNearest - returns the known option most similar to a name; NULL if none is similar. */
 PETSC_INTERN const char *SamOptionsNearest(const char tried[]);
 /*
-  SamOptionsRequire - refuses that an option is missing; says which of those given may have been meant for it. After a
-  blank the name may go on with what else would do.
+  SamOptionsRequire - raises an error if a required option is missing; the message suggests a similar option that was
+  given. After a space the name may continue with alternatives.
   Collective. Errors: SAM_ERR_USER unless it is given.
 */
 PETSC_INTERN PetscErrorCode SamOptionsRequire(const SamOptions *from, PetscBool given, const char name[],
                                               const char text[]);
-/* SamIsDecimalComma - whether a text begins with digits, a comma, and a digit: 2,6e-3. */
+/* SamIsDecimalComma - returns true if a text begins with digits, a comma, and a digit: 2,6e-3. */
 PETSC_INTERN PetscBool SamIsDecimalComma(const char text[]);
 /*
-  SamExplainNumber - what is wrong with a text that is no number, to be appended to a message; may be empty. `help`: as
-  of SamReadReal().
+  SamExplainNumber - writes the fault of a text that is no number, to be appended to a message; it may be empty. `help`:
+  as in SamReadReal().
 */
 PETSC_INTERN void SamExplainNumber(const char text[], const char help[], char why[], size_t size);
 
 /* ---- units (units.c); not collective ---- */
 /*
-  SamReadReal - reads a number, which a unit may follow that the unit of SI in a help's text allows, as "width (m)" does
-  mm: whether it is one. `value`: in that unit of SI; `end`: the comma behind, or the end of the text; `unit`: whether
-  there is one.
-  SamListUnits - the units that may follow, "m, mm, um or nm"; empty: none.
+  SamReadReal - reads a number, which may be followed by a unit of the dimension that the help text names, as mm for
+  "width (m)"; returns true if the text is such a number. `value`: the number in the SI unit; `end`: the comma after it,
+  or the end of the text; `unit`: true if a unit follows.
+  SamListUnits - writes the units that may follow, "m, mm, um or nm"; empty: none.
 */
 PETSC_INTERN PetscBool SamReadReal(const char help[], const char text[], const char **end, double *value,
                                    PetscBool *unit);
 PETSC_INTERN void      SamListUnits(const char help[], char list[], size_t size);
 /*
-  SamExplainStress - why the unit of a stress, or of a modulus, is likely to be wrong, to be appended to its value: its
-  ratio to Young's modulus (both Pa) is less than `least` without being 0, or more than `most`; empty: it is neither, or
-  the body is rigid.
+  SamExplainStress - writes, to be appended to a value, why the unit of a stress or of a modulus is likely to be wrong:
+  its ratio to Young's modulus (both Pa) is less than `least` without being 0, or more than `most`. Else, or if the body
+  is rigid, the text is empty.
 */
-#define SAM_LEAST_CONSTANT 1e-6 /* of a material's constants, which are more in solids */
+#define SAM_LEAST_CONSTANT 1e-6 /* smallest plausible ratio for the constants of a material; solids have larger ones */
 PETSC_INTERN void SamExplainStress(double stress, double young, double least, double most, char why[], size_t size);
 
 /* ---- checksums ---- */
 
-/* SamHashMix - the finalizer of MurmurHash3 (A. Appleby, public domain): every bit of x affects the whole result. */
+/*
+  SamHashMix - applies the finalizer of MurmurHash3 (A. Appleby, public domain): every bit of x affects all of the
+  result.
+*/
 static inline uint64_t SamHashMix(uint64_t x)
 {
   x = (x ^ x >> 33) * UINT64_C(0xff51afd7ed558ccd);
@@ -192,7 +199,7 @@ static inline uint64_t SamHashBytes(uint64_t hash, const unsigned char bytes[], 
   return hash;
 }
 
-/* SamHashBits - the bits of a number. */
+/* SamHashBits - returns the bits of a number. */
 static inline uint64_t SamHashBits(double value)
 {
   uint64_t bits;
@@ -204,10 +211,10 @@ static inline uint64_t SamHashBits(double value)
 /* ---- rounding ---- */
 
 /*
-  SamGapRounding - the error of a gap (m) by rounding, where that is more than 1e-12 of the `displacement` (m), which
-  then is nearly zero beside what it is the difference of; else 0. The rounding of tractions up to `traction` (Pa) on so
-  many cells, each of which displaces itself by `self` (m/Pa): uniform ones displace nothing on periodic bodies, and
-  their rounding does; and that of heights of the size of `approach` (m).
+  SamGapRounding - returns the rounding error of a gap (m) if it is more than 1e-12 of the `displacement` (m), which is
+  then a small difference of large numbers; else 0. It consists of the rounding of tractions up to `traction` (Pa) on
+  `cells` cells, each of which displaces itself by `self` (m/Pa): uniform tractions displace nothing on periodic bodies,
+  but their rounding does; and of the rounding of heights of the size of `approach` (m).
 */
 static inline double SamGapRounding(double traction, double self, double cells, double approach, double displacement)
 {
@@ -217,21 +224,24 @@ static inline double SamGapRounding(double traction, double self, double cells, 
 }
 
 /* ---- sums and maxima over the ranks ---- */
-/* SamSum, SamMax - of each of n doubles, in place on all ranks. Collective. */
+/*
+  SamSum, SamMax - compute the sum, or the maximum, over the ranks of each of n doubles, in place on all ranks.
+  Collective.
+*/
 PETSC_EXTERN PetscErrorCode SamSum(MPI_Comm comm, PetscInt n, double values[]);
 PETSC_EXTERN PetscErrorCode SamMax(MPI_Comm comm, PetscInt n, double values[]);
 
 /*
   SamTotal - a sum with three times the digits of a double. A row of the grid always lies on one rank, so the sum over a
-  row does not depend on the number of ranks. With the sums of the rows added like this, neither does the total, even if
-  it nearly vanishes: results are the same on any number of ranks. Source: Knuth's exact addition; Hida, Li and Bailey
-  2001.
+  row does not depend on the number of ranks. If the sums of the rows are added in this way, the total does not depend
+  on it either, even if it nearly vanishes: results are the same on any number of ranks. Source: Knuth's exact addition;
+  Hida, Li and Bailey 2001.
 */
 typedef struct {
   double sum, rest, last;
 } SamTotal;
 
-/* Adds a value and returns what the rounded sum lacks. */
+/* SamAddExactly - adds a value to a sum and returns the rounding error of the addition. */
 static inline double SamAddExactly(double *sum, double value)
 {
   const double before = *sum, after = before + value, part = after - before;
@@ -251,7 +261,7 @@ static inline void SamAddAll(PetscInt n, SamTotal totals[], const double values[
 /* SamSumTotals - adds n totals over the ranks and returns them as doubles. Collective. */
 PETSC_EXTERN PetscErrorCode SamSumTotals(MPI_Comm comm, PetscInt n, const SamTotal totals[], double sums[]);
 
-/* The larger of two numbers; infinite when `value` is NaN, which a plain comparison would ignore. */
+/* SamLarger - returns the larger of two numbers; infinity if `value` is NaN, which a plain comparison would ignore. */
 static inline double SamLarger(double most, double value)
 {
   if (value <= most) return most;
@@ -259,30 +269,31 @@ static inline double SamLarger(double most, double value)
 }
 
 /*
-  SamSolveSymmetric - x = pseudo-inverse of the symmetric, positive semi-definite A of order n <= SAM_SYMMETRIC_MAX, row
-  after row, times b. Eigenvalues up to `least` times the largest count as zero. A is overwritten. Not collective.
+  SamSolveSymmetric - computes x = pseudo-inverse of the symmetric, positive semi-definite A of order n <=
+  SAM_SYMMETRIC_MAX, stored row after row, times b. Eigenvalues up to `least` times the largest count as zero. A is
+  overwritten. Not collective.
 */
 #define SAM_SYMMETRIC_MAX 16
 PETSC_INTERN void SamSolveSymmetric(PetscInt n, double A[], const double b[], double least, double x[]);
 
-/* SamGetFolder - the folder that a file's name names it in, "." without one. Not collective. */
+/* SamGetFolder - writes the folder in the name of a file; "." if the name has none. Not collective. */
 PETSC_EXTERN void SamGetFolder(const char filename[], char folder[PETSC_MAX_PATH_LEN]);
 
-/* SamJoin - names as a text, with `between` between them, but `last` before the last one. Not collective. */
+/* SamJoin - writes names as one text, separated by `between`, but by `last` before the last name. Not collective. */
 PETSC_INTERN void SamJoin(PetscInt count, const char *const names[], const char between[], const char last[],
                           char text[], size_t size);
-/* SamTypesGet - the names in a registry, in alphabetical order; the caller frees the array. Not collective. */
+/* SamTypesGet - gets the names in a registry, in alphabetical order; the caller frees the array. Not collective. */
 PETSC_INTERN PetscErrorCode SamTypesGet(PetscFunctionList list, const char ***types, int *count);
-/* SamTypesList - the names as a text, "a, b or c". Not collective. */
+/* SamTypesList - writes the names in a registry as a text, "a, b or c". Not collective. */
 PETSC_INTERN PetscErrorCode SamTypesList(PetscFunctionList list, char text[], size_t size);
-/* SamTypesOption - reads a type out of the registry. */
+/* SamTypesOption - reads an option whose value is a type of the registry. */
 PETSC_INTERN PetscErrorCode SamTypesOption(PetscFunctionList list, const SamOptions *from, const char name[],
                                            const char help[], char type[], size_t size, PetscBool *set);
 
-/* SamPrintHelp - whether the help is being printed, for which options are only listed. Not collective. */
+/* SamPrintHelp - returns true while the help is being printed, for which options are only listed. Not collective. */
 PETSC_EXTERN PetscBool SamPrintHelp(void);
 
-/* Messages of several places: an option without dash, its file, and a reason; a plan of FFTW. */
+/* Messages that several places use: an option without dash, its file, and a reason; a failed plan of FFTW. */
 #define SAM_CANNOT_READ "-%s %s: cannot be read: %s"
 #define SAM_NO_PLAN     "FFTW could not make a plan"
 

@@ -1,4 +1,4 @@
-/* The inside of bodies and pairs, for types of elasticity. */
+/* The implementation of bodies and pairs, for types of elasticity. */
 #ifndef PETSAM_BODYIMPL_H
 #define PETSAM_BODYIMPL_H
 
@@ -11,8 +11,8 @@ struct _n_SamBody {
 };
 
 /*
-  The sums of elastic constants of the materials at both surfaces that the displacements depend on (relative
-  displacements: elasticity.h). At a distance r on two half-spaces a unit force gives
+  The displacements depend on these sums of elastic constants of the materials at both surfaces (relative displacements:
+  elasticity.h). At a distance r on two half-spaces a unit force gives
     u_z from p:   normal / r
     u_x from q_x: shear / r + shear_xx x^2 / r^3,   u_y from q_x: shear_xx x y / r^3
     u_x from p:   coupling x / r^2,                 u_z from q_x: -coupling x / r^2
@@ -22,7 +22,7 @@ struct _n_SamPair {
   PetscInt  references;
   SamBody   body[2];
   PetscReal normal;   /* sum (1 - nu)/(2 pi G), 1/Pa */
-  PetscReal shear;    /* the same */
+  PetscReal shear;    /* sum (1 - nu)/(2 pi G), 1/Pa */
   PetscReal shear_xx; /* sum nu/(2 pi G), 1/Pa */
   PetscReal coupling; /* [(1 - 2 nu1)/G1 - (1 - 2 nu2)/G2]/(4 pi), 1/Pa */
   PetscReal modulus;  /* E* = 1/(pi normal), Pa */
@@ -30,14 +30,14 @@ struct _n_SamPair {
   PetscReal film[2];  /* thickness (m) and shear modulus (Pa) of a film between the surfaces; 0: none */
 };
 
-/* SamPairFilm - what a unit of shear displaces the surfaces by in the film, m/Pa. Not collective. */
+/* SamPairFilm - returns the displacement of the surfaces by unit shear in the film, m/Pa. Not collective. */
 PETSC_INTERN PetscReal SamPairFilm(SamPair pair);
-/* SamPairIsCoupled - whether pressure moves the surfaces tangentially by more than rounding. Not collective. */
+/* SamPairIsCoupled - returns true if pressure moves the surfaces tangentially by more than rounding. Not collective. */
 PETSC_INTERN PetscBool SamPairIsCoupled(SamPair pair);
 
 /*
-  A body's options and parameters, whose names begin with `prefix`, "body1_" for instance; `from` has it behind its own
-  prefix. Errors as those of the pair.
+  The following functions read a body from its options or parameters, or record its parameters. The names begin with
+  `prefix`, for instance "body1_"; the prefix of `from` ends with it. Errors: those of the pair.
 */
 PETSC_INTERN PetscErrorCode SamBodyCreateFromOptions(const SamOptions *from, SamBody *body);
 PETSC_INTERN PetscErrorCode SamBodyAddParameters(SamBody body, const char prefix[], SamParameters *parameters);

@@ -1,61 +1,71 @@
-/* A body's own compliance: what its shape and its supports add to the half-space, from a file of petsam-compliance. */
+/*
+  The compliance of a finite body relative to the half-space, by its shape and its supports, from a file of
+  petsam-compliance.
+*/
 #ifndef PETSAM_COMPLIANCE_H
 #define PETSAM_COMPLIANCE_H
 
 #include <petsam/private/elasticityimpl.h>
 #include <petsam/private/stressimpl.h>
 
-#define SAM_COMPLIANCE_DEGREE 10 /* highest of the polynomials */
+#define SAM_COMPLIANCE_DEGREE 10 /* highest degree of the polynomials */
 #define SAM_COMPLIANCE_MODES  66 /* most polynomials: those up to this degree */
 #define SAM_COMPLIANCE_CASES  8  /* most load cases of a body */
-#define SAM_CASE_NAME         20 /* most letters of the name of one */
+#define SAM_CASE_NAME         20 /* most letters of the name of a load case */
 
 /*
-  SamCompliance - of one body. The displacement of its surface by a traction t, less that of the half-space, is
-  sum phi_i matrix[.][i][.][j] c_j with c_j the integral of phi_j t over the patch. phi: products of Legendre
-  polynomials in x and y, orthonormal on the patch. Directions and places are those of the body's own frame, x, y and
-  z into the body. That of body 2 is the contact's, that of body 1 is turned about x by half a turn.
+  SamCompliance - the additional compliance of one body. The displacement of its surface by a traction t, minus that of
+  the half-space, is sum phi_i matrix[.][i][.][j] c_j with c_j the integral of phi_j t over the patch. The phi are
+  products of Legendre polynomials in x and y, orthonormal on the patch. Directions and places refer to the body's own
+  frame, x, y, and z into the body. The frame of body 2 is that of the contact; the frame of body 1 is rotated about x
+  by half a turn.
 */
 typedef struct _n_SamCompliance *SamCompliance;
 struct _n_SamCompliance {
   PetscInt references;
   PetscInt body; /* 0 or 1 */
   char     file[PETSC_MAX_PATH_LEN];
-  uint64_t checksum;           /* of all below */
-  double   young, poisson;     /* of the half-space, Pa */
-  double   center[2], half[2]; /* of the patch, m */
+  uint64_t checksum;           /* checksum of all members below */
+  double   young, poisson;     /* constants of the half-space, Pa, 1 */
+  double   center[2], half[2]; /* centre and half widths of the patch, m */
   PetscInt modes, degree, power[SAM_COMPLIANCE_MODES][2];
   double   matrix[3][SAM_COMPLIANCE_MODES][3][SAM_COMPLIANCE_MODES]; /* m3/N, symmetric */
   PetscInt cases;
   char     name[SAM_COMPLIANCE_CASES][32];
-  PetscInt below[3]; /* points along x, y, z at which the stresses are known; 0: nowhere */
-  double   field[SAM_COMPLIANCE_CASES][3][SAM_COMPLIANCE_MODES]; /* m2, displacements by the unit load case */
+  PetscInt below[3]; /* number of points along x, y, z with known stresses; 0: none */
+  double   field[SAM_COMPLIANCE_CASES][3][SAM_COMPLIANCE_MODES]; /* m2, coefficients for the unit load case */
 };
 
 /*
-  SamComplianceRead - of body 0 or 1, which `of` is without it, from the file that `option` (without dash) names.
-  Collective. Errors: SAM_ERR_FILE for a file that cannot be read or does not fit, and where the body would gain energy
-  under some traction.
+  SamComplianceRead - reads the compliance of body 0 or 1 from the file that `option` (without dash) names; `of`: the
+  body without it. Collective. Errors: SAM_ERR_FILE for a file that cannot be read or does not fit, and for a body that
+  would gain energy, or be too compliant, under some traction.
 */
 PETSC_INTERN PetscErrorCode SamComplianceRead(MPI_Comm comm, PetscInt body, SamBody of, const char option[],
                                               const char file[], SamCompliance *compliance);
-/* SamComplianceFactor - the factor on load case l in a step, body1_case_<name> or body2_case_<name>. Not collective. */
+/*
+  SamComplianceFactor - returns the factor on load case l in a step, body1_case_<name> or body2_case_<name>. Not
+  collective.
+*/
 PETSC_INTERN double SamComplianceFactor(SamCompliance compliance, SamConditions conditions, const SamControl *control,
                                         PetscInt l);
 PETSC_INTERN PetscErrorCode SamComplianceDestroy(SamCompliance *compliance);
-/* SamComplianceMeans - means of the orthonormal polynomials along axis 0 or 1 over an interval (m), m^-1/2. */
+/*
+  SamComplianceMeans - computes the means of the orthonormal polynomials along axis 0 or 1 over an interval (m), m^-1/2.
+  Not collective.
+*/
 PETSC_INTERN void SamComplianceMeans(SamCompliance compliance, PetscInt axis, double from, double to, double means[]);
 /*
-  SamComplianceEnds - the smallest and the largest eigenvalue of the body's compliance relative to that of the
-  body without it, of tractions that are uniform on 20 x 20 cells of the patch. Of a rigid body: 0 if it is
-  semidefinite, else negative, and 1.
+  SamComplianceEnds - computes the smallest and the largest eigenvalue of the body's compliance relative to that of the
+  body without it, for tractions that are uniform on 20 x 20 cells of the patch. For a rigid body they are 0 if the
+  compliance is semidefinite, else negative, and 1.
 */
 PETSC_INTERN PetscErrorCode SamComplianceEnds(SamCompliance compliance, SamBody of, double *least, double *most);
 /*
-  SamComplianceCollect - c by tractions p, q_x, q_y on body 2. Collective.
-  SamComplianceReadStress - the axes x, y, z (m), then the stresses at the points by each c and each load case; as many
-  numbers as SamComplianceStresses(). Collective. Errors: SAM_ERR_FILE.
-  SamComplianceAddStress - adds to the stresses of a half-space what c and the load cases add. Collective. Errors:
+  SamComplianceCollect - computes the c_j of tractions p, q_x, q_y on body 2. Collective.
+  SamComplianceReadStress - reads the axes x, y, z (m), then the stresses at the points by each c and each load case:
+  SamComplianceStresses() numbers. Collective. Errors: SAM_ERR_FILE.
+  SamComplianceAddStress - adds the stresses by c and the load cases to those of a half-space. Collective. Errors:
   SAM_ERR_FILE for a file without stresses.
 */
 PETSC_INTERN PetscErrorCode SamComplianceCollect(SamElasticity elasticity, SamCompliance compliance,
@@ -63,7 +73,10 @@ PETSC_INTERN PetscErrorCode SamComplianceCollect(SamElasticity elasticity, SamCo
 PETSC_INTERN PetscErrorCode SamComplianceReadStress(MPI_Comm comm, SamCompliance compliance, double values[]);
 PETSC_INTERN PetscErrorCode SamComplianceAddStress(SamElasticity elasticity, SamCompliance compliance,
                                                    SamStress stress);
-/* The numbers of the stresses at all points of one field; of the axes, all fields by c and by load cases. */
+/*
+  SamComplianceField - returns the count of the stresses of one field at all points. SamComplianceStresses - returns the
+  count of the numbers of the axes and of all fields, by c and by load cases.
+*/
 static inline PetscInt SamComplianceField(SamCompliance c)
 {
   return c->below[0] * c->below[1] * c->below[2] * SAM_STRESS_COMPONENTS;

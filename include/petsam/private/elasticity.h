@@ -1,4 +1,4 @@
-/* Elasticity: what the library's other rooms use besides petsam/elasticity.h. */
+/* Functions of elasticity, besides petsam/elasticity.h, for other parts of the library. */
 #ifndef PETSAM_PRIVATE_ELASTICITY_H
 #define PETSAM_PRIVATE_ELASTICITY_H
 
@@ -11,22 +11,23 @@
   SAM_ERR_FILE.
 */
 PETSC_INTERN PetscErrorCode SamElasticityAddCompliances(SamElasticity *elasticity, const SamOptions *from);
-/* SamElasticityGetTypes - the registered types as a text: a, b or c. Not collective. */
+/* SamElasticityGetTypes - writes the registered types as a text: a, b or c. Not collective. */
 PETSC_INTERN PetscErrorCode SamElasticityGetTypes(char types[], size_t size);
 PETSC_INTERN PetscErrorCode SamElasticityReference(SamElasticity elasticity);
 /*
-  SamElasticityPlaneFromOptions - whether -elasticity names a plane type, for the grid. Not collective.
+  SamElasticityPlaneFromOptions - sets `plane` to true if -elasticity names a plane type, which needs a grid of one row.
+  Not collective.
 */
 PETSC_INTERN PetscErrorCode SamElasticityPlaneFromOptions(const SamOptions *from, PetscBool *plane);
 /*
-  SamElasticityAddParameters - appends what defines the bodies, by the names of its options: elastic constants, type,
-  and what the type adds. Not collective.
+  SamElasticityAddParameters - appends the parameters that define the bodies, under the names of their options: elastic
+  constants, type, and parameters of the type. Not collective.
 */
 PETSC_INTERN PetscErrorCode SamElasticityAddParameters(SamElasticity elasticity, SamParameters *parameters);
 /*
-  SamElasticityGetCoarse - the operator on the next coarser grid, and the transfer to it; both borrowed, NULL when the
-  grid is too small to be halved (fewer than 32 cells in a direction, but for one row). Made at the first call.
-  Collective.
+  SamElasticityGetCoarse - gets the operator on the next coarser grid, and the transfer to it; both are borrowed, and
+  NULL if the grid is too small to be halved (fewer than 32 cells in a direction, except a single row). They are created
+  at the first call. Collective.
 */
 PETSC_INTERN PetscErrorCode SamElasticityGetCoarse(SamElasticity elasticity, SamElasticity *coarse,
                                                    SamTransfer *transfer);
@@ -35,14 +36,14 @@ PETSC_INTERN PetscErrorCode SamElasticityGetCoarse(SamElasticity elasticity, Sam
 */
 PETSC_INTERN PetscErrorCode SamElasticityTrim(SamElasticity elasticity);
 /*
-  The operator on a part of the grid; all collective, the window and the operator borrowed until another part is chosen,
-  NULL without one. One part is in use at a time. The one in use before is kept, so that reuse costs
-  nothing.
-  SamElasticityChoosePart - takes a part into use that holds the n[0] * n[1] cells from first[0], first[1] on and some
-  more about them; none where it would be hardly smaller than the grid, or the type has no parts. `keep`: the part in
-  use stays if it holds these cells and is not much too large.
-  SamElasticitySetPart - takes exactly these cells; n = 0: none.
-  SamElasticityGetPartPlace - the cells of the part in use, n = 0 for none. Not collective.
+  The following functions select the operator on a part of the grid. The window and the operator are borrowed until
+  another part is selected, and NULL without a part. One part is in use at a time. The previous part is kept, so that
+  its reuse costs nothing. All are collective, except SamElasticityGetPartPlace().
+  SamElasticityChoosePart - selects a part that contains the n[0] * n[1] cells from first[0], first[1] on and some more
+  around them; none if it would be hardly smaller than the grid, or the type has no parts. `keep`: the part in use stays
+  if it contains these cells and is not much too large.
+  SamElasticitySetPart - selects exactly these cells; n = 0: no part.
+  SamElasticityGetPartPlace - gets the cells of the part in use; n = 0: no part. Not collective.
 */
 PETSC_INTERN PetscErrorCode SamElasticityChoosePart(SamElasticity elasticity, const PetscInt first[2],
                                                     const PetscInt n[2], PetscBool keep, SamWindow *window,
@@ -51,27 +52,29 @@ PETSC_INTERN PetscErrorCode SamElasticitySetPart(SamElasticity elasticity, const
                                                  const PetscInt n[2]);
 PETSC_INTERN PetscErrorCode SamElasticityGetPartPlace(SamElasticity elasticity, PetscInt first[2], PetscInt n[2]);
 /*
-  The same in single precision: arrays of this rank's cells, two components one after the other; `factor` times the
-  product. For directions and corrections, whose product is small against what it is added to. Scale so that input and
-  result are of the order of one: floats end at 1e-38. Collective.
+  The following functions compute `factor` times a product in single precision, for arrays of this rank's cells, with
+  two components one after the other. They are for directions and corrections, whose product is small relative to the
+  number to which it is added. Input and result should be scaled to the order of one, since floats end at 1e-38.
+  Collective.
 */
 PETSC_INTERN PetscErrorCode SamElasticityApplyNormalSingle(SamElasticity elasticity, double factor, const float p[],
                                                            float u_z[]);
 PETSC_INTERN PetscErrorCode SamElasticityApplyTangentialSingle(SamElasticity elasticity, double factor, const float q[],
                                                                float u_t[]);
 /*
-  Approximate inverses, symmetric positive definite. For half-spaces: |k| for the normal part and |k| (I + nu/(1 - nu)
-  kk'/|k|^2) for the tangential one, k being the wave vector on the grid made periodic; the mean gets half the gain of
-  the longest wave. For periodic bodies the same is the inverse itself but for the mean. Computed in single precision;
-  `factor` times the result in the functions of float arrays, which see above. Collective.
+  The following functions apply approximate inverses, which are symmetric positive definite. For half-spaces: |k| for
+  the normal part and |k| (I + nu/(1 - nu) kk'/|k|^2) for the tangential one, k being the wave vector on the grid made
+  periodic; the mean gets half the gain of the longest wave. For periodic bodies this is the exact inverse, except for
+  the mean. The result is computed in single precision and multiplied by `factor`; the arrays are as above. Collective.
 */
 PETSC_INTERN PetscErrorCode SamElasticityPreconditionNormalSingle(SamElasticity elasticity, double factor,
                                                                   const float residual[], float p[]);
 PETSC_INTERN PetscErrorCode SamElasticityPreconditionTangentialSingle(SamElasticity elasticity, double factor,
                                                                       const float residual[], float q[]);
 /*
-  For the tangential part of bodies that roll where they slip, A being the operator of
-  SamElasticityCreateRolling(): of h A + 1 - h, h = SAM_SLIP_WEIGHT, before the sweep along x (halfspace.c). Collective.
+  SamElasticityPreconditionSlipSingle - applies the approximate inverse for the slip zone of rolling bodies: that of h A
+  + 1 - h, h = SAM_SLIP_WEIGHT, where A is the tangential operator of SamElasticityCreateRolling(), before the sweep
+  along x (halfspace.c). Collective.
 */
 #define SAM_SLIP_WEIGHT 0.5
 PETSC_INTERN PetscErrorCode SamElasticityPreconditionSlipSingle(SamElasticity elasticity, double factor,

@@ -1,4 +1,4 @@
-/* The inside of SamElasticity, for its types and for those who add some. */
+/* The implementation of SamElasticity, for its types and for authors of new types. */
 #ifndef PETSAM_ELASTICITYIMPL_H
 #define PETSAM_ELASTICITYIMPL_H
 
@@ -11,22 +11,22 @@
 /*
   A type that adds something to another - a half-space and a smooth compliance, for instance - calls
   SamElasticitySetInner() in its create function, which makes an object of that type on the same grid and takes over its
-  traits. What the type has no method for is then done by the inner one; its own methods add to
-  (*e->inner->ops.applynormal)(e->inner, p, u), and so on. Since u may be p, what depends on p must be taken from it
-  before. The class sets up, trims, records and destroys the inner object, gives it the options, and makes another one
-  on each coarse grid and each part, as it makes another object of the type itself: `inherit` passes on its settings on
-  the finest grid, on which the object's place is first[] and factor[]. tests/unit/test_elasticity_inner.c is a complete
-  example.
+  traits. The inner object then does everything for which the type has no method; the type's own methods add to
+  (*e->inner->ops.applynormal)(e->inner, p, u), and so on. Since u may be p, a method must first compute all that
+  depends on p. The class sets up, trims, records and destroys the inner object, gives it the options, and creates
+  another inner object on each coarse grid and each part, just as it creates another object of the type: `inherit`
+  passes on the settings on the finest grid, on which the object's place is first[] and factor[].
+  tests/unit/test_elasticity_inner.c is a complete example.
 
-  SamElasticityOps - the methods of a type; NULL where it has none. in[c] and out[c] are component c of a field, arrays
-  of this rank's cells, and out may be in. All but destroy are called after setup, and collectively. Results must not
+  SamElasticityOps - the methods of a type; NULL if it has none. in[c] and out[c] are component c of a field, arrays of
+  this rank's cells, and out may be in. All but destroy are called after setup, and collectively. Results must not
   depend on the number of ranks.
 */
 typedef struct {
   PetscErrorCode (*setfromoptions)(SamElasticity, const SamOptions *from); /* the type's own options */
   PetscErrorCode (*inherit)(SamElasticity parent, SamElasticity child);    /* settings, to a coarse grid or a part */
   PetscErrorCode (*setup)(SamElasticity);
-  /* the type's own parameters, all of them always: recorded, also what identifies its files, and set from a record */
+  /* appends all parameters of the type, also those that identify its files; sets them from recorded ones */
   PetscErrorCode (*addparameters)(SamElasticity, SamParameters *);
   PetscErrorCode (*setparameters)(SamElasticity, const SamParameters *, const char source[]);
   PetscErrorCode (*destroy)(SamElasticity); /* frees what `data` refers to; the class frees `data` */
@@ -38,7 +38,7 @@ typedef struct {
   PetscErrorCode (*preconditionnormal)(SamElasticity, double factor, const float *const r[], float *const p[]);
   PetscErrorCode (*preconditiontangential)(SamElasticity, double factor, const float *const r[], float *const q[]);
   PetscErrorCode (*getselfinfluence)(SamElasticity, PetscReal *normal, PetscReal *tangential);
-  /* for slip where the operator is upwind; NULL: preconditiontangential */
+  /* preconditioner of the slip zone if the operator is upwind; NULL: preconditiontangential */
   PetscErrorCode (*preconditionslip)(SamElasticity, double factor, const float *const r[], float *const q[]);
   /* the stresses in a body that is not rigid */
   PetscErrorCode (*createstress)(SamElasticity, PetscInt body, const SamFourierSettings *, SamStress *);
@@ -46,10 +46,10 @@ typedef struct {
   PetscErrorCode (*applynormaltotangential)(SamElasticity, const double *const p[], double *const u_t[]);
   PetscErrorCode (*applytangentialtonormal)(SamElasticity, const double *const q[], double *const u_z[]);
   /*
-    What bodies remember, and what displaces their surfaces besides the tractions of the step, by the law of bodies
-    (law/bodies.c), which calls these methods of each object, the outer ones first; as a law's of the same names
-    (lawimpl.h). Products, preconditioners and self-influences of a type that has begin() may be others in each step;
-    coarse grids and parts must follow. Tractions are those of the solved step.
+    Methods for stored fields of bodies, and for displacements of their surfaces besides those by the tractions of the
+    step. The law of bodies (law/bodies.c) calls these methods of each object, outer objects first; they correspond to a
+    law's methods of the same names (lawimpl.h). A type with begin() may have other products, preconditioners and
+    self-influences in each step; its coarse grids and parts must follow. Tractions are those of the solved step.
   */
   PetscErrorCode (*conditions)(SamElasticity, SamConditions);
   PetscErrorCode (*declare)(SamElasticity, SamState);
@@ -59,7 +59,10 @@ typedef struct {
   PetscErrorCode (*advance)(SamElasticity, SamState, Vec pressure, Vec shear);
 } SamElasticityOps;
 
-/* Where only some cells have traction: those cells as a grid of their own, and the operator on it. */
+/*
+  SamElasticityPart - a part of the grid that contains all cells with traction, as a grid of its own, and the operator
+  on it.
+*/
 typedef struct {
   SamWindow     window; /* NULL: no part */
   SamElasticity elasticity;
@@ -73,61 +76,68 @@ struct _n_SamElasticity {
   /* settings */
   char               type[64], prefix[SAM_PREFIX];
   SamFourierSettings fft;
-  /* of the type, set by its create function; the data may be allocated there or in setup */
+  /* members of the type, set by its create function; the data may be allocated there or in setup */
   SamElasticityOps            ops;
   SamElasticityTraits         traits;
   SamElasticityCreateFunction create;
   PetscBool                   wraps; /* made by SamElasticityWrap() */
   void                       *data;
-  SamMotion                   motion; /* of the bodies, for those who use the operator; NULL: the usual one */
-  PetscReal     film;    /* m/Pa; of the pair, that the class adds to tangential products; 0 where the type does */
-  SamElasticity inner;   /* what the type adds to, by SamElasticitySetInner(); NULL: nothing */
+  SamMotion                   motion; /* motion of the bodies, for users of the operator; NULL: the usual one */
+  PetscReal film; /* compliance of the film, m/Pa, that the class adds to tangential products; 0 if the type adds it */
+  SamElasticity inner;   /* object that the type adds to, by SamElasticitySetInner(); NULL: none */
   SamFourier    fourier; /* made in setup by types that use one; the class trims and destroys it */
   PetscBool     is_set_up;
-  PetscBool     has_self; /* of a cell on itself, which solvers ask for at each step */
-  PetscReal     self[2];
+  PetscBool has_self; /* true: `self` is known, the influence of a cell on itself, which solvers need in each step */
+  PetscReal self[2];
   /* the place on the finest grid: cell (i, j) reaches from first[0] + i factor[0] to first[0] + (i + 1) factor[0] */
   PetscReal first[2], factor[2];
   /* derived operators */
   SamElasticity     coarse;
   SamTransfer       transfer;
   SamElasticityPart parts[2]; /* the part in use, and the one before */
-  PetscInt          newest;   /* of the two */
-  PetscBool         in_part;  /* it is in use; else none is */
+  PetscInt          newest;   /* index of the part in use, or used last */
+  PetscBool         in_part;  /* true: that part is in use; false: none is */
 };
 
-/* SamElasticitySetInner - makes the object that a type adds to, in the place of one before; NULL: half-spaces. */
+/*
+  SamElasticitySetInner - creates the object that a type adds to, and replaces an earlier one; type NULL: half-spaces.
+  Collective.
+*/
 PETSC_EXTERN PetscErrorCode SamElasticitySetInner(SamElasticity elasticity, SamElasticityType type);
 /*
-  SamElasticityCreateLike - on another grid: the same type, bodies and settings. `first`: the cell of the parent's grid
-  where a part of it begins; NULL: the grid is a coarser one. Collective.
+  SamElasticityCreateLike - creates an elasticity of the same type, bodies and settings on another grid. `first`: the
+  cell of the parent's grid where a part of it begins; NULL: the grid is a coarser one. Collective.
 */
 PETSC_INTERN PetscErrorCode SamElasticityCreateLike(SamElasticity parent, SamGrid grid, const PetscInt first[2],
                                                     SamElasticity *child);
 /*
-  SamElasticityWrap - an object of a type that adds to these bodies, in the place of its own inner one, by its create
-  function: no user chooses such a type. Collective.
+  SamElasticityWrap - creates, by its create function, an object of a type that adds to these bodies, which become its
+  inner object. Users cannot select such a type. Collective.
 */
 PETSC_INTERN PetscErrorCode SamElasticityWrap(SamElasticity bodies, SamElasticityType type,
                                               SamElasticityCreateFunction create, SamElasticity *outer);
-/* The object that has a method: this one, or one within. */
+/* SamElasticityWith - replaces e by the object that has a method: itself, or an inner one. */
 #define SamElasticityWith(e, method) \
   while (!(e)->ops.method && (e)->inner) (e) = (e)->inner
-/* SamElasticityDestroyParts - forgets both parts. Collective. */
+/* SamElasticityDestroyParts - frees both parts. Collective. */
 PETSC_INTERN PetscErrorCode SamElasticityDestroyParts(SamElasticity elasticity);
 
 PETSC_INTERN PetscErrorCode SamElasticityCreate_HalfSpace(SamElasticity elasticity);
 PETSC_INTERN PetscErrorCode SamElasticityCreate_Periodic(SamElasticity elasticity);
 PETSC_INTERN PetscErrorCode SamElasticityCreate_Plane(SamElasticity elasticity);
 PETSC_INTERN PetscErrorCode SamElasticityCreate_PlanePeriodic(SamElasticity elasticity);
-/* SamElasticityAddRecordedCompliances - as SamElasticityAddCompliances(), from a record; `source` names it. */
+/*
+  SamElasticityAddRecordedCompliances - does the same as SamElasticityAddCompliances(), but from recorded parameters;
+  `source` names their file in messages. Collective.
+*/
 PETSC_INTERN PetscErrorCode SamElasticityAddRecordedCompliances(SamElasticity *elasticity, const SamParameters *p,
                                                                 const char source[]);
 /*
-  SamElasticityCreateRolling - the same bodies under a contact that rolls towards +x without change: u_t is the slip by
-  the tractions in 1 m of rolled distance, and creepages stand for tangential rigid displacements. References the
-  bodies. Collective. Errors: PETSC_ERR_SUP for periodic bodies.
-  SamElasticitySpinAhead - how far ahead of a cell's centre spin is taken in it, m; 0 for other bodies. Not collective.
+  SamElasticityCreateRolling - creates the operator of the same bodies under a contact that rolls towards +x in a steady
+  state: u_t is the slip by the tractions in 1 m of rolled distance, and creepages take the place of tangential rigid
+  displacements. It references the bodies. Collective. Errors: PETSC_ERR_SUP for periodic bodies.
+  SamElasticitySpinAhead - returns the distance ahead of a cell's centre at which its spin is evaluated, m; 0 for other
+  bodies. Not collective.
 */
 PETSC_INTERN PetscReal      SamElasticitySpinAhead(SamElasticity elasticity);
 PETSC_INTERN PetscErrorCode SamElasticityCreateRolling(SamElasticity bodies, SamElasticity *rolling);

@@ -5,9 +5,9 @@
 #include <petsam/fourier.h>
 
 /*
-  SamFourier - transforms of fields on a grid, for filters that act in the frequency domain. No array of the padded
-  size exists: rows are transformed one by one, columns a few at a time in a buffer that stays in cache, and only the
-  ny rows of half spectra are stored. Ranks of one node have them in shared memory, others exchange rows for columns by
+  SamFourier - transforms of fields on a grid, for filters that act in the frequency domain. No array of the padded size
+  exists: rows are transformed one by one, columns a few at a time in a buffer that stays in cache, and only the ny rows
+  of half spectra are stored. Ranks on one node keep these rows in shared memory; others exchange rows for columns by
   FFTW's transposes. All transforms on a communicator share this memory, so only one may be under way at a time.
 */
 typedef struct _n_SamFourier *SamFourier;
@@ -17,7 +17,7 @@ typedef enum {
   SAM_FOURIER_PADDED    /* period 2hx * 2hy, the field being zero outside the grid: convolution is not cyclic */
 } SamFourierMode;
 
-/* The periods hx, hy of a grid's transforms. */
+/* SamFourierPeriod - the choice of the periods hx, hy of a grid's transforms. */
 typedef enum {
   SAM_FOURIER_FAST, /* even numbers >= nx, ny that FFTW transforms fast */
   SAM_FOURIER_EXACT /* nx, ny, whatever they are: the grid is one period */
@@ -37,7 +37,7 @@ typedef struct {
   PetscInt       phases; /* 1 periodic, 2 padded */
   PetscInt       hx, hy;
   PetscInt       first;   /* frequency kx of the first column */
-  PetscInt       local;   /* its index among this rank's columns */
+  PetscInt       local;   /* index of that column among this rank's columns */
   PetscInt       columns; /* columns in this block, at most width */
   PetscInt       width, stride;
   double (*data[SAM_FOURIER_FIELDS])[2];
@@ -45,8 +45,8 @@ typedef struct {
 } SamFourierBlock;
 
 /*
-  SamFourierFilter - what is done with spectra: `apply` changes those of a block in place, from the input fields' to the
-  output fields'. It is called once a block, with the context.
+  SamFourierFilter - an operation on spectra: `apply` replaces the spectra of the input fields in a block by those of
+  the output fields, in place. It is called once per block, with the context.
 */
 typedef struct {
   SamFourierMode mode;
@@ -55,9 +55,12 @@ typedef struct {
   const void *context;
 } SamFourierFilter;
 
-/* SamFourierFastLength - an even length >= n for which FFTW is fast. Not collective. */
+/* SamFourierFastLength - returns an even length >= n for which FFTW is fast. Not collective. */
 PETSC_INTERN PetscInt SamFourierFastLength(PetscInt n);
-/* SamFourierCreate - NULL stands for the default settings. Plans are made when they are first needed. Collective. */
+/*
+  SamFourierCreate - creates transforms; settings NULL: the default ones. Plans are created at their first use.
+  Collective.
+*/
 PETSC_INTERN PetscErrorCode SamFourierCreate(SamGrid grid, SamFourierPeriod period, const SamFourierSettings *settings,
                                              SamFourier *fourier);
 PETSC_INTERN PetscErrorCode SamFourierDestroy(SamFourier *fourier);
@@ -66,46 +69,47 @@ PETSC_INTERN PetscErrorCode SamFourierDestroy(SamFourier *fourier);
   needs it again. Collective.
 */
 PETSC_INTERN PetscErrorCode SamFourierTrim(SamFourier fourier);
-/* The periods hx, hy, without the doubling of padded mode. */
+/* SamFourierGetPeriods - gets the periods hx, hy, without the doubling of padded mode. Not collective. */
 PETSC_INTERN PetscErrorCode SamFourierGetPeriods(SamFourier fourier, PetscInt *hx, PetscInt *hy);
 
 /*
-  SamFourierApply - out = inverse transform of filter(transform of in). Fields are local arrays of (rows, nx); `out` may
-  be the same arrays as `in`. Transforms are not normalised: the filter brings in 1/(period in x * period in y).
-  Collective.
+  SamFourierApply - computes out = inverse transform of filter(transform of in). Fields are local arrays of (rows, nx);
+  `out` may be the same arrays as `in`. Transforms are not normalised: the filter brings in 1/(period in x * period in
+  y). Collective.
 */
 PETSC_INTERN PetscErrorCode SamFourierApply(SamFourier fourier, const SamFourierFilter *filter,
                                             const double *const in[], double *const out[]);
 /*
-  SamFourierApplySingle - the same in single precision, at half the cost, for what is refined afterwards. Collective.
+  SamFourierApplySingle - does the same in single precision, at half the cost, for results that are refined afterwards.
+  Collective.
 */
 PETSC_INTERN PetscErrorCode SamFourierApplySingle(SamFourier fourier, const SamFourierFilter *filter,
                                                   const float *const in[], float *const out[]);
 
 /*
-  SamKernel - the transform of a kernel in padded mode, for convolution without wrapping round. A kernel is even or odd
-  in x and in y, so its transform is real (or imaginary) and one quadrant suffices: (hx + 1)(hy + 1) doubles over
+  SamKernel - the transform of a kernel in padded mode, for convolution without wrap-around. A kernel is even or odd in
+  x and in y, so its transform is real (or imaginary) and one quadrant suffices: (hx + 1)(hy + 1) doubles over
   all ranks. The values contain the normalisation of the pair of transforms.
 */
 typedef struct _n_SamKernel *SamKernel;
 
 /*
-  The values of n kernels at the lags (i, j), i = 0 ... count - 1, j >= 0: values[k][i] of the k-th one. For odd parity
-  those at lag 0 are not used.
+  SamKernelRows - a function that computes the values of n kernels at the lags (i, j), i = 0 ... count - 1, j >= 0:
+  values[k][i] for the k-th kernel. For odd parity the values at lag 0 are not used.
 */
 typedef void (*SamKernelRows)(PetscInt j, PetscInt count, double *const values[], const void *context);
 
 /*
-  SamKernelsCreate - tabulates and transforms n kernels, at most SAM_FOURIER_FIELDS, whose values are found together;
-  odd[k]: whether the k-th one is odd in x and in y. Collective.
+  SamKernelsCreate - tabulates and transforms n kernels, at most SAM_FOURIER_FIELDS, whose values are computed together;
+  odd[k]: true if the k-th kernel is odd in x, and in y. Collective.
 */
 PETSC_INTERN PetscErrorCode SamKernelsCreate(SamFourier fourier, PetscInt n, const PetscBool odd[][2],
                                              SamKernelRows rows, const void *context, SamKernel kernels[]);
 PETSC_INTERN PetscErrorCode SamKernelDestroy(SamKernel *kernel);
 
 /*
-  SamConvolve - out[o] = sum_i scale[o][i] * (kernel[o][i] convolved with in[i]), exact but for rounding. A NULL kernel
-  is zero. Fields are local arrays of (rows, nx); out may be the same arrays as in. Collective.
+  SamConvolve - computes out[o] = sum_i scale[o][i] * (kernel[o][i] convolved with in[i]), exact up to rounding. A NULL
+  kernel is zero. Fields are local arrays of (rows, nx); out may be the same arrays as in. Collective.
   Source: Liu, Wang and Liu 2000, Wear 243, 101-111.
 */
 typedef struct {
@@ -117,9 +121,9 @@ typedef struct {
 PETSC_INTERN PetscErrorCode SamConvolve(SamFourier fourier, const SamKernelMatrix *matrix, const double *const in[],
                                         double *const out[]);
 /*
-  SamConvolveSingle - `factor` times the same in single precision, for one field by an even kernel or two fields by a
-  symmetric matrix whose off-diagonal kernel is odd in x and in y. `factor` brings the result to a size that floats
-  hold. Collective.
+  SamConvolveSingle - computes `factor` times the same in single precision, for one field and an even kernel, or for two
+  fields and a symmetric matrix whose off-diagonal kernel is odd in x and in y. `factor` scales the result to the range
+  of floats. Collective.
 */
 PETSC_INTERN PetscErrorCode SamConvolveSingle(SamFourier fourier, const SamKernelMatrix *matrix, double factor,
                                               const float *const in[], float *const out[]);

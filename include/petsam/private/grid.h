@@ -1,37 +1,39 @@
-/* Grids: what the library's other rooms use besides petsam/grid.h. */
+/* Functions of grids, besides petsam/grid.h, for other parts of the library. */
 #ifndef PETSAM_PRIVATE_GRID_H
 #define PETSAM_PRIVATE_GRID_H
 
 #include <petsam/grid.h>
 
 PETSC_INTERN PetscErrorCode SamGridReference(SamGrid grid);
-/* SamGridCoarsen - the same rectangle with half the cells in each direction, rounded up. Collective. */
+/*
+  SamGridCoarsen - creates a grid of the same rectangle with half the cells in each direction, rounded up. Collective.
+*/
 PETSC_INTERN PetscErrorCode SamGridCoarsen(SamGrid fine, SamGrid *coarse);
 /*
   SamGridCheckVec - raises PETSC_ERR_ARG_SIZ, on all ranks, unless the vector has the layout of a field of this grid
-  with `components` values a cell; `words` says what it is. Collective.
+  with `components` values per cell; `words` describes the vector in the message. Collective.
 */
 PETSC_INTERN PetscErrorCode SamGridCheckVec(SamGrid grid, PetscInt components, Vec field, const char words[]);
-/* SamGridIsFinite - whether all values of a field are finite numbers. Collective. */
+/* SamGridIsFinite - sets `is` to true if all values of a field are finite. Collective. */
 PETSC_INTERN PetscErrorCode SamGridIsFinite(SamGrid grid, Vec field, PetscBool *is);
-/* SamVecZero - sets a field to zero without writing to what is. Collective. */
+/* SamVecZero - sets a field to zero; it does not write where the field is already zero. Collective. */
 PETSC_INTERN PetscErrorCode SamVecZero(Vec field);
 /* SamVecCopyNonzero - copies a field; does not write where both are zero, so that untouched pages take no memory. */
 PETSC_INTERN PetscErrorCode SamVecCopyNonzero(Vec from, Vec to);
-/* SamGridChecksum - a checksum of a field's values by cell, the same on any number of ranks. Collective. */
+/* SamGridChecksum - computes a checksum of a field's values by cell, the same on any number of ranks. Collective. */
 PETSC_INTERN PetscErrorCode SamGridChecksum(SamGrid grid, Vec field, uint64_t *checksum);
 /*
-  SamGridMove - moves the grid by `distance` (m) over a field, which moves against it: at x it becomes what it was at
-  x + distance. Whole cells, within 1e-6 of one, without error, else by cubic interpolation. What enters is 0, or what
-  was at the grid's border, or, of a grid that is one period, what leaves at the other side. With 0 or a period the move
-  by -distance is the transpose, to rounding. Collective.
+  SamGridMove - moves the grid by `distance` (m) over a field: the new value at x is the old one at x + distance. Moves
+  by whole cells, within 1e-6 of a cell, are without error; others interpolate with cubics. Values that enter are 0,
+  those at the grid's border, or, on a grid that is one period, those that leave at the opposite border. For 0 and for a
+  period the move by -distance is the transpose, up to rounding. Collective.
 */
 typedef enum { SAM_BORDER_ZERO, SAM_BORDER_CONTINUES, SAM_BORDER_WRAPS } SamBorder;
 PETSC_INTERN PetscErrorCode SamGridMove(SamGrid grid, PetscInt components, const PetscReal distance[2],
                                         SamBorder border, Vec from, Vec to);
 /*
-  SamGridEntering - the columns and rows that are made of what enters, at the low and the high end of x, y. Not
-  collective.
+  SamGridEntering - computes the numbers of columns and rows that depend on values that enter, at the low and the high
+  end of x, y. Not collective.
 */
 PETSC_INTERN void SamGridEntering(SamGrid grid, const PetscReal distance[2], PetscInt low[2], PetscInt high[2]);
 /*
@@ -49,34 +51,37 @@ PETSC_INTERN PetscErrorCode SamTransferProlong(SamTransfer transfer, Vec coarse,
 */
 typedef struct _n_SamWindow *SamWindow;
 PETSC_INTERN SamGrid         SamWindowGetGrid(SamWindow window); /* borrowed */
-/* SamWindowCreate - the n[0] * n[1] cells from column first[0] and row first[1] on; n >= 2, or one row. Collective. */
+/*
+  SamWindowCreate - creates the window of the n[0] * n[1] cells from column first[0] and row first[1] on; n >= 2, or one
+  row. Collective.
+*/
 PETSC_INTERN PetscErrorCode SamWindowCreate(SamGrid grid, const PetscInt first[2], const PetscInt n[2],
                                             SamWindow *window);
 PETSC_INTERN PetscErrorCode SamWindowDestroy(SamWindow *window);
-/* SamWindowGetPlace - first column and row, and their numbers. Not collective. */
+/* SamWindowGetPlace - gets the first column and row of a window, and their numbers. Not collective. */
 PETSC_INTERN PetscErrorCode SamWindowGetPlace(SamWindow window, PetscInt first[2], PetscInt n[2]);
-/* SamWindowCovers - whether all those cells lie in the window. Not collective. */
+/* SamWindowCovers - returns true if the n[0] * n[1] cells from `first` on all lie in the window. Not collective. */
 PETSC_INTERN PetscBool SamWindowCovers(SamWindow window, const PetscInt first[2], const PetscInt n[2]);
 /* SamWindowTake, SamWindowPut - copy the window's part of a field out, or back in (zero elsewhere). Collective. */
 PETSC_INTERN PetscErrorCode SamWindowTake(SamWindow window, Vec whole, Vec part);
 PETSC_INTERN PetscErrorCode SamWindowPut(SamWindow window, Vec part, Vec whole);
 /*
-  SamGridGetSupport - the smallest rectangle that holds all cells where the first component of a field is positive; n is
-  0 when there is none. Collective.
+  SamGridGetSupport - finds the smallest rectangle that contains all cells where the first component of a field is
+  positive; n is 0 if there are none. Collective.
 */
 PETSC_INTERN PetscErrorCode SamGridGetSupport(SamGrid grid, Vec field, PetscInt first[2], PetscInt n[2]);
 /*
-  SamGridCountZones - the number of zones of cells, connected by their sides, where the first component of a field is
+  SamGridCountZones - counts the zones of cells, connected by their sides, where the first component of a field is
   positive; with `wrap` the cells at opposite borders of the grid are neighbours. The same on any number of ranks.
   Collective.
 */
 PETSC_INTERN PetscErrorCode SamGridCountZones(SamGrid grid, Vec field, PetscBool wrap, PetscInt *zones);
 /*
-  SamGridMeasureZones - how many cells across the narrow ones of these zones are, without `wrap`. Zones in which no more
-  than `part` of all these cells lie, the narrowest ones, do not count. A zone is as wide as the shorter side of its
-  bounding box, or as the ellipse of its second moments, if that is narrower; to a tenth of a cell. One that extends
-  from border to border along one axis only has no width along it. 0 without such cells. The same on any number of
-  ranks. Collective.
+  SamGridMeasureZones - measures the width in cells of the narrow ones of these zones, without `wrap`. The narrowest
+  zones that together contain at most `part` of all these cells do not count. The width of a zone is the shorter side of
+  its bounding box, or the width of the ellipse of its second moments if that is smaller; to a tenth of a cell. A zone
+  that extends from border to border along one axis only has no width along it. 0 if there are no such cells. The same
+  on any number of ranks. Collective.
 */
 PETSC_INTERN PetscErrorCode SamGridMeasureZones(SamGrid grid, Vec field, PetscReal part, PetscReal *across);
 

@@ -1,6 +1,6 @@
 /*
-  The inside of SamLaw, for those who add a law: src/laws/sums.c is the shortest example, examples/embed/plugin/law.c
-  one of friction that changes with slip.
+  The implementation of SamLaw, for authors of new laws: src/laws/sums.c is the shortest example,
+  examples/embed/plugin/law.c an example of friction that changes with slip.
 
   A law is a file. Its create function, registered by SamLawRegister(), sets the methods that it needs:
 
@@ -11,8 +11,8 @@
         return PETSC_SUCCESS;
       }
 
-  What it remembers it declares in the state of a contact, once; it finds its fields there by name. In a step the
-  methods are called in this order: check(), begin(), offset(), separation() and limit() of all laws, the normal
+  A law declares its stored fields and numbers once, in the state of a contact, and finds them there by name. In a step
+  the methods are called in this order: check(), begin(), offset(), separation() and limit() of all laws, the normal
   problem, bound(), the tangential problem, offset() for the check, advance().
 */
 #ifndef PETSAM_LAWIMPL_H
@@ -24,48 +24,47 @@
 #include <petsam/private/grid.h>
 
 /*
-  SamStrain - a tangential displacement that is linear in place: a point at (x, y) moves by (xx x + xy y, xy x + yy y)
+  SamStrain - a tangential displacement that is linear in x and y: a point at (x, y) moves by (xx x + xy y, xy x + yy y)
   m.
 */
 typedef struct {
   PetscReal xx, yy, xy;
 } SamStrain;
 
-/* What a bound of the shear depends on. */
+/* SamBoundAt - the quantities on which a bound of the shear depends. */
 typedef struct {
-  SamState          state;    /* of the contact; NULL: nothing is remembered */
-  const SamControl *control;  /* of the step, from which laws read their conditions; NULL: all as usual */
+  SamState          state;    /* state of the contact; NULL: no stored fields */
+  const SamControl *control;  /* control of the step, from which laws read conditions; NULL: usual values */
   Vec               pressure; /* Pa */
-  Vec               slip;     /* m: length of the slip of this step, in each cell; NULL: none. Of a motion that does not
-                               continue a step, in 1 m of rolled distance */
+  Vec               slip;     /* m: slip length of this step (steady rolling: per m of rolled distance); NULL: none */
   PetscReal         rolled;   /* m: rolled distance of the step (SamProblemGetRolled()) */
 } SamBoundAt;
 
 /*
-  A bound (Pa), and its derivatives by the pressure (1) and by the length of the slip (Pa/m), each a field of one
-  component; what is NULL is not wanted, and by_slip is wanted with the value only. The first law fills them, each law
-  after it changes them.
+  SamBound - a bound (Pa), and its derivatives by the pressure (1) and by the length of the slip (Pa/m), each a field of
+  one component, NULL if it is not wanted; by_slip is only wanted together with the value. The first law fills the
+  fields, each later law changes them.
 */
 typedef struct {
   Vec value, by_pressure, by_slip;
 } SamBound;
 
 /*
-  The contact of a step, for a law whose state follows from the tractions, and whose offset in turn changes these.
-  `solve` solves it with the offset of the tried state, from the last tractions on; `solved`: it has a solution.
-  Collective.
+  SamLawContact - the contact of a step, for a law whose state depends on the tractions, and whose offset in turn
+  changes the tractions. `solve` solves it with the offset of the tried state, starting from the last tractions;
+  `solved`: true if it has a solution. Collective.
 */
 typedef struct _n_SamLawContact SamLawContact;
 struct _n_SamLawContact {
   SamState          state;
   const SamBalance *normal, *tangential;
   Vec               pressure, shear, bound; /* Pa: the last solution */
-  char              failed[128];            /* to be set where the law finds none: why */
+  char              failed[128];            /* set by a law that finds no solution: the reason */
   PetscErrorCode (*solve)(SamLawContact *contact, PetscBool *solved);
   void *context;
 };
 
-/* A step that is solved, for laws to advance their tried state. */
+/* SamLawStep - a solved step, for laws to advance their tried state. */
 typedef struct _n_SamLawStep SamLawStep;
 struct _n_SamLawStep {
   SamGrid           grid;
@@ -74,41 +73,43 @@ struct _n_SamLawStep {
   const SamControl *control;
   PetscReal         rolled;          /* m: rolled distance of the step (SamProblemGetRolled()) */
   Vec               pressure, shear; /* Pa */
-  Vec               last[2];         /* those of the step before, NULL: none */
-  Vec               bound;           /* Pa, of the shear */
+  Vec               last[2];         /* pressure and shear of the previous step, NULL: none */
+  Vec               bound;           /* bound of the shear, Pa */
   const PetscReal  *rigid;           /* m, rad: the displacements of the step, by SamComponent */
-  PetscBool         known_pressure;  /* the pressure is that of an earlier step on the same gap, which it yielded to */
-  char              failed[128];     /* to be set by a law whose check of the step fails: why */
-  PetscBool         moves;           /* to be set by a law that changes the separation, so that the pressure changes */
-  /* made when first needed, by SamLawStepGetFriction(); the step's own */
+  PetscBool         known_pressure;  /* true: pressure of an earlier step, whose yielding the gap already contains */
+  char              failed[128];     /* set by a law whose check of the step fails: the reason */
+  PetscBool         moves;           /* set by a law that changes the separation, so that the pressure changes */
+  /* fields of SamLawStepGetFriction(), created when first needed; the step owns them */
   Vec path, pressed, work;
-  /* from the contact; collective */
+  /* set by the contact; collective */
   PetscErrorCode (*friction)(SamLawStep *step, Vec path, Vec pressed, Vec work);
   PetscErrorCode (*gap)(SamLawStep *step, Vec gap);           /* m, of the surfaces as they were before the step */
   PetscErrorCode (*slope)(SamLawStep *step, Vec by_pressure); /* the derivative of the bound by the pressure */
   void *context;
 };
 /*
-  SamLawStepGetFriction - what friction does in the step: the fields of SamContactComputeFriction(), NULL for one that
-  is not wanted; borrowed. Collective.
-  SamLawAddToSum - the tried generation of a field becomes the committed one plus `more`. Collective.
+  SamLawStepGetFriction - gets the effects of friction in the step, the fields of SamContactComputeFriction(), borrowed;
+  NULL for a field that is not wanted. Collective.
+  SamLawAddToSum - sets the tried generation of a field to the committed one plus `more`. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamLawStepGetFriction(SamLawStep *step, Vec *path, Vec *pressed, Vec *work);
 PETSC_INTERN PetscErrorCode SamLawAddToSum(SamState state, const char name[], Vec more);
 /*
   The frames of both bodies (frames.c). Under a point x of the grid, which goes with body 1, lies the point x + D of
-  body 2, D being the slide (m). A field of body 2 is kept at the points that lie under the cells at D = 0. The numbers
-  are those of the state, in this order, which the law slide declares: D and what has been rolled, the slider (m) and
-  its longest stretch (m).
-  SamFramesGetSlide - D of a generation, of SAM_TRIED without a try the committed one; FALSE: the surfaces do not slide,
-  and D = 0. SamFramesSetSlide - of the committed one, if they do. SamFramesRewind - takes a distance (m) off D, and off
-  what it follows, of a generation. Not collective.
-  SamFramesGetOffset - how far from the cells the points of a body, 0 or 1, lie in it that are under the grid as it is
-  now: by what the contact has rolled over both, in the second body by the slide of the generation, too; FALSE: the
-  surfaces do not slide. Not collective.
-  SamFramesRead - what the cells see of a field that is kept at a body's own points, by its offset; outside of the grid
-  it is zero, or its period. SamFramesReadBeyond - with another value outside. SamFramesWrite - the transpose: from
-  cells to the body's points, with the same sum. Other vectors, of one component. Collective.
+  body 2, D being the slide (m). A field of body 2 is kept at the points that lie under the cells at D = 0. The law
+  slide declares these numbers of the state, in the order of the enumeration: D and the rolled distance, the slider (m),
+  and its longest stretch (m).
+  SamFramesGetSlide - gets D of a generation (of the committed one for SAM_TRIED without a try); returns false if the
+  surfaces do not slide, and then D = 0. SamFramesSetSlide - sets D of the committed generation, if they slide.
+  SamFramesRewind - subtracts a distance (m) from D, and from the slider that it follows, of a generation. Not
+  collective.
+  SamFramesGetOffset - gets the offset (m) from a cell to the point of body 0 or 1 that lies under it now, in the
+  coordinates of the body: the distance rolled over both bodies, in the second body plus the slide of the generation. It
+  returns false if the surfaces do not slide. Not collective.
+  SamFramesRead - computes the values at the cells of a field that is stored at a body's own points, for an offset of
+  that body; outside of the grid the field is zero, or periodic. SamFramesReadBeyond - does the same with other values
+  outside (`beyond`). SamFramesWrite - applies the transpose, from cells to the body's points, with the same sum. Input
+  and output must be different vectors of one component. Collective.
 */
 enum {
   SAM_FRAME_X,
@@ -129,8 +130,8 @@ PETSC_INTERN PetscErrorCode SamFramesReadBeyond(SamElasticity elasticity, const 
                                                 Vec own, Vec seen);
 PETSC_INTERN PetscErrorCode SamFramesWrite(SamElasticity elasticity, const PetscReal slide[2], Vec seen, Vec own);
 /*
-  SamLawListWords - appends the words of an option that selects laws, each behind `between`. Collective.
-  SamLawOrder - the place of a type among those registered. Not collective.
+  SamLawListWords - appends the words of an option that selects laws, each after `between`. Collective.
+  SamLawOrder - returns the place of a type among the registered types. Not collective.
 */
 PETSC_INTERN PetscErrorCode SamLawListWords(SamElasticity elasticity, const char option[], const char between[],
                                             char words[], size_t size);
@@ -140,92 +141,94 @@ struct _n_SamLaw {
   PetscInt            references;
   char                type[64];
   SamElasticity       elasticity;
-  SamGrid             grid;           /* of the elasticity; borrowed */
-  SamConditions       conditions;     /* of the problem that has the law; NULL: none has */
-  PetscObjectState    revision;       /* to be raised by setters: declarations and the pressure follow from it */
-  PetscBool           always;         /* each problem has it, without being asked for */
-  PetscBool           follows_slip;   /* bound() depends on the slip of the step */
-  PetscBool           accumulates;    /* a sum over all steps: the field of the state that has the name of the type */
-  const char         *option;         /* that selects the law, without dash; NULL: none */
-  const char         *word;           /* its value that does so, as of -friction_law; NULL: the option itself does */
-  const char         *heading;        /* of the options in the help; NULL: none */
-  const SamOptionRow *rows;           /* its options, whose settings are `data`; */
-  PetscInt            row_count;      /* how many */
-  PetscInt            bytes;          /* of memory that it takes for each cell */
-  PetscBool           needs_friction; /* makes no sense without friction */
-  PetscBool           forbids_jumps;  /* cannot be in a life with cycle jumps */
-  PetscBool           of_body[2];     /* adds to the separation what it keeps at a body's own points, if they slide */
-  PetscBool           any_motion;     /* has a meaning in every motion: remembers and asks for no slip of steps */
-  PetscBool           by_passages;    /* in steady rolling it acts in cycles of a life only */
-  void               *data;           /* the type's own, from PetscNew(); NULL: none */
+  SamGrid             grid;           /* grid of the elasticity; borrowed */
+  SamConditions       conditions;     /* conditions of the problem that has the law; NULL: none */
+  PetscObjectState    revision;       /* raised by setters; declarations and pressure depend on it */
+  PetscBool           always;         /* true: each problem has it without an option */
+  PetscBool           follows_slip;   /* true: bound() depends on the slip of the step */
+  PetscBool           accumulates;    /* true: sums over all steps, in the state's field named like the type */
+  const char         *option;         /* option that selects the law, without dash; NULL: none */
+  const char         *word;           /* value of that option for this law, as of -friction_law; NULL: any */
+  const char         *heading;        /* heading of the options in the help; NULL: none */
+  const SamOptionRow *rows;           /* options, whose settings are `data` */
+  PetscInt            row_count;      /* number of options */
+  PetscInt            bytes;          /* memory per cell, bytes */
+  PetscBool           needs_friction; /* true: meaningless without friction */
+  PetscBool           forbids_jumps;  /* true: not possible in a wear simulation with cycle jumps */
+  PetscBool           of_body[2];     /* true: adds to the separation a field at a body's own points, if they slide */
+  PetscBool           any_motion;     /* true: valid in every motion, since it uses no slip of steps */
+  PetscBool           by_passages;    /* true: in steady rolling it acts in cycles of a wear simulation only */
+  void               *data;           /* data of the type, from PetscNew(); NULL: none */
   /* all may be NULL; collective */
   struct {
-    /* what the rows do not say of options and parameters; `asked` on entry: by the word */
+    /* reads and records options that the rows do not describe; `asked` on entry: selected by the word */
     PetscErrorCode (*setfromoptions)(SamLaw law, const SamOptions *from, PetscBool *asked);
     PetscErrorCode (*addparameters)(SamLaw law, SamParameters *parameters);
     PetscErrorCode (*destroy)(SamLaw law); /* frees what `data` refers to; SamLawDestroy() frees `data` itself */
-    /* adds what a step may prescribe for the law, which keeps SamConditionsAdd()'s own; once, when a problem gets it */
+    /* adds the law's conditions, and keeps SamConditionsAdd()'s `own`; called once, when a problem gets the law */
     PetscErrorCode (*conditions)(SamLaw law, SamConditions conditions);
     /*
-      Refuses values of its conditions that make no sense, and sets those that follow from others: `wrong` is the first
-      refused condition, and `why` says what is wrong with its value; empty: nothing.
+      Rejects invalid values of its conditions, and sets conditions that depend on others: `wrong` is the first rejected
+      condition, and `why` the fault of its value; empty: none.
     */
     PetscErrorCode (*check)(SamLaw law, SamControl *control, const SamCondition **wrong, char why[], size_t size);
     /* declares fields and numbers; again when the law's revision has been raised */
     PetscErrorCode (*declare)(SamLaw law, SamState state);
     /*
-      Before a step is solved: the law's tried state, from which its offset in the step follows. `duration`: the time of
-      the step minus that of the step before, s; 0 in the first one. A law whose offset changes raises its revision.
+      Sets, before a step is solved, the law's tried state, on which its offset in the step depends. `duration`: the
+      time of the step minus that of the step before, s; 0 in the first one. A law whose offset changes raises its
+      revision.
     */
     PetscErrorCode (*begin)(SamLaw law, SamState state, const SamControl *control, PetscReal duration);
     /*
-      Adds what displaces the surfaces in a step besides the tractions, body 2 relative to body 1 (m): to u_z (one
-      component) and to u_t (two components), where they are not NULL. It must follow from the control and the state
-      alone, as the independent check evaluates it, too. The displacements of a solution contain it, those of the step
-      before as well, so that gap, slip and what is derived from them need no more. `adds` (unless NULL) is set where it
-      is not zero; else left as it is.
+      Adds the displacements of the surfaces in a step by other causes than tractions, body 2 relative to body 1 (m), to
+      u_z (one component) and to u_t (two components), if they are not NULL. They must depend on the control and the
+      state alone, since the independent check evaluates them, too. The displacements of a solution contain them, also
+      those of the previous step, so that gap, slip and derived quantities need no further terms. `adds` (unless NULL)
+      is set to true if they are not zero, and else unchanged.
     */
     PetscErrorCode (*offset)(SamLaw law, SamState state, const SamControl *control, Vec u_z, Vec u_t, PetscBool *adds);
     /*
-      Adds the linear part of such a tangential displacement, which is no part of u_t: it is evaluated row by row, takes
-      no field, and follows the bodies when they roll.
+      Adds the linear part of such a tangential displacement. It is no part of u_t: it is evaluated row by row, needs no
+      field, and follows the bodies when they roll.
     */
     PetscErrorCode (*strain)(SamLaw law, const SamControl *control, SamStrain *strain);
     /*
-      Adds its stress in body 0 or 1 at a depth (m) in a step, where it is uniform along the surface: Pa, by
-      SamStressComponent.
+      Adds the law's stress (Pa, by SamStressComponent) in body 0 or 1 at a depth (m) in a step, if that is uniform
+      along the surface.
     */
     PetscErrorCode (*stress)(SamLaw law, const SamControl *control, PetscInt body, PetscReal depth, double stress[]);
     /*
-      Adds to a separation (m, one component) what the law has put between the bodies: SAM_COMMITTED: from which the
-      next step starts; SAM_TRIED: with which the last solution has its gap, the tried one, or else the committed one.
-      h NULL: only sets `adds`, whether there is any.
+      Adds the law's part of the separation (m, one component) to h. SAM_COMMITTED: the part from which the next step
+      starts; SAM_TRIED: the part in the gap of the last solution, the tried one, or else the committed one. h NULL:
+      only sets `adds`, true if there is any.
     */
     PetscErrorCode (*separation)(SamLaw law, SamState state, SamGeneration generation, Vec h, PetscBool *adds);
     /*
-      After the contact is solved: the law's tried state, and the tractions with its offset. Of one law of a problem.
+      Computes, after the contact is solved, the law's tried state and the tractions with its offset. Only one law of a
+      problem may have this method.
     */
     PetscErrorCode (*follow)(SamLaw law, SamLawContact *contact);
-    /* the largest pressure that the surfaces bear, Pa */
+    /* gets the largest pressure that the surfaces bear, Pa */
     PetscErrorCode (*limit)(SamLaw law, PetscReal *most);
-    /* the largest shear of each cell; `has`: whether any cell bears shear */
+    /* computes the largest shear of each cell */
     PetscErrorCode (*bound)(SamLaw law, const SamBoundAt *at, const SamBound *bound);
-    /* the coefficient of friction, 0 where a field counts; `has` (or NULL): any is above 0, which is collective */
+    /*
+      gets the coefficient of friction, 0 if it is a field; `has` (or NULL): true if any is above 0, which is collective
+    */
     PetscErrorCode (*friction)(SamLaw law, PetscReal *uniform, PetscBool *has);
-    /* adds by how much the bodies overlap in the tried step where they bear no more, m; or NULL */
+    /* adds the overlap (m) of the bodies in the tried step in cells at their pressure limit; or NULL */
     PetscErrorCode (*overlap)(SamLaw law, SamState state, Vec overlap);
-    /* the law's tried state, and numbers of the step */
+    /* computes the law's tried state, and numbers of the step */
     PetscErrorCode (*advance)(SamLaw law, SamLawStep *step);
     /* prints the law's numbers of a step, on a line of its own */
     PetscErrorCode (*view)(SamLaw law, SamState state, PetscViewer viewer);
-    /* a warning about a solved step; empty: none */
+    /* writes a warning about a solved step; empty: none */
     PetscErrorCode (*advise)(SamLaw law, SamState state, char text[], size_t size);
   } ops;
 };
 
-/*
-  The laws that come with the library, in the order in which they act (laws/register.c); SamInitialize() registers them.
-*/
+/* The laws of the library, in the order in which they act (laws/register.c); SamInitialize() registers them. */
 PETSC_INTERN PetscErrorCode SamLawRegisterAll(void);
 PETSC_INTERN PetscErrorCode SamLawCreate_Coulomb(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_BulkStress(SamLaw law);
@@ -240,8 +243,8 @@ PETSC_INTERN PetscErrorCode SamLawCreate_AccumulatedSlip(SamLaw law);
 PETSC_INTERN PetscErrorCode SamLawCreate_FrictionEnergy(SamLaw law);
 
 /*
-  The thickness, over the half width of the contact, of the layer in which a body yields first, from which on the
-  maximum plastic strain is more than 4 % too small.
+  SAM_PLASTIC_THICK - the thickness of the layer in which a body yields first, relative to the half width of the
+  contact, above which the maximum plastic strain is more than 4 % too small.
 */
 #define SAM_PLASTIC_THICK 0.2
 

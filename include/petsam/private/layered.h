@@ -1,4 +1,4 @@
-/* Bodies with bonded layers: symbols, the influence in space, cell integrals, and tables of them. */
+/* Bodies with bonded layers: symbols, influence functions in space, cell integrals, and their tables. */
 #ifndef PETSAM_LAYERED_H
 #define PETSAM_LAYERED_H
 
@@ -6,7 +6,7 @@
 #include <petsam/private/halfspace.h>
 
 /*
-  The way of the data, for a pair of which a body has layers, that is, several materials:
+  The flow of data for a pair of bodies of which at least one has layers, that is, several materials:
     symbols.c  the layers of each body become symbols, functions of the wave number, by a recursion from the substrate
                up: the symbols themselves, and their differences from those of a half-space of the surface's material
     spline.c    functions of s = r^2 or s = k^2 become polynomials on short intervals, which are evaluated quickly
@@ -26,9 +26,11 @@
 typedef enum { SAM_LAYERED_ZZ, SAM_LAYERED_ZR, SAM_LAYERED_RR, SAM_LAYERED_TT, SAM_LAYERED_SYMBOLS } SamLayeredSymbol;
 
 /*
-  SamBodySymbols - the symbols of a body at the wave number k > 0 (1/m), added to `total`; `difference`: less those of a
-  half-space of the material at the surface, accurate also where it is as small as exp(-2 k h). `sign`: of zr.
-  SamPairSymbols - of a pair: zz, rr, tt are sums over both bodies, zr is that of body 2 less that of body 1.
+  SamBodySymbols - adds the symbols of a body at the wave number k > 0 (1/m) to `total`, and to `difference` their
+  difference from those of a half-space of the material at the surface, which is accurate even if it is as small as
+  exp(-2 k h). `sign`: the sign of zr.
+  SamPairSymbols - computes the symbols of a pair: zz, rr, tt are sums over both bodies, zr is that of body 2 minus that
+  of body 1.
   Neither is collective.
 */
 PETSC_INTERN void SamBodySymbols(SamBody body, double sign, double k, double total[SAM_LAYERED_SYMBOLS],
@@ -37,32 +39,36 @@ PETSC_INTERN void SamPairSymbols(SamPair pair, double k, double total[SAM_LAYERE
                                  double difference[SAM_LAYERED_SYMBOLS]);
 
 /*
-  SamBodyReadProfile - the layers of a body whose constants vary with the depth, from the text file that an option (its
-  name without prefix) names: columns depth (m, from 0 on), young (Pa), poisson; constants between rows are linear, and
-  jump at a depth that two rows have. SAM_MATERIALS - 1 at most, of the constants at their middle; `set`: whether the
-  option is given. Collective. Errors: SAM_ERR_USER, SAM_ERR_FILE.
+  SamBodyReadProfile - reads the layers of a body whose constants vary with the depth, from the text file that an option
+  (its name without prefix) names: columns depth (m, from 0 on), young (Pa), poisson. Constants are linear between rows,
+  and jump at a depth that two rows have. It makes at most SAM_MATERIALS - 1 layers, each with the constants at its
+  middle. `set`: true if the option is given. Collective. Errors: SAM_ERR_USER, SAM_ERR_FILE.
 */
 PETSC_INTERN PetscErrorCode SamBodyReadProfile(const SamOptions *from, const char option[], SamMaterial layers[],
                                                PetscInt *count, PetscBool *set);
 
 /*
-  SamBodyStresses - at a wave number k (1/m) and the depth z below the top of a material, which must be elastic: ten
-  functions of which the stresses by unit waves of traction are made, in the order of the transforms at the head of
-  stress.c. In the first of several materials: less those of a half-space of it. Not collective.
+  SamBodyStresses - computes, at a wave number k (1/m) and the depth z (m) below the top of a material, which must be
+  elastic, the ten functions that compose the stresses by unit waves of traction, in the order of the transforms at the
+  head of stress.c. In the first of several materials they are the differences from those of a half-space of this
+  material. Not collective.
 */
 #define SAM_LAYERED_STRESSES 10
 PETSC_INTERN void SamBodyStresses(SamBody body, PetscInt material, double z, double k, double s[SAM_LAYERED_STRESSES]);
-/* SamLayeredCreateStress - the stresses in a body that has layers, body 1 or 2 of a pair (stress.c). Collective. */
+/*
+  SamLayeredCreateStress - creates the object for the stresses in a body with layers, body 1 or 2 of a pair (stress.c).
+  Collective.
+*/
 PETSC_INTERN PetscErrorCode SamLayeredCreateStress(SamGrid grid, const SamFourierSettings *settings, PetscInt number,
                                                    SamBody body, SamStress *stress);
 
 /*
-  SamSpline - functions of s >= 0 as polynomials of degree 9 on intervals: from 0 to `least`, then eight to each factor
-  2 of s, which the leading bits of s choose, up to `most`. Arguments beyond are taken as the nearest. Errors are 1e-15
-  where a function is analytic about its interval as far as its distance from 0.
-  The most functions of a table: SAM_RADIALS.
-  SamSplineCreate - from the values of all functions at s. SamSplineRow - values of a function at s[0 ... n - 1],
-  quickly where consecutive arguments share an interval. None is collective.
+  SamSpline - functions of s >= 0, at most SAM_RADIALS, as polynomials of degree 9 on intervals: one from 0 to `least`,
+  then eight per factor 2 of s up to `most`, selected by the leading bits of s. Arguments beyond the range are replaced
+  by the nearest one. Errors are 1e-15 if a function is analytic around its interval within the distance of the interval
+  from 0.
+  SamSplineCreate - creates the table from the values of all functions at s. SamSplineRow - computes the values of a
+  function at s[0 ... n - 1], quickly if consecutive arguments share an interval. None is collective.
 */
 #define SAM_SPLINE_DEGREE 9
 #define SAM_RADIALS       10
@@ -77,14 +83,14 @@ PETSC_INTERN PetscErrorCode SamSplineDestroy(SamSpline *table);
 PETSC_INTERN void SamSplineRow(const SamSpline *table, int function, PetscInt n, const double s[], double values[]);
 
 /*
-  SamLayered - the tables of a pair, which elasticities on several grids share: of the symbols by k^2, and of four
-  functions by r^2, which make the influence of a unit force in space, less that of the surface's half-spaces, at
-  (x, y) from it:
+  SamLayered - the tables of a pair, which elasticities on several grids share: the symbols as functions of k^2, and
+  four functions of r^2 that compose the influence of a unit force in space, minus that of half-spaces of the surface
+  materials, at (x, y) from it:
     u_z from p:   N
     u_x from q_x: A + B (x^2 - y^2),   u_y from q_y: A - B (x^2 - y^2),   u_y from q_x: 2 B x y
     u_x from p:   C x,                 u_z from q_x: -C x
-  SamLayeredPrepare - extends the tables to distances up to r (m) and wave numbers from k[0] to k[1] (1/m); none for 0.
-  Not collective, the same on all ranks.
+  SamLayeredPrepare - extends the tables to distances up to r (m) and wave numbers from k[0] to k[1] (1/m); 0 extends no
+  table. Not collective, the same on all ranks.
 */
 typedef enum { SAM_RADIAL_N, SAM_RADIAL_A, SAM_RADIAL_B, SAM_RADIAL_C, SAM_RADIAL_FUNCTIONS } SamRadial;
 typedef struct {
@@ -94,17 +100,17 @@ typedef struct {
   SamSpline symbols, radial, line;
 } * SamLayered;
 PETSC_INTERN PetscErrorCode SamLayeredCreate(SamPair pair, SamLayered *layered);
-PETSC_INTERN PetscErrorCode SamLayeredReference(SamLayered from, SamLayered *to); /* in the place of another */
+PETSC_INTERN PetscErrorCode SamLayeredReference(SamLayered from, SamLayered *to); /* replaces another one */
 PETSC_INTERN PetscErrorCode SamLayeredDestroy(SamLayered *layered);
 PETSC_INTERN PetscErrorCode SamLayeredPrepare(SamLayered layered, double r, const double k[2]);
 
 /*
-  SamRadialSource - functions g(k), whose transforms f(r) of these orders (radial.c) make a table of f/r^order for
-  distances up to r. They fall like exp(-depth k), and vary over lengths up to `longest`; for k = 0 they tend to the sum
-  of the images. `line`: the transforms are by cosines (order 0) and sines (order 1). SamRadialCreate() is not
+  SamRadialSource - functions g(k), whose transforms f(r) of the given orders (radial.c) give a table of f/r^order for
+  distances up to r. The functions decay like exp(-depth k), and vary over lengths up to `longest`; for k = 0 they tend
+  to the sum of the images. `line`: the transforms use cosines (order 0) and sines (order 1). SamRadialCreate() is not
   collective.
 */
-#define SAM_LONG_WAVE 1e-18 /* k times the longest length, where functions are those of k = 0 */
+#define SAM_LONG_WAVE 1e-18 /* k times the longest length, below which functions have their values of k = 0 */
 typedef struct {
   int        functions;
   const int *orders;
@@ -119,9 +125,9 @@ PETSC_INTERN PetscErrorCode SamRadialCreate(const SamRadialSource *of, double r,
 /*
   SamRadialKernels - at most three kernels, sums of terms: a factor, a function of a table and a polynomial of (x, y).
   Terms of one function follow each other.
-    SamRadialAddRow   adds the integrals over the cells at the lags (i, j), i = 0 ... n - 1, at a point that lies
-                      (i, j) cells from each; errors are 1e-12 of the functions
-    SamRadialAddLine  the same in plane strain, of a table by cosines and sines
+    SamRadialAddRow   adds the integrals over the cells at the lags (i, j), i = 0 ... n - 1, at a point (i, j) cells
+                      away from each; errors are 1e-12 of the functions
+    SamRadialAddLine  does the same in plane strain, for a table by cosines and sines
     SamRadialSetUp    must be called before both
   None is collective.
 */
@@ -153,16 +159,17 @@ PETSC_INTERN void SamRadialAddLine(const SamRadialKernels *of, double side, Pets
 
 /*
   SamLayeredAddRow - adds the integrals over the cells at the lags (i, j), i = 0 ... n - 1: the displacement at a point
-  (i dx, j dy) from the centre of a cell under unit traction, less that of the surface's half-spaces. `kind`: what has
-  this integral of half-spaces; u_z from p: R, u_x from q_x: XX, u_x from p: X. Errors are 1e-12 of the functions.
-  Not collective.
+  (i dx, j dy) from the centre of a cell under unit traction, minus that of half-spaces of the surface materials.
+  `kind`: the displacement, named by its integral for half-spaces: R for u_z from p, XX for u_x from q_x, X for u_x from
+  p. Errors are 1e-12 of the functions. Not collective.
 */
 PETSC_INTERN void SamLayeredAddRow(SamLayered layered, SamIntegral kind, double dx, double dy, PetscInt j, PetscInt n,
                                    double values[]);
 /*
-  SamLayeredPrepareLine, SamLayeredAddLine - the same in plane strain: the table up to the distance r (m); the integrals
-  of the influence of line loads, less that of the surface's half-spaces, over the cells at the lags i = 0 ... n - 1.
-  Far away displacements are those of the substrates, relative to the distance `datum` (m). Not collective.
+  SamLayeredPrepareLine, SamLayeredAddLine - do the same in plane strain: extend the table to the distance r (m); add
+  the integrals of the influence of line loads, minus that of half-spaces of the surface materials, over the cells at
+  the lags i = 0 ... n - 1. Far away displacements are those of the substrates, relative to those at the distance
+  `datum` (m). Not collective.
 */
 PETSC_INTERN PetscErrorCode SamLayeredPrepareLine(SamLayered layered, double r);
 PETSC_INTERN void SamLayeredAddLine(SamLayered layered, SamLayeredSymbol symbol, double dx, double datum, PetscInt n,

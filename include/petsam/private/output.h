@@ -1,4 +1,4 @@
-/* Results in an HDF5 file, and the parameters of the run that they belong to. */
+/* Results in an HDF5 file, with the parameters of their run. */
 #ifndef PETSAM_OUTPUT_H
 #define PETSAM_OUTPUT_H
 
@@ -12,27 +12,28 @@
 */
 typedef struct _n_SamOutput *SamOutput;
 
-/* How a results file is written. */
+/* SamOutputSettings - the settings of a results file. */
 #define SAM_OUTPUT_NAME 48 /* characters of a field's name */
 typedef struct {
-  char        names[SAM_STATE_MOST][SAM_OUTPUT_NAME]; /* fields to be saved by their names; */
-  PetscInt    count;                                  /* so many; negative: those that are usual */
+  char        names[SAM_STATE_MOST][SAM_OUTPUT_NAME]; /* names of the fields to be saved */
+  PetscInt    count;                                  /* number of these names; negative: the default fields */
   PetscInt    compress;                               /* deflate level of the fields, 0 (none) to 9 */
   PetscInt    chunk[2];                               /* most cells of an HDF5 chunk in x, y */
-  PetscBool   single;                                 /* fields of cells in single precision */
-  PetscBool   sums;        /* sums over the steps begin where they are named: SamOutputSettingsAddLaws() */
-  PetscReal   flush;       /* s that steps without fields may wait to be written together; 0: they do not */
-  SamContact  contact;     /* whose state gives the fields and /history; borrowed */
-  SamState    cycles;      /* whose numbers give a second series, */
-  const char *cycles_name; /* this group; borrowed; NULL: none */
+  PetscBool   single;                                 /* true: fields of cells are in single precision */
+  PetscBool   sums;        /* true: sums over the steps begin if `names` has them: SamOutputSettingsAddLaws() */
+  PetscReal   flush;       /* longest time that steps without fields wait to be written together, s; 0: none */
+  SamContact  contact;     /* contact whose state gives the fields and /history; borrowed */
+  SamState    cycles;      /* state whose numbers give a second series; borrowed */
+  const char *cycles_name; /* group of the second series; borrowed; NULL: none */
 } SamOutputSettings;
 /*
   SamOutputSettingsSetFromOptions - sets the defaults (the usual fields, no compression, chunks of 1024 x 256 cells,
-  double precision, each step written at once), then reads -output_fields, -output_compress,
-  -output_chunk and -output_single. Collective. Errors: SAM_ERR_USER.
-  SamOutputSettingsAddLaws - adds laws to a problem that only accumulate a field which is asked for. Collective.
-  SamOutputSettingsPrepare - the contact that is written. Collective. Errors: SAM_ERR_USER for a field that the contact
-  does not offer.
+  double precision, each step written at once), then reads -output_fields, -output_compress, -output_chunk and
+  -output_single. Collective. Errors: SAM_ERR_USER.
+  SamOutputSettingsAddLaws - adds to a problem the laws that only accumulate a field, if this field is to be saved.
+  Collective.
+  SamOutputSettingsPrepare - sets the contact whose results are written. Collective. Errors: SAM_ERR_USER for a field
+  that the contact does not offer.
 */
 PETSC_EXTERN PetscErrorCode SamOutputSettingsSetFromOptions(SamOutputSettings *settings, const SamOptions *from);
 PETSC_INTERN PetscErrorCode SamOutputSettingsAddLaws(SamOutputSettings *settings, SamProblem problem);
@@ -40,11 +41,11 @@ PETSC_EXTERN PetscErrorCode SamOutputSettingsPrepare(SamOutputSettings *settings
                                                      const SamOptions *from);
 
 /*
-  SamOutputCreate - creates the file with the coordinates of the grid and no step yet, under another name
-  (SamFileNameTemporary()): it takes its own, and replaces older results, when it is first written, or closed. All
-  ranks write together through MPI-IO. Until it is destroyed, no other run gets the file, but others may read it.
-  Collective. Errors: SAM_ERR_FILE when the file cannot be created, is being written by another run, or is there and is
-  not a results file of petsam; it is left unchanged then.
+  SamOutputCreate - creates the file with the coordinates of the grid and no step, under a temporary name
+  (SamFileNameTemporary()). It gets its own name, and replaces older results, when it is first written, or closed. All
+  ranks write together through MPI-IO. Until the object is destroyed, no other run can write the file, but others may
+  read it. Collective. Errors: SAM_ERR_FILE if the file cannot be created, is being written by another run, or exists
+  and is not a results file of petsam; it is then left unchanged.
 */
 PETSC_EXTERN PetscErrorCode SamOutputCreate(SamGrid grid, const char filename[], const SamOutputSettings *settings,
                                             SamOutput *output);
@@ -59,40 +60,40 @@ PETSC_INTERN PetscErrorCode SamOutputSetReals(SamOutput output, const char name[
 PETSC_INTERN PetscErrorCode SamOutputSetText(SamOutput output, const char name[], const char text[]);
 /*
   SamOutputWriteStep - appends the numbers of the contact's state (SamStateReadNumbers()) to /history and, with
-  `fields`, the time and the fields. Then the file is complete up to here, whatever happens
-  later; but where the settings allow it, steps without fields wait in memory, since many are written in the time of
-  one: for so long, if more steps are written, or until there is a chunk of them. Collective. Errors: SAM_ERR_FILE,
-  also when another program has replaced the file, or changed its size, since it was written last. When there is no
-  space, nothing is written and the file can be closed.
-  When writing fails in the middle of a step it cannot: SamOutputDestroy() then leaves the file open, and the program
-  should end with MPI_Abort(), since HDF5 would try to close the file in MPI_Finalize().
-  SamOutputFlush - writes the steps that wait. Collective. Errors: as SamOutputWriteStep().
+  `fields`, the time and the fields. The file is then complete up to this step, whatever happens later. If the settings
+  allow it (`flush`), steps without fields first wait in memory, since many are written in the time of one: for the time
+  `flush`, which is checked as more steps are written, or until they fill a chunk. Collective. Errors: SAM_ERR_FILE,
+  also if another program has replaced the file, or changed its size, since it was written last. If the disk is full,
+  nothing is written and the file can be closed. If writing fails in the middle of a step, the file cannot be closed:
+  SamOutputDestroy() then leaves it open, and the program should end with MPI_Abort(), since HDF5 would try to close the
+  file in MPI_Finalize().
+  SamOutputFlush - writes the waiting steps. Collective. Errors: as SamOutputWriteStep().
 */
 PETSC_EXTERN PetscErrorCode SamOutputWriteStep(SamOutput output, PetscBool fields);
 PETSC_EXTERN PetscErrorCode SamOutputFlush(SamOutput output);
 /*
-  SamOutputWriteFields - appends only the fields, of a step whose numbers are in the file already; `time` (s) is that of
-  the step. Otherwise as SamOutputWriteStep(). Collective. Errors: SAM_ERR_FILE.
+  SamOutputWriteFields - appends only the fields of a step whose numbers are already in the file; `time` (s) is that of
+  the step. All else is as in SamOutputWriteStep(). Collective. Errors: SAM_ERR_FILE.
 */
 PETSC_INTERN PetscErrorCode SamOutputWriteFields(SamOutput output, PetscReal time);
 /*
-  SamOutputWriteCycle - appends the committed numbers of the settings' `cycles` to the second series, then flushes, as
-  SamOutputWriteStep(). Collective. Errors: SAM_ERR_FILE; PETSC_ERR_ORDER for a file without that group.
+  SamOutputWriteCycle - appends the committed numbers of the settings' `cycles` to the second series, then flushes the
+  file, as SamOutputWriteStep() does. Collective. Errors: SAM_ERR_FILE; PETSC_ERR_ORDER for a file without that group.
 */
 PETSC_INTERN PetscErrorCode SamOutputWriteCycle(SamOutput output);
 /*
-  SamOutputGetSaved - the number of load steps in the file, the number of those with fields, and the time (s) of the
-  last step with fields, -infinity without one; NULL for one that is not wanted. Not collective.
+  SamOutputGetSaved - gets the number of load steps in the file, the number of steps with fields, and the time (s) of
+  the last step with fields, -infinity if there is none; NULL for an unwanted output. Not collective.
 */
 PETSC_INTERN PetscErrorCode SamOutputGetSaved(SamOutput output, PetscInt *steps, PetscInt *saved, PetscReal *time);
 /*
-  SamOutputPlan - results without a file, of which only the size can be asked. Collective.
-  SamOutputForecast - the size (bytes) of a file like this one of so many load steps and so many steps with fields,
-  without compression. Not collective.
+  SamOutputPlan - creates an object without a file, for SamOutputForecast() only. Collective.
+  SamOutputForecast - computes the size (bytes) that this file would have with `steps` load steps, `saved` of them with
+  fields, without compression. Not collective.
 */
 PETSC_INTERN PetscErrorCode SamOutputPlan(SamGrid grid, const SamOutputSettings *settings, SamOutput *output);
 PETSC_INTERN PetscErrorCode SamOutputForecast(SamOutput output, double steps, double saved, double *bytes);
-/* SamOutputHasReplaced - whether the file has replaced older results. Not collective. */
+/* SamOutputHasReplaced - returns true if the file has replaced older results. Not collective. */
 PETSC_INTERN PetscBool SamOutputHasReplaced(SamOutput output);
 /*
   SamOutputDestroy - closes the file, frees the object and sets the handle to NULL, also when closing fails. Collective.

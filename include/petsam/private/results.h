@@ -1,4 +1,4 @@
-/* Results of a run, read again. */
+/* Reading the results of a run. */
 #ifndef PETSAM_RESULTS_H
 #define PETSAM_RESULTS_H
 
@@ -6,10 +6,10 @@
 #include <petsam/parameters.h>
 #include <petsam/grid.h>
 
-/* SamResults - the results of a run, one file or its parts (output.h), open for reading, on any number of ranks. */
+/* SamResults - the results of a run, one file or several parts (output.h), open for reading on any number of ranks. */
 typedef struct _n_SamResults *SamResults;
 
-/* The fields that can be read. */
+/* SamResultsField - the fields that can be read. */
 typedef enum {
   SAM_RESULTS_PRESSURE,
   SAM_RESULTS_SHEAR_X,
@@ -20,20 +20,22 @@ typedef enum {
 } SamResultsField;
 
 /*
-  SamResultsOpen - opens a file that the option (without dash) has named, and the parts that follow it. Their
-  parameters, sizes and the places of their data are examined by rank 0 in a child process first, so that a damaged file
-  does no harm. Collective. Errors: SAM_ERR_FILE for a file that cannot be read, is not of petsam, is damaged, lacks
-  what is needed, or begins after the end of the part before; the message names it.
+  SamResultsOpen - opens a file that the option (without dash) has named, and the parts that follow it. Rank 0 first
+  examines their parameters, sizes and the places of their data in a child process, so that a damaged file does no harm.
+  Collective. Errors: SAM_ERR_FILE for a file that cannot be read, is not a file of petsam, is damaged, lacks required
+  data, or begins after the end of the previous part; the message names it.
 */
 PETSC_EXTERN PetscErrorCode SamResultsOpen(MPI_Comm comm, const char option[], const char filename[],
                                            SamResults *results);
 PETSC_EXTERN PetscErrorCode SamResultsDestroy(SamResults *results);
 /*
-  SamResultsGetGrid - the grid of the run, distributed over the ranks that are there now; borrowed.
-  SamResultsGetParameters - what defines the run, as SamSetupAddParameters() has recorded it; borrowed.
-  SamResultsGetOptions - the options of the run, as far as they are known; borrowed.
-  SamResultsGetSteps - number of load steps, also of those before the file's, and of those whose fields have been saved.
-  SamResultsGetSaved - load step (from 1) and time (s) of the k-th saved one (from 0).
+  SamResultsGetGrid - returns the grid of the run, distributed over the ranks of this program; borrowed.
+  SamResultsGetParameters - returns the parameters that define the run, as SamSetupAddParameters() recorded them;
+  borrowed.
+  SamResultsGetOptions - returns the options of the run, as far as they are known; borrowed.
+  SamResultsGetSteps - gets the number of load steps, including those before the first step of the file, and the number
+  of steps with saved fields.
+  SamResultsGetSaved - gets the load step (from 1) and the time (s) of the k-th step (from 0) with saved fields.
   None is collective.
 */
 PETSC_EXTERN SamGrid              SamResultsGetGrid(SamResults results);
@@ -42,17 +44,17 @@ PETSC_EXTERN const char          *SamResultsGetOptions(SamResults results);
 PETSC_EXTERN PetscErrorCode       SamResultsGetSteps(SamResults results, PetscInt *steps, PetscInt *saved);
 PETSC_EXTERN PetscErrorCode       SamResultsGetSaved(SamResults results, PetscInt k, PetscInt *step, PetscReal *time);
 /*
-  SamResultsRead - a field of the k-th saved step: this rank's rows. Collective. Errors: SAM_ERR_FILE, also for a field
-  that the file does not have (only the slip may be missing), and for values that are no finite numbers.
+  SamResultsRead - reads this rank's rows of a field of the k-th saved step. Collective. Errors: SAM_ERR_FILE, also for
+  a field that the file does not have (only the slip may be missing), and for values that are not finite.
 */
 PETSC_EXTERN PetscErrorCode SamResultsRead(SamResults results, PetscInt k, SamResultsField field, double values[]);
 /*
-  SamResultsCountLayers - of a body (1 or 2) that yields, 0 of another one. SamResultsHasLayers - whether the stresses
-  by plastic strain have been saved. Neither is collective.
-  SamResultsReadDepths - the depths of the middles of a body's layers below its surface (m), from there down.
-  Collective. Errors: SAM_ERR_FILE.
-  SamResultsReadLayer - a component of these stresses (Pa), the mean over a layer, of those of both bodies along z of
-  body 2: this rank's rows. Collective. Errors: as SamResultsRead().
+  SamResultsCountLayers - returns the number of layers of a body (1 or 2) that yields; 0 if it does not.
+  SamResultsHasLayers - returns true if the stresses by plastic strain have been saved. Neither is collective.
+  SamResultsReadDepths - reads the depths (m) of the middles of a body's layers, from its surface down. Collective.
+  Errors: SAM_ERR_FILE.
+  SamResultsReadLayer - reads this rank's rows of a component of these stresses (Pa), the mean over a layer; the layers
+  of both bodies are counted along z of body 2. Collective. Errors: as SamResultsRead().
 */
 PETSC_EXTERN PetscInt       SamResultsCountLayers(SamResults results, PetscInt body);
 PETSC_EXTERN PetscBool      SamResultsHasLayers(SamResults results);
@@ -60,16 +62,16 @@ PETSC_EXTERN PetscErrorCode SamResultsReadDepths(SamResults results, PetscInt bo
 PETSC_EXTERN PetscErrorCode SamResultsReadLayer(SamResults results, PetscInt k, PetscInt component, PetscInt layer,
                                                 double values[]);
 /*
-  SamResultsReadConditions - sets the conditions of a control to those of a load step (from 1), of a list; where the
-  file has no column of one, it is as usual. Collective. Errors: SAM_ERR_FILE, also for a value that is no finite
-  number.
+  SamResultsReadConditions - sets the conditions of a list in a control to those of a load step (from 1); a condition
+  without a column in the file gets its usual value. Collective. Errors: SAM_ERR_FILE, also for a value that is not
+  finite.
 */
 PETSC_EXTERN PetscErrorCode SamResultsReadConditions(SamResults results, PetscInt step, SamConditions conditions,
                                                      SamControl *control);
 /*
-  SamResultsReadNumber - of a load step (from 1): the cycles before the one that it belongs to in a life, 0 in other
-  results; or its SamStatus, contact area (m2), slide, or rolled distance (m), 0 where it is not in the file.
-  Collective. Errors: as SamResultsReadConditions().
+  SamResultsReadNumber - reads a number of a load step (from 1): in a wear simulation the number of cycles before the
+  cycle of the step; its SamStatus, contact area (m2), slide, or rolled distance (m). A number that is not in the file
+  is 0. Collective. Errors: as SamResultsReadConditions().
 */
 typedef enum {
   SAM_RESULTS_CYCLE,

@@ -1,4 +1,4 @@
-/* A simulation: a contact, its load program or life, the results and checkpoints of it, from options. */
+/* A simulation from options: a contact, its load history or wear cycles, its results and checkpoints. */
 #ifndef PETSAM_SIMULATION_H
 #define PETSAM_SIMULATION_H
 
@@ -8,49 +8,49 @@
 #include <signal.h>
 
 /*
-  SamSimulation - solves the load steps of a history, or with -wear_cycles the cycles of a life; writes results and
-  checkpoints where options ask for them; goes on from a checkpoint. It prints nothing: a monitor is told what happens.
-  Order of calls: Create, SetMonitor, SetFromOptions, SetUp, Run, Destroy.
+  SamSimulation - a run that solves the load steps of a history, or with -wear_cycles the cycles of a wear simulation,
+  writes results and checkpoints as options request, and may continue from a checkpoint. It prints nothing, but notifies
+  a monitor of each event. Order of calls: Create, SetMonitor, SetFromOptions, SetUp, Run, Destroy.
 */
 typedef struct _n_SamSimulation *SamSimulation;
 
-/* SamEventKind - what a monitor is told of. */
+/* SamEventKind - the kinds of events that a monitor is notified of, with the valid members of the event. */
 typedef enum {
-  SAM_NOTIFY_BEGIN,       /* the first step is next: `start` */
+  SAM_NOTIFY_BEGIN,       /* before the first step: `start` */
   SAM_NOTIFY_STEP_BEGINS, /* `step` */
-  SAM_NOTIFY_STEP,        /* `step` was solved, or failed, and is in the results: `result` */
+  SAM_NOTIFY_STEP,        /* `step` has been solved, or has failed, and is in the results: `result` */
   SAM_NOTIFY_CYCLE_BEGINS,
-  SAM_NOTIFY_CYCLE_STEP, /* a step of a computed cycle, `step` of all these: `result` */
-  SAM_NOTIFY_CYCLE,      /* `cycle` was computed, and is in the results; of `cycles` in all */
-  SAM_NOTIFY_MESSAGE,    /* the message of `result` about what `text` names */
-  SAM_NOTIFY_ADVICE,     /* `text`, and the option that mends it, `setting` (without dash; empty: none) */
-  SAM_NOTIFY_EXTENT,     /* `extent` of the contact in `step` */
-  SAM_NOTIFY_SLIP,       /* `slip` of all steps */
-  SAM_NOTIFY_GRID_CHECK, /* `check` of the last step */
-  SAM_NOTIFY_FILE,       /* the file `text` was written, and holds `setting` */
-  SAM_NOTIFY_STOPPED     /* before the end, with a checkpoint: `text` says where and why */
+  SAM_NOTIFY_CYCLE_STEP, /* a step of a computed cycle, counted by `step` over all computed cycles: `result` */
+  SAM_NOTIFY_CYCLE,      /* `cycle` has been computed, and is in the results; `cycles`: their total number */
+  SAM_NOTIFY_MESSAGE,    /* the message of `result`; `text` names its subject */
+  SAM_NOTIFY_ADVICE,     /* advice: `text`, and the option that mends it, `setting` (without dash; empty: none) */
+  SAM_NOTIFY_EXTENT,     /* size of the contact in `step`: `extent` */
+  SAM_NOTIFY_SLIP,       /* dissipated energy of all steps: `slip` */
+  SAM_NOTIFY_GRID_CHECK, /* comparison of the last step with a coarser grid: `check` */
+  SAM_NOTIFY_FILE,       /* the file `text` has been written, and contains `setting` */
+  SAM_NOTIFY_STOPPED     /* stopped before the end, with a checkpoint: `text` says where and why */
 } SamEventKind;
 
-/* SamSimulationStart - from where, and into which files. */
+/* SamSimulationStart - the facts known before the first step: steps, files and restart. */
 typedef struct {
-  PetscInt    steps;                          /* of the load history, or of one cycle with those that lead to it */
-  PetscBool   cyclic;                         /* a wear simulation over cycles */
-  PetscBool   loads[SAM_COMPONENTS];          /* those that are not 0 in all steps: given so, or found */
-  const char *results;                        /* file; NULL: none */
-  PetscBool   replaced;                       /* an older file of that name */
-  char        size[128];                      /* of the results, in words */
-  double      seconds;                        /* that a step takes, roughly; 0: not known */
-  char        when[PETSC_MAX_PATH_LEN + 256]; /* checkpoints are written, in words; empty: never */
-  const char *restart;                        /* the checkpoint from which it goes on; NULL: none */
-  char        after[64];                      /* in words: where that is */
-  PetscBool   branch, gap; /* the results begin there, and not with the load program; with another gap */
-  char        followed[PETSC_MAX_PATH_LEN]; /* file of the results before a branch; empty: none */
+  PetscInt    steps;                 /* number of steps of the load history, or of one cycle and its approach */
+  PetscBool   cyclic;                /* true: a wear simulation over cycles */
+  PetscBool   loads[SAM_COMPONENTS]; /* true for loads that are not prescribed as 0 in all steps */
+  const char *results;               /* results file; NULL: none */
+  PetscBool   replaced;              /* true: it replaces an older file of that name */
+  char        size[128];             /* size of the results, in words */
+  double      seconds;               /* rough time of a step, s; 0: not known */
+  char        when[PETSC_MAX_PATH_LEN + 256]; /* times at which checkpoints are written, in words; empty: never */
+  const char *restart;                        /* checkpoint from which the run continues; NULL: none */
+  char        after[64];                      /* position of that checkpoint, in words */
+  PetscBool   branch, gap;                    /* true: the results begin at the restart; true: the gap is another one */
+  char        followed[PETSC_MAX_PATH_LEN];   /* results file before a branch; empty: none */
 } SamSimulationStart;
 
 /*
-  SamGridCheckRow - a number of the last step (sums: of all steps) on this grid and on half the cells, the
-  order that its error is taken for, and what follows.
-  SamGridCheck - all of them; `n`: the cells of the coarser grid.
+  SamGridCheckRow - a number of the last step (sums: of all steps) on this grid and on one of half the cells, the
+  assumed order of its error, the estimated error, and the extrapolated number.
+  SamGridCheck - all rows; `n`: the cells of the coarser grid.
 */
 typedef struct {
   const char *name, *unit;
@@ -62,7 +62,7 @@ typedef struct {
   SamGridCheckRow row[24];
 } SamGridCheck;
 
-/* SamSimulationEvent - with what belongs to the kind of news; all is borrowed. */
+/* SamSimulationEvent - an event, with the members that its kind names; all are borrowed. */
 typedef struct {
   SamEventKind              kind;
   PetscInt                  step; /* from 0 */
@@ -76,29 +76,34 @@ typedef struct {
   const char               *text, *setting;
 } SamSimulationEvent;
 
-/* SamSimulationMonitor - is told what happens, on all ranks. Collective. An error ends the simulation. */
+/*
+  SamSimulationMonitor - a function that is called at each event, on all ranks. Collective. An error ends the
+  simulation.
+*/
 typedef PetscErrorCode (*SamSimulationMonitor)(void *context, SamContact contact, const SamSimulationEvent *news);
 
-/* SamSimulationCreate - makes a simulation without a contact. SamSimulationDestroy - frees it. Collective. */
+/* SamSimulationCreate - creates a simulation without a contact. SamSimulationDestroy - frees it. Collective. */
 PETSC_EXTERN PetscErrorCode SamSimulationCreate(MPI_Comm comm, SamSimulation *simulation);
 PETSC_EXTERN PetscErrorCode SamSimulationDestroy(SamSimulation *simulation);
 /*
-  SamSimulationSetMonitor - whom to tell; NULL: nobody.
-  SamSimulationSetSignals - numbers that others, as a handler of signals, may set to 1 on any rank at any time: the
-  first asks for a checkpoint after the step, the second for one and the end; they become 0 again. Borrowed.
+  SamSimulationSetMonitor - sets the function that is called at each event; NULL: none.
+  SamSimulationSetSignals - sets two flags that, for instance, a signal handler may set to 1 on any rank at any time:
+  the first requests a checkpoint after the current step, the second a checkpoint and the end of the run. The simulation
+  resets them to 0. Borrowed.
   Neither is collective.
 */
 PETSC_EXTERN PetscErrorCode SamSimulationSetMonitor(SamSimulation simulation, SamSimulationMonitor monitor,
                                                     void *context);
 PETSC_EXTERN PetscErrorCode SamSimulationSetSignals(SamSimulation simulation, volatile sig_atomic_t signals[2]);
 /*
-  SamSimulationSetFromOptions - reads all options and the tables that they name; writes nothing. `arguments`: see
+  SamSimulationSetFromOptions - reads all options and the tables that they name; it writes nothing. `arguments`: see
   SamHistoryCreateFromOptions().
-  SamSimulationSetUp - makes the contact and what else takes memory. While the help is printed, reads its options only.
-  SamSimulationRun - goes on from the checkpoint, if there is one; solves all steps, or cycles; writes what is to be
-  written. Ends early where a step has no solution, did not converge, or is at the edge of the grid.
-  SamSimulationRehearse - instead: what comes before the first step, without writing: reads the checkpoint, forecasts
-  size and time, and tells of the beginning.
+  SamSimulationSetUp - creates the contact and all other objects that take memory. While the help is printed, it only
+  reads their options.
+  SamSimulationRun - continues from the checkpoint, if there is one, solves all steps or cycles, and writes the results
+  and checkpoints. It ends early if a step has no solution, does not converge, or reaches the edge of the grid.
+  SamSimulationRehearse - does, instead of SamSimulationRun(), only the work before the first step, without writing: it
+  reads the checkpoint, forecasts size and time, and notifies the monitor as before the first step.
   Collective. Errors: SAM_ERR_USER, SAM_ERR_FILE.
 */
 PETSC_EXTERN PetscErrorCode SamSimulationRehearse(SamSimulation simulation);
@@ -108,12 +113,12 @@ PETSC_EXTERN PetscErrorCode SamSimulationSetUp(SamSimulation simulation, const S
 PETSC_EXTERN PetscErrorCode SamSimulationRun(SamSimulation simulation);
 
 /*
-  For programs that give the load program themselves:
-    SetContactFromOptions  instead of SetFromOptions: reads all options but those of loads and the number of cycles
-    SetProgram             takes over a history, which runs once (`cycles` 0), or is one cycle of a life;
-                           SamSimulationRun() then goes on from the committed state; may be called again
-    SetGap                 the bodies' separation becomes another one than that of the options
-  Stop - from a monitor: ends after this step. Collective. Errors: SAM_ERR_USER.
+  Functions for programs that prescribe the loads themselves:
+    SetContactFromOptions  instead of SetFromOptions: reads all options except those of loads and the number of cycles
+    SetProgram             takes over a history, which runs once (`cycles` 0), or is one cycle of a wear simulation;
+                           SamSimulationRun() then continues from the committed state; may be called again
+    SetGap                 replaces the separation of the bodies that the options gave
+  SamSimulationStop - ends the run after this step; to be called by a monitor. Collective. Errors: SAM_ERR_USER.
 */
 PETSC_INTERN PetscErrorCode SamSimulationSetContactFromOptions(SamSimulation simulation, const SamOptions *from);
 PETSC_INTERN PetscErrorCode SamSimulationSetProgram(SamSimulation simulation, SamHistory *history, PetscReal cycles);
@@ -121,13 +126,16 @@ PETSC_INTERN PetscErrorCode SamSimulationSetGap(SamSimulation simulation, Vec ga
 PETSC_INTERN PetscErrorCode SamSimulationStop(SamSimulation simulation);
 
 /*
-  SamSimulationTryStep - tries a step; conditions that are not as usual become numbers of each step, and at the edge of
-  the grid the message has a larger one. After an error there is no tried step. Errors: those of SamContactTry().
-  SamSimulationCommitStep - commits it. `warning`: of a law about it; NULL: not wanted. Errors: PETSC_ERR_ORDER
-  without a tried solution, PETSC_ERR_NOT_CONVERGED. SamContactReject() forgets it. Collective.
-  SamSimulationAdviseStep - passes on the advice on the tried step, as after a history of the committed steps and this
-  one. Collective.
-  SamSimulationForgetAdvice - the steps from now on go on from another state. Not collective.
+  SamSimulationTryStep - tries a step. Conditions with other than their usual values become numbers of each step; if the
+  contact reaches the edge of the grid, the message proposes a larger grid. After an error there is no tried step.
+  Errors: those of SamContactTry().
+  SamSimulationCommitStep - commits the tried step; SamContactReject() discards it. `warning`: the warning of a law
+  about the step; NULL: not wanted. Collective. Errors: PETSC_ERR_ORDER without a tried solution,
+  PETSC_ERR_NOT_CONVERGED.
+  SamSimulationAdviseStep - gives `receive` the advice on the tried step, as after a history of the committed steps and
+  this one. Collective.
+  SamSimulationForgetAdvice - forgets the earlier steps in the advice, since the next ones continue from another state.
+  Not collective.
 */
 PETSC_INTERN PetscErrorCode SamSimulationAdviseStep(SamSimulation simulation, const SamStep *step,
                                                     SamAdviceFunction receive, void *context);
@@ -136,22 +144,22 @@ PETSC_INTERN PetscErrorCode SamSimulationTryStep(SamSimulation simulation, const
 PETSC_INTERN PetscErrorCode SamSimulationCommitStep(SamSimulation simulation, const SamStep *step, char warning[],
                                                     size_t size);
 
-/* SamSimulationNeeds - what its memory depends on besides the grid. */
+/* SamSimulationNeeds - the properties of a simulation, besides the grid, that determine its memory. */
 typedef struct {
   PetscBool friction, coupled, life, stiffness, grid_check;
   PetscInt  steps;
-  PetscInt  laws; /* bytes a cell that the laws take */
+  PetscInt  laws; /* memory of the laws per cell, bytes */
 } SamSimulationNeeds;
 /* SamSimulationFiles - the files that it reads or writes by its own options; NULL: none. */
 typedef struct {
   const char *output, *checkpoint, *restart;
 } SamSimulationFiles;
 /*
-  After SamSimulationSetFromOptions(). Not collective.
-    GetSetup   the contact and all that it is made of; borrowed
-    GetSeries  the numbers of the computed cycle; borrowed; NULL: it is no life
-    GetStatus  the worst status of the steps so far, and whether it stopped before its end, with a checkpoint
-    IsWriting  whether a collective write is under way
+  The following functions may be called after SamSimulationSetFromOptions(). Not collective.
+    GetSetup   returns the contact and all its objects; borrowed
+    GetSeries  returns the numbers of the computed cycle; borrowed; NULL: no wear simulation
+    GetStatus  gets the worst status of the steps so far, and true if the run stopped early, with a checkpoint
+    IsWriting  returns true while a collective write is under way
 */
 PETSC_EXTERN const SamSetup    *SamSimulationGetSetup(SamSimulation simulation);
 PETSC_EXTERN SamSimulationNeeds SamSimulationGetNeeds(SamSimulation simulation);
@@ -159,7 +167,7 @@ PETSC_EXTERN PetscErrorCode     SamSimulationGetFiles(SamSimulation simulation, 
 PETSC_INTERN SamState           SamSimulationGetSeries(SamSimulation simulation);
 PETSC_EXTERN PetscErrorCode     SamSimulationGetStatus(SamSimulation simulation, SamStatus *worst, PetscBool *stopped);
 PETSC_EXTERN PetscBool          SamSimulationIsWriting(SamSimulation simulation);
-/* SamSimulationAbandon - before the process ends without the others: leaves no temporary file. Not collective. */
+/* SamSimulationAbandon - removes temporary files before this process ends without the others. Not collective. */
 PETSC_EXTERN void SamSimulationAbandon(SamSimulation simulation);
 
 #endif

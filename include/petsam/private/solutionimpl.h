@@ -1,4 +1,4 @@
-/* What follows from the solution of a step: gap, slip, what friction does, areas, energies, edges. */
+/* Quantities derived from the solution of a step: gap, slip, effects of friction, areas, energies, edges. */
 #ifndef PETSAM_SOLUTIONIMPL_H
 #define PETSAM_SOLUTIONIMPL_H
 
@@ -17,9 +17,9 @@ PETSC_INTERN PetscErrorCode SamValuesGet(const SamSolution *solution, SamValues 
 PETSC_INTERN PetscErrorCode SamValuesRestore(const SamSolution *solution, SamValues *values);
 
 /*
-  SamRigid - what is subtracted from a solution's elastic displacements to give its gap and its slip: the rigid
-  displacement minus that of the strain. Along a row of cells it is a + b xi (m), xi being the frame's dimensionless x.
-  The rows of other ranks' cells have a j beyond this rank's.
+  SamRigid - the displacement that is subtracted from a solution's elastic displacements to give its gap and its slip:
+  the rigid displacement minus that of the strain. Along a row of cells it is a + b xi (m), xi being the frame's
+  dimensionless x. The index j may lie outside of this rank's rows.
 */
 typedef struct {
   SamFrame  normal, tangential; /* frames with all rigid displacements given */
@@ -35,34 +35,35 @@ static inline double        SamRigidRowAt(SamRigidRow row, double xi)
 {
   return row.a + row.b * xi;
 }
-/* value = u + h - a - b xi along a row of the grid. */
+/* SamRigidGap - computes value = u + h - a - b xi along a row of the grid. Not collective. */
 PETSC_INTERN void SamRigidGap(const SamRigid *motion, SamRigidRow row, const double u[], const double h[],
                               double value[]);
 /*
-  SamSolutionCreateSeparation - the separation (m) of the bodies: the gap of the problem and what its laws put between
-  them, for the next step or in the last solution of a state (lawimpl.h; NULL: nothing). Borrowed from the problem
-  where no law adds to it, else made, which SamSolutionDestroySeparation() frees. Collective.
+  SamSolutionCreateSeparation - gets the separation (m) of the bodies: the gap of the problem plus the parts of its
+  laws, for the next step or in the last solution of a state (lawimpl.h; NULL: none). It is borrowed from the problem if
+  no law adds to it, else created; SamSolutionDestroySeparation() returns or frees it. Collective.
 */
 PETSC_INTERN PetscErrorCode SamSolutionCreateSeparation(SamProblem problem, SamState state, SamGeneration generation,
                                                         Vec *separation);
 PETSC_INTERN PetscErrorCode SamSolutionDestroySeparation(SamProblem problem, Vec *separation);
-/* SamSolutionComputeGap - the gap (m) of this rank's cells. Not collective. */
+/* SamSolutionComputeGap - computes the gap (m) in this rank's cells. Not collective. */
 PETSC_INTERN PetscErrorCode SamSolutionComputeGap(SamProblem problem, const SamSolution *solution, Vec separation,
                                                   Vec gap);
-/* SamSolutionComputeSlip - a component of the slip (m) of this rank's cells. Not collective. */
+/* SamSolutionComputeSlip - computes a component of the slip (m) in this rank's cells. Not collective. */
 PETSC_INTERN PetscErrorCode SamSolutionComputeSlip(SamProblem problem, const SamSolution *solution, PetscInt component,
                                                    double slip[]);
 
 /*
   SamIncrement - the slip of a step: the slip of a solution minus that of the previous one (NULL: no slip so far).
-  ComputeRow writes the slip (m) of the step along x and y of this rank's row j to row[0] and row[1], and that since the
-  start to slip[0] and slip[1]; where contact is made, the slip of the step begins there. Creation and destruction are
-  collective.
+  ComputeRow writes the slip (m) of the step along x and y in this rank's row j to row[0] and row[1], and the slip since
+  the start to slip[0] and slip[1]; in new contact, the slip of the step begins when the cells touch. Creation and
+  destruction are collective.
 
-  SamIncrementTurnRow - after ComputeRow, and only where there is a solution before: turns the slip of row j by the
-  angle from the mean direction of the shear in the step to that at its end, into `to`. Not collective.
-  SamIncrementOpposeRow - after ComputeRow: takes from the slip of row j what the shear at the end of the step does not
-  oppose. Then the law of friction holds with that shear. Not collective.
+  SamIncrementTurnRow - rotates the slip of row j by the angle from the mean direction of the shear in the step to that
+  at its end, and writes it to `to`; to be called after ComputeRow, and only if there is a solution before. Not
+  collective.
+  SamIncrementOpposeRow - subtracts from the slip of row j the part that the shear at the end of the step does not
+  oppose (`aside`), so that the friction law holds with that shear; to be called after ComputeRow. Not collective.
 */
 typedef struct {
   SamGrid            grid;
@@ -70,10 +71,10 @@ typedef struct {
   Vec                v_now, v_before;
   const double      *u_now, *u_before; /* elastic displacements; u_before NULL: no slip so far */
   double            *slip[2], *row[2], *scratch;
-  const SamSolution *solutions[2];      /* before and after the step; the former NULL: no slip so far */
-  SamValues          at_before, at_now; /* their values */
-  const double      *aside;             /* of the solution after the step; NULL: zero */
-  PetscBool          follows_slip;      /* the bound does */
+  const SamSolution *solutions[2];      /* solutions before and after the step; the first NULL: no slip so far */
+  SamValues          at_before, at_now; /* values of these solutions */
+  const double      *aside;             /* `aside` of the solution after the step; NULL: zero */
+  PetscBool          follows_slip;      /* true: the bound depends on the slip */
 } SamIncrement;
 PETSC_INTERN PetscErrorCode SamIncrementCreate(SamProblem problem, const SamSolution *before, const SamSolution *now,
                                                SamIncrement *increment);
@@ -83,10 +84,11 @@ PETSC_INTERN void           SamIncrementTurnRow(const SamIncrement *increment, P
 PETSC_INTERN void           SamIncrementOpposeRow(const SamIncrement *increment, PetscInt j);
 
 /*
-  SamSlide - how a cell slid in a step: not at all; all the time; from some time on; since contact was made; until it
-  was left; in the first step.
-  SamIncrementGetSlide - how this rank's cell k slid, and, if it did, the shares of the bounds (or pressures) before and
-  after the step in the one that its slip worked against. Not collective.
+  SamSlide - the sliding of a cell in a step: none; during the whole step; from some time on; since contact was made;
+  until contact was lost; in the first step.
+  SamIncrementGetSlide - returns the sliding of this rank's cell k. If it slid, `share` gets the weights of the bounds
+  (or pressures) before and after the step in the effective bound (or pressure), against which the slip did its work.
+  Not collective.
 */
 typedef enum {
   SAM_SLIDE_NONE,
@@ -97,56 +99,61 @@ typedef enum {
   SAM_SLIDE_FIRST
 } SamSlide;
 PETSC_INTERN SamSlide SamIncrementGetSlide(const SamIncrement *increment, ptrdiff_t k, double share[2]);
-/* SamIncrementMix - the mean of a field's values before and after the step by these shares. Not collective. */
+/*
+  SamIncrementMix - returns the mean of a field's values before and after the step with these weights. Not collective.
+*/
 static inline double SamIncrementMix(const double share[2], const double before[], const double now[], ptrdiff_t k)
 {
   return (share[0] > 0 ? share[0] * before[k] : 0) + (share[1] > 0 ? share[1] * now[k] : 0);
 }
 
-/* SamSolutionComputeStates - the state of each cell, a SamCellState as a real number. Not collective. */
+/* SamSolutionComputeStates - computes the state of each cell, a SamCellState as a real number. Not collective. */
 PETSC_INTERN PetscErrorCode SamSolutionComputeStates(const SamSolution *solution, Vec states);
 /*
-  SamSolutionComputeFriction - what friction does in a step (SamLawStepGetFriction()); `before` NULL: the first step.
-  NULL for a field that is not wanted. Collective.
+  SamSolutionComputeFriction - computes the effects of friction in a step (SamLawStepGetFriction()). `before` NULL: the
+  first step. A field that is not wanted is NULL. Collective.
 */
 PETSC_INTERN PetscErrorCode SamSolutionComputeFriction(SamProblem problem, const SamSolution *before,
                                                        const SamSolution *now, Vec path, Vec pressed, Vec work);
 /*
-  SamSolutionComputeRolling - of steps of 1 m of rolled distance, with the centred slip of a cell: the frictional
-  power per area over the rolling speed (Pa); `wears`: instead the integral along x of pressure times slip (Pa m), the
-  same in all cells of a row. Not collective.
+  SamSolutionComputeRolling - computes, for steps of 1 m of rolled distance and with the centred slip of a cell, the
+  frictional power per area over the rolling speed (Pa). `wears`: it computes instead the integral along x of pressure
+  times slip (Pa m), the same in all cells of a row. Not collective.
 */
 PETSC_INTERN PetscErrorCode SamSolutionComputeRolling(SamProblem problem, const SamSolution *solution, PetscBool wears,
                                                       Vec field);
 
 /*
-  SamSolutionDeclareNumbers - the numbers of /history that SamSolutionComputeNumbers() fills in the tried generation:
-  cells and areas, by their counted cells or (`edges`) reconstructed edges, largest tractions and slip, energies, by
-  their names in the motion. With `same_pressure` that of the step
-  before, whose edge of contact it keeps. Collective.
-  SamSolutionDeclareClosed - what the closed form of the dissipated energy remembers. SamSolutionFollowClosed - the
-  energy (J) of the tried step by it, after that of all steps before; NAN: there is none (closed.c). Collective.
-  SAM_CONTACT_EDGE - the number in the state that has the contact's edge: whether it is known, 0 or 1, and the faces of
-  cells there to cells outside.
+  SamSolutionDeclareNumbers - declares the numbers of /history, by their names in the motion, that
+  SamSolutionComputeNumbers() computes in the tried generation: cells and areas, by counted cells or (`edges`)
+  reconstructed edges, largest tractions and slip, energies. `same_pressure`: the pressure is that of the previous step,
+  whose contact edge is kept. Collective.
+  SamSolutionDeclareClosed - declares the numbers that the closed form of the dissipated energy stores.
+  SamSolutionFollowClosed - computes the dissipated energy (J) of the tried step by this form, which must have followed
+  all earlier steps; NAN if the form does not apply (closed.c). Collective.
+  SAM_CONTACT_EDGE - the name of the numbers of the contact edge in the state, which include 1 if the edge is known,
+  else 0, and the number of faces to cells outside of the contact.
 */
 #define SAM_CONTACT_EDGE "contact_edge_sums"
 enum { SAM_CONTACT_EDGE_KNOWN, SAM_CONTACT_EDGE_FACES = 2 };
-/* SamContactEdgeLength - the length (m, in plane strain a number) of an edge that has these faces of cells. */
+/*
+  SamContactEdgeLength - returns the length (m; in plane strain a count) of an edge with this number of faces of cells.
+*/
 static inline double SamContactEdgeLength(SamGrid grid, double faces)
 {
   return SamGridIsRow(grid) ? faces : PETSC_PI / 4 * faces * sqrt((double)(grid->dx * grid->dy));
 }
 /*
-  SamSolutionGetNormal - the normal load of a solution (N): the prescribed one if there is, so that a constant load does
-  not seem to grow by rounding. Not collective.
+  SamSolutionGetNormal - returns the normal load of a solution (N): the prescribed one if it is prescribed, so that a
+  constant load does not seem to grow by rounding. Not collective.
 */
 static inline PetscReal SamSolutionGetNormal(const SamSolution *s)
 {
   return s->control.force[SAM_COMPONENT_N] ? s->control.value[SAM_COMPONENT_N] : s->load[SAM_COMPONENT_N];
 }
 /*
-  SAM_ENTERING - the number in the state that has what slip of dissimilar bodies would work more (J) if the cells in
-  which contact is made had touched before the step: 0 of others.
+  SAM_ENTERING - the name of a number in the state: the extra work of slip (J) of dissimilar bodies if the cells of new
+  contact had touched before the step; 0 for other bodies.
 */
 #define SAM_ENTERING "entering_work"
 PETSC_INTERN PetscErrorCode SamSolutionDeclareNumbers(SamState state, SamMotion motion);
@@ -156,27 +163,30 @@ PETSC_INTERN PetscErrorCode SamSolutionFollowClosed(SamProblem problem, SamState
 PETSC_INTERN PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamState state, const SamSolution *before,
                                                       const SamSolution *now, PetscBool same_pressure, PetscBool edges);
 /*
-  SamSolutionFindSlip - the largest slip (m) in contact, in the tried generation of a state; at the edge between cells,
-  too (slip.c). With a film it stays as it is. Collective.
+  SamSolutionFindSlip - replaces the largest slip (m) at the centres of cells by that in the contact, also at its edge
+  between cells (slip.c), for the tried generation of a state. With a film, or if it is 0, it is unchanged. Collective.
 */
 PETSC_INTERN PetscErrorCode SamSolutionFindSlip(SamProblem problem, SamState state, const SamSolution *now,
                                                 double *most);
 /*
-  SamSolutionFindShear - raises the largest shear (Pa) of cells to that at the edge of stick, between cells (peak.c);
-  `stick`: what is reconstructed of that edge. Collective.
+  SamSolutionFindShear - raises the largest shear (Pa) of cells to that at the stick-slip boundary between cells
+  (peak.c); `stick`: the reconstruction of this boundary. Collective.
 */
 PETSC_INTERN PetscErrorCode SamSolutionFindShear(SamProblem problem, const SamSolution *solution, const SamEdge *stick,
                                                  double *most);
-/* SamSolutionDeclareSpots, SamSolutionComputeSpots - likewise the number of contact spots, and the mean gap. */
+/*
+  SamSolutionDeclareSpots, SamSolutionComputeSpots - declare and compute the number of contact spots, and the mean gap.
+*/
 PETSC_INTERN PetscErrorCode SamSolutionDeclareSpots(SamState state);
 PETSC_INTERN PetscErrorCode SamSolutionComputeSpots(SamProblem problem, SamState state, const SamSolution *now);
 
 /*
-  SamSolutionFindEdge - the reconstructed edge, with its points. `point` (NULL: not wanted), of one component: the
-  square of what vanishes at the edge (Pa2), at the cells' centres: of the pressure, or, for the stick zone, of what it
-  exceeds |q|/mu by. Collective.
-  SamSolutionComputePressureCenter, SamSolutionComputeShearCenter - the tractions (Pa) at the cells' centres, by these
-  edges, whose means over cells the solution has. Where an edge is not smooth the means stay. Collective.
+  SamSolutionFindEdge - reconstructs the contact edge or the stick-slip boundary, with its points. `point` (one
+  component, Pa2; NULL: not wanted) becomes the square of the traction that vanishes at the edge, at the centres of the
+  cells: p^2 for the contact, (p - |q|/mu)^2 for the stick zone. Collective.
+  SamSolutionComputePressureCenter, SamSolutionComputeShearCenter - compute the tractions (Pa) at the centres of the
+  cells, with these edges, from the means over cells in the solution. If an edge is not smooth the means stay.
+  Collective.
 */
 PETSC_INTERN PetscErrorCode SamSolutionFindEdge(SamProblem problem, const SamSolution *solution, SamEdgeOf which,
                                                 Vec point, SamEdge *edge);
@@ -185,13 +195,16 @@ PETSC_INTERN PetscErrorCode SamSolutionComputePressureCenter(SamProblem problem,
 PETSC_INTERN PetscErrorCode SamSolutionComputeShearCenter(SamProblem problem, const SamSolution *solution,
                                                           PetscInt component, Vec shear);
 
-/* Copies a balance's loads and rigid displacements into arrays of all six components. */
+/*
+  SamBalanceStore - copies a balance's loads and rigid displacements into arrays of all six components. Not collective.
+*/
 PETSC_INTERN void SamBalanceStore(const SamBalance *balance, PetscReal load[], PetscReal rigid[]);
 
 /*
-  SamControlIsSame - whether two controls prescribe the same for the components of one kind, to the bit.
-  SamControlSnap - takes the values of these components over from `to`, if they are the same but for rounding: loads
-  that differ by 1e-13 of the largest load, moments over the lever (m), and likewise motions.
+  SamControlIsSame - returns true if two controls prescribe the same, to the last bit, for the components of one kind.
+  SamControlSnap - replaces the values of these components in `control` by those in `to` if they differ by rounding
+  only: by at most 1e-13 of the largest load, with moments divided by the lever (m), and correspondingly for
+  displacements.
 */
 PETSC_INTERN PetscBool SamControlIsSame(const SamControl *a, const SamControl *b, SamBalanceKind kind);
 PETSC_INTERN void      SamControlSnap(const SamControl *to, PetscReal lever, SamBalanceKind kind, SamControl *control);

@@ -1,71 +1,77 @@
-/* The state: what the library's other rooms use besides petsam/state.h. */
+/* Functions of the state, besides petsam/state.h, for other parts of the library. */
 #ifndef PETSAM_PRIVATE_STATE_H
 #define PETSAM_PRIVATE_STATE_H
 
 #include <petsam/state.h>
 
 /*
-  SamStateMissingNumber - that value, for the k-th declaration of numbers; 0 or NaN for those that were results from the
-  start. Not collective.
+  SamStateMissingNumber - returns the value of the k-th declaration of numbers in steps whose results lack it; 0 or NaN
+  for numbers that were results from the start. Not collective.
 */
 PETSC_INTERN double SamStateMissingNumber(SamState state, PetscInt k);
-/* SamStateCreate - an empty state for fields of this grid, which it references. Collective. */
+/* SamStateCreate - creates an empty state for fields of this grid, which it references. Collective. */
 PETSC_INTERN PetscErrorCode SamStateCreate(SamGrid grid, SamState *state);
-/* SamStateCreateLike - another state with the same declarations and no values. Collective. */
+/* SamStateCreateLike - creates another state with the same declarations and no values. Collective. */
 PETSC_INTERN PetscErrorCode SamStateCreateLike(SamState state, SamState *other);
 PETSC_INTERN PetscErrorCode SamStateDestroy(SamState *state);
 /*
-  SamStateBegin - begins a try: there is a tried generation, without fields; its results of real numbers are NaN, its
-  integers 0, and numbers that are no results as in the committed one. Not collective.
+  SamStateBegin - begins a try: it creates a tried generation without fields, in which real numbers that are results are
+  NaN, integers 0, and numbers that are no results as in the committed generation. Not collective.
 */
 PETSC_INTERN PetscErrorCode SamStateBegin(SamState state);
-/* SamStateCommit - the tried generation becomes the committed one. Collective. Errors: PETSC_ERR_ORDER without one. */
+/*
+  SamStateCommit - makes the tried generation the committed one. Collective. Errors: PETSC_ERR_ORDER without a tried
+  one.
+*/
 PETSC_INTERN PetscErrorCode SamStateCommit(SamState state);
-/* SamStateReject - forgets the tried generation, if there is one. Not collective. */
+/* SamStateReject - discards the tried generation, if there is one. Not collective. */
 PETSC_INTERN PetscErrorCode SamStateReject(SamState state);
-/* SamStateForgetFields - forgets its fields, but not its numbers: of a step without a solution. Not collective. */
+/*
+  SamStateForgetFields - discards the fields of the tried generation, but not its numbers, after a step without a
+  solution. Not collective.
+*/
 PETSC_INTERN PetscErrorCode SamStateForgetFields(SamState state);
 /*
-  SamStateSeparates - whether the try has set a field from which the separation or the offset of later steps follows.
-  Not collective.
+  SamStateSeparates - returns true if the try has set a field on which the separation or the offset of later steps
+  depends. Not collective.
 */
 PETSC_INTERN PetscBool SamStateSeparates(SamState state);
-/* SamStateHasTried - whether there is one. Not collective. */
+/* SamStateHasTried - returns true if there is a tried generation. Not collective. */
 PETSC_INTERN PetscBool SamStateHasTried(SamState state);
-/* SamStateReset - forgets all values: as after its creation. Collective. */
+/* SamStateReset - discards all values, as after its creation. Collective. */
 PETSC_INTERN PetscErrorCode SamStateReset(SamState state);
 /*
-  SamStateMove - of a try: the committed generation becomes what it is after the grid has moved by `distance` (m), until
-  the try is rejected; a commit keeps it. Collective.
+  SamStateMove - replaces the fields of the committed generation, during a try, by those after a move of the grid by
+  `distance` (m). A rejection of the try restores them, a commit keeps the moved ones. Collective.
 */
 PETSC_INTERN PetscErrorCode SamStateMove(SamState state, const PetscReal distance[2]);
 /*
-  SamStateSwapMoved - the committed generation becomes what it was before that, and at the next call what it is after
-  it: for those who save it. Not collective.
+  SamStateSwapMoved - exchanges the fields of the committed generation before and after SamStateMove(), for code that
+  saves the state: the first call restores the fields before the move, the next one those after it. Not collective.
 */
 PETSC_INTERN void SamStateSwapMoved(SamState state);
-/* SamStateNumbers - the place of numbers in a generation. Not collective. */
+/* SamStateNumbers - returns the address of numbers in a generation. Not collective. */
 PETSC_INTERN double *SamStateNumbers(SamState state, PetscInt id, SamGeneration generation);
 /*
-  SamStateRestoreField - the vector of a committed generation, or of that one step back, to be written to by who
-  restores a saved state. Collective.
+  SamStateRestoreField - gets the vector of a field in the committed generation, or in the one a step before it, for
+  writing by code that restores a saved state. Collective.
 */
 PETSC_INTERN PetscErrorCode SamStateRestoreField(SamState state, PetscInt id, SamGeneration generation, Vec *field);
 /*
-  SamStateCopy - the committed values, and those one step back, of another state on the same grid. Forgets a tried
-  generation. Fields that `from` does not have become zero, its numbers as in a new state. Collective. Errors:
-  PETSC_ERR_ARG_SIZ for another grid; PETSC_ERR_ARG_INCOMP for a field that only `from` has values of, which the message
-  names.
+  SamStateCopy - copies the committed values, and those a step before, from another state on the same grid, and discards
+  a tried generation. Fields that `from` does not have become zero, and such numbers get their values in a new state.
+  Collective. Errors: PETSC_ERR_ARG_SIZ for another grid; PETSC_ERR_ARG_INCOMP for a field for which only `from` has
+  values; the message names it.
 */
 PETSC_INTERN PetscErrorCode        SamStateCopy(SamState from, SamState to);
-PETSC_INTERN PetscInt              SamStateCountValues(SamState state); /* of all numbers */
+PETSC_INTERN PetscInt              SamStateCountValues(SamState state); /* values of all numbers */
 PETSC_INTERN PetscInt              SamStateCountResults(SamState state);
 PETSC_INTERN const SamStateResult *SamStateResultOf(SamState state, PetscInt k);
 PETSC_INTERN PetscInt              SamStateFindResult(SamState state, const char name[]);
 /*
-  SamStateFindValues - a field of the results: the vector that holds it and its component there, one of the state's
-  (borrowed), or `work` (one component), into which it is computed or which is zero where it has no values yet.
-  Collective.
+  SamStateFindValues - gets the vector that contains a field of the results, and its component there: a vector of the
+  state (borrowed), or `work` (one component), into which the field is computed, or which is zero if the field has no
+  values yet. Collective.
 */
 PETSC_INTERN PetscErrorCode SamStateFindValues(SamState state, PetscInt result, Vec work, Vec *holder,
                                                PetscInt *component);

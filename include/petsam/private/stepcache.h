@@ -1,4 +1,4 @@
-/* The same step one cycle before, as the start of a step (stepcache.c). */
+/* A cache of earlier steps: the same step of the previous cycle is the start of a step (stepcache.c). */
 #ifndef PETSAM_PRIVATE_STEPCACHE_H
 #define PETSAM_PRIVATE_STEPCACHE_H
 
@@ -8,9 +8,9 @@
 #include <stdint.h>
 
 /*
-  SamStepCache - the last steps of a contact, by what they prescribe.
-  SamCachedStep - what is kept of a step; borrowed from the cache until its next search.
-  SamStepFields - the fields of a kept step on this rank, in the columns range[2 j] to range[2 j + 1] of row j.
+  SamStepCache - the last steps of a contact, found by their controls.
+  SamCachedStep - the stored data of a step; borrowed from the cache until its next search.
+  SamStepFields - the fields of a stored step on this rank, in the columns range[2 j] to range[2 j + 1] of row j.
 */
 typedef struct _n_SamStepCache  *SamStepCache;
 typedef struct _n_SamCachedStep *SamCachedStep;
@@ -18,54 +18,58 @@ typedef struct {
   PetscInt references, cells;
   int32_t *range;
   int32_t *change;   /* SAM_STEP_CHANGES fields, one after the other */
-  double  *pressure; /* Pa; NULL: that of the step before */
+  double  *pressure; /* Pa; NULL: that of the previous step */
 } * SamStepFields;
 #define SAM_STEP_CHANGES 4
 
 /*
-  SamStepCacheCreate, SamStepCacheDestroy - with the usual memory. The grid and the conditions are borrowed.
-  SamStepCacheCreateLike - for the same contact, with as much memory, and nothing kept yet.
-  SamStepCacheUsual - that memory, bytes: 20 fields of the grid, at least 16 MB, at most 1 GB. Not collective.
+  SamStepCacheCreate, SamStepCacheDestroy - create a cache with the default memory, and free it. The grid and the
+  conditions are borrowed.
+  SamStepCacheCreateLike - creates an empty cache for the same contact, with as much memory.
+  SamStepCacheUsual - returns the default memory, bytes: 20 fields of the grid, at least 16 MB, at most 1 GB. Not
+  collective.
 */
 PETSC_INTERN PetscErrorCode SamStepCacheCreate(SamGrid grid, SamConditions conditions, SamStepCache *cache);
 PETSC_INTERN PetscErrorCode SamStepCacheCreateLike(SamStepCache cache, SamStepCache *other);
 PETSC_INTERN void           SamStepCacheDestroy(SamStepCache *cache);
 PETSC_INTERN PetscReal      SamStepCacheUsual(SamGrid grid);
-/* SamStepCacheSetMemory - the bytes on all ranks that kept steps may take; 0: none are kept. Not collective. */
+/* SamStepCacheSetMemory - sets the memory on all ranks for stored steps, bytes; 0: none are stored. Not collective. */
 PETSC_INTERN void SamStepCacheSetMemory(SamStepCache cache, PetscReal bytes);
 /*
   SamStepCacheForget - forgets all steps.
-  SamStepCacheCopy - `to` keeps the steps of `from`, of another contact on the same grid, if it has the memory; they
-  share the fields. Not collective.
+  SamStepCacheCopy - stores in `to` the steps of `from`, the cache of another contact on the same grid, if it has the
+  memory; they share the fields. Not collective.
 */
 PETSC_INTERN void           SamStepCacheForget(SamStepCache cache);
 PETSC_INTERN PetscErrorCode SamStepCacheCopy(SamStepCache from, SamStepCache to);
 
-/* SamContactGetCache - a contact's; borrowed. Not collective. */
+/* SamContactGetCache - returns the cache of a contact; borrowed. Not collective. */
 PETSC_INTERN SamStepCache SamContactGetCache(SamContact contact);
 
-/* SamStepOf - what a step's pressure was or is to be solved with. */
+/* SamStepOf - the circumstances of the solution of a step's pressure, by which stored pressures are compared. */
 typedef struct {
-  PetscBool same_gap; /* as the step before */
-  PetscBool moves;    /* the gap changes with the step, so that its pressure is not right after it */
-  PetscBool yields;   /* the gap changes with the step to one for which its pressure is right, too */
+  PetscBool same_gap; /* true: the gap is that of the previous step */
+  PetscBool moves;    /* true: the step changes the gap, so that its pressure is invalid afterwards */
+  PetscBool yields;   /* true: the step changes the gap to one for which its pressure is also valid */
   PetscReal rtol;     /* tolerance of the normal solver */
 } SamStepOf;
 /*
-  SamStepCacheFind - the last step that prescribed the same as the next one, or its reverse, after the same or its
-  reverse; NULL: none, or nothing is kept of it. Not collective.
-  SamStepCacheKeep - takes note of a step that is committed, and keeps it if the last search found its like.
-  `before`: the committed solution so far, NULL in the first step. Collective.
+  SamStepCacheFind - finds the last step with the same control as the next one, or its reverse, that followed a step
+  with the same control as the last one, or its reverse; NULL: there is none, or it is not stored. Not collective.
+  SamStepCacheKeep - notes the control of a step that is committed, and stores its fields if the last search found an
+  equal step. `before`: the committed solution so far, NULL in the first step. Collective.
 */
 PETSC_INTERN void           SamStepCacheFind(SamStepCache cache, const SamControl *next, SamCachedStep *kept);
 PETSC_INTERN PetscErrorCode SamStepCacheKeep(SamStepCache cache, const SamSolution *before, const SamSolution *now,
                                              const SamStepOf *of);
 /*
-  SamCachedStepGetControl - how its components were given, and their values. Not collective.
-  SamCachedStepHasPressure - whether it has the pressure of a step with its normal control. Not collective.
-  SamCachedStepGetPressure - that pressure (Pa), with its normal loads and rigid displacements. Not collective.
-  SamCachedStepGetShear - a start of the shear (Pa), zero outside of the bound, and its product with the operator (m),
-  for a step after the solution `now`. `found`: the contact is where it was. Collective.
+  SamCachedStepGetControl - gets the values of the components of a stored step, and how they were given. Not collective.
+  SamCachedStepHasPressure - returns true if its pressure is that of a new step with the same normal control. Not
+  collective.
+  SamCachedStepGetPressure - gets this pressure (Pa), with its normal loads and rigid displacements. Not collective.
+  SamCachedStepGetShear - computes an initial guess of the shear (Pa), zero outside of the bound, and its product with
+  the operator (m), for a step after the solution `now`. `found`: true if the contact is at the same place as in the
+  stored step. Collective.
 */
 PETSC_INTERN void           SamCachedStepGetControl(SamCachedStep kept, SamControl *control);
 PETSC_INTERN PetscBool      SamCachedStepHasPressure(SamCachedStep kept, const SamStepOf *of);
@@ -74,14 +78,15 @@ PETSC_INTERN PetscErrorCode SamCachedStepGetShear(SamCachedStep kept, SamElastic
                                                   Vec bound, Vec shear, SamProduct *product, PetscBool *found);
 
 /*
-  For those who save and restore it: a table that is the same on all ranks, and the fields of some of its rows. Not
-  collective.
-  SamStepCacheGetTable - the table, borrowed; no rows: no steps.
-  SamStepCacheSetTable - forgets all steps, and takes over a table, if its width fits and there is memory for its
-  fields; they are to be added.
-  SamStepCacheCells - the cells on all ranks of the fields of a row, 0: it has none; whether a pressure is among them.
-  SamStepCacheGetFields - the fields of a row, borrowed; NULL: none.
-  SamStepCacheAddFields - adds them, with place for their values.
+  The following functions are for code that saves and restores the cache: a table that is the same on all ranks, and the
+  fields of some of its rows. Not collective.
+  SamStepCacheGetTable - gets the table, borrowed; it has no rows if there are no steps.
+  SamStepCacheSetTable - forgets all steps, and copies a table, if its width fits and there is memory for its fields,
+  which must then be added.
+  SamStepCacheCells - returns the number of cells on all ranks in the fields of a row, 0 if it has none; `pressure`:
+  true if a pressure is among the fields.
+  SamStepCacheGetFields - returns the fields of a row, borrowed; NULL if it has none.
+  SamStepCacheAddFields - adds fields to a row, with memory for their values.
 */
 PETSC_INTERN void           SamStepCacheGetTable(SamStepCache cache, PetscInt *rows, PetscInt *width, double **table);
 PETSC_INTERN PetscErrorCode SamStepCacheSetTable(SamStepCache cache, PetscInt rows, PetscInt width,

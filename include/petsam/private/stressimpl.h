@@ -1,4 +1,4 @@
-/* The inside of SamStress, for types of elasticity that know the stresses in their bodies. */
+/* The implementation of SamStress, for types of elasticity that compute the stresses in their bodies. */
 #ifndef PETSAM_STRESSIMPL_H
 #define PETSAM_STRESSIMPL_H
 
@@ -8,8 +8,9 @@
 #include <petsam/stress.h>
 
 /*
-  SamStressGroup - kernels that are evaluated together. Of the 18, q_y does to xz what q_x does to yz in any body that
-  is isotropic along the surface, and in a half-space q_x and q_y do to zz what p does to xz and yz.
+  SamStressGroup - kernels that are evaluated together. Some of the 18 kernels are equal: that of q_y on xz and that of
+  q_x on yz in any body that is isotropic along the surface, and in a half-space those of q_x and q_y on zz and those of
+  p on xz and yz.
 */
 typedef enum {
   SAM_STRESS_PLANE_P,  /* xx, yy, xy from p */
@@ -17,33 +18,34 @@ typedef enum {
   SAM_STRESS_PLANE_Y,  /* xx, yy, xy from q_y */
   SAM_STRESS_NORMAL_P, /* zz, xz, yz from p */
   SAM_STRESS_NORMAL_T, /* xz, yz from q_x, yz from q_y */
-  SAM_STRESS_NORMAL_Z, /* zz from q_x, zz from q_y, 0: only where these are not what p does to xz and yz */
+  SAM_STRESS_NORMAL_Z, /* zz from q_x, zz from q_y, 0: only if these differ from the kernels of p on xz and yz */
   SAM_STRESS_GROUPS
 } SamStressGroup;
 
 #define SAM_STRESS_GROUP 3 /* kernels of a group */
 
-/* SamStressKernel - which kernel of which group acts from a traction on a component. */
+/* SamStressKernel - the kernel, by its group and index there, of a component of the stress by a traction. */
 typedef struct {
   SamStressGroup group;
   PetscInt       member;
 } SamStressKernel;
-PETSC_INTERN const SamStressKernel SamStressKernels[SAM_STRESS_COMPONENTS][SAM_STRESS_TRACTIONS]; /* of a half-space */
+PETSC_INTERN const SamStressKernel SamStressKernels[SAM_STRESS_COMPONENTS][SAM_STRESS_TRACTIONS]; /* in a half-space */
 PETSC_INTERN SamStressKernel       SamStressKernelOf(SamStress stress, PetscInt component, PetscInt traction);
 
 /* The parities of the kernels of a group: odd in x, odd in y. */
 PETSC_INTERN const PetscBool SamStressOdd[SAM_STRESS_GROUPS][SAM_STRESS_GROUP][2];
 
 /*
-  SamStressOps - what a type of elasticity knows of the stresses in one of its bodies; NULL where it has none. `data` is
-  the type's.
-    row           required: kernels of a group in a cell's centre at the lags (i, j), i = 0 ... n - 1, j >= 0, in cells
-                  of these sides, by unit traction on the cell that lies so far before it, z = depth >= 0 (all m). They
-                  contain the correction of values at centres (elasticity/halfspace/stresscell.c). Not collective.
-    usedepth      makes the tables of a depth, for the calls of row that follow. Not collective.
-    atedge        as SamStressAtEdge(). Collective.
-    reduce        finds the numbers, `sums` of them, that a smooth part of the stress depends on - of boundaries far
-                  away, say - from this rank's tractions p, q_x, q_y; the same on all ranks. Collective.
+  SamStressOps - the methods of a type of elasticity for the stresses in one of its bodies; NULL if it has none. The
+  type owns `data`.
+    row           required: computes the kernels of a group at a cell's centre at the lags (i, j), i = 0 ... n - 1, j >=
+                  0, in cells of these sides, by unit traction on the cell that lies (i, j) before it, z = depth >= 0
+                  (all m). They contain the correction of values at centres (elasticity/halfspace/stresscell.c). Not
+                  collective.
+    usedepth      computes the tables of a depth for the following calls of row. Not collective.
+    atedge        does the work of SamStressAtEdge(). Collective.
+    reduce        computes from this rank's tractions p, q_x, q_y the `sums` numbers on which a smooth part of the
+                  stress depends, for instance that of distant boundaries; they are the same on all ranks. Collective.
     add           adds this part at n points from `first` on, `step` apart (m), to the components. Not collective.
     destroy       frees the data.
 */
@@ -63,23 +65,23 @@ struct _n_SamStress {
   SamFourierSettings settings;
   SamStressOps       ops; /* set by the type, as the data, the groups and the sums */
   void              *data;
-  PetscReal          poisson;    /* of the material at the surface; set by the type */
-  PetscInt           groups;     /* of kernels that the type has: all, or those before SAM_STRESS_NORMAL_Z */
-  PetscInt           sums;       /* numbers of reduce */
-  void              *smooth;     /* what reduce and add work with, if it is not the data */
-  SamConditions      conditions; /* of the step of the next tractions, borrowed; NULL: none */
-  const SamControl  *control;    /* of that step */
-  double             sign[SAM_STRESS_TRACTIONS]; /* of the tractions that act on the body, seen from its inside */
-  /* of the map in use */
+  PetscReal          poisson;    /* Poisson's ratio of the material at the surface; set by the type */
+  PetscInt           groups;     /* number of groups of the type: all, or those before SAM_STRESS_NORMAL_Z */
+  PetscInt           sums;       /* number of results of reduce */
+  void              *smooth;     /* data of reduce and add, if other than `data` */
+  SamConditions      conditions; /* conditions of the step of the next tractions, borrowed; NULL: none */
+  const SamControl  *control;    /* control of that step */
+  double             sign[SAM_STRESS_TRACTIONS]; /* signs of the tractions on the body: -1 for shear on body 1 */
+  /* members of the map in use */
   SamFourier fourier;
   PetscReal  depth; /* -1: none */
   SamKernel  kernels[SAM_STRESS_GROUPS][SAM_STRESS_GROUP];
 };
 
 /*
-  SamStressCreate - for body 1 or 2, without ops; `settings` of the transforms may be NULL. Collective. Errors:
-  PETSC_ERR_ARG_OUTOFRANGE for another body.
-  SamStressUseDepth - gets the kernels of a depth ready. Errors: PETSC_ERR_ARG_OUTOFRANGE for what is none. Not
+  SamStressCreate - creates an object for body 1 or 2, without ops; the `settings` of the transforms may be NULL.
+  Collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for another number of the body.
+  SamStressUseDepth - prepares the kernels of a depth. Errors: PETSC_ERR_ARG_OUTOFRANGE for an invalid depth. Not
   collective.
 */
 PETSC_INTERN PetscErrorCode SamStressCreate(SamGrid grid, const SamFourierSettings *settings, PetscInt body,
@@ -87,14 +89,14 @@ PETSC_INTERN PetscErrorCode SamStressCreate(SamGrid grid, const SamFourierSettin
 PETSC_INTERN PetscErrorCode SamStressUseDepth(SamStress stress, PetscReal depth);
 
 /*
-  SamStressApplyTransposed - the transpose of SamStressApply() at a depth > 0 in a half-space: the sums over the
-  components of an array of SAM_STRESS_COMPONENTS fields take the place that the tractions have there. Collective.
+  SamStressApplyTransposed - applies the transpose of SamStressApply() at a depth > 0 in a half-space: in an array of
+  SAM_STRESS_COMPONENTS fields, the sums over the components are written to the places of the tractions. Collective.
 */
 PETSC_INTERN PetscErrorCode SamStressApplyTransposed(SamStress stress, double field[]);
 
-/* SamPrincipalOf - the principal stresses of one stress, the largest first. Not collective. */
+/* SamPrincipalOf - computes the principal stresses of one stress, the largest first. Not collective. */
 PETSC_INTERN void SamPrincipalOf(const double s[SAM_STRESS_COMPONENTS], double p[3]);
-/* SamPrincipalDirection - a unit vector in the direction of one of them. Not collective. */
+/* SamPrincipalDirection - computes a unit vector in the direction of one principal stress. Not collective. */
 PETSC_INTERN void SamPrincipalDirection(const double s[SAM_STRESS_COMPONENTS], double principal, double n[3]);
 
 #endif

@@ -1,10 +1,10 @@
 /*
-  The inside of SamTangential, for methods of the tangential problem; see solverimpl.h for how to write one.
+  The implementation of SamTangential, for methods of the tangential problem; solverimpl.h describes how to write one.
 
   A method starts from a shear in level->traction that is admissible: within the discs, and in equilibrium; and from the
-  rigid-body displacement in level->rigid. That some admissible shear carries the loads has been checked. With the
-  product of the start at hand (SamLevelHasProduct()) neither holds: the start may lie outside of the discs, and the
-  method sets NO_EQUILIBRIUM when no admissible shear is found.
+  rigid-body displacement in level->rigid. The caller has checked that some admissible shear carries the loads. If the
+  product of the start is available (SamLevelHasProduct()), neither holds: the start may lie outside of the discs, and
+  the method sets NO_EQUILIBRIUM if it finds no admissible shear.
 */
 #ifndef PETSAM_TANGENTIALIMPL_H
 #define PETSAM_TANGENTIALIMPL_H
@@ -14,12 +14,12 @@
 
 /* The given fields of a level. */
 enum {
-  SAM_TANGENTIAL_BOUND, /* of each cell's shear, Pa */
+  SAM_TANGENTIAL_BOUND, /* bound of the shear in each cell, Pa */
   SAM_TANGENTIAL_OFFSET /* w - S, m, two components; NULL: zero */
 };
 
 /*
-  SamStickSlip - the state of an iteration, for methods to build on: the arrays of a level, the slip increment that
+  SamStickSlip - the state of an iteration, as a base for methods: the arrays of a level, the slip increment that
   belongs to q, and the error. Arrays of two components hold x at k and y at cells + k.
 */
 typedef struct {
@@ -38,8 +38,8 @@ typedef struct {
 } SamStickSlip;
 
 /*
-  SamDiscScale - the factor that projects a vector of squared length n2 onto the disc of radius b. Without a branch, so
-  that loops with it are vectorised.
+  SamDiscScale - returns the factor that projects a vector of squared length n2 onto the disc of radius b. It has no
+  branch, so that loops with it are vectorised.
 */
 static inline double SamDiscScale(double n2, double b)
 {
@@ -49,8 +49,8 @@ static inline double SamDiscScale(double n2, double b)
 }
 
 /*
-  The sums of squares from which the error is made: of the residual q - D(q - s/c), of q, of D(q - s/c), and of the
-  bound times SAM_SHEAR_FLOOR, the least measure of the shear.
+  SAM_SQUARES - number of the sums of squares that give the error: those of the residual q - D(q - s/c), of q, of D(q -
+  s/c), and of the bound times SAM_SHEAR_FLOOR, the smallest measure of the shear.
 */
 #define SAM_SQUARES 4
 
@@ -74,34 +74,34 @@ static inline void SamSumSquares(double squares[SAM_SQUARES], double residual, d
 
 PETSC_EXTERN PetscErrorCode SamStickSlipCreate(SamSolver solver, SamLevel *level, SamStickSlip *state);
 PETSC_EXTERN PetscErrorCode SamStickSlipDestroy(SamStickSlip *state);
-/* SamStickSlipRow - the contact's part of row j. Not collective. */
+/* SamStickSlipRow - returns the contact's part of row j. Not collective. */
 static inline SamRow SamStickSlipRow(const SamStickSlip *state, PetscInt j)
 {
   return SamFrameRow(state->frame, j, state->first[j], state->last[j]);
 }
-/* SamStickSlipClearMargins - z = 0, of two components, outside of the contact's part of each row. Not collective. */
+/* SamStickSlipClearMargins - sets z (two components) to 0 outside of the contact's part of each row. Not collective. */
 PETSC_INTERN void SamStickSlipClearMargins(const SamStickSlip *state, float z[]);
-/* SamStickSlipComputeSlip - s = C q + offset - motion, in double precision. Collective. */
+/* SamStickSlipComputeSlip - computes s = C q + offset - motion in double precision. Collective. */
 PETSC_EXTERN PetscErrorCode SamStickSlipComputeSlip(SamStickSlip *state);
 /*
-  SamStickSlipStart - the same for the start, by its product if that is at hand, with a motion fitted to it and the
-  error measured. Collective.
+  SamStickSlipStart - does the same for the start, by its product if that is available, then fits the motion to it and
+  measures the error. Collective.
 */
 PETSC_EXTERN PetscErrorCode SamStickSlipStart(SamStickSlip *state);
-/* SamStickSlipKeepProduct - leaves the product in s with the level, with its rounding. Not collective. */
+/* SamStickSlipKeepProduct - stores the product in s in the level, with its rounding. Not collective. */
 PETSC_INTERN PetscErrorCode SamStickSlipKeepProduct(SamStickSlip *state, double rounding);
 /*
-  SamStickSlipMeasure - the residual of the projection equation, with the motion that makes it smallest: s and motion
-  are changed by a fit on the tangent space of the constraints (both directions where q - s/c lies within the disc,
-  along the circle elsewhere). Collective.
+  SamStickSlipMeasure - computes the residual of the projection equation, with the motion that makes it smallest: s and
+  motion are changed by a fit on the tangent space of the constraints (both directions where q - s/c lies within the
+  disc, along the circle elsewhere). Collective.
 */
 PETSC_EXTERN PetscErrorCode SamStickSlipMeasure(SamStickSlip *state);
-/* SamStickSlipSetError - error and scale from this rank's squares. Collective. */
+/* SamStickSlipSetError - computes error and scale from the squares of all ranks. Collective. */
 PETSC_INTERN PetscErrorCode SamStickSlipSetError(SamStickSlip *state, const SamTotal squares[SAM_SQUARES]);
 
 /*
-  SamTangentialSolveKeeping - SamTangentialSolve() with the product of the guess, if valid, which becomes that of the
-  result; product NULL: none is kept. Collective.
+  SamTangentialSolveKeeping - does the same as SamTangentialSolve(), and uses the product of the guess if that is valid;
+  it is replaced by the product of the result. product NULL: none is kept. Collective.
 */
 PETSC_INTERN PetscErrorCode SamTangentialSolveKeeping(SamTangential tangential, Vec bound, Vec offset,
                                                       SamBalance *balance, PetscBool guess, Vec q, SamProduct *product);
