@@ -34,7 +34,7 @@ typedef struct {
 } SamLoadRange;
 
 /*
-  SamSlip - the dissipated energy of the steps so far, and how well the cells resolve it (slip.c). A branch is the
+  SamSlip - the dissipated energy of the steps so far, and how well the cells resolve it (slipzones.c). A branch is the
   loading between two load reversals; lengths are in cells.
 */
 typedef struct {
@@ -136,7 +136,7 @@ PETSC_INTERN void           SamAdviceRenew(SamAdvice *advice, const char after[]
 PETSC_INTERN PetscErrorCode SamAdviceEdge(const SamAdvice *advice, SamStep *step);
 /*
   SamAdviceMeasurePeak - computes `change` and `finer` of the extent: solves the contact around the peak again on finer
-  cells, while all other pressure stays (resolution.c). The shape is that of the gap's type; other heights are
+  cells, while all other pressure stays (finerpeak.c). The shape is that of the gap's type; other heights are
   interpolated. If the cells next to the peak have nearly its pressure, the pressure is at its limit, or a body yields,
   nothing is solved, and change = 0 and finer = 1. Collective.
 */

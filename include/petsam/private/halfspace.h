@@ -24,7 +24,7 @@ typedef enum {
   SamIntegralRow - computes the same, to the last bit, for the n cells (i0 + k, j) in a fraction of the time.
   For lags up to 16384 and sides whose ratio is between 1/50 and 50 the relative error is below 1e-14. Nothing overflows
   or underflows for sides from 1e-9 to 1e3 m. Signs under i -> -i and j -> -j, the zeros of the odd kernels and scaling
-  of both sides by a power of two are exact. Not collective, no state. Method and sources: influence.c.
+  of both sides by a power of two are exact. Not collective, no state. Method and sources: cellintegrals.c.
 */
 double SamIntegralCell(SamIntegral kind, double dx, double dy, ptrdiff_t i, ptrdiff_t j);
 void   SamIntegralRow(SamIntegral kind, double dx, double dy, ptrdiff_t j, ptrdiff_t i0, ptrdiff_t n, double *values);

@@ -130,7 +130,7 @@ PETSC_INTERN PetscErrorCode SamSolutionComputeRolling(SamProblem problem, const 
   whose contact edge is kept. Collective.
   SamSolutionDeclareClosed - declares the numbers that the closed form of the dissipated energy stores.
   SamSolutionFollowClosed - computes the dissipated energy (J) of the tried step by this form, which must have followed
-  all earlier steps; NAN if the form does not apply (closed.c). Collective.
+  all earlier steps; NAN if the form does not apply (closedenergy.c). Collective.
   SAM_CONTACT_EDGE - the name of the numbers of the contact edge in the state, which include 1 if the edge is known,
   else 0, and the number of faces to cells outside of the contact.
 */
@@ -164,7 +164,8 @@ PETSC_INTERN PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamSta
                                                       const SamSolution *now, PetscBool same_pressure, PetscBool edges);
 /*
   SamSolutionFindSlip - replaces the largest slip (m) at the centres of cells by that in the contact, also at its edge
-  between cells (slip.c), for the tried generation of a state. With a film, or if it is 0, it is unchanged. Collective.
+  between cells (largestslip.c), for the tried generation of a state. With a film, or if it is 0, it is unchanged.
+  Collective.
 */
 PETSC_INTERN PetscErrorCode SamSolutionFindSlip(SamProblem problem, SamState state, const SamSolution *now,
                                                 double *most);

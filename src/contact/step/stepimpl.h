@@ -29,7 +29,7 @@ typedef struct {
   Vec        previous_pressure, previous_shear; /* of the previous pass */
 } SamSolve;
 
-/* ---- the two problems (step.c) ---- */
+/* ---- the two problems (problems.c) ---- */
 
 /*
   SamSolveNormal - the normal problem of the step. `has_pressure`: the tried solution holds a guess; `has_shear`: of the

@@ -7,7 +7,7 @@
   The gaps and pressures of the steps are related linearly, so their means are, too: G = S P + lift + h - rigid, with
   the mean of the rigid displacements and of what the shear of dissimilar bodies lifts. In cells that are open in a part
   of the cycle both P and G are positive; on the gap h - G in these, P solves the normal problem of the mean loads.
-  This problem is what a jump changes (life.c).
+  This problem is what a jump changes (cyclejump.c).
 
   Where material streams through the contact, in steady rolling, a step is a passage: all of a line of the running band
   wears by r = integral of p |s| along x, the pressure times the slip in a passage. There P is the integral of the mean

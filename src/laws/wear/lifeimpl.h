@@ -103,7 +103,7 @@ PETSC_INTERN PetscErrorCode SamLifeNotePass(SamLife life, PetscInt k, const SamS
 PETSC_INTERN PetscErrorCode SamLifeMagnify(SamLife life, const SamRate *rate, PetscReal cycles, const SamLoads from,
                                            SamLoads to, PetscBool *solved);
 /*
-  Steps that slide far (stride.c).
+  Steps that slide far (longslides.c).
   SamLifeBeginStrides - of a cycle; SamLifeNoteStride - a tried step with this wear load and these pressures before and
   after it; scratch: l->p and the loads of a jump. SamLifeEndStrides - sets l->stripes_error. Collective.
 */

@@ -9,7 +9,7 @@
 
   e being the wear load of the step per pressure, from the computed cycle. Each step is a proximal map of a concave
   energy of the depths, so that their product has no limit of stability (Bauschke and Combettes 2011, Convex Analysis
-  and Monotone Operator Theory in Hilbert Spaces). It is of first order; life.c extrapolates.
+  and Monotone Operator Theory in Hilbert Spaces). It is of first order; cyclejump.c extrapolates.
 
   A step wears under the mean of the pressures before and after it. Over a closed cycle each pressure so wears by half
   of what the step before it wears per pressure, and half of that after it: this mean is e. Cells that are open before

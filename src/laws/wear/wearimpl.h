@@ -13,7 +13,7 @@
 #define SAM_WEAR_LOAD2 "wear_load2"
 #define SAM_WEAR_CYCLE "wear_cycle_load"
 #define SAM_WEAR_PATH  "wear_cycle_path"
-/* What a life has worn body 2, less what many steps would have (stride.c). */
+/* What a life has worn body 2, less what many steps would have (longslides.c). */
 #define SAM_WEAR_STRIPES "wear_stripes"
 
 /* The data of a law of wear. */
@@ -38,7 +38,7 @@ PETSC_INTERN PetscErrorCode SamWearGetLimit(SamLaw law, PetscReal most, PetscRea
 */
 PETSC_INTERN PetscErrorCode SamWearGetExcess(SamLaw law, SamLawStep *step, PetscReal *excess);
 /*
-  SamWearGetStride - how far a contact slides from one slide to another (m), over its length along that (stride.c).
+  SamWearGetStride - how far a contact slides from one slide to another (m), over its length along that (longslides.c).
   Collective.
 */
 PETSC_INTERN PetscErrorCode SamWearGetStride(SamGrid grid, Vec pressure, const PetscReal from[2], const PetscReal to[2],

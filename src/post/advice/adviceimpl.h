@@ -18,8 +18,8 @@ PETSC_INTERN void SamAdviceSay(SamAdvice *advice, const char setting[], const ch
 PETSC_INTERN void      SamAdviceGrids(const SamAdvice *advice, double factor, char text[SAM_ADVICE_GRIDS]);
 PETSC_INTERN PetscBool SamAdviceIsFromFile(const SamSetup *setup);
 /*
-  AddSlip, AddRolling - add a step to what is known of the dissipated energy (slip.c), and of loads and creepages in
-  steady rolling (steadyerrors.c). MeasureStick - the cells across the stick zone now. Collective.
+  AddSlip, AddRolling - add a step to what is known of the dissipated energy (slipzones.c), and of loads and creepages
+  in steady rolling (steadyerrors.c). MeasureStick - the cells across the stick zone now. Collective.
   Slip, Rolling - say, after the last step, what the cells do not resolve. Stick - says that the stick zone is fewer
   cells across than `least`. Peaks - says that a slip zone is too narrow for the maximum of what is in it; `width`:
   cells, `wanted`: how many times finer a grid is advised. Not collective.

@@ -3,6 +3,9 @@
 #define PETSAM_SIMULATIONIMPL_H
 
 #include <petsam.h>
+#include <petsam/private/checkpoint.h>
+#include <petsam/private/output.h>
+#include <petsam/private/simulation.h>
 #include <petsam/private/motionimpl.h>
 #include "plan.h"
 

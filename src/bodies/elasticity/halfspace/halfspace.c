@@ -1,5 +1,5 @@
 /*
-  Two half-spaces: tractions constant on each cell, kernels from the closed forms over a rectangle (influence.c),
+  Two half-spaces: tractions constant on each cell, kernels from the closed forms over a rectangle (cellintegrals.c),
   products by convolution without wrapping round (fourier/kernel.c). Source: Liu, Wang and Liu 2000, Wear 243, 101-111.
   On layered bodies the closed forms are those of the materials at the surfaces, to which the rest is added
   (layered/cells.c); the preconditioner is the inverse of their symbols.

@@ -18,7 +18,7 @@
      452 cycles of spheres and ellipsoids, centred on the grid and off it, cylinders and rough surfaces (error times
      w^2 sqrt(m), root mean squares): 0.52, 0.19, 0.28, 0.20. Round edges that are not reconstructed, of punches, layers
      and loads out of phase, count as a quarter of m: on 26 random ones the error was below 0.08/w^2 at m = 60 to 250.
-  2. For alike bodies with quadratic gaps, constant N, and T along one line, the closed form (solution/closed.c).
+  2. For alike bodies with quadratic gaps, constant N, and T along one line, the closed form (solution/closedenergy.c).
 
   Dissimilar bodies slip while N grows. One step takes that slip as straight, and the energy of first loading is too
   large by the part
