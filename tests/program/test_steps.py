@@ -149,3 +149,18 @@ def test_loads_that_grow_in_proportion_from_nothing_slide_nothing(petsam, tmp_pa
 def test_one_step_from_nothing_applies_the_normal_load_first(petsam, tmp_path, rows):
     *_, p, q, energy = grow(petsam, tmp_path, *rows)
     assert np.abs(q - p / 9 / rows[-1][0]).max() > 0.2 * p.max() / 9 and energy > 1e-3
+
+
+def test_energy_of_a_contact_that_sticks_is_not_warned_of(petsam, tmp_path):
+    """Slightly dissimilar bodies under loads in proportion: the energy is 1e-8 of T d_x, and so is its error."""
+    case = dict(
+        elasticity="plane", body1_young=320e9, body1_poisson=0.2, body2_young=210e9, body2_poisson=0.3, friction=0.57,
+        gap_type="ellipsoid", gap_radius_x=7.7e-3, gap_radius_y="inf", grid_n=133, grid_size=6.47e-5, steps=8,
+        load_n=4189.0, load_tx=1277.0, output="e.h5",
+    )  # fmt: skip
+    assert not petsam(case).complaint
+    with h5py.File(tmp_path / "e.h5") as file:
+        table = file["history"]
+        energy, error = (np.sum(table[name][:]) for name in ("dissipated_energy", "energy_error"))
+        work = table["load_tx"][-1] * table["disp_x"][-1]
+    assert error > energy and error < 1e-5 * work

@@ -491,3 +491,16 @@ def test_area_of_few_cells_after_unloading_is_named(petsam, tmp_path, part):
         told.append([line for line in done.complaint if "contact_area may be wrong" in line])
     assert [len(lines) for lines in told] == [part < 0.5, 0]
     assert abs(areas[0] / areas[1] - 1) < 0.05 or told[0]
+
+
+def test_shear_that_no_body_without_hardening_bears_is_named(petsam, tmp_path):
+    """On the surface the stress is at least the shear, and von Mises' stress sqrt(3) times that."""
+    case = dict(
+        elasticity="plane_periodic", body1_young=600e9, body1_poisson=0.34, body2_young=210e9, body2_poisson=0.3,
+        gap_type="ellipsoid", gap_radius_x=2.2e-3, gap_radius_y="inf", grid_n=64, grid_size=4.5e-4, friction=0.68,
+        body2_yield=363e6, yield_layers=16, **steps(tmp_path / "h.csv", load_n=(65375, 65375), load_tx=(0, 37800)),
+    )  # fmt: skip
+    done = petsam(case, check=10)
+    said = re.search(r"the shear is ([\d.]+) times what the body bears without hardening", done.stderr)
+    assert said and 1 < float(said[1]) < 5
+    petsam(dict(case, body2_hardening_modulus=20e9))
