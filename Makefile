@@ -233,7 +233,8 @@ install: all pages ## install program, library, headers, petsam.pc, scripts, exa
 # man pages and bash's completions, from what the programs say of themselves; `make install PAGES=` where they cannot run
 PAGES := $(foreach p,$(PROGRAMS),man/man1/$p.1 bash-completion/completions/$p)
 
-pages: $(PAGES:%=$(B)/share/%) ## make the man pages and the completions of options
+pages: $(PAGES:%=$(B)/share/%) ## make the man pages, the completions of options, and, in a clone, the tables of options in the manual
+	$(if $(wildcard .git),$(Q)$(PYTHON) scripts/maintain/reference.py --build $(B))
 
 $(B)/share/man/man1/%.1: $(B)/bin/% scripts/maintain/manpage.py scripts/maintain/options.py
 	@mkdir -p $(@D)
