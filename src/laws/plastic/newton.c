@@ -420,6 +420,15 @@ static PetscErrorCode GoAlong(Solve *w, PetscInt field, double *norm, double *la
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* True if the yield stress grows with the first plastic strain, or moves by a backstress. */
+static PetscBool Hardens(const SamMises *material)
+{
+  double slope;
+
+  (void)SamMisesYield(material, 0, &slope);
+  return slope > 0 || material->backstresses > 0 ? PETSC_TRUE : PETSC_FALSE;
+}
+
 /* True if a layer of periodic bodies yields in all cells, without hardening: its stress has no strain of its own. */
 static PetscErrorCode Flows(const Solve *w, PetscBool *flows)
 {
@@ -432,10 +441,7 @@ static PetscErrorCode Flows(const Solve *w, PetscBool *flows)
   if (!SamElasticityGetTraits(p->elasticity).periodic) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscCalloc1(layers, &holds));
   for (PetscInt l = 0; l < layers; l++) {
-    double slope;
-
-    (void)SamMisesYield(&BodyOf(p, l)->material, 0, &slope);
-    if (slope > 0 || BodyOf(p, l)->material.backstresses > 0) holds[l] = 1;
+    if (Hardens(&BodyOf(p, l)->material)) holds[l] = 1;
     for (PetscInt k = 0; k < cells; k++)
       if (!(w->along[l * cells + k] > 0)) holds[l] = 1;
   }
@@ -461,9 +467,8 @@ static PetscErrorCode GetOverload(const Solve *w, double *overload)
   *overload = 0;
   for (PetscInt b = 0; b < p->bodies; b++) {
     const SamMises *m = &p->body[b].material;
-    double          slope, yield = SamMisesYield(m, 0, &slope);
 
-    if (slope == 0 && m->backstresses == 0) least = PetscMin(least, yield);
+    if (!Hardens(m)) least = PetscMin(least, SamMisesYield(m, 0, NULL));
   }
   PetscCall(VecGetArrayRead(w->contact->shear, &q));
   for (PetscInt k = 0; k < cells; k++) *overload = PetscMax(*overload, sqrt(3.0) * hypot(q[k], q[k + cells]) / least);
