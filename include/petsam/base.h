@@ -32,15 +32,28 @@
 #define SAM_ERR_FILE PETSC_ERR_FILE_OPEN
 
 /*
-  SamInitialize - registers petsam's classes, its laws and its log events, and starts FFTW for MPI. It must be called
-  after PetscInitialize() and before laws are added to a problem; calling it again does nothing. Collective on
-  PETSC_COMM_WORLD.
+  SamInitialize - registers petsam's classes, its laws and its log events, and starts FFTW for MPI.
+
+  Collective on PETSC_COMM_WORLD.
+
+  In: nothing.
+
+  Errors: none of its own.
+
+  It must be called after PetscInitialize() and before laws are added to a problem; calling it again does nothing.
 */
 PETSC_EXTERN PetscErrorCode SamInitialize(void);
 
 /*
-  SamFinalize - frees the objects of SamInitialize() and the plans that FFTW has stored. It must be called before
-  PetscFinalize(). Collective.
+  SamFinalize - frees the objects of SamInitialize() and the plans that FFTW has stored.
+
+  Collective on PETSC_COMM_WORLD.
+
+  In: nothing.
+
+  Errors: none of its own.
+
+  It must be called before PetscFinalize(). It does nothing without SamInitialize().
 */
 PETSC_EXTERN PetscErrorCode SamFinalize(void);
 
@@ -65,8 +78,18 @@ typedef enum {
   SAM_RANGE_PART          /* > 0, < 1 */
 } SamRange;
 
-/* SamOptionsHeading - prints the title of a group of options, while the help is printed. */
+/*
+  SamOptionsHeading - prints the title of a group of options, while the help is printed.
+
+  Collective on the communicator of the options.
+
+  In:     from  - communicator and prefix of the options
+          title - the title
+
+  Errors: none of its own.
+*/
 PETSC_EXTERN PetscErrorCode SamOptionsHeading(const SamOptions *from, const char title[]);
+
 /*
   SamOptionRow - an option: its name, its text in the help, the kind of its value, and the place of the value in the
   settings of its owner (`member`, by offsetof()). The settings hold the default, which the help shows and which stays
@@ -115,37 +138,76 @@ typedef struct {
   const char   *words, *needs, *excludes, *missing;
   PetscBool     recorded;
 } SamOptionRow;
+
+#define SAM_OPTION_ROWS(rows) (PetscInt)(sizeof(rows) / sizeof((rows)[0])), rows /* the row count and the table */
+
 /*
-  SamOptionsRead - reads the options of a table from PETSc's options database, each as `-<prefix><name>`, into the
-  settings. `given`: true for each option that was given; may be NULL. While the help is printed, it prints the heading
-  (NULL: none) and a line for each row, and requires nothing. Collective on the communicator; the database must be the
-  same on all its ranks. Errors: SAM_ERR_USER with the name of the option, the given text, and the expected values.
-  SamOptionsReal - reads one real number.
-  SamOptionsReals - reads a list of up to `most` numbers in the range, and their count; 0: the option is absent.
+  SamOptionsRead - reads the options of a table from PETSc's options database into the settings.
+
+  Collective on the communicator of the options; the database must be the same on all its ranks.
+
+  In:     from     - communicator and prefix of the options; an option is read as -<prefix><name>
+          heading  - title above the options in the help; NULL: none
+          count    - number of rows
+          rows     - the table; SAM_OPTION_ROWS() gives count and table
+  In,out: settings - struct of the owner; on entry the defaults, on return the values
+  Out:    given    - true for each option that was given, one value per row; may be NULL
+
+  Errors: SAM_ERR_USER with the name of the option, the given text, and the expected values.
+
+  While the help is printed, the function prints the heading and a line for each row, and requires nothing.
+*/
+PETSC_EXTERN PetscErrorCode SamOptionsRead(const SamOptions *from, const char heading[], PetscInt count,
+                                           const SamOptionRow rows[], void *settings, PetscBool given[]);
+
+/*
+  SamOptionsReal - reads one real number from an option.
+
+  Collective on the communicator of the options; the database must be the same on all its ranks.
+
+  In:     from  - communicator and prefix of the options
+          name  - name of the option, without dash and prefix
+          help  - text of the option in the help; it has the SI unit in parentheses
+          range - allowed values
+  In,out: value - the number (SI unit in the text of the help); on entry the default
+  Out:    set   - true if the option was given; may be NULL
+
+  Errors: SAM_ERR_USER with the name of the option, the given text, and the expected values.
+*/
+PETSC_EXTERN PetscErrorCode SamOptionsReal(const SamOptions *from, const char name[], const char help[], SamRange range,
+                                           PetscReal *value, PetscBool *set);
+
+/*
+  SamOptionsReals - reads a list of up to `most` numbers in the range, and their count; 0: the option is absent. All else
+  is as in SamOptionsRead().
   SamOptionsHas - sets `has` to true if an option (its name without dash and prefix) is given; a value may follow the
   name after a space, and the option must then have that value. Not collective.
   SamOptionsNeed - rejects an option that is given without another one that it needs; the format is that of a row's
   `needs`.
 */
-#define SAM_OPTION_ROWS(rows) (PetscInt)(sizeof(rows) / sizeof((rows)[0])), rows /* the row count and the table */
-PETSC_EXTERN PetscErrorCode SamOptionsRead(const SamOptions *from, const char heading[], PetscInt count,
-                                           const SamOptionRow rows[], void *settings, PetscBool given[]);
-PETSC_EXTERN PetscErrorCode SamOptionsReal(const SamOptions *from, const char name[], const char help[], SamRange range,
-                                           PetscReal *value, PetscBool *set);
 PETSC_INTERN PetscErrorCode SamOptionsReals(const SamOptions *from, const char name[], const char help[],
                                             SamRange range, PetscInt most, PetscReal values[], PetscInt *count);
 PETSC_INTERN PetscErrorCode SamOptionsHas(const SamOptions *from, const char option[], PetscBool *has);
 PETSC_INTERN PetscErrorCode SamOptionsNeed(const SamOptions *from, PetscBool given, const char name[],
                                            const char needs[]);
+
 /*
-  SamOptionsPlugins - loads the shared libraries that -plugin names, and calls the function
+  SamOptionsPlugins - loads shared libraries and calls their functions that register types.
+
+  Collective on the communicator of the options.
+
+  In:     from - communicator and prefix of the options
+
+  Options: -plugin: names of the libraries, separated by commas.
+  Errors: SAM_ERR_FILE for a library that cannot be loaded, lacks the function, or would register its types in another
+  copy of petsam's library than that of the caller.
+
+  The function of each library is
 
       PetscErrorCode SamPluginRegister(void)
 
-  of each, which registers types (SamGapRegister(), SamLawRegister(), ...). It must be called before types are chosen,
-  as SamSetupReadOptions() does. The libraries stay loaded. Collective. Errors: SAM_ERR_FILE for a library that cannot
-  be loaded, lacks the function, or would register its types in another copy of petsam's library than that of the
-  caller.
+  It registers types (SamGapRegister(), SamLawRegister(), ...). SamOptionsPlugins() must be called before types are
+  chosen, as SamSetupReadOptions() does. The libraries stay loaded.
 */
 PETSC_EXTERN PetscErrorCode SamOptionsPlugins(const SamOptions *from);
 

@@ -17,14 +17,35 @@ typedef struct {
 */
 #define SAM_MATERIALS 65 /* most materials of a body */
 typedef struct _n_SamBody *SamBody;
+
 /*
-  SamBodyCreate - creates a body from its materials, which are copied. Not collective. Errors: PETSC_ERR_ARG_OUTOFRANGE
-  for a number of materials out of range, a modulus that is not positive, a ratio outside (-1, 0.5], a rigid material
-  above another one, or a thickness that is not positive.
+  SamBodyCreate - creates a body from its materials.
+
+  Not collective.
+
+  In:     count     - number of materials, 1 to SAM_MATERIALS
+          materials - the materials from the surface down; copied
+  Out:    body      - the body
+
+  Errors: PETSC_ERR_ARG_OUTOFRANGE for a number of materials out of range, a modulus that is not positive, a ratio
+  outside (-1, 0.5], a rigid material above another one, or a thickness that is not positive.
 */
 PETSC_EXTERN PetscErrorCode SamBodyCreate(PetscInt count, const SamMaterial materials[], SamBody *body);
-PETSC_INTERN PetscErrorCode SamBodyReference(SamBody body);
+
+/*
+  SamBodyDestroy - drops a reference of the body, the last one frees it; sets the handle to NULL.
+
+  Not collective.
+
+  In,out: body - the body; NULL on return
+
+  Errors: none of its own.
+*/
 PETSC_EXTERN PetscErrorCode SamBodyDestroy(SamBody *body);
+
+/* SamBodyReference - adds a reference. Not collective. */
+PETSC_INTERN PetscErrorCode SamBodyReference(SamBody body);
+
 /*
   SamBodyCount - returns the number of materials.
   SamBodyAt - returns the index of the material at a depth (m), 0 at the surface. An interface belongs to the material
@@ -56,13 +77,34 @@ PETSC_INTERN PetscErrorCode SamBodyAdviseWorn(SamBody body, PetscInt number, Pet
   It is freed with its last reference.
 */
 typedef struct _n_SamPair *SamPair;
+
 /*
-  SamPairCreate - creates a pair, which references the bodies. Not collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for two
-  rigid bodies.
+  SamPairCreate - creates a pair of bodies, which references the bodies.
+
+  Not collective.
+
+  In:     body1 - the upper body
+          body2 - the lower body
+  Out:    pair  - the pair
+
+  Errors: PETSC_ERR_ARG_OUTOFRANGE for two rigid bodies.
 */
 PETSC_EXTERN PetscErrorCode SamPairCreate(SamBody body1, SamBody body2, SamPair *pair);
-PETSC_INTERN PetscErrorCode SamPairReference(SamPair pair);
+
+/*
+  SamPairDestroy - drops a reference of the pair, the last one frees it; sets the handle to NULL.
+
+  Not collective.
+
+  In,out: pair - the pair; NULL on return
+
+  Errors: none of its own.
+*/
 PETSC_EXTERN PetscErrorCode SamPairDestroy(SamPair *pair);
+
+/* SamPairReference - adds a reference. Not collective. */
+PETSC_INTERN PetscErrorCode SamPairReference(SamPair pair);
+
 /*
   SamPairBody - returns body 1 (index 0) or 2 (index 1); borrowed.
   SamPairModulus - returns E* (Pa) of the materials at the surfaces.
