@@ -27,11 +27,21 @@ typedef struct {
 } SamCheck;
 
 /*
-  SamCheckSolution - checks a solution. Input: its control, rigid displacements, pressure and shear; `before`, the
-  solution of the previous step (NULL: no slip so far); `state`, the fields and numbers of the laws (NULL: none): the
-  committed ones give the separation, the tried ones the corrections. Output: the errors, and the elastic displacements
-  of the solution, whose vectors must exist. `coupling`: pressure and shear of dissimilar bodies are coupled.
-  `u_z_known`: displacement_z is already correct and not recomputed. Collective.
+  SamCheckSolution - checks a solution: it recomputes the elastic displacements and computes the errors.
+
+  Collective.
+
+  In:     problem   - the problem that is solved
+          state     - fields and numbers of the laws (NULL: none): the committed ones give the separation, the tried
+                      ones the corrections
+          coupling  - true if pressure and shear of dissimilar bodies are coupled
+          u_z_known - true if displacement_z is already correct; it is then not recomputed
+          before    - the solution of the previous step; NULL: no slip so far
+  In,out: solution  - on entry its control, rigid-body displacements, pressure and shear; on return also the elastic
+                      displacements, whose vectors must exist
+  Out:    check     - the errors, relative
+
+  Errors: none of its own.
 */
 PETSC_EXTERN PetscErrorCode SamCheckSolution(SamProblem problem, SamState state, PetscBool coupling,
                                              PetscBool u_z_known, const SamSolution *before, SamSolution *solution,
@@ -61,7 +71,15 @@ typedef struct {
   char       setting[32];  /* option (without dash) that the message is about, as grid_size; empty: none */
 } SamStep;
 
-/* SamStepIsSolved - returns true if a step has a solution from which the next one can continue. Not collective. */
+/*
+  SamStepIsSolved - returns true if a step has a solution from which the next one can continue.
+
+  Not collective.
+
+  In:     step - the step
+
+  Errors: none; it returns no error code.
+*/
 static inline PetscBool SamStepIsSolved(const SamStep *step)
 {
   return (PetscBool)(step->status != SAM_STATUS_NOT_CONVERGED && step->status != SAM_STATUS_NO_EQUILIBRIUM);

@@ -20,19 +20,51 @@
 typedef struct _n_SamContact *SamContact;
 
 /*
-  SamContactCreate - creates a contact without any step: the bodies have never touched. It references the problem.
+  SamContactCreate - creates a contact without any step: the bodies have never touched.
+
   Collective.
+
+  In:     problem - the problem; the contact references it
+  Out:    contact - the contact
+
+  Errors: none of its own.
 */
 PETSC_EXTERN PetscErrorCode SamContactCreate(SamProblem problem, SamContact *contact);
-/* SamContactDestroy - frees the contact and sets the handle to NULL. Collective. */
-PETSC_EXTERN PetscErrorCode SamContactDestroy(SamContact *contact);
+
 /*
-  SamContactSetOptionsPrefix - sets the prefix of the options of the contact and of its solvers; NULL: none. Not
-  collective.
+  SamContactDestroy - frees the contact and sets the handle to NULL.
+
+  Collective.
+
+  In,out: contact - the contact; NULL on return
+
+  Errors: none of its own.
+*/
+PETSC_EXTERN PetscErrorCode SamContactDestroy(SamContact *contact);
+
+/*
+  SamContactSetOptionsPrefix - sets the prefix of the options of the contact and of its solvers.
+
+  Not collective.
+
+  In:     contact - the contact
+          prefix  - the prefix, without dash; copied; NULL: none
+
+  Errors: PETSC_ERR_ARG_SIZ for a prefix that is too long.
 */
 PETSC_EXTERN PetscErrorCode SamContactSetOptionsPrefix(SamContact contact, const char prefix[]);
-/* SamContactGetMotion - returns the motion of the bodies. Not collective. */
+
+/*
+  SamContactGetMotion - returns the motion of the bodies.
+
+  Not collective.
+
+  In:     contact - the contact
+
+  Errors: none; it returns no error code.
+*/
 PETSC_EXTERN SamMotion SamContactGetMotion(SamContact contact);
+
 /*
   SamContactSettings - the settings of a contact; the defaults are those of SamContactGetSettings() on a new contact.
   With coupling the normal and the tangential problem of dissimilar materials are solved in turn in each pass, until p
@@ -61,24 +93,66 @@ typedef struct {
   PetscBool spots;        /* count the contact spots and compute the mean gap (false; -contact_spots) */
   PetscBool print_check;  /* print the errors of each step (false; -contact_check) */
 } SamContactSettings;
+
 /*
-  SamContactSetSettings, SamContactGetSettings - set and return the settings. Not collective, the same on all ranks.
-  Errors: PETSC_ERR_ARG_OUTOFRANGE for a number that is not positive.
-  SamContactSetFromOptions - reads the options above, and those of both solvers. Collective. Errors: SAM_ERR_USER.
+  SamContactSetSettings - sets the settings of a contact.
+
+  Not collective, the same on all ranks.
+
+  In:     contact  - the contact
+          settings - the settings; copied
+
+  Errors: PETSC_ERR_ARG_OUTOFRANGE for a tolerance or a number of passes that is not positive, or a negative memory.
 */
-PETSC_EXTERN PetscErrorCode     SamContactSetSettings(SamContact contact, const SamContactSettings *settings);
+PETSC_EXTERN PetscErrorCode SamContactSetSettings(SamContact contact, const SamContactSettings *settings);
+
+/*
+  SamContactGetSettings - returns the settings of a contact.
+
+  Not collective.
+
+  In:     contact - the contact
+
+  Errors: none; it returns no error code.
+*/
 PETSC_EXTERN SamContactSettings SamContactGetSettings(SamContact contact);
+
 /*
-  SamContactCycleMemory - returns the default memory for kept steps on a grid, bytes: 20 fields, 16 MB to 1 GB. Not
-  collective.
+  SamContactCycleMemory - returns the default memory for kept steps on a grid (bytes): 20 fields, 16 MB to 1 GB.
+
+  Not collective.
+
+  In:     grid - the grid
+
+  Errors: none; it returns no error code.
 */
-PETSC_EXTERN PetscReal      SamContactCycleMemory(SamGrid grid);
-PETSC_EXTERN PetscErrorCode SamContactSetFromOptions(SamContact contact);
+PETSC_EXTERN PetscReal SamContactCycleMemory(SamGrid grid);
+
 /*
-  SamContactSetUp - checks that settings, laws and solvers are compatible; SamContactTry() calls it. Collective. Errors:
-  SAM_ERR_USER.
+  SamContactSetFromOptions - reads the settings of the contact and of both solvers from the options.
+
+  Collective.
+
+  In:     contact - the contact
+
+  Options: those named at SamContactSettings, and those of SamSolverSetFromOptions() for both solvers.
+  Errors: SAM_ERR_USER for a wrong value, or an option that the motion of the bodies does not allow.
+*/
+PETSC_EXTERN PetscErrorCode SamContactSetFromOptions(SamContact contact);
+
+/*
+  SamContactSetUp - checks that settings, laws and solvers are compatible.
+
+  Collective.
+
+  In:     contact - the contact
+
+  Errors: SAM_ERR_USER if they are not.
+
+  SamContactTry() calls it.
 */
 PETSC_EXTERN PetscErrorCode SamContactSetUp(SamContact contact);
+
 /*
   SamContactCheckConditions - rejects conditions of a step that are out of their range, or that need a coupling of
   pressure and shear that the contact does not have. `where`: "file, line 3: " or "", for the message. Not collective.
@@ -91,30 +165,99 @@ PETSC_INTERN PetscErrorCode SamContactCheckConditions(SamContact contact, const 
   rolled distance adds the creepages, too. Collective.
 */
 PETSC_INTERN PetscErrorCode SamContactOfferCondition(SamContact contact, const SamCondition *condition);
-/*
-  The following functions return the objects of a contact, borrowed. Not collective, except SamContactGetState(), which
-  lets the laws declare their fields and numbers. A program may read that state, and offer results of its own in it.
-*/
-PETSC_EXTERN PetscErrorCode SamContactGetState(SamContact contact, SamState *state);
-PETSC_INTERN SamProblem     SamContactGetProblem(SamContact contact);
-PETSC_EXTERN SamGrid        SamContactGetGrid(SamContact contact);
-PETSC_EXTERN SamNormal      SamContactGetNormal(SamContact contact);
-PETSC_EXTERN SamTangential  SamContactGetTangential(SamContact contact);
 
 /*
-  SamContactTry - solves one load step from the committed state, checks the solution, and fills `step` with the numbers
-  of the step. A step that has no solution or does not converge gets a status and a message; this is not an error. After
-  NO_EQUILIBRIUM there is no tried state. Collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for a control that is not finite,
-  a negative normal force or friction scale, or a moment or rotation that is not zero where the elasticity has none;
-  those of SamContactSetUp().
+  SamContactGetState - gets the state of a contact, borrowed.
+
+  Collective, as the laws declare their fields and numbers.
+
+  In:     contact - the contact
+  Out:    state   - the state; borrowed
+
+  Errors: none of its own.
+
+  A program may read that state, and offer results of its own in it.
+*/
+PETSC_EXTERN PetscErrorCode SamContactGetState(SamContact contact, SamState *state);
+
+/*
+  SamContactGetGrid - returns the grid of a contact, borrowed.
+
+  Not collective.
+
+  In:     contact - the contact
+
+  Errors: none; it returns no error code.
+*/
+PETSC_EXTERN SamGrid SamContactGetGrid(SamContact contact);
+
+/*
+  SamContactGetNormal - returns the solver of the normal problem, borrowed.
+
+  Not collective.
+
+  In:     contact - the contact
+
+  Errors: none; it returns no error code.
+*/
+PETSC_EXTERN SamNormal SamContactGetNormal(SamContact contact);
+
+/*
+  SamContactGetTangential - returns the solver of the tangential problem, borrowed.
+
+  Not collective.
+
+  In:     contact - the contact
+
+  Errors: none; it returns no error code.
+*/
+PETSC_EXTERN SamTangential SamContactGetTangential(SamContact contact);
+
+/* SamContactGetProblem - returns the problem of a contact, borrowed. Not collective. */
+PETSC_INTERN SamProblem SamContactGetProblem(SamContact contact);
+
+/*
+  SamContactTry - solves one load step from the committed state, and checks the solution.
+
+  Collective.
+
+  In:     contact - the contact
+          control - the prescribed loads, displacements and conditions; copied
+  Out:    step    - the numbers of the step, its errors, its status and a message
+
+  Errors: PETSC_ERR_ARG_OUTOFRANGE for a control that is not finite, a negative normal force or friction scale, a
+  condition out of its range, or a moment or rotation that is not zero where the elasticity has none; SAM_ERR_USER for a
+  condition that needs coupling when there is none; those of SamContactSetUp().
+
+  A step that has no solution or does not converge gets a status and a message; this is not an error. After
+  NO_EQUILIBRIUM there is no tried state. A try replaces an earlier one.
 */
 PETSC_EXTERN PetscErrorCode SamContactTry(SamContact contact, const SamControl *control, SamStep *step);
+
 /*
-  SamContactCommit - makes the tried state the committed one. Collective. Errors: PETSC_ERR_ORDER without a tried state.
+  SamContactCommit - makes the tried state the committed one, from which the next step starts.
+
+  Collective.
+
+  In:     contact - the contact
+
+  Errors: PETSC_ERR_ORDER without a tried state.
 */
 PETSC_EXTERN PetscErrorCode SamContactCommit(SamContact contact);
-/* SamContactReject - discards the tried state, if there is one. Collective. */
+
+/*
+  SamContactReject - discards the tried state, if there is one.
+
+  Collective.
+
+  In:     contact - the contact
+
+  Errors: none of its own.
+
+  Later steps are the same, to the last bit, as if the step had not been tried.
+*/
 PETSC_EXTERN PetscErrorCode SamContactReject(SamContact contact);
+
 /*
   SamContactRewind - subtracts `by` (m) from the committed tangential displacements and the slide. Periodic bodies then
   have the same contact if `by` is a multiple of the grid's widths. There must be no tried state. Collective.
@@ -124,21 +267,47 @@ PETSC_INTERN PetscErrorCode SamContactRewind(SamContact contact, const PetscReal
   SamContactHasStep - returns true if there is a tried, or a committed, solution, as `generation` says. Not collective.
 */
 PETSC_INTERN PetscBool SamContactHasStep(SamContact contact, SamGeneration generation);
+
 /*
-  SamContactGetSolution - returns the solution of the tried state if there is one, else of the committed one. Borrowed
-  until the next try, commit or rejection. Collective.
+  SamContactGetSolution - gets the solution of the tried state if there is one, else of the committed one.
+
+  Collective.
+
+  In:     contact  - the contact
+  Out:    solution - the solution; borrowed until the next try, commit or rejection
+
+  Errors: none of its own.
 */
 PETSC_EXTERN PetscErrorCode SamContactGetSolution(SamContact contact, const SamSolution **solution);
+
 /*
-  SamContactGetField - copies a field of the results, given by its name there (`pressure`, `slip_x`, `gap` ...), into a
-  vector of one component: from the tried state if there is one, else from the committed one. SamContactHasField - sets
-  `has` to true if there is a field of that name. Collective. Errors: PETSC_ERR_ARG_UNKNOWN_TYPE for an unknown name.
-  SamContactGetNumber - returns a number of /history of the same state; NaN if the step has none. Not collective.
-  Errors: PETSC_ERR_ARG_UNKNOWN_TYPE for an unknown name.
+  SamContactGetField - copies a field of the results from the tried state if there is one, else from the committed one.
+
+  Collective.
+
+  In:     contact - the contact
+          name    - its name in the results: `pressure`, `slip_x`, `gap` ...
+  Out:    field   - the field (unit of the field in the results), one component
+
+  Errors: PETSC_ERR_ARG_UNKNOWN_TYPE for an unknown name; PETSC_ERR_ARG_SIZ for a vector of another size.
 */
 PETSC_EXTERN PetscErrorCode SamContactGetField(SamContact contact, const char name[], Vec field);
-PETSC_INTERN PetscErrorCode SamContactHasField(SamContact contact, const char name[], PetscBool *has);
+
+/*
+  SamContactGetNumber - gets a number of /history of the tried state if there is one, else of the committed one.
+
+  Not collective.
+
+  In:     contact - the contact
+          name    - its name in /history: `load_n`, `contact_area` ...
+  Out:    value   - the number (unit of the column of /history); NaN if the step has none
+
+  Errors: PETSC_ERR_ARG_UNKNOWN_TYPE for an unknown name.
+*/
 PETSC_EXTERN PetscErrorCode SamContactGetNumber(SamContact contact, const char name[], PetscReal *value);
+
+/* SamContactHasField - sets `has` to true if there is a field of that name. Collective. */
+PETSC_INTERN PetscErrorCode SamContactHasField(SamContact contact, const char name[], PetscBool *has);
 
 /*
   SamContactComputeFriction - computes the effects of friction in the tried step, cell by cell. Each field has one
@@ -153,11 +322,21 @@ PETSC_EXTERN PetscErrorCode SamContactGetNumber(SamContact contact, const char n
 PETSC_INTERN PetscErrorCode SamContactComputeFriction(SamContact contact, Vec path, Vec pressed, Vec work);
 
 /*
-  SamContactPrintLaws - prints the laws' reports of the last step. Collective.
+  SamContactPrintLaws - prints the laws' reports of the last step.
+
+  Collective.
+
+  In:     contact - the contact
+          viewer  - an ASCII viewer
+
+  Errors: none of its own.
+*/
+PETSC_EXTERN PetscErrorCode SamContactPrintLaws(SamContact contact, PetscViewer viewer);
+
+/*
   SamContactAdvise - writes a warning about the last step by the next law, counted from number *k (0 at first), that has
   one; *k becomes the number of that law. An empty text: no further law has a warning. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamContactPrintLaws(SamContact contact, PetscViewer viewer);
 PETSC_INTERN PetscErrorCode SamContactAdvise(SamContact contact, PetscInt *k, char text[], size_t size);
 
 /*
@@ -172,12 +351,22 @@ PETSC_INTERN PetscErrorCode SamContactFindEdge(SamContact contact, SamEdgeOf whi
   file. The contact then continues as the other one would, to the last bit, on any number of ranks. `gap_is_current`:
   the state was solved with the present gap of the problem. A tried state is discarded. Collective. Errors: those of
   SamStateCopy().
-  SamContactReset - resets the contact to that of bodies that have never touched. Collective.
   SamContactGetSteps - returns the number of committed steps. Not collective.
 */
 PETSC_INTERN PetscErrorCode SamContactSetState(SamContact contact, SamState state, PetscBool gap_is_current);
-PETSC_EXTERN PetscErrorCode SamContactReset(SamContact contact);
 PETSC_INTERN PetscInt       SamContactGetSteps(SamContact contact);
+
+/*
+  SamContactReset - resets the contact to that of bodies that have never touched.
+
+  Collective.
+
+  In:     contact - the contact
+
+  Errors: none of its own.
+*/
+PETSC_EXTERN PetscErrorCode SamContactReset(SamContact contact);
+
 /*
   SamContactIsGapCurrent - sets `current` to true if the committed pressure was solved with the present gap of the
   problem. Collective.

@@ -37,15 +37,23 @@ typedef struct {
   PetscInt    axes; /* number of axes of a grid that has the component: 2, or 1 if plane strain has it, too */
 } SamComponentName;
 PETSC_EXTERN const SamComponentName SamComponentNames[SAM_COMPONENTS];
-/*
-  SamWay - the way in which a component is given. SamComponentNameOf - returns the name of a component given in that
-  way, NULL if it cannot be. Not collective.
-*/
+
+/* SamWay - the way in which a component is given. */
 typedef enum { SAM_BY_LOAD, SAM_BY_RIGID, SAM_BY_CREEP, SAM_WAYS } SamWay;
+/* SamComponentNameOf - returns the name of a component given in that way, NULL if it cannot be. Not collective. */
 PETSC_INTERN const char *SamComponentNameOf(PetscInt component, SamWay way);
+
 /*
-  SamUnitOn - returns a unit as it is on a grid: on a grid of one row, loads, areas, volumes and energies are per metre.
+  SamUnitOn - returns a unit as it is on a grid.
+
   Not collective.
+
+  In:     grid - the grid
+          unit - the unit on a grid of many rows, "N m" for instance
+
+  Errors: none; it returns no error code.
+
+  On a grid of one row, loads, areas, volumes and energies are per metre.
 */
 PETSC_EXTERN const char *SamUnitOn(SamGrid grid, const char unit[]);
 
@@ -71,23 +79,33 @@ typedef struct {
   SamConditions - the list of the conditions of a problem.
   SamConditionsCreate - creates an empty list. SamConditionsReference, SamConditionsDestroy - add and drop a reference;
   the last one dropped frees the list and its conditions.
-  SamConditionsAdd - adds a condition, whose texts are copied, unless the list has one of that name. `own`: the list's
-  copy, with which SamControlGet() is called; NULL: not wanted.
   SamConditionsCount, SamConditionsGet - return the number of conditions, and the k-th one.
   SamConditionsFind - returns the condition of that name, NULL if there is none.
-  Conditions are borrowed. Not collective, but to be called on all ranks. Errors of SamConditionsAdd():
-  PETSC_ERR_ARG_OUTOFRANGE for more than SAM_CONDITIONS conditions.
+  Conditions are borrowed. Not collective, but to be called on all ranks.
 */
 #define SAM_CONDITIONS 128
 typedef struct _n_SamConditions *SamConditions;
 PETSC_INTERN PetscErrorCode      SamConditionsCreate(SamConditions *conditions);
 PETSC_INTERN PetscErrorCode      SamConditionsReference(SamConditions conditions);
 PETSC_INTERN PetscErrorCode      SamConditionsDestroy(SamConditions *conditions);
-PETSC_EXTERN PetscErrorCode      SamConditionsAdd(SamConditions conditions, const SamCondition *condition,
-                                                  const SamCondition **own);
 PETSC_INTERN PetscInt            SamConditionsCount(SamConditions conditions);
 PETSC_INTERN const SamCondition *SamConditionsGet(SamConditions conditions, PetscInt k);
 PETSC_INTERN const SamCondition *SamConditionsFind(SamConditions conditions, const char name[]);
+
+/*
+  SamConditionsAdd - adds a condition to a list, unless the list has one of that name.
+
+  Not collective, but to be called on all ranks.
+
+  In:     conditions - the list
+          condition  - the condition; its texts are copied
+  Out:    own        - the list's condition of that name, with which SamControlGet() is called; borrowed; NULL: not
+                       wanted
+
+  Errors: PETSC_ERR_ARG_OUTOFRANGE for more than SAM_CONDITIONS conditions.
+*/
+PETSC_EXTERN PetscErrorCode SamConditionsAdd(SamConditions conditions, const SamCondition *condition,
+                                             const SamCondition **own);
 
 /*
   SamControl - the prescribed values of a load step. SamControlInitialize() sets the defaults, the user the rest. It is
@@ -104,26 +122,61 @@ typedef struct {
 } SamControl;
 
 /*
-  SamControlInitialize - sets all loads as given and 0, the time 0, and the usual values of all conditions. Not
-  collective.
+  SamControlInitialize - sets all loads as given and 0, the time 0, and the usual values of all conditions.
+
+  Not collective.
+
+  Out:    control - the control
+
+  Errors: none of its own.
 */
 PETSC_EXTERN PetscErrorCode SamControlInitialize(SamControl *control);
+
 /*
-  SamControlGet - returns the value of a condition, its usual value if the control is NULL. SamControlSetCondition -
-  sets it. Not collective.
+  SamControlGet - returns the value of a condition (unit of the condition).
+
+  Not collective.
+
+  In:     control   - the control; NULL: the usual value is returned
+          condition - the condition, from the list of the problem
+
+  Errors: none; it returns no error code.
 */
 PETSC_EXTERN PetscReal SamControlGet(const SamControl *control, const SamCondition *condition);
-PETSC_INTERN void      SamControlSetCondition(SamControl *control, const SamCondition *condition, PetscReal value);
+
+/* SamControlSetCondition - sets the value of a condition. Not collective. */
+PETSC_INTERN void SamControlSetCondition(SamControl *control, const SamCondition *condition, PetscReal value);
+
 /*
-  SamControlSet - prescribes a component by the name of its load, displacement or creepage ("load_tx", "disp_x",
-  "creep_x"; N, N m, m, rad, 1 or 1/m), or a condition by its name. `conditions`: NULL if there are none. Not
-  collective. Errors: PETSC_ERR_ARG_UNKNOWN_TYPE for any other name; the message has the nearest one.
+  SamControlSet - prescribes a component by the name of its load, displacement or creepage, or a condition by its name.
+
+  Not collective.
+
+  In,out: control    - the control
+  In:     conditions - conditions of the problem; NULL: there are none
+          name       - the name: "load_tx", "disp_x", "creep_x" ..., or that of a condition
+          value      - the value (N, N m, m, rad, 1 or 1/m, or the unit of the condition)
+
+  Errors: PETSC_ERR_ARG_UNKNOWN_TYPE for any other name; the message has the nearest one.
 */
 PETSC_EXTERN PetscErrorCode SamControlSet(SamControl *control, SamConditions conditions, const char name[],
                                           PetscReal value);
-/* SamControlWay, SamControlSetWay - return and set the way in which a component is given. Not collective. */
+
+/*
+  SamControlWay - returns the way in which a component is given.
+
+  Not collective.
+
+  In:     control   - the control
+          component - the component, of SamComponent
+
+  Errors: none; it returns no error code.
+*/
 PETSC_EXTERN SamWay SamControlWay(const SamControl *control, PetscInt component);
-PETSC_INTERN void   SamControlSetWay(SamControl *control, PetscInt component, SamWay way);
+
+/* SamControlSetWay - sets the way in which a component is given. Not collective. */
+PETSC_INTERN void SamControlSetWay(SamControl *control, PetscInt component, SamWay way);
+
 /*
   The parts of a control are its prescribed values in one row: the loads, displacements or creepages of the six
   components, then the conditions of a list. SamControlCount - returns the number of parts. SamControlPart - returns the

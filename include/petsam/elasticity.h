@@ -47,61 +47,219 @@ typedef struct {
 } SamElasticityTraits;
 
 /*
-  SamElasticityCreate - creates an elasticity of type halfspace, or of type plane on a grid of one row; it references
-  the pair and the grid. The kernels for products are computed at their first use. Collective.
+  SamElasticityCreate - creates an elasticity of type halfspace, or of type plane on a grid of one row.
+
+  Collective.
+
+  In:     grid       - the grid; referenced
+          pair       - the bodies; referenced
+  Out:    elasticity - the elasticity
+
+  Errors: none of its own.
+
+  The kernels for products are computed at their first use.
 */
 PETSC_EXTERN PetscErrorCode SamElasticityCreate(SamGrid grid, SamPair pair, SamElasticity *elasticity);
+
 /*
-  SamElasticitySetType - sets the type, and discards the coarser operators and the parts. Collective. Errors:
-  PETSC_ERR_ARG_OUTOFRANGE for a type that is not registered; PETSC_ERR_ORDER if a problem or a solver already
+  SamElasticitySetType - sets the type, and discards the coarser operators and the parts.
+
+  Collective.
+
+  In:     elasticity - the elasticity
+          type       - name of a registered type
+
+  Errors: PETSC_ERR_ARG_OUTOFRANGE for a type that is not registered; PETSC_ERR_ORDER if a problem or a solver already
   references the elasticity.
+
+  The option -elasticity sets the type, too.
 */
-PETSC_EXTERN PetscErrorCode    SamElasticitySetType(SamElasticity elasticity, SamElasticityType type);
-PETSC_EXTERN SamElasticityType SamElasticityGetType(SamElasticity elasticity); /* borrowed */
+PETSC_EXTERN PetscErrorCode SamElasticitySetType(SamElasticity elasticity, SamElasticityType type);
+
 /*
-  SamElasticityRegister - adds a type; `create` sets an object's methods and traits, see private/elasticityimpl.h. Not
-  collective, but to be called on all ranks.
+  SamElasticityGetType - returns the type, borrowed.
+
+  Not collective.
+
+  In:     elasticity - the elasticity
+
+  Errors: none; it returns no error code.
+*/
+PETSC_EXTERN SamElasticityType SamElasticityGetType(SamElasticity elasticity);
+
+/*
+  SamElasticityRegister - adds a type of elasticity, or replaces the one of that name.
+
+  Not collective, but to be called on all ranks.
+
+  In:     name   - name of the type
+          create - function that sets an object's methods and traits, see private/elasticityimpl.h
+
+  Errors: none of its own.
 */
 PETSC_EXTERN PetscErrorCode SamElasticityRegister(const char name[], PetscErrorCode (*create)(SamElasticity));
-/* SamElasticitySetOptionsPrefix - sets the prefix of the names of options; NULL: none. Not collective. */
-PETSC_EXTERN PetscErrorCode SamElasticitySetOptionsPrefix(SamElasticity elasticity, const char prefix[]);
+
 /*
-  SamElasticitySetFromOptions - reads -elasticity (type), -fft_effort, -fft_exchange, and the options of the type.
-  Collective. Errors: SAM_ERR_USER.
+  SamElasticitySetOptionsPrefix - sets the prefix of the names of options.
+
+  Not collective.
+
+  In:     elasticity - the elasticity
+          prefix     - the prefix, without dash; copied; NULL: none
+
+  Errors: PETSC_ERR_ARG_SIZ for a prefix that is too long.
+*/
+PETSC_EXTERN PetscErrorCode SamElasticitySetOptionsPrefix(SamElasticity elasticity, const char prefix[]);
+
+/*
+  SamElasticitySetFromOptions - reads the type, the settings of the transforms, and the options of the type.
+
+  Collective.
+
+  In:     elasticity - the elasticity
+
+  Options: -elasticity (type), -fft_effort, -fft_exchange, and those of the type.
+  Errors: SAM_ERR_USER for a wrong value, or layers that the type does not support.
 */
 PETSC_EXTERN PetscErrorCode SamElasticitySetFromOptions(SamElasticity elasticity);
+
 /*
-  SamElasticitySetUp - prepares the operator; products call it themselves, and calling it again does nothing.
+  SamElasticitySetUp - prepares the operator.
+
   Collective.
+
+  In:     elasticity - the elasticity
+
+  Errors: PETSC_ERR_ARG_SIZ for a plane type on a grid of several rows, or another type on a grid of one row.
+
+  Products call it themselves, and calling it again does nothing.
 */
 PETSC_EXTERN PetscErrorCode SamElasticitySetUp(SamElasticity elasticity);
+
+/*
+  SamElasticityDestroy - drops a reference of the elasticity, the last one frees it; sets the handle to NULL.
+
+  Collective.
+
+  In,out: elasticity - the elasticity; NULL on return
+
+  Errors: none of its own.
+*/
 PETSC_EXTERN PetscErrorCode SamElasticityDestroy(SamElasticity *elasticity);
 
-PETSC_EXTERN SamGrid             SamElasticityGetGrid(SamElasticity elasticity); /* borrowed */
-PETSC_EXTERN SamPair             SamElasticityGetPair(SamElasticity elasticity); /* borrowed */
-PETSC_EXTERN SamElasticityTraits SamElasticityGetTraits(SamElasticity elasticity);
 /*
-  SamElasticityCreateFromParameters - creates the bodies that the parameters of a run describe, on a grid. `source`
-  names the file of the parameters in messages. Collective. Errors: SAM_ERR_FILE for a type that is not registered, and
-  for parameters that are missing or invalid.
+  SamElasticityGetGrid - returns the grid, borrowed.
+
+  Not collective.
+
+  In:     elasticity - the elasticity
+
+  Errors: none; it returns no error code.
+*/
+PETSC_EXTERN SamGrid SamElasticityGetGrid(SamElasticity elasticity);
+
+/*
+  SamElasticityGetPair - returns the pair of bodies, borrowed.
+
+  Not collective.
+
+  In:     elasticity - the elasticity
+
+  Errors: none; it returns no error code.
+*/
+PETSC_EXTERN SamPair SamElasticityGetPair(SamElasticity elasticity);
+
+/*
+  SamElasticityGetTraits - returns the properties of the type.
+
+  Not collective.
+
+  In:     elasticity - the elasticity
+
+  Errors: none; it returns no error code.
+*/
+PETSC_EXTERN SamElasticityTraits SamElasticityGetTraits(SamElasticity elasticity);
+
+/*
+  SamElasticityCreateFromParameters - creates the bodies that the parameters of a run describe, on a grid.
+
+  Collective.
+
+  In:     grid       - the grid; referenced
+          parameters - parameters of the run
+          source     - the file of the parameters, for messages
+  Out:    elasticity - the elasticity
+
+  Errors: SAM_ERR_FILE for a type that is not registered or does not fit the grid, and for parameters that are missing
+  or invalid.
 */
 PETSC_EXTERN PetscErrorCode SamElasticityCreateFromParameters(SamGrid grid, const SamParameters *parameters,
                                                               const char source[], SamElasticity *elasticity);
 
 /*
-  The products with the operator. Fields p, u_z have one component; q, u_t have two. Input and output may be the same
-  vector. All are collective.
+  SamElasticityApplyNormal - applies the operator: computes the normal displacement that the pressure causes.
+
+  Collective.
+
+  In:     elasticity - the elasticity
+          p          - pressure (Pa), one component
+  Out:    u_z        - normal displacement (m), one component; it may be the same vector as p
+
+  Errors: PETSC_ERR_SUP if the type has no such product; those of SamElasticitySetUp().
 */
-PETSC_EXTERN PetscErrorCode SamElasticityApplyNormal(SamElasticity elasticity, Vec p, Vec u_z);     /* u_z from p */
-PETSC_EXTERN PetscErrorCode SamElasticityApplyTangential(SamElasticity elasticity, Vec q, Vec u_t); /* u_t from q */
-PETSC_EXTERN PetscErrorCode SamElasticityApplyNormalToTangential(SamElasticity elasticity, Vec p,
-                                                                 Vec u_t); /* u_t from p */
-PETSC_EXTERN PetscErrorCode SamElasticityApplyTangentialToNormal(SamElasticity elasticity, Vec q,
-                                                                 Vec u_z); /* u_z from q */
+PETSC_EXTERN PetscErrorCode SamElasticityApplyNormal(SamElasticity elasticity, Vec p, Vec u_z);
+
+/*
+  SamElasticityApplyTangential - applies the operator: computes the tangential displacement that the shear causes.
+
+  Collective.
+
+  In:     elasticity - the elasticity
+          q          - shear (Pa), two components
+  Out:    u_t        - tangential displacement (m), two components; it may be the same vector as q
+
+  Errors: PETSC_ERR_SUP if the type has no such product; those of SamElasticitySetUp().
+*/
+PETSC_EXTERN PetscErrorCode SamElasticityApplyTangential(SamElasticity elasticity, Vec q, Vec u_t);
+
+/*
+  SamElasticityApplyNormalToTangential - applies the operator: computes the tangential displacement that the pressure
+  causes.
+
+  Collective.
+
+  In:     elasticity - the elasticity
+          p          - pressure (Pa); of a vector of two components the first is taken
+  Out:    u_t        - tangential displacement (m), two components; it may be the same vector as p
+
+  Errors: PETSC_ERR_SUP if the type has no such product; those of SamElasticitySetUp().
+*/
+PETSC_EXTERN PetscErrorCode SamElasticityApplyNormalToTangential(SamElasticity elasticity, Vec p, Vec u_t);
+
+/*
+  SamElasticityApplyTangentialToNormal - applies the operator: computes the normal displacement that the shear causes.
+
+  Collective.
+
+  In:     elasticity - the elasticity
+          q          - shear (Pa), two components
+  Out:    u_z        - normal displacement (m), one component; it may be the same vector as q
+
+  Errors: PETSC_ERR_SUP if the type has no such product; those of SamElasticitySetUp().
+*/
+PETSC_EXTERN PetscErrorCode SamElasticityApplyTangentialToNormal(SamElasticity elasticity, Vec q, Vec u_z);
 
 /*
   SamElasticityGetSelfInfluence - computes the displacement of the centre of a cell under unit traction on that cell
-  alone, m/Pa: u_z from p, and the larger of u_x from q_x and u_y from q_y. Collective.
+  alone.
+
+  Collective.
+
+  In:     elasticity - the elasticity
+  Out:    normal     - u_z from p (m/Pa); NULL: not wanted
+          tangential - the larger of u_x from q_x and u_y from q_y (m/Pa); NULL: not wanted
+
+  Errors: those of SamElasticitySetUp().
 */
 PETSC_EXTERN PetscErrorCode SamElasticityGetSelfInfluence(SamElasticity elasticity, PetscReal *normal,
                                                           PetscReal *tangential);

@@ -13,7 +13,17 @@ typedef struct {
   PetscBool        send; /* true: ranks exchange rows and columns by messages, even if they could share memory */
 } SamFourierSettings;
 
-/* SamFourierSettingsFromOptions - reads -fft_effort and -fft_exchange. Collective. Errors: SAM_ERR_USER. */
+/*
+  SamFourierSettingsFromOptions - reads the settings of transforms from the options.
+
+  Collective on the communicator of the options.
+
+  In,out: settings - the settings; on entry the defaults
+  In:     from     - communicator and prefix of the options
+
+  Options: -fft_effort, -fft_exchange.
+  Errors: SAM_ERR_USER for a wrong value.
+*/
 PETSC_EXTERN PetscErrorCode SamFourierSettingsFromOptions(SamFourierSettings *settings, const SamOptions *from);
 
 #endif
