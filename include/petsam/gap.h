@@ -21,35 +21,98 @@ typedef const char *SamGapType;
 #define SAM_GAP_FLAT   "flat"   /* two planes: 0 */
 #define SAM_GAP_FILE   "file"   /* -gap_file, -gap_dataset (/height): an HDF5 dataset of shape (ny, nx), m */
 
-/* SamGapCreate - creates a gap without a type. Its errors are raised on `comm`. Collective. */
-PETSC_EXTERN PetscErrorCode SamGapCreate(MPI_Comm comm, SamGap *gap);
-/* SamGapDestroy - frees the gap and sets the handle to NULL. Not collective. */
-PETSC_EXTERN PetscErrorCode SamGapDestroy(SamGap *gap);
 /*
-  SamGapRegister - adds a type, or replaces the one of that name. `create` sets the type's methods; see
-  <petsam/private/gapimpl.h>. Not collective, but to be called on all ranks.
+  SamGapCreate - creates a gap without a type.
+
+  Collective.
+
+  In:     comm - communicator on which the errors of the gap are raised
+  Out:    gap  - the gap
+
+  Errors: none of its own.
+*/
+PETSC_EXTERN PetscErrorCode SamGapCreate(MPI_Comm comm, SamGap *gap);
+
+/*
+  SamGapDestroy - frees the gap and sets the handle to NULL.
+
+  Not collective.
+
+  In,out: gap - the gap; NULL on return
+
+  Errors: none of its own.
+*/
+PETSC_EXTERN PetscErrorCode SamGapDestroy(SamGap *gap);
+
+/*
+  SamGapRegister - adds a type of gap, or replaces the one of that name.
+
+  Not collective, but to be called on all ranks.
+
+  In:     name   - name of the type
+          create - function that sets the type's methods; see <petsam/private/gapimpl.h>
+
+  Errors: none of its own.
 */
 PETSC_EXTERN PetscErrorCode SamGapRegister(const char name[], PetscErrorCode (*create)(SamGap));
-/* SamGapSetOptionsPrefix - sets the prefix of its options, before `gap_`; NULL: none. Not collective. */
-PETSC_EXTERN PetscErrorCode SamGapSetOptionsPrefix(SamGap gap, const char prefix[]);
+
 /*
-  SamGapSetType - chooses the shape, whose parameters are then unset. Option -gap_type. Collective.
-  Errors: SAM_ERR_USER for an unknown type, with the list of registered types.
+  SamGapSetOptionsPrefix - sets the prefix of the options of a gap, before `gap_`.
+
+  Not collective.
+
+  In:     gap    - the gap
+          prefix - the prefix, without dash; copied; NULL: none
+
+  Errors: PETSC_ERR_ARG_SIZ for a prefix that is too long.
+*/
+PETSC_EXTERN PetscErrorCode SamGapSetOptionsPrefix(SamGap gap, const char prefix[]);
+
+/*
+  SamGapSetType - chooses the shape, whose parameters are then unset.
+
+  Collective.
+
+  In:     gap  - the gap
+          type - name of a registered type
+
+  Errors: SAM_ERR_USER for an unknown type, with the list of registered types; PETSC_ERR_PLIB for a registered type that
+  sets too many parameters or no heights.
+
+  The option -gap_type sets the type, too.
 */
 PETSC_EXTERN PetscErrorCode SamGapSetType(SamGap gap, SamGapType type);
+
 /*
-  SamGapSetParameter - sets a number that defines the shape, by the name of its option. `gap_` may be omitted: "radius1"
-  for -gap_radius1. Not collective, the same on all ranks. Errors: PETSC_ERR_ARG_OUTOFRANGE for a name that the type
-  does not have, or a value out of its range.
+  SamGapSetParameter - sets a number that defines the shape, by the name of its option.
+
+  Not collective, the same on all ranks.
+
+  In:     gap   - the gap, with a type
+          name  - name of the option, without dash; `gap_` may be omitted: "radius1" for -gap_radius1
+          value - the number (unit of the option: m, or degrees for an angle)
+
+  Errors: PETSC_ERR_ARG_OUTOFRANGE for a name that the type does not have, or a value out of its range.
 */
 PETSC_EXTERN PetscErrorCode SamGapSetParameter(SamGap gap, const char name[], PetscReal value);
+
 /*
-  SamGapSetFile - sets the HDF5 file (NULL: none) and its dataset (NULL: /height) of the type `file`, or, with `rough`,
-  of a roughness (m) that is added to any type. Options -gap_file, -gap_dataset, and -gap_rough_file,
-  -gap_rough_dataset. Datasets of shape (ny, nx) are separations in m unless their attributes units and quantity say
-  otherwise (examples/SURFACES.md). Not collective, the same on all ranks.
+  SamGapSetFile - sets the HDF5 file of the type `file`, or that of a roughness, which is added to any type.
+
+  Not collective, the same on all ranks.
+
+  In:     gap     - the gap
+          rough   - true: the file has a roughness; false: it has the heights of the type `file`
+          file    - name of the file; NULL: none
+          dataset - name of the dataset; NULL: /height
+
+  Errors: none of its own; SamGapFill() reads the file.
+
+  Datasets of shape (ny, nx) are separations in m unless their attributes units and quantity say otherwise
+  (examples/manual/SURFACES.md). The options -gap_file, -gap_dataset, and -gap_rough_file, -gap_rough_dataset set the same.
 */
 PETSC_EXTERN PetscErrorCode SamGapSetFile(SamGap gap, PetscBool rough, const char file[], const char dataset[]);
+
 /*
   SamGapGetFileGrid - gets the grid of the file of the gap or of the roughness, set by the setters or options: cells,
   full widths and centre (m) in x and y, all 0 without a file. It does not read files if -grid_n and -grid_size are
@@ -57,20 +120,39 @@ PETSC_EXTERN PetscErrorCode SamGapSetFile(SamGap gap, PetscBool rough, const cha
   SAM_ERR_USER, SAM_ERR_FILE.
 */
 PETSC_INTERN PetscErrorCode SamGapGetFileGrid(SamGap gap, PetscInt n[2], PetscReal width[2], PetscReal center[2]);
+
 /*
-  SamGapSetFromOptions - reads -gap_type (required unless a type has been set, or there is -gap_file, whose type is
-  `file`), the options of that type, required unless they have been set or have a default, and the options of a
-  roughness. While the help is printed, the options of all types are listed, none is required, and the gap stays flat.
-  Collective. Errors: SAM_ERR_USER for missing or wrong values.
+  SamGapSetFromOptions - reads the type of the gap, its parameters, and a roughness from the options.
+
+  Collective.
+
+  In:     gap - the gap
+
+  Options: -gap_type, required unless a type has been set, or there is -gap_file, whose type is `file`; the options of
+  that type, required unless they have been set or have a default; those of a roughness, -gap_rough_file and
+  -gap_rough_dataset.
+  Errors: SAM_ERR_USER for missing or wrong values.
+
+  While the help is printed, the options of all types are listed, none is required, and the gap stays flat.
 */
 PETSC_EXTERN PetscErrorCode SamGapSetFromOptions(SamGap gap);
+
 /*
-  SamGapFill - writes the separation with the roughness (m) into h (one component). Collective. Errors: PETSC_ERR_ORDER
-  without a type; SAM_ERR_FILE for a file that cannot be read, is not HDF5, or lacks the dataset, and for a dataset of
-  another shape or size, with values that are not finite, or with an unknown unit or quantity; SAM_ERR_USER if the
-  parameters of the shape overflow on this grid.
+  SamGapFill - computes the separation of the undeformed bodies with the roughness.
+
+  Collective.
+
+  In:     gap  - the gap, with its type and parameters
+          grid - the grid
+  Out:    h    - separation (m), one component
+
+  Errors: PETSC_ERR_ORDER without a type, or with a parameter or a file that is not set; SAM_ERR_FILE for a file that
+  cannot be read, is not HDF5, or lacks the dataset, and for a dataset of another shape or size, with values that are
+  not finite, or with an unknown unit or quantity; SAM_ERR_USER if the parameters of the shape contradict each other or
+  overflow on this grid.
 */
 PETSC_EXTERN PetscErrorCode SamGapFill(SamGap gap, SamGrid grid, Vec h);
+
 /*
   SamGapGetHeight - returns the separation (m) of the shape at a point (m), without roughness; 0 for a type whose
   heights are given cell by cell. Not collective.

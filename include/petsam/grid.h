@@ -29,14 +29,25 @@ struct _n_SamGrid {
 };
 
 /*
-  SamGridCreate - creates a grid of n[0] * n[1] cells of full width `width` about `center` (m). Collective. The grid and
-  all objects on it use a communicator of the library, PETSc's duplicate of `comm`, so that their messages never meet
-  those of the caller.
+  SamGridCreate - creates a grid of rectangular cells.
+
+  Collective.
+
+  In:     comm   - communicator whose ranks share the rows of the grid
+          n      - numbers of cells in x and y
+          width  - full widths in x and y (m)
+          center - centre in x and y (m)
+  Out:    grid   - the grid
+
   Errors: PETSC_ERR_ARG_OUTOFRANGE if n[0] < 2 or n[1] < 1, a width is not positive and finite, or the number of cells
   overflows a PetscInt.
+
+  The grid and all objects on it use a communicator of the library, PETSc's duplicate of `comm`, so that their messages
+  never meet those of the caller.
 */
 PETSC_EXTERN PetscErrorCode SamGridCreate(MPI_Comm comm, const PetscInt n[2], const PetscReal width[2],
                                           const PetscReal center[2], SamGrid *grid);
+
 /*
   SamGridCreateFromOptions - creates a grid from -grid_n, -grid_size, -grid_center. On entry `n`, `width` and `center`
   are the defaults; -grid_n and -grid_size are required if their default is 0. On return they are those of the grid.
@@ -44,31 +55,89 @@ PETSC_EXTERN PetscErrorCode SamGridCreate(MPI_Comm comm, const PetscInt n[2], co
 */
 PETSC_INTERN PetscErrorCode SamGridCreateFromOptions(const SamOptions *from, PetscBool row, PetscInt n[2],
                                                      PetscReal width[2], PetscReal center[2], SamGrid *grid);
+
+/*
+  SamGridDestroy - drops a reference of the grid, the last one frees it; sets the handle to NULL.
+
+  Collective.
+
+  In,out: grid - the grid; NULL on return
+
+  Errors: none of its own.
+*/
 PETSC_EXTERN PetscErrorCode SamGridDestroy(SamGrid *grid);
 
 /*
-  SamGridCreateVec - creates a field with `components` values per cell. On each rank the local part holds one component
-  after the other, each as (rows, nx). It is zero, and takes memory only where it is written to, so that a field that
-  stays zero, as the shear without friction, costs nothing. Collective.
+  SamGridCreateVec - creates a field of zeros.
+
+  Collective.
+
+  In:     grid       - the grid
+          components - number of values per cell
+  Out:    field      - the field (any unit); VecDestroy() frees it
+
+  Errors: none of its own.
+
+  On each rank the local part holds one component after the other, each as (rows, nx). The field takes memory only where
+  it is written to, so that a field that stays zero, as the shear without friction, costs nothing.
 */
 PETSC_EXTERN PetscErrorCode SamGridCreateVec(SamGrid grid, PetscInt components, Vec *field);
+
 /*
-  SamGridNorm - computes the NORM_1 or NORM_2 of a field of one or two components, as VecNorm() does, but with a result
-  that is the same to the last bit on any number of ranks. Collective.
+  SamGridNorm - computes the 1-norm or the 2-norm of a field, as VecNorm() does.
+
+  Collective.
+
+  In:     grid  - the grid
+          field - field of one or two components (any unit)
+          type  - NORM_1 or NORM_2
+  Out:    norm  - the norm (unit of the field)
+
+  Errors: PETSC_ERR_SUP for another type of norm.
+
+  Unlike that of VecNorm(), the result is the same to the last bit on any number of ranks.
 */
 PETSC_EXTERN PetscErrorCode SamGridNorm(SamGrid grid, Vec field, NormType type, PetscReal *norm);
 
-/* SamGridIsRow - returns true in plane strain, where fields do not vary along y. Not collective. */
+/*
+  SamGridIsRow - returns true in plane strain, where fields do not vary along y.
+
+  Not collective.
+
+  In:     grid - the grid
+
+  Errors: none; it returns no error code.
+*/
 static inline PetscBool SamGridIsRow(SamGrid grid)
 {
   return grid->axes == 1 ? PETSC_TRUE : PETSC_FALSE;
 }
 
-/* SamGridX, SamGridY - return the coordinate of the centre of column i and of row j (both global), m. */
+/*
+  SamGridX - returns the x coordinate of the centre of a column of cells (m).
+
+  Not collective.
+
+  In:     grid - the grid
+          i    - index of the column in the whole grid
+
+  Errors: none; it returns no error code.
+*/
 static inline PetscReal SamGridX(SamGrid grid, PetscInt i)
 {
   return grid->center[0] + ((PetscReal)i + 0.5 - 0.5 * (PetscReal)grid->nx) * grid->dx;
 }
+
+/*
+  SamGridY - returns the y coordinate of the centre of a row of cells (m).
+
+  Not collective.
+
+  In:     grid - the grid
+          j    - index of the row in the whole grid
+
+  Errors: none; it returns no error code.
+*/
 static inline PetscReal SamGridY(SamGrid grid, PetscInt j)
 {
   return grid->center[1] + ((PetscReal)j + 0.5 - 0.5 * (PetscReal)grid->ny) * grid->dy;

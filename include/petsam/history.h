@@ -20,9 +20,16 @@ typedef struct _n_SamHistory *SamHistory;
 struct _n_SamArguments;
 
 /*
-  SamHistoryClaimOption - makes -history an alias of -load_history, the name in the options database. It must be called
-  before PetscInitialize(), since PETSc has an option -history of its own, which would append a log to the user's file.
+  SamHistoryClaimOption - makes -history an alias of -load_history, the name in the options database.
+
   Not collective.
+
+  In: nothing.
+
+  Errors: none of its own.
+
+  It must be called before PetscInitialize(), since PETSc has an option -history of its own, which would append a log to
+  the user's file.
 */
 PETSC_EXTERN PetscErrorCode SamHistoryClaimOption(void);
 

@@ -31,24 +31,55 @@ typedef const char       *SamLawType;
 #define SAM_FRICTION_SCALE "friction_scale"
 
 /*
-  SamLawCreate - creates a law of that type, with the type's defaults; it references the elasticity. Collective. Errors:
-  PETSC_ERR_ARG_UNKNOWN_TYPE for a type that is not registered.
-  SamLawReference, SamLawDestroy - add and drop a reference; the last one dropped frees the law. Collective.
+  SamLawCreate - creates a law with the defaults of its type.
+
+  Collective.
+
+  In:     elasticity - the elasticity of the bodies; referenced
+          type       - name of a registered type
+  Out:    law        - the law
+
+  Errors: PETSC_ERR_ARG_UNKNOWN_TYPE for a type that is not registered.
 */
 PETSC_EXTERN PetscErrorCode SamLawCreate(SamElasticity elasticity, SamLawType type, SamLaw *law);
-PETSC_INTERN PetscErrorCode SamLawReference(SamLaw law);
-PETSC_EXTERN PetscErrorCode SamLawDestroy(SamLaw *law);
+
 /*
-  SamLawRegister - adds a type; `create` sets the methods and defaults of a law, see private/lawimpl.h. Laws act in the
-  order in which their types were registered. A type replaces an earlier type of that name. Not collective, but to be
-  called on all ranks. Errors: PETSC_ERR_ARG_OUTOFRANGE for more than SAM_LAWS types.
-  SamLawGetTypes - gets the registered types, in that order; borrowed. Not collective.
+  SamLawDestroy - drops a reference of the law, the last one frees it; sets the handle to NULL.
+
+  Collective.
+
+  In,out: law - the law; NULL on return
+
+  Errors: none of its own.
+*/
+PETSC_EXTERN PetscErrorCode SamLawDestroy(SamLaw *law);
+
+/* SamLawReference - adds a reference. Not collective. */
+PETSC_INTERN PetscErrorCode SamLawReference(SamLaw law);
+
+#define SAM_LAWS 32 /* most types of laws */
+
+/*
+  SamLawRegister - adds a type of law, or replaces an earlier type of that name.
+
+  Not collective, but to be called on all ranks.
+
+  In:     name   - name of the type
+          create - function that sets the methods and defaults of a law, see private/lawimpl.h
+
+  Errors: PETSC_ERR_ARG_OUTOFRANGE for more than SAM_LAWS types.
+
+  Laws act in the order in which their types were registered.
+*/
+PETSC_EXTERN PetscErrorCode SamLawRegister(const char name[], PetscErrorCode (*create)(SamLaw));
+
+/*
+  SamLawGetTypes - gets the registered types, in the order of their registration; borrowed. Not collective.
   SamLawIsRegistered - returns true if a type of that name is registered. Not collective.
 */
-#define SAM_LAWS 32
-PETSC_EXTERN PetscErrorCode SamLawRegister(const char name[], PetscErrorCode (*create)(SamLaw));
 PETSC_INTERN PetscErrorCode SamLawGetTypes(PetscInt *count, const SamLawType **types);
 PETSC_INTERN PetscBool      SamLawIsRegistered(const char name[]);
+
 /*
   SamLawSetFromOptions - reads the options of the law; `asked`: true if they select it. Collective. Errors:
   SAM_ERR_USER, SAM_ERR_FILE.
@@ -61,19 +92,42 @@ PETSC_INTERN PetscErrorCode SamLawAddConditions(SamLaw law, SamConditions condit
 PETSC_INTERN PetscErrorCode SamLawAddParameters(SamLaw law, SamParameters *parameters);
 
 /*
-  SamLawSetHardness - sets, for the type hardness, the largest pressure (Pa), at which the surfaces yield; infinite:
-  none. Not collective, the same on all ranks. Errors: PETSC_ERR_ARG_OUTOFRANGE unless it is > 0.
+  SamLawSetHardness - sets, for the type hardness, the maximum pressure, at which the surfaces yield.
+
+  Not collective, the same on all ranks.
+
+  In:     law      - the law
+          hardness - maximum pressure (Pa); infinite: none
+
+  Errors: PETSC_ERR_ARG_WRONG for a law of another type; PETSC_ERR_ARG_OUTOFRANGE unless the hardness is > 0.
 */
+PETSC_EXTERN PetscErrorCode SamLawSetHardness(SamLaw law, PetscReal hardness);
+
 /*
-  SamLawGetFriction - gets, for the type coulomb, the coefficient of friction; 0 if it is a field. Not collective.
+  SamLawGetFriction - gets, for the type coulomb, the coefficient of friction.
+
+  Not collective.
+
+  In:     law      - the law
+  Out:    friction - the coefficient (1); 0 if it is a field
+
   Errors: PETSC_ERR_ARG_WRONG for a law without such a coefficient.
 */
 PETSC_EXTERN PetscErrorCode SamLawGetFriction(SamLaw law, PetscReal *friction);
-PETSC_EXTERN PetscErrorCode SamLawSetHardness(SamLaw law, PetscReal hardness);
+
 /*
-  SamLawSetSurface - sets, for the type slide, the part of the separation (m, one component) that moves with body 0 or
-  1. Its values are at the points of the body that lie under the cells before any motion; copied. Collective. Errors:
-  PETSC_ERR_ARG_WRONG for a law of another type.
+  SamLawSetSurface - sets, for the type slide, the part of the separation that moves with a body.
+
+  Collective.
+
+  In:     law     - the law
+          body    - index of the body: 0 or 1
+          surface - part of the separation (m), one component; copied
+
+  Errors: PETSC_ERR_ARG_WRONG for a law of another type; PETSC_ERR_ARG_SIZ for a vector of another size.
+
+  The values are at the points of the body that lie under the cells before any motion.
 */
 PETSC_EXTERN PetscErrorCode SamLawSetSurface(SamLaw law, PetscInt body, Vec surface);
+
 #endif

@@ -22,16 +22,37 @@ static inline SamSolver SamNormalAsSolver(SamNormal normal)
 #define SAM_NORMAL_ACTIVESET "activeset" /* preconditioned projected CG on an active set, nested grids */
 
 /*
-  SamNormalCreate - creates a solver of the default type, activeset, for the grid of this elasticity, which it
-  references. Collective.
+  SamNormalCreate - creates a solver of the default type, activeset, for the grid of an elasticity.
+
+  Collective.
+
+  In:     elasticity - the elasticity; referenced
+  Out:    normal     - the solver
+
+  Errors: none of its own.
 */
 PETSC_EXTERN PetscErrorCode SamNormalCreate(SamElasticity elasticity, SamNormal *normal);
-/* SamNormalDestroy - frees the solver and sets the handle to NULL. Collective. */
+
+/*
+  SamNormalDestroy - frees the solver and sets the handle to NULL.
+
+  Collective.
+
+  In,out: normal - the solver; NULL on return
+
+  Errors: none of its own.
+*/
 PETSC_EXTERN PetscErrorCode SamNormalDestroy(SamNormal *normal);
 
 /*
-  SamNormalRegister - adds a type of normal solver, or replaces the one of that name. `create` sets the solver's
-  methods; see <petsam/private/solverimpl.h>. Not collective.
+  SamNormalRegister - adds a type of normal solver, or replaces the one of that name.
+
+  Not collective.
+
+  In:     name   - name of the type
+          create - function that sets the solver's methods; see <petsam/private/solverimpl.h>
+
+  Errors: none of its own.
 */
 PETSC_EXTERN PetscErrorCode SamNormalRegister(const char name[], PetscErrorCode (*create)(SamSolver));
 
@@ -49,16 +70,33 @@ PETSC_INTERN PetscErrorCode SamNormalSetPressureLimit(SamNormal normal, PetscRea
 PETSC_INTERN PetscBool      SamNormalLimitsPressure(SamNormal normal);
 
 /*
-  SamNormalSolve - finds p (Pa, one component) for the separation h (m, one component). With `guess` p is the initial
-  guess, and only the finest grid is used; otherwise p is overwritten. On return the balance holds all loads and
-  rigid-body displacements. The relative error is the maximum |g| where p > 0 and the maximum -g elsewhere, over the
-  maximum |S p|; where p is at the limit, only g > 0 counts. Where displacements are measured from the mean planes
-  (SamElasticityTraits), a given approach must be less than the mean separation unless there is a pressure limit; else
-  the reason is NO_EQUILIBRIUM. It is also NO_EQUILIBRIUM for a load that exceeds the limit on the whole grid.
-  Collective. A solve that does not converge has a reason, but is no error unless SamSolverSetErrorIfNotConverged()
-  makes it one. Errors: SAM_ERR_USER for a normal load below zero.
+  SamNormalSolve - finds the pressure for a separation of the undeformed bodies.
+
+  Collective.
+
+  In:     normal  - the solver
+          h       - separation of the undeformed bodies (m), one component
+  In,out: balance - a normal balance; on entry the given loads or rigid-body displacements, on return all of them (N, N
+                    m, m, rad)
+  In:     guess   - true if p is an initial guess; then only the finest grid is used
+  In,out: p       - pressure (Pa), one component; on entry the guess, or any values without a guess
+
+  Errors: SAM_ERR_USER for a normal load below zero; PETSC_ERR_SUP for a pressure limit that the method does not have;
+  PETSC_ERR_ARG_WRONG for a tangential balance; PETSC_ERR_ARG_SIZ for a separation of another size;
+  PETSC_ERR_NOT_CONVERGED only if SamSolverSetErrorIfNotConverged() has been called.
+
+  A solve that does not converge has a reason (SamSolverGetReason()), but is no error unless
+  SamSolverSetErrorIfNotConverged() makes it one.
+
+  The relative error is the maximum |g| where p > 0 and the maximum -g elsewhere, over the maximum |S p|; where p is at
+  the limit, only g > 0 counts.
+
+  Where displacements are measured from the mean planes (SamElasticityTraits), a given approach must be less than the
+  mean separation unless there is a pressure limit; else the reason is NO_EQUILIBRIUM. It is also NO_EQUILIBRIUM for a
+  load that exceeds the limit on the whole grid.
 */
 PETSC_EXTERN PetscErrorCode SamNormalSolve(SamNormal normal, Vec h, SamBalance *balance, PetscBool guess, Vec p);
+
 /*
   SamNormalSolveYielding - solves the same problem for surfaces that also recede in each cell by `diagonal` (m/Pa, one
   component, >= 0) times the pressure of that cell, so that the gap is g = S p + diagonal p + h - (d_z - y r_x + x r_y).

@@ -25,22 +25,58 @@ typedef struct {
 } SamParameters;
 
 /*
-  SamParametersAddReals, SamParametersAddText, SamParametersAddChecksum - append a parameter: 1 to SAM_PARAMETER_VALUES
-  numbers; a text, which is truncated if it is too long; a checksum, for instance of data from a file. Not collective.
+  SamParametersAddReals - appends a parameter of one or more numbers.
+
+  Not collective.
+
+  In,out: parameters - the parameters of a run
+  In:     name       - name of the option that gives it, without dash
+          fixed      - true: a stopped run can only continue with the same values
+          count      - number of values, 1 to SAM_PARAMETER_VALUES
+          values     - the values (unit of the option); copied
+
   Errors: PETSC_ERR_ARG_OUTOFRANGE for another count, or a parameter too many.
 */
 PETSC_EXTERN PetscErrorCode SamParametersAddReals(SamParameters *parameters, const char name[], PetscBool fixed,
                                                   PetscInt count, const PetscReal values[]);
+
+/*
+  SamParametersAddText - appends a parameter that is a text, which is truncated if it is too long.
+
+  Not collective.
+
+  In,out: parameters - the parameters of a run
+  In:     name       - name of the option that gives it, without dash
+          fixed      - true: a stopped run can only continue with the same text
+          text       - the text; copied
+
+  Errors: PETSC_ERR_ARG_OUTOFRANGE for a parameter too many.
+*/
 PETSC_EXTERN PetscErrorCode SamParametersAddText(SamParameters *parameters, const char name[], PetscBool fixed,
                                                  const char text[]);
+
+/*
+  SamParametersAddChecksum - appends a checksum, for instance of data from a file. Not collective. Errors: as above.
+*/
 PETSC_INTERN PetscErrorCode SamParametersAddChecksum(SamParameters *parameters, const char name[], uint64_t checksum);
+
 /*
   SamParametersAddOptions - appends the values of the options of a table that are `recorded`, from the settings. Not
   collective. Errors: as above.
 */
 PETSC_INTERN PetscErrorCode SamParametersAddOptions(SamParameters *parameters, PetscInt count,
                                                     const SamOptionRow rows[], const void *settings);
-/* SamParametersFind - returns the parameter of that name, NULL if there is none; borrowed. Not collective. */
+
+/*
+  SamParametersFind - returns the parameter of a name, NULL if there is none; borrowed.
+
+  Not collective.
+
+  In:     parameters - the parameters of a run
+          name       - name of the parameter
+
+  Errors: none; it returns no error code.
+*/
 PETSC_EXTERN const SamParameter *SamParametersFind(const SamParameters *parameters, const char name[]);
 
 #endif
