@@ -29,29 +29,73 @@ typedef enum {
   SAM_SOLVER_DIVERGED_STAGNATED      = -3, /* no further progress, usually because of rounding */
   SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM = -4  /* no admissible traction balances the loads; for shear: gross slip */
 } SamSolverReason;
-/* SamSolverReasonName - returns the printed name of a reason, for instance CONVERGED_RTOL. Not collective. */
+
+/*
+  SamSolverReasonName - returns the printed name of a reason, for instance CONVERGED_RTOL.
+
+  Not collective.
+
+  In:     reason - the reason
+
+  Errors: none; it returns no error code.
+*/
 PETSC_EXTERN const char *SamSolverReasonName(SamSolverReason reason);
 
 /*
-  SamSolverSetType - chooses the method, one of those registered for the solver's kind. Option -<kind>_type. Collective.
+  SamSolverSetType - chooses the method, one of those registered for the solver's kind.
+
+  Collective.
+
+  In:     solver - the solver
+          type   - name of the method
+
   Errors: SAM_ERR_USER for an unknown type, with the list of registered types.
+
+  The option -<kind>_type sets the type, too.
 */
 PETSC_EXTERN PetscErrorCode SamSolverSetType(SamSolver solver, SamSolverType type);
-PETSC_EXTERN SamSolverType  SamSolverGetType(SamSolver solver);
 
 /*
-  SamSolverSetOptionsPrefix - sets the prefix before `<kind>_` in the names of the options; NULL: none. Not collective.
+  SamSolverGetType - returns the name of the method, borrowed.
+
+  Not collective.
+
+  In:     solver - the solver
+
+  Errors: none; it returns no error code.
+*/
+PETSC_EXTERN SamSolverType SamSolverGetType(SamSolver solver);
+
+/*
+  SamSolverSetOptionsPrefix - sets the prefix before `<kind>_` in the names of the options.
+
+  Not collective.
+
+  In:     solver - the solver
+          prefix - the prefix, without dash; copied; NULL: none
+
+  Errors: PETSC_ERR_ARG_SIZ for a prefix that is too long.
 */
 PETSC_EXTERN PetscErrorCode SamSolverSetOptionsPrefix(SamSolver solver, const char prefix[]);
 
 /*
-  SamSolverSetTolerances - sets the relative error `rtol`, defined at SamNormalSolve() and SamTangentialSolve(), at
-  which the solver stops (option -<kind>_rtol), and the maximum number of iterations on the finest grid, `max_it`; 0:
-  the type's default (option -<kind>_max_it). PETSC_DEFAULT leaves a value unchanged. SamSolverGetTolerances - gets the
-  values in force; NULL for an unused one. Not collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for a value below zero, or
-  rtol 0.
+  SamSolverSetTolerances - sets the relative error and the number of iterations at which the solver stops.
+
+  Not collective.
+
+  In:     solver - the solver
+          rtol   - relative error (1), defined at SamNormalSolve() and SamTangentialSolve(); PETSC_DEFAULT: unchanged
+          max_it - maximum number of iterations on the finest grid; 0: the type's default; PETSC_DEFAULT: unchanged
+
+  Errors: PETSC_ERR_ARG_OUTOFRANGE for a value below zero, or rtol 0.
+
+  The options -<kind>_rtol and -<kind>_max_it set the same.
 */
 PETSC_EXTERN PetscErrorCode SamSolverSetTolerances(SamSolver solver, PetscReal rtol, PetscInt max_it);
+
+/*
+  SamSolverGetTolerances - gets the values in force; NULL for an unused one. Not collective.
+*/
 PETSC_INTERN PetscErrorCode SamSolverGetTolerances(SamSolver solver, PetscReal *rtol, PetscInt *max_it);
 
 /*
@@ -66,28 +110,59 @@ PETSC_INTERN PetscErrorCode SamSolverSetLevels(SamSolver solver, PetscInt levels
 */
 PETSC_INTERN PetscErrorCode SamSolverSetErrorIfNotConverged(SamSolver solver, PetscBool error);
 
-/*
-  SamSolverMonitorSet - adds a function, at most five of them, that is called after every iteration on the finest grid,
-  with the number of iterations so far and the relative error. Option -<kind>_monitor adds one that prints the error.
-  Not collective; monitors are called on all ranks.
-*/
 typedef PetscErrorCode (*SamSolverMonitor)(SamSolver solver, PetscInt it, PetscReal error, void *context);
+
+/*
+  SamSolverMonitorSet - adds a function that is called after every iteration on the finest grid.
+
+  Not collective; monitors are called on all ranks.
+
+  In:     solver  - the solver
+          monitor - the function; it gets the number of iterations so far and the relative error
+          context - passed to the function; may be NULL
+
+  Errors: PETSC_ERR_ARG_OUTOFRANGE for more than five functions.
+
+  The option -<kind>_monitor adds a function that prints the error.
+*/
 PETSC_EXTERN PetscErrorCode SamSolverMonitorSet(SamSolver solver, SamSolverMonitor monitor, void *context);
 
 /*
-  SamSolverSetFromOptions - reads the options named above, those of the type, and -<kind>_view and
-  -<kind>_converged_reason, viewers that are used after every solve. Collective. Errors: SAM_ERR_USER with the option's
-  name for a wrong value.
+  SamSolverSetFromOptions - reads the method of the solver and its settings from the options.
+
+  Collective.
+
+  In:     solver - the solver
+
+  Options: -<kind>_type, -<kind>_rtol, -<kind>_max_it, -<kind>_levels, -<kind>_monitor, -<kind>_error_if_not_converged,
+  those of the type, and -<kind>_view and -<kind>_converged_reason, viewers that are used after every solve.
+  Errors: SAM_ERR_USER with the option's name for a wrong value.
 */
 PETSC_EXTERN PetscErrorCode SamSolverSetFromOptions(SamSolver solver);
 
-/* SamSolverGetReason - returns the reason why the last solve stopped. Not collective. */
+/*
+  SamSolverGetReason - returns the reason why the last solve stopped.
+
+  Not collective.
+
+  In:     solver - the solver
+
+  Errors: none; it returns no error code.
+*/
 PETSC_EXTERN SamSolverReason SamSolverGetReason(SamSolver solver);
 
 /*
-  SamSolverGetStatistics - gets the relative error of the last solve, and its numbers of iterations, of products with
-  the influence operator and of products with the preconditioner, all on the finest grid; NULL for an unused one. Not
-  collective.
+  SamSolverGetStatistics - gets the error and the cost of the last solve; all counts are on the finest grid.
+
+  Not collective.
+
+  In:     solver        - the solver
+  Out:    error         - relative error (1); NULL: not wanted
+          iterations    - number of iterations; NULL: not wanted
+          applies       - number of products with the influence operator; NULL: not wanted
+          preconditions - number of products with the preconditioner; NULL: not wanted
+
+  Errors: none of its own.
 */
 PETSC_EXTERN PetscErrorCode SamSolverGetStatistics(SamSolver solver, PetscReal *error, PetscInt *iterations,
                                                    PetscInt *applies, PetscInt *preconditions);

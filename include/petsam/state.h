@@ -42,19 +42,36 @@ typedef struct {
   PetscInt       layers;    /* number of layers below each cell; 0: a field of the surface */
   PetscBool      separates; /* true: the separation or the offset of later steps depends on it */
 } SamStateField;
+
 /*
-  SamStateFieldSize - returns the number of values of a field per cell, that is of components of its vectors. Not
-  collective.
+  SamStateFieldSize - returns the number of values of a field per cell, that is of components of its vectors.
+
+  Not collective.
+
+  In:     field - declaration of the field
+
+  Errors: none; it returns no error code.
 */
 static inline PetscInt SamStateFieldSize(const SamStateField *field)
 {
   return field->components * PetscMax(field->layers, 1);
 }
-/*
-  SamStateDeclareField - declares a field; `id` is its handle. Declaring the same name again returns the same handle.
-  Collective. Errors: PETSC_ERR_ARG_OUTOFRANGE for more than SAM_STATE_MOST fields.
-*/
+
 #define SAM_STATE_MOST 64 /* most fields, and most results */
+
+/*
+  SamStateDeclareField - declares a field of a state.
+
+  Collective.
+
+  In:     state - the state
+          field - the declaration; its names and texts are not copied
+  Out:    id    - handle of the field
+
+  Errors: PETSC_ERR_ARG_OUTOFRANGE for more than SAM_STATE_MOST fields or fields of results.
+
+  Declaring the same name again returns the same handle.
+*/
 PETSC_EXTERN PetscErrorCode SamStateDeclareField(SamState state, const SamStateField *field, PetscInt *id);
 
 /*
@@ -74,14 +91,25 @@ typedef struct {
   SamNumberJoin join;
   PetscInt      order; /* order of its error in the cell size, for -grid_check; 0: the error is not estimated */
 } SamStateNumber;
-/*
-  SamStateDeclareNumber - declares numbers; `id` is the place of the first. Numbers declared one after the other lie
-  side by side. Declaring the same name again returns the same place. Not collective. Errors: PETSC_ERR_ARG_OUTOFRANGE
-  for more than SAM_STATE_DECLARED declarations, or SAM_STATE_NUMBERS values.
-*/
+
 #define SAM_STATE_NUMBERS  512
 #define SAM_STATE_DECLARED 128 /* most declarations of numbers */
+
+/*
+  SamStateDeclareNumber - declares one or more numbers of a state.
+
+  Not collective.
+
+  In:     state  - the state
+          number - the declaration; its names and texts are copied
+  Out:    id     - place of the first number
+
+  Errors: PETSC_ERR_ARG_OUTOFRANGE for more than SAM_STATE_DECLARED declarations, or SAM_STATE_NUMBERS values.
+
+  Numbers declared one after the other lie side by side. Declaring the same name again returns the same place.
+*/
 PETSC_EXTERN PetscErrorCode SamStateDeclareNumber(SamState state, const SamStateNumber *number, PetscInt *id);
+
 /*
   SamStateDeclareOptional - declares numbers that another state or a checkpoint may lack; they then have the value
   `usual`, with which they also start.
@@ -127,21 +155,62 @@ PETSC_INTERN PetscInt       SamStateGetLayers(SamState state, const PetscReal **
 PETSC_INTERN PetscErrorCode SamStateOffer(SamState state, const SamStateResult *result);
 
 /*
-  SamStateSetField - gets the vector of a field's tried generation for writing: it is zero when it is created, and has
-  old values later. Collective.
+  SamStateSetField - gets the vector of a field's tried generation for writing.
+
+  Collective.
+
+  In:     state - the state
+          id    - handle of the field
+  Out:    field - the vector (unit of the declaration); borrowed
+
+  Errors: none of its own.
+
+  The vector is zero when it is created, and has old values later.
 */
 PETSC_EXTERN PetscErrorCode SamStateSetField(SamState state, PetscInt id, Vec *field);
-/* SamStateGetField - returns the vector of a generation, NULL if it has not been set. Borrowed. Not collective. */
-PETSC_EXTERN Vec SamStateGetField(SamState state, PetscInt id, SamGeneration generation);
+
 /*
-  SamStateReadField - returns the tried vector if it has been set in this try, else the committed one; NULL if there is
-  neither. Borrowed until the next try, commit or rejection. Not collective.
+  SamStateGetField - returns the vector of a generation (unit of the declaration), NULL if it has not been set;
+  borrowed.
+
+  Not collective.
+
+  In:     state      - the state
+          id         - handle of the field
+          generation - the generation
+
+  Errors: none; it returns no error code.
+*/
+PETSC_EXTERN Vec SamStateGetField(SamState state, PetscInt id, SamGeneration generation);
+
+/*
+  SamStateReadField - returns the vector of a field (unit of the declaration) from the tried generation if it has been
+  set in this try, else from the committed one; NULL if there is neither.
+
+  Not collective.
+
+  In:     state - the state
+          id    - handle of the field
+
+  Errors: none; it returns no error code.
+
+  The vector is borrowed until the next try, commit or rejection.
 */
 PETSC_EXTERN Vec SamStateReadField(SamState state, PetscInt id);
+
 /*
-  SamStateReadNumbers - returns the numbers in the tried generation, without a try in the committed one. Not collective.
+  SamStateReadNumbers - returns the numbers (units of the declarations) in the tried generation, without a try in the
+  committed one.
+
+  Not collective.
+
+  In:     state - the state
+          id    - place of the first number
+
+  Errors: none; it returns no error code.
 */
 PETSC_EXTERN double *SamStateReadNumbers(SamState state, PetscInt id);
+
 /*
   SamStateJoinNumbers - joins the numbers of the tried generation, by the rules of their declarations, to `parts`, the
   joined numbers of the earlier parts of the step: SAM_STATE_NUMBERS values, at first 0. `to_step`: true writes the
@@ -150,14 +219,36 @@ PETSC_EXTERN double *SamStateReadNumbers(SamState state, PetscInt id);
 PETSC_INTERN void SamStateJoinNumbers(SamState state, double parts[], PetscBool to_step);
 
 /*
-  The following functions return the declarations, in their order. None is collective. SamStateFind... - return the
-  handle of a name, for results its place in their list; -1 if there is none.
+  The following functions return the declarations, in their order. None is collective. SamStateFieldOf - returns the
+  declaration of a field, SamStateNumberOf - that of the k-th numbers and, in `id`, their place.
 */
 PETSC_INTERN PetscInt              SamStateCountFields(SamState state);
 PETSC_INTERN const SamStateField  *SamStateFieldOf(SamState state, PetscInt id);
-PETSC_EXTERN PetscInt              SamStateFindField(SamState state, const char name[]);
 PETSC_INTERN PetscInt              SamStateCountNumbers(SamState state);
 PETSC_INTERN const SamStateNumber *SamStateNumberOf(SamState state, PetscInt k, PetscInt *id);
-PETSC_EXTERN PetscInt              SamStateFindNumber(SamState state, const char name[]);
+
+/*
+  SamStateFindField - returns the handle of a field, -1 if there is none of that name.
+
+  Not collective.
+
+  In:     state - the state
+          name  - name of the field
+
+  Errors: none; it returns no error code.
+*/
+PETSC_EXTERN PetscInt SamStateFindField(SamState state, const char name[]);
+
+/*
+  SamStateFindNumber - returns the place of the first of the numbers of a name, -1 if there are none.
+
+  Not collective.
+
+  In:     state - the state
+          name  - name of the numbers
+
+  Errors: none; it returns no error code.
+*/
+PETSC_EXTERN PetscInt SamStateFindNumber(SamState state, const char name[]);
 
 #endif

@@ -30,18 +30,30 @@ typedef struct {
 } SamStiffness;
 
 /*
-  SamStiffnessCompute - computes the tangent stiffness of the tried step if there is one. Else only that at the reversal
-  of the committed step is possible, since the forward stiffness needs the slip of the step, which is not kept.
-  Displacements are relative to infinity.
+  SamStiffnessCompute - computes the tangent stiffness of the tried step, or that at the reversal of the committed step.
+
+  Collective.
+
+  In:     contact   - the contact; unchanged
+          direction - continued loading or reversal
+  Out:    stiffness - the matrix (N/m, N/rad, N, N m/rad), its error and its cost
+
+  Errors: PETSC_ERR_ORDER without a solved step, or without a tried step for continued loading; SAM_ERR_USER for a
+  motion of the bodies or a law that has no such stiffness.
+
+  Without a tried step only the stiffness at the reversal of the committed step is possible, since the forward stiffness
+  needs the slip of the step, which is not kept. Displacements are relative to infinity. A stiffness that does not
+  converge is no error.
+
   The boundaries of contact, stick and slip do not move to first order: pressure vanishes at the edge of contact, and
   where stick meets slip both |q| = mu p and ds = 0 hold. So the sets of cells are frozen, and a column solves
+
     normal      S dp + B' dq = n on cells in contact; dp = 0 on those that yield, if loading continues,
     tangential  C dq + B dp - t = d(ds), which is 0 on cells that stick; on cells that slip
-                dq = e db - b/|ds| (I - e e') d(ds),  e = q/|q|,  db = b_p dp - b_s e.d(ds),
-  n and t being the unit motion of the column, B the coupling of dissimilar bodies, and b_p and b_s the derivatives of
-  the bound b of the shear by the pressure and by the length of the slip: mu and 0 of Coulomb's friction. Leaves the
-  contact unchanged.
-  Collective. Errors: PETSC_ERR_ORDER without such a step.
+                dq = e db - b/|ds| (I - e e') d(ds),  e = q/|q|,  db = b_p dp - b_s e.d(ds).
+
+  Here n and t are the unit motion of the column, B is the coupling of dissimilar bodies, and b_p and b_s are the
+  derivatives of the bound b of the shear by the pressure and by the length of the slip: mu and 0 of Coulomb's friction.
 */
 PETSC_EXTERN PetscErrorCode SamStiffnessCompute(SamContact contact, SamStiffnessDirection direction,
                                                 SamStiffness *stiffness);

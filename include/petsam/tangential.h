@@ -25,16 +25,37 @@ static inline SamSolver SamTangentialAsSolver(SamTangential tangential)
 #define SAM_TANGENTIAL_NEWTON  "newton"  /* Newton on stick and slip with preconditioned projected CG, nested grids */
 
 /*
-  SamTangentialCreate - creates a solver of the default type, newton, for the grid of this elasticity, which it
-  references. Collective.
+  SamTangentialCreate - creates a solver of the default type, newton, for the grid of an elasticity.
+
+  Collective.
+
+  In:     elasticity - the elasticity; referenced
+  Out:    tangential - the solver
+
+  Errors: none of its own.
 */
 PETSC_EXTERN PetscErrorCode SamTangentialCreate(SamElasticity elasticity, SamTangential *tangential);
-/* SamTangentialDestroy - frees the solver and sets the handle to NULL. Collective. */
+
+/*
+  SamTangentialDestroy - frees the solver and sets the handle to NULL.
+
+  Collective.
+
+  In,out: tangential - the solver; NULL on return
+
+  Errors: none of its own.
+*/
 PETSC_EXTERN PetscErrorCode SamTangentialDestroy(SamTangential *tangential);
 
 /*
-  SamTangentialRegister - adds a type of tangential solver, or replaces the one of that name. `create` sets the solver's
-  methods; see <petsam/private/solverimpl.h>. Not collective.
+  SamTangentialRegister - adds a type of tangential solver, or replaces the one of that name.
+
+  Not collective.
+
+  In:     name   - name of the type
+          create - function that sets the solver's methods; see <petsam/private/solverimpl.h>
+
+  Errors: none of its own.
 */
 PETSC_EXTERN PetscErrorCode SamTangentialRegister(const char name[], PetscErrorCode (*create)(SamSolver));
 
@@ -45,14 +66,30 @@ PETSC_EXTERN PetscErrorCode SamTangentialRegister(const char name[], PetscErrorC
 #define SAM_SHEAR_FLOOR 1e-8
 
 /*
-  SamTangentialSolve - finds q (Pa, two components) for the bound of the shear in each cell (Pa, one component, >= 0)
-  and the offset w - S (m, two components; NULL: zero). With `guess` q and the rigid-body displacements in the balance
-  are the initial guess, and only the finest grid is used. On return the balance holds all loads and rigid-body
-  displacements. After gross slip (SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM) the balance is unchanged, unless there was no
-  friction at all, and q is the shear of sliding, which carries the loads at their limit. The relative error is the
-  residual of the projection equation q = D(q - ds/c), D the projection onto the discs |q| <= bound and c the
-  self-influence of a cell: |q - D(q - ds/c)| over the larger of |q| and |D(q - ds/c)|, in the 2-norm. Collective. A
-  solve that does not converge has a reason, but is no error unless SamSolverSetErrorIfNotConverged() makes it one.
+  SamTangentialSolve - finds the shear for a bound in each cell.
+
+  Collective.
+
+  In:     tangential - the solver
+          bound      - bound of the shear (Pa), one component, >= 0
+          offset     - w - S (m), two components; NULL: zero
+  In,out: balance    - a tangential balance; on entry the given loads or rigid-body displacements, with `guess` also the
+                       initial guess of the displacements; on return all of them (N, N m, m, rad)
+  In:     guess      - true if q and the displacements in the balance are an initial guess; then only the finest grid is
+                       used
+  In,out: q          - shear (Pa), two components; on entry the guess, or any values without a guess
+
+  Errors: PETSC_ERR_ARG_WRONG for a normal balance; PETSC_ERR_ARG_SIZ for a bound or an offset of another size;
+  PETSC_ERR_NOT_CONVERGED only if SamSolverSetErrorIfNotConverged() has been called.
+
+  A solve that does not converge has a reason (SamSolverGetReason()), but is no error unless
+  SamSolverSetErrorIfNotConverged() makes it one.
+
+  After gross slip (SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM) the balance is unchanged, unless there was no friction at all,
+  and q is the shear of sliding, which carries the loads at their limit.
+
+  The relative error is the residual of the projection equation q = D(q - ds/c), D the projection onto the discs |q| <=
+  bound and c the self-influence of a cell: |q - D(q - ds/c)| over the larger of |q| and |D(q - ds/c)|, in the 2-norm.
 */
 PETSC_EXTERN PetscErrorCode SamTangentialSolve(SamTangential tangential, Vec bound, Vec offset, SamBalance *balance,
                                                PetscBool guess, Vec q);

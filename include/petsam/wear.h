@@ -13,9 +13,15 @@
 */
 
 /*
-  SamLawSetWear - sets the wear coefficients of body 1 and 2 for a law of these types. Not collective, the same on all
-  ranks. Errors: PETSC_ERR_ARG_OUTOFRANGE for a coefficient that is negative or not finite; PETSC_ERR_ARG_WRONG for a
-  law of another type.
+  SamLawSetWear - sets the wear coefficients of both bodies, for the types archard and energy.
+
+  Not collective, the same on all ranks.
+
+  In:     law         - the law
+          coefficient - coefficients of body 1 and 2 (1/Pa, or m3/J for the type energy), >= 0
+
+  Errors: PETSC_ERR_ARG_OUTOFRANGE for a coefficient that is negative or not finite; PETSC_ERR_ARG_WRONG for a law of
+  another type.
 */
 PETSC_EXTERN PetscErrorCode SamLawSetWear(SamLaw law, const PetscReal coefficient[2]);
 
