@@ -25,10 +25,10 @@
   MPI and PETSc are started by the first petsam_create() if nobody has, and are then ended when the process ends. A
   program that uses PETSc itself starts it before.
   Threads: only one thread at a time may be in a function of this header.
-  Ranks: a contact belongs to a communicator. All functions but petsam_message() are collective over it, with the same
-  arguments on all ranks (else they return 2); results are the same on all of them. Contacts on different communicators
-  do not wait for each other. Fields are spread by rows: each rank has those that petsam_grid() tells, as an array of
-  (rows, nx).
+  Ranks: a contact belongs to a communicator. A function whose comment says "Collective" is collective over it, with the
+  same arguments on all ranks (else it returns 2); results are the same on all of them. Contacts on different
+  communicators do not wait for each other. Fields are spread by rows: each rank has those of petsam_grid(), as an array
+  of (rows, nx).
 */
 #ifndef PETSAM_EMBED_H
 #define PETSAM_EMBED_H
@@ -40,140 +40,437 @@ extern "C" {
 typedef struct petsam_contact petsam_contact;
 
 /*
-  petsam_create - a contact of bodies that have never touched. `comm`: MPI_Comm_c2f() of a communicator, or -1 for this
-  process alone. `options`: those of the program petsam for the grid, the bodies, friction, the gap, wear and the
-  solvers, as on the command line; loads are given to petsam_try(). -gap_type flat, for one, may stand for a gap that
-  petsam_set_field() gives. Bulk stresses are constant. *c is NULL after an error.
+  petsam_create - creates a contact of bodies that have never touched.
+
+  Collective on `comm`.
+
+  In:     comm    - MPI_Comm_c2f() of a communicator, or -1 for this process alone
+          options - those of the program petsam for the grid, the bodies, friction, the gap, wear and the solvers, as on
+                    the command line
+  Out:    c       - the contact; NULL after an error
+
+  Errors: 2 for a wrong or missing option, a load or displacement among the options, or no communicator; 3 for a file
+  that cannot be used.
+
+  Loads are given to petsam_try(). -gap_type flat, for one, may stand for a gap that petsam_set_field() gives. Bulk
+  stresses are constant.
 */
 int petsam_create(int comm, const char *options, petsam_contact **c);
+
 /*
-  petsam_grid - the numbers of cells, the widths and the centre (m) in x and y, and this rank's rows, which may be 0.
-  The centre of cell (i, j) is at x = center[0] - size[0]/2 + (i + 1/2) size[0]/n[0], and so for y. NULL for what is not
-  wanted.
+  petsam_grid - gets the grid and this rank's rows.
+
+  Collective.
+
+  In:     c         - the contact
+  Out:    n         - numbers of cells in x and y; NULL: not wanted
+          size      - full widths in x and y (m); NULL: not wanted
+          center    - centre in x and y (m); NULL: not wanted
+          first_row - index of this rank's first row; NULL: not wanted
+          rows      - number of this rank's rows, which may be 0; NULL: not wanted
+
+  Errors: none of its own.
+
+  The centre of cell (i, j) is at x = center[0] - size[0]/2 + (i + 1/2) size[0]/n[0], and so for y.
 */
 int petsam_grid(petsam_contact *c, int n[2], double size[2], double center[2], int *first_row, int *rows);
+
 /*
-  petsam_set_field - "gap": the separation of the undeformed, unworn bodies, m; "friction": the coefficient, >= 0. This
-  rank's rows. Slip belongs to a place and is kept; the pressure is solved again in the next step. Forgets a tried step.
+  petsam_set_field - sets the gap or the coefficient of friction cell by cell.
+
+  Collective.
+
+  In:     c      - the contact
+          name   - "gap": the separation of the undeformed, unworn bodies; "friction": the coefficient
+          values - this rank's rows: the gap (m), or the coefficient (1), >= 0
+
+  Errors: 2 for another name, a value that is not finite, or a negative coefficient.
+
+  Slip belongs to a place and is kept; the pressure is solved again in the next step. The function forgets a tried step.
 */
 int petsam_set_field(petsam_contact *c, const char *name, const double *values);
+
 /*
-  petsam_try - solves a step from the committed state. It prescribes one value for each of the names, with commas
-  between them, as the columns of a history: "load_n,disp_x,bulk2_stress_xx,friction_scale". As many values are read as
-  there are commas, and one more; an empty name is refused, and one with a blank. load_n or disp_z is one of them; other
-  components that are not named are loads of 0. Conditions hold for this step; those that are not named have the values
-  of the contact's options. `time` (s) is only noted. `load` and `rigid` become all twelve, given or found; NaN where
-  there is none (NULL: not wanted). A try replaces an earlier one. After 0, 10 and 12 there is a tried step, whose
-  fields and numbers can be asked for; 10 cannot be committed. A step takes the new normal load first, and then the
-  tangential ones. With roll and roll_y the contact rolls by these distances towards +x and +y (m): the grid moves over
-  the bodies, and a creepage times the distance is the motion of body 1. With -rolling steady each try is a steady state
-  of rolling.
+  petsam_try - solves a step from the committed state.
+
+  Collective.
+
+  In:     c      - the contact
+          time   - the time of the step (s); it is only noted
+          names  - names of the prescribed values, with commas between them, as the columns of a history:
+                   "load_n,disp_x,bulk2_stress_xx,friction_scale"
+          values - one value for each name (N, N m, m, rad, or the unit of the condition): as many as there are commas,
+                   and one more
+  Out:    load   - all six loads, given or found (N, N m); NaN where there is none; NULL: not wanted
+          rigid  - all six displacements, given or found (m, rad); NaN where there is none; NULL: not wanted
+
+  Errors: 2 for a name that is unknown, empty, contains a blank or is given twice, without load_n and disp_z, and for a
+  value out of its range; 10, 11 and 12 for a step without convergence, without equilibrium, or in contact at the edge
+  of the grid.
+
+  One of load_n and disp_z must be named; other components that are not named are loads of 0. Conditions hold for this
+  step; those that are not named have the values of the contact's options. petsam_step_name() lists names and units.
+
+  A try replaces an earlier one. After 0, 10 and 12 there is a tried step, whose fields and numbers can be requested;
+  after 10 it cannot be committed.
+
+  A step takes the new normal load first, and then the tangential ones. With roll and roll_y the contact rolls by these
+  distances towards +x and +y (m): the grid moves over the bodies, and a creepage times the distance is the motion of
+  body 1. With -rolling steady each try is a steady state of rolling.
 */
 int petsam_try(petsam_contact *c, double time, const char *names, const double values[], double load[6],
                double rigid[6]);
+
 /*
-  petsam_step_name - the k-th name that petsam_try() knows, with its unit (NULL: not wanted): six loads, six
-  displacements, six creepages, "" where there is none, and then the conditions; NULL: there are no more. It lives as
-  long as the contact. Not collective.
+  petsam_step_name - returns the k-th name that petsam_try() accepts; NULL: there are no more.
+
+  Not collective.
+
+  In:     c    - the contact
+          k    - index, from 0: six loads, six displacements, six creepages, "" where there is none, and then the
+                 conditions
+  Out:    unit - unit of the value; NULL: not wanted
+
+  Errors: none; it returns no error code.
+
+  The name lives as long as the contact.
 */
 const char *petsam_step_name(petsam_contact *c, int k, const char **unit);
+
 /*
-  petsam_history - solves the steps of a history and commits each: `values` (rows, columns), and `columns` their names
-  with commas between them, as in the first line of the program's file: "time,load_n,load_tx". The first row's change
-  begins from the committed loads and displacements, or from none; -steps divides each row's change. Options -output,
-  -checkpoint and the like write files as the program does; with -restart a contact without a committed step goes on
-  from that file, in the same history. Ends early where a step has no solution, did not converge or is at the edge of
-  the grid, with that code; the step is then tried and not committed.
-  petsam_live - so many cycles of wear; the rows are one closed cycle. Options -wear_rtol and the like count.
-  The monitor is called after each step (`cycle` 0) and after each computed cycle (1), whose numbers are
-  "wear/depth_max1" and so on; it may ask for fields and numbers, and ends the run where it returns anything but 0; what
-  would change the contact, or free it, is refused.
-  NULL: none.
+  petsam_monitor - a function that petsam_history() and petsam_live() call after each step (`cycle` 0) and after each
+  computed cycle (1), whose numbers are "wear/depth_max1" and so on. It may request fields and numbers, and ends the run
+  if it returns anything but 0. Functions that would change the contact, or free it, return 2.
 */
 typedef int (*petsam_monitor)(void *context, petsam_contact *c, int cycle);
+
+/*
+  petsam_history - solves the steps of a history and commits each.
+
+  Collective.
+
+  In:     c       - the contact
+          columns - names of the columns with commas between them, as in the first line of the program's file:
+                    "time,load_n,load_tx"
+          rows    - number of rows
+          values  - the rows, as an array of (rows, columns) (s, N, N m, m, rad, or the unit of the condition)
+          monitor - function that is called after each step; NULL: none
+          context - passed to the monitor; may be NULL
+
+  Errors: 2 for a wrong column or value, 3 for a file that cannot be used; 10, 11 and 12 if a step ends the history.
+
+  The first row's change begins from the committed loads and displacements, or from none; -steps divides each row's
+  change. Options -output, -checkpoint and the like write files as the program does; with -restart a contact without a
+  committed step continues from that file, in the same history.
+
+  The history ends early if a step has no solution, did not converge or is at the edge of the grid, with that code; the
+  step is then tried and not committed.
+*/
 int petsam_history(petsam_contact *c, const char *columns, int rows, const double *values, petsam_monitor monitor,
                    void *context);
+
+/*
+  petsam_live - computes a number of cycles of wear; the rows are one closed cycle.
+
+  Collective.
+
+  In:     c       - the contact
+          cycles  - number of cycles (1), > 0
+          columns - names of the columns, as in petsam_history()
+          rows    - number of rows
+          values  - the rows, as an array of (rows, columns) (s, N, N m, m, rad, or the unit of the condition)
+          monitor - function that is called after each step and each computed cycle; NULL: none
+          context - passed to the monitor; may be NULL
+
+  Errors: 2 for a wrong number of cycles, column or value, 3 for a file that cannot be used; 10, 11 and 12 if a step
+  ends the run.
+
+  Options -wear_rtol and the like have effect. Files are written, and the run ends early, as in petsam_history().
+*/
 int petsam_live(petsam_contact *c, double cycles, const char *columns, int rows, const double *values,
                 petsam_monitor monitor, void *context);
+
 /*
-  petsam_advise - the number of warnings of the tried step, or of the last run: of what is right for the grid, but may
-  not be what was meant, as a slip zone that is narrow beside the cells. They are those of the program after a history
-  of the committed steps and this one, without those of wear, which petsam_commit() has. Takes some time, which nobody
-  spends who does not call it.
-  petsam_warning - the k-th of them, a line of text that names the option that mends it; NULL after the last one. It
-  lives until the next step is tried. Not collective.
+  petsam_advise - gets the number of warnings of the tried step, or of the last run.
+
+  Collective.
+
+  In:     c     - the contact
+  Out:    count - number of warnings
+
+  Errors: 2 if a monitor calls it.
+
+  The warnings concern solutions that are right for the grid, but may not be intended, as a slip zone that is narrow
+  beside the cells. They are those of the program after a history of the committed steps and this one, without those of
+  wear, which petsam_commit() has. They take some time, which is spent in this function only.
 */
-int         petsam_advise(petsam_contact *c, int *count);
-const char *petsam_warning(const petsam_contact *c, int k);
+int petsam_advise(petsam_contact *c, int *count);
+
 /*
-  petsam_commit - the tried step becomes the state from which the next one goes on; bodies wear by it, if they do. A
-  warning of petsam_message() then says that the step wears more than one may.
-  petsam_reject - forgets a tried step, if there is one: later steps are, to the last bit, as if it had not been tried.
+  petsam_warning - returns the k-th warning that petsam_advise() has found; NULL after the last one.
+
+  Not collective.
+
+  In:     c - the contact
+          k - index, from 0
+
+  Errors: none; it returns no error code.
+
+  A warning is a line of text that names the option that mends it. It lives until the next step is tried.
+*/
+const char *petsam_warning(const petsam_contact *c, int k);
+
+/*
+  petsam_commit - makes the tried step the state from which the next one starts.
+
+  Collective.
+
+  In:     c - the contact
+
+  Errors: 2 without a tried step, or if a monitor calls it; 10 for a step that did not converge.
+
+  Bodies wear by it, if they do. A warning of petsam_message() then reports a step that wears more than is accurate.
 */
 int petsam_commit(petsam_contact *c);
-int petsam_reject(petsam_contact *c);
+
 /*
-  petsam_stiffness - d(loads)/d(displacements) of the tried step, k[6 i + j] of load i and displacement j. `reversal` 0:
-  cells that slip go on slipping; the derivative of petsam_try() at fixed committed state, not symmetric. 1: at the
-  instant at which the motion reverses: all cells in contact stick; symmetric; without a tried step that of the
-  committed one. NaN for components that do not exist.
-  10: the step or the linear systems did not converge.
+  petsam_reject - forgets a tried step, if there is one.
+
+  Collective.
+
+  In:     c - the contact
+
+  Errors: 2 if a monitor calls it.
+
+  Later steps are, to the last bit, as if the step had not been tried.
+*/
+int petsam_reject(petsam_contact *c);
+
+/*
+  petsam_stiffness - computes d(loads)/d(displacements) of the tried step.
+
+  Collective.
+
+  In:     c        - the contact
+          reversal - 0: cells that slip continue to slip; 1: the motion reverses, and all cells in contact stick
+  Out:    k        - the matrix (N/m, N/rad, N, N m/rad), k[6 i + j] of load i and displacement j; NaN for components
+                     that do not exist
+
+  Errors: 2 without a solved step, or for bodies that have no such stiffness; 10 if the step or the linear systems did
+  not converge.
+
+  With 0 it is the derivative of petsam_try() at fixed committed state, and not symmetric. With 1 it is the stiffness at
+  the time at which the motion reverses, and symmetric; without a tried step it is that of the committed one.
 */
 int petsam_stiffness(petsam_contact *c, int reversal, double k[36]);
+
 /*
-  petsam_get_field - a field of the tried step, else of the committed one, by its name in a results file
-  (examples/manual/RESULTS.md): "pressure", "shear_x", "slip_x", "state", "gap" (of the deformed bodies), "wear_depth1"
-  ... This rank's rows.
-  petsam_get_number - a number of the last step that was tried, or after petsam_reject() of the committed one, by its
-  name in /history: "contact_area", "dissipated_energy", "stored_energy", "status", "load_n" ...; with "wear/" before
-  it one of the cycle that petsam_live() computed last, by its name in /wear.
+  petsam_get_field - copies a field of the tried step, else of the committed one.
+
+  Collective.
+
+  In:     c      - the contact
+          name   - its name in a results file (examples/manual/RESULTS.md): "pressure", "shear_x", "slip_x", "state",
+                   "gap" (of the deformed bodies), "wear_depth1" ...
+  Out:    values - this rank's rows (unit of the field in the results file)
+
+  Errors: 2 for an unknown name, or without a solved step.
 */
 int petsam_get_field(petsam_contact *c, const char *name, double *values);
-int petsam_get_number(petsam_contact *c, const char *name, double *value);
+
 /*
-  petsam_field_name, petsam_number_name - the name of the k-th field and number that can be asked for, k = 0, 1, ...;
-  NULL after the last one. It lives as long as the contact.
+  petsam_get_number - gets a number of the last step that was tried, or after petsam_reject() of the committed one.
+
+  Collective.
+
+  In:     c     - the contact
+          name  - its name in /history: "contact_area", "dissipated_energy", "stored_energy", "status", "load_n" ...;
+                  with "wear/" before it a number of the cycle that petsam_live() computed last, by its name in /wear
+  Out:    value - the number (unit of the column in the results file)
+
+  Errors: 2 for an unknown name, without a tried step, and for a cycle before petsam_live().
+*/
+int petsam_get_number(petsam_contact *c, const char *name, double *value);
+
+/*
+  petsam_field_name - returns the name of the k-th field of petsam_get_field(); NULL after the last one.
+
+  Collective.
+
+  In:     c - the contact
+          k - index, from 0
+
+  Errors: none; it returns no error code.
+
+  The name lives as long as the contact.
 */
 const char *petsam_field_name(petsam_contact *c, int k);
-const char *petsam_number_name(petsam_contact *c, int k);
+
 /*
-  petsam_stress - evaluates the stresses in a body under the tried step, else the committed one. `options`: those of the
-  program petsam-stress (examples/stresses), "-body 2 -depths 0:1e-4:20 -section y=0 -quantities stress,mises".
-  shape[4]: numbers of times, z, y and x of the results; of maps each rank has its rows, of a section all have all.
-  petsam_record - 1: each step that is committed from now on is recorded, 40 bytes a cell; also those of
-  petsam_history(), and of petsam_live() those of the last computed cycle. 0: no more. Both forget earlier ones.
-  petsam_fatigue - evaluates fatigue parameters over the recorded steps, taken as one closed cycle, "-fatigue findley
-  -fatigue_findley_k 0.3", and the same options; without -quantities none of these. A warning of petsam_message() then
-  says that the cycle is not closed: the last step has not the tractions of the state in which recording began.
-  petsam_get_stress - a result of the last of these calls by its name in the program's file: "time", "z", "y", "x" are
-  the coordinates (s, m); "stress_xx" ..., "mises" ... (Pa) have the whole shape, in this order; fatigue parameters,
-  "findley", "findley_normal_x" ..., have no times. To the last bit those of petsam-stress on the same steps.
-  petsam_stress_name - the k-th name that petsam_get_stress() knows, NULL: there are no more; and the number of its
-  dimensions, 1, 3 or 4 (NULL: not wanted). Not collective.
+  petsam_number_name - returns the name of the k-th number of petsam_get_number(); NULL after the last one.
+
+  Collective.
+
+  In:     c - the contact
+          k - index, from 0
+
+  Errors: none; it returns no error code.
+
+  The name lives as long as the contact.
 */
-int         petsam_stress(petsam_contact *c, const char *options, int shape[4]);
-int         petsam_record(petsam_contact *c, int on);
-int         petsam_fatigue(petsam_contact *c, const char *options, int shape[4]);
-int         petsam_get_stress(petsam_contact *c, const char *name, double *values);
+const char *petsam_number_name(petsam_contact *c, int k);
+
+/*
+  petsam_stress - evaluates the stresses in a body under the tried step, else the committed one.
+
+  Collective.
+
+  In:     c       - the contact
+          options - those of the program petsam-stress (examples/stresses): "-body 2 -depths 0:1e-4:20 -section y=0
+                    -quantities stress,mises"
+  Out:    shape   - numbers of times, z, y and x of the results; of maps each rank has its rows, of a section all ranks
+                    have all
+
+  Errors: 2 for a wrong option, or without a solved step; 3 for a file that cannot be used.
+*/
+int petsam_stress(petsam_contact *c, const char *options, int shape[4]);
+
+/*
+  petsam_record - begins or ends the recording of committed steps; both forget earlier ones.
+
+  Collective.
+
+  In:     c  - the contact
+          on - 1: each step that is committed from now on is recorded; 0: no more
+
+  Errors: none of its own.
+
+  Recorded are also the steps of petsam_history(), and of petsam_live() those of the last computed cycle. A step takes
+  40 bytes per cell.
+*/
+int petsam_record(petsam_contact *c, int on);
+
+/*
+  petsam_fatigue - evaluates fatigue parameters over the recorded steps, taken as one closed cycle.
+
+  Collective.
+
+  In:     c       - the contact
+          options - those of the program petsam-stress, "-fatigue findley -fatigue_findley_k 0.3"; without -quantities
+                    none of these are computed
+  Out:    shape   - as of petsam_stress()
+
+  Errors: 2 for a wrong option, or without recorded steps; 3 for a file that cannot be used.
+
+  A warning of petsam_message() reports a cycle that is not closed: the last step has not the tractions of the state in
+  which recording began.
+*/
+int petsam_fatigue(petsam_contact *c, const char *options, int shape[4]);
+
+/*
+  petsam_get_stress - copies a result of the last petsam_stress() or petsam_fatigue().
+
+  Collective.
+
+  In:     c      - the contact
+          name   - its name in the program's file: "time", "z", "y", "x" are the coordinates; "stress_xx" ..., "mises"
+                   ... have the whole shape, in this order; fatigue parameters, "findley", "findley_normal_x" ..., have
+                   no times
+  Out:    values - the result (s, m, Pa, or the unit in the program's file)
+
+  Errors: 2 for a name that the last of these calls has no result of.
+
+  The results are, to the last bit, those of petsam-stress on the same steps.
+*/
+int petsam_get_stress(petsam_contact *c, const char *name, double *values);
+
+/*
+  petsam_stress_name - returns the k-th name of petsam_get_stress(); NULL: there are no more.
+
+  Not collective.
+
+  In:     c          - the contact
+          k          - index, from 0
+  Out:    dimensions - number of its dimensions: 1, 3 or 4; NULL: not wanted
+
+  Errors: none; it returns no error code.
+*/
 const char *petsam_stress_name(const petsam_contact *c, int k, int *dimensions);
+
 /*
   petsam_save - writes the committed state to a file, safely: an older file of the name becomes name.1.
-  petsam_load - gives a contact of the same options, and with the same gap and friction if these have been given, the
-  state in a file, to the last bit, on any number of ranks. Sums that only the file has are left out.
-  Forgets a tried step. Of the step's numbers only loads, displacements and time are known then.
+
+  Collective.
+
+  In:     c    - the contact
+          file - name of the file
+
+  Errors: 2 without a committed step; 3 for a file that cannot be written.
 */
 int petsam_save(petsam_contact *c, const char *file);
-int petsam_load(petsam_contact *c, const char *file);
+
 /*
-  petsam_copy - gives a contact the committed state of another one of the same options, gap and friction.
-  petsam_reset - bodies that have never touched, of the same options, gap and friction.
-  Both forget a tried step.
+  petsam_load - gives the contact the state in a file, to the last bit, on any number of ranks.
+
+  Collective.
+
+  In:     c    - a contact of the same options, and with the same gap and friction if these have been given
+          file - name of the file
+
+  Errors: 2 for the state of another contact, or if a monitor calls it; 3 for a file that cannot be read.
+
+  Sums that only the file has are left out. The function forgets a tried step. Of the step's numbers only loads,
+  displacements and time are known then.
+*/
+int petsam_load(petsam_contact *c, const char *file);
+
+/*
+  petsam_copy - gives a contact the committed state of another one.
+
+  Collective.
+
+  In:     c    - the contact
+          from - another contact of the same options, gap and friction
+
+  Errors: 2 for a contact of other ranks, grid or gap, or if a monitor calls it.
+
+  The function forgets a tried step of `c`.
 */
 int petsam_copy(petsam_contact *c, petsam_contact *from);
+
+/*
+  petsam_reset - resets the contact to that of bodies that have never touched, of the same options, gap and friction.
+
+  Collective.
+
+  In:     c - the contact
+
+  Errors: 2 if a monitor calls it.
+
+  The function forgets a tried step.
+*/
 int petsam_reset(petsam_contact *c);
-/* petsam_message - what was wrong with the last call, or a warning; empty: nothing. NULL asks for petsam_create()'s. */
+
+/*
+  petsam_message - returns the message of the last call: what was wrong, or a warning; empty: nothing.
+
+  Not collective.
+
+  In:     c - the contact; NULL: the message of petsam_create()
+
+  Errors: none; it returns no error code.
+*/
 const char *petsam_message(const petsam_contact *c);
-/* petsam_destroy - frees a contact and sets the handle to NULL. */
+
+/*
+  petsam_destroy - frees a contact and sets the handle to NULL.
+
+  Collective.
+
+  In,out: c - the contact; NULL on return
+
+  Errors: none; it returns no error code. A call by a monitor does nothing.
+*/
 void petsam_destroy(petsam_contact **c);
 
 #ifdef __cplusplus
