@@ -178,8 +178,8 @@ PETSC_EXTERN PetscErrorCode SamOptionsReal(const SamOptions *from, const char na
                                            PetscReal *value, PetscBool *set);
 
 /*
-  SamOptionsReals - reads a list of up to `most` numbers in the range, and their count; 0: the option is absent. All else
-  is as in SamOptionsRead().
+  SamOptionsReals - reads a list of up to `most` numbers in the range, and their count; 0: the option is absent. It is
+  collective and fails as SamOptionsRead().
   SamOptionsHas - sets `has` to true if an option (its name without dash and prefix) is given; a value may follow the
   name after a space, and the option must then have that value. Not collective.
   SamOptionsNeed - rejects an option that is given without another one that it needs; the format is that of a row's

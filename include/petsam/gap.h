@@ -109,7 +109,8 @@ PETSC_EXTERN PetscErrorCode SamGapSetParameter(SamGap gap, const char name[], Pe
   Errors: none of its own; SamGapFill() reads the file.
 
   Datasets of shape (ny, nx) are separations in m unless their attributes units and quantity say otherwise
-  (examples/manual/SURFACES.md). The options -gap_file, -gap_dataset, and -gap_rough_file, -gap_rough_dataset set the same.
+  (examples/manual/SURFACES.md). The options -gap_file, -gap_dataset, and -gap_rough_file, -gap_rough_dataset set the
+  same.
 */
 PETSC_EXTERN PetscErrorCode SamGapSetFile(SamGap gap, PetscBool rough, const char file[], const char dataset[]);
 

@@ -38,9 +38,10 @@ PROTOTYPE = re.compile(
     re.M | re.S,
 )
 CAST = re.compile(r"\s*return \(\w+\)\w+;\s*")
-ENTRY = re.compile(r"  (?P<way>In:    |Out:   |In,out:|       ) (?P<name>\w+) +- (?P<text>.*)")
+ENTRY = re.compile(r"  (?P<way>In:    |Out:   |In,out:|       ) (?P<name>\w+) +- (?P<words>.*)")
 NUMBER = re.compile(r"\b(?:PetscReal|PetscScalar|double|float|Vec)\b")
 ATOM = r"(?:1|Pa|N|m|s|J|rad|bytes?|cells|cycles)\d?"
+WIDTH = 100  # columns of a prototype on the page
 UNIT = re.compile(rf"\((?:{ATOM}(?:[ /]{ATOM})*(?:, [^()]*)?|(?:any |SI )?units?\b[^()]*)\)")
 
 
@@ -49,8 +50,7 @@ class Function:
     file: Path
     line: int
     name: str
-    prototype: str
-    type: str
+    type: str  # of the value it returns
     arguments: dict  # name to declaration
     comment: str  # the one directly above; empty: there is none
 
@@ -96,10 +96,8 @@ def read_functions(path):
         line = text.count("\n", 0, found.start())
         above = text.split("\n")[line - 1]
         comment = ends.get(line - 1, "") if above.rstrip().endswith("*/") else ""
-        prototype = f"{found['type']}{found['name']}({' '.join(found['arguments'].split())})"
-        prototype = re.sub(r" +", " ", prototype)
-        arguments = split_arguments(found["arguments"])
-        functions.append(Function(path, line + 1, found["name"], prototype, found["type"], arguments, comment))
+        returned, arguments = re.sub(r"\s+", " ", found["type"]), split_arguments(found["arguments"])
+        functions.append(Function(path, line + 1, found["name"], returned, arguments, comment))
     first = COMMENT.match(text)
     return functions, " ".join(first.group()[2:-2].split("\n\n")[0].split()) if first else ""
 
@@ -111,7 +109,7 @@ def read_entries(paragraph):
         found = ENTRY.fullmatch(line)
         if found:
             way = found["way"].strip(" :") or way
-            entries.append([way, found["name"], found["text"].strip()])
+            entries.append([way, found["name"], found["words"].strip()])
         elif entries and line.startswith(" " * 11):
             entries[-1][2] += " " + line.strip()
     return [tuple(entry) for entry in entries]
@@ -137,12 +135,7 @@ def read_block(comment):
     return block
 
 
-def missing(function):
-    """What a function's comment lacks: sentences for messages."""
-    if not function.comment or not function.comment.startswith(f"/*\n  {function.name} - "):
-        yield f"has no comment above it that begins with '{function.name} - '"
-        return
-    block = read_block(function.comment)
+def missing_arguments(function, block):
     listed = [name for _, name, _ in block.entries]
     for name in function.arguments:
         if listed.count(name) != 1:
@@ -154,8 +147,17 @@ def missing(function):
     for _, name, text in block.entries:
         if NUMBER.search(function.arguments.get(name, "")) and not UNIT.search(text):
             yield f"argument {name} has no unit in parentheses"
+
+
+def missing(function):
+    """Gaps in a function's comment: sentences for messages."""
+    if not function.comment.startswith(f"/*\n  {function.name} - "):
+        yield f"has no comment above it that begins with '{function.name} - '"
+        return
+    block = read_block(function.comment)
+    yield from missing_arguments(function, block)
     if NUMBER.search(function.type) and not UNIT.search(block.summary):
-        yield "the first sentence has no unit of the returned value in parentheses"
+        yield "has in its first sentence no unit of the returned value in parentheses"
     if not block.collective:
         yield "has no paragraph 'Collective' or 'Not collective'"
     if not block.errors:
@@ -177,10 +179,21 @@ def paragraph_of(text):
     return escape(" ".join(" ".join(lines).split()))
 
 
+def prototype_of(function):
+    """The prototype in one line, or with a line for each argument."""
+    arguments = list(function.arguments.values()) or ["void"]
+    line = f"{function.type}{function.name}({', '.join(arguments)});"
+    if len(line) <= WIDTH:
+        return [line]
+    last = len(arguments) - 1
+    rest = [f"  {argument}{',' if k < last else ');'}" for k, argument in enumerate(arguments)]
+    return [f"{function.type}{function.name}(", *rest]
+
+
 def page_of_function(function):
     block = read_block(function.comment)
     name, _, summary = block.summary.partition(" - ")
-    lines = [f"### {name}", "", "```c", f"{function.prototype};", "```", ""]
+    lines = [f"### {name}", "", "```c", *prototype_of(function), "```", ""]
     lines += [f"{escape(summary[:1].upper() + summary[1:])} {escape(block.collective)}", ""]
     lines += [f"- {way}: `{name}`: {escape(text)}" for way, name, text in block.entries]
     lines += [""] if block.entries else []

@@ -5,8 +5,9 @@
 
 The pages stay where they are and link to each other and to files of the repository relatively. They and the files that
 they name are copied to the same places beside each other, and MkDocs checks every link: a link to no page, file or
-heading is an error. README.md is the index of its folder. Material was chosen because its search needs no server, it
-fits a phone, and it takes the pages as they are. Its fixes end in May 2027; its successor Zensical reads its settings.
+heading is an error. README.md is the index of its folder. The page of the C library's functions is no file of the
+repository: functions.py makes it from the headers. Material was chosen because its search needs no server, it fits a
+phone, and it takes the pages as they are. Its fixes end in May 2027; its successor Zensical reads its settings.
 """
 
 import argparse
@@ -17,6 +18,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import functions
 import yaml
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -35,6 +37,12 @@ PARTS = (
     ("Tests and performance", "tests/README.md", ("tests/*/README.md",)),
     ("Changes", "CHANGES.md", ()),
 )
+# pages that are no files of the repository, in the part of the page in their folder
+GENERATED = {"include/FUNCTIONS.md": functions.page}
+
+
+def text_of(name):
+    return GENERATED[name]() if name in GENERATED else (ROOT / name).read_text(encoding="utf-8")
 
 
 def pages():
@@ -42,6 +50,7 @@ def pages():
     parts = []
     for title, first, others in PARTS:
         found = [first] if first else []
+        found += [name for name in GENERATED if first and Path(name).parent == Path(first).parent]
         for pattern in others:
             found += sorted(str(path.relative_to(ROOT)) for path in ROOT.glob(pattern))
         parts.append((title, list(dict.fromkeys(found))))
@@ -50,7 +59,7 @@ def pages():
 
 def title_of(page):
     """The title or the first heading of a page."""
-    return re.search(r'^(?:# |title: )"?(.*?)"?$', (ROOT / page).read_text(encoding="utf-8"), re.M).group(1)
+    return re.search(r'^(?:# |title: )"?(.*?)"?$', text_of(page), re.M).group(1)
 
 
 def navigation(parts):
@@ -67,7 +76,7 @@ def copies(parts):
     files = set()
     for _, names in parts:
         for name in names:
-            for link in LINK.findall(FENCE.sub("", (ROOT / name).read_text(encoding="utf-8"))):
+            for link in LINK.findall(FENCE.sub("", text_of(name))):
                 path = (ROOT / name).parent / link
                 if not re.match(r"\w+:", link) and path.is_file() and path.suffix != ".md":
                     files.add(str(path.resolve().relative_to(ROOT)))
@@ -76,7 +85,7 @@ def copies(parts):
 
 def page(name):
     """A page's text with links to folders as text: the site shows pages and files only."""
-    text, parent = (ROOT / name).read_text(encoding="utf-8"), (ROOT / name).parent
+    text, parent = text_of(name), (ROOT / name).parent
 
     def folder(match):
         return match.group(1) if (parent / match.group(2)).is_dir() else match.group(0)

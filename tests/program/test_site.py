@@ -22,7 +22,14 @@ def test_every_page_is_on_the_site_once(staged):
     listed = [name for _, names in parts for name in names]
     folders = ("examples", "include", "scripts", "src", "tests")
     there = {str(path.relative_to(ROOT)) for folder in folders for path in ROOT.glob(f"{folder}/**/*.md")}
-    assert sorted(listed) == sorted(there | {"README.md", "CHANGES.md"})
+    assert sorted(listed) == sorted(there | {"README.md", "CHANGES.md", "include/FUNCTIONS.md"})
+
+
+def test_page_of_functions_is_made_from_the_headers(staged):
+    target, parts = staged
+    assert dict(parts)["Inside other programs"] == ["include/README.md", "include/FUNCTIONS.md"]
+    assert "### SamNormalSolve\n" in (target / "include/FUNCTIONS.md").read_text()
+    assert not (ROOT / "include/FUNCTIONS.md").exists()
 
 
 def test_pages_and_files_lie_as_in_the_repository_so_that_their_links_hold(staged):
