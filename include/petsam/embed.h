@@ -326,7 +326,7 @@ const char *petsam_number_name(petsam_contact *c, int k);
   Collective.
 
   In:     c       - the contact
-          options - those of the program petsam-stress (examples/stresses): "-body 2 -depths 0:1e-4:20 -section y=0
+          options - those of the program petsam-stress (examples/stress): "-body 2 -depths 0:1e-4:20 -section y=0
                     -quantities stress,mises"
   Out:    shape   - numbers of times, z, y and x of the results; of maps each rank has its rows, of a section all ranks
                     have all

@@ -103,7 +103,7 @@ def read_functions(path):
 
 
 def read_entries(paragraph):
-    """The arguments of the paragraph of In, Out and In,out: (way, name, text); those it has so far stay valid."""
+    """The arguments of the paragraph of In, Out and In,out: (way, name, text)."""
     entries, way = [], ""
     for line in paragraph.split("\n"):
         found = ENTRY.fullmatch(line)

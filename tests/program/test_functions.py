@@ -5,7 +5,8 @@ import sys
 
 import pytest
 
-from support import PROGRAM, ROOT
+from conftest import PROGRAM
+from support import ROOT
 
 sys.path.insert(0, str(ROOT / "scripts" / "maintain"))
 import functions  # noqa: E402

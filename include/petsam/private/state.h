@@ -67,7 +67,7 @@ PETSC_INTERN PetscErrorCode        SamStateCopy(SamState from, SamState to);
 PETSC_INTERN PetscInt              SamStateCountValues(SamState state); /* values of all numbers */
 PETSC_INTERN PetscInt              SamStateCountResults(SamState state);
 PETSC_INTERN const SamStateResult *SamStateResultOf(SamState state, PetscInt k);
-PETSC_INTERN PetscInt              SamStateFindResult(SamState state, const char name[]);
+PETSC_INTERN PetscInt              SamStateFindResult(SamState state, const char name[]); /* its place, -1: none */
 /*
   SamStateFindValues - gets the vector that contains a field of the results, and its component there: a vector of the
   state (borrowed), or `work` (one component), into which the field is computed, or which is zero if the field has no
