@@ -82,7 +82,7 @@ PETSC_INTERN PetscBool      SamNormalLimitsPressure(SamNormal normal);
   In,out: p       - pressure (Pa), one component; on entry the guess, or any values without a guess
 
   Errors: SAM_ERR_USER for a normal load below zero; PETSC_ERR_SUP for a pressure limit that the method does not have;
-  PETSC_ERR_ARG_WRONG for a tangential balance; PETSC_ERR_ARG_SIZ for a separation of another size;
+  PETSC_ERR_ARG_WRONG for a tangential balance; PETSC_ERR_ARG_SIZ for a vector of another size;
   PETSC_ERR_NOT_CONVERGED only if SamSolverSetErrorIfNotConverged() has been called.
 
   A solve that does not converge has a reason (SamSolverGetReason()), but is no error unless

@@ -79,7 +79,7 @@ PETSC_EXTERN PetscErrorCode SamTangentialRegister(const char name[], PetscErrorC
                        used
   In,out: q          - shear (Pa), two components; on entry the guess, or any values without a guess
 
-  Errors: PETSC_ERR_ARG_WRONG for a normal balance; PETSC_ERR_ARG_SIZ for a bound or an offset of another size;
+  Errors: PETSC_ERR_ARG_WRONG for a normal balance; PETSC_ERR_ARG_SIZ for a vector of another size;
   PETSC_ERR_NOT_CONVERGED only if SamSolverSetErrorIfNotConverged() has been called.
 
   A solve that does not converge has a reason (SamSolverGetReason()), but is no error unless

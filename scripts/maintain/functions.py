@@ -41,6 +41,7 @@ CAST = re.compile(r"\s*return \(\w+\)\w+;\s*")
 ENTRY = re.compile(r"  (?P<way>In:    |Out:   |In,out:|       ) (?P<name>\w+) +- (?P<words>.*)")
 NUMBER = re.compile(r"\b(?:PetscReal|PetscScalar|double|float|Vec)\b")
 ATOM = r"(?:1|Pa|N|m|s|J|rad|bytes?|cells|cycles)\d?"
+CODE = re.compile(r"(`[^`]+`|(?<![\w-])-[a-z<][\w<>]{2,}|\b(?:Sam|SAM_|PETSC_|petsam_)\w+(?:\(\))?)")
 WIDTH = 100  # columns of a prototype on the page
 UNIT = re.compile(rf"\((?:{ATOM}(?:[ /]{ATOM})*(?:, [^()]*)?|(?:any |SI )?units?\b[^()]*)\)")
 
@@ -166,9 +167,9 @@ def missing(function):
 
 def escape(text):
     """Text for Markdown: names of options and functions as code, all else without the meaning of its signs."""
-    pieces = re.split(r"((?<![\w-])-[a-z<][\w<>]*|\b(?:Sam|SAM_|PETSC_|petsam_)\w+(?:\(\))?)", text)
+    pieces = CODE.split(text)
     plain = [re.sub(r"([\\`*_<>\[\]|#])", r"\\\1", piece) if k % 2 == 0 else piece for k, piece in enumerate(pieces)]
-    return "".join(piece if k % 2 == 0 else f"`{piece}`" for k, piece in enumerate(plain))
+    return "".join(piece if k % 2 == 0 else f"`{piece.strip('`')}`" for k, piece in enumerate(plain))
 
 
 def paragraph_of(text):

@@ -81,4 +81,6 @@ def test_page_has_prototypes_arguments_and_paragraphs():
     assert "\n- In: `type`: NORM\\_1 or NORM\\_2\n- Out: `norm`: the norm (unit of the field)\n" in page
     assert "\nErrors: `PETSC_ERR_SUP` for another type of norm.\n" in page
     assert "\n    PetscErrorCode SamPluginRegister(void)\n```\n" in page
+    assert "\n- Out: `load`: all six loads, given or found (N, N m)" in page
+    assert 'without dash; `gap_` may be omitted: "radius1" for `-gap_radius1`\n' in page
     assert "PETSC_EXTERN" not in page and "PETSC_INTERN" not in page
