@@ -305,7 +305,7 @@ static PetscErrorCode FindPart(SamResults r, MPI_Comm comm, const char option[],
   if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscNew(&part));
   r->part[r->count++] = part; /* SamResultsDestroy() frees it */
-  PetscCall(SamFileExamine(comm, option, name, Look, NULL, &part->facts, sizeof(part->facts)));
+  PetscCall(SamFileExamine(comm, option, name, NULL, Look, NULL, &part->facts, sizeof(part->facts)));
   part->steps = (PetscInt)part->facts.first + (PetscInt)part->facts.steps;
   if (!before) PetscFunctionReturn(PETSC_SUCCESS);
   *found = before->facts.identity[0] && !strcmp(part->facts.follows, before->facts.identity) ? PETSC_TRUE : PETSC_FALSE;
