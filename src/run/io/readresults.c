@@ -88,7 +88,6 @@ static void GetText(SamFile f, const char name[], size_t size, char text[])
 */
 static void GetParameters(SamFile f, SamParameters *all)
 {
-
   for (hsize_t k = 0; all->count < SAM_PARAMETERS; k++) {
     SamParameter *const p         = &all->list[all->count];
     const hid_t         attribute = H5Aopen_by_idx(f->id, ".", H5_INDEX_NAME, H5_ITER_INC, k, H5P_DEFAULT, H5P_DEFAULT);
