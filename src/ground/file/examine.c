@@ -48,8 +48,8 @@ static const char *FindFault(const char filename[])
 static const char damaged[] = "it is damaged";
 
 /*
-  Finds the program that examines: petsam/petsam-examine beside the shared library, in lib/ of the folder above a program
-  that is linked with the static one. Returns false if there is none.
+  Finds the program that examines: petsam/petsam-examine beside the shared library, or in lib/ of the folder above a
+  program that is linked with the static one. Returns false if there is none.
 */
 static PetscBool FindProgram(char path[PETSC_MAX_PATH_LEN])
 {

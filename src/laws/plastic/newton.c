@@ -132,6 +132,19 @@ PetscErrorCode SamPlasticDisplace(SamPlastic *p, Vec state, double *const u[3])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Adds the stress before any load to that of all layers. */
+static void AddInitial(const SamPlastic *p, double s[])
+{
+  const PetscInt cells = p->grid->cells;
+
+  for (PetscInt l = 0; l < p->bodies * p->layers; l++) {
+    const double *const stress = p->body[l / p->layers].initial;
+
+    for (PetscInt k = 0; k < 2 * cells && stress; k++) /* xx and yy are the first two components */
+      s[(ptrdiff_t)l * PARTS * cells + k] += stress[2 * (l % p->layers) + k / cells];
+  }
+}
+
 PetscErrorCode SamPlasticStress(SamPlastic *p, Vec state, Vec pressure, Vec shear, double stress[], double *energy)
 {
   const PetscInt n = PARTS * p->bodies * p->layers * p->grid->cells;
@@ -154,7 +167,7 @@ PetscErrorCode SamPlasticStress(SamPlastic *p, Vec state, Vec pressure, Vec shea
     PetscCall(VecRestoreArrayRead(pressure, &by_p));
   }
   for (PetscInt k = 0; k < n; k++) stress[k] += e[k];
-  SamPlasticAddInitial(p, stress);
+  AddInitial(p, stress);
   PetscCall(PetscFree(e));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -336,7 +349,7 @@ static PetscErrorCode GetDriver(Solve *w, double d[])
   PetscCall(VecRestoreArrayRead(w->contact->shear, &q));
   PetscCall(VecRestoreArrayRead(w->contact->pressure, &p));
   for (PetscInt k = 0; k < w->n; k++) w->s[k] += w->v[k];
-  SamPlasticAddInitial(w->plastic, w->s);
+  AddInitial(w->plastic, w->s);
   AddDeviator(w->plastic, w->e, w->s, d);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
