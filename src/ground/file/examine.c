@@ -18,14 +18,14 @@
 #define PATIENCE   2
 #define BYTES_MORE (1 << 26)
 
-/* What is asked of a file. */
+/* A question about a file. */
 typedef struct {
   const char *option, *filename;
   SamFileLook look;
   const void *question;
 } Case;
 
-/* What comes out, followed by the answer. */
+/* The outcome of an examination, which ends with the answer. */
 typedef struct {
   PetscErrorCode code;
   char           message[SAM_MESSAGE];
@@ -136,7 +136,7 @@ PetscErrorCode SamFileExamine(MPI_Comm comm, const char option[], const char fil
 
 /* ---- where the data lie ---- */
 
-/* Whether all chunks that hold the first `extent` places in each dimension lie within a file of that size (bytes). */
+/* True if all chunks that hold the first `extent` places in each dimension lie within a file of that size (bytes). */
 static PetscBool ChunksAreWithin(hid_t dataset, hid_t creation, hsize_t size, const hsize_t extent[], PetscBool every)
 {
   const hid_t space = H5Dget_space(dataset);
