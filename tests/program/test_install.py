@@ -30,6 +30,7 @@ def test_all_that_users_need_is_installed(prefix):
     assert {
         "bin/petsam",
         "lib/libpetsam.a",
+        "lib/petsam/petsam-examine",
         "lib/libpetsam.so",
         "lib/pkgconfig/petsam.pc",
         "include/petsam.h",

@@ -43,14 +43,17 @@ PETSC_INTERN PetscErrorCode SamFileOpen(SamGrid grid, SamEvent event, const char
                                         SamFileMode mode, SamFile *file);
 /*
   SamFileExamine - rank 0 examines an HDF5 file before all ranks open it: reports one that is not there, may not be read
-  or is not HDF5, then calls `look` with the file open on this rank alone. This happens in a child
-  process, since HDF5 may crash, or never end, on a damaged file. The `answer` (`size` bytes without pointers) is
+  or is not HDF5, and one on which HDF5 crashes or does not end, by running petsam-examine on it; then calls `look` with
+  the file open on this rank alone. `objects`, ended by NULL, are at most SAM_FILE_OBJECTS names of what will be read,
+  where a file of another's may hold much more; NULL: all. The `answer` (`size` bytes without pointers) is
   returned on all ranks, and an error that `look` has raised or noted is raised on all. Collective. Errors:
   SAM_ERR_FILE, and those of `look`.
 */
+#define SAM_FILE_OBJECTS 3
 typedef PetscErrorCode (*SamFileLook)(SamFile file, const void *question, void *answer);
-PETSC_INTERN PetscErrorCode SamFileExamine(MPI_Comm comm, const char option[], const char filename[], SamFileLook look,
-                                           const void *question, void *answer, size_t size);
+PETSC_INTERN PetscErrorCode SamFileExamine(MPI_Comm comm, const char option[], const char filename[],
+                                           const char *const objects[], SamFileLook look, const void *question,
+                                           void *answer, size_t size);
 /*
   SamFileDestroy - frees the object, and with `close` first closes the file; without it the file stays open, for where
   closing would hang. Errors: SAM_ERR_FILE.
