@@ -220,7 +220,7 @@ lint: $(PROGRAMS:%=$(B)/help/%.h) ## cppcheck over the sources
 SHARED = $(shell find scripts examples -type f ! -path '*/maintain/*' ! -path '*/__pycache__/*' ! -name setup.py ! -name install-dependencies.sh ! -name quickstart.sh)
 share  = $(DESTDIR)$(prefix)/share/petsam
 # the manual's parts outside of scripts and examples
-MANUAL := README.md CHANGES.md include/README.md src/README.md tests/README.md tests/bench/README.md
+MANUAL := README.md CHANGES.md src/README.md tests/README.md tests/bench/README.md
 
 install: all pages ## install program, library, headers, petsam.pc, scripts, examples, man pages, completions: prefix=, DESTDIR=
 	install -d $(DESTDIR)$(prefix)/bin $(DESTDIR)$(prefix)/lib/pkgconfig

@@ -106,8 +106,8 @@ int petsam_live(petsam_contact *c, double cycles, const char *columns, int rows,
 int         petsam_advise(petsam_contact *c, int *count);
 const char *petsam_warning(const petsam_contact *c, int k);
 /*
-  petsam_commit - the tried step becomes the state from which the next one goes on; bodies wear by it, if they do. A
-  warning of petsam_message() then says that the step wears more than one may.
+  petsam_commit - makes the tried step the state from which the next one continues; its wear, if any, is removed. If the
+  step wears more than the limit of a step, petsam_message() has a warning.
   petsam_reject - forgets a tried step, if there is one: later steps are, to the last bit, as if it had not been tried.
 */
 int petsam_commit(petsam_contact *c);
@@ -123,7 +123,7 @@ int petsam_stiffness(petsam_contact *c, int reversal, double k[36]);
 /*
   petsam_get_field - a field of the tried step, else of the committed one, by its name in a results file
   (examples/manual/RESULTS.md): "pressure", "shear_x", "slip_x", "state", "gap" (of the deformed bodies), "wear_depth1"
-  ... This rank's rows.
+  ... Each rank receives its own rows.
   petsam_get_number - a number of the last step that was tried, or after petsam_reject() of the committed one, by its
   name in /history: "contact_area", "dissipated_energy", "stored_energy", "status", "load_n" ...; with "wear/" before
   it one of the cycle that petsam_live() computed last, by its name in /wear.
@@ -171,7 +171,10 @@ int petsam_load(petsam_contact *c, const char *file);
 */
 int petsam_copy(petsam_contact *c, petsam_contact *from);
 int petsam_reset(petsam_contact *c);
-/* petsam_message - what was wrong with the last call, or a warning; empty: nothing. NULL asks for petsam_create()'s. */
+/*
+  petsam_message - describes the error of the last call, or a warning; it is empty if there is neither. NULL requests
+  the message of petsam_create().
+*/
 const char *petsam_message(const petsam_contact *c);
 /* petsam_destroy - frees a contact and sets the handle to NULL. */
 void petsam_destroy(petsam_contact **c);

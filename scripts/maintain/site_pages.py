@@ -30,7 +30,6 @@ PARTS = (
     ("Manual", "examples/README.md", ("examples/manual/*.md",)),
     ("Examples", None, ("examples/*/README.md",)),
     ("Tools and Python", "scripts/README.md", ("scripts/*/*.md",)),
-    ("Inside other programs", "include/README.md", ()),
     ("Method and sources", "src/README.md", ()),
     ("Tests and performance", "tests/README.md", ("tests/*/README.md",)),
     ("Changes", "CHANGES.md", ()),

@@ -17,7 +17,7 @@
 
 extern char **environ;
 
-/* What is asked of a file. */
+/* A question about a file. */
 typedef struct {
   const char        *option, *filename;
   const char *const *objects;
@@ -25,7 +25,7 @@ typedef struct {
   const void        *question;
 } Case;
 
-/* What comes out, followed by the answer. */
+/* The outcome of an examination, which ends with the answer. */
 typedef struct {
   PetscErrorCode code;
   char           message[SAM_MESSAGE];
@@ -159,7 +159,7 @@ PetscErrorCode SamFileExamine(MPI_Comm comm, const char option[], const char fil
 
 /* ---- where the data lie ---- */
 
-/* Whether all chunks that hold the first `extent` places in each dimension lie within a file of that size (bytes). */
+/* True if all chunks that hold the first `extent` places in each dimension lie within a file of that size (bytes). */
 static PetscBool ChunksAreWithin(hid_t dataset, hid_t creation, hsize_t size, const hsize_t extent[], PetscBool every)
 {
   const hid_t space = H5Dget_space(dataset);

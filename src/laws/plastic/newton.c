@@ -1,8 +1,9 @@
 /*
   Plastic strain and contact together, by Newton's method.
 
-  Unknown is the driver d in each cell of each layer. The material gives the plastic strain e(d) (mises.c), e the
-  displacement of the surfaces, the contact with it the tractions p, and both the stress; so the residual is
+  The unknown is the driver d in each cell of each layer. The material gives the plastic strain e(d) (mises.c), e gives
+  the displacement of the surfaces, the contact on these gives the tractions p, and e and p give the stress. So the
+  residual is
       r = e + dev(R e + K p)/(2 mu) - d.
   With P = de/dd, S the contact's stiffness on frozen sets of cells (reaction.c), and Bc = 1 + dev(R - K S K')/(2 mu), a
   step solves (1 - Bc P) delta = r in the symmetric form

@@ -50,13 +50,13 @@ PETSC_INTERN PetscErrorCode SamPlasticWork(const SamPlastic *plastic, const doub
 PETSC_INTERN PetscErrorCode SamPlasticLookOutside(SamPlastic *plastic, Vec state, Vec pressure, Vec shear,
                                                   double *thick, double *excess);
 /*
-  SamPlasticGrade - the thicknesses (m) of n layers down to a depth. The first one has the given thickness, and each is
-  thicker than the one above it by the same ratio; all are equal where the first one is thicker than depth/n.
-  SamPlasticFind - the layer of a body at a depth (m), the last one below all. Neither is collective.
+  SamPlasticGrade - sets the thicknesses (m) of n layers down to a depth. The first one has the given thickness, and
+  each is thicker than the one above it by the same ratio; all are equal where the first one is thicker than depth/n.
+  SamPlasticFind - returns the layer of a body at a depth (m); below all layers the last one. Neither is collective.
 */
 PETSC_INTERN void     SamPlasticGrade(PetscInt n, PetscReal first, PetscReal depth, PetscReal thickness[]);
 PETSC_INTERN PetscInt SamPlasticFind(const SamPlastic *plastic, PetscReal depth);
-/* SamPlasticRead, SamPlasticWrite - what cell k of layer l remembers, of an array of such a field. */
+/* SamPlasticRead, SamPlasticWrite - read and write the values of cell k of layer l in the array of a stored field. */
 PETSC_INTERN void SamPlasticRead(const SamPlastic *plastic, const double state[], PetscInt l, PetscInt k,
                                  SamMisesAt *at);
 
