@@ -38,7 +38,7 @@ CLANG    := $(findstring clang,$(shell $(CC) --version 2>/dev/null))
 WARNINGS := -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wvla -Wpointer-arith $(if $(CLANG),-Wno-pass-failed) $(if $(WERROR),-Werror)
 ALL_CFLAGS = -std=c11 -D_GNU_SOURCE -fopenmp-simd -fno-math-errno -fno-trapping-math $(OPT) -fPIC -Iinclude -I$(B) $(PC_CFLAGS) $(WARNINGS) -MMD -MP $(CFLAGS)
 
-LIB_SRC := $(sort $(shell find src -name "*.c" ! -path "src/front/app/*"))
+LIB_SRC := $(sort $(shell find src -name "*.c" ! -path "src/front/app/*" ! -path "src/front/examine/*"))
 PROGRAMS := petsam petsam-stress
 APP_SRC := $(filter-out $(PROGRAMS:%=src/front/app/%.c),$(sort $(wildcard src/front/app/*.c src/front/app/*/*.c)))
 LIB_OBJ := $(LIB_SRC:%.c=$(B)/obj/%.o)
@@ -47,6 +47,9 @@ BENCHES := $(patsubst tests/bench/%.c,$(B)/bench/%,$(wildcard tests/bench/*.c))
 UNIT    := $(patsubst tests/unit/%.c,$(B)/tests/%,$(wildcard tests/unit/test_*.c))
 # types from outside of the library, for the unit tests
 METHODS := $(patsubst %.c,$(B)/obj/%.o,$(wildcard tests/unit/methods/*.c examples/embed/plugin/*.c))
+
+# what the library runs on a file before it opens it
+EXAMINE := $(B)/lib/petsam/petsam-examine
 
 VERSION := $(shell sed -nE 's/^\#define SAM_VERSION_(MAJOR|MINOR|SUBMINOR) +//p' include/petsam/base.h | paste -sd.)
 # what programs are linked with: it changes with major and minor, as the interface may
@@ -57,7 +60,7 @@ HEADERS := include/petsam.h $(sort $(wildcard include/petsam/*.h include/petsam/
 .DELETE_ON_ERROR:
 .SECONDARY:
 
-all: $(PROGRAMS:%=$(B)/bin/%) $(B)/lib/libpetsam.a $(B)/lib/libpetsam.so ## build the program and the libraries
+all: $(PROGRAMS:%=$(B)/bin/%) $(B)/lib/libpetsam.a $(B)/lib/libpetsam.so $(EXAMINE) ## build the program and the libraries
 	@mkdir -p $(B)/run # where the commands of the pages write
 
 help: ## list the targets
@@ -98,6 +101,11 @@ $(PROGRAMS:%=$(B)/bin/%): $(B)/bin/%: $(B)/obj/src/front/app/%.o $(APP_OBJ) $(B)
 	$(say) LD $@
 	$(Q)$(CC) $(LDFLAGS) -o $@ $^ '-Wl,-rpath,$$ORIGIN/../lib' $(PC_LIBS)
 
+$(EXAMINE): src/front/examine/examine.c
+	@mkdir -p $(@D)
+	$(say) LD $@
+	$(Q)$(CC) -std=c11 -D_GNU_SOURCE -O2 $(PC_CFLAGS) $(WARNINGS) $(LDFLAGS) -o $@ $< -Wl,--as-needed $(PC_LIBS)
+
 $(B)/bench/%: $(B)/obj/tests/bench/%.o $(B)/lib/libpetsam.a
 	@mkdir -p $(@D)
 	$(say) LD $@
@@ -108,7 +116,7 @@ $(B)/tests/%: $(B)/obj/tests/unit/%.o $(METHODS) $(APP_OBJ) $(B)/lib/libpetsam.a
 	$(say) LD $@
 	$(Q)$(CC) $(LDFLAGS) -o $@ $^ $(PC_LIBS) -lcmocka
 
-units: $(UNIT) ## build the unit tests
+units: $(UNIT) $(EXAMINE) ## build the unit tests
 
 bench-programs: $(BENCHES) ## build the benchmark's programs
 
@@ -213,11 +221,12 @@ lint: $(PROGRAMS:%=$(B)/help/%.h) ## cppcheck over the sources
 SHARED = $(shell find scripts examples -type f ! -path '*/maintain/*' ! -path '*/__pycache__/*' ! -name setup.py ! -name install-dependencies.sh ! -name quickstart.sh)
 share  = $(DESTDIR)$(prefix)/share/petsam
 # the manual's parts outside of scripts and examples
-MANUAL := README.md CHANGES.md include/README.md src/README.md tests/README.md tests/bench/README.md
+MANUAL := README.md CHANGES.md src/README.md tests/README.md tests/bench/README.md
 
 install: all pages ## install program, library, headers, petsam.pc, scripts, examples, man pages, completions: prefix=, DESTDIR=
 	install -d $(DESTDIR)$(prefix)/bin $(DESTDIR)$(prefix)/lib/pkgconfig
 	install -m 755 $(PROGRAMS:%=$(B)/bin/%) $(DESTDIR)$(prefix)/bin
+	install -D -m 755 $(EXAMINE) $(DESTDIR)$(prefix)/lib/petsam/$(notdir $(EXAMINE))
 	install -m 644 $(B)/lib/libpetsam.a $(DESTDIR)$(prefix)/lib
 	install -m 755 $(B)/lib/libpetsam.so.$(VERSION) $(DESTDIR)$(prefix)/lib
 	cd $(DESTDIR)$(prefix)/lib && ln -sf libpetsam.so.$(VERSION) $(SONAME) && ln -sf $(SONAME) libpetsam.so

@@ -8,7 +8,6 @@
 typedef struct {
   PetscReal young, poisson; /* Pa, infinite: rigid; 1 */
   PetscReal thickness;      /* m; ignored for the last material of a body, which has no lower end */
-  PetscReal stress[2];      /* residual stress xx and yy, Pa */
 } SamMaterial;
 
 /*
@@ -62,6 +61,17 @@ PETSC_INTERN const SamMaterial *SamBodyMaterialAt(SamBody body, PetscReal depth)
 PETSC_INTERN PetscReal          SamBodyTop(SamBody body, PetscInt n);
 PETSC_INTERN const SamMaterial *SamBodySubstrate(SamBody body);
 PETSC_INTERN PetscBool          SamBodyIsRigid(SamBody body);
+/*
+  SamBodyInitialStress - gets the stress xx and yy (Pa) that a body has before any load at a depth (m); where it jumps,
+  that above. It is zero unless -body1_initial_stress, -body2_initial_stress gives it.
+  SamBodyMeanInitialStress - gets its mean from a depth `top` over a thickness (m).
+  SamBodyHasInitialStress - returns true if the body has such a stress.
+  None is collective.
+*/
+PETSC_INTERN void      SamBodyInitialStress(SamBody body, double depth, double stress[2]);
+PETSC_INTERN void      SamBodyMeanInitialStress(SamBody body, double top, double thickness, double stress[2]);
+PETSC_INTERN PetscBool SamBodyHasInitialStress(SamBody body);
+
 /*
   SamBodyAdvise - writes a warning if the layers of body `number` (1 or 2) have no effect or are thinner than a cell (k
   = 0; `cell`: its size, m), or are thicker than 100 times the width of the contact (k = 1; `width`, m); else an empty
@@ -119,15 +129,18 @@ PETSC_INTERN PetscBool SamPairIsUniform(SamPair pair);
 PETSC_INTERN double    SamPairCoupling(SamPair pair, double first, double last);
 /*
   SamPairCreateFromOptions - creates a pair from -body1_young, -body1_poisson, -body1_layer_young, -body1_layer_poisson,
-  -body1_layer_thickness, -body1_layer_stress, -body1_layer_file, the same options of body 2, and -film_thickness and
+  -body1_layer_thickness, -body1_layer_file, -body1_initial_stress, the same options of body 2, and -film_thickness and
   -film_shear of the film. Collective. Errors: SAM_ERR_USER, where SamBodyCreate() and SamPairCreate() fail, and for an
   option that is missing, or lists of different lengths.
+  SamPairCheckInitialStress - fails if a stress before any load goes far deeper than the grid is wide (`width`, m): its
+  depths have another unit. Collective. Errors: SAM_ERR_USER.
   SamPairAddParameters - appends the constants to the parameters of a run, under the names of these options. Not
   collective.
   SamPairCreateFromParameters - creates a pair from the parameters of a run; `source` names their file in messages.
   Collective. Errors: SAM_ERR_FILE.
 */
 PETSC_INTERN PetscErrorCode SamPairCreateFromOptions(const SamOptions *from, SamPair *pair);
+PETSC_INTERN PetscErrorCode SamPairCheckInitialStress(SamPair pair, const SamOptions *from, PetscReal width);
 PETSC_INTERN PetscErrorCode SamPairAddParameters(SamPair pair, SamParameters *parameters);
 PETSC_INTERN PetscErrorCode SamPairCreateFromParameters(MPI_Comm comm, const SamParameters *parameters,
                                                         const char source[], SamPair *pair);

@@ -221,7 +221,7 @@ int petsam_advise(petsam_contact *c, int *count);
 const char *petsam_warning(const petsam_contact *c, int k);
 
 /*
-  petsam_commit - makes the tried step the state from which the next one starts.
+  petsam_commit - makes the tried step the state from which the next one continues.
 
   Collective.
 
@@ -229,7 +229,8 @@ const char *petsam_warning(const petsam_contact *c, int k);
 
   Errors: 2 without a tried step, or if a monitor calls it; 10 for a step that did not converge.
 
-  Bodies wear by it, if they do. A warning of petsam_message() then reports a step that wears more than is accurate.
+  The wear of the step, if any, is removed from the bodies. If the step wears more than the limit of a step,
+  petsam_message() has a warning.
 */
 int petsam_commit(petsam_contact *c);
 
@@ -272,7 +273,7 @@ int petsam_stiffness(petsam_contact *c, int reversal, double k[36]);
   In:     c      - the contact
           name   - its name in a results file (examples/manual/RESULTS.md): "pressure", "shear_x", "slip_x", "state",
                    "gap" (of the deformed bodies), "wear_depth1" ...
-  Out:    values - this rank's rows (unit of the field in the results file)
+  Out:    values - this rank's rows (unit of the field in the results file); each rank receives its own
 
   Errors: 2 for an unknown name, or without a solved step.
 */
@@ -452,7 +453,7 @@ int petsam_copy(petsam_contact *c, petsam_contact *from);
 int petsam_reset(petsam_contact *c);
 
 /*
-  petsam_message - returns the message of the last call: what was wrong, or a warning; empty: nothing.
+  petsam_message - returns a description of the error of the last call, or a warning; it is empty if there is neither.
 
   Not collective.
 

@@ -5,8 +5,8 @@
 #include <petsam/contact.h>
 
 /*
-  A closed cycle: its steps, 0 ... steps - 1; the last one is where the next cycle begins.
-    control  what is prescribed in a step after so many cycles; the same after any number but for the friction
+  A closed cycle has the steps 0 ... steps - 1; the next cycle begins where the last of them ends.
+    control  sets the prescribed values of a step after a number of cycles, on which only the friction may depend
     solved   is called after each step of a cycle that is computed on the wear so far (not on that within a jump), while
              the step is tried; NULL: not wanted
 */

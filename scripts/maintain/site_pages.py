@@ -32,12 +32,12 @@ PARTS = (
     ("Manual", "examples/README.md", ("examples/manual/*.md",)),
     ("Examples", None, ("examples/*/README.md",)),
     ("Tools and Python", "scripts/README.md", ("scripts/*/*.md",)),
-    ("Inside other programs", "include/README.md", ()),
+    ("C library", "include/FUNCTIONS.md", ()),
     ("Method and sources", "src/README.md", ()),
     ("Tests and performance", "tests/README.md", ("tests/*/README.md",)),
     ("Changes", "CHANGES.md", ()),
 )
-# pages that are no files of the repository, in the part of the page in their folder
+# pages that are no files of the repository
 GENERATED = {"include/FUNCTIONS.md": functions.page}
 
 
@@ -50,7 +50,6 @@ def pages():
     parts = []
     for title, first, others in PARTS:
         found = [first] if first else []
-        found += [name for name in GENERATED if first and Path(name).parent == Path(first).parent]
         for pattern in others:
             found += sorted(str(path.relative_to(ROOT)) for path in ROOT.glob(pattern))
         parts.append((title, list(dict.fromkeys(found))))

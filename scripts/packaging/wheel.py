@@ -74,6 +74,7 @@ def stage(build, libraries, tree):
         "__pycache__", "*.egg-info", "build", "maintain", "packaging"))  # fmt: skip
     data, library = tree / "data", build / "lib" / "libpetsam.so"
     places = {data / "lib" / os.readlink(library): library}
+    places[data / "lib/petsam/petsam-examine"] = build / "lib/petsam/petsam-examine"
     places.update({data / "bin" / name: build / "bin" / name for name in PROGRAMS})
     if libraries:
         others = carried(places.values())

@@ -30,9 +30,9 @@ struct _n_SamContact {
   PetscInt         aside;                          /* field, of the last step that needed it */
   PetscInt         time, solution, apart, creeps, control, residuals, counts, status, window, slip,
     steps;                                    /* numbers, see memory.c */
-  PetscInt         rolling;                   /* numbers, of a motion in which material streams only */
+  PetscInt         rolling;                   /* numbers that only motions with streaming material have */
   PetscInt         condition[SAM_CONDITIONS]; /* numbers, by the places of conditions */
-  PetscObjectState declared;                  /* what all of them follow from, when they were declared; 0: to be done */
+  PetscObjectState declared;                  /* revision of the laws when they were declared; 0: not yet */
 };
 
 /* True if pressure and shear depend on each other. */

@@ -29,7 +29,7 @@
 
 /* A change of D, parts of a cell, that counts. */
 #define SLIDES 1e-3
-#define LOSS   1e-2 /* part of the heights of a surface that interpolation takes: 8 cells a wave */
+#define LOSS   1e-2 /* part of a surface's heights that interpolation removes, at 8 cells per wave */
 
 typedef struct {
   PetscBool given;

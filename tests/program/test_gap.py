@@ -1,5 +1,7 @@
 """Gaps and roughness from files."""
 
+import struct
+
 import h5py
 import numpy as np
 import pytest
@@ -161,3 +163,23 @@ def test_flat_bodies_share_the_load_over_all_of_the_grid(solve):
     s = solve(case)
     assert s["contact_area"] == pytest.approx(84 * 71 * D * D, rel=1e-12)
     assert_close(s.displacement_z, s["disp_z"], 1.1e-8)
+
+
+def make_circle(path):
+    """Lets the index of the dataset's chunks, a tree of one node, have itself as its children."""
+    data = bytearray(path.read_bytes())
+    node = data.index(b"TREE\1")  # level, children (2 bytes), two siblings, and keys and children by turns
+    key = 8 + 8 * 3
+    (children,) = struct.unpack_from("<H", data, node + 6)
+    data[node + 5] = 1
+    for k in range(children):
+        struct.pack_into("<Q", data, node + 24 + key + k * (key + 8), node)
+    path.write_bytes(data)
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_file_whose_addresses_form_a_circle_is_damaged(petsam, tmp_path, ranks):
+    """HDF5 follows them until its stack is full."""
+    make_circle(write(tmp_path / "gap.h5", np.zeros((71, 84)), chunks=(16, 16)))
+    done = petsam(dict(FILE, gap_file=tmp_path / "gap.h5"), ranks=ranks, check=3)
+    assert done.complaint == [f"petsam: -gap_file {tmp_path / 'gap.h5'}: cannot be read: it is damaged"]

@@ -123,10 +123,10 @@ def test_beginning_of_two_topics_is_refused(petsam):
         (
             "body1",
             ["-body1_young", "-body1_poisson"]
-            + [f"-body1_layer_{name}" for name in ("file", "young", "poisson", "thickness", "stress")]
-            + ["-body1_compliance", "-body1_surface_file", "-body1_surface_dataset"]
+            + [f"-body1_layer_{name}" for name in ("file", "young", "poisson", "thickness")]
+            + ["-body1_initial_stress", "-body1_compliance", "-body1_surface_file", "-body1_surface_dataset"]
             + [f"-body1_{name}" for name in ("yield", "hardening", "hardening_modulus", "voce_stress", "voce_rate")]
-            + [f"-body1_{name}" for name in ("swift_strain", "swift_exponent", "backstress", "initial_stress")],
+            + [f"-body1_{name}" for name in ("swift_strain", "swift_exponent", "backstress")],
         ),
         ("restart", ["-restart", "-restart_gap"]),
         ("fft", ["-fft_effort", "-fft_exchange"]),

@@ -11,7 +11,7 @@ from conftest import PROGRAM, environment, make_install
 from support import ROOT, Results, closed, dead_links
 
 BUILD = PROGRAM.parents[1]
-CONTACT = dict(radius=0.1, e_star=210e9 / (2 * (1 - 0.3**2)), load=1000.0)  # examples/library/contact.c
+CONTACT = dict(radius=0.1, e_star=210e9 / (2 * (1 - 0.3**2)), load=1000.0)  # examples/embed/library/contact.c
 
 
 @pytest.fixture(scope="module")
@@ -30,6 +30,7 @@ def test_all_that_users_need_is_installed(prefix):
     assert {
         "bin/petsam",
         "lib/libpetsam.a",
+        "lib/petsam/petsam-examine",
         "lib/libpetsam.so",
         "lib/pkgconfig/petsam.pc",
         "include/petsam.h",
@@ -42,7 +43,7 @@ def test_all_that_users_need_is_installed(prefix):
     } <= installed
     for folder, place in (("include", "include"), ("examples", "share/petsam/examples")):
         names = {name for name in files(ROOT / folder) if "__pycache__" not in name}
-        wanted = {f"{place}/{name}" for name in names if f"{folder}/{name}" != "include/README.md"}  # is in share
+        wanted = {f"{place}/{name}" for name in names}
         assert wanted <= installed, wanted - installed
     assert (
         "share/petsam/scripts/petsam/results.py" in installed and "share/petsam/scripts/requirements.txt" in installed
@@ -127,8 +128,8 @@ CPP = """
 
 @pytest.mark.parametrize("kind", ["shared", "static", "C++"])
 def test_program_on_the_installed_library_solves_a_contact(prefix, tmp_path, launcher, kind):
-    """examples/library/contact.c, with nothing of the sources in reach."""
-    source = prefix / "share/petsam/examples/library/contact.c"
+    """examples/embed/library/contact.c, with nothing of the sources in reach."""
+    source = prefix / "share/petsam/examples/embed/library/contact.c"
     compiler = ["mpicc", "-std=c11"]
     if kind == "C++":
         headers = "\n".join(

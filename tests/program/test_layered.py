@@ -293,7 +293,10 @@ def test_stresses_through_layers(solve, petsam_stress, tmp_path):
 
 def test_layers_take_the_strains_of_the_bulk_stress_and_their_residual_stress(petsam, petsam_stress, tmp_path):
     case = {**SLIDING, "friction": None, "load_tx": None}
-    more = dict(bulk2_stress_xx=1e6, bulk2_stress_yy=-2e5, bulk2_stress_xy=3e5, body2_layer_stress="-3e6,-2e6,1e5,4e5")
+    rows = [(0, -3e6, -2e6), (0.5 * A, -3e6, -2e6), (0.5 * A, 1e5, 4e5), (0.8 * A, 1e5, 4e5)]
+    text = "depth,stress_xx,stress_yy\n" + "".join(f"{z!r},{xx},{yy}\n" for z, xx, yy in rows)
+    (tmp_path / "i.csv").write_text(text)
+    more = dict(bulk2_stress_xx=1e6, bulk2_stress_yy=-2e5, bulk2_stress_xy=3e5, body2_initial_stress="i.csv")
     for name, options in (("none", {}), ("all", more)):
         petsam(case, options, dict(output=f"{name}.h5"))
         petsam_stress(dict(input=f"{name}.h5", output=f"{name}-s.h5", depths=f"{0.1 * A},{0.6 * A},{2 * A}"))
@@ -309,6 +312,25 @@ def test_layers_take_the_strains_of_the_bulk_stress_and_their_residual_stress(pe
             expected = own * (xx + poisson * yy), own * (yy + poisson * xx), young * 1.3 / (1 + poisson) * 3e5
             for value, bulk, rest in zip(added, expected, (*residual, 0)):
                 assert_close(value, np.full_like(value, bulk + rest), 1e-3)
+
+
+def test_stress_before_any_load_is_added_to_an_elastic_body(petsam, petsam_stress, tmp_path):
+    """By petsam-stress, linear between the rows and 0 below the last; it changes nothing else."""
+    (tmp_path / "i.csv").write_text(f"depth,stress_xx,stress_yy\n0,-3e6,-2e6\n{0.2 * A},-4e6,-1e6\n{0.6 * A},0,5e5\n")
+    case = sphere([], 2.6, n=48, load_n=0.5 * E * A**3, friction=0.3, load_tx=0.1 * E * A**3)
+    for name, more in (("none", {}), ("all", dict(body2_initial_stress="i.csv"))):
+        petsam(case, more, dict(output=f"{name}.h5"), ranks=2)
+        petsam_stress(dict(input=f"{name}.h5", output=f"{name}-s.h5", depths=f"0,{0.1 * A},{0.4 * A},{0.7 * A}"))
+    with h5py.File(tmp_path / "all-s.h5") as f, h5py.File(tmp_path / "none-s.h5") as none:
+        for part, values in dict(xx=(-3e6, -3.5e6, -2e6, 0), yy=(-2e6, -1.5e6, -2.5e5, 0), zz=(0, 0, 0, 0)).items():
+            added = f["stress_" + part][0] - none["stress_" + part][0]
+            assert_close(added, np.broadcast_to(np.array(values)[:, None, None], added.shape), 1e-3)
+    with h5py.File(tmp_path / "all.h5", "r+") as f:
+        f.attrs["body2_initial_stress"] = f.attrs["body2_initial_stress"][:-1]
+    told = petsam_stress(dict(input="all.h5", output="s.h5", depths="0"), check=3).stderr
+    assert "the attribute body2_initial_stress is not rows of depth, stress_xx, stress_yy" in told
+    refused = petsam(dict(SLIDING, body1_initial_stress="i.csv"), check=2).complaint[0]
+    assert "-body1_initial_stress has no effect: -body1_young inf is a rigid body" in refused
 
 
 @pytest.mark.parametrize(
@@ -356,11 +378,6 @@ def test_fatigue_constants_of_layers_and_substrate(petsam, petsam_stress, tmp_pa
     ):
         more = dict(fatigue_crossland_alpha="0.1,0.2") if "another" in says else {}
         assert says in petsam_stress({**refused, "fatigue_findley_k": k, **more}, check=2).stderr
-
-
-def test_residual_stress_has_two_numbers_for_each_layer(petsam):
-    says = "-body2_layer_stress: 3 of 4 numbers are given: give xx and yy of each layer"
-    assert says in petsam({**SLIDING, "body2_layer_stress": "1e6,1e6,2e6"}, check=2).complaint[0]
 
 
 # ---------------------------------------------------------------- constants that vary with the depth
@@ -448,8 +465,6 @@ def test_life_tells_the_cycle_by_which_a_layer_is_worn_through(petsam, tmp_path)
         (dict(body2_layer_young="soft"), "body2_layer_young"),
         (dict(body2_layer_poisson=None), "body2_layer_poisson"),
         (dict(body2_layer_thickness=3), "body2_layer_thickness"),
-        (dict(body2_layer_stress=[1e9, 1e9, 1e9, float("nan")]), "body2_layer_stress"),
-        (dict(body2_layer_stress=[1e9]), "body2_layer_stress"),
     ],
 )
 def test_damaged_layers_in_a_file_are_refused(attributes, names, petsam, petsam_stress, tmp_path):

@@ -243,8 +243,8 @@ def test_peened_body_that_yields_has_the_yield_stress(petsam, launcher, tmp_path
     [
         ("depth,stress_xx\n0,1e8\n1e-4,0", ["i.csv, line 1", "stress_yy"]),
         ("depth,stress_xx,stress_yy\n1e-5,1e8,1e8\n1e-4,0,0", ["i.csv, line 2", "depth 0"]),
-        ("depth,stress_xx,stress_yy\n0,1e8,1e8\n1e-4,0,0\n1e-4,0,0", ["i.csv, line 4", "order the rows"]),
-        ("depth,stress_xx,stress_yy\n0,7e8,7e8\n3e-4,0,0", ["-body2_initial_stress i.csv", "yield stress"]),
+        ("depth,stress_xx,stress_yy\n0,1e8,1e8\n2e-4,0,0\n1e-4,0,0", ["i.csv, line 4", "order the rows"]),
+        ("depth,stress_xx,stress_yy\n0,7e8,7e8\n3e-4,0,0", ["-body2_initial_stress: ", "yield stress"]),
     ],
 )
 def test_profile_that_makes_no_sense_is_refused(petsam, tmp_path, text, words):

@@ -423,13 +423,13 @@ static void test_impossible_bodies_are_refused(void **state)
                              {1, {{.young = -1}}},
                              {1, {{.young = NAN}}},
                              {1, {{.young = 1e-320}}},
-                             {1, {{1, 0.6, 0, {0}}}},
-                             {1, {{1, -1, 0, {0}}}},
-                             {1, {{1, NAN, 0, {0}}}},
-                             {1, {{1, INFINITY, 0, {0}}}},
-                             {0, {{1, 0.3, 0, {0}}}},
-                             {2, {{1, 0.3, 0, {0}}, {1, 0.3, 0, {0}}}},
-                             {2, {{INFINITY, 0.3, 1, {0}}, {1, 0.3, 0, {0}}}}};
+                             {1, {{1, 0.6, 0}}},
+                             {1, {{1, -1, 0}}},
+                             {1, {{1, NAN, 0}}},
+                             {1, {{1, INFINITY, 0}}},
+                             {0, {{1, 0.3, 0}}},
+                             {2, {{1, 0.3, 0}, {1, 0.3, 0}}},
+                             {2, {{INFINITY, 0.3, 1}, {1, 0.3, 0}}}};
   const SamMaterial rigid = {.young = INFINITY};
   SamBody           body;
   SamPair           pair;

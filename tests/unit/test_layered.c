@@ -32,7 +32,7 @@ static SamPair PairOf(const Body *first, const Body *second)
     const Body *of = body[b];
 
     for (int n = 0; n < of->count; n++)
-      material[b][n] = (SamMaterial){of->layer[n][0], of->layer[n][1], of->layer[n][2], {0}};
+      material[b][n] = (SamMaterial){of->layer[n][0], of->layer[n][1], of->layer[n][2]};
     material[b][of->count] = (SamMaterial){.young = of->young, .poisson = of->poisson};
   }
   return NewPairOf(first->count + 1, material[0], second->count + 1, material[1]);

@@ -15,7 +15,7 @@ static SamBody BodyOf(int count, const double layer[][3])
   SamMaterial material[3] = {{0}};
   SamBody     body;
 
-  for (int n = 0; n <= count; n++) material[n] = (SamMaterial){layer[n][0], layer[n][1], layer[n][2], {0}};
+  for (int n = 0; n <= count; n++) material[n] = (SamMaterial){layer[n][0], layer[n][1], layer[n][2]};
   sam_call(SamBodyCreate(count + 1, material, &body));
   return body;
 }

@@ -7,7 +7,6 @@
 #include <hdf5.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <petsam/private/file.h>
@@ -293,35 +292,6 @@ static void test_file_that_does_not_tell_its_grid_is_named(void **state)
              n[0] == 0); /* is not asked for */
 }
 
-static PetscErrorCode LookForEver(SamFile file, const void *question, void *answer)
-{
-  (void)file;
-  (void)question;
-  for (volatile int more = 1; more;) continue;
-  *(int *)answer = 0;
-  return PETSC_SUCCESS;
-}
-
-/* HDF5 may follow the addresses in a file in a circle. */
-static void test_file_that_keeps_hdf5_busy_is_damaged(void **state)
-{
-  struct rusage  before, after;
-  PetscMPIInt    size;
-  PetscErrorCode ierr;
-  int            answer;
-
-  (void)state;
-  MPI_Comm_size(PETSC_COMM_WORLD, &size);
-  if (size > 1) return; /* it takes two seconds */
-  Write(&(Words){0});
-  sam_assert(!getrusage(RUSAGE_CHILDREN, &before));
-  BeginCatching();
-  ierr = SamFileExamine(PETSC_COMM_WORLD, "gap_file", name, LookForEver, NULL, &answer, sizeof(answer));
-  EndCatching();
-  sam_assert(ierr == SAM_ERR_FILE && strstr(CaughtMessage(), "it is damaged"));
-  sam_assert(!getrusage(RUSAGE_CHILDREN, &after) && after.ru_utime.tv_sec - before.ru_utime.tv_sec < 5);
-}
-
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {
@@ -332,7 +302,6 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_axes_without_units_say_nothing),
     cmocka_unit_test(test_file_tells_its_grid),
     cmocka_unit_test(test_file_that_does_not_tell_its_grid_is_named),
-    cmocka_unit_test(test_file_that_keeps_hdf5_busy_is_damaged),
   };
 
   return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));

@@ -121,8 +121,8 @@ static double LayeredKernel(SamPair pair, SamLayeredSymbol symbol, double x, dou
 static void test_layers_add_their_symbols(void **state)
 {
   static const SamLayeredSymbol symbols[4] = {SAM_LAYERED_ZZ, SAM_LAYERED_RR, SAM_LAYERED_TT, SAM_LAYERED_ZR};
-  const SamMaterial             one[2]     = {{120e9, 0.1, 1e-4, {0}}, {.young = 210e9, .poisson = poisson[0]}},
-                    two[3] = {{150e9, 0.2, 6e-5, {0}}, {60e9, 0.4, 2e-4, {0}}, {.young = 70e9, .poisson = poisson[1]}};
+  const SamMaterial             one[2]     = {{120e9, 0.1, 1e-4}, {.young = 210e9, .poisson = poisson[0]}},
+                    two[3] = {{150e9, 0.2, 6e-5}, {60e9, 0.4, 2e-4}, {.young = 70e9, .poisson = poisson[1]}};
   SamGrid       grid       = NewGridOn(PETSC_COMM_WORLD, 37, 1, width, 1, 0, 0);
   SamParameters p          = {.count = 0};
   SamElasticity e;

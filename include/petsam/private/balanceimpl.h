@@ -195,8 +195,8 @@ static inline void SamGramAddTangential(double gram[SAM_GRAM], double hxx, doubl
 }
 
 /*
-  Adds a cell to the sums in a vectorised loop, which must be local variables of these names: a projected vector
-  (px, py) with the phi, and the parts of the weighted Gram matrix for SamGramTangentialRow().
+  Adds a cell to the sums in a vectorised loop: a projected vector (px, py) times the phi, and the parts of the weighted
+  Gram matrix for SamGramTangentialRow(). The sums must be local variables of these names.
 */
 #define SAM_ADD_TANGENTIAL(px, py, gxx, gxy, gyy, xi) \
   x += (px), y += (py), turn += (xi) * (py), hxx += (gxx), hxy += (gxy), hyy += (gyy), xi_hxy += (xi) * (gxy), \

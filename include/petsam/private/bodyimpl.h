@@ -5,9 +5,13 @@
 #include <petsam/body.h>
 #include <petsam/private/baseimpl.h>
 
+#define SAM_STRESS_ROWS (SAM_PARAMETER_VALUES / 3) /* most rows of a stress over the depth, which is a parameter */
+
 struct _n_SamBody {
   PetscInt    references, count;
-  SamMaterial material[SAM_MATERIALS]; /* the last thickness is infinite */
+  SamMaterial material[SAM_MATERIALS];     /* the last thickness is infinite */
+  PetscInt    rows;                        /* of the stress before any load; 0: there is none */
+  PetscReal   initial[SAM_STRESS_ROWS][3]; /* depth (m), stress xx and yy (Pa), see initialstress.c */
 };
 
 /*
@@ -43,5 +47,10 @@ PETSC_INTERN PetscErrorCode SamBodyCreateFromOptions(const SamOptions *from, Sam
 PETSC_INTERN PetscErrorCode SamBodyAddParameters(SamBody body, const char prefix[], SamParameters *parameters);
 PETSC_INTERN PetscErrorCode SamBodyCreateFromParameters(MPI_Comm comm, const SamParameters *parameters,
                                                         const char prefix[], const char source[], SamBody *body);
+/* The same of the stress before any load alone. */
+PETSC_INTERN PetscErrorCode SamBodyReadInitialStress(const SamOptions *from, SamBody body);
+PETSC_INTERN PetscErrorCode SamBodyAddInitialStress(SamBody body, const char prefix[], SamParameters *parameters);
+PETSC_INTERN PetscErrorCode SamBodyTakeInitialStress(MPI_Comm comm, const SamParameters *parameters,
+                                                     const char prefix[], const char source[], SamBody body);
 
 #endif

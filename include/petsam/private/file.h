@@ -43,14 +43,17 @@ PETSC_INTERN PetscErrorCode SamFileOpen(SamGrid grid, SamEvent event, const char
                                         SamFileMode mode, SamFile *file);
 /*
   SamFileExamine - rank 0 examines an HDF5 file before all ranks open it: reports one that is not there, may not be read
-  or is not HDF5, then calls `look` with the file open on this rank alone. This happens in a child
-  process, since HDF5 may crash, or never end, on a damaged file. The `answer` (`size` bytes without pointers) is
+  or is not HDF5, and one on which HDF5 crashes or does not end, by running petsam-examine on it; then calls `look` with
+  the file open on this rank alone. `objects`, ended by NULL, are at most SAM_FILE_OBJECTS names of what will be read,
+  where a file of another's may hold much more; NULL: all. The `answer` (`size` bytes without pointers) is
   returned on all ranks, and an error that `look` has raised or noted is raised on all. Collective. Errors:
   SAM_ERR_FILE, and those of `look`.
 */
+#define SAM_FILE_OBJECTS 3
 typedef PetscErrorCode (*SamFileLook)(SamFile file, const void *question, void *answer);
-PETSC_INTERN PetscErrorCode SamFileExamine(MPI_Comm comm, const char option[], const char filename[], SamFileLook look,
-                                           const void *question, void *answer, size_t size);
+PETSC_INTERN PetscErrorCode SamFileExamine(MPI_Comm comm, const char option[], const char filename[],
+                                           const char *const objects[], SamFileLook look, const void *question,
+                                           void *answer, size_t size);
 /*
   SamFileDestroy - frees the object, and with `close` first closes the file; without it the file stays open, for where
   closing would hang. Errors: SAM_ERR_FILE.
@@ -71,7 +74,7 @@ PETSC_INTERN hid_t SamFileNote(SamFile file, hid_t result);
 
 /*
   `stored` is the type in the file, `type` that in memory. The caller frees a text that is read, with PetscFree().
-  SamFileHasAttribute - whether the root group has an attribute.
+  SamFileHasAttribute - returns true if the root group has an attribute.
 */
 PETSC_INTERN void      SamFileWriteAttribute(SamFile file, hid_t object, const char name[], hid_t stored, hid_t type,
                                              PetscInt count, const void *values);
@@ -124,9 +127,9 @@ PETSC_INTERN void SamFileReadBlock(SamFile file, hid_t dataset, hid_t type, cons
 PETSC_INTERN void SamFileWriteFrame(SamFile file, hid_t dataset, hid_t type, hsize_t frame, const void *values);
 PETSC_INTERN void SamFileReadFrame(SamFile file, hid_t dataset, hid_t type, hsize_t frame, void *values);
 /*
-  SamFileIsWhole - whether the data of a dataset lie within the file; in a damaged one they may be anywhere. `extent`:
-  the places in each dimension that matter, NULL: all. `every`: all of them must have been written. On one rank, of a
-  file that is examined.
+  SamFileIsWhole - returns true if the data of a dataset lie within the file; in a damaged one they may be anywhere.
+  `extent`: the places in each dimension that matter, NULL: all. `every`: all of them must have been written. It is
+  called on one rank, for a file that is examined.
 */
 PETSC_INTERN PetscBool SamFileIsWhole(SamFile file, hid_t dataset, const hsize_t extent[], PetscBool every);
 /*
@@ -140,8 +143,8 @@ PETSC_INTERN PetscBool SamTextRead(hid_t object, const char name[], char text[],
 
 /*
   SamParametersWrite - writes all parameters as attributes of the root group.
-  SamParametersDiffer - whether a fixed parameter has another value in the file, or is missing there; the message names
-  it and both values.
+  SamParametersDiffer - returns true if a fixed parameter has another value in the file, or is missing there; the
+  message names it and both values.
   Both note their failures. Collective.
 */
 PETSC_INTERN void      SamParametersWrite(SamFile file, const SamParameters *parameters);
@@ -167,7 +170,7 @@ PETSC_INTERN void  SamFileCountVTK(SamFile file, hid_t number, int64_t steps);
 
 /* ---- the disk (disk.c) ---- */
 
-/* What a file is written for. Old results must be there; a temporary file becomes one of the others by its name. */
+/* The purposes of a file. Old results must exist; a temporary file becomes one of the others by its name. */
 typedef enum { SAM_FILE_RESULTS, SAM_FILE_OLD_RESULTS, SAM_FILE_CHECKPOINT, SAM_FILE_TEMPORARY } SamFileUse;
 /*
   SamFileCheckName - fails early if a file of that name cannot be written, is being written by another run, or is there
@@ -217,7 +220,7 @@ typedef struct {
 } SamFileLock;
 /*
   SamFileLockTake - takes hold of a file, which is created if it is not there. Errors as SamFileCheckName().
-  SamFileLockTakeNext - of the next file of a name whose file has been renamed.
+  SamFileLockTakeNext - takes hold of the next file of a name whose file has been renamed.
   SamFileLockCheck - raises an error if the file has been removed, replaced, has not the size that was noted, or its
   marked number has another value: it was cut while a step was written, and grew again.
   These are collective. Errors: SAM_ERR_FILE.

@@ -21,7 +21,7 @@ typedef enum {
 
 /*
   SamResultsOpen - opens a file that the option (without dash) has named, and the parts that follow it. Rank 0 first
-  examines their parameters, sizes and the places of their data in a child process, so that a damaged file does no harm.
+  examines their parameters, sizes and the places of their data, so that a damaged file does no harm.
   Collective. Errors: SAM_ERR_FILE for a file that cannot be read, is not a file of petsam, is damaged, lacks required
   data, or begins after the end of the previous part; the message names it.
 */

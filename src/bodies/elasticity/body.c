@@ -171,8 +171,7 @@ static const struct {
                                  SAM_RANGE_POSITIVE_INF},
                   [POISSON]   = {"layer_poisson", "Poisson's ratio of each layer, or one for all", SAM_RANGE_ANY},
                   [THICKNESS] = {"layer_thickness", "thickness of each layer (m)", SAM_RANGE_ANY}};
-#define RESIDUAL "layer_stress"
-#define PROFILE  "layer_file"
+#define PROFILE "layer_file"
 
 static PetscReal *MemberOf(SamMaterial *m, int list)
 {
@@ -201,8 +200,7 @@ static const SamParameter *Find(const SamParameters *p, const char prefix[], con
 PetscErrorCode SamBodyAddParameters(SamBody body, const char prefix[], SamParameters *p)
 {
   const PetscInt layers = body->count - 1;
-  PetscReal      values[LAYERS], stress[LAYERS][2];
-  PetscBool      stressed = PETSC_FALSE;
+  PetscReal      values[LAYERS];
 
   PetscFunctionBegin;
   PetscCall(AddReals(p, prefix, "young", 1, &SamBodySubstrate(body)->young));
@@ -211,11 +209,7 @@ PetscErrorCode SamBodyAddParameters(SamBody body, const char prefix[], SamParame
     for (PetscInt n = 0; n < layers; n++) values[n] = *MemberOf(&body->material[n], l);
     PetscCall(AddReals(p, prefix, lists[l].name, layers, values));
   }
-  for (PetscInt n = 0; n < 2 * layers; n++) {
-    stress[n / 2][n % 2] = body->material[n / 2].stress[n % 2];
-    stressed             = stressed || stress[n / 2][n % 2] != 0;
-  }
-  if (stressed) PetscCall(AddReals(p, prefix, RESIDUAL, 2 * layers, stress[0]));
+  PetscCall(SamBodyAddInitialStress(body, prefix, p));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -223,7 +217,7 @@ PetscErrorCode SamBodyAddParameters(SamBody body, const char prefix[], SamParame
 static void TakeLayers(const SamParameters *p, const char prefix[], SamMaterial m[], PetscInt *layers,
                        const char **fault)
 {
-  const SamParameter *found[LISTS], *stress = Find(p, prefix, RESIDUAL);
+  const SamParameter *found[LISTS];
   PetscInt            count[LISTS];
 
   *fault = NULL;
@@ -239,11 +233,6 @@ static void TakeLayers(const SamParameters *p, const char prefix[], SamMaterial 
   *layers = count[0];
   for (int l = 0; l < LISTS; l++)
     for (PetscInt n = 0; n < *layers; n++) *MemberOf(&m[n], l) = found[l]->value[n];
-  if (stress && stress->count != 2 * *layers) *fault = RESIDUAL;
-  for (PetscInt n = 0; stress && !*fault && n < stress->count; n++) {
-    m[n / 2].stress[n % 2] = stress->value[n];
-    if (!isfinite(stress->value[n])) *fault = RESIDUAL;
-  }
 }
 
 PetscErrorCode SamBodyCreateFromParameters(MPI_Comm comm, const SamParameters *p, const char prefix[],
@@ -270,23 +259,7 @@ PetscErrorCode SamBodyCreateFromParameters(MPI_Comm comm, const SamParameters *p
   PetscCall(FindFault(layers + 1, m, prefix, message, sizeof(message)));
   PetscCheck(!message[0], comm, SAM_ERR_FILE, "%s: cannot be read: %s", source, message);
   PetscCall(SamBodyCreate(layers + 1, m, body));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Reads two numbers for each layer. */
-static PetscErrorCode ReadResidualStress(const SamOptions *from, SamMaterial m[], PetscInt layers)
-{
-  PetscReal values[2 * LAYERS];
-  PetscInt  count;
-
-  PetscFunctionBegin;
-  PetscCall(SamOptionsReals(from, RESIDUAL,
-                            "residual stress xx and yy of each layer (Pa), which only petsam-stress adds",
-                            SAM_RANGE_ANY, 2 * LAYERS, values, &count));
-  PetscCheck(!count || count == 2 * layers, from->comm, SAM_ERR_USER,
-             "-%s" RESIDUAL ": %" PetscInt_FMT " of %" PetscInt_FMT " numbers are given: give xx and yy of each layer",
-             SamOptionsPrefix(from), count, 2 * layers);
-  for (PetscInt n = 0; n < count; n++) m[n / 2].stress[n % 2] = values[n];
+  PetscCall(SamBodyTakeInitialStress(comm, p, prefix, source, *body));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -306,7 +279,7 @@ static PetscErrorCode ReadLayers(const SamOptions *from, SamMaterial m[], PetscI
                prefix, prefix, lists[l].name);
     most = PetscMax(most, count[l]);
   }
-  if (!most || SamPrintHelp()) PetscFunctionReturn(ReadResidualStress(from, m, *layers));
+  if (!most || SamPrintHelp()) PetscFunctionReturn(PETSC_SUCCESS);
   for (int l = 0; l < LISTS; l++)
     PetscCall(SamOptionsRequire(from, count[l] > 0, lists[l].name, "the layers of a body need all three lists"));
   if (count[POISSON] == 1)
@@ -318,7 +291,6 @@ static PetscErrorCode ReadLayers(const SamOptions *from, SamMaterial m[], PetscI
   for (int l = 0; l < LISTS; l++)
     for (PetscInt n = 0; n < most; n++) *MemberOf(&m[n], l) = values[l][n];
   *layers = most;
-  PetscCall(ReadResidualStress(from, m, most));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -346,5 +318,6 @@ PetscErrorCode SamBodyCreateFromOptions(const SamOptions *from, SamBody *body)
   PetscCall(FindFault(layers + 1, m, prefix, message, sizeof(message)));
   PetscCheck(!message[0], from->comm, SAM_ERR_USER, "%s", message);
   PetscCall(SamBodyCreate(layers + 1, m, body));
+  PetscCall(SamBodyReadInitialStress(from, *body));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

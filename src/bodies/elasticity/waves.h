@@ -43,8 +43,8 @@ PETSC_INTERN void SamSymbolDivideNormal(const SamSymbol *symbol, SamWaves waves)
 PETSC_INTERN PetscErrorCode SamLayeredSymbolSet(SamLayered layered, PetscReal length, PetscInt hx, PetscInt hy,
                                                 SamSymbol *symbol);
 /*
-  Layered bodies, in two precisions: multiply by gain c/|k| or gain |k|/c, c the symbols out of the table. The mean
-  becomes 0, in inverses that of `mean`. Tangential: along and across each wave.
+  For layered bodies, in two precisions, these multiply by gain c/|k| or gain |k|/c, c being the symbols in the table.
+  The mean becomes 0, in inverses that of `mean`. Tangential components are along and across each wave.
 */
 PETSC_INTERN void SamLayeredMultiplyNormal(const SamSymbol *symbol, SamWaves waves);
 PETSC_INTERN void SamLayeredMultiplyTangential(const SamSymbol *symbol, SamWaves waves);

@@ -7,9 +7,9 @@
       E = 1.8 c (mu N)^2 (1 - (1 - t)^(5/3) - 5/6 t (1 + (1 - t)^(2/3))),      disp = 1.5 c mu N (1 - (1 - t)^(2/3)),
 
   and twice both after a reversal. The second equation has c from the solution, which has the displacement to 1e-3
-  where the energy is wrong by half. In plane strain, where the displacement has no limit, with x = 1 - t and per
-  length, E = (mu N)^2/(pi E*) (x ln(x) + (1 - x^2)/2), by the approach of two cylinders. It holds from the first step
-  on, as long as all steps are such.
+  where the energy is wrong by half. In plane strain the displacement has no limit, and the approach of two cylinders
+  gives the energy per length: E = (mu N)^2/(pi E*) (x ln(x) + (1 - x^2)/2), x = 1 - t. Both forms hold from the first
+  step on, as long as all steps are such.
 
   Source: R. D. Mindlin, H. Deresiewicz, J. Appl. Mech. 20 (1953) 327.
 */

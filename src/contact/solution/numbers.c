@@ -63,12 +63,13 @@ static void SumRow(const SamIncrement *increment, ptrdiff_t first, double sums[S
     of dissimilar bodies, where contact is made    TOUCHES w^2/(w + dissipated)   w is what was slip before they touch
     of the first step of others                    all of it: loads in proportion need not slide at all
 
-  f is the part of the contact that sticks, which bears the errors of the rest: each error of the slip moves the bodies
-  by more the less sticks. Under a bound that changes, other errors cancel this; between the two terms is a mean.
+  f is the part of the contact that sticks and bears the errors of the rest: the smaller it is, the farther each error
+  of the slip moves the bodies. Under a bound that changes, other errors cancel this; between both cases the estimate
+  is a mean of the two terms.
 
-  The energy depends on the whole history of the slip, of which no single step knows: so these terms have the right
-  order and are in proportion to the error, and their factors were fitted to the errors of random histories (examples/
-  LOADS.md has how well that holds). They estimate its size, not its sign.
+  The energy depends on the whole history of the slip, which no single step holds: so these terms have the right order
+  and are in proportion to the error, and their factors were fitted to the errors of random histories
+  (examples/manual/LOADS.md has how well that holds). They estimate its size, not its sign.
 */
 #define ENDS    0.4
 #define TURNS   2.0

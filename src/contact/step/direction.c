@@ -33,9 +33,10 @@
 
     kappa tau = (kappa dT/dN d - 2 e r)/(d + 2 tilt),
 
-  d being the approach; in plane strain, where it has no limit, it is 4 dN/(pi E*); from no contact tau is that of N. Of
-  what M_z moves there, nothing is known: its error stays of first order. So is what the pressure of dissimilar bodies
-  moves, which is the other way: from a Dundurs' constant of MOST_DUNDURS on both are left out, as they cancel in part.
+  d being the approach; in plane strain, where it has no limit, it is 4 dN/(pi E*); from no contact tau is that of N.
+  The motion by M_z there is not estimated: its error stays of first order. The motion by the pressure of dissimilar
+  bodies is of first order too, in the other direction: from a Dundurs' constant of MOST_DUNDURS on both are left out,
+  as they cancel in part.
 
   The pressure of dissimilar bodies moves the surfaces at all times, outside of contact too, and most of the slip of a
   growing contact is in cells that touch within the step. If they move by ds in the step, the part

@@ -59,8 +59,8 @@ static PetscErrorCode TakePressure(SamSolve *w)
 }
 
 /*
-  Computes the separation for the normal problem: that of the bodies, the lift, which w->h holds, of coupled ones,
-  offsets.
+  Computes the separation for the normal problem: the sum of the bodies' separation, of the offsets and, for coupled
+  bodies, of the lift, which w->h holds.
 */
 static PetscErrorCode GetSeparation(SamSolve *w, Vec *h)
 {

@@ -77,7 +77,7 @@ static int CheckPlace(const char name[])
   return access(folder, W_OK | X_OK) ? errno : 0;
 }
 
-/* PETSc reads it twice, once as a viewer and once as a logical value. */
+/* Checks -options_view, which PETSc reads twice: once as a viewer and once as a logical value. */
 static PetscErrorCode CheckOptionsView(MPI_Comm comm)
 {
   char      value[PETSC_MAX_PATH_LEN] = "";

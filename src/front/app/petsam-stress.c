@@ -18,7 +18,7 @@
 /* A line of progress follows the one before after so many seconds, or such a part of the time spent. */
 #define TELL_SECONDS 1.0
 #define TELL_PART    0.05
-/* A depth, in widths of the grid, that a unit may explain. */
+/* Depths from this number of grid widths on are probably in a wrong unit. */
 #define DEEP 20.0
 
 #define SHOWN 9 /* materials of which all maxima are printed */

@@ -15,7 +15,7 @@ static char created[SAM_MESSAGE];
 
 /* ---- entering and leaving ---- */
 
-/* Whether MPI and PETSc are still there. */
+/* True if MPI and PETSc have not been ended. */
 static PetscBool IsAlive(void)
 {
   PetscBool has;
@@ -246,7 +246,7 @@ void petsam_destroy(petsam_contact **c)
   *c = NULL;
 }
 
-/* Whether a handle belongs to no communicator: Open MPI returns a null pointer for an unknown number. */
+/* True if a handle belongs to no communicator: Open MPI returns a null pointer for an unknown number. */
 static PetscBool IsNothing(MPI_Comm comm)
 {
 #if defined(OPEN_MPI)

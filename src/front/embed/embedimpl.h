@@ -74,7 +74,7 @@ PETSC_INTERN PetscErrorCode SamEmbedCopyField(petsam_contact *c, const char name
   SamEmbedForget - forgets the tried step, before anything changes. Collective. Errors: PETSC_ERR_ORDER in a monitor.
 */
 PETSC_INTERN PetscErrorCode SamEmbedForget(petsam_contact *c);
-/* SamEmbedInsertOptions - puts options, rank 0's, into a database. Collective. Errors: those of the text. */
+/* SamEmbedInsertOptions - puts rank 0's options into a database. Collective. Errors: faults of their text. */
 PETSC_INTERN PetscErrorCode SamEmbedInsertOptions(petsam_contact *c, PetscOptions database, const char options[]);
 /*
   SamEmbedRecord - keeps the tried step, else the committed one, if steps are recorded. SamEmbedForgetSteps - forgets

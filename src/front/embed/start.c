@@ -1,9 +1,9 @@
 /*
   MPI and PETSc in a process of another program.
 
-  What is started here is ended when the process ends, if MPI is still there by then: a process that has ended MPI
-  itself has no use for an end of PETSc. PETSc's world is each process alone, so that processes can start it one by one;
-  its objects live on the communicators they are given all the same.
+  MPI and PETSc, if started here, are ended when the process ends, unless the process has ended MPI itself: then PETSc
+  is not ended either. PETSc's world is each process alone, so that processes can start it one by one; its objects
+  nevertheless live on the communicators that they are given.
 */
 #include "embedimpl.h"
 #include <petsam/private/arguments.h>

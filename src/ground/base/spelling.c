@@ -41,7 +41,9 @@ static const struct {
               {"plastic_depth", "yield_depth"},
               {"plastic_layers", "yield_layers"},
               {"plastic_first", "yield_first"},
-              {"plastic_rtol", "yield_rtol"}};
+              {"plastic_rtol", "yield_rtol"},
+              {"body1_layer_stress", "body1_initial_stress"},
+              {"body2_layer_stress", "body2_initial_stress"}};
 
 /* PETSc does not tell capitals from small letters in names; a dash within a name is a likely slip. */
 static char Plain(char c)

@@ -1,6 +1,6 @@
 /*
-  What rank 0 does with files through the system, before and after HDF5 uses them: finds out whether a name can be
-  written and what it holds, keeps other runs from it, allocates space, notices changes from outside, renames.
+  Rank 0 handles files through the system, before and after HDF5 uses them: it finds out whether a name can be written
+  and what it holds, keeps other runs from it, allocates space, notices changes from outside, and renames.
 
   Functions that return an int return 0, an errno, or one of the reasons below.
 */
@@ -97,7 +97,7 @@ static PetscBool IsFirst(SamGrid grid)
 
 #define HEAD (16 << 20) /* bytes at the start of results in which their attributes are */
 
-/* Whether the bytes contain the text. */
+/* True if the bytes contain the text. */
 static PetscBool Contains(const char bytes[], size_t size, const char text[])
 {
   const size_t length = strlen(text);
@@ -112,7 +112,7 @@ static PetscBool Contains(const char bytes[], size_t size, const char text[])
 }
 
 /*
-  Whether the first bytes of a file are those of what petsam writes under the name. HDF5 is not asked: a damaged file
+  True if a file begins with the bytes that petsam writes under this name. HDF5 is not used for this: a damaged file
   could keep it busy for ever. A run that was killed may have left a file that begins with zeros.
 */
 static PetscBool IsOwn(SamFileUse use, const char head[], size_t size)
@@ -134,8 +134,8 @@ static off_t SizeOf(int file)
 }
 
 /*
-  Whether a run that was killed in its first flush may have left a temporary file: HDF5 as petsam creates it, by the
-  version in its first block, that ends before the end of data that this block names.
+  True if a run that was killed in its first flush may have left this temporary file: it is HDF5 as petsam creates it,
+  by the version in its first block, and ends before the end of data that this block names.
 */
 static PetscBool IsUnfinished(int file, const char head[], size_t size)
 {
@@ -261,7 +261,7 @@ static int Lock(int file)
   return 0;
 }
 
-/* Whether the name is still that of the open file. */
+/* True if the name is still that of the open file. */
 static PetscBool IsNameOf(const char filename[], int file)
 {
   struct stat named, open;
@@ -269,7 +269,7 @@ static PetscBool IsNameOf(const char filename[], int file)
   return !stat(filename, &named) && !fstat(file, &open) && named.st_dev == open.st_dev && named.st_ino == open.st_ino;
 }
 
-/* What a name stands for before it is opened. A pipe, or a device, would wait for its reader. */
+/* Checks, before a name is opened, that it is a file. A pipe, or a device, would wait for its reader. */
 static int CheckPlace(const char filename[], SamFileUse use)
 {
   struct stat status;
@@ -328,7 +328,7 @@ PetscErrorCode SamFileLockTake(SamGrid grid, const char option[], const char fil
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Whether a file can be made there, without making one, which would stay if the run were killed just then. */
+/* Checks that a file can be made there. It makes none, which would stay if the run were killed just then. */
 static int CheckFolderOf(const char filename[])
 {
   char folder[PETSC_MAX_PATH_LEN], real[PETSC_MAX_PATH_LEN];
@@ -439,7 +439,7 @@ PetscErrorCode SamFileLockTakeNext(SamGrid grid, const char option[], const char
 
 /* ---- left-overs ---- */
 
-/* Whether a text is -<number>-<number>.lock */
+/* True if a text is -<number>-<number>.lock */
 static PetscBool IsLockEnding(const char text[])
 {
   for (int k = 0; k < 2; k++) {

@@ -1,31 +1,31 @@
 /*
-  A file is examined in a child process, as HDF5 may crash, or never end, on a damaged one: it follows the addresses in
-  a file without end if they lead in a circle.
+  A file is examined by a program of its own before it is opened, as HDF5 may crash, or never end, on a damaged one: it
+  follows the addresses in a file without end if they lead in a circle. The program is started by posix_spawn(): a fork
+  after MPI_Init() would be unsafe where MPI has registered memory with the network's hardware.
 */
 #include "fileimpl.h"
+#include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
+#include <spawn.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* Seconds of CPU time, and one more for so many bytes: what is examined takes milliseconds. */
-#define PATIENCE   2
-#define BYTES_MORE (1 << 26)
+extern char **environ;
 
-/* What is asked of a file. */
+/* A question about a file. */
 typedef struct {
-  const char *option, *filename;
-  SamFileLook look;
-  const void *question;
+  const char        *option, *filename;
+  const char *const *objects;
+  SamFileLook        look;
+  const void        *question;
 } Case;
 
-/* What comes out, followed by the answer. */
+/* The outcome of an examination, which ends with the answer. */
 typedef struct {
   PetscErrorCode code;
   char           message[SAM_MESSAGE];
@@ -36,16 +36,77 @@ typedef struct {
 static const char *FindFault(const char filename[])
 {
   struct stat status;
-  htri_t      hdf5;
 
   if (stat(filename, &status) || access(filename, R_OK)) return strerror(errno);
   if (!S_ISREG(status.st_mode)) return S_ISDIR(status.st_mode) ? strerror(EISDIR) : "it is not a file";
   (void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
-  hdf5 = H5Fis_hdf5(filename);
-  return hdf5 > 0 ? NULL : "it is not an HDF5 file; make one by petsam-surface, of a body by petsam-compliance";
+  return H5Fis_hdf5(filename) > 0
+           ? NULL
+           : "it is not an HDF5 file; make one by petsam-surface, of a body by petsam-compliance";
 }
 
 static const char damaged[] = "it is damaged";
+
+/*
+  Finds the program that examines: petsam/petsam-examine beside the shared library, or in lib/ of the folder above a
+  program that is linked with the static one. Returns false if there is none.
+*/
+static PetscBool FindProgram(char path[PETSC_MAX_PATH_LEN])
+{
+  static const char *const places[]                = {"petsam/petsam-examine", "../lib/petsam/petsam-examine"};
+  static const char        anchor                  = 0; /* an address in the library */
+  char                     own[PETSC_MAX_PATH_LEN] = "";
+  Dl_info                  info;
+
+  if (!dladdr(&anchor, &info) || !realpath(strchr(info.dli_fname, '/') ? info.dli_fname : "/proc/self/exe", own))
+    return PETSC_FALSE;
+  *(strrchr(own, '/') + 1) = 0;
+  for (size_t k = 0; k < sizeof(places) / sizeof(places[0]); k++) {
+    if (snprintf(path, PETSC_MAX_PATH_LEN, "%s%s", own, places[k]) < PETSC_MAX_PATH_LEN && !access(path, X_OK))
+      return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
+}
+
+/* Starts the program with signals as at a program's start and without output; returns 0 or a number of errno. */
+static int Start(const char program[], const char *const words[], pid_t *child)
+{
+  posix_spawn_file_actions_t actions;
+  posix_spawnattr_t          attributes;
+  sigset_t                   all, none;
+  int                        error;
+
+  (void)posix_spawn_file_actions_init(&actions);
+  (void)posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  (void)posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  (void)posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+  (void)posix_spawnattr_init(&attributes);
+  (void)sigfillset(&all);
+  (void)sigemptyset(&none);
+  (void)posix_spawnattr_setsigdefault(&attributes, &all);
+  (void)posix_spawnattr_setsigmask(&attributes, &none);
+  (void)posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
+  error = posix_spawn(child, program, &actions, &attributes, (char *const *)words, environ);
+  (void)posix_spawnattr_destroy(&attributes);
+  (void)posix_spawn_file_actions_destroy(&actions);
+  return error;
+}
+
+/* Returns true unless HDF5 crashes on the file, or does not end; true too where the program is missing. */
+static PetscBool Survives(const char filename[], const char *const objects[])
+{
+  const char *words[2 + SAM_FILE_OBJECTS + 1] = {"petsam-examine", filename};
+  char        program[PETSC_MAX_PATH_LEN];
+  pid_t       child;
+  int         status = 0;
+
+  for (int k = 0; objects && objects[k] && k < SAM_FILE_OBJECTS; k++) words[2 + k] = objects[k];
+  if (!FindProgram(program) || Start(program, words, &child)) return PETSC_TRUE;
+  while (waitpid(child, &status, 0) < 0) {
+    if (errno != EINTR) return PETSC_TRUE; /* the process does not wait for its children */
+  }
+  return WIFEXITED(status) ? PETSC_TRUE : PETSC_FALSE;
+}
 
 static PetscErrorCode OpenAndLook(const Case *c, void *answer)
 {
@@ -54,13 +115,15 @@ static PetscErrorCode OpenAndLook(const Case *c, void *answer)
   PetscErrorCode ierr;
 
   PetscFunctionBegin;
+  if (!fault && !Survives(c->filename, c->objects)) fault = damaged;
   PetscCheck(!fault, PETSC_COMM_SELF, SAM_ERR_FILE, SAM_CANNOT_READ, c->option, c->filename, fault);
   ierr = SamFileOpen(NULL, SAM_EVENT_OUTPUT, c->option, c->filename, SAM_FILE_READ, &file);
   PetscCheck(!ierr, PETSC_COMM_SELF, SAM_ERR_FILE, SAM_CANNOT_READ, c->option, c->filename, damaged);
   PetscCall(SamFileBegin(file));
-  PetscCall(c->look(file, c->question, answer));
-  PetscCall(SamFileEnd(file));
-  PetscCall(SamFileDestroy(&file, PETSC_TRUE));
+  ierr = c->look(file, c->question, answer);
+  if (!ierr) ierr = SamFileEnd(file);
+  (void)SamFileDestroy(&file, PETSC_TRUE);
+  PetscCall(ierr);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -71,50 +134,10 @@ static void Examine(const Case *c, Outcome *outcome)
   (void)PetscPopErrorHandler();
 }
 
-/* In the child: nothing is printed, a crash is a crash, and the system ends it after the time. */
-static void Prepare(const char filename[])
+PetscErrorCode SamFileExamine(MPI_Comm comm, const char option[], const char filename[], const char *const objects[],
+                              SamFileLook look, const void *question, void *answer, size_t size)
 {
-  struct stat         status;
-  const rlim_t        more = stat(filename, &status) ? 0 : (rlim_t)status.st_size / BYTES_MORE;
-  const struct rlimit time = {PATIENCE + more, PATIENCE + more}, core = {0, 0};
-  const int           nowhere = open("/dev/null", O_WRONLY);
-
-  for (int k = 1; k < 32; k++) (void)signal(k, SIG_DFL);
-  (void)setrlimit(RLIMIT_CPU, &time);
-  (void)setrlimit(RLIMIT_CORE, &core);
-  if (nowhere >= 0) (void)(dup2(nowhere, STDERR_FILENO) + dup2(nowhere, STDOUT_FILENO));
-  (void)setenv("HDF5_USE_FILE_LOCKING", "FALSE", 1); /* the parent may have locked the file */
-}
-
-/* Examines the file in a child process, or here if there is no memory for one. */
-static void ExamineInChild(const Case *c, Outcome *outcome, size_t size)
-{
-  Outcome *shared = (Outcome *)mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-  pid_t    child  = shared == MAP_FAILED ? -1 : fork();
-  int      status = 0;
-
-  if (child == 0) {
-    Prepare(c->filename);
-    Examine(c, shared);
-    _exit(0);
-  }
-  if (child < 0) {
-    Examine(c, outcome);
-  } else {
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
-    memcpy(outcome, shared, size);
-    if (!WIFEXITED(status) || WEXITSTATUS(status)) {
-      outcome->code = SAM_ERR_FILE;
-      (void)snprintf(outcome->message, sizeof(outcome->message), SAM_CANNOT_READ, c->option, c->filename, damaged);
-    }
-  }
-  if (shared != MAP_FAILED) (void)munmap(shared, size);
-}
-
-PetscErrorCode SamFileExamine(MPI_Comm comm, const char option[], const char filename[], SamFileLook look,
-                              const void *question, void *answer, size_t size)
-{
-  const Case     c     = {option, filename, look, question};
+  const Case     c     = {option, filename, objects, look, question};
   const size_t   bytes = sizeof(Outcome) + size;
   Outcome       *outcome;
   PetscMPIInt    rank;
@@ -124,7 +147,7 @@ PetscErrorCode SamFileExamine(MPI_Comm comm, const char option[], const char fil
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCall(PetscCalloc(bytes, &outcome));
-  if (rank == 0) ExamineInChild(&c, outcome, bytes);
+  if (rank == 0) Examine(&c, outcome);
   PetscCallMPI(MPI_Bcast(outcome, (PetscMPIInt)bytes, MPI_BYTE, 0, comm));
   memcpy(answer, outcome->answer, size);
   memcpy(message, outcome->message, sizeof(message));
@@ -136,7 +159,7 @@ PetscErrorCode SamFileExamine(MPI_Comm comm, const char option[], const char fil
 
 /* ---- where the data lie ---- */
 
-/* Whether all chunks that hold the first `extent` places in each dimension lie within a file of that size (bytes). */
+/* True if all chunks that hold the first `extent` places in each dimension lie within a file of that size (bytes). */
 static PetscBool ChunksAreWithin(hid_t dataset, hid_t creation, hsize_t size, const hsize_t extent[], PetscBool every)
 {
   const hid_t space = H5Dget_space(dataset);

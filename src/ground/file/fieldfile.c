@@ -1,7 +1,7 @@
 /*
   Fields read from HDF5 datasets of shape (ny, nx).
 
-  A file may be wrong in many ways. Rank 0 examines it in a child process, so that all ranks raise the same error. Only
+  A file may be wrong in many ways. Rank 0 examines it, so that all ranks raise the same error. Only
   then all read their rows.
 */
 #include "fileimpl.h"
@@ -127,17 +127,24 @@ static PetscErrorCode Look(SamFile f, const void *question, void *answer)
   const hid_t         dataset = H5Dopen2(f->id, name, H5P_DEFAULT);
   Answer *const       found   = (Answer *)answer;
   char                names[160];
+  hid_t               type, space;
   H5T_class_t         kind;
+  PetscErrorCode      ierr;
 
   PetscFunctionBegin;
   found->factor = 1;
   if (dataset < 0) ListNames(f->id, names, sizeof(names));
   PetscCheck(dataset >= 0, f->comm, SAM_ERR_FILE, "-%s %s: has no dataset %.160s (-%s%s); it has %s", f->option,
              f->filename, name, w->source->prefix, w->source->dataset_option, names);
-  kind = H5Tget_class(H5Dget_type(dataset));
+  type  = H5Dget_type(dataset);
+  space = H5Dget_space(dataset);
+  kind  = H5Tget_class(type);
+  (void)H5Tclose(type);
   PetscCheck(kind == H5T_FLOAT || kind == H5T_INTEGER, f->comm, SAM_ERR_FILE,
              "-%s %s: %s holds neither real numbers nor integers", f->option, f->filename, name);
-  PetscCall(CheckShape(f, w, H5Dget_space(dataset), found->shape));
+  ierr = CheckShape(f, w, space, found->shape);
+  (void)H5Sclose(space);
+  PetscCall(ierr);
   PetscCheck(SamFileIsWhole(f, dataset, NULL, PETSC_FALSE), f->comm, SAM_ERR_FILE,
              "-%s %s: %s cannot be read: the file is damaged", f->option, f->filename, name);
   if (w->source->is_length) PetscCall(CheckLengths(f, w, dataset, found));
@@ -192,10 +199,14 @@ static PetscErrorCode CheckValues(const Wanted *w, const double array[])
 
 static PetscErrorCode Examine(Wanted *w, MPI_Comm comm, Answer *answer)
 {
+  char              axes[2][PETSC_MAX_PATH_LEN];
+  const char *const objects[SAM_FILE_OBJECTS + 1] = {w->source->dataset, axes[0], axes[1]};
+
   PetscFunctionBegin;
+  for (int d = 0; d < 2; d++) SamLengthsNameAxis(w->source->dataset, "xy"[d], axes[d]);
   PetscCall(PetscMemzero(answer, sizeof(*answer)));
   PetscCall(PetscSNPrintf(w->option, sizeof(w->option), "%s%s", w->source->prefix, w->source->file_option));
-  PetscCall(SamFileExamine(comm, w->option, w->source->file, Look, w, answer, sizeof(*answer)));
+  PetscCall(SamFileExamine(comm, w->option, w->source->file, objects, Look, w, answer, sizeof(*answer)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

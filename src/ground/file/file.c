@@ -75,6 +75,9 @@ static PetscErrorCode OpenFile(SamFile f, SamFileMode mode)
   PetscCall(SamFileBegin(f));
   access = SamFileNote(f, H5Pcreate(H5P_FILE_ACCESS));
   if (f->grid) (void)SamFileNote(f, H5Pset_fapl_mpio(access, f->comm, MPI_INFO_NULL));
+#if H5_VERSION_GE(1, 10, 7) && !(H5_VERS_MINOR == 12 && H5_VERS_RELEASE == 0)
+  if (!f->grid) (void)SamFileNote(f, H5Pset_file_locking(access, 0, 1)); /* MPI-IO takes no lock either */
+#endif
   (void)SamFileNote(f, H5Pset_fclose_degree(access, H5F_CLOSE_STRONG));
   creation = SamFileNote(f, H5Pcreate(H5P_FILE_CREATE));
   if (mode == SAM_FILE_CREATE_SEALED) (void)SamFileNote(f, H5Pset_userblock(creation, SAM_SEAL));

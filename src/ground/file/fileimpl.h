@@ -25,6 +25,9 @@ PETSC_INTERN PetscBool SamSealIsOne(const char head[], size_t size);
 
 /* ---- lengths (lengths.c) ---- */
 
+/* SamLengthsNameAxis - writes the name of the dataset `letter` beside another one. Not collective. */
+PETSC_INTERN void SamLengthsNameAxis(const char dataset[], char letter, char path[PETSC_MAX_PATH_LEN]);
+
 /* Attributes of a dataset of lengths */
 typedef struct {
   double factor;    /* values times this are a separation in m */

@@ -108,17 +108,23 @@ static double ReadWidth(hid_t axis, hsize_t n, double *center)
   return width;
 }
 
+void SamLengthsNameAxis(const char dataset[], char letter, char path[PETSC_MAX_PATH_LEN])
+{
+  const char *slash = strrchr(dataset, '/');
+
+  (void)snprintf(path, PETSC_MAX_PATH_LEN, "%.*s%c", slash ? (int)(slash - dataset) + 1 : 0, dataset, letter);
+}
+
 /* Reads width and centre from the axis `letter` beside the dataset, if it is there, fits, and has units. */
 static PetscErrorCode ReadAxis(SamFile f, const char dataset[], char letter, hsize_t n, double *size, double *center)
 {
-  const char *slash   = strrchr(dataset, '/');
-  const char  name[2] = {letter, '\0'};
-  char        path[PETSC_MAX_PATH_LEN];
-  double      metres = 0, width = NAN, middle = 0;
-  hid_t       axis;
+  const char name[2] = {letter, '\0'};
+  char       path[PETSC_MAX_PATH_LEN];
+  double     metres = 0, width = NAN, middle = 0;
+  hid_t      axis;
 
   PetscFunctionBegin;
-  (void)snprintf(path, sizeof(path), "%.*s%c", slash ? (int)(slash - dataset) + 1 : 0, dataset, letter);
+  SamLengthsNameAxis(dataset, letter, path);
   axis = H5Lexists(f->id, path, H5P_DEFAULT) > 0 ? H5Dopen2(f->id, path, H5P_DEFAULT) : -1;
   if (axis < 0) PetscFunctionReturn(PETSC_SUCCESS);
   if (H5Aexists(axis, "units") > 0) width = ReadWidth(axis, n, &middle);

@@ -14,7 +14,7 @@ typedef struct {
 /* Transforms of lines of one length and precision, see line.h. */
 #define SAM_LINE(Name, Real, Plan) \
   typedef struct { \
-    ptrdiff_t n, part, shift; /* length; that of a part; parts are 2^shift */ \
+    ptrdiff_t n, part, shift; /* length of a line and of a part; 2^shift parts */ \
     Plan      up, down; \
     Real (*root)[2]; /* exp(-2 pi i q k/n), k < part, for q = 1, 2, 3, of four parts */ \
   } Name
@@ -115,7 +115,7 @@ static inline void *SamFourierRows(SamFourier F, PetscInt field)
 */
 typedef struct {
   PetscMPIInt count;
-  ptrdiff_t   rows, block;       /* of the matrix, and of a piece but the last ones */
+  ptrdiff_t   rows, block;       /* rows of the matrix and of a piece; the last pieces have fewer */
   ptrdiff_t   row_length, first; /* in elements */
   void      **data, *single;     /* of each piece; of the only one */
 } SamPieces;

@@ -1,11 +1,11 @@
 /*
-  Kernels: tabulated, transformed, and kept as the filter meets them.
+  Kernels are tabulated, transformed, and kept in the order in which the filter uses them.
 
   A kernel that is even or odd in x and in y has a real (or, odd in just one, imaginary) transform with the same
   symmetries. Its quadrant comes from cosine transforms (even) and sine transforms (odd) of the quadrant of its values:
   along x for rows of lags, then, rows exchanged for columns, along y. FFTW's own (REDFT00, RODFT00) take twice as long
   as a transform of the mirrored line, of which the real or the imaginary part is kept. A column of hy + 1 values is
-  kept with its even frequencies first and its odd ones after them, as the filter meets them.
+  kept with its even frequencies first and its odd ones after them, as the filter uses them.
 */
 #define Real   double
 #define FFT(x) fftw_##x

@@ -173,7 +173,7 @@ static inline void LineBackward(const LINE *l, Complex *from, Complex *to)
   FFT(execute_dft)(l->down, (FFT(complex) *)from, (FFT(complex) *)to);
 }
 
-/* For lines of 2 n real numbers, transformed as n complex ones: i exp(i pi k/n), k <= n. */
+/* Computes i exp(i pi k/n), k <= n, for lines of 2 n real numbers that are transformed as n complex ones. */
 static inline PetscErrorCode CreateTurns(ptrdiff_t n, Complex **turn)
 {
   PetscFunctionBegin;

@@ -164,7 +164,7 @@ SAM_VECTORIZED static void Pack(ptrdiff_t n, const Complex *restrict turn, const
   }
 }
 
-/* Rows of an odd period, nx = hx: complex transforms of them, of which the first half is kept. */
+/* Transforms rows of an odd period, nx = hx, as complex ones, and keeps the first half of the result. */
 static void OddRowsForward(SamFourier F, const Real field[], Complex *slab)
 {
   TRANSFORM      *t  = &F->PART;

@@ -1,8 +1,9 @@
 /*
   Plastic strain and contact together, by Newton's method.
 
-  Unknown is the driver d in each cell of each layer. The material gives the plastic strain e(d) (mises.c), e the
-  displacement of the surfaces, the contact with it the tractions p, and both the stress; so the residual is
+  The unknown is the driver d in each cell of each layer. The material gives the plastic strain e(d) (mises.c), e gives
+  the displacement of the surfaces, the contact on these gives the tractions p, and e and p give the stress. So the
+  residual is
       r = e + dev(R e + K p)/(2 mu) - d.
   With P = de/dd, S the contact's stiffness on frozen sets of cells (reaction.c), and Bc = 1 + dev(R - K S K')/(2 mu), a
   step solves (1 - Bc P) delta = r in the symmetric form
@@ -132,6 +133,19 @@ PetscErrorCode SamPlasticDisplace(SamPlastic *p, Vec state, double *const u[3])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Adds the stress before any load to that of all layers. */
+static void AddInitial(const SamPlastic *p, double s[])
+{
+  const PetscInt cells = p->grid->cells;
+
+  for (PetscInt l = 0; l < p->bodies * p->layers; l++) {
+    const double *const stress = p->body[l / p->layers].initial;
+
+    for (PetscInt k = 0; k < 2 * cells && stress; k++) /* xx and yy are the first two components */
+      s[(ptrdiff_t)l * PARTS * cells + k] += stress[2 * (l % p->layers) + k / cells];
+  }
+}
+
 PetscErrorCode SamPlasticStress(SamPlastic *p, Vec state, Vec pressure, Vec shear, double stress[], double *energy)
 {
   const PetscInt n = PARTS * p->bodies * p->layers * p->grid->cells;
@@ -154,7 +168,7 @@ PetscErrorCode SamPlasticStress(SamPlastic *p, Vec state, Vec pressure, Vec shea
     PetscCall(VecRestoreArrayRead(pressure, &by_p));
   }
   for (PetscInt k = 0; k < n; k++) stress[k] += e[k];
-  SamPlasticAddInitial(p, stress);
+  AddInitial(p, stress);
   PetscCall(PetscFree(e));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -336,7 +350,7 @@ static PetscErrorCode GetDriver(Solve *w, double d[])
   PetscCall(VecRestoreArrayRead(w->contact->shear, &q));
   PetscCall(VecRestoreArrayRead(w->contact->pressure, &p));
   for (PetscInt k = 0; k < w->n; k++) w->s[k] += w->v[k];
-  SamPlasticAddInitial(w->plastic, w->s);
+  AddInitial(w->plastic, w->s);
   AddDeviator(w->plastic, w->e, w->s, d);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -50,23 +50,13 @@ PETSC_INTERN PetscErrorCode SamPlasticWork(const SamPlastic *plastic, const doub
 PETSC_INTERN PetscErrorCode SamPlasticLookOutside(SamPlastic *plastic, Vec state, Vec pressure, Vec shear,
                                                   double *thick, double *excess);
 /*
-  SamPlasticReadInitial - reads the stress before any load from the file of an option, which is left out if it is not
-  given; in place of an older one. `needs`: the option without which it is refused. Collective. Errors: SAM_ERR_USER for
-  wrong rows, for depths of another unit, and for a stress beyond yield.
-  SamPlasticAddInitial - adds it to the stress of all layers. Not collective.
-*/
-PETSC_INTERN PetscErrorCode SamPlasticReadInitial(const SamOptions *from, const char option[], const char needs[],
-                                                  SamGrid grid, PetscReal yield, PetscInt layers,
-                                                  const PetscReal thickness[], double **stress);
-PETSC_INTERN void           SamPlasticAddInitial(const SamPlastic *plastic, double s[]);
-/*
-  SamPlasticGrade - the thicknesses (m) of n layers down to a depth. The first one has the given thickness, and each is
-  thicker than the one above it by the same ratio; all are equal where the first one is thicker than depth/n.
-  SamPlasticFind - the layer of a body at a depth (m), the last one below all. Neither is collective.
+  SamPlasticGrade - sets the thicknesses (m) of n layers down to a depth. The first one has the given thickness, and
+  each is thicker than the one above it by the same ratio; all are equal where the first one is thicker than depth/n.
+  SamPlasticFind - returns the layer of a body at a depth (m); below all layers the last one. Neither is collective.
 */
 PETSC_INTERN void     SamPlasticGrade(PetscInt n, PetscReal first, PetscReal depth, PetscReal thickness[]);
 PETSC_INTERN PetscInt SamPlasticFind(const SamPlastic *plastic, PetscReal depth);
-/* SamPlasticRead, SamPlasticWrite - what cell k of layer l remembers, of an array of such a field. */
+/* SamPlasticRead, SamPlasticWrite - read and write the values of cell k of layer l in the array of a stored field. */
 PETSC_INTERN void SamPlasticRead(const SamPlastic *plastic, const double state[], PetscInt l, PetscInt k,
                                  SamMisesAt *at);
 

@@ -105,7 +105,6 @@ static const SamOptionRow rows[] = {
 
 static const char *const hardened[2]   = {"body1_hardening", "body2_hardening"};
 static const char *const backstress[2] = {"body1_backstress", "body2_backstress"};
-static const char *const initial[2]    = {"body1_initial_stress", "body2_initial_stress"};
 static const char *const yielding[2]   = {"body1_yield", "body2_yield"};
 
 /* Counts the values that a cell of a layer remembers. */
@@ -149,8 +148,7 @@ static PetscErrorCode SetLayers(Plastic *x, const SamLaw law, const SamOptions *
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode CheckStress(SamLaw law, const SamOptions *from, PetscInt body, const char option[],
-                                  const char what[], double stress)
+static PetscErrorCode CheckStress(SamLaw law, const SamOptions *from, PetscInt body, const char option[], double stress)
 {
   const SamPair pair  = SamElasticityGetPair(law->elasticity);
   const double  young = (double)SamBodyMaterialAt(SamPairBody(pair, body), 0)->young;
@@ -158,27 +156,50 @@ static PetscErrorCode CheckStress(SamLaw law, const SamOptions *from, PetscInt b
 
   PetscFunctionBegin;
   SamExplainStress(stress, young, SAM_LEAST_CONSTANT, INFINITY, why, sizeof(why));
-  PetscCheck(!why[0], from->comm, SAM_ERR_USER, "-%s%s%s %.6g: %s", SamOptionsPrefix(from), option, what, stress, why);
+  PetscCheck(!why[0], from->comm, SAM_ERR_USER, "-%s%s %.6g: %s", SamOptionsPrefix(from), option, stress, why);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Refuses constants of a body that yields, and a stress before any load, that other units explain. */
+/* Refuses constants of a body that yields which other units explain. */
 static PetscErrorCode CheckUnits(SamLaw law, const SamOptions *from, PetscInt body)
 {
   static const char *const modulus[2] = {"body1_hardening_modulus", "body2_hardening_modulus"};
   static const char *const voce[2]    = {"body1_voce_stress", "body2_voce_stress"};
   const Plastic *const     x          = (const Plastic *)law->data;
   const Material *const    m          = &x->material[body];
-  double                   most       = 0;
 
   PetscFunctionBegin;
-  PetscCall(CheckStress(law, from, body, yielding[body], "", (double)m->yield));
-  PetscCall(CheckStress(law, from, body, modulus[body], "", (double)m->modulus));
-  PetscCall(CheckStress(law, from, body, voce[body], "", (double)m->voce_stress));
+  PetscCall(CheckStress(law, from, body, yielding[body], (double)m->yield));
+  PetscCall(CheckStress(law, from, body, modulus[body], (double)m->modulus));
+  PetscCall(CheckStress(law, from, body, voce[body], (double)m->voce_stress));
   for (PetscInt k = 0; k < m->count; k += 2)
-    PetscCall(CheckStress(law, from, body, backstress[body], "", (double)m->back[k]));
-  for (PetscInt k = 0; m->initial && k < 2 * x->layers; k++) most = PetscMax(most, fabs(m->initial[k]));
-  PetscCall(CheckStress(law, from, body, initial[body], ": the maximum stress", most));
+    PetscCall(CheckStress(law, from, body, backstress[body], (double)m->back[k]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Sets the means over the layers of the stress before any load, which must be below yield. */
+static PetscErrorCode SetInitial(SamLaw law, const SamOptions *from, PetscInt body)
+{
+  Plastic *const  x   = (Plastic *)law->data;
+  Material *const m   = &x->material[body];
+  const SamBody   of  = SamPairBody(SamElasticityGetPair(law->elasticity), body);
+  PetscReal       top = 0;
+
+  PetscFunctionBegin;
+  PetscCall(PetscFree(m->initial));
+  if (!SamBodyHasInitialStress(of)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscMalloc1(2 * x->layers, &m->initial));
+  for (PetscInt l = 0; l < x->layers; top += x->thickness[l++]) {
+    double *const s = m->initial + 2 * l;
+    double        mises;
+
+    SamBodyMeanInitialStress(of, (double)top, (double)x->thickness[l], s);
+    mises = sqrt(s[0] * s[0] - s[0] * s[1] + s[1] * s[1]);
+    PetscCheck(mises < (double)m->yield, from->comm, SAM_ERR_USER,
+               "-%sbody%d_initial_stress: the von Mises stress at depth %.6g m, %.6g Pa, is not below the yield stress "
+               "%.6g Pa",
+               SamOptionsPrefix(from), (int)body + 1, (double)(top + x->thickness[l] / 2), mises, (double)m->yield);
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -213,9 +234,9 @@ static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBo
   law->bytes = BYTES * x->layers * BodiesOf(x);
   PetscCall(SetLayers(x, law, from));
   for (PetscInt b = 0; b < 2; b++) {
-    PetscCall(SamPlasticReadInitial(from, initial[b], yielding[b], law->grid, x->material[b].yield, x->layers,
-                                    x->thickness, &x->material[b].initial));
-    if (isfinite(x->material[b].yield)) PetscCall(CheckUnits(law, from, b));
+    if (!isfinite(x->material[b].yield)) continue;
+    PetscCall(CheckUnits(law, from, b));
+    PetscCall(SetInitial(law, from, b));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -233,10 +254,6 @@ static PetscErrorCode AddParameters(SamLaw law, SamParameters *parameters)
 
     PetscCall(SamParametersAddReals(parameters, hardened[b], PETSC_TRUE, 1, &hardening));
     if (m->count) PetscCall(SamParametersAddReals(parameters, backstress[b], PETSC_TRUE, m->count, m->back));
-    if (m->initial)
-      PetscCall(SamParametersAddChecksum(parameters, initial[b],
-                                         SamHashBytes(0, (const unsigned char *)m->initial,
-                                                      sizeof(*m->initial) * 2 * (size_t)x->layers)));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -247,7 +247,7 @@ static PetscErrorCode Extrapolate(SamLife l, Vec start, Vec whole, Vec halves)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What a load wears per unit of it: body 1 and 2, or both. */
+/* Returns the depth worn per unit of a load: of body 1 or 2, or of both. */
 static PetscReal CoefficientOf(SamLife l, PetscInt load)
 {
   const PetscReal *k = ((const SamWear *)l->law->data)->coefficient;

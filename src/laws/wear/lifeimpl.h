@@ -66,12 +66,12 @@ struct _n_SamLife {
 };
 
 /*
-  What a law accumulates over the steps is, in a life, that of all cycles so far and of this one up to the step. A jump
-  adds that of the cycle in its middle, times its cycles, which is of second order as the wear is. Cycles that close the
-  loop or are tried do not count.
+  In a life, the sum that a law accumulates over the steps is that of all cycles so far and of this one up to the step.
+  A jump adds the sum of the cycle in its middle, times its cycles, which is of second order as the wear is. Cycles that
+  close the loop or are tried do not count.
 
-  SamLifeComputeRate - solves the cycle on the problem's gap; `cycles`: so far; `solved`: all of its steps have a
-  solution; `tell`: the steps are reported to the caller. Collective.
+  SamLifeComputeRate - solves the cycle on the problem's gap; `cycles`: number of cycles before it; `solved`: true if
+  all of its steps have a solution; `tell`: true if the steps are reported to the caller. Collective.
 */
 PETSC_INTERN PetscErrorCode SamLifeComputeRate(SamLife life, SamRate *rate, PetscReal cycles, PetscBool tell,
                                                PetscBool *solved);
@@ -83,8 +83,8 @@ PETSC_INTERN PetscErrorCode SamLifeComputeRate(SamLife life, SamRate *rate, Pets
 PETSC_INTERN PetscErrorCode SamLifeGetLoads(SamLife life, SamLoads loads);
 PETSC_INTERN PetscErrorCode SamLifeSetLoads(SamLife life, const SamLoads loads);
 /*
-  SamLifeSolveNormal - the pressure p, from that which it holds if `guess`, on the gap l->gap of surfaces that yield by
-  l->diagonal; a failure is that of a jump over `cycles`. Collective.
+  SamLifeSolveNormal - solves for the pressure p on the gap l->gap of surfaces that yield by l->diagonal; if `guess` is
+  true, the values in p are the start. A failure is reported as that of a jump of `cycles`. Collective.
 */
 PETSC_INTERN PetscErrorCode SamLifeSolveNormal(SamLife life, SamBalance balance, PetscReal cycles, PetscBool guess,
                                                Vec p, PetscBool *solved);
@@ -104,8 +104,9 @@ PETSC_INTERN PetscErrorCode SamLifeMagnify(SamLife life, const SamRate *rate, Pe
                                            SamLoads to, PetscBool *solved);
 /*
   Steps that slide far (longslides.c).
-  SamLifeBeginStrides - of a cycle; SamLifeNoteStride - a tried step with this wear load and these pressures before and
-  after it; scratch: l->p and the loads of a jump. SamLifeEndStrides - sets l->stripes_error. Collective.
+  SamLifeBeginStrides - begins a cycle. SamLifeNoteStride - notes a tried step with this wear load and these pressures
+  before and after it, with l->p and the loads of a jump as scratch. SamLifeEndStrides - sets l->stripes_error.
+  Collective.
 */
 PETSC_INTERN PetscErrorCode SamLifeBeginStrides(SamLife life);
 PETSC_INTERN PetscErrorCode SamLifeNoteStride(SamLife life, Vec load, Vec before, Vec after);

@@ -47,7 +47,7 @@ PetscErrorCode SamRateDestroyPasses(SamLife l, SamRate *rate)
 
 /* ---- the computed cycle ---- */
 
-/* What a step wears, into rate->shift; its slip, into l->gap; wear load per slip and pressure, into l->diagonal. */
+/* Computes a step's wear load (rate->shift), its slip (l->gap), and wear load per slip and pressure (l->diagonal). */
 static PetscErrorCode FindWear(SamLife l, const SamSolution *s, SamRate *rate)
 {
   const PetscBool  by_energy = ((const SamWear *)l->law->data)->by_energy;
@@ -61,7 +61,7 @@ static PetscErrorCode FindWear(SamLife l, const SamSolution *s, SamRate *rate)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What displaces the surfaces in a step besides the pressure: u_z - S p. */
+/* Computes the displacement of the surfaces in a step by other causes than the pressure: u_z - S p. */
 static PetscErrorCode NoteLift(SamLife l, const SamSolution *s, float lift[])
 {
   const double *all, *own;
@@ -131,7 +131,7 @@ PetscErrorCode SamLifeNotePass(SamLife l, PetscInt k, const SamStep *step, SamRa
 
 /* ---- the magnified cycle ---- */
 
-/* What a step wears per pressure, into l->diagonal, and its gap, into l->gap. */
+/* Computes the wear of a step per pressure into l->diagonal, and its gap into l->gap. */
 static PetscErrorCode FindGap(SamLife l, const SamPass *pass, const SamPass *next)
 {
   double *gap, *wears;

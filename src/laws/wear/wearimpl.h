@@ -6,14 +6,14 @@
 #include <petsam/wear.h>
 
 /*
-  What the laws remember: the wear load that has been removed, of surfaces that slide that of body 1, and at body 2's
-  own points that of body 2; in a life that of the cycle so far, and its slip.
+  The laws remember the wear load that has been removed; of surfaces that slide it is that of body 1, and another one at
+  body 2's own points is that of body 2. In a life they also remember the wear load of the cycle so far, and its slip.
 */
 #define SAM_WEAR_LOAD  "wear_load"
 #define SAM_WEAR_LOAD2 "wear_load2"
 #define SAM_WEAR_CYCLE "wear_cycle_load"
 #define SAM_WEAR_PATH  "wear_cycle_path"
-/* What a life has worn body 2, less what many steps would have (longslides.c). */
+/* The depth that a life has worn body 2, minus the depth that many steps would have worn (longslides.c). */
 #define SAM_WEAR_STRIPES "wear_stripes"
 
 /* The data of a law of wear. */
@@ -24,7 +24,7 @@ typedef struct {
   PetscBool jumps;          /* steps add to the wear load of the cycle; it is removed by cycle jumps */
 } SamWear;
 
-/* SamLawIsWear - whether a law is of these types. Not collective. */
+/* SamLawIsWear - returns true if a law is of these types. Not collective. */
 PETSC_INTERN PetscBool SamLawIsWear(SamLaw law);
 /*
   SamWearGetLimit - how many times a single step may remove a wear load of `most` per pressure (m) (limit.c); infinite
@@ -32,9 +32,9 @@ PETSC_INTERN PetscBool SamLawIsWear(SamLaw law);
 */
 PETSC_INTERN PetscErrorCode SamWearGetLimit(SamLaw law, PetscReal most, PetscReal *times);
 /*
-  SamWearGetExcess - what a step wears, over the most that a step may wear: above 1 the pressure of the steps to come is
-  uneven from cell to cell, and wrong. That limit is a depth of 1.16 (p/E*) h of half-spaces, h being the width of
-  square cells. Collective.
+  SamWearGetExcess - computes the ratio of a step's wear to the limit of a step: above 1 the pressure of the steps to
+  come is uneven from cell to cell, and wrong. The limit is a depth of 1.16 (p/E*) h of half-spaces, h being the width
+  of square cells. Collective.
 */
 PETSC_INTERN PetscErrorCode SamWearGetExcess(SamLaw law, SamLawStep *step, PetscReal *excess);
 /*

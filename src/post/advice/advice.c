@@ -41,7 +41,7 @@
 #define SHORT  0.05
 /* Plastic strain at the surface, extrapolated, exceeds that of all layers by this part of it. */
 #define SHALLOW 0.05
-/* Share of the edges whose reconstruction tells that they are known. */
+/* Edges are known to a fraction of a cell if at least this share of them is reconstructed. */
 #define KNOWN 0.9
 /*
   Cells half as wide may change the peak pressure by this part of it; after wear by this one, since the surface that is

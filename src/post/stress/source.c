@@ -15,15 +15,18 @@ PetscErrorCode SamEvaluationReadTractions(SamEvaluation e, PetscInt step, PetscB
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The stresses at a depth that do not depend on x and y: residual stress, and what laws add in a step. */
+/*
+  The stresses at a depth that do not depend on x and y: that before any load, which the layers of a body that yields
+  hold already, and what laws add in a step.
+*/
 static void GetUniform(SamEvaluation e, PetscInt step, PetscReal depth, double stress[SAM_STRESS_COMPONENTS])
 {
-  const SamBody            body = SamEvaluationBody(e);
-  const SamMaterial *const m    = SamBodyMaterialAt(body, depth);
+  double initial[2] = {0};
 
   for (int k = 0; k < SAM_STRESS_COMPONENTS; k++) stress[k] = 0;
-  if (m != SamBodySubstrate(body)) stress[SAM_STRESS_XX] = (double)m->stress[0];
-  if (m != SamBodySubstrate(body)) stress[SAM_STRESS_YY] = (double)m->stress[1];
+  if (!e->source.yields[e->body - 1]) SamBodyInitialStress(SamEvaluationBody(e), (double)depth, initial);
+  stress[SAM_STRESS_XX] = initial[0];
+  stress[SAM_STRESS_YY] = initial[1];
   (void)SamProblemAddStress(e->problem, &e->control[step], e->body - 1, depth, stress);
 }
 

@@ -88,7 +88,6 @@ static void GetText(SamFile f, const char name[], size_t size, char text[])
 */
 static void GetParameters(SamFile f, SamParameters *all)
 {
-
   for (hsize_t k = 0; all->count < SAM_PARAMETERS; k++) {
     SamParameter *const p         = &all->list[all->count];
     const hid_t         attribute = H5Aopen_by_idx(f->id, ".", H5_INDEX_NAME, H5_ITER_INC, k, H5P_DEFAULT, H5P_DEFAULT);
@@ -305,7 +304,7 @@ static PetscErrorCode FindPart(SamResults r, MPI_Comm comm, const char option[],
   if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscNew(&part));
   r->part[r->count++] = part; /* SamResultsDestroy() frees it */
-  PetscCall(SamFileExamine(comm, option, name, Look, NULL, &part->facts, sizeof(part->facts)));
+  PetscCall(SamFileExamine(comm, option, name, NULL, Look, NULL, &part->facts, sizeof(part->facts)));
   part->steps = (PetscInt)part->facts.first + (PetscInt)part->facts.steps;
   if (!before) PetscFunctionReturn(PETSC_SUCCESS);
   *found = before->facts.identity[0] && !strcmp(part->facts.follows, before->facts.identity) ? PETSC_TRUE : PETSC_FALSE;

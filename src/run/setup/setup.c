@@ -34,6 +34,7 @@ PetscErrorCode SamSetupReadOptions(SamSetup *s, const SamOptions *from)
   PetscCall(SamElasticityPlaneFromOptions(from, &plane));
   PetscCall(SamGridCreateFromOptions(from, plane, n, width, center, &s->grid));
   PetscCall(SamPairCreateFromOptions(from, &s->pair));
+  PetscCall(SamPairCheckInitialStress(s->pair, from, 2 * s->grid->length));
   PetscCall(CreateProblem(s, from));
   PetscCall(SamGapSetFromOptions(s->gap));
   if (plane && !SamPrintHelp()) PetscCall(SamGapCheckPlane(s->gap));

@@ -2,7 +2,7 @@
 #include "simulationimpl.h"
 
 /*
-  What the last step prescribes. The steps of a history are in /history of the results, and checkpoints
+  Adds the values that the last step prescribes. The steps of a history are in /history of the results, and checkpoints
   compare them themselves (checkpoints.c).
 */
 static PetscErrorCode AddLoads(SamParameters *p, SamHistory history, SamConditions conditions)

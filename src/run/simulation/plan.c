@@ -35,7 +35,7 @@ static PetscErrorCode CheckWhole(const char option[], PetscReal cycles, PetscBoo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What a user sets. */
+/* The settings of a user. */
 typedef struct {
   PetscReal       cycles;
   SamLifeSettings life;

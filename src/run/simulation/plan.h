@@ -6,7 +6,7 @@
 #include <petsam/setup.h>
 #include <petsam/history.h>
 
-#define SAM_PLAN_OUTPUTS 256 /* most cycles whose fields are asked for */
+#define SAM_PLAN_OUTPUTS 256 /* maximum number of cycles whose fields are saved */
 
 typedef struct {
   PetscReal       cycles; /* of a life; 0: the history runs once, and every step wears */

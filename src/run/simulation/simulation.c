@@ -65,7 +65,7 @@ PetscErrorCode SamSimulationExamine(SamSimulation s, PetscInt k, PetscBool of_la
 
 /* ---- set-up ---- */
 
-/* Makes numbers of each step what varies. */
+/* Makes the prescribed values that vary numbers of each step. */
 static PetscErrorCode Offer(SamSimulation s)
 {
   PetscFunctionBegin;

@@ -29,8 +29,8 @@
 
   Preconditioner: |k| on A, less half its loss. |k| = |k|' + loss on A, where |k|' is what the differences of a field
   within A cost, and loss = |k| 1_A what it costs that the field ends at the edge of A. The inverse of S on A lies
-  between |k|' and |k|, as the field outside is free, not zero. The loss grows at edges like 1/distance; |k| has too
-  much of it.
+  between |k|' and |k|, as the field outside is free, not zero. At edges the loss grows like 1/distance, and |k|
+  contains too much of it.
 
   Rounding: steps and their products are in single precision, at half the cost; p and g are in double. g collects about
   SAM_SINGLE_ROUNDING of the maximum error since the last product in double precision; before that matters there is

@@ -1,4 +1,4 @@
-/* Reading a body's compliance; the whole of it is read where the file is examined, in a child process. */
+/* Reading a body's compliance; rank 0 reads the whole of it where it examines the file. */
 #include <petsam/private/compliance.h>
 #include <petsam/private/file.h>
 #include <ctype.h>
@@ -311,8 +311,8 @@ PetscErrorCode SamComplianceReadStress(MPI_Comm comm, SamCompliance c, double va
   PetscFunctionBegin;
   PetscCheck(c->below[0], comm, SAM_ERR_FILE, "-%s %s: has no group /stress: make the file without --no-stress", option,
              c->file);
-  PetscCall(
-    SamFileExamine(comm, option, c->file, LookBelow, c, values, sizeof(*values) * (size_t)SamComplianceStresses(c)));
+  PetscCall(SamFileExamine(comm, option, c->file, NULL, LookBelow, c, values,
+                           sizeof(*values) * (size_t)SamComplianceStresses(c)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -348,7 +348,7 @@ PetscErrorCode SamComplianceRead(MPI_Comm comm, PetscInt body, SamBody of, const
   PetscCall(PetscNew(&c));
   *compliance   = c;
   c->references = 1;
-  PetscCall(SamFileExamine(comm, option, file, Look, NULL, c, sizeof(*c)));
+  PetscCall(SamFileExamine(comm, option, file, NULL, Look, NULL, c, sizeof(*c)));
   c->checksum   = SamHashBytes(0, (const unsigned char *)c, sizeof(*c));
   c->references = 1;
   c->body       = body;

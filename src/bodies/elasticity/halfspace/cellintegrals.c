@@ -234,7 +234,7 @@ static double Rectangle(Expansion *e, double i, double j)
   return (below + above) / 2;
 }
 
-/* The cell at the origin: four quarters, each Love's closed form at its corner. */
+/* Integrates over the cell at the origin: four quarters, each by Love's closed form at its corner. */
 static double OriginIntegral(SamIntegral kind, double hx, double hy)
 {
   switch (kind) {

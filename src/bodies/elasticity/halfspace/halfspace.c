@@ -259,8 +259,8 @@ static PetscErrorCode ApplyTangentialSingle(SamElasticity e, double factor, cons
   so that |k| is the inverse up to a factor. For shear the symbol is (2 pi (A + B)/|k|)(I - nu kk'/|k|^2), B =
   pair->shear_xx, nu = B/(A + B), with the inverse (|k|/(2 pi (A + B)))(I + nu/(1 - nu) kk'/|k|^2). Here they act on the
   grid made periodic, which costs a quarter of a padded transform and needs as few iterations. The symbol is
-  recomputed each time. Single precision suffices for an approximation. `local`: A or A + B. Layered bodies have symbols
-  out of tables, which are all of the gain but the transforms' part.
+  recomputed each time. Single precision suffices for an approximation. `local`: A or A + B. Layered bodies take their
+  symbols from tables, which contain all of the gain but the factor of the transforms.
 */
 static PetscErrorCode Precondition(SamElasticity e, PetscInt n, double factor, double local, SamSymbol s,
                                    const float *const in[], float *const out[])

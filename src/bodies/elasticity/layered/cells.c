@@ -343,7 +343,7 @@ static double ImageOver(double x, double dx, double Z, double datum, PetscBool o
 {
   double sum = 0;
 
-  if (hypot(x, Z) > 2 * dx) { /* where closed forms cancel */
+  if (hypot(x, Z) > 2 * dx) { /* where terms of the closed form cancel */
     for (int k = 0; k < POINTS; k++) {
       const double s = x + dx * rules[POINTS].x[k];
 

@@ -224,7 +224,7 @@ static void Row(SamStress stress, const double side[2], double depth, SamStressG
   if (line && j > 0) return; /* there is one row */
   if (!l->material && group != SAM_STRESS_NORMAL_Z) SamHalfSpaceStressRow(&source, group, j, n, values);
   if (!l->material && group == SAM_STRESS_NORMAL_Z) {
-    /* what p does to xz and yz */
+    /* stresses xz and yz by p */
     double *const rows[] = {values[2], values[0], values[1]};
 
     SamHalfSpaceStressRow(&source, SAM_STRESS_NORMAL_P, j, n, rows);
