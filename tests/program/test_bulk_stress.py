@@ -68,34 +68,12 @@ def test_restart_goes_on_with_the_same_bulk_stress_only(petsam, tmp_path):
     assert shear("on.h5")[1] == shear("whole.h5")[1] == [2e7, 1e7, 0]
 
 
-@pytest.mark.parametrize(
-    "changes, words",
-    [
-        (dict(body1_young=float("inf"), bulk1_stress_xy=1.0), ("-bulk1_stress_xy", "rigid")),
-        (dict(elasticity="periodic", bulk2_stress_yy=1e6), ("-bulk2_stress_yy", "periodic")),
-        (dict(bulk1_stress_xx=1e200), ("-bulk1_stress_xx", "Young")),
-        (dict(bulk2_stress_yy="much"), ("-bulk2_stress_yy",)),
-        (dict(bulk2_stress_xx=float("inf")), ("-bulk2_stress_xx",)),
-    ],
-)
-def test_bulk_stress_without_meaning_is_refused(petsam, changes, words):
-    complaint = petsam(dict(BALL, **changes), check=2).complaint[0]
-    assert all(word in complaint for word in words)
-
-
-def test_option_and_column_together_are_refused(petsam, tmp_path):
-    steps = history(tmp_path / "h.csv", "time,bulk2_stress_xx", (1, 2e7))
-    complaint = petsam(dict(BALL, bulk2_stress_xx=1e7), steps, check=2).complaint[0]
-    assert "-bulk2_stress_xx" in complaint and "h.csv" in complaint
-    steps = history(tmp_path / "h.csv", "time,bulk2_stress_zz", (1, 2e7))
-    assert "bulk2_stress_zz" in petsam(BALL, steps, check=2).complaint[0]
-
-
 def test_friction_limit_does_not_depend_on_the_bulk_stress(petsam):
     """What the grid carries when all slides is mu N, whatever the stretch."""
     limit = slide_limit(BALL)[0]
     petsam(dict(BALL, load_tx=0.999 * limit, bulk2_stress_xx=3e7))
-    petsam(dict(BALL, load_tx=1.001 * limit, bulk2_stress_xx=3e7), check=11)
+    done = petsam(dict(BALL, load_tx=1.001 * limit, bulk2_stress_xx=3e7), check=11)
+    assert "gross slip: load_tx" in done.complaint[0]
 
 
 def stretched(folder, kind, phase):

@@ -371,37 +371,6 @@ def test_last_step_is_the_end_not_a_stop(folder, petsam):
     petsam(CASE, dict(checkpoint="state.h5", max_walltime=1e-3))
 
 
-@pytest.mark.parametrize("text", ["0", "-5", "1:60", "1:2:3:4", "soon", "1:", "nan", "inf", "1.5:00", "2h"])
-def test_wrong_time_limit_is_refused(folder, petsam, text):
-    done = petsam(CASE, dict(checkpoint="state.h5", max_walltime=text), check=2)
-    assert "-max_walltime" in done.complaint[0]
-
-
-@pytest.mark.parametrize(
-    "options, word",
-    [
-        (dict(checkpoint_every=2), "-checkpoint_every"),
-        (dict(max_walltime=60), "-max_walltime"),
-        (dict(checkpoint="out.h5"), "-checkpoint out.h5"),
-        (dict(checkpoint="history.csv"), "-history"),
-        (dict(checkpoint="state.h5", checkpoint_every=-1), "-checkpoint_every -1"),
-    ],
-)
-def test_contradictory_options_are_refused(folder, petsam, options, word):
-    done = petsam(CASE, options, check=2)
-    assert word in done.complaint[0] and not (folder / "out.h5").exists()
-
-
-@pytest.mark.parametrize("ranks", [1, 2])
-def test_checkpoint_that_cannot_be_written_is_told_at_the_start(folder, petsam, ranks):
-    done = petsam(CASE, dict(checkpoint="nowhere/state.h5"), ranks=ranks, check=3)
-    assert (
-        len(done.complaint) == 1
-        and "-checkpoint nowhere/state.h5" in done.complaint[0]
-        and not (folder / "out.h5").exists()
-    )
-
-
 def test_results_may_not_replace_the_checkpoint(stopped, petsam):
     assert "-restart" in petsam(CASE, ON, dict(output="state.h5"), check=2).complaint[0]
     assert progress(stopped / "state.h5") == 21

@@ -376,29 +376,6 @@ def test_files_that_are_not_its_own_are_kept(compliance, block, tmp_path):
     assert "is an input file" in compliance(*block, "-o", "block.inp", check=3)[0]
 
 
-@pytest.mark.parametrize(
-    "words, text",
-    [
-        (["--patch", "1"], "give either --mesh or --matrix"),
-        (["--patch", "1", "--mesh", "a.inp"], "--mesh needs --contact"),
-        (["--patch", "1", "--matrix", "a.mtx", "--nodes", "n.txt"], "--matrix needs --young"),
-        (
-            ["--patch", "1", "--mesh", "a", "--contact", "T", "--fixed", "B", "--young", "1"],
-            "--young is not for --mesh",
-        ),
-        (
-            ["--patch", "1", "--mesh", "a", "--contact", "T", "--fixed", "B", "--degree", "11"],
-            "an integer from 0 to 10",
-        ),
-        (["--patch", "1", "--mesh", "a", "--contact", "T", "--fixed", "B", "--case", "a b=1"], "expected NAME=STEP"),
-        (["--patch", "1", "--mesh", "a", "--contact", "T", "--fixed", "B", "--frame", "1,2"], "expected ORIGIN"),
-        (["--patch", "1", "--mesh", "a", "--contact", "T", "--fixed", "B", *(2 * ["--case", "a=1"])], "each name once"),
-    ],
-)
-def test_bad_usage(compliance, words, text):
-    assert text in compliance(*words, check=2)[0]
-
-
 # ---------------------------------------------------------------- substructures
 
 

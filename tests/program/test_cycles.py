@@ -285,12 +285,3 @@ def test_the_table_of_a_study_has_energies_of_cycles(study, tmp_path):
     assert float(table(tmp_path)[0]["dissipated_energy_cycle_last"]) == pytest.approx(energy[1:].sum(), rel=1e-9)
     code, (error,) = study("cases.csv", "--turns", "load_q", *common)
     assert code == 3 and "--turns load_q: has no such scalar: is load_n meant? It has contact_area" in error
-
-
-@pytest.mark.parametrize(
-    "words", [("--period", "no"), ("--cycle", "0"), ("--cycle", "x"), ("--turns", "a", "--period", "1")]
-)
-def test_words_of_cycles_that_are_none_are_bad_usage(study, tmp_path, words):
-    (tmp_path / "cases.csv").write_text("load_tx\n1\n")
-    code, (error,) = study("cases.csv", *words)
-    assert code == 2 and words[-2] in error

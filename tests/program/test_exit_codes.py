@@ -59,20 +59,6 @@ def test_loads_shortly_below_gross_slip_are_carried(solve, arm):
     assert s["stick_area"] > 0
 
 
-@pytest.mark.parametrize("load", [dict(load_tx=1e-3), dict(load_ty=-1.0), dict(load_mz=1e-6)], ids=str)
-def test_tangential_load_without_friction_has_no_equilibrium(petsam, load):
-    done = petsam(BALL, load, dict(friction=0), check=11)
-    assert list(load)[0] in done.complaint[0] and "friction" in done.complaint[0]
-
-
-def test_tangential_load_without_normal_load_has_no_equilibrium(petsam):
-    assert "load_tx" in petsam(BALL, dict(load_n=0.0, load_tx=1.0), check=11).complaint[0]
-
-
-def test_tangential_load_between_separated_bodies_has_no_equilibrium(petsam):
-    assert "load_tx" in petsam(dict(BALL, load_n=None, disp_z=-1e-6, load_tx=1.0), check=11).complaint[0]
-
-
 @pytest.mark.parametrize("name, sign", [("load_my", 1), ("load_my", -1), ("load_mx", 1)])
 def test_moment_beyond_the_grid_names_its_limit(petsam, name, sign):
     half = BALL["grid_size"] / 2
@@ -81,10 +67,6 @@ def test_moment_beyond_the_grid_names_its_limit(petsam, name, sign):
     numbers = [float(number) for number in re.findall(r"-?\d\.?\d*(?:e[-+]\d+)?", done.complaint[0].split("limits")[1])]
     assert max(numbers) == pytest.approx(half * 180.0, rel=1.01 / 72)  # the outermost cells' centres
     assert min(numbers) == pytest.approx(-half * 180.0, rel=1.01 / 72)
-
-
-def test_moment_without_force_has_no_equilibrium(petsam):
-    assert "load_my" in petsam(BALL, dict(load_n=0.0, load_my=1e-3), check=11).complaint[0]
 
 
 @pytest.mark.parametrize("load, code", [(dict(load_tx=2 * FORCE), 11), (dict(load_my=1.0), 11)], ids=["slip", "moment"])
@@ -124,7 +106,7 @@ def test_allowing_edge_contact_does_nothing_else(petsam):
 @pytest.mark.parametrize("load", [dict(load_my=3.6), dict(load_mx=-3.6)], ids=str)
 def test_tipped_punch_reaches_the_edge(petsam, load):
     """A lever near the half width needs pressure at the edge."""
-    petsam(PUNCH, dict(grid_n=64, load_n=1200.0), load, check=12)
+    assert "edge of the grid" in petsam(PUNCH, dict(grid_n=64, load_n=1200.0), load, check=12).complaint[0]
 
 
 def test_contact_in_the_last_but_one_cell_is_not_at_the_edge(petsam):

@@ -110,21 +110,3 @@ def test_means_do_not_depend_on_the_grid(launcher, contact):
             peaks[name, n] = np.nanmax(got["swt"])
     assert peaks["mean", 144] == pytest.approx(peaks["mean", 48], rel=0.02)
     assert peaks["point", 144] > 1.1 * peaks["point", 48]
-
-
-@pytest.mark.parametrize(
-    "options, says",
-    [
-        (dict(fatigue_length=1e-4), "-fatigue_length is given without -fatigue"),
-        (dict(CYCLE, fatigue_length=0), "-fatigue_length"),
-        (dict(CYCLE, fatigue_length=50), "-fatigue_length 50: expected a length from"),
-        (dict(CYCLE, fatigue_length=1e-9), "a thousandth of a cell, to the grid's width,"),
-        (dict(CYCLE, fatigue_length=1e-4, depths=0), "omit -depths"),
-        (dict(CYCLE, fatigue_length=1e-4, quantities="mises"), "omit -quantities"),
-        (dict(CYCLE, fatigue_length=1e-4, fatigue_average="disc"), "-fatigue_average disc"),
-        (dict(CYCLE, fatigue_average="line"), "-fatigue_average is given without -fatigue_length"),
-        (dict(fatigue="ruiz", fatigue_length=1e-4, steps="2:3"), "-fatigue ruiz: is of the surface"),
-    ],
-)
-def test_lengths_that_cannot_be_are_refused(contact, options, says):
-    assert says in contact[2]("no", check=2, **options).stderr

@@ -230,10 +230,10 @@ def test_temporary_file_of_a_killed_run_is_replaced_and_a_readable_one_is_not(pe
 def test_checkpoint_is_not_replaced_by_results(petsam, tmp_path):
     petsam(CASE, dict(checkpoint="state.h5", checkpoint_every=1))
     before = (tmp_path / "state.h5").read_bytes()
-    petsam(CASE, dict(output="state.h5"), check=3)
+    assert "-output state.h5" in petsam(CASE, dict(output="state.h5"), check=3).complaint[0]
     assert (tmp_path / "state.h5").read_bytes() == before
     petsam(CASE, dict(output="out.h5"))
-    petsam(CASE, dict(checkpoint="out.h5", checkpoint_every=1), check=3)
+    assert "-checkpoint out.h5" in petsam(CASE, dict(checkpoint="out.h5", checkpoint_every=1), check=3).complaint[0]
     with h5py.File(tmp_path / "out.h5") as f:
         assert len(f["time"]) == 1
 

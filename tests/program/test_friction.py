@@ -150,12 +150,6 @@ def test_number_and_field_together_are_refused(petsam, tmp_path):
     assert "-friction_dataset" in petsam(BALL, dict(friction_dataset="/mu"), check=2).complaint[0]
 
 
-def test_negative_scale_is_named_by_its_line(petsam, tmp_path):
-    steps = history(tmp_path / "h.csv", "time,load_tx,friction_scale", (1, 5.0, 1.0), (2, 5.0, -0.5))
-    complaint = petsam(BALL, steps, check=2).complaint[0]
-    assert "line 3" in complaint and "friction_scale" in complaint
-
-
 def test_checkpoint_of_another_field_is_refused(petsam, tmp_path):
     steps = history(tmp_path / "h.csv", "time,load_tx", (1, 5.0), (2, 6.0))
     run = dict(BALL, checkpoint=tmp_path / "c.h5", checkpoint_every=1, **steps)

@@ -147,26 +147,3 @@ def test_bits_do_not_depend_on_ranks(petsam, tmp_path, law, ranks):
     with h5py.File(tmp_path / "1.h5") as one, h5py.File(tmp_path / f"{ranks}.h5") as many:
         for name in ("shear_x", "friction_coefficient"):
             assert np.array_equal(one[name][:], many[name][:]), name
-
-
-@pytest.mark.parametrize(
-    ("options", "words"),
-    [
-        (dict(film_thickness=1e-6), ["-film_thickness is given without -film_shear"]),
-        (dict(film_shear=1e9), ["-film_shear is given without -film_thickness"]),
-        (dict(film_thickness=-1e-6, film_shear=1e9), ["-film_thickness"]),
-        (dict(friction_law="rising"), ["-friction_law"]),
-        (dict(friction_law="slip_path"), ["-friction_path_final is missing", "-friction_law slip_path"]),
-        (dict(friction_path_length=1e-6), ["-friction_path_length is given without -friction_law slip_path"]),
-        (
-            dict(friction_law="pressure", friction_pressure_exponent=-1.0, friction_pressure_reference=1e8),
-            ["-friction_pressure_exponent -1"],
-        ),
-        (dict(friction_law="pressure", friction_pressure_exponent=0.5), ["-friction_pressure_reference is missing"]),
-        (dict(PATH, friction=0.0), ["-friction_law is given without -friction"]),
-    ],
-)
-def test_bad_input_is_refused(petsam, options, words):
-    done = petsam(ball(16), options, check=2)
-    for word in words:
-        assert word in " ".join(done.complaint)

@@ -169,29 +169,6 @@ def test_wave_in_full_contact(tmp_path, solve):
 SMALL = sphere([(2, 0.3, 1), (3, 0.2, 0.5)], 2.6, n=32, load_n=0.5 * E * A**3, friction=0.2)
 
 
-@pytest.mark.parametrize(
-    "change, says",
-    [
-        (dict(body2_layer_young=[E]), "-body2_layer_young is given for 1 of 2 layers"),
-        (dict(body2_layer_thickness=None), "-body2_layer_thickness is missing"),
-        (dict(body2_layer_thickness=[A, 0]), "-body2_layer_thickness 0: expected a finite number > 0"),
-        (dict(body2_layer_thickness=[A, 1e-20]), "-body2_layer_thickness 1e-20: expected"),
-        (dict(body2_layer_thickness=[A, 1e155]), "-body2_layer_thickness 1e+155: expected"),
-        (dict(body2_layer_thickness=[A, -A]), "-body2_layer_thickness -0.001: expected a finite number > 0"),
-        (
-            dict(body2_layer_poisson=[0.3, 0.51]),
-            "-body2_layer_poisson 0.51: expected a number above -1 and at most 0.5",
-        ),
-        (dict(body2_layer_young="1e9,inf"), "-body2_layer_young inf: a layer cannot be rigid"),
-        (dict(body2_layer_young="1e9,0"), "-body2_layer_young 1e9,0: expected a number > 0"),
-        (dict(body2_layer_young="1e9,soft"), "-body2_layer_young 1e9,soft: expected a number > 0"),
-        (dict(body2_layer_young=",".join(["1e9"] * 65)), "at most 64 separated by commas"),
-    ],
-)
-def test_wrong_layers_are_refused(change, says, petsam):
-    assert says in petsam({**SMALL, **change}, check=2).complaint[0]
-
-
 def test_one_poisson_s_ratio_is_for_all_layers(solve):
     one = solve({**SMALL, "body2_layer_poisson": 0.3})
     two = solve({**SMALL, "body2_layer_poisson": (0.3, 0.3)})
@@ -405,31 +382,10 @@ def test_profile_is_cut_into_layers_of_the_constants_at_their_middle(petsam, tmp
         assert_close(f["pressure"][0], listed["pressure"][0], 1e-7 * listed["pressure"][0].max())
 
 
-@pytest.mark.parametrize(
-    "text, says",
-    [
-        ("depth,young,poisson\n1e-4,1e9,0.3\n", "p.csv, line 2: depth 0.0001: expected 0 in the first row"),
-        ("depth,young,poisson\n0,1e9,0.3\n", "p.csv: the last depth is 0: expected rows down to"),
-        ("depth,young,poisson\n0,1e9,0.3\n2,1e9,0.3\n1,1e9,0.3\n", "p.csv, line 4: depth 1 is less than in the row"),
-        ("depth,young,poisson\n0,1e9,0.3\n1,0,0.3\n", "p.csv, line 3: young 0: expected a number > 0"),
-        ("depth,young,poisson\n0,1e9,0.3\n1,1e9,0.6\n", "p.csv, line 3: poisson 0.6: expected a number above -1"),
-        ("depth,young\n0,1e9\n1,1e9\n", "p.csv, line 1: no column named poisson"),
-        ("0,1e9,0.3\n", "p.csv, line 1: 0 is no name of a column"),
-        (
-            "depth,young,poisson\n" + "".join(f"{k},1e9,0.3\n" for k in range(66)),
-            "p.csv: has 66 rows: expected at most 64",
-        ),
-    ],
-)
-def test_wrong_profiles_are_refused(text, says, petsam, tmp_path):
-    (tmp_path / "p.csv").write_text(text)
-    assert says in petsam({**SMALL, **NO_LISTS, "body2_layer_file": "p.csv"}, check=2).complaint[0]
-
-
-def test_profile_excludes_lists(petsam, tmp_path):
-    (tmp_path / "p.csv").write_text("depth,young,poisson\n0,1e9,0.3\n1e-3,2e9,0.3\n")
-    says = "-body2_layer_file and -body2_layer_young exclude each other: omit one"
-    assert says in petsam({**SMALL, "body2_layer_file": "p.csv"}, check=2).complaint[0]
+def test_profile_of_too_many_rows_is_refused(petsam, tmp_path):
+    (tmp_path / "p.csv").write_text("depth,young,poisson\n" + "".join(f"{k},1e9,0.3\n" for k in range(66)))
+    said = petsam({**SMALL, **NO_LISTS, "body2_layer_file": "p.csv"}, check=2).complaint[0]
+    assert "p.csv: has 66 rows: expected at most 64" in said
 
 
 # ---------------------------------------------------------------- wear

@@ -138,19 +138,3 @@ np.savez("f.npz", **contact.fatigue({case.pop("fatigue")!r}, **{case!r}))
     found, expected = np.load(tmp_path / "f.npz"), stress(dict(CASE, section="y=0", depths=DEPTHS, quantities="none"))
     for name in ("crossland", "dang_van"):
         assert found[name].shape == (4, 1, 40) and np.array_equal(found[name], expected[name])
-
-
-@pytest.mark.parametrize(
-    "options, complaint",
-    [
-        (dict(passing=True), "-passing is given without -fatigue"),
-        (dict(CASE, steps="1:2"), "-passing: 2 steps are given"),
-        (dict(CASE, section="x=0"), "-passing: points pass along x: give a -section y=..."),
-        (dict(passing=True, fatigue="ruiz"), "-fatigue ruiz: needs the slip of steps, and not -passing"),
-        (dict(fatigue="ruiz", steps="1:2"), "r.h5 has velocities of slip: omit ruiz"),
-        (dict(depths="x" * 2000), "x" * 51 + "...: expected depths separated by commas"),
-        (dict(CASE, passing=None), "-fatigue needs the steps of a cycle"),
-    ],
-)
-def test_what_does_not_pass_is_refused(stress, options, complaint):
-    assert complaint in stress(options, check=2).stderr

@@ -128,8 +128,3 @@ def test_shifted_hills_have_shifted_tractions(hills, solve, tmp_path):
 def test_ranks_do_not_matter(hills, solve):
     case = dict(hills, load_tx=1.5, output_fields="all")
     assert_same(solve(case, ranks=3), solve(case), 0)
-
-
-def test_unknown_elasticity_is_named(petsam, sphere):
-    done = petsam(sphere, "-elasticity", "plate", check=2)
-    assert done.complaint[0] == "petsam: -elasticity plate: expected halfspace, periodic, plane or plane_periodic"

@@ -237,29 +237,6 @@ def test_units_are_per_metre(petsam, tmp_path):
 
 
 @pytest.mark.parametrize(
-    "options, complaint",
-    [
-        (dict(grid_n=(64, 32)), "-grid_n 64,32: a plane problem has one row of cells: use 64,1"),
-        (dict(load_mx=1.0), "-load_mx 1: has no meaning with -elasticity plane"),
-        (dict(rot_z=1e-3), "-rot_z 0.001: has no meaning with -elasticity plane"),
-        (
-            dict(bulk1_stress_yy=1e6),
-            "-bulk1_stress_yy, or its column in -history: 1e+06: has no meaning in plane strain",
-        ),
-        (
-            dict(bulk2_stress_xy=1e6),
-            "-bulk2_stress_xy, or its column in -history: 1e+06: has no meaning in plane strain",
-        ),
-        (dict(plane_datum=1e-4), "-plane_datum 0.0001: give at least half the grid's width, 0.000315 m"),
-        (dict(gap_radius_y=0.1), "-gap_radius_y 0.1: has no meaning with -elasticity plane"),
-        (dict(elasticity="halfspace", grid_n=(64, 1)), "-grid_n 64,1: expected an integer >= 2"),
-    ],
-)
-def test_what_has_no_meaning_is_refused(petsam, options, complaint):
-    assert complaint in petsam(CYLINDER, options, check=2).stderr
-
-
-@pytest.mark.parametrize(
     "options, says",
     [
         (dict(load_tx=1e6), "load_tx = 1000000 N/m (limit "),
@@ -270,12 +247,6 @@ def test_what_has_no_meaning_is_refused(petsam, options, complaint):
 )
 def test_messages_about_loads_are_per_metre(petsam, options, says):
     assert says in petsam({**CYLINDER, **options}, check=11).complaint[0]
-
-
-def test_columns_are_refused(petsam, tmp_path):
-    rows = history(tmp_path / "h.csv", "time,load_n,load_mz", (0.0, N, 0.0), (1.0, N, 1.0))
-    complaint = petsam(dict(CYLINDER, load_n=None), rows, check=2).stderr
-    assert "h.csv, line 3: load_mz 1: has no meaning with -elasticity plane" in complaint
 
 
 # ---------------------------------------------------------------- what else a contact does

@@ -393,25 +393,3 @@ def test_depth_is_saved_with_a_limit_only(petsam, tmp_path):
         assert f"depth up to {f['history/plastic_depth_max'][0]:.6g} m" in line
         for plain in (e, i):
             assert "plastic_depth" not in plain and not [name for name in plain["history"] if "plastic" in name]
-
-
-@pytest.mark.parametrize(
-    "options, words",
-    [
-        (dict(pressure_limit=-1), ["pressure_limit"]),
-        (dict(pressure_limit=0), ["pressure_limit"]),
-        (
-            dict(pressure_limit=None, output="o.h5", output_fields="plastic_depth"),
-            ["-output_fields", "unknown field plastic_depth"],
-        ),
-    ],
-)
-def test_what_makes_no_sense_is_refused_by_name(petsam, tmp_path, options, words):
-    run = petsam({**SOFT, "load_n": 100.0, **options}, check=2)
-    assert all(word in run.stderr for word in words) and len(run.complaint) <= 2
-
-
-def test_jumps_over_cycles_of_wear_are_refused(petsam, tmp_path):
-    cycle = rows(tmp_path / "h.csv", disp_z=[1e-6] * 3, disp_x=[0, 1e-7, 0])
-    run = petsam(SOFT, cycle, dict(wear_coefficient1=1e-13, wear_cycles=100, output="o.h5"), check=2)
-    assert "-wear_cycles" in run.stderr and "-pressure_limit" in run.stderr

@@ -143,49 +143,11 @@ def test_several_files_of_different_grids_are_compared(plot, strokes, single, tm
     assert pixels(tmp_path / "two.png")[1] > 1.5 * pixels(tmp_path / "one.png")[1]
 
 
-@pytest.mark.parametrize(
-    "words, message",
-    [
-        (["--step", "99"], "--step 99: there are 16 steps"),
-        (["--step", "7"], "--step 7: its fields were not saved"),
-        (["--time", "8"], "--time 8: fields were saved from"),
-        (["--names", "load_q"], "--names load_q: has no such dataset"),
-        (["--profiles", "--at", "1,1"], "--at 1,1: is not on the grid"),
-        (["--maps", "-o", "nowhere/picture.png"], "nowhere/picture.png"),
-    ],
-)
-def test_what_the_file_has_not_is_named(plot, strokes, words, message):
-    errors = plot(strokes, *words, check=3)
-    assert len(errors) == 1 and errors[0].startswith("petsam-plot: error: ") and message in errors[0]
-
-
 @pytest.mark.parametrize("kind", ["loop", "history"])
 def test_a_file_without_any_solution_is_named(plot, refused, unsolved, kind):
     for files in ([unsolved], [refused, unsolved]):
         errors = plot("--" + kind, *files, check=3)
         assert errors == [f"petsam-plot: error: {unsolved}: no step has a solution"]
-
-
-def test_a_file_that_is_no_results_file_is_named(plot, tmp_path):
-    (tmp_path / "text.h5").write_text("no HDF5")
-    with h5py.File(tmp_path / "other.h5", "w") as file:
-        file["x"] = [1.0]
-    for name, reason in (
-        ("absent.h5", "no such file"),
-        ("text.h5", "not an HDF5 file"),
-        ("other.h5", "not a results file"),
-    ):
-        (error,) = plot(name, check=3)
-        assert f"{name}: " in error and reason in error
-
-
-def test_bad_usage_is_exit_code_2(plot, single):
-    for words, says in (
-        (["--labels", "a,b"], "--labels"),
-        (["--step", "two"], "--step"),
-        (["--step", "1", "--time", "1"], "not allowed with"),
-    ):
-        assert says in plot(single, *words, check=2)[-1]
 
 
 def replaced(file, name, values):
@@ -270,18 +232,6 @@ def test_datasets_of_different_lengths_are_drawn(draw, strokes, tmp_path):
         replaced(file, "history/load_tx", file["history/load_tx"][:9])
         replaced(file, "history/status", np.zeros(99, dtype=int))
     assert draw(path, "--history", "--names", "status,load_tx") == (0, [])
-
-
-@pytest.mark.parametrize(
-    "words",
-    [
-        ["--dpi", "0"], ["--dpi=-1"], ["--dpi", "1e9"], ["--dpi", "1000000000"], ["--step", ""], ["--step", "inf"],
-        ["--step", "9" * 5000], ["--time", ""], ["--at", "1"], ["--at", ""], ["--names", ""],
-    ],
-)  # fmt: skip
-def test_bad_words_are_one_line_with_exit_code_2(draw, single, words):
-    code, (error,) = draw(single, *words)
-    assert code == 2 and error.startswith("petsam-plot: error: ") and words[0].split("=")[0] in error
 
 
 @pytest.mark.parametrize(

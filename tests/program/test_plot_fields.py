@@ -400,54 +400,6 @@ def test_one_picture_as_asked_for(draw, path, tmp_path, words, name, begin):
     assert [file.name for file in tmp_path.iterdir()] == [name]
 
 
-@pytest.mark.parametrize(
-    "words, says",
-    [
-        (["--limits", "0,1"], "--limits: is for one field"),
-        (["--limits", "0,1", "--field", "gap,pressure"], "--limits: is for one field"),
-        (["--limits", "1,0", "--field", "gap"], "--limits: 1,0: expected LOW,HIGH"),
-        (["--limits", "1", "--field", "gap"], "--limits: 1: expected LOW,HIGH"),
-        (["--limits", "nan,1", "--field", "gap"], "--limits: nan,1: expected LOW,HIGH"),
-        (["--limits", "0,1", "--field", "gap", "--percentile", "9"], "--percentile: not allowed with --limits"),
-        (["--percentile", "0"], "--percentile: 0: expected a number above 0, at most 100"),
-        (["--percentile", "101"], "--percentile: 101: expected"),
-        (["--log", "z"], "--log: z: expected colors, x, y"),
-        (["--field", ""], "--field: expected names"),
-        (["--scalar", ""], "--scalar"),
-        (["--where", "mu"], "--where: mu: expected NAME=VALUE"),
-        (["--format", "gif"], "--format"),
-        (["--format", "pdf", "-o", "a.svg"], "--format pdf: contradicts the ending of a.svg"),
-    ],
-)
-def test_bad_usage_names_the_option_with_exit_code_2(draw, path, words, says):
-    code, (error,) = draw(path, *words)
-    assert code == 2 and error.startswith("petsam-plot: error: ") and says in error
-
-
-@pytest.mark.parametrize(
-    "words, says",
-    [
-        (
-            ["--field", "presure"],
-            "--field presure: has no such field (petsam -output_fields): is pressure meant? It has ",
-        ),
-        (["--profiles", "--field", "q"], "--field q: has no such field"),
-        (["--field", "contact_edge"], "--field contact_edge: "),
-        (
-            ["--scalar", "area", "--against", "load_n"],
-            "--scalar area: has no such dataset: is contact_area or stick_area meant? It has contact_area, ",
-        ),
-        (["--names", "area"], "--names area: has no such dataset"),
-        (["--against", "force"], "--against force: has no such dataset; it has contact_area, "),
-        (["--scalar", "stick_area", "--by", "mu"], "--by: is for results.h5 of petsam-study"),
-        (["--field", "gap", "--log", "colors", "--limits", "0,1"], "expected a positive lower limit"),
-    ],
-)
-def test_what_a_file_lacks_is_named_with_what_there_is(draw, path, words, says):
-    code, (error,) = draw(path, *words)
-    assert code == 3 and says in error and "TRACEBACK" not in error
-
-
 def test_maps_of_a_file_without_some_fields_show_the_others(draw, solve, tmp_path):
     some = solve(dict(CASE, output_fields="pressure,gap", load_tx=float(AMPLITUDE))).path
     assert draw(some, "--maps", "--profiles") == (0, [])

@@ -30,43 +30,17 @@ def path(solve, tmp_path_factory):
 
 
 @pytest.mark.parametrize(
-    "words, says",
+    "words, pictures",
     [
-        (
-            ["--scalar", "load_tx", "--against", "disp_x", "--step", "3,6"],
-            "--step: has no effect on the picture history",
-        ),
-        (["--scalar", "load_tx", "--step", "3,6"], "--range FIRST:LAST chooses load steps of --history and --loop"),
-        (["--history", "--time", "1"], "--time: has no effect on the picture history; it is for --maps, --profiles"),
-        (["--history", "--cycle", "1"], "--cycle: has no effect on the picture history; it is for --maps"),
-        (["--loop", "--step", "3"], "--step: has no effect on the picture loop"),
-        (["--energy", "--load", "tx"], "--load: has no effect on the picture energy; it is for --loop"),
-        (["--loop", "--turns", "load_tx"], "--turns: has no effect on the picture loop; it is for --energy"),
-        (["--maps", "--range", "3:4"], "--range: has no effect on the picture maps; it is for --loop and --history"),
-        (
-            ["--loop", "--cycle", "1", "--range", "3:"],
-            "--range: has no effect on the picture loop; it is for --history",
-        ),
-        (["--maps", "--at", "0,0"], "--at: has no effect on the picture maps; it is for --profiles and --scar"),
-        (["--at", "0,0", "--history", "--loop"], "--at: has no effect on the pictures loop and history"),
-        (["--loop", "--whole-grid"], "--whole-grid: has no effect on the picture loop"),
-        (["--profiles", "--percentile", "99"], "--percentile: has no effect on the picture profiles; it is for --maps"),
         (["--history", "--field", "gap", "--loop", "--log", "colors,x"], None),
-        (["--profiles", "--log", "colors"], "--log colors: has no effect on the picture profiles; it is for --maps"),
-        (["--maps", "--log", "x"], "--log x: has no effect on the picture maps"),
-        (["--loop", "--log", "y"], "--log y: has no effect on the picture loop"),
-        (["--depth", "0"], "--depth: has no effect on the pictures maps, profiles, loop and history of such a file"),
-        (["--maps", "--component", "xx"], "--component: has no effect on the picture maps of such a file"),
         (["--loop", "--field", "gap", "--profiles", "--scalar", "load_tx"], None),
+        (["--range", "5:12"], {"results_loop.png", "results_history.png"}),
+        (["--history", "--range", "5:"], {"results_history.png"}),
     ],
 )
-def test_an_option_that_no_picture_uses_is_bad_usage(draw, path, tmp_path, words, says):
-    code, errors = draw(path, *words)
-    if says is None:
-        assert (code, errors) == (0, [])
-    else:
-        assert code == 2 and len(errors) == 1 and says in errors[0], errors
-        assert list(tmp_path.iterdir()) == []
+def test_options_that_a_picture_uses_are_taken(draw, path, tmp_path, words, pictures):
+    assert draw(path, *words) == (0, [])
+    assert pictures in (None, {file.name for file in tmp_path.iterdir()})
 
 
 def given(**options):
@@ -158,26 +132,3 @@ def test_a_history_and_a_loop_of_some_load_steps(path):
     x, y = series.history([results.between(3, None)], ["status"], "load_tx").axes[0].lines[0].get_data()
     assert np.allclose(x, load[2:-1], rtol=1e-14) and not y.any()
     assert results.solved.size == status.size - 1  # the results themselves are whole
-
-
-@pytest.mark.parametrize(
-    "words, code, says",
-    [
-        (["--range", "5:12"], 0, None),
-        (["--history", "--range", "5:"], 0, None),
-        (["--range", "3:99"], 3, "--range 3:99: there are 17 steps"),
-        (["--range", "-99:3"], 3, "--range -99:3: there are 17 steps"),
-        (["--range", "7:3"], 3, "--range 7:3: the first step comes after the last one"),
-        (["--range", "17:"], 3, "--range 17:: no step of these has a solution"),
-        (["--range", "0:3"], 2, "--range: 0:3: expected load steps FIRST:LAST, FIRST: or :LAST"),
-        (["--range", "3"], 2, "--range: 3: expected load steps FIRST:LAST"),
-        (["--range", ":"], 2, "--range: :: expected load steps"),
-        (["--range", "a:b"], 2, "--range: a:b: expected load steps"),
-    ],
-)
-def test_a_range_that_is_none_is_named(draw, path, tmp_path, words, code, says):
-    got, errors = draw(path, *words)
-    assert got == code and (says is None or len(errors) == 1 and says in errors[0]), errors
-    if says is None:
-        expected = {"results_loop.png", "results_history.png"} if len(words) == 2 else {"results_history.png"}
-        assert {file.name for file in tmp_path.iterdir()} == expected

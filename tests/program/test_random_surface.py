@@ -137,33 +137,6 @@ def test_the_command_shapes_heights(surface, tmp_path):
         assert np.ptp(file["height"][:]) == pytest.approx(1.2e-6, rel=0.02)
 
 
-@pytest.mark.parametrize(
-    "words, says, code",
-    [
-        (["a.npy", "--skewness", "-1"], "--skewness: is for a random surface", 2),
-        ([*RANDOM, "--skewness", "x"], "x: expected a number", 2),
-        ([*RANDOM, "--kurtosis", "0.9"], "--kurtosis 0.9: use more than 1, 1 and the skewness squared", 2),
-        ([*RANDOM, "--kurtosis", "4", "--distribution", "p.txt"], "not allowed with --distribution", 2),
-        ([*RANDOM, "--skewness", "-1", "--kurtosis", "2.5"], "kurtosis nearer to 4.5, or a table (--distribution)", 3),
-        ([*RANDOM, "--distribution", "p.txt"], "p.txt: expected lines of a height (m) and the share of points", 3),
-        ([], "give one FILE or two, or a random surface by --self-affine or --psd", 2),
-        ([*RANDOM, "a.npy"], "give one FILE or two, or a random surface", 2),
-        (["a.npy", "--rms", "1um"], "--rms: is for a random surface", 2),
-        (RANDOM[:4], "a random surface needs --size, --grid-n, --wavelengths", 2),
-        ([*RANDOM, "--level", "tilt"], "--level: has no effect on a random surface", 2),
-        ([*RANDOM, "--wavelengths", "10um,20um"], "the longer one first", 2),
-        ([*RANDOM, "--self-affine", "1.2"], "expected a Hurst exponent above 0, at most 1", 2),
-        ([*RANDOM, "--grid-n", "32"], "shortest wavelength 40 um has 1.28 cells of the grid; use at least 2", 3),
-        ([*RANDOM, "--wavelengths", "44.5um,44um", "--size", "45um,45um"], "has no wave between 44 um and the size", 3),
-        (["--psd", "p.txt", "--size", "1mm", "--grid-n", "64"], "p.txt: expected lines of q (rad/m), increasing", 3),
-    ],
-)
-def test_refusals(surface, tmp_path, words, says, code):
-    (tmp_path / "p.txt").write_text("2 1\n1 1\n")
-    found, _, err = surface(*words)
-    assert found == code and len(err.splitlines()) == 1 and says in err, err
-
-
 def test_heights_of_one_instruments_file_are_body_2s(monkeypatch, tmp_path):
     (tmp_path / "scan.sur").write_text("x")
     stated = reading.Stated(np.array([[0.0, 1e-6], [0.0, 0.0]]), 1.0, (1e-3, 1e-3))

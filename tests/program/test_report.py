@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from conftest import PROGRAM, environment
-from support import ROOT, SPHERE, ball, flatten
+from support import ROOT, ball, flatten
 
 EXAMPLE = str(ROOT / "examples" / "sphere" / "cattaneo.opts")
 STEPS = dict(ball(48), load_tx=20.0, steps=4)
@@ -313,11 +313,6 @@ def test_help_into_a_pipe_that_closes_is_no_crash(tmp_path):
     run.stdout.close()
     assert "PETSC ERROR" not in run.stderr.read()
     run.wait()
-
-
-@pytest.mark.parametrize("word", ["-quiet", "-progress"])
-def test_wrong_word_for_an_option_is_named(petsam, word):
-    assert word in petsam(SPHERE, word, "perhaps", check=2).complaint[0]
 
 
 def test_edges_that_are_not_found_are_told(petsam):

@@ -219,31 +219,3 @@ def test_gross_slip_of_a_rolling_step_names_creepages(petsam, tmp_path):
     case = ball(32)
     rows = history(tmp_path / "h.csv", "time,load_tx,roll", (0, 10.0, 0.0), (1, 500.0, 5e-5))
     assert "for gross slip give creep_x" in petsam(case, rows, check=11).stderr
-
-
-@pytest.mark.parametrize(
-    ("options", "header", "rows", "words"),
-    [
-        (dict(creep_x=1e-3), None, [], ["creep_x", "roll"]),
-        (dict(creep_x=1e-3, load_tx=1.0), None, [], ["-load_tx and -creep_x are conjugate"]),
-        (dict(creep_spin=1e-3, rot_z=1.0), None, [], ["-rot_z and -creep_spin are conjugate"]),
-        ({}, "time,creep_x,disp_x", [(0, 1e-3, 0)], ["disp_x and creep_x are conjugate"]),
-        (dict(steps=4), "time,creep_y", [(0, 0), (1, 1e-3)], ["bad.csv, line 3: creep_y = 0.001:", "roll"]),
-        (dict(rolling="steady", step_rtol=1e-3), None, [], ["-step_rtol with rolling"]),
-        (dict(rolling="steady", grid_check=True), None, [], ["-grid_check does not work with -rolling"]),
-        (dict(step_rtol=1e-3), "time,load_tx,roll", [(0, 1.0, 0), (1, 2.0, 1e-6)], ["-step_rtol with rolling"]),
-        (dict(elasticity="periodic"), "time,roll", [(0, 1e-5)], ["roll", "periodic do not roll"]),
-        (dict(creep_z=1), None, [], ["creep_z"]),
-        (
-            dict(wear_coefficient1=1e-12, wear_cycles=10),
-            "time,load_tx,roll",
-            [(0, 1.0, 1e-6), (1, 2.0, 1e-6), (2, 1.0, 1e-6)],
-            ["roll with -wear_cycles"],
-        ),
-    ],
-)
-def test_bad_input_is_refused(petsam, tmp_path, options, header, rows, words):
-    loads = history(tmp_path / "bad.csv", header, *rows) if header else {}
-    done = petsam(ball(16), options, loads, check=2)
-    for word in words:
-        assert word in " ".join(done.complaint)

@@ -421,47 +421,10 @@ def test_dissimilar_bodies(petsam, n):
 # ---- what is refused
 
 
-@pytest.mark.parametrize(
-    "options, complaint",
-    [
-        (dict(creep_x=1e-3, load_tx=1.0), "-load_tx and -creep_x are conjugate"),
-        (dict(disp_x=1e-6), "disp_x has no meaning with -rolling steady: give creep_x or load_tx"),
-        (dict(rot_z=1e-6), "rot_z has no meaning with -rolling steady: give creep_spin or load_mz"),
-        (dict(creep_x=1e-3, elasticity="periodic"), "has no meaning with -elasticity periodic"),
-        (dict(creep_x=1e-3, sum_slip_path=True), "slip_path: has no meaning with -rolling steady"),
-        (dict(creep_x=1e-3, slip_direction="mid"), "-slip_direction: has no meaning with -rolling steady"),
-        (dict(creep_x=1e-3, cycle_memory=1e6), "-cycle_memory: has no meaning with -rolling steady"),
-        (dict(creep_x=1e-3, stiffness=True, output="x.h5"), "-stiffness: has no meaning with -rolling steady"),
-        (
-            dict(creep_x=1e-3, bulk1_stress_xx=1e6),
-            "has no meaning with -rolling steady: a uniform strain is a creepage",
-        ),
-        (dict(creep_x=1e-3, tangential_type="newton"), "-tangential_type: does not solve this problem: use rolling"),
-        (dict(creep_x=1e-3, output_fields="slip_x", output="x.h5"), "unknown field slip_x"),
-        (dict(creep_x=1e-3, output_fields="displacement_x", output="x.h5"), "unknown field displacement_x"),
-        (dict(creep_x=1e-3, rolling="none"), "creep_x = 0.001"),
-        (dict(rolling="none", tangential_type="rolling"), "-tangential_type: does not solve this problem: use newton"),
-    ],
-)
-def test_what_has_no_meaning_is_refused(petsam, options, complaint):
-    case = ellipse(n=40)
-    assert complaint in petsam(case, options, check=2).stderr
-
-
-def test_rolled_distance_is_refused(petsam, tmp_path):
-    rows = history(tmp_path / "roll.csv", "time,creep_x,roll", (1.0, 1e-3, 1e-4))
-    assert "has no meaning with -rolling steady" in petsam(ellipse(n=40), rows, check=2).stderr
-
-
-def test_gross_slip_names_creepages(petsam):
-    case = ellipse(n=40)
-    complaint = petsam(case, dict(load_tx=0.31 * case["load_n"]), check=11).stderr
-    assert "gross slip: load_tx" in complaint and "give creep_x" in complaint
-
-
 def test_contact_at_the_trailing_edge(petsam):
     case = ellipse(n=40)
-    petsam(case, dict(creep_x=1e-3, grid_center=(0.3e-3, 0.0)), check=12)
+    done = petsam(case, dict(creep_x=1e-3, grid_center=(0.3e-3, 0.0)), check=12)
+    assert "edge of the grid" in " ".join(done.complaint)
 
 
 def test_film_far_softer_than_the_bodies_makes_a_brush(solve):

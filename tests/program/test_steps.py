@@ -72,11 +72,6 @@ def test_divided_steps_are_the_same_on_ranks_and_after_a_restart(loads, petsam, 
                 assert np.array_equal(whole[4:], three["history"][name][:])
 
 
-def test_divided_steps_are_not_for_cycles_of_wear(loads, petsam):
-    done = petsam(loads, dict(step_rtol=1e-3, wear_cycles=10, wear_energy1=1e-14), check=2)
-    assert "-step_rtol with -wear_cycles" in done.complaint[0]
-
-
 def test_numbers_of_divided_steps_are_those_of_all_pieces(loads, solve):
     with h5py.File(solve(loads).path) as file:
         limit = 0.8 * file["history/pressure_max"][:].max()

@@ -77,10 +77,6 @@ def test_help_does_not_ask_for_a_file(petsam):
     assert "-stiffness" in petsam("-stiffness", "-help").stdout
 
 
-def test_matrices_without_a_file_are_refused(petsam):
-    assert "-output" in petsam(dict(CASE, output=None, load_n=1000), check=2).stderr
-
-
 def test_cells_that_bear_hardly_any_shear_are_as_if_without_friction(petsam, tmp_path):
     """They slip far for their bound, and resist a turn of that 1e8 times as much as others move."""
     found = []

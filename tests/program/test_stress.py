@@ -1,7 +1,5 @@
 """petsam-stress: stresses from a results file, as maps and sections, on any number of ranks, and its refusals."""
 
-import shutil
-
 import h5py
 import numpy as np
 import pytest
@@ -152,54 +150,3 @@ def test_xarray_opens_it_as_a_volume(stress, contact):
     with xarray.open_dataset(contact / "v.h5", engine="netcdf4") as data:
         assert data["mises"].dims == ("time", "z", "y", "x") and data["stress_xx"].attrs["units"] == "Pa"
         assert float(data["mises"].isel(time=0).sel(z=1e-4).max()) > 0
-
-
-@pytest.mark.parametrize(
-    "options, code, says",
-    [
-        (dict(input=None), 2, "-input is missing"),
-        (dict(output=None), 2, "-output is missing"),
-        (dict(input="none.h5"), 3, "none.h5: cannot be read: No such file"),
-        (dict(input="h.csv"), 3, "h.csv: cannot be read: it is not an HDF5 file"),
-        (dict(input="other.h5"), 3, "other.h5: cannot be read: it lacks the attribute"),
-        (dict(input="cut.h5"), 3, "cut.h5: cannot be read"),
-        (dict(input="periodic.h5"), 2, "-input periodic.h5: stresses are not available for bodies of type periodic"),
-        (dict(input="plate.h5"), 3, "-input plate.h5: cannot be read: its elasticity is of type plate"),
-        (dict(input="soft.h5"), 3, "-input soft.h5: cannot be read: body2_poisson 0.6"),
-        (dict(output="c.h5"), 2, "-output c.h5"),
-        (dict(log_view=":c.h5"), 2, "-log_view c.h5: would overwrite the file of -input"),
-        (dict(output="h.csv"), 3, "not written"),
-        (dict(body=3), 2, "-body 3"),
-        (dict(depths="-1e-6"), 2, "-depths -1e-6"),
-        (dict(depths="0,1e-4,1e-5"), 2, "increase"),
-        (dict(depths="0:1e-3"), 2, "first:last:number"),
-        (dict(depths="1e-15"), 2, "millionth of a cell"),
-        (dict(depths="nan"), 2, "-depths nan"),
-        (dict(section="z=0"), 2, "-section z=0"),
-        (dict(section="y=1"), 2, "outside of the grid"),
-        (dict(steps="3"), 2, "step 3 of c.h5 has not been saved (-output_every of its run), steps "),
-        (dict(steps="2:9"), 2, "there is no step 9"),
-        (dict(steps="0"), 2, "-steps 0"),
-        (dict(quantities="mises,temperature"), 2, "-quantities mises,temperature"),
-        (dict(friction=0.3), 2, "-friction"),
-    ],
-)
-def test_bad_input_is_named(stress, contact, options, code, says):
-    with h5py.File(contact / "other.h5", "w") as f:
-        f["pressure"] = np.zeros((1, 4, 4))
-    for name, attribute, value in (
-        ("periodic", "elasticity", "periodic"),
-        ("plate", "elasticity", "plate"),
-        ("soft", "body2_poisson", 0.6),
-    ):
-        shutil.copy(contact / "c.h5", contact / f"{name}.h5")
-        with h5py.File(contact / f"{name}.h5", "r+") as f:
-            f.attrs[attribute] = value
-    shutil.copy(contact / "c.h5", contact / "cut.h5")
-    with open(contact / "cut.h5", "r+b") as f:
-        f.truncate((contact / "c.h5").stat().st_size // 2)
-    before = {path.name: path.read_bytes() for path in contact.iterdir() if path.suffix in (".h5", ".csv")}
-    ranks = 2 if code == 3 else 1  # one rank examines a file for all
-    complaint = stress(dict(dict(input="c.h5", output="new.h5"), **options), ranks=ranks, check=code)
-    assert says in complaint and "PETSC ERROR" not in complaint
-    assert before == {path.name: path.read_bytes() for path in contact.iterdir() if path.suffix in (".h5", ".csv")}

@@ -285,28 +285,3 @@ def test_signal_leaves_no_file(contact, number):
     finally:
         run.kill()
         run.wait()
-
-
-REFUSED = [
-    (dict(fatigue="crossland", steps="all"), "-fatigue_crossland_alpha is missing"),
-    (dict(fatigue="fatemi_socie", fatigue_fatemi_socie_k=1, steps="all"), "-fatigue_yield is missing"),
-    (dict(fatigue="fatemi_socie", fatigue_fatemi_socie_k=1, fatigue_yield=0, steps="all"), "-fatigue_yield"),
-    (
-        dict(fatigue="fatemi_socie", fatigue_fatemi_socie_k=1, fatigue_yield=600, steps="all"),
-        "of it: check the unit, Pa",
-    ),
-    (dict(fatigue="findley", fatigue_findley_k=-1, steps="all"), "-fatigue_findley_k"),
-    (dict(fatigue="swt,rain", steps="all"), "-fatigue swt,rain"),
-    (dict(fatigue="swt"), "-fatigue needs the steps of a cycle"),
-    (dict(fatigue="swt", steps="5"), "-fatigue needs the steps of a cycle"),
-    (dict(fatigue="ruiz", depths=1e-4, steps="all"), "0 must be one of -depths"),
-    (dict(fatigue="swt", fatigue_yield=4e8, steps="all"), "has no effect without -fatigue fatemi_socie"),
-    (dict(depths="0:1e-3:999999999"), "-depths 0:1e-3:999999999: expected at most 100000 depths"),
-]
-
-
-@pytest.mark.parametrize("options, says", REFUSED)
-def test_cycles_that_cannot_be_are_refused(stress, contact, options, says):
-    done = stress(dict(dict(input="c.h5", output="no.h5"), **options), check=2)
-    assert says in done.stderr and len(done.stderr.splitlines()) <= 2
-    assert not (contact / "no.h5").exists()

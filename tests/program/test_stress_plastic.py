@@ -236,18 +236,3 @@ def test_peened_body_that_yields_has_the_yield_stress(petsam, launcher, tmp_path
     write_profile(tmp_path / "i.csv", [(0.0, -1e8, -1e8), (0.1e-3, 0.0, 0.0)])
     kept = next(tmp_path.glob("c.h5*")).name
     assert "body2_initial_stress" in petsam(dict(case, restart=kept, output="n.h5"), check=2).stderr
-
-
-@pytest.mark.parametrize(
-    "text, words",
-    [
-        ("depth,stress_xx\n0,1e8\n1e-4,0", ["i.csv, line 1", "stress_yy"]),
-        ("depth,stress_xx,stress_yy\n1e-5,1e8,1e8\n1e-4,0,0", ["i.csv, line 2", "depth 0"]),
-        ("depth,stress_xx,stress_yy\n0,1e8,1e8\n2e-4,0,0\n1e-4,0,0", ["i.csv, line 4", "order the rows"]),
-        ("depth,stress_xx,stress_yy\n0,7e8,7e8\n3e-4,0,0", ["-body2_initial_stress: ", "yield stress"]),
-    ],
-)
-def test_profile_that_makes_no_sense_is_refused(petsam, tmp_path, text, words):
-    (tmp_path / "i.csv").write_text(text)
-    said = petsam(dict(CASE, body2_yield=YIELD, body2_initial_stress="i.csv"), check=2).stderr
-    assert all(word in said for word in words), said

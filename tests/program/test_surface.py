@@ -287,27 +287,6 @@ def test_words_for_missing_points(tmp_path):
     assert np.array_equal(values, [[1, nan, nan, 4], [nan, 2, nan, 3], [1, 2, 3, nan]], equal_nan=True)
 
 
-@pytest.mark.parametrize("text, says", [
-    ("1,2,3\n4,5,6\n\n7,8\n", ["line 4 has 2 numbers", "line 1 has 3"]),
-    ("h\n1 2\n3 4 5\n", ["line 3 has 3 numbers", "line 2 has 2"]),
-    ("1;2\n3;x4\n", ["line 2, column 2", "'x4' is not a number"]),
-    ("x,1,2\n3,4,5\n", ["line 1, column 1", "'x'", "--skip-rows"]),
-    ("1,5;2,5\n1,6;2,6\n", ["line 1", "1,5 has a decimal comma", "--decimal comma"]),
-    ("1,5 2,5\n1,6 2,6\n", ["line 1", "--decimal comma"]),
-    ("1,5\t2\n1,6\t2,6\n", ["line 1", "--decimal comma"]),
-    ("a,b\nc,d\n", ["contains no numbers"]),
-    ("\n".join(f"{x},{y},{x * y}" for x in range(4) for y in range(4)), ["points x, y, z"]),
-    ("1,2,3\n", ["1 x 3 points", "2 x 2"]),
-    ("1\n2\n3\n", ["3 x 1 points", "2 x 2"]),
-    ("\0\1\2", ["is not a text"]),
-    ("", ["is empty"]),
-], ids=str)  # fmt: skip
-def test_tables_that_are_no_map_are_named_by_line(surface, tmp_path, text, says):
-    (tmp_path / "t.txt").write_text(text)
-    (said,) = surface("t.txt", "--body", 2, *KNOWS, check=3)
-    assert "t.txt: " in said and all(part in said for part in says), said
-
-
 # ---------------------------------------------------------------- other files
 
 
