@@ -96,7 +96,7 @@ def check():
 
 def main():
     check()
-    print("/* Written by scripts/maintain/influence_values.py: do not edit. A row a lag: Reference of test_influence.c. */")
+    print("/* Written by scripts/maintain/influence_values.py: do not edit. A row a lag, as in test_influence.c. */")
     for dx, dy in CELLS:
         for i, j in LAGS:
             values = [closed(kind, dx, dy, i, j) for kind in range(len(KINDS))]

@@ -138,7 +138,7 @@ def points():
 
 def main():
     check()
-    print("/* Written by scripts/maintain/stress_values.py: do not edit. A row a point: Reference of test_stress_cell.c. */")
+    print("/* Written by scripts/maintain/stress_values.py: do not edit. A row a point, as in test_stress_cell.c. */")
     for sides, nu, point in points():
         values = [closed(t, sides, [mpf(x) for x in point], mpf(nu)) for t in range(3)]
         rows = (", ".join(nstr(values[t][c], 21, min_fixed=0, max_fixed=0) for t in range(3)) for c in range(6))
