@@ -46,6 +46,7 @@ LAGS = [
 
 CHECKED_LAGS = [(1, 1), (7, 3), (0, 100), (3, 12000)]
 
+
 def edges(h, lag):
     """The two ends of a cell's side."""
     return (lag - mpf(1) / 2) * h, (lag + mpf(1) / 2) * h
