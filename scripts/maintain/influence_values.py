@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Writes tests/unit/influence_values.h: influence integrals to 50 digits and more, rounded to 21.
+"""Writes tests/unit/influence_values.txt: influence integrals to 50 digits and more, rounded to 21.
 
-    python3 scripts/maintain/influence_values.py > tests/unit/influence_values.h
+    python3 scripts/maintain/influence_values.py > tests/unit/influence_values.txt
 
 Needs mpmath. The values are Love's closed forms (Love 1929; Johnson 1985, ch. 3) at 80 digits, of
 which the corner sum loses at most 20. A few are checked against numerical quadrature first, which
@@ -45,16 +45,6 @@ LAGS = [
 ]  # fmt: skip
 
 CHECKED_LAGS = [(1, 1), (7, 3), (0, 100), (3, 12000)]
-
-PREAMBLE = """#include <stddef.h>
-
-typedef struct {
-  double    dx, dy;    /* sides of the cell, m */
-  ptrdiff_t i, j;      /* its lag */
-  double    values[6]; /* R, XX, YY, XY, X, Y, m */
-} Reference;
-
-static const Reference references[] = {"""
 
 
 def edges(h, lag):
@@ -107,14 +97,12 @@ def check():
 
 def main():
     check()
-    print("/* Written by scripts/maintain/influence_values.py: do not edit. */")
-    print(PREAMBLE)
+    print("/* Written by scripts/maintain/influence_values.py: do not edit. A row a lag, as in test_influence.c. */")
     for dx, dy in CELLS:
         for i, j in LAGS:
             values = [closed(kind, dx, dy, i, j) for kind in range(len(KINDS))]
             digits = [nstr(v, 21, min_fixed=0, max_fixed=0) if v else "0.0" for v in values]
-            print(f"  {{{dx}, {dy}, {i}, {j},\n   {{{', '.join(digits[:3])},\n    {', '.join(digits[3:])}}}}},")
-    print("};")
+            print(f"{{{dx}, {dy}, {i}, {j}, {{{', '.join(digits)}}}}},")
 
 
 if __name__ == "__main__":

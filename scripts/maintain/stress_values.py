@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Writes tests/unit/stress_values.h: stresses by a uniform traction on a rectangle to 40 digits, rounded to 21.
+"""Writes tests/unit/stress_values.txt: stresses by a uniform traction on a rectangle to 40 digits, rounded to 21.
 
-    python3 scripts/maintain/stress_values.py > tests/unit/stress_values.h
+    python3 scripts/maintain/stress_values.py > tests/unit/stress_values.txt
 
 Needs mpmath. The values are corner sums of antiderivatives at 60 digits, of which they lose at most 20. Some are
 checked first against numerical quadrature of the stresses by point forces (Boussinesq, Cerruti) as Johnson 1985, ch. 3,
@@ -136,28 +136,14 @@ def points():
         yield sides, POISSON[k % 4 if k % 5 else 0], (x, y, depth)
 
 
-PREAMBLE = """typedef struct {
-  double sides[2], poisson, point[3];
-  double values[6][3]; /* xx, yy, zz, xy, xz, yz, each by p, q_x, q_y */
-} Reference;
-
-static const Reference references[] = {"""
-
-
 def main():
     check()
-    print("/* Written by scripts/maintain/stress_values.py: do not edit. */")
-    print(PREAMBLE)
+    print("/* Written by scripts/maintain/stress_values.py: do not edit. A row a point, as in test_stress_cell.c. */")
     for sides, nu, point in points():
         values = [closed(t, sides, [mpf(x) for x in point], mpf(nu)) for t in range(3)]
         rows = (", ".join(nstr(values[t][c], 21, min_fixed=0, max_fixed=0) for t in range(3)) for c in range(6))
         place = ", ".join(repr(x) for x in point)
-        print(
-            f"  {{{{{sides[0]}, {sides[1]}}}, {nu!r}, {{{place}}},\n   {{"
-            + ",\n    ".join(f"{{{r}}}" for r in rows)
-            + "}},"
-        )
-    print("};")
+        print(f"{{{{{sides[0]}, {sides[1]}}}, {nu!r}, {{{place}}}, {{{', '.join(f'{{{r}}}' for r in rows)}}}}},")
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 
 import contextlib
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -16,7 +17,7 @@ TIMEOUT = 120  # seconds for one run on an idle machine
 PROGRAM = Path(os.environ.get("PETSAM_BUILD", support.ROOT / "build")).resolve() / "bin" / "petsam"
 
 
-SLOWEST = 30  # tests whose CPU times are printed
+SLOWEST, FILES = 30, 10  # tests, and files of them, whose CPU times are printed
 
 
 def pytest_configure(config):
@@ -60,9 +61,14 @@ def pytest_terminal_summary(terminalreporter):
     seconds = {}
     for report in (r for reports in terminalreporter.stats.values() for r in reports if hasattr(r, "cpu")):
         seconds[report.nodeid] = seconds.get(report.nodeid, 0.0) + report.cpu
-    terminalreporter.section(f"slowest {SLOWEST} of {sum(seconds.values()):.0f} CPU seconds")
-    for name in sorted(seconds, key=seconds.get, reverse=True)[:SLOWEST]:
-        terminalreporter.line(f"{seconds[name]:8.1f} s  {name}")
+    terminalreporter.section(f"slowest {SLOWEST} tests and {FILES} files of {sum(seconds.values()):.0f} CPU seconds")
+    files = {}
+    for name, spent_there in seconds.items():
+        file = name.partition("::")[0]
+        files[file] = files.get(file, 0.0) + spent_there
+    for group, most in ((seconds, SLOWEST), (files, FILES)):
+        for name in sorted(group, key=group.get, reverse=True)[:most]:
+            terminalreporter.line(f"{group[name]:8.1f} s  {name}")
 
 
 class Popen(subprocess.Popen):
@@ -108,14 +114,7 @@ def launcher():
 
 def make_install(*words):
     """make install of what is being tested, with these variables."""
-    done = subprocess.run(
-        ["make", f"B={PROGRAM.parents[1]}", "install", *words],
-        cwd=support.ROOT,
-        capture_output=True,
-        text=True,
-        timeout=600,
-    )
-    assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
+    support.finished(["make", f"B={PROGRAM.parents[1]}", "install", *words], cwd=support.ROOT, timeout=600)
 
 
 def processes(run, ranks):
@@ -156,6 +155,46 @@ def execute(launcher, directory, options, ranks, check, extra=None, program=PROG
     return support.Run(done.returncode, done.stdout, done.stderr)
 
 
+def start(launcher, directory, options, ranks=1, **how):
+    """Begins a run whose output can be read while it goes on."""
+    return subprocess.Popen(
+        (launcher + ["-n", str(ranks)] if ranks > 1 else []) + [str(PROGRAM), *support.flatten(options)],
+        cwd=directory,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env=environment(),
+        **how,
+    )
+
+
+def wait_for(run, step):
+    """Until a run that was started has told that step."""
+    for line in run.stdout:
+        if re.match(rf" *{step} +\S", line):
+            return
+    pytest.fail(f"the run ended before step {step}: {run.stderr.read()}")
+
+
+@contextlib.contextmanager
+def small_disk_on(folder, size):
+    """The folder lies on a disk of that size."""
+    mount = ["mount", "-t", "tmpfs", "-o", f"size={size}", "tmpfs", str(folder)]
+    if subprocess.run(mount, capture_output=True).returncode:
+        pytest.skip("no right to mount a small disk")
+    yield
+    subprocess.run(["umount", "-l", str(folder)], check=True)
+
+
+@pytest.fixture(scope="session")
+def prefix(tmp_path_factory):
+    """What make install has installed; to read only."""
+    folder = tmp_path_factory.mktemp("prefix")
+    make_install(f"prefix={folder}")
+    return folder
+
+
 @pytest.fixture
 def petsam(launcher, tmp_path):
     """petsam(*options, ranks=1, check=0): runs in tmp_path; options are words and dicts; check=None takes any code."""
@@ -164,6 +203,14 @@ def petsam(launcher, tmp_path):
         return execute(launcher, tmp_path, options, ranks, check, environment)
 
     return run
+
+
+@pytest.fixture
+def stress(launcher, tmp_path):
+    """stress(*options, ranks=1, check=0): a run of petsam-stress in tmp_path."""
+    program = PROGRAM.with_name("petsam-stress")
+
+    return lambda *options, ranks=1, check=0: execute(launcher, tmp_path, options, ranks, check, program=program)
 
 
 @pytest.fixture(scope="session")

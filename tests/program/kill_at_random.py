@@ -22,7 +22,7 @@ import numpy as np
 
 import conftest
 import petsam
-from support import SPHERE, flatten, read_run
+from support import SPHERE, read_run
 
 STEPS = 40
 CASE = dict(SPHERE, load_n=None, grid_n=32, history="history.csv", output="out.h5")
@@ -33,19 +33,6 @@ def write_history(folder, steps=STEPS):
     """Normal and tangential force change along a curve, so that every step has its own fields."""
     rows = [f"{k + 1}, {1000 + 20 * math.sin(k / 7)!r}, {60 * math.sin(k / 5)!r}" for k in range(steps)]
     (folder / "history.csv").write_text("time, load_n, load_tx\n" + "\n".join(rows) + "\n")
-
-
-def start(launcher, folder, options, ranks):
-    command = (launcher + ["-n", str(ranks)] if ranks > 1 else []) + [str(conftest.PROGRAM), *flatten(options)]
-    return subprocess.Popen(
-        command,
-        cwd=folder,
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        env=conftest.environment(),
-    )
 
 
 def complete_steps(path):
@@ -76,7 +63,9 @@ def torture(launcher, folder, kills, ranks, seed, say=lambda text: None):
     chance, restarts, more = random.Random(seed), 0, 9 * kills
     write_history(folder)
     begin = time.monotonic()
-    run = start(launcher, folder, [CASE, dict(output="whole.h5"), KEPT, dict(checkpoint="whole.state.h5")], ranks)
+    run = conftest.start(
+        launcher, folder, [CASE, dict(output="whole.h5"), KEPT, dict(checkpoint="whole.state.h5")], ranks
+    )
     out, err = run.communicate()
     assert run.returncode == 0, (run.returncode, out, err)
     length = time.monotonic() - begin
@@ -86,7 +75,7 @@ def torture(launcher, folder, kills, ranks, seed, say=lambda text: None):
         restarts += goes_on
         if kills <= 0 and restarts == 0 and more > 0:
             kills, more = 1, more - 1
-        run = start(launcher, folder, [CASE, KEPT, dict(restart="state.h5") if goes_on else {}], ranks)
+        run = conftest.start(launcher, folder, [CASE, KEPT, dict(restart="state.h5") if goes_on else {}], ranks)
         try:
             out, err = run.communicate(timeout=chance.uniform(0, length) if kills > 0 else None)
         except subprocess.TimeoutExpired:

@@ -7,15 +7,14 @@ one step each, against twelve. Prints the errors, and how many estimates are wit
     python3 tests/program/random_energies.py [--trials 100] [--seed 1] [--cells 32]
 """
 
-import argparse
 import sys
-import tempfile
 from pathlib import Path
 
 import h5py
 import numpy as np
 
 import conftest
+from random_problems import ask, seeds
 from support import history
 
 ROWS = 24
@@ -62,24 +61,18 @@ def compare(seed, solve, folder, cells=32):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--trials", type=int, default=100)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--cells", type=int, default=32)
-    arguments = parser.parse_args()
+    arguments = ask(__doc__, trials=100, cells=32)
     launcher = conftest.launcher_words()
     ratios = []
-    for seed in range(arguments.seed, arguments.seed + arguments.trials):
-        with tempfile.TemporaryDirectory() as name:
-            folder = Path(name)
+    for seed, folder in seeds(arguments.seed, arguments.trials):
 
-            def solve(case, steps, folder=folder, seed=seed):
-                done = conftest.execute(launcher, folder, [dict(case, steps=steps, output=f"{steps}.h5")], 1, None)
-                if done.code:
-                    sys.exit(f"seed {seed}: {done.stderr}")
-                return folder / f"{steps}.h5"
+        def solve(case, steps, folder=folder, seed=seed):
+            done = conftest.execute(launcher, folder, [dict(case, steps=steps, output=f"{steps}.h5")], 1, None)
+            if done.code:
+                sys.exit(f"seed {seed}: {done.stderr}")
+            return folder / f"{steps}.h5"
 
-            energy, error, estimate = compare(seed, solve, folder, arguments.cells)
+        energy, error, estimate = compare(seed, solve, folder, arguments.cells)
         print(
             f"seed {seed}: {energy:.3g} J, error {100 * error / energy:.3f} %, estimate {100 * estimate / energy:.3f} %"
         )

@@ -9,15 +9,13 @@ what friction did, V = k E/mu summed over the cycles. Ends with 0 when all of th
     python3 tests/program/random_lives.py [--lives 50] [--seed 1] [--ranks 1]
 """
 
-import argparse
 import sys
-import tempfile
-from pathlib import Path
 
 import h5py
 import numpy as np
 
 import conftest
+from random_problems import ask, seeds
 from support import closed, hertz, kernels
 
 N = 24
@@ -150,27 +148,21 @@ LIMITS = dict(contact=1e-6, pressure=0, cone=1e-9, stick=1e-4, direction=1e-5, b
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--lives", type=int, default=50)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--ranks", type=int, default=1)
-    arguments = parser.parse_args()
+    arguments = ask(__doc__, lives=50, ranks=1)
     launcher = conftest.launcher_words()
     worst, ends, wrong = dict.fromkeys(LIMITS, 0.0), {}, 0
-    for seed in range(arguments.seed, arguments.seed + arguments.lives):
-        with tempfile.TemporaryDirectory() as name:
-            folder = Path(name)
-            case = random_case(np.random.default_rng(seed), folder)
-            done = conftest.execute(launcher, folder, [case], arguments.ranks, None)
-            ends[done.code] = ends.get(done.code, 0) + 1
-            bad = [] if done.code in (0, 11, 12) else [f"exit code {done.code}: {done.stderr.strip()}"]
-            if done.code == 0:
-                errors = errors_of(case, folder)
-                worst = {key: max(worst[key], errors[key]) for key in worst}
-                bad = [f"{key} {errors[key]:.1e}" for key in LIMITS if not errors[key] <= LIMITS[key]]
-            wrong += bool(bad)
-            if bad:
-                print(f"seed {seed}: {', '.join(bad)}; {case}")
+    for seed, folder in seeds(arguments.seed, arguments.lives):
+        case = random_case(np.random.default_rng(seed), folder)
+        done = conftest.execute(launcher, folder, [case], arguments.ranks, None)
+        ends[done.code] = ends.get(done.code, 0) + 1
+        bad = [] if done.code in (0, 11, 12) else [f"exit code {done.code}: {done.stderr.strip()}"]
+        if done.code == 0:
+            errors = errors_of(case, folder)
+            worst = {key: max(worst[key], errors[key]) for key in worst}
+            bad = [f"{key} {errors[key]:.1e}" for key in LIMITS if not errors[key] <= LIMITS[key]]
+        wrong += bool(bad)
+        if bad:
+            print(f"seed {seed}: {', '.join(bad)}; {case}")
     print("worst:", ", ".join(f"{key} {value:.1e}" for key, value in worst.items()))
     print(f"{arguments.lives} lives, exit codes {dict(sorted(ends.items()))}, {wrong} wrong")
     return 1 if wrong else 0

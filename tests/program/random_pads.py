@@ -8,15 +8,14 @@ the last step by more than 5 %; right: all within 2 %.
     python3 tests/program/random_pads.py [--trials 100] [--seed 1] [--finer 4] [--show]
 """
 
-import argparse
 import sys
-import tempfile
 from pathlib import Path
 
 import h5py
 import numpy as np
 
 import conftest
+from random_problems import ask, seeds
 from support import history
 
 NUMBERS = ("shear_max", "slip_max", "pressure_max")
@@ -82,24 +81,17 @@ def compare(found, true, least):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--trials", type=int, default=100)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--finer", type=int, default=4)
-    parser.add_argument("--show", action="store_true")
-    arguments = parser.parse_args()
+    arguments = ask(__doc__, trials=100, finer=4, show=False)
     launcher = conftest.launcher_words()
     silent, loud, solved, warned_wrong = [], [], 0, 0
-    for seed in range(arguments.seed, arguments.seed + arguments.trials):
+    for seed, folder in seeds(arguments.seed, arguments.trials):
         found = []
-        with tempfile.TemporaryDirectory() as name:
-            folder = Path(name)
-            for finer in (1, arguments.finer):
-                case = dict(random_case(seed, folder, finer), output=f"{finer}.h5")
-                done = conftest.execute(launcher, folder, [case], 1, None)
-                if done.code:
-                    break
-                found.append((read(folder / f"{finer}.h5"), done))
+        for finer in (1, arguments.finer):
+            case = dict(random_case(seed, folder, finer), output=f"{finer}.h5")
+            done = conftest.execute(launcher, folder, [case], 1, None)
+            if done.code:
+                break
+            found.append((read(folder / f"{finer}.h5"), done))
         if len(found) < 2:
             if arguments.show:
                 print(f"seed {seed}: not solved: {done.stderr.splitlines()[-1:]}")

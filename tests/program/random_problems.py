@@ -1,10 +1,27 @@
-"""The main part that the programs of random problems share: tests/fuzz/layered.py, plane.py and rolling.py."""
+"""What the programs of random problems share; the main part of tests/fuzz/layered.py, plane.py and rolling.py."""
 
 import argparse
 import collections
+import tempfile
 from pathlib import Path
 
 import numpy as np
+
+
+def ask(description, **usual):
+    """Options of the command line, --seed among them, each with its usual value; a False one is a switch."""
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+    for name, value in dict(usual, seed=1).items():
+        how = dict(action="store_true") if value is False else dict(type=type(value), default=value)
+        parser.add_argument(f"--{name}", **how)
+    return parser.parse_args()
+
+
+def seeds(first, count):
+    """So many seeds, each with a folder of its own that goes afterwards."""
+    for seed in range(first, first + count):
+        with tempfile.TemporaryDirectory() as name:
+            yield seed, Path(name)
 
 
 def main(description, trial, numbers, count=300):
@@ -13,12 +30,7 @@ def main(description, trial, numbers, count=300):
     trial(program, seed): the problem's kinds, the history of its results (None: there are none), its faults by name,
     and its options; numbers(history): what a solution cost, by name.
     """
-    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", default="build", help="the build folder")
-    parser.add_argument("--count", type=int, default=count, help="how many problems")
-    parser.add_argument("--seed", type=int, default=1, help="of the first; the next one has the next number")
-    parser.add_argument("--show", action="store_true", help="print a line for each problem")
-    given = parser.parse_args()
+    given = ask(description, build="build", count=count, show=False)
     program = Path(given.build).resolve() / "bin" / "petsam"
     found, failed = collections.defaultdict(list), 0
     for seed in range(given.seed, given.seed + given.count):

@@ -8,15 +8,13 @@ is drawn again.
     python3 tests/program/random_repeats.py [--trials 30] [--seed 1]
 """
 
-import argparse
 import sys
-import tempfile
-from pathlib import Path
 
 import numpy as np
 
 import compliances
 import conftest
+from random_problems import ask, seeds
 from support import history, read_run
 
 STEEL = dict(body1_young=210e9, body1_poisson=0.3, body2_young=210e9, body2_poisson=0.3)
@@ -189,14 +187,10 @@ def trial(seed, folder, launcher=()):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--trials", type=int, default=30)
-    parser.add_argument("--seed", type=int, default=1)
-    given = parser.parse_args()
+    given = ask(__doc__, trials=30)
     ends, failed, refused, drawn = {}, 0, 0, {}
-    for seed in range(given.seed, given.seed + given.trials):
-        with tempfile.TemporaryDirectory() as name:
-            pair, codes, wrong, without = trial(seed, Path(name))
+    for seed, folder in seeds(given.seed, given.trials):
+        pair, codes, wrong, without = trial(seed, folder)
         ends[codes[0]] = ends.get(codes[0], 0) + 1
         failed += bool(wrong)
         refused += len(without)

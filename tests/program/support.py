@@ -2,6 +2,7 @@
 
 import os
 import re
+import subprocess
 import sys
 from pathlib import Path
 from typing import NamedTuple
@@ -33,6 +34,13 @@ FIELDS = (
 def limit(seconds):
     """A time limit for this machine as loaded now, from that of an idle one; None stays None."""
     return seconds and seconds * min(max(1.0, os.getloadavg()[0] / (os.cpu_count() or 1)), 20.0)
+
+
+def finished(command, check=0, timeout=300, **how):
+    """A command that has ended with this exit code; what it has printed is text."""
+    done = subprocess.run(command, capture_output=True, text=True, timeout=timeout, **how)
+    assert done.returncode == check, (command, done.stdout[-3000:], done.stderr[-3000:])
+    return done
 
 
 # ---------------------------------------------------------------- options
@@ -77,12 +85,16 @@ def flatten(options):
 
 # ---------------------------------------------------------------- cases
 
+
+def bodies(young=210e9, poisson=0.3, young2=None, poisson2=None):
+    """Options of two bodies, of steel unless told; the second is as the first unless it is given."""
+    young2, poisson2 = young if young2 is None else young2, poisson if poisson2 is None else poisson2
+    return dict(body1_young=young, body1_poisson=poisson, body2_young=young2, body2_poisson=poisson2)
+
+
 # Table 1 of the source paper: two steel spheres, at a small number of cells; half width 1.5 a.
 SPHERE = dict(
-    body1_young=210e9,
-    body1_poisson=0.3,
-    body2_young=210e9,
-    body2_poisson=0.3,
+    **bodies(),
     friction=0.1,
     gap_type="sphere",
     gap_radius1=0.2,
@@ -95,10 +107,7 @@ SPHERE = dict(
 
 # A steel punch with a rounded edge; half width 1.75 times its flat radius.
 PUNCH = dict(
-    body1_young=210e9,
-    body1_poisson=0.3,
-    body2_young=210e9,
-    body2_poisson=0.3,
+    **bodies(),
     friction=0.3,
     gap_type="punch",
     gap_flat_radius=2e-3,
@@ -127,10 +136,7 @@ def history(path, header, *rows):
 def ball(n=64, half_width=1.5, young=72e9, poisson=0.34, **more):
     """An aluminium ball on an aluminium flat, on a grid of that half width in contact radii."""
     case = dict(
-        body1_young=young,
-        body1_poisson=poisson,
-        body2_young=young,
-        body2_poisson=poisson,
+        **bodies(young, poisson),
         friction=0.27,
         gap_type="sphere",
         gap_radius1=0.06,

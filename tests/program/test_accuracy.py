@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from support import assert_close, assert_same, ball, closed, elliptic_hertz, hertz, l2, slide_limit
+from support import assert_close, assert_same, ball, bodies, closed, elliptic_hertz, hertz, l2, slide_limit
 
 EXACT = dict(young=110e9, poisson=0.0)  # Cattaneo and Mindlin are exact for nu = 0 only
 
@@ -45,15 +45,7 @@ def test_pressure_is_hertz_at_512(solve):
 @pytest.mark.parametrize(
     "pair",
     [
-        dict(
-            body1_young=3e6,
-            body1_poisson=0.5,
-            body2_young=9e6,
-            body2_poisson=0.5,
-            gap_radius1=0.02,
-            gap_radius2=0.03,
-            load_n=2.0,
-        ),
+        dict(**bodies(3e6, 0.5, 9e6, 0.5), gap_radius1=0.02, gap_radius2=0.03, load_n=2.0),
         dict(body1_young=float("inf"), body1_poisson=None, body2_young=2e9, body2_poisson=0.5, load_n=40.0),
         dict(body1_young=210e9, body1_poisson=0.28, body2_young=70e9, body2_poisson=0.36, load_n=500.0, friction=0),
         dict(gap_radius1=float("inf"), gap_radius2=0.011, body1_poisson=-0.4, body2_poisson=-0.4),

@@ -188,8 +188,7 @@ def test_aspher_is_measured_on_the_periodic_plane():
 def test_pair_is_measured_by_turns(tmp_path):
     script = support.ROOT / "tests/bench/paired.py"
     words = [sys.executable, script, "--build", BUILD, "--out", tmp_path, "--cells", "64"]
-    done = subprocess.run(list(map(str, words)), capture_output=True, text=True, timeout=300, env=ENVIRONMENT)
-    assert done.returncode == 0, done.stdout + done.stderr
+    done = support.finished(list(map(str, words)), env=ENVIRONMENT)
     (found,) = json.loads((tmp_path / "paired.json").read_text())["results"]
     assert len(found["runs"]) == 6 and max(found["errors"].values()) <= benchmark.EXACT
     assert "| 64² | ratio, with its interval |" in done.stdout

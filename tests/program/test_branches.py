@@ -2,16 +2,14 @@
 
 import re
 import shutil
-import subprocess
 
 import h5py
 import numpy as np
 import pytest
 
 import petsam as library
-from conftest import PROGRAM, environment
+from conftest import PROGRAM, execute
 from kill_at_random import CASE, differences, write_history
-from support import flatten
 
 STEPS, AT = 24, 14
 KEPT = dict(checkpoint="state.h5", checkpoint_every=7)
@@ -114,15 +112,7 @@ def test_steps_of_a_branch_have_the_numbers_of_the_run(stopped, petsam):
             branch.of_step(3)
     words = dict(input="branch.h5", output="stress.h5", body=2, depths="0", steps="20")
     for code, more in ((0, {}), (2, dict(steps="3"))):
-        done = subprocess.run(
-            [PROGRAM.with_name("petsam-stress"), *flatten([{**words, **more}])],
-            cwd=stopped,
-            env=environment(),
-            capture_output=True,
-            text=True,
-            timeout=60,
-        )
-        assert done.returncode == code, done.stderr
+        execute([], stopped, [words, more], 1, code, program=PROGRAM.with_name("petsam-stress"))
     with h5py.File(stopped / "stress.h5") as f, h5py.File(stopped / "out.h5") as g:
         assert f["history/step"][:].tolist() == [20]
         assert np.allclose(-f["stress_zz"][0, 0], g["pressure"][19], rtol=0, atol=1e-9 * g["pressure"][19].max())

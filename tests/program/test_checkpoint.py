@@ -4,7 +4,6 @@ import os
 import re
 import shutil
 import signal
-import subprocess
 
 import h5py
 import numpy as np
@@ -13,7 +12,7 @@ import pytest
 import conftest
 import kill_at_random
 import petsam as library
-from kill_at_random import CASE, complete_steps, differences, start, write_history
+from kill_at_random import CASE, complete_steps, differences, write_history
 from support import Results, assert_same, ball
 
 STEPS = 24
@@ -255,13 +254,6 @@ def test_last_two_are_kept(stopped):
     assert progress(stopped / "state.h5") == 21 and progress(stopped / "state.h5.1") == 14
 
 
-def wait_for(run, step):
-    for line in run.stdout:
-        if re.match(rf" *{step} +\S", line):
-            return
-    pytest.fail(f"the run ended before step {step}: {run.stderr.read()}")
-
-
 def send(run, ranks, number, rank=-1):
     """A signal to one rank alone."""
     os.kill(conftest.processes(run, ranks)[rank], number)
@@ -269,8 +261,8 @@ def send(run, ranks, number, rank=-1):
 
 @pytest.mark.parametrize("ranks", [1, 2, 3])
 def test_USR2_writes_a_checkpoint_and_the_run_goes_on(launcher, folder, petsam, ranks):
-    run = start(launcher, folder, [CASE, dict(checkpoint="state.h5", output="whole.h5")], ranks)
-    wait_for(run, 2)
+    run = conftest.start(launcher, folder, [CASE, dict(checkpoint="state.h5", output="whole.h5")], ranks)
+    conftest.wait_for(run, 2)
     send(run, ranks, signal.SIGUSR2)
     out, err = run.communicate(timeout=60)
     assert run.returncode == 0 and steps(folder / "whole.h5") == STEPS, err
@@ -283,8 +275,8 @@ def test_USR2_writes_a_checkpoint_and_the_run_goes_on(launcher, folder, petsam, 
 
 
 def stop_by_signal(launcher, folder, ranks):
-    run = start(launcher, folder, [CASE, dict(checkpoint="state.h5")], ranks)
-    wait_for(run, 2)
+    run = conftest.start(launcher, folder, [CASE, dict(checkpoint="state.h5")], ranks)
+    conftest.wait_for(run, 2)
     if ranks == 2:
         run.send_signal(signal.SIGUSR1)  # to the launcher, which passes it on
     else:
@@ -308,8 +300,8 @@ def test_USR1_writes_a_checkpoint_and_stops(launcher, folder, petsam, ranks):
 @pytest.mark.parametrize("ranks", [1, 2])
 def test_TERM_stops_like_USR1(launcher, folder, petsam, ranks):
     """On any rank. Sent to mpirun, it ends that as well."""
-    run = start(launcher, folder, [CASE, dict(checkpoint="state.h5")], ranks)
-    wait_for(run, 2)
+    run = conftest.start(launcher, folder, [CASE, dict(checkpoint="state.h5")], ranks)
+    conftest.wait_for(run, 2)
     send(run, ranks, signal.SIGTERM)
     _, err = run.communicate(timeout=60)
     last = progress(folder / "state.h5")
@@ -319,8 +311,8 @@ def test_TERM_stops_like_USR1(launcher, folder, petsam, ranks):
 
 
 def test_TERM_ends_a_run_without_checkpoints(launcher, folder):
-    run = start(launcher, folder, [CASE], 1)
-    wait_for(run, 2)
+    run = conftest.start(launcher, folder, [CASE], 1)
+    conftest.wait_for(run, 2)
     send(run, 1, signal.SIGTERM)
     run.communicate(timeout=60)
     assert run.returncode == -signal.SIGTERM
@@ -338,8 +330,8 @@ def test_forgotten_restart_does_not_replace_the_checkpoint(stopped, petsam):
 
 
 def test_signal_without_a_checkpoint_is_a_warning(launcher, folder):
-    run = start(launcher, folder, [CASE], 1)
-    wait_for(run, 2)
+    run = conftest.start(launcher, folder, [CASE], 1)
+    conftest.wait_for(run, 2)
     send(run, 1, signal.SIGUSR1)
     _, err = run.communicate(timeout=60)
     assert run.returncode == 0 and "warning" in err and "-checkpoint" in err and steps(folder / "out.h5") == STEPS
@@ -380,8 +372,8 @@ def test_results_may_not_replace_the_checkpoint(stopped, petsam):
 def test_lost_folder_ends_the_run(launcher, folder, ranks):
     write_history(folder, 2000)
     (folder / "away").mkdir()
-    run = start(launcher, folder, [CASE, dict(checkpoint="away/state.h5", checkpoint_every=1)], ranks)
-    wait_for(run, 5)
+    run = conftest.start(launcher, folder, [CASE, dict(checkpoint="away/state.h5", checkpoint_every=1)], ranks)
+    conftest.wait_for(run, 5)
     (folder / "away").rename(folder / "gone")
     _, err = run.communicate(timeout=60)
     assert run.returncode == 3 and "-checkpoint away/state.h5" in err
@@ -392,13 +384,8 @@ def test_lost_folder_ends_the_run(launcher, folder, ranks):
 def small_disk(folder):
     """away/ on a disk that holds one checkpoint of 128 x 128 cells and not two."""
     (folder / "away").mkdir()
-    done = subprocess.run(
-        ["mount", "-t", "tmpfs", "-o", "size=3m", "tmpfs", str(folder / "away")], capture_output=True, text=True
-    )
-    if done.returncode:
-        pytest.skip("no right to mount a small disk")
-    yield folder
-    subprocess.run(["umount", "-l", str(folder / "away")], check=True)
+    with conftest.small_disk_on(folder / "away", "3m"):
+        yield folder
 
 
 @pytest.mark.parametrize("ranks", [1, 2])

@@ -6,7 +6,7 @@ import h5py
 import numpy as np
 import pytest
 
-from support import ROOT, assert_close, assert_same, ball, closed, displacement
+from support import ROOT, assert_close, assert_same, ball, bodies, closed, displacement
 
 INF = float("inf")
 
@@ -14,10 +14,7 @@ INF = float("inf")
 # ---------------------------------------------------------------- cases
 
 PERIODIC = dict(
-    body1_young=210e9,
-    body1_poisson=0.3,
-    body2_young=70e9,
-    body2_poisson=0.1,
+    **bodies(210e9, 0.3, 70e9, 0.1),
     elasticity="periodic",
     gap_type="file",
     gap_file="h.h5",

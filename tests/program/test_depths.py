@@ -4,20 +4,9 @@ import h5py
 import numpy as np
 import pytest
 
-import conftest
 from support import SPHERE, hertz
 from test_plane import CYLINDER, A
 from test_shapes import INF, STEEL, elliptic_hertz, relative
-
-PROGRAM = conftest.PROGRAM.with_name("petsam-stress")
-
-
-@pytest.fixture
-def stress(launcher, tmp_path):
-    def run(*options, ranks=1, check=0):
-        return conftest.execute(launcher, tmp_path, options, ranks, check, program=PROGRAM)
-
-    return run
 
 
 def depths(path):

@@ -9,17 +9,14 @@ import h5py
 import numpy as np
 import pytest
 
-from conftest import PROGRAM, environment, make_install
-from support import ROOT, words
+from conftest import PROGRAM, environment
+from support import ROOT, bodies, finished, words
 
 HERE = ROOT / "tests" / "program"
 CASE = dict(
     grid_n=(45, 40),
     grid_size=(3e-3, 2.8e-3),
-    body1_young=210e9,
-    body1_poisson=0.3,
-    body2_young=70e9,
-    body2_poisson=0.2,
+    **bodies(210e9, 0.3, 70e9, 0.2),
     friction=0.15,
     gap_type="sphere",
     gap_radius1=0.1,
@@ -34,14 +31,6 @@ RIGIDS = ("disp_z", "disp_x", "disp_y", "rot_x", "rot_y", "rot_z")
 
 
 @pytest.fixture(scope="module")
-def prefix(tmp_path_factory):
-    """make install."""
-    folder = tmp_path_factory.mktemp("prefix")
-    make_install(f"prefix={folder}")
-    return folder
-
-
-@pytest.fixture(scope="module")
 def expected(tmp_path_factory, launcher):
     """What the program petsam finds for the same steps: rows of loads, displacements; stiffness; stored energy."""
     folder = tmp_path_factory.mktemp("program")
@@ -49,8 +38,7 @@ def expected(tmp_path_factory, launcher):
     rows += [",".join(map(repr, (float(k), *step.values()))) for k, step in enumerate(STEPS, 1)]
     (folder / "history.csv").write_text("\n".join(rows))
     command = [str(PROGRAM), *words(CASE), "-history", "history.csv", "-stiffness", "-output", "out.h5"]
-    done = subprocess.run(command, cwd=folder, env=environment(), capture_output=True, text=True, timeout=120)
-    assert done.returncode == 0, done.stderr
+    finished(command, cwd=folder, env=environment())
     with h5py.File(folder / "out.h5") as file:
         found = {name: data[:] for name, data in file["history"].items()}
         return dict(found, shear_x=file["shear_x"][:])
@@ -70,9 +58,7 @@ def compile_it(prefix, folder, compiler, *sources):
 
 def launch(launcher, ranks, *command):
     words = [*launcher, "-n", str(ranks), *map(str, command)] if ranks else [*map(str, command)]
-    done = subprocess.run(words, env=environment(), capture_output=True, text=True, timeout=120)
-    assert done.returncode == 0, done.stdout + done.stderr
-    return done.stdout
+    return finished(words, env=environment()).stdout
 
 
 # ---------------------------------------------------------------- C and Fortran
@@ -163,11 +149,7 @@ def run_python(text, folder, check=0, **variables):
     )
     env.update(variables)
     (folder / "program.py").write_text(text)
-    done = subprocess.run(
-        [sys.executable, "program.py"], cwd=folder, env=env, capture_output=True, text=True, timeout=300
-    )
-    assert done.returncode == check, done.stdout + done.stderr
-    return done.stdout
+    return finished([sys.executable, "program.py"], check=check, cwd=folder, env=env).stdout
 
 
 def test_python_has_the_bits_of_petsam(tmp_path, expected):

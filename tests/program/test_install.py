@@ -8,7 +8,7 @@ import sys
 import pytest
 
 from conftest import PROGRAM, environment, make_install
-from support import ROOT, Results, closed, dead_links
+from support import ROOT, Results, closed, dead_links, finished
 
 BUILD = PROGRAM.parents[1]
 CONTACT = dict(radius=0.1, e_star=210e9 / (2 * (1 - 0.3**2)), load=1000.0)  # examples/embed/library/contact.c
@@ -89,14 +89,8 @@ def pkg_config(prefix, *words):
     paths = [str(prefix / "lib/pkgconfig")] + (
         [f"{petsc}/{os.environ.get('PETSC_ARCH', '')}/lib/pkgconfig", f"{petsc}/lib/pkgconfig"] if petsc else []
     )
-    done = subprocess.run(
-        ["pkg-config", *words, "petsam"],
-        capture_output=True,
-        text=True,
-        env={**os.environ, "PKG_CONFIG_PATH": ":".join(paths)},
-    )
-    assert done.returncode == 0, done.stderr
-    return done.stdout.split()
+    env = {**os.environ, "PKG_CONFIG_PATH": ":".join(paths)}
+    return finished(["pkg-config", *words, "petsam"], env=env).stdout.split()
 
 
 def library_flags(prefix, kind):
@@ -149,8 +143,7 @@ def test_program_on_the_installed_library_solves_a_contact(prefix, tmp_path, lau
         *pkg_config(prefix, "--cflags"),
         *library_flags(prefix, "static" if kind == "static" else "shared"),
     ]
-    done = subprocess.run(command, capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
+    finished(command)
     for ranks in (1, 2):
         words = (launcher + ["-n", str(ranks)] if ranks > 1 else []) + [str(tmp_path / "contact")]
         text = subprocess.run(words, capture_output=True, text=True, env=environment(), timeout=120).stdout
@@ -181,8 +174,7 @@ def test_every_installed_header_stands_alone(prefix, tmp_path, compiler):
         *pkg_config(prefix, "--cflags"),
         *sources,
     ]
-    done = subprocess.run(command, capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
+    finished(command)
 
 
 def test_programs_need_the_library_by_the_version_of_its_interface(prefix):
@@ -223,15 +215,8 @@ def test_installed_example_runs_from_anywhere(prefix, tmp_path):
         "PYTHON": sys.executable,
         "MPIRUN": os.environ.get("MPIRUN", "mpirun"),
     }
-    done = subprocess.run(
-        [str(prefix / "share/petsam/examples/sphere/run.sh")],
-        cwd=tmp_path,
-        env={k: v for k, v in env.items() if k != "OUT"},
-        capture_output=True,
-        text=True,
-        timeout=300,
-    )
-    assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
+    env.pop("OUT", None)
+    finished([str(prefix / "share/petsam/examples/sphere/run.sh")], cwd=tmp_path, env=env)
     assert any(path.suffix == ".png" for path in (tmp_path / "sphere").iterdir())
     assert Results(tmp_path / "sphere" / "hertz.h5").saved == 1
 

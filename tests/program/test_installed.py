@@ -9,17 +9,14 @@ import sys
 import pytest
 
 from conftest import PROGRAM, environment, make_install
-from support import ROOT, ball, words
+from support import ROOT, ball, finished, words
 
 
 def shell(command, cwd, check=0, **variables):
     """Run a line of a shell in cwd, without PYTHON and PETSAM unless given; its output."""
     env = {key: value for key, value in environment().items() if key not in ("PYTHON", "PETSAM")}
     env.update(OMPI_MCA_rmaps_base_oversubscribe="1", **{k: str(v) for k, v in variables.items()})
-    done = subprocess.run(
-        command, shell=True, cwd=cwd, env=env, capture_output=True, text=True, timeout=300, stdin=subprocess.DEVNULL
-    )
-    assert done.returncode == check, (command, done.stdout, done.stderr)
+    done = finished(command, check, shell=True, cwd=cwd, env=env, stdin=subprocess.DEVNULL)
     return done.stdout + done.stderr
 
 

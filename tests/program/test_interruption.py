@@ -46,25 +46,7 @@ def assert_intact(path, least):
 
 
 def start(launcher, folder, ranks, *options, **how):
-    command = (launcher + ["-n", str(ranks)] if ranks > 1 else []) + [str(conftest.PROGRAM), *flatten([CASE, *options])]
-    return subprocess.Popen(
-        command,
-        cwd=folder,
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        env=conftest.environment(),
-        **how,
-    )
-
-
-def wait_for(run, step):
-    """Until the run has told that step."""
-    for line in run.stdout:
-        if re.match(rf" *{step} +\S", line):
-            return
-    pytest.fail(f"the run ended before step {step}: {run.stderr.read()}")
+    return conftest.start(launcher, folder, [CASE, *options], ranks, **how)
 
 
 def told(text):
@@ -105,14 +87,8 @@ def test_file_that_may_not_even_begin_ends_the_run(launcher, folder):
 @pytest.fixture
 def small_disk(folder):
     """out/ on a disk of 16 MB."""
-    disk = folder / "out"
-    done = subprocess.run(
-        ["mount", "-t", "tmpfs", "-o", "size=16m", "tmpfs", str(disk)], capture_output=True, text=True
-    )
-    if done.returncode:
-        pytest.skip("no right to mount a small disk")
-    yield folder
-    subprocess.run(["umount", "-l", str(disk)], check=True)
+    with conftest.small_disk_on(folder / "out", "16m"):
+        yield folder
 
 
 @pytest.mark.parametrize("ranks", [1, 2])
@@ -131,7 +107,7 @@ def test_full_disk_ends_the_run(launcher, small_disk, ranks):
 @pytest.mark.parametrize("lose", [lambda out: out.rename(out.parent / "away"), shutil.rmtree], ids=["moved", "removed"])
 def test_lost_folder_ends_the_run(launcher, folder, ranks, lose):
     run = start(launcher, folder, ranks)
-    wait_for(run, 4)
+    conftest.wait_for(run, 4)
     lose(folder / "out")
     code, steps, complaint = ended(run)
     assert code == 3 and len(complaint) == 1 and "out/out.h5" in complaint[0]
@@ -155,7 +131,7 @@ def test_lost_folder_ends_the_run(launcher, folder, ranks, lose):
 )
 def test_change_from_outside_ends_the_run(launcher, folder, ranks, change, says):
     run = start(launcher, folder, ranks)
-    wait_for(run, 4)
+    conftest.wait_for(run, 4)
     # again, as a byte that is cut while a step is written may be one of that step, which is then written
     for _ in range(20):
         if run.poll() is None:
@@ -173,7 +149,7 @@ def test_file_put_in_the_place_of_a_checkpoint_is_kept(launcher, folder, ranks, 
     out = folder / "out"
     (folder / "mine").write_text("the only copy")
     run = start(launcher, folder, ranks, dict(checkpoint="out/state.h5"))
-    wait_for(run, 4)
+    conftest.wait_for(run, 4)
     if name.endswith(".tmp"):
         (out / "new").symlink_to(folder / "mine")
     else:
@@ -191,7 +167,7 @@ def test_second_run_is_kept_from_the_files(launcher, folder, ranks):
     """From results and checkpoints, also one that would go on from there; not after the first has been killed."""
     mine = dict(checkpoint="out/state.h5", checkpoint_every=1)
     first = start(launcher, folder, 1, mine)
-    wait_for(first, 4)
+    conftest.wait_for(first, 4)
     running = conftest.processes(first, 1)
     for process in running:
         os.kill(process, signal.SIGSTOP)  # it goes on replacing its own, also while one is copied
@@ -207,12 +183,12 @@ def test_second_run_is_kept_from_the_files(launcher, folder, ranks):
         code, steps, complaint = ended(start(launcher, folder, ranks, other))
         assert code == 3 and steps == 0
         assert len(complaint) == 1 and "another run is writing it" in complaint[0], complaint
-    wait_for(first, 8)
+    conftest.wait_for(first, 8)
     first.kill()
     assert_intact(folder / "out" / "out.h5", 8)
     assert not [path.name for path in (folder / "out").iterdir() if path.name.endswith(".lock")]
     third = start(launcher, folder, ranks, dict(mine, overwrite=True))
-    wait_for(third, 2)
+    conftest.wait_for(third, 2)
     conftest.kill_all(third, ranks)
     third.communicate(timeout=60)
 
@@ -225,7 +201,7 @@ def test_second_run_is_kept_from_the_files(launcher, folder, ranks):
 def test_killed_run_leaves_what_it_has_told(launcher, folder, ranks, step):
     """At once after a step is told: its results are in the file, not on their way."""
     run = start(launcher, folder, ranks)
-    wait_for(run, step)
+    conftest.wait_for(run, step)
     conftest.kill_all(run, ranks)
     _, more, _ = ended(run)
     assert_intact(folder / "out" / "out.h5", step + more)
@@ -234,7 +210,7 @@ def test_killed_run_leaves_what_it_has_told(launcher, folder, ranks, step):
 def test_file_can_be_read_at_any_time(launcher, folder):
     """By another program, while the run goes on: a copy made between two steps that are told holds the first."""
     run = start(launcher, folder, 1)
-    wait_for(run, 3)
+    conftest.wait_for(run, 3)
     os.kill(run.pid, signal.SIGSTOP)
     try:
         shutil.copy(folder / "out" / "out.h5", folder / "copy.h5")

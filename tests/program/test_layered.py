@@ -4,7 +4,6 @@ import h5py
 import numpy as np
 import pytest
 
-import conftest
 from support import assert_close, assert_same
 
 # Lengths in units of the contact radius A on a sphere of radius 1 m; the substrate's modulus is E, its ratio 0.3.
@@ -211,18 +210,7 @@ def test_layers_are_recorded(solve):
 
 SLIDING = sphere([(4, 0.25, 0.5), (0.5, 0.4, 0.3)], 2.6, n=48, load_n=0.5 * E * A**3, friction=0.3)
 SLIDING |= dict(load_tx=0.1 * E * A**3)
-PROGRAM = conftest.PROGRAM.with_name("petsam-stress")
 TRACTIONS, OTHERS = ("zz", "xz", "yz"), ("xx", "yy", "xy")
-
-
-@pytest.fixture
-def petsam_stress(launcher, tmp_path):
-    """petsam_stress(options, ranks=1, check=0): a run of petsam-stress in tmp_path."""
-
-    def run(options, ranks=1, check=0):
-        return conftest.execute(launcher, tmp_path, [options], ranks, check, program=PROGRAM)
-
-    return run
 
 
 def stresses(f, names, depth):
@@ -236,12 +224,12 @@ def strain(f, depth, young, poisson):
     return np.array(of) / young
 
 
-def test_stresses_through_layers(solve, petsam_stress, tmp_path):
+def test_stresses_through_layers(solve, stress, tmp_path):
     """Both sides of each interface: tractions and strains are continuous; the same on three ranks and on a section."""
     r = solve(SLIDING)
     case = dict(input=r.path, depths=f"0,{0.2 * A},{0.5 * A},{0.8 * A},{A}")
-    petsam_stress(dict(case, output="maps.h5"))
-    petsam_stress(dict(case, output="line.h5", section="y=1e-5"), ranks=3)
+    stress(dict(case, output="maps.h5"))
+    stress(dict(case, output="line.h5", section="y=1e-5"), ranks=3)
     with h5py.File(tmp_path / "maps.h5") as f, h5py.File(tmp_path / "line.h5") as line:
         assert f["z"][:] == pytest.approx(np.array([0, 0.2, 0.5, 0.5, 0.8, 0.8, 1]) * A, rel=1e-12)
         assert np.all(np.diff(f["z"][:]) > 0)
@@ -268,7 +256,7 @@ def test_stresses_through_layers(solve, petsam_stress, tmp_path):
             assert history[layer + "_shear_max"][0] == pytest.approx(shear, rel=1e-14)
 
 
-def test_layers_take_the_strains_of_the_bulk_stress_and_their_residual_stress(petsam, petsam_stress, tmp_path):
+def test_layers_take_the_strains_of_the_bulk_stress_and_their_residual_stress(petsam, stress, tmp_path):
     case = {**SLIDING, "friction": None, "load_tx": None}
     rows = [(0, -3e6, -2e6), (0.5 * A, -3e6, -2e6), (0.5 * A, 1e5, 4e5), (0.8 * A, 1e5, 4e5)]
     text = "depth,stress_xx,stress_yy\n" + "".join(f"{z!r},{xx},{yy}\n" for z, xx, yy in rows)
@@ -276,7 +264,7 @@ def test_layers_take_the_strains_of_the_bulk_stress_and_their_residual_stress(pe
     more = dict(bulk2_stress_xx=1e6, bulk2_stress_yy=-2e5, bulk2_stress_xy=3e5, body2_initial_stress="i.csv")
     for name, options in (("none", {}), ("all", more)):
         petsam(case, options, dict(output=f"{name}.h5"))
-        petsam_stress(dict(input=f"{name}.h5", output=f"{name}-s.h5", depths=f"{0.1 * A},{0.6 * A},{2 * A}"))
+        stress(dict(input=f"{name}.h5", output=f"{name}-s.h5", depths=f"{0.1 * A},{0.6 * A},{2 * A}"))
     with h5py.File(tmp_path / "all-s.h5") as f, h5py.File(tmp_path / "none-s.h5") as none:
         for depth, young, poisson, residual in (
             (0, 4, 0.25, (-3e6, -2e6)),
@@ -319,28 +307,28 @@ def test_stress_before_any_load_is_added_to_an_elastic_body(petsam, petsam_stres
         (f"{0.8 * A}+", "is in the rigid base"),
     ],
 )
-def test_depths_that_layers_do_not_have_are_refused(depths, says, solve, petsam_stress):
+def test_depths_that_layers_do_not_have_are_refused(depths, says, solve, stress):
     r = solve({**SLIDING, "body2_young": float("inf"), "body2_poisson": None})
-    assert says in petsam_stress(dict(input=r.path, output="s.h5", depths=depths), check=2).stderr
+    assert says in stress(dict(input=r.path, output="s.h5", depths=depths), check=2).stderr
 
 
-def test_one_side_of_an_interface(solve, petsam_stress, tmp_path):
+def test_one_side_of_an_interface(solve, stress, tmp_path):
     r = solve(SLIDING)
-    petsam_stress(dict(input=r.path, output="both.h5", depths=f"{0.5 * A}"))
+    stress(dict(input=r.path, output="both.h5", depths=f"{0.5 * A}"))
     for k, sign in enumerate("-+"):
-        petsam_stress(dict(input=r.path, output=f"one{k}.h5", depths=f"{0.5 * A}{sign}"))
+        stress(dict(input=r.path, output=f"one{k}.h5", depths=f"{0.5 * A}{sign}"))
         with h5py.File(tmp_path / "both.h5") as both, h5py.File(tmp_path / f"one{k}.h5") as one:
             assert np.array_equal(one["stress_xx"][0, 0], both["stress_xx"][0, k])
 
 
-def test_fatigue_constants_of_layers_and_substrate(petsam, petsam_stress, tmp_path):
+def test_fatigue_constants_of_layers_and_substrate(petsam, stress, tmp_path):
     (tmp_path / "h.csv").write_text("time,load_n,load_tx\n0,0.2,0\n1,0.2,0.01\n2,0.2,-0.01\n")
     petsam({k: v for k, v in SLIDING.items() if k not in ("load_n", "load_tx")}, dict(history="h.csv", output="r.h5"))
     depths = (0.1, 0.6, 2)
 
     def findley(k, name):
         case = dict(input="r.h5", output=name, quantities="none", fatigue="findley", section="y=0", steps="all")
-        petsam_stress({**case, "depths": [d * A for d in depths], "fatigue_findley_k": k})
+        stress({**case, "depths": [d * A for d in depths], "fatigue_findley_k": k})
         with h5py.File(tmp_path / name) as f:
             return f["findley"][:]
 
@@ -354,7 +342,7 @@ def test_fatigue_constants_of_layers_and_substrate(petsam, petsam_stress, tmp_pa
         ("0.4,0.1,0.2", "-fatigue_findley_k: 3 numbers, but 2 in another list: give one number, or one for each layer"),
     ):
         more = dict(fatigue_crossland_alpha="0.1,0.2") if "another" in says else {}
-        assert says in petsam_stress({**refused, "fatigue_findley_k": k, **more}, check=2).stderr
+        assert says in stress({**refused, "fatigue_findley_k": k, **more}, check=2).stderr
 
 
 # ---------------------------------------------------------------- constants that vary with the depth
@@ -423,14 +411,14 @@ def test_life_tells_the_cycle_by_which_a_layer_is_worn_through(petsam, tmp_path)
         (dict(body2_layer_thickness=3), "body2_layer_thickness"),
     ],
 )
-def test_damaged_layers_in_a_file_are_refused(attributes, names, petsam, petsam_stress, tmp_path):
+def test_damaged_layers_in_a_file_are_refused(attributes, names, petsam, stress, tmp_path):
     petsam(SLIDING, dict(output="r.h5"))
     with h5py.File(tmp_path / "r.h5", "r+") as f:
         for name, value in attributes.items():
             f.attrs.pop(name, None)
             if value is not None:
                 f.attrs[name] = value
-    told = petsam_stress(dict(input="r.h5", output="s.h5", depths=f"{0.2 * A}"), check=3).stderr
+    told = stress(dict(input="r.h5", output="s.h5", depths=f"{0.2 * A}"), check=3).stderr
     assert f"the attribute {names}" in told and "does not fit the layers" in told
 
 

@@ -2,7 +2,6 @@
 
 import re
 import signal
-import subprocess
 import time
 
 import h5py
@@ -12,7 +11,7 @@ import pytest
 import conftest
 import petsam as library
 from kill_at_random import differences, write_history
-from support import FIELDS, SPHERE, flatten
+from support import FIELDS, SPHERE
 from test_checkpoint import small_disk as small_disk  # a fixture
 
 CASE = dict(SPHERE, load_n=None, grid_n=(40, 33), history="history.csv", output="out.h5")
@@ -53,15 +52,7 @@ def test_readers_cope_with_singles(folder, petsam):
     petsam(case, dict(output_single=True))
     for name in ("out", "double"):
         words = dict(input=f"{name}.h5", output=f"{name}.stress.h5", depths="0,1e-4", quantities="stress,mises")
-        done = subprocess.run(
-            [conftest.PROGRAM.with_name("petsam-stress"), *flatten([words])],
-            cwd=folder,
-            env=conftest.environment(),
-            capture_output=True,
-            text=True,
-            timeout=60,
-        )
-        assert done.returncode == 0, done.stderr
+        conftest.execute([], folder, [words], 1, 0, program=conftest.PROGRAM.with_name("petsam-stress"))
     with library.open(folder / "out.h5") as one, library.open(folder / "double.h5") as two:
         assert one.field("pressure").dtype == np.float64
         assert np.allclose(one.field("pressure"), two.field("pressure"), rtol=1e-7, atol=0)
@@ -127,18 +118,6 @@ def test_results_larger_than_the_disk_are_a_warning_at_the_start(small_disk, pet
 # ---- steps that wait to be written
 
 
-def start(folder, *options):
-    return subprocess.Popen(
-        [str(conftest.PROGRAM), *flatten(options)],
-        cwd=folder,
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        env=conftest.environment(),
-    )
-
-
 def whole_steps(path):
     """Steps that all columns have; all of them must be numbers that the history asks for."""
     with h5py.File(path) as f:
@@ -154,7 +133,7 @@ def whole_steps(path):
 def test_steps_wait_as_long_as_they_may(tmp_path, wait):
     """A run that is killed loses no more."""
     write_history(tmp_path, 3000)
-    run = start(tmp_path, CASE, dict(output_every=1000, output_flush=wait, output_fields="pressure"))
+    run = conftest.start([], tmp_path, [CASE, dict(output_every=1000, output_flush=wait, output_fields="pressure")])
     told = []  # when each step was told
     for line in run.stdout:
         if re.match(r" *\d+ +\S+ +\d", line):
@@ -174,7 +153,7 @@ def test_steps_wait_for_no_checkpoint(tmp_path, petsam):
     """What is before a checkpoint must be in the results, from which the next run goes on."""
     write_history(tmp_path, 40)
     case = dict(CASE, output_every=1000, output_flush=1000, output_fields="pressure")
-    run = start(tmp_path, case, dict(checkpoint="state.h5", checkpoint_every=7, progress="never"))
+    run = conftest.start([], tmp_path, [case, dict(checkpoint="state.h5", checkpoint_every=7, progress="never")])
     for line in run.stdout:
         if re.match(r" *15 +\S", line):
             break

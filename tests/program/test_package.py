@@ -2,7 +2,6 @@
 
 import re
 import runpy
-import subprocess
 import sys
 
 import h5py
@@ -11,7 +10,7 @@ import pytest
 
 import petsam as package
 from conftest import environment
-from support import FIELDS, ROOT, ball, slide_limit
+from support import FIELDS, ROOT, ball, finished, slide_limit
 
 SCRIPTS = ROOT / "scripts"
 PAGES = [
@@ -27,8 +26,7 @@ CASE = ball(n=32)
 def python(*words, check=0):
     """Output of the interpreter with the package on its path."""
     env = dict(environment(), PYTHONPATH=str(SCRIPTS))
-    done = subprocess.run([sys.executable, *map(str, words)], env=env, capture_output=True, text=True, timeout=240)
-    assert done.returncode == check, done.stdout + done.stderr
+    done = finished([sys.executable, *map(str, words)], check, env=env)
     return done.stdout + done.stderr
 
 

@@ -3,7 +3,6 @@
 import os
 import random
 import signal
-import subprocess
 import sys
 from types import SimpleNamespace
 
@@ -16,7 +15,7 @@ from petsam.errors import Error
 from petsam.plot import command, loops, maps, profiles, series
 from petsam.plot.units import scale
 from petsam.results import Results
-from support import ROOT, ball, slide_limit
+from support import ROOT, ball, finished, slide_limit
 
 PROGRAM = ROOT / "scripts" / "petsam-plot"
 CASE = ball(n=48)
@@ -69,16 +68,8 @@ def program(tmp_path):
     """petsam-plot in tmp_path, as a user starts it: the completed process."""
 
     def run(*words, check=0):
-        done = subprocess.run(
-            [sys.executable, str(PROGRAM), *map(str, words)],
-            cwd=tmp_path,
-            capture_output=True,
-            text=True,
-            timeout=120,
-            env=dict(os.environ, PYTHON=sys.executable),
-        )
-        assert done.returncode == check, done.stderr
-        return done
+        env = dict(os.environ, PYTHON=sys.executable)
+        return finished([sys.executable, str(PROGRAM), *map(str, words)], check, cwd=tmp_path, env=env)
 
     return run
 

@@ -1,7 +1,6 @@
 """petsam-plot of steady rolling: creep curves; stick and slip zones with arrows of slip velocity, power density."""
 
 import shutil
-import subprocess
 
 import h5py
 import numpy as np
@@ -10,7 +9,7 @@ from matplotlib.quiver import Quiver
 
 import petsam
 from petsam.plot import maps, series
-from support import ROOT, ball, history
+from support import ROOT, ball, finished, history
 
 CASE = dict(ball(32), rolling="steady")
 
@@ -118,10 +117,7 @@ def test_what_the_power_needs_is_named(rolled, tmp_path):
 
 
 def test_all_pictures_of_a_file(rolled, tmp_path):
-    done = subprocess.run(
-        [ROOT / "scripts/petsam-plot", curve(rolled)], cwd=tmp_path, capture_output=True, text=True, timeout=120
-    )
-    assert done.returncode == 0, done.stderr
+    done = finished([ROOT / "scripts/petsam-plot", curve(rolled)], cwd=tmp_path)
     assert [line.rpartition("_")[2] for line in done.stdout.split()[1::2]] == [
         "maps.png",
         "profiles.png",

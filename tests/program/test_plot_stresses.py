@@ -1,6 +1,5 @@
 """petsam-plot of petsam-stress's files: pictures from true results, what they show, and refusals."""
 
-import subprocess
 import sys
 
 import h5py
@@ -10,7 +9,7 @@ import pytest
 import conftest
 import petsam
 from petsam.plot import bodies
-from support import ROOT, ball, slide_limit
+from support import ROOT, ball, finished, slide_limit
 
 PROGRAM = ROOT / "scripts" / "petsam-plot"
 STRESS = conftest.PROGRAM.with_name("petsam-stress")
@@ -37,11 +36,7 @@ def folder(launcher, tmp_path_factory):
 @pytest.fixture
 def plot(folder):
     def run(*words, check=0):
-        done = subprocess.run(
-            [sys.executable, str(PROGRAM), *map(str, words)], cwd=folder, capture_output=True, text=True, timeout=120
-        )
-        assert done.returncode == check, done.stdout + done.stderr
-        return done
+        return finished([sys.executable, str(PROGRAM), *map(str, words)], check=check, cwd=folder)
 
     return run
 

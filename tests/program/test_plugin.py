@@ -7,17 +7,14 @@ import h5py
 import numpy as np
 import pytest
 
-from conftest import environment, execute, make_install
-from support import ROOT
+from conftest import environment, execute
+from support import ROOT, bodies, finished
 from test_install import library_flags, pkg_config
 
 SPHERE = dict(
     grid_n=(45, 40),
     grid_size=(2.4e-3, 2.2e-3),
-    body1_young=210e9,
-    body1_poisson=0.3,
-    body2_young=210e9,
-    body2_poisson=0.3,
+    **bodies(),
     friction=0.3,
     gap_type="sphere",
     gap_radius1=0.1,
@@ -28,19 +25,10 @@ MOVES = [1e-7, 4e-7, 1.1e-6, 2e-7, -6e-7, 8e-7]
 HISTORY = "\n".join(["time,load_n,disp_x,load_ty", *(f"{k}.0,900,{d},{k}" for k, d in enumerate(MOVES, 1))])
 
 
-@pytest.fixture(scope="module")
-def prefix(tmp_path_factory):
-    """make install."""
-    folder = tmp_path_factory.mktemp("prefix")
-    make_install(f"prefix={folder}")
-    return folder
-
-
 def build(prefix, out, *sources):
     command = ["mpicc", "-std=c11", "-Wall", "-Wextra", "-Werror", "-shared", "-fPIC", *map(str, sources)]
     command += ["-o", str(out), *pkg_config(prefix, "--cflags"), *library_flags(prefix, "shared")]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=120)
-    assert done.returncode == 0, done.stderr
+    finished(command)
     return out
 
 
@@ -308,8 +296,7 @@ def test_python_has_the_field_of_the_law(petsam, prefix, plugin, tmp_path):
         environment(), PETSAM_LIBRARY=str(prefix / "lib/libpetsam.so"), PYTHONPATH=str(prefix / "share/petsam/scripts")
     )
     command = [sys.executable, "-c", PYTHON, repr(case), repr(MOVES), "path.bin"]
-    done = subprocess.run(command, cwd=tmp_path, env=env, capture_output=True, text=True, timeout=120)
-    assert done.returncode == 0, done.stderr
+    finished(command, cwd=tmp_path, env=env)
     with h5py.File(tmp_path / "out.h5") as file:
         assert (tmp_path / "path.bin").read_bytes() == file["fading_path"][-1].tobytes()
 

@@ -8,15 +8,12 @@ import numpy as np
 import pytest
 
 from conftest import PROGRAM
-from support import Results, assert_same, ball, flatten
+from support import Results, assert_same, ball, bodies, flatten
 
 BALL = dict(ball(), grid_n=(75, 62), load_my=0.02, load_tx=30.0, load_ty=9.0, load_mz=1e-3)
 # 4 rows for 5 ranks; flat bodies touch everywhere, so the contact is at the edge
 STRIP = dict(
-    body1_young=70e9,
-    body1_poisson=0.3,
-    body2_young=70e9,
-    body2_poisson=0.3,
+    **bodies(70e9, 0.3),
     friction=0.2,
     gap_type="flat",
     grid_n=(40, 4),

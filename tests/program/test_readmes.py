@@ -7,7 +7,7 @@ import sys
 import pytest
 
 from conftest import PROGRAM
-from support import ROOT, dead_links
+from support import ROOT, dead_links, finished
 
 sys.path.insert(0, str(ROOT / "scripts" / "maintain"))
 import check_readmes  # noqa: E402
@@ -54,8 +54,7 @@ def test_README_is_short():
 def test_the_reference_of_options_is_what_help_says():
     script = ROOT / "scripts/maintain/reference.py"
     words = [sys.executable, str(script), "--check", "--build", str(PROGRAM.parents[1])]
-    done = subprocess.run(words, capture_output=True, text=True, timeout=60)
-    assert done.returncode == 0, done.stderr
+    finished(words)
 
 
 def test_options_of_a_group_become_a_table():

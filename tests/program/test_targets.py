@@ -8,7 +8,7 @@ import sys
 import pytest
 
 from conftest import PROGRAM, environment
-from support import ROOT, limit
+from support import ROOT, finished, limit
 
 MAKEFILE = (ROOT / "Makefile").read_text()
 
@@ -50,8 +50,7 @@ def test_ranks_that_wait_yield_their_core_and_a_run_that_hangs_ends(launcher, tm
 
 def test_the_slowest_tests_are_printed_with_their_time():
     words = [ROOT / "tests/run.py", "--build", PROGRAM.parents[1], "--units-only", "--ranks", "1,2", "test_control"]
-    done = subprocess.run([sys.executable, *words], capture_output=True, text=True, env=environment(), timeout=300)
-    assert done.returncode == 0, done.stdout + done.stderr
+    done = finished([sys.executable, *words], env=environment())
     *_, heading, first, second, last = done.stdout.splitlines()
     assert heading == "slowest 30 unit tests (ranks)" and re.fullmatch(r"\d+ passed, 0 failed", last)
     times = [float(re.fullmatch(r" +([\d.]+) s  test_control on [12]", line).group(1)) for line in (first, second)]

@@ -10,14 +10,6 @@
 
 static const char filename[] = "test_checkpoint.h5";
 
-static inline int Rank(void)
-{
-  int rank;
-
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  return rank;
-}
-
 /* Writes one checkpoint, as a run would. */
 static inline void Write(const Case *c, const SamParameters *parameters, PetscInt n, const SamNote notes[])
 {
@@ -32,9 +24,7 @@ static inline void Remove(void)
 {
   static const char *const names[] = {"test_checkpoint.h5", "test_checkpoint.h5.1"};
 
-  (void)MPI_Barrier(PETSC_COMM_WORLD);
-  for (int k = 0; k < 2 && !Rank(); k++) (void)unlink(names[k]);
-  (void)MPI_Barrier(PETSC_COMM_WORLD);
+  for (int k = 0; k < 2; k++) RemoveFile(names[k]);
 }
 
 static const PetscReal friction = 0.3;

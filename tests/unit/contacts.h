@@ -9,6 +9,7 @@
 
 #include <petsam/contact.h>
 #include <petsam/private/problemimpl.h>
+#include <petsam/wear.h>
 
 /* The coefficient of friction where a test does not say otherwise. */
 #define MU 0.3
@@ -29,12 +30,6 @@ static inline SamPair Steel(void)
 static inline SamPair Dissimilar(void)
 {
   return NewPair(210e9, 0.3, 70e9, 0.2);
-}
-
-static inline void SetOptions(const char *options)
-{
-  sam_call(PetscOptionsClear(NULL));
-  sam_call(PetscOptionsInsertString(NULL, options));
 }
 
 /* The contact of a sphere; DestroyCase() destroys the sphere, too. */
@@ -60,11 +55,31 @@ static inline Case NewCase(SamPair pair, PetscInt n, double half_width, double f
   return NewCaseOn(NewSphereOf(pair, n, half_width), friction, NULL, options);
 }
 
+/* The same of bodies that repeat in x and y; their gap is that of a sphere times `flatter`. */
+static inline Case NewPeriodic(SamPair pair, PetscInt n, double half_width, double flatter, double friction,
+                               const char *options)
+{
+  Sphere s = NewSphereOf(pair, n, half_width);
+
+  sam_call(SamElasticitySetType(s.elasticity, SAM_ELASTICITY_PERIODIC));
+  sam_call(VecScale(s.h, flatter));
+  return NewCaseOn(s, friction, NULL, options);
+}
+
 static inline void DestroyCase(Case *c)
 {
   sam_call(SamContactDestroy(&c->contact));
   sam_call(SamProblemDestroy(&c->problem));
   DestroySphere(&c->s);
+}
+
+/* From now on each step of the contact wears when it is committed. */
+static inline void AddWear(const Case *c, SamLawType type, const PetscReal coefficient[2])
+{
+  SamLaw law;
+
+  sam_call(SamProblemAddLawOfType(c->problem, type, &law));
+  sam_call(SamLawSetWear(law, coefficient));
 }
 
 /* All six components under force control: N, Tx, Ty, Mz in the units of Case. */
@@ -143,6 +158,12 @@ static inline void Displace(SamControl *control, SamComponent component, double 
 {
   control->force[component] = PETSC_FALSE;
   control->value[component] = value;
+}
+
+/* Rotations are given, of none; surfaces that repeat do not turn. */
+static inline void HoldRotations(SamControl *control)
+{
+  for (PetscInt k = SAM_COMPONENT_MX; k < SAM_COMPONENTS; k++) Displace(control, (SamComponent)k, 0);
 }
 
 /* Limits the iterations of the solvers; 0: their defaults. */
@@ -229,6 +250,11 @@ static inline Vec NewGap(const Case *c)
   return NewFieldOf(c, "gap");
 }
 
+static inline Vec NewPath(const Case *c)
+{
+  return NewFieldOf(c, "slip_path");
+}
+
 static inline Vec NewState(const Case *c)
 {
   return NewFieldOf(c, "state");
@@ -259,8 +285,7 @@ static inline int SameBitsOf(const Case *one, const Case *other, Vec (*field)(co
   Vec       a = field(one), b = field(other);
   const int same = SameBits(a, b);
 
-  sam_call(VecDestroy(&a));
-  sam_call(VecDestroy(&b));
+  sam_destroy(&a, &b);
   return same;
 }
 

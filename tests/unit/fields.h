@@ -126,6 +126,20 @@ static inline void AddAt(SamGrid grid, PetscInt component, PetscInt i, PetscInt 
   sam_call(VecRestoreArray(v, &a));
 }
 
+/* A value at a cell's centre, on all ranks. */
+static inline double At(SamGrid grid, Vec field, PetscInt component, PetscInt i, PetscInt j)
+{
+  const double *s;
+  double        value = 0;
+
+  sam_call(VecGetArrayRead(field, &s));
+  if (j >= grid->row_start && j < grid->row_start + grid->rows)
+    value = s[component * grid->cells + (j - grid->row_start) * grid->nx + i];
+  sam_call(VecRestoreArrayRead(field, &s));
+  sam_call(SamSum(grid->comm, 1, &value));
+  return value;
+}
+
 static inline double Dot(Vec a, Vec b)
 {
   PetscReal dot;

@@ -9,21 +9,6 @@
 
 static const char file[] = "test_history.csv";
 
-static inline int Rank(void)
-{
-  int rank;
-
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  return rank;
-}
-
-static inline void Remove(void)
-{
-  (void)MPI_Barrier(PETSC_COMM_WORLD);
-  if (Rank() == 0) (void)unlink(file);
-  (void)MPI_Barrier(PETSC_COMM_WORLD);
-}
-
 /* Rank 0 writes the file, as only rank 0 reads it. */
 static inline void WriteBytes(const char *text, size_t size)
 {
@@ -49,9 +34,9 @@ static inline PetscReal ConditionOf(const SamControl *control, const char name[]
   return SamControlGet(control, SamConditionsFind(Conditions(), name));
 }
 
-static inline void SetOptions(const char *options)
+static inline void SetHistoryOptions(const char *options)
 {
-  sam_call(PetscOptionsClear(NULL)); /* forgets the alias, too */
+  SetOptions(""); /* forgets the alias, too */
   sam_call(SamHistoryClaimOption());
   sam_call(PetscOptionsInsertString(NULL, options));
 }
@@ -61,9 +46,9 @@ static inline SamHistory Read(const char *options)
 {
   SamHistory h;
 
-  SetOptions(options);
+  SetHistoryOptions(options);
   sam_call(SamHistoryCreateFromOptions(&(SamOptions){PETSC_COMM_WORLD, NULL}, NULL, Conditions(), &h));
-  SetOptions("");
+  SetHistoryOptions("");
   return h;
 }
 
@@ -97,11 +82,11 @@ static inline void AssertRefused(const char *options, PetscErrorCode code, const
   PetscErrorCode ierr;
   int            good;
 
-  SetOptions(options);
+  SetHistoryOptions(options);
   BeginCatching();
   ierr = SamHistoryCreateFromOptions(&(SamOptions){PETSC_COMM_WORLD, NULL}, NULL, Conditions(), &h);
   EndCatching();
-  SetOptions("");
+  SetHistoryOptions("");
   if (h) sam_call(SamHistoryDestroy(&h));
   good =
     ierr == code && strstr(CaughtMessage(), one) && strstr(CaughtMessage(), other) && !strchr(CaughtMessage(), '\n');

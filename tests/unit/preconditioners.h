@@ -93,8 +93,7 @@ static inline double *AllProducts(SamElasticity e, size_t *count)
     memcpy(to, whole, sizeof(*to) * (size_t)(n_out * grid->nx * grid->ny));
     to += n_out * grid->nx * grid->ny;
     free(whole);
-    sam_call(VecDestroy(&in));
-    sam_call(VecDestroy(&out));
+    sam_destroy(&in, &out);
   }
   sam_call(SamElasticityGetSelfInfluence(e, &to[0], &to[1]));
   return all;

@@ -23,30 +23,6 @@ static const char *const field_names[] = {"pressure", "shear_x",        "shear_y
 static const char *const field_units[] = {"Pa", "Pa", "Pa", "m", "m", "m", "m", "m", "m"};
 enum { NUM_FIELDS = sizeof(field_names) / sizeof(field_names[0]) };
 
-static inline int Rank(void)
-{
-  int rank;
-
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  return rank;
-}
-
-static inline void Remove(const char *file)
-{
-  (void)MPI_Barrier(PETSC_COMM_WORLD);
-  if (Rank() == 0) (void)unlink(file);
-  (void)MPI_Barrier(PETSC_COMM_WORLD);
-}
-
-static inline SamGrid CreateGrid(int k)
-{
-  const PetscReal width[2] = {3e-3, 2e-3}, center[2] = {0.2e-3, -0.1e-3};
-  SamGrid         grid;
-
-  sam_call(SamGridCreate(PETSC_COMM_WORLD, sizes[k], width, center, &grid));
-  return grid;
-}
-
 /* Rigid displacements along z, x and y. */
 static const double moved[3] = {0.125, 0.25, -0.5};
 
@@ -114,8 +90,10 @@ static const struct {
 enum { NUM_COLUMNS = sizeof(columns) / sizeof(columns[0]) };
 static const double statuses[STEPS] = {SAM_STATUS_CONVERGED, SAM_STATUS_EDGE_CONTACT, SAM_STATUS_CONVERGED};
 
-static inline Shown CreateShown(SamGrid grid)
+/* On the grid of that place in `sizes`. */
+static inline Shown CreateShown(int place)
 {
+  const SamGrid grid = NewGridOn(PETSC_COMM_WORLD, sizes[place][0], sizes[place][1], 3e-3, 2e-3, 0.2e-3, -0.1e-3);
   const SamPair pair = NewPair(210e9, 0.3, 210e9, 0.3);
   Shown         s    = {.grid = grid};
   double       *h;
@@ -139,6 +117,7 @@ static inline void DestroyShown(Shown *s)
   sam_call(SamContactDestroy(&s->contact));
   sam_call(SamProblemDestroy(&s->problem));
   sam_call(SamElasticityDestroy(&s->elasticity));
+  sam_call(SamGridDestroy(&s->grid));
 }
 
 /* A committed field of a state, to be written to. */

@@ -48,6 +48,22 @@ static inline void SamAssert_(int ok, const char *text, const char *file, int li
   SamAssert_(fabs((double)(a) - (double)(b)) <= (double)(tol), "|" #a " - " #b "| <= " #tol, __FILE__, __LINE__)
 #define sam_call(petsc_call_expr) SamAssert_((petsc_call_expr) == 0, #petsc_call_expr, __FILE__, __LINE__)
 
+static inline int Rank(void)
+{
+  int rank;
+
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  return rank;
+}
+
+/* Destroys vectors; the last is NULL. */
+static inline void SamDestroyVecs_(Vec *const vecs[])
+{
+  for (; *vecs; vecs++) sam_call(VecDestroy(*vecs));
+}
+
+#define sam_destroy(...) SamDestroyVecs_((Vec *const[]){__VA_ARGS__, NULL})
+
 static inline int SamRanks_(void)
 {
   int ranks;
@@ -118,6 +134,21 @@ static inline int SamTestMain(int argc, char **argv, const struct CMUnitTest *te
   return SamTestMainWith(argc, argv, NULL, tests, n);
 }
 
+/* Rank 0 removes a file of the test's folder, which all have done with; afterwards it is gone for all. */
+static inline void RemoveFile(const char name[])
+{
+  (void)MPI_Barrier(PETSC_COMM_WORLD);
+  if (!Rank()) (void)unlink(name);
+  (void)MPI_Barrier(PETSC_COMM_WORLD);
+}
+
+/* The options of the database are these and no others. */
+static inline void SetOptions(const char options[])
+{
+  sam_call(PetscOptionsClear(NULL));
+  sam_call(PetscOptionsInsertString(NULL, options));
+}
+
 /* The message of the first error since BeginCatching(). */
 static inline char *CaughtMessage(void)
 {
@@ -150,7 +181,18 @@ static inline void EndCatching(void)
   sam_call(PetscPopErrorHandler());
 }
 
-/* Asserts that a call fails with this error code; prints no trace. */
+/* Asserts that a call fails with this error code, in a message that has these words; prints no trace. */
+#define sam_says(petsc_call_expr, expected, words) \
+  do { \
+    PetscErrorCode sam_ierr_; \
+    BeginCatching(); \
+    sam_ierr_ = (petsc_call_expr); \
+    EndCatching(); \
+    if (!strstr(CaughtMessage(), words)) print_error("error %d: %s\n", (int)sam_ierr_, CaughtMessage()); \
+    sam_assert(sam_ierr_ == (expected) && strstr(CaughtMessage(), words)); \
+  } while (0)
+
+/* The same of any message. */
 #define sam_fails(petsc_call_expr, expected) \
   do { \
     PetscErrorCode sam_ierr_; \

@@ -36,8 +36,7 @@ static inline Case NewCase(PetscInt n, double poisson)
 
 static inline void DestroyCase(Case *c)
 {
-  sam_call(VecDestroy(&c->p));
-  sam_call(VecDestroy(&c->bound));
+  sam_destroy(&c->p, &c->bound);
   DestroySphere(&c->s);
 }
 

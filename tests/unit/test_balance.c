@@ -157,14 +157,11 @@ static void AssertProjection(SamBalanceKind kind)
         sam_call(VecAXPY(w, -1, x));
         sam_assert(Dot(d, w) <= 1e-9 * (far + Norm(x, NORM_2)) *
                                   (Norm(w, NORM_2) + 1e-3)); /* errors of equilibrium times the multipliers */
-        sam_call(VecDestroy(&w));
-        sam_call(VecDestroy(&d));
+        sam_destroy(&w, &d);
       }
-      sam_call(VecDestroy(&v));
-      sam_call(VecDestroy(&x));
+      sam_destroy(&v, &x);
     }
-    sam_call(VecDestroy(&bound));
-    sam_call(VecDestroy(&known));
+    sam_destroy(&bound, &known);
     sam_call(SamGridDestroy(&grid));
   }
 }
@@ -234,10 +231,7 @@ static void test_weighted_projection_is_the_nearest_shear_in_its_metric(void **s
       sam_call(VecDestroy(&w));
     }
     free(weight);
-    sam_call(VecDestroy(&v));
-    sam_call(VecDestroy(&x));
-    sam_call(VecDestroy(&bound));
-    sam_call(VecDestroy(&known));
+    sam_destroy(&v, &x, &bound, &known);
     sam_call(SamGridDestroy(&grid));
   }
 }
@@ -290,8 +284,7 @@ static void test_impossible_normal_loads_are_found(void **state)
 
       sam_assert(!Project(grid, &b, p, p));
       sam_assert(Difference(p, before, NORM_INFINITY) == 0); /* left as it was */
-      sam_call(VecDestroy(&p));
-      sam_call(VecDestroy(&before));
+      sam_destroy(&p, &before);
     }
     sam_call(SamGridDestroy(&grid));
   }
@@ -454,8 +447,7 @@ static void test_sliding_shear_carries_the_limit_of_the_loads(void **state)
     sam_assert(beyond <= 1e-15 * Norm(bound, NORM_INFINITY));
     sam_call(SamSum(grid->comm, 1, &within));
     sam_assert(within <= 1);
-    sam_call(VecDestroy(&bound));
-    sam_call(VecDestroy(&shear));
+    sam_destroy(&bound, &shear);
     sam_call(SamGridDestroy(&grid));
   }
 }

@@ -325,12 +325,7 @@ static void test_derivatives_of_the_bound(void **state)
   sam_assert(NormOf(other) >= 1e-6 * MU * P);
   sam_call(VecAXPY(other, -eps * length, b.by_slip));
   sam_assert(NormOf(other) <= 1e-8 * MU * P);
-  sam_call(VecDestroy(&at.pressure));
-  sam_call(VecDestroy(&at.slip));
-  sam_call(VecDestroy(&b.value));
-  sam_call(VecDestroy(&b.by_pressure));
-  sam_call(VecDestroy(&b.by_slip));
-  sam_call(VecDestroy(&other));
+  sam_destroy(&at.pressure, &at.slip, &b.value, &b.by_pressure, &b.by_slip, &other);
   DestroyCase(&c);
 }
 

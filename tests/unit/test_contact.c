@@ -236,15 +236,11 @@ static void test_controls_that_are_none_are_refused(void **state)
 /* There is no edge that the contact could reach, and nothing turns. */
 static void test_periodic_bodies_have_no_edge_and_no_moments(void **state)
 {
-  Sphere     s = NewSphereOf(Steel(), 40, 0.8);
-  SamControl control;
-  SamStep    step;
-  Case       c;
+  Case             c       = NewPeriodic(Steel(), 40, 0.8, 1, MU, "");
+  const SamControl control = Loads(&c, 4, 0.3, 0, 0);
+  SamStep          step;
 
   (void)state;
-  sam_call(SamElasticitySetType(s.elasticity, SAM_ELASTICITY_PERIODIC));
-  c       = NewCaseOn(s, MU, NULL, "");
-  control = Loads(&c, 4, 0.3, 0, 0);
   for (PetscInt k = SAM_COMPONENT_MX; k < SAM_COMPONENTS; k++) {
     for (int force = 0; force < 2; force++) {
       SamControl turned = control;
@@ -275,7 +271,7 @@ static void test_gap_that_is_no_number_is_told(void **state)
     AddAt(s.grid, 0, 11, 23, NAN, s.h); /* one cell, of the last rank */
     c       = NewCaseOn(s, MU, NULL, "");
     control = Loads(&c, 1, 0.3, 0, 0);
-    for (PetscInt k = SAM_COMPONENT_MX; k < SAM_COMPONENTS; k++) Displace(&control, (SamComponent)k, 0);
+    HoldRotations(&control);
     if (kind % 2) Displace(&control, SAM_COMPONENT_N, 1e-6);
     step = Try(&c, &control);
     sam_assert(step.status == SAM_STATUS_NOT_CONVERGED && strstr(step.message, "NAN"));
@@ -288,20 +284,15 @@ static void test_gap_that_is_no_number_is_told(void **state)
 /* The mean of the tractions, most of them here, has no part in what the bodies do to each other. */
 static void test_dissimilar_periodic_bodies_in_full_contact_pass_their_check(void **state)
 {
-  Sphere     s = NewSphereOf(Dissimilar(), 36, 1.5);
-  Case       c;
-  SamControl control;
+  Case       c       = NewPeriodic(Dissimilar(), 36, 1.5, 1e-3, 0.2, "");
+  SamControl control = Loads(&c, 1, 0.4, 0.1, 0);
   SamStep    step;
 
   (void)state;
-  sam_call(SamElasticitySetType(s.elasticity, SAM_ELASTICITY_PERIODIC));
-  sam_call(VecScale(s.h, 1e-3));
-  c       = NewCaseOn(s, 0.2, NULL, "");
-  control = Loads(&c, 1, 0.4, 0.1, 0);
-  for (PetscInt k = SAM_COMPONENT_MX; k < SAM_COMPONENTS; k++) Displace(&control, (SamComponent)k, 0);
+  HoldRotations(&control);
   step = Solve(&c, &control);
   AssertGood(&step);
-  sam_assert_close(NumberOf(&c, "contact_area"), 9 * s.a * s.a, 1e-12 * s.a * s.a);
+  sam_assert_close(NumberOf(&c, "contact_area"), 9 * c.s.a * c.s.a, 1e-12 * c.s.a * c.s.a);
   DestroyCase(&c);
 }
 

@@ -44,8 +44,7 @@ static void test_edge_of_hertz_is_found_to_a_fraction_of_a_cell(void **state)
     sam_assert(edge.faces > 0 && edge.good == edge.faces);
     sam_assert_close(edge.area / (PETSC_PI * 1e-6), 1, 2e-4);
     sam_assert(errors[1] < errors[0] / 6);
-    sam_call(VecDestroy(&w));
-    sam_call(VecDestroy(&point));
+    sam_destroy(&w, &point);
     DestroyCase(&c);
   }
 }
@@ -313,8 +312,7 @@ static void test_rough_zone_is_counted(void **state)
   same = SameBits(w, point);
   sam_assert(same && edge.good == 0 && edge.faces == faces && edge.cells == (PetscInt)cells);
   sam_assert_close(edge.area, cells - 0.09 * faces, 1e-9 * cells);
-  sam_call(VecDestroy(&w));
-  sam_call(VecDestroy(&point));
+  sam_destroy(&w, &point);
   sam_call(SamGridDestroy(&grid));
 }
 
@@ -378,8 +376,7 @@ static void test_edge_does_not_depend_on_the_ranks(void **state)
     free(a);
     free(b);
     for (int k = 0; k < 2; k++) sam_call(VecDestroy(&points[k]));
-    sam_call(VecDestroy(&w));
-    sam_call(VecDestroy(&v));
+    sam_destroy(&w, &v);
     sam_call(SamGridDestroy(&grid));
     sam_call(SamGridDestroy(&own));
   }

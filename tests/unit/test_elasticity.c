@@ -76,9 +76,7 @@ static void AssertProduct(Product product, PetscBool tangential_in, PetscBool ta
       sam_call(product(C, in, in));
       sam_assert_close(Difference(in, exact, NORM_INFINITY), 0, tolerance);
     }
-    sam_call(VecDestroy(&in));
-    sam_call(VecDestroy(&out));
-    sam_call(VecDestroy(&exact));
+    sam_destroy(&in, &out, &exact);
     sam_call(SamElasticityDestroy(&C));
     sam_call(SamGridDestroy(&grid));
   }
@@ -137,9 +135,7 @@ static void AssertSingleProduct(PetscInt      components, PetscErrorCode (*produ
     sam_assert(Norm(exact, NORM_INFINITY) > 0.1);
     sam_assert_close(Difference(out, exact, NORM_2), 0, 3e-7 * Norm(exact, NORM_2)); /* what the solver counts on */
     free(work);
-    sam_call(VecDestroy(&in));
-    sam_call(VecDestroy(&out));
-    sam_call(VecDestroy(&exact));
+    sam_destroy(&in, &out, &exact);
     sam_call(SamElasticityDestroy(&C));
     sam_call(SamGridDestroy(&grid));
   }
@@ -172,8 +168,7 @@ static Traction NewTraction(SamGrid grid, PetscInt seed)
 
 static void DestroyTraction(Traction *t)
 {
-  sam_call(VecDestroy(&t->q));
-  sam_call(VecDestroy(&t->p));
+  sam_destroy(&t->q, &t->p);
 }
 
 /* y.Kx, and the sum of the sizes of its four parts. */
@@ -192,8 +187,7 @@ static double Work(SamElasticity C, const Traction *y, const Traction *x, double
   *size += Norm(y->q, NORM_2) * Norm(ut, NORM_2);
   sam_call(SamElasticityApplyNormalToTangential(C, x->p, ut));
   part[3] = Dot(y->q, ut);
-  sam_call(VecDestroy(&uz));
-  sam_call(VecDestroy(&ut));
+  sam_destroy(&uz, &ut);
   return part[0] + part[1] + part[2] + part[3];
 }
 
@@ -346,9 +340,7 @@ static void AssertRelated(SamGrid grid, SamPair first, SamPair second, double fa
     sam_call(products[k](B, in, b));
     sam_call(VecScale(b, k < 2 ? factor : coupling_factor));
     sam_assert_close(Difference(a, b, NORM_INFINITY), 0, tolerance);
-    sam_call(VecDestroy(&in));
-    sam_call(VecDestroy(&a));
-    sam_call(VecDestroy(&b));
+    sam_destroy(&in, &a, &b);
   }
   sam_call(SamElasticityDestroy(&A));
   sam_call(SamElasticityDestroy(&B));
@@ -397,18 +389,14 @@ static void test_rigid_body_contributes_nothing(void **state)
   sam_call(SamElasticityApplyNormal(two, b, b));
   sam_call(VecScale(b, 0.5));
   sam_assert_close(Difference(a, b, NORM_INFINITY), 0, tolerance);
-  sam_call(VecDestroy(&a));
-  sam_call(VecDestroy(&b));
+  sam_destroy(&a, &b);
   a = Copy(q);
   b = Copy(q);
   sam_call(SamElasticityApplyTangential(one, a, a));
   sam_call(SamElasticityApplyTangential(two, b, b));
   sam_call(VecScale(b, 0.5));
   sam_assert_close(Difference(a, b, NORM_INFINITY), 0, tolerance);
-  sam_call(VecDestroy(&a));
-  sam_call(VecDestroy(&b));
-  sam_call(VecDestroy(&p));
-  sam_call(VecDestroy(&q));
+  sam_destroy(&a, &b, &p, &q);
   sam_call(SamElasticityDestroy(&one));
   sam_call(SamElasticityDestroy(&two));
   sam_call(SamGridDestroy(&grid));

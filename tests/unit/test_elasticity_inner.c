@@ -2,19 +2,13 @@
   A type of elasticity from outside the library that adds to another one: a half-space and a layer of springs on it,
   u_z += c p and u_t += c q/2, stiffer here and softer there. Contacts on it through nested grids and parts.
 */
-#include "contacts.h"
+#include "elasticities.h"
+#include "springs.h"
 
 #include <petsam/normal.h>
 #include <petsam/private/elasticity.h>
-#include <petsam/private/elasticityimpl.h>
-#include <petsam/stress.h>
 
 #define SIDEWAYS 0.5 /* c of shear over that of pressure */
-
-/* The mean compliance of the springs, m/Pa; the same on all grids. */
-typedef struct {
-  double mean;
-} Springs;
 
 /* The compliance in cell k of this rank, by its place on the finest grid. */
 static double ComplianceAt(SamElasticity e, PetscInt k)
@@ -22,7 +16,7 @@ static double ComplianceAt(SamElasticity e, PetscInt k)
   const double x = e->first[0] + (0.5 + (double)(k % e->grid->nx)) * e->factor[0],
                y = e->first[1] + (0.5 + (double)(e->grid->row_start + k / e->grid->nx)) * e->factor[1];
 
-  return ((const Springs *)e->data)->mean * (1 + 0.6 * sin(0.31 * x) * cos(0.23 * y));
+  return SizeOf(e) * (1 + 0.6 * sin(0.31 * x) * cos(0.23 * y));
 }
 
 typedef PetscErrorCode (*Method)(SamElasticity, const double *const[], double *const[]);
@@ -86,7 +80,7 @@ static PetscErrorCode ApplyTangentialSingle(SamElasticity e, double scale, const
 
 static PetscErrorCode GetSelfInfluence(SamElasticity e, PetscReal *normal, PetscReal *tangential)
 {
-  const double mean = ((const Springs *)e->data)->mean;
+  const double mean = SizeOf(e);
 
   PetscFunctionBegin;
   PetscCall(SamElasticityGetSelfInfluence(e->inner, normal, tangential));
@@ -95,63 +89,15 @@ static PetscErrorCode GetSelfInfluence(SamElasticity e, PetscReal *normal, Petsc
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode SetFromOptions(SamElasticity e, const SamOptions *from)
-{
-  PetscFunctionBegin;
-  PetscCall(SamOptionsReal(from, "springs_compliance", "mean compliance of the springs (m/Pa)", SAM_RANGE_POSITIVE,
-                           &((Springs *)e->data)->mean, NULL));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode Inherit(SamElasticity parent, SamElasticity child)
-{
-  *(Springs *)child->data = *(const Springs *)parent->data;
-  return 0;
-}
-
-static PetscErrorCode AddParameters(SamElasticity e, SamParameters *p)
-{
-  const PetscReal mean = ((const Springs *)e->data)->mean;
-
-  PetscFunctionBegin;
-  PetscCall(SamParametersAddReals(p, "springs_compliance", PETSC_TRUE, 1, &mean));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode SetParameters(SamElasticity e, const SamParameters *p, const char source[])
-{
-  const SamParameter *mean = SamParametersFind(p, "springs_compliance");
-
-  PetscFunctionBegin;
-  PetscCheck(mean, e->grid->comm, SAM_ERR_FILE, "%s: it lacks springs_compliance", source);
-  ((Springs *)e->data)->mean = mean->value[0];
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode Destroy(SamElasticity e)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscFree(e->data));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static PetscErrorCode CreateSprings(SamElasticity e)
 {
-  Springs *data;
-
   PetscFunctionBegin;
-  PetscCall(PetscNew(&data));
-  e->data = data;
-  e->ops  = (SamElasticityOps){.setfromoptions        = SetFromOptions,
-                               .inherit               = Inherit,
-                               .addparameters         = AddParameters,
-                               .setparameters         = SetParameters,
-                               .destroy               = Destroy,
-                               .applynormal           = ApplyNormal,
-                               .applytangential       = ApplyTangential,
-                               .applynormalsingle     = ApplyNormalSingle,
-                               .applytangentialsingle = ApplyTangentialSingle,
-                               .getselfinfluence      = GetSelfInfluence};
+  PetscCall(BeginSprings(e, 0));
+  e->ops.applynormal           = ApplyNormal;
+  e->ops.applytangential       = ApplyTangential;
+  e->ops.applynormalsingle     = ApplyNormalSingle;
+  e->ops.applytangentialsingle = ApplyTangentialSingle;
+  e->ops.getselfinfluence      = GetSelfInfluence;
   PetscCall(SamElasticitySetInner(e, SAM_ELASTICITY_HALFSPACE));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -164,8 +110,7 @@ static void AddSprings(Sphere *s)
   char options[128];
 
   sam_call(SamElasticityRegister("springs", CreateSprings));
-  (void)snprintf(options, sizeof(options), "-elasticity springs -springs_compliance %.17g",
-                 0.7 * s->a * s->a / s->R / s->p0);
+  (void)snprintf(options, sizeof(options), "-elasticity springs -springs_size %.17g", 0.7 * s->a * s->a / s->R / s->p0);
   SetOptions(options);
   sam_call(SamElasticitySetFromOptions(s->elasticity));
   SetOptions("");
@@ -191,15 +136,6 @@ static Vec NewDiagonal(const Sphere *s, double factor)
   return d;
 }
 
-/* The half-space alone. */
-static SamElasticity NewPlain(const Sphere *s)
-{
-  SamElasticity plain;
-
-  sam_call(SamElasticityCreate(s->grid, s->pair, &plain));
-  return plain;
-}
-
 /* The pressure is that of a half-space whose surface yields by a diagonal besides, which the solver knows by itself. */
 static void test_pressure_is_that_with_a_diagonal(void **state)
 {
@@ -210,7 +146,7 @@ static void test_pressure_is_that_with_a_diagonal(void **state)
     Sphere        s       = NewOn(PETSC_COMM_WORLD, Steel(), 117, half_width[k]);
     SamBalance    balance = {.kind = SAM_BALANCE_NORMAL, .force = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE}, .load = {s.N}};
     SamBalance    other   = balance;
-    SamElasticity plain   = NewPlain(&s);
+    SamElasticity plain   = NewCompliance(s.grid, s.pair);
     Vec           d = NewDiagonal(&s, 1), p = NewField(s.grid, 1), q = NewField(s.grid, 1);
     SamNormal     normal;
     PetscInt      first[2], n[2];
@@ -226,9 +162,7 @@ static void test_pressure_is_that_with_a_diagonal(void **state)
     sam_assert_close(balance.rigid[0], other.rigid[0], 1e-8 * other.rigid[0]);
     sam_call(SamNormalDestroy(&normal));
     sam_call(SamElasticityDestroy(&plain));
-    sam_call(VecDestroy(&d));
-    sam_call(VecDestroy(&p));
-    sam_call(VecDestroy(&q));
+    sam_destroy(&d, &p, &q);
     DestroySphere(&s);
   }
 }
@@ -279,8 +213,7 @@ static double Slip(const Case *c, const SamSolution *s, SamElasticity plain)
   sam_call(VecRestoreArrayRead(s->shear, &q));
   sam_call(VecRestoreArrayRead(d, &own));
   sam_call(VecRestoreArray(u, &displacement));
-  sam_call(VecDestroy(&u));
-  sam_call(VecDestroy(&d));
+  sam_destroy(&u, &d);
   sam_call(SamMax(grid->comm, 2, worst));
   return worst[0] / worst[1];
 }
@@ -289,7 +222,7 @@ static double Slip(const Case *c, const SamSolution *s, SamElasticity plain)
 static void test_sticking_cells_move_together(void **state)
 {
   Case          c     = NewCaseOn(NewOn(PETSC_COMM_WORLD, Steel(), 82, 3.2), MU, NULL, "");
-  SamElasticity plain = NewPlain(&c.s);
+  SamElasticity plain = NewCompliance(c.s.grid, c.s.pair);
 
   (void)state;
   sam_assert_close(Slip(&c, SolveSlip(&c), plain), 0, 1e-6);
@@ -351,7 +284,7 @@ static void test_grids_and_parts_know_their_place(void **state)
   sam_call(SamElasticityChoosePart(coarse, (const PetscInt[2]){8, 11}, (const PetscInt[2]){12, 12}, PETSC_FALSE,
                                    &window, &part));
   AssertPlace(part, 10, 16, 2);
-  sam_assert(((const Springs *)part->data)->mean == ((const Springs *)s.elasticity->data)->mean);
+  sam_assert(SizeOf(part) == SizeOf(s.elasticity));
   DestroySphere(&s);
 }
 
@@ -359,7 +292,7 @@ static void test_grids_and_parts_know_their_place(void **state)
 static void test_all_else_is_the_inner_ones(void **state)
 {
   Sphere              s     = NewOn(PETSC_COMM_WORLD, Dissimilar(), 40, 2);
-  SamElasticity       plain = NewPlain(&s), same;
+  SamElasticity       plain = NewCompliance(s.grid, s.pair), same;
   SamElasticityTraits traits[2];
   SamParameters       p = {.count = 0};
   SamStress           stress;
@@ -388,9 +321,7 @@ static void test_all_else_is_the_inner_ones(void **state)
   sam_assert(Difference(a, r, NORM_INFINITY) == 0);
   sam_call(SamElasticityDestroy(&same));
   sam_call(SamElasticityDestroy(&plain));
-  sam_call(VecDestroy(&r));
-  sam_call(VecDestroy(&a));
-  sam_call(VecDestroy(&b));
+  sam_destroy(&r, &a, &b);
   DestroySphere(&s);
 }
 
@@ -495,9 +426,7 @@ static void test_bodies_remember_what_a_step_left(void **state)
     DestroyCase(&d);
   }
   DestroyCase(&c);
-  sam_call(VecDestroy(&left));
-  sam_call(VecDestroy(&q));
-  sam_call(VecDestroy(&p));
+  sam_destroy(&left, &q, &p);
 }
 
 int main(int argc, char **argv)

@@ -1,19 +1,13 @@
 /*
   Types of elasticity: choice by name and by options, types from outside the library, traits, parts that are kept.
 */
-#include "fields.h"
+#include "elasticities.h"
 #include "preconditioners.h"
-
-#include <petsam/private/elasticityimpl.h>
-#include <petsam/stress.h>
+#include "springs.h"
 
 static SamElasticity NewElasticity(SamGrid grid)
 {
-  const SamPair pair = NewPair(210e9, 0.3, 70e9, 0.2);
-  SamElasticity e;
-
-  sam_call(SamElasticityCreate(grid, pair, &e));
-  return e;
+  return NewCompliance(grid, Dissimilar());
 }
 
 static void AssertType(SamElasticity e, const char expected[])
@@ -26,14 +20,9 @@ static void AssertType(SamElasticity e, const char expected[])
 
 /* ---- a type of our own: a bed of springs, of a depth that coarse grids and parts have as well ---- */
 
-typedef struct {
-  double   depth;
-  PetscInt setups;
-} Springs;
-
 static double Stiffness(SamElasticity e)
 {
-  return e->pair->modulus / ((const Springs *)e->data)->depth;
+  return e->pair->modulus / SizeOf(e);
 }
 
 static PetscErrorCode SpringsApply(SamElasticity e, const double *const p[], double *const u[])
@@ -60,72 +49,16 @@ static PetscErrorCode SpringsSelfInfluence(SamElasticity e, PetscReal *normal, P
   return 0;
 }
 
-static PetscErrorCode SpringsSetFromOptions(SamElasticity e, const SamOptions *from)
-{
-  PetscFunctionBegin;
-  PetscCall(SamOptionsReal(from, "springs_depth", "depth of the bed (m)", SAM_RANGE_POSITIVE,
-                           &((Springs *)e->data)->depth, NULL));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode SpringsInherit(SamElasticity parent, SamElasticity child)
-{
-  ((Springs *)child->data)->depth = ((const Springs *)parent->data)->depth;
-  return 0;
-}
-
-static PetscErrorCode SpringsAddParameters(SamElasticity e, SamParameters *p)
-{
-  const PetscReal depth = ((const Springs *)e->data)->depth;
-
-  PetscFunctionBegin;
-  PetscCall(SamParametersAddReals(p, "springs_depth", PETSC_TRUE, 1, &depth));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode SpringsSetParameters(SamElasticity e, const SamParameters *p, const char source[])
-{
-  const SamParameter *depth = SamParametersFind(p, "springs_depth");
-
-  PetscFunctionBegin;
-  PetscCheck(depth, e->grid->comm, SAM_ERR_FILE, "%s: it lacks springs_depth", source);
-  ((Springs *)e->data)->depth = depth->value[0];
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode SpringsSetUp(SamElasticity e)
-{
-  ((Springs *)e->data)->setups++;
-  return 0;
-}
-
-static PetscErrorCode SpringsDestroy(SamElasticity e)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscFree(e->data));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static PetscErrorCode CreateSprings(SamElasticity e)
 {
-  Springs *data;
-
   PetscFunctionBegin;
-  PetscCall(PetscNew(&data));
-  data->depth = 1e-3;
-  e->data     = data;
+  PetscCall(BeginSprings(e, 1e-3));
   e->traits =
     (SamElasticityTraits){.rotations = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE}, .mean = PETSC_TRUE, .parts = PETSC_TRUE};
-  e->ops = (SamElasticityOps){.setfromoptions     = SpringsSetFromOptions,
-                              .inherit            = SpringsInherit,
-                              .addparameters      = SpringsAddParameters,
-                              .setparameters      = SpringsSetParameters,
-                              .setup              = SpringsSetUp,
-                              .destroy            = SpringsDestroy,
-                              .applynormal        = SpringsApply,
-                              .applynormalsingle  = SpringsApplySingle,
-                              .preconditionnormal = SpringsPrecondition,
-                              .getselfinfluence   = SpringsSelfInfluence};
+  e->ops.applynormal        = SpringsApply;
+  e->ops.applynormalsingle  = SpringsApplySingle;
+  e->ops.preconditionnormal = SpringsPrecondition;
+  e->ops.getselfinfluence   = SpringsSelfInfluence;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -152,7 +85,7 @@ static void test_a_type_from_outside_works(void **state)
   sam_call(SamElasticityGetTypes(types, sizeof(types)));
   sam_assert(!strcmp(types, "halfspace, periodic, plane, plane_periodic or springs"));
   sam_call(SamElasticitySetOptionsPrefix(e, "lower_"));
-  sam_call(PetscOptionsInsertString(NULL, "-lower_elasticity springs -lower_springs_depth 0.01"));
+  sam_call(PetscOptionsInsertString(NULL, "-lower_elasticity springs -lower_springs_size 0.01"));
   sam_call(SamElasticitySetFromOptions(e));
   AssertType(e, "springs");
   sam_call(SamElasticityApplyNormal(e, p, u));
@@ -171,9 +104,8 @@ static void test_a_type_from_outside_works(void **state)
   sam_assert(SelfInfluence(part) == SelfInfluence(e));
   sam_fails(SamElasticityApplyNormalToTangential(e, p, u), PETSC_ERR_SUP); /* it is not coupled */
   sam_call(PetscOptionsClearValue(NULL, "-lower_elasticity"));
-  sam_call(PetscOptionsClearValue(NULL, "-lower_springs_depth"));
-  sam_call(VecDestroy(&p));
-  sam_call(VecDestroy(&u));
+  sam_call(PetscOptionsClearValue(NULL, "-lower_springs_size"));
+  sam_destroy(&p, &u);
   sam_call(SamElasticityDestroy(&e));
   sam_call(SamGridDestroy(&grid));
 }
@@ -199,7 +131,7 @@ static void test_bodies_come_back_from_their_parameters(void **state)
   (void)state;
   sam_call(SamElasticityRegister("springs", CreateSprings));
   sam_call(SamElasticitySetType(e, "springs"));
-  ((Springs *)e->data)->depth = 0.25;
+  ((Springs *)e->data)->size = 0.25;
   sam_call(SamElasticityAddParameters(e, &p));
   sam_assert(p.count == 6);
   sam_call(SamElasticityCreateFromParameters(other, &p, "-input x.h5", &same));
@@ -292,9 +224,7 @@ static void test_transforms_have_the_settings_of_their_object(void **state)
   sam_call(VecAXPY(v, -1, u));
   sam_assert(Norm(v, NORM_INFINITY) == 0);
   sam_call(PetscOptionsClearValue(NULL, "-a_fft_exchange"));
-  sam_call(VecDestroy(&p));
-  sam_call(VecDestroy(&u));
-  sam_call(VecDestroy(&v));
+  sam_destroy(&p, &u, &v);
   sam_call(SamElasticityDestroy(&e));
   sam_call(SamElasticityDestroy(&other));
   sam_call(SamGridDestroy(&grid));
@@ -319,9 +249,7 @@ static void test_a_change_of_type_forgets_what_the_old_one_made(void **state)
   sam_call(SamElasticityApplyNormal(other, p, v));
   sam_call(VecAXPY(v, -1, u));
   sam_assert(Norm(u, NORM_INFINITY) > 0 && Norm(v, NORM_INFINITY) == 0);
-  sam_call(VecDestroy(&p));
-  sam_call(VecDestroy(&u));
-  sam_call(VecDestroy(&v));
+  sam_destroy(&p, &u, &v);
   sam_call(SamElasticityDestroy(&e));
   sam_call(SamElasticityDestroy(&other));
   sam_call(SamGridDestroy(&grid));
@@ -429,9 +357,7 @@ static void test_release_changes_nothing(void **state)
     sam_call(VecAXPY(v, -1, u));
     sam_assert(Norm(v, NORM_INFINITY) == 0);
   }
-  sam_call(VecDestroy(&p));
-  sam_call(VecDestroy(&u));
-  sam_call(VecDestroy(&v));
+  sam_destroy(&p, &u, &v);
   sam_call(SamElasticityDestroy(&e));
   sam_call(SamGridDestroy(&grid));
 }

@@ -12,30 +12,6 @@
 
 enum { CELLS = 44 * 44 };
 
-static int World(void)
-{
-  return (int)MPI_Comm_c2f(PETSC_COMM_WORLD);
-}
-
-static petsam_contact *NewContact(int comm, const char *options)
-{
-  petsam_contact *c    = NULL;
-  const int       code = petsam_create(comm, options, &c);
-
-  if (code) print_error("%d: %s\n", code, petsam_message(NULL));
-  sam_assert(code == 0 && c && petsam_message(NULL)[0] == '\0');
-  return c;
-}
-
-/* N and T_x are given, and no motion of the others. */
-static int TryLoads(petsam_contact *c, double N, double T, double load[6], double rigid[6])
-{
-  const int    force[6] = {1, 1, 1, 1, 1, 1};
-  const double value[6] = {N, T, 0, 0, 0, 0};
-
-  return TryComponents(c, 1, force, value, load, rigid);
-}
-
 /* The gap of a sphere as the other tests compute it, which is that of the options but for rounding. */
 static void GiveGap(petsam_contact *c, const Sphere *s)
 {
@@ -125,12 +101,6 @@ static void test_rejected_try_leaves_no_trace(void **state)
 }
 
 /* ---- mistakes ---- */
-
-static int Says(const petsam_contact *c, const char *words)
-{
-  if (!strstr(petsam_message(c), words)) print_error("\"%s\" lacks \"%s\"\n", petsam_message(c), words);
-  return strstr(petsam_message(c), words) != NULL;
-}
 
 static void Refuses(const char *options, int code, const char *words)
 {

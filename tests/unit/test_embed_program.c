@@ -13,21 +13,6 @@ enum { ROWS = 5, STEPS = 2 * (ROWS - 1) + 1 };
 static const char   columns[]        = "time,disp_z,disp_x";
 static const double values[3 * ROWS] = {0, 7e-6, 0, 1, 7e-6, 5e-7, 2, 7e-6, 0, 3, 7e-6, -5e-7, 4, 7e-6, 0};
 
-static petsam_contact *NewContact(int comm)
-{
-  petsam_contact *c    = NULL;
-  const int       code = petsam_create(comm, OPTIONS, &c);
-
-  if (code) print_error("%d: %s\n", code, petsam_message(NULL));
-  sam_assert(code == 0 && c);
-  return c;
-}
-
-static int World(void)
-{
-  return (int)MPI_Comm_c2f(PETSC_COMM_WORLD);
-}
-
 /* The numbers of the steps or cycles of a run, as the monitor sees them; it stops after `most`. */
 typedef struct {
   int    count, most, refused;
@@ -54,7 +39,7 @@ static void AssertSameLogs(const Log *a, const Log *b)
 
 static void test_history_has_the_same_bits_on_any_ranks(void **state)
 {
-  petsam_contact *all = NewContact(World()), *one = NewContact(-1);
+  petsam_contact *all = NewContact(World(), OPTIONS), *one = NewContact(-1, OPTIONS);
   Log             a = {.most = 0}, b = {.most = 0};
 
   (void)state;
@@ -68,7 +53,7 @@ static void test_history_has_the_same_bits_on_any_ranks(void **state)
 
 static void test_life_has_the_same_bits_on_any_ranks(void **state)
 {
-  petsam_contact *all = NewContact(World()), *one = NewContact(-1);
+  petsam_contact *all = NewContact(World(), OPTIONS), *one = NewContact(-1, OPTIONS);
   Log             a = {.most = 0}, b = {.most = 0};
 
   (void)state;
@@ -83,7 +68,7 @@ static void test_life_has_the_same_bits_on_any_ranks(void **state)
 /* Steps that were solved before the stop are committed: another contact that does only these is the same. */
 static void test_monitor_stops_after_a_step(void **state)
 {
-  petsam_contact *c = NewContact(World()), *other = NewContact(World());
+  petsam_contact *c = NewContact(World(), OPTIONS), *other = NewContact(World(), OPTIONS);
   Log             a = {.most = 6}, b = {.most = 0};
   double          load[6], same[6];
   const int       force[6] = {0, 0, 1, 1, 1, 1};
@@ -104,7 +89,7 @@ static void test_monitor_stops_after_a_step(void **state)
 static void test_run_that_fails_keeps_what_it_committed(void **state)
 {
   const double    rows[] = {1, 500, 0, 2, 500, 100, 3, 500, 1e4}, next[] = {10, 700, 50};
-  petsam_contact *c = NewContact(World()), *d = NewContact(World());
+  petsam_contact *c = NewContact(World(), OPTIONS), *d = NewContact(World(), OPTIONS);
   Log             a = {.most = 0}, b = {.most = 0};
   double          time, load[6], same[6], *field = (double *)malloc(sizeof(double) * 37 * 29);
 
@@ -150,9 +135,9 @@ static int Meddle(void *context, petsam_contact *c, int cycle)
 
 static void test_monitor_cannot_change_its_contact(void **state)
 {
-  petsam_contact *c = NewContact(World()), *d = NewContact(World());
+  petsam_contact *c = NewContact(World(), OPTIONS), *d = NewContact(World(), OPTIONS);
   Log             b = {.most = 0};
-  Meddler         m = {.other = NewContact(World())};
+  Meddler         m = {.other = NewContact(World(), OPTIONS)};
 
   (void)state;
   sam_assert(petsam_history(c, columns, ROWS, values, Meddle, &m) == 0 && m.refused == 2 * (STEPS + 1) && m.copied);
@@ -166,7 +151,7 @@ static void test_monitor_cannot_change_its_contact(void **state)
 
 static void test_copy_goes_on_and_reset_begins_anew(void **state)
 {
-  petsam_contact *c = NewContact(World()), *copy = NewContact(World());
+  petsam_contact *c = NewContact(World(), OPTIONS), *copy = NewContact(World(), OPTIONS);
   Log             first = {.most = 0}, again = {.most = 0};
   int             shape[4];
   double          load[6], same[6];
@@ -191,7 +176,7 @@ static void test_copy_goes_on_and_reset_begins_anew(void **state)
 /* Steps after a life wear, as do those of a new contact that has loaded its state. */
 static void test_steps_after_a_life_wear(void **state)
 {
-  petsam_contact *c = NewContact(World()), *d = NewContact(World());
+  petsam_contact *c = NewContact(World(), OPTIONS), *d = NewContact(World(), OPTIONS);
   Log             a = {.most = 0}, b = {.most = 0};
   double          worn, before;
 
@@ -212,7 +197,7 @@ static void test_steps_after_a_life_wear(void **state)
 /* All ranks refuse what a copy cannot be of, also where the rows of only some of them differ. */
 static void test_copy_of_another_contact_is_refused(void **state)
 {
-  petsam_contact *c = NewContact(World()), *other = NULL;
+  petsam_contact *c = NewContact(World(), OPTIONS), *other = NULL;
   int             rank, size;
   MPI_Comm        reversed;
 
@@ -221,7 +206,7 @@ static void test_copy_of_another_contact_is_refused(void **state)
   (void)MPI_Comm_size(PETSC_COMM_WORLD, &size);
   (void)MPI_Comm_split(PETSC_COMM_WORLD, 0, -rank, &reversed);
   sam_assert(petsam_history(c, columns, ROWS, values, NULL, NULL) == 0);
-  other = NewContact((int)MPI_Comm_c2f(reversed));
+  other = NewContact((int)MPI_Comm_c2f(reversed), OPTIONS);
   sam_assert(petsam_copy(other, c) == (size > 1 ? 2 : 0));
   sam_assert(size == 1 || strstr(petsam_message(other), "different ranks"));
   petsam_destroy(&other);
@@ -249,7 +234,7 @@ static void test_steps_by_names(void **state)
                                   {"load_n,,load_tx", "name 2, \"\", is empty"},
                                   {"load_n, load_tx", "name 2, \" load_tx\", is empty or contains a blank"},
                                   {"load_n,roll", "at most the width of the grid"}};
-  petsam_contact   *c = NewContact(World()), *d = NewContact(-1);
+  petsam_contact   *c = NewContact(World(), OPTIONS), *d = NewContact(-1, OPTIONS);
   double            found[6], same[6], plain[6], rigid[6];
   const char       *unit;
   int               count;
@@ -283,7 +268,7 @@ static void test_steps_by_names(void **state)
 static void test_ranks_that_differ_are_refused(void **state)
 {
   const char      words[] = "call the same with the same on all of them";
-  petsam_contact *c = NewContact(World()), *other = NULL;
+  petsam_contact *c = NewContact(World(), OPTIONS), *other = NULL;
   const int       none[6] = {0};
   int             rank, size;
 
@@ -315,7 +300,7 @@ static void test_ranks_that_differ_are_refused(void **state)
 
 static void test_mistakes_are_named(void **state)
 {
-  petsam_contact *c      = NewContact(World());
+  petsam_contact *c      = NewContact(World(), OPTIONS);
   double          bad[3] = {0, 7e-6, NAN};
 
   (void)state;

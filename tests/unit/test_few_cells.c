@@ -35,10 +35,7 @@ static Case NewCase(void)
 
 static void DestroyCase(Case *c)
 {
-  sam_call(VecDestroy(&c->h));
-  sam_call(VecDestroy(&c->p));
-  sam_call(VecDestroy(&c->bound));
-  sam_call(VecDestroy(&c->q));
+  sam_destroy(&c->h, &c->p, &c->bound, &c->q);
   sam_call(SamElasticityDestroy(&c->elasticity));
   sam_call(SamGridDestroy(&c->grid));
 }

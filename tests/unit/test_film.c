@@ -35,9 +35,7 @@ static void AssertFilm(SamElasticity with, SamElasticity without)
   sam_call(SamElasticityApplyTangential(without, q, v));
   sam_call(VecAXPY(v, FILM, q));
   sam_assert(Difference(u, v, NORM_INFINITY) < 1e-14);
-  sam_call(VecDestroy(&q));
-  sam_call(VecDestroy(&u));
-  sam_call(VecDestroy(&v));
+  sam_destroy(&q, &u, &v);
 }
 
 /* In single precision, in place or not; `factor` times the product. */
@@ -69,8 +67,7 @@ static void AssertSingle(SamElasticity e)
   sam_call(VecRestoreArray(u, &exact));
   free(x);
   free(y);
-  sam_call(VecDestroy(&q));
-  sam_call(VecDestroy(&u));
+  sam_destroy(&q, &u);
 }
 
 static void test_products_have_the_film(void **state)
@@ -135,8 +132,7 @@ static void test_preconditioner_knows_the_film(void **state)
   sam_assert(wrong == 0);
   sam_call(VecRestoreArray(q, &a));
   free(r);
-  sam_call(VecDestroy(&q));
-  sam_call(VecDestroy(&u));
+  sam_destroy(&q, &u);
   sam_call(SamElasticityDestroy(&e));
   sam_call(SamGridDestroy(&grid));
 }

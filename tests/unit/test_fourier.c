@@ -147,9 +147,7 @@ static void AssertConvolution(SamGrid grid, SamFourier fourier, PetscInt n_in, P
 
   for (PetscInt o = 0; o < n_out; o++)
     for (PetscInt c = 0; c < n_in; c++) sam_call(SamKernelDestroy(&matrix.kernel[o][c]));
-  sam_call(VecDestroy(&in));
-  sam_call(VecDestroy(&out));
-  sam_call(VecDestroy(&exact));
+  sam_destroy(&in, &out, &exact);
 }
 
 static void AssertConvolutionOn(const PetscInt n[2], PetscInt n_in, PetscInt n_out, const int parity[3][3],
@@ -339,8 +337,7 @@ static void AssertIdentity(SamFourierMode mode, SamFourierPeriod period)
     sam_call(VecScale(out, 1 / ((mode == SAM_FOURIER_PADDED ? 4.0 : 1.0) * (double)hx * (double)hy)));
     sam_assert_close(Difference(out, in, NORM_INFINITY), 0, tolerance);
     sam_call(SamFourierDestroy(&fourier));
-    sam_call(VecDestroy(&in));
-    sam_call(VecDestroy(&out));
+    sam_destroy(&in, &out);
     sam_call(SamGridDestroy(&grid));
   }
 }
@@ -407,9 +404,7 @@ static void AssertFrequencies(PetscInt nx, PetscInt ny, SamFourierPeriod period)
   sam_call(VecScale(out, 1 / ((double)nx * (double)ny)));
   sam_assert_close(Difference(out, other, NORM_INFINITY), 0, tolerance);
   sam_call(SamFourierDestroy(&fourier));
-  sam_call(VecDestroy(&in));
-  sam_call(VecDestroy(&out));
-  sam_call(VecDestroy(&other));
+  sam_destroy(&in, &out, &other);
   sam_call(SamGridDestroy(&grid));
 }
 

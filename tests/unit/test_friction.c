@@ -14,11 +14,8 @@ static const char file[] = "test_friction.h5";
 /* The last value of the file is `last`. */
 static void WriteField(const char *name, double last)
 {
-  int rank;
-
   (void)MPI_Barrier(PETSC_COMM_WORLD);
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  if (rank == 0) {
+  if (Rank() == 0) {
     const hsize_t shape[2] = {NY, NX};
     const hid_t   f = H5Fcreate(file, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), s = H5Screate_simple(2, shape, NULL),
                 dataset = H5Dcreate2(f, name, H5T_NATIVE_DOUBLE, s, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
@@ -31,16 +28,6 @@ static void WriteField(const char *name, double last)
     (void)H5Sclose(s);
     (void)H5Fclose(f);
   }
-  (void)MPI_Barrier(PETSC_COMM_WORLD);
-}
-
-static void Remove(void)
-{
-  int rank;
-
-  (void)MPI_Barrier(PETSC_COMM_WORLD);
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  if (rank == 0) (void)unlink(file);
   (void)MPI_Barrier(PETSC_COMM_WORLD);
 }
 
@@ -122,7 +109,7 @@ static void test_field_is_that_of_the_file(void **state)
     sam_assert(good);
     DestroyRead(&r);
   }
-  Remove();
+  RemoveFile(file);
 }
 
 static void AssertRefused(const char *options, PetscErrorCode code, const char *one, const char *other)
@@ -155,7 +142,7 @@ static void test_wrong_values_of_the_file_are_named(void **state)
   AssertRefused("-friction_file test_friction.h5", SAM_ERR_FILE, "/friction[6, 12]", "finite");
   AssertRefused("-friction_file test_friction.h5 -friction_dataset /mu", SAM_ERR_FILE, "has no dataset /mu",
                 "-friction_dataset");
-  Remove();
+  RemoveFile(file);
 }
 
 /* A law of another file, which is a word of -friction_law. */

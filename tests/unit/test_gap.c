@@ -29,12 +29,6 @@ static SamGrid CreateGrid(int k)
   return grid;
 }
 
-static void SetOptions(const char *text)
-{
-  sam_call(PetscOptionsClear(NULL));
-  sam_call(PetscOptionsInsertString(NULL, text));
-}
-
 /* The separation that the options give on the grid; the caller destroys it. */
 static Vec Fill(SamGrid grid, const char *options)
 {
@@ -275,10 +269,7 @@ static double Stored(PetscInt i, PetscInt j)
 static void WriteDataset(const char *file, const char *name, hid_t type, int rank, const hsize_t shape[],
                          PetscBool chunked, double corner)
 {
-  int me;
-
-  MPI_Comm_rank(PETSC_COMM_WORLD, &me);
-  if (me == 0) {
+  if (!Rank()) {
     const hid_t f     = H5Fcreate(file, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT),
                 space = H5Screate_simple(rank, shape, NULL), creation = H5Pcreate(H5P_DATASET_CREATE);
     const hsize_t chunk[2] = {2, 3}, count = (hsize_t)H5Sget_simple_extent_npoints(space);
@@ -300,16 +291,6 @@ static void WriteDataset(const char *file, const char *name, hid_t type, int ran
     H5Fclose(f);
     free(values);
   }
-  (void)MPI_Barrier(PETSC_COMM_WORLD);
-}
-
-static void Remove(const char *file)
-{
-  int me;
-
-  (void)MPI_Barrier(PETSC_COMM_WORLD);
-  MPI_Comm_rank(PETSC_COMM_WORLD, &me);
-  if (me == 0) (void)unlink(file);
   (void)MPI_Barrier(PETSC_COMM_WORLD);
 }
 
@@ -348,7 +329,7 @@ static void test_file_gives_its_values_to_the_cells(void **state)
       sam_call(SamGridDestroy(&grid));
     }
   }
-  Remove(good_file);
+  RemoveFile(good_file);
 }
 
 static void test_roughness_is_added_to_any_shape(void **state)
@@ -378,14 +359,13 @@ static void test_roughness_is_added_to_any_shape(void **state)
       sam_call(VecAXPY(shape_only, 1, rough));
       sam_call(VecAXPY(shape_only, -1, h));
       sam_call(VecNorm(shape_only, NORM_INFINITY, &difference));
-      sam_call(VecDestroy(&shape_only));
-      sam_call(VecDestroy(&rough));
+      sam_destroy(&shape_only, &rough);
     }
     sam_assert(difference == 0);
     sam_call(VecDestroy(&h));
     sam_call(SamGridDestroy(&grid));
   }
-  Remove(good_file);
+  RemoveFile(good_file);
 }
 
 /* ---- wrong input ---- */
@@ -444,11 +424,8 @@ static void test_wrong_options_are_named(void **state)
 
 static void test_unusable_files_are_named_on_all_ranks(void **state)
 {
-  int me;
-
   (void)state;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &me);
-  if (me == 0) {
+  if (!Rank()) {
     FILE *file = fopen(text_file, "w");
 
     if (file) {
@@ -464,20 +441,18 @@ static void test_unusable_files_are_named_on_all_ranks(void **state)
               "is not an HDF5 file");
   AssertError("-gap_type flat -gap_rough_file test_gap_none.h5", SAM_ERR_FILE, "-gap_rough_file test_gap_none.h5",
               "cannot be read");
-  Remove(text_file);
+  RemoveFile(text_file);
 }
 
 static void test_truncated_file_is_refused(void **state)
 {
   const hsize_t shape[2] = {(hsize_t)sizes[0][1], (hsize_t)sizes[0][0]};
-  int           me;
 
   (void)state;
   WriteDataset(bad_file, "/height", H5T_NATIVE_DOUBLE, 2, shape, PETSC_FALSE, 0);
-  MPI_Comm_rank(PETSC_COMM_WORLD, &me);
-  sam_assert(me || !truncate(bad_file, 1000));
+  sam_assert(Rank() || !truncate(bad_file, 1000));
   AssertError("-gap_type file -gap_file test_gap_bad.h5", SAM_ERR_FILE, "-gap_file test_gap_bad.h5", "cannot be read");
-  Remove(bad_file);
+  RemoveFile(bad_file);
 }
 
 static void test_unfit_datasets_are_named_on_all_ranks(void **state)
@@ -507,7 +482,7 @@ static void test_unfit_datasets_are_named_on_all_ranks(void **state)
   WriteDataset(bad_file, "/height", text, 2, good, PETSC_FALSE, 0);
   H5Tclose(text);
   AssertError(options, SAM_ERR_FILE, "numbers", "/height");
-  Remove(bad_file);
+  RemoveFile(bad_file);
 }
 
 /* ---- help and registry ---- */
@@ -522,10 +497,8 @@ static void test_help_lists_the_options_of_all_shapes(void **state)
   FILE                    *usual = PETSC_STDOUT, *file = tmpfile();
   size_t                   length;
   SamGap                   gap;
-  int                      me;
 
   (void)state;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &me);
   sam_assert(file != NULL);
   SetOptions("-help -gap_rough_dataset /z");
   PETSC_STDOUT = file;
@@ -542,7 +515,7 @@ static void test_help_lists_the_options_of_all_shapes(void **state)
     char whole[64];
 
     (void)snprintf(whole, sizeof(whole), "%s ", names[k]);
-    sam_assert(me || strstr(text, whole));
+    sam_assert(Rank() || strstr(text, whole));
   }
 }
 

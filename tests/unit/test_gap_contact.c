@@ -11,8 +11,7 @@ static SamGap NewGap(const char *options)
 {
   SamGap gap;
 
-  sam_call(PetscOptionsClear(NULL));
-  sam_call(PetscOptionsInsertString(NULL, options));
+  SetOptions(options);
   sam_call(SamGapCreate(PETSC_COMM_WORLD, &gap));
   sam_call(SamGapSetFromOptions(gap));
   sam_call(PetscOptionsClear(NULL));

@@ -116,8 +116,7 @@ static void test_messages_do_not_meet_the_caller_s(void **state)
     (void)MPI_Wait(&request, MPI_STATUS_IGNORE);
   }
   sam_assert(!arrived);
-  sam_call(VecDestroy(&part));
-  sam_call(VecDestroy(&whole));
+  sam_destroy(&part, &whole);
   sam_call(SamWindowDestroy(&window));
   sam_call(SamGridDestroy(&grid));
 }
@@ -163,18 +162,15 @@ static void test_grid_from_options(void **state)
 
   (void)state;
   for (size_t k = 0; k < sizeof(wrong) / sizeof(wrong[0]); k++) {
-    sam_call(PetscOptionsClear(NULL));
-    sam_call(PetscOptionsInsertString(NULL, wrong[k]));
+    SetOptions(wrong[k]);
     sam_fails(FromOptions(&grid), SAM_ERR_USER);
   }
   for (size_t k = 0; k < sizeof(thin) / sizeof(thin[0]); k++) {
-    sam_call(PetscOptionsClear(NULL));
-    sam_call(PetscOptionsInsertString(NULL, thin[k]));
+    SetOptions(thin[k]);
     sam_call(FromOptions(&grid));
     sam_call(SamGridDestroy(&grid));
   }
-  sam_call(PetscOptionsClear(NULL));
-  sam_call(PetscOptionsInsertString(NULL, "-grid_n 8,5 -grid_size 2 -grid_center 1,-1"));
+  SetOptions("-grid_n 8,5 -grid_size 2 -grid_center 1,-1");
   sam_call(FromOptions(&grid));
   sam_assert(grid->nx == 8 && grid->ny == 5 && grid->width[0] == 2 && grid->width[1] == 2 && grid->center[0] == 1 &&
              grid->center[1] == -1);
@@ -234,8 +230,7 @@ static void test_restriction_keeps_the_integral(void **state)
       for (PetscInt c = 0; c < components; c++)
         sam_assert_close(SumOf(p.coarse, coarse, c), SumOf(p.fine, fine, c),
                          rounding * Norm(fine, NORM_1) * p.fine->dx * p.fine->dy);
-      sam_call(VecDestroy(&fine));
-      sam_call(VecDestroy(&coarse));
+      sam_destroy(&fine, &coarse);
       DestroyPair(&p);
     }
 }
@@ -261,8 +256,7 @@ static void test_constant_stays_constant_both_ways(void **state)
     sam_call(VecMax(fine, NULL, &most));
     sam_assert_close(least, 1, rounding);
     sam_assert_close(most, 1, rounding);
-    sam_call(VecDestroy(&fine));
-    sam_call(VecDestroy(&coarse));
+    sam_destroy(&fine, &coarse);
     DestroyPair(&p);
   }
 }
@@ -312,8 +306,7 @@ static void test_prolongation_is_linear_inside_and_constant_beyond(void **state)
         }
     sam_call(VecRestoreArrayRead(fine, &a));
     sam_assert_close(error, 0, 10 * rounding); /* values up to 7 */
-    sam_call(VecDestroy(&fine));
-    sam_call(VecDestroy(&coarse));
+    sam_destroy(&fine, &coarse);
     DestroyPair(&p);
   }
 }
@@ -345,8 +338,7 @@ static void test_transfer_does_not_depend_on_the_ranks(void **state)
     free(a);
     free(b);
     for (int g = 0; g < 2; g++) {
-      sam_call(VecDestroy(&fine[g]));
-      sam_call(VecDestroy(&coarse[g]));
+      sam_destroy(&fine[g], &coarse[g]);
     }
     DestroyPair(&all);
     DestroyPair(&own);
@@ -399,9 +391,7 @@ static void test_window_takes_its_cells_and_puts_them_back(void **state)
         }
     sam_call(VecRestoreArrayRead(back, &a));
     sam_assert(wrong == 0);
-    sam_call(VecDestroy(&whole));
-    sam_call(VecDestroy(&part));
-    sam_call(VecDestroy(&back));
+    sam_destroy(&whole, &part, &back);
     sam_call(SamWindowDestroy(&window));
   }
   sam_call(SamGridDestroy(&grid));

@@ -349,9 +349,9 @@ static void test_options_have_the_prefix(void **state)
 
   (void)state;
   Write("time,load_tx\n1,5\n2,6\n");
-  SetOptions("-load_n 1 -steps 7 -a_load_n 2 -a_steps 3 -a_load_history test_history.csv");
+  SetHistoryOptions("-load_n 1 -steps 7 -a_load_n 2 -a_steps 3 -a_load_history test_history.csv");
   sam_call(SamHistoryCreateFromOptions(&from, NULL, Conditions(), &h));
-  SetOptions("");
+  SetHistoryOptions("");
   sam_assert(CountOf(h) == 6 && StepOf(h, 5).value[SAM_COMPONENT_N] == 2 && StepOf(h, 5).value[SAM_COMPONENT_TX] == 6);
   sam_call(SamHistoryDestroy(&h));
 }
@@ -382,10 +382,10 @@ static void test_petsc_does_not_see_the_claimed_option(void **state)
   PetscBool set;
 
   (void)state;
-  SetOptions("-history test_history.csv");
+  SetHistoryOptions("-history test_history.csv");
   sam_call(PetscOptionsHasName(NULL, NULL, "-history", &set));
   sam_assert(!set);
-  SetOptions("");
+  SetHistoryOptions("");
 }
 
 static void test_history_on_one_rank_is_its_own(void **state)
@@ -404,10 +404,10 @@ static void test_history_on_one_rank_is_its_own(void **state)
   for (int k = 0; k <= Rank() && good; k++) good = fprintf(stream, "%d,5\n", k) > 0;
   if (stream) (void)fclose(stream);
   sam_assert(good);
-  SetOptions(options);
+  SetHistoryOptions(options);
   good = !SamHistoryCreateFromOptions(&myself, NULL, Conditions(), &h) && SamHistoryGetCount(h) == Rank() + 1 &&
          !SamHistoryDestroy(&h);
-  SetOptions("");
+  SetHistoryOptions("");
   (void)unlink(name);
   sam_assert(good);
 }
@@ -421,7 +421,7 @@ static void test_destroying_nothing_is_allowed(void **state)
   h = Read("-load_n 1");
   sam_call(SamHistoryDestroy(&h));
   sam_assert(h == NULL);
-  Remove();
+  RemoveFile(file);
 }
 
 int main(int argc, char **argv)

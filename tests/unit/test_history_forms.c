@@ -98,9 +98,9 @@ static SamHistory ReadWith(const char *options, SamArgument given[], int givens)
   const SamArguments arguments = {.given = given, .givens = Rank() ? 0 : givens}; /* only rank 0 knows them */
   SamHistory         h;
 
-  SetOptions(options);
+  SetHistoryOptions(options);
   sam_call(SamHistoryCreateFromOptions(&(SamOptions){PETSC_COMM_WORLD, NULL}, &arguments, Conditions(), &h));
-  SetOptions("");
+  SetHistoryOptions("");
   return h;
 }
 
@@ -133,14 +133,14 @@ static void test_columns_do_not_replace_what_is_given_for_this_run(void **state)
 
   (void)state;
   Write("time,load_n\n1,7\n");
-  SetOptions("-history test_history.csv -load_n 1000");
+  SetHistoryOptions("-history test_history.csv -load_n 1000");
   BeginCatching();
   ierr = SamHistoryCreateFromOptions(&(SamOptions){PETSC_COMM_WORLD, NULL}, &arguments, Conditions(), &h);
   EndCatching();
-  SetOptions("");
+  SetHistoryOptions("");
   sam_assert(ierr == SAM_ERR_USER && strstr(CaughtMessage(), "-load_n: test_history.csv has the column load_n"));
   if (h) sam_call(SamHistoryDestroy(&h));
-  Remove();
+  RemoveFile(file);
 }
 
 int main(int argc, char **argv)

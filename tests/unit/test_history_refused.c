@@ -311,7 +311,7 @@ static void test_good_history_is_read_after_a_refused_one(void **state)
   (void)state;
   AssertMalformed("time,load_tx\n1,2\n1,3\n", 3, "time");
   AssertPlain("time,load_n,load_tx\n1,100,0\n2.5,100,25\n4,120,-30.5\n");
-  Remove();
+  RemoveFile(file);
 }
 
 int main(int argc, char **argv)

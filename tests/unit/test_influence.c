@@ -9,7 +9,15 @@
 
 #include <petsam/private/halfspace.h>
 
-#include "influence_values.h"
+typedef struct {
+  double    dx, dy;    /* sides of the cell, m */
+  ptrdiff_t i, j;      /* its lag */
+  double    values[6]; /* R, XX, YY, XY, X, Y, m */
+} Reference;
+
+static const Reference references[] = {
+#include "influence_values.txt"
+};
 
 enum { NUM_KINDS = 6, NUM_REFERENCES = sizeof(references) / sizeof(references[0]) };
 

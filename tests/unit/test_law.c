@@ -204,10 +204,7 @@ static void test_bounds_of_several_laws_are_in_order(void **state)
   sam_assert(IsEverywhere(b, 0.5 * 2 * 0.25 * 64 + 8) && IsEverywhere(by_p, 0.5 * 2 * 0.25) && IsEverywhere(by_s, 3));
   sam_call(SamProblemComputeBound(c.problem, &(SamBoundAt){.control = &twice, .pressure = p}, &(SamBound){.value = p}));
   sam_assert(SameBits(p, b)); /* in place */
-  sam_call(VecDestroy(&p));
-  sam_call(VecDestroy(&b));
-  sam_call(VecDestroy(&by_p));
-  sam_call(VecDestroy(&by_s));
+  sam_destroy(&p, &b, &by_p, &by_s);
   DestroyCase(&c);
 }
 
@@ -294,8 +291,7 @@ static void test_law_from_outside_remembers(void **state)
   sam_call(VecDestroy(&tried));
   tried = NewWeakPath(&c);
   sam_assert(SameBits(tried, path) && NumberOf(&c, "weak_cells") == weak);
-  sam_call(VecDestroy(&tried));
-  sam_call(VecDestroy(&path));
+  sam_destroy(&tried, &path);
   DestroyCase(&c);
 }
 

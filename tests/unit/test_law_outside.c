@@ -378,9 +378,9 @@ static void test_what_a_law_declares_is_in_results_and_checkpoints(void **state)
   StopRun();
   GoOn();
   sam_assert(SameResults(whole_name, filename));
-  Remove(whole_name);
-  Remove(filename);
-  Remove(checkpoint_name);
+  RemoveFile(whole_name);
+  RemoveFile(filename);
+  RemoveFile(checkpoint_name);
 }
 
 static void test_checkpoint_of_other_laws_is_refused(void **state)
@@ -394,8 +394,8 @@ static void test_checkpoint_of_other_laws_is_refused(void **state)
   sam_assert(Restart(&none) == SAM_ERR_USER && strstr(CaughtMessage(), "-fade_length is given there, and not here"));
   DestroyCase(&slower);
   DestroyCase(&none);
-  Remove(filename);
-  Remove(checkpoint_name);
+  RemoveFile(filename);
+  RemoveFile(checkpoint_name);
 }
 
 static int Register(void **state)

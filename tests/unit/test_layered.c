@@ -140,8 +140,7 @@ static double Influence(SamElasticity e, int row, int column, PetscInt i, PetscI
   whole = Whole(e->grid, row == 2 ? 1 : 2, out);
   value = whole[((row == 2 ? 0 : row) * e->grid->ny + j) * e->grid->nx + i];
   free(whole);
-  sam_call(VecDestroy(&in));
-  sam_call(VecDestroy(&out));
+  sam_destroy(&in, &out);
   return value;
 }
 
@@ -307,11 +306,7 @@ static void test_products_are_reciprocal(void **state)
     sam_assert(Dot(q, v) > 0);
     sam_call(SamElasticityApplyTangential(e, r, v));
     sam_assert_close(Dot(q, v), both, 1e-12 * Norm(q, NORM_2) * Norm(v, NORM_2));
-    sam_call(VecDestroy(&p));
-    sam_call(VecDestroy(&q));
-    sam_call(VecDestroy(&r));
-    sam_call(VecDestroy(&u));
-    sam_call(VecDestroy(&v));
+    sam_destroy(&p, &q, &r, &u, &v);
     sam_call(SamElasticityDestroy(&e));
   }
   sam_call(SamGridDestroy(&grid));
@@ -378,9 +373,7 @@ static void test_waves_are_multiplied_by_symbols(void **state)
     sam_assert_close(worst, 0, 1e-13 * fabs(c[SAM_LAYERED_ZR]) / size);
     sam_call(VecDestroy(&p));
   }
-  sam_call(VecDestroy(&in));
-  sam_call(VecDestroy(&out));
-  sam_call(VecDestroy(&back));
+  sam_destroy(&in, &out, &back);
   sam_call(SamElasticityDestroy(&e));
   sam_call(SamGridDestroy(&grid));
 }

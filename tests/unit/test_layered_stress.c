@@ -176,20 +176,6 @@ static void test_layer_of_the_substrates_material_is_none(void **state)
 
 /* ---- fields ---- */
 
-/* A stress at a cell's centre, on all ranks. */
-static double At(SamGrid grid, Vec field, PetscInt component, PetscInt i, PetscInt j)
-{
-  const double *s;
-  double        value = 0;
-
-  sam_call(VecGetArrayRead(field, &s));
-  if (j >= grid->row_start && j < grid->row_start + grid->rows)
-    value = s[component * grid->cells + (j - grid->row_start) * grid->nx + i];
-  sam_call(VecRestoreArrayRead(field, &s));
-  sam_call(SamSum(grid->comm, 1, &value));
-  return value;
-}
-
 /* Hertz's pressure and 0.3 of it as shear along x, on 241 x 241 cells of 0.01. */
 static Vec NewHertz(SamGrid grid)
 {

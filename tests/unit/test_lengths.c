@@ -113,8 +113,7 @@ static PetscErrorCode Read(const Words *words, PetscBool rough, double *factor)
 
   Write(words);
   sam_call(SamGridCreate(PETSC_COMM_WORLD, n, width, center, &grid));
-  sam_call(PetscOptionsClear(NULL));
-  sam_call(PetscOptionsInsertString(NULL, text));
+  SetOptions(text);
   sam_call(SamGapCreate(PETSC_COMM_WORLD, &gap));
   sam_call(SamGapSetFromOptions(gap));
   sam_call(SamGridCreateVec(grid, 1, &h));
@@ -240,8 +239,7 @@ static PetscErrorCode GetGrid(const Words *words, const char *options, PetscInt 
   PetscErrorCode ierr;
 
   Write(words);
-  sam_call(PetscOptionsClear(NULL));
-  sam_call(PetscOptionsInsertString(NULL, options));
+  SetOptions(options);
   sam_call(SamGapCreate(PETSC_COMM_WORLD, &gap));
   if (!options[0]) sam_call(SamGapSetFile(gap, PETSC_TRUE, "test_lengths.h5", "/s/z"));
   BeginCatching();

@@ -72,21 +72,13 @@ static Joint *NewRest(SamPair pair, PetscInt n, double half_width, double fricti
   return j;
 }
 
-static void AddWear(Joint *j)
-{
-  SamLaw law;
-
-  sam_call(SamProblemAddLawOfType(j->c.problem, j->law, &law));
-  sam_call(SamLawSetWear(law, j->wear));
-}
-
 /* The same with its life. */
 static Joint *NewJoint(SamPair pair, PetscInt n, double half_width, double friction, Strokes strokes, SamLawType law,
                        SamLifeSettings settings)
 {
   Joint *j = NewRest(pair, n, half_width, friction, strokes, law);
 
-  AddWear(j);
+  AddWear(&j->c, j->law, j->wear);
   sam_call(SamLifeCreate(j->c.contact, &j->cycle, &settings, &j->life));
   return j;
 }
@@ -196,7 +188,7 @@ static void LiveDirectly(Joint *j, PetscInt cycles)
     SamControl control;
     SamStep    step;
 
-    if (k == 0) AddWear(j);
+    if (k == 0) AddWear(&j->c, j->law, j->wear);
     sam_call(Control(&j->strokes, (k - first) % j->cycle.steps, 0, &control));
     step = Solve(&j->c, &control);
     AssertGood(&step);
@@ -347,7 +339,7 @@ static void test_life_without_wear_is_refused(void **state)
 
   (void)state;
   sam_fails(SamLifeCreate(j->c.contact, &j->cycle, &set, &j->life), PETSC_ERR_ARG_INCOMP);
-  AddWear(j);
+  AddWear(&j->c, j->law, j->wear);
   set.rtol = 0;
   sam_fails(SamLifeCreate(j->c.contact, &j->cycle, &set, &j->life), PETSC_ERR_ARG_OUTOFRANGE);
   set.rtol = 1e-2;

@@ -118,9 +118,7 @@ static void AssertTypesAgree(SamBalance balance, PetscInt n)
   }
   sam_call(VecMin(p, NULL, &least));
   sam_assert(least == 0);
-  sam_call(VecDestroy(&p));
-  sam_call(VecDestroy(&q));
-  sam_call(VecDestroy(&h));
+  sam_destroy(&p, &q, &h);
   DestroySphere(&s);
 }
 
@@ -163,8 +161,7 @@ static void test_gap_is_closed_to_the_tolerance(void **state)
       SolveWell(s.elasticity, h, types[type], rtol, &balance, p);
       sam_assert_close(GapError(s.elasticity, h, &balance, p), 0, 1.01 * rtol);
     }
-  sam_call(VecDestroy(&h));
-  sam_call(VecDestroy(&p));
+  sam_destroy(&h, &p);
   DestroySphere(&s);
 }
 
@@ -221,9 +218,7 @@ static void test_force_and_displacement_control_agree(void **state)
       sam_assert_close(mixed.rigid[k], found.rigid[k], 1e-6 * (k ? s.a / s.R : s.a * s.a / s.R));
     }
   }
-  sam_call(VecDestroy(&p));
-  sam_call(VecDestroy(&q));
-  sam_call(VecDestroy(&h));
+  sam_destroy(&p, &q, &h);
   DestroySphere(&s);
 }
 
@@ -245,8 +240,7 @@ static void test_start_from_the_solution_ends_at_once(void **state)
   sam_assert(applies <= 3);
   sam_assert_close(Difference(q, p, NORM_2), 0, 1e-6);
   sam_call(SamNormalDestroy(&normal));
-  sam_call(VecDestroy(&p));
-  sam_call(VecDestroy(&q));
+  sam_destroy(&p, &q);
   DestroySphere(&s);
 }
 
@@ -270,9 +264,7 @@ static void test_contact_outside_the_window_is_found(void **state)
   sam_call(VecPointwiseMult(alone, alone, p));
   sam_call(VecNorm(alone, NORM_INFINITY, &needle));
   sam_assert(needle > 0);
-  sam_call(VecDestroy(&alone));
-  sam_call(VecDestroy(&q));
-  sam_call(VecDestroy(&p));
+  sam_destroy(&alone, &q, &p);
   DestroySphere(&s);
 }
 
@@ -295,8 +287,7 @@ static void test_contact_grows_beyond_the_window_of_its_start(void **state)
   sam_call(SamNormalSolve(normal, s.h, &again, PETSC_FALSE, q));
   sam_assert_close(Difference(p, q, NORM_2), 0, 1e-6);
   sam_call(SamNormalDestroy(&normal));
-  sam_call(VecDestroy(&p));
-  sam_call(VecDestroy(&q));
+  sam_destroy(&p, &q);
   DestroySphere(&s);
 }
 
@@ -333,8 +324,7 @@ static void test_moments_shift_the_pressure_of_a_paraboloid(void **state)
   sam_assert_close(moved.rigid[1], -(double)shift_y * s.grid->dy / s.R, 1e-7 * s.a / s.R);
   free(from);
   free(to);
-  sam_call(VecDestroy(&p));
-  sam_call(VecDestroy(&q));
+  sam_destroy(&p, &q);
   DestroySphere(&s);
 }
 
@@ -354,8 +344,7 @@ static void test_place_of_the_grid_does_not_matter(void **state)
   SolveWell(elasticity, s.h, NULL, 1e-9, &moved, q);
   sam_assert_close(Difference(q, p, NORM_2), 0,
                    1e-6); /* rtol times the condition; the lever is known to 1e-16 m of 1e-3 m */
-  sam_call(VecDestroy(&p));
-  sam_call(VecDestroy(&q));
+  sam_destroy(&p, &q);
   sam_call(SamElasticityDestroy(&elasticity));
   sam_call(SamGridDestroy(&away));
   DestroySphere(&s);
@@ -375,8 +364,7 @@ static void test_eight_times_the_load_doubles_sphere_contact_and_pressure(void *
   sam_assert_close(Difference(q, p, NORM_INFINITY), 0,
                    1e-7); /* all numbers are scaled: the same iterations, but for rounding */
   sam_assert_close(eight.rigid[0], 4 * one.rigid[0], 1e-9 * eight.rigid[0]);
-  sam_call(VecDestroy(&p));
-  sam_call(VecDestroy(&q));
+  sam_destroy(&p, &q);
   DestroySphere(&small);
   DestroySphere(&large);
 }
@@ -402,8 +390,7 @@ static void test_units_do_not_matter(void **state)
     sam_assert_close(Difference(q, p, NORM_INFINITY), 0, 1e-7); /* as above */
     sam_call(SamElasticityDestroy(&elasticity));
   }
-  sam_call(VecDestroy(&p));
-  sam_call(VecDestroy(&q));
+  sam_destroy(&p, &q);
   DestroySphere(&s);
 }
 

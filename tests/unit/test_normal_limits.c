@@ -66,8 +66,7 @@ static void test_hole_may_have_any_depth(void **state)
     if (k) sam_assert_close(Difference(p[1], p[0], NORM_2), 0, 1e-6);
     sam_call(VecDestroy(&h));
   }
-  sam_call(VecDestroy(&p[0]));
-  sam_call(VecDestroy(&p[1]));
+  sam_destroy(&p[0], &p[1]);
   DestroySphere(&s);
 }
 
@@ -159,9 +158,7 @@ static void test_flat_body_touches_everywhere_on_any_grid(void **state)
     sam_call(VecMax(u, NULL, &most));
     sam_assert_close(least, balance.rigid[0], 2e-10 * most); /* the tolerance asked for */
     sam_assert_close(most, balance.rigid[0], 2e-10 * most);
-    sam_call(VecDestroy(&p));
-    sam_call(VecDestroy(&u));
-    sam_call(VecDestroy(&h));
+    sam_destroy(&p, &u, &h);
     sam_call(SamElasticityDestroy(&elasticity));
     sam_call(SamGridDestroy(&grid));
   }

@@ -92,8 +92,7 @@ static void test_solution_is_complementary(void **state)
         sam_assert(o.reason == SAM_SOLVER_CONVERGED_RTOL);
         sam_assert(Complementarity(&s, d, &balance, p, PETSC_FALSE) < 3e-8);
         if (forced) sam_assert_close(balance.load[0], s.N, 1e-12 * s.N);
-        sam_call(VecDestroy(&p));
-        sam_call(VecDestroy(&d));
+        sam_destroy(&p, &d);
         DestroySphere(&s);
       }
 }
@@ -127,8 +126,7 @@ static void test_lines_yield_in_steady_rolling(void **state)
       sam_assert(Complementarity(&s, d, &balance, p, PETSC_TRUE) < 3e-8);
       sam_assert_close(balance.load[0], s.N, 1e-12 * s.N);
       sam_call(SamElasticityDestroy(&moving.elasticity));
-      sam_call(VecDestroy(&p));
-      sam_call(VecDestroy(&d));
+      sam_destroy(&p, &d);
       DestroySphere(&s);
     }
 }
@@ -144,9 +142,7 @@ static void test_no_yield_changes_nothing(void **state)
   SolveWell(s.elasticity, s.h, NULL, 0, &balance, p);
   (void)SolveYielding(&s, SAM_NORMAL_ACTIVESET, d, &other, q);
   sam_assert(Difference(q, p, NORM_INFINITY) == 0);
-  sam_call(VecDestroy(&q));
-  sam_call(VecDestroy(&p));
-  sam_call(VecDestroy(&d));
+  sam_destroy(&q, &p, &d);
   DestroySphere(&s);
 }
 
@@ -171,9 +167,7 @@ static void test_soft_yield_is_a_bed_of_springs(void **state)
   sam_call(VecRestoreArrayRead(s.h, &h));
   sam_call(VecRestoreArray(bed, &b));
   sam_assert(Difference(p, bed, NORM_2) < 1e-4);
-  sam_call(VecDestroy(&bed));
-  sam_call(VecDestroy(&p));
-  sam_call(VecDestroy(&d));
+  sam_destroy(&bed, &p, &d);
   DestroySphere(&s);
 }
 

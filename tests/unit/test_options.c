@@ -45,21 +45,6 @@ static void SetText(const char *text)
   if (text) sam_call(PetscOptionsSetValue(NULL, "-pre_opt", text));
 }
 
-/* Keeps the first message of an error instead of printing it. */
-static char message[4096];
-
-static PetscErrorCode KeepMessage(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode code,
-                                  PetscErrorType type, const char *text, void *context)
-{
-  (void)comm;
-  (void)line;
-  (void)function;
-  (void)file;
-  (void)context;
-  if (type == PETSC_ERROR_INITIAL) (void)snprintf(message, sizeof(message), "%s", text);
-  return code;
-}
-
 static void AssertRefused(Getter getter, int range, const char *text)
 {
   Value          v = {.text = ""};
@@ -68,13 +53,13 @@ static void AssertRefused(Getter getter, int range, const char *text)
   int            good;
 
   SetText(text);
-  message[0] = '\0';
-  sam_call(PetscPushErrorHandler(KeepMessage, NULL));
+  BeginCatching();
   ierr = Get(getter, range, &v, &set);
-  sam_call(PetscPopErrorHandler());
+  EndCatching();
   SetText(NULL);
-  good = ierr == SAM_ERR_USER && strstr(message, "-pre_opt") && strstr(message, "expected");
-  if (!good) print_error("getter %d, range %d, '%s': error %d, '%s'\n", (int)getter, range, text, (int)ierr, message);
+  good = ierr == SAM_ERR_USER && strstr(CaughtMessage(), "-pre_opt") && strstr(CaughtMessage(), "expected");
+  if (!good)
+    print_error("getter %d, range %d, '%s': error %d, '%s'\n", (int)getter, range, text, (int)ierr, CaughtMessage());
   sam_assert(good);
 }
 
@@ -244,7 +229,7 @@ static void test_enums(void **state)
   for (int k = 0; k < 7; k++) {
     AssertRefused(CHOICE, 0, wrong[k]);
     AssertRefused(ENUM, 0, wrong[k]);
-    sam_assert(strstr(message, "none, some or all")); /* what would be right is told */
+    sam_assert(strstr(CaughtMessage(), "none, some or all")); /* what would be right is told */
   }
 }
 
@@ -260,7 +245,7 @@ static void test_strings(void **state)
     sam_assert(!strcmp(Read((Getter)getter, 0, NULL).text, "old"));
     AssertRefused((Getter)getter, 0, "eight888"); /* longer than there is room for */
     AssertRefused((Getter)getter, 0, "");
-    sam_assert(strstr(message, expected[getter - STRING]));
+    sam_assert(strstr(CaughtMessage(), expected[getter - STRING]));
   }
 }
 
@@ -295,13 +280,11 @@ static void test_options_that_belong_together(void **state)
     PetscBool      given[4];
     PetscErrorCode ierr;
 
-    sam_call(PetscOptionsClear(NULL));
-    sam_call(PetscOptionsInsertString(NULL, cases[k].given));
-    message[0] = '\0';
-    sam_call(PetscPushErrorHandler(KeepMessage, NULL));
+    SetOptions(cases[k].given);
+    BeginCatching();
     ierr = SamOptionsRead(&from, NULL, SAM_OPTION_ROWS(joined), &v, given);
-    sam_call(PetscPopErrorHandler());
-    sam_assert(cases[k].says ? ierr == SAM_ERR_USER && !strcmp(message, cases[k].says) : !ierr && given[0]);
+    EndCatching();
+    sam_assert(cases[k].says ? ierr == SAM_ERR_USER && !strcmp(CaughtMessage(), cases[k].says) : !ierr && given[0]);
   }
   sam_call(PetscOptionsClear(NULL));
 }
@@ -418,9 +401,9 @@ static void test_decimal_commas_are_refused(void **state)
     sam_assert(v.real[0] == strtod(right[k], NULL) && v.real[1] == strtod(strchr(right[k], ',') + 1, NULL));
   }
   AssertRefused(REAL_PAIR, SAM_RANGE_POSITIVE, "2,6e-3");
-  sam_assert(strstr(message, "2 m by 0.006 m: expected 2.6e-3, with a decimal point"));
+  sam_assert(strstr(CaughtMessage(), "2 m by 0.006 m: expected 2.6e-3, with a decimal point"));
   AssertRefused(REAL, SAM_RANGE_ANY, "1000,5");
-  sam_assert(strstr(message, "a decimal point, not a comma"));
+  sam_assert(strstr(CaughtMessage(), "a decimal point, not a comma"));
   sam_assert(Read(REAL_PAIR, SAM_RANGE_ANY, "0,1e-4").real[1] == 1e-4); /* a place is no length */
 }
 
@@ -459,13 +442,13 @@ static void test_units_of_numbers_are_explained(void **state)
 {
   (void)state;
   AssertRefused(REAL, SAM_RANGE_POSITIVE, "210GPa"); /* the option has no unit */
-  sam_assert(strstr(message, "SI units"));
+  sam_assert(strstr(CaughtMessage(), "SI units"));
   AssertRefused(REAL, SAM_RANGE_POSITIVE, "2.6 mm");
-  sam_assert(strstr(message, "SI units"));
+  sam_assert(strstr(CaughtMessage(), "SI units"));
   AssertRefused(REAL, SAM_RANGE_NONNEGATIVE, "30 %");
-  sam_assert(strstr(message, "percent"));
+  sam_assert(strstr(CaughtMessage(), "percent"));
   AssertRefused(REAL, SAM_RANGE_NONNEGATIVE, "abc");
-  sam_assert(!strstr(message, "SI units"));
+  sam_assert(!strstr(CaughtMessage(), "SI units"));
 }
 
 static void test_nearest_name_is_found(void **state)
@@ -503,16 +486,11 @@ static void test_missing_option_is_looked_for_among_those_given(void **state)
   SamOptionsKnow(&from, "body1", NULL);
   SamOptionsKnow(&from, "body2", NULL);
   for (int k = 0; k < 2; k++) {
-    PetscErrorCode ierr;
 
     sam_call(PetscOptionsClear(NULL));
     sam_call(PetscOptionsSetValue(NULL, k ? "-pre_bdoy1" : "-pre_body2", "3"));
-    message[0] = '\0';
-    sam_call(PetscPushErrorHandler(KeepMessage, NULL));
-    ierr = SamOptionsRequire(&from, PETSC_FALSE, "body1", "a body");
-    sam_call(PetscPopErrorHandler());
-    sam_assert(ierr == SAM_ERR_USER && strstr(message, "-pre_body1 is missing: a body"));
-    sam_assert(k ? strstr(message, "is -pre_bdoy1 meant") != NULL : !strstr(message, "meant"));
+    sam_says(SamOptionsRequire(&from, PETSC_FALSE, "body1", "a body"), SAM_ERR_USER, "-pre_body1 is missing: a body");
+    sam_assert(k ? strstr(CaughtMessage(), "is -pre_bdoy1 meant") != NULL : !strstr(CaughtMessage(), "meant"));
   }
   SetText(NULL);
   sam_call(SamOptionsRequire(&from, PETSC_TRUE, "body1", "a body"));

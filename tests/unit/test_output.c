@@ -9,43 +9,38 @@ static void test_file_holds_what_was_written(void **state)
 {
   (void)state;
   for (int k = 0; k < NUM_SIZES; k++) {
-    SamGrid grid = CreateGrid(k);
-    Shown   s    = CreateShown(grid);
+    Shown s = CreateShown(k);
 
     WriteFile(&s, filename, "");
-    sam_assert(IsGood(filename, grid, STEPS, SAVED));
+    sam_assert(IsGood(filename, s.grid, STEPS, SAVED));
     DestroyShown(&s);
-    sam_call(SamGridDestroy(&grid));
   }
-  Remove(filename);
+  RemoveFile(filename);
 }
 
 static void test_compression_changes_no_value(void **state)
 {
   (void)state;
   for (int k = 0; k < NUM_SIZES; k++) {
-    SamGrid     grid = CreateGrid(k);
-    Shown       s    = CreateShown(grid);
+    Shown       s = CreateShown(k);
     struct stat plain, compressed;
 
     WriteFile(&s, filename, "");
     sam_assert(Rank() || !stat(filename, &plain));
     WriteFile(&s, filename, "-output_compress 3");
-    sam_assert(IsGood(filename, grid, STEPS, SAVED));
+    sam_assert(IsGood(filename, s.grid, STEPS, SAVED));
     sam_assert(Rank() || !stat(filename, &compressed));
     /* of the large grid, whose values are regular, less than half remains */
     sam_assert(Rank() || k < 2 || compressed.st_size < plain.st_size / 2);
     DestroyShown(&s);
-    sam_call(SamGridDestroy(&grid));
   }
-  Remove(filename);
+  RemoveFile(filename);
 }
 
 static void test_root_has_the_attributes_that_were_set(void **state)
 {
-  SamGrid grid = CreateGrid(0);
-  Shown   s    = CreateShown(grid);
-  int     good = 1;
+  Shown s    = CreateShown(0);
+  int   good = 1;
 
   (void)state;
   WriteFile(&s, filename, "");
@@ -59,34 +54,31 @@ static void test_root_has_the_attributes_that_were_set(void **state)
   }
   sam_assert(good);
   DestroyShown(&s);
-  sam_call(SamGridDestroy(&grid));
-  Remove(filename);
+  RemoveFile(filename);
 }
 
 static void test_file_without_steps_is_good(void **state)
 {
-  SamGrid                 grid = CreateGrid(0);
-  Shown                   s    = CreateShown(grid);
-  const SamOutputSettings set  = SettingsOf(s.contact, "");
+  Shown                   s   = CreateShown(0);
+  const SamOutputSettings set = SettingsOf(s.contact, "");
   SamOutput               output;
   int                     good = 1;
 
   (void)state;
-  sam_call(SamOutputCreate(grid, filename, &set, &output));
+  sam_call(SamOutputCreate(s.grid, filename, &set, &output));
   sam_call(SamOutputDestroy(&output));
   if (Rank() == 0) {
     const hid_t file       = H5Fopen(filename, H5F_ACC_RDONLY, H5P_DEFAULT),
                 pressure   = H5Dopen2(file, "pressure", H5P_DEFAULT);
-    const hsize_t shape[3] = {0, (hsize_t)grid->ny, (hsize_t)grid->nx};
+    const hsize_t shape[3] = {0, (hsize_t)s.grid->ny, (hsize_t)s.grid->nx};
 
-    good = HasShape(pressure, 3, shape, 1) && HasAxis(file, "x", grid, 0);
+    good = HasShape(pressure, 3, shape, 1) && HasAxis(file, "x", s.grid, 0);
     H5Dclose(pressure);
     H5Fclose(file);
   }
   sam_assert(good);
   DestroyShown(&s);
-  sam_call(SamGridDestroy(&grid));
-  Remove(filename);
+  RemoveFile(filename);
 }
 
 /* What a run that is aborted now leaves behind. */
@@ -96,25 +88,23 @@ static void test_file_is_complete_after_each_step(void **state)
 
   (void)state;
   for (int k = 0; k < NUM_SIZES; k++) {
-    SamGrid                 grid = CreateGrid(k);
-    Shown                   s    = CreateShown(grid);
-    const SamOutputSettings set  = SettingsOf(s.contact, "");
+    Shown                   s   = CreateShown(k);
+    const SamOutputSettings set = SettingsOf(s.contact, "");
     SamOutput               output;
 
-    sam_call(SamOutputCreate(grid, filename, &set, &output));
+    sam_call(SamOutputCreate(s.grid, filename, &set, &output));
     for (int step = 0; step < STEPS; step++) {
       Show(&s, step);
       sam_call(SamOutputWriteStep(output, step != 1));
       (void)MPI_Barrier(PETSC_COMM_WORLD);
       sam_assert(CopyFile(filename, copy));
-      sam_assert(IsGood(copy, grid, step + 1, step < 2 ? 1 : 2));
+      sam_assert(IsGood(copy, s.grid, step + 1, step < 2 ? 1 : 2));
     }
     sam_call(SamOutputDestroy(&output));
     DestroyShown(&s);
-    sam_call(SamGridDestroy(&grid));
   }
-  Remove(copy);
-  Remove(filename);
+  RemoveFile(copy);
+  RemoveFile(filename);
 }
 
 /* ---- columns ---- */
@@ -145,13 +135,12 @@ static void test_optional_columns_are_there_when_asked_for(void **state)
 
   (void)state;
   for (int asked = 0; asked < 4; asked++) {
-    SamGrid grid = CreateGrid(0);
-    Shown   s    = CreateShown(grid);
+    Shown s = CreateShown(0);
 
     if (asked & 1) sam_call(SamStateOfferNumber(s.state, "friction_scale", 1));
     for (int n = 0; n < 6 && asked & 2; n++) sam_call(SamStateOfferNumber(s.state, bulk_names[n], 0));
     WriteFile(&s, filename, "");
-    sam_assert(IsGood(filename, grid, STEPS, SAVED));
+    sam_assert(IsGood(filename, s.grid, STEPS, SAVED));
     if (Rank() == 0) {
       double values[STEPS] = {0};
 
@@ -164,9 +153,8 @@ static void test_optional_columns_are_there_when_asked_for(void **state)
     }
     sam_assert(good);
     DestroyShown(&s);
-    sam_call(SamGridDestroy(&grid));
   }
-  Remove(filename);
+  RemoveFile(filename);
 }
 
 /* Steps without fields that wait are in the file after a flush, and before the fields of a later step. */
@@ -174,16 +162,15 @@ static void test_steps_that_wait_are_not_lost(void **state)
 {
   (void)state;
   for (int flushed = 0; flushed < 2; flushed++) {
-    SamGrid           grid = CreateGrid(0);
-    Shown             s    = CreateShown(grid);
-    SamOutputSettings set  = SettingsOf(s.contact, "");
+    Shown             s   = CreateShown(0);
+    SamOutputSettings set = SettingsOf(s.contact, "");
     SamOutput         output;
     PetscInt          steps;
     double            values[STEPS] = {0};
     int               good          = 1;
 
     set.flush = 1e9;
-    sam_call(SamOutputCreate(grid, filename, &set, &output));
+    sam_call(SamOutputCreate(s.grid, filename, &set, &output));
     for (int step = 0; step < STEPS; step++) {
       Show(&s, step);
       sam_call(SamOutputWriteStep(output, step == STEPS - 1 && !flushed));
@@ -200,8 +187,7 @@ static void test_steps_that_wait_are_not_lost(void **state)
     sam_assert(good);
     sam_call(SamOutputDestroy(&output));
     DestroyShown(&s);
-    sam_call(SamGridDestroy(&grid));
-    Remove(filename);
+    RemoveFile(filename);
   }
 }
 
@@ -245,7 +231,7 @@ static void test_numbers_that_do_not_exist_are_nan(void **state)
   }
   sam_assert(good);
   DestroyCase(&c);
-  Remove(filename);
+  RemoveFile(filename);
 }
 
 /* What is written is the tried step; after it was rejected the committed one. */
@@ -280,7 +266,7 @@ static void test_fields_are_those_of_the_tried_step_else_of_the_committed_one(vo
   free(saved);
   for (int k = 0; k < 2; k++) free(expected[k]);
   DestroyCase(&c);
-  Remove(filename);
+  RemoveFile(filename);
 }
 
 int main(int argc, char **argv)

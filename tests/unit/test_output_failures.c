@@ -9,21 +9,19 @@
 
 static void AssertNotCreated(const char *name, PetscErrorCode expected, const char *word)
 {
-  SamGrid                 grid = CreateGrid(0);
-  Shown                   s    = CreateShown(grid);
-  const SamOutputSettings set  = SettingsOf(s.contact, "");
+  Shown                   s   = CreateShown(0);
+  const SamOutputSettings set = SettingsOf(s.contact, "");
   SamOutput               output;
   PetscErrorCode          ierr;
   int                     good;
 
   BeginCatching();
-  ierr = SamOutputCreate(grid, name, &set, &output);
+  ierr = SamOutputCreate(s.grid, name, &set, &output);
   EndCatching();
   good = ierr == expected && strstr(CaughtMessage(), word) && !output;
   if (!good) print_error("%s: error %d, %s\n", name, (int)ierr, CaughtMessage());
   sam_assert(good);
   DestroyShown(&s);
-  sam_call(SamGridDestroy(&grid));
 }
 
 static void test_names_that_cannot_be_written_are_errors_on_all_ranks(void **state)
@@ -60,8 +58,7 @@ static void test_wrong_settings_are_refused(void **state)
 /* The message lists the fields that there are: also those of laws, and not those of laws that the problem lacks. */
 static void test_unknown_field_is_named(void **state)
 {
-  SamGrid           grid = CreateGrid(0);
-  Shown             s    = CreateShown(grid);
+  Shown             s    = CreateShown(0);
   const SamOptions  from = {PETSC_COMM_WORLD, NULL};
   SamOutputSettings set;
   PetscErrorCode    ierr;
@@ -82,23 +79,18 @@ static void test_unknown_field_is_named(void **state)
   SetOptions("-output_fields slip_pth");
   sam_call(SamOutputSettingsSetFromOptions(&set, &from));
   sam_call(SamOutputSettingsAddLaws(&set, s.problem));
-  BeginCatching();
-  ierr = SamOutputSettingsPrepare(&set, s.contact, &from);
-  EndCatching();
-  sam_assert(ierr == SAM_ERR_USER && strstr(CaughtMessage(), ", slip_path, friction_energy, separated"));
+  sam_says(SamOutputSettingsPrepare(&set, s.contact, &from), SAM_ERR_USER, ", slip_path, friction_energy, separated");
   SetOptions("-output_fields pressure,slip_path");
   sam_call(SamOutputSettingsSetFromOptions(&set, &from));
   SetOptions("");
   sam_call(SamOutputSettingsAddLaws(&set, s.problem));
   sam_call(SamOutputSettingsPrepare(&set, s.contact, &from));
   DestroyShown(&s);
-  sam_call(SamGridDestroy(&grid));
 }
 
 static void test_failed_creation_leaves_the_old_file(void **state)
 {
-  SamGrid grid = CreateGrid(0);
-  Shown   s    = CreateShown(grid);
+  Shown s = CreateShown(0);
 
   (void)state;
   WriteFile(&s, filename, "");
@@ -106,10 +98,9 @@ static void test_failed_creation_leaves_the_old_file(void **state)
     sam_assert(Rank() || !chmod(filename, 0400));
     AssertNotCreated(filename, SAM_ERR_FILE, filename);
   }
-  sam_assert(IsGood(filename, grid, STEPS, SAVED));
+  sam_assert(IsGood(filename, s.grid, STEPS, SAVED));
   DestroyShown(&s);
-  sam_call(SamGridDestroy(&grid));
-  Remove(filename);
+  RemoveFile(filename);
 }
 
 /* Tries to write a step where there is no room for it. */
@@ -139,12 +130,11 @@ static void test_full_disk_is_an_error_on_all_ranks_and_costs_nothing(void **sta
 {
   (void)state;
   for (int k = 0; k < NUM_SIZES; k++) {
-    SamGrid                 grid = CreateGrid(k);
-    Shown                   s    = CreateShown(grid);
-    const SamOutputSettings set  = SettingsOf(s.contact, "");
+    Shown                   s   = CreateShown(k);
+    const SamOutputSettings set = SettingsOf(s.contact, "");
     SamOutput               output;
 
-    sam_call(SamOutputCreate(grid, filename, &set, &output));
+    sam_call(SamOutputCreate(s.grid, filename, &set, &output));
     for (int step = 0; step < STEPS; step++) {
       Show(&s, step);
       if (step) AssertNoRoom(output, PETSC_TRUE); /* the first write gives the file its name */
@@ -154,11 +144,10 @@ static void test_full_disk_is_an_error_on_all_ranks_and_costs_nothing(void **sta
     PutNumber(&s, "time", 9);
     AssertNoRoom(output, PETSC_TRUE);
     sam_call(SamOutputDestroy(&output));
-    sam_assert(IsGood(filename, grid, STEPS, SAVED));
+    sam_assert(IsGood(filename, s.grid, STEPS, SAVED));
     DestroyShown(&s);
-    sam_call(SamGridDestroy(&grid));
   }
-  Remove(filename);
+  RemoveFile(filename);
 }
 
 int main(int argc, char **argv)

@@ -69,20 +69,19 @@ static void test_a_part_counts_up_to_the_next_one(void **state)
 {
   (void)state;
   for (int other = 0; other < 2; other++) {
-    SamGrid                 grid = CreateGrid(0);
-    Shown                   s    = CreateShown(grid);
-    const SamOutputSettings set  = SettingsOf(s.contact, "");
+    Shown                   s   = CreateShown(0);
+    const SamOutputSettings set = SettingsOf(s.contact, "");
     SamOutput               output;
     uint64_t                identity;
 
-    sam_call(SamOutputCreate(grid, filename, &set, &output));
+    sam_call(SamOutputCreate(s.grid, filename, &set, &output));
     identity = SamOutputGetIdentity(output);
     WriteSome(&s, output, 0, STEPS, 0);
-    sam_call(SamOutputCheckPart(grid, filename, identity));
+    sam_call(SamOutputCheckPart(s.grid, filename, identity));
     BeginCatching();
-    sam_assert(SamOutputCheckPart(grid, filename, identity + 1) == SAM_ERR_USER);
+    sam_assert(SamOutputCheckPart(s.grid, filename, identity + 1) == SAM_ERR_USER);
     EndCatching();
-    sam_call(SamOutputCreate(grid, part_name, &set, &output));
+    sam_call(SamOutputCreate(s.grid, part_name, &set, &output));
     sam_call(SamOutputFollow(output, identity + (uint64_t)other, 1, 0));
     WriteSome(&s, output, 1, STEPS - 1, 7);
     if (other)
@@ -90,37 +89,34 @@ static void test_a_part_counts_up_to_the_next_one(void **state)
     else
       AssertRun(&s, STEPS - 1, (const double[]){0, 7});
     DestroyShown(&s);
-    sam_call(SamGridDestroy(&grid));
   }
-  Remove(filename);
-  Remove(part_name);
+  RemoveFile(filename);
+  RemoveFile(part_name);
 }
 
 /* Until the first step is written an older file of the name stays. */
 static void test_a_file_gets_its_name_when_it_is_complete(void **state)
 {
-  SamGrid                 grid = CreateGrid(0);
-  Shown                   s    = CreateShown(grid);
-  const SamOutputSettings set  = SettingsOf(s.contact, "");
+  Shown                   s   = CreateShown(0);
+  const SamOutputSettings set = SettingsOf(s.contact, "");
   SamOutput               output;
   uint64_t                identity[2];
 
   (void)state;
   for (int k = 0; k < 2; k++) {
-    sam_call(SamOutputCreate(grid, filename, &set, &output));
+    sam_call(SamOutputCreate(s.grid, filename, &set, &output));
     identity[k] = SamOutputGetIdentity(output);
-    if (k) sam_call(SamOutputCheckPart(grid, filename, identity[0]));
+    if (k) sam_call(SamOutputCheckPart(s.grid, filename, identity[0]));
     sam_call(SamOutputWriteFields(output, 1));
     if (!k) sam_call(SamOutputDestroy(&output));
   }
   BeginCatching();
-  sam_assert(SamOutputCheckPart(grid, filename, identity[1]) == SAM_ERR_FILE); /* which is being written */
+  sam_assert(SamOutputCheckPart(s.grid, filename, identity[1]) == SAM_ERR_FILE); /* which is being written */
   EndCatching();
   sam_call(SamOutputDestroy(&output));
-  sam_call(SamOutputCheckPart(grid, filename, identity[1]));
+  sam_call(SamOutputCheckPart(s.grid, filename, identity[1]));
   DestroyShown(&s);
-  sam_call(SamGridDestroy(&grid));
-  Remove(filename);
+  RemoveFile(filename);
 }
 
 /* ---- the second series ---- */
@@ -174,9 +170,8 @@ static int HasCycles(const double worn[STEPS])
 
 static void test_second_series_is_beside_the_history(void **state)
 {
-  SamGrid             grid       = CreateGrid(0);
-  Shown               s          = CreateShown(grid);
-  SamState            cycles     = NewCycles(grid);
+  Shown               s          = CreateShown(0);
+  SamState            cycles     = NewCycles(s.grid);
   const SamParameters parameters = NewParameters(friction);
   SamOutputSettings   set        = SettingsOf(s.contact, "");
   SamOutput           output     = NULL;
@@ -184,20 +179,19 @@ static void test_second_series_is_beside_the_history(void **state)
   (void)state;
   set.cycles      = cycles;
   set.cycles_name = "jumps";
-  sam_call(SamOutputCreate(grid, filename, &set, &output));
+  sam_call(SamOutputCreate(s.grid, filename, &set, &output));
   sam_call(SamOutputSetParameters(output, &parameters));
   for (int k = 0; k < STEPS; k++) WriteRows(&s, cycles, output, k, 0.25 + k);
   sam_call(SamOutputDestroy(&output));
   sam_assert(HasCycles((const double[]){0.25, 1.25, 2.25}));
   set.cycles      = NULL;
   set.cycles_name = NULL;
-  sam_call(SamOutputCreate(grid, filename, &set, &output));
+  sam_call(SamOutputCreate(s.grid, filename, &set, &output));
   sam_fails(SamOutputWriteCycle(output), PETSC_ERR_ORDER);
   sam_call(SamOutputDestroy(&output));
   sam_call(SamStateDestroy(&cycles));
   DestroyShown(&s);
-  sam_call(SamGridDestroy(&grid));
-  Remove(filename);
+  RemoveFile(filename);
 }
 
 int main(int argc, char **argv)

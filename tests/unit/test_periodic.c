@@ -132,9 +132,7 @@ static void test_products_are_sums_over_waves(void **state)
         sam_call(VecAXPY(in, -1, out));
         sam_assert(Norm(in, NORM_INFINITY) == 0);
       }
-      sam_call(VecDestroy(&in));
-      sam_call(VecDestroy(&out));
-      sam_call(VecDestroy(&exact));
+      sam_destroy(&in, &out, &exact);
     }
     sam_call(SamElasticityDestroy(&e));
     sam_call(SamGridDestroy(&grid));
@@ -195,10 +193,7 @@ static double AgainstHalfSpaces(int product, PetscInt refine)
   difference = Difference(u, v, NORM_INFINITY);
   if (getenv("SAM_SHOW")) print_message("# product %d refined %d: %g\n", product, (int)refine, difference);
   free(whole);
-  sam_call(VecDestroy(&packet));
-  sam_call(VecDestroy(&in));
-  sam_call(VecDestroy(&u));
-  sam_call(VecDestroy(&v));
+  sam_destroy(&packet, &in, &u, &v);
   sam_call(SamElasticityDestroy(&a));
   sam_call(SamElasticityDestroy(&b));
   sam_call(SamGridDestroy(&grid));
@@ -238,9 +233,7 @@ static double Work(SamElasticity e, SamGrid grid, const double *y, const double 
     sam_call(products[c].apply(e, in, out));
     work += Dot(with, out);
     *size += Norm(with, NORM_2) * Norm(out, NORM_2);
-    sam_call(VecDestroy(&in));
-    sam_call(VecDestroy(&out));
-    sam_call(VecDestroy(&with));
+    sam_destroy(&in, &out, &with);
   }
   return work;
 }
@@ -259,8 +252,7 @@ static void test_operator_is_symmetric(void **state)
     sam_assert(Work(e, grid, a, a, &size) > 0);
     free(a);
     free(b);
-    sam_call(VecDestroy(&x));
-    sam_call(VecDestroy(&y));
+    sam_destroy(&x, &y);
     sam_call(SamElasticityDestroy(&e));
     sam_call(SamGridDestroy(&grid));
   }
@@ -298,9 +290,7 @@ static void test_shifted_tractions_shift_the_displacements(void **state)
       free(a);
       free(b);
       free(shifted);
-      sam_call(VecDestroy(&in));
-      sam_call(VecDestroy(&out));
-      sam_call(VecDestroy(&other));
+      sam_destroy(&in, &out, &other);
     }
     sam_call(SamElasticityDestroy(&e));
     sam_call(SamGridDestroy(&grid));
@@ -325,8 +315,7 @@ static void test_uniform_tractions_displace_nothing(void **state)
     sam_call(VecSet(in, 1));
     sam_call(products[c].apply(e, in, out));
     sam_assert(Norm(out, NORM_INFINITY) < tolerance * self[0]);
-    sam_call(VecDestroy(&in));
-    sam_call(VecDestroy(&out));
+    sam_destroy(&in, &out);
   }
   sam_call(SamElasticityDestroy(&e));
   sam_call(SamGridDestroy(&grid));
@@ -353,8 +342,7 @@ static void test_single_precision_is_double_but_for_rounding(void **state)
       ApplySingle(e, grid, c + 1, single[c], 1 / self[c], in);
       sam_assert(Norm(exact, NORM_INFINITY) > 0.1);
       sam_assert_close(Difference(in, exact, NORM_2), 0, 3e-7 * Norm(exact, NORM_2)); /* what the solvers count on */
-      sam_call(VecDestroy(&in));
-      sam_call(VecDestroy(&exact));
+      sam_destroy(&in, &exact);
     }
     sam_call(SamElasticityDestroy(&e));
     sam_call(SamGridDestroy(&grid));
@@ -382,8 +370,7 @@ static void test_preconditioners_are_the_inverses(void **state)
       sam_call(VecSet(x, 1));
       sam_call(precondition[c](e, x, y));
       sam_assert(Dot(x, y) > 0.1 * Norm(x, NORM_2) * Norm(y, NORM_2)); /* the mean has a gain all the same */
-      sam_call(VecDestroy(&x));
-      sam_call(VecDestroy(&y));
+      sam_destroy(&x, &y);
     }
     sam_call(SamElasticityDestroy(&e));
     sam_call(SamGridDestroy(&grid));

@@ -30,8 +30,7 @@ static Case NewCase(PetscInt nx, PetscInt ny, double height, double (*shape)(dou
 
 static void DestroyCase(Case *c)
 {
-  sam_call(VecDestroy(&c->h));
-  sam_call(VecDestroy(&c->p));
+  sam_destroy(&c->h, &c->p);
   sam_call(SamElasticityDestroy(&c->elasticity));
   sam_call(SamGridDestroy(&c->grid));
 }
@@ -431,8 +430,7 @@ static double Shear(Case *c, SamSolverType type, double mean, double tx, double 
                   (int)its, residual, *slips, t.rigid[0], t.rigid[1]);
   sam_assert(reason == SAM_SOLVER_CONVERGED_RTOL);
   sam_call(SamTangentialDestroy(&tangential));
-  sam_call(VecDestroy(&bound));
-  sam_call(VecDestroy(&q));
+  sam_destroy(&bound, &q);
   return residual;
 }
 

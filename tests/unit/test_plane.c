@@ -80,8 +80,7 @@ static void test_kernels_are_the_closed_forms(void **state)
                              tolerance * own);
           }
         free(values);
-        sam_call(VecDestroy(&t));
-        sam_call(VecDestroy(&u));
+        sam_destroy(&t, &u);
       }
       sam_call(SamElasticityDestroy(&e));
     }
@@ -141,8 +140,7 @@ static void test_layers_add_their_symbols(void **state)
               : c == 3 ? SamElasticityApplyNormalToTangential
                        : SamElasticityApplyTangential)(e, t, u));
     all[c] = Whole(grid, c ? 2 : 1, u);
-    sam_call(VecDestroy(&t));
-    sam_call(VecDestroy(&u));
+    sam_destroy(&t, &u);
   }
   for (int c = 0; c < 4; c++)
     for (PetscInt i = 0; i < 37; i += i < 2 ? 1 : i < 3 ? 12 : 22) {
@@ -198,10 +196,7 @@ static void test_waves_are_displaced_by_their_symbols(void **state)
       free(values);
       free(normal);
       free(moved);
-      sam_call(VecDestroy(&t));
-      sam_call(VecDestroy(&p));
-      sam_call(VecDestroy(&u));
-      sam_call(VecDestroy(&u_z));
+      sam_destroy(&t, &p, &u, &u_z);
       sam_call(SamElasticityDestroy(&e));
     }
 }
@@ -225,10 +220,7 @@ static void test_operator_is_symmetric(void **state)
     sam_assert_close(Dot(q, u_t) - Dot(p, u_z), 0, 1e-14 * size);
     sam_call(SamElasticityApplyNormal(e, p, u_z));
     sam_assert(Dot(p, u_z) > 0);
-    sam_call(VecDestroy(&p));
-    sam_call(VecDestroy(&q));
-    sam_call(VecDestroy(&u_z));
-    sam_call(VecDestroy(&u_t));
+    sam_destroy(&p, &q, &u_z, &u_t);
     sam_call(SamElasticityDestroy(&e));
   }
 }
@@ -255,9 +247,7 @@ static void test_single_precision_and_inverses(void **state)
       sam_assert(Dot(x, y) > 0);
       sam_call(products[c].apply(e, y, y));
       sam_assert(!(n % 2) || Difference(y, x, NORM_2) < 1e-6);
-      sam_call(VecDestroy(&x));
-      sam_call(VecDestroy(&y));
-      sam_call(VecDestroy(&z));
+      sam_destroy(&x, &y, &z);
       sam_call(SamElasticityDestroy(&e));
     }
 }
@@ -335,9 +325,7 @@ static void test_fields_of_one_row_move_between_grids(void **state)
   free(before);
   sam_call(SamWindowDestroy(&window));
   sam_call(SamTransferDestroy(&transfer));
-  sam_call(VecDestroy(&x));
-  sam_call(VecDestroy(&y));
-  sam_call(VecDestroy(&z));
+  sam_destroy(&x, &y, &z);
   sam_call(SamGridDestroy(&fine));
 }
 

@@ -129,8 +129,7 @@ static void test_depth_grows_by_the_overlap_that_is_left(void **state)
   sam_call(VecAXPY(b, -1, a));
   sam_call(VecNorm(b, NORM_INFINITY, &difference));
   sam_assert(most > 0 && difference < 1e-5 * most);
-  sam_call(VecDestroy(&a));
-  sam_call(VecDestroy(&b));
+  sam_destroy(&a, &b);
   DestroyCase(&one);
   DestroyCase(&two);
 }
@@ -296,8 +295,7 @@ static void test_depth_stays_without_the_limit(void **state)
   now   = NewDepth(&c);
   sam_assert(again.status == SAM_STATUS_CONVERGED && NumberOf(&c, "hardness_work") == 0);
   sam_assert(SameBits(depth, now));
-  sam_call(VecDestroy(&depth));
-  sam_call(VecDestroy(&now));
+  sam_destroy(&depth, &now);
   DestroyCase(&c);
 }
 
@@ -344,8 +342,8 @@ static void test_embedded_contact_yields_when_committed(void **state)
   double         *depth = (double *)calloc(1600, sizeof(*depth)), most;
 
   (void)state;
-  sam_assert(petsam_create((int)MPI_Comm_c2f(PETSC_COMM_WORLD), EMBEDDED "-pressure_limit 5e8", &c) == 0);
-  sam_assert(petsam_create((int)MPI_Comm_c2f(PETSC_COMM_WORLD), EMBEDDED, &plain) == 0);
+  sam_assert(petsam_create(World(), EMBEDDED "-pressure_limit 5e8", &c) == 0);
+  sam_assert(petsam_create(World(), EMBEDDED, &plain) == 0);
   Press(c, 2000);
   most = Number(c, "plastic_depth_max");
   sam_assert(most > 0 && Number(c, "plastic_cells") > 100);

@@ -24,10 +24,7 @@ static void AssertPreconditioner(PetscInt components, Product precondition)
       sam_assert_close(Dot(x, my), Dot(y, mx), 1e-6 * size); /* rounding of single precision, summed up */
       sam_assert(Dot(x, mx) > 1e-3 * Norm(x, NORM_2) * Norm(mx, NORM_2));
       sam_assert(Dot(y, my) > 1e-3 * Norm(y, NORM_2) * Norm(my, NORM_2));
-      sam_call(VecDestroy(&x));
-      sam_call(VecDestroy(&y));
-      sam_call(VecDestroy(&mx));
-      sam_call(VecDestroy(&my));
+      sam_destroy(&x, &y, &mx, &my);
     }
     sam_call(SamElasticityDestroy(&C));
     sam_call(SamGridDestroy(&grid));
@@ -108,9 +105,7 @@ static PetscInt Iterations(PetscInt components, PetscInt nx, PetscInt ny, PetscB
   sam_assert_close(Difference(r, b, NORM_2), 0, 2e-8); /* asked for 1e-8 of the recursive residual */
   sam_call(KSPDestroy(&ksp));
   sam_call(MatDestroy(&mat));
-  sam_call(VecDestroy(&b));
-  sam_call(VecDestroy(&x));
-  sam_call(VecDestroy(&r));
+  sam_destroy(&b, &x, &r);
   sam_call(SamElasticityDestroy(&C));
   sam_call(SamGridDestroy(&grid));
   return its;

@@ -141,8 +141,7 @@ static void PredictStages(const Stage stages[3], double errors[2])
   errors[1] = Difference(m.contact->generation[SAM_TRIED].shear, q[2], NORM_2);
   DestroyContact(&m);
   for (int k = 0; k < 3; k++) {
-    sam_call(VecDestroy(&p[k]));
-    sam_call(VecDestroy(&q[k]));
+    sam_destroy(&p[k], &q[k]);
   }
   sam_call(SamGridDestroy(&grid));
 }
@@ -192,8 +191,7 @@ static void test_prediction_keeps_what_would_vanish(void **state)
              SameBits(m.contact->generation[SAM_BEFORE].shear, q[0]));
   DestroyContact(&m);
   for (int k = 0; k < 2; k++) {
-    sam_call(VecDestroy(&p[k]));
-    sam_call(VecDestroy(&q[k]));
+    sam_destroy(&p[k], &q[k]);
   }
   sam_call(SamGridDestroy(&grid));
 }
@@ -226,8 +224,7 @@ static void test_what_turns_is_not_predicted(void **state)
   sam_assert(!start.pressure && !start.shear);
   DestroyContact(&m);
   for (int k = 0; k < 2; k++) {
-    sam_call(VecDestroy(&p[k]));
-    sam_call(VecDestroy(&q[k]));
+    sam_destroy(&p[k], &q[k]);
   }
   sam_call(SamGridDestroy(&grid));
 }

@@ -93,8 +93,7 @@ static void test_projection_is_the_nearest_between_two_bounds(void **state)
       sam_assert(Dot(v, w) <= 1e-9 * Norm(v, NORM_2) * Norm(w, NORM_2));
       sam_call(VecDestroy(&w));
     }
-    sam_call(VecDestroy(&v));
-    sam_call(VecDestroy(&x));
+    sam_destroy(&v, &x);
   }
   sam_call(SamGridDestroy(&grid));
 }
@@ -129,8 +128,7 @@ static void test_equilibrium_is_mended_between_the_bounds(void **state)
   sam_assert_close(Imbalance(&f, x), 0, 1e-11);
   sam_assert(CountBound(grid, x, y, 0) == CountBound(grid, y, y, 0));
   sam_assert(CountBound(grid, x, y, MOST) == CountBound(grid, y, y, MOST));
-  sam_call(VecDestroy(&x));
-  sam_call(VecDestroy(&y));
+  sam_destroy(&x, &y);
   sam_call(SamGridDestroy(&grid));
 }
 
@@ -159,8 +157,7 @@ static void test_cells_outside_of_a_mask_go_to_the_nearer_bound(void **state)
   sam_assert(wrong == 0);
   sam_assert_close(Imbalance(&f, p), 0, 1e-11);
   free(mask);
-  sam_call(VecDestroy(&p));
-  sam_call(VecDestroy(&before));
+  sam_destroy(&p, &before);
   sam_call(SamGridDestroy(&grid));
 }
 

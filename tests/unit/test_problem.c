@@ -17,7 +17,7 @@ static SamStep StepUpright(const Case *c, double N, double x)
 {
   SamControl control = Loads(c, N, x, 0, 0);
 
-  for (PetscInt k = SAM_COMPONENT_MX; k < SAM_COMPONENTS; k++) Displace(&control, (SamComponent)k, 0);
+  HoldRotations(&control);
   return Solve(c, &control);
 }
 
@@ -129,9 +129,7 @@ static void test_slip_stays_with_its_place_when_the_gap_changes(void **state)
   sam_assert(found[1] < 1e-5 * MU * c.s.a * c.s.a / c.s.R); /* rtol of the shear, of the largest displacement */
   sam_assert(Norm(slip[0], NORM_INFINITY) > 0.1 * MU * c.s.a * c.s.a / c.s.R);
   for (int k = 0; k < 2; k++) sam_call(VecDestroy(&slip[k]));
-  sam_call(VecDestroy(&pressure));
-  sam_call(VecDestroy(&now));
-  sam_call(VecDestroy(&h));
+  sam_destroy(&pressure, &now, &h);
   DestroyCase(&c);
 }
 
@@ -345,9 +343,7 @@ static void test_bound_follows_the_friction_that_was_set_last(void **state)
   sam_call(SamProblemHasFriction(c.problem, &has));
   sam_assert(!has);
   two = 2;
-  sam_call(VecDestroy(&p));
-  sam_call(VecDestroy(&b));
-  sam_call(VecDestroy(&expected));
+  sam_destroy(&p, &b, &expected);
   DestroyCase(&c);
 }
 

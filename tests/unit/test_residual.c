@@ -139,12 +139,9 @@ static void test_waves_have_reference_amplitudes(void **state)
 
       sam_assert_close(PlaneDot(grid, 3, c, u, wave[turned]) / 24, (turned ? -1 : 1) * amplitudes[n].u[c], 1e-10);
     }
-    sam_call(VecDestroy(&e));
-    sam_call(VecDestroy(&s));
-    sam_call(VecDestroy(&u));
+    sam_destroy(&e, &s, &u);
   }
-  sam_call(VecDestroy(&wave[0]));
-  sam_call(VecDestroy(&wave[1]));
+  sam_destroy(&wave[0], &wave[1]);
   sam_call(SamResidualDestroy(&r));
   sam_call(SamElasticityDestroy(&b));
   sam_call(SamGridDestroy(&grid));
@@ -176,10 +173,7 @@ static void test_uniform_layers(void **state)
   Apply(r, e, s, u);
   sam_assert_close(Norm(s, NORM_INFINITY), 0, 1e-14);
   sam_assert_close(PlaneDot(grid, 3, 2, u, one) / 20, -0.1, 1e-14);
-  sam_call(VecDestroy(&one));
-  sam_call(VecDestroy(&e));
-  sam_call(VecDestroy(&s));
-  sam_call(VecDestroy(&u));
+  sam_destroy(&one, &e, &s, &u);
   sam_call(SamResidualDestroy(&r));
   sam_call(SamElasticityDestroy(&b));
   sam_call(SamGridDestroy(&grid));
@@ -223,12 +217,7 @@ static void AssertSymmetric(SamElasticityType type, PetscInt body)
   Load(r, q, s);
   sam_assert_close(Dot(e, s), Dot(q, u), 1e-14 * Norm(e, NORM_2) * Norm(s, NORM_2));
   sam_assert(fabs(Dot(q, u)) > 1e-4);
-  sam_call(VecDestroy(&e));
-  sam_call(VecDestroy(&f));
-  sam_call(VecDestroy(&q));
-  sam_call(VecDestroy(&s));
-  sam_call(VecDestroy(&t));
-  sam_call(VecDestroy(&u));
+  sam_destroy(&e, &f, &q, &s, &t, &u);
   sam_call(SamResidualDestroy(&r));
   sam_call(SamElasticityDestroy(&b));
   sam_call(SamGridDestroy(&grid));
@@ -295,12 +284,9 @@ static void test_half_space_has_reference_stress(void **state)
       if (getenv("SAM_SHOW")) print_message("# %.10f %.10f\n", PlaneDot(grid, 24, 18 + c, s, at), expected[n][c + 1]);
       sam_assert_close(PlaneDot(grid, 24, 18 + c, s, at), expected[n][c + 1], 1.5e-6);
     }
-    sam_call(VecDestroy(&e));
-    sam_call(VecDestroy(&s));
-    sam_call(VecDestroy(&u));
+    sam_destroy(&e, &s, &u);
   }
-  sam_call(VecDestroy(&bell));
-  sam_call(VecDestroy(&at));
+  sam_destroy(&bell, &at);
   sam_call(SamResidualDestroy(&r));
   sam_call(SamElasticityDestroy(&b));
   sam_call(SamGridDestroy(&grid));

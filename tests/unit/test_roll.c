@@ -27,8 +27,7 @@ static double ErrorOf(PetscInt n, double roll, double roll_y)
       error =
         PetscMax(error, fabs(moved[j * n + i] - Wave(SamGridX(grid, i) + roll, SamGridY(grid, j) + roll_y, NULL)));
   free(moved);
-  sam_call(VecDestroy(&from));
-  sam_call(VecDestroy(&to));
+  sam_destroy(&from, &to);
   sam_call(SamGridDestroy(&grid));
   return error;
 }
@@ -71,8 +70,7 @@ static void test_what_enters(void **state)
           }
       free(before);
       free(after);
-      sam_call(VecDestroy(&from));
-      sam_call(VecDestroy(&to));
+      sam_destroy(&from, &to);
     }
   sam_call(SamGridDestroy(&grid));
 }
@@ -99,11 +97,6 @@ static SamControl Rolled(const Case *c, double cells, double cells_y)
   Prescribe(c->problem, &control, "roll", cells * c->s.grid->dx);
   Prescribe(c->problem, &control, "roll_y", cells_y * c->s.grid->dy);
   return control;
-}
-
-static Vec NewPath(const Case *c)
-{
-  return NewFieldOf(c, "slip_path");
 }
 
 static void test_rejected_steps_leave_no_trace(void **state)

@@ -89,10 +89,7 @@ static void test_operator_is_that_of_the_differences(void **state)
   sam_call(SamElasticityApplyTangential(r.c.s.elasticity, q, q)); /* in place */
   sam_assert(Difference(q, u, NORM_INFINITY) == 0);
   free(single);
-  sam_call(VecDestroy(&q));
-  sam_call(VecDestroy(&d));
-  sam_call(VecDestroy(&u));
-  sam_call(VecDestroy(&v));
+  sam_destroy(&q, &d, &u, &v);
   DestroyRolling(&r);
 }
 
@@ -123,8 +120,7 @@ static void test_reciprocity(void **state)
   (void)Solve(&wide, bound, NULL, NULL, 1e-9, &spin, q);
   sam_assert(spin.load[1] > 0);
   sam_assert_close(spin.load[1] / r.c.s.a, -lateral.load[2] / r.c.s.a / r.c.s.a, 1e-7 * spin.load[1] / r.c.s.a);
-  sam_call(VecDestroy(&bound));
-  sam_call(VecDestroy(&q));
+  sam_destroy(&bound, &q);
   DestroyRolling(&r);
 }
 
@@ -170,8 +166,7 @@ static void test_solution_is_the_only_one(void **state)
   (void)SolveWell(&r.c, NULL, NULL, 1e-8, &creep, q);
   SolvePlainly(&r.c, &same, plain);
   sam_assert_close(Difference(q, plain, NORM_INFINITY), 0, 1e-6);
-  sam_call(VecDestroy(&q));
-  sam_call(VecDestroy(&plain));
+  sam_destroy(&q, &plain);
   DestroyRolling(&r);
 }
 
@@ -222,12 +217,7 @@ static void test_power(void **state)
   velocity = Slip(&r.c, &none, q);
   middle   = NewNeighbours(grid, velocity, 0);
   sam_assert_close(Dot(q, middle) * area, 0, 1e-11 * power);
-  sam_call(VecDestroy(&q));
-  sam_call(VecDestroy(&d));
-  sam_call(VecDestroy(&v));
-  sam_call(VecDestroy(&slip));
-  sam_call(VecDestroy(&velocity));
-  sam_call(VecDestroy(&middle));
+  sam_destroy(&q, &d, &v, &slip, &velocity, &middle);
   DestroyRolling(&r);
 }
 
@@ -276,9 +266,7 @@ static void test_bits_are_the_same_on_any_number_of_ranks(void **state)
     shear[k] = Whole(s[k].grid, 2, q);
     sam_call(SamTangentialDestroy(&t));
     sam_call(SamElasticityDestroy(&rolling));
-    sam_call(VecDestroy(&bound));
-    sam_call(VecDestroy(&none));
-    sam_call(VecDestroy(&q));
+    sam_destroy(&bound, &none, &q);
   }
   sam_assert(b[0].rigid[0] == b[1].rigid[0] && b[0].load[1] == b[1].load[1]);
   sam_assert(!memcmp(shear[0], shear[1], sizeof(double) * 2 * 71 * 71));

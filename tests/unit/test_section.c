@@ -110,8 +110,7 @@ static double *FromMaps(SamGrid grid, PetscInt body, SamSectionAxis axis, PetscI
           result[((step * COMPONENTS + c) * DEPTHS + k) * length + i] = to[(ptrdiff_t)c * grid->nx * grid->ny + cell];
         }
       free(to);
-      sam_call(VecDestroy(&t));
-      sam_call(VecDestroy(&s));
+      sam_destroy(&t, &s);
     }
   }
   sam_call(SamStressDestroy(&stress));

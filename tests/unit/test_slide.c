@@ -27,10 +27,7 @@ static void test_moving_back_is_the_transpose(void **state)
       sam_assert_close(Dot(f, rg), Dot(tf, g), 1e-13 * Norm(f, NORM_2) * Norm(g, NORM_2));
       sum = Sum(g);
       if (wraps) sam_assert_close(Sum(rg), sum, 1e-13 * Norm(g, NORM_1));
-      sam_call(VecDestroy(&f));
-      sam_call(VecDestroy(&g));
-      sam_call(VecDestroy(&rg));
-      sam_call(VecDestroy(&tf));
+      sam_destroy(&f, &g, &rg, &tf);
       sam_call(SamGridDestroy(&grid));
     }
 }
@@ -55,8 +52,7 @@ static void test_a_period_moves_round(void **state)
         sam_assert(after[j * 7 + i] == before[(j + shifts[s][1] + 90) % 9 * 7 + (i + shifts[s][0] + 70) % 7]);
     free(before);
     free(after);
-    sam_call(VecDestroy(&from));
-    sam_call(VecDestroy(&to));
+    sam_destroy(&from, &to);
   }
   sam_call(SamGridDestroy(&grid));
 }
@@ -81,8 +77,7 @@ static void test_waves_lose_a_known_part_of_their_height(void **state)
 
     sam_call(SamGridMove(grid, 1, (const PetscReal[]){3.5, 0}, SAM_BORDER_WRAPS, from, to));
     sam_assert_close(1 - Norm(to, NORM_2) / before, waves[k][1], 0.02 * waves[k][1]);
-    sam_call(VecDestroy(&from));
-    sam_call(VecDestroy(&to));
+    sam_destroy(&from, &to);
   }
   sam_call(SamGridDestroy(&grid));
 }
@@ -244,8 +239,7 @@ static void test_the_pressure_is_that_of_the_place(void **state)
   sam_assert(NumberOf(&c, "slide_x") == (double)there.value[SAM_COMPONENT_TX]);
   Solve(&c, &home);
   sam_assert(Difference(first, SolutionOf(&c)->pressure, NORM_2) < 1e-5);
-  sam_call(VecDestroy(&first));
-  sam_call(VecDestroy(&second));
+  sam_destroy(&first, &second);
   DestroyCase(&c);
 }
 

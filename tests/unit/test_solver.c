@@ -226,8 +226,7 @@ static void test_normal_method_from_outside_is_selected_by_its_option(void **sta
   sam_call(SamNormalDestroy(&normal));
   sam_assert(!normal);
   ClearOptions();
-  sam_call(VecDestroy(&p));
-  sam_call(VecDestroy(&q));
+  sam_destroy(&p, &q);
   DestroySphere(&s);
 }
 
@@ -261,28 +260,15 @@ static void test_tangential_method_from_outside_is_selected_by_its_option(void *
   sam_assert_close(other.rigid[0], balance.rigid[0], 1e-3 * balance.rigid[0]);
   sam_call(SamTangentialDestroy(&t));
   ClearOptions();
-  sam_call(VecDestroy(&bound));
-  sam_call(VecDestroy(&q));
-  sam_call(VecDestroy(&r));
+  sam_destroy(&bound, &q, &r);
   DestroySphere(&s);
-}
-
-/* What PETSc's error handler was told last. */
-static char told[512];
-
-static PetscErrorCode Listen(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode code,
-                             PetscErrorType type, const char *message, void *context)
-{
-  (void)comm, (void)line, (void)function, (void)file, (void)context;
-  if (type == PETSC_ERROR_INITIAL) (void)snprintf(told, sizeof(told), "%s", message);
-  return code;
 }
 
 static void AssertFails(PetscErrorCode code, PetscErrorCode expected, const char *says, const char *and_says)
 {
   sam_assert(code == expected);
-  sam_assert(strstr(told, says) && strstr(told, and_says));
-  told[0] = '\0';
+  sam_assert(strstr(CaughtMessage(), says) && strstr(CaughtMessage(), and_says));
+  CaughtMessage()[0] = '\0';
 }
 
 /* The list of types is that of the registry; an option is blamed only where options are read. */
@@ -297,12 +283,12 @@ static void test_unknown_type_names_those_registered(void **state)
   sam_call(SamNormalCreate(s.elasticity, &normal));
   sam_call(SamSolverSetOptionsPrefix(SamNormalAsSolver(normal), "my_"));
   Option("-my_normal_type", "foo");
-  sam_call(PetscPushErrorHandler(Listen, NULL));
+  BeginCatching();
   AssertFails(SamSolverSetFromOptions(SamNormalAsSolver(normal)), SAM_ERR_USER, "-my_normal_type foo",
               "polonskykeer, toy or zzz");
   AssertFails(SamSolverSetType(SamNormalAsSolver(normal), "foo"), SAM_ERR_USER, "foo is not a type of normal solver",
               "activeset, polonskykeer");
-  sam_call(PetscPopErrorHandler());
+  EndCatching();
   type = SamSolverGetType(SamNormalAsSolver(normal));
   sam_assert(!strcmp(type, SAM_NORMAL_ACTIVESET)); /* as it was */
   ClearOptions();
@@ -327,13 +313,13 @@ static void test_options_go_through_the_setters(void **state)
   sam_call(SamSolverSetFromOptions(SamNormalAsSolver(normal)));
   sam_call(SamSolverGetTolerances(SamNormalAsSolver(normal), &rtol, &max_it));
   sam_assert(rtol == 1e-5 && max_it == 7 && SamSolverLevels(SamNormalAsSolver(normal)) == 2);
-  sam_call(PetscPushErrorHandler(Listen, NULL));
+  BeginCatching();
   AssertFails(SamSolverSetTolerances(SamNormalAsSolver(normal), 0, PETSC_DEFAULT), PETSC_ERR_ARG_OUTOFRANGE, "rtol 0",
               "> 0");
   AssertFails(SamSolverSetTolerances(SamNormalAsSolver(normal), PETSC_DEFAULT, -1), PETSC_ERR_ARG_OUTOFRANGE,
               "max_it -1", ">= 0");
   AssertFails(SamSolverSetLevels(SamNormalAsSolver(normal), -1), PETSC_ERR_ARG_OUTOFRANGE, "levels -1", ">= 0");
-  sam_call(PetscPopErrorHandler());
+  EndCatching();
   ClearOptions();
   sam_call(SamNormalDestroy(&normal));
   DestroySphere(&s);
@@ -355,14 +341,13 @@ static void test_balance_of_the_other_kind_is_refused(void **state)
   (void)state;
   sam_call(SamNormalCreate(s.elasticity, &n));
   sam_call(SamTangentialCreate(s.elasticity, &t));
-  sam_call(PetscPushErrorHandler(Listen, NULL));
+  BeginCatching();
   AssertFails(SamNormalSolve(n, s.h, &tangential, PETSC_FALSE, p), PETSC_ERR_ARG_WRONG, "normal", "balance");
   AssertFails(SamTangentialSolve(t, s.h, NULL, &normal, PETSC_FALSE, q), PETSC_ERR_ARG_WRONG, "tangential", "balance");
-  sam_call(PetscPopErrorHandler());
+  EndCatching();
   sam_call(SamNormalDestroy(&n));
   sam_call(SamTangentialDestroy(&t));
-  sam_call(VecDestroy(&p));
-  sam_call(VecDestroy(&q));
+  sam_destroy(&p, &q);
   DestroySphere(&s);
 }
 
@@ -378,9 +363,9 @@ static void test_not_converging_is_an_error_where_that_is_asked_for(void **state
   sam_call(SamSolverSetTolerances(SamNormalAsSolver(normal), PETSC_DEFAULT, 1));
   sam_call(SamNormalSolve(normal, s.h, &balance, PETSC_FALSE, p));
   sam_call(SamSolverSetErrorIfNotConverged(SamNormalAsSolver(normal), PETSC_TRUE));
-  sam_call(PetscPushErrorHandler(Listen, NULL));
+  BeginCatching();
   AssertFails(SamNormalSolve(normal, s.h, &other, PETSC_FALSE, p), PETSC_ERR_NOT_CONVERGED, "normal", "DIVERGED_ITS");
-  sam_call(PetscPopErrorHandler());
+  EndCatching();
   sam_assert(SamSolverGetReason(SamNormalAsSolver(normal)) == SAM_SOLVER_DIVERGED_ITS);
   sam_call(SamNormalDestroy(&normal));
   sam_call(VecDestroy(&p));
@@ -404,8 +389,7 @@ static void test_solve_is_a_function_of_its_input(void **state)
   sam_assert(Difference(q, p, NORM_INFINITY) == 0);
   sam_assert(again.rigid[0] == one.rigid[0]);
   sam_call(SamNormalDestroy(&normal));
-  sam_call(VecDestroy(&p));
-  sam_call(VecDestroy(&q));
+  sam_destroy(&p, &q);
   DestroySphere(&s);
 }
 

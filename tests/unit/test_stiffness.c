@@ -383,17 +383,12 @@ static void test_held_contact_sticks(void **state)
 /* Surfaces that repeat do not rotate; the others are derivatives of trials. */
 static void test_periodic_bodies_have_no_rotations(void **state)
 {
-  Sphere       s = NewSphereOf(Steel(), 40, 2);
-  SamControl   control, moved;
-  SamStep      one, other;
+  Case         c       = NewPeriodic(Steel(), 40, 2, 1, MU, "-normal_rtol 1e-11 -tangential_rtol 1e-10");
+  SamControl   control = Loads(&c, 1, 0.5, 0, 0), moved;
+  SamStep      one     = Try(&c, &control), other;
   SamStiffness k;
-  Case         c;
 
   (void)state;
-  sam_call(SamElasticitySetType(s.elasticity, SAM_ELASTICITY_PERIODIC));
-  c       = NewCaseOn(s, MU, NULL, "-normal_rtol 1e-11 -tangential_rtol 1e-10");
-  control = Loads(&c, 1, 0.5, 0, 0);
-  one     = Try(&c, &control);
   for (PetscInt i = 0; i < SAM_COMPONENT_MX; i++) Displace(&control, (SamComponent)i, one.rigid[i]);
   moved = control;
   moved.value[TX] += 1e-5 * one.rigid[TX];
@@ -408,15 +403,11 @@ static void test_periodic_bodies_have_no_rotations(void **state)
 /* In full contact of periodic bodies the approach does not decide the pressure: that stiffness is infinite. */
 static void test_full_periodic_contact_has_no_stiffness(void **state)
 {
-  Sphere       s = NewSphereOf(Steel(), 32, 0.1);
-  SamControl   control;
-  SamStiffness k;
-  Case         c;
+  Case             c       = NewPeriodic(Steel(), 32, 0.1, 1, MU, "");
+  const SamControl control = Loads(&c, 1, 0, 0, 0);
+  SamStiffness     k;
 
   (void)state;
-  sam_call(SamElasticitySetType(s.elasticity, SAM_ELASTICITY_PERIODIC));
-  c       = NewCaseOn(s, MU, NULL, "");
-  control = Loads(&c, 1, 0, 0, 0);
   (void)Try(&c, &control);
   k = Stiffness(&c, SAM_STIFFNESS_REVERSAL);
   sam_assert(!k.converged && isnan(k.k[Z][Z]) && isnan(k.k[TX][TX]));

@@ -28,9 +28,7 @@ static Case NewCase(SamGrid grid, PetscInt body)
 static void DestroyCase(Case *c)
 {
   sam_call(SamStressDestroy(&c->stress));
-  sam_call(VecDestroy(&c->p));
-  sam_call(VecDestroy(&c->q));
-  sam_call(VecDestroy(&c->s));
+  sam_destroy(&c->p, &c->q, &c->s);
   sam_call(SamGridDestroy(&c->grid));
 }
 
@@ -50,20 +48,6 @@ static void Compute(Case *c, double depth)
   sam_call(VecRestoreArrayRead(c->p, &p));
   sam_call(SamStressSetDepth(c->stress, depth));
   sam_call(SamStressApply(c->stress, c->s));
-}
-
-/* A stress at a cell's centre, on all ranks. */
-static double At(const Case *c, SamStressComponent component, PetscInt i, PetscInt j)
-{
-  const double *s;
-  double        value = 0;
-
-  sam_call(VecGetArrayRead(c->s, &s));
-  if (j >= c->grid->row_start && j < c->grid->row_start + c->grid->rows)
-    value = s[component * c->grid->cells + (j - c->grid->row_start) * c->grid->nx + i];
-  sam_call(VecRestoreArrayRead(c->s, &s));
-  sam_call(SamSum(c->grid->comm, 1, &value));
-  return value;
 }
 
 /* ---- direct summation ---- */
@@ -88,8 +72,7 @@ static void AssertSum(PetscInt nx, PetscInt ny, PetscInt body, double depth)
   const double             sign   = body == 1 ? -1 : 1;
   double                  *p, *q, worst = 0;
 
-  sam_call(VecDestroy(&c.p));
-  sam_call(VecDestroy(&c.q));
+  sam_destroy(&c.p, &c.q);
   c.p = NewRandom(c.grid, 1, 3);
   c.q = NewRandom(c.grid, 2, 4);
   Compute(&c, depth);
@@ -98,7 +81,7 @@ static void AssertSum(PetscInt nx, PetscInt ny, PetscInt body, double depth)
   for (int component = 0; component < COMPONENTS; component++)
     for (PetscInt j = 0; j < ny; j += 2)
       for (PetscInt i = 0; i < nx; i += 3) {
-        const double value = At(&c, (SamStressComponent)component, i, j);
+        const double value = At(c.grid, c.s, (SamStressComponent)component, i, j);
         double       sum   = 0;
 
         for (PetscInt l = 0; l < ny; l++)
@@ -167,10 +150,10 @@ static double AxisError(PetscInt n)
     const double z = depths[k], zz = -1 / (1 + z * z), rr = -(1 + NU) * (1 - z * atan(1 / z)) - 0.5 * zz;
 
     Compute(&c, z);
-    worst = SamLarger(worst, fabs(At(&c, SAM_STRESS_ZZ, n / 2, n / 2) - zz));
-    worst = SamLarger(worst, fabs(At(&c, SAM_STRESS_XX, n / 2, n / 2) - rr));
-    worst = SamLarger(worst, fabs(At(&c, SAM_STRESS_YY, n / 2, n / 2) - rr));
-    worst = SamLarger(worst, fabs(At(&c, SAM_STRESS_XZ, n / 2, n / 2)));
+    worst = SamLarger(worst, fabs(At(c.grid, c.s, SAM_STRESS_ZZ, n / 2, n / 2) - zz));
+    worst = SamLarger(worst, fabs(At(c.grid, c.s, SAM_STRESS_XX, n / 2, n / 2) - rr));
+    worst = SamLarger(worst, fabs(At(c.grid, c.s, SAM_STRESS_YY, n / 2, n / 2) - rr));
+    worst = SamLarger(worst, fabs(At(c.grid, c.s, SAM_STRESS_XZ, n / 2, n / 2)));
   }
   DestroyCase(&c);
   return worst;
@@ -229,7 +212,7 @@ static void test_largest_mises_stress_for_all_poisson_ratios(void **state)
 
       Compute(&c, places[k]);
       for (int i = 0; i < COMPONENTS; i++) {
-        s[i]  = At(&c, (SamStressComponent)i, 64, 64);
+        s[i]  = At(c.grid, c.s, (SamStressComponent)i, 64, 64);
         at[i] = &s[i];
       }
       SamStressMises(1, at, &mises[k]);
@@ -305,10 +288,12 @@ static void test_points_at_depth(void **state)
   c = NewCase(grid, 2);
   SetHertz(&c, 0.5, 0);
   Compute(&c, 0.4);
-  for (int k = 0; k < COMPONENTS; k++) sam_assert_close(At(&c, (SamStressComponent)k, 319, 299), sliding[k], 1e-4);
+  for (int k = 0; k < COMPONENTS; k++)
+    sam_assert_close(At(c.grid, c.s, (SamStressComponent)k, 319, 299), sliding[k], 1e-4);
   SetHertz(&c, 0.5, 0.6);
   Compute(&c, 0.2);
-  for (int k = 0; k < COMPONENTS; k++) sam_assert_close(At(&c, (SamStressComponent)k, 59, 259), partial[k], 1e-4);
+  for (int k = 0; k < COMPONENTS; k++)
+    sam_assert_close(At(c.grid, c.s, (SamStressComponent)k, 59, 259), partial[k], 1e-4);
   DestroyCase(&c);
 }
 
@@ -324,9 +309,9 @@ static void test_shear_leaves_the_stick_zone_free_of_plane_stress(void **state)
   for (int k = 0; k < 5; k++) {
     const PetscInt i = n / 2 + 9 * k, j = n / 2 - 5 * k; /* r < 0.5 */
 
-    sam_assert_close(At(&c, SAM_STRESS_XX, i, j), 0, 5e-3);
-    sam_assert_close(At(&c, SAM_STRESS_YY, i, j), 0, 5e-3);
-    sam_assert_close(At(&c, SAM_STRESS_XY, i, j), 0, 5e-3);
+    sam_assert_close(At(c.grid, c.s, SAM_STRESS_XX, i, j), 0, 5e-3);
+    sam_assert_close(At(c.grid, c.s, SAM_STRESS_YY, i, j), 0, 5e-3);
+    sam_assert_close(At(c.grid, c.s, SAM_STRESS_XY, i, j), 0, 5e-3);
   }
   DestroyCase(&c);
 }

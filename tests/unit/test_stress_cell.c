@@ -3,7 +3,14 @@
 
 #include <petsam/private/halfspace.h>
 
-#include "stress_values.h"
+typedef struct {
+  double sides[2], poisson, point[3];
+  double values[6][3]; /* xx, yy, zz, xy, xz, yz, each by p, q_x, q_y */
+} Reference;
+
+static const Reference references[] = {
+#include "stress_values.txt"
+};
 
 enum { REFERENCES = sizeof(references) / sizeof(references[0]) };
 enum { XX = SAM_STRESS_XX, YY = SAM_STRESS_YY, ZZ = SAM_STRESS_ZZ, XY = SAM_STRESS_XY, XZ = SAM_STRESS_XZ };

@@ -133,8 +133,7 @@ static void test_edge_at_the_border_is_left(void **state)
   sam_call(SamStressDestroy(&body));
   sam_call(PetscFree(stress));
   sam_call(SamEdgeDestroy(&edge));
-  sam_call(VecDestroy(&square));
-  sam_call(VecDestroy(&field));
+  sam_destroy(&square, &field);
   DestroyCase(&c);
 }
 

@@ -334,7 +334,6 @@ static void test_restart_keeps_the_stretch(void **state)
   const SamParameters none = {.count = 0};
   SamCheckpoint       files;
   SamStep             a, b;
-  int                 rank;
 
   (void)state;
   (void)Solve(&one, &first);
@@ -348,8 +347,7 @@ static void test_restart_keeps_the_stretch(void **state)
   AssertGood(&a);
   AssertSameSteps(&one, &a, &other, &b);
   AssertSameFields(&one, &other);
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  if (!rank) (void)unlink(filename);
+  RemoveFile(filename);
   DestroyCase(&one);
   DestroyCase(&other);
 }

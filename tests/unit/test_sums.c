@@ -55,14 +55,7 @@ static void test_sums_are_those_of_the_committed_steps_and_the_tried_one(void **
   sam_assert(Norm(sum, NORM_INFINITY) == 0);
   DestroyCase(&c);
   for (int k = 0; k < 2; k++) sam_call(VecDestroy(&step[k]));
-  sam_call(VecDestroy(&path));
-  sam_call(VecDestroy(&work));
-  sam_call(VecDestroy(&sum));
-}
-
-static Vec NewPath(const Case *c)
-{
-  return NewFieldOf(c, "slip_path");
+  sam_destroy(&path, &work, &sum);
 }
 
 static void test_sums_go_with_the_state(void **state)
@@ -139,8 +132,7 @@ static void test_numbers_are_those_of_the_fields(void **state)
   (void)Try(&c, &control);
   sam_assert(isnan(NumberOf(&c, "contact_spots")) && isnan(NumberOf(&c, "gap_mean")) &&
              isnan(NumberOf(&c, "slip_max")) && isnan(NumberOf(&c, "contact_fraction")));
-  sam_call(VecDestroy(&slip));
-  sam_call(VecDestroy(&gap));
+  sam_destroy(&slip, &gap);
   DestroyCase(&c);
 }
 

@@ -78,8 +78,7 @@ static void test_unloading_leaves_reversed_slip(void **state)
   error = CattaneoError(&c, 0.8, 0.1, q);
   if (getenv("SAM_SHOW")) print_message("# unloading %g\n", error);
   sam_assert(error < 5e-2); /* two solutions with 1 and 2 %, whose difference is smaller than either */
-  sam_call(VecDestroy(&offset));
-  sam_call(VecDestroy(&q));
+  sam_destroy(&offset, &q);
   DestroyCase(&c);
 }
 
@@ -125,8 +124,7 @@ static void test_force_and_displacement_control_agree(void **state)
     sam_assert_close(Difference(other, q, NORM_2), 0, 1e-5); /* two solutions to 1e-8 times the condition, about n */
     for (int k = 0; k < 3; k++) sam_assert_close(mixed.load[k], given.load[k], 1e-5 * c.T * (k == 2 ? c.s.a : 1));
   }
-  sam_call(VecDestroy(&q));
-  sam_call(VecDestroy(&other));
+  sam_destroy(&q, &other);
   DestroyCase(&c);
 }
 
@@ -148,8 +146,7 @@ static void test_both_types_agree(void **state)
     for (int i = 0; i < 3; i++)
       sam_assert_close(newton.rigid[i], gradient.rigid[i],
                        1e-4 * c.T / (c.s.a * c.s.pair->modulus) / (i == 2 ? c.s.a : 1));
-    sam_call(VecDestroy(&q));
-    sam_call(VecDestroy(&other));
+    sam_destroy(&q, &other);
     DestroyCase(&c);
   }
 }
@@ -195,8 +192,7 @@ static void test_load_along_y_gives_the_transposed_solution(void **state)
   sam_assert_close(y.rigid[1], x.rigid[0], 1e-6 * x.rigid[0]);
   free(a);
   free(b);
-  sam_call(VecDestroy(&qx));
-  sam_call(VecDestroy(&qy));
+  sam_destroy(&qx, &qy);
   DestroyCase(&c);
 }
 
@@ -211,8 +207,7 @@ static void test_reversed_load_gives_the_reversed_solution(void **state)
   SolveWell(&c, NULL, NULL, 0, &back, r);
   sam_call(VecScale(r, -1));
   sam_assert_close(Difference(q, r, NORM_2), 0, 1e-9); /* the same numbers with another sign, but for rounding */
-  sam_call(VecDestroy(&q));
-  sam_call(VecDestroy(&r));
+  sam_destroy(&q, &r);
   DestroyCase(&c);
 }
 
@@ -255,9 +250,7 @@ static void test_same_load_again_changes_nothing(void **state)
   sam_assert_close(Difference(r, q, NORM_2), 0, 1e-5); /* as above */
   for (int k = 0; k < 3; k++)
     sam_assert_close(second.rigid[k], first.rigid[k], 1e-5 * c.T / (c.s.a * c.s.pair->modulus) / (k == 2 ? c.s.a : 1));
-  sam_call(VecDestroy(&offset));
-  sam_call(VecDestroy(&q));
-  sam_call(VecDestroy(&r));
+  sam_destroy(&offset, &q, &r);
   DestroyCase(&c);
 }
 
@@ -277,9 +270,7 @@ static void test_rigid_offset_moves_the_bodies_alone(void **state)
   sam_assert_close(Difference(r, q, NORM_2), 0, 1e-5); /* as above */
   for (int k = 0; k < 3; k++)
     sam_assert_close(moved.rigid[k] + shift.rigid[k], plain.rigid[k], 1e-5 * fabs(shift.rigid[k]));
-  sam_call(VecDestroy(&offset));
-  sam_call(VecDestroy(&q));
-  sam_call(VecDestroy(&r));
+  sam_destroy(&offset, &q, &r);
   DestroyCase(&c);
 }
 
@@ -369,10 +360,7 @@ static void test_start_from_shear_beyond_the_bound_and_its_product(void **state)
     sam_assert_close(Difference(q, r, NORM_2), 0, 1e-4);
     sam_assert_close(next.rigid[0], cold.rigid[0], 1e-4 * cold.rigid[0]);
     sam_call(SamTangentialDestroy(&t));
-    sam_call(VecDestroy(&product.field));
-    sam_call(VecDestroy(&bound));
-    sam_call(VecDestroy(&q));
-    sam_call(VecDestroy(&r));
+    sam_destroy(&product.field, &bound, &q, &r);
   }
   DestroyCase(&c);
 }
@@ -415,10 +403,7 @@ static void test_product_of_shear_that_is_cut_off_is_forgotten(void **state)
   sam_call(SamTangentialSolveKeeping(t, small, NULL, &little, PETSC_TRUE, q, &product));
   sam_assert(!knows);
   sam_call(SamTangentialDestroy(&t));
-  sam_call(VecDestroy(&product.field));
-  sam_call(VecDestroy(&nearly));
-  sam_call(VecDestroy(&small));
-  sam_call(VecDestroy(&q));
+  sam_destroy(&product.field, &nearly, &small, &q);
   DestroyCase(&c);
 }
 
@@ -437,9 +422,7 @@ static void test_offset_alone_leaves_shear_that_carries_no_load(void **state)
   SolveWell(&c, offset, NULL, 1e-8, &free, r);
   sam_assert(Norm(r, NORM_2) > 0.1 * Norm(q, NORM_2));
   AssertConditions(&c, offset, &free, &given, r);
-  sam_call(VecDestroy(&offset));
-  sam_call(VecDestroy(&q));
-  sam_call(VecDestroy(&r));
+  sam_destroy(&offset, &q, &r);
   DestroyCase(&c);
 }
 

@@ -140,8 +140,7 @@ static void test_without_friction_only_no_load_is_balanced(void **state)
   sam_assert(o.reason == SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM && o.limit == 0);
   sam_assert(Solve(&c, c.bound, NULL, NULL, 0, &none, q).reason == SAM_SOLVER_CONVERGED_TRIVIAL &&
              Norm(q, NORM_INFINITY) == 0);
-  sam_call(VecDestroy(&q));
-  sam_call(VecDestroy(&zero));
+  sam_destroy(&q, &zero);
   DestroyCase(&c);
 }
 
@@ -153,8 +152,7 @@ static void AssertNanIsReported(SamSolverType type)
 
   AddAt(c.s.grid, 1, 16, 16, NAN, offset);
   sam_assert(Solve(&c, c.bound, offset, type, 0, &balance, q).reason < 0);
-  sam_call(VecDestroy(&q));
-  sam_call(VecDestroy(&offset));
+  sam_destroy(&q, &offset);
   DestroyCase(&c);
 }
 

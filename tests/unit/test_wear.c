@@ -10,15 +10,6 @@ static const PetscReal both[2] = {0.7 * ARCHARD, 0.3 * ARCHARD};
 
 static const SamLawType types[] = {SAM_LAW_ARCHARD, SAM_LAW_ENERGY};
 
-/* From now on each step of the contact wears when it is committed. */
-static void AddWear(const Case *c, SamLawType type, const PetscReal coefficient[2])
-{
-  SamLaw law;
-
-  sam_call(SamProblemAddLawOfType(c->problem, type, &law));
-  sam_call(SamLawSetWear(law, coefficient));
-}
-
 static Vec DepthOf(const Case *c, int body)
 {
   return NewFieldOf(c, body ? "wear_depth2" : "wear_depth1");
@@ -161,8 +152,7 @@ static void test_step_wears_when_it_is_committed(void **state)
   AssertSameSteps(&c, &a, &calm, &b);
   AssertSameFields(&c, &calm);
   sam_assert(NumberOf(&c, "normal_applies") > 0); /* the gap has changed */
-  sam_call(VecDestroy(&gap));
-  sam_call(VecDestroy(&worn));
+  sam_destroy(&gap, &worn);
   DestroyCase(&c);
   DestroyCase(&calm);
 }
@@ -194,8 +184,7 @@ static void test_only_cells_that_slip_wear(void **state)
   sam_call(VecRestoreArrayRead(depth, &d));
   (void)MPI_Allreduce(MPI_IN_PLACE, counts, 3, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
   sam_assert(counts[0] > 100 && counts[1] == counts[0] && counts[2] == 0);
-  sam_call(VecDestroy(&states));
-  sam_call(VecDestroy(&depth));
+  sam_destroy(&states, &depth);
   DestroyCase(&c);
 }
 
