@@ -98,7 +98,7 @@ static PetscErrorCode GetSelfInfluence(SamElasticity e, PetscReal *normal, Petsc
 static PetscErrorCode SetFromOptions(SamElasticity e, const SamOptions *from)
 {
   PetscFunctionBegin;
-  PetscCall(SamOptionsReal(from, "springs_compliance", "mean compliance of the springs (m/Pa)", SAM_RANGE_POSITIVE,
+  PetscCall(SamOptionsReal(from, "springs_compliance", "mean compliance of the springs", "m/Pa", SAM_RANGE_POSITIVE,
                            &((Springs *)e->data)->mean, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -63,7 +63,7 @@ static PetscErrorCode SpringsSelfInfluence(SamElasticity e, PetscReal *normal, P
 static PetscErrorCode SpringsSetFromOptions(SamElasticity e, const SamOptions *from)
 {
   PetscFunctionBegin;
-  PetscCall(SamOptionsReal(from, "springs_depth", "depth of the bed (m)", SAM_RANGE_POSITIVE,
+  PetscCall(SamOptionsReal(from, "springs_depth", "depth of the bed", "m", SAM_RANGE_POSITIVE,
                            &((Springs *)e->data)->depth, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
