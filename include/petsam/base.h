@@ -96,8 +96,10 @@ PETSC_EXTERN PetscErrorCode SamOptionsHeading(const SamOptions *from, const char
   if the option is absent. A real number without a default is NaN, an integer 0, a text empty.
 
   SAM_OPTION_REAL     PetscReal in `range`; `size` 2: two numbers separated by a comma, or a single one for both;
-                      `words`: the end of the error message about a number outside of the range. `text` has its SI unit
-                      in parentheses, as in "full width (m)"; the user may give other units of that dimension (mm)
+                      `words`: the end of the error message about a number outside of the range. `unit`: its unit,
+                      NULL: none; if that is one of SI, the user may give others of its dimension (mm). The help prints
+                      the unit in the parentheses that `text` leaves open for it, "width () along x" or "radius (, inf:
+                      flat)", else in parentheses after the text
   SAM_OPTION_INT      PetscInt from `least` to `most` (0: any); `size` likewise
   SAM_OPTION_BOOL     PetscBool: 1, true, yes, on, or 0, false, no, off, or no value for true; with `words`: one of
                       these, where the first means false and any other true
@@ -135,7 +137,7 @@ typedef struct {
   size_t        member;
   SamRange      range;
   PetscInt      least, most, size;
-  const char   *words, *needs, *excludes, *missing;
+  const char   *words, *unit, *needs, *excludes, *missing;
   PetscBool     recorded;
 } SamOptionRow;
 
@@ -167,26 +169,27 @@ PETSC_EXTERN PetscErrorCode SamOptionsRead(const SamOptions *from, const char he
 
   In:     from  - communicator and prefix of the options
           name  - name of the option, without dash and prefix
-          help  - text of the option in the help; it has the SI unit in parentheses
+          help  - text of the option in the help
+          unit  - SI unit of the value, as in SamOptionRow; NULL: it has none
           range - allowed values
-  In,out: value - the number (SI unit in the text of the help); on entry the default
+  In,out: value - the number (SI unit: `unit`); on entry the default
   Out:    set   - true if the option was given; may be NULL
 
   Errors: SAM_ERR_USER with the name of the option, the given text, and the expected values.
 */
-PETSC_EXTERN PetscErrorCode SamOptionsReal(const SamOptions *from, const char name[], const char help[], SamRange range,
-                                           PetscReal *value, PetscBool *set);
+PETSC_EXTERN PetscErrorCode SamOptionsReal(const SamOptions *from, const char name[], const char help[],
+                                           const char unit[], SamRange range, PetscReal *value, PetscBool *set);
 
 /*
-  SamOptionsReals - reads a list of up to `most` numbers in the range, and their count; 0: the option is absent. It is
+  SamOptionsReals - reads a list of up to `size` numbers in the range, and their count; 0: the option is absent. It is
   collective and fails as SamOptionsRead().
   SamOptionsHas - sets `has` to true if an option (its name without dash and prefix) is given; a value may follow the
   name after a space, and the option must then have that value. Not collective.
   SamOptionsNeed - rejects an option that is given without another one that it needs; the format is that of a row's
   `needs`.
 */
-PETSC_INTERN PetscErrorCode SamOptionsReals(const SamOptions *from, const char name[], const char help[],
-                                            SamRange range, PetscInt most, PetscReal values[], PetscInt *count);
+PETSC_INTERN PetscErrorCode SamOptionsReals(const SamOptions *from, const SamOptionRow *row, PetscReal values[],
+                                            PetscInt *count);
 PETSC_INTERN PetscErrorCode SamOptionsHas(const SamOptions *from, const char option[], PetscBool *has);
 PETSC_INTERN PetscErrorCode SamOptionsNeed(const SamOptions *from, PetscBool given, const char name[],
                                            const char needs[]);

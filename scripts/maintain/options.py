@@ -23,6 +23,7 @@ class Option:
     text: str
     default: str | None  # None: there is none, or the option is required, as the text then says
     words: list[str]  # what may be given; empty: no fixed words
+    unit: str | None = None  # of SI
 
 
 @dataclass

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Writes the tables of options in examples/manual/OPTIONS.md from the programs' -help, and INDEX.md, their index.
+"""Writes from the programs' -help the tables of options in examples/manual/OPTIONS.md, INDEX.md, their index, and
+scripts/petsam/declared.py, the units of options.
 
     python3 scripts/maintain/reference.py [--build build] [--check]
 
@@ -13,11 +14,12 @@ import re
 import sys
 from pathlib import Path
 
-from options import read_options
+from options import groups_of, read_help
 
 ROOT = Path(__file__).resolve().parents[2]
 REFERENCE = ROOT / "examples" / "manual" / "OPTIONS.md"
 INDEX = ROOT / "examples" / "manual" / "INDEX.md"
+DECLARED = ROOT / "scripts" / "petsam" / "declared.py"
 PROGRAMS = ["petsam", "petsam-stress"]
 TABLE = re.compile(r"<!-- (petsam[\w-]*): (.+?) -->\n.*?<!-- end -->", re.S)
 
@@ -71,6 +73,26 @@ def index(text, groups):
     ])  # fmt: skip
 
 
+def declared(units, groups):
+    """The text of the module with the units: of SI of every option, and those that may follow a number."""
+    of_options = {
+        option.name[1:]: option.unit
+        for options in groups.values()
+        for option in options
+        if option.unit not in (None, "1")
+    }
+    following = {}
+    for unit, names in units.items():
+        for name, power in names.items():
+            following.setdefault(name, (unit, power))  # N is a force, and no moment per metre
+    lines = ['"""Units that petsam declares, written by scripts/maintain/reference.py."""', ""]
+    lines += ["# units of SI of options", "OPTIONS = {"]
+    lines += [f'    "{name}": "{unit}",' for name, unit in sorted(of_options.items())]
+    lines += ["}", "# units that may follow a number: the unit of SI, and a power of ten", "FOLLOWING = {"]
+    lines += [f'    "{name}": ("{unit}", {power}),' for name, (unit, power) in following.items()]
+    return "\n".join([*lines, "}", ""])
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--build", type=Path, default=ROOT / "build")
@@ -78,10 +100,11 @@ def main():
     arguments = parser.parse_args()
     groups = {}
     for program in PROGRAMS:
-        for group in read_options(arguments.build / "bin" / program):
-            groups[program, group.name] = group.options
+        described = read_help(arguments.build / "bin" / program)
+        groups.update({(program, group.name): group.options for group in groups_of(described)})
     reference = fill(REFERENCE.read_text(), groups)
-    for file, new in (REFERENCE, reference), (INDEX, index(reference, groups)):
+    module = declared(described["units"], groups)
+    for file, new in (REFERENCE, reference), (INDEX, index(reference, groups)), (DECLARED, module):
         if not arguments.check:
             file.write_text(new)
         elif new != file.read_text():

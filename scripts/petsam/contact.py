@@ -32,7 +32,6 @@ CYCLE = (
     "pressure_max", "computed",
 )  # fmt: skip
 NOT_CONVERGED, NO_EQUILIBRIUM, EDGE = 10, 11, 12
-RIGID = ("disp_z", "disp_x", "disp_y", "rot_x", "rot_y", "rot_z")  # in the order of the loads and of stiffness()
 _MONITOR = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int)
 
 
@@ -221,13 +220,14 @@ def _real(value, name):
 # ---------------------------------------------------------------- contacts
 
 
-def _condensed(k, names):
-    """The stiffness k of the displacements of these names, or that name, while the loads of the others stay."""
+def _condensed(k, rigid, names):
+    """The stiffness k of the displacements of these names, or that name, of all rigid, while the loads of the others
+    stay."""
     several = [names] if isinstance(names, str) else list(names)
     for name in several:
-        if name not in RIGID:
-            raise ContactError(2, f"stiffness: condense {short(name)}: is no displacement{there_are(name, RIGID)}")
-    kept = [RIGID.index(name) for name in several]
+        if name not in rigid:
+            raise ContactError(2, f"stiffness: condense {short(name)}: is no displacement{there_are(name, rigid)}")
+    kept = [rigid.index(name) for name in several]
     # without those that the bodies do not have, and, where nothing rubs, those without stiffness
     free = [c for c in range(6) if c not in kept and k[c, c] != 0.0 and not np.isnan(k[c, c])]
     scale = np.sqrt(np.abs(np.diag(k)[free]))
@@ -282,8 +282,8 @@ class Contact:
             names.append(name.decode())
             if name:
                 self.prescribable[names[-1]] = unit.value.decode()
-        self._loads, rigids, creeps = names[:6], names[6:12], names[12:18]
-        self._rigids = [rigid if rigid in known else creep for rigid, creep in zip(rigids, creeps)]
+        self._loads, self._displacements, creeps = names[:6], names[6:12], names[12:18]
+        self._rigids = [rigid if rigid in known else creep for rigid, creep in zip(self._displacements, creeps)]
 
     # ------------------------------------------------------------ calls
 
@@ -397,7 +397,7 @@ class Contact:
         """
         k = np.empty((6, 6))
         self._call("stiffness", ctypes.c_int(bool(reversal)), _pointer(k))
-        return k if condense is None else _condensed(k, condense)
+        return k if condense is None else _condensed(k, self._displacements, condense)
 
     # ------------------------------------------------------------ histories and lives
 

@@ -26,6 +26,7 @@ PAIRS = {
     "tx": ("load_tx", "disp_x"), "ty": ("load_ty", "disp_y"), "mz": ("load_mz", "rot_z"),
     "n": ("load_n", "disp_z"), "mx": ("load_mx", "rot_x"), "my": ("load_my", "rot_y"),
 }  # fmt: skip
+TANGENTIAL = ("tx", "ty", "mz")  # those that dissipate
 ENERGY = "dissipated_energy"
 REVERSAL = 1e-4  # of the range of the values: a smaller change of direction is rounding, no turning point
 LEVEL = 1e-9  # of the range: what differs by less is one plateau, which turns where it ends
@@ -57,7 +58,7 @@ def busiest(results):
         return float(np.ptp(load) * np.ptp(way)) if load.size else 0.0
 
     # the tangential loads before the normal ones: these dissipate nothing
-    best = max(("tx", "ty", "mz"), key=work)
+    best = max(TANGENTIAL, key=work)
     if work(best) > 1e-9 * work("n"):
         return best
     return "n" if work("n") > 0.0 else None

@@ -6,33 +6,12 @@ import re
 import h5py
 import numpy as np
 
+from .declared import FOLLOWING, OPTIONS
 from .errors import Error, Missing, short, there_are
 from .files import need_regular
 from .isolation import reading
 from .results import DAMAGED, WHOLE, _own, _reason
 
-# units of petsam's options, by their names
-UNITS = (
-    (r"load_(n|tx|ty)", "N"), (r"load_m[xyz]", "N m"), (r"disp_[xyz]|grid_(size|center)|gap_(\w+_)?radius\w*", "m"),
-    (r"gap_half_flat_[xy]|gap_roller_\w+|yield_depth", "m"),
-    (r"body[12]_layer_thickness|film_thickness", "m"), (r"body[12]_layer_(young|stress)|film_shear", "Pa"),
-    (r"rot_[xyz]", "rad"), (r"body[12]_(young|yield|hardening_modulus|voce_stress)", "Pa"),
-    (r"pressure_limit|bulk[12]_stress_\w+", "Pa"),
-    (r"wear_coefficient[12]", "1/Pa"), (r"wear_energy[12]", "m3/J"),
-)  # fmt: skip
-
-
-# units that may follow a number, as petsam has them: the unit of SI, and a power of ten
-SUFFIXES = {
-    "m": ("m", 0), "mm": ("m", -3), "um": ("m", -6), "nm": ("m", -9),
-    "N": ("N", 0), "kN": ("N", 3), "MN": ("N", 6), "mN": ("N", -3),
-    "N/m": ("N/m", 0), "kN/m": ("N/m", 3), "MN/m": ("N/m", 6), "N/mm": ("N/m", 3),
-    "Nm": ("N m", 0), "kNm": ("N m", 3), "Nmm": ("N m", -3), "Nm/m": ("N m/m", 0),
-    "Pa": ("Pa", 0), "kPa": ("Pa", 3), "MPa": ("Pa", 6), "GPa": ("Pa", 9),
-    "m/s": ("m/s", 0), "mm/s": ("m/s", -3), "um/s": ("m/s", -6), "s": ("s", 0), "ms": ("s", -3),
-    "rad": ("rad", 0), "mrad": ("rad", -3),
-    "m3/Nm": ("1/Pa", 0), "mm3/Nm": ("1/Pa", -9), "m3/J": ("m3/J", 0), "mm3/J": ("m3/J", -9),
-}  # fmt: skip
 NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+))(?:[eE]([+-]?\d+))?([a-zA-Z].*)?")
 
 
@@ -41,9 +20,9 @@ def _measured(text):
     match = NUMBER.fullmatch(text.strip())
     if not text.strip():
         return float("nan"), ""
-    if not match or (match[3] or "N") not in SUFFIXES:
+    if not match or (match[3] or "N") not in FOLLOWING:
         return None
-    unit, power = SUFFIXES[match[3]] if match[3] else ("", 0)
+    unit, power = FOLLOWING[match[3]] if match[3] else ("", 0)
     return float(f"{match[1]}e{int(match[2] or 0) + power}"), unit
 
 
@@ -54,11 +33,6 @@ def _in_si(values):
     if None in read or len(units) != 1:
         return values, ""
     return np.array([number for number, _ in read]), units.pop()
-
-
-def unit_of_option(name):
-    """Unit of what an option takes; empty of a number, of a text, and of another parameter."""
-    return next((unit for pattern, unit in UNITS if re.fullmatch(pattern, name)), "")
 
 
 class Study:
@@ -127,7 +101,7 @@ class Study:
 
     def unit_of_input(self, name):
         """Unit of an input: that of the result of its name, in plane strain per metre; else of option or values."""
-        unit = unit_of_option(name)
+        unit = OPTIONS.get(name)
         return self.units.get(name, unit) if unit else self._input_units.get(name, "")
 
     @property

@@ -29,11 +29,11 @@ typedef struct {
   PetscReal cell; /* rolled distance of a cell, m, where what is remembered stands in the cell ahead; 0: in the state */
 } Friction;
 
-#define REAL(place, name, word, text, values) \
+#define REAL(place, name, word, text, values, ...) \
   { \
     "friction_" name, word ": " text, SAM_OPTION_REAL, offsetof(Friction, value[place]), \
       .range = values, .needs = "friction_law " word, .missing = "required by -friction_law " word, \
-      .recorded = PETSC_TRUE \
+      .recorded = PETSC_TRUE, __VA_ARGS__ \
   }
 /* A kind by its type of law and its word of -friction_law; usual values, NAN: required; what it remembers, or NULL. */
 static const struct {
@@ -44,28 +44,32 @@ static const struct {
 } kinds[KINDS] = {
   {SAM_LAW_SLIP_DEPENDENT,
    "slip_path",
-   {REAL(FINAL, "path_final", "slip_path", "coefficient after long slip", SAM_RANGE_NONNEGATIVE),
-    REAL(LENGTH, "path_length", "slip_path", "slip (m) after which 1/e of the change is left", SAM_RANGE_POSITIVE)},
+   {REAL(FINAL, "path_final", "slip_path", "coefficient after long slip", SAM_RANGE_NONNEGATIVE, .unit = NULL),
+    REAL(LENGTH, "path_length", "slip_path", "slip () after which 1/e of the change is left", SAM_RANGE_POSITIVE,
+         .unit = "m")},
    {NAN, NAN},
    {"friction_path", "m", "slip under pressure, over all steps", 1, 2, PETSC_TRUE, PETSC_FALSE, SAM_RESULT_OFFERED,
     SAM_MOVES, 0, PETSC_FALSE}},
   {SAM_LAW_PRESSURE_FRICTION,
    "pressure",
-   {REAL(EXPONENT, "pressure_exponent", "pressure", "exponent of p over the reference, > -1", SAM_RANGE_ANY),
-    REAL(REFERENCE, "pressure_reference", "pressure", "where the coefficient is -friction (Pa)", SAM_RANGE_POSITIVE),
-    REAL(LIMIT, "shear_limit", "pressure", "maximum shear (Pa)", SAM_RANGE_POSITIVE_INF)},
+   {REAL(EXPONENT, "pressure_exponent", "pressure", "exponent of p over the reference, > -1", SAM_RANGE_ANY,
+         .unit = NULL),
+    REAL(REFERENCE, "pressure_reference", "pressure", "where the coefficient is -friction", SAM_RANGE_POSITIVE,
+         .unit = "Pa"),
+    REAL(LIMIT, "shear_limit", "pressure", "maximum shear", SAM_RANGE_POSITIVE_INF, .unit = "Pa")},
    {0, 1, INFINITY},
    {.name = NULL}},
   {SAM_LAW_FALLING_FRICTION,
    "falling",
-   {REAL(KINETIC, "falling_kinetic", "falling", "coefficient at high speed", SAM_RANGE_NONNEGATIVE),
-    REAL(HALF, "falling_half_speed", "falling", "slip velocity (m/s) of half the change", SAM_RANGE_POSITIVE),
-    {"rolling_speed", "falling: speed of rolling (m/s)", SAM_OPTION_REAL, offsetof(Friction, value[SPEED]),
-     .range = SAM_RANGE_POSITIVE, .needs = "friction_law falling", .missing = "required by -friction_law falling",
-     .recorded = PETSC_TRUE},
-    REAL(MEMORY, "falling_memory", "falling", "slip (m) of the memory, 0: none", SAM_RANGE_NONNEGATIVE),
-    REAL(SLOWEST, "falling_memory_speed", "falling", "least slip velocity for the memory (m/s)",
-         SAM_RANGE_NONNEGATIVE)},
+   {REAL(KINETIC, "falling_kinetic", "falling", "coefficient at high speed", SAM_RANGE_NONNEGATIVE, .unit = NULL),
+    REAL(HALF, "falling_half_speed", "falling", "slip velocity () of half the change", SAM_RANGE_POSITIVE,
+         .unit = "m/s"),
+    {"rolling_speed", "falling: speed of rolling", SAM_OPTION_REAL, offsetof(Friction, value[SPEED]),
+     .range = SAM_RANGE_POSITIVE, .unit = "m/s", .needs = "friction_law falling",
+     .missing = "required by -friction_law falling", .recorded = PETSC_TRUE},
+    REAL(MEMORY, "falling_memory", "falling", "slip () of the memory, 0: none", SAM_RANGE_NONNEGATIVE, .unit = "m"),
+    REAL(SLOWEST, "falling_memory_speed", "falling", "least slip velocity for the memory", SAM_RANGE_NONNEGATIVE,
+         .unit = "m/s")},
    {NAN, NAN, NAN, 0, 0},
    {"friction_fallen", "1", "part of the change of friction that is reached", 1, 2, PETSC_TRUE, PETSC_FALSE,
     SAM_RESULT_OFFERED, SAM_MOVES, 0, PETSC_FALSE}}};

@@ -34,10 +34,11 @@ PetscErrorCode SamLawSetHardness(SamLaw law, PetscReal limit)
 }
 
 static const SamOptionRow limit_row = {"pressure_limit",
-                                       "hardness: the maximum pressure, where the surfaces yield (Pa)",
+                                       "hardness: the maximum pressure, where the surfaces yield",
                                        SAM_OPTION_REAL,
                                        offsetof(Hardness, limit),
                                        .range    = SAM_RANGE_POSITIVE_INF,
+                                       .unit     = "Pa",
                                        .recorded = PETSC_TRUE};
 
 static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBool *asked)

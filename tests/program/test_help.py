@@ -158,6 +158,14 @@ def test_json_has_all_that_is_printed(ask):
     assert rest == text + "\n"
 
 
+def test_json_has_the_units_of_options_and_numbers(ask):
+    whole = described(ask)
+    units = {option["name"]: option["unit"] for group in whole["groups"] for option in group["options"]}
+    name, unit = {"petsam": ("-gap_radius1", "m"), "petsam-stress": ("-fatigue_yield", "Pa")}[ask.name]
+    assert units[name] == unit and units["-version"] is None
+    assert whole["units"]["m"] == {"m": 0, "mm": -3, "um": -6, "nm": -9} and whole["units"]["N m/m"]["Nm/m"] == 0
+
+
 def test_json_has_the_words_of_options(ask):
     found = {option["name"]: option for group in described(ask)["groups"] for option in group["options"]}
     expected = {
@@ -213,6 +221,14 @@ def test_gap_types_of_the_topic_are_all_there_are(petsam):
     listed = re.findall(r"^  (\w+)   +\S", text.split("\nGap\n")[0], re.M)
     found = re.search(r"-gap_type <keyword> +(.*): required", text).group(1)
     assert sorted(listed) == re.split(r", | or ", found)
+
+
+def test_fields_in_the_help_are_those_that_a_contact_declares(petsam):
+    groups = json.loads(petsam("-help", "json").stdout)["groups"]
+    (listed,) = (one["words"] for group in groups for one in group["options"] if one["name"] == "-output_fields")
+    line = petsam(*words({**ball(n=16), "output": "a.h5", "output_fields": "none_such"}), check=2).complaint[0]
+    declared = re.search(r"one or more of (.*), separated by commas", line).group(1).split(", ")
+    assert sorted(listed) == sorted([*declared, "all", "none", "usual", "plastic"])
 
 
 @pytest.mark.parametrize("option", ["output", "gap_type", "output_fields", "restart"])

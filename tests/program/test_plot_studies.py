@@ -1,7 +1,6 @@
 """petsam-plot of petsam-study's tables: columns over one another, curves by other columns, and what is not there."""
 
 import itertools
-import re
 
 import h5py
 import numpy as np
@@ -9,10 +8,9 @@ import pytest
 
 import petsam
 from petsam.plot import tables
-from petsam.studies import Study, unit_of_option
+from petsam.studies import Study
 from petsam.study.cases import Case
 from petsam.study.tables import write_hdf5
-from support import ROOT
 
 pytestmark = pytest.mark.usefixtures("closing")
 
@@ -165,25 +163,12 @@ def test_an_input_has_the_unit_of_the_result_of_its_name(single):
     assert set(curves(tables.study([single]).axes[0])) == {"load_n = 100 N/m", "load_n = 200 N/m"}
 
 
-def test_units_of_options_are_those_of_the_reference():
-    text = (ROOT / "examples" / "manual" / "OPTIONS.md").read_text()
-    known = re.findall(r"^\| `-(\w+) <number>(.*)$", text, re.MULTILINE)
-    inputs = ("load", "disp", "rot", "grid", "gap", "body", "bulk", "wear_c", "wear_e", "pressure")
-    checked = 0
-    for name, words in known:
-        unit = re.search(r"\((m|N|N m|rad|Pa|1/Pa|m3/J)[),]", words)
-        if name.startswith(inputs):
-            assert unit_of_option(name) == (unit[1] if unit else ""), name
-            checked += bool(unit)
-    assert checked > 20 and unit_of_option("friction") == unit_of_option("ratio") == unit_of_option("my_load_n") == ""
-
-
 def test_loads_in_plane_strain_are_per_metre(single):
     one = Study(single.path)
     assert one.unit_of_input("load_n") == "N"
     one.units["load_n"] = "N/m"
     assert one.unit_of_input("load_n") == "N/m" and one.unit_of_input("grid_size") == "m"
-    assert one.unit_of_input("contact_area") == one.unit_of_input("way") == ""
+    assert one.unit_of_input("contact_area") == one.unit_of_input("way") == one.unit_of_input("creep_x") == ""
 
 
 def test_several_studies_are_told_apart(study, path):

@@ -69,6 +69,17 @@ def test_options_of_a_group_become_a_table():
     )
 
 
+def test_units_are_declared_once_for_scripts():
+    options = {
+        "A": [Option("-a", "", "", None, [], "m"), Option("-slope", "", "", None, [], "1")],
+        "B": [Option("-b", "", "", None, []), Option("-line", "", "", None, [], "N m/m")],
+    }
+    units, module = {"N": {"N": 0, "kN": 3}, "N m/m": {"N": 0, "Nm/m": 0}}, {}
+    exec(reference.declared(units, {("petsam", group): one for group, one in options.items()}), module)
+    assert module["OPTIONS"] == {"a": "m", "line": "N m/m"}
+    assert module["FOLLOWING"] == {"N": ("N", 0), "kN": ("N", 3), "Nm/m": ("N m/m", 0)}
+
+
 def test_the_index_has_every_option_with_the_heading_above_its_table():
     text = "# All\n### The grid, cells\n<!-- petsam: B -->\n<!-- end -->\n### Last\n<!-- petsam: A -->\n<!-- end -->\n"
     options = {group: [Option(name, "", "", None, [])] for group, name in (("B", "-z"), ("A", "-a"))}

@@ -21,8 +21,8 @@ static inline double SizeOf(SamElasticity e)
 static inline PetscErrorCode SpringsSetFromOptions(SamElasticity e, const SamOptions *from)
 {
   PetscFunctionBegin;
-  PetscCall(
-    SamOptionsReal(from, "springs_size", "size of the springs", SAM_RANGE_POSITIVE, &((Springs *)e->data)->size, NULL));
+  PetscCall(SamOptionsReal(from, "springs_size", "size of the springs", NULL, SAM_RANGE_POSITIVE,
+                           &((Springs *)e->data)->size, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

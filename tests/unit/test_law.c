@@ -54,7 +54,7 @@ static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBo
   PetscReal left = LeftOf(law);
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsReal(from, "weaken", "part of the bound that is left", SAM_RANGE_POSITIVE, &left, asked));
+  PetscCall(SamOptionsReal(from, "weaken", "part of the bound that is left", NULL, SAM_RANGE_POSITIVE, &left, asked));
   *(double *)law->data = left;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

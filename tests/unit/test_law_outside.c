@@ -22,7 +22,7 @@ typedef struct {
 static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBool *asked)
 {
   PetscFunctionBegin;
-  PetscCall(SamOptionsReal(from, "fade_length", "slip by which half of the friction is lost, m", SAM_RANGE_POSITIVE,
+  PetscCall(SamOptionsReal(from, "fade_length", "slip by which half of the friction is lost", "m", SAM_RANGE_POSITIVE,
                            &((Fading *)law->data)->length, asked));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -298,7 +298,9 @@ static PetscErrorCode Note(void *context, MPI_Comm comm, const char title[], con
 
   (void)comm;
   if (title) (void)snprintf(line, sizeof(line), "[%s]", title);
-  if (o) (void)snprintf(line, sizeof(line), "%s %s: %s (%s) %s", o->name, o->argument, o->text, o->value, o->words);
+  if (o)
+    (void)snprintf(line, sizeof(line), "%s %s: %s (%s) %s%s", o->name, o->argument, o->text, o->value, o->words,
+                   o->unit ? o->unit : "");
   strcat(strcat(notes, line), "\n");
   return 0;
 }
@@ -306,10 +308,12 @@ static PetscErrorCode Note(void *context, MPI_Comm comm, const char title[], con
 static void test_help_is_told_all_of_an_option(void **state)
 {
   const SamOptions    from        = {PETSC_COMM_WORLD, "pre_"};
-  const SamOptionHelp other       = {"other", "<list>", "read elsewhere", "1", "1,2"};
+  const SamOptionHelp other       = {"other", "<list>", "read elsewhere", "1", "1,2", NULL};
   const SamOptionRow  rows[]      = {{"pair", "two", SAM_OPTION_REAL, MEMBER(real), .size = 2,
                                       .missing = "not asked for while there is help"},
-                                     {"real", "size: required", SAM_OPTION_REAL, .member = MEMBER(real)},
+                                     {"real", "size (): required", SAM_OPTION_REAL, MEMBER(real), .unit = "N m"},
+                                     {"open", "f(x) (, 0: none)", SAM_OPTION_REAL, MEMBER(real), .unit = "1/m"},
+                                     {"end", "far (or near)", SAM_OPTION_REAL, MEMBER(real), .unit = "m"},
                                      {"enum", "how much", SAM_OPTION_ENUM, MEMBER(place), .words = "none,some,all"},
                                      {"bool", "whether", SAM_OPTION_BOOL, .member = MEMBER(truth)},
                                      {"file", "where", SAM_OPTION_FILE, MEMBER(text), .size = 8},
@@ -327,7 +331,9 @@ static void test_help_is_told_all_of_an_option(void **state)
   SamHelpSetFunction(NULL, NULL);
   sam_assert(!strcmp(notes, "[Group]\n"
                             "pre_pair <number>[,<number>]: two (0.5,2) \n"
-                            "pre_real <number>: size: required () \n"
+                            "pre_real <number>: size (N m): required () N m\n"
+                            "pre_open <number>: f(x) (1/m, 0: none) (0.5) 1/m\n"
+                            "pre_end <number>: far (or near) (m) (0.5) m\n"
                             "pre_enum <keyword>: how much (some) none,some,all\n"
                             "pre_bool [<bool>]: whether (true) true,false\n"
                             "pre_file <file>: where (one) \n"
@@ -411,31 +417,56 @@ static void test_decimal_commas_are_refused(void **state)
 static void test_units_change_the_exponent_alone(void **state)
 {
   static const struct {
-    const char *help, *text;
+    const char *unit, *text;
     double      value;
-  } good[] = {{"width (m)", "2.6mm", 2.6e-3},
-              {"x[,y] (m, inf: flat)", "-.7e1um", -.7e-5},
-              {"x (m)", "7E+3nm", 7e-6},
-              {"wear (1/Pa)", "1e-4mm3/Nm", 1e-13},
-              {"load (approach) (N m)", "3Nmm", 3e-3},
-              {"line load (N/m)", "3.3kN/m", 3.3e3},
-              {"modulus (Pa)", "210GPa", 210e9},
-              {"anything", "17", 17}};
+  } good[] = {{"m", "2.6mm", 2.6e-3},        {"m", "-.7e1um", -.7e-5}, {"m", "7E+3nm", 7e-6},
+              {"1/Pa", "1e-4mm3/Nm", 1e-13}, {"N m", "3Nmm", 3e-3},    {"N/m", "3.3kN/m", 3.3e3},
+              {"Pa", "210GPa", 210e9},       {NULL, "17", 17},         {"m2", "17", 17}};
   static const struct {
-    const char *help, *text;
-  } bad[] = {{"width (m)", "2kN"}, {"width (m)", "2 mm"}, {"width", "2mm"},     {"x (m)", "infmm"},
-             {"x (m)", "0x1e3mm"}, {"x (N)", "1e308kN"},  {"width (m)", "2m3"}, {"x (m)", "mm"}};
+    const char *unit, *text;
+  } bad[] = {{"m", "2kN"},     {"m", "2 mm"},    {NULL, "2mm"}, {"m", "infmm"}, {"m2", "2mm"},
+             {"m", "0x1e3mm"}, {"N", "1e308kN"}, {"m", "2m3"},  {"m", "mm"}};
   const char *end;
   double      value;
   PetscBool   unit;
 
   (void)state;
   for (size_t k = 0; k < sizeof(good) / sizeof(good[0]); k++) {
-    sam_assert(SamReadReal(good[k].help, good[k].text, &end, &value, &unit) && !*end);
+    sam_assert(SamReadReal(good[k].unit, good[k].text, &end, &value, &unit) && !*end);
     sam_assert(value == good[k].value && unit == (PetscBool)(value != 17));
   }
   for (size_t k = 0; k < sizeof(bad) / sizeof(bad[0]); k++)
-    sam_assert(!SamReadReal(bad[k].help, bad[k].text, &end, &value, &unit));
+    sam_assert(!SamReadReal(bad[k].unit, bad[k].text, &end, &value, &unit));
+}
+
+/* Reads -pre_opt of a row with this unit, whose text is about another one. */
+static PetscErrorCode GetWithUnit(const char unit[], const char text[], PetscReal *value)
+{
+  const SamOptions   from = {PETSC_COMM_WORLD, "pre_"};
+  const SamOptionRow row  = {"opt", "time (s)", SAM_OPTION_REAL, .unit = unit};
+  PetscErrorCode     code;
+
+  SetText(text);
+  BeginCatching();
+  code = SamOptionsRead(&from, NULL, 1, &row, value, NULL);
+  EndCatching();
+  return code;
+}
+
+static void test_units_are_those_of_the_row(void **state)
+{
+  PetscReal value = 0;
+
+  (void)state;
+  sam_assert(!GetWithUnit("m", "20mm", &value) && value == 20e-3);
+  sam_assert(!GetWithUnit("Pa", "210GPa", &value) && value == 210e9);
+  sam_assert(GetWithUnit("m", "20N", &value) == SAM_ERR_USER);
+  sam_assert(!strcmp(CaughtMessage(), "-pre_opt 20N: expected a finite number; the units allowed, behind each number: "
+                                      "m, mm, um or nm"));
+  sam_assert(GetWithUnit(NULL, "2ms", &value) == SAM_ERR_USER);
+  sam_assert(strstr(CaughtMessage(), "-pre_opt 2ms: expected a finite number; without a unit: "));
+  sam_assert(!GetWithUnit(NULL, "2", &value) && value == 2);
+  SetText(NULL);
 }
 
 static void test_units_of_numbers_are_explained(void **state)
@@ -515,6 +546,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_read_options_are_used),
     cmocka_unit_test(test_decimal_commas_are_refused),
     cmocka_unit_test(test_units_change_the_exponent_alone),
+    cmocka_unit_test(test_units_are_those_of_the_row),
     cmocka_unit_test(test_units_of_numbers_are_explained),
     cmocka_unit_test(test_nearest_name_is_found),
     cmocka_unit_test(test_missing_option_is_looked_for_among_those_given),

@@ -23,7 +23,7 @@ static PetscInt destroyed; /* how many have been */
 static PetscErrorCode ToyOptions(SamSolver s, const SamOptions *from)
 {
   PetscFunctionBegin;
-  PetscCall(SamOptionsReal(from, "toy_relaxation", "length of the steps", SAM_RANGE_POSITIVE,
+  PetscCall(SamOptionsReal(from, "toy_relaxation", "length of the steps", NULL, SAM_RANGE_POSITIVE,
                            &((Toy *)s->data)->relaxation, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -48,7 +48,7 @@ static PetscErrorCode GetSelfInfluence(SamElasticity e, PetscReal *normal, Petsc
 
 static PetscErrorCode SetFromOptions(SamElasticity e, const SamOptions *from)
 {
-  return SamOptionsReal(from, "coating_compliance", "compliance of the coating (m/Pa)", SAM_RANGE_POSITIVE, &C(e),
+  return SamOptionsReal(from, "coating_compliance", "compliance of the coating", "m/Pa", SAM_RANGE_POSITIVE, &C(e),
                         NULL);
 }
 

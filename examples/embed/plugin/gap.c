@@ -2,7 +2,7 @@
 #include "plugin.h"
 #include <petsam/private/gapimpl.h>
 
-static const SamGapParameter parameters[] = {{"gap_slope", "slope of the cone's side", SAM_RANGE_POSITIVE}};
+static const SamGapParameter parameters[] = {{"gap_slope", "slope of the cone's side", NULL, SAM_RANGE_POSITIVE}};
 
 static PetscReal Height(const PetscReal slope[], PetscReal x, PetscReal y)
 {

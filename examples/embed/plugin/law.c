@@ -23,9 +23,9 @@ static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBo
   Fading *f = (Fading *)law->data;
 
   PetscCall(SamOptionsHeading(from, "Fading friction"));
-  PetscCall(SamOptionsReal(from, "fading_length", "slip (m) by which friction has faded to 1/e", SAM_RANGE_POSITIVE_INF,
-                           &f->length, asked));
-  return SamOptionsReal(from, "fading_final", "part of it that stays", SAM_RANGE_NONNEGATIVE, &f->final, NULL);
+  PetscCall(SamOptionsReal(from, "fading_length", "slip () by which friction has faded to 1/e", "m",
+                           SAM_RANGE_POSITIVE_INF, &f->length, asked));
+  return SamOptionsReal(from, "fading_final", "part of it that stays", NULL, SAM_RANGE_NONNEGATIVE, &f->final, NULL);
 }
 
 static PetscErrorCode AddParameters(SamLaw law, SamParameters *p)

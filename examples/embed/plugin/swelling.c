@@ -10,8 +10,9 @@
 #define LAYERS 8
 enum { RATE, RADIUS, DEPTH, POISSON, SETTINGS };
 static const char *const names[SETTINGS] = {"swelling_rate", "swelling_radius", "swelling_depth", "swelling_poisson"};
-static const char *const texts[SETTINGS] = {"strain per time (1/s)", "of the sphere (m)", "of its centre (m)",
+static const char *const texts[SETTINGS] = {"strain per time", "of the sphere", "of its centre",
                                             "Poisson's ratio about it"};
+static const char *const units[SETTINGS] = {"1/s", "m", "m", NULL};
 
 static const SamStateField strain = {"swelling",
                                      "1",
@@ -29,7 +30,7 @@ static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBo
 
   PetscCall(SamOptionsHeading(from, "Swelling"));
   for (int k = 0; k < SETTINGS; k++)
-    PetscCall(SamOptionsReal(from, names[k], texts[k], k == RATE ? SAM_RANGE_ANY : SAM_RANGE_POSITIVE, &s[k],
+    PetscCall(SamOptionsReal(from, names[k], texts[k], units[k], k == RATE ? SAM_RANGE_ANY : SAM_RANGE_POSITIVE, &s[k],
                              k == RATE ? asked : NULL));
   return 0;
 }

@@ -151,21 +151,26 @@ PETSC_INTERN PetscErrorCode SamOptionsRequire(const SamOptions *from, PetscBool 
 /* SamIsDecimalComma - returns true if a text begins with digits, a comma, and a digit: 2,6e-3. */
 PETSC_INTERN PetscBool SamIsDecimalComma(const char text[]);
 /*
-  SamExplainNumber - writes the fault of a text that is no number, to be appended to a message; it may be empty. `help`:
-  as in SamReadReal().
+  SamExplainNumber - writes the fault of a text that is no number, to be appended to a message; it may be empty. `unit`:
+  that of SI of the number.
 */
-PETSC_INTERN void SamExplainNumber(const char text[], const char help[], char why[], size_t size);
+PETSC_INTERN void SamExplainNumber(const char text[], const char unit[], char why[], size_t size);
 
 /* ---- units (units.c); not collective ---- */
 /*
-  SamReadReal - reads a number, which may be followed by a unit of the dimension that the help text names, as mm for
-  "width (m)"; returns true if the text is such a number. `value`: the number in the SI unit; `end`: the comma after it,
-  or the end of the text; `unit`: true if a unit follows.
+  SamReadReal - reads a number, which may be followed by a unit of the dimension of `si`, as mm for "m", or without `si`
+  (NULL) by none; returns true if the text is such a number. `value`: the number in the unit of SI; `end`: the comma
+  after it, or the end of the text; `unit`: true if a unit follows.
   SamListUnits - writes the units that may follow, "m, mm, um or nm"; empty: none.
+  SamUnitOf - returns the n-th unit that numbers in the k-th unit of SI may have, and the power of ten between them; of
+  n < 0 that unit of SI. NULL: there are no more.
+  SamAddUnit - writes the text of an option's help with its unit, as SamOptionRow says; NULL: the text alone.
 */
-PETSC_INTERN PetscBool SamReadReal(const char help[], const char text[], const char **end, double *value,
-                                   PetscBool *unit);
-PETSC_INTERN void      SamListUnits(const char help[], char list[], size_t size);
+PETSC_INTERN PetscBool   SamReadReal(const char si[], const char text[], const char **end, double *value,
+                                     PetscBool *unit);
+PETSC_INTERN void        SamListUnits(const char unit[], char list[], size_t size);
+PETSC_EXTERN const char *SamUnitOf(int k, int n, int *power);
+PETSC_INTERN void        SamAddUnit(const char text[], const char unit[], char whole[], size_t size);
 /*
   SamExplainStress - writes, to be appended to a value, why the unit of a stress or of a modulus is likely to be wrong:
   its ratio to Young's modulus (both Pa) is less than `least` without being 0, or more than `most`. Else, or if the body

@@ -20,7 +20,8 @@ typedef struct {
 /* SamGapParameter - a number that defines a shape, read from an option. */
 typedef struct {
   const char *name; /* name of the option, without dash and prefix */
-  const char *help; /* description, with its unit */
+  const char *help; /* description, with () for its unit, as in SamOptionRow */
+  const char *unit; /* unit of SI; NULL: none */
   SamRange    range;
 } SamGapParameter;
 

@@ -10,6 +10,7 @@ typedef struct {
   const char *text;     /* description */
   const char *value;    /* default; "": none, or required */
   const char *words;    /* allowed words, separated by commas; "": no fixed words */
+  const char *unit;     /* unit of SI; NULL: none */
 } SamOptionHelp;
 
 /*
@@ -21,7 +22,7 @@ typedef PetscErrorCode (*SamHelpFunction)(void *context, MPI_Comm comm, const ch
 
 /*
   SamHelpSetFunction - passes titles and options to a function instead of printing them; the function must copy what it
-  keeps. NULL: they are printed. Not collective.
+  keeps. The texts have their units. NULL: they are printed. Not collective.
 */
 PETSC_EXTERN void SamHelpSetFunction(SamHelpFunction function, void *context);
 /* SamHelpPrint - prints a title or an option, from rank 0; `context` is not used. */

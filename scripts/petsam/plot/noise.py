@@ -9,7 +9,7 @@ bodies, which do not rotate, do not count.
 
 import numpy as np
 
-from ..cycles import ENERGY
+from ..cycles import ENERGY, PAIRS, TANGENTIAL
 from .units import largest
 
 NOISE = 1e-6  # of the scale: solvers converge to 1e-8 and less
@@ -57,8 +57,7 @@ def works(one):
         return False
     if varies([one], ENERGY, known):
         return True
-    pairs = (("load_tx", "disp_x"), ("load_ty", "disp_y"), ("load_mz", "rot_z"))
-    return any(all(varies([one], name, known) for name in pair) for pair in pairs)
+    return any(all(varies([one], name, known) for name in PAIRS[pair]) for pair in TANGENTIAL)
 
 
 def is_nothing(name, tops, results):

@@ -14,8 +14,7 @@ CREEPS = ("creep_x", "creep_y", "creep_spin")
 CURVES = ("load_tx", "load_ty", "load_mz", *CREEPS, "stick_area")  # of steady rolling
 CONSTANT = ("load_n", "contact_area")  # shown where nothing varies
 # rows and columns of the matrices of /history
-LOADS = ("load_n", "load_tx", "load_ty", "load_mx", "load_my", "load_mz")
-WAYS = ("disp_z", "disp_x", "disp_y", "rot_x", "rot_y", "rot_z")
+LOADS, WAYS = zip(*(PAIRS[name] for name in ("n", "tx", "ty", "mx", "my", "mz")))
 
 
 def entry(results, name):

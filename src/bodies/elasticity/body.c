@@ -164,13 +164,11 @@ PetscErrorCode SamBodyAdviseWorn(SamBody body, PetscInt number, PetscReal depth,
 
 /* Lists with a number for each layer. */
 enum { YOUNG, POISSON, THICKNESS, LISTS };
-static const struct {
-  const char *name, *help;
-  SamRange    range;
-} lists[LISTS] = {[YOUNG]     = {"layer_young", "Young's modulus of each layer from the surface down (Pa)",
-                                 SAM_RANGE_POSITIVE_INF},
-                  [POISSON]   = {"layer_poisson", "Poisson's ratio of each layer, or one for all", SAM_RANGE_ANY},
-                  [THICKNESS] = {"layer_thickness", "thickness of each layer (m)", SAM_RANGE_ANY}};
+static const SamOptionRow lists[LISTS] = {
+  [YOUNG]     = {"layer_young", "Young's modulus of each layer from the surface down", SAM_OPTION_REAL,
+                 .range = SAM_RANGE_POSITIVE_INF, .size = LAYERS, .unit = "Pa"},
+  [POISSON]   = {"layer_poisson", "Poisson's ratio of each layer, or one for all", SAM_OPTION_REAL, .size = LAYERS},
+  [THICKNESS] = {"layer_thickness", "thickness of each layer", SAM_OPTION_REAL, .size = LAYERS, .unit = "m"}};
 #define PROFILE "layer_file"
 
 static PetscReal *MemberOf(SamMaterial *m, int list)
@@ -274,7 +272,7 @@ static PetscErrorCode ReadLayers(const SamOptions *from, SamMaterial m[], PetscI
   PetscFunctionBegin;
   PetscCall(SamBodyReadProfile(from, PROFILE, m, layers, &graded));
   for (int l = 0; l < LISTS; l++) {
-    PetscCall(SamOptionsReals(from, lists[l].name, lists[l].help, lists[l].range, LAYERS, values[l], &count[l]));
+    PetscCall(SamOptionsReals(from, &lists[l], values[l], &count[l]));
     PetscCheck(!graded || !count[l], from->comm, SAM_ERR_USER, "-%s" PROFILE " and -%s%s exclude each other: omit one",
                prefix, prefix, lists[l].name);
     most = PetscMax(most, count[l]);
@@ -303,12 +301,12 @@ PetscErrorCode SamBodyCreateFromOptions(const SamOptions *from, SamBody *body)
   const PetscBool help = SamPrintHelp();
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsReal(from, "young", "Young's modulus (Pa), inf: rigid: required", SAM_RANGE_POSITIVE_INF,
+  PetscCall(SamOptionsReal(from, "young", "Young's modulus (), inf: rigid: required", "Pa", SAM_RANGE_POSITIVE_INF,
                            &last.young, &given));
   PetscCall(
     SamOptionsRequire(from, given || help, "young", "Young's modulus, Pa (210e9 for steel), or inf: a rigid body"));
-  PetscCall(
-    SamOptionsReal(from, "poisson", "Poisson's ratio: required unless rigid", SAM_RANGE_ANY, &last.poisson, &given));
+  PetscCall(SamOptionsReal(from, "poisson", "Poisson's ratio: required unless rigid", NULL, SAM_RANGE_ANY,
+                           &last.poisson, &given));
   PetscCall(SamOptionsRequire(from, given || isinf(last.young) || help, "poisson",
                               "Poisson's ratio (0.3 for steel; not needed for a rigid body)"));
   PetscCall(ReadLayers(from, m, &layers));

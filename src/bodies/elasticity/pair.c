@@ -9,9 +9,9 @@ static const char *const prefixes[2] = {"body1_", "body2_"};
 #define LEAST_FILM 1e-7 /* of Young's modulus: softer than any solid between metals */
 #define FILM(k)    offsetof(struct _n_SamPair, film[k])
 static const SamOptionRow films[2] = {
-  {"film_thickness", "thickness (m) of a film between the surfaces, which shear displaces", SAM_OPTION_REAL, FILM(0),
-   .range = SAM_RANGE_POSITIVE, .needs = "film_shear", .recorded = PETSC_TRUE},
-  {"film_shear", "its shear modulus (Pa)", SAM_OPTION_REAL, FILM(1), .range = SAM_RANGE_POSITIVE,
+  {"film_thickness", "thickness () of a film between the surfaces, which shear displaces", SAM_OPTION_REAL, FILM(0),
+   .range = SAM_RANGE_POSITIVE, .unit = "m", .needs = "film_shear", .recorded = PETSC_TRUE},
+  {"film_shear", "its shear modulus", SAM_OPTION_REAL, FILM(1), .range = SAM_RANGE_POSITIVE, .unit = "Pa",
    .needs = "film_thickness", .recorded = PETSC_TRUE}};
 
 static PetscBool AreRigid(const SamBody body[2])

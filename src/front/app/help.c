@@ -10,7 +10,7 @@
 
 /* ---- the list ---- */
 
-enum { TITLE, NAME, ARGUMENT, TEXT, VALUE, WORDS, TEXTS };
+enum { TITLE, NAME, ARGUMENT, TEXT, VALUE, WORDS, UNIT, TEXTS };
 
 /* The title of a group, or one of the options after it, as in SamOptionHelp; what it is not is NULL. */
 typedef struct {
@@ -24,8 +24,8 @@ typedef struct {
 
 static PetscErrorCode Keep(void *context, MPI_Comm comm, const char title[], const SamOptionHelp *o)
 {
-  const SamOptionHelp none = {NULL, NULL, NULL, NULL, NULL}, *of = o ? o : &none;
-  const char *const   texts[TEXTS] = {title, of->name, of->argument, of->text, of->value, of->words};
+  const SamOptionHelp none = {.name = NULL}, *of = o ? o : &none;
+  const char *const   texts[TEXTS] = {title, of->name, of->argument, of->text, of->value, of->words, of->unit};
   List               *list         = (List *)context;
 
   PetscFunctionBegin;
@@ -51,12 +51,12 @@ static PetscErrorCode Free(List *list)
 /* Lists the options of a program, and those that every program has: of this frame, and the most useful of PETSc's. */
 static PetscErrorCode Collect(const SamProgram *program, const SamArguments *arguments)
 {
-  static const SamOptionHelp all[] = {{"help", "[<topic>]", "all options, or one topic or option (no dash)", "", ""},
-                                      {"version", "", "the version", "", ""},
-                                      {"options_file", "<file>",
-                                       "file with an option and its value on each line; # begins a comment", "", ""},
-                                      {"log_view", "[<viewer>]", "PETSc's log of the time by event", "", ""}};
-  const SamOptions           from  = {PETSC_COMM_WORLD, NULL};
+  static const SamOptionHelp all[] = {
+    {"help", "[<topic>]", "all options, or one topic or option (no dash)", "", "", NULL},
+    {"version", "", "the version", "", "", NULL},
+    {"options_file", "<file>", "file with an option and its value on each line; # begins a comment", "", "", NULL},
+    {"log_view", "[<viewer>]", "PETSc's log of the time by event", "", "", NULL}};
+  const SamOptions from = {PETSC_COMM_WORLD, NULL};
 
   PetscFunctionBegin;
   PetscCall(PetscOptionsSetValue(NULL, "-help", NULL));
@@ -71,7 +71,8 @@ static PetscErrorCode Collect(const SamProgram *program, const SamArguments *arg
 
 static PetscErrorCode PrintLine(const Line *l)
 {
-  const SamOptionHelp option = {l->text[NAME], l->text[ARGUMENT], l->text[TEXT], l->text[VALUE], l->text[WORDS]};
+  const SamOptionHelp option = {l->text[NAME],  l->text[ARGUMENT], l->text[TEXT],
+                                l->text[VALUE], l->text[WORDS],    l->text[UNIT]};
 
   PetscFunctionBegin;
   PetscCall(SamHelpPrint(NULL, PETSC_COMM_WORLD, l->text[TITLE], l->text[TITLE] ? NULL : &option));
@@ -133,9 +134,11 @@ static PetscErrorCode PrintTopic(const SamTopic *topic, const List *list)
   A text in quotes, or null for NULL, between others:
 
     {"program": ..., "version": ..., "usage": ...,
+     "units": {"m": {"m": 0, "mm": -3, ...}, ...}, (powers of ten)
      "topics": [{"name": ..., "text": ..., "groups": [...]}, ...],
      "groups": [{"name": ..., "topic": ..., "options": [
-       {"name": "-grid_n", "argument": ..., "text": ..., "default": ... or null, "words": [...]}, ...]}, ...]}
+       {"name": "-grid_n", "argument": ..., "text": ..., "unit": ... or null, "default": ... or null,
+        "words": [...]}, ...]}, ...]}
 */
 static PetscErrorCode PrintText(const char before[], const char text[], const char after[])
 {
@@ -162,6 +165,7 @@ static PetscErrorCode PrintJsonOption(const char before[], const Line *o)
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s\n    {\"name\": \"-%s\"", before, o->text[NAME]));
   PetscCall(PrintText(", \"argument\": ", o->text[ARGUMENT], ""));
   PetscCall(PrintText(", \"text\": ", o->text[TEXT], ""));
+  PetscCall(PrintText(", \"unit\": ", o->text[UNIT], ""));
   PetscCall(PrintText(", \"default\": ", o->text[VALUE][0] ? o->text[VALUE] : NULL, ", \"words\": ["));
   PetscCall(PetscStrToArray(o->text[WORDS], ',', &words, &word));
   for (int w = 0; w < words; w++) PetscCall(PrintText(w ? ", " : "", word[w], ""));
@@ -181,11 +185,29 @@ static PetscErrorCode PrintJsonTopics(const SamTopic *topics)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode PrintJsonUnits(void)
+{
+  const char *si, *unit;
+  int         power;
+
+  PetscFunctionBegin;
+  for (int k = 0; (si = SamUnitOf(k, -1, &power)); k++) {
+    PetscCall(PrintText(k ? "},\n  " : "\n  ", si, ": {"));
+    for (int n = 0; (unit = SamUnitOf(k, n, &power)); n++) {
+      PetscCall(PrintText(n ? ", " : "", unit, ""));
+      PetscCall(PetscPrintf(PETSC_COMM_WORLD, ": %d", power));
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode PrintJson(const SamProgram *program, const List *list)
 {
   PetscFunctionBegin;
   PetscCall(PrintText("{\"program\": ", program->name, ",\n\"version\": \"" PETSAM_VERSION "\""));
-  PetscCall(PrintText(",\n\"usage\": ", program->topics->text, ",\n\"topics\": ["));
+  PetscCall(PrintText(",\n\"usage\": ", program->topics->text, ",\n\"units\": {"));
+  PetscCall(PrintJsonUnits());
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "}},\n\"topics\": ["));
   PetscCall(PrintJsonTopics(program->topics + 1));
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "]}],\n\"groups\": ["));
   for (PetscInt l = 0; l < list->count; l++) {

@@ -30,13 +30,15 @@ PetscErrorCode SamOptionsHeading(const SamOptions *from, const char title[])
 PetscErrorCode SamOptionsDescribe(const SamOptions *from, const SamOptionHelp *option)
 {
   SamOptionHelp prefixed = *option;
-  char          name[128];
+  char          name[128], text[512];
 
   PetscFunctionBegin;
   SamOptionsKnow(from, option->name, NULL);
   if (!SamPrintHelp()) PetscFunctionReturn(PETSC_SUCCESS);
   (void)snprintf(name, sizeof(name), "%s%s", SamOptionsPrefix(from), option->name);
+  SamAddUnit(option->text, option->unit, text, sizeof(text));
   prefixed.name = name;
+  prefixed.text = text;
   if (strstr(option->text, "required")) prefixed.value = "";
   PetscCall((*receive)(receiver, from->comm, NULL, &prefixed));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -111,7 +111,7 @@ static PetscBool ReadNumber(const SamOptionRow *row, const char **text, double *
   if (row->kind == SAM_OPTION_INT)
     good = ReadInteger(row, &end, value);
   else
-    good = SamReadReal(row->text, *text, &end, value, unit) && SamRangeHas(row->range, *value);
+    good = SamReadReal(row->unit, *text, &end, value, unit) && SamRangeHas(row->range, *value);
   *text = *end ? end + 1 : end;
   return good && (!*end || end[1]);
 }
@@ -154,7 +154,7 @@ static PetscErrorCode ReadNumbers(const SamOptions *from, const SamOptionRow *ro
     ++*n;
   }
   if (!good || *n == 0 || *rest) {
-    SamExplainNumber(text, row->kind == SAM_OPTION_REAL ? row->text : "", why, sizeof(why));
+    SamExplainNumber(text, row->unit, why, sizeof(why));
     SETERRQ(from->comm, SAM_ERR_USER, "-%s%s %s: expected %s%s", SamOptionsPrefix(from), row->name, Quote(text),
             expected, !why[0] && row->words ? row->words : why);
   }
@@ -180,7 +180,8 @@ static PetscErrorCode ReadNumberRow(const SamOptions *from, const SamOptionRow *
   for (PetscInt k = 0; k < 2; k++) v[k] = whole ? (double)wholes[k % count] : (double)reals[k % count];
   if (!isnan(v[0])) /* there is a default */
     (void)snprintf(shown, sizeof(shown), count > 1 ? "%.*g,%.*g" : "%.*g", digits, v[0], digits, v[1]);
-  PetscCall(SamOptionsDescribe(from, &(SamOptionHelp){row->name, argument[whole][count - 1], row->text, shown, ""}));
+  PetscCall(
+    SamOptionsDescribe(from, &(SamOptionHelp){row->name, argument[whole][count - 1], row->text, shown, "", row->unit}));
   if (whole && row->most)
     (void)snprintf(expected, sizeof(expected), "an integer from %lld to %lld", (long long)row->least,
                    (long long)row->most);
@@ -200,17 +201,15 @@ static PetscErrorCode ReadNumberRow(const SamOptions *from, const SamOptionRow *
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamOptionsReals(const SamOptions *from, const char name[], const char help[], SamRange range,
-                               PetscInt most, PetscReal values[], PetscInt *count)
+PetscErrorCode SamOptionsReals(const SamOptions *from, const SamOptionRow *row, PetscReal values[], PetscInt *count)
 {
-  const SamOptionRow row = {name, help, SAM_OPTION_REAL, .range = range, .size = most};
-  char               expected[96];
+  char expected[96];
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsDescribe(from, &(SamOptionHelp){name, "<number>[,...]", help, "", ""}));
-  (void)snprintf(expected, sizeof(expected), "%s, or at most %d separated by commas", SamRangeDescribe(range),
-                 (int)most);
-  PetscCall(ReadNumbers(from, &row, expected, values, count));
+  PetscCall(SamOptionsDescribe(from, &(SamOptionHelp){row->name, "<number>[,...]", row->text, "", "", row->unit}));
+  (void)snprintf(expected, sizeof(expected), "%s, or at most %d separated by commas", SamRangeDescribe(row->range),
+                 (int)row->size);
+  PetscCall(ReadNumbers(from, row, expected, values, count));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -263,7 +262,7 @@ static PetscErrorCode ReadBool(const SamOptions *from, const SamOptionRow *row, 
 
   PetscFunctionBegin;
   PetscCall(SamOptionsDescribe(from, &(SamOptionHelp){row->name, "[<bool>]", row->text, *value ? "true" : "false",
-                                                      "true,false"}));
+                                                      "true,false", NULL}));
   PetscCall(PetscSNPrintf(dashed, sizeof(dashed), "-%s", row->name));
   PetscCall(PetscOptionsGetString(NULL, from->prefix, dashed, text, sizeof(text), given));
   if (!*given) PetscFunctionReturn(PETSC_SUCCESS);
@@ -283,7 +282,7 @@ static PetscErrorCode ReadChoice(const SamOptions *from, const SamOptionRow *row
   PetscFunctionBegin;
   ListWords(row->words, list, sizeof(list));
   CopyWord(row->words, place, text, sizeof(text));
-  PetscCall(SamOptionsDescribe(from, &(SamOptionHelp){row->name, "<keyword>", row->text, text, row->words}));
+  PetscCall(SamOptionsDescribe(from, &(SamOptionHelp){row->name, "<keyword>", row->text, text, row->words, NULL}));
   PetscCall(GetText(from, row->name, list, text, sizeof(text), given));
   if (!*given) PetscFunctionReturn(PETSC_SUCCESS);
   place = FindWord(row->words, text);
@@ -345,7 +344,7 @@ static PetscErrorCode ReadText(const SamOptions *from, const SamOptionRow *row, 
   else
     (void)snprintf(expected, sizeof(expected), IsFile(row->kind) ? "the name of a file" : "a string");
   PetscCall(SamOptionsNoteFile(from, row->kind, row->name, row->name));
-  PetscCall(SamOptionsDescribe(from, &(SamOptionHelp){row->name, arguments[row->kind], row->text, value, words}));
+  PetscCall(SamOptionsDescribe(from, &(SamOptionHelp){row->name, arguments[row->kind], row->text, value, words, NULL}));
   PetscCall(GetText(from, row->name, expected, text, sizeof(text), given));
   if (!*given) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCheck(row->kind != SAM_OPTION_WORD || FindWord(words, text) >= 0, from->comm, SAM_ERR_USER,
@@ -363,7 +362,7 @@ static PetscErrorCode ReadViewer(const SamOptions *from, const SamOptionRow *row
 
   PetscFunctionBegin;
   PetscCall(SamOptionsNoteFile(from, row->kind, row->name, row->name));
-  PetscCall(SamOptionsDescribe(from, &(SamOptionHelp){row->name, "[<viewer>]", row->text, "", ""}));
+  PetscCall(SamOptionsDescribe(from, &(SamOptionHelp){row->name, "[<viewer>]", row->text, "", "", NULL}));
   PetscCall(PetscSNPrintf(option, sizeof(option), "-%s", row->name));
   PetscCall(PetscOptionsGetString(NULL, from->prefix, option, text, sizeof(text), given));
   PetscCheck(!*given || !text[0] || !strncmp(text, "ascii", 5) || text[0] == ':', from->comm, SAM_ERR_USER,
@@ -471,10 +470,10 @@ PetscErrorCode SamOptionsRead(const SamOptions *from, const char heading[], Pets
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamOptionsReal(const SamOptions *from, const char name[], const char help[], SamRange range,
-                              PetscReal *value, PetscBool *set)
+PetscErrorCode SamOptionsReal(const SamOptions *from, const char name[], const char help[], const char unit[],
+                              SamRange range, PetscReal *value, PetscBool *set)
 {
-  const SamOptionRow row = {name, help, SAM_OPTION_REAL, .range = range};
+  const SamOptionRow row = {name, help, SAM_OPTION_REAL, .range = range, .unit = unit};
 
   return SamOptionsRead(from, NULL, 1, &row, value, set);
 }

@@ -213,12 +213,12 @@ static const char *FindBehind(const char text[])
   return end;
 }
 
-void SamExplainNumber(const char text[], const char help[], char why[], size_t size)
+void SamExplainNumber(const char text[], const char unit[], char why[], size_t size)
 {
   const char *rest = FindBehind(text);
   char        units[64];
 
-  SamListUnits(help, units, sizeof(units));
+  SamListUnits(unit, units, sizeof(units));
   why[0] = '\0';
   if (rest && *rest == '%') (void)snprintf(why, size, "; a fraction is meant, not percent: 0.3, not 30");
   if (rest && (isalpha((unsigned char)*rest) || isalpha((unsigned char)text[strlen(text) - 1])))

@@ -160,7 +160,7 @@ static PetscErrorCode ReadRow(Reader *r, char *text)
     double value = strtod(field, &end);
 
     if (fields >= t->columns) continue;
-    SamExplainNumber(field, "", why, sizeof(why));
+    SamExplainNumber(field, NULL, why, sizeof(why));
     PetscCheck(end != field && !*end && isfinite(value), r->comm, SAM_ERR_USER,
                "%s, line %d: column %s: \"%s\" is not a finite number%s", r->file, (int)r->line, t->name[fields], field,
                strchr(field, ';') ? "; separate columns as in the line of their names" : why);

@@ -1,8 +1,8 @@
 /*
   Units behind the numbers of options: 2.6mm is 2.6e-3, to the last bit.
 
-  The unit of SI of an option stands in its help, in parentheses. Powers of ten alone distinguish the units that may
-  follow a number, so the number is read with another exponent.
+  An option's row declares its unit of SI. Powers of ten alone distinguish the units that may follow a number, so the
+  number is read with another exponent.
 */
 #include <petsam/private/baseimpl.h>
 #include <errno.h>
@@ -27,15 +27,11 @@ static const Kind kinds[] = {{"m", {"m", "mm", "um", "nm"}, {0, -3, -6, -9}},
                              {"1/Pa", {"m3/Nm", "mm3/Nm"}, {0, -9}}, /* no digit, which would be the number's */
                              {"m3/J", {"m3/J", "mm3/J"}, {0, -9}}};
 
-/* Returns the kind of unit that a help has in parentheses, to their end or to a comma; NULL: none. */
-static const Kind *FindKind(const char help[])
+/* Returns the kind of a unit; NULL: none, or one that only numbers in SI units have. */
+static const Kind *FindKind(const char unit[])
 {
-  for (; (help = strchr(help, '(')); help++)
-    for (size_t k = 0; k < sizeof(kinds) / sizeof(kinds[0]); k++) {
-      const size_t length = strlen(kinds[k].si);
-
-      if (!strncmp(help + 1, kinds[k].si, length) && strchr(",)", help[1 + length])) return &kinds[k];
-    }
+  for (size_t k = 0; unit && k < sizeof(kinds) / sizeof(kinds[0]); k++)
+    if (!strcmp(kinds[k].si, unit)) return &kinds[k];
   return NULL;
 }
 
@@ -50,9 +46,9 @@ static double ReadScaled(const char number[], size_t length, int power)
   return strtod(text, NULL);
 }
 
-PetscBool SamReadReal(const char help[], const char text[], const char **end, double *value, PetscBool *unit)
+PetscBool SamReadReal(const char si[], const char text[], const char **end, double *value, PetscBool *unit)
 {
-  const Kind *kind = FindKind(help);
+  const Kind *kind = FindKind(si);
   char       *name;
   size_t      size, length;
 
@@ -73,13 +69,31 @@ PetscBool SamReadReal(const char help[], const char text[], const char **end, do
   return PETSC_FALSE;
 }
 
-void SamListUnits(const char help[], char list[], size_t size)
+void SamListUnits(const char unit[], char list[], size_t size)
 {
-  const Kind *kind  = FindKind(help);
+  const Kind *kind  = FindKind(unit);
   PetscInt    count = 0;
 
   while (kind && count < MOST && kind->name[count]) count++;
   SamJoin(count, kind ? kind->name : NULL, ", ", " or ", list, size);
+}
+
+const char *SamUnitOf(int k, int n, int *power)
+{
+  if (k >= (int)(sizeof(kinds) / sizeof(kinds[0])) || n >= MOST) return NULL;
+  *power = n < 0 ? 0 : kinds[k].power[n];
+  return n < 0 ? kinds[k].si : kinds[k].name[n];
+}
+
+void SamAddUnit(const char text[], const char unit[], char whole[], size_t size)
+{
+  const char *place = unit ? strstr(text, "()") : NULL;
+
+  if (unit && !place) place = strstr(text, "(,");
+  if (place)
+    (void)snprintf(whole, size, "%.*s%s%s", (int)(place + 1 - text), text, unit, place + 1);
+  else
+    (void)snprintf(whole, size, "%s%s%s%s", text, unit ? " (" : "", unit ? unit : "", unit ? ")" : "");
 }
 
 void SamExplainStress(double stress, double young, double least, double most, char why[], size_t size)

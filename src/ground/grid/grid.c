@@ -131,10 +131,10 @@ PetscErrorCode SamGridCreateFromOptions(const SamOptions *from, PetscBool row, P
   const SamOptionRow rows[] = {
     {"grid_n", "cells in x[,y]: required without a surface file", SAM_OPTION_INT, MEMBER(n), .least = row ? 1 : 2,
      .size = 2, .missing = "the number of cells in x[,y], for example 256"},
-    {"grid_size", "full width in x[,y] (m): required without a surface file", SAM_OPTION_REAL, MEMBER(width),
-     .range = SAM_RANGE_POSITIVE, .size = 2,
+    {"grid_size", "full width in x[,y] (): required without a surface file", SAM_OPTION_REAL, MEMBER(width),
+     .range = SAM_RANGE_POSITIVE, .size = 2, .unit = "m",
      .missing = "the full width of the grid in x[,y], m: about 1.5 times that of the contact"},
-    {"grid_center", "centre x,y (m)", SAM_OPTION_REAL, MEMBER(center), .range = SAM_RANGE_ANY, .size = 2}};
+    {"grid_center", "centre x,y", SAM_OPTION_REAL, MEMBER(center), .range = SAM_RANGE_ANY, .size = 2, .unit = "m"}};
   char              message[256], options[3][96];
   const char *const names[3] = {options[0], options[1], options[2]};
   const PetscBool   help     = SamPrintHelp();

@@ -218,13 +218,11 @@ PetscErrorCode SamControlReadCondition(const SamOptions *from, const SamConditio
                                        PetscBool *set)
 {
   PetscReal value = SamControlGet(control, condition);
-  char      text[96];
 
   PetscFunctionBegin;
   *set = PETSC_FALSE;
   if (!condition->option) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscSNPrintf(text, sizeof(text), "%s (%s)", condition->text, condition->unit));
-  PetscCall(SamOptionsReal(from, condition->name, text, condition->range, &value, set));
+  PetscCall(SamOptionsReal(from, condition->name, condition->text, condition->unit, condition->range, &value, set));
   if (*set) SamControlSetCondition(control, condition, value);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -69,19 +69,19 @@ enum {
 #define OF_HARDENING(body, word) \
   .needs = "body" #body "_hardening " word, .missing = "required by -body" #body "_hardening " word
 #define MATERIAL_ROWS(body) \
-  REAL_ROW(body, "yield", "yield stress: the body yields below its surface (Pa)", yield, SAM_RANGE_POSITIVE_INF, \
-           .needs = NULL), \
+  REAL_ROW(body, "yield", "yield stress: the body yields below its surface", yield, SAM_RANGE_POSITIVE_INF, \
+           .unit = "Pa"), \
     {"body" #body "_hardening", \
      "hardening: linear, voce or swift", \
      SAM_OPTION_ENUM, \
      offsetof(Plastic, material[body - 1].hardening), \
      .words = "linear,voce,swift", \
      .needs = "body" #body "_yield"}, \
-    REAL_ROW(body, "hardening_modulus", "linear: slope of the yield stress (Pa)", modulus, SAM_RANGE_NONNEGATIVE, \
-             .needs    = "body" #body "_yield", \
+    REAL_ROW(body, "hardening_modulus", "linear: slope of the yield stress", modulus, SAM_RANGE_NONNEGATIVE, \
+             .unit = "Pa", .needs = "body" #body "_yield", \
              .excludes = "body" #body "_hardening voce,body" #body "_hardening swift"), \
-    REAL_ROW(body, "voce_stress", "voce: growth of the yield stress (Pa)", voce_stress, SAM_RANGE_NONNEGATIVE, \
-             OF_HARDENING(body, "voce")), \
+    REAL_ROW(body, "voce_stress", "voce: growth of the yield stress", voce_stress, SAM_RANGE_NONNEGATIVE, \
+             .unit = "Pa", OF_HARDENING(body, "voce")), \
     REAL_ROW(body, "voce_rate", "voce: its rate by the plastic strain", voce_rate, SAM_RANGE_NONNEGATIVE, \
              OF_HARDENING(body, "voce")), \
     REAL_ROW(body, "swift_strain", "swift: strain e0 of Y (1 + p/e0)^n", swift_strain, SAM_RANGE_POSITIVE, \
@@ -94,12 +94,12 @@ enum {
 static const SamOptionRow rows[] = {
   MATERIAL_ROWS(1),
   MATERIAL_ROWS(2),
-  {"yield_depth", "depth below the surface that may yield, 0: the grid's width (m)", SAM_OPTION_REAL,
-   offsetof(Plastic, depth), .range = SAM_RANGE_NONNEGATIVE, .recorded = PETSC_TRUE, YIELDING},
+  {"yield_depth", "depth below the surface that may yield, 0: the grid's width", SAM_OPTION_REAL,
+   offsetof(Plastic, depth), .range = SAM_RANGE_NONNEGATIVE, .unit = "m", .recorded = PETSC_TRUE, YIELDING},
   {"yield_layers", "layers of this depth, thicker from the surface down", SAM_OPTION_INT, offsetof(Plastic, layers),
    .least = 2, .most = 1000, YIELDING},
-  {"yield_first", "thickness of the first layer, 0: half a cell (m)", SAM_OPTION_REAL, offsetof(Plastic, first),
-   .range = SAM_RANGE_NONNEGATIVE, .recorded = PETSC_TRUE, YIELDING},
+  {"yield_first", "thickness of the first layer, 0: half a cell", SAM_OPTION_REAL, offsetof(Plastic, first),
+   .range = SAM_RANGE_NONNEGATIVE, .unit = "m", .recorded = PETSC_TRUE, YIELDING},
   {"yield_rtol", "tolerance of the plastic strain, relative to the strain at yield", SAM_OPTION_REAL,
    offsetof(Plastic, rtol), .range = SAM_RANGE_PART, YIELDING}};
 
@@ -219,10 +219,11 @@ static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBo
   PetscFunctionBegin;
   *asked = PETSC_FALSE;
   for (PetscInt b = 0; b < 2; b++) {
-    Material *m = &x->material[b];
+    Material          *m     = &x->material[b];
+    const SamOptionRow pairs = {backstress[b], "pairs C, g of backstresses, C in Pa", SAM_OPTION_REAL,
+                                .range = SAM_RANGE_NONNEGATIVE, .size = 2 * SAM_BACKSTRESSES};
 
-    PetscCall(SamOptionsReals(from, backstress[b], "pairs C, g of backstresses, C in Pa", SAM_RANGE_NONNEGATIVE,
-                              2 * SAM_BACKSTRESSES, m->back, &m->count));
+    PetscCall(SamOptionsReals(from, &pairs, m->back, &m->count));
     PetscCheck(m->count % 2 == 0, from->comm, SAM_ERR_USER, "-%s%s: %" PetscInt_FMT " numbers: expected pairs C,g",
                SamOptionsPrefix(from), backstress[b], m->count);
     PetscCall(SamOptionsNeed(from, m->count > 0 && !SamPrintHelp(), backstress[b], yielding[b]));

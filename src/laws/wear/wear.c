@@ -41,8 +41,9 @@ PetscErrorCode SamLawSetWear(SamLaw law, const PetscReal coefficient[2])
       .range = SAM_RANGE_NONNEGATIVE, .recorded = PETSC_TRUE, __VA_ARGS__ \
   }
 #define ARCHARD(body) \
-  ROW("wear_coefficient", "Archard's wear, depth = k p |ds|: k (1/Pa)", body, .excludes = "wear_energy1,wear_energy2")
-#define ENERGY(body) ROW("wear_energy", "wear by energy, depth = alpha |q.ds|: alpha (m3/J)", body, .needs = NULL)
+  ROW("wear_coefficient", "Archard's wear, depth = k p |ds|: k ()", body, .unit = "1/Pa", \
+      .excludes = "wear_energy1,wear_energy2")
+#define ENERGY(body) ROW("wear_energy", "wear by energy, depth = alpha |q.ds|: alpha ()", body, .unit = "m3/J")
 static const SamOptionRow rows[2][2] = {{ARCHARD(1), ARCHARD(2)}, {ENERGY(1), ENERGY(2)}};
 
 static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBool *asked)

@@ -34,7 +34,7 @@ PetscBool SamReadLength(const char text[], double *value)
   const char *end;
   PetscBool   unit;
 
-  return SamReadReal("(m)", text, &end, value, &unit) && !*end && isfinite(*value);
+  return SamReadReal("m", text, &end, value, &unit) && !*end && isfinite(*value);
 }
 
 static PetscBool ReadWhole(const char text[], PetscInt *value)

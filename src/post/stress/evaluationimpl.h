@@ -22,7 +22,7 @@ typedef struct {
 
 /* A constant of a fatigue parameter, and its option. */
 typedef struct {
-  const char *name, *help;
+  const char *name, *help, *unit;
   SamRange    range;
   size_t      place; /* in SamFatigueConstants */
 } SamQuantityConstant;

@@ -26,8 +26,8 @@ static const SamOptionRow where[] = {
 static const SamOptionRow passing = {"passing", "the cycle is that of a point that passes along x under one step",
                                      SAM_OPTION_BOOL, .member = MEMBER(passing)};
 static const SamOptionRow mean[]  = {
-   {"fatigue_length", "length over which the stresses are averaged (m); default: not at all", SAM_OPTION_REAL,
-    MEMBER(length), .range = SAM_RANGE_POSITIVE},
+   {"fatigue_length", "length over which the stresses are averaged (); default: not at all", SAM_OPTION_REAL,
+    MEMBER(length), .range = SAM_RANGE_POSITIVE, .unit = "m"},
    {"fatigue_average", "point: at half the length deep; line: to twice the length; area: the half disc of it",
     SAM_OPTION_ENUM, MEMBER(average), .words = "point,line,area", .needs = "fatigue_length"}};
 
@@ -96,12 +96,16 @@ static PetscReal *ConstantOf(SamEvaluation e, PetscInt material, const SamQuanti
 static PetscErrorCode ReadConstant(const SamOptions *from, SamEvaluation e, const SamQuantityConstant *k,
                                    PetscBool required)
 {
-  PetscReal values[SAM_MATERIALS];
-  PetscInt  n;
+  const SamOptionRow row = {k->name,        k->help, SAM_OPTION_REAL, .range = k->range, .size = SAM_MATERIALS,
+                            .unit = k->unit};
+  PetscReal          values[SAM_MATERIALS];
+  PetscInt           n;
+  char               text[128];
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsReals(from, k->name, k->help, k->range, SAM_MATERIALS, values, &n));
-  PetscCall(SamOptionsRequire(from, (PetscBool)(n > 0 || !required), k->name, k->help));
+  SamAddUnit(k->help, k->unit, text, sizeof(text));
+  PetscCall(SamOptionsReals(from, &row, values, &n));
+  PetscCall(SamOptionsRequire(from, (PetscBool)(n > 0 || !required), k->name, text));
   PetscCheck(n <= 1 || e->materials <= 1 || n == e->materials, from->comm, SAM_ERR_USER,
              "-%s: %" PetscInt_FMT " numbers, but %" PetscInt_FMT " in another list: " SAM_ONE_EACH, k->name, n,
              e->materials);

@@ -51,9 +51,9 @@ static void Strain(SamEvaluation e, const SamPoints *p, const double *const s[],
       name "_normal_z", "1", "normal of the critical plane, z" \
     } \
   }
-#define CONSTANT(member, help, range) \
+#define CONSTANT(member, help, unit, range) \
   { \
-    "fatigue_" #member, help, range, offsetof(SamFatigueConstants, member) \
+    "fatigue_" #member, help, unit, range, offsetof(SamFatigueConstants, member) \
   }
 
 const SamQuantity SamQuantityTable[] = {
@@ -90,21 +90,21 @@ const SamQuantity SamQuantityTable[] = {
    .of_cycle = SamFatigueCrossland,
    .shown    = "Crossland",
    .with     = "-fatigue crossland",
-   .constant = {CONSTANT(crossland_alpha, "factor on the maximum hydrostatic stress, required by crossland",
+   .constant = {CONSTANT(crossland_alpha, "factor on the maximum hydrostatic stress, required by crossland", NULL,
                          SAM_RANGE_NONNEGATIVE)}},
   {.name     = "dang_van",
    .part     = {{"dang_van", "Pa", "Dang Van's parameter of the cycle"}},
    .of_cycle = SamFatigueDangVan,
    .shown    = "Dang Van",
    .with     = "-fatigue dang_van",
-   .constant = {CONSTANT(dang_van_alpha, "factor on the hydrostatic stress, required by dang_van",
+   .constant = {CONSTANT(dang_van_alpha, "factor on the hydrostatic stress, required by dang_van", NULL,
                          SAM_RANGE_NONNEGATIVE)}},
   {.name     = "findley",
    .part     = OF_PLANE("findley", "Pa", "Findley's parameter of the cycle"),
    .of_cycle = SamFatigueFindley,
    .shown    = "Findley",
    .with     = "-fatigue findley",
-   .constant = {CONSTANT(findley_k, "factor on the maximum normal stress, required by findley",
+   .constant = {CONSTANT(findley_k, "factor on the maximum normal stress, required by findley", NULL,
                          SAM_RANGE_NONNEGATIVE)}},
   {.name     = "swt",
    .part     = OF_PLANE("swt", "Pa", "parameter of Smith, Watson and Topper of the cycle"),
@@ -115,9 +115,9 @@ const SamQuantity SamQuantityTable[] = {
    .of_cycle = SamFatigueFatemiSocie,
    .shown    = "Fatemi-Socie",
    .with     = "-fatigue fatemi_socie",
-   .constant = {CONSTANT(fatemi_socie_k, "factor on the maximum normal stress, required by fatemi_socie",
+   .constant = {CONSTANT(fatemi_socie_k, "factor on the maximum normal stress, required by fatemi_socie", NULL,
                          SAM_RANGE_NONNEGATIVE),
-                CONSTANT(yield, "yield stress (Pa), required by fatemi_socie", SAM_RANGE_POSITIVE)}},
+                CONSTANT(yield, "yield stress (), required by fatemi_socie", "Pa", SAM_RANGE_POSITIVE)}},
   {.name     = "ruiz",
    .part     = {{"ruiz_1", "J/m2", "Ruiz's first parameter of the cycle: frictional work"},
                 {"ruiz_2", "Pa J/m2", "Ruiz's second parameter of the cycle: tension times frictional work"}},

@@ -14,8 +14,8 @@
 /* For the help, which is printed before there is a contact to ask. */
 #define WORDS \
   "all,none,pressure,shear_x,shear_y,displacement_z,displacement_x,displacement_y,slip_x,slip_y,gap,state," \
-  "pressure_center,shear_center_x,shear_center_y,contact_edge,stick_edge," SAM_LAW_ACCUMULATED_SLIP \
-  "," SAM_LAW_FRICTION_ENERGY ",plastic,usual"
+  "slip_aside_x,slip_aside_y,pressure_center,shear_center_x,shear_center_y,contact_edge,stick_" \
+  "edge," SAM_LAW_ACCUMULATED_SLIP "," SAM_LAW_FRICTION_ENERGY ",plastic,usual"
 
 /* Reads -output_fields: names separated by commas and blanks. */
 static PetscErrorCode ReadFieldNames(SamOutputSettings *set, const SamOptions *from)

@@ -95,21 +95,22 @@ static PetscErrorCode ReadComponent(SamHistory h, const Reader *r, PetscInt c, P
   const char             *prefix          = SamOptionsPrefix(from);
   PetscReal               value[SAM_WAYS] = {c ? 0 : NAN, NAN, NAN}; /* without any the load is 0, but for N */
   PetscBool               has[SAM_WAYS] = {PETSC_FALSE}, given = PETSC_FALSE;
-  char                    text[96];
+  char                    text[96], unit[16];
   PetscBool               plane, repeated;
 
   PetscFunctionBegin;
   PetscCall(SamOptionsHas(from, "elasticity " SAM_ELASTICITY_PLANE, &plane));
   PetscCall(SamOptionsHas(from, "elasticity " SAM_ELASTICITY_PLANE_PERIODIC, &repeated));
-  PetscCall(PetscSNPrintf(text, sizeof(text), "%s (%s%s), or instead %s", name->load_text, name->load_unit,
-                          plane || repeated ? "/m" : "", name->rigid));
-  PetscCall(SamOptionsReal(from, name->load, text, c ? SAM_RANGE_ANY : SAM_RANGE_NONNEGATIVE, &value[SAM_BY_LOAD],
+  PetscCall(PetscSNPrintf(text, sizeof(text), "%s (), or instead %s", name->load_text, name->rigid));
+  PetscCall(PetscSNPrintf(unit, sizeof(unit), "%s%s", name->load_unit, plane || repeated ? "/m" : ""));
+  PetscCall(SamOptionsReal(from, name->load, text, unit, c ? SAM_RANGE_ANY : SAM_RANGE_NONNEGATIVE, &value[SAM_BY_LOAD],
                            &has[SAM_BY_LOAD]));
-  PetscCall(PetscSNPrintf(text, sizeof(text), "%s (%s)", name->rigid_text, name->rigid_unit));
-  PetscCall(SamOptionsReal(from, name->rigid, text, SAM_RANGE_ANY, &value[SAM_BY_RIGID], &has[SAM_BY_RIGID]));
+  PetscCall(SamOptionsReal(from, name->rigid, name->rigid_text, name->rigid_unit, SAM_RANGE_ANY, &value[SAM_BY_RIGID],
+                           &has[SAM_BY_RIGID]));
   if (name->creep) {
-    PetscCall(PetscSNPrintf(text, sizeof(text), "%s (%s) of rolling", name->creep_text, name->creep_unit));
-    PetscCall(SamOptionsReal(from, name->creep, text, SAM_RANGE_ANY, &value[SAM_BY_CREEP], &has[SAM_BY_CREEP]));
+    PetscCall(PetscSNPrintf(text, sizeof(text), "%s () of rolling", name->creep_text));
+    PetscCall(SamOptionsReal(from, name->creep, text, name->creep_unit, SAM_RANGE_ANY, &value[SAM_BY_CREEP],
+                             &has[SAM_BY_CREEP]));
   }
   PetscCall(FindColumn(h, from->comm, r->file, c));
   h->constant.value[c] = 0;
@@ -195,8 +196,8 @@ static PetscErrorCode CheckRows(SamHistory h, MPI_Comm comm, const char file[])
 /* The options database has the name -load_history (SamHistoryClaimOption()); the help and messages say -history. */
 static PetscErrorCode ReadFileName(const SamOptions *from, char file[], size_t size, PetscBool *set)
 {
-  const SamOptionHelp option = {"history", "<file>", "text file of load states, one per row: see -help history", "",
-                                ""};
+  const SamOptionHelp option = {"history", "<file>", "text file of load states, one per row: see -help history",
+                                "",        "",       NULL};
 
   PetscFunctionBegin;
   PetscCall(SamOptionsDescribe(from, &option));

@@ -83,8 +83,12 @@ static const SamOptionRow results[] =
     MEMBER(output_rows), .words = "steps,history"},
    {"stiffness", "tangent stiffness of every step, for continued loading and reversal", SAM_OPTION_BOOL,
     MEMBER(needs.stiffness), .needs = "output, the file that it goes to"}},
-                          flush = {"output_flush", "longest write delay (s) of steps without fields, 0: none",
-                                   SAM_OPTION_REAL, MEMBER(output_settings.flush), .range = SAM_RANGE_NONNEGATIVE};
+                          flush = {"output_flush",
+                                   "longest write delay () of steps without fields, 0: none",
+                                   SAM_OPTION_REAL,
+                                   MEMBER(output_settings.flush),
+                                   .range = SAM_RANGE_NONNEGATIVE,
+                                   .unit  = "s"};
 
 static PetscErrorCode ReadResults(SamSimulation s, const SamOptions *from)
 {

@@ -57,7 +57,7 @@ static PetscErrorCode SetFromOptions_Plane(SamElasticity e, const SamOptions *fr
   PetscReal datum = 0;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsReal(from, DATUM, "plane: datum's distance (m), 0: grid width, more with layers",
+  PetscCall(SamOptionsReal(from, DATUM, "plane: datum's distance (), 0: grid width, more with layers", "m",
                            SAM_RANGE_NONNEGATIVE, &datum, NULL));
   if (datum > 0) *SamHalfSpaceDatum(e) = datum;
   PetscCall(PetscSNPrintf(before, sizeof(before), "-%s", e->prefix));

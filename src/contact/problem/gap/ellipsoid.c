@@ -8,8 +8,8 @@
 #include <math.h>
 
 static const SamGapParameter parameters[] = {
-  {"gap_radius_x", "relative radius of curvature along x (m, inf: cylinder)", SAM_RANGE_POSITIVE_INF},
-  {"gap_radius_y", "relative radius of curvature along y (m, inf: cylinder)", SAM_RANGE_POSITIVE_INF}};
+  {"gap_radius_x", "relative radius of curvature along x (, inf: cylinder)", "m", SAM_RANGE_POSITIVE_INF},
+  {"gap_radius_y", "relative radius of curvature along y (, inf: cylinder)", "m", SAM_RANGE_POSITIVE_INF}};
 
 static const PetscReal cylinder[] = {NAN, INFINITY};
 
@@ -98,11 +98,11 @@ PetscErrorCode SamGapCreate_Ellipsoid(SamGap gap)
 /* ---- two bodies at an angle ---- */
 
 static const SamGapParameter curved[] = {
-  {"gap_radius1_x", "radius of body 1 along x (m, inf: cylinder, < 0: concave)", SAM_RANGE_NOT_ZERO},
-  {"gap_radius1_y", "radius of body 1 along y (m, inf: cylinder, < 0: concave)", SAM_RANGE_NOT_ZERO},
-  {"gap_radius2_x", "radius of body 2 along its x (m, inf: cylinder, < 0: concave)", SAM_RANGE_NOT_ZERO},
-  {"gap_radius2_y", "radius of body 2 along its y (m, inf: cylinder, < 0: concave)", SAM_RANGE_NOT_ZERO},
-  {"gap_angle", "angle from x to the x of body 2 (degrees)", SAM_RANGE_ANY}};
+  {"gap_radius1_x", "radius of body 1 along x (, inf: cylinder, < 0: concave)", "m", SAM_RANGE_NOT_ZERO},
+  {"gap_radius1_y", "radius of body 1 along y (, inf: cylinder, < 0: concave)", "m", SAM_RANGE_NOT_ZERO},
+  {"gap_radius2_x", "radius of body 2 along its x (, inf: cylinder, < 0: concave)", "m", SAM_RANGE_NOT_ZERO},
+  {"gap_radius2_y", "radius of body 2 along its y (, inf: cylinder, < 0: concave)", "m", SAM_RANGE_NOT_ZERO},
+  {"gap_angle", "angle from x to the x of body 2 ()", "degrees", SAM_RANGE_ANY}};
 
 static const PetscReal curved_defaults[] = {INFINITY, INFINITY, INFINITY, INFINITY, 0},
                        curved_cylinder[] = {NAN, INFINITY, NAN, INFINITY, 0};

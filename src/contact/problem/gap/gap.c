@@ -148,18 +148,20 @@ static PetscErrorCode SetTypeFromOptions(SamGap gap, PetscBool help)
   PetscFunctionBegin;
   for (PetscInt k = 0; k < gap->ops.count; k++) {
     const SamGapParameter *parameter = &gap->ops.parameters[k];
-    char                   text[256], missing[256];
+    char                   text[256], missing[256], meaning[160];
     const SamOptionRow     row = {.name    = parameter->name,
                                   .text    = text,
                                   .kind    = SAM_OPTION_REAL,
                                   .range   = parameter->range,
                                   .words   = gap->ops.beyond,
+                                  .unit    = parameter->unit,
                                   .missing = missing};
 
     PetscCall(PetscSNPrintf(text, sizeof(text), isnan(gap->values[k]) ? "%s: required by %s" : "%s, of %s",
                             parameter->help, gap->type));
-    PetscCall(PetscSNPrintf(missing, sizeof(missing), "%s, required by -%sgap_type %s", parameter->help, gap->prefix,
-                            gap->type));
+    SamAddUnit(parameter->help, parameter->unit, meaning, sizeof(meaning));
+    PetscCall(
+      PetscSNPrintf(missing, sizeof(missing), "%s, required by -%sgap_type %s", meaning, gap->prefix, gap->type));
     PetscCall(SamOptionsRead(&from, NULL, 1, &row, &gap->values[k], NULL));
   }
   if (gap->ops.setfromoptions) PetscCall(gap->ops.setfromoptions(gap));

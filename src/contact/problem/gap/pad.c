@@ -10,18 +10,18 @@
 #include <math.h>
 
 static const SamGapParameter pad[] = {
-  {"gap_half_flat_x", "half width of the flat part along x (m)", SAM_RANGE_NONNEGATIVE},
-  {"gap_half_flat_y", "half width of the flat part along y (m)", SAM_RANGE_NONNEGATIVE},
-  {"gap_edge_radius_x", "radius of the edges along x (m, inf: cylindrical)", SAM_RANGE_POSITIVE_INF},
-  {"gap_edge_radius_y", "radius of the edges along y (m, inf: cylindrical)", SAM_RANGE_POSITIVE_INF}};
+  {"gap_half_flat_x", "half width of the flat part along x ()", "m", SAM_RANGE_NONNEGATIVE},
+  {"gap_half_flat_y", "half width of the flat part along y ()", "m", SAM_RANGE_NONNEGATIVE},
+  {"gap_edge_radius_x", "radius of the edges along x (, inf: cylindrical)", "m", SAM_RANGE_POSITIVE_INF},
+  {"gap_edge_radius_y", "radius of the edges along y (, inf: cylindrical)", "m", SAM_RANGE_POSITIVE_INF}};
 
 static const PetscReal pad_defaults[] = {0, 0, NAN, INFINITY}, pad_cylinder[] = {NAN, NAN, NAN, INFINITY};
 
 static const SamGapParameter roller[] = {
-  {"gap_roller_radius", "relative radius of curvature across, along x (m)", SAM_RANGE_POSITIVE},
-  {"gap_roller_half_length", "half length along y (m)", SAM_RANGE_POSITIVE},
-  {"gap_roller_crown", "amplitude of the crown (m), load per length/(pi E*)", SAM_RANGE_POSITIVE},
-  {"gap_roller_drop", "drop of the profile at the ends (m)", SAM_RANGE_POSITIVE}};
+  {"gap_roller_radius", "relative radius of curvature across, along x ()", "m", SAM_RANGE_POSITIVE},
+  {"gap_roller_half_length", "half length along y ()", "m", SAM_RANGE_POSITIVE},
+  {"gap_roller_crown", "amplitude of the crown (), load per length/(pi E*)", "m", SAM_RANGE_POSITIVE},
+  {"gap_roller_drop", "drop of the profile at the ends ()", "m", SAM_RANGE_POSITIVE}};
 
 static PetscReal Height_Pad(const PetscReal v[], PetscReal x, PetscReal y)
 {

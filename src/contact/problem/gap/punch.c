@@ -5,8 +5,9 @@
 #include <petsam/private/gapimpl.h>
 #include <math.h>
 
-static const SamGapParameter parameters[] = {{"gap_flat_radius", "radius of the flat base (m)", SAM_RANGE_NONNEGATIVE},
-                                             {"gap_edge_radius", "radius of the rounded edge (m)", SAM_RANGE_POSITIVE}};
+static const SamGapParameter parameters[] = {
+  {"gap_flat_radius", "radius of the flat base ()", "m", SAM_RANGE_NONNEGATIVE},
+  {"gap_edge_radius", "radius of the rounded edge ()", "m", SAM_RANGE_POSITIVE}};
 
 static PetscReal Height_Punch(const PetscReal values[], PetscReal x, PetscReal y)
 {

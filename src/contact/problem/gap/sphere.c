@@ -5,9 +5,9 @@
 #include <petsam/private/gapimpl.h>
 #include <math.h>
 
-static const SamGapParameter parameters[] = {{"gap_radius1", "radius of body 1 (m, inf: flat)", SAM_RANGE_POSITIVE_INF},
-                                             {"gap_radius2", "radius of body 2 (m, inf: flat)",
-                                              SAM_RANGE_POSITIVE_INF}};
+static const SamGapParameter parameters[] = {
+  {"gap_radius1", "radius of body 1 (, inf: flat)", "m", SAM_RANGE_POSITIVE_INF},
+  {"gap_radius2", "radius of body 2 (, inf: flat)", "m", SAM_RANGE_POSITIVE_INF}};
 
 static PetscReal Height_Sphere(const PetscReal radius[], PetscReal x, PetscReal y)
 {
