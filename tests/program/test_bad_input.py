@@ -233,7 +233,7 @@ CASES = [
     case("output in no directory", {}, "-output", "nowhere/out.h5", says=["-output", "nowhere/out.h5"], code=3),
     case("output in a file", {}, "-output", "text.h5/out.h5", says="-output", code=3),
     case("output is a directory", {}, "-output", "folder", says=["-output", "folder"], code=3),
-    case("options file of zeros", {}, "-options_file", "zeros", says=["zeros: is not an options file"], code=3),
+    case("options file of zeros", {}, "-options_file", "zeros", says=["zeros, line 1: a byte of value 0"]),
     case("number of 2000 digits", dict(load_n="1" * 2000 + "N"), says=["-load_n 1111", "1...: expected", "unit"]),
     case("keyword of 2000 letters", dict(coupling="x" * 2000), says=["-coupling xxxx", "x...: expected none or full"]),
     case("word of 2000 letters", {}, "x" * 2000, says=["xxxx: expected an option"]),
@@ -269,12 +269,12 @@ CASES = [
     case("options file is HDF5", {}, "-options_file", "good.h5", says="good.h5"),
     case("options file without dashes", {}, "-options_file", "text.h5", says="text.h5"),
     case("options file without a name", {}, "-options_file"),
-    case("options file with two options a line", {}, "-options_file", "crowded.opts", says="crowded.opts, line 2"),
+    case("options file with two options a line", {}, "-options_file", "crowded.opts", says="crowded.opts line 2: extra token"),
     case("options file is a pipe", {}, "-options_file", "pipe", says="-options_file pipe", code=3),
     case("options file names itself", {}, "-options_file", "self.opts", says=["self.opts", "in a loop"]),
     case("options file names a missing one", {}, "-options_file", "lost.opts", says="nowhere.opts", code=3),
     case("options file starts a program", {}, "-options_file", "python.opts", says=["python.opts, line 1", "-python"]),
-    case("options file is YAML", {}, "-options_file", "wrong.yaml", says="wrong.yaml, line 1: expected an option"),
+    case("options file is YAML", {}, "-options_file", "wrong.yaml", says="wrong.yaml, line 1: grid_n:: expected an option"),
     case("history is a pipe", {}, "-history", "pipe", says="-history pipe", code=3),
     case("gap is a pipe", dict(gap_type="file"), "-gap_file", "pipe", says="-gap_file pipe", code=3),
     case("restart from a pipe", {}, "-restart", "pipe", says="-restart pipe", code=3),
@@ -304,8 +304,6 @@ CASES = [
             ("-fp_trap",),
             ("-FP_trap",),
             ("-log_trace", "good.h5"),
-            ("-info", ":good.h5"),
-            ("-malloc_view", "good.h5"),
             ("-citations", "good.h5"),
             ("-options_file_yaml", "wrong.yaml"),
             ("-log_view", "foo"),
@@ -437,7 +435,7 @@ def test_mistakes_in_an_options_file_are_found(petsam, folder):
         ("-python", "PETSC_OPTIONS: -python"),
         ("-load_tx 3 \n-lood_ty 3", "-lood_ty"),
         ("-load_ty 3 -options_file python.opts", "python.opts, line 1: -python"),
-        ("-load_ty 3 -h", "PETSC_OPTIONS: -h: give it on the command line of a program"),
+        ("-load_ty 3 -h", "PETSC_OPTIONS: -h: petsam does not support it here"),
     ],
 )
 def test_mistakes_in_the_environment_are_found(petsam, folder, text, says):
@@ -449,7 +447,7 @@ def test_mistakes_in_the_environment_are_found(petsam, folder, text, says):
 def test_help_in_an_options_file_is_refused_by_petsam_stress(launcher, tmp_path, text, named):
     (tmp_path / "ask.opts").write_text(text)
     done = execute(launcher, tmp_path, ["-options_file", "ask.opts"], 1, 2, program=PROGRAM.parent / "petsam-stress")
-    assert f"ask.opts, line {named}: give it on the command line" in done.stderr and not done.stdout
+    assert f"ask.opts, line {named}: petsam does not support it here" in done.stderr and not done.stdout
 
 
 @pytest.mark.parametrize("text", ["-load_ty 3", "-dll_append libm.so"])
