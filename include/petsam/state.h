@@ -159,5 +159,7 @@ PETSC_EXTERN PetscInt              SamStateFindField(SamState state, const char 
 PETSC_INTERN PetscInt              SamStateCountNumbers(SamState state);
 PETSC_INTERN const SamStateNumber *SamStateNumberOf(SamState state, PetscInt k, PetscInt *id);
 PETSC_EXTERN PetscInt              SamStateFindNumber(SamState state, const char name[]);
+/* SamStateUnitOf - returns the unit that a number has on the grid of the state; "": there is none of that name. */
+PETSC_EXTERN const char *SamStateUnitOf(SamState state, const char name[]);
 
 #endif

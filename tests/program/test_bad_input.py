@@ -303,7 +303,6 @@ CASES = [
             ("-prefix_pop",),
             ("-fp_trap",),
             ("-FP_trap",),
-            ("-log_trace", "good.h5"),
             ("-citations", "good.h5"),
             ("-options_file_yaml", "wrong.yaml"),
             ("-log_view", "foo"),

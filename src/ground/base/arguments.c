@@ -43,12 +43,12 @@ static void Complain(SamArguments *a, PetscErrorCode code, const char format[], 
 }
 
 /*
-  Options of PETSc at which a program loads code, starts others, waits for ever, prints PETSc's help, ends in the middle,
-  or writes a file for each rank, all without an error; with spaces between them. A star stands for any ending.
+  Options of PETSc at which a program loads code, starts others, waits for ever, prints PETSc's help, or ends in the
+  middle, without an error that names them; with spaces between them. A star stands for any ending.
 */
 static const char refused[] =
   "-python* -dll_* -start_in_debugger -on_error_attach_debugger -on_error_emacs -stop_for_debugger -saws* "
-  "-mpi_linear_solver_server -prefix_push -prefix_pop -fp_trap -log_trace -help -h -version -options_file_yaml "
+  "-mpi_linear_solver_server -prefix_push -prefix_pop -fp_trap -help -h -version -options_file_yaml "
   "-options_string_yaml";
 
 static PetscBool IsNamed(const char word[], const char names[])
@@ -75,7 +75,11 @@ static void ExamineName(SamArguments *a, const char where[], const char option[]
 static void ExamineOption(SamArguments *a, const char where[], const char option[], const char value[], int depth)
 {
   ExamineName(a, where, option);
-  if (value && IsNamed(option, "-options_file")) ExamineFile(a, "-options_file ", value, depth + 1);
+  if (!IsNamed(option, "-options_file")) return;
+  if (!value || !value[0])
+    Complain(a, SAM_ERR_USER, "%s-options_file has no value: expected the name of a file", where);
+  else
+    ExamineFile(a, "-options_file ", value, depth + 1);
 }
 
 /* Words separated by white space, of which the text is changed; double quotes keep words together, as PETSc has it. */

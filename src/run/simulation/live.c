@@ -259,7 +259,7 @@ static PetscErrorCode ComputeCycle(SamSimulation s, PetscBool *ended)
   s->writing = PETSC_FALSE;
   s->point.rows++;
   PetscCall(
-    SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_CYCLE, .cycle = &r, .cycles = s->plan.cycles}));
+    SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_CYCLE, .cycle = SamLifeGetSeries(s->life), .cycles = s->plan.cycles}));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
