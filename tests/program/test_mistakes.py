@@ -73,10 +73,22 @@ MISTAKES = [
     mistake("no steps", {}, "-steps", "0", says=["-steps 0", ">= 1"]),
     mistake("half a step", {}, "-steps", "2.5", says=["-steps 2.5", "an integer"]),
     # ---- the command line
-    mistake("equals sign", dict(load_n=None), "-load_n=1000", says=["-load_n or -disp_z is missing", "is -load_n=1000 meant"]),
-    mistake("equals sign in the environment's style", {}, "-output=a.h5", says=["-output=a.h5: unknown option: is -output meant?"]),
+    mistake(
+        "equals sign",
+        dict(load_n=None),
+        "-load_n=1000",
+        says=["-load_n or -disp_z is missing", "is -load_n=1000 meant"],
+    ),
+    mistake(
+        "equals sign in the environment's style",
+        {},
+        "-output=a.h5",
+        says=["-output=a.h5: unknown option: is -output meant?"],
+    ),
     mistake("two dashes", {}, "--load_tx", "60", says=["--load_tx 60: unknown option: is -load_tx meant?"]),
-    mistake("typographic dash", {}, "\u2013load_tx", "60", says=["\u2013load_tx: expected an option: it begins with a dash"]),
+    mistake(
+        "typographic dash", {}, "\u2013load_tx", "60", says=["\u2013load_tx: expected an option: it begins with a dash"]
+    ),
     mistake("options file without its option", {}, "study.opts", says=["study.opts: expected an option"]),
     mistake("misspelled", {}, "-frictoin", "0.3", says=["-frictoin 0.3", "is -friction meant?"]),
     mistake("one modulus for both", {}, "-young", "210e9", says=["-young 210e9", "is -body1_young meant?"]),
@@ -181,7 +193,11 @@ MISTAKES = [
         ["-options_file s.opts, line 2: -gap_flat_radius 3: has no effect without -gap_type punch: remove it"],
     ),
     options_file("options file without dashes", "load_tx 60\n", ["s.opts, line 1: load_tx: expected an option"]),
-    options_file("options file with equals signs", "\n-load_tx=60\n", ["s.opts, line 2: -load_tx=60: unknown option: is -load_tx meant?"]),
+    options_file(
+        "options file with equals signs",
+        "\n-load_tx=60\n",
+        ["s.opts, line 2: -load_tx=60: unknown option: is -load_tx meant?"],
+    ),
     options_file("options file with units", "-load_tx 60 N\n", ["s.opts line 1", "extra token N"]),
     mistake(
         "results into a folder that is not there",

@@ -21,9 +21,9 @@ typedef struct {
 } SamProgress;
 
 /*
-  SamReportColumn - a column of a printed table: `number`, the name of its load or number of a state, "": none; its width
-  with a space before; its digits, 0: as 1.2e-03; and when it is omitted. `other` replaces the label in a plane, and where
-  the heading would be too long; NULL: none.
+  SamReportColumn - a column of a printed table: `number`, the name of its load or number of a state, "": none; its
+  width with a space before; its digits, 0: as 1.2e-03; and when it is omitted. `other` replaces the label in a plane,
+  and where the heading would be too long; NULL: none.
 */
 typedef struct {
   const char *label, *other, *number;
