@@ -251,4 +251,16 @@ PETSC_EXTERN PetscInt SamStateFindField(SamState state, const char name[]);
 */
 PETSC_EXTERN PetscInt SamStateFindNumber(SamState state, const char name[]);
 
+/*
+  SamStateUnitOf - returns the unit that a number has on the grid of the state; "": there is none of that name.
+
+  Not collective.
+
+  In:     state - the state
+          name  - name of the number
+
+  Errors: none; it returns no error code.
+*/
+PETSC_EXTERN const char *SamStateUnitOf(SamState state, const char name[]);
+
 #endif

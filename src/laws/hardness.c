@@ -222,10 +222,11 @@ static PetscErrorCode View(SamLaw law, SamState state, PetscViewer viewer)
   const double *numbers = SamStateReadNumbers(state, SamStateFindNumber(state, "plastic_cells"));
 
   PetscFunctionBegin;
+  (void)law;
   if (numbers[MOST] > 0)
     PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  %.6g %s at the limit, depth up to %.6g m, work %.6g %s\n",
-                                     "plastic", numbers[AREA], SamUnitOn(law->grid, "m2"), numbers[MOST],
-                                     numbers[ENERGY], SamUnitOn(law->grid, "J")));
+                                     "plastic", numbers[AREA], SamStateUnitOf(state, "plastic_area"), numbers[MOST],
+                                     numbers[ENERGY], SamStateUnitOf(state, "hardness_work")));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -389,3 +389,36 @@ def test_wear_ends_with_contact_of_what_stuck_from_the_first(petsam, tmp_path):
 def test_energies_of_the_closing_lines_are_per_metre(petsam):
     said = petsam(CYLINDER, dict(load_tx=0.5 * MU * N, steps=4)).stdout
     assert re.search(r"^  energy +\S+ J/m dissipated", said, re.M) and " J " not in said
+
+
+SHORTER = {"N m/m": "N", "m2/m": "m", "m3/m": "m2"}  # units as headings have them
+STEPS = dict(N="load_n", Tx="load_tx", My="load_my", contact="contact_area", stick="stick_area")
+CYCLES = {"vol.1": "volume1", "vol.2": "volume2", "depth1": "depth_max1", "en": "dissipated_energy"}
+
+
+@pytest.mark.parametrize(
+    "change, group, columns",
+    [
+        (dict(), "history", STEPS),
+        (dict(wear_coefficient1=1e-14, wear_cycles=3), "wear", dict(CYCLES, width="contact_area")),
+        (
+            dict(wear_coefficient1=1e-14, wear_cycles=3, rolling="steady", allow_edge_contact=True),
+            "wear",
+            dict(CYCLES, width="contact_area"),
+        ),
+    ],
+    ids=["steps", "cycles", "cycles of rolling"],
+)
+def test_headings_have_the_units_of_the_results(petsam, tmp_path, change, group, columns):
+    """Of each printed column the unit is that of its dataset, per metre as well."""
+    case = dict(CYLINDER, grid_n=64, load_n=None, output=tmp_path / "r.h5", output_fields="pressure", **change)
+    rows = history(
+        tmp_path / "h.csv", "time,load_n,load_tx,load_my", (1, N, 1e4, 0.1), (2, N, -1e4, 0.1), (3, N, 1e4, 0.1)
+    )
+    lines = petsam(case, rows).stdout.splitlines()
+    heading = next(line for line in lines if re.match(" *(step +time|cycles )", line))
+    printed = {label: unit.strip("()") for label, unit in re.findall(r"(\S+?)/(\(\S+\)|\S+)", heading)}
+    with h5py.File(tmp_path / "r.h5") as f:
+        for label, name in columns.items():
+            unit = f[group][name].attrs["units"]
+            assert printed[label] == SHORTER.get(unit, unit), (label, heading)

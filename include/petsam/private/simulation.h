@@ -67,7 +67,7 @@ typedef struct {
   SamEventKind              kind;
   PetscInt                  step; /* from 0 */
   const SamStep            *result;
-  const SamLifeReport      *cycle;
+  SamState                  cycle; /* its numbers */
   PetscReal                 cycles;
   const SamSimulationStart *start;
   const SamExtent          *extent;

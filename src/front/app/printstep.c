@@ -6,15 +6,16 @@
 #define REST     1e-9  /* the same of loads and displacements: solvers' tolerances leave more where symmetry has 0 */
 #define WIDTH    120   /* of a line of the table */
 
-/* Returns a number of the contact's last step; NaN where there is none of that name. */
-static double Get(SamContact contact, const char name[])
+static SamState StateOf(SamContact contact)
 {
   SamState state;
-  PetscInt id;
 
-  if (SamContactGetState(contact, &state)) return NAN;
-  id = SamStateFindNumber(state, name);
-  return id < 0 ? NAN : *SamStateReadNumbers(state, id);
+  return SamContactGetState(contact, &state) ? NULL : state;
+}
+
+static double Get(SamContact contact, const char name[])
+{
+  return SamReportNumber(StateOf(contact), name);
 }
 
 /* Returns the name of a number in the contact's motion. */
@@ -64,14 +65,14 @@ static double Rounded(const SamStep *s, PetscInt c, const PetscReal values[], co
 static PetscErrorCode ViewSolution(const SamStep *s, SamContact c, const Sizes *sizes, PetscViewer viewer)
 {
   const SamMotion motion = SamContactGetMotion(c);
-  const double  passes = Get(c, "coupling_iterations"), move = ROUNDING * sizes->rigid[0], work = sizes->load[0] * move;
-  const SamGrid grid = SamContactGetGrid(c);
+  const double passes = Get(c, "coupling_iterations"), move = ROUNDING * sizes->rigid[0], work = sizes->load[0] * move;
+  const SamState state = StateOf(c);
 
   PetscFunctionBegin;
   PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  contact %.6g %s, stick %.6g %s, dissipated %.6g %s\n", "areas",
-                                   Get(c, "contact_area"), SamUnitOn(grid, "m2"), Get(c, "stick_area"),
-                                   SamUnitOn(grid, "m2"), Clean(Get(c, motion->work), work),
-                                   SamUnitOn(grid, motion->work_unit)));
+                                   Get(c, "contact_area"), SamStateUnitOf(state, "contact_area"), Get(c, "stick_area"),
+                                   SamStateUnitOf(state, "stick_area"), Clean(Get(c, motion->work), work),
+                                   SamStateUnitOf(state, motion->work)));
   PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  pressure %.6g Pa, shear %.6g Pa, slip %.6g%s\n", "maximum",
                                    Get(c, "pressure_max"), Get(c, "shear_max"),
                                    Clean(Get(c, NameOf(c, "slip_max")), move), motion->slip_unit));
@@ -139,32 +140,25 @@ void SamReportDuration(double seconds, char text[], size_t size)
   snprintf(text, size, "%ld:%02ld:%02ld", total / 3600, total / 60 % 60, total % 60);
 }
 
-/* A column: its heading, the number in it, its width with a space before, its digits, and when it is omitted. */
-typedef struct {
-  const char *heading, *number;
-  int         width, digits, order; /* order in which columns are omitted where a line would be too long; 0: never */
-} Column;
 enum { STEP, TIME, LOADS, CONTACT = LOADS + SAM_COMPONENTS, SLIP = CONTACT + 4, RESIDUAL = CONTACT + 7, SECONDS, LEFT };
-/* The headings of loads and areas per metre of length. */
-static const char *const per_metre[] = {"N/(N/m)", "Tx/(N/m)", "Ty/(N/m)", "", "My/N", "", "contact/m", "stick/m"};
-static const Column      columns[SAM_REPORT_COLUMNS] = {{"step", "", 5, 0, 0},
-                                                        {"time/s", "", 10, 4, 0},
-                                                        {"N/N", "", 11, 4, 0},
-                                                        {"Tx/N", "", 11, 4, 0},
-                                                        {"Ty/N", "", 11, 4, 0},
-                                                        {"Mx/Nm", "", 11, 4, 0},
-                                                        {"My/Nm", "", 11, 4, 0},
-                                                        {"Mz/Nm", "", 11, 4, 0},
-                                                        {"contact/m2", "contact_area", 11, 4, 0},
-                                                        {"stick/m2", "stick_area", 10, 3, 5},
-                                                        {"p max/Pa", "pressure_max", 9, 3, 6},
-                                                        {"q max/Pa", "shear_max", 9, 3, 3},
-                                                        {"slip/m", "slip_max", 9, 3, 4},
-                                                        {"it n", "normal_iterations", 5, 4, 2},
-                                                        {"it t", "tangential_iterations", 5, 4, 1},
-                                                        {"residual", "", 9, 2, 0},
-                                                        {"s", "", 7, 2, 0},
-                                                        {"left", "", 9, 0, 0}};
+static const SamReportColumn columns[SAM_REPORT_COLUMNS] = {{"step", NULL, "", 5, 9, 0},
+                                                            {"time/s", NULL, "", 10, 4, 0},
+                                                            {"N", NULL, "load_n", 11, 4, 0},
+                                                            {"Tx", NULL, "load_tx", 11, 4, 0},
+                                                            {"Ty", NULL, "load_ty", 11, 4, 0},
+                                                            {"Mx", NULL, "load_mx", 11, 4, 0},
+                                                            {"My", NULL, "load_my", 11, 4, 0},
+                                                            {"Mz", NULL, "load_mz", 11, 4, 0},
+                                                            {"contact", NULL, "contact_area", 11, 4, 0},
+                                                            {"stick", NULL, "stick_area", 10, 3, 5},
+                                                            {"p max", NULL, "pressure_max", 9, 3, 6},
+                                                            {"q max", NULL, "shear_max", 9, 3, 3},
+                                                            {"slip", NULL, "slip_max", 9, 3, 4},
+                                                            {"it n", NULL, "normal_iterations", 5, 4, 2},
+                                                            {"it t", NULL, "tangential_iterations", 5, 4, 1},
+                                                            {"residual", NULL, "", 9, 0, 0},
+                                                            {"s", NULL, "", 7, 0, 0},
+                                                            {"left", NULL, "", 9, 0, 0}};
 
 void SamReportChooseColumns(SamReport r, const PetscBool loads[SAM_COMPONENTS])
 {
@@ -182,50 +176,32 @@ void SamReportChooseColumns(SamReport r, const PetscBool loads[SAM_COMPONENTS])
     }
 }
 
-/* Writes the text of column k of a step's line. */
-static void WriteColumn(SamReport r, const SamStep *s, SamContact contact, int k, double seconds, double left,
-                        char text[], size_t size)
+/* Returns the number in column k of a step's line. */
+static double ValueOf(SamReport r, const SamStep *s, SamContact contact, int k)
 {
-  const Sizes  sizes  = GetSizes(s, contact);
-  const char  *name   = NameOf(contact, columns[k].number);
-  const double number = name[0] ? Get(contact, name) : 0;
+  const Sizes sizes = GetSizes(s, contact);
 
-  if (k == STEP)
-    (void)snprintf(text, size, "%ld", (long)r->number + 1);
-  else if (k == RESIDUAL)
-    (void)snprintf(text, size, "%.1e", (double)SamLarger(s->check.normal, s->check.tangential));
-  else if (k == SECONDS)
-    (void)snprintf(text, size, "%.*f", seconds < 1000 ? 2 : 0, seconds);
-  else if (k == LEFT)
-    SamReportDuration(left, text, size);
-  else
-    (void)snprintf(text, size, "%.*g", columns[k].digits,
-                   k == TIME     ? (double)s->control.time
-                   : k < CONTACT ? Rounded(s, k - LOADS, s->load, sizes.load)
-                   : k == SLIP   ? Clean(number, ROUNDING * sizes.rigid[0])
-                                 : number);
+  if (k == STEP) return (double)r->number + 1;
+  if (k == TIME) return (double)s->control.time;
+  if (k < CONTACT) return Rounded(s, k - LOADS, s->load, sizes.load);
+  if (k == RESIDUAL) return (double)SamLarger(s->check.normal, s->check.tangential);
+  return Clean(Get(contact, NameOf(contact, columns[k].number)), k == SLIP ? ROUNDING * sizes.rigid[0] : 0);
 }
 
 PetscErrorCode SamReportStepLine(SamReport r, const SamStep *s, SamContact contact, double seconds, double left)
 {
+  const char   *slip                      = SamContactGetMotion(contact)->slip_heading;
+  SamReportCell cells[SAM_REPORT_COLUMNS] = {""};
+
   PetscFunctionBegin;
-  for (PetscBool heading = r->done == 1;; heading = PETSC_FALSE) {
-    char   line[512];
-    size_t used = 0;
-
-    for (int k = 0; k < SAM_REPORT_COLUMNS; k++) {
-      char text[32];
-
-      if (!r->shown[k]) continue;
-      WriteColumn(r, s, contact, k, seconds, left, text, sizeof(text));
-      used += (size_t)snprintf(line + used, sizeof(line) - used, "%*s", columns[k].width,
-                               !heading                                  ? text
-                               : r->row && k >= LOADS && k < CONTACT + 2 ? per_metre[k - LOADS]
-                               : k == SLIP && SamContactGetMotion(contact)->slip_heading
-                                 ? SamContactGetMotion(contact)->slip_heading
-                                 : columns[k].heading);
-    }
-    PetscCall(PetscPrintf(r->comm, "%s\n", line));
-    if (!heading) PetscFunctionReturn(PETSC_SUCCESS);
-  }
+  for (int k = 0; k < SAM_REPORT_COLUMNS && r->done == 1; k++)
+    if (r->shown[k]) SamReportHeading(SamContactGetGrid(contact), StateOf(contact), &columns[k], cells[k]);
+  if (r->done == 1 && r->shown[SLIP] && slip) (void)snprintf(cells[SLIP], sizeof(cells[SLIP]), "%s", slip);
+  if (r->done == 1) PetscCall(SamReportLine(r, SAM_REPORT_COLUMNS, columns, cells));
+  for (int k = 0; k < SECONDS; k++)
+    if (r->shown[k]) SamReportValue(&columns[k], ValueOf(r, s, contact, k), cells[k]);
+  SamReportSeconds(seconds, cells[SECONDS]);
+  SamReportDuration(left, cells[LEFT], sizeof(cells[LEFT]));
+  PetscCall(SamReportLine(r, SAM_REPORT_COLUMNS, columns, cells));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }

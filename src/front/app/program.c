@@ -77,7 +77,8 @@ static PetscErrorCode HandleErrorAtStart(MPI_Comm comm, int line, const char *fu
   (void)context;
   (void)MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   if (type == PETSC_ERROR_INITIAL && rank == 0)
-    fprintf(stderr, "%s: PETSc cannot take the options: %s\n", program->name, message ? message : "");
+    fprintf(stderr, "%s: PETSc cannot take the options: %s\n%s: see %s -help for the options\n", program->name,
+            message ? message : "", program->name, program->name);
   return code;
 }
 

@@ -118,9 +118,7 @@ PetscErrorCode SamReportBanner(SamReport r, SamGrid grid, double bytes, const Sa
   char        libraries[512], memory[32];
 
   PetscFunctionBegin;
-  r->steps       = start->steps;
-  r->row         = SamGridIsRow(grid);
-  r->energy_unit = SamUnitOn(grid, "J");
+  r->steps = start->steps;
   SamReportChooseColumns(r, start->loads);
   if (r->quiet) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCallMPI(MPI_Comm_size(r->comm, &ranks));
@@ -132,7 +130,7 @@ PetscErrorCode SamReportBanner(SamReport r, SamGrid grid, double bytes, const Sa
   PetscCall(PetscPrintf(r->comm, "  %-10s  %d on %d node%s\n", "ranks", ranks, (int)nodes, nodes > 1 ? "s" : ""));
   PetscCall(PetscPrintf(r->comm, "  %-10s  %" PetscInt_FMT " x %" PetscInt_FMT " cells of %.6g m x %.6g m\n", "grid",
                         grid->nx, grid->ny, (double)grid->dx, (double)grid->dy));
-  if (r->row)
+  if (SamGridIsRow(grid))
     PetscCall(PetscPrintf(r->comm, "  %-10s  strain: loads, areas, energies and volumes per metre of length%s\n",
                           "plane", ranks > 1 ? "; one rank works, the others wait" : ""));
   SamDescribeBytes(bytes, memory, sizeof(memory));
@@ -199,6 +197,7 @@ static PetscErrorCode KeepEnergy(SamReport r, SamContact contact, const SamStep 
   PetscFunctionBegin;
   PetscCall(SamContactGetNumber(contact, "energy_error", &error));
   PetscCall(SamContactGetState(contact, &state));
+  r->energy_unit = SamStateUnitOf(state, "dissipated_energy");
   touches = SamStateReadNumbers(state, SamStateFindNumber(state, SAM_ENTERING))[0] > 0 ? PETSC_TRUE : PETSC_FALSE;
   if (isnan(error)) r->energy[1] = -INFINITY; /* of rolling: there is no estimate for all */
   if (isnan(error)) PetscFunctionReturn(PETSC_SUCCESS);
@@ -287,7 +286,6 @@ static PetscErrorCode BeginCycle(SamReport r, SamContact contact)
 {
   PetscFunctionBegin;
   r->living = PETSC_TRUE;
-  r->each   = r->row + SamContactGetMotion(contact)->streams;
   if (!r->cycles) PetscCall(SamReportGetOutputTime(r, &r->output_before));
   if (!r->cycles) r->first = MPI_Wtime();
   if (!r->cycles) r->begin = r->first; /* later ones begin with the jump before them */
@@ -296,42 +294,52 @@ static PetscErrorCode BeginCycle(SamReport r, SamContact contact)
 }
 
 /* Estimates the number of jumps over `left` cycles, if they go on to grow as the last one did from that `before`. */
-static double JumpsLeft(const SamLifeReport *c, PetscReal before, PetscReal left)
+static double JumpsLeft(double jump, double before, double left)
 {
-  const double growth = before > 0 ? PetscMin(1.5, PetscMax(1.0, (double)(c->jump / before))) : 1.5;
+  const double growth = before > 0 ? PetscMin(1.5, PetscMax(1.0, jump / before)) : 1.5;
 
-  if (c->jump <= 0) return 0;
-  return growth < 1.001 ? (double)(left / c->jump)
-                        : log(1 + (double)(left / c->jump) * (growth - 1) / growth) / log(growth);
+  if (jump <= 0) return 0;
+  return growth < 1.001 ? left / jump : log(1 + left / jump * (growth - 1) / growth) / log(growth);
 }
 
-static PetscErrorCode EndCycle(SamReport r, const SamLifeReport *c, PetscReal cycles)
-{
-  static const char *const volumes[][2] = {{"vol.1/m3", "vol.2/m3"}, {"vol.1/m2", "vol.2/m2"}, {"vol.1/m", "vol.2/m"}};
-  static const char *const energies[]   = {"energy/J", "en/(J/m)", "en/(J/m2)"};
+enum { CYCLE_SECONDS = 11, CYCLE_LEFT, CYCLE_COLUMNS };
+static const SamReportColumn columns[CYCLE_COLUMNS] = {{"cycles", NULL, "cycle", 10, 9, 0},
+                                                       {"jump", NULL, "jump", 9, 6, 0},
+                                                       {"error", NULL, "error", 8, 0, 0},
+                                                       {"vol.1", NULL, "volume1", 10, 3, 0},
+                                                       {"vol.2", NULL, "volume2", 10, 3, 0},
+                                                       {"depth1", NULL, "depth_max1", 10, 3, 0},
+                                                       {"depth2", NULL, "depth_max2", 10, 3, 0},
+                                                       {"energy", "en", "dissipated_energy", 10, 3, 0},
+                                                       {"area", "width", "contact_area", 9, 3, 0},
+                                                       {"p max", NULL, "pressure_max", 9, 3, 0},
+                                                       {"computed", NULL, "computed", 9, 9, 0},
+                                                       {"s", NULL, "", 7, 0, 0},
+                                                       {"left", NULL, "", 9, 0, 0}};
 
-  const double now = MPI_Wtime(), seconds = now - r->begin;
-  double       left;
-  char         duration[32];
+/* `cycle`: the numbers of the computed cycle; `cycles`: the number of all. */
+static PetscErrorCode EndCycle(SamReport r, SamContact contact, SamState cycle, PetscReal cycles)
+{
+  const SamGrid grid = SamContactGetGrid(contact);
+  const double  done = SamReportNumber(cycle, "cycle"), jump = SamReportNumber(cycle, "jump"), now = MPI_Wtime(),
+               seconds = now - r->begin;
+  SamReportCell cells[CYCLE_COLUMNS];
 
   PetscFunctionBegin;
   SamProgressErase(r);
   r->cycles++;
   r->begin = now;
   if (r->quiet) PetscFunctionReturn(PETSC_SUCCESS);
-  left    = MeanTime(r, r->cycles, seconds) * JumpsLeft(c, r->jump, cycles - c->cycles);
-  r->jump = c->jump;
-  SamReportDuration(left, duration, sizeof(duration));
-  if (c->jump <= 0 && c->cycles < cycles) (void)snprintf(duration, sizeof(duration), "unknown");
-  if (r->cycles == 1)
-    PetscCall(PetscPrintf(r->comm, "%10s %8s %7s %9s %9s %9s %9s %9s %8s %8s %8s %6s %8s\n", "cycles", "jump", "error",
-                          volumes[r->each][0], volumes[r->each][1], "depth1/m", "depth2/m", energies[r->each],
-                          r->row ? "width/m" : "area/m2", "p max/Pa", "computed", "s", "left"));
-  PetscCall(PetscPrintf(r->comm,
-                        "%10.9g %8.6g %7.1e %9.3g %9.3g %9.3g %9.3g %9.3g %8.3g %8.3g %8" PetscInt_FMT " %6.2f %8s\n",
-                        (double)c->cycles, (double)c->jump, (double)c->error, (double)c->volume[0],
-                        (double)c->volume[1], (double)c->depth[0], (double)c->depth[1], (double)c->dissipated_energy,
-                        (double)c->contact_area, (double)c->pressure, c->computed, seconds, duration));
+  for (int k = 0; k < CYCLE_COLUMNS && r->cycles == 1; k++) SamReportHeading(grid, cycle, &columns[k], cells[k]);
+  if (r->cycles == 1) PetscCall(SamReportLine(r, CYCLE_COLUMNS, columns, cells));
+  for (int k = 0; k < CYCLE_SECONDS; k++)
+    SamReportValue(&columns[k], SamReportNumber(cycle, columns[k].number), cells[k]);
+  SamReportSeconds(seconds, cells[CYCLE_SECONDS]);
+  SamReportDuration(MeanTime(r, r->cycles, seconds) * JumpsLeft(jump, (double)r->jump, (double)cycles - done),
+                    cells[CYCLE_LEFT], sizeof(cells[CYCLE_LEFT]));
+  if (jump <= 0 && done < cycles) (void)snprintf(cells[CYCLE_LEFT], sizeof(cells[CYCLE_LEFT]), "unknown");
+  r->jump = jump;
+  PetscCall(SamReportLine(r, CYCLE_COLUMNS, columns, cells));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -400,7 +408,7 @@ PetscErrorCode SamReportNews(SamReport r, SamContact contact, const SamSimulatio
     PetscCall(CountStep(r, contact, news->step, news->result));
     break;
   case SAM_NOTIFY_CYCLE:
-    PetscCall(EndCycle(r, news->cycle, news->cycles));
+    PetscCall(EndCycle(r, contact, news->cycle, news->cycles));
     break;
   case SAM_NOTIFY_EXTENT:
     r->extent      = *news->extent;

@@ -20,6 +20,17 @@ typedef struct {
   int             length;   /* characters on the terminal, to be erased */
 } SamProgress;
 
+/*
+  SamReportColumn - a column of a printed table: `number`, the name of its load or number of a state, "": none; its
+  width with a space before; its digits, 0: as 1.2e-03; and when it is omitted. `other` replaces the label in a plane,
+  and where the heading would be too long; NULL: none.
+*/
+typedef struct {
+  const char *label, *other, *number;
+  int         width, digits, order; /* order in which columns are omitted where a line would be too long; 0: never */
+} SamReportColumn;
+typedef char SamReportCell[32];
+
 /* A solution's largest residual so far, and its step. */
 typedef struct {
   PetscReal residual;
@@ -43,9 +54,7 @@ struct _n_SamReport {
   double         recent[SAM_REPORT_RECENT]; /* seconds of the last steps */
   PetscInt       steps, number, done;
   PetscBool      shown[SAM_REPORT_COLUMNS]; /* columns of the table of steps */
-  PetscBool      row;                       /* a grid of one row: loads per metre */
-  const char    *energy_unit;               /* J, of such a row J/m */
-  PetscInt       each;                      /* wear is per metre: once of such a row, once of a running band */
+  const char    *energy_unit;               /* unit of the dissipated energy */
   PetscInt       cycles;                    /* lines printed for computed cycles */
   PetscReal      jump;                      /* cycles, of the last of these */
   PetscBool      living;                    /* the run is a life */
@@ -94,6 +103,19 @@ PETSC_INTERN PetscErrorCode SamReportClosing(SamReport report);
 PETSC_INTERN PetscErrorCode SamStepView(const SamStep *step, SamContact contact, PetscViewer viewer);
 /* Chooses the columns of the table of steps: those of the loads that are not 0 in all steps, as far as they fit. */
 PETSC_INTERN void SamReportChooseColumns(SamReport report, const PetscBool loads[SAM_COMPONENTS]);
+/* Returns a number of the last step of a state, or of its last cycle; NaN: there is none of that name. */
+PETSC_INTERN double SamReportNumber(SamState state, const char name[]);
+/*
+  SamReportHeading - writes the heading of a column, with the unit that its number has on the grid.
+  SamReportValue - writes a number.
+  SamReportSeconds - writes seconds, whole ones from 1000 on.
+  SamReportLine - prints the cells of a line but empty ones. Collective.
+*/
+PETSC_INTERN void SamReportHeading(SamGrid grid, SamState state, const SamReportColumn *column, SamReportCell cell);
+PETSC_INTERN void SamReportValue(const SamReportColumn *column, double value, SamReportCell cell);
+PETSC_INTERN void SamReportSeconds(double seconds, SamReportCell cell);
+PETSC_INTERN PetscErrorCode SamReportLine(SamReport report, PetscInt count, const SamReportColumn columns[],
+                                          SamReportCell cells[]);
 /* Prints a step as a line, the first under the heading; `left`: estimated time (s) of the other steps. Collective. */
 PETSC_INTERN PetscErrorCode SamReportStepLine(SamReport report, const SamStep *step, SamContact contact, double seconds,
                                               double left);

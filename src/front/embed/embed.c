@@ -58,6 +58,7 @@ static int CodeOf(PetscErrorCode code)
   case SAM_ERR_USER:
   case PETSC_ERR_ARG_OUTOFRANGE:
   case PETSC_ERR_ARG_UNKNOWN_TYPE:
+  case PETSC_ERR_ARG_WRONG:
   case PETSC_ERR_ORDER:
     return SAM_EMBED_USAGE;
   case SAM_ERR_FILE:

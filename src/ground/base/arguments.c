@@ -1,6 +1,6 @@
 /*
-  Checks the arguments before PETSc reads them at its start: PETSc ends the program with a long trace at a mistake in
-  an options file, ignores words that are not options, and obeys options that load code or start programs.
+  Records the given options with their files and lines, before PETSc reads them at its start. It refuses only what PETSc
+  would ignore without an error, or would not come back from; PETSc itself, or the set-up, rejects all other mistakes.
 
   Rank 0 looks and tells the others. Words are examined one by one: an option, which may be followed by its value.
 */
@@ -14,8 +14,7 @@
 #include <strings.h>
 #include <sys/stat.h>
 
-#define DEEPEST 8         /* options files that name options files */
-#define LONGEST (1 << 20) /* bytes of one */
+#define DEEPEST 8 /* options files that name options files */
 
 /* ---- words ---- */
 
@@ -43,21 +42,14 @@ static void Complain(SamArguments *a, PetscErrorCode code, const char format[], 
   va_end(values);
 }
 
-/* Options of PETSc that this program refuses, with spaces between them; a star stands for any ending. */
-static const struct {
-  const char *names, *reason;
-} refused[] = {{"-python*", "petsam does not run other programs"},
-               {"-dll_*", "petsam does not load other code"},
-               {"-start_in_debugger -on_error_attach_debugger -on_error_emacs", "petsam does not start other programs"},
-               {"-stop_for_debugger", "petsam would wait for ever"},
-               {"-saws*", "petsam does not serve the web"},
-               {"-mpi_linear_solver_server", "petsam has no linear solver to serve"},
-               {"-prefix_push -prefix_pop", "petsam's options have no prefix"},
-               {"-fp_trap", "petsam computes with infinite numbers, for rigid bodies and flat surfaces"},
-               {"-log_trace -log_mpe*", "not supported: it writes a file for each rank"},
-               {"-help -h -version", "give it on the command line of a program"},
-               {"-citations", "not supported: petsam's sources are in src/README.md"},
-               {"-options_file_yaml -options_string_yaml", "not supported: use -options_file"}};
+/*
+  Options of PETSc at which a program loads code, starts others, waits for ever, prints PETSc's help, or ends in the
+  middle, without an error that names them; with spaces between them. A star stands for any ending.
+*/
+static const char refused[] =
+  "-python* -dll_* -start_in_debugger -on_error_attach_debugger -on_error_emacs -stop_for_debugger -saws* "
+  "-mpi_linear_solver_server -prefix_push -prefix_pop -fp_trap -help -h -version -options_file_yaml "
+  "-options_string_yaml";
 
 static PetscBool IsNamed(const char word[], const char names[])
 {
@@ -75,33 +67,17 @@ static void ExamineFile(SamArguments *a, const char where[], const char file[], 
 /* `where` names the place, with a colon, or is "". */
 static void ExamineName(SamArguments *a, const char where[], const char option[])
 {
-  for (size_t k = 0; k < sizeof(refused) / sizeof(refused[0]); k++)
-    if (IsNamed(option, refused[k].names)) Complain(a, SAM_ERR_USER, "%s%s: %s", where, option, refused[k].reason);
-}
-
-/* Rejects an equals sign between an option and its value, as other programs have it. */
-static void RefuseEquals(SamArguments *a, const char where[], const char option[])
-{
-  const char *sign = strchr(option, '=');
-
-  if (sign && sign[1])
-    Complain(a, SAM_ERR_USER, "%s%.160s: a space separates an option from its value: expected %.*s %.40s", where,
-             option, (int)PetscMin(sign - option, 40), option, sign + 1);
-  else if (sign)
-    Complain(a, SAM_ERR_USER, "%s%.160s: a space separates an option from its value: expected %.*s and a value", where,
-             option, (int)PetscMin(sign - option, 40), option);
+  if (IsNamed(option, refused))
+    Complain(a, SAM_ERR_USER, "%s%s: petsam does not support it here: remove it", where, option);
 }
 
 /* Examines an option, and the word after it if that is its value, else NULL. */
 static void ExamineOption(SamArguments *a, const char where[], const char option[], const char value[], int depth)
 {
   ExamineName(a, where, option);
-  RefuseEquals(a, where, option);
-  if (value && (IsNamed(option, "-info") || IsNamed(option, "-malloc_view")) && strspn(value, "01") != strlen(value))
-    Complain(a, SAM_ERR_USER, "%s%s %s: expected no value: it would write a file for each rank", where, option, value);
   if (!IsNamed(option, "-options_file")) return;
   if (!value || !value[0])
-    Complain(a, SAM_ERR_USER, "%s-options_file has no value: expected a file's name", where);
+    Complain(a, SAM_ERR_USER, "%s-options_file has no value: expected the name of a file", where);
   else
     ExamineFile(a, "-options_file ", value, depth + 1);
 }
@@ -127,41 +103,12 @@ static int Split(char text[], char *words[], int most)
   return count;
 }
 
-/* True if a word begins with a typographic dash, by which text editors and web pages replace the keyboard's. */
-static PetscBool IsTypographic(const char word[])
-{
-  static const char *const dashes[] = {"\xe2\x80\x90", "\xe2\x80\x91", "\xe2\x80\x92", "\xe2\x80\x93",
-                                       "\xe2\x80\x94", "\xe2\x80\x95", "\xe2\x88\x92"};
-
-  for (size_t k = 0; k < sizeof(dashes) / sizeof(dashes[0]); k++)
-    if (!strncmp(word, dashes[k], strlen(dashes[k]))) return PETSC_TRUE;
-  return PETSC_FALSE;
-}
-
 /* Rejects a word where an option is expected; `before` is the option before it, whose value is `value`. NULL: none. */
 static void RefuseWord(SamArguments *a, const char where[], const char word[], const char before[], const char value[])
 {
-  const char *text = "expected an option: it begins with a dash";
-  char       *end;
-
-  (void)strtod(word, &end);
-  if (IsTypographic(word))
-    Complain(a, SAM_ERR_USER,
-             "%s%.160s: begins with a typographic dash: expected the minus of the keyboard, as in -%.40s", where, word,
-             word + 3);
-  else if (strstr(word, ".opts"))
-    Complain(a, SAM_ERR_USER, "%s%.160s: %s: -options_file %.160s", where, word, text, word);
-  else if (strstr(word, ".h5"))
-    Complain(a, SAM_ERR_USER, "%s%.160s: %s; results are named by -output of petsam, -input of petsam-stress", where,
-             word, text);
-  else if (before && value && end != word && !*end)
-    Complain(a, SAM_ERR_USER, "%s%.160s: %s; two values of %s are joined by a comma: %.40s,%.40s", where, word, text,
-             before, value, word);
-  else if (before && value)
-    Complain(a, SAM_ERR_USER, "%s%.160s: %s; %s %.40s already has its value; no space before a unit", where, word, text,
-             before, value);
-  else
-    Complain(a, SAM_ERR_USER, "%s%.160s: %s", where, word, text);
+  Complain(a, SAM_ERR_USER, "%s%.160s: expected an option: it begins with a dash%s%.60s%s%.40s%s", where, word,
+           value ? "; " : "", value ? before : "", value ? " " : "", value ? value : "",
+           value ? " already has its value" : "");
 }
 
 /*
@@ -202,10 +149,7 @@ static void ExamineWords(SamArguments *a, const char where[], int count, char **
   for (int k = 0; k < count; k++) {
     const PetscBool valued = k + 1 < count && !IsOption(words[k + 1]);
 
-    if (!IsOption(words[k]))
-      RefuseWord(a, where, words[k], before, value);
-    else if (words[k][1] == '-')
-      Complain(a, SAM_ERR_USER, "%s%s: options begin with one dash", where, words[k]);
+    if (!IsOption(words[k])) RefuseWord(a, where, words[k], before, value);
     before = words[k];
     value  = valued ? words[k + 1] : NULL;
     Keep(a, before + 1, "", value, source);
@@ -219,9 +163,8 @@ static void ExamineWords(SamArguments *a, const char where[], int count, char **
 /* Examines a line of an options file: an option and its value, a comment, or an alias. */
 static void ExamineLine(SamArguments *a, const char where[], char line[], int depth, int source)
 {
-  char     *words[3];
-  const int quoted = strpbrk(line, "\"'") != NULL;
-  int       count  = Split(line, words, 3);
+  char *words[3];
+  int   count = Split(line, words, 3);
 
   for (int k = count; k-- > 0;)
     if (words[k][0] == '#') count = k; /* the rest is a comment */
@@ -230,18 +173,10 @@ static void ExamineLine(SamArguments *a, const char where[], char line[], int de
     if (count > 2) ExamineName(a, where, words[2]);
     return;
   }
-  if (!IsOption(words[0]))
-    Complain(a, SAM_ERR_USER, "%sexpected an option: it begins with a dash, as in -%s", where,
-             words[0] + (IsTypographic(words[0]) ? 3 : 0));
-  else if (count > 2 && !quoted)
-    Complain(a, SAM_ERR_USER, "%sexpected one option and its value on a line: %s is too much, unless after a #", where,
-             words[2]);
+  if (!IsOption(words[0])) RefuseWord(a, where, words[0], NULL, NULL);
   Keep(a, words[0] + 1, where, count > 1 ? words[1] : NULL, source);
   ExamineOption(a, where, words[0], count > 1 ? words[1] : NULL, depth);
 }
-
-/* The byte order mark of UTF-8, with which some editors begin a file. */
-#define MARK "\xef\xbb\xbf"
 
 static void ExamineLines(SamArguments *a, const char where[], const char name[], FILE *file, int depth)
 {
@@ -256,22 +191,9 @@ static void ExamineLines(SamArguments *a, const char where[], const char name[],
     (void)snprintf(place, sizeof(place), "%s%s, line %ld: ", where, name, number);
     if (memchr(line, '\0', (size_t)length))
       Complain(a, SAM_ERR_USER, "%sa byte of value 0: an options file is plain text: save it as UTF-8", place);
-    if (number == 1 && !strncmp(line, MARK, strlen(MARK)))
-      Complain(a, SAM_ERR_USER, "%sbegins with a byte order mark: save it as UTF-8 without one", place);
     ExamineLine(a, place, line, depth, source);
   }
   free(line);
-}
-
-/* True if a file has more bytes than an options file may have. */
-static PetscBool IsTooLong(FILE *file)
-{
-  char   block[4096];
-  size_t all = 0, n;
-
-  while (all <= LONGEST && (n = fread(block, 1, sizeof(block), file)) > 0) all += n;
-  rewind(file);
-  return all > LONGEST;
 }
 
 static void ExamineFile(SamArguments *a, const char where[], const char name[], int depth)
@@ -287,8 +209,6 @@ static void ExamineFile(SamArguments *a, const char where[], const char name[], 
              stat(name, &status) || S_ISREG(status.st_mode) ? strerror(errno) : "it is not a file");
   } else {
     a->files[a->count++] = strdup(name);
-    if (IsTooLong(file))
-      Complain(a, SAM_ERR_FILE, "%s%s: is not an options file: it has more than %d bytes", where, name, LONGEST);
     ExamineLines(a, where, name, file, depth);
     (void)fclose(file);
   }

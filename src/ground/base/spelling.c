@@ -60,10 +60,16 @@ static const char *FindHabit(const char name[])
       size_t       k      = 0;
 
       while (k < length && name[k] && Plain(name[k]) == word[k]) k++;
-      if (k == length && !name[k]) return habits[h].name;
+      if (k == length && strchr("=", name[k])) return habits[h].name;
       word += length;
     }
   return NULL;
+}
+
+/* Returns the length of a name without an equals sign and a value behind it, as other programs have them. */
+static size_t LengthOf(const char name[])
+{
+  return PetscMin(strcspn(name, "="), LENGTH);
 }
 
 /*
@@ -72,7 +78,7 @@ static const char *FindHabit(const char name[])
 */
 static size_t CountSlips(const char a[], const char b[])
 {
-  const size_t n = strnlen(a, LENGTH), m = strnlen(b, LENGTH);
+  const size_t n = LengthOf(a), m = LengthOf(b);
   size_t       slips[LENGTH + 1][LENGTH + 1];
 
   for (size_t i = 0; i <= n; i++) slips[i][0] = 2 * i;
@@ -94,7 +100,7 @@ static size_t CountSlips(const char a[], const char b[])
 /* True if one name may be a misspelling of the other. */
 static PetscBool IsNear(const char tried[], const char name[])
 {
-  const size_t length = strlen(tried);
+  const size_t length = LengthOf(tried);
 
   return CountSlips(tried, name) <= (length < 4 ? 0 : length < 6 ? 2 : length < 10 ? 4 : 6);
 }

@@ -1,4 +1,5 @@
 /* The class SamState: declarations, and values in generations. */
+#include <petsam/control.h>
 #include <petsam/private/baseimpl.h>
 #include <petsam/private/grid.h>
 #include <petsam/private/state.h>
@@ -488,6 +489,13 @@ const SamStateNumber *SamStateNumberOf(SamState s, PetscInt k, PetscInt *id)
 {
   if (id) *id = s->number[k].id;
   return &s->number[k].declared;
+}
+
+const char *SamStateUnitOf(SamState s, const char name[])
+{
+  for (PetscInt k = 0; k < s->numbers; k++)
+    if (!strcmp(s->number[k].declared.name, name)) return SamUnitOn(s->grid, s->number[k].declared.unit);
+  return "";
 }
 
 double SamStateMissingNumber(SamState s, PetscInt k)

@@ -258,8 +258,8 @@ static PetscErrorCode ComputeCycle(SamSimulation s, PetscBool *ended)
   if (s->output) PetscCall(SamOutputWriteCycle(s->output));
   s->writing = PETSC_FALSE;
   s->point.rows++;
-  PetscCall(
-    SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_CYCLE, .cycle = &r, .cycles = s->plan.cycles}));
+  PetscCall(SamSimulationNotify(
+    s, &(SamSimulationEvent){.kind = SAM_NOTIFY_CYCLE, .cycle = SamLifeGetSeries(s->life), .cycles = s->plan.cycles}));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
