@@ -279,20 +279,20 @@ def test_layers_take_the_strains_of_the_bulk_stress_and_their_residual_stress(pe
                 assert_close(value, np.full_like(value, bulk + rest), 1e-3)
 
 
-def test_stress_before_any_load_is_added_to_an_elastic_body(petsam, petsam_stress, tmp_path):
+def test_stress_before_any_load_is_added_to_an_elastic_body(petsam, stress, tmp_path):
     """By petsam-stress, linear between the rows and 0 below the last; it changes nothing else."""
     (tmp_path / "i.csv").write_text(f"depth,stress_xx,stress_yy\n0,-3e6,-2e6\n{0.2 * A},-4e6,-1e6\n{0.6 * A},0,5e5\n")
     case = sphere([], 2.6, n=48, load_n=0.5 * E * A**3, friction=0.3, load_tx=0.1 * E * A**3)
     for name, more in (("none", {}), ("all", dict(body2_initial_stress="i.csv"))):
         petsam(case, more, dict(output=f"{name}.h5"), ranks=2)
-        petsam_stress(dict(input=f"{name}.h5", output=f"{name}-s.h5", depths=f"0,{0.1 * A},{0.4 * A},{0.7 * A}"))
+        stress(dict(input=f"{name}.h5", output=f"{name}-s.h5", depths=f"0,{0.1 * A},{0.4 * A},{0.7 * A}"))
     with h5py.File(tmp_path / "all-s.h5") as f, h5py.File(tmp_path / "none-s.h5") as none:
         for part, values in dict(xx=(-3e6, -3.5e6, -2e6, 0), yy=(-2e6, -1.5e6, -2.5e5, 0), zz=(0, 0, 0, 0)).items():
             added = f["stress_" + part][0] - none["stress_" + part][0]
             assert_close(added, np.broadcast_to(np.array(values)[:, None, None], added.shape), 1e-3)
     with h5py.File(tmp_path / "all.h5", "r+") as f:
         f.attrs["body2_initial_stress"] = f.attrs["body2_initial_stress"][:-1]
-    told = petsam_stress(dict(input="all.h5", output="s.h5", depths="0"), check=3).stderr
+    told = stress(dict(input="all.h5", output="s.h5", depths="0"), check=3).stderr
     assert "the attribute body2_initial_stress is not rows of depth, stress_xx, stress_yy" in told
     refused = petsam(dict(SLIDING, body1_initial_stress="i.csv"), check=2).complaint[0]
     assert "-body1_initial_stress has no effect: -body1_young inf is a rigid body" in refused

@@ -3,7 +3,7 @@
 #define PETSAM_BODYIMPL_H
 
 #include <petsam/body.h>
-#include <petsam/private/baseimpl.h>
+#include <petsam/private/table.h>
 
 #define SAM_STRESS_ROWS (SAM_PARAMETER_VALUES / 3) /* most rows of a stress over the depth, which is a parameter */
 
@@ -47,6 +47,28 @@ PETSC_INTERN PetscErrorCode SamBodyCreateFromOptions(const SamOptions *from, Sam
 PETSC_INTERN PetscErrorCode SamBodyAddParameters(SamBody body, const char prefix[], SamParameters *parameters);
 PETSC_INTERN PetscErrorCode SamBodyCreateFromParameters(MPI_Comm comm, const SamParameters *parameters,
                                                         const char prefix[], const char source[], SamBody *body);
+/*
+  SamDepthTable - constants of a body over the depth, which an option's text file gives. The caller sets `names` and
+  `what`, which says in messages what ends at the last depth.
+  SamDepthTableRead - reads the file if the option (its name without prefix) is given, which `set` returns; there are
+  then two rows or more, from depth 0 on, and SamTableDestroy() frees the table. Collective. Errors: SAM_ERR_FILE;
+  SAM_ERR_USER with file and line for a missing column and for rows that do not go down from the surface.
+  SamDepthTableGet - returns the value of a row in the column of names[c]. Not collective.
+*/
+#define SAM_DEPTH_COLUMNS 3 /* depth (m), and two others */
+typedef struct {
+  const char *names[SAM_DEPTH_COLUMNS + 1], *what; /* NULL behind the names */
+  char        file[PETSC_MAX_PATH_LEN];
+  SamTable    table;
+  PetscInt    column[SAM_DEPTH_COLUMNS];
+} SamDepthTable;
+PETSC_INTERN PetscErrorCode SamDepthTableRead(const SamOptions *from, const char option[], const char help[],
+                                              SamDepthTable *d, PetscBool *set);
+static inline double        SamDepthTableGet(const SamDepthTable *d, PetscInt row, int c)
+{
+  return d->table.value[row * d->table.columns + d->column[c]];
+}
+
 /* The same of the stress before any load alone. */
 PETSC_INTERN PetscErrorCode SamBodyReadInitialStress(const SamOptions *from, SamBody body);
 PETSC_INTERN PetscErrorCode SamBodyAddInitialStress(SamBody body, const char prefix[], SamParameters *parameters);

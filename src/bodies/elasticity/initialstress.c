@@ -4,10 +4,9 @@
   last row. It depends on the depth alone, so it is in equilibrium, and leaves the surface where it is.
 */
 #include <petsam/private/bodyimpl.h>
-#include <petsam/private/table.h>
 #include <math.h>
 
-enum { DEPTH, XX, YY, COLUMNS };
+enum { DEPTH, XX, YY };
 #define NAME "initial_stress"
 #define DEEP 100 /* widths of the grid down to which a stress may go */
 
@@ -56,25 +55,6 @@ void SamBodyMeanInitialStress(SamBody body, double top, double thickness, double
 
 /* ---- options and parameters ---- */
 
-static PetscErrorCode CheckRows(MPI_Comm comm, const SamTable *t, const PetscInt column[COLUMNS], const char file[])
-{
-  PetscFunctionBegin;
-  PetscCheck(t->rows > 1 && t->value[column[DEPTH]] == 0, comm, SAM_ERR_USER,
-             "%s, line %d: expected rows from depth 0 on, the surface, down to where the stress ends", file,
-             t->rows ? (int)t->line[0] : (int)t->header_line);
-  PetscCheck(t->rows <= SAM_STRESS_ROWS, comm, SAM_ERR_USER, "%s: has %d rows: expected at most %d", file, (int)t->rows,
-             SAM_STRESS_ROWS);
-  for (PetscInt k = 1; k < t->rows; k++) {
-    const double before = t->value[(k - 1) * t->columns + column[DEPTH]],
-                 depth  = t->value[k * t->columns + column[DEPTH]];
-
-    PetscCheck(depth >= before, comm, SAM_ERR_USER,
-               "%s, line %d: depth %.6g is less than in the row before: order the rows by depth", file, (int)t->line[k],
-               depth);
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Puts depths that are those of interfaces but for rounding exactly there. */
 static void MeetInterfaces(SamBody body)
 {
@@ -105,29 +85,19 @@ static PetscErrorCode CheckStress(const SamOptions *from, SamBody body)
 
 PetscErrorCode SamBodyReadInitialStress(const SamOptions *from, SamBody body)
 {
-  static const char *const names[COLUMNS + 1]       = {"depth", "stress_xx", "stress_yy", NULL};
-  char                     file[PETSC_MAX_PATH_LEN] = "", option[96];
-  const SamOptionRow       row = {NAME, "text file of depth, stress_xx, stress_yy (m, Pa): stress before any load",
-                                  SAM_OPTION_FILE, .size = sizeof(file)};
-  SamTable                 t;
-  PetscInt                 column[COLUMNS];
-  PetscBool                set;
+  SamDepthTable d = {.names = {"depth", "stress_xx", "stress_yy"}, .what = "stresses"};
+  PetscBool     set;
 
   PetscFunctionBegin;
-  PetscCall(SamOptionsRead(from, NULL, 1, &row, file, &set));
-  if (!set || SamPrintHelp()) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscSNPrintf(option, sizeof(option), "%s" NAME, SamOptionsPrefix(from)));
-  PetscCall(SamTableRead(from->comm, option, file, names, &t));
-  for (int c = 0; c < COLUMNS; c++) {
-    column[c] = SamTableFind(&t, names[c]);
-    PetscCheck(column[c] >= 0, from->comm, SAM_ERR_USER, "%s, line %d: no column named %s", file, (int)t.header_line,
-               names[c]);
-  }
-  PetscCall(CheckRows(from->comm, &t, column, file));
-  body->rows = t.rows;
-  for (PetscInt k = 0; k < t.rows; k++)
-    for (int c = 0; c < COLUMNS; c++) body->initial[k][c] = t.value[k * t.columns + column[c]];
-  PetscCall(SamTableDestroy(&t));
+  PetscCall(SamDepthTableRead(from, NAME, "text file of depth, stress_xx, stress_yy (m, Pa): stress before any load",
+                              &d, &set));
+  if (!set) PetscFunctionReturn(PETSC_SUCCESS);
+  body->rows = d.table.rows;
+  PetscCheck(body->rows <= SAM_STRESS_ROWS, from->comm, SAM_ERR_USER,
+             "%s: gives the stress in %d rows, limit %d: leave some out", d.file, (int)body->rows, SAM_STRESS_ROWS);
+  for (PetscInt k = 0; k < body->rows; k++)
+    for (int c = 0; c < SAM_DEPTH_COLUMNS; c++) body->initial[k][c] = SamDepthTableGet(&d, k, c);
+  PetscCall(SamTableDestroy(&d.table));
   MeetInterfaces(body);
   PetscCall(CheckStress(from, body));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -155,7 +125,7 @@ PetscErrorCode SamBodyAddInitialStress(SamBody body, const char prefix[], SamPar
   PetscFunctionBegin;
   if (!body->rows) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscSNPrintf(name, sizeof(name), "%s" NAME, prefix));
-  PetscCall(SamParametersAddReals(p, name, PETSC_TRUE, COLUMNS * body->rows, body->initial[0]));
+  PetscCall(SamParametersAddReals(p, name, PETSC_TRUE, SAM_DEPTH_COLUMNS * body->rows, body->initial[0]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -170,12 +140,12 @@ PetscErrorCode SamBodyTakeInitialStress(MPI_Comm comm, const SamParameters *p, c
   PetscCall(PetscSNPrintf(name, sizeof(name), "%s" NAME, prefix));
   found = SamParametersFind(p, name);
   if (!found) PetscFunctionReturn(PETSC_SUCCESS);
-  body->rows = PetscMax(found->count, 0) / COLUMNS;
-  good       = body->rows > 1 && body->rows <= SAM_STRESS_ROWS && found->count == COLUMNS * body->rows;
+  body->rows = PetscMax(found->count, 0) / SAM_DEPTH_COLUMNS;
+  good       = body->rows > 1 && body->rows <= SAM_STRESS_ROWS && found->count == SAM_DEPTH_COLUMNS * body->rows;
   for (PetscInt k = 0; good && k < found->count; k++) {
-    body->initial[k / COLUMNS][k % COLUMNS] = found->value[k];
-    good                                    = isfinite((double)found->value[k]);
-    if (k % COLUMNS == DEPTH) good = good && found->value[k] >= (k ? found->value[k - COLUMNS] : 0);
+    body->initial[k / SAM_DEPTH_COLUMNS][k % SAM_DEPTH_COLUMNS] = found->value[k];
+    good                                                        = isfinite((double)found->value[k]);
+    if (k % SAM_DEPTH_COLUMNS == DEPTH) good = good && found->value[k] >= (k ? found->value[k - SAM_DEPTH_COLUMNS] : 0);
   }
   PetscCheck(good, comm, SAM_ERR_FILE,
              "%s: cannot be read: the attribute %s is not rows of depth, stress_xx, stress_yy from the surface down",
