@@ -224,19 +224,6 @@ def test_ranks_and_restart_give_the_same_bits(petsam, tmp_path):
         assert np.array_equal(values[0], values[1]) and np.array_equal(values[0], values[2])
 
 
-@pytest.mark.parametrize(
-    "wrong, message",
-    [
-        (dict(body1_yield=1), "-body1_yield: the body is rigid"),
-        (dict(body2_layer_young=2, body2_layer_poisson=0.3, body2_layer_thickness=1e-3), "not supported with layers"),
-        (dict(elasticity="plane", grid_n=8), "use -elasticity plane_periodic"),
-    ],
-)
-def test_bodies_that_do_not_yield_are_refused(petsam, wrong, message):
-    """At the first step, unlike those of refusals.txt."""
-    assert message in petsam(sphere(8, 4, **wrong), check=2).complaint[0]
-
-
 def test_conditions_that_move_the_material_are_refused(petsam, tmp_path):
     case = sphere(8, 4, **steps(tmp_path / "loads.csv", load_n=[LOAD, LOAD], roll=[0.0, 1e-3]))
     assert "roll" in petsam(case, check=None).stderr

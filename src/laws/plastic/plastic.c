@@ -236,6 +236,7 @@ static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBo
   PetscCall(SetLayers(x, law, from));
   for (PetscInt b = 0; b < 2; b++) {
     if (!isfinite(x->material[b].yield)) continue;
+    PetscCall(SamResidualCheckBodies(law->elasticity, b + 1));
     PetscCall(CheckUnits(law, from, b));
     PetscCall(SetInitial(law, from, b));
   }

@@ -18,8 +18,11 @@ enum { PARTS = SAM_STRESS_COMPONENTS };
 typedef struct _n_SamResidual *SamResidual;
 /*
   SamResidualCreate - for body 1 or 2 of a uniform pair, of half-spaces that are periodic or not. `thickness`: of the
-  layers (m). Collective. Errors: SAM_ERR_USER for other types of elasticity, layered or rigid bodies.
+  layers (m). Collective. Errors: as SamResidualCheckBodies().
+  SamResidualCheckBodies - fails for other types of elasticity, layered or rigid bodies. Collective. Errors:
+  SAM_ERR_USER.
 */
+PETSC_INTERN PetscErrorCode SamResidualCheckBodies(SamElasticity elasticity, PetscInt body);
 PETSC_INTERN PetscErrorCode SamResidualCreate(SamElasticity elasticity, PetscInt body, PetscInt layers,
                                               const PetscReal thickness[], SamResidual *residual);
 PETSC_INTERN PetscErrorCode SamResidualDestroy(SamResidual *residual);

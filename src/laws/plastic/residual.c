@@ -119,7 +119,7 @@ static PetscErrorCode CreateSpectra(SamResidual r)
 
 /* ---- creation ---- */
 
-static PetscErrorCode CheckBodies(SamElasticity e, PetscInt body)
+PetscErrorCode SamResidualCheckBodies(SamElasticity e, PetscInt body)
 {
   const SamElasticityType type = SamElasticityGetType(e);
 
@@ -167,7 +167,7 @@ PetscErrorCode SamResidualCreate(SamElasticity e, PetscInt body, PetscInt layers
   PetscInt           h[2];
 
   PetscFunctionBegin;
-  PetscCall(CheckBodies(e, body));
+  PetscCall(SamResidualCheckBodies(e, body));
   PetscCall(PetscNew(&r));
   r->grid = SamElasticityGetGrid(e);
   PetscCall(SamGridReference(r->grid));
