@@ -246,6 +246,7 @@ def test_strain_that_is_not_resolved_is_warned_of(petsam, more, words):
         case.update(grid_size=(width, width), yield_depth=100 * case["yield_depth"], load_n=6e6 * LOAD)
     said = [line for line in petsam(case).complaint if "plastic strain" in line]
     assert len(said) == len(words) and all(word in line for word, line in zip(words, said))
+    assert not any("(-yield" in line for line in said)  # the text names the option
 
 
 def test_numbers_that_are_too_small_are_named(petsam, solve):

@@ -222,7 +222,7 @@ static PetscErrorCode KeepEdges(SamReport r, SamContact contact)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Prints a step's message, with the option that decides it, to stderr; from rank 0. */
+/* Prints a step's message, with the option that decides it unless it names that itself, to stderr; from rank 0. */
 static void PrintMessage(SamReport r, const char where[], const SamStep *step)
 {
   const PetscBool edge       = !step->status && step->check.edge > 0; /* and allowed */
@@ -232,9 +232,10 @@ static void PrintMessage(SamReport r, const char where[], const SamStep *step)
   if (edge) r->edge_told = PETSC_TRUE;
   if (r->rank || !step->message[0]) return;
   fflush(stdout);
-  if (step->setting[0]) snprintf(option, sizeof(option), " (-%s)", step->setting);
-  fprintf(stderr, "petsam: %s%s%s%s%s\n", step->status ? "" : "warning: ", where, where[0] ? ": " : "", step->message,
-          option);
+  if (step->setting[0]) snprintf(option, sizeof(option), "-%s", step->setting);
+  fprintf(stderr, "petsam: %s%s%s%s", step->status ? "" : "warning: ", where, where[0] ? ": " : "", step->message);
+  if (!strstr(step->message, option)) fprintf(stderr, " (%s)", option);
+  fprintf(stderr, "\n");
 }
 
 static void Warn(SamReport r, const char text[], const char option[])

@@ -593,8 +593,7 @@ static void Yield(SamAdvice *a)
   if (thick > SAM_PLASTIC_THICK && (most > 0 || outside > BEYOND))
     SamAdviceSay(a, "yield_layers",
                  "where the contact yields first, layers are %.2g of its half width thick, more than %g, so that "
-                 "plastic strain is "
-                 "too small: use %.2g times as many -yield_layers",
+                 "plastic strain is too small: use %.2g times as many -yield_layers",
                  (double)thick, SAM_PLASTIC_THICK, RoundUp((double)thick / SAM_PLASTIC_THICK));
   else if (outside > BEYOND)
     SamAdviceSay(a, "yield_depth",
