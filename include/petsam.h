@@ -19,11 +19,7 @@
 #include <petsam/edges.h>
 #include <petsam/stiffness.h>
 #include <petsam/wear.h>
-#include <petsam/life.h>
-#include <petsam/setup.h>
-#include <petsam/advice.h>
 #include <petsam/history.h>
 #include <petsam/stress.h>
-#include <petsam/fatigue.h>
 
 #endif

@@ -9,7 +9,7 @@
   without transforms, evaluates the kernels for every pair of a point and a cell in contact: its time is the number of
   pairs times the measured time of one pair. Memory: what a map needs, bytes a cell (of the first size).
 */
-#include <petsam/fatigue.h>
+#include <petsam/private/fatigue.h>
 #include <petsam/private/fourier.h>
 #include <petsam/private/halfspace.h>
 #include <math.h>

@@ -1,7 +1,7 @@
 /* Invariants, smallest balls and fatigue parameters: closed solutions, bounds from duality, invariances. */
 #include "fields.h"
 
-#include <petsam/fatigue.h>
+#include <petsam/private/fatigue.h>
 #include <petsam/private/stressimpl.h>
 
 enum { COMPONENTS = SAM_STRESS_COMPONENTS, XX = SAM_STRESS_XX, YY = SAM_STRESS_YY, ZZ = SAM_STRESS_ZZ };

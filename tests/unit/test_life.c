@@ -1,7 +1,7 @@
 /* Wear over many cycles: Popov's limiting shape and the way to it, sliding under constant load, laws, failures. */
 #include "contacts.h"
 
-#include <petsam/life.h>
+#include <petsam/private/life.h>
 #include <petsam/wear.h>
 
 #define K 1e-14 /* 1/Pa */

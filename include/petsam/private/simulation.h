@@ -2,9 +2,9 @@
 #ifndef PETSAM_SIMULATION_H
 #define PETSAM_SIMULATION_H
 
-#include <petsam/advice.h>
+#include <petsam/private/advice.h>
 #include <petsam/history.h>
-#include <petsam/life.h>
+#include <petsam/private/life.h>
 #include <signal.h>
 
 /*

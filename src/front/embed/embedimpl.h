@@ -4,7 +4,7 @@
 
 #include <petsam/embed.h>
 #include <petsam/private/baseimpl.h>
-#include <petsam/advice.h>
+#include <petsam/private/advice.h>
 #include <petsam/private/checkpoint.h>
 #include <petsam/private/simulation.h>
 #include <petsam/stiffness.h>

@@ -2,7 +2,7 @@
 #ifndef PETSAM_LIFEIMPL_H
 #define PETSAM_LIFEIMPL_H
 
-#include <petsam/life.h>
+#include <petsam/private/life.h>
 #include <petsam/private/problemimpl.h>
 #include "wearimpl.h"
 

@@ -2,7 +2,7 @@
 #ifndef PETSAM_ADVICEIMPL_H
 #define PETSAM_ADVICEIMPL_H
 
-#include <petsam/advice.h>
+#include <petsam/private/advice.h>
 #include <petsam/private/baseimpl.h>
 
 #define SAM_ADVICE_GRIDS 192 /* characters of advised grids */

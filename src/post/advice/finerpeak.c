@@ -20,7 +20,7 @@
   Lengths of the patch count in its cells, as displacements are proportional to the cells' width under the same
   pressure: operators and solver are made once. All ranks solve the same; the results of the first count.
 */
-#include <petsam/advice.h>
+#include <petsam/private/advice.h>
 #include <petsam/normal.h>
 #include <petsam/private/baseimpl.h>
 #include <math.h>

@@ -8,7 +8,7 @@
 
   References: Welzl 1991, Smallest enclosing disks (balls and ellipsoids), LNCS 555; Gaertner 1999, ESA, LNCS 1643.
 */
-#include <petsam/fatigue.h>
+#include <petsam/private/fatigue.h>
 #include <petsam/private/baseimpl.h>
 
 enum { DIM = SAM_BALL_DIMENSION, MOST_ROUNDS = 1000 };

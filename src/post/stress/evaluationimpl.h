@@ -3,7 +3,7 @@
 #define PETSAM_EVALUATIONIMPL_H
 
 #include <petsam/private/evaluation.h>
-#include <petsam/fatigue.h>
+#include <petsam/private/fatigue.h>
 #include <petsam/private/problemimpl.h>
 #include <petsam/private/stressimpl.h>
 

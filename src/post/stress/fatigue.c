@@ -9,7 +9,7 @@
   The circle about the path of the shear stress in a plane is looked for only where a larger one, about the path's
   rectangle, would make the plane the best so far.
 */
-#include <petsam/fatigue.h>
+#include <petsam/private/fatigue.h>
 #include <petsam/private/stressimpl.h>
 
 enum { XX = SAM_STRESS_XX, YY = SAM_STRESS_YY, ZZ = SAM_STRESS_ZZ };

@@ -1,7 +1,7 @@
 /* A contact and all that it is made of, from options: what the programs and embedded contacts share. */
 #include <petsam/private/elasticity.h>
 #include <petsam/private/motionimpl.h>
-#include <petsam/setup.h>
+#include <petsam/private/setup.h>
 #include <math.h>
 #include <string.h>
 

@@ -2,8 +2,8 @@
 #ifndef PETSAM_PLAN_H
 #define PETSAM_PLAN_H
 
-#include <petsam/life.h>
-#include <petsam/setup.h>
+#include <petsam/private/life.h>
+#include <petsam/private/setup.h>
 #include <petsam/history.h>
 
 #define SAM_PLAN_OUTPUTS 256 /* maximum number of cycles whose fields are saved */

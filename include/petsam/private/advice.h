@@ -5,7 +5,7 @@
 #ifndef PETSAM_ADVICE_H
 #define PETSAM_ADVICE_H
 
-#include <petsam/setup.h>
+#include <petsam/private/setup.h>
 
 /* SamExtent - the size of a contact. */
 typedef struct {
