@@ -7,7 +7,6 @@
 #include <petsam/parameters.h>
 #include <petsam/body.h>
 #include <petsam/gap.h>
-#include <petsam/fourier.h>
 #include <petsam/elasticity.h>
 #include <petsam/balance.h>
 #include <petsam/solver.h>
@@ -16,10 +15,7 @@
 #include <petsam/control.h>
 #include <petsam/problem.h>
 #include <petsam/contact.h>
-#include <petsam/edges.h>
 #include <petsam/stiffness.h>
 #include <petsam/wear.h>
-#include <petsam/history.h>
-#include <petsam/stress.h>
 
 #endif

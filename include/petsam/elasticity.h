@@ -3,7 +3,6 @@
 #define PETSAM_ELASTICITY_H
 
 #include <petsam/control.h>
-#include <petsam/fourier.h>
 #include <petsam/body.h>
 #include <petsam/parameters.h>
 
@@ -159,17 +158,6 @@ PETSC_EXTERN PetscErrorCode SamElasticityDestroy(SamElasticity *elasticity);
 PETSC_EXTERN SamGrid SamElasticityGetGrid(SamElasticity elasticity);
 
 /*
-  SamElasticityGetPair - returns the pair of bodies, borrowed.
-
-  Not collective.
-
-  In:     elasticity - the elasticity
-
-  Errors: none; it returns no error code.
-*/
-PETSC_EXTERN SamPair SamElasticityGetPair(SamElasticity elasticity);
-
-/*
   SamElasticityGetTraits - returns the properties of the type.
 
   Not collective.
@@ -179,22 +167,6 @@ PETSC_EXTERN SamPair SamElasticityGetPair(SamElasticity elasticity);
   Errors: none; it returns no error code.
 */
 PETSC_EXTERN SamElasticityTraits SamElasticityGetTraits(SamElasticity elasticity);
-
-/*
-  SamElasticityCreateFromParameters - creates the bodies that the parameters of a run describe, on a grid.
-
-  Collective.
-
-  In:     grid       - the grid; referenced
-          parameters - parameters of the run
-          source     - the file of the parameters, for messages
-  Out:    elasticity - the elasticity
-
-  Errors: SAM_ERR_FILE for a type that is not registered or does not fit the grid, and for parameters that are missing
-  or invalid.
-*/
-PETSC_EXTERN PetscErrorCode SamElasticityCreateFromParameters(SamGrid grid, const SamParameters *parameters,
-                                                              const char source[], SamElasticity *elasticity);
 
 /*
   SamElasticityApplyNormal - applies the operator: computes the normal displacement that the pressure causes.
@@ -263,14 +235,5 @@ PETSC_EXTERN PetscErrorCode SamElasticityApplyTangentialToNormal(SamElasticity e
 */
 PETSC_EXTERN PetscErrorCode SamElasticityGetSelfInfluence(SamElasticity elasticity, PetscReal *normal,
                                                           PetscReal *tangential);
-
-/*
-  SamElasticityCreateStress - creates an object that computes the stresses in body 1 or 2 under tractions on the grid
-  (stress.h). `settings`: those of the transforms, NULL: the elasticity's. Collective. Errors: PETSC_ERR_SUP without the
-  trait `stress`; PETSC_ERR_ARG_OUTOFRANGE for another number of the body, or a rigid body.
-*/
-typedef struct _n_SamStress *SamStress;
-PETSC_INTERN PetscErrorCode  SamElasticityCreateStress(SamElasticity elasticity, PetscInt body,
-                                                       const SamFourierSettings *settings, SamStress *stress);
 
 #endif

@@ -49,14 +49,6 @@ PETSC_EXTERN PetscErrorCode SamGridCreate(MPI_Comm comm, const PetscInt n[2], co
                                           const PetscReal center[2], SamGrid *grid);
 
 /*
-  SamGridCreateFromOptions - creates a grid from -grid_n, -grid_size, -grid_center. On entry `n`, `width` and `center`
-  are the defaults; -grid_n and -grid_size are required if their default is 0. On return they are those of the grid.
-  `row`: one row of cells, 1 m wide. Collective. Errors: SAM_ERR_USER.
-*/
-PETSC_INTERN PetscErrorCode SamGridCreateFromOptions(const SamOptions *from, PetscBool row, PetscInt n[2],
-                                                     PetscReal width[2], PetscReal center[2], SamGrid *grid);
-
-/*
   SamGridDestroy - drops a reference of the grid, the last one frees it; sets the handle to NULL.
 
   Collective.

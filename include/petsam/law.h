@@ -54,9 +54,6 @@ PETSC_EXTERN PetscErrorCode SamLawCreate(SamElasticity elasticity, SamLawType ty
 */
 PETSC_EXTERN PetscErrorCode SamLawDestroy(SamLaw *law);
 
-/* SamLawReference - adds a reference. Not collective. */
-PETSC_INTERN PetscErrorCode SamLawReference(SamLaw law);
-
 #define SAM_LAWS 32 /* most types of laws */
 
 /*
@@ -74,24 +71,6 @@ PETSC_INTERN PetscErrorCode SamLawReference(SamLaw law);
 PETSC_EXTERN PetscErrorCode SamLawRegister(const char name[], PetscErrorCode (*create)(SamLaw));
 
 /*
-  SamLawGetTypes - gets the registered types, in the order of their registration; borrowed. Not collective.
-  SamLawIsRegistered - returns true if a type of that name is registered. Not collective.
-*/
-PETSC_INTERN PetscErrorCode SamLawGetTypes(PetscInt *count, const SamLawType **types);
-PETSC_INTERN PetscBool      SamLawIsRegistered(const char name[]);
-
-/*
-  SamLawSetFromOptions - reads the options of the law; `asked`: true if they select it. Collective. Errors:
-  SAM_ERR_USER, SAM_ERR_FILE.
-  SamLawAddConditions - adds the conditions of the law to the list of a problem, to which it then belongs. Not
-  collective. Errors: PETSC_ERR_ARG_WRONG for a law of another problem.
-  SamLawAddParameters - appends the parameters that define the law, under the names of its options. Collective.
-*/
-PETSC_INTERN PetscErrorCode SamLawSetFromOptions(SamLaw law, const SamOptions *from, PetscBool *asked);
-PETSC_INTERN PetscErrorCode SamLawAddConditions(SamLaw law, SamConditions conditions);
-PETSC_INTERN PetscErrorCode SamLawAddParameters(SamLaw law, SamParameters *parameters);
-
-/*
   SamLawSetHardness - sets, for the type hardness, the maximum pressure, at which the surfaces yield.
 
   Not collective, the same on all ranks.
@@ -102,18 +81,6 @@ PETSC_INTERN PetscErrorCode SamLawAddParameters(SamLaw law, SamParameters *param
   Errors: PETSC_ERR_ARG_WRONG for a law of another type; PETSC_ERR_ARG_OUTOFRANGE unless the hardness is > 0.
 */
 PETSC_EXTERN PetscErrorCode SamLawSetHardness(SamLaw law, PetscReal hardness);
-
-/*
-  SamLawGetFriction - gets, for the type coulomb, the coefficient of friction.
-
-  Not collective.
-
-  In:     law      - the law
-  Out:    friction - the coefficient (1); 0 if it is a field
-
-  Errors: PETSC_ERR_ARG_WRONG for a law without such a coefficient.
-*/
-PETSC_EXTERN PetscErrorCode SamLawGetFriction(SamLaw law, PetscReal *friction);
 
 /*
   SamLawSetSurface - sets, for the type slide, the part of the separation that moves with a body.

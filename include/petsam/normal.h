@@ -61,13 +61,6 @@ PETSC_EXTERN PetscErrorCode SamNormalRegister(const char name[], PetscErrorCode 
   shift the pressure of cells at the limit by rounding. This displaces them by far less than the tolerance of the gap.
 */
 #define SAM_SATURATED (1 - 1e-9)
-/*
-  SamNormalSetPressureLimit - sets the maximum admissible pressure (Pa) of the next solves; infinite (default): none.
-  Not collective. Errors: PETSC_ERR_ARG_OUTOFRANGE unless it is > 0; PETSC_ERR_SUP if the method has no such bound.
-  SamNormalLimitsPressure - returns true if the current method has such a bound. Not collective.
-*/
-PETSC_INTERN PetscErrorCode SamNormalSetPressureLimit(SamNormal normal, PetscReal limit);
-PETSC_INTERN PetscBool      SamNormalLimitsPressure(SamNormal normal);
 
 /*
   SamNormalSolve - finds the pressure for a separation of the undeformed bodies.
@@ -96,13 +89,5 @@ PETSC_INTERN PetscBool      SamNormalLimitsPressure(SamNormal normal);
   load that exceeds the limit on the whole grid.
 */
 PETSC_EXTERN PetscErrorCode SamNormalSolve(SamNormal normal, Vec h, SamBalance *balance, PetscBool guess, Vec p);
-
-/*
-  SamNormalSolveYielding - solves the same problem for surfaces that also recede in each cell by `diagonal` (m/Pa, one
-  component, >= 0) times the pressure of that cell, so that the gap is g = S p + diagonal p + h - (d_z - y r_x + x r_y).
-  Wear whose rate follows the pressure is of this kind (wear.h). Collective.
-*/
-PETSC_INTERN PetscErrorCode SamNormalSolveYielding(SamNormal normal, Vec h, Vec diagonal, SamBalance *balance,
-                                                   PetscBool guess, Vec p);
 
 #endif

@@ -56,18 +56,6 @@ PETSC_EXTERN PetscErrorCode SamParametersAddText(SamParameters *parameters, cons
                                                  const char text[]);
 
 /*
-  SamParametersAddChecksum - appends a checksum, for instance of data from a file. Not collective. Errors: as above.
-*/
-PETSC_INTERN PetscErrorCode SamParametersAddChecksum(SamParameters *parameters, const char name[], uint64_t checksum);
-
-/*
-  SamParametersAddOptions - appends the values of the options of a table that are `recorded`, from the settings. Not
-  collective. Errors: as above.
-*/
-PETSC_INTERN PetscErrorCode SamParametersAddOptions(SamParameters *parameters, PetscInt count,
-                                                    const SamOptionRow rows[], const void *settings);
-
-/*
   SamParametersFind - returns the parameter of a name, NULL if there is none; borrowed.
 
   Not collective.

@@ -22,9 +22,6 @@ typedef struct _n_SamProblem *SamProblem;
 */
 PETSC_EXTERN PetscErrorCode SamProblemCreate(SamElasticity elasticity, SamProblem *problem);
 
-/* SamProblemReference - adds a reference. Not collective. */
-PETSC_INTERN PetscErrorCode SamProblemReference(SamProblem problem);
-
 /*
   SamProblemDestroy - drops a reference of the problem, the last one frees it; sets the handle to NULL.
 
@@ -50,11 +47,6 @@ PETSC_EXTERN PetscErrorCode SamProblemDestroy(SamProblem *problem);
 PETSC_EXTERN SamConditions SamProblemGetConditions(SamProblem problem);
 
 /*
-  SamProblemGetRolled - returns the rolled distance of a step, as SamMotionRolled() does. Not collective.
-*/
-PETSC_INTERN PetscReal SamProblemGetRolled(SamProblem problem, const SamControl *control, PetscReal distance[2]);
-
-/*
   SamProblemGetElasticity - returns the elasticity, borrowed.
 
   Not collective.
@@ -64,17 +56,6 @@ PETSC_INTERN PetscReal SamProblemGetRolled(SamProblem problem, const SamControl 
   Errors: none; it returns no error code.
 */
 PETSC_EXTERN SamElasticity SamProblemGetElasticity(SamProblem problem);
-
-/*
-  SamProblemGetGrid - returns the grid of the elasticity, borrowed.
-
-  Not collective.
-
-  In:     problem - the problem
-
-  Errors: none; it returns no error code.
-*/
-PETSC_EXTERN SamGrid SamProblemGetGrid(SamProblem problem);
 
 /*
   SamProblemSetGap - sets the separation of the undeformed bodies.
@@ -100,17 +81,6 @@ PETSC_EXTERN PetscErrorCode SamProblemSetGap(SamProblem problem, Vec h);
   It may be changed through PETSc's functions (VecGetArray(), VecAXPY() ...), which raise its revision.
 */
 PETSC_EXTERN Vec SamProblemGetGap(SamProblem problem);
-
-/*
-  SamProblemSetQuadratic - marks the present gap as a quadratic function of x and y, or as not known to be one.
-  SamProblemIsQuadratic - sets `quadratic` to true if the gap has been marked so and has not changed since. Collective.
-  SamProblemGetRevision - gets a number of this rank that grows with each change of the gap, or of a law, that
-  invalidates the pressure of a solved step. Each rank counts separately, so that a rank may write to its part of the
-  gap without the others. Not collective.
-*/
-PETSC_INTERN PetscErrorCode SamProblemSetQuadratic(SamProblem problem, PetscBool quadratic);
-PETSC_INTERN PetscErrorCode SamProblemIsQuadratic(SamProblem problem, PetscBool *quadratic);
-PETSC_INTERN PetscErrorCode SamProblemGetRevision(SamProblem problem, PetscObjectState *revision);
 
 /*
   SamProblemAddLaw - adds a law to a problem.
@@ -152,24 +122,6 @@ PETSC_EXTERN PetscErrorCode SamProblemAddLawOfType(SamProblem problem, SamLawTyp
 PETSC_EXTERN SamLaw SamProblemGetLaw(SamProblem problem, SamLawType type);
 
 /*
-  SamProblemAddSum - adds a law as SamProblemAddLawOfType() does for a type that only accumulates a field, and nothing
-  for another type. Collective.
-  SamProblemGetLaws - gets all laws, in the order in which they act; borrowed. Not collective.
-  SamProblemSetLawsFromOptions - lets every registered type read the options, and adds the laws that they select.
-  Collective. Errors: SAM_ERR_USER, SAM_ERR_FILE.
-*/
-PETSC_INTERN PetscErrorCode SamProblemAddSum(SamProblem problem, SamLawType type);
-PETSC_INTERN PetscErrorCode SamProblemGetLaws(SamProblem problem, PetscInt *count, const SamLaw **laws);
-PETSC_INTERN PetscErrorCode SamProblemSetLawsFromOptions(SamProblem problem, const SamOptions *from);
-
-/*
-  SamProblemGetBytes - returns the memory of the laws per cell, bytes. Not collective.
-  SamProblemMoves - returns true if a law may change the separation from step to step. Not collective.
-*/
-PETSC_INTERN PetscInt  SamProblemGetBytes(SamProblem problem);
-PETSC_INTERN PetscBool SamProblemMoves(SamProblem problem);
-
-/*
   SamProblemSetFriction - sets the coefficient of friction, of the law coulomb (law.h).
 
   Collective.
@@ -193,12 +145,5 @@ PETSC_EXTERN PetscErrorCode SamProblemSetFriction(SamProblem problem, PetscReal 
   another size.
 */
 PETSC_EXTERN PetscErrorCode SamProblemSetFrictionField(SamProblem problem, Vec friction);
-
-/*
-  SamProblemHasFriction - sets `has` to true if the surfaces bear shear anywhere. Collective.
-  SamProblemGetPressureLimit - gets the largest pressure that the surfaces bear, Pa; infinite: no limit. Not collective.
-*/
-PETSC_INTERN PetscErrorCode SamProblemHasFriction(SamProblem problem, PetscBool *has);
-PETSC_INTERN PetscErrorCode SamProblemGetPressureLimit(SamProblem problem, PetscReal *limit);
 
 #endif

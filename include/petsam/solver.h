@@ -93,23 +93,7 @@ PETSC_EXTERN PetscErrorCode SamSolverSetOptionsPrefix(SamSolver solver, const ch
 */
 PETSC_EXTERN PetscErrorCode SamSolverSetTolerances(SamSolver solver, PetscReal rtol, PetscInt max_it);
 
-/*
-  SamSolverGetTolerances - gets the values in force; NULL for an unused one. Not collective.
-*/
-PETSC_INTERN PetscErrorCode SamSolverGetTolerances(SamSolver solver, PetscReal *rtol, PetscInt *max_it);
-
-/*
-  SamSolverSetLevels - sets the maximum number of nested grids for a solve without a guess; 1: the finest grid only, 0:
-  the type's default. Option -<kind>_levels. Not collective.
-*/
-PETSC_INTERN PetscErrorCode SamSolverSetLevels(SamSolver solver, PetscInt levels);
-
-/*
-  SamSolverSetErrorIfNotConverged - decides if a solve that does not converge is an error, PETSC_ERR_NOT_CONVERGED, or
-  only has a reason. Option -<kind>_error_if_not_converged. Not collective.
-*/
-PETSC_INTERN PetscErrorCode SamSolverSetErrorIfNotConverged(SamSolver solver, PetscBool error);
-
+/* SamSolverMonitor - a function that is called after an iteration. */
 typedef PetscErrorCode (*SamSolverMonitor)(SamSolver solver, PetscInt it, PetscReal error, void *context);
 
 /*

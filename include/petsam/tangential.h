@@ -94,10 +94,4 @@ PETSC_EXTERN PetscErrorCode SamTangentialRegister(const char name[], PetscErrorC
 PETSC_EXTERN PetscErrorCode SamTangentialSolve(SamTangential tangential, Vec bound, Vec offset, SamBalance *balance,
                                                PetscBool guess, Vec q);
 
-/*
-  SamTangentialGetLimit - returns, after gross slip, the factor on the given loads at which sliding begins; infinite if
-  it was not computed. Not collective.
-*/
-PETSC_INTERN PetscReal SamTangentialGetLimit(SamTangential tangential);
-
 #endif

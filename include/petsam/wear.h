@@ -25,10 +25,4 @@
 */
 PETSC_EXTERN PetscErrorCode SamLawSetWear(SamLaw law, const PetscReal coefficient[2]);
 
-/*
-  SamWearAdviseStride - writes a warning about a step that slides too far; `stride`: its slide divided by the length of
-  the contact. Else an empty text. Not collective.
-*/
-PETSC_INTERN PetscErrorCode SamWearAdviseStride(PetscReal stride, char text[], size_t size);
-
 #endif

@@ -1,6 +1,8 @@
 /* The class SamContact: its parts, its settings, its state, and its results by name. */
 #include "contactimpl.h"
 #include <petsam/private/state.h>
+#include <petsam/private/base.h>
+#include <petsam/private/problem.h>
 #include <math.h>
 
 /* ---- creation ---- */

@@ -2,7 +2,7 @@
 #ifndef PETSAM_CONTACTIMPL_H
 #define PETSAM_CONTACTIMPL_H
 
-#include <petsam/contact.h>
+#include <petsam/private/contact.h>
 #include "step/step.h"
 
 struct _n_SamContact {

@@ -6,6 +6,8 @@
 #include <petsam/private/bodyimpl.h>
 #include <petsam/private/elasticity.h>
 #include <petsam/private/state.h>
+#include <petsam/private/balance.h>
+#include <petsam/private/problem.h>
 #include <math.h>
 
 #define ALIKE        1e-6                            /* Dundurs' constant of materials that are alike, at most */

@@ -12,6 +12,8 @@
   slip, where the ratio lies on the circle, it continues along the circle.
 */
 #include "contactimpl.h"
+#include <petsam/private/balance.h>
+#include <petsam/private/problem.h>
 #include <math.h>
 
 /*

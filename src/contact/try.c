@@ -4,6 +4,10 @@
 #include <petsam/private/elasticity.h>
 #include <petsam/private/solverimpl.h>
 #include <petsam/private/state.h>
+#include <petsam/private/check.h>
+#include <petsam/private/normal.h>
+#include <petsam/private/problem.h>
+#include <petsam/private/solver.h>
 
 /*
   The check includes rounding, which the solvers' recurrences omit. So its limits are the solvers' tolerances times a

@@ -4,7 +4,9 @@
 */
 #include <petsam/private/lawimpl.h>
 #include <petsam/private/motionimpl.h>
-#include <petsam/stress.h>
+#include <petsam/private/stress.h>
+#include <petsam/private/body.h>
+#include <petsam/private/elasticity.h>
 #include <math.h>
 
 enum { XX, YY, XY, COMPONENTS };

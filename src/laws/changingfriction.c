@@ -15,6 +15,7 @@
 #include <petsam/private/lawimpl.h>
 #include <petsam/private/motionimpl.h>
 #include <petsam/private/state.h>
+#include <petsam/private/base.h>
 #include <math.h>
 
 typedef enum { PATH, PRESSURE, FALLING, KINDS } Kind;

@@ -3,6 +3,7 @@
 #include <petsam/private/lawimpl.h>
 #include <petsam/private/fieldfile.h>
 #include <petsam/problem.h>
+#include <petsam/private/parameters.h>
 
 typedef struct {
   PetscReal friction;

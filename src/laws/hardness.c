@@ -10,6 +10,9 @@
 #include <petsam/private/lawimpl.h>
 #include <petsam/normal.h>
 #include <petsam/private/state.h>
+#include <petsam/private/base.h>
+#include <petsam/private/body.h>
+#include <petsam/private/elasticity.h>
 
 typedef struct {
   PetscReal limit; /* Pa */

@@ -1,5 +1,6 @@
 /* The laws that come with the library, in the order in which they act. */
 #include <petsam/private/lawimpl.h>
+#include <petsam/private/law.h>
 
 PetscErrorCode SamLawRegisterAll(void)
 {

@@ -25,6 +25,8 @@
 #include <petsam/private/lawimpl.h>
 #include <petsam/private/motionimpl.h>
 #include <petsam/private/state.h>
+#include <petsam/private/base.h>
+#include <petsam/private/parameters.h>
 #include <math.h>
 
 /* A change of D, parts of a cell, that counts. */

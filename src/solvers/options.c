@@ -1,5 +1,6 @@
 /* Options and printout of a solver. */
 #include <petsam/private/solverimpl.h>
+#include <petsam/private/solver.h>
 #include <string.h>
 
 static PetscErrorCode SetTypeFromOptions(SamSolver s, const SamOptions *from)

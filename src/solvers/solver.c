@@ -1,6 +1,7 @@
 /* Base of all solvers: creation, the registries of types, settings, and the common part of a solve. */
 #include <petsam/private/elasticity.h>
 #include <petsam/private/solverimpl.h>
+#include <petsam/private/solver.h>
 #include <math.h>
 
 #define BRIEF 10 /* iterations of a brief solve */

@@ -64,9 +64,9 @@ def test_gap_is_found_with_its_place(tmp_path, old, new, gap):
 
 
 def test_function_without_arguments_says_so(tmp_path):
-    header = tmp_path / "history.h"
-    header.write_text((ROOT / "include/petsam/history.h").read_text().replace("  In: nothing.\n\n", ""))
-    assert "SamHistoryClaimOption has no paragraph 'In: nothing.'" in check(header).stdout
+    header = tmp_path / "base.h"
+    header.write_text((ROOT / "include/petsam/base.h").read_text().replace("  In: nothing.\n\n", ""))
+    assert "SamFinalize has no paragraph 'In: nothing.'" in check(header).stdout
 
 
 def test_casts_are_no_functions_to_describe():

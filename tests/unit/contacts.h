@@ -7,9 +7,13 @@
 
 #include "fields.h"
 
-#include <petsam/contact.h>
+#include <petsam/private/contact.h>
 #include <petsam/private/problemimpl.h>
 #include <petsam/wear.h>
+#include <petsam/private/control.h>
+#include <petsam/private/law.h>
+#include <petsam/private/problem.h>
+#include <petsam/private/state.h>
 
 /* The coefficient of friction where a test does not say otherwise. */
 #define MU 0.3

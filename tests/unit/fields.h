@@ -10,6 +10,7 @@
 
 #include <petsam/private/bodyimpl.h>
 #include <petsam/problem.h>
+#include <petsam/private/control.h>
 
 /* A number in [-1, 1) that depends on its arguments alone: fields made of it are the same on any number of ranks. */
 static inline double Random(PetscInt seed, PetscInt component, PetscInt i, PetscInt j)

@@ -4,7 +4,8 @@
 
 #include "fields.h"
 
-#include <petsam/history.h>
+#include <petsam/private/history.h>
+#include <petsam/private/control.h>
 #include <unistd.h>
 
 static const char file[] = "test_history.csv";

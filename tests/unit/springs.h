@@ -5,7 +5,7 @@
 #include "contacts.h"
 
 #include <petsam/private/elasticityimpl.h>
-#include <petsam/stress.h>
+#include <petsam/private/stress.h>
 
 /* The size of the springs, a depth or a compliance; the same on all grids. How often the type was set up. */
 typedef struct {

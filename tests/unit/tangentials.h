@@ -5,7 +5,8 @@
 #include "fields.h"
 
 #include <petsam/normal.h>
-#include <petsam/tangential.h>
+#include <petsam/private/tangential.h>
+#include <petsam/private/balance.h>
 
 static const double mu = 0.3; /* friction */
 

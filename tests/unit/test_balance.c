@@ -4,6 +4,7 @@
 #include "fields.h"
 
 #include <petsam/private/balanceimpl.h>
+#include <petsam/private/balance.h>
 
 /* Grids about the origin, aside, and far away; one with fewer rows than ranks. */
 static const double place[][2] = {{0, 0}, {3e-4, -2e-4}, {1, -0.7}, {0, 0}};

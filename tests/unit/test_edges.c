@@ -1,7 +1,7 @@
 /* Edges of contact and stick to a fraction of a cell: closed solutions, order, and what is refused. */
 #include "contacts.h"
 
-#include <petsam/edges.h>
+#include <petsam/private/edges.h>
 
 #define PLAIN NewPair(210e9, 0, 210e9, 0)
 

@@ -5,7 +5,7 @@
 #include "elasticities.h"
 #include "springs.h"
 
-#include <petsam/normal.h>
+#include <petsam/private/normal.h>
 #include <petsam/private/elasticity.h>
 
 #define SIDEWAYS 0.5 /* c of shear over that of pressure */

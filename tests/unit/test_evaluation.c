@@ -4,7 +4,8 @@
 
 #include <petsam/embed.h>
 #include <petsam/private/evaluation.h>
-#include <petsam/stress.h>
+#include <petsam/private/stress.h>
+#include <petsam/private/elasticity.h>
 
 #define BULK 3e7
 #define OPTIONS \

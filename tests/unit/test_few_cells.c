@@ -3,7 +3,8 @@
 
 #include <petsam/normal.h>
 #include <petsam/private/baseimpl.h>
-#include <petsam/tangential.h>
+#include <petsam/private/tangential.h>
+#include <petsam/private/balance.h>
 
 enum { NX = 13, NY = 17 };
 

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <petsam/private/gapimpl.h> /* to register a shape */
+#include <petsam/private/gap.h>
 
 /* The heights are a few operations on doubles. */
 static const double rounding = 8 * DBL_EPSILON;

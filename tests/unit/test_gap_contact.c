@@ -4,7 +4,7 @@
 */
 #include "samtest.h"
 
-#include <petsam/gap.h>
+#include <petsam/private/gap.h>
 #include <petsam/private/baseimpl.h>
 
 static SamGap NewGap(const char *options)

@@ -7,7 +7,8 @@
 
 #include <petsam/private/elasticityimpl.h>
 #include <petsam/private/layered.h>
-#include <petsam/stress.h>
+#include <petsam/private/stress.h>
+#include <petsam/private/body.h>
 
 #define MOST 4
 

@@ -11,6 +11,7 @@
 
 #include <petsam/private/file.h>
 #include <petsam/private/gapimpl.h>
+#include <petsam/private/gap.h>
 
 enum { NX = 5, NY = 3 };
 static const PetscReal width[2] = {2.5e-3, 0.9e-3};

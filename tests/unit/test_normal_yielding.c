@@ -3,6 +3,7 @@
 #include "methods/methods.h"
 
 #include <petsam/private/elasticityimpl.h>
+#include <petsam/private/normal.h>
 
 /* What a cell yields besides, in units of its influence on itself: little to the left, `most` to the right. */
 static double Yield(double x, double y, const void *context)

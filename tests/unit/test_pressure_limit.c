@@ -4,8 +4,9 @@
 #include "fields.h"
 #include "methods/methods.h"
 
-#include <petsam/normal.h>
+#include <petsam/private/normal.h>
 #include <petsam/private/balanceimpl.h>
+#include <petsam/private/balance.h>
 
 /* ---- projections ---- */
 

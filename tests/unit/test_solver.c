@@ -9,6 +9,7 @@
 #include <petsam/private/help.h>
 #include <petsam/private/normalimpl.h>
 #include <petsam/private/tangentialimpl.h>
+#include <petsam/private/solver.h>
 
 static const double mu = 0.3;
 

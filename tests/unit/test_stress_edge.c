@@ -1,8 +1,9 @@
 /* Stresses on the surface at the contact's edge: Hertz's contact that slides. */
 #include "contacts.h"
 
-#include <petsam/edges.h>
+#include <petsam/private/edges.h>
 #include <petsam/private/stressimpl.h>
+#include <petsam/private/elasticity.h>
 
 /* A sphere beside the grid's centre, its shear mu p: the map of the surface, its edge, and the stresses there. */
 typedef struct {

@@ -1,6 +1,7 @@
 /* The tangential solver at and beyond the limit of friction, and with what is no number. */
 #include "tangentials.h"
 #include "methods/methods.h"
+#include <petsam/private/solver.h>
 
 #include <unistd.h>
 

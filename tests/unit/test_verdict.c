@@ -5,6 +5,7 @@
 
 #include <petsam/private/normalimpl.h> /* to register a method */
 #include <petsam/private/tangentialimpl.h>
+#include <petsam/private/check.h>
 
 /* ---- the verdict as a function ---- */
 

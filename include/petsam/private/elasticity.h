@@ -3,7 +3,9 @@
 #define PETSAM_PRIVATE_ELASTICITY_H
 
 #include <petsam/elasticity.h>
+#include <petsam/private/fourier.h>
 #include <petsam/private/grid.h>
+#include <petsam/private/stress.h>
 
 /*
   SamElasticityAddCompliances - replaces the bodies by finite ones, whose compliances the files of -body1_compliance and
@@ -79,5 +81,40 @@ PETSC_INTERN PetscErrorCode SamElasticityPreconditionTangentialSingle(SamElastic
 #define SAM_SLIP_WEIGHT 0.5
 PETSC_INTERN PetscErrorCode SamElasticityPreconditionSlipSingle(SamElasticity elasticity, double factor,
                                                                 const float residual[], float q[]);
+
+/*
+  SamElasticityGetPair - returns the pair of bodies, borrowed.
+
+  Not collective.
+
+  In:     elasticity - the elasticity
+
+  Errors: none; it returns no error code.
+*/
+PETSC_EXTERN SamPair SamElasticityGetPair(SamElasticity elasticity);
+
+/*
+  SamElasticityCreateFromParameters - creates the bodies that the parameters of a run describe, on a grid.
+
+  Collective.
+
+  In:     grid       - the grid; referenced
+          parameters - parameters of the run
+          source     - the file of the parameters, for messages
+  Out:    elasticity - the elasticity
+
+  Errors: SAM_ERR_FILE for a type that is not registered or does not fit the grid, and for parameters that are missing
+  or invalid.
+*/
+PETSC_EXTERN PetscErrorCode SamElasticityCreateFromParameters(SamGrid grid, const SamParameters *parameters,
+                                                              const char source[], SamElasticity *elasticity);
+
+/*
+  SamElasticityCreateStress - creates an object that computes the stresses in body 1 or 2 under tractions on the grid
+  (stress.h). `settings`: those of the transforms, NULL: the elasticity's. Collective. Errors: PETSC_ERR_SUP without the
+  trait `stress`; PETSC_ERR_ARG_OUTOFRANGE for another number of the body, or a rigid body.
+*/
+PETSC_INTERN PetscErrorCode SamElasticityCreateStress(SamElasticity elasticity, PetscInt body,
+                                                      const SamFourierSettings *settings, SamStress *stress);
 
 #endif

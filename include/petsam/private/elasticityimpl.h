@@ -6,6 +6,7 @@
 #include <petsam/elasticity.h>
 #include <petsam/private/fourier.h>
 #include <petsam/private/grid.h>
+#include <petsam/private/stress.h>
 #include <petsam/state.h>
 
 /*

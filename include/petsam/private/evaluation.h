@@ -6,6 +6,7 @@
 
 #include <petsam/control.h>
 #include <petsam/elasticity.h>
+#include <petsam/private/fourier.h>
 
 /*
   SamEvaluation - the stresses in one body under the tractions of load steps: at depths below all cells (maps) or below

@@ -2,7 +2,7 @@
 #ifndef PETSAM_FATIGUE_H
 #define PETSAM_FATIGUE_H
 
-#include <petsam/stress.h>
+#include <petsam/private/stress.h>
 
 typedef struct {
   PetscReal young, poisson; /* constants of the body, Pa, 1 */

@@ -85,4 +85,12 @@ PETSC_INTERN PetscErrorCode SamGridCountZones(SamGrid grid, Vec field, PetscBool
 */
 PETSC_INTERN PetscErrorCode SamGridMeasureZones(SamGrid grid, Vec field, PetscReal part, PetscReal *across);
 
+/*
+  SamGridCreateFromOptions - creates a grid from -grid_n, -grid_size, -grid_center. On entry `n`, `width` and `center`
+  are the defaults; -grid_n and -grid_size are required if their default is 0. On return they are those of the grid.
+  `row`: one row of cells, 1 m wide. Collective. Errors: SAM_ERR_USER.
+*/
+PETSC_INTERN PetscErrorCode SamGridCreateFromOptions(const SamOptions *from, PetscBool row, PetscInt n[2],
+                                                     PetscReal width[2], PetscReal center[2], SamGrid *grid);
+
 #endif

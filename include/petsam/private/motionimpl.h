@@ -4,6 +4,7 @@
 
 #include <petsam/private/elasticityimpl.h>
 #include <petsam/state.h>
+#include <petsam/private/control.h>
 
 /*
   SamMotion - the way in which the bodies move over each other in a load step, selected by -rolling. A new motion is a

@@ -3,7 +3,7 @@
 #define PETSAM_SIMULATION_H
 
 #include <petsam/private/advice.h>
-#include <petsam/history.h>
+#include <petsam/private/history.h>
 #include <petsam/private/life.h>
 #include <signal.h>
 

@@ -2,7 +2,7 @@
 #ifndef PETSAM_SOLUTIONIMPL_H
 #define PETSAM_SOLUTIONIMPL_H
 
-#include <petsam/edges.h>
+#include <petsam/private/edges.h>
 #include <petsam/private/balanceimpl.h>
 #include <petsam/private/motionimpl.h>
 #include <petsam/private/problemimpl.h>

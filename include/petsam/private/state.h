@@ -76,4 +76,72 @@ PETSC_INTERN PetscInt              SamStateFindResult(SamState state, const char
 PETSC_INTERN PetscErrorCode SamStateFindValues(SamState state, PetscInt result, Vec work, Vec *holder,
                                                PetscInt *component);
 
+/*
+  SamStateDeclareOptional - declares numbers that another state or a checkpoint may lack; they then have the value
+  `usual`, with which they also start.
+  SamStateIsOptional - returns true if the k-th declaration is optional. SamStateIsUsual - returns true if, in addition,
+  all their stored values are the usual one. Not collective.
+*/
+PETSC_INTERN PetscErrorCode SamStateDeclareOptional(SamState state, const SamStateNumber *number, double usual,
+                                                    PetscInt *id);
+PETSC_INTERN PetscBool      SamStateIsOptional(SamState state, PetscInt k);
+PETSC_INTERN PetscBool      SamStateIsUsual(SamState state, PetscInt k);
+
+/*
+  SamStateOfferNumber - makes a declared number a column of /history, unless it is one already; `before` is its value in
+  steps of an earlier run whose results lack it. Not collective.
+*/
+PETSC_INTERN PetscErrorCode SamStateOfferNumber(SamState state, const char name[], double before);
+
+/*
+  SamStateOffer - declares a computed field of the results. Not collective.
+  SamStateSetLayers - sets the layers of all fields of kind SAM_FIELD_LAYERS: the increasing z of their middles, m below
+  the surface of body 2, negative in body 1. SamStateGetLayers - returns their number, and gets z, borrowed. Neither is
+  collective.
+*/
+PETSC_INTERN PetscErrorCode SamStateSetLayers(SamState state, PetscInt count, const PetscReal z[]);
+PETSC_INTERN PetscInt       SamStateGetLayers(SamState state, const PetscReal **z);
+PETSC_INTERN PetscErrorCode SamStateOffer(SamState state, const SamStateResult *result);
+
+/*
+  SamStateReadNumbers - returns the numbers (units of the declarations) in the tried generation, without a try in the
+  committed one.
+
+  Not collective.
+
+  In:     state - the state
+          id    - place of the first number
+
+  Errors: none; it returns no error code.
+*/
+PETSC_EXTERN double *SamStateReadNumbers(SamState state, PetscInt id);
+
+/*
+  SamStateJoinNumbers - joins the numbers of the tried generation, by the rules of their declarations, to `parts`, the
+  joined numbers of the earlier parts of the step: SAM_STATE_NUMBERS values, at first 0. `to_step`: true writes the
+  result into the tried generation, false into `parts`. Not collective.
+*/
+PETSC_INTERN void SamStateJoinNumbers(SamState state, double parts[], PetscBool to_step);
+
+/*
+  The following functions return the declarations, in their order. None is collective. SamStateFieldOf - returns the
+  declaration of a field, SamStateNumberOf - that of the k-th numbers and, in `id`, their place.
+*/
+PETSC_INTERN PetscInt              SamStateCountFields(SamState state);
+PETSC_INTERN const SamStateField  *SamStateFieldOf(SamState state, PetscInt id);
+PETSC_INTERN PetscInt              SamStateCountNumbers(SamState state);
+PETSC_INTERN const SamStateNumber *SamStateNumberOf(SamState state, PetscInt k, PetscInt *id);
+
+/*
+  SamStateUnitOf - returns the unit that a number has on the grid of the state; "": there is none of that name.
+
+  Not collective.
+
+  In:     state - the state
+          name  - name of the number
+
+  Errors: none; it returns no error code.
+*/
+PETSC_EXTERN const char *SamStateUnitOf(SamState state, const char name[]);
+
 #endif

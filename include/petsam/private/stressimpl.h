@@ -5,7 +5,7 @@
 #include <petsam/control.h>
 #include <petsam/private/baseimpl.h>
 #include <petsam/private/fourier.h>
-#include <petsam/stress.h>
+#include <petsam/private/stress.h>
 
 /*
   SamStressGroup - kernels that are evaluated together. Some of the 18 kernels are equal: that of q_y on xz and that of

@@ -1,5 +1,6 @@
 /* Constants of a body over the depth, from a text file: rows from the surface down, with a jump at a depth of two. */
 #include <petsam/private/bodyimpl.h>
+#include <petsam/private/base.h>
 
 static PetscErrorCode CheckRows(const SamOptions *from, const SamDepthTable *d)
 {

@@ -2,6 +2,7 @@
 #include <petsam/private/elasticity.h>
 #include <petsam/private/elasticityimpl.h>
 #include <petsam/private/fourier.h>
+#include <petsam/private/body.h>
 #include <math.h>
 #include <string.h>
 

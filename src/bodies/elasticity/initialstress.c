@@ -4,6 +4,8 @@
   last row. It depends on the depth alone, so it is in equilibrium, and leaves the surface where it is.
 */
 #include <petsam/private/bodyimpl.h>
+#include <petsam/private/base.h>
+#include <petsam/private/body.h>
 #include <math.h>
 
 enum { DEPTH, XX, YY };

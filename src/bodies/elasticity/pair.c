@@ -1,6 +1,9 @@
 /* Pairs of bodies: the sums of their constants, and the film between them. */
 #include <petsam/private/bodyimpl.h>
 #include <petsam/private/layered.h>
+#include <petsam/private/base.h>
+#include <petsam/private/body.h>
+#include <petsam/private/parameters.h>
 #include <math.h>
 
 #define BOTH_RIGID "%sbody1_young and %sbody2_young: both bodies are rigid, at least one must be elastic"

@@ -7,7 +7,7 @@
   the tractions. Of a half-space's 18 kernels 15 differ, and each is a quadrant of real numbers: 120 bytes a cell,
   beside 48 for the stresses and 48 for the spectra of a pass.
 */
-#include <petsam/edges.h>
+#include <petsam/private/edges.h>
 #include <petsam/private/fourier.h>
 #include <petsam/private/grid.h>
 #include <petsam/private/stressimpl.h>

@@ -4,6 +4,7 @@
 */
 #include <petsam/private/elasticity.h>
 #include <petsam/private/motionimpl.h>
+#include <petsam/private/base.h>
 
 /* The volume that is removed of a body, by its number in /history or in /wear. */
 #define VOLUME(name, body) \

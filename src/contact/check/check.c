@@ -10,6 +10,8 @@
 #include <petsam/private/elasticity.h>
 #include <petsam/private/solutionimpl.h>
 #include <petsam/tangential.h>
+#include <petsam/private/balance.h>
+#include <petsam/private/problem.h>
 
 /* Adds the tangential displacement by the pressure, and the normal displacement by the shear. */
 static PetscErrorCode AddCoupling(SamElasticity elasticity, SamGrid grid, const SamSolution *s)

@@ -1,6 +1,6 @@
 /* The verdict: turns the errors that the check of a step found into its status and message. */
 #include <petsam/private/baseimpl.h>
-#include <petsam/check.h>
+#include <petsam/private/check.h>
 
 PetscErrorCode SamStepFail(SamStep *step, SamStatus status, const char message[])
 {

@@ -1,6 +1,10 @@
 /* The class SamLaw: its registry, and what all laws share. */
 #include <petsam/private/elasticity.h>
 #include <petsam/private/lawimpl.h>
+#include <petsam/private/base.h>
+#include <petsam/private/control.h>
+#include <petsam/private/law.h>
+#include <petsam/private/parameters.h>
 
 /* ---- the registry ---- */
 

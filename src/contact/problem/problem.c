@@ -2,6 +2,8 @@
 #include <petsam/private/elasticity.h>
 #include <petsam/private/motionimpl.h>
 #include <petsam/private/problemimpl.h>
+#include <petsam/private/law.h>
+#include <petsam/private/problem.h>
 #include <petsc/private/petscimpl.h> /* PetscObjectStateGet() */
 
 struct _n_SamProblem {

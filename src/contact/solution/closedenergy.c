@@ -19,6 +19,9 @@
 #include <petsam/private/motionimpl.h>
 #include <petsam/private/solutionimpl.h>
 #include <petsam/private/state.h>
+#include <petsam/private/body.h>
+#include <petsam/private/law.h>
+#include <petsam/private/problem.h>
 #include <math.h>
 
 #define ALIKE 1e-6 /* coupling of bodies, or change of a load over the largest, that counts as none */

@@ -1,5 +1,6 @@
 /* The edges of contact and stick of a solution, and tractions at the centres of cells. */
 #include <petsam/private/solutionimpl.h>
+#include <petsam/private/problem.h>
 
 /*
   Fills in an edge function of this rank's cells, linear in the distance from the edge: p^2 for the contact,

@@ -3,6 +3,7 @@
   and its work. Dissipation is defined here and in numbers.c only.
 */
 #include <petsam/private/solutionimpl.h>
+#include <petsam/private/problem.h>
 
 /* Arrays that the values of a step are written or added to; NULL: not wanted */
 typedef struct {

@@ -5,6 +5,8 @@
   the last bit in the check, in the next step and in the results.
 */
 #include <petsam/private/solutionimpl.h>
+#include <petsam/private/balance.h>
+#include <petsam/private/problem.h>
 
 PetscErrorCode SamValuesGet(const SamSolution *s, SamValues *v)
 {

@@ -32,6 +32,8 @@
 #include <petsam/private/layered.h>
 #include <petsam/private/rows.h>
 #include <petsam/private/solutionimpl.h>
+#include <petsam/private/elasticity.h>
+#include <petsam/private/problem.h>
 
 #define PLACE 0.825
 #define HALF  1.7274

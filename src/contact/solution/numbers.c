@@ -2,6 +2,7 @@
 #include <petsam/private/rows.h>
 #include <petsam/private/solutionimpl.h>
 #include <petsam/private/state.h>
+#include <petsam/private/problem.h>
 
 /*
   Cells in contact and in stick, largest tractions and slip there, the elastic energy of both bodies, half the work of

@@ -19,6 +19,8 @@
 #include <petsam/private/bodyimpl.h>
 #include <petsam/private/rows.h>
 #include <petsam/private/solutionimpl.h>
+#include <petsam/private/elasticity.h>
+#include <petsam/private/problem.h>
 
 #define BEHIND   2     /* cells about a point of the reconstructed edge that must be in contact */
 #define FARTHEST 0.825 /* cells: an edge beyond is that of the next cell */

@@ -1,6 +1,7 @@
 /* Numbers of rough contact: its spots, zones that are connected by the sides of their cells, and the mean gap. */
 #include <petsam/private/solutionimpl.h>
 #include <petsam/private/state.h>
+#include <petsam/private/problem.h>
 
 static const SamStateNumber declared[] = {{"contact_spots", "1", "contact spots, connected by the sides of cells",
                                            SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_TRUE, SAM_JOIN_LAST, 0},

@@ -15,6 +15,8 @@
 */
 #include "stepimpl.h"
 #include <petsam/private/elasticity.h>
+#include <petsam/private/check.h>
+#include <petsam/private/problem.h>
 
 #define PASSES 50
 /* Parts of the tolerance to which the bound, and the tangential problem of a pass, are solved: the check adds both. */

@@ -22,6 +22,9 @@
   and the passes continue. If they end there, the whole contact slides, and the limit is that of the last pressure.
 */
 #include "stepimpl.h"
+#include <petsam/private/check.h>
+#include <petsam/private/solver.h>
+#include <petsam/private/tangential.h>
 #include <math.h>
 
 /* The error that the first pass is solved to, and with a guess of p and q. */

@@ -71,6 +71,8 @@
 #include <petsam/private/bodyimpl.h>
 #include <petsam/private/elasticity.h>
 #include <petsam/private/state.h>
+#include <petsam/private/balance.h>
+#include <petsam/private/body.h>
 
 /* Largest absolute Dundurs' constant of surfaces whose relative motion is determined by the shear alone */
 #define MOST_DUNDURS 0.15

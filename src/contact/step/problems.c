@@ -1,6 +1,11 @@
 /* The two problems of a step: each solved once, and the messages where it has no solution. */
 #include "stepimpl.h"
 #include <petsam/private/elasticity.h>
+#include <petsam/private/balance.h>
+#include <petsam/private/check.h>
+#include <petsam/private/problem.h>
+#include <petsam/private/solver.h>
+#include <petsam/private/tangential.h>
 #include <math.h>
 
 /* Adds the counts of a solver's last solve to three numbers of the step. */

@@ -7,6 +7,10 @@
 */
 #include "stepimpl.h"
 #include <petsam/private/state.h>
+#include <petsam/private/balance.h>
+#include <petsam/private/check.h>
+#include <petsam/private/problem.h>
+#include <petsam/private/solver.h>
 
 static PetscErrorCode Begin(const SamStepTask *task, SamStep *step, SamSolve *w)
 {

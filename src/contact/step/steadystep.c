@@ -16,6 +16,10 @@
 #include "stepimpl.h"
 #include <petsam/private/elasticity.h>
 #include <petsam/private/state.h>
+#include <petsam/private/balance.h>
+#include <petsam/private/normal.h>
+#include <petsam/private/problem.h>
+#include <petsam/private/solver.h>
 
 /* The numbers, side by side in the state: energies, then by component load and creepage. */
 enum { ENERGY, LOADS, CREEPS = LOADS + 3, NUMBERS = CREEPS + 3 };

@@ -2,7 +2,7 @@
 #ifndef PETSAM_STEP_H
 #define PETSAM_STEP_H
 
-#include <petsam/contact.h>
+#include <petsam/private/contact.h>
 #include <petsam/private/solutionimpl.h>
 #include <petsam/private/stepcache.h>
 

@@ -33,6 +33,7 @@
 #include <petsam/private/stepcache.h>
 #include <math.h>
 #include <petsam/private/tangentialimpl.h>
+#include <petsam/private/balance.h>
 
 /* Length of the history of prescriptions that is searched for a repetition; half of it when the table is full. */
 #define STEPS 1024

@@ -5,6 +5,7 @@
 */
 #include "program.h"
 #include "report.h"
+#include <petsam/private/edges.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/resource.h>

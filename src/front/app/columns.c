@@ -4,6 +4,7 @@
 */
 #include "report.h"
 #include <petsam/private/state.h>
+#include <petsam/private/control.h>
 
 double SamReportNumber(SamState state, const char name[])
 {

@@ -9,8 +9,9 @@
 #include <petsam/private/evaluation.h>
 #include <petsam/private/output.h>
 #include <petsam/private/file.h>
-#include <petsam/stress.h>
+#include <petsam/private/stress.h>
 #include <petsam/private/baseimpl.h>
+#include <petsam/private/elasticity.h>
 #include <math.h>
 #include <petsctime.h>
 #include <signal.h>

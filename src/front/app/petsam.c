@@ -11,6 +11,7 @@
 #include <petsam/private/checkpoint.h>
 #include <petsam/private/output.h>
 #include <petsam/private/file.h>
+#include <petsam/private/contact.h>
 #include <time.h>
 
 enum { EXIT_STOPPED = 75 };

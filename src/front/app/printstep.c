@@ -1,6 +1,8 @@
 /* Prints a load step: in full, and as a line of a table. */
 #include "report.h"
 #include <petsam/private/motionimpl.h>
+#include <petsam/private/contact.h>
+#include <petsam/private/state.h>
 
 #define ROUNDING 1e-11 /* a part of the size of a number's kind that is rounding, and is printed as 0 */
 #define REST     1e-9  /* the same of loads and displacements: solvers' tolerances leave more where symmetry has 0 */

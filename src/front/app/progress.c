@@ -6,6 +6,7 @@
   terminal too; when that cannot be found out, the line is not shown.
 */
 #include "report.h"
+#include <petsam/private/contact.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>

@@ -3,6 +3,7 @@
 #include <petsam/private/motionimpl.h>
 #include <petsam/private/solutionimpl.h>
 #include <petsam/private/state.h>
+#include <petsam/private/contact.h>
 #include <fftw3-mpi.h>
 #include <hdf5.h>
 #include <string.h>

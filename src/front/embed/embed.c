@@ -8,6 +8,9 @@
 #include <petsam/private/arguments.h>
 #include <petsam/private/grid.h>
 #include <petsam/private/state.h>
+#include <petsam/private/contact.h>
+#include <petsam/private/control.h>
+#include <petsam/private/stiffness.h>
 #include <stdarg.h>
 
 /* The message of petsam_create(), which may have no contact to hold it. */

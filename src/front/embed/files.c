@@ -1,5 +1,8 @@
 /* The state of a contact in the host's files: petsam_save() and petsam_load(). */
 #include "embedimpl.h"
+#include <petsam/private/contact.h>
+#include <petsam/private/control.h>
+#include <petsam/private/parameters.h>
 
 /* Removes the program's option that a message about a file begins with, -checkpoint or -restart. */
 static int LeaveFile(petsam_contact *c, PetscErrorCode error)

@@ -2,6 +2,7 @@
 #include "embedimpl.h"
 #include <petsam/private/stepcache.h>
 #include <petsam/private/grid.h>
+#include <petsam/private/contact.h>
 
 /* A run, and its monitor. */
 typedef struct {

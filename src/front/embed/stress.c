@@ -8,6 +8,7 @@
 #include <petsam/private/arguments.h>
 #include <petsam/private/evaluation.h>
 #include <petsam/private/motionimpl.h>
+#include <petsam/private/contact.h>
 
 enum { AXES = SAM_STRESS_AXES };
 

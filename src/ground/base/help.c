@@ -1,6 +1,7 @@
 /* The help: options list themselves while they are read; what they say is printed, or given to whoever asked for it. */
 #include <petsam/private/baseimpl.h>
 #include <petsam/private/help.h>
+#include <petsam/private/base.h>
 
 #define COLUMN 40 /* of the descriptions */
 

@@ -10,6 +10,7 @@
 */
 #include <petsam/private/baseimpl.h>
 #include <petsam/private/help.h>
+#include <petsam/private/base.h>
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* Lists of parameters by name. */
 #include <petsam/private/baseimpl.h>
-#include <petsam/parameters.h>
+#include <petsam/private/parameters.h>
 #include <string.h>
 
 static PetscErrorCode Add(SamParameters *p, const char name[], PetscBool fixed, SamParameter **added)

@@ -1,5 +1,6 @@
 /* Plugins: shared libraries that register further types of gap, law, elasticity and solver. */
 #include <petsam/private/baseimpl.h>
+#include <petsam/private/base.h>
 #include <dlfcn.h>
 
 #define FUNCTION "SamPluginRegister"

@@ -4,6 +4,7 @@
   Known names are all options that have been queried so far, given or not.
 */
 #include <petsam/private/baseimpl.h>
+#include <petsam/private/base.h>
 #include <ctype.h>
 #include <stdlib.h>
 #include <strings.h>

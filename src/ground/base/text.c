@@ -1,5 +1,6 @@
 /* Parts of messages: the prefix of options, and lists of names. */
 #include <petsam/private/baseimpl.h>
+#include <petsam/private/base.h>
 
 const char *SamOptionsPrefix(const SamOptions *from)
 {

@@ -6,6 +6,7 @@
 */
 #include "fileimpl.h"
 #include <petsam/private/fieldfile.h>
+#include <petsam/private/base.h>
 #include <math.h>
 #include <stdlib.h>
 

@@ -1,6 +1,7 @@
 /* The grid and its slab distribution. */
 #include "gridimpl.h"
 #include <petsam/private/grid.h>
+#include <petsam/private/base.h>
 #include <math.h>
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* Control of a load step, and the names of its components. */
 #include <petsam/private/baseimpl.h>
-#include <petsam/control.h>
+#include <petsam/private/control.h>
 #include <string.h>
 
 const SamComponentName SamComponentNames[SAM_COMPONENTS] = {

@@ -1,5 +1,5 @@
 /* The class SamState: declarations, and values in generations. */
-#include <petsam/control.h>
+#include <petsam/private/control.h>
 #include <petsam/private/baseimpl.h>
 #include <petsam/private/grid.h>
 #include <petsam/private/state.h>

@@ -8,6 +8,10 @@
 */
 #include "newton.h"
 #include <petsam/private/state.h>
+#include <petsam/private/base.h>
+#include <petsam/private/body.h>
+#include <petsam/private/control.h>
+#include <petsam/private/elasticity.h>
 
 typedef struct {
   PetscReal    yield, modulus, voce_stress, voce_rate, swift_strain, swift_exponent;

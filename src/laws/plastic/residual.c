@@ -10,6 +10,7 @@
 #include "waves.h"
 #include <petsam/private/elasticity.h>
 #include <petsam/private/fourier.h>
+#include <petsam/private/body.h>
 
 struct _n_SamResidual {
   SamGrid         grid;

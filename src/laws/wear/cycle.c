@@ -18,6 +18,9 @@
 #include "lifeimpl.h"
 #include <petsam/private/motionimpl.h>
 #include <petsam/private/state.h>
+#include <petsam/private/balance.h>
+#include <petsam/private/contact.h>
+#include <petsam/private/problem.h>
 #include <math.h>
 
 #define MOST_PASSES 20   /* cycles that are run to close the loop */

@@ -13,6 +13,10 @@
 #include "lifeimpl.h"
 #include <petsam/private/motionimpl.h>
 #include <petsam/private/state.h>
+#include <petsam/private/balance.h>
+#include <petsam/private/contact.h>
+#include <petsam/private/normal.h>
+#include <petsam/private/problem.h>
 #include <math.h>
 
 /* The next jump's size over the last one's: limits, and the part of what the error allows. */

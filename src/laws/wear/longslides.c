@@ -12,6 +12,7 @@
 #include "lifeimpl.h"
 #include <petsam/private/grid.h>
 #include <petsam/private/state.h>
+#include <petsam/private/wear.h>
 #include <math.h>
 
 /* The part of the contact's length that a step may slide. */

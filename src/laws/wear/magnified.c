@@ -17,6 +17,8 @@
 */
 #include "lifeimpl.h"
 #include <petsam/private/state.h>
+#include <petsam/private/balance.h>
+#include <petsam/private/contact.h>
 
 PetscErrorCode SamRateCreatePasses(SamLife l, SamRate *rate)
 {

@@ -2,6 +2,7 @@
 #include "lifeimpl.h"
 #include <petsam/private/motionimpl.h>
 #include <petsam/private/state.h>
+#include <petsam/private/contact.h>
 
 enum { CYCLE, JUMP, ERROR, VOLUME, DEPTH = VOLUME + 2, ENERGY = DEPTH + 2, AREA, PRESSURE, COMPUTED, NUMBERS };
 #define NUMBER(name, unit, text, kind, order) \

@@ -8,6 +8,8 @@
 #include <petsam/private/motionimpl.h>
 #include <petsam/private/solverimpl.h>
 #include <petsam/private/state.h>
+#include <petsam/private/balance.h>
+#include <petsam/private/wear.h>
 
 #define WEARS  "wears"       /* 1 if the step added to the wear load, 0 in cycles */
 #define STRIDE "wear_stride" /* slide of the step over the length of the contact along it */

@@ -8,6 +8,11 @@
 #include <petsam/private/grid.h>
 #include <petsam/private/lawimpl.h>
 #include <petsam/private/motionimpl.h>
+#include <petsam/private/body.h>
+#include <petsam/private/contact.h>
+#include <petsam/private/gap.h>
+#include <petsam/private/law.h>
+#include <petsam/private/problem.h>
 #include <math.h>
 #include <stdarg.h>
 

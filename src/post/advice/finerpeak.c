@@ -23,6 +23,9 @@
 #include <petsam/private/advice.h>
 #include <petsam/normal.h>
 #include <petsam/private/baseimpl.h>
+#include <petsam/private/body.h>
+#include <petsam/private/gap.h>
+#include <petsam/private/problem.h>
 #include <math.h>
 
 #define RING    3                 /* cells about the part that is solved again */

@@ -39,6 +39,12 @@
 #include <petsam/private/lawimpl.h>
 #include <petsam/private/motionimpl.h>
 #include <petsam/private/solutionimpl.h>
+#include <petsam/private/body.h>
+#include <petsam/private/contact.h>
+#include <petsam/private/gap.h>
+#include <petsam/private/law.h>
+#include <petsam/private/problem.h>
+#include <petsam/private/state.h>
 #include <math.h>
 
 #define WRONG    0.3  /* the error of a branch over 1/(w^2 sqrt(m)) */

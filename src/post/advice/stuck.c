@@ -20,6 +20,7 @@
 #include <petsam/private/rows.h>
 #include <petsam/private/solutionimpl.h>
 #include <petsam/private/state.h>
+#include <petsam/private/body.h>
 #include <math.h>
 
 #define WORK    0.175 /* energy of the zone over b^2 h^2 s^3/E* per length of the edge, b = mean mu p, */

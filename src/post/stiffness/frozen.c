@@ -18,6 +18,8 @@
 */
 #include "stiffnessimpl.h"
 #include <petsam/private/elasticity.h>
+#include <petsam/private/contact.h>
+#include <petsam/private/problem.h>
 #include <math.h>
 
 /*

@@ -10,6 +10,9 @@
 #include "stiffnessimpl.h"
 #include <petsam/private/motionimpl.h>
 #include <petsam/private/state.h>
+#include <petsam/private/balance.h>
+#include <petsam/private/contact.h>
+#include <petsam/private/stiffness.h>
 #include <math.h>
 
 enum { HALF = 3 }; /* normal or tangential motions */

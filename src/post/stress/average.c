@@ -11,6 +11,7 @@
   over its chord, of cells and parts of them; beyond the grid nothing counts.
 */
 #include "evaluationimpl.h"
+#include <petsam/private/body.h>
 #include <petscdt.h>
 
 #define DEPTHS   16

@@ -3,6 +3,7 @@
   pass along x under one step, in whose time x stands: a row's stresses, and none far away, are the cycle of its points.
 */
 #include "evaluationimpl.h"
+#include <petsam/private/body.h>
 
 #define BLOCK 256 /* points between two looks at the clock */
 #define MOST  4   /* components of a quantity: the value, and the normal of its plane */

@@ -6,6 +6,8 @@
   step with the largest area.
 */
 #include "evaluationimpl.h"
+#include <petsam/private/body.h>
+#include <petsam/private/elasticity.h>
 #include <stdlib.h>
 
 #define TEXT        4096 /* characters of a list */

@@ -1,6 +1,6 @@
 /* The largest stresses at the contact's edge, on the surface, of each step of the maps. */
 #include "evaluationimpl.h"
-#include <petsam/edges.h>
+#include <petsam/private/edges.h>
 
 /* The least share of the edge that must be reconstructed: the maximum may lie on the rest. */
 #define FOUND 0.95

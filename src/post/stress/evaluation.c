@@ -1,6 +1,7 @@
 /* The stresses under the tractions of load steps: settings, steps, and the order of the work. */
 #include "evaluationimpl.h"
 #include <petsam/private/elasticity.h>
+#include <petsam/private/body.h>
 
 /* ---- life ---- */
 

@@ -1,5 +1,6 @@
 /* The largest values of each step and of the cycle, with their places, on all ranks. */
 #include "evaluationimpl.h"
+#include <petsam/private/body.h>
 
 /* ---- keeping ---- */
 

@@ -1,6 +1,8 @@
 /* The options of an evaluation, and what a file of its results records of them. */
 #include "evaluationimpl.h"
 #include <petsam/private/elasticity.h>
+#include <petsam/private/base.h>
+#include <petsam/private/body.h>
 
 #define TEXT  4096 /* characters of a list */
 #define NAMES 256  /* characters of a list of names */

@@ -3,6 +3,7 @@
   new one is a row and a function.
 */
 #include "evaluationimpl.h"
+#include <petsam/private/body.h>
 
 /* ---- of a step ---- */
 

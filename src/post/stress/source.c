@@ -1,5 +1,6 @@
 /* The source of an evaluation: the tractions of a step, and the stress that is uniform at a depth. */
 #include "evaluationimpl.h"
+#include <petsam/private/body.h>
 
 PetscErrorCode SamEvaluationReadTractions(SamEvaluation e, PetscInt step, PetscBool own,
                                           double *const to[SAM_STRESS_TRACTIONS])

@@ -9,6 +9,9 @@
 #include <petsam/private/checkpoint.h>
 #include <petsam/private/grid.h>
 #include <petsam/private/lawimpl.h>
+#include <petsam/private/contact.h>
+#include <petsam/private/law.h>
+#include <petsam/private/problem.h>
 #include <string.h>
 #include <unistd.h>
 

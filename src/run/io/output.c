@@ -5,6 +5,9 @@
 */
 #include "ioimpl.h"
 #include <petsam/private/motionimpl.h>
+#include <petsam/private/base.h>
+#include <petsam/private/law.h>
+#include <petsam/private/problem.h>
 #include <string.h>
 #include <time.h>
 #include <unistd.h>

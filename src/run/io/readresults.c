@@ -7,7 +7,7 @@
 */
 #include "ioimpl.h"
 #include <petsam/private/results.h>
-#include <petsam/stress.h>
+#include <petsam/private/stress.h>
 #include <string.h>
 
 static const char *const numbers[SAM_RESULTS_NUMBERS] = {"cycle",   "status",   "contact_area", "slide_x",

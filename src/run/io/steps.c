@@ -8,6 +8,7 @@
   Disk space is reserved before any of it is written.
 */
 #include "ioimpl.h"
+#include <petsam/private/contact.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <string.h>

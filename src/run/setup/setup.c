@@ -2,6 +2,12 @@
 #include <petsam/private/elasticity.h>
 #include <petsam/private/motionimpl.h>
 #include <petsam/private/setup.h>
+#include <petsam/private/body.h>
+#include <petsam/private/contact.h>
+#include <petsam/private/gap.h>
+#include <petsam/private/law.h>
+#include <petsam/private/parameters.h>
+#include <petsam/private/problem.h>
 #include <math.h>
 #include <string.h>
 

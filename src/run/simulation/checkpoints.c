@@ -1,6 +1,7 @@
 /* When a simulation writes checkpoints, when it stops before its end, and how it continues from a checkpoint. */
 #include "simulationimpl.h"
 #include <petsam/private/file.h>
+#include <petsam/private/problem.h>
 #include <stdlib.h>
 
 #define MARGIN 1.1 /* the next step is assumed to take this times the slowest of the last steps */

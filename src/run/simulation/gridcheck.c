@@ -6,6 +6,7 @@
   and where cells are counted: elsewhere they converge faster, and the error is estimated too large.
 */
 #include "simulationimpl.h"
+#include <petsam/private/state.h>
 #include <math.h>
 
 #define LEAST 4 /* fewest cells in a row of which half still make a grid */

@@ -1,9 +1,11 @@
 /* The load program: made of options and a file, asked for its steps. */
-#include <petsam/history.h>
+#include <petsam/private/history.h>
 #include <petsam/elasticity.h>
 #include <petsam/private/table.h>
 #include <petsam/private/arguments.h>
 #include <petsam/private/help.h>
+#include <petsam/private/base.h>
+#include <petsam/private/control.h>
 #include <float.h>
 #include <math.h>
 

@@ -1,7 +1,10 @@
 /* The life of a joint: a cycle at a time is computed and written, then some are jumped over. */
 #include "simulationimpl.h"
 #include <petsam/private/state.h>
-#include <petsam/wear.h>
+#include <petsam/private/wear.h>
+#include <petsam/private/body.h>
+#include <petsam/private/contact.h>
+#include <petsam/private/stiffness.h>
 
 /* An error of a fixed jump that is told. */
 #define LARGE 0.1

@@ -3,6 +3,8 @@
 #include <petsam/private/arguments.h>
 #include <petsam/private/lawimpl.h>
 #include <petsam/private/solutionimpl.h>
+#include <petsam/private/base.h>
+#include <petsam/private/problem.h>
 #include <string.h>
 #include <strings.h>
 

@@ -1,5 +1,6 @@
 /* The parameters that define a run, named as its options. */
 #include "simulationimpl.h"
+#include <petsam/private/parameters.h>
 
 /*
   Adds the values that the last step prescribes. The steps of a history are in /history of the results, and checkpoints

@@ -17,7 +17,7 @@
   its pieces: N and all but the tangential loads grow in the first half of them, the tangential loads in the second.
 */
 #include "simulationimpl.h"
-#include <petsam/balance.h>
+#include <petsam/private/balance.h>
 #include <petsam/private/state.h>
 
 /* Largest estimate relative to the tolerance; estimates are up to three times too small. */

@@ -2,8 +2,9 @@
 #include "plan.h"
 #include <petsam/private/baseimpl.h>
 #include <petsam/private/motionimpl.h>
-#include <petsam/history.h>
+#include <petsam/private/history.h>
 #include <petsam/private/table.h>
+#include <petsam/private/problem.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -4,7 +4,7 @@
 
 #include <petsam/private/life.h>
 #include <petsam/private/setup.h>
-#include <petsam/history.h>
+#include <petsam/private/history.h>
 
 #define SAM_PLAN_OUTPUTS 256 /* maximum number of cycles whose fields are saved */
 

@@ -1,5 +1,8 @@
 /* A simulation: makes the objects, solves the load steps, writes results and checkpoints. */
 #include "simulationimpl.h"
+#include <petsam/private/contact.h>
+#include <petsam/private/problem.h>
+#include <petsam/private/stiffness.h>
 
 /* ---- creation ---- */
 

@@ -1,6 +1,7 @@
 /* A step, of a history or given by another program: tried, then committed or not. */
 #include "simulationimpl.h"
 #include <petsam/private/state.h>
+#include <petsam/private/contact.h>
 
 PetscErrorCode SamSimulationAdviseEdge(SamSimulation s, const SamControl *control, SamStep *step)
 {

@@ -1,5 +1,6 @@
 /* The frame: small dense algebra of at most three components. */
 #include "projectionimpl.h"
+#include <petsam/private/balance.h>
 #include <math.h>
 
 const PetscInt SamComponentsOf[2][3] = {{SAM_COMPONENT_N, SAM_COMPONENT_MX, SAM_COMPONENT_MY},

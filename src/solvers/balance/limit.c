@@ -8,6 +8,8 @@
 */
 #include "projectionimpl.h"
 #include <petsam/private/grid.h>
+#include <petsam/private/balance.h>
+#include <petsam/private/control.h>
 #include <math.h>
 
 /* An error of equilibrium, relative to the sum of the bound, that is ignored. */

@@ -4,7 +4,7 @@
 
 #include <petsam/private/baseimpl.h>
 #include <petsam/private/rows.h>
-#include <petsam/edges.h>
+#include <petsam/private/edges.h>
 
 /*
   SamZone - rows of a field about this rank's, and the zone of cells where it is positive. Distances are between

@@ -43,6 +43,8 @@
   loss).
 */
 #include "activesetimpl.h"
+#include <petsam/private/body.h>
+#include <petsam/private/elasticity.h>
 #include <math.h>
 #include <string.h>
 

@@ -4,6 +4,8 @@
 */
 #include <petsam/private/elasticity.h>
 #include <petsam/private/normalimpl.h>
+#include <petsam/private/balance.h>
+#include <petsam/private/normal.h>
 
 /* ---- starts ---- */
 

@@ -4,6 +4,8 @@
 */
 #include <petsam/private/elasticity.h>
 #include <petsam/private/tangentialimpl.h>
+#include <petsam/private/balance.h>
+#include <petsam/private/tangential.h>
 #include <math.h>
 
 /* Loads that reach the limit of sliding up to this are taken to be at it. */

@@ -16,6 +16,10 @@
 */
 #include <petsam/private/compliance.h>
 #include <petsam/private/elasticity.h>
+#include <petsam/private/base.h>
+#include <petsam/private/body.h>
+#include <petsam/private/control.h>
+#include <petsam/private/parameters.h>
 #include <math.h>
 #include <petscdt.h>
 #include <string.h>

@@ -13,6 +13,7 @@
 #include <petsam/private/elasticity.h>
 #include <petsam/private/fourier.h>
 #include <petsam/private/halfspace.h>
+#include <petsam/private/body.h>
 #include <math.h>
 
 /* Kernels: row and column of the 3 x 3 operator, whose lower triangle follows by symmetry. */

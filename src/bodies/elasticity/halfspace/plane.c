@@ -1,6 +1,7 @@
 /* Two half-spaces in plane strain: the type, and the distance that displacements are relative to (halfspace.c). */
 #include "../waves.h"
 #include <petsam/private/layered.h>
+#include <petsam/private/body.h>
 #include <math.h>
 
 #define DATUM "plane_datum"

@@ -12,7 +12,7 @@
   In plane strain they are of degree -1, and there are two directions: the integrals along them are the same.
 */
 #include <petsam/private/rows.h>
-#include <petsam/edges.h>
+#include <petsam/private/edges.h>
 #include <petsam/private/halfspace.h>
 #include <petscdt.h>
 #include <math.h>

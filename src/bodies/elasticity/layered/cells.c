@@ -10,6 +10,7 @@
   For an image, whose integral is known, this is 1e-13 of each value.
 */
 #include <petsam/private/layered.h>
+#include <petsam/private/body.h>
 #include <petscdt.h>
 
 #define CHUNK   512 /* lags that are worked off together */

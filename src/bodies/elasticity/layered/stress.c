@@ -29,6 +29,7 @@
 */
 #include <petsam/private/layered.h>
 #include <petsam/private/stressimpl.h>
+#include <petsam/private/body.h>
 
 #define ALTERNATING 30   /* terms of a series */
 #define LONG_WAVE   1e-5 /* on a rigid base, k times the depth of all layers below which rounding counts */

@@ -18,6 +18,7 @@
   S)/(1 - nu), S_yy = nu (S_xx + S), S_xy = -mu V sin kx.
 */
 #include <petsam/private/layered.h>
+#include <petsam/private/body.h>
 
 typedef struct {
   double m[2][2];

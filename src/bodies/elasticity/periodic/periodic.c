@@ -36,6 +36,7 @@ typedef struct {
 #define Name(x) x##Single
 #include "symbols.h"
 #include <petsam/private/fourier.h>
+#include <petsam/private/body.h>
 
 /* 1 if the wave number of index k is its own mirror image (the Nyquist wave), else 0. */
 static inline double IsOwnMirror(PetscInt k, PetscInt n)

@@ -1,6 +1,8 @@
 /* The class SamGap: types, their parameters, roughness. Each shape is in a file of its own. */
 #include <petsam/private/elasticity.h>
 #include <petsam/private/gapimpl.h>
+#include <petsam/private/base.h>
+#include <petsam/private/gap.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

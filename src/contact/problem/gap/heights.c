@@ -13,6 +13,7 @@
 */
 #include <petsam/private/gapimpl.h>
 #include <petsam/private/rows.h>
+#include <petsam/private/gap.h>
 #include <math.h>
 
 /* Half-space theory is taken to hold up to this rms slope. */

@@ -1,6 +1,6 @@
 /* Contact edges and stick-slip boundaries, to a fraction of a cell. */
-#ifndef PETSAM_EDGES_H
-#define PETSAM_EDGES_H
+#ifndef PETSAM_PRIVATE_EDGES_H
+#define PETSAM_PRIVATE_EDGES_H
 
 #include <petsam/elasticity.h>
 

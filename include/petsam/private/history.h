@@ -1,6 +1,6 @@
 /* The load history: the loads or displacements of each step. */
-#ifndef PETSAM_HISTORY_H
-#define PETSAM_HISTORY_H
+#ifndef PETSAM_PRIVATE_HISTORY_H
+#define PETSAM_PRIVATE_HISTORY_H
 
 #include <petsam/control.h>
 

@@ -1,8 +1,8 @@
 /* Stresses in the bodies under the tractions of a contact. */
-#ifndef PETSAM_STRESS_H
-#define PETSAM_STRESS_H
+#ifndef PETSAM_PRIVATE_STRESS_H
+#define PETSAM_PRIVATE_STRESS_H
 
-#include <petsam/fourier.h>
+#include <petsam/private/fourier.h>
 
 /*
   SamStressComponent, SamStressTraction - the components of the stress, tension positive, and the tractions that cause

@@ -1,0 +1,82 @@
+/* Functions of body, besides petsam/body.h, for other parts of the library. */
+#ifndef PETSAM_PRIVATE_BODY_H
+#define PETSAM_PRIVATE_BODY_H
+
+#include <petsam/body.h>
+
+/* SamBodyReference - adds a reference. Not collective. */
+PETSC_INTERN PetscErrorCode SamBodyReference(SamBody body);
+
+/*
+  SamBodyCount - returns the number of materials.
+  SamBodyAt - returns the index of the material at a depth (m), 0 at the surface. An interface belongs to the material
+  above it.
+  SamBodyMaterialAt - returns the material at a depth; borrowed.
+  SamBodyTop - returns the depth (m) at which the n-th material begins; infinite for n = SamBodyCount().
+  SamBodySubstrate - returns the last material; borrowed.
+  SamBodyIsRigid - returns true if the whole body is rigid.
+  None is collective.
+*/
+PETSC_INTERN PetscInt           SamBodyCount(SamBody body);
+PETSC_INTERN PetscInt           SamBodyAt(SamBody body, PetscReal depth);
+PETSC_INTERN const SamMaterial *SamBodyMaterialAt(SamBody body, PetscReal depth);
+PETSC_INTERN PetscReal          SamBodyTop(SamBody body, PetscInt n);
+PETSC_INTERN const SamMaterial *SamBodySubstrate(SamBody body);
+PETSC_INTERN PetscBool          SamBodyIsRigid(SamBody body);
+
+/*
+  SamBodyInitialStress - gets the stress xx and yy (Pa) that a body has before any load at a depth (m); where it jumps,
+  that above. It is zero unless -body1_initial_stress, -body2_initial_stress gives it.
+  SamBodyMeanInitialStress - gets its mean from a depth `top` over a thickness (m).
+  SamBodyHasInitialStress - returns true if the body has such a stress.
+  None is collective.
+*/
+PETSC_INTERN void      SamBodyInitialStress(SamBody body, double depth, double stress[2]);
+PETSC_INTERN void      SamBodyMeanInitialStress(SamBody body, double top, double thickness, double stress[2]);
+PETSC_INTERN PetscBool SamBodyHasInitialStress(SamBody body);
+
+/*
+  SamBodyAdvise - writes a warning if the layers of body `number` (1 or 2) have no effect or are thinner than a cell (k
+  = 0; `cell`: its size, m), or are thicker than 100 times the width of the contact (k = 1; `width`, m); else an empty
+  text. `option`: the option that mends it, without dash; empty: none. Not collective.
+  SamBodyAdviseWorn - writes a warning if a body, worn to this depth (m), has lost its first layer; else an empty text.
+*/
+PETSC_INTERN PetscErrorCode SamBodyAdvise(SamBody body, PetscInt number, PetscInt k, PetscReal cell, PetscReal width,
+                                          const char **option, char text[], size_t size);
+PETSC_INTERN PetscErrorCode SamBodyAdviseWorn(SamBody body, PetscInt number, PetscReal depth, char text[], size_t size);
+
+/* SamPairReference - adds a reference. Not collective. */
+PETSC_INTERN PetscErrorCode SamPairReference(SamPair pair);
+
+/*
+  SamPairBody - returns body 1 (index 0) or 2 (index 1); borrowed.
+  SamPairModulus - returns E* (Pa) of the materials at the surfaces.
+  SamPairIsUniform - returns true if each of the bodies has a single material.
+  SamPairCoupling - returns the largest ratio of the normal displacement by shear to that by pressure, over waves with
+  wave numbers from `first` to `last` (1/m). For uniform bodies it is Dundurs' beta.
+  None is collective.
+*/
+PETSC_INTERN SamBody   SamPairBody(SamPair pair, PetscInt body);
+PETSC_INTERN PetscReal SamPairModulus(SamPair pair);
+PETSC_INTERN PetscBool SamPairIsUniform(SamPair pair);
+PETSC_INTERN double    SamPairCoupling(SamPair pair, double first, double last);
+
+/*
+  SamPairCreateFromOptions - creates a pair from -body1_young, -body1_poisson, -body1_layer_young, -body1_layer_poisson,
+  -body1_layer_thickness, -body1_layer_file, -body1_initial_stress, the same options of body 2, and -film_thickness and
+  -film_shear of the film. Collective. Errors: SAM_ERR_USER, where SamBodyCreate() and SamPairCreate() fail, and for an
+  option that is missing, or lists of different lengths.
+  SamPairCheckInitialStress - fails if a stress before any load goes far deeper than the grid is wide (`width`, m): its
+  depths have another unit. Collective. Errors: SAM_ERR_USER.
+  SamPairAddParameters - appends the constants to the parameters of a run, under the names of these options. Not
+  collective.
+  SamPairCreateFromParameters - creates a pair from the parameters of a run; `source` names their file in messages.
+  Collective. Errors: SAM_ERR_FILE.
+*/
+PETSC_INTERN PetscErrorCode SamPairCreateFromOptions(const SamOptions *from, SamPair *pair);
+PETSC_INTERN PetscErrorCode SamPairCheckInitialStress(SamPair pair, const SamOptions *from, PetscReal width);
+PETSC_INTERN PetscErrorCode SamPairAddParameters(SamPair pair, SamParameters *parameters);
+PETSC_INTERN PetscErrorCode SamPairCreateFromParameters(MPI_Comm comm, const SamParameters *parameters,
+                                                        const char source[], SamPair *pair);
+
+#endif

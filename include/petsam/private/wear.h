@@ -1,0 +1,13 @@
+/* Functions of wear, besides petsam/wear.h, for other parts of the library. */
+#ifndef PETSAM_PRIVATE_WEAR_H
+#define PETSAM_PRIVATE_WEAR_H
+
+#include <petsam/wear.h>
+
+/*
+  SamWearAdviseStride - writes a warning about a step that slides too far; `stride`: its slide divided by the length of
+  the contact. Else an empty text. Not collective.
+*/
+PETSC_INTERN PetscErrorCode SamWearAdviseStride(PetscReal stride, char text[], size_t size);
+
+#endif
