@@ -125,7 +125,7 @@ PetscErrorCode SamContactCheckConditions(SamContact c, const SamControl *control
 /* Refuses a control that makes no sense. Rotations that the elasticity does not have are held at 0. */
 static PetscErrorCode CheckControl(SamContact c, SamControl *control)
 {
-  const SamCondition     *wrong;
+  PetscInt                wrong;
   char                    why[192];
   const SamElasticityType type = SamElasticityGetType(c->elasticity);
 
@@ -145,8 +145,9 @@ static PetscErrorCode CheckControl(SamContact c, SamControl *control)
              (double)control->value[SAM_COMPONENT_N]);
   PetscCall(SamContactCheckConditions(c, control, ""));
   PetscCall(SamProblemCheckControl(c->problem, control, &wrong, why, sizeof(why)));
-  PetscCheck(!why[0], c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "%s = %.6g: %s", wrong->name,
-             (double)SamControlGet(control, wrong), why);
+  PetscCheck(!why[0], c->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "%s = %.6g: %s",
+             SamControlPartName(control, c->conditions, wrong), (double)SamControlPart(control, c->conditions, wrong),
+             why);
   PetscCall(SamMotionCheck(c->elasticity, c->conditions, control, ""));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

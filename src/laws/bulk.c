@@ -79,7 +79,7 @@ static PetscErrorCode CheckComponent(SamLaw law, PetscInt body, PetscInt k, cons
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Check(SamLaw law, SamControl *control, const SamCondition **wrong, char why[], size_t size)
+static PetscErrorCode Check(SamLaw law, SamControl *control, PetscInt *wrong, char why[], size_t size)
 {
   PetscReal stress[COMPONENTS];
 
@@ -87,7 +87,7 @@ static PetscErrorCode Check(SamLaw law, SamControl *control, const SamCondition 
   for (PetscInt body = 0; body < 2 && !why[0]; body++) {
     Get(law, control, body, stress);
     for (PetscInt k = 0; k < COMPONENTS && !why[0]; k++) {
-      *wrong = ((const Bulk *)law->data)->of[body][k];
+      *wrong = SAM_COMPONENTS + ((const Bulk *)law->data)->of[body][k]->place;
       PetscCall(CheckComponent(law, body, k, stress, control, why, size));
     }
   }

@@ -161,6 +161,28 @@ static void Pull(const double by[2], double limit, double slider[2])
   for (int k = 0; k < 2 && stretch > limit; k++) slider[k] = by[k] - (by[k] - slider[k]) * limit / stretch;
 }
 
+/* Computes the largest rotation of surfaces that slide without turning over each other: a cell at the grid's border. */
+static PetscReal MostTurn(SamGrid grid)
+{
+  return 2 * PetscMin(grid->dx, grid->dy) / PetscMax(grid->width[0], grid->width[1]);
+}
+
+static PetscErrorCode Check(SamLaw law, SamControl *control, PetscInt *wrong, char why[], size_t size)
+{
+  const SamGrid grid = law->grid;
+
+  PetscFunctionBegin;
+  if (grid->axes < 2 || SamControlWay(control, SAM_COMPONENT_MZ) != SAM_BY_RIGID ||
+      fabs(control->value[SAM_COMPONENT_MZ]) <= MostTurn(grid))
+    PetscFunctionReturn(PETSC_SUCCESS);
+  *wrong = SAM_COMPONENT_MZ;
+  (void)snprintf(why, size,
+                 "expected at most %.6g with -slide, a cell at the border of the grid: surfaces slide without turning "
+                 "over each other: give 0",
+                 (double)MostTurn(grid));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Begin(SamLaw law, SamState state, const SamControl *control, PetscReal duration)
 {
   static const SamComponent along[2] = {SAM_COMPONENT_TX, SAM_COMPONENT_TY};
@@ -172,21 +194,18 @@ static PetscErrorCode Begin(SamLaw law, SamState state, const SamControl *contro
   const PetscReal cell[2] = {grid->dx, grid->dy};
   PetscReal       roll[2];
   const PetscReal rolled = SamMotionRolled(law->conditions, control, roll);
-  const double    turn   = fabs(Rigid(state, control, SAM_COMPONENT_MZ, rolled)),
-               most      = 2 * (double)(PetscMin(grid->dx, grid->dy) / PetscMax(grid->width[0], grid->width[1]));
-  const PetscBool given  = SamControlWay(control, SAM_COMPONENT_MZ) == SAM_BY_RIGID;
-  const double    by[2]  = {Rigid(state, control, along[0], rolled), Rigid(state, control, along[1], rolled)};
-  double          to[2]  = {before[SAM_FRAME_SLIDER_X], before[SAM_FRAME_SLIDER_Y]};
-  PetscBool       moves  = PETSC_FALSE;
+  const double    turn = fabs(Rigid(state, control, SAM_COMPONENT_MZ, rolled)), most = (double)MostTurn(grid);
+  const double    by[2] = {Rigid(state, control, along[0], rolled), Rigid(state, control, along[1], rolled)};
+  double          to[2] = {before[SAM_FRAME_SLIDER_X], before[SAM_FRAME_SLIDER_Y]};
+  PetscBool       moves = PETSC_FALSE;
 
   PetscFunctionBegin;
   (void)duration;
   PetscCheck(
     grid->axes < 2 || turn <= most, grid->comm, SAM_ERR_USER,
-    "%s of %.6g with -slide%s: expected at most %.6g, a cell at the border of the grid: surfaces slide without "
-    "turning over each other: %s",
-    SamComponentNames[SAM_COMPONENT_MZ].rigid, turn, given ? "" : ", found for load_mz in the step before", most,
-    given ? "give 0" : "give rot_z = 0 instead of load_mz");
+    "%s of %.6g with -slide, found in the step before or by its spin: expected at most %.6g, a cell at the border of "
+    "the grid: surfaces slide without turning over each other: give rot_z = 0",
+    SamComponentNames[SAM_COMPONENT_MZ].rigid, turn, most);
   Pull(by, before[SAM_FRAME_LIMIT], to);
   for (int k = 0; k < grid->axes; k++) moves = moves || fabs(to[k] - before[k]) >= SLIDES * (double)cell[k];
   for (int k = 0; k < 2; k++) now[k] = moves && k < grid->axes ? to[k] : before[k];
@@ -337,6 +356,7 @@ PetscErrorCode SamLawCreate_Slide(SamLaw law)
   law->bytes              = 56;
   law->ops.setfromoptions = SetFromOptions;
   law->ops.addparameters  = AddParameters;
+  law->ops.check          = Check;
   law->ops.declare        = Declare;
   law->ops.begin          = Begin;
   law->ops.separation     = Separation;

@@ -261,8 +261,11 @@ def test_a_surface_of_one_height_changes_the_approach_alone(petsam, tmp_path):
 
 def test_surfaces_do_not_turn(petsam, tmp_path):
     cycle = history(tmp_path / "h.csv", "time,load_n,rot_z", (0, 180.0, 0.0), (1, 180.0, 0.1), (2, 180.0, 0.0))
-    done = petsam({**CASE, **cycle}, check=2)
-    assert any("rot_z of 0.1 with -slide" in line and "slide without turning" in line for line in done.complaint)
+    earlier = tmp_path / "earlier.h5"
+    earlier.write_bytes(b"results of an earlier run")
+    done = petsam({**CASE, **cycle, "output": earlier, "overwrite": True}, check=2)
+    assert any("-rot_z" in line and "0.1" in line and "slide without turning" in line for line in done.complaint)
+    assert earlier.read_bytes() == b"results of an earlier run"
 
 
 def test_a_long_stroke_without_slide_is_warned_of(petsam, slide, tmp_path):

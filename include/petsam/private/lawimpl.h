@@ -168,10 +168,10 @@ struct _n_SamLaw {
     /* adds the law's conditions, and keeps SamConditionsAdd()'s `own`; called once, when a problem gets the law */
     PetscErrorCode (*conditions)(SamLaw law, SamConditions conditions);
     /*
-      Rejects invalid values of its conditions, and sets conditions that depend on others: `wrong` is the first rejected
-      condition, and `why` the fault of its value; empty: none.
+      Rejects invalid prescribed values, and sets conditions that depend on others: `wrong` is the part of the control
+      (private/control.h) that is rejected first, and `why` the fault of its value; empty: none.
     */
-    PetscErrorCode (*check)(SamLaw law, SamControl *control, const SamCondition **wrong, char why[], size_t size);
+    PetscErrorCode (*check)(SamLaw law, SamControl *control, PetscInt *wrong, char why[], size_t size);
     /* declares fields and numbers; again when the law's revision has been raised */
     PetscErrorCode (*declare)(SamLaw law, SamState state);
     /*

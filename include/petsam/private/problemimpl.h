@@ -8,12 +8,13 @@
 /* SamProblemDeclare - lets the laws declare their fields and numbers, unless the state has them already. Collective. */
 PETSC_INTERN PetscErrorCode SamProblemDeclare(SamProblem problem, SamState state);
 /*
-  SamProblemCheckControl - lets the laws reject values of their conditions, and set conditions that depend on others:
-  `wrong` is the first rejected condition, and `why` the fault of its value; empty: none. Not collective.
+  SamProblemCheckControl - lets the laws reject prescribed values, and set conditions that depend on others: `wrong`
+  is the part of the control (control.h) that is rejected first, and `why` the fault of its value; empty: none. Not
+  collective.
   SamProblemBegin - lets the laws set the tried state on which their offsets in a step depend (lawimpl.h). Collective.
 */
-PETSC_INTERN PetscErrorCode SamProblemCheckControl(SamProblem problem, SamControl *control, const SamCondition **wrong,
-                                                   char why[], size_t size);
+PETSC_INTERN PetscErrorCode SamProblemCheckControl(SamProblem problem, SamControl *control, PetscInt *wrong, char why[],
+                                                   size_t size);
 PETSC_INTERN PetscErrorCode SamProblemBegin(SamProblem problem, SamState state, const SamControl *control,
                                             PetscReal duration);
 /*

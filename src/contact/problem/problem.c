@@ -248,8 +248,7 @@ PetscBool SamProblemMoves(SamProblem p)
 
 /* ---- what displaces the surfaces besides the tractions ---- */
 
-PetscErrorCode SamProblemCheckControl(SamProblem p, SamControl *control, const SamCondition **wrong, char why[],
-                                      size_t size)
+PetscErrorCode SamProblemCheckControl(SamProblem p, SamControl *control, PetscInt *wrong, char why[], size_t size)
 {
   PetscFunctionBegin;
   why[0] = '\0';

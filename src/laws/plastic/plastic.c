@@ -508,7 +508,7 @@ static PetscErrorCode Destroy(SamLaw law)
 }
 
 /* Bulk stress is not part of the stress that yields, and what a cell remembers does not move along. */
-static PetscErrorCode Check(SamLaw law, SamControl *control, const SamCondition **wrong, char why[], size_t size)
+static PetscErrorCode Check(SamLaw law, SamControl *control, PetscInt *wrong, char why[], size_t size)
 {
   static const char *const names[] = {"bulk1_stress_xx",
                                       "bulk1_stress_yy",
@@ -526,7 +526,7 @@ static PetscErrorCode Check(SamLaw law, SamControl *control, const SamCondition 
     const SamCondition *one = SamConditionsFind(law->conditions, names[k]);
 
     if (!one || SamControlGet(control, one) == 0) continue;
-    *wrong = one;
+    *wrong = SAM_COMPONENTS + one->place;
     (void)snprintf(why, size, "expected 0 with -%s", law->option);
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -13,9 +13,9 @@
 /* Refuses moments and rotations where the bodies have none, and what laws refuse, by the name that the user gave. */
 static PetscErrorCode CheckComponents(SamSimulation s, const SamOptions *from)
 {
-  const SamCondition *wrong;
-  char                why[192];
-  const PetscInt      count = SamHistoryGetCount(s->history);
+  PetscInt       wrong;
+  char           why[192];
+  const PetscInt count = SamHistoryGetCount(s->history);
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < count; k++) {
@@ -23,7 +23,8 @@ static PetscErrorCode CheckComponents(SamSimulation s, const SamOptions *from)
 
     PetscCall(SamProblemCheckControl(s->setup.problem, &control, &wrong, why, sizeof(why)));
     PetscCheck(!why[0], from->comm, SAM_ERR_USER, "-%s%s, or its column in -history: %.6g: %s", SamOptionsPrefix(from),
-               wrong->name, (double)SamControlGet(&control, wrong), why);
+               SamControlPartName(&control, s->conditions, wrong),
+               (double)SamControlPart(&control, s->conditions, wrong), why);
     for (PetscInt c = SAM_COMPONENT_MX; c < SAM_COMPONENTS; c++) {
       char      place[PETSC_MAX_PATH_LEN + 32];
       PetscBool given;
