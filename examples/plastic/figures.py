@@ -40,7 +40,8 @@ class Comparison:
             "plastic_work_uj": [1e6 * w for w in halves(self.fret, "plastic_work")],
             "friction_uj": [1e6 * w for w in halves(self.fret, "dissipated_energy")],
             "friction_elastic_uj": [1e6 * w for w in halves(self.hard, "dissipated_energy")],
-            "steps_without_yield": int(self.fret.history["steps_without_yield"][-1]),
+            "dents_um": [1e6 * float(z) for z in self.fret.history["residual_z_max"][::STEPS_OF_HALF]],
+            "reversed": 100 * float(np.subtract(*self.fret.history["plastic_max"][[-1, -1 - STEPS_OF_HALF]])),
         }
 
     def stress(self):
@@ -58,7 +59,8 @@ class Comparison:
         yield "plastic work of the half cycles: " + " ".join(f"{w:.2g}" for w in n["plastic_work_uj"]) + " uJ"
         last, hard = n["friction_uj"][7], n["friction_elastic_uj"][7]
         yield f"friction of the last half cycle {last:.3f} uJ, elastic {hard:.3f} uJ"
-        yield f"shaken down: the last {n['steps_without_yield']} steps add no plastic strain"
+        yield "dent before and after each half cycle: " + " ".join(f"{z:.2f}" for z in n["dents_um"]) + " um"
+        yield f"accumulated plastic strain grows by {n['reversed']:.2f} % in the last half cycle"
 
     def draw(self, directory):
         """Pressure and dent of the ball; energies of the half cycles of fretting."""
@@ -88,7 +90,7 @@ class Comparison:
             energy = 1e6 * halves(results, name)
             axes[3].plot(np.arange(1, len(energy) + 1), energy, style, color=color, label=label)
         logarithmic(axes[3], "y")
-        frame(axes[3], "Fretting above yield shakes down", "half cycle", "energy of a half cycle, µJ")
+        frame(axes[3], "Fretting above yield", "half cycle", "energy of a half cycle, µJ")
         axes[3].legend()
         save(figure, directory, "plastic.png")
 

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Bodies that yield below their surface: the dent of a ball, and fretting above yield that shakes down, beside the same
-# contact of elastic bodies.
+# Bodies that yield below their surface: the dent of a ball, and fretting above yield, beside the same contact of
+# elastic bodies.
 #
 #   examples/plastic/run.sh
 #
