@@ -230,6 +230,12 @@ def test_a_file_that_an_options_file_names_is_noticed_when_it_changes(tmp_path):
     assert study_cases.read(str(path))[0].identity() != before
 
 
+def test_names_of_cases_keep_units_with_a_slash(tmp_path):
+    path = table(tmp_path, "load_n,gap_file\n1kN/m,a/g.h5\n2e3N/m,b/f.h5\n")
+    names = [case.name for case in study_cases.read(str(path))]
+    assert names == ["load_n=1kN-m_gap_file=g.h5", "load_n=2e3N-m_gap_file=f.h5"]
+
+
 def test_a_history_outside_of_the_table_has_no_column_that_is_an_option(tmp_path):
     (tmp_path / "h.csv").write_text("time;load_ty\n1;2\n")
     path = table(tmp_path, "load_tx,history\n1,h.csv\n2,h.csv\n")

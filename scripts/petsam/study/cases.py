@@ -116,9 +116,14 @@ def _stamp(path):
 # ---------------------------------------------------------------- cases
 
 
+def _shown(value):
+    """A value in a folder's name: of a file its name only; a number keeps its unit, which may have a slash."""
+    return value if value.lstrip("+-.0123456789eE") in declared.FOLLOWING else os.path.basename(value)
+
+
 def _name(inputs):
     """A folder's name from the inputs that vary; it does not change when cases are added."""
-    text = "_".join("{}={}".format(name, os.path.basename(value or "")) for name, value in inputs.items()) or "case"
+    text = "_".join("{}={}".format(name, _shown(value or "")) for name, value in inputs.items()) or "case"
     text = re.sub(r"[^A-Za-z0-9.,=+_-]", "-", text)
     if len(text) > 100:
         text = text[:90] + "-" + hashlib.sha256(repr(sorted(inputs.items())).encode()).hexdigest()[:8]
