@@ -46,15 +46,18 @@ static PetscBool IsHDF5(const char filename[])
   return is > 0 ? PETSC_TRUE : PETSC_FALSE;
 }
 
-/* Returns why a file cannot be read as HDF5, NULL if it can. A pipe would wait for its writer. */
-static const char *FindFault(const char filename[])
+#define NO_HDF5 "it is not an HDF5 file; "
+
+/* Returns why the file of an option cannot be read as HDF5, NULL if it can. A pipe would wait for its writer. */
+static const char *FindFault(const char option[], const char filename[])
 {
   struct stat status;
 
   if (stat(filename, &status) || access(filename, R_OK)) return strerror(errno);
   if (!S_ISREG(status.st_mode)) return S_ISDIR(status.st_mode) ? strerror(EISDIR) : "it is not a file";
-  if (!IsHDF5(filename)) return "it is not an HDF5 file; make one by petsam-surface, of a body by petsam-compliance";
-  return NULL;
+  if (IsHDF5(filename)) return NULL;
+  if (!strcmp(option, "input")) return NO_HDF5 "give results of petsam -output";
+  return strstr(option, "compliance") ? NO_HDF5 "make one by petsam-compliance" : NO_HDF5 "make one by petsam-surface";
 }
 
 static const char damaged[] = "it is damaged";
@@ -177,7 +180,7 @@ static PetscBool Survives(const char filename[], const char *const objects[])
 
 static PetscErrorCode OpenAndLook(const Case *c, void *answer)
 {
-  const char    *fault = FindFault(c->filename);
+  const char    *fault = FindFault(c->option, c->filename);
   SamFile        file;
   PetscErrorCode ierr, ended;
 
