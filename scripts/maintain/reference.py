@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Writes from the programs' -help the tables of options in examples/manual/OPTIONS.md, INDEX.md, their index, and
-scripts/petsam/declared.py, the units of options.
+scripts/petsam/declared.py, units of options and the options that name files.
 
     python3 scripts/maintain/reference.py [--build build] [--check]
 
@@ -74,7 +74,7 @@ def index(text, groups):
 
 
 def declared(units, groups):
-    """The text of the module with the units: of SI of every option, and those that may follow a number."""
+    """The text of the module: units of SI of every option, those that may follow a number, options that name files."""
     of_options = {
         option.name[1:]: option.unit
         for options in groups.values()
@@ -85,12 +85,20 @@ def declared(units, groups):
     for unit, names in units.items():
         for name, power in names.items():
             following.setdefault(name, (unit, power))  # N is a force, and no moment per metre
-    lines = ['"""Units that petsam declares, written by scripts/maintain/reference.py."""', ""]
+    files = {
+        option.name[1:]
+        for (program, _), options in groups.items()
+        for option in options
+        if program == "petsam" and option.argument == "<file>"
+    }
+    lines = ['"""What petsam declares of its options, written by scripts/maintain/reference.py."""', ""]
     lines += ["# units of SI of options", "OPTIONS = {"]
     lines += [f'    "{name}": "{unit}",' for name, unit in sorted(of_options.items())]
     lines += ["}", "# units that may follow a number: the unit of SI, and a power of ten", "FOLLOWING = {"]
     lines += [f'    "{name}": ("{unit}", {power}),' for name, (unit, power) in following.items()]
-    return "\n".join([*lines, "}", ""])
+    lines += ["}", "# options of petsam that name files, which are read or written", "PATHS = ("]
+    lines += [f'    "{name}",' for name in sorted(files)]
+    return "\n".join([*lines, ")", ""])
 
 
 def main():

@@ -1,4 +1,4 @@
-"""Units that petsam declares, written by scripts/maintain/reference.py."""
+"""What petsam declares of its options, written by scripts/maintain/reference.py."""
 
 # units of SI of options
 OPTIONS = {
@@ -109,3 +109,24 @@ FOLLOWING = {
     "m3/J": ("m3/J", 0),
     "mm3/J": ("m3/J", -9),
 }
+# options of petsam that name files, which are read or written
+PATHS = (
+    "body1_compliance",
+    "body1_initial_stress",
+    "body1_layer_file",
+    "body1_surface_file",
+    "body2_compliance",
+    "body2_initial_stress",
+    "body2_layer_file",
+    "body2_surface_file",
+    "checkpoint",
+    "friction_file",
+    "gap_file",
+    "gap_rough_file",
+    "history",
+    "options_file",
+    "output",
+    "plugin",
+    "restart",
+    "wear_friction",
+)

@@ -1,12 +1,14 @@
 """Gaps and roughness from files."""
 
+import signal
 import struct
 
 import h5py
 import numpy as np
 import pytest
 
-from support import assert_close, assert_same, ball, hertz
+from conftest import PROGRAM, environment
+from support import assert_close, assert_same, ball, finished, hertz, words
 
 D = 2.1e-5
 # rounding of h sends the solvers another way, so that what their tolerances leave differs: with these it is below 1e-9
@@ -183,3 +185,15 @@ def test_file_whose_addresses_form_a_circle_is_damaged(petsam, tmp_path, ranks):
     make_circle(write(tmp_path / "gap.h5", np.zeros((71, 84)), chunks=(16, 16)))
     done = petsam(dict(FILE, gap_file=tmp_path / "gap.h5"), ranks=ranks, check=3)
     assert done.complaint == [f"petsam: -gap_file {tmp_path / 'gap.h5'}: cannot be read: it is damaged"]
+
+
+def test_damage_is_found_where_the_ends_of_processes_are_ignored(tmp_path):
+    """As by a program that starts petsam with SIGCHLD ignored: the system then keeps no exit status."""
+    make_circle(write(tmp_path / "gap.h5", np.zeros((71, 84)), chunks=(16, 16)))
+    command = [PROGRAM, *words(dict(FILE, gap_file=tmp_path / "gap.h5"))]
+
+    def ignore():
+        signal.signal(signal.SIGCHLD, signal.SIG_IGN)
+
+    done = finished(command, check=3, preexec_fn=ignore, env=environment(), cwd=tmp_path)
+    assert f"-gap_file {tmp_path / 'gap.h5'}: cannot be read: it is damaged" in done.stderr

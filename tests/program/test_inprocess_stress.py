@@ -180,3 +180,22 @@ for kind in ("run", "live"):
         steps = len(np.load(tmp_path / f"{kind}.npz")["time"])
         assert steps == (10 if kind == "run" else 8)
         compare(launcher, tmp_path, f"{kind}.npz", steps=f"{last - steps + 1}:{last}", **options)
+
+
+def test_stresses_of_bodies_that_yield_are_refused(tmp_path):
+    """They are those of petsam-stress, from a file: the message names the option that saves what it needs."""
+    text = run_python(
+        f"""
+import petsam
+with petsam.Contact(**{dict(CASE, body2_yield=1e9, yield_layers=4)!r}) as contact:
+    contact.try_step(load_n=900.0)
+    for body in 1, 2:
+        try:
+            contact.stress(depths=0, body=body)
+        except petsam.contact.ContactError as error:
+            print(error.code, error)
+""",
+        tmp_path,
+    )
+    said = "not supported with -body2_yield: petsam -output_fields usual,plastic saves"
+    assert [line.startswith("2 ") and said in line for line in text.splitlines()] == [True, True], text

@@ -111,6 +111,19 @@ def test_all_loads_fit_into_a_line_of_120_columns(petsam):
     assert [float(value) for value in lines[-1].split()[3:6]] == [20, -3, 0.01]
 
 
+def test_numbers_of_many_cycles_stay_apart(petsam, tmp_path):
+    (tmp_path / "c.csv").write_text("time,load_tx\n1,10\n2,-10\n3,10\n")
+    case = dict(ball(32), friction=0.1, history="c.csv", wear_energy2=1e-14, wear_cycles=10**9, output="c.h5")
+    lines = petsam(dict(case, load_tx=None)).stdout.splitlines()
+    first = next(k for k, line in enumerate(lines) if line.split()[:2] == ["cycles", "jump"])
+    rows = [line.split() for line in lines[first + 1 : lines.index("", first)]]
+    with h5py.File(tmp_path / "c.h5") as f:
+        cycle, jump = f["wear/cycle"][:], f["wear/jump"][:]
+    assert max(jump) > 1e6 and {len(row) for row in rows} == {13}
+    assert [float(row[0]) for row in rows] == pytest.approx(cycle, rel=1e-3)
+    assert [float(row[1]) for row in rows] == pytest.approx(jump, rel=0.05)
+
+
 def test_rounding_is_printed_as_zero(petsam):
     """Loads and displacements that vanish by symmetry; small ones that are given are printed as they are."""
     text = petsam(ball(48), dict(load_tx=20.0, load_my=1e-17)).stdout

@@ -18,6 +18,7 @@ import pytest
 
 from conftest import PROGRAM as PETSAM
 from conftest import environment
+from petsam.declared import PATHS
 from petsam.study import cases as study_cases
 from petsam.study import command as study_command
 from petsam.study import runs as study_runs
@@ -205,7 +206,7 @@ def test_files_are_meant_relative_to_the_table(tmp_path):
     assert study_cases.read(str(path))[0].options == {"options_file": str(tmp_path / "a.opts"), "history": "/b.csv"}
 
 
-INPUTS = ("options_file", "history", "load_history", "gap_file", "gap_rough_file", "friction_file")
+INPUTS = ("load_history", *sorted(set(PATHS) - {"output", "checkpoint", "restart"}))
 
 
 @pytest.mark.parametrize("option", INPUTS)
@@ -218,6 +219,21 @@ def test_a_file_of_any_option_is_found_and_its_change_noticed(tmp_path, option):
     assert study_cases.read(str(path))[0].identity() == before
     (tmp_path / "input").write_text("12")
     assert study_cases.read(str(path))[0].identity() != before
+
+
+def test_a_file_that_an_options_file_names_is_noticed_when_it_changes(tmp_path):
+    (tmp_path / "h.csv").write_text("time,load_n\n1,2\n")
+    (tmp_path / "a.opts").write_text(f"# loads\n-history {tmp_path}/h.csv  # N\n")
+    path = table(tmp_path, "options_file\na.opts\n")
+    before = study_cases.read(str(path))[0].identity()
+    (tmp_path / "h.csv").write_text("time,load_n\n1,20\n")
+    assert study_cases.read(str(path))[0].identity() != before
+
+
+def test_names_of_cases_keep_units_with_a_slash(tmp_path):
+    path = table(tmp_path, "load_n,gap_file\n1kN/m,a/g.h5\n2e3N/m,b/f.h5\n")
+    names = [case.name for case in study_cases.read(str(path))]
+    assert names == ["load_n=1kN-m_gap_file=g.h5", "load_n=2e3N-m_gap_file=f.h5"]
 
 
 def test_a_history_outside_of_the_table_has_no_column_that_is_an_option(tmp_path):

@@ -20,15 +20,19 @@ import os
 import re
 from typing import NamedTuple
 
+from .. import declared
 from ..errors import Error, short
 from ..files import need_regular
 from .expressions import Expander, names_in
 from .reading import TableError, read_csv, read_yaml
 
-# options that name files which are read; -load_history is another spelling of -history
-PATHS = ("options_file", "history", "load_history", "gap_file", "gap_rough_file", "body2_surface_file", "friction_file")
+# options that name files; -load_history is another spelling of -history
+PATHS = ("load_history", *declared.PATHS)
 # of these, small texts; of the others size and time tell whether they have changed
-HASHED = ("options_file", "history", "load_history")
+HASHED = (
+    "options_file", "history", "load_history", "wear_friction", "body1_layer_file", "body2_layer_file",
+    "body1_initial_stress", "body2_initial_stress",
+)  # fmt: skip
 SMALL = 16 << 20  # bytes; a larger text is compared as the others are
 TAKEN = {
     "output": "petsam-study chooses the file; remove the option",
@@ -72,12 +76,12 @@ class Case(NamedTuple):
 
     def identity(self):
         """Digest of all that determines the results: options, and the contents of the files they name."""
-        parts = []
+        parts = [("files", sorted(self.files.items()))] if self.files else []
         for name, value in self.options.items():
-            if name in PATHS and value in self.files:
-                value = self.files[value]
-            elif name in PATHS and value:
-                value = _content(value) if name in HASHED else _stamp(value)
+            if name == "options_file" and value:
+                parts += _stamps_in(self.files.get(value) or _content(value))
+            if name in PATHS and value and value not in self.files:
+                value = [_content(path) if name in HASHED else _stamp(path) for path in _each(name, value)]
             parts.append((name, value))
         if self.stress:
             parts.append(("stress", sorted(self.stress.items())))
@@ -94,6 +98,13 @@ def _content(path):
         return path  # petsam reports it
 
 
+def _stamps_in(text):
+    """Of the files that an options file names by their whole paths."""
+    named = re.findall(r'^\s*--?(\w+)\s+("[^"]*"|\S+)', text, re.MULTILINE)
+    paths = [value.strip('"') for name, value in named if name in PATHS]
+    return [_stamp(path) for path in paths if os.path.isabs(path)]
+
+
 def _stamp(path):
     try:
         status = os.stat(path)
@@ -105,9 +116,14 @@ def _stamp(path):
 # ---------------------------------------------------------------- cases
 
 
+def _shown(value):
+    """A value in a folder's name: of a file its name only; a number keeps its unit, which may have a slash."""
+    return value if value.lstrip("+-.0123456789eE") in declared.FOLLOWING else os.path.basename(value)
+
+
 def _name(inputs):
     """A folder's name from the inputs that vary; it does not change when cases are added."""
-    text = "_".join("{}={}".format(name, os.path.basename(value or "")) for name, value in inputs.items()) or "case"
+    text = "_".join("{}={}".format(name, _shown(value or "")) for name, value in inputs.items()) or "case"
     text = re.sub(r"[^A-Za-z0-9.,=+_-]", "-", text)
     if len(text) > 100:
         text = text[:90] + "-" + hashlib.sha256(repr(sorted(inputs.items())).encode()).hexdigest()[:8]
@@ -124,10 +140,19 @@ def _ranks(text, where):
     return int(ranks)
 
 
+def _each(name, value):
+    """The files that an option names."""
+    return value.split(",") if name == "plugin" else [value]
+
+
 def _located(options, files, folder):
     """Options with their files' absolute paths; names of files in the case's own folder stay."""
+
+    def locate(path):
+        return os.path.normpath(os.path.join(folder, path))
+
     return {
-        name: os.path.normpath(os.path.join(folder, value)) if name in PATHS and value and value not in files else value
+        name: ",".join(map(locate, _each(name, value))) if name in PATHS and value and value not in files else value
         for name, value in options.items()
     }
 

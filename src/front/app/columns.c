@@ -39,6 +39,8 @@ void SamReportValue(const SamReportColumn *column, double value, SamReportCell c
 {
   (void)snprintf(cell, sizeof(SamReportCell), column->digits ? "%.*g" : "%.*e", column->digits ? column->digits : 1,
                  value);
+  for (int digits = PetscMin(column->digits, 9); digits > 1 && strlen(cell) >= (size_t)column->width; digits--)
+    (void)snprintf(cell, sizeof(SamReportCell), "%.*g", digits - 1, value);
 }
 
 void SamReportSeconds(double seconds, SamReportCell cell)

@@ -107,7 +107,7 @@ PETSC_INTERN void SamReportChooseColumns(SamReport report, const PetscBool loads
 PETSC_INTERN double SamReportNumber(SamState state, const char name[]);
 /*
   SamReportHeading - writes the heading of a column, with the unit that its number has on the grid.
-  SamReportValue - writes a number.
+  SamReportValue - writes a number, with fewer digits where the column is too narrow for them and a space.
   SamReportSeconds - writes seconds, whole ones from 1000 on.
   SamReportLine - prints the cells of a line but empty ones. Collective.
 */

@@ -7,6 +7,7 @@
 #include "embedimpl.h"
 #include <petsam/private/arguments.h>
 #include <petsam/private/evaluation.h>
+#include <petsam/private/lawimpl.h>
 #include <petsam/private/motionimpl.h>
 #include <petsam/private/contact.h>
 
@@ -246,13 +247,12 @@ static PetscErrorCode Warn(void *context, const char text[])
 
 static PetscErrorCode Compute(petsam_contact *c, const char options[], PetscInt n, Steps *steps, SamEvaluation *e)
 {
-  const PetscBool       yields = SamProblemGetLaw(c->setup->problem, SAM_LAW_PLASTIC) != NULL;
+  const SamLaw          yields = SamProblemGetLaw(c->setup->problem, SAM_LAW_PLASTIC);
   const SamStressSource source = {.bodies     = c->setup->elasticity,
                                   .name       = "-elasticity",
                                   .steps      = n,
                                   .before     = steps->before && steps->before->fields,
                                   .slides     = SamProblemGetLaw(c->setup->problem, SAM_LAW_SLIDE) != NULL,
-                                  .yields     = {yields, yields}, /* whose stresses are in the program's results */
                                   .slips      = SamMotionOf(c->setup->elasticity)->continues,
                                   .read       = ReadField,
                                   .number     = ReadNumber,
@@ -261,6 +261,10 @@ static PetscErrorCode Compute(petsam_contact *c, const char options[], PetscInt 
                                   .context    = steps};
 
   PetscFunctionBegin;
+  PetscCheck(!yields, c->setup->grid->comm, SAM_ERR_USER,
+             "stresses of a contact in a program: not supported with -%s: petsam -output_fields usual,plastic saves "
+             "those by plastic strain, for petsam-stress",
+             yields->option);
   PetscCall(ReadOptions(c, options, e));
   PetscCall(SamEvaluationSetUp(*e, &source));
   PetscCall(CreateResults(c->stress, SamEvaluationGetLayout(*e)));

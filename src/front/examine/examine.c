@@ -6,13 +6,14 @@
   HDF5 follows the addresses in a file; on a damaged one it may crash, or follow a circle without end. So the library
   runs this program on a file before it opens it itself (ground/file/examine.c). The program reads all that the library
   may read later: names, attributes, shapes, indices of chunks, and small datasets; of the OBJECTs and what is in them,
-  or else of the whole file. An error that HDF5 returns is no matter: the library gets it again, and reports it. The
+  or else of the whole file. It writes a character when it begins, and one when it ends. An error that HDF5 returns is no matter: the library gets it again, and reports it. The
   program needs neither MPI nor PETSc.
 */
 #include <hdf5.h>
 #include <stdlib.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <unistd.h>
 #ifdef __GLIBC__
   #include <malloc.h>
 #endif
@@ -121,24 +122,32 @@ static int ReadNamed(hid_t file, const char name[], int depth)
   return 1;
 }
 
+/* Writes a character, without a buffer that a crash would lose. */
+static void Tell(char what)
+{
+  if (write(STDOUT_FILENO, &what, 1) != 1) _exit(EXIT_FAILURE);
+}
+
 int main(int argc, char **argv)
 {
   hid_t file;
 
   if (argc < 2) return EXIT_FAILURE;
   SetLimits(argv[1]);
+  Tell('-');
 #ifdef M_PERTURB
   (void)mallopt(M_PERTURB, 0x55); /* after an error HDF5 may use memory that it has not set: then it shall crash here */
 #endif
   (void)setenv("HDF5_USE_FILE_LOCKING", "FALSE", 1); /* the caller may have locked the file */
   (void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
   file = H5Fopen(argv[1], H5F_ACC_RDONLY, H5P_DEFAULT);
-  if (file < 0) return EXIT_SUCCESS;
-  if (argc == 2) (void)ReadNamed(file, "/", DEPTH);
-  for (int k = 2; k < argc; k++) {
+  if (file >= 0 && argc == 2) (void)ReadNamed(file, "/", DEPTH);
+  for (int k = 2; k < argc && file >= 0; k++) {
     if (!ReadNamed(file, argv[k], DEPTH) && k == 2)
       (void)ReadNamed(file, "/", 1); /* an error will list what there is */
   }
-  (void)H5Fclose(file);
+  if (file >= 0) (void)H5Fclose(file);
+  (void)H5close();
+  Tell('\n');
   return EXIT_SUCCESS;
 }

@@ -189,6 +189,8 @@ static void ExamineLines(SamArguments *a, const char where[], const char name[],
     char place[600];
 
     (void)snprintf(place, sizeof(place), "%s%s, line %ld: ", where, name, number);
+    if (number == 1 && !strncmp(line, "\xef\xbb\xbf", 3))
+      Complain(a, SAM_ERR_USER, "%sbegins with a byte-order mark: save it as UTF-8 without one", place);
     if (memchr(line, '\0', (size_t)length))
       Complain(a, SAM_ERR_USER, "%sa byte of value 0: an options file is plain text: save it as UTF-8", place);
     ExamineLine(a, place, line, depth, source);

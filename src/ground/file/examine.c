@@ -46,15 +46,18 @@ static PetscBool IsHDF5(const char filename[])
   return is > 0 ? PETSC_TRUE : PETSC_FALSE;
 }
 
-/* Returns why a file cannot be read as HDF5, NULL if it can. A pipe would wait for its writer. */
-static const char *FindFault(const char filename[])
+#define NO_HDF5 "it is not an HDF5 file; "
+
+/* Returns why the file of an option cannot be read as HDF5, NULL if it can. A pipe would wait for its writer. */
+static const char *FindFault(const char option[], const char filename[])
 {
   struct stat status;
 
   if (stat(filename, &status) || access(filename, R_OK)) return strerror(errno);
   if (!S_ISREG(status.st_mode)) return S_ISDIR(status.st_mode) ? strerror(EISDIR) : "it is not a file";
-  if (!IsHDF5(filename)) return "it is not an HDF5 file; make one by petsam-surface, of a body by petsam-compliance";
-  return NULL;
+  if (IsHDF5(filename)) return NULL;
+  if (!strcmp(option, "input")) return NO_HDF5 "give results of petsam -output";
+  return strstr(option, "compliance") ? NO_HDF5 "make one by petsam-compliance" : NO_HDF5 "make one by petsam-surface";
 }
 
 static const char damaged[] = "it is damaged";
@@ -80,8 +83,8 @@ static PetscBool FindProgram(char path[PETSC_MAX_PATH_LEN])
   return PETSC_FALSE;
 }
 
-/* Starts the program with signals as at a program's start and without output; returns 0 or a number of errno. */
-static int Start(const char program[], const char *const words[], pid_t *child)
+/* Starts the program with signals as at a program's start and its output to a pipe; returns 0 or a number of errno. */
+static int Start(const char program[], const char *const words[], int output, pid_t *child)
 {
   posix_spawn_file_actions_t actions;
   posix_spawnattr_t          attributes;
@@ -89,9 +92,9 @@ static int Start(const char program[], const char *const words[], pid_t *child)
   int                        error;
 
   (void)posix_spawn_file_actions_init(&actions);
+  (void)posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
   (void)posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  (void)posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  (void)posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+  (void)posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
   (void)posix_spawnattr_init(&attributes);
   (void)sigfillset(&all);
   (void)sigemptyset(&none);
@@ -102,6 +105,28 @@ static int Start(const char program[], const char *const words[], pid_t *child)
   (void)posix_spawnattr_destroy(&attributes);
   (void)posix_spawn_file_actions_destroy(&actions);
   return error;
+}
+
+/*
+  Runs the program and returns the number of characters that it has written: one when it begins, and one when it ends;
+  or -1 where it cannot be started. Its exit status is no evidence: the system drops it where the process ignores
+  SIGCHLD, and another part of the process may take it.
+*/
+static int Run(const char program[], const char *const words[])
+{
+  int     ends[2], written = 0;
+  pid_t   child;
+  ssize_t count;
+  char    text[2];
+
+  if (pipe2(ends, O_CLOEXEC)) return -1;
+  if (Start(program, words, ends[1], &child)) written = -1;
+  (void)close(ends[1]);
+  while (written >= 0 && ((count = read(ends[0], text, sizeof(text))) > 0 || (count < 0 && errno == EINTR)))
+    if (count > 0) written += (int)count;
+  (void)close(ends[0]);
+  while (written >= 0 && waitpid(child, NULL, 0) < 0 && errno == EINTR) continue;
+  return written;
 }
 
 /* A file as it was, and the objects in it that were asked for. */
@@ -145,23 +170,17 @@ static PetscBool Survives(const char filename[], const char *const objects[])
   const Seen  now                             = TakeSeen(filename, objects);
   const char *words[2 + SAM_FILE_OBJECTS + 1] = {"petsam-examine", filename};
   char        program[PETSC_MAX_PATH_LEN];
-  pid_t       child;
-  int         status = 0;
 
   if (IsSame(&now, &last)) return PETSC_TRUE;
   for (int k = 0; objects && objects[k] && k < SAM_FILE_OBJECTS; k++) words[2 + k] = objects[k];
-  if (!FindProgram(program) || Start(program, words, &child)) return PETSC_TRUE;
-  while (waitpid(child, &status, 0) < 0) {
-    if (errno != EINTR) return PETSC_TRUE; /* the process does not wait for its children */
-  }
-  if (!WIFEXITED(status)) return PETSC_FALSE;
+  if (FindProgram(program) && Run(program, words) == 1) return PETSC_FALSE;
   last = now;
   return PETSC_TRUE;
 }
 
 static PetscErrorCode OpenAndLook(const Case *c, void *answer)
 {
-  const char    *fault = FindFault(c->filename);
+  const char    *fault = FindFault(c->option, c->filename);
   SamFile        file;
   PetscErrorCode ierr, ended;
 
