@@ -2,6 +2,7 @@
 
 import signal
 import struct
+import sys
 
 import h5py
 import numpy as np
@@ -197,3 +198,22 @@ def test_damage_is_found_where_the_ends_of_processes_are_ignored(tmp_path):
 
     done = finished(command, check=3, preexec_fn=ignore, env=environment(), cwd=tmp_path)
     assert f"-gap_file {tmp_path / 'gap.h5'}: cannot be read: it is damaged" in done.stderr
+
+
+def test_damage_is_found_by_a_library_that_was_loaded_by_a_relative_name(tmp_path):
+    """The folder of the process may be another one when the library looks for petsam-examine."""
+    make_circle(write(tmp_path / "gap.h5", np.zeros((71, 84)), chunks=(16, 16)))
+    case = dict(FILE, gap_file=tmp_path / "gap.h5", load_n=None, load_tx=None, output_fields=None)
+    options = " ".join(words(case))
+    lines = f"""
+import ctypes, os
+os.chdir({str(PROGRAM.parents[1] / "lib")!r})
+library = ctypes.CDLL("./libpetsam.so", mode=ctypes.RTLD_GLOBAL)
+os.chdir("/")
+os.environ["PATH"] = "/usr/bin:/bin"
+contact = ctypes.c_void_p()
+code = library.petsam_create(-1, {options!r}.encode(), ctypes.byref(contact))
+library.petsam_message.restype = ctypes.c_char_p
+assert code == 3 and b"it is damaged" in library.petsam_message(contact), (code, library.petsam_message(contact))
+"""
+    finished([sys.executable, "-c", lines], check=0, env=environment(), cwd=tmp_path)

@@ -487,3 +487,23 @@ with petsam.Contact(**case) as contact:
 """,
         tmp_path,
     )
+
+
+def test_a_contact_replaces_no_file_that_it_reads(petsam, tmp_path):
+    """Neither by a viewer of PETSc, nor by another file of its own."""
+    (tmp_path / "i.csv").write_text("depth,stress_xx,stress_yy\n0,-1e8,-1e8\n1e-3,0,0\n")
+    before = (tmp_path / "i.csv").read_bytes()
+    run_python(
+        BEGIN
+        + """
+import pytest
+for options, words in (
+    (dict(body2_initial_stress="i.csv", normal_view=":i.csv"), "would overwrite the file of -body2_initial_stress"),
+    (dict(output="q.h5", checkpoint="q.h5", checkpoint_every=1), "is also the file of -output"),
+):
+    with pytest.raises(petsam.Error, match=words):
+        petsam.Contact(**{**case, **options})
+""",
+        tmp_path,
+    )
+    assert (tmp_path / "i.csv").read_bytes() == before and not (tmp_path / "q.h5").exists()

@@ -159,14 +159,18 @@ typedef struct {
     GetSetup   returns the contact and all its objects; borrowed
     GetSeries  returns the numbers of the computed cycle; borrowed; NULL: no wear simulation
     GetStatus  gets the worst status of the steps so far, and true if the run stopped early, with a checkpoint
+    CheckFiles refuses names by which the run would replace a file that it reads, or one file of its own by another;
+               called when all options have been read, and no file is open yet; `arguments`: of the command line, or
+               NULL. Collective. Errors: SAM_ERR_USER, SAM_ERR_FILE
     IsWriting  returns true while a collective write is under way
 */
 PETSC_EXTERN const SamSetup    *SamSimulationGetSetup(SamSimulation simulation);
 PETSC_EXTERN SamSimulationNeeds SamSimulationGetNeeds(SamSimulation simulation);
 PETSC_EXTERN PetscErrorCode     SamSimulationGetFiles(SamSimulation simulation, SamSimulationFiles *files);
-PETSC_INTERN SamState           SamSimulationGetSeries(SamSimulation simulation);
-PETSC_EXTERN PetscErrorCode     SamSimulationGetStatus(SamSimulation simulation, SamStatus *worst, PetscBool *stopped);
-PETSC_EXTERN PetscBool          SamSimulationIsWriting(SamSimulation simulation);
+PETSC_EXTERN PetscErrorCode SamSimulationCheckFiles(SamSimulation simulation, const struct _n_SamArguments *arguments);
+PETSC_INTERN SamState       SamSimulationGetSeries(SamSimulation simulation);
+PETSC_EXTERN PetscErrorCode SamSimulationGetStatus(SamSimulation simulation, SamStatus *worst, PetscBool *stopped);
+PETSC_EXTERN PetscBool      SamSimulationIsWriting(SamSimulation simulation);
 /* SamSimulationAbandon - removes temporary files before this process ends without the others. Not collective. */
 PETSC_EXTERN void SamSimulationAbandon(SamSimulation simulation);
 

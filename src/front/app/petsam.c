@@ -55,30 +55,6 @@ static void CatchSignals(PetscBool checkpoint)
   if (checkpoint) (void)sigaction(SIGTERM, &action, NULL);
 }
 
-/* ---- files ---- */
-
-/*
-  Refuses names by which the run would replace a file that it reads, or one file of its own by another. Names that
-  petsam derives count too: a checkpoint's file.1 and file.tmp.
-*/
-static PetscErrorCode CheckFiles(const SamSimulationFiles *f, const SamArguments *arguments)
-{
-  SamFiles files = {.count = 0};
-  char    *one, *other;
-
-  PetscFunctionBegin;
-  if (f->output) {
-    PetscCall(SamFileNameTemporary(f->output, &other));
-    PetscCall(SamFilesAddWritten(&files, "-output", f->output, NULL, other));
-  }
-  if (f->checkpoint) {
-    PetscCall(SamCheckpointNames(f->checkpoint, &one, &other));
-    PetscCall(SamFilesAddWritten(&files, "-checkpoint", f->checkpoint, one, other));
-  }
-  PetscCall(SamFilesCheck(&files, PETSC_COMM_WORLD, arguments));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Warns of a quiet run without a file, which leaves nothing but its exit code. */
 static void WarnOfQuiet(const SamRun *run, const SamSimulationFiles *f)
 {
@@ -197,7 +173,7 @@ static PetscErrorCode SetUp(void *context, const SamArguments *arguments)
   WarnOfQuiet(run, &files);
   PetscCall(RefuseTooLarge(run->simulation, &from));
   PetscCall(SamSimulationSetUp(run->simulation, &from));
-  PetscCall(CheckFiles(&files, arguments)); /* all options have been read, and no file is open yet */
+  PetscCall(SamSimulationCheckFiles(run->simulation, arguments)); /* all options have been read */
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

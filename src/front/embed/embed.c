@@ -166,6 +166,7 @@ static PetscErrorCode Create(petsam_contact *c, const char options[])
   PetscCall(ReadConditions(c, &from));
   PetscCall(SamSimulationSetUp(c->simulation, &from));
   PetscCall(SamArgumentsRefuseUnknown(c->comm, NULL));
+  PetscCall(SamSimulationCheckFiles(c->simulation, NULL));
   PetscCall(SamGridCreateVec(c->setup->grid, 1, &c->work));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -4,11 +4,12 @@
   after MPI_Init() would be unsafe where MPI has registered memory with the network's hardware.
 */
 #include "fileimpl.h"
-#include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
+#include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -63,22 +64,62 @@ static const char *FindFault(const char option[], const char filename[])
 static const char damaged[] = "it is damaged";
 
 /*
+  Gets the folder of the file that the library's code lies in, with a slash: the shared library, or a program that is
+  linked with the static one. The system's list of the process' memory has the whole name, as it was when it was loaded.
+*/
+static PetscBool FindOwnFolder(char folder[PETSC_MAX_PATH_LEN])
+{
+  static const char anchor = 0; /* an address in the library */
+  FILE             *maps   = fopen("/proc/self/maps", "re");
+  char              line[PETSC_MAX_PATH_LEN + 128], *name = NULL;
+
+  while (maps && !name && fgets(line, sizeof(line), maps)) {
+    char           *end;
+    const uintptr_t first = (uintptr_t)strtoull(line, &end, 16), last = (uintptr_t)strtoull(end + 1, NULL, 16);
+
+    if ((uintptr_t)&anchor >= first && (uintptr_t)&anchor < last) name = strchr(line, '/');
+  }
+  if (maps) (void)fclose(maps);
+  if (!name || strlen(name) >= PETSC_MAX_PATH_LEN) return PETSC_FALSE;
+  *(strrchr(name, '/') + 1) = 0;
+  (void)strcpy(folder, name);
+  return PETSC_TRUE;
+}
+
+/* Gets the folder of the program petsam that the environment's PATH finds, with a slash. */
+static PetscBool FindInstalledFolder(char folder[PETSC_MAX_PATH_LEN])
+{
+  char *const path = getenv("PATH") ? strdup(getenv("PATH")) : NULL, *rest = path;
+
+  for (const char *one; path && (one = strsep(&rest, ":"));) {
+    char name[PETSC_MAX_PATH_LEN];
+
+    if (snprintf(name, sizeof(name), "%s/petsam", one[0] ? one : ".") >= PETSC_MAX_PATH_LEN) continue;
+    if (access(name, X_OK) || !realpath(name, folder)) continue;
+    *(strrchr(folder, '/') + 1) = 0;
+    free(path);
+    return PETSC_TRUE;
+  }
+  free(path);
+  return PETSC_FALSE;
+}
+
+/*
   Finds the program that examines: petsam/petsam-examine beside the shared library, or in lib/ of the folder above a
-  program that is linked with the static one. Returns false if there is none.
+  program that is linked with the static one, or above the program petsam. Returns false if there is none.
 */
 static PetscBool FindProgram(char path[PETSC_MAX_PATH_LEN])
 {
-  static const char *const places[]                = {"petsam/petsam-examine", "../lib/petsam/petsam-examine"};
-  static const char        anchor                  = 0; /* an address in the library */
-  char                     own[PETSC_MAX_PATH_LEN] = "";
-  Dl_info                  info;
+  static const char *const places[] = {"petsam/petsam-examine", "../lib/petsam/petsam-examine"};
+  PetscBool (*const folders[])(char folder[PETSC_MAX_PATH_LEN]) = {FindOwnFolder, FindInstalledFolder};
 
-  if (!dladdr(&anchor, &info) || !realpath(strchr(info.dli_fname, '/') ? info.dli_fname : "/proc/self/exe", own))
-    return PETSC_FALSE;
-  *(strrchr(own, '/') + 1) = 0;
-  for (size_t k = 0; k < sizeof(places) / sizeof(places[0]); k++) {
-    if (snprintf(path, PETSC_MAX_PATH_LEN, "%s%s", own, places[k]) < PETSC_MAX_PATH_LEN && !access(path, X_OK))
-      return PETSC_TRUE;
+  for (size_t k = 0; k < sizeof(folders) / sizeof(folders[0]); k++) {
+    char folder[PETSC_MAX_PATH_LEN];
+
+    if (!folders[k](folder)) continue;
+    for (size_t n = 0; n < sizeof(places) / sizeof(places[0]); n++)
+      if (snprintf(path, PETSC_MAX_PATH_LEN, "%s%s", folder, places[n]) < PETSC_MAX_PATH_LEN && !access(path, X_OK))
+        return PETSC_TRUE;
   }
   return PETSC_FALSE;
 }

@@ -1,6 +1,9 @@
 /* A simulation: makes the objects, solves the load steps, writes results and checkpoints. */
 #include "simulationimpl.h"
+#include <petsam/private/checkpoint.h>
 #include <petsam/private/contact.h>
+#include <petsam/private/file.h>
+#include <petsam/private/files.h>
 #include <petsam/private/problem.h>
 #include <petsam/private/stiffness.h>
 
@@ -365,6 +368,24 @@ PetscErrorCode SamSimulationGetFiles(SamSimulation s, SamSimulationFiles *files)
   files->output     = s->has_output ? s->filename : NULL;
   files->checkpoint = s->checkpoints.filename[0] ? s->checkpoints.filename : NULL;
   files->restart    = s->checkpoints.restart[0] ? s->checkpoints.restart : NULL;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationCheckFiles(SamSimulation s, const SamArguments *arguments)
+{
+  SamFiles files = {.count = 0};
+  char    *one, *other; /* names that are derived: a checkpoint's file.1 and file.tmp */
+
+  PetscFunctionBegin;
+  if (s->has_output) {
+    PetscCall(SamFileNameTemporary(s->filename, &other));
+    PetscCall(SamFilesAddWritten(&files, "-output", s->filename, NULL, other));
+  }
+  if (s->checkpoints.filename[0]) {
+    PetscCall(SamCheckpointNames(s->checkpoints.filename, &one, &other));
+    PetscCall(SamFilesAddWritten(&files, "-checkpoint", s->checkpoints.filename, one, other));
+  }
+  PetscCall(SamFilesCheck(&files, s->comm, arguments));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

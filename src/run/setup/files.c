@@ -1,6 +1,7 @@
-/* The names of all files of a program, and of those that PETSc writes for its viewers. */
-#include "program.h"
+/* The names of all files of a run, and of those that PETSc writes for its viewers. */
 #include <petsam/private/baseimpl.h>
+#include <petsam/private/file.h>
+#include <petsam/private/files.h>
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -154,7 +155,7 @@ static PetscErrorCode AddDeclared(SamFiles *f, MPI_Comm comm, const SamOptionFil
 static PetscErrorCode AddCommon(SamFiles *f, MPI_Comm comm, const SamArguments *arguments)
 {
   PetscFunctionBegin;
-  for (int k = 0; k < arguments->count; k++)
+  for (int k = 0; arguments && k < arguments->count; k++)
     PetscCall(SamFilesAdd(f, "-options_file", arguments->files[k], PETSC_FALSE));
   PetscCall(CheckOptionsView(comm));
   for (PetscInt k = 0; SamOptionsFile(k); k++) PetscCall(AddDeclared(f, comm, SamOptionsFile(k)));
