@@ -1,5 +1,5 @@
 /*
-  Units behind the numbers of options: 2.6mm is 2.6e-3, to the last bit.
+  Units after the numbers of options: 2.6mm is 2.6e-3, to the last bit.
 
   An option's row declares its unit of SI. The units that may follow a number differ from it by powers of ten only, so
   the number is read with another exponent.

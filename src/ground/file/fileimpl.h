@@ -38,9 +38,9 @@ typedef struct {
   SamLengthsRead - reads the attributes of a dataset `name` of shape (ny, nx) in an examined file; each may be missing.
 
   Attribute units: a unit of length (m). Attribute quantity: separation (the default), or height1 or height2 for heights
-  of body 1 or 2, positive outward; so a peak of either body reduces the separation. The size: attribute size of the
-  dataset, two numbers in m; or else x and y beside the dataset, which hold the nx and ny cell centres and have units;
-  without units they say nothing.
+  of body 1 or 2, positive outward; so a peak of either body reduces the separation. The size comes from the attribute
+  size of the dataset, two numbers in m; or else from the datasets x and y beside it, which contain the nx and ny cell
+  centres and must have units, otherwise they are ignored.
 
   Errors: SAM_ERR_FILE for an unknown unit or quantity, packed numbers, another size than two positive numbers, and an
   axis that falls along its dataset, so that the surface would be mirrored.

@@ -14,7 +14,7 @@
     4. Columns are exchanged for rows as in step 2.
     5. Rows are transformed back and shortened to nx.
   In periodic mode rows are padded to hx instead of 2 hx only, and columns have the even frequencies only. An odd hx,
-  which only exact periods have, has no half: the whole row takes a complex transform.
+  which only exact periods have, cannot be halved: a complex transform of the whole row is used.
 
   Both directions of the transpose leave the data as (ny rows, own columns) in row order (FFTW_MPI_TRANSPOSED_OUT),
   which is also the order on a single rank and, in pieces, in shared memory. So one code serves any number of ranks.
