@@ -11,8 +11,7 @@
 #define MOST   256 /* number of names that are kept */
 #define LENGTH 48  /* characters of a name that are compared */
 
-static char known[MOST][LENGTH],
-  belongs[MOST][LENGTH]; /* belongs: option with which this option has an effect; or empty */
+static char     known[MOST][LENGTH], belongs[MOST][LENGTH]; /* belongs: what the option needs; or empty */
 static PetscInt knowns = 0;
 
 /* Options that PETSc reads; their names are suggested, too */

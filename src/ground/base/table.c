@@ -213,7 +213,8 @@ static PetscErrorCode ReadLines(Reader *r, FILE *stream, char **buffer)
   PetscFunctionBegin;
   errno = 0;
   n     = fread(begin, 1, sizeof(begin), stream);
-  if (!memchr(begin, '\n', n)) PetscCall(CheckText(r, begin, n)); /* a file that is no text may have no end of line */
+  if (!memchr(begin, '\n', n))
+    PetscCall(CheckText(r, begin, n)); /* a file that is no text may have no end of its first line */
   rewind(stream);
   while ((length = getline(buffer, &size, stream)) >= 0) {
     PetscCall(CheckText(r, *buffer, (size_t)length));

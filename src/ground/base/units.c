@@ -15,18 +15,17 @@ typedef struct {
   int         power[MOST];
 } Kind;
 
-static const Kind kinds[] = {
-  {"m", {"m", "mm", "um", "nm"}, {0, -3, -6, -9}},
-  {"N", {"N", "kN", "MN", "mN"}, {0, 3, 6, -3}},
-  {"N/m", {"N/m", "kN/m", "MN/m", "N/mm"}, {0, 3, 6, 3}},
-  {"N m", {"Nm", "kNm", "Nmm"}, {0, 3, -3}},
-  {"N m/m", {"N", "kN", "mN", "Nm/m"}, {0, 3, -3, 0}},
-  {"Pa", {"Pa", "kPa", "MPa", "GPa"}, {0, 3, 6, 9}},
-  {"m/s", {"m/s", "mm/s", "um/s"}, {0, -3, -6}},
-  {"s", {"s", "ms"}, {0, -3}},
-  {"rad", {"rad", "mrad"}, {0, -3}},
-  {"1/Pa", {"m3/Nm", "mm3/Nm"}, {0, -9}}, /* without a digit, which would be read as part of the number */
-  {"m3/J", {"m3/J", "mm3/J"}, {0, -9}}};
+static const Kind kinds[] = {{"m", {"m", "mm", "um", "nm"}, {0, -3, -6, -9}},
+                             {"N", {"N", "kN", "MN", "mN"}, {0, 3, 6, -3}},
+                             {"N/m", {"N/m", "kN/m", "MN/m", "N/mm"}, {0, 3, 6, 3}},
+                             {"N m", {"Nm", "kNm", "Nmm"}, {0, 3, -3}},
+                             {"N m/m", {"N", "kN", "mN", "Nm/m"}, {0, 3, -3, 0}},
+                             {"Pa", {"Pa", "kPa", "MPa", "GPa"}, {0, 3, 6, 9}},
+                             {"m/s", {"m/s", "mm/s", "um/s"}, {0, -3, -6}},
+                             {"s", {"s", "ms"}, {0, -3}},
+                             {"rad", {"rad", "mrad"}, {0, -3}},
+                             {"1/Pa", {"m3/Nm", "mm3/Nm"}, {0, -9}}, /* no digit, as it would be part of the number */
+                             {"m3/J", {"m3/J", "mm3/J"}, {0, -9}}};
 
 /* Returns the kind of a unit; NULL if there is none, or if the option takes numbers in SI units only. */
 static const Kind *FindKind(const char unit[])

@@ -182,8 +182,7 @@ static int Reserve(int file, off_t bytes, PetscBool keep)
     return EFBIG;
 #if defined(__linux__)
   error = fallocate(file, keep ? 0 : FALLOC_FL_KEEP_SIZE, status.st_size, bytes) ? errno : 0;
-  if ((error || !keep) && ftruncate(file, status.st_size))
-    return errno; /* after an error, a part of the space may be allocated */
+  if ((error || !keep) && ftruncate(file, status.st_size)) return errno; /* an error may leave a part allocated */
 #endif
   if (error != EOPNOTSUPP && error != ENOSYS) return error;
   if (fstatvfs(file, &space)) return errno;

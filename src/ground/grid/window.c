@@ -133,8 +133,7 @@ PetscErrorCode SamWindowPut(SamWindow w, Vec part, Vec whole)
 
 PetscErrorCode SamGridGetSupport(SamGrid grid, Vec field, PetscInt first[2], PetscInt n[2])
 {
-  PetscInt64    bounds[4] = {-grid->nx, -grid->ny, -1,
-                             -1}; /* minus the least column and row, and the largest column and row */
+  PetscInt64    bounds[4] = {-grid->nx, -grid->ny, -1, -1}; /* minus the least, and the largest, column and row */
   const double *f;
 
   PetscFunctionBegin;
