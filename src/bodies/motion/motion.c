@@ -28,7 +28,7 @@ const struct _n_SamMotion SamMotionInTime = {.word      = "none",
                                              .remedy    = "use smaller load steps",
                                              .check     = Check};
 
-/* The first one is the usual one. */
+/* The first motion is the default. */
 static const SamMotion motions[] = {&SamMotionInTime, &SamMotionSteady};
 #define MOTIONS ((PetscInt)(sizeof(motions) / sizeof(motions[0])))
 

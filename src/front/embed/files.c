@@ -1,7 +1,7 @@
 /* The state of a contact in the host's files: petsam_save() and petsam_load(). */
 #include "embedimpl.h"
 
-/* Removes the program's option that a message about a file begins with, -checkpoint or -restart. */
+/* Removes the program's option, -checkpoint or -restart, from the beginning of a message about a file. */
 static int LeaveFile(petsam_contact *c, PetscErrorCode error)
 {
   const int         code = SamEmbedLeave(c, error);
