@@ -14,7 +14,7 @@ typedef struct {
   SamBody - a half-space of one material, or of several layers bonded to each other, listed from the surface down. Only
   the last material may be rigid.
 */
-#define SAM_MATERIALS 65 /* most materials of a body */
+#define SAM_MATERIALS 65 /* maximum number of materials of a body */
 typedef struct _n_SamBody *SamBody;
 
 /*
@@ -62,8 +62,8 @@ PETSC_INTERN PetscReal          SamBodyTop(SamBody body, PetscInt n);
 PETSC_INTERN const SamMaterial *SamBodySubstrate(SamBody body);
 PETSC_INTERN PetscBool          SamBodyIsRigid(SamBody body);
 /*
-  SamBodyInitialStress - gets the stress xx and yy (Pa) that a body has before any load at a depth (m); where it jumps,
-  that above. It is zero unless -body1_initial_stress, -body2_initial_stress gives it.
+  SamBodyInitialStress - gets the stress xx and yy (Pa) that a body has before any load at a depth (m); at a jump, the
+  value above it. It is zero unless -body1_initial_stress, -body2_initial_stress gives it.
   SamBodyMeanInitialStress - gets its mean from a depth `top` over a thickness (m).
   SamBodyHasInitialStress - returns true if the body has such a stress.
   None is collective.
@@ -75,7 +75,7 @@ PETSC_INTERN PetscBool SamBodyHasInitialStress(SamBody body);
 /*
   SamBodyAdvise - writes a warning if the layers of body `number` (1 or 2) have no effect or are thinner than a cell (k
   = 0; `cell`: its size, m), or are thicker than 100 times the width of the contact (k = 1; `width`, m); else an empty
-  text. `option`: the option that mends it, without dash; empty: none. Not collective.
+  text. `option`: the option that helps, without dash; empty: none. Not collective.
   SamBodyAdviseWorn - writes a warning if a body, worn to this depth (m), has lost its first layer; else an empty text.
 */
 PETSC_INTERN PetscErrorCode SamBodyAdvise(SamBody body, PetscInt number, PetscInt k, PetscReal cell, PetscReal width,
