@@ -57,7 +57,7 @@ PETSC_EXTERN PetscErrorCode SamLawDestroy(SamLaw *law);
 /* SamLawReference - adds a reference. Not collective. */
 PETSC_INTERN PetscErrorCode SamLawReference(SamLaw law);
 
-#define SAM_LAWS 32 /* most types of laws */
+#define SAM_LAWS 32 /* maximum number of types of laws */
 
 /*
   SamLawRegister - adds a type of law, or replaces an earlier type of that name.
