@@ -133,7 +133,7 @@ def differences_of_text(text, output, but=()):
 
 
 def differences_of_table(text, output, but=(), by_row=False):
-    """Returns rows, except the head, whose figures are not in the output, or not in one of its lines; and these figures."""
+    """Returns rows, except the head, with figures missing in the output or in each of its lines; and these figures."""
     rows = [[cell.strip() for cell in re.split(r"(?<!\\)\|", row)[1:-1]] for row in text.splitlines()]
     columns = [i for i, head in enumerate(rows[0]) if not any(word in head for word in but)]
     lines = [[float(word) for word in figures(line)] for line in (output.splitlines() if by_row else [output])]

@@ -484,7 +484,7 @@ class Contact:
     def number(self, name):
         """A number of the last step, by its name in /history: contact_area, dissipated_energy, ...
 
-        After reject() it is that of the committed step; the same of a step that has been tried is step.contact_area.
+        After reject() the number is that of the committed step; for a tried step, step.contact_area is the same number.
         """
         value = ctypes.c_double()
         if not isinstance(name, str):
@@ -559,7 +559,7 @@ class Contact:
                     is the surface: the options of petsam-stress
         quantities  those of stress() that are wanted too, of all steps: (time, z, y, x)
 
-        CycleWarning where the last step has not the tractions of the state in which recording began.
+        CycleWarning if the tractions of the last step differ from those of the state in which recording began.
         """
         given = dict(depths=depths, section=section, body=body, quantities=quantities)
         return self._evaluate("fatigue", fatigue=parameters, **given, **constants)

@@ -78,7 +78,7 @@ class SpencePunch:
         self._ratios()
 
     def _kernels(self, r):
-        """Returns u_z of the pressure and u_r of the shear at r for P = Q = 1 on each ring; substitution removes the log."""
+        """u_z of the pressure and u_r of the shear at r, for P = Q = 1 on each ring; substitution removes the log."""
         x, weight = np.polynomial.legendre.leggauss(12)
         t, dt = (0.5 * (1.0 + x)) ** 3, 1.5 * (0.5 * (1.0 + x)) ** 2 * weight
         low, high, middle = self.ends[:-1], self.ends[1:], 0.5 * (self.ends[1:] + self.ends[:-1])

@@ -129,7 +129,7 @@ def loads(deck, mesh, frame, units, step):
 
 
 def case(found, solver, remainder, patch, place, points):
-    """Returns the Case of the Loads; place: of the points (n, 2) of the patch, in the mesh; `found.name`: for errors."""
+    """Returns the Case of the Loads; place: of the points (n, 2) of the patch, in the mesh; `found.name`: in errors."""
     free = found.prescribed & ~solver.fixed
     if np.any(free):
         number = found.mesh.node_numbers[np.flatnonzero(free)[0] // 3]
