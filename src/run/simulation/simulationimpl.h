@@ -62,7 +62,7 @@ struct _n_SamSimulation {
   PetscBool              has_gap; /* the gap differs from that of the options */
   PetscBool              stopped; /* ended early, with a checkpoint */
   PetscInt               output_every;
-  PetscBool              output_rows; /* output_rows counts the rows of the load history */
+  PetscBool              output_rows; /* true: results count the rows of the load history */
   PetscBool              has_output;
   PetscBool              told;      /* in a life: the failed step is in the file */
   PetscBool              warned;    /* a warning has been printed in this life */
