@@ -1,4 +1,4 @@
-/* The class of motions, and that of steps in time: the bodies rest on each other, or roll a distance in a step. */
+/* The motions of bodies: their registry, and steps in time, in which the bodies rest on each other or roll. */
 #include <math.h>
 #include <petsam/private/motionimpl.h>
 #include <string.h>

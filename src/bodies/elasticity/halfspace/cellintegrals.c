@@ -8,7 +8,8 @@
 
   Algorithm.
     1. A cell with half sides a and b, its centre at (x, y), is integrated by Taylor's series about the centre, whose
-       odd derivatives cancel: 4 a b sum_mn a^2m b^2n / ((2m+1)! (2n+1)!) d_x^2m d_y^2n f.
+       odd derivatives cancel:
+         4 a b sum_mn a^2m b^2n / ((2m+1)! (2n+1)!) d_x^2m d_y^2n f.
        The terms of one order k = m + n are f's odd powers of x and y, a power of r, and q^k times
        a polynomial in w, where q = 1/r^2 and w = x^2 q. The polynomials depend on the cell's sides
        alone; their coefficients follow from the derivatives of x^i y^j r^-p by a recurrence. For each cell in a row one
@@ -28,8 +29,9 @@
   C_l^(p/2)(1) (t/R)^l R^-p (Szego 1975). The mean of t^l over a cell is at most d^l/(l+1): for a
   given d it is convex in a^2, thus largest for a cell without width. A numerator (x+u)^i adds
   products of x^(i-h) u^h, |u| <= a, and terms of degree l-h. The value itself is at least x^i (for
-  i = 2: x^2 + a^2/3) times (R+d)^-p. So for x^i y^j r^-p the sum of the orders from k on, relative to the value, is at
-    most 6 (2k+1)^(p-2) (1 + a s/max(x, a))^i (1 + b s/max(y, b))^j s^-2k,  k >= 2, s >= 5,
+  i = 2: x^2 + a^2/3) times (R+d)^-p. So for x^i y^j r^-p the sum of the orders from k on, relative to the value,
+  is at most
+    6 (2k+1)^(p-2) (1 + a s/max(x, a))^i (1 + b s/max(y, b))^j s^-2k,  k >= 2, s >= 5,
   where 6 is 3 (for i = 2 at x = 0), (1 + 1/s)^3 and the geometric series. The bound falls with the lag, as step 3
   requires. From a distance of 2800 square cells on, 1/r needs order 1, which is three coefficients.
 
