@@ -14,7 +14,7 @@ typedef struct {
   SamBody - a half-space of one material, or of several layers bonded to each other, listed from the surface down. Only
   the last material may be rigid.
 */
-#define SAM_MATERIALS 65 /* most materials of a body */
+#define SAM_MATERIALS 65 /* maximum number of materials of a body */
 typedef struct _n_SamBody *SamBody;
 
 /*

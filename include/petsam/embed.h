@@ -14,21 +14,20 @@
       Tx = sum q_x dA    Ty =  sum q_y dA      Mz = sum (x q_y - y q_x) dA
   Displacements are relative to infinity: they contain the compliance of both half-spaces. All units are SI.
 
-  Functions return 0, or what was wrong, as the program petsam ends with:
+  Functions return 0, or an error code, which is the exit code of the program petsam:
       2   a wrong argument or option     3   a file that cannot be used
       10  a step did not converge        11  no equilibrium: gross slip, or a moment that no pressure balances
       12  contact reached the edge of the grid (the step has a solution nevertheless)
       others  of PETSc
-  petsam_message() then says it in words. No function prints, ends the process, or leaves a contact in a state that
-  cannot be used: after an error it is as before, or as after petsam_reject().
+  petsam_message() then describes the error. No function prints, ends the process, or leaves a contact in an unusable
+  state: after an error the contact is as before, or as after petsam_reject().
 
-  MPI and PETSc are started by the first petsam_create() if nobody has, and are then ended when the process ends. A
-  program that uses PETSc itself starts it before.
-  Threads: only one thread at a time may be in a function of this header.
-  Ranks: a contact belongs to a communicator. A function whose comment says "Collective" is collective over it, with the
-  same arguments on all ranks (else it returns 2); results are the same on all of them. Contacts on different
-  communicators do not wait for each other. Fields are spread by rows: each rank has those of petsam_grid(), as an array
-  of (rows, nx).
+  The first petsam_create() starts MPI and PETSc unless they have been started, and they are then finalized when the
+  process ends. A program that uses PETSc itself must start it before. Threads: only one thread at a time may be in a
+  function of this header. Ranks: a contact belongs to a communicator. A function whose comment says "Collective" is
+  collective over it, with the same arguments on all ranks (else it returns 2); results are the same on all of them.
+  Contacts on different communicators do not wait for each other. Fields are spread by rows: each rank has those of
+  petsam_grid(), as an array of (rows, nx).
 */
 #ifndef PETSAM_EMBED_H
 #define PETSAM_EMBED_H
@@ -96,8 +95,8 @@ int petsam_set_field(petsam_contact *c, const char *name, const double *values);
   Collective.
 
   In:     c      - the contact
-          time   - the time of the step (s); it is only noted
-          names  - names of the prescribed values, with commas between them, as the columns of a history:
+          time   - the time of the step (s); it is only stored
+          names  - names of the prescribed values, separated by commas, like the columns of a history:
                    "load_n,disp_x,bulk2_stress_xx,friction_scale"
           values - one value for each name (N, N m, m, rad, or the unit of the condition): as many as there are commas,
                    and one more
@@ -150,7 +149,7 @@ typedef int (*petsam_monitor)(void *context, petsam_contact *c, int cycle);
   Collective.
 
   In:     c       - the contact
-          columns - names of the columns with commas between them, as in the first line of the program's file:
+          columns - names of the columns, separated by commas, as in the first line of the program's file:
                     "time,load_n,load_tx"
           rows    - number of rows
           values  - the rows, as an array of (rows, columns) (s, N, N m, m, rad, or the unit of the condition)
@@ -200,9 +199,9 @@ int petsam_live(petsam_contact *c, double cycles, const char *columns, int rows,
 
   Errors: 2 if a monitor calls it.
 
-  The warnings concern solutions that are right for the grid, but may not be intended, as a slip zone that is narrow
-  beside the cells. They are those of the program after a history of the committed steps and this one, without those of
-  wear, which petsam_commit() has. They take some time, which is spent in this function only.
+  The warnings concern solutions that are right for the grid but may not be intended, for example a slip zone only a few
+  cells wide. They are the warnings of the program after a history of the committed steps and this one, without those
+  about wear, which petsam_commit() gives. Computing them takes some time, which is spent in this function only.
 */
 int petsam_advise(petsam_contact *c, int *count);
 
@@ -216,7 +215,7 @@ int petsam_advise(petsam_contact *c, int *count);
 
   Errors: none; it returns no error code.
 
-  A warning is a line of text that names the option that mends it. It lives until the next step is tried.
+  A warning is a line of text that names an option that helps. It exists until the next step is tried.
 */
 const char *petsam_warning(const petsam_contact *c, int k);
 
@@ -342,12 +341,12 @@ int petsam_stress(petsam_contact *c, const char *options, int shape[4]);
   Collective.
 
   In:     c  - the contact
-          on - 1: each step that is committed from now on is recorded; 0: no more
+          on - 1: records each step that is committed from now on; 0: ends the recording
 
   Errors: none of its own.
 
-  Recorded are also the steps of petsam_history(), and of petsam_live() those of the last computed cycle. A step takes
-  40 bytes per cell.
+  The steps of petsam_history(), and of the last computed cycle of petsam_live(), are recorded, too. A step takes 40
+  bytes per cell.
 */
 int petsam_record(petsam_contact *c, int on);
 
@@ -359,12 +358,12 @@ int petsam_record(petsam_contact *c, int on);
   In:     c       - the contact
           options - those of the program petsam-stress, "-fatigue findley -fatigue_findley_k 0.3"; without -quantities
                     none of these are computed
-  Out:    shape   - as of petsam_stress()
+  Out:    shape   - as for petsam_stress()
 
   Errors: 2 for a wrong option, or without recorded steps; 3 for a file that cannot be used.
 
-  A warning of petsam_message() reports a cycle that is not closed: the last step has not the tractions of the state in
-  which recording began.
+  A warning of petsam_message() reports a cycle that is not closed: the tractions of its last step differ from those of
+  the state in which recording began.
 */
 int petsam_fatigue(petsam_contact *c, const char *options, int shape[4]);
 
@@ -379,7 +378,7 @@ int petsam_fatigue(petsam_contact *c, const char *options, int shape[4]);
                    no times
   Out:    values - the result (s, m, Pa, or the unit in the program's file)
 
-  Errors: 2 for a name that the last of these calls has no result of.
+  Errors: 2 for a name of which the last of these calls has no result.
 
   The results are, to the last bit, those of petsam-stress on the same steps.
 */
@@ -420,8 +419,8 @@ int petsam_save(petsam_contact *c, const char *file);
 
   Errors: 2 for the state of another contact, or if a monitor calls it; 3 for a file that cannot be read.
 
-  Sums that only the file has are left out. The function forgets a tried step. Of the step's numbers only loads,
-  displacements and time are known then.
+  Sums that only the file has are ignored. The function discards a tried step. Afterwards only the loads, displacements
+  and time are known of the step's numbers.
 */
 int petsam_load(petsam_contact *c, const char *file);
 
@@ -431,7 +430,7 @@ int petsam_load(petsam_contact *c, const char *file);
   Collective.
 
   In:     c    - the contact
-          from - another contact of the same options, gap and friction
+          from - another contact with the same options, gap and friction
 
   Errors: 2 for a contact of other ranks, grid or gap, or if a monitor calls it.
 
@@ -440,7 +439,7 @@ int petsam_load(petsam_contact *c, const char *file);
 int petsam_copy(petsam_contact *c, petsam_contact *from);
 
 /*
-  petsam_reset - resets the contact to that of bodies that have never touched, of the same options, gap and friction.
+  petsam_reset - resets the contact to one of bodies that have never touched, with the same options, gap and friction.
 
   Collective.
 

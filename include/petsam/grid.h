@@ -11,7 +11,7 @@
 */
 typedef struct _n_SamGrid *SamGrid;
 struct _n_SamGrid {
-  MPI_Comm  comm;            /* the library's own */
+  MPI_Comm  comm;            /* the library's own communicator */
   PetscInt  nx, ny;          /* cells */
   PetscReal width[2];        /* full width in x, y (m) */
   PetscReal center[2];       /* m */
@@ -70,8 +70,8 @@ PETSC_EXTERN PetscErrorCode SamGridDestroy(SamGrid *grid);
 
   Errors: none of its own.
 
-  On each rank the local part holds one component after the other, each as (rows, nx). The field takes memory only where
-  it is written to, so that a field that stays zero, as the shear without friction, costs nothing.
+  On each rank the local part holds one component after the other, each as (rows, nx). Only written parts of the field
+  take memory, so that a field that stays zero, such as the shear without friction, costs nothing.
 */
 PETSC_EXTERN PetscErrorCode SamGridCreateVec(SamGrid grid, PetscInt components, Vec *field);
 

@@ -8,8 +8,8 @@
   SamParameters - values by the names of the options (without dash) that give them. If `fixed` is true, a stopped run
   can only continue with the same value.
 */
-#define SAM_PARAMETERS       64  /* most parameters of a run */
-#define SAM_PARAMETER_VALUES 128 /* most numbers of a parameter */
+#define SAM_PARAMETERS       64  /* maximum number of parameters of a run */
+#define SAM_PARAMETER_VALUES 128 /* maximum number of numbers of a parameter */
 typedef struct {
   char      name[32];
   PetscBool fixed;

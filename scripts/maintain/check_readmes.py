@@ -39,8 +39,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 ROOT = Path(__file__).resolve().parents[2]
-TIMEOUT = 3600  # seconds for a block; the machine may be busy
-NOISE = 1e-11  # smaller figures are what rounding leaves
+TIMEOUT = 3600  # seconds for a block, as the machine may be busy
+NOISE = 1e-11  # smaller figures are rounding
 FIGURE = re.compile(r"(?<![\w.])[-+]?\d+(?:,\d{3})*(?:\.\d+)?(?:e[-+]?\d+)?(?![\w.]*\d)", re.I)
 COMMENT = re.compile(
     r"<!-- (not run|slow run|run|slow printed|printed|slow|exit code|in this folder|file|after)\b:? ?(.*?) ?-->$"
@@ -48,7 +48,7 @@ COMMENT = re.compile(
 
 
 class Piece(NamedTuple):
-    """A block of code (kind: its language), a table, or a comment that stands for itself; marks: comment to text."""
+    """A block of code (kind: its language), a table, or a comment that is a command; marks: comment to text."""
 
     kind: str
     text: str
@@ -88,18 +88,18 @@ def read_pieces(text):
 
 
 def figures(text):
-    """Figures in a text as written, without commas between thousands."""
+    """Returns the figures in a text as written, without commas between thousands."""
     return [word.replace(",", "") for word in FIGURE.findall(text.replace("−", "-"))]
 
 
 def last_digit(word):
-    """What one in the last digit of a figure is worth."""
+    """Returns the value of one unit in the last digit of a figure."""
     mantissa, _, exponent = word.lower().partition("e")
     return 10.0 ** (int(exponent or 0) - len(mantissa.partition(".")[2]))
 
 
 def agree(word, value):
-    """Whether a figure as written stands for a printed one."""
+    """Returns true if a figure as written agrees with a printed one."""
     written = float(word)
     if 0 < abs(written) < NOISE:
         return abs(value) < NOISE
@@ -107,13 +107,13 @@ def agree(word, value):
 
 
 def missing(words, values):
-    """Figures that stand for none of the values; one without a sign may be a size."""
+    """Returns the figures that agree with none of the values; a figure without a sign may be an absolute value."""
     sizes = [*values, *map(abs, values)]
     return [word for word in words if not any(agree(word, value) for value in (values if word[0] in "+-" else sizes))]
 
 
 def differences_of_text(text, output, but=()):
-    """Lines of text that no line of the output stands for: the same words and figures; `...` stands for anything."""
+    """Returns the lines of text that match no line of the output: same words and figures; `...` matches anything."""
     lines = [(line.split(), [float(word) for word in figures(line)]) for line in output.splitlines()]
 
     def stands(words, wanted, printed, values):
@@ -133,7 +133,7 @@ def differences_of_text(text, output, but=()):
 
 
 def differences_of_table(text, output, but=(), by_row=False):
-    """Rows, but for the head, with figures that are not in the output, or not in one of its lines; these figures."""
+    """Returns rows, except the head, with figures missing in the output or in each of its lines; and these figures."""
     rows = [[cell.strip() for cell in re.split(r"(?<!\\)\|", row)[1:-1]] for row in text.splitlines()]
     columns = [i for i, head in enumerate(rows[0]) if not any(word in head for word in but)]
     lines = [[float(word) for word in figures(line)] for line in (output.splitlines() if by_row else [output])]
@@ -162,10 +162,10 @@ class Checker:
             OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
         )  # fmt: skip
         self.installed = False
-        self.printed = {}  # by the files that have been checked
+        self.printed = {}  # by the files checked so far
 
     def copy(self, build):
-        """The sources as git knows them, and links to what is built, so that results go to the copy."""
+        """Copies the sources that git lists, and links to the build, so that results go to the copy."""
         listed = subprocess.run(
             ["git", "ls-files", "-co", "--exclude-standard"], cwd=ROOT, capture_output=True, text=True
         )
@@ -183,7 +183,7 @@ class Checker:
         print(f"{file}:{piece.line}: " + "\n    ".join(said), flush=True)
 
     def run(self, file, piece, command, code=0, folder=None):
-        """A command's output; all in one shell that stops at the first error."""
+        """Returns a command's output; all commands run in one shell that stops at the first error."""
         start = time.time()
         try:
             done = subprocess.run(
@@ -234,7 +234,7 @@ class Checker:
             self.fail(file, piece, "not as printed:", *left)
 
     def check(self, file):
-        """Run and compare all of one file, once; what it printed."""
+        """Runs and compares all blocks of one file, once; returns its output."""
         if file in self.printed:
             return self.printed[file]
         output, earlier = "", ""
@@ -256,7 +256,7 @@ class Checker:
         return output
 
     def run_piece(self, file, piece, earlier):
-        """What a piece prints; a failure if it leaves anything new in the tree's root."""
+        """Returns the output of a block; it fails if the block leaves anything new in the tree's root."""
         before = {path.name for path in self.tree.iterdir()}
         said = self.run_kind(file, piece, earlier)
         if new := sorted({path.name for path in self.tree.iterdir()} - before):
@@ -264,7 +264,7 @@ class Checker:
         return said
 
     def run_kind(self, file, piece, earlier):
-        """What a piece prints; nothing, of a table or a text."""
+        """Returns the output of a block; nothing for a table or a text."""
         if piece.kind in ("run", "slow run"):
             return self.run(file, piece, piece.text)
         if piece.kind == "sh":
@@ -273,7 +273,7 @@ class Checker:
 
 
 def markdown_files():
-    """The Markdown files of the sources, README.md first."""
+    """Returns the Markdown files of the sources, README.md first."""
     listed = subprocess.run(
         ["git", "ls-files", "-co", "--exclude-standard", "*.md"], cwd=ROOT, capture_output=True, text=True
     )

@@ -34,7 +34,7 @@ RULES = (
     (r"adversar(?:y|ies)", "fuzzing, fuzzer"),
     (r"spoiled", "malformed"),
     (r"second opinion", "cross-check"),
-    # one, that, what
+    # pronouns without a noun, and clauses with what
     (r"One that", "name the noun"),
     (r"values? that (?:is|are) none", "non-finite value"),
     (r"(?:all|everything) that (?:is|are) (?:there|at hand)", "name the noun"),
@@ -109,11 +109,11 @@ RULES = (
     (r"(?:a|the|fastest|every|each) peers?(?! review)", "reference code"),
     (r"elapsed", "wall time"),
 )
-HEADING = re.compile(r"^#+ (?:What|Where|Why|How|When|Which)\b.*", re.M)  # of pages: they name the thing
+HEADING = re.compile(r"^#+ (?:What|Where|Why|How|When|Which)\b.*", re.M)  # headings of pages must name their subject
 
 
 def compiled(rule):
-    """The rule between words, its spaces any white space without a blank line, in a look-behind one character."""
+    """The rule between words; its spaces match any white space without a blank line, in a look-behind one character."""
     space = r"(?:[^\S\n]+|[^\S\n]*\n[^\S\n]*)"
     spaced = re.sub(r"(\(\?<[!=][^)]*\))| ", lambda m: m[1].replace(" ", r"\s") if m[1] else space, rule)
     bounded = spaced if rule.startswith("<") else rf"(?<![\w-])(?:{spaced})(?!\w)"
@@ -129,7 +129,7 @@ EXCEPT = ("scripts/maintain/check_words.py",)
 
 
 def files_of(root):
-    """The files that git knows, or all when the folder is no repository."""
+    """Returns the files that git lists, or all files if the folder is no repository."""
     listed = subprocess.run(
         ["git", "ls-files", "-co", "--exclude-standard"], cwd=root, capture_output=True, text=True, check=False
     )
@@ -138,7 +138,7 @@ def files_of(root):
 
 
 def blank(found):
-    """White space in place of a match, with its line ends."""
+    """Returns white space in place of a match, with its line ends."""
     return re.sub(r"[^\n]", " ", found.group())
 
 
@@ -149,7 +149,7 @@ def texts_of_page(text):
 
 
 def texts_of_c(text):
-    """Strings with the line of their start; neighbours are one string."""
+    """Returns strings with the line of their start; neighbouring strings are one."""
     joined, start, end = "", 0, 0
     for found in C_TOKEN.finditer(text):
         token = found.group()
@@ -167,7 +167,7 @@ def texts_of_c(text):
 
 
 def texts_of_python(text):
-    """Strings, and of the docstrings that of the module, which is a program's help."""
+    """Returns the strings, including the module's docstring, which is a program's help, but no other docstrings."""
     tree, inner = ast.parse(text), set()
     for node in ast.walk(tree):
         if isinstance(node, (ast.FunctionDef, ast.ClassDef)) and isinstance(node.body[0], ast.Expr):

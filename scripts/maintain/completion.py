@@ -43,7 +43,7 @@ complete -F {function} {program}
 
 
 def value_of(option, topics):
-    """What the variables of the function become after an option; None: nothing, as after a word that is none."""
+    """Returns new values of the function's variables after an option; None: no change, as after any other word."""
     words = " ".join(option.words)
     if option.name == "-help":
         return f'words="{" ".join(topics)}"'

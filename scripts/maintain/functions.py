@@ -51,9 +51,9 @@ class Function:
     file: Path
     line: int
     name: str
-    type: str  # of the value it returns
+    type: str  # type of the returned value
     arguments: dict  # name to declaration
-    comment: str  # the one directly above; empty: there is none
+    comment: str  # comment directly above; empty: there is none
 
 
 @dataclass
@@ -63,10 +63,10 @@ class Block:
     summary: str = ""
     collective: str = ""
     entries: list = field(default_factory=list)  # (In, Out or In,out; name; text)
-    nothing: bool = False  # In: nothing.
+    nothing: bool = False  # true for "In: nothing."
     options: str = ""
     errors: str = ""
-    further: list = field(default_factory=list)  # paragraphs as they stand
+    further: list = field(default_factory=list)  # further paragraphs, unchanged
 
 
 def split_arguments(text):
@@ -104,7 +104,7 @@ def read_functions(path):
 
 
 def read_entries(paragraph):
-    """The arguments of the paragraph of In, Out and In,out: (way, name, text)."""
+    """Returns the arguments in the paragraph of In, Out and In,out: (way, name, text)."""
     entries, way = [], ""
     for line in paragraph.split("\n"):
         found = ENTRY.fullmatch(line)
@@ -117,7 +117,7 @@ def read_entries(paragraph):
 
 
 def read_block(comment):
-    """A comment in its parts; the parts that it lacks are empty."""
+    """Returns a comment in its parts; missing parts are empty."""
     block = Block()
     body = comment[2:-2].strip("\n").rstrip()
     paragraphs = [paragraph for paragraph in re.split(r"\n\s*\n", body) if paragraph.strip()]
@@ -151,7 +151,7 @@ def missing_arguments(function, block):
 
 
 def missing(function):
-    """Gaps in a function's comment: sentences for messages."""
+    """Returns the gaps in a function's comment, as sentences for messages."""
     if not function.comment.startswith(f"/*\n  {function.name} - "):
         yield f"has no comment above it that begins with '{function.name} - '"
         return
@@ -166,14 +166,14 @@ def missing(function):
 
 
 def escape(text):
-    """Text for Markdown: names of options and functions as code, all else without the meaning of its signs."""
+    """Returns text for Markdown: names of options and functions as code, and other signs escaped."""
     pieces = CODE.split(text)
     plain = [re.sub(r"([\\`*_<>\[\]|#])", r"\\\1", piece) if k % 2 == 0 else piece for k, piece in enumerate(pieces)]
     return "".join(piece if k % 2 == 0 else f"`{piece.strip('`')}`" for k, piece in enumerate(plain))
 
 
 def paragraph_of(text):
-    """A further paragraph for Markdown: a table or a formula as it stands."""
+    """Returns a further paragraph for Markdown: a table or a formula unchanged."""
     lines = [line[2:] if line.startswith("  ") else line for line in text.split("\n")]
     if any(line.startswith(" ") for line in lines):
         return "\n".join(["```text", *lines, "```"])
@@ -181,7 +181,7 @@ def paragraph_of(text):
 
 
 def prototype_of(function):
-    """The prototype in one line, or with a line for each argument."""
+    """Returns the prototype in one line, or with a line for each argument."""
     arguments = list(function.arguments.values()) or ["void"]
     line = f"{function.type}{function.name}({', '.join(arguments)});"
     if len(line) <= WIDTH:
@@ -210,7 +210,7 @@ def headers():
 
 
 def page():
-    """The page of all functions, header by header."""
+    """Returns the page of all functions, header by header."""
     lines = ["# Functions of the C library", "", "Each header is included by `petsam.h`, except `petsam/embed.h`.", ""]
     for path in headers():
         functions, first = read_functions(path)

@@ -17,7 +17,7 @@ SEE_ALSO = {
     "have --help.",
     "petsam-stress": "petsam(1); petsam-fatigue and petsam-plot have --help.",
 }
-WIDTH = 70  # of commands
+WIDTH = 70  # columns of commands
 
 
 def escape(text):
@@ -39,7 +39,7 @@ def command(line):
 
 
 def entries(lines):
-    """Pairs of a key and its text if that is what all lines are made of; lines that begin deeper go on; else None."""
+    """Returns pairs of a key and its text if all lines consist of these; deeper lines continue a text; else None."""
     pairs = []
     for line in lines:
         parts = re.split(r" {2,}", line.strip())
@@ -53,7 +53,7 @@ def entries(lines):
 
 
 def literal(lines):
-    """Lines that begin with two spaces: a list, or commands and tables as they are."""
+    """Formats lines that begin with two spaces: a list, or commands and tables without change."""
     pairs = entries(lines)
     if pairs:
         return [line for key, text in pairs for line in (".TP", f"\\fB{escape(key)}\\fP", escape(text))] + [".PP"]
@@ -63,7 +63,7 @@ def literal(lines):
 
 
 def paragraphs(text):
-    """A text of -help: paragraphs apart by empty lines."""
+    """Formats a text of -help: paragraphs separated by empty lines."""
     lines = []
     for part in re.split(r"\n\n+", text.strip("\n")):
         block = part.split("\n")

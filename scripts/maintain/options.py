@@ -19,28 +19,28 @@ from dataclasses import dataclass
 @dataclass
 class Option:
     name: str  # with its dash
-    argument: str  # <number>, <word>, <file>, [<bool>], ...; empty: none
+    argument: str  # <number>, <word>, <file>, [<bool>], ...; empty: no value
     text: str
-    default: str | None  # None: there is none, or the option is required, as the text then says
-    words: list[str]  # what may be given; empty: no fixed words
-    unit: str | None = None  # of SI
+    default: str | None  # None: no default, or the option is required, as the text then states
+    words: list[str]  # allowed words; empty: no fixed words
+    unit: str | None = None  # SI unit
 
 
 @dataclass
 class Group:
     name: str
-    topic: str  # of -help
+    topic: str  # topic of -help
     options: list[Option]
 
 
 def read_help(binary):
-    """The whole as dictionaries and lists. A program that cannot run raises OSError or CalledProcessError."""
+    """Returns the list as dictionaries and lists. A program that cannot run raises OSError or CalledProcessError."""
     done = subprocess.run([str(binary), "-help", "json"], check=True, capture_output=True, text=True)
     return json.loads(done.stdout)
 
 
 def groups_of(described):
-    """The groups in what read_help() returns."""
+    """Returns the groups in the result of read_help()."""
     return [
         Group(group["name"], group["topic"], [Option(**option) for option in group["options"]])
         for group in described["groups"]
@@ -48,12 +48,12 @@ def groups_of(described):
 
 
 def read_options(binary):
-    """Groups of options in the order of -help."""
+    """Returns the groups of options in the order of -help."""
     return groups_of(read_help(binary))
 
 
 def read_or_end(binary):
-    """For commands of `make install`: ends the program where the binary cannot run."""
+    """Reads the options for commands of `make install`: ends the program if the binary cannot run."""
     try:
         return read_help(binary)
     except (OSError, subprocess.CalledProcessError, ValueError) as error:

@@ -25,7 +25,7 @@ TABLE = re.compile(r"<!-- (petsam[\w-]*): (.+?) -->\n.*?<!-- end -->", re.S)
 
 
 def split_text(option):
-    """What the option means, and what stands in the last column: its default, or by what it is required."""
+    """Returns the option's meaning, and the text of the last column: its default, or the options that require it."""
     if found := re.fullmatch(r"(.*): (required.*)", option.text):
         return found.groups()
     return option.text, option.default or ""
@@ -41,7 +41,7 @@ def table(options):
 
 
 def fill(text, groups):
-    """The file's text with its tables made anew; groups: (program, heading) to options."""
+    """Returns the file's text with new tables; groups: (program, heading) to options."""
     left = dict(groups)
 
     def make(found):
@@ -57,7 +57,7 @@ def fill(text, groups):
 
 
 def index(text, groups):
-    """The text of the index: every option with the heading above its table in the reference's text."""
+    """Returns the text of the index: every option with the heading above its table in the reference's text."""
     entries = []
     for found in TABLE.finditer(text):
         program, group = found.groups()
@@ -74,7 +74,7 @@ def index(text, groups):
 
 
 def declared(units, groups):
-    """The text of the module: units of SI of every option, those that may follow a number, options that name files."""
+    """Returns the text of the module: the SI unit of every option, units that may follow a number, options of files."""
     of_options = {
         option.name[1:]: option.unit
         for options in groups.values()
@@ -84,7 +84,7 @@ def declared(units, groups):
     following = {}
     for unit, names in units.items():
         for name, power in names.items():
-            following.setdefault(name, (unit, power))  # N is a force, and no moment per metre
+            following.setdefault(name, (unit, power))  # N is a force, and not a moment per metre
     files = {
         option.name[1:]
         for (program, _), options in groups.items()

@@ -4,5 +4,5 @@ import re
 
 
 def github(text, separator="-"):
-    """The anchor of a heading: lower case, letters, digits, - and _ kept, spaces as the separator."""
+    """Returns the anchor of a heading: lower case; letters, digits, - and _ are kept, spaces become the separator."""
     return re.sub(r"[^\w\- ]", "", text.lower()).replace(" ", separator)

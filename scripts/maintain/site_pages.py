@@ -24,7 +24,7 @@ import yaml
 ROOT = Path(__file__).resolve().parents[2]
 MAINTAIN = Path(__file__).resolve().parent
 LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
-COMMAND = ("-m", "mkdocs", "build", "--strict", "-f")  # strict: a warning ends it with an error
+COMMAND = ("-m", "mkdocs", "build", "--strict", "-f")  # strict: a warning is an error
 FENCE = re.compile(r"^```.*?^```$", re.M | re.S)
 # the parts of the site in their order: title, first page, others
 PARTS = (
@@ -46,7 +46,7 @@ def text_of(name):
 
 
 def pages():
-    """Paths of all pages, relative to the repository, part by part: [(title, [page, ...])]."""
+    """Returns the paths of all pages, relative to the repository, part by part: [(title, [page, ...])]."""
     parts = []
     for title, first, others in PARTS:
         found = [first] if first else []
@@ -57,12 +57,12 @@ def pages():
 
 
 def title_of(page):
-    """The title or the first heading of a page."""
+    """Returns the title or the first heading of a page."""
     return re.search(r'^(?:# |title: )"?(.*?)"?$', text_of(page), re.M).group(1)
 
 
 def navigation(parts):
-    """MkDocs's list of pages: the first page of a part stands for it."""
+    """Returns MkDocs's list of pages: the first page of a part represents it."""
     listed = []
     for title, names in parts:
         entries = [{title_of(name): name} for name in names]
@@ -71,7 +71,7 @@ def navigation(parts):
 
 
 def copies(parts):
-    """Files of the repository, beside the pages, that the pages name; folders stay out (their links become text)."""
+    """Returns the files, besides the pages, that the pages name, without folders (their links become text)."""
     files = set()
     for _, names in parts:
         for name in names:
@@ -83,7 +83,7 @@ def copies(parts):
 
 
 def page(name):
-    """A page's text with links to folders as text: the site shows pages and files only."""
+    """Returns a page's text with links to folders as text: the site shows only pages and files."""
     text, parent = text_of(name), (ROOT / name).parent
 
     def folder(match):
@@ -93,7 +93,7 @@ def page(name):
 
 
 def stage(target):
-    """All pages and files of the site in a folder; returns the parts."""
+    """Writes all pages and files of the site to a folder; returns the parts."""
     shutil.rmtree(target, ignore_errors=True)
     parts = pages()
     for name in copies(parts):

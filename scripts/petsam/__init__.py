@@ -15,12 +15,12 @@ plot            pictures: petsam-plot
 study           many runs from a table: petsam-study
 compliance      real bodies from finite elements: petsam-compliance
 surface         measured surfaces into petsam's HDF5: petsam-surface
-comparison      what the examples' comparisons with other solutions share
+comparison      common parts of the examples' comparisons with other solutions
 isolation       reading of files that may be damaged, in a child process
-environment     where the interpreter, its libraries and petsam are found
+environment     search for the interpreter, its libraries and petsam
 
-Importing this package alone needs the standard library only: each part imports its libraries when it is used, and is
-there by its name, petsam.cycles or petsam.closed.plane, without an import of its own.
+Importing this package alone needs only the standard library: each part imports its libraries when it is used, and is
+available by its name, petsam.cycles or petsam.closed.plane, without a separate import.
 """
 
 import importlib
@@ -50,7 +50,7 @@ __all__ = [
     "open",
 ]
 
-# names that need libraries: their modules are imported when they are first asked for
+# names that need libraries; their modules are imported at their first use
 _HOMES = {
     "AdviceWarning": ".contact",
     "Contact": ".contact",
@@ -95,9 +95,10 @@ def __dir__():
 
 
 def open(path, label=None):
-    """The Results of a file of petsam, the Stresses of one of petsam-stress, the Study of petsam-study's results.h5.
+    """Opens a file: returns the Results of petsam, the Stresses of petsam-stress, or the Study of petsam-study's
+    results.h5.
 
-    Error where it cannot be read.
+    Raises Error if it cannot be read.
 
     label names it in pictures (the file's name).
     """

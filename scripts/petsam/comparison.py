@@ -1,10 +1,10 @@
-"""What the examples' comparisons with other solutions share: command line, tables, numbers as JSON, error norms.
+"""Common parts of the examples' comparisons with other solutions: command line, tables, numbers as JSON, error norms.
 
 A comparison is a class with
 
     __init__(directory)  reads the results that the example's run.sh writes to a directory
     numbers              all numbers of the tables, as JSON takes them
-    tables()             yields what is printed: texts, and tables as (title, columns, rows)
+    tables()             yields the printed texts, and the tables as (title, columns, rows)
     draw(directory)      writes the pictures
 """
 
@@ -42,7 +42,7 @@ def nodal_l2(grid, name, nodes, spacing, reference, weight):
 
 
 def print_table(title, columns, rows):
-    """Print rows (dicts) under a title; columns: "heading = key:format; ...", the format being that of format()."""
+    """Prints rows (dicts) under a title; columns: "heading = key:format; ...", with formats of format()."""
     columns = [column.split(" = ") for column in columns.split("; ")]
     print("\n" + title)
     print("  " + "".join(f"{heading:>14s}" for heading, _ in columns))
@@ -52,7 +52,7 @@ def print_table(title, columns, rows):
 
 
 def _run(kind, options):
-    """Read, print the tables, write the numbers and the pictures."""
+    """Reads the results, prints the tables, and writes the numbers and the pictures."""
     from .plot.style import STYLE, plt
 
     comparison = kind(options.directory)

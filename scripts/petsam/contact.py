@@ -1,4 +1,4 @@
-"""A contact in this process: loads or displacements in, the rest out. libpetsam through ctypes. SI units.
+"""A contact in this process: takes loads or displacements and returns the rest. Calls libpetsam by ctypes. SI units.
 
     import petsam
     steel = dict(body1_young=210e9, body1_poisson=0.3, body2_young=210e9, body2_poisson=0.3)
@@ -26,7 +26,7 @@ from . import __version__
 from .environment import PREFIX, TREE
 from .errors import Error, Missing, short, there_are
 
-# of a computed cycle, by their names in /wear
+# numbers of a computed cycle, by their names in /wear
 CYCLE = (
     "cycle", "jump", "error", "volume1", "volume2", "depth_max1", "depth_max2", "dissipated_energy", "contact_area",
     "pressure_max", "computed",
@@ -39,7 +39,7 @@ class ContactError(Error):
     """A call that was rejected, with its code (2 a wrong argument, 3 a file, others of PETSc)."""
 
     def __init__(self, code, message):
-        super().__init__(code, message)  # so that it can be pickled
+        super().__init__(code, message)  # makes it picklable
         self.code, self.message = code, message
 
     def __str__(self):
@@ -47,7 +47,7 @@ class ContactError(Error):
 
 
 class PrescribedError(ContactError, TypeError):
-    """What a step was to prescribe was rejected: an unknown name, two for one component, a value out of range."""
+    """A prescribed value of a step was rejected: an unknown name, two names for one component, a value out of range."""
 
 
 class NotConverged(ContactError):
@@ -71,7 +71,7 @@ class WearWarning(UserWarning):
 
 
 class AdviceWarning(UserWarning):
-    """A solution is right for its grid, but may not be what was meant: cells that do not resolve it, units, sizes."""
+    """A solution is right for its grid, but may not be intended: for example unresolved cells, units, or sizes."""
 
 
 class CycleWarning(UserWarning):
@@ -118,14 +118,14 @@ _library = None
 
 
 def _candidates():
-    """Where libpetsam may be: $PETSAM_LIBRARY, the build tree, the prefix of these scripts or of petsam on PATH."""
+    """Possible places of libpetsam: $PETSAM_LIBRARY, the build tree, the prefix of these scripts or of petsam."""
     if os.environ.get("PETSAM_LIBRARY"):
         return [os.environ["PETSAM_LIBRARY"]]
     folders = [TREE / "build" / "lib", PREFIX / "lib"]
     program = os.environ.get("PETSAM") or shutil.which("petsam")
     if program:
         folders.append(Path(program).resolve().parents[1] / "lib")
-    # a wheel has the library by the version of its interface only
+    # a wheel has the library only under the version of its interface
     names = ("libpetsam.so", "libpetsam.so." + ".".join(__version__.split(".")[:2]))
     return [*[str(folder / name) for folder in folders for name in names if (folder / name).exists()], "libpetsam.so"]
 
@@ -190,14 +190,14 @@ def _words(options):
 
 
 def _text(words):
-    """Words for the library, which would take those up to a NUL only."""
+    """Encodes text for the library, which would end it at a NUL."""
     if "\0" in words:
         raise ValueError(f"{short(repr(words))}: expected words without a NUL character")
     return words.encode()
 
 
 def _joined(function, names):
-    """Names for the library, which counts them by the commas between them: one for each value."""
+    """Encodes names for the library, which counts them by the commas between them: one name for each value."""
     for name in names:
         if not re.fullmatch(r"[^\s,;#\"]+", name):
             what = f"{short(repr(name))} is no name: give one name for each value, without commas or blanks"
@@ -210,7 +210,7 @@ def _number(value, name):
 
 
 def _real(value, name):
-    """A double of C; TypeError names what was to be one."""
+    """Returns a C double; TypeError names the argument."""
     try:
         return ctypes.c_double(value)
     except TypeError as error:
@@ -276,7 +276,7 @@ class Contact:
         self.x, self.y = x, y[self.first_row : self.first_row + self.rows]
 
     def _read_names(self):
-        """Of what a step may prescribe, and of its loads and displacements."""
+        """Returns {name: unit} of all that a step may prescribe, and the names of its loads and displacements."""
         unit, known, names, self.prescribable = ctypes.c_char_p(), self._names("number"), [], {}
         while (name := self._c.petsam_step_name(self._contact, len(names), ctypes.byref(unit))) is not None:
             names.append(name.decode())
@@ -297,7 +297,7 @@ class Contact:
         raise kind(code, self._message())
 
     def _call(self, name, *arguments):
-        """Call a function of the library; an exception where it fails. Its code."""
+        """Calls a function of the library and returns its code; raises an exception if it fails."""
         if not self._contact:
             raise ContactError(2, "the contact is closed")
         with _lock:
@@ -306,7 +306,7 @@ class Contact:
         return code
 
     def _names(self, what):
-        """Of the fields ("field") or numbers ("number") that can be asked for."""
+        """Returns the names of the fields ("field") or numbers ("number") that can be requested."""
         ask, found = getattr(self._c, f"petsam_{what}_name"), []
         with _lock:
             while name := ask(self._contact, len(found)):
@@ -319,14 +319,14 @@ class Contact:
         """Solve a step from the committed state: a Step.
 
         Each component is given by its load (load_n, N ... load_mz, N m), its displacement (disp_z, m ... rot_z, rad) or
-        its creepage (creep_x, creep_y, creep_spin, 1/m); what is not given is a load of 0. Besides them a step takes
-        the conditions that are columns of a history: friction_scale, bulk2_stress_xx (Pa), body2_case_NAME, ...
-        (contact.prescribable). With roll, roll_y (m) the contact rolls towards +x, +y: the grid moves over the bodies,
-        and a creepage times the distance is the motion of body 1. They hold for this step; what
-        is not given has the value of the contact's option. NoEquilibrium or NotConverged where there is no
-        solution, with the step; an EdgeContactWarning where the contact has reached the edge of the grid, an
-        AdviceWarning, once of each kind, where the grid does not resolve the step. Replaces an earlier try. With
-        rolling="steady" each try is a steady state of rolling.
+        its creepage (creep_x, creep_y, creep_spin, 1/m); components that are not given are loads of 0. Besides them a
+        step takes the conditions that are columns of a history: friction_scale, bulk2_stress_xx (Pa), body2_case_NAME,
+        ... (contact.prescribable). With roll, roll_y (m) the contact rolls towards +x, +y: the grid moves over the
+        bodies, and a creepage times the distance is the motion of body 1. They hold for this step; what is not given
+        has the value of the contact's option. NoEquilibrium or NotConverged where there is no solution, with the step;
+        an EdgeContactWarning where the contact has reached the edge of the grid, an AdviceWarning, once of each kind,
+        where the grid does not resolve the step. Replaces an earlier try. With rolling="steady" each try is a steady
+        state of rolling.
         """
         values = np.array([_real(number, f"try_step: {name}").value for name, number in given.items()])
         seconds, load, rigid = _real(time, "try_step: time"), np.full(6, np.nan), np.full(6, np.nan)
@@ -347,7 +347,7 @@ class Contact:
         return step
 
     def _advise(self):
-        """Warn of what the grid does not resolve, of each kind once: those of a kind differ in their numbers only."""
+        """Warns of numbers that the grid does not resolve, once per kind: warnings of a kind differ only in numbers."""
         count = ctypes.c_int()
         self._call("advise", ctypes.byref(count))
         with _lock:
@@ -372,9 +372,9 @@ class Contact:
         return found
 
     def commit(self):
-        """Make the tried step the state from which the next one goes on; bodies wear by it, if they do.
+        """Makes the tried step the state from which the next one continues; the wear of the step is removed.
 
-        WearWarning where the step wears more than one may.
+        WearWarning if the step wears more than the limit of a step.
         """
         self._call("commit")
         message = self._message()
@@ -382,7 +382,7 @@ class Contact:
             warnings.warn(message, WearWarning, stacklevel=2)
 
     def reject(self):
-        """Forget the tried step: later ones are, to the last bit, as if it had not been tried."""
+        """Discards the tried step: later steps are, to the last bit, as if it had not been tried."""
         self._call("reject")
 
     def stiffness(self, reversal=False, condense=None):
@@ -392,7 +392,7 @@ class Contact:
         without a tried step those of the committed one.
 
         condense is "disp_x" or another displacement: the stiffness (a number) of its load while the other five loads
-        stay, and their displacements follow; or several of them, for a matrix. Of components that are held take the
+        stay, and their displacements follow; or several of them, for a matrix. For components that are held, use the
         whole matrix.
         """
         k = np.empty((6, 6))
@@ -446,7 +446,7 @@ class Contact:
                 None,
             )
         except (NotConverged, NoEquilibrium) as error:
-            error.steps = found[:-1] if name == "history" else found  # the monitor is called for a failed step too
+            error.steps = found[:-1] if name == "history" else found  # the monitor is called for a failed step, too
             error.step = self._last_step(error.code, str(error))
             raise
         if failed:
@@ -484,7 +484,7 @@ class Contact:
     def number(self, name):
         """A number of the last step, by its name in /history: contact_area, dissipated_energy, ...
 
-        After reject() it is that of the committed step; the same of a step that has been tried is step.contact_area.
+        After reject() the number is that of the committed step; for a tried step, step.contact_area is the same number.
         """
         value = ctypes.c_double()
         if not isinstance(name, str):
@@ -493,7 +493,7 @@ class Contact:
         return value.value
 
     def _ask(self, function, name, target):
-        """Call a function that takes a name; an unknown name is an error that lists the known ones."""
+        """Calls a function that takes a name; an unknown name is an error that lists the known ones."""
         try:
             self._call(function, _text(name), target)
         except ContactError as error:
@@ -520,7 +520,7 @@ class Contact:
     def _set_gap(self, values):
         self.set_field("gap", values)
 
-    # what has been given cannot be asked for: field("gap") is the gap of the deformed bodies
+    # given fields cannot be read back: field("gap") is the gap of the deformed bodies
     gap = property(None, _set_gap, doc="The separation of the undeformed, unworn bodies, m; to be set.")
 
     def _set_friction(self, values):
@@ -559,13 +559,13 @@ class Contact:
                     is the surface: the options of petsam-stress
         quantities  those of stress() that are wanted too, of all steps: (time, z, y, x)
 
-        CycleWarning where the last step has not the tractions of the state in which recording began.
+        CycleWarning if the tractions of the last step differ from those of the state in which recording began.
         """
         given = dict(depths=depths, section=section, body=body, quantities=quantities)
         return self._evaluate("fatigue", fatigue=parameters, **given, **constants)
 
     def _evaluate(self, function, **options):
-        """Call petsam_stress() or petsam_fatigue(); all its results."""
+        """Calls petsam_stress() or petsam_fatigue(); returns all results."""
         if np.size(options["quantities"]) == 0:
             options["quantities"] = "none"
         words = _words({name: value for name, value in options.items() if value is not None})
@@ -585,11 +585,11 @@ class Contact:
     # ------------------------------------------------------------ files, end
 
     def save(self, file):
-        """Write the committed state to a file."""
+        """Writes the committed state to a file."""
         self._call("save", os.fsencode(file))
 
     def load(self, file):
-        """Take over the state in a file, which a contact of the same options has saved."""
+        """Takes over the state in a file that a contact of the same options has saved."""
         self._call("load", os.fsencode(file))
 
     def copy(self):
@@ -601,15 +601,15 @@ class Contact:
         return other
 
     def reset(self):
-        """Go back to bodies that have never touched."""
+        """Resets the contact to bodies that have never touched."""
         self._call("reset")
 
     def close(self):
-        """Free the contact."""
+        """Frees the contact."""
         if self._contact:
             with _lock:
                 self._c.petsam_destroy(ctypes.byref(self._contact))
-                if self._contact:  # in the function of a run
+                if self._contact:  # not within the function of a run
                     raise ContactError(2, self._message())
 
     def __copy__(self):
@@ -632,7 +632,7 @@ class Contact:
 
 
 def _table(history):
-    """Columns and values of a history: a file, or {column: values}."""
+    """Returns columns and values of a history: from a file, or from {column: values}."""
     if isinstance(history, (str, os.PathLike)):
         lines = [line.split("#")[0].strip() for line in Path(history).read_text(encoding="utf-8-sig").splitlines()]
         lines = [re.split(r"\s*[,;]\s*|\s+", line) for line in lines if line]

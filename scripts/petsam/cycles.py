@@ -21,17 +21,17 @@ import numpy as np
 from .errors import Error, short, there_are
 from .results import NotSaved
 
-# the loads and what they work on
+# pairs of loads and conjugate displacements
 PAIRS = {
     "tx": ("load_tx", "disp_x"), "ty": ("load_ty", "disp_y"), "mz": ("load_mz", "rot_z"),
     "n": ("load_n", "disp_z"), "mx": ("load_mx", "rot_x"), "my": ("load_my", "rot_y"),
 }  # fmt: skip
-TANGENTIAL = ("tx", "ty", "mz")  # those that dissipate
+TANGENTIAL = ("tx", "ty", "mz")  # pairs that dissipate
 ENERGY = "dissipated_energy"
-REVERSAL = 1e-4  # of the range of the values: a smaller change of direction is rounding, no turning point
-LEVEL = 1e-9  # of the range: what differs by less is one plateau, which turns where it ends
-CLOSED = 1e-2  # of the range: how near the end of a history comes to the beginning of its last cycle
-SLACK = 1e-6  # of a period: times are rounded
+REVERSAL = 1e-4  # of the range of the values: a smaller change of direction is rounding, not a reversal
+LEVEL = 1e-9  # of the range: values that differ by less are one plateau, whose end is the reversal
+CLOSED = 1e-2  # of the range: largest distance between the end of a history and the beginning of its last cycle
+SLACK = 1e-6  # of a period, as times are rounded
 
 
 class Cycle(NamedTuple):
@@ -46,18 +46,18 @@ class Cycle(NamedTuple):
 
     @property
     def rows(self):
-        """Rows of its loop, with its beginning as far as that has been written."""
+        """Rows of its loop, including its beginning if that has been written."""
         return slice(max(0, self.first), self.last + 1)
 
 
 def busiest(results):
-    """The pair of load and displacement whose product varies most; None where none does."""
+    """Returns the pair of load and displacement whose product varies most; None if none varies."""
 
     def work(pair):
         load, way = (results.series(name) for name in PAIRS[pair])
         return float(np.ptp(load) * np.ptp(way)) if load.size else 0.0
 
-    # the tangential loads before the normal ones: these dissipate nothing
+    # tangential loads come before normal ones, which dissipate nothing
     best = max(TANGENTIAL, key=work)
     if work(best) > 1e-9 * work("n"):
         return best
@@ -65,7 +65,7 @@ def busiest(results):
 
 
 def turning_points(values):
-    """Indices at which values turn back; they come from zero, so the first one may be one. The end is none."""
+    """Returns the indices of reversals of the values; since these come from zero, the first one may be one."""
     values = np.asarray(values, dtype=float)
     size = float(np.ptp(np.append(values, 0.0))) if values.size else 0.0
     turns, top, at, direction = [], 0.0, -1, 0
@@ -86,7 +86,7 @@ def by_turns(values):
     turns = turning_points(values)
     found = [(one, other) for one, other in zip(turns[::2], turns[2::2])]
     rest = turns[2 * len(found) :]
-    if len(rest) == 2:  # the history may end with the turn that closes its last cycle
+    if len(rest) == 2:  # the history may end with the reversal that closes its last cycle
         missing = abs(values[-1] - values[rest[0]]) - CLOSED * np.ptp(values)
         beyond = (values[-1] - values[rest[0]]) * (values[rest[0]] - values[rest[1]]) > 0.0
         if missing <= 0.0 or beyond:
@@ -95,9 +95,9 @@ def by_turns(values):
 
 
 def by_period(times, period, start=None):
-    """Cycles of a period (s) from a start (s): unless told 0, or the first time if that is a period or more away."""
+    """Cycles of a period (s) from a start (s); default 0, or the first time if that is at least a period away."""
     if start is None:
-        start = 0.0 if abs(times[0]) < period else times[0]  # steps before 0 are those of a first row at 0
+        start = 0.0 if abs(times[0]) < period else times[0]  # steps before 0 belong to a first row at 0
     slack = SLACK * period
     count = np.floor((times[-1] - start + slack) / period)
     if count > times.size:
@@ -107,7 +107,7 @@ def by_period(times, period, start=None):
 
 
 def read_period(text):
-    """Period and start (None without) of T or T,START; ValueError of another text."""
+    """Returns period and start (or None) of T or T,START; raises ValueError for another text."""
     values = [float(word) for word in text.split(",")]
     if len(values) > 2 or not np.all(np.isfinite(values)) or not values[0] > 0.0:
         raise ValueError("expected a positive time, or T,START, in s")
@@ -133,7 +133,7 @@ class Cycles:
         return np.array([float(np.sum(steps[one.first + 1 : one.last + 1])) for one in self.found])
 
     def numbered(self, number):
-        """The cycle of a number from 1, or from the end, -1 being the last; NotSaved where there is none."""
+        """Returns the cycle of a number from 1, or from the end, -1 being the last; NotSaved if there is none."""
         count = len(self.found)
         at = count + 1 + number if number < 0 else number
         if at != int(at) or not 1 <= at <= count:

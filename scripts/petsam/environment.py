@@ -1,6 +1,6 @@
-"""Where the commands find Python's libraries and petsam, in the build tree as well as installed.
+"""Finds Python's libraries and petsam for the commands, in the build tree as well as installed.
 
-Standard library only: it is imported before the libraries are known to be there.
+It uses the standard library only, as it is imported before it is known that the libraries exist.
 """
 
 import contextlib
@@ -28,7 +28,7 @@ VERSION, SECONDS = 4096, 60.0  # characters of what a launcher says about itself
 
 
 def _interpreter():
-    """The Python to use: $PYTHON, that of `make venv`, or this one."""
+    """Returns the Python to use: $PYTHON, that of `make venv`, or this one."""
     if os.environ.get("PYTHON"):
         found = shutil.which(os.environ["PYTHON"])
         if not found:
@@ -45,9 +45,9 @@ def _interpreter():
 
 
 def enter(*libraries):
-    """Go on in the Python of _interpreter(); end with a message when it lacks one of the libraries."""
+    """Continues in the Python of _interpreter(); ends with a message if a library is missing there."""
     python = _interpreter()
-    # execv keeps the process: its number says that this one has been through here
+    # execv keeps the process: its number shows that this one has already been replaced
     if python and os.environ.get(ENTERED) != str(os.getpid()):
         os.environ[ENTERED] = str(os.getpid())
         if sys.stdout:
@@ -68,7 +68,7 @@ def enter(*libraries):
 
 
 def run(module, *libraries):
-    """A command: end with the exit code of main() in a module of this package that needs these libraries."""
+    """Runs a command: ends with the exit code of main() in a module of this package that needs these libraries."""
     enter(*libraries)
     sys.exit(importlib.import_module(module).main())
 
@@ -77,7 +77,7 @@ def run(module, *libraries):
 
 
 def petsam():
-    """Path of the program: $PETSAM, build/bin, prefix/bin, or PATH."""
+    """Returns the path of the program: $PETSAM, build/bin, prefix/bin, or PATH."""
     if os.environ.get("PETSAM"):
         found = shutil.which(os.environ["PETSAM"])
         if not found:
@@ -93,7 +93,7 @@ def petsam():
 
 
 def script(name):
-    """Path of a script beside this package, or where a wheel puts it."""
+    """Returns the path of a script beside this package, or in a wheel."""
     folders = (SCRIPTS, PREFIX / "share" / "petsam" / "scripts", PREFIX / "bin")
     found = next((folder / name for folder in folders if (folder / name).exists()), None)
     if not found:
@@ -102,7 +102,7 @@ def script(name):
 
 
 def split(text, what):
-    """Words of a text as a shell takes them; what names the text."""
+    """Splits a text into words like a shell; `what` names the text in messages."""
     try:
         return shlex.split(text)
     except ValueError as error:
@@ -122,13 +122,13 @@ def launcher(words=None):
         command[0] = os.path.abspath(command[0])  # it is called from the cases' folders
     version = _version(command)
     if "Open MPI" in version or "OpenRTE" in version:
-        # several runs side by side would otherwise all be bound to the first cores
+        # otherwise concurrent runs would all be bound to the first cores
         command += ["--bind-to", "none", "--oversubscribe"]
     return command
 
 
 def _version(command):
-    """The beginning of what a launcher says about itself; one that says too much, or takes too long, is stopped."""
+    """Returns the beginning of a launcher's description of itself; stops one that prints too much or takes too long."""
     try:
         process = subprocess.Popen(
             command + ["--version"],

@@ -6,25 +6,25 @@ import os
 import re
 import sys
 
-USAGE, FILE = 2, 3  # exit codes, as petsam's
+USAGE, FILE = 2, 3  # exit codes, as in petsam
 UNEXPECTED = 1
 INTERRUPTED = 130
-TRACEBACK = "PETSAM_TRACEBACK"  # environment variable: show where an unexpected error comes from
-LINE = 4000  # characters of a message at most
+TRACEBACK = "PETSAM_TRACEBACK"  # environment variable: print the traceback of an unexpected error
+LINE = 4000  # maximum characters of a message
 
 
 class Error(Exception):
-    """Something that cannot be read, found or understood; lines of an example are printed below the message."""
+    """A file or value that cannot be read, found or understood; lines of an example are printed below the message."""
 
     example = ()
 
 
 class Missing(Error):
-    """A file, a program or a library that is not there."""
+    """A missing file, program or library."""
 
 
 def one_line(text, most=LINE):
-    """The text without line breaks and what else a terminal cannot show, cut in the middle when it is long."""
+    """Returns the text without line breaks and characters that a terminal cannot show; a long one is cut."""
     text = str(text)
     if len(text) > most:
         half = (most - 5) // 2
@@ -33,12 +33,12 @@ def one_line(text, most=LINE):
 
 
 def short(text):
-    """The same for a part of a message that comes from a file."""
+    """Returns the same for a part of a message that comes from a file."""
     return one_line(text, 80)
 
 
 def there_are(tried, names, there="there are"):
-    """The end of a message about a name that does not exist: which one is meant, if one is near, and all that do."""
+    """Returns the end of a message about an unknown name: a similar name, if there is one, and all names."""
     names, tried = list(names), str(tried)
     near = difflib.get_close_matches(tried, names, 1) or [name for name in names if tried in name.split("_")][:3]
     have = f"{there} {', '.join(names)}" if names else f"{there} none"
@@ -46,7 +46,7 @@ def there_are(tried, names, there="there are"):
 
 
 def fail(command, error, code=FILE):
-    """Print the error of a command; the exit code."""
+    """Prints the error of a command; returns the exit code."""
     if isinstance(error, OSError):
         error = f"{error.filename or 'writing'}: {error.strerror or error}"
     print(f"{command}: error: {one_line(error)}", file=sys.stderr)
@@ -56,14 +56,14 @@ def fail(command, error, code=FILE):
 
 
 class Parser(argparse.ArgumentParser):
-    """A command line whose errors are one line as all others are, without the usage before it."""
+    """A command line whose errors are printed in one line, without the usage before it."""
 
     def error(self, message):
-        """End with the message; of an unknown option with that which is meant, if one is near."""
+        """Ends with the message; for an unknown option adds a similar one, if there is one."""
         self.exit(fail(self.prog, f"{message}{self.meant(message)}; see {self.prog} --help", USAGE))
 
     def meant(self, message):
-        """Which option may be meant by the first one that a message does not recognize."""
+        """Returns an option similar to the first one that a message does not recognize."""
         found = re.match(r"unrecognized arguments: --?([a-z][\w-]*)", message)
         names = [name for name in self._option_string_actions if name.startswith("--")]
         near = found and difflib.get_close_matches("--" + found[1].replace("_", "-"), names, 1)
@@ -71,7 +71,7 @@ class Parser(argparse.ArgumentParser):
 
 
 def joined(words):
-    """Words in which a value that begins with a minus is joined to its option: argparse would take it for one."""
+    """Joins values that begin with a minus to their options, as argparse would take them for options."""
     found = []
     for word in words:
         if found and re.match(r"-[\d.]", word) and re.fullmatch(r"--[a-z][a-z-]*", found[-1]):
@@ -82,7 +82,7 @@ def joined(words):
 
 
 def _flush():
-    """What has been printed reaches its destination here, not when Python ends, where nobody could report it."""
+    """Flushes the output here, not when Python ends and errors could not be reported."""
     try:
         sys.stdout.flush()
     except OSError:
@@ -91,13 +91,13 @@ def _flush():
 
 
 def guarded(command, body):
-    """Exit code of body(), which is a command: errors that it does not foresee end with a line, too."""
+    """Returns the exit code of body(), which is a command; unexpected errors end with a line, too."""
     for number, name in enumerate(("stdin", "stdout", "stderr")):
-        if getattr(sys, name) is None:  # closed: the next file to be opened would get its number
+        if getattr(sys, name) is None:  # closed: the next opened file would get its number
             setattr(sys, name, os.fdopen(os.open(os.devnull, os.O_RDWR), "r" if number == 0 else "w"))
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
-            stream.reconfigure(errors="backslashreplace")  # names of files need not be text
+            stream.reconfigure(errors="backslashreplace")  # names of files may not be text
     try:
         try:
             return body()

@@ -1,4 +1,4 @@
-"""What a name stands for, before it is opened: a pipe would wait for ever, a device never ends."""
+"""Checks a name before it is opened: a pipe would wait for ever, and a device never ends."""
 
 import os
 import stat
@@ -7,7 +7,7 @@ from .errors import Error
 
 
 def need_regular(path):
-    """Status of a regular file; OSError where there is none, Error where it is something else."""
+    """Returns the status of a regular file; raises OSError if there is none, and Error if it is not a regular file."""
     try:
         status = os.stat(path)
     except ValueError as error:  # a NUL in the name
@@ -20,13 +20,13 @@ def need_regular(path):
 
 
 def need_replaceable(path):
-    """Error where the name is that of something which is not a regular file."""
+    """Raises Error if the name is not that of a regular file."""
     if os.path.lexists(path) and os.path.exists(path):
         need_regular(path)
 
 
 def same(one, other):
-    """Whether two names are those of one file that exists."""
+    """Returns true if two names belong to the same existing file."""
     try:
         return os.path.samefile(one, other)
     except OSError:

@@ -15,11 +15,11 @@ import warnings
 from .errors import Error
 
 SECONDS = 20  # of CPU time for one reading
-EXAMINING = 5  # of CPU time for the names and attributes of a file, before this process opens it itself
-MEMORY = 4 << 30  # bytes that one reading may need: it is by blocks
-NAME = 4096  # bytes of a file's name that are noted
+EXAMINING = 5  # of CPU time for the names and attributes of a file, before this process opens it
+MEMORY = 4 << 30  # bytes that one reading may need; it reads by blocks
+NAME = 4096  # maximum bytes of a file's name that are noted
 PR_SET_PDEATHSIG = 1  # of Linux's prctl
-# what ends a child that reads a damaged file
+# signals that end a child that reads a damaged file
 DAMAGE = {
     getattr(signal, name)
     for name in ("SIGSEGV", "SIGBUS", "SIGABRT", "SIGFPE", "SIGILL", "SIGTRAP", "SIGXCPU", "SIGSYS")
@@ -44,7 +44,7 @@ class Ended(Error):
 
 
 def _addresses():
-    """Bytes of address space in use; infinite where the system does not say."""
+    """Returns the bytes of address space in use; infinite if the system does not report them."""
     try:
         with open("/proc/self/statm", encoding="ascii") as file:
             return int(file.read().split()[0]) * mmap.PAGESIZE
@@ -54,7 +54,7 @@ def _addresses():
 
 @contextlib.contextmanager
 def _limits(**wanted):
-    """Lowers soft limits of the system while the block runs; a lower one that holds already stays."""
+    """Lowers soft limits of the system during the block; lower existing limits stay."""
     before = {name: resource.getrlimit(getattr(resource, name)) for name in wanted}
     for name, value in wanted.items():
         if math.isfinite(value):
@@ -69,7 +69,7 @@ def _limits(**wanted):
 
 @contextlib.contextmanager
 def _silence():
-    """A library that aborts says so itself, in words that mean nothing to a user."""
+    """Suppresses the messages of a library that aborts, which would mean nothing to a user."""
     sys.stderr.flush()
     before, nowhere = os.dup(2), os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, 2)
@@ -82,7 +82,7 @@ def _silence():
 
 
 def _walk(path):
-    """Read all names and attributes of a file, of which nothing is kept; what cannot be read is found out later."""
+    """Reads all names and attributes of a file without keeping them; unreadable ones are reported later."""
     import h5py
 
     def visit(_, item):
@@ -96,7 +96,7 @@ def _walk(path):
 
 
 def _examine(path):
-    """Raise Ended where a child process does not get through the names and attributes of a file that is there."""
+    """Raises Ended if a child process cannot read the names and attributes of an existing file."""
     try:
         status = os.stat(path)
     except (OSError, ValueError):
@@ -115,9 +115,10 @@ def _examine(path):
 
 @contextlib.contextmanager
 def reading(path, seconds=None):
-    """HDF5 reads a file here. In a child, time and memory are limited and the parent knows which file it was.
+    """Context in which HDF5 reads a file. In a child, time and memory are limited, and the parent gets the name of the
+    file.
 
-    Elsewhere a child examines the file before, once for each state of it.
+    In other processes a child first examines the file, once for each state of it.
     """
     if _note is None:
         _examine(path)
@@ -135,10 +136,10 @@ def reading(path, seconds=None):
 
 
 def _work(function, items, pipe):
-    """The child: results of the items, one after another, into the pipe."""
+    """Runs in the child: writes the results of the items, one after another, to the pipe."""
     resource.setrlimit(resource.RLIMIT_CORE, (0, resource.getrlimit(resource.RLIMIT_CORE)[1]))
-    with contextlib.suppress(OSError, AttributeError):  # elsewhere than on Linux
-        ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)  # whoever ends the parent means the child, too
+    with contextlib.suppress(OSError, AttributeError):  # not available on systems other than Linux
+        ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)  # a signal that ends the parent ends the child, too
     for number in DAMAGE:
         signal.signal(number, signal.SIG_DFL)
     with os.fdopen(pipe, "wb") as out:
@@ -160,9 +161,9 @@ def _start(function, items, note):
     source, sink = os.pipe()
     for stream in (sys.stdout, sys.stderr):
         if stream:
-            stream.flush()  # or the child would print it again
+            stream.flush()  # otherwise the child would print it again
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # the threads of numerical libraries do nothing here
+        warnings.simplefilter("ignore")  # the threads of numerical libraries are idle here
         child = os.fork()
     if child:
         os.close(sink)
@@ -176,13 +177,13 @@ def _start(function, items, note):
     except KeyboardInterrupt:
         code = 130
     finally:
-        os._exit(code)  # what belongs to the parent is not undone here
+        os._exit(code)  # the cleanup of the parent is not executed here
 
 
 def each(function, items):
-    """function(item) of all items, in order, in a child process; Ended in place of a result where the child ended.
+    """Returns function(item) of all items, in order, from a child process; Ended replaces a result if the child ended.
 
-    The child sees all that is in memory now; what it changes there is lost.
+    The child has a copy of the present memory; its changes there are lost.
     """
     items, note = list(items), mmap.mmap(-1, NAME + 1)
     done = 0

@@ -19,15 +19,15 @@ DEPTHS = ("wear_depth1", "wear_depth2")  # removed of body 1 and 2
 POWER, POWER_OF = "power_density", ("shear", "slip_velocity")  # of steady rolling: -q . s at the cell's centre
 SLIPS = {"slip_range": 1.0, "slip_amplitude": 0.5}  # of a cycle: see sliding.py
 EDGES = ("contact_edge", "stick_edge")
-NO_EQUILIBRIUM = 11  # /history/status of a step that was refused: it has no solution
-BLOCK = 256  # rows read at a time: bounds the memory, and strides in HDF5 itself are slow
-WHOLE = 1 << 27  # values of what is read whole at most; a damaged file may claim any number
-# what h5py raises for a file that is damaged, or laid out in another way
+NO_EQUILIBRIUM = 11  # /history/status of a rejected step, which has no solution
+BLOCK = 256  # rows read at a time, which bounds the memory; strides in HDF5 itself are slow
+WHOLE = 1 << 27  # maximum number of values read at once; a damaged file may claim any number
+# exceptions that h5py raises for a file that is damaged, or has another layout
 DAMAGED = (OSError, LookupError, ValueError, TypeError, AttributeError, RuntimeError, ArithmeticError, MemoryError)
 
 
 class NotSaved(Error):
-    """A step or a time (wanted) that the file has no fields of, and why."""
+    """A step or a time (wanted) without fields in the file, and the reason."""
 
     def __init__(self, path, wanted, reason):
         super().__init__(f"{path}: {wanted}: {reason}")
@@ -299,7 +299,7 @@ class Results(Datafile):
         return self.history[name][self.solved]
 
     def need_solution(self):
-        """Error where no step has a solution."""
+        """Raises Error if no step has a solution."""
         if not self.solved.size:
             raise Error(f"{self.path}: no step has a solution")
 
@@ -366,7 +366,7 @@ class Results(Datafile):
         return "cycle" in self.history and "cycle" in self.wear and self.wear["cycle"].size > 0
 
     def need_life(self):
-        """Error where there is no life."""
+        """Raises Error if there is no life."""
         if not self.has_life:
             raise Error(f"{self.path}: has no life of many cycles (petsam -wear_cycles)")
 
@@ -412,35 +412,35 @@ class Results(Datafile):
 
     @cached_property
     def layer_z(self):
-        """Middles of the layers, m, into body 2: those of body 1 are negative; Error where there are none."""
+        """Middles of the layers, m, into body 2: those of body 1 are negative; raises Error if there are no layers."""
         if not self.layered:
             raise Error(f"{self.path}: has no layers (petsam -body2_yield, -output_fields usual,plastic)")
         with reading(self.path):
             return self._row(_own(self.file, "plastic/z"), "plastic/z")
 
     def _all_have(self, name):
-        """Whether all parts have a dataset."""
+        """True if all parts have a dataset."""
         return all(name in source.file for source in self.sources)
 
     @cached_property
     def vectors(self):
-        """Names without their ending of the fields that are components NAME_x and NAME_y."""
+        """Names without the endings _x and _y of the fields that are components."""
         return [name[:-2] for name in self.fields if name.endswith("_x") and name[:-2] + "_y" in self.fields]
 
     @property
     def is_steady(self):
-        """Whether the contact rolls in steady state: each step by itself, without slip or energy of a step."""
+        """True for steady rolling, in which each step is independent, without slip or energy of a step."""
         return str(self.parameters.get("rolling")) == "steady"
 
     @cached_property
     def products(self):
-        """Names of what is computed of fields: of steady rolling the power density, else slip over a cycle."""
+        """Names of the computed products of fields: in steady rolling the power density, else slip over a cycle."""
         if set(POWER_OF) <= set(self.vectors):
             return [POWER]
         return list(SLIPS) if "slip" in self.vectors and "state" in self.fields and self.times.size > 2 else []
 
     def about(self, name):
-        """Attributes of a field as texts: units, and long_name; of a vector those of its first component."""
+        """Attributes of a field as texts: units, and long_name; for a vector those of its first component."""
         if name in self.products and name != POWER:
             return "m", f"{name.replace('_', ' ')} of the cycle"
         if name in self.products:
@@ -504,7 +504,7 @@ class Results(Datafile):
         return power
 
     def need_quantity(self, name, option=None):
-        """Error where the file has no field, vector or product of this name, which an option may have asked for."""
+        """Raises Error if the file has no field, vector or product of this name, which an option may have requested."""
         names = [*self.fields, *self.vectors, *self.products]
         if name not in names:
             there = there_are(name, names, "it has") if names else "; it has no field at all"
@@ -566,7 +566,7 @@ class Results(Datafile):
         return points[np.isfinite(points).all(axis=1)]
 
     def has(self, names):
-        """Whether the file has all datasets of these names."""
+        """True if the file has all datasets of these names."""
         with reading(self.path):
             return all(self._all_have(name) for name in names)
 
@@ -661,7 +661,7 @@ def _row_of(times, time):
 
 
 def _is_matrices(data):
-    """Whether a dataset of /history has a matrix for every step."""
+    """True if a dataset of /history has a matrix for every step."""
     return getattr(data, "ndim", None) == 3
 
 

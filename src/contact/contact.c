@@ -229,7 +229,7 @@ PetscErrorCode SamContactGetField(SamContact c, const char name[], Vec field)
   PetscCall(SamGridCheckVec(c->grid, 1, field, name));
   PetscCall(SamContactHasField(c, name, &has));
   PetscCheck(has, c->grid->comm, PETSC_ERR_ARG_UNKNOWN_TYPE, "Unknown field %s", name);
-  PetscCall(SamContactGetSolution(c, &s)); /* makes the displacements */
+  PetscCall(SamContactGetSolution(c, &s)); /* computes the displacements */
   PetscCall(SamStateFindValues(c->state, SamStateFindResult(c->state, name), field, &holder, &component));
   if (holder == field) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(VecGetLocalSize(field, &cells));

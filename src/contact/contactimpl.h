@@ -20,14 +20,14 @@ struct _n_SamContact {
   SamTangential       tangential;
   /* its state */
   SamState         state;
-  PetscBool        has_tried;                   /* a tried solution */
-  PetscBool        same_gap;                    /* the tried step has the gap of the committed pressure */
-  PetscBool        rolls;                       /* the tried step does, and the committed solution has moved for it */
-  SamSolution      generation[SAM_GENERATIONS]; /* views of the state */
-  SamStepCache     cache;                       /* steps of the cycle before */
-  PetscObjectState revision[SAM_GENERATIONS];   /* of the problem that the pressure was solved with; -1: another */
+  PetscBool        has_tried;                      /* there is a tried solution */
+  PetscBool        same_gap;                       /* the tried step has the gap of the committed pressure */
+  PetscBool        rolls;                          /* the tried step rolls: the committed solution has moved */
+  SamSolution      generation[SAM_GENERATIONS];    /* views of the state */
+  SamStepCache     cache;                          /* steps of the previous cycle */
+  PetscObjectState revision[SAM_GENERATIONS];      /* of the problem at the pressure; -1: another problem */
   PetscInt         tractions[3], displacements[2]; /* fields: pressure, bound, shear; u_z, u_t */
-  PetscInt         aside;                          /* field, of the last step that needed it */
+  PetscInt         aside;                          /* field `aside` of the last step that needed it */
   PetscInt         time, solution, apart, creeps, control, residuals, counts, status, window, slip,
     steps;                                    /* numbers, see memory.c */
   PetscInt         rolling;                   /* numbers that only motions with streaming material have */
@@ -41,8 +41,8 @@ static inline PetscBool SamContactIsCoupled(SamContact c)
   return c->traits.coupled && c->set.coupling;
 }
 
-/* True if steps may start from the same steps one cycle before: their displacements have no other cause than the
-   tractions, and a repeated step has the same solution. */
+/* True if steps may start from the same steps one cycle before. Then only the tractions cause displacements, and a
+   repeated step has the same solution. */
 static inline PetscBool SamContactRecalls(SamContact c)
 {
   return c->set.warm_start && c->motion->continues && !SamContactIsCoupled(c) && !c->rolls &&
@@ -51,13 +51,13 @@ static inline PetscBool SamContactRecalls(SamContact c)
 
 /* ---- what is remembered (generations.c) ---- */
 
-/* SamContactDeclare - declares all that a contact remembers and offers, unless that is done. Collective. */
+/* SamContactDeclare - declares all numbers and fields that a contact stores and offers, once. Collective. */
 PETSC_INTERN PetscErrorCode SamContactDeclare(SamContact contact);
 /* SamContactBegin - begins a try: an empty tried solution, whose tractions may be written to. Collective. */
 PETSC_INTERN PetscErrorCode SamContactBegin(SamContact contact, const SamControl *control);
 /*
-  SamContactStore - stores the numbers of the tried solution, and of a step, in the state. An approach that the step
-  does not have, and the solution was computed with, is kept aside. Not collective.
+  SamContactStore - stores the numbers of the tried solution, and of a step, in the state. If the solution was computed
+  with an approach that the step does not report, the approach is stored separately. Not collective.
 */
 PETSC_INTERN PetscErrorCode SamContactStore(SamContact contact, const SamStep *step);
 /* SamContactRefresh - makes the views of the committed generation, and of that one step back. Collective. */
@@ -66,7 +66,7 @@ PETSC_INTERN PetscErrorCode SamContactRefresh(SamContact contact);
   SamContactBefore - the committed solution, from which the tried one continues; NULL in the first step. Not collective.
 */
 PETSC_INTERN const SamSolution *SamContactBefore(SamContact contact);
-/* SamContactSlipBefore - the same if its slip is that from which this step slips on. */
+/* SamContactSlipBefore - the same, or NULL if the slip of this step does not continue from that solution's slip. */
 static inline const SamSolution *SamContactSlipBefore(SamContact contact)
 {
   return contact->motion->continues ? SamContactBefore(contact) : NULL;

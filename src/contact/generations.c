@@ -10,12 +10,12 @@
 #include <petsam/private/problem.h>
 #include <math.h>
 
-#define ALIKE        1e-6                            /* Dundurs' constant of materials that are alike, at most */
+#define ALIKE        1e-6                            /* materials with a smaller Dundurs' constant count as alike */
 #define CONTROL      (1 + 2 * SAM_COMPONENTS)        /* numbers of a control besides its conditions */
 #define DISPLACEMENT "relative elastic displacement" /* normal, and tangential */
 
 /*
-  Numbers of the slip: the line on which loads lay at first (0: there were none), whether they have left it, and whether
+  Numbers of the slip: the line on which the first loads lay (0: there were none); 1 if later loads have left it; 1 if
   the slip of the step was turned.
 */
 enum { LINE_X, LINE_Y, LEFT, ASIDE, SLIP_NUMBERS };
@@ -50,7 +50,7 @@ static PetscErrorCode DeclareFields(SamContact c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Declares a number; `first`: its place, for the first of a row. */
+/* Declares a number; `first`: receives its place, for the first number of a row. */
 static PetscErrorCode Declare(SamContact c, const char name[], const char unit[], const char text[], SamNumberKind kind,
                               PetscInt count, PetscBool kept, PetscBool result, PetscInt *first)
 {
@@ -237,7 +237,7 @@ static PetscErrorCode Offer(SamContact c)
     {"wear_passage", "Pa m", "pressure times slip of a point that passes, the same along x", SAM_FIELD_REAL,
      SAM_RESULT_OFFERED, Compute, c, WEAR, -1}};
   const size_t count =
-    sizeof(results) / sizeof(results[0]) - (c->motion->streams ? 0 : 2); /* the last two are of a rolled distance */
+    sizeof(results) / sizeof(results[0]) - (c->motion->streams ? 0 : 2); /* the last two: rolling only */
 
   PetscFunctionBegin;
   for (size_t k = 0; k < count; k++) {
@@ -254,7 +254,7 @@ static PetscErrorCode Offer(SamContact c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Returns a number that grows when conditions, laws or their settings change, from which declarations follow. */
+/* Returns a number that grows whenever conditions, laws or settings change that the declarations depend on. */
 static PetscObjectState Declarations(SamContact c)
 {
   PetscObjectState sum = SamConditionsCount(c->conditions);
@@ -296,7 +296,7 @@ PetscInt SamContactGetSteps(SamContact c)
   return (PetscInt)*SamStateNumbers(c->state, c->steps, SAM_COMMITTED);
 }
 
-/* Loads or displacements whose directions differ by less lie on a line. */
+/* Loads or displacements lie on a line if their directions differ by less. */
 #define SAME_DIRECTION 1e-10
 
 /*
@@ -327,8 +327,8 @@ static PetscErrorCode LieOnLine(SamContact c, const SamControl *control, PetscBo
 }
 
 /*
-  The committed solution as the next step finds it where the grid has moved: what belongs to the material has moved
-  through it. The rigid motion, and the strain of the surfaces, are taken about the origin, which has moved along.
+  Moves the committed solution for the next step after the grid has moved: fields that belong to the material move
+  through the grid. The rigid motion, and the strain of the surfaces, are taken about the origin, which has moved along.
 */
 static PetscErrorCode Move(SamContact c, const PetscReal roll[2])
 {
@@ -350,7 +350,7 @@ static PetscBool HasContact(const SamSolution *before)
   return before && before->load[SAM_COMPONENT_N] > 0;
 }
 
-/* True if pressure moves the surfaces along each other by their materials, not by the shapes of the bodies alone. */
+/* True if pressure moves the surfaces along each other because the materials differ, not only because of the shapes. */
 static PetscBool AreDissimilar(SamContact c)
 {
   return SamContactIsCoupled(c) && fabs((double)SamElasticityGetPair(c->elasticity)->dundurs) > ALIKE;
@@ -363,7 +363,8 @@ static PetscBool MayGrow(const SamSolution *before, const SamControl *control)
          !(control->force[SAM_COMPONENT_N] && control->value[SAM_COMPONENT_N] <= SamSolutionGetNormal(before));
 }
 
-/* True if nothing moves the bodies along each other in a step from no contact: else it applies N, then the rest. */
+/* True if, in a step from no contact, nothing moves the bodies along each other; otherwise N is applied before the
+   rest. */
 static PetscBool AppliesOnlyNormal(const SamSolution *before, const SamControl *control)
 {
   PetscBool only = PETSC_TRUE;
@@ -462,7 +463,7 @@ PetscErrorCode SamContactRefresh(SamContact c)
     double      *n = SamStateNumbers(c->state, 0, g);
 
     ViewControl(c, n, &s->control);
-    for (PetscInt k = 0; k < SAM_COMPONENTS; k++) { /* before the first step there are none: nothing has moved */
+    for (PetscInt k = 0; k < SAM_COMPONENTS; k++) { /* nothing has moved before the first step */
       s->load[k]  = n[c->steps] > 0 ? n[c->solution + k] : 0;
       s->rigid[k] = n[c->steps] > 0 ? n[c->solution + SAM_COMPONENTS + k] : 0;
     }

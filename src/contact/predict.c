@@ -28,12 +28,12 @@
 
 /* ---- how far to extrapolate ---- */
 
-/* The products of the last change `old` and the next one `new` of all that is prescribed, scaled. */
+/* Products of the last change `old` and the next one `new`, of all prescribed values, scaled. */
 typedef struct {
   double old_old, old_new, new_new;
 } Changes;
 
-/* Adds those of a value, which is scaled by its largest size in the three steps. */
+/* Adds the products of one value, which is scaled by its largest size in the three steps. */
 static void AddChange(double before, double now, double next, Changes *c)
 {
   const double scale = PetscMax(fabs(before), PetscMax(fabs(now), fabs(next)));
@@ -57,7 +57,7 @@ static double Continuation(SamContact contact, const SamControl *before, const S
 
   *straight = PETSC_FALSE;
   if (SamProblemGetRolled(p, now, NULL) != 0 || SamProblemGetRolled(p, next, NULL) != 0)
-    return 0; /* the slip moves, whatever changes */
+    return 0; /* the slip moves even if nothing prescribed changes */
   for (PetscInt n = 0; n < SAM_COMPONENTS; n++) {
     const PetscInt k = SamComponentsOf[n / 3][n % 3];
 
@@ -79,12 +79,12 @@ static double Continuation(SamContact contact, const SamControl *before, const S
 /* ---- steps that do not continue each other ---- */
 
 /*
-  Such a step is near the last one where loads and creepages change by at most this part of the last ones, over the
+  Such a step is near the last one if loads and creepages change by at most this part of the last ones, divided by the
   number of cells along a side: edges then move by about two cells.
 */
 #define PREDICT_NEAR 2.0
 
-/* Returns the size of the three components of a problem; lever: of moments, or of rotations. */
+/* Returns the size of the three components of a problem; lever: length by which moments or rotations are scaled. */
 static double SizeOf(const PetscReal values[], PetscInt problem, double lever)
 {
   double sum = 0;
@@ -99,8 +99,9 @@ static double SizeOf(const PetscReal values[], PetscInt problem, double lever)
 }
 
 /*
-  True if the next step is so near the last one that nested grids would cost more than they save: at 64 x 64 cells a
-  fifth of a step's time, and a third if it is extrapolated. Friction that depends on slip may have several solutions.
+  True if the next step is so near the last one that nested grids would cost more than they save. At 64 x 64 cells they
+  cost a fifth of a step's time, and a third if the step is extrapolated. Friction that depends on slip may have several
+  solutions.
 */
 static PetscBool IsNear(SamContact c, const SamControl *next)
 {

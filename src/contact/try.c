@@ -1,4 +1,4 @@
-/* Steps of a contact that are tried, then committed or rejected. */
+/* Steps of a contact: they are tried, then committed or rejected. */
 #include "contactimpl.h"
 #include <math.h>
 #include <petsam/private/elasticity.h>
@@ -11,10 +11,10 @@
 
 /*
   The check includes rounding, which the solvers' recurrences omit. So its limits are the solvers' tolerances times a
-  margin. Where the displacement nearly vanishes, as in full contact when all waves are worn off, rounding of the gap is
-  no small part of the tolerance, which is at least that: the check rounds once more than the solver, and its limit is
-  the sum. Equilibrium and cone, which solvers meet to rounding, have limits of their own. A bound that follows the slip
-  is as accurate as the slip.
+  margin. If the displacement nearly vanishes, as in full contact when all waves are worn off, rounding of the gap may
+  be as large as the tolerance. The check adds rounding of its own to that of the solver, so its limit is the sum.
+  Equilibrium and cone have separate limits, since solvers fulfil them to rounding. A bound that depends on the slip is
+  as accurate as the slip.
 */
 #define CHECK_MARGIN      1.05
 #define CHECK_EQUILIBRIUM 1e-10
@@ -22,7 +22,7 @@
 
 /* ---- a step ---- */
 
-/* Where only cells over the border of a body's surface came into contact, the message is about that. */
+/* Replaces the message if only cells beyond the border of a body's surface came into contact. */
 static PetscErrorCode DescribeBeyond(SamContact c, SamStep *step)
 {
   const PetscInt cells[2] = {c->grid->nx, c->grid->ny};
@@ -49,7 +49,7 @@ static PetscErrorCode DescribeBeyond(SamContact c, SamStep *step)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Where only material from outside of the grid came into contact, the message is about the rolled distance. */
+/* Replaces the message by one about the rolled distance if only material from outside of the grid came into contact. */
 static PetscErrorCode DescribeEntering(SamContact c, SamStep *step)
 {
   const PetscInt  cells[2] = {c->grid->nx, c->grid->ny};
@@ -63,7 +63,7 @@ static PetscErrorCode DescribeEntering(SamContact c, SamStep *step)
   PetscCall(SamGridGetSupport(c->grid, c->generation[SAM_TRIED].pressure, first, n));
   for (PetscInt k = 0; k < 2; k++)
     if (first[k] == 0 || first[k] + n[k] == cells[k]) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt k = 0; k < 2; k++) { /* interpolation between cells takes one more */
+  for (PetscInt k = 0; k < 2; k++) { /* interpolation between cells needs one more */
     const PetscReal most = size[k] * (PetscReal)((roll[k] > 0 ? cells[k] - first[k] - n[k] : first[k]) - 1);
 
     if (fabs(roll[k]) <= most) continue;
@@ -122,7 +122,7 @@ PetscErrorCode SamContactCheckConditions(SamContact c, const SamControl *control
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Refuses a control that makes no sense. Rotations that the elasticity does not have are held at 0. */
+/* Rejects an inconsistent control. Rotations that the elasticity does not have are set to 0. */
 static PetscErrorCode CheckControl(SamContact c, SamControl *control)
 {
   PetscInt                wrong;
@@ -192,7 +192,7 @@ static PetscErrorCode RestoreWindow(SamContact c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Notes the part of the grid that the tried step was solved on. */
+/* Notes the part of the grid on which the tried step was solved. */
 static PetscErrorCode NoteWindow(SamContact c)
 {
   double  *window = SamStateNumbers(c->state, c->window, SAM_TRIED);
@@ -240,7 +240,7 @@ static PetscErrorCode IsSamePressure(SamContact c, const SamControl *control, Pe
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Restores the committed solution to its state before the grid moved for a tried step. */
+/* Restores the committed solution to its place before the grid moved for a tried step. */
 static PetscErrorCode MoveBack(SamContact c)
 {
   PetscFunctionBegin;
@@ -323,7 +323,7 @@ static PetscErrorCode Advance(SamContact c, PetscBool known_pressure, char faile
 
 /* ---- a step ---- */
 
-/* Sets the approach to unknown where bodies touch nowhere under the given normal load, which is 0. */
+/* Sets the approach to unknown if the given normal load is 0 and the bodies do not touch. */
 static PetscErrorCode ForgetApproach(SamContact c, SamStep *step)
 {
   PetscReal cells;
@@ -334,7 +334,7 @@ static PetscErrorCode ForgetApproach(SamContact c, SamStep *step)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Checks the tried solution and fills in the numbers of the step. */
+/* Checks the tried solution and computes the numbers of the step. */
 static PetscErrorCode Conclude(SamContact c, PetscBool same_pressure, PetscBool known_pressure, SamStep *step)
 {
   SamSolution       *s    = &c->generation[SAM_TRIED];
@@ -342,7 +342,8 @@ static PetscErrorCode Conclude(SamContact c, PetscBool same_pressure, PetscBool 
   char               failed[sizeof(((SamLawStep *)0)->failed)];
 
   PetscFunctionBegin;
-  /* that of the nested grids, before new fields are made: lowers the peak from 99 to 90 MB at 512 x 512 cells */
+  /* Returns the memory of the nested grids before new fields are created: the peak falls from 99 to 90 MB at 512 x 512
+     cells. */
   if (!last) SamMallocTrim();
   PetscCall(SamStepSetDisplacements(c->state, c->displacements, s));
   if (same_pressure) PetscCall(SamVecCopyNonzero(last->displacement_z, s->displacement_z));
@@ -368,7 +369,7 @@ static void SetUnknown(SamStep *step)
   step->check = (SamCheck){.normal = NAN, .tangential = NAN, .equilibrium = NAN, .cone = NAN, .edge = NAN};
 }
 
-/* Describes the inputs of the tried step's pressure. The revision does not tell where body 2 was. */
+/* Describes the inputs of the tried step's pressure. The revision does not contain the place of body 2. */
 static PetscErrorCode GetStepOf(SamContact c, SamStepOf *of)
 {
   PetscReal slide[2];
@@ -381,7 +382,8 @@ static PetscErrorCode GetStepOf(SamContact c, SamStepOf *of)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Finds a guess for the tried step besides a kept one, and solves it; `known_pressure`: its pressure was known. */
+/* Finds a guess for the tried step, besides a kept one, and solves it; `known_pressure`: true if its pressure was
+   known. */
 static PetscErrorCode Solve(SamContact c, SamCachedStep kept, PetscBool same_pressure, SamStep *step,
                             PetscBool *known_pressure)
 {
@@ -414,7 +416,8 @@ static PetscErrorCode Solve(SamContact c, SamCachedStep kept, PetscBool same_pre
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Finds the same step one cycle before; normal loads that differ from its, or the last ones, by rounding are these. */
+/* Finds the same step one cycle before; sets normal loads that differ from its loads, or the last ones, by rounding
+   only, to these. */
 static void FindKept(SamContact c, SamControl *control, SamCachedStep *kept)
 {
   const PetscReal lever  = PetscMin(c->grid->width[0], c->grid->width[1]) / 2;
@@ -442,7 +445,7 @@ PetscErrorCode SamContactTry(SamContact c, const SamControl *control, SamStep *s
   PetscCall(SamContactBegin(c, &given));
   PetscCall(IsSamePressure(c, &given, &same_pressure));
   PetscCall(Solve(c, kept, same_pressure, step, &known_pressure));
-  if (step->status == SAM_STATUS_NO_EQUILIBRIUM) { /* there is no solution to check */
+  if (step->status == SAM_STATUS_NO_EQUILIBRIUM) { /* without equilibrium there is no solution to check */
     SetUnknown(step);
     PetscCall(SamContactStore(c, step));
     PetscCall(SamStateForgetFields(c->state));
@@ -466,7 +469,7 @@ PetscErrorCode SamContactCommit(SamContact c)
   PetscCall(GetStepOf(c, &of));
   if (SamContactRecalls(c))
     PetscCall(SamStepCacheKeep(c->cache, SamContactBefore(c), &c->generation[SAM_TRIED], &of));
-  else /* after a step that rolls, what is put between the bodies may have moved, and kept pressures be wrong */
+  else /* after a rejected rolling step, material between the bodies may have moved, and kept pressures may be wrong */
     SamStepCacheForget(c->cache);
   PetscCall(SamStateCommit(c->state));
   c->revision[SAM_COMMITTED] = c->revision[SAM_TRIED];

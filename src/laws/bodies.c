@@ -1,4 +1,5 @@
-/* Bodies that remember, or whose surfaces more than the tractions displaces: what their elasticity has methods for. */
+/* Bodies that have a memory, or whose surfaces are displaced not only by the tractions: calls the methods of their
+   elasticity. */
 #include <petsam/private/elasticityimpl.h>
 #include <petsam/private/lawimpl.h>
 

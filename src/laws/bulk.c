@@ -13,7 +13,7 @@ enum { XX, YY, XY, COMPONENTS };
 static const char *const names[2][COMPONENTS] = {{"bulk1_stress_xx", "bulk1_stress_yy", "bulk1_stress_xy"},
                                                  {"bulk2_stress_xx", "bulk2_stress_yy", "bulk2_stress_xy"}};
 typedef struct {
-  const SamCondition *of[2][COMPONENTS]; /* by body and component */
+  const SamCondition *of[2][COMPONENTS]; /* conditions by body and component */
 } Bulk;
 
 static PetscErrorCode AddConditions(SamLaw law, SamConditions conditions)
@@ -46,8 +46,8 @@ static void Get(SamLaw law, const SamControl *control, PetscInt body, PetscReal 
 }
 
 /*
-  Bulk stress must be 0 in a rigid body, in bodies that bear none, as stretched ones are not periodic, and in steady
-  rolling, where a uniform strain is a creepage. In plane strain that along y follows from that along x.
+  Bulk stress must be 0 in a rigid body; in periodic bodies, which would not be periodic when stretched; and in steady
+  rolling, where a uniform strain is a creepage. In plane strain the stress along y follows from that along x.
 */
 static PetscErrorCode CheckComponent(SamLaw law, PetscInt body, PetscInt k, const PetscReal all[], SamControl *control,
                                      char why[], size_t size)
@@ -61,7 +61,7 @@ static PetscErrorCode CheckComponent(SamLaw law, PetscInt body, PetscInt k, cons
   PetscFunctionBegin;
   m       = SamBodySubstrate(SamPairBody(SamElasticityGetPair(law->elasticity), body));
   traits  = SamElasticityGetTraits(law->elasticity);
-  follows = k == YY ? 0 + m->poisson * all[XX] : 0; /* without -0 */
+  follows = k == YY ? 0 + m->poisson * all[XX] : 0; /* avoids -0 */
   if (traits.plane && k != XX && (stress == 0 || stress == follows))
     SamControlSetCondition(control, one, follows);
   else if (stress != 0 && isinf(m->young))
@@ -111,7 +111,8 @@ static PetscErrorCode AddStrain(SamLaw law, const SamControl *control, SamStrain
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The last material of the body has the bulk stress, those above it have the same strain in the plane. */
+/* Adds the bulk stress: the last material of the body has it, the materials above it have the same strain in the
+   plane. */
 static PetscErrorCode AddStress(SamLaw law, const SamControl *control, PetscInt body, PetscReal depth, double stress[])
 {
   const SamMaterial *m, *last;

@@ -2,14 +2,14 @@
   Friction that changes: with the accumulated slip, with the pressure, or with the velocity of slip in rolling. The
   bound b = mu p of Coulomb's law, which acts first, becomes F b + (1 - F) low p in each cell.
 
-  slip_path  F = exp(-L/length), low = final; L is the slip under pressure of all committed steps: a step has the
-             friction that those before it left, with an error of first order in its slip.
+  slip_path  F = exp(-L/length), low = final; L is the slip under pressure of all committed steps: the friction of a
+  step follows from the steps before it, with an error of first order in its slip.
   pressure   F = (p/reference)^exponent, low = 0; b is not more than a limit.
-  falling    F = 2^(-speed/half speed), low = kinetic, where a step rolls; the speed is that of rolling times slip over
-             rolled distance. With a memory F = t F_before + (1 - t) F_now, t = memory/(memory + slip), the slip being
-             at least the memory's speed times the step's time. The bound follows the slip of the step, and there may be
-             more than one solution. Where the motion does not continue steps, a cell is a step of the material: the
-             slip is that of dx, and F_before that of the cell ahead; it is 1 at the leading edge.
+  falling    F = 2^(-speed/half speed), low = kinetic, if a step rolls; the speed is the rolling speed times slip over
+  rolled distance. With a memory F = t F_before + (1 - t) F_now, t = memory/(memory + slip), the slip being at least the
+  memory's speed times the step's time. The bound depends on the slip of the step, and there may be more than one
+  solution. In steady rolling a cell is a step of the material: the slip is that over dx, and F_before that of the cell
+  ahead; it is 1 at the leading edge.
   Source of falling friction: Vollebregt and Schuttelaars 2012, J. Sound Vib. 331, 2141-2155.
 */
 #include <petsam/private/lawimpl.h>
@@ -26,7 +26,7 @@ enum { KINETIC, HALF, SPEED, MEMORY, SLOWEST, OPTIONS };
 typedef struct {
   Kind                kind;
   PetscReal           value[OPTIONS];
-  const SamCondition *scale; /* of coulomb */
+  const SamCondition *scale; /* condition of the law coulomb */
   PetscReal cell; /* rolled distance of a cell, m, where what is remembered stands in the cell ahead; 0: in the state */
 } Friction;
 
@@ -36,7 +36,7 @@ typedef struct {
       .range = values, .needs = "friction_law " word, .missing = "required by -friction_law " word, \
       .recorded = PETSC_TRUE, __VA_ARGS__ \
   }
-/* A kind by its type of law and its word of -friction_law; usual values, NAN: required; what it remembers, or NULL. */
+/* A kind: its type of law, its keyword of -friction_law, usual values (NAN: required), and its memory, or NULL */
 static const struct {
   const char   *type, *word;
   SamOptionRow  row[OPTIONS];
@@ -75,7 +75,7 @@ static const struct {
    {"friction_fallen", "1", "part of the change of friction that is reached", 1, 2, PETSC_TRUE, PETSC_FALSE,
     SAM_RESULT_OFFERED, SAM_MOVES, 0, PETSC_FALSE}}};
 
-/* The solution that was found, where there may be several. */
+/* The mean coefficient of the solution that was found; there may be several solutions */
 static const SamStateNumber branch = {"friction_mean",
                                       "1",
                                       "mean coefficient of friction (solution branch continued from rest; others may "
@@ -112,7 +112,7 @@ static PetscErrorCode AddConditions(SamLaw law, SamConditions conditions)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- what is remembered, and results ---- */
+/* ---- memory and results ---- */
 
 static PetscErrorCode ComputeCoefficient(void *owner, SamState state, PetscInt component, Vec coefficient)
 {
@@ -123,7 +123,7 @@ static PetscErrorCode ComputeCoefficient(void *owner, SamState state, PetscInt c
   (void)owner;
   (void)component;
   PetscCall(VecSet(coefficient, 0));
-  if (p && b) PetscCall(VecPointwiseDivide(coefficient, b, p)); /* 0 where p is 0 */
+  if (p && b) PetscCall(VecPointwiseDivide(coefficient, b, p)); /* 0 if p is 0 */
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -151,7 +151,7 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
 
 /* ---- the bound ---- */
 
-/* Returns the factor F by what is remembered and the slip of the step, and its derivative by this slip. */
+/* Returns the factor F for the memory and the slip of the step, and its derivative by this slip. */
 static double FactorOf(const Friction *f, double p, double memory, double slip, double rolled, double *by_slip)
 {
   const PetscReal *v = f->value;
@@ -190,7 +190,7 @@ static PetscErrorCode Bound(SamLaw law, const SamBoundAt *given, const SamBound 
   const PetscInt  cells = law->grid->cells;
   const char     *name  = f->cell > 0 ? NULL : kinds[f->kind].memory.name;
   const double    scale = SamControlGet(given->control, f->scale);
-  const double    step  = f->cell > 0 ? (double)f->cell : 1; /* slip of a step over what is given as slip */
+  const double    step  = f->cell > 0 ? (double)f->cell : 1; /* slip of a step per unit of the given slip */
   SamBoundAt of = *given, *const at = &of;
   const Vec in[]        = {at->pressure, at->slip,
                     name && at->state ? SamStateGetField(at->state, SamStateFindField(at->state, name), SAM_COMMITTED)
@@ -206,7 +206,7 @@ static PetscErrorCode Bound(SamLaw law, const SamBoundAt *given, const SamBound 
     if (out[k]) PetscCall(VecGetArray(out[k], &to[k]));
   }
   for (PetscInt n = 0; n < cells; n++) {
-    const PetscInt k = cells - 1 - n; /* from the leading edge */
+    const PetscInt k = cells - 1 - n; /* from the leading edge on */
     const double   p = from[0][k], slip = in[1] ? step * from[1][k] : 0;
 
     if (f->cell == 0 || n % law->grid->nx == 0) memory = in[2] ? from[2][k] : 0;
@@ -222,7 +222,7 @@ static PetscErrorCode Bound(SamLaw law, const SamBoundAt *given, const SamBound 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Adds the slip under pressure to the memory; for falling friction the part that is reached replaces the old one. */
+/* Adds the slip under pressure to the memory; for falling friction, replaces the memory by the new factor. */
 static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
 {
   const Friction *f      = (const Friction *)law->data;

@@ -1,4 +1,4 @@
-/* Coulomb's friction: |q| <= mu p, mu being a number or a field, times a factor of the step. */
+/* Coulomb's friction: |q| <= mu p; mu is a number or a field, times a factor of the step. */
 #include <petsam/private/grid.h>
 #include <petsam/private/lawimpl.h>
 #include <petsam/private/fieldfile.h>
@@ -7,7 +7,7 @@
 
 typedef struct {
   PetscReal friction;
-  Vec       field; /* coefficients by cell; NULL: the number counts */
+  Vec       field; /* coefficients by cell; NULL: the number applies */
 
   const SamCondition *scale;
 } Coulomb;
@@ -81,7 +81,7 @@ static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBo
   Vec       field;
 
   PetscFunctionBegin;
-  *asked = PETSC_TRUE; /* without options, of the coefficient 0 */
+  *asked = PETSC_TRUE; /* without options a coefficient of 0 has been set */
   PetscCall(SamLawListWords(law->elasticity, changes.name, ",", words, sizeof(words)));
   PetscCall(SamLawListWords(law->elasticity, changes.name, ", ", text, sizeof(text)));
   PetscCall(SamOptionsRead(from, "Friction", 1, &number, &friction, &set));
@@ -135,7 +135,7 @@ static PetscErrorCode Friction(SamLaw law, PetscReal *uniform, PetscBool *has)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* b = scale * mu * p for n cells. Returns the sum of b, to find rows without a bound. */
+/* Computes b = scale * mu * p for n cells. Returns the sum of b, by which rows without a bound are found. */
 SAM_VECTORIZED static double BoundRow(PetscInt n, const double *restrict p, const double *restrict mu, double scale,
                                       double *restrict b)
 {
@@ -168,7 +168,7 @@ static PetscErrorCode FillValue(SamLaw law, const double *field, const SamBoundA
   for (ptrdiff_t k = 0; k < law->grid->cells; k += nx) {
     const double sum = BoundRow(nx, pressures + k, field ? field + k : number, scale, row);
 
-    /* a row without a bound is not written to, so that untouched pages take no memory */
+    /* A row without a bound is not written, so that untouched pages take no memory. */
     if (sum != 0)
       PetscCall(PetscArraycpy(bounds + k, row, nx));
     else

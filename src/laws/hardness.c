@@ -1,11 +1,11 @@
 /*
-  Hardness: the pressure has a limit H, and where it is reached the surfaces overlap and yield.
+  Hardness: the pressure has a limit H; cells that reach it overlap and yield.
 
-  In a step 0 <= p <= H, and the gap g of the surfaces as they were before it is 0 between these bounds, >= 0 where
-  p = 0 and <= 0 where p = H. The overlap -g there is the depth by which the surfaces yield in the step. It is added to
-  the separation from then on, so the gap of the yielded surfaces is 0 in these cells. With them the pressure of the
-  step is still a solution for the same loads, now one without any overlap, and the only one: reloading comes back to
-  it, unloading before that is elastic, and a step that changes nothing yields nothing.
+  In a step 0 <= p <= H. The gap g, of the surfaces before the step, is 0 where the pressure is between these bounds, >=
+  0 where p = 0 and <= 0 where p = H. Where p = H, the overlap -g is the depth by which the surfaces yield in the step.
+  It is added to the separation of later steps, so that the gap of the yielded surfaces is 0 in these cells. For the
+  yielded surfaces and the same loads, the pressure of the step is the only solution, and it has no overlap: reloading
+  returns to it, unloading before that is elastic, and a step without changes does not yield.
 */
 #include <petsam/private/lawimpl.h>
 #include <petsam/normal.h>
@@ -19,7 +19,7 @@ typedef struct {
 } Hardness;
 
 #define DEPTH "plastic_depth"
-/* The numbers of a step, one after the other from CELLS on. */
+/* The numbers of a step, in this order from CELLS on */
 enum { CELLS, AREA, MOST, ENERGY, NUMBERS };
 
 PetscErrorCode SamLawSetHardness(SamLaw law, PetscReal limit)
@@ -47,7 +47,7 @@ static const SamOptionRow limit_row = {"pressure_limit",
 static PetscErrorCode SetFromOptions(SamLaw law, const SamOptions *from, PetscBool *asked)
 {
   const double limit = (double)((Hardness *)law->data)->limit;
-  double       young = 0; /* at the surface of the softer body */
+  double       young = 0; /* Young's modulus at the surface of the softer body */
   char         why[160];
 
   PetscFunctionBegin;
@@ -112,7 +112,7 @@ static PetscErrorCode Limit(SamLaw law, PetscReal *most)
 
 /* ---- a step ---- */
 
-/* Computes the overlap of the step, from the gap before the surfaces yield; `any`: there is some on any rank. */
+/* Computes the overlap of the step from the gap before the surfaces yield; `any`: true if any rank has overlap. */
 static PetscErrorCode FindOverlap(SamLaw law, SamLawStep *step, Vec overlap, PetscBool *any)
 {
   const double  saturated = SAM_SATURATED * ((Hardness *)law->data)->limit;
@@ -152,8 +152,8 @@ static PetscErrorCode AddOverlap(SamLaw law, SamLawStep *step, PetscInt id, Vec 
 }
 
 /*
-  Cells at the limit, the maximum depth, and the work of the pressure on what has been added to it. When a load comes
-  back that has yielded, all that was at the limit is there again, to the tolerance of the solver.
+  Computes the number of cells at the limit, the maximum depth, and the work of the pressure on the added depth. When a
+  load returns that has caused yielding, the same cells are at the limit again, within the tolerance of the solver.
 */
 #define AT_LIMIT (1 - 1e-6)
 static PetscErrorCode CountYielded(SamLaw law, SamLawStep *step, Vec before, Vec depth)
@@ -201,7 +201,7 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
   Vec            depth  = before;
 
   PetscFunctionBegin;
-  /* a pressure that is known has yielded before; what is left of its gap is rounding */
+  /* A known pressure has caused its yielding before; the rest of its gap is rounding. */
   if (!step->known_pressure || !before) PetscCall(AddOverlap(law, step, id, before, &depth));
   PetscCall(CountYielded(law, step, before, depth));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -1,23 +1,24 @@
 /*
-  Surfaces that slide past each other. The grid goes with body 1; under its point x lies the point x + D of body 2. What
-  laws keep at body 2's own points, as it has been worn there, stays there and is read at x + D in each step:
+  Surfaces that slide past each other. The grid goes with body 1; under its point x lies the point x + D of body 2.
+  Fields that laws store at body 2's own points, such as its wear, stay there and are read at x + D in each step:
 
       h(x) = h1(x) + h2(x + D),   R: (R f)(x) = f(x + D) by cubic interpolation
 
   Changes of body 2 by the pressure at x are written by the transpose of R. So volumes are conserved, and reading and
   writing together cannot amplify waves.
 
-  Where the bodies roll the grid moves over both, by o in all: under its point x lie the points x + o of body 1 and
-  x + o + D of body 2, D growing by the creep. The shape stays with the grid. So surfaces and wear of both are read and
-  written at their offsets, and neither is ever interpolated twice.
+  If the bodies roll, the grid moves over both, by a total of o: under its point x lie the points x + o of body 1 and x
+  + o + D of body 2; D grows by the creep. The shape stays with the grid. So surfaces and wear of both bodies are read
+  and written at their offsets, and are never interpolated twice.
 
-  A point x of body 1 is over the point x + d - u_t(x) of body 2, d being the rigid displacement: where it sticks, that
-  stays. D is that of the point that is the last to slip, so that nothing moves while any point sticks. It is a slider
-  that d pulls by a spring: it stays while the stretch d - D is at most L, and else follows at that length. Where all of
-  the contact slips along e, u_t is what the bound of the shear does along e, and L the largest part of that along e in
-  contact; elsewhere the surfaces move more than D, by what bends the bodies there. D so depends on d alone while the
-  surfaces slide, and returns with it. Within a step d and L are known when it is solved; before, d is that which is
-  given, or else that of the step before as L is. The slip of the step does not depend on D.
+  A point x of body 1 is over the point x + d - u_t(x) of body 2, d being the rigid displacement: where it sticks, this
+  does not change. D is the slide of the point that slips last, so that D does not change while any point sticks. It is
+  a slider that d pulls by a spring: it stays while the stretch d - D is at most L, and otherwise follows at that
+  length. If all of the contact slips along e, u_t is the displacement by the bound of the shear along e, and L is the
+  largest component of it along e in contact; elsewhere the surfaces move more than D, by the bending of the bodies. So
+  while the surfaces slide, D depends on d alone, and returns with it. Within a step, d and L are known once it is
+  solved; before that, L is that of the step before, and d the given one or else that of the step before. The slip of
+  the step does not depend on D.
 */
 #include <petsam/private/elasticity.h>
 #include <petsam/private/fieldfile.h>
@@ -29,13 +30,13 @@
 #include <petsam/private/parameters.h>
 #include <math.h>
 
-/* A change of D, parts of a cell, that counts. */
+/* A smaller change of D, in cells, does not count. */
 #define SLIDES 1e-3
 #define LOSS   1e-2 /* part of a surface's heights that interpolation removes, at 8 cells per wave */
 
 typedef struct {
   PetscBool given;
-  Vec       surface[2]; /* of body 1, 2, a part of the separation (m); NULL: flat */
+  Vec       surface[2]; /* of body 1 and 2, each a part of the separation (m); NULL: flat */
 } Slide;
 
 PetscErrorCode SamLawSetSurface(SamLaw law, PetscInt body, Vec surface)
@@ -58,7 +59,7 @@ PetscErrorCode SamLawSetSurface(SamLaw law, PetscInt body, Vec surface)
 static const SamOptionRow slide_row = {"slide", "the surfaces move past each other by the displacements of the history",
                                        SAM_OPTION_BOOL, .member = offsetof(Slide, given)};
 
-/* Rejects options that do not work with sliding surfaces, and says why. */
+/* Rejects options that do not work with sliding surfaces, and gives the reason. */
 static PetscErrorCode Refuse(const SamOptions *from)
 {
   static const char *const refused[][2] = {
@@ -143,7 +144,7 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Returns the given displacement, else that of the step before (0 before the first one). A creepage adds to it. */
+/* Returns the given displacement, or that of the step before (0 before the first one). A creepage is added to it. */
 static double Rigid(SamState state, const SamControl *control, SamComponent component, PetscReal rolled)
 {
   const double found =
@@ -153,7 +154,7 @@ static double Rigid(SamState state, const SamControl *control, SamComponent comp
   return (isfinite(found) ? found : 0) + (control->creep[component] ? (double)(rolled * control->value[component]) : 0);
 }
 
-/* Moves the slider by a pull through a spring, which stretches up to the limit. */
+/* Moves the slider by a pull through a spring, whose stretch is limited. */
 static void Pull(const double by[2], double limit, double slider[2])
 {
   const double stretch = hypot(by[0] - slider[0], by[1] - slider[1]);
@@ -220,7 +221,7 @@ static PetscErrorCode Separation(SamLaw law, SamState state, SamGeneration gener
   Vec          seen;
 
   PetscFunctionBegin;
-  (void)generation; /* from its begin on a try has its own offsets */
+  (void)generation; /* a try has its own offsets from its beginning */
   for (PetscInt body = 0; body < 2; body++) {
     if (!s->surface[body]) continue;
     *adds = PETSC_TRUE;
@@ -267,7 +268,7 @@ static PetscErrorCode FindLimit(SamLawStep *step, const double along[2], double 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Moves the slider at the end of the step, by what the step has found. */
+/* Moves the slider at the end of the step, by the results of the step. */
 static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
 {
   const PetscInt id     = SamStateFindNumber(step->state, SAM_FRAME);
@@ -286,8 +287,8 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
 }
 
 /*
-  The part of a surface's height that interpolation takes half way between its points, by which it is where it moves by
-  parts of a cell: of waves of n cells 1 - (9 cos(t/2) - cos(3t/2))/8, t = 2 pi/n.
+  Computes the part of a surface's height that interpolation removes half way between its points, when the surface moves
+  by parts of a cell: 1 - (9 cos(t/2) - cos(3t/2))/8, t = 2 pi/n, for waves of n cells.
 */
 static PetscErrorCode GetLoss(SamLaw law, const PetscReal offset[2], Vec surface, PetscReal *loss)
 {
@@ -308,7 +309,7 @@ static PetscErrorCode GetLoss(SamLaw law, const PetscReal offset[2], Vec surface
   PetscCall(VecShift(heights, -sum / cells));
   PetscCall(SamFramesReadBeyond(law->elasticity, half, SAM_BORDER_CONTINUES, heights, seen));
   PetscCall(VecDot(seen, seen, &after));
-  PetscCall(VecPointwiseMult(heights, heights, heights)); /* their squares, at the same places */
+  PetscCall(VecPointwiseMult(heights, heights, heights)); /* squares of the heights, at the same places */
   PetscCall(SamFramesReadBeyond(law->elasticity, half, SAM_BORDER_CONTINUES, heights, seen));
   PetscCall(VecSum(seen, &before));
   *loss = before > 0 ? 1 - sqrt(after / before) : 0;

@@ -1,11 +1,12 @@
-/* Laws that only remember: the accumulated slip, and the frictional work, cell by cell over all steps. */
+/* Laws without effect on the solution: sums over all steps of the accumulated slip and the frictional work, cell by
+   cell. */
 #include <petsam/private/lawimpl.h>
 
-/* Field that a sum accumulates over the steps */
+/* Field that a law sums over the steps */
 typedef struct {
   SamStateField field;
   const char   *option, *text;
-  PetscBool     work; /* the frictional work; else the slip */
+  PetscBool     work; /* true: the frictional work; false: the slip */
 } Sum;
 
 #define FIELD(type, unit, text) \

@@ -3,7 +3,7 @@
 #include <petsam/private/solverimpl.h>
 #include <math.h>
 
-/* Creates a field on the level's grid for each one that `like` has. */
+/* Creates a field on the level's grid for each field that `like` has. */
 static PetscErrorCode CreateFields(SamSolver s, const SamLevel *like, SamLevel *level)
 {
   PetscFunctionBegin;
@@ -79,8 +79,8 @@ static PetscErrorCode CountNonzeros(SamGrid grid, PetscInt components, Vec field
 }
 
 /*
-  The product of a level in a window of it; valid there if it is on all of the window, and none of its traction is cut
-  off.
+  Copies the product of a level to a window of it. It is valid there if it covers all of the window, and if all its
+  traction lies within the window.
 */
 static PetscErrorCode TakeProduct(SamWindow window, const SamLevel *from, SamLevel *level, PetscInt components,
                                   SamProduct *part)
@@ -155,8 +155,8 @@ static Vec DiagonalOf(SamSolver s, const SamLevel *level)
 }
 
 /*
-  Computes the additional local displacement, times `factor`, as a new array for SamFree(): a cell yields by its own
-  traction; where material streams, a line by the integral along x, which is symmetric as long as d is constant in x.
+  Computes the additional local displacement, times `factor`, as a new array for SamFree(). A cell yields by its own
+  traction; where material streams, a line yields by the integral along x, which is symmetric if d is constant in x.
 */
 #define YIELD(Name, Real) \
   static PetscErrorCode Name(const SamLevel *level, Vec diagonal, double factor, const Real t[], Real **yield) \
@@ -205,7 +205,7 @@ PetscErrorCode SamLevelApplySingle(SamSolver s, SamLevel *level, double factor, 
 {
   const Vec      diagonal = DiagonalOf(s, level);
   const PetscInt cells    = level->grid->cells;
-  float         *more     = NULL; /* input and output may be the same */
+  float         *more     = NULL; /* as input and output may be the same */
 
   PetscFunctionBegin;
   s->applies += level->finest ? 1 : 0;
@@ -218,8 +218,8 @@ PetscErrorCode SamLevelApplySingle(SamSolver s, SamLevel *level, double factor, 
 
 /*
   The approximate inverse M of the operator without a diagonal d becomes W M W with W = 1/sqrt(1 + d/self), self being a
-  cell's influence on itself: accurate for short waves, whose displacement is that of single cells. It takes 54 instead
-  of 185 products where d is up to 130 times self, 27 instead of 45 up to 11 times.
+  cell's influence on itself: accurate for short waves, whose displacement is that of single cells. If d is up to 130
+  times self, 54 products suffice instead of 185; if it is up to 11 times self, 27 instead of 45.
 */
 static PetscErrorCode PreconditionYielding(SamSolver s, SamLevel *level, Vec diagonal, double factor, const float r[],
                                            float z[])
@@ -252,7 +252,7 @@ PetscErrorCode SamLevelPreconditionSingle(SamSolver s, SamLevel *level, double f
 
   PetscFunctionBegin;
   s->preconditions += level->finest ? 1 : 0;
-  if (diagonal && !SamElasticityGetTraits(level->elasticity).upwind) /* no gain for lines, which are few */
+  if (diagonal && !SamElasticityGetTraits(level->elasticity).upwind) /* no gain for lines, of which there are few */
     PetscCall(PreconditionYielding(s, level, diagonal, factor, r, z));
   else
     PetscCall(s->kind->preconditionsingle(level->elasticity, factor, r, z));

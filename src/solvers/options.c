@@ -24,7 +24,7 @@ static PetscErrorCode MonitorError(SamSolver s, PetscInt it, PetscReal error, vo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Reads the options of the other types for the help, which lists those of all types. */
+/* Reads the options of the other types for the help, which lists the options of all types. */
 static PetscErrorCode DescribeOthers(SamSolver s, const SamOptions *from)
 {
   char         type[sizeof(s->type)];

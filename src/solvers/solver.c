@@ -41,7 +41,7 @@ static PetscErrorCode RegisterAll(SamSolverKind *kind)
 PetscErrorCode SamSolverRegister(SamSolverKind *kind, const char name[], PetscErrorCode (*create)(SamSolver))
 {
   PetscFunctionBegin;
-  PetscCall(RegisterAll(kind)); /* first, so that a type from outside replaces a type of the same name */
+  PetscCall(RegisterAll(kind)); /* first, so that a type from outside replaces a built-in type of the same name */
   PetscCall(PetscFunctionListAdd(&kind->types, name, create));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -192,7 +192,7 @@ PetscErrorCode SamSolverMonitorSet(SamSolver s, SamSolverMonitor monitor, void *
 
 /* ---- the solve and its results ---- */
 
-/* Checks the fields' sizes, and whether the given ones are finite: methods search and compare, and might miss a NaN. */
+/* Checks the fields' sizes, and that the given fields are finite, because the methods might miss a NaN. */
 static PetscErrorCode CheckFields(const SamLevel *level, const SamSolverKind *kind, PetscBool *finite)
 {
   PetscFunctionBegin;

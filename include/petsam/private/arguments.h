@@ -4,7 +4,7 @@
 
 #include <petsam/base.h>
 
-#define SAM_ARGUMENTS_FILES 64 /* most options files */
+#define SAM_ARGUMENTS_FILES 64 /* maximum number of options files */
 
 /* SamArgument - a given option. */
 typedef struct {

@@ -151,8 +151,8 @@ PETSC_INTERN PetscErrorCode SamOptionsRequire(const SamOptions *from, PetscBool 
 /* SamIsDecimalComma - returns true if a text begins with digits, a comma, and a digit: 2,6e-3. */
 PETSC_INTERN PetscBool SamIsDecimalComma(const char text[]);
 /*
-  SamExplainNumber - writes the fault of a text that is no number, to be appended to a message; it may be empty. `unit`:
-  that of SI of the number.
+  SamExplainNumber - writes the fault of a text that is no number, to be added to a message; it may be empty. `unit`:
+  the SI unit of the number.
 */
 PETSC_INTERN void SamExplainNumber(const char text[], const char unit[], char why[], size_t size);
 
@@ -162,8 +162,8 @@ PETSC_INTERN void SamExplainNumber(const char text[], const char unit[], char wh
   (NULL) by none; returns true if the text is such a number. `value`: the number in the unit of SI; `end`: the comma
   after it, or the end of the text; `unit`: true if a unit follows.
   SamListUnits - writes the units that may follow, "m, mm, um or nm"; empty: none.
-  SamUnitOf - returns the n-th unit that numbers in the k-th unit of SI may have, and the power of ten between them; of
-  n < 0 that unit of SI. NULL: there are no more.
+  SamUnitOf - returns the n-th unit for numbers in the k-th SI unit, and the power of ten between the two; for n < 0 it
+  returns the SI unit itself. NULL: there are no more.
   SamAddUnit - writes the text of an option's help with its unit, as SamOptionRow says; NULL: the text alone.
 */
 PETSC_INTERN PetscBool   SamReadReal(const char si[], const char text[], const char **end, double *value,
@@ -172,9 +172,9 @@ PETSC_INTERN void        SamListUnits(const char unit[], char list[], size_t siz
 PETSC_EXTERN const char *SamUnitOf(int k, int n, int *power);
 PETSC_INTERN void        SamAddUnit(const char text[], const char unit[], char whole[], size_t size);
 /*
-  SamExplainStress - writes, to be appended to a value, why the unit of a stress or of a modulus is likely to be wrong:
-  its ratio to Young's modulus (both Pa) is less than `least` without being 0, or more than `most`. Else, or if the body
-  is rigid, the text is empty.
+  SamExplainStress - writes a text, to be added to a value, if the unit of a stress or of a modulus is likely to be
+  wrong: if its ratio to Young's modulus (both Pa) is not 0 but less than `least`, or more than `most`. Otherwise, or if
+  the body is rigid, the text is empty.
 */
 #define SAM_LEAST_CONSTANT 1e-6 /* smallest plausible ratio for the constants of a material; solids have larger ones */
 PETSC_INTERN void SamExplainStress(double stress, double young, double least, double most, char why[], size_t size);
@@ -217,9 +217,9 @@ static inline uint64_t SamHashBits(double value)
 
 /*
   SamGapRounding - returns the rounding error of a gap (m) if it is more than 1e-12 of the `displacement` (m), which is
-  then a small difference of large numbers; else 0. It consists of the rounding of tractions up to `traction` (Pa) on
-  `cells` cells, each of which displaces itself by `self` (m/Pa): uniform tractions displace nothing on periodic bodies,
-  but their rounding does; and of the rounding of heights of the size of `approach` (m).
+  then a small difference of large numbers; else 0. One part is the rounding of tractions up to `traction` (Pa) on
+  `cells` cells, each of which displaces itself by `self` (m/Pa): on periodic bodies uniform tractions cause no
+  displacement, but their rounding does. The other part is the rounding of heights as large as `approach` (m).
 */
 static inline double SamGapRounding(double traction, double self, double cells, double approach, double displacement)
 {

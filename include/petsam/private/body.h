@@ -25,8 +25,8 @@ PETSC_INTERN const SamMaterial *SamBodySubstrate(SamBody body);
 PETSC_INTERN PetscBool          SamBodyIsRigid(SamBody body);
 
 /*
-  SamBodyInitialStress - gets the stress xx and yy (Pa) that a body has before any load at a depth (m); where it jumps,
-  that above. It is zero unless -body1_initial_stress, -body2_initial_stress gives it.
+  SamBodyInitialStress - gets the stress xx and yy (Pa) that a body has before any load at a depth (m); at a jump, the
+  value above it. It is zero unless -body1_initial_stress, -body2_initial_stress gives it.
   SamBodyMeanInitialStress - gets its mean from a depth `top` over a thickness (m).
   SamBodyHasInitialStress - returns true if the body has such a stress.
   None is collective.
@@ -38,7 +38,7 @@ PETSC_INTERN PetscBool SamBodyHasInitialStress(SamBody body);
 /*
   SamBodyAdvise - writes a warning if the layers of body `number` (1 or 2) have no effect or are thinner than a cell (k
   = 0; `cell`: its size, m), or are thicker than 100 times the width of the contact (k = 1; `width`, m); else an empty
-  text. `option`: the option that mends it, without dash; empty: none. Not collective.
+  text. `option`: the option that helps, without dash; empty: none. Not collective.
   SamBodyAdviseWorn - writes a warning if a body, worn to this depth (m), has lost its first layer; else an empty text.
 */
 PETSC_INTERN PetscErrorCode SamBodyAdvise(SamBody body, PetscInt number, PetscInt k, PetscReal cell, PetscReal width,

@@ -49,7 +49,7 @@ PETSC_INTERN PetscErrorCode SamBodyCreateFromParameters(MPI_Comm comm, const Sam
                                                         const char prefix[], const char source[], SamBody *body);
 /*
   SamDepthTable - constants of a body over the depth, which an option's text file gives. The caller sets `names` and
-  `what`, which says in messages what ends at the last depth.
+  `what`, the words in messages for what ends at the last depth.
   SamDepthTableRead - reads the file if the option (its name without prefix) is given, which `set` returns; there are
   then two rows or more, from depth 0 on, and SamTableDestroy() frees the table. Collective. Errors: SAM_ERR_FILE;
   SAM_ERR_USER with file and line for a missing column and for rows that do not go down from the surface.

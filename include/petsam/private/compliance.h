@@ -9,9 +9,9 @@
 #include <petsam/private/stressimpl.h>
 
 #define SAM_COMPLIANCE_DEGREE 10 /* highest degree of the polynomials */
-#define SAM_COMPLIANCE_MODES  66 /* most polynomials: those up to this degree */
-#define SAM_COMPLIANCE_CASES  8  /* most load cases of a body */
-#define SAM_CASE_NAME         20 /* most letters of the name of a load case */
+#define SAM_COMPLIANCE_MODES  66 /* maximum number of polynomials: those up to this degree */
+#define SAM_COMPLIANCE_CASES  8  /* maximum number of load cases of a body */
+#define SAM_CASE_NAME         20 /* maximum number of letters in the name of a load case */
 
 /*
   SamCompliance - the additional compliance of one body. The displacement of its surface by a traction t, minus that of
@@ -74,8 +74,8 @@ PETSC_INTERN PetscErrorCode SamComplianceReadStress(MPI_Comm comm, SamCompliance
 PETSC_INTERN PetscErrorCode SamComplianceAddStress(SamElasticity elasticity, SamCompliance compliance,
                                                    SamStress stress);
 /*
-  SamComplianceField - returns the count of the stresses of one field at all points. SamComplianceStresses - returns the
-  count of the numbers of the axes and of all fields, by c and by load cases.
+  SamComplianceField - returns the number of stress values of one field at all points. SamComplianceStresses - returns
+  the number of values of the axes and of all fields, which are one for each c and each load case.
 */
 static inline PetscInt SamComplianceField(SamCompliance c)
 {

@@ -30,13 +30,13 @@ typedef enum { SAM_SLIP_MID, SAM_SLIP_END } SamSlipDirection;
 typedef struct {
   PetscBool        coupling;      /* normal-tangential coupling is taken into account (true; -coupling full or none) */
   PetscReal        coupling_rtol; /* tolerance of the coupling (1e-6; -coupling_rtol) */
-  PetscInt         coupling_max_it;  /* most passes (100; -coupling_max_it) */
+  PetscInt         coupling_max_it;  /* maximum number of passes (100; -coupling_max_it) */
   PetscBool        coupling_monitor; /* print the change after each pass (false; -coupling_monitor) */
   PetscBool        warm_start;       /* start a step from earlier steps, on the finest grid only (true; -warm_start) */
-  SamSlipDirection slip_direction;   /* (mid; -slip_direction) */
-  PetscReal cycle_memory; /* bytes on all ranks for steps of a repeated load cycle: a step that the cycle before had
-                                 starts from that, with the same solution within the tolerances (NaN, the default:
-                                 those of SamContactCycleMemory(); 0: none; -cycle_memory) */
+  SamSlipDirection slip_direction;   /* reference direction of the slip (mid; -slip_direction) */
+  PetscReal cycle_memory; /* bytes on all ranks for steps of a repeated load cycle: a step starts from the same step of
+                                  the previous cycle, which changes the solution only within the tolerances (NaN, the
+                                  default: SamContactCycleMemory(); 0: none; -cycle_memory) */
   PetscBool allow_edge;   /* contact at the edge of the grid only causes a warning (false; -allow_edge_contact) */
   PetscBool edges;        /* areas, and tractions at points, by reconstructed contact and stick edges (edges.h);
                                  else by counted cells, wrong by a part of a cell along the edge (true; -edges

@@ -23,13 +23,13 @@ struct _n_SamFile {
   const char *option; /* option (without dash) that named the file */
   char       *filename;
   PetscBool   writing;
-  /* what it owns; identifiers are negative where nothing is open */
+  /* owned objects; identifiers are negative if nothing is open */
   PetscMPIInt rank;
   hid_t       id, transfer; /* the file; property list for collective transfer */
   /* status */
-  off_t       reserved_begin, reserved_end; /* on rank 0: the part that was reserved last */
-  PetscBool   failed;                       /* on this rank; on all after SamFileEnd() or SamFileAgree() */
-  char        reason[256];                  /* of the first failure */
+  off_t       reserved_begin, reserved_end; /* on rank 0: the part of the file that was last reserved */
+  PetscBool   failed;                       /* on this rank; on all ranks after SamFileEnd() or SamFileAgree() */
+  char        reason[256];                  /* reason of the first failure */
   H5E_auto2_t print;                        /* HDF5's own error output, to be restored by SamFileEnd() */
   void       *print_data;
 };
@@ -42,11 +42,11 @@ typedef enum { SAM_FILE_CREATE, SAM_FILE_CREATE_SEALED, SAM_FILE_READ } SamFileM
 PETSC_INTERN PetscErrorCode SamFileOpen(SamGrid grid, SamEvent event, const char option[], const char filename[],
                                         SamFileMode mode, SamFile *file);
 /*
-  SamFileExamine - rank 0 examines an HDF5 file before all ranks open it: reports one that is not there, may not be read
-  or is not HDF5, and one on which HDF5 crashes or does not end, by running petsam-examine on it; then calls `look` with
-  the file open on this rank alone. `objects`, ended by NULL, are at most SAM_FILE_OBJECTS names of what will be read,
-  where a file of another's may hold much more; NULL: all. The `answer` (`size` bytes without pointers) is
-  returned on all ranks, and an error that `look` has raised or noted is raised on all. Collective. Errors:
+  SamFileExamine - rank 0 examines an HDF5 file before all ranks open it. It rejects a file that is missing, may not be
+  read or is not HDF5, and, by running petsam-examine, a file on which HDF5 crashes or does not end. Then it calls
+  `look` with the file open on this rank alone. `objects`, ended by NULL: at most SAM_FILE_OBJECTS names of the objects
+  that will be read, as a file of another program may contain many more; NULL: all. The `answer` (`size` bytes without
+  pointers) is returned on all ranks, and an error that `look` has raised or noted is raised on all. Collective. Errors:
   SAM_ERR_FILE, and those of `look`.
 */
 #define SAM_FILE_OBJECTS 3
@@ -55,8 +55,8 @@ PETSC_INTERN PetscErrorCode SamFileExamine(MPI_Comm comm, const char option[], c
                                            const char *const objects[], SamFileLook look, const void *question,
                                            void *answer, size_t size);
 /*
-  SamFileDestroy - frees the object, and with `close` first closes the file; without it the file stays open, for where
-  closing would hang. Errors: SAM_ERR_FILE.
+  SamFileDestroy - frees the object, and with `close` first closes the file; without `close` the file stays open, for
+  cases in which closing would hang. Errors: SAM_ERR_FILE.
   SamFileClose - closes the file; to be called between Begin and End, notes its failures.
   SamFileBegin, SamFileEnd - switch off HDF5's error output, and restore it and raise SAM_ERR_FILE for a noted failure.
   SamFileAgree - makes a failure of any rank known to all, without raising it.
@@ -83,20 +83,20 @@ PETSC_INTERN void      SamFileReadAttribute(SamFile file, hid_t object, const ch
                                             void *values);
 PETSC_INTERN void      SamFileReadTextAttribute(SamFile file, hid_t object, const char name[], char **text);
 PETSC_INTERN PetscBool SamFileHasAttribute(SamFile file, const char name[]);
-/* SamFileWriteOrigin - the attributes that say what a file is, and which program has written it. */
+/* SamFileWriteOrigin - writes the attributes that describe the kind of the file and the program that wrote it. */
 PETSC_INTERN void SamFileWriteOrigin(SamFile file, const char title[], const char program[]);
 
-/* A dataset's name, and two of its attributes (NULL: without). */
+/* A dataset's name, and two of its attributes (NULL: none) */
 typedef struct {
   const char *name, *units, *long_name;
 } SamLabel;
 
-/* The shape of a dataset: size when created, largest size, and size of a chunk (0: not chunked). */
+/* The shape of a dataset: size when created, largest size, and size of a chunk (0: not chunked) */
 #define SAM_SHAPE_RANK 4 /* most dimensions */
 typedef struct {
   int           rank;
   hsize_t       size[SAM_SHAPE_RANK], largest[SAM_SHAPE_RANK], chunk[SAM_SHAPE_RANK];
-  const double *fill; /* value of places that are not written; NULL: all must be written */
+  const double *fill; /* value of places that are not written; NULL: all places must be written */
 } SamShape;
 /*
   SamFileCreateDataset - creates a dataset with its attributes. `compress`: deflate level, 0 for none.
@@ -110,12 +110,12 @@ PETSC_INTERN hid_t SamFileCreateScale(SamFile file, hid_t where, const SamLabel 
                                       const char standard_name[], const SamShape *shape, const double values[]);
 PETSC_INTERN void  SamFileAttachScales(SamFile file, hid_t dataset, int count, const hid_t scales[]);
 /*
-  SamFileGetSize - the size of a dataset of that rank (0: any; then there is room for SAM_SHAPE_RANK); returns its rank.
-  Zeros after a failure.
+  SamFileGetSize - gets the size of a dataset with that number of dimensions (0: any; `size` then has SAM_SHAPE_RANK
+  elements); returns the number. All are zero after a failure.
 */
 PETSC_INTERN int SamFileGetSize(SamFile file, hid_t dataset, int rank, hsize_t size[]);
 
-/* The part of a dataset that a rank writes or reads; none where a count is 0. */
+/* The part of a dataset that a rank writes or reads; it is empty if a count is 0 */
 typedef struct {
   int     rank;
   hsize_t start[SAM_SHAPE_RANK], count[SAM_SHAPE_RANK];
@@ -123,19 +123,19 @@ typedef struct {
 /* SamFileWriteBlock, SamFileReadBlock - write or read this rank's block of a dataset. */
 PETSC_INTERN void SamFileWriteBlock(SamFile file, hid_t dataset, hid_t type, const SamBlock *block, const void *values);
 PETSC_INTERN void SamFileReadBlock(SamFile file, hid_t dataset, hid_t type, const SamBlock *block, void *values);
-/* One frame of a dataset of shape (frames, ny, nx): each rank writes or reads its rows of the file's grid. */
+/* One frame of a dataset of shape (frames, ny, nx): each rank writes or reads its rows of the file's grid */
 PETSC_INTERN void SamFileWriteFrame(SamFile file, hid_t dataset, hid_t type, hsize_t frame, const void *values);
 PETSC_INTERN void SamFileReadFrame(SamFile file, hid_t dataset, hid_t type, hsize_t frame, void *values);
 /*
-  SamFileIsWhole - returns true if the data of a dataset lie within the file; in a damaged one they may be anywhere.
-  `extent`: the places in each dimension that matter, NULL: all. `every`: all of them must have been written. It is
-  called on one rank, for a file that is examined.
+  SamFileIsWhole - returns true if the data of a dataset lie within the file; in a damaged file they may not. `extent`:
+  the places in each dimension that matter, NULL: all. `every`: all of them must have been written. It is called on one
+  rank, for a file that is examined.
 */
 PETSC_INTERN PetscBool SamFileIsWhole(SamFile file, hid_t dataset, const hsize_t extent[], PetscBool every);
 /*
-  SamTextRead - reads an attribute that is one text, of fixed or variable length, without the blanks that pad it; what
-  does not fit is cut. An attribute that is something else is "not a text". Returns whether there is one. Not
-  collective.
+  SamTextRead - reads an attribute that is a single text, of fixed or variable length, without the blanks that pad it; a
+  longer text is truncated. For any other attribute the result is "not a text". Returns true if the attribute exists.
+  Not collective.
 */
 PETSC_INTERN PetscBool SamTextRead(hid_t object, const char name[], char text[], size_t size);
 
@@ -149,14 +149,14 @@ PETSC_INTERN PetscBool SamTextRead(hid_t object, const char name[], char text[],
 */
 PETSC_INTERN void      SamParametersWrite(SamFile file, const SamParameters *parameters);
 PETSC_INTERN PetscBool SamParametersDiffer(SamFile file, const SamParameters *parameters, char message[], size_t size);
-/* The datasets `names` of the root group as an image for VTK: their values are at cells, or else at points. */
+/* The datasets `names` of the root group as an image for VTK, with values at cells or at points */
 typedef struct {
-  PetscBool   cells;
-  hsize_t     n[3];                  /* cells or points along x, y, z */
-  double      origin[3], spacing[3]; /* of the first point, a corner of the first cell, and between points; m */
-  int64_t     steps; /* in the datasets, whose first dimension is the time; -1: without this dimension */
-  double      time;  /* s, of a single step */
-  PetscInt    count;
+  PetscBool cells;
+  hsize_t   n[3];                  /* cells or points along x, y, z */
+  double    origin[3], spacing[3]; /* corner of the first cell, or first point; distances between points; m */
+  int64_t   steps; /* number of steps in the datasets, whose first dimension is the time; -1: without this dimension */
+  double    time;  /* s, time of a single step */
+  PetscInt  count;
   const char *names[SAM_STATE_MOST];
 } SamImage;
 /*
@@ -170,62 +170,64 @@ PETSC_INTERN void  SamFileCountVTK(SamFile file, hid_t number, int64_t steps);
 
 /* ---- the disk (disk.c) ---- */
 
-/* The purposes of a file. Old results must exist; a temporary file becomes one of the others by its name. */
+/* The purposes of a file. Old results must exist; a temporary file is renamed to one of the other kinds */
 typedef enum { SAM_FILE_RESULTS, SAM_FILE_OLD_RESULTS, SAM_FILE_CHECKPOINT, SAM_FILE_TEMPORARY } SamFileUse;
 /*
-  SamFileCheckName - fails early if a file of that name cannot be written, is being written by another run, or is there
-  and not what petsam writes for that use. Changes nothing on the disk. Collective. Errors: SAM_ERR_FILE.
+  SamFileCheckName - fails early if a file of that name cannot be written, is being written by another run, or exists
+  and is not a file that petsam writes for this purpose. It changes nothing on the disk. Collective. Errors:
+  SAM_ERR_FILE.
 */
 PETSC_INTERN PetscErrorCode SamFileCheckName(SamGrid grid, const char option[], const char filename[], SamFileUse use);
 /*
-  SamFileGetBytes - the size of the file of that name, by rank 0; negative: there is none. SamFileContains - whether
-  there is a text among the attributes at the start of a file of results; nothing of it is interpreted. Collective.
+  SamFileGetBytes - gets the size of the file of that name, from rank 0; negative: there is none. SamFileContains -
+  finds out if a text is among the attributes at the start of a results file, without interpreting the file. Collective.
 */
 PETSC_INTERN PetscErrorCode SamFileGetBytes(MPI_Comm comm, const char filename[], double *bytes);
 PETSC_INTERN PetscErrorCode SamFileContains(SamGrid grid, const char filename[], const char text[],
                                             PetscBool *contains);
 /*
-  SamFileNameBeside - a name with an ending added, of a symbolic link that of the file behind it; the caller frees it
-  with PetscFree(). Not collective.
+  SamFileNameBeside - creates a name with an ending added; for a symbolic link, from the name of the file behind it. The
+  caller frees it with PetscFree(). Not collective.
 */
 PETSC_INTERN PetscErrorCode SamFileNameBeside(const char filename[], const char ending[], char **name);
 /*
   SamFileReserve - allocates disk space for so many bytes and HDF5's metadata: the file becomes longer, and HDF5 cuts
   off the unused part when it flushes, unless all of it is unused. Collective. Errors: SAM_ERR_FILE.
-  SamFileFindUnused - where what was reserved last begins, if HDF5 has not cut it off, else -1. On rank 0.
-  SamFileGetSpace - the free space (bytes) where a file is or will be; infinite if that is not known. Collective.
-  Errors: SAM_ERR_FILE where it cannot be written.
+  SamFileFindUnused - finds, on rank 0, the beginning of the last reserved space, if HDF5 has not removed it; else -1.
+  SamFileGetSpace - gets the free space (bytes) for a file that exists or will be created; infinite if unknown.
+  Collective. Errors: SAM_ERR_FILE if the file cannot be written.
 */
 PETSC_INTERN PetscErrorCode SamFileReserve(SamFile file, off_t bytes);
 PETSC_INTERN off_t          SamFileFindUnused(SamFile file);
 PETSC_INTERN PetscErrorCode SamFileGetSpace(SamGrid grid, const char option[], const char filename[], double *bytes);
 /*
   SamFileReplace - flushes the complete file `temporary` to the disk and renames it to `filename`. A file of that name
-  is replaced, or first named `kept` if that is not NULL. At every moment there is a complete file of one of these
-  names, if there was one. A symbolic link stays, and the file behind it is replaced. Collective. Errors: SAM_ERR_FILE.
+  is replaced, or first named `kept` if that is not NULL. If there was a complete file of one of these names before,
+  there is one at every moment. A symbolic link stays, and the file behind it is replaced. Collective. Errors:
+  SAM_ERR_FILE.
 */
 PETSC_INTERN PetscErrorCode SamFileReplace(SamGrid grid, const char option[], const char temporary[],
                                            const char filename[], const char kept[]);
 /*
-  SamFileLock - keeps a file that a run writes from other runs, and notices what other programs do to it. Held by rank
-  0; ends with the process. Other programs can read the file.
+  SamFileLock - a lock that prevents other runs from writing a file, and notices changes by other programs. Rank 0 holds
+  it; it ends with the process. Other programs can read the file.
 */
 typedef struct {
-  int        file; /* descriptor, negative: not held */
+  int        file; /* descriptor; negative: no file is locked */
   SamFileUse use;
-  PetscBool  created; /* was not there before */
-  off_t      size;    /* when it was noted */
-  off_t      mark_at; /* where a number is that never changes, 0: none */
+  PetscBool  created; /* the file did not exist before */
+  off_t      size;    /* size when it was last noted */
+  off_t      mark_at; /* place of a number that never changes; 0: none */
   double     mark;
 } SamFileLock;
 /*
-  SamFileLockTake - takes hold of a file, which is created if it is not there. Errors as SamFileCheckName().
-  SamFileLockTakeNext - takes hold of the next file of a name whose file has been renamed.
-  SamFileLockCheck - raises an error if the file has been removed, replaced, has not the size that was noted, or its
-  marked number has another value: it was cut while a step was written, and grew again.
-  These are collective. Errors: SAM_ERR_FILE.
+  SamFileLockTake - locks a file, which is created if it does not exist. Errors: as SamFileCheckName().
+  SamFileLockTakeNext - locks the next file of a name whose file has been renamed.
+  SamFileLockCheck - raises an error if the file has been removed or replaced, or if its size differs from the noted one
+  or its marked number has another value, which happens if the file was truncated while a step was written, and grew
+  again. These are collective. Errors: SAM_ERR_FILE.
   SamFileLockNoteSize - notes the size.
-  SamFileLockRelease - gives up the file; removes it if it is temporary, or was created here and is still empty.
+  SamFileLockRelease - unlocks the file; removes it if it is temporary, or was created here and is still empty.
 */
 PETSC_INTERN PetscErrorCode SamFileLockTake(SamGrid grid, const char option[], const char filename[], SamFileUse use,
                                             SamFileLock *hold);
@@ -236,14 +238,13 @@ PETSC_INTERN PetscErrorCode SamFileLockCheck(SamGrid grid, const char option[], 
 PETSC_INTERN void           SamFileLockNoteSize(SamFileLock *hold);
 PETSC_INTERN void           SamFileLockRelease(const char filename[], SamFileLock *hold);
 
-/* SamFileNameTemporary - the name of a file until it is complete; the caller frees it. Not collective. */
+/* SamFileNameTemporary - creates the name of a file until it is complete; the caller frees it. Not collective. */
 PETSC_EXTERN PetscErrorCode SamFileNameTemporary(const char filename[], char **temporary);
 
-#define SAM_SEAL 512 /* bytes at the start of a checkpoint: HDF5's user block, which holds the seal */
+#define SAM_SEAL 512 /* bytes at the start of a checkpoint: HDF5's user block, which contains the seal */
 /*
-  SamSealWrite - seals a finished checkpoint: a checksum over all its bytes.
-  SamSealCheck - compares it. Nothing of the file is interpreted before.
-  Both are collective. Errors: SAM_ERR_FILE.
+  SamSealWrite - seals a finished checkpoint with a checksum over all its bytes. SamSealCheck - compares the checksum
+  before any part of the file is interpreted. Both are collective. Errors: SAM_ERR_FILE.
 */
 PETSC_INTERN PetscErrorCode SamSealWrite(SamGrid grid, const char option[], const char filename[]);
 PETSC_INTERN PetscErrorCode SamSealCheck(SamGrid grid, const char option[], const char filename[]);

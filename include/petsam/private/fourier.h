@@ -42,10 +42,10 @@ typedef enum {
 /* SamFourierPeriod - the choice of the periods hx, hy of a grid's transforms. */
 typedef enum {
   SAM_FOURIER_FAST, /* even numbers >= nx, ny that FFTW transforms fast */
-  SAM_FOURIER_EXACT /* nx, ny, whatever they are: the grid is one period */
+  SAM_FOURIER_EXACT /* nx, ny without change: the grid is one period */
 } SamFourierPeriod;
 
-#define SAM_FOURIER_FIELDS 3 /* most fields in one pass */
+#define SAM_FOURIER_FIELDS 3 /* maximum number of fields in one pass */
 
 /*
   SamFourierBlock - a few columns of spectra, handed to a filter. Phase 0 holds the even frequencies along y, phase 1

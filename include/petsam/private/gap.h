@@ -28,8 +28,8 @@ PETSC_INTERN PetscErrorCode SamGapGetParameters(SamGap gap, SamGapType *type, Pe
 /*
   SamGapEstimateContact - estimates the half widths (m) along x and y of the frictionless contact of the shape, by a
   closed-form solution (Hertz, Sneddon): `value` is a central force over the composite modulus E* (m2) or, without
-  `force`, an approach (m). Infinite along the axis of a cylinder; `known`: false for types without such a solution, and
-  with a roughness. Not collective.
+  `force`, an approach (m). Half widths along the axis of a cylinder are infinite; `known`: false for types without such
+  a solution, and with a roughness. Not collective.
 */
 PETSC_INTERN PetscErrorCode SamGapEstimateContact(SamGap gap, PetscBool force, PetscReal value, PetscReal half[2],
                                                   PetscBool *known);

@@ -6,7 +6,7 @@
 #include <petsam/gap.h>
 #include <petsam/private/fieldfile.h>
 
-#define SAM_GAP_PARAMETERS 5 /* most parameters of a shape */
+#define SAM_GAP_PARAMETERS 5 /* maximum number of parameters of a shape */
 
 /*
   SamGapContact - the frictionless contact of a shape under a central force, by a closed-form solution: half widths

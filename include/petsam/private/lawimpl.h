@@ -43,7 +43,7 @@ typedef struct {
 /*
   SamBound - a bound (Pa), and its derivatives by the pressure (1) and by the length of the slip (Pa/m), each a field of
   one component, NULL if it is not wanted; by_slip is only wanted together with the value. The first law fills the
-  fields, each later law changes them.
+  fields; each later law changes them.
 */
 typedef struct {
   Vec value, by_pressure, by_slip;
@@ -95,10 +95,10 @@ struct _n_SamLawStep {
 PETSC_EXTERN PetscErrorCode SamLawStepGetFriction(SamLawStep *step, Vec *path, Vec *pressed, Vec *work);
 PETSC_INTERN PetscErrorCode SamLawAddToSum(SamState state, const char name[], Vec more);
 /*
-  The frames of both bodies (frames.c). Under a point x of the grid, which goes with body 1, lies the point x + D of
-  body 2, D being the slide (m). A field of body 2 is kept at the points that lie under the cells at D = 0. The law
-  slide declares these numbers of the state, in the order of the enumeration: D and the rolled distance, the slider (m),
-  and its longest stretch (m).
+  The frames of both bodies (frames.c). The grid goes with body 1; the point x + D of body 2 lies under its point x,
+  where D is the slide (m). A field of body 2 is stored at the points that lie under the cells at D = 0. The law slide
+  declares these numbers of the state, in the order of the enumeration: D and the rolled distance, the slider (m), and
+  its longest stretch (m).
   SamFramesGetSlide - gets D of a generation (of the committed one for SAM_TRIED without a try); returns false if the
   surfaces do not slide, and then D = 0. SamFramesSetSlide - sets D of the committed generation, if they slide.
   SamFramesRewind - subtracts a distance (m) from D, and from the slider that it follows, of a generation. Not
@@ -189,8 +189,8 @@ struct _n_SamLaw {
     */
     PetscErrorCode (*offset)(SamLaw law, SamState state, const SamControl *control, Vec u_z, Vec u_t, PetscBool *adds);
     /*
-      Adds the linear part of such a tangential displacement. It is no part of u_t: it is evaluated row by row, needs no
-      field, and follows the bodies when they roll.
+      Adds the linear part of such a tangential displacement. This part is not contained in u_t: it is evaluated row by
+      row, needs no field, and follows the bodies when they roll.
     */
     PetscErrorCode (*strain)(SamLaw law, const SamControl *control, SamStrain *strain);
     /*

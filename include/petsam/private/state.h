@@ -59,7 +59,8 @@ PETSC_INTERN double *SamStateNumbers(SamState state, PetscInt id, SamGeneration 
 PETSC_INTERN PetscErrorCode SamStateRestoreField(SamState state, PetscInt id, SamGeneration generation, Vec *field);
 /*
   SamStateCopy - copies the committed values, and those a step before, from another state on the same grid, and discards
-  a tried generation. Fields that `from` does not have become zero, and such numbers get their values in a new state.
+  a tried generation. Fields that `from` does not have become zero, and numbers that it does not have get the values of
+  a new state.
   Collective. Errors: PETSC_ERR_ARG_SIZ for another grid; PETSC_ERR_ARG_INCOMP for a field for which only `from` has
   values; the message names it.
 */

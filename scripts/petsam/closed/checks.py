@@ -63,7 +63,7 @@ def _swirl(shear):
 
 
 def _check_hertz():
-    """Errors of Hertz's total load and of the values of Table 1, each against 1."""
+    """Errors of Hertz's total load and of the values of Table 1, each relative to 1."""
     h = hertz(1000.0, effective_radius(0.2, 0.2), effective_modulus(210e9, 0.3, 210e9, 0.3))
     r, w = segments(np.array([0.0, h.radius]))
     force = 2.0 * np.pi * np.sum(w * r * hertz_pressure(r, h.radius, h.pressure))
@@ -111,7 +111,7 @@ def _check_lubkin(ratio):
 
 
 def _check_lubkin_limits():
-    """Errors against full stick (Reissner and Sagoci) at a small torque, and gross slip at the limit."""
+    """Errors relative to full stick (Reissner and Sagoci) at a small torque, and to gross slip at the limit."""
     ratio = 1e-4
     c, torque = lubkin_stick_radius(ratio, 1.0), ratio * np.pi**2 / 8.0
     r = np.linspace(0.05, 0.8, 6)
@@ -293,7 +293,7 @@ def _check_cylinder(load, edge_radius, e_star):
 
 
 def _check_strips(punch, load, eccentricity, ratio, friction=0.1):
-    """Errors of the strips' solution, for 300 and 600 of them."""
+    """Errors of the strips' solution, for 300 and 600 strips."""
     contact = contact_under_moment(punch, load, eccentricity * load)
     stick = stick_zone(punch, contact, ratio * friction * load, friction)
     for count, bound in ((300, 2e-2), (600, 1e-2)):
@@ -396,7 +396,7 @@ def checks():
 
 
 def self_check():
-    """Print errors and bounds; the number of failures."""
+    """Prints errors and bounds; returns the number of failures."""
     failed = 0
     for name, error, bound in checks():
         bad = not abs(error) <= bound

@@ -25,7 +25,7 @@ def masing_displacement(load, turn_load, turn_displacement, limit, gross):
 
 
 def partial_loop_energy(amplitude, limit, gross):
-    """Energy, J, that friction takes in one cycle between -amplitude and amplitude (N), amplitude <= mu N.
+    """Energy, J, that friction dissipates in one cycle between -amplitude and amplitude (N), amplitude <= mu N.
 
     Mindlin and Deresiewicz; with gross = 3 mu N (sum of (2 - nu)/G)/(16 a) it is Johnson's eq. 7.59.
     """

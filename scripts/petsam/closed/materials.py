@@ -21,7 +21,7 @@ def effective_radius(radius1, radius2):
 
 
 def tangential_compliance(g1, poisson1, g2, poisson2):
-    """Sum over both bodies of (2 - nu)/(4 G), 1/Pa: a uniform direction's mean tangential compliance."""
+    """Sum over both bodies of (2 - nu)/(4 G), 1/Pa: the mean tangential compliance for shear of uniform direction."""
     return (2.0 - poisson1) / (4.0 * g1) + (2.0 - poisson2) / (4.0 * g2)
 
 
@@ -41,7 +41,7 @@ class Bodies(NamedTuple):
 
     @classmethod
     def of(cls, parameters):
-        """Those of a mapping that has them by the names of petsam's options; a rigid body needs no Poisson's ratio."""
+        """Creates the bodies from a mapping named like petsam's options; a rigid body needs no Poisson's ratio."""
         young = [float(parameters[f"body{k}_young"]) for k in (1, 2)]
         poisson = [float(parameters[f"body{k}_poisson"]) if np.isfinite(e) else 0.0 for k, e in zip((1, 2), young)]
         return cls(young[0], poisson[0], young[1], poisson[1])

@@ -19,8 +19,8 @@ may lie on the flat base: then phi2 = pi (or phi1 = 0).
 Partial slip (Jaeger, Ciavarella): q = mu (p - p*), p* the pressure of the same punch at the same tilt under the load
 P' - Q'/mu; it sticks where p* > 0. Normal load and moment come first and stay constant.
 
-`PlaneCells` is the same problem cut into strips of constant traction, as a numerical section has them: what is left
-between it and the mid-section of a long contact on the same cells comes from the ends alone.
+`PlaneCells` is the same problem with strips of constant traction, like a numerical section: its difference from the
+mid-section of a long contact on the same cells is caused by the ends alone.
 
 References
 ----------
@@ -54,7 +54,7 @@ class Contact(NamedTuple):
 
 
 def _edges(punch, contact):
-    """phi1 and phi2, rad: where the right and the left edge of the flat base lie."""
+    """phi1 and phi2, rad: places of the right and the left edge of the flat base."""
     m, a = contact
     return tuple(np.arccos(np.clip((edge - m) / a, -1.0, 1.0)) for edge in (punch.c, -punch.c))
 
@@ -116,7 +116,7 @@ def _half_width(punch, load, middle):
 
 
 def _contact(punch, load, quantity, value):
-    """The contact under load (N/m) in which quantity(punch, contact), odd and increasing in the middle, has value."""
+    """The contact under load (N/m) for which quantity(punch, contact), odd and increasing in the middle, is value."""
     sign, value = np.sign(value), abs(value)
     if value == 0.0:
         return Contact(0.0, _half_width(punch, load, 0.0))
@@ -156,7 +156,7 @@ def plane_shear(x, punch, contact, stick, friction):
 
 
 class PlaneCells:
-    """The plane problem on strips with centres x (m), of equal width; dense, for up to some thousand strips."""
+    """The plane problem on strips with centres x (m), of equal width; dense, for up to a few thousand strips."""
 
     def __init__(self, punch, x):
         self.punch, self.x, self.width = punch, x, x[1] - x[0]
@@ -179,7 +179,7 @@ class PlaneCells:
             matrix[n:, :n] = self.width * rigid[active, :free].T
             given = (tilt or 0.0) * self.x - self.gap
             right = np.concatenate([given[active], [load, moment][:free]])
-            # moduli as high as 1e11 Pa: solve for p/E*
+            # as moduli may be 1e11 Pa: solve for p/E*
             matrix[:n, :n] *= self.punch.e_star
             matrix[n:, :n] *= self.punch.e_star
             solution = np.linalg.solve(matrix, right)

@@ -82,7 +82,7 @@ def punch_pressure(r, punch, a):
 
 
 def punch_torsion_limit(punch, a, friction):
-    """Greatest torque, N m, at which all slips: mu E* pi/2 times the integral of s^2 delta'(s) over [c, a].
+    """Torque limit, N m, at which the whole contact slips: mu E* pi/2 times the integral of s^2 delta'(s) over [c, a].
 
     (The flat punch of radius s under N carries mu N pi s/4.)
     """

@@ -50,12 +50,12 @@ def _graded(low, high, count, power=3.0):
 
 
 class SpencePunch:
-    """Flat punch of radius 1, pressed by 1 into a half-space of E* = 2, friction, stick radius c; see `friction`.
+    """Flat punch of radius 1, pressed by 1 into a half-space of E* = 2, with friction and the stick radius c.
 
-    With r = sin(theta) the unknowns are P = p cos(theta) and Q = q cos(theta), constant on each ring, which takes the
-    edge's singularity into the variable; u_z = 1 is asked for at all rings' middles, u_r = 0 at those that stick.
-    Attributes: c (c/a; 1: no slip), beta, friction (the mu that makes the shear finite at c), and for the sphere
-    with that mu: load_ratio and pressure_ratio: N and p(0) over Hertz's at equal contact radius.
+    With r = sin(theta) the unknowns are P = p cos(theta) and Q = q cos(theta), constant on each ring, so that the
+    variable contains the edge's singularity. The equations are u_z = 1 at the middles of all rings, and u_r = 0 at
+    those of rings that stick. Attributes: c (c/a; 1: no slip), beta, friction (the mu that makes the shear finite at
+    c), and for the sphere with that mu: load_ratio and pressure_ratio: N and p(0) over Hertz's at equal contact radius.
     """
 
     def __init__(self, c, beta, coupled=True, rings=140):
@@ -69,7 +69,7 @@ class SpencePunch:
         self._pz, self._qr = self._kernels(r)
         swept_p, swept_q = -np.diff(np.cos(self.ends)), np.diff(self.ends)
         below = np.tril(np.ones((rings, rings)), -1)
-        # the middle's own ring counts from its end to the middle, or from the middle to its other end
+        # The ring of the middle counts from its end to the middle, or from the middle to its other end.
         self._pr = -beta / r[:, None] * (below * swept_p + np.diag(np.cos(self.ends[:-1]) - np.cos(self.middle)))
         self._qz = -beta * (below.T * swept_q + np.diag(self.ends[1:] - self.middle)) if coupled else 0.0 * below
         self.stick = np.arange(rings) < stick
@@ -78,13 +78,13 @@ class SpencePunch:
         self._ratios()
 
     def _kernels(self, r):
-        """u_z of the pressure and u_r of the shear at r from each ring's P = Q = 1; substitution removes the log."""
+        """u_z of the pressure and u_r of the shear at r, for P = Q = 1 on each ring; substitution removes the log."""
         x, weight = np.polynomial.legendre.leggauss(12)
         t, dt = (0.5 * (1.0 + x)) ** 3, 1.5 * (0.5 * (1.0 + x)) ** 2 * weight
         low, high, middle = self.ends[:-1], self.ends[1:], 0.5 * (self.ends[1:] + self.ends[:-1])
         rings = middle.size
         pz, qr = np.zeros((r.size, rings)), np.zeros((r.size, rings))
-        for start, end in ((low, middle), (high, middle)):  # towards the middle, where r may be
+        for start, end in ((low, middle), (high, middle)):  # towards the middle, where r may lie
             theta = end[:, None] + (start - end)[:, None] * t
             width = np.abs(end - start)[:, None] * dt
             s = np.sin(theta)[None, :, :]

@@ -24,7 +24,7 @@ from .quadrature import GAUSS_NODES, GAUSS_WEIGHTS
 
 
 class Hertz(NamedTuple):
-    """Hertz's contact: contact radius (m), greatest pressure (Pa), approach of the bodies (m)."""
+    """Hertz's contact: contact radius (m), maximum pressure (Pa), approach of the bodies (m)."""
 
     radius: float
     pressure: float
@@ -91,7 +91,7 @@ def cattaneo_slip(r, a, c, mu_p0, compliance, anisotropy=0.0, angle=0.0):
 
 
 def torsion_limit(load_n, friction, a):
-    """Greatest torque 3 pi/16 mu N a, N m, at which all of the contact slips."""
+    """Torque limit 3 pi/16 mu N a, N m, at which the whole contact slips."""
     return 3.0 * np.pi / 16.0 * friction * load_n * a
 
 
@@ -161,7 +161,7 @@ class Spheres:
 
     @classmethod
     def of(cls, parameters, load_n):
-        """Those of a mapping by the names of petsam's options, as results files have them, under load_n (N)."""
+        """Creates the spheres from a mapping named like petsam's options, as in results files, under load_n (N)."""
         radius = effective_radius(float(parameters["gap_radius1"]), float(parameters["gap_radius2"]))
         return cls(Bodies.of(parameters), radius, float(parameters["friction"]), load_n)
 

@@ -5,7 +5,7 @@ Tension positive, z into the body; a is the contact radius, p0 the maximum press
 
 import numpy as np
 
-# von Mises' largest stress over p0 under Hertz's pressure, and its depth over a, for poisson = 0.3
+# von Mises' largest stress relative to p0 under Hertz's pressure, and its depth relative to a, for poisson = 0.3
 HERTZ_MISES, HERTZ_MISES_DEPTH = 0.6200410039, 0.48086449
 
 

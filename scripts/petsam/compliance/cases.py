@@ -14,14 +14,14 @@ from ..errors import Error, short
 from .deck import UNSUPPORTED_LOADS, _value
 from .remainder import scatter
 
-REST = 1e-2  # of the field's range: the most that the polynomials may miss
+REST = 1e-2  # part of the field's range; largest deviation of the polynomials
 FACE_POINTS = 4  # Gauss points along the side of a loaded face
-CHANGING = {"AMPLITUDE", "SECTOR", "SUBMODEL", "TIME DELAY", "USER"}  # parameters that change what the lines give
+CHANGING = {"AMPLITUDE", "SECTOR", "SUBMODEL", "TIME DELAY", "USER"}  # parameters that change the meaning of the lines
 
 
 @dataclass
 class Case:
-    """Coefficients (m, 3), m2, the share of the field that the polynomials miss, and the displacements (3 nodes, 1)."""
+    """Returns coefficients (m, 3), m2, the part of the field that these miss, and displacements (3 nodes, 1)."""
 
     coefficients: np.ndarray
     rest: float
@@ -106,7 +106,7 @@ def _take(found, cards):
 
 
 def need_supports(deck, mesh, frame, units, supported):
-    """The nodes that the deck holds in all steps must be among the supported ones."""
+    """Checks that the nodes that the deck holds in all steps are among the supported ones."""
     found = Loads(deck, mesh, frame, units)
     _take(found, deck.supports)
     free = np.setdiff1d(np.flatnonzero(found.prescribed.reshape(-1, 3)[:, 0]), supported)
@@ -129,7 +129,7 @@ def loads(deck, mesh, frame, units, step):
 
 
 def case(found, solver, remainder, patch, place, points):
-    """The Case of the Loads; place: of the points (n, 2) of the patch, in the mesh; errors are about `found.name`."""
+    """Returns the Case of the Loads; place: of the points (n, 2) of the patch, in the mesh; `found.name`: in errors."""
     free = found.prescribed & ~solver.fixed
     if np.any(free):
         number = found.mesh.node_numbers[np.flatnonzero(free)[0] // 3]

@@ -7,13 +7,13 @@ from ..errors import Error
 from . import images
 from .halfspace import cell_compliance
 
-CELLS = 20  # of the patch, each way, on which the definiteness is examined
-ASYMMETRY = 1e-4  # of D, at most
-CLEARANCE = 0.25  # half widths from the patch to another surface, at least
-COARSEST = 1.3  # clearances that an element at the nearest edge may have
-FLATNESS = 1e-2  # half widths that the surface may deviate from its plane; more is curved
-CURVED = 0.1  # at most
-INSIDE = 17  # points along a side of the patch that must lie on the contact surface
+CELLS = 20  # number of cells per side of the patch for which the definiteness is examined
+ASYMMETRY = 1e-4  # largest relative asymmetry of D
+CLEARANCE = 0.25  # least distance from the patch to another surface, in half widths
+COARSEST = 1.3  # largest element at the nearest edge, in clearances
+FLATNESS = 1e-2  # largest deviation of the surface from its plane, in half widths; more is curved
+CURVED = 0.1  # largest deviation of a curved surface
+INSIDE = 17  # points along a side of the patch, all of which must lie on the contact surface
 
 
 def deviation(mesh, patch, contact):
@@ -26,7 +26,7 @@ def deviation(mesh, patch, contact):
 
 
 def need_plane(mesh, patch, contact):
-    """Whether the surface counts as plane; Error where it is not even nearly so."""
+    """Returns true if the surface counts as plane; raises Error if it is not even nearly plane."""
     off = deviation(mesh, patch, contact)
     if off > CURVED:
         raise Error(
@@ -37,7 +37,7 @@ def need_plane(mesh, patch, contact):
 
 
 def need_inside(mesh, patch, contact):
-    """Error where a part of the patch is not on the contact surface."""
+    """Raises Error if a part of the patch is not on the contact surface."""
     ends = [np.linspace(c - h, c + h, INSIDE) for c, h in zip(patch.center, patch.half)]
     points = np.stack(np.meshgrid(*ends), axis=-1).reshape(-1, 2)
     found = np.zeros(len(points), dtype=bool)
@@ -59,7 +59,7 @@ def need_inside(mesh, patch, contact):
 
 
 def need_clearance(mesh, patch, supported):
-    """Error where another surface is too near to the patch, or meshed too coarsely; else the clearance, m."""
+    """Returns the clearance, m; raises Error if another surface is too near to the patch, or meshed too coarsely."""
     unit = min(patch.half)
     nearest, coarse = np.inf, (0.0, 0.0, 0.0)
     for faces, _ in images.other_faces(mesh, patch, supported):
@@ -86,12 +86,12 @@ def need_clearance(mesh, patch, supported):
 
 
 def asymmetry(compliance):
-    """Of D, relative to its norm."""
+    """Returns the asymmetry of D, relative to its norm."""
     return float(np.linalg.norm(compliance - compliance.T, 2) / np.linalg.norm(compliance, 2))
 
 
 def symmetric(compliance):
-    """The symmetric part, after the check of the asymmetry."""
+    """Returns the symmetric part, after the check of the asymmetry."""
     found = asymmetry(compliance)
     if not found <= ASYMMETRY:
         raise Error(
@@ -123,7 +123,7 @@ class Definiteness:
         return float(1.0 + min(0.0, self.eigenvalues(compliance)[0]))
 
     def need_positive(self, compliance):
-        """The smallest eigenvalue, which must be positive."""
+        """Returns the smallest eigenvalue, after a check that it is positive."""
         least = self.smallest(compliance)
         if not least > 0.0:
             raise Error(
@@ -135,7 +135,7 @@ class Definiteness:
 
 
 def pressure_coefficients(patch):
-    """c (3 m) by Hertz's pressure of mean 1 Pa on the ellipse of 0.8 of the half widths."""
+    """Returns c (3 m) for Hertz's pressure of mean 1 Pa on an ellipse of 0.8 times the half widths."""
     n = 4 * CELLS
     place = [(np.arange(n) + 0.5) / n * 2.0 - 1.0] * 2
     x, y = (v.ravel() for v in np.meshgrid(*place))
@@ -147,7 +147,7 @@ def pressure_coefficients(patch):
 
 
 def degree_changes(compliance, patch):
-    """Change of the correction under Hertz's pressure, L2 on the patch, that each lower degree makes (degree)."""
+    """Returns the change of the correction under Hertz's pressure, L2 on the patch, for each lower degree (degree)."""
     c = pressure_coefficients(patch)
     full = compliance @ c
     changes = []

@@ -27,7 +27,7 @@ from ..replacing import need_own
 from ..surface.lengths import lengths, several, shown, sides
 from . import model, picture, substructure, writing
 
-HIGHEST = 10  # degree that petsam reads
+HIGHEST = 10  # highest degree that petsam reads
 NAME = re.compile(r"[A-Za-z0-9_]{1,20}")
 MOST_CASES = 8
 MESH_ONLY = ("contact", "fixed", "symmetry", "case", "coarse_mesh", "depth")
@@ -35,7 +35,7 @@ PROGRAM = "petsam-compliance"
 
 
 def frame(text):
-    """Reader of a frame for argparse: an origin, a direction x and a direction z."""
+    """Reads a frame for argparse: an origin, a direction x and a direction z."""
     parts = [re.split(r",", part) for part in text.split(":")]
     try:
         vectors = [[float(word) for word in part] for part in parts]
@@ -49,7 +49,7 @@ def frame(text):
 
 
 def case(text):
-    """Reader of a load case for argparse."""
+    """Reads a load case for argparse."""
     name, _, step = text.partition("=")
     if not NAME.fullmatch(name) or not step.isdecimal():
         raise argparse.ArgumentTypeError(
@@ -59,14 +59,14 @@ def case(text):
 
 
 def degree(text):
-    """Reader of a degree for argparse."""
+    """Reads a degree for argparse."""
     if not text.isdecimal() or int(text) > HIGHEST:
         raise argparse.ArgumentTypeError(f"{short(text)}: expected an integer from 0 to {HIGHEST}")
     return int(text)
 
 
 def length(text):
-    """Reader of a length above 0 for argparse."""
+    """Reads a length above 0 for argparse."""
     values = lengths(text)
     if len(values) != 1 or not 0.0 < values[0] < float("inf"):
         raise argparse.ArgumentTypeError(f"{short(text)}: expected a length above 0")
@@ -100,7 +100,7 @@ def _matrix_options(parser):
 
 
 def parser():
-    """The command line."""
+    """Creates the parser of the command line."""
     found = Parser(prog=PROGRAM, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     _body_options(found)
     patch = found.add_argument_group("the patch")
@@ -128,7 +128,7 @@ def parser():
 
 
 def arguments(words):
-    """Read the command line."""
+    """Reads the command line."""
     reader = parser()
     options = reader.parse_args(joined(words))
     if bool(options.mesh) == bool(options.matrix):
@@ -158,7 +158,7 @@ def arguments(words):
 
 
 def description(body):
-    """Lines that describe a Body."""
+    """Returns lines that describe a Body."""
     m = body.patch.count
     lines = [
         f"half-space  E = {body.young:.6g} Pa, nu = {body.poisson:.6g}",
@@ -184,7 +184,7 @@ def description(body):
 
 
 def carry_out(options, words):
-    """Compute, write, draw and print; in a child, as a file may be read here."""
+    """Computes, writes, draws and prints; in a child process, as it may read an HDF5 file."""
     source = options.mesh or options.matrix
     inputs = [name for name in (source, options.coarse_mesh, options.nodes) if name]
     for name in [options.output] + ([] if options.no_picture else [options.picture]):
@@ -222,7 +222,7 @@ def _child(options, words):
 
 
 def main():
-    """Exit code: 0, 2 for bad usage, 3 for a file or a body that is rejected."""
+    """Returns the exit code: 0, 2 for bad usage, 3 for a file or a body that is rejected."""
 
     def parent():
         words = sys.argv[1:]

@@ -16,16 +16,16 @@ from ..errors import Error
 from .remainder import Remainder, scatter
 
 ORDER = 4  # Gauss points along the side of an element
-POINTS = 2000  # at a time
-START = 0.2  # of the way from the patch to the end of the ramp, where it starts
-WIDEST = 3.0  # half widths: no ramp ends farther from the patch
-NARROWEST = 0.5  # half widths: the least that a ramp needs
+POINTS = 2000  # number of points processed at a time
+START = 0.2  # start of the ramp, relative to the distance from the patch to the end of the ramp
+WIDEST = 3.0  # half widths: largest distance of a ramp's end from the patch
+NARROWEST = 0.5  # half widths: least width of a ramp
 GROWTH = 0.05  # half widths by which the box grows
-ELEMENTS = 4  # along a ramp, at least
+ELEMENTS = 4  # least number of elements along a ramp
 
 
 def _ramp(t):
-    """1 for t <= 0 to 0 for t >= 1 with two continuous derivatives, and its derivative."""
+    """Returns a function from 1 for t <= 0 to 0 for t >= 1 with two continuous derivatives, and its derivative."""
     t = np.clip(t, 0.0, 1.0)
     return 1.0 - t**3 * (10.0 - 15.0 * t + 6.0 * t * t), -30.0 * (t * (1.0 - t)) ** 2
 
@@ -66,7 +66,7 @@ class Cutoff:
 
 
 def _obstacles(mesh, supported, contact, tolerance, moduli):
-    """Points that the cut-off's box must not contain: of other surfaces, of supports, of other materials."""
+    """Returns the points that the cut-off's box must not contain: of other surfaces, supports and other materials."""
     on_contact = {(g.block, g.local, e) for g in contact for e in g.elements.tolist()}
     points = [mesh.nodes[supported]]
     for group in mesh.boundary():
@@ -82,7 +82,7 @@ def _obstacles(mesh, supported, contact, tolerance, moduli):
 
 
 def widest(mesh, patch, supported, contact, tolerance, moduli):
-    """The Cutoff with the widest ramps that fit, each side by itself."""
+    """Returns the Cutoff with the widest ramps that fit; each side has its own width."""
     points = _obstacles(mesh, supported, contact, tolerance, moduli)
     center, half = np.array([*patch.center, 0.0]), np.array([*patch.half, 0.0])
     inner = np.stack([center - half, center + half])
@@ -150,7 +150,7 @@ def solved(mesh, fields, solver, cutoff, progress=lambda text: None):
 
 
 def _element_forces(volume, fields, cutoff):
-    """Nodal forces (n, k, 3, columns), and int b_i:C:b_j (columns, columns), of some elements."""
+    """Returns nodal forces (n, k, 3, columns), and int b_i:C:b_j (columns, columns), of some elements."""
     x, size, values, gradients = volume
     flat = x.reshape(-1, 3)
     slope = cutoff.gradients(flat)

@@ -10,8 +10,8 @@ from ..files import need_regular
 from .mesh import Block, Mesh
 from .shapes import KINDS, SHAPES
 
-DEPTH = 10  # of files that include files
-# what changes the stiffness or the meaning of directions and is not supported
+DEPTH = 10  # depth of files that include files
+# keywords that change the stiffness or the meaning of directions, which are not supported
 UNSUPPORTED = (
     "BEAM SECTION", "COUPLING", "CYCLIC SYMMETRY MODEL", "DASHPOT", "DISTRIBUTING COUPLING", "EQUATION", "GAP",
     "KINEMATIC COUPLING", "MASS", "MEMBRANE SECTION", "MPC", "PRE-TENSION SECTION", "RIGID BODY", "SHELL SECTION",
@@ -31,7 +31,7 @@ class Card:
     lines: list = field(default_factory=list)
 
     def need(self, name):
-        """A parameter that must be there."""
+        """Returns a parameter that must exist."""
         if not self.parameters.get(name):
             raise Error(f"{self.place}: *{self.name} has no {name}=")
         return self.parameters[name]
@@ -39,7 +39,7 @@ class Card:
 
 @dataclass
 class Deck:
-    """A deck's mesh, in the deck's own units and coordinates, the load cards of its steps, and *BOUNDARY before."""
+    """A deck's mesh, in its own units and coordinates, the load cards of its steps, and *BOUNDARY before the steps."""
 
     mesh: Mesh
     element_sets: dict
@@ -48,7 +48,7 @@ class Deck:
 
 
 def cards(path, depth=0):
-    """The deck's cards, included files in their places."""
+    """Returns the deck's cards, with included files in their places."""
     if depth > DEPTH:
         raise Error(f"{path}: decks include each other more than {DEPTH} deep")
     need_regular(path)

@@ -15,8 +15,8 @@ import numpy as np
 
 from .basis import along, powers
 
-ACCURACY = 1e-9  # of a Gauss sum
-MOST = 160  # Gauss points along a side
+ACCURACY = 1e-9  # relative accuracy of a Gauss sum
+MOST = 160  # maximum number of Gauss points along a side
 CHUNK = 1 << 15  # pairs of point and Gauss point at a time
 
 
@@ -86,7 +86,7 @@ def gradient(d, poisson):
 
 
 def points_needed(distance, degree):
-    """Gauss points along a side for a point that many half widths away from the patch."""
+    """Returns the number of Gauss points along a side for a point at that distance from the patch in half widths."""
     distance = np.maximum(distance, 1e-3)
     ellipse = np.log(distance + np.sqrt(1.0 + distance**2))
     n = 0.5 * (-np.log(ACCURACY) / ellipse + degree) + 2
@@ -180,7 +180,7 @@ def cell_compliance(half, n, young, poisson):
 
 
 def _correlation(degree, half, d):
-    """int p_a(x + d) p_b(x) dx (points, degree + 1, degree + 1) of the orthonormal polynomials, where both are."""
+    """Returns int p_a(x + d) p_b(x) dx (points, degree + 1, degree + 1) of the polynomials over their overlap."""
     low, high = np.maximum(-half, -half - d), np.minimum(half, half - d)
     points, weights = np.polynomial.legendre.leggauss(degree + 1)
     x = 0.5 * (low + high)[:, None] + 0.5 * (high - low)[:, None] * points

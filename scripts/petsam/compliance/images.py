@@ -17,17 +17,17 @@ from .mesh import some
 from .remainder import Remainder, scatter
 
 ORDER = 5  # Gauss points along the side of a face
-POINTS = 3000  # at a time
-FLAT = 1e-6  # of the patch: nodes nearer to its plane lie in it
+POINTS = 3000  # number of points processed at a time
+FLAT = 1e-6  # relative to the patch; nodes nearer to its plane lie in it
 
 
 def in_plane(mesh, faces, tolerance):
-    """Which faces lie in z = 0."""
+    """Returns a mask of the faces that lie in z = 0."""
     return np.all(np.abs(mesh.nodes[faces.nodes][..., 2]) <= tolerance, axis=1)
 
 
 def other_faces(mesh, patch, supported):
-    """Faces beside the plane of the patch, as (faces, whether they are supported)."""
+    """Returns the faces outside of the patch's plane, as (faces, mask of supported ones)."""
     tolerance = FLAT * max(patch.half)
     held = np.zeros(len(mesh.nodes), dtype=bool)
     held[supported] = True
@@ -41,7 +41,7 @@ def other_faces(mesh, patch, supported):
 
 
 def pieces(faces):
-    """Faces divided so that a piece has about POINTS Gauss points."""
+    """Returns the faces divided into pieces with about POINTS Gauss points."""
     stride = max(1, POINTS // ORDER**2)
     for first in range(0, len(faces.elements), stride):
         mask = np.zeros(len(faces.elements), dtype=bool)
@@ -50,7 +50,7 @@ def pieces(faces):
 
 
 def solved(mesh, fields, solver, supported, progress=lambda text: None):
-    """The Remainder of a body; supported: its supported nodes."""
+    """Returns the Remainder of a body; supported: its supported nodes."""
     patch, columns = fields.patch, fields.columns
     force, support = (np.zeros((3 * len(mesh.nodes), columns)) for _ in range(2))
     compliance = np.zeros((columns, columns))

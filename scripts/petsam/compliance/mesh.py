@@ -7,9 +7,9 @@ from scipy.spatial import cKDTree
 
 from .shapes import FACE_RULES, KINDS, SHAPES
 
-NEIGHBOURS = 24  # elements that are examined for a point
-NEWTON = 12  # iterations for its place in an element
-INSIDE = 1e-6  # local coordinates may be that far out
+NEIGHBOURS = 24  # number of elements that are examined for a point
+NEWTON = 12  # maximum iterations for its place in an element
+INSIDE = 1e-6  # tolerance by which local coordinates may be outside
 
 
 @dataclass
@@ -168,7 +168,7 @@ def some(faces, mask):
 
 
 def _outside(shape, local):
-    """How far local coordinates are outside of the reference shape."""
+    """Returns the distance by which local coordinates are outside of the reference shape."""
     if shape.corners == 8:
         return np.max(np.abs(local), axis=1) - 1.0
     flat = local[:, : 2 if shape.corners == 6 else 3]
@@ -177,7 +177,7 @@ def _outside(shape, local):
 
 
 def _inverse(shape, corners, points):
-    """Local coordinates of points (n, 3), each in its element (n, k, 3), by Newton's method; and how far outside."""
+    """Returns local coordinates of points (n, 3) in elements (n, k, 3) by Newton's method, and distances outside."""
     local = np.tile(shape.family.nodes.mean(axis=0), (len(points), 1))
     for _ in range(NEWTON):
         values = shape.family.values(local)

@@ -13,7 +13,7 @@ from .halfspace import Fields
 from .solve import Solver, plane_normal
 from .stiffness import stiffness
 
-GAUSS_MORE = 3  # Gauss points along the patch beyond its degree, where fields are sampled
+GAUSS_MORE = 3  # Gauss points along the patch in addition to its degree, for sampling fields
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ class Frame:
 
 @dataclass
 class Body:
-    """What the file holds."""
+    """The contents of the file."""
 
     young: float
     poisson: float
@@ -119,7 +119,7 @@ class Model:
         return normal
 
     def moduli(self):
-        """(E, nu) under the patch."""
+        """(E, nu) of the material under the patch."""
         found = set()
         for group in self.contact:
             block = self.mesh.blocks[group.block]
@@ -132,16 +132,16 @@ class Model:
         return found.pop()
 
     def uniform(self):
-        """Whether the body has one material."""
+        """True if the body has only one material."""
         return len({pair for b in self.mesh.blocks for pair in zip(b.young.tolist(), b.poisson.tolist())}) == 1
 
     def above(self):
-        """Whether parts of the body lie above the plane of the patch."""
+        """True if parts of the body lie above the plane of the patch."""
         return bool(np.min(self.mesh.nodes[:, 2]) < -images.FLAT * max(self.patch.half))
 
 
 def choose(model, plane):
-    """`image` where it is valid, else `cutoff`; and why not, in words."""
+    """Returns `image` if it is valid, else `cutoff`, and the reason why not."""
     reasons = [
         ("the surface is curved", not plane),
         ("the body rises above the plane of the patch", plane and model.above()),
@@ -156,7 +156,7 @@ def choose(model, plane):
 
 
 class Progress:
-    """Lines about work that takes long."""
+    """Returns lines about parts of the work that take long."""
 
     def __init__(self, stream, seconds=5.0):
         self.stream, self.seconds = stream, seconds
@@ -170,7 +170,7 @@ class Progress:
 
 
 def remainder(model, method, plane, progress):
-    """The Remainder of a Model, and its solver, after the checks of the geometry; and remarks."""
+    """Returns the Remainder of a Model, and its solver, after the checks of the geometry; and remarks."""
     mesh, patch, supported = model.mesh, model.patch, model.supported
     young, poisson = model.moduli()
     remarks = []
@@ -225,7 +225,7 @@ def _cases(model, solver, found):
 
 
 def _stress(model, found, cases):
-    """Points, stresses of the basis and of the load cases; None where the patch is curved."""
+    """Returns points, and stresses of the basis and of the load cases; None if the patch is curved."""
     where = stresses.grid(model.mesh, model.patch, model.options.depth)
     if where is None:
         return None
@@ -242,7 +242,7 @@ def computed(path, options, command, progress):
     model = Model(path, options)
     plane = checks.need_plane(model.mesh, model.patch, model.contact)
     checks.need_inside(model.mesh, model.patch, model.contact)
-    other = Model(options.coarse_mesh, options) if options.coarse_mesh else None  # its mistakes before the work
+    other = Model(options.coarse_mesh, options) if options.coarse_mesh else None  # to find its mistakes before the work
     method, reason = choose(model, plane)
     found, solver, remarks = remainder(model, method, plane, progress)
     if reason:
@@ -265,7 +265,7 @@ def computed(path, options, command, progress):
 
 
 def examine(body):
-    """Checks of the compliance, into body.checks."""
+    """Writes the checks of the compliance to body.checks."""
     definite = checks.Definiteness(body.patch, body.young, body.poisson)
     body.checks["asymmetry"] = checks.asymmetry(body.compliance)
     symmetric = checks.symmetric(body.compliance)

@@ -8,9 +8,9 @@ from scipy.sparse.linalg import splu
 from ..errors import Error
 from .stiffness import rigid_motions
 
-LOOSE = 1e-6  # singular value of rigid motions at the supports, below which the body can move
-FLAT = 1e-6  # of their extent, by which nodes may be off a plane of symmetry
-LEAF = 60  # nodes that are not divided further
+LOOSE = 1e-6  # singular value of rigid motions at the supports below which the body can move
+FLAT = 1e-6  # relative distance by which nodes may be off a plane of symmetry
+LEAF = 60  # number of nodes up to which a part is not divided further
 
 
 def dissection(points, adjacency):
@@ -40,14 +40,14 @@ def dissection(points, adjacency):
 
 
 def plane_normal(points):
-    """Unit normal of the plane through points (n, 3); None where they lie in no plane, or on a line."""
+    """Returns the unit normal of the plane through points (n, 3); None if they lie in no plane, or on a line."""
     x = points - points.mean(axis=0)
     spread, directions = np.linalg.svd(x.T @ x)[1:]
     return directions[2] if spread[2] <= FLAT**2 * spread[0] < FLAT * spread[1] else None
 
 
 def free_directions(fixed, planes):
-    """Directions (n, 3, 3) of each node as rows, and which of them (n, 3) are free.
+    """Returns directions (n, 3, 3) of each node as rows, and a mask (n, 3) of the free ones.
 
     fixed: mask (3 n) of prescribed unknowns; planes: (nodes, normal) of symmetry.
     """
@@ -68,7 +68,7 @@ def free_directions(fixed, planes):
 
 
 def need_support(nodes, adjacency, axes, free):
-    """Error where a connected part of the body can move as a rigid one."""
+    """Raises Error if a connected part of the body can move as a rigid body."""
     count, part = connected_components(adjacency, directed=False)
     for i in range(count):
         mine = np.flatnonzero(part == i)

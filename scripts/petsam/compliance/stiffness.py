@@ -18,7 +18,7 @@ from ..errors import Error, Missing, one_line
 OWN = ("C3D4", "C3D6", "C3D8", "C3D10", "C3D15", "C3D20", "C3D20R")  # element types that are assembled here
 CCX = "ccx"
 MODES = 9  # incompatible modes of an element C3D8I
-RIGID = 1e-9  # of the largest force on a node by a rigid motion
+RIGID = 1e-9  # relative to the largest diagonal term; largest force on a node by a rigid motion
 
 
 def elasticity(young, poisson):
@@ -76,7 +76,7 @@ def assembled(mesh):
 
 
 def numbers(values, per_line=8):
-    """Lines of integers, a comma after each."""
+    """Returns lines of integers, each followed by a comma."""
     values = [str(int(v)) for v in values]
     return [", ".join(values[i : i + per_line]) + "," for i in range(0, len(values), per_line)]
 
@@ -101,7 +101,7 @@ def model_lines(mesh):
 
 
 def run(lines, folder, name, ccx=CCX):
-    """Run CalculiX on a deck; Error with its last words where it fails."""
+    """Runs CalculiX on a deck; raises Error with its last output if it fails."""
     program = shutil.which(ccx)
     if not program:
         raise Missing(f"no CalculiX {ccx}: install the Debian package calculix-ccx, or use --stiffness own")
@@ -137,7 +137,7 @@ def read_stored(folder, name, size):
 
 
 def condensed(matrix, size):
-    """The matrix without the incompatible modes, which follow the nodes: nine unknowns in each element."""
+    """Eliminates the incompatible modes, nine unknowns in each element, which follow the nodes."""
     inner = matrix[size:, size:].tobsr((MODES, MODES))
     inner.sum_duplicates()
     if inner.data.shape[0] != (matrix.shape[0] - size) // MODES:

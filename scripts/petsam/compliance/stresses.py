@@ -9,9 +9,9 @@ from .shapes import KINDS, SHAPES
 from .stiffness import dofs, elasticity, strain_matrix
 
 COMPONENTS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
-POINTS = 13  # along each axis
-DEPTH = 2.0  # half widths
-TRIES = 12  # each shrinks the depth by a fifth
+POINTS = 13  # number along each axis
+DEPTH = 2.0  # in half widths
+TRIES = 12  # number of attempts, each with a depth smaller by a fifth
 
 
 @dataclass
@@ -26,7 +26,7 @@ class Grid:
 
 
 def grid(mesh, patch, depth=None):
-    """Grid of the patch down to a depth that the body has everywhere; None where there is none."""
+    """Returns the grid of the patch down to a depth that the body has everywhere; None if there is none."""
     depth = depth or DEPTH * min(patch.half)
     x, y = (np.linspace(c - h, c + h, POINTS) for c, h in zip(patch.center, patch.half))
     for _ in range(TRIES):

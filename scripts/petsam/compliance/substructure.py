@@ -25,8 +25,8 @@ from .halfspace import projected
 from .model import UNITS, Body, examine, frame_of
 from .shapes import simplex_rule
 
-SYMMETRY = 1e-6  # of the matrix, relative to its largest term
-UNCONDENSED = 0.5  # force by a unit translation over the sum of the diagonal, from which on nodes were fixed, not free
+SYMMETRY = 1e-6  # relative to the largest term of the matrix
+UNCONDENSED = 0.5  # force by a unit translation over the sum of the diagonal, above which nodes were fixed
 NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+)?")
 WARNING = (
     "warning: a matrix gives the compliance by the direct method, whose local error stays: use degree 1; "
@@ -154,7 +154,7 @@ def read(path, table):
 
 
 def examined(matrix, path):
-    """The symmetric part of a matrix that is a condensed stiffness."""
+    """Returns the symmetric part of a matrix after checking that it is a condensed stiffness."""
     size = np.max(np.abs(matrix))
     asymmetry = np.max(np.abs(matrix - matrix.T)) / size if size > 0.0 else np.inf
     if not asymmetry <= SYMMETRY:
@@ -217,7 +217,7 @@ def computed(path, options, command, progress):
 
 
 def need_patch(place, patch):
-    """Error unless the nodes fill the patch, in its plane."""
+    """Raises Error unless the nodes fill the patch, in its plane."""
     off = np.max(np.abs(place[:, 2])) / min(patch.half)
     if off > checks.FLATNESS:
         raise Error(

@@ -8,7 +8,7 @@ import numpy as np
 from ..replacing import replacing
 from .basis import powers
 
-SIGN = "petsam_compliance"  # root attribute by which a file of this command is known
+SIGN = "petsam_compliance"  # root attribute that identifies a file of this command
 VERSION = 1
 BLOCK = 1 << 20
 
@@ -58,6 +58,6 @@ def _fill(file, body):
 
 
 def write(body, path):
-    """The Body; a file of that name is replaced when all is written."""
+    """Writes the Body; a file of that name is replaced once all is written."""
     with replacing(path) as file:
         _fill(file, body)

@@ -31,13 +31,13 @@ from ..stresses import FATIGUE, Stresses
 from . import evaluation, materials, strength
 from .stresses import Cycle
 
-ROWS = 10  # of the line that are printed
+ROWS = 10  # number of printed rows of the line
 CRITERIA = tuple(evaluation.CRITERIA)
 MOST = f"{strength.MOST:.0e}".replace("+", "")
 
 
 def _constant(text):
-    """Reader of NAME=VALUE for argparse."""
+    """Reads NAME=VALUE for argparse."""
     name, equal, value = text.partition("=")
     if not equal:
         raise argparse.ArgumentTypeError(f"{short(text) or repr('')}: expected NAME=VALUE")
@@ -48,7 +48,7 @@ def _constant(text):
 
 
 def _angle(text):
-    """Reader of an angle for argparse."""
+    """Reads an angle for argparse."""
     values = numbers(float)(text)
     if len(values) != 1 or not -180.0 <= values[0] <= 180.0:
         raise argparse.ArgumentTypeError(f"{short(text)}: expected degrees from -180 to 180")
@@ -56,7 +56,7 @@ def _angle(text):
 
 
 def _criteria(text):
-    """Reader of criteria for argparse."""
+    """Reads criteria for argparse."""
     for word in names(text):
         if word not in CRITERIA:
             raise argparse.ArgumentTypeError(f"{short(word)}: is no criterion{there_are(word, CRITERIA)}")
@@ -64,7 +64,7 @@ def _criteria(text):
 
 
 def arguments(words):
-    """Read the command line."""
+    """Reads the command line."""
     table = (f"  {name:16} {one.unit:9} {one.meaning}" for name, one in materials.CONSTANTS.items())
     parser = Parser(
         prog="petsam-fatigue",
@@ -108,7 +108,7 @@ def arguments(words):
 
 
 def _place(options, cycle, criteria):
-    """Row, column, and words about the line's place."""
+    """Returns row, column, and a description of the line's place."""
     if options.at:
         return *cycle.nearest(*options.at), "point nearest to --at"
     name = options.hot or next((name for name in (*criteria, *FATIGUE, "mises") if name in cycle), None)
@@ -130,7 +130,7 @@ def _lived(life):
 
 
 def _report(options, cycles, name, found):
-    """Print the least lives or factors of every cycle, and the spectrum's damage; the columns of each cycle's line."""
+    """Prints the least lives or factors of every cycle, and the damage; returns the columns of each cycle's line."""
     title, is_life = evaluation.CRITERIA[name][0], name in evaluation.LIVES
     for cycle, values in zip(cycles, found):
         least = evaluation.least(cycle, values)
@@ -148,7 +148,7 @@ def _report(options, cycles, name, found):
 
 
 def _shown(value):
-    """A number of the line; of lives only is one infinite."""
+    """Formats a number of the line; only lives may be infinite."""
     return ">" + MOST if np.isinf(value) else f"{value:.4g}"
 
 

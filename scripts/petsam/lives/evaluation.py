@@ -18,11 +18,11 @@ LIVES = {
 FACTORS = {name: (name.replace("_", " ").title(), (name + "_limit",)) for name in ("findley", "crossland", "dang_van")}
 CRACK = {"crack": ("short crack", ("dk_th", "stress_limit"))}
 CRITERIA = {**LIVES, **FACTORS, **CRACK}
-OF_STRESS = ("basquin", "crack")  # which need the stress on planes, not a parameter of the file
+OF_STRESS = ("basquin", "crack")  # these need the stress on planes, not a parameter of the file
 
 
 class Place(NamedTuple):
-    """A value and where it is, m."""
+    """A value and its place, m."""
 
     value: float
     x: float
@@ -40,7 +40,7 @@ class Line(NamedTuple):
 
 
 def possible(cycle, constants, angle=0.0):
-    """Criteria for which the file has the data, and the constants are there."""
+    """Criteria for which the file has the data, and for which the constants are given."""
     known = {**cycle.constants, **constants}
     return [
         name
@@ -50,7 +50,7 @@ def possible(cycle, constants, angle=0.0):
 
 
 def has_data(cycle, name, angle=0.0):
-    """Whether a cycle has what a criterion is computed from."""
+    """Returns true if a cycle has the data for a criterion."""
     if name not in OF_STRESS:
         return name in cycle
     if name == "crack" and cycle.layered:
@@ -73,7 +73,7 @@ def _values(cycle, name, constants, angle):
 
 
 def least(cycle, values):
-    """The least of values (z, y, x), and where; Error without any."""
+    """Returns the least of values (z, y, x), and its place; raises Error if there are none."""
     if not np.isfinite(values).any() and not np.isinf(values).any():
         raise Error(f"{cycle.path}: has no value at any point")
     k, j, i = np.unravel_index(np.nanargmin(values), values.shape)

@@ -9,7 +9,7 @@ from ..stresses import FATIGUE, Stresses
 
 
 def terms(angle):
-    """Stresses, and their factors, of which that on planes whose normal has this angle (degrees) to x is the sum."""
+    """Returns {name: factor}; the sum of factors times stresses is the stress on planes with this angle (degrees)."""
     cosine, sine = np.cos(np.deg2rad(angle)), np.sin(np.deg2rad(angle))
     found = {"stress_xx": cosine**2, "stress_yy": sine**2, "stress_xy": 2.0 * sine * cosine}
     return {name: term for name, term in found.items() if abs(term) > 1e-15}

@@ -73,7 +73,8 @@ def _is_signed(name):
 
 
 def _line(file, at):
-    """A section of the file: along, its coordinates; slices of rows and columns; the other coordinate's name, place.
+    """Returns a section of the file: its direction and coordinates; slices of rows and columns; name and place of the
+    other coordinate.
 
     Of maps it is the row nearest to y of `at`.
     """
@@ -188,7 +189,7 @@ def sections(steps, component=None, at=(0.0, 0.0), limits=None):
 
 
 def profiles(steps, component=None, at=(0.0, 0.0)):
-    """A component of the stress along the section at its first depth, the surface if it has it."""
+    """Draws a component of the stress along the section at its first depth, which is the surface if it is included."""
     figure, axes = plt.subplots(figsize=(7.6, 4.4), constrained_layout=True)
     component = _one([file for file, _ in steps], component)
     data = [_section(file, _dataset(component), index, at, slice(0, 1))[0] for file, index in steps]

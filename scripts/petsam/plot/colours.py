@@ -55,7 +55,7 @@ def finite(arrays):
 def top(magnitudes, percentile=None, automatic=True):
     """The largest magnitude of the colours, and the percentile that it is, 100 of all.
 
-    Without a percentile given it is less than 100 where a few cells have PEAK times what the others have.
+    If no percentile is given, it is less than 100 if a few cells have PEAK times the values of the others.
     """
     whole = float(np.max(magnitudes, initial=0.0))
     cells = magnitudes[magnitudes > ROUNDING * whole]  # without what is open
@@ -71,7 +71,7 @@ def top(magnitudes, percentile=None, automatic=True):
 
 
 def _remark(share, whole, unit):
-    """What a map says of a limit that is a percentile; whole is the largest value, in the label's unit."""
+    """Returns a note about a limit that is a percentile; whole is the largest value, in the label's unit."""
     return "" if share >= 100.0 else f"colours hold {share:g} % of non-zero cells; maximum {whole:.3g} {unit}".rstrip()
 
 

@@ -255,7 +255,7 @@ def draw(options, results, kind):
 
 
 def save(options, figure, name, table="w"):
-    """Write one picture, and its values to the table, which replace no results and nothing that is not a file."""
+    """Writes one picture, and its values as a table; refuses to replace results, or anything that is not a file."""
     for written, option in ((name, "--output"), (options.csv, "--csv")):
         if written:
             need_replaceable(written)

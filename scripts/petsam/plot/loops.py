@@ -16,8 +16,8 @@ from . import noise, symbols
 from .style import colors, curve, logarithmic, need_few, plt, tint
 from .units import counted, label, largest, plain, scale
 
-LOOPS = 8  # in a panel: more cannot be told apart
-DENSE = 1000  # points from which a loop is drawn in transparent pieces: where it passes often is darker
+LOOPS = 8  # in a panel; more would be indistinguishable
+DENSE = 1000  # points above which a loop is drawn in transparent pieces, darker where it passes often
 PIECE = 20  # points of a piece
 HEADROOM = 1.08  # the top of an axis of energies over the largest one
 
@@ -34,7 +34,7 @@ def loop_axes(results, pair=None):
 
 
 def _last_cycle(results, names):
-    """Energy of the last whole cycle of the displacement, J; None without one."""
+    """Returns the energy of the last whole cycle of the displacement, J; None if there is none."""
     if results.has_life:
         steps = results.of_computed_cycle(results.wear["cycle"][-1])
         return loop_energy(results, names, lambda name: results.history[name][steps], results.wear[ENERGY][-1])
@@ -61,7 +61,7 @@ def _cloud(axes, x, y, color, text):
 
 
 def loop(results, pair=None):
-    """A load over its displacement, of every file, with the energy of the last cycle; only steps with a solution."""
+    """Draws a load over its displacement for every file, with the last cycle's energy; only solved steps."""
     for one in results:
         one.need_solution()
     factors = loop_axes(results, pair)
@@ -117,7 +117,7 @@ def spread(count):
 
 
 def _energies(one):
-    """Numbers and energies (J) of a file's cycles; of a life those computed."""
+    """Returns numbers and energies (J) of a file's cycles; for a life, of the computed cycles."""
     if one.results.has_life:
         return one.results.wear["cycle"], one.results.wear[ENERGY]
     return np.array([float(cycle.number) for cycle in one]), one.energies

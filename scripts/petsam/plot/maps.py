@@ -33,7 +33,7 @@ ABREAST = 4  # maps of a snapshot side by side at most; more are drawn in two ro
 SIDE, LONG = 2.4, 7.0  # inches of a map: its height side by side, its width one below the other
 ONE = 5.0  # inches of the longer side of a map that is alone
 NARROW = 1.7  # inches of a map's width below which the numbers of x stand upright
-HIDDEN = 0.02  # of a map's area at most that the points of an edge cover
+HIDDEN = 0.02  # maximum part of a map's area that the points of an edge cover
 
 
 def usual(results):
@@ -126,7 +126,7 @@ class Layout:
         return "\n".join(textwrap.wrap(text, max(12, int(11 * self.pitch[0])), break_long_words=False))
 
     def number(self, panel):
-        """Numbers on the axes of a map, no more than there is room for; and its shape."""
+        """Sets the numbers on the axes of a map, as many as fit; and its shape."""
         panel.set_aspect(self.stretch)
         panel.xaxis.set_major_locator(ticks(self.width / 0.55, 9))
         panel.yaxis.set_major_locator(ticks(self.height / 0.35, 6))
@@ -136,7 +136,7 @@ class Layout:
 
     @property
     def remark(self):
-        """What a stretched map says of it."""
+        """Returns the note on a stretched map."""
         if np.isclose(self.stretch, 1.0):
             return ""
         axis, times = ("y", self.stretch) if self.stretch > 1.0 else ("x", 1.0 / self.stretch)
@@ -148,7 +148,7 @@ class Layout:
         return snapshot * -(-fields // self.abreast) + row, column
 
     def is_left(self, column):
-        """Whether the map of a field begins a row."""
+        """Returns true if the map of a field begins a row."""
         return column % self.abreast == 0
 
 

@@ -12,13 +12,13 @@ VOLUMES = ("wear_volume1", "wear_volume2")
 TIME = "time"
 CREEPS = ("creep_x", "creep_y", "creep_spin")
 CURVES = ("load_tx", "load_ty", "load_mz", *CREEPS, "stick_area")  # of steady rolling
-CONSTANT = ("load_n", "contact_area")  # shown where nothing varies
+CONSTANT = ("load_n", "contact_area")  # shown if nothing varies
 # rows and columns of the matrices of /history
 LOADS, WAYS = zip(*(PAIRS[name] for name in ("n", "tx", "ty", "mx", "my", "mz")))
 
 
 def entry(results, name):
-    """Of a name such as stiffness.load_tx.disp_x the matrix and the two names in it; None of another name."""
+    """Returns the matrix and the two names in a name such as stiffness.load_tx.disp_x; None for another name."""
     matrix, *pair = name.split(".")
     known = len(pair) == 2 and pair[0] in LOADS and pair[1] in WAYS and matrix in results.matrices
     return (matrix, *pair) if known else None
@@ -67,7 +67,7 @@ def against(results, name, other):
 
 
 def usual(results):
-    """What a history is drawn over by itself: time, or of steady rolling the creepage that varies most."""
+    """Returns the default abscissa of a history: time, or in steady rolling the creepage that varies most."""
     if not all(one.is_steady for one in results):
         return TIME
     known = noise.scales(results)
@@ -77,7 +77,7 @@ def usual(results):
 
 
 def _varying(results):
-    """Names that a picture of the history shows by itself: what varies (see noise), each once."""
+    """Returns the default names of a picture of the history: those that vary (see noise), each once."""
     known = noise.scales(results)
     shared = [name for name in VOLUMES if all(name in one.history for one in results)]
     # of a life the sum of the energy over the computed cycles says nothing
@@ -91,7 +91,7 @@ def _varying(results):
 
 
 def need_scalars(results, names, option):
-    """Error where the history lacks one of the names, which the option has asked for."""
+    """Raises Error if the history lacks one of the names that the option requests."""
     for name in names:
         if name in results.matrices:
             text = f"{option} {name}: is a matrix for every step; {name}.load_tx.disp_x is one of its entries"
@@ -103,7 +103,7 @@ def need_scalars(results, names, option):
 
 
 def _panel(panel, results, name, other, across):
-    """One scalar of all files; across is the factor of the other one."""
+    """Draws one scalar of all files; across is the factor of the other one."""
     lines = [against(one, name, other) for one in results]
     factor, unit = scale(unit_of(results[0], name), largest(values for _, values in lines))
     for one, (x, y), tint in zip(results, lines, colors(len(results))):

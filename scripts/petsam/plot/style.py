@@ -21,15 +21,15 @@ STYLE = {
     "savefig.dpi": 150, "mathtext.fontset": "dejavusans",
 }  # fmt: skip
 COLORS = ("#0072b2", "#d55e00", "#009e73", "#e69f00", "#cc79a7", "#5a5a5a")  # of Okabe and Ito: for all eyes
-PANELS = 64  # of a picture at most, one below the other or side by side
-MARKED = 80  # points of a curve that are marked one by one; more would be a band
+PANELS = 64  # maximum panels of a picture, one below the other or side by side
+MARKED = 80  # points of a curve up to which each is marked; more would form a band
 TURNS = 20  # of the abscissa, of ten cycles; with more a curve over it is drawn as points
 BINS = 1500  # parts of an axis of time, more than a panel has pixels: of each the extremes are drawn
 CLOSED = {"color": "0.35", "linewidth": 1.2}  # the line of a closed-form solution
 
 
 def colors(count):
-    """As many colours, of a sequence when there are more than can be told apart."""
+    """Returns so many colours; from a continuous sequence if there are too many to distinguish."""
     return COLORS[:count] if count <= len(COLORS) else [plt.cm.viridis(t) for t in np.linspace(0.0, 0.9, count)]
 
 
@@ -56,7 +56,7 @@ def cross(axes, x, y, gid=None):
 
 
 def need_few(count, what):
-    """Error where a picture would have too many panels."""
+    """Raises Error if a picture would have too many panels."""
     if count > PANELS:
         raise Error(f"{count} {what} in one picture; expected at most {PANELS}")
 

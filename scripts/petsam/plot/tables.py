@@ -8,11 +8,11 @@ from .style import MARKED, colors, logarithmic, need_few, plt
 from .units import label, largest, plain, scale, written
 
 MARKS = ("o", "s", "^", "D", "v", "x", "+")
-MOST = 9  # panels of a picture unless columns are named
+MOST = 9  # panels of a picture, unless columns are named
 CURVES = 40  # in a panel
-SAME = 1e-9  # relative: what differs by less does not vary
-AGAIN = 1e-6  # relative: a result that differs from the input of its name by less is that input
-NOISE = 1e-9  # of the largest number with the same dimension: what is smaller is zero but for rounding; rad by itself
+SAME = 1e-9  # relative difference below which values do not vary
+AGAIN = 1e-6  # relative difference below which a result is the input of the same name
+NOISE = 1e-9  # relative to the largest number with the same dimension; smaller numbers are rounding; rad is separate
 DIMENSION = {"J": "N m"}
 
 
@@ -25,7 +25,7 @@ def numbers(study, name, option):
 
 
 def _varies(values):
-    """Whether a column has different values: texts, or numbers by more than rounding."""
+    """Returns true if a column has different values: texts, or numbers that differ by more than rounding."""
     if values.dtype.kind not in "biuf":
         return len(set(values)) > 1
     known = values[np.isfinite(values)].astype(float)
@@ -51,7 +51,7 @@ def abscissa(study):
 
 
 def _results(study, other):
-    """Names of the results that a picture shows by itself: physical quantities that vary by more than rounding."""
+    """Returns the default results of a picture: physical quantities that vary by more than rounding."""
     sizes = {"rad": 1.0}
     for name, unit in study.units.items():
         unit = DIMENSION.get(unit, unit)
@@ -71,7 +71,7 @@ def _results(study, other):
 
 
 def _is_input(study, name, values):
-    """Whether a result is the input of its name again."""
+    """Returns true if a result repeats the input of its name."""
     given = study.inputs.get(name)
     if given is None or given.dtype.kind not in "biuf":
         return False
@@ -80,7 +80,7 @@ def _is_input(study, name, values):
 
 
 def _once(study, names):
-    """The names without those whose values another one has, too: of a single step the sum is that of the step."""
+    """Returns the names without duplicates: for a single step the sum is that of the step."""
     kept = []
     for name in sorted(names, key=lambda name: not name.endswith("_sum")):  # the sum means more than the last step
         values, unit = study.column(name)
@@ -93,7 +93,7 @@ def _once(study, names):
 
 
 def matching(study, where=()):
-    """Which cases have the given values (name, text) in their columns."""
+    """Returns a mask of the cases that have the given values (name, text) in their columns."""
     chosen = np.full(study.codes.shape, True)
     for name, text in where:
         values, _ = study.column(name, "--where")
@@ -113,7 +113,7 @@ def matching(study, where=()):
 
 
 def rows(study, where=()):
-    """Which cases are drawn: those that finished, and whose columns have the given values (name, text)."""
+    """Returns a mask of the drawn cases: those that finished, with the given values (name, text) in their columns."""
     chosen = matching(study, where) & (study.codes == 0)
     if not chosen.any():
         raise Error(f"{study.path}: none of the chosen cases has finished")
@@ -136,7 +136,7 @@ def _split(columns, chosen):
 
 
 def _ambiguous(curves, x, column):
-    """Whether in some curve there are cases with one x that differ in a column."""
+    """Returns true if in some curve a column differs between cases with the same x."""
     for rows_of_curve in curves.values():
         values = {}
         for k in rows_of_curve:
@@ -147,7 +147,7 @@ def _ambiguous(curves, x, column):
 
 
 def _repeats(curves, x, column):
-    """Whether in some curve a column has several values, and one of them at several x."""
+    """Returns true if in some curve a column has several values, and one of them at several x."""
     for rows_of_curve in curves.values():
         values = {(x[k].item(), column[k].item()) for k in rows_of_curve}
         if 1 < len({value for _, value in values}) < len(values):

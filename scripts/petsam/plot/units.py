@@ -11,7 +11,7 @@ LEAST = {"m2": 1e-3, "m3": 1e-3}  # from 1 mm² on there are no µm², and so on
 PREFIXES = (
     (1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"), (1e-12, "p"),
 )  # fmt: skip
-BASE = re.compile(r"(Pa|N|m[23]?|J|rad|W)(?![A-Za-z0-9])")  # what a unit that takes a prefix begins with
+BASE = re.compile(r"(Pa|N|m[23]?|J|rad|W)(?![A-Za-z0-9])")  # beginning of a unit that takes a prefix
 NUMBERS = ((1e9, "billion "), (1e6, "million "), (1e3, "thousand "))
 
 

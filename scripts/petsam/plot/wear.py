@@ -15,7 +15,7 @@ from .style import colors, curve, need_few, note, over_cycles, plt, tint
 from .symbols import SYMBOLS
 from .units import counted, label, largest, plain, scale
 
-LINES = 10  # of a scar by itself
+LINES = 10  # default number of lines of a scar
 # names in /wear, of both bodies or of the joint, and what they are called
 LIFE = (
     (("volume1", "volume2"), "removed volume"),
@@ -37,12 +37,12 @@ def _legend(panel, title):
 
 
 def _closed(values):
-    """Values of a loop with its beginning, which is its end."""
+    """Returns the values of a loop, closed at its beginning."""
     return np.concatenate([values[-1:], values])
 
 
 def logged(one):
-    """Rows of /wear whose loops are drawn: the first, the last, and others that divide the wear evenly."""
+    """Returns the rows of /wear whose loops are drawn: the first, the last, and others that divide the wear evenly."""
     volume = one.wear["volume1"] + one.wear["volume2"]
     wanted = np.linspace(volume[0], volume[-1], LOOPS)
     return sorted({0, volume.size - 1, *(int(np.argmin(np.abs(volume - part))) for part in wanted[1:-1])})
@@ -61,7 +61,7 @@ def _of_life(one, names, wanted):
 
 
 def _of_history(one, names, found, wanted):
-    """The same of a history without wear over cycles."""
+    """Does the same for a history without wear over cycles."""
     if not len(found):
         raise Error(f"{one.path}: --fretting-log: has no whole cycle, by {found.manner}; see --turns and --period")
     chosen = [found.numbered(number) for number in wanted or spread(len(found))]
@@ -71,7 +71,7 @@ def _of_history(one, names, found, wanted):
 
 
 def _loops(panel, one, factors, loops):
-    """Loops of one file's cycles."""
+    """Draws the loops of one file's cycles."""
     cycles, energies, points = loops
     factor, words = counted(cycles[-1])
     joules, unit = scale(one.work_unit, largest([energies]))
@@ -86,7 +86,7 @@ def _loops(panel, one, factors, loops):
 def fretting_log(files, pair=None, find=None, wanted=None):
     """Loops of some cycles, or of those wanted, one panel per file; pair names the load (that which does most work).
 
-    Of wear over cycles these are computed cycles, of another history those of find(file), petsam.cycles.Cycles.
+    For wear over cycles these are computed cycles, for another history those of find(file), petsam.cycles.Cycles.
     """
     need_few(len(files), "files")
     need_few(len(wanted or ()), "cycles")
@@ -113,13 +113,13 @@ def fretting_log(files, pair=None, find=None, wanted=None):
 
 
 def scar_steps(one):
-    """Indices into the fields of what a scar shows by itself: ends of the saved cycles, or the last saved step."""
+    """Returns the default indices into the fields for a scar: ends of the saved cycles, or the last saved step."""
     ends = one.cycle_ends if one.has_life else [one.of_last()]
     return ends if len(ends) <= LINES else [ends[round(k)] for k in np.linspace(0, len(ends) - 1, LINES)]
 
 
 def deepest(one, name, index):
-    """The largest removed depth of a saved step (m), and the point (x, y) where it is, m."""
+    """Returns the largest removed depth of a saved step (m), and its place (x, y), m."""
     best = (-1.0, (0.0, 0.0))
     for start in range(0, one.y.size, BLOCK):
         block = one.field(name, index, slice(start, start + BLOCK))
@@ -158,7 +158,7 @@ def _scar_rows(steps, at):
 
 
 def _window(lines, whole):
-    """The part of lines where any shows a removed depth, and a margin."""
+    """Returns the part of lines in which any shows a removed depth, with a margin."""
     cells = np.flatnonzero(np.any(np.array(lines) > 0.0, axis=0))
     if whole or not cells.size:
         return slice(None)
@@ -167,7 +167,7 @@ def _window(lines, whole):
 
 
 def _names(one, indices):
-    """What the lines of a scar are called, and the title of their legend."""
+    """Returns the labels of a scar's lines, and the title of their legend."""
     if not one.has_life:
         return [f"{one.steps[index]}" for index in indices], "step"
     factor, words = counted(max(one.cycles[index] for index in indices))

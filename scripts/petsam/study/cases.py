@@ -117,12 +117,12 @@ def _stamp(path):
 
 
 def _shown(value):
-    """A value in a folder's name: of a file its name only; a number keeps its unit, which may have a slash."""
+    """Returns a value as it stands in a folder's name: a file without its folder; a unit, which may have a slash, stays."""
     return value if value.lstrip("+-.0123456789eE") in declared.FOLLOWING else os.path.basename(value)
 
 
 def _name(inputs):
-    """A folder's name from the inputs that vary; it does not change when cases are added."""
+    """Returns a folder's name from the inputs that vary; it does not change when cases are added."""
     text = "_".join("{}={}".format(name, _shown(value or "")) for name, value in inputs.items()) or "case"
     text = re.sub(r"[^A-Za-z0-9.,=+_-]", "-", text)
     if len(text) > 100:
@@ -198,7 +198,7 @@ def _need_few(path, count):
 
 
 def _check_used(path, table):
-    """Error where nothing uses a parameter: its values would make no difference between cases."""
+    """Raises Error if nothing uses a parameter: its values would make no difference between cases."""
     texts = [text for values in table.options.values() for text in values]
     texts += [*table.files.values(), *table.stress.values(), table.ranks]
     texts += [f"{{{expression}}}" for expression in table.results.values()]
@@ -249,7 +249,7 @@ def _yaml_cases(path, common):
 
 
 def _check_name(name, where, seen):
-    """Error unless the name can be that of a case's folder."""
+    """Raises Error unless the name can be that of a case's folder."""
     if not re.fullmatch(r"[A-Za-z0-9.,=+_-]+", name) or not name.strip("."):
         raise TableError(f"{where}: case {short(name)}: use letters, digits and .,=+_-")
     if len(name) > NAME:
@@ -261,7 +261,7 @@ def _check_name(name, where, seen):
 
 
 def _columns(text):
-    """Names of a history's columns; none where it has no line of names."""
+    """Returns the names of a history's columns; none if it has no line of names."""
     lines = (line.split("#")[0].strip() for line in text.splitlines())
     return re.split(r"[,;\s]+", next(filter(None, lines), ""))
 

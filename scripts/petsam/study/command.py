@@ -39,7 +39,7 @@ from .cases import TableError, common_options, read
 from .progress import Progress, standing, summary
 from .runs import STOPPED, Study, check_folders, record
 
-MOST = 1 << 30  # of numbers on the command line
+MOST = 1 << 30  # maximum of numbers on the command line
 
 
 def positive(text):
@@ -54,7 +54,7 @@ def positive(text):
 
 
 def period(text):
-    """Reader of T or T,START for argparse."""
+    """Reads T or T,START for argparse."""
     try:
         return cycles.read_period(text)
     except ValueError:
@@ -62,7 +62,7 @@ def period(text):
 
 
 def numbers(text):
-    """Reader of cycles' numbers for argparse."""
+    """Reads cycles' numbers for argparse."""
     try:
         values = tuple(dict.fromkeys(int(word) for word in text.split(",")))
     except ValueError:
@@ -147,7 +147,7 @@ def available_cores():
 
 
 def due(options, cases):
-    """Cases that are to be run, in order."""
+    """Returns the cases that have to be run, in order."""
     wanted = cases if options.case is None else cases[options.case - 1 : options.case]
     if not wanted:
         raise TableError(f"--case {options.case}: use 1 to {len(cases)}")
@@ -160,7 +160,7 @@ def due(options, cases):
 
 
 def run(options, cases, waiting):
-    """Run the waiting cases; the number of the signal that ended the study, or 0."""
+    """Runs the waiting cases; returns the number of the signal that ended the study, or 0."""
     cores = options.cores or available_cores()
     words = environment.launcher(options.launcher)
     program = environment.petsam()
@@ -193,7 +193,7 @@ def run(options, cases, waiting):
 
 
 def prepare(options, cases):
-    """Make the study's folder; Error where the results would replace another file."""
+    """Makes the study's folder; raises Error if the results would replace another file."""
     if os.path.lexists(options.directory) and not os.path.isdir(options.directory):
         raise Error(f"{options.directory}: is not a folder; choose another by --directory")
     os.makedirs(options.directory, exist_ok=True)
@@ -205,7 +205,7 @@ def prepare(options, cases):
 
 
 def write(options, cases):
-    """Write the tables; Error where the cycles asked for are not there."""
+    """Writes the tables; raises Error if the requested cycles do not exist."""
     figures = tables.Figures(options.turns, options.period, options.cycle)
     names, complaint = tables.write(options.directory, cases, os.path.basename(options.table), figures)
     for name in names if not options.quiet else ():
@@ -227,7 +227,7 @@ def warn_of_gaps(options, cases):
 
 
 def carry_out(options):
-    """Carry out the options; the exit code."""
+    """Carries out the options; returns the exit code."""
     cases = read(options.table, common_options(options.words), options.ranks)
     if not options.quiet and options.case is None:
         warn_of_gaps(options, cases)

@@ -13,8 +13,8 @@ from ..errors import Error, short
 from ..files import need_regular
 from .expressions import check
 
-CSV, YAML = 64 << 20, 1 << 20  # bytes of a table at most; reading YAML takes long
-VALUE = 16384  # characters of a value: the system bounds the words of a command
+CSV, YAML = 64 << 20, 1 << 20  # maximum bytes of a table; reading YAML takes long
+VALUE = 16384  # maximum characters of a value: the system limits the words of a command
 NAME = re.compile(r"[A-Za-z]\w*")  # of an option or a parameter
 KEYS = ("options", "parameters", "files", "ranks", "stress", "results")
 EXAMPLE = ("options:", "  load_tx: [30, 60, 90]")
@@ -53,7 +53,7 @@ def _text_of(path, limit):
 
 
 def _check_value(value, where):
-    """Error where the value cannot be a word of a command."""
+    """Raises Error if the value cannot be a word of a command."""
     if value is None:
         return
     if len(value) > VALUE:
@@ -182,7 +182,7 @@ class _Reader:
         return value
 
     def choices(self, node, key):
-        """Name: list of texts, of a section; and the names of the entries with lists."""
+        """Returns {name: list of texts} of a section, and the names of the entries with lists."""
         choices, lists = {}, []
         for name, value in self.pairs(node, key).items():
             values = value.value if isinstance(value, yaml.SequenceNode) else [value]
@@ -199,7 +199,7 @@ class _Reader:
         return choices, lists
 
     def files(self, node):
-        """Name: text."""
+        """Returns {name: text}."""
         found = {} if self.empty(node) else self.pairs(node, "files")
         for name, value in found.items():
             text = isinstance(value, yaml.ScalarNode) and value.tag.endswith(":str")
@@ -214,7 +214,7 @@ class _Reader:
         return {name: self.scalar(value, YAML) for name, value in found.items()}
 
     def table(self, root):
-        """The whole table."""
+        """Returns the whole table."""
         sections = self.pairs(root, "the table") if isinstance(root, yaml.MappingNode) else {}
         if "options" not in sections:
             error = self.error("expected a section `options` with one line per option of petsam, such as")
@@ -241,7 +241,7 @@ class _Reader:
         return Table(parameters, options, files, ranks, lists + more, self.lines, stress, results)
 
     def single(self, node, key, others):
-        """Name: text, of a section without lists; the names of results are those of no input."""
+        """Returns {name: text} of a section without lists; the names of results must not be those of inputs."""
         if self.empty(node):
             return {}
         found, lists = self.choices(node, key)

@@ -21,7 +21,7 @@ from ..errors import Error, one_line, short
 from ..files import need_regular, need_replaceable
 
 LOG, RESULTS, RECORD, CHECKPOINT = "petsam.log", "results.h5", "record.json", "checkpoint.h5"
-STRESSES = "stress.h5"  # of petsam-stress, where the table asks for it
+STRESSES = "stress.h5"  # of petsam-stress, if the table requests it
 STOPPED = 75  # petsam's exit code when it has written a checkpoint and is to be run again
 MEANINGS = {
     2: "bad usage",
@@ -31,11 +31,11 @@ MEANINGS = {
     12: "contact at the grid's edge",
     STOPPED: "stopped early, to be run again",
 }
-PATIENCE = 10.0  # seconds that runs get to end when asked to
+PATIENCE = 10.0  # seconds for runs to end when requested
 GRACE = 90.0  # seconds that they get to write a checkpoint and stop, unless a variable gives the time that is left
 RESERVE = 30.0  # seconds before the end of a Slurm job in which it is queued again
-WORDS = 1000  # characters of a run's own words on how it ended
-OWN = re.compile("petsam(-stress)?: ")  # how the programs' messages begin
+WORDS = 1000  # maximum characters of a run's own words on its end
+OWN = re.compile("petsam(-stress)?: ")  # beginning of the programs' messages
 PAUSE = 0.05  # seconds between looks at the runs
 
 
@@ -58,7 +58,7 @@ def write_atomically(path, text):
 
 
 def record(directory, case):
-    """The case's record if it is of these inputs, else an empty one."""
+    """Returns the case's record if its inputs are these, else an empty one."""
     path = os.path.join(directory, case.name, RECORD)
     try:
         need_regular(path)
@@ -70,7 +70,7 @@ def record(directory, case):
 
 
 def _is_record(known):
-    """Whether it could be a record that has been written here."""
+    """Returns true if it may be a record written here."""
     if not isinstance(known, dict) or not {"identity", "exit_code", "seconds", "message"} <= set(known):
         return False
     code, seconds = known["exit_code"], known["seconds"]
@@ -84,12 +84,12 @@ def _is_record(known):
 
 
 def finished(directory, case):
-    """Whether the case need not run again."""
+    """Returns true if the case need not run again."""
     return record(directory, case).get("exit_code") == 0
 
 
 def _message(log, code):
-    """The run's own words on how it ended: petsam's first complaint, else the last line."""
+    """Returns the run's own words on its end: petsam's first message, else the last line."""
     try:
         with open(log, encoding="utf-8", errors="replace") as file:
             lines = [line.strip() for line in file if line.strip()]
@@ -127,7 +127,7 @@ def grace():
 
 
 def check_folders(directory, cases):
-    """Error where a result or a case would replace another file, before any case runs."""
+    """Raises Error, before any case runs, if a result or a case would replace another file."""
     for name in ("results.csv", "results.h5"):
         for path in (os.path.join(directory, name), os.path.join(directory, name + ".tmp")):
             need_replaceable(path)
@@ -178,7 +178,7 @@ class Run:
                 start_new_session=True,
                 pass_fds=(self.lock,),
             )
-        except (OSError, ValueError) as error:  # no program for this system, or more words than it takes
+        except (OSError, ValueError) as error:  # no program for this system, or too many words
             reason = getattr(error, "strerror", None) or error
             raise Error(f"case {self.case.name}: {short(words[0])} cannot be started: {reason}") from error
 
@@ -187,7 +187,7 @@ class Run:
         try:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError as error:
-            # a file system without locks is no reason not to run
+            # a file system without locks must not prevent a run
             if error.errno in (errno.EWOULDBLOCK, errno.EACCES):
                 os.close(lock)
                 raise Busy() from error
@@ -227,7 +227,7 @@ class Run:
         )
 
     def ended(self):
-        """Exit code, also on record, once the run has ended by itself; else None."""
+        """Returns the exit code, which is also recorded, once the run has ended by itself; else None."""
         code = self.process.poll()
         if self.told and code is None and time.monotonic() > self.told + self.patience:
             self.signal(signal.SIGTERM)
@@ -327,7 +327,7 @@ class Study:
                 self.report(run.case, code)
 
     def _end(self):
-        """End the runs that are left; their records show that they have not ended by themselves."""
+        """Ends the remaining runs; their records show that they have not ended by themselves."""
         for run in self.running:
             run.signal(signal.SIGTERM)
         until = time.monotonic() + PATIENCE

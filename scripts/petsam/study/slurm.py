@@ -11,11 +11,11 @@ from ..errors import Error, short
 
 
 class SubmitError(Error):
-    """sbatch is missing or refuses; the message is its own."""
+    """sbatch is missing or rejects the job; the message is its own."""
 
 
 def ranges(numbers):
-    """Sorted numbers as sbatch's --array takes them: 1-3,7."""
+    """Returns sorted numbers in the form of sbatch's --array: 1-3,7."""
     parts = []
     for number in numbers:
         if parts and number == parts[-1][1] + 1:
@@ -26,7 +26,7 @@ def ranges(numbers):
 
 
 def _sbatch(words):
-    """Submit; the job's number."""
+    """Submits a job and returns its number."""
     if not shutil.which("sbatch"):
         raise SubmitError("--slurm: sbatch not found on PATH")
     try:
@@ -51,7 +51,7 @@ def _sbatch(words):
 
 
 def _study_words(options):
-    """petsam-study's arguments as each job gets them."""
+    """Returns petsam-study's arguments for each job."""
     words = [os.path.abspath(options.table), "--directory", options.directory, "--ranks", str(options.ranks)]
     if options.checkpoint:
         words += ["--checkpoint", str(options.checkpoint)]
@@ -65,7 +65,7 @@ def _study_words(options):
 
 
 def submit(options, cases, waiting):
-    """Submit the cases that wait, at most --cores of ranks at once, and a job that writes the tables at the end."""
+    """Submits the waiting cases, at most --cores of ranks at once, and a job that writes the tables at the end."""
     words, extra = _study_words(options), environment.split(options.sbatch, "--sbatch")
     script, study = environment.script("slurm/array.sbatch"), environment.script("petsam-study")
     common = ["--", *options.words] if options.words else []

@@ -5,10 +5,10 @@
 #include <petsam/private/body.h>
 #include <math.h>
 
-#define LAYERS (SAM_MATERIALS - 1) /* most materials above the last one */
+#define LAYERS (SAM_MATERIALS - 1) /* maximum number of materials above the last one */
 
 /*
-  Describes the fault of a material: a message that names its constants, which begin with `name`; empty without fault.
+  Writes a message about the fault of a material, with its constants, whose names begin with `name`; empty: no fault.
 */
 static PetscErrorCode FindFaultOf(const SamMaterial *m, const char name[], char message[], size_t size)
 {
@@ -124,7 +124,7 @@ PetscErrorCode SamBodyAdvise(SamBody body, PetscInt number, PetscInt k, PetscRea
 {
   const SamMaterial *m = body->material, *last = SamBodySubstrate(body);
   PetscBool          other = PETSC_FALSE;
-  PetscInt           same  = 0; /* layers of about the modulus at the surface */
+  PetscInt           same  = 0; /* layers with about the modulus at the surface */
 
   PetscFunctionBegin;
   text[0] = '\0';
@@ -164,7 +164,7 @@ PetscErrorCode SamBodyAdviseWorn(SamBody body, PetscInt number, PetscReal depth,
 
 /* ---- options and parameters ---- */
 
-/* Lists with a number for each layer. */
+/* Lists with one number per layer */
 enum { YOUNG, POISSON, THICKNESS, LISTS };
 static const SamOptionRow lists[LISTS] = {
   [YOUNG]     = {"layer_young", "Young's modulus of each layer from the surface down", SAM_OPTION_REAL,
@@ -213,7 +213,7 @@ PetscErrorCode SamBodyAddParameters(SamBody body, const char prefix[], SamParame
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Takes the layers of a record; `fault`: the name of a list that has not as many numbers as the others, NULL: none. */
+/* Takes the layers of a record; `fault`: the name of a list with a differing count of numbers, NULL: none. */
 static void TakeLayers(const SamParameters *p, const char prefix[], SamMaterial m[], PetscInt *layers,
                        const char **fault)
 {
@@ -224,7 +224,7 @@ static void TakeLayers(const SamParameters *p, const char prefix[], SamMaterial 
   for (int l = 0; l < LISTS; l++) {
     found[l] = Find(p, prefix, lists[l].name);
     count[l] = found[l] ? found[l]->count : 0;
-    /* texts have no numbers, but are there */
+    /* Texts have no numbers, but exist. */
     if (found[l] && (count[l] < 1 || count[l] > LAYERS)) *fault = lists[l].name;
   }
   for (int l = 0; l < LISTS && !*fault; l++)
@@ -263,7 +263,7 @@ PetscErrorCode SamBodyCreateFromParameters(MPI_Comm comm, const SamParameters *p
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Reads the layers, from a file or from lists that must have one length; one Poisson's ratio is for all. */
+/* Reads the layers from a file or from lists of equal length; a single Poisson's ratio is used for all. */
 static PetscErrorCode ReadLayers(const SamOptions *from, SamMaterial m[], PetscInt *layers)
 {
   const char *const prefix = SamOptionsPrefix(from);

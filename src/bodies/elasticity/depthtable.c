@@ -1,4 +1,5 @@
-/* Constants of a body over the depth, from a text file: rows from the surface down, with a jump at a depth of two. */
+/* Constants of a body over the depth, from a text file: rows from the surface down; two rows at one depth are a
+   jump. */
 #include <petsam/private/bodyimpl.h>
 #include <petsam/private/base.h>
 

@@ -6,9 +6,9 @@
 #include <math.h>
 #include <string.h>
 
-#define THINNEST 1e-12 /* layer, in cells */
+#define THINNEST 1e-12 /* thinnest layer, in cells */
 
-/* Grids with fewer cells than this in a direction are solved directly, without a coarser one. */
+/* Grids with fewer cells than this in a direction are solved without a coarser grid. */
 #define COARSEST 32
 
 static PetscFunctionList SamElasticityList = NULL;
@@ -35,7 +35,7 @@ static PetscErrorCode RegisterAll(void)
 PetscErrorCode SamElasticityRegister(const char name[], PetscErrorCode (*create)(SamElasticity))
 {
   PetscFunctionBegin;
-  PetscCall(RegisterAll()); /* first, so that a type of the same name replaces ours */
+  PetscCall(RegisterAll()); /* first, so that a type of the same name replaces a built-in one */
   PetscCall(PetscFunctionListAdd(&SamElasticityList, name, create));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -78,7 +78,7 @@ PetscErrorCode SamElasticityPlaneFromOptions(const SamOptions *from, PetscBool *
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Destroys everything of the type and derived from it. */
+/* Destroys all data of the type and all derived from it. */
 static PetscErrorCode Reset(SamElasticity e)
 {
   PetscFunctionBegin;
@@ -130,7 +130,7 @@ PetscErrorCode SamElasticitySetOptionsPrefix(SamElasticity e, const char prefix[
   return SamSetPrefix(e->prefix, prefix);
 }
 
-/* Reads the options of the other types for the help, which lists them, too. */
+/* Reads the options of the other types for the help, which lists these, too. */
 static PetscErrorCode DescribeOthers(SamElasticity e, const SamOptions *from)
 {
   const char  **types;
@@ -150,7 +150,7 @@ static PetscErrorCode DescribeOthers(SamElasticity e, const SamOptions *from)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Thicknesses that the transforms of layered bodies resolve on this grid. */
+/* Checks that the transforms of layered bodies resolve the thicknesses on this grid. */
 static PetscErrorCode CheckThicknesses(SamElasticity e, const SamOptions *from)
 {
   const PetscReal least = THINNEST * e->grid->side[0], most = 2 * e->grid->length / THINNEST;
@@ -179,7 +179,7 @@ PetscErrorCode SamElasticitySetFromOptions(SamElasticity e)
   PetscCall(SamTypesOption(SamElasticityList, &from, "elasticity", types, type, sizeof(type), NULL));
   PetscCall(SamFourierSettingsFromOptions(&e->fft, &from));
   if (strcmp(type, e->type) || e->is_set_up || (e->inner && e->inner->is_set_up))
-    PetscCall(SamElasticitySetType(e, type)); /* made anew with the settings */
+    PetscCall(SamElasticitySetType(e, type)); /* creates it again with the settings */
   PetscCheck(e->traits.layers || SamPairIsUniform(e->pair), from.comm, SAM_ERR_USER,
              "-%selasticity %s: not supported with layers: use %s or %s", e->prefix, type, SAM_ELASTICITY_HALFSPACE,
              SAM_ELASTICITY_PERIODIC);

@@ -1,7 +1,8 @@
 /*
-  The stress that a body has before any load, as by shot peening, case hardening or the deposition of a coating: xx and
-  yy over the depth, linear between the rows of a file, with a jump where two rows have one depth, and none below the
-  last row. It depends on the depth alone, so it is in equilibrium, and leaves the surface where it is.
+  The stress that a body has before any load, for example by shot peening, case hardening or the deposition of a
+  coating. The components xx and yy are linear in depth between the rows of a file, jump where two rows have the same
+  depth, and are zero below the last row. The stress depends only on the depth, so it is in equilibrium and does not
+  displace the surface.
 */
 #include <petsam/private/bodyimpl.h>
 #include <petsam/private/base.h>
@@ -10,9 +11,9 @@
 
 enum { DEPTH, XX, YY };
 #define NAME "initial_stress"
-#define DEEP 100 /* widths of the grid down to which a stress may go */
+#define DEEP 100 /* largest depth of a stress, in widths of the grid */
 
-/* A depth in a file that is this close to an interface, relative to it, is the interface's. */
+/* Relative distance from an interface below which a depth in a file is that of the interface */
 static const double same_depth = 1e-9;
 
 /* ---- at a depth ---- */
@@ -22,7 +23,7 @@ PetscBool SamBodyHasInitialStress(SamBody body)
   return body->rows ? PETSC_TRUE : PETSC_FALSE;
 }
 
-/* Returns a component at a part, 0 to 1, of the way from row k to the next. */
+/* Returns a component at a fraction, 0 to 1, of the way from row k to the next. */
 static double Between(SamBody body, PetscInt k, double part, int c)
 {
   return (1 - part) * (double)body->initial[k][c] + part * (double)body->initial[k + 1][c];
@@ -57,7 +58,7 @@ void SamBodyMeanInitialStress(SamBody body, double top, double thickness, double
 
 /* ---- options and parameters ---- */
 
-/* Puts depths that are those of interfaces but for rounding exactly there. */
+/* Sets depths that equal interfaces, except for rounding, to the depths of these. */
 static void MeetInterfaces(SamBody body)
 {
   for (PetscInt k = 0; k < body->rows; k++)
@@ -68,7 +69,7 @@ static void MeetInterfaces(SamBody body)
     }
 }
 
-/* Refuses stresses that are likely to be in another unit, and those of a rigid body. */
+/* Rejects stresses that are likely to be in another unit, and stresses of a rigid body. */
 static PetscErrorCode CheckStress(const SamOptions *from, SamBody body)
 {
   const char *const prefix = SamOptionsPrefix(from);

@@ -9,7 +9,7 @@
 #define BOTH_RIGID "%sbody1_young and %sbody2_young: both bodies are rigid, at least one must be elastic"
 
 static const char *const prefixes[2] = {"body1_", "body2_"};
-#define LEAST_FILM 1e-7 /* of Young's modulus: softer than any solid between metals */
+#define LEAST_FILM 1e-7 /* relative to Young's modulus; a softer film is softer than any solid between metals */
 #define FILM(k)    offsetof(struct _n_SamPair, film[k])
 static const SamOptionRow films[2] = {
   {"film_thickness", "thickness () of a film between the surfaces, which shear displaces", SAM_OPTION_REAL, FILM(0),
@@ -69,7 +69,7 @@ PetscErrorCode SamPairDestroy(SamPair *pair)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Creates a pair of bodies that nothing else refers to. */
+/* Creates a pair of bodies that no other object refers to. */
 static PetscErrorCode CreateOf(SamBody body[2], SamPair *pair)
 {
   PetscFunctionBegin;
@@ -102,7 +102,7 @@ PetscBool SamPairIsCoupled(SamPair pair)
 {
   const SamBody a = pair->body[0], b = pair->body[1];
 
-  /* bodies of equal materials cancel exactly; others may leave rounding */
+  /* Bodies of equal materials cancel without rounding; others may leave rounding. */
   if (SamPairIsUniform(pair)) return PetscAbsReal(pair->dundurs) > 1e-14 ? PETSC_TRUE : PETSC_FALSE;
   if (a->count != b->count) return PETSC_TRUE;
   for (PetscInt n = 0; n < a->count; n++)
@@ -129,7 +129,7 @@ double SamPairCoupling(SamPair pair, double first, double last)
 
 /* ---- options and parameters ---- */
 
-/* Refuses a shear modulus of the film that another unit explains. */
+/* Rejects a shear modulus of the film that is likely to be in another unit. */
 static PetscErrorCode CheckFilm(const SamOptions *from, SamPair p)
 {
   const double young =
@@ -155,7 +155,7 @@ PetscErrorCode SamPairCreateFromOptions(const SamOptions *from, SamPair *pair)
     const SamOptions of = {from->comm, own[b]};
 
     PetscCall(PetscSNPrintf(own[b], sizeof(own[b]), "%s%s", prefix, prefixes[b]));
-    SamOptionsKnow(&of, "young", NULL); /* one body's are no misspelling of the other's */
+    SamOptionsKnow(&of, "young", NULL); /* options of one body are not misspellings of the other's */
     SamOptionsKnow(&of, "poisson", NULL);
   }
   for (int b = 0; b < 2; b++) PetscCall(SamBodyCreateFromOptions(&(SamOptions){from->comm, own[b]}, &body[b]));

@@ -1,12 +1,12 @@
 /*
-  The operator on a part of the grid: where tractions act only within a rectangle and only their displacements there
-  count, the transforms need no more than its size. Two parts are kept, because a contact tries a step, which may move
-  the part, and goes back.
+  The operator on a part of the grid: if tractions act only within a rectangle, and only the displacements there are
+  needed, the transforms need no more than its size. Two parts are kept, because a contact tries a step, which may move
+  the part, and may return.
 */
 #include <petsam/private/elasticity.h>
 #include <petsam/private/elasticityimpl.h>
 
-/* A part is made where it has at most this share of the grid's cells, and replaced when it is this much too large. */
+/* A part is used if it has at most this share of the grid's cells, and replaced if it is this much too large. */
 #define WORTH 0.8
 #define SLACK 1.5
 
@@ -40,7 +40,7 @@ PetscErrorCode SamElasticityDestroyParts(SamElasticity e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Finds out whether a part consists of exactly these cells. */
+/* Finds out if a part consists of exactly these cells. */
 static PetscErrorCode IsAt(const SamElasticityPart *part, const PetscInt first[2], const PetscInt n[2], PetscBool *is)
 {
   PetscInt there[2], size[2];

@@ -1,11 +1,12 @@
-/* Products and preconditioners: fields become arrays by component for the type's methods, and are logged. */
+/* Products and preconditioners: fields are passed as arrays by component to the type's methods, and calls are
+   logged. */
 #include <petsam/private/elasticity.h>
 #include <petsam/private/elasticityimpl.h>
 
 typedef PetscErrorCode (*Method)(SamElasticity, const double *const[], double *const[]);
 typedef PetscErrorCode (*MethodSingle)(SamElasticity, double, const float *const[], float *const[]);
 
-/* `film`: the displacement of each cell by its own value, in addition. */
+/* Calls a method; `film`: adds the displacement of each cell by its own value. */
 static PetscErrorCode Apply(SamElasticity e, Method method, SamEvent event, PetscReal film, Vec in, Vec out)
 {
   const double *x    = NULL;
@@ -22,7 +23,7 @@ static PetscErrorCode Apply(SamElasticity e, Method method, SamEvent event, Pets
   PetscCall(PetscLogEventBegin(SamEvents[event], 0, 0, 0, 0));
   if (in != out) PetscCall(VecGetArrayRead(in, &x));
   PetscCall(VecGetArray(out, &y));
-  /* of a field of one component only the first is used */
+  /* For a field of one component only the first array is used. */
   PetscCall(method(e, (const double *const[]){x ? x : y, (x ? x : y) + e->grid->cells},
                    (double *const[]){y, y + e->grid->cells}));
   PetscCall(VecRestoreArray(out, &y));
@@ -55,7 +56,7 @@ static PetscErrorCode ApplySingle(SamElasticity e, MethodSingle method, SamEvent
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The public functions: a product of fields, or of arrays in single precision, by a method and under an event. */
+/* The public functions: a product of fields, or of arrays in single precision, by a method, logged as an event. */
 #define PRODUCT(Name, method, event, film) \
   PetscErrorCode Name(SamElasticity e, Vec in, Vec out) \
   { \

@@ -1,27 +1,29 @@
 /*
-  Bodies under a contact that rolls towards +x without change, on top of a type of elasticity.
+  Bodies under a contact in steady rolling towards +x; a wrapper of a type of elasticity.
 
   The grid moves with the contact; material enters at large x and moves towards -x, by a cell in the time in which its
-  displacement changes from that of cell i + 1 to that of cell i. So where u = C q is the displacement of bodies at
-  rest, the slip in 1 m of rolled distance, which is the slip velocity in units of the rolling speed, is
-      (u_i - u_(i+1))/dx - creepage = A q - creepage,     A = C D/dx,     (D q)_i = q_i - q_(i+1),
-  as C does not depend on the place: one difference before the product. q is zero outside of the contact, and D q also
-  in one cell behind it. A is positive, q.A q = (D q).C (D q)/(2 dx), but not symmetric. A creepage stands where a
-  displacement stands in the problem of bodies at rest, and u_t is A q; pressure moves the surfaces likewise.
+  displacement changes from that of cell i + 1 to that of cell i. So if u = C q is the displacement of bodies at rest,
+      the slip in 1 m of rolled distance, which is the slip velocity in units of the rolling speed, is (u_i -
+      u_(i+1))/dx - creepage = A q - creepage,     A = C D/dx,     (D q)_i = q_i - q_(i+1),
+  as C does not depend on the place; the difference is taken before the product. q is zero outside of the contact, and D
+  q also in one cell behind it. A is positive, q.A q = (D q).C (D q)/(2 dx), but not symmetric. Creepages replace the
+  displacements in the problem of bodies at rest, and u_t is A q; displacements by pressure are differenced in the same
+  way.
 
-  The slip of a cell is between its centre and the one ahead, and so is the creepage that spin adds to it: it is taken
-  at x + dx/6, as CONTACT does. At x + dx/2, where the slip is, the loads are more wrong, as the edges have errors of
-  the same order; at x itself T_y is 2 to 4 times farther from its limit (8 % at 32 cells where spin and creep_y work
-  against each other, at x + dx/6 1 %). The sums of the loads are those of the cells' centres. So it is T_y by spin less
-  dx/6 times that by creep_y that is equal to -M_z by creep_y, as long as nothing slips; and the power of the loads on
-  the creepages is that of the slip at the centres, with the creepage there.
+  The slip of a cell lies between its centre and the next one ahead, and so does the creepage by spin: it is evaluated
+  at x + dx/6, as in CONTACT. At x + dx/2, the place of the slip, the errors of the loads are larger, as the edges have
+  errors of the same order; at x itself the error of T_y is 2 to 4 times larger (8 % at 32 cells if spin and creep_y
+  oppose each other, 1 % at x + dx/6). The loads are sums at the cells' centres. So, without slip, T_y by spin minus
+  dx/6 times T_y by creep_y equals -M_z by creep_y; and the power of the loads on the creepages is that of the slip at
+  the centres, with the creepage there.
 
   Source: J. J. Kalker, Three-dimensional Elastic Bodies in Rolling Contact (1990), chapter 4.
 */
 #include <petsam/private/elasticity.h>
 #include <petsam/private/elasticityimpl.h>
 
-/* The differences of the rows of n fields, times `factor`, as new arrays one after the other, for SamFree(). */
+/* Computes the differences of the rows of n fields, times `factor`, as new arrays one after the other, for
+   SamFree(). */
 #define DIFFERENCES(Name, Real) \
   static PetscErrorCode Name(SamGrid grid, PetscInt n, Real factor, const Real *const in[], Real **out) \
   { \
@@ -103,7 +105,7 @@ static PetscErrorCode Create(SamElasticity e)
   PetscCall(SamElasticitySetInner(e, NULL));
   if (e->traits.coupled) e->ops.applynormaltotangential = ApplyNormalToTangential;
   e->traits.upwind = PETSC_TRUE;
-  e->film          = 0; /* it is a part of the operator */
+  e->film          = 0; /* the film is a part of the operator */
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

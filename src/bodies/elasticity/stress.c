@@ -1,11 +1,11 @@
 /*
-  Stresses on planes parallel to the surface: convolutions of the tractions with the kernels of a depth, which the
-  type of elasticity gives.
+  Stresses on planes parallel to the surface: convolutions of the tractions with the kernels of a depth, which come from
+  the type of elasticity.
 
-  Two passes of three fields to three: one for xx, yy and xy, and one for zz, xz and yz, whose matrix is symmetric. On
-  the surface the second one is not needed, as these are the tractions. The second pass puts its result in the place of
-  the tractions. Of a half-space's 18 kernels 15 differ, and each is a quadrant of real numbers: 120 bytes a cell,
-  beside 48 for the stresses and 48 for the spectra of a pass.
+  There are two passes from three fields to three: one for xx, yy and xy, and one for zz, xz and yz, whose matrix is
+  symmetric. On the surface the second pass is not needed, as these stresses are the tractions. The second pass
+  overwrites the tractions with its result. Of a half-space's 18 kernels 15 differ, and each is a quadrant of real
+  numbers: they take 120 bytes per cell, in addition to 48 for the stresses and 48 for the spectra of a pass.
 */
 #include <petsam/private/edges.h>
 #include <petsam/private/fourier.h>

@@ -4,8 +4,8 @@
 #include <math.h>
 
 /*
-  The waves of one row run along x. A symbol of the kind of bodies does not care about directions: they are a column
-  along y, whose x is y.
+  The waves of a single row run along x. Since the symbols do not depend on directions, the row is processed as a column
+  along y, with x and y exchanged.
 */
 static void FilterRow(const SamFourierBlock *block, const SamSymbol *s)
 {
@@ -24,7 +24,8 @@ static void FilterRow(const SamFourierBlock *block, const SamSymbol *s)
   s->multiply(&turned, waves);
 }
 
-/* A column in three parts: wave numbers from 0 up, that of two cells' length if there is one, the negative ones. */
+/* Filters a column in three parts: wave numbers from 0 up, that of two cells' length if it exists, and the negative
+   ones. */
 static void Filter(const SamFourierBlock *block, const void *context)
 {
   const SamSymbol *s       = (const SamSymbol *)context;

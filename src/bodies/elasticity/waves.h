@@ -9,23 +9,23 @@
 typedef struct {
   double   kx, cross; /* cross: factor on cross terms, 0 for a wave that is its own mirror image, else 1 */
   PetscInt first, last, origin;
-  void    *x, *y; /* the column of one field or two: double or float (*)[2] */
+  void    *x, *y; /* columns of one or two fields: double or float (*)[2] */
 } SamWaves;
 
-/* Wave numbers are in units of 1/length of the grid, so that floats hold their squares. */
+/* Wave numbers are in units of 1/(length of the grid), so that floats can represent their squares. */
 typedef struct SamSymbol {
   double step[2]; /* wave numbers of the longest waves, 2 pi/period */
   double gain;    /* constants of the symbol, times a factor and the transforms' normalisation */
   double nu;      /* of the tangential symbols: nu, or nu/(1 - nu) */
-  double mean;    /* stands for |k| at k = 0 in the inverses */
-  double lag;     /* of slip under an upwind operator: the length of a cell along x, */
+  double mean;    /* replaces |k| at k = 0 in the inverses */
+  double lag;     /* for slip under an upwind operator: the length of a cell along x, */
   double slip;    /* and the inverse symbol over |k| */
   double film;    /* added to the tangential symbol without a film before it is inverted */
-  /* of layered bodies (layered/waves.c): */
+  /* for layered bodies (layered/waves.c): */
   const SamSpline *table;   /* symbols times |k|, by k^2 in 1/m^2 */
   double           unit;    /* 1/m^2 in units of k^2 */
   double           top;     /* the normal symbol of the materials at the surfaces */
-  PetscBool        inverse; /* the inverses of the symbols */
+  PetscBool        inverse; /* true: the inverses of the symbols */
   void (*multiply)(const struct SamSymbol *symbol, SamWaves waves); /* in place */
 } SamSymbol;
 
@@ -34,7 +34,7 @@ PETSC_INTERN PetscErrorCode SamSymbolApply(SamElasticity elasticity, const SamSy
                                            const double *const in[], double *const out[]);
 PETSC_INTERN PetscErrorCode SamSymbolApplySingle(SamElasticity elasticity, const SamSymbol *symbol, PetscInt n,
                                                  const float *const in[], float *const out[]);
-/* Multiplies by gain |k|, with `mean` for |k| of the mean; in single precision. */
+/* Multiplies by gain |k|, and by `mean` instead of |k| for the mean; in single precision. */
 PETSC_INTERN void SamSymbolDivideNormal(const SamSymbol *symbol, SamWaves waves);
 /*
   SamLayeredSymbolSet - gives a symbol whose `step` is set the tables of layered bodies, and extends these to all waves
@@ -43,8 +43,8 @@ PETSC_INTERN void SamSymbolDivideNormal(const SamSymbol *symbol, SamWaves waves)
 PETSC_INTERN PetscErrorCode SamLayeredSymbolSet(SamLayered layered, PetscReal length, PetscInt hx, PetscInt hy,
                                                 SamSymbol *symbol);
 /*
-  For layered bodies, in two precisions, these multiply by gain c/|k| or gain |k|/c, c being the symbols in the table.
-  The mean becomes 0, in inverses that of `mean`. Tangential components are along and across each wave.
+  For layered bodies, in two precisions, these multiply by gain c/|k| or gain |k|/c, where c are the symbols in the
+  table. The mean is multiplied by 0, in inverses by `mean`. Tangential components are along and across each wave.
 */
 PETSC_INTERN void SamLayeredMultiplyNormal(const SamSymbol *symbol, SamWaves waves);
 PETSC_INTERN void SamLayeredMultiplyTangential(const SamSymbol *symbol, SamWaves waves);

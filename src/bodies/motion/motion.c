@@ -1,4 +1,4 @@
-/* The class of motions, and that of steps in time: the bodies rest on each other, or roll a distance in a step. */
+/* The motions of bodies: their registry, and steps in time, in which the bodies rest on each other or roll. */
 #include <math.h>
 #include <petsam/private/motionimpl.h>
 #include <string.h>
@@ -28,7 +28,7 @@ const struct _n_SamMotion SamMotionInTime = {.word      = "none",
                                              .remedy    = "use smaller load steps",
                                              .check     = Check};
 
-/* The first one is the usual one. */
+/* The first motion is the default. */
 static const SamMotion motions[] = {&SamMotionInTime, &SamMotionSteady};
 #define MOTIONS ((PetscInt)(sizeof(motions) / sizeof(motions[0])))
 

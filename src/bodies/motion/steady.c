@@ -1,12 +1,12 @@
 /*
   Steady rolling towards +x: each load step is a steady state by itself, solved by the operator of the shear's
-  differences along x (elasticity/steadyoperator.c). Steps are those of 1 m of rolled distance.
+  differences along x (elasticity/steadyoperator.c). The numbers of a step are per 1 m of rolled distance.
 */
 #include <petsam/private/elasticity.h>
 #include <petsam/private/motionimpl.h>
 #include <petsam/private/base.h>
 
-/* The volume that is removed of a body, by its number in /history or in /wear. */
+/* The volume removed of a body, by its number in /history or in /wear */
 #define VOLUME(name, body) \
   { \
     name #body, name #body, "m2", "volume removed of body " #body " per length of its running band" \
@@ -22,7 +22,7 @@ static const SamMotionName names[] = {
   VOLUME("wear_volume", 2),
   VOLUME("volume", 1),
   VOLUME("volume", 2),
-  {"displacement", NULL, NULL, NULL}, /* that of the bodies at rest is not computed */
+  {"displacement", NULL, NULL, NULL}, /* the displacement of bodies at rest is not computed */
   {NULL, NULL, NULL, NULL}};
 
 static PetscErrorCode Wrap(SamElasticity bodies, const SamOptions *from, SamElasticity *moving)

@@ -1,9 +1,9 @@
 /*
   The independent check of a solution.
 
-  Elastic displacements are recomputed from the tractions, in double precision and on the whole grid; gap and slip from
-  their definitions; the bound of the shear from the pressure. The errors are relative to the solution's own scales, by
-  the formulas in check.h.
+  Recomputed are the elastic displacements, from the tractions in double precision on the whole grid; gap and slip, from
+  their definitions; and the bound of the shear, from the pressure. The errors are relative to the solution's own
+  scales, by the formulas in check.h.
 */
 #include <petsam/check.h>
 #include <petsam/normal.h>
@@ -30,7 +30,7 @@ static PetscErrorCode AddCoupling(SamElasticity elasticity, SamGrid grid, const 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Computes u_z unless it is given, u_t, both with the coupling, and max |u_z| without offsets, which may cancel it. */
+/* Computes u_z (unless it is given) and u_t with the coupling; and max |u_z| before offsets, which could cancel it. */
 static PetscErrorCode ComputeDisplacements(SamProblem problem, SamState state, PetscBool coupling, PetscBool u_z_known,
                                            const SamSolution *s, PetscReal *most)
 {
@@ -81,8 +81,8 @@ SAM_VECTORIZED static void NormalRow(PetscInt n, const double *restrict p, const
 }
 
 /*
-  Columns and rows at the low and high end of x, y at the grid's border, beyond a patch or the surface that a body has
-  on the grid, or of entered material.
+  The outer columns and rows, at the low and the high end of x and y: at the grid's border, outside a patch or outside
+  the surface that a body has on the grid, or with material that has entered the grid.
 */
 typedef struct {
   PetscInt low[2], high[2];
@@ -112,7 +112,7 @@ static Border BorderOf(SamProblem problem, SamState state, SamGrid grid, const S
   return b;
 }
 
-/* Returns the largest pressure in the cells of a row that lie there. */
+/* Returns the largest pressure in those cells of a row that lie outside this border. */
 static double EdgeOfRow(SamGrid grid, const Border *b, PetscInt j, const double p[])
 {
   const PetscInt row = grid->row_start + j, nx = grid->nx;
@@ -130,7 +130,7 @@ static void SetNormal(const double max[COUNT], double limit, SamCheck *check)
   check->edge   = max[PRESSURE] > 0 ? max[EDGE] / max[PRESSURE] : 0;
   check->normal = max[TENSION] > 0 ? max[TENSION] / PetscMax(max[PRESSURE], max[TENSION]) : 0;
   check->normal = PetscMax(check->normal, max[PRESSURE] > limit ? max[PRESSURE] / limit - 1 : 0);
-  /* without contact there is no displacement: the largest opening is the scale then */
+  /* Without contact there is no displacement; then the largest opening is the scale. */
   if (max[GAP] > 0) {
     const double scale = max[DISPLACEMENT] > 0 ? max[DISPLACEMENT] : max[OPENING];
 
@@ -155,7 +155,7 @@ static PetscErrorCode SetRounding(SamProblem problem, const SamSolution *s, cons
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The gap is that of the surfaces as they were before the step. */
+/* Checks the normal problem, with the gap that the surfaces had before the step. */
 static PetscErrorCode CheckNormal(SamProblem problem, SamState state, const SamSolution *s, PetscReal most,
                                   SamCheck *check)
 {
@@ -196,8 +196,8 @@ static PetscErrorCode CheckNormal(SamProblem problem, SamState state, const SamS
 }
 
 /*
-  Over the cells: sums of the squares of the residual, of q, of D(q - ds/c), and of the least scale of the residual, a
-  part of the bound; the largest |q| - mu p, and the largest mu p.
+  Sums over the cells: squares of the residual, of q, of D(q - ds/c), and of the residual's least scale, which is a part
+  of the bound. Also the largest |q| - mu p and the largest mu p.
 */
 typedef struct {
   double sums[4], over, most;

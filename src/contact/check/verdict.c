@@ -20,7 +20,7 @@ static PetscBool Agrees(const SamCheck *check, const SamCheckLimits *limits)
 
 const char *SamCheckDescribeEdge(const SamCheck *check, char text[], size_t size)
 {
-  if (check->edge >= 0.995) /* it would be printed as 1 */
+  if (check->edge >= 0.995) /* a share that would be printed as 1 */
     (void)snprintf(text, size, "the maximum pressure is there");
   else
     (void)snprintf(text, size, "pressure there up to %.2g times the maximum", (double)check->edge);

@@ -1,8 +1,8 @@
 /*
   The frames of both bodies. The grid goes with body 1; where surfaces move past each other, other points of body 2 lie
-  under it in each step, and where the bodies roll it moves over both. What is kept at a body's own points is read and
-  written through these offsets. They are numbers of the state, which the law slide declares and moves; without it both
-  bodies stay under the grid.
+  under it in each step, and where the bodies roll it moves over both. A field that is stored at a body's own points is
+  read and written through these offsets. They are numbers of the state, which the law slide declares and moves; without
+  it both bodies stay under the grid.
 */
 #include <petsam/private/elasticity.h>
 #include <petsam/private/grid.h>

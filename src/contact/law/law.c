@@ -166,7 +166,7 @@ PetscErrorCode SamLawListWords(SamElasticity elasticity, const char option[], co
 
 /* ---- a step ---- */
 
-/* Makes a field of the step unless it is there; `made`: it has to be computed. */
+/* Creates a field of the step if it does not exist; `made`: true if the caller has to compute it. */
 static PetscErrorCode Make(SamLawStep *step, Vec *field, PetscBool wanted, Vec *made)
 {
   PetscFunctionBegin;

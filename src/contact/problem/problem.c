@@ -13,7 +13,7 @@ struct _n_SamProblem {
   Vec           gap;  /* its revision is PETSc's object state, which grows with every change */
   PetscBool     quadratic;
 
-  PetscObjectState quadratic_at; /* that of the gap then */
+  PetscObjectState quadratic_at; /* object state of the gap at that time */
   SamConditions    conditions;
   PetscInt         laws;
   SamLaw           law[SAM_LAWS]; /* in the order in which their types were registered */
@@ -21,7 +21,7 @@ struct _n_SamProblem {
 
 /* ---- creation ---- */
 
-/* Adds the laws that each problem with these bodies has. */
+/* Adds the laws that every problem with these bodies has. */
 static PetscErrorCode AddUsualLaws(SamProblem p)
 {
   const SamLawType *types;
@@ -129,7 +129,7 @@ PetscErrorCode SamProblemIsQuadratic(SamProblem p, PetscBool *quadratic)
 
   PetscFunctionBegin;
   PetscCall(PetscObjectStateGet((PetscObject)p->gap, &now));
-  changed = now != p->quadratic_at; /* perhaps on some ranks only */
+  changed = now != p->quadratic_at; /* may be true on some ranks only */
   if (p->quadratic) PetscCall(SamMax(p->grid->comm, 1, &changed));
   *quadratic = p->quadratic && changed == 0 ? PETSC_TRUE : PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -320,7 +320,7 @@ PetscErrorCode SamProblemComputeBound(SamProblem p, const SamBoundAt *given, con
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < p->laws; k++) count += p->law[k]->ops.bound != NULL;
-  if (count > 1 && at.pressure == bound->value) { /* which the first law overwrites */
+  if (count > 1 && at.pressure == bound->value) { /* the first law overwrites this pressure */
     PetscCall(SamGridCreateVec(p->grid, 1, &at.pressure));
     PetscCall(VecCopy(given->pressure, at.pressure));
   }

@@ -1,15 +1,15 @@
 /*
   The dissipated energy of a step in closed form, where there is one.
 
-  For alike bodies with quadratic gaps, constant N, and T along one line, the closed form of Cattaneo, Mindlin and
+  For alike bodies with quadratic gaps, constant N, and T along one line, it is the closed form of Cattaneo, Mindlin and
   Deresiewicz: with t = T/(mu N), its change over 2 mu N after a reversal, and c = disp/T without slip,
 
       E = 1.8 c (mu N)^2 (1 - (1 - t)^(5/3) - 5/6 t (1 + (1 - t)^(2/3))),      disp = 1.5 c mu N (1 - (1 - t)^(2/3)),
 
-  and twice both after a reversal. The second equation has c from the solution, which has the displacement to 1e-3
-  where the energy is wrong by half. In plane strain the displacement has no limit, and the approach of two cylinders
-  gives the energy per length: E = (mu N)^2/(pi E*) (x ln(x) + (1 - x^2)/2), x = 1 - t. Both forms hold from the first
-  step on, as long as all steps are such.
+  Both are doubled after a reversal. The second equation gives c from the solution's displacement, which is accurate to
+  1e-3 where the energy is wrong by half. In plane strain the displacement has no limit, and the approach of two
+  cylinders gives the energy per length: E = (mu N)^2/(pi E*) (x ln(x) + (1 - x^2)/2), x = 1 - t. Both forms hold while
+  all steps since the first one meet these conditions.
 
   Source: R. D. Mindlin, H. Deresiewicz, J. Appl. Mech. 20 (1953) 327.
 */
@@ -24,16 +24,16 @@
 #include <petsam/private/problem.h>
 #include <math.h>
 
-#define ALIKE 1e-6 /* coupling of bodies, or change of a load over the largest, that counts as none */
+#define ALIKE 1e-6 /* smaller couplings of bodies, or changes of a load relative to the largest load, count as none */
 
 /* Numbers that the state keeps of the load path so far, in a plane of T */
 typedef struct {
   double stage;                        /* one of the stages below */
   double friction;                     /* coefficient */
   double line[2], bound, moment[2];    /* direction of T; mu N (N); M_x and M_y (N m) */
-  double reversed, start, last, limit; /* 1: not of first loading; N: T where the branch began, now, and its end */
-  double start_moved[2], moved[2];     /* m: displacement along x and y there and now */
-  double before, energy;               /* J: of the branches before, and of this one */
+  double reversed, start, last, limit; /* 1: after a reversal; T (N) at the branch's start, now, and at its end */
+  double start_moved[2], moved[2];     /* m: displacement along x and y at the start of the branch, and now */
+  double before, energy;               /* J: energy of the earlier branches, and of this one */
 } Path;
 enum { BEGINS, KNOWN, LOST };
 #define VALUES ((PetscInt)(sizeof(Path) / sizeof(double)))
@@ -72,7 +72,7 @@ static PetscErrorCode Has(SamProblem p, PetscReal *friction, PetscBool *has)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* True if a step's motion is one of loads, or of displacements along x and y, alone. */
+/* True if the motion of a step consists of loads only, or of displacements along x and y only. */
 static PetscBool IsPlain(SamProblem p, const SamSolution *s)
 {
   const SamConditions conditions = SamProblemGetConditions(p);
@@ -90,7 +90,8 @@ static PetscBool IsPlain(SamProblem p, const SamSolution *s)
   return plain;
 }
 
-/* Returns the energy of a branch from the change t of T and that of disp, `moved`; `reversed`: not of first loading. */
+/* Returns the energy of a branch whose T changed by t and whose displacement changed by `moved`; `reversed`: after a
+   reversal. */
 static double ClosedOf(SamProblem p, double bound, double t, double moved, PetscBool reversed)
 {
   const double x = 1 - t;
@@ -112,7 +113,7 @@ static void Reverse(Path *path)
   for (int k = 0; k < 2; k++) path->start_moved[k] = path->moved[k];
 }
 
-/* Continues the closed form of the dissipated energy by a step with constant N and T on a line. */
+/* Continues the closed form over a step with constant N and with T on a line. */
 static void Follow(SamProblem p, Path *path, const SamSolution *s)
 {
   const PetscInt  c[2] = {SAM_COMPONENT_TX, SAM_COMPONENT_TY}, m[2] = {SAM_COMPONENT_MX, SAM_COMPONENT_MY};

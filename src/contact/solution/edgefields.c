@@ -42,7 +42,7 @@ PetscErrorCode SamSolutionFindEdge(SamProblem problem, const SamSolution *s, Sam
 
 /* ---- at the centres of cells ---- */
 
-/* The root of what vanishes at an edge, at the cells' centres. */
+/* Computes the square root of the edge function, which vanishes at the edge, at the cells' centres. */
 static PetscErrorCode ComputeRoots(SamProblem problem, const SamSolution *s, SamEdgeOf which, Vec root)
 {
   SamEdge  edge;

@@ -42,7 +42,7 @@ static PetscErrorCode RestoreOptional(Vec field, double **values)
 }
 
 /*
-  The centred slip of a cell in 1 m of rolled distance is u_t at the cell, the mean of both its sides, less the
+  The centred slip of a cell in 1 m of rolled distance is u_t at the cell, as the mean of its two sides, minus the
   creepage. The power of a shear on the mean of u_t is zero, so that the sum over cells is the work of the loads.
 */
 PetscErrorCode SamSolutionComputeRolling(SamProblem problem, const SamSolution *s, PetscBool wears, Vec field)

@@ -1,8 +1,8 @@
 /*
   Fields that follow from a solution: the gap u_z + h - rigid, the slip u_t + strain - rigid, the state of each cell.
 
-  They are not stored, but computed row by row where they are needed, always by these functions: so they are the same to
-  the last bit in the check, in the next step and in the results.
+  They are not stored, but computed row by row where they are needed. Since only these functions compute them, they are
+  the same to the last bit in the check, in the next step and in the results.
 */
 #include <petsam/private/solutionimpl.h>
 #include <petsam/private/balance.h>
@@ -196,7 +196,7 @@ void SamIncrementTurnRow(const SamIncrement *s, PetscInt j, double *const to[2])
     const ptrdiff_t k = first + i, l = k + cells;
     const double    x = to[0][i] = s->row[0][i], y = to[1][i] = s->row[1][i];
 
-    if (b0[k] == 0 && b1[k] == 0) continue; /* no shear, which turns by no angle */
+    if (b0[k] == 0 && b1[k] == 0) continue; /* there is no shear whose angle could turn */
     const double x0 = b0[k] > 0 ? q0[k] / b0[k] : 0, y0 = b0[k] > 0 ? q0[l] / b0[k] : 0;
     const double x1 = b1[k] > 0 ? q1[k] / b1[k] : 0, y1 = b1[k] > 0 ? q1[l] / b1[k] : 0;
     const double along = x0 * x1 + y0 * y1, weight = PetscMax(0.5 * (x0 * x0 + y0 * y0 + along), 0);
@@ -212,11 +212,11 @@ void SamIncrementTurnRow(const SamIncrement *s, PetscInt j, double *const to[2])
 #define TOUCHED 0.4
 
 /*
-  A cell slides under the mean of the bounds before and after, also where contact is made or left: then the bounds of
-  all cells together are friction times N, and what slides as a whole dissipates what its loads do. One that stuck
-  begins at any time within the step: on an average under b1 - (b1 - b0)/4, b0 and b1 being the bounds before and
-  after; where it is the slip that changes the bound, under their mean, too. Where no contact is left, what the
-  surfaces spring back by is not counted.
+  A cell slides under the mean of the bounds before and after the step, b0 and b1, also where contact is made or lost.
+  So the bounds of all cells add up to friction times N, and a contact that slides as a whole dissipates the work of its
+  loads. A cell that stuck before begins to slide at some time within the step, on average under b1 - (b1 - b0)/4; if
+  the slip itself changes the bound, the mean is used here, too. The springback of surfaces that lose contact does no
+  work.
 */
 SamSlide SamIncrementGetSlide(const SamIncrement *s, ptrdiff_t k, double share[2])
 {
@@ -310,7 +310,8 @@ void SamBalanceStore(const SamBalance *balance, PetscReal load[], PetscReal rigi
   }
 }
 
-/* Loads that differ by less, relative to the largest of their kind, are the same but for rounding; likewise motions. */
+/* Loads whose difference, relative to the largest of their kind, is smaller are equal but for rounding; likewise
+   motions. */
 #define ROUNDING 1e-13
 
 void SamControlSnap(const SamControl *to, PetscReal lever, SamBalanceKind kind, SamControl *control)
@@ -321,7 +322,7 @@ void SamControlSnap(const SamControl *to, PetscReal lever, SamBalanceKind kind, 
     const PetscInt c    = SamComponentsOf[kind][k];
     PetscReal      size = 0;
 
-    for (PetscInt n = 0; n < 3; n++) { /* in units of component c */
+    for (PetscInt n = 0; n < 3; n++) { /* in the units of component c */
       const PetscInt  other = SamComponentsOf[kind][n];
       const int       power = (c >= SAM_COMPONENT_MX) - (other >= SAM_COMPONENT_MX);
       const PetscReal unit  = power == 0 ? 1 : (power > 0) == (control->force[c] != 0) ? lever : 1 / lever;

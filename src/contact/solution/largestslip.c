@@ -1,32 +1,33 @@
 /*
   The largest slip, which is at the edge of contact and so between cells.
 
-  Where the bodies part, the displacements of their surfaces bend like the power 3/2 of the distance; and what the shear
-  bends is to the gap as the shear is to the pressure, since both vanish at the edge alike. So in
+  Where the bodies part, the displacements of their surfaces bend like the power 3/2 of the distance; and the bend by
+  the shear is to the gap as the shear is to the pressure, since both vanish alike at the edge. So in
 
       slip - M (q/p) gap
 
-  the bend cancels, and this is smooth across the edge, where it is the slip. M is the ratio of the compliances, by
-  shear and by pressure, of a wave as short as a cell: 1 across the edge of half-spaces, 1/(1 - nu) along it.
+  the bend cancels, and this is smooth across the edge, where it is the slip. M is the ratio of the tangential to the
+  normal compliance for a wave as short as a cell: 1 across the edge of half-spaces, 1/(1 - nu) along it.
 
-  It is interpolated along the axis of the grid that is closer to the edge's normal, from the cell in contact at the
-  edge, the one behind it and the one outside. The edge lies
+  The expression is interpolated along the axis of the grid that is closer to the edge's normal, from the cell in
+  contact at the edge, the one behind it and the one outside. The edge lies
 
       u = PLACE - r/(r + HALF),     r = E* gap/(h p sqrt(c))
 
   cells beyond the centre of the cell in contact: p is its pressure, the gap that of the cell outside, h their distance,
-  and c the normal's part along the axis. p and the gap follow from the same two cells, so that the form of the contact
-  farther away does not count, and edges of pads and of rough surfaces are as good as those of spheres. For a straight
-  edge along the other axis the formula holds within 1.1e-4 of a cell (fitted on Hertz's contact in plane strain, of
-  760 cells at 33 places); on spheres within 0.05.
+  and c the normal's part along the axis. Since p and the gap follow from the same two cells, the shape of the contact
+  farther away does not matter: edges of pads and of rough surfaces are found as accurately as edges of spheres. For a
+  straight edge along the other axis the formula holds within 1.1e-4 of a cell (fitted on Hertz's contact in plane
+  strain, of 760 cells at 33 places); on spheres within 0.05.
 
   In steady rolling the same holds for the differences of the displacements and of the gap over a cell along x, which
-  are those of the place between two cells. The pressure on dissimilar bodies stretches their surfaces by what vanishes
-  at the edge, too, and is subtracted. A film's shear bends nothing: with a film cells count only.
+  are those of the place between two cells. The strain that the pressure causes in dissimilar bodies also vanishes at
+  the edge, and is subtracted. A film's shear does not bend the surfaces, so that with a film only the values of cells
+  are used.
 
-  Measured by closed forms on grids of 24 to 130 cells at random places: in slip zones of one cell or more, slip and
-  slip velocity of cylinders are within 4 % (of two cells 1 %), slip of spheres within 6 % over the width in cells.
-  Cells alone are wrong by up to 24, 99 and 20 % in zones of one cell, and by 10, 21 and 11 % in zones of two.
+  Compared with closed forms on grids of 24 to 130 cells at random places, in slip zones of at least one cell: slip and
+  slip velocity of cylinders are within 4 % (1 % from two cells on), slip of spheres within 6 % divided by the width in
+  cells. Cells alone are wrong by up to 24, 99 and 20 % in zones of one cell, and by 10, 21 and 11 % in zones of two.
 */
 #include <petsam/private/bodyimpl.h>
 #include <petsam/private/layered.h>
@@ -37,7 +38,7 @@
 
 #define PLACE 0.825
 #define HALF  1.7274
-#define LEAST 1e-3 /* of the slip outside: less than this in contact is none, as where shear has no bound */
+#define LEAST 1e-3 /* part of the slip outside; less slip in contact counts as none, as with unbounded shear */
 #define HALO  2
 
 /* Values of a solution, of this rank's cells and with halos */
@@ -94,7 +95,7 @@ static PetscBool Touches(const Seen *s, PetscInt i, PetscInt j)
   return SamHaloAt(&s->p, 0, i, j) > 0;
 }
 
-/* Returns the gap of a cell, which is 0 in contact; beyond the grid the nearest one's. */
+/* Returns the gap of a cell, which is 0 in contact; beyond the grid, the gap of the nearest cell. */
 static double GapOf(const Seen *s, PetscInt i, PetscInt j)
 {
   const PetscInt    a = PetscClipInterval(i, 0, s->grid->nx - 1), b = PetscClipInterval(j, 0, s->grid->ny - 1);
@@ -110,7 +111,7 @@ static double GapOf(const Seen *s, PetscInt i, PetscInt j)
 /* A face between a cell in contact, (i, j), and the cell outside it, in the direction `step`; M q/p near the face */
 typedef struct {
   PetscInt i, j, step[2];
-  double   bend[2], strain; /* and by pressure, the strain along x over it */
+  double   bend[2], strain; /* and by pressure: its strain along x over it */
 } Face;
 
 /* Computes the part of a cell's slip that is smooth across the edge. */
@@ -128,8 +129,8 @@ static void SmoothOf(const Seen *s, const Face *face, PetscInt i, PetscInt j, do
 }
 
 /*
-  Finds the place of the edge beyond the centre of the cell in contact, in cells along the face's axis; false: the other
-  axis is closer to the edge's normal, by the slope of the gap in the cell outside.
+  Finds the place of the edge beyond the centre of the cell in contact, in cells along the face's axis. Returns false if
+  the other axis is closer to the edge's normal, which follows from the slope of the gap in the cell outside.
 */
 static PetscBool FindPlace(const Seen *s, Face *face, double p, double *u)
 {
@@ -146,7 +147,7 @@ static PetscBool FindPlace(const Seen *s, Face *face, double p, double *u)
   return PETSC_TRUE;
 }
 
-/* Computes the slip at the edge by a face of a cell in contact; false: it is not the face for it. */
+/* Computes the slip at the edge at a face of a cell in contact; false: another face has to be used. */
 static PetscBool SlipAtFace(const Seen *s, Face *face, ptrdiff_t k, double *size)
 {
   /* the difference over a cell ahead belongs to the face between both */
@@ -169,7 +170,7 @@ static PetscBool SlipAtFace(const Seen *s, Face *face, ptrdiff_t k, double *size
   return PETSC_TRUE;
 }
 
-/* Returns the largest slip of a cell in contact at its faces to cells outside; negative: it has none. */
+/* Returns the largest slip at the faces of a cell in contact to cells outside; negative if it has no such face. */
 static double SlipAtEdge(const Seen *s, PetscInt i, PetscInt j, ptrdiff_t k)
 {
   double most = -1;
@@ -217,7 +218,7 @@ PetscErrorCode SamSolutionFindSlip(SamProblem problem, SamState state, const Sam
   Vec           separation;
 
   PetscFunctionBegin;
-  /* nothing slid, at no centre */
+  /* nothing slid at the centres of cells */
   if (*most == 0) PetscFunctionReturn(PETSC_SUCCESS);
   if (SamPairFilm(SamElasticityGetPair(SamProblemGetElasticity(problem))) > 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamSolutionCreateSeparation(problem, state, SAM_TRIED, &separation));

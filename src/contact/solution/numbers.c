@@ -11,9 +11,10 @@
   order with the slip of step/direction.c. In the first step, and in steady rolling, it is -sum q.ds dA.
 */
 enum { CONTACT, STICK, DISSIPATED, STORED, ERROR, TURNED, BEFORE_TOUCH, SUMS };
-enum { PRESSURE, SHEAR, SLIP, MOSTS }; /* of the last two the squares */
+enum { PRESSURE, SHEAR, SLIP, MOSTS }; /* the last two are stored as squares */
 
-/* Returns how much more work slip in this rank's cell k would do if it had touched before the step (TOUCHES, below). */
+/* Returns the additional work of slip in this rank's cell k if the cell had touched before the step (TOUCHES,
+   below). */
 static double WorkBeforeTouch(const SamIncrement *increment, ptrdiff_t k, double dx, double dy)
 {
   double         share[2];
@@ -53,8 +54,8 @@ static void SumRow(const SamIncrement *increment, ptrdiff_t first, double sums[S
 }
 
 /*
-  The error of the dissipated energy by the length of the step, estimated cell by cell: what other rules of the same
-  order would make of it; a is the angle by which the shear turns in the step, ds the slip, b the bound.
+  The error of the dissipated energy that the length of the step causes, estimated cell by cell as the difference from
+  other rules of the same order; a is the angle by which the shear turns in the step, ds the slip, b the bound.
 
     slip in the direction at the end of the step   ENDS b abs(2 sin a/4) ds   first order: ds is turned by about a/2
     of cells that slid all the time                TURNS b a^2/24 ds          ds is the chord of an arc
@@ -64,19 +65,18 @@ static void SumRow(const SamIncrement *increment, ptrdiff_t first, double sums[S
     of dissimilar bodies, where contact is made    TOUCHES w^2/(w + dissipated)   w is what was slip before they touch
     of the first step of others                    all of it: loads in proportion need not slide at all
 
-  f is the part of the contact that sticks and bears the errors of the rest: the smaller it is, the farther each error
-  of the slip moves the bodies. Under a bound that changes, other errors cancel this; between both cases the estimate
-  is a mean of the two terms.
+  f is the part of the contact that sticks. The smaller it is, the farther each error of the slip moves the bodies. If
+  the bound changes, other errors cancel this effect; between both cases the estimate is a mean of the two terms.
 
-  The energy depends on the whole history of the slip, which no single step holds: so these terms have the right order
-  and are in proportion to the error, and their factors were fitted to the errors of random histories
-  (examples/manual/LOADS.md has how well that holds). They estimate its size, not its sign.
+  The energy depends on the whole history of the slip, which no single step contains. So these terms have the order of
+  the error and are proportional to it, and their factors were fitted to the errors of random histories
+  (examples/manual/LOADS.md gives the accuracy). They estimate the size of the error, not its sign.
 */
 #define ENDS    0.4
 #define TURNS   2.0
 #define STAYS   2.7
 #define LEAST   0.1  /* of f */
-#define CHANGES 0.05 /* change of the bound in a step, relative to it, from which on it does not stay */
+#define CHANGES 0.05 /* relative change of the bound in a step above which the bound counts as changing */
 #define BEGINS  0.6
 #define CROSSES 0.3
 #define TOUCHES 0.5
@@ -166,7 +166,7 @@ static const SamStateNumber declared[NUMBERS] = {
        0),
   {SAM_ENTERING, "J", NULL, SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_FALSE, SAM_JOIN_SUM, 0}};
 
-/* Numbers of the contact edge: known or not, area, faces and good faces; valid as long as the pressure */
+/* Numbers of the contact edge: 1 if known, area, faces and good faces; valid until the pressure changes */
 enum { KNOWN = SAM_CONTACT_EDGE_KNOWN, AREA, FACES = SAM_CONTACT_EDGE_FACES, GOOD, EDGE };
 static const SamStateNumber contact_edge = {
   SAM_CONTACT_EDGE, "1", "edge of contact", SAM_NUMBER_REAL, EDGE, PETSC_FALSE, PETSC_FALSE, SAM_JOIN_LAST, 0};
@@ -223,7 +223,7 @@ static PetscErrorCode SumCells(SamProblem problem, const SamSolution *last, cons
 
 /* ---- edges ---- */
 
-/* Computes the areas by the edges of contact and stick, and the largest shear, between stick and slip. */
+/* Computes the areas within the edges of contact and stick, and the largest shear, which is between stick and slip. */
 static PetscErrorCode FindEdges(SamProblem problem, const SamSolution *s, double contact[EDGE], double numbers[NUMBERS])
 {
   SamEdge       edge;
@@ -264,11 +264,11 @@ PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamState state, con
   streams = SamMotionOf(SamProblemGetElasticity(problem))->streams;
   PetscCall(SumCells(problem, before, s, numbers));
   PetscCall(SamSolutionFollowClosed(problem, state, before, s, numbers[STICK_CELLS], &numbers[CLOSED]));
-  if (streams) numbers[STORED_ENERGY] = NAN; /* u_t is that of a rolled distance */
+  if (streams) numbers[STORED_ENERGY] = NAN; /* u_t is per rolled distance */
   if (streams || SamProblemGetRolled(problem, &s->control, NULL) != 0)
-    numbers[ENERGY_ERROR] = NAN; /* estimated at one place */
+    numbers[ENERGY_ERROR] = NAN; /* it is estimated elsewhere */
   PetscCall(SamProblemAddOffset(problem, state, &s->control, NULL, NULL, &offset));
-  if (offset) numbers[STORED_ENERGY] = NAN; /* the displacements are not by the tractions alone */
+  if (offset) numbers[STORED_ENERGY] = NAN; /* the tractions alone do not cause the displacements */
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_EDGES], 0, 0, 0, 0));
   numbers[EDGE_ACCEPTED] = 0;
   numbers[SLIP_WIDTH]    = NAN;

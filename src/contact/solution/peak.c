@@ -1,20 +1,20 @@
 /*
-  The largest shear, which is mu p at the edge of a stick zone, and so between cells, whose shear is a mean.
+  The largest shear, which is mu p at the edge of a stick zone, and so lies between cells, whose values are means.
 
   1. Where the edge of stick is reconstructed, p^2 is interpolated to its points. It is smooth up to the contact's edge.
-  2. Where it is not, as under pads, or where the contact's edge is near, three cells tell. The slack of those that
-     stick, mu p - q.d with the direction d of the shear that slips, vanishes at the edge like the root of the distance,
-     also after a reversal, when |q| has been mu p everywhere. How far the edge is from the centre of the last of them,
-     follows from its slack over that of the cell behind it, y:
+  2. Where it is not, as under pads, or where the contact's edge is near, three cells are used. The slack of sticking
+  cells, mu p - q.d with the direction d of the slipping shear, vanishes at the edge like the root of the distance, also
+  after a reversal, when |q| has been mu p everywhere. The distance of the edge from the centre of the last sticking
+  cell follows from the ratio y of its slack to that of the cell behind it:
 
          u = -0.17551 + 1.01898 y + 0.32267 y^2 + 0.36465 y^3     cells,
 
      fitted on Hertz's contact in plane strain, of 760 cells at 66 places, within 5e-4: the pressure vanishes at the
-     contact's edge as the slack does there. The shear is that between this cell and the next, by p^2. Not with a
-     film, which makes the slack vanish otherwise.
+     contact's edge as the slack does at the stick edge. The shear is interpolated between this cell and the next, by
+     p^2. This is not used with a film, where the slack vanishes differently.
 
-  Spheres and cylinders have it within 3e-3 by the first, and by the second within 4 % in slip zones that are wider than
-  0.8 cells.
+  For spheres and cylinders the first is accurate within 3e-3, and the second within 4 % in slip zones wider than 0.8
+  cells.
 */
 #include <petsam/private/bodyimpl.h>
 #include <petsam/private/rows.h>
@@ -23,7 +23,7 @@
 #include <petsam/private/problem.h>
 
 #define BEHIND   2     /* cells about a point of the reconstructed edge that must be in contact */
-#define FARTHEST 0.825 /* cells: an edge beyond is that of the next cell */
+#define FARTHEST 0.825 /* in cells: an edge farther away belongs to the next cell */
 
 /* Fields of a solution with halos; `cell`: state of each cell, or KNOWN where the stick edge is reconstructed */
 #define KNOWN (-1)
@@ -54,14 +54,14 @@ static double SquareAt(const SamHalo *p, double x, double y)
          ty * ((1 - tx) * q[nx] * q[nx] + tx * q[nx + 1] * q[nx + 1]);
 }
 
-/* Finds the largest shear at the points of the edge, whose cells become known. */
+/* Finds the largest shear at the reconstructed points of the edge, and marks their cells as known. */
 static void FindAtPoints(const Seen *s, const SamEdge *stick, double cell[], double *most)
 {
   const double *b = s->b.own;
 
   for (PetscInt n = 0; n < stick->count; n++) {
     const PetscInt k = stick->cell[n], i = k % s->grid->nx, j = s->grid->row_start + k / s->grid->nx;
-    /* counted from the grid's first row and not from the rank's, whose sums would round otherwise */
+    /* coordinates from the grid's first row, since sums from the rank's first row would round differently */
     const double x = (double)((stick->x[n] - SamGridX(s->grid, 0)) / s->grid->dx),
                  y = (double)((stick->y[n] - SamGridY(s->grid, 0)) / s->grid->dy);
     double shear   = 0;
@@ -73,7 +73,7 @@ static void FindAtPoints(const Seen *s, const SamEdge *stick, double cell[], dou
   }
 }
 
-/* Returns the slack over mu of a cell, in the direction of a shear. */
+/* Returns the slack of a cell, divided by mu, in the direction of a shear. */
 static double SlackAt(const Seen *s, PetscInt i, PetscInt j, const double shear[2])
 {
   const double p = SamHaloAt(&s->p, 0, i, j), b = SamHaloAt(&s->b, 0, i, j), size = hypot(shear[0], shear[1]);

@@ -1,17 +1,17 @@
 /*
-  The shear under a bound that follows the slip of the step, as of friction that changes with slip.
+  The shear under a bound that depends on the slip of the step, for example if friction changes with slip.
 
   The slip s depends on the bound b through the tangential problem, and the bound on the slip: b = B(p, |s(b)|).
-  Algorithm, from the bound without slip on, or by that of the last pass of dissimilar bodies; a pass:
+  Algorithm. The first bound is that without slip, or, for dissimilar bodies, that of the last pass. A pass:
     1. The tangential problem with b, from the last shear on, gives q and s.
-    2. If B(p, |s|) is b, up to a part of the tolerance, the step is solved.
-    3. Else Anderson's method makes the next b of this and the last passes (fixedpoint.c). Where the loads are too much
-       for that, the next b is B(p, |s|) itself.
+    2. If B(p, |s|) equals b within a part of the tolerance, the step is solved.
+    3. Else Anderson's method makes the next b of this and the last passes (fixedpoint.c). If this bound cannot carry
+       the loads, the next b is B(p, |s|) itself.
   Passes without acceleration multiply the error by dB/ds times the displacement of the slip zone by a unit shear.
   Where friction falls faster than the bodies unload, the motion is unstable: the surfaces jump, and there need not be a
   solution nearby.
 
-  A bound that does not follow the slip takes one pass.
+  A bound that does not depend on the slip takes one pass.
 */
 #include "stepimpl.h"
 #include <petsam/private/elasticity.h>
@@ -19,7 +19,7 @@
 #include <petsam/private/problem.h>
 
 #define PASSES 50
-/* Parts of the tolerance to which the bound, and the tangential problem of a pass, are solved: the check adds both. */
+/* Parts of the tolerance for the bound and for the tangential problem of a pass; the check adds both errors. */
 #define BOUND_PART 0.3
 #define SHEAR_PART 0.5
 
@@ -45,13 +45,13 @@ static PetscErrorCode ComputeSlip(SamSolve *w)
 
 typedef struct {
   SamSolve *w;
-  PetscBool has_shear, mixed; /* mixed: the argument is made of results that had a solution */
+  PetscBool has_shear, mixed; /* mixed: the argument combines results that had a solution */
   PetscReal rtol, change;     /* the largest and the last change of the bound */
 } Passes;
 
 /*
-  Steps 1 and 2: B(p, |s|), and its difference from the bound. A tangential problem without a solution ends the passes,
-  and is the caller's to judge.
+  Steps 1 and 2: B(p, |s|), and its difference from the bound. A tangential problem without a solution ends the passes;
+  the caller handles it.
 */
 static PetscErrorCode Pass(void *context, PetscInt pass, Vec found, SamPassEnd *end)
 {
@@ -106,7 +106,7 @@ PetscErrorCode SamSolveShear(SamSolve *w, PetscBool has_shear, PetscReal rtol, S
   if (w->pushed)
     PetscCall(SamProblemAddOffset(w->task->problem, w->task->state, &w->s->control, NULL, w->pushed, NULL));
   if (!SamProblemFollowsSlip(w->task->problem)) {
-    PetscCall(SamSolveTangential(w, has_shear)); /* with the effort that the caller has set */
+    PetscCall(SamSolveTangential(w, has_shear)); /* with the effort set by the caller */
     SamSolverSetEffort(solver, 0, SAM_EFFORT_FULL);
     PetscFunctionReturn(PETSC_SUCCESS);
   }

@@ -5,18 +5,18 @@
   Algorithm; unknown is the lift d, the normal displacement by the shear. A pass:
     1. The normal problem with the separation h + d gives p.
     2. The tangential problem with the bound mu p (bound.c) and the displacement by p gives q.
-    3. The lift by q should be d. If it is, up to the error of the normal problem with it, the step is solved: then both
-       problems are, with one and the same p and q.
+    3. The lift by q should be d. If it is, within the error of the normal problem with this lift, the step is solved:
+       the same p and q then solve both problems.
     4. Else Anderson's method makes the next d of this and the last passes (fixedpoint.c).
   Plain passes (Panagiotopoulos 1975, Ing.-Arch. 44, 421) would shrink the error by friction times Dundurs' beta a pass,
   and diverge beyond 1: where cells slip, q = mu p e turns the coupling into a rotation of the pressure's waves, with
   imaginary eigenvalues, for which Anderson's method is made.
 
-  Each pass is solved only a little more accurately than the last error requires; where that leaves the error as it is,
-  the shear more accurately: a nearly uniform one on periodic bodies displaces far less than its error may, and the
-  error is relative to the displacement. The pressure starts from that of the
-  last pass and its product. So does the shear once it is near; farther away nested grids find the slip zones of the new
-  pressure faster.
+  Each pass is solved only a little more accurately than the last error requires. If the error does not shrink, the
+  shear is solved more accurately: a nearly uniform shear on periodic bodies may cause a displacement far smaller than
+  that of its error, and the error is relative to the displacement. The pressure starts from that of the last pass and
+  its product. So does the shear near the solution; farther away nested grids find the slip zones of the new pressure
+  faster.
 
   Gross slip is decided by the coupled problem: where the bound cannot carry the loads, the shear is that of sliding,
   and the passes continue. If they end there, the whole contact slides, and the limit is that of the last pressure.
@@ -27,15 +27,15 @@
 #include <petsam/private/tangential.h>
 #include <math.h>
 
-/* The error that the first pass is solved to, and with a guess of p and q. */
+/* Error to which the first pass is solved, without and with a guess of p and q */
 #define FIRST 1e-2
 #define GUESS 1e-3
-/* A pass that leaves more than this part of the error looks for contact everywhere again. */
+/* A pass that leaves a larger part of the error searches all cells for contact again. */
 #define LOOK 0.9
-/* The error up to which a pass starts from the last shear, and is solved to the end. */
+/* Error below which a pass starts from the last shear and is solved completely */
 #define NEAR  1e-3
 #define EXACT 1e-5
-/* Passes in a row that may end without it before. */
+/* After so many consecutive passes that did not find the shear in a brief solve, the solve is complete. */
 #define PATIENCE 2
 /* Passes without progress before the tangential tolerance is tightened, first and later, and the factor on it. */
 #define WAITS      8
@@ -44,7 +44,7 @@
 /* Parts of the last error, and of the tolerances, to which the problems of a pass are solved. */
 #define NORMAL_PART      0.1
 #define NORMAL_FINAL     0.3
-#define NORMAL_ENOUGH    0.7 /* the check's scale is the whole displacement, which may be smaller than that by p */
+#define NORMAL_ENOUGH    0.7 /* the check's scale, the whole displacement, may be smaller than the one by p */
 #define TANGENTIAL_FINAL 0.5
 
 typedef struct {
@@ -54,13 +54,13 @@ typedef struct {
   PetscBool looks;   /* contact may exist outside of the cells searched so far */
   PetscBool slides;  /* the bound of this pass cannot carry the loads */
   PetscInt  stuck;   /* number of passes in a row whose shear was not found within a few iterations */
-  PetscReal least;   /* the least error so far */
-  PetscInt  waits;   /* passes since it was found */
+  PetscReal least;   /* least error so far */
+  PetscInt  waits;   /* passes since the least error */
   PetscReal sharper; /* factor on the tolerance of the shear */
   PetscBool rough;   /* the slip's direction is not known yet */
 } Passes;
 
-/* Steps 1 and 2. The first pass starts from what the start has a guess of, later ones from the last one. */
+/* Steps 1 and 2. The first pass starts from the guesses, later passes from the last pass. */
 static PetscErrorCode Solve(Passes *p, PetscInt pass)
 {
   SamSolve       *s            = p->s;
@@ -78,7 +78,7 @@ static PetscErrorCode Solve(Passes *p, PetscInt pass)
   PetscFunctionBegin;
   SamSolverSetEffort(SamNormalAsSolver(s->task->normal), PetscMax(NORMAL_FINAL * p->rtol[0], NORMAL_PART * error),
                      p->looks ? SAM_EFFORT_FULL : SAM_EFFORT_CHECK_SUPPORT);
-  /* of a pressure that is not smooth yet, Newton's method may get stuck on the shear; that is not worth its while */
+  /* Newton's method may get stuck on the shear of a pressure that is not smooth yet, and would waste iterations */
   SamSolverSetEffort(SamTangentialAsSolver(s->task->tangential), rtol, effort);
   PetscCall(VecCopy(s->lift, s->h));
   PetscCall(SamSolveNormal(s, has_pressure, pass == 1 && s->has_shear));
@@ -95,13 +95,13 @@ static PetscErrorCode Solve(Passes *p, PetscInt pass)
   p->stuck  = brief && reason == SAM_SOLVER_DIVERGED_ITS ? p->stuck + 1 : 0;
   p->slides = reason == SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM && SamTangentialGetLimit(s->task->tangential) > 0;
   PetscCall(SamSolverGetStatistics(SamTangentialAsSolver(s->task->tangential), &left, NULL, NULL, NULL));
-  /* rounding may leave more than a pass asks for: the user's tolerance counts */
+  /* rounding may exceed the tolerance of a pass; then the user's tolerance decides */
   if (!p->slides && !p->stuck && !(reason == SAM_SOLVER_DIVERGED_STAGNATED && left <= p->rtol[1]))
     PetscCall(SamSolveJudge(s, SAM_BALANCE_TANGENTIAL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Step 3. `solved`: the pressure solves the normal problem with the lift by the shear, and the shear is good enough. */
+/* Step 3. `solved`: the pressure solves the normal problem with this lift, and the shear is accurate enough. */
 static PetscErrorCode Measure(Passes *p, Vec lift, PetscBool *solved)
 {
   SamSolve       *s      = p->s;
@@ -143,7 +143,7 @@ static PetscErrorCode ComputeChange(SamGrid grid, Vec now, Vec previous, PetscRe
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Finds out whether the passes end because neither p nor q changes any more. */
+/* Finds out if the passes end because neither p nor q changes any more. */
 static PetscErrorCode Compare(Passes *p, PetscInt pass, PetscBool *solved)
 {
   SamSolve                 *s   = p->s;

@@ -1,5 +1,5 @@
 /*
-  The slip in a step: its direction, and where it begins.
+  The slip in a step: its direction, and the place where it begins.
 
   Direction. Where a point slides, its slip velocity is opposite to the shear at every instant, while |q| = b. From one
   step to the next, from q0 under b0 to q under b, this has to be integrated. With r = q/b, the slip ds of the step is
@@ -9,34 +9,34 @@
     at mid step              r + w r0,  w = max(0, r0.(r0 + r)/2)
 
   Let q turn by the angle a in a step. A slip opposite to r is that of a shear half a step ahead: ds is turned by a/2.
-  So the solution itself, and with it the energy, are wrong to first order in the steps wherever the shear turns, as
-  under T_x and T_y out of phase. Where it does not turn, both rules agree. r + r0 bisects the angle: its error is of
-  third order in a step, of second order in all, and w is 1 up to a^2 where a cell slides all the time. Where a cell
-  stuck before, its slip begins within the step in a direction between r0 and r; there are few such cells, in
-  proportion to the step, so that any w does to second order. At the end |q| = b holds with both rules, unlike with
-  the midpoint rule of plasticity, which holds it at mid step only, and rings where stick turns to slip.
+  So the solution itself, and with it the energy, have errors of first order in the steps wherever the shear turns, for
+  example under T_x and T_y out of phase. Where it does not turn, both rules agree. r + r0 bisects the angle: its error
+  is of third order in a step, so of second order in the sum, and w is 1 up to a^2 where a cell slides all the time.
+  Where a cell stuck before, its slip begins within the step in a direction between r0 and r. The number of such cells
+  is proportional to the step, so any w is accurate to second order. Both rules fulfil |q| = b at the end of the step.
+  The midpoint rule of plasticity fulfils it at mid step only, and oscillates where stick turns to slip.
 
-  Where it begins. A cell that comes into contact within the step has moved freely before. Held at its place before the
-  step it would take too much shear, of the first order in the step. Where the whole contact sticks and N grows, the
-  shear grows like the pressure, dq = tau dp with tau = dT/dN, whatever the shape (Ciavarella 1998, Jaeger 1998). Then
-  surfaces that are g0 apart before the step have moved over each other until they touch by
+  Beginning. A cell that comes into contact within the step has moved freely before. If slip were measured from its
+  place before the step, it would take too much shear, by an error of first order in the step. Where the whole contact
+  sticks and N grows, the shear grows like the pressure, dq = tau dp with tau = dT/dN, whatever the shape (Ciavarella
+  1998, Jaeger 1998). Then surfaces that are g0 apart before the step have moved over each other until they touch by
 
     -kappa tau' g0,  tau' = tau min(1, mu/|tau|)
 
   kappa being the ratio of the tangential to the normal compliance. Slip in the step begins there. In a step from
-  no contact g0 is the distance of the undeformed bodies, if all loads grow in proportion. If contact has not grown by
-  N, or N is applied first, this is zero, as at a place that contact leaves. Of bodies with layers or a shape of
-  their own kappa is that of the materials at the surface. At the edge pressure and shear grow like those of a punch
-  that sticks, and tau is the ratio there. A displacement that is linear in place about the centre counts twice at the
-  edge of a round punch, compared to a uniform one: so does tilting in the growth of the pressure, and the strain by
-  bulk stress, e, in that of the shear,
+  no contact g0 is the distance of the undeformed bodies, if all loads grow in proportion. If the contact has not grown
+  by N, or if N is applied first, this is zero, as at a place that loses contact. For bodies with layers or a shape of
+  their own, kappa is that of the materials at the surface. At the edge pressure and shear grow like those of a punch
+  that sticks, and tau is their ratio there. At the edge of a round punch a displacement that is linear in the place
+  from the centre counts twice compared to a uniform one. So do tilting, in the growth of the pressure, and the strain e
+  by bulk stress, in the growth of the shear:
 
     kappa tau = (kappa dT/dN d - 2 e r)/(d + 2 tilt),
 
-  d being the approach; in plane strain, where it has no limit, it is 4 dN/(pi E*); from no contact tau is that of N.
-  The motion by M_z there is not estimated: its error stays of first order. The motion by the pressure of dissimilar
-  bodies is of first order too, in the other direction: from a Dundurs' constant of MOST_DUNDURS on both are left out,
-  as they cancel in part.
+  d being the approach. In plane strain, where the approach is unbounded, d is 4 dN/(pi E*). From no contact, tau is
+  that of N. The motion by M_z there is not estimated: its error stays of first order. The motion by the pressure of
+  dissimilar bodies is of first order too, in the other direction: if Dundurs' constant is at least MOST_DUNDURS, both
+  corrections are omitted, as they partly cancel.
 
   The pressure of dissimilar bodies moves the surfaces at all times, outside of contact too, and most of the slip of a
   growing contact is in cells that touch within the step. If they move by ds in the step, the part
@@ -45,21 +45,21 @@
 
   is before they touch, g0 being the gap before the step, p1 the pressure after it, G and P the largest of both: the gap
   grows like the power 3/2 of the distance from the old edge, the pressure like its root behind the new one. In a first
-  step, from nothing, it is the power 3/2 of the distance of the undeformed bodies, which a sphere's N grows like; if
-  the step has tangential loads, too, and the next one does not continue it in proportion, it applies N first, and all
-  slip counts. The rest works against 0.4 of the bound after the step: behind a moving edge slip fades. Measured on a
-  rigid sphere on a half-space, N alone in 3, 5, 10, 20 equal steps: the energy is too large by 44, 17, 4 and 1 %, and
-  was by 330, 150, 53 and 18 %.
+  step, from no contact, the part is the power 3/2 of the distance of the undeformed bodies, since the N of a sphere
+  grows like that. If such a step also has tangential loads, and the next one does not continue it in proportion, N is
+  applied first, and all slip counts. The rest works against 0.4 of the bound after the step: behind a moving edge slip
+  fades. Measured on a rigid sphere on a half-space, N alone in 3, 5, 10, 20 equal steps: the energy is too large by 44,
+  17, 4 and 1 %, and was by 330, 150, 53 and 18 %.
 
-  Algorithm. R(q) turns r + w r0 to r; so R ds is opposite to r, and with t = ds - R ds known, the tangential problem
-  with the offset lessened by t is that with the rule at the end.
+  Algorithm. R(q) turns r + w r0 to r; so R ds is opposite to r. If t = ds - R ds is known, the tangential problem with
+  the offset reduced by t uses the rule at the end of the step.
     1. The tangential problem with t of the step before, times the square of the ratio of the steps, gives q and ds, to
        a tolerance that t bears.
     2. t = ds - R(q) ds of the cells that slide. Its error is of second order in the step, relative to ds.
     3. The tangential problem with this t, from that q on.
-  For dissimilar bodies 1 and 3 are the passes of coupling.c. While all loads lie on a line, step 3 suffices: the shear
-  keeps its direction, but for the part across that Poisson's ratio causes, whose work cancels. The motion of cells
-  before they touch is known with the loads: if loads are unknowns, after step 1.
+  For dissimilar bodies steps 1 and 3 are the passes of coupling.c. While all loads lie on a line, step 3 suffices: the
+  shear keeps its direction, except for the transverse part that Poisson's ratio causes, whose work cancels. The motion
+  of cells before they touch follows from the loads: if loads are unknown, after step 1.
 
   References: M. Ortiz, E. P. Popov, Accuracy and stability of integration algorithms for elastoplastic constitutive
   relations, Int. J. Numer. Methods Eng. 21 (1985) 1561-1576; M. Ciavarella, The generalized Cattaneo partial slip plane
@@ -83,7 +83,7 @@ static PetscReal LoadBefore(SamSolve *w, PetscInt component)
   return w->task->before ? w->task->before->load[component] : 0;
 }
 
-/* True if contact grows with N and the other loads, and shear says how the surfaces move where it is made. */
+/* True if contact grows with N and the other loads, and the shear determines the motion where contact is made. */
 static PetscBool Grows(SamSolve *w)
 {
   const SamPair   pair    = SamElasticityGetPair(w->task->elasticity);
@@ -108,8 +108,8 @@ static double RatioOfCompliances(SamSolve *w, int c)
 }
 
 /*
-  Increment of the bodies' motion in a step: the approach about the centre of the pressure before, the tilt, the strain
-  of the surfaces, and the ratio of the changes of the tangential loads to that of N.
+  Increment of the bodies' motion in a step: the approach about the previous centre of pressure, the tilt, the strain of
+  the surfaces, and the ratio of the changes of the tangential loads to that of N.
 */
 typedef struct {
   double    center[2], uniform, tilt[2], tau[2];
@@ -143,7 +143,7 @@ static PetscErrorCode FindApproach(SamSolve *w, PetscBool found, Approach *a)
   const double       normal = (double)(now->load[SAM_COMPONENT_N] - load);
 
   PetscFunctionBegin;
-  *a = (Approach){.uniform = 1}; /* from no contact: all that grows is by N */
+  *a = (Approach){.uniform = 1}; /* from no contact: everything grows by N */
   for (PetscInt c = 0; c < 2; c++) {
     const PetscInt  k   = SamComponentsOf[SAM_BALANCE_TANGENTIAL][c];
     const PetscReal was = LoadBefore(w, k);
@@ -166,7 +166,7 @@ static void ShearAtEdge(const Approach *a, const double kappa[2], double x, doub
   for (int c = 0; c < 2; c++) tau[c] = a->uniform > 0 ? (a->tau[c] * a->uniform - 2 * moved[c] / kappa[c]) / normal : 0;
 }
 
-/* Computes the gap before the step of cells that were open; of others 0. */
+/* Computes the gap before the step in cells that were open; it is 0 in others. */
 static PetscErrorCode FindGaps(SamSolve *w, Vec gap)
 {
   const double *p;
@@ -182,11 +182,11 @@ static PetscErrorCode FindGaps(SamSolve *w, Vec gap)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Computes the distance of the undeformed bodies instead, in a step from no contact, of cells in contact after it. */
+/* Computes the distance of the undeformed bodies instead, in a step from no contact, for cells in contact after it. */
 static PetscErrorCode FindDistances(SamSolve *w, Vec distance)
 {
   const PetscInt nx    = w->task->grid->nx;
-  double         least = -INFINITY; /* its negative */
+  double         least = -INFINITY; /* the negative of the least distance */
   const double  *p, *h;
   double        *zero, *g;
   SamRigid       motion;
@@ -213,7 +213,7 @@ static PetscErrorCode FindDistances(SamSolve *w, Vec distance)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Sets what the surfaces have moved by in cells that come into contact, by the loads, given or `found`. */
+/* Sets the motion of the surfaces in cells before they touch, from the loads, given or `found`. */
 static PetscErrorCode SetEntering(SamSolve *w, PetscBool found, Vec aside)
 {
   const SamSolution *s        = w->s;
@@ -250,7 +250,7 @@ static PetscErrorCode SetEntering(SamSolve *w, PetscBool found, Vec aside)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Sets t of cells that slide all the time or begin to. */
+/* Sets t in cells that slide all the time or begin to slide. */
 static PetscErrorCode SetTurn(SamSolve *w, Vec aside)
 {
   const SamGrid grid = w->task->grid;
@@ -303,7 +303,7 @@ static PetscErrorCode PredictTurn(SamSolve *w, Vec aside)
 }
 
 /*
-  Finds the largest gap before and the largest pressure after the step of cells that come into contact; of all ranks.
+  Finds the largest gap before and the largest pressure after the step among cells of all ranks that come into contact.
 */
 static PetscErrorCode MeasureTouching(SamGrid grid, const double p0[], const double p[], const double g[],
                                       double most[2])
@@ -359,7 +359,7 @@ static PetscErrorCode FindFirstTimes(SamSolve *w, Vec time)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Adds what the surfaces have moved by until they touched, by the slip of the solution so far. */
+/* Adds the motion of the surfaces until they touched, from the slip of the solution so far. */
 static PetscErrorCode AddTouching(SamSolve *w, Vec aside)
 {
   const SamGrid   grid    = w->task->grid;

@@ -1,18 +1,18 @@
 /*
   Fixed-point iterations x <- g(x) on fields with Anderson's acceleration: the driver of coupling.c and bound.c.
 
-  The next x is sum t_i g(x_i) over the last iterates, with the t of sum 1 for which sum t_i (g(x_i) - x_i) is smallest.
-  For a linear g that is what a Krylov method makes of it, so that an iteration with the eigenvalues +- i r, which
-  converges slowly or not at all, converges like r/(1 + sqrt(1 + r^2)).
+  The next x is sum t_i g(x_i) over the last iterates; the t, with sum 1, minimise sum t_i (g(x_i) - x_i). For a linear
+  g this is equivalent to a Krylov method. So an iteration with the eigenvalues +- i r, which converges slowly or
+  diverges without acceleration, converges like r/(1 + sqrt(1 + r^2)).
 
   References: Anderson 1965, J. ACM 12, 547; Walker and Ni 2011, SIAM J. Numer. Anal. 49, 1715.
 */
 #include "stepimpl.h"
 #include <math.h>
 
-/* Last iterates that are kept, of one component. */
+/* Number of last iterates that are stored, for one component */
 #define DEPTH 6
-/* Eigenvalues of the scaled matrix of products below this are rounding. */
+/* Smaller eigenvalues of the scaled matrix of products are rounding. */
 #define LEAST 1e-10
 /* Largest sum of the absolute weights of the combined results; it bounds the amplification of their errors */
 #define MOST 10.0
@@ -20,7 +20,7 @@
 typedef struct {
   SamGrid  grid;
   PetscInt components, depth, count, newest;
-  Vec      result[DEPTH], change[DEPTH]; /* change: result - argument, where it counts */
+  Vec      result[DEPTH], change[DEPTH]; /* change: result minus argument, in cells that count */
   double   products[DEPTH][DEPTH];       /* of the changes */
 } Mixing;
 
@@ -66,7 +66,7 @@ static PetscErrorCode Add(Mixing *m, Vec weight, Vec result, Vec argument)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The parts t of all iterates, with the sum 1. */
+/* Computes the parts t of all iterates; their sum is 1. */
 static void FindParts(const Mixing *m, double t[DEPTH])
 {
   const PetscInt k = m->newest;

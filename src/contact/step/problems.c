@@ -1,4 +1,4 @@
-/* The two problems of a step: each solved once, and the messages where it has no solution. */
+/* The two problems of a step, each solved once, and the messages if one has no solution. */
 #include "stepimpl.h"
 #include <petsam/private/elasticity.h>
 #include <petsam/private/balance.h>
@@ -47,7 +47,7 @@ static PetscErrorCode DescribeImpossible(SamSolve *w, char message[], size_t siz
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Copies the pressure of the committed state, where nothing that it depends on has changed. */
+/* Copies the pressure of the committed state if nothing that it depends on has changed. */
 static PetscErrorCode TakePressure(SamSolve *w)
 {
   const SamSolution *from = w->task->committed;
@@ -78,7 +78,7 @@ static PetscErrorCode GetSeparation(SamSolve *w, Vec *h)
 }
 
 /*
-  Scales a shear by the change of the pressure from `pressure_before`, cell by cell: cells that slip continue to slip.
+  Scales a shear, cell by cell, by the change of the pressure from `pressure_before`, so that slipping cells slip on.
 */
 static PetscErrorCode FollowPressure(SamGrid grid, Vec pressure_before, Vec pressure, Vec shear)
 {
@@ -102,7 +102,7 @@ static PetscErrorCode FollowPressure(SamGrid grid, Vec pressure_before, Vec pres
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* True if the same step one cycle before has the pressure of this step. */
+/* True if the pressure of this step is known from the same step one cycle before. */
 static PetscBool IsKnown(const SamSolve *w)
 {
   SamControl before = w->s->control;
@@ -146,8 +146,8 @@ PetscErrorCode SamSolveNormal(SamSolve *w, PetscBool has_pressure, PetscBool has
 /* ---- the tangential problem ---- */
 
 /*
-  Writes the message for gross slip: the tangential loads, and the limit of each in the same proportions. Under a bound
-  that follows the slip that is no limit: smaller steps slip otherwise, and may reach more.
+  Writes the message for gross slip: the tangential loads, and the limit of each in the same proportions. If the bound
+  depends on the slip, no limit is given: smaller steps slip differently, and may reach larger loads.
 */
 static PetscErrorCode DescribeSliding(SamSolve *w, char message[], size_t size)
 {
@@ -168,7 +168,7 @@ static PetscErrorCode DescribeSliding(SamSolve *w, char message[], size_t size)
     if (!w->tangential.force[k] || load == 0) continue;
     PetscCall(PetscSNPrintf(text, sizeof(text), "%s%s = %.8g %s (%s%.8g%s)", loaded++ ? ", " : "", name->load, load,
                             SamUnitOn(w->task->grid, name->load_unit), follows ? "" : "limit ",
-                            (double)SamTangentialGetLimit(w->task->tangential) * load + 0.0, /* and not -0 */
+                            (double)SamTangentialGetLimit(w->task->tangential) * load + 0.0, /* avoids -0 */
                             follows ? " at the slip of the last iteration" : ""));
     PetscCall(PetscStrlcat(message, text, size));
     if (loaded > 1) PetscCall(PetscStrlcat(instead, ", ", sizeof(instead)));
@@ -183,10 +183,11 @@ static PetscErrorCode DescribeSliding(SamSolve *w, char message[], size_t size)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Residuals up to this, where a solver stagnates, are rounding: less tolerance than that cannot be had. */
+/* Smaller residuals at which a solver stagnates are rounding: a smaller tolerance cannot be reached. */
 #define ROUNDING 1e-9
 
-/* The message for a solver that has not converged; what is rounding names the tolerance that can be had. */
+/* Writes the message for a solver that has not converged; if rounding is the cause, it names the reachable
+   tolerance. */
 static PetscErrorCode DescribeFailure(SamSolve *w, const char name[], SamSolver solver, SamSolverReason reason)
 {
   PetscReal left, rtol;
@@ -197,7 +198,7 @@ static PetscErrorCode DescribeFailure(SamSolve *w, const char name[], SamSolver 
   PetscCall(SamSolverGetTolerances(solver, &rtol, NULL));
   if (reason == SAM_SOLVER_DIVERGED_STAGNATED && left > 0 && left <= ROUNDING) {
     (void)snprintf(more, sizeof(more), ": rounding leaves no less: use a tolerance of %.1g",
-                   pow(10, ceil(log10(2 * (double)left)))); /* the residual omits some rounding */
+                   pow(10, ceil(log10(2 * (double)left)))); /* as the residual omits some rounding */
     PetscCall(PetscSNPrintf(w->step->setting, sizeof(w->step->setting), "%s_rtol", name));
   }
   PetscCall(PetscSNPrintf(message, sizeof(message),
@@ -246,7 +247,8 @@ static PetscErrorCode AddStrain(SamGrid grid, const SamStrain *e, Vec field)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Computes w - S of the tangential problem: displacements not by the shear, minus the slip so far; NULL for zero. */
+/* Computes w - S of the tangential problem: all displacements but those by the shear, minus the slip so far; NULL:
+   zero. */
 static PetscErrorCode CreateOffset(SamSolve *w, Vec *offset)
 {
   const SamStepTask *task = w->task;
@@ -296,8 +298,8 @@ PetscErrorCode SamSolveDisplace(SamSolve *w)
 }
 
 /*
-  From the same step one cycle before: the shear under the bound, if that start is near. `solved`: it was, and the
-  tangential problem is.
+  Solves from the shear of the same step one cycle before, put under the bound, if that start is near enough. `solved`:
+  true if it was, and the tangential problem is solved.
 */
 static PetscErrorCode SolveFromKept(SamSolve *w, SamCachedStep kept, Vec offset, SamBalance *balance, PetscBool *solved)
 {
@@ -343,7 +345,7 @@ PetscErrorCode SamSolveTangential(SamSolve *w, PetscBool has_shear)
     if (balance.force[k]) balance.rigid[k] = w->rigid[k];
   given = balance;
   if (w->kept) PetscCall(SolveFromKept(w, w->kept, offset, &balance, &solved));
-  w->kept = NULL; /* later passes start from the last one */
+  w->kept = NULL; /* later passes start from the last pass */
   if (!solved) {
     balance = given;
     PetscCall(SamTangentialSolveKeeping(w->task->tangential, w->s->bound, offset, &balance, has_shear, w->s->shear,
@@ -356,7 +358,7 @@ PetscErrorCode SamSolveTangential(SamSolve *w, PetscBool has_shear)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The pressure is not right, so that no shear is sought: there is none, and displacements that are not given stay. */
+/* Sets the shear to zero, since the pressure is wrong; displacements that are not given stay as they are. */
 PetscErrorCode SamSolveZeroShear(SamSolve *w)
 {
   SamBalance balance = w->tangential;

@@ -59,7 +59,8 @@ static PetscErrorCode End(SamSolve *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Solves the tangential problem under a bound from the pressure, twice if need be, unless the normal one has failed. */
+/* Solves the tangential problem under a bound from the pressure, twice if necessary, unless the normal problem
+   failed. */
 static PetscErrorCode SolveShear(SamSolve *w, PetscBool has_shear)
 {
   const PetscBool     twice  = SamSolveIsTwice(w);
@@ -82,7 +83,7 @@ static PetscErrorCode SolveShear(SamSolve *w, PetscBool has_shear)
     PetscCall(SamSolveShear(w, has_shear, SAM_ROUGH * rtol, SAM_EFFORT_FULL));
     reason = SamSolverGetReason(SamTangentialAsSolver(w->task->tangential));
     if (reason > 0) PetscCall(SamSolveSetAside(w, PETSC_TRUE));
-    w->kept = kept; /* nearer than the solution so far, where the cycle repeats itself */
+    w->kept = kept; /* it is nearer than the solution so far if the cycle repeats itself */
   }
   if (reason > 0) PetscCall(SamSolveShear(w, has_shear || twice, rtol, SAM_EFFORT_FULL));
   PetscCall(SamSolveJudge(w, SAM_BALANCE_TANGENTIAL));
@@ -114,13 +115,13 @@ static PetscErrorCode SolveAgain(SamLawContact *contact, PetscBool *solved)
 
   PetscFunctionBegin;
   w->has_pressure = w->has_shear = PETSC_TRUE;
-  w->shear_product.n[0]          = 0; /* the shear follows the pressure first */
+  w->shear_product.n[0]          = 0; /* at first the shear is scaled with the pressure */
   PetscCall(SolveProblems(w));
   *solved = w->step->status == SAM_STATUS_CONVERGED;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Solves for the tractions together with the state of a law that depends on them. */
+/* Solves for the tractions together with the state of a law that depends on the tractions. */
 static PetscErrorCode FollowTractions(SamSolve *w)
 {
   SamLawContact contact = {.state      = w->task->state,

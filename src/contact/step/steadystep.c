@@ -1,17 +1,17 @@
 /*
-  The numbers of rolling without change: frictional work per rolled distance, and what finer grids would give.
+  The numbers of steady rolling: frictional work per rolled distance, and the extrapolation to finer grids.
 
   The work is that of the loads on the creepages, xi Tx + eta Ty + phi Mz. Summed over cells, as -q.s, it lacks the
   numerical damping of the upwind difference, (D q).C (D q)/2, which is first order in the cell's size.
 
-  So are loads and creepages. The same step is solved on the next coarser grid, pressure and shear, from the means of
-  the fine ones, at a quarter of the cost; with h and H the sizes of the cells, F(h) + (F(h) - F(H)) h/(H - h) is as
-  good as a much finer grid. A coarse bound that is the mean of the fine one would not do: it reaches half a cell
-  farther on the average.
+  The errors of loads and creepages are of first order, too. So the pressure and the shear of the same step are also
+  solved on the next coarser grid, from the means of the fine ones, at a quarter of the cost. With h and H the sizes of
+  the cells, F(h) + (F(h) - F(H)) h/(H - h) is as accurate as a much finer grid. The mean of the fine bound cannot serve
+  as the coarse bound: it reaches half a cell farther on average.
 
   In plane strain the error depends on where the edges of contact and stick lie between the cells of the only row, and
-  has no order: of Carter's cylinders, on 32 to 1024 cells, creepages that are wrong by 0.02 to 1.9 % would be wrong by
-  0.1 to 3.5 %, 21 of 32 by more than before. So nothing is extrapolated there.
+  has no order: for Carter's cylinders on 32 to 1024 cells, extrapolation changes creepage errors of 0.02 to 1.9 % into
+  0.1 to 3.5 %, and increases 21 of 32 errors. So nothing is extrapolated there.
 */
 #include "stepimpl.h"
 #include <petsam/private/elasticity.h>
@@ -21,7 +21,7 @@
 #include <petsam/private/problem.h>
 #include <petsam/private/solver.h>
 
-/* The numbers, side by side in the state: energies, then by component load and creepage. */
+/* The numbers, side by side in the state: energies, then load and creepage by component */
 enum { ENERGY, LOADS, CREEPS = LOADS + 3, NUMBERS = CREEPS + 3 };
 
 PetscErrorCode SamStepDeclareRolling(SamState state, PetscInt *first)
@@ -56,7 +56,8 @@ PetscErrorCode SamStepDeclareRolling(SamState state, PetscInt *first)
 
 /* ---- the next coarser grid ---- */
 
-/* Fields of it: separation, pressure, bound; the fine grid's pressure and bound; two components: shear, offset. */
+/* Fields of the coarse grid: separation, pressure, bound; means of the fine pressure and bound; two components each of
+   shear and offset */
 enum { SEPARATION, PRESSURE, BOUND, MEAN_PRESSURE, MEAN_BOUND, SHEAR, OFFSET, FIELDS };
 typedef struct {
   SamElasticity elasticity;
@@ -79,7 +80,7 @@ static PetscErrorCode CreateCoarse(SamSolve *w, Coarse *k)
   k->normal           = SamControlGetBalance(&w->s->control, SAM_BALANCE_NORMAL);
   k->tangential       = SamControlGetBalance(&w->s->control, SAM_BALANCE_TANGENTIAL);
   k->tangential.ahead = SamElasticitySpinAhead(k->elasticity);
-  for (PetscInt n = 0; n < 3; n++) { /* the loads that were found: the same contact; the creepages are the start */
+  for (PetscInt n = 0; n < 3; n++) { /* the found loads define the same contact; the creepages are the start */
     const PetscInt c = SamComponentsOf[SAM_BALANCE_NORMAL][n];
 
     if (k->tangential.force[n]) k->tangential.rigid[n] = w->rigid[n];
@@ -99,7 +100,8 @@ static PetscErrorCode TakeTolerance(SamSolver from, SamSolver to)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The coefficient of friction is the mean one where the fine grid has contact, elsewhere that of all of it. */
+/* Computes the bound: friction is averaged where the fine grid has contact; elsewhere it is the coefficient of the
+   whole contact. */
 static PetscErrorCode ComputeBound(Coarse *k)
 {
   double   *f[SHEAR];
@@ -115,7 +117,7 @@ static PetscErrorCode ComputeBound(Coarse *k)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Computes the pressure under the same normal loads, and the shear. */
+/* Computes the pressure under the same normal loads, then the shear. */
 static PetscErrorCode SolveCoarse(SamSolve *w, Coarse *k, SamSolverReason *reason)
 {
   Vec *const    f = k->field;

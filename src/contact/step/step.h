@@ -8,21 +8,21 @@
 
 /* The numbers of the solvers, side by side in the state in this order. */
 enum {
-  SAM_COUNT_NORMAL,         /* iterations, applications, preconditions of the normal solver, */
-  SAM_COUNT_TANGENTIAL = 3, /* and of the tangential one */
+  SAM_COUNT_NORMAL,         /* of the normal solver: iterations, applications, preconditions */
+  SAM_COUNT_TANGENTIAL = 3, /* the same of the tangential solver */
   SAM_COUNT_COUPLING   = 6,
   SAM_COUNTS           = 7
 };
 
 /* SamStepStart - the guess from which a step is solved. */
 typedef struct {
-  PetscBool     pressure, shear; /* whether the tried solution holds a guess of the pressure; of the shear */
+  PetscBool     pressure, shear; /* the tried solution holds a guess of the pressure; of the shear */
   double        rigid[3];        /* guess of the tangential rigid displacements (m, m, rad) */
   double        along;           /* part of the step's change along that of the last step, in units of it; >= 0 */
   SamCachedStep kept;            /* the same step one cycle before; NULL: none */
 } SamStepStart;
 
-/* SamStepTask - a step to be solved, and what it is solved with; all is borrowed. */
+/* SamStepTask - a step to be solved, and the objects that solve it; all are borrowed. */
 typedef struct {
   SamProblem                problem;
   SamElasticity             elasticity; /* of the problem */
@@ -34,28 +34,28 @@ typedef struct {
   SamState                  state;
   const SamContactSettings *set;
   SamSolution              *s;                /* the tried solution, with its control and tractions */
-  const SamSolution        *committed;        /* from which the step continues; NULL in the first step */
-  const SamSolution        *before;           /* the same if its slip is continued; else NULL */
-  const SamSolution        *earlier;          /* one step before that, whose tractions are known */
+  const SamSolution        *committed;        /* solution from which the step continues; NULL in the first step */
+  const SamSolution        *before;           /* the same, or NULL if its slip is not continued */
+  const SamSolution        *earlier;          /* solution one step before that, if its tractions are known */
   PetscInt                  displacements[2]; /* fields in the state: u_z, u_t */
   PetscInt                  aside;            /* field in the state */
   PetscInt                  counts, rolling;  /* numbers in the state: of the solvers, of rolling.c */
-  SamStepOf                 of;               /* what its pressure is to be solved with */
+  SamStepOf                 of;               /* inputs for which its pressure is solved */
   PetscBool                 coupled;          /* pressure and shear depend on each other */
-  PetscBool                 rolls;            /* in time */
-  PetscBool                 same_pressure;    /* the pressure is the committed one, and is not solved again */
+  PetscBool                 rolls;            /* rolls in time */
+  PetscBool                 same_pressure;    /* the pressure is the committed one and is not solved again */
   SamStepStart              start;
 } SamStepTask;
 
 /*
   SamStepSolve - solves the normal and the tangential problem of a step, in turn when they are coupled. Failures are
-  reported in the status of `step` (solve.c). `known_pressure`: the pressure is the committed or a kept one, and has not
-  been solved. Collective.
+  reported in the status of `step` (solve.c). `known_pressure`: true if the committed or a kept pressure was used
+  instead of a solution. Collective.
 */
 PETSC_INTERN PetscErrorCode SamStepSolve(const SamStepTask *task, SamStep *step, PetscBool *known_pressure);
 /*
-  SamStepSetDisplacements - gives the tried solution its displacements, these two fields of the state. Called as late as
-  possible: in the first step they then use the memory that the solvers have freed. Collective.
+  SamStepSetDisplacements - stores the displacements of the tried solution in these two fields of the state. It is
+  called as late as possible: in the first step they then use the memory that the solvers have freed. Collective.
 */
 PETSC_INTERN PetscErrorCode SamStepSetDisplacements(SamState state, const PetscInt fields[2], SamSolution *tried);
 /*

@@ -1,34 +1,36 @@
 /*
   The start of a step from the same step one cycle before.
 
-  In a load history that repeats itself, the change of the shear from one step to the next is nearly that of one cycle
-  before, and in the end it is the same. So a step starts from q = q_now + (q_k - q_(k-1)), k being the step of the
-  cycle before; this keeps what sticks stuck. Its product C q follows from the committed displacement and the kept
-  change of that of step k: the start costs no application of the operator. q may leave its discs by the distance from
-  the repeated cycle; the solver's first trial then goes to the nearest admissible shear (newton.c), and a start whose
-  error is too large is dropped for that of predict.c.
+  In a load history that repeats itself, the change of the shear from one step to the next approaches that of one cycle
+  before. So a step starts from q = q_now + (q_k - q_(k-1)), where k is the step of the cycle before; sticking cells
+  stay stuck in this start. Its product C q is the committed displacement plus the stored change of displacement in step
+  k, so the start costs no application of the operator. While the cycle does not repeat exactly, q may leave its discs a
+  little; the solver's first trial then goes to the nearest admissible shear (newton.c). If the error of the start is
+  too large, the start of predict.c replaces it.
 
-  Friction is odd: where all that causes shear is reversed, so is its change. So under the same normal loads the second
-  half of a symmetric cycle repeats the first one with the other sign, and k is a step of the half cycle before.
+  Friction is odd: if all causes of shear are reversed, the change of the shear is reversed, too. So under the same
+  normal loads the second half of a symmetric cycle repeats the first half with opposite signs, and k is a step of the
+  previous half cycle.
 
-  On the way to the repeated cycle the changes differ from it by parts that shrink by nearly the same factor m from one
-  repetition to the next, m < 0 for parts that reversal does not reverse. So of the last two repetitions, D and the
-  older D', w D + (1 - w) D' with w = 1 + m is much nearer than D. w is what fits the changes of the last step best.
+  Before the cycle repeats exactly, the changes differ from their limit by parts that shrink by nearly the same factor m
+  per repetition; m < 0 for parts that do not change sign at a reversal. So with the last two repetitions, D and the
+  older D', the combination w D + (1 - w) D' with w = 1 + m is much nearer to the limit than D. w is fitted to the
+  changes of the last step.
 
-  For bodies whose pressure does not depend on the shear, the pressure of step k is that of this step, if what is
-  prescribed of it and the gap are the same (SamControlSnap() has made what differs by rounding the same). Gaps are
-  compared by a number, which grows with each change of the gap: of the problem's revision, and of the fields of the
-  state from which the separation follows by their declaration.
+  If the pressure does not depend on the shear, this step has the pressure of step k when the prescribed normal values
+  and the gap are the same (SamControlSnap() has removed differences by rounding). Gaps are compared by a number that
+  grows with each change of the gap: when the problem's revision changes, or a field of the state that is declared as
+  part of the separation.
 
-  A step is recognised by what it prescribes and what the step before did, not by its number. It replaces the last but
-  one that it repeats, and where the memory is full the last one. A step that repeats none then replaces the oldest
-  one, and a step without a kept counterpart is not stored: of a cycle that does not fit, the part that does is used
-  again and again. Changes are stored on the contact's part of each row, as integers in units of 2^-30 of their
-  largest value, four times as accurate as floats of the same size. All decisions are those of global numbers: the
-  same on any number of ranks. So are the bytes that a cache may take, a rule of the grid, and all that is kept is in
-  checkpoints (io/kept.c): a restart has the same bits, on any machine.
+  A step is recognised by the values that it and the step before it prescribe, not by its number. It replaces the second
+  last step that it repeats, or the last one if the memory is full. When the memory is full, a step that repeats none
+  replaces the oldest step, and a step without a stored counterpart is not stored. So if a cycle does not fit, a part of
+  it is stored and used in every repetition. Changes are stored on the contact's part of each row, as integers in units
+  of 2^-30 of their largest value, four times as accurate as floats of the same size. All decisions depend on global
+  numbers only, so they are the same on any number of ranks. The memory limit of a cache depends on the grid only, and
+  checkpoints contain the whole cache (io/kept.c). So a restarted run has the same bits, on any machine.
 
-  All that is the same on all ranks is one table: a row for each step, the oldest first, after a row of the cache's own.
+  The data that are the same on all ranks form one table: first a row of the cache, then one row per step, oldest first.
 */
 #include <petsam/private/stepcache.h>
 #include <math.h>
@@ -37,9 +39,9 @@
 
 /* Length of the history of prescriptions that is searched for a repetition; half of it when the table is full. */
 #define STEPS 1024
-/* Numbers that differ by less, relative to the largest of their kind so far, prescribe the same. */
+/* Prescribed numbers are the same if they differ by less, relative to the largest of their kind so far. */
 #define SAME 1e-9
-/* Columns by which the part of a row is wider than the contact: it may change by a cell. */
+/* Columns by which the stored part of a row exceeds the contact, which may grow by a cell */
 #define MARGIN 1
 /* An upper bound of the influence of single cells' shear on their neighbours, in units of the self-influence. */
 #define SPREAD 4
@@ -48,37 +50,37 @@
 #define LEAST_WEIGHT (-1.0)
 #define MOST_WEIGHT  2.0
 
-/* The usual memory of a cache: so many fields of the grid, within these bytes. */
+/* The default memory of a cache in fields of the grid, and its limits in bytes */
 #define USUAL_FIELDS 20
 #define USUAL_LEAST  16e6
 #define USUAL_MOST   1e9
 
 /* ---- what is kept ---- */
 
-enum { SHEAR_X, SHEAR_Y, PRODUCT_X, PRODUCT_Y }; /* the changes of a step */
+enum { SHEAR_X, SHEAR_Y, PRODUCT_X, PRODUCT_Y }; /* the stored changes of a step */
 
-/* A row of a step: what it prescribes, and then these numbers. */
+/* The numbers in the row of a step, after the values that it prescribes */
 enum {
-  CELLS,        /* of its fields on all ranks; 0: nothing is kept */
-  UNIT_SHEAR,   /* of the changes (Pa) */
+  CELLS,        /* number of stored cells on all ranks; 0: nothing is stored */
+  UNIT_SHEAR,   /* of the stored changes (Pa) */
   UNIT_PRODUCT, /* (m) */
-  GAP,          /* number of the gap for which the pressure was solved; -1: it has moved since */
+  GAP,          /* number of the gap for which the pressure was solved; -1: the gap has moved since */
   PRESSURE,     /* 1: a pressure is stored; 0: it is that of the step before */
   RTOL,         /* tolerance of the normal solver */
-  LOAD,         /* normal loads and rigid displacements */
+  LOAD,         /* first of the normal loads and rigid displacements */
   RIGID = LOAD + 3,
   KEPT  = RIGID + 3
 };
-/* The cache's own row: the largest size of each number that was prescribed, and then these numbers. */
+/* The numbers in the cache's own row, after the largest size of each prescribed number */
 enum {
-  WEIGHT, /* of the last of two repetitions, by what was best in the last step */
-  GAP_NOW /* the number of the gap after the last step: it is raised by whatever changes the gap */
+  WEIGHT, /* of the last of two repetitions; the weight that was best in the last step */
+  GAP_NOW /* the number of the gap after the last step; each change of the gap increases it */
 };
 
 /* Length of a control as a row of numbers: the components, how each one is given, and the conditions */
 #define MOST_NUMBERS (2 * SAM_COMPONENTS + SAM_CONDITIONS)
 
-/* A kept step that the prediction of the next step is made of: its row, and the sign and weight of its changes */
+/* A stored step from which the next step is predicted: its row, and the sign and weight of its changes */
 typedef struct {
   PetscInt      row; /* 0: none */
   double        sign, weight;
@@ -87,17 +89,17 @@ typedef struct {
 } Part;
 
 struct _n_SamCachedStep {
-  Part     part[2]; /* the last one, and the one before it */
+  Part     part[2]; /* the last repetition, and the one before it */
   double   gap;     /* the number of the gap after the last step */
-  PetscInt count;   /* of numbers in front of those of a part */
+  PetscInt count;   /* of numbers that precede those of a part */
 };
 
 struct _n_SamStepCache {
   SamGrid        grid;
   SamConditions  conditions;
   double         limit, bytes; /* on all ranks */
-  PetscInt       numbers;      /* of what is prescribed */
-  PetscInt       count;        /* of steps, the last of which is in this row */
+  PetscInt       numbers;      /* count of prescribed numbers */
+  PetscInt       count;        /* count of steps; the last step is in this row */
   double        *table;        /* (STEPS + 1) rows; NULL until the first step */
   SamStepFields *fields;       /* of each row; NULL: nothing is kept */
   SamCachedStep  start;        /* what the last search found */
@@ -113,7 +115,7 @@ static double *Row(SamStepCache r, PetscInt k)
   return r->table + k * Width(r);
 }
 
-/* Returns a number of a row besides what is prescribed. */
+/* Returns a number of a row that is not prescribed. */
 static double *At(SamStepCache r, PetscInt k, PetscInt number)
 {
   return Row(r, k) + r->numbers + number;
@@ -145,7 +147,7 @@ static void DestroyFields(SamStepFields *fields)
   SamFree(f);
 }
 
-/* Drops the kept fields of a step. */
+/* Deletes the stored fields of a step. */
 static void Drop(SamStepCache r, PetscInt k)
 {
   r->bytes -= BytesOf(r, Row(r, k));
@@ -206,7 +208,7 @@ void SamStepCacheSetMemory(SamStepCache r, PetscReal bytes)
   if (r->bytes > r->limit || r->limit == 0) SamStepCacheForget(r);
 }
 
-/* Makes room for the first step, with numbers as they are now. */
+/* Creates the table before the first step, with the present count of numbers. */
 static PetscErrorCode MakeTable(SamStepCache r)
 {
   PetscFunctionBegin;
@@ -231,7 +233,7 @@ PetscErrorCode SamStepCacheCopy(SamStepCache from, SamStepCache to)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- for those who save it ---- */
+/* ---- access for checkpoints ---- */
 
 void SamStepCacheGetTable(SamStepCache r, PetscInt *rows, PetscInt *width, double **table)
 {
@@ -282,9 +284,9 @@ PetscErrorCode SamStepCacheAddFields(SamStepCache r, PetscInt row, const int32_t
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- which step this is ---- */
+/* ---- finding a repeated step ---- */
 
-/* Gets the numbers of a control but its time. */
+/* Gets the numbers of a control except its time. */
 static void GetNumbers(SamStepCache r, const SamControl *control, double numbers[MOST_NUMBERS])
 {
   const PetscInt parts = SamControlCount(r->conditions);
@@ -309,12 +311,12 @@ static PetscBool IsSame(PetscInt count, const double a[], const double b[], cons
   return PETSC_TRUE;
 }
 
-/* The controls of a step and of the step before it, as they are and reversed; what the numbers are relative to. */
+/* The controls of a step and of the step before it, and their reverses, and the scales of the numbers */
 typedef struct {
   double to[2][MOST_NUMBERS], from[2][MOST_NUMBERS], largest[MOST_NUMBERS];
 } Sought;
 
-/* 1 if the step in this row and the step before it repeat the sought ones, -1 if they are their reverse, else 0. */
+/* Returns 1 if the step in this row and the step before it repeat the sought ones, -1 if reversed, 0 if not. */
 static int Compare(SamStepCache r, const Sought *s, PetscInt row)
 {
   for (int way = 0; way < 2; way++)
@@ -345,7 +347,7 @@ void SamStepCacheFind(SamStepCache r, const SamControl *next, SamCachedStep *kep
     if (sign) part[n++] = (Part){row, sign, 1, Row(r, row) + r->numbers, r->fields[row]};
   }
   if (!part[0].fields) return;
-  if (part[1].fields && part[1].numbers[GAP] != part[0].numbers[GAP]) part[1].fields = NULL; /* of another contact */
+  if (part[1].fields && part[1].numbers[GAP] != part[0].numbers[GAP]) part[1].fields = NULL; /* another gap */
   if (part[1].fields) part[0].weight = *At(r, 0, WEIGHT);
   part[1].weight = 1 - part[0].weight;
   start->gap     = *At(r, 0, GAP_NOW);
@@ -411,7 +413,7 @@ static PetscErrorCode KeepChange(SamStepCache r, SamStepFields f, Vec before, Ve
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Widens a part of a row by that in which any of two bounds has values, and by the margin. */
+/* Widens a part of a row to include all cells where either of two bounds is not zero, and the margin. */
 static void Widen(PetscInt nx, const double one[], const double other[], int32_t range[2])
 {
   PetscInt first, last;
@@ -424,7 +426,8 @@ static void Widen(PetscInt nx, const double one[], const double other[], int32_t
   range[1] = (int32_t)PetscMax(last, range[1]);
 }
 
-/* Finds the parts of the rows: under the bounds, and under the pressure if that is kept; returns the cells of all. */
+/* Finds the parts of the rows under the bounds, and under the pressure if it is stored; returns the number of all
+   cells. */
 static PetscErrorCode FindRanges(SamStepCache r, const SamSolution *before, const SamSolution *now, PetscBool pressure,
                                  int32_t range[], double *cells)
 {
@@ -451,7 +454,8 @@ static PetscErrorCode FindRanges(SamStepCache r, const SamSolution *before, cons
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Keeps the cache within its limit: drops the oldest steps, or the step `found` that the last repeats, or the last. */
+/* Keeps the cache within its limit: drops the oldest steps, or the step `found` that the last step repeats, or the last
+   step. */
 static void MakeRoom(SamStepCache r, PetscInt found)
 {
   r->bytes += BytesOf(r, Row(r, r->count));
@@ -499,8 +503,8 @@ static PetscInt CellsInRow(const Part *part, PetscInt j)
 }
 
 /*
-  Computes the weight with which the two kept steps would have been nearest to the shear's change from `before` to
-  `now`.
+  Computes the weight for which the combination of the two stored steps is nearest to the shear's change from `before`
+  to `now`.
 */
 static PetscErrorCode FindWeight(SamStepCache r, Vec before, Vec now, double *weight)
 {
@@ -544,7 +548,7 @@ static PetscErrorCode FindWeight(SamStepCache r, Vec before, Vec now, double *we
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Forgets the older half of the steps when the table is full. Returns how many rows are gone. */
+/* Deletes the older half of the steps when the table is full. Returns the number of removed rows. */
 static PetscInt MoveTable(SamStepCache r)
 {
   const PetscInt gone = r->count == STEPS ? STEPS / 2 : 0;
@@ -559,7 +563,7 @@ static PetscInt MoveTable(SamStepCache r)
   return gone;
 }
 
-/* Adds the row of a step, of which nothing is kept yet. */
+/* Adds the row of a step, without stored fields. */
 static void AddStep(SamStepCache r, const SamControl *control)
 {
   double *row;
@@ -571,7 +575,7 @@ static void AddStep(SamStepCache r, const SamControl *control)
   for (PetscInt k = 0; k < r->numbers; k++) Row(r, 0)[k] = PetscMax(Row(r, 0)[k], fabs(row[k]));
 }
 
-/* Keeps the fields of the last step, which is like that in row `found` (0: like none). */
+/* Stores the fields of the last step, which repeats the step in row `found` (0: none). */
 static PetscErrorCode KeepFields(SamStepCache r, PetscInt found, const SamSolution *before, const SamSolution *now)
 {
   const PetscBool pressure =
@@ -663,9 +667,9 @@ PetscErrorCode SamCachedStepGetPressure(SamCachedStep kept, SamGrid grid, SamSol
 }
 
 /*
-  Shear outside of the bound is rounding, or the change of the contact's edge since: it is dropped, and what it would
-  displace nearby goes to the account of rounding. Returns its square; `open`: the cells under a bound that are not in
-  the part of their row.
+  Removes shear outside of the bound, which comes from rounding or from a change of the contact's edge; its displacement
+  nearby counts as rounding. Returns its square. `open`: number of cells under a bound that are outside the stored part
+  of their row.
 */
 static double TrimRow(PetscInt nx, PetscInt first, PetscInt last, const double bound[], double *qx, double *qy,
                       double *open)

@@ -11,19 +11,19 @@ typedef struct {
   const SamStepTask *task;
   SamSolution       *s; /* the tried solution */
   SamStep           *step;
-  SamCachedStep      kept;                    /* the same step one cycle before; NULL: none, or it has been used */
+  SamCachedStep      kept;                    /* the same step one cycle before; NULL: none, or already used */
   PetscBool          has_pressure, has_shear; /* the tried solution holds a guess */
   PetscBool          known_pressure;          /* the pressure is that of the kept step */
   SamBalance         normal, tangential;      /* as prescribed */
   double             rigid[3];                /* guess of the tangential rigid displacements */
   double            *counts;                  /* iteration counts of the solvers, in the state */
-  Vec                separation;              /* of the bodies as they were after the step before */
+  Vec                separation;              /* of the bodies in their state after the step before */
   Vec                slip;          /* the length of the slip of this step, by the last shear; NULL: none yet */
-  SamProduct         shear_product; /* C q of the tried solution; coupled, or solved twice only */
-  /* coupled, or with an offset, only */
+  SamProduct         shear_product; /* C q of the tried solution; only if coupled or solved twice */
+  /* only if coupled or with an offset */
   Vec h;      /* separation plus lift plus offset */
   Vec pushed; /* tangential displacement by pressure and offset, set by SamSolveShear() */
-  /* coupled only */
+  /* only if coupled */
   Vec        lift;                              /* normal displacement by the shear that the pressure is solved with */
   SamProduct pressure_product;                  /* S p of the tried solution */
   Vec        previous_pressure, previous_shear; /* of the previous pass */
@@ -32,10 +32,11 @@ typedef struct {
 /* ---- the two problems (problems.c) ---- */
 
 /*
-  SamSolveNormal - the normal problem of the step. `has_pressure`: the tried solution holds a guess; `has_shear`: of the
-  shear too, which then follows the pressure. Collective.
-  SamSolveTangential - the tangential problem under the bound of the tried solution; `has_shear` likewise. Collective.
-  SamSolveZeroShear - no shear, as the pressure is not right. Collective.
+  SamSolveNormal - solves the normal problem of the step. `has_pressure`: the tried solution holds a guess of the
+  pressure. `has_shear`: it also holds a guess of the shear, which is then scaled with the pressure. Collective.
+  SamSolveTangential - solves the tangential problem under the bound of the tried solution; `has_shear` likewise.
+  Collective.
+  SamSolveZeroShear - sets the shear to zero, because the pressure is wrong. Collective.
 */
 PETSC_INTERN PetscErrorCode SamSolveNormal(SamSolve *solve, PetscBool has_pressure, PetscBool has_shear);
 PETSC_INTERN PetscErrorCode SamSolveTangential(SamSolve *solve, PetscBool has_shear);
@@ -49,44 +50,44 @@ PETSC_INTERN PetscErrorCode SamSolveJudge(SamSolve *solve, SamBalanceKind kind);
 
 /*
   SamFixedPoint - the iteration x <- g(x) on a field with Anderson's acceleration. `pass` computes the result g(x) of
-  pass 1, 2 ... and says how it ended; the driver makes the next argument of it. All ranks end a pass alike.
+  pass 1, 2 ... and returns its outcome, the same on all ranks; the driver computes the next argument from the result.
 */
 typedef enum {
-  SAM_PASS_GOES_ON,  /* the next argument is made of this and the last results */
+  SAM_PASS_GOES_ON,  /* the next argument is computed from this and earlier results */
   SAM_PASS_REPEATS,  /* the next argument is the same */
-  SAM_PASS_RESTARTS, /* the next argument is the last result, and the ones before count no longer */
+  SAM_PASS_RESTARTS, /* the next argument is the last result; earlier results are discarded */
   SAM_PASS_SOLVED,   /* the argument is the solution */
   SAM_PASS_FAILED    /* there is no result */
 } SamPassEnd;
 typedef struct {
   PetscInt  components;  /* of the fields */
-  PetscInt  most;        /* passes */
-  PetscBool nonnegative; /* the argument is */
+  PetscInt  most;        /* maximum number of passes */
+  PetscBool nonnegative; /* the argument is nonnegative */
   PetscErrorCode (*pass)(void *context, PetscInt pass, Vec result, SamPassEnd *end);
 } SamFixedPoint;
 /*
-  SamSolveFixedPoint - iterates from `argument` on; differences count where the tried pressure is positive. `end`: how
-  the last pass ended; SAM_PASS_GOES_ON: there have been too many. Collective.
+  SamSolveFixedPoint - iterates from `argument` on; differences count where the tried pressure is positive. `end`:
+  outcome of the last pass; SAM_PASS_GOES_ON: the maximum number of passes was reached. Collective.
 */
 PETSC_INTERN PetscErrorCode SamSolveFixedPoint(SamSolve *solve, const SamFixedPoint *iteration, void *context,
                                                Vec argument, SamPassEnd *end);
 /*
-  SamSolveGetChange - the difference of a pass's result from its argument, relative to what the check compares it with:
-  the 2-norm over that of the shear, and `largest` (NULL: not wanted), the largest one. `unit`: what a shear of 1 Pa is
-  in units of the fields. Collective.
+  SamSolveGetChange - computes the difference of a pass's result from its argument, relative to the scale of the check:
+  the 2-norm relative to that of the shear, and in `largest` (NULL: not wanted) the largest difference. `unit`: the
+  value in units of the fields that corresponds to a shear of 1 Pa. Collective.
 */
 PETSC_INTERN PetscErrorCode SamSolveGetChange(SamSolve *solve, Vec argument, Vec result, PetscReal unit,
                                               PetscReal *change, PetscReal *largest);
 
 /*
-  SamSolveSetAside - sets `aside` of the tried solution, to whose pressure and bound it belongs: by its shear, if the
-  step has been `solved`, to a tolerance SAM_ROUGH times that of the shear (direction.c). Collective.
-  SamSolveIsTwice - true if the tried pressure makes that necessary. Not collective.
-  SamSolveBound - a bound of the shear, from the pressure and the last slip. Collective.
-  SamSolveShear - the tangential problem under the bound of the tried solution. A bound that follows the slip changes
-  with it; `rtol` is what both are solved to then (bound.c). Collective.
-  SamSolveCoupled - both problems of dissimilar bodies with friction (coupling.c). Collective.
-  SamSolveRolling - the numbers of a motion in which material streams, of the solved one (steadystep.c). Collective.
+  SamSolveSetAside - sets the field `aside` for the pressure and bound of the tried solution; if the step has been
+  `solved`, also by its shear, to a tolerance of SAM_ROUGH times that of the shear (direction.c). Collective.
+  SamSolveIsTwice - true if the tangential problem has to be solved twice for the tried pressure. Not collective.
+  SamSolveBound - computes a bound of the shear, from the pressure and the last slip. Collective.
+  SamSolveShear - solves the tangential problem under the bound of the tried solution. If the bound depends on the slip,
+  both are solved, to the tolerance `rtol` (bound.c). Collective.
+  SamSolveCoupled - solves both problems of dissimilar bodies with friction (coupling.c). Collective.
+  SamSolveRolling - computes the numbers of the solved motion, in which material streams (steadystep.c). Collective.
 */
 #define SAM_ROUGH 100
 PETSC_INTERN PetscErrorCode SamSolveSetAside(SamSolve *solve, PetscBool solved);

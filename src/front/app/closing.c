@@ -11,10 +11,10 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 
-#define LARGE 0.02 /* error of the dissipated energy by the steps, relative to it, from which on it is warned of */
-#define NONE  1e-4 /* energy over T disp that counts as none: N and T that grow in proportion need not slip */
-#define ZERO  1e-5 /* energy and its error, over T disp, that are none where all sticks */
-#define FOUND 0.5  /* share of the edges from which nothing is said of them */
+#define LARGE 0.02 /* error of the dissipated energy by the steps, relative to it, above which a warning is given */
+#define NONE  1e-4 /* energy relative to T disp that counts as none: N and T that grow in proportion need not slip */
+#define ZERO  1e-5 /* the same of the energy and its error if all cells stick */
+#define FOUND 0.5  /* share of reconstructed edges above which nothing is printed */
 
 /* A row of the table: the sum of the times of one or more events. */
 typedef struct {
@@ -23,7 +23,7 @@ typedef struct {
   PetscInt    count;
 } Part;
 
-/* These parts do not overlap; with set-up and the rest they make up the whole run. */
+/* These parts do not overlap; together with set-up and the rest they make up the whole run. */
 static const Part parts[] = {{"normal problem", {SAM_EVENT_NORMAL_SOLVE}, 1},
                              {"tangential problem", {SAM_EVENT_TANGENTIAL_SOLVE}, 1},
                              {"plastic strain", {SAM_EVENT_PLASTIC}, 1},
@@ -74,7 +74,7 @@ static PetscErrorCode PrintRow(SamReport r, const char indent[], const char name
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* True if a part is one that only some runs have. */
+/* True if only some runs have this part. */
 static PetscBool IsAskedFor(const Part *part)
 {
   return part->events[0] == SAM_EVENT_STIFFNESS || part->events[0] == SAM_EVENT_PLASTIC ? PETSC_TRUE : PETSC_FALSE;
@@ -105,7 +105,7 @@ static PetscErrorCode PrintTimes(SamReport r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Prints how well the grid resolves the contact. */
+/* Prints the number of cells across the contact. */
 static PetscErrorCode PrintExtent(SamReport r)
 {
   const SamExtent *e        = &r->extent;
@@ -123,7 +123,7 @@ static PetscErrorCode PrintExtent(SamReport r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Prints how much of the edges is not found. */
+/* Prints the share of the edges that was not found. */
 static PetscErrorCode PrintEdges(SamReport r)
 {
   char where[48] = "";
@@ -201,7 +201,7 @@ static PetscErrorCode PrintFiles(SamReport r)
 }
 
 /*
-  Returns the peak memory of this process so far, bytes. That of getrusage() may include the launcher, from before this
+  Returns the peak memory of this process so far, bytes. getrusage() may include the memory of the launcher, before this
   program was loaded.
 */
 static double LargestMemory(void)
@@ -242,7 +242,7 @@ PetscErrorCode SamReportClosing(SamReport r)
   PetscCall(WarnOfEnergy(r));
   if (r->quiet) PetscFunctionReturn(PETSC_SUCCESS);
   if (r->logging) PetscCall(PrintTimes(r));
-  for (PetscInt k = 0; k < 3 && r->worst[0].step; k++) { /* of the steps with a solution */
+  for (PetscInt k = 0; k < 3 && r->worst[0].step; k++) { /* only steps with a solution */
     PetscCall(PetscPrintf(r->comm, k ? ", %s %.2e" : "  worst       %s %.2e", names[k], (double)r->worst[k].residual));
     if (r->steps > 1 && r->worst[k].step)
       PetscCall(PetscPrintf(r->comm, " (step %" PetscInt_FMT ")", r->worst[k].step));

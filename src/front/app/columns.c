@@ -1,6 +1,6 @@
 /*
-  The printed tables of steps and of cycles: columns with a heading, whose unit is that with which the number is
-  declared.
+  The printed tables of steps and of cycles: columns with a heading, which contains the unit of the number's
+  declaration.
 */
 #include "report.h"
 #include <petsam/private/state.h>

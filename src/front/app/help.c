@@ -1,4 +1,4 @@
-/* The help: the options list themselves while the program's set-up reads them; then what was asked for is printed. */
+/* The help: the options list themselves while the program's set-up reads them; then the requested part is printed. */
 #include "program.h"
 #include <petsam/private/baseimpl.h>
 #include <petsam/private/help.h>
@@ -6,13 +6,13 @@
 #include <string.h>
 
 #define WIDTH 120
-#define MOST  64 /* topics */
+#define MOST  64 /* maximum number of topics */
 
 /* ---- the list ---- */
 
 enum { TITLE, NAME, ARGUMENT, TEXT, VALUE, WORDS, UNIT, TEXTS };
 
-/* The title of a group, or one of the options after it, as in SamOptionHelp; what it is not is NULL. */
+/* The title of a group, or one of the options after it, as in SamOptionHelp; unused members are NULL */
 typedef struct {
   char *text[TEXTS];
 } Line;
@@ -48,7 +48,8 @@ static PetscErrorCode Free(List *list)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Lists the options of a program, and those that every program has: of this frame, and the most useful of PETSc's. */
+/* Lists the options of a program, and those of every program: options of this frame, and the most useful ones of
+   PETSc. */
 static PetscErrorCode Collect(const SamProgram *program, const SamArguments *arguments)
 {
   static const SamOptionHelp all[] = {
@@ -63,7 +64,7 @@ static PetscErrorCode Collect(const SamProgram *program, const SamArguments *arg
   PetscCall(program->setup(program->context, arguments));
   PetscCall(SamOptionsHeading(&from, "Of every program and of PETSc"));
   for (size_t k = 0; k < sizeof(all) / sizeof(all[0]); k++) PetscCall(SamOptionsDescribe(&from, &all[k]));
-  PetscCall(PetscOptionsClearValue(NULL, "-help")); /* else PetscFinalize() would print PETSc's help */
+  PetscCall(PetscOptionsClearValue(NULL, "-help")); /* otherwise PetscFinalize() would print PETSc's help */
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -79,7 +80,7 @@ static PetscErrorCode PrintLine(const Line *l)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Lists the names of the topics with commas between them, in lines that are not too long; `first` columns are taken. */
+/* Lists the names of the topics, separated by commas, in lines of limited length; `first` columns are already used. */
 static void ListTopics(const SamTopic *topics, size_t first, char text[], size_t size)
 {
   size_t column = first, used = 0;
@@ -131,7 +132,7 @@ static PetscErrorCode PrintTopic(const SamTopic *topic, const List *list)
 /* ---- as JSON ---- */
 
 /*
-  A text in quotes, or null for NULL, between others:
+  Prints a text in quotes, or null for NULL, between two others. The output has this form:
 
     {"program": ..., "version": ..., "usage": ...,
      "units": {"m": {"m": 0, "mm": -3, ...}, ...}, (powers of ten)
@@ -226,7 +227,7 @@ static PetscErrorCode PrintJson(const SamProgram *program, const List *list)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- what was asked for ---- */
+/* ---- printing the request ---- */
 
 /* True if `asked` is this name, or its beginning if `part`; _ and - count as spaces. */
 static PetscBool IsNamed(const char asked[], const char name[], PetscBool part)
@@ -242,7 +243,7 @@ static PetscBool IsNamed(const char asked[], const char name[], PetscBool part)
   return part || !name[k];
 }
 
-/* Returns the topic of this name, or with `part` the only one that begins with it; NULL: none. */
+/* Returns the topic of this name, or with `part` the only one whose name begins with it; NULL: none. */
 static const SamTopic *FindAsked(const SamProgram *program, const char asked[], PetscBool part)
 {
   const SamTopic *found = NULL;
@@ -256,8 +257,8 @@ static const SamTopic *FindAsked(const SamProgram *program, const char asked[], 
 }
 
 /*
-  Prints the options whose names go on after `asked` with a further word, with one of just this name. Unless `part`,
-  only if there is one of just this name.
+  Prints the option with the name `asked`, and those whose names continue it with a further word. Unless `part`, prints
+  them only if there is an option of this name.
 */
 static PetscErrorCode PrintOptions(const List *list, const char asked[], PetscBool part, PetscBool *found)
 {
@@ -301,7 +302,7 @@ static PetscErrorCode RefuseTopic(const SamProgram *program, const char asked[])
           asked, topics);
 }
 
-/* Prints a topic, an option, the beginning of a topic, the beginning of options: the first of these that there is. */
+/* Prints the first of these that exists: a topic, an option, a topic or options whose names begin like this. */
 static PetscErrorCode PrintAsked(const SamProgram *program, const List *list, const char asked[])
 {
   PetscFunctionBegin;

@@ -1,5 +1,5 @@
 /*
-  The program petsam-stress: from tractions in a results file to stresses in a file of their own.
+  The program petsam-stress: reads tractions from a results file and writes stresses to another file.
 
   Exit codes: 0 done; 2 bad usage; 3 a file cannot be used; others are PETSc's.
 */
@@ -17,31 +17,31 @@
 #include <petsctime.h>
 #include <signal.h>
 
-/* A line of progress follows the one before after so many seconds, or such a part of the time spent. */
+/* Time between two lines of progress: this many seconds, or this part of the time so far */
 #define TELL_SECONDS 1.0
 #define TELL_PART    0.05
-/* Depths from this number of grid widths on are probably in a wrong unit. */
+/* Depths of at least this many grid widths are probably in a wrong unit. */
 #define DEEP 20.0
 
-#define SHOWN 9 /* materials of which all maxima are printed */
+#define SHOWN 9 /* number of materials up to which all maxima are printed */
 
-/* A run of petsam-stress. */
+/* A run of petsam-stress */
 typedef struct {
   SamStressRequest       request;
   SamResults             results;
-  double                *middle; /* depths of the middles of layers, NULL: there are none */
+  double                *middle; /* depths of the middles of layers; NULL: none */
   SamStressFile          file;
-  SamGrid                grid;       /* of the results */
-  SamElasticity          elasticity; /* the bodies, as the results have recorded them */
+  SamGrid                grid;       /* grid of the results */
+  SamElasticity          elasticity; /* the bodies, as recorded in the results */
   SamEvaluation          evaluation;
   const SamStressLayout *layout;
   PetscInt               steps, *saved;
   PetscMPIInt            rank;
   PetscBool              quiet, writing;
-  PetscLogDouble         start, told; /* when the computation began, and the last line was printed, s */
+  PetscLogDouble         start, told; /* times of the start of the computation, and of the last printed line, s */
 
-  char               source[PETSC_MAX_PATH_LEN + 16]; /* of the bodies, for messages */
-  char               doubt[512];                      /* warnings of the steps as a cycle; empty: none */
+  char               source[PETSC_MAX_PATH_LEN + 16]; /* source of the bodies, for messages */
+  char               doubt[512];                      /* warnings about the steps as a cycle; empty: none */
   SamFourierSettings transforms;
 } SamStressRun;
 
@@ -61,7 +61,7 @@ static PetscErrorCode Warn(void *context, const char option[], const char format
 
 /* ---- progress ---- */
 
-/* Prints a line on how far the run is, if the last one is some time ago. */
+/* Prints a line on the progress of the run if the last line is some time ago. */
 static PetscErrorCode Tell(void *context, const char work[], double part, double whole)
 {
   SamStressRun *const run = (SamStressRun *)context;
@@ -80,7 +80,8 @@ static PetscErrorCode Tell(void *context, const char work[], double part, double
 
 /* ---- the steps ---- */
 
-/* Returns the number of a saved step of the k-th chosen one; -1: of that before the first, at the same distance. */
+/* Returns the number of the saved step of the k-th chosen step; k = -1: of the step before the first, at the same
+   distance. */
 static PetscInt SavedStep(const SamStressRun *run, PetscInt k)
 {
   return k >= 0 ? run->saved[k] : run->saved[0] - (run->steps > 1 ? run->saved[1] - run->saved[0] : 1);
@@ -125,7 +126,7 @@ static PetscErrorCode ReadConditions(void *context, PetscInt k, SamConditions co
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Warns, and stores the warning in the file for later readers of the parameters. */
+/* Prints a warning, and stores it in the file for later readers of the parameters. */
 static PetscErrorCode WarnOfSteps(void *context, const char text[])
 {
   char *const  doubt = ((SamStressRun *)context)->doubt;
@@ -135,7 +136,7 @@ static PetscErrorCode WarnOfSteps(void *context, const char text[])
   return Warn(context, "-steps: ", "%s", text);
 }
 
-/* Chooses the steps; warns of those that have not been solved. */
+/* Chooses the steps; warns of unsolved ones. */
 static PetscErrorCode ChooseSteps(SamStressRun *run)
 {
   PetscInt unsolved = 0, first[2] = {0, 0};
@@ -161,7 +162,8 @@ static PetscErrorCode ChooseSteps(SamStressRun *run)
 
 /* ---- set-up ---- */
 
-/* The stress by plastic strain; in the results z points into body 2, so that the shears of body 1 change their sign. */
+/* Reads the stress by plastic strain; z points into body 2 in the results, so the shears of body 1 change their
+   sign. */
 static PetscErrorCode ReadResidual(void *context, PetscInt step, PetscInt body, PetscInt component, PetscInt layer,
                                    double values[])
 {
@@ -176,7 +178,7 @@ static PetscErrorCode ReadResidual(void *context, PetscInt step, PetscInt body, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Determines which bodies have yielded, and whether the results contain the stresses by plastic strain. */
+/* Finds the bodies that have yielded, and checks if the results contain the stresses by plastic strain. */
 static PetscErrorCode SetYielding(SamStressRun *run, SamStressSource *source)
 {
   const SamParameters *parameters = SamResultsGetParameters(run->results);
@@ -187,7 +189,7 @@ static PetscErrorCode SetYielding(SamStressRun *run, SamStressSource *source)
     const PetscInt layers = SamResultsCountLayers(run->results, b + 1);
 
     source->yields[b] = layers > 0;
-    if (layers) source->layers = layers; /* the same of both bodies */
+    if (layers) source->layers = layers; /* the same for both bodies */
   }
   source->yield_depth = depth ? depth->value[0] : 0;
   if (!SamResultsHasLayers(run->results)) PetscFunctionReturn(PETSC_SUCCESS);
@@ -198,7 +200,7 @@ static PetscErrorCode SetYielding(SamStressRun *run, SamStressSource *source)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Sets up the bodies, by the elasticity that the results have recorded, and the steps. */
+/* Sets up the bodies, with the elasticity recorded in the results, and the steps. */
 static PetscErrorCode SetUpEvaluation(SamStressRun *run)
 {
   SamStressSource      source     = {.settings   = &run->transforms,
@@ -266,7 +268,7 @@ static PetscErrorCode SetUp(void *context, const SamArguments *arguments)
   PetscCall(SamOptionsHeading(&from, "Resources"));
   PetscCall(SamFourierSettingsFromOptions(&run->transforms, &from));
   PetscCall(SamOptionsRead(&from, NULL, 1, &quiet, &run->quiet, NULL));
-  if (help) PetscCall(SamMemoryRefuse(PETSC_COMM_WORLD, 0, "", "", &from)); /* for its option */
+  if (help) PetscCall(SamMemoryRefuse(PETSC_COMM_WORLD, 0, "", "", &from)); /* declares its option */
   if (help) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(CheckFiles(&run->request, arguments));
   PetscCall(SamResultsOpen(PETSC_COMM_WORLD, "input", run->request.input, &run->results));
@@ -339,7 +341,7 @@ static PetscErrorCode WriteLargest(SamStressRun *run)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Returns the step in which a value is largest; -1: there is none. */
+/* Returns the step with the largest value; -1: none. */
 static PetscInt MostOf(const SamLargestSeries *of)
 {
   PetscInt most = -1;
@@ -349,7 +351,7 @@ static PetscInt MostOf(const SamLargestSeries *of)
   return most;
 }
 
-/* A value of a material is compared with those of that kind in all materials. */
+/* True if a value of a material is the largest of its kind in all materials. */
 static PetscBool IsLargestOfMaterials(SamStressRun *run, const SamLargestSeries *of)
 {
   const char *const kind = strrchr(of->name, '_');
@@ -362,7 +364,7 @@ static PetscBool IsLargestOfMaterials(SamStressRun *run, const SamLargestSeries 
   return PETSC_TRUE;
 }
 
-/* Prints the largest values over all steps; of many materials only those that are largest of all. */
+/* Prints the largest values over all steps; for many materials only those that are largest of all. */
 static PetscErrorCode PrintLargest(SamStressRun *run)
 {
   SamLargestSeries of;
@@ -423,9 +425,9 @@ static PetscErrorCode WarnOfDepths(SamStressRun *run)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static SamStressRun run_of_process; /* for the handler of signals */
+static SamStressRun run_of_process; /* for the signal handler */
 
-/* A signal that ends the program leaves no temporary file: it may be large. */
+/* Removes the temporary file, which may be large, if a signal ends the program. */
 static void EndOnSignal(int number)
 {
   SamStressFileAbandon(run_of_process.file);
@@ -455,7 +457,7 @@ static PetscErrorCode Compute(void *context)
   run->writing = PETSC_TRUE;
   PetscCall(CreateFile(run));
   PetscCall(SamEvaluationCompute(run->evaluation, SamStressFileWrite, run->file));
-  if (run->told > run->start) { /* lines that have begun end with the whole */
+  if (run->told > run->start) { /* lines of progress end with the last one */
     run->told = -INFINITY;
     PetscCall(Tell(run, "all", 1, 0));
   }
@@ -483,7 +485,7 @@ static PetscBool IsWriting(const void *context)
   return ((const SamStressRun *)context)->writing;
 }
 
-/* Leaves no temporary file. */
+/* Removes the temporary file. */
 static void Abandon(void *context)
 {
   SamStressFileAbandon(((SamStressRun *)context)->file);

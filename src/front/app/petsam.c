@@ -1,5 +1,5 @@
 /*
-  The program petsam: a simulation in the frame of program.c, and the report of it.
+  The program petsam: runs a simulation in the frame of program.c, and reports it.
 
   Exit codes: 0 converged and checked; 2 bad usage; 3 a file cannot be used; 10 not converged; 11 no equilibrium; 12
   contact at the grid's edge; 75 stopped with a checkpoint; others are PETSc's. Nothing is written before all input has
@@ -19,14 +19,14 @@ enum { EXIT_STOPPED = 75 };
 typedef struct {
   SamSimulation simulation;
   SamReport     report;
-  PetscBool     dry; /* checks and forecasts only */
+  PetscBool     dry; /* only checks and forecasts */
 } SamRun;
 
 /* ---- signals ---- */
 
-static volatile sig_atomic_t signaled[2] = {0, 0}; /* to write a checkpoint; to write one and stop */
+static volatile sig_atomic_t signaled[2] = {0, 0}; /* requests: to write a checkpoint; to write one and stop */
 
-/* TERM again, some seconds later, ends the program at once, for a step that takes too long. */
+/* Notes a signal. A second TERM, some seconds later, ends the program at once, for a step that takes too long. */
 static void NoteSignal(int number)
 {
   static volatile time_t first = 0;
@@ -41,7 +41,7 @@ static void NoteSignal(int number)
   }
 }
 
-/* Without -checkpoint TERM ends the program as ever. */
+/* Catches the signals. Without -checkpoint TERM ends the program as usual. */
 static void CatchSignals(PetscBool checkpoint)
 {
   struct sigaction action;
@@ -65,11 +65,11 @@ static void WarnOfQuiet(const SamRun *run, const SamSimulationFiles *f)
 /* ---- memory ---- */
 
 /*
-  Bytes per cell at the peak, shared memory counted once, without the program and its libraries. Measured at 1024 cells
-  a side, for contact on half of the grid and on all of it; up to 15 less from 2048 cells on:
+  Bytes per cell at the peak, with shared memory counted once, without the program and its libraries; measured at 1024
+  cells per side, for contact on half of the grid and on all of it. From 2048 cells on up to 15 bytes fewer are needed:
     one step        without friction 72 and 82, with friction 165 and 214, coupled 362 and 424
     several steps   without friction 255 and 270, with friction 335 and 358, coupled 490 and 538
-  Several steps need a second state to go back to.
+  Several steps need a second state, to which a rejected step returns.
 */
 static const double bytes_per_cell[2][2][2] = {{{85, 150}, {190, 400}},
                                                {{265, 365}, {350, 520}}}; /* [several steps][friction][coupled] */
@@ -96,7 +96,7 @@ static const double bytes_per_cell[2][2][2] = {{{85, 150}, {190, 400}},
 */
 static const double stiffness_bytes[2][2] = {{400, 400}, {490, 880}}; /* [friction][coupled] */
 
-/* Estimates the memory of the kept steps on all ranks, bytes; a life keeps two cycles. The contact is made later. */
+/* Estimates the memory of the kept steps on all ranks, bytes; a life keeps two cycles. The contact is created later. */
 static PetscErrorCode EstimateKept(const SamSetup *setup, const SamSimulationNeeds *needs, double *bytes)
 {
   const double steps = needs->life ? 2 * (double)needs->steps : (double)needs->steps;
@@ -136,7 +136,7 @@ static PetscErrorCode EstimateMemory(SamSimulation simulation, double *bytes)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Refuses a run that a node has not enough memory for. */
+/* Rejects a run for which a node does not have enough memory. */
 static PetscErrorCode RefuseTooLarge(SamSimulation simulation, const SamOptions *from)
 {
   double          bytes;
@@ -177,7 +177,7 @@ static PetscErrorCode SetUp(void *context, const SamArguments *arguments)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Passes the news of the simulation on to the report. */
+/* Passes the events of the simulation to the report. */
 static PetscErrorCode Tell(void *context, SamContact contact, const SamSimulationEvent *news)
 {
   const SamRun *run = (const SamRun *)context;
@@ -221,7 +221,7 @@ static int GetStatus(const void *context)
   SamStatus     worst   = SAM_STATUS_CONVERGED;
   PetscBool     stopped = PETSC_FALSE;
 
-  /* -version makes no simulation */
+  /* -version creates no simulation */
   if (run->simulation) (void)SamSimulationGetStatus(run->simulation, &worst, &stopped);
   return stopped ? EXIT_STOPPED : (int)worst;
 }

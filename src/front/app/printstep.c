@@ -4,8 +4,8 @@
 #include <petsam/private/contact.h>
 #include <petsam/private/state.h>
 
-#define ROUNDING 1e-11 /* a part of the size of a number's kind that is rounding, and is printed as 0 */
-#define REST     1e-9  /* the same of loads and displacements: solvers' tolerances leave more where symmetry has 0 */
+#define ROUNDING 1e-11 /* part of the size of a number's kind below which the number is rounding, and printed as 0 */
+#define REST     1e-9  /* the same for loads and displacements, where solvers' tolerances leave more in place of 0 */
 #define WIDTH    120   /* of a line of the table */
 
 static SamState StateOf(SamContact contact)
@@ -28,9 +28,10 @@ static const char *NameOf(SamContact contact, const char usual[])
   return name ? name->name : usual;
 }
 
-/* ---- what is zero to rounding ---- */
+/* ---- rounding ---- */
 
-/* Sizes of forces and moments, translations and rotations; of the latter as they act at the border of the contact. */
+/* Sizes of forces and moments, and of translations and rotations; moments and rotations by their effect at the
+   contact's border */
 typedef struct {
   double load[2], rigid[2];
 } Sizes;
@@ -56,7 +57,7 @@ static double Clean(double value, double least)
   return fabs(value) <= least ? 0 : value;
 }
 
-/* Returns a load or displacement as it is printed: with its rounding if one of the two is given, and not as 0. */
+/* Returns a load or displacement as it is printed: rounding becomes 0, unless one of the two is given. */
 static double Rounded(const SamStep *s, PetscInt c, const PetscReal values[], const double size[2])
 {
   return Clean((double)values[c], s->control.value[c] != 0 ? 0 : REST * size[c >= SAM_COMPONENT_MX]);

@@ -1,8 +1,8 @@
 /*
   The frame of a program: MPI and PETSc, errors and exit codes, -help and -version.
 
-  Errors that a line explains are printed as that line, by one rank if all have met them; of all others PETSc prints a
-  trace.
+  Errors that one line explains are printed as that line, by one rank if all ranks have the error; for all others PETSc
+  prints a trace.
 */
 #include "program.h"
 #include <petsam/private/baseimpl.h>
@@ -16,24 +16,24 @@
 
 enum { EXIT_USAGE = 2, EXIT_FILE = 3 };
 
-/* The program that runs, and its words. */
+/* The program that runs, and its words */
 static const SamProgram *program;
 static SamArguments      arguments;
 
 /* ---- errors ---- */
 
-/* True if an error has occurred that the other ranks may not know of */
+/* True if an error has occurred that may be unknown to other ranks */
 static PetscBool alone = PETSC_FALSE;
 /* True if an MPI launcher has started the program */
 static PetscBool launched = PETSC_TRUE;
 
-/* Errors that a line explains; of all others PETSc prints a trace. */
+/* True if one line explains the error; for all others PETSc prints a trace. */
 static PetscBool IsPlain(PetscErrorCode code)
 {
   return code == SAM_ERR_USER || code == SAM_ERR_FILE || code == PETSC_ERR_NOT_CONVERGED || code == PETSC_ERR_MEM;
 }
 
-/* Prints an error as one line; if all ranks have met it, from rank 0 only. */
+/* Prints an error as one line; if all ranks have it, from rank 0 only. */
 static PetscErrorCode HandleError(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode code,
                                   PetscErrorType type, const char *message, void *context)
 {
@@ -48,7 +48,7 @@ static PetscErrorCode HandleError(MPI_Comm comm, int line, const char *function,
   if (ranks < all) alone = PETSC_TRUE;
   if (code == PETSC_ERR_MEM)
     fprintf(stderr, "%s: rank %d has not enough memory: %s\n", program->name, rank, message);
-  else if (rank == 0 || ranks < all) /* of an option in a file, with that */
+  else if (rank == 0 || ranks < all) /* for an option in a file, with that file */
     fprintf(stderr, "%s: %s%s\n", program->name,
             code == SAM_ERR_USER && message[0] == '-' ? SamArgumentsFindPlace(&arguments, message + 1) : "", message);
   if (code == SAM_ERR_USER && rank == 0)
@@ -64,7 +64,7 @@ static int ExitCode(PetscErrorCode code)
   return code;
 }
 
-/* While PETSc starts, each of its errors is one of the options that it reads. */
+/* Handles errors while PETSc starts; each is due to one of the options that it reads. */
 static PetscErrorCode HandleErrorAtStart(MPI_Comm comm, int line, const char *function, const char *file,
                                          PetscErrorCode code, PetscErrorType type, const char *message, void *context)
 {
@@ -82,7 +82,7 @@ static PetscErrorCode HandleErrorAtStart(MPI_Comm comm, int line, const char *fu
   return code;
 }
 
-/* Ends the program where PETSc could not start; the other ranks may still be starting. */
+/* Ends the program if PETSc could not start; the other ranks may still be starting. */
 static int GiveUpStarting(void)
 {
   int ranks;
@@ -93,17 +93,17 @@ static int GiveUpStarting(void)
   return EXIT_USAGE;
 }
 
-/* ---- the surroundings ---- */
+/* ---- environment ---- */
 
 /*
-  Makes malloc() map large fields from the system and return them to it when they are freed. SuperLU_DIST, which PETSc
-  may link, switches that off for the whole program; half of the memory would then be lost to fragmentation.
+  Makes malloc() map large fields from the system and return them to it when they are freed. SuperLU_DIST, to which
+  PETSc may be linked, disables this for the whole program; half of the memory would then be lost to fragmentation.
 */
 static void ReturnLargeFields(void)
 {
 #if defined(__GLIBC__)
   (void)mallopt(M_MMAP_MAX, 65536);
-  (void)mallopt(M_MMAP_THRESHOLD, 16 << 20); /* smaller fields are allocated in every step, and are faster reused */
+  (void)mallopt(M_MMAP_THRESHOLD, 16 << 20); /* smaller fields are allocated in every step; reusing them is faster */
 #endif
 }
 
@@ -119,7 +119,7 @@ static PetscErrorCode StartPetsc(int *argc, char ***argv)
 
   for (int k = 0; k < USUAL; k++) (void)sigaction(usual[k], NULL, &before[k]);
   code = PetscOptionsCreateDefault();
-  if (!code) code = PetscOptionsSetValue(NULL, "-skip_petscrc", NULL); /* a file that nobody has named */
+  if (!code) code = PetscOptionsSetValue(NULL, "-skip_petscrc", NULL); /* no file without a name given by the user */
   if (!code && program->prepare) code = program->prepare();
   if (!code) code = PetscPushErrorHandler(HandleErrorAtStart, NULL);
   if (!code) code = PetscInitialize(argc, argv, NULL, NULL);
@@ -154,13 +154,13 @@ static PetscErrorCode Run(void)
 }
 
 /*
-  Ends the program after an error. Waits for the other ranks only if they have met the same error: another may have
-  occurred on one rank only. A file that failed in writing cannot be closed, either.
+  Ends the program after an error. Waits for the other ranks only if they have the same error: other errors may have
+  occurred on one rank only. A file whose writing failed cannot be closed, either.
 */
 static void AbandonAfter(PetscErrorCode code, int status)
 {
   if (!code || (status != (int)code && !program->writing(program->context) && !alone)) return;
-  program->abandon(program->context); /* leaves no temporary file */
+  program->abandon(program->context); /* removes temporary files */
   (void)fflush(NULL);
   if (!launched) _exit(status); /* there are no other ranks */
   (void)MPI_Abort(PETSC_COMM_WORLD, status);
@@ -172,7 +172,7 @@ int SamProgramMain(const SamProgram *given, int argc, char **argv)
   int            status;
 
   program = given;
-  (void)signal(SIGXFSZ, SIG_IGN); /* a file at its size limit becomes an error of the call that writes */
+  (void)signal(SIGXFSZ, SIG_IGN); /* a file at its size limit becomes an error of the writing call */
   ReturnLargeFields();
   launched = SamPrepareMPI();
   if (MPI_Init(&argc, &argv)) return EXIT_FAILURE;
@@ -186,7 +186,7 @@ int SamProgramMain(const SamProgram *given, int argc, char **argv)
   PetscCall(program->teardown(program->context));
   PetscCall(SamFinalize());
   PetscCall(PetscPopErrorHandler());
-  if (code) PetscCall(PetscOptionsClear(NULL));          /* no viewer writes its file after a mistake */
+  if (code) PetscCall(PetscOptionsClear(NULL));          /* viewers write no file after a mistake */
   if (code) (void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL); /* HDF5 may complain, at its end, of a file that was damaged */
   SamArgumentsFree(&arguments);
   PetscCall(PetscFinalize());

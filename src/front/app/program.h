@@ -4,13 +4,13 @@
 
 #include <petsam/private/arguments.h>
 
-#define SAM_TOPIC_GROUPS 4 /* most groups of a topic */
+#define SAM_TOPIC_GROUPS 4 /* maximum number of groups of a topic */
 
 /* A topic of the help; scripts/maintain/help.awk makes an array of them from src/front/app/<program>.help. */
 typedef struct {
   const char *name;
-  const char *group[SAM_TOPIC_GROUPS]; /* titles of the groups of options that belong to it; NULL: no more */
-  const char *text;                    /* lines that begin with two spaces are kept as they are in the man page */
+  const char *group[SAM_TOPIC_GROUPS]; /* titles of its groups of options; NULL: no more */
+  const char *text;                    /* lines that begin with two spaces are not reflowed in the man page */
 } SamTopic;
 
 /*
@@ -18,14 +18,14 @@ typedef struct {
 */
 typedef struct {
   const char     *name;
-  const SamTopic *topics;          /* of -help, first what it prints before the options; a name of NULL ends them */
-  PetscErrorCode (*prepare)(void); /* before PETSc starts; NULL: nothing */
+  const SamTopic *topics;          /* topics of -help, first the text before the options; a name of NULL ends them */
+  PetscErrorCode (*prepare)(void); /* called before PETSc starts; NULL: none */
   PetscErrorCode (*setup)(void *context, const SamArguments *arguments); /* reads all options; writes nothing */
   PetscErrorCode (*run)(void *context);
   PetscErrorCode (*teardown)(void *context); /* also after an error */
   int (*status)(const void *context);        /* exit code without an error */
-  PetscBool (*writing)(const void *context); /* a collective write is under way, and cannot be ended */
-  void (*abandon)(void *context);            /* before the program is aborted */
+  PetscBool (*writing)(const void *context); /* true if a collective write is under way, which cannot be ended */
+  void (*abandon)(void *context);            /* called before the program is aborted */
   void *context;
 } SamProgram;
 
@@ -41,12 +41,12 @@ PETSC_INTERN int SamProgramMain(const SamProgram *program, int argc, char **argv
 */
 PETSC_INTERN PetscErrorCode SamProgramHelp(const SamProgram *program, const SamArguments *arguments);
 
-/* SamMemoryRead - the bytes that a row of a file of /proc names; 0: not known. Not collective. */
+/* SamMemoryRead - returns the bytes in a row of a file of /proc; 0: unknown. Not collective. */
 PETSC_INTERN double SamMemoryRead(const char file[], const char row[]);
 #define SAM_MEMORY_PROGRAM 50e6 /* bytes of a program and its libraries, on each rank */
 /*
-  SamMemoryRefuse - refuses a run that needs more memory than a node has, before the system would kill it; `bytes`: the
-  need of this rank. The option and its value are named in the message. Option -memory_check false skips this.
+  SamMemoryRefuse - rejects a run that needs more memory than a node has, before the system would kill it; `bytes`:
+  memory needed by this rank. The option and its value are named in the message. Option -memory_check false skips this.
   Collective. Errors: SAM_ERR_USER.
 */
 PETSC_INTERN PetscErrorCode SamMemoryRefuse(MPI_Comm comm, double bytes, const char option[], const char value[],

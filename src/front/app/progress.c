@@ -1,9 +1,9 @@
 /*
-  A line on the terminal that is updated while a step is solved.
+  Shows a line on the terminal that is updated while a step is solved.
 
-  It must not get into a file. Under an MPI launcher, rank 0's own stdout does not show where the output goes: Open MPI
-  gives its processes a pseudo terminal in any case. So there the stdout of the launcher, the parent process, must be a
-  terminal too; when that cannot be found out, the line is not shown.
+  The line must not get into a file. Under an MPI launcher, rank 0's own stdout does not show where the output goes:
+  Open MPI gives its processes a pseudo terminal in any case. So there the stdout of the launcher, the parent process,
+  must be a terminal too; when that cannot be found out, the line is not shown.
 */
 #include "report.h"
 #include <petsam/private/contact.h>
@@ -11,7 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#define AFTER    1.0  /* s; shorter steps show no line */
+#define AFTER    1.0  /* s; no line in shorter steps */
 #define INTERVAL 0.25 /* s between updates */
 
 /*
@@ -24,7 +24,7 @@ static PetscBool LaunchedByMPI(void)
   FILE                    *file    = fopen("/proc/self/environ", "r");
   char                    *entry   = NULL;
   size_t                   size    = 0;
-  PetscBool                found   = file ? PETSC_FALSE : PETSC_TRUE; /* not known: assume a launcher */
+  PetscBool                found   = file ? PETSC_FALSE : PETSC_TRUE; /* if unknown, a launcher is assumed */
 
   while (!found && getdelim(&entry, &size, '\0', file) > 0)
     for (PetscInt k = 0; names[k]; k++)
@@ -80,7 +80,7 @@ static void Show(SamReport r, const char kind[], PetscInt it, PetscReal error)
     snprintf(where, sizeof(where), "step %" PetscInt_FMT " of %" PetscInt_FMT, r->number + 1, r->steps);
   length = snprintf(text, sizeof(text), "%s, %s: %s problem, iteration %" PetscInt_FMT ", residual %.1e", where,
                     duration, kind, it, (double)error);
-  fprintf(stdout, "\r%-*s\r", r->progress.length, text); /* a monitor's line may follow */
+  fprintf(stdout, "\r%-*s\r", r->progress.length, text); /* the line of a monitor may follow */
   fflush(stdout);
   r->progress.length   = PetscMax(length, r->progress.length);
   r->progress.shown_at = now;

@@ -1,4 +1,4 @@
-/* The report: banner, a line for each load step, messages. */
+/* The report: the banner, a line for each load step, and messages. */
 #include "report.h"
 #include <petsam/private/motionimpl.h>
 #include <petsam/private/solutionimpl.h>
@@ -9,8 +9,8 @@
 #include <string.h>
 
 /*
-  Starts PETSc's log, from which the times by part are taken. Not with a nested log (-log_view in XML or flame graph
-  format), which does not have the times in that form.
+  Starts PETSc's log, from which the times by part are taken, unless there is a nested log (-log_view in XML or flame
+  graph format), which does not have the times in that form.
 */
 static PetscErrorCode StartLog(SamReport r)
 {
@@ -77,7 +77,7 @@ static PetscErrorCode DescribeLibraries(char text[], size_t size)
   PetscCheck(H5get_libversion(&hdf5[0], &hdf5[1], &hdf5[2]) >= 0, PETSC_COMM_SELF, PETSC_ERR_LIB,
              "H5get_libversion() failed");
   PetscCallMPI(MPI_Get_library_version(mpi, &length));
-  mpi[strcspn(mpi, ",\n")] = '\0'; /* the rest says how it was built */
+  mpi[strcspn(mpi, ",\n")] = '\0'; /* the rest describes the build */
   snprintf(fftw, sizeof(fftw), "%s", number ? number + 1 : fftw_version);
   fftw[strcspn(fftw, "-")] = '\0';
   snprintf(text, size, "PETSc %d.%d.%d, FFTW %s, HDF5 %u.%u.%u, %s", (int)petsc[0], (int)petsc[1], (int)petsc[2], fftw,
@@ -166,7 +166,7 @@ static PetscErrorCode BeginStep(SamReport r, PetscInt number, SamContact contact
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Returns the mean seconds of the last lines, `lines` so far, of which this took `seconds`. */
+/* Returns the mean time (s) of the last lines; there have been `lines`, and the latest took `seconds`. */
 static double MeanTime(SamReport r, PetscInt lines, double seconds)
 {
   const PetscInt known = PetscMin(lines, SAM_REPORT_RECENT);
@@ -200,13 +200,13 @@ static PetscErrorCode KeepEnergy(SamReport r, SamContact contact, const SamStep 
   PetscCall(SamContactGetState(contact, &state));
   r->energy_unit = SamStateUnitOf(state, "dissipated_energy");
   touches = SamStateReadNumbers(state, SamStateFindNumber(state, SAM_ENTERING))[0] > 0 ? PETSC_TRUE : PETSC_FALSE;
-  if (isnan(error)) r->energy[1] = -INFINITY; /* of rolling: there is no estimate for all */
+  if (isnan(error)) r->energy[1] = -INFINITY; /* rolling: there is no estimate for all steps */
   if (isnan(error)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamContactGetNumber(contact, "dissipated_energy", &energy));
   r->energy[0] += energy;
   for (PetscInt c = SAM_COMPONENT_TX; c <= SAM_COMPONENT_MZ; c++) work += fabs(step->load[c] * step->rigid[c]);
   r->work = PetscMax(r->work, work);
-  /* the first step of similar bodies applies N, then the rest: that is no error */
+  /* The first step of similar bodies applies N, then the rest, which causes no error. */
   if (r->number || touches) r->energy[1] += error;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -223,10 +223,10 @@ static PetscErrorCode KeepEdges(SamReport r, SamContact contact)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Prints a step's message, with the option that decides it unless it names that itself, to stderr; from rank 0. */
+/* Prints a step's message to stderr, from rank 0; adds the deciding option unless the message names it. */
 static void PrintMessage(SamReport r, const char where[], const SamStep *step)
 {
-  const PetscBool edge       = !step->status && step->check.edge > 0; /* and allowed */
+  const PetscBool edge       = !step->status && step->check.edge > 0; /* and the option allows it */
   char            option[48] = "";
 
   if (edge && r->edge_told) return;
@@ -290,12 +290,12 @@ static PetscErrorCode BeginCycle(SamReport r, SamContact contact)
   r->living = PETSC_TRUE;
   if (!r->cycles) PetscCall(SamReportGetOutputTime(r, &r->output_before));
   if (!r->cycles) r->first = MPI_Wtime();
-  if (!r->cycles) r->begin = r->first; /* later ones begin with the jump before them */
+  if (!r->cycles) r->begin = r->first; /* later cycles begin with the jump before them */
   PetscCall(SamProgressWatch(r, contact));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Estimates the number of jumps over `left` cycles, if they go on to grow as the last one did from that `before`. */
+/* Estimates the number of jumps over `left` cycles if they continue to grow as the last one did from `before`. */
 static double JumpsLeft(double jump, double before, double left)
 {
   const double growth = before > 0 ? PetscMin(1.5, PetscMax(1.0, jump / before)) : 1.5;
@@ -319,7 +319,7 @@ static const SamReportColumn columns[CYCLE_COLUMNS] = {{"cycles", NULL, "cycle",
                                                        {"s", NULL, "", 7, 0, 0},
                                                        {"left", NULL, "", 9, 0, 0}};
 
-/* `cycle`: the numbers of the computed cycle; `cycles`: the number of all. */
+/* Ends a cycle; `cycle`: the numbers of the computed cycle; `cycles`: the number of all cycles so far. */
 static PetscErrorCode EndCycle(SamReport r, SamContact contact, SamState cycle, PetscReal cycles)
 {
   const SamGrid grid = SamContactGetGrid(contact);
@@ -345,7 +345,7 @@ static PetscErrorCode EndCycle(SamReport r, SamContact contact, SamState cycle, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- all news ---- */
+/* ---- all events ---- */
 
 static PetscErrorCode AddFile(SamReport r, const char name[], const char content[])
 {

@@ -6,32 +6,32 @@
 #include <petsam/private/simulation.h>
 
 #define SAM_REPORT_FILES   8
-#define SAM_REPORT_COLUMNS 18 /* of the table of steps */
-#define SAM_REPORT_RECENT  5  /* the mean time of so many steps gives the estimate of the time left */
+#define SAM_REPORT_COLUMNS 18 /* columns in the table of steps */
+#define SAM_REPORT_RECENT  5  /* number of steps whose mean time gives the estimate of the time left */
 
 typedef enum { SAM_PROGRESS_AUTO, SAM_PROGRESS_ALWAYS, SAM_PROGRESS_NEVER } SamProgressMode;
 
-/* The progress line within a step, which only rank 0 shows. */
+/* The progress line within a step, which only rank 0 shows */
 typedef struct {
   SamProgressMode mode;
   PetscBool       active;   /* true if this rank shows it */
   double          after;    /* seconds of a step after which it is shown */
-  double          shown_at; /* when it was updated last (MPI_Wtime) */
-  int             length;   /* characters on the terminal, to be erased */
+  double          shown_at; /* time of the last update (MPI_Wtime) */
+  int             length;   /* number of characters on the terminal, to be erased */
 } SamProgress;
 
 /*
-  SamReportColumn - a column of a printed table: `number`, the name of its load or number of a state, "": none; its
-  width with a space before; its digits, 0: as 1.2e-03; and when it is omitted. `other` replaces the label in a plane,
-  and where the heading would be too long; NULL: none.
+  SamReportColumn - a column of a printed table: `number`, the name of its load or number of a state ("": none); its
+  width including a space before it; its digits (0: as 1.2e-03); and its place in the order of omission. `other` (NULL:
+  none) replaces the label in plane strain, and if the heading would be too long.
 */
 typedef struct {
   const char *label, *other, *number;
-  int         width, digits, order; /* order in which columns are omitted where a line would be too long; 0: never */
+  int         width, digits, order; /* order in which columns are omitted if a line would be too long; 0: never */
 } SamReportColumn;
 typedef char SamReportCell[32];
 
-/* A solution's largest residual so far, and its step. */
+/* A solution's largest residual so far, and its step */
 typedef struct {
   PetscReal residual;
   PetscInt  step;
@@ -43,12 +43,12 @@ typedef struct {
 */
 typedef struct _n_SamReport *SamReport;
 struct _n_SamReport {
-  /* what the user set */
+  /* what the user sets */
   MPI_Comm  comm;
   PetscBool quiet;
   /* status */
   PetscMPIInt    rank;
-  PetscBool      logging;                   /* whether PETSc's log has the times */
+  PetscBool      logging;                   /* true if PETSc's log has the times */
   double         start, first, begin;       /* MPI_Wtime() at the start of the report, of the first step, of this one */
   double         output_before;             /* seconds spent on results and checkpoints before the first step */
   double         recent[SAM_REPORT_RECENT]; /* seconds of the last steps */
@@ -56,17 +56,17 @@ struct _n_SamReport {
   PetscBool      shown[SAM_REPORT_COLUMNS]; /* columns of the table of steps */
   const char    *energy_unit;               /* unit of the dissipated energy */
   PetscInt       cycles;                    /* lines printed for computed cycles */
-  PetscReal      jump;                      /* cycles, of the last of these */
+  PetscReal      jump;                      /* cycles in the last of these */
   PetscBool      living;                    /* the run is a life */
   SamReportWorst worst[3];                  /* normal, tangential, equilibrium */
-  SamReportWorst edges;     /* smallest reconstructed share of the edges; step 0: reconstruction is off */
+  SamReportWorst edges;     /* smallest reconstructed share of the edges; step 0: reconstruction is disabled */
   PetscReal      energy[2]; /* energy dissipated so far, and the estimate of its error, J */
   PetscReal      work;      /* largest T disp of a step, J */
   SamProgress    progress;
-  SamContact     contact;     /* whose monitors are set; borrowed */
+  SamContact     contact;     /* contact whose monitors are set; borrowed */
   SamExtent      extent;      /* of the contact in step `extent_step`, */
-  PetscInt       extent_step; /* from 1; 0: not known */
-  SamSlip        slip;        /* of all steps; without steps: not known */
+  PetscInt       extent_step; /* from 1; 0: unknown */
+  SamSlip        slip;        /* of all steps; unknown without steps */
   PetscBool      edge_told;   /* true once a contact at the grid's edge, which is allowed, has been reported */
   /* files written */
   char    *name[SAM_REPORT_FILES], *content[SAM_REPORT_FILES];
@@ -81,15 +81,15 @@ struct _n_SamReport {
 PETSC_INTERN PetscErrorCode SamReportCreateFromOptions(const SamOptions *from, SamReport *report);
 PETSC_INTERN PetscErrorCode SamReportDestroy(SamReport *report);
 /*
-  SamReportBanner - prints version, libraries, ranks, grid, memory (`bytes`: what this rank will need; the largest is
-  printed), and from where and into which files the run goes. Collective.
+  SamReportBanner - prints version, libraries, ranks, grid, memory (`bytes`: memory that this rank will need; the
+  largest is printed), the checkpoint from which the run continues, and the files that it writes. Collective.
 */
 PETSC_INTERN PetscErrorCode SamReportBanner(SamReport report, SamGrid grid, double bytes,
                                             const SamSimulationStart *start);
 /*
   SamReportNews - prints a line for a step or a computed cycle (the only step of a run in full), messages and warnings,
-  and collects the values of the closing table. A contact at the grid's edge, where that is allowed, is reported in the
-  first such step only. Progress is shown by monitors, which it adds to the contact's solvers. Collective.
+  and collects the values of the closing table. If a contact at the grid's edge is allowed, it is reported in the first
+  such step only. Monitors that are added to the contact's solvers show the progress. Collective.
 */
 PETSC_INTERN PetscErrorCode SamReportNews(SamReport report, SamContact contact, const SamSimulationEvent *news);
 /* SamReportClosing - prints times by part, worst residuals, files written, and time and memory used. Collective. */
@@ -101,33 +101,33 @@ PETSC_INTERN PetscErrorCode SamReportClosing(SamReport report);
   SamStepView - prints a step in a few lines: loads, displacements, areas, iterations, check. Collective on the viewer.
 */
 PETSC_INTERN PetscErrorCode SamStepView(const SamStep *step, SamContact contact, PetscViewer viewer);
-/* Chooses the columns of the table of steps: those of the loads that are not 0 in all steps, as far as they fit. */
+/* Chooses the columns of the table of steps: those of the loads that are not 0 in all steps, as many as fit. */
 PETSC_INTERN void SamReportChooseColumns(SamReport report, const PetscBool loads[SAM_COMPONENTS]);
-/* Returns a number of the last step of a state, or of its last cycle; NaN: there is none of that name. */
+/* Returns a number of the last step of a state, or of its last cycle; NaN: there is no number of that name. */
 PETSC_INTERN double SamReportNumber(SamState state, const char name[]);
 /*
   SamReportHeading - writes the heading of a column, with the unit that its number has on the grid.
   SamReportValue - writes a number, with fewer digits where the column is too narrow for them and a space.
-  SamReportSeconds - writes seconds, whole ones from 1000 on.
-  SamReportLine - prints the cells of a line but empty ones. Collective.
+  SamReportSeconds - writes seconds, as an integer from 1000 on.
+  SamReportLine - prints the cells of a line except empty ones. Collective.
 */
 PETSC_INTERN void SamReportHeading(SamGrid grid, SamState state, const SamReportColumn *column, SamReportCell cell);
 PETSC_INTERN void SamReportValue(const SamReportColumn *column, double value, SamReportCell cell);
 PETSC_INTERN void SamReportSeconds(double seconds, SamReportCell cell);
 PETSC_INTERN PetscErrorCode SamReportLine(SamReport report, PetscInt count, const SamReportColumn columns[],
                                           SamReportCell cells[]);
-/* Prints a step as a line, the first under the heading; `left`: estimated time (s) of the other steps. Collective. */
+/* Prints a step as a line, the first below the heading; `left`: estimated time (s) of the other steps. Collective. */
 PETSC_INTERN PetscErrorCode SamReportStepLine(SamReport report, const SamStep *step, SamContact contact, double seconds,
                                               double left);
-/* Decides by -progress whether to show the line: `auto` depends on where stdout goes. Not collective. */
+/* Decides by -progress if the line is shown: `auto` depends on the destination of stdout. Not collective. */
 PETSC_INTERN void SamProgressStart(SamReport report);
 /* Adds monitors to a contact's solvers, once. Not collective. */
 PETSC_INTERN PetscErrorCode SamProgressWatch(SamReport report, SamContact contact);
 /* Erases the line on the terminal. Not collective. */
 PETSC_INTERN void SamProgressErase(SamReport report);
-/* Seconds spent on results and checkpoints so far, the largest of all ranks. Collective. */
+/* Returns the seconds spent on results and checkpoints so far, the largest of all ranks. Collective. */
 PETSC_INTERN PetscErrorCode SamReportGetOutputTime(SamReport report, double *seconds);
-/* Seconds as h:mm:ss. */
+/* Writes seconds as h:mm:ss. */
 PETSC_INTERN void SamReportDuration(double seconds, char text[], size_t size);
 
 #endif

@@ -1,10 +1,10 @@
-/* The options of petsam-stress that are not those of an evaluation. */
+/* The options of petsam-stress that do not belong to an evaluation. */
 #include "request.h"
 #include <petsam/private/baseimpl.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define LISTED 12 /* steps or cycles of a list in a message */
+#define LISTED 12 /* number of steps or cycles listed in a message */
 
 /* ---- options ---- */
 
@@ -70,7 +70,7 @@ PetscErrorCode SamStressRequestRead(const SamOptions *from, SamStressRequest *r)
 
 /* ---- steps of the results ---- */
 
-/* Finds the number of the saved step that is a load step, or -1. */
+/* Finds the number of the saved step for a load step, or -1. */
 static PetscErrorCode FindSaved(SamResults results, PetscInt step, PetscInt *saved)
 {
   PetscInt count, there;
@@ -86,7 +86,7 @@ static PetscErrorCode FindSaved(SamResults results, PetscInt step, PetscInt *sav
 }
 
 /*
-  Lists the saved steps, or with `cycles` the cycles of saved steps, in words: 1, 2, 3 and so on, but for repetitions.
+  Lists the saved steps, or with `cycles` the cycles of saved steps, without repetitions, as text: 1, 2, 3 and so on.
 */
 static PetscErrorCode ListSaved(SamResults results, PetscBool cycles, char text[], size_t size)
 {

@@ -1,8 +1,8 @@
 /*
-  A contact in another program: plain C types outside, the library's objects inside.
+  A contact in another program: an interface of plain C types to the library's objects.
 
-  Each function enters, so that options are those of the contact and errors become messages; does its work by PETSc's
-  rules; and leaves with a code of the programs. Errors are raised on all ranks of a contact.
+  Each function enters, so that the options are those of the contact and errors become messages, then works by PETSc's
+  rules, and leaves with an exit code of the programs. Errors are raised on all ranks of a contact.
 */
 #include "embedimpl.h"
 #include <petsam/private/arguments.h>
@@ -13,12 +13,12 @@
 #include <petsam/private/stiffness.h>
 #include <stdarg.h>
 
-/* The message of petsam_create(), which may have no contact to hold it. */
+/* The message of petsam_create() if there is no contact to contain it */
 static char created[SAM_MESSAGE];
 
 /* ---- entering and leaving ---- */
 
-/* True if MPI and PETSc have not been ended. */
+/* True if MPI and PETSc have not been finalized. */
 static PetscBool IsAlive(void)
 {
   PetscBool has;
@@ -54,7 +54,7 @@ PetscBool SamEmbedEnterTogether(petsam_contact *c, const char function[], PetscB
   return PETSC_FALSE;
 }
 
-/* The code of a program for an error; wrong arguments are mistakes of usage here. */
+/* Returns the program's exit code for an error; wrong arguments are mistakes of usage here. */
 static int CodeOf(PetscErrorCode code)
 {
   switch ((int)code) {
@@ -99,7 +99,7 @@ const char *petsam_message(const petsam_contact *c)
 
 /* ---- creation ---- */
 
-/* Rejects by name the options that only the program has. Loads are given to petsam_try(). */
+/* Rejects by name the options that only the program has; loads are given to petsam_try(). */
 static PetscErrorCode RefuseOthers(const petsam_contact *c)
 {
   static const char *const others[] = {"load_history", "wear_cycles"};
@@ -200,7 +200,7 @@ static PetscErrorCode ForgetWarnings(petsam_contact *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Looks for warnings of a step only if they are asked for, as they take time. */
+/* Computes the warnings of a step only when they are requested, as this takes time. */
 static PetscErrorCode Advise(petsam_contact *c, int *count)
 {
   const PetscBool tried = SamContactHasStep(c->setup->contact, SAM_TRIED);
@@ -291,7 +291,7 @@ int petsam_create(int comm, const char *options, petsam_contact **contact)
   return code;
 }
 
-/* ---- what is given ---- */
+/* ---- inputs ---- */
 
 int petsam_grid(petsam_contact *c, int n[2], double size[2], double center[2], int *first_row, int *rows)
 {
@@ -318,7 +318,7 @@ PetscErrorCode SamEmbedForget(petsam_contact *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The gap of the bodies as they were before any step. */
+/* Sets the gap of the bodies as they were before any step. */
 static PetscErrorCode SetGap(petsam_contact *c, Vec gap)
 {
   PetscFunctionBegin;
@@ -355,10 +355,10 @@ int petsam_set_field(petsam_contact *c, const char *name, const double *values)
 
 /* ---- steps ---- */
 
-/* Conditions that are not named have the values of the contact's options. */
+/* Tries a step. Conditions without a name have the values of the contact's options. */
 static PetscErrorCode Try(petsam_contact *c, double time, int count, const char *const names[], const double values[])
 {
-  const char *given[SAM_COMPONENTS + SAM_CONDITIONS] = {NULL}; /* names, of each part of the control */
+  const char *given[SAM_COMPONENTS + SAM_CONDITIONS] = {NULL}; /* name for each given part of the control */
   SamControl  control                                = c->control;
 
   PetscFunctionBegin;
@@ -383,7 +383,7 @@ static PetscErrorCode Try(petsam_contact *c, double time, int count, const char 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* `given`: no pointer was NULL. */
+/* Tries a step together; `given`: no pointer was NULL. */
 static int TryTogether(petsam_contact *c, PetscBool given, double time, int count, const char *const names[],
                        const double values[], double load[], double rigid[])
 {
@@ -403,7 +403,7 @@ static int TryTogether(petsam_contact *c, PetscBool given, double time, int coun
   return (int)c->last.status;
 }
 
-/* Each comma ends a name, also an empty one, so that as many values are read as there are names. */
+/* Each comma ends a name, even an empty one, so that as many values are read as there are names. */
 int petsam_try(petsam_contact *c, double time, const char *names, const double values[], double load[6],
                double rigid[6])
 {
@@ -425,7 +425,7 @@ int petsam_try(petsam_contact *c, double time, const char *names, const double v
 
 const char *petsam_step_name(petsam_contact *c, int k, const char **unit)
 {
-  const int               past    = k - SAM_WAYS * SAM_COMPONENTS; /* the components */
+  const int               past    = k - SAM_WAYS * SAM_COMPONENTS; /* index after those of the components */
   const SamComponentName *one     = &SamComponentNames[k < 0 ? 0 : k % SAM_COMPONENTS];
   const char *const       units[] = {one->load_unit, one->rigid_unit, one->creep_unit};
   const SamCondition     *condition;
@@ -484,7 +484,7 @@ int petsam_stiffness(petsam_contact *c, int reversal, double k[36])
                                                                       : SAM_EMBED_USAGE;
 }
 
-/* ---- what is found ---- */
+/* ---- results ---- */
 
 PetscErrorCode SamEmbedCopyField(petsam_contact *c, const char name[], double values[])
 {
@@ -529,7 +529,8 @@ const char *petsam_field_name(petsam_contact *c, int k)
   return NULL;
 }
 
-/* The k-th number that may be asked for by its name, or the first of this name (not NULL); its place, -1: none. */
+/* Returns the place of the k-th number that can be requested by name, or of the first of this name (not NULL); -1:
+   none. */
 static PetscInt FindNumber(SamState state, PetscInt k, const char wanted[], const char **name)
 {
   for (PetscInt n = 0; n < SamStateCountNumbers(state); n++) {
@@ -562,7 +563,7 @@ static PetscErrorCode GetNumber(petsam_contact *c, const char name[], double *va
   const PetscBool committed = SamContactHasStep(c->setup->contact, SAM_COMMITTED);
 
   PetscFunctionBegin;
-  PetscCall(SamContactGetState(c->setup->contact, &state)); /* one without a solution has numbers, too */
+  PetscCall(SamContactGetState(c->setup->contact, &state)); /* a step without a solution has numbers, too */
   PetscCheck(committed || SamStateHasTried(state), c->comm, PETSC_ERR_ORDER, "%s: no step has been tried yet", name);
   if (skip) state = SamSimulationGetSeries(c->simulation);
   PetscCheck(state, c->comm, PETSC_ERR_ORDER, "%s: no cycles have been computed", name);

@@ -10,36 +10,36 @@
 #include <petsam/stiffness.h>
 
 enum { SAM_EMBED_USAGE = 2, SAM_EMBED_FILE = 3 };
-#define SAM_EMBED_BETWEEN " \t\r\n\v\f" /* blanks, which no name contains */
+#define SAM_EMBED_BETWEEN " \t\r\n\v\f" /* blanks, which names must not contain */
 
-/* The steps that are recorded, and the results of petsam_stress() and petsam_fatigue() (stress.c). */
+/* The recorded steps, and the results of petsam_stress() and petsam_fatigue() (stress.c) */
 typedef struct _n_SamEmbedStress *SamEmbedStress;
 
 struct petsam_contact {
   MPI_Comm        comm;
-  PetscOptions    options; /* its own database */
+  PetscOptions    options; /* the contact's own database */
   SamSimulation   simulation;
   const SamSetup *setup;      /* its own */
-  SamConditions   conditions; /* of its problem */
-  SamControl      control;    /* those that options gave */
-  PetscInt        increments; /* of each row of a history */
-  SamStep         last;       /* that was tried; after its rejection none, and no failure */
+  SamConditions   conditions; /* of the problem */
+  SamControl      control;    /* loads and conditions given by options */
+  PetscInt        increments; /* increments per row of a history */
+  SamStep         last;       /* last tried step; after its rejection no step and no failure */
   Vec             work;
   PetscBool       has_gap; /* a gap has been given, */
-  uint64_t        gap;     /* of this checksum */
+  uint64_t        gap;     /* with this checksum */
   int             depth;   /* calls under way: 2 for one from a monitor */
   char            message[SAM_MESSAGE];
-  char          **warning;  /* lines on the last tried step, or run, */
-  int             warnings; /* so many */
-  PetscBool       advised;  /* all of them */
+  char          **warning;  /* lines on the last tried step, or run */
+  int             warnings; /* number of warnings */
+  PetscBool       advised;  /* all warnings have been collected */
 
   SamEmbedStress stress; /* NULL: nothing yet */
 };
 
-/* SamEmbedWarn - adds a warning; `setting`: the option that mends it, or empty. Not collective. */
+/* SamEmbedWarn - adds a warning; `setting`: the option that helps, or empty. Not collective. */
 PETSC_INTERN PetscErrorCode SamEmbedWarn(petsam_contact *c, const char text[], const char setting[]);
 /*
-  SamEmbedStart - starts MPI and PETSc if nobody has. Returns 0, or 2 with a message. Not collective.
+  SamEmbedStart - starts MPI and PETSc unless they have been started. Returns 0, or 2 with a message. Not collective.
 */
 PETSC_INTERN int SamEmbedStart(char message[], size_t size);
 
@@ -55,11 +55,11 @@ static inline uint64_t SamEmbedAddText(uint64_t sum, const char text[])
 }
 
 /*
-  SamEmbedEnter - begins a call of a function: options are those of the contact, errors become messages. False, with a
-  message: not all pointers were `given` to the function, c is NULL, or MPI or PETSc has been finalized.
-  SamEmbedEnterTogether - the same for a function in which ranks wait for each other: false, with a message, if they do
-  not all call it, or not with the same `arguments`, a checksum. Collective.
-  SamEmbedLeave - ends it; returns the exit code for an error.
+  SamEmbedEnter - begins a call of a function: options are those of the contact, errors become messages. Returns false,
+  with a message, if not all pointers were `given` to the function, c is NULL, or MPI or PETSc has been finalized.
+  SamEmbedEnterTogether - the same for a function in which ranks wait for each other. It also returns false, with a
+  message, if not all ranks call it with the same `arguments`, a checksum. Collective.
+  SamEmbedLeave - ends the call; returns the exit code for an error.
   SamEmbedRefuse - sets the message, and returns 2; for mistakes that need no PETSc to be found, the same on all ranks.
   The others are not collective.
 */
@@ -71,15 +71,16 @@ PETSC_INTERN int       SamEmbedRefuse(petsam_contact *c, const char format[], ..
 /* SamEmbedCopyField - copies this rank's rows of a field of the results. Collective. */
 PETSC_INTERN PetscErrorCode SamEmbedCopyField(petsam_contact *c, const char name[], double values[]);
 /*
-  SamEmbedForget - forgets the tried step, before anything changes. Collective. Errors: PETSC_ERR_ORDER in a monitor.
+  SamEmbedForget - discards the tried step, before the contact changes. Collective. Errors: PETSC_ERR_ORDER in a
+  monitor.
 */
 PETSC_INTERN PetscErrorCode SamEmbedForget(petsam_contact *c);
 /* SamEmbedInsertOptions - puts rank 0's options into a database. Collective. Errors: faults of their text. */
 PETSC_INTERN PetscErrorCode SamEmbedInsertOptions(petsam_contact *c, PetscOptions database, const char options[]);
 /*
-  SamEmbedRecord - keeps the tried step, else the committed one, if steps are recorded. SamEmbedForgetSteps - forgets
-  those that are. SamEmbedRecordAnew - the same on a state that has been replaced. SamEmbedDestroyStress - with all of
-  stress.c. Collective.
+  SamEmbedRecord - records the tried step, else the committed one, if steps are recorded. SamEmbedForgetSteps - discards
+  the recorded steps. SamEmbedRecordAnew - does the same after the state has been replaced. SamEmbedDestroyStress -
+  frees all data of stress.c. Collective.
 */
 PETSC_INTERN PetscErrorCode SamEmbedRecord(petsam_contact *c, const SamStep *step);
 PETSC_INTERN void           SamEmbedForgetSteps(petsam_contact *c);

@@ -4,7 +4,7 @@
 #include <petsam/private/control.h>
 #include <petsam/private/parameters.h>
 
-/* Removes the program's option that a message about a file begins with, -checkpoint or -restart. */
+/* Removes the program's option, -checkpoint or -restart, from the beginning of a message about a file. */
 static int LeaveFile(petsam_contact *c, PetscErrorCode error)
 {
   const int         code = SamEmbedLeave(c, error);

@@ -4,14 +4,14 @@
 #include <petsam/private/grid.h>
 #include <petsam/private/contact.h>
 
-/* A run, and its monitor. */
+/* A run, and its monitor */
 typedef struct {
   petsam_contact *c;
   petsam_monitor  monitor; /* NULL: none */
   void           *context;
 } Run;
 
-/* Calls the host's monitor after a step or cycle; the run stops if rank 0's asks for it. */
+/* Calls the host's monitor after a step or cycle; the run stops if the monitor of rank 0 requests it. */
 static PetscErrorCode AskHost(const Run *run, int cycle)
 {
   int stop;
@@ -24,7 +24,7 @@ static PetscErrorCode AskHost(const Run *run, int cycle)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Keeps the step as petsam_try() does, and all warnings. */
+/* Stores the step as petsam_try() does, and all warnings. */
 static PetscErrorCode Tell(void *context, SamContact contact, const SamSimulationEvent *news)
 {
   const Run *const      run = (const Run *)context;
@@ -60,7 +60,8 @@ static PetscErrorCode Tell(void *context, SamContact contact, const SamSimulatio
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The control of the committed step, from which a history goes on; its time in a life is that of the whole life. */
+/* Gets the control of the committed step, from which a history continues; in a life, with the time of the whole
+   life. */
 static PetscErrorCode GetCommitted(petsam_contact *c, SamControl *control, PetscBool *committed)
 {
   const SamSolution *s;
@@ -74,7 +75,7 @@ static PetscErrorCode GetCommitted(petsam_contact *c, SamControl *control, Petsc
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* cycles: of a life; NULL: a history. */
+/* Runs a history, or if `cycles` is not NULL a life of so many cycles. */
 static PetscErrorCode RunProgram(Run *run, const double *cycles, const char columns[], int rows, const double values[])
 {
   petsam_contact *const c = run->c;
@@ -104,7 +105,7 @@ static int RunAll(petsam_contact *c, const char function[], const double *cycles
                   const double values[], petsam_monitor monitor, void *context)
 {
   Run       run = {c, monitor, context};
-  size_t    row = 1; /* numbers */
+  size_t    row = 1; /* numbers per row */
   uint64_t  sum;
   SamStatus worst;
   PetscBool stopped;
@@ -134,7 +135,7 @@ int petsam_live(petsam_contact *c, double cycles, const char *columns, int rows,
   return RunAll(c, __func__, &cycles, columns, rows, values, monitor, context);
 }
 
-/* Refuses a contact of other ranks, of another grid or gap; all ranks find the same. */
+/* Rejects a contact of other ranks, or another grid or gap; all ranks get the same outcome. */
 static PetscErrorCode CheckCopy(petsam_contact *c, petsam_contact *from)
 {
   const petsam_contact *const both[] = {c, from};

@@ -1,9 +1,9 @@
 /*
   MPI and PETSc in a process of another program.
 
-  MPI and PETSc, if started here, are ended when the process ends, unless the process has ended MPI itself: then PETSc
-  is not ended either. PETSc's world is each process alone, so that processes can start it one by one; its objects
-  nevertheless live on the communicators that they are given.
+  If MPI and PETSc are started here, they are finalized when the process ends, unless the process has finalized MPI
+  itself; then PETSc is not finalized either. PETSc's world communicator contains a single process, so that each process
+  can start PETSc independently; PETSc's objects nevertheless use the communicators that they are given.
 */
 #include "embedimpl.h"
 #include <petsam/private/arguments.h>

@@ -1,8 +1,8 @@
 /*
   Stresses and fatigue parameters in another program: petsam_stress(), petsam_record(), petsam_fatigue().
 
-  A step is recorded as the fields that a results file would hold: tractions and slip. Of maps each rank has its rows,
-  as of fields; of a section all ranks have all.
+  A step is recorded as the fields that a results file would contain: tractions and slip. Each rank has its own rows of
+  maps, as of fields; all ranks have the whole of a section.
 */
 #include "embedimpl.h"
 #include <petsam/private/arguments.h>
@@ -13,7 +13,7 @@
 
 enum { AXES = SAM_STRESS_AXES };
 
-/* A step whose stresses can be evaluated. */
+/* A step whose stresses can be evaluated */
 typedef struct {
   SamControl control;
   double     area;     /* of contact, m2 */
@@ -21,28 +21,28 @@ typedef struct {
   double    *fields;   /* (SAM_STEP_FIELDS, cells); NULL: there is no step */
 } Step;
 
-/* Coordinates, or a dataset of an evaluation. */
+/* Coordinates, or a dataset of an evaluation */
 typedef struct {
   const char *name;
   int         dimensions;
-  ptrdiff_t   size; /* numbers on this rank */
+  ptrdiff_t   size; /* count of numbers on this rank */
   double     *values;
 } Result;
 
 struct _n_SamEmbedStress {
   PetscBool recording;
   PetscInt  steps, room;
-  Step     *step;   /* that have been recorded */
-  Step      before; /* the committed one when recording began, if there was one */
+  Step     *step;   /* the recorded steps */
+  Step      before; /* committed step when recording began, if there was one */
   /* results */
-  PetscInt shape[AXES]; /* on this rank */
+  PetscInt shape[AXES]; /* shape on this rank */
   int      results;
   Result   result[AXES + SAM_STRESS_DATASETS]; /* coordinates, then datasets */
 };
 
 /* ---- steps ---- */
 
-/* The tried step, else the committed one. */
+/* Takes the tried step, else the committed one. */
 static PetscErrorCode TakeStep(petsam_contact *c, Step *step)
 {
   static const char *const names[SAM_STEP_FIELDS] = {"pressure", "shear_x", "shear_y", "slip_x", "slip_y"};
@@ -116,7 +116,7 @@ PetscErrorCode SamEmbedDestroyStress(petsam_contact *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Makes room for a result of these dimensions, the last ones of the shape; or one of the axes alone. */
+/* Allocates a result with these dimensions, the last ones of the shape, or with one of the axes alone. */
 static PetscErrorCode AddResult(SamEmbedStress s, const char name[], int first, int end)
 {
   Result *const r = &s->result[s->results];
@@ -129,7 +129,7 @@ static PetscErrorCode AddResult(SamEmbedStress s, const char name[], int first, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Shape, coordinates and room. */
+/* Sets the shape and the coordinates, and allocates the results. */
 static PetscErrorCode CreateResults(SamEmbedStress s, const SamStressLayout *l)
 {
   static const char *const axes[AXES] = {"time", "z", "y", "x"};
@@ -146,7 +146,7 @@ static PetscErrorCode CreateResults(SamEmbedStress s, const SamStressLayout *l)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Keeps what an evaluation hands over. */
+/* Stores a result of the evaluation. */
 static PetscErrorCode Keep(void *context, PetscInt dataset, const PetscInt start[SAM_STRESS_AXES],
                            const PetscInt count[SAM_STRESS_AXES], const double values[])
 {
@@ -176,7 +176,7 @@ static PetscErrorCode GatherSection(petsam_contact *c)
 
 /* ---- evaluation ---- */
 
-/* Reads the options of a call, which are in a database of their own. */
+/* Reads the options of a call, which are in a separate database. */
 static PetscErrorCode ReadOptions(petsam_contact *c, const char options[], SamEvaluation *e)
 {
   const SamOptions from = {c->comm, NULL};
@@ -195,7 +195,7 @@ static PetscErrorCode ReadOptions(petsam_contact *c, const char options[], SamEv
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The steps that are evaluated. */
+/* The steps to be evaluated */
 typedef struct {
   petsam_contact *c;
   const Step     *step, *before;
@@ -360,7 +360,7 @@ int petsam_fatigue(petsam_contact *c, const char *options, int shape[4])
                                                                  : SAM_EMBED_USAGE;
 }
 
-/* ---- asking for results ---- */
+/* ---- results by name ---- */
 
 const char *petsam_stress_name(const petsam_contact *c, int k, int *dimensions)
 {

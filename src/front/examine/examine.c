@@ -1,13 +1,13 @@
 /*
-  petsam-examine - reads the structure of an HDF5 file, and says by its end whether HDF5 survives that.
+  petsam-examine - reads the structure of an HDF5 file; if it ends normally, HDF5 does not crash on the file.
 
       petsam-examine FILE [OBJECT ...]
 
-  HDF5 follows the addresses in a file; on a damaged one it may crash, or follow a circle without end. So the library
-  runs this program on a file before it opens it itself (ground/file/examine.c). The program reads all that the library
-  may read later: names, attributes, shapes, indices of chunks, and small datasets; of the OBJECTs and what is in them,
-  or else of the whole file. It writes a character when it begins, and one when it ends. An error that HDF5 returns is no matter: the library gets it again, and reports it. The
-  program needs neither MPI nor PETSc.
+  HDF5 follows the addresses in a file; on a damaged file it may crash, or follow a circle without end. So the library
+  runs this program on a file before it opens the file itself (ground/file/examine.c). The program reads everything that
+  the library may read later: names, attributes, shapes, indices of chunks, and small datasets, of the OBJECTs and their
+  members, or else of the whole file. It writes a character when it begins, and one when it ends. It ignores errors that
+  HDF5 returns, since the library gets them again and reports them. The program needs neither MPI nor PETSc.
 */
 #include <hdf5.h>
 #include <stdlib.h>
@@ -19,14 +19,14 @@
 #endif
 
 enum {
-  DEPTH = 8, /* groups within groups that are entered; petsam reads from four at most */
+  DEPTH = 8, /* depth of groups within groups; petsam reads from at most four */
   SMALL =
     1 << 22, /* bytes of values that are read: larger datasets are read by blocks, from addresses that are checked */
   PATIENCE   = 2,      /* seconds of CPU time, */
-  BYTES_MORE = 1 << 26 /* and one more for so many bytes; a file takes milliseconds */
+  BYTES_MORE = 1 << 26 /* plus one for each so many bytes; a file takes milliseconds */
 };
 
-/* Ends this process by the system after its time; a crash leaves no core. */
+/* Sets limits by which the system ends this process; a crash leaves no core file. */
 static void SetLimits(const char filename[])
 {
   struct stat         status;
@@ -37,7 +37,7 @@ static void SetLimits(const char filename[])
   (void)setrlimit(RLIMIT_CORE, &core);
 }
 
-/* Returns the bytes of all values of this type and space in memory, 0 if they are none or many. */
+/* Returns the bytes in memory of all values of this type and space; 0 if there are none, or too many. */
 static size_t CountBytes(hid_t type, hid_t space)
 {
   const hssize_t count = H5Sget_simple_extent_npoints(space);
@@ -80,7 +80,8 @@ static void ReadAttributes(hid_t object)
   }
 }
 
-/* Reads where the values of a dataset are, all nodes of the index of its chunks among that, and small ones' values. */
+/* Reads the places of a dataset's values, including all nodes of the index of its chunks, and the values of a small
+   one. */
 static void ReadDataset(hid_t dataset)
 {
   const hid_t creation = H5Dget_create_plist(dataset), type = H5Dget_type(dataset), space = H5Dget_space(dataset);
@@ -136,7 +137,7 @@ int main(int argc, char **argv)
   SetLimits(argv[1]);
   Tell('-');
 #ifdef M_PERTURB
-  (void)mallopt(M_PERTURB, 0x55); /* after an error HDF5 may use memory that it has not set: then it shall crash here */
+  (void)mallopt(M_PERTURB, 0x55); /* after an error HDF5 may use uninitialized memory; this makes it crash here */
 #endif
   (void)setenv("HDF5_USE_FILE_LOCKING", "FALSE", 1); /* the caller may have locked the file */
   (void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
@@ -144,7 +145,7 @@ int main(int argc, char **argv)
   if (file >= 0 && argc == 2) (void)ReadNamed(file, "/", DEPTH);
   for (int k = 2; k < argc && file >= 0; k++) {
     if (!ReadNamed(file, argv[k], DEPTH) && k == 2)
-      (void)ReadNamed(file, "/", 1); /* an error will list what there is */
+      (void)ReadNamed(file, "/", 1); /* an error will list the objects in the file */
   }
   if (file >= 0) (void)H5Fclose(file);
   (void)H5close();

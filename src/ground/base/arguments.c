@@ -1,8 +1,10 @@
 /*
-  Records the given options with their files and lines, before PETSc reads them at its start. It refuses only what PETSc
-  would ignore without an error, or would not come back from; PETSc itself, or the set-up, rejects all other mistakes.
+  Records the given options with their files and lines, before PETSc reads them at its start. It rejects only mistakes
+  that PETSc would ignore without an error, or after which PETSc would not return; PETSc itself, or the set-up, rejects
+  all others.
 
-  Rank 0 looks and tells the others. Words are examined one by one: an option, which may be followed by its value.
+  Rank 0 examines the words and sends its findings to the others. A word is an option, which may be followed by its
+  value.
 */
 #include <petsam/private/arguments.h>
 #include <petsam/private/baseimpl.h>
@@ -14,11 +16,11 @@
 #include <strings.h>
 #include <sys/stat.h>
 
-#define DEEPEST 8 /* options files that name options files */
+#define DEEPEST 8 /* depth of options files that name options files */
 
 /* ---- words ---- */
 
-/* True if PETSc takes a word for an option's name: a dash and a letter. A number is a value, also -inf. */
+/* True if PETSc takes a word for an option's name: a dash and a letter. A number such as -inf is a value. */
 static PetscBool IsOption(const char text[])
 {
   const char *name = text[0] == '-' && text[1] == '-' ? text + 1 : text;
@@ -29,7 +31,7 @@ static PetscBool IsOption(const char text[])
   return end == name || *end;
 }
 
-/* Notes the first mistake. */
+/* Notes a mistake if it is the first one. */
 static void Complain(SamArguments *a, PetscErrorCode code, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(3, 4);
 static void Complain(SamArguments *a, PetscErrorCode code, const char format[], ...)
 {
@@ -43,8 +45,8 @@ static void Complain(SamArguments *a, PetscErrorCode code, const char format[], 
 }
 
 /*
-  Options of PETSc at which a program loads code, starts others, waits for ever, prints PETSc's help, or ends in the
-  middle, without an error that names them; with spaces between them. A star stands for any ending.
+  Options of PETSc, separated by spaces, with which a program loads code, starts others, waits for ever, prints PETSc's
+  help, or ends early without an error that names the option. A star stands for any ending.
 */
 static const char refused[] =
   "-python* -dll_* -start_in_debugger -on_error_attach_debugger -on_error_emacs -stop_for_debugger -saws* "
@@ -64,14 +66,14 @@ static PetscBool IsNamed(const char word[], const char names[])
 
 static void ExamineFile(SamArguments *a, const char where[], const char file[], int depth);
 
-/* `where` names the place, with a colon, or is "". */
+/* Examines the name of an option; `where` is its place with a colon, or "". */
 static void ExamineName(SamArguments *a, const char where[], const char option[])
 {
   if (IsNamed(option, refused))
     Complain(a, SAM_ERR_USER, "%s%s: petsam does not support it here: remove it", where, option);
 }
 
-/* Examines an option, and the word after it if that is its value, else NULL. */
+/* Examines an option and its value: the next word, or NULL. */
 static void ExamineOption(SamArguments *a, const char where[], const char option[], const char value[], int depth)
 {
   ExamineName(a, where, option);
@@ -82,7 +84,8 @@ static void ExamineOption(SamArguments *a, const char where[], const char option
     ExamineFile(a, "-options_file ", value, depth + 1);
 }
 
-/* Words separated by white space, of which the text is changed; double quotes keep words together, as PETSc has it. */
+/* Splits a text, which is changed, into words separated by white space; like PETSc, keeps words in double quotes
+   together. */
 static int Split(char text[], char *words[], int most)
 {
   int count = 0;
@@ -103,7 +106,7 @@ static int Split(char text[], char *words[], int most)
   return count;
 }
 
-/* Rejects a word where an option is expected; `before` is the option before it, whose value is `value`. NULL: none. */
+/* Rejects a word where an option is expected; `before`: the previous option, with the value `value`; NULL: none. */
 static void RefuseWord(SamArguments *a, const char where[], const char word[], const char before[], const char value[])
 {
   Complain(a, SAM_ERR_USER, "%s%.160s: expected an option: it begins with a dash%s%.60s%s%.40s%s", where, word,
@@ -129,7 +132,7 @@ static void WarnOfReplaced(SamArguments *a, const SamArgument *now)
   }
 }
 
-/* Keeps an option, where it stands, and its value; NULL: none. */
+/* Keeps an option, its place, and its value; NULL: none. */
 static void Keep(SamArguments *a, const char option[], const char where[], const char value[], int source)
 {
   SamArgument *more = (SamArgument *)realloc(a->given, (size_t)(a->givens + 1) * sizeof(*more));
@@ -226,7 +229,7 @@ void SamArgumentsSeparate(char text[])
   }
 }
 
-/* Makes PETSC_OPTIONS such a text. */
+/* Separates the words of PETSC_OPTIONS by single spaces. */
 static void SeparateEnvironment(void)
 {
   char *text = getenv("PETSC_OPTIONS") ? strdup(getenv("PETSC_OPTIONS")) : NULL;
@@ -246,7 +249,7 @@ static PetscBool IsOpen(const char text[])
   return quotes % 2 != 0;
 }
 
-/* Examines the words of a text, NULL: none. */
+/* Examines the words of a text; NULL: no text. */
 static void ExamineText(SamArguments *a, const char where[], const char text[])
 {
   const size_t most  = text ? strlen(text) / 2 + 1 : 0;
@@ -259,7 +262,7 @@ static void ExamineText(SamArguments *a, const char where[], const char text[])
   free(copy);
 }
 
-/* ---- the whole ---- */
+/* ---- all arguments ---- */
 
 /* Takes the words from the first one up to the next option as the topic of the help; returns their number. */
 static int TakeTopic(int argc, char **argv, char topic[], size_t size)
@@ -274,7 +277,7 @@ static int TakeTopic(int argc, char **argv, char topic[], size_t size)
   return count;
 }
 
-/* -help, --help, -h, --version, -version: PETSc would print its own text and go on. */
+/* Removes -help, --help, -h, --version and -version, for which PETSc would print its own text and continue. */
 static void TakeHelpAndVersion(int *argc, char **argv, SamArguments *a)
 {
   int kept = 1;
@@ -292,7 +295,7 @@ static void TakeHelpAndVersion(int *argc, char **argv, SamArguments *a)
   argv[kept] = NULL;
 }
 
-/* Rank 0 tells the others what it has found. */
+/* Sends rank 0's findings to the other ranks. */
 static void TellAll(MPI_Comm comm, SamArguments *a)
 {
   (void)MPI_Bcast(&a->code, (int)sizeof(a->code), MPI_BYTE, 0, comm);
@@ -356,7 +359,7 @@ const char *SamArgumentsFindPlace(const SamArguments *a, const char name[])
 
 PetscErrorCode SamArgumentsRefuseUnknown(MPI_Comm comm, const SamArguments *arguments)
 {
-  /* options that PETSc itself reads only in PetscFinalize() */
+  /* Options that PETSc itself reads only in PetscFinalize(). */
   static const char *const late[] = {"-malloc_dump",
                                      "-malloc_view",
                                      "-malloc_test",

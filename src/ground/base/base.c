@@ -82,7 +82,7 @@ PetscErrorCode SamSumTotals(MPI_Comm comm, PetscInt n, const SamTotal totals[], 
     if (one == all)
       PetscCallMPI(
         MPI_Allreduce(totals + k, all, (PetscMPIInt)PetscMin(TOGETHER, n - k), total_type, add_totals, comm));
-    lacks   = SamAddExactly(&one->sum, one->rest); /* sum and rest may cancel: first without loss */
+    lacks   = SamAddExactly(&one->sum, one->rest); /* sum and rest may cancel, so they are added first, without loss */
     sums[k] = one->sum + (lacks + one->last);
   }
   PetscFunctionReturn(PETSC_SUCCESS);

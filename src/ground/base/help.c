@@ -1,9 +1,9 @@
-/* The help: options list themselves while they are read; what they say is printed, or given to whoever asked for it. */
+/* The help: options are listed while they are read; their descriptions are printed, or passed to a receiver. */
 #include <petsam/private/baseimpl.h>
 #include <petsam/private/help.h>
 #include <petsam/private/base.h>
 
-#define COLUMN 40 /* of the descriptions */
+#define COLUMN 40 /* first column of the descriptions */
 
 static SamHelpFunction receive  = SamHelpPrint;
 static void           *receiver = NULL;

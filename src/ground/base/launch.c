@@ -3,10 +3,10 @@
 #include <stdlib.h>
 
 #if defined(OPEN_MPI)
-/* Without a network. Concurrent programs would share a session's folder. */
+/* Settings for running without a network; concurrent programs would share a session's folder. */
 static struct {
   const char *name, *value;
-  PetscBool   set; /* here, and not by the user */
+  PetscBool   set; /* set by this program, not by the user */
 } alone[] = {{"OMPI_MCA_ess_singleton_isolated", "1", PETSC_FALSE},
              {"OMPI_MCA_orte_create_session_dirs", "0", PETSC_FALSE},
              {"OMPI_MCA_pml", "ob1", PETSC_FALSE},
@@ -26,7 +26,7 @@ static PetscBool IsLaunched(void)
 
 PetscBool SamPrepareMPI(void)
 {
-  (void)setenv("OMPI_MCA_sharedfp", "^sm", 0); /* its semaphores fail where /dev/shm is full */
+  (void)setenv("OMPI_MCA_sharedfp", "^sm", 0); /* its semaphores fail if /dev/shm is full */
   if (IsLaunched()) return PETSC_TRUE;
   for (int k = 0; k < ALONE; k++) {
     alone[k].set = !getenv(alone[k].name);

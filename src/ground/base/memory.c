@@ -14,11 +14,12 @@
   #include <malloc.h>
 #endif
 
-/* From this size (bytes) on, arrays of zeros are mapped; for smaller ones rounding up to pages would waste memory. */
+/* Arrays of zeros of at least this size (bytes) are mapped; for smaller ones rounding up to pages would waste
+   memory. */
 #define LARGE      ((size_t)8 << 20)
 #define LARGE_PAGE ((size_t)2 << 20)
 
-/* The mapped arrays, for SamFree() to know them. */
+/* The mapped arrays, which SamFree() looks up */
 typedef struct Mapped {
   void          *base;
   size_t         bytes;
@@ -34,7 +35,8 @@ static void UseLargePages(void *p, size_t bytes)
 #endif
 }
 
-/* Maps zeroed memory from a huge-page boundary on: maps more, unmaps the excess at both ends. NULL: out of memory. */
+/* Maps zeroed memory that begins at a huge-page boundary: maps more, and unmaps the excess at both ends. NULL: out of
+   memory. */
 static void *MapZeros(size_t bytes)
 {
   const size_t page = (size_t)sysconf(_SC_PAGESIZE), whole = (bytes + page - 1) / page * page;

@@ -5,8 +5,8 @@
   parameters follow from the row.
 
   PETSc's own functions accept trailing text in some places, and report a wrong value with a stack trace that does not
-  say which option was meant. Here the whole text must be a value, and the error names the option, the text and what was
-  expected.
+  name the option. Here the whole text must be a value, and the error names the option, the text and the expected
+  values.
 */
 #include <petsam/private/baseimpl.h>
 #include <petsam/private/help.h>
@@ -17,7 +17,7 @@
 #include <string.h>
 
 #define TEXT_SIZE  PETSC_MAX_PATH_LEN
-#define MOST_WHOLE (1LL << 53) /* doubles hold whole numbers exactly up to this */
+#define MOST_WHOLE (1LL << 53) /* largest value up to which doubles represent all integers */
 
 PetscErrorCode SamSetPrefix(char to[SAM_PREFIX], const char prefix[])
 {
@@ -28,10 +28,10 @@ PetscErrorCode SamSetPrefix(char to[SAM_PREFIX], const char prefix[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The most characters of a wrong value that a message quotes. */
+/* Maximum number of characters of a wrong value that a message quotes */
 #define QUOTED 60
 
-/* Returns a wrong value as a message quotes it. */
+/* Returns a wrong value as it is quoted in a message. */
 static const char *Quote(char text[])
 {
   if (strlen(text) > QUOTED) (void)strcpy(text + QUOTED, "...");
@@ -88,7 +88,7 @@ static PetscInt CountOf(const SamOptionRow *row)
   return PetscMax(row->size, 1);
 }
 
-/* Reads an integer at *text and moves to the end of the field; whether it is one that the row allows. */
+/* Reads an integer at *text and moves to the end of the field; returns true if the row allows the integer. */
 static PetscBool ReadInteger(const SamOptionRow *row, const char **text, double *value)
 {
   char           *end;
@@ -101,7 +101,8 @@ static PetscBool ReadInteger(const SamOptionRow *row, const char **text, double 
 }
 
 /*
-  Reads one number at *text and moves past it and a comma behind it; whether it is one of the kind. `unit`: one follows.
+  Reads one number at *text and moves past it and past a comma after it; returns true if it is of the row's kind.
+  `unit`: true if a unit follows.
 */
 static PetscBool ReadNumber(const SamOptionRow *row, const char **text, double *value, PetscBool *unit)
 {
@@ -118,8 +119,8 @@ static PetscBool ReadNumber(const SamOptionRow *row, const char **text, double *
 }
 
 /*
-  Refuses two lengths that are likely to be one number with a decimal comma: 2,6e-3 has no point and no exponent before
-  the comma, and an exponent after it.
+  Rejects two lengths that are likely to be one number with a decimal comma, such as 2,6e-3: no point and no exponent
+  before the comma, and an exponent after it.
 */
 static PetscErrorCode RefuseDecimalComma(const SamOptions *from, const char name[], const char text[],
                                          const double v[2])
@@ -137,13 +138,14 @@ static PetscErrorCode RefuseDecimalComma(const SamOptions *from, const char name
           SamOptionsPrefix(from), name, text, numbers, point);
 }
 
-/* Reads numbers of which some are given, as `expected` says; returns how many, 0: the option is absent. */
+/* Reads numbers, some of which may be missing; `expected` describes them. Returns their count; 0: the option is
+   absent. */
 static PetscErrorCode ReadNumbers(const SamOptions *from, const SamOptionRow *row, const char expected[], double v[],
                                   PetscInt *n)
 {
   char        text[TEXT_SIZE];
   const char *rest = text;
-  PetscBool   good = PETSC_TRUE, found, unit[2] = {PETSC_FALSE}; /* of the first number, and of this one */
+  PetscBool   good = PETSC_TRUE, found, unit[2] = {PETSC_FALSE}; /* unit: after the first number, and after this one */
   char        why[192];
 
   PetscFunctionBegin;
@@ -163,7 +165,7 @@ static PetscErrorCode ReadNumbers(const SamOptions *from, const SamOptionRow *ro
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Reads one number or two; a single one stands for both. */
+/* Reads one or two numbers; a single number is used for both. */
 static PetscErrorCode ReadNumberRow(const SamOptions *from, const SamOptionRow *row, void *member, PetscBool *given)
 {
   static const char *const argument[2][2] = {{"<number>", "<number>[,<number>]"},
@@ -179,7 +181,7 @@ static PetscErrorCode ReadNumberRow(const SamOptions *from, const SamOptionRow *
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < 2; k++) v[k] = whole ? (double)wholes[k % count] : (double)reals[k % count];
-  if (!isnan(v[0])) /* there is a default */
+  if (!isnan(v[0])) /* if there is a default */
     (void)snprintf(shown, sizeof(shown), count > 1 ? "%.*g,%.*g" : "%.*g", digits, v[0], digits, v[1]);
   PetscCall(
     SamOptionsDescribe(from, &(SamOptionHelp){row->name, argument[whole][count - 1], row->text, shown, "", row->unit}));
@@ -216,7 +218,7 @@ PetscErrorCode SamOptionsReals(const SamOptions *from, const SamOptionRow *row, 
 
 /* ---- words and texts ---- */
 
-/* Returns the place of a text in a list with commas, -1: none. */
+/* Returns the place of a text in a list separated by commas; -1: not in the list. */
 static int FindWord(const char list[], const char text[])
 {
   const size_t length = strlen(text);
@@ -274,7 +276,7 @@ static PetscErrorCode ReadBool(const SamOptions *from, const SamOptionRow *row, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Reads one word of the row's list, whose place, or whether it is not the first one, is the value. */
+/* Reads one word of the row's list; the value is its place, or, for a logical value, true if it is not the first. */
 static PetscErrorCode ReadChoice(const SamOptions *from, const SamOptionRow *row, void *member, PetscBool *given)
 {
   char text[TEXT_SIZE], list[TEXT_SIZE];
@@ -328,7 +330,7 @@ const SamOptionFile *SamOptionsFile(PetscInt k)
   return k < nameds ? &named[k] : NULL;
 }
 
-/* Reads a text, a file's name, one word, which is checked, or several. */
+/* Reads a text, the name of a file, or one or more words, which are checked. */
 static PetscErrorCode ReadText(const SamOptions *from, const SamOptionRow *row, char value[], PetscBool *given)
 {
   static const char *const arguments[] = {
@@ -356,7 +358,7 @@ static PetscErrorCode ReadText(const SamOptions *from, const SamOptionRow *row, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Finds out whether a viewer is asked for; it is created where it is used. */
+/* Finds out if a viewer is requested; the code that uses it creates it. */
 static PetscErrorCode ReadViewer(const SamOptions *from, const SamOptionRow *row, PetscBool *given)
 {
   char option[128], text[TEXT_SIZE] = "";
@@ -406,7 +408,7 @@ PetscErrorCode SamOptionsHas(const SamOptions *from, const char option[], PetscB
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* True if the member already holds a valid value, which is the default. */
+/* True if the member already contains a valid value, which is the default. */
 static PetscBool HasDefault(const SamOptionRow *row, const void *member)
 {
   if (row->kind == SAM_OPTION_REAL) return SamRangeHas(row->range, (double)*(const PetscReal *)member);
@@ -434,7 +436,8 @@ PetscErrorCode SamOptionsNeed(const SamOptions *from, PetscBool given, const cha
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Checks that other options that a row needs are given, that those it excludes are not, and that its value is there. */
+/* Checks that the options that a row needs are given, that those it excludes are not, and that its own value is
+   given. */
 static PetscErrorCode CheckRow(const SamOptions *from, const SamOptionRow *row, const void *member, PetscBool given)
 {
   const char *prefix = SamOptionsPrefix(from);

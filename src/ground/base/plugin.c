@@ -7,7 +7,8 @@
 
 typedef PetscErrorCode (*Register)(void);
 
-/* Loads a file on this rank. A name without a folder is one in the current folder, as of other files. NULL: `fault`. */
+/* Loads a file on this rank. As for other files, a name without a folder is in the current folder. Returns NULL and
+   `fault` on failure. */
 static Register Load(const char file[], char fault[], size_t size)
 {
   char     name[PETSC_MAX_PATH_LEN + 2];

@@ -9,16 +9,16 @@
 #include <stdlib.h>
 #include <strings.h>
 
-#define MOST   256 /* names that are kept */
+#define MOST   256 /* number of names that are kept */
 #define LENGTH 48  /* characters of a name that are compared */
 
-static char     known[MOST][LENGTH], belongs[MOST][LENGTH]; /* belongs: what an option has an effect with; or empty */
+static char     known[MOST][LENGTH], belongs[MOST][LENGTH]; /* belongs: what the option needs; or empty */
 static PetscInt knowns = 0;
 
-/* Options that PETSc reads, whose names count as well. */
+/* Options that PETSc reads; their names are suggested, too */
 static const char *const petsc[] = {"options_file", "log_view", "options_left", "help", "version"};
 
-/* Names that users of other programs and of textbooks write, separated by spaces, for an option */
+/* Names in use in other programs and textbooks, separated by spaces, and the option that they mean */
 static const struct {
   const char *tried, *name;
 } habits[] = {{"mu cof friction_coefficient", "friction"},
@@ -38,7 +38,7 @@ static const struct {
               {"o out output_file", "output"},
               {"i", "input"},
               {"options file", "options_file"},
-              /* their names before version 1.0.0 was released */
+              /* names before the release of version 1.0.0 */
               {"plastic_depth", "yield_depth"},
               {"plastic_layers", "yield_layers"},
               {"plastic_first", "yield_first"},
@@ -46,13 +46,13 @@ static const struct {
               {"body1_layer_stress", "body1_initial_stress"},
               {"body2_layer_stress", "body2_initial_stress"}};
 
-/* PETSc does not tell capitals from small letters in names; a dash within a name is a likely slip. */
+/* PETSc ignores the case of letters in names; a dash within a name is a likely slip. */
 static char Plain(char c)
 {
   return c == '-' ? '_' : (char)tolower((unsigned char)c);
 }
 
-/* Returns the option that such a name means; NULL: none. */
+/* Returns the option that such a name means; NULL: it means none. */
 static const char *FindHabit(const char name[])
 {
   for (size_t h = 0; h < sizeof(habits) / sizeof(habits[0]); h++)
@@ -67,15 +67,15 @@ static const char *FindHabit(const char name[])
   return NULL;
 }
 
-/* Returns the length of a name without an equals sign and a value behind it, as other programs have them. */
+/* Returns the length of a name up to an equals sign and a value after it, which other programs allow. */
 static size_t LengthOf(const char name[])
 {
   return PetscMin(strcspn(name, "="), LENGTH);
 }
 
 /*
-  Returns twice the number of slips between two names: letters left out, put in, changed, or swapped with the next
-  (optimal string alignment distance). An underscore left out or put in is half a slip.
+  Returns twice the number of slips between two names: letters omitted, inserted, changed, or swapped with the next one
+  (optimal string alignment distance). An omitted or inserted underscore is half a slip.
 */
 static size_t CountSlips(const char a[], const char b[])
 {
@@ -165,7 +165,7 @@ const char *SamOptionsNearest(const char tried[])
   return SamNearestName(tried, count, names);
 }
 
-/* Finds among the options that nobody has asked for one whose name may have been meant to be this. */
+/* Finds an unused option on the command line that may be a misspelling of this name. */
 static PetscErrorCode FindMisspelled(const char name[], char found[], size_t size)
 {
   PetscInt count;
@@ -209,7 +209,7 @@ PetscBool SamIsDecimalComma(const char text[])
   return strspn(text + first, "0123456789") == (size_t)(comma - text) - first;
 }
 
-/* Returns the text behind a number at the beginning, and behind white space; NULL without a number. */
+/* Returns the text after a number at the beginning and after white space; NULL if there is no number. */
 static const char *FindBehind(const char text[])
 {
   char *end;
@@ -233,7 +233,7 @@ void SamExplainNumber(const char text[], const char unit[], char why[], size_t s
                    units[0] ? "; the units allowed, behind each number: %s"
                             : "; without a unit: all numbers are in SI units (m, N, Pa), 2.6e-3 for 2.6 mm",
                    units);
-  for (rest = text; *rest; rest++) /* anywhere, as in 2.6e-3,2,6e-3 */
+  for (rest = text; *rest; rest++) /* at any place, as in 2.6e-3,2,6e-3 */
     if ((rest == text || rest[-1] == ',') && SamIsDecimalComma(rest))
       (void)snprintf(why, size, "; numbers have a decimal point, not a comma");
 }

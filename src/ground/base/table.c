@@ -11,7 +11,7 @@
 typedef struct {
   MPI_Comm           comm;
   const char        *option, *file;
-  const char *const *names; /* of the columns that there may be */
+  const char *const *names; /* names of the allowed columns */
   SamTable          *t;
   char               separator; /* comma, semicolon, or a space for any white space */
   PetscInt           line, room;
@@ -29,7 +29,7 @@ static char *Trim(char *text)
   return text;
 }
 
-/* Returns a field without the quotes that spreadsheets put about it. */
+/* Returns a field without the quotes that spreadsheets write around it. */
 static char *Unquote(char *field)
 {
   const size_t length = strlen(field);
@@ -39,7 +39,7 @@ static char *Unquote(char *field)
   return Trim(field + 1);
 }
 
-/* Returns the next field of a line, its separator overwritten; NULL after the last. */
+/* Returns the next field of a line, and overwrites its separator; NULL after the last field. */
 static char *NextField(char **rest, char separator)
 {
   char *field = *rest, *end;
@@ -54,7 +54,7 @@ static char *NextField(char **rest, char separator)
 
 /* ---- names of columns ---- */
 
-/* Returns the name that is meant by another: without its dash, quotes, capitals and unit; NULL: none. */
+/* Returns the known name that a field means, ignoring its dash, quotes, capitals and unit; NULL: none. */
 static const char *FindMeant(const Reader *r, const char field[])
 {
   char   plain[SAM_TABLE_NAME] = "";
@@ -78,7 +78,7 @@ static PetscBool IsInRun(const char name[], const char next[])
            : PETSC_FALSE;
 }
 
-/* Lists all names, of a run of those of the bodies the first and the last one. */
+/* Lists all names; of a run of names of the bodies only the first and the last one. */
 static void ListNames(const Reader *r, char list[], size_t size)
 {
   size_t    used   = 0;
@@ -94,7 +94,7 @@ static void ListNames(const Reader *r, char list[], size_t size)
   }
 }
 
-/* Rejects a name that is not the name of a column. A unit in it is a likely reason. */
+/* Rejects a name that is not the name of a column; a unit in the name is a likely reason. */
 static PetscErrorCode RefuseName(Reader *r, const char field[])
 {
   const char *meant = FindMeant(r, field);
@@ -118,7 +118,7 @@ static PetscBool IsName(const Reader *r, const char field[])
   return PETSC_FALSE;
 }
 
-/* The names of the columns. What separates them separates the numbers as well. */
+/* Reads the names of the columns. Their separator also separates the numbers. */
 static PetscErrorCode ReadHeader(Reader *r, char *text)
 {
   SamTable *const t    = r->t;
@@ -176,7 +176,7 @@ static PetscErrorCode ReadRow(Reader *r, char *text)
 
 /* ---- files ---- */
 
-/* Reads a line without its end. The first one may begin with the mark that some editors put before UTF-8. */
+/* Reads a line without its end. The first line may begin with the mark that some editors write before UTF-8. */
 static PetscErrorCode ReadLine(Reader *r, char *line)
 {
   static const char mark[] = "\xef\xbb\xbf";
@@ -203,7 +203,7 @@ static PetscErrorCode CheckText(const Reader *r, const char text[], size_t lengt
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Lines end with LF, CR LF or, from old Macintosh programs, CR. `buffer` is for getline(). */
+/* Reads lines that end with LF, CR LF or, from old Macintosh programs, CR. `buffer` is for getline(). */
 static PetscErrorCode ReadLines(Reader *r, FILE *stream, char **buffer)
 {
   size_t  size = 0, n;
@@ -214,7 +214,7 @@ static PetscErrorCode ReadLines(Reader *r, FILE *stream, char **buffer)
   errno = 0;
   n     = fread(begin, 1, sizeof(begin), stream);
   if (!memchr(begin, '\n', n))
-    PetscCall(CheckText(r, begin, n)); /* what is no text may have no end of its first line */
+    PetscCall(CheckText(r, begin, n)); /* a file that is no text may have no end of its first line */
   rewind(stream);
   while ((length = getline(buffer, &size, stream)) >= 0) {
     PetscCall(CheckText(r, *buffer, (size_t)length));
@@ -242,7 +242,7 @@ static PetscErrorCode ReadFile(Reader *r)
   PetscErrorCode code;
 
   PetscFunctionBegin;
-  errno  = 0; /* a pipe, or a device, could keep the run waiting */
+  errno  = 0; /* opening a pipe or a device could block the run */
   stream = stat(r->file, &status) || !S_ISREG(status.st_mode) ? NULL : fopen(r->file, "r");
   PetscCheck(stream, r->comm, SAM_ERR_FILE, SAM_CANNOT_READ, r->option, r->file,
              errno ? strerror(errno) : "it is not a file");
@@ -264,7 +264,7 @@ PetscErrorCode SamTableRead(MPI_Comm comm, const char option[], const char file[
   PetscFunctionBegin;
   PetscCall(PetscMemzero(t, sizeof(*t)));
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  if (rank == 0) { /* the error that it finds is raised on all ranks */
+  if (rank == 0) { /* the error is raised on all ranks */
     PetscCall(PetscPushErrorHandler(SamKeepMessage, message));
     code = ReadFile(&r);
     PetscCall(PetscPopErrorHandler());

@@ -17,7 +17,7 @@ PetscErrorCode SamTypesGet(PetscFunctionList list, const char ***types, int *cou
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The names with this between them. */
+/* Joins the names, with this text between them. */
 static PetscErrorCode Join(PetscFunctionList list, const char between[], const char last[], char text[], size_t size)
 {
   const char **types;

@@ -1,14 +1,14 @@
 /*
-  Units behind the numbers of options: 2.6mm is 2.6e-3, to the last bit.
+  Units after the numbers of options: 2.6mm is 2.6e-3, to the last bit.
 
-  An option's row declares its unit of SI. Powers of ten alone distinguish the units that may follow a number, so the
-  number is read with another exponent.
+  An option's row declares its unit of SI. The units that may follow a number differ from it by powers of ten only, so
+  the number is read with another exponent.
 */
 #include <petsam/private/baseimpl.h>
 #include <errno.h>
 #include <stdlib.h>
 
-#define MOST 4 /* units that may follow */
+#define MOST 4 /* number of units that may follow */
 
 typedef struct {
   const char *si, *name[MOST];
@@ -24,10 +24,10 @@ static const Kind kinds[] = {{"m", {"m", "mm", "um", "nm"}, {0, -3, -6, -9}},
                              {"m/s", {"m/s", "mm/s", "um/s"}, {0, -3, -6}},
                              {"s", {"s", "ms"}, {0, -3}},
                              {"rad", {"rad", "mrad"}, {0, -3}},
-                             {"1/Pa", {"m3/Nm", "mm3/Nm"}, {0, -9}}, /* no digit, which would be the number's */
+                             {"1/Pa", {"m3/Nm", "mm3/Nm"}, {0, -9}}, /* no digit, as it would be part of the number */
                              {"m3/J", {"m3/J", "mm3/J"}, {0, -9}}};
 
-/* Returns the kind of a unit; NULL: none, or one that only numbers in SI units have. */
+/* Returns the kind of a unit; NULL if there is none, or if the option takes numbers in SI units only. */
 static const Kind *FindKind(const char unit[])
 {
   for (size_t k = 0; unit && k < sizeof(kinds) / sizeof(kinds[0]); k++)
@@ -35,7 +35,7 @@ static const Kind *FindKind(const char unit[])
   return NULL;
 }
 
-/* The number of so many characters times a power of ten. */
+/* Reads the first `length` characters as a number, with the exponent raised by `power`. */
 static double ReadScaled(const char number[], size_t length, int power)
 {
   const size_t digits = PetscMin(length, strcspn(number, "eE"));
@@ -60,7 +60,7 @@ PetscBool SamReadReal(const char si[], const char text[], const char **end, doub
   *unit  = length ? PETSC_TRUE : PETSC_FALSE;
   if (!size || (errno == ERANGE && isinf(*value))) return PETSC_FALSE;
   if (!length) return PETSC_TRUE;
-  if (size > 64 || strspn(text, "+-.0123456789eE") != size) return PETSC_FALSE; /* inf, 0x1p3 */
+  if (size > 64 || strspn(text, "+-.0123456789eE") != size) return PETSC_FALSE; /* excludes inf and 0x1p3 */
   for (int k = 0; kind && k < MOST && kind->name[k]; k++)
     if (strlen(kind->name[k]) == length && !strncmp(kind->name[k], name, length)) {
       *value = ReadScaled(text, size, kind->power[k]);

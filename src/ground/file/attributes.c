@@ -1,9 +1,9 @@
-/* The parameters of a run, as attributes of its files; fields among them stand for themselves by a checksum. */
+/* The parameters of a run, as attributes of its files; a field is represented by a checksum. */
 #include <petsam/private/file.h>
 #include <math.h>
 #include <string.h>
 
-/* The attribute that names all fixed parameters of a file, with commas between them. */
+/* The attribute that lists the names of all fixed parameters of a file, separated by commas */
 #define NAMES "fixed_parameters"
 
 void SamParametersWrite(SamFile f, const SamParameters *parameters)
@@ -35,7 +35,7 @@ static PetscInt Count(SamFile f, const char name[])
   return (PetscInt)PetscMin(PetscMax(count, 1), SAM_PARAMETER_VALUES);
 }
 
-/* Reads the file's value of a parameter. */
+/* Reads the value of a parameter from the file. */
 static PetscErrorCode Read(SamFile f, const SamParameter *like, SamParameter *read)
 {
   char *text = NULL;
@@ -75,7 +75,7 @@ static PetscBool IsFree(const SamParameters *parameters, const char name[])
   return parameters->free && !strncmp(name, parameters->free, strlen(parameters->free));
 }
 
-/* True if the file's value of a parameter is one that somebody has given: inf and 0 also stand for none. */
+/* True if the file's value of a parameter was given by the user: inf and 0 also mean that none was given. */
 static PetscErrorCode IsGivenThere(SamFile f, const char name[], PetscBool *given)
 {
   SamParameter like = {.count = 0}, there;
@@ -93,7 +93,8 @@ static PetscErrorCode IsGivenThere(SamFile f, const char name[], PetscBool *give
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* True if the file has a fixed parameter that this run does not have; names the first one with a value. */
+/* True if the file has a fixed parameter that this run does not have; returns the name of the first one with a
+   value. */
 static PetscErrorCode FindOther(SamFile f, const SamParameters *parameters, char message[], size_t size,
                                 PetscBool *found)
 {
@@ -135,7 +136,7 @@ PetscBool SamParametersDiffer(SamFile f, const SamParameters *parameters, char m
     if (f->failed || Same(now, &there)) continue;
     Print(&there, text[0], sizeof(text[0]));
     Print(now, text[1], sizeof(text[1]));
-    if (!strcmp(now->name, "wear")) /* no option */
+    if (!strcmp(now->name, "wear")) /* it is not an option */
       (void)snprintf(message, size, "the bodies wear by %s there, not by %s (-wear_cycles)", text[0], text[1]);
     else
       (void)snprintf(message, size, "-%s is %s there, not %s", now->name, text[0], text[1]);

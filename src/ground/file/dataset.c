@@ -20,7 +20,7 @@ void SamFileWriteAttribute(SamFile f, hid_t object, const char name[], hid_t sto
   (void)SamFileNote(f, H5Sclose(space));
 }
 
-/* Texts are stored with variable length, which h5py reads as str. */
+/* Texts are stored with variable length, since h5py reads these as str. */
 void SamFileWriteTextAttribute(SamFile f, hid_t object, const char name[], const char text[])
 {
   const hid_t type = SamFileNote(f, H5Tcopy(H5T_C_S1));
@@ -75,7 +75,7 @@ void SamFileWriteOrigin(SamFile f, const char title[], const char program[])
   SamFileWriteTextAttribute(f, f->id, "petsam_version", PETSAM_VERSION);
 }
 
-/* Copies a text without the spaces that pad it; what does not fit is cut. */
+/* Copies a text without the spaces that pad it, cut to the available length. */
 static void CopyTrimmed(const char from[], size_t most, char text[], size_t size)
 {
   size_t length = strnlen(from, most);
@@ -123,7 +123,7 @@ hid_t SamFileCreateDataset(SamFile f, hid_t where, const SamLabel *label, hid_t 
   if (shape->chunk[0]) (void)SamFileNote(f, H5Pset_chunk(creation, shape->rank, shape->chunk));
   if (shape->fill)
     (void)SamFileNote(f, H5Pset_fill_value(creation, H5T_NATIVE_DOUBLE, shape->fill));
-  else /* would write every value twice */
+  else /* filling would write every value twice */
     (void)SamFileNote(f, H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER));
   if (compress > 0) {
     (void)SamFileNote(f, H5Pset_shuffle(creation));
@@ -169,7 +169,7 @@ int SamFileGetSize(SamFile f, hid_t dataset, int rank, hsize_t size[])
 
 /* ---- blocks ---- */
 
-/* Selects a rank's block; a rank without one takes part with an empty selection. */
+/* Selects a rank's block; a rank without a block takes part with an empty selection. */
 static void Select(SamFile f, hid_t dataset, const SamBlock *b, hid_t *space, hid_t *memory)
 {
   hsize_t size = 1;

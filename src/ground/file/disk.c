@@ -1,6 +1,6 @@
 /*
-  Rank 0 handles files through the system, before and after HDF5 uses them: it finds out whether a name can be written
-  and what it holds, keeps other runs from it, allocates space, notices changes from outside, and renames.
+  Rank 0 handles files through the system, before and after HDF5 uses them: it finds out if a name can be written,
+  identifies its present file, excludes other runs from it, allocates space, notices changes from outside, and renames.
 
   Functions that return an int return 0, an errno, or one of the reasons below.
 */
@@ -48,9 +48,10 @@ PetscErrorCode SamFileRaise(SamGrid grid, const char option[], const char filena
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-#define MOST_LINKS 40 /* that follow one another, as the system has it */
+#define MOST_LINKS 40 /* links that may follow one another; the system has the same limit */
 
-/* The name behind symbolic links, whether there is a file or not: a link stays one when its file is replaced. */
+/* Finds the name behind symbolic links, even if no such file exists: a link remains a link when its file is
+   replaced. */
 static void FollowLinks(const char filename[], char real[PETSC_MAX_PATH_LEN])
 {
   (void)snprintf(real, PETSC_MAX_PATH_LEN, "%s", filename);
@@ -93,9 +94,9 @@ static PetscBool IsFirst(SamGrid grid)
   return rank ? PETSC_FALSE : PETSC_TRUE;
 }
 
-/* ---- what a file holds ---- */
+/* ---- identification of files ---- */
 
-#define HEAD (16 << 20) /* bytes at the start of results in which their attributes are */
+#define HEAD (16 << 20) /* bytes at the start of results that contain their attributes */
 
 /* True if the bytes contain the text. */
 static PetscBool Contains(const char bytes[], size_t size, const char text[])
@@ -112,8 +113,8 @@ static PetscBool Contains(const char bytes[], size_t size, const char text[])
 }
 
 /*
-  True if a file begins with the bytes that petsam writes under this name. HDF5 is not used for this: a damaged file
-  could keep it busy for ever. A run that was killed may have left a file that begins with zeros.
+  True if a file begins with the bytes that petsam writes under this name. HDF5 is not used here, as it might never
+  return from a damaged file. A killed run may have left a file that begins with zeros.
 */
 static PetscBool IsOwn(SamFileUse use, const char head[], size_t size)
 {
@@ -134,12 +135,12 @@ static off_t SizeOf(int file)
 }
 
 /*
-  True if a run that was killed in its first flush may have left this temporary file: it is HDF5 as petsam creates it,
-  by the version in its first block, and ends before the end of data that this block names.
+  True if a run that was killed in its first flush may have left this temporary file: its first block has the HDF5
+  version that petsam uses, and the file is shorter than the end of data that this block names.
 */
 static PetscBool IsUnfinished(int file, const char head[], size_t size)
 {
-  static const char begin[9] = "\211HDF\r\n\032\n"; /* and version 0 */
+  static const char begin[9] = "\211HDF\r\n\032\n"; /* then version 0 */
   uint64_t          end      = 0;
 
   if (size < 48 || memcmp(head, begin, sizeof(begin))) return PETSC_FALSE;
@@ -164,9 +165,9 @@ static int CheckContent(int file, SamFileUse use)
 /* ---- space ---- */
 
 /*
-  Allocates so many bytes beyond the end of the file. With `keep` the file becomes longer, else it is as before, at
-  every moment: a checkpoint that is longer when a run is killed would count as damaged. The limit of file sizes is
-  checked here, as the system only does where a file becomes longer.
+  Allocates so many bytes beyond the end of the file. With `keep` the file becomes longer; otherwise its length never
+  changes, because a checkpoint that is longer when a run is killed would count as damaged. The limit of file sizes is
+  checked here, as the system checks it only if a file becomes longer.
 */
 static int Reserve(int file, off_t bytes, PetscBool keep)
 {
@@ -181,7 +182,7 @@ static int Reserve(int file, off_t bytes, PetscBool keep)
     return EFBIG;
 #if defined(__linux__)
   error = fallocate(file, keep ? 0 : FALLOC_FL_KEEP_SIZE, status.st_size, bytes) ? errno : 0;
-  if ((error || !keep) && ftruncate(file, status.st_size)) return errno; /* after an error, a part may be allocated */
+  if ((error || !keep) && ftruncate(file, status.st_size)) return errno; /* an error may leave a part allocated */
 #endif
   if (error != EOPNOTSUPP && error != ENOSYS) return error;
   if (fstatvfs(file, &space)) return errno;
@@ -242,11 +243,11 @@ PetscErrorCode SamFileGetSpace(SamGrid grid, const char option[], const char fil
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- keeping other runs from a file ---- */
+/* ---- exclusion of other runs ---- */
 
 /*
-  Locks a file for as long as it stays open, also for other nodes where the file system allows that. The lock lies
-  beyond all data, where MPI-IO has no locks of its own. Systems without such locks go without.
+  Locks a file while it is open, for other nodes too if the file system supports this. The lock is on a range beyond all
+  data, where MPI-IO has no locks of its own. On systems without such locks the file is not locked.
 */
 #define LOCK_AT ((off_t)1 << 60)
 static int Lock(int file)
@@ -261,7 +262,7 @@ static int Lock(int file)
   return 0;
 }
 
-/* True if the name is still that of the open file. */
+/* True if the name still belongs to the open file. */
 static PetscBool IsNameOf(const char filename[], int file)
 {
   struct stat named, open;
@@ -269,7 +270,7 @@ static PetscBool IsNameOf(const char filename[], int file)
   return !stat(filename, &named) && !fstat(file, &open) && named.st_dev == open.st_dev && named.st_ino == open.st_ino;
 }
 
-/* Checks, before a name is opened, that it is a file. A pipe, or a device, would wait for its reader. */
+/* Checks, before a name is opened, that it is a file. Opening a pipe or a device would wait for its reader. */
 static int CheckPlace(const char filename[], SamFileUse use)
 {
   struct stat status;
@@ -289,13 +290,13 @@ void SamFileLockRelease(const char filename[], SamFileLock *hold)
   hold->file = -1;
 }
 
-/* Opens and locks a file, which is created if it is not there; checks that it can be written and may be replaced. */
+/* Opens and locks a file, which is created if necessary; checks that it can be written and may be replaced. */
 static int Take(const char filename[], SamFileUse use, SamFileLock *hold)
 {
   int error = 0;
 
   *hold = (SamFileLock){.use = use, .file = -1};
-  do { /* again if another run renames or removes the file in between */
+  do { /* repeat if another run has meanwhile renamed or removed the file */
     if (hold->file >= 0) (void)close(hold->file);
     error = CheckPlace(filename, use);
     if (error) return error;
@@ -305,7 +306,7 @@ static int Take(const char filename[], SamFileUse use, SamFileLock *hold)
     error = Lock(hold->file);
   } while (!error && !IsNameOf(filename, hold->file));
   if (error) {
-    (void)close(hold->file); /* another run's file: leave it */
+    (void)close(hold->file); /* the file belongs to another run: leave it */
     hold->file = -1;
     return error;
   }
@@ -328,7 +329,7 @@ PetscErrorCode SamFileLockTake(SamGrid grid, const char option[], const char fil
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Checks that a file can be made there. It makes none, which would stay if the run were killed just then. */
+/* Checks that a file can be created there, without creating one, which a killed run would leave behind. */
 static int CheckFolderOf(const char filename[])
 {
   char folder[PETSC_MAX_PATH_LEN], real[PETSC_MAX_PATH_LEN];
@@ -413,9 +414,9 @@ PetscErrorCode SamFileLockCheck(SamGrid grid, const char option[], const char fi
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-#define PATIENCE 1000 /* milliseconds until a run that is refused has given up a file */
+#define PATIENCE 1000 /* milliseconds after which another run that was refused has released a file */
 
-/* Takes the next file of a name whose file has been renamed; only then the old one is given up. */
+/* Locks the next file of a name whose file has been renamed, and releases the old one after that. */
 static int TakeNext(const char filename[], SamFileLock *hold)
 {
   SamFileLock next;
@@ -452,8 +453,9 @@ static PetscBool IsLockEnding(const char text[])
 }
 
 /*
-  Open MPI keeps a file <name>-<job>-<process>.lock beside each file that is open through MPI-IO, for shared file
-  pointers, which HDF5 does not use. It would stay after a kill. Those of runs that were killed before go, too.
+  Removes lock files of Open MPI. It keeps a file <name>-<job>-<process>.lock beside each file that is open through
+  MPI-IO, for shared file pointers, which HDF5 does not use. A killed run would leave it behind. Lock files of earlier
+  killed runs are removed, too.
 */
 void SamFileRemoveLeftOvers(SamFile f)
 {
@@ -496,8 +498,8 @@ static int SyncFolderOf(const char filename[])
 }
 
 /*
-  Gives a file the second name `kept`, replacing a file of that name; if there is no file, does nothing. Where the file
-  system has no hard links, the file is renamed and loses its first name.
+  Gives a file the second name `kept`, replacing a file of that name; does nothing if the file does not exist. If the
+  file system has no hard links, the file is renamed and loses its first name.
 */
 static int KeepAs(const char filename[], const char kept[])
 {

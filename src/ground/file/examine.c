@@ -1,7 +1,7 @@
 /*
-  A file is examined by a program of its own before it is opened, as HDF5 may crash, or never end, on a damaged one: it
-  follows the addresses in a file without end if they lead in a circle. The program is started by posix_spawn(): a fork
-  after MPI_Init() would be unsafe where MPI has registered memory with the network's hardware.
+  A separate program examines a file before it is opened, since HDF5 may crash on a damaged file, or never end if the
+  addresses in the file lead in a circle. The program is started by posix_spawn(): a fork after MPI_Init() would be
+  unsafe if MPI has registered memory with the network's hardware.
 */
 #include "fileimpl.h"
 #include <errno.h>
@@ -26,14 +26,14 @@ typedef struct {
   const void        *question;
 } Case;
 
-/* The outcome of an examination, which ends with the answer. */
+/* The outcome of an examination; the answer is its last part */
 typedef struct {
   PetscErrorCode code;
   char           message[SAM_MESSAGE];
-  double         answer[]; /* double for its alignment */
+  double         answer[]; /* of type double for its alignment */
 } Outcome;
 
-/* Returns true if a file has HDF5's signature; prints nothing. */
+/* Returns true if a file has HDF5's signature; prints no message. */
 static PetscBool IsHDF5(const char filename[])
 {
   H5E_auto2_t print;
@@ -170,7 +170,7 @@ static int Run(const char program[], const char *const words[])
   return written;
 }
 
-/* A file as it was, and the objects in it that were asked for. */
+/* A file as it was examined, and the requested objects in it */
 typedef struct {
   dev_t    device;
   ino_t    inode;
@@ -204,10 +204,10 @@ static PetscBool IsSame(const Seen *a, const Seen *b)
            : PETSC_FALSE;
 }
 
-/* Returns true unless HDF5 crashes on the file, or does not end; true too where the program is missing. */
+/* Returns false if HDF5 crashes on the file, or does not end; true if the examining program is missing. */
 static PetscBool Survives(const char filename[], const char *const objects[])
 {
-  static Seen last; /* that HDF5 has survived: a surface is asked for its grid, and then for its heights */
+  static Seen last; /* the last file that passed: a surface is read twice, for its grid and for its heights */
   const Seen  now                             = TakeSeen(filename, objects);
   const char *words[2 + SAM_FILE_OBJECTS + 1] = {"petsam-examine", filename};
   char        program[PETSC_MAX_PATH_LEN];
@@ -232,7 +232,7 @@ static PetscErrorCode OpenAndLook(const Case *c, void *answer)
   PetscCheck(!ierr, PETSC_COMM_SELF, SAM_ERR_FILE, SAM_CANNOT_READ, c->option, c->filename, damaged);
   PetscCall(SamFileBegin(file));
   ierr = c->look(file, c->question, answer);
-  if (ierr) file->failed = PETSC_FALSE; /* the error that was raised explains what was noted after it */
+  if (ierr) file->failed = PETSC_FALSE; /* the raised error explains the failures noted after it */
   ended = SamFileEnd(file);
   (void)SamFileDestroy(&file, PETSC_TRUE);
   PetscCall(ierr);
@@ -270,9 +270,9 @@ PetscErrorCode SamFileExamine(MPI_Comm comm, const char option[], const char fil
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- where the data lie ---- */
+/* ---- places of the data ---- */
 
-/* True if all chunks that hold the first `extent` places in each dimension lie within a file of that size (bytes). */
+/* True if all chunks of the first `extent` places in each dimension lie within a file of this size (bytes). */
 static PetscBool ChunksAreWithin(hid_t dataset, hid_t creation, hsize_t size, const hsize_t extent[], PetscBool every)
 {
   const hid_t space = H5Dget_space(dataset);
@@ -294,7 +294,7 @@ static PetscBool ChunksAreWithin(hid_t dataset, hid_t creation, hsize_t size, co
 
     good = H5Dget_chunk_info_by_coord(dataset, at, &filters, &address, &bytes) >= 0 &&
            (address == HADDR_UNDEF ? !every : address <= size && bytes <= size - address);
-    for (at[d] += chunk[d]; d > 0 && at[d] >= n[d]; at[d] += chunk[d]) at[d--] = 0; /* the next one */
+    for (at[d] += chunk[d]; d > 0 && at[d] >= n[d]; at[d] += chunk[d]) at[d--] = 0; /* the next chunk */
   }
   return good;
 }

@@ -1,8 +1,8 @@
 /*
   Fields read from HDF5 datasets of shape (ny, nx).
 
-  A file may be wrong in many ways. Rank 0 examines it, so that all ranks raise the same error. Only
-  then all read their rows.
+  A file may be wrong in many ways. Rank 0 examines it, so that all ranks raise the same error. All ranks read their
+  rows only after that.
 */
 #include "fileimpl.h"
 #include <petsam/private/fieldfile.h>
@@ -10,10 +10,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* A surface is stretched to the grid without a word up to this: no instrument's calibration is better. */
+/* A surface is stretched to the grid without a message up to this part of its size: no instrument is calibrated
+   better. */
 static const double size_tolerance = 1e-3;
 
-/* A source, and the name of its first option with the prefix; `grid` NULL: that is to be made from the file. */
+/* A source, and the name of its first option with the prefix; `grid`: NULL if the grid follows from the file */
 typedef struct {
   const SamFieldFile *source;
   SamGrid             grid;
@@ -21,8 +22,7 @@ typedef struct {
 } Wanted;
 
 /*
-  Attributes of the file: the dataset's shape, the factor by which its values are to be multiplied, the surface's size
-  and centre (0: unknown)
+  Attributes of the file: the dataset's shape, the factor for its values, the surface's size and centre (0: unknown)
 */
 typedef struct {
   hsize_t shape[2];
@@ -89,7 +89,7 @@ static PetscErrorCode CheckLengths(SamFile f, const Wanted *w, hid_t dataset, An
   answer->factor = lengths.factor;
   if (!grid) PetscFunctionReturn(PETSC_SUCCESS);
   for (int d = 0; d < grid->axes; d++) {
-    if (!(size[d] > 0)) size[d] = grid->width[d]; /* one axis may be missing */
+    if (!(size[d] > 0)) size[d] = grid->width[d]; /* the size along one axis may be missing */
     fits = fits && fabs(size[d] - grid->width[d]) <= size_tolerance * grid->width[d];
   }
   PetscCheck(fits, f->comm, SAM_ERR_FILE,
@@ -100,7 +100,7 @@ static PetscErrorCode CheckLengths(SamFile f, const Wanted *w, hid_t dataset, An
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Lists names of datasets in the file's root, and of groups with a slash behind them, as many as there is room for. */
+/* Lists the names of datasets in the file's root, and of groups followed by a slash, as far as they fit. */
 static void ListNames(hid_t file, char list[], size_t size)
 {
   H5G_info_t info;
@@ -120,7 +120,7 @@ static void ListNames(hid_t file, char list[], size_t size)
   if (used + 8 >= size) (void)snprintf(list + size - 5, 5, " ...");
 }
 
-/* Raises an error for a file that is no good; otherwise answers what it says. */
+/* Raises an error for an unsuitable file; otherwise answers the question. */
 static PetscErrorCode Look(SamFile f, const void *question, void *answer)
 {
   const Wanted *const w       = (const Wanted *)question;
@@ -154,7 +154,7 @@ static PetscErrorCode Look(SamFile f, const void *question, void *answer)
 
 /* ---- reading ---- */
 
-/* Reads this rank's rows, without waiting for others: reading may fail on some ranks. */
+/* Reads this rank's rows independently of other ranks: reading may fail on some ranks. */
 static PetscErrorCode Read(const Wanted *w, double array[])
 {
   const SamGrid  grid  = w->grid;
@@ -173,7 +173,7 @@ static PetscErrorCode Read(const Wanted *w, double array[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Raises an error for the first value, in the file's order, that is not finite, or else for the first below `least`. */
+/* Raises an error for the first value, in the file's order, that is not finite, or else is below `least`. */
 static PetscErrorCode CheckValues(const Wanted *w, const double array[])
 {
   const SamFieldFile *source = w->source;
@@ -241,7 +241,7 @@ PetscErrorCode SamFieldFileCreate(const SamFieldFile *source, SamGrid grid, Vec 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Rounds off the last digits of sizes from coordinates, so that they equal the same sizes given as options. */
+/* Rounds the last digits of sizes that come from coordinates, so that they equal the same sizes given as options. */
 static double RoundOff(double x)
 {
   char text[32];

@@ -2,7 +2,7 @@
   An HDF5 file that all ranks write or read together through MPI-IO.
 
   Open MPI's collective writes, and HDF5 when it flushes its metadata, may hang for ever if writing fails on one rank
-  only. So rank 0 looks for the likely failures before MPI-IO meets them (disk.c). The file is then still consistent and
+  only. So rank 0 checks for the likely failures before MPI-IO is used (disk.c). The file is then still consistent and
   can be closed.
 */
 #include "fileimpl.h"
@@ -10,7 +10,7 @@
 
 /* ---- errors ---- */
 
-/* HDF5 prints its own error stack unless that is switched off. */
+/* HDF5 prints its own error stack unless that is disabled. */
 PetscErrorCode SamFileBegin(SamFile f)
 {
   PetscFunctionBegin;
@@ -48,7 +48,7 @@ PetscErrorCode SamFileEnd(SamFile f)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The first entry of an upward walk through HDF5's error stack is the cause. */
+/* Takes the cause, which is the first entry of an upward walk through HDF5's error stack. */
 static herr_t TakeReason(unsigned n, const H5E_error2_t *error, void *reason)
 {
   if (n == 0 && error->desc) (void)snprintf((char *)reason, sizeof(((SamFile)NULL)->reason), "%s", error->desc);
@@ -66,7 +66,8 @@ hid_t SamFileNote(SamFile f, hid_t result)
 
 /* ---- the file ---- */
 
-/* Reading is not collective: in a damaged file it may fail on some ranks, and no other shall wait for these. */
+/* Opens a file. Reading is not collective: it may fail on some ranks for a damaged file, and no other rank must
+   wait. */
 static PetscErrorCode OpenFile(SamFile f, SamFileMode mode)
 {
   hid_t access, creation;
@@ -76,7 +77,7 @@ static PetscErrorCode OpenFile(SamFile f, SamFileMode mode)
   access = SamFileNote(f, H5Pcreate(H5P_FILE_ACCESS));
   if (f->grid) (void)SamFileNote(f, H5Pset_fapl_mpio(access, f->comm, MPI_INFO_NULL));
 #if H5_VERSION_GE(1, 10, 7) && !(H5_VERS_MINOR == 12 && H5_VERS_RELEASE == 0)
-  if (!f->grid) (void)SamFileNote(f, H5Pset_file_locking(access, 0, 1)); /* MPI-IO takes no lock either */
+  if (!f->grid) (void)SamFileNote(f, H5Pset_file_locking(access, 0, 1)); /* MPI-IO does not lock the file either */
 #endif
   (void)SamFileNote(f, H5Pset_fclose_degree(access, H5F_CLOSE_STRONG));
   creation = SamFileNote(f, H5Pcreate(H5P_FILE_CREATE));
@@ -113,7 +114,7 @@ PetscErrorCode SamFileOpen(SamGrid grid, SamEvent event, const char option[], co
   PetscCall(PetscStrallocpy(filename, &f->filename));
   ierr = OpenFile(f, mode);
   if (ierr) {
-    f->id = -1; /* not closed: closing would wait for a rank that could not open the file */
+    f->id = -1; /* left open, as closing would wait for a rank that could not open the file */
     (void)SamFileDestroy(&f, PETSC_TRUE);
   }
   *file = f;
@@ -134,7 +135,7 @@ PetscErrorCode SamFileDestroy(SamFile *file, PetscBool close)
 
   PetscFunctionBegin;
   if (!*file) PetscFunctionReturn(PETSC_SUCCESS);
-  (*file)->failed = PETSC_FALSE; /* what failed before has been raised */
+  (*file)->failed = PETSC_FALSE; /* earlier failures have been raised */
   PetscCall(SamFileBegin(*file));
   if (close) SamFileClose(*file);
   ierr = SamFileEnd(*file);

@@ -1,4 +1,4 @@
-/* Reads the attributes of an HDF5 dataset of lengths: their unit, whether they are heights, the size of the surface. */
+/* Reads the attributes of an HDF5 dataset of lengths: their unit, their quantity, and the size of the surface. */
 #include "fileimpl.h"
 #include <math.h>
 #include <stdlib.h>
@@ -6,7 +6,7 @@
 
 #define UNITS "m, cm, mm, um, nm, pm, angstrom, in"
 
-/* The names of each unit, between blanks. */
+/* The names of each unit, separated by blanks */
 static const struct {
   const char *names;
   double      metres;
@@ -19,7 +19,7 @@ static const struct {
              {" angstrom \u00c5 ", 1e-10},
              {" in inch ", 0.0254}};
 
-/* Heights are positive out of their body, so both bodies' reduce the separation. */
+/* Heights are positive outward, so heights of both bodies reduce the separation. */
 static const struct {
   const char *name;
   double      sign;
@@ -27,7 +27,7 @@ static const struct {
 
 #define COUNT(array) (sizeof(array) / sizeof((array)[0]))
 
-/* Returns the metres of a unit, 0 for one that is not known; full words may be plural. */
+/* Returns the metres of a unit, 0 for an unknown unit; full words may be plural. */
 static double Metres(const char unit[])
 {
   size_t length = strlen(unit);
@@ -40,7 +40,7 @@ static double Metres(const char unit[])
   return 0;
 }
 
-/* Reads the unit that a dataset's attribute names, in metres; 0 without the attribute. */
+/* Reads the unit in a dataset's attribute, in metres; 0 if there is no such attribute. */
 static PetscErrorCode ReadUnits(SamFile f, hid_t dataset, const char name[], double *metres)
 {
   char text[48];
@@ -91,7 +91,8 @@ static PetscErrorCode ReadSize(SamFile f, hid_t dataset, const char name[], Pets
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Returns the width, and the centre, of n cells whose centres a dataset holds, in its unit; NaN for other datasets. */
+/* Returns the width and the centre, in the dataset's unit, of n cells whose centres it contains; NaN for other
+   datasets. */
 static double ReadWidth(hid_t axis, hsize_t n, double *center)
 {
   const hid_t space   = H5Dget_space(axis);
@@ -115,7 +116,7 @@ void SamLengthsNameAxis(const char dataset[], char letter, char path[PETSC_MAX_P
   (void)snprintf(path, PETSC_MAX_PATH_LEN, "%.*s%c", slash ? (int)(slash - dataset) + 1 : 0, dataset, letter);
 }
 
-/* Reads width and centre from the axis `letter` beside the dataset, if it is there, fits, and has units. */
+/* Reads width and centre from the dataset `letter` of an axis beside the dataset, if it exists, fits, and has units. */
 static PetscErrorCode ReadAxis(SamFile f, const char dataset[], char letter, hsize_t n, double *size, double *center)
 {
   const char name[2] = {letter, '\0'};
@@ -128,7 +129,7 @@ static PetscErrorCode ReadAxis(SamFile f, const char dataset[], char letter, hsi
   axis = H5Lexists(f->id, path, H5P_DEFAULT) > 0 ? H5Dopen2(f->id, path, H5P_DEFAULT) : -1;
   if (axis < 0) PetscFunctionReturn(PETSC_SUCCESS);
   if (H5Aexists(axis, "units") > 0) width = ReadWidth(axis, n, &middle);
-  if (!isnan(width)) PetscCall(ReadUnits(f, axis, name, &metres)); /* else it is something else */
+  if (!isnan(width)) PetscCall(ReadUnits(f, axis, name, &metres)); /* otherwise the dataset is not an axis */
   (void)H5Dclose(axis);
   PetscCheck(!(width < 0), f->comm, SAM_ERR_FILE,
              "-%s %s: %s falls along the file, so the surface would be mirrored: reverse it and the values of %s",

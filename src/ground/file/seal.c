@@ -1,9 +1,9 @@
 /*
   The seal of a checkpoint: one checksum over all of its bytes, which is compared before HDF5 interprets any of them.
-  HDF5's own checksums leave out texts, and a damaged file could keep HDF5 busy for ever.
+  HDF5's own checksums omit texts, and HDF5 might never return from a damaged file.
 
   The seal is a text in the user block, the SAM_SEAL bytes before HDF5's data. The file is hashed by blocks, each with
-  its place; the sum of the hashes does not depend on which rank took which block.
+  its place; the sum of the hashes does not depend on the distribution of blocks over the ranks.
 */
 #include "fileimpl.h"
 #include <errno.h>
@@ -50,7 +50,7 @@ static int HashBlocks(int file, off_t size, off_t first, off_t stride, uint64_t 
   return error;
 }
 
-/* Makes the text of the seal that the file should have, the same on all ranks; error: an errno or 0. */
+/* Computes the text of the seal for the present file, the same on all ranks; error: an errno or 0. */
 static PetscErrorCode MakeSeal(MPI_Comm comm, const char filename[], char seal[SAM_SEAL], int *error)
 {
   const int   file = open(filename, O_RDONLY | O_NONBLOCK);
@@ -91,7 +91,7 @@ PetscErrorCode SamSealWrite(SamGrid grid, const char option[], const char filena
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Reads the seal that the file has. Returns NULL, or why there is none. */
+/* Reads the seal of the file. Returns NULL, or the reason why there is none. */
 static const char *ReadSeal(const char filename[], char seal[SAM_SEAL])
 {
   static const char now[]              = TITLE PetscStringize(SAM_CHECKPOINT_FORMAT) "\n";

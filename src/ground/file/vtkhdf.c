@@ -4,8 +4,8 @@
   The group describes an image of cells or points, with a series of steps (VTKHDF file format 2.0, https://docs.vtk.org,
   "VTKHDF File Format"). It links to the datasets of the file, so that nothing is stored twice.
 
-  VTK (9.3 to 9.7) expects no dimension of time where there is one step. So a single sheet of cells with one step is
-  described as a slab whose third dimension is the time, until there is a second step; and a volume with one step is
+  VTK (9.3 to 9.7) expects no dimension of time if there is only one step. So a single sheet of cells with one step is
+  described as a slab whose third dimension is the time, until there is a second step. A volume with one step is
   described as two steps with the same values.
 */
 #include <petsam/private/file.h>
@@ -43,7 +43,7 @@ static hid_t CreateGroup(SamFile f, hid_t where, const char name[])
   return SamFileNote(f, H5Gcreate2(where, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
 }
 
-/* A soft link: with a hard link, readers might take the second name for that of a dimension. */
+/* Makes a soft link: readers might take the second name of a hard link for the name of a dimension. */
 static void Link(SamFile f, hid_t group, const char name[], const char dataset[])
 {
   char path[64];
@@ -52,7 +52,7 @@ static void Link(SamFile f, hid_t group, const char name[], const char dataset[]
   (void)SamFileNote(f, H5Lcreate_soft(path, group, name, H5P_DEFAULT, H5P_DEFAULT));
 }
 
-/* The only step twice: its time, and where the values of both begin in the datasets. */
+/* Describes the only step twice: its time, and the place in the datasets where the values of both begin. */
 static void RepeatStep(SamFile f, hid_t steps, const SamImage *image)
 {
   static const SamLabel values = {"Values", "s", "time of the only step"}, first = {"first", "1", "index of the step"};

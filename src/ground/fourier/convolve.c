@@ -1,13 +1,12 @@
 /*
   Convolution: products of spectra with kernels.
 
-  A kernel's column of hy + 1 values serves the columns of 2 hy frequencies twice, going up and down again.
+  A kernel's column of hy + 1 values is used twice for a column of 2 hy frequencies: upwards, then downwards.
 */
 #include "fourierimpl.h"
 
 /*
-  One column in one phase: the kernel's values there, those of the first `rising` entries in order, the others
-  mirrored.
+  The kernel's values for one column in one phase: the first `rising` entries in order, the others mirrored.
 */
 typedef struct {
   const double *values;
@@ -25,8 +24,8 @@ static Column GetColumn(SamKernel kernel, const SamFourierBlock *block, PetscInt
 }
 
 /*
-  to += kernel * from for n entries whose kernel values are factor * k[0], k[1], ... or, going down, k[0], k[-1], ...;
-  `Turned`: multiplied by -i.
+  Computes to += kernel * from for n entries whose kernel values are factor times k[0], k[1], ... or, downwards, k[0],
+  k[-1], ...; `Turned`: multiplied by -i.
 */
 #define DEFINE_ADD(Name, STEP, re, im, ADD) \
   SAM_VECTORIZED static void Name(ptrdiff_t n, double factor, const double *restrict k, \
@@ -43,7 +42,7 @@ DEFINE_ADD(AddFalling, -, 0, 1, +=)
 DEFINE_ADD(AddRisingTurned, , 1, 0, -=)
 DEFINE_ADD(AddFallingTurned, -, 1, 0, -=)
 
-/* to += scale * kernel * from for one column; multiplied by -i when the kernel is odd in one direction only. */
+/* Computes to += scale * kernel * from for one column, multiplied by -i if the kernel is odd in one direction only. */
 static void AddProduct(SamKernel kernel, const SamFourierBlock *block, PetscInt phase, PetscInt b, double scale,
                        const double (*from)[2], double (*to)[2])
 {
@@ -61,8 +60,8 @@ static void AddProduct(SamKernel kernel, const SamFourierBlock *block, PetscInt 
 }
 
 /*
-  Products in place, of either precision, of n entries as above: one field by an even kernel, and two fields by a
-  symmetric matrix of kernels whose off-diagonal one, with the factor `cross`, is odd in x and in y.
+  Compute products in place, of either precision, for n entries as above: of one field and an even kernel, and of two
+  fields and a symmetric matrix of kernels whose off-diagonal kernel, with the factor `cross`, is odd in x and in y.
 */
 #define DEFINE_PRODUCTS(Real, STEP, MultiplyColumn, MultiplyPair) \
   SAM_VECTORIZED static void MultiplyColumn(ptrdiff_t n, double factor, const double *restrict values, \
@@ -98,13 +97,13 @@ DEFINE_PRODUCTS(float, , ColumnRisingSingle, PairRisingSingle)
 DEFINE_PRODUCTS(float, -, ColumnFallingSingle, PairFallingSingle)
 
 /*
-  Three fields to three by nine kernels, in place, when a turn by -i is due to the fields: that of field i if in[i], of
-  the result o if out[o], so that where both are, the kernel's sign changes. All kernels that come from a mechanical
-  problem are like that, by reflection.
+  Multiplies three fields by 3 x 3 kernels, in place. The factors -i can be moved from the kernels to the fields: field
+  i has it if in[i], result o if out[o], and where both have it, the kernel's sign changes. By reflection, all kernels
+  of mechanical problems are of this kind.
 */
 typedef struct {
   PetscBool     in[3], out[3];
-  const double *values[3][3]; /* of a column, rising or falling */
+  const double *values[3][3]; /* of a column, upwards or downwards */
   double        factor[3][3];
 } Nine;
 
@@ -192,7 +191,7 @@ static PetscBool IsSymmetricPair(const SamKernelMatrix *M)
 typedef struct Factors {
   const SamKernelMatrix *matrix;
   double                 factor;
-  /* one column in one phase, by the kind of matrix */
+  /* product for one column in one phase, by the kind of matrix */
   void (*multiply)(const struct Factors *factors, const SamFourierBlock *block, PetscInt phase, PetscInt b);
   Nine nine;
   double (*column[SAM_FOURIER_FIELDS])[2]; /* work space of the general case */
@@ -219,7 +218,7 @@ static void MultiplyThree(const Factors *factors, const SamFourierBlock *block, 
   Turn(nine.out, n, column);
 }
 
-/* Any matrix: the output columns are gathered aside and then take the inputs' place. */
+/* Multiplies by any matrix: the output columns are collected separately, and then replace the inputs. */
 static void MultiplyGeneral(const Factors *factors, const SamFourierBlock *block, PetscInt phase, PetscInt b)
 {
   const SamKernelMatrix *M      = factors->matrix;
@@ -238,7 +237,7 @@ static void MultiplyGeneral(const Factors *factors, const SamFourierBlock *block
       for (PetscInt r = 0; r < 2; r++) block->data[o][offset + m][r] = factors->column[o][m][r];
 }
 
-/* One field by an even kernel, up its values and down again. */
+/* Multiplies one field by an even kernel, upwards along its values and down again. */
 static void MultiplyOne(const Factors *f, const SamFourierBlock *block, PetscInt phase, PetscInt b)
 {
   const ptrdiff_t offset = (phase * block->width + b) * (ptrdiff_t)block->stride;
@@ -279,7 +278,7 @@ static void Multiply(const SamFourierBlock *block, const void *context)
   const Factors  *factors = (const Factors *)context;
   SamFourierBlock row     = *block;
 
-  if (block->stride == 1) { /* one row: its values along x are a column's */
+  if (block->stride == 1) { /* a single row: its values along x are stored as one column */
     row.hy      = block->columns;
     row.columns = 1;
     block       = &row;

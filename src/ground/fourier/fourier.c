@@ -2,29 +2,30 @@
   The distributed pruned transform.
 
   A filter in the frequency domain needs the two-dimensional transform of a field that is zero beyond its ny rows and nx
-  columns, and of the result only those rows and columns. So:
-    1. Each of the ny rows is padded with zeros in a buffer and transformed, real to half complex. That is done by a
-       complex transform of half the length, which FFTW plans in a fraction of the time of a real one, and does faster.
-    2. Ranks of one node see all rows, in shared memory (workspace.c). Elsewhere rows are exchanged for columns by
+  columns, and only these rows and columns of the result. So:
+    1. Each of the ny rows is padded with zeros in a buffer and transformed, real to half complex. This uses a complex
+       transform of half the length, which FFTW plans in a fraction of the time of a real one, and computes faster.
+    2. Ranks of one node access all rows in shared memory (workspace.c). Otherwise rows are exchanged for columns by
        FFTW's distributed transpose.
     3. A few columns at a time are gathered into a buffer that stays in cache. There the padding along y is done by
        splitting the 2 hy frequencies: the even ones are the transform of length hy of the column, the odd ones that of
-       the column times exp(-i pi j/hy). No zero is ever transformed. The filter acts, the way back is the same.
-    4. As step 2, columns becoming rows.
-    5. Rows are transformed back and cut.
+       the column times exp(-i pi j/hy). Zeros are never transformed. Then the filter acts, and the same steps are
+       reversed.
+    4. Columns are exchanged for rows as in step 2.
+    5. Rows are transformed back and shortened to nx.
   In periodic mode rows are padded to hx instead of 2 hx only, and columns have the even frequencies only. An odd hx,
-  which only exact periods have, has no half: the whole row takes a complex transform.
+  which only exact periods have, cannot be halved: a complex transform of the whole row is used.
 
   Both directions of the transpose leave the data as (ny rows, own columns) in row order (FFTW_MPI_TRANSPOSED_OUT),
-  which is what one rank has from the start, and shared memory in pieces, so that one code serves any number of ranks.
+  which is also the order on a single rank and, in pieces, in shared memory. So one code serves any number of ranks.
 
-  The steps stand in transform.h, on the transforms of single lines in line.h, which are compiled for double and for
-  single precision. Here is what both share.
+  The steps are in transform.h, and the transforms of single lines in line.h; both are compiled for double and for
+  single precision. This file contains the code that both precisions share.
 */
 #include "fourierimpl.h"
 #include <petsam/private/grid.h>
 
-/* Below this, measuring costs more than all transforms of a coarse grid. */
+/* For shorter lengths, measuring costs more than all transforms of a coarse grid. */
 #define ESTIMATE_BELOW 300
 
 static PetscBool IsSmooth(ptrdiff_t n)
@@ -35,9 +36,9 @@ static PetscBool IsSmooth(ptrdiff_t n)
 }
 
 /*
-  Cost of a length beyond its size. Those of the form 2^a and 5 2^a are fast in FFTW's estimated plans, 3 2^a is
-  somewhat slower, all others take about twice as long. The numbers are roots of the times an element of c2c transforms
-  in both precisions, since two dimensions count.
+  Returns the cost of a length relative to its size. Lengths 2^a and 5 2^a are fast in FFTW's estimated plans, 3 2^a is
+  somewhat slower, and all others take about twice as long. The numbers are square roots of the times per element of c2c
+  transforms in both precisions, since the cost arises in two dimensions.
 */
 static double Weight(ptrdiff_t m)
 {
@@ -51,7 +52,7 @@ PetscInt SamFourierFastLength(PetscInt n)
   double   best_cost = PETSC_MAX_REAL;
 
   for (PetscInt m = n; (double)m < best_cost; m++) {
-    const double cost = n < 64 ? (double)m : Weight(m) * (double)m; /* small ones are fast anyway */
+    const double cost = n < 64 ? (double)m : Weight(m) * (double)m; /* small lengths are always fast */
 
     if (m % 2 || !IsSmooth(m) || cost >= best_cost) continue;
     best      = m;
@@ -78,7 +79,7 @@ void SamRootOfUnity(ptrdiff_t k, ptrdiff_t n, double root[2])
   if (acute < k) root[0] = -root[0];
 }
 
-/* Determines the columns of this rank, and how many reals FFTW needs for a slab. */
+/* Determines the columns of this rank, and the number of reals that FFTW needs for a slab. */
 static PetscErrorCode DivideColumns(SamFourier F, SamFourierMode mode, ptrdiff_t *reals)
 {
   SamColumns *c = &F->columns[mode];
@@ -144,7 +145,7 @@ PetscErrorCode SamFourierCreate(SamGrid grid, SamFourierPeriod period, const Sam
   F->hx     = period == SAM_FOURIER_EXACT ? (ptrdiff_t)grid->nx : SamFourierFastLength(grid->nx);
   F->hy     = period == SAM_FOURIER_EXACT || F->row ? (ptrdiff_t)grid->ny : SamFourierFastLength(grid->ny);
   F->effort = PlanningFlag(settings, PetscMax(F->hx, F->hy));
-  /* whole cache lines, and one more, so that the columns of a block do not compete for the same cache sets */
+  /* Whole cache lines and one more, so that the columns of a block do not compete for the same cache sets. */
   F->stride = (PetscInt)(F->hy + 7) / 8 * 8 + 8;
   PetscCall(DivideColumns(F, SAM_FOURIER_PERIODIC, &periodic));
   PetscCall(DivideColumns(F, SAM_FOURIER_PADDED, &padded));
@@ -171,8 +172,8 @@ PetscErrorCode SamFourierDestroy(SamFourier *fourier)
 }
 
 /*
-  At 4096 x 4096 cells this takes the peak of a partial-slip run from 155 to 149 bytes a cell; smaller slabs would soon
-  be allocated again.
+  At 4096 x 4096 cells this reduces the peak of a partial-slip run from 155 to 149 bytes per cell; smaller slabs would
+  soon be allocated again.
 */
 #define LARGE_SLAB ((size_t)64 << 20)
 

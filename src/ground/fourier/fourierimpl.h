@@ -1,4 +1,4 @@
-/* The inside of SamFourier, shared by the files of this room. */
+/* The inside of SamFourier, shared by the files of this folder. */
 #ifndef PETSAM_FOURIERIMPL_H
 #define PETSAM_FOURIERIMPL_H
 
@@ -6,7 +6,7 @@
 #include <petsam/private/fourier.h>
 #include <fftw3-mpi.h>
 
-/* Columns of one mode: 0 ... n-1 along x, of which this rank works on start ... start + count - 1. */
+/* Columns 0 ... n-1 along x of one mode; this rank works on start ... start + count - 1 */
 typedef struct {
   ptrdiff_t n, start, count;
 } SamColumns;
@@ -22,7 +22,7 @@ typedef struct {
 SAM_LINE(SamLineDouble, double, fftw_plan);
 SAM_LINE(SamLineSingle, float, fftwf_plan);
 
-/* Plans and buffers of one precision; made when it is first used. */
+/* Plans and buffers of one precision, created at their first use */
 #define SAM_TRANSFORM(Name, Real, Plan, Line) \
   typedef struct { \
     PetscInt fields;                          /* for which there are buffers and transposes */ \
@@ -47,9 +47,9 @@ SAM_TRANSFORM(SamTransformSingle, float, fftwf_plan, SamLineSingle);
 /* Memory for a field's half spectrum. */
 typedef struct {
   size_t bytes;  /* on each rank; 0: none yet */
-  void  *own;    /* this rank's */
-  void **of;     /* every rank's, in shared memory only */
-  size_t mapped; /* of all ranks, in shared memory only */
+  void  *own;    /* memory of this rank */
+  void **of;     /* memory of every rank; only in shared memory */
+  size_t mapped; /* size for all ranks; only in shared memory */
 } SamSlab;
 
 /* SamWorkspace - the slabs of all transforms on a communicator; see workspace.c. */
@@ -60,19 +60,20 @@ typedef struct {
   PetscInt    references;
   PetscBool   send;    /* must not share memory */
   PetscBool   shared;  /* shares memory */
-  PetscInt    version; /* of the slabs' addresses */
+  PetscInt    version; /* version of the slabs' addresses */
   SamSlab     slab[SAM_FOURIER_FIELDS + 1];
 } * SamWorkspace;
 
 /*
-  SamWorkspaceGet - a reference to the workspace of a communicator, made at the first call; there is another one for
-  transforms that must `send`. SamWorkspaceRelease gives it back. Collective.
+  SamWorkspaceGet - returns a reference to the workspace of a communicator, created at the first call; transforms that
+  must `send` have a separate one. SamWorkspaceRelease releases the reference. Collective.
 */
 PETSC_INTERN PetscErrorCode SamWorkspaceGet(MPI_Comm comm, PetscBool send, SamWorkspace *workspace);
 PETSC_INTERN PetscErrorCode SamWorkspaceRelease(SamWorkspace *workspace);
 /* SamWorkspaceTrim - frees the slabs until they are reserved again. Collective. */
 PETSC_INTERN PetscErrorCode SamWorkspaceTrim(SamWorkspace workspace);
-/* SamWorkspaceReserve - makes the slabs for so many fields, of at least so many bytes on every rank. Collective. */
+/* SamWorkspaceReserve - makes slabs for this number of fields, of at least this number of bytes on every rank.
+   Collective. */
 PETSC_INTERN PetscErrorCode SamWorkspaceReserve(SamWorkspace workspace, size_t bytes, PetscInt fields);
 /* SamWorkspaceSynchronize - makes all writes to shared slabs visible to all ranks. Collective. */
 PETSC_INTERN PetscErrorCode SamWorkspaceSynchronize(SamWorkspace workspace);
@@ -85,44 +86,44 @@ static inline PetscBool SamWorkspaceTransposes(SamWorkspace w)
 /* The transform of a kernel (kernel.c). */
 struct _n_SamKernel {
   PetscBool odd_x, odd_y;
-  ptrdiff_t columns; /* of this rank */
-  double   *values;  /* (columns, hy + 1); of one row (columns) */
+  ptrdiff_t columns; /* number of this rank's columns */
+  double   *values;  /* shape (columns, hy + 1); for a single row (columns) */
 };
 
 struct _n_SamFourier {
   SamGrid            grid;
-  PetscBool          row;    /* fields do not vary along y, and are transformed along x alone */
+  PetscBool          row;    /* fields have one row, and are transformed along x only */
   unsigned           effort; /* FFTW's planning flag */
   ptrdiff_t          hx, hy;
   PetscInt           stride;     /* between columns in the buffers */
   SamColumns         columns[2]; /* by mode */
   SamTransformDouble in_double;
   SamTransformSingle in_single;
-  SamWorkspace       work;  /* half spectra of the fields' rows and columns, or a kernel's on its way */
-  size_t             bytes; /* of a slab of them on any rank, in doubles */
+  SamWorkspace       work;  /* half spectra of the fields' rows and columns, or of a kernel that is being computed */
+  size_t             bytes; /* size of a slab on any rank, in doubles */
 };
 
-/* With transposes field k has its rows in slab k + 1 and its columns in slab k, else both in slab k. */
+/* Returns the rows of a field. With transposes field k has its rows in slab k + 1 and its columns in slab k, else both
+   in slab k. */
 static inline void *SamFourierRows(SamFourier F, PetscInt field)
 {
   return F->work->slab[SamWorkspaceTransposes(F->work) ? field + 1 : field].own;
 }
 
 /*
-  SamPieces - a matrix in slabs as its columns see it: pieces of some rows each, one above the other. After a transpose,
-  or on one rank, there is one piece with this rank's columns; in shared memory one of every rank with all columns, of
-  which this rank's begin at `first`.
+  SamPieces - a matrix in slabs, for access by columns: pieces of some rows each, one above the other. After a
+  transpose, or on one rank, there is one piece with this rank's columns. In shared memory there is one piece per rank
+  with all columns; this rank's columns begin at `first`.
 */
 typedef struct {
   PetscMPIInt count;
   ptrdiff_t   rows, block;       /* rows of the matrix and of a piece; the last pieces have fewer */
-  ptrdiff_t   row_length, first; /* in elements */
-  void      **data, *single;     /* of each piece; of the only one */
+  ptrdiff_t   row_length, first; /* number of elements */
+  void      **data, *single;     /* of each piece; of the only piece */
 } SamPieces;
 
 /*
-  The columns start ... start + count - 1, this rank's, of n, of a matrix with so many rows that lies in a field's
-  slabs.
+  Returns this rank's columns, start ... start + count - 1, of a rows x n matrix that is stored in a field's slabs.
 */
 static inline SamPieces SamFourierGetPieces(SamFourier F, PetscInt field, ptrdiff_t rows, ptrdiff_t n, ptrdiff_t start,
                                             ptrdiff_t count)
@@ -138,7 +139,7 @@ static inline SamPieces SamFourierGetPieces(SamFourier F, PetscInt field, ptrdif
                      .first      = start,
                      .data       = slab->of};
 }
-/* Piece r: its rows, and its first element of this rank's columns. */
+/* Return the number of rows of piece r, and its first element in this rank's columns. */
 static inline ptrdiff_t SamPieceRows(const SamPieces *p, PetscMPIInt r)
 {
   return PetscMax(PetscMin(p->block, p->rows - (ptrdiff_t)r * p->block), 0);
@@ -148,12 +149,14 @@ static inline void *SamPieceData(const SamPieces *p, PetscMPIInt r, size_t eleme
   return (char *)(p->data ? p->data[r] : p->single) + (size_t)p->first * element;
 }
 
-/* This rank's rows and columns of a kernel's quadrant (hy + 1, hx + 1); returns how many reals FFTW needs for them. */
+/* Finds this rank's rows and columns of a kernel's quadrant (hy + 1, hx + 1); returns the number of reals that FFTW
+   needs. */
 PETSC_INTERN ptrdiff_t      SamFourierDivideQuadrant(SamFourier fourier, ptrdiff_t *rows, ptrdiff_t *row_start,
                                                      ptrdiff_t *columns, ptrdiff_t *column_start);
 PETSC_INTERN PetscErrorCode SamFourierCheckPlan(const void *plan);
 /*
-  SamRootOfUnity - exp(i pi k/n), 0 <= k <= n, to the last digits: from an angle of at most pi/4, which rounds least.
+  SamRootOfUnity - returns exp(i pi k/n), 0 <= k <= n, to the last digits, from an angle of at most pi/4, whose rounding
+  is smallest.
 */
 PETSC_INTERN void SamRootOfUnity(ptrdiff_t k, ptrdiff_t n, double root[2]);
 

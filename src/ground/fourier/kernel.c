@@ -1,31 +1,31 @@
 /*
-  Kernels are tabulated, transformed, and kept in the order in which the filter uses them.
+  Kernels are tabulated, transformed, and stored in the order in which the filter uses them.
 
   A kernel that is even or odd in x and in y has a real (or, odd in just one, imaginary) transform with the same
   symmetries. Its quadrant comes from cosine transforms (even) and sine transforms (odd) of the quadrant of its values:
-  along x for rows of lags, then, rows exchanged for columns, along y. FFTW's own (REDFT00, RODFT00) take twice as long
-  as a transform of the mirrored line, of which the real or the imaginary part is kept. A column of hy + 1 values is
-  kept with its even frequencies first and its odd ones after them, as the filter uses them.
+  first along x for rows of lags, then, after an exchange of rows for columns, along y. FFTW's own functions (REDFT00,
+  RODFT00) take twice as long as a transform of the mirrored line, whose real or imaginary part is used. A column of hy
+  + 1 values is stored with its even frequencies first, then its odd ones, as the filter uses them.
 */
 #define Real   double
 #define FFT(x) fftw_##x
 #define LINE   SamLineDouble
 #include "line.h"
 
-/* Columns that are gathered together: two cache lines of each row are read at once. */
+/* Number of columns gathered together: two cache lines of each row are read at once */
 #define BLOCK ((ptrdiff_t)(128 / sizeof(double)))
 
 /*
-  The transform of lines given by their values at 0 ... n and a parity: that of half their length, which is planned in
-  a fraction of the time of a real one.
+  The transform of lines given by their values at 0 ... n and a parity. It is computed by a complex transform of half
+  the length, which FFTW plans in a fraction of the time of a real one.
 */
 typedef struct {
   SamLineDouble half;
   PetscBool     odd;
-  double       *line;   /* 2 n values, of which the caller sets n + 1 */
-  double       *values; /* n + 1 of the transform */
-  Complex      *pairs;  /* of the line's values, at the places of entries to be transformed */
-  Complex      *z;      /* transform of the even values and i times the odd ones, n + 1 */
+  double       *line;   /* 2 n values; the caller sets n + 1 */
+  double       *values; /* n + 1 values of the transform */
+  Complex      *pairs;  /* pairs of the line's values, at the places of the transform's input */
+  Complex      *z;      /* transform of the even values and i times the odd values, n + 1 */
   Complex      *mirror; /* the same from its end to its beginning */
   Complex      *turn;   /* i exp(i pi k/n) */
 } Mirrored;
@@ -55,7 +55,7 @@ static void MirroredDestroy(Mirrored *m)
   SamFree(m->line);
 }
 
-/* Extracts the real part of a line's transform, all there is when it is even, or the imaginary part. */
+/* Extracts the real part of a line's transform, which is everything if the line is even, or the imaginary part. */
 SAM_VECTORIZED static void RealPart(ptrdiff_t n, const Complex *restrict turn, const Complex *restrict z,
                                     const Complex *restrict m, double *restrict to)
 {
@@ -69,7 +69,7 @@ SAM_VECTORIZED static void ImaginaryPart(ptrdiff_t n, const Complex *restrict tu
     to[k] = 0.5 * (z[k][1] - m[k][1] + turn[k][0] * (z[k][1] + m[k][1]) - turn[k][1] * (z[k][0] - m[k][0]));
 }
 
-/* Returns the transform of an even line, or the imaginary part of an odd one's: n + 1 values. */
+/* Returns the transform of an even line, or the imaginary part of the transform of an odd line: n + 1 values. */
 static const double *MirroredTransform(Mirrored *m)
 {
   const ptrdiff_t n    = m->half.n;
@@ -88,7 +88,7 @@ static const double *MirroredTransform(Mirrored *m)
   return m->values;
 }
 
-/* Rows of lags of all kernels, transformed along x, into the slabs (local rows of hy + 1, hx + 1). */
+/* Writes rows of lags of all kernels, transformed along x, to the slabs (local rows of hy + 1, hx + 1). */
 static PetscErrorCode TransformRows(SamFourier F, PetscInt kernels, const PetscBool odd[][2], SamKernelRows rows,
                                     const void *context, ptrdiff_t start, ptrdiff_t count)
 {
@@ -110,7 +110,7 @@ static PetscErrorCode TransformRows(SamFourier F, PetscInt kernels, const PetscB
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Columns k ... k + count - 1 of this rank into the buffer, where each is contiguous. */
+/* Gathers columns k ... k + count - 1 of this rank in the buffer, where each is contiguous. */
 static void Gather(const SamPieces *pieces, ptrdiff_t k, ptrdiff_t count, ptrdiff_t stride, double *restrict buffer)
 {
   ptrdiff_t row = 0;
@@ -124,12 +124,12 @@ static void Gather(const SamPieces *pieces, ptrdiff_t k, ptrdiff_t count, ptrdif
   }
 }
 
-/* Columns transformed along y, scaled and sorted into the kernel. */
+/* Transforms columns along y, scales them and sorts them into the kernel. */
 static PetscErrorCode TransformColumns(SamFourier F, SamKernel kernel, const SamPieces *pieces)
 {
   const ptrdiff_t n = F->hy + 1, even = F->hy / 2 + 1;
   const double    sign =
-    (kernel->odd_x || kernel->odd_y) ? -1 : 1; /* odd in both: i^2; in one: Multiply's -i makes it 1 */
+    (kernel->odd_x || kernel->odd_y) ? -1 : 1; /* odd in both: i^2; odd in one: the -i of Multiply makes it 1 */
   const double scale = sign / ((double)(1 << F->grid->axes) * (double)F->hx * (double)F->hy);
   double      *buffer;
   Mirrored     m;
@@ -156,7 +156,7 @@ static PetscErrorCode TransformColumns(SamFourier F, SamKernel kernel, const Sam
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The quadrant (hy + 1, hx + 1), of which each rank has rows, exchanged for own columns of all rows. */
+/* Exchanges the quadrant (hy + 1, hx + 1), in which each rank has rows, so that each rank has columns of all rows. */
 static PetscErrorCode ExchangeRows(SamFourier F, double rows[], double columns[])
 {
   fftw_plan plan;

@@ -1,19 +1,19 @@
 /*
-  Complex transforms of one length in one precision, out of place: included with
+  Complex transforms of one length in one precision, out of place. The file is included with these definitions:
     Real     double or float
     FFT(x)   fftw_x or fftwf_x
     LINE     the type SamLine...
 
-  Long lines are transformed in four interleaved parts, each of a length at which FFTW's estimated plans are good ones;
-  one pass, by the formulas of Cooley and Tukey for a radix of 4, puts the parts together. So what is transformed lies
-  in parts: its entry j is at LinePlace(j). Frequencies are in order.
+  Long lines are transformed in four interleaved parts, each of a length at which FFTW's estimated plans are good; one
+  pass, by the formulas of Cooley and Tukey for a radix of 4, combines the parts. So the input is stored in parts: its
+  entry j is at LinePlace(j). Frequencies are in order.
 */
 #include "fourierimpl.h"
 #include <string.h>
 
 typedef Real Complex[2];
 
-/* From this length on four parts are faster: up to 2.5 times at 8192. */
+/* Lines of at least this length are faster in four parts: up to 2.5 times at 8192 */
 #define LONG_LINE 2560
 
 static inline PetscErrorCode AllocateComplex(size_t count, Complex **pointer)
@@ -24,7 +24,7 @@ static inline PetscErrorCode AllocateComplex(size_t count, Complex **pointer)
 }
 
 /*
-  Plans forward transforms, which keep their input, and backward ones if required, of arrays aligned like `in` and
+  Plans forward transforms, which keep their input, and if required backward ones, of arrays aligned like `in` and
   `out`.
 */
 static inline PetscErrorCode LineCreate(ptrdiff_t n, unsigned effort, PetscBool backward, Complex *in, Complex *out,
@@ -73,7 +73,7 @@ static inline ptrdiff_t LinePlace(const LINE *l, ptrdiff_t j)
   return (j & (LineParts(l) - 1)) * l->part + (j >> l->shift);
 }
 
-/* Returns how many of the first n entries are in part q. */
+/* Returns the number of the first n entries that are in part q. */
 static inline ptrdiff_t LineCount(const LINE *l, ptrdiff_t n, ptrdiff_t q)
 {
   return (n - q + LineParts(l) - 1) >> l->shift;
@@ -105,8 +105,8 @@ static inline void LineTake(const LINE *l, ptrdiff_t n, const Complex *restrict 
 }
 
 /*
-  From the transforms of the parts to that of the line. All arrays are separate arguments, so that the compiler can
-  assume that they do not overlap.
+  Computes the transform of the line from those of its parts. All arrays are separate arguments, so that the compiler
+  can assume that they do not overlap.
 */
 SAM_VECTORIZED static inline void LineJoin(ptrdiff_t n, const Complex *restrict u, const Complex *restrict v,
                                            const Complex *restrict w, Complex *restrict a, Complex *restrict b,

@@ -1,5 +1,5 @@
 /*
-  The transform of one precision: included with
+  The transform in one precision. The file is included with these definitions:
     Real     double or float
     FFT(x)   fftw_x or fftwf_x
     LINE     the type SamLine...
@@ -10,7 +10,7 @@
 */
 #include "line.h"
 
-/* Columns that are transformed together: two cache lines of each row are read and written at once. */
+/* Number of columns transformed together: two cache lines of each row are read and written at once */
 #define BLOCK ((ptrdiff_t)(128 / sizeof(Complex)))
 
 static inline ptrdiff_t HalfLength(SamFourier F, SamFourierMode mode)
@@ -25,8 +25,8 @@ static inline PetscBool IsOdd(SamFourier F, SamFourierMode mode)
 }
 
 /*
-  Everything of one dimension but the plans of rows, which are made when a mode is first used: planning is what small
-  grids take most of their time for.
+  Creates all one-dimensional plans and buffers, except the plans of rows, which are made when a mode is first used: on
+  small grids planning takes most of the time.
 */
 static PetscErrorCode PlanLines(SamFourier F)
 {
@@ -84,8 +84,8 @@ void DESTROY(SamFourier F)
 }
 
 /*
-  Each transpose goes out of place into the slab that the one before has left: forward runs through the
-  fields upwards, backward downwards.
+  Each transpose writes, out of place, to the slab that the transpose before has emptied: fields are processed upwards
+  in the forward direction, downwards in the backward direction.
 */
 static PetscErrorCode PlanTransposes(SamFourier F, SamFourierMode mode, PetscInt fields)
 {
@@ -109,7 +109,7 @@ static PetscErrorCode PlanTransposes(SamFourier F, SamFourierMode mode, PetscInt
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Makes room for that many fields, and what the mode needs. */
+/* Allocates the buffers for that many fields, and the plans of the mode. */
 static PetscErrorCode Reserve(SamFourier F, SamFourierMode mode, PetscInt fields)
 {
   TRANSFORM      *t   = &F->PART;
@@ -136,8 +136,8 @@ static PetscErrorCode Reserve(SamFourier F, SamFourierMode mode, PetscInt fields
 }
 
 /*
-  From the transform z of the even entries of a line, and i times the odd ones, to that of the line; m is the mirror of
-  z.
+  Computes the transform of a line from the transform z of its even entries and i times its odd entries; m is the mirror
+  of z.
 */
 SAM_VECTORIZED static void Unpack(ptrdiff_t n, const Complex *restrict turn, const Complex *restrict z,
                                   const Complex *restrict m, Complex *restrict to)
@@ -152,7 +152,7 @@ SAM_VECTORIZED static void Unpack(ptrdiff_t n, const Complex *restrict turn, con
   }
 }
 
-/* Inverts Unpack(), times 2. */
+/* Inverts Unpack(); the result is multiplied by 2. */
 SAM_VECTORIZED static void Pack(ptrdiff_t n, const Complex *restrict turn, const Complex *restrict z,
                                 const Complex *restrict m, Complex *restrict to)
 {
@@ -164,7 +164,7 @@ SAM_VECTORIZED static void Pack(ptrdiff_t n, const Complex *restrict turn, const
   }
 }
 
-/* Transforms rows of an odd period, nx = hx, as complex ones, and keeps the first half of the result. */
+/* Transforms rows of an odd period, nx = hx, as complex numbers, and keeps the first half of the result. */
 static void OddRowsForward(SamFourier F, const Real field[], Complex *slab)
 {
   TRANSFORM      *t  = &F->PART;
@@ -187,7 +187,7 @@ static void OddRowsBackward(SamFourier F, const Complex *slab, Real field[])
 
   for (ptrdiff_t j = 0; j < F->grid->rows; j++) {
     memcpy(t->line, slab + j * n, sizeof(Complex) * (size_t)n);
-    t->line[0][1] = 0; /* as in the transform of real numbers, but for rounding */
+    t->line[0][1] = 0; /* rounding must not differ from a transform of real numbers */
     for (ptrdiff_t k = 1; k < n; k++) {
       t->line[nx - k][0] = t->line[k][0];
       t->line[nx - k][1] = -t->line[k][1];
@@ -231,7 +231,7 @@ static void RowsBackward(SamFourier F, SamFourierMode mode, Complex *slab, Real 
   for (PetscInt j = 0; j < F->grid->rows; j++) {
     Complex *line = slab + j * (n + 1);
 
-    line[0][1] = line[n][1] = 0; /* as in the transform of real numbers, but for rounding */
+    line[0][1] = line[n][1] = 0; /* rounding must not differ from a transform of real numbers */
     Mirror(n, (const Complex *)line, t->mirror);
     Pack(n, (const Complex *)t->turn[mode], (const Complex *)line, (const Complex *)t->mirror, t->line);
     LineBackward(&t->rows[mode], t->line, t->row);
@@ -240,7 +240,7 @@ static void RowsBackward(SamFourier F, SamFourierMode mode, Complex *slab, Real 
   }
 }
 
-/* to[j] = from[j] * exp(-i pi j/hy): the column whose transform has the odd frequencies. */
+/* Computes to[j] = from[j] * exp(-i pi j/hy), the column whose transform has the odd frequencies. */
 SAM_VECTORIZED static void Twist(ptrdiff_t n, const Complex *restrict twiddle, const Complex *restrict from,
                                  Complex *restrict to)
 {
@@ -250,7 +250,7 @@ SAM_VECTORIZED static void Twist(ptrdiff_t n, const Complex *restrict twiddle, c
   }
 }
 
-/* even[j] += odd[j] * exp(i pi j/hy). */
+/* Computes even[j] += odd[j] * exp(i pi j/hy). */
 SAM_VECTORIZED static void Untwist(ptrdiff_t n, const Complex *restrict twiddle, const Complex *restrict odd,
                                    Complex *restrict even)
 {
@@ -260,7 +260,7 @@ SAM_VECTORIZED static void Untwist(ptrdiff_t n, const Complex *restrict twiddle,
   }
 }
 
-/* Gathers columns of a slab, from the k-th of this rank's on, in the buffer, one after the other. */
+/* Gathers columns of a slab, beginning with this rank's k-th, one after the other in the buffer. */
 static void Gather(const LINE *line, const SamPieces *pieces, ptrdiff_t k, ptrdiff_t count, ptrdiff_t stride,
                    Complex *restrict buffer)
 {
@@ -291,7 +291,8 @@ static void Scatter(const LINE *line, const SamPieces *pieces, ptrdiff_t k, ptrd
   }
 }
 
-/* Gathers columns, pads them and transforms them; then the way back. Out of place, which FFTW does faster. */
+/* Gathers columns, pads them and transforms them; then ColumnsBackward() inverts it. Out of place, which is faster in
+   FFTW. */
 static void ColumnsForward(SamFourier F, PetscInt phases, const SamPieces *pieces, ptrdiff_t k, ptrdiff_t count,
                            Complex *buffer)
 {

@@ -2,9 +2,9 @@
   The slabs of memory in which transforms keep their half spectra.
 
   On a communicator only one transform is under way at a time, so all of them use the same slabs, as large as the
-  largest so far needed them. Where all ranks are on one node the slabs are in memory that they share: columns are
-  gathered from where the rows are, and nothing is sent. Elsewhere, or when there is no such memory, every rank has its
-  own, and rows are exchanged for columns by FFTW's transposes.
+  largest transform so far. If all ranks are on one node, the slabs are in shared memory: columns are gathered directly
+  from the rows, without messages. Otherwise, or without shared memory, every rank has its own slabs, and rows are
+  exchanged for columns by FFTW's transposes.
 */
 #include "fourierimpl.h"
 #include <fcntl.h>
@@ -12,7 +12,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-/* Attributes of a communicator: its workspace that may share memory, and the one that must send. */
+/* Attributes of a communicator: its workspace that may share memory, and its workspace that must send */
 static PetscMPIInt keyvals[2] = {MPI_KEYVAL_INVALID, MPI_KEYVAL_INVALID};
 
 static PetscErrorCode FreeKeyvals(void)
@@ -32,7 +32,7 @@ static PetscErrorCode CreateKeyvals(void)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Lets the workspace share memory if it may, and if all ranks are on one node. */
+/* Lets the workspace share memory if this is allowed and all ranks are on one node. */
 static PetscErrorCode CanShare(SamWorkspace w)
 {
   MPI_Comm    node;
@@ -106,8 +106,7 @@ PetscErrorCode SamWorkspaceRelease(SamWorkspace *workspace)
 }
 
 /*
-  Creates a new shared memory object, seen by all ranks under a name that is gone again when this returns; -1 when there
-  is none.
+  Creates a new shared memory object, which all ranks open under a temporary name; returns -1 if there is none.
 */
 static PetscErrorCode OpenShared(SamWorkspace w, size_t bytes, int *fd)
 {
@@ -140,8 +139,8 @@ static PetscErrorCode OpenShared(SamWorkspace w, size_t bytes, int *fd)
 }
 
 /*
-  Allocates a slab in shared memory, or none when there is no more of it. MPI_Win_allocate_shared is not used: when
-  memory is short, Open MPI reports that to one rank, and the others wait for ever.
+  Allocates a slab in shared memory, or none if that is exhausted. MPI_Win_allocate_shared is not used: if memory is
+  short, Open MPI reports this on one rank only, and the others wait for ever.
 */
 static PetscErrorCode AllocateShared(SamWorkspace w, size_t bytes, SamSlab *slab, PetscBool *done)
 {
@@ -155,7 +154,7 @@ static PetscErrorCode AllocateShared(SamWorkspace w, size_t bytes, SamSlab *slab
   *done = PETSC_FALSE;
   if (fd < 0) PetscFunctionReturn(PETSC_SUCCESS);
   good = posix_fallocate(fd, (off_t)(part * (size_t)w->rank), (off_t)part) ==
-         0; /* else the first write to a full node would kill */
+         0; /* otherwise the first write to a full node would kill the process */
   if (good) base = mmap(NULL, part * (size_t)w->ranks, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
   (void)close(fd);
   good = base != MAP_FAILED;
@@ -185,7 +184,7 @@ PetscErrorCode SamWorkspaceReserve(SamWorkspace w, size_t bytes, PetscInt fields
     if (slab->bytes) PetscCall(FreeSlab(w, slab));
     if (w->shared) {
       PetscCall(AllocateShared(w, bytes, slab, &done));
-      w->shared = done; /* slabs shared by now stay shared, and are used as private ones */
+      w->shared = done; /* slabs that are already shared stay shared, and are used as private ones */
     }
     if (!done) PetscCall(SamAllocate(bytes, &slab->own));
     slab->bytes = bytes;

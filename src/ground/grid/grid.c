@@ -5,11 +5,11 @@
 #include <math.h>
 #include <string.h>
 
-#define MOST_RATIO (100 * (1 + 1e-12)) /* of the sides of a grid, and of its cells, but for rounding */
+#define MOST_RATIO (100 * (1 + 1e-12)) /* largest ratio of the sides of a grid or of its cells, apart from rounding */
 
 /*
-  Checks the sizes of a grid and writes a message about the first fault; it is empty if there is none. The names are
-  those of the arguments of SamGridCreate(), or of options.
+  Checks the sizes of a grid and writes a message about the first fault; the message is empty if there is none. The
+  names are those of the arguments of SamGridCreate(), or of options.
 */
 static PetscErrorCode FindFault(const PetscInt n[2], const PetscReal width[2], const PetscReal center[2],
                                 const char *const names[3], char message[], size_t size)
@@ -27,7 +27,7 @@ static PetscErrorCode FindFault(const PetscInt n[2], const PetscReal width[2], c
                               (double)width[k], axis));
     else if (!isfinite(center[k]))
       PetscCall(PetscSNPrintf(message, size, "%s: expected finite numbers", names[2]));
-    /* the centres must be told apart in double precision, and areas must not underflow or overflow */
+    /* Centres must be distinct in double precision, and areas must not underflow or overflow. */
     else if (!(width[k] / (PetscReal)n[k] > 1e-12 * PetscAbsReal(center[k]) && width[k] > 1e-100 && width[k] < 1e100))
       PetscCall(PetscSNPrintf(message, size,
                               "%s: a width of %.6g m in %s about %.6g m cannot be resolved in double precision",
@@ -87,8 +87,8 @@ PetscErrorCode SamGridCreate(MPI_Comm comm, const PetscInt n[2], const PetscReal
 }
 
 /*
-  Refuses widths that differ more than a hundredfold, unless the numbers of cells do so, too: -grid_size 2,600 is likely
-  to be one number with a comma in it.
+  Rejects widths that differ more than a hundredfold, unless the numbers of cells do, too: -grid_size 2,600 is likely to
+  be one number that contains a comma.
 */
 static PetscErrorCode RefuseThin(const SamOptions *from, const PetscInt n[2], const PetscReal width[2])
 {
@@ -118,7 +118,7 @@ static PetscErrorCode TakeRow(const SamOptions *from, PetscInt n[2], PetscReal w
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Values that options set */
+/* Values set by options */
 typedef struct {
   PetscInt  n[2];
   PetscReal width[2], center[2];
@@ -142,7 +142,7 @@ PetscErrorCode SamGridCreateFromOptions(const SamOptions *from, PetscBool row, P
 
   PetscFunctionBegin;
   PetscCall(SamOptionsRead(from, "Grid", SAM_OPTION_ROWS(rows), &set, NULL));
-  for (int k = 0; k < 2; k++) { /* the defaults are listed in the help; any grid does */
+  for (int k = 0; k < 2; k++) { /* for the defaults in the help; any grid will do */
     n[k]      = help ? 2 : set.n[k];
     width[k]  = help ? 1 : set.width[k];
     center[k] = set.center[k];
@@ -187,7 +187,7 @@ PetscErrorCode SamGridCoarsen(SamGrid fine, SamGrid *coarse)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* PETSc passes the array, and from 3.23 on the address of the pointer to it, since 3.25 as a pointer to anything. */
+/* PETSc passes the array; from 3.23 on, the address of the pointer to it; since 3.25 that as a pointer to void. */
 #if PETSC_VERSION_LT(3, 23, 0)
   #define PetscContainerSetCtxDestroy PetscContainerSetUserDestroy
 static PetscErrorCode FreeArray(void *array)
@@ -255,7 +255,7 @@ PetscErrorCode SamGridIsFinite(SamGrid grid, Vec field, PetscBool *is)
   PetscCall(VecGetLocalSize(field, &n));
   PetscCall(VecGetArrayRead(field, &values));
 #pragma omp simd reduction(+ : sum)
-  for (PetscInt k = 0; k < n; k++) sum += 0 * values[k]; /* NaN when a value is not finite */
+  for (PetscInt k = 0; k < n; k++) sum += 0 * values[k]; /* becomes NaN if a value is not finite */
   PetscCall(VecRestoreArrayRead(field, &values));
   bad = isnan(sum) ? 1 : 0;
   PetscCall(SamMax(grid->comm, 1, &bad));
@@ -351,7 +351,7 @@ PetscErrorCode SamGridMatch(SamGrid grid, Vec field, SamGrid other, Vec other_fi
 }
 
 /*
-  Computes a sum over the cells of a hash of value and place. The order of the sum, hence of the ranks, does not matter.
+  Sums a hash of value and place over the cells. The order of the sum, and so the number of ranks, does not matter.
 */
 PetscErrorCode SamGridChecksum(SamGrid grid, Vec field, uint64_t *checksum)
 {

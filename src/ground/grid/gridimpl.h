@@ -5,7 +5,8 @@
 #include <petsam/private/baseimpl.h>
 #include <petsam/grid.h>
 
-/* Finds the number of components of two fields, one on each grid; raises an error with these words if they differ. */
+/* Finds the number of components of two fields, one on each grid; raises an error with this text if the numbers
+   differ. */
 PETSC_INTERN PetscErrorCode SamGridMatch(SamGrid grid, Vec field, SamGrid other, Vec other_field, const char words[],
                                          PetscInt *components);
 

@@ -1,6 +1,6 @@
 /*
-  Rows of a grid that a rank wants to see, wherever they are: an exchange of all with all, in which whole rows are the
-  unit of the messages, so that their numbers stay small.
+  Fetches the rows of a grid that a rank needs from all ranks. The messages consist of whole rows, so that their number
+  stays small.
 */
 #include "gridimpl.h"
 #include <petsam/private/grid.h>

@@ -1,14 +1,14 @@
 /*
-  A field moved over the grid: by whole cells exactly, by parts of a cell with cubic interpolation along x, then y. Its
-  error is of fourth order in the cells' size where the field is smooth, of first order at a kink. Rows that lie on
-  other ranks are fetched, so that the bits are the same on any number of ranks.
+  Moves a field over the grid: by whole cells without error, by parts of a cell with cubic interpolation along x, then
+  y. The error is of fourth order in the cells' size where the field is smooth, of first order at a kink. Rows that lie
+  on other ranks are fetched, so that the bits are the same on any number of ranks.
 */
 #include "gridimpl.h"
 #include <petsam/private/grid.h>
 #include <petsam/private/rows.h>
 #include <math.h>
 
-/* Distances nearer than this to whole cells are taken for such, parts of a cell. */
+/* Distances within this part of a cell from a whole number of cells are taken for whole cells. */
 #define WHOLE 1e-6
 #define TAPS  4
 
@@ -18,7 +18,7 @@ typedef struct {
   double   tap[TAPS];
 } Stencil;
 
-/* Beyond the grid's width nothing is left to interpolate, or the period begins again. */
+/* Returns the shift in cells. Beyond the grid's width nothing is left to interpolate, or the period begins again. */
 static double ShiftOf(PetscReal distance, PetscReal cell, PetscInt n, SamBorder border)
 {
   const double shift = (double)(distance / cell);
@@ -50,7 +50,8 @@ void SamGridEntering(SamGrid grid, const PetscReal distance[2], PetscInt low[2],
 }
 
 /*
-  Returns the entry that stands for entry i of n: beyond these the first or last one, one of the period, or none, -1.
+  Returns the index of the entry used for entry i of n. Beyond the grid this is the first or last entry, one of the
+  period, or -1 for none.
 */
 static PetscInt EntryFor(PetscInt i, PetscInt n, SamBorder border)
 {

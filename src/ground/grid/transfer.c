@@ -1,9 +1,9 @@
 /*
-  Moving fields between a fine and a coarse grid of the same rectangle, whatever the numbers of cells.
+  Moves fields between a fine and a coarse grid of the same rectangle, with any numbers of cells.
 
-  Restriction takes the average over each coarse cell, fine cells cut by its edge counting by their share, so that the
-  integral of the field is kept. Prolongation is linear interpolation between cell centres. Both are separable: x is
-  done where the data lie, y after the rows that a rank needs have been fetched.
+  Restriction averages over each coarse cell, with fine cells that its edge cuts weighted by their share, so that the
+  integral of the field is conserved. Prolongation is linear interpolation between cell centres. Both are separable: x
+  is processed on the rank that has the data, y after the needed rows have been fetched.
 */
 #include "gridimpl.h"
 #include <petsam/private/grid.h>
@@ -12,15 +12,15 @@
 
 struct _n_SamTransfer {
   SamGrid   fine, coarse;
-  SamRows   fine_rows;     /* those that this rank's coarse rows are made of */
-  SamRows   coarse_rows;   /* those that its fine rows are interpolated from */
+  SamRows   fine_rows;     /* fine rows from which this rank's coarse rows are averaged */
+  SamRows   coarse_rows;   /* coarse rows from which its fine rows are interpolated */
   PetscInt *first, *count; /* coarse column J covers the fine columns first[J] ... first[J] + count[J] - 1 */
-  double   *share;         /* of these fine columns in it, COVER_MAX a coarse column */
+  double   *share;         /* shares of these fine columns in coarse column J, COVER_MAX per coarse column */
   PetscInt *left;          /* fine column i lies between the coarse columns left[i] and left[i] + 1 */
-  double   *position;      /* between their centres, 0 to 1 */
+  double   *position;      /* place between the centres of these, 0 to 1 */
 };
 
-/* A coarse cell is at most two fine cells wide, so it touches at most three. */
+/* A coarse cell is at most two fine cells wide, so it overlaps at most three. */
 #define COVER_MAX 3
 
 /* Cell J of N covers the fine cells first..last of n; the share of cell k in it is Share(). */
@@ -40,7 +40,8 @@ static double Share(PetscInt J, PetscInt N, PetscInt n, PetscInt k)
   return PetscMax(end - begin, 0) / ratio;
 }
 
-/* Centre of fine cell k of n lies between the centres of the coarse cells *left and *left + 1; t is where. */
+/* Finds the coarse cells *left and *left + 1 whose centres enclose that of fine cell k of n; t is the place between
+   them. */
 static void Between(PetscInt k, PetscInt n, PetscInt N, PetscInt *left, double *t)
 {
   const double s = ((double)k + 0.5) * (double)N / (double)n - 0.5;

@@ -1,7 +1,7 @@
 /*
   A window: a rectangle of cells as a grid of its own.
 
-  Both grids have their rows in slabs; which rows one side wants of the other, and how they come, is rows.c.
+  Both grids have their rows in slabs; rows.c exchanges the rows that one grid needs from the other.
 */
 #include "gridimpl.h"
 #include <petsam/private/grid.h>
@@ -11,7 +11,7 @@
 struct _n_SamWindow {
   SamGrid  grid, part;
   PetscInt first[2];
-  SamRows  taken; /* rows of the whole grid that this rank's rows of the window are */
+  SamRows  taken; /* rows of the whole grid that are this rank's rows of the window */
   SamRows  put;   /* rows of the window among this rank's rows of the whole grid */
 };
 
@@ -89,7 +89,7 @@ PetscErrorCode SamWindowTake(SamWindow w, Vec whole, Vec part)
 
   PetscFunctionBegin;
   PetscCall(SamGridMatch(w->grid, whole, w->part, part, "this window", &components));
-  /* for all rows of this rank, though only those of the window are filled and sent */
+  /* Allocated for all rows of this rank, though only those of the window are filled and sent. */
   PetscCall(SamAllocate(sizeof(*columns) * (size_t)w->grid->rows * nx, &columns));
   PetscCall(VecGetArrayRead(whole, &from));
   PetscCall(VecGetArrayWrite(part, &to));

@@ -1,24 +1,24 @@
 /*
-  Connected zones of cells: how many, and how many cells across.
+  Connected zones of cells: their number, and their widths in cells.
 
   Each rank goes through its rows once and unites runs of cells that touch a piece in the row before (Hoshen and
-  Kopelman 1976, Phys. Rev. B 14, 3438, with runs for cells). Zones that lie within a rank's rows are complete then.
-  Zones in its first or last row may continue on the next rank: their pieces move to rank 0, which unites them. Only
-  integers are summed, so nothing depends on the number of ranks. Memory: labels of two rows, and a piece per zone.
+  Kopelman 1976, Phys. Rev. B 14, 3438, with runs instead of cells). Zones that lie within a rank's rows are complete
+  then. Zones in its first or last row may continue on the next rank: their pieces move to rank 0, which unites them.
+  Only integers are summed, so nothing depends on the number of ranks. Memory: labels of two rows, and a piece per zone.
 */
 #include "gridimpl.h"
 #include <petsam/private/grid.h>
 #include <petsam/private/rows.h>
 #include <math.h>
 
-/* Sums and extremes of a zone, or of a piece of one, in cells */
+/* Sums and extremes of a zone, or of a piece of a zone, in cells */
 typedef struct {
   int64_t least[2], most[2]; /* first and last column and row */
-  int64_t cells, sum[2];     /* of columns and rows, */
-  int64_t square[3];         /* and of their products xx, yy, xy */
+  int64_t cells, sum[2];     /* number; sums of columns and rows; */
+  int64_t square[3];         /* sums of their products xx, yy, xy */
 } Piece;
 
-/* Pieces; `parent` leads to the piece that one has been united with, itself at first. */
+/* Pieces; `parent` of a piece is the piece with which it has been united, at first the piece itself */
 typedef struct {
   PetscBool wrap; /* the grid's opposite borders connect cells, too */
   Piece    *piece;
@@ -59,7 +59,7 @@ static void Add(Piece *to, const Piece *from)
   to->cells += from->cells;
 }
 
-/* Unites two pieces; returns the one that they are now. */
+/* Unites two pieces; returns the resulting piece. */
 static PetscInt Unite(Forest *f, PetscInt a, PetscInt b)
 {
   a = Find(f, a);
@@ -94,14 +94,14 @@ static Piece PieceOf(int64_t first, int64_t last, int64_t y)
 }
 
 /*
-  Cells across a zone: the shorter side of its bounding box, or the shorter diameter of the ellipse with its second
-  moments, whichever is less: the ellipse tells the width of a zone that lies across the axes. A zone that extends from
-  border to border along one axis only, as under a cylinder, has no width along it.
+  Returns the width of a zone in cells: the shorter side of its bounding box, or the shorter diameter of the ellipse
+  with its second moments, whichever is less. The ellipse gives the width of a zone that is oblique to the axes. If a
+  zone extends from border to border along one axis only, as under a cylinder, its width along that axis is ignored.
 */
 static double Across(const Piece *p, SamGrid grid)
 {
   const double n = (double)p->cells, x = (double)p->sum[0] / n, y = (double)p->sum[1] / n;
-  /* 1/12 is that of a square cell about its centre */
+  /* 1/12 is the second moment of a square cell about its centre */
   double       xx = (double)p->square[0] / n - x * x + 1. / 12, yy = (double)p->square[1] / n - y * y + 1. / 12;
   const double xy      = (double)p->square[2] / n - x * y;
   const double side[2] = {(double)(p->most[0] - p->least[0]) + 1, (double)(p->most[1] - p->least[1]) + 1};
@@ -116,7 +116,7 @@ static double Across(const Piece *p, SamGrid grid)
 
 /* ---- rows ---- */
 
-/* Row y: `label` has the pieces of the row before it, -1 for cells in none, and gets those of this row. */
+/* Processes row y: `label` has the pieces of the row before, -1 for cells in none, and receives those of this row. */
 static PetscErrorCode ReadRow(SamGrid grid, const double p[], PetscInt y, Forest *f, PetscInt label[])
 {
   PetscFunctionBegin;
@@ -139,7 +139,7 @@ static PetscErrorCode ReadRow(SamGrid grid, const double p[], PetscInt y, Forest
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Reads this rank's pieces, and those that the cells of its first and last row belong to. */
+/* Reads this rank's pieces, and the pieces of the cells in its first and last row. */
 static PetscErrorCode ReadRows(SamGrid grid, Vec field, Forest *f, PetscInt *edge[2])
 {
   const double *p;
@@ -155,11 +155,12 @@ static PetscErrorCode ReadRows(SamGrid grid, Vec field, Forest *f, PetscInt *edg
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- zones that several ranks share ---- */
+/* ---- zones on several ranks ---- */
 
-#define PIECE ((PetscInt)(sizeof(Piece) / sizeof(int64_t))) /* numbers of a piece */
+#define PIECE ((PetscInt)(sizeof(Piece) / sizeof(int64_t))) /* numbers per piece */
 
-/* Moves the pieces of the first and last row out of the forest; the labels become their places among all ranks'. */
+/* Moves the pieces of the first and last row out of the forest; the labels become their places among those of all
+   ranks. */
 static PetscErrorCode TakeOut(SamGrid grid, Forest *f, PetscInt *edge[2], Piece pieces[], PetscInt *count)
 {
   PetscInt *place, base = 0;
@@ -187,7 +188,7 @@ static PetscErrorCode TakeOut(SamGrid grid, Forest *f, PetscInt *edge[2], Piece 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Pairs of pieces that touch: of the last row, and of the first row of the next rank that has rows. */
+/* Finds pairs of pieces that touch: in the last row, and in the first row of the next rank that has rows. */
 static PetscErrorCode FindPairs(SamGrid grid, PetscBool wrap, PetscInt *edge[2], int64_t pairs[], PetscInt *count)
 {
   PetscMPIInt rank, size, ranks, before, after, nx;
@@ -198,7 +199,7 @@ static PetscErrorCode FindPairs(SamGrid grid, PetscBool wrap, PetscInt *edge[2],
   PetscCallMPI(MPI_Comm_size(grid->comm, &size));
   PetscCall(PetscMPIIntCast(grid->nx, &nx));
   SamGridRowsOf(grid, size, 0, &begin, &end);
-  ranks  = (PetscMPIInt)((grid->ny + end - 1) / end); /* the first ones have rows */
+  ranks  = (PetscMPIInt)((grid->ny + end - 1) / end); /* ranks with rows, which are the first ones */
   before = rank >= ranks ? MPI_PROC_NULL : rank ? rank - 1 : wrap ? ranks - 1 : MPI_PROC_NULL;
   after  = rank + 1 < ranks ? rank + 1 : rank < ranks && wrap ? 0 : MPI_PROC_NULL;
   *count = 0;
@@ -238,9 +239,9 @@ static PetscErrorCode Share(SamGrid grid, Forest *f, PetscInt *edge[2])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- all of it ---- */
+/* ---- all zones ---- */
 
-/* Finds this rank's zones, and on rank 0 those of several ranks; the roots that have cells count. */
+/* Finds this rank's zones, and on rank 0 those of several ranks; only roots with cells count. */
 static PetscErrorCode FindZones(SamGrid grid, Vec field, PetscBool wrap, Forest *f)
 {
   PetscInt *edge[2];
@@ -284,7 +285,7 @@ PetscErrorCode SamGridCountZones(SamGrid grid, Vec field, PetscBool wrap, PetscI
 PetscErrorCode SamGridMeasureZones(SamGrid grid, Vec field, PetscReal part, PetscReal *across)
 {
   const PetscInt widths = 10 * PetscMax(grid->nx, grid->ny);
-  double        *cells, sum = 0, narrow = 0; /* cells[w] in zones of w/10 cells across */
+  double        *cells, sum = 0, narrow = 0; /* cells[w]: number of cells in zones of width w/10 */
   Forest         f;
   PetscInt       w = 0;
 
@@ -296,7 +297,7 @@ PetscErrorCode SamGridMeasureZones(SamGrid grid, Vec field, PetscReal part, Pets
       cells[PetscMin(widths, PetscMax(1, (PetscInt)floor(10 * Across(&f.piece[k], grid) + 0.5)))] +=
         (double)f.piece[k].cells;
   PetscCall(DestroyForest(&f));
-  PetscCall(SamSum(grid->comm, widths + 1, cells)); /* of integers: exact */
+  PetscCall(SamSum(grid->comm, widths + 1, cells)); /* sums of integers, so without rounding */
   for (PetscInt k = 1; k <= widths; k++) sum += cells[k];
   while (w < widths && (w == 0 || narrow <= (double)part * sum)) narrow += cells[++w];
   *across = sum > 0 ? 0.1 * (PetscReal)w : 0;

@@ -52,7 +52,7 @@ void SamControlSetWay(SamControl *control, PetscInt k, SamWay way)
 
 struct _n_SamConditions {
   PetscInt      references, count;
-  SamCondition *condition[SAM_CONDITIONS]; /* they stay where they are: others refer to them */
+  SamCondition *condition[SAM_CONDITIONS]; /* pointers, so that conditions keep their addresses */
 };
 
 PetscErrorCode SamConditionsCreate(SamConditions *conditions)

@@ -4,20 +4,20 @@
 #include <petsam/private/grid.h>
 #include <petsam/private/state.h>
 
-/* A declared field: its vectors, and whether the tried one has been set in this try. */
+/* A declared field: its vectors, and true if the tried vector has been set in this try */
 typedef struct {
   SamStateField declared;
   Vec           value[SAM_GENERATIONS];
-  Vec           other; /* while the committed one has moved that before it; NULL: it has not */
+  Vec           other; /* committed vector from before a move of the grid; NULL: not moved */
   PetscBool     set;
 } Field;
 
 typedef struct {
   SamStateNumber declared;
-  char           name[48], unit[32], text[96]; /* of it, as whoever declares it may go */
+  char           name[48], unit[32], text[96]; /* copies, as the declarer's texts may disappear */
   PetscInt       id;                           /* place of the first value */
-  double         before;                       /* value of steps in which it was no result; the usual one */
-  PetscBool      optional;                     /* others may lack it, where it is as usual */
+  double         before;                       /* value for steps before the number was a result: the usual one */
+  PetscBool      optional;                     /* states may lack it if it has its usual value */
 } Number;
 
 struct _n_SamState {
@@ -26,10 +26,10 @@ struct _n_SamState {
   Field          field[SAM_STATE_MOST];
   Number         number[SAM_STATE_DECLARED];
   SamStateResult result[SAM_STATE_MOST];
-  PetscInt       layers; /* of fields of layers */
+  PetscInt       layers; /* number of layers of a field of layers */
   PetscReal     *z;
-  char           names[SAM_STATE_MOST][48];   /* of results that are components of fields */
-  char           texts[SAM_STATE_MOST][96];   /* and theirs */
+  char           names[SAM_STATE_MOST][48];   /* names of results that are components of fields */
+  char           texts[SAM_STATE_MOST][96];   /* texts of the same */
   double        *generation[SAM_GENERATIONS]; /* the numbers */
   PetscBool      tried;
 };
@@ -122,7 +122,7 @@ PetscInt SamStateGetLayers(SamState s, const PetscReal **z)
   return s->layers;
 }
 
-/* Writes the name and the text of the c-th of the values of a field for each cell. */
+/* Writes the name and the text of the c-th value per cell of a field. */
 static void NameValue(const SamStateField *f, PetscInt c, char name[48], char text[], size_t size)
 {
   const char axis[2] = {c % f->components ? 'y' : 'x', '\0'}, *const rest = strchr(f->text, ',');
@@ -136,7 +136,7 @@ static void NameValue(const SamStateField *f, PetscInt c, char name[48], char te
                  f->components > 1 ? axis : "", rest ? rest : "", below);
 }
 
-/* Offers the values of a remembered field. */
+/* Offers the values of a stored field as results. */
 static PetscErrorCode OfferField(SamState s, PetscInt id)
 {
   const SamStateField *f = &s->field[id].declared;
@@ -165,7 +165,7 @@ PetscErrorCode SamStateDeclareField(SamState s, const SamStateField *field, Pets
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Sets the value of numbers of which a step has none. */
+/* Sets numbers to the value that means "none in this step". */
 static void SetNone(SamState s, const Number *n, SamGeneration g)
 {
   for (PetscInt k = 0; k < n->declared.count; k++)
@@ -173,7 +173,7 @@ static void SetNone(SamState s, const Number *n, SamGeneration g)
       n->declared.result && (n->declared.kind == SAM_NUMBER_REAL || n->declared.kind == SAM_NUMBER_MATRIX) ? NAN : 0;
 }
 
-/* Sets the value of numbers from the start, before any step. */
+/* Sets numbers to their values before any step. */
 static void SetInitial(SamState s, const Number *n, SamGeneration g)
 {
   SetNone(s, n, g);
@@ -315,7 +315,7 @@ PetscErrorCode SamStateReset(SamState s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The oldest generation of a field becomes the tried one, whose vector is then written anew. */
+/* Makes the oldest generation of a field the tried one; its vector will be overwritten. */
 static void Rotate(Field *f)
 {
   const Vec      tried  = f->value[SAM_TRIED];

@@ -1,15 +1,15 @@
 /*
   This finds yielding that no layer shows: below the last layer, or inside layers that are thick beside the
-  contact. An elastic contact yields first at 0.48 of its half width, below a sphere, and at 0.70, below a cylinder;
-  deeper than twice the half width no contact yields first. So the stress is looked at there, at points between which it
-  varies little, by the tractions and the residual stress of the nearest layer.
+  contact. An elastic contact yields first at a depth of 0.48 half widths below a sphere, and of 0.70 below a cylinder;
+  no contact yields first deeper than two half widths. So the stress by the tractions and the residual stress of the
+  nearest layer are evaluated there, at points between which they vary little.
 */
 #include "newton.h"
 
-#define FIRST  0.48 /* depth over the half width of the contact where layers must be thin, */
-#define DEEP   0.7  /* and the deepest one at which a contact yields first */
-#define NARROW 0.1  /* part of the cells in contact whose zones, the narrowest, do not count */
-/* Depths over the half width that are looked at, if they lie below the last layer or in a thick one. */
+#define FIRST  0.48 /* depth, relative to the half width of the contact, at which layers must be thin */
+#define DEEP   0.7  /* the deepest such depth at which a contact yields first */
+#define NARROW 0.1  /* part of the cells in contact, in the narrowest zones, that is ignored */
+/* Depths, relative to the half width, that are checked if they lie below the last layer or in a thick one */
 static const double places[] = {0, 0.25, FIRST, DEEP, 1, 1.5, 2};
 #define PLACES ((PetscInt)(sizeof(places) / sizeof(places[0])))
 

@@ -1,11 +1,12 @@
 /*
-  The images of a window, which waves of a period bring in, are smooth: they are at least as far away as the window is
-  wide. So the eigenstrain is taken to a few nodes by Lagrange's polynomials, transposed; a matrix gives the stress of
-  its images at the nodes; and the same polynomials bring that to the cells, so that the operator remains symmetric.
+  Waves of a period include the images of a window. The stress of these is smooth, since they are at least as far away
+  as the window is wide. So the eigenstrain is projected onto a few nodes by the transpose of Lagrange's polynomials, a
+  matrix gives the stress of its images at the nodes, and the same polynomials interpolate this stress to the cells, so
+  that the operator remains symmetric.
 
   The matrix is the sum over the images of the stress of a point (nucleus.c), which falls as their distance cubed. Sums
-  over squares |m|, |n| <= 1, 2, 4 are extrapolated in the powers 1 and 3 of 1/(N + 1/2). It depends on the distance of
-  two nodes along x and y, but for signs.
+  over squares |m|, |n| <= 1, 2, 4 are extrapolated in the powers 1 and 3 of 1/(N + 1/2). Apart from signs it depends
+  only on the distance of two nodes along x and y.
 */
 #include "images.h"
 #include <petsam/private/baseimpl.h>
@@ -19,13 +20,13 @@ struct _n_SamImages {
   SamGrid     grid;
   SamWaveBody body;
   double      node[2][ALONG], depth[DOWN];
-  double     *basis[3];                   /* at columns, this rank's rows, layers */
+  double     *basis[3];                   /* at columns, this rank's rows, and layers */
   PetscInt    lag[ALONG][ALONG];          /* the place of the distance of two nodes along an axis */
   Matrix (*table)[LAGS][DOWN][DOWN];      /* by the lags along x and y, and the depths of point and source */
   double sums[PARTS][DOWN][ALONG][ALONG]; /* component, z, y, x */
 };
 
-/* True where a component is odd in x; in y */
+/* True if a component is odd in x; in y */
 static const PetscBool odd[2][PARTS] = {{[SAM_STRESS_XY] = PETSC_TRUE, [SAM_STRESS_XZ] = PETSC_TRUE},
                                         {[SAM_STRESS_XY] = PETSC_TRUE, [SAM_STRESS_YZ] = PETSC_TRUE}};
 
@@ -69,7 +70,7 @@ static PetscErrorCode CreateBasis(SamImages m)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Computes the stress of all images for a lag. */
+/* Computes the stress of all images for one lag. */
 static void SumImages(SamImages m, const double lag[2], const double period[2], double depth, double source, Matrix sum)
 {
   static const PetscInt sizes[] = {1, 2, 4};
@@ -87,7 +88,7 @@ static void SumImages(SamImages m, const double lag[2], const double period[2], 
         for (PetscInt k = s; k < 3; k++)
           for (PetscInt a = 0; a < ENTRIES; a++) upto[k][a] += one[a];
       }
-  /* the weights of the three sums that leave no power 1 and 3 */
+  /* The weights of the three sums that eliminate the powers 1 and 3. */
   for (PetscInt s = 0; s < 3; s++) {
     power[s][0] = pow(sizes[s] + 0.5, -1);
     power[s][1] = pow(sizes[s] + 0.5, -3);
@@ -104,7 +105,7 @@ static void SumImages(SamImages m, const double lag[2], const double period[2], 
   }
 }
 
-/* The places of the distances between nodes, which the mirror images of two nodes have too. */
+/* Sets the indices of the distances between nodes; mirror images of two nodes have the same distance. */
 static PetscInt SetLags(SamImages m)
 {
   PetscInt lags = 1;
@@ -117,7 +118,7 @@ static PetscInt SetLags(SamImages m)
   return lags;
 }
 
-/* Fills the table; each rank finds some of the lags. */
+/* Fills the table; each rank computes some of the lags. */
 static PetscErrorCode FillTable(SamImages m, const double period[2])
 {
   const PetscInt all = LAGS * LAGS * DOWN * DOWN * ENTRIES, lags = SetLags(m);
@@ -213,7 +214,7 @@ PetscErrorCode SamImagesReduce(SamImages m, const double e[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Adds the stress at a node of the images of what is at another one. */
+/* Adds the stress at a node by the images of the eigenstrain at another node. */
 static void AddNode(SamImages m, const PetscInt at[3], const PetscInt from[3], double s[PARTS])
 {
   const Matrix *matrix = &m->table[m->lag[at[0]][from[0]]][m->lag[at[1]][from[1]]][at[2]][from[2]];

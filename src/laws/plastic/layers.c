@@ -1,13 +1,13 @@
 /*
   The layers of a body that yields: each is thicker than the one above it by the same ratio. The stress of a contact
-  varies over the distance from the surface, so that layers as thick as a part of their depth resolve it at any size of
-  the contact, which need not be known.
+  varies over a length in proportion to the depth. So layers whose thickness is a fixed part of their depth resolve it
+  for any size of the contact, which need not be known.
 */
 #include "newton.h"
 
-#define HALVINGS 60 /* of the interval that holds the ratio */
+#define HALVINGS 60 /* of the interval that contains the ratio */
 
-/* Returns the depth of n layers from the first one of thickness 1 on. */
+/* Returns the depth of n layers, the first of which has thickness 1. */
 static double DepthOf(PetscInt n, double ratio)
 {
   return ratio > 1 ? expm1((double)n * log(ratio)) / (ratio - 1) : (double)n;

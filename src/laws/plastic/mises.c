@@ -3,8 +3,8 @@
 
   With xi(x) = 2 mu (d - e) - sum X/(1 + g x) the increment x of the accumulated plastic strain solves
       sqrt(3/2) |xi(x)| = yield stress(p + x) + 3 mu x + sum C x/(1 + g x),
-  by Newton's method from 0; the plastic strain grows by sqrt(3/2) x xi/|xi|. The tangent's part that is not symmetric,
-  with g > 0, is left out: it is the matrix of conjugate gradients.
+  by Newton's method from 0; the plastic strain grows by sqrt(3/2) x xi/|xi|. The unsymmetric part of the tangent, which
+  exists if g > 0, is omitted, because the tangent is the matrix of conjugate gradients.
 
   Source: J. L. Chaboche, Constitutive equations for cyclic plasticity and cyclic viscoplasticity, Int. J. Plast. 5
   (1989) 247-302; J. C. Simo and T. J. R. Hughes, Computational Inelasticity (1998), chapter 3.
@@ -12,7 +12,7 @@
 #include "mises.h"
 
 #define STEPS  50
-#define ENOUGH 1e-14 /* of the yield stress */
+#define ENOUGH 1e-14 /* relative to the yield stress */
 
 double SamMisesYield(const SamMises *m, double p, double *slope)
 {
@@ -75,8 +75,8 @@ double SamMisesExcess(const SamMises *m, const SamMisesAt *at, const double stre
 }
 
 /*
-  How far an increment x is from the yield surface (Pa), and its derivative by -x. xi is left at x, as a unit tensor;
-  `size`: its length.
+  Returns the distance of an increment x from the yield surface (Pa), and its derivative by -x. Sets xi to its value at
+  x, as a unit tensor; `size`: its length.
 */
 static double Residual(const SamMises *m, const double d[PARTS], const SamMisesAt *at, double x, double xi[PARTS],
                        double *size, double *slope)

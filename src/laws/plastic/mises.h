@@ -5,7 +5,7 @@
 #include "plasticimpl.h"
 
 typedef enum { SAM_HARDENING_LINEAR, SAM_HARDENING_VOCE, SAM_HARDENING_SWIFT } SamHardening;
-#define SAM_BACKSTRESSES 4 /* most */
+#define SAM_BACKSTRESSES 4 /* maximum number */
 
 /*
   SamMises - a material that yields: the yield stress is Y + H p, Y + Q (1 - exp(-b p)), or Y (1 + p/e0)^n of the
@@ -21,38 +21,38 @@ typedef struct {
   double       back[SAM_BACKSTRESSES][2]; /* C (Pa), g */
 } SamMises;
 
-/* SamMisesAt - internal variables of a point: plastic strain, accumulated plastic strain, backstresses (Pa). */
+/* SamMisesAt - internal variables of a point: plastic strain, accumulated plastic strain, backstresses (Pa) */
 typedef struct {
   double e[PARTS], p, back[SAM_BACKSTRESSES][PARTS];
 } SamMisesAt;
 
 /*
-  SamMisesTangent - how the plastic strain follows the driver where a step yields: it has the part A of the driver's
-  change along n, a unit tensor, and the part B of the rest; both in [0, 1).
+  SamMisesTangent - the change of the plastic strain with the driver in a yielding step: the part A of the driver's
+  change along n, a unit tensor, plus the part B of the rest; both in [0, 1).
 */
 typedef struct {
   double n[PARTS], along, across;
 } SamMisesTangent;
 
-/* SamMisesYield - the yield stress (Pa), and its derivative by p (NULL: not wanted). Not collective. */
+/* SamMisesYield - returns the yield stress (Pa), and its derivative by p (NULL: not wanted). Not collective. */
 PETSC_INTERN double SamMisesYield(const SamMises *material, double p, double *slope);
 /*
-  SamMisesWork - the work of plastic strain from one state to another (Pa = J/m3): that of the stress on the yield
-  surface, in the direction of the strain's growth, so that it does not depend on where in the step yielding began.
-  `change`: the growth of the backstresses times that of the strain (Pa). Not collective.
+  SamMisesWork - returns the work of plastic strain from one state to another (Pa = J/m3). It is the work of the stress
+  on the yield surface in the direction of the strain's growth, and so does not depend on when in the step yielding
+  began. `change`: the growth of the backstresses times the growth of the strain (Pa). Not collective.
 */
 PETSC_INTERN double SamMisesWork(const SamMises *material, const SamMisesAt *from, const SamMisesAt *to,
                                  double *change);
-/* SamMisesExcess - the yield function (Pa), positive beyond yield, of a stress in a state. Not collective. */
+/* SamMisesExcess - returns the yield function (Pa), positive beyond yield, of a stress in a state. Not collective. */
 PETSC_INTERN double SamMisesExcess(const SamMises *material, const SamMisesAt *at, const double stress[PARTS]);
 /*
-  SamMisesReturn - the state at the end of a step in which the driver, the deviator of stress/(2 mu) plus the plastic
-  strain, has become d, from the state at its beginning in place; whether the point yields. Not collective.
+  SamMisesReturn - computes, in place, the state at the end of a step from the state at its beginning; d is the driver
+  at the end, the deviator of stress/(2 mu) plus the plastic strain. Returns true if the point yields. Not collective.
 */
 PETSC_INTERN PetscBool SamMisesReturn(const SamMises *material, const double d[PARTS], SamMisesAt *at,
                                       SamMisesTangent *tangent);
 
-/* a:b, and the deviator of a tensor. */
+/* Return a:b, and the deviator of a tensor. */
 static inline double SamTensorDot(const double a[PARTS], const double b[PARTS])
 {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2 * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);

@@ -9,8 +9,8 @@
   step solves (1 - Bc P) delta = r in the symmetric form
       (1 - Q Bc Q) y = Q r,  delta = r + Bc Q y,  Q = root of P,
   by conjugate gradients in the product sum 2 mu h a:b. The matrix is positive definite: 0 <= P < 1, R is negative
-  semidefinite, and 1 + R/(2 mu) as well as S positive semidefinite; only what slips is not symmetric in S, which the
-  gradients bear. A step is halved until the residual falls.
+  semidefinite, and 1 + R/(2 mu) as well as S positive semidefinite; only slipping cells make S unsymmetric, which
+  conjugate gradients tolerate. A step is halved until the residual falls.
 
   Source: J. C. Simo and T. J. R. Hughes, Computational Inelasticity (1998), chapter 3, for the tangent; A. Frerot, M.
   Bonnet, J.-F. Molinari and G. Anciaux, Comput. Methods Appl. Mech. Engrg. 351 (2019) 951, for the integral equation.
@@ -18,23 +18,23 @@
 #include "newton.h"
 #include "reaction.h"
 
-#define STEPS    30    /* of Newton's method */
-#define HALVINGS 8     /* of one step */
-#define PRODUCTS 200   /* of one step */
+#define STEPS    30    /* maximum number of steps of Newton's method */
+#define HALVINGS 8     /* maximum number in one step */
+#define PRODUCTS 200   /* maximum number in one step */
 #define ROUGH    0.1   /* a step's equations are solved at least to this part, */
 #define ROUNDING 1e-12 /* of a product relative to the square of its vector */
 #define FORCING  0.3   /* and to this part of the residual relative to its first value */
 
-/* The fields of a solve, each of all layers, and what a cell's tangent is. */
+/* The fields of a solve, each of all layers, and the tangents of the cells */
 typedef struct {
   SamPlastic    *plastic;
   SamLawContact *contact;
   PetscInt       n;                             /* values of a field on this rank */
-  double        *d, *r, *e, *s, *y, *v, *w, *z; /* driver, residual, strain, stress; the others: scratch of a step */
-  double        *direction, *along, *across;    /* the tangents: direction as a field, the rest one value a cell */
-  PetscBool      yields, solved;                /* any cell on any rank; the normal problem has a solution */
-  SamReaction    reaction;
-  double        *traction; /* (DIRECTIONS, cells) */
+  double        *d, *r, *e, *s, *y, *v, *w, *z; /* driver, residual, strain, stress; the others are scratch of a step */
+  double   *direction, *along, *across; /* the tangents: direction as a field; the other two have one value per cell */
+  PetscBool yields, solved;             /* yields: any cell on any rank; solved: the normal problem has a solution */
+  SamReaction reaction;
+  double     *traction; /* (DIRECTIONS, cells) */
 } Solve;
 
 static inline const SamPlasticBody *BodyOf(const SamPlastic *p, PetscInt l)
@@ -65,7 +65,7 @@ static void Write(const SamPlastic *p, const SamMisesAt *at, PetscInt l, PetscIn
   for (PetscInt c = PARTS + 1; c < p->size; c++) to[(ptrdiff_t)c * p->grid->cells] = (&at->back[0][0])[c - PARTS - 1];
 }
 
-/* Takes the tensor of a cell of a field. */
+/* Gets the tensor of a cell of a field. */
 static inline void Take(const SamPlastic *p, const double field[], PetscInt l, PetscInt k, double to[PARTS])
 {
   for (PetscInt c = 0; c < PARTS; c++) to[c] = field[((ptrdiff_t)l * PARTS + c) * p->grid->cells + k];
@@ -77,7 +77,7 @@ static inline void Put(const SamPlastic *p, const double from[PARTS], PetscInt l
 
 /* ---- the operators of all bodies ---- */
 
-/* Computes the stress (NULL: not wanted) and the displacement (NULL: not wanted) by a strain. */
+/* Computes the stress and the displacement (each NULL: not wanted) by a strain. */
 static PetscErrorCode Respond(SamPlastic *p, const double e[], double s[], double *const u[3])
 {
   const PetscInt cells = p->grid->cells;
@@ -105,7 +105,7 @@ static PetscErrorCode Load(SamPlastic *p, const double *const traction[3], doubl
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Takes the strains of a field of the state, as a field of their own. */
+/* Copies the strains of a field of the state to a field of their own. */
 static PetscErrorCode TakeStrain(SamPlastic *p, Vec state, double e[])
 {
   const PetscInt cells = p->grid->cells, layers = p->bodies * p->layers;
@@ -175,7 +175,7 @@ PetscErrorCode SamPlasticStress(SamPlastic *p, Vec state, Vec pressure, Vec shea
 
 /* ---- sums ---- */
 
-/* Computes the sum of h a:b over all cells, or weighted of 2 mu h a:b, the same on any number of ranks. */
+/* Sums h a:b over all cells, or if weighted 2 mu h a:b; the result is the same on any number of ranks. */
 static PetscErrorCode Sum(const SamPlastic *p, PetscBool weighted, const double a[], const double b[], double *dot)
 {
   const SamGrid grid  = p->grid;
@@ -217,7 +217,7 @@ PetscErrorCode SamPlasticWork(const SamPlastic *p, const double e[], const doubl
 
 /* ---- a product ---- */
 
-/* to = root of P times a field; may be the same. */
+/* Multiplies a field by the root of P; `from` and `to` may be the same. */
 static void ApplyRoot(const Solve *w, const double from[], double to[])
 {
   const SamPlastic *p     = w->plastic;
@@ -236,7 +236,7 @@ static void ApplyRoot(const Solve *w, const double from[], double to[])
     }
 }
 
-/* to = from + dev(s)/(2 mu) */
+/* Computes to = from + dev(s)/(2 mu). */
 static void AddDeviator(const SamPlastic *p, const double from[], const double s[], double to[])
 {
   for (PetscInt l = 0; l < p->bodies * p->layers; l++)
@@ -251,7 +251,7 @@ static void AddDeviator(const SamPlastic *p, const double from[], const double s
     }
 }
 
-/* to = Bc from */
+/* Computes to = Bc from. */
 static PetscErrorCode Multiply(Solve *w, const double from[], double to[])
 {
   const PetscInt cells = w->plastic->grid->cells;
@@ -267,7 +267,7 @@ static PetscErrorCode Multiply(Solve *w, const double from[], double to[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Computes the step of Newton's method into y, by conjugate gradients, from the residual. */
+/* Computes the step of Newton's method in y from the residual, by conjugate gradients. */
 static PetscErrorCode FindStep(Solve *w, double part)
 {
   double *rest = w->e, first, size, before, step, square;
@@ -280,7 +280,7 @@ static PetscErrorCode FindStep(Solve *w, double part)
   size = first;
   for (PetscInt k = 0; k < PRODUCTS && size > part * part * first; k++) {
     ApplyRoot(w, w->z, w->v);
-    PetscCall(Multiply(w, w->v, w->w)); /* Bc Q z */
+    PetscCall(Multiply(w, w->v, w->w)); /* w = Bc Q z */
     ApplyRoot(w, w->w, w->v);
     for (PetscInt i = 0; i < w->n; i++) w->v[i] = w->z[i] - w->v[i];
     PetscCall(Dot(w, w->z, w->v, &step));
@@ -288,7 +288,7 @@ static PetscErrorCode FindStep(Solve *w, double part)
     PetscCheck(step > -ROUNDING * square || SamReactionSlips(w->reaction), w->plastic->grid->comm, PETSC_ERR_PLIB,
                "The operators of plastic strain are not symmetric");
     if (!(step > ROUNDING * square))
-      break; /* what slips is not symmetric, or what flows has no stiffness: so far, then */
+      break; /* slip is not symmetric, or plastic flow has no stiffness: the step so far is used */
     step = size / step;
     for (PetscInt i = 0; i < w->n; i++) {
       w->y[i] += step * w->w[i];
@@ -303,7 +303,7 @@ static PetscErrorCode FindStep(Solve *w, double part)
 
 /* ---- the residual ---- */
 
-/* Computes plastic strains of a driver, into the tried state, and the tangents. */
+/* Computes the plastic strains for a driver, as tried state, and the tangents. */
 static PetscErrorCode Return(Solve *w, Vec committed, Vec tried)
 {
   const SamPlastic *p     = w->plastic;
@@ -336,7 +336,7 @@ static PetscErrorCode Return(Solve *w, Vec committed, Vec tried)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Computes the driver by the strains w->e and the tractions. */
+/* Computes the driver from the strains w->e and the tractions. */
 static PetscErrorCode GetDriver(Solve *w, double d[])
 {
   const PetscInt cells = w->plastic->grid->cells;
@@ -415,7 +415,7 @@ static PetscErrorCode DestroyWork(Solve *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Goes along a step, half of it where that does not lower the residual, and so on. */
+/* Follows a step; halves it repeatedly until it lowers the residual. */
 static PetscErrorCode GoAlong(Solve *w, PetscInt field, double *norm, double *largest)
 {
   const double before = *norm;
@@ -434,7 +434,7 @@ static PetscErrorCode GoAlong(Solve *w, PetscInt field, double *norm, double *la
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* True if the yield stress grows with the first plastic strain, or moves by a backstress. */
+/* True if the yield stress grows with the first plastic strain, or a backstress moves the yield surface. */
 static PetscBool Hardens(const SamMises *material)
 {
   double slope;
@@ -443,7 +443,8 @@ static PetscBool Hardens(const SamMises *material)
   return slope > 0 || material->backstresses > 0 ? PETSC_TRUE : PETSC_FALSE;
 }
 
-/* True if a layer of periodic bodies yields in all cells, without hardening: its stress has no strain of its own. */
+/* True if a layer of periodic bodies yields in all cells without hardening: its stress then does not determine its
+   strain. */
 static PetscErrorCode Flows(const Solve *w, PetscBool *flows)
 {
   const SamPlastic *p      = w->plastic;
@@ -467,8 +468,8 @@ static PetscErrorCode Flows(const Solve *w, PetscBool *flows)
 }
 
 /*
-  The largest shear of the surfaces over what a body without hardening bears there, yield/sqrt(3), in pure shear: no
-  stress below balances more. 0: all bodies harden.
+  Returns the largest shear of the surfaces relative to the shear that a body without hardening can bear there,
+  yield/sqrt(3) in pure shear: no stress below balances a larger one. 0: all bodies harden.
 */
 static PetscErrorCode GetOverload(const Solve *w, double *overload)
 {
@@ -517,7 +518,7 @@ static PetscErrorCode DescribeFailure(Solve *w, double largest)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* From the driver on. */
+/* Iterates from the present driver. */
 static PetscErrorCode Iterate(Solve *w, PetscInt field)
 {
   SamPlastic *p = w->plastic;

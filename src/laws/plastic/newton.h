@@ -5,7 +5,7 @@
 #include "mises.h"
 #include <petsam/private/lawimpl.h>
 
-/* A body that yields, and the place of its layers among those of both. */
+/* A body that yields, and the place of its layers among the layers of both bodies */
 typedef struct {
   SamMises    material;
   SamResidual residual;
@@ -14,28 +14,32 @@ typedef struct {
 } SamPlasticBody;
 
 /*
-  SamPlastic - the bodies that yield, with their layers one after the other. What a cell of a layer remembers stands in
-  the state's field `field`: `size` values, the plastic strain, the accumulated plastic strain, the backstresses.
+  SamPlastic - the bodies that yield, with their layers one after the other. The memory of a cell of a layer is in the
+  state's field `field`: `size` values, which are the plastic strain, the accumulated plastic strain and the
+  backstresses.
 */
 typedef struct {
   SamGrid        grid;
   SamElasticity  elasticity;
-  PetscInt       bodies, layers; /* layers of each body */
+  PetscInt       bodies, layers; /* number of layers of each body */
   PetscInt       size;
   SamPlasticBody body[2];
-  PetscReal     *thickness; /* of a body's layers, m; borrowed */
+  PetscReal     *thickness; /* thicknesses of a body's layers, m; borrowed */
   PetscReal      rtol;
-  PetscInt       newton, products; /* of the last step */
+  PetscInt       newton, products; /* counts of the last step */
 } SamPlastic;
 
 #define SAM_PLASTIC_FIELD "plastic"
 
 /*
-  SamPlasticSolve - the plastic strain of a step, which becomes the tried one, and its tractions. Collective.
-  SamPlasticDisplace - the displacements of the surfaces by the strain of a generation of the state (m). Collective.
-  SamPlasticStress - the stress by the strain of the state, that before any load, and by tractions (Pa; NULL: none),
-  (layers of all bodies, PARTS), and the elastic energy of that by the strain alone (J; NULL: not wanted). Collective.
-  SamPlasticWork - the work of such a stress on a strain (J). Collective.
+  SamPlasticSolve - solves for the plastic strain of a step, which becomes the tried one, and for its tractions.
+  Collective.
+  SamPlasticDisplace - computes the displacements of the surfaces by the strain of a generation of the state (m).
+  Collective.
+  SamPlasticStress - computes the stress by the strain of the state, by the tractions (Pa; NULL: none), and before any
+  load, as (layers of all bodies, PARTS), and the elastic energy of the stress by the strain alone (J; NULL: not
+  wanted). Collective.
+  SamPlasticWork - computes the work of such a stress on a strain (J). Collective.
 */
 PETSC_INTERN PetscErrorCode SamPlasticSolve(SamPlastic *plastic, SamLawContact *contact);
 PETSC_INTERN PetscErrorCode SamPlasticDisplace(SamPlastic *plastic, Vec state, double *const u[3]);
@@ -43,15 +47,16 @@ PETSC_INTERN PetscErrorCode SamPlasticStress(SamPlastic *plastic, Vec state, Vec
                                              double *energy);
 PETSC_INTERN PetscErrorCode SamPlasticWork(const SamPlastic *plastic, const double e[], const double s[], double *work);
 /*
-  SamPlasticLookOutside - `excess`: the largest von Mises stress beyond yield, over the yield stress, below the last
-  layer and inside layers that are thick beside the contact, 0 if there is none; `thick`: the thickness of the layer in
-  which a contact yields first, over the contact's half width, thick above SAM_PLASTIC_THICK. Collective.
+  SamPlasticLookOutside - searches for yielding below the last layer and inside layers that are thick compared with the
+  contact. `excess`: the largest von Mises stress beyond yield, relative to the yield stress; 0: none. `thick`: the
+  thickness of the layer in which a contact yields first, relative to the contact's half width; thick above
+  SAM_PLASTIC_THICK. Collective.
 */
 PETSC_INTERN PetscErrorCode SamPlasticLookOutside(SamPlastic *plastic, Vec state, Vec pressure, Vec shear,
                                                   double *thick, double *excess);
 /*
-  SamPlasticGrade - sets the thicknesses (m) of n layers down to a depth. The first one has the given thickness, and
-  each is thicker than the one above it by the same ratio; all are equal where the first one is thicker than depth/n.
+  SamPlasticGrade - sets the thicknesses (m) of n layers down to a depth. The first layer has the given thickness, and
+  each is thicker than the one above it by the same ratio; if the first one is thicker than depth/n, all are equal.
   SamPlasticFind - returns the layer of a body at a depth (m); below all layers the last one. Neither is collective.
 */
 PETSC_INTERN void     SamPlasticGrade(PetscInt n, PetscReal first, PetscReal depth, PetscReal thickness[]);

@@ -1,12 +1,12 @@
 /*
-  The stress in a half-space by an eigenstrain in a point: derivatives of the displacements by a force within it, by the
-  place of the force and by that of the point, which are carried through their formulas.
+  The stress in a half-space by an eigenstrain at a point. It consists of derivatives, by the places of the force and of
+  the point, of the displacements by a force within the half-space; the derivatives are carried through the formulas.
 
   Source: R. D. Mindlin, Force at a point in the interior of a semi-infinite solid, Physics 7 (1936) 195-202.
 */
 #include "images.h"
 
-/* A number with its derivatives by the point (a), by the source (b), and by both. */
+/* A number with its derivatives by the point (a), by the source (b), and by both */
 typedef struct {
   double v, a[3], b[3], ab[3][3];
 } Jet;
@@ -24,7 +24,7 @@ static Jet Multiply(Jet x, Jet y)
   return z;
 }
 
-/* x + f y */
+/* Returns x + f y. */
 static Jet AddTimes(Jet x, double f, Jet y)
 {
   x.v += f * y.v;
@@ -49,7 +49,7 @@ static Jet Power(Jet x, double n)
   return z;
 }
 
-/* 16 pi mu (1 - nu) times the displacement along i at the point by a unit force along j at the source. */
+/* Computes 16 pi mu (1 - nu) times the displacement along i at the point by a unit force along j at the source. */
 static void Displace(const double between[2], double depth, double source, double nu, Jet g[3][3])
 {
   const double third = 3 - 4 * nu, last = 4 * (1 - nu) * (1 - 2 * nu);
@@ -78,8 +78,8 @@ static void Displace(const double between[2], double depth, double source, doubl
 }
 
 /*
-  Poisson's ratio up to which the formulas are used: (1 - 2 nu) is a divisor, whose square divides rounding errors. The
-  stress by the images of a body that keeps its volume differs from that at this ratio by about 1e-5 of it.
+  Largest Poisson's ratio for which the formulas are used: they divide by (1 - 2 nu), and rounding errors are divided by
+  its square. For incompressible bodies the stress by the images at this ratio has a relative error of about 1e-5.
 */
 #define MOST_POISSON (0.5 - 5e-6)
 
@@ -88,7 +88,7 @@ void SamNucleus(const double between[2], double depth, double source, double she
 {
   const double          nu              = PetscMin(poisson, MOST_POISSON);
   static const PetscInt index[PARTS][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
-  const double          lame            = 2 * nu / (1 - 2 * nu); /* over the shear modulus */
+  const double          lame            = 2 * nu / (1 - 2 * nu); /* relative to the shear modulus */
   Jet                   g[3][3];
 
   Displace(between, depth, source, nu, g);

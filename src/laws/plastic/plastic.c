@@ -16,35 +16,35 @@
 typedef struct {
   PetscReal    yield, modulus, voce_stress, voce_rate, swift_strain, swift_exponent;
   SamHardening hardening;
-  PetscInt     count; /* of `back`: C, g, C, g ... */
+  PetscInt     count; /* number of values in `back`: C, g, C, g ... */
   PetscReal    back[2 * SAM_BACKSTRESSES];
   double      *initial; /* stress before any load, xx and yy of each layer (Pa); NULL: none */
 } Material;
 
 typedef struct {
   Material   material[2];
-  PetscReal  depth, first, rtol; /* m, m, 1; depth and first 0: from the grid */
+  PetscReal  depth, first, rtol; /* m, m, 1; depth and first: 0 if they follow from the grid */
   PetscInt   layers;
-  PetscReal *thickness; /* of each layer, m */
+  PetscReal *thickness; /* thickness of each layer, m */
   SamPlastic plastic;
 } Plastic;
 
-/* Memory for a cell of a layer, bytes, without backstresses. Measured at 64 and 96 cells a side: 980 to 1110. */
+/* Memory of a layer's cell without backstresses, bytes; measured at 64 and 96 cells per side: 980 to 1110 */
 #define BYTES 1110
-/* Beyond this part of the yield stress, or this many tolerances, the check fails. */
+/* The check fails if the excess is larger, relative to the yield stress or in tolerances. */
 #define EXCESS 1e-5
 #define MARGIN 10
-/* Growth of the plastic strain in a step that is none. */
+/* A smaller growth of the plastic strain in a step counts as none. */
 #define GROWTH 1e-6
-/* Parts of the work of a step in its error: see SumWork(). */
+/* Parts of a step's work in its error; see SumWork() */
 #define TURNS 0.01
 #define BACK  0.05
-/* Least plastic strain that counts for its extent, relative to the maximum */
+/* A plastic strain below this part of the maximum does not count for the extent. */
 #define COUNTS 0.01
-/* Depth that may yield, over the width of the grid, at most. */
+/* Largest depth that may yield, relative to the width of the grid */
 #define DEEPEST 2
 
-/* The numbers of a step, one after the other from MOST on. */
+/* The numbers of a step, in this order from MOST on */
 enum {
   MOST,
   CELLS,
@@ -69,7 +69,7 @@ enum {
     "body" #body "_" option, text, SAM_OPTION_REAL, offsetof(Plastic, material[body - 1].what), \
       .range = (range_), .recorded = PETSC_TRUE, __VA_ARGS__ \
   }
-/* A constant of a hardening that is not the usual one. */
+/* A constant that only one kind of hardening has. */
 #define OF_HARDENING(body, word) \
   .needs = "body" #body "_hardening " word, .missing = "required by -body" #body "_hardening " word
 #define MATERIAL_ROWS(body) \
@@ -111,7 +111,7 @@ static const char *const hardened[2]   = {"body1_hardening", "body2_hardening"};
 static const char *const backstress[2] = {"body1_backstress", "body2_backstress"};
 static const char *const yielding[2]   = {"body1_yield", "body2_yield"};
 
-/* Counts the values that a cell of a layer remembers. */
+/* Returns the number of values stored per cell of a layer. */
 static PetscInt SizeOf(const Plastic *x)
 {
   return PARTS + 1 + PARTS * PetscMax(x->material[0].count, x->material[1].count) / 2;
@@ -123,9 +123,9 @@ static PetscInt BodiesOf(const Plastic *x)
 }
 
 /*
-  Sets the thicknesses of the layers. What is not given follows from the grid, which a contact fits: the depth is its
-  smaller width, or of periodic bodies the larger one, and the first layer is half a cell thick. The check of the grid
-  halves the layers with the cells.
+  Sets the thicknesses of the layers. Values that are not given follow from the grid, since it fits the contact: the
+  depth is its smaller width, or for periodic bodies the larger one, and the first layer is half a cell thick. The check
+  of the grid halves the layers with the cells.
 */
 static PetscErrorCode SetLayers(Plastic *x, const SamLaw law, const SamOptions *from)
 {
@@ -164,7 +164,7 @@ static PetscErrorCode CheckStress(SamLaw law, const SamOptions *from, PetscInt b
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Refuses constants of a body that yields which other units explain. */
+/* Rejects constants of a yielding body that are likely to be in other units. */
 static PetscErrorCode CheckUnits(SamLaw law, const SamOptions *from, PetscInt body)
 {
   static const char *const modulus[2] = {"body1_hardening_modulus", "body2_hardening_modulus"};
@@ -181,7 +181,7 @@ static PetscErrorCode CheckUnits(SamLaw law, const SamOptions *from, PetscInt bo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Sets the means over the layers of the stress before any load, which must be below yield. */
+/* Sets the stress before any load, as means over the layers; it must be below yield. */
 static PetscErrorCode SetInitial(SamLaw law, const SamOptions *from, PetscInt body)
 {
   Plastic *const  x   = (Plastic *)law->data;
@@ -207,7 +207,7 @@ static PetscErrorCode SetInitial(SamLaw law, const SamOptions *from, PetscInt bo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Constants of another hardening are 0. */
+/* Sets the constants of other kinds of hardening to 0. */
 static void SetUnused(Material *m)
 {
   PetscReal *const constants[] = {&m->voce_stress, &m->voce_rate, &m->swift_exponent};
@@ -349,7 +349,7 @@ static PetscInt Above(const Plastic *x)
 
 /*
   Computes a field of layers in the results: the accumulated plastic strain (0), the plastic strain (1 to PARTS), and
-  the residual stress. In body 1, whose own z points against that of the results, the shears xz and yz change their
+  the residual stress. In body 1, whose own z is opposite to that of the results, the shears xz and yz change their
   sign.
 */
 static PetscErrorCode ComputeLayers(void *owner, SamState state, PetscInt component, Vec field)
@@ -374,7 +374,7 @@ static PetscErrorCode ComputeLayers(void *owner, SamState state, PetscInt compon
   PetscCall(VecGetArray(field, &to));
   for (PetscInt m = 0; m < layers; m++) {
     const PetscBool one  = m < Above(x);
-    const PetscInt  l    = one ? x->layers - 1 - m : m; /* body 1's are remembered from its surface on */
+    const PetscInt  l    = one ? x->layers - 1 - m : m; /* body 1's layers are stored from its surface on */
     const PetscBool turn = one && component > 0 && (part == SAM_STRESS_XZ || part == SAM_STRESS_YZ);
     const double   *of   = stress ? stress + ((ptrdiff_t)l * PARTS + part) * cells
                                   : from + ((ptrdiff_t)l * x->plastic.size + stored) * cells;
@@ -507,7 +507,8 @@ static PetscErrorCode Destroy(SamLaw law)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Bulk stress is not part of the stress that yields, and what a cell remembers does not move along. */
+/* Rejects bulk stress, which is not included in the yield condition, and motions with which the memory of cells would
+   have to move. */
 static PetscErrorCode Check(SamLaw law, SamControl *control, PetscInt *wrong, char why[], size_t size)
 {
   static const char *const names[] = {"bulk1_stress_xx",
@@ -580,7 +581,8 @@ static PetscErrorCode Follow(SamLaw law, SamLawContact *contact)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* From the state and the stress alone: the largest strain, the cells that yield, the error of the yield function. */
+/* Finds, from the state and the stress alone, the largest strain, the yielding cells, and the error of the yield
+   function. */
 static PetscErrorCode Judge(const SamPlastic *p, const double before[], const double now[], const double stress[],
                             double numbers[NUMBERS])
 {
@@ -612,7 +614,7 @@ static PetscErrorCode Judge(const SamPlastic *p, const double before[], const do
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* How many layers the strain spans, and how near it comes to the end of what may yield. */
+/* Finds the number of layers that the strain spans, and its distance from the end of the layers. */
 static PetscErrorCode Extent(const SamPlastic *p, const double now[], PetscBool periodic, double numbers[NUMBERS])
 {
   const SamGrid  grid  = p->grid;
@@ -650,8 +652,8 @@ static PetscErrorCode Extent(const SamPlastic *p, const double now[], PetscBool 
 }
 
 /*
-  The plastic strain of the first layers, and as much more as it exceeds that of the second ones: strain that
-  falls from the surface on within a layer or two, as under friction, is larger at the surface than in any layer.
+  Extrapolates the plastic strain to the surface: the strain of the first layer plus its excess over the second. Strain
+  that decays within a layer or two below the surface, as under friction, is larger at the surface than in any layer.
 */
 static PetscErrorCode FindSurface(const SamPlastic *p, const double now[], double numbers[NUMBERS])
 {
@@ -671,9 +673,10 @@ static PetscErrorCode FindSurface(const SamPlastic *p, const double now[], doubl
 }
 
 /*
-  The work of the plastic strain of a step, and an estimate of its error by the length of the step: the part TURNS of
-  what grows from a small strain on, as its direction changes, and the part BACK of its change by backstresses, which
-  are of first order. Both parts were fitted to steps of a sphere pressed on half-spaces without and with hardening.
+  Computes the work of the plastic strain of a step, and estimates its error by the length of the step. The error is the
+  part TURNS of the work that grows from a small strain, whose direction changes, plus the part BACK of the change by
+  backstresses, which have errors of first order. Both parts were fitted to steps of a sphere pressed on half-spaces
+  without and with hardening.
 */
 static PetscErrorCode SumWork(const SamPlastic *p, const double last[], const double now[], double sums[2])
 {
@@ -704,8 +707,8 @@ static PetscErrorCode SumWork(const SamPlastic *p, const double last[], const do
 }
 
 /*
-  The layers are judged by the largest contact so far: a small one, under a load that begins or ends, yields little.
-  Layers are the thinner beside a contact, the larger it is.
+  The layers are compared with the largest contact so far: a small contact, at the beginning or the end of loading,
+  yields little, and the layers are thicker in relation to it.
 */
 static void KeepLargest(const double before[NUMBERS], double now[NUMBERS])
 {
@@ -714,7 +717,7 @@ static void KeepLargest(const double before[NUMBERS], double now[NUMBERS])
   now[THICK]   = before[THICK];
 }
 
-/* Finds the depth of the dent, which stays where no strain has grown. */
+/* Finds the depth of the dent, which is unchanged if no strain has grown. */
 static PetscErrorCode FindDent(SamPlastic *p, Vec state, double before, double numbers[NUMBERS])
 {
   const PetscInt cells = p->grid->cells;

@@ -1,20 +1,21 @@
 /*
-  The class SamReaction: with x the change of the tractions on frozen sets of cells, and f the part of the pressure that
-  the shear of a cell that slips is, a vector,
+  The class SamReaction. With x, the change of the tractions on frozen sets of cells, and the vector f, the ratio of the
+  shear of a slipping cell to its pressure, it solves
       A x + u - rigid = 0    on cells in contact along z, on cells that stick along x and y,
       x_t = f x_z            on cells that slip,
-  and the loads of x are 0 in the components that are given. A, the influence of the tractions, is symmetric and
-  positive definite. First x of the cells in contact and in stick alone, by conjugate gradients; then, with what slips
-  following that, x of the cells that stick once more. So the pressure does not feel what slips of dissimilar bodies.
+  where the loads of x are 0 in the given components. A, the influence of the tractions, is symmetric and positive
+  definite. First x is solved on the cells in contact and in stick alone, by conjugate gradients. Then the shear of
+  slipping cells follows the pressure, and x is solved once more on the cells that stick. So for dissimilar bodies the
+  effect of slipping cells on the pressure is omitted.
 */
 #include "reaction.h"
 #include <petsam/private/balanceimpl.h>
 #include <petsam/private/elasticity.h>
 #include <petsam/solution.h>
 
-#define RTOL 1e-3 /* of the displacement */
+#define RTOL 1e-3 /* relative to the displacement */
 #define MOST 200  /* iterations */
-/* Rounding error relative to a displacement: the remainder of a rigid motion, as by a uniform strain */
+/* Rounding error relative to a displacement: the remainder of a rigid motion, for example by a uniform strain */
 #define ROUNDING 1e-13
 
 struct _n_SamReaction {
@@ -23,7 +24,7 @@ struct _n_SamReaction {
   SamGrid              grid;
   SamFrame             frame[2]; /* normal and tangential */
   double               gram[2][SAM_GRAM];
-  PetscBool            coupled, sticks, slips; /* any cell on any rank */
+  PetscBool            coupled, sticks, slips; /* true if any cell on any rank does */
   char                *free[2];                /* cells in contact, cells that stick */
   double              *part;                   /* (2, cells): f */
   double              *x, *r, *p, *Ap;         /* (DIRECTIONS, cells) */
@@ -157,7 +158,7 @@ static PetscErrorCode Dot(const SamReaction r, const double a[], const double b[
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* to += times the rigid motions whose loads on the sets are those of a field. */
+/* Adds `times` the rigid motions whose loads on the sets are those of a field. */
 static PetscErrorCode AddRigid(const SamReaction r, const double of[], double times, double to[])
 {
   const PetscInt cells     = r->grid->cells;
@@ -200,7 +201,7 @@ static PetscErrorCode AddRigid(const SamReaction r, const double of[], double ti
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Takes a displacement off the cells that are not free, and the rigid motions that are found out of it. */
+/* Sets a displacement to zero on cells that are not free, and subtracts the rigid motions that are unknowns. */
 static PetscErrorCode Project(const SamReaction r, double u[])
 {
   PetscFunctionBegin;
@@ -210,7 +211,7 @@ static PetscErrorCode Project(const SamReaction r, double u[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* u = A x */
+/* Computes u = A x. */
 static PetscErrorCode Displace(SamReaction r, const double x[], double u[])
 {
   const PetscInt cells = r->grid->cells;
@@ -246,7 +247,8 @@ static PetscErrorCode Displace(SamReaction r, const double x[], double u[])
 
 /* ---- the solution ---- */
 
-/* x, from where it is on, by conjugate gradients; u: the displacement by which A x + u vanishes on what is free. */
+/* Solves for x, starting from x, by conjugate gradients; u: the displacement for which A x + u vanishes on free
+   cells. */
 static PetscErrorCode Solve(SamReaction w, const double u[], double x[])
 {
   const PetscInt n = DIRECTIONS * w->grid->cells;
@@ -289,7 +291,7 @@ PetscErrorCode SamReactionApply(SamReaction r, double u[])
     PetscCall(PetscArrayzero(slip, cells));
     for (PetscInt k = 0; k < 2 * cells; k++) slip[k + cells] = r->part[k] * r->x[k % cells];
     for (PetscInt k = 0; k < DIRECTIONS * cells; k++) r->x[k] += slip[k];
-    PetscCall(AddRigid(r, slip, -1, r->x)); /* the cells that stick bear what the others no longer do */
+    PetscCall(AddRigid(r, slip, -1, r->x)); /* sticking cells carry the load that the others have lost */
     if (r->sticks) PetscCall(Solve(r, u, r->x));
   }
   PetscCall(PetscArraycpy(u, r->x, DIRECTIONS * cells));

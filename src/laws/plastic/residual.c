@@ -1,10 +1,10 @@
 /*
   The class SamResidual: the operators of plastic strain on a grid, by waves (waves.c).
 
-  The transforms take three planes at a time; all spectra are kept, and each column of them is worked on once. Bodies
-  that are not periodic have waves of a padded period, whose images of the window are taken off again (images.c); the
-  stress by tractions on them is by the cells' kernels at the middle of each layer, and the displacement by plastic
-  strain by the transpose of these.
+  The transforms process three planes at a time; all spectra are stored, and each of their columns is processed once.
+  For bodies that are not periodic, the waves have a padded period, and the images of the window are subtracted again
+  (images.c). For them the stress by tractions comes from the cells' kernels at the middle of each layer, and the
+  displacement by plastic strain from the transpose of these.
 */
 #include "images.h"
 #include "waves.h"
@@ -15,34 +15,34 @@
 struct _n_SamResidual {
   SamGrid         grid;
   SamElasticity   elasticity;
-  PetscInt        number; /* of the body, 1 or 2 */
+  PetscInt        number; /* number of the body, 1 or 2 */
   SamFourier      fourier;
   SamFourierMode  mode;
-  double          period; /* of the waves along x, in cells; along y it is `waves` */
+  double          period; /* period of the waves along x, in cells; along y it is `waves` */
   SamWaveBody     body;
   PetscReal      *thickness;
-  double          sign;           /* of the shear between the bodies, as it acts on this one */
+  double          sign;           /* sign of the shear between the bodies as it acts on this body */
   PetscInt        first, columns; /* frequency of this rank's first column, and their number */
-  PetscInt        phases, waves;  /* of a column: see SamFourierBlock */
-  double         *ky;             /* of these waves, 1/m */
-  PetscInt        nyquist;        /* the wave of two cells along y, which is also that of -ky; -1: none */
+  PetscInt        phases, waves;  /* phases and waves of a column: see SamFourierBlock */
+  double         *ky;             /* wave numbers of these waves along y, 1/m */
+  PetscInt        nyquist;        /* index of the wave of two cells along y, which is also the wave of -ky; -1: none */
   double complex *spectra;        /* (planes, columns, waves) */
   double complex *displaced;      /* (3, columns, waves) */
-  /* not periodic only */
-  SamStress *stress; /* of each layer */
+  /* only if not periodic */
+  SamStress *stress; /* kernels of each layer */
   Vec        plane;  /* scratch, PARTS components */
   SamImages  images;
 };
 
 /* ---- transforms ---- */
 
-/* Planes that a pass of the transforms moves between the spectra and the blocks */
+/* Planes that one pass of the transforms moves between the spectra and the blocks */
 typedef struct {
   SamResidual     r;
   PetscInt        first, count; /* planes */
   PetscBool       back;
-  double          scale;   /* on the way back */
-  double complex *spectra; /* NULL: counts the columns */
+  double          scale;   /* factor in the backward direction */
+  double complex *spectra; /* NULL: only counts the columns */
 } Move;
 
 static void CountBlock(SamResidual r, const SamFourierBlock *block)
@@ -71,7 +71,7 @@ static void MoveBlock(const SamFourierBlock *block, const void *context)
       }
 }
 
-/* Fields to spectra, three at a time, or back (`in` NULL). */
+/* Transforms fields to spectra, three at a time, or back (`in` NULL). */
 static PetscErrorCode Transform(SamResidual r, PetscInt planes, const double *const in[], double *const out[],
                                 double complex *spectra)
 {
@@ -90,7 +90,7 @@ static PetscErrorCode Transform(SamResidual r, PetscInt planes, const double *co
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Counts this rank's columns by a pass without fields, and makes room for their spectra. */
+/* Counts this rank's columns by a pass without fields, and allocates their spectra. */
 static PetscErrorCode CreateSpectra(SamResidual r)
 {
   const PetscInt planes = PARTS * r->body.layers;
@@ -141,7 +141,7 @@ PetscErrorCode SamResidualCheckBodies(SamElasticity e, PetscInt body)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Creates the kernels at the middle of each layer, and what the images of the window add. */
+/* Creates the kernels at the middle of each layer, and the operator of the window's images. */
 static PetscErrorCode CreateWindow(SamResidual r, SamElasticity e, PetscInt body)
 {
   const PetscReal period[2] = {r->period * r->grid->dx, (PetscReal)r->waves * r->grid->dy};
@@ -172,7 +172,7 @@ PetscErrorCode SamResidualCreate(SamElasticity e, PetscInt body, PetscInt layers
   PetscCall(PetscNew(&r));
   r->grid = SamElasticityGetGrid(e);
   PetscCall(SamGridReference(r->grid));
-  r->elasticity = e; /* borrowed: the law that owns this one refers to it */
+  r->elasticity = e; /* borrowed: the law that owns this object has a reference */
   r->number     = body;
   material      = SamBodyMaterialAt(SamPairBody(e->pair, body - 1), 0);
   PetscCall(PetscMalloc1(layers, &r->thickness));
@@ -211,7 +211,7 @@ PetscErrorCode SamResidualDestroy(SamResidual *residual)
 
 /* ---- products ---- */
 
-/* Gets the planes of a field, and those of all spectra in one column. */
+/* Gets the planes of a field, or those of all spectra in one column. */
 static PetscErrorCode GetPlanes(SamResidual r, PetscInt planes, const double field[], const double ***at)
 {
   PetscFunctionBegin;
@@ -242,7 +242,7 @@ static PetscErrorCode WorkOnWaves(SamResidual r, Task task, PetscInt n, double k
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Computes the response in a column; the Nyquist wave, which is also that of -ky, gets the mean of both. */
+/* Computes the response in a column; the Nyquist wave, which is also the wave of -ky, gets the mean of both. */
 static PetscErrorCode WorkOnColumn(SamResidual r, Task task, PetscInt b, double complex *column[])
 {
   const PetscInt  planes = PARTS * r->body.layers, m = r->nyquist;
@@ -330,7 +330,7 @@ PetscErrorCode SamResidualApply(SamResidual r, const double e[], double s[], dou
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Computes the stress by tractions, by waves, into s. */
+/* Computes the stress s by tractions, by waves. */
 static PetscErrorCode LoadWaves(SamResidual r, const double *const traction[3], double s[])
 {
   const PetscInt   planes = PARTS * r->body.layers;
@@ -392,7 +392,8 @@ PetscErrorCode SamResidualLoad(SamResidual r, const double *const traction[3], d
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Computes the stress by tractions at a depth, as the mean over a layer of no thickness below a layer down to there. */
+/* Computes the stress by tractions at a depth, as the mean over a layer of thickness zero below a layer that ends
+   there. */
 static PetscErrorCode LoadWavesAt(SamResidual r, PetscReal depth, const double *const traction[3], double s[])
 {
   const SamWaveBody own          = r->body;

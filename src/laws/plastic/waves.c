@@ -4,9 +4,9 @@
   A sheet of eigenstrain at a depth c acts at a depth z by exp(-k |z - c|) and k |z - c| exp(-k |z - c|), times
       X = e_mm + 2is e_mz - e_zz,  Y = 2 e_mm + 2is e_mz + 2 nu e_tt,  T = e_mt + is e_tz,  s = sign(z - c),
   m being the direction of the wave vector and t that across it. So two sweeps through the layers, one down (s = 1) and
-  one up (s = -1), bring the integrals x0 = int k exp X dc, x1 = int k r exp X dc, y0 and t0 to each layer at a cost
-  that is linear in their number, and what the upward one has at the surface makes the image and the relief that leave
-  the surface free, and its displacement. The mean is taken over the source and over the target layer, which makes the
+  one up (s = -1), carry the integrals x0 = int k exp X dc, x1 = int k r exp X dc, y0 and t0 to each layer, at a cost
+  that is linear in the number of layers. The integrals of the upward sweep at the surface determine the reflection from
+  the free surface, and its displacement. The mean is taken over the source and over the target layer, which makes the
   operator symmetric.
 
   Source: the waves are combinations of those of Papkovich and Neuber; for the eigenstrains T. Mura, Micromechanics of
@@ -18,7 +18,7 @@
 /* Components of a wave along its own directions */
 enum { MM, TT, ZZ, MT, MZ, TZ };
 
-/* The numbers of a layer for each wave of a column, and the state of a sweep. */
+/* The numbers of a layer for each wave of a column, and the state of a sweep */
 enum { K, COS, SIN, LOSS, Q, M0, M1, A0, A1, E0, E1, REALS };
 enum { X0, X1, Y0, T0, STATES };
 
@@ -26,7 +26,7 @@ typedef double complex Wave;
 
 typedef struct {
   const SamWaveBody *body;
-  PetscInt           n; /* waves */
+  PetscInt           n; /* number of waves */
   double            *v[REALS];
   Wave              *state[STATES], *e, *s; /* e and s: (layers, PARTS, n) */
 } Column;
@@ -54,7 +54,7 @@ static PetscErrorCode DestroyColumn(Column *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* i * sign * z */
+/* Returns i * sign * z. */
 static inline Wave Turn(double sign, Wave z)
 {
   return CMPLX(-sign * cimag(z), sign * creal(z));
@@ -62,7 +62,7 @@ static inline Wave Turn(double sign, Wave z)
 
 /* ---- numbers ---- */
 
-/* A wave without direction is one along x: uniform strains along the surface act, too. */
+/* Sets the waves. A wave without direction is treated as a wave along x: uniform strains along the surface act, too. */
 static void SetWaves(Column *w, double kx, const double ky[])
 {
   for (PetscInt m = 0; m < w->n; m++) {
@@ -74,11 +74,11 @@ static void SetWaves(Column *w, double kx, const double ky[])
   }
 }
 
-/* Below this q = k h the means by a series of so many terms, as their digits would cancel. */
+/* For smaller q = k h the means are computed by series of so many terms, as their digits would cancel. */
 #define SMALL 0.3
 #define TERMS 15
 
-/* The means over a layer of thickness h: of exp(-r) and r exp(-r), and those of its own source. */
+/* Computes the means over a layer of thickness h of exp(-r) and r exp(-r), and the means by its own source. */
 static void SetLayer(Column *w, double h)
 {
   for (PetscInt m = 0; m < w->n; m++) {
@@ -106,7 +106,7 @@ static void SetLayer(Column *w, double h)
 
 /*
   UseLayer() sets the means over layer l, unless it is as thick as the last one. SetDecay() then multiplies them by the
-  decay of the waves from the surface down to the layer's top (m).
+  decay of the waves from the surface to the layer's top (m).
 */
 static void UseLayer(Column *w, PetscInt l, double *last)
 {
@@ -122,7 +122,7 @@ static void SetDecay(Column *w, double top)
   }
 }
 
-/* ---- turning to the wave's directions and back ---- */
+/* ---- rotation to the wave's directions and back ---- */
 
 static void TakeStrain(Column *w, const Wave *const from[PARTS], Wave to[])
 {
@@ -162,7 +162,7 @@ static void PutStress(const Column *w, const Wave from[], Wave *const to[PARTS])
 
 /* ---- sweeps ---- */
 
-/* Adds the stress of waves that come with x, y, t from the side s. */
+/* Adds the stress of the waves x, y, t that arrive from the side s. */
 static inline void Add(const SamWaveBody *body, double s, Wave x, Wave y, Wave t, PetscInt n, Wave to[])
 {
   const double f = body->shear / (2 * (1 - body->poisson)), g = 2 * (1 - body->poisson);
@@ -175,7 +175,7 @@ static inline void Add(const SamWaveBody *body, double s, Wave x, Wave y, Wave t
   to[TZ * n] += Turn(s * g * f, t);
 }
 
-/* One layer of a sweep: its stress (NULL: not wanted), and the waves that leave it. */
+/* Processes one layer of a sweep: its stress (NULL: not wanted), and the waves that leave it. */
 static void Pass(Column *w, double s, const Wave e[], Wave stress[])
 {
   const PetscInt n  = w->n;
@@ -213,7 +213,7 @@ static void AddOwn(const Column *w, const Wave e[], Wave s[])
   }
 }
 
-/* Adds the reflection from the free surface into a layer, of the waves that the upward sweep brings to the surface. */
+/* Adds the stress in a layer by the reflection, from the free surface, of the waves of the upward sweep. */
 static void AddFreeSurface(const Column *w, Wave s[])
 {
   const PetscInt n  = w->n;
@@ -231,7 +231,7 @@ static void AddFreeSurface(const Column *w, Wave s[])
   }
 }
 
-/* Computes the displacement of the surface, of that sweep; of the mean, from the strains. */
+/* Computes the displacement of the surface from the upward sweep; for the mean, from the strains. */
 static void GetDisplacement(const Column *w, Wave *const u[3])
 {
   const PetscInt n       = w->n;
@@ -303,7 +303,7 @@ PetscErrorCode SamWavesApply(const SamWaveBody *body, PetscInt n, double kx, con
 }
 
 /*
-  Adds the stress of tractions p, and q along and across the wave, in a layer. A mean pressure leaves no lateral strain.
+  Adds the stress in a layer by tractions p, and q along and across the wave. A mean pressure causes no lateral strain.
 */
 static void AddTractions(const Column *w, const Wave *const traction[3], Wave s[])
 {

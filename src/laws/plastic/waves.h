@@ -8,15 +8,16 @@
 /* SamWaveBody - a half-space, and its layers from the surface down. */
 typedef struct {
   PetscInt         layers;
-  const PetscReal *thickness;      /* m */
+  const PetscReal *thickness;      /* of each layer, m */
   double           shear, poisson; /* Pa, 1 */
 } SamWaveBody;
 
 /*
-  SamWavesApply - the amplitudes of n waves with the numbers kx and ky[m] (1/m): `planes`, PARTS for each layer, those
-  of the eigenstrain on entry, become those of the mean stress over the layers if `stress`; `u` (NULL: not wanted) those
-  of the displacement of the surface. Of the mean, k = 0, the strains along the surface are 0.
-  SamWavesLoad - the stress by tractions p, q_x, q_y. Neither is collective.
+  SamWavesApply - computes the response of n waves with the wave numbers kx and ky[m] (1/m). `planes`: amplitudes of the
+  eigenstrain, PARTS for each layer; if `stress`, they become the amplitudes of the mean stress over the layers. `u`
+  (NULL: not wanted): amplitudes of the displacement of the surface. For the mean, k = 0, the strains along the surface
+  are 0.
+  SamWavesLoad - computes the stress by tractions p, q_x, q_y. Neither is collective.
 */
 PETSC_INTERN PetscErrorCode SamWavesApply(const SamWaveBody *body, PetscInt n, double kx, const double ky[],
                                           double complex *const planes[], PetscBool stress, double complex *const u[3]);

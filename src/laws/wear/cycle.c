@@ -1,19 +1,19 @@
 /*
   A computed cycle, and the wear of the next cycles that follows from it.
 
-  In a cycle a cell wears by r, wear load a cycle, under the mean pressure P of the cycle's steps: r = e P. Where the
-  surfaces never touch, e is what the slip there would wear if they did: contact that grows wears at once.
+  In a cycle a cell wears by r, the wear load per cycle, under the mean pressure P of the cycle's steps: r = e P. Where
+  the surfaces never touch, e is the wear that the slip there would cause in contact, so that new contact wears at once.
 
-  The gaps and pressures of the steps are related linearly, so their means are, too: G = S P + lift + h - rigid, with
-  the mean of the rigid displacements and of what the shear of dissimilar bodies lifts. In cells that are open in a part
-  of the cycle both P and G are positive; on the gap h - G in these, P solves the normal problem of the mean loads.
-  This problem is what a jump changes (cyclejump.c).
+  The gaps and pressures of the steps are related linearly, and so are their means: G = S P + lift + h - rigid, with the
+  mean rigid displacements and the mean lift by the shear of dissimilar bodies. In cells that are open in a part of the
+  cycle both P and G are positive. If the gap there is replaced by h - G, P solves the normal problem of the mean loads.
+  A jump changes this problem (cyclejump.c).
 
-  Where material streams through the contact, in steady rolling, a step is a passage: all of a line of the running band
-  wears by r = integral of p |s| along x, the pressure times the slip in a passage. There P is the integral of the mean
-  pressure along the line, and e = r/P its mean slip. As a line yields by e times the integral of its own pressure, the
-  operator of a jump remains symmetric and positive, however the slip varies along the line. Lines without contact have
-  the e of the next line that has.
+  Where material streams through the contact, in steady rolling, a step is a passage: each line of the running band
+  wears by r, the integral of p |s| along x, which is the pressure times the slip in a passage. There P is the integral
+  of the mean pressure along the line, and e = r/P its mean slip. As a line yields by e times the integral of its own
+  pressure, the operator of a jump remains symmetric and positive, however the slip varies along the line. Lines without
+  contact have the e of the nearest line with contact.
 */
 #include "lifeimpl.h"
 #include <petsam/private/motionimpl.h>
@@ -23,13 +23,13 @@
 #include <petsam/private/problem.h>
 #include <math.h>
 
-#define MOST_PASSES 20   /* cycles that are run to close the loop */
-#define CLOSED      0.1  /* change of the shear over mu p, and of the energy, over the tolerance of the jumps */
-#define TURN        1e-9 /* changes that count, over the range of a component */
+#define MOST_PASSES 20   /* maximum number of cycles run to close the loop */
+#define CLOSED      0.1  /* change of the shear/(mu p), and of the energy, over the jumps' tolerance */
+#define TURN        1e-9 /* changes that count, relative to the range of a component */
 
 /* ---- load reversals ---- */
 
-/* Notes the steps at which a part of the control turns, from its values at all steps. */
+/* Finds the steps at which a part of the control reverses, from its values at all steps. */
 static void NoteTurns(const SamControl controls[], SamConditions conditions, PetscInt n, PetscInt c, PetscBool turns[])
 {
   PetscReal low = PETSC_INFINITY, high = PETSC_NINFINITY, last = 0;
@@ -79,7 +79,7 @@ PetscErrorCode SamLifeGetSum(SamLife l, PetscInt k, Vec *sum)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Sums over the steps continue from those before the cycle; in the middle of a jump they start from 0. */
+/* Continues the sums over the steps from those before the cycle; in the middle of a jump they start from 0. */
 static PetscErrorCode BeginSums(SamLife l, PetscBool middle)
 {
   PetscFunctionBegin;
@@ -93,7 +93,7 @@ static PetscErrorCode BeginSums(SamLife l, PetscBool middle)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The committed values of a field that the law of wear remembers. */
+/* Returns the committed values of a field that the law of wear stores. */
 static PetscErrorCode Remembered(SamLife l, const char name[], Vec *field)
 {
   PetscFunctionBegin;
@@ -160,8 +160,8 @@ PetscErrorCode SamLifeIntegrate(SamGrid grid, Vec field)
 }
 
 /*
-  Adds what a passage wears a band by, and its frictional work. That of the loads, the same for similar bodies, has a
-  part of the pressure's for dissimilar ones.
+  Adds the wear of a band by a passage, and its frictional work. The work of the loads is the same for similar bodies,
+  but includes work of the pressure for dissimilar ones.
 */
 static PetscErrorCode AddPassage(SamLife l)
 {
@@ -183,8 +183,8 @@ static PetscErrorCode AddPassage(SamLife l)
 }
 
 /*
-  Adds a tried step to the means: pressure, gap in `shift`, and of coupled bodies u_z in `coefficient`; conditions are
-  those of the last step. Magnified cycles repeat the step itself.
+  Adds a tried step to the means: pressure, gap in `shift`, and for coupled bodies u_z in `coefficient`; conditions are
+  those of the last step. Magnified cycles repeat the step itself instead.
 */
 static PetscErrorCode Count(SamLife l, PetscInt k, const SamStep *step, SamRate *rate, SamControl *mean)
 {
@@ -214,7 +214,7 @@ static PetscErrorCode Count(SamLife l, PetscInt k, const SamStep *step, SamRate 
 
 /* ---- the rate ---- */
 
-/* From the mean gap to the shift; u_z, in `coefficient`, is that of coupled bodies. */
+/* Computes the shift from the mean gap; `coefficient` contains u_z for coupled bodies. */
 static PetscErrorCode FindShift(SamLife l, SamRate *rate)
 {
   const double *p;
@@ -233,7 +233,7 @@ static PetscErrorCode FindShift(SamLife l, SamRate *rate)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The coefficient of a band; `most`: its wear load per pressure, m, where that is largest. */
+/* Computes the coefficient of a band; `most`: its largest wear load per pressure, m. */
 static PetscErrorCode FindCoefficientOfBand(SamLife l, SamRate *rate, double *most)
 {
   const SamGrid grid = l->grid;
@@ -325,7 +325,7 @@ static PetscErrorCode SolveStep(SamLife l, PetscInt k, PetscReal cycles, SamStep
 
 /* ---- closing the loop ---- */
 
-/* Where the bodies are. */
+/* Returns the places of the bodies. */
 static PetscErrorCode Locate(SamLife l, PetscReal at[2])
 {
   const SamSolution *s;
@@ -338,8 +338,8 @@ static PetscErrorCode Locate(SamLife l, PetscReal at[2])
 }
 
 /*
-  A cycle in which surfaces that repeat themselves have slid by whole lengths since they were at `from` is closed: the
-  next one begins there. So does the one after a jump, whose cycles so need no count of lengths.
+  Closes a cycle in which periodic surfaces have slid by whole periods since they were at `from`: the next cycle begins
+  at `from`. So does the cycle after a jump; the periods passed in its cycles need not be counted.
 */
 static PetscErrorCode Rewind(SamLife l, const PetscReal from[2])
 {
@@ -354,7 +354,7 @@ static PetscErrorCode Rewind(SamLife l, const PetscReal from[2])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Solves the cycle by its load reversals or all steps; its wear does not count, but `energy` does. */
+/* Solves the cycle at its load reversals or at all steps; its wear does not count, only its `energy`. */
 static PetscErrorCode GoRound(SamLife l, PetscReal cycles, PetscReal *energy, PetscBool *solved)
 {
   SamStep   step;
@@ -376,8 +376,9 @@ static PetscErrorCode GoRound(SamLife l, PetscReal cycles, PetscReal *energy, Pe
 }
 
 /*
-  Runs cycles until one leaves the shear as it found it, but for a small part of mu p; `energy`: of the last one. The
-  first begins anywhere in the history; where the contact rocks, some more may follow.
+  Runs cycles until the shear after a cycle differs from that before it only by a small part of mu p; `energy`: energy
+  of the last cycle. The first cycle begins at any point of the history; if the contact rocks, more cycles may be
+  needed.
 */
 static PetscErrorCode CloseLoop(SamLife l, PetscReal cycles, PetscReal *energy, PetscBool *solved)
 {
@@ -401,8 +402,8 @@ static PetscErrorCode CloseLoop(SamLife l, PetscReal cycles, PetscReal *energy, 
 }
 
 /*
-  Finds the steps that bring a closed loop back to itself: the load reversals of reciprocating loads; all steps where
-  the contact rolls. The energy that the cycle dissipates after them decides. By these steps a loop is closed again
+  Finds the steps that reproduce a closed loop: the load reversals for reciprocating loads, all steps if the contact
+  rolls. The choice depends on the energy that the cycle dissipates after them. These steps close the loop again
   whenever the gap has changed a little: otherwise the wear of a cycle would depend on the jump before it, and jumps
   would be of first order.
 */

@@ -1,14 +1,14 @@
 /*
   Jumps over cycles.
 
-  In a computed cycle a cell wears by r = e P, wear load a cycle, under the mean pressure P (cycle.c). In a jump over
-  m cycles e is taken as constant, and P as that at its end: it solves the normal problem on the gap h + m K e P, which
-  is linear in P. In steady rolling a cycle is a passage, and the same holds for lines of the running band, P being the
-  integral of the pressure along them.
+  In a computed cycle a cell wears by r = e P, the wear load per cycle, under the mean pressure P (cycle.c). In a jump
+  over m cycles e is constant, and P is the mean pressure at the end of the jump: it solves the normal problem on the
+  gap h + m K e P, which is linear in P. In steady rolling a cycle is a passage, and the same holds for lines of the
+  running band, P being the integral of the pressure along them.
 
-  A jump of m and two of m/2 give w1 and w2. These are of first order; 2 w2 - w1 is of second, and |w2 - w1| the error
-  of w2 (Hairer, Norsett and Wanner 1993, Solving Ordinary Differential Equations I, II.4 and II.9; backward Euler's
-  extrapolation is L-stable).
+  A jump of m and two of m/2 give w1 and w2. These are of first order. 2 w2 - w1 is of second order, and |w2 - w1|
+  estimates the error of w2 (Hairer, Norsett and Wanner 1993, Solving Ordinary Differential Equations I, II.4 and II.9;
+  backward Euler's extrapolation is L-stable).
 */
 #include "lifeimpl.h"
 #include <petsam/private/motionimpl.h>
@@ -19,20 +19,21 @@
 #include <petsam/private/problem.h>
 #include <math.h>
 
-/* The next jump's size over the last one's: limits, and the part of what the error allows. */
+/* Limits of the ratio of the next jump's size to the last one's, and the part used of the size that the error allows */
 #define GROW_MOST  2.5
 #define GROW_LEAST 0.2
 #define SAFETY     0.8
-/* The error of the halves over that of their extrapolation, which is what counts; measured on a sphere (test_life). */
+/* Ratio of the error of the halves to that of their extrapolation, which is the result; measured on a sphere
+   (test_life) */
 #define HALVES 2.0
-/* The part of a jump that is rounding of the cycles so far. */
+/* Rounding of the sum of cycles so far, relative to a jump */
 #define SAME 1e-6
-/* Depths that count, over the displacements. */
+/* Depths below this part of the displacements do not count. */
 #define COUNTS 1e-6
-/* The first jump over the cycles that wear as much as a single step may, unless it is given. */
+/* The first jump, unless given, relative to the cycles that wear as much as a single step may */
 #define FIRST 0.2
 
-/* The fields, to be created and destroyed. */
+/* The fields that are created and destroyed. */
 #define FIELDS(l) \
   { \
     &(l)->start.coefficient, &(l)->start.pressure, &(l)->start.shift, &(l)->middle.coefficient, &(l)->middle.pressure, \
@@ -40,7 +41,7 @@
       &(l)->halves[0], &(l)->halves[1], &(l)->p, &(l)->q, &(l)->diagonal, &(l)->gap, NULL \
   }
 
-/* The law of wear of the life's problem; refuses laws that cycle jumps do not support. */
+/* Finds the law of wear of the life's problem; rejects laws that cycle jumps do not support. */
 static PetscErrorCode FindLaw(SamProblem problem, SamGrid grid, SamLaw *law)
 {
   const SamLaw *laws;
@@ -146,7 +147,7 @@ PetscErrorCode SamLifeSetState(SamLife l, const SamLifeState *state)
 
 /* ---- jumps ---- */
 
-/* A jump that cannot be made fails as a step does. */
+/* Reports a jump without solution as a failed step. */
 static PetscErrorCode FailJump(SamLife l, PetscReal cycles, SamSolverReason reason)
 {
   PetscFunctionBegin;
@@ -170,7 +171,7 @@ PetscErrorCode SamLifeSolveNormal(SamLife l, SamBalance balance, PetscReal cycle
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The mean pressure, into l->p, after `cycles` more at a rate, from the wear load `load` on. */
+/* Computes the mean pressure l->p after `cycles` more at a rate, from the wear load `load` on. */
 static PetscErrorCode SolvePressure(SamLife l, const SamRate *rate, PetscReal cycles, const SamLoads load,
                                     PetscBool *solved)
 {
@@ -187,7 +188,7 @@ static PetscErrorCode SolvePressure(SamLife l, const SamRate *rate, PetscReal cy
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The wear loads `to` after `cycles` more at a rate, from `load` on; l->p: the mean pressure, if that wears. */
+/* Computes the wear loads `to` after `cycles` more at a rate, from `load` on; l->p: the mean pressure, if it wears. */
 static PetscErrorCode Jump(SamLife l, const SamRate *rate, PetscReal cycles, const SamLoads load, SamLoads to,
                            PetscBool *solved)
 {
@@ -204,7 +205,7 @@ static PetscErrorCode Jump(SamLife l, const SamRate *rate, PetscReal cycles, con
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The difference of two fields over the second one, or over a size that is more, in a norm. */
+/* Computes the difference of two fields in a norm, relative to the second field, or to a larger size. */
 static PetscErrorCode RelativeDifference(SamLife l, Vec a, Vec b, NormType norm, PetscReal least, PetscReal *error)
 {
   PetscReal difference, size;
@@ -218,7 +219,7 @@ static PetscErrorCode RelativeDifference(SamLife l, Vec a, Vec b, NormType norm,
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The sum of a wear load; interpolation may leave it a little below 0 in some cells. */
+/* Returns the sum of a wear load; interpolation may make it slightly negative in some cells. */
 static PetscErrorCode Volume(SamLife l, Vec load, PetscReal *volume)
 {
   PetscReal sums[3] = {0};
@@ -230,9 +231,9 @@ static PetscErrorCode Volume(SamLife l, Vec load, PetscReal *volume)
 }
 
 /*
-  `halves` becomes its extrapolation with `whole`. Where that is less than at the start, at the contact's edge, nothing
-  is worn instead, and the rest a little less, so that the volume is the extrapolated one. Where that would be less than
-  at the start, the halves stay as they are.
+  Replaces `halves` by its extrapolation with `whole`. In cells where this is less than at the start, at the contact's
+  edge, the load stays as at the start, and the others are reduced a little, so that the volume is the extrapolated one.
+  If that volume would be less than at the start, the halves stay unchanged.
 */
 static PetscErrorCode Extrapolate(SamLife l, Vec start, Vec whole, Vec halves)
 {
@@ -259,7 +260,7 @@ static PetscReal CoefficientOf(SamLife l, PetscInt load)
   return l->loads > 1 ? k[load] : k[0] + k[1];
 }
 
-/* The size of the depth that counts: depths far below what the tolerances of the solvers leave open do not. */
+/* Returns the smallest depth that counts, far below the accuracy that the tolerances of the solvers allow. */
 static PetscErrorCode LeastDepth(SamLife l, PetscReal *least)
 {
   const SamSolution *s;
@@ -271,7 +272,7 @@ static PetscErrorCode LeastDepth(SamLife l, PetscReal *least)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The error of the depth, of that body for which it is larger; then the loads are extrapolated. */
+/* Computes the error of the depth, for the body with the larger one; then extrapolates the loads. */
 static PetscErrorCode FinishJump(SamLife l, PetscReal least, PetscReal *error)
 {
   PetscFunctionBegin;
@@ -280,7 +281,7 @@ static PetscErrorCode FinishJump(SamLife l, PetscReal least, PetscReal *error)
     const PetscReal unit = CoefficientOf(l, k);
     PetscReal       depth;
 
-    if (unit == 0) continue; /* the bodies' surfaces stay as they are */
+    if (unit == 0) continue; /* the bodies' surfaces do not wear */
     PetscCall(RelativeDifference(l, l->whole[k], l->halves[k], NORM_2, least / unit, &depth));
     *error = PetscMax(*error, depth);
   }
@@ -289,10 +290,10 @@ static PetscErrorCode FinishJump(SamLife l, PetscReal least, PetscReal *error)
 }
 
 /*
-  A jump as a whole and in halves; l->halves becomes their extrapolation, which is nowhere less than at the start. The
-  error is that of the depth and of the pressure at the end, in the mean over the scar (2-norm, 1-norm): the stick
-  zone's edge, with the pressure's peak, moves by whole cells, and no jump is so short that the cells there would not
-  jump, too.
+  Makes a jump as a whole and in halves; l->halves becomes their extrapolation, which is nowhere less than at the start.
+  The error is that of the depth (2-norm) and of the pressure at the end (1-norm), averaged over the scar: the edge of
+  the stick zone, with the pressure's peak, moves by whole cells, so that single cells there change abruptly in a jump
+  of any length.
 */
 static PetscErrorCode TryJump(SamLife l, PetscReal cycles, PetscReal *error, PetscBool *solved)
 {
@@ -316,15 +317,15 @@ static PetscErrorCode TryJump(SamLife l, PetscReal cycles, PetscReal *error, Pet
 
 /* ---- the size of jumps ---- */
 
-/* A whole number of cycles. */
+/* Rounds to a whole number of cycles. */
 static PetscReal Whole(PetscReal jump)
 {
   return isfinite(jump) ? PetscMax(1, floor(jump)) : jump;
 }
 
 /*
-  The jump that is tried first. One that ends but for rounding where `cycles` are reached ends there: the sum of fixed
-  jumps that are no integers has rounding.
+  Returns the jump that is tried first. If it ends within rounding of `cycles`, it ends there: the sum of fixed jumps
+  that are no integers has rounding errors.
 */
 static PetscReal FirstTry(const SamLife l, PetscReal cycles)
 {
@@ -337,8 +338,8 @@ static PetscReal FirstTry(const SamLife l, PetscReal cycles)
 }
 
 /*
-  The next jump, after one that has this error over the allowed one. One that was short because no more cycles were
-  asked for does not hold back those that follow.
+  Returns the next jump, after a jump with this ratio of its error to the allowed one. A jump that was short because no
+  more cycles were requested does not limit later jumps.
 */
 static PetscReal NextTry(const SamLife l, PetscReal jump, PetscReal error)
 {
@@ -372,9 +373,9 @@ static PetscErrorCode Report(SamLife l, SamLifeReport *r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- what the contact sums over its steps ---- */
+/* ---- sums of the contact over its steps ---- */
 
-/* Remembers the wear load and the sums before a cycle. */
+/* Stores the wear load and the sums before a cycle. */
 static PetscErrorCode Keep(SamLife l)
 {
   SamLoads loads;
@@ -392,7 +393,7 @@ static PetscErrorCode Keep(SamLife l)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The sums after a jump, whose middle cycle they hold; after no jump those before the cycle. */
+/* Computes the sums after a jump from those of its middle cycle; without a jump, restores those before the cycle. */
 static PetscErrorCode JumpSums(SamLife l, PetscReal cycles)
 {
   PetscFunctionBegin;
@@ -406,7 +407,7 @@ static PetscErrorCode JumpSums(SamLife l, PetscReal cycles)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- its cycles and jumps ---- */
+/* ---- cycles and jumps ---- */
 
 PetscErrorCode SamLifeCompute(SamLife l, SamLifeReport *report)
 {

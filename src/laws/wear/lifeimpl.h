@@ -10,10 +10,10 @@
 typedef struct {
   SamBalance balance;
   PetscReal  slide[2]; /* m: body 2's point under a cell, minus that cell */
-  double     most;     /* wear load of the step per pressure, m, its maximum */
-  float     *wears;    /* the same in each cell, over that */
-  float     *lift;     /* m, what displaces the surfaces besides the pressure; NULL: nothing does */
-  float     *pressure; /* Pa, of the last magnified cycle from this one on; of those at the start of a jump only */
+  double     most;     /* maximum wear load of the step per pressure, m */
+  float     *wears;    /* wear load per pressure in each cell, relative to the maximum */
+  float     *lift;     /* m, displacement of the surfaces by other causes than the pressure; NULL: none */
+  float     *pressure; /* Pa, in the last magnified cycle; only for those at the start of a jump */
 } SamPass;
 
 /*
@@ -23,10 +23,10 @@ typedef struct {
 typedef struct {
   Vec        coefficient; /* wear load of a cycle per mean pressure, m; of a band per its integral along x, 1 */
   Vec        pressure;    /* mean over the cycle, Pa */
-  Vec        shift;       /* m: what the shear of dissimilar bodies lifts, less what opens in a part of the cycle */
-  SamBalance balance;     /* mean over the cycle */
-  PetscReal  limit;       /* cycles that wear as much as a single step may; infinite without wear */
-  SamPass   *passes;      /* of each step; NULL: jumps need the means only */
+  Vec        shift;   /* m: lift by the shear of dissimilar bodies minus the gap that is open in a part of the cycle */
+  SamBalance balance; /* mean over the cycle */
+  PetscReal  limit;   /* cycles that wear as much as a single step may; infinite without wear */
+  SamPass   *passes;  /* one for each step; NULL: jumps need only the means */
 } SamRate;
 
 /* The wear loads of a contact: one for both bodies, or one for each. */
@@ -35,29 +35,29 @@ typedef Vec SamLoads[SAM_WEAR_LOADS];
 
 struct _n_SamLife {
   SamContact      contact; /* borrowed */
-  SamProblem      problem; /* of the contact, as the next three; borrowed */
+  SamProblem      problem; /* of the contact, like the next three; borrowed */
   SamState        memory;
   SamGrid         grid;
-  SamLaw          law;    /* of wear */
+  SamLaw          law;    /* the law of wear */
   SamState        series; /* numbers of computed cycles */
   SamLifeCycle    cycle;
   SamLifeSettings set;
   SamLifeState    state;
   PetscBool       coupled;
-  PetscBool       band;          /* material streams through: lines along x wear alike, by passages */
-  PetscBool       open;          /* the loop is not closed: a cycle is run before the one that is computed */
-  PetscBool       known;         /* `start` has been computed */
-  PetscBool      *turns;         /* of each step: whether a component turns there, or the cycle ends */
-  SamStep         step;          /* the first one of the last cycle that is not converged, else its last one */
-  PetscInt        at;            /* the step of the cycle that this is */
-  PetscReal       apart;         /* difference of the pressures of a jump and of its halves, over all steps */
-  PetscReal       stride;        /* the longest slide of a step of the computed cycle, over the contact's length */
-  PetscReal       stripes_error; /* error of body 2's depth so far by the length of the steps */
-  Vec             stripes;       /* what a cycle wears body 2, less what many steps would; NULL: not made yet */
-  PetscReal       energy, area;  /* of the last cycle, J; m2, in contact in that step */
-  SamRate         start, middle; /* on the wear so far; after half of the jump */
-  PetscInt        loads;         /* wear loads that the contact has */
-  SamLoads        load;          /* so far; the law has others within a jump */
+  PetscBool       band;   /* material streams through: lines along x wear alike, by passages */
+  PetscBool       open;   /* the loop is not closed: a cycle is run before the computed one */
+  PetscBool       known;  /* `start` has been computed */
+  PetscBool      *turns;  /* of each step: true if a component reverses there, or the cycle ends */
+  SamStep         step;   /* first step of the last cycle that is not converged, else its last step */
+  PetscInt        at;     /* index of `step` in the cycle */
+  PetscReal       apart;  /* difference of the pressures of a jump and of its halves, over all steps */
+  PetscReal       stride; /* the longest slide of a step of the computed cycle, relative to the contact's length */
+  PetscReal       stripes_error;       /* error of body 2's depth so far by the length of the steps */
+  Vec             stripes;             /* wear of body 2 in a cycle minus that by many steps; NULL: not created yet */
+  PetscReal       energy, area;        /* of the last cycle, J; m2, in contact in `step` */
+  SamRate         start, middle;       /* rates with the wear so far, and after half of the jump */
+  PetscInt        loads;               /* number of wear loads of the contact */
+  SamLoads        load;                /* wear loads so far; within a jump the law has others */
   SamLoads        whole, half, halves; /* after the jump as a whole, after its first half, after both */
   Vec             p, q, diagonal, gap; /* scratch */
   Vec             passage;             /* the wear load of a band in the cycle, Pa m; else NULL */
@@ -66,9 +66,9 @@ struct _n_SamLife {
 };
 
 /*
-  In a life, the sum that a law accumulates over the steps is that of all cycles so far and of this one up to the step.
-  A jump adds the sum of the cycle in its middle, times its cycles, which is of second order as the wear is. Cycles that
-  close the loop or are tried do not count.
+  In a life, the sum that a law accumulates over the steps includes all cycles so far, and this cycle up to the step. A
+  jump adds the sum of the cycle in its middle, times its number of cycles, which is of second order, like the wear.
+  Cycles that close the loop or are only tried do not count.
 
   SamLifeComputeRate - solves the cycle on the problem's gap; `cycles`: number of cycles before it; `solved`: true if
   all of its steps have a solution; `tell`: true if the steps are reported to the caller. Collective.
@@ -77,8 +77,8 @@ PETSC_INTERN PetscErrorCode SamLifeComputeRate(SamLife life, SamRate *rate, Pets
                                                PetscBool *solved);
 
 /*
-  SamLifeGetLoads - the law's wear loads, by which the separation grows; borrowed. SamLifeSetLoads - they become copies
-  of these. Collective.
+  SamLifeGetLoads - gets the law's wear loads, by which the separation grows; borrowed. SamLifeSetLoads - copies these
+  to the law's wear loads. Collective.
 */
 PETSC_INTERN PetscErrorCode SamLifeGetLoads(SamLife life, SamLoads loads);
 PETSC_INTERN PetscErrorCode SamLifeSetLoads(SamLife life, const SamLoads loads);
@@ -91,11 +91,10 @@ PETSC_INTERN PetscErrorCode SamLifeSolveNormal(SamLife life, SamBalance balance,
 
 /*
   Magnified cycles (magnified.c).
-  SamRateCreatePasses, SamRateDestroyPasses - memory for the steps of a cycle.
+  SamRateCreatePasses, SamRateDestroyPasses - create and destroy the memory for the steps of a cycle.
   SamLifeNotePass - keeps a tried step; rate->pressure: the pressure before it, then that at its end.
-  SamLifeMagnify - the wear loads `to` after `cycles` more, from `from` on. Where they are l->whole, the pressures are
-  kept; where they are l->halves, l->apart compares with these.
-  All collective.
+  SamLifeMagnify - computes the wear loads `to` after `cycles` more, from `from` on. If `to` is l->whole, the pressures
+  are stored; if it is l->halves, l->apart is the difference from these. All collective.
 */
 PETSC_INTERN PetscErrorCode SamRateCreatePasses(SamLife life, SamRate *rate);
 PETSC_INTERN PetscErrorCode SamRateDestroyPasses(SamLife life, SamRate *rate);
@@ -111,13 +110,14 @@ PETSC_INTERN PetscErrorCode SamLifeMagnify(SamLife life, const SamRate *rate, Pe
 PETSC_INTERN PetscErrorCode SamLifeBeginStrides(SamLife life);
 PETSC_INTERN PetscErrorCode SamLifeNoteStride(SamLife life, Vec load, Vec before, Vec after);
 PETSC_INTERN PetscErrorCode SamLifeEndStrides(SamLife life);
-/* SamLifeGetSum - the committed values that law k accumulates, NULL: it does not. Collective. */
+/* SamLifeGetSum - gets the committed values that law k accumulates; NULL: none. Collective. */
 PETSC_INTERN PetscErrorCode SamLifeGetSum(SamLife life, PetscInt k, Vec *sum);
 
-/* SamLifeIntegrate - a field becomes its integral along x, the same in all cells of a line. Not collective. */
+/* SamLifeIntegrate - replaces a field by its integral along x, the same in all cells of a line. Not collective. */
 PETSC_INTERN PetscErrorCode SamLifeIntegrate(SamGrid grid, Vec field);
 
-/* SamLifeDeclare - the numbers of computed cycles, and that of each step's cycle (series.c). Collective. */
+/* SamLifeDeclare - declares the numbers of computed cycles, and the number of each step's cycle (series.c).
+   Collective. */
 PETSC_INTERN PetscErrorCode SamLifeDeclare(SamLife life);
 
 /* SamLifeFindTurns - fills l->turns, to be freed with PetscFree(). Collective. */

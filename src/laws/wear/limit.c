@@ -1,14 +1,14 @@
 /*
-  The limit of what a single step may wear: its pressure is found before the gap follows.
+  The limit of the wear of a single step, which exists because its pressure is found before the gap changes.
 
-  A cell that bears more wears more, and bears less then. Depth w = k K p for a pressure p, where K is what the step
-  wears per pressure, adds E w to the gap, and by it the pressure falls by up to E w / e, e being the smallest
-  eigenvalue of the normal influence. Where k K > 2 e it falls by more than twice the unevenness there was: the next
-  one is larger, from cell to cell.
+  A cell with more pressure wears more, and then has less pressure. A depth w = k K p, where K is the wear of the step
+  per pressure p, reduces the pressure by up to w/e, where e is the smallest eigenvalue of the normal influence. If k K
+  > 2 e, the pressure changes by more than twice its unevenness, which so grows from step to step, and alternates from
+  cell to cell.
 */
 #include "wearimpl.h"
 
-/* The Rayleigh quotient of a checkerboard, a little more than the smallest eigenvalue. */
+/* Computes the Rayleigh quotient of a checkerboard, which is slightly more than the smallest eigenvalue. */
 static PetscErrorCode FindLeast(SamLaw law)
 {
   const SamGrid grid = law->grid;

@@ -1,13 +1,13 @@
 /*
-  Steps that slide far.
+  Steps with long slides.
 
-  A step wears body 2 at the two places where its points are under the contact before and after the step: the
-  trapezoidal rule along the slide. Over a slide of the contact's length its points see one or two pressures each, and
-  the depth is a comb. With the load of the step spread over places between, its part of the pressure after the step
-  growing linearly from 0 to 1, the depth is that of many steps. The difference of the two, summed over a cycle and
+  A step wears body 2 at the two places of its points under the contact before and after the step, by the trapezoidal
+  rule along the slide. If it slides by the contact's length, each point has only one or two pressures, and the depth
+  looks like a comb. If the load of the step is spread over places between, while the weight of the pressure after the
+  step grows linearly from 0 to 1, the depth is that of many steps. The difference of the two, summed over a cycle and
   over the cycles of all jumps, in the 2-norm relative to the load of body 2, estimates the error of the depth by the
-  length of the steps. For a pin that slides over a disc by 4, 2, 1 and 1/2 lengths of the contact per step it is
-  within a third of the true error; scars that conform, as in fretting, have a third of it.
+  length of the steps. For a pin that slides over a disc by 4, 2, 1 and 1/2 lengths of the contact per step it is within
+  a third of the true error; scars that conform, as in fretting, have a third of it.
 */
 #include "lifeimpl.h"
 #include <petsam/private/grid.h>
@@ -15,9 +15,9 @@
 #include <petsam/private/wear.h>
 #include <math.h>
 
-/* The part of the contact's length that a step may slide. */
+/* Largest slide of a step, relative to the contact's length */
 #define LONGEST 0.25
-/* Places between for a slide of the contact's length, and the most of them. */
+/* Number of places between for a slide of the contact's length, and the maximum number */
 #define PLACES      8
 #define MOST_PLACES 64
 
@@ -48,7 +48,7 @@ PetscErrorCode SamWearAdviseStride(PetscReal stride, char text[], size_t size)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Adds `scale` times `field`, where the points of body 2 are at a slide, to the difference at its own points. */
+/* Adds `scale` times `field`, at the points of body 2 under it at a slide, to the difference at body 2's own points. */
 static PetscErrorCode Write(SamLife l, const PetscReal slide[2], PetscReal scale, Vec field)
 {
   PetscFunctionBegin;
@@ -57,7 +57,7 @@ static PetscErrorCode Write(SamLife l, const PetscReal slide[2], PetscReal scale
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The part of a step's load that is due to the pressure before it, into `first`; the rest, into `rest`. */
+/* Divides a step's load into the part due to the pressure before it, `first`, and the `rest`. */
 static PetscErrorCode Divide(SamLife l, Vec load, Vec before, Vec after, Vec first, Vec rest)
 {
   const double *p0, *p1, *worn;

@@ -1,5 +1,5 @@
 /*
-  Magnified cycles: the wear of m cycles, by going once through the steps of one.
+  Magnified cycles: the wear of m cycles, computed by going once through the steps of one cycle.
 
   Where surfaces move past each other, each pair of points touches in one step only, and no mean over the cycle is a
   contact problem. A magnified cycle takes the steps of the computed cycle again, and each of them wears m times, by the
@@ -11,9 +11,9 @@
   energy of the depths, so that their product has no limit of stability (Bauschke and Combettes 2011, Convex Analysis
   and Monotone Operator Theory in Hilbert Spaces). It is of first order; cyclejump.c extrapolates.
 
-  A step wears under the mean of the pressures before and after it. Over a closed cycle each pressure so wears by half
-  of what the step before it wears per pressure, and half of that after it: this mean is e. Cells that are open before
-  and after a step have there what they would wear in contact; those that stick have nothing.
+  A step wears under the mean of the pressures before and after it. So over a closed cycle each pressure wears by half
+  of the wear per pressure of the step before it, plus half of that of the step after it: their mean is e. Cells that
+  are open before and after a step have the e that they would have in contact; cells that stick have 0.
 */
 #include "lifeimpl.h"
 #include <petsam/private/state.h>
@@ -79,7 +79,7 @@ static PetscErrorCode NoteLift(SamLife l, const SamSolution *s, float lift[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Keeps a field as floats over its maximum: a slip that is the same everywhere so keeps all digits. */
+/* Stores a field as floats relative to its maximum: so a slip that is the same everywhere keeps all digits. */
 static PetscErrorCode NoteWears(SamLife l, Vec field, SamPass *pass)
 {
   const double *values;
@@ -152,7 +152,8 @@ static PetscErrorCode FindGap(SamLife l, const SamPass *pass, const SamPass *nex
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A step that wears `cycles` times, from the pressure before it on; the loads grow. `scratch`: a field. */
+/* Makes a step that wears `cycles` times, from the pressure before it on, and increases the loads. `scratch`: a
+   field. */
 static PetscErrorCode Pass(SamLife l, const SamPass *pass, PetscReal cycles, Vec pressure, const SamLoads loads,
                            Vec scratch, PetscBool *solved)
 {
@@ -171,7 +172,7 @@ static PetscErrorCode Pass(SamLife l, const SamPass *pass, PetscReal cycles, Vec
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Keeps the pressure of a step of a jump as a whole. */
+/* Stores the pressure of a step of a jump as a whole. */
 static PetscErrorCode KeepPressure(SamLife l, Vec pressure, float kept[])
 {
   const double *p;
@@ -183,7 +184,7 @@ static PetscErrorCode KeepPressure(SamLife l, Vec pressure, float kept[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Adds to the sums the 1-norms of its difference from that of the second half, and of the latter. */
+/* Adds to the sums the 1-norms of the difference from the pressure of the second half, and of the latter. */
 static PetscErrorCode Compare(SamLife l, const float kept[], Vec pressure, PetscReal sums[2])
 {
   const double *p;

@@ -38,7 +38,7 @@ PetscErrorCode SamLifeDeclare(SamLife l)
     else
       PetscCall(SamMotionDeclareNumber(motion, l->series, &number, &id));
   }
-  PetscCall(SamStateDeclareNumber(l->memory, &declared[CYCLE], &id)); /* of each step */
+  PetscCall(SamStateDeclareNumber(l->memory, &declared[CYCLE], &id)); /* number of each step */
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

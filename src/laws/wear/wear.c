@@ -1,8 +1,9 @@
 /*
-  The laws of wear: what they remember, the separation that follows, and how they advance in a step.
+  The laws of wear: their memory, the separation that follows from it, and their advance in a step.
 
-  Where the surfaces slide past each other each body has a wear load at its own points. A step wears by the mean of the
-  pressures before and after it; what each of these does to body 2 is written where it was read, by the transpose.
+  If the surfaces slide past each other, each body has a wear load at its own points. A step wears by the mean of the
+  pressures before and after it; the wear of body 2 by each of these is written at the points where its surface was
+  read, by the transpose of reading.
 */
 #include "wearimpl.h"
 #include <petsam/private/motionimpl.h>
@@ -12,7 +13,7 @@
 #include <petsam/private/wear.h>
 
 #define WEARS  "wears"       /* 1 if the step added to the wear load, 0 in cycles */
-#define STRIDE "wear_stride" /* slide of the step over the length of the contact along it */
+#define STRIDE "wear_stride" /* slide of the step relative to the length of the contact along it */
 
 PetscBool SamLawIsWear(SamLaw law)
 {
@@ -67,9 +68,9 @@ static PetscErrorCode AddParameters(SamLaw law, SamParameters *p)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- what is remembered ---- */
+/* ---- memory ---- */
 
-/* The field that a body has its wear load in: both the same one, unless they slide. */
+/* Returns the field of a body's wear load: the same one for both, unless they slide. */
 static PetscInt LoadFieldOf(SamState state, PetscInt body)
 {
   const PetscInt id = body ? SamStateFindField(state, SAM_WEAR_LOAD2) : -1;
@@ -77,7 +78,7 @@ static PetscInt LoadFieldOf(SamState state, PetscInt body)
   return id >= 0 ? id : SamStateFindField(state, SAM_WEAR_LOAD);
 }
 
-/* Interpolation leaves depths of a little less than 0, which stay in the state for the sake of the volume. */
+/* Computes the depth. Interpolation leaves depths slightly below 0; these stay in the state to conserve the volume. */
 static PetscErrorCode ComputeDepth(void *owner, SamState state, PetscInt body, Vec depth)
 {
   const SamLaw law  = (SamLaw)owner;
@@ -141,8 +142,8 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
 }
 
 /*
-  The wear load that opens the gap: what a step wears does so from the next step on. The last solution had the committed
-  one when it is tried, else the one before, if it wore.
+  Returns the wear load that opens the gap; the wear of a step does so from the next step on. A tried solution has the
+  committed load; a committed one has the load before it, if its step wore.
 */
 static Vec LoadOf(SamState state, SamGeneration generation, PetscInt body)
 {
@@ -155,7 +156,7 @@ static Vec LoadOf(SamState state, SamGeneration generation, PetscInt body)
   return SamStateGetField(state, id, SAM_COMMITTED);
 }
 
-/* Adds k times a wear load to a separation, where the body's points are. */
+/* Adds k times a wear load, read at the places of the body's points, to a separation. */
 static PetscErrorCode AddDepth(SamLaw law, SamState state, PetscInt body, double k, Vec load, Vec h)
 {
   PetscReal     offset[2];
@@ -212,8 +213,8 @@ PetscErrorCode SamWearGetVolumes(SamLaw law, Vec load, Vec load2, PetscReal volu
 /* ---- a step ---- */
 
 /*
-  The part of a step's wear load that is due to the pressure, or the bound of the shear, before it: half of that times
-  the path of the slip. The rest is due to the one after it.
+  Computes the part of a step's wear load that is due to the pressure, or the bound of the shear, before the step: half
+  of this times the length of the slip. The rest is due to the pressure after it.
 */
 static PetscErrorCode FirstPart(SamLaw law, SamLawStep *step, Vec path, Vec load, Vec first)
 {
@@ -237,7 +238,7 @@ static PetscErrorCode FirstPart(SamLaw law, SamLawStep *step, Vec path, Vec load
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Writes a step's wear load to body 1's points, and to those of body 2 under it before the step, and after it. */
+/* Writes a step's wear load to body 1's points, and to the points of body 2 under it before and after the step. */
 static PetscErrorCode WearOwn(SamLaw law, SamLawStep *step, Vec path, Vec load)
 {
   PetscReal offset[2];
@@ -264,7 +265,7 @@ static PetscErrorCode WearOwn(SamLaw law, SamLawStep *step, Vec path, Vec load)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Adds what the step wears; in steady rolling the life does, as that of a passage. */
+/* Adds the wear of the step; in steady rolling, the life adds that of a passage instead. */
 static PetscErrorCode AddLoad(SamLaw law, SamLawStep *step)
 {
   const SamWear *w = (const SamWear *)law->data;
@@ -290,7 +291,7 @@ static PetscErrorCode AddLoad(SamLaw law, SamLawStep *step)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* How far the step slides relative to the contact, if body 2 wears at its own points; else 0. */
+/* Returns the slide of the step relative to the contact, if body 2 wears at its own points; else 0. */
 static PetscErrorCode FindStride(SamLaw law, SamLawStep *step, double *stride)
 {
   PetscReal from[2], to[2], found = 0;

@@ -6,8 +6,8 @@
 #include <petsam/wear.h>
 
 /*
-  The laws remember the wear load that has been removed; of surfaces that slide it is that of body 1, and another one at
-  body 2's own points is that of body 2. In a life they also remember the wear load of the cycle so far, and its slip.
+  The laws store the wear load that has been removed; if surfaces slide, it is that of body 1, and that of body 2 is
+  stored separately at body 2's own points. In a life they also store the wear load of the cycle so far, and its slip.
 */
 #define SAM_WEAR_LOAD  "wear_load"
 #define SAM_WEAR_LOAD2 "wear_load2"
@@ -27,25 +27,25 @@ typedef struct {
 /* SamLawIsWear - returns true if a law is of these types. Not collective. */
 PETSC_INTERN PetscBool SamLawIsWear(SamLaw law);
 /*
-  SamWearGetLimit - how many times a single step may remove a wear load of `most` per pressure (m) (limit.c); infinite
-  without wear. Collective.
+  SamWearGetLimit - gets the limit on how many times a single step may remove a wear load of `most` per pressure (m)
+  (limit.c); infinite without wear. Collective.
 */
 PETSC_INTERN PetscErrorCode SamWearGetLimit(SamLaw law, PetscReal most, PetscReal *times);
 /*
-  SamWearGetExcess - computes the ratio of a step's wear to the limit of a step: above 1 the pressure of the steps to
-  come is uneven from cell to cell, and wrong. The limit is a depth of 1.16 (p/E*) h of half-spaces, h being the width
-  of square cells. Collective.
+  SamWearGetExcess - computes the ratio of a step's wear to the limit of a step: above 1 the pressure of later steps is
+  uneven from cell to cell, and wrong. For half-spaces the limit is a depth of 1.16 (p/E*) h, h being the width of
+  square cells. Collective.
 */
 PETSC_INTERN PetscErrorCode SamWearGetExcess(SamLaw law, SamLawStep *step, PetscReal *excess);
 /*
-  SamWearGetStride - how far a contact slides from one slide to another (m), over its length along that (longslides.c).
+  SamWearGetStride - gets the distance between two slides (m) relative to the contact's length along it (longslides.c).
   Collective.
 */
 PETSC_INTERN PetscErrorCode SamWearGetStride(SamGrid grid, Vec pressure, const PetscReal from[2], const PetscReal to[2],
                                              PetscReal *stride);
 /*
-  SamWearGetVolumes - the volumes (m3; of a running band m3 per m of its length) that wear loads of both bodies, which
-  may be the same vector, remove, and the maximum depths (m). Collective.
+  SamWearGetVolumes - gets the volumes (m3; of a running band m3 per m of its length) that wear loads of both bodies,
+  which may be the same vector, remove, and the maximum depths (m). Collective.
 */
 PETSC_INTERN PetscErrorCode SamWearGetVolumes(SamLaw law, Vec load, Vec load2, PetscReal volume[2], PetscReal depth[2]);
 

@@ -1,8 +1,8 @@
 /*
   Advice on a solution that may not be the intended one.
 
-  Sizes of grids follow from closed-form solutions where there are any, which hold even where the grid resolves nothing
-  or ends within the contact; else from the contact that was found.
+  Sizes of grids follow from closed-form solutions if there are any, since these hold even if the grid does not resolve
+  the contact or ends within it; otherwise they follow from the contact that was found.
 */
 #include "adviceimpl.h"
 #include <petsam/private/grid.h>
@@ -17,12 +17,12 @@
 #include <stdarg.h>
 
 /*
-  A contact of fewer cells across than these is not resolved. Elastic contacts that a closed solution describes need
-  fewer: at 14 cells or more no number of 9 random ones was more than 2 % from its limit unless a slip zone was narrow.
+  A contact with fewer cells across than this is not resolved. Elastic contacts with a closed-form solution need fewer:
+  with at least 14 cells, all numbers of 9 random contacts were within 2 % of their limit unless a slip zone was narrow.
 */
 #define FEW_CELLS  20
 #define FEW_CLOSED 14
-/* Half-space theory is taken to hold up to this ratio of the half width of the contact to a radius of curvature, */
+/* Half-space theory is taken to hold up to this ratio of the contact's half width to a radius of curvature, */
 #define STEEPEST 0.1
 /* and linear elasticity up to this pressure over E*. */
 #define HARDEST 0.2
@@ -31,42 +31,43 @@
 #define WIDEST 100.0
 /* Part of the period above which the contact of a round body is affected by its periodic images */
 #define CROWDED 0.25
-/* A contact narrower than this part of its radius has a radius that may be in another unit. */
+/* A contact narrower than this part of its radius suggests that the radius is in another unit. */
 #define FLATTEST 1e-3
-/* Stress beyond yield where no layer is, over the yield stress. */
+/* Relative excess over the yield stress at a place without a layer */
 #define BEYOND 0.01
-/* Plastic strain that is not small. */
+/* Plastic strain that is not small */
 #define STRAINED 0.1
 /*
-  Plastic strain, its work and the dent are too small by up to COARSE/m^2, with m the cells across the contact. Measured
-  on spheres of three loads, by layers that follow from the grid, against 80 cells: the largest errors were 15 % at 6,
-  11 % at 8, 5 % at 10, 2 % at 14 and 1.6 % at 16. They are warned of above SHORT.
+  Plastic strain, its work and the dent are too small by up to COARSE/m^2, with m the cells across the contact. This was
+  measured on spheres under three loads, with the default layers, against 80 cells: the largest errors were 15 % at 6
+  cells, 11 % at 8, 5 % at 10, 2 % at 14 and 1.6 % at 16. Errors above SHORT cause a warning.
 */
 #define COARSE 7.0
 #define SHORT  0.05
-/* Plastic strain at the surface, extrapolated, exceeds that of all layers by this part of it. */
+/* Part by which the plastic strain extrapolated to the surface may exceed that of all layers */
 #define SHALLOW 0.05
 /* Edges are known to a fraction of a cell if at least this share of them is reconstructed. */
 #define KNOWN 0.9
 /*
-  Cells half as wide may change the peak pressure by this part of it; after wear by this one, since the surface that is
-  worn on finer cells is smoother than heights interpolated between wide ones: in 7 random lives the change on four
-  times finer cells was a fourteenth to three quarters of what the interpolated heights said.
+  Allowed relative changes of the peak pressure on cells half as wide, without and after wear. The second is larger,
+  since a surface worn on finer cells is smoother than heights interpolated between wide ones: in 7 random lives the
+  change on four times finer cells was a fourteenth to three quarters of the prediction by interpolated heights.
 */
 #define PEAK      0.05
 #define WORN_PEAK 0.1
-/* A coefficient of friction from the first of these on is likely to be percent; from the second on it means stick. */
+/* A coefficient of friction from the first of these on is likely to be in percent; from the second on it means
+   stick. */
 #define PERCENT  5
 #define STICKING 100
 
-#define NARROW    0.1  /* part of the contact's cells whose zones, the narrowest, do not count */
-#define ROOM      1.5  /* width of a good grid over that of the contact */
-#define MARGIN    1.1  /* width of a sufficient grid over that of the contact, */
+#define NARROW    0.1  /* part of the contact's cells, in the narrowest zones, that is ignored */
+#define ROOM      1.5  /* ratio of the width of a good grid to that of the contact */
+#define MARGIN    1.1  /* ratio of the width of a sufficient grid to that of the contact, */
 #define BORDER    4    /* and its margin in cells */
-#define SAME      2    /* cells by which two widths may differ that are counted or computed */
-#define ABSURD    4096 /* cells in a row of a grid that wrong units may ask for */
-#define BLIND     0.98 /* pressure at the edge over the largest, above which the pressure does not tell the size */
-#define STROKE    0.02 /* displacement over the half width of a worn contact, above which surfaces should slide */
+#define SAME      2    /* cells by which two widths, one counted and one computed, may differ */
+#define ABSURD    4096 /* number of cells per row that wrong units may ask for */
+#define BLIND     0.98 /* edge pressure relative to the largest, above which it does not indicate the size */
+#define STROKE    0.02 /* ratio of displacement to half width of a worn contact, above which surfaces should slide */
 #define AT_A_TIME 64   /* characters of numbers */
 
 /* ---- loads ---- */
@@ -145,7 +146,7 @@ static PetscErrorCode Measure(const SamSetup *s, SamExtent *extent)
     SamGridCountZones(s->grid, solution->pressure, SamElasticityGetTraits(s->elasticity).periodic, &extent->zones));
   PetscCall(SamGridGetSupport(s->grid, solution->pressure, first, n));
   for (int k = 0; k < 2; k++) extent->half[k] = k >= s->grid->axes ? 0 : 0.5 * (PetscReal)n[k] * cell[k];
-  /* a row that is in contact from border to border has no width along x */
+  /* A row in contact from border to border has no width along x. */
   extent->whole =
     (SamGridIsRow(s->grid) && extent->zones == 1 ? (PetscReal)n[0] : extent->across) > (PetscReal)s->grid->fewest - 0.5
       ? PETSC_TRUE
@@ -155,8 +156,8 @@ static PetscErrorCode Measure(const SamSetup *s, SamExtent *extent)
 }
 
 /*
-  Computes the half widths of the contact under these loads by a closed solution. `known`: there is one, and it ends
-  within a finite length.
+  Computes the half widths of the contact under these loads by a closed-form solution. `known`: there is a solution, and
+  it is of finite size.
 */
 static PetscErrorCode Estimate(const SamSetup *s, PetscBool force, PetscReal value, PetscReal half[2], PetscBool *known)
 {
@@ -171,14 +172,15 @@ static PetscErrorCode Estimate(const SamSetup *s, PetscBool force, PetscReal val
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- what would be better ---- */
+/* ---- better grids ---- */
 
 PetscBool SamAdviceIsFromFile(const SamSetup *s)
 {
   return SamGapIsFromFile(s->gap, PETSC_FALSE) || SamGapIsFromFile(s->gap, PETSC_TRUE) ? PETSC_TRUE : PETSC_FALSE;
 }
 
-/* Grids that resolve a contact of these half widths: as large as now, and as many cells as now. Empty: none. */
+/* Writes grids that resolve a contact of these half widths: one as large as now, and one with as many cells; empty:
+   none. */
 static void AdviseGrids(const SamSetup *s, const PetscReal half[2], double factor, const PetscBool refine[2],
                         char cells[], char width[])
 {
@@ -198,7 +200,7 @@ static void AdviseGrids(const SamSetup *s, const PetscReal half[2], double facto
   }
   if (s->grid->nx == s->grid->ny && s->grid->width[0] == s->grid->width[1])
     size[0] = size[1] = PetscMax(size[0], size[1]);
-  /* the contact gets wider in cells as the grid gets smaller, more so along one axis */
+  /* The contact gets wider in cells as the grid gets smaller, more so along one axis. */
   for (int k = 0; k < s->grid->axes; k++)
     if ((double)s->grid->width[k] / size[k] < factor) enough = PETSC_FALSE;
   if (PetscMax(more[0], more[1]) <= SAM_LARGEST_ROW) WritePair("grid_n", more, cells);
@@ -206,8 +208,8 @@ static void AdviseGrids(const SamSetup *s, const PetscReal half[2], double facto
 }
 
 /*
-  Half widths and cells across: by the closed solution where it is of this contact, which it is not after wear for
-  example; else what was found.
+  Finds the half widths and cells across: by the closed-form solution if it describes this contact, which is not so
+  after wear, for example; otherwise from the contact that was found.
 */
 static PetscErrorCode GetWidths(SamAdvice *a)
 {
@@ -331,7 +333,8 @@ static void Touch(SamAdvice *a)
                force ? SamUnitOn(a->setup->grid, "N") : "m", force ? "0" : "0, or the smallest separation");
 }
 
-/* Along which axes the contact ends within the grid. One spot that does along one only is a strip. */
+/* Finds the axes along which the contact ends within the grid. A single spot that ends along one axis only is a
+   strip. */
 static PetscBool IsStrip(const SamAdvice *a, PetscBool ends[2])
 {
   const SamGrid g = a->setup->grid;
@@ -365,7 +368,7 @@ static void WriteLength(double length, int digits, char text[AT_A_TIME])
   (void)snprintf(text, AT_A_TIME, "%.*g", PetscMin(digits, 9), length);
 }
 
-/* Returns the digits with which two lengths look different, if they are. */
+/* Returns the number of digits with which two lengths look different, if they differ. */
 static int DigitsOf(double a, double b)
 {
   char one[AT_A_TIME], other[AT_A_TIME];
@@ -408,15 +411,14 @@ static int Fewest(const SamAdvice *a)
 }
 
 /*
-  Advises on a contact that is few cells across, or a peak of pressure that they do not resolve; grids on which it is
-  not so.
+  Advises on a contact that is few cells across, or a peak of pressure that is not resolved; proposes better grids.
 */
 static void Cells(SamAdvice *a)
 {
   const SamSetup  *s      = a->setup;
   const SamExtent *extent = &a->extent;
   PetscBool        ends[2];
-  /* of periodic bodies all cells may be in contact, and have no width */
+  /* In periodic bodies all cells may be in contact; the contact then has no width. */
   const PetscBool whole  = !IsStrip(a, ends) && extent->whole;
   const int       fewest = Fewest(a);
   const PetscBool few    = !whole && extent->across < fewest;
@@ -439,12 +441,12 @@ static void Cells(SamAdvice *a)
     (void)snprintf(peak, sizeof(peak), "the peak pressure is not resolved, about %.0f %% %s at half the cell size%s",
                    100 * fabs((double)extent->change), extent->change > 0 ? "higher" : "lower",
                    sharp ? ", and further on finer ones, as at a sharp edge" : "");
-  /* a grid that is enough for the number of cells alone is named after it */
+  /* A grid that only has enough cells is described as such. */
   SamAdviceSay(a, "", "%s%s%s%s%s%s%s", a->after, spots, sharp ? better : "", few && steep ? "; " : "", peak,
                sharp ? "" : better, absurd ? "; or check the units, N, m, Pa" : "");
 }
 
-/* Compares the largest prescribed stress with the moduli of both bodies; `why` is empty where the unit may be right. */
+/* Compares the largest prescribed stress with the moduli of both bodies; `why` is empty if the unit may be right. */
 static void ExplainLargest(const SamAdvice *a, char why[], size_t size)
 {
   double young[2], stress = (double)a->most.stress;
@@ -456,7 +458,7 @@ static void ExplainLargest(const SamAdvice *a, char why[], size_t size)
   if (!why[0]) SamExplainStress(stress, PetscMax(young[0], young[1]), 0, HARDEST, why, size);
 }
 
-/* Numbers that another unit would explain: of a prescribed stress, and of the grid. */
+/* Advises on a prescribed stress or a grid that suggests another unit. */
 static void Units(SamAdvice *a)
 {
   const SamSetup     *s     = a->setup;
@@ -469,7 +471,7 @@ static void Units(SamAdvice *a)
   if (width > WIDEST) SamAdviceSay(a, "grid_size", "the grid is %g m wide: check the unit, m", width);
 }
 
-/* Heights of another unit, after which the grid is not the question. */
+/* Advises on heights in another unit; then the grid is not questioned. */
 static void Surfaces(SamAdvice *a)
 {
   const SamSetup *s                              = a->setup;
@@ -482,7 +484,8 @@ static void Surfaces(SamAdvice *a)
 }
 
 /*
-  Advises on steps of heights from a file, where the peak of the pressure has no limit, and no grid is advised for it.
+  Advises on steps of heights from a file. The peak of the pressure then grows without limit, and no grid is advised for
+  it.
 */
 static void Steps(SamAdvice *a)
 {
@@ -504,7 +507,7 @@ static void Steps(SamAdvice *a)
   a->stepped       = PETSC_TRUE;
 }
 
-/* Passes on the advice of the bodies on these cells and a contact of these half widths. */
+/* Passes on the advice of the bodies on these cells and on a contact of these half widths. */
 static void Bodies(SamAdvice *a)
 {
   const PetscReal width = 2 * PetscMax(a->half[0], a->half[1]);
@@ -528,7 +531,7 @@ static double Stiffest(SamPair pair)
     double        least = INFINITY;
 
     for (PetscInt n = 1; n <= SamBodyCount(body); n++) {
-      const SamMaterial *m = SamBodyMaterialAt(body, SamBodyTop(body, n)); /* an interface is of the one above it */
+      const SamMaterial *m = SamBodyMaterialAt(body, SamBodyTop(body, n)); /* interfaces: that above */
 
       least = PetscMin(least, (1 - (double)(m->poisson * m->poisson)) / (double)m->young);
     }
@@ -537,14 +540,14 @@ static double Stiffest(SamPair pair)
   return 1 / compliance;
 }
 
-/* Numbers of plastic strain below a contact of few cells. */
+/* Advises on plastic strain below a contact of few cells. */
 static void Coarse(SamAdvice *a)
 {
   const double across = (double)a->extent.across, error = 100 * PetscMin(COARSE / (across * across), 1);
   char         better[SAM_ADVICE_GRIDS];
 
   if (a->extent.whole || !a->extent.zones || error <= 100 * SHORT) return;
-  /* few cells are up to one too many: those in which the contact ends */
+  /* The number of cells includes those in which the contact ends, so it is up to one too large. */
   SamAdviceGrids(a, MARGIN * sqrt(COARSE / SHORT) / PetscMax(across - 1, 1), better);
   SamAdviceSay(a, better[0] ? "" : "grid_n",
                "the contact is %.3g cells across: plastic_max, plastic_work and residual_z may be too small by up to "
@@ -552,7 +555,7 @@ static void Coarse(SamAdvice *a)
                across, error, better);
 }
 
-/* Advises on plastic strain that is largest at the surface and falls within the first layers, as under friction. */
+/* Advises on plastic strain that is largest at the surface and decays within the first layers, as under friction. */
 static void Shallow(SamAdvice *a, double most)
 {
   PetscReal surface = 0;
@@ -566,8 +569,7 @@ static void Shallow(SamAdvice *a, double most)
 }
 
 /*
-  Advises on the area of a row of few cells after the largest load, whose edges are not where those of elastic bodies
-  are.
+  Advises on the area of a row of few cells after the largest load, whose edges differ from those of elastic bodies.
 */
 static void Unloaded(SamAdvice *a)
 {
@@ -583,7 +585,7 @@ static void Unloaded(SamAdvice *a)
                (double)cells, FEW_CELLS, 100 / (double)cells);
 }
 
-/* Advises on plastic strain that is large, that spans few layers, or that comes to the end of what may yield. */
+/* Advises on plastic strain that is large, spans few layers, or reaches the end of the layers. */
 static void Yield(SamAdvice *a)
 {
   const SamContact contact = a->setup->contact;
@@ -674,7 +676,7 @@ static void Friction(SamAdvice *a)
                (double)friction / 100, (double)friction);
 }
 
-/* All that may be said, in this order: before the first step, of the largest load, of a contact, and of a worn one. */
+/* All advice, in this order: before the first step, on the largest load, on a contact, and on a worn contact */
 static const struct {
   enum { BEFORE, LARGEST, CONTACT, WORN } when;
   void (*look)(SamAdvice *advice);
@@ -699,7 +701,7 @@ PetscErrorCode SamAdviceBegin(SamAdvice *a)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Passes on the advice of the laws on a step, each once. */
+/* Passes on the advice of the laws on a step, each piece once. */
 static PetscErrorCode LookAtLaws(SamAdvice *a, PetscInt k)
 {
   char advice[400];
@@ -739,7 +741,7 @@ PetscErrorCode SamAdviceStep(SamAdvice *a, PetscInt k, PetscBool of_laws, const 
     PetscCall(Measure(a->setup, &a->extent));
     if (!a->after[0]) *found = &a->extent;
     if (!a->after[0]) PetscCall(LookAt(a, LARGEST));
-    /* at the grid's edge it is the grid that decides how large the contact is */
+    /* At the grid's edge the grid determines the size of the contact. */
     if (a->extent.zones && step->check.edge <= 0 && !a->doubtful) {
       PetscCall(GetWidths(a));
       PetscCall(LookAt(a, a->after[0] ? WORN : CONTACT));
@@ -769,8 +771,9 @@ PetscErrorCode SamAdviceEnd(SamAdvice *a, const SamSlip **found)
 /* ---- the edge ---- */
 
 /*
-  Estimates the half widths where there is no closed-form solution. The distance from the grid's edge to the contact's
-  follows from the pressure there, as for Hertz's p0 sqrt(1 - r^2/a^2); widths grow at most like the root of the load.
+  Estimates the half widths if there is no closed-form solution. The distance from the grid's edge to the contact's edge
+  follows from the pressure at the grid's edge, as for Hertz's p0 sqrt(1 - r^2/a^2); widths grow at most like the root
+  of the load.
 */
 static void Extrapolate(const SamSetup *s, const SamStep *step, const SamLoadRange *most, PetscReal half[2])
 {
@@ -798,7 +801,7 @@ static PetscBool Fits(const SamSetup *s, const PetscReal half[2], const PetscRea
   return PETSC_TRUE;
 }
 
-/* Writes the grid with the same cells that holds a contact of these half widths about the origin, or more. */
+/* Writes the grid with the same cells for a contact of these half widths about the origin, or a larger grid. */
 static void AdviseGrid(const SamSetup *s, const PetscReal half[2], const PetscReal lever[2], char text[], size_t size)
 {
   const PetscReal cell[2] = {s->grid->dx, s->grid->dy};
@@ -826,7 +829,7 @@ static void AdviseGrid(const SamSetup *s, const PetscReal half[2], const PetscRe
     (void)snprintf(text, size, "%s", one);
 }
 
-/* Writes the grid that holds the contact in all displacements of the run, body 2's surface being kept on it. */
+/* Writes the grid that contains the contact in all displacements of the run, on which body 2's surface is stored. */
 static PetscErrorCode AdviseStroke(const SamAdvice *a, const SamStep *step, char text[], size_t size)
 {
   const PetscReal *moved    = &step->rigid[SAM_COMPONENT_TX];
@@ -841,7 +844,7 @@ static PetscErrorCode AdviseStroke(const SamAdvice *a, const SamStep *step, char
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Appends to the message of a contact at the edge that a layer is too thick for any grid; `known`: one is. */
+/* Adds to the message of a contact at the edge that a layer is too thick for any grid; `known`: a grid is known. */
 static PetscErrorCode AdviseThickness(const SamAdvice *a, char text[], size_t size, PetscBool *known)
 {
   const SamGrid g = a->setup->grid;
@@ -891,7 +894,7 @@ PetscErrorCode SamAdviceEdge(const SamAdvice *a, SamStep *step)
     (void)snprintf(text, size,
                    "; a surface from a file cannot be enlarged: give a file of a larger area, or less load");
   } else {
-    /* no closed solution is of a contact that wears, tilts or yields, or ends within the grid */
+    /* No closed-form solution describes a contact that wears, tilts or yields, or ends within the grid. */
     known = known && !SamProblemMoves(s->problem) && !most->open && !SamProblemGetLaw(s->problem, SAM_LAW_PLASTIC) &&
             !Fits(s, half, most->lever);
     if (!known) Extrapolate(s, step, most, half);

@@ -5,11 +5,11 @@
 #include <petsam/private/advice.h>
 #include <petsam/private/baseimpl.h>
 
-#define SAM_ADVICE_GRIDS 192 /* characters of advised grids */
+#define SAM_ADVICE_GRIDS 192 /* characters of the text with the advised grids */
 /*
-  SamAdviceSay - passes on advice, by a format of printf(); `setting`: see SamAdviceFunction.
-  SamAdviceGrids - writes the end of a message, ": -grid_n 64", that proposes a grid with this factor more cells across
-  the contact. Empty: there is none.
+  SamAdviceSay - passes on advice, with a format of printf(); `setting`: see SamAdviceFunction.
+  SamAdviceGrids - writes the end of a message, such as ": -grid_n 64", that proposes a grid with this many times more
+  cells across the contact; empty if there is none.
   SamAdviceIsFromFile - true if heights of the gap are from a file.
   None is collective.
 */
@@ -18,19 +18,20 @@ PETSC_INTERN void SamAdviceSay(SamAdvice *advice, const char setting[], const ch
 PETSC_INTERN void      SamAdviceGrids(const SamAdvice *advice, double factor, char text[SAM_ADVICE_GRIDS]);
 PETSC_INTERN PetscBool SamAdviceIsFromFile(const SamSetup *setup);
 /*
-  AddSlip, AddRolling - add a step to what is known of the dissipated energy (slipzones.c), and of loads and creepages
-  in steady rolling (steadyerrors.c). MeasureStick - the cells across the stick zone now. Collective.
-  Slip, Rolling - say, after the last step, what the cells do not resolve. Stick - says that the stick zone is fewer
-  cells across than `least`. Peaks - says that a slip zone is too narrow for the maximum of what is in it; `width`:
-  cells, `wanted`: how many times finer a grid is advised. Not collective.
+  AddSlip, AddRolling - add a step to the estimates of the dissipated energy (slipzones.c), and of loads and creepages
+  in steady rolling (steadyerrors.c). MeasureStick - finds the present cells across the stick zone. Collective. Slip,
+  Rolling - advise, after the last step, on numbers that the cells do not resolve. Stick - advises on a stick zone fewer
+  cells across than `least`. Peaks - advises on a slip zone too narrow for its maximum values; `width`: in cells;
+  `wanted`: how many times finer the advised grid is. Not collective.
 */
 /*
-  SamAdviceMeasureStuck - estimates the slip zone of a contact all of whose cells stick (stuck.c): `share` is the ratio
-  of the shear's change in this step at the contact's edge to mu p, `stuck` the zone's values at share 1. Collective.
+  SamAdviceMeasureStuck - estimates the slip zone of a contact in which all cells stick (stuck.c): `share` is the ratio
+  of the shear's change in this step at the contact's edge to mu p, `stuck` contains the zone's values at share 1.
+  Collective.
 */
 #define SAM_STUCK_WIDTH (2. / 3) /* cells: width of the zone at share 1 */
 typedef struct {
-  double work, shear; /* J: energy, in proportion to the third power; Pa: shear at its end, to the root */
+  double work, shear; /* J: energy at share 1 (grows as share^3); Pa: shear at its end (as the root) */
 } SamStuck;
 PETSC_INTERN PetscErrorCode SamAdviceMeasureStuck(const SamSetup *setup, double *share, SamStuck *stuck);
 PETSC_INTERN PetscErrorCode SamAdviceAddSlip(SamAdvice *advice, const SamStep *step);

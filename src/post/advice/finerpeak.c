@@ -1,24 +1,27 @@
 /*
-  How far a grid resolves the peak of the pressure.
+  Estimates the error of a grid in the peak of the pressure.
 
-  No quotient of the pressures about the peak tells this for all shapes: a pressure that falls to zero within a cell or
-  two may be that of a rounded edge, which finer cells raise, or of an edge that happens to lie well on the grid. So the
-  contact about the peak is solved again on cells half as wide:
+  No quotient of the pressures near the peak gives this error for all shapes: a pressure that falls to zero within a
+  cell or two may belong to a rounded edge, where finer cells raise it, or to an edge in a favourable place on the grid.
+  So the contact near the peak is solved again on cells half as wide:
 
-  1. A patch of 18 x 18 cells about the peak, of 18 in plane strain. Displacements by all pressure outside of it are
-     the gap minus the shape minus the patch's own displacements; they are smooth, and interpolated to the finer cells.
-  2. The separation there: the shape itself, and these. Roughness, heights from a file and wear are interpolated, too.
+  1. Take a patch of 18 x 18 cells about the peak, of 18 in plane strain. The displacements by the pressure outside of
+     it are the gap minus the shape minus the patch's own displacements; they are smooth, and interpolated to the finer
+     cells.
+  2. The separation on the finer cells is the shape itself plus these displacements. Roughness, heights from a file and
+     wear are interpolated, too.
   3. The pressure of the outer three cells stays as it is; within them the normal problem is solved under the same load
      and without rotation.
   4. While the peak changes, the patch about the new peak is solved on cells half as wide again.
 
-  Heights that are interpolated may hide a tip or an edge between two cells. So the first patch is interpolated in two
-  ways, which differ at an edge, and the larger change counts. Neither tells of a tip in the contact. The fourth
-  differences of the heights do: a wave two cells long with a part of their height changes the pressure by about E*
-  times it over the cells' width; the part, 0.08, is found by trials.
+  Heights that are interpolated may miss a tip or an edge between two cells. So the first patch is interpolated in two
+  ways, which differ at an edge, and the larger change counts. Neither reveals a tip in the contact, but the fourth
+  differences of the heights do: a wave two cells long, with 0.08 of their height, changes the pressure by about E*
+  times its height over the cells' width. The factor 0.08 was found by trials.
 
-  Lengths of the patch count in its cells, as displacements are proportional to the cells' width under the same
-  pressure: operators and solver are made once. All ranks solve the same; the results of the first count.
+  Lengths of the patch are in units of its cells: displacements under the same pressure are proportional to the cells'
+  width, so operators and solver are created once. All ranks solve the same problem; the results of the first rank are
+  used.
 */
 #include <petsam/private/advice.h>
 #include <petsam/normal.h>
@@ -32,22 +35,22 @@
 #define WIDE    18                /* cells of a patch in each direction, */
 #define FINE    (2 * WIDE)        /* on the finer grid, */
 #define INNER   (FINE - 4 * RING) /* and of the part that is solved again there */
-#define MARGIN  4                 /* finer cells of that part, at its border, where no peak is looked for */
-#define LEVEL   0.9               /* a peak next to which no cell has less than this part of it is resolved */
-#define CENTRAL 6                 /* places of an interpolation, */
-#define VARYING 4                 /* of one that leaves edges aside */
+#define MARGIN  4                 /* finer cells at the border of that part, in which no peak is searched */
+#define LEVEL   0.9               /* a peak is resolved if a cell beside it has at least this part of it */
+#define CENTRAL 6                 /* number of places of an interpolation, */
+#define VARYING 4                 /* number of places of an interpolation that avoids edges */
 #define TIP     0.08              /* part of the fourth differences that counts */
-#define SHARP   0.4               /* the change at a sharp edge, the most that interpolation can tell of */
-#define SETTLED 0.03              /* change of the peak on cells half as wide of a grid that is advised */
+#define SHARP   0.4               /* change at a sharp edge, the largest that interpolation can detect */
+#define SETTLED 0.03              /* change of the peak on cells half as wide as those of an advised grid */
 
-/* Pressure and gap without the shape of the cells of the last patch. */
+/* Pressure of the cells of the last patch, and their gap without the shape */
 typedef struct {
   PetscInt  axes;               /* 2, or 1 for one row of cells */
-  PetscReal corner[2], cell[2]; /* m: of the first cell, and its widths */
+  PetscReal corner[2], cell[2]; /* m: place of the first cell, and widths of a cell */
   double    p[FINE * FINE];     /* Pa */
   double    g[FINE * FINE];     /* m, times `scale` */
-  double    scale;              /* how much narrower its cells are than those of the first one */
-  double    tip;                /* m: the fourth differences of the heights on the first one */
+  double    scale;              /* ratio of the cell width of the first patch to that of this one */
+  double    tip;                /* m: fourth differences of the heights on the first patch */
 } Patch;
 
 /* Operators of the first patch, coarse and fine, and the solver. */
@@ -57,13 +60,13 @@ typedef struct {
   const SamSolution *solution;
   PetscBool          wrap;
   SamGrid            grid[3];
-  SamElasticity      elasticity[3]; /* the patch, its finer cells, the part that is solved again */
+  SamElasticity      elasticity[3]; /* of the patch, its finer cells, and the part that is solved again */
   Vec                field[3];
   Vec                pressure;
   SamNormal          normal;
 } Local;
 
-/* Returns the number of rows of a patch of so many cells in each direction. */
+/* Returns the number of rows of a patch with so many cells in each direction. */
 static PetscInt Rows(PetscInt axes, PetscInt n)
 {
   return axes == 1 ? 1 : n;
@@ -146,9 +149,9 @@ static double Difference(const double f[], ptrdiff_t stride, PetscInt order)
 }
 
 /*
-  Values at WIDE places, `stride` apart, interpolated to the centres of twice as many cells: by the polynomials through
-  six places about it, or through the four where the values vary least, without waves at an edge (Harten et al. 1987,
-  J. Comput. Phys. 71, 231).
+  Interpolates values at WIDE places, `stride` apart, to the centres of twice as many cells: by the polynomials through
+  the six nearest places, or through the four where the values vary least, which do not oscillate at an edge (Harten et
+  al. 1987, J. Comput. Phys. 71, 231).
 */
 static void Interpolate(PetscInt points, const double from[], double to[], ptrdiff_t stride)
 {
@@ -182,7 +185,7 @@ static PetscBool IsInner(PetscInt axes, PetscInt c, PetscInt margin)
   return i >= least && i < most && (axes == 1 || (j >= least && j < most)) ? PETSC_TRUE : PETSC_FALSE;
 }
 
-/* Solves the inner part of the finer patch under its load; `h` is the separation but for its own displacements. */
+/* Solves the inner part of the finer patch under its load; `h` is the separation without its own displacements. */
 static PetscErrorCode SolveInner(Local *l, const double h[], double p[], PetscBool *solved)
 {
   SamBalance     balance = {.kind = SAM_BALANCE_NORMAL, .force = {PETSC_TRUE, PETSC_FALSE, PETSC_FALSE}};
@@ -209,7 +212,7 @@ static PetscErrorCode SolveInner(Local *l, const double h[], double p[], PetscBo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Returns fourth differences of the patch's interpolated heights about the peak where all is in contact. */
+/* Returns fourth differences of the patch's interpolated heights about the peak if all its cells are in contact. */
 static double FindTip(const Patch *a, const double heights[])
 {
   const PetscInt beside = a->axes - 1;
@@ -230,7 +233,7 @@ static double FindTip(const Patch *a, const double heights[])
   return most;
 }
 
-/* From WIDE cells in each direction to the FINE ones in their place, with another pressure within the outer cells. */
+/* Refines WIDE cells in each direction to FINE cells in their place, with another pressure within the outer cells. */
 static PetscErrorCode Refine(Local *l, PetscInt points, Patch *a, PetscBool *solved)
 {
   const PetscInt count = l->grid[1]->cells;
@@ -257,7 +260,7 @@ static PetscErrorCode Refine(Local *l, PetscInt points, Patch *a, PetscBool *sol
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Returns the peak of a finer patch; takes the patch about it out. */
+/* Returns the peak of a finer patch, and extracts the patch about it. */
 static double TakePeak(Patch *a)
 {
   const PetscInt rows = Rows(a->axes, WIDE);
@@ -324,7 +327,7 @@ static PetscErrorCode Gather(const Local *l, Vec field, const PetscInt at[2], do
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Fills the first patch, about this cell, but for its gap where the cells beside it have nearly its pressure: level. */
+/* Fills the first patch about this cell; its gap only if the cells beside it differ from its pressure: else `level`. */
 static PetscErrorCode FillPatch(const SamSetup *s, const Local *l, const PetscInt at[2], Patch *a, PetscBool *level)
 {
   const PetscReal cell[2] = {s->grid->dx, s->grid->dy};
@@ -336,7 +339,7 @@ static PetscErrorCode FillPatch(const SamSetup *s, const Local *l, const PetscIn
   a->scale = 1;
   a->axes  = s->grid->axes;
   for (int k = 0; k < 2; k++) {
-    const PetscReal before = k < a->axes ? 0.5 * (PetscReal)(WIDE + 1) : 0.5; /* cells from the corner to the peak */
+    const PetscReal before = k < a->axes ? 0.5 * (PetscReal)(WIDE + 1) : 0.5; /* cells from corner to peak */
 
     a->cell[k]   = cell[k];
     a->corner[k] = (k ? SamGridY(s->grid, at[k]) : SamGridX(s->grid, at[k])) - before * cell[k];
@@ -354,7 +357,7 @@ static PetscErrorCode FillPatch(const SamSetup *s, const Local *l, const PetscIn
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Solves finer and finer patches until the peak stays. */
+/* Solves finer and finer patches until the peak no longer changes. */
 static PetscErrorCode Follow(const SamSetup *s, Local *l, Patch *a, SamExtent *extent)
 {
   const PetscInt n    = PetscMax(s->grid->nx, s->grid->ny);
@@ -385,7 +388,7 @@ static PetscErrorCode Follow(const SamSetup *s, Local *l, Patch *a, SamExtent *e
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Bodies that yield have other pressures on finer cells than the elastic patch would have. */
+/* True if bodies yield; on finer cells their pressure differs from that of the elastic patch. */
 static PetscErrorCode Yields(const SamSetup *s, PetscBool *yields)
 {
   PetscReal strain = 0;

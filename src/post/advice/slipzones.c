@@ -1,9 +1,9 @@
 /*
-  How far a grid resolves the dissipated energy, by the width of the slip zones at the ends of branches.
+  Estimates the error of a grid in the dissipated energy from the widths of the slip zones at the ends of branches.
 
-  A branch is what lies between two load reversals: the slip zone grows inward from the contact's edge, and vanishes at
-  the reversal, where all cells stick again. The energy of a branch grows like the third power of the zone's final width
-  w; which cells are in the zone decides it, so that the error does not depend on the length of the steps. Areas of
+  A branch is the loading between two reversals: the slip zone grows inward from the contact's edge, and vanishes at the
+  reversal, where all cells stick again. The energy of a branch grows like the third power of the zone's final width w.
+  It depends on which cells are in the zone, so that the error does not depend on the length of the steps. Areas of
   contact and stick are known to a fraction of a cell, and with them the width,
 
       w = (contact area - stick area)/(length of the contact's edge),
@@ -11,25 +11,26 @@
   even where no cell is wide enough. Two estimates follow. Branches in which all cells stick have a zone, too, whose
   energy is missing (stuck.c).
 
-  1. For all contacts: of the energy of a branch the part 0.3/(w^2 sqrt(m)), with w and the length m of the edge in
-     cells. The errors of cells along an edge cancel like those of chance. Straight edges have one place on the cells:
-     m = 1, where the edges of pads and rollers are not reconstructed, and 0.36 in plane strain: the part is 0.5/w^2
-     then, more than the error of 30 of 33 random cylinders and pads (root mean square 0.36). Measured on
-     452 cycles of spheres and ellipsoids, centred on the grid and off it, cylinders and rough surfaces (error times
-     w^2 sqrt(m), root mean squares): 0.52, 0.19, 0.28, 0.20. Round edges that are not reconstructed, of punches, layers
-     and loads out of phase, count as a quarter of m: on 26 random ones the error was below 0.08/w^2 at m = 60 to 250.
-  2. For alike bodies with quadratic gaps, constant N, and T along one line, the closed form (solution/closedenergy.c).
+  1. For all contacts the error is the part 0.3/(w^2 sqrt(m)) of the energy of a branch, with w and the length m of the
+     edge in cells. The errors of cells along an edge cancel like random errors. Straight edges have one place on the
+     cells: m = 1, where the edges of pads and rollers are not reconstructed, and 0.36 in plane strain: the part is
+     0.5/w^2 then, more than the error of 30 of 33 random cylinders and pads (root mean square 0.36). Measured on 452
+     cycles of spheres and ellipsoids, centred on the grid and off it, cylinders and rough surfaces (error times w^2
+     sqrt(m), root mean squares): 0.52, 0.19, 0.28, 0.20. Round edges that are not reconstructed, of punches, layers and
+     loads out of phase, count as a quarter of m: on 26 random ones the error was below 0.08/w^2 at m = 60 to 250.
+  2. For alike bodies with quadratic gaps, constant N, and T along one line, the closed form gives the energy itself
+     (solution/closedenergy.c).
 
-  Dissimilar bodies slip while N grows. One step takes that slip as straight, and the energy of first loading is too
-  large by the part
+  Dissimilar bodies slip while N grows. If N is applied in one step, that slip is treated as straight, and the energy of
+  first loading is too large by the part
 
       e = (beta/mu)^2 (1.9/t^2 - 1.1),
 
-  beta that of Dundurs. Measured against 24 steps of N, with T thereafter, for beta/mu from 0.03 to 0.5 and t from 0.05
-  to 0.95: within a quarter for spheres, ellipsoids, punches, pads, rollers and cylinders; beyond 0.5 it is less. The
-  energy of the first reversal is too large by as much, that of later ones is right. For bodies with layers beta is the
-  largest of waves with numbers 1/a to 2.5/a, a the half width of the contact. At e = 0.02 the maximum shear is wrong by
-  2 to 6 %.
+  where beta is Dundurs' constant. This holds within a quarter for spheres, ellipsoids, punches, pads, rollers and
+  cylinders, measured against 24 steps of N, followed by T, for beta/mu from 0.03 to 0.5 and t from 0.05 to 0.95; beyond
+  0.5 the part is smaller. The energy of the first reversal is too large by as much, that of later ones is right. For
+  bodies with layers, beta is the largest one of waves with numbers 1/a to 2.5/a, a being the half width of the contact.
+  At e = 0.02 the maximum shear is wrong by 2 to 6 %.
 
   Source: J. Jaeger, Arch. Appl. Mech. 65 (1995) 478 (the shear of all alike bodies is a difference of two normal
   problems).
@@ -47,35 +48,35 @@
 #include <petsam/private/state.h>
 #include <math.h>
 
-#define WRONG    0.3  /* the error of a branch over 1/(w^2 sqrt(m)) */
+#define WRONG    0.3  /* error of a branch relative to 1/(w^2 sqrt(m)) */
 #define ALLOWED  0.05 /* error of the energy, relative to it */
-#define GOOD     0.02 /* the same on a grid that is advised */
-#define ROUGH    0.25 /* the same from which it is not known */
-#define NARROW   0.25 /* cells: the width of a zone that is not known */
-#define ACCEPTED 0.9  /* share of the edges whose reconstruction tells that they are known */
-#define ALIKE    1e-6 /* coupling of bodies, or change of a load over the largest, that counts as none */
-#define REVERSED 1.02 /* part of cells that stick, over that of the step before, of a reversal */
-#define NOTHING  1e-6 /* energy over the tangential work that counts as none */
-#define SLIVER   1e-3 /* the same of N and T that grow in proportion, by cells that the edge cuts */
-#define UNSURE   0.5  /* error of a step's energy by its length, relative to it, from which cells do not count */
-#define ROUND    4    /* length of a round edge that is not reconstructed, over the part that counts */
-#define PEAKED   1.25 /* cells: a zone in which the largest slip and shear are not right to 5 % */
-#define SLIP     0.06 /* error of both, or of the slip velocity in rolling, over 1/w */
-#define RETURNS  0.1  /* error of the largest slip after a reversal over its change since, times w^2 + 1/4 */
-#define LARGE    0.07 /* that error, relative to the slip, from which it is warned of */
+#define GOOD     0.02 /* the same on an advised grid */
+#define ROUGH    0.25 /* the same above which the energy is unknown */
+#define NARROW   0.25 /* cells: the width below which the width of a zone is unknown */
+#define ACCEPTED 0.9  /* share of reconstructed edges above which the edges are known */
+#define ALIKE    1e-6 /* smaller couplings of bodies, or relative changes of a load, count as none */
+#define REVERSED 1.02 /* increase of the part of cells that stick, relative to the step before, at a reversal */
+#define NOTHING  1e-6 /* energy, relative to the tangential work, that counts as none */
+#define SLIVER   1e-3 /* the same if N and T grow in proportion; cut cells cause such energies */
+#define UNSURE   0.5  /* error of a step's energy by its length, relative to it, above which cells are not questioned */
+#define ROUND    4    /* ratio of the length of a round edge without reconstruction to the part that counts */
+#define PEAKED   1.25 /* cells: width of a zone in which the largest slip and shear have errors above 5 % */
+#define SLIP     0.06 /* error of both, or of the slip velocity in rolling, relative to 1/w */
+#define RETURNS  0.1  /* error of the largest slip after a reversal, relative to its change since, times w^2 + 1/4 */
+#define LARGE    0.07 /* that error, relative to the slip, above which a warning is given */
 #define LINE     0.36 /* m in plane strain */
-#define STUCK    7    /* cells across a stick zone whose area is wrong by less than 5 % */
-#define STRAY    0.1  /* part of the cells that stick whose zones, the narrowest, do not count */
-#define HIGHER   0.9  /* shear of a narrow zone, estimated, over the largest one found, from which it may be larger */
-#define UNKNOWN  0.02 /* error of the energy by one step of N */
-#define MAKING   0.33 /* part of all slip's work from which that before cells touch is too much */
-#define LESS     0.25 /* that over the energy which is left with enough steps; it falls like 1/steps^(1/FALLS) */
+#define STUCK    7    /* cells across a stick zone whose area has an error below 5 % */
+#define STRAY    0.1  /* part of the sticking cells, in the narrowest zones, that is ignored */
+#define HIGHER   0.9  /* shear of a narrow zone, relative to the largest found, above which it may be larger */
+#define UNKNOWN  0.02 /* error of the energy if N is applied in one step */
+#define MAKING   0.33 /* part of the work of slip that is too much before cells touch */
+#define LESS     0.25 /* the same, relative to the energy, with enough steps; it falls like 1/steps^(1/FALLS) */
 #define FALLS    0.75
 #define ONCE     0.75 /* part of the largest normal load that counts as all of it */
-#define SLIGHT   0.2  /* part of mu N from which T counts there */
-#define WAVES    2.5  /* wave numbers there: from that of the contact up to so many times it */
-#define SPIN     0.59 /* M_z of sliding over mu N a */
-#define LEAST    1.25 /* cells of a grid that is advised over those of this one */
+#define SLIGHT   0.2  /* part of mu N above which T counts in it */
+#define WAVES    2.5  /* largest wave number of those used for beta, relative to that of the contact */
+#define SPIN     0.59 /* M_z of sliding, relative to mu N a */
+#define LEAST    1.25 /* least ratio of the cells of an advised grid to those of this grid */
 
 /* ---- the width of the zone ---- */
 
@@ -91,12 +92,12 @@ static PetscBool IsRound(SamGap gap)
   return has;
 }
 
-/* Numbers of a step. */
+/* Numbers of a step */
 typedef struct {
   PetscReal contact, stick, width, contact_cells, stick_cells, energy, closed, unsure, accepted;
-  PetscReal slip;         /* the maximum */
+  PetscReal slip;         /* the maximum slip */
   double    before_touch; /* SAM_ENTERING */
-  double    known, faces; /* whether the edge of contact is reconstructed; its faces between cells */
+  double    known, faces; /* known: 1 if the edge of contact is reconstructed; its faces between cells */
 } Numbers;
 
 static PetscErrorCode GetNumbers(const SamSetup *s, Numbers *n)
@@ -142,13 +143,13 @@ static void Measure(const SamSetup *s, const Numbers *n, SamSlip *slip)
   slip->length = row ? LINE : PetscMax(slip->length, 1);
 }
 
-/* Returns the error of a branch's energy, relative to it, unless it is larger than that. */
+/* Returns the error of a branch's energy, relative to it, at most 1. */
 static double ErrorOf(PetscReal width, PetscReal length)
 {
   return WRONG / ((double)(width * width) * sqrt((double)length));
 }
 
-/* Adds the branch, whose last zone this is. */
+/* Adds the branch that ends with the present zone. */
 static void EndBranch(SamSlip *slip)
 {
   const double error =
@@ -164,7 +165,7 @@ static void EndBranch(SamSlip *slip)
   slip->branch = 0;
 }
 
-/* Adds the zone of the branch in which all cells stuck. */
+/* Adds the zone of a branch in which all cells stuck. */
 static void EndStuck(SamSlip *slip)
 {
   slip->missing += slip->zone;
@@ -176,7 +177,7 @@ static void EndStuck(SamSlip *slip)
   slip->stuck = slip->zone = 0;
 }
 
-/* True if shear and pressure of the bodies do not act on each other. */
+/* True if shear and pressure of the bodies are not coupled. */
 static PetscBool IsAlike(const SamSetup *s)
 {
   const double waves[2] = {PETSC_PI / (double)s->grid->length, PETSC_PI / (double)s->grid->side[1]};
@@ -204,7 +205,7 @@ static PetscErrorCode AddStuck(const SamSetup *s, const SamStep *step, PetscBool
   PetscCall(SamAdviceMeasureStuck(s, &share, &stuck));
   PetscCall(SamContactGetNumber(s->contact, "shear_max", &shear));
   if (sticks) {
-    /* after a reversal the shear changes by twice the bound */
+    /* After a reversal the shear changes by up to twice the bound. */
     slip->stuck = PetscMin(slip->stuck + share / (slip->energy + slip->missing > 0 ? 2 : 1), 1);
     slip->zone  = (slip->energy + slip->missing > 0 ? 2 : 1) * stuck.work * pow(slip->stuck, 3);
   }
@@ -215,7 +216,7 @@ static PetscErrorCode AddStuck(const SamSetup *s, const SamStep *step, PetscBool
 
 /* ---- dissimilar bodies ---- */
 
-/* Adds what tells how far one step of N is too long. Collective. */
+/* Adds the data by which the error of a single step of N is estimated. Collective. */
 static PetscErrorCode Join(SamAdvice *a, const SamStep *step, const Numbers *n)
 {
   const SamSetup     *s       = a->setup;
@@ -232,7 +233,7 @@ static PetscErrorCode Join(SamAdvice *a, const SamStep *step, const Numbers *n)
   if (!(load > 0) || !(radius > 0)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamLawGetFriction(SamProblemGetLaw(s->problem, SAM_LAW_COULOMB), &friction));
   PetscCall(SamProblemHasFriction(s->problem, &rubs));
-  if (!(friction > 0)) friction = 1; /* of a field */
+  if (!(friction > 0)) friction = 1; /* friction is a field */
   if (!slip->joined && rubs && SamContactGetSettings(s->contact).coupling && now > ONCE * (double)most->normal)
     slip->coupling = SamPairCoupling(s->pair, 1 / radius, WAVES / radius) / (double)friction;
   slip->joined = PETSC_TRUE;
@@ -243,13 +244,13 @@ static PetscErrorCode Join(SamAdvice *a, const SamStep *step, const Numbers *n)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Returns the part by which the energy of first loading up to t is too large, of bodies that are loaded in one step. */
+/* Returns the part by which the energy of first loading up to t is too large if N is applied in one step. */
 static double ExcessOf(double coupling, double t)
 {
   return coupling * coupling * (1.9 / (t * t) - 1.1);
 }
 
-/* Says that dissimilar bodies are; before the last branch ends. */
+/* Advises on dissimilar bodies whose N is applied in one step; called before the last branch ends. */
 static void Long(SamAdvice *a)
 {
   SamSlip     *slip   = &a->slip;
@@ -287,7 +288,7 @@ static void Few(SamAdvice *a)
 
 /* ---- the steps ---- */
 
-/* True if N and T have grown in proportion from nothing: then nothing need slip (step/direction.c). */
+/* True if N and T have grown in proportion from zero: then no slip is necessary (step/direction.c). */
 static PetscBool GrowTogether(SamSlip *slip, const SamStep *step)
 {
   const double load = (double)step->load[SAM_COMPONENT_N];
@@ -335,7 +336,8 @@ PetscErrorCode SamAdviceAddSlip(SamAdvice *a, const SamStep *step)
   slip->growing += n.before_touch > 0 ? 1 : 0;
   slip->sticks = sticks;
   if (n.energy > 0 && slip->width < INFINITY) slip->widest = PetscMax(slip->widest, slip->width);
-  /* N and T that grow together need not slip: what the length of a step may be all of is none of the cells' */
+  /* N and T that grow together may cause no slip: then the length of the steps, and not the cells, causes the
+     energy. */
   if (a->steps > 1 && n.unsure > UNSURE * n.energy && n.energy > 0) {
     n.energy     = 0;
     slip->unsure = PETSC_TRUE;
@@ -375,14 +377,14 @@ PetscErrorCode SamAdviceMeasureStick(SamAdvice *a)
   if (a->slip.rolls || (!steady && !(a->slip.work > 0))) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamContactGetNumber(s->contact, "contact_cells", &contact));
   PetscCall(SamContactGetNumber(s->contact, "stick_cells", &stick));
-  if (stick == contact || (stick == 0 && !a->slip.pushed)) PetscFunctionReturn(PETSC_SUCCESS); /* or all slides */
+  if (stick == contact || (stick == 0 && !a->slip.pushed)) PetscFunctionReturn(PETSC_SUCCESS); /* or all cells slide */
   PetscCall(SamGridCreateVec(s->grid, 1, &zone));
   PetscCall(SamContactGetField(s->contact, "state", zone));
   PetscCall(VecGetLocalSize(zone, &cells));
   PetscCall(VecGetArray(zone, &state));
   for (PetscInt k = 0; k < cells; k++) state[k] = state[k] == SAM_CELL_STICK ? 1 : 0;
   PetscCall(VecRestoreArray(zone, &state));
-  PetscCall(SamGridMeasureZones(s->grid, zone, STRAY, &a->slip.across)); /* 0 without any */
+  PetscCall(SamGridMeasureZones(s->grid, zone, STRAY, &a->slip.across)); /* 0 without a zone */
   PetscCall(VecDestroy(&zone));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -409,7 +411,7 @@ static void Energy(SamAdvice *a)
 
   EndBranch(slip);
   EndStuck(slip);
-  if (!a->extent.finer) slip->missing = 0; /* at a sharp edge there is no such zone */
+  if (!a->extent.finer) slip->missing = 0; /* a sharp edge has no such zone */
   slip->error = known ? fabs(slip->closed - slip->energy) : slip->error + slip->missing;
   most        = known ? slip->closed : slip->energy + slip->missing;
   error = most > NOTHING * slip->work ? slip->error / most : slip->work > 0 && a->extent.finer && !slip->unsure ? 1 : 0;
@@ -426,7 +428,7 @@ static void Energy(SamAdvice *a)
                (double)slip->narrow[0], slip->energy, unit, wrong, better);
 }
 
-/* Advises on the maximum shear of the last step, at the end of a zone that is narrow beside the widest. */
+/* Advises on the maximum shear of the last step, at the end of a zone that is much narrower than the widest. */
 static void LastPeak(SamAdvice *a, double width, double high)
 {
   char better[SAM_ADVICE_GRIDS];
@@ -440,9 +442,9 @@ static void LastPeak(SamAdvice *a, double width, double high)
 }
 
 /*
-  Advises on the maximum slip of the last step, much of which has gone back since a reversal: it then lies where the
-  zone of the reversal ends, between cells. Measured on 80 cylinders and spheres under N and T there and back; a
-  straight edge has one place on the cells, and twice the error.
+  Advises on the maximum slip of the last step if much of it has gone back since a reversal: it then lies at the end of
+  the zone of the reversal, between cells. The error was measured on 80 cylinders and spheres under N and reversed T; a
+  straight edge has only one place on the cells, and twice the error.
 */
 static void LastSlip(SamAdvice *a)
 {
@@ -462,7 +464,7 @@ static void LastSlip(SamAdvice *a)
 
 void SamAdviceSlip(SamAdvice *a)
 {
-  const double zone  = SAM_STUCK_WIDTH * a->slip.stuck; /* before the last branch ends */
+  const double zone  = SAM_STUCK_WIDTH * a->slip.stuck; /* used before the last branch ends */
   const double width = zone > 0 ? zone : PetscMax((double)a->slip.width, NARROW);
 
   if (!a->slip.steps || a->slip.rolls) return;

@@ -1,15 +1,17 @@
 /*
-  How far a grid resolves steady rolling: loads and creepages that are found are of first order in the cells' size, and
-  each step is solved on half the cells, too (step/rolling.c). Their extrapolation less the number is about its error.
+  Estimates the error of a grid in steady rolling. The computed loads and creepages have errors of first order in the
+  cells' size, and each step is also solved on half the cells (step/steadystep.c). The extrapolation minus the number is
+  about its error.
 
-  Two other numbers of the last step are bound by the width of zones in cells. The maximum slip velocity is right to 6 %
-  where w, the area of slip over the length of the contact's edge, is more than 0.65 cells: the largest errors of 77
-  spheres of several loads and creepages against 384 cells were 2 % above w = 0.7, 7 % from 0.6 to 0.7, 11 % from 0.5,
-  21 % from 0.4 and 39 % below. The area of stick is too small by up to 0.9 over the cells across it.
+  The errors of two other numbers of the last step depend on the width of zones in cells. The maximum slip velocity is
+  accurate to 6 % if w, the area of slip over the length of the contact's edge, is more than 0.65 cells: on 77 spheres
+  with several loads and creepages, compared with 384 cells, the largest errors were 2 % above w = 0.7, 7 % from 0.6 to
+  0.7, 11 % from 0.5 to 0.6, 21 % from 0.4 to 0.5 and 39 % below. The area of stick is too small by up to 0.9 over the
+  cells across it.
 
-  The volume that passages wear is too large by about 0.065 w^-1.3 of it: of spheres with w of 0.4 to 5 cells, of which
-  a part of 17 or 28 % slipped, by 22 % at 0.42, 13 % at 0.56, 9 % at 0.68, 8 % at 0.85, 5.6 % at 0.9 and 1.1, 3.6 % at
-  1.4, 2.5 % at 1.7 and 1.8, against 144 cells.
+  The volume worn by passages is too large by about the part 0.065 w^-1.3. On spheres with w of 0.4 to 5 cells, of whose
+  contact 17 or 28 % slipped, compared with 144 cells, the error was 22 % at w = 0.42, 13 % at 0.56, 9 % at 0.68, 8 % at
+  0.85, 5.6 % at 0.9 and 1.1, 3.6 % at 1.4, 2.5 % at 1.7 and 1.8.
 */
 #include "adviceimpl.h"
 #include <petsam/private/lawimpl.h>
@@ -18,18 +20,18 @@
 
 #define ALLOWED 0.02 /* error, relative to the number */
 #define GOOD    0.015
-#define SMALL   0.1 /* part of a moment over the radius of contact that counts for a force, and so on */
+#define SMALL   0.1 /* part of a moment over the radius of contact that counts as a force, and so on */
 #define LEAST   1.25
-#define CLEAR   0.65  /* cells: w of a slip zone whose maximum velocity is right */
-#define WIDE    0.8   /* w on a grid that is advised for it */
+#define CLEAR   0.65  /* cells: w of a slip zone whose maximum velocity is accurate */
+#define WIDE    0.8   /* w on a grid that is advised for the velocity */
 #define WORN    0.065 /* error of the worn volume at w = 1, relative to it, */
 #define FALLS   1.3   /* and the power of w by which it falls */
-#define MOST    0.05  /* error of the worn volume that is not warned of, */
-#define ADVISED 0.04  /* and that on a grid that is advised for it */
-#define STUCK   18    /* cells across a stick zone whose area is wrong by less than 5 % */
+#define MOST    0.05  /* largest error of the worn volume without a warning, */
+#define ADVISED 0.04  /* and that on an advised grid */
+#define STUCK   18    /* cells across a stick zone whose area has an error below 5 % */
 
 /*
-  Computes the errors of T_x, T_y, M_z, or of the creepages that are theirs, relative to both forces and to the moment.
+  Computes the errors of T_x, T_y, M_z, or of the corresponding creepages, relative to both forces and to the moment.
 */
 static PetscErrorCode Compare(SamAdvice *a, PetscInt k, const SamStep *step, PetscBool load, double radius)
 {
@@ -85,7 +87,8 @@ static void Loads(SamAdvice *a)
                r->name, r->value, 100 * r->error, r->name, r->fine, better);
 }
 
-/* The volume that passages wear by Archard's law; that by the energy follows from loads and creepages. */
+/* Advises on the volume that passages wear by Archard's law; the volume by the energy follows from loads and
+   creepages. */
 static void Wear(SamAdvice *a)
 {
   const double width = (double)a->rolling.width, error = WORN * pow(width, -FALLS);
@@ -104,7 +107,7 @@ void SamAdviceRolling(SamAdvice *a)
   if (SamMotionOf(a->setup->elasticity)->continues || a->setup->grid->axes < 2) return;
   Loads(a);
   Wear(a);
-  if (a->slip.across < INFINITY && a->rolling.width < CLEAR) /* not all sticks */
+  if (a->slip.across < INFINITY && a->rolling.width < CLEAR) /* not all cells stick */
     SamAdvicePeaks(a, (double)a->rolling.width, WIDE / (double)a->rolling.width, "slip zone", "slip velocity");
   SamAdviceStick(a, STUCK);
 }

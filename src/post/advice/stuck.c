@@ -1,16 +1,16 @@
 /*
-  Slip zones narrower than a cell, in contacts all of whose cells stick.
+  Slip zones narrower than a cell, in contacts in which all cells stick.
 
-  Where all is stick, the shear grows beyond all bounds at the contact's edge, and the pressure vanishes there: at the
-  distance d from it q = K/sqrt(d) and mu p = A sqrt(d) in the last cell, of width h. So there is a slip zone whenever
+  If everything sticks, the shear grows without bound at the contact's edge, where the pressure vanishes: in the last
+  cell, of width h, q = K/sqrt(d) and mu p = A sqrt(d) at the distance d from the edge. So there is a slip zone whenever
   a tangential load changes. The means over the cell give
 
     s = mean q/mean mu p = 3 K/(A h),
 
   and the zone of Cattaneo is as wide as w = 2 K/A = 2/3 s h. Its energy per length of the edge is pi A^2 w^3/(12 E*),
   which with A = 1.5 mean mu p/sqrt(h) is 0.175 (mean mu p)^2 h^2 s^3/E*; the shear at its end is A sqrt(w). After a
-  load reversal the same holds for the change of q and twice the bound. Of loads that move the contact's edge the part
-  of the shear's change that is within mu times that of the pressure slips nowhere (Ciavarella 1998).
+  load reversal the same holds for the change of q and twice the bound. If loads move the contact's edge, the part of
+  the shear's change that is within mu times the change of the pressure causes no slip (Ciavarella 1998).
 
   Sources: C. Cattaneo, Rend. Accad. Naz. Lincei 27 (1938) 342, 434, 474; M. Ciavarella, Int. J. Solids Struct. 35
   (1998) 2349-2378.
@@ -23,19 +23,19 @@
 #include <petsam/private/body.h>
 #include <math.h>
 
-#define WORK    0.175 /* energy of the zone over b^2 h^2 s^3/E* per length of the edge, b = mean mu p, */
-#define HIGHEST 1.22  /* and the shear at its end over b sqrt(s): 1.5 sqrt(2/3) */
+#define WORK    0.175 /* energy of the zone per length of the edge, relative to b^2 h^2 s^3/E*, b = mean mu p, */
+#define HIGHEST 1.22  /* and the shear at its end, relative to b sqrt(s): 1.5 sqrt(2/3) */
 
-/* Sums over the contact's last cells: b^2 h^2 times the length of the edge, and that times s^3 of the step. */
+/* Sums over the contact's last cells: b^2 h^2 times the length of the edge, and the same times s^3 of the step */
 enum { EDGE, CUBES, SUMS };
 
-/* Fields now and before the step. */
+/* Fields now and before the step */
 typedef struct {
   SamHalo       p;
   const double *b, *q, *p0, *b0, *q0;
 } Seen;
 
-/* Widths of a cell across its faces without contact beyond, summed; beyond the grid's border is contact. */
+/* Returns the sum of a cell's widths across its faces without contact beyond; beyond the grid's border is contact. */
 static double FindOpen(const Seen *s, SamGrid grid, PetscInt i, PetscInt j)
 {
   double open = 0;
@@ -61,7 +61,7 @@ static void AddCells(const Seen *s, SamGrid grid, double sums[SUMS], double *bou
     if (!(edge > 0)) continue;
     *bound = PetscMax(*bound, b);
     sums[EDGE] += edge;
-    if (s->p0[k] <= 0) continue; /* contact is made there */
+    if (s->p0[k] <= 0) continue; /* contact is made in this cell */
     part = hypot(s->q[k] - s->q0[k], s->q[k + cells] - s->q0[k + cells]) - fabs(b - s->b0[k]);
     sums[CUBES] += part > 0 ? edge * pow(part / b, 3) : 0;
   }

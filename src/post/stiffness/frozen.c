@@ -1,5 +1,5 @@
 /*
-  A contact whose sets of cells are frozen: its linear response to tractions, and an approximate inverse of that.
+  A contact whose sets of cells are frozen: its linear response to tractions, and the approximate inverse of this.
 
   Unknown are the change of the pressure p on all cells in contact, and a shear x: the change of the shear itself where
   a cell sticks. Where it slips, by r, with the bound b(p, r) and e = q/|q|, the slip ds changes by d(ds) = C dq + B dp
@@ -23,19 +23,20 @@
 #include <math.h>
 
 /*
-  Slip in a step that is less than this part of what the largest bound moves a cell by is the solver's error, and the
-  cell sticks. Likewise an overlap that is less than this part of what the largest pressure moves a cell by is none.
+  Slip in a step below this part of the displacement of a cell by the largest bound is the solver's error, and the cell
+  counts as sticking. Likewise an overlap below this part of the displacement of a cell by the largest pressure counts
+  as none.
 */
 #define STILL 1e-5
 /*
-  A cell at the contact's edge that bears hardly any pressure slips far for its bound, so it resists a turn of the slip
-  more than by this many times its own influence: it counts as if by that many, as what it bears makes no difference.
+  Largest resistance of a cell to a turn of the slip, in units of its own influence. A cell at the contact's edge with
+  hardly any pressure slips far for its bound, and so would resist more; its traction is too small to matter.
 */
 #define STIFFEST 1e3
 
 /* ---- creation ---- */
 
-/* A contact's fields, or the part of them in a window; those from SLOPE on for continued motion only, else NULL. */
+/* Fields of a contact, or of the part in a window; those from SLOPE on only for continued motion, else NULL */
 enum { PRESSURE, BOUND, SHEAR, SLOPE, RATE, PATH, OVERLAP, FIELDS };
 
 static PetscErrorCode TakeField(SamWindow window, SamGrid grid, PetscInt components, Vec whole, Vec *field)
@@ -49,7 +50,8 @@ static PetscErrorCode TakeField(SamWindow window, SamGrid grid, PetscInt compone
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Computes the derivatives of the bound, the slip and the overlap of the tried step, for a motion that continues it. */
+/* Computes the derivatives of the bound, the slip and the overlap of the tried step, for a motion that continues the
+   step. */
 static PetscErrorCode CreateMotion(SamContact contact, const SamSolution *s, SamWindow window, SamGrid grid, Vec f[])
 {
   SamBoundAt       at    = {.control = &s->control, .pressure = s->pressure};
@@ -117,7 +119,7 @@ static PetscErrorCode FindCells(SamFrozen *f, const double p[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Sets all cells to stick and to bear pressure. */
+/* Makes all cells stick and bear pressure. */
 static void SetReversal(SamFrozen *f, const double bound[])
 {
   for (PetscInt m = 0; m < f->count; m++) {
@@ -127,7 +129,7 @@ static void SetReversal(SamFrozen *f, const double bound[])
   }
 }
 
-/* Determines which cells slip, by more than `still` (m), and their stiffness in slip. */
+/* Finds the cells that slip by more than `still` (m), and their stiffness in slip. */
 static void SetSlip(SamFrozen *f, double still, const double *const v[FIELDS])
 {
   const double *const q = v[SHEAR], *const r = v[SHEAR] + f->grid->cells;
@@ -146,7 +148,7 @@ static void SetSlip(SamFrozen *f, double still, const double *const v[FIELDS])
   }
 }
 
-/* Determines which cells yield in the step, by an overlap of more than `still` (m), and so keep their pressure. */
+/* Finds the cells that yield in the step by an overlap of more than `still` (m), and so keep their pressure. */
 static void SetYielding(SamFrozen *f, double still, const double overlap[])
 {
   for (PetscInt m = 0; m < f->count; m++)
@@ -176,7 +178,7 @@ static PetscErrorCode PackCells(SamFrozen *f, const Vec from[FIELDS])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Creates the fields that products are made with; zero outside of the contact. */
+/* Creates the fields for products; they are zero outside of the contact. */
 static PetscErrorCode CreateWork(SamFrozen *f)
 {
   PetscFunctionBegin;

@@ -1,13 +1,12 @@
 /*
   Generalised conjugate residuals, for the systems of the tangent stiffness.
 
-  Algorithm: a direction p is the preconditioned residual M r, less what makes its product A p normal to those before;
-  the step along it makes the residual shortest. So x is that of GMRES with preconditioning from the right, M may be
-  inexact, as it is in single precision, and no small system is solved. Starts anew after RESTART directions, and gives
-  up when these have not halved the residual.
-  Sums are the same on any number of ranks. Those of PETSc's KSP are not: a Vec takes other dot products and norms
-  through private headers only, and its sums of vectors come from BLAS, whose last bit depends on where a rank's part
-  begins.
+  Algorithm: a direction p is the preconditioned residual M r, from which the part is subtracted that is needed to make
+  its product A p orthogonal to the earlier products; the step along p minimises the residual. So x is that of GMRES
+  with preconditioning from the right, M may be inexact, as it is in single precision, and no small system is solved.
+  The method restarts after RESTART directions, and gives up if these have not halved the residual. Sums are the same on
+  any number of ranks. Sums of PETSc's KSP are not: the dot products and norms of a Vec can be replaced through private
+  headers only, and its sums of vectors come from BLAS, whose last bit depends on the beginning of a rank's part.
 
   Reference: Eisenstat, Elman and Schultz 1983, SIAM J. Numer. Anal. 20, 345.
 */
@@ -15,8 +14,8 @@
 #include <math.h>
 
 #define RESTART 30
-#define MOST    300 /* products of one column */
-#define GOAL    0.7 /* the part of the tolerance at which steps end; the true residual is a little larger */
+#define MOST    300 /* maximum number of products for one column */
+#define GOAL    0.7 /* part of the tolerance at which the steps end, as the true residual is a little larger */
 
 static PetscErrorCode Norm(const SamFrozen *f, double x[], double *norm)
 {
@@ -26,13 +25,13 @@ static PetscErrorCode Norm(const SamFrozen *f, double x[], double *norm)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A direction, and its product, a unit vector; the first in single precision, at half the memory. */
+/* A direction in single precision, at half the memory, and its product, a unit vector */
 typedef struct {
   float  *p;
   double *v;
 } Direction;
 
-/* Makes direction k from the residual r, with a product normal to those before. `z`: scratch. */
+/* Computes direction k from the residual r; its product is orthogonal to the earlier ones. `z`: scratch. */
 static PetscErrorCode NewDirection(SamFrozen *f, PetscInt k, const double r[], Direction d[], double z[], double *norm)
 {
   const PetscInt n = SamFrozenSize(f);
@@ -42,7 +41,7 @@ static PetscErrorCode NewDirection(SamFrozen *f, PetscInt k, const double r[], D
   for (PetscInt i = 0; i <= k; i++) v[i] = d[i].v;
   PetscCall(SamFrozenPrecondition(f, r, z));
   PetscCall(SamFrozenApply(f, z, v[k]));
-  for (PetscInt twice = 0; twice < 2; twice++) { /* against rounding */
+  for (PetscInt twice = 0; twice < 2; twice++) { /* repeated against rounding */
     PetscCall(SamFrozenDots(f, k, v, v[k], dots));
     for (PetscInt i = 0; i < k; i++)
       for (PetscInt m = 0; m < n; m++) {

@@ -15,7 +15,7 @@ PetscInt SamFrozenSize(const SamFrozen *f)
   return Components(f) * f->count;
 }
 
-/* Return the index of the pressure in a vector, and of the shear; -1 where the system has none. */
+/* Return the indices of the pressure and of the shear in a vector; -1 if the system has none. */
 static PetscInt PressureAt(const SamFrozen *f)
 {
   return f->part == SAM_FROZEN_TANGENTIAL ? -1 : 0;
@@ -31,7 +31,7 @@ static double Share(const SamFrozen *f, PetscInt m)
   return sqrt(fabs(f->rate[m]));
 }
 
-/* Q y, or with `all` P y; zero where there is no friction. */
+/* Computes Q y, or with `all` P y; zero in cells without friction. */
 static void Project(const SamFrozen *f, PetscBool all, double y[])
 {
   double *x = y, *z = y + f->count;
@@ -44,7 +44,7 @@ static void Project(const SamFrozen *f, PetscBool all, double y[])
   }
 }
 
-/* Returns the part along e of a packed shear where the bound follows the slip, else 0. */
+/* Returns the part along e of a packed shear if the bound depends on the slip, else 0. */
 static double Along(const SamFrozen *f, const double x[], PetscInt m)
 {
   return f->rate[m] != 0 ? x[m] * f->e[0][m] + x[m + f->count] * f->e[1][m] : 0;
@@ -186,7 +186,7 @@ PetscErrorCode SamFrozenApply(SamFrozen *f, const double x[], double Ax[])
 
   PetscFunctionBegin;
   if (p >= 0) PetscCall(Unpack(f, 1, x + p, f->p));
-  if (y >= 0) { /* Ax is room for the shear */
+  if (y >= 0) { /* Ax provides the memory for the shear */
     SamFrozenShear(f, p >= 0 ? x + p : NULL, x + y, Ax);
     PetscCall(Unpack(f, 2, Ax, f->q));
   }

@@ -2,10 +2,10 @@
   The tangent stiffness: a linear system for each rigid motion, and the loads of its solutions.
 
   A system with a symmetric matrix A gives its part of the stiffness as b_i.x_j + x_i.r_j, b being the columns, x the
-  solutions and r their residuals: symmetric, and wrong only by the square of the error of x. Without coupling the
-  matrices of pressure and shear are symmetric, and how slipping cells follow the pressure, the part that is not, comes
-  from the solutions for the shear, with no system of its own: it is the work of the shear b_p e dp on the slip of the
-  motion.
+  solutions and r their residuals. This part is symmetric, and its error is of second order in the error of x. Without
+  coupling the matrices of pressure and shear are symmetric. The unsymmetric part, by slipping cells whose shear follows
+  the pressure, needs no separate system: it is the work of the shear b_p e dp on the slip of the motion, which the
+  solutions for the shear give.
 */
 #include "stiffnessimpl.h"
 #include <petsam/private/motionimpl.h>
@@ -17,18 +17,18 @@
 
 enum { HALF = 3 }; /* normal or tangential motions */
 
-/* The solutions of some systems, and what the stiffness is made of; arrays of packed fields. */
+/* The solutions of some systems, and the data of the stiffness, as arrays of packed fields */
 typedef struct {
   SamFrozen f;
-  PetscInt  count; /* of systems */
+  PetscInt  count; /* number of systems */
   double   *b[SAM_COMPONENTS], *x[SAM_COMPONENTS];
   double   *slip[HALF];                        /* of the tangential motions, without coupling; NULL: not wanted */
-  double    k[SAM_COMPONENTS][SAM_COMPONENTS]; /* stiffness in the basis phi of the grid's frames, normal ones first */
+  double    k[SAM_COMPONENTS][SAM_COMPONENTS]; /* stiffness in the basis phi of the frames, normal first */
   PetscReal error;
 } Systems;
 
 /*
-  Adds the part of the stiffness that symmetric systems give: of motion j with those before it, r being its residual.
+  Adds the part of the stiffness from symmetric systems, for motion j and the motions before it; r is its residual.
 */
 static PetscErrorCode AddSymmetric(Systems *s, PetscInt first, PetscInt j, const double r[])
 {
@@ -41,7 +41,7 @@ static PetscErrorCode AddSymmetric(Systems *s, PetscInt first, PetscInt j, const
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Adds the loads of a motion's solution, where the matrix is not symmetric. */
+/* Adds the loads of a motion's solution if the matrix is not symmetric. */
 static PetscErrorCode AddLoads(Systems *s, PetscInt j)
 {
   const PetscInt m = s->f.count;
@@ -64,7 +64,7 @@ static PetscErrorCode AddLoads(Systems *s, PetscInt j)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Solves `count` systems of a part, for the motions from `first` on, and adds what they give. */
+/* Solves `count` systems of a part, for the motions from `first` on, and adds their results. */
 static PetscErrorCode Solve(Systems *s, SamFrozenPart part, PetscInt first, PetscInt count, PetscBool symmetric)
 {
   double *r;
@@ -102,7 +102,8 @@ static PetscErrorCode Free(Systems *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Without coupling: the pressure, then the shear, and how the one changes with the other. */
+/* Computes the stiffness without coupling: the pressure, then the shear, and the change of the shear with the
+   pressure. */
 static PetscErrorCode ComputeUncoupled(Systems *s)
 {
   double *follow[HALF];
@@ -125,7 +126,7 @@ static PetscErrorCode ComputeUncoupled(Systems *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The combination of a grid's phi that each rigid motion is: to[k][c] of phi k and component c. */
+/* Sets the combination of the grid's phi for each rigid motion: to[k][c] of phi k and component c. */
 static void SetMotions(SamGrid grid, double to[SAM_COMPONENTS][SAM_COMPONENTS])
 {
   for (PetscInt kind = 0; kind < 2; kind++)
@@ -137,7 +138,7 @@ static void SetMotions(SamGrid grid, double to[SAM_COMPONENTS][SAM_COMPONENTS])
     }
 }
 
-/* Computes the stiffness of the six components, NaN of rotations that the bodies do not have. */
+/* Computes the stiffness of the six components; NaN for rotations that the bodies do not have. */
 static void Transform(const Systems *s, const PetscBool rotations[3], SamStiffness *stiffness)
 {
   double       to[SAM_COMPONENTS][SAM_COMPONENTS] = {{0}};
@@ -166,7 +167,7 @@ static PetscErrorCode RefuseYield(SamContact contact)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The part of the grid that the elasticity uses may be another one afterwards: each try chooses its own. */
+/* Afterwards the elasticity may use another part of the grid: each try chooses its own part. */
 PetscErrorCode SamStiffnessCompute(SamContact contact, SamStiffnessDirection direction, SamStiffness *stiffness)
 {
   Systems s = {.error = 0};
@@ -192,7 +193,7 @@ PetscErrorCode SamStiffnessCompute(SamContact contact, SamStiffnessDirection dir
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- among the numbers of a step ---- */
+/* ---- numbers of a step ---- */
 
 static const SamStateNumber numbers[SAM_STIFFNESS_DIRECTIONS] = {
   {"stiffness", "N/m, N/rad, N, N m/rad", "d(loads)/d(rigid-body displacements) for continued loading",

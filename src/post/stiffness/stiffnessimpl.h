@@ -11,24 +11,24 @@
 typedef enum { SAM_FROZEN_NORMAL, SAM_FROZEN_TANGENTIAL, SAM_FROZEN_BOTH } SamFrozenPart;
 
 /*
-  SamFrozen - the cells in contact, packed row after row, and how they respond. Fields are packed arrays of up to three
-  components, each of `count` values: dp and the unknown of the shear, of which SamFrozenShear() makes dq.
+  SamFrozen - the cells in contact, packed row after row, and their linear response. Fields are packed arrays of up to
+  three components, each of `count` values: dp and the unknown of the shear, from which SamFrozenShear() computes dq.
 */
 typedef struct {
-  SamElasticity elasticity; /* of a part of the grid that holds the contact, or of all of it */
+  SamElasticity elasticity; /* of a part of the grid that contains the contact, or of the whole grid */
   SamGrid       grid;
   SamFrame      normal, tangential; /* the frames of that grid */
-  PetscBool     coupled;            /* pressure and shear act on each other */
-  PetscInt      count;              /* of this rank's cells in contact */
-  PetscInt     *start;              /* rows + 1: where the cells of each row begin among them */
-  PetscInt     *cell;               /* index of each in this rank's part of the grid */
-  double       *e[2];               /* e where a cell slips, 0 where it sticks */
-  double       *follow;             /* derivative of the bound by the pressure where a cell slips, 0 where it sticks */
-  double       *rate;               /* the same by the length of the slip, times the influence self[1]; 0: none */
-  double       *stiff;              /* |ds|/(mu p), m/Pa: what resists a turn of the slip; 0 where a cell sticks */
-  double       *free;               /* 1; 0 where there is no friction and thus no shear */
-  double       *bears;              /* 1; 0 where the surfaces yield, so that the pressure stays */
-  double        self[2];            /* influence of a cell on itself, normal and tangential, m/Pa */
+  PetscBool     coupled;            /* pressure and shear are coupled */
+  PetscInt      count;              /* number of this rank's cells in contact */
+  PetscInt     *start;              /* rows + 1 entries: first packed cell of each row */
+  PetscInt     *cell;               /* index of each cell in this rank's part of the grid */
+  double       *e[2];               /* e in cells that slip, 0 in cells that stick */
+  double       *follow;  /* derivative of the bound by the pressure in cells that slip, 0 in cells that stick */
+  double       *rate;    /* the same by the length of the slip, times the influence self[1]; 0: none */
+  double       *stiff;   /* |ds|/(mu p), m/Pa, the resistance to a turn of the slip; 0 in cells that stick */
+  double       *free;    /* 1; 0 in cells without friction, and so without shear */
+  double       *bears;   /* 1; 0 in cells that yield, whose pressure stays */
+  double        self[2]; /* influence of a cell on itself, normal and tangential, m/Pa */
   Vec           p, q, u_z, u_t, w_z, w_t;
   float        *r, *z; /* of two components */
   /* the system that is solved */
@@ -36,28 +36,32 @@ typedef struct {
   PetscInt      applies, preconditions;
 } SamFrozen;
 
-/* SamFrozenCreate, SamFrozenDestroy - of a contact; errors as those of SamStiffnessCompute(). Collective. */
+/* SamFrozenCreate, SamFrozenDestroy - for a contact; errors as those of SamStiffnessCompute(). Collective. */
 PETSC_INTERN PetscErrorCode SamFrozenCreate(SamContact contact, SamStiffnessDirection direction, SamFrozen *frozen);
 PETSC_INTERN PetscErrorCode SamFrozenDestroy(SamFrozen *frozen);
-/* SamFrozenSize - the number of a field's values on this rank in the system that is solved. Not collective. */
+/* SamFrozenSize - returns the number of a field's values on this rank in the system that is solved. Not collective. */
 PETSC_INTERN PetscInt SamFrozenSize(const SamFrozen *frozen);
-/* SamFrozenMotion - the unit motion along one of the six phi, packed: normal (one component) or tangential (two). */
+/* SamFrozenMotion - gets the unit motion along one of the six phi, packed: normal (one component) or tangential
+   (two). */
 PETSC_INTERN void SamFrozenMotion(const SamFrozen *frozen, PetscInt k, double values[]);
-/* SamFrozenColumn - the right-hand side of a unit motion along one of the six phi, normal ones first. */
+/* SamFrozenColumn - computes the right-hand side of a unit motion along one of the six phi, normal ones first. */
 PETSC_INTERN void SamFrozenColumn(const SamFrozen *frozen, PetscInt k, double column[]);
-/* SamFrozenApply - Ax = the system's matrix times x; leaves the displacements by x in u_z and u_t. Collective. */
+/* SamFrozenApply - computes Ax, the system's matrix times x; sets u_z and u_t to the displacements by x. Collective. */
 PETSC_INTERN PetscErrorCode SamFrozenApply(SamFrozen *frozen, const double x[], double Ax[]);
-/* SamFrozenPrecondition - z = approximate inverse of the matrix times r. Collective. */
+/* SamFrozenPrecondition - computes z, the approximate inverse of the matrix times r. Collective. */
 PETSC_INTERN PetscErrorCode SamFrozenPrecondition(SamFrozen *frozen, const double r[], double z[]);
-/* SamFrozenShear - the change q of the shear by those of the pressure and of x, NULL: 0; packed. Not collective. */
+/* SamFrozenShear - computes the change q of the shear from those of the pressure and of x, NULL: 0; packed. Not
+   collective. */
 PETSC_INTERN void SamFrozenShear(const SamFrozen *frozen, const double p[], const double x[], double q[]);
-/* SamFrozenTakeSlip - d(ds) = C dq - t after a product with dq, t being the motion along phi k; packed. Collective. */
+/* SamFrozenTakeSlip - computes d(ds) = C dq - t after a product with dq, t being the motion along phi k; packed.
+   Collective. */
 PETSC_INTERN PetscErrorCode SamFrozenTakeSlip(const SamFrozen *frozen, PetscInt k, double slip[]);
-/* SamFrozenDots - the products of n fields with one more, the same on any number of ranks. Collective. */
+/* SamFrozenDots - computes the products of n fields with one more, the same on any number of ranks. Collective. */
 PETSC_INTERN PetscErrorCode SamFrozenDots(const SamFrozen *frozen, PetscInt n, double *const fields[],
                                           const double field[], double dots[]);
 
-/* Relative residual of a linear system. Symmetric parts of the stiffness are then accurate to 1e-8, others to 1e-5. */
+/* Relative residual of a linear system, for which symmetric parts of the stiffness are accurate to 1e-8, others to
+   1e-5 */
 #define SAM_STIFFNESS_RTOL 1e-4
 /*
   SamKrylovSolve - solves A x = b by generalised conjugate residuals; returns the residual b - A x, too. `error` is the

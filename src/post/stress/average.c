@@ -1,14 +1,14 @@
 /*
-  Means of the stress over a length, of which fatigue parameters are computed: they do not depend on the grid, where the
-  largest value of a point does, and they allow for the size effect (critical distances).
+  Means of the stress over a length, from which fatigue parameters are computed. Unlike the largest value at a point,
+  they do not depend on the grid, and they account for the size effect (critical distances).
 
   Below each cell of the surface, L being the length:
     point  the stress at the depth L/2
     line   (1/2L) times its integral from 0 to 2L
     area   (2/pi L^2) times its integral over the half disc of radius L in the plane of the line of cells and z
 
-  The depths are Gauss' points of t, z = Z t^2, as stresses vary most near the surface. Across, a half disc has the mean
-  over its chord, of cells and parts of them; beyond the grid nothing counts.
+  The depths are Gauss points in t, z = Z t^2, as stresses vary most near the surface. At each depth a half disc uses
+  the mean over its chord, by cells and parts of cells; beyond the grid the stress is zero.
 */
 #include "evaluationimpl.h"
 #include <petsam/private/body.h>
@@ -17,7 +17,7 @@
 #define DEPTHS   16
 #define SHORTEST 1e-3 /* length of a mean, in cells */
 
-/* Checks that the mean is of one material. */
+/* Checks that the mean is over one material. */
 static PetscErrorCode CheckMaterial(SamEvaluation e)
 {
   const PetscReal deepest = e->depth[e->depths - 1], bottom = SamBodyTop(SamEvaluationBody(e), 1);
@@ -59,7 +59,7 @@ PetscErrorCode SamAverageSetUp(SamEvaluation e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Returns the integral of a line up to x cells from its beginning; sums[i]: of its first i cells. */
+/* Returns the integral of a line up to x cells from its beginning; sums[i]: integral over its first i cells. */
 static double IntegralTo(const double sums[], PetscInt length, double x)
 {
   const double   inside = PetscMin(PetscMax(x, 0), (double)length);

@@ -1,9 +1,9 @@
 /*
-  The smallest ball about points.
+  The smallest ball that contains given points.
 
   Algorithm (Welzl 1991; Gaertner 1999): the farthest point outside of the present ball must lie on the boundary of a
   larger one. The smallest ball with that point on its boundary, about the points that determined the ball before, is
-  found by recursion: each point outside moves onto the boundary in its turn, and to the front of the list. The ball
+  found by recursion: each point outside is in turn put on the boundary, and moved to the front of the list. The ball
   through the boundary's points is updated by one point at a time. It grows in each round, so there are few rounds.
 
   References: Welzl 1991, Smallest enclosing disks (balls and ellipsoids), LNCS 555; Gaertner 1999, ESA, LNCS 1643.
@@ -13,18 +13,18 @@
 
 enum { DIM = SAM_BALL_DIMENSION, MOST_ROUNDS = 1000 };
 
-/* A point that would add less than this part to the square of the ball's size lies in the plane of the boundary. */
+/* A point lies in the plane of the boundary if it adds less than this part to the square of the ball's size. */
 #define FLAT 1e-24
-/* A point that is outside by less than this part of the square of the radius is not. */
+/* A point counts as inside if the square of its distance exceeds that of the radius by less than this part. */
 #define INSIDE 1e-14
 
 typedef struct {
   const double *points;
   PetscInt      dimension;
-  PetscInt     *order;   /* numbers of the points; those of the boundary of the last balls come first */
+  PetscInt     *order;   /* indices of the points; points on the boundary of the last balls come first */
   PetscInt      support; /* number of points on the boundary */
   double        scale;   /* square of the size of the points' cloud */
-  /* the boundary's points so far: directions, twice their squares, and the balls through the first ones */
+  /* the boundary's points so far: directions, twice their squares, and the balls through the first of them */
   PetscInt count;
   double   first[DIM], v[DIM + 1][DIM], z[DIM + 1];
   double   center[DIM + 1][DIM], square[DIM + 1];
@@ -50,7 +50,7 @@ static PetscBool IsOutside(const Ball *b, const double p[])
   return b->best_square < 0 || Excess(b, p, b->best, b->best_square) > INSIDE * b->scale;
 }
 
-/* The ball through the boundary's points and p becomes the present one, unless p lies in their plane. */
+/* Makes the ball through the boundary's points and p the present one, unless p lies in their plane. */
 static PetscBool Push(Ball *b, const double p[])
 {
   const PetscInt m = b->count, n = b->dimension;
@@ -86,7 +86,7 @@ static void MoveToFront(Ball *b, PetscInt place)
   b->order[0] = number;
 }
 
-/* Finds the smallest ball about the first n points of the list that has the boundary's points on it. */
+/* Finds the smallest ball that contains the first n points of the list and has the boundary's points on its surface. */
 static void Enclose(Ball *b, PetscInt n)
 {
   b->support = 0;
@@ -100,7 +100,7 @@ static void Enclose(Ball *b, PetscInt n)
     }
 }
 
-/* Returns the place of the point that lies farthest outside, or -1. */
+/* Returns the place of the point farthest outside, or -1. */
 static PetscInt Farthest(const Ball *b, PetscInt n)
 {
   PetscInt place = -1;
@@ -116,7 +116,7 @@ static PetscInt Farthest(const Ball *b, PetscInt n)
   return place;
 }
 
-/* Order of the points of a call without an allocation. */
+/* Number of points up to which a call needs no allocation */
 #define FEW 512
 
 double SamSmallestBall(PetscInt dimension, PetscInt n, const double points[], double center[])

@@ -3,10 +3,10 @@
 
 /* Largest difference between the ends of a closed cycle, relative to the largest traction */
 #define CLOSED 0.01
-/* The largest difference between the ends of a cycle that does not yet repeat itself. */
+/* Largest difference between the ends of a cycle that does not yet repeat itself, likewise */
 #define AGAIN 0.05
 
-/* The tractions of the last step, of 3 components, and room for those of another one. */
+/* The tractions of the last step, of 3 components, and memory for those of another step */
 typedef struct {
   double *last, *other;
 } Ends;
@@ -17,7 +17,8 @@ static PetscErrorCode NumberOf(SamEvaluation e, PetscInt step, SamStepNumber whi
 }
 
 /*
-  Finds the largest difference and size, of the pressure and of the shear, of a step and the last one; before all: zero.
+  Finds the largest difference and the largest size, of the pressure and of the shear, for a step and the last step;
+  tractions before the first step are zero.
 */
 static PetscErrorCode CompareWithLast(SamEvaluation e, PetscInt step, const Ends *ends, PetscReal most[4])
 {
@@ -40,7 +41,7 @@ static PetscErrorCode CompareWithLast(SamEvaluation e, PetscInt step, const Ends
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* In a life: whether the steps are of one computed cycle; the others are of other surfaces. */
+/* In a life, checks that the steps are of one computed cycle; other cycles have other surfaces. */
 static PetscErrorCode CheckLife(SamEvaluation e, PetscBool *life)
 {
   double cycle[2];
@@ -57,7 +58,8 @@ static PetscErrorCode CheckLife(SamEvaluation e, PetscBool *life)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The cycle closes if the step before the first, or no load before step 1, has the tractions of the last. */
+/* Checks that the cycle closes: the step before the first one, or zero load before step 1, must have the last
+   tractions. */
 static PetscErrorCode CheckEnds(SamEvaluation e, const Ends *ends)
 {
   PetscReal most[4];
@@ -77,7 +79,7 @@ static PetscErrorCode CheckEnds(SamEvaluation e, const Ends *ends)
       (void)snprintf(names[1], sizeof(names[1]), "none before step 1");
   }
   PetscCall(CompareWithLast(e, -1, ends, most));
-  f = most[2] * most[1] > most[0] * most[3]; /* the larger of both parts */
+  f = most[2] * most[1] > most[0] * most[3]; /* the larger ratio of both */
   if (most[2 * f] <= CLOSED * most[2 * f + 1]) PetscFunctionReturn(PETSC_SUCCESS);
   (void)snprintf(text, sizeof(text),
                  "not a closed cycle, or not a steady one: the %s of %s differs from %s by up to %.0f %% of the "
@@ -87,7 +89,7 @@ static PetscErrorCode CheckEnds(SamEvaluation e, const Ends *ends)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Says that the cycle ends with chosen step k already. */
+/* Warns that the cycle already ends with chosen step k. */
 static PetscErrorCode WarnOfMore(SamEvaluation e, PetscInt k)
 {
   double step[3];
@@ -107,16 +109,15 @@ static PetscErrorCode WarnOfMore(SamEvaluation e, PetscInt k)
 }
 
 /*
-  Finds out whether the steps contain more than one cycle, or a lead-in before it: a step equals the last one, and
-  different steps lie between the two and before them. So steps near the cycle's start and steps of held loads do not
-  count.
+  Finds out if the steps contain more than one cycle, or a lead-in before it: then a step equals the last one, with
+  different steps between the two and before them. So steps near the cycle's start and steps of held loads are ignored.
 */
 static PetscErrorCode CheckOnce(SamEvaluation e, const Ends *ends, PetscBool *more)
 {
   const PetscInt last      = e->source.steps - 1;
   PetscReal      least     = AGAIN;
   PetscInt       nearest   = -1;
-  PetscBool      has_begun = PETSC_FALSE; /* a step that differs has been seen */
+  PetscBool      has_begun = PETSC_FALSE; /* a different step has been found */
 
   PetscFunctionBegin;
   for (PetscInt k = last - 1; k >= 0; k--) {
@@ -153,7 +154,7 @@ PetscErrorCode SamCycleCheckClosed(SamEvaluation e)
   PetscCall(SamEvaluationReadTractions(e, e->source.steps - 1, PETSC_TRUE,
                                        (double *[]){ends.last, ends.last + cells, ends.last + 2 * cells}));
   PetscCall(NumberOf(e, 0, SAM_STEP_NUMBER, &number));
-  if (number > 0) PetscCall(CheckOnce(e, &ends, &more)); /* of steps that have been chosen by number */
+  if (number > 0) PetscCall(CheckOnce(e, &ends, &more)); /* steps chosen by number */
   if (!more) PetscCall(CheckEnds(e, &ends));
   PetscCall(PetscFree2(ends.last, ends.other));
   PetscFunctionReturn(PETSC_SUCCESS);

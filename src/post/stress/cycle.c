@@ -1,19 +1,20 @@
 /*
-  Fatigue parameters of the chosen steps, taken as one closed cycle, from the stresses of all of them; or of points that
-  pass along x under one step, in whose time x stands: a row's stresses, and none far away, are the cycle of its points.
+  Fatigue parameters from the stresses of all chosen steps, which are one closed cycle; or, for points that travel along
+  x under a single step, from the stresses of a row: these, with zero stress far away, are the cycle of the row's
+  points.
 */
 #include "evaluationimpl.h"
 #include <petsam/private/body.h>
 
-#define BLOCK 256 /* points between two looks at the clock */
-#define MOST  4   /* components of a quantity: the value, and the normal of its plane */
+#define BLOCK 256 /* number of points between two checks of the clock */
+#define MOST  4   /* components of a quantity: its value, and the normal of its plane */
 
-/* The states at one point, and what is made of them. */
+/* The states at one point, and the arrays that are computed from them */
 typedef struct {
   SamEvaluation    e;
   const SamPoints *points;
-  PetscInt         surface; /* points on the surface, the first ones */
-  double          *slips;   /* of these: (states, 2, surface) */
+  PetscInt         surface; /* number of points on the surface, which come first */
+  double          *slips;   /* of the surface points: (states, 2, surface) */
   double          *stress, *slip;
   SamFatigueCycle  at;
 } Cycle;
@@ -33,14 +34,14 @@ static PetscErrorCode GatherLine(SamEvaluation e, const double field[], PetscInt
 
     if (j >= 0 && j < g->rows) line[k] = field[j * g->nx + i];
   }
-  /* of each value all terms but one are zero */
+  /* Only one term of each value is not zero. */
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, line, (PetscMPIInt)length, MPI_DOUBLE, MPI_SUM, g->comm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /*
   Reads the slip on the surface of each state since the one before, in the order of Cycle.slips; `length`: cells of a
-  map or of the line. Sums of slip are kept at the cells, under which other points of body 2 lay before.
+  map or of the line. Sums of slip are stored at the cells, under which other points of body 2 were before.
 */
 static PetscErrorCode ReadSlip(SamEvaluation e, PetscInt length, double slip[])
 {
@@ -84,7 +85,8 @@ static void GatherStates(const Cycle *c, PetscInt point)
     c->slip[k % 2 * states + k / 2] = c->slips[k * (ptrdiff_t)c->surface + point];
 }
 
-/* Gathers the stresses of a row of cells, whose first point is `point`, and those far away: a point passes all. */
+/* Gathers the stress path of a point that travels along its row, whose first point is `point`: the row's stresses and
+   those far away. */
 static void GatherPassing(const Cycle *c, PetscInt point)
 {
   const PetscInt  states = c->at.states, nx = states - 1, n = c->points->count;
@@ -93,7 +95,7 @@ static void GatherPassing(const Cycle *c, PetscInt point)
 
   SamStressAddUniform(c->e, 0, &there, far);
   for (PetscInt k = 0; k < SAM_STRESS_COMPONENTS; k++) {
-    for (PetscInt i = 0; i < nx; i++) /* no parameter depends on which end comes first */
+    for (PetscInt i = 0; i < nx; i++) /* no parameter depends on the direction along the row */
       c->stress[k * states + i] = c->points->stress[k * (ptrdiff_t)n + point + i];
     c->stress[k * states + nx] = far[k];
   }
@@ -118,7 +120,7 @@ static void ComputePoint(Cycle *c, PetscInt quantity, PetscInt i, double values[
   SamLargestOfCycle(e, quantity, c->points, i, value[0]);
 }
 
-/* Computes the quantity at all points; points of one row that pass have the same stress path. */
+/* Computes the quantity at all points; points that travel along the same row have the same stress path. */
 static PetscErrorCode ComputeAll(Cycle *c, PetscInt quantity, double values[], double done, double share)
 {
   const PetscInt n = c->points->count, length = c->e->passing ? c->e->grid->nx : 1;
@@ -140,7 +142,7 @@ static PetscErrorCode Create(SamEvaluation e, const SamPoints *p, Cycle *c)
   const PetscInt states = e->passing ? e->grid->nx + 1 : e->source.steps;
 
   PetscFunctionBegin;
-  /* the surface is the first depth, where Ruiz's parameters are asked for */
+  /* Ruiz's parameters need the first depth to be the surface. */
   *c = (Cycle){.e = e, .points = p, .surface = p->depth == 0 && p->depths > 0 ? length : 0};
   if (SamQuantityWanted(e, SamFatigueRuiz) && (e->section || p->depth == 0)) { /* collective */
     PetscCall(SamAllocate(sizeof(double) * (size_t)(2 * states) * (size_t)length, &c->slips));

@@ -1,9 +1,9 @@
 /*
   The depths of an evaluation: in m, in half widths of the contact, and at interfaces of materials.
 
-  The half width of a contact is the smaller half axis of the ellipse that has the area of the contact, to a part of a
-  cell, and the axes' ratio of the second moments of its cells; of a plane contact half its length. It is that of the
-  step with the largest area.
+  The half width of a contact is the smaller half axis of an ellipse with the area of the contact, accurate to a part of
+  a cell, and the ratio of axes from the second moments of its cells. In plane strain it is half the contact's length.
+  It is taken from the step with the largest area.
 */
 #include "evaluationimpl.h"
 #include <petsam/private/body.h>
@@ -12,10 +12,10 @@
 
 #define TEXT        4096 /* characters of a list */
 #define MOST_DEPTHS 100000
-/* The least depth, in cells: at smaller ones the kernels equal those of the surface but for rounding. */
+/* The least depth, in cells; at smaller depths the kernels equal those of the surface but for rounding */
 #define LEAST_DEPTH 1e-6
-#define MOST_DEPTH  1e6  /* widths of the grid */
-#define ROUNDING    1e-9 /* of a depth, within which it is that of an interface */
+#define MOST_DEPTH  1e6  /* in widths of the grid */
+#define ROUNDING    1e-9 /* relative difference below which a depth is that of an interface */
 
 /* ---- reading ---- */
 
@@ -48,7 +48,8 @@ static PetscBool ReadWhole(const char text[], PetscInt *value)
   return end != text && *end == '\0' && number == (long)*value;
 }
 
-/* The side of an interface that a sign after a depth says, which is taken off: 2e-6- above, 2e-6+ below; 0: none. */
+/* Removes the sign after a depth and returns the side of the interface: 2e-6- is above (-1), 2e-6+ below (1); 0:
+   none. */
 static int ReadSide(char text[])
 {
   const size_t length = strlen(text);
@@ -63,7 +64,7 @@ static int ReadSide(char text[])
   "expected depths separated by commas, or first:last:number, first < last, in m, mm, um, nm or as 0.5a in half " \
   "widths"
 
-/* Reads a depth in m, or behind a number `a`, in half widths of the contact (m). */
+/* Reads a depth in m, or, if followed by `a`, in half widths of the contact (m). */
 static PetscBool ReadDepth(char text[], PetscReal half, double *value)
 {
   const size_t    length   = strlen(text);
@@ -95,7 +96,7 @@ PetscBool SamDepthsAreRelative(const char depths[])
   return PETSC_FALSE;
 }
 
-/* first:last:number */
+/* Reads first:last:number. */
 static PetscErrorCode ReadRange(MPI_Comm comm, const char whole[], char text[], PetscReal half, PetscInt *n,
                                 PetscReal **depths, int **sides)
 {
@@ -177,7 +178,7 @@ static PetscErrorCode RatioOfAxes(SamEvaluation e, PetscInt step, double *ratio)
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(g->cells + 1, &pressure));
   PetscCall((*e->source.read)(e->source.context, step, SAM_STEP_PRESSURE, pressure));
-  for (PetscInt k = 0; k < g->cells; k++) { /* whole numbers, so sums are the same on any number of ranks */
+  for (PetscInt k = 0; k < g->cells; k++) { /* integers, so that sums are the same on any number of ranks */
     const double i = (double)(k % g->nx - g->nx / 2), j = (double)(g->row_start + k / g->nx - g->ny / 2);
     const double part[6] = {1, i, j, i * i, i * j, j * j};
 
@@ -225,7 +226,7 @@ SamBody SamEvaluationBody(SamEvaluation e)
   return SamPairBody(SamElasticityGetPair(e->source.bodies), e->body - 1);
 }
 
-/* Returns the number of the material whose bottom is at a depth, but for rounding; that of the last one: none. */
+/* Returns the material whose bottom is at a depth, but for rounding; the last material if there is none. */
 static PetscInt InterfaceAt(SamBody body, PetscReal depth)
 {
   PetscInt n = 0;
@@ -234,12 +235,12 @@ static PetscInt InterfaceAt(SamBody body, PetscReal depth)
   return n;
 }
 
-/* At an interface the depth itself stands for the side above, the next number for that below; none is said: both. */
+/* Splits depths at interfaces without a side: the depth itself becomes the side above, the next one the side below. */
 static PetscErrorCode SplitInterfaces(SamEvaluation e)
 {
   const SamBody   body = SamEvaluationBody(e);
   const PetscInt  last = SamBodyCount(body) - 1;
-  const PetscReal base = isinf(SamBodySubstrate(body)->young) ? SamBodyTop(body, last) : INFINITY; /* is rigid */
+  const PetscReal base = isinf(SamBodySubstrate(body)->young) ? SamBodyTop(body, last) : INFINITY; /* it is rigid */
   PetscReal      *depth;
   int            *side;
   PetscInt        n = 0;

@@ -2,7 +2,7 @@
 #include "evaluationimpl.h"
 #include <petsam/private/edges.h>
 
-/* The least share of the edge that must be reconstructed: the maximum may lie on the rest. */
+/* Least share of the edge that must be reconstructed, as the maximum may lie on the rest */
 #define FOUND 0.95
 
 enum { XX, YY, XY, PLANE = 3 };
@@ -30,7 +30,7 @@ PetscErrorCode SamLargestAtEdge(SamEvaluation e, PetscInt step, Vec field)
 {
   const SamGrid          g                          = e->grid;
   const PetscReal *const slide                      = SamPointsSlide(e, step);
-  double                 far[SAM_STRESS_COMPONENTS] = {0}; /* what is there without tractions */
+  double                 far[SAM_STRESS_COMPONENTS] = {0}; /* stress without tractions */
   SamEdge                edge;
   Vec                    square;
   double                *stress;

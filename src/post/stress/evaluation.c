@@ -48,7 +48,7 @@ static PetscErrorCode FindLine(SamEvaluation e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Creates the stresses of the body that is asked for. */
+/* Creates the stresses of the requested body. */
 static PetscErrorCode CreateStress(SamEvaluation e)
 {
   const SamElasticityType type = SamElasticityGetType(e->source.bodies);
@@ -62,7 +62,7 @@ static PetscErrorCode CreateStress(SamEvaluation e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Checks the number of steps: a cycle needs several, a point that passes one. */
+/* Checks the number of steps: a cycle needs several, a travelling point one. */
 static PetscErrorCode CheckCycle(SamEvaluation e)
 {
   const PetscBool ruiz = SamQuantityWanted(e, SamFatigueRuiz);
@@ -88,7 +88,7 @@ static PetscErrorCode CheckCycle(SamEvaluation e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Constants of fatigue are the same everywhere, or each elastic material's. */
+/* Checks the constants of fatigue: one for all materials, or one for each elastic material. */
 static PetscErrorCode CheckConstants(SamEvaluation e)
 {
   const SamBody  body      = SamEvaluationBody(e);
@@ -169,7 +169,7 @@ PetscErrorCode SamEvaluationCompute(SamEvaluation e, SamEvaluationWrite write, v
 {
   PetscFunctionBegin;
   PetscCall(SamLargestClear(e));
-  if (e->cycle && e->source.steps > 1) PetscCall(SamCycleCheckClosed(e)); /* one: of points that pass */
+  if (e->cycle && e->source.steps > 1) PetscCall(SamCycleCheckClosed(e)); /* one step: travelling points */
   e->write         = write;
   e->write_context = context;
   PetscCall(e->section ? SamLinesCompute(e) : SamMapsCompute(e));

@@ -8,13 +8,13 @@
 #include <petsam/private/stressimpl.h>
 
 /*
-  SamPoints - the points of which a rank has the stresses: of a map its rows at one depth, of a section its depths. The
-  stress of step s is stress + s * SAM_STRESS_COMPONENTS * count, component after component.
+  SamPoints - the points whose stresses a rank has: its rows of a map at one depth, or its depths of a section. The
+  stress of step s begins at stress + s * SAM_STRESS_COMPONENTS * count, component after component.
 */
 typedef struct {
-  PetscInt count;         /* points */
+  PetscInt count;         /* number of points */
   PetscInt depth, depths; /* first depth, number of depths */
-  PetscInt plane;         /* points at a depth */
+  PetscInt plane;         /* number of points at a depth */
   double  *stress;        /* Pa */
 } SamPoints;
 
@@ -24,11 +24,11 @@ typedef struct {
 typedef struct {
   const char *name, *help, *unit;
   SamRange    range;
-  size_t      place; /* in SamFatigueConstants */
+  size_t      place; /* offset in SamFatigueConstants */
 } SamQuantityConstant;
 
 /*
-  SamQuantity - a row of the table of all quantities, of a step or of the cycle, each with one function.
+  SamQuantity - a row of the table of all quantities, of a step or of the cycle; each has one function:
     name       in -quantities, or -fatigue
     part       its datasets, one for each component
     of_step    computes `arrays` arrays from the stresses s at points; NULL: the stress itself. A row with the same
@@ -56,12 +56,12 @@ PETSC_INTERN const SamQuantity SamQuantityTable[]; /* ends with a name of NULL *
 PETSC_INTERN PetscBool SamQuantityWanted(SamEvaluation e, SamFatigueParameter *of_cycle);
 /* SamQuantityNames - writes the names of the quantities of a step, or of the cycle, with commas. Not collective. */
 PETSC_INTERN void SamQuantityNames(PetscBool of_cycle, char text[], size_t size);
-/* SamQuantitiesList - fills the list of datasets of the layout with those that are wanted. Not collective. */
+/* SamQuantitiesList - fills the layout's list of datasets with the requested ones. Not collective. */
 PETSC_INTERN void SamQuantitiesList(SamEvaluation e);
-/* SamQuantitiesWrite - computes what is wanted of a step's stresses and hands it over. Collective. */
+/* SamQuantitiesWrite - computes the requested quantities of a step's stresses and passes them on. Collective. */
 PETSC_INTERN PetscErrorCode SamQuantitiesWrite(SamEvaluation e, PetscInt step, const SamPoints *points,
                                                const double stress[]);
-/* SamEvaluationHandOver - hands over component k of a quantity at points. Collective. */
+/* SamEvaluationHandOver - passes component k of a quantity at points to the receiver. Collective. */
 PETSC_INTERN PetscErrorCode SamEvaluationHandOver(SamEvaluation e, PetscInt quantity, PetscInt k, PetscInt step,
                                                   const SamPoints *points, const double values[]);
 
@@ -69,70 +69,72 @@ PETSC_INTERN PetscErrorCode SamEvaluationHandOver(SamEvaluation e, PetscInt quan
 
 typedef enum { SAM_AVERAGE_NONE, SAM_AVERAGE_POINT, SAM_AVERAGE_LINE, SAM_AVERAGE_AREA } SamFatigueAverage;
 
-/* The numbers of largest values of a step: these, and from SAM_LARGEST_OWN on those of materials. */
+/* The numbers of largest values of a step; those of materials begin at SAM_LARGEST_OWN */
 enum { SAM_LARGEST_MISES, SAM_LARGEST_PRINCIPAL, SAM_LARGEST_EDGE_XX, SAM_LARGEST_EDGE_PRINCIPAL, SAM_LARGEST_OWN };
-/* Each material has the von Mises stress, tension and shear at the bottom; the last one has the first of them. */
+/* Each material has its von Mises stress, and tension and shear at its bottom; the last material has only the first */
 enum { SAM_OWN_MISES, SAM_OWN_PRINCIPAL, SAM_OWN_TENSION, SAM_OWN_SHEAR, SAM_OWN };
 
-/* The remedy for a list of constants of another length. */
+/* The remedy for a list of constants of a wrong length */
 #define SAM_ONE_EACH "give one number, or one for each layer and the substrate"
 
 struct _n_SamEvaluation {
   MPI_Comm comm;
-  /* what is asked for */
+  /* what the user requests */
   PetscInt            body;
-  char               *depths_text; /* of -depths */
+  char               *depths_text; /* text of -depths */
   PetscBool           section;
   SamSectionAxis      axis;
-  PetscReal           place; /* of the section: y along x, x along y, m */
+  PetscReal           place; /* place of the section: y along x, x along y, m */
   PetscBool           wants[SAM_QUANTITIES];
-  PetscBool           cycle;   /* a parameter of the cycle is wanted: the stresses of all steps are needed at a time */
-  PetscBool           passing; /* the states of a cycle are the stresses of a row of cells, and those far from it */
-  SamFatigueConstants constants[SAM_MATERIALS]; /* but for the body's */
-  PetscInt          materials; /* that have constants of their own, from the surface down; 1: all have the first ones */
+  PetscBool           cycle;   /* a parameter of the cycle is wanted: the stresses of all steps are needed at once */
+  PetscBool           passing; /* points travel: a cycle's states are the stresses of a row of cells, and far away */
+  SamFatigueConstants constants[SAM_MATERIALS]; /* without the constants of the body */
+  PetscInt materials; /* number of materials with their own constants, from the top; 1: constants[0] holds for all */
   SamFatigueAverage average;
-  PetscReal         length; /* of the average, m */
+  PetscReal         length; /* length of the average, m */
   /* bodies and steps */
   SamGrid         grid;
   SamStress       stress;
   SamStressSource source;
-  SamProblem      problem; /* of the bodies, for what laws add */
-  SamControl     *control; /* of each step, its conditions */
-  PetscReal      *slide;   /* (steps + 1, 2), from step -1 on: m, of body 2's own points; NULL: points are the grid's */
-  /* where */
+  SamProblem      problem; /* of the bodies, with their laws */
+  SamControl     *control; /* conditions of each step */
+  PetscReal *slide; /* (steps + 1, 2), from step -1 on: m, of body 2's own points; NULL: points are those of the grid */
+  /* places */
   PetscInt        depths;
   PetscReal      *depth;
-  int            *side;   /* of an interface at that depth: -1 above, 1 below, 0 not said, or none is there */
-  PetscReal      *weight; /* the part of each depth in the average */
-  PetscInt        index;  /* of the section's line of cells */
+  int            *side;   /* side of an interface at that depth: -1 above, 1 below, 0: no side given, or no interface */
+  PetscReal      *weight; /* weight of each depth in the average */
+  PetscInt        index;  /* index of the section's line of cells */
   SamStressLayout layout;
   double         *coordinate[SAM_STRESS_AXES];
   /* results */
   SamEvaluationWrite write;
   void              *write_context;
-  PetscInt           kinds;     /* numbers of largest values of a step */
-  SamLargest        *largest;   /* (kinds, steps), and those of the cycle for each quantity */
-  PetscInt           edge_lost; /* number of steps whose edge is not found */
+  PetscInt           kinds;     /* number of largest values per step */
+  SamLargest        *largest;   /* (kinds, steps), then those of the cycle for each quantity */
+  PetscInt           edge_lost; /* number of steps whose edge was not found */
 };
 
-/* SamMapsCompute - everything on whole planes, one depth after another (maps.c). Collective. */
+/* SamMapsCompute - computes everything on whole planes, one depth after another (maps.c). Collective. */
 PETSC_INTERN PetscErrorCode SamMapsCompute(SamEvaluation e);
-/* SamLinesCompute - everything on a section, some steps at a time (lines.c). Collective. */
+/* SamLinesCompute - computes everything on a section, some steps at a time (lines.c). Collective. */
 PETSC_INTERN PetscErrorCode SamLinesCompute(SamEvaluation e);
-/* SamMapsMemory, SamLinesMemory - the memory of this rank, bytes. Not collective. */
+/* SamMapsMemory, SamLinesMemory - return the memory of this rank, bytes. Not collective. */
 PETSC_INTERN double SamMapsMemory(SamEvaluation e);
 PETSC_INTERN double SamLinesMemory(SamEvaluation e);
 /*
-  SamEvaluationReadTractions - pressure and both shears of a step, this rank's rows; `own`: as SamPointsMove() says.
+  SamEvaluationReadTractions - reads pressure and both shears of a step, this rank's rows; `own`: at the body's own
+  points (SamPointsMove()).
   Collective.
 */
 PETSC_INTERN PetscErrorCode SamEvaluationReadTractions(SamEvaluation e, PetscInt step, PetscBool own,
                                                        double *const to[SAM_STRESS_TRACTIONS]);
 /*
   The body's own points where surfaces slide (points.c).
-  SamPointsSetUp - reads how far the surfaces slide, if the body's points do not stay with the grid. Collective.
-  SamPointsSlide - how far the body's points are moved against the cells in a step, m; NULL: not at all. Not collective.
-  SamPointsMove - a field at the cells in a step becomes that at the body's points. Collective.
+  SamPointsSetUp - reads the slides of the surfaces, if the body's points do not stay with the grid. Collective.
+  SamPointsSlide - returns the displacement of the body's points against the cells in a step, m; NULL: none. Not
+  collective.
+  SamPointsMove - moves a field from the cells in a step to the body's points. Collective.
   SamPointsCheck - checks that all points under a pressure are on the grid. Collective. Errors: SAM_ERR_USER.
 */
 PETSC_INTERN PetscErrorCode   SamPointsSetUp(SamEvaluation e);
@@ -140,12 +142,12 @@ PETSC_INTERN const PetscReal *SamPointsSlide(SamEvaluation e, PetscInt step);
 PETSC_INTERN PetscErrorCode   SamPointsMove(SamEvaluation e, PetscInt step, double field[]);
 PETSC_INTERN PetscErrorCode   SamPointsCheck(SamEvaluation e, PetscInt step, const double pressure[]);
 /*
-  SamStressAddUniform - adds to the stresses (Pa) of points what does not depend on x and y in a step: residual stress,
-  and what laws add. Not collective.
+  SamStressAddUniform - adds to the stresses (Pa) of points the stress that does not depend on x and y in a step: the
+  residual stress, and the stress that laws add. Not collective.
 */
 PETSC_INTERN void SamStressAddUniform(SamEvaluation e, PetscInt step, const SamPoints *points, double stress[]);
 /*
-  SamPlasticSetUp - checks what is asked for of a body that yields (plastic.c). Collective. Errors: SAM_ERR_USER.
+  SamPlasticSetUp - checks the request for a body that yields (plastic.c). Collective. Errors: SAM_ERR_USER.
   SamStressAddPlastic - adds to the stresses (Pa) of points those by the plastic strain of the body. Collective.
 */
 PETSC_INTERN PetscErrorCode SamPlasticSetUp(SamEvaluation e);
@@ -156,13 +158,14 @@ PETSC_INTERN PetscErrorCode SamEvaluationTell(SamEvaluation e, const char work[]
 
 /* ---- depths (depths.c) ---- */
 
-/* SamEvaluationBody - the body whose stresses are wanted; borrowed. Not collective. */
+/* SamEvaluationBody - returns the body whose stresses are wanted; borrowed. Not collective. */
 PETSC_INTERN SamBody SamEvaluationBody(SamEvaluation e);
 /*
-  SamDepthsAreRelative - true if a depth of the text is a multiple of the half width, as 0.5a. Not collective.
-  SamDepthsRead - the depths of -depths, those in half widths of the contact of this one (m).
+  SamDepthsAreRelative - returns true if a depth of the text is a multiple of the half width, such as 0.5a. Not
+  collective.
+  SamDepthsRead - reads the depths of -depths; relative ones are multiplied by this half width of the contact (m).
   SamDepthsSetUp - finds the half width if it is needed, and the sides of interfaces, and checks the depths.
-  SamDepthsTake - takes over depths, which `said` names in messages, and the sides of interfaces there, NULL: both.
+  SamDepthsTake - takes over depths, called `said` in messages, and the sides of interfaces (NULL: both).
   Collective. Errors: SAM_ERR_USER.
 */
 PETSC_INTERN PetscBool      SamDepthsAreRelative(const char depths[]);
@@ -170,44 +173,46 @@ PETSC_INTERN PetscErrorCode SamDepthsRead(SamEvaluation e, PetscReal half);
 PETSC_INTERN PetscErrorCode SamDepthsSetUp(SamEvaluation e);
 PETSC_INTERN PetscErrorCode SamDepthsTake(SamEvaluation e, const char said[], PetscInt n, const PetscReal depths[],
                                           const int sides[]);
-/* SamDivide - divides a text at a character, in place; returns the number of parts, of which `most` are given. */
+/* SamDivide - divides a text at a character, in place; returns the number of parts, and at most `most` parts. Not
+   collective. */
 PETSC_INTERN int SamDivide(char text[], char at, char *parts[], int most);
 /* SamReadLength - reads a length in m, or with a unit behind it; true if it is a finite number. Not collective. */
 PETSC_INTERN PetscBool SamReadLength(const char text[], double *value);
 
 /* ---- largest values (largest.c) ---- */
 
-/* SamLargestClear - begins without any. SamLargestAgree - finds those of all ranks. Collective. */
+/* SamLargestClear - clears all largest values. SamLargestAgree - finds those of all ranks. Collective. */
 PETSC_INTERN PetscErrorCode SamLargestClear(SamEvaluation e);
 PETSC_INTERN PetscErrorCode SamLargestAgree(SamEvaluation e);
-/* SamLargestOfStep - keeps the largest of the stresses s, with their von Mises stresses, at points. Not collective. */
+/* SamLargestOfStep - updates the largest values by the stresses s, and their von Mises stresses, at points. Not
+   collective. */
 PETSC_INTERN void SamLargestOfStep(SamEvaluation e, PetscInt step, const SamPoints *points,
                                    const double *const s[SAM_STRESS_COMPONENTS], const double mises[]);
-/* SamLargestOfCycle - keeps the value of a quantity at the i-th point. Not collective. */
+/* SamLargestOfCycle - updates the largest value by a quantity at the i-th point. Not collective. */
 PETSC_INTERN void SamLargestOfCycle(SamEvaluation e, PetscInt quantity, const SamPoints *points, PetscInt i,
                                     double value);
 /*
-  SamLargestAtEdge - keeps the largest stresses at the contact's edge of a step, whose map at depth 0 of the grid's
-  points, without uniform stress, is in `field` (edge.c). Collective.
+  SamLargestAtEdge - finds the largest stresses at the contact's edge of a step; `field`: the map at depth 0 at the
+  grid's points, without uniform stress (edge.c). Collective.
 */
 PETSC_INTERN PetscErrorCode SamLargestAtEdge(SamEvaluation e, PetscInt step, Vec field);
-/* SamLargestKeep - keeps a value at a place if it is the largest so far of that kind. Not collective. */
+/* SamLargestKeep - stores a value and its place if it is the largest of its kind so far. Not collective. */
 PETSC_INTERN void SamLargestKeep(SamEvaluation e, PetscInt kind, PetscInt step, double value, const double place[3]);
 
 /* ---- cycles ---- */
 
 /*
-  SamCycleWrite - computes the fatigue parameters from the stresses of all steps and hands them over (cycle.c). `done`
-  is the part of all points that came before, `share` that of these. Collective.
-  SamCycleCheckClosed - warns of steps of several cycles of a life; of more than one cycle, or what leads to it; and if
-  the step before the first one, or no load before step 1, has not the tractions of the last: the steps are not a closed
-  cycle then, or one that does not yet repeat itself (closed.c). Collective.
+  SamCycleWrite - computes the fatigue parameters from the stresses of all steps and passes them on (cycle.c). `done` is
+  the part of all points before these, `share` the part of these points. Collective.
+  SamCycleCheckClosed - warns if the steps belong to several cycles of a life, or contain more than one cycle or a
+  lead-in; or if the tractions before the first step (zero before step 1) differ from those of the last step. In the
+  last case the cycle is not closed, or does not yet repeat itself (closed.c). Collective.
 */
 PETSC_INTERN PetscErrorCode SamCycleWrite(SamEvaluation e, const SamPoints *points, double done, double share);
 PETSC_INTERN PetscErrorCode SamCycleCheckClosed(SamEvaluation e);
 /*
-  SamAverageSetUp - the depths of the average, and their parts (average.c). Errors: SAM_ERR_USER.
-  SamAverageAdd - adds the part of depth k in it: `from` and `to` are n values, lines of `length` points. Neither is
+  SamAverageSetUp - sets the depths of the average, and their weights (average.c). Errors: SAM_ERR_USER.
+  SamAverageAdd - adds the contribution of depth k: `from` and `to` are n values, lines of `length` points. Neither is
   collective.
 */
 PETSC_INTERN PetscErrorCode SamAverageSetUp(SamEvaluation e);

@@ -6,8 +6,8 @@
   angle that are halved down to a sixth of a degree. Near its maximum a parameter is at most quadratic in the
   angle but for kinks.
 
-  The circle about the path of the shear stress in a plane is looked for only where a larger one, about the path's
-  rectangle, would make the plane the best so far.
+  The circle about the path of the shear stress in a plane is computed only if the larger circle about the path's
+  rectangle would make the plane the best so far.
 */
 #include <petsam/private/fatigue.h>
 #include <petsam/private/stressimpl.h>
@@ -15,7 +15,8 @@
 enum { XX = SAM_STRESS_XX, YY = SAM_STRESS_YY, ZZ = SAM_STRESS_ZZ };
 enum { XY = SAM_STRESS_XY, XZ = SAM_STRESS_XZ, YZ = SAM_STRESS_YZ, COMPONENTS = SAM_STRESS_COMPONENTS };
 
-/* Degrees between the first normals; largest and smallest step around the best; angle to others that are tried. */
+/* Degrees between the first normals; number of starts; largest and smallest step around the best; angle between
+   starts */
 enum { COARSE = 10, STARTS = 5 };
 #define FIRST_STEP 5.0
 #define LAST_STEP  0.15
@@ -28,10 +29,10 @@ enum { COARSE = 10, STARTS = 5 };
 
 #define DEGREE (PETSC_PI / 180)
 
-/* The parameters that are largest on a plane. */
+/* The parameters that are the maximum over planes */
 typedef enum { FINDLEY, SWT, FATEMI_SOCIE } Kind;
 
-/* A cycle, with the strains of its states for SWT, and room for a path: (states, 2). */
+/* A cycle, with the strains of its states for SWT, and memory for a path: (states, 2) */
 typedef struct {
   Kind                       kind;
   const SamFatigueConstants *constants;
@@ -42,7 +43,7 @@ typedef struct {
 
 /* ---- on a plane ---- */
 
-/* n.s.m of all states; the two vectors may be the same. */
+/* Computes n.s.m of all states; the two vectors may be the same. */
 SAM_VECTORIZED static void Project(PetscInt states, const double *s, const double n[3], const double m[3],
                                    PetscInt stride, double *to)
 {
@@ -82,8 +83,7 @@ static double Combine(const Cycle *c, double amplitude, double normal)
 }
 
 /*
-  Returns the size that the parameter would have if all of the stress were on one plane: what differences are compared
-  with.
+  Returns the size that the parameter would have if all stress acted on one plane, as a scale for differences.
 */
 static double Scale(const Cycle *c)
 {
@@ -113,7 +113,7 @@ static void SetFrame(double theta, double phi, double n[3], double u[3], double 
   v[2] = 0;
 }
 
-/* Returns the parameter of a plane; anything below `best` stands for less. */
+/* Returns the parameter of a plane; a result below `best` may be any smaller value. */
 static double OnPlane(const Cycle *c, double theta, double phi, double best)
 {
   double n[3], u[3], v[3], least, most, normal, ends[2][2], center[2];
@@ -130,7 +130,7 @@ static double OnPlane(const Cycle *c, double theta, double phi, double best)
   Project(c->states, c->stress, n, u, 2, c->path);
   Project(c->states, c->stress, n, v, 2, c->path + 1);
   for (int d = 0; d < 2; d++) FindEnds(c->states, c->path + d, 2, &ends[d][0], &ends[d][1]);
-  /* the amplitude is at least half the longer side of the path's rectangle, and at most half its diagonal */
+  /* The amplitude is between half the longer side of the path's rectangle and half its diagonal. */
   most = Factor(c, normal) < 0 ? fmax(ends[0][1] - ends[0][0], ends[1][1] - ends[1][0])
                                : hypot(ends[0][1] - ends[0][0], ends[1][1] - ends[1][0]);
   most = Combine(c, 0.5 * most, normal);
@@ -144,7 +144,7 @@ typedef struct {
   double theta, phi, value;
 } Plane;
 
-/* Climbs from a plane by steps in both angles, which are halved where none leads up. */
+/* Climbs from a plane by steps in both angles, which are halved when none increases the parameter. */
 static void Climb(const Cycle *c, Plane *at)
 {
   for (double step = FIRST_STEP * DEGREE; step >= LAST_STEP * DEGREE;) {
@@ -183,7 +183,7 @@ static PetscBool IsElsewhere(const Plane *a, const Plane *b)
   return fabs(n[0][0] * n[1][0] + n[0][1] * n[1][1] + n[0][2] * n[1][2]) < cos(ELSEWHERE * DEGREE);
 }
 
-/* Keeps a plane among the best starts, which point to different sides. */
+/* Adds a plane to the best starts if it is among them; starts differ in direction. */
 static void Offer(Plane starts[STARTS], PetscInt *count, Plane plane)
 {
   PetscInt place = *count;
@@ -264,7 +264,7 @@ static void ComputeStrains(const SamFatigueCycle *c, double strain[])
 /* Returns the parameter of the best plane, and its normal. */
 static double LargestOverPlanes(Kind kind, const SamFatigueCycle *of, double normal[3])
 {
-  const PetscBool swt   = kind == SWT; /* never negative */
+  const PetscBool swt   = kind == SWT; /* SWT is never negative */
   const Cycle     cycle = {kind, of->constants, of->states, of->stress, of->scratch + 2 * of->states, of->scratch},
               *c        = &cycle;
   const double margin   = swt ? INFINITY : (1 - NEARLY) * Scale(c);
@@ -300,7 +300,7 @@ double SamFatigueFatemiSocie(const SamFatigueCycle *c, double more[])
   return LargestOverPlanes(FATEMI_SOCIE, c, more);
 }
 
-/* ---- without planes ---- */
+/* ---- parameters without planes ---- */
 
 /* Computes the deviators' five coordinates in which sqrt(S:S) is the length, and the largest mean stress. */
 static double Deviators(PetscInt states, const double s[], double points[])
@@ -365,9 +365,9 @@ double SamFatigueDangVan(const SamFatigueCycle *c, double more[])
   return best;
 }
 
-/* ---- on the surface ---- */
+/* ---- parameters of the surface ---- */
 
-/* There the stresses xz and yz are the shear but for its sign, which does not count. */
+/* On the surface the stresses xz and yz are the shear; the sign does not matter. */
 double SamFatigueRuiz(const SamFatigueCycle *c, double more[])
 {
   const PetscInt      n = c->states;
@@ -380,7 +380,7 @@ double SamFatigueRuiz(const SamFatigueCycle *c, double more[])
     const PetscInt next = (k + 1) % n;
     const double   x = slip[next], y = slip[n + next], length = hypot(x, y);
 
-    work += fabs(s[XZ * n + next] * x + s[YZ * n + next] * y); /* a cell slips under the shear of the step's end */
+    work += fabs(s[XZ * n + next] * x + s[YZ * n + next] * y); /* a cell slips under the shear at the end of the step */
     if (length <= longest) continue;
     longest = length;
     way[0]  = x / length;

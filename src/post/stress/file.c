@@ -1,7 +1,7 @@
 /*
-  Files of stresses: datasets of shape (time, z, y, x), all of them created at once and filled part by part.
+  Files of stresses: datasets of shape (time, z, y, x), which are all created at the beginning and filled part by part.
 
-  The file is written beside its name and renamed when it is complete.
+  The file is written under a temporary name and renamed when it is complete.
 */
 #include <petsam/private/evaluation.h>
 #include <petsam/private/file.h>
@@ -14,14 +14,14 @@ enum { AXES = SAM_STRESS_AXES };
 struct _n_SamStressFile {
   SamGrid         grid;
   char           *filename, *temporary;
-  SamFileLock     hold; /* of the temporary file */
+  SamFileLock     hold; /* lock of the temporary file */
   SamFile         f;
   SamStressLayout layout;
   hid_t           dataset[SAM_STRESS_DATASETS], history, history_time;
   PetscBool       broken; /* a write has failed: no collective call on the file may follow */
 };
 
-/* Returns the first dimension of a dataset: those of all steps together have no time. */
+/* Returns the first dimension of a dataset: datasets for all steps together have no time. */
 static int FirstAxis(SamStressFile s, PetscInt k)
 {
   return s->layout.dataset[k].of_cycle ? SAM_Z : SAM_TIME;
@@ -29,7 +29,7 @@ static int FirstAxis(SamStressFile s, PetscInt k)
 
 /* ---- creation ---- */
 
-/* Returns the shape of a dataset that has the file's dimensions from `first` on. */
+/* Returns the shape of a dataset with the file's dimensions from `first` on. */
 static SamShape ShapeOf(SamStressFile s, int first, int rank)
 {
   SamShape shape = {.rank = rank};
@@ -46,7 +46,8 @@ static const char *const own_points[AXES] = {[SAM_Y] = "y of the body's own poin
                                              [SAM_X] = "x of the body's own points, under the cells before it moves"};
 static const char *const axes[AXES]       = {"T", "Z", "Y", "X"};
 
-/* Returns the spacing of coordinates, which VTK needs; 0 where they are unequal. A single one has that of the grid. */
+/* Returns the spacing of coordinates for VTK; 0 if they are unequal. A single coordinate has the spacing of the
+   grid. */
 static double Spacing(SamStressFile s, int d)
 {
   const PetscInt      n = s->layout.n[d];
@@ -58,8 +59,8 @@ static double Spacing(SamStressFile s, int d)
 }
 
 /*
-  For VTK the stresses of all steps are at points, or those of the cycle if there are no others. VTK counts a dimension
-  of one point as none, so a section is a sheet of cells.
+  Describes for VTK the stresses of all steps, or those of the cycle if there are no others, as values at points. VTK
+  ignores a dimension of one point, so a section is described as a sheet of cells.
 */
 static void CreateVTK(SamStressFile s)
 {

@@ -66,7 +66,7 @@ void SamPrincipalDirection(const double s[SAM_STRESS_COMPONENTS], double princip
 
   n[0] = n[1] = 0;
   n[2]        = 1;
-  /* across two rows of s - principal: the longest of their cross products */
+  /* Normal to two rows of s - principal: the longest of their cross products. */
   for (int k = 0; k < 3; k++) {
     const double *u = a[k], *v = a[(k + 1) % 3];
     const double  w[3]   = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};

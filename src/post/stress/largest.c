@@ -9,7 +9,7 @@ static SamLargest *LargestOf(SamEvaluation e, PetscInt kind, PetscInt step)
   return &e->largest[kind * e->source.steps + step];
 }
 
-/* The values of the cycle follow those of all steps. */
+/* Returns the entry of a quantity of the cycle; these follow the entries of all steps. */
 static SamLargest *LargestOfQuantity(SamEvaluation e, PetscInt quantity)
 {
   return LargestOf(e, e->kinds, 0) + quantity;
@@ -30,7 +30,7 @@ PetscErrorCode SamLargestClear(SamEvaluation e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Places are compared in the order z, y, x. */
+/* Compares places in the order z, y, x. */
 static PetscBool IsBefore(const double a[3], const double b[3])
 {
   for (int d = 2; d >= 0; d--)
@@ -49,7 +49,7 @@ void SamLargestKeep(SamEvaluation e, PetscInt kind, PetscInt step, double value,
   Keep(LargestOf(e, kind, step), value, place);
 }
 
-/* Keeps a value at the i-th point. */
+/* Updates a largest value by the value at the i-th point. */
 static void KeepAt(SamEvaluation e, SamLargest *largest, double value, const SamPoints *p, PetscInt i)
 {
   const PetscInt  c   = i % p->plane;
@@ -69,12 +69,12 @@ void SamLargestOfCycle(SamEvaluation e, PetscInt quantity, const SamPoints *p, P
 
   if (isnan(value)) return;
   KeepAt(e, largest, value, p, i);
-  if (e->average) largest->place[2] = 0; /* the mean is that of the surface's points */
+  if (e->average) largest->place[2] = 0; /* the mean belongs to the surface's points */
 }
 
 /* ---- of a step ---- */
 
-/* The largest principal stress at a point is at most this, and reaches it under tension in one direction. */
+/* Returns a bound of the largest principal stress at a point; uniaxial tension reaches it. */
 static double RoughBound(const double *const s[SAM_STRESS_COMPONENTS], double mises, PetscInt i)
 {
   const double mean = (s[SAM_STRESS_XX][i] + s[SAM_STRESS_YY][i] + s[SAM_STRESS_ZZ][i]) / 3;
@@ -82,7 +82,7 @@ static double RoughBound(const double *const s[SAM_STRESS_COMPONENTS], double mi
   return mean + mises * (2. / 3) * (1 + 1e-12);
 }
 
-/* Returns a bound that is nearly the largest principal stress: by the cubic equation, and its rounding. */
+/* Returns a bound close to the largest principal stress: the solution of the cubic equation plus its rounding. */
 static double FineBound(const double *const s[SAM_STRESS_COMPONENTS], double mises, PetscInt i)
 {
   const double mean = (s[SAM_STRESS_XX][i] + s[SAM_STRESS_YY][i] + s[SAM_STRESS_ZZ][i]) / 3;
@@ -103,7 +103,8 @@ static void KeepPrincipal(SamEvaluation e, SamLargest *largest, const SamPoints 
   KeepAt(e, largest, principal[0], p, i);
 }
 
-/* Keeps the largest principal stress of some points: found exactly only where the bounds allow the largest. */
+/* Updates the largest principal stress by some points; it is computed accurately only where the bounds allow a
+   maximum. */
 static void KeepLargestPrincipal(SamEvaluation e, SamLargest *largest, const SamPoints *p,
                                  const double *const s[SAM_STRESS_COMPONENTS], const double mises[], PetscInt begin,
                                  PetscInt end)
@@ -118,7 +119,7 @@ static void KeepLargestPrincipal(SamEvaluation e, SamLargest *largest, const Sam
       KeepPrincipal(e, largest, p, s, i);
 }
 
-/* Keeps largest values of the material of each depth, and at the interface below it. */
+/* Updates the largest values of the material of each depth, and at the interface below it. */
 static void KeepOwn(SamEvaluation e, PetscInt step, const SamPoints *p, const double *const s[SAM_STRESS_COMPONENTS],
                     const double mises[])
 {
@@ -159,7 +160,7 @@ PetscErrorCode SamLargestAgree(SamEvaluation e)
 
     PetscCall(SamMax(e->comm, 1, &of->value));
     here = (PetscBool)(mine == of->value);
-    for (int d = 2; d >= 0; d--) { /* of equal ones that whose place comes first */
+    for (int d = 2; d >= 0; d--) { /* of equal values the one whose place comes first */
       double least = here ? -of->place[d] : -INFINITY;
 
       PetscCall(SamMax(e->comm, 1, &least));
@@ -173,7 +174,7 @@ PetscErrorCode SamLargestAgree(SamEvaluation e)
 
 /* ---- by name ---- */
 
-/* The largest values of a step have the names of their datasets, a text, and words for print. */
+/* Largest values of a step: name of the dataset, a text, and the printed words */
 static const struct {
   const char *name, *text, *shown;
 } kinds[SAM_LARGEST_OWN] =
@@ -223,7 +224,7 @@ static PetscErrorCode Describe(SamEvaluation e, PetscInt kind, SamLargestSeries 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* An edge is on maps of the surface, and not every material has a depth. */
+/* True if a largest value exists: an edge needs a map of the surface, and a material needs a depth. */
 static PetscBool Exists(SamEvaluation e, const SamLargestSeries *of)
 {
   if (of->places == 2) return !e->section && e->layout.coordinate[SAM_Z][0] == 0 ? PETSC_TRUE : PETSC_FALSE;

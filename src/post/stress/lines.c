@@ -1,7 +1,7 @@
-/* Stresses on a section: some steps at a time, as many as the spectra of their lines of cells have room for. */
+/* Stresses on a section: several steps at a time, limited by the memory for the spectra of their lines of cells. */
 #include "evaluationimpl.h"
 
-/* Bytes a cell that the spectra of a section's steps may take on a rank, but at least so many in all. */
+/* Bytes per cell that the spectra of a section's steps may take on a rank, and the least total */
 #define SPECTRA_BYTES 100.0
 #define SPECTRA_LEAST 512e6
 
@@ -10,7 +10,7 @@ static double Cells(SamEvaluation e)
   return (double)e->grid->nx * (double)e->grid->ny;
 }
 
-/* Returns the number of the steps whose spectra are kept at a time. */
+/* Returns the number of steps whose spectra are stored at a time. */
 static PetscInt Batch(SamEvaluation e)
 {
   const double room = PetscMax(SPECTRA_LEAST, SPECTRA_BYTES * Cells(e));
@@ -58,7 +58,7 @@ static PetscErrorCode ComputeSteps(SamEvaluation e, SamSection section, PetscInt
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Computes all steps at some depths from `depth` on; a mean of them is collected in `sum`, which is made here. */
+/* Computes all steps at some depths from `depth` on; an average is collected in `sum`, which is created here. */
 static PetscErrorCode ComputeDepths(SamEvaluation e, PetscInt depth, PetscInt depths, SamPoints *p, double **sum)
 {
   const PetscInt batch = Batch(e), room = e->cycle ? e->source.steps : batch;
@@ -95,7 +95,7 @@ static PetscErrorCode ComputeDepths(SamEvaluation e, PetscInt depth, PetscInt de
 
 PetscErrorCode SamLinesCompute(SamEvaluation e)
 {
-  const PetscInt depths = e->average ? 1 : e->depths; /* one by one all are the first rank's */
+  const PetscInt depths = e->average ? 1 : e->depths; /* one at a time, all depths belong to the first rank */
   SamPoints      p      = {.count = 0};
   double        *sum    = NULL;
 

@@ -1,10 +1,10 @@
-/* Stresses on whole planes: a depth at a time, whose kernels serve all steps. */
+/* Stresses on whole planes: one depth at a time, whose kernels are used for all steps. */
 #include "evaluationimpl.h"
 
-/* Bytes a cell: kernels 120, stresses 48, spectra 48, a quantity that is written, and what MPI-IO copies. */
+/* Bytes per cell: kernels 120, stresses 48, spectra 48, a quantity being written, and copies by MPI-IO */
 #define BYTES 240.0
 
-/* Bytes that a cycle keeps of a point in a step: its stress, and slip for Ruiz's parameters. */
+/* Returns the bytes stored per point and step of a cycle: its stress, and slip for Ruiz's parameters. */
 static double CycleBytes(SamEvaluation e)
 {
   return (double)sizeof(double) * (SAM_STRESS_COMPONENTS + (SamQuantityWanted(e, SamFatigueRuiz) ? 2 : 0));
@@ -17,7 +17,7 @@ double SamMapsMemory(SamEvaluation e)
   return BYTES * cells + (e->cycle ? CycleBytes(e) * cells * (double)e->source.steps : 0);
 }
 
-/* Computes the stresses of a step at a depth, at the body's own points, or at the grid's. */
+/* Computes the stresses of a step at a depth, at the body's own points or at the grid's points. */
 static PetscErrorCode Apply(SamEvaluation e, PetscInt step, PetscBool own, Vec field)
 {
   const PetscInt cells = e->grid->cells;
@@ -40,7 +40,7 @@ static PetscErrorCode ComputeStep(SamEvaluation e, PetscInt step, const SamPoint
 
   PetscFunctionBegin;
   if (surface) {
-    PetscCall(Apply(e, step, PETSC_FALSE, field)); /* an edge is found where it has not been interpolated */
+    PetscCall(Apply(e, step, PETSC_FALSE, field)); /* an edge is searched in data that are not interpolated */
     PetscCall(SamLargestAtEdge(e, step, field));
   }
   if (!surface || SamPointsSlide(e, step)) PetscCall(Apply(e, step, PETSC_TRUE, field));

@@ -1,4 +1,4 @@
-/* The options of an evaluation, and what a file of its results records of them. */
+/* The options of an evaluation, and the settings recorded in a file of its results. */
 #include "evaluationimpl.h"
 #include <petsam/private/elasticity.h>
 #include <petsam/private/base.h>
@@ -9,13 +9,13 @@
 
 static const char *const averages[] = {"point", "line", "area"}; /* from SAM_AVERAGE_POINT on */
 
-/* The settings of a user, but for lists of names. */
+/* The settings of a user, except lists of names */
 typedef struct {
   PetscInt  body;
   char      depths[TEXT], section[128];
   PetscBool passing;
   PetscReal length;
-  int       average; /* a place among the averages */
+  int       average; /* index into averages[] */
 } Settings;
 
 #define MEMBER(name) offsetof(Settings, name)
@@ -54,7 +54,7 @@ static PetscErrorCode TakeSection(const SamOptions *from, SamEvaluation e, const
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Reads a list of names, each of which asks for a quantity of a step or of the cycle. */
+/* Reads a list of names, each of which requests a quantity of a step or of the cycle. */
 static PetscErrorCode ReadNames(const SamOptions *from, PetscBool of_cycle, const char also[], char text[],
                                 SamEvaluation e)
 {
@@ -94,7 +94,8 @@ static PetscReal *ConstantOf(SamEvaluation e, PetscInt material, const SamQuanti
   return (PetscReal *)(void *)((char *)&e->constants[material] + k->place);
 }
 
-/* One number is for all materials; lists of more have one length, that of the materials. */
+/* Reads a constant: one number for all materials, or a list with one number for each; all lists have the same
+   length. */
 static PetscErrorCode ReadConstant(const SamOptions *from, SamEvaluation e, const SamQuantityConstant *k,
                                    PetscBool required)
 {
@@ -132,7 +133,7 @@ static PetscErrorCode ReadConstants(const SamOptions *from, SamEvaluation e)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Reads the length over which stresses are averaged; the depths and quantities of other results are not for it. */
+/* Reads the length over which stresses are averaged; it excludes depths and quantities of other results. */
 static PetscErrorCode TakeLength(const SamOptions *from, SamEvaluation e, const Settings *set)
 {
   PetscBool given[2], some = PETSC_FALSE;

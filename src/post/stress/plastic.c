@@ -32,7 +32,7 @@ static double Weight(SamEvaluation e, PetscReal depth, PetscInt l, PetscInt c)
 {
   const double *const middle = e->source.middle;
   const PetscInt      last   = e->source.layers - 1;
-  PetscInt            below  = 1; /* the second one of the two that count */
+  PetscInt            below  = 1; /* the second of the two layers with a weight */
   double              part;
 
   if (depth < middle[0] && (c == SAM_STRESS_ZZ || c == SAM_STRESS_XZ || c == SAM_STRESS_YZ))
@@ -42,7 +42,7 @@ static double Weight(SamEvaluation e, PetscReal depth, PetscInt l, PetscInt c)
   return l == below ? part : l == below - 1 ? 1 - part : 0;
 }
 
-/* Reads the mean of a component over a layer at the points of one depth; on a section all ranks get all of the line. */
+/* Reads the mean of a component over a layer at the points of one depth; for a section all ranks get the whole line. */
 static PetscErrorCode ReadPlane(SamEvaluation e, PetscInt step, PetscInt c, PetscInt l, PetscInt plane, double at[])
 {
   const SamGrid g = e->grid;

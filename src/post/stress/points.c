@@ -1,11 +1,11 @@
 /*
-  The points of a body where the surfaces slide past each other (law/slide.c): the cells go with body 1, and under the
+  The points of a body whose surface slides past the other one (laws/slide.c): the cells go with body 1, and under the
   cell x lies the point x + D of body 2. All results of body 2 are at its own points, those under the cells at D = 0, so
   that the steps of a cycle are the states of one point. Where the bodies roll that is so of body 1, too.
 
-  The tractions of a step are moved to these points, before anything is computed of them. To interpolate them or the
-  stresses is the same, as both are sums whose weights do not depend on the place; but the stresses of moved tractions
-  are known at all points, and moved stresses would lack those of cells beyond the grid.
+  The tractions of a step are moved to these points before anything is computed from them. Interpolating the tractions
+  or the stresses is equivalent, as both are sums whose weights do not depend on the place. But the stresses of moved
+  tractions are known at all points, while moved stresses would lack the values beyond the grid.
 */
 #include "evaluationimpl.h"
 #include <petsam/private/grid.h>
@@ -19,7 +19,7 @@ PetscErrorCode SamPointsSetUp(SamEvaluation e)
   if (!e->source.slides) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscCalloc1(2 * (e->source.steps + 1), &e->slide));
   for (PetscInt step = e->source.before ? -1 : 0; step < e->source.steps; step++)
-    for (int axis = e->passing ? 1 : 0; axis < 2; axis++) { /* points that pass along x do so anywhere */
+    for (int axis = e->passing ? 1 : 0; axis < 2; axis++) { /* points that travel along x do so at any place */
       double *const at = &e->slide[2 * (step + 1) + axis], rolled;
 
       if (e->body == 2)

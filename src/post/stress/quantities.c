@@ -1,6 +1,6 @@
 /*
-  The quantities of an evaluation: what options, datasets, files and other programs know of them stands here, once. A
-  new one is a row and a function.
+  The quantities of an evaluation. This is the only place that defines their names for options, datasets, files and
+  other programs. A new quantity is a row and a function.
 */
 #include "evaluationimpl.h"
 #include <petsam/private/body.h>
@@ -43,7 +43,7 @@ static void Strain(SamEvaluation e, const SamPoints *p, const double *const s[],
 
 /* ---- the table ---- */
 
-/* A parameter of the cycle, and the normal of the plane where it is maximum. */
+/* A parameter of the cycle, and the normal of the plane where it is largest */
 #define OF_PLANE(name, unit, text) \
   { \
     {name, unit, text}, {name "_normal_x", "1", "normal of the critical plane, x"}, \

@@ -1,18 +1,18 @@
 /*
   Stresses on a plane across the surface.
 
-  Problem: sum, over all lines v of cells parallel to the section, the convolutions along the section of a line's
-  tractions with the kernels of a depth at the distance of that line.
+  Problem: for each depth, convolve the tractions of each line of cells parallel to the section, along the section, with
+  the kernels at the distance of that line, and sum over all lines.
 
   Algorithm:
-    1. The tractions of each line are transformed along it once, zeros behind them.
+    1. The tractions of each line, padded with zeros, are transformed along it once.
     2. For each depth and each distance d: the kernels of that row of lags are tabulated and transformed. An even one
        has a real transform and an odd one an imaginary one, so two share a transform.
-    3. Lines at the distances d and -d meet the same kernels, but for the sign of those that are odd across: their sum
-       goes with the even ones, their difference with the odd ones. Products are added up in the frequency domain, for
-       all steps that are at hand.
+    3. Lines at the distances d and -d have the same kernels, except for the sign of kernels that are odd across the
+       section: the sum of the lines is multiplied by the even kernels, their difference by the odd ones. Products are
+       added in the frequency domain, for all steps of a batch.
     4. Each depth, component and step is transformed back.
-  Depths are divided among the ranks, and a depth's sums do not depend on which rank makes them.
+  Depths are divided among the ranks, and the sums of a depth do not depend on the rank that computes them.
 
   A section along y is one along x with the axes exchanged.
 */
@@ -25,7 +25,7 @@
 typedef double Complex[2];
 
 enum { EVEN, ODD, HALVES };    /* across: sum and difference of two lines */
-enum { PLAIN, TURNED, TURNS }; /* along: as it is, and times i for odd kernels */
+enum { PLAIN, TURNED, TURNS }; /* along: unchanged, and times i for odd kernels */
 
 /* The tractions of a step along the lines first ... first + count - 1, transformed. */
 typedef struct {
@@ -39,20 +39,20 @@ struct _n_SamSection {
   SamStress      stress;
   SamGrid        grid;
   SamSectionAxis axis;
-  PetscInt       index;         /* of the section's line of cells */
+  PetscInt       index;         /* index of the section's line of cells */
   PetscInt       length, lines; /* cells along, lines across */
-  double         side[2];       /* of cells along and across, m */
+  double         side[2];       /* widths of a cell along and across, m */
   PetscInt       first, count;  /* this rank's depths */
-  double        *depths;        /* of these */
+  double        *depths;        /* this rank's depths, m */
   PetscInt       steps, room;
   Step          *step;
-  PetscInt       period, n; /* of the transforms; number of their frequencies */
+  PetscInt       period, n; /* length of the transforms; number of their frequencies */
   fftw_plan      forward, backward;
   double        *line;     /* period */
   Complex       *spectrum; /* n */
 };
 
-/* The component or traction with the axes exchanged, for sections along y. */
+/* The component or traction with the axes exchanged, for sections along y */
 static const PetscInt exchanged_component[] = {SAM_STRESS_YY, SAM_STRESS_XX, SAM_STRESS_ZZ,
                                                SAM_STRESS_XY, SAM_STRESS_YZ, SAM_STRESS_XZ};
 static const PetscInt exchanged_traction[]  = {SAM_STRESS_P, SAM_STRESS_QY, SAM_STRESS_QX};
@@ -66,7 +66,7 @@ static PetscErrorCode CreateTransforms(SamSection s)
   s->n      = s->period / 2 + 1;
   PetscCall(SamAllocateZeros(sizeof(*s->line) * (size_t)s->period, &s->line));
   PetscCall(SamAllocateZeros(sizeof(*s->spectrum) * (size_t)s->n, &s->spectrum));
-  /* estimated, as measured plans differ from rank to rank */
+  /* With FFTW_ESTIMATE, as measured plans differ from rank to rank. */
   s->forward =
     fftw_plan_dft_r2c_1d((int)s->period, s->line, (fftw_complex *)s->spectrum, FFTW_ESTIMATE | FFTW_PRESERVE_INPUT);
   s->backward = fftw_plan_dft_c2r_1d((int)s->period, (fftw_complex *)s->spectrum, s->line, FFTW_ESTIMATE);
@@ -74,7 +74,7 @@ static PetscErrorCode CreateTransforms(SamSection s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A share of the depths for each rank, the first ones first. */
+/* Gives each rank a share of the depths; the first depths go to the first ranks. */
 static PetscErrorCode DivideDepths(SamSection s, PetscInt n, const PetscReal depths[])
 {
   PetscMPIInt rank, ranks;
@@ -162,11 +162,11 @@ PetscErrorCode SamSectionGetDepths(SamSection s, PetscInt *first, PetscInt *coun
 
 /* ---- steps ---- */
 
-/* Finds the lines that have traction on any rank: n is 0 where there are none. */
+/* Finds the lines that have traction on any rank; n is 0 if there are none. */
 static PetscErrorCode FindLines(SamSection s, const double field[], PetscInt *first, PetscInt *n)
 {
   const SamGrid g       = s->grid;
-  PetscReal     ends[2] = {-PETSC_INFINITY, -PETSC_INFINITY}; /* minus the first, the last */
+  PetscReal     ends[2] = {-PETSC_INFINITY, -PETSC_INFINITY}; /* minus the first line, and the last line */
 
   PetscFunctionBegin;
   for (PetscInt c = 0; c < SAM_STRESS_TRACTIONS; c++)
@@ -184,7 +184,7 @@ static PetscErrorCode FindLines(SamSection s, const double field[], PetscInt *fi
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Transforms the lines of one traction, seen in the section's axes. */
+/* Transforms the lines of one traction, with the section's axes. */
 static void TransformLines(SamSection s, Step *step, PetscInt traction, const double all[])
 {
   const PetscInt nx = s->grid->nx;
@@ -219,7 +219,7 @@ PetscErrorCode SamSectionAddStep(SamSection s, Vec tractions)
   PetscCall(FindLines(s, field, &step.first, &step.count));
   PetscCall(SamAllocate(sizeof(*step.lines) * (size_t)(step.count * SAM_STRESS_TRACTIONS) * (size_t)s->n, &step.lines));
   for (PetscInt t = 0; t < SAM_STRESS_TRACTIONS; t++) PetscCall(PetscCalloc1(s->length, &step.surface[t]));
-  PetscCall(SamRowsCreate(g, 0, g->ny, &rows)); /* all */
+  PetscCall(SamRowsCreate(g, 0, g->ny, &rows)); /* all rows */
   for (PetscInt t = 0; t < SAM_STRESS_TRACTIONS; t++) {
     const PetscInt from = s->axis == SAM_SECTION_X ? t : exchanged_traction[t];
 
@@ -239,7 +239,7 @@ PetscErrorCode SamSectionAddStep(SamSection s, Vec tractions)
 
 /* ---- kernels of a distance ---- */
 
-/* Kernels that share a transform: one that is even along the section and, if there is one left, one that is odd. */
+/* Kernels that share a transform: one that is even along the section and, except in the last pair, one that is odd */
 static const SamStressKernel shared[][2] = {
   {{SAM_STRESS_PLANE_P, 0}, {SAM_STRESS_PLANE_P, 2}},  {{SAM_STRESS_PLANE_P, 1}, {SAM_STRESS_PLANE_X, 0}},
   {{SAM_STRESS_PLANE_X, 2}, {SAM_STRESS_PLANE_X, 1}},  {{SAM_STRESS_PLANE_Y, 0}, {SAM_STRESS_PLANE_Y, 2}},
@@ -249,7 +249,7 @@ static const SamStressKernel shared[][2] = {
 };
 enum { SHARED = sizeof(shared) / sizeof(shared[0]) };
 
-/* Scratch of a computation: the parts of one array. */
+/* Scratch of a computation, as parts of one array */
 typedef struct {
   double  *all;
   double  *lags[SAM_STRESS_GROUPS][SAM_STRESS_GROUP];    /* values, `length` of each */
@@ -280,8 +280,8 @@ static PetscErrorCode CreateWork(SamSection s, Work *w)
 }
 
 /*
-  Computes the transforms of all kernels at the distance of d lines: real ones, and imaginary parts of those that are
-  odd.
+  Computes the transforms of all kernels at the distance of d lines: real transforms, or the imaginary parts for odd
+  kernels.
 */
 static void TransformKernels(SamSection s, double depth, PetscInt d, Work *w)
 {
@@ -309,7 +309,7 @@ static void TransformKernels(SamSection s, double depth, PetscInt d, Work *w)
 
 /* ---- products ---- */
 
-/* Computes sum and difference of two lines, either of which may be NULL for zero, as they are and times i. */
+/* Computes sum and difference of two lines, either of which may be NULL for zero, unchanged and times i. */
 SAM_VECTORIZED static void Combine(PetscInt n, const Complex *restrict before, const Complex *restrict after,
                                    double   sign, Complex *restrict plain, Complex *restrict turned)
 {
@@ -324,7 +324,7 @@ SAM_VECTORIZED static void Combine(PetscInt n, const Complex *restrict before, c
   }
 }
 
-/* to += a x + b y + c z, a, b and c being real. */
+/* Computes to += a x + b y + c z with real a, b and c. */
 SAM_VECTORIZED static void AddThree(PetscInt n, const double *restrict a, const double *restrict b,
                                     const double *restrict c, const Complex *restrict x, const Complex *restrict y,
                                     const Complex *restrict z, Complex *restrict to)
@@ -335,17 +335,17 @@ SAM_VECTORIZED static void AddThree(PetscInt n, const double *restrict a, const 
   }
 }
 
-/* Returns a line of a step, NULL where it has no traction. */
+/* Returns a line of a step; NULL if it has no traction. */
 static const Complex *Line(SamSection s, const Step *step, PetscInt line, PetscInt traction)
 {
   if (line < step->first || line >= step->first + step->count) return NULL;
   return (const Complex *)step->lines + ((line - step->first) * SAM_STRESS_TRACTIONS + traction) * (ptrdiff_t)s->n;
 }
 
-/* Adds what the lines at the distances d and -d do. */
+/* Adds the contributions of the lines at the distances d and -d. */
 static void AddLines(SamSection s, const Step *step, PetscInt d, Work *w, Complex *sum)
 {
-  /* the line whose distance d is positive lies before the section */
+  /* The line with a positive distance d lies before the section. */
   if (!Line(s, step, s->index - d, 0) && !Line(s, step, s->index + d, 0)) return;
   for (PetscInt t = 0; t < SAM_STRESS_TRACTIONS; t++)
     for (PetscInt h = 0; h < HALVES; h++)
@@ -392,7 +392,7 @@ static void AddSmooth(SamSection s, PetscInt step, PetscInt depth, double stress
   (*s->stress->ops.add)(s->stress, s->step[step].sums, first, way, s->length, to);
 }
 
-/* Finishes a depth: transforms back, and sets the tractions on the surface, which are known exactly. */
+/* Finishes a depth: transforms back, and sets the tractions on the surface, which are given. */
 static void Finish(SamSection s, const Work *w, PetscInt depth, double stress[])
 {
   for (PetscInt k = 0; k < s->steps; k++)

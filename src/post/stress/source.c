@@ -7,7 +7,7 @@ PetscErrorCode SamEvaluationReadTractions(SamEvaluation e, PetscInt step, PetscB
 {
   PetscFunctionBegin;
   e->stress->conditions = SamProblemGetConditions(e->problem);
-  e->stress->control    = step < 0 ? NULL : &e->control[step]; /* of the step before the first no stress is asked */
+  e->stress->control = step < 0 ? NULL : &e->control[step]; /* no stress is requested for the step before the first */
   for (PetscInt t = 0; t < SAM_STRESS_TRACTIONS; t++) {
     PetscCall((*e->source.read)(e->source.context, step, (SamStepField)(SAM_STEP_PRESSURE + t), to[t]));
     if (own && t == SAM_STRESS_P) PetscCall(SamPointsCheck(e, step, to[t]));
@@ -17,8 +17,8 @@ PetscErrorCode SamEvaluationReadTractions(SamEvaluation e, PetscInt step, PetscB
 }
 
 /*
-  The stresses at a depth that do not depend on x and y: that before any load, which the layers of a body that yields
-  hold already, and what laws add in a step.
+  Computes the stresses at a depth that do not depend on x and y: the stress before any load, which the layers of a
+  yielding body already include, and the stress that laws add in a step.
 */
 static void GetUniform(SamEvaluation e, PetscInt step, PetscReal depth, double stress[SAM_STRESS_COMPONENTS])
 {

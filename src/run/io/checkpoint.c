@@ -1,9 +1,10 @@
 /*
-  The state of a contact in a file: what its parts have declared as kept, the parameters that define the contact, and a
-  program's notes.
+  The state of a contact in a file: the fields and numbers that its parts have declared as kept, the parameters that
+  define the contact, and a program's notes.
 
-  The fields are datasets (components, ny, nx), all else attributes of the root group; all is sealed (seal.c). What is
-  one step back has `before_` in front of its name. Kept steps of a load cycle are in datasets of their own (kept.c).
+  The fields are datasets (components, ny, nx), all else are attributes of the root group; the file is sealed (seal.c).
+  Names of values from one step before begin with `before_`. Kept steps of a load cycle are in separate datasets
+  (kept.c).
 */
 #include "ioimpl.h"
 #include <petsam/private/checkpoint.h>
@@ -20,7 +21,7 @@
 struct _n_SamCheckpoint {
   SamGrid     grid;
   char       *filename, *before, *temporary;
-  SamFileLock hold; /* of the temporary file */
+  SamFileLock hold; /* lock of the temporary file */
 };
 
 /* Computes the checksum of the gap that a contact's problem has now. */
@@ -34,15 +35,15 @@ static PetscErrorCode GapChecksum(SamContact contact, uint64_t *checksum)
 
 /* ---- contents of a file: each function writes its part if the file is being written, and else reads it ---- */
 
-/* Parameters and notes, which are stored besides the state */
+/* Parameters and notes, which are stored in addition to the state */
 typedef struct {
   const SamParameters *parameters;
   PetscInt             n;
   const SamNote       *notes;
-  PetscBool            sums; /* reading: whether sums that only the file has are read */
+  PetscBool            sums; /* reading: true if sums that only the file has are read */
 } Rest;
 
-/* Writes a name in the file, of values that are committed or one step back. */
+/* Writes the name in the file of values that are committed or one step back. */
 static void NameOf(const char committed[], const char name[], PetscInt generation, char text[96])
 {
   (void)snprintf(text, 96, "%s%s", generation == SAM_BEFORE ? "before_" : committed, name);
@@ -92,14 +93,15 @@ static PetscErrorCode MoveFields(SamFile f, SamState state)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Writes a message that names a memory of the contact that the file lacks: it cannot begin after the start. */
+/* Writes a message that names a memory of the contact that the file lacks: it cannot begin after the first step. */
 static void NameLacking(const char name[], char message[], size_t size)
 {
   (void)snprintf(message, size, "it lacks %s, which has not been remembered since the start: omit it, or begin anew",
                  name);
 }
 
-/* Writes or reads the kept numbers of a state; optional ones are in the file only if they differ from the usual. */
+/* Writes or reads the kept numbers of a state; optional numbers are in the file only if they differ from the usual
+   value. */
 static void MoveNumbers(SamFile f, SamState state, char message[], size_t size)
 {
   for (PetscInt k = 0; k < SamStateCountNumbers(state); k++) {
@@ -139,7 +141,7 @@ static PetscErrorCode MoveNotes(SamFile f, PetscInt n, const SamNote notes[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The gap that a state was solved with, as notes: its checksum, and whether it was still the problem's gap. */
+/* The gap for which a state was solved, as notes: its checksum, and 1 if it was still the problem's gap. */
 #define GAP(values) \
   {"gap_checksum", 1, &(values)[0]}, \
   { \
@@ -148,7 +150,7 @@ static PetscErrorCode MoveNotes(SamFile f, PetscInt n, const SamNote notes[])
 
 /* ---- writing ---- */
 
-/* Lists the fields that a state keeps, by their names with commas between them. */
+/* Lists the names of the fields that a state keeps, separated by commas. */
 static void ListFields(SamState state, char list[], size_t size)
 {
   list[0] = '\0';
@@ -160,7 +162,7 @@ static void ListFields(SamState state, char list[], size_t size)
   }
 }
 
-/* Lists the conditions that are not as usual, likewise. */
+/* Lists the conditions that differ from their usual values, in the same way. */
 static void ListConditions(SamState state, char list[], size_t size)
 {
   list[0] = '\0';
@@ -219,7 +221,7 @@ static PetscErrorCode WriteAll(SamFile f, SamContact contact, const Rest *rest)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Writes and seals the file, which has no name of its own yet. */
+/* Writes and seals the file, which does not have its final name yet. */
 static PetscErrorCode WriteFile(SamCheckpoint cp, SamContact contact, const Rest *rest)
 {
   SamFile        f;
@@ -254,7 +256,7 @@ PetscErrorCode SamCheckpointWrite(SamCheckpoint cp, SamContact contact, const Sa
   PetscFunctionBegin;
   PetscCall(CheckNames(cp));
   ierr = WriteFile(cp, contact, &rest);
-  if (ierr && cp->hold.file >= 0) (void)!ftruncate(cp->hold.file, 0); /* gives back the space */
+  if (ierr && cp->hold.file >= 0) (void)!ftruncate(cp->hold.file, 0); /* releases the disk space */
   PetscCall(ierr);
   PetscCall(SamFileReplace(cp->grid, OPTION, cp->temporary, cp->filename, cp->before));
   PetscCall(SamFileLockTakeNext(cp->grid, OPTION, cp->temporary, &cp->hold));
@@ -262,7 +264,7 @@ PetscErrorCode SamCheckpointWrite(SamCheckpoint cp, SamContact contact, const Sa
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Takes hold of the temporary file. A run that has just renamed its own still holds the checkpoint itself. */
+/* Locks the temporary file. A run that has just renamed its own file still holds the checkpoint itself. */
 static PetscErrorCode TakeNames(SamCheckpoint cp)
 {
   PetscFunctionBegin;
@@ -318,7 +320,7 @@ PetscErrorCode SamCheckpointNames(const char filename[], char **before, char **t
 
 /* ---- reading ---- */
 
-/* Contents of a checkpoint besides the notes. The caller destroys them, also after an error. */
+/* Contents of a checkpoint besides the notes; the caller destroys them, also after an error */
 typedef struct {
   SamState     state;
   SamStepCache cache;
@@ -333,7 +335,7 @@ static PetscErrorCode DestroyContent(Content *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Finds out whether a law of this name only accumulates its field; if so, declares it in `state` (NULL: does not). */
+/* Finds out if a law of this name only accumulates its field; if so, declares the field in `state` (NULL: does not). */
 static PetscErrorCode DeclareSum(SamContact contact, const char name[], SamState state, PetscBool *is)
 {
   SamLaw law;
@@ -349,8 +351,8 @@ static PetscErrorCode DeclareSum(SamContact contact, const char name[], SamState
 }
 
 /*
-  Creates a state with the declarations of the contact's state, and, if `sums`, of sums that only the file has. The
-  message names another field that only one of them has.
+  Creates a state with the declarations of the contact's state and, if `sums`, those of sums that only the file has. The
+  message names any other field that only one of them has.
 */
 static PetscErrorCode CreateState(SamContact contact, const char list[], PetscBool sums, SamState *state,
                                   char message[], size_t size)
@@ -381,7 +383,7 @@ static PetscErrorCode CreateState(SamContact contact, const char list[], PetscBo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Checks that the contact has all conditions of the file; the message names one that it lacks. */
+/* Checks that the contact has all conditions of the file; the message names a missing one. */
 static PetscErrorCode CheckConditions(SamState state, const char list[], char message[], size_t size)
 {
   char **names;
@@ -461,7 +463,7 @@ static PetscErrorCode ReadFile(SamContact contact, const char filename[], const 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Writes advice for a checkpoint that cannot be read: names the one before it, if that can be read. */
+/* Adds advice on a checkpoint that cannot be read: names the previous one, if that can be read. */
 static PetscErrorCode Advise(SamContact contact, const char filename[], const Rest *rest, char advice[], size_t size)
 {
   Content c;
@@ -479,7 +481,7 @@ static PetscErrorCode Advise(SamContact contact, const char filename[], const Re
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Lets the contact accumulate what has been read besides its own fields. */
+/* Makes the contact accumulate the sums that were read in addition to its own fields. */
 static PetscErrorCode AddSums(SamContact contact, SamState state)
 {
   SamState own;

@@ -1,7 +1,7 @@
 /*
-  Edges as points in a results file: datasets (time, point, 2) of x and y, whose rows end in NaN where a step has fewer
-  points than another one. Rank 0 writes them. netCDF's readers want a scale for each dimension; those of
-  points and coordinates have no values, as the attribute says by which netCDF knows such scales.
+  Edges as points in a results file: datasets (time, point, 2) of x and y, whose rows end in NaN if a step has fewer
+  points than another one. Rank 0 writes them. Readers of netCDF need a scale for each dimension; the scales of points
+  and coordinates have no values, which an attribute of netCDF declares.
 */
 #include "ioimpl.h"
 #include <petsam/private/rows.h>
@@ -78,7 +78,7 @@ void SamOutputAppendPoints(SamOutput o, hid_t dataset, hsize_t step, const SamOu
   size[1] = PetscMax(size[1], points->count);
   size[2] = 2;
   (void)SamFileNote(o->f, H5Dset_extent(dataset, size));
-  (void)SamFileGetSize(o->f, o->point, 1, scale); /* is as long as the longest edge */
+  (void)SamFileGetSize(o->f, o->point, 1, scale); /* as long as the longest edge */
   if (scale[0] < size[1]) (void)SamFileNote(o->f, H5Dset_extent(o->point, &size[1]));
   SamFileWriteBlock(o->f, dataset, H5T_NATIVE_DOUBLE, &block, points->xy);
 }

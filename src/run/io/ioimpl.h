@@ -11,24 +11,23 @@
 
 /*
   The kept steps of a load cycle in a checkpoint (kept.c).
-  SamKeptBytes - about their size in it. Not collective.
-  SamKeptWrite, SamKeptRead - write them; read them into an empty cache, if the file has some and its memory suffices.
-  Both note their failures. Collective.
+  SamKeptBytes - estimates their size in it. Not collective. SamKeptWrite, SamKeptRead - write them, and read them into
+  an empty cache if the file has some and the cache's memory suffices. Both note their failures. Collective.
 */
 PETSC_INTERN off_t          SamKeptBytes(SamStepCache cache);
 PETSC_INTERN PetscErrorCode SamKeptWrite(SamFile file, SamStepCache cache);
 PETSC_INTERN PetscErrorCode SamKeptRead(SamFile file, SamStepCache cache);
 
-/* The series of a file: a row for each load step, and one for each of the settings' cycles. */
+/* The series of a file: one row per load step, and one row per computed cycle of the settings' life */
 typedef enum { SAM_SERIES_HISTORY, SAM_SERIES_CYCLES, SAM_SERIES } SamSeries;
 
 /*
   The points of an edge: x and y (m) one after the other, on rank 0; the count on all ranks (edgepoints.c). The
   functions note their failures. Collective.
-  SamOutputCreatePoints - creates a dataset for them, without a step.
-  SamOutputCreatePointScales - creates the scales of all such datasets, which are there already, and attaches them.
-  SamOutputGatherPoints - takes those of all ranks into the output, in the order of their rows.
-  SamOutputAppendPoints - writes those of a step, which is the next one.
+  SamOutputCreatePoints - creates their dataset, without a step.
+  SamOutputCreatePointScales - creates the scales of all such datasets, which must exist, and attaches them.
+  SamOutputGatherPoints - gathers the points of all ranks in the output, in the order of their rows.
+  SamOutputAppendPoints - writes the points of the next step.
 */
 typedef struct {
   hsize_t count;
@@ -39,59 +38,59 @@ PETSC_INTERN void           SamOutputCreatePointScales(SamOutput output);
 PETSC_INTERN PetscErrorCode SamOutputGatherPoints(SamOutput output, const SamEdge *edge);
 PETSC_INTERN void SamOutputAppendPoints(SamOutput output, hid_t dataset, hsize_t step, const SamOutputPoints *points);
 
-#define SAM_IDENTITY "results-%016" PRIx64 /* of a file, as a text */
+#define SAM_IDENTITY "results-%016" PRIx64 /* identity of a file, as text */
 
-#define SAM_OUTPUT_WAIT 256 /* most steps that wait to be written: those of a chunk of the series */
+#define SAM_OUTPUT_WAIT 256 /* maximum number of steps that wait to be written, a chunk of the series */
 
 struct _n_SamOutput {
   SamGrid           grid;
   SamFile           f;
   SamOutputSettings set;
-  /* what it owns; identifiers are negative where nothing is open */
+  /* owned objects; identifiers are negative if nothing is open */
   hid_t           vtk_steps; /* attribute: number of steps that VTK sees */
-  hid_t           closed;    /* attribute: whether the file was closed properly */
-  char           *name;      /* that the file gets when it is published; NULL: it has it */
+  hid_t           closed;    /* attribute: true if the file was closed properly */
+  char           *name;      /* name that the file gets when it is published; NULL: it has it */
   uint64_t        identity;
-  SamFileLock     hold;                  /* of a file that is written */
-  PetscBool       replaced;              /* there were older results */
-  SamState        state[SAM_SERIES];     /* whose numbers are the columns of a series; borrowed; NULL: none */
-  const char     *series[SAM_SERIES];    /* their groups */
-  PetscInt        values[SAM_SERIES];    /* in a row of them */
-  PetscBool       wants[SAM_STATE_MOST]; /* which of the state's results are saved */
+  SamFileLock     hold;                  /* lock of a file that is written */
+  PetscBool       replaced;              /* older results existed */
+  SamState        state[SAM_SERIES];     /* states whose numbers are the columns of a series; borrowed; NULL: none */
+  const char     *series[SAM_SERIES];    /* names of their groups */
+  PetscInt        values[SAM_SERIES];    /* number of values in a row */
+  PetscBool       wants[SAM_STATE_MOST]; /* true for the results of the state that are saved */
   hid_t           time, point, group, fields[SAM_STATE_MOST], columns[SAM_SERIES][SAM_STATE_DECLARED];
-  signed char    *states;  /* of this rank's cells */
-  float          *singles; /* the same; NULL until fields in single precision are written */
-  Vec             work;    /* for fields that are computed; NULL until the first one */
-  Vec             layers;  /* the same for those of layers */
-  SamOutputPoints points;  /* of the edge that is being written */
+  signed char    *states;  /* cell states of this rank's cells */
+  float          *singles; /* values of this rank's cells; NULL until fields in single precision are written */
+  Vec             work;    /* for computed fields; NULL until the first one */
+  Vec             layers;  /* for fields of layers; NULL until the first one */
+  SamOutputPoints points;  /* points of the edge that is being written */
   /* status */
-  double   *waiting;          /* numbers of steps that are not in the file yet, room for SAM_OUTPUT_WAIT; NULL: none */
-  PetscInt  waits;            /* number of these */
-  double    flushed;          /* MPI_Wtime() when the file was complete last */
-  hsize_t   rows[SAM_SERIES]; /* in the file: load steps in the history, computed cycles */
-  hsize_t   saved;            /* steps with fields */
-  PetscReal saved_time;       /* of the last step with fields */
+  double   *waiting; /* numbers of steps that are not in the file yet, memory for SAM_OUTPUT_WAIT steps; NULL: none */
+  PetscInt  waits;   /* number of these steps */
+  double    flushed; /* MPI_Wtime() when the file was last complete */
+  hsize_t   rows[SAM_SERIES]; /* rows in the file: load steps in the history, computed cycles */
+  hsize_t   saved;            /* number of steps with fields */
+  PetscReal saved_time;       /* time of the last step with fields */
   PetscBool broken;           /* a step could not be written: no collective call on the file may follow */
 };
 
 /*
-  SamOutputCreateLayout - creates all datasets, without a step, and their attributes, and notes the first coordinate as
-  the mark of the file. Notes its failures. Collective.
+  SamOutputCreateLayout - creates all datasets, without a step, and their attributes; the first coordinate becomes the
+  mark of the file. Notes its failures. Collective.
 */
 PETSC_INTERN PetscErrorCode SamOutputCreateLayout(SamOutput output);
-/* SamOutputFieldBytes - the size of the fields of one step, uncompressed. Not collective. */
+/* SamOutputFieldBytes - returns the size of the fields of one step, uncompressed. Not collective. */
 PETSC_INTERN off_t SamOutputFieldBytes(SamOutput output);
-/* SamOutputResult - field f of the state. Not collective. */
+/* SamOutputResult - returns field f of the state. Not collective. */
 static inline const SamStateResult *SamOutputResult(SamOutput o, PetscInt f)
 {
   return SamStateResultOf(o->state[SAM_SERIES_HISTORY], f);
 }
-/* SamOutputCount - the number of fields that there are. Not collective. */
+/* SamOutputCount - returns the number of fields. Not collective. */
 static inline PetscInt SamOutputCount(SamOutput o)
 {
   return SamStateCountResults(o->state[SAM_SERIES_HISTORY]);
 }
-/* SamOutputLabel - the label of a field. Not collective. */
+/* SamOutputLabel - returns the label of a field. Not collective. */
 static inline SamLabel SamOutputLabel(SamOutput o, PetscInt f)
 {
   const SamStateResult *r = SamOutputResult(o, f);
@@ -99,12 +98,13 @@ static inline SamLabel SamOutputLabel(SamOutput o, PetscInt f)
   return (SamLabel){r->name, r->unit, r->text};
 }
 /*
-  SamOutputAllocate - an object for an open file, NULL for one that is yet to be opened; no dataset is open yet.
+  SamOutputAllocate - creates the object for an open file, or NULL for a file that is yet to be opened; no dataset is
+  open yet.
   SamOutputFree - frees the object, and leaves the file as it is. Neither is collective.
 */
 PETSC_INTERN PetscErrorCode SamOutputAllocate(SamGrid grid, SamFile file, const SamOutputSettings *set,
                                               SamOutput *output);
 PETSC_INTERN PetscErrorCode SamOutputFree(SamOutput *output);
-/* SamOutputPublish - gives the file its name, unless it has it. Collective. Errors: SAM_ERR_FILE. */
+/* SamOutputPublish - gives the file its final name, unless it has it. Collective. Errors: SAM_ERR_FILE. */
 PETSC_INTERN PetscErrorCode SamOutputPublish(SamOutput output);
 #endif

@@ -1,18 +1,19 @@
 /*
   The kept steps of a load cycle (step/stepcache.c) in a checkpoint, so that a restart has the same bits: a table of
-  numbers, which is the same on all ranks, and the fields of some of its rows, each on parts of the grid's rows:
+  numbers, which is the same on all ranks, and the fields for some rows of the table, which cover parts of the grid's
+  rows:
 
     kept_table      (rows, numbers)
     kept_ranges     (steps, ny, 2)       the columns from the first to the last, without it
     kept_changes    (numbers)
     kept_pressures  (cells)
 
-  The steps follow each other in batches, each of which a rank moves at once. In a batch the rows of the grid follow
-  each other, so that a rank's part is in one piece, and in a row the steps, and of a step the four changes.
+  The steps are stored in batches; a rank moves its part of a batch at once. A batch is ordered by rows of the grid, so
+  that a rank's part is contiguous; within a row by steps, and within a step by the four changes.
 */
 #include "ioimpl.h"
 
-/* Cells of a batch's steps, at most, unless it has one step only: 4 MB of changes. */
+/* Maximum number of cells of a batch's steps, unless it has only one step: 4 MB of changes */
 #define BATCH 262144
 
 typedef struct {
@@ -22,16 +23,16 @@ typedef struct {
 
 /* ---- the table ---- */
 
-/* The steps with fields, and the cells of all of them; of those with a pressure. */
+/* Numbers of the steps with fields, of the cells of all these, and of the cells with a pressure */
 typedef struct {
   hsize_t steps, changed, pressed;
 } Sizes;
 
-/* The steps of a table from row `first` on, of which the next ones come to at most the cells of a batch. */
+/* The steps of a table from row `first` on that form the next batch */
 typedef struct {
   PetscInt  first, end;
   Sizes     sizes;
-  PetscInt *at; /* scratch, a number of each step */
+  PetscInt *at; /* scratch, one number per step */
 } Batch;
 
 static void AddStep(SamStepCache cache, PetscInt row, Sizes *s)
@@ -98,7 +99,7 @@ static void ClosePlaces(SamFile f, Places *p)
   Close(f, p->pressures);
 }
 
-/* ---- the fields of a batch of steps: each of these writes to a file that is written, and else reads ---- */
+/* ---- the fields of a batch of steps: each function writes to a file that is being written, and else reads ---- */
 
 static void Move(SamFile f, hid_t dataset, hid_t type, const SamBlock *block, void *values)
 {
@@ -108,17 +109,17 @@ static void Move(SamFile f, hid_t dataset, hid_t type, const SamBlock *block, vo
     SamFileReadBlock(f, dataset, type, block, values);
 }
 
-/* Copies between values and a position in a buffer, which advances; reading or writing, as the file. */
+/* Copies between values and a position in a buffer, which advances; the direction depends on the file. */
 static void Pass(SamFile f, char **buffer, void *values, size_t bytes)
 {
   memcpy(f->writing ? (void *)*buffer : values, f->writing ? values : (void *)*buffer, bytes);
   *buffer += bytes;
 }
 
-/* The changes of a batch, or its pressures: row by row of the grid, and in a row step by step. */
+/* Copies the changes of a batch, or its pressures, by rows of the grid, and within a row by steps. */
 static void PassRows(SamFile f, SamStepCache cache, const Batch *b, PetscBool pressures, char *buffer)
 {
-  PetscInt *at = b->at; /* of each step, where its part of the row begins */
+  PetscInt *at = b->at; /* for each step, the place of its part of the row */
 
   for (PetscInt k = b->first; k < b->end; k++) at[k - b->first] = 0;
   for (PetscInt j = 0; j < f->grid->rows; j++)
@@ -134,7 +135,7 @@ static void PassRows(SamFile f, SamStepCache cache, const Batch *b, PetscBool pr
     }
 }
 
-/* Moves the changes of a batch, or its pressures, of which this rank has n; they begin at `first` in the dataset. */
+/* Moves n changes, or pressures, of a batch, the part of this rank; they begin at `first` in the dataset. */
 static PetscErrorCode MoveNumbers(SamFile f, SamStepCache cache, const Batch *b, hid_t dataset, PetscBool pressures,
                                   PetscInt n, hsize_t first)
 {
@@ -189,7 +190,7 @@ static PetscErrorCode MoveBatches(SamFile f, SamStepCache cache, Places *p)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The ranges of all steps; those that are read give the cache its fields. */
+/* Writes or reads the ranges of all steps; when read, they create the fields of the cache. */
 static PetscErrorCode MoveRanges(SamFile f, SamStepCache cache, hid_t dataset, hsize_t steps)
 {
   const PetscInt n     = 2 * f->grid->rows;
@@ -250,7 +251,7 @@ PetscErrorCode SamKeptWrite(SamFile f, SamStepCache cache)
 
 /* ---- reading ---- */
 
-/* Reads the table; the cache stays empty where its memory does not suffice. */
+/* Reads the table; the cache stays empty if its memory does not suffice. */
 static PetscErrorCode ReadTable(SamFile f, SamStepCache cache)
 {
   const hid_t dataset = Open(f, "kept_table");

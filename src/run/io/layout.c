@@ -1,7 +1,7 @@
 /*
   The datasets of the results file: names, units, dimensions, attributes.
 
-  Dimension scales follow the HDF5 dimension scale specification, so that netCDF-4 and xarray know the coordinates; the
+  Dimension scales follow the HDF5 dimension scale specification, so that netCDF-4 and xarray find the coordinates; the
   attributes follow the CF conventions.
 */
 #include "ioimpl.h"
@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-#define CHUNK_STEPS SAM_OUTPUT_WAIT /* steps in a chunk of a series, which has one number a step */
+#define CHUNK_STEPS SAM_OUTPUT_WAIT /* steps per chunk of a series, which has one number per step */
 
 static const SamLabel x_label        = {"x", "m", "x of the cell centres"};
 static const SamLabel y_label        = {"y", "m", "y of the cell centres"};
@@ -18,8 +18,8 @@ static const SamLabel time_label     = {"time", "s", "time of the saved fields"}
 static const char     state_words[]  = "open stick slip"; /* SamCellState */
 static const char     status_words[] = "converged not_converged no_equilibrium edge_contact";
 
-#define CHUNK_MATRICES 16 /* of a series of matrices */
-#define EDGE           4  /* cells that an edge is expected to cross, over those along x and y */
+#define CHUNK_MATRICES 16 /* chunk size of a series of matrices */
+#define EDGE           4  /* expected number of cells that an edge crosses, relative to the number along x and y */
 
 static const SamShape series   = {1, {0}, {H5S_UNLIMITED}, {CHUNK_STEPS}, NULL};
 static const SamShape matrices = {3,
@@ -28,7 +28,7 @@ static const SamShape matrices = {3,
                                   {CHUNK_MATRICES, SAM_COMPONENTS, SAM_COMPONENTS},
                                   NULL};
 
-/* Creates the coordinates of the cell centres along x (0) or y (1), in the root group or another one. */
+/* Creates the coordinates of the cell centres along x (0) or y (1), in the root group or in another group. */
 static PetscErrorCode CreateAxis(SamOutput o, hid_t where, const SamLabel *label, PetscInt direction, hid_t *scale)
 {
   const PetscInt n     = direction ? o->grid->ny : o->grid->nx;
@@ -45,8 +45,8 @@ static PetscErrorCode CreateAxis(SamOutput o, hid_t where, const SamLabel *label
 }
 
 /*
-  Divides n into as few chunks of equal size as possible, none larger than `most`, and returns their size; the last may
-  reach a little beyond n.
+  Divides n into as few chunks of equal size as possible, none larger than `most`, and returns their size; the last
+  chunk may extend beyond n.
 */
 static hsize_t ChunkSize(hsize_t n, hsize_t most)
 {
@@ -67,7 +67,7 @@ static SamShape FieldShape(SamGrid grid, const SamOutputSettings *set)
                     NULL};
 }
 
-/* Returns the shape of a dataset of so many layers, each with chunks of its own. */
+/* Returns the shape of a dataset of so many layers; each layer has separate chunks. */
 static SamShape LayersShape(SamGrid grid, const SamOutputSettings *set, PetscInt layers)
 {
   const SamShape plane = FieldShape(grid, set);
@@ -84,7 +84,7 @@ static hid_t StoredType(const SamStateResult *field, PetscBool single)
   return field->kind == SAM_FIELD_STATE ? H5T_STD_I8LE : single ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
 }
 
-/* Returns the number of the planes of cells of a step that a field has. */
+/* Returns the number of planes of cells that a field has per step. */
 static hsize_t PlanesOf(SamOutput o, PetscInt f)
 {
   return SamOutputResult(o, f)->kind == SAM_FIELD_LAYERS
@@ -95,7 +95,7 @@ static hsize_t PlanesOf(SamOutput o, PetscInt f)
 off_t SamOutputFieldBytes(SamOutput o)
 {
   const SamShape shape = FieldShape(o->grid, &o->set);
-  hsize_t        cells = 1, bytes = 0, points = 0; /* cells in whole chunks; bytes of all fields in a cell; of edges */
+  hsize_t cells = 1, bytes = 0, points = 0; /* cells in whole chunks; bytes per cell of all fields; bytes of edges */
 
   for (int d = 1; d < 3; d++) cells *= (shape.size[d] + shape.chunk[d] - 1) / shape.chunk[d] * shape.chunk[d];
   for (PetscInt f = 0; f < SamOutputCount(o); f++) {
@@ -108,14 +108,14 @@ off_t SamOutputFieldBytes(SamOutput o)
   return (off_t)(cells * bytes + points);
 }
 
-/* Bytes that a series takes: whole chunks. */
+/* Returns the bytes of a series, in whole chunks. */
 static double SeriesBytes(double rows, hsize_t chunk, hsize_t numbers)
 {
   return ceil(rows / (double)chunk) * (double)(chunk * numbers * sizeof(double));
 }
 
-#define STRUCTURE 100e3 /* bytes, of an empty file */
-#define INDEX     64    /* bytes for a chunk in HDF5's indices */
+#define STRUCTURE 100e3 /* bytes of an empty file */
+#define INDEX     64    /* bytes per chunk in HDF5's indices */
 PetscErrorCode SamOutputForecast(SamOutput o, double steps, double saved, double *bytes)
 {
   const SamState state = o->state[SAM_SERIES_HISTORY];
@@ -143,7 +143,7 @@ static void WriteFlags(SamOutput o, hid_t dataset)
   SamFileWriteTextAttribute(o->f, dataset, "flag_meanings", state_words);
 }
 
-/* Marks the file by its first coordinate, stored as it is in memory on little-endian machines only. */
+/* Marks the file by its first coordinate, which is stored in the order of memory only on little-endian machines. */
 static void Mark(SamOutput o, hid_t x)
 {
   const haddr_t at = x >= 0 ? H5Dget_offset(x) : HADDR_UNDEF;
@@ -153,8 +153,8 @@ static void Mark(SamOutput o, hid_t x)
 }
 
 /*
-  Creates a field of layers, in its group, which is made with the first one and has coordinates of its own: all fields
-  of layers share the layers.
+  Creates a field of layers in its group. The group is created with the first such field and has its own coordinates, as
+  all fields of layers have the same layers.
 */
 static PetscErrorCode CreateLayers(SamOutput o, PetscInt f, hid_t scales[4])
 {
@@ -185,7 +185,7 @@ static PetscErrorCode CreateLayers(SamOutput o, PetscInt f, hid_t scales[4])
 static PetscErrorCode CreateFields(SamOutput o)
 {
   const SamShape shape = FieldShape(o->grid, &o->set);
-  hid_t          scales[3], below[4]; /* of [time, y, x] and of [time, z, y, x] */
+  hid_t          scales[3], below[4]; /* scales for [time, y, x] and for [time, z, y, x] */
   PetscBool      points = PETSC_FALSE;
 
   PetscFunctionBegin;
@@ -216,7 +216,7 @@ static PetscErrorCode CreateFields(SamOutput o)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Creates the rows or columns of matrices: the six loads, or the six rigid displacements, by name. */
+/* Creates the names of the rows or columns of matrices: the six loads, or the six rigid displacements. */
 static hid_t CreateComponents(SamOutput o, PetscBool loads)
 {
   static const SamLabel load             = {"load_component", "1", "component of the load"},
@@ -256,7 +256,8 @@ static hid_t CreateColumn(SamOutput o, hid_t group, const SamStateNumber *number
   return dataset;
 }
 
-/* The first column is the dimension scale of the others; matrices have two more, made with the first of them. */
+/* Creates a series. Its first column is the dimension scale of the others; matrices have two more scales, created with
+   the first. */
 static void CreateSeries(SamOutput o, SamSeries kind)
 {
   const SamState  state   = o->state[kind];
@@ -268,7 +269,7 @@ static void CreateSeries(SamOutput o, SamSeries kind)
   for (PetscInt c = 0; c < SamStateCountNumbers(state); c++) {
     const SamStateNumber *n      = SamStateNumberOf(state, c, NULL);
     const SamLabel        label  = {n->name, SamUnitOn(o->grid, n->unit), n->text};
-    const double          before = SamStateMissingNumber(state, c); /* in parts of the run without the column */
+    const double          before = SamStateMissingNumber(state, c); /* value in parts of the run without the column */
 
     if (!n->result) continue;
     if (c == 0) {
@@ -287,7 +288,7 @@ static void CreateSeries(SamOutput o, SamSeries kind)
   }
 }
 
-/* For VTK the results are one sheet of cells. */
+/* Describes the results for VTK as one sheet of cells. */
 static void CreateVTK(SamOutput o)
 {
   const SamGrid g       = o->grid;

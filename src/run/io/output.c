@@ -14,7 +14,7 @@
 
 /* ---- options ---- */
 
-/* For the help, which is printed before there is a contact to ask. */
+/* Keywords for the help, which is printed before there is a contact. */
 #define WORDS \
   "all,none,pressure,shear_x,shear_y,displacement_z,displacement_x,displacement_y,slip_x,slip_y,gap,state," \
   "slip_aside_x,slip_aside_y,pressure_center,shear_center_x,shear_center_y,contact_edge,stick_" \
@@ -60,7 +60,7 @@ PetscErrorCode SamOutputSettingsSetFromOptions(SamOutputSettings *set, const Sam
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* True if a word of -output_fields is a field's name, or the name of its group. */
+/* True if a keyword of -output_fields is a field's name, or the name of its group. */
 static PetscBool Means(const char word[], const char name[])
 {
   const size_t group = strcspn(name, "/");
@@ -75,7 +75,7 @@ static PetscBool Names(const SamOutputSettings *set, const char name[])
   return PETSC_FALSE;
 }
 
-/* True if a word of -output_fields selects any field. */
+/* True if a keyword of -output_fields selects any field. */
 static PetscBool Knows(SamState state, const char word[])
 {
   if (!strcmp(word, "all") || !strcmp(word, "usual")) return PETSC_TRUE;
@@ -98,7 +98,7 @@ PetscErrorCode SamOutputSettingsAddLaws(SamOutputSettings *set, SamProblem probl
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Lists the names that there are, also of sums (`sum`) that begin where they are named, with commas between them. */
+/* Lists the available names, also of sums (`sum`), which are computed only if named, separated by commas. */
 static void ListFields(SamState state, PetscBool sum, char names[], size_t size)
 {
   static const char *const sums[] = {SAM_LAW_ACCUMULATED_SLIP, SAM_LAW_FRICTION_ENERGY};
@@ -196,7 +196,8 @@ PetscErrorCode SamOutputFree(SamOutput *output)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Marks the file as closed, last of all: a file without the mark was left by a run that did not reach its end. */
+/* Marks the file as closed, as the last change: a file without the mark was left by a run that did not reach its
+   end. */
 static void MarkClosed(SamOutput o)
 {
   const int8_t closed = 1;
@@ -226,7 +227,7 @@ static PetscErrorCode Close(SamOutput *output)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Makes a number that no other file has. */
+/* Creates a number that no other file has. */
 static PetscErrorCode MakeIdentity(SamOutput o)
 {
   struct timespec now;
@@ -385,7 +386,7 @@ PetscErrorCode SamOutputCheckPart(SamGrid grid, const char filename[], uint64_t 
 
 /* ---- attributes ---- */
 
-/* Ends writing to the file, after its attributes have been written. */
+/* Stops writing to the file, after its attributes have been written. */
 static PetscErrorCode End(SamOutput o)
 {
   PetscFunctionBegin;

@@ -1,9 +1,9 @@
 /*
-  Results of a run, read again.
+  Reads the results of a run.
 
-  Rank 0 examines parameters, shapes, and where the data lie, so that a damaged file ends in a message, on all ranks
-  alike. Then all ranks open it and read their rows. The parts of a run that was restarted are read as one: of each, the
-  steps up to where the next one begins.
+  Rank 0 examines parameters, shapes and the places of the data, so that a damaged file ends in a message, on all ranks
+  alike. Then all ranks open the file and read their rows. The parts of a restarted run are read as one run: from each
+  part the steps before the next part begins.
 */
 #include "ioimpl.h"
 #include <petsam/private/results.h>
@@ -23,33 +23,33 @@ static const char *const residuals[SAM_STRESS_COMPONENTS] = {
 /* Description of the run in its results file */
 typedef struct {
   double        n[2], width[2], center[2];
-  char          options[4096]; /* empty if they are longer */
+  char          options[4096]; /* empty if too long */
   SamParameters parameters;
   hsize_t       steps, saved;
-  double        first;                     /* load steps before those of the file */
-  char          identity[32], follows[32]; /* of the file, and of the part before; empty: none */
-  int           layers;                    /* whether it has the stresses by plastic strain */
+  double        first;                     /* number of load steps before those of the file */
+  char          identity[32], follows[32]; /* identity of the file, and of the part before; empty: none */
+  int           layers;                    /* true if it has the stresses by plastic strain */
   int           has[SAM_RESULTS_FIELDS], number[SAM_RESULTS_NUMBERS];
-  int           column[SAM_PARAMETERS]; /* whether a parameter is a column of the history, too */
+  int           column[SAM_PARAMETERS]; /* true if a parameter is also a column of the history */
 } Facts;
 
-/* One file of the run. */
+/* One file of the run */
 typedef struct {
   Facts    facts;
-  PetscInt steps; /* from the run's start to where the next part begins */
+  PetscInt steps; /* number from the run's start to the beginning of the next part */
   SamFile  file;
   hid_t    field[SAM_RESULTS_FIELDS], residual[SAM_STRESS_COMPONENTS];
 } Part;
 
-/* Where the fields of a saved step are. */
+/* Place of the fields of a saved step */
 typedef struct {
   const Part *part;
   hsize_t     index;
   double      time;
-  PetscInt    step; /* from 1 */
+  PetscInt    step; /* number of the step, from 1 */
 } Saved;
 
-#define PARTS 4096 /* most parts */
+#define PARTS 4096 /* maximum number of parts */
 struct _n_SamResults {
   SamGrid  grid;
   PetscInt count, saves;
@@ -59,7 +59,7 @@ struct _n_SamResults {
 
 /* ---- examination, by one rank ---- */
 
-/* Refuses the file unless something is so; the text says what is not. */
+/* Rejects the file unless a condition holds; the text describes the fault. */
 #define CHECK(f, is, ...) \
   do { \
     char fault[256]; \
@@ -76,15 +76,15 @@ static PetscErrorCode GetNumbers(SamFile f, const char name[], PetscInt count, d
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Reads a root attribute that is a text shorter than `size`; empty if it is not there. */
+/* Reads a root attribute that is a text shorter than `size`; empty if it is missing. */
 static void GetText(SamFile f, const char name[], size_t size, char text[])
 {
   if (!SamTextRead(f->id, name, text, size) || strlen(text) + 1 == size) text[0] = '\0';
 }
 
 /*
-  Reads the root attributes that may be parameters: few numbers, or a short text. A constant of a body that is stored
-  otherwise gets the count -1, so that it does not count as missing.
+  Reads the root attributes that may be parameters: a few numbers, or a short text. A constant of a body in another form
+  gets the count -1, so that it does not count as missing.
 */
 static void GetParameters(SamFile f, SamParameters *all)
 {
@@ -190,7 +190,7 @@ static PetscErrorCode ExamineLayers(SamFile f, Facts *facts)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Finds out whether an optional column of the history is there. */
+/* Finds out if an optional column of the history exists. */
 static PetscErrorCode ExamineColumn(SamFile f, const Facts *facts, const char column[], int *has)
 {
   hsize_t shape[1];
@@ -235,7 +235,7 @@ static PetscErrorCode Look(SamFile f, const void *question, void *answer)
   PetscCall(ExamineFields(f, facts));
   PetscCall(ExamineLayers(f, facts));
   for (int n = 0; n < SAM_RESULTS_NUMBERS; n++) PetscCall(ExamineColumn(f, facts, numbers[n], &facts->number[n]));
-  for (PetscInt k = 0; k < facts->parameters.count; k++) { /* load cases are parameters, and columns */
+  for (PetscInt k = 0; k < facts->parameters.count; k++) { /* load cases are parameters and columns */
     const char *name = facts->parameters.list[k].name;
 
     PetscCall(ExamineColumn(f, facts, name, &facts->column[k]));
@@ -255,7 +255,7 @@ static void ReadSeries(SamFile file, const char name[], hsize_t first, hsize_t c
   (void)SamFileNote(file, H5Dclose(dataset));
 }
 
-/* Opens a part and adds its saved steps; a step may be saved in the part before already. */
+/* Opens a part and adds its saved steps; the part before may already have saved the first of them. */
 static PetscErrorCode ReadTimes(SamResults r, Part *part)
 {
   const Facts  *facts = &part->facts;
@@ -291,7 +291,7 @@ static PetscErrorCode ReadTimes(SamResults r, Part *part)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Examines the part of that number, from 1, and takes it if it follows the one before; it need not be there. */
+/* Examines the part with this number, from 1, and takes it if it exists and follows the part before. */
 static PetscErrorCode FindPart(SamResults r, MPI_Comm comm, const char option[], const char name[], PetscBool *found)
 {
   Part *const before = r->count ? r->part[r->count - 1] : NULL;
@@ -388,7 +388,7 @@ PetscErrorCode SamResultsDestroy(SamResults *results)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- what is in it ---- */
+/* ---- contents ---- */
 
 SamGrid SamResultsGetGrid(SamResults r)
 {
@@ -423,7 +423,7 @@ PetscErrorCode SamResultsGetSaved(SamResults r, PetscInt k, PetscInt *step, Pets
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Raises an error if a value on any rank is no finite number. */
+/* Raises an error if a value on any rank is not finite. */
 static PetscErrorCode CheckFinite(const Part *part, PetscInt n, const double values[], const char name[], PetscInt step)
 {
   PetscReal wrong = 0;
@@ -498,7 +498,7 @@ PetscErrorCode SamResultsReadLayer(SamResults r, PetscInt k, PetscInt component,
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Returns the part that a step, from 1, is in. */
+/* Returns the part that contains a step, from 1. */
 static const Part *PartOf(SamResults r, PetscInt step)
 {
   PetscInt k = 0;
@@ -507,7 +507,7 @@ static const Part *PartOf(SamResults r, PetscInt step)
   return r->part[k];
 }
 
-/* Reads a value of a column of the history, at a step from 1. */
+/* Reads a value of a column of the history at a step, from 1. */
 static PetscErrorCode ReadNumber(const Part *part, const char column[], PetscInt step, double *value)
 {
   char name[64];

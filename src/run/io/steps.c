@@ -1,9 +1,10 @@
 /*
   Load steps and computed cycles, appended to a results file.
 
-  Where the settings allow it, steps without fields wait in memory, so that many are written at once, column by column.
-  Written one by one, with the file made complete after each, they took 29 % of a run of 10,000 steps of 128 x 128 cells
-  that saved the fields of every 1,000th, and wait for the disk where other programs write; now 1 to 3 %.
+  If the settings allow it, steps without fields wait in memory, so that many are written at once, column by column.
+  When each step was written separately and the file completed after it, writing took 29 % of a run of 10,000 steps of
+  128 x 128 cells that saved the fields of every 1,000th step, and more if other programs used the disk. Now it takes 1
+  to 3 %.
 
   Disk space is reserved before any of it is written.
 */
@@ -18,15 +19,15 @@
 /* ---- on rank 0 ---- */
 
 /*
-  Sets the end of data in the superblock, to the end of the file before HDF5 flushes its metadata. HDF5 itself updates
-  the superblock last. A run killed in between would leave metadata that point beyond the recorded end, and earlier
-  steps, too, would be lost. The space of a step is reserved before, so all of its data lie within the file. Version 0
+  Sets the end of data in the superblock to the end of the file, before HDF5 flushes its metadata. HDF5 itself updates
+  the superblock last: a run killed before that would leave metadata that point beyond the recorded end, and earlier
+  steps would be lost, too. The space of a step is reserved earlier, so all of its data lie within the file. Version 0
   of the superblock has no checksum, and the end of data at byte 40 (HDF5 file format specification, II.A); other
   versions are left to HDF5. `end_of_data` < 0: the end of the file. Returns an errno or 0.
 */
-#define SUPERBLOCK_VERSION 8  /* byte: version of the superblock */
-#define SUPERBLOCK_OFFSETS 13 /* byte: size of an address, in bytes */
-#define SUPERBLOCK_END     40 /* byte: first of the end of data */
+#define SUPERBLOCK_VERSION 8  /* byte with the version of the superblock */
+#define SUPERBLOCK_OFFSETS 13 /* byte with the size of an address, in bytes */
+#define SUPERBLOCK_END     40 /* first byte of the end of data */
 static int MoveEnd(const char filename[], off_t end_of_data)
 {
   const int     file = open(filename, O_RDWR);
@@ -35,7 +36,7 @@ static int MoveEnd(const char filename[], off_t end_of_data)
   int           error = 0;
 
   if (file < 0) return errno;
-  errno = EIO; /* for a short read or write, which sets none */
+  errno = EIO; /* a short read or write sets no error */
   if (pread(file, start, sizeof(start), 0) != (ssize_t)sizeof(start) || fstat(file, &status))
     error = errno;
   else if (start[SUPERBLOCK_VERSION] == 0 && start[SUPERBLOCK_OFFSETS] == sizeof(end)) {
@@ -47,8 +48,8 @@ static int MoveEnd(const char filename[], off_t end_of_data)
 }
 
 /*
-  Cuts off what was reserved for steps that fitted into the file as it was: HDF5 does so only where its data have grown.
-  The end of data goes first, which must never lie beyond the file.
+  Removes reserved space at the end of the file that the steps did not need: HDF5 does so only if its data have grown.
+  The end of data is set first, since it must never lie beyond the file.
 */
 static void CutUnused(SamOutput o)
 {
@@ -57,7 +58,7 @@ static void CutUnused(SamOutput o)
   if (unused > 0 && o->hold.file >= 0 && !MoveEnd(o->f->filename, unused)) (void)!ftruncate(o->hold.file, unused);
 }
 
-/* Makes the file complete up to here: first sets its end of data, then lets HDF5 write its metadata. */
+/* Completes the file up to this step: first sets its end of data, then flushes HDF5's metadata. */
 static PetscErrorCode Flush(SamOutput o)
 {
   int error = 0;
@@ -104,7 +105,7 @@ static void GatherColumn(const SamStateNumber *number, PetscInt id, const double
   }
 }
 
-/* Appends rows of all numbers of its state to a series. */
+/* Appends rows with all numbers of a state to its series. */
 static PetscErrorCode AppendRows(SamOutput o, SamSeries kind, const double rows[], PetscInt count)
 {
   const SamState state = o->state[kind];
@@ -118,7 +119,7 @@ static PetscErrorCode AppendRows(SamOutput o, SamSeries kind, const double rows[
     const PetscBool       whole = n->kind == SAM_NUMBER_INT || n->kind == SAM_NUMBER_STATUS;
     const hid_t           type  = whole ? H5T_NATIVE_INT64 : H5T_NATIVE_DOUBLE;
 
-    if (o->columns[kind][c] < 0) continue; /* no result */
+    if (o->columns[kind][c] < 0) continue; /* not a result */
     GatherColumn(n, id, rows, o->values[kind], count, values);
     Append(o, o->columns[kind][c], type, o->rows[kind], (hsize_t)count,
            n->kind == SAM_NUMBER_MATRIX ? SAM_COMPONENTS : 1, values);
@@ -138,16 +139,17 @@ static void AppendField(SamOutput o, hid_t dataset, hid_t type, const void *valu
   SamFileWriteFrame(o->f, dataset, type, o->saved, values);
 }
 
-/* In single precision, made here: HDF5 would have each rank write by itself, which compressed fields do not allow. */
+/* Appends values in single precision, converted here: in HDF5's conversion each rank would write by itself, which
+   compression does not allow. */
 static void AppendSingle(SamOutput o, hid_t dataset, const double values[])
 {
   for (PetscInt k = 0; k < o->grid->cells; k++) o->singles[k] = (float)values[k];
   AppendField(o, dataset, H5T_NATIVE_FLOAT, o->singles);
 }
 
-/* A field of the contact whose array is in use. */
+/* A field of the contact whose array is in use */
 typedef struct {
-  Vec           field; /* whose array is in use; NULL: none */
+  Vec           field; /* field with the array; NULL: none */
   const double *array;
 } ContactFields;
 
@@ -176,7 +178,7 @@ static PetscErrorCode GetValues(SamOutput o, PetscInt f, ContactFields *from, co
     *values = &o->points;
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(SamContactGetSolution(o->set.contact, &solution)); /* makes the displacements */
+  PetscCall(SamContactGetSolution(o->set.contact, &solution)); /* computes the displacements */
   if (!o->work) PetscCall(SamGridCreateVec(o->grid, 1, &o->work));
   PetscCall(SamStateFindValues(o->state[SAM_SERIES_HISTORY], f, o->work, &from->field, &component));
   PetscCall(VecGetArrayRead(from->field, &from->array));
@@ -253,8 +255,8 @@ static PetscErrorCode AppendFields(SamOutput o)
 /* ---- writing ---- */
 
 /*
-  Prepares writing: raises an error if the file is not as it was left, and reserves disk space. After an error waiting
-  rows are given up: there is no file for them.
+  Prepares writing: raises an error if the file has been changed from outside, and reserves disk space. After an error
+  waiting rows are discarded, as there is no file for them.
 */
 static PetscErrorCode Begin(SamOutput o, off_t bytes)
 {
@@ -270,7 +272,7 @@ static PetscErrorCode Begin(SamOutput o, off_t bytes)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Writes the steps that wait. */
+/* Writes the waiting steps. */
 static PetscErrorCode WriteWaiting(SamOutput o)
 {
   PetscFunctionBegin;
@@ -317,8 +319,8 @@ static PetscErrorCode CheckWhole(SamOutput o)
 }
 
 /*
-  Appends the numbers of a step, all of the state (NULL: none), and its fields if asked for. Without fields the numbers
-  may wait (SamOutputFlush()); otherwise the file is flushed.
+  Appends the numbers of a step, which are all numbers of the state (NULL: none), and its fields if requested. Without
+  fields the numbers may wait (SamOutputFlush()); otherwise the file is flushed.
 */
 static PetscErrorCode Write(SamOutput o, const double step[], PetscReal time, PetscBool fields)
 {

@@ -58,7 +58,7 @@ static PetscBool IsSameFile(const char a[], const char b[])
 
 /* ---- files that PETSc writes ---- */
 
-static const char *const own[] = {"-log_view", "-memory_view"}; /* of PETSc, which no row declares */
+static const char *const own[] = {"-log_view", "-memory_view"}; /* PETSc's own options, which no row declares */
 
 static PetscBool IsViewerFormat(const char text[])
 {
@@ -67,7 +67,7 @@ static PetscBool IsViewerFormat(const char text[])
   return PETSC_FALSE;
 }
 
-/* 0 if the file can be written, else errno; PETSc would report a failure on one rank only. Not collective. */
+/* Returns 0 if the file can be written, else errno; PETSc would report a failure on one rank only. Not collective. */
 static int CheckPlace(const char name[])
 {
   char        folder[PETSC_MAX_PATH_LEN];
@@ -90,7 +90,8 @@ static PetscErrorCode CheckOptionsView(MPI_Comm comm)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The value of a viewer's option is type:file:format:mode, each of which may be missing. The type is ascii. */
+/* Adds the file of a viewer; its option's value is type:file:format:mode, of which each may be missing. The type is
+   ascii. */
 static PetscErrorCode AddViewer(MPI_Comm comm, const char option[], SamFiles *files)
 {
   char        value[PETSC_MAX_PATH_LEN] = "", *part[4] = {value, NULL, NULL, NULL};
@@ -124,7 +125,7 @@ static PetscErrorCode AddViewer(MPI_Comm comm, const char option[], SamFiles *fi
 
 /* ---- all files ---- */
 
-/* True if a file of an option is there already, with the names that are derived from it. */
+/* True if the files of an option, with the names derived from it, have already been added. */
 static PetscBool Has(const SamFiles *f, const char option[])
 {
   for (PetscInt k = 0; k < f->count; k++)
@@ -151,7 +152,7 @@ static PetscErrorCode AddDeclared(SamFiles *f, MPI_Comm comm, const SamOptionFil
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Files of options, and those of viewers. */
+/* Adds files of options, and those of viewers. */
 static PetscErrorCode AddCommon(SamFiles *f, MPI_Comm comm, const SamArguments *arguments)
 {
   PetscFunctionBegin;

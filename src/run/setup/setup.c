@@ -1,4 +1,4 @@
-/* A contact and all that it is made of, from options: what the programs and embedded contacts share. */
+/* A contact and its parts, created from options: code shared by the programs and embedded contacts. */
 #include <petsam/private/elasticity.h>
 #include <petsam/private/motionimpl.h>
 #include <petsam/private/setup.h>
@@ -47,7 +47,7 @@ PetscErrorCode SamSetupReadOptions(SamSetup *s, const SamOptions *from)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Makes the contact, which reads its options. */
+/* Creates the contact, which reads its options. */
 static PetscErrorCode CreateContact(SamSetup *s, const SamOptions *from)
 {
   PetscFunctionBegin;
@@ -115,7 +115,7 @@ static PetscErrorCode AddGrid(SamParameters *p, SamGrid grid)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Adds the gap to the parameters; heights from a file by their checksum, since a file may change and keep its name. */
+/* Adds the gap to the parameters; heights from a file as a checksum, since the file may change under the same name. */
 static PetscErrorCode AddGap(const SamSetup *s, SamParameters *p)
 {
   static const char *const files[] = {"gap_file", "gap_rough_file"};

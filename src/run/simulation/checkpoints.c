@@ -1,14 +1,14 @@
-/* When a simulation writes checkpoints, when it stops before its end, and how it continues from a checkpoint. */
+/* Checkpoints of a simulation, its stop before the end, and its continuation from a checkpoint. */
 #include "simulationimpl.h"
 #include <petsam/private/file.h>
 #include <petsam/private/problem.h>
 #include <stdlib.h>
 
-#define MARGIN 1.1 /* the next step is assumed to take this times the slowest of the last steps */
+#define MARGIN 1.1 /* assumed time of the next step, relative to the slowest of the last steps */
 
 /* ---- options ---- */
 
-/* Seconds of "s", "m:s" or "h:m:s"; negative for anything else. */
+/* Returns the seconds of "s", "m:s" or "h:m:s"; negative for any other text. */
 static double ReadDuration(const char text[])
 {
   const char *rest    = text;
@@ -100,17 +100,17 @@ static PetscBool TimeIsUp(const SamCheckpoints *cp, double now)
   double slowest = 0;
 
   for (PetscInt s = 0; s < SAM_RECENT; s++) slowest = PetscMax(slowest, cp->recent[s]);
-  return cp->limit > 0 && /* before the first checkpoint, a step's time is a safe estimate of its own */
+  return cp->limit > 0 && /* before the first checkpoint, the time of a step is a safe estimate of its time */
          now - cp->start + MARGIN * slowest + (cp->writing > 0 ? cp->writing : slowest) > cp->limit;
 }
 
 /* ---- the position in the load history, and the history up to there ---- */
 
-#define COLUMNS (1 + SAM_COMPONENTS) /* of the load history: time, and the components */
-#define RESULTS (sizeof(((SamSimulationPoint *)NULL)->results) / sizeof(uint64_t)) /* a file's name, as its bytes */
-#define NOTES   4                                                                  /* besides those of conditions */
+#define COLUMNS (1 + SAM_COMPONENTS) /* columns of the load history: time, and the components */
+#define RESULTS (sizeof(((SamSimulationPoint *)NULL)->results) / sizeof(uint64_t)) /* name of a file, as its bytes */
+#define NOTES   4 /* notes besides those of conditions */
 
-/* Progress of the simulation, which a checkpoint stores besides the state of the contact */
+/* Progress of the simulation, which a checkpoint stores in addition to the state of the contact */
 typedef union {
   struct {
     uint64_t steps, worst, rows;
@@ -123,7 +123,7 @@ typedef union {
 typedef struct {
   Progress progress;
   uint64_t loads[COLUMNS], results[RESULTS], part[2];
-  uint64_t condition[SAM_CONDITIONS]; /* of each, its column of the load history; 0: as usual */
+  uint64_t condition[SAM_CONDITIONS]; /* checksum of each condition's column of the load history; 0: usual value */
   char     name[SAM_CONDITIONS][64];
   SamNote  note[NOTES + SAM_CONDITIONS];
   PetscInt count;
@@ -143,8 +143,8 @@ static void ListNotes(SamConditions conditions, Notes *n)
 }
 
 /*
-  Checksums of each column of the load history over the first steps; for a component, with its kind of control; for a
-  condition 0 as long as it is as usual.
+  Computes checksums of each column of the load history over the first steps: for a component, with its kind of control;
+  for a condition, 0 while it has its usual value.
 */
 static PetscErrorCode ChecksumColumns(SamSimulation simulation, PetscInt steps, uint64_t columns[COLUMNS],
                                       uint64_t conditions[SAM_CONDITIONS])
@@ -203,7 +203,8 @@ static PetscErrorCode Write(SamSimulation s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Checks that the load history up to the checkpoint equals that of the run that wrote it, by the checksums `there`. */
+/* Checks that the load history up to the checkpoint equals that of the run that wrote it, using the checksums
+   `there`. */
 static PetscErrorCode CompareLoads(SamSimulation s, const Notes *there)
 {
   const char *const file   = s->checkpoints.restart;
@@ -219,7 +220,7 @@ static PetscErrorCode CompareLoads(SamSimulation s, const Notes *there)
   for (PetscInt k = 0; k <= SamControlCount(s->conditions); k++) {
     const PetscInt      n         = k - COLUMNS;
     const SamCondition *condition = n < 0 ? NULL : SamConditionsGet(s->conditions, n);
-    const PetscBool     column    = condition && !condition->option; /* only */
+    const PetscBool     column    = condition && !condition->option; /* only a column */
     const PetscBool     same      = n < 0 ? here[k] == there->loads[k] : conditions[n] == there->condition[n];
     const char         *name      = k ? SamControlPartName(&first, s->conditions, k - 1) : "times";
     char                what[96];
@@ -242,7 +243,7 @@ PetscErrorCode SamSimulationRestart(SamSimulation s)
 
   PetscFunctionBegin;
   ListNotes(s->conditions, &n);
-  if (s->checkpoints.other_gap) /* which is not that of the steps so far */
+  if (s->checkpoints.other_gap) /* the gap differs from that of the earlier steps */
     PetscCall(SamProblemSetQuadratic(s->setup.problem, PETSC_FALSE));
   PetscCall(SamCheckpointRead(s->checkpoints.restart, s->setup.contact, PETSC_TRUE, &s->parameters, n.count, n.note));
   p->steps     = (PetscInt)n.progress.at.steps;
@@ -282,14 +283,14 @@ PetscErrorCode SamSimulationDescribePlace(SamSimulation s, PetscBool total, char
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Collects the requests of all ranks: a checkpoint, a checkpoint and the end; and the end for lack of time. */
+/* Collects the requests of all ranks: a checkpoint; a checkpoint and the end; the end for lack of time. */
 static PetscErrorCode Ask(SamSimulation s, double now, double any[3])
 {
   PetscFunctionBegin;
   for (int k = 0; k < 2; k++) any[k] = s->signals ? s->signals[k] : 0;
   any[2] = TimeIsUp(&s->checkpoints, now);
   PetscCall(SamMax(s->comm, 3, any));
-  /* a signal that arrives on a rank only now is answered after the next step */
+  /* A signal that arrives on a rank only now is handled after the next step. */
   for (int k = 0; k < 2; k++)
     if (any[k] > 0) s->signals[k] = 0;
   PetscFunctionReturn(PETSC_SUCCESS);

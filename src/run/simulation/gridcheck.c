@@ -1,17 +1,18 @@
 /*
-  The errors of a grid: the whole history again on half the cells in each direction, as its end depends on the path.
+  Estimates the errors of a grid by solving the whole history again on half the cells in each direction; the whole
+  history is needed because its end depends on the path.
 
-  Between cells of width h and r h a number whose error is of order m differs by (r^m - 1) times the error on the finer
-  ones. Loads, displacements and energies are of order 2; areas and peaks are taken for order 1, which they are at edges
-  and where cells are counted: elsewhere they converge faster, and the error is estimated too large.
+  If the error of a number is of order m, its values on cells of width h and r h differ by (r^m - 1) times the error on
+  the finer cells. Loads, displacements and energies are of order 2. Areas and peaks are treated as order 1, which is
+  right at edges and if cells are counted; elsewhere they converge faster, and the error is overestimated.
 */
 #include "simulationimpl.h"
 #include <petsam/private/state.h>
 #include <math.h>
 
-#define LEAST 4 /* fewest cells in a row of which half still make a grid */
+#define LEAST 4 /* fewest cells per row whose half still makes a grid */
 
-/* Run of the history, or the life, on half the cells along each axis */
+/* Run of the history, or of the life, on half the cells along each axis */
 typedef struct {
   SamSetup setup;
   double   sums[SAM_STATE_NUMBERS]; /* numbers joined over all steps */
@@ -32,7 +33,7 @@ PetscErrorCode SamSimulationReadGridCheck(SamSimulation s, const SamOptions *fro
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Solves the history on the coarser contact, or as many cycles of the life. */
+/* Solves the history, or as many cycles of the life, on the coarser contact. */
 static PetscErrorCode SolveAll(SamSimulation s, Coarse *c)
 {
   const SamContact contact = c->setup.contact;
@@ -55,14 +56,14 @@ static PetscErrorCode SolveAll(SamSimulation s, Coarse *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Adds a row, if there is room; `ratio`: of the widths of the cells. */
+/* Adds a row if there is space; `ratio`: of the widths of the cells. */
 static void Add(SamGrid grid, SamGridCheck *check, double ratio, const char name[], const char unit[], PetscInt order,
                 double value, double coarse)
 {
   const double error = (value - coarse) / (pow(ratio, (double)order) - 1);
 
   for (PetscInt k = 0; k < check->count; k++)
-    if (!strcmp(check->row[k].name, name)) return; /* that of a cycle, before that of its last step */
+    if (!strcmp(check->row[k].name, name)) return; /* the number of a cycle precedes that of its last step */
   if (check->count == (PetscInt)(sizeof(check->row) / sizeof(check->row[0]))) return;
   check->row[check->count++] = (SamGridCheckRow){.name         = name,
                                                  .unit         = SamUnitOn(grid, unit),
@@ -73,7 +74,8 @@ static void Add(SamGrid grid, SamGridCheck *check, double ratio, const char name
                                                  .extrapolated = value + error};
 }
 
-/* Compares the numbers above 0 of two states whose error has an order; `sums`: joined, NULL: those are left out. */
+/* Compares those numbers above 0 of two states whose error has an order; `sums`: joined values; NULL: sums are
+   omitted. */
 static PetscErrorCode CompareNumbers(SamSimulation s, SamState state, SamState other, const double sums[], double ratio,
                                      SamGridCheck *check)
 {
@@ -92,7 +94,7 @@ static PetscErrorCode CompareNumbers(SamSimulation s, SamState state, SamState o
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Compares the last steps on both grids: numbers, and of loads and displacements those that are found. */
+/* Compares the last steps on both grids: numbers, and the computed loads and displacements. */
 static PetscErrorCode Compare(SamSimulation s, const Coarse *coarse, SamGridCheck *check)
 {
   const SamStep *step  = &coarse->step;

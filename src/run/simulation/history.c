@@ -1,4 +1,4 @@
-/* The load program: made of options and a file, asked for its steps. */
+/* The load history: created from options and a file, it returns its steps. */
 #include <petsam/private/history.h>
 #include <petsam/elasticity.h>
 #include <petsam/private/table.h>
@@ -9,26 +9,26 @@
 #include <float.h>
 #include <math.h>
 
-/* Times nearer than this part of their size are refused: they may be the same number. */
+/* Times that differ by a smaller part of their size are rejected: they may be the same number. */
 #define TIME_ROUNDING (4 * DBL_EPSILON)
 
 struct _n_SamHistory {
-  SamControl constant; /* the kind of control of each component, and the values of those without a column */
-  SamControl before;   /* what the first row's change begins from */
+  SamControl constant; /* kind of control of each component, and values of those without a column */
+  SamControl before;   /* control from which the first row's change begins */
   PetscInt   rows, increments;
   PetscInt   start;                    /* steps up to the first row */
   SamTable   table;                    /* empty without a file */
-  PetscInt   time;                     /* column; -1: none */
-  PetscInt   parts;                    /* of the control: the components, and the conditions that there were */
-  PetscInt  *column;                   /* of each part, -1: constant */
-  char       file[PETSC_MAX_PATH_LEN]; /* of the table */
+  PetscInt   time;                     /* column of the time; -1: none */
+  PetscInt   parts;                    /* parts of the control: the components, and the conditions at that time */
+  PetscInt  *column;                   /* column of each part; -1: constant */
+  char       file[PETSC_MAX_PATH_LEN]; /* name of the table */
 
   SamConditions conditions;
 };
 
 PetscErrorCode SamHistoryClaimOption(void)
 {
-  PetscErrorCode code = PetscOptionsCreateDefault(); /* no PetscCall(): PETSc is not initialized yet */
+  PetscErrorCode code = PetscOptionsCreateDefault(); /* without PetscCall(), as PETSc is not initialized yet */
 
   return code ? code : PetscOptionsSetAlias(NULL, "-history", "-load_history");
 }
@@ -41,14 +41,14 @@ typedef struct {
 } Reader;
 
 /*
-  Rejects a value that has a column, too, if it is given for this run. A value that is only in an options file is
-  ignored with a warning: such files are shared by several runs.
+  Rejects a value for this run if there is also a column. A value that is only in an options file is ignored with a
+  warning, since several runs may share such files.
 */
 static PetscErrorCode Override(const Reader *r, const char name[], const char column[], PetscBool *set)
 {
   const char *prefix = SamOptionsPrefix(r->from);
   char        option[96];
-  int         shared; /* true if it is only in an options file, which several runs may share */
+  int         shared; /* true if only in an options file, which several runs may share */
   PetscMPIInt rank;
 
   PetscFunctionBegin;
@@ -66,7 +66,7 @@ static PetscErrorCode Override(const Reader *r, const char name[], const char co
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Finds the column of a component: of load, displacement or creepage, which decides what is prescribed. */
+/* Finds the column of a component: of its load, displacement or creepage, which then is prescribed. */
 static PetscErrorCode FindColumn(SamHistory h, MPI_Comm comm, const char file[], PetscInt c)
 {
   PetscFunctionBegin;
@@ -87,15 +87,15 @@ static PetscErrorCode FindColumn(SamHistory h, MPI_Comm comm, const char file[],
 }
 
 /*
-  Reads one component: load, displacement or creepage, from an option or a column, but only one of these; `left`: none
-  is given.
+  Reads one component: its load, displacement or creepage, from an option or a column; only one of these may be given.
+  `left`: true if none is given.
 */
 static PetscErrorCode ReadComponent(SamHistory h, const Reader *r, PetscInt c, PetscBool *left)
 {
   const SamOptions *const from            = r->from;
   const SamComponentName *name            = &SamComponentNames[c];
   const char             *prefix          = SamOptionsPrefix(from);
-  PetscReal               value[SAM_WAYS] = {c ? 0 : NAN, NAN, NAN}; /* without any the load is 0, but for N */
+  PetscReal               value[SAM_WAYS] = {c ? 0 : NAN, NAN, NAN}; /* without a value the load is 0, except N */
   PetscBool               has[SAM_WAYS] = {PETSC_FALSE}, given = PETSC_FALSE;
   char                    text[96], unit[16];
   PetscBool               plane, repeated;
@@ -135,7 +135,7 @@ static PetscErrorCode ReadComponent(SamHistory h, const Reader *r, PetscInt c, P
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Spin drives the contact sideways: a user who gives nothing along y may expect no creepage there. */
+/* Notes that spin causes a lateral force: a user who gives no value along y may expect zero creepage there. */
 static PetscErrorCode NoteSpin(SamHistory h, const SamOptions *from, const PetscBool left[])
 {
   const PetscInt spin   = SAM_COMPONENT_MZ;
@@ -175,7 +175,7 @@ static PetscBool IsNonnegative(SamHistory h, PetscInt k)
   return k == SAM_COMPONENT_N && h->constant.force[k];
 }
 
-/* Checks that times increase, and that what may not be negative is not. */
+/* Checks that times increase, and that nonnegative values are not negative. */
 static PetscErrorCode CheckRows(SamHistory h, MPI_Comm comm, const char file[])
 {
   const SamTable *t = &h->table;
@@ -195,7 +195,8 @@ static PetscErrorCode CheckRows(SamHistory h, MPI_Comm comm, const char file[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The options database has the name -load_history (SamHistoryClaimOption()); the help and messages say -history. */
+/* Reads the file's name. The option's internal name is -load_history (SamHistoryClaimOption()); help and messages say
+   -history. */
 static PetscErrorCode ReadFileName(const SamOptions *from, char file[], size_t size, PetscBool *set)
 {
   const SamOptionHelp option = {"history", "<file>", "text file of load states, one per row: see -help history",
@@ -257,7 +258,7 @@ PetscBool SamHistoryGives(SamHistory h, const SamCondition *condition)
   return PETSC_FALSE;
 }
 
-/* Returns row r of a column. In the functions below, row -1 stands for the start, before the first row. */
+/* Returns row r of a column. In the functions below, row -1 is the start, before the first row. */
 static double Entry(SamHistory h, PetscInt column, PetscInt r)
 {
   return h->table.value[r * h->table.columns + column];
@@ -272,7 +273,7 @@ static double TimeOfRow(SamHistory h, PetscInt r)
 }
 
 /*
-  Checks that each row's change can be divided into its steps: that it is a number, and that the times of the steps
+  Checks that each row's change can be divided into its steps: it must be finite, and the times of the steps must
   differ.
 */
 static PetscErrorCode CheckChanges(SamHistory h, MPI_Comm comm, const char file[])
@@ -317,7 +318,7 @@ static PetscBool IsAtRest(SamHistory h)
   return PETSC_TRUE;
 }
 
-/* The names of columns that there may be, NULL at the end. */
+/* The allowed names of columns, NULL at the end */
 #define NAMES (1 + SAM_WAYS * SAM_COMPONENTS + SAM_CONDITIONS + 1)
 static void ListNames(SamHistory h, const char *names[NAMES])
 {
@@ -388,7 +389,7 @@ PetscErrorCode SamHistoryCreate(MPI_Comm comm, SamConditions conditions, const S
   for (PetscInt k = SAM_COMPONENTS; k < h->parts; k++)
     h->column[k] = SamTableFind(&h->table, SamControlPartName(constant, conditions, k));
   if (before) h->before = *before;
-  for (PetscInt c = 0; c < SAM_COMPONENTS && before; c++) /* a load and a displacement have nothing between them */
+  for (PetscInt c = 0; c < SAM_COMPONENTS && before; c++) /* there are no values between a load and a displacement */
     if (SamControlWay(before, c) != SamControlWay(&h->constant, c)) h->before.value[c] = ValueOfRow(h, c, 0);
   PetscCall(SetIncrements(h, increments, comm, what));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -417,7 +418,7 @@ PetscErrorCode SamHistoryCreateFromOptions(const SamOptions *from, const SamArgu
              "-%ssteps %" PetscInt_FMT ": times %" PetscInt_FMT
              " rows is more steps than can be counted (%" PetscInt_FMT ")",
              SamOptionsPrefix(from), increments, h->rows, PETSC_MAX_INT);
-  for (PetscInt k = 0; SamControlName(NULL, k); k++) /* so that none is taken for another one misspelled */
+  for (PetscInt k = 0; SamControlName(NULL, k); k++) /* so that no option is taken for another, misspelled one */
     SamOptionsKnow(from, SamControlName(NULL, k), NULL);
   for (PetscInt c = 0; c < SAM_COMPONENTS; c++) PetscCall(ReadComponent(h, &reader, c, &left[c]));
   PetscCall(NoteSpin(h, from, left));
@@ -445,10 +446,10 @@ SamControl SamHistoryGetStep(SamHistory h, PetscInt k)
   return SamHistoryGetPart(h, k, 1);
 }
 
-/* Changes of two rows that differ by less, relative to the larger, are in proportion. */
+/* Changes of two rows are in proportion if they differ by less, relative to the larger change. */
 #define IN_PROPORTION 1e-9
 
-/* True if all that is prescribed changes in the row after r as it does in r, but for the size of the change. */
+/* True if all prescribed values change in the row after r in proportion to their changes in r. */
 static PetscBool ContinuesAfter(SamHistory h, PetscInt r)
 {
   const double now  = ValueOfRow(h, SAM_COMPONENT_N, r) - ValueOfRow(h, SAM_COMPONENT_N, r - 1);
@@ -470,7 +471,7 @@ SamControl SamHistoryGetPart(SamHistory h, PetscInt k, PetscReal part)
   const double   i = (double)(r ? (k - h->start) % h->increments : k) + (double)part, way = i / (double)steps;
   SamControl     control = h->constant;
 
-/* linear between the rows; at a row exactly its own value */
+/* linear between the rows; on a row its own value, without rounding */
 #define BETWEEN(before, after) (i == (double)steps ? (after) : (before) + way * ((after) - (before)))
   control.time = BETWEEN(TimeOfRow(h, r - 1), TimeOfRow(h, r));
   for (PetscInt p = 0; p < h->parts; p++)

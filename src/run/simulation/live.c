@@ -1,4 +1,4 @@
-/* The life of a joint: a cycle at a time is computed and written, then some are jumped over. */
+/* A wear simulation (life): cycles are computed and written one at a time, then some cycles are jumped over. */
 #include "simulationimpl.h"
 #include <petsam/private/state.h>
 #include <petsam/private/wear.h>
@@ -6,14 +6,14 @@
 #include <petsam/private/contact.h>
 #include <petsam/private/stiffness.h>
 
-/* An error of a fixed jump that is told. */
+/* Error of a fixed jump above which a warning is given */
 #define LARGE 0.1
-/* Cycles that wear as much as a single step may: below so many the unit of the coefficient is doubted. */
+/* Number of cycles that wear as much as a single step may, below which the unit of the coefficient is questioned */
 #define FAST 0.1
 
-/* ---- what the life asks for ---- */
+/* ---- callbacks of the life ---- */
 
-/* Step `step` of the cycle; the steps before, up to the history's first row, lead to its start. */
+/* Gets step `step` of the cycle; the steps before it, up to the history's first row, lead to its start. */
 static PetscErrorCode Control(void *context, PetscInt step, PetscReal cycles, SamControl *control)
 {
   SamSimulation       s     = (SamSimulation)context;
@@ -25,7 +25,7 @@ static PetscErrorCode Control(void *context, PetscInt step, PetscReal cycles, Sa
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The time of a step in the life: all cycles take as long as the first one. */
+/* Computes the time of a step in the life: all cycles take as long as the first one. */
 static PetscErrorCode TimeOf(SamSimulation s, PetscReal cycles, PetscReal *time)
 {
   const PetscInt   start = SamLifeOptionsGetStart(&s->plan, s->history);
@@ -36,14 +36,14 @@ static PetscErrorCode TimeOf(SamSimulation s, PetscReal cycles, PetscReal *time)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Gives the numbers of the tried step its cycle, and its time in the life. */
+/* Sets the cycle, and the time in the life, in the numbers of the tried step. */
 static PetscErrorCode Place(SamSimulation s, PetscReal cycles, PetscReal time)
 {
   SamState state;
 
   PetscFunctionBegin;
   PetscCall(SamContactGetState(s->setup.contact, &state));
-  if (!SamStateHasTried(state)) PetscCall(SamStateBegin(state)); /* a jump has failed, and no step */
+  if (!SamStateHasTried(state)) PetscCall(SamStateBegin(state)); /* a jump has failed, not a step */
   *SamStateNumbers(state, SamStateFindNumber(state, "cycle"), SAM_TRIED) = (double)cycles;
   *SamStateNumbers(state, SamStateFindNumber(state, "time"), SAM_TRIED)  = (double)time;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -62,7 +62,7 @@ static PetscErrorCode WriteStep(void *context, PetscInt step, PetscReal cycles, 
   PetscFunctionBegin;
   due =
     (PetscBool)(SamLifeOptionsIsOutput(&s->plan, cycles) && SamSimulationSaves(s, step + 1, s->needs.steps - start));
-  if (!step) s->last_time = PETSC_NINFINITY; /* the fields of the step before are not those of a step in the file */
+  if (!step) s->last_time = PETSC_NINFINITY; /* the fields of the step before belong to no step in the file */
   PetscCall(TimeOf(s, cycles, &told.control.time));
   PetscCall(Place(s, cycles, told.control.time));
   if (s->needs.stiffness) PetscCall(SamStiffnessRecord(s->setup.contact, &told));
@@ -89,7 +89,7 @@ static PetscErrorCode TellMessage(SamSimulation s, const char where[], const Sam
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Solves the steps up to the history's first row, where the cycle starts. They do not wear and are not written. */
+/* Solves the steps up to the history's first row, where the cycle starts; they do not wear and are not written. */
 static PetscErrorCode Start(SamSimulation s, PetscBool *ended)
 {
   const PetscInt start = SamLifeOptionsGetStart(&s->plan, s->history);
@@ -112,7 +112,8 @@ static PetscErrorCode Start(SamSimulation s, PetscBool *ended)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Marks in the history a step that failed before its cycle was written, as one of the cycle after the last written. */
+/* Marks a step that failed before its cycle was written in the history, as one of the cycle after the last written
+   one. */
 static PetscErrorCode WriteFailure(SamSimulation s, const SamLifeReport *r)
 {
   SamStep  step = r->step;
@@ -149,7 +150,7 @@ PetscErrorCode SamSimulationPlaceLast(SamSimulation s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Says where a step failed, or reached the edge, and ends the life there. */
+/* Reports where a step failed, or reached the edge, and ends the life there. */
 static PetscErrorCode EndLife(SamSimulation s, const SamLifeReport *r, const char where[])
 {
   SamStep said = r->step;
@@ -159,7 +160,7 @@ static PetscErrorCode EndLife(SamSimulation s, const SamLifeReport *r, const cha
   if (s->fast && said.status == SAM_STATUS_EDGE_CONTACT) {
     const size_t used = strlen(said.message);
 
-    said.setting[0] = '\0'; /* no grid holds such a scar */
+    said.setting[0] = '\0'; /* no grid would contain such a scar */
     (void)snprintf(said.message + used, sizeof(said.message) - used,
                    "; the worn depth is %.3g m: check the unit of "
                    "the coefficient of wear",
@@ -176,7 +177,7 @@ static PetscErrorCode EndLife(SamSimulation s, const SamLifeReport *r, const cha
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A large error of a jump whose length the user has fixed, once. */
+/* Warns once of a large error of a jump whose length the user has fixed. */
 static PetscErrorCode WarnOfJump(SamSimulation s, const SamLifeReport *r)
 {
   SamStep said = {.status = SAM_STATUS_CONVERGED, .setting = "wear_jump"};
@@ -191,7 +192,7 @@ static PetscErrorCode WarnOfJump(SamSimulation s, const SamLifeReport *r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Wear in a cycle of a depth that no surface loses, once. */
+/* Warns once of an impossibly large wear depth in a cycle. */
 static PetscErrorCode WarnOfUnit(SamSimulation s, const SamLifeReport *r)
 {
   char text[256];
@@ -207,7 +208,7 @@ static PetscErrorCode WarnOfUnit(SamSimulation s, const SamLifeReport *r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Steps that slide far over the contact, once. */
+/* Warns once of steps that slide far over the contact. */
 static PetscErrorCode WarnOfStride(SamSimulation s, const SamLifeReport *r)
 {
   char advice[192], text[256];
@@ -221,7 +222,7 @@ static PetscErrorCode WarnOfStride(SamSimulation s, const SamLifeReport *r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Tells, once of a body, that its first material is worn through; `ended`: the life ends there on request. */
+/* Reports once for each body that its first material is worn through; `ended`: the life ends there on request. */
 static PetscErrorCode WarnOfWorn(SamSimulation s, const SamLifeReport *r, PetscBool *ended)
 {
   PetscFunctionBegin;

@@ -1,4 +1,4 @@
-/* The monitor of a simulation, to which all events are passed on. */
+/* The monitor of a simulation, which receives all events. */
 #include "simulationimpl.h"
 
 PetscErrorCode SamSimulationSetMonitor(SamSimulation s, SamSimulationMonitor monitor, void *context)

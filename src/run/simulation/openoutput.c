@@ -1,4 +1,4 @@
-/* The results of a simulation: a new file, the next part, or a branch; and how large the file will be. */
+/* The results of a simulation: a new file, the next part, or a branch; and the expected size of the file. */
 #include "simulationimpl.h"
 #include <petsam/private/file.h>
 #include <petsam/private/parts.h>
@@ -22,7 +22,7 @@ static PetscErrorCode Create(SamSimulation s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Creates a file of the steps after the checkpoint, which follows the file of that identity; 0: follows none. */
+/* Creates a file of the steps after the checkpoint; it follows the file with that identity; 0: none. */
 static PetscErrorCode Follow(SamSimulation s, uint64_t identity)
 {
   SamSimulationPoint *p = &s->point;
@@ -91,7 +91,7 @@ PetscErrorCode SamSimulationOpenResults(SamSimulation s)
       s->filename);
     if (bytes < 0 && strcmp(s->filename, s->point.results))
       PetscCall(Branch(s));
-    else /* where the stopped run's own file is missing, that is an error */
+    else /* it is an error if the stopped run's own file is missing */
       PetscCall(Continue(s));
   } else {
     s->point.part = 1;
@@ -141,7 +141,7 @@ static PetscErrorCode Estimate(SamSimulation s, double *bytes)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A file of more bytes than this may be larger than was meant. */
+/* A larger file (bytes) may be larger than intended. */
 #define LARGE 1e8
 
 PetscErrorCode SamSimulationForecast(SamSimulation s, char text[], size_t size)

@@ -8,9 +8,10 @@
 #include <string.h>
 #include <strings.h>
 
-#define FLUSH 2.0 /* s that steps without fields wait to be written */
+#define FLUSH 2.0 /* seconds that steps without fields may wait to be written */
 
-/* Refuses moments and rotations where the bodies have none, and what laws refuse, by the name that the user gave. */
+/* Rejects moments and rotations that the bodies do not have, and components that laws reject, by the name that the user
+   gave. */
 static PetscErrorCode CheckComponents(SamSimulation s, const SamOptions *from)
 {
   PetscInt       wrong;
@@ -65,7 +66,7 @@ static PetscErrorCode CheckLaws(SamSimulation s, const SamOptions *from)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Reads how cycles are lived; a table of friction gives the problem its coefficient at the start. */
+/* Reads the settings of the cycles; a table of friction sets the problem's coefficient at the start. */
 static PetscErrorCode ReadPlan(SamSimulation s, PetscBool given, const SamOptions *from)
 {
   SamLifeOptions *const w = &s->plan;
@@ -132,7 +133,7 @@ static PetscErrorCode ReadFiles(SamSimulation s, const SamOptions *from)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Takes over a load program, and `cycles` of it (0: once). */
+/* Takes over a load history, and `cycles` repetitions of it (0: it runs once). */
 static PetscErrorCode SetProgram(SamSimulation s, SamHistory history, PetscReal cycles, const SamOptions *from)
 {
   PetscFunctionBegin;
@@ -183,7 +184,7 @@ PetscErrorCode SamSimulationSetProgram(SamSimulation s, SamHistory *history, Pet
 
   PetscFunctionBegin;
   *history = NULL;
-  PetscCall(SamOutputDestroy(&s->output)); /* of a run that ended with an error */
+  PetscCall(SamOutputDestroy(&s->output)); /* output of a run that ended with an error */
   PetscCall(SamLifeDestroy(&s->life));
   s->point   = (SamSimulationPoint){.steps = 0};
   s->start   = (SamSimulationStart){.steps = 0};

@@ -1,10 +1,10 @@
-/* The parameters that define a run, named as its options. */
+/* The parameters that define a run, with the names of its options. */
 #include "simulationimpl.h"
 #include <petsam/private/parameters.h>
 
 /*
   Adds the values that the last step prescribes. The steps of a history are in /history of the results, and checkpoints
-  compare them themselves (checkpoints.c).
+  compare them by checksums (checkpoints.c).
 */
 static PetscErrorCode AddLoads(SamParameters *p, SamHistory history, SamConditions conditions)
 {
@@ -24,7 +24,7 @@ static PetscErrorCode AddLoads(SamParameters *p, SamHistory history, SamConditio
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A life can go on with more cycles, and in other jumps. */
+/* Adds the parameters of a life, which may continue with more cycles, and in other jumps. */
 static PetscErrorCode AddLife(SamParameters *p, const SamLifeOptions *w)
 {
   uint64_t sum = 0;

@@ -1,17 +1,17 @@
 /*
-  A load step in pieces, so that the estimated error of its dissipated energy keeps a tolerance.
+  Divides a load step into pieces, so that the estimated error of its dissipated energy keeps a tolerance.
 
-  Problem: the energy of a step has an error that depends on its length (numbers.c). The pieces of the step, between
-  which all that is prescribed is interpolated, are to be so short that the estimate of each is at most a part of the
-  tolerance times its energy, or times a fifth of what pieces of this length dissipated on an average so far, if that is
-  more; then the sums keep it, too.
+  Problem: the energy of a step has an error that depends on its length (numbers.c). All prescribed values are
+  interpolated between the pieces of the step. The pieces must be so short that the estimate of each is at most a part
+  of the tolerance times an energy: its own, or a fifth of the average energy of pieces of this length so far, if that
+  is more. Then the sums keep the tolerance, too.
 
   Algorithm, from a quarter of the step on:
     1. Try the piece. If its estimate is too large, reject it, and try half of it.
     2. Else commit it. The next piece is as long, or twice as long if the estimate of that is likely to be small enough.
     3. The last piece stays tried: it is the step, with the sums of all pieces.
-  Pieces are halves of halves of the step, at least 1/1024, where the estimate is accepted as it is. All decisions are
-  those of global numbers of this step: the same on any number of ranks, and after a restart.
+  Pieces are repeated halves of the step; pieces of 1/1024 are accepted with any estimate. All decisions depend on
+  global numbers of this step, so they are the same on any number of ranks, and after a restart.
 
   A step from no contact applies N, then the tangential loads, unless the next step continues it in proportion. So do
   its pieces: N and all but the tangential loads grow in the first half of them, the tangential loads in the second.
@@ -20,12 +20,13 @@
 #include <petsam/private/balance.h>
 #include <petsam/private/state.h>
 
-/* Largest estimate relative to the tolerance; estimates are up to three times too small. */
+/* Largest estimate relative to the tolerance, as estimates are up to three times too small */
 #define SAFETY 0.3
-/* Twice the length has four times the error, relative to its energy; with some reserve. */
+/* Part of the limit below which the length is doubled: twice the length has four times the relative error, with some
+   reserve. */
 #define DOUBLE 0.2
 #define LEAST  (1.0 / 1024)
-/* The longest piece: in a longer one, cells may slide and stick again, which its end, and so the estimate, misses. */
+/* The longest piece: in longer ones, cells may slide and stick again, which the estimate at the end would miss. */
 #define MOST (1.0 / 4)
 /* Least energy to which a piece's error is related, relative to the average energy so far */
 #define LITTLE 0.2
@@ -55,7 +56,7 @@ PetscErrorCode SamSimulationDeclarePieces(SamSimulation s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* True if there is no contact yet, and step k applies N, then the tangential loads. */
+/* True if there is no contact yet, and step k applies N before the tangential loads. */
 static PetscErrorCode IsApart(SamSimulation s, PetscInt k, PetscBool *apart)
 {
   const SamSolution *before;
@@ -82,7 +83,7 @@ static SamControl ControlAt(SamSimulation s, PetscInt k, PetscBool apart, PetscR
   return control;
 }
 
-/* Finds out whether the tried piece, of this length, is accurate enough, and whether one of twice its length may be. */
+/* Finds out if the tried piece, of this length, is accurate enough, and if a piece of twice its length may be. */
 static PetscErrorCode Judge(SamSimulation s, double length, PetscBool *enough, PetscBool *longer)
 {
   PetscReal energy, error, limit;
@@ -129,7 +130,7 @@ PetscErrorCode SamSimulationTry(SamSimulation s, PetscInt k, SamStep *step)
     if (done + piece == 1 || step->status != SAM_STATUS_CONVERGED) break;
     SamStateJoinNumbers(state, before, PETSC_FALSE);
     PetscCall(SamSimulationCommitStep(s, step, NULL, 0));
-    s->last_time = control.time; /* whose fields are the last ones if the next piece has no solution */
+    s->last_time = control.time; /* its fields are the last ones if the next piece has no solution */
     done += piece;
     if (longer && piece < MOST && fmod(done, 2 * piece) == 0) piece *= 2;
   }

@@ -1,4 +1,4 @@
-/* The -wear_ options: laws of wear, cycles of a life, friction that changes over it. */
+/* The -wear_ options: laws of wear, cycles of a life, and friction that changes during it. */
 #include "plan.h"
 #include <petsam/private/baseimpl.h>
 #include <petsam/private/motionimpl.h>
@@ -9,13 +9,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Loads and displacements of the first and last row of a cycle may differ by so much of their range. */
+/* Largest difference of loads and displacements in the first and last row of a cycle, relative to their range */
 #define ROUNDING 1e-9
-/* The most cycles of a life, and the most fixed jumps in it. */
+/* Maximum number of cycles of a life, and of fixed jumps in it */
 #define MOST_CYCLES 1e12
 #define MOST_JUMPS  1e9
 
-/* The error of jumps that is allowed where surfaces slide, unless it is given. */
+/* Default tolerance of jumps if surfaces slide */
 #define SLIDING_RTOL 0.1
 
 /* ---- cycles ---- */
@@ -27,7 +27,7 @@ static int Compare(const void *a, const void *b)
   return (x > y) - (x < y);
 }
 
-/* Refuses numbers of cycles that are not whole, or so large that times could not tell one cycle from the next. */
+/* Rejects numbers of cycles that are not integers, or so large that times could not distinguish cycles. */
 static PetscErrorCode CheckWhole(const char option[], PetscReal cycles, PetscBool set, const SamOptions *from)
 {
   PetscFunctionBegin;
@@ -36,7 +36,7 @@ static PetscErrorCode CheckWhole(const char option[], PetscReal cycles, PetscBoo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The settings of a user. */
+/* The settings of a user */
 typedef struct {
   PetscReal       cycles;
   SamLifeSettings life;
@@ -44,7 +44,7 @@ typedef struct {
   char            outputs[4096], friction[PETSC_MAX_PATH_LEN];
 } Settings;
 
-/* The options; those from RTOL on need a life. */
+/* The options; those from RTOL on need a life */
 enum { CYCLES, RTOL, JUMP, STOP_LAYER, OUTPUT, FRICTION, ROWS };
 #define MEMBER(name) offsetof(Settings, name)
 #define LIFE         .needs = "wear_cycles"
@@ -134,7 +134,7 @@ PetscReal SamLifeOptionsFriction(const SamLifeOptions *w, PetscReal cycles)
          w->friction[0];
 }
 
-/* ---- all of it ---- */
+/* ---- all options ---- */
 
 PetscErrorCode SamLifeOptionsSetFromOptions(SamLifeOptions *w, PetscBool given, const SamOptions *from)
 {
@@ -155,7 +155,7 @@ PetscErrorCode SamLifeOptionsSetFromOptions(SamLifeOptions *w, PetscBool given, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Surfaces that slide are worn by magnified cycles, whose errors of depth are far smaller than those of pressure. */
+/* Sets magnified cycles for sliding surfaces; their errors of depth are far smaller than those of pressure. */
 static void Magnify(SamLifeOptions *w)
 {
   w->life.magnified = PETSC_TRUE;
@@ -193,7 +193,8 @@ PetscInt SamLifeOptionsGetStart(const SamLifeOptions *w, SamHistory history)
   return w->bands ? 0 : SamHistoryGetStart(history);
 }
 
-/* How far a part is from that in the first row; of bodies that repeat themselves and slide, but for whole lengths. */
+/* Returns the difference of a part from its value in the first row; for sliding periodic bodies, without whole
+   periods. */
 static PetscReal Apart(SamProblem problem, const SamControl *last, const SamControl *first, PetscInt c)
 {
   const SamElasticity bodies = SamProblemGetElasticity(problem);
@@ -211,12 +212,12 @@ static PetscReal Apart(SamProblem problem, const SamControl *last, const SamCont
 PetscErrorCode SamLifeOptionsCheckCycle(const SamLifeOptions *w, SamHistory history, SamProblem problem,
                                         const SamOptions *from)
 {
-  const SamConditions conditions                             = SamProblemGetConditions(problem);
-  PetscReal           range[SAM_COMPONENTS + SAM_CONDITIONS] = {0}; /* of each part, about its value in the first row */
-  SamControl          last;
-  const PetscInt      count = SamHistoryGetCount(history);
-  const PetscInt      start = SamHistoryGetStart(history);
-  const SamControl    first = SamHistoryGetStep(history, start - 1);
+  const SamConditions conditions                        = SamProblemGetConditions(problem);
+  PetscReal      range[SAM_COMPONENTS + SAM_CONDITIONS] = {0}; /* range of each part about its value in the first row */
+  SamControl     last;
+  const PetscInt count   = SamHistoryGetCount(history);
+  const PetscInt start   = SamHistoryGetStart(history);
+  const SamControl first = SamHistoryGetStep(history, start - 1);
 
   PetscFunctionBegin;
   if (w->cycles == 0) PetscFunctionReturn(PETSC_SUCCESS);

@@ -71,7 +71,7 @@ PetscErrorCode SamSimulationExamine(SamSimulation s, PetscInt k, PetscBool of_la
 
 /* ---- set-up ---- */
 
-/* Makes the prescribed values that vary numbers of each step. */
+/* Declares a number of the step for each prescribed value that varies. */
 static PetscErrorCode Offer(SamSimulation s)
 {
   PetscFunctionBegin;
@@ -87,8 +87,8 @@ static PetscErrorCode Offer(SamSimulation s)
 }
 
 /*
-  Refuses a load history with a step that has no meaning, before the first is solved; ends of rows first, whose values
-  are those of the file.
+  Rejects a load history with an inconsistent step before the first one is solved; checks the ends of rows first, since
+  their values are those of the file.
 */
 static PetscErrorCode CheckSteps(SamSimulation s)
 {
@@ -138,8 +138,9 @@ PetscErrorCode SamSimulationSetUp(SamSimulation s, const SamOptions *from)
 /* ---- results ---- */
 
 /*
-  Estimates a step's time (s) roughly from the time of operator applications, which are half of it, with contact on half
-  of the grid. Most steps with friction take 15 of them for the shear, those without 12 for the pressure.
+  Estimates a step's time (s) roughly from the time of operator applications with contact on half of the grid, which are
+  half of the step's time. Most steps with friction need 15 of them for the shear, steps without friction 12 for the
+  pressure.
 */
 static PetscErrorCode GuessTime(SamSimulation s, double *seconds)
 {
@@ -154,7 +155,7 @@ static PetscErrorCode GuessTime(SamSimulation s, double *seconds)
     double began = 0;
 
     PetscCall(SamGridCreateVec(s->setup.grid, c + 1, &field));
-    for (int k = 0; k < 3; k++) { /* the first one makes what all need */
+    for (int k = 0; k < 3; k++) { /* the first application creates the data that all need */
       PetscCall(VecSet(field, 1));
       if (k == 1) began = MPI_Wtime();
       PetscCall((*apply)(s->setup.elasticity, field, field));
@@ -166,7 +167,7 @@ static PetscErrorCode GuessTime(SamSimulation s, double *seconds)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Restores, opens the results, and tells of the beginning; `writes`: else no file is touched. */
+/* Restores the state, opens the results, and reports the beginning; `writes`: if false, no file is changed. */
 static PetscErrorCode Begin(SamSimulation s, PetscBool writes)
 {
   SamSimulationStart *const start = &s->start;
@@ -181,7 +182,7 @@ static PetscErrorCode Begin(SamSimulation s, PetscBool writes)
     for (PetscInt c = 0; c < SAM_COMPONENTS; c++)
       if (!control.force[c] || control.value[c] != 0) start->loads[c] = PETSC_TRUE;
   }
-  /* with committed steps the state is that of a later step */
+  /* With committed steps the state is that of a later step. */
   if (s->checkpoints.restart[0] && !(SamContactGetSteps(s->setup.contact) > 0)) {
     start->restart = s->checkpoints.restart;
     PetscCall(SamSimulationRestart(s));
@@ -237,7 +238,7 @@ static PetscErrorCode TellFile(SamSimulation s, const char name[], const char co
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Closes the results, and tells of all files. */
+/* Closes the results, and reports all files. */
 static PetscErrorCode Finish(SamSimulation s)
 {
   char     content[96];
@@ -262,7 +263,7 @@ static PetscErrorCode Finish(SamSimulation s)
 
 /*
   Solves one load step; `ended`: it failed, so that no further step can be solved, or the contact is at the edge of the
-  grid, so that none should.
+  grid, so that no further step should be solved.
 */
 static PetscErrorCode SolveStep(SamSimulation s, PetscBool *ended)
 {
@@ -277,7 +278,7 @@ static PetscErrorCode SolveStep(SamSimulation s, PetscBool *ended)
   *ended = step.status == SAM_STATUS_CONVERGED ? PETSC_FALSE : PETSC_TRUE;
   due    = (PetscBool)(SamSimulationSaves(s, k + 1, last + 1) || *ended);
   PetscCall(SamSimulationWriteStep(s, &step, due));
-  /* after writing: a step that is told of is in the file */
+  /* After writing, so that a reported step is in the file. */
   PetscCall(SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_STEP, .step = k, .result = &step}));
   if (k == last && SamProblemMoves(s->setup.problem)) SamAdviceRenew(&s->advice, "in the last step: ");
   PetscCall(SamSimulationExamine(s, k, PETSC_TRUE, &step));
@@ -308,7 +309,7 @@ static PetscErrorCode RunAll(SamSimulation s)
   PetscFunctionBegin;
   if (!s->prepared) PetscCall(Prepare(s, &(SamOptions){s->comm, NULL}));
   code = Begin(s, PETSC_TRUE);
-  if (code && s->start.restart) PetscCall(SamContactReset(s->setup.contact)); /* as before: without any step */
+  if (code && s->start.restart) PetscCall(SamContactReset(s->setup.contact)); /* as before, without any step */
   PetscCall(code);
   if (s->life)
     PetscCall(SamSimulationLive(s));
@@ -340,17 +341,17 @@ PetscErrorCode SamSimulationRun(SamSimulation s)
   s->running = PETSC_TRUE;
   code       = RunAll(s);
   s->running = PETSC_FALSE;
-  if (code == SAM_ERR_USER && s->output) { /* what a step has found may rule out the next one */
+  if (code == SAM_ERR_USER && s->output) { /* the results of a step may exclude the next one */
     PetscCall(SamContactReject(s->setup.contact));
     if (s->life) PetscCall(SamSimulationPlaceLast(s));
     PetscCall(SamSimulationWriteLastFields(s));
   }
-  if (s->life) SamLifeEnd(s->life); /* the contact may be used on */
+  if (s->life) SamLifeEnd(s->life); /* the contact may still be used */
   PetscCall(code);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- what others ask ---- */
+/* ---- queries ---- */
 
 const SamSetup *SamSimulationGetSetup(SamSimulation s)
 {

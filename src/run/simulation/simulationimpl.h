@@ -16,19 +16,19 @@ typedef struct {
   PetscInt  part;                        /* number of the part of the results, from 1; 0: none yet */
   uint64_t  identity;                    /* identity of that part's file */
   SamStatus worst;                       /* worst status of the steps */
-  char      results[PETSC_MAX_PATH_LEN]; /* the file, as it was named; empty: none */
+  char      results[PETSC_MAX_PATH_LEN]; /* the file, with the given name; empty: none */
   PetscBool restarted;                   /* true if the run continues from a checkpoint */
 } SamSimulationPoint;
 
-/* When checkpoints are written: every so many steps, when a signal asks for one, and before a time limit. */
+/* Checkpoints are written every so many steps, when a signal requests one, and before a time limit. */
 #define SAM_RECENT 5
 typedef struct {
   /* what the user set */
   char      filename[PETSC_MAX_PATH_LEN], restart[PETSC_MAX_PATH_LEN]; /* empty: none */
-  PetscBool other_gap;                                                 /* than in the checkpoint of -restart */
+  PetscBool other_gap;    /* another one than in the checkpoint of -restart */
   PetscBool overwrite;    /* a new run may replace the checkpoint of an earlier one */
   PetscInt  every;        /* load steps, 0: never */
-  char      duration[64]; /* of the run, as it is given; empty: any */
+  char      duration[64]; /* of the run, in the given form; empty: unlimited */
   double    limit;        /* the same in seconds, 0: none */
   /* status */
   SamCheckpoint files;              /* NULL: none */
@@ -55,82 +55,82 @@ struct _n_SamSimulation {
   SamParameters          parameters;
   SamSimulationNeeds     needs;
   SamSimulationStart     start;
-  SamSimulationPoint     point;     /* position in the load program; steps before a restart count too */
-  PetscReal              step_rtol; /* relative error of a step's dissipated energy, by its estimate; 0: any */
+  SamSimulationPoint     point;     /* position in the load history; steps before a restart count, too */
+  PetscReal              step_rtol; /* estimated relative error allowed for a step's dissipated energy; 0: any */
   PetscBool              prepared;
-  PetscBool              running; /* the history or the life; else steps are given one by one */
-  PetscBool              has_gap; /* the gap is not that of the options */
-  PetscBool              stopped; /* before its end, with a checkpoint */
+  PetscBool              running; /* runs the history or the life; otherwise steps are given one by one */
+  PetscBool              has_gap; /* the gap differs from that of the options */
+  PetscBool              stopped; /* ended early, with a checkpoint */
   PetscInt               output_every;
-  PetscBool              output_rows; /* it counts the rows of the load history */
+  PetscBool              output_rows; /* true: results count the rows of the load history */
   PetscBool              has_output;
-  PetscBool              told;      /* in a life: the step that failed is in the file */
+  PetscBool              told;      /* in a life: the failed step is in the file */
   PetscBool              warned;    /* a warning has been printed in this life */
-  PetscBool              stripes;   /* steps that slide too far have been told */
-  PetscBool              fast;      /* wear in a cycle is so fast that the unit is doubted, which has been told */
-  PetscBool              worn[2];   /* the first material of a body is worn through, which has been told */
-  PetscReal              last_time; /* of the last step that was written, s; -infinity: none */
+  PetscBool              stripes;   /* a warning of steps that slide too far has been given */
+  PetscBool              fast;      /* a warning of wear so fast that the unit is questioned has been given */
+  PetscBool              worn[2];   /* it has been reported that the first material of a body is worn through */
+  PetscReal              last_time; /* time of the last written step, s; -infinity: none */
   PetscBool              writing;   /* a collective write is under way */
   char                   filename[PETSC_MAX_PATH_LEN];
-  char                  *written; /* name of the part of the results that is written; NULL: none */
+  char                  *written; /* name of the part of the results that is being written; NULL: none */
   SamAdvice              advice;
-  SamAdvice              single, tried; /* advice on steps given one by one: committed ones; with the tried one */
-  PetscInt               earlier;       /* 1: the state that these steps go on from has a step already */
-  PetscBool              advised;       /* the tried step has been looked at */
+  SamAdvice              single, tried;           /* advice on steps given one by one: committed; with the tried one */
+  PetscInt               earlier;                 /* 1: the state before these steps already has a step */
+  PetscBool              advised;                 /* advice on the tried step has been computed */
   double                 sums[SAM_STATE_NUMBERS]; /* numbers joined over all steps, for the check of the grid */
 };
 
 /*
-  SamSimulationNotify - tells the monitor. SamSimulationWarn - a SamAdviceFunction that does so; `simulation`: a
+  SamSimulationNotify - calls the monitor. SamSimulationWarn - a SamAdviceFunction that calls it; `simulation`: a
   SamSimulation. Collective.
 */
 PETSC_INTERN PetscErrorCode SamSimulationNotify(SamSimulation simulation, const SamSimulationEvent *news);
 PETSC_INTERN PetscErrorCode SamSimulationWarn(void *simulation, const char text[], const char setting[]);
 /*
-  SamSimulationOpenResults - opens the results. After a restart they are the next part of those that are there; a new
+  SamSimulationOpenResults - opens the results. After a restart they are the next part of the existing results; a new
   name begins a file with the steps from there on. Collective. Errors: SAM_ERR_FILE, SAM_ERR_USER.
-  SamSimulationSaves - true if the fields of a step, from 1 to last, are saved. Not collective.
-  SamSimulationForecast - how large the results will be, in words; warns where the disk has not that much space.
+  SamSimulationSaves - returns true if the fields of a step, from 1 to last, are saved. Not collective.
+  SamSimulationForecast - writes the expected size of the results as text; warns if the disk has less space.
   Collective.
 */
 PETSC_INTERN PetscErrorCode SamSimulationOpenResults(SamSimulation simulation);
 PETSC_INTERN PetscBool      SamSimulationSaves(SamSimulation simulation, PetscInt step, PetscInt last);
 PETSC_INTERN PetscErrorCode SamSimulationForecast(SamSimulation simulation, char text[], size_t size);
-/* SamSimulationCreateLife - makes the life, if cycles are asked for, once there is a contact. Collective. */
+/* SamSimulationCreateLife - creates the life, if cycles are requested, once there is a contact. Collective. */
 PETSC_INTERN PetscErrorCode SamSimulationCreateLife(SamSimulation simulation);
 /*
-  SamSimulationLive - the cycles of a life, with their results and checkpoints. Collective.
-  SamSimulationLiveCoarse - so many cycles of the same life on another contact, without either; the last step, or the
-  first one that is not converged. Collective.
+  SamSimulationLive - runs the cycles of a life, and writes their results and checkpoints. Collective.
+  SamSimulationLiveCoarse - runs so many cycles of the same life on another contact, without results and checkpoints;
+  returns the last step, or the first one that is not converged. Collective.
 */
 PETSC_INTERN PetscErrorCode SamSimulationLive(SamSimulation simulation);
 PETSC_INTERN PetscErrorCode SamSimulationLiveCoarse(SamSimulation simulation, SamContact contact, PetscReal cycles,
                                                     SamLife *life, SamStep *step);
 /*
-  SamSimulationPlaceLast - where a life has ended in cycles before the first one that is written: its last step becomes
-  one of the file. Collective.
+  SamSimulationPlaceLast - if a life has ended in cycles before the first written one, makes its last step a step of the
+  file. Collective.
 */
 PETSC_INTERN PetscErrorCode SamSimulationPlaceLast(SamSimulation simulation);
 /*
-  SamSimulationWriteLastFields - makes sure that the fields of the step that was solved last are in the file, at the
-  time of the last step that was written; for when the next one has no solution. Collective.
+  SamSimulationWriteLastFields - makes sure that the fields of the last solved step are in the file, at the time of the
+  last written step; called if the next step has no solution. Collective.
 */
 PETSC_INTERN PetscErrorCode SamSimulationWriteLastFields(SamSimulation simulation);
 /*
   Load steps in pieces (pieces.c). Collective. Errors: SAM_ERR_USER.
     ReadPieces     reads -step_rtol
-    DeclarePieces  declares what the state remembers of them
-    Try            tries step k of the history, in pieces if that is asked for, and commits all but the last
+    DeclarePieces  declares their numbers in the state
+    Try            tries step k of the history, in pieces if requested, and commits all but the last
 */
 PETSC_INTERN PetscErrorCode SamSimulationReadPieces(SamSimulation simulation, const SamOptions *from);
 PETSC_INTERN PetscErrorCode SamSimulationDeclarePieces(SamSimulation simulation);
 PETSC_INTERN PetscErrorCode SamSimulationTry(SamSimulation simulation, PetscInt k, SamStep *step);
-/* SamSimulationWriteStep - writes a step's numbers and, when they are due, its fields. Collective. */
+/* SamSimulationWriteStep - writes a step's numbers and, if they are due, its fields. Collective. */
 PETSC_INTERN PetscErrorCode SamSimulationWriteStep(SamSimulation simulation, const SamStep *step, PetscBool due);
 /*
   Checkpoints (checkpoints.c). Collective, but for DescribeCheckpoints. Errors: SAM_ERR_USER, SAM_ERR_FILE.
     ReadCheckpoints      reads the options; -max_walltime counts from here
-    DescribeCheckpoints  says when they are written; empty without -checkpoint
+    DescribeCheckpoints  describes when they are written; empty without -checkpoint
     BeginCheckpoints     before the first step, whose time starts here. Fails early if the file cannot be written; a
                          checkpoint of an earlier run is only replaced after a restart, or with -overwrite
     Restart              gives contact, life and `point` the state in the file of -restart; up to there the load history
@@ -138,7 +138,7 @@ PETSC_INTERN PetscErrorCode SamSimulationWriteStep(SamSimulation simulation, con
     Checkpoint           after a step or jump: writes a checkpoint if one is due; stops at a signal, or when the next
                          step, assumed to be as slow as the slowest of the last ones, and a checkpoint after it would
                          not end in time, but not after the last step
-    DescribePlace        the step, or the cycles, so far, of how many if `total`
+    DescribePlace        writes the number of steps, or cycles, so far, and the total number if `total`
 */
 PETSC_INTERN PetscErrorCode SamSimulationReadCheckpoints(SamSimulation simulation, const SamOptions *from);
 PETSC_INTERN void           SamSimulationDescribeCheckpoints(SamSimulation simulation, char text[], size_t size);
@@ -148,9 +148,9 @@ PETSC_INTERN PetscErrorCode SamSimulationCheckpoint(SamSimulation simulation);
 PETSC_INTERN PetscErrorCode SamSimulationDescribePlace(SamSimulation simulation, PetscBool total, char text[],
                                                        size_t size);
 /*
-  SamSimulationAdviseEdge - appends to the message of a step at the grid's edge a grid that is large enough: for all
-  steps of the run, or where steps are given one by one for this one (step.c).
-  SamSimulationExamine - after step k: what there is to advise (advice.h). Collective.
+  SamSimulationAdviseEdge - adds to the message of a step at the grid's edge a grid that is large enough for all steps
+  of the run, or, if steps are given one by one, for this step (step.c).
+  SamSimulationExamine - gives the advice after step k (advice.h). Collective.
 */
 PETSC_INTERN PetscErrorCode SamSimulationAdviseEdge(SamSimulation simulation, const SamControl *control, SamStep *step);
 PETSC_INTERN PetscErrorCode SamSimulationExamine(SamSimulation simulation, PetscInt k, PetscBool of_laws,
@@ -161,7 +161,7 @@ PETSC_INTERN PetscErrorCode SamSimulationExamine(SamSimulation simulation, Petsc
 */
 PETSC_INTERN PetscErrorCode SamSimulationReadGridCheck(SamSimulation simulation, const SamOptions *from);
 PETSC_INTERN PetscErrorCode SamSimulationCheckGrid(SamSimulation simulation);
-/* SamSimulationCollectParameters - fills `parameters`, for results and checkpoints. Collective. */
+/* SamSimulationCollectParameters - collects the parameters for results and checkpoints. Collective. */
 PETSC_INTERN PetscErrorCode SamSimulationCollectParameters(SamSimulation simulation);
 
 #endif

@@ -1,4 +1,4 @@
-/* A step, of a history or given by another program: tried, then committed or not. */
+/* A step of a history, or a step given by another program: it is tried, then committed or rejected. */
 #include "simulationimpl.h"
 #include <petsam/private/state.h>
 #include <petsam/private/contact.h>
@@ -37,7 +37,7 @@ PetscErrorCode SamSimulationTryStep(SamSimulation s, const SamControl *control, 
 
 /* ---- advice ---- */
 
-/* Adds the tried step to those before it; `examine`: with a look at its contact, if its normal load is the largest. */
+/* Adds the tried step to the earlier ones; `examine`: examines its contact, too, if its normal load is the largest. */
 static PetscErrorCode Follow(SamSimulation s, const SamStep *step, PetscBool examine, SamAdvice *now)
 {
   const PetscInt   k = s->earlier + now->most.steps;
@@ -80,7 +80,7 @@ void SamSimulationForgetAdvice(SamSimulation s)
   s->advised = PETSC_FALSE;
 }
 
-/* Adds the tried step to the steps that are advised on. */
+/* Adds the tried step to the steps for which advice is given. */
 static PetscErrorCode CommitAdvice(SamSimulation s, const SamStep *step)
 {
   PetscFunctionBegin;
@@ -108,7 +108,7 @@ PetscErrorCode SamSimulationCommitStep(SamSimulation s, const SamStep *step, cha
   if (warning) PetscCall(SamContactAdvise(s->setup.contact, &law, warning, size));
   PetscCall(CommitAdvice(s, step));
   if (s->needs.grid_check) {
-    PetscCall(SamContactGetState(s->setup.contact, &state)); /* lets all parts declare what they remember again */
+    PetscCall(SamContactGetState(s->setup.contact, &state)); /* makes all parts declare their numbers again */
     SamStateJoinNumbers(state, s->sums, PETSC_FALSE);
   }
   PetscCall(SamContactCommit(s->setup.contact));

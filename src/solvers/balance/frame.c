@@ -36,7 +36,7 @@ double SamOrthonormalize(PetscInt m, double basis[3][3], const double row[3], do
   double rest[3] = {row[0], row[1], row[2]}, norm;
 
   for (PetscInt k = 0; k < m; k++) lower[k] = 0;
-  for (PetscInt pass = 0; pass < 2; pass++) /* twice is enough */
+  for (PetscInt pass = 0; pass < 2; pass++) /* a second pass suffices */
     for (PetscInt k = 0; k < m; k++) {
       const double part = SamFrameDot(rest, basis[k]);
 
@@ -114,9 +114,9 @@ void SamFrameGetRigid(const SamFrame *f, const double a[3], SamBalance *balance)
   }
 }
 
-/* Rounding of an entry of a Gram matrix, relative to the largest. */
+/* Rounding of an entry of a Gram matrix, relative to the largest entry */
 #define DIAGONAL_ROUNDING 1e-14
-/* Its eigenvalues below this part of the largest are rounding. */
+/* Eigenvalues below this part of the largest one are rounding. */
 #define SINGULAR 1e-13
 
 double SamFrameSolveSeen(const SamFrame *f, const double gram[SAM_GRAM], const double sums[3], double a[3],
@@ -135,7 +135,7 @@ double SamFrameSolveSeen(const SamFrame *f, const double gram[SAM_GRAM], const d
     }
     most = PetscMax(most, A[k][k]);
   }
-  /* in units that make the diagonal 1, where it is more than the rounding of a sum of zeros */
+  /* In units for which a diagonal entry is 1, unless the entry is the rounding of a sum of zeros. */
   for (PetscInt k = 0; k < f->count; k++)
     unit[k] = 1 / sqrt(A[k][k] > DIAGONAL_ROUNDING * most ? A[k][k] : (most > 0 ? most : 1));
   for (PetscInt k = 0; k < f->count; k++) {

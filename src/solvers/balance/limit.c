@@ -2,9 +2,9 @@
   Admissible loads: the lever arms of a normal load, and the limit of sliding.
 
   Sliding: shears with |q| <= b carry a load F exactly when F.v <= sum b |v| dA for every rigid velocity v (the set of
-  loads is convex, and the sum is its support function). So the least sum b |v| dA over the v with F.v = 1 is the factor
-  by which F can grow. |v| has a kink at the centre of rotation; it is smoothed, and Newton's method minimises the sum
-  for a smoothing that is reduced step by step.
+  loads is convex, and the sum is its support function). So the minimum of sum b |v| dA over all v with F.v = 1 is the
+  factor by which F can grow. |v| has a kink at the centre of rotation; it is smoothed, and Newton's method minimises
+  the sum for a smoothing that is reduced step by step.
 */
 #include "projectionimpl.h"
 #include <petsam/private/grid.h>
@@ -15,11 +15,12 @@
 /* An error of equilibrium, relative to the sum of the bound, that is ignored. */
 #define TOLERANCE 1e-11
 /*
-  Numbers of smoothings, 1, 0.1, ..., and of that of the shear: less would leave rounding in it where the motion turns.
+  Number of smoothings, 1, 0.1, ..., and the index of the one that the shear uses: a smaller smoothing would leave
+  rounding in the shear where the motion turns.
 */
 #define SMOOTHINGS         10
 #define SMOOTHING_OF_SHEAR 6
-/* Rounding of a load or a lever that all pressures at their limit just bear, relative. */
+/* Relative rounding of a load or lever that equals the limit of all pressures */
 #define FULL 1e-12
 /* Least predicted gain of a step, relative to the power, at which the power is accurate enough to measure the gain */
 #define FLAT 1e-10
@@ -110,9 +111,9 @@ PetscErrorCode SamBalanceLever(SamGrid grid, const SamBalance *balance, char mes
 }
 
 /*
-  The maximum moment about the grid's first or last row or column of centres that a load (Pa, a sum over the cells) has
-  under a pressure limit: the outermost lines of cells bear all of it. Returns the place of its resultant (m), along y
-  for k = 1, along x for 2; `last`: at the last line.
+  Finds the maximum moment, about the grid's first or last row or column of centres, of a load (Pa, a sum over the
+  cells) under a pressure limit: the outermost lines of cells bear all of the load. Returns the place of its resultant
+  (m), along y for k = 1 and along x for k = 2; `last`: at the last line.
 */
 static double OutermostPlace(SamGrid grid, PetscInt k, PetscBool last, double load, double limit)
 {
@@ -166,17 +167,17 @@ PetscErrorCode SamBalanceCapacity(SamGrid grid, const SamBalance *balance, Petsc
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* sum b sqrt(|v|^2 + s^2), its gradient and Hessian with respect to the combination a of the phi. */
+/* The sum b sqrt(|v|^2 + s^2), its gradient and Hessian with respect to the combination a of the phi */
 typedef struct {
   double value, gradient[3], hessian[SAM_GRAM];
-  double bound; /* sum b */
+  double bound; /* the sum of b */
 } Power;
 
 #define POWER ((PetscInt)(sizeof(Power) / sizeof(double)))
 
 /*
-  Adds the power of a load of the size of a tolerance, in any direction: loads so small count as carried. Without it a
-  contact of one cell could carry no load, as rounding leaves it a torque about the cell.
+  Adds the power of a load as small as a tolerance, in any direction, since so small loads count as carried. Otherwise a
+  contact of one cell could carry no load, because rounding leaves a torque about the cell.
 */
 static void AddTolerance(const double a[3], double smoothing, double all, Power *power)
 {
@@ -240,7 +241,7 @@ static void OrthogonalTo(const SamFrame *f, const double F[3], SamFrame *across)
   for (PetscInt k = 0; k < 3 * across->count; k++) across->basis[k / 3][k % 3] = basis[k / 3 + 1][k % 3];
 }
 
-/* Computes the Newton step within the directions of `across`; returns how fast the power falls along it. */
+/* Computes the Newton step within the directions of `across`; returns the slope of the power down along it. */
 static double FindStep(const SamFrame *across, const Power *now, double step[3])
 {
   double down[3], slope = 0;
@@ -252,8 +253,8 @@ static double FindStep(const SamFrame *across, const Power *now, double step[3])
 }
 
 /*
-  Newton with halving for one smoothing, moving a within the directions of `across`. Where the power is too flat to
-  measure a step's gain, the slope does: the motion must be accurate, not only its power.
+  Minimises for one smoothing by Newton's method with halving, moving a within the directions of `across`. If the power
+  is too flat to measure a step's gain, the slope decides: the motion must be accurate, not only its power.
 */
 static PetscErrorCode MinimizePower(const SamFrame *f, const SamFrame *across, const double bound[], double smoothing,
                                     double a[3])
@@ -298,7 +299,7 @@ static PetscErrorCode SetSliding(const SamFrame *f, const double bound[], const 
       const double   x = SamFrameX(a, SamFrameEta(f, j)), y = SamFrameY(a, f->xi0 + (double)i * f->dxi),
                    s = bound[k] > 0 ? bound[k] / sqrt(x * x + y * y + smoothing * smoothing) : 0;
 
-      q[k]                  = s > 0 ? s * x : 0; /* and not -0 */
+      q[k]                  = s > 0 ? s * x : 0; /* avoids -0 */
       q[k + f->grid->cells] = s > 0 ? s * y : 0;
     }
   PetscCall(VecRestoreArray(shear, &q));
@@ -307,7 +308,7 @@ static PetscErrorCode SetSliding(const SamFrame *f, const double bound[], const 
 
 PetscErrorCode SamBalanceSlideLimit(SamGrid grid, const SamBalance *balance, Vec bound, PetscReal *factor, Vec shear)
 {
-  SamBalance    scaled = *balance; /* by a power of two, else the squares of the largest loads would overflow */
+  SamBalance    scaled = *balance; /* scaled by a power of two, since the squares of the largest loads would overflow */
   SamFrame      f, across;
   double        F[3] = {0, 0, 0}, norm = 0, most = 0, a[3];
   const double *b;
@@ -326,7 +327,7 @@ PetscErrorCode SamBalanceSlideLimit(SamGrid grid, const SamBalance *balance, Vec
   for (PetscInt i = 0; i < 3; i++) a[i] = F[i] / norm;
   OrthogonalTo(&f, F, &across);
   PetscCall(VecGetArrayRead(bound, &b));
-  /* the smoothed sum lies above the true one by at most smoothing * sum b */
+  /* The smoothed sum exceeds the true one by at most smoothing * sum b. */
   for (PetscInt k = 0; k < SMOOTHINGS; k++) {
     const double smoothing = pow(10, -k) / sqrt(norm);
 

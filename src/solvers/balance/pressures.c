@@ -2,25 +2,25 @@
 #include "projectionimpl.h"
 #include <math.h>
 
-/* Most projections in a row. */
+/* Maximum number of successive projections */
 #define PROJECT_MAX 4
-/* The error of equilibrium below which one step of Newton's method usually reaches the solution. */
+/* Error of equilibrium below which one step of Newton's method usually reaches the solution */
 #define CLOSE 1e-3
 
-/* The cells that take part, where there is no mask: all, those with pressure, those with one between its bounds. */
+/* The cells that take part without a mask: all; those with pressure; those with a pressure between its bounds */
 typedef enum { ALL, PRESSED, BETWEEN } Which;
 
 /* The input of a pass over the cells. */
 typedef struct {
-  const double *field;     /* what is projected */
-  const float  *mask;      /* 1 on the cells that take part, 0 on others; NULL: */
-  Which         which;     /* these take part */
-  float        *row;       /* then: a row of ones, or scratch for the mask of a row */
+  const double *field;     /* the field to be projected */
+  const float  *mask;      /* 1 on the cells that take part, 0 on others; NULL: `which` applies */
+  Which         which;     /* cells that take part without a mask */
+  float        *row;       /* without a mask: a row of ones, or scratch for the mask of a row */
   const char   *busy;      /* blocks with cells that take part, or with pressure; NULL: all */
-  const float  *step;      /* added to the field with the factor `by`; one row of zeros where that is 0 */
+  const float  *step;      /* added to the field, multiplied by `by`; one row of zeros if that is 0 */
   double        by, scale; /* see SamPressureStep */
   float        *made;
-  PetscBool     quick;  /* a single step of Newton's method may do */
+  PetscBool     quick;  /* a single step of Newton's method may suffice */
   double       *motion; /* result: the sum added along the phi; NULL: unused */
 } Cells;
 
@@ -70,7 +70,7 @@ SAM_VECTORIZED static void AddPressures(SamRow row, Fields cells, const double a
   SamGramNormalRow(sums->gram, count, sum_xi, xi2, row.eta);
 }
 
-/* Arrays of some cells, for the next function. */
+/* Arrays of some cells, for ApplyNormal() */
 typedef struct {
   double      *p;
   const float *step, *mask;
@@ -78,7 +78,7 @@ typedef struct {
   double       by, most, scale;
 } Pressures;
 
-/* p = p + by step + phi a within its bounds, on the mask; `scale` times the change is added to made. */
+/* Sets p = p + by step + phi a within its bounds, on the mask; adds `scale` times the change to made. */
 SAM_VECTORIZED static void ApplyNormal(SamRow row, Pressures cells, const double a[3], SamDual *sums)
 {
   double *restrict p         = cells.p;
@@ -105,8 +105,8 @@ SAM_VECTORIZED static void ApplyNormal(SamRow row, Pressures cells, const double
 }
 
 /*
-  A pass over the cells: adds the dual at a and its derivatives. With p, the field, the projection that belongs to a
-  takes its place, and only its moments are added; `scratch`: a row, where made is NULL.
+  Passes over the cells and adds the dual at a and its derivatives. If p is given, which is the field, the projection
+  for a replaces it, and only its moments are added. `scratch`: a row, needed if made is NULL.
 */
 static void PassRows(const SamFrame *f, const Cells *c, const double a[3], double p[], float scratch[], SamTotal dual[])
 {
@@ -143,13 +143,13 @@ static void TakeBack(const SamFrame *f, const Cells *cells, double p[])
 }
 
 /*
-  The projection of the field p + by step. A step that nearly carries the loads takes two passes: one to find the step
-  of Newton's method for a, and one that applies it and checks whether that was enough.
+  Projects the field p + by step. If the step nearly carries the loads, two passes suffice: the first finds the step of
+  Newton's method for a, the second applies it and checks the equilibrium.
 */
 static PetscErrorCode ProjectNormal(const SamFrame *f, Cells cells, double p[], PetscBool *found)
 {
   double   *before = NULL;
-  float    *zeros, *scratch; /* a row of no step, and of unused changes */
+  float    *zeros, *scratch; /* a row of zeros, and one for unused changes */
   PetscBool near = PETSC_TRUE;
 
   PetscFunctionBegin;
@@ -158,7 +158,7 @@ static PetscErrorCode ProjectNormal(const SamFrame *f, Cells cells, double p[], 
   if (cells.by == 0) cells.step = zeros;
   cells.field = p;
   *found      = PETSC_FALSE;
-  /* where pressures are far above the load, it is lost in their rounding; projected again, they are of its size */
+  /* If pressures are far above the load, it is lost in their rounding; another projection of the result is accurate. */
   for (PetscInt time = 0; time < PROJECT_MAX && !*found && near; time++) {
     const PetscBool once             = cells.quick && time == 0;
     SamTotal        totals[SAM_DUAL] = {{0}};
@@ -177,7 +177,7 @@ static PetscErrorCode ProjectNormal(const SamFrame *f, Cells cells, double p[], 
     if (once && near && !*found) PetscCall(SamDualIsBalanced(f, totals, SAM_BALANCED_ENOUGH, found));
     cells.by   = 0;
     cells.step = zeros;
-    /* what is left is small, and cells without pressure would all share in it */
+    /* The remaining error is small, and cells without pressure would all take a part of it. */
     cells.which = cells.which == ALL ? PRESSED : cells.which;
   }
   if (!*found && before) PetscCall(PetscArraycpy(p, before, f->grid->cells));

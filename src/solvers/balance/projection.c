@@ -15,22 +15,22 @@
 #include <math.h>
 
 #define NEWTON_MAX 60
-/* Steps in a row that improve neither the value nor the error of equilibrium: then it is all rounding. */
+/* Successive steps without an improvement of the value or of the error of equilibrium, after which all is rounding */
 #define IDLE_MAX 5
-/* Trials of a line search, and how far each goes beyond the one before while the value still falls. */
+/* Trials of a line search, and the ratio of the next length to the last one while the value still falls */
 #define TRIALS_MAX 60
 #define FARTHER    4.0
-/* The least fall of the value and the largest slope at the end of a step, as parts of the slope at its beginning. */
+/* The least fall of the value, and the largest slope at the end of a step, as parts of the slope at its beginning */
 #define ENOUGH_FALL 1e-4
 #define MUCH_SLOPE  0.9
 /* If the error outside the Hessian's range exceeds this part of the error of equilibrium, the step goes along it. */
 #define UNSEEN 0.1
-/* A traction has vanished when its sum is this part of what it was. */
+/* A traction has vanished if its sum falls to this part. */
 #define VANISHED 1e-13
 /* Rounding of the dual's value, relative to its parts. */
 #define VALUE_ROUNDING 1e-13
 
-/* Computes the error of equilibrium along the basis, as a combination of the phi; returns its size over the scale. */
+/* Computes the error of equilibrium along the basis, as a combination of the phi; returns its relative size. */
 static double Imbalance(const SamFrame *f, const SamDual *dual, double error[3])
 {
   double size = 0, load = 0;
@@ -49,9 +49,9 @@ static double Imbalance(const SamFrame *f, const SamDual *dual, double error[3])
 }
 
 /*
-  The Newton step for an error of equilibrium; returns the slope of the dual along it, down being positive. Where the
-  Hessian does not see most of the error, as no or too few cells are within their bounds, the step goes along what it
-  does not see.
+  Computes the Newton step for an error of equilibrium; returns the slope of the dual along it, positive downwards. If
+  most of the error is outside the Hessian's range, because too few cells are within their bounds, the step goes along
+  that part of the error.
 */
 static double NewtonStep(const SamFrame *f, const SamDual *dual, const double error[3], double step[3])
 {
@@ -88,10 +88,10 @@ static PetscErrorCode EvaluateAt(const SamFrame *f, SamDualPass pass, const void
 }
 
 /*
-  A step from `now` to `next`. The value falls by at least a part of what the slope promises, and the slope at the end
-  is no longer most of that at the beginning. The Newton step itself fulfils both near the minimum. Far from it, where
-  the bounds of most cells hold, the dual is nearly linear and a step may be too short by orders of magnitude, so the
-  search goes outward as well.
+  Makes a step from `now` to `next`. The value must fall by at least a part of the prediction of the slope, and the
+  slope must fall below MUCH_SLOPE of its start. The Newton step itself fulfils both near the minimum. Far from it,
+  where the bounds of most cells hold, the dual is nearly linear and a step may be too short by orders of magnitude, so
+  the search goes outward as well.
 */
 static PetscErrorCode SearchLine(const SamFrame *f, SamDualPass pass, const void *context, const Iterate *now,
                                  Iterate *next)
@@ -108,7 +108,7 @@ static PetscErrorCode SearchLine(const SamFrame *f, SamDualPass pass, const void
     PetscCall(EvaluateAt(f, pass, context, next));
     end = SamFrameDot(next->error, step);
     if (now->size <= SAM_BALANCED_ENOUGH) break;                   /* rounding dominates */
-    fell = t * slope <= now->rounding ? end >= -MUCH_SLOPE * slope /* below the value's rounding */
+    fell = t * slope <= now->rounding ? end >= -MUCH_SLOPE * slope /* the change is below the value's rounding */
                                       : next->dual.value <= now->dual.value - ENOUGH_FALL * t * slope;
     if (!fell)
       most = t;
@@ -141,7 +141,7 @@ PetscErrorCode SamDualMinimize(const SamFrame *f, SamDualPass pass, const void *
     idle = next.size < best.size || next.dual.value < now.dual.value - now.rounding ? 0 : idle + 1;
     now  = next;
     if (now.size < best.size) best = now;
-    if (idle && (best.size <= SAM_BALANCED_ENOUGH || idle > IDLE_MAX)) break; /* at rounding */
+    if (idle && (best.size <= SAM_BALANCED_ENOUGH || idle > IDLE_MAX)) break; /* only rounding is left */
   }
   for (PetscInt i = 0; i < 3; i++) a[i] = best.a[i];
   *found = best.size <= SAM_BALANCED_ENOUGH;

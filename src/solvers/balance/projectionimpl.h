@@ -6,14 +6,14 @@
 
 /*
   SamOrthonormalize - Gram-Schmidt: adds row m to an orthonormal basis, so that row = sum lower[k] basis[k]. Returns
-  lower[m], how far the row is from those before it.
+  lower[m], the distance of the row from the span of the earlier rows.
 */
 PETSC_INTERN double SamOrthonormalize(PetscInt m, double basis[3][3], const double row[3], double lower[3]);
 
 /* Errors of equilibrium, relative to the loads or the sum of the traction. */
-#define SAM_BALANCED_EXACT  1e-14 /* rounding at best: Newton's method stops */
-#define SAM_BALANCED_ENOUGH 1e-11 /* rounding at worst: a solution all the same */
-#define SAM_BALANCED_NEAR   1e-3  /* nearly: a further projection may reach a solution */
+#define SAM_BALANCED_EXACT  1e-14 /* best case of rounding: Newton's method stops */
+#define SAM_BALANCED_ENOUGH 1e-11 /* worst case of rounding: still a solution */
+#define SAM_BALANCED_NEAR   1e-3  /* near equilibrium: a further projection may reach a solution */
 
 /* Value, gradient without F, and Hessian of the dual, and sum |x| as the scale of the gradient. */
 typedef struct {
@@ -26,16 +26,16 @@ typedef struct {
 typedef void (*SamDualPass)(const SamFrame *frame, const void *context, const double a[3], SamTotal dual[]);
 
 /*
-  SamDualMinimize - Newton's method for the dual. Stops when equilibrium holds to rounding, or when steps no longer
-  improve it; `near`: then it nearly holds. With an error of less than `once` at the start only one step is made, and
-  whether that was enough (`found` is false) is for the caller to check. Collective.
+  SamDualMinimize - minimises the dual by Newton's method. Stops when equilibrium holds to rounding, or when steps no
+  longer improve it; `near` is then true if it nearly holds. If the error at the start is less than `once`, only one
+  step is made; `found` is then false, and the caller checks the result. Collective.
 */
 PETSC_INTERN PetscErrorCode SamDualMinimize(const SamFrame *frame, SamDualPass pass, const void *context, double once,
                                             double a[3], PetscBool *found, PetscBool *near);
 
 /*
-  SamDualVanish - finds out whether some a makes the traction vanish when no load is to be carried, to rounding of the
-  traction at a = 0. Collective.
+  SamDualVanish - finds out if, without loads, some a makes the traction vanish, within rounding of the traction at a =
+  0. Collective.
 */
 PETSC_INTERN PetscErrorCode SamDualVanish(const SamFrame *frame, SamDualPass pass, const void *context, double a[3],
                                           PetscBool *vanishes);

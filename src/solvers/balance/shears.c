@@ -3,16 +3,16 @@
 #include <math.h>
 
 /*
-  The error of equilibrium below which one step of Newton's method usually reaches the solution. Smaller than for
+  The error of equilibrium below which one step of Newton's method usually reaches the solution. It is smaller than for
   pressures, as the equations of shears are not piecewise linear.
 */
 #define SMOOTH 1e-6
-/* Loads of this part of the sum of the shear are rounding. */
+/* Loads below this part of the sum of the shear are rounding. */
 #define ROUNDING 1e-13
 
 /* The input of a pass over the cells. */
 typedef struct {
-  const double *field; /* what is projected */
+  const double *field; /* the field to be projected */
   const double *bound;
   const float  *weight; /* NULL: 1 */
 } Cells;
@@ -27,8 +27,8 @@ static const float *Ones(void)
 }
 
 /*
-  Some cells of a row, at most SAM_CHUNK: v = field + w phi a, its projection x = D(v) onto the disc, and the derivative
-  h of D, times w. The second loop, with roots and divisions, runs only if a cell lies beyond its disc.
+  Computes for at most SAM_CHUNK cells of a row v = field + w phi a, its projection x = D(v) onto the disc, and the
+  derivative h of D times w. The second loop, with roots and divisions, runs only if a cell lies beyond its disc.
 */
 SAM_VECTORIZED static void AddShears(SamRow row, const double *restrict qx, const double *restrict qy,
                                      const double *restrict bound, const float *restrict weight, const double a[3],
@@ -127,7 +127,7 @@ SAM_VECTORIZED static void ApplyShears(SamRow row, double *restrict qx, double *
   sums->sums[2] += turn - row.eta * x;
 }
 
-/* Replaces q by the projection that belongs to a, and computes its moments. */
+/* Replaces q by the projection for this a, and computes its moments. */
 static PetscErrorCode ApplyTangential(const SamFrame *f, const double bound[], const float weight[], const double a[3],
                                       double q[], SamTotal dual[])
 {
@@ -156,8 +156,8 @@ static PetscErrorCode ApplyTangential(const SamFrame *f, const double bound[], c
 }
 
 /*
-  First, where that is likely to be enough, one step of Newton's method is applied without a further pass over the
-  cells. If it was not enough, it is a start, and the result is the nearest shear to this start.
+  If one step of Newton's method is likely to suffice, it is applied first, without a further pass over the cells. If it
+  did not suffice, the result is the nearest shear to it.
 */
 static PetscErrorCode Project(const SamFrame *f, const double bound[], const float weight[], PetscBool nearest,
                               double q[], double motion[3], PetscBool *found)
@@ -183,7 +183,7 @@ static PetscErrorCode Project(const SamFrame *f, const double bound[], const flo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Finds out whether the loads are mere rounding errors of the load that the cells' shear could carry. */
+/* Finds out if the loads are mere rounding errors of the load that the cells' shear could carry. */
 static PetscErrorCode AreRounding(const SamFrame *f, const double q[], PetscBool *are)
 {
   SamTotal total = {0};
@@ -203,8 +203,8 @@ static PetscErrorCode AreRounding(const SamFrame *f, const double q[], PetscBool
 }
 
 /*
-  Where all shear has to vanish, as in a contact of few cells whose load goes through zero, what is left of it is
-  rounding and balances nothing: then the nearest shear to zero is sought.
+  If all shear has to vanish, as in a contact of few cells whose load goes through zero, the remaining shear is rounding
+  and balances no load. Then the nearest shear to zero is sought.
 */
 PetscErrorCode SamFrameProjectTangential(const SamFrame *f, const double bound[], const float weight[],
                                          PetscBool nearest, double q[], double motion[3], PetscBool *found)

@@ -1,50 +1,52 @@
 /*
   The edge of a zone of cells from the field behind it.
 
-  Take a straight edge. The discrete problem there is a Toeplitz system on a half-line, and by Wiener and Hopf's method
-  every solution that grows like a root is, far from the edge, alpha (sqrt(j + s) + kappa(s) j^-3/2 + ...) in cell j: it
-  has an edge of its own between the cells, at -s. The error of first order is a margin of two cells. So:
+  At a straight edge the discrete problem is a Toeplitz system on a half-line. By Wiener and Hopf's method every
+  solution that grows like a root is, far from the edge, alpha (sqrt(j + s) + kappa(s) j^-3/2 + ...) in cell j: its edge
+  lies between the cells, at -s. Only a margin of two cells has an error of first order. So:
     1. Core: cells of the zone farther than BAND from any cell outside. A quadratic function is fitted to w in the core
        cells of a window about each cell of the band, and evaluated there.
     2. The tail of the margin makes the core's edge lie too far out, by SHIFT of a cell in the mean over all places of
-       an edge between centres. In plane strain the edge has one such place, and the shift is that of it (Line()).
-    3. Guard: the difference to w must be that of the margin, whose shape is the same for all smooth edges.
-    4. Areas: the part of each cell of the band where the function is positive, by sub-cells. Where it is refused, a
-       cell counts less SAM_EDGE_FACE for each of its faces to a cell outside, unless w is BLUNT there.
+       an edge between centres. In plane strain there is only one place of the edge, and the shift depends on it
+       (Line()).
+    3. Guard: the difference from w must have the shape of the margin, which is the same for all smooth edges.
+    4. Areas: the part of each cell of the band where the function is positive, by sub-cells. Where the guard rejects
+       the reconstruction, the whole cell counts, minus SAM_EDGE_FACE for each of its faces to a cell outside, unless w
+       is BLUNT there.
   Distances are in cells.
 */
 #include "edgesimpl.h"
 #include <math.h>
 
 #define BAND   2.5    /* distance of the core from the cells outside */
-#define LAST   6      /* largest squared distance of cells that the margin of an edge makes wrong */
-#define WINDOW 5      /* half width of the window that they are reconstructed from, cells */
-#define SHIFT  0.0105 /* of the edge; fitted on circles and ellipses, within 5 % the same for all */
+#define LAST   6      /* largest squared distance of cells whose values are wrong because of the edge's margin */
+#define WINDOW 5      /* half width in cells of the window from which they are reconstructed */
+#define SHIFT  0.0105 /* of the edge; fitted on circles and ellipses, whose shifts agree within 5 % */
 #define BENT   0.005  /* largest deviation of the core from the function, rms over the slope of a cell */
-#define BLUNT  0.6    /* w of a cell at the edge over that of the cell behind it, where w does not vanish at the edge */
-#define NEXT   (-2)   /* a cell outside with this distance's square or nearer is beside the zone */
+#define BLUNT  0.6  /* ratio of w in a cell at the edge to w in the cell behind it, if w does not vanish at the edge */
+#define NEXT   (-2) /* a cell outside is beside the zone if its distance's square is at most 2 */
 #define HALO   (WINDOW + 5)
 
-/* Layers of the band by squared distance, and the least and largest (w less its reconstruction)/slope in them. */
+/* Layers of the band by squared distance, and the least and largest (w minus its reconstruction)/slope in them */
 static const int    margin_last[]  = {1, 4, LAST};
 static const double margin_least[] = {-0.15, -0.03, -0.03}, margin_most[] = {0.20, 0.12, 0.06};
 
-#define OUT_LEAST (-0.2) /* a reconstruction over the slope, of a cell of the zone */
-#define IN_MOST   0.25   /* of a cell outside */
+#define OUT_LEAST (-0.2) /* a reconstruction relative to the slope, of a cell of the zone */
+#define IN_MOST   0.25   /* the same of a cell outside */
 
 /* The zone, and the reconstruction of the cells of its band and beside it. */
 typedef struct {
   SamZone   zone;
-  PetscInt *slot;   /* of each cell: its place among those, -1 for the others */
-  PetscInt  band;   /* number of those */
-  char     *smooth; /* of each of them: whether its own reconstruction looks like a smooth edge */
-  double   *fit;    /* of each of them: its function */
+  PetscInt *slot;   /* of each cell: its place among the cells of the band, -1 for the others */
+  PetscInt  band;   /* number of cells in the band */
+  char     *smooth; /* of each cell of the band: 1 if its own reconstruction looks like a smooth edge */
+  double   *fit;    /* of each cell of the band: its function */
 } Band;
 
 /*
-  How far out the core's edge lies on a grid of one row, by its place u beyond the last centre of the zone, in cells:
-  fitted on Hertz's contact of 4600 cells, 64 places, within 7e-5; the edge of stick has the same within 2e-4. In a cell
-  of the zone, and in the first one outside, whose window has fewer cells.
+  The shift of the core's edge on a grid of one row, as a function of its place u beyond the last centre of the zone, in
+  cells. It was fitted on Hertz's contact of 4600 cells at 64 places, within 7e-5; the edge of stick agrees within 2e-4.
+  There is one function for cells of the zone, and one for the first cell outside, whose window has fewer cells.
 */
 static double Line(const SamZone *z, PetscInt i, const double fit[SAM_FIT_TERMS])
 {
@@ -67,7 +69,7 @@ static PetscBool Extrapolate(const SamZone *z, const SamFitWindow *core, PetscIn
   return PETSC_TRUE;
 }
 
-/* Reconstructs a cell of the band; its constant becomes w*. Returns whether it looks like a smooth edge. */
+/* Reconstructs a cell of the band; w* becomes its constant term. Returns true if it looks like a smooth edge. */
 static PetscBool Reconstruct(const SamZone *z, const SamFitWindow *core, PetscInt i, PetscInt j,
                              double fit[SAM_FIT_TERMS])
 {
@@ -102,7 +104,7 @@ static PetscBool IsSmoothAbout(const Band *band, PetscInt i, PetscInt j)
 
 enum { AREA, FACES, GOOD, CELLS, SUMS };
 
-/* Adds the place on the edge nearest to the centre of a cell of this rank, if it is in the cell. */
+/* Adds the point of the edge nearest to the centre of a cell of this rank if the point is in the cell. */
 static void AddPoint(SamGrid grid, const double fit[SAM_FIT_TERMS], PetscInt i, PetscInt j, SamEdge *edge)
 {
   const double square = fit[1] * fit[1] + fit[2] * fit[2], x = -fit[0] * fit[1] / square, y = -fit[0] * fit[2] / square;
@@ -117,8 +119,8 @@ static void AddPoint(SamGrid grid, const double fit[SAM_FIT_TERMS], PetscInt i, 
 }
 
 /*
-  True if w seems not to vanish at a cell's edge, judged by its neighbour farthest from the cells outside, which must
-  not lie at the edge itself. Worn surfaces end like that; there the errors of counting cells cancel on average.
+  True if w does not seem to vanish at a cell's edge, compared with its neighbour farthest from the cells outside, which
+  must not lie at the edge itself. Worn surfaces have such edges; there the errors of counting cells cancel on average.
 */
 static PetscBool IsBlunt(const SamZone *z, PetscInt i, PetscInt j)
 {
@@ -176,13 +178,13 @@ PetscErrorCode SamEdgeDestroy(SamEdge *edge)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- the whole ---- */
+/* ---- all cells ---- */
 
 static PetscErrorCode Examine(Band *band)
 {
   const SamZone  *z     = &band->zone;
   const ptrdiff_t cells = (ptrdiff_t)z->count * z->width;
-  const PetscInt  begin = PetscMax(z->grid->row_start - 1, z->first), /* of the rows whose cells are needed */
+  const PetscInt  begin = PetscMax(z->grid->row_start - 1, z->first), /* first of the rows whose cells are needed */
     end                 = PetscMin(z->grid->row_start + z->grid->rows + 1, z->first + z->count);
   SamFitWindow core;
 

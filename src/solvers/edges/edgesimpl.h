@@ -8,27 +8,28 @@
 
 /*
   SamZone - rows of a field about this rank's, and the zone of cells where it is positive. Distances are between
-  centres, in cells, and known where they are at most `reach`: distance[] holds their squares, of cells of the zone to
-  the nearest cell outside, of cells outside minus those to the nearest cell of the zone; else SAM_FAR or -SAM_FAR.
-  Cells beyond the grid are neither; where the grid is periodic, cells on the other side of it stand there.
+  centres, in cells, and known up to `reach`. For a cell of the zone, distance[] is the square of its distance to the
+  nearest cell outside, or SAM_FAR; for a cell outside, it is minus the square of its distance to the nearest cell of
+  the zone, or -SAM_FAR. Cells beyond the grid are neither in the zone nor outside; on a periodic grid, cells of the
+  other side continue it.
 */
 #define SAM_FAR 127
 typedef struct {
   SamGrid      grid;
-  PetscInt     first, count; /* rows that are seen */
-  PetscInt     left, width;  /* columns that are seen */
+  PetscInt     first, count; /* rows of the window */
+  PetscInt     left, width;  /* columns of the window */
   double      *w;
   signed char *distance;
 } SamZone;
 /*
-  SamZoneCreate - `halo`: rows that are seen before and after this rank's, and where the grid is periodic, columns on
-  both sides; reach: at most 11 cells. Collective.
+  SamZoneCreate - creates a zone. `halo`: number of rows before and after this rank's rows in the window, and of columns
+  on both sides if the grid is periodic; reach: at most 11 cells. Collective.
 */
 PETSC_INTERN PetscErrorCode SamZoneCreate(SamGrid grid, PetscBool periodic, Vec field, PetscInt halo, PetscReal reach,
                                           SamZone *zone);
 PETSC_INTERN PetscErrorCode SamZoneDestroy(SamZone *zone);
 
-/* True if a cell is in the zone's window; the second function returns its index there. */
+/* True if a cell is in the zone's window; SamZoneAt() returns its index there. */
 static inline PetscBool SamZoneHas(const SamZone *z, PetscInt i, PetscInt j)
 {
   return i >= z->left && i < z->left + z->width && j >= z->first && j < z->first + z->count;
@@ -38,7 +39,7 @@ static inline ptrdiff_t SamZoneAt(const SamZone *z, PetscInt i, PetscInt j)
   return (ptrdiff_t)(j - z->first) * z->width + i - z->left;
 }
 
-/* A quadratic function about a cell's centre: the terms 1, x, y, x^2, x y, y^2 of places in cells from it. */
+/* A quadratic function about a cell's centre, of the place in cells from it; its terms are 1, x, y, x^2, x y, y^2. */
 enum { SAM_FIT_TERMS = 6 };
 static inline double SamFitAt(const double fit[SAM_FIT_TERMS], double x, double y)
 {
@@ -56,15 +57,15 @@ typedef struct {
   double   terms[SAM_FIT_CELLS][SAM_FIT_TERMS], products[SAM_FIT_CELLS][SAM_FIT_PRODUCTS];
 } SamFitWindow;
 PETSC_INTERN void SamFitWindowInitialize(PetscInt half, int least, SamFitWindow *window);
-#define SAM_FIT_LEAST      9 /* fewest cells of a fit, */
-#define SAM_FIT_LEAST_LINE 3 /* and on a grid of one row */
+#define SAM_FIT_LEAST      9 /* least number of cells of a fit */
+#define SAM_FIT_LEAST_LINE 3 /* the same on a grid of one row */
 /*
-  SamFit - the function nearest to the zone's field in the window about a cell. `bent`: how far the field is from it,
-  rms. False: there are too few cells, or the fit is singular. Not collective.
+  SamFit - finds the function nearest to the zone's field in the window about a cell. `bent`: rms deviation of the field
+  from the function. Returns false if there are too few cells, or if the fit is singular. Not collective.
 */
 PETSC_INTERN PetscBool SamFit(const SamZone *zone, const SamFitWindow *window, PetscInt i, PetscInt j,
                               double fit[SAM_FIT_TERMS], double *bent);
-/* SamFitPart - the part of a cell where its function is positive. */
+/* SamFitPart - returns the part of a cell where its function is positive. */
 PETSC_INTERN double SamFitPart(const double fit[SAM_FIT_TERMS]);
 
 #endif

@@ -4,7 +4,7 @@
 
 #define TERMS    SAM_FIT_TERMS
 #define PRODUCTS SAM_FIT_PRODUCTS
-#define SUB      16 /* sub-cells in each direction */
+#define SUB      16 /* number of sub-cells in each direction */
 
 void SamFitWindowInitialize(PetscInt half, int least, SamFitWindow *window)
 {
@@ -35,9 +35,9 @@ static Range RangeOf(const SamZone *z, PetscInt half, PetscInt i, PetscInt j)
 }
 
 /*
-  Cholesky's factor of a symmetric positive matrix, both given by the rows of their lower triangles; false where it is
-  singular. (The eigenvalues of SamSolveSymmetric() would take longer than the fit.) `line`: terms that are zero
-  everywhere remain zero.
+  Computes Cholesky's factor of a symmetric positive matrix, both as rows of their lower triangles; returns false if the
+  matrix is singular. (The eigenvalues of SamSolveSymmetric() would take longer than the fit.) `line`: terms that are
+  zero everywhere remain zero.
 */
 static PetscBool Factor(PetscBool line, double A[PRODUCTS])
 {
@@ -140,14 +140,14 @@ PetscBool SamFit(const SamZone *z, const SamFitWindow *window, PetscInt i, Petsc
   }
   for (int k = 0; k < TERMS; k++) fit[k] = sums.right[k];
   Solve(factor, fit);
-  /* of the deviations: the function is their nearest one */
+  /* The squares of the deviations follow, since the function minimises them. */
   for (int k = 0; k < TERMS; k++) sums.squares -= fit[k] * sums.right[k];
   for (int k = 1; k < TERMS; k++) fit[k] /= k < 3 ? scale : scale * scale;
   *bent = sqrt(PetscMax(sums.squares, 0) / (double)count);
   return PETSC_TRUE;
 }
 
-/* Returns the sum over sub-cells of their parts where the function, over the slope of a sub-cell, is positive. */
+/* Sums over sub-cells the part where the function, in units of its slope per sub-cell, is positive. */
 SAM_VECTORIZED static double SumParts(const double *restrict fit, double slope)
 {
   double sum = 0;

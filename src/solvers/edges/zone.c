@@ -1,7 +1,7 @@
 /* Zones: distances from the edge, found from the cells outside that touch the zone. */
 #include "edgesimpl.h"
 
-/* Marks each cell of a row that is 1, or has a neighbour in the row that is 1. */
+/* Marks each cell of a row that is marked in `in`, or whose neighbour in the row is. */
 static void Widen(PetscInt n, const char in[], char out[])
 {
   out[0]     = in[0] | in[1];
@@ -9,7 +9,7 @@ static void Widen(PetscInt n, const char in[], char out[])
   for (PetscInt i = 1; i + 1 < n; i++) out[i] = in[i - 1] | in[i] | in[i + 1];
 }
 
-/* Offsets within the reach, and their squared lengths. */
+/* Offsets within the reach, and their squared lengths */
 typedef struct {
   PetscInt    count, x[512], y[512];
   signed char square[512];
@@ -29,7 +29,7 @@ static void FillDisc(PetscReal reach, Disc *disc)
       }
 }
 
-/* Lowers the distances of cells of the other kind, within the disc about an edge cell, to those from this cell. */
+/* For cells of the other kind in the disc about an edge cell, lowers the distances to the distance from this cell. */
 static void Mark(SamZone *z, const Disc *disc, const char in[], PetscInt i, PetscInt j)
 {
   const char inside = in[SamZoneAt(z, i, j)];
@@ -47,8 +47,8 @@ static void Mark(SamZone *z, const Disc *disc, const char in[], PetscInt i, Pets
 }
 
 /*
-  The nearest cell of the other kind touches its own kind's border: from there one step nearer is a cell of this kind.
-  So only cells with a neighbour of the other kind are looked from; they are found in whole rows.
+  The nearest cell of the other kind has a neighbour of this kind: the cell one step nearer. So only cells with a
+  neighbour of the other kind mark distances; they are found in whole rows.
 */
 static PetscErrorCode FindDistances(SamZone *z, PetscReal reach)
 {

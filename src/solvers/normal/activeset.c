@@ -5,37 +5,37 @@
   displacements). Its gradient is the gap g. H is the hardness, infinite for bodies that do not yield.
 
   Algorithm; an iteration takes one product:
-    1. A: the cells where pressure is, or is to be, between its bounds. Cells without pressure that penetrate are in A;
-       cells with little pressure that are about to part are not. Likewise with H: cells under H whose gap is open are
-       in A, cells a little below H that penetrate are not. A cell outside of A goes to the nearer bound. The rigid-body
-       displacements (the multipliers of equilibrium) make the gap g on A smallest. The residual is -g on A.
+    1. Set A: the cells where the pressure is, or will be, between its bounds. Cells without pressure that penetrate are
+       in A; cells with little pressure that are about to part are not. Likewise at H: cells under H whose gap is open
+       are in A, cells a little below H that penetrate are not. The pressure outside of A goes to the nearer bound. The
+       rigid-body displacements (the multipliers of equilibrium) make the gap g on A smallest. The residual is -g on A.
     2. Direction: the preconditioned residual, plus the part of the last step that makes the two conjugate. Both stay
        meaningful when A changes, as the last step is the difference of two pressures, whose product is known.
-    3. Trial: the pressure that is nearest to p + alpha times the direction, among those that are admissible and at
-       their bounds outside of A. alpha is the length that was best in the last iterations.
+    3. Trial: the pressure nearest to p + alpha times the direction, among those that are admissible, and at their
+       bounds outside of A. alpha is the best length of the last iterations.
     4. The product of trial - p gives the best point between p and the trial, or beyond it as far as the bounds allow.
-       When no cell meets a bound, that is the step of linear conjugate gradients. So p is admissible and the energy
-       falls throughout; cells enter and leave by the thousand without a product of their own; and conjugacy is kept.
-  A step that ends before the trial, by t < 1 of it, leaves cells that are to reach a bound the part 1 - t of their way
-  to it. So they come nearer to their bound and never reach it, while all of their gap counts as error. The energy
-  converges and the error does not. Therefore, when the error has not fallen for some iterations, cells that are no
-  farther from it than rounding of the step are taken there, and the gap is recomputed.
+       When no cell meets a bound, this is the step of linear conjugate gradients. So p stays admissible, the energy
+       falls in every step, thousands of cells enter and leave A without additional products, and conjugacy is kept.
+  If a step ends at the part t < 1 of the way to the trial, cells that should reach a bound keep the part 1 - t of their
+  distance to it. So they approach their bound without reaching it, and all of their gap counts as error: the energy
+  converges, but the error does not. Therefore, when the error has not fallen for some iterations, cells within the
+  step's rounding of a bound are set to it, and the gap is recomputed.
 
   If the trial is uphill, or the error has not fallen for several iterations, the direction is the residual itself:
-  projected gradient steps with the best length converge whatever is between them, with one bound as with two. Where no
-  cell at a bound has a gap of 0, they find the right cells at the right bounds after finitely many of them, and what is
-  left is a linear system, for conjugate gradients (Dostal, ch. 5). Stops when |g| under pressure below H, -g where
-  there is none, and g under H are below the tolerance, relative to the maximum displacement.
+  projected gradient steps with the best length converge whatever steps lie between them, with one bound and with two.
+  If no cell at a bound has a gap of 0, a finite number of them finds the right cells at each bound, and a linear system
+  remains for conjugate gradients (Dostal, ch. 5). The iteration stops when |g| under pressure below H, -g where there
+  is none, and g under H are below the tolerance, relative to the maximum displacement.
 
-  Preconditioner: |k| on A, less half its loss. |k| = |k|' + loss on A, where |k|' is what the differences of a field
-  within A cost, and loss = |k| 1_A what it costs that the field ends at the edge of A. The inverse of S on A lies
+  Preconditioner: |k| on A minus half its loss. |k| = |k|' + loss on A, where |k|' is the energy of the differences of a
+  field within A, and loss = |k| 1_A the energy of the jump of the field at the edge of A. The inverse of S on A lies
   between |k|' and |k|, as the field outside is free, not zero. At edges the loss grows like 1/distance, and |k|
   contains too much of it.
 
-  Rounding: steps and their products are in single precision, at half the cost; p and g are in double. g collects about
-  SAM_SINGLE_ROUNDING of the maximum error since the last product in double precision; before that matters there is
-  another one, and after a gradient step, whose trial may be much farther than the step: p comes back from it with the
-  trial's rounding. Coarse grids, solved roughly, need none.
+  Rounding: steps and their products are in single precision, at half the cost; p and g are in double. g collects
+  rounding of about SAM_SINGLE_ROUNDING times the maximum error since the last product in double precision. Another such
+  product is made before this rounding matters, and after a gradient step: its trial may be much farther away than the
+  step, and p keeps the trial's rounding. Coarse grids, which are solved roughly, need none.
 
   References: Polonsky and Keer 1999, Wear 231, 206-219 (projected CG for contact); Dostal 2009, Optimal Quadratic
   Programming Algorithms, ch. 5 (active sets with CG); Stanley and Kato 1997, J. Tribol. 119, 481-485 (the spectrum);
@@ -51,21 +51,23 @@
 /* Part of the loss that is subtracted, and part of A that may change before the loss is recomputed */
 #define LOSS_OFF 0.5
 #define LOSS_OLD 0.01
-/* A direction's least descent, as a part of that of the preconditioned residual. */
+/* A direction's least descent, relative to that of the preconditioned residual */
 #define DESCENT 0.1
 /*
-  The trial's length follows the best one, by at most the root of these factors in an iteration. Under a stiff film the
-  preconditioner is 8 to 16 times too strong: a length that falls slowly, or that a gradient step forgets, is cut at the
-  bounds again and again. Of bodies without layers it is about right, and 1 is a good start after a gradient step.
+  The trial's length follows the best length, by at most the square root of these factors per iteration. Under a stiff
+  film the preconditioner is 8 to 16 times too strong: a length that falls too slowly, or is reset by a gradient step,
+  would be cut at the bounds repeatedly. For bodies without layers it is about right, and 1 is a good start after a
+  gradient step.
 */
 #define FOLLOW 2.0
 #define FALL   16.0
-/* Iterations without progress before cells are made to part, a gradient step, and giving up because of rounding. */
+/* Iterations without progress before cells are set to their bounds, before a gradient step, and before giving up
+   because of rounding */
 #define PARTING    8
 #define PATIENCE   10
 #define STAGNATION 100
 
-/* Changes of the pressure that are no more than its rounding, relative to the largest: no step. */
+/* A change of the pressure, relative to the largest pressure, that is smaller than this is rounding, and no step. */
 #define ROUNDING 1e-11
 
 typedef SamActiveSet Work;
@@ -109,14 +111,14 @@ static PetscErrorCode DestroyWork(Work *w)
   PetscCall(VecRestoreArray(w->vg, &w->g));
   PetscCall(VecDestroy(&w->vg));
   PetscCall(PetscFree2(w->busy, w->open));
-  SamFree(w->z); /* with the others behind it */
+  SamFree(w->z); /* together with the arrays behind it */
   PetscCall(PetscFree(w->xi));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- direction ---- */
 
-/* Computes the loss, |k| 1_A, when A is no longer the one for which it was computed. */
+/* Computes the loss, |k| 1_A, if A has changed since the last time. */
 static PetscErrorCode UpdateLoss(Work *w)
 {
   double changed = 0;
@@ -140,7 +142,7 @@ static PetscBool NextBusy(const Work *w, PetscInt j, PetscInt *end, SamRow *row)
   return PETSC_TRUE;
 }
 
-/* Finds the next busy cells of row j likewise, by single blocks. */
+/* Finds the next busy cells of row j in the same way, by single blocks. */
 static PetscBool NextBusyStretch(const Work *w, PetscInt j, PetscInt *next, SamRow *row)
 {
   const char *busy = w->busy + (ptrdiff_t)j * w->blocks;
@@ -164,7 +166,7 @@ static PetscErrorCode ComputeResidual(Work *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* z = M r on A, from M r everywhere; and the sums of z and of u with the phi, z.r, z.u, s.r. */
+/* Sets z = M r on A, from M r everywhere; sums z and u with the phi, z.r, z.u, s.r. */
 #define PRODUCTS 9
 enum { Z_PHI = 0, U_PHI = 3, Z_R = 6, Z_U = 7, S_R = 8 };
 
@@ -208,8 +210,8 @@ static PetscErrorCode NewDirection(Work *w)
 /* ---- trial and step ---- */
 
 /*
-  Step 3: p goes to the admissible pressure on A nearest to p + alpha z; s is the step there. `motion`: what the
-  projection took the rigid-body displacements to be short of, if z is -g.
+  Step 3: p becomes the admissible pressure on A nearest to p + alpha z; s is the step to it. `motion`: if z is -g, the
+  correction of the rigid-body displacements that the projection implies.
 */
 static PetscErrorCode Try(Work *w, double alpha, PetscBool nearest, double motion[3], PetscBool *found)
 {
@@ -248,8 +250,8 @@ static PetscErrorCode Try(Work *w, double alpha, PetscBool nearest, double motio
 }
 
 /*
-  The projected gradient: along -g on all cells, as cells of A alone may have no other pressure in equilibrium. It is
-  downhill unless the pressure is the solution. The length is that for modes like the whole pressure.
+  Makes a step of the projected gradient, along -g on all cells, as cells of A alone may have no other pressure in
+  equilibrium. It is downhill unless the pressure is the solution. Its length fits modes as long as the contact.
 */
 static PetscErrorCode TryGradient(Work *w, double motion[3], PetscBool *found)
 {
@@ -267,7 +269,8 @@ static PetscErrorCode TryGradient(Work *w, double motion[3], PetscBool *found)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* From the trial to where the step has the length t instead of 1; the totals over the cells between bounds there. */
+/* Goes back from the trial to the length t of the step instead of 1; computes the totals over the cells between
+   bounds. */
 static void SetLength(Work *w, double t, SamTotal contact[])
 {
   for (PetscInt j = 0; j < w->rows; j++) {
@@ -300,7 +303,7 @@ static PetscErrorCode ComputeCurvature(Work *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Takes cells to their bounds that a step of the length t would leave before them by no more than rounding. */
+/* Sets cells to their bounds if a step of the length t would leave them within rounding of these. */
 static PetscErrorCode Part(Work *w, double t)
 {
   SamRow row;
@@ -313,9 +316,9 @@ static PetscErrorCode Part(Work *w, double t)
 }
 
 /*
-  Step 4: the least energy between where the step begins and where a pressure meets a bound. `best`: the length of the
-  step without that bound. A step that displaces nothing (periodic bodies under one more uniform pressure) goes as far
-  as the bounds allow.
+  Step 4: finds the length of least energy between the start of the step and the point where a pressure meets a bound.
+  `best`: the length without that bound. A step that displaces nothing (periodic bodies under one more uniform pressure)
+  goes as far as the bounds allow.
 */
 static PetscErrorCode Step(Work *w, double *best, SamTotal contact[])
 {
@@ -335,9 +338,9 @@ static PetscErrorCode Step(Work *w, double *best, SamTotal contact[])
 /* ---- the method ---- */
 
 /*
-  The trial differs from the pressure by rounding, so this is the pressure. Two things may be wrong: cells of pressures
-  of that size, which the trial separates, and the motion, which A leaves open if few cells are in it. `better`: the
-  error has fallen.
+  Ends the iterations, as the trial differs from the pressure only by rounding. Two errors may remain: cells with
+  pressures as small as rounding, which the trial separates, and the motion, which A does not determine if it has few
+  cells. `better`: true if the error has fallen.
 */
 static PetscErrorCode TakeTrial(Work *w, const double motion[3], PetscBool *better)
 {
@@ -352,8 +355,8 @@ static PetscErrorCode TakeTrial(Work *w, const double motion[3], PetscBool *bett
 }
 
 /*
-  One iteration. `gradient`: it takes a gradient step; also one that it falls back to, on return. `downhill`: there was
-  a way down, for the energy or the error. `found`: an admissible pressure was.
+  Makes one iteration. `gradient`: it makes a gradient step; on return also true if it had to resort to one. `downhill`:
+  the energy or the error could be reduced. `found`: an admissible pressure was found.
 */
 static PetscErrorCode Iterate(Work *w, PetscBool *gradient, PetscBool *downhill, PetscBool *found)
 {
@@ -419,7 +422,7 @@ static PetscErrorCode SamNormalSolve_ActiveSet(SamSolver solver, SamLevel *level
 
   PetscFunctionBegin;
   PetscCall(CreateWork(solver, level, &w));
-  /* a start with its product has its motion as well, which A may leave open */
+  /* A start with its product also has its motion, which A may not determine. */
   PetscCall(SamFrameSetGiven(&given, level->grid, level->balance));
   PetscCall(PetscArraycpy(w.motion, SamLevelHasProduct(level) ? given.fixed : level->frame.fixed, 3));
   PetscCall(SamActiveSetStart(&w));
@@ -437,7 +440,7 @@ static PetscErrorCode SamNormalSolve_ActiveSet(SamSolver solver, SamLevel *level
     PetscCall(GetReason(&w, stagnant, downhill, found, &reason));
   }
   if (isfinite(w.error)) PetscCall(SamActiveSetKeepProduct(&w));
-  /* the steps keep equilibrium to the rounding of single precision only */
+  /* The steps keep equilibrium only to the rounding of single precision. */
   if (found) PetscCall(SamFrameProjectNormalBetween(w.frame, w.p, &found));
   solver->reason = reason;
   solver->error  = w.error / w.displacement;

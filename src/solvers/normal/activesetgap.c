@@ -1,26 +1,26 @@
 /*
-  Step 1 of the active-set method: the gap, the set A and the motion by it, the error, and the account of the gap's
-  rounding.
+  Step 1 of the active-set method: the gap, the set A and the motion that fits A, the error, and the estimate of the
+  gap's rounding.
 */
 #include "activesetimpl.h"
 #include <math.h>
 
 /*
-  A cell with pressure leaves A when its gap is more than PATCH times what its own pressure displaces it; so does one
-  that penetrates by more than that much of what it may still bear. PATCH stands for the cell's neighbours, which have
-  about the same pressure.
+  A cell with pressure leaves A when its gap exceeds PATCH times the displacement by its own pressure. It also leaves A
+  when it penetrates by more than PATCH times the displacement by the pressure that it may still bear. PATCH represents
+  the cell's neighbours, which have about the same pressure.
 */
 #define PATCH 6.0
 /* Largest rounding of g at the end, relative to the tolerance */
 #define DOUBT 0.03
 /* Relative change of S p by the last projection of a solve, which restores exact equilibrium */
 #define PROJECTION_ROUNDING 1e-9
-/* g is recomputed at the latest when the error has fallen by this factor, for then rounding may dominate it. */
+/* g is recomputed at the latest when the error has fallen by this factor, as rounding may dominate the error then. */
 #define FALL 1e-3
 
 typedef SamActiveSet Work;
 
-/* ---- the account of rounding ---- */
+/* ---- the estimate of rounding ---- */
 
 static double Tolerance(const Work *w)
 {
@@ -41,7 +41,7 @@ static PetscBool IsTrusted(const Work *w)
 
 PetscBool SamActiveSetIsStale(const Work *w)
 {
-  const double later = SAM_SINGLE_ROUNDING * w->error; /* what rounding will be after a product */
+  const double later = SAM_SINGLE_ROUNDING * w->error; /* rounding after the next product */
 
   return !IsTrusted(w) && (later <= DOUBT * Tolerance(w) || later <= FALL * w->rounding);
 }
@@ -76,7 +76,7 @@ static PetscErrorCode Apply(Work *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* g, which holds S p, becomes S p + h - motion; and the maximum displacement, and what rounding of p may leave. */
+/* Turns g, which contains S p, into S p + h - motion; finds the maximum displacement and the floor by rounding of p. */
 static PetscErrorCode FinishGap(Work *w)
 {
   const SamGrid grid   = w->level->grid;
@@ -100,7 +100,7 @@ void SamActiveSetAddRow(SamGapSums row, double eta, SamTotal totals[])
   SamAddAll(SAM_GAP_TOTALS, totals, sums);
 }
 
-/* Adds to `motion` what fits the gap to the cells of these totals, whose Gram matrix becomes w's. */
+/* Adds to `motion` the motion that fits the gap to the cells of these totals; their Gram matrix becomes w's. */
 static PetscErrorCode Fit(Work *w, SamTotal totals[], double motion[3])
 {
   double sums[SAM_GAP_TOTALS], a[3];
@@ -125,7 +125,7 @@ static PetscBool IsClear(const Work *w, PetscInt block, SamRow row, const double
   return !w->busy[block] && w->open[block] > PetscMax(a + b * row.xi0, a + b * last);
 }
 
-/* A in a row, and which of its blocks are busy: by the gap that `motion` has moved back. */
+/* Chooses A in a row, and marks its busy blocks, by the gap after a correction by `motion`. */
 static SamGapSums ChooseRow(Work *w, PetscInt j, double ease, const double motion[3])
 {
   SamGapSums sums = {0};
@@ -133,13 +133,13 @@ static SamGapSums ChooseRow(Work *w, PetscInt j, double ease, const double motio
   for (PetscInt i = 0, block = j * w->blocks; i < w->nx; i += SAM_ROW_BLOCK, block++) {
     const SamRow row = SamFrameRow(w->frame, j, i, PetscMin(i + SAM_ROW_BLOCK, w->nx));
 
-    if (IsClear(w, block, row, motion)) continue; /* it has no cell of A, and gets none */
+    if (IsClear(w, block, row, motion)) continue; /* it has no cell of A, and stays without */
     w->busy[block] = SamActiveSetChooseRow(w, row, ease, motion, &sums) ? 1 : 0;
   }
   return sums;
 }
 
-/* Chooses A by the gap that `motion` has moved back, and adds to it what fits it to A. */
+/* Chooses A by the gap after a correction by `motion`, and adds to `motion` the fit to A. */
 static PetscErrorCode Choose(Work *w, double ease, double motion[3])
 {
   SamTotal totals[SAM_GAP_TOTALS] = {{0}};
@@ -151,7 +151,7 @@ static PetscErrorCode Choose(Work *w, double ease, double motion[3])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Adds to the motion: the gap and the error follow, A does not. */
+/* Adds to the motion, and updates the gap and the error, but not A. */
 static PetscErrorCode Move(Work *w, const double motion[3])
 {
   double error = 0;
@@ -188,10 +188,10 @@ PetscErrorCode SamActiveSetRefresh(Work *w)
   if (single) {
     PetscCall(ApplySingle(w));
     PetscCall(FinishGap(w));
-    if (w->floor > 0) single = PETSC_FALSE; /* the displacement is rounding of single precision */
+    if (w->floor > 0) single = PETSC_FALSE; /* the displacement is mere rounding in single precision */
   }
   if (!single) {
-    /* the steps so far have kept equilibrium to the rounding of single precision only */
+    /* The steps so far have kept equilibrium only to the rounding of single precision. */
     PetscCall(SamFrameProjectNormalBetween(w->frame, w->p, &found));
     PetscCall(Apply(w));
     PetscCall(FinishGap(w));

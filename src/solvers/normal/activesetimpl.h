@@ -15,39 +15,39 @@ typedef struct {
   float          *z, *s, *u;      /* direction; last step; S s: z and s in units of unit/self, u in units of `unit` */
   float          *loss;           /* subtracted from the preconditioner; 0 on cells that were not in A at the time */
   float          *active;         /* 1 on cells of A, else 0 */
-  float          *xi;             /* of the columns */
+  float          *xi;             /* xi of the columns */
   char           *busy;           /* blocks with cells of A, or with pressure */
-  double         *open;           /* least gap of other blocks after the last step; not known: -infinity */
-  double          unit;           /* m, of the iteration */
+  double         *open;           /* least gap of other blocks after the last step; -infinity: unknown */
+  double          unit;           /* unit of length of the iteration, m */
   double          self;           /* influence of a cell on itself, m/Pa */
   double          most;           /* maximum admissible pressure, Pa; infinite: none */
-  double          gram[SAM_GRAM]; /* of A */
+  double          gram[SAM_GRAM]; /* Gram matrix of A */
   double          motion[3];      /* rigid-body displacement in g, fixed part included */
   double          displacement;   /* maximum |S p|, m */
   double          floor;          /* error that rounding leaves where the displacement is nearly zero, m */
   double          error;          /* maximum complementarity error, m */
   double          rounding;       /* bound of the rounding of g, for the maximum error of a cell, m */
-  double          slope;          /* of the energy along the step: s.g */
-  double          shrink;         /* largest part of its distance from a bound that a cell loses in the step */
-  double          largest;        /* largest pressure of the trial, Pa */
-  double          curvature;      /* s.u; 0: no step yet */
-  double          alpha;          /* length of the trial */
-  PetscBool       layered;        /* a body has layers, for which the preconditioner may be far too strong */
-  PetscBool       stagnates;      /* the error has not fallen for some iterations */
-  double          lost;           /* the largest change of a pressure in the step without a product, Pa */
+  double          slope;          /* slope of the energy along the step: s.g */
+  double          shrink;    /* largest part of its distance from a bound by which a cell approaches it in the step */
+  double          largest;   /* largest pressure of the trial, Pa */
+  double          curvature; /* s.u; 0: no step yet */
+  double          alpha;     /* length of the trial */
+  PetscBool       layered;   /* a body has layers, for which the preconditioner may be far too strong */
+  PetscBool       stagnates; /* the error has not fallen for some iterations */
+  double          lost;      /* largest change of a pressure in the step that has no product, Pa */
 } SamActiveSet;
 
-/* Sums over the cells of a row that take part: their number, xi, xi^2, g and xi g. */
+/* Sums over the cells of a row that take part: their number, xi, xi^2, g and xi g */
 typedef struct {
   double count, xi, xi2, g, xi_g;
 } SamGapSums;
 
-/* Sums of a direction over A: z and u with 1 and xi; z.r, z.u, s.r. */
+/* Sums of a direction over A: z and u with 1 and xi; z.r, z.u, s.r */
 typedef struct {
   double z, z_turn, u, u_turn, zr, zu, sr;
 } SamDirectionSums;
 
-/* Totals over cells: the Gram matrix of the phi there, and g with the phi. */
+/* Totals over cells: the Gram matrix of the phi, and the products of g with the phi */
 #define SAM_GAP_TOTALS (SAM_GRAM + 3)
 
 static inline SamRow SamActiveSetRow(const SamActiveSet *w, PetscInt j)
@@ -60,19 +60,19 @@ static inline SamRow SamActiveSetRow(const SamActiveSet *w, PetscInt j)
 /* Adds the sums of a row to the totals. */
 PETSC_INTERN void SamActiveSetAddRow(SamGapSums row, double eta, SamTotal totals[]);
 /*
-  Step 1: chooses A by the gap that fits the cells between their bounds best, moves g to fit A, and measures the error.
-  `contact`: the totals over the cells between their bounds; NULL: not known yet. Collective.
+  Step 1: chooses A by the gap that fits the cells between their bounds best, moves g to fit A, and computes the error.
+  `contact`: the totals over the cells between their bounds; NULL: unknown. Collective.
 */
 PETSC_INTERN PetscErrorCode SamActiveSetChoose(SamActiveSet *w, SamTotal contact[]);
-/* The first step 1: by the product that the level has, or by a new one. Collective. */
+/* Makes the first step 1, with the level's product if it has one, else with a new product. Collective. */
 PETSC_INTERN PetscErrorCode SamActiveSetStart(SamActiveSet *w);
-/* Stores S p in the level, if that keeps products. Not collective. */
+/* Stores S p in the level if that keeps products. Not collective. */
 PETSC_INTERN PetscErrorCode SamActiveSetKeepProduct(SamActiveSet *w);
-/* Computes g by a product, and does step 1 by it. Collective. */
+/* Recomputes g by a product, and makes step 1 with it. Collective. */
 PETSC_INTERN PetscErrorCode SamActiveSetRefresh(SamActiveSet *w);
 /*
-  True if g is to be recomputed: when its rounding is too large for the tolerance, and either a product now will keep
-  it small enough to the end, or the error has fallen so far that rounding may dominate.
+  True if g has to be recomputed: its rounding is too large for the tolerance, and either a product now keeps it small
+  enough to the end, or the error has fallen so far that rounding may dominate it.
 */
 PETSC_INTERN PetscBool SamActiveSetIsStale(const SamActiveSet *w);
 /* Finds out whether the error is below the tolerance, which depends on the present displacement. Collective. */
@@ -80,43 +80,44 @@ PETSC_INTERN PetscErrorCode SamActiveSetIsSolved(SamActiveSet *w, PetscBool *sol
 
 /* ---- loops over some cells of a row ---- */
 
-/* g becomes g + h - motion; returns the maximum |g| before. */
+/* Sets g to g + h - motion; returns the maximum |g| before. */
 PETSC_INTERN double SamActiveSetGapRow(SamActiveSet *w, SamRow row);
 /*
-  Chooses A among some cells: those that are farther from their bounds than ease times the gap, which `motion` moves
-  back first, lets them be; adds to their sums. Whether any is in A, or has pressure.
+  Chooses A among some cells, those farther from their bounds than ease times the gap, which is first corrected by
+  `motion`; adds to their sums. Returns true if any cell is in A, or has pressure.
 */
 PETSC_INTERN PetscBool SamActiveSetChooseRow(SamActiveSet *w, SamRow row, double ease, const double motion[3],
                                              SamGapSums *sums);
 /*
-  Moves the gap by -motion; returns the maximum complementarity error: |g| between the bounds of the pressure, -g where
-  there is none, g where it is the largest admissible one.
+  Moves the gap by -motion; returns the maximum complementarity error: |g| if the pressure is between its bounds, -g if
+  it is zero, g if it is the largest admissible one.
 */
 PETSC_INTERN double SamActiveSetMoveRow(SamActiveSet *w, SamRow row, const double motion[3]);
-/* Returns how many cells have a loss and are not in A, or the other way round. */
+/* Returns the number of cells that have a loss and are not in A, or have none and are in A. */
 PETSC_INTERN double SamActiveSetCountChanged(const SamActiveSet *w, SamRow row);
 /* Multiplies the loss by `off` on A, where it never becomes 0, and sets it to 0 elsewhere. */
 PETSC_INTERN void SamActiveSetLossRow(SamActiveSet *w, SamRow row, float off);
-/* z = r, the residual: -g on A, in units. */
+/* Sets z = r, the residual: -g on A, in units. */
 PETSC_INTERN void SamActiveSetResidualRow(SamActiveSet *w, SamRow row);
-/* z, which holds |k| r, becomes |k| r - loss r on A and 0 elsewhere; adds its products to the sums. */
+/* Turns z from |k| r into |k| r - loss r on A and 0 elsewhere; adds its products to the sums. */
 PETSC_INTERN void SamActiveSetPreconditionedRow(SamActiveSet *w, SamRow row, SamDirectionSums *sums);
-/* z becomes z - motion + beta s. Outside of A, where z has no meaning, it gets none. */
+/* Sets z to z - motion + beta s on A, and to 0 outside, where z has no meaning. */
 PETSC_INTERN void SamActiveSetDirectionRow(SamActiveSet *w, SamRow row, const double motion[3], float beta);
-/* The slope of the step to the trial p; raises `shrink` and `largest`. */
+/* Returns the slope of the step to the trial p; raises `shrink` and `largest`. */
 PETSC_INTERN double SamActiveSetTrialRow(SamActiveSet *w, SamRow row);
-/* s.u of at most SAM_ROW_BLOCK cells. */
+/* Returns s.u of at most SAM_ROW_BLOCK cells. */
 PETSC_INTERN double SamActiveSetCurvatureRow(const SamActiveSet *w, SamRow row);
 /*
-  Where the trial is at a bound, and t times the step would end before it by no more than rounding, moves the pressure
-  by that, so that the step will end at the bound; returns the largest.
+  If the trial is at a bound, and t times the step would end within rounding of it, moves the pressure so that the step
+  will end at the bound; returns the largest move.
 */
 PETSC_INTERN double SamActiveSetPartRow(SamActiveSet *w, SamRow row, double t);
-/* From the trial, where p has gone by s, to t times that; adds to the sums over the cells between their bounds. */
+/* Goes back from the trial, to which p has gone by s, to t times the step; adds to the sums over the cells between
+   their bounds. */
 PETSC_INTERN void SamActiveSetStepRow(SamActiveSet *w, SamRow row, double t, SamGapSums *sums);
-/* Moves the gap likewise in cells with neither pressure nor a step; returns the least gap. */
+/* Moves the gap in the same way in cells with neither pressure nor a step; returns the least gap. */
 PETSC_INTERN double SamActiveSetOpenRow(SamActiveSet *w, SamRow row, double t);
-/* The maximum |S p|. */
+/* Returns the maximum |S p|. */
 PETSC_INTERN double SamActiveSetDisplacementRow(const SamActiveSet *w, SamRow row);
 
 #endif

@@ -35,7 +35,7 @@ SAM_VECTORIZED PetscBool SamActiveSetChooseRow(SamActiveSet *w, SamRow row, doub
 
 #pragma omp simd reduction(+ : count, xi, xi2, sum, turn, pressure)
   for (int i = 0; i < row.count; i++) {
-    /* at most half the limit: a cell that is not in A goes to the nearer bound */
+    /* At most half the limit, since the pressure of a cell outside of A goes to the nearer bound. */
     const double x = row.xi0 + (double)i * row.dxi, v = g[i] - (a + b * x), off = ease * v,
                  lower = off < half ? off : half, upper = -off < half ? -off : half,
                  in = p[i] > lower && most - p[i] > upper ? 1 : 0;
@@ -72,13 +72,13 @@ SAM_VECTORIZED double SamActiveSetMoveRow(SamActiveSet *w, SamRow row, const dou
     sum += v;
     error = wrong > error ? wrong : error;
   }
-  return isfinite(sum) ? error : NAN; /* NaN fails the comparison above */
+  return isfinite(sum) ? error : NAN; /* the comparison above ignores a NaN */
 }
 
 SAM_VECTORIZED double SamActiveSetCountChanged(const SamActiveSet *w, SamRow row)
 {
   const float *restrict loss = w->loss + row.first, *restrict active = w->active + row.first;
-  float changed = 0; /* exact: a float counts more cells than a row has */
+  float changed = 0; /* accurate, since a row has fewer cells than a float can count */
 
 #pragma omp simd reduction(+ : changed)
   for (int i = 0; i < row.count; i++) changed += fabsf((loss[i] > 0 ? 1.0f : 0.0f) - active[i]);
@@ -173,7 +173,7 @@ SAM_VECTORIZED double SamActiveSetTrialRow(SamActiveSet *w, SamRow row)
   return slope;
 }
 
-/* In single precision, which is why the cells are few. */
+/* In single precision, for which the number of cells is small. */
 SAM_VECTORIZED double SamActiveSetCurvatureRow(const SamActiveSet *w, SamRow row)
 {
   const float *restrict s = w->s + row.first, *restrict u = w->u + row.first;
@@ -202,7 +202,7 @@ SAM_VECTORIZED double SamActiveSetPartRow(SamActiveSet *w, SamRow row, double t)
   return largest;
 }
 
-/* A pressure that is no farther from a bound than the step's rounding is there. */
+/* A pressure within the step's rounding of a bound is set to the bound. */
 SAM_VECTORIZED void SamActiveSetStepRow(SamActiveSet *w, SamRow row, double t, SamGapSums *sums)
 {
   const float *restrict s = w->s + row.first, *restrict u = w->u + row.first;

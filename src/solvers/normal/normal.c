@@ -1,6 +1,6 @@
 /*
-  The normal problem as a kind of solver: how it starts, how it goes from grid to grid and into windows, and the cases
-  without contact. The methods are in files of their own.
+  The normal problem as a kind of solver: its starts, its way through nested grids and windows, and the cases without
+  contact. The methods are in separate files.
 */
 #include <petsam/private/elasticity.h>
 #include <petsam/private/normalimpl.h>
@@ -10,8 +10,9 @@
 /* ---- starts ---- */
 
 /*
-  A start from nothing: the bodies on a bed of springs, as stiff as the half-space is under a pressure over half the
-  grid. About the right cells are in contact then. It is the admissible pressure nearest to -stiffness (h - fixed).
+  Starts without a guess from the contact of the bodies on a bed of springs, as stiff as the half-space under a pressure
+  on half the grid, since it has nearly the right cells in contact. It is the admissible pressure nearest to -stiffness
+  (h - fixed).
 */
 static PetscErrorCode StartAsFoundation(SamLevel *level, PetscBool *found)
 {
@@ -34,7 +35,7 @@ static PetscErrorCode StartAsFoundation(SamLevel *level, PetscBool *found)
       const PetscInt k = j * grid->nx + i;
 
       p[k] = stiffness * (SamFrameNormal(f->fixed, f->xi0 + (double)i * f->dxi, SamFrameEta(f, j)) - (h[k] - least));
-      p[k] = PetscMax(p[k], -PETSC_MAX_REAL); /* where a hole is given by a separation without bounds */
+      p[k] = PetscMax(p[k], -PETSC_MAX_REAL); /* a hole may be given by an unbounded separation */
     }
   PetscCall(SamFrameProjectNormal(f, NULL, p, found));
   PetscCall(VecRestoreArrayWrite(level->traction, &p));
@@ -43,9 +44,9 @@ static PetscErrorCode StartAsFoundation(SamLevel *level, PetscBool *found)
 }
 
 /*
-  The pressure of the coarse grid on the fine one: linear interpolation of its values, but not of its support, which
-  that would widen by half a coarse cell. A cell has pressure where the interpolated indicator of the coarse contact
-  exceeds 1/2.
+  Interpolates the pressure of the coarse grid to the fine grid: its values linearly, but not its support, which linear
+  interpolation would widen by half a coarse cell. A cell has pressure where the interpolated indicator of the coarse
+  contact exceeds 1/2.
 */
 static PetscErrorCode Prolong(SamTransfer transfer, const SamLevel *coarse, SamLevel *fine)
 {
@@ -78,7 +79,7 @@ static PetscErrorCode Prolong(SamTransfer transfer, const SamLevel *coarse, SamL
 
 /* ---- one level ---- */
 
-/* Applies the method on this grid; with `guess` from the pressure that the level has, made admissible. */
+/* Applies the method on this grid; with `guess` from the level's pressure, which is made admissible first. */
 static PetscErrorCode SolveHere(SamSolver s, SamLevel *level, PetscBool guess)
 {
   PetscBool found;
@@ -102,8 +103,8 @@ static PetscErrorCode SolveHere(SamSolver s, SamLevel *level, PetscBool guess)
 }
 
 /*
-  The check of a rough solution on the finest grid, which costs no product: whether the contact, which becomes
-  first, size, keeps clear of the window's border, where that is not the grid's.
+  Checks a rough solution on the finest grid without a product: true if the contact, returned as first and size, does
+  not touch those borders of the window that are not borders of the grid.
 */
 static PetscErrorCode IsInside(const SamLevel *level, SamWindow window, PetscInt first[2], PetscInt size[2],
                                PetscBool *inside)
@@ -119,7 +120,7 @@ static PetscErrorCode IsInside(const SamLevel *level, SamWindow window, PetscInt
     const PetscBool low  = start[k] > 0 && first[k] <= start[k];
     const PetscBool high = start[k] + n[k] < all[k] && first[k] + size[k] >= start[k] + n[k];
 
-    first[k] -= low; /* a window that covers these cells as well is a larger one */
+    first[k] -= low; /* enlarges the rectangle, so that a window that covers it is larger */
     size[k] += low + high;
     if (low || high) *inside = PETSC_FALSE;
   }
@@ -127,8 +128,8 @@ static PetscErrorCode IsInside(const SamLevel *level, SamWindow window, PetscInt
 }
 
 /*
-  From the pressure that the level has, in a window about the contact as long as that is small. Coarse grids need not be
-  exact there. On the finest grid the cells outside of the window are checked in the end, and the window is widened
+  Solves from the pressure that the level has, in a window about the contact if the contact is small. Coarse grids need
+  not be accurate. On the finest grid the cells outside of the window are checked in the end, and the window is widened
   until none of them touches.
 */
 static PetscErrorCode SolveInWindows(SamSolver s, SamLevel *level)
@@ -156,7 +157,7 @@ static PetscErrorCode SolveInWindows(SamSolver s, SamLevel *level)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A coarse grid may find no contact, as its cells are too far apart for it. */
+/* Solves on a level. A coarse grid may find no contact, as its cells are too far apart. */
 static PetscErrorCode SolveLevel(SamSolver s, SamLevel *level, SamStart start)
 {
   PetscReal most = 0;
@@ -172,7 +173,7 @@ static PetscErrorCode SolveLevel(SamSolver s, SamLevel *level, SamStart start)
 
 /* ---- no contact ---- */
 
-/* overlap: by how much the undeformed bodies overlap in each cell (m), and at most. */
+/* Computes the overlap of the undeformed bodies in each cell (m), and its maximum. */
 static PetscErrorCode ComputeOverlap(SamGrid grid, Vec separation, const SamFrame *f, double overlap[], double *most)
 {
   const double *h;
@@ -193,10 +194,10 @@ static PetscErrorCode ComputeOverlap(SamGrid grid, Vec separation, const SamFram
 }
 
 /*
-  Finds out whether p = 0 is the solution: no load is to be carried, or the given displacements make no overlap, or
-  bodies that are free to tilt can separate. `apart`: the balance then. A rigid-body displacement that is not given is
-  not determined by the problem either: the approach becomes 0, or as negative as separation requires, and rotations
-  become 0, unless separation requires others.
+  Finds out if p = 0 is the solution: the load is zero, or the given displacements cause no overlap, or bodies that are
+  free to tilt can separate. `apart`: the balance in this case. A rigid-body displacement that is not given is not
+  determined by the problem either: the approach becomes 0, or as negative as separation requires, and rotations become
+  0, unless separation requires others.
 */
 static PetscErrorCode IsSeparated(const SamLevel *level, SamBalance *apart, PetscBool *separated)
 {
@@ -226,9 +227,9 @@ static PetscErrorCode IsSeparated(const SamLevel *level, SamBalance *apart, Pets
 }
 
 /*
-  Finds out whether a given approach has a solution. Where a uniform pressure displaces nothing, the mean displacement
-  is 0: an approach beyond the mean separation leaves a gap below 0 somewhere under any pressure, and the mean itself is
-  reached by every pressure that is high enough. Where pressures have a limit, surfaces yield instead.
+  Finds out if a given approach has a solution. If a uniform pressure displaces nothing, the mean displacement is 0.
+  Then an approach beyond the mean separation leaves a negative gap somewhere under any pressure, and every pressure
+  that is high enough reaches the mean separation itself. If pressures have a limit, surfaces yield instead.
 */
 static PetscErrorCode CanHold(SamSolver s, const SamLevel *level, PetscBool *can)
 {

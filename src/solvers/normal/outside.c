@@ -1,20 +1,20 @@
 /*
   The check of a pressure found in a window: do the bodies touch outside of it?
 
-  One product in single precision decides that in nearly all cases, as the gap there is far larger than its rounding.
-  Otherwise a product in double precision does, and shows how far a larger window has to reach.
+  In nearly all cases one product in single precision decides this, as the gap outside is far larger than its rounding.
+  Otherwise a product in double precision decides, and gives the size of the larger window.
 */
 #include <petsam/private/normalimpl.h>
 
-/* Gaps beyond rounding in single precision, relative to the maximum displacement. */
+/* Larger gaps, relative to the maximum displacement, exceed rounding in single precision. */
 #define CLEARANCE 1e-5
 
-/* The maximum displacement, and the maximum -gap, of the cell nearest to touching. */
+/* The maximum displacement, and the maximum -gap, which the cell nearest to touching has */
 typedef struct {
   double displacement, overlap;
 } Nearest;
 
-/* Raises both maxima by some cells of a row, with the displacement v = scale u, and the gap h + v - motion. */
+/* Raises both maxima by some cells of a row, whose displacement is v = scale u, and whose gap is h + v - motion. */
 SAM_VECTORIZED static void NearestCells(SamRow row, const float *restrict u, const double *restrict h, double scale,
                                         const double motion[3], Nearest *nearest)
 {
@@ -38,7 +38,7 @@ SAM_VECTORIZED static void ToSingle(PetscInt n, const double *restrict p, double
   for (PetscInt i = 0; i < n; i++) u[i] = (float)(factor * p[i]);
 }
 
-/* One row: three parts, left of the window, within its columns, and right of it. */
+/* Searches one row in three parts: left of the window, within its columns, and right of it. */
 static void NearestInRow(const SamFrame *f, PetscInt j, SamWindow window, const float u[], const double h[],
                          double scale, Nearest *nearest)
 {
@@ -57,7 +57,7 @@ static void NearestInRow(const SamFrame *f, PetscInt j, SamWindow window, const 
   nearest->displacement = PetscMax(nearest->displacement, within.displacement);
 }
 
-/* Finds out, in single precision, whether all cells outside the window are far from touching. */
+/* Finds out, in single precision, if all cells outside the window are far from touching. */
 static PetscErrorCode IsClear(SamSolver s, SamLevel *level, const SamFrame *frame, SamWindow window, PetscBool *clear)
 {
   const SamGrid grid = level->grid;
@@ -126,7 +126,7 @@ PetscErrorCode SamNormalCheckOutside(SamSolver s, SamLevel *level, SamWindow win
   SamFrame   frame;
 
   PetscFunctionBegin;
-  SamLevelGetRigid(level, &moved); /* the window's frame is not that of the whole grid */
+  SamLevelGetRigid(level, &moved); /* the window's frame differs from that of the whole grid */
   PetscCall(SamFrameSetGiven(&frame, level->grid, &moved));
   PetscCall(IsClear(s, level, &frame, window, apart));
   if (*apart) PetscFunctionReturn(PETSC_SUCCESS);

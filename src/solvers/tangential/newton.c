@@ -5,17 +5,18 @@
   Its gradient is the slip increment s. It is strictly convex, so there is one solution.
 
   Algorithm; an iteration takes one product:
-    1. Sets: cells that are or should be on their circle, with s against q, slip; the others stick. Unknown are both
-       components of q in stick, and the one along the circle in slip; P projects onto them. A cell that slips is as
-       stiff as its circle is curved: L = |s|/b, from 0 to 1e6 times its self-influence c. So it counts with the weight
-       h = c/(c + L), which is 1 in stick: G = sum h phi'P phi is what the motion (the multipliers of equilibrium) would
-       be fitted with if C were diagonal, and the motion solves G a = sum h phi'P s. (With weights 1 the fit would turn
-       soft and stiff cells alike, and near sliding, where almost all cells are stiff, no direction would be downhill.)
-       Sets and motion depend on each other and are found in turn. The residual is -P s, its derivative P(C + L)P.
+    1. Sets: cells that are or should be on their circle, with s against q, slip; the others stick. The unknowns are
+       both components of q in stick, and the component along the circle in slip; P projects onto them. The stiffness of
+       a slipping cell comes from the curvature of its circle: L = |s|/b, from 0 to 1e6 times its self-influence c. So a
+       cell has the weight h = c/(c + L), which is 1 in stick: G = sum h phi'P phi is what the motion (the multipliers
+       of equilibrium) would be fitted with if C were diagonal, and the motion solves G a = sum h phi'P s. (With weights
+       1 the fit would turn soft and stiff cells alike, and near sliding, where almost all cells are stiff, no direction
+       would be downhill.) Sets and motion depend on each other and are found in turn. The residual is -P s, its
+       derivative P(C + L)P.
     2. Direction: the preconditioned residual, plus the part of the last step that makes the two conjugate. Both stay
-       meaningful when the sets change, as the last step is the difference of two shears, whose product is known. Both
-       lose what would carry a load, along h P phi. The preconditioner is P(w M w + (1 - h)/2(L + c))P, with M the
-       spectral inverse of C, and w = sqrt(h).
+       meaningful when the sets change, as the last step is the difference of two shears, whose product is known. From
+       both the part that would carry a load, along h P phi, is subtracted. The preconditioner is P(w M w + (1 - h)/2(L
+       + c))P, with M the spectral inverse of C, and w = sqrt(h).
     3. Trial: the admissible shear nearest to q + alpha times the direction, discs and equilibrium at once
        (SamFrameProjectTangential), after the slipping cells have been pushed outward. alpha is the length that was best
        in the last iterations.
@@ -23,8 +24,8 @@
        normal to it, as in linear conjugate gradients, unless the energy falls much farther. Cells that slip are then a
        little within their circles, by the square of the step, and the next trial puts them back.
   If the trial is uphill, or the error has not fallen for several iterations, the trial is the projected gradient in the
-  metric 1/h, the admissible shear nearest to q - h s/c; steps of the best length towards it converge whatever is
-  between them. Stops on the residual of q = D(q - s/c), which is zero at the solution only.
+  metric 1/h, the admissible shear nearest to q - h s/c; steps of the best length towards it converge whatever steps lie
+  between them. The iteration stops on the residual of q = D(q - s/c), which is zero at the solution only.
 
   Rounding: steps and their products are in single precision, at half the cost; q and s are in double. The slip is
   recomputed in double precision before rounding matters.
@@ -35,38 +36,38 @@
 #include "newtonimpl.h"
 #include <math.h>
 
-/* A direction's least descent, as a part of that of the preconditioned residual. */
+/* A direction's least descent, relative to that of the preconditioned residual */
 #define DESCENT 0.1
 /*
-  The first trial's length. From then on the trial is to be LONGER than the best step, as steps go at most to the trial,
-  and changes by at most the root of FOLLOW in an iteration, after HALVINGS at most. Chosen by counting iterations;
-  other values near these change the counts by a few per cent.
+  The first trial's length. Later trials are LONGER than the best step, as steps go at most to the trial, and change by
+  at most the root of FOLLOW per iteration, after at most HALVINGS. The values were chosen by counting iterations; other
+  values near these change the counts by a few per cent.
 */
 #define FIRST_LENGTH 0.85
 #define LONGER       1.2
 #define HALVINGS     3
 #define FOLLOW       2.0
-/* Least and largest length of a step, in parts of that to the least energy, where these bound it. */
+/* Least and largest length of a step, relative to the length of least energy, if these bound the step */
 #define LEAST_PART   0.5
 #define LARGEST_PART 1.8
 /* Rounding of the slip, relative to the error, above which the slip is recomputed */
 #define DOUBT 0.2
-/* The least unit of slip, relative to what the shear displaces: the residual may be zero, and steps are not. */
+/* The least unit of slip, relative to the displacement by the shear, since the residual may be zero */
 #define LEAST_UNIT 1e-13
-/* Rounding of energies, relative to the work of friction in them. */
+/* Rounding of energies, relative to the frictional work in them */
 #define ENERGY_ROUNDING 1e-14
 /*
-  Sets and motion depend on each other: how often they are found in turn in an iteration, unless the motion changes by
-  less than STEADY of the maximum slip. In the coupling iterations of dissimilar bodies, which set the tolerance, they
-  always are: there what is left of the motion's error would be taken for a change of the shear.
+  Number of times that sets and motion, which depend on each other, are found in turn in an iteration, unless the motion
+  changes by less than STEADY of the maximum slip. In the coupling iterations of dissimilar bodies, which set the
+  tolerance, this criterion is not used: there the rest of the motion's error would be taken for a change of the shear.
 */
 #define SWEEPS 2
 #define STEADY 0.3
-/* A change of the shear that is rounding, relative to it. */
+/* A relative change of the shear below this is rounding. */
 #define STILL 1e-12
 /*
-  Iterations without progress until the motion is determined in another way (SHIFT), until a gradient step (PATIENCE),
-  and until the solver gives up (STAGNATION)
+  Iterations without progress before the motion is determined in another way (SHIFT), before a gradient step (PATIENCE),
+  and before the solver gives up (STAGNATION)
 */
 #define SHIFT 2
 /* Change of the motion, relative to the maximum residual, above which the fit does not determine the motion */
@@ -121,7 +122,7 @@ static PetscErrorCode Destroy(Work *w)
 {
   PetscFunctionBegin;
   SamFree(w->trial);
-  SamFree(w->weight); /* with the others behind it */
+  SamFree(w->weight); /* together with the arrays behind it */
   PetscCall(PetscFree(w->xi));
   PetscCall(SamStickSlipDestroy(&w->base));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -148,7 +149,7 @@ static PetscErrorCode SumRows(const Work *w, RowSums add, PetscInt n, double sum
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Makes a step of length t and subtracts the motion a, chooses the sets, and sums up over their tangent space. */
+/* Makes a step of length t and subtracts the motion a, chooses the sets, and sums over their tangent space. */
 static PetscErrorCode ChooseSets(Work *w, double t, const double a[3], SamNewtonSpace *space, double *most)
 {
   SamStickSlip *u             = &w->base;
@@ -170,8 +171,8 @@ static PetscErrorCode ChooseSets(Work *w, double t, const double a[3], SamNewton
 }
 
 /*
-  Step 1, after a step of length t: the sets, the Gram matrix of the tangent space, the unit, the motion that fits best,
-  the residual and the error.
+  Step 1, after a step of length t: computes the sets, the Gram matrix of the tangent space, the unit, the motion that
+  fits best, the residual and the error.
 */
 static PetscErrorCode Advance(Work *w, double t)
 {
@@ -185,7 +186,7 @@ static PetscErrorCode Advance(Work *w, double t)
     PetscCall(ChooseSets(w, sweep ? 0 : t, a, &space, &most));
     SamFrameSolve(u->frame, w->gram, space.slip, a);
     for (PetscInt c = 0; c < 3; c++) u->motion[c] += a[c];
-    if (!u->solver->enough && fabs(a[0]) + fabs(a[1]) + fabs(a[2]) <= STEADY * most) break; /* on all ranks */
+    if (!u->solver->enough && fabs(a[0]) + fabs(a[1]) + fabs(a[2]) <= STEADY * most) break; /* the same on all ranks */
   }
   for (PetscInt j = 0; u->level->product && t > 0 && j < u->rows; j++) SamNewtonOutsideRow(w, j, t * w->unit);
   w->unit = PetscMax(most, LEAST_UNIT * u->self * u->scale);
@@ -212,7 +213,7 @@ static PetscErrorCode NewDirection(Work *w)
   PetscFunctionBegin;
   PetscCall(SamLevelPreconditionSingle(u->solver, u->level, u->self, w->z, w->z));
   PetscCall(SumRows(w, SamNewtonPreconditionedRow, PRODUCTS, (double *)&sums));
-  /* both are made orthogonal to the phi: sum phi'(z - h P phi a) = 0 */
+  /* Both are made orthogonal to the phi: sum phi'(z - h P phi a) = 0. */
   SamFrameSolve(u->frame, w->gram, sums.z, a);
   SamFrameSolve(u->frame, w->gram, sums.e, a_step);
   zv = sums.zv - SamFrameDot(a, sums.v);
@@ -225,8 +226,8 @@ static PetscErrorCode NewDirection(Work *w)
 }
 
 /*
-  The trial becomes an admissible shear near it, with weights the nearest one in their metric. Computes the step
-  there, and its products.
+  Replaces the trial by an admissible shear near it; with weights, by the nearest one in their metric. Computes the step
+  to it, and its products.
 */
 static PetscErrorCode Project(Work *w, const float weight[], double motion[3], PetscBool *found)
 {
@@ -245,9 +246,9 @@ static PetscErrorCode Project(Work *w, const float weight[], double motion[3], P
 }
 
 /*
-  The same along the slip itself, in the metric 1/h, in which stiff cells turn as little as Newton's method would turn
-  them. Descent is guaranteed with the exact projection only. `motion`: what the projection took the motion to be short
-  of.
+  Does the same along the slip itself, in the metric 1/h, in which stiff cells turn as little as in Newton's method.
+  Descent is guaranteed only with the nearest projection. `motion`: the correction that the projection implies, by which
+  the motion falls short of.
 */
 static PetscErrorCode TryGradient(Work *w, double motion[3], PetscBool *found)
 {
@@ -268,14 +269,14 @@ static PetscBool IsRounding(const Work *w)
 
 static PetscBool IsDownhill(const Work *w)
 {
-  /* the trial is the shear itself, to rounding */
+  /* The trial is the shear itself, within rounding. */
   if (sqrt(w->size) * w->unit / w->base.self <= STILL * w->base.scale) return PETSC_FALSE;
   return IsRounding(w) ? w->along > 0 : w->slope < 0;
 }
 
 /*
-  Step 3. A trial that is uphill may be too long, and shorter ones cost no product. `downhill`: one is. `found`:
-  there is an admissible shear near.
+  Step 3. A trial that is uphill may be too long, and shorter ones cost no product. `downhill`: a trial is downhill.
+  `found`: there is an admissible shear near it.
 */
 static PetscErrorCode Try(Work *w, PetscBool *downhill, PetscBool *found)
 {
@@ -323,7 +324,7 @@ static double Error(const Work *w)
   return w->base.error + (w->rounding > 0 ? w->rounding / w->base.scale : 0);
 }
 
-/* Recomputes the slip where its rounding matters. */
+/* Recomputes the slip if its rounding matters. */
 static PetscErrorCode Refresh(Work *w)
 {
   SamStickSlip *u = &w->base;
@@ -347,9 +348,10 @@ static SamSolverReason Reason(const Work *w, PetscInt stagnant)
 }
 
 /*
-  Moves by what the projected gradient is short of, if that lowers the error, or is so much that the fit must have left
-  it open: where cells slip along one line, as at nu = 0, and few stick, how far is not in the residual. Then all seem
-  to slip, and no shear would change that. `best` is the least error so far, which means nothing after that.
+  Adds the correction of the projected gradient to the motion if that lowers the error, or is so large that the fit
+  cannot have determined it: if cells slip along one line, as at nu = 0, and few stick, the residual does not depend on
+  the distance. Then all cells seem to slip, and no shear would change that. `best` is the least error so far, which
+  means nothing after that.
 */
 static PetscErrorCode Shift(Work *w, double *best)
 {
@@ -362,7 +364,7 @@ static PetscErrorCode Shift(Work *w, double *best)
 
   PetscFunctionBegin;
   PetscCall(TryGradient(w, motion, &found));
-  for (PetscInt attempt = 0; found && attempt < 2; attempt++) { /* there, and back if that was no good */
+  for (PetscInt attempt = 0; found && attempt < 2; attempt++) { /* forward, and back if the error did not fall */
     for (PetscInt c = 0; c < 3; c++) u->motion[c] += motion[c];
     PetscCall(ChooseSets(w, 0, motion, &space, &most));
     PetscCall(Advance(w, 0));
@@ -376,8 +378,8 @@ static PetscErrorCode Shift(Work *w, double *best)
 }
 
 /*
-  This is the shear. The motion is what is left: its fit leaves it open where few cells are in contact, or all slip.
-  `better`: the error has fallen.
+  Ends with the present shear. Only the motion may still be wrong: its fit does not determine it if few cells are in
+  contact, or all slip. `better`: the error has fallen.
 */
 static PetscErrorCode MoveOnly(Work *w, const double motion[3], PetscBool *better)
 {
@@ -393,7 +395,7 @@ static PetscErrorCode MoveOnly(Work *w, const double motion[3], PetscBool *bette
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* One iteration. `downhill`: there was a way down, for energy or error. `found`: an admissible shear was. */
+/* Makes one iteration. `downhill`: energy or error could be reduced. `found`: an admissible shear was found. */
 static PetscErrorCode Iterate(Work *w, PetscBool gradient, PetscBool *downhill, PetscBool *found)
 {
   SamStickSlip *u    = &w->base;
@@ -407,7 +409,7 @@ static PetscErrorCode Iterate(Work *w, PetscBool gradient, PetscBool *downhill, 
   }
   if (gradient) PetscCall(TryGradient(w, motion, found));
   if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
-  if (!IsDownhill(w) && !w->whole) { /* the projected gradient is, unless it is rounding */
+  if (!IsDownhill(w) && !w->whole) { /* the projected gradient is downhill, unless it is rounding */
     PetscCall(MoveOnly(w, motion, downhill));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
@@ -428,7 +430,7 @@ static PetscErrorCode Finish(Work *w, PetscBool *found)
   for (PetscInt j = 0; j < u->rows; j++) SamNewtonTrialRow(w, SamStickSlipRow(u, j), 0);
   PetscCall(Project(w, NULL, NULL, found));
   if (!*found) PetscFunctionReturn(PETSC_SUCCESS);
-  /* the slip is still that of the shear before: the step changes s/c by no more than this */
+  /* The slip is still that of the shear before: the step changes s/c by no more than this. */
   w->rounding += (1 + w->reach) * sqrt(w->size) * w->unit / u->self;
   PetscCall(PetscArraycpy(u->q, w->trial, 2 * u->cells));
   if (u->solver->enough || Error(w) > u->level->rtol) PetscCall(Refresh(w));
@@ -436,8 +438,8 @@ static PetscErrorCode Finish(Work *w, PetscBool *found)
 }
 
 /*
-  The start, from its product if that is at hand; then the shear may lie outside of the discs. `found` is false when no
-  admissible one is found.
+  Computes the start, from its product if that is known; the shear may then lie outside of the discs. `found` is false
+  if no admissible shear is found.
 */
 static PetscErrorCode Start(Work *w, PetscBool *found)
 {
@@ -477,7 +479,7 @@ static PetscErrorCode SamTangentialSolve_Newton(SamSolver solver, SamLevel *leve
 
     PetscCall(Iterate(&w, gradient, &downhill, &found));
     if (downhill && Error(&w) <= level->rtol) PetscCall(Finish(&w, &found));
-    if (!downhill || !found) { /* but for a start that was not admissible, the loads can be carried */
+    if (!downhill || !found) { /* unless the start was not admissible, the loads can be carried */
       reason = whole ? SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM : SAM_SOLVER_DIVERGED_STAGNATED;
       break;
     }

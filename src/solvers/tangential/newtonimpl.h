@@ -12,17 +12,17 @@ typedef struct {
   float       *weight;         /* the preconditioner's w; 0 outside of the contact */
   float       *r, *z;          /* residual -P s; direction */
   float       *step, *u;       /* last step, and C times it */
-  float       *xi;             /* of the columns */
+  float       *xi;             /* xi of the columns */
   double       unit;           /* m */
-  double       gram[SAM_GRAM]; /* of the tangent space, weighted by h */
-  double       slope;          /* of the energy along the step: s.step */
+  double       gram[SAM_GRAM]; /* Gram matrix of the tangent space, weighted by h */
+  double       slope;          /* slope of the energy along the step: s.step */
   double       along, bend;    /* r.P step; P step.L P step */
   double       size;           /* |step|^2 */
   double       alpha;          /* length of the trial */
   PetscBool    whole;          /* the next step has length 1, as the shear is not admissible */
-  double       work;           /* of friction: sum of -s.q where cells slip, m Pa */
-  double       reach;          /* largest eigenvalue of C in units of c: about the root of the number of cells */
-  double       rounding;       /* bound of that of s/c, in the 2-norm, Pa */
+  double       work;           /* frictional work: sum of -s.q where cells slip, m Pa */
+  double       reach;          /* largest eigenvalue of C in units of c: about the square root of the number of cells */
+  double       rounding;       /* bound of the rounding of s/c, in the 2-norm, Pa */
 } SamNewton;
 
 /* Sums over cells: the slip in the tangent space with the phi and the Gram matrix there, both weighted by h; the work
@@ -31,7 +31,7 @@ typedef struct {
   double slip[3], gram[SAM_GRAM], work;
 } SamNewtonSpace;
 
-/* A direction's sums, with e = P step and v = P(u + L step): z, e and h v with the phi; z.r, z.v, e.v, e.r. */
+/* A direction's sums, with e = P step and v = P(u + L step): z, e and h v with the phi; z.r, z.v, e.v, e.r */
 typedef struct {
   double z[3], e[3], v[3], zr, zv, ev, er;
 } SamNewtonProducts;
@@ -42,20 +42,20 @@ typedef struct {
 */
 PETSC_INTERN double SamNewtonAdvanceRow(const SamNewton *w, SamRow row, double t, double by, const double a[3],
                                         SamNewtonSpace *space);
-/* s += by u in the cells of row j beside the contact, where s is C q alone; for products that are kept. */
+/* Adds by u to s in the cells of row j beside the contact, where s is C q alone; for products that are stored. */
 PETSC_INTERN void SamNewtonOutsideRow(const SamNewton *w, PetscInt j, double by);
-/* Subtracts the motion a from s; r = -P s, in units, and z = w r; adds to the squares of the error. */
+/* Subtracts the motion a from s; sets r = -P s, in units, and z = w r; adds to the squares of the error. */
 PETSC_INTERN void SamNewtonResidualRow(const SamNewton *w, SamRow row, double inverse_unit, const double a[3],
                                        double squares[SAM_SQUARES]);
-/* z, which holds M w r, becomes P(w M w r + rest r), see newton.c; its products, a SamNewtonProducts. */
+/* Turns z from M w r into P(w M w r + rest r), see newton.c; adds its products, a SamNewtonProducts. */
 PETSC_INTERN void SamNewtonPreconditionedRow(const SamNewton *w, SamRow row, double sums[]);
-/* z becomes z - h P a + beta P step. */
+/* Turns z into z - h P a + beta P step. */
 PETSC_INTERN void SamNewtonDirectionRow(const SamNewton *w, SamRow row, const double a[3], float beta);
-/* trial = q + alpha z, with cells that slip beyond their circles. */
+/* Computes trial = q + alpha z; slipping cells go beyond their circles. */
 PETSC_INTERN void SamNewtonTrialRow(const SamNewton *w, SamRow row, double alpha);
-/* step = trial - q, in units; adds its products with s, with r, with L, and its square. */
+/* Computes step = trial - q, in units; adds its products with s, with r, with L, and its square. */
 PETSC_INTERN void SamNewtonChangeRow(const SamNewton *w, SamRow row, double sums[4]);
-/* trial = q - h s/c; z's first component becomes h. */
+/* Computes trial = q - h s/c; z's first component becomes h. */
 PETSC_INTERN void SamNewtonGradientRow(const SamNewton *w, SamRow row);
 /* Adds step.u and u.u. */
 PETSC_INTERN void SamNewtonCurvatureRow(const SamNewton *w, SamRow row, double sums[2]);

@@ -2,13 +2,13 @@
   Newton's method's loops over the contact cells of a row.
 
   Each is vectorised; sums over cells are local variables, and rows are added up by the caller in twice the digits, so
-  that the results do not depend on the number of ranks. A cell that slips has the unit vector `normal` along its shear,
-  P takes it off a vector; a cell that sticks has zero there, and P changes nothing.
+  that the results do not depend on the number of ranks. In a cell that slips, `normal` is the unit vector along its
+  shear, and P subtracts a vector's component along it; in a cell that sticks, `normal` is zero, and P changes nothing.
 */
 #include "newtonimpl.h"
 #include <math.h>
 
-/* A cell slips when q - EASE s/c is beyond its circle, and q no nearer to its centre than NEAR of the bound. */
+/* A cell slips if q - EASE s/c is beyond its circle, and q is no nearer to its centre than NEAR of the bound. */
 #define EASE 0.25
 #define NEAR 0.5
 
@@ -172,8 +172,8 @@ SAM_VECTORIZED void SamNewtonDirectionRow(const SamNewton *w, SamRow row, const 
 }
 
 /*
-  Cells that slip go beyond their circles, as far as their slip in units of c, but at least to twice their bound. The
-  projection, which restores equilibrium by a common shift, then leaves them on the circle: otherwise it would pull half
+  Moves slipping cells beyond their circles, as far as their slip in units of c, but at least to twice their bound. The
+  projection, which restores equilibrium by a common shift, then leaves them on the circle. Otherwise it would pull half
   of them inside, and convergence would be linear instead of quadratic. It also turns them as far as a change of the
   motion would.
 */

@@ -7,23 +7,23 @@
 
   Algorithm, in units in which a cell's influence on itself is 1; an iteration takes one product:
     1. Sets: cells whose q - s/4 is beyond its circle slip, if s is against q or q far outside; the others stick. With
-       lambda = |s|/b where a cell slips, h = 1/(1 + lambda), g = sqrt(h), of faint cells less. P takes the part along
-       the shear off.
+       lambda = |s|/b where a cell slips, h = 1/(1 + lambda), and g = sqrt(h), but less in faint cells. P subtracts the
+       part along the shear.
     2. Residual: -s in stick; -h P s and b - |q| in slip. A direction d changes it by A d in stick; by P(h A d +
        (1 - h) d) and its part along the shear in slip; a creepage by -h P phi.
     3. New direction: P(g M g + (1 - h)h/2) r, r = -P s, with M the inverse of the operator of bodies at rest, and then
        along the stream z_i = P(z_i + h_i z_(i+1)), from the leading edge on, which undoes the difference in A. Without
-       it the iterations grow like the number of cells along x. In slip N h r takes the place of the first part, as long
-       waves there are damped (halfspace.c): N = 1 for h = 0, at h = SAM_SLIP_WEIGHT from a spectrum, between them
-       linear in h. That saves a third of the products. It can stall at single slipping cells of an edge: after an
-       iteration that left more than SLOW of the error the first part serves alone, until the next such. To this is
-       added what the circles need. Given loads: and as much of the same of each free creepage as the loads need, which
-       is made anew every RENEW iterations.
-    4. Its product. Least squares over the new direction, the last ones, whose products are known and hold whatever the
-       sets are, and the free creepages. Of a few lengths of this step the one that leaves the least residual of
-       q = D(q - s). The step takes the place of the new direction.
-    5. Where the error has not halved for several iterations, q is put onto its discs, s computed anew, and the
-       directions forgotten.
+       it the iterations grow like the number of cells along x. In slip N h r replaces the first part, since long waves
+       are damped there (halfspace.c): N = 1 for h = 0, at h = SAM_SLIP_WEIGHT from a spectrum, between them linear in
+       h. That saves a third of the products. It can stall at single slipping cells of an edge: after an iteration that
+       left more than SLOW of the error, only the first part is used, until the next such iteration. The correction
+       towards the circles is added. If loads are given, the direction by each free creepage is added, too, as far as
+       the loads require; it is recomputed every RENEW iterations.
+    4. Compute its product. Solve least squares over the new direction, the last directions, whose known products are
+       valid for any sets, and the free creepages. Of a few lengths of this step, take the one with the least residual
+       of q = D(q - s). The step replaces the new direction.
+    5. If the error has not halved for several iterations, project q onto its discs, recompute s, and discard the
+       directions.
   Stops on the residual of q = D(q - s), D the projection onto the discs, of an admissible shear with its slip in double
   precision; directions are in single precision. 12 directions instead of 4 save a sixth of the products.
 
@@ -34,18 +34,18 @@
 #include <petsam/private/elasticity.h>
 #include <math.h>
 
-/* Iterations after which what carries the loads is made anew. */
+/* Number of iterations after which the directions that carry the loads are recomputed */
 #define RENEW 5
 /*
-  Iterations without half the error after which directions are forgotten, and without less of it before giving up;
-  part of the error that an iteration leaves if its direction was bad.
+  Iterations without halving of the error before directions are discarded, and without any decrease before giving up;
+  part of the error that an iteration with a bad direction leaves.
 */
 #define PATIENCE   5
 #define SLOW       0.7
 #define STAGNATION 100
-/* A column of the least squares that is a combination of others up to this part of it is left out. */
+/* A column of the least squares that is a combination of others up to this part of it is omitted. */
 #define DEPENDENT 1e-6
-/* A start slides where a cell's slip is this many times what its bound moves. */
+/* A start slides if a cell's slip is this many times the displacement by its bound. */
 #define FAST 8
 
 static const double lengths[SAM_ROLLING_LENGTHS] = {1, 0.6, 0.3, 0.1};
@@ -81,7 +81,7 @@ static PetscErrorCode Destroy(Work *w)
 {
   PetscFunctionBegin;
   SamFree(w->trial);
-  SamFree(w->normal); /* with the others behind it */
+  SamFree(w->normal); /* together with the arrays behind it */
   for (PetscInt k = 0; k < 3; k++) SamFree(w->carry[k]);
   for (PetscInt k = 0; k <= SAM_ROLLING_KEPT; k++) SamFree(w->slot[k]);
   SamFree(w->columns);
@@ -114,8 +114,8 @@ static PetscErrorCode ChooseSets(Work *w, double load[3])
 }
 
 /*
-  Makes the direction against the slip, or (a not NULL) along a creepage. N h r takes the new direction's product's
-  place.
+  Computes the direction against the slip, or (a not NULL) along a creepage. N h r is stored in the place of the new
+  direction's product.
 */
 static PetscErrorCode MakeDirection(Work *w, const double *a, float z[])
 {
@@ -138,8 +138,8 @@ static PetscErrorCode MakeDirection(Work *w, const double *a, float z[])
 }
 
 /*
-  Computes the loads that a direction carries, along the basis; first `project` times the part along the shear is taken
-  off.
+  Computes the loads that a direction carries, along the basis; first subtracts `project` times the part along the
+  shear.
 */
 static PetscErrorCode SumLoads(const Work *w, float project, float z[], double load[3])
 {
@@ -196,7 +196,7 @@ static void FitColumns(PetscInt n, const double gram[], double x[])
   for (PetscInt k = 0; k < n; k++) x[k] = used[k] ? scale[k] * b[k] / A[k][k] : 0;
 }
 
-/* Adds to the new direction what makes up for the loads, `load` being the shear with the phi. */
+/* Adds to the new direction the part that restores the loads; `load`: the products of the shear with the phi. */
 static PetscErrorCode KeepLoads(Work *w, const double load[3])
 {
   const SamStickSlip *u       = &w->base;
@@ -323,8 +323,8 @@ static PetscErrorCode MakeAdmissible(Work *w, PetscBool *found)
 }
 
 /*
-  Before the iterations, which would take the cells of a start to stick: where bodies slide so fast that shear hardly
-  changes their slip, q = D(q - s/c) is its own iteration.
+  Improves a start before the iterations, which would make its cells stick: if bodies slide so fast that shear hardly
+  changes their slip, q = D(q - s/c) is used as an iteration.
 */
 static PetscErrorCode Slide(Work *w)
 {

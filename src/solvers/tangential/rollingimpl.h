@@ -4,9 +4,9 @@
 
 #include <petsam/private/tangentialimpl.h>
 
-#define SAM_ROLLING_KEPT    12                             /* most directions that are kept */
-#define SAM_ROLLING_COLUMNS (SAM_ROLLING_KEPT + 1 + 3 + 1) /* with the new one, the creepages and the residual */
-#define SAM_ROLLING_LENGTHS 4                              /* of a step that are tried */
+#define SAM_ROLLING_KEPT    12                             /* maximum number of stored directions */
+#define SAM_ROLLING_COLUMNS (SAM_ROLLING_KEPT + 1 + 3 + 1) /* with new one, creepages and residual */
+#define SAM_ROLLING_LENGTHS 4                              /* number of lengths of a step that are tried */
 #define SAM_ROLLING_GRAM    (SAM_ROLLING_COLUMNS * (SAM_ROLLING_COLUMNS + 1) / 2)
 
 /* Floats are in units: shear in unit_q, slip velocity in unit_s = c unit_q: a cell's influence on itself is 1. */
@@ -19,7 +19,7 @@ typedef struct {
   float       *r;                          /* a right-hand side, in the tangent space */
   float       *carry[3];                   /* shear that carries a load along each free creepage */
   float       *slot[SAM_ROLLING_KEPT + 1]; /* the new direction, then those kept, newest first: d, then A d */
-  float       *columns;                    /* of the least squares, in some cells of a row */
+  float       *columns;                    /* columns of the least squares, in some cells of a row */
   PetscInt     kept;
   PetscBool    slipping; /* true if directions have N in slip, see rolling.c */
 } SamRollingWork;

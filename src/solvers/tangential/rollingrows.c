@@ -9,14 +9,14 @@
 
 /*
   A cell slips when q - EASE s/c is beyond its circle and q no nearer to its centre than NEAR of the bound, and either
-  its slip is against its shear, or q is farther out than OUT of the bound, less where the error is below ROUGH: left to
-  stick, such cells stall the iteration.
+  its slip is against its shear, or q is farther out than OUT of the bound, less if the error is below ROUGH: such cells
+  would stall the iteration if they stuck.
 */
 #define EASE  0.25
 #define NEAR  0.5
 #define OUT   0.02
 #define ROUGH 1e-3
-/* Up to this weight a cell counts in proportion to it in the preconditioner, not to its root. */
+/* Up to this weight a cell counts in the preconditioner in proportion to the weight, not to its square root. */
 #define FAINT 1e-3f
 
 SAM_VECTORIZED void SamRollingSetsRow(const SamRollingWork *w, SamRow row, SamRollingSums *sums)
@@ -55,8 +55,8 @@ SAM_VECTORIZED void SamRollingSetsRow(const SamRollingWork *w, SamRow row, SamRo
 }
 
 /*
-  Returns the root of a weight. The slip of a cell with hardly any bound is large, and through the preconditioner the
-  root would have it move the cells beside it, on which its shear has no influence.
+  Returns the root of a weight, less for faint cells. The slip of a cell with hardly any bound is large; by the root,
+  the preconditioner would move the neighbouring cells, on which its shear has no influence.
 */
 static inline float Root(float h)
 {

@@ -2,9 +2,9 @@
 #include <petsam/private/tangentialimpl.h>
 #include <math.h>
 
-/* A cell lies on its circle from this part of the bound's square on. */
+/* A cell lies on its circle if |q|^2 is at least this part of the bound's square. */
 #define ON_CIRCLE (1 - 1e-9)
-/* The error of a start above which another fit of the motion is tried. */
+/* Error of a start above which another fit of the motion is tried */
 #define POOR_START 0.1
 
 /* Widens a row's columns by those in which it has shear. */
@@ -84,7 +84,7 @@ void SamStickSlipClearMargins(const SamStickSlip *w, float z[])
     }
 }
 
-/* Adds `times` the offset less the motion, where there is contact. */
+/* Adds `times` (offset minus motion) where there is contact. */
 static void AddGiven(const SamStickSlip *w, double s[], double times)
 {
   const SamFrame *f = w->frame;
@@ -127,10 +127,10 @@ PetscErrorCode SamStickSlipKeepProduct(SamStickSlip *w, double rounding)
 }
 
 /*
-  Some cells of a row, at most SAM_CHUNK: the sums of the slip in the tangent space with the phi, and the Gram matrix
-  there. The tangent space is that of H, the derivative of the projection of y = q - inverse s onto the disc. With
-  `inverse` 0 it is that of q: cells on their circles may slip along them. The second loop, with roots and divisions,
-  runs only if a cell lies beyond its disc.
+  Computes, for at most SAM_CHUNK cells of a row, the sums of the slip in the tangent space with the phi, and the Gram
+  matrix there. The tangent space is that of H, the derivative of the projection of y = q - inverse s onto the disc.
+  With `inverse` 0 it is that of q: cells on their circles may slip along them. The second loop, with roots and
+  divisions, runs only if a cell lies beyond its disc.
 */
 SAM_VECTORIZED static void FitCells(const SamStickSlip *w, SamRow row, double inverse, double sums[3 + SAM_GRAM])
 {
@@ -248,7 +248,7 @@ PetscErrorCode SamStickSlipStart(SamStickSlip *w)
   }
   PetscCall(MeasureStart(w));
   if (w->error <= POOR_START || !w->frame->count) PetscFunctionReturn(PETSC_SUCCESS);
-  /* is the motion better fitted where cells on their circles may slip along them, and the others stick? */
+  /* Tests whether the motion fits better if cells on their circles may slip along them, and the others stick. */
   error = w->error;
   for (PetscInt c = 0; c < 3; c++) motion[c] = w->motion[c];
   PetscCall(FitMotion(w, 0));

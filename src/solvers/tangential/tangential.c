@@ -1,6 +1,6 @@
 /*
-  The tangential problem as a kind of solver: how it goes from grid to grid and into a window, the cases without shear,
-  and the test for gross slip. The methods are in files of their own.
+  The tangential problem as a kind of solver: its way through nested grids and windows, the cases without shear, and the
+  test for gross slip. The methods are in separate files.
 */
 #include <petsam/private/elasticity.h>
 #include <petsam/private/tangentialimpl.h>
@@ -8,7 +8,7 @@
 #include <petsam/private/tangential.h>
 #include <math.h>
 
-/* Loads that reach the limit of sliding up to this are taken to be at it. */
+/* Loads within this relative distance of the limit of sliding count as at the limit. */
 #define LIMIT_ROUNDING 1e-7
 /* A cell sticks when |q|^2 is below this part of its bound's square; a ratio of sizes slips above its counterpart. */
 #define STICKS     (1 - 1e-8)
@@ -110,7 +110,8 @@ static PetscErrorCode MakeAdmissible(SamLevel *level, PetscBool *found)
 }
 
 /*
-  Sets the rigid-body displacement at the start of a level: of the guess or of the coarse solution, or the given part.
+  Sets the rigid-body displacement at the start of a level: that of the guess or of the coarse solution, and the given
+  part.
 */
 static PetscErrorCode StartRigid(SamSolver s, SamLevel *level, SamStart start)
 {
@@ -154,7 +155,7 @@ static PetscErrorCode ComputeLimit(SamSolver s, const SamLevel *level, PetscBool
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Loads exactly at the limit are balanced, but by sliding everywhere, at no definite displacement: gross slip. */
+/* Rejects loads exactly at the limit: they are balanced only by sliding everywhere, without definite displacement. */
 static PetscErrorCode CheckLimit(SamSolver s, const SamLevel *level)
 {
   const PetscInt cells = level->grid->cells;
@@ -210,9 +211,9 @@ static PetscErrorCode SolveFree(SamSolver s, SamLevel *level)
 }
 
 /*
-  On nested grids, or from the guess; when that stagnates, on the finest grid alone, without a guess. Where next to
-  nothing is carried outside of the stick zone, and nothing is left within it (worn bodies, unloaded), each grid has a
-  stick zone of its own, and the shear of a coarse one is further from the solution than none.
+  Solves on nested grids, or from the guess; if that stagnates, on the finest grid alone, without a guess. If hardly any
+  load is carried outside of the stick zone, and none within it (worn bodies, unloaded), each grid has a different stick
+  zone, and the shear of a coarse grid is farther from the solution than zero shear.
 */
 static PetscErrorCode SolveWithStarts(SamSolver s, SamLevel *level, PetscBool guess, PetscBool *possible)
 {
@@ -239,7 +240,7 @@ static PetscErrorCode SolveLoaded(SamSolver s, SamLevel *level, PetscBool guess)
   PetscFunctionBegin;
   if (!guess) PetscCall(SamVecZero(level->traction));
   if (!guess) SamLevelForgetProduct(level);
-  if (!SamLevelHasProduct(level)) PetscCall(MakeAdmissible(level, &possible)); /* else it would no longer belong to q */
+  if (!SamLevelHasProduct(level)) PetscCall(MakeAdmissible(level, &possible)); /* else the product would not fit q */
   if (possible) {
     PetscCall(SolveWithStarts(s, level, guess, &possible));
     possible = possible && s->reason != SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM;
@@ -258,7 +259,7 @@ static PetscErrorCode SolveLoaded(SamSolver s, SamLevel *level, PetscBool guess)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Shear acts only where there is a bound, and only there its displacement counts: the problem is that of a window. */
+/* Solves in a window: shear acts only where there is a bound, and its displacement matters only there. */
 static PetscErrorCode Solve(SamSolver s, SamLevel *level, PetscBool guess)
 {
   const Vec     bound = level->given[SAM_TANGENTIAL_BOUND];

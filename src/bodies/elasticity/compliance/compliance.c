@@ -1,18 +1,20 @@
 /*
-  Finite bodies: what a body's shape and its supports add to the half-space, or to a layered one, is smooth, and a
-  matrix D of low rank on polynomials phi_i over a patch (private/compliance.h). To the displacement by the tractions t
+  Finite bodies. The shape and the supports of a body add a smooth compliance to that of the half-space, or of a layered
+  one: a matrix D of low rank for polynomials phi_i over a patch (private/compliance.h). The displacement by the
+  tractions t is increased by the mean over each cell of u,
 
     c_j = sum over cells of t times the integral of phi_j,    u = sum phi_i (D c)_i, its mean over each cell
 
-  is added. Polynomials are known on every grid, coarse ones and parts too, so that nothing is transferred; they are
-  products, of which only the factors' means over columns and rows of cells are stored. Outside of the patch they keep
-  their values at its border, and contact there is refused. Each row of cells is summed in an order that its traction
-  alone determines, and the rows' sums are added exactly: the bits do not depend on the number of ranks.
+  Polynomials are known on every grid, including coarse ones and parts, so that nothing is transferred. They are
+  products; only the means of their factors over columns and rows of cells are stored. Outside of the patch they keep
+  their values at its border, and contact there is rejected. Each row of cells is summed in an order that only its
+  traction determines, and the rows' sums are added without rounding: the bits do not depend on the number of ranks.
 
-  A cell's influence on itself is that of the half-space: D adds a part of the order of the cell's area to the patch's.
+  A cell's influence on itself is that of the half-space: the part of D in it is of the order of the cell's area
+  relative to the patch's.
 
-  Body 1 is turned about x by half a turn into its place: y and z change their signs, nothing else does. It bears -t,
-  and u is of body 2 less body 1, so that both bodies add.
+  Body 1 is rotated about x by half a turn into its place, so that only y and z change their signs. It bears -t, and u
+  is the displacement of body 2 minus that of body 1, so that the contributions of both bodies add.
 */
 #include <petsam/private/compliance.h>
 #include <petsam/private/elasticity.h>
@@ -29,11 +31,11 @@ enum { TOGETHER = 4, FACTORS = SAM_COMPLIANCE_DEGREE + TOGETHER };
 static const double turned[2][3] = {{1, -1, -1}, {1, 1, 1}};
 
 typedef struct {
-  SamCompliance of[2]; /* NULL: that body is all half-space */
-  double *along[2][2]; /* in x and y: the mean of polynomial a over cell i at a cells + i, zeros behind the last */
+  SamCompliance of[2]; /* NULL: that body is a half-space */
+  double *along[2][2]; /* in x and y: the mean of polynomial a over cell i, at a cells + i; zeros after the last */
 } Bodies;
 
-/* The components that a product takes, or makes: z, or x and y. */
+/* The input or output components of a product: z, or x and y */
 typedef enum { NORMAL, TANGENTIAL } Kind;
 static const PetscInt first_of[] = {2, 0}, count_of[] = {1, 2};
 
@@ -68,8 +70,8 @@ static PetscErrorCode SetUp(SamElasticity e)
 /* ---- sums and displacements of rows ---- */
 
 /*
-  The sums over n cells of a row, times each of the polynomials in x, and the sum of these times coefficients added to a
-  row: four at once, with zeros behind the last; of fields in double and in single precision.
+  Sum over n cells of a row times each of the polynomials in x; and add the polynomials, times coefficients, to a row.
+  Four polynomials are processed at once, with zeros after the last; fields are in double or in single precision.
 */
 #define ROWS(Sum, Add, Real) \
   SAM_VECTORIZED static void Sum(PetscInt n, PetscInt factors, const Real *restrict t, const double *table, \
@@ -111,7 +113,7 @@ static PetscErrorCode SetUp(SamElasticity e)
 ROWS(SumRow, AddRow, double)
 ROWS(SumRowSingle, AddRowSingle, float)
 
-/* Factor in y of polynomial m of body b, in row j of this rank */
+/* The factor in y of polynomial m of body b in row j of this rank */
 #define ALONG_Y(e, b, m, j) \
   ((const Bodies *)(e)->data)->along[b][1][(ptrdiff_t)of->power[m][1] * (e)->grid->ny + (e)->grid->row_start + (j)]
 
@@ -126,7 +128,7 @@ static PetscErrorCode Total(SamElasticity e, SamCompliance of, Kind in, const Sa
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* c of a body by tractions. */
+/* Computes c of a body by tractions. */
 #define COLLECT(Name, Real, Sum) \
   static PetscErrorCode Name(SamElasticity e, SamCompliance of, Kind in, const Real *const t[], Coefficients c) \
   { \
@@ -171,7 +173,7 @@ static void Multiply(SamCompliance of, Kind in, Kind out, double factor, const C
     }
 }
 
-/* The coefficients of the displacements of both bodies by tractions. */
+/* Computes the coefficients of the displacements of both bodies by tractions. */
 #define DISPLACE(e, collect, in, out, factor, t, d) \
   for (PetscInt b = 0; b < 2; b++) { \
     const SamCompliance of = ((const Bodies *)(e)->data)->of[b]; \
@@ -209,7 +211,7 @@ SPREAD(SpreadSingle, float, AddRowSingle)
 
 typedef PetscErrorCode (*Method)(SamElasticity, const double *const[], double *const[]);
 
-/* Adds the compliance's displacements to those by `method` of the half-spaces; NULL: they have no such coupling. */
+/* Adds the compliance's displacements to those by `method` of the half-spaces; NULL: these have no such coupling. */
 static PetscErrorCode Apply(SamElasticity e, SamElasticity inner, Method method, Kind in, Kind out,
                             const double *const t[], double *const u[])
 {
@@ -342,7 +344,7 @@ static PetscErrorCode Inherit(SamElasticity parent, SamElasticity child)
   return PETSC_SUCCESS;
 }
 
-/* Adds the parameters, with the file's full name, by which other programs find it. */
+/* Adds the parameters, with the full name of the file, by which other programs find it. */
 static PetscErrorCode AddParameters(SamElasticity e, SamParameters *p)
 {
   char path[PETSC_MAX_PATH_LEN];
@@ -417,7 +419,7 @@ static PetscBool Couples(SamCompliance c)
   return most > 0 || c->cases ? PETSC_TRUE : PETSC_FALSE;
 }
 
-/* Notes the cells that reach beyond the body's patch. */
+/* Notes the cells that extend beyond the body's patch. */
 static PetscErrorCode NotePatch(SamElasticity e, const SamOptions *from, SamCompliance c)
 {
   const PetscInt n[2]    = {e->grid->nx, e->grid->ny};
@@ -441,7 +443,7 @@ static PetscErrorCode NotePatch(SamElasticity e, const SamOptions *from, SamComp
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Checks that the kernel to which the compliance is added is the one from which it was computed. */
+/* Checks that the compliance was computed for the kernel to which it is added. */
 static PetscErrorCode CheckConstants(SamElasticity e, const SamOptions *from, SamCompliance c)
 {
   const SamMaterial *last  = SamBodySubstrate(e->pair->body[c->body]);
@@ -457,7 +459,7 @@ static PetscErrorCode CheckConstants(SamElasticity e, const SamOptions *from, Sa
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Adds the compliance of body b, from a file that `option` names. */
+/* Adds the compliance of body b from the file that `option` names. */
 static PetscErrorCode Add(SamElasticity *elasticity, const SamOptions *from, PetscInt b, const char option[],
                           const char file[])
 {

@@ -1,6 +1,6 @@
 /*
-  Checks that a body's compliance is positive definite. The compliance of the half-space is, and so is the exact one of
-  the body, but the sum of the half-space's compliance and a projection need not be.
+  Checks that a body's compliance is positive definite. The compliance of the half-space is positive definite, and so is
+  the true one of the body, but the sum of the half-space's compliance and a projection need not be.
 
   With K of the half-space on cells, Phi the polynomials' means (modes, cells), A the area of a cell and G =
   A Phi K^-1 Phi', the eigenvalues of K + A Phi'D Phi relative to K are 1 and 1 + those of D G.
@@ -11,7 +11,8 @@
 
 enum { SIDE = 20, CELLS = SIDE * SIDE, UNKNOWNS = 3 * CELLS, LAGS = 2 * SIDE, TABLE = LAGS * LAGS };
 
-/* Displacements (3, LAGS, LAGS) of the cells about the middle one by a unit traction of each direction there. */
+/* Computes the displacements (3, LAGS, LAGS) of the cells about the middle one by a unit traction in each direction on
+   it. */
 static PetscErrorCode FillTable(SamElasticity e, double table[])
 {
   const PetscInt middle = SIDE * LAGS + SIDE;
@@ -50,7 +51,7 @@ static PetscErrorCode FillTable(SamElasticity e, double table[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Fills in the lower triangle of K, by columns; K is the compliance of the body against a rigid one. */
+/* Computes the lower triangle of K, by columns; K is the compliance of the body against a rigid one. */
 static PetscErrorCode Fill(SamBody body, const double d[2], double matrix[])
 {
   const PetscReal   width[2] = {LAGS * d[0], LAGS * d[1]}, center[2] = {0, 0};
@@ -84,7 +85,7 @@ static PetscErrorCode Fill(SamBody body, const double d[2], double matrix[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Phi', by columns: polynomial m of direction a is column a modes + m. */
+/* Computes Phi', by columns: polynomial m of direction a is column a modes + m. */
 static void FillMeans(SamCompliance c, const double d[2], double means[])
 {
   double along[2][SIDE][SAM_COMPLIANCE_DEGREE + 1];
@@ -101,7 +102,7 @@ static void FillMeans(SamCompliance c, const double d[2], double means[])
           along[0][k % SIDE][c->power[m][0]] * along[1][k / SIDE][c->power[m][1]];
 }
 
-/* Computes the compliance of the tractions on the cells relative to the half-space's, less the identity: D G. */
+/* Computes D G, the compliance of the tractions on the cells relative to the half-space's, minus the identity. */
 static PetscErrorCode CreateRelative(SamCompliance c, SamBody body, Mat d, PetscInt n, Mat *relative)
 {
   const double side[2] = {2 * c->half[0] / SIDE, 2 * c->half[1] / SIDE};
@@ -173,7 +174,7 @@ PetscErrorCode SamComplianceEnds(SamCompliance c, SamBody of, double *least, dou
   PetscCall(MatDenseRestoreArray(d, &values));
   if (!isinf(c->young)) PetscCall(CreateRelative(c, of, d, n, &relative));
   PetscCall(MatNorm(relative ? relative : d, NORM_FROBENIUS, &norm));
-  *least = *most = NAN; /* of what is not finite, by which LAPACK would end the process with exit code 0 */
+  *least = *most = NAN; /* for matrices that are not finite, for which LAPACK would end the process with exit code 0 */
   if (isfinite(norm)) PetscCall(FindEnds(relative ? relative : d, n, least, most));
   if (relative) {
     *least += 1;

@@ -1,4 +1,4 @@
-/* Reading a body's compliance; rank 0 reads the whole of it where it examines the file. */
+/* Reads a body's compliance; rank 0 reads all of it when it examines the file. */
 #include <petsam/private/compliance.h>
 #include <petsam/private/file.h>
 #include <ctype.h>
@@ -7,15 +7,15 @@
 #include <petscmat.h>
 #include <string.h>
 
-#define RANK        6      /* most dimensions of what is read */
-#define POINTS      100000 /* most at which a load case is given */
-#define INDEPENDENT 1e-6   /* least element over the largest on the diagonal of R, for points that determine them */
-#define REST        1e-2   /* of a load case's range: the most by which polynomials may differ from it */
-#define SLENDER     1000 /* most that the sides of a patch differ: the kernel of slender cells is summed over squares */
-#define LARGE       10000 /* m: most of a patch's half sides and of its centre's distance from the origin */
-#define SOFT        10000 /* times the half-space's compliance: by as much errors of pressures exceed the tolerance */
+#define RANK        6      /* maximum number of dimensions */
+#define POINTS      100000 /* maximum number of points of a load case */
+#define INDEPENDENT 1e-6   /* least ratio of diagonal elements of R for which points determine the polynomials */
+#define REST        1e-2   /* largest deviation of the polynomials from a load case, relative to its range */
+#define SLENDER     1000   /* largest ratio of a patch's sides: the kernel of slender cells is summed over squares */
+#define LARGE       10000  /* m: largest half side of a patch, and distance of its centre from the origin */
+#define SOFT        10000  /* times the half-space's compliance: errors of pressures then exceed the tolerance */
 
-/* `size` 0 in a dimension: any number up to `most`, which it becomes. */
+/* `size` 0 in a dimension: any number up to `most`; it is replaced by that number. */
 typedef struct {
   int     rank;
   hsize_t size[RANK], most;
@@ -92,7 +92,7 @@ static PetscErrorCode ReadBasis(SamFile f, SamCompliance c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Reads the matrix, of which the symmetric part is kept. */
+/* Reads the matrix and keeps its symmetric part. */
 static PetscErrorCode ReadMatrix(SamFile f, SamCompliance c)
 {
   const hsize_t  m     = (hsize_t)c->modes;
@@ -127,8 +127,8 @@ static PetscErrorCode ValuesAt(SamCompliance c, int axis, PetscInt n, const doub
 }
 
 /*
-  Coefficients of the polynomials nearest to values (n, 3) at n >= c->modes points; `rest`: the largest deviation over
-  their range, NaN where the points do not determine the polynomials.
+  Computes the coefficients of the polynomials nearest to values (n, 3) at n >= c->modes points; `rest`: the largest
+  deviation relative to their range, NaN if the points do not determine the polynomials.
 */
 static PetscErrorCode Fit(SamCompliance c, PetscInt n, const double *const at[2], const double values[],
                           double field[][3], double *rest)
@@ -186,7 +186,7 @@ static PetscErrorCode Fit(SamCompliance c, PetscInt n, const double *const at[2]
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Reads a load case that is given at points of the patch: x, y and field (points, 3), m. */
+/* Reads a load case given at points of the patch: x, y and field (points, 3), m. */
 static PetscErrorCode ReadPoints(SamFile f, SamCompliance c, const char name[], double field[][3])
 {
   Shape       line = {1, {0}, POINTS}, table;
@@ -258,7 +258,7 @@ static PetscErrorCode ReadCases(SamFile f, SamCompliance c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Reads the points below the patch, if there are any; along each axis they increase. */
+/* Reads the points below the patch, if there are any; they must increase along each axis. */
 static PetscErrorCode ReadAxes(SamFile f, SamCompliance c, double values[])
 {
   enum { MOST = 1024 };
@@ -280,7 +280,7 @@ static PetscErrorCode ReadAxes(SamFile f, SamCompliance c, double values[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* As SamComplianceReadStress(). */
+/* Examines the stresses below the patch, as SamComplianceReadStress() describes. */
 static PetscErrorCode LookBelow(SamFile f, const void *question, void *answer)
 {
   struct _n_SamCompliance c    = *(const struct _n_SamCompliance *)question;

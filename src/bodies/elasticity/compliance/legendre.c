@@ -1,4 +1,4 @@
-/* The polynomials over the patch of a compliance: Legendre's, each of the norm 1. */
+/* The polynomials over the patch of a compliance: Legendre polynomials, each with the norm 1. */
 #include <petsam/private/compliance.h>
 #include <math.h>
 #include <petscdt.h>

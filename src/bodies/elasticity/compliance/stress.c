@@ -1,7 +1,7 @@
 /*
-  Stresses in a finite body: those of the half-space under the tractions, and what is smooth up to the surface, from
-  the file: the stresses of the rest of the body by each c_j (compliance.c), and those of the load cases. Both are known
-  at a coarse grid of points, between which they are interpolated linearly; beyond it in x and y they stay the same.
+  Stresses in a finite body: those of the half-space under the tractions, plus smooth parts from the file: the stresses
+  by each c_j (compliance.c), and those of the load cases. The smooth parts are given at a coarse grid of points and
+  interpolated linearly between these; beyond the grid in x and y they are constant.
 */
 #include <petsam/private/compliance.h>
 #include <petsam/private/elasticity.h>
@@ -10,10 +10,10 @@ typedef struct {
   SamElasticity bodies;
   SamCompliance c;
   double       *values; /* of SamComplianceReadStress() */
-  SamStressOps  inner;  /* of the half-space */
+  SamStressOps  inner;  /* methods of the half-space */
 } Below;
 
-/* The stresses at the points. On body 1, in its own frame, the tractions are the opposite ones. */
+/* Computes the stresses at the points. In body 1's own frame, the tractions have the opposite sign. */
 static PetscErrorCode Reduce(SamStress s, const double *const tractions[], double sums[])
 {
   const Below *const  w    = (const Below *)s->smooth;
@@ -36,7 +36,7 @@ static PetscErrorCode Reduce(SamStress s, const double *const tractions[], doubl
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Finds the point before a place along an axis of n points, and the part of the way to the next. */
+/* Finds the point before a place along an axis of n points, and the fraction of the way to the next point. */
 static PetscInt Before(PetscInt n, const double axis[], double x, double *part)
 {
   PetscInt k = 0;
@@ -51,7 +51,7 @@ static void Add(SamStress s, const double sums[], const double first[3], const d
 {
   const Below *const w       = (const Below *)s->smooth;
   const PetscInt    *points  = w->c->below;
-  const double       turn    = w->c->body ? 1 : -1; /* y of the body's own frame */
+  const double       turn    = w->c->body ? 1 : -1; /* sign of y in the body's own frame */
   const double      *axis[3] = {w->values, w->values + points[0], w->values + points[0] + points[1]};
 
   for (PetscInt i = 0; i < n; i++) {

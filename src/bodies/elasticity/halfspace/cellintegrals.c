@@ -1,39 +1,39 @@
 /*
   Integrals of 1/r, x^2/r^3, x y/r^3 and x/r^2 over a rectangular cell.
 
-  Problem. Love's closed forms are sums of an antiderivative over the four corners. At a distance
-  of d cells they cancel to 1/d^2 of their terms or less (x^2/r^3 beside the y axis: 1/d^3), so in
-  double precision 4 to 8 digits are left at the far end of a grid of 16384 cells a side. Wanted is
-  nearly full precision, relative to each value, at every lag, and quickly.
+  Problem. Love's closed forms are sums of an antiderivative over the four corners. At a distance of d cells they cancel
+  to 1/d^2 of their terms or less (x^2/r^3 beside the y axis: 1/d^3), so in double precision 4 to 8 digits remain at the
+  far end of a grid of 16384 cells per side. The aim is nearly full precision, relative to each value, at every lag, and
+  at low cost.
 
   Algorithm.
-    1. A cell with half sides a and b, its centre at (x, y), is integrated by Taylor's series about
-       the centre, of which the even derivatives remain:
+    1. A cell with half sides a and b, its centre at (x, y), is integrated by Taylor's series about the centre, whose
+       odd derivatives cancel:
          4 a b sum_mn a^2m b^2n / ((2m+1)! (2n+1)!) d_x^2m d_y^2n f.
        The terms of one order k = m + n are f's odd powers of x and y, a power of r, and q^k times
        a polynomial in w, where q = 1/r^2 and w = x^2 q. The polynomials depend on the cell's sides
-       alone; their coefficients follow from the derivatives of x^i y^j r^-p by a recurrence. Of
-       each cell in a row there remain one division, one root and two nested Horner schemes.
+       alone; their coefficients follow from the derivatives of x^i y^j r^-p by a recurrence. For each cell in a row one
+       division, one root and two nested Horner schemes remain.
     2. x^2/r^3 is small beside the y axis because its term of order 0 is w and that of order 1 is
-       q a^2/3 there: nothing cancels. So y^2/r^3 and y/r^2 go with w = y^2 q, x and y exchanged.
-    3. A row is worked off in blocks of lags that take the order of their nearest cell; where that
-       is too near, each of its cells takes its own order.
+       q a^2/3 there: nothing cancels. So y^2/r^3 and y/r^2 use w = y^2 q, with x and y exchanged.
+    3. A row is processed in blocks of lags, which use the order of their nearest cell; if that is too near, each cell
+       of the block uses its own order.
     4. A cell for which no order suffices is halved across its longer side as long as it is slender,
-       and then quartered. All kernels are homogeneous of degree -1: a quarter is half of what the
-       whole gives at twice the quarter's distance, so that the same coefficients serve the
-       quarters, their quarters, and so on.
-    5. The cell at the origin is Love's closed form, whose terms are positive there.
+       and then quartered. All kernels are homogeneous of degree -1: the integral over a quarter is half of the integral
+       over a whole cell at twice the distance, so that the same coefficients are used for quarters, their quarters, and
+       so on.
+    5. For the cell at the origin Love's closed form is used, whose terms are positive there.
 
   Bound. Let R be the distance of the centre, d the half diagonal, s = R/d. At a distance t from the
   centre the terms of degree l of r^-p are a Gegenbauer polynomial times (t/R)^l R^-p, at most
   C_l^(p/2)(1) (t/R)^l R^-p (Szego 1975). The mean of t^l over a cell is at most d^l/(l+1): for a
   given d it is convex in a^2, thus largest for a cell without width. A numerator (x+u)^i adds
   products of x^(i-h) u^h, |u| <= a, and terms of degree l-h. The value itself is at least x^i (for
-  i = 2: x^2 + a^2/3) times (R+d)^-p. So for x^i y^j r^-p the orders from k on, relative to the value,
-  come to at most
+  i = 2: x^2 + a^2/3) times (R+d)^-p. So for x^i y^j r^-p the sum of the orders from k on, relative to the value,
+  is at most
     6 (2k+1)^(p-2) (1 + a s/max(x, a))^i (1 + b s/max(y, b))^j s^-2k,  k >= 2, s >= 5,
-  where 6 is 3 (for i = 2 at x = 0), (1 + 1/s)^3 and the geometric series. The bound falls with the
-  lag, which step 3 needs. From 2800 square cells on 1/r takes order 1, that is three coefficients.
+  where 6 is 3 (for i = 2 at x = 0), (1 + 1/s)^3 and the geometric series. The bound falls with the lag, as step 3
+  requires. From a distance of 2800 square cells on, 1/r needs order 1, which is three coefficients.
 
   Lengths are measured in a power of two near the longer side: all six integrals scale as a length,
   no power of r leaves the range of a double, and the scaling itself does not round.
@@ -77,16 +77,16 @@ static const Kernel kernels[] = {
 typedef struct {
   Kernel kernel;
   double a, b;    /* half sides along x and y */
-  double scale;   /* of the integrals */
+  double scale;   /* factor of the integrals */
   int    slender; /* the next expansion is for its halves across the longer side */
-  int    order;   /* up to which the polynomials are known */
+  int    order;   /* highest order with known polynomials */
   double polynomial[MAX_ORDER + 1][MAX_ORDER + 2];
 } Expansion;
 
-/* Replaces the polynomial f of order k by that of its term's second derivative by u, times `factor`. */
+/* Replaces the polynomial f of order k by that of the second derivative of its term by u, times `factor`. */
 static void DeriveU(const Kernel *kernel, int k, double factor, double f[])
 {
-  double below = 0; /* what the power before leaves to this one */
+  double below = 0; /* contribution of the power before */
 
   f[k + kernel->square + 1] = 0;
   for (int i = 0; i <= k + kernel->square + 1; i++) {
@@ -112,12 +112,12 @@ static void DeriveV(const Kernel *kernel, int k, double factor, double f[])
   }
 }
 
-/* Makes the polynomials up to an order; they do not depend on how far it goes. */
+/* Computes the polynomials up to an order; they do not depend on the highest order. */
 static void Expand(Expansion *e, int order)
 {
   const Kernel *kernel = &e->kernel;
   const double  u = kernel->exchanged ? e->b : e->a, v = kernel->exchanged ? e->a : e->b;
-  double        derived[MAX_ORDER + 3] = {0}; /* by v alone */
+  double        derived[MAX_ORDER + 3] = {0}; /* derivatives by v alone */
 
   derived[kernel->square] = 4 * u * v * e->scale;
   for (int k = 0; k <= order; k++)
@@ -138,8 +138,8 @@ static void Expand(Expansion *e, int order)
 }
 
 /*
-  Returns the least order whose bound (top of this file) is within the tolerance for the cell at (x, y), both >= 0; more
-  than MAX_ORDER if there is none.
+  Returns the least order whose bound (top of this file) is within the tolerance for the cell at (x, y), both >= 0; a
+  value above MAX_ORDER if there is none.
 */
 static int SelectOrder(const Expansion *e, double x, double y)
 {
@@ -196,7 +196,7 @@ SAM_VECTORIZED static void Evaluate(const Expansion *e, int order, double first,
   }
 }
 
-/* Makes a cell's expansion and those of its halves, none with polynomials yet. */
+/* Sets up a cell's expansion and those of its halves, without polynomials. */
 static void MakeShapes(SamIntegral kind, double a, double b, double scale, Expansion shapes[])
 {
   int slender = 1;
@@ -249,7 +249,8 @@ static double OriginIntegral(SamIntegral kind, double hx, double hy)
   }
 }
 
-/* How many of the n lags from i on lie in its block; blocks of negative lags mirror those of positive ones. */
+/* Returns the number of the n lags from i on that lie in its block; blocks of negative lags mirror those of positive
+   ones. */
 static ptrdiff_t BlockLength(ptrdiff_t i, ptrdiff_t n)
 {
   const ptrdiff_t length = i >= 0 ? BLOCK - i % BLOCK : -i % BLOCK + 1;

@@ -1,13 +1,13 @@
 /*
-  Two half-spaces: tractions constant on each cell, kernels from the closed forms over a rectangle (cellintegrals.c),
-  products by convolution without wrapping round (fourier/kernel.c). Source: Liu, Wang and Liu 2000, Wear 243, 101-111.
-  On layered bodies the closed forms are those of the materials at the surfaces, to which the rest is added
+  Two half-spaces. Tractions are constant on each cell, kernels are the closed forms for a rectangle (cellintegrals.c),
+  and products are convolutions without periodic images (fourier/kernel.c). Source: Liu, Wang and Liu 2000, Wear 243,
+  101-111. On layered bodies the closed forms are those of the materials at the surfaces, to which the rest is added
   (layered/cells.c); the preconditioner is the inverse of their symbols.
 
   In plane strain the grid is one row and the kernels are those of line loads, integrated over a cell (PlaneIntegral):
   -2 A ln(|x|/D) for u_z from p and u_x from q_x, -2 (A + B) ln(|x|/D) for u_y from q_y, pi coupling sgn(x) for u_x from
-  p. They are the integrals of those below over all y, but that displacements are relative to a point at the distance D.
-  Waves have the same symbols. Source: Johnson 1985, Contact Mechanics, sections 2.2 and 2.3.
+  p. They are the integrals of the kernels below over all y, except that displacements are relative to a point at the
+  distance D. Waves have the same symbols. Source: Johnson 1985, Contact Mechanics, sections 2.2 and 2.3.
 */
 #include "../waves.h"
 #include <petsam/private/elasticity.h>
@@ -22,7 +22,7 @@ typedef enum { ZZ, XX, YY, XY, XZ, YZ, KERNELS } Kind;
 typedef struct {
   SamKernel  kernel[KERNELS]; /* NULL until needed */
   SamLayered layers;          /* NULL: none */
-  PetscReal  datum;           /* D in plane strain, m; 0: three dimensions */
+  PetscReal  datum;           /* D in plane strain, m; 0: in three dimensions */
 } HalfSpace;
 
 /* A kernel is a sum of at most two integrals over the cell. */
@@ -57,8 +57,8 @@ static Coefficients GetCoefficients(SamElasticity e, Kind kind)
 }
 
 /*
-  Returns the integral of ln(|x|/D) over the cell at the lag i >= 0, m: in powers of the inverse lag, where the closed
-  form L(i + 1/2) - L(i - 1/2) cancels.
+  Returns the integral of ln(|x|/D) over the cell at the lag i >= 0, m; at lags where the closed form L(i + 1/2) - L(i -
+  1/2) cancels, by powers of the inverse lag.
 */
 static double PlaneIntegral(double dx, double datum, PetscInt i)
 {
@@ -108,7 +108,7 @@ static void CoefficientRow(PetscInt j, PetscInt n, double *const values[], const
   if (c->layers) SamLayeredAddRow(c->layers, (SamIntegral)c->kind, c->dx, c->dy, j, n, values[0]);
 }
 
-/* Makes the table for the layers' part of kernels, as far as the lags reach. */
+/* Creates the table for the layers' part of the kernels, for all lags. */
 static PetscErrorCode PrepareLayers(SamElasticity e)
 {
   const SamGrid grid = e->grid;
@@ -164,7 +164,7 @@ static PetscErrorCode GetKernel(SamElasticity e, Kind kind, SamKernel *kernel)
 
 /* ---- products ---- */
 
-/* Makes the matrix of `scale` times these kernels, row by row. */
+/* Fills the matrix of `scale` times these kernels, row by row. */
 static PetscErrorCode GetMatrix(SamElasticity e, PetscInt n_out, PetscInt n_in, double scale, const Kind kinds[],
                                 SamKernelMatrix *matrix)
 {
@@ -178,7 +178,7 @@ static PetscErrorCode GetMatrix(SamElasticity e, PetscInt n_out, PetscInt n_in, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Applies the kernels in plane strain: output c depends on input c only, and is 0 without one. */
+/* Applies the kernels in plane strain: output c depends on input c only, and is 0 without it. */
 static PetscErrorCode ApplyPlane(SamElasticity e, PetscInt n_out, PetscInt n_in, double scale, const Kind kinds[],
                                  const double *const in[], double *const out[])
 {
@@ -259,9 +259,9 @@ static PetscErrorCode ApplyTangentialSingle(SamElasticity e, double factor, cons
   On an infinite surface a wave of pressure exp(i k.x) gives the displacement 2 pi A/|k| times itself, A = pair->normal,
   so that |k| is the inverse up to a factor. For shear the symbol is (2 pi (A + B)/|k|)(I - nu kk'/|k|^2), B =
   pair->shear_xx, nu = B/(A + B), with the inverse (|k|/(2 pi (A + B)))(I + nu/(1 - nu) kk'/|k|^2). Here they act on the
-  grid made periodic, which costs a quarter of a padded transform and needs as few iterations. The symbol is
-  recomputed each time. Single precision suffices for an approximation. `local`: A or A + B. Layered bodies take their
-  symbols from tables, which contain all of the gain but the factor of the transforms.
+  periodic grid, which costs a quarter of a padded transform and needs as few iterations. The symbol is recomputed each
+  time. Single precision suffices for an approximation. `local`: A or A + B. Layered bodies take their symbols from
+  tables, which contain all of the gain but the factor of the transforms.
 */
 static PetscErrorCode Precondition(SamElasticity e, PetscInt n, double factor, double local, SamSymbol s,
                                    const float *const in[], float *const out[])
@@ -310,10 +310,10 @@ SAM_VECTORIZED static void DivideTangential(const SamSymbol *s, SamWaves at)
 }
 
 /*
-  Where bodies that roll slip, steadyoperator.c needs the inverse of h A + 1 - h, A = C (1 - S), S the shift by
-  a cell along x. With M = 1/C it is that of 1 - h S, which steadyoperator.c applies along each row, times
+  In slip of rolling bodies, steadyoperator.c needs the inverse of h A + 1 - h with A = C (1 - S), where S is the shift
+  by a cell along x. With M = 1/C it is the inverse of 1 - h S, which steadyoperator.c applies along each row, times
       M (1 - h S)/(h (1 - S) + (1 - h) M),
-  here with h = SAM_SLIP_WEIGHT everywhere. M alone is right for the shortest waves only.
+  where h = SAM_SLIP_WEIGHT everywhere. M alone would be right for the shortest waves only.
 */
 SAM_VECTORIZED static void DivideSlip(const SamSymbol *s, SamWaves at)
 {

@@ -1,4 +1,4 @@
-/* Two half-spaces in plane strain: the type, and the distance that displacements are relative to (halfspace.c). */
+/* Two half-spaces in plane strain: the type, and the distance of the reference point of displacements (halfspace.c). */
 #include "../waves.h"
 #include <petsam/private/layered.h>
 #include <petsam/private/body.h>
@@ -17,7 +17,8 @@
   quarter of the grid's width (half-planes: the logarithmic capacity of an interval). With layers, displacements c(k)/k
   have another mean: -ln(x/D) is (cos kx - [k < exp(-0.5772)/D])/k over all waves, so that the mean displacement by a
   uniform load vanishes at the distance D where int (c sinc^2(k width/2) - c(0) [k < exp(-0.5772)/D]) d ln k = 0. In
-  half-planes it is 0.223 widths, and half the width, or that factor, is asked for.
+  half-planes this distance is 0.223 widths, and the datum must be at least half the width; with layers it must exceed
+  the distance by the same factor.
 */
 static double LeastDatum(SamElasticity e)
 {
@@ -34,7 +35,7 @@ static double LeastDatum(SamElasticity e)
     SamPairSymbols(e->pair, k / width, c, difference);
     for (int s = 0; s < SAM_LAYERED_SYMBOLS; s++) sums[s] += STEP * (c[s] * sinc * sinc - limit[s] / (1 + k * k));
   }
-  /* on rigid bases there is no logarithm */
+  /* Bodies on rigid bases have no logarithm. */
   for (int s = 0; s < SAM_LAYERED_SYMBOLS; s++)
     if (s != SAM_LAYERED_ZR && limit[s] > exp(LONG) * fabs(sums[s]))
       farthest = PetscMax(farthest, exp(-EULER - sums[s] / limit[s]));

@@ -19,7 +19,7 @@
     s_xx += ((2 L - M) hx dq_x/dx + 2 nu L hy dq_y/dy)/pi      s_xy += L (hy dq_x/dy + hx dq_y/dx)/pi
     s_yy += (2 nu L hx dq_x/dx + (2 L - M) hy dq_y/dy)/pi      s_xz += M hx dp/dx/pi,  s_yz += M hy dp/dy/pi
     s_zz += M (hx dq_x/dx + hy dq_y/dy)/pi.
-  With differences over two cells for the derivatives this changes the kernels at the neighbours of the cell only.
+  With differences over two cells as derivatives, this changes only the kernels at the cell's neighbours.
 
   In plane strain, the stresses by a strip |x| < a are the closed forms of Johnson, section 2.5, by the angle subtended
   by the strip. Differences of fractions are multiplied out, so that nothing cancels far away.
@@ -30,8 +30,8 @@
 #include <petsam/private/halfspace.h>
 #include <math.h>
 
-/* Points of the quadrature along a side, from the farthest distances, in longer sides, to the nearest; then none. */
-enum { GROUPS = SAM_STRESS_NORMAL_Z }; /* all that a half-space has */
+/* Points of the quadrature along a side, from the farthest distances, in longer sides, to the nearest; then none */
+enum { GROUPS = SAM_STRESS_NORMAL_Z }; /* all groups of a half-space */
 enum { RULES = 4, FEWEST = 2, POINTS = 5, CHUNK = 256 };
 static const double nearest[RULES] = {640, 45, 13, 8};
 
@@ -103,7 +103,7 @@ static void Corners(const SamHalfSpaceSource *s, SamStressGroup group, double x,
 /* ---- far: point forces ---- */
 
 /*
-  Adds w times the stresses by point forces, times 2 pi, at n points (x0 + k dx, y, z). s = 1/r and t = 1/(r + z).
+  Adds the stresses by point forces, times 2 pi w, at n points (x0 + k dx, y, z). s = 1/r and t = 1/(r + z).
 */
 #define DEFINE_POINTS(Name, f0, f1, f2) \
   SAM_VECTORIZED static void Name(int n, double x0, double dx, double y, double z, double nu, double w, \
@@ -157,7 +157,7 @@ static void Quadrature(const SamHalfSpaceSource *s, SamStressGroup group, int ru
 
 /* ---- both ---- */
 
-/* Chooses the quadrature rule for a cell whose centre is at the distance x, y; RULES: use the corners. */
+/* Chooses the quadrature rule for a cell whose centre is at the distance x, y; RULES: the corners are used. */
 static int ChooseRule(const SamHalfSpaceSource *s, double x, double y)
 {
   const double h = PetscMax(s->side[0], s->side[1]), R2 = x * x + y * y + s->depth * s->depth;
@@ -198,7 +198,7 @@ static void Strip(SamStressGroup group, double nu, double a, double x, double z,
   const double angle = 2 * atan2(2 * a * z, x * x - a * a + z * z),
                sine = 4 * a * z * (x * x - a * a - z * z) / product, cosine = -8 * a * x * z * z / product,
                ratio = -2 * atanh(2 * a * x / (x * x + a * a + z * z));
-  /* from p: xx, zz, xz; from q_x: xx, and zz as xz from p, xz as xx from p; from q_y: xy and yz */
+  /* By p: xx, zz, xz. By q_x: xx, zz (equal to xz by p) and xz (equal to xx by p). By q_y: xy and yz. */
   const double p[3] = {-(angle + sine) / (2 * PETSC_PI), -(angle - sine) / (2 * PETSC_PI), cosine / (2 * PETSC_PI)},
                q    = (2 * ratio - cosine) / (2 * PETSC_PI);
 
@@ -244,7 +244,8 @@ void SamHalfSpaceStressCell(const PetscReal side[2], PetscReal poisson, const Pe
 
 /* ---- rows of lags ---- */
 
-/* Computes L and M of the correction (top of this file), over 2 pi: half the difference of the neighbours, over pi. */
+/* Computes L and M of the correction (top of this file), over 2 pi: half for the difference of the neighbours, over
+   pi. */
 static void Jumps(double depth, double side, double *L, double *M)
 {
   const double u = 2 * PETSC_PI * depth / side, t = exp(-u);

@@ -1,13 +1,15 @@
 /*
   Stresses on the surface at the edge of contact.
 
-  There the largest tension of a sliding contact lies, with an infinite slope on both sides: values at the centres of
-  cells approach it like the root of the cell. At a point on the reconstructed edge:
-    1. Within BLOCK cells in each direction the pressure is the root of the quadratic function that the edge was found
-       by, and the shear has its ratio to it in each cell. In polar coordinates about the point the kernels of a point
-       force, of degree -2, and the root of the distance leave an integrand that is smooth in the root of the radius.
-    2. What cells outside of that block add is smooth there: it is what the map has at the centres of the nine cells
-       about the point, less the part of the block's cells by the map's own kernels, interpolated.
+  The largest tension of a sliding contact lies there, with an infinite slope on both sides: values at the centres of
+  cells converge to it like the square root of the cell's width. At a point on the reconstructed edge:
+    1. Within BLOCK cells in each direction the pressure is the root of the quadratic function from which the edge was
+       reconstructed, and in each cell the shear has its ratio to the pressure. In polar coordinates about the point the
+       kernels of a point force, of degree -2, and the root of the distance leave an integrand that is smooth in the
+       root of the radius.
+    2. The contribution of cells outside of this block is smooth there. At the centres of the nine cells about the point
+       it is the stress of the map minus the part of the block's cells, computed with the map's own kernels; it is
+       interpolated to the point.
   The kernels are those of Boussinesq and Cerruti on the surface (Johnson 1985, Contact Mechanics, sections 3.2, 3.6).
   In plane strain they are of degree -1, and there are two directions: the integrals along them are the same.
 */
@@ -17,18 +19,18 @@
 #include <petscdt.h>
 #include <math.h>
 
-#define BLOCK  5   /* cells in each direction */
+#define BLOCK  5   /* half width of the block in cells */
 #define RAYS   720 /* directions of the polar coordinates */
-#define POINTS 12  /* along each of them */
+#define POINTS 12  /* points along each direction */
 
 enum { XX, YY, XY, PLANE = 3 };
 enum { LAGS = BLOCK + 2, NODES = 9 };
 
-/* The map about this rank's rows, and what all points share. */
+/* The map about this rank's rows, and the data that all points share */
 typedef struct {
   SamGrid   grid;
-  double    poisson, kernel[SAM_STRESS_TRACTIONS][PLANE][LAGS][LAGS]; /* of the lags */
-  PetscReal x[POINTS], w[POINTS];                                     /* of Gauss' rule on (0, 1) */
+  double    poisson, kernel[SAM_STRESS_TRACTIONS][PLANE][LAGS][LAGS]; /* kernels at the lags */
+  PetscReal x[POINTS], w[POINTS];                                     /* Gauss rule on (0, 1) */
   SamHalo   seen;
 } Map;
 
@@ -50,8 +52,7 @@ static PetscErrorCode CreateMap(SamGrid grid, PetscReal poisson, Vec field, Map 
 }
 
 /*
-  Returns a traction in a cell, as the body feels it: on the surface the stresses zz, xz and yz are minus these. 0
-  outside.
+  Returns a traction in a cell as it acts on the body, which is minus the stress zz, xz or yz on the surface; 0 outside.
 */
 static double TractionAt(const Map *m, PetscInt t, PetscInt i, PetscInt j)
 {
@@ -101,8 +102,8 @@ static void AddOutside(const Map *m, PetscInt i, PetscInt j, const double at[2],
 }
 
 /*
-  Computes the stresses at a point by unit tractions on a point that lies at -e from it, |e| = 1, times the squared
-  distance.
+  Computes the stresses at a point by unit tractions at another point in the direction -e from it, |e| = 1, times the
+  squared distance.
 */
 static void PointKernels(double nu, const double e[2], double k[SAM_STRESS_TRACTIONS][PLANE])
 {
@@ -119,7 +120,7 @@ static void PointKernels(double nu, const double e[2], double k[SAM_STRESS_TRACT
   k[SAM_STRESS_QY][XY] = -x * (1 - 2 * nu + 6 * nu * yy) / (2 * PETSC_PI);
 }
 
-/* Computes the stresses by unit tractions on a line along y likewise, times the distance. */
+/* Computes the stresses by unit tractions on a line along y in the same way, times the distance. */
 static void LineKernels(double nu, const double e[2], double k[SAM_STRESS_TRACTIONS][PLANE])
 {
   for (int t = 0; t < SAM_STRESS_TRACTIONS; t++)
@@ -129,7 +130,8 @@ static void LineKernels(double nu, const double e[2], double k[SAM_STRESS_TRACTI
   k[SAM_STRESS_QY][XY] = -e[0] / PETSC_PI;
 }
 
-/* A ray from the point, in cells: its direction, its end at the block's border, and the function b r + c r^2 on it. */
+/* A ray from the point, in cells: its direction, its end at the block's border, and the function b r + c r^2 along
+   it */
 typedef struct {
   double direction[2], end, b, c;
 } Ray;
@@ -148,13 +150,13 @@ static Ray MakeRay(const PetscReal fit[6], const double at[2], double angle)
 }
 
 /*
-  Computes the integrals of the tractions over the radius, along a ray; `like`: their ratios to p in cells without
+  Computes the integrals of the tractions over the radius along a ray; `like`: ratios to p used in cells without
   pressure.
 */
 static void AlongRay(const Map *m, const Ray *ray, PetscInt i, PetscInt j, const double at[2], const double like[],
                      double sums[SAM_STRESS_TRACTIONS])
 {
-  const double turn  = ray->c != 0 ? -ray->b / ray->c : -1; /* where the function changes its sign */
+  const double turn  = ray->c != 0 ? -ray->b / ray->c : -1; /* place where the function changes its sign */
   const double begin = ray->b > 0 ? 0 : turn, end = ray->b > 0 && turn > 0 ? PetscMin(turn, ray->end) : ray->end;
   const double low = sqrt(PetscMax(begin, 0)), length = sqrt(end) - low;
 

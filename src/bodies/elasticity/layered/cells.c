@@ -1,35 +1,35 @@
 /*
-  Integrals of the radial functions over cells, by Gauss' quadrature; and the tables of a pair.
+  Integrals of the radial functions over cells by Gauss quadrature, and the tables of a pair.
 
-  The functions are smooth on the scale of R, R^2 = r^2 + depth^2, where they behave like those of such an image. With
-  R in units of the longer side:
+  The functions are smooth on the scale of R, R^2 = r^2 + depth^2, like those of an image at that depth. With R in units
+  of the longer side:
     R < 8     parts of the cell, halved or quartered until half their diagonal is below R/3.5, 8 x 8 points each
     R < 45    the whole cell, 5 x 5 points as far as 13, then 4 x 4
     beyond    3 rows of points across the cell, 2 from 640 on; along x the mean over a cell is that of the values at the
               centres of seven cells, by central differences: (d/2)/asinh(d/2) = 1 + d^2/24 - 17 d^4/5760 + ...
-  For an image, whose integral is known, this is 1e-13 of each value.
+  For an image, whose integral is known, the relative error is 1e-13.
 */
 #include <petsam/private/layered.h>
 #include <petsam/private/body.h>
 #include <petscdt.h>
 
-#define CHUNK   512 /* lags that are worked off together */
+#define CHUNK   512 /* number of lags processed together */
 #define STENCIL 3   /* cells to each side */
-#define DEEPEST 60  /* divisions of a cell; a depth of 1e-18 cells */
+#define DEEPEST 60  /* largest number of divisions of a cell, for a depth of 1e-18 cells */
 #define POINTS  8
 
 typedef struct {
   PetscReal x[POINTS], w[POINTS]; /* on (-1/2, 1/2) */
 } Rule;
 
-/* Gauss' rules of 0 to POINTS points, filled by SamRadialSetUp(). */
+/* Gauss rules of 0 to POINTS points, filled by SamRadialSetUp() */
 static Rule rules[POINTS + 1];
 
 /* Adds the values of kernels at (x[i], y), i < n <= CHUNK + 2 STENCIL, times the weight. */
 static void AddPoints(const SamRadialKernels *of, double weight, PetscInt n, const double x[], double y,
                       double *const values[])
 {
-  /* the polynomials' coefficients of x^0 to x^3 */
+  /* Coefficients of x^0 to x^3 of the polynomials. */
   const double polynomials[][4] = {[SAM_ANGULAR_1]   = {1},
                                    [SAM_ANGULAR_X]   = {0, 1},
                                    [SAM_ANGULAR_Y]   = {y},
@@ -63,7 +63,7 @@ static void Integrate(const SamRadialKernels *of, int n, const double centre[2],
     for (int i = 0; i < n; i++) sums[k] += rule->w[i] * values[k][i] * side[0] * side[1];
 }
 
-/* Adds the integrals over a rectangle, which is divided where it is near; `level` of the division: 0 at first. */
+/* Adds the integrals over a rectangle, which is divided if it is near; `level` of the division: 0 at first. */
 static void AddRectangle(const SamRadialKernels *of, int level, const double centre[2], const double side[2],
                          double sums[])
 {
@@ -83,7 +83,7 @@ static void AddRectangle(const SamRadialKernels *of, int level, const double cen
   }
 }
 
-/* The first lag of a row whose R, in units of the longer side, is that at least; at most n. */
+/* Returns the first lag of a row with at least this R, in units of the longer side; at most n. */
 static PetscInt FirstBeyond(double depth, double R, const double side[2], PetscInt j, PetscInt n)
 {
   const double far = R * PetscMax(side[0], side[1]), y = (double)j * side[1], x2 = far * far - y * y - depth * depth;
@@ -140,7 +140,7 @@ void SamRadialAddRow(const SamRadialKernels *of, const double side[2], PetscInt 
   AddFar(of, 2, side, j, third, n, values);
 }
 
-/* Adds the integrals of kernels over an interval, halved until it is short against the distance of the images. */
+/* Adds the integrals of kernels over an interval, halved until it is short compared with the distance of the images. */
 static void AddInterval(const SamRadialKernels *of, double x, double length, double sums[])
 {
   const double half = length / 2;
@@ -169,7 +169,7 @@ void SamRadialAddLine(const SamRadialKernels *of, double side, PetscInt n, doubl
 
 /* ---- the surface ---- */
 
-/* Returns the kernel of displacements that has this integral of half-spaces. */
+/* Returns the kernel of displacements that has this integral for half-spaces. */
 static SamRadialKernels SurfaceKernel(SamLayered l, SamIntegral kind)
 {
   static const SamRadialTerm terms[][2] = {
@@ -239,7 +239,7 @@ PetscErrorCode SamLayeredDestroy(SamLayered *layered)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Computes the functions of k whose transforms are N, A, B and C, out of differences of symbols. */
+/* Computes the functions of k whose transforms are N, A, B and C from differences of symbols. */
 static void Combine(const double symbols[], double g[])
 {
   g[SAM_RADIAL_N] = symbols[SAM_LAYERED_ZZ];
@@ -294,14 +294,14 @@ static PetscErrorCode CreateRadial(SamLayered l, double r)
 
 /*
   The influence of a line load is the transform of c/k along the line. The images' parts are known, -(c(0)/pi)
-  ln(rho/D), relative to a distance D, and (c(0)/pi) atan(x/Z) for zr. What remains of c is of the order k; for waves
-  much longer than all layers it is taken as proportional, before rounding counts.
+  ln(rho/D), relative to a distance D, and (c(0)/pi) atan(x/Z) for zr. The rest of c is of the order k; for waves much
+  longer than all layers it is set proportional to k, before rounding matters.
 */
-#define PROPORTIONAL 1e-7 /* k times the longest length */
+#define PROPORTIONAL 1e-7 /* k times the longest length, below which the rest is proportional */
 
 typedef struct {
   SamLayered      l;
-  SamRadialSource of; /* the images */
+  SamRadialSource of; /* source with the images */
 } Rest;
 
 static void RestsAt(const void *context, double k, double values[])
@@ -321,7 +321,7 @@ PetscErrorCode SamLayeredPrepareLine(SamLayered l, double r)
 {
   static const int orders[] = {[SAM_LAYERED_ZZ] = 0, [SAM_LAYERED_ZR] = 1, [SAM_LAYERED_RR] = 0, [SAM_LAYERED_TT] = 0};
   const Rest       rest     = {l, SourceOf(l)};
-  /* the images fall like exp(-k Z), Z at least half the depth */
+  /* The images fall like exp(-k Z); Z is at least half the depth. */
   SamRadialSource of = {.functions = SAM_LAYERED_SYMBOLS,
                         .line      = PETSC_TRUE,
                         .orders    = orders,
@@ -344,7 +344,7 @@ static double ImageOver(double x, double dx, double Z, double datum, PetscBool o
 {
   double sum = 0;
 
-  if (hypot(x, Z) > 2 * dx) { /* where terms of the closed form cancel */
+  if (hypot(x, Z) > 2 * dx) { /* terms of the closed form cancel there */
     for (int k = 0; k < POINTS; k++) {
       const double s = x + dx * rules[POINTS].x[k];
 
@@ -382,7 +382,7 @@ static void SymbolsAt(const void *context, double k2, double values[])
 
 PetscErrorCode SamLayeredPrepare(SamLayered l, double r, const double k[2])
 {
-  const double room = 4; /* for coarser grids, whose lags and waves may be a little longer */
+  const double room = 4; /* for coarser grids, whose lags and waves may be slightly longer */
 
   PetscFunctionBegin;
   if (r > 0 && !(r * r <= l->radial.most)) {

@@ -1,5 +1,5 @@
 /*
-  Products of one column of spectra with the symbols of layered bodies, in one precision: included with
+  Products of one column of spectra with the symbols of layered bodies, in one precision. The file is included with:
     Real       double or float
     Name(x)    name of a function of this precision
 */
@@ -17,7 +17,7 @@ void Name(SamLayeredMultiplyNormal)(const SamSymbol *s, SamWaves at)
   }
 }
 
-/* across I + (along - across) kk'/|k|^2; the cross term times `cross`. */
+/* Multiplies by across I + (along - across) kk'/|k|^2; the cross term is multiplied by `cross`. */
 void Name(SamLayeredMultiplyTangential)(const SamSymbol *s, SamWaves at)
 {
   Real(*restrict x)[2] = (Real(*)[2])at.x, (*restrict y)[2] = (Real(*)[2])at.y;

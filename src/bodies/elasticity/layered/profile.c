@@ -1,6 +1,6 @@
 /*
-  A body whose constants vary with the depth, as layers: each of the constants at its middle, so that the error of the
-  symbols is of second order in their thickness.
+  Represents a body whose constants vary with the depth by layers, each with the constants at its middle, so that the
+  error of the symbols is of second order in the thickness.
 
   Parts of the profile, from one row of the file to the next, get one layer where the constants do not vary; the other
   parts share the rest, in proportion to how much Young's modulus changes in them.
@@ -24,7 +24,7 @@ static PetscErrorCode CheckConstants(const SamOptions *from, const SamDepthTable
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Returns how much the constants change from row k to the next; 0: one layer suffices. */
+/* Returns the change of the constants from row k to the next; 0: one layer suffices. */
 static double ChangeOf(const SamDepthTable *d, PetscInt k)
 {
   return fabs(log(SamDepthTableGet(d, k + 1, YOUNG) / SamDepthTableGet(d, k, YOUNG))) +

@@ -1,27 +1,27 @@
 /*
-  From functions of the wave number g(k) to functions in space, by transforms of Hankel's kind
+  Transforms functions of the wave number g(k) to functions in space, by Hankel transforms
     f(r) = H_n[g](r) = (1/2 pi) int_0^inf g(k) J_n(kr) dk.
 
-  Algorithm (Talman 1978, J. Comput. Phys. 29, 35; Hamilton 2000, MNRAS 312, 257). g is smooth in x = ln k whatever
-  the thicknesses are, and the transform is a convolution in x:
-    1. The image g(0) exp(-k Z), Z the thickness of all layers, is taken out, as its transform is known:
-       (r/(rho + Z))^n/rho, rho^2 = r^2 + Z^2. What remains is O(k). Each of two bodies may have its own image.
+  Algorithm (Talman 1978, J. Comput. Phys. 29, 35; Hamilton 2000, MNRAS 312, 257). g is smooth in x = ln k for any
+  thicknesses, and the transform is a convolution in x:
+    1. The image g(0) exp(-k Z), where Z is the thickness of all layers, is subtracted, as its transform is known:
+       (r/(rho + Z))^n/rho, rho^2 = r^2 + Z^2. The remainder is O(k). Each of two bodies may have its own image.
     2. The remainder is sampled at equal steps of x. Of its Fourier coefficients c_m at the frequencies w_m,
        r f(r) at ln r = y is the sum of c_m M_m exp(-i w_m (x0 + y)), with the Mellin transform of the kernel,
        M = 2^iw Gamma((1 + n + iw)/2)/Gamma((1 + n - iw)/2): one transform gives all r.
     3. Between the samples r f is interpolated in ln r by 12 points.
-    4. For r below 0.15 of the depth that g falls with, a power series by the moments of g.
-  The table holds f/r^n, functions of r^2 that are analytic at 0. The error is 1e-13 of f's size.
+    4. For r below 0.15 of the depth over which g decays, a power series with the moments of g is used.
+  The table contains f/r^n, functions of r^2 that are analytic at 0. The error is 1e-13 relative to the size of f.
 
-  Along a line, (1/pi) int g cos kr dk and (1/pi) int g sin kr dk are such transforms of g sqrt(2 pi k) of the orders
-  n - 1/2, n = 0 and 1, times sqrt(r): the same table. Its images are Z/(pi rho^2) and r/(pi rho^2).
+  Along a line, (1/pi) int g cos kr dk and (1/pi) int g sin kr dk are such transforms of g sqrt(2 pi k) of the orders n
+  - 1/2, n = 0 and 1, times sqrt(r), and use the same table. Its images are Z/(pi rho^2) and r/(pi rho^2).
 */
 #include <petsam/private/layered.h>
 #include <complex.h>
 #include <fftw3.h>
 
 #define STEP    0.04
-#define NEAR    0.15 /* of the depth: within, the series */
+#define NEAR    0.15 /* relative to the depth; the series is used below */
 #define TERMS   10
 #define AROUND  12    /* points of the interpolation */
 #define FASTEST 200.0 /* largest k times the depth */
@@ -29,8 +29,8 @@
 typedef struct {
   const SamRadialSource *of;
   double                 x0, y0;                 /* ln k and ln r of the first samples */
-  int                    n;                      /* samples */
-  double                *remainder[SAM_RADIALS]; /* of the functions of k, then r f(r) */
+  int                    n;                      /* number of samples */
+  double                *remainder[SAM_RADIALS]; /* remainders of the functions of k, then r f(r) */
   double                 moments[SAM_RADIALS][TERMS];
 } Transform;
 
@@ -39,7 +39,7 @@ static double OrderOf(const SamRadialSource *of, int f)
   return of->orders[f] - (of->line ? 0.5 : 0);
 }
 
-/* Samples without images, and moments with them. */
+/* Computes the samples without images, and the moments with them. */
 static void Sample(Transform *t)
 {
   const SamRadialSource *of    = t->of;
@@ -166,7 +166,7 @@ static void Values(const void *context, double s, double values[])
 PetscErrorCode SamRadialCreate(const SamRadialSource *of, double r, SamSpline *table)
 {
   const double depth = of->depth, near = NEAR * depth;
-  /* cos kr does not vanish for long waves, which takes twice as many */
+  /* cos kr does not vanish for long waves, which requires twice as many samples */
   Transform t = {
     .of = of, .y0 = -log(FASTEST / depth), .x0 = (of->line ? 2 : 1) * log(SAM_LONG_WAVE) - log(of->longest)};
 
@@ -175,7 +175,7 @@ PetscErrorCode SamRadialCreate(const SamRadialSource *of, double r, SamSpline *t
   for (int f = 0; f < of->functions; f++) PetscCall(PetscMalloc1(t.n, &t.remainder[f]));
   Sample(&t);
   for (int f = 0; f < of->functions; f++) PetscCall(Convolve(&t, OrderOf(of, f), t.remainder[f]));
-  /* from a power of 2 on */
+  /* Starts at a power of 2. */
   PetscCall(SamSplineCreate(table, of->functions, exp2(floor(log2(near * near))), r * r, Values, &t));
   for (int f = 0; f < of->functions; f++) PetscCall(PetscFree(t.remainder[f]));
   PetscFunctionReturn(PETSC_SUCCESS);

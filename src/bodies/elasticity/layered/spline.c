@@ -1,16 +1,16 @@
 /*
-  Functions of a positive number by polynomials on intervals that its exponent and the three leading bits of its
-  mantissa number.
+  Represents functions of a positive number by polynomials on intervals; the exponent and the three leading bits of the
+  mantissa are the index of the interval.
 
-  On an interval from c to 9/8 c at most, a function that is analytic as far as 0 has Chebyshev coefficients that fall
-  by 34 from one to the next, so that degree 9 leaves 1e-15. The coefficients come from the values at Chebyshev's points
-  and are turned into powers of t, -1 <= t <= 1, for Horner's scheme: consecutive arguments of one interval are worked
-  off together, without roots or logarithms.
+  On an interval from c to at most 9/8 c, a function that is analytic up to 0 has Chebyshev coefficients that decrease
+  by a factor of 34, so that the error of degree 9 is 1e-15. The coefficients come from the values at Chebyshev's points
+  and are converted to powers of t, -1 <= t <= 1, for Horner's scheme: consecutive arguments of one interval are
+  processed together, without roots or logarithms.
 */
 #include <petsam/private/layered.h>
 
 #define POINTS (SAM_SPLINE_DEGREE + 1)
-#define BITS   49 /* below the exponent and three leading bits */
+#define BITS   49 /* number of bits below the exponent and the three leading bits */
 
 static int NumberOf(double s)
 {
@@ -32,7 +32,7 @@ static double StartOf(int number)
 /* Computes matrix[n][p], the contribution of the value at point p to the coefficient of t^n. */
 static void MakeFit(double points[POINTS], double matrix[POINTS][POINTS])
 {
-  double powers[POINTS][POINTS] = {{1}, {0, 1}}; /* of Chebyshev's polynomials */
+  double powers[POINTS][POINTS] = {{1}, {0, 1}}; /* Chebyshev polynomials */
 
   for (int k = 2; k < POINTS; k++)
     for (int n = 0; n < POINTS; n++) powers[k][n] = (n ? 2 * powers[k - 1][n - 1] : 0) - powers[k - 2][n];
@@ -56,7 +56,7 @@ PetscErrorCode SamSplineCreate(SamSpline *table, int functions, double least, do
   MakeFit(points, matrix);
   *table       = (SamSpline){.functions = functions, .first = NumberOf(least)};
   table->least = StartOf(table->first);
-  /* the last interval reaches beyond `most` */
+  /* The last interval extends beyond `most`. */
   table->intervals = PetscMax(NumberOf(most), table->first) - table->first + 2;
   table->most      = nextafter(StartOf(table->first + table->intervals - 1), 0);
   PetscCall(PetscMalloc3(table->intervals, &table->centre, table->intervals, &table->scale,

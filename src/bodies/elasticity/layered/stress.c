@@ -2,8 +2,8 @@
   Stresses in a body with layers, by unit tractions on the cells of its surface.
 
   Problem. In each wave the stresses at a depth are known (symbols.c). In space, at the distance r and angle t from a
-  unit force, they are made of transforms G_n[s] = (1/2 pi) int_0^inf s(k) J_n(kr) k dk of ten functions, p or q saying
-  which traction acts, (T, S) the stresses xz, zz of a wave along x, M that of xy across it:
+  unit force, they are combinations of transforms G_n[s] = (1/2 pi) int_0^inf s(k) J_n(kr) k dk of ten functions. The
+  index p or q is the traction, (T, S) are the stresses xz, zz of a wave along x, and M is the stress xy across it:
     f0 = G_0[S_p]                f4 = G_1[S_q]                     f8 = G_1[(S_xx - S_yy)_q/4 + M/2]
     f1 = G_1[T_p]                f5 = G_0[T_q + T_y]/2             f9 = G_3[(S_xx - S_yy)_q/4 - M/2]
     f2 = G_0[(S_xx + S_yy)_p]/2  f6 = G_2[T_q - T_y]/2
@@ -12,9 +12,10 @@
   + f9 cos 3t, yy = (f8 - f7) cos t - f9 cos 3t, zz = -f4 cos t, xy = -f8 sin t + f9 sin 3t, xz = f5 - f6 cos 2t, yz =
   -f6 sin 2t. By q_y the same with x and y exchanged.
 
-  Algorithm. For each depth, a table of the ten functions (radial.c), integrated over the cells (cells.c). In the first
-  layer the functions are those of the difference from a half-space of its material, whose closed forms
-  (halfspace/stresscell.c) are added: they fall like exp(-k (2 h - z)). Below, they fall like exp(-kz).
+  Algorithm. For each depth, a table of the ten functions (radial.c) is computed and integrated over the cells
+  (cells.c). In the first layer the functions are the differences from a half-space of its material, whose closed forms
+  (halfspace/stresscell.c) are added; they decay like exp(-k (2 h - z)). Below the first layer the functions decay like
+  exp(-kz).
 
   In plane strain the ten become even functions (cosines) xx = s2 + s3, yy = s2 - s3, zz = s0 by p, xz = s5 + s6 by q_x
   and yz = s5 - s6 by q_y; and odd ones (sines) xz = s1 by p, zz = -s4, xx = -(s7 + s8 + s9), yy = -(s7 - s8 - s9) by
@@ -31,15 +32,15 @@
 #include <petsam/private/stressimpl.h>
 #include <petsam/private/body.h>
 
-#define ALTERNATING 30   /* terms of a series */
-#define LONG_WAVE   1e-5 /* on a rigid base, k times the depth of all layers below which rounding counts */
-#define THICK       8    /* cells of the first layer on which edges are those of a half-space */
+#define ALTERNATING 30   /* number of terms of a series */
+#define LONG_WAVE   1e-5 /* k times the depth of all layers on a rigid base, below which rounding matters */
+#define THICK       8    /* number of cells in the first layer from which edges are those of a half-space */
 
 typedef struct {
   SamBody   body;
-  PetscInt  material;    /* at the depth in use */
+  PetscInt  material;    /* material at the depth in use */
   double    z;           /* below the material's top, m */
-  double    depth, base; /* in use, -1: none; at which the last material begins */
+  double    depth, base; /* depth in use, -1: none; depth at which the last material begins */
   double    decay;       /* functions fall like exp(-decay k), m */
   SamSpline table;
 } Layered;
@@ -59,7 +60,7 @@ static void FunctionsAt(const void *context, double k, double g[])
   for (int f = 0; f < SAM_LAYERED_STRESSES; f++) g[f] *= k;
 }
 
-/* The functions of plane strain, in their own order. */
+/* The functions of plane strain, in a separate order */
 enum { P_XX, P_YY, P_ZZ, X_XZ, Y_YZ, EVEN, P_XZ = EVEN, X_XX, X_YY, X_ZZ, Y_XY };
 
 static void LineFunctionsAt(const void *context, double k, double g[])
@@ -106,7 +107,7 @@ static PetscErrorCode UseDepth(SamStress stress, PetscReal depth)
     of.thickness[0] = of.depth;
     LineFunctionsAt(l, SAM_LONG_WAVE / of.longest, of.image[0]);
   }
-  /* beyond the farthest lags, for cells' means along a row */
+  /* Beyond the farthest lags, for means of cells along a row. */
   PetscCall(
     SamRadialCreate(&of, 1.1 * hypot((double)grid->width[0], (double)grid->width[1]) + 8 * of.depth, &l->table));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -114,7 +115,7 @@ static PetscErrorCode UseDepth(SamStress stress, PetscReal depth)
 
 /* ---- rows of lags ---- */
 
-/* The kernels of a group, by terms. */
+/* The kernels of a group, by terms */
 static const struct {
   int           count;
   SamRadialTerm terms[8];
@@ -134,7 +135,7 @@ static const struct {
                            {9, 0, SAM_ANGULAR_XXX, 1},
                            {9, 1, SAM_ANGULAR_XXX, -1},
                            {9, 2, SAM_ANGULAR_YYY, 1}}},
-  /* cos 3t and sin 3t become -sin 3t and -cos 3t where x and y are exchanged */
+  /* cos 3t and sin 3t become -sin 3t and -cos 3t if x and y are exchanged. */
   [SAM_STRESS_PLANE_Y]  = {8,
                            {{7, 0, SAM_ANGULAR_Y, -1},
                             {7, 1, SAM_ANGULAR_Y, -1},
@@ -166,12 +167,13 @@ static const struct {
   [SAM_STRESS_NORMAL_Z] = {1, {{X_ZZ, 0, SAM_ANGULAR_X, 1}}},
 };
 
-/* Symbols of xx, yy, zz, xy by shear along the wave, across it for xy, and of xz by pressure with the opposite sign. */
+/* Symbols of xx, yy, zz and xy by shear along the wave (xy: across it), and of xz by pressure with the opposite sign */
 typedef struct {
   double xx, yy, zz, xy, xz;
 } Jumps;
 
-/* Their alternating sums over 2 pi, for cells of this side: half the difference of the neighbours, over pi. */
+/* Computes their alternating sums over 2 pi, for cells of this side: half for the difference of the neighbours, over
+   pi. */
 static Jumps JumpsOf(const Layered *l, double side)
 {
   const double power = pow(3 + sqrt(8), ALTERNATING), d = 0.5 * (power + 1 / power);
@@ -222,7 +224,7 @@ static void Row(SamStress stress, const double side[2], double depth, SamStressG
                                      .terms   = line ? line_groups[group].terms : groups[group].terms};
 
   for (int k = 0; k < SAM_STRESS_GROUP; k++) PetscCallVoid(PetscArrayzero(values[k], n));
-  if (line && j > 0) return; /* there is one row */
+  if (line && j > 0) return; /* there is only one row */
   if (!l->material && group != SAM_STRESS_NORMAL_Z) SamHalfSpaceStressRow(&source, group, j, n, values);
   if (!l->material && group == SAM_STRESS_NORMAL_Z) {
     /* stresses xz and yz by p */

@@ -4,7 +4,8 @@
   With u_x = U sin kx, u_z = W cos kx, s_xz = T sin kx, s_zz = S cos kx, solutions in a layer of shear modulus mu that
   decay downwards from its top are (U, W) = D F(kz) a, (T, S) = A F(kz) a, displacements being multiplied by k, with
     D = [1 0; 1 kappa],  A = -2 mu [1, 1 - 2 nu; 1, 2 (1 - nu)],  F(x) = exp(-x) [1 x; 0 1],  kappa = 3 - 4 nu.
-  Solutions that decay upwards from its bottom are mirror images: D' = diag(1, -1) D, A' = diag(-1, 1) A. None grows.
+  Solutions that decay upwards from its bottom are mirror images: D' = diag(1, -1) D, A' = diag(-1, 1) A. No solution
+  grows.
 
   Algorithm, for the compliance C in (U, W) = C (T, S) from the substrate up, where C = D A^-1, or 0 if it is rigid:
     R = -(D' - C A')^-1 (D - C A),  P = F(kh) R F(kh),  C = C0 + (D' - C0 A') P (A + A' P)^-1,  C0 = D A^-1,
@@ -13,9 +14,9 @@
 
   Stresses, from the surface down with (T, S) at each layer's top: a = (A + A' P)^-1 (T, S), b = R F(kh) a, so that
   (T, S) = A F(kz) a + A' F(k(h - z)) b and likewise (U, W) at a depth z in the layer; in the substrate a = A^-1 (T, S),
-  b = 0. In the top layer, a is that of a half-space, A^-1 (T, S), but for -A^-1 A' P a, which with b makes the
-  difference. Across the wave, V = v exp(-kz) + g exp(kz) v, v = -T/(mu (1 - g)). In the plane, S_xx = (2 mu U + nu
-  S)/(1 - nu), S_yy = nu (S_xx + S), S_xy = -mu V sin kx.
+  b = 0. In the top layer, a = A^-1 (T, S) - A^-1 A' P a; the first term is that of a half-space, and the second term,
+  together with b, is the difference from it. Across the wave, V = v exp(-kz) + g exp(kz) v, v = -T/(mu (1 - g)). In the
+  plane, S_xx = (2 mu U + nu S)/(1 - nu), S_yy = nu (S_xx + S), S_xy = -mu V sin kx.
 */
 #include <petsam/private/layered.h>
 #include <petsam/private/body.h>
@@ -33,7 +34,7 @@ static Matrix Times(Matrix a, Matrix b)
   return c;
 }
 
-/* a + factor b */
+/* Returns a + factor b. */
 static Matrix Plus(Matrix a, double factor, Matrix b)
 {
   for (int i = 0; i < 2; i++)
@@ -48,7 +49,7 @@ static Matrix Inverse(Matrix a)
   return (Matrix){{{a.m[1][1] / det, -a.m[0][1] / det}, {-a.m[1][0] / det, a.m[0][0] / det}}};
 }
 
-/* A material's matrices; of the mirror images, too. */
+/* The matrices of a material, also of the mirror images */
 typedef struct {
   double mu;
   Matrix D, A, mirror_D, mirror_A, half_space;
@@ -71,7 +72,7 @@ static Material MaterialOf(const SamMaterial *of)
   return m;
 }
 
-/* The compliance of the body from some depth down, and what of it is not a half-space's of the material there. */
+/* The compliance of the body below some depth, and its difference from a half-space of the material there */
 typedef struct {
   Matrix compliance, difference;
   double across, difference_across;
@@ -124,7 +125,7 @@ static Surface SubstrateOf(SamBody body)
   return s;
 }
 
-/* Computes the surface of a body; `below`: also what lies below the n-th material at n + 1, NULL: not wanted. */
+/* Computes the surface of a body; `below`: the same at the bottom of the n-th material, at n + 1; NULL: not wanted. */
 static Surface SurfaceOf(SamBody body, double k, Surface below[])
 {
   Surface s = SubstrateOf(body);
@@ -162,13 +163,13 @@ void SamPairSymbols(SamPair pair, double k, double total[SAM_LAYERED_SYMBOLS], d
 
 /* ---- stresses ---- */
 
-/* A wave at the top of a layer: (T, S) for p = 1 and for q = 1, and T across for q = 1. */
+/* A wave at the top of a layer: (T, S) for p = 1 and for q = 1, and T across for q = 1 */
 typedef struct {
   Matrix stress;
   double across;
 } Wave;
 
-/* Computes the ten functions out of (U, W), (T, S) by p and q, and V, T across, in a material. */
+/* Computes the ten functions from (U, W), (T, S) by p and q, and from V, T across, in a material. */
 static void CombineStresses(double mu, double nu, Matrix moved, Matrix stress, double v, double across,
                             double s[SAM_LAYERED_STRESSES])
 {
@@ -202,7 +203,7 @@ static void Below(const SamMaterial *of, Wave top, double kz, double s[SAM_LAYER
 
 void SamBodyStresses(SamBody body, PetscInt material, double z, double k, double s[SAM_LAYERED_STRESSES])
 {
-  Surface below[SAM_MATERIALS]; /* a material, at its number + 1 */
+  Surface below[SAM_MATERIALS]; /* of a material, at its number + 1 */
   Wave    top = {{{{0, -1}, {-1, 0}}}, -1};
 
   (void)SurfaceOf(body, k, below);

@@ -1,18 +1,18 @@
 /*
   Layered bodies on waves: products with their symbols c/|k| and the inverses |k|/c.
 
-  On a part of the surface the inverse is a preconditioner. It holds the surface about a contact in place, as if it were
-  clamped, and a hard film on a soft bed resists that like a plate, far more than with the free surface that it has: on
-  the contact, the inverse is up to E1/E2 times too large at the edge. Where c is more than that of the surface's
-  material, c_top, the normal inverse therefore takes c_top (c/c_top)^(1/2). Measured at E1/E2 = 30 to 300 and films of
-  0.003 to 0.1 of the contact's radius, 900 cases at 64 to 512 cells: all converge, in 30 iterations in the mean; with
-  the power 5/8 one of 300 does not, with 3/4 more.
+  On a part of the surface the inverse is a preconditioner. It treats the surface around a contact as clamped. A hard
+  film on a soft bed resists like a clamped plate then, far more than with its free surface: at the edge of the contact
+  the inverse is up to E1/E2 times too large. If c is more than that of the surface's material, c_top, the normal
+  inverse therefore uses c_top (c/c_top)^(1/2). With it, 900 cases at 64 to 512 cells, with E1/E2 = 30 to 300 and films
+  of 0.003 to 0.1 of the contact's radius, all converge, in 30 iterations on average; with the power 5/8 one of 300 does
+  not, with 3/4 more.
 */
 #include "../waves.h"
 #include <math.h>
 
 #define CHUNK 256
-#define LEAST 1e-12 /* c/c_top in inverses: less is rounding, on a rigid base */
+#define LEAST 1e-12 /* least c/c_top in inverses; less is rounding, on a rigid base */
 
 /* |k|^2 of at most CHUNK waves, never 0, and their gains along and across the wave */
 typedef struct {

@@ -1,6 +1,6 @@
 /*
-  Two half-spaces of which the grid is one period: every field is a sum of waves exp(i k.x), and the operator acts on
-  each wave by itself. The transforms of the influence of a unit force (bodyimpl.h) over the infinite surface are its
+  Two periodic half-spaces; the grid is one period. Every field is a sum of waves exp(i k.x), and the operator acts on
+  each wave separately. The transforms of the influence of a unit force (bodyimpl.h) over the infinite surface are its
   symbols:
     u_z from p:  2 pi A/|k|                                 A = pair->normal
     u_t from q:  (2 pi (A + B)/|k|)(I - nu kk'/|k|^2)       B = pair->shear_xx, nu = B/(A + B)
@@ -21,7 +21,7 @@
 
 typedef struct {
   double     normal, tangential; /* the self-influence of a cell, m/Pa */
-  SamLayered layers;             /* whose symbols take the places of 2 pi A and so on; NULL: none */
+  SamLayered layers;             /* its symbols replace 2 pi A and so on; NULL: none */
 } Periodic;
 
 #define Real    double
@@ -38,7 +38,7 @@ typedef struct {
 #include <petsam/private/fourier.h>
 #include <petsam/private/body.h>
 
-/* 1 if the wave number of index k is its own mirror image (the Nyquist wave), else 0. */
+/* Returns 1 if the wave number of index k is its own mirror image (the Nyquist wave), else 0. */
 static inline double IsOwnMirror(PetscInt k, PetscInt n)
 {
   return 2 * k == n ? 1 : 0;
@@ -56,7 +56,8 @@ static double SymbolAt(const SamSymbol *s, SamLayeredSymbol symbol, double k2)
   return value;
 }
 
-/* gain k/|k|^2 at entry m of column b: odd in k, so 0 for waves that are their own mirror images, and for the mean. */
+/* Computes gain k/|k|^2 at entry m of column b: odd in k, so 0 for waves that are their own mirror images, and for the
+   mean. */
 static void CouplingAt(const SamSymbol *s, const SamFourierBlock *block, PetscInt b, PetscInt m, double g[2])
 {
   const double kx = s->step[0] * (double)(block->first + b),
@@ -68,7 +69,7 @@ static void CouplingAt(const SamSymbol *s, const SamFourierBlock *block, PetscIn
   g[1] = k2 > 0 ? gain * ky / k2 * (1 - IsOwnMirror(m, block->hy)) : 0;
 }
 
-/* u_t = -i g p */
+/* Computes u_t = -i g p. */
 static void FilterNormalToTangential(const SamFourierBlock *block, const void *context)
 {
   for (PetscInt b = 0; b < block->columns; b++)
@@ -85,7 +86,7 @@ static void FilterNormalToTangential(const SamFourierBlock *block, const void *c
     }
 }
 
-/* u_z = i g.q */
+/* Computes u_z = i g.q. */
 static void FilterTangentialToNormal(const SamFourierBlock *block, const void *context)
 {
   for (PetscInt b = 0; b < block->columns; b++)
@@ -104,7 +105,7 @@ static void FilterTangentialToNormal(const SamFourierBlock *block, const void *c
 
 /* ---- inverses ---- */
 
-/* gain |k| times the inverse of the matrix (1 + film |k|) I - nu kk'/|k|^2, its cross term multiplied by `cross`. */
+/* Multiplies by gain |k| times the inverse of (1 + film |k|) I - nu kk'/|k|^2, with its cross term times `cross`. */
 SAM_VECTORIZED static void DivideTangential(const SamSymbol *s, SamWaves at)
 {
   const float gain = (float)s->gain, nu = (float)s->nu, least = (float)(s->mean * s->mean), step = (float)s->step[1];
@@ -142,7 +143,7 @@ static SamSymbol SymbolOf(SamElasticity e, double factor, double amplitude, Prod
   const SamPair pair = e->pair;
   SamSymbol     s    = {.nu = pair->shear_xx / (pair->shear + pair->shear_xx), .multiply = multiply};
 
-  for (PetscInt c = 0; c < 2; c++) /* along y as along x where there are no waves */
+  for (PetscInt c = 0; c < 2; c++) /* without waves along y, the step along x is used */
     s.step[c] = 2 * PETSC_PI / grid->width[PetscMin(c, grid->axes - 1)] * grid->length;
   s.mean = 0.5 * PetscMin(s.step[0], s.step[1]);
   s.gain = factor * amplitude * grid->length / ((double)grid->nx * (double)grid->ny);
@@ -251,15 +252,15 @@ static PetscErrorCode GetSelfInfluence(SamElasticity e, PetscReal *normal, Petsc
 
 /* ---- the type ---- */
 
-/* Waves with wave numbers of both signs count twice. */
+/* Returns the multiplicity: waves with wave numbers of both signs count twice. */
 static inline double Multiplicity(PetscInt k, PetscInt n)
 {
   return k == 0 || 2 * k == n ? 1 : 2;
 }
 
 /*
-  Computes sums over the waves of one ky of 1/|k|, kx^2/|k|^3 and ky^2/|k|^3; of layered bodies, of u_z from p, u_x from
-  q_x, and u_y from q_y.
+  Computes sums over the waves of one ky of 1/|k|, kx^2/|k|^3 and ky^2/|k|^3; for layered bodies, of the symbols of u_z
+  from p, u_x from q_x, and u_y from q_y.
 */
 static void SumWaves(SamElasticity e, const SamSymbol *s, PetscInt m, double sums[3])
 {

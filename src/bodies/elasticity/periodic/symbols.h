@@ -1,11 +1,11 @@
 /*
-  Products of one column of spectra with the symbols of periodic.c, in one precision: included with
+  Products of one column of spectra with the symbols of periodic.c, in one precision. The file is included with:
     Real       double or float
     Root(x)    square root
     Name(x)    name of a function of this precision
 */
 
-/* gain/|k|, and 0 for the mean. */
+/* Multiplies by gain/|k|, and by 0 for the mean. */
 SAM_VECTORIZED static void Name(MultiplyNormal)(const SamSymbol *s, SamWaves at)
 {
   const Real gain = (Real)s->gain, step = (Real)s->step[1], kx = (Real)at.kx;
@@ -21,7 +21,7 @@ SAM_VECTORIZED static void Name(MultiplyNormal)(const SamSymbol *s, SamWaves at)
   }
 }
 
-/* (gain/|k|)(I - nu kk'/|k|^2), and 0 for the mean; the cross term times `cross`. */
+/* Multiplies by (gain/|k|)(I - nu kk'/|k|^2), and by 0 for the mean; the cross term is multiplied by `cross`. */
 SAM_VECTORIZED static void Name(MultiplyTangential)(const SamSymbol *s, SamWaves at)
 {
   const Real gain = (Real)s->gain, nu = (Real)s->nu, step = (Real)s->step[1], kx = (Real)at.kx, cross = (Real)at.cross;

@@ -1,7 +1,7 @@
 /*
   Curved bodies whose principal directions are x and y: h = x^2/2Rx + y^2/2Ry, where Rx and Ry are the principal
-  relative radii of curvature. If one of them is infinite: a cylinder. Or two bodies with principal radii of their own,
-  negative where they are concave, those of body 2 turned by an angle about z.
+  relative radii of curvature. If one of them is infinite, the body is a cylinder. Another type has the principal radii
+  of both bodies, negative for concave ones; the directions of body 2 are turned by an angle about z.
   K. L. Johnson, Contact Mechanics (Cambridge University Press, 1985), eqs 4.2 and 4.3.
 */
 #include <petsam/private/gapimpl.h>
@@ -37,7 +37,7 @@ static void Integrals(double ratio, double *K, double *E)
   *E = *K * (1 - square);
 }
 
-#define STRAIGHT 1e-8 /* ratio of two radii of which the larger one counts as infinite */
+#define STRAIGHT 1e-8 /* the larger of two radii counts as infinite below this ratio */
 
 /* Returns the ratio of the axes of Hertz's ellipse for a ratio of radii of at most 1: Johnson, eqs 4.25 and 4.26. */
 static double RatioOfAxes(double radii)
@@ -53,15 +53,15 @@ static double RatioOfAxes(double radii)
     else
       high = middle;
   }
-  return radii > 1 - 1e-7 ? 1 : high; /* there the difference above is only rounding */
+  return radii > 1 - 1e-7 ? 1 : high; /* the difference above is only rounding there */
 }
 
-/* Returns Hertz's contact: Johnson, eqs 4.25 to 4.30. For a cylinder they give its half width, not its length. */
+/* Returns Hertz's contact: Johnson, eqs 4.25 to 4.30. For a cylinder they give the half width, but no length. */
 static SamGapContact Contact_Ellipsoid(const PetscReal radius[], PetscReal half)
 {
   const int     x     = radius[0] >= radius[1] ? 0 : 1; /* along the longer axis */
   const double  radii = radius[1 - x] / radius[x], ratio = radii > STRAIGHT ? RatioOfAxes(radii) : 0, b = ratio * half;
-  double        K, E, pressure; /* over E* */
+  double        K, E, pressure; /* pressure: over E* */
   SamGapContact contact = {{INFINITY, INFINITY}, INFINITY, INFINITY};
 
   if (ratio == 0) {

@@ -10,7 +10,7 @@ static PetscReal Height_Flat(const PetscReal values[], PetscReal x, PetscReal y)
   return 0;
 }
 
-/* Returns the contact of two planes, which has no end. */
+/* Returns the contact of two planes, which is unlimited. */
 static SamGapContact Contact_Flat(const PetscReal values[], PetscReal half)
 {
   (void)values;

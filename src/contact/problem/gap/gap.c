@@ -38,7 +38,7 @@ static PetscErrorCode RegisterAll(void)
 PetscErrorCode SamGapRegister(const char name[], PetscErrorCode (*create)(SamGap))
 {
   PetscFunctionBegin;
-  PetscCall(RegisterAll()); /* first, so that a user's type replaces ours of the same name */
+  PetscCall(RegisterAll()); /* first, so that a user's type replaces a built-in one of the same name */
   PetscCall(PetscFunctionListAdd(&SamGapList, name, create));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -127,7 +127,7 @@ PetscErrorCode SamGapSetFile(SamGap gap, PetscBool rough, const char file[], con
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Refuses a file for a type that reads none: the surface in it would silently not count. */
+/* Rejects a file for a type that reads none, since its surface would be ignored. */
 static PetscErrorCode RefuseFile(SamGap gap)
 {
   const SamOptions from = {gap->comm, gap->prefix};
@@ -171,7 +171,7 @@ static PetscErrorCode SetTypeFromOptions(SamGap gap, PetscBool help)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Lists the options of all types in the help, and leaves a flat gap, which needs no option. */
+/* Lists the options of all types in the help. The gap is flat afterwards, a type without options. */
 static PetscErrorCode PrintTypes(SamGap gap)
 {
   const char **types;
@@ -188,7 +188,7 @@ static PetscErrorCode PrintTypes(SamGap gap)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Registers the options of all types: an option that is given with another type is not misspelled. */
+/* Registers the options of all types: an option that belongs to another type is not reported as misspelled. */
 static PetscErrorCode KnowTypes(MPI_Comm comm, const SamOptions *from)
 {
   const char **types;
@@ -341,9 +341,9 @@ PetscErrorCode SamGapGetParameters(SamGap gap, SamGapType *type, PetscInt *count
 
 /* ---- the contact by a closed-form solution ---- */
 
-#define HALVINGS 200 /* bisections of an interval of half widths; enough for all digits and exponents of doubles */
+#define HALVINGS 200 /* bisections of an interval of half widths; enough for all digits and exponents of a double */
 
-/* Returns the number of a contact that is compared with the prescribed value. */
+/* Returns the number of a contact (load, half width, ...) that is compared with the prescribed value. */
 static PetscReal ValueOf(const SamGapContact *contact, PetscBool force)
 {
   return force ? contact->force : contact->approach;
@@ -378,9 +378,9 @@ PetscErrorCode SamGapEstimateContact(SamGap gap, PetscBool force, PetscReal valu
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-#define POINTS 100 /* of the rule of an integral */
+#define POINTS 100 /* of the quadrature rule */
 
-/* A line contact of half width a: N/E* = a times the integral of sin t h'(a sin t), t from 0 to pi/2. */
+/* Returns N/E* of a line contact of half width a: a times the integral of sin t h'(a sin t), t from 0 to pi/2. */
 static double LineForce(SamGap gap, double a)
 {
   double sum = 0;

@@ -1,27 +1,27 @@
 /*
-  Examines heights from a file for a wrong unit, and for a tilt, which makes a step at the border of a period.
+  Examines heights from a file for a wrong unit and for a tilt. A tilt of a periodic surface makes a step at the border.
 
-  The heights are the separation without the shape. Their tilt along an axis is that of the means of the lines across
-  it, by least squares. Waves may have one, too, but go on over the border; so the smaller of two rises counts: that of
-  the tilt over the period, and that of the means from the first line to the last one.
+  The heights are the separation without the shape. Their tilt along an axis is fitted by least squares to the means of
+  the lines across the axis. Waves may be tilted by this measure, too, but they continue over the border. So the smaller
+  of two rises counts: the rise of the tilt over the period, and the rise of the means from the first line to the last.
 
-  A step is a difference between neighbouring cells beside which, two cells on, the differences are less than a quarter
-  of it. Rough surfaces have a few such differences, too; so steps count where they hold most of the squared slope: of
-  white noise they hold a sixth, of a wall in a smooth surface nearly all. At a step in contact the pressure grows like
-  E* times its height over the cells' width, until its lower side is open, and like the root of that beyond: it has no
-  limit on finer grids.
+  A difference between neighbouring cells is a step if the differences beside it, two cells on, are less than a quarter
+  of it. Rough surfaces have a few such differences, too. So steps count only if they make up most of the squared slope:
+  they are a sixth of it in white noise, and nearly all of it for a wall in a smooth surface. At a step in contact the
+  pressure grows like E* times its height over the cells' width, until its lower side is open, and like the square root
+  of that quotient beyond; it grows without limit on finer grids.
 */
 #include <petsam/private/gapimpl.h>
 #include <petsam/private/rows.h>
 #include <petsam/private/gap.h>
 #include <math.h>
 
-/* Half-space theory is taken to hold up to this rms slope. */
+/* Largest rms slope for which half-space theory is taken to hold */
 #define STEEPEST 0.5
-/* Differences beside a step over it at most; part of the squared slope that steps have at least where they count. */
+/* Largest ratio of the differences beside a step to the step; least part of the squared slope at which steps count */
 #define BESIDE 0.25
 #define MOSTLY 0.5
-/* E* times a step over the cells' width, relative to the largest pressure, from which the step changes the pressure. */
+/* Steps with a larger E* (step)/(cell width), relative to the largest pressure, change the pressure. */
 #define HIGH 0.2
 
 typedef struct {
@@ -38,7 +38,7 @@ static double DifferenceAt(const SamHalo *seen, SamGrid grid, PetscInt axis, Pet
   return at < 1 || at >= n ? 0 : SamHaloAt(seen, 0, i, j) - SamHaloAt(seen, 0, i - !axis, j - axis);
 }
 
-/* Returns that difference if it is a step, else 0. */
+/* Returns the same difference if it is a step, else 0. */
 static double StepAt(const SamHalo *seen, SamGrid grid, PetscInt axis, PetscInt i, PetscInt j)
 {
   const PetscInt along = axis ? 0 : 2, across = axis ? 2 : 0;
@@ -49,7 +49,8 @@ static double StepAt(const SamHalo *seen, SamGrid grid, PetscInt axis, PetscInt 
   return beside < BESIDE * fabs(step) ? step : 0;
 }
 
-/* Adds up squares of the heights, of their gradient, and of that by steps, and the heights of each column and row. */
+/* Adds up the squares of the heights, of their gradient and of its part by steps; sums the heights of columns and
+   rows. */
 static void AddUp(const SamHalo *seen, SamGrid grid, double square[3], double sums[])
 {
   const PetscReal cell[2] = {grid->dx, grid->dy};
@@ -86,7 +87,7 @@ static double Rise(const double mean[], PetscInt n)
   return tilt * step > 0 ? PetscMin(fabs(tilt), fabs(step)) : 0;
 }
 
-/* Measures heights; leaves them with the mean 0. */
+/* Measures heights and subtracts their mean. */
 static PetscErrorCode Measure(SamGrid grid, Vec heights, Heights *found)
 {
   const PetscInt n[2]  = {grid->nx, grid->ny};
@@ -136,7 +137,7 @@ static void Describe(const Heights *h, SamGrid grid, PetscBool periodic, char te
                    h->rise[axis], axis ? "y" : "x", h->rms);
 }
 
-/* Computes the heights without the shape; NULL: none are from a file. */
+/* Computes the heights without the shape; NULL if no heights are from a file. */
 static PetscErrorCode CreateHeights(SamGap gap, SamGrid grid, Vec h, Vec *heights)
 {
   PetscScalar *array;
@@ -153,7 +154,7 @@ static PetscErrorCode CreateHeights(SamGap gap, SamGrid grid, Vec h, Vec *height
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Writes a doubt about the file of the heights. */
+/* Writes a warning about the file of the heights. */
 static void Blame(SamGap gap, const char doubt[], char text[], size_t size)
 {
   const SamFieldFile *file = SamGapIsFromFile(gap, PETSC_FALSE) ? &gap->source : &gap->rough;
@@ -179,7 +180,7 @@ PetscErrorCode SamGapAdvise(SamGap gap, SamGrid grid, Vec h, PetscBool periodic,
 }
 
 /*
-  Finds the highest step beside or in contact, and the cell and axis of the face that has it, as a place on the grid.
+  Finds the highest step in contact or beside it, and its place on the grid: the cell and the axis of its face.
 */
 static PetscErrorCode FindStep(SamGrid grid, Vec heights, Vec pressure, double *most, double *place)
 {

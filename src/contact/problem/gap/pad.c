@@ -1,8 +1,8 @@
 /*
-  Bodies of finite length. A pad, or a roller with rounded ends: along x and along y a straight part of half width c,
-  then a parabola, (s - c)^2/2R at a distance s. A roller of relative radius R and half length l whose profile along its
-  axis y is logarithmic, with amplitude A and the drop d at its ends: x^2/2R - A ln(1 - (1 - exp(-d/A)) (y/l)^2); beyond
-  the ends straight on.
+  Bodies of finite length. A pad, or a roller with rounded ends, has along x and along y a straight part of half width
+  c, then a parabola, (s - c)^2/2R at a distance s. A roller of relative radius R and half length l may
+  have a logarithmic profile along its axis y, with amplitude A and the drop d at its ends:
+  x^2/2R - A ln(1 - (1 - exp(-d/A)) (y/l)^2). Beyond the ends it continues straight.
   The profile: G. Lundberg, Elastische Beruehrung zweier Halbraeume, Forsch. Ing.-Wes. 10 (1939) 201-211, with an end:
   H. Fujiwara, T. Kawase, Logarithmic profiles of rollers in roller bearings, NTN Technical Review 75 (2007) 140-148.
 */
@@ -33,13 +33,13 @@ static PetscReal Height_Pad(const PetscReal v[], PetscReal x, PetscReal y)
 static PetscReal Height_Roller(const PetscReal v[], PetscReal x, PetscReal y)
 {
   const double part = -expm1(-v[3] / v[2]), s = fabs(y) / v[1];
-  /* slope there, times the half length; steeper than 45 degrees, it is as good as a wall */
+  /* slope at the end, times the half length; an end steeper than 45 degrees acts like a wall */
   const double end = PetscMin(2 * v[2] * part * exp(v[3] / v[2]), v[1]);
 
   return 0.5 * x * x / v[0] + (s > 1 ? v[3] + end * (s - 1) : -v[2] * log1p(-part * s * s));
 }
 
-/* Describes a contact without closed-form solution but in plane strain; it has no end along a straight axis. */
+/* Describes a contact that has a closed-form solution in plane strain only; it is unlimited along a straight axis. */
 static SamGapContact Contact_Pad(const PetscReal v[], PetscReal half)
 {
   (void)half;

@@ -17,8 +17,9 @@ static PetscReal Height_Punch(const PetscReal values[], PetscReal x, PetscReal y
 }
 
 /*
-  Sneddon's solution for bodies of revolution (Int. J. Engng Sci. 3 (1965) 47-57): force over E* = 2 a^2 times the
-  integral of sin^2 t h'(a sin t), approach = a times that of h'(a sin t), t from 0 to pi/2; h' = 0 up to the flat edge.
+  Sneddon's solution for bodies of revolution (Int. J. Engng Sci. 3 (1965) 47-57): force/E* is 2 a^2 times the integral
+  of sin^2 t h'(a sin t), and the approach is a times the integral of h'(a sin t), for t from 0 to pi/2; h' = 0 up to
+  the flat edge.
 */
 static SamGapContact Contact_Punch(const PetscReal values[], PetscReal half)
 {
@@ -30,7 +31,7 @@ static SamGapContact Contact_Punch(const PetscReal values[], PetscReal half)
                          a / R * (a * cos(t) - c * rest)};
 }
 
-/* The base is flat: its edge is what must not be steep. */
+/* Returns the steepness of the rounded edge; the base is flat. */
 static PetscReal Steepness_Punch(const PetscReal values[], const PetscReal half[2], PetscInt *parameter)
 {
   *parameter = 1;
