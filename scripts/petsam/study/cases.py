@@ -117,7 +117,7 @@ def _stamp(path):
 
 
 def _shown(value):
-    """Returns a value as it stands in a folder's name: a file without its folder; a unit, which may have a slash, stays."""
+    """Returns a value as it stands in a folder's name: a file without its folder, a unit with its slash."""
     return value if value.lstrip("+-.0123456789eE") in declared.FOLLOWING else os.path.basename(value)
 
 
