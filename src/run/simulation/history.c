@@ -247,6 +247,16 @@ PetscInt SamHistoryGetStart(SamHistory h)
   return h->start;
 }
 
+PetscBool SamHistoryIsFirst(SamHistory h, PetscInt k)
+{
+  return (PetscBool)(k < h->start ? k == 0 : (k - h->start) % h->increments == 0);
+}
+
+PetscBool SamHistoryIsLast(SamHistory h, PetscInt k)
+{
+  return (PetscBool)(k < h->start ? k == h->start - 1 : (k - h->start + 1) % h->increments == 0);
+}
+
 PetscBool SamHistoryGives(SamHistory h, const SamCondition *condition)
 {
   for (PetscInt k = SAM_COMPONENTS; k < h->parts; k++) {

@@ -20,7 +20,10 @@ static PetscErrorCode CheckComponents(SamSimulation s, const SamOptions *from)
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < count; k++) {
-    SamControl control = SamHistoryGetStep(s->history, k);
+    SamControl control;
+
+    if (!SamHistoryIsFirst(s->history, k) && !SamHistoryIsLast(s->history, k)) continue;
+    control = SamHistoryGetStep(s->history, k);
 
     PetscCall(SamProblemCheckControl(s->setup.problem, &control, &wrong, why, sizeof(why)));
     PetscCheck(!why[0], from->comm, SAM_ERR_USER, "-%s%s, or its column in -history: %.6g: %s", SamOptionsPrefix(from),

@@ -50,8 +50,10 @@ static PetscErrorCode BeginAdvice(SamSimulation s, PetscInt first)
   PetscFunctionBegin;
   s->advice.steps = s->needs.steps;
   for (PetscInt k = first; k < s->needs.steps; k++) {
-    SamControl control = SamHistoryGetStep(s->history, k);
+    SamControl control;
 
+    if (!SamHistoryIsFirst(s->history, k) && !SamHistoryIsLast(s->history, k) && k > first) continue;
+    control = SamHistoryGetStep(s->history, k);
     SamAdviceAddLoads(&s->advice, k, &control);
   }
   PetscCall(SamAdviceBegin(&s->advice));
@@ -96,11 +98,12 @@ static PetscErrorCode CheckSteps(SamSimulation s)
 
   PetscFunctionBegin;
   for (PetscInt n = 0; n < 2 * s->needs.steps; n++) {
-    const PetscInt   k       = n % s->needs.steps;
-    const PetscBool  end     = (k + 1 - SamHistoryGetStart(s->history)) % SamHistoryGetIncrements(s->history) == 0;
-    const SamControl control = SamHistoryGetStep(s->history, k);
+    const PetscInt  k    = n % s->needs.steps;
+    const PetscBool last = n < s->needs.steps ? PETSC_TRUE : PETSC_FALSE;
+    SamControl      control;
 
-    if (end != (n < s->needs.steps)) continue;
+    if (!(last ? SamHistoryIsLast(s->history, k) : SamHistoryIsFirst(s->history, k))) continue;
+    control = SamHistoryGetStep(s->history, k);
     PetscCall(SamHistoryGetPlace(s->history, k, where, sizeof(where)));
     PetscCall(SamContactCheckConditions(s->setup.contact, &control, where));
     PetscCall(SamMotionCheck(s->setup.elasticity, s->conditions, &control, where));
@@ -177,8 +180,10 @@ static PetscErrorCode Begin(SamSimulation s, PetscBool writes)
   start->steps  = s->needs.steps;
   start->cyclic = s->plan.cycles > 0 ? PETSC_TRUE : PETSC_FALSE;
   for (PetscInt k = 0; k < s->needs.steps; k++) {
-    SamControl control = SamHistoryGetStep(s->history, k);
+    SamControl control;
 
+    if (!SamHistoryIsLast(s->history, k)) continue;
+    control = SamHistoryGetStep(s->history, k);
     for (PetscInt c = 0; c < SAM_COMPONENTS; c++)
       if (!control.force[c] || control.value[c] != 0) start->loads[c] = PETSC_TRUE;
   }
