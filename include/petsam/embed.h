@@ -19,7 +19,8 @@
       10  a step did not converge        11  no equilibrium: gross slip, or a moment that no pressure balances
       12  contact reached the edge of the grid (the step has a solution nevertheless)
       others  of PETSc
-  petsam_message() then says it in words. No function prints, ends the process, or leaves a contact in a state that
+  petsam_message() then says it in words. A contact that is NULL or has been destroyed is a wrong argument, and the words
+  are those of petsam_message(NULL). No function prints, ends the process, or leaves a contact in a state that
   cannot be used: after an error it is as before, or as after petsam_reject().
 
   MPI and PETSc are started by the first petsam_create() if nobody has, and are then ended when the process ends. A
@@ -457,7 +458,7 @@ int petsam_reset(petsam_contact *c);
 
   Not collective.
 
-  In:     c - the contact; NULL: the message of petsam_create()
+  In:     c - the contact; NULL: the message of petsam_create(), or of a call without a contact that exists
 
   Errors: none; it returns no error code.
 */

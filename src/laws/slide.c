@@ -40,12 +40,15 @@ typedef struct {
 
 PetscErrorCode SamLawSetSurface(SamLaw law, PetscInt body, Vec surface)
 {
-  Vec *const to = &((Slide *)law->data)->surface[body];
+  Vec *to;
 
   PetscFunctionBegin;
+  SamValidHandle(law, SamLaw, 1);
+  SamValidVec(surface, 3);
   PetscCheck(!strcmp(law->type, SAM_LAW_SLIDE), law->grid->comm, PETSC_ERR_ARG_WRONG, "The law %s has no surface",
              law->type);
   PetscCall(SamGridCheckVec(law->grid, 1, surface, "The surface"));
+  to = &((Slide *)law->data)->surface[body];
   if (!*to) PetscCall(SamGridCreateVec(law->grid, 1, to));
   PetscCall(VecCopy(surface, *to));
   law->of_body[body] = PETSC_TRUE;
