@@ -25,14 +25,14 @@ static int Create(void **state)
 /* `object` is NULL, another one, or one that has been destroyed, whose class is 0, as argument n of `function`. */
 #define REFUSES(function, class, n, ...) \
   do { \
-    static int none[64]; \
+    static int destroyed[64]; \
     class object = NULL; \
 \
     sam_says(function(__VA_ARGS__), PETSC_ERR_ARG_NULL, "Null " #class ": argument # " #n); \
     object = (class)(void *)(strcmp(#class, "SamGrid") ? (void *)c.s.grid : (void *)c.problem); \
     sam_says(function(__VA_ARGS__), PETSC_ERR_ARG_WRONG, \
              "Argument # " #n " is not a " #class ", or it has been destroyed"); \
-    object = (class)(void *)none; \
+    object = (class)(void *)destroyed; \
     sam_says(function(__VA_ARGS__), PETSC_ERR_ARG_WRONG, \
              "Argument # " #n " is not a " #class ", or it has been destroyed"); \
   } while (0)
