@@ -19,8 +19,8 @@
       10  a step did not converge        11  no equilibrium: gross slip, or a moment that no pressure balances
       12  contact reached the edge of the grid (the step has a solution nevertheless)
       others  of PETSc
-  petsam_message() then says it in words. A contact that is NULL or has been destroyed is a wrong argument, and the words
-  are those of petsam_message(NULL). No function prints, ends the process, or leaves a contact in a state that
+  petsam_message() then says it in words. A contact that is NULL or has been destroyed is a wrong argument;
+  petsam_message(NULL) then has the words. No function prints, ends the process, or leaves a contact in a state that
   cannot be used: after an error it is as before, or as after petsam_reject().
 
   MPI and PETSc are started by the first petsam_create() if nobody has, and are then ended when the process ends. A

@@ -132,6 +132,7 @@ static void test_problem_and_laws(void **state)
   REFUSES(SamLawSetHardness, SamLaw, 1, object, 1);
   REFUSES(SamLawSetWear, SamLaw, 1, object, wear);
   REFUSES_NULL(2, SamLawSetWear(law, NULL));
+  sam_says(SamLawSetSurface(law, 2, c.s.h), PETSC_ERR_ARG_OUTOFRANGE, "Body 2: expected 0 or 1");
   REFUSES(SamConditionsAdd, SamConditions, 1, object, &condition, NULL);
   REFUSES_NULL(2, SamConditionsAdd(list, NULL, NULL));
   REFUSES_NULL(1, SamControlInitialize(NULL));
@@ -168,6 +169,8 @@ static void test_contact_and_state(void **state)
   sam_call(SamContactGetState(c.contact, &own));
   REFUSES(SamStateSetField, SamState, 1, object, 0, &field);
   REFUSES_NULL(3, SamStateSetField(own, 0, NULL));
+  sam_says(SamStateSetField(own, -1, &field), PETSC_ERR_ARG_OUTOFRANGE, "Field -1: expected one of the");
+  sam_says(SamStateSetField(own, SAM_STATE_MOST, &field), PETSC_ERR_ARG_OUTOFRANGE, "expected one of the");
   REFUSES_NULL(2, SamStateDeclareField(own, NULL, &id));
   REFUSES_NULL(2, SamStateDeclareNumber(own, NULL, &id));
   REFUSES(SamCheckSolution, SamProblem, 1, object, NULL, PETSC_FALSE, PETSC_FALSE, NULL, NULL, NULL);

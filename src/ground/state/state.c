@@ -380,6 +380,8 @@ PetscErrorCode SamStateSetField(SamState s, PetscInt id, Vec *field)
   PetscFunctionBegin;
   SamValidHandle(s, SamState, 1);
   SamValidPointer(field, 3);
+  PetscCheck(id >= 0 && id < s->fields, s->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
+             "Field %" PetscInt_FMT ": expected one of the %" PetscInt_FMT " that have been declared", id, s->fields);
   PetscCall(SamStateRestoreField(s, id, SAM_TRIED, field));
   s->field[id].set = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
