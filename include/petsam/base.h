@@ -27,6 +27,9 @@
     SAM_ERR_USER  a wrong, missing or contradictory value (the program ends with exit code 2)
     SAM_ERR_FILE  a file that cannot be read or written, or lacks what is needed (exit code 3)
   Both are raised on all ranks of the communicator. All other codes are PETSc's.
+  All functions return PETSC_ERR_ARG_NULL if a handle or a pointer is NULL that may not be NULL, and PETSC_ERR_ARG_WRONG
+  if a handle belongs to an object of another class, or to one that has been destroyed; the message has the number of
+  the argument. The comments of the functions say where NULL is allowed, and do not list these two errors.
 */
 #define SAM_ERR_USER PETSC_ERR_USER_INPUT
 #define SAM_ERR_FILE PETSC_ERR_FILE_OPEN
@@ -149,8 +152,8 @@ typedef struct {
   In:     from     - communicator and prefix of the options; an option is read as -<prefix><name>
           heading  - title above the options in the help; NULL: none
           count    - number of rows
-          rows     - the table; SAM_OPTION_ROWS() gives count and table
-  In,out: settings - struct of the owner; on entry the defaults, on return the values
+          rows     - the table; SAM_OPTION_ROWS() gives count and table; may be NULL without rows
+  In,out: settings - struct of the owner; on entry the defaults, on return the values; may be NULL without rows
   Out:    given    - true for each option that was given, one value per row; may be NULL
 
   Errors: SAM_ERR_USER with the name of the option, the given text, and the expected values.

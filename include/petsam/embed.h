@@ -19,8 +19,9 @@
       10  a step did not converge        11  no equilibrium: gross slip, or a moment that no pressure balances
       12  contact reached the edge of the grid (the step has a solution nevertheless)
       others  of PETSc
-  petsam_message() then describes the error. No function prints, ends the process, or leaves a contact in an unusable
-  state: after an error the contact is as before, or as after petsam_reject().
+  petsam_message() then describes the error. A contact that is NULL or has been destroyed is a wrong argument, which
+  petsam_message(NULL) describes. No function prints, ends the process, or leaves a contact in an unusable state: after
+  an error the contact is as before, or as after petsam_reject().
 
   The first petsam_create() starts MPI and PETSc unless they have been started, and they are then finalized when the
   process ends. A program that uses PETSc itself must start it before. Threads: only one thread at a time may be in a
@@ -456,7 +457,7 @@ int petsam_reset(petsam_contact *c);
 
   Not collective.
 
-  In:     c - the contact; NULL: the message of petsam_create()
+  In:     c - the contact; NULL: the message of petsam_create(), or of a call without a contact that exists
 
   Errors: none; it returns no error code.
 */

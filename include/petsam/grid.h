@@ -11,6 +11,7 @@
 */
 typedef struct _n_SamGrid *SamGrid;
 struct _n_SamGrid {
+  int       class_id;        /* identifies grids; the library checks it in its arguments */
   MPI_Comm  comm;            /* the library's own communicator */
   PetscInt  nx, ny;          /* cells */
   PetscReal width[2];        /* full width in x, y (m) */

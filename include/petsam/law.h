@@ -91,7 +91,8 @@ PETSC_EXTERN PetscErrorCode SamLawSetHardness(SamLaw law, PetscReal hardness);
           body    - index of the body: 0 or 1
           surface - part of the separation (m), one component; copied
 
-  Errors: PETSC_ERR_ARG_WRONG for a law of another type; PETSC_ERR_ARG_SIZ for a vector of another size.
+  Errors: PETSC_ERR_ARG_WRONG for a law of another type; PETSC_ERR_ARG_OUTOFRANGE for another body;
+  PETSC_ERR_ARG_SIZ for a vector of another size.
 
   The values are at the points of the body that lie under the cells before any motion.
 */

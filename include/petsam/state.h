@@ -137,7 +137,7 @@ typedef struct {
           id    - handle of the field
   Out:    field - the vector (unit of the declaration); borrowed
 
-  Errors: none of its own.
+  Errors: PETSC_ERR_ARG_OUTOFRANGE for a handle that no declaration has returned.
 
   The vector is zero when it is created, and has old values later.
 */

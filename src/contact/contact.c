@@ -12,7 +12,10 @@ PetscErrorCode SamContactCreate(SamProblem problem, SamContact *contact)
   SamContact c;
 
   PetscFunctionBegin;
+  SamValidHandle(problem, SamProblem, 1);
+  SamValidPointer(contact, 2);
   PetscCall(PetscNew(&c));
+  c->class_id = SamContact_CLASSID;
   PetscCall(SamProblemReference(problem));
   c->problem    = problem;
   c->set        = (SamContactSettings){.coupling        = PETSC_TRUE,
@@ -39,15 +42,19 @@ PetscErrorCode SamContactCreate(SamProblem problem, SamContact *contact)
 
 PetscErrorCode SamContactDestroy(SamContact *contact)
 {
-  SamContact c = *contact;
+  SamContact c;
 
   PetscFunctionBegin;
-  if (!c) PetscFunctionReturn(PETSC_SUCCESS);
+  SamValidPointer(contact, 1);
+  if (!*contact) PetscFunctionReturn(PETSC_SUCCESS);
+  SamValidHandle(*contact, SamContact, 1);
+  c = *contact;
   PetscCall(SamNormalDestroy(&c->normal));
   PetscCall(SamTangentialDestroy(&c->tangential));
   PetscCall(SamStateDestroy(&c->state));
   SamStepCacheDestroy(&c->cache);
   PetscCall(SamProblemDestroy(&c->problem));
+  c->class_id = SAM_CLASSID_NONE;
   PetscCall(PetscFree(*contact));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -57,6 +64,7 @@ PetscErrorCode SamContactDestroy(SamContact *contact)
 PetscErrorCode SamContactSetOptionsPrefix(SamContact c, const char prefix[])
 {
   PetscFunctionBegin;
+  SamValidHandle(c, SamContact, 1);
   PetscCall(SamSetPrefix(c->prefix, prefix));
   PetscCall(SamSolverSetOptionsPrefix(SamNormalAsSolver(c->normal), prefix));
   PetscCall(SamSolverSetOptionsPrefix(SamTangentialAsSolver(c->tangential), prefix));
@@ -121,10 +129,13 @@ static const SamOptionRow rows[] = {
 PetscErrorCode SamContactSetFromOptions(SamContact c)
 {
   static const char *const of_history[] = {"slip_direction", "cycle_memory"};
-  const SamOptions         from         = {c->grid->comm, c->prefix};
-  SamContactSettings       s            = c->set;
+  SamOptions               from;
+  SamContactSettings       s;
 
   PetscFunctionBegin;
+  SamValidHandle(c, SamContact, 1);
+  from = (SamOptions){c->grid->comm, c->prefix};
+  s    = c->set;
   PetscCall(RefuseDeferred(&from));
   PetscCall(SamOptionsRead(&from, "Contact", SAM_OPTION_ROWS(rows), &s, NULL));
   for (int k = 0; k < 2; k++) {
@@ -147,6 +158,8 @@ SamProblem SamContactGetProblem(SamContact c)
 PetscErrorCode SamContactGetState(SamContact c, SamState *state)
 {
   PetscFunctionBegin;
+  SamValidHandle(c, SamContact, 1);
+  SamValidPointer(state, 2);
   PetscCall(SamContactDeclare(c));
   *state = c->state;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -195,6 +208,7 @@ PetscReal SamContactCycleMemory(SamGrid grid)
 PetscErrorCode SamContactReset(SamContact c)
 {
   PetscFunctionBegin;
+  SamValidHandle(c, SamContact, 1);
   PetscCall(SamStateReset(c->state));
   SamStepCacheForget(c->cache);
   PetscCall(SamContactRefresh(c));
@@ -226,6 +240,9 @@ PetscErrorCode SamContactGetField(SamContact c, const char name[], Vec field)
   PetscBool          has = PETSC_FALSE;
 
   PetscFunctionBegin;
+  SamValidHandle(c, SamContact, 1);
+  SamValidPointer(name, 2);
+  SamValidVec(field, 3);
   PetscCall(SamGridCheckVec(c->grid, 1, field, name));
   PetscCall(SamContactHasField(c, name, &has));
   PetscCheck(has, c->grid->comm, PETSC_ERR_ARG_UNKNOWN_TYPE, "Unknown field %s", name);
@@ -264,9 +281,13 @@ PetscErrorCode SamContactOfferCondition(SamContact c, const SamCondition *condit
 
 PetscErrorCode SamContactGetNumber(SamContact c, const char name[], PetscReal *value)
 {
-  const PetscInt id = SamStateFindNumber(c->state, name);
+  PetscInt id;
 
   PetscFunctionBegin;
+  SamValidHandle(c, SamContact, 1);
+  SamValidPointer(name, 2);
+  SamValidPointer(value, 3);
+  id = SamStateFindNumber(c->state, name);
   PetscCheck(id >= 0, c->grid->comm, PETSC_ERR_ARG_UNKNOWN_TYPE, "Unknown number %s", name);
   *value = *SamStateReadNumbers(c->state, id);
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -6,6 +6,7 @@
 #include "step/step.h"
 
 struct _n_SamContact {
+  SamClassId class_id;
   /* what the user set */
   char               prefix[SAM_PREFIX];
   SamContactSettings set;

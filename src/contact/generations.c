@@ -499,9 +499,12 @@ PetscErrorCode SamContactRewind(SamContact c, const PetscReal by[2])
 
 PetscErrorCode SamContactGetSolution(SamContact c, const SamSolution **solution)
 {
-  SamSolution *s = &c->generation[SAM_COMMITTED];
+  SamSolution *s;
 
   PetscFunctionBegin;
+  SamValidHandle(c, SamContact, 1);
+  SamValidPointer(solution, 2);
+  s = &c->generation[SAM_COMMITTED];
   if (!c->has_tried && !s->displacement_t) {
     PetscCall(SamStateRestoreField(c->state, c->displacements[0], SAM_COMMITTED, &s->displacement_z));
     PetscCall(SamStateRestoreField(c->state, c->displacements[1], SAM_COMMITTED, &s->displacement_t));

@@ -160,6 +160,7 @@ PetscErrorCode SamContactSetUp(SamContact c)
   PetscBool     friction;
 
   PetscFunctionBegin;
+  SamValidHandle(c, SamContact, 1);
   PetscCall(SamProblemHasFriction(c->problem, &friction));
   PetscCall(SamProblemGetPressureLimit(c->problem, &limit));
   PetscCall(SamProblemGetLaws(c->problem, &count, &laws));
@@ -431,11 +432,15 @@ static void FindKept(SamContact c, SamControl *control, SamCachedStep *kept)
 
 PetscErrorCode SamContactTry(SamContact c, const SamControl *control, SamStep *step)
 {
-  SamControl    given         = *control;
+  SamControl    given;
   PetscBool     same_pressure = PETSC_FALSE, known_pressure;
   SamCachedStep kept;
 
   PetscFunctionBegin;
+  SamValidHandle(c, SamContact, 1);
+  SamValidPointer(control, 2);
+  SamValidPointer(step, 3);
+  given = *control;
   PetscCall(SamContactReject(c));
   PetscCall(CheckControl(c, &given));
   PetscCall(SamContactSetUp(c));
@@ -464,6 +469,7 @@ PetscErrorCode SamContactCommit(SamContact c)
   SamStepOf of;
 
   PetscFunctionBegin;
+  SamValidHandle(c, SamContact, 1);
   PetscCheck(c->has_tried, c->grid->comm, PETSC_ERR_ORDER, "There is no tried step to commit");
   *SamStateNumbers(c->state, c->steps, SAM_TRIED) += 1;
   PetscCall(GetStepOf(c, &of));
@@ -481,6 +487,7 @@ PetscErrorCode SamContactCommit(SamContact c)
 PetscErrorCode SamContactReject(SamContact c)
 {
   PetscFunctionBegin;
+  SamValidHandle(c, SamContact, 1);
   c->has_tried = PETSC_FALSE;
   PetscCall(SamStateReject(c->state));
   PetscCall(MoveBack(c));

@@ -48,6 +48,7 @@ PetscErrorCode SamProblemSetFriction(SamProblem p, PetscReal friction)
   SamLaw law;
 
   PetscFunctionBegin;
+  SamValidHandle(p, SamProblem, 1);
   PetscCall(SamProblemAddLawOfType(p, SAM_LAW_COULOMB, &law));
   PetscCall(SetNumber(law, friction));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -58,6 +59,8 @@ PetscErrorCode SamProblemSetFrictionField(SamProblem p, Vec friction)
   SamLaw law;
 
   PetscFunctionBegin;
+  SamValidHandle(p, SamProblem, 1);
+  SamValidVec(friction, 2);
   PetscCall(SamProblemAddLawOfType(p, SAM_LAW_COULOMB, &law));
   PetscCall(SetField(law, friction));
   PetscFunctionReturn(PETSC_SUCCESS);

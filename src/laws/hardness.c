@@ -24,13 +24,15 @@ enum { CELLS, AREA, MOST, ENERGY, NUMBERS };
 
 PetscErrorCode SamLawSetHardness(SamLaw law, PetscReal limit)
 {
-  Hardness *const h = (Hardness *)law->data;
+  Hardness *h;
 
   PetscFunctionBegin;
+  SamValidHandle(law, SamLaw, 1);
   PetscCheck(!strcmp(law->type, SAM_LAW_HARDNESS), law->grid->comm, PETSC_ERR_ARG_WRONG, "The law %s has no hardness",
              law->type);
   PetscCheck(limit > 0, law->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "hardness %.6g: expected a number > 0, or inf",
              (double)limit);
+  h = (Hardness *)law->data;
   if (limit != h->limit) law->revision++;
   h->limit = limit;
   PetscFunctionReturn(PETSC_SUCCESS);

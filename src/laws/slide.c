@@ -41,12 +41,17 @@ typedef struct {
 
 PetscErrorCode SamLawSetSurface(SamLaw law, PetscInt body, Vec surface)
 {
-  Vec *const to = &((Slide *)law->data)->surface[body];
+  Vec *to;
 
   PetscFunctionBegin;
+  SamValidHandle(law, SamLaw, 1);
+  SamValidVec(surface, 3);
+  PetscCheck(body == 0 || body == 1, law->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
+             "Body %" PetscInt_FMT ": expected 0 or 1", body);
   PetscCheck(!strcmp(law->type, SAM_LAW_SLIDE), law->grid->comm, PETSC_ERR_ARG_WRONG, "The law %s has no surface",
              law->type);
   PetscCall(SamGridCheckVec(law->grid, 1, surface, "The surface"));
+  to = &((Slide *)law->data)->surface[body];
   if (!*to) PetscCall(SamGridCreateVec(law->grid, 1, to));
   PetscCall(VecCopy(surface, *to));
   law->of_body[body] = PETSC_TRUE;

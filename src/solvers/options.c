@@ -53,10 +53,10 @@ typedef struct {
 
 PetscErrorCode SamSolverSetFromOptions(SamSolver s)
 {
-  const SamOptions   from   = {s->comm, s->prefix};
-  Settings           set    = {s->rtol, s->max_it, s->levels, s->monitor_error, s->error_if_not_converged};
-  const SamOptionRow rows[] = {
-    {"rtol", s->kind->error_help, SAM_OPTION_REAL, offsetof(Settings, rtol), .range = SAM_RANGE_PART},
+  SamOptions   from;
+  Settings     set;
+  SamOptionRow rows[] = {
+    {"rtol", NULL, SAM_OPTION_REAL, offsetof(Settings, rtol), .range = SAM_RANGE_PART},
     {"max_it", "maximum iterations on the finest grid; 0: default of the type", SAM_OPTION_INT,
      .member = offsetof(Settings, max_it)},
     {"levels", "number of nested grids; 0: default of the type", SAM_OPTION_INT, .member = offsetof(Settings, levels)},
@@ -68,6 +68,10 @@ PetscErrorCode SamSolverSetFromOptions(SamSolver s)
   char title[64];
 
   PetscFunctionBegin;
+  SamValidHandle(s, SamSolver, 1);
+  from         = (SamOptions){s->comm, s->prefix};
+  set          = (Settings){s->rtol, s->max_it, s->levels, s->monitor_error, s->error_if_not_converged};
+  rows[0].text = s->kind->error_help;
   PetscCall(PetscSNPrintf(title, sizeof(title), "Solver of the %s problem", s->kind->name));
   PetscCall(SamOptionsHeading(&from, title));
   PetscCall(SetTypeFromOptions(s, &from));

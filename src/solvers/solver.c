@@ -68,6 +68,7 @@ PetscErrorCode SamSolverCreate(SamSolverKind *kind, SamElasticity elasticity, Sa
   PetscCall(SamBaseInitialize());
   PetscCall(RegisterAll(kind));
   PetscCall(PetscNew(&s));
+  s->class_id = kind->class_id;
   PetscCall(SamElasticityReference(elasticity));
   s->kind       = kind;
   s->comm       = SamElasticityGetGrid(elasticity)->comm;
@@ -87,6 +88,7 @@ PetscErrorCode SamSolverDestroy(SamSolver s)
   if (!s) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(DestroyType(s));
   PetscCall(SamElasticityDestroy(&s->elasticity));
+  s->class_id = SAM_CLASSID_NONE;
   PetscCall(PetscFree(s));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -98,6 +100,8 @@ PetscErrorCode SamSolverSetType(SamSolver s, SamSolverType type)
   PetscErrorCode (*create)(SamSolver);
 
   PetscFunctionBegin;
+  SamValidHandle(s, SamSolver, 1);
+  SamValidPointer(type, 2);
   PetscCall(PetscFunctionListFind(s->kind->types, type, &create));
   if (!create) {
     char types[256];
@@ -119,6 +123,7 @@ SamSolverType SamSolverGetType(SamSolver s)
 PetscErrorCode SamSolverSetOptionsPrefix(SamSolver s, const char prefix[])
 {
   PetscFunctionBegin;
+  SamValidHandle(s, SamSolver, 1);
   PetscCall(SamSetPrefix(s->prefix, prefix));
   PetscCall(PetscStrlcat(s->prefix, s->kind->name, sizeof(s->prefix)));
   PetscCall(PetscStrlcat(s->prefix, "_", sizeof(s->prefix)));
@@ -128,6 +133,7 @@ PetscErrorCode SamSolverSetOptionsPrefix(SamSolver s, const char prefix[])
 PetscErrorCode SamSolverSetTolerances(SamSolver s, PetscReal rtol, PetscInt max_it)
 {
   PetscFunctionBegin;
+  SamValidHandle(s, SamSolver, 1);
   PetscCheck(rtol == PETSC_DEFAULT || rtol > 0, s->comm, PETSC_ERR_ARG_OUTOFRANGE, "rtol %.6g: expected a number > 0",
              (double)rtol);
   PetscCheck(max_it == PETSC_DEFAULT || max_it >= 0, s->comm, PETSC_ERR_ARG_OUTOFRANGE,
@@ -183,6 +189,8 @@ void SamSolverSetEffort(SamSolver s, PetscReal rtol, SamEffort effort)
 PetscErrorCode SamSolverMonitorSet(SamSolver s, SamSolverMonitor monitor, void *context)
 {
   PetscFunctionBegin;
+  SamValidHandle(s, SamSolver, 1);
+  SamValidPointer(monitor, 2);
   PetscCheck(s->monitors < SAM_MONITORS, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "At most %d monitors",
              SAM_MONITORS);
   s->monitor[s->monitors]           = monitor;
@@ -256,6 +264,7 @@ PetscErrorCode SamSolverGetStatistics(SamSolver s, PetscReal *error, PetscInt *i
                                       PetscInt *preconditions)
 {
   PetscFunctionBegin;
+  SamValidHandle(s, SamSolver, 1);
   if (error) *error = s->error;
   if (iterations) *iterations = s->iterations;
   if (applies) *applies = s->applies;

@@ -1,5 +1,7 @@
-"""The comments of the C library's functions (scripts/maintain/functions.py): complete, and gaps in them are found."""
+"""The comments of the C library's functions (scripts/maintain/functions.py), and their checks of arguments."""
 
+import itertools
+import re
 import subprocess
 import sys
 
@@ -84,3 +86,78 @@ def test_page_has_prototypes_arguments_and_paragraphs():
     assert "\n- Out: `load`: all six loads, given or found (N, N m)" in page
     assert 'without dash; `gap_` may be omitted: "radius1" for `-gap_radius1`\n' in page
     assert "PETSC_EXTERN" not in page and "PETSC_INTERN" not in page
+
+
+# ---- checks of arguments, include/petsam/private/classes.h ----
+
+HEADERS = "\n".join(path.read_text() for path in sorted((ROOT / "include/petsam").glob("*.h")))
+CLASSES = set(re.findall(r"typedef struct _n_(\w+) +\*\1;", HEADERS))
+POINTERS = set(re.findall(r"typedef const char +\*(\w+);|typedef PetscErrorCode \(\*(\w+)\)", HEADERS))
+FILES = [path.read_text() for path in sorted((ROOT / "src").rglob("*.c"))]
+SOURCES = "\n".join(FILES)
+PUBLIC = [
+    function
+    for path in functions.headers()
+    for function in functions.read_functions(path)[0]
+    if function.type.strip() == "PetscErrorCode" and function.arguments
+]
+
+
+def definition(name):
+    """Parameters and body of a function; those of a macro if a macro defines it."""
+    found = re.search(rf"^PetscErrorCode {name}\(([^;{{}}]*?)\)\n\{{\n(.*?)^\}}", SOURCES, re.M | re.S)
+    if not found:
+        file = next(text for text in FILES if re.search(rf"^[A-Z]+\({name}, ", text, re.M))
+        macro = re.search(rf"^([A-Z]+)\({name}, ", file, re.M)[1]
+        lines = file[file.index(f"#define {macro}(") :].replace(" \\\n", "\n")
+        found = re.search(r"PetscErrorCode Name\((.*?)\)\n  \{\n(.*?)^  \}", lines, re.M | re.S)
+    return functions.split_arguments(found[1]), found[2]
+
+
+def needed_checks(function, names):
+    """The checks that the argument's types and the comment of a function ask for; `names` are those of the source."""
+    texts = {name: text for _, name, text in functions.read_block(function.comment).entries}
+    kinds = {kind for pair in POINTERS for kind in pair}
+    checks = []
+    for k, ((name, declaration), own) in enumerate(zip(function.arguments.items(), names), 1):
+        kind, optional = declaration.split()[0], f"if ({own}) " if "NULL" in texts[name] else ""
+        if function.name.endswith("Destroy"):
+            kind = declaration.split(" *")[0]
+            checks += [f"SamValidPointer({own}, 1);", f"SamValidHandle(*{own}, {kind}, 1);"]
+        elif declaration == f"{kind} {name}" and kind in CLASSES | {"Vec"}:
+            valid = f"SamValidVec({own}" if kind == "Vec" else f"SamValidHandle({own}, {kind}"
+            checks.append(f"{optional}{valid}, {k});")
+        elif not optional and (re.search(r"[*\[]", declaration) or kind in kinds):
+            checks.append(f"SamValidPointer({own}, {k});")
+    return checks
+
+
+def missing_checks(needed, body):
+    """Those of the checks that are not among the first statements."""
+    statements = body.partition("PetscFunctionBegin;\n")[2].split("\n")
+    first = itertools.takewhile(lambda line: re.match(r" *(?:if \(|SamValid|\})", line), statements)
+    found = {line.strip() for line in first}
+    return [check for check in needed if check not in found]
+
+
+def test_classes_and_functions_are_found():
+    assert {"SamContact", "SamGrid", "SamBody", "SamNormal"} <= CLASSES and len(PUBLIC) > 70
+    ids = set(re.findall(r"(\w+)_CLASSID\b", (ROOT / "include/petsam/private/classes.h").read_text()))
+    assert ids >= CLASSES
+
+
+@pytest.mark.parametrize("function", PUBLIC, ids=[function.name for function in PUBLIC])
+def test_function_checks_its_arguments_first(function):
+    names, body = definition(function.name)
+    needed = needed_checks(function, names)
+    assert needed and not missing_checks(needed, body)
+    for check in needed:  # one that is removed is missed
+        without = re.sub(rf"^ *{re.escape(check)}\n", "", body, count=1, flags=re.M)
+        assert missing_checks(needed, without) == [check]
+
+
+def test_objects_have_a_class_from_their_creation_to_their_end():
+    for name in CLASSES - {"SamSolver", "SamNormal", "SamTangential"}:
+        assert re.search(rf"class_id +(?:=.*)?= {name}_CLASSID;", SOURCES), name
+    made = len(re.findall(r"class_id +(?:=.*)?= (?:Sam\w+_CLASSID|kind->class_id);", SOURCES))
+    assert len(re.findall(r"class_id = SAM_CLASSID_NONE;", SOURCES)) == made == len(CLASSES) - 2

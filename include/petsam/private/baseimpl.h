@@ -3,6 +3,7 @@
 #define PETSAM_BASEIMPL_H
 
 #include <petsam/base.h>
+#include <petsam/private/classes.h>
 #include <petscviewer.h>
 #include <petscmat.h>
 #include <petscpc.h>

@@ -8,6 +8,7 @@
 #define SAM_STRESS_ROWS (SAM_PARAMETER_VALUES / 3) /* most rows of a stress over the depth, which is a parameter */
 
 struct _n_SamBody {
+  SamClassId  class_id;
   PetscInt    references, count;
   SamMaterial material[SAM_MATERIALS];     /* the last thickness is infinite */
   PetscInt    rows;                        /* of the stress before any load; 0: there is none */
@@ -23,15 +24,16 @@ struct _n_SamBody {
   (Johnson 1985, Contact Mechanics, sections 3.2 and 3.6). On bodies of several materials this is the limit for small r.
 */
 struct _n_SamPair {
-  PetscInt  references;
-  SamBody   body[2];
-  PetscReal normal;   /* sum (1 - nu)/(2 pi G), 1/Pa */
-  PetscReal shear;    /* sum (1 - nu)/(2 pi G), 1/Pa */
-  PetscReal shear_xx; /* sum nu/(2 pi G), 1/Pa */
-  PetscReal coupling; /* [(1 - 2 nu1)/G1 - (1 - 2 nu2)/G2]/(4 pi), 1/Pa */
-  PetscReal modulus;  /* E* = 1/(pi normal), Pa */
-  PetscReal dundurs;  /* Dundurs' beta = coupling/normal */
-  PetscReal film[2];  /* thickness (m) and shear modulus (Pa) of a film between the surfaces; 0: none */
+  SamClassId class_id;
+  PetscInt   references;
+  SamBody    body[2];
+  PetscReal  normal;   /* sum (1 - nu)/(2 pi G), 1/Pa */
+  PetscReal  shear;    /* sum (1 - nu)/(2 pi G), 1/Pa */
+  PetscReal  shear_xx; /* sum nu/(2 pi G), 1/Pa */
+  PetscReal  coupling; /* [(1 - 2 nu1)/G1 - (1 - 2 nu2)/G2]/(4 pi), 1/Pa */
+  PetscReal  modulus;  /* E* = 1/(pi normal), Pa */
+  PetscReal  dundurs;  /* Dundurs' beta = coupling/normal */
+  PetscReal  film[2];  /* thickness (m) and shear modulus (Pa) of a film between the surfaces; 0: none */
 };
 
 /* SamPairFilm - returns the displacement of the surfaces by unit shear in the film, m/Pa. Not collective. */

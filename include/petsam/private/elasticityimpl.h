@@ -71,9 +71,10 @@ typedef struct {
 
 typedef PetscErrorCode (*SamElasticityCreateFunction)(SamElasticity elasticity);
 struct _n_SamElasticity {
-  PetscInt references;
-  SamGrid  grid;
-  SamPair  pair;
+  SamClassId class_id;
+  PetscInt   references;
+  SamGrid    grid;
+  SamPair    pair;
   /* settings */
   char               type[64], prefix[SAM_PREFIX];
   SamFourierSettings fft;

@@ -26,6 +26,7 @@ typedef struct {
 } SamGapParameter;
 
 struct _n_SamGap {
+  SamClassId class_id;
   /* set by the user */
   MPI_Comm     comm;
   char         type[64], prefix[SAM_PREFIX];

@@ -138,6 +138,7 @@ PETSC_INTERN PetscErrorCode SamLawListWords(SamElasticity elasticity, const char
 PETSC_INTERN PetscInt       SamLawOrder(SamLawType type);
 
 struct _n_SamLaw {
+  SamClassId          class_id;
   PetscInt            references;
   char                type[64];
   SamElasticity       elasticity;

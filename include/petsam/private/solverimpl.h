@@ -78,6 +78,7 @@ typedef enum {
 
 typedef struct _n_SamSolverKind SamSolverKind;
 struct _n_SamSolverKind {
+  SamClassId     class_id;   /* of solvers of this kind */
   const char    *name;       /* "normal": in the names of options and in messages */
   const char    *error_help; /* definition of the relative error */
   SamBalanceKind balance;
@@ -108,6 +109,7 @@ struct _n_SamSolverKind {
 };
 
 struct _n_SamSolver {
+  SamClassId class_id;
   /* fixed at creation */
   SamSolverKind *kind;
   MPI_Comm       comm;

@@ -52,11 +52,14 @@ PetscErrorCode SamBodyCreate(PetscInt count, const SamMaterial materials[], SamB
   char message[256];
 
   PetscFunctionBegin;
+  SamValidPointer(materials, 2);
+  SamValidPointer(body, 3);
   PetscCheck(count > 0 && count <= SAM_MATERIALS, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
              "A body of %" PetscInt_FMT " materials: expected 1 to %d", count, SAM_MATERIALS);
   PetscCall(FindFault(count, materials, "", message, sizeof(message)));
   PetscCheck(!message[0], PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "%s", message);
   PetscCall(PetscNew(body));
+  (*body)->class_id   = SamBody_CLASSID;
   (*body)->references = 1;
   (*body)->count      = count;
   PetscCall(PetscArraycpy((*body)->material, materials, count));
@@ -74,7 +77,13 @@ PetscErrorCode SamBodyReference(SamBody body)
 PetscErrorCode SamBodyDestroy(SamBody *body)
 {
   PetscFunctionBegin;
-  if (*body && --(*body)->references == 0) PetscCall(PetscFree(*body));
+  SamValidPointer(body, 1);
+  if (!*body) PetscFunctionReturn(PETSC_SUCCESS);
+  SamValidHandle(*body, SamBody, 1);
+  if (--(*body)->references == 0) {
+    (*body)->class_id = SAM_CLASSID_NONE;
+    PetscCall(PetscFree(*body));
+  }
   *body = NULL;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

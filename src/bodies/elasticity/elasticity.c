@@ -35,6 +35,8 @@ static PetscErrorCode RegisterAll(void)
 PetscErrorCode SamElasticityRegister(const char name[], PetscErrorCode (*create)(SamElasticity))
 {
   PetscFunctionBegin;
+  SamValidPointer(name, 1);
+  SamValidPointer(create, 2);
   PetscCall(RegisterAll()); /* first, so that a type of the same name replaces a built-in one */
   PetscCall(PetscFunctionListAdd(&SamElasticityList, name, create));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -53,9 +55,13 @@ PetscErrorCode SamElasticityCreate(SamGrid grid, SamPair pair, SamElasticity *el
   SamElasticity e;
 
   PetscFunctionBegin;
+  SamValidHandle(grid, SamGrid, 1);
+  SamValidHandle(pair, SamPair, 2);
+  SamValidPointer(elasticity, 3);
   PetscCall(SamBaseInitialize());
   PetscCall(RegisterAll());
   PetscCall(PetscNew(&e));
+  e->class_id   = SamElasticity_CLASSID;
   e->references = 1;
   PetscCall(SamPairReference(pair));
   e->pair = pair;
@@ -110,6 +116,8 @@ PetscErrorCode SamElasticitySetType(SamElasticity e, SamElasticityType type)
   char                        types[256];
 
   PetscFunctionBegin;
+  SamValidHandle(e, SamElasticity, 1);
+  SamValidPointer(type, 2);
   PetscCall(PetscFunctionListFind(SamElasticityList, type, &create));
   PetscCall(SamElasticityGetTypes(types, sizeof(types)));
   PetscCheck(create, e->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "Elasticity of type %s is not registered: use %s", type,
@@ -127,7 +135,10 @@ SamElasticityType SamElasticityGetType(SamElasticity e)
 
 PetscErrorCode SamElasticitySetOptionsPrefix(SamElasticity e, const char prefix[])
 {
-  return SamSetPrefix(e->prefix, prefix);
+  PetscFunctionBegin;
+  SamValidHandle(e, SamElasticity, 1);
+  PetscCall(SamSetPrefix(e->prefix, prefix));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Reads the options of the other types for the help, which lists these, too. */
@@ -169,10 +180,12 @@ static PetscErrorCode CheckThicknesses(SamElasticity e, const SamOptions *from)
 
 PetscErrorCode SamElasticitySetFromOptions(SamElasticity e)
 {
-  const SamOptions from = {e->grid->comm, e->prefix};
-  char             type[sizeof(e->type)], types[256];
+  SamOptions from;
+  char       type[sizeof(e->type)], types[256];
 
   PetscFunctionBegin;
+  SamValidHandle(e, SamElasticity, 1);
+  from = (SamOptions){e->grid->comm, e->prefix};
   PetscCall(SamElasticityGetTypes(types, sizeof(types)));
   PetscCall(SamOptionsHeading(&from, "Elasticity"));
   PetscCall(PetscStrncpy(type, e->type, sizeof(type)));
@@ -195,6 +208,7 @@ PetscErrorCode SamElasticitySetFromOptions(SamElasticity e)
 PetscErrorCode SamElasticitySetUp(SamElasticity e)
 {
   PetscFunctionBegin;
+  SamValidHandle(e, SamElasticity, 1);
   if (e->is_set_up) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCheck(e->traits.plane == SamGridIsRow(e->grid), e->grid->comm, PETSC_ERR_ARG_SIZ,
              "Elasticity of type %s: a grid of one row is for plane types, and these need one", e->type);
@@ -213,14 +227,19 @@ PetscErrorCode SamElasticityReference(SamElasticity e)
 
 PetscErrorCode SamElasticityDestroy(SamElasticity *elasticity)
 {
-  SamElasticity e = *elasticity;
+  SamElasticity e;
 
   PetscFunctionBegin;
+  SamValidPointer(elasticity, 1);
+  if (!*elasticity) PetscFunctionReturn(PETSC_SUCCESS);
+  SamValidHandle(*elasticity, SamElasticity, 1);
+  e           = *elasticity;
   *elasticity = NULL;
-  if (!e || --e->references > 0) PetscFunctionReturn(PETSC_SUCCESS);
+  if (--e->references > 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Reset(e));
   PetscCall(SamPairDestroy(&e->pair));
   PetscCall(SamGridDestroy(&e->grid));
+  e->class_id = SAM_CLASSID_NONE;
   PetscCall(PetscFree(e));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -255,6 +274,7 @@ SamElasticityTraits SamElasticityGetTraits(SamElasticity e)
 PetscErrorCode SamElasticityGetSelfInfluence(SamElasticity e, PetscReal *normal, PetscReal *tangential)
 {
   PetscFunctionBegin;
+  SamValidHandle(e, SamElasticity, 1);
   PetscCall(SamElasticitySetUp(e));
   SamElasticityWith(e, getselfinfluence);
   if (!e->has_self || e->ops.begin) PetscCall((*e->ops.getselfinfluence)(e, &e->self[0], &e->self[1]));

@@ -29,8 +29,12 @@ PetscErrorCode SamPairCreate(SamBody body1, SamBody body2, SamPair *pair)
   SamPair       p;
 
   PetscFunctionBegin;
+  SamValidHandle(body1, SamBody, 1);
+  SamValidHandle(body2, SamBody, 2);
+  SamValidPointer(pair, 3);
   PetscCheck(!AreRigid(body), PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, BOTH_RIGID, "", "");
   PetscCall(PetscNew(&p));
+  p->class_id   = SamPair_CLASSID;
   p->references = 1;
   for (int b = 0; b < 2; b++) {
     const PetscReal E = body[b]->material[0].young;
@@ -59,12 +63,17 @@ PetscErrorCode SamPairReference(SamPair pair)
 
 PetscErrorCode SamPairDestroy(SamPair *pair)
 {
-  SamPair p = *pair;
+  SamPair p;
 
   PetscFunctionBegin;
+  SamValidPointer(pair, 1);
+  if (!*pair) PetscFunctionReturn(PETSC_SUCCESS);
+  SamValidHandle(*pair, SamPair, 1);
+  p     = *pair;
   *pair = NULL;
-  if (!p || --p->references > 0) PetscFunctionReturn(PETSC_SUCCESS);
+  if (--p->references > 0) PetscFunctionReturn(PETSC_SUCCESS);
   for (int b = 0; b < 2; b++) PetscCall(SamBodyDestroy(&p->body[b]));
+  p->class_id = SAM_CLASSID_NONE;
   PetscCall(PetscFree(p));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -61,6 +61,9 @@ static PetscErrorCode ApplySingle(SamElasticity e, MethodSingle method, SamEvent
   PetscErrorCode Name(SamElasticity e, Vec in, Vec out) \
   { \
     PetscFunctionBegin; \
+    SamValidHandle(e, SamElasticity, 1); \
+    SamValidVec(in, 2); \
+    SamValidVec(out, 3); \
     SamElasticityWith(e, method); \
     PetscCall(Apply(e, e->ops.method, event, film, in, out)); \
     PetscFunctionReturn(PETSC_SUCCESS); \

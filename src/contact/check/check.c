@@ -327,11 +327,16 @@ static PetscErrorCode CheckEquilibrium(SamGrid grid, const SamBalance *given, Ve
 PetscErrorCode SamCheckSolution(SamProblem problem, SamState state, PetscBool coupling, PetscBool u_z_known,
                                 const SamSolution *before, SamSolution *solution, SamCheck *check)
 {
-  SamBalance    given[2];
-  PetscReal     most;
-  const SamGrid grid = SamProblemGetGrid(problem);
+  SamBalance given[2];
+  PetscReal  most;
+  SamGrid    grid;
 
   PetscFunctionBegin;
+  SamValidHandle(problem, SamProblem, 1);
+  if (state) SamValidHandle(state, SamState, 2);
+  SamValidPointer(solution, 6);
+  SamValidPointer(check, 7);
+  grid = SamProblemGetGrid(problem);
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_CHECK], 0, 0, 0, 0));
   PetscCall(PetscMemzero(check, sizeof(*check)));
   PetscCall(ComputeDisplacements(problem, state, coupling, u_z_known, solution, &most));

@@ -34,6 +34,8 @@ PetscErrorCode SamLawRegister(const char name[], PetscErrorCode (*create)(SamLaw
   char    *copy;
 
   PetscFunctionBegin;
+  SamValidPointer(name, 1);
+  SamValidPointer(create, 2);
   k = Find(name);
   PetscCheck(k < SAM_LAWS, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "More than %d types of law: %s", SAM_LAWS, name);
   creators[k] = create;
@@ -70,10 +72,14 @@ PetscErrorCode SamLawCreate(SamElasticity elasticity, SamLawType type, SamLaw *l
   PetscInt k;
 
   PetscFunctionBegin;
+  SamValidHandle(elasticity, SamElasticity, 1);
+  SamValidPointer(type, 2);
+  SamValidPointer(law, 3);
   k = Find(type);
   PetscCheck(k < count, PETSC_COMM_SELF, PETSC_ERR_ARG_UNKNOWN_TYPE, "Unknown law %s%s", type,
              count ? "" : ": no law is registered: call SamInitialize() first");
   PetscCall(PetscNew(&l));
+  l->class_id   = SamLaw_CLASSID;
   l->references = 1;
   PetscCall(SamElasticityReference(elasticity));
   l->elasticity = elasticity;
@@ -102,15 +108,20 @@ PetscErrorCode SamLawReference(SamLaw law)
 
 PetscErrorCode SamLawDestroy(SamLaw *law)
 {
-  SamLaw l = *law;
+  SamLaw l;
 
   PetscFunctionBegin;
+  SamValidPointer(law, 1);
+  if (!*law) PetscFunctionReturn(PETSC_SUCCESS);
+  SamValidHandle(*law, SamLaw, 1);
+  l    = *law;
   *law = NULL;
-  if (!l || --l->references > 0) PetscFunctionReturn(PETSC_SUCCESS);
+  if (--l->references > 0) PetscFunctionReturn(PETSC_SUCCESS);
   if (l->ops.destroy) PetscCall(l->ops.destroy(l));
   PetscCall(PetscFree(l->data));
   PetscCall(SamConditionsDestroy(&l->conditions));
   PetscCall(SamElasticityDestroy(&l->elasticity));
+  l->class_id = SAM_CLASSID_NONE;
   PetscCall(PetscFree(l));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -7,6 +7,7 @@
 #include <petsc/private/petscimpl.h> /* PetscObjectStateGet() */
 
 struct _n_SamProblem {
+  SamClassId    class_id;
   PetscInt      references;
   SamElasticity elasticity;
   SamGrid       grid; /* of the elasticity; borrowed */
@@ -43,7 +44,10 @@ PetscErrorCode SamProblemCreate(SamElasticity elasticity, SamProblem *problem)
   SamProblem p;
 
   PetscFunctionBegin;
+  SamValidHandle(elasticity, SamElasticity, 1);
+  SamValidPointer(problem, 2);
   PetscCall(PetscNew(&p));
+  p->class_id   = SamProblem_CLASSID;
   p->references = 1;
   PetscCall(SamElasticityReference(elasticity));
   p->elasticity = elasticity;
@@ -66,15 +70,20 @@ PetscErrorCode SamProblemReference(SamProblem p)
 
 PetscErrorCode SamProblemDestroy(SamProblem *problem)
 {
-  SamProblem p = *problem;
+  SamProblem p;
 
   PetscFunctionBegin;
+  SamValidPointer(problem, 1);
+  if (!*problem) PetscFunctionReturn(PETSC_SUCCESS);
+  SamValidHandle(*problem, SamProblem, 1);
+  p        = *problem;
   *problem = NULL;
-  if (!p || --p->references > 0) PetscFunctionReturn(PETSC_SUCCESS);
+  if (--p->references > 0) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt k = 0; k < p->laws; k++) PetscCall(SamLawDestroy(&p->law[k]));
   PetscCall(SamConditionsDestroy(&p->conditions));
   PetscCall(VecDestroy(&p->gap));
   PetscCall(SamElasticityDestroy(&p->elasticity));
+  p->class_id = SAM_CLASSID_NONE;
   PetscCall(PetscFree(p));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -104,6 +113,8 @@ PetscReal SamProblemGetRolled(SamProblem p, const SamControl *control, PetscReal
 PetscErrorCode SamProblemSetGap(SamProblem p, Vec h)
 {
   PetscFunctionBegin;
+  SamValidHandle(p, SamProblem, 1);
+  SamValidVec(h, 2);
   PetscCall(SamGridCheckVec(p->grid, 1, h, "The gap"));
   PetscCall(VecCopy(h, p->gap));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -147,11 +158,13 @@ PetscErrorCode SamProblemGetRevision(SamProblem p, PetscObjectState *revision)
 
 PetscErrorCode SamProblemAddLaw(SamProblem p, SamLaw law)
 {
-  PetscInt     k;
-  const SamLaw known = SamProblemGetLaw(p, law->type);
+  PetscInt k;
 
   PetscFunctionBegin;
-  PetscCheck(!known, p->grid->comm, PETSC_ERR_ARG_WRONG, "The problem has a law %s already", law->type);
+  SamValidHandle(p, SamProblem, 1);
+  SamValidHandle(law, SamLaw, 2);
+  PetscCheck(!SamProblemGetLaw(p, law->type), p->grid->comm, PETSC_ERR_ARG_WRONG, "The problem has a law %s already",
+             law->type);
   PetscCall(SamLawReference(law));
   PetscCall(SamLawAddConditions(law, p->conditions));
   for (k = p->laws++; k > 0 && SamLawOrder(p->law[k - 1]->type) > SamLawOrder(law->type); k--)
@@ -166,6 +179,8 @@ PetscErrorCode SamProblemAddLawOfType(SamProblem p, SamLawType type, SamLaw *law
   SamLaw found, made;
 
   PetscFunctionBegin;
+  SamValidHandle(p, SamProblem, 1);
+  SamValidPointer(type, 2);
   found = SamProblemGetLaw(p, type);
   if (!found) {
     PetscCall(SamLawCreate(p->elasticity, type, &made));

@@ -27,10 +27,32 @@ static PetscBool IsAlive(void)
   return !MPI_Finalized(&ended) && !ended && !PetscInitialized(&has) && has;
 }
 
+/* The contacts that have not been destroyed: whether a pointer is one of them can be said without reading from it. */
+static petsam_contact *contacts;
+
+PetscBool SamEmbedExists(const petsam_contact *c)
+{
+  const petsam_contact *one = contacts;
+
+  while (one && one != c) one = one->next;
+  return one ? PETSC_TRUE : PETSC_FALSE;
+}
+
+static void Unlink(const petsam_contact *c)
+{
+  petsam_contact **to = &contacts;
+
+  while (*to && *to != c) to = &(*to)->next;
+  if (*to) *to = c->next;
+}
+
 PetscBool SamEmbedEnter(petsam_contact *c, const char function[], PetscBool given)
 {
-  if (!c) (void)snprintf(created, sizeof(created), "%s: the contact is NULL", function);
-  if (!c) return PETSC_FALSE;
+  if (!SamEmbedExists(c)) {
+    (void)snprintf(created, sizeof(created), "%s: the contact %s", function,
+                   c ? "has been destroyed, or is none" : "is NULL");
+    return PETSC_FALSE;
+  }
   c->message[0] = '\0';
   if (!given) (void)SamEmbedRefuse(c, "%s: a pointer is NULL", function);
   if (given && !IsAlive()) (void)SamEmbedRefuse(c, "MPI or PETSc has been finalized");
@@ -45,7 +67,7 @@ PetscBool SamEmbedEnterTogether(petsam_contact *c, const char function[], PetscB
   const uint64_t sum    = SamEmbedAddText(arguments + given, function);
   uint64_t       both[] = {sum, ~sum};
 
-  if (c && IsAlive()) (void)MPI_Allreduce(MPI_IN_PLACE, both, 2, MPI_UINT64_T, MPI_MAX, c->comm);
+  if (SamEmbedExists(c) && IsAlive()) (void)MPI_Allreduce(MPI_IN_PLACE, both, 2, MPI_UINT64_T, MPI_MAX, c->comm);
   if (both[0] == ~both[1]) return SamEmbedEnter(c, function, given);
   (void)SamEmbedRefuse(c,
                        "%s: the ranks of the contact call different functions, or with different arguments: call the "
@@ -94,7 +116,7 @@ int SamEmbedRefuse(petsam_contact *c, const char format[], ...)
 
 const char *petsam_message(const petsam_contact *c)
 {
-  return c ? c->message : created;
+  return SamEmbedExists(c) ? c->message : created;
 }
 
 /* ---- creation ---- */
@@ -221,7 +243,7 @@ int petsam_advise(petsam_contact *c, int *count)
 
 const char *petsam_warning(const petsam_contact *c, int k)
 {
-  return c && k >= 0 && k < c->warnings ? c->warning[k] : NULL;
+  return SamEmbedExists(c) && k >= 0 && k < c->warnings ? c->warning[k] : NULL;
 }
 
 /* ---- the end ---- */
@@ -239,6 +261,11 @@ static PetscErrorCode Destroy(petsam_contact *c)
 void petsam_destroy(petsam_contact **c)
 {
   if (!c || !*c) return;
+  if (!SamEmbedExists(*c)) {
+    (void)SamEmbedEnter(*c, __func__, PETSC_TRUE); /* leaves a message */
+    *c = NULL;
+    return;
+  }
   if ((*c)->depth) {
     (void)SamEmbedRefuse(*c, "petsam_destroy: call it after the monitor returns");
     return;
@@ -247,6 +274,7 @@ void petsam_destroy(petsam_contact **c)
     (void)SamEmbedLeave(*c, Destroy(*c));
     (void)PetscOptionsDestroy(&(*c)->options);
   }
+  Unlink(*c);
   free(*c);
   *c = NULL;
 }
@@ -277,7 +305,9 @@ int petsam_create(int comm, const char *options, petsam_contact **contact)
     free(c);
     return PETSC_ERR_MEM;
   }
-  c->comm = comm == -1 ? MPI_COMM_SELF : MPI_Comm_f2c((MPI_Fint)comm);
+  c->next  = contacts;
+  contacts = c;
+  c->comm  = comm == -1 ? MPI_COMM_SELF : MPI_Comm_f2c((MPI_Fint)comm);
   if (c->comm == MPI_COMM_NULL || IsNothing(c->comm))
     code = SamEmbedRefuse(c, "petsam_create: comm is no communicator, or this rank does not belong to it");
   else
@@ -295,9 +325,10 @@ int petsam_create(int comm, const char *options, petsam_contact **contact)
 
 int petsam_grid(petsam_contact *c, int n[2], double size[2], double center[2], int *first_row, int *rows)
 {
-  const SamGrid grid = c ? c->setup->grid : NULL;
+  SamGrid grid;
 
   if (!SamEmbedEnter(c, __func__, PETSC_TRUE)) return SAM_EMBED_USAGE;
+  grid = c->setup->grid;
   for (int k = 0; k < 2; k++) {
     if (n) n[k] = (int)(k ? grid->ny : grid->nx);
     if (size) size[k] = (double)grid->width[k];
@@ -348,7 +379,8 @@ static PetscErrorCode SetField(petsam_contact *c, const char name[], const doubl
 
 int petsam_set_field(petsam_contact *c, const char *name, const double *values)
 {
-  return SamEmbedEnterTogether(c, __func__, c && name && (values || !c->setup->grid->cells), SamEmbedAddText(0, name))
+  return SamEmbedEnterTogether(c, __func__, SamEmbedExists(c) && name && (values || !c->setup->grid->cells),
+                               SamEmbedAddText(0, name))
            ? SamEmbedLeave(c, SetField(c, name, values))
            : SAM_EMBED_USAGE;
 }
@@ -430,7 +462,7 @@ const char *petsam_step_name(petsam_contact *c, int k, const char **unit)
   const char *const       units[] = {one->load_unit, one->rigid_unit, one->creep_unit};
   const SamCondition     *condition;
 
-  if (!c || k < 0 || past >= SamConditionsCount(c->conditions)) return NULL;
+  if (!SamEmbedExists(c) || k < 0 || past >= SamConditionsCount(c->conditions)) return NULL;
   if (past < 0) {
     const char *name = SamComponentNameOf(k % SAM_COMPONENTS, (SamWay)(k / SAM_COMPONENTS));
 
@@ -514,7 +546,8 @@ static PetscErrorCode GetField(petsam_contact *c, const char name[], double valu
 
 int petsam_get_field(petsam_contact *c, const char *name, double *values)
 {
-  return SamEmbedEnterTogether(c, __func__, c && name && (values || !c->setup->grid->cells), SamEmbedAddText(0, name))
+  return SamEmbedEnterTogether(c, __func__, SamEmbedExists(c) && name && (values || !c->setup->grid->cells),
+                               SamEmbedAddText(0, name))
            ? SamEmbedLeave(c, GetField(c, name, values))
            : SAM_EMBED_USAGE;
 }
@@ -523,7 +556,7 @@ const char *petsam_field_name(petsam_contact *c, int k)
 {
   SamState state;
 
-  if (!c || SamContactGetState(c->setup->contact, &state)) return NULL;
+  if (!SamEmbedExists(c) || SamContactGetState(c->setup->contact, &state)) return NULL;
   for (PetscInt n = 0; n < SamStateCountResults(state); n++)
     if (SamStateResultOf(state, n)->kind <= SAM_FIELD_STATE && k-- == 0) return SamStateResultOf(state, n)->name;
   return NULL;
@@ -548,7 +581,7 @@ const char *petsam_number_name(petsam_contact *c, int k)
   const char *name;
   SamState    state;
 
-  if (!c || SamContactGetState(c->setup->contact, &state)) return NULL;
+  if (!SamEmbedExists(c) || SamContactGetState(c->setup->contact, &state)) return NULL;
   return FindNumber(state, k, NULL, &name) < 0 ? NULL : name;
 }
 

@@ -16,6 +16,7 @@ enum { SAM_EMBED_USAGE = 2, SAM_EMBED_FILE = 3 };
 typedef struct _n_SamEmbedStress *SamEmbedStress;
 
 struct petsam_contact {
+  petsam_contact *next; /* in the list of all contacts that have not been destroyed */
   MPI_Comm        comm;
   PetscOptions    options; /* the contact's own database */
   SamSimulation   simulation;
@@ -55,14 +56,17 @@ static inline uint64_t SamEmbedAddText(uint64_t sum, const char text[])
 }
 
 /*
+  SamEmbedExists - returns true if a pointer is a contact that has not been destroyed; it may be any pointer.
   SamEmbedEnter - begins a call of a function: options are those of the contact, errors become messages. Returns false,
-  with a message, if not all pointers were `given` to the function, c is NULL, or MPI or PETSc has been finalized.
+  with a message, if not all pointers were `given` to the function, c is no contact that exists, or MPI or PETSc has
+  been finalized.
   SamEmbedEnterTogether - the same for a function in which ranks wait for each other. It also returns false, with a
   message, if not all ranks call it with the same `arguments`, a checksum. Collective.
   SamEmbedLeave - ends the call; returns the exit code for an error.
   SamEmbedRefuse - sets the message, and returns 2; for mistakes that need no PETSc to be found, the same on all ranks.
   The others are not collective.
 */
+PETSC_INTERN PetscBool SamEmbedExists(const petsam_contact *c);
 PETSC_INTERN PetscBool SamEmbedEnter(petsam_contact *c, const char function[], PetscBool given);
 PETSC_INTERN PetscBool SamEmbedEnterTogether(petsam_contact *c, const char function[], PetscBool given,
                                              uint64_t arguments);

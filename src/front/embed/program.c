@@ -166,6 +166,8 @@ static PetscErrorCode Copy(petsam_contact *c, petsam_contact *from)
   PetscBool current;
 
   PetscFunctionBegin;
+  PetscCheck(SamEmbedExists(from), c->comm, SAM_ERR_USER,
+             "petsam_copy: the contact to copy has been destroyed, or is none");
   PetscCall(SamEmbedForget(c));
   PetscCall(CheckCopy(c, from));
   PetscCall(SamContactGetState(from->setup->contact, &state));

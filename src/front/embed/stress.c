@@ -364,7 +364,7 @@ int petsam_fatigue(petsam_contact *c, const char *options, int shape[4])
 
 const char *petsam_stress_name(const petsam_contact *c, int k, int *dimensions)
 {
-  if (!c || !c->stress || k < 0 || k >= c->stress->results) return NULL;
+  if (!SamEmbedExists(c) || !c->stress || k < 0 || k >= c->stress->results) return NULL;
   if (dimensions) *dimensions = c->stress->result[k].dimensions;
   return c->stress->result[k].name;
 }

@@ -24,6 +24,8 @@ PetscBool SamPrintHelp(void)
 PetscErrorCode SamOptionsHeading(const SamOptions *from, const char title[])
 {
   PetscFunctionBegin;
+  SamValidPointer(from, 1);
+  SamValidPointer(title, 2);
   if (SamPrintHelp()) PetscCall((*receive)(receiver, from->comm, title, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

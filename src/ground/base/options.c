@@ -462,6 +462,11 @@ PetscErrorCode SamOptionsRead(const SamOptions *from, const char heading[], Pets
                               void *settings, PetscBool given[])
 {
   PetscFunctionBegin;
+  SamValidPointer(from, 1);
+  if (count > 0) {
+    SamValidPointer(rows, 4);
+    SamValidPointer(settings, 5);
+  }
   if (heading) PetscCall(SamOptionsHeading(from, heading));
   for (PetscInt k = 0; k < count; k++) {
     void     *member = (char *)settings + rows[k].member;
@@ -479,5 +484,11 @@ PetscErrorCode SamOptionsReal(const SamOptions *from, const char name[], const c
 {
   const SamOptionRow row = {name, help, SAM_OPTION_REAL, .range = range, .unit = unit};
 
-  return SamOptionsRead(from, NULL, 1, &row, value, set);
+  PetscFunctionBegin;
+  SamValidPointer(from, 1);
+  SamValidPointer(name, 2);
+  SamValidPointer(help, 3);
+  SamValidPointer(value, 6);
+  PetscCall(SamOptionsRead(from, NULL, 1, &row, value, set));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -21,6 +21,9 @@ PetscErrorCode SamParametersAddReals(SamParameters *p, const char name[], PetscB
   SamParameter *added = NULL;
 
   PetscFunctionBegin;
+  SamValidPointer(p, 1);
+  SamValidPointer(name, 2);
+  SamValidPointer(values, 5);
   PetscCheck(count > 0 && count <= SAM_PARAMETER_VALUES, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
              "Parameter %s: count = %" PetscInt_FMT ": expected 1 to %d values", name, count, SAM_PARAMETER_VALUES);
   PetscCall(Add(p, name, fixed, &added));
@@ -34,6 +37,9 @@ PetscErrorCode SamParametersAddText(SamParameters *p, const char name[], PetscBo
   SamParameter *added = NULL;
 
   PetscFunctionBegin;
+  SamValidPointer(p, 1);
+  SamValidPointer(name, 2);
+  SamValidPointer(text, 4);
   PetscCall(Add(p, name, fixed, &added));
   PetscCall(PetscStrncpy(added->text, text, sizeof(added->text)));
   PetscFunctionReturn(PETSC_SUCCESS);

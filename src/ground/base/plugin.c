@@ -41,6 +41,7 @@ PetscErrorCode SamOptionsPlugins(const SamOptions *from)
   double                    failed = 0;
 
   PetscFunctionBegin;
+  SamValidPointer(from, 1);
   PetscCall(SamOptionsRead(from, "Plugins", 1, &row, files, NULL));
   PetscCall(PetscStrToArray(files, ',', &count, &file));
   for (int k = 0; k < count; k++) {

@@ -51,10 +51,15 @@ PetscErrorCode SamGridCreate(MPI_Comm comm, const PetscInt n[2], const PetscReal
   SamGrid                  g;
 
   PetscFunctionBegin;
+  SamValidPointer(n, 2);
+  SamValidPointer(width, 3);
+  SamValidPointer(center, 4);
+  SamValidPointer(grid, 5);
   PetscCall(SamBaseInitialize());
   PetscCall(FindFault(n, width, center, names, message, sizeof(message)));
   PetscCheck(!message[0], comm, PETSC_ERR_ARG_OUTOFRANGE, "%s", message);
   PetscCall(PetscNew(&g));
+  g->class_id = SamGrid_CLASSID;
   PetscCall(PetscCommDuplicate(comm, &g->comm, NULL));
   PetscCallMPI(MPI_Comm_rank(g->comm, &rank));
   PetscCallMPI(MPI_Comm_size(g->comm, &size));
@@ -169,8 +174,12 @@ PetscErrorCode SamGridReference(SamGrid grid)
 PetscErrorCode SamGridDestroy(SamGrid *grid)
 {
   PetscFunctionBegin;
-  if (*grid && --(*grid)->references == 0) {
+  SamValidPointer(grid, 1);
+  if (!*grid) PetscFunctionReturn(PETSC_SUCCESS);
+  SamValidHandle(*grid, SamGrid, 1);
+  if (--(*grid)->references == 0) {
     PetscCall(PetscCommDestroy(&(*grid)->comm));
+    (*grid)->class_id = SAM_CLASSID_NONE;
     PetscCall(PetscFree(*grid));
   }
   *grid = NULL;
@@ -208,12 +217,16 @@ static PetscErrorCode FreeArray(PetscCtxRt address)
 
 PetscErrorCode SamGridCreateVec(SamGrid grid, PetscInt components, Vec *field)
 {
-  const PetscInt n = components * grid->cells, all = components * grid->nx * grid->ny;
+  PetscInt       n, all;
   PetscContainer owner;
   PetscScalar   *array;
   PetscMPIInt    ranks;
 
   PetscFunctionBegin;
+  SamValidHandle(grid, SamGrid, 1);
+  SamValidPointer(field, 3);
+  n   = components * grid->cells;
+  all = components * grid->nx * grid->ny;
   PetscCall(SamAllocateZeros(sizeof(*array) * (size_t)n, &array));
   PetscCallMPI(MPI_Comm_size(grid->comm, &ranks));
   if (ranks > 1)
@@ -323,6 +336,9 @@ PetscErrorCode SamGridNorm(SamGrid grid, Vec field, NormType type, PetscReal *no
   PetscInt      n;
 
   PetscFunctionBegin;
+  SamValidHandle(grid, SamGrid, 1);
+  SamValidVec(field, 2);
+  SamValidPointer(norm, 4);
   PetscCheck(type == NORM_1 || type == NORM_2, grid->comm, PETSC_ERR_SUP, "Only NORM_1 and NORM_2");
   PetscCall(VecGetLocalSize(field, &n));
   PetscCall(VecGetArrayRead(field, &x));

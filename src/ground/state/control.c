@@ -51,6 +51,7 @@ void SamControlSetWay(SamControl *control, PetscInt k, SamWay way)
 /* ---- lists of conditions ---- */
 
 struct _n_SamConditions {
+  SamClassId    class_id;
   PetscInt      references, count;
   SamCondition *condition[SAM_CONDITIONS]; /* pointers, so that conditions keep their addresses */
 };
@@ -59,6 +60,7 @@ PetscErrorCode SamConditionsCreate(SamConditions *conditions)
 {
   PetscFunctionBegin;
   PetscCall(PetscNew(conditions));
+  (*conditions)->class_id   = SamConditions_CLASSID;
   (*conditions)->references = 1;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -86,16 +88,20 @@ PetscErrorCode SamConditionsDestroy(SamConditions *conditions)
     PetscCall(PetscFree(c->group));
     PetscCall(PetscFree(list->condition[k]));
   }
+  list->class_id = SAM_CLASSID_NONE;
   PetscCall(PetscFree(list));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamConditionsAdd(SamConditions list, const SamCondition *condition, const SamCondition **own)
 {
-  const SamCondition *found = SamConditionsFind(list, condition->name);
+  const SamCondition *found;
   SamCondition       *c;
 
   PetscFunctionBegin;
+  SamValidHandle(list, SamConditions, 1);
+  SamValidPointer(condition, 2);
+  found = SamConditionsFind(list, condition->name);
   if (!found) {
     PetscCheck(list->count < SAM_CONDITIONS, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
                "The condition %s is one too many: a step has at most %d", condition->name, SAM_CONDITIONS);
@@ -135,6 +141,7 @@ const SamCondition *SamConditionsFind(SamConditions list, const char name[])
 PetscErrorCode SamControlInitialize(SamControl *control)
 {
   PetscFunctionBegin;
+  SamValidPointer(control, 1);
   PetscCall(PetscMemzero(control, sizeof(*control)));
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++) control->force[k] = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -196,12 +203,16 @@ PetscInt SamControlFind(SamConditions conditions, const char name[], SamWay *way
 
 PetscErrorCode SamControlSet(SamControl *control, SamConditions conditions, const char name[], PetscReal value)
 {
-  const char    *names[SAM_WAYS * SAM_COMPONENTS + SAM_CONDITIONS + 1], *nearest;
-  size_t         count = 0;
-  SamWay         way;
-  const PetscInt part = SamControlFind(conditions, name, &way);
+  const char *names[SAM_WAYS * SAM_COMPONENTS + SAM_CONDITIONS + 1], *nearest;
+  size_t      count = 0;
+  SamWay      way;
+  PetscInt    part;
 
   PetscFunctionBegin;
+  SamValidPointer(control, 1);
+  if (conditions) SamValidHandle(conditions, SamConditions, 2);
+  SamValidPointer(name, 3);
+  part = SamControlFind(conditions, name, &way);
   if (part < 0) {
     while ((names[count] = SamControlName(conditions, (PetscInt)count))) count++;
     nearest = SamNearestName(name, count, names);

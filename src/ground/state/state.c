@@ -21,6 +21,7 @@ typedef struct {
 } Number;
 
 struct _n_SamState {
+  SamClassId     class_id;
   SamGrid        grid;
   PetscInt       fields, numbers, values, results;
   Field          field[SAM_STATE_MOST];
@@ -42,6 +43,7 @@ PetscErrorCode SamStateCreate(SamGrid grid, SamState *state)
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&s));
+  s->class_id = SamState_CLASSID;
   PetscCall(SamGridReference(grid));
   s->grid = grid;
   for (PetscInt g = 0; g < SAM_GENERATIONS; g++) PetscCall(PetscCalloc1(SAM_STATE_NUMBERS, &s->generation[g]));
@@ -90,6 +92,7 @@ PetscErrorCode SamStateDestroy(SamState *state)
   for (PetscInt g = 0; g < SAM_GENERATIONS; g++) PetscCall(PetscFree(s->generation[g]));
   PetscCall(SamGridDestroy(&s->grid));
   PetscCall(PetscFree(s->z));
+  s->class_id = SAM_CLASSID_NONE;
   PetscCall(PetscFree(s));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -155,6 +158,9 @@ static PetscErrorCode OfferField(SamState s, PetscInt id)
 PetscErrorCode SamStateDeclareField(SamState s, const SamStateField *field, PetscInt *id)
 {
   PetscFunctionBegin;
+  SamValidHandle(s, SamState, 1);
+  SamValidPointer(field, 2);
+  SamValidPointer(id, 3);
   *id = SamStateFindField(s, field->name);
   if (*id >= 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCheck(s->fields < SAM_STATE_MOST, s->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "More than %d remembered fields: %s",
@@ -185,6 +191,9 @@ PetscErrorCode SamStateDeclareNumber(SamState s, const SamStateNumber *number, P
   Number *n;
 
   PetscFunctionBegin;
+  SamValidHandle(s, SamState, 1);
+  SamValidPointer(number, 2);
+  SamValidPointer(id, 3);
   *id = SamStateFindNumber(s, number->name);
   if (*id >= 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCheck(s->values + number->count <= SAM_STATE_NUMBERS && s->numbers < SAM_STATE_DECLARED, s->grid->comm,
@@ -369,6 +378,10 @@ PetscErrorCode SamStateRestoreField(SamState s, PetscInt id, SamGeneration g, Ve
 PetscErrorCode SamStateSetField(SamState s, PetscInt id, Vec *field)
 {
   PetscFunctionBegin;
+  SamValidHandle(s, SamState, 1);
+  SamValidPointer(field, 3);
+  PetscCheck(id >= 0 && id < s->fields, s->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
+             "Field %" PetscInt_FMT ": expected one of the %" PetscInt_FMT " that have been declared", id, s->fields);
   PetscCall(SamStateRestoreField(s, id, SAM_TRIED, field));
   s->field[id].set = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);

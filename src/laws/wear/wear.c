@@ -22,14 +22,17 @@ PetscBool SamLawIsWear(SamLaw law)
 
 PetscErrorCode SamLawSetWear(SamLaw law, const PetscReal coefficient[2])
 {
-  SamWear *const w = (SamWear *)law->data;
+  SamWear *w;
 
   PetscFunctionBegin;
+  SamValidHandle(law, SamLaw, 1);
+  SamValidPointer(coefficient, 2);
   PetscCheck(SamLawIsWear(law), law->grid->comm, PETSC_ERR_ARG_WRONG, "The law %s has no coefficients of wear",
              law->type);
   for (int body = 0; body < 2; body++)
     PetscCheck(coefficient[body] >= 0 && isfinite(coefficient[body]), law->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
                "wear coefficient %.6g of body %d: expected a finite number >= 0", (double)coefficient[body], body + 1);
+  w = (SamWear *)law->data;
   PetscCall(PetscArraycpy(w->coefficient, coefficient, 2));
   for (int body = 0; body < 2; body++) law->of_body[body] = coefficient[body] > 0;
   law->revision++;

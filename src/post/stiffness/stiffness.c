@@ -173,6 +173,8 @@ PetscErrorCode SamStiffnessCompute(SamContact contact, SamStiffnessDirection dir
   Systems s = {.error = 0};
 
   PetscFunctionBegin;
+  SamValidHandle(contact, SamContact, 1);
+  SamValidPointer(stiffness, 3);
   PetscCall(SamMotionRefuse(SamContactGetMotion(contact), SAM_MOTION_STIFFNESS, PETSC_COMM_SELF, "-", "stiffness"));
   PetscCall(RefuseYield(contact));
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_STIFFNESS], 0, 0, 0, 0));

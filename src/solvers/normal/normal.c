@@ -278,6 +278,7 @@ static PetscErrorCode Solve(SamSolver s, SamLevel *level, PetscBool guess)
 }
 
 static SamSolverKind kind = {
+  .class_id           = SamNormal_CLASSID,
   .name               = "normal",
   .error_help         = "maximum gap error relative to the displacement",
   .balance            = SAM_BALANCE_NORMAL,
@@ -299,7 +300,11 @@ static SamSolverKind kind = {
 
 PetscErrorCode SamNormalRegister(const char name[], PetscErrorCode (*create)(SamSolver))
 {
-  return SamSolverRegister(&kind, name, create);
+  PetscFunctionBegin;
+  SamValidPointer(name, 1);
+  SamValidPointer(create, 2);
+  PetscCall(SamSolverRegister(&kind, name, create));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamNormalCreate(SamElasticity elasticity, SamNormal *normal)
@@ -307,6 +312,8 @@ PetscErrorCode SamNormalCreate(SamElasticity elasticity, SamNormal *normal)
   SamSolver solver;
 
   PetscFunctionBegin;
+  SamValidHandle(elasticity, SamElasticity, 1);
+  SamValidPointer(normal, 2);
   PetscCall(SamSolverCreate(&kind, elasticity, &solver));
   *normal = (SamNormal)solver;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -315,6 +322,9 @@ PetscErrorCode SamNormalCreate(SamElasticity elasticity, SamNormal *normal)
 PetscErrorCode SamNormalDestroy(SamNormal *normal)
 {
   PetscFunctionBegin;
+  SamValidPointer(normal, 1);
+  if (!*normal) PetscFunctionReturn(PETSC_SUCCESS);
+  SamValidHandle(*normal, SamNormal, 1);
   PetscCall(SamSolverDestroy(SamNormalAsSolver(*normal)));
   *normal = NULL;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -354,7 +364,13 @@ static PetscErrorCode SolveProblem(SamNormal normal, Vec h, Vec diagonal, SamBal
 
 PetscErrorCode SamNormalSolve(SamNormal normal, Vec h, SamBalance *balance, PetscBool guess, Vec p)
 {
-  return SolveProblem(normal, h, NULL, balance, guess, p, NULL);
+  PetscFunctionBegin;
+  SamValidHandle(normal, SamNormal, 1);
+  SamValidVec(h, 2);
+  SamValidPointer(balance, 3);
+  SamValidVec(p, 5);
+  PetscCall(SolveProblem(normal, h, NULL, balance, guess, p, NULL));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamNormalSolveKeeping(SamNormal normal, Vec h, SamBalance *balance, PetscBool guess, Vec p,

@@ -289,6 +289,7 @@ static PetscErrorCode Solve(SamSolver s, SamLevel *level, PetscBool guess)
 }
 
 static SamSolverKind kind = {
+  .class_id           = SamTangential_CLASSID,
   .name               = "tangential",
   .error_help         = "residual of the projection equation, relative to the shear",
   .balance            = SAM_BALANCE_TANGENTIAL,
@@ -312,7 +313,11 @@ static SamSolverKind kind = {
 
 PetscErrorCode SamTangentialRegister(const char name[], PetscErrorCode (*create)(SamSolver))
 {
-  return SamSolverRegister(&kind, name, create);
+  PetscFunctionBegin;
+  SamValidPointer(name, 1);
+  SamValidPointer(create, 2);
+  PetscCall(SamSolverRegister(&kind, name, create));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamTangentialCreate(SamElasticity elasticity, SamTangential *tangential)
@@ -320,6 +325,8 @@ PetscErrorCode SamTangentialCreate(SamElasticity elasticity, SamTangential *tang
   SamSolver solver;
 
   PetscFunctionBegin;
+  SamValidHandle(elasticity, SamElasticity, 1);
+  SamValidPointer(tangential, 2);
   PetscCall(SamSolverCreate(&kind, elasticity, &solver));
   if (SamElasticityGetTraits(elasticity).upwind) PetscCall(SamSolverSetType(solver, SAM_TANGENTIAL_ROLLING));
   *tangential = (SamTangential)solver;
@@ -329,6 +336,9 @@ PetscErrorCode SamTangentialCreate(SamElasticity elasticity, SamTangential *tang
 PetscErrorCode SamTangentialDestroy(SamTangential *tangential)
 {
   PetscFunctionBegin;
+  SamValidPointer(tangential, 1);
+  if (!*tangential) PetscFunctionReturn(PETSC_SUCCESS);
+  SamValidHandle(*tangential, SamTangential, 1);
   PetscCall(SamSolverDestroy(SamTangentialAsSolver(*tangential)));
   *tangential = NULL;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -348,7 +358,14 @@ PetscErrorCode SamTangentialSolveKeeping(SamTangential tangential, Vec bound, Ve
 PetscErrorCode SamTangentialSolve(SamTangential tangential, Vec bound, Vec offset, SamBalance *balance, PetscBool guess,
                                   Vec q)
 {
-  return SamTangentialSolveKeeping(tangential, bound, offset, balance, guess, q, NULL);
+  PetscFunctionBegin;
+  SamValidHandle(tangential, SamTangential, 1);
+  SamValidVec(bound, 2);
+  if (offset) SamValidVec(offset, 3);
+  SamValidPointer(balance, 4);
+  SamValidVec(q, 6);
+  PetscCall(SamTangentialSolveKeeping(tangential, bound, offset, balance, guess, q, NULL));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscReal SamTangentialGetLimit(SamTangential tangential)

@@ -38,6 +38,8 @@ static PetscErrorCode RegisterAll(void)
 PetscErrorCode SamGapRegister(const char name[], PetscErrorCode (*create)(SamGap))
 {
   PetscFunctionBegin;
+  SamValidPointer(name, 1);
+  SamValidPointer(create, 2);
   PetscCall(RegisterAll()); /* first, so that a user's type replaces a built-in one of the same name */
   PetscCall(PetscFunctionListAdd(&SamGapList, name, create));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -49,10 +51,12 @@ PetscErrorCode SamGapCreate(MPI_Comm comm, SamGap *gap)
   SamGap             g;
 
   PetscFunctionBegin;
+  SamValidPointer(gap, 2);
   PetscCall(SamBaseInitialize());
   PetscCall(RegisterAll());
   PetscCall(PetscNew(&g));
-  g->comm   = comm;
+  g->class_id = SamGap_CLASSID;
+  g->comm     = comm;
   g->source = g->rough    = source;
   g->rough.file_option    = "gap_rough_file";
   g->rough.dataset_option = "gap_rough_dataset";
@@ -63,6 +67,7 @@ PetscErrorCode SamGapCreate(MPI_Comm comm, SamGap *gap)
 PetscErrorCode SamGapSetOptionsPrefix(SamGap gap, const char prefix[])
 {
   PetscFunctionBegin;
+  SamValidHandle(gap, SamGap, 1);
   PetscCall(SamSetPrefix(gap->prefix, prefix));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -70,6 +75,10 @@ PetscErrorCode SamGapSetOptionsPrefix(SamGap gap, const char prefix[])
 PetscErrorCode SamGapDestroy(SamGap *gap)
 {
   PetscFunctionBegin;
+  SamValidPointer(gap, 1);
+  if (!*gap) PetscFunctionReturn(PETSC_SUCCESS);
+  SamValidHandle(*gap, SamGap, 1);
+  (*gap)->class_id = SAM_CLASSID_NONE;
   PetscCall(PetscFree(*gap));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -80,6 +89,8 @@ PetscErrorCode SamGapSetType(SamGap gap, SamGapType type)
   char list[512];
 
   PetscFunctionBegin;
+  SamValidHandle(gap, SamGap, 1);
+  SamValidPointer(type, 2);
   PetscCall(PetscFunctionListFind(SamGapList, type, &create));
   if (!create) {
     PetscCall(SamTypesList(SamGapList, list, sizeof(list)));
@@ -105,6 +116,8 @@ PetscErrorCode SamGapSetParameter(SamGap gap, const char name[], PetscReal value
   PetscInt k = 0;
 
   PetscFunctionBegin;
+  SamValidHandle(gap, SamGap, 1);
+  SamValidPointer(name, 2);
   while (k < gap->ops.count && strcmp(gap->names[k], name) &&
          (strncmp(gap->names[k], "gap_", 4) || strcmp(gap->names[k] + 4, name)))
     k++;
@@ -119,9 +132,11 @@ PetscErrorCode SamGapSetParameter(SamGap gap, const char name[], PetscReal value
 
 PetscErrorCode SamGapSetFile(SamGap gap, PetscBool rough, const char file[], const char dataset[])
 {
-  SamFieldFile *source = rough ? &gap->rough : &gap->source;
+  SamFieldFile *source;
 
   PetscFunctionBegin;
+  SamValidHandle(gap, SamGap, 1);
+  source = rough ? &gap->rough : &gap->source;
   PetscCall(PetscStrncpy(source->file, file ? file : "", sizeof(source->file)));
   PetscCall(PetscStrncpy(source->dataset, dataset ? dataset : source->default_dataset, sizeof(source->dataset)));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -214,12 +229,14 @@ static PetscErrorCode KnowTypes(MPI_Comm comm, const SamOptions *from)
 
 PetscErrorCode SamGapSetFromOptions(SamGap gap)
 {
-  const SamOptions from = {gap->comm, gap->prefix};
-  char             type[64], list[512], text[600];
-  PetscBool        set, file;
-  const PetscBool  help = SamPrintHelp();
+  SamOptions      from;
+  char            type[64], list[512], text[600];
+  PetscBool       set, file;
+  const PetscBool help = SamPrintHelp();
 
   PetscFunctionBegin;
+  SamValidHandle(gap, SamGap, 1);
+  from = (SamOptions){gap->comm, gap->prefix};
   PetscCall(SamOptionsHeading(&from, "Gap"));
   PetscCall(SamTypesList(SamGapList, list, sizeof(list)));
   PetscCall(PetscSNPrintf(text, sizeof(text), "%s: required", list));
@@ -306,6 +323,9 @@ PetscErrorCode SamGapFill(SamGap gap, SamGrid grid, Vec h)
   PetscBool finite = PETSC_FALSE;
 
   PetscFunctionBegin;
+  SamValidHandle(gap, SamGap, 1);
+  SamValidHandle(grid, SamGrid, 2);
+  SamValidVec(h, 3);
   PetscCheck(gap->type[0], gap->comm, PETSC_ERR_ORDER, "Call SamGapSetType() or SamGapSetFromOptions() first");
   for (PetscInt k = 0; k < gap->ops.count; k++)
     PetscCheck(!isnan(gap->values[k]), gap->comm, PETSC_ERR_ORDER, "Call SamGapSetParameter() for %s first",
