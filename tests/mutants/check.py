@@ -14,7 +14,8 @@ An entry of a list, entries being separated by empty lines, # beginning a commen
     - check->cone <= limits->cone            the text to be changed, which must stand there once
     + check->cone >= 0                       what it becomes (lines of several - and + are one text)
     ! test_verdict                           the tests: a unit test program, `test_x@2` on that many ranks, or
-                                             `test_x.py::test_name` of tests/program
+                                             `test_x.py::test_name` of tests/program; of the table of refusals
+                                             `test_refusals.py::test_name~WORD`: rows that contain WORD
 """
 
 import argparse
@@ -91,9 +92,12 @@ def misfits(mutants):
             found.append(f"{mutant.where} {mutant.file}: the text stands there {count} times")
         for test in mutant.tests:
             file, _, name = test.partition("::")
+            name, _, word = name.partition("~")
             path = ROOT / "tests" / (f"program/{file}" if ".py" in test else f"unit/{file.split('@')[0]}.c")
             if not path.exists() or (name and f"def {name.split('[')[0]}(" not in path.read_text()):
                 found.append(f"{mutant.where}: there is no {test}")
+            if word and word not in (ROOT / "tests/program/refusals.txt").read_text():
+                found.append(f"{mutant.where}: no refusal has {word}")
     return found
 
 
@@ -141,7 +145,7 @@ def command_of(tree, test):
             "-x",
             "-p",
             "no:cacheprovider",
-            str(tree / "tests" / "program" / test),
+            str(tree / "tests" / "program" / test.partition("~")[0]),
         ]
     name, _, ranks = test.partition("@")
     program = [str(tree / "build" / "tests" / name)]
@@ -152,6 +156,7 @@ def passes(tree, test):
     """Whether a test does not notice."""
     build = str(tree / "build")
     variables = dict(environment(), PETSAM_BUILD=build, OMPI_MCA_ess_singleton_isolated="1")
+    variables["PETSAM_ROWS"] = test.partition("~")[2]
     variables["OMPI_MCA_orte_tmpdir_base"] = build  # else such programs share a folder, which the first to end removes
     try:
         done = subprocess.run(

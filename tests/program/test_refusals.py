@@ -93,7 +93,8 @@ def read(path):
     return rows
 
 
-ROWS = read(TABLE)
+# tests/mutants needs only the rows that may notice a changed line
+ROWS = [row for row in read(TABLE) if os.environ.get("PETSAM_ROWS", "") in row.id]
 TOOLS = {row.values[0].program for row in ROWS} - {"petsam", "petsam-stress"}
 
 
