@@ -37,6 +37,11 @@ def short(text):
     return one_line(text, 80)
 
 
+def counted(count, noun):
+    """A number with its noun, such as 1 case, 2 cases."""
+    return f"{count} {noun}" + "s" * (count != 1)
+
+
 def there_are(tried, names, there="there are"):
     """The end of a message about a name that does not exist: which one is meant, if one is near, and all that do."""
     names, tried = list(names), str(tried)
