@@ -395,8 +395,8 @@ void SamAdviceStick(SamAdvice *a, PetscReal least)
   if (!(across < least) || !(a->extent.across > 2 * STUCK)) return;
   SamAdviceGrids(a, least / PetscMax(across, 1), better);
   SamAdviceSay(a, better[0] ? "" : "grid_n",
-               "the stick zone is %.2g cells across in the last step: its area may be wrong by more than 5 %%%s",
-               across, better);
+               "the stick zone is %.2g cell%s across in the last step: its area may be wrong by more than 5 %%%s",
+               across, fabs(across - 1) < 0.05 ? "" : "s", better);
 }
 
 static void Energy(SamAdvice *a)
@@ -405,7 +405,7 @@ static void Energy(SamAdvice *a)
   const PetscBool   known = !isnan(slip->closed);
   const char *const unit  = SamUnitOn(a->setup->grid, "J");
   double            most, error, width, times;
-  char              better[SAM_ADVICE_GRIDS], wrong[96] = "is not resolved";
+  char              better[SAM_ADVICE_GRIDS], wrong[96] = "is not resolved", zones[64] = "no cell slips";
 
   EndBranch(slip);
   EndStuck(slip);
@@ -421,9 +421,10 @@ static void Energy(SamAdvice *a)
     (void)snprintf(wrong, sizeof(wrong), "is %.3g %s in closed form", slip->closed, unit);
   else if (error < ROUGH)
     (void)snprintf(wrong, sizeof(wrong), "may be wrong by %.0f %%", 100 * error);
-  SamAdviceSay(a, better[0] ? "" : "grid_n",
-               "slip zones are %.2g times as wide as a cell: the dissipated energy, %.3g %s, %s%s",
-               (double)slip->narrow[0], slip->energy, unit, wrong, better);
+  if (slip->narrow[0] > 0)
+    (void)snprintf(zones, sizeof(zones), "slip zones are %.2g times as wide as a cell", (double)slip->narrow[0]);
+  SamAdviceSay(a, better[0] ? "" : "grid_n", "%s: the dissipated energy, %.3g %s, %s%s", zones,
+               PetscMax(slip->energy, 0), unit, wrong, better); /* rounding may be below 0 */
 }
 
 /* Advises on the maximum shear of the last step, at the end of a zone that is narrow beside the widest. */
