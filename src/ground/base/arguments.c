@@ -267,7 +267,7 @@ static int TakeTopic(int argc, char **argv, char topic[], size_t size)
 {
   int count = 0;
 
-  if (argc == 1 && IsOption(argv[0]) && !IsNamed(argv[0] + strspn(argv[0], "-") - 1, "-help -h -version")) {
+  if (argc == 1 && IsOption(argv[0]) && !IsNamed(argv[0] + strspn(argv[0], "-") - 1, "-version -help -h")) {
     (void)snprintf(topic, size, "%s", argv[0] + strspn(argv[0], "-"));
     return 1;
   }
