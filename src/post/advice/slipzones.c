@@ -390,13 +390,13 @@ PetscErrorCode SamAdviceMeasureStick(SamAdvice *a)
 void SamAdviceStick(SamAdvice *a, PetscReal least)
 {
   const double across = (double)a->slip.across;
-  char         better[SAM_ADVICE_GRIDS];
+  char         better[SAM_ADVICE_GRIDS], size[32] = "less than a cell";
 
   if (!(across < least) || !(a->extent.across > 2 * STUCK)) return;
+  if (across >= 0.95) (void)snprintf(size, sizeof(size), across < 1.05 ? "%.2g cell" : "%.2g cells", across);
   SamAdviceGrids(a, least / PetscMax(across, 1), better);
   SamAdviceSay(a, better[0] ? "" : "grid_n",
-               "the stick zone is %.2g cell%s across in the last step: its area may be wrong by more than 5 %%%s",
-               across, fabs(across - 1) < 0.05 ? "" : "s", better);
+               "the stick zone is %s across in the last step: its area may be wrong by more than 5 %%%s", size, better);
 }
 
 static void Energy(SamAdvice *a)
