@@ -160,11 +160,17 @@ class Comparison:
         for panel in axes[1:]:
             panel.legend()
         save(figure, directory, "coating.png")
+        self._draw_pulls(directory)
+
+    def _draw_pulls(self, directory):
+        """The tension behind the sphere that slides, along the surface and below it."""
         figure, axes = plt.subplots(1, 2, figsize=(10.0, 4.0), constrained_layout=True)
         for (name, pull), color in zip(self.pulls.items(), COLORS):
             behind = int(np.argmax(pull.principal[0]))
             axes[0].plot(pull.x / pull.radius, pull.principal[0] / 1e6, color=color)
-            axes[1].plot(pull.principal[:, behind] / 1e6, pull.z * 1e3, color=color, label=PULLS[name])
+            axes[1].plot(
+                pull.principal[:, behind] / 1e6, pull.z * 1e3, color=color, label=PULLS[name].replace("um", "µm")
+            )
         label = "maximum principal stress, MPa"
         frame(axes[0], "At the surface, sliding to the right", "$x$ / contact radius", label, (-1.35, 1.35))
         frame(axes[1], "Below the place of its maximum", label, "depth, mm", None, (0.3, 0.0))

@@ -19,7 +19,7 @@ default_n=160
 . "$here/../common.sh"
 
 solve_quietly cycle -options_file "$here/pad.opts" -grid_n "$grid_n" -history "$here/cycle.csv" -steps 20
-stress cycle fatigue -steps 41:80 -section y=0 -depths 0:3e-4:41 -quantities mises -fatigue swt
+stress cycle fatigue -steps 81:120 -section y=0 -depths 0:3e-4:41 -quantities mises -fatigue swt
 solve_quietly scar -options_file "$here/pad.opts" -grid_n "$grid_n" -history "$here/wear.csv" -steps 5 \
     -wear_coefficient1 1e-14 -wear_coefficient2 1e-14 -wear_cycles 1e5 -wear_output 0,1e5
 compare

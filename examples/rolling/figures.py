@@ -131,9 +131,9 @@ def transient(directory):
     axes[1].plot(steps.x / a, bound / peak, label=r"$\mu p$", **CLOSED)
     for k, color in zip((0, 2, 6, 14, 56), COLORS):
         axes[1].plot(steps.x / a, steps.field("shear_x", k)[row] / peak, color=color, linewidth=1.3,
-                     label=f"{way[k]:.1f} $a$")  # fmt: skip
+                     label=f"after {way[k]:.1f} $a$")  # fmt: skip
     points(axes[1], steady.x / a, steady.field("shear_x")[row] / peak, COLORS[5], label="steady", markersize=4)
-    axes[1].legend(loc="upper left", title="after")
+    axes[1].legend(loc="upper left")
     frame(axes[1], "Shear at $y = 0$", "$x/a$, rolling to the right", r"$q_x/(\mu p_0)$", (-2.1, 1.2), (0.0, 1.05))
     save(figure, directory, "transient.png")
 

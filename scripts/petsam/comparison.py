@@ -44,11 +44,12 @@ def nodal_l2(grid, name, nodes, spacing, reference, weight):
 def print_table(title, columns, rows):
     """Prints rows (dicts) under a title; columns: "heading = key:format; ...", with formats of format()."""
     columns = [column.split(" = ") for column in columns.split("; ")]
+    widths = [max(14, len(heading) + 2) for heading, _ in columns]
     print("\n" + title)
-    print("  " + "".join(f"{heading:>14s}" for heading, _ in columns))
+    print("  " + "".join(f"{heading:>{width}s}" for (heading, _), width in zip(columns, widths)))
     for row in rows:
         cells = [format(row[key], form) for key, _, form in (place.partition(":") for _, place in columns)]
-        print("  " + "".join(f"{cell:>14s}" for cell in cells))
+        print("  " + "".join(f"{cell:>{width}s}" for cell, width in zip(cells, widths)))
 
 
 def _run(kind, options):

@@ -37,6 +37,11 @@ def short(text):
     return one_line(text, 80)
 
 
+def counted(count, noun):
+    """A number with its noun, such as 1 case, 2 cases."""
+    return f"{count} {noun}" + "s" * (count != 1)
+
+
 def there_are(tried, names, there="there are"):
     """Returns the end of a message about an unknown name: a similar name, if there is one, and all names."""
     names, tried = list(names), str(tried)

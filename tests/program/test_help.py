@@ -119,6 +119,8 @@ def test_beginning_of_two_topics_is_refused(petsam):
     [
         ("gap_type", ["-gap_type"]),
         ("grid_N", ["-grid_n"]),
+        ("-grid_n", ["-grid_n"]),
+        ("--fft", ["-fft_effort", "-fft_exchange"]),
         ("coupling", ["-coupling", "-coupling_rtol", "-coupling_max_it", "-coupling_monitor"]),
         (
             "body1",
@@ -132,7 +134,7 @@ def test_beginning_of_two_topics_is_refused(petsam):
         ("fft", ["-fft_effort", "-fft_exchange"]),
     ],
 )
-def test_options_are_found_without_their_dash(petsam, asked, found):
+def test_options_are_found_with_and_without_their_dash(petsam, asked, found):
     assert options_in(petsam("-help", asked).stdout) == found
 
 

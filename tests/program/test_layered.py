@@ -228,9 +228,12 @@ def test_stresses_through_layers(solve, stress, tmp_path):
     """Both sides of each interface: tractions and strains are continuous; the same on three ranks and on a section."""
     r = solve(SLIDING)
     case = dict(input=r.path, depths=f"0,{0.2 * A},{0.5 * A},{0.8 * A},{A}")
-    stress(dict(case, output="maps.h5"))
-    stress(dict(case, output="line.h5", section="y=1e-5"), ranks=3)
+    printed = stress(dict(case, output="maps.h5")).stdout
+    on_line = stress(dict(case, output="line.h5", section="y=1e-5"), ranks=3).stdout
     with h5py.File(tmp_path / "maps.h5") as f, h5py.File(tmp_path / "line.h5") as line:
+        for k, text, file in ((k, *of) for k in (1, 2) for of in ((printed, f), (on_line, line))):
+            none = f"layer {k}: tension across the interface below: none\n" in text
+            assert none == (file[f"history/layer{k}_tension_max"][0] <= 0)
         assert f["z"][:] == pytest.approx(np.array([0, 0.2, 0.5, 0.5, 0.8, 0.8, 1]) * A, rel=1e-12)
         assert np.all(np.diff(f["z"][:]) > 0)
         for above, below, upper, lower in ((2, 3, (4, 0.25), (0.5, 0.4)), (4, 5, (0.5, 0.4), (1, 0.3))):

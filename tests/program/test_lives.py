@@ -3,6 +3,7 @@ equation, refusals."""
 
 import csv
 import sys
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -313,6 +314,28 @@ def test_lives_of_an_open_cycle_are_warned_of(folder, launcher, monkeypatch, cap
         out = capfd.readouterr()
         said = f"petsam-fatigue: warning: {name}.h5: not a closed cycle, or not a steady one: the "
         assert (said in out.err) == (name == "open") == ("; see the warning" in out.out), out
+        assert ("give petsam-stress the -steps of a later one" in out.err) == (name == "open")
+
+
+@pytest.mark.parametrize(
+    "limits, said",
+    [
+        ((2.0, 1.0, 3.0), "does not grow from the surface; a crack of 2e-05 m grows, arrests at 2.5e-05 m"),
+        ((2.0, 1.0, 1.0), "does not grow from the surface; a crack of 2e-05 m grows, through all depths, to 3e-05 m"),
+        ((1.0, 2.0, 2.0), "grows from 1e-05 m on, arrests at 1.667e-05 m"),
+        ((2.0, 2.0, 2.0), "does not grow at any length from 1e-05 to 3e-05 m"),
+    ],
+)
+def test_words_on_a_crack_say_where_it_grows_and_ends(monkeypatch, capsys, limits, said):
+    """A range of K of 1.5 at three lengths beside these thresholds."""
+    z = np.array([0.0, 1e-5, 2e-5, 3e-5])
+    cycle = SimpleNamespace(path="a.h5", z=z, layered=False, averaged=0.0, stress_line=lambda *_: None)
+    monkeypatch.setattr(evaluation, "has_data", lambda *_: True)
+    monkeypatch.setattr(cracks, "extremes", lambda *_: (np.full(4, 1.5), np.zeros(4)))
+    monkeypatch.setattr(cracks, "threshold", lambda *_: np.array([0.0, *limits]))
+    _, *lengths = evaluation.crack(cycle, {"dk_th": 1.0, "stress_limit": 1.0}, 0.0, 0, 0)
+    command._print_crack(cycle, *lengths)
+    assert capsys.readouterr().out == f"a.h5: short crack: {said}\n"
 
 
 def test_means_over_a_length_are_named(fatigue, folder, launcher):

@@ -303,6 +303,7 @@ def test_any_scalar_is_drawn_over_any_other_of_several_files(results, edges):
         assert axes.get_ylabel() == "contact area, mm²"
         assert np.allclose(second.get_ydata(), 1e6 * other.history["contact_area"])
         assert [text.get_text() for text in axes.get_legend().get_texts()] == ["results", "other"]
+    assert series.history([results], ["contact_area"], "load_tx").axes[0].get_legend() is None
 
 
 def test_the_status_is_over_what_has_a_solution(results):

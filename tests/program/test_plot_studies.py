@@ -112,7 +112,7 @@ def test_by_itself_what_varies_is_drawn_over_the_input_with_the_most_values(stud
     # neither what is constant, nor numbers without a unit, nor rounding
     assert drawn == ["dissipated energy", "$T_x$", "stick area"]
     assert {axes.get_xlabel() for axes in figure.axes if axes.lines} == {"load_tx, N"}
-    assert figure.get_suptitle() == "omitted: 1 unfinished cases"
+    assert figure.get_suptitle() == "omitted: 1 unfinished case"
 
 
 def test_inputs_tell_curves_apart_also_where_no_cases_share_an_abscissa(tmp_path):

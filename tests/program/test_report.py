@@ -333,9 +333,13 @@ def test_edges_that_are_not_found_are_told(petsam):
     assert "  edges " not in petsam(dict(case, steps=1)).stdout.split("worst")[1]
     unlike = dict(case, body2_poisson=0.1)
     told = petsam(unlike).stdout
-    share, step = re.search(
-        r"^  edges +reconstructed on (\d+) % of their length in step (\d) \(the worst\)", told, re.M
+    share, step, areas = re.search(
+        r"^  edges +(?:not reconstructed|reconstructed on (\d+) % of their length) in step (\d) \(the worst\)(.*)",
+        told,
+        re.M,
     ).groups()
-    assert int(share) < 50 and 1 <= int(step) <= 4
-    assert "from cells, less 0.09 of a cell for each side at an edge\n" in told
+    assert (
+        int(share or 0) < 50 and 1 <= int(step) <= 4 and areas.startswith("; elsewhere areas" if share else ": areas")
+    )
+    assert " areas are counted in whole cells, minus 0.09 of a cell per side" in areas
     assert "  edges " not in petsam(unlike, dict(edges="none")).stdout.split("worst")[1]

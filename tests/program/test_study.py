@@ -459,6 +459,12 @@ def test_a_missing_table_is_exit_code_3(run):
     assert "nothere.csv: No such file" in run("nothere.csv", check=3)
 
 
+def test_a_missing_file_of_every_case_is_named_before_any_runs(run, tmp_path):
+    table(tmp_path, "load_tx\n1\n2\n")
+    said = run("cases.csv", "--", "-options_file", "nothere.opts", check=3)
+    assert "nothere.opts: no such file, and every case reads it" in said and not (tmp_path / "cases").exists()
+
+
 # ---------------------------------------------------------------- runs of petsam
 
 
@@ -755,7 +761,7 @@ def test_a_study_is_submitted_as_arrays_and_collected(run, tmp_path, slurm):
     )
     # other options for all cases: case 1 runs again
     submitted = lines(tmp_path / "sbatch.txt")
-    assert "job 1: 3 cases of 1 rank" in said and "job 2: 1 cases of 2 ranks" in said and len(submitted) == 3
+    assert "job 1: 3 cases of 1 rank" in said and "job 2: 1 case of 2 ranks" in said and len(submitted) == 3
     assert "--array=1-2,4%4 --ntasks=1 " in submitted[0] and "--array=3%2 --ntasks=2 " in submitted[1]
     assert all("--time=1:00 --qos=short" in line for line in submitted)
     assert "--dependency=afterany:1:2" in submitted[2]

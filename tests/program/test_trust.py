@@ -378,6 +378,12 @@ def test_stick_area_near_full_sliding_is_right_or_warned_of(petsam, tmp_path, n,
     assert not warned if t < 0.95 else t < 0.998 or n == 64 or warned
 
 
+def test_an_energy_of_no_cell_that_slips_is_zero_and_told_in_words(petsam):
+    """The contact is two cells across, and all of it sticks; rounding is no negative energy."""
+    case = dict(SPHERE, load_n=LOAD, load_tx=0.6 * MU * LOAD, grid_size=23 * RADIUS, grid_n=16)
+    assert said(petsam(case), "no cell slips: the dissipated energy, 0 J, is ")
+
+
 @pytest.mark.parametrize("n", [48, 64])
 def test_energy_of_a_round_punch_is_right_without_a_word(petsam, n):
     """Its edge is not reconstructed, but lies everywhere on the cells."""

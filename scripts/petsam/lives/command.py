@@ -163,15 +163,14 @@ def _print_line(line):
         print("  " + "  ".join(f"{word:>{width}}" for word, width in zip(row, widths)))
 
 
-def _print_crack(cycle, start, stop):
+def _print_crack(cycle, start, stop, from_surface):
+    end = f"arrests at {stop:.4g} m" if np.isfinite(stop) else f"through all depths, to {cycle.z[-1]:.4g} m"
     if np.isinf(start):
         text = f"does not grow at any length from {cycle.z[1]:.4g} to {cycle.z[-1]:.4g} m"
-    elif stop == 0.0:
-        text = f"does not grow from the surface; a crack of {start:.4g} m would"
+    elif from_surface:
+        text = f"grows from {start:.4g} m on, {end}"
     else:
-        text = f"grows from {start:.4g} m on, " + (
-            f"arrests at {stop:.4g} m" if np.isfinite(stop) else f"through all depths, to {cycle.z[-1]:.4g} m"
-        )
+        text = f"does not grow from the surface; a crack of {start:.4g} m grows, {end}"
     print(f"{cycle.path}: short crack: {text}")
 
 
@@ -203,8 +202,8 @@ def _warn(cycles):
     for cycle in cycles:
         if cycle.doubt:
             print(
-                f"petsam-fatigue: warning: {cycle.path}: {cycle.doubt}: the values are not those of one closed cycle; "
-                "give petsam-stress its -steps",
+                f"petsam-fatigue: warning: {cycle.path}: {cycle.doubt}: the values are not those of a steady cycle"
+                + ("; give petsam-stress the -steps of a later one" if cycle.doubt.startswith("not a closed") else ""),
                 file=sys.stderr,
             )
 

@@ -93,7 +93,8 @@ def lives(cycles, name, constants, angle=0.0):
 
 
 def crack(cycle, constants, angle, row, column):
-    """Columns of a crack of the lengths z below a point; the least length at which it grows, and that of its arrest."""
+    """Columns of a crack of the lengths z below a point; the least length at which it grows, that of its arrest from
+    there, and whether it grows from the surface on."""
     limits = need(constants, CRACK["crack"][1], f"{cycle.path}: crack")
     if cycle.layered:
         raise Error(f"{cycle.path}: crack: the body has layers, and K is that of one material; omit it from --criteria")
@@ -108,7 +109,10 @@ def crack(cycle, constants, angle, row, column):
     curves = cycle.z[1:], (high - low)[1:], thresholds[1:]
     unit = "Pa m^1/2"
     columns = {"k_max": (unit, high), "k_range": (unit, high - low), "k_threshold": (unit, thresholds)}
-    return columns, cracks.start(*curves), cracks.arrest(*curves)
+    start = cracks.start(*curves)
+    longer = curves[0] >= start
+    stop = cracks.arrest(*(curve[longer] for curve in curves)) if np.isfinite(start) else 0.0
+    return columns, start, stop, cracks.arrest(*curves) > 0.0
 
 
 def line(cycle, names, row, column, computed):

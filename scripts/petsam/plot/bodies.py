@@ -10,7 +10,7 @@ from matplotlib.transforms import Bbox
 
 from ..errors import Error
 from .maps import PIXELS, Layout
-from .style import bar, colors, cross, extent, field, need_few, plt
+from .style import bar, colors, cross, extent, field, named, need_few, plt
 from .units import label, largest, plain, scale
 
 SYMBOLS = {name: f"$\\sigma_{{{name}}}$" for name in ("xx", "yy", "zz", "xy", "xz", "yz")}
@@ -281,7 +281,7 @@ def fatigue(files, at=(0.0, 0.0)):
             panel.set_title(f"{plain(one.label)}: {panel.get_title()}", fontsize=9)
     for panel in axes.flat[len(names) * len(files) :]:
         panel.set_axis_off()
-    if len(files) == 1:
+    if len(files) == 1 and named(files):
         figure.suptitle(plain(file.label), fontsize=9, color="0.35")
     _untangle(figure)
     return figure

@@ -13,7 +13,7 @@ from ..cycles import ENERGY, PAIRS, busiest, by_turns
 from ..errors import Error
 from ..sliding import cycle_energy, loop_energy
 from . import noise, symbols
-from .style import colors, curve, logarithmic, need_few, plt, tint
+from .style import colors, curve, logarithmic, named, need_few, plt, tint
 from .units import counted, label, largest, plain, scale
 
 LOOPS = 8  # in a panel; more would be indistinguishable
@@ -71,7 +71,9 @@ def loop(results, pair=None):
         x, y = (factors[name][0] * one.series(name) for name in (way, force))
         energy = _last_cycle(one, tuple(factors))
         factor, unit = scale(one.work_unit, energy or 0.0)
-        text = plain(one.label) + (f": {factor * energy:.4g} {unit} in the last cycle" if energy is not None else "")
+        text = f"{factor * energy:.4g} {unit} in the last cycle" if energy is not None else None
+        if named(results):
+            text = ": ".join(filter(None, (plain(one.label), text)))
         (_line if x.size <= DENSE else _cloud)(axes, x, y, color, text)
         last = {"markersize": 6.0, "markerfacecolor": "white", "zorder": 3}
         axes.plot(x[-1], y[-1], "o", color=color, label="last step" if one is results[-1] else None, **last)
@@ -135,7 +137,8 @@ def energy(found, logs=()):
     figure, axes = plt.subplots(figsize=(6.4, 4.4), constrained_layout=True)
     for one, (numbers, energies), color in zip(found, data, colors(len(found))):
         computed = " computed" if one.results.has_life else ""
-        text = f"{plain(one.results.label)}: {numbers.size}{computed} cycle{'s' * (numbers.size != 1)}"
+        who = plain(one.results.label) + ": " if named([one.results for one in found]) else ""
+        text = f"{who}{numbers.size}{computed} cycle{'s' * (numbers.size != 1)}"
         if not one.results.has_life:
             factor, total = scale("J", float(np.sum(energies)))
             text += f", {factor * np.sum(energies):.4g} {total}"

@@ -5,7 +5,7 @@ import numpy as np
 from ..cycles import ENERGY, PAIRS
 from ..errors import Error, short, there_are
 from . import noise, symbols
-from .style import MARKED, colors, logarithmic, need_few, outlined, plt, scattered
+from .style import MARKED, colors, logarithmic, named, need_few, outlined, plt, scattered
 from .units import label, largest, plain, scale
 
 VOLUMES = ("wear_volume1", "wear_volume2")
@@ -137,5 +137,6 @@ def history(results, names=None, other=None, option="--names", logs=()):
     for panel in axes.flat[max(0, len(names) - columns) : len(names)]:
         panel.set_xlabel(label("time" if other == TIME else symbols.scalar(other), unit))
         panel.tick_params(labelbottom=True)
-    axes.flat[0].legend(loc="best", markerscale=1.0 if len(axes.flat[0].lines[0].get_xdata()) <= MARKED else 3.0)
+    if named(results):
+        axes.flat[0].legend(loc="best", markerscale=1.0 if len(axes.flat[0].lines[0].get_xdata()) <= MARKED else 3.0)
     return figure

@@ -234,6 +234,11 @@ def note(figure, text, size=9):
     figure.suptitle(text, fontsize=size, color="0.35")
 
 
+def named(files):
+    """True where a picture has to name its files: there are several, or the one has a label of the user's."""
+    return len(files) > 1 or files[0].label != os.path.splitext(os.path.basename(files[0].path))[0]
+
+
 def save(figure, directory, name):
     """Write one PNG of 256 colours, a third of the size that it has with all, and close the figure."""
     path = os.path.join(directory, name)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ..errors import Error, short
+from ..errors import Error, counted, short
 from . import symbols
 from .style import MARKED, colors, logarithmic, need_few, plt
 from .units import label, largest, plain, scale, written
@@ -245,7 +245,7 @@ def study(studies, names=None, other=None, by=None, where=(), logs=()):
         (figure if outside else axes.flat[0]).legend(handles, texts, **outside)
     left = sum(int(np.sum(one.codes != 0)) for one in studies)
     if left:
-        figure.suptitle(f"omitted: {left} unfinished cases", fontsize=9, color="0.35")
+        figure.suptitle("omitted: " + counted(left, "unfinished case"), fontsize=9, color="0.35")
     return figure
 
 

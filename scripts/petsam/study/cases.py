@@ -74,6 +74,12 @@ class Case(NamedTuple):
         options = sorted(options.items(), key=lambda item: item[0] != "options_file")
         return [word for name, value in options for word in (["-" + name] if value is None else ["-" + name, value])]
 
+    def paths(self):
+        """The files that petsam reads and this class does not write, by their options."""
+        return {
+            name: value for name, value in self.options.items() if name in PATHS and value not in (None, *self.files)
+        }
+
     def identity(self):
         """Digest of all that determines the results: options, and the contents of the files they name."""
         parts = [("files", sorted(self.files.items()))] if self.files else []

@@ -32,7 +32,7 @@ import os
 import sys
 
 from .. import cycles, environment
-from ..errors import USAGE, Error, Parser, fail, guarded, joined, short
+from ..errors import USAGE, Error, Parser, counted, fail, guarded, joined, short
 from ..files import same
 from . import slurm, tables
 from .cases import TableError, common_options, read
@@ -173,8 +173,11 @@ def run(options, cases, waiting):
     before = len(cases) - len(waiting)
     if not options.quiet and options.case is None:
         print(
-            "{} cases{}, {} cores, {}".format(
-                len(waiting), f" ({before} others skipped)" if before else "", cores, options.directory
+            "{}{}, {}, {}".format(
+                counted(len(waiting), "case"),
+                f" ({before} others skipped)" if before else "",
+                counted(cores, "core"),
+                options.directory,
             ),
             flush=True,
         )
@@ -226,6 +229,13 @@ def warn_of_gaps(options, cases):
             )
 
 
+def check_files(cases):
+    """Error where a file that every case reads does not exist, so that every case would fail."""
+    for name, path in cases[0].paths().items():
+        if not os.path.exists(path) and all(case.paths().get(name) == path for case in cases):
+            raise Error(f"-{name} {path}: no such file, and every case reads it")
+
+
 def carry_out(options):
     """Carries out the options; returns the exit code."""
     cases = read(options.table, common_options(options.words), options.ranks)
@@ -235,6 +245,8 @@ def carry_out(options):
         for case in cases:
             print(f"{case.number:5d}  {standing(options.directory, case):11s}  {case.name}")
         return 0
+    if not options.collect:
+        check_files(cases)
     prepare(options, cases)
     waiting = [] if options.collect else due(options, cases)
     if options.slurm:

@@ -4,6 +4,7 @@ import os
 import sys
 import time
 
+from ..errors import counted
 from .runs import LOG, MEANINGS, STOPPED, record
 
 
@@ -78,8 +79,8 @@ def summary(directory, cases):
     stopped = sum(known.get("exit_code") == STOPPED for _, known in records)
     done = sum(known.get("exit_code") == 0 for _, known in records)
     print(
-        "{} cases: {} finished, {} failed{}{}".format(
-            len(cases),
+        "{}: {} finished, {} failed{}{}".format(
+            counted(len(cases), "case"),
             done,
             len(failed),
             f", {stopped} stopped early" if stopped else "",

@@ -7,7 +7,7 @@ import shutil
 import subprocess
 
 from .. import environment
-from ..errors import Error, short
+from ..errors import Error, counted, short
 
 
 class SubmitError(Error):
@@ -87,7 +87,7 @@ def submit(options, cases, waiting):
                 *common,
             ]
         )
-        print("job {}: {} cases of {} rank{}".format(job, len(numbers), ranks, "s" if ranks > 1 else ""))
+        print(f"job {job}: {counted(len(numbers), 'case')} of {counted(ranks, 'rank')}")
         jobs.append(job)
     if not jobs:
         print(f"no case to submit: none of {len(cases)} is left to run")

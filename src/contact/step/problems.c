@@ -176,6 +176,10 @@ static PetscErrorCode DescribeSliding(SamSolve *w, char message[], size_t size)
                            sizeof(instead)));
   }
   PetscCall(SamProblemHasFriction(w->task->problem, &friction));
+  if (friction && w->s->load[SAM_COMPONENT_N] == 0) {
+    PetscCall(PetscStrlcat(message, " cannot be balanced: the normal force is 0, so friction bears nothing", size));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   cure = follows && w->task->motion->continues ? ": use smaller load steps" : instead;
   PetscCall(PetscStrlcat(message, " cannot be balanced ", size));
   PetscCall(PetscStrlcat(message, friction ? "by |q| <= mu p" : "without friction: give -friction", size));

@@ -126,16 +126,21 @@ static PetscErrorCode PrintExtent(SamReport r)
 /* Prints the share of the edges that was not found. */
 static PetscErrorCode PrintEdges(SamReport r)
 {
-  char where[48] = "";
+  char where[48] = "", part[128];
 
   PetscFunctionBegin;
   if (!r->edges.step || r->edges.residual >= FOUND) PetscFunctionReturn(PETSC_SUCCESS);
   if (r->steps > 1)
     PetscCall(PetscSNPrintf(where, sizeof(where), " in step %" PetscInt_FMT " (the worst)", r->edges.step));
+  if (r->edges.residual >= 0.005)
+    PetscCall(PetscSNPrintf(part, sizeof(part), "reconstructed on %.0f %% of their length%s; elsewhere",
+                            100 * (double)r->edges.residual, where));
+  else
+    PetscCall(PetscSNPrintf(part, sizeof(part), "not reconstructed%s:", where));
   PetscCall(PetscPrintf(r->comm,
-                        "  %-10s  reconstructed on %.0f %% of their length%s: the other areas are counted from cells, "
-                        "less %.2f of a cell for each side at an edge\n",
-                        "edges", 100 * (double)r->edges.residual, where, SAM_EDGE_FACE));
+                        "  %-10s  %s areas are counted in whole cells, minus %.2f of a cell per side of a cell that is "
+                        "on an edge\n",
+                        "edges", part, SAM_EDGE_FACE));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -182,7 +187,7 @@ static PetscErrorCode PrintSlip(SamReport r)
   PetscFunctionBegin;
   if (!r->slip.steps || isnan(r->slip.closed)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscPrintf(r->comm, "  %-10s  %.4g %s dissipated, %.4g %s in closed form; slip zones %.2g cells wide\n",
-                        "slip", r->slip.energy, unit, r->slip.closed, unit, (double)r->slip.narrow[0]));
+                        "slip", PetscMax(r->slip.energy, 0), unit, r->slip.closed, unit, (double)r->slip.narrow[0]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

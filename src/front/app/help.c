@@ -53,7 +53,7 @@ static PetscErrorCode Free(List *list)
 static PetscErrorCode Collect(const SamProgram *program, const SamArguments *arguments)
 {
   static const SamOptionHelp all[] = {
-    {"help", "[<topic>]", "all options, or one topic or option (no dash)", "", "", NULL},
+    {"help", "[<topic>]", "all options, or one topic or option", "", "", NULL},
     {"version", "", "the version", "", "", NULL},
     {"options_file", "<file>", "file with an option and its value on each line; # begins a comment", "", "", NULL},
     {"log_view", "[<viewer>]", "PETSc's log of the time by event", "", "", NULL}};
@@ -298,8 +298,7 @@ static PetscErrorCode RefuseTopic(const SamProgram *program, const char asked[])
   for (char *c = topics; *c; c++) *c = *c == '\n' ? ' ' : *c;
   PetscCheck(!nearest, PETSC_COMM_WORLD, SAM_ERR_USER, "-help %s: no such topic: is %s meant? There are %s", asked,
              nearest, topics);
-  SETERRQ(PETSC_COMM_WORLD, SAM_ERR_USER, "-help %s: no such topic: expected an option without its dash, or one of %s",
-          asked, topics);
+  SETERRQ(PETSC_COMM_WORLD, SAM_ERR_USER, "-help %s: no such topic: expected an option, or one of %s", asked, topics);
 }
 
 /* Prints the first of these that exists: a topic, an option, a topic or options whose names begin like this. */

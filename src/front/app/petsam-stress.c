@@ -383,6 +383,10 @@ static PetscErrorCode PrintLargest(SamStressRun *run)
     if (strcmp(of.unit, "1")) (void)snprintf(unit, sizeof(unit), " %s", of.unit);
     if (!k) PetscCall(ReadNumber(run, PetscMax(most, 0), SAM_STEP_NUMBER, &number));
     if (!k) (void)snprintf(step, sizeof(step), " in step %.0f", number);
+    if (strstr(of.name, "_tension") && at->value <= 0) { /* compression all over the interface */
+      PetscCall(PetscPrintf(run->grid->comm, "  %-11s %s: none\n", k ? "" : "maximum", of.shown));
+      continue;
+    }
     PetscCall(PetscPrintf(run->grid->comm, "  %-11s %s %.6g%s at %s(%.4g, %.4g, %.4g) m%s\n", k ? "" : "maximum",
                           of.shown, at->value, unit, run->layout->own ? "body 2's own point " : "", at->place[0],
                           at->place[1], at->place[2], step));

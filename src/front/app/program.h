@@ -36,7 +36,7 @@ typedef struct {
 PETSC_INTERN int SamProgramMain(const SamProgram *program, int argc, char **argv);
 /*
   SamProgramHelp - prints the help of a program: all of it, or on the topic that its arguments name, which may also be
-  the beginning of one, an option without its dash, or `json`. Options are read, but nothing else is done.
+  the beginning of one, an option, or `json`. Options are read, but nothing else is done.
   Collective. Errors: SAM_ERR_USER for an unknown topic, with the list of all.
 */
 PETSC_INTERN PetscErrorCode SamProgramHelp(const SamProgram *program, const SamArguments *arguments);

@@ -264,11 +264,18 @@ static void ExamineText(SamArguments *a, const char where[], const char text[])
 
 /* ---- all arguments ---- */
 
-/* Takes the words from the first one up to the next option as the topic of the help; returns their number. */
+/*
+  Takes the words from the first one up to the next option as the topic of the help; returns their number. An option
+  that is the only word left is a topic, too, without its dash: -help -grid_n.
+*/
 static int TakeTopic(int argc, char **argv, char topic[], size_t size)
 {
   int count = 0;
 
+  if (argc == 1 && IsOption(argv[0]) && !IsNamed(argv[0] + strspn(argv[0], "-") - 1, "-version -help -h")) {
+    (void)snprintf(topic, size, "%s", argv[0] + strspn(argv[0], "-"));
+    return 1;
+  }
   while (count < argc && !IsOption(argv[count])) {
     const size_t length = strlen(topic);
 

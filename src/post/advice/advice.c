@@ -829,6 +829,29 @@ static void AdviseGrid(const SamSetup *s, const PetscReal half[2], const PetscRe
     (void)snprintf(text, size, "%s", one);
 }
 
+/*
+  Writes the number of cells with which the grid, at its present size, resolves a contact of these half widths within
+  it; an empty text unless the cells are so wide that this contact reaches the border.
+*/
+static void AdviseCells(const SamSetup *s, const PetscReal half[2], char text[], size_t size)
+{
+  const PetscReal cell[2]   = {s->grid->dx, s->grid->dy};
+  PetscReal       across    = INFINITY;
+  PetscBool       coarse    = PETSC_FALSE;
+  PetscBool       refine[2] = {PETSC_FALSE, PETSC_FALSE};
+  char            cells[AT_A_TIME], width[AT_A_TIME];
+
+  text[0] = '\0';
+  for (int k = 0; k < s->grid->axes; k++) {
+    if (2 * (half[k] + cell[k]) > s->grid->width[k]) coarse = PETSC_TRUE;
+    refine[k] = 2 * half[k] / cell[k] < FEW_CLOSED ? PETSC_TRUE : PETSC_FALSE;
+    across    = PetscMin(across, 2 * half[k] / cell[k]);
+  }
+  if (!coarse || !(across < FEW_CLOSED)) return;
+  AdviseGrids(s, half, (FEW_CLOSED + SAME) / (double)across, refine, cells, width);
+  if (cells[0]) (void)snprintf(text, size, "; its cells are too wide, the contact fits into it: use %s", cells);
+}
+
 /* Writes the grid that contains the contact in all displacements of the run, on which body 2's surface is stored. */
 static PetscErrorCode AdviseStroke(const SamAdvice *a, const SamStep *step, char text[], size_t size)
 {
@@ -895,8 +918,12 @@ PetscErrorCode SamAdviceEdge(const SamAdvice *a, SamStep *step)
                    "; a surface from a file cannot be enlarged: give a file of a larger area, or less load");
   } else {
     /* No closed-form solution describes a contact that wears, tilts or yields, or ends within the grid. */
-    known = known && !SamProblemMoves(s->problem) && !most->open && !SamProblemGetLaw(s->problem, SAM_LAW_PLASTIC) &&
-            !Fits(s, half, most->lever);
+    known = known && !SamProblemMoves(s->problem) && !most->open && !SamProblemGetLaw(s->problem, SAM_LAW_PLASTIC);
+    if (known && Fits(s, half, most->lever)) {
+      AdviseCells(s, half, text, size);
+      if (text[0]) PetscFunctionReturn(PETSC_SUCCESS);
+      known = PETSC_FALSE;
+    }
     if (!known) Extrapolate(s, step, most, half);
     AdviseGrid(s, half, most->lever, grid, sizeof(grid));
     if (known) PetscCall(Compare(s, half, ratio, sizeof(ratio), &large));

@@ -392,13 +392,13 @@ PetscErrorCode SamAdviceMeasureStick(SamAdvice *a)
 void SamAdviceStick(SamAdvice *a, PetscReal least)
 {
   const double across = (double)a->slip.across;
-  char         better[SAM_ADVICE_GRIDS];
+  char         better[SAM_ADVICE_GRIDS], size[32] = "less than a cell";
 
   if (!(across < least) || !(a->extent.across > 2 * STUCK)) return;
+  if (across >= 0.95) (void)snprintf(size, sizeof(size), across < 1.05 ? "%.2g cell" : "%.2g cells", across);
   SamAdviceGrids(a, least / PetscMax(across, 1), better);
   SamAdviceSay(a, better[0] ? "" : "grid_n",
-               "the stick zone is %.2g cells across in the last step: its area may be wrong by more than 5 %%%s",
-               across, better);
+               "the stick zone is %s across in the last step: its area may be wrong by more than 5 %%%s", size, better);
 }
 
 static void Energy(SamAdvice *a)
@@ -407,7 +407,7 @@ static void Energy(SamAdvice *a)
   const PetscBool   known = !isnan(slip->closed);
   const char *const unit  = SamUnitOn(a->setup->grid, "J");
   double            most, error, width, times;
-  char              better[SAM_ADVICE_GRIDS], wrong[96] = "is not resolved";
+  char              better[SAM_ADVICE_GRIDS], wrong[96] = "is not resolved", zones[64] = "no cell slips";
 
   EndBranch(slip);
   EndStuck(slip);
@@ -423,9 +423,10 @@ static void Energy(SamAdvice *a)
     (void)snprintf(wrong, sizeof(wrong), "is %.3g %s in closed form", slip->closed, unit);
   else if (error < ROUGH)
     (void)snprintf(wrong, sizeof(wrong), "may be wrong by %.0f %%", 100 * error);
-  SamAdviceSay(a, better[0] ? "" : "grid_n",
-               "slip zones are %.2g times as wide as a cell: the dissipated energy, %.3g %s, %s%s",
-               (double)slip->narrow[0], slip->energy, unit, wrong, better);
+  if (slip->narrow[0] > 0)
+    (void)snprintf(zones, sizeof(zones), "slip zones are %.2g times as wide as a cell", (double)slip->narrow[0]);
+  SamAdviceSay(a, better[0] ? "" : "grid_n", "%s: the dissipated energy, %.3g %s, %s%s", zones,
+               PetscMax(slip->energy, 0), unit, wrong, better); /* rounding may be below 0 */
 }
 
 /* Advises on the maximum shear of the last step, at the end of a zone that is much narrower than the widest. */

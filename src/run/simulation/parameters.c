@@ -4,7 +4,7 @@
 
 /*
   Adds the values that the last step prescribes. The steps of a history are in /history of the results, and checkpoints
-  compare them by checksums (checkpoints.c).
+  compare them by checksums (stopresume.c).
 */
 static PetscErrorCode AddLoads(SamParameters *p, SamHistory history, SamConditions conditions)
 {

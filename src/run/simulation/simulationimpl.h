@@ -128,7 +128,7 @@ PETSC_INTERN PetscErrorCode SamSimulationTry(SamSimulation simulation, PetscInt 
 /* SamSimulationWriteStep - writes a step's numbers and, if they are due, its fields. Collective. */
 PETSC_INTERN PetscErrorCode SamSimulationWriteStep(SamSimulation simulation, const SamStep *step, PetscBool due);
 /*
-  Checkpoints (checkpoints.c). Collective, but for DescribeCheckpoints. Errors: SAM_ERR_USER, SAM_ERR_FILE.
+  Checkpoints (stopresume.c). Collective, but for DescribeCheckpoints. Errors: SAM_ERR_USER, SAM_ERR_FILE.
     ReadCheckpoints      reads the options; -max_walltime counts from here
     DescribeCheckpoints  describes when they are written; empty without -checkpoint
     BeginCheckpoints     before the first step, whose time starts here. Fails early if the file cannot be written; a
