@@ -262,17 +262,10 @@ PetscErrorCode SamContactComputeFriction(SamContact c, Vec path, Vec pressed, Ve
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode GetFriction(SamLawStep *step, Vec path, Vec pressed, Vec work)
+/* Computes the gap of the tried solution between the surfaces as they were before the step. */
+static PetscErrorCode ComputeGap(SamContact c, Vec gap)
 {
-  PetscFunctionBegin;
-  PetscCall(SamContactComputeFriction((SamContact)step->context, path, pressed, work));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode GetGap(SamLawStep *step, Vec gap)
-{
-  const SamContact c = (SamContact)step->context;
-  Vec              h;
+  Vec h;
 
   PetscFunctionBegin;
   PetscCall(SamSolutionCreateSeparation(c->problem, c->state, SAM_COMMITTED, &h));
@@ -281,14 +274,28 @@ static PetscErrorCode GetGap(SamLawStep *step, Vec gap)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode GetSlope(SamLawStep *step, Vec by_pressure)
+/* Computes the fields of the step that laws use. */
+static PetscErrorCode CreateFields(SamContact c, SamLawStep *step)
 {
-  const SamContact c  = (SamContact)step->context;
-  SamBoundAt       at = {c->state, step->control, step->pressure, NULL, step->rolled};
+  SamBoundAt    at = {c->state, step->control, step->pressure, NULL, step->rolled};
+  const SamLaw *laws;
+  PetscInt      count;
+  PetscBool     uses[SAM_USES] = {PETSC_FALSE};
+  Vec *const    f              = step->field;
 
   PetscFunctionBegin;
-  if (SamProblemFollowsSlip(c->problem)) PetscCall(SamLawStepGetFriction(step, &at.slip, NULL, NULL));
-  PetscCall(SamProblemComputeBound(c->problem, &at, &(SamBound){.by_pressure = by_pressure}));
+  PetscCall(SamProblemGetLaws(c->problem, &count, &laws));
+  for (PetscInt k = 0; k < count; k++)
+    for (int use = 0; use < SAM_USES; use++) uses[use] = uses[use] || laws[k]->uses[use];
+  if (uses[SAM_USE_SLOPE] && SamProblemFollowsSlip(c->problem)) uses[SAM_USE_PATH] = PETSC_TRUE;
+  for (int use = 0; use < SAM_USES; use++)
+    if (uses[use]) PetscCall(SamGridCreateVec(c->grid, 1, &f[use]));
+  if (f[SAM_USE_PATH] || f[SAM_USE_PRESSED] || f[SAM_USE_WORK])
+    PetscCall(SamContactComputeFriction(c, f[SAM_USE_PATH], f[SAM_USE_PRESSED], f[SAM_USE_WORK]));
+  if (f[SAM_USE_GAP]) PetscCall(ComputeGap(c, f[SAM_USE_GAP]));
+  if (SamProblemFollowsSlip(c->problem)) at.slip = f[SAM_USE_PATH];
+  if (f[SAM_USE_SLOPE])
+    PetscCall(SamProblemComputeBound(c->problem, &at, &(SamBound){.by_pressure = f[SAM_USE_SLOPE]}));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -306,19 +313,14 @@ static PetscErrorCode Advance(SamContact c, PetscBool known_pressure, char faile
                              .last           = {last ? last->pressure : NULL, last ? last->shear : NULL},
                              .bound          = s->bound,
                              .rigid          = s->rigid,
-                             .known_pressure = known_pressure,
-                             .friction       = GetFriction,
-                             .gap            = GetGap,
-                             .slope          = GetSlope,
-                             .context        = c};
+                             .known_pressure = known_pressure};
 
   PetscFunctionBegin;
+  PetscCall(CreateFields(c, &step));
   PetscCall(SamProblemAdvance(c->problem, &step));
   (void)snprintf(failed, size, "%s", step.failed);
   if (step.moves) c->revision[SAM_TRIED] = -1;
-  PetscCall(VecDestroy(&step.path));
-  PetscCall(VecDestroy(&step.pressed));
-  PetscCall(VecDestroy(&step.work));
+  for (int use = 0; use < SAM_USES; use++) PetscCall(VecDestroy(&step.field[use]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -243,7 +243,7 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
   }
   if (id < 0 || (f->kind == FALLING && rolled == 0)) PetscFunctionReturn(PETSC_SUCCESS);
   before = SamStateGetField(step->state, id, SAM_COMMITTED);
-  PetscCall(SamLawStepGetFriction(step, &path, NULL, NULL));
+  path   = step->field[SAM_USE_PATH];
   PetscCall(SamStateSetField(step->state, id, &after));
   PetscCall(VecGetArrayRead(step->pressure, &p));
   PetscCall(VecGetArrayRead(path, &slip));
@@ -288,6 +288,7 @@ PetscErrorCode SamLawCreate_Friction(SamLaw law)
   law->forbids_jumps      = kinds[kind].memory.name && f->cell == 0; /* a steady state has no memory */
   law->ops.setfromoptions = SetFromOptions;
   law->ops.conditions     = AddConditions;
+  law->uses[SAM_USE_PATH] = PETSC_TRUE;
   law->ops.declare        = Declare;
   law->ops.bound          = Bound;
   law->ops.advance        = Advance;

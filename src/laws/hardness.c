@@ -122,7 +122,7 @@ static PetscErrorCode FindOverlap(SamLaw law, SamLawStep *step, Vec overlap, Pet
   double       *g, most = 0;
 
   PetscFunctionBegin;
-  PetscCall(step->gap(step, overlap));
+  PetscCall(VecCopy(step->field[SAM_USE_GAP], overlap));
   PetscCall(VecGetArrayRead(step->pressure, &p));
   PetscCall(VecGetArray(overlap, &g));
   for (PetscInt k = 0; k < step->grid->cells; k++) {
@@ -251,6 +251,7 @@ PetscErrorCode SamLawCreate_Hardness(SamLaw law)
   law->forbids_jumps      = PETSC_TRUE;
   law->any_motion         = PETSC_TRUE;
   law->ops.setfromoptions = SetFromOptions;
+  law->uses[SAM_USE_GAP]  = PETSC_TRUE;
   law->ops.declare        = Declare;
   law->ops.separation     = Separation;
   law->ops.limit          = Limit;

@@ -42,11 +42,9 @@ static PetscErrorCode Declare(SamLaw law, SamState state)
 static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
 {
   const PetscBool work = ((const Sum *)law->data)->work;
-  Vec             more;
 
   PetscFunctionBegin;
-  PetscCall(SamLawStepGetFriction(step, work ? NULL : &more, NULL, work ? &more : NULL));
-  PetscCall(SamLawAddToSum(step->state, law->type, more));
+  PetscCall(SamLawAddToSum(step->state, law->type, step->field[work ? SAM_USE_WORK : SAM_USE_PATH]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -54,12 +52,13 @@ static PetscErrorCode Create(SamLaw law, const Sum *sum)
 {
   PetscFunctionBegin;
   PetscCall(PetscNew((Sum **)&law->data));
-  *(Sum *)law->data       = *sum;
-  law->accumulates        = PETSC_TRUE;
-  law->bytes              = 16;
-  law->ops.setfromoptions = SetFromOptions;
-  law->ops.declare        = Declare;
-  law->ops.advance        = Advance;
+  *(Sum *)law->data                                  = *sum;
+  law->accumulates                                   = PETSC_TRUE;
+  law->bytes                                         = 16;
+  law->uses[sum->work ? SAM_USE_WORK : SAM_USE_PATH] = PETSC_TRUE;
+  law->ops.setfromoptions                            = SetFromOptions;
+  law->ops.declare                                   = Declare;
+  law->ops.advance                                   = Advance;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -112,10 +112,10 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
   const Vec      from = SamStateGetField(step->state, id, SAM_COMMITTED);
   double         weak = 0, *to;
   const double  *s, *pressed;
-  Vec            path, slipped, next;
+  const Vec      path = step->field[SAM_USE_PATH], slipped = step->field[SAM_USE_PRESSED];
+  Vec            next;
 
   PetscFunctionBegin;
-  PetscCall(SamLawStepGetFriction(step, &path, &slipped, NULL));
   PetscCall(SamStateSetField(step->state, id, &next));
   if (from)
     PetscCall(VecCopy(from, next));
@@ -153,11 +153,12 @@ static PetscErrorCode CreateWeakening(SamLaw law)
   PetscCall(PetscNew(&left));
   *left                   = 0.5;
   law->data               = left;
-  law->ops.setfromoptions = SetFromOptions;
-  law->ops.declare        = Declare;
-  law->ops.bound          = WeakBound;
-  law->ops.advance        = Advance;
-  law->ops.destroy        = Destroy;
+  law->uses[SAM_USE_PATH] = law->uses[SAM_USE_PRESSED] = PETSC_TRUE;
+  law->ops.setfromoptions                              = SetFromOptions;
+  law->ops.declare                                     = Declare;
+  law->ops.bound                                       = WeakBound;
+  law->ops.advance                                     = Advance;
+  law->ops.destroy                                     = Destroy;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

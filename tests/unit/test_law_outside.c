@@ -93,14 +93,13 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
   const PetscInt faded_id = SamStateFindField(step->state, "faded"), drift_id = SamStateFindField(step->state, "drift"),
                  most_id  = SamStateFindNumber(step->state, "faded_most"),
                  steps_id = SamStateFindNumber(step->state, "faded_steps");
-  Vec       path, faded, drift;
+  Vec       faded, drift;
   PetscReal most;
 
   PetscFunctionBegin;
   (void)law;
-  PetscCall(SamLawStepGetFriction(step, &path, NULL, NULL));
   PetscCall(SamStateSetField(step->state, faded_id, &faded));
-  PetscCall(VecCopy(path, faded));
+  PetscCall(VecCopy(step->field[SAM_USE_PATH], faded));
   if (Committed(step->state, "faded")) PetscCall(VecAXPY(faded, 1, Committed(step->state, "faded")));
   PetscCall(SamStateSetField(step->state, drift_id, &drift));
   PetscCall(VecCopy(step->shear, drift));
@@ -119,6 +118,7 @@ static PetscErrorCode Create(SamLaw law)
   PetscFunctionBegin;
   PetscCall(PetscNew(&fading));
   law->data               = fading;
+  law->uses[SAM_USE_PATH] = PETSC_TRUE;
   law->ops.setfromoptions = SetFromOptions;
   law->ops.addparameters  = AddParameters;
   law->ops.declare        = Declare;

@@ -81,11 +81,10 @@ static PetscErrorCode Bound(SamLaw law, const SamBoundAt *at, const SamBound *bo
 
 static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
 {
-  Vec slip, sum;
+  Vec sum;
 
-  PetscCall(SamLawStepGetFriction(step, &slip, NULL, NULL));
   PetscCall(SamStateSetField(step->state, SamStateFindField(step->state, path.name), &sum));
-  return Sum(law, step->state, slip, step->pressure, sum);
+  return Sum(law, step->state, step->field[SAM_USE_PATH], step->pressure, sum);
 }
 
 PetscErrorCode CreateFading(SamLaw law)
@@ -95,6 +94,7 @@ PetscErrorCode CreateFading(SamLaw law)
   law->option                   = "fading_length";
   law->follows_slip             = PETSC_TRUE; /* the shear and its bound are solved together */
   law->forbids_jumps            = PETSC_TRUE; /* over cycles in which friction would fade */
+  law->uses[SAM_USE_PATH]       = PETSC_TRUE;
   law->ops.setfromoptions       = SetFromOptions;
   law->ops.addparameters        = AddParameters;
   law->ops.declare              = Declare;

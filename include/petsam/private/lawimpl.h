@@ -64,6 +64,18 @@ struct _n_SamLawContact {
   void *context;
 };
 
+/*
+  SamLawUse - a field of a solved step that the advance() of a law uses. The contact computes the fields that any law
+  uses, once, of one component each:
+    SAM_USE_PATH     |ds|, the length of the slip of the step, m; outside of the contact the distance by which the
+                     surfaces have moved over each other
+    SAM_USE_PRESSED  p |ds| in cells that slip, Pa m
+    SAM_USE_WORK     -q.ds in cells that slip, J/m2 (both as in SamContactComputeFriction())
+    SAM_USE_GAP      the gap of the surfaces as they were before the step, m
+    SAM_USE_SLOPE    the derivative of the bound of the shear by the pressure, 1
+*/
+typedef enum { SAM_USE_PATH, SAM_USE_PRESSED, SAM_USE_WORK, SAM_USE_GAP, SAM_USE_SLOPE, SAM_USES } SamLawUse;
+
 /* SamLawStep - a solved step, for laws to advance their tried state. */
 typedef struct _n_SamLawStep SamLawStep;
 struct _n_SamLawStep {
@@ -79,20 +91,11 @@ struct _n_SamLawStep {
   PetscBool         known_pressure;  /* true: pressure of an earlier step, whose yielding the gap already contains */
   char              failed[128];     /* set by a law whose check of the step fails: the reason */
   PetscBool         moves;           /* set by a law that changes the separation, so that the pressure changes */
-  /* fields of SamLawStepGetFriction(), created when first needed; the step owns them */
-  Vec path, pressed, work;
-  /* set by the contact; collective */
-  PetscErrorCode (*friction)(SamLawStep *step, Vec path, Vec pressed, Vec work);
-  PetscErrorCode (*gap)(SamLawStep *step, Vec gap);           /* m, of the surfaces as they were before the step */
-  PetscErrorCode (*slope)(SamLawStep *step, Vec by_pressure); /* the derivative of the bound by the pressure */
-  void *context;
+  Vec               field[SAM_USES]; /* fields that laws use, by SamLawUse; NULL: no law uses it */
 };
 /*
-  SamLawStepGetFriction - gets the effects of friction in the step, the fields of SamContactComputeFriction(), borrowed;
-  NULL for a field that is not wanted. Collective.
   SamLawAddToSum - sets the tried generation of a field to the committed one plus `more`. Collective.
 */
-PETSC_EXTERN PetscErrorCode SamLawStepGetFriction(SamLawStep *step, Vec *path, Vec *pressed, Vec *work);
 PETSC_INTERN PetscErrorCode SamLawAddToSum(SamState state, const char name[], Vec more);
 /*
   The frames of both bodies (frames.c). The grid goes with body 1; the point x + D of body 2 lies under its point x,
@@ -154,6 +157,7 @@ struct _n_SamLaw {
   const SamOptionRow *rows;           /* options, whose settings are `data` */
   PetscInt            row_count;      /* number of options */
   PetscInt            bytes;          /* memory per cell, bytes */
+  PetscBool           uses[SAM_USES]; /* fields of a solved step that advance() uses */
   PetscBool           needs_friction; /* true: meaningless without friction */
   PetscBool           forbids_jumps;  /* true: not possible in a wear simulation with cycle jumps */
   PetscBool           of_body[2];     /* true: adds to the separation a field at a body's own points, if they slide */

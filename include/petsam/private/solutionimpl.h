@@ -110,7 +110,7 @@ static inline double SamIncrementMix(const double share[2], const double before[
 /* SamSolutionComputeStates - computes the state of each cell, a SamCellState as a real number. Not collective. */
 PETSC_INTERN PetscErrorCode SamSolutionComputeStates(const SamSolution *solution, Vec states);
 /*
-  SamSolutionComputeFriction - computes the effects of friction in a step (SamLawStepGetFriction()). `before` NULL: the
+  SamSolutionComputeFriction - computes the effects of friction in a step (SamLawUse). `before` NULL: the
   first step. A field that is not wanted is NULL. Collective.
 */
 PETSC_INTERN PetscErrorCode SamSolutionComputeFriction(SamProblem problem, const SamSolution *before,

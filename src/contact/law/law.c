@@ -177,32 +177,6 @@ PetscErrorCode SamLawListWords(SamElasticity elasticity, const char option[], co
 
 /* ---- a step ---- */
 
-/* Creates a field of the step if it does not exist; `made`: true if the caller has to compute it. */
-static PetscErrorCode Make(SamLawStep *step, Vec *field, PetscBool wanted, Vec *made)
-{
-  PetscFunctionBegin;
-  *made = NULL;
-  if (!wanted || *field) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamGridCreateVec(step->grid, 1, field));
-  *made = *field;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamLawStepGetFriction(SamLawStep *step, Vec *path, Vec *pressed, Vec *work)
-{
-  Vec made[3];
-
-  PetscFunctionBegin;
-  PetscCall(Make(step, &step->path, path != NULL, &made[0]));
-  PetscCall(Make(step, &step->pressed, pressed != NULL, &made[1]));
-  PetscCall(Make(step, &step->work, work != NULL, &made[2]));
-  if (made[0] || made[1] || made[2]) PetscCall(step->friction(step, made[0], made[1], made[2]));
-  if (path) *path = step->path;
-  if (pressed) *pressed = step->pressed;
-  if (work) *work = step->work;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode SamLawAddToSum(SamState state, const char name[], Vec more)
 {
   const PetscInt id   = SamStateFindField(state, name);

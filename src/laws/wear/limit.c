@@ -47,13 +47,13 @@ PetscErrorCode SamWearGetExcess(SamLaw law, SamLawStep *step, PetscReal *excess)
   const double   *p, *slip, *wears, *one;
   double          most = 0;
   PetscReal       times;
-  Vec             unit, path, worn;
+  const Vec       path = step->field[SAM_USE_PATH], worn = step->field[by_energy ? SAM_USE_WORK : SAM_USE_PRESSED];
+  Vec             unit;
 
   PetscFunctionBegin;
-  PetscCall(SamLawStepGetFriction(step, &path, by_energy ? NULL : &worn, by_energy ? &worn : NULL));
   PetscCall(SamGridCreateVec(law->grid, 1, &unit));
   PetscCall(VecSet(unit, 1));
-  if (by_energy) PetscCall(step->slope(step, unit));
+  if (by_energy) PetscCall(VecCopy(step->field[SAM_USE_SLOPE], unit));
   PetscCall(VecGetArrayRead(step->pressure, &p));
   PetscCall(VecGetArrayRead(path, &slip));
   PetscCall(VecGetArrayRead(worn, &wears));

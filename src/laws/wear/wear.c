@@ -273,7 +273,7 @@ static PetscErrorCode AddLoad(SamLaw law, SamLawStep *step)
 {
   const SamWear *w = (const SamWear *)law->data;
   PetscReal      slide[2];
-  Vec            path, worn, load;
+  Vec            path = step->field[SAM_USE_PATH], load;
 
   PetscFunctionBegin;
   if (SamMotionOf(law->elasticity)->streams) {
@@ -281,9 +281,8 @@ static PetscErrorCode AddLoad(SamLaw law, SamLawStep *step)
                "-%s: in steady rolling wear is that of passages, not of single steps: give -wear_cycles", law->option);
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(SamLawStepGetFriction(step, &path, w->by_energy ? NULL : &worn, w->by_energy ? &worn : NULL));
   PetscCall(SamGridCreateVec(step->grid, 1, &load));
-  PetscCall(VecCopy(worn, load));
+  PetscCall(VecCopy(step->field[w->by_energy ? SAM_USE_WORK : SAM_USE_PRESSED], load));
   PetscCall(VecAbs(load));
   if (!w->jumps && SamFramesGetSlide(step->state, SAM_TRIED, slide))
     PetscCall(WearOwn(law, step, path, load));
@@ -363,10 +362,12 @@ static PetscErrorCode Create(SamLaw law, PetscBool by_energy)
   law->bytes              = 56;
   law->ops.setfromoptions = SetFromOptions;
   law->ops.addparameters  = AddParameters;
-  law->ops.declare        = Declare;
-  law->ops.separation     = Separation;
-  law->ops.advance        = Advance;
-  law->ops.advise         = Advise;
+  law->uses[SAM_USE_PATH] = law->uses[by_energy ? SAM_USE_WORK : SAM_USE_PRESSED] = PETSC_TRUE;
+  law->uses[SAM_USE_SLOPE]                                                        = by_energy;
+  law->ops.declare                                                                = Declare;
+  law->ops.separation                                                             = Separation;
+  law->ops.advance                                                                = Advance;
+  law->ops.advise                                                                 = Advise;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
