@@ -94,4 +94,29 @@ PETSC_EXTERN PetscErrorCode SamTangentialRegister(const char name[], PetscErrorC
 PETSC_EXTERN PetscErrorCode SamTangentialSolve(SamTangential tangential, Vec bound, Vec offset, SamBalance *balance,
                                                PetscBool guess, Vec q);
 
+/* SamCellState - the state of a cell, as the results store it. */
+typedef enum { SAM_CELL_OPEN, SAM_CELL_STICK, SAM_CELL_SLIP } SamCellState;
+/*
+  SAM_SLIP_MARGIN - relative margin: a cell in contact counts as slipping if |q| >= (1 - SAM_SLIP_MARGIN) of its bound.
+*/
+#define SAM_SLIP_MARGIN 1e-5
+
+/*
+  SamCellStateOf - returns the state of a cell: open, stick or slip.
+
+  Not collective.
+
+  In:     p     - pressure (Pa)
+          qx    - shear along x (Pa)
+          qy    - shear along y (Pa)
+          bound - bound of the shear (Pa)
+
+  Errors: none; it returns no error code.
+*/
+static inline SamCellState SamCellStateOf(PetscReal p, PetscReal qx, PetscReal qy, PetscReal bound)
+{
+  if (p <= 0) return SAM_CELL_OPEN;
+  return PetscSqrtReal(qx * qx + qy * qy) >= (1 - SAM_SLIP_MARGIN) * bound ? SAM_CELL_SLIP : SAM_CELL_STICK;
+}
+
 #endif

@@ -8,6 +8,7 @@
   solutions for the shear give.
 */
 #include "stiffnessimpl.h"
+#include <petsam/private/problemimpl.h>
 #include <petsam/private/motionimpl.h>
 #include <petsam/private/state.h>
 #include <petsam/private/balance.h>
@@ -178,14 +179,14 @@ PetscErrorCode SamStiffnessCompute(SamContact contact, SamStiffnessDirection dir
   PetscCall(SamMotionRefuse(SamContactGetMotion(contact), SAM_MOTION_STIFFNESS, PETSC_COMM_SELF, "-", "stiffness"));
   PetscCall(RefuseYield(contact));
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_STIFFNESS], 0, 0, 0, 0));
-  PetscCall(SamFrozenCreate(contact, direction, &s.f));
+  PetscCall(SamStiffnessFreeze(contact, direction, &s.f));
   if (s.f.coupled)
     PetscCall(Solve(&s, SAM_FROZEN_BOTH, 0, SAM_COMPONENTS, direction == SAM_STIFFNESS_REVERSAL));
   else
     PetscCall(ComputeUncoupled(&s));
   PetscCall(Free(&s));
   stiffness->error         = s.error;
-  stiffness->converged     = s.error <= SAM_STIFFNESS_RTOL;
+  stiffness->converged     = s.error <= SAM_FROZEN_RTOL;
   stiffness->columns       = SAM_COMPONENTS;
   stiffness->applies       = s.f.applies;
   stiffness->preconditions = s.f.preconditions;

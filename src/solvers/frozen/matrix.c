@@ -1,5 +1,5 @@
 /* The linear system of frozen sets of cells: its fields, products with its matrix, and an approximate inverse. */
-#include "stiffnessimpl.h"
+#include <petsam/private/frozen.h>
 #include <petsam/private/elasticity.h>
 #include <math.h>
 

@@ -1,5 +1,5 @@
 /*
-  Generalised conjugate residuals, for the systems of the tangent stiffness.
+  Generalised conjugate residuals, for the systems of a contact whose sets of cells are frozen.
 
   Algorithm: a direction p is the preconditioned residual M r, from which the part is subtracted that is needed to make
   its product A p orthogonal to the earlier products; the step along p minimises the residual. So x is that of GMRES
@@ -10,7 +10,7 @@
 
   Reference: Eisenstat, Elman and Schultz 1983, SIAM J. Numer. Anal. 20, 345.
 */
-#include "stiffnessimpl.h"
+#include <petsam/private/frozen.h>
 #include <math.h>
 
 #define RESTART 30
@@ -69,7 +69,7 @@ PetscErrorCode SamKrylovSolve(SamFrozen *f, const double b[], double x[], double
   PetscCall(PetscArraycpy(residual, b, n));
   PetscCall(Norm(f, residual, &norm));
   left = norm;
-  for (PetscInt it = 0; it < MOST && left > GOAL * SAM_STIFFNESS_RTOL * norm; it++) {
+  for (PetscInt it = 0; it < MOST && left > GOAL * SAM_FROZEN_RTOL * norm; it++) {
     const PetscInt k = it % RESTART;
 
     if (k == 0 && left > 0.5 * last) break;

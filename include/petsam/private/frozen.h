@@ -1,0 +1,90 @@
+/* A contact whose sets of cells are frozen: its linear response, and the systems that give it. */
+#ifndef PETSAM_PRIVATE_FROZEN_H
+#define PETSAM_PRIVATE_FROZEN_H
+
+#include <petsam/private/balanceimpl.h>
+#include <petsam/elasticity.h>
+
+/* Tractions that are the unknowns of a linear system */
+typedef enum { SAM_FROZEN_NORMAL, SAM_FROZEN_TANGENTIAL, SAM_FROZEN_BOTH } SamFrozenPart;
+
+/*
+  SamFrozen - the cells in contact, packed row after row, and their linear response. Fields are packed arrays of up to
+  three components, each of `count` values: dp and the unknown of the shear, from which SamFrozenShear() computes dq.
+*/
+typedef struct {
+  SamElasticity elasticity; /* of a part of the grid that contains the contact, or of the whole grid */
+  SamGrid       grid;
+  SamFrame      normal, tangential; /* the frames of that grid */
+  PetscBool     coupled;            /* pressure and shear are coupled */
+  PetscInt      count;              /* number of this rank's cells in contact */
+  PetscInt     *start;              /* rows + 1 entries: first packed cell of each row */
+  PetscInt     *cell;               /* index of each cell in this rank's part of the grid */
+  double       *e[2];               /* e in cells that slip, 0 in cells that stick */
+  double       *follow;  /* derivative of the bound by the pressure in cells that slip, 0 in cells that stick */
+  double       *rate;    /* the same by the length of the slip, times the influence self[1]; 0: none */
+  double       *stiff;   /* |ds|/(mu p), m/Pa, the resistance to a turn of the slip; 0 in cells that stick */
+  double       *free;    /* 1; 0 in cells without friction, and so without shear */
+  double       *bears;   /* 1; 0 in cells that yield, whose pressure stays */
+  double        self[2]; /* influence of a cell on itself, normal and tangential, m/Pa */
+  Vec           p, q, u_z, u_t, w_z, w_t;
+  float        *r, *z; /* of two components */
+  /* the system that is solved */
+  SamFrozenPart part;
+  PetscInt      applies, preconditions;
+} SamFrozen;
+
+/*
+  SamFrozenField - the fields of a solution whose sets of cells are frozen. Those from SAM_FROZEN_SLOPE on belong to a
+  motion that continues the step; without them the motion reverses it, so that all cells stick and bear pressure.
+*/
+typedef enum {
+  SAM_FROZEN_PRESSURE, /* Pa */
+  SAM_FROZEN_BOUND,    /* bound of the shear, Pa */
+  SAM_FROZEN_SHEAR,    /* Pa, two components */
+  SAM_FROZEN_SLOPE,    /* derivative of the bound by the pressure, 1 */
+  SAM_FROZEN_RATE,     /* derivative of the bound by the length of the slip, Pa/m; NULL: it does not follow the slip */
+  SAM_FROZEN_PATH,     /* length of the slip of the step, m */
+  SAM_FROZEN_OVERLAP,  /* overlap of the step in cells that yield, m */
+  SAM_FROZEN_FIELDS
+} SamFrozenField;
+/*
+  SamFrozenCreate - takes the sets of cells from the fields of a solution on the grid of an elasticity; `coupled`: pressure and shear of dissimilar bodies are
+  coupled. The elasticity is borrowed. Collective.
+  SamFrozenDestroy - frees what the object refers to. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamFrozenCreate(SamElasticity elasticity, const Vec fields[SAM_FROZEN_FIELDS],
+                                            PetscBool coupled, SamFrozen *frozen);
+PETSC_INTERN PetscErrorCode SamFrozenDestroy(SamFrozen *frozen);
+/* SamFrozenSize - returns the number of a field's values on this rank in the system that is solved. Not collective. */
+PETSC_INTERN PetscInt SamFrozenSize(const SamFrozen *frozen);
+/* SamFrozenMotion - gets the unit motion along one of the six phi, packed: normal (one component) or tangential
+   (two). */
+PETSC_INTERN void SamFrozenMotion(const SamFrozen *frozen, PetscInt k, double values[]);
+/* SamFrozenColumn - computes the right-hand side of a unit motion along one of the six phi, normal ones first. */
+PETSC_INTERN void SamFrozenColumn(const SamFrozen *frozen, PetscInt k, double column[]);
+/* SamFrozenApply - computes Ax, the system's matrix times x; sets u_z and u_t to the displacements by x. Collective. */
+PETSC_INTERN PetscErrorCode SamFrozenApply(SamFrozen *frozen, const double x[], double Ax[]);
+/* SamFrozenPrecondition - computes z, the approximate inverse of the matrix times r. Collective. */
+PETSC_INTERN PetscErrorCode SamFrozenPrecondition(SamFrozen *frozen, const double r[], double z[]);
+/* SamFrozenShear - computes the change q of the shear from those of the pressure and of x, NULL: 0; packed. Not
+   collective. */
+PETSC_INTERN void SamFrozenShear(const SamFrozen *frozen, const double p[], const double x[], double q[]);
+/* SamFrozenTakeSlip - computes d(ds) = C dq - t after a product with dq, t being the motion along phi k; packed.
+   Collective. */
+PETSC_INTERN PetscErrorCode SamFrozenTakeSlip(const SamFrozen *frozen, PetscInt k, double slip[]);
+/* SamFrozenDots - computes the products of n fields with one more, the same on any number of ranks. Collective. */
+PETSC_INTERN PetscErrorCode SamFrozenDots(const SamFrozen *frozen, PetscInt n, double *const fields[],
+                                          const double field[], double dots[]);
+
+/* Relative residual of a linear system, for which symmetric parts of the stiffness are accurate to 1e-8, others to
+   1e-5 */
+#define SAM_FROZEN_RTOL 1e-4
+/*
+  SamKrylovSolve - solves A x = b by generalised conjugate residuals; returns the residual b - A x, too. `error` is the
+  residual's norm relative to that of b. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamKrylovSolve(SamFrozen *frozen, const double b[], double x[], double residual[],
+                                           PetscReal *error);
+
+#endif

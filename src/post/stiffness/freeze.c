@@ -1,0 +1,107 @@
+/* The fields of a step that the tangent stiffness freezes, on the part of the grid that contains the contact. */
+#include "stiffnessimpl.h"
+#include <petsam/private/contact.h>
+#include <petsam/private/elasticity.h>
+#include <petsam/private/problem.h>
+#include <petsam/private/problemimpl.h>
+
+static PetscErrorCode TakeField(SamWindow window, SamGrid grid, PetscInt components, Vec whole, Vec *field)
+{
+  PetscFunctionBegin;
+  PetscCall(SamGridCreateVec(grid, components, field));
+  if (window)
+    PetscCall(SamWindowTake(window, whole, *field));
+  else
+    PetscCall(VecCopy(whole, *field));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Computes the derivatives of the bound, the slip and the overlap of the tried step, for a motion that continues the
+   step. */
+static PetscErrorCode CreateMotion(SamContact contact, const SamSolution *s, SamWindow window, SamGrid grid, Vec f[])
+{
+  SamBoundAt       at    = {.control = &s->control, .pressure = s->pressure};
+  SamBound         bound = {NULL, NULL, NULL};
+  Vec              field;
+  const SamProblem problem = SamContactGetProblem(contact);
+  const SamGrid    whole   = SamContactGetGrid(contact);
+
+  PetscFunctionBegin;
+  at.rolled = SamProblemGetRolled(problem, &s->control, NULL);
+  PetscCall(SamContactGetState(contact, &at.state));
+  PetscCall(SamGridCreateVec(whole, 1, &at.slip));
+  PetscCall(SamGridCreateVec(whole, 1, &field));
+  PetscCall(SamContactComputeFriction(contact, at.slip, NULL, NULL));
+  PetscCall(TakeField(window, grid, 1, at.slip, &f[SAM_FROZEN_PATH]));
+  bound.by_pressure = field;
+  if (SamProblemFollowsSlip(problem)) {
+    PetscCall(SamGridCreateVec(whole, 1, &bound.value));
+    PetscCall(SamGridCreateVec(whole, 1, &bound.by_slip));
+  }
+  PetscCall(SamProblemComputeBound(problem, &at, &bound));
+  PetscCall(TakeField(window, grid, 1, field, &f[SAM_FROZEN_SLOPE]));
+  if (bound.by_slip) PetscCall(TakeField(window, grid, 1, bound.by_slip, &f[SAM_FROZEN_RATE]));
+  PetscCall(VecDestroy(&bound.value));
+  PetscCall(VecDestroy(&bound.by_slip));
+  PetscCall(VecSet(field, 0));
+  PetscCall(SamProblemAddOverlap(problem, at.state, field));
+  PetscCall(TakeField(window, grid, 1, field, &f[SAM_FROZEN_OVERLAP]));
+  PetscCall(VecDestroy(&field));
+  PetscCall(VecDestroy(&at.slip));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode CreateFields(SamContact contact, SamStiffnessDirection direction, SamWindow window, SamGrid grid,
+                                   Vec f[])
+{
+  const SamSolution *s;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetSolution(contact, &s));
+  PetscCall(TakeField(window, grid, 1, s->pressure, &f[SAM_FROZEN_PRESSURE]));
+  PetscCall(TakeField(window, grid, 1, s->bound, &f[SAM_FROZEN_BOUND]));
+  PetscCall(TakeField(window, grid, 2, s->shear, &f[SAM_FROZEN_SHEAR]));
+  if (direction == SAM_STIFFNESS_FORWARD) PetscCall(CreateMotion(contact, s, window, grid, f));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Checks the step: without a tried step there must be a committed one, at which the motion reverses. */
+static PetscErrorCode CheckStep(SamContact contact, SamStiffnessDirection direction)
+{
+  const SamGrid   grid      = SamContactGetGrid(contact);
+  const PetscBool tried     = SamContactHasStep(contact, SAM_TRIED);
+  const PetscBool committed = SamContactHasStep(contact, SAM_COMMITTED);
+
+  PetscFunctionBegin;
+  PetscCheck(tried || committed, grid->comm, PETSC_ERR_ORDER,
+             "no step is tried or committed: try a step before its stiffness is computed");
+  PetscCheck(tried || direction == SAM_STIFFNESS_REVERSAL, grid->comm, PETSC_ERR_ORDER,
+             "the forward stiffness needs the slip of the step, which is not kept after the commit: compute it before, "
+             "or compute the stiffness at the reversal");
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamStiffnessFreeze(SamContact contact, SamStiffnessDirection direction, SamFrozen *f)
+{
+  const SamSolution  *s;
+  SamWindow           window;
+  SamElasticity       part;
+  PetscInt            first[2], n[2];
+  PetscBool           friction, coupled;
+  Vec                 fields[SAM_FROZEN_FIELDS] = {NULL};
+  const SamProblem    problem                   = SamContactGetProblem(contact);
+  const SamElasticity e                         = SamProblemGetElasticity(problem);
+  const SamGrid       whole                     = SamContactGetGrid(contact);
+
+  PetscFunctionBegin;
+  PetscCall(CheckStep(contact, direction));
+  PetscCall(SamProblemHasFriction(problem, &friction));
+  coupled = SamElasticityGetTraits(e).coupled && SamContactGetSettings(contact).coupling && friction;
+  PetscCall(SamContactGetSolution(contact, &s));
+  PetscCall(SamGridGetSupport(whole, s->pressure, first, n));
+  PetscCall(SamElasticityChoosePart(e, first, n, PETSC_TRUE, &window, &part));
+  PetscCall(CreateFields(contact, direction, window, window ? SamWindowGetGrid(window) : whole, fields));
+  PetscCall(SamFrozenCreate(window ? part : e, fields, coupled, f));
+  for (int k = 0; k < SAM_FROZEN_FIELDS; k++) PetscCall(VecDestroy(&fields[k]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
