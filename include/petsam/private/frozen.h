@@ -49,8 +49,8 @@ typedef enum {
   SAM_FROZEN_FIELDS
 } SamFrozenField;
 /*
-  SamFrozenCreate - takes the sets of cells from the fields of a solution on the grid of an elasticity; `coupled`: pressure and shear of dissimilar bodies are
-  coupled. The elasticity is borrowed. Collective.
+  SamFrozenCreate - takes the sets of cells from the fields of a solution on the grid of an elasticity, which is
+  borrowed. `coupled`: true if pressure and shear of dissimilar bodies are coupled. Collective.
   SamFrozenDestroy - frees what the object refers to. Collective.
 */
 PETSC_INTERN PetscErrorCode SamFrozenCreate(SamElasticity elasticity, const Vec fields[SAM_FROZEN_FIELDS],
