@@ -27,6 +27,7 @@
 #include <petsam/private/motionimpl.h>
 #include <petsam/private/state.h>
 #include <petsam/private/base.h>
+#include <petsam/private/control.h>
 #include <petsam/private/parameters.h>
 #include <math.h>
 
@@ -209,9 +210,10 @@ static PetscErrorCode Begin(SamLaw law, SamState state, const SamControl *contro
   (void)duration;
   PetscCheck(
     grid->axes < 2 || turn <= most, grid->comm, SAM_ERR_USER,
-    "%s of %.6g with -slide, found in the step before or by its spin: expected at most %.6g, a cell at the border of "
-    "the grid: surfaces slide without turning over each other: give rot_z = 0",
-    SamComponentNames[SAM_COMPONENT_MZ].rigid, turn, most);
+    "%s of %.6g with -slide, found for %s in the step before: expected at most %.6g, a cell at the border of the grid: "
+    "surfaces slide without turning over each other: give rot_z = 0 instead",
+    SamComponentNames[SAM_COMPONENT_MZ].rigid, turn,
+    SamComponentNameOf(SAM_COMPONENT_MZ, SamControlWay(control, SAM_COMPONENT_MZ)), most);
   Pull(by, before[SAM_FRAME_LIMIT], to);
   for (int k = 0; k < grid->axes; k++) moves = moves || fabs(to[k] - before[k]) >= SLIDES * (double)cell[k];
   for (int k = 0; k < 2; k++) now[k] = moves && k < grid->axes ? to[k] : before[k];
