@@ -44,27 +44,22 @@ PetscErrorCode SamWearGetLimit(SamLaw law, PetscReal most, PetscReal *times)
 PetscErrorCode SamWearGetExcess(SamLaw law, SamLawStep *step, PetscReal *excess)
 {
   const PetscBool by_energy = ((const SamWear *)law->data)->by_energy;
-  const double   *p, *slip, *wears, *one;
+  const double   *p, *slip, *wears, *slope = NULL;
   double          most = 0;
   PetscReal       times;
   const Vec       path = step->field[SAM_USE_PATH], worn = step->field[by_energy ? SAM_USE_WORK : SAM_USE_PRESSED];
-  Vec             unit;
 
   PetscFunctionBegin;
-  PetscCall(SamGridCreateVec(law->grid, 1, &unit));
-  PetscCall(VecSet(unit, 1));
-  if (by_energy) PetscCall(VecCopy(step->field[SAM_USE_SLOPE], unit));
   PetscCall(VecGetArrayRead(step->pressure, &p));
   PetscCall(VecGetArrayRead(path, &slip));
   PetscCall(VecGetArrayRead(worn, &wears));
-  PetscCall(VecGetArrayRead(unit, &one));
+  if (by_energy) PetscCall(VecGetArrayRead(step->field[SAM_USE_SLOPE], &slope));
   for (PetscInt k = 0; k < law->grid->cells; k++)
-    if (p[k] > 0 && fabs(wears[k]) > 0) most = PetscMax(most, one[k] * slip[k]);
-  PetscCall(VecRestoreArrayRead(unit, &one));
+    if (p[k] > 0 && fabs(wears[k]) > 0) most = PetscMax(most, (slope ? slope[k] : 1) * slip[k]);
+  if (by_energy) PetscCall(VecRestoreArrayRead(step->field[SAM_USE_SLOPE], &slope));
   PetscCall(VecRestoreArrayRead(worn, &wears));
   PetscCall(VecRestoreArrayRead(path, &slip));
   PetscCall(VecRestoreArrayRead(step->pressure, &p));
-  PetscCall(VecDestroy(&unit));
   PetscCall(SamMax(law->grid->comm, 1, &most));
   PetscCall(SamWearGetLimit(law, (PetscReal)most, &times));
   *excess = 1 / times;

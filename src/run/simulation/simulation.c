@@ -379,17 +379,19 @@ PetscErrorCode SamSimulationGetFiles(SamSimulation s, SamSimulationFiles *files)
 
 PetscErrorCode SamSimulationCheckFiles(SamSimulation s, const SamArguments *arguments)
 {
-  SamFiles files = {.count = 0};
-  char    *one, *other; /* names that are derived: a checkpoint's file.1 and file.tmp */
+  SamFiles           files = {.count = 0};
+  SamSimulationFiles own;
+  char              *one, *other; /* names that are derived: a checkpoint's file.1 and file.tmp */
 
   PetscFunctionBegin;
-  if (s->has_output) {
-    PetscCall(SamFileNameTemporary(s->filename, &other));
-    PetscCall(SamFilesAddWritten(&files, "-output", s->filename, NULL, other));
+  PetscCall(SamSimulationGetFiles(s, &own));
+  if (own.output) {
+    PetscCall(SamFileNameTemporary(own.output, &other));
+    PetscCall(SamFilesAddWritten(&files, "-output", own.output, NULL, other));
   }
-  if (s->checkpoints.filename[0]) {
-    PetscCall(SamCheckpointNames(s->checkpoints.filename, &one, &other));
-    PetscCall(SamFilesAddWritten(&files, "-checkpoint", s->checkpoints.filename, one, other));
+  if (own.checkpoint) {
+    PetscCall(SamCheckpointNames(own.checkpoint, &one, &other));
+    PetscCall(SamFilesAddWritten(&files, "-checkpoint", own.checkpoint, one, other));
   }
   PetscCall(SamFilesCheck(&files, s->comm, arguments));
   PetscFunctionReturn(PETSC_SUCCESS);
