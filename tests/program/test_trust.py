@@ -4,6 +4,7 @@ import math
 import re
 
 import h5py
+import numpy as np
 import pytest
 
 SLIP = "slip zones are"
@@ -508,3 +509,12 @@ def test_slip_and_stick_in_steady_rolling_are_right_or_warned_of(petsam, tmp_pat
 def test_creepage_that_is_found_under_spin_is_noted(petsam):
     done = petsam(WHEEL, dict(load_n=LOAD, creep_spin=0.1, grid_n=64, grid_size=2.5 * RADIUS))
     assert [line.split(": ")[1] for line in done.complaint if "creep_y is found" in line] == ["note"]
+
+
+def test_slip_without_friction_is_no_number(petsam, tmp_path):
+    case = dict(SPHERE, body2_young=70e9, load_n=LOAD, grid_n=24, grid_size=3.2 * RADIUS, output=tmp_path / "out.h5")
+    for friction, line in ((0, r"maximum +pressure [0-9.e+]+ Pa, shear 0 Pa\n"), (0.3, "slip [0-9.e-]+ m")):
+        printed = petsam(dict(case, friction=friction, overwrite=True)).stdout
+        with h5py.File(tmp_path / "out.h5") as f:
+            assert np.isfinite(f["history/slip_max"][0]) == (friction > 0)
+        assert re.search(line, printed) and "nan" not in printed

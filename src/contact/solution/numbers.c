@@ -257,10 +257,11 @@ PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamState state, con
 {
   double *const numbers = SamStateNumbers(state, SamStateFindNumber(state, declared[0].name), SAM_TRIED);
   double *const contact = SamStateNumbers(state, SamStateFindNumber(state, contact_edge.name), SAM_TRIED);
-  PetscBool     streams, offset;
+  PetscBool     streams, offset, friction;
   const SamGrid grid = SamProblemGetGrid(problem);
 
   PetscFunctionBegin;
+  PetscCall(SamProblemHasFriction(problem, &friction));
   streams = SamMotionOf(SamProblemGetElasticity(problem))->streams;
   PetscCall(SumCells(problem, before, s, numbers));
   PetscCall(SamSolutionFollowClosed(problem, state, before, s, numbers[STICK_CELLS], &numbers[CLOSED]));
@@ -274,8 +275,9 @@ PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamState state, con
   numbers[SLIP_WIDTH]    = NAN;
   if (!same_pressure) contact[KNOWN] = 0;
   if (edges) PetscCall(FindEdges(problem, s, contact, numbers));
-  if (edges && SamProblemGetRolled(problem, &s->control, NULL) == 0)
+  if (edges && friction && SamProblemGetRolled(problem, &s->control, NULL) == 0)
     PetscCall(SamSolutionFindSlip(problem, state, s, &numbers[SLIP_MAX]));
+  if (!friction) numbers[SLIP_MAX] = NAN; /* nothing opposes it, and at the edge it is not resolved */
   PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_EDGES], 0, 0, 0, 0));
   numbers[FRACTION] = numbers[CONTACT_AREA] / (grid->width[0] * grid->width[1]);
   PetscFunctionReturn(PETSC_SUCCESS);

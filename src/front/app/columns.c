@@ -41,6 +41,7 @@ void SamReportValue(const SamReportColumn *column, double value, SamReportCell c
                  value);
   for (int digits = PetscMin(column->digits, 9); digits > 1 && strlen(cell) >= (size_t)column->width; digits--)
     (void)snprintf(cell, sizeof(SamReportCell), "%.*g", digits - 1, value);
+  if (isnan(value)) (void)snprintf(cell, sizeof(SamReportCell), "-");
 }
 
 void SamReportSeconds(double seconds, SamReportCell cell)

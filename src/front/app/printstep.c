@@ -69,6 +69,7 @@ static PetscErrorCode ViewSolution(const SamStep *s, SamContact c, const Sizes *
 {
   const SamMotion motion = SamContactGetMotion(c);
   const double passes = Get(c, "coupling_iterations"), move = ROUNDING * sizes->rigid[0], work = sizes->load[0] * move;
+  const double slip    = Clean(Get(c, NameOf(c, "slip_max")), move); /* NaN without friction */
   const SamState state = StateOf(c);
 
   PetscFunctionBegin;
@@ -76,9 +77,10 @@ static PetscErrorCode ViewSolution(const SamStep *s, SamContact c, const Sizes *
                                    Get(c, "contact_area"), SamStateUnitOf(state, "contact_area"), Get(c, "stick_area"),
                                    SamStateUnitOf(state, "stick_area"), Clean(Get(c, motion->work), work),
                                    SamStateUnitOf(state, motion->work)));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  pressure %.6g Pa, shear %.6g Pa, slip %.6g%s\n", "maximum",
-                                   Get(c, "pressure_max"), Get(c, "shear_max"),
-                                   Clean(Get(c, NameOf(c, "slip_max")), move), motion->slip_unit));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  pressure %.6g Pa, shear %.6g Pa", "maximum",
+                                   Get(c, "pressure_max"), Get(c, "shear_max")));
+  if (!isnan(slip)) PetscCall(PetscViewerASCIIPrintf(viewer, ", slip %.6g%s", slip, motion->slip_unit));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   if (!isnan(Get(c, "contact_spots")))
     PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  %.0f, contact on %.4g %% of the grid, mean gap %.6g m\n",
                                      "spots", Get(c, "contact_spots"), 100 * Get(c, "contact_fraction"),
