@@ -182,20 +182,37 @@ for kind in ("run", "live"):
         compare(launcher, tmp_path, f"{kind}.npz", steps=f"{last - steps + 1}:{last}", **options)
 
 
-def test_stresses_of_bodies_that_yield_are_refused(tmp_path):
-    """They are those of petsam-stress, from a file: the message names the option that saves what it needs."""
-    text = run_python(
+YIELDING = dict(
+    CASE, body2_young=210e9, body2_poisson=0.3, grid_n=(16, 15), friction=0.3, body1_yield=2e8, body2_yield=1.5e8,
+    body2_hardening_modulus=1e9, yield_depth=6e-4, yield_layers=4,
+)  # fmt: skip
+
+
+def test_stresses_of_bodies_that_yield_are_those_of_their_layers_too(launcher, tmp_path):
+    """Of a step in both bodies, and of a recorded cycle in which strain still grows."""
+    steps = [(900.0, 0.0), (900.0, 150.0), (2500.0, -150.0), (900.0, 100.0)]
+    rows = ["time,load_n,load_tx", *(f"{k},{n!r},{tx!r}" for k, (n, tx) in enumerate(steps, 1))]
+    (tmp_path / "h.csv").write_text("\n".join(rows))
+    case = dict(YIELDING, history="h.csv", output="c.h5", output_fields="all,plastic", allow_edge_contact=True)
+    conftest.execute(launcher, tmp_path, [case], 1, 0)
+    more = dict(fatigue_crossland_alpha=0.2, depths=(0.0, 5e-5))
+    fatigue = dict(more, fatigue="swt,crossland")
+    run_python(
         f"""
-import petsam
-with petsam.Contact(**{dict(CASE, body2_yield=1e9, yield_layers=4)!r}) as contact:
-    contact.try_step(load_n=900.0)
-    for body in 1, 2:
-        try:
-            contact.stress(depths=0, body=body)
-        except petsam.contact.ContactError as error:
-            print(error.code, error)
+import petsam, numpy as np
+contact = petsam.Contact(**{dict(YIELDING, allow_edge_contact=True)!r})
+contact.record()
+for k, (n, tx) in enumerate({steps!r}, 1):
+    contact.try_step(time=k, load_n=n, load_tx=tx)
+    contact.commit()
+np.savez("cycle.npz", **contact.fatigue("swt,crossland", **{more!r}))
+for body in 1, 2:
+    np.savez(f"{{body}}.npz", **contact.stress(depths=(0.0, 1e-4), section="y=0", body=body))
 """,
         tmp_path,
     )
-    said = "not supported with -body2_yield: petsam -output_fields usual,plastic saves"
-    assert [line.startswith("2 ") and said in line for line in text.splitlines()] == [True, True], text
+    with h5py.File(tmp_path / "c.h5") as f:
+        assert (np.diff(f["history/plastic_max"][1:]) > 0).any() and f["history/yielding_cells"][2] > 5
+    compare(launcher, tmp_path, "cycle.npz", steps="1:4", quantities="none", **fatigue)
+    for body in 1, 2:
+        compare(launcher, tmp_path, f"{body}.npz", depths=(0.0, 1e-4), section="y=0", body=body, steps=4)

@@ -154,7 +154,7 @@ def test_ranks_give_the_same_bits(stress):
 def test_what_is_not_known_is_refused(stress):
     assert "-output_fields usual,plastic" in stress(input="none.h5", depths=0, check=2)
     said = stress(input="two.h5", depths="0:0.4mm:3", check=2)
-    assert "-depths" in said and "-yield_depth" in said
+    assert "-depths: 0.0004 m" in said and "at 0.0003 m" in said and "petsam -help plastic" in said
     assert "-passing" in stress(input="two.h5", depths="0:0.2mm:3", fatigue="swt", section="y=0", passing=True, check=2)
 
 

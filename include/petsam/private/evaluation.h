@@ -7,6 +7,7 @@
 #include <petsam/control.h>
 #include <petsam/elasticity.h>
 #include <petsam/private/fourier.h>
+#include <petsam/private/state.h>
 
 /*
   SamEvaluation - the stresses in one body under the tractions of load steps: at depths below all cells (maps) or below
@@ -66,21 +67,16 @@ typedef struct {
   const char               *name;     /* name of the origin of the bodies, for messages; borrowed */
   PetscInt                  steps;
   PetscBool                 before;
-  PetscBool                 slides;      /* true: the surfaces slide past each other, so that points of body 2 move */
-  PetscBool                 yields[2];   /* true if body 1, body 2 yields below its surface */
-  PetscInt                  layers;      /* number of layers of the yielding depth */
-  const double             *middle;      /* depths of the middles of these layers, m; borrowed */
-  PetscReal                 yield_depth; /* depth down to which bodies may yield, m */
-  PetscBool                 slips;       /* true: steps follow each other, and have slips, not slip velocities */
+  PetscBool                 slides; /* true: the surfaces slide past each other, so that points of body 2 move */
+  PetscBool                 slips;  /* true: steps follow each other, and have slips, not slip velocities */
+  PetscInt                  groups; /* number of groups of layers with stresses besides those by tractions */
+  const SamStateLayers     *group[SAM_LAYER_GROUPS]; /* borrowed; z is NULL if their stresses are not available */
   PetscErrorCode (*read)(void *context, PetscInt step, SamStepField field, double values[]);
   PetscErrorCode (*number)(void *context, PetscInt step, SamStepNumber number, double *value);
   PetscErrorCode (*conditions)(void *context, PetscInt step, SamConditions conditions, SamControl *control);
-  /*
-    reads a component of the stress by plastic strain in a body (1 or 2), the mean over a layer (counted from the
-    surface down): this rank's rows, Pa; NULL: not available
-  */
-  PetscErrorCode (*residual)(void *context, PetscInt step, PetscInt body, PetscInt component, PetscInt layer,
-                             double values[]);
+  /* reads a component of the stresses of a group in a layer, counted along z: this rank's rows, Pa */
+  PetscErrorCode (*layer)(void *context, PetscInt step, PetscInt group, PetscInt component, PetscInt layer,
+                          double values[]);
   PetscErrorCode (*warn)(void *context, const char text[]);
   PetscErrorCode (*tell)(void *context, const char work[], double part, double whole);
   void *context;

@@ -5,6 +5,7 @@
 #include <petsam/control.h>
 #include <petsam/parameters.h>
 #include <petsam/grid.h>
+#include <petsam/private/state.h>
 
 /* SamResults - the results of a run, one file or several parts (output.h), open for reading on any number of ranks. */
 typedef struct _n_SamResults *SamResults;
@@ -49,18 +50,14 @@ PETSC_EXTERN PetscErrorCode       SamResultsGetSaved(SamResults results, PetscIn
 */
 PETSC_EXTERN PetscErrorCode SamResultsRead(SamResults results, PetscInt k, SamResultsField field, double values[]);
 /*
-  SamResultsCountLayers - returns the number of layers of a body (1 or 2) that yields; 0 if it does not.
-  SamResultsHasLayers - returns true if the stresses by plastic strain have been saved. Neither is collective.
-  SamResultsReadDepths - reads the depths (m) of the middles of a body's layers, from its surface down. Collective.
-  Errors: SAM_ERR_FILE.
-  SamResultsReadLayer - reads this rank's rows of a component of these stresses (Pa), the mean over a layer; the layers
-  of both bodies are counted along z of body 2. Collective. Errors: as SamResultsRead().
+  SamResultsGetLayers - returns the g-th group of layers whose stresses are added to those by tractions, borrowed; its
+  z is NULL if they have not been saved. NULL: there are no more. Not collective.
+  SamResultsReadLayer - reads this rank's rows of a component of these stresses (Pa), the mean over a layer, counted
+  along z. Collective. Errors: as SamResultsRead().
 */
-PETSC_EXTERN PetscInt       SamResultsCountLayers(SamResults results, PetscInt body);
-PETSC_EXTERN PetscBool      SamResultsHasLayers(SamResults results);
-PETSC_EXTERN PetscErrorCode SamResultsReadDepths(SamResults results, PetscInt body, double middle[]);
-PETSC_EXTERN PetscErrorCode SamResultsReadLayer(SamResults results, PetscInt k, PetscInt component, PetscInt layer,
-                                                double values[]);
+PETSC_EXTERN const SamStateLayers *SamResultsGetLayers(SamResults results, PetscInt g);
+PETSC_EXTERN PetscErrorCode        SamResultsReadLayer(SamResults results, PetscInt k, PetscInt g, PetscInt component,
+                                                       PetscInt layer, double values[]);
 /*
   SamResultsReadConditions - sets the conditions of a list in a control to those of a load step (from 1); a condition
   without a column in the file gets its usual value. Collective. Errors: SAM_ERR_FILE, also for a value that is not

@@ -96,13 +96,32 @@ PETSC_INTERN PetscErrorCode SamStateOfferNumber(SamState state, const char name[
 
 /*
   SamStateOffer - declares a computed field of the results. Not collective.
-  SamStateSetLayers - sets the layers of all fields of kind SAM_FIELD_LAYERS: the increasing z of their middles, m below
-  the surface of body 2, negative in body 1. SamStateGetLayers - returns their number, and gets z, borrowed. Neither is
-  collective.
 */
-PETSC_INTERN PetscErrorCode SamStateSetLayers(SamState state, PetscInt count, const PetscReal z[]);
-PETSC_INTERN PetscInt       SamStateGetLayers(SamState state, const PetscReal **z);
 PETSC_INTERN PetscErrorCode SamStateOffer(SamState state, const SamStateResult *result);
+
+/*
+  SamStateLayers - the layers below the cells in which the results of one group are; these have the kind
+  SAM_FIELD_LAYERS. If the group has `stresses`, its results residual_stress_xx, ..._yy, _zz, _xy, _xz and _yz (Pa,
+  means over the layers, in the axes of the grid, whose z points into body 2) are added to the stresses by tractions.
+*/
+typedef struct {
+  const char *group;    /* name of the group; not copied */
+  PetscInt    count[2]; /* number of layers in body 1 and in body 2 */
+  PetscReal  *z;        /* z of the middles, m: below the surface of body 2, negative in body 1, rising; copied */
+  PetscBool   stresses; /* true: it has stresses */
+  PetscBool   initial;  /* true: these contain the stress before any load */
+} SamStateLayers;
+#define SAM_LAYER_GROUPS 4                         /* most groups */
+PETSC_INTERN const char *const SamLayerStresses[]; /* names of the stresses in a group, by SamStressComponent */
+/*
+  SamStateSetLayers - declares the layers of a group, or replaces an earlier declaration. Errors:
+  PETSC_ERR_ARG_OUTOFRANGE for more than SAM_LAYER_GROUPS groups.
+  SamStateGetLayers - returns the k-th group, borrowed; NULL: there are no more.
+  SamStateLayersOf - returns the group of a result by its name, borrowed. None is collective.
+*/
+PETSC_INTERN PetscErrorCode        SamStateSetLayers(SamState state, const SamStateLayers *layers);
+PETSC_INTERN const SamStateLayers *SamStateGetLayers(SamState state, PetscInt k);
+PETSC_INTERN const SamStateLayers *SamStateLayersOf(SamState state, const char result[]);
 
 /*
   SamStateReadNumbers - returns the numbers (units of the declarations) in the tried generation, without a try in the

@@ -29,7 +29,6 @@
 typedef struct {
   SamStressRequest       request;
   SamResults             results;
-  double                *middle; /* depths of the middles of layers; NULL: none */
   SamStressFile          file;
   SamGrid                grid;       /* grid of the results */
   SamElasticity          elasticity; /* the bodies, as recorded in the results */
@@ -162,41 +161,13 @@ static PetscErrorCode ChooseSteps(SamStressRun *run)
 
 /* ---- set-up ---- */
 
-/* Reads the stress by plastic strain; z points into body 2 in the results, so the shears of body 1 change their
-   sign. */
-static PetscErrorCode ReadResidual(void *context, PetscInt step, PetscInt body, PetscInt component, PetscInt layer,
-                                   double values[])
+static PetscErrorCode ReadLayer(void *context, PetscInt step, PetscInt group, PetscInt component, PetscInt layer,
+                                double values[])
 {
-  const SamStressRun *const run    = (SamStressRun *)context;
-  const PetscBool           turns  = body == 1 && (component == SAM_STRESS_XZ || component == SAM_STRESS_YZ);
-  const PetscInt            layers = SamResultsCountLayers(run->results, 1);
+  const SamStressRun *const run = (const SamStressRun *)context;
 
   PetscFunctionBegin;
-  PetscCall(SamResultsReadLayer(run->results, SavedStep(run, step), component,
-                                body == 1 ? layers - 1 - layer : layers + layer, values));
-  for (PetscInt k = 0; k < run->grid->cells && turns; k++) values[k] = -values[k];
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Finds the bodies that have yielded, and checks if the results contain the stresses by plastic strain. */
-static PetscErrorCode SetYielding(SamStressRun *run, SamStressSource *source)
-{
-  const SamParameters *parameters = SamResultsGetParameters(run->results);
-  const SamParameter  *depth      = SamParametersFind(parameters, "yield_depth");
-
-  PetscFunctionBegin;
-  for (PetscInt b = 0; b < 2; b++) {
-    const PetscInt layers = SamResultsCountLayers(run->results, b + 1);
-
-    source->yields[b] = layers > 0;
-    if (layers) source->layers = layers; /* the same for both bodies */
-  }
-  source->yield_depth = depth ? depth->value[0] : 0;
-  if (!SamResultsHasLayers(run->results)) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscMalloc1(source->layers, &run->middle));
-  PetscCall(SamResultsReadDepths(run->results, source->yields[1] ? 2 : 1, run->middle));
-  source->middle   = run->middle;
-  source->residual = ReadResidual;
+  PetscCall(SamResultsReadLayer(run->results, SavedStep(run, step), group, component, layer, values));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -208,6 +179,7 @@ static PetscErrorCode SetUpEvaluation(SamStressRun *run)
                                      .read       = ReadField,
                                      .number     = ReadNumber,
                                      .conditions = ReadConditions,
+                                     .layer      = ReadLayer,
                                      .warn       = WarnOfSteps,
                                      .tell       = Tell,
                                      .context    = run};
@@ -216,7 +188,10 @@ static PetscErrorCode SetUpEvaluation(SamStressRun *run)
 
   PetscFunctionBegin;
   source.slides = SamParametersFind(parameters, "slide") != NULL;
-  PetscCall(SetYielding(run, &source));
+  while (source.groups < SAM_LAYER_GROUPS && SamResultsGetLayers(run->results, source.groups)) {
+    source.group[source.groups] = SamResultsGetLayers(run->results, source.groups);
+    source.groups++;
+  }
   source.slips = rolling && !strcmp(rolling->text, "steady") ? PETSC_FALSE : PETSC_TRUE;
   PetscCall(PetscSNPrintf(run->source, sizeof(run->source), "-input %s", run->request.input));
   PetscCall(SamElasticityCreateFromParameters(run->grid, parameters, run->source, &run->elasticity));
@@ -286,7 +261,6 @@ static PetscErrorCode TearDown(void *context)
   PetscCall(SamStressFileDestroy(&run->file));
   PetscCall(SamEvaluationDestroy(&run->evaluation));
   PetscCall(SamElasticityDestroy(&run->elasticity));
-  PetscCall(PetscFree(run->middle));
   PetscCall(SamResultsDestroy(&run->results));
   PetscCall(PetscFree(run->saved));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -16,9 +16,10 @@ enum { AXES = SAM_STRESS_AXES };
 /* A step whose stresses can be evaluated */
 typedef struct {
   SamControl control;
-  double     area;     /* of contact, m2 */
-  PetscReal  slide[4]; /* m: slide, and rolled distance */
-  double    *fields;   /* (SAM_STEP_FIELDS, cells); NULL: there is no step */
+  double     area;                     /* of contact, m2 */
+  PetscReal  slide[4];                 /* m: slide, and rolled distance */
+  double    *fields;                   /* (SAM_STEP_FIELDS, cells); NULL: there is no step */
+  double    *layers[SAM_LAYER_GROUPS]; /* (SAM_STRESS_COMPONENTS, layers, cells): stresses in layers; NULL: none */
 } Step;
 
 /* Coordinates, or a dataset of an evaluation */
@@ -42,6 +43,39 @@ struct _n_SamEmbedStress {
 
 /* ---- steps ---- */
 
+/* Takes the stresses in layers that laws add to those by tractions. */
+static PetscErrorCode TakeLayers(petsam_contact *c, Step *step)
+{
+  const ptrdiff_t       n = c->setup->grid->cells;
+  const SamStateLayers *group;
+  SamState              state;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetState(c->setup->contact, &state));
+  for (PetscInt g = 0; (group = SamStateGetLayers(state, g)); g++) {
+    const PetscInt layers = group->count[0] + group->count[1];
+    Vec            field;
+
+    if (!group->stresses) continue;
+    PetscCall(SamAllocate(sizeof(double) * SAM_STRESS_COMPONENTS * (size_t)layers * (size_t)n, &step->layers[g]));
+    PetscCall(SamGridCreateVec(c->setup->grid, layers, &field));
+    for (PetscInt k = 0; k < SAM_STRESS_COMPONENTS; k++) {
+      char                  name[80];
+      const SamStateResult *result;
+      const double         *values;
+
+      (void)snprintf(name, sizeof(name), "%s/%s", group->group, SamLayerStresses[k]);
+      result = SamStateResultOf(state, SamStateFindResult(state, name));
+      PetscCall((*result->compute)(result->owner, state, result->component, field));
+      PetscCall(VecGetArrayRead(field, &values));
+      PetscCall(PetscArraycpy(step->layers[g] + k * layers * n, values, layers * n));
+      PetscCall(VecRestoreArrayRead(field, &values));
+    }
+    PetscCall(VecDestroy(&field));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Takes the tried step, else the committed one. */
 static PetscErrorCode TakeStep(petsam_contact *c, Step *step)
 {
@@ -53,7 +87,7 @@ static PetscErrorCode TakeStep(petsam_contact *c, Step *step)
 
   PetscFunctionBegin;
   PetscCall(SamContactGetSolution(c->setup->contact, &s));
-  step->control = s->control;
+  *step = (Step){.control = s->control};
   PetscCall(SamContactGetNumber(c->setup->contact, "contact_area", &step->area));
   for (int k = 0; k < 4 && SamProblemGetLaw(c->setup->problem, SAM_LAW_SLIDE); k++)
     PetscCall(SamContactGetNumber(c->setup->contact, slides[k], &step->slide[k]));
@@ -65,13 +99,15 @@ static PetscErrorCode TakeStep(petsam_contact *c, Step *step)
     for (ptrdiff_t k = 0; k < n && !has; k++) step->fields[f * n + k] = NAN; /* the motion has another field instead */
     if (has) PetscCall(SamEmbedCopyField(c, names[f], step->fields + f * n));
   }
+  PetscCall(TakeLayers(c, step));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static void DestroyStep(Step *step)
 {
   SamFree(step->fields);
-  step->fields = NULL;
+  for (int g = 0; g < SAM_LAYER_GROUPS; g++) SamFree(step->layers[g]);
+  *step = (Step){.fields = NULL};
 }
 
 PetscErrorCode SamEmbedRecord(petsam_contact *c, const SamStep *step)
@@ -212,6 +248,22 @@ static PetscErrorCode ReadField(void *context, PetscInt k, SamStepField field, d
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode ReadLayer(void *context, PetscInt k, PetscInt group, PetscInt component, PetscInt layer,
+                                double values[])
+{
+  const Steps *const    s = (const Steps *)context;
+  const SamStateLayers *of;
+  SamState              state;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetState(s->c->setup->contact, &state));
+  of = SamStateGetLayers(state, group);
+  PetscCall(PetscArraycpy(
+    values, s->step[k].layers[group] + (component * (of->count[0] + of->count[1]) + layer) * (ptrdiff_t)s->cells,
+    s->cells));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode ReadNumber(void *context, PetscInt k, SamStepNumber number, double *value)
 {
   const Steps *const s    = (const Steps *)context;
@@ -247,24 +299,24 @@ static PetscErrorCode Warn(void *context, const char text[])
 
 static PetscErrorCode Compute(petsam_contact *c, const char options[], PetscInt n, Steps *steps, SamEvaluation *e)
 {
-  const SamLaw          yields = SamProblemGetLaw(c->setup->problem, SAM_LAW_PLASTIC);
-  const SamStressSource source = {.bodies     = c->setup->elasticity,
-                                  .name       = "-elasticity",
-                                  .steps      = n,
-                                  .before     = steps->before && steps->before->fields,
-                                  .slides     = SamProblemGetLaw(c->setup->problem, SAM_LAW_SLIDE) != NULL,
-                                  .slips      = SamMotionOf(c->setup->elasticity)->continues,
-                                  .read       = ReadField,
-                                  .number     = ReadNumber,
-                                  .conditions = ReadConditions,
-                                  .warn       = Warn,
-                                  .context    = steps};
+  SamState        state;
+  SamStressSource source = {.bodies     = c->setup->elasticity,
+                            .name       = "-elasticity",
+                            .steps      = n,
+                            .before     = steps->before && steps->before->fields,
+                            .slides     = SamProblemGetLaw(c->setup->problem, SAM_LAW_SLIDE) != NULL,
+                            .slips      = SamMotionOf(c->setup->elasticity)->continues,
+                            .read       = ReadField,
+                            .number     = ReadNumber,
+                            .conditions = ReadConditions,
+                            .layer      = ReadLayer,
+                            .warn       = Warn,
+                            .context    = steps};
 
   PetscFunctionBegin;
-  PetscCheck(!yields, c->setup->grid->comm, SAM_ERR_USER,
-             "stresses of a contact in a program: not supported with -%s: petsam -output_fields usual,plastic saves "
-             "those by plastic strain, for petsam-stress",
-             yields->option);
+  PetscCall(SamContactGetState(c->setup->contact, &state));
+  for (const SamStateLayers *group; (group = SamStateGetLayers(state, source.groups)); source.groups++)
+    source.group[source.groups] = group;
   PetscCall(ReadOptions(c, options, e));
   PetscCall(SamEvaluationSetUp(*e, &source));
   PetscCall(CreateResults(c->stress, SamEvaluationGetLayout(*e)));

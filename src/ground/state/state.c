@@ -27,8 +27,7 @@ struct _n_SamState {
   Field          field[SAM_STATE_MOST];
   Number         number[SAM_STATE_DECLARED];
   SamStateResult result[SAM_STATE_MOST];
-  PetscInt       layers; /* number of layers of a field of layers */
-  PetscReal     *z;
+  SamStateLayers layers[SAM_LAYER_GROUPS];
   char           names[SAM_STATE_MOST][48];   /* names of results that are components of fields */
   char           texts[SAM_STATE_MOST][96];   /* texts of the same */
   double        *generation[SAM_GENERATIONS]; /* the numbers */
@@ -91,7 +90,7 @@ PetscErrorCode SamStateDestroy(SamState *state)
   PetscCall(DestroyFields(s));
   for (PetscInt g = 0; g < SAM_GENERATIONS; g++) PetscCall(PetscFree(s->generation[g]));
   PetscCall(SamGridDestroy(&s->grid));
-  PetscCall(PetscFree(s->z));
+  for (PetscInt k = 0; k < SAM_LAYER_GROUPS; k++) PetscCall(PetscFree(s->layers[k].z));
   s->class_id = SAM_CLASSID_NONE;
   PetscCall(PetscFree(s));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -109,20 +108,38 @@ PetscErrorCode SamStateOffer(SamState s, const SamStateResult *result)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamStateSetLayers(SamState s, PetscInt count, const PetscReal z[])
+const char *const SamLayerStresses[] = {"residual_stress_xx", "residual_stress_yy", "residual_stress_zz",
+                                        "residual_stress_xy", "residual_stress_xz", "residual_stress_yz"};
+
+PetscErrorCode SamStateSetLayers(SamState s, const SamStateLayers *layers)
 {
+  const PetscInt count = layers->count[0] + layers->count[1];
+  PetscInt       k     = 0;
+
   PetscFunctionBegin;
-  PetscCall(PetscFree(s->z));
-  PetscCall(PetscMalloc1(count, &s->z));
-  PetscCall(PetscArraycpy(s->z, z, count));
-  s->layers = count;
+  while (k < SAM_LAYER_GROUPS && s->layers[k].group && strcmp(s->layers[k].group, layers->group)) k++;
+  PetscCheck(k < SAM_LAYER_GROUPS, s->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "More than %d groups of layers: %s",
+             SAM_LAYER_GROUPS, layers->group);
+  PetscCall(PetscFree(s->layers[k].z));
+  s->layers[k] = *layers;
+  PetscCall(PetscMalloc1(count, &s->layers[k].z));
+  PetscCall(PetscArraycpy(s->layers[k].z, layers->z, count));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscInt SamStateGetLayers(SamState s, const PetscReal **z)
+const SamStateLayers *SamStateGetLayers(SamState s, PetscInt k)
 {
-  if (z) *z = s->z;
-  return s->layers;
+  return k < SAM_LAYER_GROUPS && s->layers[k].group ? &s->layers[k] : NULL;
+}
+
+const SamStateLayers *SamStateLayersOf(SamState s, const char result[])
+{
+  const size_t          length = strcspn(result, "/");
+  const SamStateLayers *layers = NULL;
+
+  for (PetscInt k = 0; (layers = SamStateGetLayers(s, k)); k++)
+    if (strlen(layers->group) == length && !strncmp(layers->group, result, length)) break;
+  return layers;
 }
 
 /* Writes the name and the text of the c-th value per cell of a field. */

@@ -413,7 +413,11 @@ static PetscErrorCode OfferLayers(SamLaw law, SamState state)
     if (count > l + Above(x)) z[l + Above(x)] = middle;
     if (Above(x)) z[Above(x) - 1 - l] = -middle;
   }
-  PetscCall(SamStateSetLayers(state, count, z));
+  PetscCall(SamStateSetLayers(state, &(SamStateLayers){.group    = "plastic",
+                                                       .count    = {Above(x), count - Above(x)},
+                                                       .z        = z,
+                                                       .stresses = PETSC_TRUE,
+                                                       .initial  = PETSC_TRUE}));
   PetscCall(PetscFree(z));
   for (PetscInt k = 0; k < 1 + 2 * PARTS; k++)
     PetscCall(SamStateOffer(state, &(SamStateResult){.name      = labels[k][0],

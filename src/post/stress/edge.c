@@ -36,7 +36,7 @@ PetscErrorCode SamLargestAtEdge(SamEvaluation e, PetscInt step, Vec field)
   double                *stress;
 
   PetscFunctionBegin;
-  if (e->source.yields[e->body - 1]) PetscFunctionReturn(PETSC_SUCCESS); /* the cells at the edge have yielded */
+  if (SamLayersExist(e)) PetscFunctionReturn(PETSC_SUCCESS); /* their stresses are not known at the edge */
   SamStressAddUniform(e, step, &(SamPoints){.count = 1, .depths = 1, .plane = 1}, far);
   PetscCall(SamGridCreateVec(g, 1, &square));
   PetscCall(FillSquare(g, field, square));

@@ -151,7 +151,7 @@ PetscErrorCode SamEvaluationSetUp(SamEvaluation e, const SamStressSource *source
   PetscCall(CheckConstants(e));
   PetscCall(SamAverageSetUp(e));
   PetscCall(SamDepthsSetUp(e));
-  PetscCall(SamPlasticSetUp(e));
+  PetscCall(SamLayersSetUp(e));
   PetscCall(CheckCycle(e));
   PetscCall(FindLine(e));
   PetscCall(SamProblemCreate(e->source.bodies, &e->problem));

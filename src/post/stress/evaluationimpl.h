@@ -147,12 +147,17 @@ PETSC_INTERN PetscErrorCode   SamPointsCheck(SamEvaluation e, PetscInt step, con
 */
 PETSC_INTERN void SamStressAddUniform(SamEvaluation e, PetscInt step, const SamPoints *points, double stress[]);
 /*
-  SamPlasticSetUp - checks the request for a body that yields (plastic.c). Collective. Errors: SAM_ERR_USER.
-  SamStressAddPlastic - adds to the stresses (Pa) of points those by the plastic strain of the body. Collective.
+  Stresses in layers of the body besides those by tractions (layers.c).
+  SamLayersSetUp - checks the request for a body that has some. Collective. Errors: SAM_ERR_USER.
+  SamLayersExist - returns true if the body has some. Not collective.
+  SamLayersHaveInitial - returns true if they contain the stress of the body before any load. Not collective.
+  SamStressAddLayers - adds them to the stresses (Pa) of points. Collective.
 */
-PETSC_INTERN PetscErrorCode SamPlasticSetUp(SamEvaluation e);
-PETSC_INTERN PetscErrorCode SamStressAddPlastic(SamEvaluation e, PetscInt step, const SamPoints *points,
-                                                double stress[]);
+PETSC_INTERN PetscErrorCode SamLayersSetUp(SamEvaluation e);
+PETSC_INTERN PetscBool      SamLayersExist(SamEvaluation e);
+PETSC_INTERN PetscBool      SamLayersHaveInitial(SamEvaluation e);
+PETSC_INTERN PetscErrorCode SamStressAddLayers(SamEvaluation e, PetscInt step, const SamPoints *points,
+                                               double stress[]);
 /* SamEvaluationTell - calls the monitor. Not collective. */
 PETSC_INTERN PetscErrorCode SamEvaluationTell(SamEvaluation e, const char work[], double part, double whole);
 

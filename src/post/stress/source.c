@@ -17,15 +17,15 @@ PetscErrorCode SamEvaluationReadTractions(SamEvaluation e, PetscInt step, PetscB
 }
 
 /*
-  Computes the stresses at a depth that do not depend on x and y: the stress before any load, which the layers of a
-  yielding body already include, and the stress that laws add in a step.
+  Computes the stresses at a depth that do not depend on x and y: the stress before any load, unless the layers of the
+  body already include it, and the stress that laws add in a step.
 */
 static void GetUniform(SamEvaluation e, PetscInt step, PetscReal depth, double stress[SAM_STRESS_COMPONENTS])
 {
   double initial[2] = {0};
 
   for (int k = 0; k < SAM_STRESS_COMPONENTS; k++) stress[k] = 0;
-  if (!e->source.yields[e->body - 1]) SamBodyInitialStress(SamEvaluationBody(e), (double)depth, initial);
+  if (!SamLayersHaveInitial(e)) SamBodyInitialStress(SamEvaluationBody(e), (double)depth, initial);
   stress[SAM_STRESS_XX] = initial[0];
   stress[SAM_STRESS_YY] = initial[1];
   (void)SamProblemAddStress(e->problem, &e->control[step], e->body - 1, depth, stress);

@@ -57,11 +57,10 @@ struct _n_SamOutput {
   const char     *series[SAM_SERIES];    /* names of their groups */
   PetscInt        values[SAM_SERIES];    /* number of values in a row */
   PetscBool       wants[SAM_STATE_MOST]; /* true for the results of the state that are saved */
-  hid_t           time, point, group, fields[SAM_STATE_MOST], columns[SAM_SERIES][SAM_STATE_DECLARED];
+  hid_t           time, point, fields[SAM_STATE_MOST], columns[SAM_SERIES][SAM_STATE_DECLARED];
   signed char    *states;  /* cell states of this rank's cells */
   float          *singles; /* values of this rank's cells; NULL until fields in single precision are written */
   Vec             work;    /* for computed fields; NULL until the first one */
-  Vec             layers;  /* for fields of layers; NULL until the first one */
   SamOutputPoints points;  /* points of the edge that is being written */
   /* status */
   double   *waiting; /* numbers of steps that are not in the file yet, memory for SAM_OUTPUT_WAIT steps; NULL: none */

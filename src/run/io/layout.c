@@ -84,12 +84,20 @@ static hid_t StoredType(const SamStateResult *field, PetscBool single)
   return field->kind == SAM_FIELD_STATE ? H5T_STD_I8LE : single ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
 }
 
+/* Returns the layers of a field; NULL: it is not a field of layers. */
+static const SamStateLayers *LayersOf(SamOutput o, PetscInt f)
+{
+  const SamStateResult *field = SamOutputResult(o, f);
+
+  return field->kind == SAM_FIELD_LAYERS ? SamStateLayersOf(o->state[SAM_SERIES_HISTORY], field->name) : NULL;
+}
+
 /* Returns the number of planes of cells that a field has per step. */
 static hsize_t PlanesOf(SamOutput o, PetscInt f)
 {
-  return SamOutputResult(o, f)->kind == SAM_FIELD_LAYERS
-           ? (hsize_t)SamStateGetLayers(o->state[SAM_SERIES_HISTORY], NULL)
-           : 1;
+  const SamStateLayers *layers = LayersOf(o, f);
+
+  return layers ? (hsize_t)(layers->count[0] + layers->count[1]) : 1;
 }
 
 off_t SamOutputFieldBytes(SamOutput o)
@@ -152,40 +160,58 @@ static void Mark(SamOutput o, hid_t x)
   o->hold.mark_at = at != HADDR_UNDEF && H5Tequal(H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE) > 0 ? (off_t)at : 0;
 }
 
-/*
-  Creates a field of layers in its group. The group is created with the first such field and has its own coordinates, as
-  all fields of layers have the same layers.
-*/
-static PetscErrorCode CreateLayers(SamOutput o, PetscInt f, hid_t scales[4])
+/* A group of the file with fields of layers, and its scales for [time, z, y, x] */
+typedef struct {
+  hid_t                 id, scales[4];
+  const SamStateLayers *layers; /* NULL: none is open */
+} LayerGroup;
+
+/* Creates a field of layers in its group, which is created with the first of its fields. */
+static PetscErrorCode CreateLayers(SamOutput o, PetscInt f, LayerGroup *group)
 {
-  const PetscReal      *z;
-  const PetscInt        layers = SamStateGetLayers(o->state[SAM_SERIES_HISTORY], &z);
+  const SamStateLayers *layers = LayersOf(o, f);
   const SamStateResult *field  = SamOutputResult(o, f);
-  const SamShape        shape  = LayersShape(o->grid, &o->set, layers);
-  const SamShape        column = {1, {(hsize_t)layers}, {(hsize_t)layers}, {0}, NULL};
-  const char           *name   = strchr(field->name, '/') + 1;
-  const SamLabel        label  = {name, field->unit, field->text};
-  char                  group[64];
+  const hsize_t         count  = PlanesOf(o, f);
+  const SamShape        shape  = LayersShape(o->grid, &o->set, (PetscInt)count);
+  const SamShape        column = {1, {count}, {count}, {0}, NULL};
+  const SamLabel        label  = {strchr(field->name, '/') + 1, field->unit, field->text};
 
   PetscFunctionBegin;
-  if (o->group < 0) {
-    (void)snprintf(group, sizeof(group), "%.*s", (int)(name - field->name - 1), field->name);
-    o->group  = SamFileNote(o->f, H5Gcreate2(o->f->id, group, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
-    scales[0] = o->time;
-    scales[1] = SamFileCreateScale(o->f, o->group, &z_label, "Z", NULL, &column, z);
-    PetscCall(CreateAxis(o, o->group, &y_label, 1, &scales[2]));
-    PetscCall(CreateAxis(o, o->group, &x_label, 0, &scales[3]));
+  if (group->layers != layers) {
+    *group           = (LayerGroup){.layers = layers, .scales = {o->time}};
+    group->id        = SamFileNote(o->f, H5Gcreate2(o->f->id, layers->group, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+    group->scales[1] = SamFileCreateScale(o->f, group->id, &z_label, "Z", NULL, &column, layers->z);
+    PetscCall(CreateAxis(o, group->id, &y_label, 1, &group->scales[2]));
+    PetscCall(CreateAxis(o, group->id, &x_label, 0, &group->scales[3]));
   }
   o->fields[f] =
-    SamFileCreateDataset(o->f, o->group, &label, StoredType(field, o->set.single), &shape, o->set.compress);
-  SamFileAttachScales(o->f, o->fields[f], 4, scales);
+    SamFileCreateDataset(o->f, group->id, &label, StoredType(field, o->set.single), &shape, o->set.compress);
+  SamFileAttachScales(o->f, o->fields[f], 4, group->scales);
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Names the groups that add to the stresses by tractions, also those that are not saved, for readers of stresses. */
+static void NameStresses(SamOutput o)
+{
+  const SamStateLayers *layers;
+  char                  names[256] = "", name[64];
+
+  for (PetscInt k = 0; (layers = SamStateGetLayers(o->state[SAM_SERIES_HISTORY], k)); k++) {
+    const double facts[3] = {(double)layers->count[0], (double)layers->count[1], layers->initial ? 1 : 0};
+
+    if (!layers->stresses) continue;
+    (void)snprintf(names + strlen(names), sizeof(names) - strlen(names), "%s%s", names[0] ? "," : "", layers->group);
+    (void)snprintf(name, sizeof(name), "%s" SAM_OUTPUT_LAYERS, layers->group);
+    SamFileWriteAttribute(o->f, o->f->id, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 3, facts);
+  }
+  if (names[0]) SamFileWriteTextAttribute(o->f, o->f->id, SAM_OUTPUT_STRESSES, names);
 }
 
 static PetscErrorCode CreateFields(SamOutput o)
 {
   const SamShape shape = FieldShape(o->grid, &o->set);
-  hid_t          scales[3], below[4]; /* scales for [time, y, x] and for [time, z, y, x] */
+  LayerGroup     group = {.layers = NULL};
+  hid_t          scales[3]; /* for [time, y, x] */
   PetscBool      points = PETSC_FALSE;
 
   PetscFunctionBegin;
@@ -203,7 +229,7 @@ static PetscErrorCode CreateFields(SamOutput o)
       continue;
     }
     if (field->kind == SAM_FIELD_LAYERS) {
-      PetscCall(CreateLayers(o, f, below));
+      PetscCall(CreateLayers(o, f, &group));
       continue;
     }
     o->fields[f] =
@@ -313,6 +339,7 @@ PetscErrorCode SamOutputCreateLayout(SamOutput o)
   PetscCall(CreateFields(o));
   for (PetscInt k = 0; k < SAM_SERIES; k++) CreateSeries(o, (SamSeries)k);
   CreateVTK(o);
+  NameStresses(o);
   SamFileWriteOrigin(o->f, "Partial-slip contact of elastic bodies", "petsam");
   (void)snprintf(identity, sizeof(identity), SAM_IDENTITY, o->identity);
   SamFileWriteTextAttribute(o->f, o->f->id, SAM_OUTPUT_IDENTITY, identity);

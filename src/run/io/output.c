@@ -103,17 +103,18 @@ static void ListFields(SamState state, PetscBool sum, char names[], size_t size)
 {
   static const char *const sums[] = {SAM_LAW_ACCUMULATED_SLIP, SAM_LAW_FRICTION_ENERGY};
 
-  const PetscInt count   = SamStateCountResults(state);
-  size_t         used    = 0;
-  PetscBool      grouped = PETSC_FALSE;
+  const PetscInt        count   = SamStateCountResults(state);
+  const SamStateLayers *grouped = NULL;
+  size_t                used    = 0;
 
   names[0] = '\0';
   for (PetscInt f = 0; f < count + (sum ? 2 : 0) && used < size; f++) {
     const char *name = f < count ? SamStateResultOf(state, f)->name : sums[f - count];
 
     if (f < count && SamStateResultOf(state, f)->kind == SAM_FIELD_LAYERS) {
-      if (!grouped) used += (size_t)snprintf(names + used, size - used, ", %.*s", (int)strcspn(name, "/"), name);
-      grouped = PETSC_TRUE;
+      if (grouped != SamStateLayersOf(state, name))
+        used += (size_t)snprintf(names + used, size - used, ", %.*s", (int)strcspn(name, "/"), name);
+      grouped = SamStateLayersOf(state, name);
     } else if (f < count || SamStateFindResult(state, name) < 0)
       used += (size_t)snprintf(names + used, size - used, "%s%s", f ? ", " : "", name);
   }
@@ -166,10 +167,10 @@ PetscErrorCode SamOutputAllocate(SamGrid grid, SamFile file, const SamOutputSett
   for (PetscInt k = 0; k < SAM_SERIES; k++)
     if (o->state[k]) o->values[k] = SamStateCountValues(o->state[k]);
   Choose(o);
-  o->time = o->point = o->group = o->vtk_steps = o->closed = -1;
-  o->hold.file                                             = -1;
-  o->saved_time                                            = PETSC_NINFINITY;
-  o->flushed                                               = MPI_Wtime();
+  o->time = o->point = o->vtk_steps = o->closed = -1;
+  o->hold.file                                  = -1;
+  o->saved_time                                 = PETSC_NINFINITY;
+  o->flushed                                    = MPI_Wtime();
   for (PetscInt f = 0; f < SAM_STATE_MOST; f++) o->fields[f] = -1;
   for (PetscInt k = 0; k < SAM_SERIES; k++)
     for (PetscInt c = 0; c < SAM_STATE_DECLARED; c++) o->columns[k][c] = -1;
@@ -186,7 +187,6 @@ PetscErrorCode SamOutputFree(SamOutput *output)
   *output = NULL;
   PetscCall(SamGridDestroy(&o->grid));
   PetscCall(VecDestroy(&o->work));
-  PetscCall(VecDestroy(&o->layers));
   PetscCall(PetscFree(o->points.xy));
   PetscCall(PetscFree(o->states));
   PetscCall(PetscFree(o->singles));

@@ -14,11 +14,11 @@ static const char *const numbers[SAM_RESULTS_NUMBERS] = {"cycle",   "status",   
                                                          "slide_y", "rolled_x", "rolled_y"};
 static const char *const fields[SAM_RESULTS_FIELDS]   = {"/pressure", "/shear_x", "/shear_y", "/slip_x", "/slip_y"};
 
-static const char *const residuals[SAM_STRESS_COMPONENTS] = {
-  "/plastic/residual_stress_xx", "/plastic/residual_stress_yy", "/plastic/residual_stress_zz",
-  "/plastic/residual_stress_xy", "/plastic/residual_stress_xz", "/plastic/residual_stress_yz"};
-
-#define LAYERS_Z "/plastic/z"
+/* A group with stresses in layers below the cells */
+typedef struct {
+  char name[32];
+  int  count[2], initial, saved; /* layers of both bodies; true if it has the stress before any load, and was saved */
+} Group;
 
 /* Description of the run in its results file */
 typedef struct {
@@ -28,7 +28,8 @@ typedef struct {
   hsize_t       steps, saved;
   double        first;                     /* number of load steps before those of the file */
   char          identity[32], follows[32]; /* identity of the file, and of the part before; empty: none */
-  int           layers;                    /* true if it has the stresses by plastic strain */
+  int           groups;                    /* number of groups with stresses in layers */
+  Group         group[SAM_LAYER_GROUPS];
   int           has[SAM_RESULTS_FIELDS], number[SAM_RESULTS_NUMBERS];
   int           column[SAM_PARAMETERS]; /* true if a parameter is also a column of the history */
 } Facts;
@@ -38,7 +39,7 @@ typedef struct {
   Facts    facts;
   PetscInt steps; /* number from the run's start to the beginning of the next part */
   SamFile  file;
-  hid_t    field[SAM_RESULTS_FIELDS], residual[SAM_STRESS_COMPONENTS];
+  hid_t    field[SAM_RESULTS_FIELDS], stress[SAM_LAYER_GROUPS][SAM_STRESS_COMPONENTS];
 } Part;
 
 /* Place of the fields of a saved step */
@@ -49,12 +50,15 @@ typedef struct {
   PetscInt    step; /* number of the step, from 1 */
 } Saved;
 
-#define PARTS 4096 /* maximum number of parts */
+#define PARTS       4096 /* maximum number of parts */
+#define MOST_LAYERS 1e6  /* more layers are no number of layers */
 struct _n_SamResults {
   SamGrid  grid;
   PetscInt count, saves;
   Part    *part[PARTS];
   Saved   *saved;
+
+  SamStateLayers layers[SAM_LAYER_GROUPS];
 };
 
 /* ---- examination, by one rank ---- */
@@ -154,38 +158,66 @@ static PetscErrorCode ExamineFields(SamFile f, Facts *facts)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Returns the number of the layers of a body that yields, by the parameters of the run. */
-static PetscInt LayersOf(const SamParameters *parameters, PetscInt body)
-{
-  const SamParameter *yield  = SamParametersFind(parameters, body == 1 ? "body1_yield" : "body2_yield");
-  const SamParameter *layers = SamParametersFind(parameters, "yield_layers");
+typedef char Name[80];
 
-  return yield && layers && yield->count == 1 && isfinite(yield->value[0]) ? (PetscInt)layers->value[0] : 0;
+/* Writes the name of a stress in a group of layers. */
+static void NameStress(const Group *g, int component, Name name)
+{
+  (void)snprintf(name, sizeof(Name), "/%s/%s", g->name, SamLayerStresses[component]);
 }
 
-/* Examines the stresses by plastic strain, unless the first of their components is missing. */
-static PetscErrorCode ExamineLayers(SamFile f, Facts *facts)
+/* Examines the stresses of a group, unless the first of their components is missing. */
+static PetscErrorCode ExamineGroup(SamFile f, Facts *facts, Group *g)
 {
-  const PetscInt layers = LayersOf(&facts->parameters, 1) + LayersOf(&facts->parameters, 2);
-  hsize_t        shape[4];
-  hid_t          dataset;
+  const double layers = (double)g->count[0] + (double)g->count[1];
+  hsize_t      shape[4];
+  hid_t        dataset;
+  Name         name;
 
   PetscFunctionBegin;
-  facts->layers =
-    layers > 0 && H5Lexists(f->id, "/plastic", H5P_DEFAULT) > 0 && H5Lexists(f->id, residuals[0], H5P_DEFAULT) > 0;
-  if (facts->layers) {
-    PetscCall(Open(f, LAYERS_Z, 1, shape, &dataset));
-    CHECK(f, (PetscInt)shape[0] == layers, LAYERS_Z " has another shape than the run");
-    PetscCall(CheckWhole(f, LAYERS_Z, dataset, shape));
-  }
-  for (int c = 0; c < SAM_STRESS_COMPONENTS && facts->layers; c++) {
-    PetscCall(Open(f, residuals[c], 4, shape, &dataset));
+  NameStress(g, 0, name);
+  g->saved = H5Lexists(f->id, g->name, H5P_DEFAULT) > 0 && H5Lexists(f->id, name, H5P_DEFAULT) > 0;
+  if (!g->saved) PetscFunctionReturn(PETSC_SUCCESS);
+  (void)snprintf(name, sizeof(name), "/%s/z", g->name);
+  PetscCall(Open(f, name, 1, shape, &dataset));
+  CHECK(f, (double)shape[0] == layers, "%s has another shape than the run", name);
+  PetscCall(CheckWhole(f, name, dataset, shape));
+  for (int c = 0; c < SAM_STRESS_COMPONENTS; c++) {
+    NameStress(g, c, name);
+    PetscCall(Open(f, name, 4, shape, &dataset));
     CHECK(f,
-          shape[0] >= facts->saved && (PetscInt)shape[1] == layers && (double)shape[2] == facts->n[1] &&
+          shape[0] >= facts->saved && (double)shape[1] == layers && (double)shape[2] == facts->n[1] &&
             (double)shape[3] == facts->n[0],
-          "%s has another shape than the run", residuals[c]);
+          "%s has another shape than the run", name);
     shape[0] = facts->saved;
-    PetscCall(CheckWhole(f, residuals[c], dataset, shape));
+    PetscCall(CheckWhole(f, name, dataset, shape));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Examines the groups with stresses in layers, which the file names. */
+static PetscErrorCode ExamineGroups(SamFile f, Facts *facts)
+{
+  char names[256], *rest = names;
+
+  PetscFunctionBegin;
+  GetText(f, SAM_OUTPUT_STRESSES, sizeof(names), names);
+  for (char *name = strtok_r(names, ",", &rest); name; name = strtok_r(NULL, ",", &rest)) {
+    Group *const g        = &facts->group[facts->groups];
+    double       about[3] = {0};
+    Name         layers;
+
+    CHECK(f, facts->groups < SAM_LAYER_GROUPS && strlen(name) < sizeof(g->name), SAM_OUTPUT_STRESSES " is damaged");
+    (void)snprintf(g->name, sizeof(g->name), "%s", name);
+    (void)snprintf(layers, sizeof(layers), "%s" SAM_OUTPUT_LAYERS, name);
+    PetscCall(GetNumbers(f, layers, 3, about));
+    for (int b = 0; b < 2; b++) {
+      CHECK(f, about[b] >= 0 && about[b] <= MOST_LAYERS, "%s is damaged", layers);
+      g->count[b] = (int)about[b];
+    }
+    g->initial = about[2] != 0;
+    PetscCall(ExamineGroup(f, facts, g));
+    facts->groups++;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -233,7 +265,7 @@ static PetscErrorCode Look(SamFile f, const void *question, void *answer)
   GetText(f, SAM_OUTPUT_FOLLOWS, sizeof(facts->follows), facts->follows);
   CHECK(f, IsPlausible(facts), "its parameters are not those of a run of petsam");
   PetscCall(ExamineFields(f, facts));
-  PetscCall(ExamineLayers(f, facts));
+  PetscCall(ExamineGroups(f, facts));
   for (int n = 0; n < SAM_RESULTS_NUMBERS; n++) PetscCall(ExamineColumn(f, facts, numbers[n], &facts->number[n]));
   for (PetscInt k = 0; k < facts->parameters.count; k++) { /* load cases are parameters and columns */
     const char *name = facts->parameters.list[k].name;
@@ -272,8 +304,13 @@ static PetscErrorCode ReadTimes(SamResults r, Part *part)
   ReadSeries(part->file, "/time", 0, saved, saves);
   for (int k = 0; k < SAM_RESULTS_FIELDS; k++)
     if (facts->has[k]) part->field[k] = SamFileNote(part->file, H5Dopen2(part->file->id, fields[k], H5P_DEFAULT));
-  for (int c = 0; c < SAM_STRESS_COMPONENTS && facts->layers; c++)
-    part->residual[c] = SamFileNote(part->file, H5Dopen2(part->file->id, residuals[c], H5P_DEFAULT));
+  for (int g = 0; g < facts->groups; g++)
+    for (int c = 0; c < SAM_STRESS_COMPONENTS && facts->group[g].saved; c++) {
+      Name name;
+
+      NameStress(&facts->group[g], c, name);
+      part->stress[g][c] = SamFileNote(part->file, H5Dopen2(part->file->id, name, H5P_DEFAULT));
+    }
   PetscCall(SamFileEnd(part->file));
   for (hsize_t k = 0; k < saved; k++) {
     const PetscBool before = r->count > 1 && k == 0 && steps && saves[0] < times[0]; /* the last step before the part */
@@ -339,6 +376,39 @@ static PetscErrorCode FindParts(SamResults r, MPI_Comm comm, const char option[]
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/*
+  Sets the groups of stresses in layers, which all parts of a run have. The depths of those that all parts have saved
+  are read; they must rise.
+*/
+static PetscErrorCode ReadLayers(SamResults r)
+{
+  const Part *const part = r->part[0];
+
+  PetscFunctionBegin;
+  for (int g = 0; g < part->facts.groups; g++) {
+    const Group *const    of    = &part->facts.group[g];
+    SamStateLayers *const to    = &r->layers[g];
+    const PetscInt        count = of->count[0] + of->count[1];
+    PetscBool             saved = PETSC_TRUE;
+    Name                  name;
+
+    *to = (SamStateLayers){
+      of->name, {of->count[0], of->count[1]}, NULL, PETSC_TRUE, of->initial ? PETSC_TRUE : PETSC_FALSE};
+    for (PetscInt k = 0; k < r->count; k++) saved = saved && r->part[k]->facts.group[g].saved;
+    if (!saved) continue;
+    PetscCall(PetscMalloc1(count, &to->z));
+    (void)snprintf(name, sizeof(name), "/%s/z", of->name);
+    PetscCall(SamFileBegin(part->file));
+    ReadSeries(part->file, name, 0, (hsize_t)count, to->z);
+    PetscCall(SamFileEnd(part->file));
+    for (PetscInt l = 0; l < count; l++)
+      PetscCheck(isfinite(to->z[l]) && (l == 0 || to->z[l] > to->z[l - 1]) && (to->z[l] < 0) == (l < to->count[0]),
+                 part->file->comm, SAM_ERR_FILE, SAM_CANNOT_READ, part->file->option, part->file->filename,
+                 "the z of its layers does not rise");
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamResultsOpen(MPI_Comm comm, const char option[], const char filename[], SamResults *results)
 {
   PetscInt   n[2];
@@ -366,6 +436,7 @@ PetscErrorCode SamResultsOpen(MPI_Comm comm, const char option[], const char fil
     PetscCall(ierr);
     PetscCall(ReadTimes(r, r->part[k]));
   }
+  PetscCall(ReadLayers(r));
   PetscCheck(r->saves > 0, comm, SAM_ERR_FILE, "-%s %s: cannot be read: no step has been saved in it", option,
              filename);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -382,6 +453,7 @@ PetscErrorCode SamResultsDestroy(SamResults *results)
     PetscCall(SamFileDestroy(&r->part[k]->file, PETSC_TRUE));
     PetscCall(PetscFree(r->part[k]));
   }
+  for (PetscInt g = 0; g < SAM_LAYER_GROUPS; g++) PetscCall(PetscFree(r->layers[g].z));
   PetscCall(PetscFree(r->saved));
   PetscCall(SamGridDestroy(&r->grid));
   PetscCall(PetscFree(r));
@@ -451,50 +523,26 @@ PetscErrorCode SamResultsRead(SamResults r, PetscInt k, SamResultsField field, d
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscInt SamResultsCountLayers(SamResults r, PetscInt body)
+const SamStateLayers *SamResultsGetLayers(SamResults r, PetscInt g)
 {
-  return LayersOf(&r->part[0]->facts.parameters, body);
+  return g < r->part[0]->facts.groups ? &r->layers[g] : NULL;
 }
 
-PetscBool SamResultsHasLayers(SamResults r)
-{
-  for (PetscInt k = 0; k < r->count; k++)
-    if (!r->part[k]->facts.layers) return PETSC_FALSE;
-  return PETSC_TRUE;
-}
-
-PetscErrorCode SamResultsReadDepths(SamResults r, PetscInt body, double middle[])
-{
-  const Part *const part  = r->part[0];
-  const PetscInt    above = SamResultsCountLayers(r, 1), count = SamResultsCountLayers(r, body);
-  double           *z;
-
-  PetscFunctionBegin;
-  PetscCall(PetscMalloc1(above + SamResultsCountLayers(r, 2), &z));
-  PetscCall(SamFileBegin(part->file));
-  ReadSeries(part->file, LAYERS_Z, 0, (hsize_t)(above + SamResultsCountLayers(r, 2)), z);
-  PetscCall(SamFileEnd(part->file));
-  for (PetscInt l = 0; l < count; l++) {
-    middle[l] = body == 1 ? -z[above - 1 - l] : z[above + l];
-    PetscCheck(middle[l] > (l ? middle[l - 1] : 0), part->file->comm, SAM_ERR_FILE, SAM_CANNOT_READ, part->file->option,
-               part->file->filename, LAYERS_Z " does not rise");
-  }
-  PetscCall(PetscFree(z));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamResultsReadLayer(SamResults r, PetscInt k, PetscInt component, PetscInt layer, double values[])
+PetscErrorCode SamResultsReadLayer(SamResults r, PetscInt k, PetscInt g, PetscInt component, PetscInt layer,
+                                   double values[])
 {
   const Part *const part  = r->saved[k].part;
   const SamBlock    block = {4,
                              {r->saved[k].index, (hsize_t)layer, (hsize_t)r->grid->row_start, 0},
                              {1, 1, (hsize_t)r->grid->rows, (hsize_t)r->grid->nx}};
+  Name              name;
 
   PetscFunctionBegin;
   PetscCall(SamFileBegin(part->file));
-  SamFileReadBlock(part->file, part->residual[component], H5T_NATIVE_DOUBLE, &block, values);
+  SamFileReadBlock(part->file, part->stress[g][component], H5T_NATIVE_DOUBLE, &block, values);
   PetscCall(SamFileEnd(part->file));
-  PetscCall(CheckFinite(part, r->grid->cells, values, residuals[component], r->saved[k].step));
+  NameStress(&part->facts.group[g], (int)component, name);
+  PetscCall(CheckFinite(part, r->grid->cells, values, name, r->saved[k].step));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

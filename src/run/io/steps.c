@@ -194,25 +194,28 @@ static PetscErrorCode AppendLayers(SamOutput o, PetscInt f)
 {
   const SamGrid         g      = o->grid;
   const SamStateResult *field  = SamOutputResult(o, f);
-  const PetscInt        layers = SamStateGetLayers(o->state[SAM_SERIES_HISTORY], NULL);
+  const SamStateLayers *of     = SamStateLayersOf(o->state[SAM_SERIES_HISTORY], field->name);
+  const PetscInt        layers = of->count[0] + of->count[1];
   const hsize_t         n = (hsize_t)layers, size[4] = {o->saved + 1, n, (hsize_t)g->ny, (hsize_t)g->nx};
   const SamBlock        block = {4, {o->saved, 0, (hsize_t)g->row_start, 0}, {1, n, (hsize_t)g->rows, (hsize_t)g->nx}};
   const double         *values;
   float                *singles = NULL;
+  Vec                   below;
 
   PetscFunctionBegin;
-  if (!o->layers) PetscCall(SamGridCreateVec(g, layers, &o->layers));
-  PetscCall((*field->compute)(field->owner, o->state[SAM_SERIES_HISTORY], field->component, o->layers));
+  PetscCall(SamGridCreateVec(g, layers, &below));
+  PetscCall((*field->compute)(field->owner, o->state[SAM_SERIES_HISTORY], field->component, below));
   (void)SamFileNote(o->f, H5Dset_extent(o->fields[f], size));
-  PetscCall(VecGetArrayRead(o->layers, &values));
+  PetscCall(VecGetArrayRead(below, &values));
   if (o->set.single) {
     PetscCall(PetscMalloc1(layers * g->cells, &singles));
     for (PetscInt k = 0; k < layers * g->cells; k++) singles[k] = (float)values[k];
   }
   SamFileWriteBlock(o->f, o->fields[f], singles ? H5T_NATIVE_FLOAT : H5T_NATIVE_DOUBLE, &block,
                     singles ? (const void *)singles : (const void *)values);
-  PetscCall(VecRestoreArrayRead(o->layers, &values));
+  PetscCall(VecRestoreArrayRead(below, &values));
   PetscCall(PetscFree(singles));
+  PetscCall(VecDestroy(&below));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
