@@ -47,7 +47,7 @@ static inline PetscBool SamContactIsCoupled(SamContact c)
 static inline PetscBool SamContactRecalls(SamContact c)
 {
   return c->set.warm_start && c->motion->continues && !SamContactIsCoupled(c) && !c->rolls &&
-         !SamProblemFollowsSlip(c->problem) && !SamProblemHasOffset(c->problem);
+         !SamProblemFollowsSlip(c->problem) && !SamProblemDisplaces(c->problem);
 }
 
 /* ---- what is remembered (generations.c) ---- */

@@ -311,14 +311,14 @@ static PetscErrorCode LieOnLine(SamContact c, const SamControl *control, PetscBo
   SamStrain     e;
 
   PetscFunctionBegin;
-  PetscCall(SamProblemGetStrain(c->problem, control, &e));
+  PetscCall(SamProblemDisplace(c->problem, NULL, control, NULL, NULL, &e, NULL));
   strained  = c->grid->axes > 1 && (e.xx != 0 || e.yy != 0 || e.xy != 0);
   other_way = x != 0 && y != 0 && SamControlWay(control, SAM_COMPONENT_TX) != SamControlWay(control, SAM_COMPONENT_TY);
   if (n[LINE_X] == 0 && n[LINE_Y] == 0) {
     n[LINE_X] = x;
     n[LINE_Y] = y;
   }
-  if (SamContactIsCoupled(c) || c->rolls || SamProblemHasOffset(c->problem) || strained || other_way ||
+  if (SamContactIsCoupled(c) || c->rolls || SamProblemDisplaces(c->problem) || strained || other_way ||
       control->value[SAM_COMPONENT_MZ] != 0 ||
       fabs(n[LINE_X] * y - n[LINE_Y] * x) > SAME_DIRECTION * hypot(n[LINE_X], n[LINE_Y]) * hypot(x, y))
     n[LEFT] = 1;
@@ -339,7 +339,7 @@ static PetscErrorCode Move(SamContact c, const PetscReal roll[2])
   PetscFunctionBegin;
   PetscCall(SamStateMove(c->state, roll));
   PetscCall(SamContactRefresh(c));
-  PetscCall(SamProblemGetStrain(c->problem, &s->control, &e));
+  PetscCall(SamProblemDisplace(c->problem, NULL, &s->control, NULL, NULL, &e, NULL));
   rigid[SAM_COMPONENT_TX] -= rigid[SAM_COMPONENT_MZ] * roll[1] + e.xx * roll[0] + e.xy * roll[1];
   rigid[SAM_COMPONENT_TY] += rigid[SAM_COMPONENT_MZ] * roll[0] - e.xy * roll[0] - e.yy * roll[1];
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -30,11 +30,12 @@ static PetscErrorCode Begin(SamLaw law, SamState state, const SamControl *contro
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode AddOffset(SamLaw law, SamState state, const SamControl *control, Vec u_z, Vec u_t,
-                                PetscBool *adds)
+static PetscErrorCode Displace(SamLaw law, SamState state, const SamControl *control, Vec u_z, Vec u_t, SamStrain *e,
+                               PetscBool *adds)
 {
   PetscFunctionBegin;
-  CALL(law, offset, law->conditions, state, control, u_z, u_t, adds);
+  (void)e;
+  CALL(law, displace, law->conditions, state, control, u_z, u_t, adds);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -50,13 +51,13 @@ PetscErrorCode SamLawCreate_Bodies(SamLaw law)
   PetscFunctionBegin;
   law->any_motion = PETSC_TRUE;
   for (SamElasticity o = law->elasticity; o; o = o->inner) {
-    if (o->ops.offset) law->always = PETSC_TRUE;
+    if (o->ops.displace) law->always = law->displaces = PETSC_TRUE;
     if (o->ops.begin) law->forbids_jumps = PETSC_TRUE;
     if (o->ops.begin) law->any_motion = PETSC_FALSE;
     if (o->ops.conditions) law->ops.conditions = AddConditions;
     if (o->ops.declare) law->ops.declare = Declare;
     if (o->ops.begin) law->ops.begin = Begin;
-    if (o->ops.offset) law->ops.offset = AddOffset;
+    if (o->ops.displace) law->ops.displace = Displace;
     if (o->ops.advance) law->ops.advance = Advance;
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -94,11 +94,17 @@ static PetscErrorCode Check(SamLaw law, SamControl *control, PetscInt *wrong, ch
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode AddStrain(SamLaw law, const SamControl *control, SamStrain *e)
+static PetscErrorCode Displace(SamLaw law, SamState state, const SamControl *control, Vec u_z, Vec u_t, SamStrain *e,
+                               PetscBool *adds)
 {
   PetscReal s[COMPONENTS];
 
   PetscFunctionBegin;
+  (void)state;
+  (void)u_z;
+  (void)u_t;
+  (void)adds;
+  if (!e) PetscFunctionReturn(PETSC_SUCCESS);
   for (int body = 0; body < 2; body++) {
     const SamMaterial *m  = SamBodySubstrate(SamPairBody(SamElasticityGetPair(law->elasticity), body));
     const PetscReal    nu = m->poisson, sign = body ? 1 : -1;
@@ -143,9 +149,10 @@ PetscErrorCode SamLawCreate_BulkStress(SamLaw law)
   PetscCall(PetscNew((Bulk **)&law->data));
   law->always         = PETSC_TRUE;
   law->any_motion     = PETSC_TRUE;
+  law->strains        = PETSC_TRUE;
   law->ops.conditions = AddConditions;
   law->ops.check      = Check;
-  law->ops.strain     = AddStrain;
+  law->ops.displace   = Displace;
   law->ops.stress     = AddStress;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -209,19 +209,6 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Adds the increment of the plastic depth in the tried step to `overlap`. */
-static PetscErrorCode Overlap(SamLaw law, SamState state, Vec overlap)
-{
-  const PetscInt id     = SamStateFindField(state, DEPTH);
-  const Vec      before = SamStateGetField(state, id, SAM_COMMITTED), depth = SamStateReadField(state, id);
-
-  PetscFunctionBegin;
-  (void)law;
-  if (depth) PetscCall(VecAXPY(overlap, 1, depth));
-  if (before) PetscCall(VecAXPY(overlap, -1, before));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static PetscErrorCode View(SamLaw law, SamState state, PetscViewer viewer)
 {
   const double *numbers = SamStateReadNumbers(state, SamStateFindNumber(state, "plastic_cells"));
@@ -255,7 +242,6 @@ PetscErrorCode SamLawCreate_Hardness(SamLaw law)
   law->ops.declare        = Declare;
   law->ops.separation     = Separation;
   law->ops.limit          = Limit;
-  law->ops.overlap        = Overlap;
   law->ops.view           = View;
   law->ops.advance        = Advance;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -385,7 +385,8 @@ static PetscErrorCode AdvanceDent(SamElasticity e, SamState state, Vec pressure,
 static PetscErrorCode CreateDented(SamElasticity e)
 {
   PetscFunctionBegin;
-  e->ops = (SamElasticityOps){.declare = DeclareDent, .begin = BeginSinking, .offset = AddSunk, .advance = AdvanceDent};
+  e->ops =
+    (SamElasticityOps){.declare = DeclareDent, .begin = BeginSinking, .displace = AddSunk, .advance = AdvanceDent};
   PetscCall(SamElasticitySetInner(e, SAM_ELASTICITY_HALFSPACE));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

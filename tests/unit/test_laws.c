@@ -122,7 +122,9 @@ static double Overlap(const Case *c)
   double   most;
 
   sam_call(SamContactGetState(c->contact, &s));
-  sam_call(SamProblemAddOverlap(c->problem, s, overlap));
+  sam_call(SamProblemAddSeparation(c->problem, s, SAM_COMMITTED, overlap, NULL));
+  sam_call(VecScale(overlap, -1));
+  sam_call(SamProblemAddSeparation(c->problem, s, SAM_TRIED, overlap, NULL));
   most = Norm(overlap, NORM_INFINITY);
   sam_call(VecDestroy(&overlap));
   return most;

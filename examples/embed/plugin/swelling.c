@@ -104,25 +104,24 @@ static PetscErrorCode GetMoments(SamLaw law, Vec field, double moment[4])
 }
 
 /* Of body 2 relative to body 1: where its surface rises, the surfaces come nearer. */
-static PetscErrorCode Offset(SamLaw law, SamState state, const SamControl *control, Vec u_z, Vec u_t, PetscBool *adds)
+static PetscErrorCode Displace(SamLaw law, SamState state, const SamControl *control, Vec u_z, Vec u_t,
+                               SamStrain *linear, PetscBool *adds)
 {
   const Vec      field = SamStateReadField(state, SamStateFindField(state, strain.name));
   const PetscInt cells = law->grid->cells;
   double         m[4]  = {0}, at[3];
   PetscScalar   *z = NULL, *t = NULL;
 
-  (void)control;
+  (void)control, (void)linear;
   if (field) PetscCall(GetMoments(law, field, m));
   if (m[3] == 0) return 0;
   if (adds) *adds = PETSC_TRUE;
   if (u_z) PetscCall(VecGetArray(u_z, &z));
   if (u_t) PetscCall(VecGetArray(u_t, &t));
   for (PetscInt k = 0; k < cells; k++) {
-    double factor;
-
     GetPlace(law, k, at);
-    factor = (1 + ((PetscReal *)law->data)[POISSON]) / PETSC_PI * m[3] /
-             pow(hypot(hypot(at[0] - m[0], at[1] - m[1]), m[2]), 3);
+    const double factor = (1 + ((PetscReal *)law->data)[POISSON]) / PETSC_PI * m[3] /
+                          pow(hypot(hypot(at[0] - m[0], at[1] - m[1]), m[2]), 3);
     if (z) z[k] -= factor * m[2];
     for (int c = 0; c < 2 && t; c++) t[k + c * cells] += factor * (at[c] - m[c]);
   }
@@ -143,6 +142,7 @@ PetscErrorCode CreateSwelling(SamLaw law)
   law->ops.addparameters  = AddParameters;
   law->ops.declare        = Declare;
   law->ops.begin          = Begin;
-  law->ops.offset         = Offset;
+  law->displaces          = PETSC_TRUE;
+  law->ops.displace       = Displace;
   return 0;
 }

@@ -55,8 +55,8 @@ typedef struct {
   PetscErrorCode (*conditions)(SamElasticity, SamConditions);
   PetscErrorCode (*declare)(SamElasticity, SamState);
   PetscErrorCode (*begin)(SamElasticity, SamState, const SamControl *, PetscReal duration);
-  PetscErrorCode (*offset)(SamElasticity, SamConditions, SamState, const SamControl *, Vec u_z, Vec u_t,
-                           PetscBool *adds);
+  PetscErrorCode (*displace)(SamElasticity, SamConditions, SamState, const SamControl *, Vec u_z, Vec u_t,
+                             PetscBool *adds);
   PetscErrorCode (*advance)(SamElasticity, SamState, Vec pressure, Vec shear);
 } SamElasticityOps;
 

@@ -12,8 +12,8 @@
       }
 
   A law declares its stored fields and numbers once, in the state of a contact, and finds them there by name. In a step
-  the methods are called in this order: check(), begin(), offset(), separation() and limit() of all laws, the normal
-  problem, bound(), the tangential problem, offset() for the check, advance().
+  the methods are called in this order: check(), begin(), load(), displace(), separation() and limit() of all laws, the
+  normal problem, bound(), the tangential problem, load() and displace() for the check, advance().
 */
 #ifndef PETSAM_LAWIMPL_H
 #define PETSAM_LAWIMPL_H
@@ -150,6 +150,8 @@ struct _n_SamLaw {
   PetscObjectState    revision;       /* raised by setters; declarations and pressure depend on it */
   PetscBool           always;         /* true: each problem has it without an option */
   PetscBool           follows_slip;   /* true: bound() depends on the slip of the step */
+  PetscBool           displaces;      /* true: displace() may add to fields */
+  PetscBool           strains;        /* true: displace() may add to the strain */
   PetscBool           accumulates;    /* true: sums over all steps, in the state's field named like the type */
   const char         *option;         /* option that selects the law, without dash; NULL: none */
   const char         *word;           /* value of that option for this law, as of -friction_law; NULL: any */
@@ -187,17 +189,20 @@ struct _n_SamLaw {
     PetscErrorCode (*begin)(SamLaw law, SamState state, const SamControl *control, PetscReal duration);
     /*
       Adds the displacements of the surfaces in a step by other causes than tractions, body 2 relative to body 1 (m), to
-      u_z (one component) and to u_t (two components), if they are not NULL. They must depend on the control and the
-      state alone, since the independent check evaluates them, too. The displacements of a solution contain them, also
-      those of the previous step, so that gap, slip and derived quantities need no further terms. `adds` (unless NULL)
-      is set to true if they are not zero, and else unchanged.
+      u_z (one component) and to u_t (two components). A part of the tangential displacement that is linear in x and y
+      is added to `strain` instead: it is evaluated row by row, needs no field, and follows the bodies when they roll.
+      What is NULL is not wanted. The fields must depend on the control and the state alone, since the independent check
+      evaluates them, too; the strain on the control alone: where only it is wanted, the state is NULL. The displacements of a solution contain them, also those of the previous
+      step, so that gap, slip and derived quantities need no further terms. `adds` is set to true if a field is not
+      zero, and else unchanged.
     */
-    PetscErrorCode (*offset)(SamLaw law, SamState state, const SamControl *control, Vec u_z, Vec u_t, PetscBool *adds);
+    PetscErrorCode (*displace)(SamLaw law, SamState state, const SamControl *control, Vec u_z, Vec u_t,
+                               SamStrain *strain, PetscBool *adds);
     /*
-      Adds the linear part of such a tangential displacement. This part is not contained in u_t: it is evaluated row by
-      row, needs no field, and follows the bodies when they roll.
+      Adds the loads, by SamComponent (N, N m), with which the law presses or shifts body 1 besides the given loads. The
+      loads of a solution contain them: they are those of its tractions.
     */
-    PetscErrorCode (*strain)(SamLaw law, const SamControl *control, SamStrain *strain);
+    PetscErrorCode (*load)(SamLaw law, SamState state, const SamControl *control, PetscReal load[]);
     /*
       Adds the law's stress (Pa, by SamStressComponent) in body 0 or 1 at a depth (m) in a step, if that is uniform
       along the surface.
@@ -222,8 +227,6 @@ struct _n_SamLaw {
       gets the coefficient of friction, 0 if it is a field; `has` (or NULL): true if any is above 0, which is collective
     */
     PetscErrorCode (*friction)(SamLaw law, PetscReal *uniform, PetscBool *has);
-    /* adds the overlap (m) of the bodies in the tried step in cells at their pressure limit; or NULL */
-    PetscErrorCode (*overlap)(SamLaw law, SamState state, Vec overlap);
     /* computes the law's tried state, and numbers of the step */
     PetscErrorCode (*advance)(SamLaw law, SamLawStep *step);
     /* prints the law's numbers of a step, on a line of its own */

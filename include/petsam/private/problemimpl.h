@@ -18,18 +18,22 @@ PETSC_INTERN PetscErrorCode SamProblemCheckControl(SamProblem problem, SamContro
 PETSC_INTERN PetscErrorCode SamProblemBegin(SamProblem problem, SamState state, const SamControl *control,
                                             PetscReal duration);
 /*
-  The offset is the displacement of the surfaces in a step by other causes than tractions, body 2 relative to body 1.
-  SamProblemHasOffset - returns true if a law may have such displacements as fields. Not collective.
-  SamProblemAddOffset - adds the offset to u_z (m, one component) and u_t (m, two components), if they are not NULL.
-  `adds` (NULL: not wanted): true if the offset is not zero. Collective.
-  SamProblemGetStrain - gets the strain of the surfaces, whose displacements are no part of u_t. Not collective.
+  SamProblemGetBalance - gets the components of one kind of a control as a balance for the solvers, with the loads that
+  laws add to the given ones. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamProblemGetBalance(SamProblem problem, SamState state, const SamControl *control,
+                                                 SamBalanceKind kind, SamBalance *balance);
+/*
+  SamProblemDisplaces - returns true if a law may displace the surfaces by fields. Not collective.
+  SamProblemDisplace - adds the displacements of the surfaces in a step by other causes than tractions, body 2 relative
+  to body 1, to u_z (m, one component) and u_t (m, two components). `strain`: their linear part, which u_t does not
+  contain. `adds`: true if a field is not zero. What is NULL is not wanted. Collective.
   SamProblemAddStress - adds the stresses by the laws in body 0 or 1 at a depth (m) that are uniform along the surface:
   Pa, by SamStressComponent. Not collective.
 */
-PETSC_INTERN PetscBool      SamProblemHasOffset(SamProblem problem);
-PETSC_INTERN PetscErrorCode SamProblemAddOffset(SamProblem problem, SamState state, const SamControl *control, Vec u_z,
-                                                Vec u_t, PetscBool *adds);
-PETSC_INTERN PetscErrorCode SamProblemGetStrain(SamProblem problem, const SamControl *control, SamStrain *strain);
+PETSC_INTERN PetscBool      SamProblemDisplaces(SamProblem problem);
+PETSC_INTERN PetscErrorCode SamProblemDisplace(SamProblem problem, SamState state, const SamControl *control, Vec u_z,
+                                               Vec u_t, SamStrain *strain, PetscBool *adds);
 PETSC_INTERN PetscErrorCode SamProblemAddStress(SamProblem problem, const SamControl *control, PetscInt body,
                                                 PetscReal depth, double stress[]);
 /*
@@ -53,11 +57,6 @@ PETSC_INTERN PetscBool SamProblemGetOffset(SamProblem problem, SamState state, S
 */
 PETSC_INTERN PetscErrorCode SamProblemComputeBound(SamProblem problem, const SamBoundAt *at, const SamBound *bound);
 PETSC_INTERN PetscBool      SamProblemFollowsSlip(SamProblem problem);
-/*
-  SamProblemAddOverlap - adds the overlap (m) of the bodies in the tried step in cells at their pressure limit.
-  Collective.
-*/
-PETSC_INTERN PetscErrorCode SamProblemAddOverlap(SamProblem problem, SamState state, Vec overlap);
 /* SamProblemAdvance - lets all laws advance their tried state. Collective. */
 PETSC_INTERN PetscErrorCode SamProblemAdvance(SamProblem problem, SamLawStep *step);
 

@@ -47,8 +47,8 @@ static PetscErrorCode ComputeDisplacements(SamProblem problem, SamState state, P
   if (SamElasticityGetTraits(elasticity).coupled && coupling)
     PetscCall(AddCoupling(elasticity, SamProblemGetGrid(problem), s));
   PetscCall(VecNorm(s->displacement_z, NORM_INFINITY, most));
-  PetscCall(
-    SamProblemAddOffset(problem, state, &s->control, u_z_known ? NULL : s->displacement_z, s->displacement_t, NULL));
+  PetscCall(SamProblemDisplace(problem, state, &s->control, u_z_known ? NULL : s->displacement_z, s->displacement_t,
+                               NULL, NULL));
   PetscCall(SamElasticityTrim(elasticity));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -343,8 +343,8 @@ PetscErrorCode SamCheckSolution(SamProblem problem, SamState state, PetscBool co
   PetscCall(CheckNormal(problem, state, solution, most, check));
   if (SamElasticityGetTraits(SamProblemGetElasticity(problem)).periodic) check->edge = 0;
   PetscCall(CheckTangential(problem, state, before, solution, check));
-  given[0] = SamControlGetBalance(&solution->control, SAM_BALANCE_NORMAL);
-  given[1] = SamControlGetBalance(&solution->control, SAM_BALANCE_TANGENTIAL);
+  PetscCall(SamProblemGetBalance(problem, state, &solution->control, SAM_BALANCE_NORMAL, &given[0]));
+  PetscCall(SamProblemGetBalance(problem, state, &solution->control, SAM_BALANCE_TANGENTIAL, &given[1]));
   PetscCall(CheckEquilibrium(grid, &given[0], solution->pressure, check));
   PetscCall(CheckEquilibrium(grid, &given[1], solution->shear, check));
   PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_CHECK], 0, 0, 0, 0));

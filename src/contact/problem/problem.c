@@ -1,6 +1,7 @@
 /* The problem of a contact: elasticity, gap and laws, and what follows from all laws together. */
 #include <petsam/private/elasticity.h>
 #include <petsam/private/motionimpl.h>
+#include <petsam/private/balance.h>
 #include <petsam/private/problemimpl.h>
 #include <petsam/private/law.h>
 #include <petsam/private/problem.h>
@@ -280,29 +281,38 @@ PetscErrorCode SamProblemBegin(SamProblem p, SamState state, const SamControl *c
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscBool SamProblemHasOffset(SamProblem p)
-{
-  for (PetscInt k = 0; k < p->laws; k++)
-    if (p->law[k]->ops.offset) return PETSC_TRUE;
-  return PETSC_FALSE;
-}
-
-PetscErrorCode SamProblemAddOffset(SamProblem p, SamState state, const SamControl *control, Vec u_z, Vec u_t,
-                                   PetscBool *adds)
+PetscErrorCode SamProblemGetBalance(SamProblem p, SamState state, const SamControl *control, SamBalanceKind kind,
+                                    SamBalance *balance)
 {
   PetscFunctionBegin;
-  if (adds) *adds = PETSC_FALSE;
-  for (PetscInt k = 0; k < p->laws; k++)
-    if (p->law[k]->ops.offset) PetscCall(p->law[k]->ops.offset(p->law[k], state, control, u_z, u_t, adds));
+  *balance = SamControlGetBalance(control, kind);
+  for (PetscInt k = 0; k < p->laws; k++) {
+    PetscReal load[SAM_COMPONENTS] = {0};
+
+    if (!p->law[k]->ops.load) continue;
+    PetscCall(p->law[k]->ops.load(p->law[k], state, control, load));
+    for (PetscInt n = 0; n < 3; n++)
+      if (balance->force[n]) balance->load[n] += load[SamComponentsOf[kind][n]];
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamProblemGetStrain(SamProblem p, const SamControl *control, SamStrain *strain)
+PetscBool SamProblemDisplaces(SamProblem p)
+{
+  for (PetscInt k = 0; k < p->laws; k++)
+    if (p->law[k]->displaces) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+PetscErrorCode SamProblemDisplace(SamProblem p, SamState state, const SamControl *control, Vec u_z, Vec u_t,
+                                  SamStrain *strain, PetscBool *adds)
 {
   PetscFunctionBegin;
-  *strain = (SamStrain){0, 0, 0};
+  if (adds) *adds = PETSC_FALSE;
+  if (strain) *strain = (SamStrain){0, 0, 0};
   for (PetscInt k = 0; k < p->laws; k++)
-    if (p->law[k]->ops.strain) PetscCall(p->law[k]->ops.strain(p->law[k], control, strain));
+    if ((strain && p->law[k]->strains) || ((u_z || u_t || adds) && p->law[k]->displaces))
+      PetscCall(p->law[k]->ops.displace(p->law[k], state, control, u_z, u_t, strain, adds));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -395,14 +405,6 @@ PetscBool SamProblemGetOffset(SamProblem p, SamState state, SamGeneration genera
   if (depends && SamFramesGetOffset(state, generation, body, offset)) return PETSC_TRUE;
   offset[0] = offset[1] = 0;
   return PETSC_FALSE;
-}
-
-PetscErrorCode SamProblemAddOverlap(SamProblem p, SamState state, Vec overlap)
-{
-  PetscFunctionBegin;
-  for (PetscInt k = 0; k < p->laws; k++)
-    if (p->law[k]->ops.overlap) PetscCall(p->law[k]->ops.overlap(p->law[k], state, overlap));
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamProblemAdvance(SamProblem p, SamLawStep *step)

@@ -43,7 +43,7 @@ PetscErrorCode SamRigidSet(SamRigid *m, SamProblem problem, const SamSolution *s
   rigid[1].ahead = SamElasticitySpinAhead(SamProblemGetElasticity(problem));
   PetscCall(SamFrameSetGiven(&m->normal, grid, &rigid[0]));
   PetscCall(SamFrameSetGiven(&m->tangential, grid, &rigid[1]));
-  PetscCall(SamProblemGetStrain(problem, &s->control, &m->strain));
+  PetscCall(SamProblemDisplace(problem, NULL, &s->control, NULL, NULL, &m->strain, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

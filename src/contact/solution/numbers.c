@@ -268,7 +268,7 @@ PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamState state, con
   if (streams) numbers[STORED_ENERGY] = NAN; /* u_t is per rolled distance */
   if (streams || SamProblemGetRolled(problem, &s->control, NULL) != 0)
     numbers[ENERGY_ERROR] = NAN; /* it is estimated elsewhere */
-  PetscCall(SamProblemAddOffset(problem, state, &s->control, NULL, NULL, &offset));
+  PetscCall(SamProblemDisplace(problem, state, &s->control, NULL, NULL, NULL, &offset));
   if (offset) numbers[STORED_ENERGY] = NAN; /* the tractions alone do not cause the displacements */
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_EDGES], 0, 0, 0, 0));
   numbers[EDGE_ACCEPTED] = 0;

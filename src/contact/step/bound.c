@@ -104,7 +104,7 @@ PetscErrorCode SamSolveShear(SamSolve *w, PetscBool has_shear, PetscReal rtol, S
   if (w->task->coupled) PetscCall(SamElasticityApplyNormalToTangential(w->task->elasticity, w->s->pressure, w->pushed));
   if (w->pushed && !w->task->coupled) PetscCall(VecSet(w->pushed, 0));
   if (w->pushed)
-    PetscCall(SamProblemAddOffset(w->task->problem, w->task->state, &w->s->control, NULL, w->pushed, NULL));
+    PetscCall(SamProblemDisplace(w->task->problem, w->task->state, &w->s->control, NULL, w->pushed, NULL, NULL));
   if (!SamProblemFollowsSlip(w->task->problem)) {
     PetscCall(SamSolveTangential(w, has_shear)); /* with the effort set by the caller */
     SamSolverSetEffort(solver, 0, SAM_EFFORT_FULL);

@@ -122,8 +122,8 @@ static PetscErrorCode AddMotion(SamSolve *w, const SamSolution *before, double n
   SamStrain          e;
 
   PetscFunctionBegin;
-  PetscCall(SamProblemGetStrain(w->task->problem, &now->control, &a->strain));
-  PetscCall(SamProblemGetStrain(w->task->problem, &before->control, &e));
+  PetscCall(SamProblemDisplace(w->task->problem, w->task->state, &now->control, NULL, NULL, &a->strain, NULL));
+  PetscCall(SamProblemDisplace(w->task->problem, w->task->state, &before->control, NULL, NULL, &e, NULL));
   a->strain    = (SamStrain){a->strain.xx - e.xx, a->strain.yy - e.yy, a->strain.xy - e.xy};
   a->center[0] = (double)(before->load[SAM_COMPONENT_MY] / before->load[SAM_COMPONENT_N]);
   a->center[1] = -(double)(before->load[SAM_COMPONENT_MX] / before->load[SAM_COMPONENT_N]);

@@ -72,7 +72,7 @@ static PetscErrorCode GetSeparation(SamSolve *w, Vec *h)
   PetscFunctionBegin;
   if (w->task->coupled) PetscCall(VecAXPY(w->h, 1, w->separation));
   if (w->h && !w->task->coupled) PetscCall(VecCopy(w->separation, w->h));
-  if (w->h) PetscCall(SamProblemAddOffset(w->task->problem, w->task->state, &w->s->control, w->h, NULL, NULL));
+  if (w->h) PetscCall(SamProblemDisplace(w->task->problem, w->task->state, &w->s->control, w->h, NULL, NULL, NULL));
   *h = w->h ? w->h : w->separation;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -262,7 +262,7 @@ static PetscErrorCode CreateOffset(SamSolve *w, Vec *offset)
 
   PetscFunctionBegin;
   *offset = NULL;
-  PetscCall(SamProblemGetStrain(task->problem, &w->s->control, &e));
+  PetscCall(SamProblemDisplace(task->problem, task->state, &w->s->control, NULL, NULL, &e, NULL));
   strained = e.xx != 0 || e.yy != 0 || e.xy != 0;
   if (!w->pushed && !w->task->before && !strained && !w->s->aside) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamGridCreateVec(task->grid, 2, offset));

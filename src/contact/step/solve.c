@@ -15,12 +15,12 @@
 static PetscErrorCode Begin(const SamStepTask *task, SamStep *step, SamSolve *w)
 {
   PetscFunctionBegin;
-  *w                  = (SamSolve){.task = task, .s = task->s, .step = step, .kept = task->start.kept};
-  w->has_pressure     = task->start.pressure;
-  w->has_shear        = task->start.shear;
-  w->counts           = SamStateNumbers(task->state, task->counts, SAM_TRIED);
-  w->normal           = SamControlGetBalance(&w->s->control, SAM_BALANCE_NORMAL);
-  w->tangential       = SamControlGetBalance(&w->s->control, SAM_BALANCE_TANGENTIAL);
+  *w              = (SamSolve){.task = task, .s = task->s, .step = step, .kept = task->start.kept};
+  w->has_pressure = task->start.pressure;
+  w->has_shear    = task->start.shear;
+  w->counts       = SamStateNumbers(task->state, task->counts, SAM_TRIED);
+  PetscCall(SamProblemGetBalance(task->problem, task->state, &w->s->control, SAM_BALANCE_NORMAL, &w->normal));
+  PetscCall(SamProblemGetBalance(task->problem, task->state, &w->s->control, SAM_BALANCE_TANGENTIAL, &w->tangential));
   w->tangential.ahead = SamElasticitySpinAhead(task->elasticity);
   for (PetscInt k = 0; k < 3; k++) {
     const PetscInt n = SamComponentsOf[SAM_BALANCE_TANGENTIAL][k];
@@ -32,7 +32,7 @@ static PetscErrorCode Begin(const SamStepTask *task, SamStep *step, SamSolve *w)
   PetscCall(PetscArraycpy(w->rigid, task->start.rigid, 3));
   PetscCall(SamSolutionCreateSeparation(task->problem, task->state, SAM_COMMITTED, &w->separation));
   if (task->coupled) PetscCall(SamGridCreateVec(task->grid, 2, &w->shear_product.field));
-  if (task->coupled || SamProblemHasOffset(task->problem)) {
+  if (task->coupled || SamProblemDisplaces(task->problem)) {
     PetscCall(SamGridCreateVec(task->grid, 1, &w->h));
     PetscCall(SamGridCreateVec(task->grid, 2, &w->pushed));
   }

@@ -77,8 +77,8 @@ static PetscErrorCode CreateCoarse(SamSolve *w, Coarse *k)
   PetscCall(SamTransferRestrict(k->transfer, w->s->pressure, k->field[MEAN_PRESSURE]));
   PetscCall(SamTransferRestrict(k->transfer, w->s->bound, k->field[MEAN_BOUND]));
   PetscCall(SamTransferRestrict(k->transfer, w->s->shear, k->field[SHEAR]));
-  k->normal           = SamControlGetBalance(&w->s->control, SAM_BALANCE_NORMAL);
-  k->tangential       = SamControlGetBalance(&w->s->control, SAM_BALANCE_TANGENTIAL);
+  k->normal           = w->normal;
+  k->tangential       = w->tangential;
   k->tangential.ahead = SamElasticitySpinAhead(k->elasticity);
   for (PetscInt n = 0; n < 3; n++) { /* the found loads define the same contact; the creepages are the start */
     const PetscInt c = SamComponentsOf[SAM_BALANCE_NORMAL][n];

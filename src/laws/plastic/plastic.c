@@ -550,8 +550,8 @@ static PetscErrorCode Begin(SamLaw law, SamState state, const SamControl *contro
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode AddOffset(SamLaw law, SamState state, const SamControl *control, Vec u_z, Vec u_t,
-                                PetscBool *adds)
+static PetscErrorCode Displace(SamLaw law, SamState state, const SamControl *control, Vec u_z, Vec u_t, SamStrain *e,
+                               PetscBool *adds)
 {
   const PetscInt cells = law->grid->cells;
   const Vec      field = SamStateReadField(state, SamStateFindField(state, SAM_PLASTIC_FIELD));
@@ -559,6 +559,7 @@ static PetscErrorCode AddOffset(SamLaw law, SamState state, const SamControl *co
 
   PetscFunctionBegin;
   (void)control;
+  (void)e;
   if (!field) PetscFunctionReturn(PETSC_SUCCESS);
   if (adds) *adds = PETSC_TRUE;
   if (!u_z && !u_t) PetscFunctionReturn(PETSC_SUCCESS);
@@ -816,7 +817,8 @@ PetscErrorCode SamLawCreate_Plastic(SamLaw law)
   law->ops.declare        = Declare;
   law->ops.check          = Check;
   law->ops.begin          = Begin;
-  law->ops.offset         = AddOffset;
+  law->displaces          = PETSC_TRUE;
+  law->ops.displace       = Displace;
   law->ops.follow         = Follow;
   law->ops.advance        = Advance;
   law->ops.view           = View;

@@ -23,7 +23,7 @@
 PetscErrorCode SamRateCreatePasses(SamLife l, SamRate *rate)
 {
   const size_t    bytes = sizeof(float) * (size_t)l->grid->cells;
-  const PetscBool lifts = (PetscBool)(l->coupled || SamProblemHasOffset(l->problem));
+  const PetscBool lifts = (PetscBool)(l->coupled || SamProblemDisplaces(l->problem));
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc1(l->cycle.steps, &rate->passes));
@@ -103,7 +103,7 @@ PetscErrorCode SamLifeNotePass(SamLife l, PetscInt k, const SamStep *step, SamRa
 
   PetscFunctionBegin;
   PetscCall(SamContactGetSolution(l->contact, &s));
-  pass->balance = SamControlGetBalance(&step->control, SAM_BALANCE_NORMAL);
+  PetscCall(SamProblemGetBalance(l->problem, l->memory, &step->control, SAM_BALANCE_NORMAL, &pass->balance));
   (void)SamFramesGetSlide(l->memory, SAM_TRIED, pass->slide);
   PetscCall(FindWear(l, s, rate));
   if (rate == &l->start) PetscCall(SamLifeNoteStride(l, rate->shift, rate->pressure, s->pressure));

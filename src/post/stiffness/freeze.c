@@ -1,9 +1,11 @@
 /* The fields of a step that the tangent stiffness freezes, on the part of the grid that contains the contact. */
 #include "stiffnessimpl.h"
+#include <petsam/normal.h>
 #include <petsam/private/contact.h>
 #include <petsam/private/elasticity.h>
 #include <petsam/private/problem.h>
 #include <petsam/private/problemimpl.h>
+#include <petsam/private/solutionimpl.h>
 
 static PetscErrorCode TakeField(SamWindow window, SamGrid grid, PetscInt components, Vec whole, Vec *field)
 {
@@ -13,6 +15,28 @@ static PetscErrorCode TakeField(SamWindow window, SamGrid grid, PetscInt compone
     PetscCall(SamWindowTake(window, whole, *field));
   else
     PetscCall(VecCopy(whole, *field));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Computes the overlap of the surfaces, as they were before the tried step, in cells at the limit of the pressure. */
+static PetscErrorCode ComputeOverlap(SamProblem problem, SamState state, const SamSolution *s, Vec overlap)
+{
+  PetscReal     limit;
+  const double *p;
+  double       *g;
+  Vec           separation;
+  const SamGrid grid = SamProblemGetGrid(problem);
+
+  PetscFunctionBegin;
+  PetscCall(SamProblemGetPressureLimit(problem, &limit));
+  PetscCall(SamSolutionCreateSeparation(problem, state, SAM_COMMITTED, &separation));
+  PetscCall(SamSolutionComputeGap(problem, s, separation, overlap));
+  PetscCall(SamSolutionDestroySeparation(problem, &separation));
+  PetscCall(VecGetArrayRead(s->pressure, &p));
+  PetscCall(VecGetArray(overlap, &g));
+  for (PetscInt k = 0; k < grid->cells; k++) g[k] = p[k] >= SAM_SATURATED * limit && g[k] < 0 ? -g[k] : 0;
+  PetscCall(VecRestoreArray(overlap, &g));
+  PetscCall(VecRestoreArrayRead(s->pressure, &p));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -43,8 +67,7 @@ static PetscErrorCode CreateMotion(SamContact contact, const SamSolution *s, Sam
   if (bound.by_slip) PetscCall(TakeField(window, grid, 1, bound.by_slip, &f[SAM_FROZEN_RATE]));
   PetscCall(VecDestroy(&bound.value));
   PetscCall(VecDestroy(&bound.by_slip));
-  PetscCall(VecSet(field, 0));
-  PetscCall(SamProblemAddOverlap(problem, at.state, field));
+  PetscCall(ComputeOverlap(problem, at.state, s, field));
   PetscCall(TakeField(window, grid, 1, field, &f[SAM_FROZEN_OVERLAP]));
   PetscCall(VecDestroy(&field));
   PetscCall(VecDestroy(&at.slip));

@@ -486,7 +486,7 @@ static PetscErrorCode Add(SamElasticity *elasticity, const SamOptions *from, Pet
   if (Couples(c)) e->traits.coupled = PETSC_TRUE;
   if (c->cases) {
     e->ops.conditions = AddConditions;
-    e->ops.offset     = AddOffset;
+    e->ops.displace   = AddOffset;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
