@@ -192,9 +192,9 @@ struct _n_SamLaw {
       u_z (one component) and to u_t (two components). A part of the tangential displacement that is linear in x and y
       is added to `strain` instead: it is evaluated row by row, needs no field, and follows the bodies when they roll.
       What is NULL is not wanted. The fields must depend on the control and the state alone, since the independent check
-      evaluates them, too; the strain on the control alone: where only it is wanted, the state is NULL. The displacements of a solution contain them, also those of the previous
-      step, so that gap, slip and derived quantities need no further terms. `adds` is set to true if a field is not
-      zero, and else unchanged.
+      evaluates them, too; the strain on the control alone: where only it is wanted, the state is NULL. The
+      displacements of a solution contain the fields, also those of the previous step, so that gap, slip and derived
+      quantities need no further terms. `adds` is set to true if a field is not zero, and else unchanged.
     */
     PetscErrorCode (*displace)(SamLaw law, SamState state, const SamControl *control, Vec u_z, Vec u_t,
                                SamStrain *strain, PetscBool *adds);

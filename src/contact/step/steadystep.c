@@ -84,7 +84,7 @@ static PetscErrorCode CreateCoarse(SamSolve *w, Coarse *k)
     const PetscInt c = SamComponentsOf[SAM_BALANCE_NORMAL][n];
 
     if (k->tangential.force[n]) k->tangential.rigid[n] = w->rigid[n];
-    k->normal.force[n] = SamComponentNames[c].axes <= k->grid->axes;
+    k->normal.force[n] = PETSC_TRUE;
     k->normal.load[n]  = w->s->load[c];
   }
   PetscFunctionReturn(PETSC_SUCCESS);
