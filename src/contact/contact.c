@@ -281,13 +281,15 @@ PetscErrorCode SamContactOfferCondition(SamContact c, const SamCondition *condit
 
 PetscErrorCode SamContactGetNumber(SamContact c, const char name[], PetscReal *value)
 {
-  PetscInt id;
+  const SamMotionName *own;
+  PetscInt             id;
 
   PetscFunctionBegin;
   SamValidHandle(c, SamContact, 1);
   SamValidPointer(name, 2);
   SamValidPointer(value, 3);
-  id = SamStateFindNumber(c->state, name);
+  own = SamMotionFindName(c->motion, name);
+  id  = SamStateFindNumber(c->state, own && own->name ? own->name : name);
   PetscCheck(id >= 0, c->grid->comm, PETSC_ERR_ARG_UNKNOWN_TYPE, "Unknown number %s", name);
   *value = *SamStateReadNumbers(c->state, id);
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -19,7 +19,7 @@ PETSC_INTERN PetscErrorCode SamBodyReference(SamBody body);
 */
 PETSC_INTERN PetscInt           SamBodyCount(SamBody body);
 PETSC_INTERN PetscInt           SamBodyAt(SamBody body, PetscReal depth);
-PETSC_INTERN const SamMaterial *SamBodyMaterialAt(SamBody body, PetscReal depth);
+PETSC_EXTERN const SamMaterial *SamBodyMaterialAt(SamBody body, PetscReal depth);
 PETSC_INTERN PetscReal          SamBodyTop(SamBody body, PetscInt n);
 PETSC_INTERN const SamMaterial *SamBodySubstrate(SamBody body);
 PETSC_INTERN PetscBool          SamBodyIsRigid(SamBody body);
@@ -56,7 +56,7 @@ PETSC_INTERN PetscErrorCode SamPairReference(SamPair pair);
   wave numbers from `first` to `last` (1/m). For uniform bodies it is Dundurs' beta.
   None is collective.
 */
-PETSC_INTERN SamBody   SamPairBody(SamPair pair, PetscInt body);
+PETSC_EXTERN SamBody   SamPairBody(SamPair pair, PetscInt body);
 PETSC_INTERN PetscReal SamPairModulus(SamPair pair);
 PETSC_INTERN PetscBool SamPairIsUniform(SamPair pair);
 PETSC_INTERN double    SamPairCoupling(SamPair pair, double first, double last);

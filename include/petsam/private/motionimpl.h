@@ -8,8 +8,8 @@
 
 /*
   SamMotion - the way in which the bodies move over each other in a load step, selected by -rolling. A new motion is a
-  file with such a table and a line in motion.c; if its displacements are not those of bodies at rest, it also needs a
-  type of elasticity that adds to another one.
+  file with such a table, which SamMotionRegister() adds; if its displacements are not those of bodies at rest, it also
+  needs a type of elasticity that adds to another one.
 
   Tangential displacements, slips, and works are always those of a step. If material streams through the contact, a step
   is 1 m of rolled distance: its rigid-body displacement is a creepage, and its slip per distance is a slip velocity
@@ -40,6 +40,12 @@ struct _n_SamMotion {
                           const char where[]);
 };
 
+#define SAM_MOTIONS 8 /* most motions */
+/*
+  SamMotionRegister - adds a motion, or replaces an earlier one of its word. Not collective, but to be called on all
+  ranks. Errors: PETSC_ERR_ARG_OUTOFRANGE for more than SAM_MOTIONS.
+*/
+PETSC_EXTERN PetscErrorCode SamMotionRegister(SamMotion motion);
 /* SamMotionOf - returns the motion of bodies. Not collective. */
 PETSC_INTERN SamMotion SamMotionOf(SamElasticity elasticity);
 /*

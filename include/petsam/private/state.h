@@ -51,7 +51,7 @@ PETSC_INTERN PetscErrorCode SamStateMove(SamState state, const PetscReal distanc
 */
 PETSC_INTERN void SamStateSwapMoved(SamState state);
 /* SamStateNumbers - returns the address of numbers in a generation. Not collective. */
-PETSC_INTERN double *SamStateNumbers(SamState state, PetscInt id, SamGeneration generation);
+PETSC_EXTERN double *SamStateNumbers(SamState state, PetscInt id, SamGeneration generation);
 /*
   SamStateRestoreField - gets the vector of a field in the committed generation, or in the one a step before it, for
   writing by code that restores a saved state. Collective.
@@ -97,7 +97,7 @@ PETSC_INTERN PetscErrorCode SamStateOfferNumber(SamState state, const char name[
 /*
   SamStateOffer - declares a computed field of the results. Not collective.
 */
-PETSC_INTERN PetscErrorCode SamStateOffer(SamState state, const SamStateResult *result);
+PETSC_EXTERN PetscErrorCode SamStateOffer(SamState state, const SamStateResult *result);
 
 /*
   SamStateLayers - the layers below the cells in which the results of one group are; these have the kind
@@ -119,7 +119,7 @@ PETSC_INTERN const char *const SamLayerStresses[]; /* names of the stresses in a
   SamStateGetLayers - returns the k-th group, borrowed; NULL: there are no more.
   SamStateLayersOf - returns the group of a result by its name, borrowed. None is collective.
 */
-PETSC_INTERN PetscErrorCode        SamStateSetLayers(SamState state, const SamStateLayers *layers);
+PETSC_EXTERN PetscErrorCode        SamStateSetLayers(SamState state, const SamStateLayers *layers);
 PETSC_INTERN const SamStateLayers *SamStateGetLayers(SamState state, PetscInt k);
 PETSC_INTERN const SamStateLayers *SamStateLayersOf(SamState state, const char result[]);
 

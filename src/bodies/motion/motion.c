@@ -29,8 +29,21 @@ const struct _n_SamMotion SamMotionInTime = {.word      = "none",
                                              .check     = Check};
 
 /* The first motion is the default. */
-static const SamMotion motions[] = {&SamMotionInTime, &SamMotionSteady};
-#define MOTIONS ((PetscInt)(sizeof(motions) / sizeof(motions[0])))
+static SamMotion motions[SAM_MOTIONS] = {&SamMotionInTime, &SamMotionSteady};
+static PetscInt  count                = 2;
+
+PetscErrorCode SamMotionRegister(SamMotion motion)
+{
+  PetscInt k = 0;
+
+  PetscFunctionBegin;
+  while (k < count && strcmp(motions[k]->word, motion->word)) k++;
+  PetscCheck(k < SAM_MOTIONS, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "More than %d motions: %s", SAM_MOTIONS,
+             motion->word);
+  motions[k] = motion;
+  count      = PetscMax(count, k + 1);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
 SamMotion SamMotionOf(SamElasticity elasticity)
 {
@@ -55,12 +68,12 @@ PetscErrorCode SamMotionSetFromOptions(const SamOptions *from, SamElasticity *el
   char               list[128] = "";
   const SamOptionRow row = {"rolling", "steady: the contact rolls towards +x in steady state; or none", SAM_OPTION_ENUM,
                             .words = list};
-  const char        *words[MOTIONS];
+  const char        *words[SAM_MOTIONS];
   int                k = 0;
 
   PetscFunctionBegin;
-  for (PetscInt n = 0; n < MOTIONS; n++) words[n] = motions[n]->word;
-  SamJoin(MOTIONS, words, ",", ",", list, sizeof(list));
+  for (PetscInt n = 0; n < count; n++) words[n] = motions[n]->word;
+  SamJoin((int)count, words, ",", ",", list, sizeof(list));
   PetscCall(SamOptionsRead(from, NULL, 1, &row, &k, NULL));
   PetscCall(SamMotionSet(motions[k], from, elasticity));
   PetscFunctionReturn(PETSC_SUCCESS);

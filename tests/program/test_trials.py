@@ -1,0 +1,155 @@
+"""One extension of each kind, in a file of its own that only its registry names (tests/trials): no old file changes."""
+
+import re
+
+import h5py
+import numpy as np
+import pytest
+
+import conftest
+from support import ROOT, bodies
+from test_plugin import build
+
+SPHERE = dict(
+    grid_n=(37, 32), grid_size=(2.4e-3, 2.2e-3), **bodies(), friction=0.3, gap_type="sphere", gap_radius1=0.1,
+    gap_radius2="inf", load_n=700, output="out.h5", overwrite=True, output_fields="usual,gap",
+)  # fmt: skip
+MODULUS = 210e9 / (1 - 0.3**2) / 2
+# a period of a wave and its contact, whose closed form is Westergaard's
+LENGTH, HEIGHT = 1e-3, 1e-7
+WAVE = dict(
+    SPHERE, elasticity="periodic", friction=0, gap_type="wave", gap_radius1=None, gap_radius2=None, grid_n=(243, 4),
+    grid_size=(LENGTH, LENGTH / 50), gap_wave_length=LENGTH, gap_wave_height=HEIGHT,
+)  # fmt: skip
+FULL = np.pi * MODULUS * HEIGHT / LENGTH  # mean pressure that closes the wave
+AREA = LENGTH**2 / 50
+
+
+@pytest.fixture(scope="module")
+def trials(prefix, tmp_path_factory):
+    return build(prefix, tmp_path_factory.mktemp("trials") / "trials.so", *sorted((ROOT / "tests/trials").glob("*.c")))
+
+
+@pytest.fixture
+def petsam(prefix, launcher, tmp_path, trials):
+    """The program with the trials: petsam(options) gives what it printed; petsam.read(names) the last step's results."""
+
+    def run(*options, ranks=1, check=0, program="petsam"):
+        more = dict(plugin=trials)
+        return conftest.execute(launcher, tmp_path, [*options, more], ranks, check, program=prefix / "bin" / program)
+
+    def read(*names, file="out.h5"):
+        with h5py.File(tmp_path / file) as f:
+            return [f[name][-1] if name in f else f[f"history/{name}"][-1] for name in names]
+
+    run.read = read
+    return run
+
+
+def test_each_is_short_and_named_by_its_registry_alone():
+    folder = ROOT / "tests/trials"
+    registry = (folder / "trials.c").read_text()
+    sources = sorted(set(folder.glob("*.c")) - {folder / "trials.c"})
+    assert len(sources) == len(re.findall(r"^ .*Register\(", registry, re.M)) == 7  # one has an option and a number
+    assert all(len(path.read_text().splitlines()) < 120 for path in sources)
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_gap_has_its_closed_contact(petsam, ranks):
+    """Half the mean pressure that closes the wave: Westergaard's half width and largest pressure."""
+    petsam(dict(WAVE, load_n=0.3 * FULL * AREA), ranks=ranks)
+    pressure, area = petsam.read("pressure", "contact_area")
+    half = LENGTH / np.pi * np.arcsin(np.sqrt(0.3))
+    assert area / AREA * LENGTH == pytest.approx(2 * half, rel=2e-2)  # edges in whole cells
+    assert pressure.max() == pytest.approx(2 * FULL * np.sqrt(0.3), rel=2e-3)
+
+
+@pytest.mark.parametrize("part, tension, ranks", [(0.2, 0.15, 1), (0.02, 0.25, 3)])
+def test_adhesion_is_the_contact_under_the_load_and_the_tension(petsam, part, tension, ranks):
+    """A uniform tension does not bend periodic bodies, so that the contact is Westergaard's under the sum."""
+    petsam(dict(WAVE, load_n=(part + tension) * FULL * AREA))
+    expected = petsam.read("pressure", "gap", "contact_area")
+    petsam(dict(WAVE, load_n=part * FULL * AREA, adhesion=tension * FULL), ranks=ranks)
+    for found, wanted in zip(petsam.read("pressure", "gap", "contact_area"), expected):
+        assert found == pytest.approx(wanted, rel=1e-6, abs=1e-7 * np.max(wanted))
+
+
+def test_adhesion_of_half_spaces_passes_the_independent_check(petsam):
+    """The tension lifts the surfaces, as its displacement of the operator says; the load is borne with it."""
+    tension = 2e6
+    petsam(dict(SPHERE, adhesion=tension))
+    load, residual, fine = petsam.read("load_n", "normal_residual", "equilibrium_residual")
+    assert load == pytest.approx(700 + tension * 2.4e-3 * 2.2e-3, rel=1e-12)
+    assert residual < 1e-8 and fine < 1e-12
+
+
+@pytest.mark.parametrize("ranks", [1, 3])
+def test_condition_of_a_step_scales_friction(petsam, tmp_path, ranks):
+    (tmp_path / "wet.csv").write_text("time,load_n,load_tx,wetness\n1,700,60,0\n2,700,60,0.8\n3,700,120,0.4\n")
+    (tmp_path / "scaled.csv").write_text(
+        "time,load_n,load_tx,friction_scale\n1,700,60,1\n2,700,60,0.6\n3,700,120,0.8\n"
+    )
+    found = []
+    for name in "wet", "scaled":
+        petsam(dict(SPHERE, load_n=None, history=f"{name}.csv"), ranks=ranks)
+        found.append(petsam.read("shear_x", "slip_x", "stick_area"))
+    for wet, scaled in zip(*found):
+        assert wet == pytest.approx(scaled, rel=1e-6, abs=1e-6 * np.abs(scaled).max())
+    said = petsam(dict(SPHERE, wetness=1.2), check=2).stderr
+    assert "-wetness" in said and "1.2: expected 0 to 1" in said
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_number_is_that_of_the_field_and_its_error_is_estimated(petsam, ranks):
+    said = petsam(dict(SPHERE, square_above=1e8, grid_check=True), ranks=ranks).stdout
+    p, square = petsam.read("pressure", "pressure_square")
+    assert square == pytest.approx((p[p > 1e8] ** 2).sum() * 2.4e-3 * 2.2e-3 / (37 * 32), rel=1e-12)
+    assert re.search(r"pressure_square/N2/m2 +[0-9.e+]+", said)
+    assert "-square_above" in petsam(dict(SPHERE, square_above=-1), check=2).stderr
+
+
+@pytest.mark.parametrize("ranks", [1, 3])
+def test_law_shears_as_bulk_stress_does_and_its_stress_is_added(petsam, ranks):
+    """The same strain of body 2 by a stress of it; below the surface, what its law declares, in the middles of layers."""
+    strain, depth, case = 2e-5, 1e-4, dict(SPHERE, load_tx=40, mid_step=None)
+    stress = strain * 210e9 / (1 - 0.3)
+    petsam(dict(case, bulk2_stress_xx=stress, bulk2_stress_yy=stress))
+    expected = petsam.read("pressure", "shear_x", "shear_y", "stick_area")
+    petsam(dict(case, misfit_strain=strain, misfit_depth=depth, output_fields="usual,gap,misfit"), ranks=ranks)
+    for found, wanted in zip(petsam.read("pressure", "shear_x", "shear_y", "stick_area"), expected):
+        assert found == pytest.approx(wanted, rel=1e-3, abs=1e-4 * np.max(wanted))
+    z = (np.arange(6) + 0.5) / 3 * depth
+    words = dict(input="out.h5", output="s.h5", depths=",".join(map(str, z)))
+    petsam(words, ranks=ranks, program="petsam-stress")
+    with_law = petsam.read("stress_xx", "stress_yy", "stress_xz", file="s.h5")
+    petsam(dict(case, bulk2_stress_xx=stress, bulk2_stress_yy=stress))
+    petsam(words, program="petsam-stress")
+    by_bulk = petsam.read("stress_xx", "stress_yy", "stress_xz", file="s.h5")
+    added = [-stress * np.exp(-z / depth) - stress] * 2 + [0 * z]
+    for one, other, more in zip(with_law, by_bulk, added):
+        assert one == pytest.approx(other + more[:, None, None], abs=1e-4 * stress + 1e-3 * np.abs(other).max())
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_body_remembers_its_creep_over_time_and_restarts(petsam, tmp_path, ranks):
+    """Flat bodies in full contact come nearer by the rate, the pressure and the time; a restart goes on with the bits."""
+    rate, mean = 1e-17, 1e6
+    (tmp_path / "h.csv").write_text("time,load_n\n" + "".join(f"{t},{mean * AREA}\n" for t in (1, 3, 4.5, 10)))
+    case = dict(
+        WAVE, gap_type="flat", gap_wave_length=None, gap_wave_height=None, elasticity="creeping", creep_rate=rate,
+        load_n=None, history="h.csv", output_fields="all", checkpoint="c.h5", checkpoint_every=2,
+    )  # fmt: skip
+    petsam(case, ranks=ranks)
+    with h5py.File(tmp_path / "out.h5") as f:
+        assert f["history/disp_z"][:] == pytest.approx(rate * mean * np.array([0, 2, 3.5, 9]), rel=1e-9, abs=1e-22)
+        whole = f["creep"][-1]
+    assert whole == pytest.approx(9 * rate * mean, rel=1e-9)
+
+
+def test_motion_has_its_name_and_refuses_what_it_does_not_know(petsam, tmp_path):
+    petsam(dict(SPHERE, rolling="guided"))
+    with h5py.File(tmp_path / "out.h5") as f:
+        assert "creep_max" in f["history"] and "slip_max" not in f["history"]
+    said = petsam(dict(SPHERE, rolling="guided", load_tx=5), check=2).stderr
+    assert "load_tx = 5: expected 0: the bodies are guided" in said
+    assert "none, steady or guided" in petsam(dict(SPHERE, rolling="gliding"), check=2).stderr

@@ -1,0 +1,11 @@
+/* Trials: one extension of each kind, a file each, which only the registry names. */
+#include <petsam.h>
+#include <petsam/private/motionimpl.h>
+
+PetscErrorCode                         CreateMisfit(SamLaw law);
+PetscErrorCode                         CreateAdhesion(SamLaw law);
+PetscErrorCode                         CreateWetness(SamLaw law);
+PetscErrorCode                         CreateSquare(SamLaw law);
+PetscErrorCode                         CreateCreeping(SamElasticity elasticity);
+PetscErrorCode                         CreateWave(SamGap gap);
+PETSC_INTERN const struct _n_SamMotion Guided;
