@@ -32,7 +32,7 @@ def trials(prefix, tmp_path_factory):
 
 @pytest.fixture
 def petsam(prefix, launcher, tmp_path, trials):
-    """The program with the trials: petsam(options) gives what it printed; petsam.read(names) the last step's results."""
+    """The program with the trials: petsam(options) gives what it printed; petsam.read(names) the last results."""
 
     def run(*options, ranks=1, check=0, program="petsam"):
         more = dict(plugin=trials)
@@ -110,7 +110,7 @@ def test_number_is_that_of_the_field_and_its_error_is_estimated(petsam, ranks):
 
 @pytest.mark.parametrize("ranks", [1, 3])
 def test_law_shears_as_bulk_stress_does_and_its_stress_is_added(petsam, ranks):
-    """The same strain of body 2 by a stress of it; below the surface, what its law declares, in the middles of layers."""
+    """The same strain of body 2 by a stress of it; below it what its law declares, in the middles of layers."""
     strain, depth, case = 2e-5, 1e-4, dict(SPHERE, load_tx=40, mid_step=None)
     stress = strain * 210e9 / (1 - 0.3)
     petsam(dict(case, bulk2_stress_xx=stress, bulk2_stress_yy=stress))
