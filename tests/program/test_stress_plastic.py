@@ -80,6 +80,18 @@ def test_fields_have_their_layers_and_scales(folder):
         assert "plastic" not in f
 
 
+def test_numbers_say_which_layers_have_yielded(folder):
+    """Those with more than 1 % of the maximum, and how many are left below them; or cells to the border, if fewer."""
+    with h5py.File(folder / "two.h5") as f:
+        most = f["plastic/plastic_strain"][0].max(axis=(1, 2))
+        strain, history = f["plastic/plastic_strain"][0].max(axis=0), {n: f["history"][n][0] for n in f["history"]}
+    spans = np.flatnonzero(most > 0.01 * most.max())
+    rows, columns = np.nonzero(strain > 0.01 * most.max())
+    border = min(rows.min(), columns.min(), 18 - rows.max(), 23 - columns.max())
+    assert 2 < history["yielded_layers"] == len(spans) < LAYERS
+    assert history["yield_margin"] == min(LAYERS - 1 - spans[-1], border)
+
+
 def strain_of(e):
     """Equivalent strain of a tensor."""
     square = sum(e[part] ** 2 for part in PARTS[:3]) + 2 * sum(e[part] ** 2 for part in PARTS[3:])
