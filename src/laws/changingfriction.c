@@ -15,6 +15,7 @@
 #include <petsam/private/lawimpl.h>
 #include <petsam/private/motionimpl.h>
 #include <petsam/private/state.h>
+#include <petsam/private/pressed.h>
 #include <petsam/private/base.h>
 #include <math.h>
 
@@ -252,9 +253,9 @@ static PetscErrorCode Advance(SamLaw law, SamLawStep *step)
   for (PetscInt k = 0; k < law->grid->cells; k++) {
     const double was = old ? old[k] : 0;
 
-    new[k] = f->kind == PATH ? was + (p[k] > 0 ? slip[k] : 0)
-             : p[k] > 0      ? 1 - FactorOf(f, p[k], was, slip[k], rolled, &change)
-                             : 0;
+    new[k] = f->kind == PATH      ? was + (SamIsPressed(p[k]) ? slip[k] : 0)
+             : SamIsPressed(p[k]) ? 1 - FactorOf(f, p[k], was, slip[k], rolled, &change)
+                                  : 0;
   }
   PetscCall(VecRestoreArrayWrite(after, &new));
   if (before) PetscCall(VecRestoreArrayRead(before, &old));

@@ -28,6 +28,7 @@
 #include <petsam/private/state.h>
 #include <petsam/private/base.h>
 #include <petsam/private/control.h>
+#include <petsam/private/pressed.h>
 #include <petsam/private/parameters.h>
 #include <math.h>
 
@@ -266,7 +267,7 @@ static PetscErrorCode FindLimit(SamLawStep *step, const double along[2], double 
   PetscCall(VecGetArrayRead(step->pressure, &p));
   PetscCall(VecGetArrayRead(bent, &u));
   for (PetscInt k = 0; k < cells; k++)
-    if (p[k] > 0) *limit = PetscMax(*limit, u[k] * along[0] + u[k + cells] * along[1]);
+    if (SamIsPressed(p[k])) *limit = PetscMax(*limit, u[k] * along[0] + u[k + cells] * along[1]);
   PetscCall(VecRestoreArrayRead(bent, &u));
   PetscCall(VecRestoreArrayRead(step->pressure, &p));
   PetscCall(VecDestroy(&bent));

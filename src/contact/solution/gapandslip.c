@@ -6,6 +6,7 @@
 */
 #include <petsam/private/solutionimpl.h>
 #include <petsam/private/balance.h>
+#include <petsam/private/pressed.h>
 #include <petsam/private/problem.h>
 
 PetscErrorCode SamValuesGet(const SamSolution *s, SamValues *v)
@@ -157,7 +158,7 @@ PetscErrorCode SamIncrementDestroy(SamIncrement *s)
 /* True if cell k comes into contact in the step. */
 static PetscBool Enters(const SamIncrement *s, ptrdiff_t k)
 {
-  return (!s->solutions[0] || s->at_before.p[k] <= 0) && s->at_now.p[k] > 0;
+  return (!s->solutions[0] || !SamIsPressed(s->at_before.p[k])) && SamIsPressed(s->at_now.p[k]);
 }
 
 void SamIncrementComputeRow(const SamIncrement *s, PetscInt j)

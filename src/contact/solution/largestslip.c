@@ -34,6 +34,7 @@
 #include <petsam/private/rows.h>
 #include <petsam/private/solutionimpl.h>
 #include <petsam/private/elasticity.h>
+#include <petsam/private/pressed.h>
 #include <petsam/private/problem.h>
 
 #define PLACE 0.825
@@ -92,7 +93,7 @@ static PetscBool Has(const Seen *s, PetscInt i, PetscInt j)
 
 static PetscBool Touches(const Seen *s, PetscInt i, PetscInt j)
 {
-  return SamHaloAt(&s->p, 0, i, j) > 0;
+  return SamIsPressed(SamHaloAt(&s->p, 0, i, j));
 }
 
 /* Returns the gap of a cell, which is 0 in contact; beyond the grid, the gap of the nearest cell. */
@@ -200,7 +201,7 @@ static double SlipOfRow(const Seen *s, PetscInt j)
     const ptrdiff_t k = (ptrdiff_t)j * s->grid->nx + i;
     double          x, y, edge;
 
-    if (!(s->own.p[k] > 0)) continue;
+    if (!SamIsPressed(s->own.p[k])) continue;
     edge = SlipAtEdge(s, i, s->grid->row_start + j, k);
     most = PetscMax(most, edge);
     if (edge >= 0) continue;

@@ -72,6 +72,7 @@
 #include <petsam/private/elasticity.h>
 #include <petsam/private/state.h>
 #include <petsam/private/balance.h>
+#include <petsam/private/pressed.h>
 #include <petsam/private/body.h>
 
 /* Largest absolute Dundurs' constant of surfaces whose relative motion is determined by the shear alone */
@@ -176,7 +177,7 @@ static PetscErrorCode FindGaps(SamSolve *w, Vec gap)
   PetscCall(SamSolutionComputeGap(w->task->problem, w->task->before, w->separation, gap));
   PetscCall(VecGetArrayRead(w->task->before->pressure, &p));
   PetscCall(VecGetArray(gap, &g));
-  for (PetscInt k = 0; k < w->task->grid->cells; k++) g[k] = p[k] > 0 ? 0 : g[k];
+  for (PetscInt k = 0; k < w->task->grid->cells; k++) g[k] = SamIsPressed(p[k]) ? 0 : g[k];
   PetscCall(VecRestoreArray(gap, &g));
   PetscCall(VecRestoreArrayRead(w->task->before->pressure, &p));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -203,9 +204,9 @@ static PetscErrorCode FindDistances(SamSolve *w, Vec distance)
     SamRigidGap(&motion, SamRigidOfGap(&motion, j), zero, h + first, g + first);
   }
   for (PetscInt k = 0; k < w->task->grid->cells; k++)
-    if (p[k] > 0) least = PetscMax(least, -g[k]);
+    if (SamIsPressed(p[k])) least = PetscMax(least, -g[k]);
   PetscCall(SamMax(w->task->grid->comm, 1, &least));
-  for (PetscInt k = 0; k < w->task->grid->cells; k++) g[k] = p[k] > 0 ? g[k] + least : 0;
+  for (PetscInt k = 0; k < w->task->grid->cells; k++) g[k] = SamIsPressed(p[k]) ? g[k] + least : 0;
   PetscCall(VecRestoreArray(distance, &g));
   PetscCall(VecRestoreArrayRead(w->separation, &h));
   PetscCall(VecRestoreArrayRead(w->s->pressure, &p));
@@ -236,7 +237,7 @@ static PetscErrorCode SetEntering(SamSolve *w, PetscBool found, Vec aside)
   for (PetscInt k = 0; k < cells; k++) {
     double tau[2], size, part;
 
-    if (p[k] <= 0 || g[k] <= 0) continue;
+    if (!SamIsPressed(p[k]) || g[k] <= 0) continue;
     ShearAtEdge(&approach, kappa, SamGridX(grid, k % grid->nx), SamGridY(grid, grid->row_start + k / grid->nx), tau);
     size = hypot(tau[0], tau[1]);
     part = size * p[k] > b[k] ? b[k] / (p[k] * size) : 1;
@@ -311,7 +312,7 @@ static PetscErrorCode MeasureTouching(SamGrid grid, const double p0[], const dou
   PetscFunctionBegin;
   most[0] = most[1] = 0;
   for (PetscInt k = 0; k < grid->cells; k++) {
-    if (p0[k] > 0 || p[k] <= 0) continue;
+    if (SamIsPressed(p0[k]) || !SamIsPressed(p[k])) continue;
     most[0] = PetscMax(most[0], g[k]);
     most[1] = PetscMax(most[1], p[k]);
   }
@@ -333,7 +334,7 @@ static PetscErrorCode FindTimes(SamSolve *w, Vec time)
   PetscCall(VecGetArray(time, &t));
   PetscCall(MeasureTouching(w->task->grid, p0, p, t, most));
   for (PetscInt k = 0; k < w->task->grid->cells; k++) {
-    const PetscBool touches = p0[k] <= 0 && p[k] > 0 && t[k] > 0;
+    const PetscBool touches = !SamIsPressed(p0[k]) && SamIsPressed(p[k]) && t[k] > 0;
     const double    outside = touches ? pow(t[k] / most[0], 2.0 / 3) : 0, inside = touches ? p[k] / most[1] : 1;
 
     t[k] = outside / (outside + inside * inside);

@@ -5,6 +5,7 @@
 #include <petsam/private/check.h>
 #include <petsam/private/problem.h>
 #include <petsam/private/solver.h>
+#include <petsam/private/pressed.h>
 #include <petsam/private/tangential.h>
 #include <math.h>
 
@@ -91,7 +92,7 @@ static PetscErrorCode FollowPressure(SamGrid grid, Vec pressure_before, Vec pres
   PetscCall(VecGetArrayRead(pressure, &p));
   PetscCall(VecGetArray(shear, &q));
   for (PetscInt k = 0; k < cells; k++) {
-    const double scale = p0[k] > 0 ? p[k] / p0[k] : 0;
+    const double scale = SamIsPressed(p0[k]) ? p[k] / p0[k] : 0;
 
     q[k] *= scale;
     q[k + cells] *= scale;

@@ -11,6 +11,7 @@
 #include "reaction.h"
 #include <petsam/private/balanceimpl.h>
 #include <petsam/private/elasticity.h>
+#include <petsam/private/pressed.h>
 #include <petsam/solution.h>
 
 #define RTOL 1e-3 /* relative to the displacement */
@@ -115,7 +116,7 @@ PetscErrorCode SamReactionFreeze(SamReaction r)
     const SamCellState state = SamCellStateOf(p[k], q[k], q[k + cells], bound[k]);
     const PetscBool    slips = state == SAM_CELL_SLIP && bound[k] > 0;
 
-    r->free[0][k] = p[k] > 0;
+    r->free[0][k] = SamIsPressed(p[k]);
     r->free[1][k] = state == SAM_CELL_STICK && bound[k] > 0;
     for (PetscInt c = 0; c < 2; c++) r->part[k + c * cells] = slips ? q[k + c * cells] / p[k] : 0;
     if (slips) any[0] = 1;

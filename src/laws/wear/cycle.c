@@ -20,6 +20,7 @@
 #include <petsam/private/state.h>
 #include <petsam/private/balance.h>
 #include <petsam/private/contact.h>
+#include <petsam/private/pressed.h>
 #include <petsam/private/problem.h>
 #include <math.h>
 
@@ -223,7 +224,7 @@ static PetscErrorCode FindShift(SamLife l, SamRate *rate)
   PetscFunctionBegin;
   PetscCall(VecGetArrayRead(rate->pressure, &p));
   PetscCall(VecGetArray(rate->shift, &shift));
-  for (PetscInt k = 0; k < l->grid->cells; k++) shift[k] = p[k] > 0 ? -shift[k] : 0;
+  for (PetscInt k = 0; k < l->grid->cells; k++) shift[k] = SamIsPressed(p[k]) ? -shift[k] : 0;
   PetscCall(VecRestoreArray(rate->shift, &shift));
   PetscCall(VecRestoreArrayRead(rate->pressure, &p));
   if (!l->coupled) PetscFunctionReturn(PETSC_SUCCESS);
@@ -251,7 +252,7 @@ static PetscErrorCode FindCoefficientOfBand(SamLife l, SamRate *rate, double *mo
     double *mine = &slip[grid->row_start + k / grid->nx], cells = 0;
 
     *mine = line[k] > 0 ? PetscMax(passage[k], 0) / line[k] : 0;
-    for (PetscInt i = k; i < k + grid->nx; i++) cells += p[i] > 0;
+    for (PetscInt i = k; i < k + grid->nx; i++) cells += SamIsPressed(p[i]);
     *most = PetscMax(*most, *mine * cells * (double)grid->dx);
   }
   PetscCall(VecRestoreArrayRead(l->gap, &line));
@@ -292,8 +293,8 @@ static PetscErrorCode FindCoefficient(SamLife l, const SamControl *mean, SamRate
   PetscCall(VecGetArrayRead(l->diagonal, &unit));
   PetscCall(VecGetArrayWrite(rate->coefficient, &to));
   for (PetscInt k = 0; k < l->grid->cells; k++) {
-    to[k] = p[k] > 0 ? load[k] / p[k] : unit[k] * path[k];
-    most  = p[k] > 0 ? PetscMax(most, to[k]) : most;
+    to[k] = SamIsPressed(p[k]) ? load[k] / p[k] : unit[k] * path[k];
+    most  = SamIsPressed(p[k]) ? PetscMax(most, to[k]) : most;
   }
   PetscCall(VecRestoreArrayWrite(rate->coefficient, &to));
   PetscCall(VecRestoreArrayRead(l->diagonal, &unit));

@@ -7,6 +7,7 @@
   cell to cell.
 */
 #include "wearimpl.h"
+#include <petsam/private/pressed.h>
 
 /* Computes the Rayleigh quotient of a checkerboard, which is slightly more than the smallest eigenvalue. */
 static PetscErrorCode FindLeast(SamLaw law)
@@ -55,7 +56,7 @@ PetscErrorCode SamWearGetExcess(SamLaw law, SamLawStep *step, PetscReal *excess)
   PetscCall(VecGetArrayRead(worn, &wears));
   if (by_energy) PetscCall(VecGetArrayRead(step->field[SAM_USE_SLOPE], &slope));
   for (PetscInt k = 0; k < law->grid->cells; k++)
-    if (p[k] > 0 && fabs(wears[k]) > 0) most = PetscMax(most, (slope ? slope[k] : 1) * slip[k]);
+    if (SamIsPressed(p[k]) && fabs(wears[k]) > 0) most = PetscMax(most, (slope ? slope[k] : 1) * slip[k]);
   if (by_energy) PetscCall(VecRestoreArrayRead(step->field[SAM_USE_SLOPE], &slope));
   PetscCall(VecRestoreArrayRead(worn, &wears));
   PetscCall(VecRestoreArrayRead(path, &slip));

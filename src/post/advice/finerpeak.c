@@ -28,6 +28,7 @@
 #include <petsam/private/baseimpl.h>
 #include <petsam/private/body.h>
 #include <petsam/private/gap.h>
+#include <petsam/private/pressed.h>
 #include <petsam/private/problem.h>
 #include <math.h>
 
@@ -226,7 +227,7 @@ static double FindTip(const Patch *a, const double heights[])
         PetscBool      closed = PETSC_TRUE;
 
         for (PetscInt c = -2; c <= 2; c++)
-          if (!(p[c * stride] > 0)) closed = PETSC_FALSE;
+          if (!SamIsPressed(p[c * stride])) closed = PETSC_FALSE;
         if (!closed) return 0;
         most = PetscMax(most, fabs(6 * h[0] - 4 * (h[stride] + h[-stride]) + h[2 * stride] + h[-2 * stride]));
       }

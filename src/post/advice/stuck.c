@@ -20,6 +20,7 @@
 #include <petsam/private/rows.h>
 #include <petsam/private/solutionimpl.h>
 #include <petsam/private/state.h>
+#include <petsam/private/pressed.h>
 #include <petsam/private/body.h>
 #include <math.h>
 
@@ -41,8 +42,9 @@ static double FindOpen(const Seen *s, SamGrid grid, PetscInt i, PetscInt j)
   double open = 0;
 
   for (PetscInt side = -1; side <= 1; side += 2) {
-    if (i + side >= 0 && i + side < grid->nx && SamHaloAt(&s->p, 0, i + side, j) <= 0) open += (double)grid->dx;
-    if (grid->axes == 2 && j + side >= 0 && j + side < grid->ny && SamHaloAt(&s->p, 0, i, j + side) <= 0)
+    if (i + side >= 0 && i + side < grid->nx && !SamIsPressed(SamHaloAt(&s->p, 0, i + side, j)))
+      open += (double)grid->dx;
+    if (grid->axes == 2 && j + side >= 0 && j + side < grid->ny && !SamIsPressed(SamHaloAt(&s->p, 0, i, j + side)))
       open += (double)grid->dy;
   }
   return open;
@@ -61,7 +63,7 @@ static void AddCells(const Seen *s, SamGrid grid, double sums[SUMS], double *bou
     if (!(edge > 0)) continue;
     *bound = PetscMax(*bound, b);
     sums[EDGE] += edge;
-    if (s->p0[k] <= 0) continue; /* contact is made in this cell */
+    if (!SamIsPressed(s->p0[k])) continue; /* contact is made in this cell */
     part = hypot(s->q[k] - s->q0[k], s->q[k + cells] - s->q0[k + cells]) - fabs(b - s->b0[k]);
     sums[CUBES] += part > 0 ? edge * pow(part / b, 3) : 0;
   }

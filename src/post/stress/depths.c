@@ -7,6 +7,7 @@
 */
 #include "evaluationimpl.h"
 #include <petsam/private/body.h>
+#include <petsam/private/pressed.h>
 #include <petsam/private/elasticity.h>
 #include <stdlib.h>
 
@@ -182,7 +183,7 @@ static PetscErrorCode RatioOfAxes(SamEvaluation e, PetscInt step, double *ratio)
     const double i = (double)(k % g->nx - g->nx / 2), j = (double)(g->row_start + k / g->nx - g->ny / 2);
     const double part[6] = {1, i, j, i * i, i * j, j * j};
 
-    for (int m = 0; m < 6 && pressure[k] > 0; m++) sum[m] += part[m];
+    for (int m = 0; m < 6 && SamIsPressed(pressure[k]); m++) sum[m] += part[m];
   }
   PetscCall(PetscFree(pressure));
   PetscCall(SamSum(g->comm, 6, sum));

@@ -9,6 +9,7 @@
 */
 #include "evaluationimpl.h"
 #include <petsam/private/grid.h>
+#include <petsam/private/pressed.h>
 #include <petsam/private/lawimpl.h>
 
 PetscErrorCode SamPointsSetUp(SamEvaluation e)
@@ -70,7 +71,8 @@ PetscErrorCode SamPointsCheck(SamEvaluation e, PetscInt step, const double press
   for (PetscInt k = 0; k < g->cells; k++) {
     const PetscInt i = k % g->nx, j = g->row_start + k / g->nx;
 
-    if (pressure[k] > 0 && (i < low[0] || i >= g->nx - high[0] || j < low[1] || j >= g->ny - high[1])) beyond = 1;
+    if (SamIsPressed(pressure[k]) && (i < low[0] || i >= g->nx - high[0] || j < low[1] || j >= g->ny - high[1]))
+      beyond = 1;
   }
   PetscCall(SamMax(g->comm, 1, &beyond));
   PetscCheck(beyond == 0, e->comm, SAM_ERR_USER,

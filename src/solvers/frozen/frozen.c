@@ -18,6 +18,7 @@
 */
 #include <petsam/private/elasticity.h>
 #include <petsam/private/frozen.h>
+#include <petsam/private/pressed.h>
 #include <petsam/tangential.h>
 #include <math.h>
 
@@ -43,13 +44,13 @@ static PetscErrorCode FindCells(SamFrozen *f, const double p[])
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(grid->rows + 1, &f->start));
   f->count = 0;
-  for (PetscInt k = 0; k < grid->cells; k++) f->count += p[k] > 0;
+  for (PetscInt k = 0; k < grid->cells; k++) f->count += SamIsPressed(p[k]);
   PetscCall(PetscMalloc1(f->count, &f->cell));
   f->count = 0;
   for (PetscInt j = 0; j < grid->rows; j++) {
     f->start[j] = f->count;
     for (PetscInt k = j * grid->nx; k < (j + 1) * grid->nx; k++)
-      if (p[k] > 0) f->cell[f->count++] = k;
+      if (SamIsPressed(p[k])) f->cell[f->count++] = k;
   }
   f->start[grid->rows] = f->count;
   PetscFunctionReturn(PETSC_SUCCESS);

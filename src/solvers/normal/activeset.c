@@ -17,9 +17,7 @@
        When no cell meets a bound, this is the step of linear conjugate gradients. So p stays admissible, the energy
        falls in every step, thousands of cells enter and leave A without additional products, and conjugacy is kept.
   If a step ends at the part t < 1 of the way to the trial, cells that should reach a bound keep the part 1 - t of their
-  distance to it. So they approach their bound without reaching it, and all of their gap counts as error: the energy
-  converges, but the error does not. Therefore, when the error has not fallen for some iterations, cells within the
-  step's rounding of a bound are set to it, and the gap is recomputed.
+  distance to it, and all of their gap counts as error until a step comes within rounding of the bound.
 
   If the trial is uphill, or the error has not fallen for several iterations, the direction is the residual itself:
   projected gradient steps with the best length converge whatever steps lie between them, with one bound and with two.
@@ -61,9 +59,7 @@
 */
 #define FOLLOW 2.0
 #define FALL   16.0
-/* Iterations without progress before cells are set to their bounds, before a gradient step, and before giving up
-   because of rounding */
-#define PARTING    8
+/* Iterations without progress before a gradient step, and before giving up because of rounding */
 #define PATIENCE   10
 #define STAGNATION 100
 
@@ -303,18 +299,6 @@ static PetscErrorCode ComputeCurvature(Work *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Sets cells to their bounds if a step of the length t would leave them within rounding of these. */
-static PetscErrorCode Part(Work *w, double t)
-{
-  SamRow row;
-
-  PetscFunctionBegin;
-  for (PetscInt j = 0; j < w->rows; j++)
-    for (PetscInt end = 0; NextBusy(w, j, &end, &row);) w->lost = PetscMax(w->lost, SamActiveSetPartRow(w, row, t));
-  PetscCall(SamMax(w->level->grid->comm, 1, &w->lost));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /*
   Step 4: finds the length of least energy between the start of the step and the point where a pressure meets a bound.
   `best`: the length without that bound. A step that displaces nothing (periodic bodies under one more uniform pressure)
@@ -330,7 +314,6 @@ static PetscErrorCode Step(Work *w, double *best, SamTotal contact[])
   *best = w->curvature > 0 ? PetscMax(-w->slope / w->curvature, 0) : 0;
   if (*best == 0 && isfinite(w->most) && w->slope < 0) *best = 1 / w->shrink;
   t = *best * w->shrink > 1 ? 1 / w->shrink : *best;
-  if (w->stagnates && t > 0 && t < 1) PetscCall(Part(w, t));
   SetLength(w, t, contact);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -365,7 +348,6 @@ static PetscErrorCode Iterate(Work *w, PetscBool *gradient, PetscBool *downhill,
 
   PetscFunctionBegin;
   w->unit = w->error;
-  w->lost = 0;
   if (!*gradient) {
     PetscCall(NewDirection(w));
     PetscCall(Try(w, w->alpha, PETSC_FALSE, motion, found));
@@ -432,9 +414,8 @@ static PetscErrorCode SamNormalSolve_ActiveSet(SamSolver solver, SamLevel *level
   while (!reason) {
     PetscBool gradient = (PetscBool)(stagnant > 0 && stagnant % PATIENCE == 0);
 
-    w.stagnates = stagnant >= PARTING;
     PetscCall(Iterate(&w, &gradient, &downhill, &found));
-    if (downhill && (gradient || w.lost > 0 || SamActiveSetIsStale(&w))) PetscCall(SamActiveSetRefresh(&w));
+    if (downhill && (gradient || SamActiveSetIsStale(&w))) PetscCall(SamActiveSetRefresh(&w));
     stagnant = w.error < 0.9 * best ? 0 : stagnant + 1;
     best     = PetscMin(best, w.error);
     PetscCall(GetReason(&w, stagnant, downhill, found, &reason));

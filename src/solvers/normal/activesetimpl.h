@@ -33,8 +33,6 @@ typedef struct {
   double          curvature; /* s.u; 0: no step yet */
   double          alpha;     /* length of the trial */
   PetscBool       layered;   /* a body has layers, for which the preconditioner may be far too strong */
-  PetscBool       stagnates; /* the error has not fallen for some iterations */
-  double          lost;      /* largest change of a pressure in the step that has no product, Pa */
 } SamActiveSet;
 
 /* Sums over the cells of a row that take part: their number, xi, xi^2, g and xi g */
@@ -107,11 +105,6 @@ PETSC_INTERN void SamActiveSetDirectionRow(SamActiveSet *w, SamRow row, const do
 PETSC_INTERN double SamActiveSetTrialRow(SamActiveSet *w, SamRow row);
 /* Returns s.u of at most SAM_ROW_BLOCK cells. */
 PETSC_INTERN double SamActiveSetCurvatureRow(const SamActiveSet *w, SamRow row);
-/*
-  If the trial is at a bound, and t times the step would end within rounding of it, moves the pressure so that the step
-  will end at the bound; returns the largest move.
-*/
-PETSC_INTERN double SamActiveSetPartRow(SamActiveSet *w, SamRow row, double t);
 /* Goes back from the trial, to which p has gone by s, to t times the step; adds to the sums over the cells between
    their bounds. */
 PETSC_INTERN void SamActiveSetStepRow(SamActiveSet *w, SamRow row, double t, SamGapSums *sums);

@@ -184,24 +184,6 @@ SAM_VECTORIZED double SamActiveSetCurvatureRow(const SamActiveSet *w, SamRow row
   return (double)sum;
 }
 
-SAM_VECTORIZED double SamActiveSetPartRow(SamActiveSet *w, SamRow row, double t)
-{
-  const float *restrict s = w->s + row.first;
-  double *restrict p      = w->p + row.first;
-  const double by = (1 - t) * w->unit / w->self, least = SAM_SINGLE_ROUNDING * w->unit / w->self, most = w->most;
-  double       largest = 0;
-
-#pragma omp simd reduction(max : largest)
-  for (int i = 0; i < row.count; i++) {
-    const double left = by * -(double)s[i], size = fabs(left), ends = left > 0 ? p[i] : most - p[i],
-                 none = ends == 0 && size > 0 && size <= least ? left : 0;
-
-    p[i] -= none;
-    largest = fabs(none) > largest ? fabs(none) : largest;
-  }
-  return largest;
-}
-
 /* A pressure within the step's rounding of a bound is set to the bound. */
 SAM_VECTORIZED void SamActiveSetStepRow(SamActiveSet *w, SamRow row, double t, SamGapSums *sums)
 {

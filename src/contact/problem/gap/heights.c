@@ -11,6 +11,7 @@
   pressure grows like E* times its height over the cells' width, until its lower side is open, and like the square root
   of that quotient beyond; it grows without limit on finer grids.
 */
+#include <petsam/private/pressed.h>
 #include <petsam/private/gapimpl.h>
 #include <petsam/private/rows.h>
 #include <petsam/private/gap.h>
@@ -195,7 +196,8 @@ static PetscErrorCode FindStep(SamGrid grid, Vec heights, Vec pressure, double *
     const PetscInt axis = c % 2, i = c / 2 % grid->nx, j = grid->row_start + c / 2 / grid->nx;
     double         step;
 
-    if (axis >= grid->axes || (p.own[c / 2] <= 0 && SamHaloAt(&p, 0, i - !axis, j - axis) <= 0)) continue;
+    if (axis >= grid->axes || (!SamIsPressed(p.own[c / 2]) && !SamIsPressed(SamHaloAt(&p, 0, i - !axis, j - axis))))
+      continue;
     step = fabs(StepAt(&h, grid, axis, i, j));
     if (step > *most) *place = 2 * ((double)j * (double)grid->nx + (double)i) + (double)axis;
     *most = PetscMax(*most, step);
