@@ -5,6 +5,7 @@
     print(results.history["stick_area"][-1], results.field("pressure").max())
 
 Contact         a contact in this process: steps, stiffness, fields, stresses, fatigue (contact.py)
+run             a run of the program, whose results it returns (running.py)
 open            reading of files: Results of petsam (results.py), Stresses of petsam-stress (stresses.py), the table of
                 petsam-study (studies.py)
 cycles          cycles of a load history and their energies
@@ -48,6 +49,7 @@ __all__ = [
     "closed",
     "cycles",
     "open",
+    "run",
 ]
 
 # names that need libraries; their modules are imported at their first use
@@ -65,6 +67,7 @@ _HOMES = {
     "Stresses": ".stresses",
     "Study": ".studies",
     "WearWarning": ".contact",
+    "run": ".running",
 }
 
 _PARTS = (

@@ -1,5 +1,6 @@
 """Reading of petsam's results files, of any size: scalars whole, fields by step, window and stride. SI units."""
 
+import importlib
 import os
 import re
 import textwrap
@@ -255,6 +256,46 @@ class Results(Datafile):
         cycles = self.wear["cycle"].size if self.has_life else 0
         lines += self._lines("wear", f"({cycles},)", self.wear_units.items())
         return "\n".join(lines)
+
+    # ------------------------------------------------------------ by name
+
+    @property
+    def time(self):
+        """Times of all load steps, s: history["time"]; those of the saved fields are times."""
+        return self.history["time"]
+
+    def keys(self):
+        """Names of the numbers of each step and of the fields."""
+        return [*self.history, *self.fields, *self.layered]
+
+    def __iter__(self):
+        return iter(self.keys())
+
+    def __contains__(self, name):
+        return name in self.keys()
+
+    def __getitem__(self, name):
+        """A number of all load steps, (steps,); or a field of all saved steps, (saved, ny, nx), read as a whole."""
+        if name in self.history:
+            return self.history[name]
+        self._need_fields()
+        return np.stack([self.field(name, index) for index in range(self.times.size)])
+
+    def to_dataframe(self):
+        """The history as a table of pandas with the time (s) as its index."""
+        return _library("pandas").DataFrame(dict(self.history)).set_index("time")
+
+    def to_xarray(self):
+        """The fields as a Dataset of xarray, with the coordinates time (s), y and x (m), units and texts."""
+        xarray = _library("xarray")
+        fields = {}
+        for name in self.fields:
+            unit, text = self.about(name)
+            fields[name] = (("time", "y", "x"), self[name], {"units": unit, "long_name": text})
+        axes = {"time": (self.times, "s"), "y": (self.y, "m"), "x": (self.x, "m")}
+        return xarray.Dataset(
+            fields, {name: ((name,), values, {"units": unit}) for name, (values, unit) in axes.items()}
+        )
 
     # ------------------------------------------------------------ steps
 
@@ -645,6 +686,14 @@ class Snapshot:
     def radius(self, area):
         """Radius, m, of the disc with the area of this name, contact_area or stick_area."""
         return np.sqrt(self[area] / np.pi)
+
+
+def _library(name):
+    """A library that only its own form of the results needs."""
+    try:
+        return importlib.import_module(name)
+    except ImportError as error:
+        raise Missing(f"{name} is not installed: python3 -m pip install {name}") from error
 
 
 def _own(group, name):

@@ -1,5 +1,6 @@
 """What print(results) says, the pictures as calls, and the readers that the page on results shows."""
 
+import importlib.util
 import re
 import shutil
 import subprocess
@@ -80,6 +81,30 @@ def test_the_table_of_pandas_is_the_history(results):
     pandas = pytest.importorskip("pandas", reason="pandas is not installed")
     table = pandas.DataFrame(results.history).set_index("time")
     assert list(table["load_tx"]) == list(results.history["load_tx"]) and len(table.columns) == len(results.history) - 1
+
+
+def test_names_give_numbers_and_fields_of_all_steps(results):
+    assert np.array_equal(results["load_tx"], results.history["load_tx"]) and np.array_equal(
+        results.time, results["time"]
+    )
+    pressure = results["pressure"]
+    assert pressure.shape == (2, 30, 32) and np.array_equal(pressure[1], results.field("pressure"))
+    assert "pressure" in results and "stick_area" in list(results) and "presure" not in results
+    with pytest.raises(petsam.Error, match="is pressure meant"):
+        _ = results["presure"]
+
+
+def test_tables_and_labelled_arrays(results):
+    for name, call in (("pandas", results.to_dataframe), ("xarray", results.to_xarray)):
+        if importlib.util.find_spec(name) is None:
+            with pytest.raises(petsam.Missing, match=f"pip install {name}"):
+                call()
+    pytest.importorskip("xarray")
+    data = results.to_xarray()
+    assert np.array_equal(data["pressure"].sel(time=results.times[1]), results.field("pressure"))
+    assert data["pressure"].attrs["units"] == "Pa" and data["x"].attrs["units"] == "m"
+    pytest.importorskip("pandas")
+    assert list(results.to_dataframe()["load_tx"]) == list(results.history["load_tx"])
 
 
 def test_octave_reads_the_file(results, tmp_path):

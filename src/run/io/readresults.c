@@ -180,7 +180,8 @@ static PetscErrorCode ExamineGroup(SamFile f, Facts *facts, Group *g)
   if (!g->saved) PetscFunctionReturn(PETSC_SUCCESS);
   (void)snprintf(name, sizeof(name), "/%s/z", g->name);
   PetscCall(Open(f, name, 1, shape, &dataset));
-  CHECK(f, (double)shape[0] == layers, "%s has another shape than the run", name);
+  CHECK(f, (double)shape[0] == layers, "%s has %llu depths, not those of %.0f layers", name,
+        (unsigned long long)shape[0], layers);
   PetscCall(CheckWhole(f, name, dataset, shape));
   for (int c = 0; c < SAM_STRESS_COMPONENTS; c++) {
     NameStress(g, c, name);

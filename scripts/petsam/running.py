@@ -1,0 +1,160 @@
+"""Runs of the program petsam from Python, without a shell: petsam.run()."""
+
+import os
+import subprocess
+import tempfile
+import warnings
+import weakref
+from collections.abc import Mapping
+
+import numpy as np
+
+from . import environment
+from .contact import AdviceWarning, ContactError, EdgeContactWarning, NoEquilibrium, NotConverged
+from .errors import Error, short
+from .results import Results
+
+_KINDS = {10: NotConverged, 11: NoEquilibrium}
+EDGE = 12
+_FLAGS = {True: "true", False: "false"}
+
+
+def run(options=None, /, *, history=None, ranks=1, report=None, **more):
+    """Runs petsam with these options, and returns its Results: petsam.run(grid_n=64, load_n=100, ...).
+
+    options  names and values of options of the program without the dash, as a mapping, as keywords, or as both: a
+             number, a text, True or False, a path, or a sequence of numbers or texts; None leaves the option out
+    history  loads and conditions over time: a mapping of column names to values, as a DataFrame is one, or the path
+             of a file; each column has the value of each row, and `time` is 1, 2, ... unless it is given
+    ranks    number of MPI ranks; more than 1 are started by the launcher in $MPIRUN, or mpirun
+    report   is called with each line that the program prints, for example print; None: it prints nothing
+
+    The results are written to the file that the option `output` names. Without it they are in a temporary file, which
+    exists as long as the Results do. Files that options name are relative to the working directory.
+
+    The program's warnings are raised as AdviceWarning, a contact that reaches the edge of the grid as
+    EdgeContactWarning. An error is a ContactError with the program's code and message: NotConverged or NoEquilibrium
+    if a step has no solution; its attribute `results` then has the steps so far, and is None for other errors.
+    """
+    given = {**(options or {}), **more}
+    folder = tempfile.TemporaryDirectory(prefix="petsam-")
+    try:
+        if history is not None and given.get("history") is not None:
+            raise Error("history: given both as an argument and as an option: give one of them")
+        if isinstance(history, Mapping) or hasattr(history, "columns"):
+            history = _write_history(os.path.join(folder.name, "history.csv"), history)
+        output = given.setdefault("output", os.path.join(folder.name, "results.h5"))
+        given["quiet"] = report is None
+        if history is not None:
+            given["history"] = history
+        code, complaint = _execute(_command(ranks) + _words(given), report)
+        results = Results(output) if code in (0, *_KINDS, EDGE) and os.path.exists(output) else None
+    except BaseException:
+        folder.cleanup()
+        raise
+    if results is None:
+        folder.cleanup()
+    else:
+        weakref.finalize(results, folder.cleanup)
+    _raise(code, complaint, results)
+    return results
+
+
+def _command(ranks):
+    if isinstance(ranks, bool) or not isinstance(ranks, (int, np.integer)) or ranks < 1:
+        raise Error(f"ranks {short(repr(ranks))}: expected an integer >= 1")
+    launcher = [*environment.launcher(), "-n", str(ranks)] if ranks > 1 else []
+    return [*launcher, environment.petsam()]
+
+
+def _words(options):
+    """Options as words of a command line."""
+    words = []
+    for name, value in options.items():
+        if not isinstance(name, str) or not name.replace("_", "").isalnum():
+            raise Error(f"{short(repr(name))} is no name of an option: give it without a dash, as grid_n")
+        if value is None:
+            continue
+        if isinstance(value, (str, os.PathLike)) or np.ndim(value) == 0:
+            words += ["-" + name, _word(name, value)]
+        elif np.ndim(value) == 1:
+            words += ["-" + name, ",".join(_word(name, one) for one in value)]
+        else:
+            raise Error(
+                f"{name}: expected one value or a sequence of them, not an array of {np.ndim(value)} dimensions"
+            )
+    return words
+
+
+def _word(name, value):
+    if isinstance(value, (bool, np.bool_)):
+        return _FLAGS[bool(value)]
+    if isinstance(value, (int, np.integer)):
+        return str(int(value))
+    if isinstance(value, (float, np.floating)):
+        return repr(float(value))
+    if isinstance(value, (str, os.PathLike)):
+        text = os.fspath(value)
+        if isinstance(text, str) and "\0" not in text:
+            return text
+    raise Error(f"{name}: {short(repr(value))} is neither a number nor a text")
+
+
+def _write_history(path, table):
+    """Writes the columns of a table as a file of loads; returns its path."""
+    columns = {str(name): np.atleast_1d(np.asarray(table[name], float)) for name in table}
+    count = max((len(values) for values in columns.values()), default=0)
+    if not count:
+        raise Error("history: expected at least one column and one row")
+    columns = {"time": columns.pop("time", np.arange(1.0, count + 1)), **columns}
+    for name, values in columns.items():
+        if values.ndim != 1 or len(values) != count:
+            raise Error(f"history: {short(name)} has {values.size} values, and other columns {count}")
+        if "," in name or "\n" in name:
+            raise Error(f"history: {short(repr(name))} is no name of a column")
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(",".join(columns) + "\n")
+        file.writelines(",".join(repr(float(value)) for value in row) + "\n" for row in zip(*columns.values()))
+    return path
+
+
+def _execute(words, report):
+    """Runs a command; returns its exit code, and the lines that it has written about errors."""
+    with tempfile.TemporaryFile() as complaint:
+        try:
+            process = subprocess.Popen(
+                words, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=complaint, text=True, errors="replace",
+                env=environment.run_environment(),
+            )  # fmt: skip
+        except (OSError, ValueError) as error:
+            raise Error(f"{short(words[0])} cannot be started: {getattr(error, 'strerror', None) or error}") from error
+        try:
+            for line in process.stdout:
+                if report:
+                    report(line.rstrip("\n"))
+            process.wait()
+        finally:  # also after an interruption, or an error of report()
+            if process.poll() is None:
+                process.terminate()
+                process.wait()
+            process.stdout.close()
+        complaint.seek(0)
+        return process.returncode, complaint.read().decode(errors="replace").splitlines()
+
+
+def _raise(code, complaint, results):
+    """Raises the warnings and the error of a run."""
+    mark = "petsam: "
+    lines = [line[len(mark) :] for line in complaint if line.startswith(mark)]
+    for line in lines:
+        if line.startswith("warning: "):
+            warnings.warn(line[len("warning: ") :], AdviceWarning, stacklevel=3)
+    lines = [line for line in lines if not line.startswith(("warning: ", "see petsam -help"))]
+    if code == 0:
+        return
+    if code == EDGE and results is not None:
+        warnings.warn("; ".join(lines), EdgeContactWarning, stacklevel=3)
+        return
+    error = _KINDS.get(code, ContactError)(code, "; ".join(lines) or f"petsam ended with {code}: {complaint[-1:]}")
+    error.results = results
+    raise error

@@ -1,0 +1,107 @@
+"""petsam.run(): the program from Python, without a shell."""
+
+import gc
+import warnings
+
+import h5py
+import numpy as np
+import pytest
+
+import petsam as package
+from conftest import PROGRAM
+from support import ball, slide_limit
+
+CASE = ball(n=32)
+LIMIT = slide_limit(CASE)[0]
+
+
+pytestmark = pytest.mark.filterwarnings("ignore::petsam.contact.AdviceWarning")
+
+
+@pytest.fixture(autouse=True)
+def program(monkeypatch, tmp_path):
+    """The program that is tested, and a working directory of its own."""
+    monkeypatch.setenv("PETSAM", str(PROGRAM))
+    monkeypatch.chdir(tmp_path)
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_results_are_those_of_the_program(solve, tmp_path, ranks):
+    loads = [0.2 * LIMIT, 0.5 * LIMIT, -0.1 * LIMIT]
+    (tmp_path / "h.csv").write_text("time,load_tx\n" + "".join(f"{k},{load!r}\n" for k, load in enumerate(loads, 1)))
+    with h5py.File(solve(CASE, dict(history=tmp_path / "h.csv")).path) as f:
+        expected, stick = f["pressure"][:], f["history/stick_area"][:]
+    lines = []
+    found = package.run(CASE, history=dict(load_tx=loads), ranks=ranks, report=lines.append)
+    assert np.array_equal(found["pressure"], expected) and np.array_equal(found["stick_area"], stick)
+    assert list(found.time) == [1, 2, 3] and any("results in" in line for line in lines)
+
+
+def test_a_temporary_file_lives_as_long_as_its_results(tmp_path, capfd):
+    found = package.run(CASE, load_tx=0.3 * LIMIT, steps=2, stiffness=True, output_fields=["pressure", "slip_x"])
+    path = found.path
+    assert found.matrices["stiffness"].shape == (2, 6, 6) and found["slip_x"].shape == (2, 32, 32)
+    assert h5py.is_hdf5(path) and not list(tmp_path.iterdir())
+    del found
+    gc.collect()
+    assert not h5py.is_hdf5(path) and capfd.readouterr().out == ""
+    kept = package.run(CASE, output="kept.h5", load_tx=None)
+    del kept
+    gc.collect()
+    assert h5py.is_hdf5(tmp_path / "kept.h5")
+
+
+def test_table_of_loads_has_its_own_times_or_is_refused():
+    found = package.run(CASE, load_n=None, history=dict(load_tx=np.array([1.0, 2.0]), time=(0.5, 2), load_n=[180, 170]))
+    assert list(found.time) == [0.5, 2] and found["load_n"] == pytest.approx([180, 170])
+    for history, says in (
+        (dict(load_tx=[1, 2], load_n=[1, 2, 3]), "load_tx has 2 values, and other columns 3"),
+        (dict(), "at least one column"),
+        ({"load_tx,load_n": [1]}, "no name of a column"),
+    ):
+        with pytest.raises(package.Error, match=says):
+            package.run(CASE, history=history)
+
+
+def test_errors_have_the_code_and_the_message_of_the_program():
+    with pytest.raises(package.ContactError, match="-grid_m 3: unknown option: is -grid_n meant") as error:
+        package.run(CASE, grid_m=3)
+    assert error.value.code == 2 and error.value.results is None
+    with pytest.raises(package.NoEquilibrium, match="step 2: gross slip") as error:
+        package.run(CASE, history=dict(load_tx=[0.5 * LIMIT, 2 * LIMIT]))
+    assert error.value.code == 11 and error.value.results["stick_area"][0] > 0
+
+
+def test_what_is_no_option_is_refused_before_the_run(tmp_path):
+    for options, says in (
+        ({"-grid_n": 3}, "no name of an option"),
+        ({"grid_n": object()}, "neither a number nor a text"),
+        ({"grid_size": np.ones((2, 2))}, "not an array of 2 dimensions"),
+    ):
+        with pytest.raises(package.Error, match=says):
+            package.run({**CASE, **options})
+    with pytest.raises(package.Error, match="ranks 0: expected an integer"):
+        package.run(CASE, ranks=0)
+    with pytest.raises(package.Error, match="give one of them"):
+        package.run(dict(CASE, history="h.csv"), history=dict(load_tx=[1]))
+    assert not list(tmp_path.iterdir())
+
+
+def test_warnings_are_warnings():
+    with pytest.warns(package.AdviceWarning, match="slip zone"):
+        package.run(CASE, load_tx=0.02 * LIMIT)
+    with pytest.warns(package.EdgeContactWarning, match="reached the edge of the grid"):
+        found = package.run(dict(CASE, grid_size=0.4 * CASE["grid_size"]))
+    assert found["contact_cells"][-1] > 0
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        package.run(CASE)
+
+
+def test_an_error_of_tell_ends_the_run(tmp_path):
+    def report(line):
+        raise RuntimeError(line)
+
+    with pytest.raises(RuntimeError, match="petsam 1"):
+        package.run(CASE, steps=100, report=report)
+    assert not list(tmp_path.iterdir())
