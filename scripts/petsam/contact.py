@@ -285,6 +285,16 @@ class Contact:
         self._loads, self._displacements, creeps = names[:6], names[6:12], names[12:18]
         self._rigids = [rigid if rigid in known else creep for rigid, creep in zip(self._displacements, creeps)]
 
+    def __repr__(self):
+        cells = (
+            f"{self.n[0]} x {self.n[1]} cells of {self.size[0] / self.n[0]:.4g} m x {self.size[1] / self.n[1]:.4g} m"
+        )
+        try:
+            step = f"{self._last_step()!r}"
+        except Error:
+            step = "no step" if self._contact else "closed"
+        return f"Contact({cells}; {step})"
+
     # ------------------------------------------------------------ calls
 
     def _message(self):

@@ -248,8 +248,10 @@ class Results(Datafile):
         fields = [(name, self.about(name)[0]) for name in self.fields]
         lines += self._lines("fields", f"({self.times.size}, {self.y.size}, {self.x.size})", fields)
         if self.layered:
-            shape = f"({self.times.size}, {self.layer_z.size}, {self.y.size}, {self.x.size})"
-            lines += self._lines("layers", f"{shape}, z of /plastic", [(name, "") for name in self.layered])
+            shape = f"({self.times.size}, nz, {self.y.size}, {self.x.size})"
+            groups = sorted({name.partition("/")[0] for name in self.layered})
+            depths = ", ".join(f"nz = {self.z_of(group).size} of /{group}/z" for group in groups)
+            lines += self._lines("layers", f"{shape}, {depths}", [(name, "") for name in self.layered])
         lines += [f"  edges     {', '.join(self.edges)} (m)"] if self.edges else []
         lines += self._lines("history", f"({count},)", self.units.items())
         lines += self._lines("matrices", f"({count}, 6, 6)", [(name, "") for name in self.matrices])
@@ -447,17 +449,24 @@ class Results(Datafile):
     def layered(self):
         """Names GROUP/NAME of the fields in layers below the cells (bodies that yield): field() has (nz, ny, nx)."""
         with reading(self.path):
-            group = self.file.get("plastic") if "plastic" in self.file else None
-            names = [f"plastic/{name}" for name in group] if isinstance(group, h5py.Group) else []
+            links = {name: self.file.get(name, getlink=True) for name in self.file}
+            groups = [name for name, link in links.items() if isinstance(link, h5py.HardLink)]
+            groups = [name for name in groups if isinstance(self.file[name], h5py.Group) and "z" in self.file[name]]
+            names = [f"{group}/{name}" for group in groups for name in self.file[group]]
             return [name for name in names if getattr(self.file[name], "ndim", 0) == 4 and self._all_have(name)]
 
     @cached_property
     def layer_z(self):
         """Middles of the layers, m, into body 2: those of body 1 are negative; raises Error if there are no layers."""
+        return self.z_of(self.layered[0] if self.layered else "plastic")
+
+    def z_of(self, name):
+        """The same of the layers of a field GROUP/NAME, whose group may have layers of its own."""
         if not self.layered:
             raise Error(f"{self.path}: has no layers (petsam -body2_yield, -output_fields usual,plastic)")
+        place = name.partition("/")[0] + "/z"
         with reading(self.path):
-            return self._row(_own(self.file, "plastic/z"), "plastic/z")
+            return self._row(_own(self.file, place), place)
 
     def _all_have(self, name):
         """True if all parts have a dataset."""
@@ -579,7 +588,7 @@ class Results(Datafile):
                 data = self._saved(name, source)
             if data.dtype.kind not in "biuf":
                 raise ValueError(f"/{name} has no numbers")
-            layers = (self.layer_z.size,) if name in self.layered else ()
+            layers = (self.z_of(name).size,) if name in self.layered else ()
             if data.shape != (source.held, *layers, self.y.size, self.x.size):
                 raise ValueError(f"/{name} has the shape {data.shape}")
             block = stride * max(1, BLOCK // stride)
@@ -654,6 +663,10 @@ class Snapshot:
         self.index = index
         self.x, self.y, self.parameters = results.x, results.y, results.parameters
         self.dx, self.dy = (float(axis[1] - axis[0]) if axis.size > 1 else 1.0 for axis in (self.x, self.y))
+
+    def __repr__(self):
+        step, time = self.results.steps[self.index], self.results.times[self.index]
+        return f"Snapshot({self.results.path!r}, load step {step} at {time:.6g} s, {self.x.size} x {self.y.size} cells)"
 
     def __getitem__(self, name):
         if name in self.results.history:

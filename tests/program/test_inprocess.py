@@ -507,3 +507,21 @@ for options, words in (
         tmp_path,
     )
     assert (tmp_path / "i.csv").read_bytes() == before and not (tmp_path / "q.h5").exists()
+
+
+def test_a_contact_says_what_it_is(tmp_path):
+    text = run_python(
+        f"""
+import petsam
+contact = petsam.Contact(**{CASE!r})
+print(contact)
+contact.try_step(time=2.5, load_n=900.0)
+print(contact)
+contact.close()
+print(contact)
+""",
+        tmp_path,
+    )
+    new, tried, closed = text.splitlines()
+    assert new.startswith("Contact(45 x 40 cells of 6.667e-05 m x 7e-05 m; no step")
+    assert "Step(time=2.5, status=0, load_n=900, " in tried and closed.endswith("; closed)")

@@ -94,6 +94,12 @@ def test_names_give_numbers_and_fields_of_all_steps(results):
         _ = results["presure"]
 
 
+def test_a_step_says_what_it_is(results):
+    assert repr(petsam.Snapshot(results, 0)).endswith(
+        f"load step {results.steps[0]} at {results.times[0]:g} s, 32 x 30 cells)"
+    )
+
+
 def test_tables_and_labelled_arrays(results):
     for name, call in (("pandas", results.to_dataframe), ("xarray", results.to_xarray)):
         if importlib.util.find_spec(name) is None:

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import conftest
+import petsam as package
 from support import ROOT, bodies
 from test_plugin import build
 
@@ -109,7 +110,7 @@ def test_number_is_that_of_the_field_and_its_error_is_estimated(petsam, ranks):
 
 
 @pytest.mark.parametrize("ranks", [1, 3])
-def test_law_shears_as_bulk_stress_does_and_its_stress_is_added(petsam, ranks):
+def test_law_shears_as_bulk_stress_does_and_its_stress_is_added(petsam, tmp_path, ranks):
     """The same strain of body 2 by a stress of it; below it what its law declares, in the middles of layers."""
     strain, depth, case = 2e-5, 1e-4, dict(SPHERE, load_tx=40, mid_step=None)
     stress = strain * 210e9 / (1 - 0.3)
@@ -121,6 +122,10 @@ def test_law_shears_as_bulk_stress_does_and_its_stress_is_added(petsam, ranks):
     z = (np.arange(6) + 0.5) / 3 * depth
     words = dict(input="out.h5", output="s.h5", depths=",".join(map(str, z)))
     petsam(words, ranks=ranks, program="petsam-stress")
+    with package.open(tmp_path / "out.h5") as results:
+        assert results.z_of("misfit/residual_stress_xx") == pytest.approx(z) and len(results.layered) == 6
+        found = results.field("misfit/residual_stress_xx")
+        assert found == pytest.approx(np.broadcast_to(-stress * np.exp(-z / depth)[:, None, None], found.shape))
     with_law = petsam.read("stress_xx", "stress_yy", "stress_xz", file="s.h5")
     petsam(dict(case, bulk2_stress_xx=stress, bulk2_stress_yy=stress))
     petsam(words, program="petsam-stress")
