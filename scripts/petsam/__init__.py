@@ -9,6 +9,7 @@ run             a run of the program, whose results it returns (running.py)
 open            reading of files: Results of petsam (results.py), Stresses of petsam-stress (stresses.py), the table of
                 petsam-study (studies.py)
 cycles          cycles of a load history and their energies
+joint           contact stiffness and damping of rough interfaces per area
 closed          closed-form solutions of contact mechanics
 lives           lives, safety factors, short cracks: petsam-fatigue
 sliding         regime, energy ratio, sliding ratio of a cycle; slip amplitudes
@@ -77,6 +78,7 @@ _PARTS = (
     "cycles",
     "environment",
     "isolation",
+    "joint",
     "lives",
     "plot",
     "sliding",

@@ -1,0 +1,145 @@
+"""Contact stiffness of an interface: compliance of cracks, ratio of tangential and normal stiffness, scaling."""
+
+import csv
+import warnings
+
+import numpy as np
+import pytest
+
+import petsam
+from petsam import joint
+from support import bodies
+
+warnings.simplefilter("ignore", petsam.AdviceWarning)
+pytestmark = pytest.mark.filterwarnings("ignore::petsam.contact.AdviceWarning")
+
+YOUNG, POISSON = 70e9, 0.25
+MODULUS = YOUNG / (1 - POISSON**2) / 2
+PAIR = dict(bodies(YOUNG, POISSON), friction=0.3)
+LENGTH, HEIGHT = 2e-3, 2e-7
+FULL = np.pi * MODULUS * HEIGHT / LENGTH  # mean pressure that closes the wave
+
+
+def wave(n):
+    x = (np.arange(n) + 0.5) / n
+    return np.broadcast_to(HEIGHT * (1 - np.cos(2 * np.pi * x)), (4, n))
+
+
+def waves(n, seed, size=1e-7):
+    """A random surface of n x n points, its shortest wave 12 points long."""
+    k = np.hypot(*np.meshgrid(*2 * [np.fft.fftfreq(n) * n]))
+    part = np.where((k >= 2) & (k <= n / 12), np.maximum(k, 1.0) ** -1.8, 0.0)
+    field = np.fft.ifft2(np.fft.fft2(np.random.default_rng(seed).normal(size=(n, n))) * part).real
+    return size * field / field.std()
+
+
+@pytest.mark.parametrize("across", [True, False])
+def test_a_wave_has_the_stiffness_of_a_row_of_cracks(across):
+    """Across the waves as in the opening mode, along them as in the antiplane mode; the waves along x or along y."""
+    parts, errors = np.array([0.07, 0.3, 0.75]), []
+    exact = -np.pi * MODULUS / (2 * LENGTH * np.log(np.sqrt(parts)))
+    for n in 128, 512:
+        field = wave(n) if across else wave(n).T
+        found = joint.of_interface(field, LENGTH / n, parts * FULL, steps=1, **PAIR)
+        k_t = (found.k_t_x, found.k_t_y) if across else (found.k_t_y, found.k_t_x)
+        errors.append(np.abs(found.k_n / exact - 1).max())
+        assert k_t[0] == pytest.approx(found.k_n, rel=1e-4)
+        assert k_t[1] == pytest.approx((1 - POISSON) * found.k_n, rel=1e-4)
+        assert found.area == pytest.approx(2 / np.pi * np.arcsin(np.sqrt(parts)), abs=1.5 / n)
+    assert errors[1] < 0.012 and errors[1] < 0.5 * errors[0]  # first order: the edges lie between cells
+
+
+def test_stiffness_is_the_slope_of_the_pressure_over_the_closure():
+    pressures = 0.4 * FULL * np.array([0.99, 1.0, 1.01])
+    found = joint.of_interface(wave(256), LENGTH / 256, pressures, steps=1, **PAIR)
+    slope = (pressures[2] - pressures[0]) / (found.closure[2] - found.closure[0])
+    assert found.k_n[1] == pytest.approx(slope, rel=0.01)
+    assert found.k_n_secant == pytest.approx(pressures / found.closure)
+
+
+def test_tangential_stiffness_of_random_roughness_has_the_ratio_of_theory():
+    found = joint.of_interface(joint.mirrored(waves(48, 3)), 1e-5, [4e6, 12e6], steps=1, **PAIR)
+    ratio = (found.k_t_x + found.k_t_y) / 2 / found.k_n
+    assert ratio == pytest.approx(2 * (1 - POISSON) / (2 - POISSON), rel=0.02)
+
+
+def test_heights_and_pressures_of_one_factor_leave_the_stiffness():
+    one, three = (
+        joint.of_interface(f * waves(48, 5), 1e-5, f * np.array([3e6, 9e6]), steps=2, **PAIR) for f in (1.0, 3.0)
+    )
+    for name, power in (
+        ("k_n", 0),
+        ("k_t_x", 0),
+        ("area", 0),
+        ("closure", 1),
+        ("loop_amplitude", 1),
+        ("loop_energy", 2),
+    ):
+        assert three.numbers[name] == pytest.approx(3.0**power * one.numbers[name], rel=1e-5), name
+
+
+def test_energy_of_the_loop_is_its_area():
+    """By a history of the program of the same loads: the work of the load over the second cycle."""
+    case = dict(
+        PAIR, elasticity="periodic", gap_type="file", grid_n=48, grid_size=48e-5, steps=6,
+    )  # fmt: skip
+    field, pressure = waves(48, 7), 6e6
+    found = joint.of_interface(field, 1e-5, [pressure], shear=0.6, steps=6, **PAIR)
+    load = pressure * 48e-5**2
+    turns = 0.6 * PAIR["friction"] * load * np.array([0, 1, -1, 1, -1, 1])
+    case.pop("gap_type"), case.pop("steps")
+    with petsam.Contact(gap_type="flat", steps=12, **case) as contact:
+        contact.gap = field - field.min()
+        steps = contact.run(dict(time=np.arange(1.0, 7.0), load_n=[load] * 6, load_tx=turns))
+    x, t = (np.array([step.numbers[name] for step in steps[-25:]]) for name in ("disp_x", "load_tx"))
+    work = np.sum(np.diff(x) * (t[1:] + t[:-1]) / 2) / 48e-5**2
+    assert found.loop_energy[0] == pytest.approx(work, rel=0.02)
+    assert found.loop_amplitude[0] == pytest.approx((x.max() - x.min()) / 2, rel=1e-3)
+    assert found.loop_stiffness[0] < found.k_t_x[0]
+
+
+def test_windows_give_means_and_deviations(tmp_path):
+    field = waves(64, 9)
+    found = joint.of_windows(field, 1e-5, [8e6, 16e6], steps=1, **PAIR)
+    corners = [field[j : j + 32, i : i + 32] for j in (0, 32) for i in (0, 32)] + [field[16:48, 16:48]]
+    each = [joint.of_interface(joint.mirrored(part), 1e-5, [8e6, 16e6], steps=1, **PAIR).k_n for part in corners]
+    assert found.k_n == pytest.approx(np.mean(each, axis=0)) and found.spread["k_n"] == pytest.approx(
+        np.std(each, axis=0, ddof=1)
+    )
+    found.to_csv(tmp_path / "i.csv")
+    with open(tmp_path / "i.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert [float(row["k_n [Pa/m]"]) for row in rows] == list(found.k_n)
+    assert [float(row["area_spread [1]"]) for row in rows] == list(found.spread["area"])
+    found.to_abaqus(tmp_path / "i.inp", name="JOINT")
+    lines = (tmp_path / "i.inp").read_text().splitlines()
+    assert lines[1] == "*SURFACE INTERACTION, NAME=JOINT" and lines[3] == "0., 0." and lines[-1] == "0.3"
+    assert [float(word) for word in lines[5].split(",")] == pytest.approx([16, found.closure[1] * 1e3], rel=1e-5)
+    figure = found.plot()
+    assert [axes.get_xlabel() for axes in figure.axes] == ["nominal pressure / MPa"] * 2
+
+
+def test_mirror_images_join_without_a_step():
+    field = joint.mirrored(waves(24, 1))
+    for axis in 0, 1:
+        assert np.array_equal(field, np.roll(np.flip(field, axis), 0, axis))
+        assert np.array_equal(np.take(field, 0, axis), np.take(field, -1, axis))
+
+
+@pytest.mark.parametrize(
+    "change, says",
+    [
+        (dict(pressures=[2e6, 1e6]), "pressures that rise"),
+        (dict(pressures=[0.0, 1e6]), "positive pressures"),
+        (dict(separation=np.full((8, 8), np.nan)), "finite numbers"),
+        (dict(separation=np.zeros(8)), "a field"),
+        (dict(friction=0.0), "a coefficient > 0"),
+        (dict(pressures=[1e6, 1e12]), "1e.12 Pa: all of the surface touches"),
+        (dict(shear=1.0), "below 1"),
+        (dict(body1_yung=1.0), "body1_young"),
+    ],
+)
+def test_a_mistake_is_named(change, says):
+    given = dict(PAIR, separation=waves(32, 1), spacing=1e-5, pressures=[1e6]) | change
+    with pytest.raises(petsam.Error, match=says):
+        joint.of_interface(**given)
