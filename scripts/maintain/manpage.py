@@ -13,8 +13,8 @@ import options
 
 TITLES = {"history": "LOAD HISTORIES", "exit codes": "EXIT STATUS"}
 SEE_ALSO = {
-    "petsam": "petsam-stress(1); petsam-compliance, petsam-fatigue, petsam-plot, petsam-study and petsam-surface "
-    "have --help.",
+    "petsam": "petsam-stress(1); petsam-compliance, petsam-fatigue, petsam-joint, petsam-plot, petsam-study and "
+    "petsam-surface have --help.",
     "petsam-stress": "petsam(1); petsam-fatigue and petsam-plot have --help.",
 }
 WIDTH = 70  # columns of commands

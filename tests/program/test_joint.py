@@ -1,13 +1,16 @@
 """Contact stiffness of an interface: compliance of cracks, ratio of tangential and normal stiffness, scaling."""
 
 import csv
+import sys
 import warnings
 
+import h5py
 import numpy as np
 import pytest
 
 import petsam
 from petsam import joint
+from petsam.joint import command as _  # noqa: F401
 from support import bodies
 
 warnings.simplefilter("ignore", petsam.AdviceWarning)
@@ -143,3 +146,83 @@ def test_a_mistake_is_named(change, says):
     given = dict(PAIR, separation=waves(32, 1), spacing=1e-5, pressures=[1e6]) | change
     with pytest.raises(petsam.Error, match=says):
         joint.of_interface(**given)
+
+
+# ---------------------------------------------------------------- the command
+
+
+@pytest.fixture
+def command(tmp_path, monkeypatch, capsys):
+    """command(*words, check=0): what petsam-joint stiffness prints; its complaint where it fails."""
+    monkeypatch.chdir(tmp_path)
+
+    def run(*words, check=0):
+        monkeypatch.setattr(sys, "argv", ["petsam-joint", "stiffness", *map(str, words)])
+        try:
+            code = joint.command.main()
+        except SystemExit as error:
+            code = error.code
+        out, err = capsys.readouterr()
+        assert code == check, (code, err)
+        return err if check else out
+
+    return run
+
+
+STEEL = ("--body1", "steel", "--body2", "210GPa,0.3")
+
+
+def write(path, name, values, spacing=1e-5):
+    with h5py.File(path, "w") as file:
+        file[name] = values
+        for letter, n in zip("yx", values.shape):
+            file[letter] = (np.arange(n) + 0.5) * spacing
+
+
+def test_command_gives_the_numbers_of_the_function(command, tmp_path):
+    """Of heights, peaks positive, and of a separation; as files, and printed."""
+    field = waves(64, 11)
+    write(tmp_path / "scan.h5", "height", -field)
+    write(tmp_path / "pair.h5", "separation", field)
+    pair = dict(bodies(210e9, 0.3), friction=0.25)
+    expected = joint.of_windows(field, 1e-5, np.geomspace(1e7, 4e7, 3), steps=1, shear=0.4, **pair)
+    words = ("--pressure", "10MPa:40MPa:3", "--friction", 0.25, "--shear", 0.4, "--steps", 1, *STEEL)
+    printed = command("scan.h5", *words, "-o", "i")
+    assert printed == "\n".join(expected.table()) + "\n" == command("pair.h5", *words)
+    with open("i.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert [float(row["k_t_x [Pa/m]"]) for row in rows] == pytest.approx(expected.k_t_x, rel=1e-9)
+    assert (tmp_path / "i.inp").read_text().startswith("** contact") and (tmp_path / "i.png").stat().st_size > 10000
+    whole = joint.of_interface(field, 1e-5, [2e7], steps=1, **pair)
+    assert command("pair.h5", "--pressure", "2e7", "--friction", 0.25, "--steps", 1, "--periodic", *STEEL) == (
+        "\n".join(whole.table()) + "\n"
+    )
+
+
+def test_hardness_limits_the_pressure_of_summits(command, tmp_path):
+    write(tmp_path / "scan.h5", "height", waves(64, 11))
+    words = ("scan.h5", "--pressure", "20MPa", "--friction", 0.25, "--steps", 1, *STEEL)
+    areas = [float(command(*words, *more).split()[-3]) for more in ((), ("--hardness", "0.17GPa"))]
+    assert areas[1] > 1.1 * areas[0] and areas[1] >= 100 * 20e6 / 0.17e9
+
+
+@pytest.mark.parametrize(
+    "words, says",
+    [
+        (("none.h5", "--pressure", "1MPa"), "none.h5: "),
+        (("text.h5", "--pressure", "1MPa"), "text.h5: "),
+        (("flat.h5", "--pressure", "1MPa"), "no dataset height or separation"),
+        (("scan.h5", "--pressure", "1MPa:2MPa"), "expected FIRST:LAST:COUNT"),
+        (("scan.h5", "--pressure", "-1"), "expected a stress above 0"),
+        (("scan.h5", "--pressure", "2MPa,1MPa"), "pressures that rise"),
+        (("scan.h5", "--pressure", "1MPa", "--body1", "stel"), "stel: expected steel"),
+        (("scan.h5", "--pressure", "1MPa", "--shear", "1.5"), "shear 1.5"),
+        (("scan.h5", "--pressure", "1MPa", "--steps", "0"), "--steps 0: expected 1 or more"),
+    ],
+)
+def test_a_mistake_of_the_command_is_named(command, tmp_path, words, says):
+    write(tmp_path / "scan.h5", "height", waves(32, 1))
+    write(tmp_path / "flat.h5", "depth", waves(32, 1))
+    (tmp_path / "text.h5").write_text("no HDF5")
+    said = command("--friction", "0.3", *STEEL, *words, check=3 if words[0] != "scan.h5" else 2)
+    assert said.startswith("petsam-joint: error: ") and says in said and len(said.splitlines()) == 1

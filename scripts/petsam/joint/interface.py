@@ -72,6 +72,21 @@ class Interface:
         with open(path, "w", encoding="utf-8") as file:
             file.write("\n".join(lines) + "\n")
 
+    def table(self):
+        """The table that petsam-joint prints, as lines: in MPa, N/mm3, %, mJ/m2, with the windows' deviations in %."""
+        part = {name: 100 * spread / self.numbers[name] for name, spread in self.spread.items()}
+        none = np.full_like(self.numbers["pressure"], np.nan)
+        k_t = (self.numbers["k_t_x"] + self.numbers["k_t_y"]) / 2
+        lines = ["   p/MPa  k_n/(N/mm3)  +- %  k_t/(N/mm3)  k_t/k_n  area/%  loop/(mJ/m2)  +- %"]
+        for k, pressure in enumerate(self.numbers["pressure"]):
+            deviations = [f"{part.get(name, none)[k]:5.0f}".replace("nan", "  -") for name in ("k_n", "loop_energy")]
+            k_n, energy = self.numbers["k_n"][k], self.numbers["loop_energy"][k]
+            lines.append(
+                f"{pressure / 1e6:8.4g} {k_n / 1e9:12.4g} {deviations[0]} {k_t[k] / 1e9:12.4g} {k_t[k] / k_n:8.4f} "
+                f"{100 * self.numbers['area'][k]:7.2f} {1e3 * energy:13.3g} {deviations[1]}"
+            )
+        return lines
+
     def plot(self):
         """The stiffnesses, the real contact area and the loop's energy over the pressure: a figure of matplotlib."""
         from matplotlib import ticker
@@ -173,11 +188,11 @@ def _loop(contact, normal, part, steps):
     return energy, abs(ends[-1] - ends[-2]) / 2
 
 
-def of_windows(separation, spacing, pressures, **options):
+def of_windows(separation, spacing, pressures, report=None, **options):
     """Interface of a measured separation: means and standard deviations of five windows of it, half as wide as it is.
 
-    Four windows have the corners, one the middle. Each is mirrored, so that it repeats itself. Other arguments are
-    those of of_interface().
+    Four windows have the corners, one the middle. Each is mirrored, so that it repeats itself. report(k, count) is
+    called when k of the windows are done. Other arguments are those of of_interface().
     """
     separation = np.asarray(separation, float)
     if separation.ndim != 2 or min(separation.shape) < 4:
@@ -185,9 +200,11 @@ def of_windows(separation, spacing, pressures, **options):
     ny, nx = (size // 2 for size in separation.shape)
     y, x = separation.shape[0] - ny, separation.shape[1] - nx
     places = [(0, 0), (0, x), (y, 0), (y, x), (y // 2, x // 2)]
-    found = [
-        of_interface(mirrored(separation[j : j + ny, i : i + nx]), spacing, pressures, **options) for j, i in places
-    ]
+    found = []
+    for j, i in places:
+        found.append(of_interface(mirrored(separation[j : j + ny, i : i + nx]), spacing, pressures, **options))
+        if report:
+            report(len(found), len(places))
     numbers = {name: np.mean([one.numbers[name] for one in found], axis=0) for name in COLUMNS}
     spread = {
         name: np.std([one.numbers[name] for one in found], axis=0, ddof=1) for name in COLUMNS if name != "pressure"
