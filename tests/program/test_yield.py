@@ -263,6 +263,26 @@ def test_numbers_that_are_too_small_are_named(petsam, solve):
     assert 0.03 < 1 - dent[0] / dent[1] < bound
 
 
+@pytest.mark.parametrize("above, warned", [(1.1, True), (1.6, False)])
+def test_strain_that_has_just_begun_is_warned_of(petsam, solve, above, warned):
+    """A cylinder a little above the load of the first yield, in three layers; and far above it."""
+    case = dict(
+        support.bodies(70e9, 0.34), body2_yield=230e6, body2_hardening_modulus=4e9, friction=0, gap_type="ellipsoid",
+        gap_radius_x=3.42e-3, gap_radius_y="inf", elasticity="plane_periodic", grid_n=178, grid_size=6.7e-4,
+        load_n=39e3 * above, steps=2,
+    )  # fmt: skip
+    said = [line for line in petsam(case).complaint if "has just begun" in line]
+    assert bool(said) == warned
+    if warned:
+        named = float(re.search(r"too small by (\d+) %", said[0]).group(1)) / 100
+        most = []
+        for more in {}, dict(grid_n=356, yield_layers=64):
+            with h5py.File(solve(case, more).path) as f:
+                most.append(f["history/plastic_max"][:])
+        error = 4 / 3 * (1 - most[0][-1] / most[1][-1])  # the finer one has a quarter of it
+        assert 0.6 * named < error < 1.6 * named
+
+
 def test_a_contact_at_the_edge_is_told_of_a_larger_grid(petsam):
     """What yields is wider than the elastic contact of its load, which the grid would hold."""
     case = sphere(16, 8, 12)
