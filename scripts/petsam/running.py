@@ -1,6 +1,7 @@
 """Runs of the program petsam from Python, without a shell: petsam.run()."""
 
 import os
+import shutil
 import signal
 import subprocess
 import tempfile
@@ -40,15 +41,15 @@ def run(options=None, /, *, history=None, ranks=1, report=None, **more):
     other errors.
     """
     given = {**(options or {}), **more}
-    folder = tempfile.TemporaryDirectory(prefix="petsam-")
+    folder, process = tempfile.mkdtemp(prefix="petsam-"), os.getpid()
     try:
         if history is not None and given.get("history") is not None:
             raise Error("history: given both as an argument and as an option: give one of them")
         history = given.pop("history", None) if history is None else history
         if isinstance(history, Mapping) or hasattr(history, "columns"):
-            history = _write_history(os.path.join(folder.name, "history.csv"), history)
+            history = _write_history(os.path.join(folder, "history.csv"), history)
         if given.get("output") is None:
-            given["output"] = os.path.join(folder.name, "results.h5")
+            given["output"] = os.path.join(folder, "results.h5")
         output = given["output"]
         if not isinstance(output, (str, os.PathLike)):
             raise Error(f"output: expected the path of a file, not {short(repr(output))}")
@@ -57,16 +58,22 @@ def run(options=None, /, *, history=None, ranks=1, report=None, **more):
         code, complaint = _execute(_command(ranks) + _words(given), report)
         results = Results(output) if code in (0, *_KINDS, EDGE) and os.path.exists(output) else None
     except BaseException:
-        folder.cleanup()
+        _remove(folder, process)
         raise
     if results is None:
-        folder.cleanup()
+        _remove(folder, process)
     else:
-        weakref.finalize(results, folder.cleanup)
+        weakref.finalize(results, _remove, folder, process)
     _raise(code, complaint, results)
     if results is None:
         raise Error(f"petsam has written no results to {short(output)}")
     return results
+
+
+def _remove(folder, process):
+    """Removes a temporary folder, which a copy of the process that has made it does not own."""
+    if os.getpid() == process:
+        shutil.rmtree(folder, ignore_errors=True)
 
 
 def _command(ranks):

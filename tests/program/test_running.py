@@ -1,6 +1,7 @@
 """petsam.run(): the program from Python, without a shell."""
 
 import gc
+import os
 import pickle
 import warnings
 
@@ -43,9 +44,16 @@ def test_a_temporary_file_lives_as_long_as_its_results(tmp_path, capfd):
     path = found.path
     assert found.matrices["stiffness"].shape == (2, 6, 6) and found["slip_x"].shape == (2, 32, 32)
     assert h5py.is_hdf5(path) and not list(tmp_path.iterdir())
+    copy = os.fork()
+    if not copy:
+        del found
+        gc.collect()
+        os._exit(0)
+    os.waitpid(copy, 0)
+    assert h5py.is_hdf5(path)  # it is not the copy's
     del found
     gc.collect()
-    assert not h5py.is_hdf5(path) and capfd.readouterr().out == ""
+    assert not os.path.exists(os.path.dirname(path)) and capfd.readouterr().out == ""
     kept = package.run(CASE, output="kept.h5", load_tx=None)
     del kept
     gc.collect()
