@@ -197,6 +197,23 @@ def test_stresses_that_are_not_named_are_missed(folder, stress, name, value, say
         assert says in stress(input="damaged.h5", depths=0, check=3)
 
 
+def test_parts_of_a_run_have_the_same_layers(petsam, launcher, tmp_path):
+    """Otherwise those of another group, or other depths, would be read in silence."""
+    case = dict(CASE, body2_yield=YIELD, load_n=None, load_tx=None, history="h.csv", output="r.h5")
+    rows = ["time,load_n", "1,40", "2,60"]
+    (tmp_path / "h.csv").write_text("\n".join(rows[:2]))
+    petsam(dict(case, checkpoint="c.h5", checkpoint_every=1))
+    (tmp_path / "h.csv").write_text("\n".join(rows))
+    petsam(dict(case, restart=next(tmp_path.glob("c.h5*")).name))
+    words = dict(input="r.h5", output="s.h5", depths="0.05mm", steps="1:2")
+    conftest.execute(launcher, tmp_path, [words], 1, 0, program=PROGRAM)
+    with h5py.File(tmp_path / "r.part2.h5", "r+") as f:
+        f.attrs.update(stresses_of="other,plastic", other_layers=f.attrs["plastic_layers"])
+        f.copy("plastic", "other")
+    said = conftest.execute(launcher, tmp_path, [words], 1, 3, program=PROGRAM).stderr
+    assert "its stresses in layers are not those of the part before it" in said
+
+
 def test_python_reads_the_layers(folder):
     with petsam.open(folder / "two.h5") as results:
         assert (

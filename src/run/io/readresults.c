@@ -368,6 +368,19 @@ static PetscErrorCode ReadTimes(SamResults r, Part *part)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Returns true if two parts have the same groups with stresses in layers, saved or not. */
+static PetscBool HaveSameGroups(const Facts *a, const Facts *b)
+{
+  for (int g = 0; g < SAM_LAYER_GROUPS; g++) {
+    const Group *const one = &a->group[g], *const other = &b->group[g];
+
+    if (strcmp(one->name, other->name) || one->initial != other->initial || one->count[0] != other->count[0] ||
+        one->count[1] != other->count[1])
+      return PETSC_FALSE;
+  }
+  return a->groups == b->groups ? PETSC_TRUE : PETSC_FALSE;
+}
+
 /* Examines the part with this number, from 1, and takes it if it exists and follows the part before. */
 static PetscErrorCode FindPart(SamResults r, MPI_Comm comm, const char option[], const char name[], PetscBool *found)
 {
@@ -395,6 +408,8 @@ static PetscErrorCode FindPart(SamResults r, MPI_Comm comm, const char option[],
              comm, SAM_ERR_FILE,
              "-%s %s: cannot be read: it does not fit the part before it, whose steps are %ld to %ld", option, name,
              (long)before->facts.first + 1, (long)before->steps);
+  PetscCheck(HaveSameGroups(&part->facts, &before->facts), comm, SAM_ERR_FILE,
+             "-%s %s: cannot be read: its stresses in layers are not those of the part before it", option, name);
   before->steps = (PetscInt)part->facts.first;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
