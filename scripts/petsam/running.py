@@ -1,12 +1,12 @@
 """Runs of the program petsam from Python, without a shell: petsam.run()."""
 
+import multiprocessing.util
 import os
 import shutil
 import signal
 import subprocess
 import tempfile
 import warnings
-import weakref
 from collections.abc import Mapping
 
 import numpy as np
@@ -63,7 +63,8 @@ def run(options=None, /, *, history=None, ranks=1, report=None, **more):
     if results is None:
         _remove(folder, process)
     else:
-        weakref.finalize(results, _remove, folder, process)
+        # also at the end of a worker of multiprocessing, which calls no other finalizers
+        multiprocessing.util.Finalize(results, _remove, (folder, process), exitpriority=0)
     _raise(code, complaint, results)
     if results is None:
         raise Error(f"petsam has written no results to {short(output)}")

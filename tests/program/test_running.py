@@ -1,5 +1,6 @@
 """petsam.run(): the program from Python, without a shell."""
 
+import concurrent.futures
 import gc
 import os
 import pickle
@@ -58,6 +59,16 @@ def test_a_temporary_file_lives_as_long_as_its_results(tmp_path, capfd):
     del kept
     gc.collect()
     assert h5py.is_hdf5(tmp_path / "kept.h5")
+
+
+def path_of_a_run(case):
+    return package.run(case).path
+
+
+def test_worker_leaves_no_temporary_files():
+    with concurrent.futures.ProcessPoolExecutor(1) as pool:
+        path = pool.submit(path_of_a_run, CASE).result()
+    assert not os.path.exists(os.path.dirname(path))
 
 
 def test_table_of_loads_has_its_own_times_or_is_refused():
