@@ -38,12 +38,18 @@ _MONITOR = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p, ctyp
 class ContactError(Error):
     """A call that was rejected, with its code (2 a wrong argument, 3 a file, others of PETSc)."""
 
+    results = None  # of petsam.run(): those so far
+
     def __init__(self, code, message):
         super().__init__(code, message)  # makes it picklable
         self.code, self.message = code, message
 
     def __str__(self):
         return self.message
+
+    def __reduce__(self):
+        """Another process gets it without the results, which are an open file."""
+        return type(self), self.args, {name: value for name, value in vars(self).items() if name != "results"}
 
 
 class PrescribedError(ContactError, TypeError):
@@ -553,7 +559,9 @@ class Contact:
         return self._evaluate("stress", depths=depths, section=section, body=body, quantities=quantities)
 
     def record(self, on=True):
-        """Record each step that is committed from now on, for fatigue(): 40 bytes a cell. Forgets earlier ones.
+        """Record each step that is committed from now on, for fatigue(). Forgets earlier ones.
+
+        A step takes 40 bytes a cell, and 48 more for each layer of bodies that yield.
 
         Steps of a history too; of a life those of the last computed cycle.
         """

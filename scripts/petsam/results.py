@@ -278,7 +278,9 @@ class Results(Datafile):
 
     def __getitem__(self, name):
         """A number of all load steps, (steps,); or a field of all saved steps, (saved, ny, nx), read as a whole."""
-        if name in self.history:
+        if not isinstance(name, str):
+            raise Error(f"{self.path}: {short(repr(name))} is no name of a number or field")
+        if name in self.history or name in self.matrices:
             return self.history[name]
         self._need_fields()
         return np.stack([self.field(name, index) for index in range(self.times.size)])

@@ -1,10 +1,12 @@
 """Runs of the program petsam from Python, without a shell: petsam.run()."""
 
+import multiprocessing.util
 import os
+import shutil
+import signal
 import subprocess
 import tempfile
 import warnings
-import weakref
 from collections.abc import Mapping
 
 import numpy as np
@@ -25,39 +27,54 @@ def run(options=None, /, *, history=None, ranks=1, report=None, **more):
     options  names and values of options of the program without the dash, as a mapping, as keywords, or as both: a
              number, a text, True or False, a path, or a sequence of numbers or texts; None leaves the option out
     history  loads and conditions over time: a mapping of column names to values, as a DataFrame is one, or the path
-             of a file; each column has the value of each row, and `time` is 1, 2, ... unless it is given
+             of a file; each column has the value of each row, and `time` is 1, 2, ... unless it is given, as a column
+             or as the index of a DataFrame
     ranks    number of MPI ranks; more than 1 are started by the launcher in $MPIRUN, or mpirun
     report   is called with each line that the program prints, for example print; None: it prints nothing
 
     The results are written to the file that the option `output` names. Without it they are in a temporary file, which
     exists as long as the Results do. Files that options name are relative to the working directory.
 
-    The program's warnings are raised as AdviceWarning, a contact that reaches the edge of the grid as
-    EdgeContactWarning. An error is a ContactError with the program's code and message: NotConverged or NoEquilibrium
-    if a step has no solution; its attribute `results` then has the steps so far, and is None for other errors.
+    The program's warnings are raised as AdviceWarning, a contact that reaches the edge of the grid, which ends the run
+    with that step, as EdgeContactWarning. An error is a ContactError with the program's code and message: NotConverged
+    or NoEquilibrium if a step has no solution; its attribute `results` then has the steps so far, and is None for
+    other errors.
     """
     given = {**(options or {}), **more}
-    folder = tempfile.TemporaryDirectory(prefix="petsam-")
+    folder, process = tempfile.mkdtemp(prefix="petsam-"), os.getpid()
     try:
         if history is not None and given.get("history") is not None:
             raise Error("history: given both as an argument and as an option: give one of them")
+        history = given.pop("history", None) if history is None else history
         if isinstance(history, Mapping) or hasattr(history, "columns"):
-            history = _write_history(os.path.join(folder.name, "history.csv"), history)
-        output = given.setdefault("output", os.path.join(folder.name, "results.h5"))
+            history = _write_history(os.path.join(folder, "history.csv"), history)
+        if given.get("output") is None:
+            given["output"] = os.path.join(folder, "results.h5")
+        output = given["output"]
+        if not isinstance(output, (str, os.PathLike)):
+            raise Error(f"output: expected the path of a file, not {short(repr(output))}")
         given["quiet"] = report is None
-        if history is not None:
-            given["history"] = history
+        given["history"] = history
         code, complaint = _execute(_command(ranks) + _words(given), report)
         results = Results(output) if code in (0, *_KINDS, EDGE) and os.path.exists(output) else None
     except BaseException:
-        folder.cleanup()
+        _remove(folder, process)
         raise
     if results is None:
-        folder.cleanup()
+        _remove(folder, process)
     else:
-        weakref.finalize(results, folder.cleanup)
+        # also at the end of a worker of multiprocessing, which calls no other finalizers
+        multiprocessing.util.Finalize(results, _remove, (folder, process), exitpriority=0)
     _raise(code, complaint, results)
+    if results is None:
+        raise Error(f"petsam has written no results to {short(output)}")
     return results
+
+
+def _remove(folder, process):
+    """Removes a temporary folder, which a copy of the process that has made it does not own."""
+    if os.getpid() == process:
+        shutil.rmtree(folder, ignore_errors=True)
 
 
 def _command(ranks):
@@ -75,18 +92,23 @@ def _words(options):
             raise Error(f"{short(repr(name))} is no name of an option: give it without a dash, as grid_n")
         if value is None:
             continue
-        if isinstance(value, (str, os.PathLike)) or np.ndim(value) == 0:
-            words += ["-" + name, _word(name, value)]
-        elif np.ndim(value) == 1:
-            words += ["-" + name, ",".join(_word(name, one) for one in value)]
-        else:
-            raise Error(
-                f"{name}: expected one value or a sequence of them, not an array of {np.ndim(value)} dimensions"
-            )
+        dimensions = 0 if isinstance(value, os.PathLike) else _dimensions(value)
+        if dimensions > 1:
+            raise Error(f"{name}: expected one value or a sequence of them, not an array of {dimensions} dimensions")
+        words += ["-" + name, ",".join(_word(name, one) for one in value) if dimensions else _word(name, value)]
     return words
 
 
+def _dimensions(value):
+    try:
+        return np.ndim(value)
+    except ValueError:  # rows of different lengths
+        return 2
+
+
 def _word(name, value):
+    if isinstance(value, np.ndarray) and value.ndim == 0:
+        value = value[()]
     if isinstance(value, (bool, np.bool_)):
         return _FLAGS[bool(value)]
     if isinstance(value, (int, np.integer)):
@@ -102,13 +124,16 @@ def _word(name, value):
 
 def _write_history(path, table):
     """Writes the columns of a table as a file of loads; returns its path."""
-    columns = {str(name): np.atleast_1d(np.asarray(table[name], float)) for name in table}
+    columns = {str(name): _column(str(name), table[name]) for name in table}
+    index = getattr(table, "index", None)
+    if getattr(index, "name", None) == "time":
+        columns.setdefault("time", _column("time", index))
     count = max((len(values) for values in columns.values()), default=0)
     if not count:
         raise Error("history: expected at least one column and one row")
     columns = {"time": columns.pop("time", np.arange(1.0, count + 1)), **columns}
     for name, values in columns.items():
-        if values.ndim != 1 or len(values) != count:
+        if len(values) != count:
             raise Error(f"history: {short(name)} has {values.size} values, and other columns {count}")
         if "," in name or "\n" in name:
             raise Error(f"history: {short(repr(name))} is no name of a column")
@@ -116,6 +141,17 @@ def _write_history(path, table):
         file.write(",".join(columns) + "\n")
         file.writelines(",".join(repr(float(value)) for value in row) + "\n" for row in zip(*columns.values()))
     return path
+
+
+def _column(name, values):
+    """The values of a column of loads."""
+    try:
+        values = np.atleast_1d(np.asarray(values, float))
+    except (TypeError, ValueError):
+        values = np.full(1, np.nan)
+    if values.ndim != 1 or not np.all(np.isfinite(values)):
+        raise Error(f"history: {short(name)}: expected finite numbers, one for each row")
+    return values
 
 
 def _execute(words, report):
@@ -136,7 +172,10 @@ def _execute(words, report):
         finally:  # also after an interruption, or an error of report()
             if process.poll() is None:
                 process.terminate()
-                process.wait()
+                try:
+                    process.wait()
+                finally:  # interrupted once more
+                    process.kill()
             process.stdout.close()
         complaint.seek(0)
         return process.returncode, complaint.read().decode(errors="replace").splitlines()
@@ -153,8 +192,16 @@ def _raise(code, complaint, results):
     if code == 0:
         return
     if code == EDGE and results is not None:
-        warnings.warn("; ".join(lines), EdgeContactWarning, stacklevel=3)
+        count = results.before + results.time.size
+        warnings.warn("; ".join([*lines, f"the run ended with step {count}"]), EdgeContactWarning, stacklevel=3)
         return
-    error = _KINDS.get(code, ContactError)(code, "; ".join(lines) or f"petsam ended with {code}: {complaint[-1:]}")
+    error = _KINDS.get(code, ContactError)(code, "; ".join(lines) or _end(code, complaint))
     error.results = results
     raise error
+
+
+def _end(code, complaint):
+    """Describes the end of a run that says nothing itself."""
+    said = [line for line in complaint if any(map(str.isalnum, line))]
+    how = f"signal {-code} ({signal.strsignal(-code)})" if code < 0 else f"code {code}"
+    return f"petsam ended with {how}" + "".join(f": {line}" for line in said[-1:])

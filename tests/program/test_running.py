@@ -1,6 +1,9 @@
 """petsam.run(): the program from Python, without a shell."""
 
+import concurrent.futures
 import gc
+import os
+import pickle
 import warnings
 
 import h5py
@@ -42,13 +45,30 @@ def test_a_temporary_file_lives_as_long_as_its_results(tmp_path, capfd):
     path = found.path
     assert found.matrices["stiffness"].shape == (2, 6, 6) and found["slip_x"].shape == (2, 32, 32)
     assert h5py.is_hdf5(path) and not list(tmp_path.iterdir())
+    copy = os.fork()
+    if not copy:
+        del found
+        gc.collect()
+        os._exit(0)
+    os.waitpid(copy, 0)
+    assert h5py.is_hdf5(path)  # it is not the copy's
     del found
     gc.collect()
-    assert not h5py.is_hdf5(path) and capfd.readouterr().out == ""
+    assert not os.path.exists(os.path.dirname(path)) and capfd.readouterr().out == ""
     kept = package.run(CASE, output="kept.h5", load_tx=None)
     del kept
     gc.collect()
     assert h5py.is_hdf5(tmp_path / "kept.h5")
+
+
+def path_of_a_run(case):
+    return package.run(case).path
+
+
+def test_worker_leaves_no_temporary_files():
+    with concurrent.futures.ProcessPoolExecutor(1) as pool:
+        path = pool.submit(path_of_a_run, CASE).result()
+    assert not os.path.exists(os.path.dirname(path))
 
 
 def test_table_of_loads_has_its_own_times_or_is_refused():
@@ -57,10 +77,31 @@ def test_table_of_loads_has_its_own_times_or_is_refused():
     for history, says in (
         (dict(load_tx=[1, 2], load_n=[1, 2, 3]), "load_tx has 2 values, and other columns 3"),
         (dict(), "at least one column"),
+        (dict(load_tx=["a", "b"]), "load_tx: expected finite numbers"),
+        (dict(load_tx=[1, None]), "load_tx: expected finite numbers"),
+        (dict(load_tx=[[1], [2, 3]]), "load_tx: expected finite numbers"),
         ({"load_tx,load_n": [1]}, "no name of a column"),
     ):
         with pytest.raises(package.Error, match=says):
             package.run(CASE, history=history)
+
+
+def test_index_of_a_table_is_its_time():
+    """As to_dataframe() gives it."""
+    pandas = pytest.importorskip("pandas")
+    table = pandas.DataFrame(dict(load_tx=[1.0, 2.0]), index=pandas.Index([0.5, 2], name="time"))
+    found = package.run(dict(CASE, history=table))
+    assert list(found.time) == [0.5, 2]
+    again = package.run(CASE, history=found.to_dataframe()[["load_tx"]])
+    assert list(again.time) == [0.5, 2]
+
+
+def test_options_may_be_scalars_of_numpy_and_none(tmp_path):
+    found = package.run(CASE, load_n=np.array(150.0), grid_n=np.int64(16), output=None)
+    assert found["load_n"] == pytest.approx([150]) and not list(tmp_path.iterdir())
+    assert found.matrices == {} and "stiffness" not in found
+    with pytest.raises(package.Error, match="3 is no name of a number or field"):
+        _ = found[3]
 
 
 def test_errors_have_the_code_and_the_message_of_the_program():
@@ -70,6 +111,8 @@ def test_errors_have_the_code_and_the_message_of_the_program():
     with pytest.raises(package.NoEquilibrium, match="step 2: gross slip") as error:
         package.run(CASE, history=dict(load_tx=[0.5 * LIMIT, 2 * LIMIT]))
     assert error.value.code == 11 and error.value.results["stick_area"][0] > 0
+    sent = pickle.loads(pickle.dumps(error.value))  # as from a pool of processes; the results are an open file
+    assert type(sent) is package.NoEquilibrium and str(sent) == str(error.value) and sent.results is None
 
 
 def test_what_is_no_option_is_refused_before_the_run(tmp_path):
@@ -77,6 +120,9 @@ def test_what_is_no_option_is_refused_before_the_run(tmp_path):
         ({"-grid_n": 3}, "no name of an option"),
         ({"grid_n": object()}, "neither a number nor a text"),
         ({"grid_size": np.ones((2, 2))}, "not an array of 2 dimensions"),
+        ({"grid_size": [[1, 2], [3]]}, "not an array of 2 dimensions"),
+        ({"output": ["out.h5"]}, "output: expected the path of a file"),
+        ({"output": False}, "output: expected the path of a file"),
     ):
         with pytest.raises(package.Error, match=says):
             package.run({**CASE, **options})
@@ -93,6 +139,8 @@ def test_warnings_are_warnings():
     with pytest.warns(package.EdgeContactWarning, match="reached the edge of the grid"):
         found = package.run(dict(CASE, grid_size=0.4 * CASE["grid_size"]))
     assert found["contact_cells"][-1] > 0
+    with pytest.warns(package.EdgeContactWarning, match="the run ended with step 1"):
+        package.run(dict(CASE, grid_size=0.4 * CASE["grid_size"]), history=dict(load_tx=[0, 0.1 * LIMIT]))
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         package.run(CASE)
@@ -105,3 +153,17 @@ def test_an_error_of_tell_ends_the_run(tmp_path):
     with pytest.raises(RuntimeError, match="petsam 1"):
         package.run(CASE, steps=100, report=report)
     assert not list(tmp_path.iterdir())
+
+
+def test_a_program_that_gives_nothing_is_an_error(monkeypatch, tmp_path):
+    for script, says in (
+        ("exit 0", "petsam has written no results to"),
+        ("kill -9 $$", r"petsam ended with signal 9 \(Killed\)"),
+        ("echo why >&2; echo ---- >&2; exit 7", "petsam ended with code 7: why"),
+    ):
+        program = tmp_path / "petsam"
+        program.write_text("#!/bin/sh\n" + script)
+        program.chmod(0o755)
+        monkeypatch.setenv("PETSAM", str(program))
+        with pytest.raises(package.Error, match=says):
+            package.run(CASE)

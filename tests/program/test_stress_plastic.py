@@ -1,5 +1,7 @@
 """Fields below the surface of bodies that yield, and petsam-stress with the stresses by their plastic strain."""
 
+import shutil
+
 import h5py
 import numpy as np
 import pytest
@@ -168,6 +170,48 @@ def test_what_is_not_known_is_refused(stress):
     said = stress(input="two.h5", depths="0:0.4mm:3", check=2)
     assert "-depths: 0.0004 m" in said and "at 0.0003 m" in said and "petsam -help plastic" in said
     assert "-passing" in stress(input="two.h5", depths="0:0.2mm:3", fatigue="swt", section="y=0", passing=True, check=2)
+
+
+@pytest.mark.parametrize(
+    "name, value, says",
+    [
+        ("stresses_of", None, "body 2 yields"),
+        ("stresses_of", "", "body 2 yields"),
+        ("stresses_of", "p" * 300, "body 2 yields"),
+        ("stresses_of", "plastic,plastic", "names plastic twice"),
+        ("plastic_layers", None, "lacks the attribute plastic_layers"),
+        ("plastic_layers", [12.0, 0.0, 1.0], "body 2 yields"),
+        ("plastic_layers", [0.0, 12.5, 1.0], "plastic_layers is damaged"),
+        ("plastic_layers", [0.0, 12.0, np.nan], "plastic_layers is damaged"),
+        ("plastic_layers", [0.0, 12.0], "plastic_layers is not what petsam writes"),
+    ],
+)
+def test_stresses_that_are_not_named_are_missed(folder, stress, name, value, says):
+    """Otherwise they would be left out in silence: also in files of a petsam that did not name them."""
+    for source in "two.h5", "none.h5":
+        shutil.copy(folder / source, folder / "damaged.h5")
+        with h5py.File(folder / "damaged.h5", "r+") as f:
+            del f.attrs[name]
+            if value is not None:
+                f.attrs[name] = value
+        assert says in stress(input="damaged.h5", depths=0, check=3)
+
+
+def test_parts_of_a_run_have_the_same_layers(petsam, launcher, tmp_path):
+    """Otherwise those of another group, or other depths, would be read in silence."""
+    case = dict(CASE, body2_yield=YIELD, load_n=None, load_tx=None, history="h.csv", output="r.h5")
+    rows = ["time,load_n", "1,40", "2,60"]
+    (tmp_path / "h.csv").write_text("\n".join(rows[:2]))
+    petsam(dict(case, checkpoint="c.h5", checkpoint_every=1))
+    (tmp_path / "h.csv").write_text("\n".join(rows))
+    petsam(dict(case, restart=next(tmp_path.glob("c.h5*")).name))
+    words = dict(input="r.h5", output="s.h5", depths="0.05mm", steps="1:2")
+    conftest.execute(launcher, tmp_path, [words], 1, 0, program=PROGRAM)
+    with h5py.File(tmp_path / "r.part2.h5", "r+") as f:
+        f.attrs.update(stresses_of="other,plastic", other_layers=f.attrs["plastic_layers"])
+        f.copy("plastic", "other")
+    said = conftest.execute(launcher, tmp_path, [words], 1, 3, program=PROGRAM).stderr
+    assert "its stresses in layers are not those of the part before it" in said
 
 
 def test_python_reads_the_layers(folder):

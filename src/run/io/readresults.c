@@ -71,11 +71,26 @@ struct _n_SamResults {
     PetscCheck(is, (f)->comm, SAM_ERR_FILE, SAM_CANNOT_READ, (f)->option, (f)->filename, fault); \
   } while (0)
 
-/* Reads a root attribute of one or two numbers. */
+/* Returns the number of values of a root attribute that has numbers. */
+static hssize_t CountNumbers(SamFile f, const char name[])
+{
+  const hid_t attribute = H5Aopen(f->id, name, H5P_DEFAULT), type = attribute >= 0 ? H5Aget_type(attribute) : -1,
+              space       = attribute >= 0 ? H5Aget_space(attribute) : -1;
+  const H5T_class_t class = type >= 0 ? H5Tget_class(type) : H5T_NO_CLASS;
+  const hssize_t count    = class == H5T_FLOAT || class == H5T_INTEGER ? H5Sget_simple_extent_npoints(space) : 0;
+
+  if (space >= 0) (void)H5Sclose(space);
+  if (type >= 0) (void)H5Tclose(type);
+  if (attribute >= 0) (void)H5Aclose(attribute);
+  return count;
+}
+
+/* Reads a root attribute of so many numbers. */
 static PetscErrorCode GetNumbers(SamFile f, const char name[], PetscInt count, double values[])
 {
   PetscFunctionBegin;
   CHECK(f, SamFileHasAttribute(f, name), "it lacks the attribute %s of a results file of petsam", name);
+  CHECK(f, CountNumbers(f, name) == count, "its attribute %s is not what petsam writes", name);
   SamFileReadAttribute(f, f->id, name, H5T_NATIVE_DOUBLE, count, values);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -196,10 +211,24 @@ static PetscErrorCode ExamineGroup(SamFile f, Facts *facts, Group *g)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Examines the groups with stresses in layers, which the file names. */
+/* Returns true if a body yields, by the parameters of the run. */
+static PetscBool Yields(const SamParameters *parameters, int body)
+{
+  const SamParameter *yield = SamParametersFind(parameters, body ? "body2_yield" : "body1_yield");
+
+  return yield && yield->count == 1 && isfinite(yield->value[0]) && SamParametersFind(parameters, "yield_layers")
+           ? PETSC_TRUE
+           : PETSC_FALSE;
+}
+
+/*
+  Examines the groups with stresses in layers, which the file names. A body that yields has some: their lack would not
+  be noticed in the stresses.
+*/
 static PetscErrorCode ExamineGroups(SamFile f, Facts *facts)
 {
   char names[256], *rest = names;
+  int  has[2] = {0, 0};
 
   PetscFunctionBegin;
   GetText(f, SAM_OUTPUT_STRESSES, sizeof(names), names);
@@ -209,17 +238,27 @@ static PetscErrorCode ExamineGroups(SamFile f, Facts *facts)
     Name         layers;
 
     CHECK(f, facts->groups < SAM_LAYER_GROUPS && strlen(name) < sizeof(g->name), SAM_OUTPUT_STRESSES " is damaged");
+    for (int k = 0; k < facts->groups; k++)
+      CHECK(f, strcmp(facts->group[k].name, name), SAM_OUTPUT_STRESSES " names %s twice", name);
     (void)snprintf(g->name, sizeof(g->name), "%s", name);
     (void)snprintf(layers, sizeof(layers), "%s" SAM_OUTPUT_LAYERS, name);
     PetscCall(GetNumbers(f, layers, 3, about));
     for (int b = 0; b < 2; b++) {
-      CHECK(f, about[b] >= 0 && about[b] <= MOST_LAYERS, "%s is damaged", layers);
+      CHECK(f, about[b] >= 0 && about[b] <= MOST_LAYERS && about[b] == floor(about[b]), "%s is damaged", layers);
       g->count[b] = (int)about[b];
+      has[b]      = has[b] || g->count[b];
     }
+    CHECK(f, about[2] == 0 || about[2] == 1, "%s is damaged", layers);
     g->initial = about[2] != 0;
     PetscCall(ExamineGroup(f, facts, g));
     facts->groups++;
   }
+  for (int b = 0; b < 2; b++)
+    CHECK(f, has[b] || !Yields(&facts->parameters, b),
+          "body %d yields, but the attribute " SAM_OUTPUT_STRESSES
+          " names no stresses in its layers: it is damaged, or "
+          "of an earlier petsam: run petsam again",
+          b + 1);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -329,6 +368,19 @@ static PetscErrorCode ReadTimes(SamResults r, Part *part)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Returns true if two parts have the same groups with stresses in layers, saved or not. */
+static PetscBool HaveSameGroups(const Facts *a, const Facts *b)
+{
+  for (int g = 0; g < SAM_LAYER_GROUPS; g++) {
+    const Group *const one = &a->group[g], *const other = &b->group[g];
+
+    if (strcmp(one->name, other->name) || one->initial != other->initial || one->count[0] != other->count[0] ||
+        one->count[1] != other->count[1])
+      return PETSC_FALSE;
+  }
+  return a->groups == b->groups ? PETSC_TRUE : PETSC_FALSE;
+}
+
 /* Examines the part with this number, from 1, and takes it if it exists and follows the part before. */
 static PetscErrorCode FindPart(SamResults r, MPI_Comm comm, const char option[], const char name[], PetscBool *found)
 {
@@ -356,6 +408,8 @@ static PetscErrorCode FindPart(SamResults r, MPI_Comm comm, const char option[],
              comm, SAM_ERR_FILE,
              "-%s %s: cannot be read: it does not fit the part before it, whose steps are %ld to %ld", option, name,
              (long)before->facts.first + 1, (long)before->steps);
+  PetscCheck(HaveSameGroups(&part->facts, &before->facts), comm, SAM_ERR_FILE,
+             "-%s %s: cannot be read: its stresses in layers are not those of the part before it", option, name);
   before->steps = (PetscInt)part->facts.first;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
