@@ -112,10 +112,11 @@ typedef struct {
   PetscBool   initial;  /* true: these contain the stress before any load */
 } SamStateLayers;
 #define SAM_LAYER_GROUPS 4                         /* most groups */
+#define SAM_LAYER_NAME   32                        /* most characters of a name, with the final 0 */
 PETSC_INTERN const char *const SamLayerStresses[]; /* names of the stresses in a group, by SamStressComponent */
 /*
   SamStateSetLayers - declares the layers of a group, or replaces an earlier declaration. Errors:
-  PETSC_ERR_ARG_OUTOFRANGE for more than SAM_LAYER_GROUPS groups.
+  PETSC_ERR_ARG_OUTOFRANGE for more than SAM_LAYER_GROUPS groups, or a name that is too long.
   SamStateGetLayers - returns the k-th group, borrowed; NULL: there are no more.
   SamStateLayersOf - returns the group of a result by its name, borrowed. None is collective.
 */

@@ -120,6 +120,8 @@ PetscErrorCode SamStateSetLayers(SamState s, const SamStateLayers *layers)
   while (k < SAM_LAYER_GROUPS && s->layers[k].group && strcmp(s->layers[k].group, layers->group)) k++;
   PetscCheck(k < SAM_LAYER_GROUPS, s->grid->comm, PETSC_ERR_ARG_OUTOFRANGE, "More than %d groups of layers: %s",
              SAM_LAYER_GROUPS, layers->group);
+  PetscCheck(strlen(layers->group) < SAM_LAYER_NAME, s->grid->comm, PETSC_ERR_ARG_OUTOFRANGE,
+             "Group of layers %s: expected a name of less than %d characters", layers->group, SAM_LAYER_NAME);
   PetscCall(PetscFree(s->layers[k].z));
   s->layers[k] = *layers;
   PetscCall(PetscMalloc1(count, &s->layers[k].z));

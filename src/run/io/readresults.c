@@ -16,7 +16,7 @@ static const char *const fields[SAM_RESULTS_FIELDS]   = {"/pressure", "/shear_x"
 
 /* A group with stresses in layers below the cells */
 typedef struct {
-  char name[32];
+  char name[SAM_LAYER_NAME];
   int  count[2], initial, saved; /* layers of both bodies; true if it has the stress before any load, and was saved */
 } Group;
 
