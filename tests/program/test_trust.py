@@ -518,3 +518,9 @@ def test_slip_without_friction_is_no_number(petsam, tmp_path):
         with h5py.File(tmp_path / "out.h5") as f:
             assert np.isfinite(f["history/slip_max"][0]) == (friction > 0)
         assert re.search(line, printed) and "nan" not in printed
+
+
+def test_a_moment_that_tilts_pushes_nothing(petsam):
+    """No tangential load, and so no slip whose energy could be missing."""
+    case = dict(SPHERE, load_n=LOAD, load_my=1e-4 * LOAD, grid_n=40, grid_size=3.2 * RADIUS, friction=0.3)
+    assert not said(petsam(case), "dissipated energy")

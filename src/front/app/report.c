@@ -204,7 +204,8 @@ static PetscErrorCode KeepEnergy(SamReport r, SamContact contact, const SamStep 
   if (isnan(error)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamContactGetNumber(contact, "dissipated_energy", &energy));
   r->energy[0] += energy;
-  for (PetscInt c = SAM_COMPONENT_TX; c <= SAM_COMPONENT_MZ; c++) work += fabs(step->load[c] * step->rigid[c]);
+  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) /* tangential components can be creepages */
+    if (SamComponentNames[c].creep) work += fabs(step->load[c] * step->rigid[c]);
   r->work = PetscMax(r->work, work);
   /* The first step of similar bodies applies N, then the rest, which causes no error. */
   if (r->number || touches) r->energy[1] += error;

@@ -40,6 +40,7 @@
 #include <petsam/private/lawimpl.h>
 #include <petsam/private/motionimpl.h>
 #include <petsam/private/solutionimpl.h>
+#include <petsam/private/balance.h>
 #include <petsam/private/body.h>
 #include <petsam/private/contact.h>
 #include <petsam/private/gap.h>
@@ -324,8 +325,11 @@ PetscErrorCode SamAdviceAddSlip(SamAdvice *a, const SamStep *step)
   Measure(s, &n, slip);
   PetscCall(Join(a, step, &n));
   PetscCall(AddStuck(s, step, n.stick_cells == n.contact_cells ? PETSC_TRUE : PETSC_FALSE, slip));
-  for (PetscInt c = SAM_COMPONENT_TX; c <= SAM_COMPONENT_MZ; c++)
+  for (PetscInt k = 0; k < 3; k++) {
+    const PetscInt c = SamComponentsOf[SAM_BALANCE_TANGENTIAL][k];
+
     pushes += fabs((double)(step->load[c] * step->rigid[c]));
+  }
   if (GrowTogether(slip, step) && n.energy < SLIVER * pushes) {
     n.energy     = 0;
     slip->unsure = PETSC_TRUE;
