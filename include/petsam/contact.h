@@ -176,7 +176,8 @@ PETSC_EXTERN PetscErrorCode SamContactGetField(SamContact contact, const char na
   Not collective.
 
   In:     contact - the contact
-          name    - its name in /history: `load_n`, `contact_area` ...
+          name    - its name in /history: `load_n`, `contact_area` ...; or the usual name of a number that the motion
+                    names otherwise, as `slip_max` in steady rolling
   Out:    value   - the number (unit of the column of /history); NaN if the step has none
 
   Errors: PETSC_ERR_ARG_UNKNOWN_TYPE for an unknown name.
