@@ -189,7 +189,7 @@ YIELDING = dict(
 
 
 def test_stresses_of_bodies_that_yield_are_those_of_their_layers_too(launcher, tmp_path):
-    """Of a step in both bodies, and of a recorded cycle in which strain still grows."""
+    """The bits are those of the program: a step in both bodies, and a recorded cycle in which strain still grows."""
     steps = [(900.0, 0.0), (900.0, 150.0), (2500.0, -150.0), (900.0, 100.0)]
     rows = ["time,load_n,load_tx", *(f"{k},{n!r},{tx!r}" for k, (n, tx) in enumerate(steps, 1))]
     (tmp_path / "h.csv").write_text("\n".join(rows))

@@ -180,7 +180,7 @@ def write(path, name, values, spacing=1e-5):
 
 
 def test_command_gives_the_numbers_of_the_function(command, tmp_path):
-    """Of heights, peaks positive, and of a separation; as files, and printed."""
+    """A file may have heights, peaks positive, or a separation; the numbers are printed, and in files."""
     field = waves(64, 11)
     write(tmp_path / "scan.h5", "height", -field)
     write(tmp_path / "pair.h5", "separation", field)

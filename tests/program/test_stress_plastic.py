@@ -83,7 +83,7 @@ def test_fields_have_their_layers_and_scales(folder):
 
 
 def test_numbers_say_which_layers_have_yielded(folder):
-    """Those with more than 1 % of the maximum, and how many are left below them; or cells to the border, if fewer."""
+    """They have more than 1 % of the maximum; the margin are the layers below, or the cells to the border if fewer."""
     with h5py.File(folder / "two.h5") as f:
         most = f["plastic/plastic_strain"][0].max(axis=(1, 2))
         strain, history = f["plastic/plastic_strain"][0].max(axis=0), {n: f["history"][n][0] for n in f["history"]}

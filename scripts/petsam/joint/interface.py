@@ -13,7 +13,7 @@ import numpy as np
 from ..contact import Contact
 from ..errors import Error
 
-FORWARD = 4  # half cycles until the loop that counts
+HALVES = 4  # half cycles of the loop; the last two count
 COLUMNS = {
     "pressure": ("Pa", "nominal pressure"),
     "closure": ("m", "approach of the mean planes since the first touch"),
@@ -54,7 +54,7 @@ class Interface:
             writer.writerows(zip(*self.numbers.values(), *self.spread.values()))
 
     def to_abaqus(self, path, name="INTERFACE"):
-        """Writes the interaction for a deck of Abaqus or CalculiX in N, mm: pressure over overclosure, friction.
+        """Writes the interaction for a deck of Abaqus in N, mm: pressure over overclosure, friction.
 
         The allowable elastic slip of the penalty method is friction times pressure over the tangential stiffness: its
         median, since it hardly depends on the pressure.
@@ -88,7 +88,7 @@ class Interface:
         return lines
 
     def plot(self):
-        """The stiffnesses, the real contact area and the loop's energy over the pressure: a figure of matplotlib."""
+        """The stiffnesses and the real contact area over the pressure: a figure of matplotlib."""
         from matplotlib import ticker
 
         from ..plot.style import plt
@@ -118,8 +118,7 @@ class Interface:
 
 def mirrored(separation):
     """The separation and its mirror images beside it: repeated, it has no steps at its borders; (2 ny, 2 nx)."""
-    rows = np.concatenate([separation, separation[:, ::-1]], axis=1)
-    return np.concatenate([rows, rows[::-1]], axis=0)
+    return np.pad(separation, [(0, size) for size in separation.shape], mode="symmetric")
 
 
 def of_interface(separation, spacing, pressures, *, friction, shear=0.5, steps=8, **bodies):
@@ -175,11 +174,11 @@ def _at(contact, pressure, area, friction, shear, steps):
 
 def _loop(contact, normal, part, steps):
     """Dissipated energy (J) and amplitude of the displacement (m) of the last of two cycles of the load along x."""
-    turns = [0.0, *(1.0 if k % 2 == 0 else -1.0 for k in range(FORWARD + 1))]
+    turns = [0.0, *(1.0 if k % 2 == 0 else -1.0 for k in range(HALVES + 1))]
     ends, energy = [], 0.0
     with contact.copy() as trial:
         for k, (start, end) in enumerate(zip(turns, turns[1:])):
-            energy = 0.0 if k == FORWARD - 1 else energy  # the last two half cycles count
+            energy = 0.0 if k == HALVES - 1 else energy
             for part_of_way in np.linspace(start, end, (1 if k == 0 else 2) * steps + 1)[1:]:
                 trial.try_step(time=0.0, load_n=normal, load_tx=part * normal * float(part_of_way))
                 energy += trial.number("dissipated_energy")
