@@ -283,6 +283,37 @@ def test_strain_that_has_just_begun_is_warned_of(petsam, solve, above, warned):
         assert 0.6 * named < error < 1.6 * named
 
 
+@pytest.mark.parametrize("plane", [False, True])
+def test_plastic_work_of_one_step_is_warned_of(petsam, tmp_path, plane):
+    """Peak pressure and residual energy of one step are too large by what is named; of eight steps nothing is named."""
+    case = cylinder(1, elasticity="plane_periodic", grid_n=160) if plane else sphere(24, 16, 12)
+    case.update(yield_depth=None, yield_first=None)
+    found, said = [], []
+    for count in (1, 8, 16):
+        done = petsam(case, dict(steps=count, output="o.h5"))
+        run = all_steps(support.Results(tmp_path / "o.h5"))
+        found.append([run[name][-1] for name in ("pressure_max", "residual_energy")])
+        said.append([line for line in done.complaint if "plastic work is done in one step" in line])
+    assert [len(lines) for lines in said] == [1, 0, 0]
+    named = [float(n) / 100 for n in re.findall(r"by (?:about )?(\d+) %", said[0][0])]
+    for error, bound in zip(np.divide(found[0], found[2]) - 1, named, strict=True):
+        assert 0.4 * bound < error < 2 * bound
+
+
+def test_shear_by_plastic_strain_alone_is_warned_of(petsam, tmp_path):
+    """It is not resolved where friction holds all cells but the last ones; without friction there is none."""
+    case = dict(
+        support.bodies(210e9, 0.3), body2_yield=187e6, gap_type="ellipsoid", gap_radius_x=0.0564, gap_radius_y="inf",
+        elasticity="plane_periodic", grid_n=191, grid_size=3.33e-3, load_n=1.7e5, steps=4, friction=0.12,
+    )  # fmt: skip
+    said = [line for line in petsam(case, dict(output="o.h5")).complaint if "along each other" in line]
+    assert len(said) == 1 and "the maximum slip and shear are not resolved: use -grid_n" in said[0]
+    few = all_steps(support.Results(tmp_path / "o.h5"))["shear_max"][-1]
+    petsam(case, dict(output="o.h5", grid_n=382))
+    assert all_steps(support.Results(tmp_path / "o.h5"))["shear_max"][-1] > 1.05 * few
+    assert "along each other" not in petsam(case, dict(friction=0)).stderr
+
+
 def test_a_contact_at_the_edge_is_told_of_a_larger_grid(petsam):
     """What yields is wider than the elastic contact of its load, which the grid would hold."""
     case = sphere(16, 8, 12)
@@ -476,6 +507,9 @@ def test_strain_that_is_largest_at_the_surface_is_named(petsam, tmp_path, fricti
         told.append([line for line in done.complaint if "largest at the surface" in line])
     assert len(told[0]) == (friction > 0)
     assert (abs(found[0] / found[1] - 1) > 0.05) == (friction > 0)
+    for line in told[0]:
+        strain, slip = (float(n) for n in re.findall(r"(\d+) %", line))
+        assert strain > 20 and slip == pytest.approx(strain / 3, abs=1) and "the maximum slip may be wrong" in line
 
 
 @pytest.mark.parametrize("part", [0.1, 0.6])

@@ -77,6 +77,12 @@ typedef struct {
   PetscReal   width;       /* cells: of the slip zone in the last step */
 } SamRollingError;
 
+/* SamYielding - what the steps so far did to bodies that yield (yielding.c). */
+typedef struct {
+  double work, step; /* plastic work of all steps, and of that step which did most of it, J */
+  double pressure;   /* maximum pressure of any step, Pa */
+} SamYielding;
+
 /*
   SamAdviceFunction - receives advice: a text of one line, and the option (without dash) that mends it; empty if the
   text names the option itself.
@@ -103,6 +109,7 @@ typedef struct {
   SamExtent         extent;            /* size of its contact */
   SamRollingError   rolling;           /* largest error so far */
   SamSlip           slip;              /* energy of the steps so far, or of the last computed cycle */
+  SamYielding       yielding;          /* plastic work of the steps so far */
   PetscReal         half[2], across;   /* half widths (m) and cells across; by the closed-form solution if `closed` */
   PetscBool         closed;            /* true: a closed-form solution describes this contact */
   PetscErrorCode    error;             /* first error that `receive` returned */

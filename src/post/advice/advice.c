@@ -17,10 +17,9 @@
 #include <stdarg.h>
 
 /*
-  A contact with fewer cells across than this is not resolved. Elastic contacts with a closed-form solution need fewer:
-  with at least 14 cells, all numbers of 9 random contacts were within 2 % of their limit unless a slip zone was narrow.
+  Elastic contacts with a closed-form solution need fewer cells across than others (SAM_ADVICE_CELLS): with at least 14,
+  all numbers of 9 random contacts were within 2 % of their limit unless a slip zone was narrow.
 */
-#define FEW_CELLS  20
 #define FEW_CLOSED 14
 /* Half-space theory is taken to hold up to this ratio of the contact's half width to a radius of curvature, */
 #define STEEPEST 0.1
@@ -33,24 +32,6 @@
 #define CROWDED 0.25
 /* A contact narrower than this part of its radius suggests that the radius is in another unit. */
 #define FLATTEST 1e-3
-/* Relative excess over the yield stress at a place without a layer */
-#define BEYOND 0.01
-/* Plastic strain that is not small */
-#define STRAINED 0.1
-/*
-  Plastic strain, its work and the dent are too small by up to COARSE/m^2, with m the cells across the contact. This was
-  measured on spheres under three loads, with the default layers, against 80 cells: the largest errors were 15 % at 6
-  cells, 11 % at 8, 5 % at 10, 2 % at 14 and 1.6 % at 16. Errors above SHORT cause a warning.
-*/
-#define COARSE 7.0
-/* Error of plastic strain in one layer, and the largest that is named; see Begun() */
-#define BEGUN      1.4
-#define MOST_BEGUN 0.3
-#define SHORT      0.05
-/* Part by which the plastic strain extrapolated to the surface may exceed that of all layers */
-#define SHALLOW 0.05
-/* Edges are known to a fraction of a cell if at least this share of them is reconstructed. */
-#define KNOWN 0.9
 /*
   Allowed relative changes of the peak pressure on cells half as wide, without and after wear. The second is larger,
   since a surface worn on finer cells is smoother than heights interpolated between wide ones: in 7 random lives the
@@ -65,8 +46,7 @@
 
 #define NARROW    0.1  /* part of the contact's cells, in the narrowest zones, that is ignored */
 #define ROOM      1.5  /* ratio of the width of a good grid to that of the contact */
-#define MARGIN    1.1  /* ratio of the width of a sufficient grid to that of the contact, */
-#define BORDER    4    /* and its margin in cells */
+#define BORDER    4    /* margin in cells of a sufficient grid */
 #define SAME      2    /* cells by which two widths, one counted and one computed, may differ */
 #define ABSURD    4096 /* number of cells per row that wrong units may ask for */
 #define BLIND     0.98 /* edge pressure relative to the largest, above which it does not indicate the size */
@@ -117,8 +97,7 @@ void SamAdviceAddLoads(SamAdvice *a, PetscInt step, const SamControl *control)
 
 /* ---- numbers in messages ---- */
 
-/* Rounds up to two digits. */
-static double RoundUp(double x)
+double SamAdviceRoundUp(double x)
 {
   const double unit = pow(10, floor(log10(x)) - 1);
 
@@ -194,7 +173,7 @@ static void AdviseGrids(const SamSetup *s, const PetscReal half[2], double facto
   cells[0] = width[0] = '\0';
   for (int k = 0; k < 2; k++) {
     more[k] = refine[k] ? ceil(n[k] * factor) : n[k];
-    size[k] = PetscMin((double)s->grid->width[k], RoundUp(2 * ROOM * (double)half[k]));
+    size[k] = PetscMin((double)s->grid->width[k], SamAdviceRoundUp(2 * ROOM * (double)half[k]));
     if (size[k] < 0.9 * (double)s->grid->width[k]) smaller = PETSC_TRUE;
   }
   for (PetscInt k = s->grid->axes; k < 2; k++) {
@@ -410,7 +389,7 @@ static void WriteSize(const SamAdvice *a, char text[], size_t size)
 /* Returns the fewest cells across that resolve the contact. */
 static int Fewest(const SamAdvice *a)
 {
-  return a->closed && !SamProblemGetLaw(a->setup->problem, SAM_LAW_PLASTIC) ? FEW_CLOSED : FEW_CELLS;
+  return a->closed && !SamProblemGetLaw(a->setup->problem, SAM_LAW_PLASTIC) ? FEW_CLOSED : SAM_ADVICE_CELLS;
 }
 
 /*
@@ -524,8 +503,7 @@ static void Bodies(SamAdvice *a)
   }
 }
 
-/* Returns E* of the stiffest materials of both bodies. */
-static double Stiffest(SamPair pair)
+double SamAdviceStiffness(SamPair pair)
 {
   double compliance = 0;
 
@@ -541,108 +519,6 @@ static double Stiffest(SamPair pair)
     compliance += least;
   }
   return 1 / compliance;
-}
-
-/* Advises on plastic strain below a contact of few cells. */
-static void Coarse(SamAdvice *a)
-{
-  const double across = (double)a->extent.across, error = 100 * PetscMin(COARSE / (across * across), 1);
-  char         better[SAM_ADVICE_GRIDS];
-
-  if (a->extent.whole || !a->extent.zones || error <= 100 * SHORT) return;
-  /* The number of cells includes those in which the contact ends, so it is up to one too large. */
-  SamAdviceGrids(a, MARGIN * sqrt(COARSE / SHORT) / PetscMax(across - 1, 1), better);
-  SamAdviceSay(a, better[0] ? "" : "grid_n",
-               "the contact is %.3g cells across: plastic_max, plastic_work and residual_z may be too small by up to "
-               "%.0f %%%s",
-               across, error, better);
-}
-
-/* Advises on plastic strain that is largest at the surface and decays within the first layers, as under friction. */
-static void Shallow(SamAdvice *a, double most)
-{
-  PetscReal surface = 0;
-
-  a->error = SamContactGetNumber(a->setup->contact, "plastic_surface", &surface);
-  if (a->error || !((1 - most / (double)surface) > SHALLOW)) return;
-  SamAdviceSay(a, "grid_n",
-               "plastic strain is largest at the surface, and falls within the first layers: plastic_max may be too "
-               "small by %.0f %%",
-               100 * (1 - most / (double)surface));
-}
-
-/*
-  Advises on plastic strain that has just begun, in few layers. The error of its maximum, its work and the dent was 1.4
-  over the square of the number of layers, within a third: cylinders and spheres 4 to 100 % above the first yield, with
-  2 to 16 layers, compared with twice as fine cells and layers.
-*/
-static void Begun(SamAdvice *a)
-{
-  PetscReal layers = 0;
-  double    error;
-
-  if (!a->error) a->error = SamContactGetNumber(a->setup->contact, "yielded_layers", &layers);
-  if (a->error || !(layers > 0)) return;
-  error = PetscMin(BEGUN / (double)(layers * layers), MOST_BEGUN);
-  if (error <= SHORT) return;
-  SamAdviceSay(
-    a, "yield_layers",
-    "plastic strain has just begun, in %.0f layers: plastic_max, plastic_work and residual_z may be too small "
-    "by %.0f %%: use %.2g times as many cells and -yield_layers",
-    (double)layers, 100 * error, RoundUp(sqrt(error / SHORT)));
-}
-
-/*
-  Advises on the area of a row of few cells after the largest load, whose edges differ from those of elastic bodies.
-*/
-static void Unloaded(SamAdvice *a)
-{
-  PetscReal cells = 0, accepted = 1;
-
-  if (a->error || !SamGridIsRow(a->setup->grid) || a->extent.across < FEW_CELLS) return;
-  a->error = SamContactGetNumber(a->setup->contact, "contact_cells", &cells);
-  if (!a->error) a->error = SamContactGetNumber(a->setup->contact, "edge_accepted", &accepted);
-  if (a->error || !(cells > 0 && cells < FEW_CELLS) || accepted >= KNOWN) return;
-  SamAdviceSay(a, "grid_n",
-               "the contact of the last step is %.0f cells across, fewer than %d, and its edges are not reconstructed: "
-               "contact_area may be wrong by %.0f %%",
-               (double)cells, FEW_CELLS, 100 / (double)cells);
-}
-
-/* Advises on plastic strain that is large, spans few layers, or reaches the end of the layers. */
-static void Yield(SamAdvice *a)
-{
-  const SamContact contact = a->setup->contact;
-  PetscReal        most = 0, left = 0, thick = 0, outside = 0;
-
-  if (a->error || !SamProblemGetLaw(a->setup->problem, SAM_LAW_PLASTIC)) return;
-  a->error = SamContactGetNumber(contact, "plastic_max", &most);
-  if (!a->error) a->error = SamContactGetNumber(contact, "yield_margin", &left);
-  if (!a->error) a->error = SamContactGetNumber(contact, "layer_thickness", &thick);
-  if (!a->error) a->error = SamContactGetNumber(contact, "yield_outside", &outside);
-  if (a->error) return;
-  if (thick > SAM_PLASTIC_THICK && (most > 0 || outside > BEYOND))
-    SamAdviceSay(a, "yield_layers",
-                 "where the contact yields first, layers are %.2g of its half width thick, more than %g, so that "
-                 "plastic strain is too small: use %.2g times as many -yield_layers",
-                 (double)thick, SAM_PLASTIC_THICK, RoundUp((double)thick / SAM_PLASTIC_THICK));
-  else if (outside > BEYOND)
-    SamAdviceSay(a, "yield_depth",
-                 "the stress exceeds the yield stress by %.0f %% below the last layer, so the results are too elastic: "
-                 "omit -yield_depth, which then follows from the grid",
-                 100 * (double)outside);
-  if (!(most > 0)) return;
-  if (most > STRAINED)
-    SamAdviceSay(a, "", "plastic strain up to %.2g: strains are taken as small, up to about %g", (double)most,
-                 STRAINED);
-  Coarse(a);
-  if (thick <= SAM_PLASTIC_THICK) Begun(a);
-  Shallow(a, (double)most);
-  Unloaded(a);
-  if (left < 1 && !(outside > BEYOND))
-    SamAdviceSay(a, "yield_depth",
-                 "plastic strain comes to the last layer or to the border of the grid: use a larger -yield_depth, "
-                 "or -grid_size");
 }
 
 /* Advises on a contact so wide relative to the period that its images interact. */
@@ -669,7 +545,7 @@ static void Images(SamAdvice *a)
 /* Advises on a contact that is wide relative to its radius, or a pressure beyond linear elasticity. */
 static void Size(SamAdvice *a)
 {
-  const double modulus = Stiffest(a->setup->pair);
+  const double modulus = SamAdviceStiffness(a->setup->pair);
   PetscBool    large   = PETSC_FALSE;
   PetscReal    most    = 0;
   char         ratio[192];
@@ -773,6 +649,7 @@ PetscErrorCode SamAdviceStep(SamAdvice *a, PetscInt k, PetscBool of_laws, const 
     }
   }
   if (of_laws) PetscCall(LookAtLaws(a, k));
+  PetscCall(SamAdviceAddYielding(a));
   if (SamMotionOf(a->setup->elasticity)->continues)
     PetscCall(SamAdviceAddSlip(a, step));
   else
@@ -787,7 +664,7 @@ PetscErrorCode SamAdviceEnd(SamAdvice *a, const SamSlip **found)
   PetscCall(SamAdviceMeasureStick(a));
   SamAdviceSlip(a);
   SamAdviceRolling(a);
-  Yield(a);
+  SamAdviceYielding(a);
   *found = a->slip.energy > 0 ? &a->slip : NULL;
   PetscCall(a->error);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -815,7 +692,7 @@ static void Extrapolate(const SamSetup *s, const SamStep *step, const SamLoadRan
 */
 static double ReachOf(const SamSetup *s, const PetscReal half[2], const PetscReal lever[2], int k)
 {
-  return (double)(half[k] + lever[k]) * MARGIN + fabs((double)s->grid->center[k]);
+  return (double)(half[k] + lever[k]) * SAM_ADVICE_MARGIN + fabs((double)s->grid->center[k]);
 }
 
 /* True if the grid would hold a contact of these half widths. */
@@ -837,7 +714,7 @@ static void AdviseGrid(const SamSetup *s, const PetscReal half[2], const PetscRe
   for (int k = 0; k < 2; k++) {
     const double needs = 2 * ReachOf(s, half, lever, k) + BORDER * (double)cell[k];
 
-    width[k] = PetscMax((double)s->grid->width[k], RoundUp(needs));
+    width[k] = PetscMax((double)s->grid->width[k], SamAdviceRoundUp(needs));
   }
   if (n[0] == n[1] && s->grid->width[0] == s->grid->width[1]) width[0] = width[1] = PetscMax(width[0], width[1]);
   for (int k = 0; k < 2; k++)

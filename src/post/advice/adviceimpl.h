@@ -5,18 +5,24 @@
 #include <petsam/private/advice.h>
 #include <petsam/private/baseimpl.h>
 
-#define SAM_ADVICE_GRIDS 192 /* characters of the text with the advised grids */
+#define SAM_ADVICE_GRIDS  192 /* characters of the text with the advised grids */
+#define SAM_ADVICE_CELLS  20  /* a contact with fewer cells across is not resolved, but for closed-form solutions */
+#define SAM_ADVICE_MARGIN 1.1 /* ratio of the width of a sufficient grid to that of the contact */
 /*
   SamAdviceSay - passes on advice, with a format of printf(); `setting`: see SamAdviceFunction.
   SamAdviceGrids - writes the end of a message, such as ": -grid_n 64", that proposes a grid with this many times more
   cells across the contact; empty if there is none.
   SamAdviceIsFromFile - true if heights of the gap are from a file.
+  SamAdviceRoundUp - rounds up to two digits. SamAdviceStiffness - returns E* of the stiffest materials of both bodies,
+  Pa.
   None is collective.
 */
 PETSC_INTERN void SamAdviceSay(SamAdvice *advice, const char setting[], const char format[], ...)
   PETSC_ATTRIBUTE_FORMAT(3, 4);
 PETSC_INTERN void      SamAdviceGrids(const SamAdvice *advice, double factor, char text[SAM_ADVICE_GRIDS]);
 PETSC_INTERN PetscBool SamAdviceIsFromFile(const SamSetup *setup);
+PETSC_INTERN double    SamAdviceRoundUp(double x);
+PETSC_INTERN double    SamAdviceStiffness(SamPair pair);
 /*
   AddSlip, AddRolling - add a step to the estimates of the dissipated energy (slipzones.c), and of loads and creepages
   in steady rolling (steadyerrors.c). MeasureStick - finds the present cells across the stick zone. Collective. Slip,
@@ -41,5 +47,11 @@ PETSC_INTERN void SamAdviceStick(SamAdvice *advice, PetscReal least);
 PETSC_INTERN void SamAdviceSlip(SamAdvice *advice);
 PETSC_INTERN PetscErrorCode SamAdviceAddRolling(SamAdvice *advice, PetscInt k, const SamStep *step);
 PETSC_INTERN void           SamAdviceRolling(SamAdvice *advice);
+/*
+  SamAdviceAddYielding - adds the plastic work of a step. SamAdviceYielding - advises, after the last step and after
+  SamAdviceSlip(), on plastic strain that cells, layers or steps do not resolve (yielding.c). Both are collective.
+*/
+PETSC_INTERN PetscErrorCode SamAdviceAddYielding(SamAdvice *advice);
+PETSC_INTERN void           SamAdviceYielding(SamAdvice *advice);
 
 #endif

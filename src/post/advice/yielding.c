@@ -1,0 +1,208 @@
+/*
+  Advice on bodies that yield: plastic strain that the cells, the layers or the steps do not resolve.
+
+  Plastic strain follows from the stress at the end of a step (backward Euler), so that its error falls like the length
+  of the steps in which most of it arises. Let w be the largest part of all plastic work that one step did, and s the
+  maximum plastic strain times E* over the peak pressure. Then the peak pressure was too high by SUDDEN s w within a
+  factor of 2, and the energy of the residual stress by twice that: 15 random balls and cylinders pressed to 1.1 to 2
+  times the first yield, in 1, 2, 4 and 8 steps, compared with 16 and 32.
+*/
+#include "adviceimpl.h"
+#include <petsam/private/contact.h>
+#include <petsam/private/gap.h>
+#include <petsam/private/law.h>
+#include <petsam/private/lawimpl.h>
+#include <petsam/private/problem.h>
+#include <math.h>
+
+/* Relative excess over the yield stress at a place without a layer */
+#define BEYOND 0.01
+/* Plastic strain that is not small */
+#define STRAINED 0.1
+/*
+  Plastic strain, its work and the dent are too small by up to COARSE/m^2, with m the cells across the contact. This was
+  measured on spheres under three loads, with the default layers, against 80 cells: the largest errors were 15 % at 6
+  cells, 11 % at 8, 5 % at 10, 2 % at 14 and 1.6 % at 16. Errors above SHORT cause a warning.
+*/
+#define COARSE 7.0
+/* Error of plastic strain in one layer, and the largest that is named; see Begun() */
+#define BEGUN      1.4
+#define MOST_BEGUN 0.3
+#define SHORT      0.05
+/* Part by which the plastic strain extrapolated to the surface may exceed that of all layers */
+#define SHALLOW 0.05
+/* The same from which on the slip and its energy are wrong, too, and by which part of it (random rows: 0.15 to 0.45) */
+#define DEEP  0.2
+#define SLIPS 0.33
+/* Edges are known to a fraction of a cell if at least this share of them is reconstructed. */
+#define KNOWN 0.9
+/* Relative error of the peak pressure at s w = 1, in plane strain and for other contacts, and the least of which a user
+   is warned */
+#define SUDDEN_PLANE 0.06
+#define SUDDEN       0.11
+#define PERCEPTIBLE  0.035
+/* Shear by plastic strain, relative to the pressure, that friction has to carry */
+#define CARRIED 1e-3
+/* How many times finer a grid is advised for it */
+#define FINER 10
+
+/* Advises on plastic strain below a contact of few cells. */
+static void Coarse(SamAdvice *a)
+{
+  const double across = (double)a->extent.across, error = 100 * PetscMin(COARSE / (across * across), 1);
+  char         better[SAM_ADVICE_GRIDS];
+
+  if (a->extent.whole || !a->extent.zones || error <= 100 * SHORT) return;
+  /* The number of cells includes those in which the contact ends, so it is up to one too large. */
+  SamAdviceGrids(a, SAM_ADVICE_MARGIN * sqrt(COARSE / SHORT) / PetscMax(across - 1, 1), better);
+  SamAdviceSay(a, better[0] ? "" : "grid_n",
+               "the contact is %.3g cells across: plastic_max, plastic_work and residual_z may be too small by up to "
+               "%.0f %%%s",
+               across, error, better);
+}
+
+/*
+  Advises on plastic strain that is largest at the surface and decays within the first layers, as under friction. Much
+  of it shears the surface, on which the slip depends.
+*/
+static void Shallow(SamAdvice *a, double most)
+{
+  PetscReal surface = 0;
+  double    error;
+  char      slip[96] = "";
+
+  a->error = SamContactGetNumber(a->setup->contact, "plastic_surface", &surface);
+  error    = 1 - most / (double)surface;
+  if (a->error || !(error > SHALLOW)) return;
+  if (a->slip.energy > 0 && error > DEEP)
+    (void)snprintf(slip, sizeof(slip), ", and the dissipated energy and the maximum slip may be wrong by %.0f %%",
+                   100 * SLIPS * error);
+  SamAdviceSay(a, "grid_n",
+               "plastic strain is largest at the surface, and falls within the first layers: plastic_max may be too "
+               "small by %.0f %%%s",
+               100 * error, slip);
+}
+
+/*
+  Advises on plastic strain that has just begun, in few layers. The error of its maximum, its work and the dent was 1.4
+  over the square of the number of layers, within a third: cylinders and spheres 4 to 100 % above the first yield, with
+  2 to 16 layers, compared with twice as fine cells and layers.
+*/
+static void Begun(SamAdvice *a)
+{
+  PetscReal layers = 0;
+  double    error;
+
+  if (!a->error) a->error = SamContactGetNumber(a->setup->contact, "yielded_layers", &layers);
+  if (a->error || !(layers > 0)) return;
+  error = PetscMin(BEGUN / (double)(layers * layers), MOST_BEGUN);
+  if (error <= SHORT) return;
+  SamAdviceSay(
+    a, "yield_layers",
+    "plastic strain has just begun, in %.0f layers: plastic_max, plastic_work and residual_z may be too small "
+    "by %.0f %%: use %.2g times as many cells and -yield_layers",
+    (double)layers, 100 * error, SamAdviceRoundUp(sqrt(error / SHORT)));
+}
+
+/*
+  Advises on the area of a row of few cells after the largest load, whose edges differ from those of elastic bodies.
+*/
+static void Unloaded(SamAdvice *a)
+{
+  PetscReal cells = 0, accepted = 1;
+
+  if (a->error || !SamGridIsRow(a->setup->grid) || a->extent.across < SAM_ADVICE_CELLS) return;
+  a->error = SamContactGetNumber(a->setup->contact, "contact_cells", &cells);
+  if (!a->error) a->error = SamContactGetNumber(a->setup->contact, "edge_accepted", &accepted);
+  if (a->error || !(cells > 0 && cells < SAM_ADVICE_CELLS) || accepted >= KNOWN) return;
+  SamAdviceSay(a, "grid_n",
+               "the contact of the last step is %.0f cells across, fewer than %d, and its edges are not reconstructed: "
+               "contact_area may be wrong by %.0f %%",
+               (double)cells, SAM_ADVICE_CELLS, 100 / (double)cells);
+}
+
+/* Advises on plastic strain of which much arises in one step. */
+static void Sudden(SamAdvice *a, double strain)
+{
+  const double full  = SamGridIsRow(a->setup->grid) ? SUDDEN_PLANE : SUDDEN;
+  const double scale = strain * SamAdviceStiffness(a->setup->pair) / a->yielding.pressure;
+  const double part  = a->yielding.work > 0 ? a->yielding.step / a->yielding.work : 0;
+  const double error = full * scale * part;
+
+  if (error <= PERCEPTIBLE) return;
+  SamAdviceSay(a, "steps",
+               "%.0f %% of the plastic work is done in one step: pressure_max may be too large by about %.0f %%, "
+               "residual_energy by %.0f %%, and plastic_max and residual_z may be wrong by half as much",
+               100 * part, 100 * error, 200 * error);
+}
+
+/* Advises on the shear by plastic strain alone, without a tangential load, if its slip zone is narrower than a cell. */
+static void Carried(SamAdvice *a)
+{
+  PetscReal pressure = 0, shear = 0;
+  PetscBool rubs = PETSC_FALSE;
+  char      better[SAM_ADVICE_GRIDS];
+
+  if (!a->error) a->error = SamProblemHasFriction(a->setup->problem, &rubs);
+  if (!a->error) a->error = SamContactGetNumber(a->setup->contact, "pressure_max", &pressure);
+  if (!a->error) a->error = SamContactGetNumber(a->setup->contact, "shear_max", &shear);
+  if (a->error || !rubs || a->slip.work > 0 || a->slip.widest > 0 || !(shear > CARRIED * pressure)) return;
+  SamAdviceGrids(a, FINER, better);
+  SamAdviceSay(
+    a, better[0] ? "" : "grid_n",
+    "plastic strain moves the surfaces along each other, and slips only within a cell of the contact's edge: "
+    "the maximum slip and shear are not resolved%s",
+    better);
+}
+
+/* Advises on plastic strain that is large, spans few layers, or reaches the end of the layers. */
+void SamAdviceYielding(SamAdvice *a)
+{
+  const SamContact contact = a->setup->contact;
+  PetscReal        most = 0, left = 0, thick = 0, outside = 0;
+
+  if (a->error || !SamProblemGetLaw(a->setup->problem, SAM_LAW_PLASTIC)) return;
+  a->error = SamContactGetNumber(contact, "plastic_max", &most);
+  if (!a->error) a->error = SamContactGetNumber(contact, "yield_margin", &left);
+  if (!a->error) a->error = SamContactGetNumber(contact, "layer_thickness", &thick);
+  if (!a->error) a->error = SamContactGetNumber(contact, "yield_outside", &outside);
+  if (a->error) return;
+  if (thick > SAM_PLASTIC_THICK && (most > 0 || outside > BEYOND))
+    SamAdviceSay(a, "yield_layers",
+                 "where the contact yields first, layers are %.2g of its half width thick, more than %g, so that "
+                 "plastic strain is too small: use %.2g times as many -yield_layers",
+                 (double)thick, SAM_PLASTIC_THICK, SamAdviceRoundUp((double)thick / SAM_PLASTIC_THICK));
+  else if (outside > BEYOND)
+    SamAdviceSay(a, "yield_depth",
+                 "the stress exceeds the yield stress by %.0f %% below the last layer, so the results are too elastic: "
+                 "omit -yield_depth, which then follows from the grid",
+                 100 * (double)outside);
+  if (!(most > 0)) return;
+  if (most > STRAINED)
+    SamAdviceSay(a, "", "plastic strain up to %.2g: strains are taken as small, up to about %g", (double)most,
+                 STRAINED);
+  Coarse(a);
+  if (thick <= SAM_PLASTIC_THICK) Begun(a);
+  Shallow(a, (double)most);
+  Unloaded(a);
+  Sudden(a, (double)most);
+  Carried(a);
+  if (left < 1 && !(outside > BEYOND))
+    SamAdviceSay(a, "yield_depth",
+                 "plastic strain comes to the last layer or to the border of the grid: use a larger -yield_depth, "
+                 "or -grid_size");
+}
+
+PetscErrorCode SamAdviceAddYielding(SamAdvice *a)
+{
+  PetscReal work, pressure;
+
+  PetscFunctionBegin;
+  if (!SamProblemGetLaw(a->setup->problem, SAM_LAW_PLASTIC)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamContactGetNumber(a->setup->contact, "plastic_work", &work));
+  PetscCall(SamContactGetNumber(a->setup->contact, "pressure_max", &pressure));
+  a->yielding.work += (double)work;
+  a->yielding.pressure = PetscMax(a->yielding.pressure, (double)pressure);
+  a->yielding.step     = PetscMax(a->yielding.step, (double)work);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
