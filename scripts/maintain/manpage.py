@@ -92,6 +92,13 @@ def option_lines(option):
     return [".TP", f"\\fB{escape(option.name)}\\fP{argument}", escape(option.text + default)]
 
 
+def without_idle_paragraphs(lines):
+    """Returns the lines without .PP behind a heading or before a request that begins a paragraph itself."""
+    pairs = zip(["", *lines], lines, [*lines[1:], ".SH"])
+    heads, starts = (".SH", ".SS"), (".SH", ".SS", ".TP", ".PP")
+    return [line for before, line, after in pairs if line != ".PP" or not (before[:3] in heads or after[:3] in starts)]
+
+
 def page(described):
     """The lines of the page of a program."""
     program, usage = described["program"], described["usage"].split("\n\n", 2)
@@ -108,7 +115,7 @@ def page(described):
     for name, text in texts.items():
         lines += [f'.SH "{escape(TITLES.get(name, name.upper()))}"', *paragraphs(text)]
     others = ", ".join(f"{name}(1)" for name in SEE_ALSO[program].split())
-    return [*lines, '.SH "SEE ALSO"', escape(others)]
+    return without_idle_paragraphs([*lines, '.SH "SEE ALSO"', escape(others)])
 
 
 if __name__ == "__main__":

@@ -23,7 +23,7 @@ from pathlib import Path
 SCRIPTS = Path(__file__).resolve().parents[1]
 WIDTH = 70  # columns of a script's usage
 FIRST_GROUP = re.compile(r"\n\n(?=(?:positional arguments|options|optional arguments):\n  )")
-ENTRY = re.compile(r"  (?P<head>\S.*?)(?:(?: {2,}|\n {3,})(?P<text>.*))?")
+ENTRY = re.compile(r"  (?P<head>\S.*?)(?:(?: {2,}|\n {3,})(?P<meaning>.*))?")
 
 
 @dataclass
@@ -75,7 +75,7 @@ def read_entry(entry):
     found = ENTRY.fullmatch(entry)
     parts = [part.partition(" ") for part in re.split(r", (?=-)", found["head"])]
     names, argument = ", ".join(name for name, _, _ in parts), parts[-1][2]
-    return {"name": names, "argument": argument, "text": found["text"] or "", "default": None, "words": []}
+    return {"name": names, "argument": argument, "text": found["meaning"] or "", "default": None, "words": []}
 
 
 def read_group(block):
@@ -113,7 +113,7 @@ def read_or_end(binary):
         return read_tool(binary) if is_script else read_help(binary)
     except (OSError, subprocess.CalledProcessError, ValueError) as error:
         said = (getattr(error, "stderr", None) or "").strip()
-        lacking = "it has no man page" if is_script else "there is no man page and no completion"
+        lacking = "the script has no man page" if is_script else "there is no man page and no completion"
         sys.exit(
             f"{binary} {command}: {error}{': ' if said else ''}{said}\n"
             f"Without it {lacking}; make install PAGES= installs the rest."

@@ -6,10 +6,12 @@
 The pages stay where they are and link to each other and to files of the repository relatively. They and the files that
 they name are copied to the same places beside each other, and MkDocs checks every link: a link to no page, file or
 heading is an error. README.md is the index of its folder. The pages of the C library and of the Python package are no
-files of the repository: functions.py makes the one from the headers, modules.py the other from the docstrings. The page
-for wrong addresses cannot link relatively, as it is shown at any address: below a folder of a server its links need
---url. In the folder theme are that page and a script by which options are found with their dash. Material was chosen because its search needs no server, it fits a
-phone, and it takes the pages as they are. Its fixes end in May 2027; its successor Zensical reads its settings.
+files of the repository: functions.py makes the first from the headers, modules.py the second from the docstrings.
+
+The folder theme has the page for wrong addresses, and a script with which the search finds options by their names with
+the dash. The page for wrong addresses appears at any address, so its links are absolute: --url names the folder of the
+server if the site is not at its top. Material was chosen because its search needs no server, it fits a phone, and it
+takes the pages as they are. Its fixes end in May 2027; its successor Zensical reads its settings.
 """
 
 import argparse
