@@ -48,9 +48,10 @@ def command(line):
 def entries(lines):
     """Returns pairs of a key and its text if all lines consist of these; deeper lines continue a text; else None."""
     pairs = []
+    deeper = re.match(" *", lines[0]).group() + " "
     for line in lines:
         parts = re.split(r" {2,}", line.strip())
-        if line.startswith("   ") and pairs and len(parts) == 1:
+        if line.startswith(deeper) and len(parts) == 1:
             pairs[-1] = (pairs[-1][0], f"{pairs[-1][1]} {parts[0]}")
         elif len(parts) == 2:
             pairs.append(tuple(parts))

@@ -153,6 +153,7 @@ def test_text_that_roff_would_obey_is_kept(monkeypatch):
     assert manpage.command("petsam " + "-a 1 " * 30)[1].startswith("    -a 1")
     assert manpage.entries(["  a  one", "     more", "  b  two"]) == [("a", "one more"), ("b", "two")]
     assert manpage.entries(["  a  one", "  b  two  three"]) is None
+    assert manpage.entries(["    a  one", "    b", "    c  three"]) is None
 
 
 # ---- completion
