@@ -233,15 +233,16 @@ install: all pages ## install program, library, headers, petsam.pc, scripts, exa
 	for f in $(HEADERS); do install -D -m 644 $$f $(DESTDIR)$(prefix)/$$f || exit 1; done
 	printf 'prefix=%s\nName: petsam\nDescription: partial-slip contact by the semi-analytical method\nVersion: %s\nRequires: petsc\nRequires.private: fftw3 %s\nCflags: -I$${prefix}/include\nLibs: -L$${prefix}/lib -lpetsam\nLibs.private: -lfftw3_mpi -lfftw3f_mpi -lfftw3f -lhdf5_hl -lm\n' '$(prefix)' '$(VERSION)' '$(HDF5_PC)' > $(DESTDIR)$(prefix)/lib/pkgconfig/petsam.pc
 	for f in $(SHARED); do install -D -m $$(test -x $$f && echo 755 || echo 644) $$f $(share)/$$f || exit 1; done
-	for f in $(notdir $(wildcard scripts/petsam-*)); do ln -sf ../share/petsam/scripts/$$f $(DESTDIR)$(prefix)/bin/$$f || exit 1; done
+	for f in $(TOOLS); do ln -sf ../share/petsam/scripts/$$f $(DESTDIR)$(prefix)/bin/$$f || exit 1; done
 	for f in $(MANUAL); do install -D -m 644 $$f $(share)/$$f || exit 1; done
 	install -m 644 LICENSE CITATION.cff $(share)
-	for f in $(PAGES); do install -D -m 644 $(B)/share/$$f $(DESTDIR)$(prefix)/share/$$f || exit 1; done
-	for f in $(notdir $(wildcard scripts/petsam-*)); do \
+	for f in $(PAGES); do [ ! -e $(B)/share/$$f ] || install -D -m 644 $(B)/share/$$f $(DESTDIR)$(prefix)/share/$$f || exit 1; done
+	for f in $(TOOLS); do \
 	  install -D -m 644 scripts/maintain/tools.bash $(DESTDIR)$(prefix)/share/bash-completion/completions/$$f || exit 1; done
 
 # man pages and bash's completions, from what the programs say of themselves; `make install PAGES=` where they cannot run
-PAGES := $(foreach p,$(PROGRAMS),man/man1/$p.1 bash-completion/completions/$p)
+TOOLS := $(notdir $(wildcard scripts/petsam-*))
+PAGES := $(foreach p,$(PROGRAMS),man/man1/$p.1 bash-completion/completions/$p) $(TOOLS:%=man/man1/%.1)
 
 pages: $(PAGES:%=$(B)/share/%) ## make the man pages, the completions of options, and, in a clone, the tables of options in the manual
 	$(if $(wildcard .git),$(Q)$(PYTHON) scripts/maintain/reference.py --build $(B))
@@ -250,6 +251,12 @@ $(B)/share/man/man1/%.1: $(B)/bin/% scripts/maintain/manpage.py scripts/maintain
 	@mkdir -p $(@D)
 	$(say) MAN $@
 	$(Q)$(PYTHON) scripts/maintain/manpage.py $< > $@
+
+# a script prints its --help only where Python has its libraries; elsewhere a message says so, and it has no page
+$(TOOLS:%=$(B)/share/man/man1/%.1): $(B)/share/man/man1/%.1: scripts/% scripts/maintain/manpage.py scripts/maintain/options.py $(shell find scripts/petsam -name "*.py")
+	@mkdir -p $(@D)
+	$(say) MAN $@
+	$(Q)$(PYTHON) scripts/maintain/manpage.py $< > $@ || rm -f $@
 
 $(B)/share/bash-completion/completions/%: $(B)/bin/% scripts/maintain/completion.py scripts/maintain/options.py
 	@mkdir -p $(@D)
@@ -266,8 +273,8 @@ wheel: $(B)/venv/done ## make a wheel in build/wheel that carries programs and l
 	$(B)/venv/bin/python scripts/packaging/wheel.py --build $(WHEEL)/petsam --libraries $(LIBRARIES)
 
 # the pages as a site that can be searched; a link that leads nowhere is an error
-site: $(B)/site-venv/done ## make the site of all pages in build/site
-	$(B)/site-venv/bin/python scripts/maintain/site_pages.py --pages $(B)/site-pages --out $(B)/site
+site: $(B)/site-venv/done ## make the site of all pages in build/site: URL=https://example.org/petsam/ for a folder of a server
+	$(B)/site-venv/bin/python scripts/maintain/site_pages.py --pages $(B)/site-pages --out $(B)/site --url '$(URL)'
 $(B)/site-venv/done: scripts/maintain/site.txt
 	@mkdir -p $(B)
 	$(PYTHON) -m venv $(B)/site-venv

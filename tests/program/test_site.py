@@ -1,6 +1,10 @@
 """`make site`: which pages and files it takes; MkDocs itself, which `make site` installs, checks its links."""
 
+import argparse
+import json
 import re
+import shutil
+import subprocess
 import sys
 
 import pytest
@@ -8,36 +12,113 @@ import pytest
 from support import ROOT
 
 sys.path.insert(0, str(ROOT / "scripts" / "maintain"))
+import modules  # noqa: E402
 import site_pages  # noqa: E402
+
+OPTIONS = ROOT / "scripts/maintain/theme/javascripts/options.js"
+# what is typed, and what Material's search then gets
+QUERIES = {
+    "-wear_rtol": "wear_rtol",
+    "petsam -grid_n": "petsam grid_n",
+    "--fretting-log": "+fretting +log",
+    "--maps --at 0,0": "maps at 0,0",
+    "stick-slip wear": "stick-slip wear",
+}
 
 
 @pytest.fixture(scope="module")
 def staged(tmp_path_factory):
     target = tmp_path_factory.mktemp("site")
-    return target, site_pages.stage(target)
+    site_pages.stage(target)
+    return target
 
 
-def test_every_page_is_on_the_site_once(staged):
-    _, parts = staged
-    listed = [name for _, names in parts for name in names]
+def test_every_page_is_on_the_site_once():
     folders = ("examples", "include", "scripts", "src", "tests")
     there = {str(path.relative_to(ROOT)) for folder in folders for path in ROOT.glob(f"{folder}/**/*.md")}
-    assert sorted(listed) == sorted(there | {"README.md", "CHANGES.md", "include/FUNCTIONS.md"})
+    assert sorted(site_pages.pages()) == sorted(there | {"README.md", "CHANGES.md", *site_pages.GENERATED})
 
 
-def test_page_of_functions_is_made_from_the_headers(staged):
-    target, parts = staged
-    assert dict(parts)["C library"] == ["include/FUNCTIONS.md"]
-    assert "### SamNormalSolve\n" in (target / "include/FUNCTIONS.md").read_text()
-    assert not (ROOT / "include/FUNCTIONS.md").exists()
+def test_pages_are_in_the_order_of_work():
+    order = (
+        "examples/README.md",
+        *(f"examples/manual/{name}.md" for name in ("LOADS", "SURFACES", "WEAR", "STRESSES")),
+    )
+    order += ("examples/joint/README.md", "scripts/PYTHON.md", "include/FUNCTIONS.md", "examples/manual/OPTIONS.md")
+    places = [site_pages.pages().index(name) for name in (*order, "src/README.md")]
+    assert places == sorted(places)
+    listed = site_pages.navigation()
+    assert listed[0] == {"petsam": "README.md"} and listed[1]["First run"][0] == {
+        "Tutorial and examples": "examples/README.md"
+    }
+
+
+def test_pages_of_the_references_are_made_from_the_sources(staged):
+    assert "### SamNormalSolve\n" in (staged / "include/FUNCTIONS.md").read_text()
+    assert "#### Contact.try_step\n" in (staged / "scripts/PYTHON.md").read_text()
+    assert not any((ROOT / name).exists() for name in site_pages.GENERATED)
+
+
+def test_reference_has_every_name_of_the_package():
+    import petsam
+
+    text = modules.page()
+    names = set(petsam.__all__) - set(petsam._PARTS)
+    assert len(names) > 10 and {name for name in names if f"\n### petsam.{name}\n" not in text} == set()
+    assert "\n```python\nContact.commit()\n```\n" in text and "\n```python\nCycles.energies\n```\n" in text
+    assert "\n### petsam.closed.sphere.hertz_pressure\n" in text and "petsam.closed.sphere._" not in text
+
+
+def test_public_names_of_the_package_have_docstrings():
+    assert modules.undocumented() == []
 
 
 def test_pages_and_files_lie_as_in_the_repository_so_that_their_links_hold(staged):
-    target, parts = staged
-    for name in (name for _, names in parts for name in names):
-        text = re.sub(r"^```.*?^```$", "", (target / name).read_text(), flags=re.M | re.S)
+    for name in site_pages.pages():
+        text = re.sub(r"^```.*?^```$", "", (staged / name).read_text(), flags=re.M | re.S)
         for link in re.findall(r"\]\(([^)#\s]+)", text):
-            assert re.match(r"https?:", link) or ((target / name).parent / link).is_file(), (name, link)
+            assert re.match(r"https?:", link) or ((staged / name).parent / link).is_file(), (name, link)
+
+
+def test_the_version_is_in_the_name_that_every_page_shows():
+    import petsam
+
+    assert site_pages.settings(ROOT, ROOT, "")["site_name"] == f"petsam {petsam.__version__}"
+
+
+def test_options_come_first_in_the_search_and_the_paper_last(staged):
+    def boost(name):
+        return float(re.match(r"---\nsearch:\n  boost: (.*)\n", (staged / name).read_text())[1])
+
+    assert boost("examples/manual/OPTIONS.md") > boost("examples/manual/WEAR.md") > boost("examples/mccoll/README.md")
+    assert boost("scripts/packaging/paper.md") < 1
+    assert (staged / "scripts/packaging/paper.md").read_text().count("\n---\n") == 1
+
+
+def test_options_are_searched_without_their_dash():
+    if not shutil.which("node"):
+        pytest.skip("no node")
+    code = (
+        "const sent = []; class Worker { postMessage(message) { sent.push(message.data); } }\n"
+        f"const document = {{ querySelector() {{}} }};\n{OPTIONS.read_text()}\n"
+        f"for (const data of {json.dumps(list(QUERIES))}) new Worker().postMessage({{ type: 2, data }});\n"
+        'new Worker().postMessage({ type: 0, data: "-as_it_is" }); console.log(JSON.stringify(sent));'
+    )
+    done = subprocess.run(["node", "-e", code], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0, done.stderr
+    assert json.loads(done.stdout) == [*QUERIES.values(), "-as_it_is"]
+
+
+@pytest.mark.parametrize(
+    "text, read", [("", ""), ("https://a.org/p", "https://a.org/p/"), ("http://a.org/", "http://a.org/")]
+)
+def test_address_of_the_site_ends_with_a_slash(text, read):
+    assert site_pages.address(text) == read
+
+
+def test_other_addresses_are_rejected():
+    with pytest.raises(argparse.ArgumentTypeError, match="petsam: give an address such as"):
+        site_pages.address("petsam")
 
 
 def test_dead_links_end_the_build():

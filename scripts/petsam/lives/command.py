@@ -2,7 +2,7 @@
 
     petsam-fatigue fatigue.h5                                 the largest parameter's place, and values over its depth
     petsam-fatigue --material ti64.yaml fatigue.h5            all that its constants are good for
-    petsam-fatigue --material ti64.yaml --at -5e-4,0 --quantity stress_xx,swt --csv line.csv fatigue.h5
+    petsam-fatigue --at -5e-4,0 --quantity stress_xx,swt --csv line.csv fatigue.h5       numbers below another place
     petsam-fatigue --material ti64.yaml --counts 1e4,20 low.h5 high.h5       damage of a spectrum of two blocks
 
 Each file holds one closed cycle (petsam-stress -fatigue swt,findley -quantities stress -depths 0:3e-4:61). Lives:

@@ -2,7 +2,7 @@
 
     petsam-surface rough.npy --body 2 --units um --size 1mm --level tilt
     petsam-surface scan.sur --body 1 --mirror x --level sphere --grid-n 512 -o top.h5
-    petsam-surface top.h5 bottom.h5 -o pair.h5         heights of body 1 and 2 make a separation
+    petsam-surface top.h5 bottom.h5 -o pair.h5
     petsam-surface --self-affine 0.8 --rms 0.5um --wavelengths 500um,10um --size 1mm --grid-n 512 --seed 3 -o r3.h5
 
 Reads NumPy's .npy, text (.csv, .txt: one line per y, one number per x), HDF5 (.h5), and through the library
@@ -10,7 +10,7 @@ SurfaceTopography from PyPI the files of many instruments. Writes HDF5 for petsa
 and a picture beside it. Options give what the file does not contain (units, size, body). A map is
 centred on x = y = 0 unless its file gives a position. Heights are positive outward, so a peak of either body reduces
 the separation. Each map is oriented, cut, filled, levelled and resampled, in this order. Options apply to both files;
-their maps are then aligned at their centres.
+their maps are then aligned at their centres. Heights of body 1 and heights of body 2 make a separation.
 """
 
 import argparse
