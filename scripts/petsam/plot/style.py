@@ -248,7 +248,7 @@ def heading(files, one, index):
     return plain(one.title(index) if named(list(dict.fromkeys(files))) else one.when(index))
 
 
-def reach(values, along, part=0.02, margin=0.1):
+def reach(values, along, part=0.1, margin=0.2):
     """First and last place along the last axis of values where they exceed a part of their maximum, with a margin."""
     large = along[np.any(values > part * np.max(values), axis=tuple(range(values.ndim - 1)))]
     room = margin * (large[-1] - large[0])
@@ -256,10 +256,17 @@ def reach(values, along, part=0.02, margin=0.1):
 
 
 def save(figure, directory, name):
-    """Write one PNG of 256 colours, a third of the size that it has with all, and close the figure."""
+    """Write one PNG of 256 colours and close the figure."""
     path = os.path.join(directory, name)
     write(figure, path)
-    with Image.open(path) as image:
-        few = image.convert("RGB").quantize(256, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
-    few.save(path, optimize=True, dpi=[DPI] * 2)
+    reduce(path)
     print("wrote " + path)
+
+
+def reduce(path):
+    """Leave a PNG 256 colours, with which it has a third of its size."""
+    with Image.open(path) as image:
+        # the method of the least maximum error: others give thin bands of a colour map the colours of another one
+        method = {"method": Image.Quantize.MAXCOVERAGE, "kmeans": 2, "dither": Image.Dither.NONE}
+        few = image.convert("RGB").quantize(256, **method)
+    few.save(path, optimize=True, dpi=[DPI] * 2)
