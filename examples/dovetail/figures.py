@@ -13,7 +13,7 @@ import numpy as np
 
 import petsam
 from petsam import comparison
-from petsam.plot.style import COLORS, bar, cross, frame, plt, points, save
+from petsam.plot.style import COLORS, DAMAGE, bar, cross, frame, plt, points, reach, save
 
 STEPS = (1, 2, 4, 6, 8, 12, 16, 20)  # of the table
 FIELDS = (4, 8)  # whose pressure and shear are compared
@@ -139,11 +139,11 @@ class Comparison:
         panel = panels[2]
         panel.grid(False)
         x, z = 1e3 * self.fatigue.x, 1e3 * self.fatigue.z
-        image = panel.contourf(x, z, 1e-6 * self.swt, levels=30, cmap="inferno")
+        image = panel.contourf(x, z, 1e-6 * self.swt, levels=30, cmap=DAMAGE)
         cross(panel, 1e3 * self.place[0], 1e3 * self.place[1])
         bar(panel, image, "SWT, MPa", ticks=np.linspace(0.0, 1e-6 * self.swt.max(), 5).round(2))
         text = f"Fatigue of the blade: maximum {1e-6 * self.swt.max():.2f} MPa"
-        frame(panel, text, "$x$, mm  at $y$ = 0", "depth $z$, mm")
+        frame(panel, text, "$x$, mm  at $y$ = 0", "depth $z$, mm", reach(self.swt, x))
         panel.set_ylim(z[-1], z[0])
         save(figure, directory, "dovetail.png")
 

@@ -14,7 +14,7 @@ import petsam
 from petsam import comparison, cycles
 from petsam.plot.loops import cycle_energy
 from petsam.plot.maps import STATES
-from petsam.plot.style import bar, cross, extent, field, frame, plt, save, tint
+from petsam.plot.style import DAMAGE, bar, cross, extent, field, frame, plt, reach, save, tint
 
 WINDOW = (-0.9, 0.9, -1.5, 1.5)  # of the maps, mm
 
@@ -83,7 +83,7 @@ class Comparison:
 
     def _scar(self, panel):
         depth = 1e6 * (self.worn["wear_depth1"] + self.worn["wear_depth2"])
-        image = self._map(panel, self.worn, depth, color_map="cividis")
+        image = self._map(panel, self.worn, depth, color_map=DAMAGE)
         bar(panel, image, "$w_1 + w_2$, µm")
         title = f"depth worn in {self.numbers['cycles']:,.0f} cycles"
         frame(panel, title, "$x$, mm", "$y$, mm", WINDOW[:2], WINDOW[2:])
@@ -91,7 +91,7 @@ class Comparison:
     def _fatigue(self, panel):
         panel.grid(False)
         values, x, z = 1e-6 * self.swt, 1e3 * self.fatigue.x, 1e3 * self.fatigue.z
-        image = panel.contourf(x, z, values, levels=30, cmap="inferno")
+        image = panel.contourf(x, z, values, levels=30, cmap=DAMAGE)
         cross(panel, 1e3 * self.place[0], 1e3 * self.place[1])
         bar(panel, image, "SWT, MPa", ticks=np.arange(0.0, values.max(), 0.2).round(1))
         frame(
@@ -99,7 +99,7 @@ class Comparison:
             f"fatigue under the pad, $y = 0$: maximum {values.max():.2f} MPa",
             "$x$, mm",
             "depth $z$, mm",
-            (-0.9, 0.9),
+            reach(values, x),
         )
         panel.set_ylim(z[-1], z[0])
 

@@ -126,10 +126,12 @@ class Comparison:
         panel = axes[1, 1]
         x, p, q, one = self.section
         for values, line, name in ((p, one["pressure"][0], "$p$"), (10 * q, 10 * one["shear_x"][0], "$10\\,q_x$")):
-            panel.plot(1e3 * one.x, 1e-6 * line, color=tints[1], linewidth=2.5, alpha=0.5)
-            panel.plot(1e3 * x[::16], 1e-6 * values[::16], ".", color=tints[0], markersize=4)
+            text = ("plane problem", "long punch, its middle") if name == "$p$" else ("", "")
+            panel.plot(1e3 * one.x, 1e-6 * line, color=tints[1], linewidth=2.5, alpha=0.5, label=text[0])
+            panel.plot(1e3 * x[::16], 1e-6 * values[::16], ".", color=tints[0], markersize=4, label=text[1])
             panel.annotate(name, (0.0, 1e-6 * line[line.size // 2]), xytext=(0, 4), textcoords="offset points")
-        frame(panel, "Plane problem (lines), middle of a long punch (points)", "$x$, mm", "$p$, $10\\,q_x$, MPa")
+        panel.legend(fontsize=8, loc="lower center")
+        frame(panel, "Middle of a long punch and its plane problem", "$x$, mm", "$p$, $10\\,q_x$, MPa")
         save(figure, directory, "plane.png")
 
 

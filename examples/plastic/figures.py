@@ -7,7 +7,7 @@ import numpy as np
 
 import petsam
 from petsam import comparison
-from petsam.plot.style import COLORS, bar, frame, logarithmic, plt, save
+from petsam.plot.style import COLORS, bar, frame, logarithmic, plt, points, save
 
 STEPS_OF_HALF = 4  # load steps of half a cycle
 
@@ -67,14 +67,20 @@ class Comparison:
         x = 1e3 * np.asarray(self.press.x)
         figure, axes = plt.subplots(2, 2, figsize=(10.0, 7.0), layout="constrained")
         axes = axes.flat
-        axes[0].plot(x, 1e-6 * row(self.elastic, "pressure", 4), "--", color=COLORS[1], label="elastic")
-        axes[0].plot(x, 1e-6 * row(self.press, "pressure", 4), color=COLORS[0], label="yields at 600 MPa")
+        for results, color, mark, name in (
+            (self.elastic, COLORS[1], "s-", "elastic"),
+            (self.press, COLORS[0], "o-", "yields at 600 MPa"),
+        ):
+            points(axes[0], x, 1e-6 * row(results, "pressure", 4), color, mark, linewidth=0.8, label=name)
         frame(axes[0], "Pressure under 100 N", "$x$, mm", "$p$, MPa")
         axes[0].legend()
-        axes[1].plot(x, 1e6 * row(self.press, "residual_z", 9), color=COLORS[0])
+        points(axes[1], x, 1e6 * row(self.press, "residual_z", 9), COLORS[0], "o-", linewidth=0.8)
         axes[1].invert_yaxis()
         frame(axes[1], "The dent, unloaded", "$x$, mm", "residual displacement, µm")
-        z, stress = 1e3 * self.press.layer_z, 1e-6 * self.stress()
+        # the layers' values are those of their middles: the outer ones reach to the surface and to the bottom
+        middles, stress = 1e3 * self.press.layer_z, 1e-6 * self.stress()
+        z = np.array([0.0, *middles, middles[-1] + 0.5 * (middles[-1] - middles[-2])])
+        stress = stress[[0, *range(middles.size), -1]]
         most = float(np.abs(stress).max())
         image = axes[2].contourf(x, z, stress, levels=np.linspace(-most, most, 25), cmap="RdBu_r")
         axes[2].grid(False)

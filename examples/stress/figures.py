@@ -12,7 +12,8 @@ import numpy as np
 import petsam
 from petsam import comparison
 from petsam.closed import HERTZ_MISES, HERTZ_MISES_DEPTH, Spheres, hertz_axis, hertz_surface, sliding_surface
-from petsam.plot.style import CLOSED, bar, cross, extent, field, frame, note, plt, points, save, thinned, tint
+from petsam.plot.bodies import MARK, numbered, untangle
+from petsam.plot.style import CLOSED, DAMAGE, bar, cross, extent, field, frame, note, plt, points, save, thinned, tint
 
 FRICTIONS = ("0.1", "0.5")
 STATES = ("partial", "sliding")
@@ -131,9 +132,9 @@ def draw_section(axes, case, title):
     image = axes.contourf(case.x, case.z, mises, levels=np.linspace(0.0, 1.0, 41), extend=beyond, cmap="viridis")
     bar(axes, image, "$\\sigma_M/p_0$", ticks=np.linspace(0.0, 1.0, 6))
     lines = axes.contour(case.x, case.z, mises, levels=LINES, colors="0.15", linewidths=0.6)
-    axes.clabel(lines, fmt="%.1f", fontsize=7)
+    numbered(axes, lines, "%.1f")
     z, x = np.unravel_index(np.argmax(mises), mises.shape)
-    cross(axes, case.x[x], case.z[z])
+    cross(axes, case.x[x], case.z[z], MARK)
     frame(axes, f"{title}: maximum {mises[z, x]:.3f} $p_0$", "$x/a$", "$z/a$")
     axes.set_ylim(case.z[-1], case.z[0])
 
@@ -141,12 +142,12 @@ def draw_section(axes, case, title):
 def draw_fatigue(axes, surface):
     """SWT over the surface, and its largest value."""
     values = surface.file.field("swt")[0] * 1e-6
-    image = field(axes, values, extent(surface.x, surface.y), color_map="inferno")
+    image = field(axes, values, extent(surface.x, surface.y), color_map=DAMAGE)
     bar(axes, image, "SWT, MPa")
     y, x = np.unravel_index(np.argmax(values), values.shape)
     cross(axes, surface.x[x], surface.y[y])
     circle = np.linspace(0.0, 2.0 * np.pi, 200)
-    axes.plot(np.cos(circle), np.sin(circle), ":", color="white", linewidth=0.8)
+    axes.plot(np.cos(circle), np.sin(circle), ":", color="black", linewidth=0.8)
     frame(axes, f"cycle, surface: maximum {values.max():.3f} MPa", "$x/a$", "$y/a$")
 
 
@@ -214,6 +215,7 @@ class Comparison:
         for panel, ((state, mu), case) in zip(axes.flat, self.sections.items()):
             draw_section(panel, case, f"$\\mu$ = {mu}, {WORDS[state]}")
         note(figure, "von Mises stress over $p_0$")
+        untangle(figure)
         save(figure, directory, "section.png")
         figure, axes = plt.subplots(figsize=(6.4, 5.0), constrained_layout=True)
         draw_fatigue(axes, self.cycle["surface"])
@@ -223,6 +225,7 @@ class Comparison:
         draw_surface(axes[0, 1], self._by_state("0.5"), 0.5)
         draw_section(axes[1, 0], self.sections["sliding", "0.5"], "von Mises, $\\mu$ = 0.5, sliding")
         draw_fatigue(axes[1, 1], self.cycle["surface"])
+        untangle(figure)
         save(figure, directory, "overview.png")
 
 

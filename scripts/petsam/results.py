@@ -388,11 +388,15 @@ class Results(Datafile):
 
     def title(self, index):
         """What names a saved step: the label, and where there are several the step and its time, or cycle."""
+        return ", ".join(filter(None, (self.label, self.when(index))))
+
+    def when(self, index):
+        """The same without the label: nothing for a single step."""
         if self.history["time"].size == 1:
-            return self.label
+            return ""
         if self.has_life:
-            return f"{self.label}, step {self.steps[index]}, after {self.cycles[index]:.7g} cycles"
-        return f"{self.label}, step {self.steps[index]}, t = {self.times[index]:.4g} s"
+            return f"step {self.steps[index]}, after {self.cycles[index]:.7g} cycles"
+        return f"step {self.steps[index]}, t = {self.times[index]:.4g} s"
 
     def friction(self, index):
         """Coefficient of friction of a saved step; NaN where it is a field (-friction_file)."""

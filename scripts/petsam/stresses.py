@@ -77,8 +77,12 @@ class Stresses(Datafile):
         return self.nearest(self.times, time)
 
     def title(self, index):
-        """What names a step: the label, and the time where there are several."""
-        return f"{self.label}, step {self.steps[index]}, t = {self.times[index]:.4g} s"
+        """What names a step: the label and the time."""
+        return f"{self.label}, {self.when(index)}"
+
+    def when(self, index):
+        """The same without the label."""
+        return f"step {self.steps[index]}, t = {self.times[index]:.4g} s"
 
     def nearest_row(self, y):
         """Number of the row of cells nearest to y (m); of two that are as near the upper one, as in petsam-stress."""

@@ -66,7 +66,8 @@ class Study:
         columns = {group: {name: self._column(data, name) for name in data} for group, data in groups.items()}
         measured = {name: _in_si(values) for name, values in columns.get("inputs", {}).items()}
         self.inputs = {name: values for name, (values, _) in measured.items()}
-        self._input_units = {name: unit for name, (_, unit) in measured.items()}
+        stated = {name: data.attrs.get("units") for name, data in groups.get("inputs", {}).items()}
+        self._input_units = {name: short(str(stated[name] or unit)) for name, (_, unit) in measured.items()}
         self.results = columns.get("results", {})
         self.units = {name: short(str(groups["results"][name].attrs.get("units", "1"))) for name in self.results}
         for values in (*self.inputs.values(), *self.results.values(), self.codes):

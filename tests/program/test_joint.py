@@ -11,6 +11,7 @@ import pytest
 import petsam
 from petsam import joint
 from petsam.joint import command as _  # noqa: F401
+from petsam.plot.style import plt
 from support import bodies
 
 warnings.simplefilter("ignore", petsam.AdviceWarning)
@@ -194,6 +195,17 @@ def test_command_gives_the_numbers_of_the_function(command, tmp_path):
     assert command("pair.h5", "--pressure", "2e7", "--friction", 0.25, "--steps", 1, "--periodic", *STEEL) == (
         "\n".join(whole.table()) + "\n"
     )
+
+
+def test_the_picture_has_the_given_resolution(command, tmp_path):
+    write(tmp_path / "pair.h5", "separation", waves(32, 1))
+    words = ("pair.h5", "--pressure", "2e7", "--friction", 0.25, "--steps", 1, "--periodic", *STEEL)
+    widths = []
+    for more in ((), ("--dpi", 300)):
+        command(*words, *more, "-o", "p")
+        widths.append(plt.imread(tmp_path / "p.png").shape[1])
+    assert widths[1] == pytest.approx(2 * widths[0], abs=2)
+    assert "--dpi: is for the picture" in command(*words, "--dpi", 300, check=2)
 
 
 def test_hardness_limits_the_pressure_of_summits(command, tmp_path):

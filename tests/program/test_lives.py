@@ -13,6 +13,7 @@ import petsam
 from petsam.errors import Error
 from petsam.lives import command, cracks, evaluation, materials, strength
 from petsam.lives.stresses import Cycle
+from petsam.plot.style import plt
 from petsam.study.expressions import Expander
 from support import ball, slide_limit
 
@@ -196,6 +197,16 @@ def test_the_command_prints_and_writes_what_the_file_gives(fatigue, folder):
     k = [cracks.intensity(file.z, one, file.z[4]) for one in stress]
     assert float(rows[4]["k_max"]) == pytest.approx(max(*k, 0.0))
     assert float(rows[4]["k_range"]) == pytest.approx(max(*k, 0.0) - max(min(k), 0.0))
+
+
+def test_the_picture_has_the_given_resolution(fatigue, folder):
+    widths = []
+    for words in ([], ["--dpi", "300"]):
+        fatigue(*words, "-o", "dpi.png", "high.h5")
+        widths.append(plt.imread(folder / "dpi.png").shape[1])
+    assert widths[1] == pytest.approx(2 * widths[0], abs=2)
+    assert "--dpi: 0: expected a whole number" in fatigue("--dpi", "0", "high.h5", check=2)
+    assert "--dpi" in fatigue("--no-picture", "--dpi", "300", "high.h5", check=2)
 
 
 def test_damage_is_summed_where_it_happens(fatigue, folder):

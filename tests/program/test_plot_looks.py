@@ -10,7 +10,7 @@ import conftest
 import petsam
 from petsam.plot import bodies, looks
 from petsam.plot.style import STYLE, logarithmic, plt
-from petsam.plot.units import size_of
+from petsam.plot.units import on_axis, size_of
 from support import ball, slide_limit
 
 pytestmark = pytest.mark.usefixtures("closing")
@@ -121,6 +121,23 @@ def test_a_picture_has_the_given_width(plot, folder):
     code, err = plot("--width", "9", "c.h5")
     assert code == 2 and "expected millimetres from 30 to 2000" in err[0]
     assert plot("--xlim", "2,1", "c.h5")[0] == 2
+
+
+def test_a_picture_for_print_has_more_pixels_of_the_same_size(plot, folder):
+    shapes = []
+    for dpi in ("100", "300"):
+        assert plot("--field", "pressure,shear", "--dpi", dpi, "-o", "print.png", "c.h5") == (0, [])
+        shapes.append(plt.imread(folder / "print.png").shape)
+    assert shapes[1][:2] == pytest.approx([3 * side for side in shapes[0][:2]], abs=3)
+    for dpi in ("9", "1201", "300.5", "high"):
+        code, err = plot("--dpi", dpi, "c.h5")
+        assert code == 2 and f"--dpi: {dpi}: expected a whole number from 10 to 1200" in err[0]
+
+
+def test_a_small_number_without_a_unit_is_one_times_a_power_of_ten():
+    assert on_axis("1", 2e-3) == (pytest.approx(1e3), "10⁻³") and on_axis("1", 0.5) == (1.0, "")
+    assert on_axis("m", 2e-3) == (pytest.approx(1e3), "mm") and on_axis("1", 3e-12) == (pytest.approx(1e12), "10⁻¹²")
+    assert size_of("creepage $\\xi$, 10⁻³") == pytest.approx(1e-3)
 
 
 def test_limits_without_data_are_rejected(plot, folder):

@@ -43,9 +43,9 @@ def test_the_history_is_a_creep_curve(rolled):
     with petsam.open(curve(rolled)) as results:
         figure = series.history([results])
         assert labels(figure) == ["$T_x$", "stick area"]
-        assert below(figure) == {r"creepage $\xi$"}
+        assert below(figure) == {r"creepage $\xi$, 10⁻³"}
         x, y = figure.axes[0].lines[0].get_data()
-        assert np.array_equal(x, results.history["creep_x"]) and np.allclose(y, results.history["load_tx"])
+        assert np.allclose(x, 1e3 * results.history["creep_x"]) and np.allclose(y, results.history["load_tx"])
         over_time = series.history([results], ["load_tx"], "time").axes[0]
         assert np.array_equal(over_time.lines[0].get_xdata(), [0, 1, 2, 3])
 
@@ -61,13 +61,13 @@ def test_the_curve_is_over_what_varies_most(rolled):
 
 def test_spin_counts_with_the_size_of_the_contact(rolled):
     with petsam.open(rolled("creep_x,creep_spin,load_ty", (1e-4, 0.1, 0.0), (1e-3, 0.2, 0.0))) as results:
-        assert below(series.history([results])) == {r"creepage $\xi$"}
+        assert below(series.history([results])) == {r"creepage $\xi$, 10⁻³"}
 
 
 def test_a_curve_of_loads_is_over_the_creepage_that_they_need(rolled):
     with petsam.open(rolled("load_ty,creep_spin", (2.0, 0.0), (6.0, 0.0), (10.0, 0.0))) as results:
         figure = series.history([results])
-        assert below(figure) == {r"creepage $\eta$"} and "$T_y$" in labels(figure)
+        assert below(figure) == {r"creepage $\eta$, 10⁻⁶"} and "$T_y$" in labels(figure)
 
 
 def test_arrows_of_slip_velocity_on_the_cells_that_slip(rolled):

@@ -142,7 +142,7 @@ def test_numbers_on_one_another_are_taken_away():
     ):
         axes.text(x, y, text, gid=bodies.LABEL)
     axes.text(0.5, 0.5, "no label")
-    bodies._untangle(figure)
+    bodies.untangle(figure)
     assert [text.get_text() for text in axes.texts] == ["kept", "far", "no label"]
 
 

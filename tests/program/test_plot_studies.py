@@ -111,7 +111,7 @@ def test_by_itself_what_varies_is_drawn_over_the_input_with_the_most_values(stud
     drawn = [axes.get_ylabel().split(",")[0] for axes in figure.axes if axes.lines]
     # neither what is constant, nor numbers without a unit, nor rounding
     assert drawn == ["dissipated energy", "$T_x$", "stick area"]
-    assert {axes.get_xlabel() for axes in figure.axes if axes.lines} == {"load_tx, N"}
+    assert {axes.get_xlabel() for axes in figure.axes if axes.lines} == {"$T_x$, N"}
     assert figure.get_suptitle() == "omitted: 1 unfinished case"
 
 
@@ -150,17 +150,17 @@ def test_what_is_known_twice_is_drawn_once_and_inputs_have_their_units(single):
     drawn = [axes.get_ylabel() for axes in figure.axes if axes.lines]
     assert [name.split(",")[0] for name in drawn] == ["dissipated energy", "pressure max", "stored energy"]
     assert drawn[0].startswith("dissipated energy, sum")
-    assert set(curves(figure.axes[0])) == {"load_n = 100 N", "load_n = 200 N"}
-    assert {axes.get_xlabel() for axes in figure.axes if axes.lines} == {"load_tx, N"}
+    assert set(curves(figure.axes[0])) == {"$N$ = 100 N", "$N$ = 200 N"}
+    assert {axes.get_xlabel() for axes in figure.axes if axes.lines} == {"$T_x$, N"}
     x = figure.axes[0].lines[0].get_xdata()
-    assert x.tolist() == [5.0, 10.0, 15.0]  # as the table has them, without a prefix
+    assert x.tolist() == [5.0, 10.0, 15.0]
     named = tables.study([single], ["dissipated_energy", "load_n_end"])
     assert [axes.get_ylabel().split(",")[0] for axes in named.axes if axes.lines] == ["dissipated energy", "$N$"]
 
 
 def test_an_input_has_the_unit_of_the_result_of_its_name(single):
     single.units["load_n"] = "N/m"  # in plane strain
-    assert set(curves(tables.study([single]).axes[0])) == {"load_n = 100 N/m", "load_n = 200 N/m"}
+    assert set(curves(tables.study([single]).axes[0])) == {"$N$ = 100 N/m", "$N$ = 200 N/m"}
 
 
 def test_loads_in_plane_strain_are_per_metre(single):
@@ -181,7 +181,7 @@ def test_several_studies_are_told_apart(study, path):
 
 def test_a_result_is_drawn_over_another_one(study):
     axes = tables.study([study], ["stick_area"], "dissipated_energy_sum", "mu", [("shape", "ball")]).axes[0]
-    assert axes.get_xlabel() == "dissipated_energy_sum, nJ"
+    assert axes.get_xlabel() == "dissipated energy, sum, nJ"
     x, y, _, _ = curves(axes)["mu = 0.1"]
     assert np.allclose(x, [1e9 * energy(ratio, 0.1, "ball") for ratio in (0.1, 0.5, 0.9)])
     assert np.allclose(y, (0.9, 0.5, 0.1))

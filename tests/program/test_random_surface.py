@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from petsam.errors import Error
+from petsam.plot.style import plt
 from petsam.surface import command, generation, reading
 
 SIZE = (1e-3, 1e-3)
@@ -110,6 +111,17 @@ def surface(tmp_path, monkeypatch, capfd):
 
 
 RANDOM = ("--self-affine", "0.8", "--rms", "0.5um", "--wavelengths", "200um,40um", "--size", "1mm", "--grid-n", "64")
+
+
+def test_the_picture_has_the_given_resolution(surface, tmp_path):
+    widths = []
+    for words in ([], ["--dpi", "300"]):
+        assert surface(*RANDOM, *words, "-o", "r.h5")[0] == 0
+        widths.append(plt.imread(tmp_path / "r.png").shape[1])
+    assert widths[1] == pytest.approx(2 * widths[0], abs=2)
+    for words, says in ((["--dpi", "5000"], "--dpi: 5000: expected"), (["--dpi", "300", "--no-picture"], "--dpi")):
+        code, _, err = surface(*RANDOM, *words, "-o", "r.h5")
+        assert code == 2 and says in err
 
 
 def test_the_command_writes_a_surface(surface, tmp_path):

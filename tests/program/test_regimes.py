@@ -13,7 +13,7 @@ from conftest import PROGRAM as PETSAM
 from conftest import environment
 from petsam import sliding
 from petsam.lives import strength
-from petsam.plot import planes
+from petsam.plot import planes, tables
 from petsam.study import cases as study_cases
 from petsam.study.cases import Case
 from petsam.study.tables import write_hdf5
@@ -154,6 +154,55 @@ def test_borders_are_where_a_column_has_a_value(table):
     assert texts == ["life = 31622.8", "depth = 1 m: all below"]
     points = np.concatenate([path.vertices for one in panel.collections[1:] for path in one.get_paths()])
     assert points.sum(axis=1) == pytest.approx(4.5)  # x + y, linear in the logarithm
+
+
+def test_a_map_without_a_border_names_its_regime_and_where_the_border_lies(table):
+    def words(study):
+        return [text.get_text() for text in planes.planes(study, ["way", "load"]).axes[0].texts]
+
+    study = petsam.open(table)
+    assert words(study) == []
+    for regime, says in ((1, "larger displacements"), (2, "smaller displacements")):
+        study.results["regime"][:] = regime
+        (text,) = words(study)
+        assert text.startswith(f"all 12 cases: {sliding.REGIMES[regime]}\n") and says in text
+
+
+STATED = """
+parameters:
+  way: [1e-6, 2e-6]
+options:
+  load_n: [10, 20]
+  disp_x: "{way}"
+units:
+  way: m
+  worn: m
+results:
+  worn: 2*way
+"""
+
+
+def test_the_axes_of_a_study_have_the_units_that_its_table_states(tmp_path):
+    (tmp_path / "t.yaml").write_text(STATED)
+    cases = study_cases.read(str(tmp_path / "t.yaml"))
+    record = {"exit_code": 0, "seconds": 1.0, "message": ""}
+    values = [{"worn": (2 * float(case.inputs["way"]), case.units["worn"])} for case in cases]
+    found = [(case, record, mine) for case, mine in zip(cases, values)]
+    write_hdf5(str(tmp_path / "results.h5"), found, "t.yaml")
+    study = petsam.open(tmp_path / "results.h5")
+    panel = tables.study([study], ["worn"], "way").axes[0]
+    assert (panel.get_xlabel(), panel.get_ylabel()) == ("way, µm", "worn, µm")
+    assert panel.lines[0].get_xdata() == pytest.approx([1.0, 2.0])
+    panel = planes.planes(study, ["way", "load_n"], ["worn"], borders=[("worn", 3e-6)]).axes[0]
+    assert (panel.get_xlabel(), panel.get_ylabel()) == ("way, µm", "$N$, N")
+    assert panel.get_legend().get_texts()[0].get_text() == "worn = 3 µm"
+
+
+@pytest.mark.parametrize("line", ["load_n: N", "gap: m", "way: [m]", "way: a unit that is far too long"])
+def test_a_unit_of_what_is_no_name_of_the_table_or_none_is_refused(tmp_path, line):
+    (tmp_path / "t.yaml").write_text(STATED.replace("way: m\n", line + "\n"))
+    with pytest.raises(petsam.Error, match="t.yaml, line 8: units: "):
+        study_cases.read(str(tmp_path / "t.yaml"))
 
 
 def test_the_command_draws_maps_and_refuses_what_is_none(draw, table):

@@ -23,6 +23,7 @@ import warnings
 from .. import isolation
 from ..errors import Error, Parser, fail, guarded, joined, short
 from ..files import same
+from ..plot.saving import add_choice
 from ..replacing import need_own
 from ..surface.lengths import lengths, several, shown, sides
 from . import model, picture, substructure, writing
@@ -123,7 +124,7 @@ def parser():
     out = found.add_argument_group("output")
     out.add_argument("-o", "--output", metavar="NAME.h5", help="(the deck's name, here)")
     out.add_argument("--picture", metavar="NAME.png", help="(beside the output)")
-    out.add_argument("--no-picture", action="store_true", help="draw none")
+    add_choice(out)
     return found
 
 
@@ -200,7 +201,7 @@ def carry_out(options, words):
             print(f"{PROGRAM}: {text}", file=sys.stderr)
     writing.write(body, options.output)
     if not options.no_picture:
-        picture.save(body, options.picture)
+        picture.save(body, options.picture, options.dpi)
     print(f"{options.output}: compliance of {source}")
     print("\n".join("  " + line for line in description(body) if "warning: " not in line))
     if not options.no_picture:

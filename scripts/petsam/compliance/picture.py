@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ..files import need_replaceable
+from ..plot.saving import DPI, write
 from ..plot.style import COLORS, STYLE, bar, field, frame, note, plt
 from ..plot.units import label, scale
 
@@ -101,10 +101,7 @@ def draw(body):
     return figure
 
 
-def save(body, path):
+def save(body, path, dpi=DPI):
     """The picture as a file."""
-    need_replaceable(path)
     with plt.rc_context(STYLE):
-        figure = draw(body)
-        figure.savefig(path, format="png")
-        plt.close(figure)
+        write(draw(body), path, dpi)

@@ -19,6 +19,7 @@ import numpy as np
 from ..contact import AdviceWarning
 from ..errors import FILE, USAGE, Error, Parser, fail, guarded, joined, short
 from ..files import need_regular, need_replaceable
+from ..plot.saving import DPI, add_resolution, write
 from . import interface
 
 MATERIALS = {"steel": (210e9, 0.3), "aluminium": (70e9, 0.33), "titanium": (115e9, 0.32), "nickel": (205e9, 0.3)}
@@ -109,6 +110,7 @@ def _parser():
     one.add_argument("--steps", type=int, default=8, help="load steps of a quarter of the loop (8)")
     one.add_argument("--periodic", action="store_true", help="the surface repeats itself: no windows of it")
     one.add_argument("-o", "--output", metavar="NAME", help="write NAME.csv, NAME.inp and NAME.png")
+    add_resolution(one)
     return one
 
 
@@ -116,6 +118,8 @@ def _run():
     args = _parser().parse_args(joined(sys.argv[1:]))
     if args.steps < 1:
         raise Error(f"--steps {args.steps}: expected 1 or more")
+    if args.dpi != DPI and not args.output:
+        raise Error("--dpi: is for the picture, which --output writes; give both or none")
     for ending in (".csv", ".inp", ".png") if args.output else ():
         need_replaceable(args.output + ending)
     separation, spacing = read_separation(args.surface)
@@ -137,7 +141,7 @@ def _run():
     if args.output:
         result.to_csv(args.output + ".csv")
         result.to_abaqus(args.output + ".inp")
-        result.plot().savefig(args.output + ".png", dpi=150)
+        write(result.plot(), args.output + ".png", args.dpi)
     return 0
 
 

@@ -25,8 +25,8 @@ import numpy as np
 from .. import isolation
 from ..errors import Error, Parser, fail, guarded, joined, short, there_are
 from ..files import need_replaceable, same
+from ..plot import saving
 from ..plot.arguments import names, numbers, point
-from ..plot.style import plt
 from ..stresses import FATIGUE, Stresses
 from . import evaluation, materials, strength
 from .stresses import Cycle
@@ -95,7 +95,7 @@ def arguments(words):
     out.add_argument("--quantity", type=names, metavar="NAME,...", help="on the line, maxima of the cycle (parameters)")
     out.add_argument("--csv", metavar="NAME.csv", help="write the lines, SI units")
     out.add_argument("-o", "--output", metavar="NAME", help="picture: .png, .pdf or .svg (NAME_depth.png of the file)")
-    out.add_argument("--no-picture", action="store_true", help="draw none")
+    saving.add_choice(out)
     options = parser.parse_args(joined(words))
     options.counts = options.counts or [1.0] * len(options.files)
     if len(options.counts) != len(options.files) or not all(0.0 < count < np.inf for count in options.counts):
@@ -235,12 +235,9 @@ def carry_out(options):
     if options.csv:
         _write_csv(options, lines)
     if first.z.size > 1 and not options.no_picture:
-        need_replaceable(options.output)
         from . import picture
 
-        figure = picture.draw(lines, constants)
-        figure.savefig(options.output, dpi=picture.STYLE["savefig.dpi"])
-        plt.close(figure)
+        saving.write(picture.draw(lines, constants), options.output, options.dpi)
         print("wrote " + options.output)
     _warn(cycles)
 

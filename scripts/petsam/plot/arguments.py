@@ -8,10 +8,9 @@ import sys
 
 from ..cycles import PAIRS, read_period
 from ..errors import Error, Parser, joined, short
-from . import bodies
+from . import bodies, saving
 
 FORMATS = (".png", ".pdf", ".svg")
-DPI = (10, 1200)
 WIDTHS = (30.0, 2000.0)  # mm of a picture
 SCALES = ("colors", "x", "y")  # that may be logarithmic
 
@@ -120,17 +119,6 @@ def limit(text):
     if len(values) != 1 or not math.isfinite(values[0]):
         raise argparse.ArgumentTypeError(f"{short(text)}: expected NAME=VALUE with one number")
     return name, values[0]
-
-
-def resolution(text):
-    """Reader of the pixels an inch for argparse."""
-    try:
-        value = int(text)
-    except ValueError:
-        value = 0
-    if not DPI[0] <= value <= DPI[1]:
-        raise argparse.ArgumentTypeError("{}: expected a whole number from {} to {}".format(short(text), *DPI))
-    return value
 
 
 class _Scalars(argparse.Action):
@@ -245,7 +233,7 @@ def _look(parser):
     look.add_argument("-o", "--output", metavar="NAME", help="name of the picture; it may end in .png, .pdf or .svg")
     look.add_argument("--csv", metavar="NAME.csv", help="write the numbers of all that is drawn")
     look.add_argument("--format", choices=[end[1:] for end in FORMATS], help="instead of an end of the name (png)")
-    look.add_argument("--dpi", type=resolution, default=150, help="pixels per inch of a PNG, 10 to 1200 (150)")
+    saving.add_resolution(look)
 
 
 def _check(parser, options):

@@ -10,7 +10,7 @@ from matplotlib.transforms import Bbox
 
 from ..errors import Error
 from .maps import PIXELS, Layout
-from .style import bar, colors, cross, extent, field, named, need_few, plt
+from .style import DAMAGE, bar, colors, cross, extent, field, heading, named, need_few, note, plt
 from .units import label, largest, plain, scale
 
 SYMBOLS = {name: f"$\\sigma_{{{name}}}$" for name in ("xx", "yy", "zz", "xy", "xz", "yz")}
@@ -31,6 +31,7 @@ OTHERS = {
 }  # fmt: skip
 COMPONENTS = (*STRESSES, *OTHERS)
 LABEL, MARK = "label", "mark"  # ids of the numbers of contours and of marks
+SAME = 1e-9  # part of the greatest depth within which two depths are an interface from above and from below
 PLANES = 4  # of maps in a picture without --depth
 
 
@@ -101,17 +102,27 @@ def _contours(axes, along, z, values, low, high, color_map):
     axes.grid(False)
     if not high > low:
         high = low + 1.0
-    levels = np.linspace(low, high, LEVELS + 1)
-    image = axes.contourf(along, z, np.clip(values, low, high), levels=levels, cmap=color_map)
-    image.drawn = along, z, values
-    lines = axes.contour(
-        along, z, values, levels=MaxNLocator(LINES).tick_values(low, high)[1:-1], colors="0.25", linewidths=0.5
-    )
-    labels = axes.clabel(lines, fmt="%.3g", fontsize=6.5, inline=False, colors="0.15")
-    for text in labels:
-        text.set(gid=LABEL, path_effects=[withStroke(linewidth=1.5, foreground="white", alpha=0.8)])
+    levels, lines = np.linspace(low, high, LEVELS + 1), MaxNLocator(LINES).tick_values(low, high)[1:-1]
+    for part in _layers(z):
+        image = axes.contourf(along, z[part], np.clip(values[part], low, high), levels=levels, cmap=color_map)
+        image.drawn = along, z[part], values[part]
+        drawn = axes.contour(along, z[part], values[part], levels=lines, colors="0.25", linewidths=0.5)
+        numbered(axes, drawn)
     axes.set_ylim(z[-1], z[0])
     return image
+
+
+def numbered(axes, lines, style="%.3g"):
+    """Writes numbers on contours; untangle() takes away those that lie on others."""
+    for text in axes.clabel(lines, fmt=style, fontsize=6.5, inline=False, colors="0.15"):
+        text.set(gid=LABEL, path_effects=[withStroke(linewidth=1.5, foreground="white", alpha=0.8)])
+
+
+def _layers(z):
+    """Slices of the depths between interfaces, which stand twice, seen from above and from below. The jump there is no
+    slope, along which all contours would run. A layer of one depth has no area."""
+    ends = [0, *(np.flatnonzero(np.diff(z) <= SAME * z[-1]) + 1), z.size]
+    return [slice(first, last) for first, last in zip(ends[:-1], ends[1:]) if last - first > 1]
 
 
 def _limits(name, component, top, limits):
@@ -126,7 +137,7 @@ def _ring(axes, x, y):
     axes.plot(x, y, "o", color="black", markersize=9, markerfacecolor="none", markeredgewidth=1.0, clip_on=False)
 
 
-def _untangle(figure):
+def untangle(figure):
     """Take away numbers of contours that lie on one another, on a mark, or across the border."""
     figure.draw_without_rendering()  # which lays the panels out
     for axes in figure.axes:
@@ -150,9 +161,9 @@ def _extremes(name, values):
     return f"{high}, minimum {np.min(values):.4g}" if _is_signed(name) else high
 
 
-def _title(panel, text, remark, file, index):
+def _title(panel, text, remark, when):
     """What is drawn, and below it of which step; above the map, which nothing hides."""
-    panel.set_title(f"{text}: {remark}\n{plain(file.title(index))}", fontsize=9.5)
+    panel.set_title(f"{text}: {remark}\n{when}", fontsize=9.5)
 
 
 def sections(steps, component=None, at=(0.0, 0.0), limits=None):
@@ -183,8 +194,9 @@ def sections(steps, component=None, at=(0.0, 0.0), limits=None):
                 ylabel=label("depth $z$", unit) if column == 0 else "",
             )
             bar(panel, image, label(_symbol(_component(name)), prefixed))
-            _title(panel, text, f"{_extremes(name, factor * values)} {prefixed}", file, index)
-    _untangle(figure)
+            when = heading([one for one, _ in steps], file, index)
+            _title(panel, text, f"{_extremes(name, factor * values)} {prefixed}", when)
+    untangle(figure)
     return figure
 
 
@@ -198,6 +210,10 @@ def profiles(steps, component=None, at=(0.0, 0.0)):
     for (file, index), values, tint in zip(steps, data, colors(len(steps))):
         axis, along, _, _, where = _line(file, at)
         axes.plot(length * along, factor * values, color=tint, linewidth=1.3, label=plain(file.title(index)))
+    if len(steps) > 1:
+        axes.legend(loc="best")
+    else:
+        note(figure, heading([steps[0][0]], *steps[0]))
     axes.axhline(0.0, color="0.6", linewidth=0.8)
     depth = "on the surface" if file.z[0] == 0 else f"at z = {file.z[0]:.4g} m"
     axes.set(
@@ -205,7 +221,6 @@ def profiles(steps, component=None, at=(0.0, 0.0)):
         ylabel=label(_symbol(component), prefixed),
         title=f"stress {_symbol(component)} {depth}",
     )
-    axes.legend(loc="best")
     return figure
 
 
@@ -249,7 +264,7 @@ def maps(steps, component=None, depths=None, limits=None):
             bar(panel, image, label(_symbol(_component(name)), prefixed), layout.height)
             most = f"{_extremes(name, factor * values)} {prefixed}"
             depth = f"$z$ = {length * file.z[k]:.4g} {unit}, {most}{layout.remark}"
-            _title(panel, text, depth, file, index)
+            _title(panel, text, depth, heading([one for one, _ in steps], file, index))
     return figure
 
 
@@ -283,7 +298,7 @@ def fatigue(files, at=(0.0, 0.0)):
         panel.set_axis_off()
     if len(files) == 1 and named(files):
         figure.suptitle(plain(file.label), fontsize=9, color="0.35")
-    _untangle(figure)
+    untangle(figure)
     return figure
 
 
@@ -310,9 +325,9 @@ def _fatigue_panel(panel, file, name, at, span):
     length, unit = scale("m", np.ptp(along) / 2)
     limits = (factor * span[0], factor * span[1])
     if file.along is None:
-        image = field(panel, factor * values, extent(file.x, file.y, 1.0 / length), *limits, "inferno")
+        image = field(panel, factor * values, extent(file.x, file.y, 1.0 / length), *limits, DAMAGE)
     elif some.all(axis=1).sum() > 1:
-        image = _contours(panel, length * along, length * down, factor * values, *limits, "inferno")
+        image = _contours(panel, length * along, length * down, factor * values, *limits, DAMAGE)
     else:  # on one depth only
         image = None
         panel.plot(length * along, factor * values[k], color=colors(1)[0], linewidth=1.3)

@@ -35,7 +35,22 @@ from ..files import need_replaceable, same
 from ..results import DAMAGED, NotSaved
 from ..stresses import Stresses, open_any
 from ..studies import Study
-from . import arguments, bodies, colours, looks, loops, maps, noise, planes, profiles, series, tables, uses, wear
+from . import (
+    arguments,
+    bodies,
+    colours,
+    looks,
+    loops,
+    maps,
+    noise,
+    planes,
+    profiles,
+    saving,
+    series,
+    tables,
+    uses,
+    wear,
+)
 from .arguments import FORMATS
 from .style import STYLE, plt
 from .uses import STUDY
@@ -46,7 +61,6 @@ OF_STRESSES = ("maps", "sections", "profiles", "fatigue")
 KINDS = tuple(dict.fromkeys(OF_STRESSES[:3] + OF_RESULTS + OF_STRESSES))  # in the order in which they are drawn
 MANY = 3  # cycles from which their loops and energies are drawn without being asked for
 ORIGIN = (0.0, 0.0)
-PIXELS = 300e6  # of a PNG at most: matplotlib holds them all
 
 
 def asked(options):
@@ -265,11 +279,7 @@ def save(options, figure, name, table="w"):
     looks.adapt(figure, options.xlim, options.ylim, options.width)
     if options.csv:
         looks.write(figure, options.csv, table)
-    width, height = (options.dpi * inches for inches in figure.get_size_inches())
-    if name.lower().endswith(".png") and width * height > PIXELS:
-        raise Error(f"{name}: {width:.0f} x {height:.0f} pixels are too many; see --dpi")
-    figure.savefig(name, dpi=options.dpi)
-    plt.close(figure)
+    saving.write(figure, name, options.dpi)
     print("wrote " + name)
 
 

@@ -12,8 +12,8 @@ from matplotlib.colors import ListedColormap, Normalize
 from ..errors import Error
 from ..results import DEPTHS, EDGES, OPEN, SLIP, STICK
 from . import colours, noise, symbols
-from .style import bar, extent, field, need_few, plt, ticks
-from .units import label, largest, plain, scale
+from .style import bar, extent, field, heading, need_few, plt, ticks
+from .units import label, largest, scale
 
 USUAL = (
     "pressure",
@@ -24,6 +24,7 @@ USUAL = (
 )  # drawn unless fields are named, as far as the file has them
 VELOCITY = ("slip_velocity_x", "slip_velocity_y")  # arrows on the state
 ARROWS = 18  # along the longer side of a map at most
+LONGEST = 0.9  # length of the longest arrow over the distance between two
 OF_CONTACT = ("slip", "slip_x", "slip_y", "slip_velocity", *VELOCITY)  # exist in the contact only
 STATES = {OPEN: ("open", "#f4f4f4"), STICK: ("stick", "#3b4cc0"), SLIP: ("slip", "#e9a03b")}
 PIXELS = 1200  # of a map in each direction: more cells than the eye and the paper hold
@@ -60,13 +61,15 @@ def _read(results, index, names, whole):
 
 
 def _arrows(results, index, rows, columns, stride):
-    """Places and slip velocities of some of the cells that slip, in steady rolling: x, y (m), v_x, v_y."""
+    """Places and slip velocities of some of the cells that slip, in steady rolling: x, y (m), v_x, v_y; and how far
+    the places are apart (m)."""
     state, *velocity = (results.field(name, index, rows, columns, stride) for name in ("state", *VELOCITY))
     every = -(-max(state.shape) // ARROWS)
     some = slice(every // 2, None, every)
     slips = state[some, some] == SLIP
     x, y = np.meshgrid(results.x[columns][::stride][some], results.y[rows][::stride][some])
-    return [values[slips] for values in (x, y, *(one[some, some] for one in velocity))]
+    apart = every * stride * float(min(results.x[1] - results.x[0], results.y[1] - results.y[0]))
+    return [*(values[slips] for values in (x, y, *(one[some, some] for one in velocity))), apart]
 
 
 def _gather(snapshots, names, whole):
@@ -188,12 +191,21 @@ def _draw(panel, one, name, shown, layout, length):
         drawn.set_ticks(range(len(words)), labels=words)
     drawn.ax.tick_params(labelsize=8)
     if name == "state" and "arrows" in one:
-        x, y, *velocity = one["arrows"]
-        panel.quiver(length * x, length * y, *velocity, color="black", width=0.006, angles="xy", pivot="mid")
+        _draw_arrows(panel, length, *one["arrows"])
     for points in one["edges"]:
         _edge_points(panel, points, length, layout, "black" if not isinstance(shown, colours.Colours) else "0.85")
     panel.set(xlim=edges[:2], ylim=edges[2:])
     layout.number(panel)
+
+
+def _draw_arrows(panel, length, x, y, v_x, v_y, apart):
+    """Arrows of the slip velocity, the longest from one place to the next, and what this length stands for."""
+    longest = float(np.max(np.hypot(v_x, v_y), initial=0.0))
+    if longest > 0.0:
+        look = {"color": "black", "width": 0.1 * LONGEST * apart * length, "headwidth": 4.0, "units": "xy"}
+        scaled = {"angles": "xy", "scale_units": "xy", "scale": longest / (LONGEST * apart * length)}
+        panel.quiver(length * x, length * y, v_x, v_y, pivot="mid", **scaled, **look)
+        panel.remark = f"longest arrow: slip velocity of {longest:.2g} $V$"
 
 
 def _titles(panel, layout, title, heading):
@@ -235,8 +247,13 @@ def maps(snapshots, whole=False, names=None, choice=None):
                 continue
             one.setdefault("symbols", {})[name] = symbol
             _draw(panel, one, name, shown, layout, length)
-            _titles(panel, layout, title, plain(results.title(index)) + layout.remark if column == 0 else "")
-            remark = layout.wrapped(getattr(shown, "remark", ""))
+            _titles(
+                panel,
+                layout,
+                title,
+                heading([one for one, _ in snapshots], results, index) + layout.remark if column == 0 else "",
+            )
+            remark = layout.wrapped(getattr(shown, "remark", getattr(panel, "remark", "")))
             panel.set(xlabel="\n".join(part for part in (label("$x$", unit), remark) if part))
             panel.set(ylabel=label("$y$", unit) if layout.is_left(column) else "")
     for panel in axes.flat:

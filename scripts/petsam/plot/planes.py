@@ -7,14 +7,17 @@ from matplotlib.patches import Patch
 from ..errors import Error, short
 from ..sliding import REGIMES
 from .style import COLORS, bar, logarithmic, need_few, plt
-from .tables import matching, numbers
-from .units import label, largest, plain, scale, written
+from .tables import matching, numbers, titled
+from .units import label, largest, on_axis, scale
 
 TINTS = ("#dfe3ee", "#8fb8d8", "#f5e0a0", "#cc79a7")  # of the regimes
 FILLED = 0.5  # of a grid of the distinct values that must have cases, or they are drawn as points
 LEVELS = 12
 FINE = 400  # points of a map of regimes in each direction
 TITLES = {"regime": "fretting regime"}
+LARGER = "the border lies at larger displacements and tangential loads,\nor at smaller normal loads and friction"
+SMALLER = "the border lies at smaller displacements and tangential loads,\nor at larger normal loads and friction"
+BEYOND = {"stick": LARGER, "partial slip": LARGER, "gross slip": SMALLER}
 
 
 def _grid(study, over, name, where, option="--scalar"):
@@ -33,7 +36,13 @@ def _grid(study, over, name, where, option="--scalar"):
         text = f"{i.size} cases at {len(places)} places; choose cases of the other inputs by --where"
         raise Error(f"{study.path}: --against {','.join(over)}: {text}")
     grid[j, i] = values[chosen]
-    return xs, ys, grid
+    return _factor(study, over[0])[0] * xs, _factor(study, over[1])[0] * ys, grid
+
+
+def _factor(study, name):
+    """Factor and unit of an input on its axis, the same for all columns that are drawn over it."""
+    values, unit = numbers(study, name, "--against")
+    return on_axis(unit, largest([values]))
 
 
 def _between(values, log):
@@ -53,12 +62,22 @@ def _regimes(panel, xs, ys, grid, logs):
     for k in np.unique(shown.compressed()):
         panel.contour(x, y, np.ma.masked_where(shown.mask, shown == k), levels=[0.5], colors="black", linewidths=1.2)
     known = sorted({int(value) for value in grid[np.isfinite(grid)]})
+    if len(known) == 1:
+        _say_uniform(panel, known[0], np.isfinite(grid).sum())
     return [Patch(color=TINTS[k], label=REGIMES[k]) for k in known]
+
+
+def _say_uniform(panel, regime, count):
+    """Writes into a map without a border which regime all of it is, and where another one is to be looked for."""
+    words = f"all {count} cases: {REGIMES[regime]}"
+    text = "\n".join(filter(None, (words, BEYOND.get(REGIMES[regime]))))
+    box = {"facecolor": "white", "edgecolor": "0.5", "linewidth": 0.6, "boxstyle": "round,pad=0.5"}
+    panel.text(0.5, 0.5, text, transform=panel.transAxes, ha="center", va="center", fontsize=9, bbox=box)
 
 
 def _values(panel, xs, ys, grid, name, unit):
     """Contours of numbers, or coloured points where the cases fill no grid."""
-    factor, prefixed = scale(unit, largest([grid]))
+    factor, prefixed = on_axis(unit, largest([grid]))
     some = np.isfinite(grid)
     if some.mean() < FILLED:
         j, i = np.nonzero(some)
@@ -66,7 +85,7 @@ def _values(panel, xs, ys, grid, name, unit):
     else:
         image = panel.contourf(xs, ys, np.ma.masked_invalid(factor * grid), levels=LEVELS, cmap="viridis")
         image.drawn = xs, ys, factor * grid
-    bar(panel, image, label(plain(name), prefixed))
+    bar(panel, image, label(titled(name), prefixed))
 
 
 def _border(panel, study, over, where, name, limit, color):
@@ -81,9 +100,9 @@ def _border(panel, study, over, where, name, limit, color):
         panel.contour(
             xs, ys, np.ma.masked_invalid(grid), levels=[level], colors=[color], linewidths=1.8, linestyles="solid"
         )
-    unit = written(numbers(study, name, "--border")[1])
+    factor, unit = scale(numbers(study, name, "--border")[1], abs(limit))
     side = "" if known.min() < limit < known.max() else ": all below" if known.max() <= limit else ": all above"
-    text = f"{plain(name)} = {limit:g} {'' if unit == '1' else unit}".rstrip() + side
+    text = f"{titled(name)} = {factor * limit:.6g} {unit}".rstrip() + side
     return plt.Line2D([], [], color=color, linewidth=1.8, label=text)
 
 
@@ -115,8 +134,8 @@ def planes(study, over, names=None, where=(), borders=(), logs=()):
         panel.plot(xs[i], ys[j], ".", color="0.25", markersize=3.0, clip_on=False)
         for (criterion, limit), color in zip(borders, COLORS[1:] * len(borders)):
             handles.append(_border(panel, study, over, where, criterion, limit, color))
-        texts = [label(plain(one), written(study.unit_of_input(one))) for one in over]
-        title = TITLES.get(name, plain(name))
+        texts = [label(titled(one), _factor(study, one)[1]) for one in over]
+        title = TITLES.get(name, titled(name))
         panel.set(xlabel=texts[0], ylabel=texts[1])
         panel.set_title(title, pad=6 + 15 * -(-len(handles) // 2))  # above the legend
         if handles:

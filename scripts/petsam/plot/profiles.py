@@ -9,7 +9,7 @@ from ..errors import Error
 from ..results import DEPTHS, OPEN
 from . import noise, symbols
 from .maps import OF_CONTACT
-from .style import colors, logarithmic, plt
+from .style import colors, heading, logarithmic, plt
 from .units import label, largest, plain, scale
 
 ROWS = (
@@ -136,5 +136,5 @@ def profiles(snapshots, at=(0.0, 0.0), whole=False, names=None, limits=None, log
         names, marks = axes[0, 0].get_legend_handles_labels()[::-1]
         figure.legend(marks, names, loc="outside upper center", ncols=2)  # above the panels: curves are anywhere within
     else:
-        figure.suptitle(plain(snapshots[0][0].title(snapshots[0][1])), fontsize=9, color="0.35")
+        figure.suptitle(heading([snapshots[0][0]], *snapshots[0]), fontsize=9, color="0.35")
     return figure

@@ -13,18 +13,21 @@ from matplotlib.ticker import LogFormatterMathtext, MaxNLocator  # noqa: E402
 from PIL import Image  # noqa: E402  (comes with matplotlib)
 
 from ..errors import Error  # noqa: E402
+from .saving import DPI, write  # noqa: E402
+from .units import plain  # noqa: E402
 
 STYLE = {
     "font.size": 10, "axes.grid": True, "grid.color": "0.92", "axes.axisbelow": True,
     "axes.spines.top": False, "axes.spines.right": False, "axes.titlesize": 11,
     "legend.frameon": False, "legend.fontsize": 8.5, "legend.title_fontsize": 9,
-    "savefig.dpi": 150, "mathtext.fontset": "dejavusans",
+    "savefig.dpi": DPI, "mathtext.fontset": "dejavusans",
 }  # fmt: skip
 COLORS = ("#0072b2", "#d55e00", "#009e73", "#e69f00", "#cc79a7", "#5a5a5a")  # of Okabe and Ito: for all eyes
 PANELS = 64  # maximum panels of a picture, one below the other or side by side
 MARKED = 80  # points of a curve up to which each is marked; more would form a band
 TURNS = 20  # of the abscissa, of ten cycles; with more a curve over it is drawn as points
 BINS = 1500  # parts of an axis of time, more than a panel has pixels: of each the extremes are drawn
+DAMAGE = "YlOrRd"  # colours of what is zero over most of a picture: light there, as paper is
 CLOSED = {"color": "0.35", "linewidth": 1.2}  # the line of a closed-form solution
 
 
@@ -199,9 +202,10 @@ def over_cycles(panel, cycles):
     )
     panel.set_xlabel("cycles")
     if last >= 100.0 * first:
-        decades = range(int(np.floor(np.log10(first))), int(np.floor(np.log10(last))) + 1)
+        decades = range(int(np.round(np.log10(first))), int(np.floor(np.log10(last))) + 1)
         panel.set_xscale("symlog", linthresh=10.0 ** decades[0], linscale=1.0)
-        panel.set_xlim(0.0, None)
+        panel.set_xlim(-0.08 * 10.0 ** decades[0], 1.25 * last)  # with room for whole marks
+        panel.minorticks_off()
         panel.set_xticks([0.0, *(10.0**n for n in decades)], ["0", *(f"$10^{{{n}}}$" for n in decades)])
 
 
@@ -239,12 +243,30 @@ def named(files):
     return len(files) > 1 or files[0].label != os.path.splitext(os.path.basename(files[0].path))[0]
 
 
+def heading(files, one, index):
+    """What names a step above a panel: its time alone where the picture has one file, whose name says nothing."""
+    return plain(one.title(index) if named(list(dict.fromkeys(files))) else one.when(index))
+
+
+def reach(values, along, part=0.1, margin=0.2):
+    """First and last place along the last axis of values where they exceed a part of their maximum, with a margin."""
+    large = along[np.any(values > part * np.max(values), axis=tuple(range(values.ndim - 1)))]
+    room = margin * (large[-1] - large[0])
+    return max(along[0], large[0] - room), min(along[-1], large[-1] + room)
+
+
 def save(figure, directory, name):
-    """Write one PNG of 256 colours, a third of the size that it has with all, and close the figure."""
+    """Write one PNG of 256 colours and close the figure."""
     path = os.path.join(directory, name)
-    figure.savefig(path)
-    plt.close(figure)
-    with Image.open(path) as image:
-        few = image.convert("RGB").quantize(256, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
-    few.save(path, optimize=True, dpi=[STYLE["savefig.dpi"]] * 2)
+    write(figure, path)
+    reduce(path)
     print("wrote " + path)
+
+
+def reduce(path):
+    """Leave a PNG 256 colours, with which it has a third of its size."""
+    with Image.open(path) as image:
+        # the method of the least maximum error: others give thin bands of a colour map the colours of another one
+        method = {"method": Image.Quantize.MAXCOVERAGE, "kmeans": 2, "dither": Image.Dither.NONE}
+        few = image.convert("RGB").quantize(256, **method)
+    few.save(path, optimize=True, dpi=[DPI] * 2)

@@ -5,7 +5,7 @@ import numpy as np
 from ..errors import Error, counted, short
 from . import symbols
 from .style import MARKED, colors, logarithmic, need_few, plt
-from .units import label, largest, plain, scale, written
+from .units import label, largest, on_axis, plain, scale
 
 MARKS = ("o", "s", "^", "D", "v", "x", "+")
 MOST = 9  # panels of a picture, unless columns are named
@@ -14,6 +14,7 @@ SAME = 1e-9  # relative difference below which values do not vary
 AGAIN = 1e-6  # relative difference below which a result is the input of the same name
 NOISE = 1e-9  # relative to the largest number with the same dimension; smaller numbers are rounding; rad is separate
 DIMENSION = {"J": "N m"}
+ENERGIES = {"dissipated_energy_sum": "dissipated energy, sum", "dissipated_energy": "dissipated energy, last step"}
 
 
 def numbers(study, name, option):
@@ -21,7 +22,13 @@ def numbers(study, name, option):
     values, unit = study.column(name, option)
     if values.dtype.kind not in "biuf":
         raise Error(f"{study.path}: {option} {short(name)}: holds texts, no numbers")
-    return values.astype(float), unit
+    return values.astype(float), study.unit_of_input(name) if name in study.inputs else unit
+
+
+def titled(name):
+    """What a column is called on an axis: by its symbol, if it has one."""
+    bare = name.removesuffix("_end")
+    return ENERGIES.get(bare) or symbols.scalar(bare)
 
 
 def _varies(values):
@@ -121,10 +128,10 @@ def rows(study, where=()):
 
 
 def _text(study, name, value):
-    unit = written(study.unit_of_input(name))
-    return (
-        f"{plain(name)} = {value:g} {unit}".rstrip() if isinstance(value, float) else f"{plain(name)} = {plain(value)}"
-    )
+    if not isinstance(value, float):
+        return f"{titled(name)} = {plain(value)}"
+    factor, unit = scale(study.unit_of_input(name), abs(value))
+    return f"{titled(name)} = {factor * value:.6g} {unit}".rstrip()
 
 
 def _split(columns, chosen):
@@ -204,16 +211,13 @@ def _draw(panel, curves, name, other, across, logs):
     """One column over the other of all curves."""
     data = [(study.column(other)[0][cases].astype(float), numbers(study, name, "--scalar")[0][cases])
             for study, _, _, _, cases in curves]  # fmt: skip
-    factor, unit = scale(numbers(curves[0][0], name, "--scalar")[1], largest(y for _, y in data))
+    factor, unit = on_axis(numbers(curves[0][0], name, "--scalar")[1], largest(y for _, y in data))
     for (_, text, color, mark, _), (x, y) in zip(curves, data):
         order = np.argsort(x, kind="stable")
         many = {"marker": "", "linewidth": 0.8} if x.size > MARKED else {"marker": mark, "linewidth": 1.0}
         look = {"markersize": 4.5, "markerfacecolor": "white", "color": color, "label": text, **many}
         panel.plot(across * x[order], factor * y[order], **look)
-    bare = name[:-4] if name.endswith("_end") else name
-    text = "dissipated energy, sum" if name == "dissipated_energy_sum" else symbols.scalar(bare)
-    text = "dissipated energy, last step" if name == "dissipated_energy" else text
-    panel.set(ylabel=label(text, unit))
+    panel.set(ylabel=label(titled(name), unit))
     logarithmic(panel, logs)
 
 
@@ -236,7 +240,7 @@ def study(studies, names=None, other=None, by=None, where=(), logs=()):
     figure, axes = plt.subplots(height, columns, figsize=size, squeeze=False, constrained_layout=True)
     for panel, name in zip(axes.flat, names):
         _draw(panel, curves, name, other, across, logs)
-        panel.set_xlabel(label(plain(other), unit))
+        panel.set_xlabel(label(titled(other), unit))
     for panel in axes.flat[len(names) :]:
         panel.set_axis_off()
     handles, texts = axes.flat[0].get_legend_handles_labels()
@@ -250,8 +254,6 @@ def study(studies, names=None, other=None, by=None, where=(), logs=()):
 
 
 def _abscissa(curves, other):
-    """Factor and unit of what is drawn over; an input has the numbers that the table gives."""
-    study = curves[0][0]
-    if other in study.inputs:
-        return 1.0, written(study.unit_of_input(other))
-    return scale(study.column(other)[1], largest(study.column(other)[0][cases] for study, _, _, _, cases in curves))
+    """Factor and unit of what is drawn over."""
+    _, unit = numbers(curves[0][0], other, "--against")
+    return on_axis(unit, largest(numbers(study, other, "--against")[0][cases] for study, _, _, _, cases in curves))

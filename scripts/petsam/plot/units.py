@@ -12,6 +12,8 @@ PREFIXES = (
     (1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"), (1e-12, "p"),
 )  # fmt: skip
 BASE = re.compile(r"(Pa|N|m[23]?|J|rad|W)(?![A-Za-z0-9])")  # beginning of a unit that takes a prefix
+RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+LOWERED = {raised: digit for digit, raised in RAISED.items()}
 NUMBERS = ((1e9, "billion "), (1e6, "million "), (1e3, "thousand "))
 
 
@@ -39,9 +41,20 @@ def scale(unit, largest):
     return 1.0 / size, prefix + written(unit)
 
 
+def on_axis(unit, largest):
+    """The same for an axis, on which small numbers without a unit are those times a power of ten: 0.5 to 2, not 0.0005
+    to 0.0020, which runs into its neighbours."""
+    if unit != "1" or not 0.0 < largest < 0.01:
+        return scale(unit, largest)
+    power = 3 * int(np.floor(np.log10(largest) / 3.0 + 1e-9))
+    return 10.0**-power, "10" + str(power).translate(RAISED)
+
+
 def size_of(text):
     """Size in SI units of the unit in an axis' label, as label() writes it; 1 without one."""
     for word in reversed(re.findall(r", (\S+)", text)):
+        if word.startswith("10⁻"):
+            return 10.0 ** int(word[2:].translate(LOWERED))
         for size, prefix in PREFIXES:
             first = BASE.match(word[len(prefix) :].replace("²", "2").replace("³", "3"))
             if word.startswith(prefix) and first and not (prefix == "" and word[0] in "Gkµnp"):

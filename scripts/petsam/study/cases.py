@@ -52,8 +52,8 @@ NAME = 255  # bytes of a file's name
 
 class Case(NamedTuple):
     """One run: number (from 1), name, inputs (name: text; the lists' values, or the columns), options (name: text or
-    None), files (name: text), MPI ranks, options of petsam-stress likewise, expressions of results (name: text), and
-    the values of all parameters and options that these may use."""
+    None), files (name: text), MPI ranks, options of petsam-stress likewise, expressions of results (name: text),
+    the values of all parameters and options that these may use, and units of parameters and of such results."""
 
     number: int
     name: str
@@ -64,6 +64,7 @@ class Case(NamedTuple):
     stress: dict = {}
     results: dict = {}
     values: dict = {}
+    units: dict = {}
 
     def words(self, options=None):
         """The command line of petsam, or of petsam-stress, but for the results' name.
@@ -250,7 +251,7 @@ def _yaml_cases(path, common):
             texts,
             (ranks, "{}, line {}".format(path, table.lines.get("ranks", 1))),
             _name(inputs),
-            (stress, table.results, expanded),
+            (stress, table.results, expanded, table.units),
         )
 
 

@@ -16,7 +16,8 @@ from .expressions import check
 CSV, YAML = 64 << 20, 1 << 20  # maximum bytes of a table; reading YAML takes long
 VALUE = 16384  # maximum characters of a value: the system limits the words of a command
 NAME = re.compile(r"[A-Za-z]\w*")  # of an option or a parameter
-KEYS = ("options", "parameters", "files", "ranks", "stress", "results")
+UNIT = re.compile(r"[A-Za-z1%][\w%/^. -]{0,19}")
+KEYS = ("options", "parameters", "files", "ranks", "units", "stress", "results")
 EXAMPLE = ("options:", "  load_tx: [30, 60, 90]")
 # files in the folder of every case (runs.py), and of petsam
 FOLDER = re.compile(r"(petsam\.log|record\.json|lock|(results(\.part\d+)?|stress)\.h5|checkpoint.*)(\..*)?")
@@ -121,8 +122,8 @@ def read_csv(path):
 
 class Table(NamedTuple):
     """A YAML table: parameters and options as {name: list of texts}, files as {name: text}, ranks as text or None,
-    names of the parameters and options with lists, {name: line} of all, options of petsam-stress as {name: text}, and
-    expressions of results as {name: text}."""
+    names of the parameters and options with lists, {name: line} of all, options of petsam-stress as {name: text},
+    expressions of results as {name: text}, and units of parameters and of these results as {name: text}."""
 
     parameters: dict
     options: dict
@@ -132,6 +133,7 @@ class Table(NamedTuple):
     lines: dict
     stress: dict
     results: dict
+    units: dict
 
 
 class _Reader:
@@ -238,7 +240,18 @@ class _Reader:
             self.lines["ranks"] = place
         stress, results = (self.single(sections.get(key), key, {**parameters, **options}) for key in KEYS[-2:])
         ranks = ranks and self.scalar(ranks)
-        return Table(parameters, options, files, ranks, lists + more, self.lines, stress, results)
+        units = self.units(sections.get("units"), {**parameters, **results})
+        return Table(parameters, options, files, ranks, lists + more, self.lines, stress, results, units)
+
+    def units(self, node, names):
+        """Returns {name: unit} of parameters and results of the table's own; petsam's options have theirs."""
+        found = {} if self.empty(node) else self.pairs(node, "units")
+        for name, value in found.items():
+            if name not in names:
+                raise self.error(f"units: {short(name)}: is not one of `parameters` or `results`; remove it", value)
+            if not isinstance(value, yaml.ScalarNode) or not UNIT.fullmatch(value.value):
+                raise self.error(f"units: {short(name)}: expected a unit such as m, N/m or Pa", value)
+        return {name: value.value for name, value in found.items()}
 
     def single(self, node, key, others):
         """Returns {name: text} of a section without lists; the names of results must not be those of inputs."""

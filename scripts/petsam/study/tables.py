@@ -143,10 +143,10 @@ def _expressed(case, values):
     expander, found, complaint = Expander(known), {}, None
     for name in case.results:
         try:
-            found[name] = (float(expander.text(name)), "1")
+            found[name] = (float(expander.text(name)), case.units.get(name, "1"))
         except ValueError as error:
             expander.open.clear()
-            found[name] = (math.nan, "1")
+            found[name] = (math.nan, case.units.get(name, "1"))
             complaint = complaint or f"case {case.name}: results: {name}: {error}"
     return found, complaint
 
@@ -256,7 +256,8 @@ def write_hdf5(path, found, study):
         _write(file, "ranks", np.array([case.ranks for case, _, _ in found]))
         _write(file, "seconds", np.array([known.get("seconds", np.nan) for _, known, _ in found]), "s")
         for name in inputs:
-            _write(file.require_group("inputs"), name, [case.inputs.get(name) for case, _, _ in found])
+            _write(file.require_group("inputs"), name, [case.inputs.get(name) for case, _, _ in found],
+                   found[0][0].units.get(name))  # fmt: skip
         for name, unit in units.items():
             values = np.array([values[name][0] if name in values else np.nan for _, _, values in found])
             _write(file.require_group("results"), name, values, unit)

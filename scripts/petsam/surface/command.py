@@ -26,6 +26,7 @@ import numpy as np
 from .. import isolation
 from ..errors import Error, Parser, fail, guarded, short
 from ..files import same
+from ..plot.saving import add_choice
 from ..replacing import need_own
 from . import generation, levels, picture, writing
 from .filling import filled
@@ -168,7 +169,7 @@ def arguments(words):
     out = parser.add_argument_group("output")
     out.add_argument("-o", "--output", metavar="NAME.h5", help="(the first file's name, here)")
     out.add_argument("--picture", metavar="NAME.png", help="(beside the output)")
-    out.add_argument("--no-picture", action="store_true", help="draw none")
+    add_choice(out)
     options = parser.parse_args(_joined(words))
     _check_random(parser, options)
     if len(options.files) > 2:
@@ -336,7 +337,7 @@ def carry_out(options, words):
         raise Error(f"{one.name}: contains numbers that are too large")
     writing.write(one, options.output, shlex.join(["petsam-surface", *words]))
     if not options.no_picture:
-        picture.save(one, options.picture)
+        picture.save(one, options.picture, options.dpi)
     print(f"{options.output}: /{writing.dataset(one)}, {QUANTITIES[one.quantity]}, m")
     print("\n".join("  " + line for line in description(one)))
     if not options.no_picture:

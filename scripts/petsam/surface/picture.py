@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.ticker import FixedLocator, MaxNLocator
 from mpl_toolkits.axes_grid1 import make_axes_locatable
 
-from ..files import need_replaceable
+from ..plot.saving import DPI, write
 from ..plot.style import COLORS, STYLE, extent, field, note, plt
 from ..plot.units import label, largest, scale
 from .lengths import shown
@@ -67,13 +67,10 @@ def draw(one):
     return figure
 
 
-def save(one, path):
+def save(one, path, dpi=DPI):
     """The picture as a file."""
-    need_replaceable(path)
     with plt.rc_context(STYLE):
-        figure = draw(one)
-        figure.savefig(path, format="png")
-        plt.close(figure)
+        write(draw(one), path, dpi)
 
 
 def finite(one):
