@@ -28,7 +28,7 @@ available by its name, petsam.cycles or petsam.closed.plane, without a separate 
 import importlib
 import os
 
-from .errors import Error, Missing
+from .errors import Error, Missing, MissingFile
 
 __version__ = "1.0.0"
 __all__ = [
@@ -39,6 +39,7 @@ __all__ = [
     "EdgeContactWarning",
     "Error",
     "Missing",
+    "MissingFile",
     "NoEquilibrium",
     "NotConverged",
     "PrescribedError",
@@ -103,7 +104,7 @@ def open(path, label=None):
     """Opens a file: returns the Results of petsam, the Stresses of petsam-stress, or the Study of petsam-study's
     results.h5.
 
-    Raises Error if it cannot be read.
+    Raises Error if it cannot be read, and MissingFile, which is a FileNotFoundError, too, if there is none.
 
     label names it in pictures (the file's name).
     """

@@ -12,6 +12,7 @@ The order of calls, and the meaning of each number: include/petsam/embed.h and e
 """
 
 import ctypes
+import errno
 import os
 import re
 import shutil
@@ -22,16 +23,18 @@ from pathlib import Path
 
 import numpy as np
 
-from . import __version__
+from . import __version__, command_line
 from .environment import PREFIX, TREE
-from .errors import Error, Missing, short, there_are
+from .errors import Error, Missing, MissingFile, short, there_are
+from .files import need_regular
 
 # numbers of a computed cycle, by their names in /wear
 CYCLE = (
     "cycle", "jump", "error", "volume1", "volume2", "depth_max1", "depth_max2", "dissipated_energy", "contact_area",
     "pressure_max", "computed",
 )  # fmt: skip
-NOT_CONVERGED, NO_EQUILIBRIUM, EDGE = 10, 11, 12
+UNREADABLE, NOT_CONVERGED, NO_EQUILIBRIUM, EDGE = 3, 10, 11, 12
+_MISSING = f": cannot be read: {os.strerror(errno.ENOENT)}"  # end of the library's message about a missing file
 _MONITOR = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int)
 
 
@@ -54,6 +57,14 @@ class ContactError(Error):
 
 class PrescribedError(ContactError, TypeError):
     """A prescribed value of a step was rejected: an unknown name, two names for one component, a value out of range."""
+
+
+class MissingInput(ContactError, MissingFile):
+    """A file that an option names is missing."""
+
+    def __init__(self, code, message):
+        MissingFile.__init__(self, re.sub(r"^-\w+ ", "", message.removesuffix(_MISSING)))
+        self.args, self.code, self.message = (code, message), code, message
 
 
 class NotConverged(ContactError):
@@ -117,6 +128,13 @@ class Cycle:
         return f"Cycle({', '.join(f'{name}={value:.6g}' for name, value in self.numbers.items())})"
 
 
+def error_of(code, message):
+    """Returns the exception for a code of the library or of the program, and its message."""
+    if code == UNREADABLE and message.endswith(_MISSING):
+        return MissingInput(code, message)
+    return {NOT_CONVERGED: NotConverged, NO_EQUILIBRIUM: NoEquilibrium}.get(code, ContactError)(code, message)
+
+
 # ---------------------------------------------------------------- the library
 
 _lock = threading.RLock()  # one thread at a time may be in the library
@@ -176,25 +194,6 @@ def _load():
     return _library
 
 
-def _words(options):
-    """Options as on the command line."""
-    words = []
-    for name, value in options.items():
-        if isinstance(value, (bool, np.bool_)):
-            value = "true" if value else "false"
-        elif np.ndim(value) > 1 and name in ("gap", "friction"):
-            raise TypeError(f"{name}: a field is given afterwards, contact.{name} = ...")
-        elif isinstance(value, (list, tuple, np.ndarray)):
-            value = ",".join(_number(one, name) for one in np.atleast_1d(value))
-        elif not isinstance(value, (str, os.PathLike)):
-            value = _number(value, name)
-        value = os.fspath(value)
-        if '"' in value:
-            raise ValueError(f"{name}={value!r}: a value cannot hold a quotation mark")
-        words += [f"-{name}", f'"{value}"' if any(c.isspace() for c in value) else value]
-    return " ".join(words)
-
-
 def _text(words):
     """Encodes text for the library, which would end it at a NUL."""
     if "\0" in words:
@@ -209,10 +208,6 @@ def _joined(function, names):
             what = f"{short(repr(name))} is no name: give one name for each value, without commas or blanks"
             raise PrescribedError(2, f"{function}: {what}")
     return _text(",".join(names))
-
-
-def _number(value, name):
-    return str(value) if isinstance(value, (str, int, np.integer)) else repr(_real(value, name).value)
 
 
 def _real(value, name):
@@ -262,12 +257,16 @@ class Contact:
         self._contact = ctypes.c_void_p()
         if comm is not None and not hasattr(comm, "py2f"):
             raise TypeError(f"comm: expected a communicator of mpi4py, and not {type(comm).__name__}")
+        for name in ("gap", "friction"):
+            if np.ndim(options.get(name, 0.0)) > 1:
+                raise TypeError(f"{name}: a field is given afterwards, contact.{name} = ...")
         self._made, self._given, self._advised = dict(comm=comm, **options), {}, set()
         self._c = _load()
         with _lock:
             code = self._c.petsam_create(
-                ctypes.c_int(-1 if comm is None else comm.py2f()), _text(_words(options)), ctypes.byref(self._contact)
-            )
+                ctypes.c_int(-1 if comm is None else comm.py2f()), _text(command_line.line(options)),
+                ctypes.byref(self._contact),
+            )  # fmt: skip
             self._check(code)
         self._read_grid()
         self._read_names()
@@ -307,10 +306,8 @@ class Contact:
         return self._c.petsam_message(self._contact).decode(errors="replace")
 
     def _check(self, code):
-        if code in (0, EDGE):
-            return
-        kind = {NOT_CONVERGED: NotConverged, NO_EQUILIBRIUM: NoEquilibrium}.get(code, ContactError)
-        raise kind(code, self._message())
+        if code not in (0, EDGE):
+            raise error_of(code, self._message())
 
     def _call(self, name, *arguments):
         """Calls a function of the library and returns its code; raises an exception if it fails."""
@@ -586,7 +583,7 @@ class Contact:
         """Calls petsam_stress() or petsam_fatigue(); returns all results."""
         if np.size(options["quantities"]) == 0:
             options["quantities"] = "none"
-        words = _words({name: value for name, value in options.items() if value is not None})
+        words = command_line.line(options)
         shape, dimensions, found = (ctypes.c_int * 4)(), ctypes.c_int(), {}
         with _lock:
             self._call(function, _text(words), shape)
@@ -652,6 +649,7 @@ class Contact:
 def _table(history):
     """Returns columns and values of a history: from a file, or from {column: values}."""
     if isinstance(history, (str, os.PathLike)):
+        need_regular(history)
         lines = [line.split("#")[0].strip() for line in Path(history).read_text(encoding="utf-8-sig").splitlines()]
         lines = [re.split(r"\s*[,;]\s*|\s+", line) for line in lines if line]
         columns, rows = [name.strip('"') for name in lines[0]], lines[1:]

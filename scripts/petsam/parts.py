@@ -41,8 +41,8 @@ def append(results, part):
     results.wear_units.update(part.wear_units)
     results.times = np.concatenate([results.times[saved], part.times[more]])
     results.steps = [results.steps[k] for k in saved] + [part.steps[k] for k in more]
-    results.places = [results.places[k] for k in saved] + [part.places[k] for k in more]
-    results.sources.append(part)
+    results.later.append(part)
+    results.places = [results.places[k] for k in saved] + [(len(results.later), k) for k in more]
     results.complete = rows + part.complete
 
 

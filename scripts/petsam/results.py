@@ -11,7 +11,7 @@ import h5py
 import numpy as np
 
 from . import parts
-from .errors import Error, Missing, one_line, short, there_are
+from .errors import Error, Missing, MissingFile, one_line, short, there_are
 from .files import need_regular
 from .isolation import reading
 
@@ -69,6 +69,8 @@ class Datafile:
             try:
                 need_regular(self.path)
                 self.file = h5py.File(self.path, "r")
+            except MissingFile:
+                raise
             except DAMAGED as error:
                 raise self._error(error) from error
             try:
@@ -155,8 +157,6 @@ class Datafile:
         self.file.close()
 
     def _error(self, error):
-        if isinstance(error, FileNotFoundError):
-            return Missing(f"{self.path}: no such file")
         return Error(f"{self.path}: {_reason(error)}")
 
     def nearest(self, saved, wanted, what="time"):
@@ -183,7 +183,8 @@ class Results(Datafile):
     parameters  name of an option: value, all root attributes
     """
 
-    sources = ()
+    later = ()  # parts of the same run
+    whole = None  # keeps the results that between() has taken a part of, whose file may be a temporary one
     first_row, last_row = 0, None  # rows of the history that count: see between()
 
     def __init__(self, path, label=None):
@@ -208,8 +209,18 @@ class Results(Datafile):
     def close(self):
         """Close all parts; what has been read stays."""
         super().close()
-        for part in self.sources[1:]:
+        for part in self.later:
             part.close()
+
+    @property
+    def sources(self):
+        """This file and the later parts; not kept as a list, for results that hold themselves live on until gc."""
+        return [self, *self.later]
+
+    def _place(self, index):
+        """The part that has a saved step, and its index there."""
+        number, index = self.places[index]
+        return self.sources[number], index
 
     def _read(self):
         self.x, self.y = self._read_axes(("x", "y"), (2, 1))
@@ -226,7 +237,7 @@ class Results(Datafile):
         self.steps = [self.before + _row_of(self.history["time"], saved) + 1 for saved in self.times]
         attributes = {name: _own(self.file, f"history/{name}").attrs for name in self.history}
         self.fills = {name: float(of["value_before"]) for name, of in attributes.items() if "value_before" in of}
-        self.sources, self.places = [self], [(self, k) for k in range(self.times.size)]
+        self.later, self.places = [], [(0, k) for k in range(self.times.size)]
         self.held = self.times.size  # saved steps of this file alone
         self.wear, self.wear_units = Named(self.path, {}), {}
         if "wear" in self.file:
@@ -334,6 +345,7 @@ class Results(Datafile):
             raise NotSaved(self.path, f"range {_ends(first, last)}", "the first step comes after the last one")
         part = copy(self)
         part.__dict__.pop("solved", None)
+        part.whole = self
         part.first_row, part.last_row = rows
         if not part.solved.size:
             raise NotSaved(self.path, f"range {_ends(first, last)}", "no step of these has a solution")
@@ -584,7 +596,7 @@ class Results(Datafile):
             raise Error(f"{self.path}: {name} is no field: ask for edge({name!r})")
         low, high, _ = rows.indices(self.y.size)
         need_index(self, index)
-        source, index = self.places[index]
+        source, index = self._place(index)
         try:
             with reading(source.path):
                 data = self._saved(name, source)
@@ -606,7 +618,7 @@ class Results(Datafile):
     def edge(self, name, index=-1):
         """Points x, y (m) of contact_edge or stick_edge of a saved step, an array (points, 2)."""
         need_index(self, index)
-        source, index = self.places[index]
+        source, index = self._place(index)
         try:
             with reading(source.path):
                 data = self._saved(name, source)
