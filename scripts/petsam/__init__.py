@@ -72,24 +72,12 @@ _HOMES = {
     "run": ".running",
 }
 
-_PARTS = (
-    "closed",
-    "comparison",
-    "compliance",
-    "cycles",
-    "environment",
-    "isolation",
-    "joint",
-    "lives",
-    "plot",
-    "sliding",
-    "study",
-    "surface",
-)
+_PARTS = ("closed", "compliance", "cycles", "joint", "lives", "plot", "sliding", "study", "surface")
+_INTERNAL = ("comparison", "environment", "isolation")  # parts for petsam's own commands, examples and tests
 
 
 def __getattr__(name):
-    if name in _PARTS:
+    if name in _PARTS or name in _INTERNAL:
         return importlib.import_module("." + name, __name__)
     if name not in _HOMES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
@@ -97,7 +85,7 @@ def __getattr__(name):
 
 
 def __dir__():
-    return sorted({*globals(), *_HOMES, *_PARTS})
+    return sorted({*__all__, *_PARTS, "__doc__", "__file__", "__name__", "__version__"})
 
 
 def open(path, label=None):

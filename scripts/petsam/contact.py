@@ -221,9 +221,56 @@ def _real(value, name):
 # ---------------------------------------------------------------- contacts
 
 
-def _condensed(k, rigid, names):
-    """The stiffness k of the displacements of these names, or that name, of all rigid, while the loads of the others
-    stay."""
+class Stiffness(np.ndarray):
+    """A matrix d(loads)/d(displacements), an array of numpy whose repr has labels: a row for each load and a column for
+    each displacement, with their units. The unit of a number is that of its row over that of its column.
+
+    What is computed or cut from it is a plain array without labels, since those would not hold for it.
+
+    loads, displacements   {name: unit} of rows and columns: load_n, ... and disp_z, ... as in try_step()
+    """
+
+    loads, displacements = {}, {}
+
+    def __new__(cls, values, loads, displacements):
+        matrix = np.array(values, dtype=float).view(cls)
+        matrix.loads, matrix.displacements = dict(loads), dict(displacements)
+        return matrix
+
+    def __array_wrap__(self, values, context=None, return_scalar=False):
+        """What numpy computes from the matrix."""
+        return np.asarray(values)[()]  # of no dimension: a number
+
+    def __getitem__(self, key):
+        return np.asarray(self)[key]
+
+    @property
+    def T(self):
+        """The transpose, a plain array."""
+        return np.asarray(self).T
+
+    def __repr__(self):
+        if not self.loads:  # a view
+            return repr(np.asarray(self))
+        columns = [_over(name, unit) for name, unit in self.displacements.items()]
+        rows = [_over(name.removeprefix("load_").capitalize(), unit) for name, unit in self.loads.items()]
+        lines = [[f"{value:.5g}" for value in row] for row in self.tolist()]
+        widths = [max(map(len, column)) for column in zip(columns, *lines)]
+        first = max(map(len, rows))
+        table = zip(["", *rows], [columns, *lines])
+        return "\n".join("  ".join([head.ljust(first), *map(str.rjust, cells, widths)]) for head, cells in table)
+
+    __str__ = __repr__
+
+
+def _over(name, unit):
+    """A quantity over its unit."""
+    return f"{name} / ({unit})" if " " in unit else f"{name} / {unit}"
+
+
+def _condensed(k, names):
+    """The stiffness k of the displacements of these names, or that name, while the loads of the others stay."""
+    rigid, loads = list(k.displacements), list(k.loads)
     several = [names] if isinstance(names, str) else list(names)
     for name in several:
         if name not in rigid:
@@ -237,7 +284,10 @@ def _condensed(k, rigid, names):
     except np.linalg.LinAlgError:
         raise ContactError(2, "stiffness: condense: the other components have no stiffness together") from None
     found = k[np.ix_(kept, kept)] - k[np.ix_(kept, free)] @ (follow / scale[:, None])
-    return float(found[0, 0]) if isinstance(names, str) else found
+    if isinstance(names, str):
+        return float(found[0, 0])
+    of = [{all_of[c]: units[all_of[c]] for c in kept} for all_of, units in ((loads, k.loads), (rigid, k.displacements))]
+    return Stiffness(found, *of)
 
 
 class Contact:
@@ -401,6 +451,9 @@ class Contact:
     def stiffness(self, reversal=False, condense=None):
         """d(loads)/d(displacements) of the tried step, (6, 6): N/m, N/rad, N, N m/rad.
 
+        A Stiffness: an array of numpy, for np.linalg.solve() and so on, that is printed with labels: rows N, Tx, Ty,
+        Mx, My, Mz, columns disp_z, disp_x, disp_y, rot_x, rot_y, rot_z.
+
         Cells that slip go on slipping: the derivative of try_step(); or, with reversal, all cells in contact stick,
         without a tried step those of the committed one.
 
@@ -410,7 +463,9 @@ class Contact:
         """
         k = np.empty((6, 6))
         self._call("stiffness", ctypes.c_int(bool(reversal)), _pointer(k))
-        return k if condense is None else _condensed(k, self._displacements, condense)
+        units = self.prescribable
+        k = Stiffness(k, *({name: units[name] for name in names} for names in (self._loads, self._displacements)))
+        return k if condense is None else _condensed(k, condense)
 
     # ------------------------------------------------------------ histories and lives
 
