@@ -28,7 +28,7 @@ available by its name, petsam.cycles or petsam.closed.plane, without a separate 
 import importlib
 import os
 
-from .errors import Error, Missing
+from .errors import Error, Missing, MissingFile
 
 __version__ = "1.0.0"
 __all__ = [
@@ -39,6 +39,7 @@ __all__ = [
     "EdgeContactWarning",
     "Error",
     "Missing",
+    "MissingFile",
     "NoEquilibrium",
     "NotConverged",
     "PrescribedError",
@@ -71,24 +72,12 @@ _HOMES = {
     "run": ".running",
 }
 
-_PARTS = (
-    "closed",
-    "comparison",
-    "compliance",
-    "cycles",
-    "environment",
-    "isolation",
-    "joint",
-    "lives",
-    "plot",
-    "sliding",
-    "study",
-    "surface",
-)
+_PARTS = ("closed", "compliance", "cycles", "joint", "lives", "plot", "sliding", "study", "surface")
+_INTERNAL = ("comparison", "environment", "isolation")  # parts for petsam's own commands, examples and tests
 
 
 def __getattr__(name):
-    if name in _PARTS:
+    if name in _PARTS or name in _INTERNAL:
         return importlib.import_module("." + name, __name__)
     if name not in _HOMES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
@@ -96,14 +85,14 @@ def __getattr__(name):
 
 
 def __dir__():
-    return sorted({*globals(), *_HOMES, *_PARTS})
+    return sorted({*__all__, *_PARTS, "__doc__", "__file__", "__name__", "__version__"})
 
 
 def open(path, label=None):
     """Opens a file: returns the Results of petsam, the Stresses of petsam-stress, or the Study of petsam-study's
     results.h5.
 
-    Raises Error if it cannot be read.
+    Raises Error if it cannot be read, and MissingFile, which is a FileNotFoundError, too, if there is none.
 
     label names it in pictures (the file's name).
     """

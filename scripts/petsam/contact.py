@@ -12,6 +12,7 @@ The order of calls, and the meaning of each number: include/petsam/embed.h and e
 """
 
 import ctypes
+import errno
 import os
 import re
 import shutil
@@ -22,16 +23,18 @@ from pathlib import Path
 
 import numpy as np
 
-from . import __version__
+from . import __version__, command_line
 from .environment import PREFIX, TREE
-from .errors import Error, Missing, short, there_are
+from .errors import Error, Missing, MissingFile, short, there_are
+from .files import need_regular
 
 # numbers of a computed cycle, by their names in /wear
 CYCLE = (
     "cycle", "jump", "error", "volume1", "volume2", "depth_max1", "depth_max2", "dissipated_energy", "contact_area",
     "pressure_max", "computed",
 )  # fmt: skip
-NOT_CONVERGED, NO_EQUILIBRIUM, EDGE = 10, 11, 12
+UNREADABLE, NOT_CONVERGED, NO_EQUILIBRIUM, EDGE = 3, 10, 11, 12
+_MISSING = f": cannot be read: {os.strerror(errno.ENOENT)}"  # end of the library's message about a missing file
 _MONITOR = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int)
 
 
@@ -54,6 +57,14 @@ class ContactError(Error):
 
 class PrescribedError(ContactError, TypeError):
     """A prescribed value of a step was rejected: an unknown name, two names for one component, a value out of range."""
+
+
+class MissingInput(ContactError, MissingFile):
+    """A file that an option names is missing."""
+
+    def __init__(self, code, message):
+        MissingFile.__init__(self, re.sub(r"^-\w+ ", "", message.removesuffix(_MISSING)))
+        self.args, self.code, self.message = (code, message), code, message
 
 
 class NotConverged(ContactError):
@@ -117,6 +128,13 @@ class Cycle:
         return f"Cycle({', '.join(f'{name}={value:.6g}' for name, value in self.numbers.items())})"
 
 
+def error_of(code, message):
+    """Returns the exception for a code of the library or of the program, and its message."""
+    if code == UNREADABLE and message.endswith(_MISSING):
+        return MissingInput(code, message)
+    return {NOT_CONVERGED: NotConverged, NO_EQUILIBRIUM: NoEquilibrium}.get(code, ContactError)(code, message)
+
+
 # ---------------------------------------------------------------- the library
 
 _lock = threading.RLock()  # one thread at a time may be in the library
@@ -176,25 +194,6 @@ def _load():
     return _library
 
 
-def _words(options):
-    """Options as on the command line."""
-    words = []
-    for name, value in options.items():
-        if isinstance(value, (bool, np.bool_)):
-            value = "true" if value else "false"
-        elif np.ndim(value) > 1 and name in ("gap", "friction"):
-            raise TypeError(f"{name}: a field is given afterwards, contact.{name} = ...")
-        elif isinstance(value, (list, tuple, np.ndarray)):
-            value = ",".join(_number(one, name) for one in np.atleast_1d(value))
-        elif not isinstance(value, (str, os.PathLike)):
-            value = _number(value, name)
-        value = os.fspath(value)
-        if '"' in value:
-            raise ValueError(f"{name}={value!r}: a value cannot hold a quotation mark")
-        words += [f"-{name}", f'"{value}"' if any(c.isspace() for c in value) else value]
-    return " ".join(words)
-
-
 def _text(words):
     """Encodes text for the library, which would end it at a NUL."""
     if "\0" in words:
@@ -211,10 +210,6 @@ def _joined(function, names):
     return _text(",".join(names))
 
 
-def _number(value, name):
-    return str(value) if isinstance(value, (str, int, np.integer)) else repr(_real(value, name).value)
-
-
 def _real(value, name):
     """Returns a C double; TypeError names the argument."""
     try:
@@ -226,9 +221,56 @@ def _real(value, name):
 # ---------------------------------------------------------------- contacts
 
 
-def _condensed(k, rigid, names):
-    """The stiffness k of the displacements of these names, or that name, of all rigid, while the loads of the others
-    stay."""
+class Stiffness(np.ndarray):
+    """A matrix d(loads)/d(displacements), an array of numpy whose repr has labels: a row for each load and a column for
+    each displacement, with their units. The unit of a number is that of its row over that of its column.
+
+    What is computed or cut from it is a plain array without labels, since those would not hold for it.
+
+    loads, displacements   {name: unit} of rows and columns: load_n, ... and disp_z, ... as in try_step()
+    """
+
+    loads, displacements = {}, {}
+
+    def __new__(cls, values, loads, displacements):
+        matrix = np.array(values, dtype=float).view(cls)
+        matrix.loads, matrix.displacements = dict(loads), dict(displacements)
+        return matrix
+
+    def __array_wrap__(self, values, context=None, return_scalar=False):
+        """What numpy computes from the matrix."""
+        return np.asarray(values)[()]  # of no dimension: a number
+
+    def __getitem__(self, key):
+        return np.asarray(self)[key]
+
+    @property
+    def T(self):
+        """The transpose, a plain array."""
+        return np.asarray(self).T
+
+    def __repr__(self):
+        if not self.loads:  # a view
+            return repr(np.asarray(self))
+        columns = [_over(name, unit) for name, unit in self.displacements.items()]
+        rows = [_over(name.removeprefix("load_").capitalize(), unit) for name, unit in self.loads.items()]
+        lines = [[f"{value:.5g}" for value in row] for row in self.tolist()]
+        widths = [max(map(len, column)) for column in zip(columns, *lines)]
+        first = max(map(len, rows))
+        table = zip(["", *rows], [columns, *lines])
+        return "\n".join("  ".join([head.ljust(first), *map(str.rjust, cells, widths)]) for head, cells in table)
+
+    __str__ = __repr__
+
+
+def _over(name, unit):
+    """A quantity over its unit."""
+    return f"{name} / ({unit})" if " " in unit else f"{name} / {unit}"
+
+
+def _condensed(k, names):
+    """The stiffness k of the displacements of these names, or that name, while the loads of the others stay."""
+    rigid, loads = list(k.displacements), list(k.loads)
     several = [names] if isinstance(names, str) else list(names)
     for name in several:
         if name not in rigid:
@@ -242,7 +284,10 @@ def _condensed(k, rigid, names):
     except np.linalg.LinAlgError:
         raise ContactError(2, "stiffness: condense: the other components have no stiffness together") from None
     found = k[np.ix_(kept, kept)] - k[np.ix_(kept, free)] @ (follow / scale[:, None])
-    return float(found[0, 0]) if isinstance(names, str) else found
+    if isinstance(names, str):
+        return float(found[0, 0])
+    of = [{all_of[c]: units[all_of[c]] for c in kept} for all_of, units in ((loads, k.loads), (rigid, k.displacements))]
+    return Stiffness(found, *of)
 
 
 class Contact:
@@ -262,12 +307,16 @@ class Contact:
         self._contact = ctypes.c_void_p()
         if comm is not None and not hasattr(comm, "py2f"):
             raise TypeError(f"comm: expected a communicator of mpi4py, and not {type(comm).__name__}")
+        for name in ("gap", "friction"):
+            if np.ndim(options.get(name, 0.0)) > 1:
+                raise TypeError(f"{name}: a field is given afterwards, contact.{name} = ...")
         self._made, self._given, self._advised = dict(comm=comm, **options), {}, set()
         self._c = _load()
         with _lock:
             code = self._c.petsam_create(
-                ctypes.c_int(-1 if comm is None else comm.py2f()), _text(_words(options)), ctypes.byref(self._contact)
-            )
+                ctypes.c_int(-1 if comm is None else comm.py2f()), _text(command_line.line(options)),
+                ctypes.byref(self._contact),
+            )  # fmt: skip
             self._check(code)
         self._read_grid()
         self._read_names()
@@ -307,10 +356,8 @@ class Contact:
         return self._c.petsam_message(self._contact).decode(errors="replace")
 
     def _check(self, code):
-        if code in (0, EDGE):
-            return
-        kind = {NOT_CONVERGED: NotConverged, NO_EQUILIBRIUM: NoEquilibrium}.get(code, ContactError)
-        raise kind(code, self._message())
+        if code not in (0, EDGE):
+            raise error_of(code, self._message())
 
     def _call(self, name, *arguments):
         """Calls a function of the library and returns its code; raises an exception if it fails."""
@@ -404,6 +451,9 @@ class Contact:
     def stiffness(self, reversal=False, condense=None):
         """d(loads)/d(displacements) of the tried step, (6, 6): N/m, N/rad, N, N m/rad.
 
+        A Stiffness: an array of numpy, for np.linalg.solve() and so on, that is printed with labels: rows N, Tx, Ty,
+        Mx, My, Mz, columns disp_z, disp_x, disp_y, rot_x, rot_y, rot_z.
+
         Cells that slip go on slipping: the derivative of try_step(); or, with reversal, all cells in contact stick,
         without a tried step those of the committed one.
 
@@ -413,7 +463,9 @@ class Contact:
         """
         k = np.empty((6, 6))
         self._call("stiffness", ctypes.c_int(bool(reversal)), _pointer(k))
-        return k if condense is None else _condensed(k, self._displacements, condense)
+        units = self.prescribable
+        k = Stiffness(k, *({name: units[name] for name in names} for names in (self._loads, self._displacements)))
+        return k if condense is None else _condensed(k, condense)
 
     # ------------------------------------------------------------ histories and lives
 
@@ -586,7 +638,7 @@ class Contact:
         """Calls petsam_stress() or petsam_fatigue(); returns all results."""
         if np.size(options["quantities"]) == 0:
             options["quantities"] = "none"
-        words = _words({name: value for name, value in options.items() if value is not None})
+        words = command_line.line(options)
         shape, dimensions, found = (ctypes.c_int * 4)(), ctypes.c_int(), {}
         with _lock:
             self._call(function, _text(words), shape)
@@ -652,6 +704,7 @@ class Contact:
 def _table(history):
     """Returns columns and values of a history: from a file, or from {column: values}."""
     if isinstance(history, (str, os.PathLike)):
+        need_regular(history)
         lines = [line.split("#")[0].strip() for line in Path(history).read_text(encoding="utf-8-sig").splitlines()]
         lines = [re.split(r"\s*[,;]\s*|\s+", line) for line in lines if line]
         columns, rows = [name.strip('"') for name in lines[0]], lines[1:]

@@ -2,6 +2,7 @@
 
 import argparse
 import difflib
+import errno
 import os
 import re
 import sys
@@ -21,6 +22,19 @@ class Error(Exception):
 
 class Missing(Error):
     """A missing file, program or library."""
+
+
+class MissingFile(Missing, FileNotFoundError):
+    """A missing file (filename), as Python has it, too."""
+
+    def __init__(self, path):
+        super().__init__(errno.ENOENT, "no such file", os.fspath(path))
+
+    def __str__(self):
+        return f"{self.filename}: {self.strerror}"
+
+    def __reduce__(self):
+        return type(self), (self.filename,)
 
 
 def one_line(text, most=LINE):
@@ -52,7 +66,7 @@ def there_are(tried, names, there="there are"):
 
 def fail(command, error, code=FILE):
     """Prints the error of a command; returns the exit code."""
-    if isinstance(error, OSError):
+    if isinstance(error, OSError) and not isinstance(error, Error):
         error = f"{error.filename or 'writing'}: {error.strerror or error}"
     print(f"{command}: error: {one_line(error)}", file=sys.stderr)
     for line in getattr(error, "example", ()):

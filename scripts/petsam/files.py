@@ -3,13 +3,18 @@
 import os
 import stat
 
-from .errors import Error
+from .errors import Error, MissingFile
 
 
 def need_regular(path):
-    """Returns the status of a regular file; raises OSError if there is none, and Error if it is not a regular file."""
+    """Returns the status of a regular file; raises MissingFile if there is none, and Error if it is not a regular file.
+
+    Raises another OSError if the file cannot be reached.
+    """
     try:
         status = os.stat(path)
+    except FileNotFoundError:
+        raise MissingFile(path) from None
     except ValueError as error:  # a NUL in the name
         raise Error(f"{path}: is no file's name") from error
     if stat.S_ISDIR(status.st_mode):

@@ -23,17 +23,17 @@ def follows(part, before):
 
 def append(results, part):
     """Appends a part to the results; what those have of its steps, which were solved again, counts no more."""
-    rows, end = part.before - results.before, results.before + results.complete
-    if not 0 <= rows <= results.complete:
+    rows, end = part.before - results.before, results.before + results._complete
+    if not 0 <= rows <= results._complete:
         raise Error(f"{part.path}: begins after step {part.before}, and the steps before it end with {end}")
-    cycles = part.cycles_before - results.cycles_before
+    cycles = part._cycles_before - results._cycles_before
     if not 0 <= cycles <= min((values.size for values in results.wear.values()), default=0):
-        raise Error(f"{part.path}: begins after {part.cycles_before} computed cycles, which are not all there")
+        raise Error(f"{part.path}: begins after {part._cycles_before} computed cycles, which are not all there")
     saved = [k for k, step in enumerate(results.steps) if step <= part.before]
     last = results.steps[saved[-1]] if saved else 0
     more = [k for k, step in enumerate(part.steps) if step > last]
     count = part.history["time"].size
-    results.history.update(_joined(results.history, rows, part.history, count, part.fills))
+    results.history.update(_joined(results.history, rows, part.history, count, part._fills))
     results.matrices.update(_joined(results.matrices, rows, part.matrices, count, {}))
     computed = max((values.size for values in part.wear.values()), default=0)
     results.wear.update(_joined(results.wear, cycles, part.wear, computed, {}))
@@ -41,9 +41,9 @@ def append(results, part):
     results.wear_units.update(part.wear_units)
     results.times = np.concatenate([results.times[saved], part.times[more]])
     results.steps = [results.steps[k] for k in saved] + [part.steps[k] for k in more]
-    results.places = [results.places[k] for k in saved] + [part.places[k] for k in more]
-    results.sources.append(part)
-    results.complete = rows + part.complete
+    results._later.append(part)
+    results._places = [results._places[k] for k in saved] + [(len(results._later), k) for k in more]
+    results._complete = rows + part._complete
 
 
 def _joined(one, first, other, count, fills):

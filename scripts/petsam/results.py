@@ -11,7 +11,7 @@ import h5py
 import numpy as np
 
 from . import parts
-from .errors import Error, Missing, one_line, short, there_are
+from .errors import Error, Missing, MissingFile, one_line, short, there_are
 from .files import need_regular
 from .isolation import reading
 
@@ -69,6 +69,8 @@ class Datafile:
             try:
                 need_regular(self.path)
                 self.file = h5py.File(self.path, "r")
+            except MissingFile:
+                raise
             except DAMAGED as error:
                 raise self._error(error) from error
             try:
@@ -155,8 +157,6 @@ class Datafile:
         self.file.close()
 
     def _error(self, error):
-        if isinstance(error, FileNotFoundError):
-            return Missing(f"{self.path}: no such file")
         return Error(f"{self.path}: {_reason(error)}")
 
     def nearest(self, saved, wanted, what="time"):
@@ -183,8 +183,9 @@ class Results(Datafile):
     parameters  name of an option: value, all root attributes
     """
 
-    sources = ()
-    first_row, last_row = 0, None  # rows of the history that count: see between()
+    _later = ()  # parts of the same run
+    _whole = None  # keeps the results that between() has taken a part of, whose file may be a temporary one
+    first_row, _last_row = 0, None  # rows of the history that count: see between()
 
     def __init__(self, path, label=None):
         super().__init__(path, label)
@@ -196,9 +197,9 @@ class Results(Datafile):
 
     def _follow(self):
         """Appends the parts that restarts have written."""
-        while os.path.exists(name := parts.name_of(self.path, len(self.sources) + 1)):
+        while os.path.exists(name := parts.name_of(self.path, len(self._sources) + 1)):
             part = _Part(name)
-            if not parts.follows(part, self.sources[-1]):
+            if not parts.follows(part, self._sources[-1]):
                 part.close()
                 break
             parts.append(self, part)
@@ -208,8 +209,18 @@ class Results(Datafile):
     def close(self):
         """Close all parts; what has been read stays."""
         super().close()
-        for part in self.sources[1:]:
+        for part in self._later:
             part.close()
+
+    @property
+    def _sources(self):
+        """This file and the later parts; not kept as a list, for results that hold themselves live on until gc."""
+        return [self, *self._later]
+
+    def _place(self, index):
+        """The part that has a saved step, and its index there."""
+        number, index = self._places[index]
+        return self._sources[number], index
 
     def _read(self):
         self.x, self.y = self._read_axes(("x", "y"), (2, 1))
@@ -219,15 +230,15 @@ class Results(Datafile):
         if "friction_file" not in self.parameters:
             _ = self.parameters["friction"]  # which every other file has
         self.before = int(self.parameters.get("branch_step", 0))
-        self.cycles_before = int(self.parameters.get("branch_rows", 0))
+        self._cycles_before = int(self.parameters.get("branch_rows", 0))
         if self.before < 0:
             raise ValueError(f"it begins after step {self.before}")
-        self.complete = min((values.size for values in self.history.values()), default=0)
+        self._complete = min((values.size for values in self.history.values()), default=0)
         self.steps = [self.before + _row_of(self.history["time"], saved) + 1 for saved in self.times]
         attributes = {name: _own(self.file, f"history/{name}").attrs for name in self.history}
-        self.fills = {name: float(of["value_before"]) for name, of in attributes.items() if "value_before" in of}
-        self.sources, self.places = [self], [(self, k) for k in range(self.times.size)]
-        self.held = self.times.size  # saved steps of this file alone
+        self._fills = {name: float(of["value_before"]) for name, of in attributes.items() if "value_before" in of}
+        self._later, self._places = [], [(0, k) for k in range(self.times.size)]
+        self._held = self.times.size  # saved steps of this file alone
         self.wear, self.wear_units = Named(self.path, {}), {}
         if "wear" in self.file:
             self.wear, self.wear_units = self._read_table("wear")
@@ -316,7 +327,7 @@ class Results(Datafile):
 
     def counts(self, rows):
         """Which of the rows are among the load steps of between(); all unless it has been asked for."""
-        return (rows >= self.first_row) & (rows <= (np.inf if self.last_row is None else self.last_row))
+        return (rows >= self.first_row) & (rows <= (np.inf if self._last_row is None else self._last_row))
 
     def between(self, first=None, last=None):
         """The same results as if their history had the load steps first to last only; numbers as of_step() has them."""
@@ -334,7 +345,8 @@ class Results(Datafile):
             raise NotSaved(self.path, f"range {_ends(first, last)}", "the first step comes after the last one")
         part = copy(self)
         part.__dict__.pop("solved", None)
-        part.first_row, part.last_row = rows
+        part._whole = self
+        part.first_row, part._last_row = rows
         if not part.solved.size:
             raise NotSaved(self.path, f"range {_ends(first, last)}", "no step of these has a solution")
         return part
@@ -445,7 +457,7 @@ class Results(Datafile):
     @cached_property
     def fields(self):
         """Names of all fields that the file has."""
-        shape = (self.held, self.y.size, self.x.size)
+        shape = (self._held, self.y.size, self.x.size)
         with reading(self.path):
             links = {name: self.file.get(name, getlink=True) for name in self.file}
             local = [name for name, link in links.items() if isinstance(link, h5py.HardLink)]
@@ -476,7 +488,7 @@ class Results(Datafile):
 
     def _all_have(self, name):
         """True if all parts have a dataset."""
-        return all(name in source.file for source in self.sources)
+        return all(name in source.file for source in self._sources)
 
     @cached_property
     def vectors(self):
@@ -588,14 +600,14 @@ class Results(Datafile):
             raise Error(f"{self.path}: {name} is no field: ask for edge({name!r})")
         low, high, _ = rows.indices(self.y.size)
         need_index(self, index)
-        source, index = self.places[index]
+        source, index = self._place(index)
         try:
             with reading(source.path):
                 data = self._saved(name, source)
             if data.dtype.kind not in "biuf":
                 raise ValueError(f"/{name} has no numbers")
             layers = (self.z_of(name).size,) if name in self.layered else ()
-            if data.shape != (source.held, *layers, self.y.size, self.x.size):
+            if data.shape != (source._held, *layers, self.y.size, self.x.size):
                 raise ValueError(f"/{name} has the shape {data.shape}")
             block = stride * max(1, BLOCK // stride)
             blocks = []
@@ -610,11 +622,11 @@ class Results(Datafile):
     def edge(self, name, index=-1):
         """Points x, y (m) of contact_edge or stick_edge of a saved step, an array (points, 2)."""
         need_index(self, index)
-        source, index = self.places[index]
+        source, index = self._place(index)
         try:
             with reading(source.path):
                 data = self._saved(name, source)
-                if data.dtype.kind != "f" or data.ndim != 3 or data.shape[::2] != (source.held, 2):
+                if data.dtype.kind != "f" or data.ndim != 3 or data.shape[::2] != (source._held, 2):
                     raise ValueError(f"/{name} is no edge: its shape is {data.shape}")
                 points = data[index]
         except DAMAGED as error:

@@ -11,14 +11,12 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from . import environment
-from .contact import AdviceWarning, ContactError, EdgeContactWarning, NoEquilibrium, NotConverged
+from . import command_line, environment
+from .contact import EDGE, NO_EQUILIBRIUM, NOT_CONVERGED, AdviceWarning, EdgeContactWarning, error_of
 from .errors import Error, short
 from .results import Results
 
-_KINDS = {10: NotConverged, 11: NoEquilibrium}
-EDGE = 12
-_FLAGS = {True: "true", False: "false"}
+_SOLVED = (0, NOT_CONVERGED, NO_EQUILIBRIUM, EDGE)  # exit codes of runs that have written results
 
 
 def run(options=None, /, *, history=None, ranks=1, report=None, **more):
@@ -55,8 +53,8 @@ def run(options=None, /, *, history=None, ranks=1, report=None, **more):
             raise Error(f"output: expected the path of a file, not {short(repr(output))}")
         given["quiet"] = report is None
         given["history"] = history
-        code, complaint = _execute(_command(ranks) + _words(given), report)
-        results = Results(output) if code in (0, *_KINDS, EDGE) and os.path.exists(output) else None
+        code, complaint = _execute(_command(ranks) + command_line.words(given), report)
+        results = Results(output) if code in _SOLVED and os.path.exists(output) else None
     except BaseException:
         _remove(folder, process)
         raise
@@ -65,7 +63,7 @@ def run(options=None, /, *, history=None, ranks=1, report=None, **more):
     else:
         # also at the end of a worker of multiprocessing, which calls no other finalizers
         multiprocessing.util.Finalize(results, _remove, (folder, process), exitpriority=0)
-    _raise(code, complaint, results)
+    _finish(code, complaint, results)
     if results is None:
         raise Error(f"petsam has written no results to {short(output)}")
     return results
@@ -82,44 +80,6 @@ def _command(ranks):
         raise Error(f"ranks {short(repr(ranks))}: expected an integer >= 1")
     launcher = [*environment.launcher(), "-n", str(ranks)] if ranks > 1 else []
     return [*launcher, environment.petsam()]
-
-
-def _words(options):
-    """Options as words of a command line."""
-    words = []
-    for name, value in options.items():
-        if not isinstance(name, str) or not name.replace("_", "").isalnum():
-            raise Error(f"{short(repr(name))} is no name of an option: give it without a dash, as grid_n")
-        if value is None:
-            continue
-        dimensions = 0 if isinstance(value, os.PathLike) else _dimensions(value)
-        if dimensions > 1:
-            raise Error(f"{name}: expected one value or a sequence of them, not an array of {dimensions} dimensions")
-        words += ["-" + name, ",".join(_word(name, one) for one in value) if dimensions else _word(name, value)]
-    return words
-
-
-def _dimensions(value):
-    try:
-        return np.ndim(value)
-    except ValueError:  # rows of different lengths
-        return 2
-
-
-def _word(name, value):
-    if isinstance(value, np.ndarray) and value.ndim == 0:
-        value = value[()]
-    if isinstance(value, (bool, np.bool_)):
-        return _FLAGS[bool(value)]
-    if isinstance(value, (int, np.integer)):
-        return str(int(value))
-    if isinstance(value, (float, np.floating)):
-        return repr(float(value))
-    if isinstance(value, (str, os.PathLike)):
-        text = os.fspath(value)
-        if isinstance(text, str) and "\0" not in text:
-            return text
-    raise Error(f"{name}: {short(repr(value))} is neither a number nor a text")
 
 
 def _write_history(path, table):
@@ -181,23 +141,42 @@ def _execute(words, report):
         return process.returncode, complaint.read().decode(errors="replace").splitlines()
 
 
-def _raise(code, complaint, results):
-    """Raises the warnings and the error of a run."""
-    mark = "petsam: "
+def _said(complaint):
+    """Returns the program's warnings, and its message."""
+    mark, kind = "petsam: ", "warning: "
     lines = [line[len(mark) :] for line in complaint if line.startswith(mark)]
-    for line in lines:
-        if line.startswith("warning: "):
-            warnings.warn(line[len("warning: ") :], AdviceWarning, stacklevel=3)
-    lines = [line for line in lines if not line.startswith(("warning: ", "see petsam -help"))]
-    if code == 0:
-        return
-    if code == EDGE and results is not None:
-        count = results.before + results.time.size
-        warnings.warn("; ".join([*lines, f"the run ended with step {count}"]), EdgeContactWarning, stacklevel=3)
-        return
-    error = _KINDS.get(code, ContactError)(code, "; ".join(lines) or _end(code, complaint))
+    found = [line[len(kind) :] for line in lines if line.startswith(kind)]
+    return found, "; ".join(line for line in lines if not line.startswith((kind, "see petsam -help")))
+
+
+def _warn(advice, message, results):
+    """Issues the warnings of a run; the message is that of a run that ended at the edge of the grid."""
+    for line in advice:
+        warnings.warn(line, AdviceWarning, stacklevel=4)
+    if message:
+        end = f"the run ended with step {results.before + results.time.size}"
+        warnings.warn(f"{message}; {end}", EdgeContactWarning, stacklevel=4)
+
+
+def _finish(code, complaint, results):
+    """Issues the warnings of a run and raises its error, which a warning that is an error does not hide."""
+    advice, message = _said(complaint)
+    at_edge = code == EDGE and results is not None
+    failed = code != 0 and not at_edge
+    try:
+        _warn(advice, message if at_edge else "", results)
+    except Warning as warning:
+        if failed:
+            raise _error(code, message or _end(code, complaint), results) from warning
+        raise
+    if failed:
+        raise _error(code, message or _end(code, complaint), results)
+
+
+def _error(code, message, results):
+    error = error_of(code, message)
     error.results = results
-    raise error
+    return error
 
 
 def _end(code, complaint):

@@ -7,7 +7,7 @@ import h5py
 import numpy as np
 
 from .declared import FOLLOWING, OPTIONS
-from .errors import Error, Missing, short, there_are
+from .errors import Error, MissingFile, short, there_are
 from .files import need_regular
 from .isolation import reading
 from .results import DAMAGED, WHOLE, _own, _reason
@@ -54,8 +54,8 @@ class Study:
                 need_regular(self.path)
                 with h5py.File(self.path, "r") as file:
                     self._read(file)
-            except FileNotFoundError as error:
-                raise Missing(f"{self.path}: no such file") from error
+            except MissingFile:
+                raise
             except DAMAGED as error:
                 raise Error(f"{self.path}: {_reason(error)}") from error
 

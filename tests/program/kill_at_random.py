@@ -38,7 +38,7 @@ def write_history(folder, steps=STEPS):
 def complete_steps(path):
     """Steps that are in all datasets of all parts, all of them readable; each as it must be."""
     with petsam.open(path) as run:
-        steps = min(len(run.steps), run.complete)
+        steps = min(len(run.steps), run._complete)
         area = (run.x[1] - run.x[0]) * (run.y[1] - run.y[0])
         assert np.array_equal(run.times[:steps], np.arange(steps) + 1.0)
         assert np.array_equal(run.history["time"][:steps], np.arange(steps) + 1.0)

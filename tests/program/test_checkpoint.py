@@ -190,12 +190,12 @@ def test_parts_follow_one_another_and_those_of_an_older_checkpoint_go(folder, pe
     done = petsam(CASE, dict(restart="next.h5.1"))
     assert sorted(path.name for path in folder.glob("out.part*")) == names and "results in out.part3.h5" in done.stdout
     with library.open(folder / "out.h5") as run:
-        assert [len(part.steps) for part in run.sources[1:]] == [10, 3] and run.complete == STEPS
+        assert [len(part.steps) for part in run._sources[1:]] == [10, 3] and run._complete == STEPS
     assert not differences(folder / "out.h5", folder / "whole.h5")
     done = petsam(CASE, dict(restart="early.h5"))
     assert "results in out.part2.h5, replacing those there" in done.stdout
     with library.open(folder / "out.h5") as run:  # out.part3.h5 follows a file that is no more
-        assert len(run.sources) == 2
+        assert len(run._sources) == 2
     assert not differences(folder / "out.h5", folder / "whole.h5")
 
 
@@ -203,7 +203,7 @@ def test_new_run_has_nothing_of_the_parts_of_an_old_one(stopped, petsam):
     petsam(CASE, ON)
     petsam(CASE, dict(steps=2))
     with library.open(stopped / "out.h5") as run:
-        assert len(run.sources) == 1 and run.complete > STEPS
+        assert len(run._sources) == 1 and run._complete > STEPS
 
 
 def test_part_that_does_not_fit_is_named(stopped, petsam):

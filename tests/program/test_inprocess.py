@@ -211,6 +211,15 @@ with petsam.Contact(**case) as contact:
     other = contact.try_step(disp_x=step.disp_x + 1e-10, **held)
     assert abs(one / ((other.load_tx - step.load_tx) / 1e-10) - 1) < 1e-3 and one < 0.8 * full[1, 1]
     assert np.allclose(two, np.linalg.inv(np.linalg.inv(full)[np.ix_([5, 1], [5, 1])]), rtol=1e-9)
+    assert isinstance(two, petsam.contact.Stiffness) and list(two.loads) == ["load_mz", "load_tx"]
+    head, *rows = repr(full).splitlines()
+    names = [name.split(" / ")[0] for name in (one.strip() for one in head.split("  ")) if name]
+    assert names == ["disp_z", "disp_x", "disp_y", "rot_x", "rot_y", "rot_z"] and "disp_x / m " in head
+    assert [row.split()[0] for row in rows] == ["N", "Tx", "Ty", "Mx", "My", "Mz"] and rows[3].startswith("Mx / (N m) ")
+    assert float(rows[1].split()[4]) == float(f"{full[1, 1]:.5g}") and isinstance(full, np.ndarray)
+    plain = np.linalg.inv(full), full[:, ::-1], 2 * full, full.T, full @ np.ones(6), full.sum(axis=0)
+    assert all(type(one) is np.ndarray for one in plain) and np.allclose(full @ np.linalg.solve(full, np.ones(6)), 1)
+    assert "disp" not in repr(full.copy()) and np.ndim(full.sum()) == 0 and type(full.max()) is np.float64
     try:
         contact.stiffness(condense="disp_q")
     except petsam.ContactError as error:

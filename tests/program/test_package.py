@@ -69,6 +69,19 @@ def test_what_the_pages_name_is_there_after_import_petsam_alone():
         _ = package.circles
 
 
+def test_completion_shows_only_what_is_public(path):
+    modules = {"command_line", "contact", "environment", "errors", "files", "isolation", "parts", "results", "running"}
+    libraries = {"importlib", "os", "np", "h5py"}
+    assert package.Contact and package.Results  # imports their modules
+    assert set(package.__all__) <= set(dir(package)) and not (modules | libraries) & set(dir(package))
+    assert all(hasattr(package, name) for name in dir(package))
+    with package.open(path) as results:
+        names = {name for name in dir(results) if not name.startswith("_")}
+        assert {"history", "field", "plot", "times", "between"} <= names
+        own = {"complete", "cycles_before", "fills", "held", "last_row", "later", "places", "sources", "whole"}
+        assert not own & names
+
+
 def test_the_snippets_of_the_page_of_the_scripts_run(path, tmp_path):
     (tmp_path / "build/run").mkdir(parents=True)
     (tmp_path / "build/run/pad.h5").symlink_to(path)

@@ -1,6 +1,7 @@
 """petsam.run(): the program from Python, without a shell."""
 
 import concurrent.futures
+import errno
 import gc
 import os
 import pickle
@@ -115,6 +116,34 @@ def test_errors_have_the_code_and_the_message_of_the_program():
     assert type(sent) is package.NoEquilibrium and str(sent) == str(error.value) and sent.results is None
 
 
+@pytest.mark.parametrize("start", [
+    lambda: package.run(CASE, history="no where.csv"), lambda: package.run(CASE, restart="no where.h5"),
+    lambda: package.Contact(**shape(), gap_type="file", gap_file="no where.h5"),
+    lambda: package.Contact(**shape(), gap_type="flat").load("no where.h5"),
+    lambda: package.Contact(**shape(), gap_type="flat").run("no where.csv"),
+    lambda: package.open("no where.h5"), lambda: package.open("no where.h5", "label"),
+])  # fmt: skip
+def test_a_missing_file_is_an_error_of_petsam_and_of_python(start):
+    with pytest.raises(FileNotFoundError, match="no where") as caught:
+        start()
+    error = caught.value
+    assert isinstance(error, package.MissingFile) and isinstance(error, package.Missing)
+    assert error.errno == errno.ENOENT and error.filename.startswith("no where.") and os.sep not in error.filename
+    sent = pickle.loads(pickle.dumps(error))
+    assert type(sent) is type(error) and str(sent) == str(error) and sent.filename == error.filename
+
+
+def shape():
+    """The case without the shape of its bodies and its loads."""
+    return {name: value for name, value in CASE.items() if not name.startswith(("gap_", "load_"))}
+
+
+def test_a_missing_option_file_is_an_error_with_a_code():
+    with pytest.raises(package.ContactError, match="-friction_file none.h5: cannot be read") as caught:
+        package.run(CASE, friction=None, friction_file="none.h5")
+    assert isinstance(caught.value, FileNotFoundError) and caught.value.code == 3
+
+
 def test_what_is_no_option_is_refused_before_the_run(tmp_path):
     for options, says in (
         ({"-grid_n": 3}, "no name of an option"),
@@ -144,6 +173,38 @@ def test_warnings_are_warnings():
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         package.run(CASE)
+        with pytest.raises(package.AdviceWarning):
+            package.run(CASE, load_tx=0.02 * LIMIT)
+
+
+def test_a_warning_that_is_an_error_does_not_hide_that_of_the_run(tmp_path):
+    (tmp_path / "some.opts").write_text("-load_tx 1\n")  # which the history overrides, with a warning
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with pytest.raises(package.NoEquilibrium) as caught:
+            package.run(CASE, options_file="some.opts", history=dict(load_tx=[0.02 * LIMIT, 2 * LIMIT]))
+    assert isinstance(caught.value.__cause__, package.AdviceWarning) and caught.value.results["load_n"].size == 2
+
+
+def test_temporary_files_go_with_the_last_reference():
+    """Without a collection of garbage: neither results nor errors refer to themselves."""
+    gc.collect()
+    gc.disable()
+    try:
+        found = package.run(CASE, load_tx=0.3 * LIMIT, steps=2)
+        folder, part = os.path.dirname(found.path), found.between(2, 2)
+        del found
+        assert os.path.exists(folder) and part["pressure"].shape == (2, 32, 32)
+        del part
+        assert not os.path.exists(folder)
+        try:
+            package.run(CASE, load_tx=2 * LIMIT)
+        except package.NoEquilibrium as error:
+            folder = os.path.dirname(error.results.path)
+            assert os.path.exists(folder)
+        assert not os.path.exists(folder)
+    finally:
+        gc.enable()
 
 
 def test_an_error_of_tell_ends_the_run(tmp_path):

@@ -456,7 +456,7 @@ def test_a_spoiled_table_never_ends_in_a_traceback(tmp_path, monkeypatch, capsys
 
 
 def test_a_missing_table_is_exit_code_3(run):
-    assert "nothere.csv: No such file" in run("nothere.csv", check=3)
+    assert "nothere.csv: no such file" in run("nothere.csv", check=3)
 
 
 def test_a_missing_file_of_every_case_is_named_before_any_runs(run, tmp_path):
