@@ -27,6 +27,8 @@ class Missing(Error):
 class MissingFile(Missing, FileNotFoundError):
     """A missing file (filename), as Python has it, too."""
 
+    code = FILE
+
     def __init__(self, path):
         super().__init__(errno.ENOENT, "no such file", os.fspath(path))
 

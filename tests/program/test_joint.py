@@ -1,6 +1,7 @@
 """Contact stiffness of an interface: compliance of cracks, ratio of tangential and normal stiffness, scaling."""
 
 import csv
+import json
 import sys
 import warnings
 
@@ -11,6 +12,7 @@ import pytest
 import petsam
 from petsam import joint
 from petsam.joint import command as _  # noqa: F401
+from petsam.joint import elements
 from petsam.plot.style import plt
 from support import bodies
 
@@ -97,6 +99,82 @@ def test_energy_of_the_loop_is_its_area():
     assert found.loop_energy[0] == pytest.approx(work, rel=0.02)
     assert found.loop_amplitude[0] == pytest.approx((x.max() - x.min()) / 2, rel=1e-3)
     assert found.loop_stiffness[0] < found.k_t_x[0]
+
+
+def test_first_loading_is_a_difference_of_two_closures():
+    """Jaeger's rule for alike bodies: the shear of a push is mu times the difference to a smaller pressure."""
+    field, pressure = waves(96, 3), 8e6
+    mu = PAIR["friction"]
+    found = joint.of_interface(field, 1e-5, [pressure], steps=3, **PAIR)
+    less = joint.of_interface(field, 1e-5, pressure * (1 - found.parts[::-1]), steps=1, **PAIR).closure[::-1]
+    ratio = found.k_n[0] / found.k_t_x[0]
+    assert found.loading[0] == pytest.approx(mu * ratio * (found.closure[0] - less), rel=0.03)
+
+
+def test_loops_follow_from_the_first_loading():
+    """By Masing's rule; the energies are of two different computations."""
+    found = joint.of_interface(waves(64, 13), 1e-5, [5e6, 15e6], shear=0.6, steps=6, **PAIR)
+    for k, pressure in enumerate(found.pressure):
+        limit = PAIR["friction"] * pressure
+        slip = found.loading[k] * found.k_t_x[k] / limit - found.parts
+        energy = elements.masing(np.append(0.0, found.parts), np.append(0.0, slip))[6] * limit**2 / found.k_t_x[k]
+        assert energy == pytest.approx(found.loop_energy[k], rel=2e-3)
+
+
+@pytest.mark.parametrize("chi, beta", [(-0.3, 0.5), (0.4, 2.0), (0.0, 0.05)])
+def test_iwan_element_is_the_sum_of_its_sliders(chi, beta):
+    """Its shear and its loops are those of many sliders, and a fit to its first loading finds it again."""
+    amplitudes = np.linspace(0.05, 1.4, 109)
+    shear, energy = elements.iwan(chi, beta, amplitudes)
+    n, scale = 20000, beta + (chi + 1) / (chi + 2)
+    reach = (1 + beta) / scale
+    limits = reach * (np.arange(n) + 0.5) / n  # kt is 1: displacements at which the sliders slip
+    weights = (
+        (chi + 1)
+        / scale
+        / reach
+        * ((np.arange(1, n + 1) / n) ** (chi + 1) - (np.arange(n) / n) ** (chi + 1))
+        / (chi + 1)
+    )
+    limits, weights = np.append(limits, reach), np.append(weights, beta / scale / reach)
+    for k in 12, 44, 80:
+        u = amplitudes[k]
+        assert np.sum(weights * np.minimum(u, limits)) == pytest.approx(shear[k], rel=1e-3)
+        assert np.sum(4 * weights * limits * np.maximum(u - limits, 0)) == pytest.approx(energy[k], rel=1e-3)
+    use = shear < 0.97
+    found = elements.fit_iwan(shear[use], amplitudes[use])
+    assert found[:2] == pytest.approx((chi, beta), abs=0.02) and max(found[2:]) < 0.01
+
+
+def test_elements_are_those_of_their_area(tmp_path):
+    found = joint.of_interface(waves(48, 3), 1e-5, [4e6, 12e6], steps=3, **PAIR)
+    found.to_json(tmp_path / "e.json", area=2e-6)
+    written = json.loads((tmp_path / "e.json").read_text())
+    assert written["area"] == 2e-6 and written["elements"] == found.elements(2e-6)
+    for k, one in enumerate(written["elements"]):
+        force = 2e-6 * found.pressure[k]
+        iwan = dict(kt=2e-6 * found.k_t_x[k], Fs=0.3 * force, chi=found.iwan_chi[k], beta=found.iwan_beta[k])
+        assert one["tmdsimpy"]["Iwan4Force"] == pytest.approx(iwan)
+        assert one["tmdsimpy"]["ElasticDryFriction3D"]["kn"] == pytest.approx(2e-6 * found.k_n[k])
+        assert one["pyHarm"]["Penalty3D"]["N0"] == pytest.approx(force)
+        assert 0.02 < one["iwan_error"] < 0.5
+        fit = elements.fit_iwan(found.parts, found.loading[k] * found.k_t_x[k] / (0.3 * found.pressure[k]))
+        assert fit[:3] == (found.iwan_chi[k], found.iwan_beta[k], one["iwan_error"])
+    few = joint.of_interface(waves(48, 3), 1e-5, [4e6], steps=1, **PAIR)
+    few.to_json(tmp_path / "e.json")
+    assert json.loads((tmp_path / "e.json").read_text())["elements"][0]["iwan_error"] is None
+
+
+def test_stiffness_of_a_row_of_distant_spheres():
+    """A round contact of radius a per period L: 1/(2 E* a) - 3.9002649/(pi E* L), as the mean of all does not move."""
+    n, size, radius = 192, 1e-3, 2e-3
+    x = (np.arange(n) + 0.5) / n * size - size / 2
+    field = (x**2 + x[:, None] ** 2) / (2 * radius)
+    a = 0.12 * size
+    found = joint.of_interface(field, size / n, [4 / 3 * MODULUS * a**3 / radius / size**2], steps=1, **PAIR)
+    a = np.sqrt(found.area[0] / np.pi) * size
+    exact = 1 / (size**2 * (1 / (2 * MODULUS * a) - 3.9002649 / (np.pi * MODULUS * size)))
+    assert found.k_n[0] == pytest.approx(exact, rel=0.02)
 
 
 def test_windows_give_means_and_deviations(tmp_path):
@@ -190,6 +268,7 @@ def test_command_gives_the_numbers_of_the_function(command, tmp_path):
     with open("i.csv", newline="") as file:
         rows = list(csv.DictReader(file))
     assert [float(row["k_t_x [Pa/m]"]) for row in rows] == pytest.approx(expected.k_t_x, rel=1e-9)
+    assert len(json.loads((tmp_path / "i.json").read_text())["elements"]) == 3
     assert (tmp_path / "i.inp").read_text().startswith("** contact") and (tmp_path / "i.png").stat().st_size > 10000
     whole = joint.of_interface(field, 1e-5, [2e7], steps=1, **pair)
     assert command("pair.h5", "--pressure", "2e7", "--friction", 0.25, "--steps", 1, "--periodic", *STEEL) == (
@@ -211,7 +290,7 @@ def test_the_picture_has_the_given_resolution(command, tmp_path):
 def test_hardness_limits_the_pressure_of_summits(command, tmp_path):
     write(tmp_path / "scan.h5", "height", waves(64, 11))
     words = ("scan.h5", "--pressure", "20MPa", "--friction", 0.25, "--steps", 1, *STEEL)
-    areas = [float(command(*words, *more).split()[-3]) for more in ((), ("--hardness", "0.17GPa"))]
+    areas = [float(command(*words, *more).splitlines()[1].split()[5]) for more in ((), ("--hardness", "0.17GPa"))]
     assert areas[1] > 1.1 * areas[0] and areas[1] >= 100 * 20e6 / 0.17e9
 
 
@@ -226,6 +305,7 @@ def test_hardness_limits_the_pressure_of_summits(command, tmp_path):
         (("scan.h5", "--pressure", "2MPa,1MPa"), "pressures that rise"),
         (("scan.h5", "--pressure", "1MPa", "--body1", "stel"), "stel: expected steel"),
         (("scan.h5", "--pressure", "1MPa", "--shear", "1.5"), "shear 1.5"),
+        (("scan.h5", "--pressure", "1MPa", "--area", "0"), "--area 0: expected an area above 0"),
         (("scan.h5", "--pressure", "1MPa", "--steps", "0"), "--steps 0: expected 1 or more"),
     ],
 )

@@ -4,8 +4,9 @@
 
 scan.h5 is a surface or a separation that petsam-surface has written. Prints, for each nominal pressure, the normal and
 the tangential stiffness per area of the interface alone, the real contact area, and the energy of a loop of the shear;
-with the standard deviation of five windows of the surface. -o NAME writes NAME.csv with all numbers, NAME.inp, the
-interaction for a deck of Abaqus, and NAME.png.
+with the standard deviation of five windows of the surface, and the exponent chi and the weight beta of an Iwan element.
+-o NAME writes NAME.csv with all numbers, NAME.json, elements for tmdsimpy and pyHarm, NAME.inp, the interaction for a
+deck of Abaqus, and NAME.png.
 """
 
 import argparse
@@ -109,7 +110,10 @@ def _parser():
     one.add_argument("--shear", type=float, default=0.5, help="shear of the loop over friction times pressure (0.5)")
     one.add_argument("--steps", type=int, default=8, help="load steps of a quarter of the loop (8)")
     one.add_argument("--periodic", action="store_true", help="the surface repeats itself: no windows of it")
-    one.add_argument("-o", "--output", metavar="NAME", help="write NAME.csv, NAME.inp and NAME.png")
+    one.add_argument(
+        "--area", type=float, default=1.0, help="area of the elements in NAME.json, m2 (1: they are per area)"
+    )
+    one.add_argument("-o", "--output", metavar="NAME", help="write NAME.csv, NAME.json, NAME.inp and NAME.png")
     add_resolution(one)
     return one
 
@@ -120,7 +124,9 @@ def _run():
         raise Error(f"--steps {args.steps}: expected 1 or more")
     if args.dpi != DPI and not args.output:
         raise Error("--dpi: is for the picture, which --output writes; give both or none")
-    for ending in (".csv", ".inp", ".png") if args.output else ():
+    if not 0.0 < args.area < float("inf"):
+        raise Error(f"--area {args.area:g}: expected an area above 0, in m2")
+    for ending in (".csv", ".json", ".inp", ".png") if args.output else ():
         need_replaceable(args.output + ending)
     separation, spacing = read_separation(args.surface)
     options = dict(friction=args.friction, shear=args.shear, steps=args.steps)
@@ -140,6 +146,7 @@ def _run():
         print(f"petsam-joint: warning: in {len(said)} steps, first: {said[0]}", file=sys.stderr)
     if args.output:
         result.to_csv(args.output + ".csv")
+        result.to_json(args.output + ".json", args.area)
         result.to_abaqus(args.output + ".inp")
         write(result.plot(), args.output + ".png", args.dpi)
     return 0

@@ -7,13 +7,16 @@ of the bodies below it, which depends on the window's size.
 """
 
 import csv
+import json
 
 import numpy as np
 
 from ..contact import Contact
 from ..errors import Error
+from . import elements
 
 HALVES = 4  # half cycles of the loop; the last two count
+LARGEST = 0.95  # shear over its limit at the end of the first loading to which elements are fitted
 COLUMNS = {
     "pressure": ("Pa", "nominal pressure"),
     "closure": ("m", "approach of the mean planes since the first touch"),
@@ -25,7 +28,12 @@ COLUMNS = {
     "loop_amplitude": ("m", "amplitude of the displacement in a loop of the shear"),
     "loop_energy": ("J/m2", "dissipated energy of that loop per area"),
     "loop_stiffness": ("Pa/m", "secant stiffness of that loop along x"),
+    "iwan_chi": ("1", "exponent of the slider limits of an Iwan element"),
+    "iwan_beta": ("1", "weight of its last slider"),
+    "iwan_error": ("1", "largest relative error of its loops' energy"),
+    "iwan_shear_error": ("1", "the same of their shear"),
 }
+FITTED = [name for name in COLUMNS if name.startswith("iwan")]
 
 
 class Interface:
@@ -34,11 +42,16 @@ class Interface:
     spread      standard deviation of the same among the windows, by name; empty for one window
     friction    coefficient of friction
     shear       amplitude of the mean shear in the loop over friction times pressure
+    parts       shears of the first loading over friction times pressure, rising
+    loading     displacements (m) at them, (pressures, parts), to which the Iwan element is fitted
     """
 
-    def __init__(self, numbers, spread, friction, shear):
-        self.numbers, self.spread, self.friction, self.shear = numbers, spread, friction, shear
-        self.__dict__.update(numbers)
+    def __init__(self, numbers, spread, friction, shear, parts, loading):
+        self.spread, self.friction, self.shear, self.parts, self.loading = spread, friction, shear, parts, loading
+        unit = numbers["k_t_x"] / (friction * numbers["pressure"])
+        fits = [elements.fit_iwan(parts, row * one) for row, one in zip(loading, unit)]
+        self.numbers = {**numbers, **dict(zip(FITTED, np.transpose(fits)))}
+        self.__dict__.update(self.numbers)
 
     def __repr__(self):
         p = self.numbers["pressure"]
@@ -52,6 +65,28 @@ class Interface:
             writer = csv.writer(file)
             writer.writerow([f"{name} [{unit}]" for name, unit in zip(names, units)])
             writer.writerows(zip(*self.numbers.values(), *self.spread.values()))
+
+    def elements(self, area=1.0):
+        """Elements for programs of harmonic balance, of this area (m2), one for each pressure; see elements.of_codes().
+
+        A list of dictionaries with the pressure, the elements by program and class, and the Iwan element's error. The
+        tangential stiffness is that along x, as the loop's.
+        """
+        rows = zip(*(self.numbers[name] for name in ("pressure", "k_n", "k_t_x", *FITTED[:3])))
+        return [
+            {
+                "pressure": float(p),
+                **elements.of_codes(float(p), float(k_n), float(k_t), self.friction, float(chi), float(beta), area),
+                "iwan_error": float(error),
+            }
+            for p, k_n, k_t, chi, beta, error in rows
+        ]
+
+    def to_json(self, path, area=1.0):
+        """Writes elements() as JSON, in SI units; NaN as null."""
+        text = json.dumps({"area": area, "elements": self.elements(area)}, indent=1).replace("NaN", "null")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text + "\n")
 
     def to_abaqus(self, path, name="INTERFACE"):
         """Writes the interaction for a deck of Abaqus in N, mm: pressure over overclosure, friction.
@@ -77,13 +112,16 @@ class Interface:
         part = {name: 100 * spread / self.numbers[name] for name, spread in self.spread.items()}
         none = np.full_like(self.numbers["pressure"], np.nan)
         k_t = (self.numbers["k_t_x"] + self.numbers["k_t_y"]) / 2
-        lines = ["   p/MPa  k_n/(N/mm3)  +- %  k_t/(N/mm3)  k_t/k_n  area/%  loop/(mJ/m2)  +- %"]
+        lines = [
+            "   p/MPa  k_n/(N/mm3)  +- %  k_t/(N/mm3)  k_t/k_n  area/%  loop/(mJ/m2)  +- %  Iwan: chi  beta  error/%"
+        ]
         for k, pressure in enumerate(self.numbers["pressure"]):
             deviations = [f"{part.get(name, none)[k]:5.0f}".replace("nan", "  -") for name in ("k_n", "loop_energy")]
-            k_n, energy = self.numbers["k_n"][k], self.numbers["loop_energy"][k]
+            k_n, energy, *iwan = (self.numbers[name][k] for name in ("k_n", "loop_energy", *FITTED[:3]))
             lines.append(
                 f"{pressure / 1e6:8.4g} {k_n / 1e9:12.4g} {deviations[0]} {k_t[k] / 1e9:12.4g} {k_t[k] / k_n:8.4f} "
-                f"{100 * self.numbers['area'][k]:7.2f} {1e3 * energy:13.3g} {deviations[1]}"
+                f"{100 * self.numbers['area'][k]:7.2f} {1e3 * energy:13.3g} {deviations[1]} "
+                f"{iwan[0]:10.2f} {iwan[1]:5.2f} {100 * iwan[2]:8.0f}"
             )
         return lines
 
@@ -146,19 +184,25 @@ def of_interface(separation, spacing, pressures, *, friction, shear=0.5, steps=8
     step = np.broadcast_to(np.asarray(spacing, float), 2)
     n = separation.shape[::-1]
     size = tuple(float(n[k] * step[k]) for k in range(2))
-    rows = []
+    parts = shear * np.arange(1, steps + 1) / steps
+    if shear < LARGEST:
+        parts = np.append(parts, np.linspace(shear, LARGEST, steps + 1)[1:])
+    rows, loading = [], []
     with Contact(
         elasticity="periodic", gap_type="flat", grid_n=n, grid_size=size, friction=friction, **bodies
     ) as contact:
         contact.gap = separation - separation.min()
         for pressure in pressures:
-            rows.append(_at(contact, float(pressure), size[0] * size[1], friction, shear, steps))
-    numbers = {name: np.array([row[k] for row in rows]) for k, name in enumerate(COLUMNS)}
-    return Interface(numbers, {}, friction, shear)
+            row, first = _at(contact, float(pressure), size[0] * size[1], friction, parts, steps)
+            rows.append(row)
+            loading.append(first)
+    computed = [name for name in COLUMNS if name not in FITTED]
+    numbers = dict(zip(computed, np.transpose(rows)))
+    return Interface(numbers, {}, friction, shear, parts, np.array(loading))
 
 
-def _at(contact, pressure, area, friction, shear, steps):
-    """The numbers of COLUMNS at a pressure, to which the contact is loaded."""
+def _at(contact, pressure, area, friction, parts, steps):
+    """The computed numbers of COLUMNS at a pressure, to which the contact is loaded, and the first loading."""
     contact.try_step(time=pressure, load_n=pressure * area)
     if contact.number("contact_cells") == contact.n[0] * contact.n[1]:
         raise Error(
@@ -167,24 +211,39 @@ def _at(contact, pressure, area, friction, shear, steps):
     k = contact.stiffness(reversal=True) / area
     closure, fraction = contact.number("disp_z"), contact.number("contact_fraction")
     contact.commit()
-    energy, swing = _loop(contact, pressure * area, friction * shear, steps)
-    secant = friction * shear * pressure / swing
-    return pressure, closure, k[0, 0], pressure / closure, k[1, 1], k[2, 2], fraction, swing, energy / area, secant
+    with contact.copy() as trial:
+        _, start = _shear(trial, pressure * area, friction * parts[:steps])
+        with trial.copy() as further:
+            _, rest = _shear(further, pressure * area, friction * parts[steps:])
+        energy, swing = _loop(trial, pressure * area, friction * float(parts[steps - 1]), steps)
+    secant = friction * parts[steps - 1] * pressure / swing
+    row = pressure, closure, k[0, 0], pressure / closure, k[1, 1], k[2, 2], fraction, swing, energy / area, secant
+    return row, np.array(start + rest)
+
+
+def _shear(contact, normal, parts):
+    """Pushes by these parts of the normal load in turn; returns the dissipated energy (J) and the displacements (m)."""
+    energy, places = 0.0, []
+    for part in parts:
+        contact.try_step(time=0.0, load_n=normal, load_tx=normal * float(part))
+        energy += contact.number("dissipated_energy")
+        places.append(contact.number("disp_x"))
+        contact.commit()
+    return energy, places
 
 
 def _loop(contact, normal, part, steps):
-    """Dissipated energy (J) and amplitude of the displacement (m) of the last of two cycles of the load along x."""
-    turns = [0.0, *(1.0 if k % 2 == 0 else -1.0 for k in range(HALVES + 1))]
-    ends, energy = [], 0.0
-    with contact.copy() as trial:
-        for k, (start, end) in enumerate(zip(turns, turns[1:])):
-            energy = 0.0 if k == HALVES - 1 else energy
-            for part_of_way in np.linspace(start, end, (1 if k == 0 else 2) * steps + 1)[1:]:
-                trial.try_step(time=0.0, load_n=normal, load_tx=part * normal * float(part_of_way))
-                energy += trial.number("dissipated_energy")
-                trial.commit()
-            ends.append(trial.number("disp_x"))
-    return energy, abs(ends[-1] - ends[-2]) / 2
+    """Dissipated energy (J) and amplitude of the displacement (m) of the second of two cycles of the load along x.
+
+    The contact has been pushed to the first end of the loop.
+    """
+    ends, energies = [], []
+    for k in range(HALVES):
+        end = part if k % 2 else -part
+        energy, places = _shear(contact, normal, np.linspace(-end, end, 2 * steps + 1)[1:])
+        energies.append(energy)
+        ends.append(places[-1])
+    return sum(energies[-2:]), abs(ends[-1] - ends[-2]) / 2
 
 
 def of_windows(separation, spacing, pressures, report=None, **options):
@@ -204,8 +263,8 @@ def of_windows(separation, spacing, pressures, report=None, **options):
         found.append(of_interface(mirrored(separation[j : j + ny, i : i + nx]), spacing, pressures, **options))
         if report:
             report(len(found), len(places))
-    numbers = {name: np.mean([one.numbers[name] for one in found], axis=0) for name in COLUMNS}
-    spread = {
-        name: np.std([one.numbers[name] for one in found], axis=0, ddof=1) for name in COLUMNS if name != "pressure"
-    }
-    return Interface(numbers, spread, found[0].friction, found[0].shear)
+    computed = [name for name in COLUMNS if name not in FITTED]
+    numbers = {name: np.mean([one.numbers[name] for one in found], axis=0) for name in computed}
+    spread = {name: np.std([one.numbers[name] for one in found], axis=0, ddof=1) for name in computed[1:]}
+    loading = np.mean([one.loading for one in found], axis=0)
+    return Interface(numbers, spread, found[0].friction, found[0].shear, found[0].parts, loading)
