@@ -7,6 +7,10 @@
   definite. First x is solved on the cells in contact and in stick alone, by conjugate gradients. Then the shear of
   slipping cells follows the pressure, and x is solved once more on the cells that stick. So for dissimilar bodies the
   effect of slipping cells on the pressure is omitted.
+
+  The exact response of frozen sets (solvers/frozen) includes that effect, and is not symmetric. Here a symmetric one is
+  needed, since it is part of the operator of the conjugate gradients of newton.c. An approximate one will do: it
+  precedes the residual of Newton's method, which is exact, and sets its rate of convergence only.
 */
 #include "reaction.h"
 #include <petsam/private/balanceimpl.h>
