@@ -498,6 +498,20 @@ with petsam.Contact(**case) as contact:
     )
 
 
+def test_a_message_is_one_line(petsam, tmp_path):
+    """With a control character in a value."""
+    run_python(
+        BEGIN
+        + r"""
+import pytest
+with pytest.raises(petsam.Error) as caught:
+    petsam.Contact(**{**case, "gap_type": "sph\nere"})
+assert "-gap_type sph\\nere: expected curved" in str(caught.value), str(caught.value)
+""",
+        tmp_path,
+    )
+
+
 def test_a_contact_replaces_no_file_that_it_reads(petsam, tmp_path):
     """Neither by a viewer of PETSc, nor by another file of its own."""
     (tmp_path / "i.csv").write_text("depth,stress_xx,stress_yy\n0,-1e8,-1e8\n1e-3,0,0\n")

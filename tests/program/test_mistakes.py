@@ -230,3 +230,26 @@ def test_full_contact_of_periodic_bodies_has_no_width(petsam):
     flat = {**SPHERE, **FLAT}
     flat.update(grid_n=16, elasticity="periodic")
     assert petsam(flat).stderr == ""
+
+
+@pytest.mark.parametrize(
+    "options, code, told",
+    [
+        (dict(friction="0.3\nabc"), 2, r"-friction 0.3\nabc: expected a number >= 0"),
+        (dict(gap_type="\x1b[31msphere\x7f"), 2, r"-gap_type \x1b[31msphere\x7f: expected curved"),
+        ({"load_tx\r": 1.0}, 2, r"-load_tx\r 1.0: unknown option"),
+        (dict(malloc_debug="a\tb"), 2, r"PETSc cannot take the options: Unknown logical value: a\tb"),
+        (dict(gap_type="file", gap_file="no\nfile"), 3, r"-gap_file no\nfile: cannot be read"),
+    ],
+)
+def test_a_control_character_does_not_break_the_line_of_a_message(petsam, options, code, told):
+    first = petsam(SPHERE, options, check=code).stderr.splitlines()[0]
+    assert first.startswith("petsam: " + told)
+
+
+def test_nor_does_one_in_a_warning(petsam, tmp_path):
+    """The name of a file, in a warning of the history's columns."""
+    (tmp_path / "a\nb.csv").write_text(LOADS)
+    (tmp_path / "n.opts").write_text("-load_n 100\n")
+    done = petsam({**DRIVEN, "history": "a\nb.csv"}, dict(options_file="n.opts"))
+    assert done.stderr == "petsam: warning: -load_n of the options file is not used: a\\nb.csv has the column load_n\n"

@@ -1,6 +1,7 @@
 """petsam-plot's options: none that no picture uses is taken silently; load steps that histories and loops show."""
 
 import argparse
+import shutil
 
 import h5py
 import numpy as np
@@ -91,6 +92,31 @@ def test_every_option_that_chooses_something_is_looked_at():
     look |= {"csv", "width", "xlim", "ylim"}  # of every picture
     kinds = {name for name, value in vars(given()).items() if value is False} - {"whole_grid"}
     assert set(vars(given())) - look - kinds == {name for name in uses.NAMES if not name.startswith("log ")}
+
+
+# ---------------------------------------------------------------- values that are NaN
+
+
+@pytest.mark.parametrize(
+    "friction, words, told",
+    [
+        (0.0, ["--scalar", "load_n,slip_max"], "--scalar slip_max: is NaN in all steps: without friction"),
+        (0.0, ["--scalar", "load_n", "--against", "slip_max"], "--against slip_max: is NaN in all steps"),
+        (
+            0.27,
+            ["--scalar", "lost"],
+            "--scalar lost: is NaN in all steps: this run does not compute it; choose load_n, ",
+        ),
+    ],
+)
+def test_a_scalar_without_a_number_is_no_empty_picture(draw, solve, tmp_path, friction, words, told):
+    path = shutil.copy(solve(CASE, dict(friction=friction)).path, tmp_path / "r.h5")
+    with h5py.File(path, "r+") as file:
+        file["history"]["lost"] = np.full(1, np.nan)
+        file["history"]["lost"].attrs["units"] = "m"
+    code, (error,) = draw(path, "-o", tmp_path / "x.png", *words)
+    assert code == 2 and f"r.h5: {told}" in error and "contact_area" in error
+    assert not (tmp_path / "x.png").exists()
 
 
 # ---------------------------------------------------------------- formats

@@ -223,6 +223,19 @@ def test_what_a_study_lacks_is_named(draw, path, words, says):
     assert code == 3 and error.startswith(f"petsam-plot: error: {path}: ") and says in error, error
 
 
+@pytest.mark.parametrize(
+    "words", ["--scalar lost", "--scalar load_ty --against lost", "--scalar lost --against ratio,mu"]
+)
+def test_a_column_without_a_number_is_no_empty_picture(draw, path, tmp_path, words):
+    with h5py.File(path, "r+") as file:
+        like = file["results/load_ty"]
+        lost = file.create_dataset("results/lost", data=np.full(like.shape, np.nan))
+        lost.attrs.update(like.attrs)
+    code, (error,) = draw(path, "-o", tmp_path / "x.png", *words.split(), "--where", "shape=ball")
+    assert code == 2 and error.endswith(" lost: no chosen case has a number; use another column")
+    assert not (tmp_path / "x.png").exists()
+
+
 def test_tables_and_results_do_not_go_into_one_picture(draw, path, solve):
     from support import ball
 

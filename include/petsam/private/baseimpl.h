@@ -63,7 +63,8 @@ typedef enum {
 PETSC_EXTERN PetscLogEvent SamEvents[SAM_EVENT_COUNT];
 
 /* ---- errors ---- */
-/* SamKeepMessage - an error handler for PETSc that stores the first message in `context`, SAM_MESSAGE characters. */
+/* SamKeepMessage - an error handler for PETSc that stores the first message in `context`, as one line of SAM_MESSAGE
+   characters. */
 #define SAM_MESSAGE 1024
 PETSC_INTERN PetscErrorCode SamKeepMessage(MPI_Comm comm, int line, const char *function, const char *file,
                                            PetscErrorCode code, PetscErrorType type, const char *message,
@@ -284,6 +285,14 @@ PETSC_INTERN void SamSolveSymmetric(PetscInt n, double A[], const double b[], do
 
 /* SamGetFolder - writes the folder in the name of a file; "." if the name has none. Not collective. */
 PETSC_EXTERN void SamGetFolder(const char filename[], char folder[PETSC_MAX_PATH_LEN]);
+
+/*
+  SamOneLine - copies a text of a message, cut to `size`, with escapes such as \n in place of control characters, which
+  values of options and names of files may contain and which would break the line. Not collective.
+  SamPrintMessage - prints a program's message to stderr as one line, by SamOneLine(). Not collective.
+*/
+PETSC_INTERN void SamOneLine(const char text[], char line[], size_t size);
+PETSC_EXTERN void SamPrintMessage(const char program[], const char format[], ...) PETSC_ATTRIBUTE_FORMAT(2, 3);
 
 /* SamJoin - writes names as one text, separated by `between`, but by `last` before the last name. Not collective. */
 PETSC_INTERN void SamJoin(PetscInt count, const char *const names[], const char between[], const char last[],

@@ -7,7 +7,7 @@ from matplotlib.patches import Patch
 from ..errors import Error, short
 from ..sliding import REGIMES
 from .style import COLORS, bar, logarithmic, need_few, plt
-from .tables import matching, numbers, titled
+from .tables import matching, need_case, numbers, titled
 from .units import label, largest, on_axis, scale
 
 TINTS = ("#dfe3ee", "#8fb8d8", "#f5e0a0", "#cc79a7")  # of the regimes
@@ -26,8 +26,7 @@ def _grid(study, over, name, where, option="--scalar"):
         numbers(study, one, option)[0] for one, option in zip((*over, name), ("--against", "--against", option))
     )
     chosen = matching(study, where) & np.isfinite(x) & np.isfinite(y) & np.isfinite(values)
-    if not chosen.any():
-        raise Error(f"{study.path}: {option} {short(name)}: no chosen case has a number; use another column")
+    need_case(study, name, option, chosen)
     (xs, i), (ys, j) = (np.unique(one[chosen], return_inverse=True) for one in (x, y))
     if xs.size < 2 or ys.size < 2:
         raise Error(f"{study.path}: --against {','.join(over)}: a map needs two values of each; use inputs that vary")

@@ -7,6 +7,7 @@ from ..errors import Error, short, there_are
 from . import noise, symbols
 from .style import MARKED, colors, logarithmic, named, need_few, outlined, plt, scattered
 from .units import label, largest, on_axis, plain
+from .uses import Useless
 
 VOLUMES = ("wear_volume1", "wear_volume2")
 TIME = "time"
@@ -102,6 +103,22 @@ def need_scalars(results, names, option):
             raise Error(f"{results.path}: {option} {short(name)}: has no such dataset{there}")
 
 
+def _why_not(results, name):
+    """Returns why a scalar has no number in any step."""
+    if name == "slip_max" and results.parameters.get("friction") == 0.0:
+        return "without friction nothing opposes slip, and its maximum is not computed"
+    return "this run does not compute it"
+
+
+def need_numbers(results, names, option):
+    """Raises Useless if one of the names that the option requests is NaN in all steps."""
+    for name in names:
+        if np.isnan(series(results, name)[1]).all():
+            others = [other for other in _varying([results]) if other not in names]
+            text = f"{option} {name}: is NaN in all steps: {_why_not(results, name)}; choose {', '.join(others)}"
+            raise Useless(f"{results.path}: {text}")
+
+
 def _panel(panel, results, name, other, across):
     """Draws one scalar of all files; across is the factor of the other one."""
     lines = [against(one, name, other) for one in results]
@@ -121,6 +138,8 @@ def history(results, names=None, other=None, option="--names", logs=()):
         one.need_solution()
         need_scalars(one, names or (), option)
         need_scalars(one, [other] if other else (), "--against")
+        need_numbers(one, names or (), option)
+        need_numbers(one, [other] if other else (), "--against")
     other = other or usual(results)
     names = names or [name for name in _varying(results) if name != other]
     need_few(len(names), "datasets")

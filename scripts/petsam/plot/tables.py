@@ -6,6 +6,7 @@ from ..errors import Error, counted, short
 from . import symbols
 from .style import MARKED, colors, logarithmic, need_few, plt
 from .units import label, largest, on_axis, plain, scale
+from .uses import Useless
 
 MARKS = ("o", "s", "^", "D", "v", "x", "+")
 MOST = 9  # panels of a picture, unless columns are named
@@ -23,6 +24,12 @@ def numbers(study, name, option):
     if values.dtype.kind not in "biuf":
         raise Error(f"{study.path}: {option} {short(name)}: holds texts, no numbers")
     return values.astype(float), study.unit_of_input(name) if name in study.inputs else unit
+
+
+def need_case(study, name, option, chosen):
+    """Raises Useless if a column has a number in none of the chosen cases."""
+    if not np.isfinite(numbers(study, name, option)[0][chosen]).any():
+        raise Useless(f"{study.path}: {option} {short(name)}: no chosen case has a number; use another column")
 
 
 def titled(name):
@@ -233,6 +240,10 @@ def study(studies, names=None, other=None, by=None, where=(), logs=()):
     names = names or _results(studies[0], other)
     need_few(len(names), "columns")
     curves = _curves(studies, other, by, where)
+    for one in studies:
+        for name in names:
+            need_case(one, name, "--scalar", rows(one, where))
+        need_case(one, other, "--against", rows(one, where))
     across, unit = _abscissa(curves, other)
     columns = min(3, len(names))
     height = -(-len(names) // columns)

@@ -28,7 +28,7 @@ INSTEAD = {"step": "--range FIRST:LAST", "time": "--range FIRST:LAST", "cycle": 
 
 
 class Useless(Error):
-    """An option that none of the pictures uses: bad usage."""
+    """An option that none of the pictures uses, or that leaves nothing to draw: bad usage."""
 
 
 def _given(options, name):

@@ -172,10 +172,10 @@ static PetscErrorCode WarnOfEnergy(SamReport r)
     PetscCall(PetscOptionsHasName(NULL, NULL, without[k], &given));
   if (r->rank) PetscFunctionReturn(PETSC_SUCCESS);
   fflush(stdout);
-  fprintf(stderr,
-          "petsam: warning: dissipated_energy: the load steps are long: an error of about %.2g %%: "
-          "use %smore rows, or a larger -steps\n",
-          100 * (double)(r->energy[1] / r->energy[0]), given ? "" : "-step_rtol, ");
+  SamPrintMessage("petsam",
+                  "warning: dissipated_energy: the load steps are long: an error of about %.2g %%: use %smore rows, or "
+                  "a larger -steps",
+                  100 * (double)(r->energy[1] / r->energy[0]), given ? "" : "-step_rtol, ");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -47,14 +47,14 @@ typedef struct {
 static PetscErrorCode Warn(void *context, const char option[], const char format[], ...)
 {
   va_list values;
+  char    text[2 * SAM_MESSAGE];
 
   PetscFunctionBegin;
   if (((const SamStressRun *)context)->rank) PetscFunctionReturn(PETSC_SUCCESS);
   va_start(values, format);
-  fprintf(stderr, "petsam-stress: warning: %s", option);
-  (void)vfprintf(stderr, format, values);
-  fprintf(stderr, "\n");
+  (void)vsnprintf(text, sizeof(text), format, values);
   va_end(values);
+  SamPrintMessage("petsam-stress", "warning: %s%s", option, text);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

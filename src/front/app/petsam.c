@@ -59,7 +59,7 @@ static void CatchSignals(PetscBool checkpoint)
 static void WarnOfQuiet(const SamRun *run, const SamSimulationFiles *f)
 {
   if (run->report->quiet && !run->report->rank && !run->dry && !f->output && !f->checkpoint)
-    (void)fprintf(stderr, "petsam: warning: -quiet is given without -output: the run leaves no result: give -output\n");
+    SamPrintMessage("petsam", "warning: -quiet is given without -output: the run leaves no result: give -output");
 }
 
 /* ---- memory ---- */

@@ -33,6 +33,11 @@ static PetscBool IsPlain(PetscErrorCode code)
   return code == SAM_ERR_USER || code == SAM_ERR_FILE || code == PETSC_ERR_NOT_CONVERGED || code == PETSC_ERR_MEM;
 }
 
+static void PointToHelp(void)
+{
+  SamPrintMessage(program->name, "see %s -help for the options", program->name);
+}
+
 /* Prints an error as one line; if all ranks have it, from rank 0 only. */
 static PetscErrorCode HandleError(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode code,
                                   PetscErrorType type, const char *message, void *context)
@@ -47,12 +52,12 @@ static PetscErrorCode HandleError(MPI_Comm comm, int line, const char *function,
   MPI_Comm_size(comm, &ranks);
   if (ranks < all) alone = PETSC_TRUE;
   if (code == PETSC_ERR_MEM)
-    fprintf(stderr, "%s: rank %d has not enough memory: %s\n", program->name, rank, message);
+    SamPrintMessage(program->name, "rank %d has not enough memory: %s", rank, message);
   else if (rank == 0 || ranks < all) /* for an option in a file, with that file */
-    fprintf(stderr, "%s: %s%s\n", program->name,
-            code == SAM_ERR_USER && message[0] == '-' ? SamArgumentsFindPlace(&arguments, message + 1) : "", message);
-  if (code == SAM_ERR_USER && rank == 0)
-    fprintf(stderr, "%s: see %s -help for the options\n", program->name, program->name);
+    SamPrintMessage(program->name, "%s%s",
+                    code == SAM_ERR_USER && message[0] == '-' ? SamArgumentsFindPlace(&arguments, message + 1) : "",
+                    message);
+  if (code == SAM_ERR_USER && rank == 0) PointToHelp();
   return code;
 }
 
@@ -76,9 +81,9 @@ static PetscErrorCode HandleErrorAtStart(MPI_Comm comm, int line, const char *fu
   (void)file;
   (void)context;
   (void)MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  if (type == PETSC_ERROR_INITIAL && rank == 0)
-    fprintf(stderr, "%s: PETSc cannot take the options: %s\n%s: see %s -help for the options\n", program->name,
-            message ? message : "", program->name, program->name);
+  if (type != PETSC_ERROR_INITIAL || rank) return code;
+  SamPrintMessage(program->name, "PETSc cannot take the options: %s", message ? message : "");
+  PointToHelp();
   return code;
 }
 
@@ -146,7 +151,7 @@ static PetscErrorCode Run(void)
     PetscCall(SamProgramHelp(program, &arguments));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  if (arguments.warning[0]) (void)fprintf(stderr, "%s: warning: %s\n", program->name, arguments.warning);
+  if (arguments.warning[0]) SamPrintMessage(program->name, "warning: %s", arguments.warning);
   PetscCall(program->setup(program->context, &arguments));
   PetscCall(SamArgumentsRefuseUnknown(PETSC_COMM_WORLD, &arguments));
   PetscCall(program->run(program->context));

@@ -229,15 +229,16 @@ static void PrintMessage(SamReport r, const char where[], const SamStep *step)
 {
   const PetscBool edge       = !step->status && step->check.edge > 0; /* and the option allows it */
   char            option[48] = "";
+  int             named;
 
   if (edge && r->edge_told) return;
   if (edge) r->edge_told = PETSC_TRUE;
   if (r->rank || !step->message[0]) return;
   fflush(stdout);
   if (step->setting[0]) snprintf(option, sizeof(option), "-%s", step->setting);
-  fprintf(stderr, "petsam: %s%s%s%s", step->status ? "" : "warning: ", where, where[0] ? ": " : "", step->message);
-  if (!strstr(step->message, option)) fprintf(stderr, " (%s)", option);
-  fprintf(stderr, "\n");
+  named = strstr(step->message, option) != NULL;
+  SamPrintMessage("petsam", "%s%s%s%s%s%s%s", step->status ? "" : "warning: ", where, where[0] ? ": " : "",
+                  step->message, named ? "" : " (", named ? "" : option, named ? "" : ")");
 }
 
 static void Warn(SamReport r, const char text[], const char option[])
@@ -369,7 +370,7 @@ static PetscErrorCode Say(SamReport r, const SamSimulationEvent *news)
   else if (news->kind == SAM_NOTIFY_ADVICE)
     Warn(r, news->text, news->setting);
   else if (!r->rank)
-    fprintf(stderr, "petsam: %s\n", news->text);
+    SamPrintMessage("petsam", "%s", news->text);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

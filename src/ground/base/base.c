@@ -102,6 +102,6 @@ PetscErrorCode SamKeepMessage(MPI_Comm comm, int line, const char *function, con
   (void)line;
   (void)function;
   (void)file;
-  if (type == PETSC_ERROR_INITIAL && message) (void)snprintf((char *)context, SAM_MESSAGE, "%s", message);
+  if (type == PETSC_ERROR_INITIAL && message) SamOneLine(message, (char *)context, SAM_MESSAGE);
   return code;
 }

@@ -1,6 +1,10 @@
-/* Parts of messages: the prefix of options, and lists of names. */
+/* Messages, and parts of them: the prefix of options, and lists of names. */
 #include <petsam/private/baseimpl.h>
 #include <petsam/private/base.h>
+#include <stdarg.h>
+#include <stdio.h>
+
+#define LONGEST 8192 /* characters of a message */
 
 const char *SamOptionsPrefix(const SamOptions *from)
 {
@@ -15,4 +19,35 @@ void SamJoin(PetscInt count, const char *const names[], const char between[], co
   text[0] = '\0';
   for (PetscInt k = 0; k < count && used < size; k++)
     used += (size_t)snprintf(text + used, size - used, "%s%s", !k ? "" : k + 1 < count ? between : last, names[k]);
+}
+
+void SamOneLine(const char text[], char line[], size_t size)
+{
+  static const char letters[] = "abtnvfr"; /* of the characters from '\a' to '\r' */
+  const size_t      longest   = sizeof("\\x7f") - 1;
+  size_t            used      = 0;
+
+  for (; *text && used + longest < size; text++) {
+    const unsigned char c = (unsigned char)*text;
+
+    if (c >= '\a' && c <= '\r')
+      used += (size_t)snprintf(line + used, size - used, "\\%c", letters[c - '\a']);
+    else if (c < ' ' || c == 0x7f)
+      used += (size_t)snprintf(line + used, size - used, "\\x%02x", c);
+    else
+      line[used++] = *text;
+  }
+  line[used] = '\0';
+}
+
+void SamPrintMessage(const char program[], const char format[], ...)
+{
+  va_list values;
+  char    text[LONGEST], line[LONGEST];
+
+  va_start(values, format);
+  (void)vsnprintf(text, sizeof(text), format, values);
+  va_end(values);
+  SamOneLine(text, line, sizeof(line));
+  (void)fprintf(stderr, "%s: %s\n", program, line);
 }

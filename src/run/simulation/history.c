@@ -61,8 +61,8 @@ static PetscErrorCode Override(const Reader *r, const char name[], const char co
   *set = PETSC_FALSE;
   PetscCallMPI(MPI_Comm_rank(r->from->comm, &rank));
   if (rank == 0)
-    fprintf(stderr, "petsam: warning: -%s of the options file is not used: %s has the column %s\n", option, r->file,
-            column);
+    SamPrintMessage("petsam", "warning: -%s of the options file is not used: %s has the column %s", option, r->file,
+                    column);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -146,10 +146,10 @@ static PetscErrorCode NoteSpin(SamHistory h, const SamOptions *from, const Petsc
   PetscCallMPI(MPI_Comm_rank(from->comm, &rank));
   if (rank == 0 && left[SAM_COMPONENT_TY] && h->constant.creep[spin] &&
       (h->column[spin] >= 0 || h->constant.value[spin] != 0))
-    fprintf(stderr,
-            "petsam: note: creep_spin is given without creep_y: creep_y is found, for load_ty = 0: give -%screep_y 0 "
-            "for spin alone, or -%sload_ty 0 for this\n",
-            prefix, prefix);
+    SamPrintMessage("petsam",
+                    "note: creep_spin is given without creep_y: creep_y is found, for load_ty = 0: give -%screep_y 0 "
+                    "for spin alone, or -%sload_ty 0 for this",
+                    prefix, prefix);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
