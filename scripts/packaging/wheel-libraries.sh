@@ -42,7 +42,8 @@ sources="-o Dir::Etc::SourceList=/dev/null -o Dir::Etc::SourceParts=$prefix/src/
 run apt-get -q $sources -o APT::Sandbox::User=root update
 # shellcheck disable=SC2086
 run apt-get -q $sources -o APT::Sandbox::User=root source --download-only fftw3 hdf5
-run python -m pip download --disable-pip-version-check --no-deps --no-binary :all: petsc==$petsc
+# sources of PETSc alone: those of the tools that its package asks for would be compiled first, CMake among them
+run python -m pip download --disable-pip-version-check --no-deps --no-binary petsc petsc==$petsc
 for source in fftw3_*.orig.tar.* hdf5_*.orig.tar.* petsc-*.tar.*; do
   mkdir -p "${source%%[_-]*}"
   tar -xf "$source" -C "${source%%[_-]*}" --strip-components=1

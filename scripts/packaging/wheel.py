@@ -20,6 +20,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAMS = ("petsam", "petsam-stress")
 MPI = "libmpi.so.12"  # of MPICH and those compatible with it
+OF_MPICH = (2, 28)  # the C library that PyPI's mpich asks for
 # on every system: the C library, zlib and the compiler's own
 OF_THE_SYSTEM = re.compile(r"(lib(c|m|rt|dl|pthread|z|gcc_s)|ld-linux-[\w-]+)\.so\.\d+")
 # files in the folder licenses of the libraries that are carried, by the beginnings of their names
@@ -68,7 +69,10 @@ def copy(source, path):
 
 
 def stage(build, libraries, tree):
-    """The package's sources in `tree`, and in `tree`/data the files for the environment beside it."""
+    """The package's sources in `tree`, and in `tree`/data the files for the environment beside it.
+
+    Returns the programs and libraries among them.
+    """
     shutil.rmtree(tree, ignore_errors=True)
     shutil.copytree(ROOT / "scripts", tree, ignore=shutil.ignore_patterns(
         "__pycache__", "*.egg-info", "build", "maintain", "packaging"))  # fmt: skip
@@ -98,15 +102,22 @@ def stage(build, libraries, tree):
     shutil.copytree(ROOT / "scripts/slurm", data / "share/petsam/scripts/slurm")
     for name in ("LICENSE", "CITATION.cff"):
         copy(ROOT / name, data / "share/petsam" / name)
+    return list(places)
 
 
-def platform(libraries):
-    """The wheel's tag: with all that it needs inside, any system with a C library as new as this one."""
+def c_library(files):
+    """The version (major, minor) of the GNU C library that the files need, by the symbols that they take from it."""
+    symbols = "".join(output("objdump", "-T", file) for file in files)
+    return max((int(major), int(minor)) for major, minor in re.findall(r"GLIBC_(\d+)\.(\d+)", symbols))
+
+
+def platform(files):
+    """The wheel's tag: with all that it needs inside (`files`), any system with the C library that those need."""
     machine = re.sub(r"[-.]", "_", sysconfig.get_platform())
-    if not libraries or not machine.startswith("linux_"):
+    if not files or not machine.startswith("linux_"):
         return machine
-    version = os.confstr("CS_GNU_LIBC_VERSION").split()[1].replace(".", "_")
-    return f"manylinux_{version}_{machine[6:]}"
+    major, minor = max(c_library(files), OF_MPICH)
+    return f"manylinux_{major}_{minor}_{machine[6:]}"
 
 
 def main():
@@ -116,12 +127,12 @@ def main():
     parser.add_argument("--out", type=Path, default=ROOT / "build/wheel")
     options = parser.parse_args()
     out, tree = options.out.resolve(), options.out.resolve() / "tree"
-    stage(options.build.resolve(), options.libraries and options.libraries.resolve(), tree)
+    files = stage(options.build.resolve(), options.libraries and options.libraries.resolve(), tree)
     for old in out.glob("petsam-*.whl"):
         old.unlink()
     subprocess.run(
         [sys.executable, "-m", "pip", "wheel", "-q", "--disable-pip-version-check", "--no-deps", "-w", out, tree],
-        env=dict(os.environ, PETSAM_WHEEL=platform(options.libraries)),
+        env=dict(os.environ, PETSAM_WHEEL=platform(options.libraries and files)),
         check=True,
     )
     (wheel,) = out.glob("petsam-*.whl")

@@ -110,6 +110,24 @@ def test_a_library_whose_license_is_not_listed_is_not_carried(monkeypatch):
         maker.carried([PROGRAM])
 
 
-def test_the_carrying_wheel_names_the_C_library_that_it_needs(tmp_path):
-    assert maker.platform(None) == sysconfig.get_platform().replace("-", "_")
-    assert re.fullmatch(r"manylinux_2_\d+_\w+", maker.platform(tmp_path))
+def test_the_carrying_wheel_names_the_C_library_that_its_files_need(monkeypatch):
+    machine = sysconfig.get_platform().replace("-", "_")
+    assert maker.platform(None) == machine
+    table = {"old": "(GLIBC_2.2.5) pow", "new": "(GLIBC_2.9) a\n(GLIBC_2.34) b\n(GFORTRAN_8) c"}
+    monkeypatch.setattr(maker, "output", lambda *words: table[words[-1]])
+    assert maker.c_library(["old", "new"]) == (2, 34) and maker.c_library(["old"]) == (2, 2)
+    assert maker.platform(["old", "new"]) == machine.replace("linux", "manylinux_2_34")
+    # never older than the mpich that the wheel requires
+    assert maker.platform(["old"]) == machine.replace("linux", "manylinux_2_28")
+
+
+def test_a_wheel_that_stands_needs_no_newer_C_library_than_its_name_says(tmp_path):
+    wheels = list((ROOT / "build/wheel").glob("petsam-*manylinux_*.whl"))
+    if not wheels:
+        pytest.skip("no wheel of make wheel stands in build/wheel")
+    with zipfile.ZipFile(wheels[0]) as archive:
+        archive.extractall(tmp_path)
+    files = [path for path in tmp_path.rglob("*.data/data/**/*") if path.is_file()]
+    files = [path for path in files if path.read_bytes()[:4] == b"\x7fELF"]
+    named = re.search(r"manylinux_(\d+)_(\d+)_", wheels[0].name)
+    assert len(files) > 4 and maker.c_library(files) <= (int(named[1]), int(named[2]))
