@@ -14,7 +14,6 @@
 #include <petsam/private/law.h>
 #include <petsam/private/problem.h>
 #include <math.h>
-#include <stdarg.h>
 
 /*
   Elastic contacts with a closed-form solution need fewer cells across than others (SAM_ADVICE_CELLS): with at least 14,
@@ -44,14 +43,12 @@
 #define PERCENT  5
 #define STICKING 100
 
-#define NARROW    0.1  /* part of the contact's cells, in the narrowest zones, that is ignored */
-#define ROOM      1.5  /* ratio of the width of a good grid to that of the contact */
-#define BORDER    4    /* margin in cells of a sufficient grid */
-#define SAME      2    /* cells by which two widths, one counted and one computed, may differ */
-#define ABSURD    4096 /* number of cells per row that wrong units may ask for */
-#define BLIND     0.98 /* edge pressure relative to the largest, above which it does not indicate the size */
-#define STROKE    0.02 /* ratio of displacement to half width of a worn contact, above which surfaces should slide */
-#define AT_A_TIME 64   /* characters of numbers */
+#define NARROW 0.1  /* part of the contact's cells, in the narrowest zones, that is ignored */
+#define BORDER 4    /* margin in cells of a sufficient grid */
+#define SAME   2    /* cells by which two widths, one counted and one computed, may differ */
+#define ABSURD 4096 /* number of cells per row that wrong units may ask for */
+#define BLIND  0.98 /* edge pressure relative to the largest, above which it does not indicate the size */
+#define STROKE 0.02 /* ratio of displacement to half width of a worn contact, above which surfaces should slide */
 
 /* ---- loads ---- */
 
@@ -95,24 +92,6 @@ void SamAdviceAddLoads(SamAdvice *a, PetscInt step, const SamControl *control)
   }
 }
 
-/* ---- numbers in messages ---- */
-
-double SamAdviceRoundUp(double x)
-{
-  const double unit = pow(10, floor(log10(x)) - 1);
-
-  return ceil(x / unit * (1 - 1e-9)) * unit;
-}
-
-/* Writes two numbers as an option takes them: one for both if they are the same. */
-static void WritePair(const char option[], const double x[2], char text[AT_A_TIME])
-{
-  if (x[0] == x[1])
-    (void)snprintf(text, AT_A_TIME, "-%s %.8g", option, x[0]);
-  else
-    (void)snprintf(text, AT_A_TIME, "-%s %.8g,%.8g", option, x[0], x[1]);
-}
-
 /* ---- the extent ---- */
 
 static PetscErrorCode Measure(const SamSetup *s, SamExtent *extent)
@@ -154,40 +133,7 @@ static PetscErrorCode Estimate(const SamSetup *s, PetscBool force, PetscReal val
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- better grids ---- */
-
-PetscBool SamAdviceIsFromFile(const SamSetup *s)
-{
-  return SamGapIsFromFile(s->gap, PETSC_FALSE) || SamGapIsFromFile(s->gap, PETSC_TRUE) ? PETSC_TRUE : PETSC_FALSE;
-}
-
-/* Writes grids that resolve a contact of these half widths: one as large as now, and one with as many cells; empty:
-   none. */
-static void AdviseGrids(const SamSetup *s, const PetscReal half[2], double factor, const PetscBool refine[2],
-                        char cells[], char width[])
-{
-  const double n[2] = {(double)s->grid->nx, (double)s->grid->ny};
-  double       more[2], size[2];
-  PetscBool    smaller = PETSC_FALSE, enough = PETSC_TRUE;
-
-  cells[0] = width[0] = '\0';
-  for (int k = 0; k < 2; k++) {
-    more[k] = refine[k] ? ceil(n[k] * factor) : n[k];
-    size[k] = PetscMin((double)s->grid->width[k], SamAdviceRoundUp(2 * ROOM * (double)half[k]));
-    if (size[k] < 0.9 * (double)s->grid->width[k]) smaller = PETSC_TRUE;
-  }
-  for (PetscInt k = s->grid->axes; k < 2; k++) {
-    more[k] = more[0];
-    size[k] = size[0];
-  }
-  if (s->grid->nx == s->grid->ny && s->grid->width[0] == s->grid->width[1])
-    size[0] = size[1] = PetscMax(size[0], size[1]);
-  /* The contact gets wider in cells as the grid gets smaller, more so along one axis. */
-  for (int k = 0; k < s->grid->axes; k++)
-    if ((double)s->grid->width[k] / size[k] < factor) enough = PETSC_FALSE;
-  if (PetscMax(more[0], more[1]) <= SAM_LARGEST_ROW) WritePair("grid_n", more, cells);
-  if (smaller && enough) WritePair("grid_size", size, width);
-}
+/* ---- the size of the contact ---- */
 
 /*
   Finds the half widths and cells across: by the closed-form solution if it describes this contact, which is not so
@@ -233,17 +179,6 @@ static PetscErrorCode Compare(const SamSetup *s, const PetscReal half[2], char t
 }
 
 /* ---- a step ---- */
-
-void SamAdviceSay(SamAdvice *a, const char setting[], const char format[], ...)
-{
-  char    text[512];
-  va_list values;
-
-  va_start(values, format);
-  (void)vsnprintf(text, sizeof(text), format, values);
-  va_end(values);
-  if (!a->error) a->error = a->receive(a->context, text, setting);
-}
 
 /* True if the surface of body 2 varies from place to place, so that its position matters. */
 static PetscBool HasPlace(SamAdvice *a)
@@ -315,45 +250,16 @@ static void Touch(SamAdvice *a)
                force ? SamUnitOn(a->setup->grid, "N") : "m", force ? "0" : "0, or the smallest separation");
 }
 
-/* Finds the axes along which the contact ends within the grid. A single spot that ends along one axis only is a
-   strip. */
-static PetscBool IsStrip(const SamAdvice *a, PetscBool ends[2])
-{
-  const SamGrid g = a->setup->grid;
-
-  ends[0] = 2 * a->extent.half[0] < g->width[0] - 0.5 * g->dx ? PETSC_TRUE : PETSC_FALSE;
-  ends[1] = g->axes == 2 && 2 * a->extent.half[1] < g->width[1] - 0.5 * g->dy ? PETSC_TRUE : PETSC_FALSE;
-  return a->extent.zones == 1 && ends[0] != ends[1] ? PETSC_TRUE : PETSC_FALSE;
-}
-
-void SamAdviceGrids(const SamAdvice *a, double factor, char text[SAM_ADVICE_GRIDS])
-{
-  const SamSetup *s = a->setup;
-  PetscBool       ends[2];
-  const PetscBool strip = IsStrip(a, ends), refine[2] = {!strip || ends[0], !strip || ends[1]};
-  char            cells[AT_A_TIME] = "", width[AT_A_TIME] = "";
-
-  text[0] = '\0';
-  if (!(factor > 0) || !(a->half[0] > 0)) return;
-  AdviseGrids(s, a->half, factor, refine, cells, width);
-  if (SamAdviceIsFromFile(s))
-    (void)snprintf(text, SAM_ADVICE_GRIDS, ": use a file with heights at smaller distances%s%s",
-                   cells[0] ? ", and " : "", cells);
-  else
-    (void)snprintf(text, SAM_ADVICE_GRIDS, "%s%s%s%s%s", cells[0] || width[0] ? ": use " : "", width,
-                   width[0] ? " (in m)" : "", width[0] && cells[0] ? " or " : "", cells);
-}
-
 /* Writes a length with so many digits, at most 9. */
-static void WriteLength(double length, int digits, char text[AT_A_TIME])
+static void WriteLength(double length, int digits, char text[SAM_ADVICE_TEXT])
 {
-  (void)snprintf(text, AT_A_TIME, "%.*g", PetscMin(digits, 9), length);
+  (void)snprintf(text, SAM_ADVICE_TEXT, "%.*g", PetscMin(digits, 9), length);
 }
 
 /* Returns the number of digits with which two lengths look different, if they differ. */
 static int DigitsOf(double a, double b)
 {
-  char one[AT_A_TIME], other[AT_A_TIME];
+  char one[SAM_ADVICE_TEXT], other[SAM_ADVICE_TEXT];
   int  digits = 2;
 
   do {
@@ -370,7 +276,7 @@ static void WriteSize(const SamAdvice *a, char text[], size_t size)
   const double  length[4] = {2 * (double)a->half[0], 2 * (double)a->half[1], (double)g->width[0], (double)g->width[1]};
   PetscBool     whole     = PETSC_TRUE;
   int           digits    = 3;
-  char          one[4][AT_A_TIME];
+  char          one[4][SAM_ADVICE_TEXT];
 
   for (int k = 0; k < g->axes; k++) {
     if (fabs(length[k] - length[k + 2]) <= 1e-9 * length[k + 2]) continue;
@@ -401,14 +307,14 @@ static void Cells(SamAdvice *a)
   const SamExtent *extent = &a->extent;
   PetscBool        ends[2];
   /* In periodic bodies all cells may be in contact; the contact then has no width. */
-  const PetscBool whole  = !IsStrip(a, ends) && extent->whole;
+  const PetscBool whole  = !SamAdviceIsStrip(a, ends) && extent->whole;
   const int       fewest = Fewest(a);
   const PetscBool few    = !whole && extent->across < fewest;
   const PetscBool steep = fabs(extent->change) > (a->after[0] ? WORN_PEAK : PEAK), sharp = steep && !extent->finer;
-  const double    more             = few ? (fewest + SAME) / (double)a->across : 0;
-  const double    factor           = PetscMax(more, steep ? (double)extent->finer : 0);
-  const PetscBool absurd           = more * (double)PetscMax(s->grid->nx, s->grid->ny) > ABSURD;
-  char            zones[AT_A_TIME] = "", size[160], spots[320] = "", peak[160] = "", better[SAM_ADVICE_GRIDS];
+  const double    more                   = few ? (fewest + SAME) / (double)a->across : 0;
+  const double    factor                 = PetscMax(more, steep ? (double)extent->finer : 0);
+  const PetscBool absurd                 = more * (double)PetscMax(s->grid->nx, s->grid->ny) > ABSURD;
+  char            zones[SAM_ADVICE_TEXT] = "", size[160], spots[320] = "", peak[160] = "", better[SAM_ADVICE_GRIDS];
 
   if ((!few && !steep) || (a->finer && (sharp || factor <= (double)a->finer))) return;
   a->finer = PetscMax(1, (PetscInt)factor);
@@ -501,24 +407,6 @@ static void Bodies(SamAdvice *a)
                              &option, text, sizeof(text));
     if (!a->error && text[0]) SamAdviceSay(a, option, "%s", text);
   }
-}
-
-double SamAdviceStiffness(SamPair pair)
-{
-  double compliance = 0;
-
-  for (PetscInt b = 0; b < 2; b++) {
-    const SamBody body  = SamPairBody(pair, b);
-    double        least = INFINITY;
-
-    for (PetscInt n = 1; n <= SamBodyCount(body); n++) {
-      const SamMaterial *m = SamBodyMaterialAt(body, SamBodyTop(body, n)); /* interfaces: that above */
-
-      least = PetscMin(least, (1 - (double)(m->poisson * m->poisson)) / (double)m->young);
-    }
-    compliance += least;
-  }
-  return 1 / compliance;
 }
 
 /* Advises on a contact so wide relative to the period that its images interact. */
@@ -709,7 +597,7 @@ static void AdviseGrid(const SamSetup *s, const PetscReal half[2], const PetscRe
   const PetscReal cell[2] = {s->grid->dx, s->grid->dy};
   const double    n[2]    = {(double)s->grid->nx, (double)s->grid->ny};
   double          width[2], cells[2];
-  char            one[AT_A_TIME], other[AT_A_TIME];
+  char            one[SAM_ADVICE_TEXT], other[SAM_ADVICE_TEXT];
 
   for (int k = 0; k < 2; k++) {
     const double needs = 2 * ReachOf(s, half, lever, k) + BORDER * (double)cell[k];
@@ -723,8 +611,8 @@ static void AdviseGrid(const SamSetup *s, const PetscReal half[2], const PetscRe
     width[k] = width[0];
     cells[k] = cells[0];
   }
-  WritePair("grid_size", width, one);
-  WritePair("grid_n", cells, other);
+  SamAdviceWritePair("grid_size", width, one);
+  SamAdviceWritePair("grid_n", cells, other);
   if (PetscMax(cells[0], cells[1]) <= SAM_LARGEST_ROW)
     (void)snprintf(text, size, "%s, with %s for cells as now", one, other);
   else
@@ -741,7 +629,7 @@ static void AdviseCells(const SamSetup *s, const PetscReal half[2], char text[],
   PetscReal       across    = INFINITY;
   PetscBool       coarse    = PETSC_FALSE;
   PetscBool       refine[2] = {PETSC_FALSE, PETSC_FALSE};
-  char            cells[AT_A_TIME], width[AT_A_TIME];
+  char            cells[SAM_ADVICE_TEXT], width[SAM_ADVICE_TEXT];
 
   text[0] = '\0';
   for (int k = 0; k < s->grid->axes; k++) {
@@ -750,7 +638,7 @@ static void AdviseCells(const SamSetup *s, const PetscReal half[2], char text[],
     across    = PetscMin(across, 2 * half[k] / cell[k]);
   }
   if (!coarse || !(across < FEW_CLOSED)) return;
-  AdviseGrids(s, half, (FEW_CLOSED + SAME) / (double)across, refine, cells, width);
+  SamAdviceGridsFor(s, half, (FEW_CLOSED + SAME) / (double)across, refine, cells, width);
   if (cells[0]) (void)snprintf(text, size, "; its cells are too wide, the contact fits into it: use %s", cells);
 }
 
@@ -793,7 +681,7 @@ PetscErrorCode SamAdviceEdge(const SamAdvice *a, SamStep *step)
   char *const         text = step->message + used;
   PetscReal           half[2];
   PetscBool           known, large, thick = PETSC_FALSE;
-  char                grid[3 * AT_A_TIME], ratio[192] = "";
+  char                grid[3 * SAM_ADVICE_TEXT], ratio[192] = "";
 
   PetscFunctionBegin;
   if (SamStepIsSolved(step) && !strcmp(step->setting, "slide")) {

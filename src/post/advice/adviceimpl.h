@@ -8,20 +8,30 @@
 #define SAM_ADVICE_GRIDS  192 /* characters of the text with the advised grids */
 #define SAM_ADVICE_CELLS  20  /* a contact with fewer cells across is not resolved, but for closed-form solutions */
 #define SAM_ADVICE_MARGIN 1.1 /* ratio of the width of a sufficient grid to that of the contact */
+#define SAM_ADVICE_TEXT   64  /* characters of numbers in messages */
 /*
   SamAdviceSay - passes on advice, with a format of printf(); `setting`: see SamAdviceFunction.
   SamAdviceGrids - writes the end of a message, such as ": -grid_n 64", that proposes a grid with this many times more
   cells across the contact; empty if there is none.
+  SamAdviceGridsFor - writes grids that resolve a contact of these half widths along the axes to refine: one as large as
+  now with `factor` times more cells, and a smaller one with as many cells; empty: none.
+  SamAdviceWritePair - writes two numbers as an option takes them: one for both if they are the same.
+  SamAdviceRoundUp - rounds up to two digits.
   SamAdviceIsFromFile - true if heights of the gap are from a file.
-  SamAdviceRoundUp - rounds up to two digits. SamAdviceStiffness - returns E* of the stiffest materials of both bodies,
-  Pa.
-  None is collective.
+  SamAdviceIsStrip - true if a single spot ends along one axis only; `ends`: the axes along which the contact ends.
+  SamAdviceStiffness - returns E* of the stiffest materials of both bodies, Pa.
+  None is collective (say.c).
 */
 PETSC_INTERN void SamAdviceSay(SamAdvice *advice, const char setting[], const char format[], ...)
   PETSC_ATTRIBUTE_FORMAT(3, 4);
 PETSC_INTERN void      SamAdviceGrids(const SamAdvice *advice, double factor, char text[SAM_ADVICE_GRIDS]);
-PETSC_INTERN PetscBool SamAdviceIsFromFile(const SamSetup *setup);
+PETSC_INTERN void      SamAdviceGridsFor(const SamSetup *setup, const PetscReal half[2], double factor,
+                                         const PetscBool refine[2], char cells[SAM_ADVICE_TEXT],
+                                         char width[SAM_ADVICE_TEXT]);
+PETSC_INTERN void      SamAdviceWritePair(const char option[], const double x[2], char text[SAM_ADVICE_TEXT]);
 PETSC_INTERN double    SamAdviceRoundUp(double x);
+PETSC_INTERN PetscBool SamAdviceIsFromFile(const SamSetup *setup);
+PETSC_INTERN PetscBool SamAdviceIsStrip(const SamAdvice *advice, PetscBool ends[2]);
 PETSC_INTERN double    SamAdviceStiffness(SamPair pair);
 /*
   AddSlip, AddRolling - add a step to the estimates of the dissipated energy (slipzones.c), and of loads and creepages

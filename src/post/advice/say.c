@@ -1,0 +1,112 @@
+/*
+  What all advice says alike: a message, the grid that would be better, numbers as options take them.
+*/
+#include "adviceimpl.h"
+#include <petsam/private/body.h>
+#include <petsam/private/gap.h>
+#include <math.h>
+#include <stdarg.h>
+
+#define ROOM 1.5 /* ratio of the width of a good grid to that of the contact */
+
+double SamAdviceRoundUp(double x)
+{
+  const double unit = pow(10, floor(log10(x)) - 1);
+
+  return ceil(x / unit * (1 - 1e-9)) * unit;
+}
+
+void SamAdviceWritePair(const char option[], const double x[2], char text[SAM_ADVICE_TEXT])
+{
+  if (x[0] == x[1])
+    (void)snprintf(text, SAM_ADVICE_TEXT, "-%s %.8g", option, x[0]);
+  else
+    (void)snprintf(text, SAM_ADVICE_TEXT, "-%s %.8g,%.8g", option, x[0], x[1]);
+}
+
+PetscBool SamAdviceIsFromFile(const SamSetup *s)
+{
+  return SamGapIsFromFile(s->gap, PETSC_FALSE) || SamGapIsFromFile(s->gap, PETSC_TRUE) ? PETSC_TRUE : PETSC_FALSE;
+}
+
+void SamAdviceGridsFor(const SamSetup *s, const PetscReal half[2], double factor, const PetscBool refine[2],
+                       char cells[SAM_ADVICE_TEXT], char width[SAM_ADVICE_TEXT])
+{
+  const double n[2] = {(double)s->grid->nx, (double)s->grid->ny};
+  double       more[2], size[2];
+  PetscBool    smaller = PETSC_FALSE, enough = PETSC_TRUE;
+
+  cells[0] = width[0] = '\0';
+  for (int k = 0; k < 2; k++) {
+    more[k] = refine[k] ? ceil(n[k] * factor) : n[k];
+    size[k] = PetscMin((double)s->grid->width[k], SamAdviceRoundUp(2 * ROOM * (double)half[k]));
+    if (size[k] < 0.9 * (double)s->grid->width[k]) smaller = PETSC_TRUE;
+  }
+  for (PetscInt k = s->grid->axes; k < 2; k++) {
+    more[k] = more[0];
+    size[k] = size[0];
+  }
+  if (s->grid->nx == s->grid->ny && s->grid->width[0] == s->grid->width[1])
+    size[0] = size[1] = PetscMax(size[0], size[1]);
+  /* The contact gets wider in cells as the grid gets smaller, more so along one axis. */
+  for (int k = 0; k < s->grid->axes; k++)
+    if ((double)s->grid->width[k] / size[k] < factor) enough = PETSC_FALSE;
+  if (PetscMax(more[0], more[1]) <= SAM_LARGEST_ROW) SamAdviceWritePair("grid_n", more, cells);
+  if (smaller && enough) SamAdviceWritePair("grid_size", size, width);
+}
+
+void SamAdviceSay(SamAdvice *a, const char setting[], const char format[], ...)
+{
+  char    text[512];
+  va_list values;
+
+  va_start(values, format);
+  (void)vsnprintf(text, sizeof(text), format, values);
+  va_end(values);
+  if (!a->error) a->error = a->receive(a->context, text, setting);
+}
+
+PetscBool SamAdviceIsStrip(const SamAdvice *a, PetscBool ends[2])
+{
+  const SamGrid g = a->setup->grid;
+
+  ends[0] = 2 * a->extent.half[0] < g->width[0] - 0.5 * g->dx ? PETSC_TRUE : PETSC_FALSE;
+  ends[1] = g->axes == 2 && 2 * a->extent.half[1] < g->width[1] - 0.5 * g->dy ? PETSC_TRUE : PETSC_FALSE;
+  return a->extent.zones == 1 && ends[0] != ends[1] ? PETSC_TRUE : PETSC_FALSE;
+}
+
+void SamAdviceGrids(const SamAdvice *a, double factor, char text[SAM_ADVICE_GRIDS])
+{
+  const SamSetup *s = a->setup;
+  PetscBool       ends[2];
+  const PetscBool strip = SamAdviceIsStrip(a, ends), refine[2] = {!strip || ends[0], !strip || ends[1]};
+  char            cells[SAM_ADVICE_TEXT] = "", width[SAM_ADVICE_TEXT] = "";
+
+  text[0] = '\0';
+  if (!(factor > 0) || !(a->half[0] > 0)) return;
+  SamAdviceGridsFor(s, a->half, factor, refine, cells, width);
+  if (SamAdviceIsFromFile(s))
+    (void)snprintf(text, SAM_ADVICE_GRIDS, ": use a file with heights at smaller distances%s%s",
+                   cells[0] ? ", and " : "", cells);
+  else
+    (void)snprintf(text, SAM_ADVICE_GRIDS, "%s%s%s%s%s", cells[0] || width[0] ? ": use " : "", width,
+                   width[0] ? " (in m)" : "", width[0] && cells[0] ? " or " : "", cells);
+}
+
+double SamAdviceStiffness(SamPair pair)
+{
+  double compliance = 0;
+
+  for (PetscInt b = 0; b < 2; b++) {
+    const SamBody body  = SamPairBody(pair, b);
+    double        least = INFINITY;
+
+    for (PetscInt n = 1; n <= SamBodyCount(body); n++) {
+      const SamMaterial *m = SamBodyMaterialAt(body, SamBodyTop(body, n)); /* interfaces: that above */
+
+      least = PetscMin(least, (1 - (double)(m->poisson * m->poisson)) / (double)m->young);
+    }
+    compliance += least;
+  }
+  return 1 / compliance;
+}
