@@ -3,6 +3,7 @@
  */
 #include "fields.h"
 #include "methods/methods.h"
+#include "../../src/solvers/balance/projectionimpl.h"
 
 #include <petsam/private/normal.h>
 #include <petsam/private/balanceimpl.h>
@@ -194,6 +195,44 @@ static void test_capacity_of_a_grid(void **state)
   sam_call(SamGridDestroy(&grid));
 }
 
+/* The dual of pressures a between 0 and MOST on all cells, whose field is zero; `context`: the number of passes. */
+static void CountedPass(const SamFrame *f, const void *context, const double a[3], SamTotal dual[])
+{
+  SamDual      sums = {0};
+  const double p = fmin(fmax(a[0], 0), MOST), cells = (double)f->grid->cells;
+  int *const   count = *(int *const *)context;
+
+  *count += 1;
+  sums.value   = cells * p * (a[0] - 0.5 * p);
+  sums.scale   = cells * p;
+  sums.sums[0] = cells * p;
+  sums.gram[0] = a[0] > 0 && a[0] < MOST ? cells : 0;
+  SamAddAll(SAM_DUAL, dual, (const double *)&sums);
+}
+
+/* The search for more than all cells can bear ends with the first line that falls without end. */
+static void test_a_load_beyond_all_bounds_is_given_up_at_once(void **state)
+{
+  SamGrid grid = NewGrid(9, 7, 9e-3, 7e-3);
+
+  (void)state;
+  for (int beyond = 0; beyond < 2; beyond++) {
+    SamBalance b = {.kind = SAM_BALANCE_NORMAL, .force = {PETSC_TRUE}};
+    SamFrame   f;
+    int        passes = 0, *count = &passes;
+    double     a[3];
+    PetscBool  found, near;
+
+    b.load[0] = (beyond ? 1.3 : 0.8) * MOST * (double)(grid->dx * grid->dy) * 63;
+    sam_call(SamFrameSet(&f, grid, &b));
+    f.most = MOST;
+    sam_call(SamDualMinimize(&f, CountedPass, &count, 0, a, &found, &near));
+    sam_assert(found == (beyond ? PETSC_FALSE : PETSC_TRUE) && near == found);
+    sam_assert(passes <= 70);
+  }
+  sam_call(SamGridDestroy(&grid));
+}
+
 /* ---- the normal problem ---- */
 
 /* The largest error of the conditions, over the displacement, by a product in double precision. */
@@ -294,6 +333,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_equilibrium_is_mended_between_the_bounds),
     cmocka_unit_test(test_cells_outside_of_a_mask_go_to_the_nearer_bound),
     cmocka_unit_test(test_capacity_of_a_grid),
+    cmocka_unit_test(test_a_load_beyond_all_bounds_is_given_up_at_once),
     cmocka_unit_test(test_conditions_hold_with_two_bounds),
     cmocka_unit_test(test_methods_without_an_upper_bound_refuse_it),
   };

@@ -49,16 +49,17 @@
 #include <petsam/private/state.h>
 #include <math.h>
 
-#define WRONG    0.3  /* error of a branch relative to 1/(w^2 sqrt(m)) */
-#define ALLOWED  0.05 /* error of the energy, relative to it */
-#define GOOD     0.02 /* the same on an advised grid */
-#define ROUGH    0.25 /* the same above which the energy is unknown */
-#define NARROW   0.25 /* cells: the width below which the width of a zone is unknown */
-#define ACCEPTED 0.9  /* share of reconstructed edges above which the edges are known */
-#define ALIKE    1e-6 /* smaller couplings of bodies, or relative changes of a load, count as none */
-#define REVERSED 1.02 /* increase of the part of cells that stick, relative to the step before, at a reversal */
-#define NOTHING  1e-6 /* energy, relative to the tangential work, that counts as none */
-#define SLIVER   1e-3 /* the same if N and T grow in proportion; cut cells cause such energies */
+#define WRONG    0.3   /* error of a branch relative to 1/(w^2 sqrt(m)) */
+#define ALLOWED  0.05  /* error of the energy, relative to it */
+#define GOOD     0.02  /* the same on an advised grid */
+#define ROUGH    0.25  /* the same above which the energy is unknown */
+#define NARROW   0.25  /* cells: the width below which the width of a zone is unknown */
+#define ACCEPTED 0.9   /* share of reconstructed edges above which the edges are known */
+#define ALIKE    1e-6  /* smaller couplings of bodies, or relative changes of a load, count as none */
+#define REVERSED 1.02  /* increase of the part of cells that stick, relative to the step before, at a reversal */
+#define ROUNDING 1e-18 /* energy, relative to the normal work, that is rounding of the shear */
+#define NOTHING  1e-6  /* energy, relative to the tangential work, that counts as none */
+#define SLIVER   1e-3  /* the same if N and T grow in proportion; cut cells cause such energies */
 #define UNSURE   0.5  /* error of a step's energy by its length, relative to it, above which cells are not questioned */
 #define ROUND    4    /* ratio of the length of a round edge without reconstruction to the part that counts */
 #define PEAKED   1.25 /* cells: width of a zone in which the largest slip and shear have errors above 5 % */
@@ -330,6 +331,7 @@ PetscErrorCode SamAdviceAddSlip(SamAdvice *a, const SamStep *step)
 
     pushes += fabs((double)(step->load[c] * step->rigid[c]));
   }
+  if (n.energy < ROUNDING * fabs((double)(step->load[SAM_COMPONENT_N] * step->rigid[SAM_COMPONENT_N]))) n.energy = 0;
   if (GrowTogether(slip, step) && n.energy < SLIVER * pushes) {
     n.energy     = 0;
     slip->unsure = PETSC_TRUE;

@@ -91,16 +91,17 @@ static PetscErrorCode EvaluateAt(const SamFrame *f, SamDualPass pass, const void
   Makes a step from `now` to `next`. The value must fall by at least a part of the prediction of the slope, and the
   slope must fall below MUCH_SLOPE of its start. The Newton step itself fulfils both near the minimum. Far from it,
   where the bounds of most cells hold, the dual is nearly linear and a step may be too short by orders of magnitude, so
-  the search goes outward as well.
+  the search goes outward as well. `ends`: false if the value falls however far it goes, so that there is no minimum.
 */
 static PetscErrorCode SearchLine(const SamFrame *f, SamDualPass pass, const void *context, const Iterate *now,
-                                 Iterate *next)
+                                 Iterate *next, PetscBool *ends)
 {
   double       step[3], t = 1, least = 0, most = INFINITY;
   const double slope = NewtonStep(f, &now->dual, now->error, step);
 
   PetscFunctionBegin;
-  for (PetscInt trial = 0; trial < TRIALS_MAX; trial++) {
+  *ends = PETSC_FALSE;
+  for (PetscInt trial = 0; trial < TRIALS_MAX && !*ends; trial++) {
     double end;
     int    fell;
 
@@ -115,17 +116,19 @@ static PetscErrorCode SearchLine(const SamFrame *f, SamDualPass pass, const void
     else if (end > MUCH_SLOPE * slope)
       least = t;
     else
-      break;
+      *ends = PETSC_TRUE;
     t = isfinite(most) ? 0.5 * (least + most) : FARTHER * t;
   }
+  if (isfinite(most) || now->size <= SAM_BALANCED_ENOUGH) *ends = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamDualMinimize(const SamFrame *f, SamDualPass pass, const void *context, double once, double a[3],
                                PetscBool *found, PetscBool *near)
 {
-  Iterate  now  = {.a = {0, 0, 0}}, next, best;
-  PetscInt idle = 0;
+  Iterate   now  = {.a = {0, 0, 0}}, next, best;
+  PetscBool ends = PETSC_TRUE;
+  PetscInt  idle = 0;
 
   PetscFunctionBegin;
   PetscCall(EvaluateAt(f, pass, context, &now));
@@ -136,8 +139,8 @@ PetscErrorCode SamDualMinimize(const SamFrame *f, SamDualPass pass, const void *
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   best = now;
-  for (PetscInt it = 0; it < NEWTON_MAX && now.size > SAM_BALANCED_EXACT; it++) {
-    PetscCall(SearchLine(f, pass, context, &now, &next));
+  for (PetscInt it = 0; it < NEWTON_MAX && now.size > SAM_BALANCED_EXACT && ends; it++) {
+    PetscCall(SearchLine(f, pass, context, &now, &next, &ends));
     idle = next.size < best.size || next.dual.value < now.dual.value - now.rounding ? 0 : idle + 1;
     now  = next;
     if (now.size < best.size) best = now;
@@ -151,14 +154,15 @@ PetscErrorCode SamDualMinimize(const SamFrame *f, SamDualPass pass, const void *
 
 PetscErrorCode SamDualVanish(const SamFrame *f, SamDualPass pass, const void *context, double a[3], PetscBool *vanishes)
 {
-  Iterate now = {.a = {0, 0, 0}}, next;
-  double  first;
+  Iterate   now = {.a = {0, 0, 0}}, next;
+  double    first;
+  PetscBool ends;
 
   PetscFunctionBegin;
   PetscCall(EvaluateAt(f, pass, context, &now));
   first = now.dual.scale;
   for (PetscInt it = 0; it < NEWTON_MAX && now.dual.scale > VANISHED * first; it++) {
-    PetscCall(SearchLine(f, pass, context, &now, &next));
+    PetscCall(SearchLine(f, pass, context, &now, &next, &ends));
     if (!(next.dual.value < now.dual.value)) break;
     now = next;
   }
