@@ -3,6 +3,7 @@
 import importlib
 import os
 import re
+import sys
 import textwrap
 from copy import copy
 from functools import cached_property
@@ -244,6 +245,9 @@ class Results(Datafile):
             self.wear, self.wear_units = self._read_table("wear")
             complete = min((values.size for values in self.wear.values()), default=0)  # see solved
             self.wear.update({name: values[:complete] for name, values in self.wear.items()})
+
+    def __repr__(self):
+        return f"Results({self.path!r}: {self.history['time'].size} steps, {self.x.size} x {self.y.size} cells)"
 
     def __str__(self):
         """What the file holds: steps, grid, and the names, shapes and units of fields and numbers."""
@@ -724,7 +728,7 @@ def _library(name):
     try:
         return importlib.import_module(name)
     except ImportError as error:
-        raise Missing(f"{name} is not installed: python3 -m pip install {name}") from error
+        raise Missing(f"{name} is not installed: {sys.executable} -m pip install {name}") from error
 
 
 def _own(group, name):

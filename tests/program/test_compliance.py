@@ -275,6 +275,10 @@ def test_case_that_moves_the_surface_moves_the_body(number, signs, solve, layer,
     plain = solve(SPHERE, STEEL, {**given, **moved})
     for name in ("pressure", "shear_x", "shear_y"):
         assert l2(getattr(r, name), getattr(plain, name)) < 1e-6, name
+    with h5py.File(r.path) as f:
+        loads = [f[f"history/load_{name}"][-1] for name in ("tx", "ty", "n")]
+        move, other = (f[f"history/body{number}_case_{name}_load"][-1] for name in ("move", "other"))
+    assert move == pytest.approx(np.dot(loads, signs * field[0] / 2), rel=1e-6) and other == 0
 
 
 def points(file, x, y, field):
@@ -297,6 +301,10 @@ def test_case_at_points_is_fitted_by_the_polynomials(solve, tmp_path):
     points(file, x, y, np.stack([1e-4 * y, 0 * x, 2e-4 * x**2 - 1e-4 * x * y], axis=1))
     given = dict(friction=0.3, disp_z=0.003, disp_x=2e-4, body2_case_bend=1)
     r, plain = (solve(SPHERE, STEEL, given, dict(body2_compliance=one)) for one in (file, known))
+    (x, y), cell = np.meshgrid(r.x, r.y), (r.x[1] - r.x[0]) * (r.y[1] - r.y[0])
+    work = np.sum(r.pressure * (2e-4 * (x**2 + (r.x[1] - r.x[0]) ** 2 / 12) - 1e-4 * x * y) + r.shear_x * 1e-4 * y)
+    with h5py.File(plain.path) as f:
+        assert f["history/body2_case_bend_load"][-1] == pytest.approx(work * cell, rel=1e-4)
     for name in ("pressure", "shear_x", "displacement_z"):
         assert l2(getattr(r, name), getattr(plain, name)) < 1e-9, name
 

@@ -22,6 +22,7 @@
 #include <petsam/private/body.h>
 #include <petsam/private/control.h>
 #include <petsam/private/parameters.h>
+#include <petsam/private/state.h>
 #include <math.h>
 #include <petscdt.h>
 #include <string.h>
@@ -328,6 +329,70 @@ static PetscErrorCode AddOffset(SamElasticity e, SamConditions conditions, SamSt
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Declares the conjugate load of each case: the work of the tractions for a unit of its factor. */
+static PetscErrorCode DeclareLoads(SamElasticity e, SamState state)
+{
+  char     name[64];
+  PetscInt id;
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < 2; b++) {
+    const SamCompliance c = ((const Bodies *)e->data)->of[b];
+
+    for (PetscInt l = 0; c && l < c->cases; l++) {
+      const SamStateNumber load = {.name   = name,
+                                   .unit   = "J",
+                                   .text   = "load that is conjugate to the factor on a load case",
+                                   .kind   = SAM_NUMBER_REAL,
+                                   .count  = 1,
+                                   .result = PETSC_TRUE,
+                                   .join   = SAM_JOIN_LAST,
+                                   .order  = 1};
+
+      NameCase(c, l, name);
+      (void)snprintf(name + strlen(name), sizeof(name) - strlen(name), "_load");
+      PetscCall(SamStateDeclareNumber(state, &load, &id));
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
+  Computes these loads, sum t.v dA over the contact: t acts on body 2, and v is the displacement of body 2 minus that of
+  body 1 by the case. Both the sums of a body's tractions and its case are in the body's frame.
+*/
+static PetscErrorCode SumLoads(SamElasticity e, SamState state, Vec pressure, Vec shear)
+{
+  const double *t[3];
+  char          name[64];
+
+  PetscFunctionBegin;
+  PetscCall(SamElasticitySetUp(e));
+  PetscCall(VecGetArrayRead(pressure, &t[0]));
+  PetscCall(VecGetArrayRead(shear, &t[1]));
+  t[2] = t[1] + e->grid->cells;
+  for (PetscInt b = 0; b < 2; b++) {
+    const SamCompliance c = ((const Bodies *)e->data)->of[b];
+    Coefficients        sums;
+
+    if (!c || !c->cases) continue;
+    PetscCall(Collect(e, c, NORMAL, t, sums));
+    PetscCall(Collect(e, c, TANGENTIAL, t + 1, sums));
+    for (PetscInt l = 0; l < c->cases; l++) {
+      double load = 0;
+
+      for (PetscInt k = 0; k < 3; k++)
+        for (PetscInt m = 0; m < c->modes; m++) load += (b ? 1 : -1) * c->field[l][k][m] * sums[k][m];
+      NameCase(c, l, name);
+      (void)snprintf(name + strlen(name), sizeof(name) - strlen(name), "_load");
+      *SamStateNumbers(state, SamStateFindNumber(state, name), SAM_TRIED) = load;
+    }
+  }
+  PetscCall(VecRestoreArrayRead(shear, &t[1]));
+  PetscCall(VecRestoreArrayRead(pressure, &t[0]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* ---- the type ---- */
 
 static const char *const names[] = {"body1_compliance", "body2_compliance"};
@@ -486,7 +551,9 @@ static PetscErrorCode Add(SamElasticity *elasticity, const SamOptions *from, Pet
   if (Couples(c)) e->traits.coupled = PETSC_TRUE;
   if (c->cases) {
     e->ops.conditions = AddConditions;
+    e->ops.declare    = DeclareLoads;
     e->ops.displace   = AddOffset;
+    e->ops.advance    = SumLoads;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
