@@ -150,7 +150,7 @@ def test_elements_are_those_of_their_area(tmp_path):
     found = joint.of_interface(waves(48, 3), 1e-5, [4e6, 12e6], steps=3, **PAIR)
     found.to_json(tmp_path / "e.json", area=2e-6)
     written = json.loads((tmp_path / "e.json").read_text())
-    assert written["area"] == 2e-6 and written["elements"] == found.elements(2e-6)
+    assert written["area"] == 2e-6 and written["friction"] == 0.3 and written["elements"] == found.elements(2e-6)
     for k, one in enumerate(written["elements"]):
         force = 2e-6 * found.pressure[k]
         iwan = dict(kt=2e-6 * found.k_t_x[k], Fs=0.3 * force, chi=found.iwan_chi[k], beta=found.iwan_beta[k])
@@ -190,12 +190,23 @@ def test_windows_give_means_and_deviations(tmp_path):
         rows = list(csv.DictReader(file))
     assert [float(row["k_n [Pa/m]"]) for row in rows] == list(found.k_n)
     assert [float(row["area_spread [1]"]) for row in rows] == list(found.spread["area"])
+    assert [row["friction [1]"] for row in rows] == ["0.3"] * 2 and [row["shear [1]"] for row in rows] == ["0.5"] * 2
     found.to_abaqus(tmp_path / "i.inp", name="JOINT")
-    lines = (tmp_path / "i.inp").read_text().splitlines()
-    assert lines[1] == "*SURFACE INTERACTION, NAME=JOINT" and lines[3] == "0., 0." and lines[-1] == "0.3"
-    assert [float(word) for word in lines[5].split(",")] == pytest.approx([16, found.closure[1] * 1e3], rel=1e-5)
+    text = (tmp_path / "i.inp").read_text()
+    lines = [line for line in text.splitlines() if not line.startswith("**")]
+    assert lines[0] == "*SURFACE INTERACTION, NAME=JOINT" and lines[2] == "0., 0." and lines[-1] == "0.3"
+    assert [float(word) for word in lines[4].split(",")] == pytest.approx([16, found.closure[1] * 1e3], rel=1e-5)
+    slips = 0.3 * found.pressure * 2 / (found.k_t_x + found.k_t_y)
+    assert f"median of {1e3 * min(slips):.4g} to {1e3 * max(slips):.4g}" in text
     figure = found.plot()
     assert [axes.get_xlabel() for axes in figure.axes] == ["nominal pressure / MPa"] * 2
+
+
+def test_warnings_of_all_solutions_are_one():
+    with pytest.warns(petsam.AdviceWarning) as found:
+        joint.of_windows(waves(64, 9), 1e-5, [8e6, 16e6], steps=1, **PAIR)
+    assert len(found) == 1 and found[0].filename == __file__
+    assert "solutions have a warning, the first: " in str(found[0].message) and "-grid" not in str(found[0].message)
 
 
 def test_mirror_images_join_without_a_step():

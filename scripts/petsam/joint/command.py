@@ -53,7 +53,7 @@ def pressures(text):
         return np.array([stress(word) for word in text.split(",")])
     if len(words) != 3 or not words[2].isdigit() or not 2 <= int(words[2]) <= 1000:
         raise argparse.ArgumentTypeError(f"{short(text)}: expected FIRST:LAST:COUNT, or pressures separated by commas")
-    return np.geomspace(stress(words[0]), stress(words[1]), int(words[2]))
+    return np.array([float(f"{p:.12g}") for p in np.geomspace(stress(words[0]), stress(words[1]), int(words[2]))])
 
 
 def material(text):
@@ -141,9 +141,8 @@ def _run():
         warnings.simplefilter("always", AdviceWarning)
         result = compute(separation, spacing, args.pressure, **options)
     print("\n".join(result.table()))
-    said = [str(one.message) for one in found]
-    if said:
-        print(f"petsam-joint: warning: in {len(said)} steps, first: {said[0]}", file=sys.stderr)
+    for one in found:
+        print(f"petsam-joint: warning: {one.message}", file=sys.stderr)
     if args.output:
         result.to_csv(args.output + ".csv")
         result.to_json(args.output + ".json", args.area)

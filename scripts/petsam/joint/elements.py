@@ -55,7 +55,7 @@ def fit_iwan(shear, displacement):
         key=lambda one: one.cost,
     )
     errors = np.abs(np.expm1(misfit(best.x))).reshape(2, -1).max(axis=1)
-    return *map(float, best.x), *map(float, errors)
+    return *(round(float(x), 6) for x in best.x), *map(float, errors)
 
 
 def of_codes(pressure, k_n, k_t, friction, chi, beta, area):

@@ -6,12 +6,14 @@ whose surfaces are flat, and nothing of the bodies is counted twice. A window of
 of the bodies below it, which depends on the window's size.
 """
 
+import contextlib
 import csv
 import json
+import warnings
 
 import numpy as np
 
-from ..contact import Contact
+from ..contact import AdviceWarning, Contact
 from ..errors import Error
 from . import elements
 
@@ -42,12 +44,14 @@ class Interface:
     spread      standard deviation of the same among the windows, by name; empty for one window
     friction    coefficient of friction
     shear       amplitude of the mean shear in the loop over friction times pressure
+    bodies      options of the bodies, as given
     parts       shears of the first loading over friction times pressure, rising
     loading     displacements (m) at them, (pressures, parts), to which the Iwan element is fitted
     """
 
-    def __init__(self, numbers, spread, friction, shear, parts, loading):
-        self.spread, self.friction, self.shear, self.parts, self.loading = spread, friction, shear, parts, loading
+    def __init__(self, numbers, spread, friction, shear, bodies, parts, loading):
+        self.spread, self.friction, self.shear, self.bodies = spread, friction, shear, bodies
+        self.parts, self.loading = parts, loading
         unit = numbers["k_t_x"] / (friction * numbers["pressure"])
         fits = [elements.fit_iwan(parts, row * one) for row, one in zip(loading, unit)]
         self.numbers = {**numbers, **dict(zip(FITTED, np.transpose(fits)))}
@@ -58,13 +62,17 @@ class Interface:
         return f"Interface({len(p)} pressures from {p[0]:.4g} to {p[-1]:.4g} Pa: {', '.join(self.numbers)})"
 
     def to_csv(self, path):
-        """Writes a table with a line for each pressure; columns NAME_spread are standard deviations of windows."""
-        names = [*self.numbers, *(f"{name}_spread" for name in self.spread)]
-        units = [COLUMNS[name.removesuffix("_spread")][0] for name in names]
+        """Writes a table with a line for each pressure; columns NAME_spread are standard deviations of windows.
+
+        The last columns are the coefficient of friction and the shear of the loop over friction times pressure.
+        """
+        names = [*self.numbers, *(f"{name}_spread" for name in self.spread), "friction", "shear"]
+        units = [COLUMNS.get(name.removesuffix("_spread"), ("1",))[0] for name in names]
         with open(path, "w", newline="", encoding="utf-8") as file:
             writer = csv.writer(file)
             writer.writerow([f"{name} [{unit}]" for name, unit in zip(names, units)])
-            writer.writerows(zip(*self.numbers.values(), *self.spread.values()))
+            for row in zip(*self.numbers.values(), *self.spread.values()):
+                writer.writerow([*map(float, row), self.friction, self.shear])
 
     def elements(self, area=1.0):
         """Elements for programs of harmonic balance, of this area (m2), one for each pressure; see elements.of_codes().
@@ -72,31 +80,39 @@ class Interface:
         A list of dictionaries with the pressure, the elements by program and class, and the Iwan element's error. The
         tangential stiffness is that along x, as the loop's.
         """
-        rows = zip(*(self.numbers[name] for name in ("pressure", "k_n", "k_t_x", *FITTED[:3])))
+        rows = zip(*(self.numbers[name] for name in ("pressure", "k_n", "k_t_x", *FITTED)))
         return [
             {
                 "pressure": float(p),
                 **elements.of_codes(float(p), float(k_n), float(k_t), self.friction, float(chi), float(beta), area),
                 "iwan_error": float(error),
+                "iwan_shear_error": float(shear_error),
             }
-            for p, k_n, k_t, chi, beta, error in rows
+            for p, k_n, k_t, chi, beta, error, shear_error in rows
         ]
 
     def to_json(self, path, area=1.0):
-        """Writes elements() as JSON, in SI units; NaN as null."""
-        text = json.dumps({"area": area, "elements": self.elements(area)}, indent=1).replace("NaN", "null")
+        """Writes elements() as JSON, in SI units, and what they are of; NaN as null."""
+        about = {"units": "SI: N, m, Pa, N/m; displacements of body 2 against body 1", "area": area}
+        about.update(friction=self.friction, shear=self.shear, bodies=self.bodies)
+        text = json.dumps({**about, "elements": self.elements(area)}, indent=1, default=str).replace("NaN", "null")
         with open(path, "w", encoding="utf-8") as file:
             file.write(text + "\n")
 
     def to_abaqus(self, path, name="INTERFACE"):
         """Writes the interaction for a deck of Abaqus in N, mm: pressure over overclosure, friction.
 
-        The allowable elastic slip of the penalty method is friction times pressure over the tangential stiffness: its
-        median, since it hardly depends on the pressure.
+        The allowable elastic slip of the penalty method is friction times pressure over the tangential stiffness. The
+        deck has one for all pressures, the median, and in a comment the range.
         """
-        slip = np.median(self.friction * self.numbers["pressure"] * 2 / (self.numbers["k_t_x"] + self.numbers["k_t_y"]))
+        slips = self.friction * self.numbers["pressure"] * 2 / (self.numbers["k_t_x"] + self.numbers["k_t_y"])
+        slip = np.median(slips)
         lines = [
-            "** contact stiffness of a rough interface; pressure in MPa, overclosure from the first touch in mm",
+            "** contact stiffness of a rough interface; pressure in MPa, overclosure from the first touch in mm,",
+            "** linear between the rows",
+            f"** elastic slip in mm: median of {min(slips) * 1e3:.4g} to {max(slips) * 1e3:.4g} at these pressures, so "
+            f"that the",
+            f"** tangential stiffness is {min(slips) / slip:.3g} to {max(slips) / slip:.3g} times the computed one",
             f"*SURFACE INTERACTION, NAME={name}",
             "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TABULAR",
             "0., 0.",
@@ -154,6 +170,23 @@ class Interface:
         return figure
 
 
+@contextlib.contextmanager
+def _gathered():
+    """Gives one warning for all those of the steps within."""
+    with warnings.catch_warnings(record=True) as found:
+        warnings.simplefilter("always", AdviceWarning)
+        yield
+    said = []
+    for one in found:
+        if issubclass(one.category, AdviceWarning):
+            said.append(str(one.message).partition(": use ")[0])
+        else:
+            warnings.warn_explicit(one.message, one.category, one.filename, one.lineno)
+    if said:
+        text = f"{len(said)} solutions have a warning, the first: {said[0]}; finer points of the surface resolve more"
+        warnings.warn(text, AdviceWarning, stacklevel=4)
+
+
 def mirrored(separation):
     """The separation and its mirror images beside it: repeated, it has no steps at its borders; (2 ny, 2 nx)."""
     return np.pad(separation, [(0, size) for size in separation.shape], mode="symmetric")
@@ -169,8 +202,14 @@ def of_interface(separation, spacing, pressures, *, friction, shear=0.5, steps=8
     steps       load steps of a quarter of the loop
     bodies      options of the two bodies: body1_young, body1_poisson, body2_young ... and of the solution
 
-    Raises Error for wrong values, and for a pressure that closes the interface; and the errors of Contact.
+    Raises Error for wrong values, and for a pressure that closes the interface; and the errors of Contact. Warnings of
+    its solutions are gathered in one.
     """
+    with _gathered():
+        return _of_interface(separation, spacing, pressures, friction, shear, steps, bodies)
+
+
+def _of_interface(separation, spacing, pressures, friction, shear=0.5, steps=8, bodies=None):
     separation = np.asarray(separation, float)
     pressures = np.atleast_1d(np.asarray(pressures, float))
     if separation.ndim != 2 or not np.isfinite(separation).all():
@@ -198,7 +237,7 @@ def of_interface(separation, spacing, pressures, *, friction, shear=0.5, steps=8
             loading.append(first)
     computed = [name for name in COLUMNS if name not in FITTED]
     numbers = dict(zip(computed, np.transpose(rows)))
-    return Interface(numbers, {}, friction, shear, parts, np.array(loading))
+    return Interface(numbers, {}, friction, shear, bodies, parts, np.array(loading))
 
 
 def _at(contact, pressure, area, friction, parts, steps):
@@ -246,7 +285,7 @@ def _loop(contact, normal, part, steps):
     return sum(energies[-2:]), abs(ends[-1] - ends[-2]) / 2
 
 
-def of_windows(separation, spacing, pressures, report=None, **options):
+def of_windows(separation, spacing, pressures, *, friction, shear=0.5, steps=8, report=None, **bodies):
     """Interface of a measured separation: means and standard deviations of five windows of it, half as wide as it is.
 
     Four windows have the corners, one the middle. Each is mirrored, so that it repeats itself. report(k, count) is
@@ -259,12 +298,14 @@ def of_windows(separation, spacing, pressures, report=None, **options):
     y, x = separation.shape[0] - ny, separation.shape[1] - nx
     places = [(0, 0), (0, x), (y, 0), (y, x), (y // 2, x // 2)]
     found = []
-    for j, i in places:
-        found.append(of_interface(mirrored(separation[j : j + ny, i : i + nx]), spacing, pressures, **options))
-        if report:
-            report(len(found), len(places))
+    with _gathered():
+        for j, i in places:
+            window = mirrored(separation[j : j + ny, i : i + nx])
+            found.append(_of_interface(window, spacing, pressures, friction, shear, steps, bodies))
+            if report:
+                report(len(found), len(places))
     computed = [name for name in COLUMNS if name not in FITTED]
     numbers = {name: np.mean([one.numbers[name] for one in found], axis=0) for name in computed}
     spread = {name: np.std([one.numbers[name] for one in found], axis=0, ddof=1) for name in computed[1:]}
     loading = np.mean([one.loading for one in found], axis=0)
-    return Interface(numbers, spread, found[0].friction, found[0].shear, found[0].parts, loading)
+    return Interface(numbers, spread, friction, shear, bodies, found[0].parts, loading)
