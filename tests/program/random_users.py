@@ -391,7 +391,7 @@ def named(warnings):
     numbers = set()
     for line in warnings:
         names = [names for pattern, names in NAMED if re.search(pattern, line)]
-        if not names or "cells across (" in line:
+        if not names or re.search(r"cells? across \(", line):
             return None
         numbers.update(*names)
     return numbers

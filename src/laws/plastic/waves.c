@@ -54,10 +54,15 @@ static PetscErrorCode DestroyColumn(Column *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Returns i * sign * z. */
+/* Returns i * sign * z. A complex number has the layout of its two parts; some compilers lack CMPLX(). */
 static inline Wave Turn(double sign, Wave z)
 {
-  return CMPLX(-sign * cimag(z), sign * creal(z));
+  const union {
+    double part[2];
+    Wave   z;
+  } turned = {{-sign * cimag(z), sign * creal(z)}};
+
+  return turned.z;
 }
 
 /* ---- numbers ---- */

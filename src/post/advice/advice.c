@@ -323,8 +323,8 @@ static void Cells(SamAdvice *a)
     (void)snprintf(zones, sizeof(zones), "in %lld spots, the narrow ones ", (long long)extent->zones);
   WriteSize(a, size, sizeof(size));
   if (few)
-    (void)snprintf(spots, sizeof(spots), "the contact is %s%.3g cells across (%s), fewer than %d", zones,
-                   (double)extent->across, size, fewest);
+    (void)snprintf(spots, sizeof(spots), "the contact is %s%.3g cell%s across (%s), fewer than %d", zones,
+                   (double)extent->across, extent->across == 1 ? "" : "s", size, fewest);
   if (steep)
     (void)snprintf(peak, sizeof(peak), "the peak pressure is not resolved, about %.0f %% %s at half the cell size%s",
                    100 * fabs((double)extent->change), extent->change > 0 ? "higher" : "lower",
