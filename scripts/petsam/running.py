@@ -54,6 +54,7 @@ def run(options=None, /, *, history=None, ranks=1, report=None, **more):
         given["quiet"] = report is None
         given["history"] = history
         code, complaint = _execute(_command(ranks) + command_line.words(given), report)
+        complaint = [line.replace(os.path.join(folder, "history.csv"), "history") for line in complaint]
         results = Results(output) if code in _SOLVED and os.path.exists(output) else None
     except BaseException:
         _remove(folder, process)

@@ -105,6 +105,12 @@ def test_options_may_be_scalars_of_numpy_and_none(tmp_path):
         _ = found[3]
 
 
+def test_an_error_names_no_file_that_the_user_has_not_written():
+    with pytest.raises(package.ContactError, match="^-load_n: history has the column load_n") as found:
+        package.run(CASE, load_n=1.0, history=dict(load_n=[1.0, 2.0]))
+    assert "/" not in str(found.value)
+
+
 def test_errors_have_the_code_and_the_message_of_the_program():
     with pytest.raises(package.ContactError, match="-grid_m 3: unknown option: is -grid_n meant") as error:
         package.run(CASE, grid_m=3)
