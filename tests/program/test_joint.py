@@ -198,6 +198,25 @@ def test_windows_give_means_and_deviations(tmp_path):
     assert [axes.get_xlabel() for axes in figure.axes] == ["nominal pressure / MPa"] * 2
 
 
+def test_windows_of_unlike_stiffness_do_not_seem_to_slip():
+    """The first loading of all windows begins with their mean stiffness, as each of them begins with its own."""
+    field = waves(64, 9) * np.linspace(0.5, 3.0, 64)[:, None]
+    found = joint.of_windows(field, 1e-5, [8e6], steps=5, **PAIR)
+    assert found.spread["k_t_x"] > 0.25 * found.k_t_x
+    assert found.loading[0, 0] * found.k_t_x[0] / (PAIR["friction"] * 8e6) < 1.1 * found.parts[0]
+
+
+def test_nothing_that_slips_is_printed_without_a_deviation(command, tmp_path):
+    """A surface that touches in one cell of a window: no energy, no Iwan element, and no complaint of numpy."""
+    field = np.full((16, 16), 1e-6)
+    field[2::8, 2::8] = 0.0
+    write(tmp_path / "scan.h5", "separation", field)
+    words = ("scan.h5", "--pressure", "1MPa", "--friction", 0.25, "--steps", 1, *STEEL)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", RuntimeWarning)
+        assert command(*words).splitlines()[1].split()[-4:] == ["-", "-", "-", "-"]
+
+
 def test_mirror_images_join_without_a_step():
     field = joint.mirrored(waves(24, 1))
     for axis in 0, 1:

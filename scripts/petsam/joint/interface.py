@@ -16,6 +16,7 @@ from ..errors import Error
 from . import elements
 
 HALVES = 4  # half cycles of the loop; the last two count
+NO_FIT = f"{'-':>10} {'-':>5} {'-':>8}"
 LARGEST = 0.95  # shear over its limit at the end of the first loading to which elements are fitted
 COLUMNS = {
     "pressure": ("Pa", "nominal pressure"),
@@ -43,7 +44,8 @@ class Interface:
     friction    coefficient of friction
     shear       amplitude of the mean shear in the loop over friction times pressure
     parts       shears of the first loading over friction times pressure, rising
-    loading     displacements (m) at them, (pressures, parts), to which the Iwan element is fitted
+    loading     displacements (m) at them, (pressures, parts), to which the Iwan element is fitted; of windows the mean,
+                weighted by their k_t_x
     """
 
     def __init__(self, numbers, spread, friction, shear, parts, loading):
@@ -109,7 +111,8 @@ class Interface:
 
     def table(self):
         """The table that petsam-joint prints, as lines: in MPa, N/mm3, %, mJ/m2, with the windows' deviations in %."""
-        part = {name: 100 * spread / self.numbers[name] for name, spread in self.spread.items()}
+        with np.errstate(invalid="ignore"):  # no energy, if nothing slips
+            part = {name: 100 * spread / self.numbers[name] for name, spread in self.spread.items()}
         none = np.full_like(self.numbers["pressure"], np.nan)
         k_t = (self.numbers["k_t_x"] + self.numbers["k_t_y"]) / 2
         lines = [
@@ -118,10 +121,10 @@ class Interface:
         for k, pressure in enumerate(self.numbers["pressure"]):
             deviations = [f"{part.get(name, none)[k]:5.0f}".replace("nan", "  -") for name in ("k_n", "loop_energy")]
             k_n, energy, *iwan = (self.numbers[name][k] for name in ("k_n", "loop_energy", *FITTED[:3]))
+            fit = f"{iwan[0]:10.2f} {iwan[1]:5.2f} {100 * iwan[2]:8.0f}" if iwan[0] == iwan[0] else NO_FIT
             lines.append(
                 f"{pressure / 1e6:8.4g} {k_n / 1e9:12.4g} {deviations[0]} {k_t[k] / 1e9:12.4g} {k_t[k] / k_n:8.4f} "
-                f"{100 * self.numbers['area'][k]:7.2f} {1e3 * energy:13.3g} {deviations[1]} "
-                f"{iwan[0]:10.2f} {iwan[1]:5.2f} {100 * iwan[2]:8.0f}"
+                f"{100 * self.numbers['area'][k]:7.2f} {1e3 * energy:13.3g} {deviations[1]} {fit}"
             )
         return lines
 
@@ -266,5 +269,7 @@ def of_windows(separation, spacing, pressures, report=None, **options):
     computed = [name for name in COLUMNS if name not in FITTED]
     numbers = {name: np.mean([one.numbers[name] for one in found], axis=0) for name in computed}
     spread = {name: np.std([one.numbers[name] for one in found], axis=0, ddof=1) for name in computed[1:]}
-    loading = np.mean([one.loading for one in found], axis=0)
+    # shears over their own stiffness: a mean of the displacements would be that of compliances, and seem to slip
+    loading = np.mean([one.loading * one.numbers["k_t_x"][:, None] for one in found], axis=0)
+    loading /= numbers["k_t_x"][:, None]
     return Interface(numbers, spread, found[0].friction, found[0].shear, found[0].parts, loading)
