@@ -319,6 +319,10 @@ def test_hardness_limits_the_pressure_of_summits(command, tmp_path):
         (("none.h5", "--pressure", "1MPa"), "none.h5: "),
         (("text.h5", "--pressure", "1MPa"), "text.h5: "),
         (("flat.h5", "--pressure", "1MPa"), "no dataset height or separation"),
+        (
+            ("gaps.h5", "--pressure", "1MPa"),
+            "gaps.h5: no surface of petsam-surface: /height has no number at 4 of 1024 ",
+        ),
         (("scan.h5", "--pressure", "1MPa:2MPa"), "expected FIRST:LAST:COUNT"),
         (("scan.h5", "--pressure", "-1"), "expected a stress above 0"),
         (("scan.h5", "--pressure", "2MPa,1MPa"), "pressures that rise"),
@@ -331,6 +335,7 @@ def test_hardness_limits_the_pressure_of_summits(command, tmp_path):
 def test_a_mistake_of_the_command_is_named(command, tmp_path, words, says):
     write(tmp_path / "scan.h5", "height", waves(32, 1))
     write(tmp_path / "flat.h5", "depth", waves(32, 1))
+    write(tmp_path / "gaps.h5", "height", np.where(np.arange(32) > 27, [[np.nan]] + 31 * [[0.0]], waves(32, 1)))
     (tmp_path / "text.h5").write_text("no HDF5")
     said = command("--friction", "0.3", *STEEL, *words, check=3 if words[0] != "scan.h5" else 2)
     assert said.startswith("petsam-joint: error: ") and says in said and len(said.splitlines()) == 1
