@@ -121,6 +121,17 @@ def test_loops_follow_from_the_first_loading():
         assert energy == pytest.approx(found.loop_energy[k], rel=2e-3)
 
 
+def test_the_error_of_an_element_is_that_of_dissimilar_bodies_too():
+    """Their loops are narrower than the first loading: the element's at the same amplitude loses less energy."""
+    pair = dict(bodies(210e9, 0.3, 20e9, 0.1), friction=1.0)
+    found = joint.of_interface(waves(48, 13), 1e-5, [4e6], steps=6, **pair)
+    limit = 4e6 * pair["friction"]
+    amplitude = found.loop_amplitude * found.k_t_x / limit
+    energy = elements.iwan(found.iwan_chi, found.iwan_beta, amplitude)[1] * limit**2 / found.k_t_x
+    first = elements.fit_iwan(found.parts, found.loading[0] * found.k_t_x[0] / limit)[2]
+    assert found.iwan_error == pytest.approx(np.abs(energy / found.loop_energy - 1)) and found.iwan_error > first
+
+
 @pytest.mark.parametrize("chi, beta", [(-0.3, 0.5), (0.4, 2.0), (0.0, 0.05)])
 def test_iwan_element_is_the_sum_of_its_sliders(chi, beta):
     """Its shear and its loops are those of many sliders, and a fit to its first loading finds it again."""

@@ -53,7 +53,15 @@ class Interface:
         unit = numbers["k_t_x"] / (friction * numbers["pressure"])
         fits = [elements.fit_iwan(parts, row * one) for row, one in zip(loading, unit)]
         self.numbers = {**numbers, **dict(zip(FITTED, np.transpose(fits)))}
+        self._compare(unit)
         self.__dict__.update(self.numbers)
+
+    def _compare(self, unit):
+        """Adds the computed loop to the errors of energy: dissimilar bodies do not follow Masing's rule."""
+        of = self.numbers
+        found = elements.iwan(of["iwan_chi"], of["iwan_beta"], of["loop_amplitude"] * unit)[1] * of["k_t_x"] / unit**2
+        energy = np.where(of["loop_energy"] > 0, of["loop_energy"], found)
+        of["iwan_error"] = np.maximum(of["iwan_error"], np.abs(found / energy - 1))
 
     def __repr__(self):
         p = self.numbers["pressure"]
