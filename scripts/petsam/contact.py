@@ -237,6 +237,9 @@ class Stiffness(np.ndarray):
         matrix.loads, matrix.displacements = dict(loads), dict(displacements)
         return matrix
 
+    def __reduce__(self):
+        return type(self), (np.asarray(self), self.loads, self.displacements)
+
     def __array_wrap__(self, values, context=None, return_scalar=False):
         """What numpy computes from the matrix."""
         return np.asarray(values)[()]  # of no dimension: a number

@@ -219,6 +219,9 @@ with petsam.Contact(**case) as contact:
     assert float(rows[1].split()[4]) == float(f"{full[1, 1]:.5g}") and isinstance(full, np.ndarray)
     plain = np.linalg.inv(full), full[:, ::-1], 2 * full, full.T, full @ np.ones(6), full.sum(axis=0)
     assert all(type(one) is np.ndarray for one in plain) and np.allclose(full @ np.linalg.solve(full, np.ones(6)), 1)
+    import pickle
+
+    assert repr(pickle.loads(pickle.dumps(full))) == repr(full)
     assert "disp" not in repr(full.copy()) and np.ndim(full.sum()) == 0 and type(full.max()) is np.float64
     try:
         contact.stiffness(condense="disp_q")

@@ -121,6 +121,17 @@ def test_loops_follow_from_the_first_loading():
         assert energy == pytest.approx(found.loop_energy[k], rel=2e-3)
 
 
+def test_the_error_of_an_element_is_that_of_dissimilar_bodies_too():
+    """Their loops are narrower than the first loading: the element's at the same amplitude loses less energy."""
+    pair = dict(bodies(210e9, 0.3, 20e9, 0.1), friction=1.0)
+    found = joint.of_interface(waves(48, 13), 1e-5, [4e6], steps=6, **pair)
+    limit = 4e6 * pair["friction"]
+    amplitude = found.loop_amplitude * found.k_t_x / limit
+    energy = elements.iwan(found.iwan_chi, found.iwan_beta, amplitude)[1] * limit**2 / found.k_t_x
+    first = elements.fit_iwan(found.parts, found.loading[0] * found.k_t_x[0] / limit)[2]
+    assert found.iwan_error == pytest.approx(np.abs(energy / found.loop_energy - 1)) and found.iwan_error > first
+
+
 @pytest.mark.parametrize("chi, beta", [(-0.3, 0.5), (0.4, 2.0), (0.0, 0.05)])
 def test_iwan_element_is_the_sum_of_its_sliders(chi, beta):
     """Its shear and its loops are those of many sliders, and a fit to its first loading finds it again."""
@@ -207,6 +218,25 @@ def test_warnings_of_all_solutions_are_one():
         joint.of_windows(waves(64, 9), 1e-5, [8e6, 16e6], steps=1, **PAIR)
     assert len(found) == 1 and found[0].filename == __file__
     assert "solutions have a warning, the first: " in str(found[0].message) and "-grid" not in str(found[0].message)
+
+
+def test_windows_of_unlike_stiffness_do_not_seem_to_slip():
+    """The first loading of all windows begins with their mean stiffness, as each of them begins with its own."""
+    field = waves(64, 9) * np.linspace(0.5, 3.0, 64)[:, None]
+    found = joint.of_windows(field, 1e-5, [8e6], steps=5, **PAIR)
+    assert found.spread["k_t_x"] > 0.25 * found.k_t_x
+    assert found.loading[0, 0] * found.k_t_x[0] / (PAIR["friction"] * 8e6) < 1.1 * found.parts[0]
+
+
+def test_nothing_that_slips_is_printed_without_a_deviation(command, tmp_path):
+    """A surface that touches in one cell of a window: no energy, no Iwan element, and no complaint of numpy."""
+    field = np.full((16, 16), 1e-6)
+    field[2::8, 2::8] = 0.0
+    write(tmp_path / "scan.h5", "separation", field)
+    words = ("scan.h5", "--pressure", "1MPa", "--friction", 0.25, "--steps", 1, *STEEL)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", RuntimeWarning)
+        assert command(*words).splitlines()[1].split()[-4:] == ["-", "-", "-", "-"]
 
 
 def test_mirror_images_join_without_a_step():
@@ -311,6 +341,10 @@ def test_hardness_limits_the_pressure_of_summits(command, tmp_path):
         (("none.h5", "--pressure", "1MPa"), "none.h5: "),
         (("text.h5", "--pressure", "1MPa"), "text.h5: "),
         (("flat.h5", "--pressure", "1MPa"), "no dataset height or separation"),
+        (
+            ("gaps.h5", "--pressure", "1MPa"),
+            "gaps.h5: no surface of petsam-surface: /height has no number at 4 of 1024 ",
+        ),
         (("scan.h5", "--pressure", "1MPa:2MPa"), "expected FIRST:LAST:COUNT"),
         (("scan.h5", "--pressure", "-1"), "expected a stress above 0"),
         (("scan.h5", "--pressure", "2MPa,1MPa"), "pressures that rise"),
@@ -323,6 +357,7 @@ def test_hardness_limits_the_pressure_of_summits(command, tmp_path):
 def test_a_mistake_of_the_command_is_named(command, tmp_path, words, says):
     write(tmp_path / "scan.h5", "height", waves(32, 1))
     write(tmp_path / "flat.h5", "depth", waves(32, 1))
+    write(tmp_path / "gaps.h5", "height", np.where(np.arange(32) > 27, [[np.nan]] + 31 * [[0.0]], waves(32, 1)))
     (tmp_path / "text.h5").write_text("no HDF5")
     said = command("--friction", "0.3", *STEEL, *words, check=3 if words[0] != "scan.h5" else 2)
     assert said.startswith("petsam-joint: error: ") and says in said and len(said.splitlines()) == 1

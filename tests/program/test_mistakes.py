@@ -240,6 +240,7 @@ def test_full_contact_of_periodic_bodies_has_no_width(petsam):
         ({"load_tx\r": 1.0}, 2, r"-load_tx\r 1.0: unknown option"),
         (dict(malloc_debug="a\tb"), 2, r"PETSc cannot take the options: Unknown logical value: a\tb"),
         (dict(gap_type="file", gap_file="no\nfile"), 3, r"-gap_file no\nfile: cannot be read"),
+        (dict(gap_type="a\u2028b\x9b\x85ä"), 2, r"-gap_type a\u2028b\u009b\u0085ä: expected curved"),
     ],
 )
 def test_a_control_character_does_not_break_the_line_of_a_message(petsam, options, code, told):

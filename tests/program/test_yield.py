@@ -300,6 +300,19 @@ def test_plastic_work_of_one_step_is_warned_of(petsam, tmp_path, plane):
         assert 0.4 * bound < error < 2 * bound
 
 
+def test_steps_after_a_restart_are_not_said_to_do_all_plastic_work(petsam, tmp_path):
+    """The last of many steps does little of it, and one without contact nothing, whatever the steps before it did."""
+    case = sphere(24, 16, yield_depth=None, yield_first=None)
+    for rows, warned in ([0.75 * x for x in range(1, 17)], 0), ([12, 0, 0], 0), ([2, 12], 1):
+        for end, more in (
+            (-1, dict(checkpoint="s.h5", checkpoint_every=1, overwrite=True)),
+            (None, dict(restart="s.h5")),
+        ):
+            case.update(steps(tmp_path / "loads.csv", load_n=[x * LOAD for x in rows[:end]]))
+            done = petsam(case, more)
+        assert len([line for line in done.complaint if "done in one step" in line]) == warned
+
+
 def test_shear_by_plastic_strain_alone_is_warned_of(petsam, tmp_path):
     """It is not resolved where friction holds all cells but the last ones; without friction there is none."""
     case = dict(

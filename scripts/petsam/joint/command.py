@@ -81,6 +81,11 @@ def read_separation(path):
             values, x, y = file[name][()].astype(float), file["x"][()], file["y"][()]
             if values.shape != (y.size, x.size) or min(values.shape) < 4:
                 raise ValueError(f"/{name} has the shape {values.shape}")
+            missing = values.size - np.isfinite(values).sum()
+            if missing:
+                raise ValueError(
+                    f"/{name} has no number at {missing} of {values.size} points; see petsam-surface --fill"
+                )
             sign = 1.0 if name == "separation" else -1.0
             return sign * values, (float(x[1] - x[0]), float(y[1] - y[0]))
     except (OSError, LookupError, ValueError, TypeError, StopIteration) as error:

@@ -18,6 +18,7 @@ from ..errors import Error
 from . import elements
 
 HALVES = 4  # half cycles of the loop; the last two count
+NO_FIT = f"{'-':>10} {'-':>5} {'-':>8}"
 LARGEST = 0.95  # shear over its limit at the end of the first loading to which elements are fitted
 COLUMNS = {
     "pressure": ("Pa", "nominal pressure"),
@@ -46,7 +47,8 @@ class Interface:
     shear       amplitude of the mean shear in the loop over friction times pressure
     bodies      options of the bodies, as given
     parts       shears of the first loading over friction times pressure, rising
-    loading     displacements (m) at them, (pressures, parts), to which the Iwan element is fitted
+    loading     displacements (m) at them, (pressures, parts), to which the Iwan element is fitted; of windows the mean,
+                weighted by their k_t_x
     """
 
     def __init__(self, numbers, spread, friction, shear, bodies, parts, loading):
@@ -55,7 +57,15 @@ class Interface:
         unit = numbers["k_t_x"] / (friction * numbers["pressure"])
         fits = [elements.fit_iwan(parts, row * one) for row, one in zip(loading, unit)]
         self.numbers = {**numbers, **dict(zip(FITTED, np.transpose(fits)))}
+        self._compare(unit)
         self.__dict__.update(self.numbers)
+
+    def _compare(self, unit):
+        """Adds the computed loop to the errors of energy: dissimilar bodies do not follow Masing's rule."""
+        of = self.numbers
+        found = elements.iwan(of["iwan_chi"], of["iwan_beta"], of["loop_amplitude"] * unit)[1] * of["k_t_x"] / unit**2
+        energy = np.where(of["loop_energy"] > 0, of["loop_energy"], found)
+        of["iwan_error"] = np.maximum(of["iwan_error"], np.abs(found / energy - 1))
 
     def __repr__(self):
         p = self.numbers["pressure"]
@@ -125,7 +135,8 @@ class Interface:
 
     def table(self):
         """The table that petsam-joint prints, as lines: in MPa, N/mm3, %, mJ/m2, with the windows' deviations in %."""
-        part = {name: 100 * spread / self.numbers[name] for name, spread in self.spread.items()}
+        with np.errstate(invalid="ignore"):  # no energy, if nothing slips
+            part = {name: 100 * spread / self.numbers[name] for name, spread in self.spread.items()}
         none = np.full_like(self.numbers["pressure"], np.nan)
         k_t = (self.numbers["k_t_x"] + self.numbers["k_t_y"]) / 2
         lines = [
@@ -134,10 +145,10 @@ class Interface:
         for k, pressure in enumerate(self.numbers["pressure"]):
             deviations = [f"{part.get(name, none)[k]:5.0f}".replace("nan", "  -") for name in ("k_n", "loop_energy")]
             k_n, energy, *iwan = (self.numbers[name][k] for name in ("k_n", "loop_energy", *FITTED[:3]))
+            fit = f"{iwan[0]:10.2f} {iwan[1]:5.2f} {100 * iwan[2]:8.0f}" if iwan[0] == iwan[0] else NO_FIT
             lines.append(
                 f"{pressure / 1e6:8.4g} {k_n / 1e9:12.4g} {deviations[0]} {k_t[k] / 1e9:12.4g} {k_t[k] / k_n:8.4f} "
-                f"{100 * self.numbers['area'][k]:7.2f} {1e3 * energy:13.3g} {deviations[1]} "
-                f"{iwan[0]:10.2f} {iwan[1]:5.2f} {100 * iwan[2]:8.0f}"
+                f"{100 * self.numbers['area'][k]:7.2f} {1e3 * energy:13.3g} {deviations[1]} {fit}"
             )
         return lines
 
@@ -307,5 +318,7 @@ def of_windows(separation, spacing, pressures, *, friction, shear=0.5, steps=8, 
     computed = [name for name in COLUMNS if name not in FITTED]
     numbers = {name: np.mean([one.numbers[name] for one in found], axis=0) for name in computed}
     spread = {name: np.std([one.numbers[name] for one in found], axis=0, ddof=1) for name in computed[1:]}
-    loading = np.mean([one.loading for one in found], axis=0)
+    # shears over their own stiffness: a mean of the displacements would be that of compliances, and seem to slip
+    loading = np.mean([one.loading * one.numbers["k_t_x"][:, None] for one in found], axis=0)
+    loading /= numbers["k_t_x"][:, None]
     return Interface(numbers, spread, friction, shear, bodies, found[0].parts, loading)

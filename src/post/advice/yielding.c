@@ -13,6 +13,7 @@
 #include <petsam/private/law.h>
 #include <petsam/private/lawimpl.h>
 #include <petsam/private/problem.h>
+#include <petsam/private/state.h>
 #include <math.h>
 
 /* Relative excess over the yield stress at a place without a layer */
@@ -126,10 +127,12 @@ static void Sudden(SamAdvice *a, double strain)
 {
   const double full  = SamGridIsRow(a->setup->grid) ? SUDDEN_PLANE : SUDDEN;
   const double scale = strain * SamAdviceStiffness(a->setup->pair) / a->yielding.pressure;
-  const double part  = a->yielding.work > 0 ? a->yielding.step / a->yielding.work : 0;
+  /* The work before these steps is unknown; these steps did that part of all by which the dent has grown. */
+  const double these = a->yielding.before > 0 ? 1 - a->yielding.before / a->yielding.dent : 1;
+  const double part  = a->yielding.work > 0 ? these * a->yielding.step / a->yielding.work : 0;
   const double error = full * scale * part;
 
-  if (error <= PERCEPTIBLE) return;
+  if (!(error > PERCEPTIBLE)) return; /* NaN: none of these steps has a contact */
   SamAdviceSay(a, "steps",
                "%.0f %% of the plastic work is done in one step: pressure_max may be too large by about %.0f %%, "
                "residual_energy by %.0f %%, and plastic_max and residual_z may be wrong by half as much",
@@ -195,13 +198,20 @@ void SamAdviceYielding(SamAdvice *a)
 
 PetscErrorCode SamAdviceAddYielding(SamAdvice *a)
 {
-  PetscReal work, pressure;
+  PetscReal work, pressure, now;
+  SamState  state;
+  double    dent;
 
   PetscFunctionBegin;
   if (!SamProblemGetLaw(a->setup->problem, SAM_LAW_PLASTIC)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamContactGetState(a->setup->contact, &state));
+  dent = *SamStateNumbers(state, SamStateFindNumber(state, "residual_z_max"), SAM_COMMITTED);
+  if (!(a->yielding.work > 0) && dent > 0) a->yielding.before = dent; /* NaN: no step is committed */
+  PetscCall(SamContactGetNumber(a->setup->contact, "residual_z_max", &now));
   PetscCall(SamContactGetNumber(a->setup->contact, "plastic_work", &work));
   PetscCall(SamContactGetNumber(a->setup->contact, "pressure_max", &pressure));
   a->yielding.work += (double)work;
+  a->yielding.dent     = (double)now;
   a->yielding.pressure = PetscMax(a->yielding.pressure, (double)pressure);
   a->yielding.step     = PetscMax(a->yielding.step, (double)work);
   PetscFunctionReturn(PETSC_SUCCESS);
