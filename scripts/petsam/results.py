@@ -394,6 +394,10 @@ class Results(Datafile):
         self._need_fields()
         return len(self.steps) - 1
 
+    def is_last(self, index):
+        """True for the last load step, but not where its name says how many cycles of a life have passed."""
+        return index == len(self.steps) - 1 and not self.has_life
+
     def _need_fields(self):
         if not self.steps:
             raise Error(f"{self.path}: no fields were saved")
