@@ -212,16 +212,17 @@ def test_the_picture_has_the_given_resolution(fatigue, folder):
 
 def test_files_go_by_their_labels(fatigue, folder, monkeypatch):
     figures = []
+    monkeypatch.chdir(folder)
     monkeypatch.setattr(saving, "write", lambda figure, *_: figures.append(figure))
     words = "--material", "m.yaml", "--criteria", "swt,crack", "--quantity", "swt", "low.h5", "high.h5"
-    fatigue("--labels", "cruise,start", *words)
+    assert "--labels: 2 files need as many names" in fatigue("--labels", "one", *words, check=2)
+    command.carry_out(command.arguments(["--labels", "cruise,start", *words]))
     texts = [[text.get_text() for text in axes.get_legend().get_texts()] for axes in figures[0].axes]
     assert texts[:2] == [["cruise", "start"]] * 2 and texts[2] == ["cruise", "start", "threshold"]
     assert texts[3][2:] == ["threshold (El Haddad)", "long cracks", "fatigue limit"]
     assert figures[0].axes[1].get_ylabel() == "Smith, Watson and Topper: life, cycles"
-    fatigue(*words)
+    command.carry_out(command.arguments(words))
     assert figures[1].axes[0].get_legend().get_texts()[0].get_text() == "low"
-    assert "--labels: 2 files need as many names" in fatigue("--labels", "one", *words, check=2)
 
 
 def test_damage_is_summed_where_it_happens(fatigue, folder):
