@@ -290,6 +290,7 @@ def life(files):
     for one in files:
         one.need_life()
     figure, axes = plt.subplots(2, 3, figsize=(12.6, 6.2), sharex=True, constrained_layout=True)
+    figure.get_layout_engine().set(w_pad=0.12)  # inches: long labels keep off the panel beside them
     for panel, (names, title) in zip(axes.flat, LIFE):
         _life_panel(panel, files, names, title)
         panel.tick_params(labelbottom=True)
