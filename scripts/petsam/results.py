@@ -395,7 +395,7 @@ class Results(Datafile):
         return len(self.steps) - 1
 
     def is_last(self, index):
-        """True for the last load step, but not where its name says how many cycles of a life have passed."""
+        """True for the last saved step, but not of a life, where its name says how many cycles have passed."""
         return index == len(self.steps) - 1 and not self.has_life
 
     def _need_fields(self):
