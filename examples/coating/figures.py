@@ -168,9 +168,10 @@ class Comparison:
         for (name, pull), color in zip(self.pulls.items(), COLORS):
             behind = int(np.argmax(pull.principal[0]))
             axes[0].plot(pull.x / pull.radius, pull.principal[0] / 1e6, color=color)
-            axes[1].plot(
-                pull.principal[:, behind] / 1e6, pull.z * 1e3, color=color, label=PULLS[name].replace("um", "µm")
-            )
+            # an interface stands twice among the depths: the stress jumps there, the curve does not
+            jumps = np.flatnonzero(np.diff(pull.z) <= 1e-9 * pull.z[-1]) + 1
+            below = (np.insert(values, jumps, np.nan) for values in (pull.principal[:, behind] / 1e6, pull.z * 1e3))
+            axes[1].plot(*below, color=color, label=PULLS[name].replace("um", "µm"))
         label = "maximum principal stress, MPa"
         frame(axes[0], "At the surface, sliding to the right", "$x$ / contact radius", label, (-1.35, 1.35))
         frame(axes[1], "Below the place of its maximum", label, "depth, mm", None, (0.3, 0.0))

@@ -148,8 +148,8 @@ def panel_steps(axes, study, limit):
     """Error of c/a against the number of steps."""
     steps = np.array([case.stick.size for case in study], dtype=float)
     joined(axes, steps, [limit - case.stick[-1] for case in study], TINTS["0"], "o-", label="petsam")
-    axes.plot(steps, 0.08 / steps, ":", color="0.5", linewidth=1.0, label="slope -1")
-    frame(axes, r"Number of steps, $\mu = 0.2986$, $\nu = 0$", "load steps", "Spence's $c/a$ - petsam's")
+    axes.plot(steps, 0.08 / steps, ":", color="0.5", linewidth=1.0, label="slope $-1$")
+    frame(axes, r"Number of steps, $\mu = 0.2986$, $\nu = 0$", "load steps", "Spence's $c/a$ minus petsam's")
     log_ticks(axes, steps)
     axes.legend(loc="upper right")
 

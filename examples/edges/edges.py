@@ -138,14 +138,14 @@ def draw(errors, cells, filename):
     plt.rcParams.update({**STYLE, "axes.prop_cycle": plt.cycler(color=COLORS)})
     figure, rows = plt.subplots(2, 3, figsize=(10, 6), sharex=True, constrained_layout=True)
     for column, name in enumerate(SHAPES):
-        for row, (label, index) in enumerate((("pressure at the centres", 0), ("area of contact", 1))):
+        for row, (label, index) in enumerate((("pressure", 0), ("contact area", 1))):
             ax = rows[row][column]
             for way, marker in zip(WAYS, "osD"):
                 ax.loglog(cells, [errors[name, way, n][index] for n in cells], f"{marker}-", label=LABELS[way])
             if row == 0:
                 ax.set_title(name)
             if column == 0:
-                ax.set_ylabel(f"relative error, {label}")
+                ax.set_ylabel(f"relative error of the {label}")
             ax.set_xticks(cells, [str(n) for n in cells])
             ax.minorticks_off()
         rows[1][column].set_xlabel("cells in each direction")

@@ -89,7 +89,7 @@ def draw(planes, limit, directory):
         axes[1].plot(rolled.distance / A, 1e6 * rolled.approach, color=color, linewidth=1.2)
     axes[0].axhline(limit, linestyle="--", label="smooth, steady", **CLOSED)
     axes[0].legend(loc="lower right")
-    frame(axes[0], "Tangential force", "rolled distance / $a$", r"$T_x/(\mu N)$", (0.0, TRAVEL / A), (0.3, 0.54))
+    frame(axes[0], "Tangential force", "rolled distance / $a$", r"$T_x/(\mu N)$", (0.0, TRAVEL / A), (0.0, 0.55))
     frame(axes[1], "Approach", "rolled distance / $a$", "$d_z$, µm", (0.0, TRAVEL / A))
     last = planes[RMS[-1]]
     image = field(axes[2], 1e-6 * last.shear, extent(last.x, last.y, A))

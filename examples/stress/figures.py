@@ -148,7 +148,7 @@ def draw_fatigue(axes, surface):
     cross(axes, surface.x[x], surface.y[y])
     circle = np.linspace(0.0, 2.0 * np.pi, 200)
     axes.plot(np.cos(circle), np.sin(circle), ":", color="black", linewidth=0.8)
-    frame(axes, f"cycle, surface: maximum {values.max():.3f} MPa", "$x/a$", "$y/a$")
+    frame(axes, f"Smith, Watson and Topper on the surface: maximum {values.max():.3f} MPa", "$x/a$", "$y/a$")
 
 
 class Comparison:

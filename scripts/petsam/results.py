@@ -398,6 +398,10 @@ class Results(Datafile):
         self._need_fields()
         return len(self.steps) - 1
 
+    def is_last(self, index):
+        """True for the last saved step, but not of a life, where its name says how many cycles have passed."""
+        return index == len(self.steps) - 1 and not self.has_life
+
     def _need_fields(self):
         if not self.steps:
             raise Error(f"{self.path}: no fields were saved")

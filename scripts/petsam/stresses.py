@@ -64,6 +64,10 @@ class Stresses(Datafile):
         """Index of the last step."""
         return self.times.size - 1
 
+    def is_last(self, index):
+        """True for the last step."""
+        return index == self.of_last()
+
     def of_step(self, number):
         """Index of the load step number, as petsam counts them; or from the end, -1 being the last."""
         if -len(self.steps) <= number < 0:

@@ -13,7 +13,7 @@ import petsam
 from petsam import joint
 from petsam.joint import command as _  # noqa: F401
 from petsam.joint import elements
-from petsam.plot.style import plt
+from petsam.plot.style import COLORS, plt
 from support import bodies
 
 warnings.simplefilter("ignore", petsam.AdviceWarning)
@@ -210,7 +210,13 @@ def test_windows_give_means_and_deviations(tmp_path):
     slips = 0.3 * found.pressure * 2 / (found.k_t_x + found.k_t_y)
     assert f"median of {1e3 * min(slips):.4g} to {1e3 * max(slips):.4g}" in text
     figure = found.plot()
-    assert [axes.get_xlabel() for axes in figure.axes] == ["nominal pressure / MPa"] * 2
+    assert [axes.get_xlabel() for axes in figure.axes] == ["nominal pressure, MPa"] * 2
+    curves = [bars.lines[0] for bars in figure.axes[0].containers]
+    assert [curve.get_color() for curve in curves] == list(COLORS[:3])
+    assert np.allclose(curves[0].get_ydata(), found.k_n * 1e-12)  # N/m per m2 to N/um per mm2
+    along, across = curves[1:]  # both are seen where they lie on one another
+    assert along.get_markerfacecolor() == "none" and along.get_markersize() > across.get_markersize() + 2
+    assert across.get_linestyle() == "--" != along.get_linestyle()
 
 
 def test_warnings_of_all_solutions_are_one():

@@ -13,6 +13,7 @@ import petsam
 from petsam.errors import Error
 from petsam.lives import command, cracks, evaluation, materials, strength
 from petsam.lives.stresses import Cycle
+from petsam.plot import saving
 from petsam.plot.style import plt
 from petsam.study.expressions import Expander
 from support import ball, slide_limit
@@ -207,6 +208,21 @@ def test_the_picture_has_the_given_resolution(fatigue, folder):
     assert widths[1] == pytest.approx(2 * widths[0], abs=2)
     assert "--dpi: 0: expected a whole number" in fatigue("--dpi", "0", "high.h5", check=2)
     assert "--dpi" in fatigue("--no-picture", "--dpi", "300", "high.h5", check=2)
+
+
+def test_files_go_by_their_labels(fatigue, folder, monkeypatch):
+    figures = []
+    monkeypatch.chdir(folder)
+    monkeypatch.setattr(saving, "write", lambda figure, *_: figures.append(figure))
+    words = "--material", "m.yaml", "--criteria", "swt,crack", "--quantity", "swt", "low.h5", "high.h5"
+    assert "--labels: 2 files need as many names" in fatigue("--labels", "one", *words, check=2)
+    command.carry_out(command.arguments(["--labels", "cruise,start", *words]))
+    texts = [[text.get_text() for text in axes.get_legend().get_texts()] for axes in figures[0].axes]
+    assert texts[:2] == [["cruise", "start"]] * 2 and texts[2] == ["cruise", "start", "threshold"]
+    assert texts[3][2:] == ["threshold (El Haddad)", "long cracks", "fatigue limit"]
+    assert figures[0].axes[1].get_ylabel() == "Smith, Watson and Topper: life, cycles"
+    command.carry_out(command.arguments(words))
+    assert figures[1].axes[0].get_legend().get_texts()[0].get_text() == "low"
 
 
 def test_damage_is_summed_where_it_happens(fatigue, folder):

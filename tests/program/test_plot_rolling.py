@@ -8,7 +8,7 @@ import pytest
 from matplotlib.quiver import Quiver
 
 import petsam
-from petsam.plot import maps, series
+from petsam.plot import maps, series, wear
 from support import ROOT, ball, finished, history
 
 CASE = dict(ball(32), rolling="steady")
@@ -83,6 +83,19 @@ def test_arrows_of_slip_velocity_on_the_cells_that_slip(rolled):
         assert 10 < i.size < 18 * 18 and np.allclose(results.x[i], x) and np.allclose(results.y[j], y)
         assert np.all(state[j, i] == 2) and np.array_equal(arrows.U, vx[j, i]) and np.array_equal(arrows.V, vy[j, i])
         assert np.mean(arrows.U) < 0  # against the shear of a positive creepage
+
+
+def test_the_last_step_needs_no_name(rolled):
+    with petsam.open(curve(rolled)) as results:
+        first, last = (maps.maps([(results, index)]).axes[0].get_title(loc="left") for index in (0, results.of_last()))
+    assert first == "step 1, t = 0 s" and last == ""
+
+
+def test_the_scar_of_a_band_has_no_place_along_it_and_its_maps_name_the_passages(solve):
+    band = petsam.open(solve(CASE, dict(creep_x=1e-3, wear_coefficient1=1e-14, wear_cycles=1000, wear_output=0)).path)
+    figure = wear.scar([(band, index) for index in wear.scar_steps(band)])
+    assert [axes.get_title() for axes in figure.axes] == ["body 1"]
+    assert "after 1000 cycles" in maps.maps([(band, band.of_last())]).axes[0].get_title(loc="left")
 
 
 @pytest.mark.parametrize("spin", [0.0, 5.0])

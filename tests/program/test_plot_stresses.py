@@ -9,6 +9,8 @@ import pytest
 import conftest
 import petsam
 from petsam.plot import bodies
+from petsam.plot.style import plt
+from petsam.plot.units import number
 from support import ROOT, ball, finished, slide_limit
 
 PROGRAM = ROOT / "scripts" / "petsam-plot"
@@ -154,6 +156,42 @@ def test_the_mark_of_a_curve_does_not_hide_it_and_titles_have_units(folder):
     maps = petsam.open(folder / "maps.h5")
     for axes in bodies.maps([(maps, 0)], "zz").axes:
         assert axes.get_title().splitlines()[0].endswith(" MPa")
+
+
+def test_the_last_step_needs_no_name_and_others_have_theirs(folder):
+    file, other = (petsam.open(folder / f"{name}.h5") for name in ("section", "column"))
+    last = file.of_last()
+
+    def said(*steps):
+        return [axes.get_title() for axes in bodies.sections(list(steps)).axes if axes.get_title()]
+
+    assert not any("step" in title or "t =" in title for title in said((file, last)))
+    assert all(title.endswith("step 3, t = 1.5 s") for title in said((file, 0)))
+    assert all("step" in title for title in said((file, 0), (file, last)))
+    assert ["section, step" in title for title in said((file, last), (other, last))] == [True] * 2 + [False] * 2
+    named = petsam.open(folder / "section.h5", "mine")
+    assert all("mine, step 6" in title for title in said((named, last)))
+
+
+def test_numbers_in_texts_have_the_minus_sign_of_the_axes(folder):
+    assert number(-0.00123) == "\u22120.00123" and number(-1e-7, 3) == "\u22121e\u221207" and number(20.0) == "20"
+    title = bodies.sections([(petsam.open(folder / "section.h5"), 0)], "xx").axes[1].get_title()
+    assert "minimum \u2212" in title and "minimum -" not in title
+
+
+def test_a_layer_that_few_contours_cross_has_its_own():
+    figure, axes = plt.subplots()
+    along, z = np.linspace(0.0, 1.0, 5), np.append(np.linspace(0.0, 1.0, 9), np.linspace(1.0, 2.0, 9))
+    stress = np.outer(np.where(np.arange(18) < 9, 1.0, 0.1), np.linspace(-700.0, 700.0, 5))
+    bodies._contours(axes, along, z, stress, -700.0, 700.0, "viridis")
+    upper, lower = ({float(text.get_text().replace("\u2212", "-")) for text in part} for part in halves(axes))
+    assert {-400.0, 0.0, 400.0} <= upper and len(lower) >= 2 and max(map(abs, lower)) <= 70.0
+    plt.close(figure)
+
+
+def halves(axes):
+    """Numbers on the contours above and below the depth of 1."""
+    return ([one for one in axes.texts if (one.get_position()[1] > 1.0) == below] for below in (False, True))
 
 
 def test_open_knows_the_file_by_its_content(folder):

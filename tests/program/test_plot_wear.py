@@ -283,7 +283,7 @@ def test_a_body_that_does_not_wear_has_no_scar(one_body, direct):
     for path, body in ((one_body, "2"), (direct, "1")):
         results = petsam.open(path)
         axes = wear.scar([(results, index) for index in wear.scar_steps(results)]).axes
-        assert len(axes) == 2 and f"body {body} along" in axes[0].get_title()
+        assert len(axes) == 2 and axes[0].get_title().startswith(f"body {body} along $x$")
     assert texts(axes[1]) == ("step", ["4"])
 
 
@@ -358,7 +358,8 @@ def test_life_shows_the_bodies_that_wear(life, one_body):
     both, alone = wear.life([life]).axes, wear.life([petsam.open(one_body)]).axes
     assert len(curves(both[0])) == 2 and texts(both[5])[1] == ["results", "body 1", "body 2"]
     assert len(curves(alone[0])) == 1 and "of body 2" in alone[0].get_ylabel()
-    assert alone[5].get_legend() is None and alone[5].figure.get_suptitle() == "results"
+    assert alone[5].get_legend() is None and alone[5].figure.get_suptitle() == ""
+    assert wear.life([petsam.open(one_body, "mine")]).get_suptitle() == "mine"
     assert len(curves(wear.life([life, petsam.open(one_body)]).axes[0])) == 4
 
 

@@ -154,30 +154,26 @@ class Interface:
 
     def plot(self):
         """The stiffnesses and the real contact area over the pressure: a figure of matplotlib."""
-        from matplotlib import ticker
+        from ..plot.style import COLORS, STYLE, logarithmic, plt
 
-        from ..plot.style import plt
-
-        figure, (left, right) = plt.subplots(1, 2, figsize=(8.0, 3.4), layout="constrained")
-        pressure = self.numbers["pressure"] / 1e6
-        for axes, name, label, unit in (
-            (left, "k_n", "normal", 1e-12),
-            (left, "k_t_x", "tangential, x", 1e-12),
-            (left, "k_t_y", "tangential, y", 1e-12),
-            (right, "area", "real contact area", 100.0),
-        ):
-            spread = self.spread.get(name)
-            axes.errorbar(
-                pressure, unit * self.numbers[name], None if spread is None else unit * spread, marker="o", ms=4,
-                capsize=3, label=label,
-            )  # fmt: skip
-        for axes, label in ((left, "contact stiffness / (N/µm per mm²)"), (right, "real contact area / %")):
-            axes.set(xscale="log", yscale="log", xlabel="nominal pressure / MPa", ylabel=label)
-            for axis in axes.xaxis, axes.yaxis:
-                axis.set_major_locator(ticker.LogLocator(subs=(1.0, 2.0, 5.0)))
-                axis.set_major_formatter("{x:g}")
-                axis.set_minor_formatter(ticker.NullFormatter())
-        left.legend()
+        with plt.rc_context(STYLE):
+            figure, (left, right) = plt.subplots(1, 2, figsize=(8.0, 3.4), layout="constrained")
+            pressure = self.numbers["pressure"] / 1e6
+            for axes, name, label, unit, color, look in (
+                (left, "k_n", "normal", 1e-12, COLORS[0], {"marker": "o"}),
+                # the curves along x and y often lie on one another: the rings of x are around the crosses of y
+                (left, "k_t_x", "tangential, $x$", 1e-12, COLORS[1], {"marker": "o", "ms": 8.0}),
+                (left, "k_t_y", "tangential, $y$", 1e-12, COLORS[2], {"marker": "x", "linestyle": "--"}),
+                (right, "area", "real contact area", 100.0, COLORS[0], {"marker": "o"}),
+            ):
+                spread = self.spread.get(name)
+                look = {"ms": 5.0, "linewidth": 1.2, "markerfacecolor": "none", "capsize": 3.0, **look}
+                bars = None if spread is None else unit * spread
+                axes.errorbar(pressure, unit * self.numbers[name], bars, color=color, label=label, **look)
+            for axes, label in ((left, "contact stiffness, N/µm per mm²"), (right, "real contact area, %")):
+                axes.set(xlabel="nominal pressure, MPa", ylabel=label)
+                logarithmic(axes, "xy")
+            left.legend()
         return figure
 
 

@@ -94,12 +94,15 @@ def arguments(words):
     out = parser.add_argument_group("output")
     out.add_argument("--quantity", type=names, metavar="NAME,...", help="on the line, maxima of the cycle (parameters)")
     out.add_argument("--csv", metavar="NAME.csv", help="write the lines, SI units")
+    out.add_argument("--labels", metavar="TEXT,...", help="the files' names in the picture (their file names)")
     out.add_argument("-o", "--output", metavar="NAME", help="picture: .png, .pdf or .svg (NAME_depth.png of the file)")
     saving.add_choice(out)
     options = parser.parse_args(joined(words))
     options.counts = options.counts or [1.0] * len(options.files)
     if len(options.counts) != len(options.files) or not all(0.0 < count < np.inf for count in options.counts):
         parser.error(f"--counts: {len(options.files)} files need as many numbers above 0")
+    if options.labels and len(options.labels.split(",")) != len(options.files):
+        parser.error(f"--labels: {len(options.files)} files need as many names")
     base = os.path.splitext(os.path.basename(options.files[0]))[0]
     options.output = options.output or base + "_depth.png"
     if not options.output.lower().endswith((".png", ".pdf", ".svg")):
@@ -194,7 +197,8 @@ def _cycles(options):
     for name in (options.output, options.csv or ""):
         if any(same(name, path) for path in options.files):
             raise Error(f"{name}: would replace the results; choose another name")
-    return [Cycle(Stresses(path)) for path in options.files]
+    labels = options.labels.split(",") if options.labels else [None] * len(options.files)
+    return [Cycle(Stresses(path, label)) for path, label in zip(options.files, labels)]
 
 
 def _warn(cycles):

@@ -2,10 +2,9 @@
 
 import numpy as np
 
-from ..errors import one_line
 from ..plot.bodies import FATIGUE
-from ..plot.style import STYLE, colors, logarithmic, plt
-from ..plot.units import label, largest, plain, scale
+from ..plot.style import STYLE, colors, logarithmic, note, plt
+from ..plot.units import label, largest, number, plain, scale
 from . import cracks
 
 KINDS = {"life": "life, cycles", "factor": "safety factor"}  # columns that share a panel
@@ -22,15 +21,19 @@ def _over_depth(panel, lines, names, length, unit):
     """One parameter of all lines over depth, or several lives or factors: a colour per line, a dash per name."""
     unit_of, kind = lines[0][1].columns[names[0]][0], names[0].split("_")[0]
     factor, prefixed = scale(unit_of, largest(one.columns[names[0]][1] for _, one in lines))
+    several = kind in KINDS and len(names) > 1  # one alone stands beside the axis
     for (who, one), tint in zip(lines, colors(len(lines))):
         for name, dash in zip(names, DASHES):
             values = factor * np.where(np.isinf(one.columns[name][1]), np.nan, one.columns[name][1])
-            text = ", ".join([plain(who)] * (len(lines) > 1) + [_title(name)] * (kind in KINDS))
+            text = ", ".join([plain(who)] * (len(lines) > 1) + [_title(name)] * several)
             panel.plot(length * one.z, values, color=tint, linestyle=dash, label=text)
-    panel.set(xlabel=label("depth $z$", unit), ylabel=label(KINDS.get(kind, _title(names[0])), prefixed))
+    what = KINDS[kind] if kind in KINDS else _title(names[0])
+    if kind in KINDS and not several:
+        what = f"{_title(names[0])}: {what}"
+    panel.set(xlabel=label("depth $z$", unit), ylabel=label(what, prefixed))
     if kind == "life":
         logarithmic(panel, "y")
-    if len(lines) > 1 or kind in KINDS:
+    if len(lines) > 1 or several:
         panel.legend()
 
 
@@ -55,11 +58,10 @@ def _kitagawa(panel, cracked, constants, length, unit):
     panel.plot(length * lengths, 1e-6 * short, color="0.35", linestyle="--", label="threshold (El Haddad)")
     long = cracks.stress_range(lengths, dk_th)
     some = long < 2.0 * limit
-    panel.plot(length * lengths[some], 1e-6 * long[some], color="0.6", linewidth=0.8)
-    panel.axhline(1e-6 * limit, color="0.6", linewidth=0.8)
+    panel.plot(length * lengths[some], 1e-6 * long[some], ":", color="0.5", linewidth=1.2, label="long cracks")
+    panel.axhline(1e-6 * limit, color="0.5", linewidth=1.0, label="fatigue limit")
     logarithmic(panel, "xy")
     panel.set(xlabel=label("length of the crack $a$", unit), ylabel="equivalent $\\Delta\\sigma$, MPa")
-    panel.set_title("Kitagawa and Takahashi", fontsize=9.5)
     panel.legend()
 
 
@@ -85,6 +87,5 @@ def draw(lines, constants):
         for panel in axes.flat[count:]:
             panel.set_axis_off()
         across, its = scale("m", max(abs(first.x), abs(first.y)))
-        place = f"below x = {across * first.x:.4g} {its}, y = {across * first.y:.4g} {its}"
-        figure.suptitle(one_line(place), fontsize=9.5, color="0.35")
+        note(figure, f"below $x$ = {number(across * first.x)} {its}, $y$ = {number(across * first.y)} {its}", 9.5)
     return figure

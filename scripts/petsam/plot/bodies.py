@@ -11,7 +11,7 @@ from matplotlib.transforms import Bbox
 from ..errors import Error
 from .maps import PIXELS, Layout
 from .style import DAMAGE, bar, colors, cross, extent, field, heading, named, need_few, note, plt
-from .units import label, largest, plain, scale
+from .units import label, largest, number, plain, scale
 
 SYMBOLS = {name: f"$\\sigma_{{{name}}}$" for name in ("xx", "yy", "zz", "xy", "xz", "yz")}
 FATIGUE = {
@@ -24,6 +24,7 @@ SHORT = {
 }  # fmt: skip
 LEVELS = 24  # of colours
 LINES = 8  # contours with a number
+FEW = 2  # of them that a layer has at least
 STRESSES = ("xx", "yy", "zz", "xy", "xz", "yz")
 OTHERS = {
     "principal_1": "$\\sigma_1$", "principal_2": "$\\sigma_2$", "principal_3": "$\\sigma_3$",
@@ -87,7 +88,7 @@ def _line(file, at):
 
 
 def _at(where, length, unit):
-    return f"  at ${where[0]}$ = {length * where[1]:.4g} {unit}"
+    return f"  at ${where[0]}$ = {number(length * where[1])} {unit}"
 
 
 def _section(file, name, index, at, depths=slice(None)):
@@ -106,16 +107,24 @@ def _contours(axes, along, z, values, low, high, color_map):
     for part in _layers(z):
         image = axes.contourf(along, z[part], np.clip(values[part], low, high), levels=levels, cmap=color_map)
         image.drawn = along, z[part], values[part]
-        drawn = axes.contour(along, z[part], values[part], levels=lines, colors="0.25", linewidths=0.5)
+        own = _lines(lines, values[part])
+        drawn = axes.contour(along, z[part], values[part], levels=own, colors="0.25", linewidths=0.5)
         numbered(axes, drawn)
     axes.set_ylim(z[-1], z[0])
     return image
 
 
-def numbered(axes, lines, style="%.3g"):
+def numbered(axes, lines, style=lambda value: number(value, 3)):
     """Writes numbers on contours; untangle() takes away those that lie on others."""
     for text in axes.clabel(lines, fmt=style, fontsize=6.5, inline=False, colors="0.15"):
         text.set(gid=LABEL, path_effects=[withStroke(linewidth=1.5, foreground="white", alpha=0.8)])
+
+
+def _lines(usual, values):
+    """Contours of a layer: the picture's, or closer ones where these leave most of a layer without a number."""
+    low, high = float(np.min(values)), float(np.max(values))
+    crossing = np.count_nonzero((usual > low) & (usual < high))
+    return usual if crossing >= FEW or not high > low else MaxNLocator(FEW + 1).tick_values(low, high)[1:-1]
 
 
 def _layers(z):
@@ -157,13 +166,13 @@ def untangle(figure):
 
 def _extremes(name, values):
     """The maximum, and the minimum of a stress that has a sign."""
-    high = f"maximum {np.max(values):.4g}"
-    return f"{high}, minimum {np.min(values):.4g}" if _is_signed(name) else high
+    high = f"maximum {number(np.max(values))}"
+    return f"{high}, minimum {number(np.min(values))}" if _is_signed(name) else high
 
 
 def _title(panel, text, remark, when):
     """What is drawn, and below it of which step; above the map, which nothing hides."""
-    panel.set_title(f"{text}: {remark}\n{when}", fontsize=9.5)
+    panel.set_title(f"{text}: {remark}\n{when}".rstrip(), fontsize=9.5)
 
 
 def sections(steps, component=None, at=(0.0, 0.0), limits=None):
@@ -338,6 +347,6 @@ def _fatigue_panel(panel, file, name, at, span):
         cross(panel, length * along[i], length * down[k], MARK)
         panel.set(ylabel=label("depth $z$" if other == "z" else "$y$", unit))
         bar(panel, image, label(SHORT[name], prefixed))
-    place = f"${axis}$ = {length * along[i]:.4g} {unit}, ${other}$ = {length * down[k]:.4g} {unit}"
+    place = f"${axis}$ = {number(length * along[i])} {unit}, ${other}$ = {number(length * down[k])} {unit}"
     panel.set_xlabel(label(f"${axis}$", unit) + _at(where, length, unit))
-    panel.set_title(f"{FATIGUE[name]}\nmaximum {factor * high:.4g} {prefixed} at {place}", fontsize=9)
+    panel.set_title(f"{FATIGUE[name]}\nmaximum {number(factor * high)} {prefixed} at {place}", fontsize=9)

@@ -8,7 +8,7 @@ from ..errors import Error, short
 from ..sliding import REGIMES
 from .style import COLORS, bar, logarithmic, need_few, plt
 from .tables import matching, need_case, numbers, titled
-from .units import label, largest, on_axis, scale
+from .units import label, largest, number, on_axis, scale
 
 TINTS = ("#dfe3ee", "#8fb8d8", "#f5e0a0", "#cc79a7")  # of the regimes
 FILLED = 0.5  # of a grid of the distinct values that must have cases, or they are drawn as points
@@ -101,7 +101,7 @@ def _border(panel, study, over, where, name, limit, color):
         )
     factor, unit = scale(numbers(study, name, "--border")[1], abs(limit))
     side = "" if known.min() < limit < known.max() else ": all below" if known.max() <= limit else ": all above"
-    text = f"{titled(name)} = {factor * limit:.6g} {unit}".rstrip() + side
+    text = f"{titled(name)} = {number(factor * limit, 6)} {unit}".rstrip() + side
     return plt.Line2D([], [], color=color, linewidth=1.8, label=text)
 
 

@@ -10,7 +10,7 @@ from ..results import DEPTHS, OPEN
 from . import noise, symbols
 from .maps import OF_CONTACT
 from .style import colors, heading, logarithmic, plt
-from .units import label, largest, plain, scale
+from .units import label, largest, number, plain, scale
 
 ROWS = (
     (("pressure",), "pressure $p$", "$p$", "Pa", False),
@@ -130,8 +130,8 @@ def profiles(snapshots, at=(0.0, 0.0), whole=False, names=None, limits=None, log
         panels[0].set_title(text, loc="left", fontsize=9.5)
     axes[-1, 0].set_xlabel(label("$x$", unit))
     if len(sides) > 1:
-        axes[-1, 0].set_xlabel("{}  at $y$ = {:.4g} {}".format(label("$x$", unit), length * at[1], unit))
-        axes[-1, 1].set_xlabel("{}  at $x$ = {:.4g} {}".format(label("$y$", unit), length * at[0], unit))
+        axes[-1, 0].set_xlabel(f"{label('$x$', unit)}  at $y$ = {number(length * at[1])} {unit}")
+        axes[-1, 1].set_xlabel(f"{label('$y$', unit)}  at $x$ = {number(length * at[0])} {unit}")
     if len(snapshots) > 1:
         names, marks = axes[0, 0].get_legend_handles_labels()[::-1]
         figure.legend(marks, names, loc="outside upper center", ncols=2)  # above the panels: curves are anywhere within

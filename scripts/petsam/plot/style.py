@@ -244,8 +244,11 @@ def named(files):
 
 
 def heading(files, one, index):
-    """What names a step above a panel: its time alone where the picture has one file, whose name says nothing."""
-    return plain(one.title(index) if named(list(dict.fromkeys(files))) else one.when(index))
+    """What names a step above a panel. The only file's name says nothing, and neither does the time of its last step,
+    which is drawn unless another is asked for."""
+    if named(list(dict.fromkeys(files))):
+        return plain(one.title(index))
+    return "" if len(files) == 1 and one.is_last(index) else plain(one.when(index))
 
 
 def reach(values, along, part=0.1, margin=0.2):

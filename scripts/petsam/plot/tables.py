@@ -5,7 +5,7 @@ import numpy as np
 from ..errors import Error, counted, short
 from . import symbols
 from .style import MARKED, colors, logarithmic, need_few, plt
-from .units import label, largest, on_axis, plain, scale
+from .units import label, largest, number, on_axis, plain, scale
 from .uses import Useless
 
 MARKS = ("o", "s", "^", "D", "v", "x", "+")
@@ -138,7 +138,7 @@ def _text(study, name, value):
     if not isinstance(value, float):
         return f"{titled(name)} = {plain(value)}"
     factor, unit = scale(study.unit_of_input(name), abs(value))
-    return f"{titled(name)} = {factor * value:.6g} {unit}".rstrip()
+    return f"{titled(name)} = {number(factor * value, 6)} {unit}".rstrip()
 
 
 def _split(columns, chosen):

@@ -79,6 +79,11 @@ def largest(arrays):
     return max((float(np.max(a)) for a in finite if a.size), default=0.0)
 
 
+def number(value, digits=4):
+    """A number in a text of a picture, with the minus sign that the axes have, which is no hyphen."""
+    return f"{value:.{digits}g}".replace("-", "\N{MINUS SIGN}")
+
+
 def plain(text):
     """A text that is no part of the program, for a picture: matplotlib would take $ and a leading _ as its own."""
     text = short(text).replace("$", r"\$")

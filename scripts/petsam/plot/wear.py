@@ -11,9 +11,9 @@ from ..results import BLOCK
 from .loops import LOOPS, cycle_energy, loop_axes, loop_energy, spread
 from .measured import read_profiles
 from .profiles import crossing, sides_of
-from .style import colors, curve, need_few, note, over_cycles, plt, tint
+from .style import colors, curve, named, need_few, note, over_cycles, plt, tint
 from .symbols import SYMBOLS
-from .units import counted, label, largest, plain, scale
+from .units import counted, label, largest, number, plain, scale
 
 LINES = 10  # default number of lines of a scar
 # names in /wear, of both bodies or of the joint, and what they are called
@@ -80,7 +80,6 @@ def _loops(panel, one, factors, loops):
         text = f"{factor * cycle:.3g}: {joules * energy:.3g} {unit}"
         panel.plot(x, y, color=tint(k, cycles.size), label=text, **curve(x.size, markersize=3.0))
     _legend(panel, f"{words}: energy of the loop")
-    panel.set_title(plain(one.label), fontsize=9.5)
 
 
 def fretting_log(files, pair=None, find=None, wanted=None):
@@ -104,6 +103,7 @@ def fretting_log(files, pair=None, find=None, wanted=None):
     force, way = ((SYMBOLS[name], unit) for name, (_, unit) in factors.items())
     for panel, one, loops in zip(axes[0], files, data):
         _loops(panel, one, factors, loops)
+        panel.set_title(plain(one.label) if named(files) else "", fontsize=9.5)
         panel.set_xlabel(label(*way))
     axes[0, 0].set_ylabel(label(*force))
     return figure
@@ -174,8 +174,8 @@ def _names(one, indices):
     return [f"{factor * one.cycles[index]:.4g}" for index in indices], words
 
 
-def _scar_panel(panel, row, axis, units, whole):
-    """Lines of one scar along an axis; units are those of lengths and of depths."""
+def _scar_panel(panel, row, axis, units, whole, files):
+    """Lines of one scar along an axis; units are those of lengths and of depths, files those of the picture."""
     one, indices, name, at = row
     (length, unit), (factor, _) = units
     lines = [_line(one, name, index, axis, at) for index in indices]
@@ -184,9 +184,10 @@ def _scar_panel(panel, row, axis, units, whole):
     texts, _ = _names(one, indices)
     for k, (values, text) in enumerate(zip(lines, texts)):
         panel.plot(along, factor * values[part], color=tint(k, len(lines)), linewidth=1.3, label=text)
-    across = f"${'yx'[axis]}$ = {length * at[1 - axis]:.4g} {unit}"
-    where = "" if one.is_plane else f" along ${'xy'[axis]}$ at {across}"
-    panel.set_title(f"{plain(one.label)}: body {name[-1]}{where}", fontsize=9)
+    who = f"{plain(one.label)}: " if named(files) else ""
+    across = f"${'yx'[axis]}$ = {number(length * at[1 - axis])} {unit}"
+    where = "" if one.is_plane or one.is_steady else f" along ${'xy'[axis]}$ at {across}"
+    panel.set_title(f"{who}body {name[-1]}{where}", fontsize=9)
     panel.set_xlabel(label(f"${'xy'[axis]}$", unit))
 
 
@@ -224,7 +225,8 @@ def scar(steps, at=None, whole=False, measured=None):
     need_few(len(steps), "steps and files")
     rows = _scar_rows(steps, at)
     beside, profiles = _measured_rows(rows, measured)
-    sides = (1,) if all(one.is_steady for one, _ in steps) else sides_of([one for one, _ in steps])
+    files = list(dict.fromkeys(one for one, _ in steps))
+    sides = (1,) if all(one.is_steady for one in files) else sides_of(files)
     depth = largest(
         _line(one, name, index, axis, point)
         for one, indices, name, point in rows
@@ -238,7 +240,7 @@ def scar(steps, at=None, whole=False, measured=None):
     )
     for panels, row in zip(axes, rows):
         for axis, panel in zip(sides, panels):
-            _scar_panel(panel, row, axis, units, whole)
+            _scar_panel(panel, row, axis, units, whole, files)
         if row in beside:
             _draw_measured(panels[0], profiles, units)
         panels[0].invert_yaxis()  # shared
@@ -270,7 +272,7 @@ def _life_panel(panel, files, names, title):
 
 
 def _life_legend(panel, files):
-    """What the lines of all panels are, in one of its own; a single line has the file's name above all panels."""
+    """What the lines of all panels are, in one of its own; a label of the user's for a single line is above them."""
     panel.set_axis_off()
     for one, color in zip(files, colors(len(files))):
         panel.plot([], [], color=color, label=plain(one.label))
@@ -279,7 +281,7 @@ def _life_legend(panel, files):
             panel.plot([], [], style, color="0.35", label=f"body {body}", **LOOK)
     if len(panel.lines) > 1:
         panel.legend(loc="center")
-    else:
+    elif named(files):
         note(panel.figure, plain(files[0].label))
 
 
@@ -288,6 +290,7 @@ def life(files):
     for one in files:
         one.need_life()
     figure, axes = plt.subplots(2, 3, figsize=(12.6, 6.2), sharex=True, constrained_layout=True)
+    figure.get_layout_engine().set(w_pad=0.12)  # inches: long labels keep off the panel beside them
     for panel, (names, title) in zip(axes.flat, LIFE):
         _life_panel(panel, files, names, title)
         panel.tick_params(labelbottom=True)
