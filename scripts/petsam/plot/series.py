@@ -111,12 +111,12 @@ def _why_not(results, name):
 
 
 def need_numbers(results, names, option):
-    """Raises Useless if one of the names that the option requests is NaN in all steps."""
+    """Raises Useless if one of the names that the option requests is NaN in all steps of all results."""
     for name in names:
-        if np.isnan(series(results, name)[1]).all():
-            others = [other for other in _varying([results]) if other not in names]
-            text = f"{option} {name}: is NaN in all steps: {_why_not(results, name)}; choose {', '.join(others)}"
-            raise Useless(f"{results.path}: {text}")
+        if all(np.isnan(series(one, name)[1]).all() for one in results):
+            others = [other for other in _varying(results) if other not in names]
+            text = f"{option} {name}: is NaN in all steps: {_why_not(results[0], name)}; choose {', '.join(others)}"
+            raise Useless(f"{results[0].path}: {text}")
 
 
 def _panel(panel, results, name, other, across):
@@ -138,8 +138,8 @@ def history(results, names=None, other=None, option="--names", logs=()):
         one.need_solution()
         need_scalars(one, names or (), option)
         need_scalars(one, [other] if other else (), "--against")
-        need_numbers(one, names or (), option)
-        need_numbers(one, [other] if other else (), "--against")
+    need_numbers(results, names or (), option)
+    need_numbers(results, [other] if other else (), "--against")
     other = other or usual(results)
     names = names or [name for name in _varying(results) if name != other]
     need_few(len(names), "datasets")
