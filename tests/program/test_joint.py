@@ -323,6 +323,17 @@ def test_command_gives_the_numbers_of_the_function(command, tmp_path):
     )
 
 
+def test_a_rigid_body_is_twice_as_stiff(command, tmp_path):
+    """But for the coupling of pressure and shear, which alike bodies do not have."""
+    write(tmp_path / "pair.h5", "separation", waves(32, 1))
+    words = ("pair.h5", "--friction", 0.25, "--steps", 1, "--periodic", "--body1", "steel", "--body2")
+    one, two = (
+        float(command(*words, body, "--pressure", p).splitlines()[1].split()[1])
+        for body, p in (("steel", "1e7"), ("inf,0.3", "2e7"))
+    )
+    assert two == pytest.approx(2 * one, rel=0.03)
+
+
 def test_the_picture_has_the_given_resolution(command, tmp_path):
     write(tmp_path / "pair.h5", "separation", waves(32, 1))
     words = ("pair.h5", "--pressure", "2e7", "--friction", 0.25, "--steps", 1, "--periodic", *STEEL)

@@ -62,12 +62,13 @@ def material(text):
         return MATERIALS[text]
     words = text.split(",")
     try:
-        young, poisson = stress(words[0]), float(words[1])
+        young, poisson = float("inf") if words[0] == "inf" else stress(words[0]), float(words[1])
     except (argparse.ArgumentTypeError, ValueError, IndexError):
         young = poisson = -1.0
     if len(words) != 2 or young < 0 or not 0.0 <= poisson < 0.5:
         raise argparse.ArgumentTypeError(
-            f"{short(text)}: expected {', '.join(MATERIALS)}, or Young's modulus and Poisson's ratio: 210GPa,0.3"
+            f"{short(text)}: expected {', '.join(MATERIALS)}, or Young's modulus (inf: rigid) and Poisson's ratio: "
+            "210GPa,0.3"
         )
     return young, poisson
 
