@@ -77,6 +77,10 @@ def test_a_table_is_read_whole(study, path):
 # ---------------------------------------------------------------- what is drawn
 
 
+def test_an_ending_is_left_out_only_of_a_known_name():
+    assert tables.titled("load_tx_end") == tables.titled("load_tx") and tables.titled("odd_end") == "odd end"
+
+
 def test_a_result_is_drawn_over_a_parameter_with_a_curve_for_each_of_the_others(study):
     axes = tables.study([study], ["dissipated_energy_sum"], "ratio", "mu").axes[0]
     drawn = curves(axes)
@@ -210,6 +214,7 @@ def test_one_picture_is_drawn(draw, path, tmp_path, words):
         (["--against", "x"], "--against x: there is no such column; there are load_tx"),
         (["--by", "x"], "--by x: there is no such column; there are load_tx"),
         (["--where", "mu=0.2"], "--where mu=0.2: no case has it; there are 0.1, 0.4"),
+        (["--where", "load_tx=7"], "--where load_tx=7: no case has it; there are 1, 4, 5, 9, 10, "),
         (["--where", "mu=high"], "--where mu=high: expected a number"),
         (["--where", "shape=cube"], "--where shape=cube: no case has it; there are ball, punch"),
         (["--where", "size=1"], "--where size: there is no such column"),

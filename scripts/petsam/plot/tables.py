@@ -35,7 +35,7 @@ def need_case(study, name, option, chosen):
 def titled(name):
     """What a column is called on an axis: by its symbol, if it has one."""
     bare = name.removesuffix("_end")
-    return ENERGIES.get(bare) or symbols.scalar(bare)
+    return ENERGIES.get(bare) or symbols.scalar(bare if bare in symbols.SYMBOLS else name)
 
 
 def _varies(values):
@@ -120,7 +120,8 @@ def matching(study, where=()):
         else:
             match = values == text
         if not match.any():
-            there = ", ".join(sorted({f"{value:g}" if values.dtype.kind in "biuf" else value for value in values})[:8])
+            known = sorted(set(values.tolist()))[:8]
+            there = ", ".join(f"{value:g}" if values.dtype.kind in "biuf" else value for value in known)
             raise Error(f"{study.path}: --where {short(name)}={short(text)}: no case has it; there are {there}")
         chosen = chosen & match
     return chosen
