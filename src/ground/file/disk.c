@@ -118,7 +118,7 @@ static PetscBool Contains(const char bytes[], size_t size, const char text[])
 */
 static PetscBool IsOwn(SamFileUse use, const char head[], size_t size)
 {
-  static const char hdf5[8] = "\211HDF\r\n\032\n", zeros[8] = {0};
+  static const char hdf5[8] = {'\211', 'H', 'D', 'F', '\r', '\n', '\032', '\n'}, zeros[8] = {0};
 
   if (!size) return PETSC_TRUE;
   if (size >= sizeof(zeros) && !memcmp(head, zeros, sizeof(zeros))) return PETSC_TRUE;
