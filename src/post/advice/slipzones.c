@@ -57,7 +57,7 @@
 #define ACCEPTED 0.9   /* share of reconstructed edges above which the edges are known */
 #define ALIKE    1e-6  /* smaller couplings of bodies, or relative changes of a load, count as none */
 #define REVERSED 1.02  /* increase of the part of cells that stick, relative to the step before, at a reversal */
-#define ROUNDING 1e-18 /* energy, relative to the normal work, that is rounding of the shear */
+#define ROUNDING 1e-16 /* energy, relative to the normal work, that is rounding of the shear */
 #define NOTHING  1e-6  /* energy, relative to the tangential work, that counts as none */
 #define SLIVER   1e-3  /* the same if N and T grow in proportion; cut cells cause such energies */
 #define UNSURE   0.5  /* error of a step's energy by its length, relative to it, above which cells are not questioned */
