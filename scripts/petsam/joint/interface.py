@@ -37,6 +37,7 @@ COLUMNS = {
     "iwan_shear_error": ("1", "the same of their shear"),
 }
 FITTED = [name for name in COLUMNS if name.startswith("iwan")]
+COMPUTED = [name for name in COLUMNS if name not in FITTED]
 
 
 class Interface:
@@ -121,7 +122,7 @@ class Interface:
             "** contact stiffness of a rough interface; pressure in MPa, overclosure from the first touch in mm,",
             "** linear between the rows",
             f"** elastic slip in mm: median of {min(slips) * 1e3:.4g} to {max(slips) * 1e3:.4g} at these pressures, so "
-            f"that the",
+            "that the",
             f"** tangential stiffness is {min(slips) / slip:.3g} to {max(slips) / slip:.3g} times the computed one",
             f"*SURFACE INTERACTION, NAME={name}",
             "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TABULAR",
@@ -216,7 +217,7 @@ def of_interface(separation, spacing, pressures, *, friction, shear=0.5, steps=8
         return _of_interface(separation, spacing, pressures, friction, shear, steps, bodies)
 
 
-def _of_interface(separation, spacing, pressures, friction, shear=0.5, steps=8, bodies=None):
+def _of_interface(separation, spacing, pressures, friction, shear, steps, bodies):
     separation = np.asarray(separation, float)
     pressures = np.atleast_1d(np.asarray(pressures, float))
     if separation.ndim != 2 or not np.isfinite(separation).all():
@@ -242,8 +243,7 @@ def _of_interface(separation, spacing, pressures, friction, shear=0.5, steps=8, 
             row, first = _at(contact, float(pressure), size[0] * size[1], friction, parts, steps)
             rows.append(row)
             loading.append(first)
-    computed = [name for name in COLUMNS if name not in FITTED]
-    numbers = dict(zip(computed, np.transpose(rows)))
+    numbers = dict(zip(COMPUTED, np.transpose(rows)))
     return Interface(numbers, {}, friction, shear, bodies, parts, np.array(loading))
 
 
@@ -311,9 +311,8 @@ def of_windows(separation, spacing, pressures, *, friction, shear=0.5, steps=8, 
             found.append(_of_interface(window, spacing, pressures, friction, shear, steps, bodies))
             if report:
                 report(len(found), len(places))
-    computed = [name for name in COLUMNS if name not in FITTED]
-    numbers = {name: np.mean([one.numbers[name] for one in found], axis=0) for name in computed}
-    spread = {name: np.std([one.numbers[name] for one in found], axis=0, ddof=1) for name in computed[1:]}
+    numbers = {name: np.mean([one.numbers[name] for one in found], axis=0) for name in COMPUTED}
+    spread = {name: np.std([one.numbers[name] for one in found], axis=0, ddof=1) for name in COMPUTED[1:]}
     # shears over their own stiffness: a mean of the displacements would be that of compliances, and seem to slip
     loading = np.mean([one.loading * one.numbers["k_t_x"][:, None] for one in found], axis=0)
     loading /= numbers["k_t_x"][:, None]

@@ -9,7 +9,6 @@
 */
 #include "adviceimpl.h"
 #include <petsam/private/contact.h>
-#include <petsam/private/gap.h>
 #include <petsam/private/law.h>
 #include <petsam/private/lawimpl.h>
 #include <petsam/private/problem.h>

@@ -261,10 +261,11 @@ PRODUCT_SINGLE(ApplyTangentialSingle, applytangentialsingle, TANGENTIAL)
 
 /* ---- load cases ---- */
 
-/* Writes the name of the condition that is the factor on load case l. */
-static void NameCase(SamCompliance c, PetscInt l, char name[64])
+/* Writes the name of the condition that is the factor on load case l, or of its load with the ending LOAD. */
+#define LOAD "_load"
+static void NameCase(SamCompliance c, PetscInt l, const char ending[], char name[64])
 {
-  (void)snprintf(name, 64, "body%d_case_%s", (int)c->body + 1, c->name[l]);
+  (void)snprintf(name, 64, "body%d_case_%s%s", (int)c->body + 1, c->name[l], ending);
 }
 
 static PetscErrorCode AddConditions(SamElasticity e, SamConditions conditions)
@@ -283,7 +284,7 @@ static PetscErrorCode AddConditions(SamElasticity e, SamConditions conditions)
                                    .option  = PETSC_TRUE,
                                    .couples = PETSC_TRUE};
 
-      NameCase(c, l, name);
+      NameCase(c, l, "", name);
       PetscCall(SamConditionsAdd(conditions, &factor, NULL));
     }
   }
@@ -294,7 +295,7 @@ double SamComplianceFactor(SamCompliance c, SamConditions conditions, const SamC
 {
   char name[64];
 
-  NameCase(c, l, name);
+  NameCase(c, l, "", name);
   return SamControlGet(control, SamConditionsFind(conditions, name));
 }
 
@@ -349,8 +350,7 @@ static PetscErrorCode DeclareLoads(SamElasticity e, SamState state)
                                    .join   = SAM_JOIN_LAST,
                                    .order  = 1};
 
-      NameCase(c, l, name);
-      (void)snprintf(name + strlen(name), sizeof(name) - strlen(name), "_load");
+      NameCase(c, l, LOAD, name);
       PetscCall(SamStateDeclareNumber(state, &load, &id));
     }
   }
@@ -383,8 +383,7 @@ static PetscErrorCode SumLoads(SamElasticity e, SamState state, Vec pressure, Ve
 
       for (PetscInt k = 0; k < 3; k++)
         for (PetscInt m = 0; m < c->modes; m++) load += (b ? 1 : -1) * c->field[l][k][m] * sums[k][m];
-      NameCase(c, l, name);
-      (void)snprintf(name + strlen(name), sizeof(name) - strlen(name), "_load");
+      NameCase(c, l, LOAD, name);
       *SamStateNumbers(state, SamStateFindNumber(state, name), SAM_TRIED) = load;
     }
   }
