@@ -53,7 +53,9 @@ typedef struct {
   PetscBool   bounds; /* true: acts only on the bound of the shear, which each step computes anew */
   PetscBool   reverses; /* true: causes shear, and changes sign in a reversed step */
   PetscBool   couples;  /* true: displaces the surfaces in all directions, so pressure and shear must be coupled */
-  PetscInt    place;    /* index in its list and in a control; set by SamConditionsAdd() */
+  PetscBool
+    conjugate;    /* true: a displacement times a factor; the number NAME_load of a step is the work by the factor */
+  PetscInt place; /* index in its list and in a control; set by SamConditionsAdd() */
 } SamCondition;
 
 /* SamConditions - the list of the conditions of a problem. */

@@ -266,6 +266,25 @@ int petsam_reject(petsam_contact *c);
 int petsam_stiffness(petsam_contact *c, int reversal, double k[36]);
 
 /*
+  petsam_stiffness_with - computes the same matrix, with rows and columns for load cases of bodies.
+
+  Collective.
+
+  In:     c        - the contact
+          reversal - as for petsam_stiffness()
+          cases    - names of factors on load cases, separated by commas: "body2_case_pull,body2_case_mode1"
+  Out:    k        - the matrix of order n = 6 + the number of cases, k[n i + j] of load i and displacement j: the six
+                     components, then the cases (N/m, N/rad, N, N m/rad, J/m, J)
+
+  Errors: those of petsam_stiffness(), and 2 for a name that is no load case.
+
+  The displacement of a case is its factor; its load is the number NAME_load, the work of the contact's tractions by a
+  unit of the factor. So the rows of cases have the opposite sign of their columns: with 1 for `reversal` the parts
+  between components, and between cases, are symmetric, and k[n i + j] = -k[n j + i] between a component and a case.
+*/
+int petsam_stiffness_with(petsam_contact *c, int reversal, const char *cases, double *k);
+
+/*
   petsam_get_field - copies a field of the tried step, else of the committed one.
 
   Collective.

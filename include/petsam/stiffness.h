@@ -21,11 +21,15 @@
 typedef enum { SAM_STIFFNESS_FORWARD, SAM_STIFFNESS_REVERSAL } SamStiffnessDirection;
 #define SAM_STIFFNESS_DIRECTIONS 2
 
-/* SamStiffness - d(load)/d(rigid displacement) in the order of SamComponent, and its cost. */
+/*
+  SamStiffness - d(load)/d(rigid displacement) in the order of SamComponent, then those of load cases, and its cost. The
+  load of a case is its number NAME_load, the displacement its factor.
+*/
+#define SAM_STIFFNESS_MOST 86
 typedef struct {
-  PetscReal k[SAM_COMPONENTS][SAM_COMPONENTS]; /* k[i][j] = d(load i)/d(rigid j): N/m, N/rad, N, N m/rad */
-  PetscBool converged;                         /* if false, and for rotations that do not exist, k is NaN */
-  PetscReal error;                             /* largest residual of a column, relative */
+  PetscReal k[SAM_STIFFNESS_MOST][SAM_STIFFNESS_MOST]; /* k[i][j] = d(load i)/d(rigid j): N/m, N/rad, N, N m/rad */
+  PetscBool converged;                                 /* if false, and for rotations that do not exist, k is NaN */
+  PetscReal error;                                     /* largest residual of a column, relative */
   PetscInt  columns, applies, preconditions; /* numbers of systems solved, and of products with operator and inverse */
 } SamStiffness;
 
@@ -34,12 +38,14 @@ typedef struct {
 
   Collective.
 
-  In:     contact   - the contact; unchanged
-          direction - continued loading or reversal
-  Out:    stiffness - the matrix (N/m, N/rad, N, N m/rad), its error and its cost
+  In:     contact    - the contact; unchanged
+          direction  - continued loading or reversal
+          count      - number of load cases
+          conditions - their factors, as conditions of the contact's problem; NULL if there are none
+  Out:    stiffness  - the matrix (N/m, N/rad, N, N m/rad; of load cases J and J/m), its error and its cost
 
   Errors: PETSC_ERR_ORDER without a solved step, or without a tried step for continued loading; SAM_ERR_USER for a
-  motion of the bodies or a law that has no such stiffness.
+  motion of the bodies or a law that has no such stiffness, and for a condition that is no load case.
 
   Without a tried step only the stiffness at the reversal of the committed step is possible, since the forward stiffness
   needs the slip of the step, which is not kept. Displacements are relative to infinity. A stiffness that does not
@@ -55,7 +61,7 @@ typedef struct {
   Here n and t are the unit motion of the column, B is the coupling of dissimilar bodies, and b_p and b_s are the
   derivatives of the bound b of the shear by the pressure and by the length of the slip: mu and 0 of Coulomb's friction.
 */
-PETSC_EXTERN PetscErrorCode SamStiffnessCompute(SamContact contact, SamStiffnessDirection direction,
-                                                SamStiffness *stiffness);
+PETSC_EXTERN PetscErrorCode SamStiffnessCompute(SamContact contact, SamStiffnessDirection direction, PetscInt count,
+                                                const SamCondition *const conditions[], SamStiffness *stiffness);
 
 #endif

@@ -280,7 +280,7 @@ def _condensed(k, names):
             raise ContactError(2, f"stiffness: condense {short(name)}: is no displacement{there_are(name, rigid)}")
     kept = [rigid.index(name) for name in several]
     # without those that the bodies do not have, and, where nothing rubs, those without stiffness
-    free = [c for c in range(6) if c not in kept and k[c, c] != 0.0 and not np.isnan(k[c, c])]
+    free = [c for c in range(len(rigid)) if c not in kept and k[c, c] != 0.0 and not np.isnan(k[c, c])]
     scale = np.sqrt(np.abs(np.diag(k)[free]))
     try:
         follow = np.linalg.solve(k[np.ix_(free, free)] / np.outer(scale, scale), k[np.ix_(free, kept)] / scale[:, None])
@@ -451,7 +451,7 @@ class Contact:
         """Discards the tried step: later steps are, to the last bit, as if it had not been tried."""
         self._call("reject")
 
-    def stiffness(self, reversal=False, condense=None):
+    def stiffness(self, reversal=False, condense=None, cases=()):
         """d(loads)/d(displacements) of the tried step, (6, 6): N/m, N/rad, N, N m/rad.
 
         A Stiffness: an array of numpy, for np.linalg.solve() and so on, that is printed with labels: rows N, Tx, Ty,
@@ -463,11 +463,19 @@ class Contact:
         condense is "disp_x" or another displacement: the stiffness (a number) of its load while the other five loads
         stay, and their displacements follow; or several of them, for a matrix. For components that are held, use the
         whole matrix.
+
+        cases are names of factors on load cases, "body2_case_pull": they are further columns, and their loads, the
+        numbers "body2_case_pull_load", further rows.
         """
-        k = np.empty((6, 6))
-        self._call("stiffness", ctypes.c_int(bool(reversal)), _pointer(k))
+        names = [cases] if isinstance(cases, str) else list(cases)
+        k = np.empty((6 + len(names), 6 + len(names)))
+        if names:
+            self._call("stiffness_with", ctypes.c_int(bool(reversal)), _joined("stiffness", names), _pointer(k))
+        else:
+            self._call("stiffness", ctypes.c_int(bool(reversal)), _pointer(k))
         units = self.prescribable
-        k = Stiffness(k, *({name: units[name] for name in names} for names in (self._loads, self._displacements)))
+        loads = {name: units[name] for name in self._loads} | {f"{name}_load": "J" for name in names}
+        k = Stiffness(k, loads, {name: units[name] for name in [*self._displacements, *names]})
         return k if condense is None else _condensed(k, condense)
 
     # ------------------------------------------------------------ histories and lives

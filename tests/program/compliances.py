@@ -131,7 +131,7 @@ def layer_stress(thickness, degree, points, deepest, poisson=0.3):
 def write(path, compliance, half=1.0, center=(0.0, 0.0), young=1.0, poisson=0.3, table=None, cases=None, stress=None):
     """A file; `half` scales a compliance of the patch [-1, 1]^2 and E = 1."""
     m = len(compliance)
-    degree = next(n for n in range(20) if (n + 1) * (n + 2) // 2 >= m)
+    degree = next(n for n in range(40) if (n + 1) * (n + 2) // 2 >= m)
     with h5py.File(path, "w") as f:
         f.attrs.update(petsam_compliance=1, young=young, poisson=poisson, method="image", degree=degree)
         f.attrs.update(source="test", source_sha256="0" * 64)

@@ -577,7 +577,7 @@ def change(name, value):
         ("patch/half", [1e3, 1e-3], "sides that differ at most by a factor of 1000: check the unit of the file"),
         ("patch/center", [0.0, np.nan], "number 1 of /patch/center is not finite"),
         ("basis/degree_xy", np.zeros((6, 3)), "/basis/degree_xy has a shape that does not fit"),
-        ("basis/degree_xy", np.full((6, 2), 11), "/basis/degree_xy has 11: expected whole numbers from 0 to 10"),
+        ("basis/degree_xy", np.full((6, 2), 25), "/basis/degree_xy has 25: expected whole numbers from 0 to 24"),
         ("basis/degree_xy", np.zeros((5, 2)), "/compliance has a shape that does not fit"),
         ("compliance", np.full((6, 3, 6, 3), np.inf), "number 0 of /compliance is not finite"),
         ("cases/a b/displacement", np.zeros((6, 3)), "a load case is named a b: expected at most 20 letters"),
@@ -610,3 +610,123 @@ def test_damaged_files_are_refused(part, petsam, layer):
     file.write_bytes(content[: int(part * len(content))])
     message = petsam({**SPHERE, **bodies(2), "load_n": 0.001, "body2_compliance": file}, check=3).complaint[0]
     assert "-body2_compliance" in message
+
+
+# ---------------------------------------------------------------- the stiffness over load cases, and pairs
+
+
+@pytest.mark.parametrize("number", (1, 2))
+def test_stiffness_over_load_cases_is_the_derivative_of_steps(number, layer, tmp_path):
+    """Forward against central differences of tries; at reversal symmetric between components and between cases."""
+    rng = np.random.default_rng(number)
+    cases = dict(bend=1e-3 * rng.normal(size=(10, 3)), turn=1e-3 * rng.normal(size=(10, 3)))
+    file = layer(0.5, 3, 0.3, cases=cases)
+    given = dict(bodies(number), **{**SPHERE, "output_fields": None}, friction=0.3, normal_rtol=1e-11)
+    given = {name: value for name, value in given.items() if value is not None}
+    run_python(
+        f"""
+import numpy as np, petsam
+names = [f"body{number}_case_{{name}}" for name in ("bend", "turn")]
+with petsam.Contact(body{number}_compliance={str(file)!r}, tangential_rtol=1e-11, slip_direction="end",
+                    **{given!r}) as contact:
+    contact.try_step(disp_z=3e-3)
+    contact.commit()
+    at = dict(disp_z=3.1e-3, disp_x=4e-4, disp_y=1e-4, rot_x=1e-5, rot_y=-2e-5, rot_z=1e-4)
+    at.update({{names[0]: 0.1, names[1]: -0.05}})
+    loads = ["load_n", "load_tx", "load_ty", "load_mx", "load_my", "load_mz", *(name + "_load" for name in names)]
+    order = ["disp_z", "disp_x", "disp_y", "rot_x", "rot_y", "rot_z", *names]
+    def tried(**change):
+        contact.try_step(**{{name: value + change.get(name, 0) for name, value in at.items()}})
+        return np.array([contact.number(name) for name in loads])
+    tried()
+    assert 0 < np.mean(contact.field("state") == 2) and np.any(contact.field("state") == 1)
+    forward, reversal, plain = (contact.stiffness(reverse, cases=given)
+                                for reverse, given in ((False, names), (True, names), (False, ())))
+    assert list(forward.loads) == loads and list(forward.displacements) == order
+    assert np.allclose(np.asarray(plain), forward[:6, :6], rtol=1e-5, atol=1e-8 * abs(plain.max()))
+    steps = [2e-6] * 3 + [2e-6] * 3 + [2e-3] * 2
+    for column, (name, step) in enumerate(zip(order, steps)):
+        difference = (tried(**{{name: step}}) - tried(**{{name: -step}})) / (2 * step)
+        error = np.linalg.norm(difference - forward[:, column]) / np.linalg.norm(difference)
+        assert error < 1e-2, (name, error, difference, forward[:, column])
+    sign = np.diag([1.0] * 6 + [-1.0] * 2)
+    symmetric = sign @ np.asarray(reversal)
+    assert np.allclose(symmetric, symmetric.T, rtol=1e-7, atol=1e-9 * abs(symmetric).max())
+    assert np.all(np.linalg.eigvalsh(symmetric) > 0)
+    held = contact.stiffness(True, condense=names[0], cases=names)
+    free = np.linalg.inv(np.asarray(reversal))[6, 6]
+    assert abs(held * free - 1) < 1e-6
+    for bad, text in (("body{number}_case_pull", "is no load case"), ("friction_scale", "no load that belongs")):
+        try:
+            contact.stiffness(cases=bad)
+        except petsam.ContactError as error:
+            assert bad in str(error) and text in str(error), error
+        else:
+            raise SystemExit("not refused")
+""",
+        tmp_path,
+    )
+
+
+def paired(file, **bodies):
+    """The file as that of a pair whose body 1 has these constants."""
+    with h5py.File(file, "a") as f:
+        f.attrs.update({f"{name}1": value for name, value in bodies.items()})
+    return file
+
+
+def test_compliance_of_a_pair_is_that_of_both_bodies(solve, layer, tmp_path):
+    """One file for both, whose matrix is the sum, in the frame of body 2."""
+    matrix = 0.4 * compliances.layer(0.5, 4)
+    turned = np.einsum("aibj,i,j->aibj", matrix, *2 * [np.array([1, -1, -1])])
+    table = compliances.powers(4)
+    odd = (-1.0) ** table[:, 1]  # y of body 1 is -y of the contact
+    turned *= odd[:, None, None, None] * odd[None, None, :, None]
+    lone = compliances.write(tmp_path / "one.h5", matrix)
+    both = paired(compliances.write(tmp_path / "pair.h5", matrix + turned), young=1.0, poisson=0.3)
+    given = {**SPHERE, "gap_type": "ellipsoid", "gap_radius_x": 20, "gap_radius_y": 30}
+    given = {name: value for name, value in given.items() if name not in ("gap_radius1", "gap_radius2")}
+    given.update({f"body{b}_{name}": value for b in (1, 2) for name, value in (("young", 1), ("poisson", 0.3))})
+    r = solve(given, SHEAR, dict(body2_compliance=both))
+    plain = solve(given, SHEAR, dict(body1_compliance=lone, body2_compliance=lone))
+    for name in ("pressure", "shear_x", "shear_y", "displacement_z"):
+        assert l2(getattr(r, name), getattr(plain, name)) < 1e-7, name
+
+
+@pytest.mark.parametrize(
+    "given, text",
+    [
+        (dict(body1_compliance="pair.h5"), "is of a pair of bodies: give it to -body2_compliance alone"),
+        (dict(body1_compliance="one.h5", body2_compliance="pair.h5"), "is of a pair and has body 1 already"),
+        (dict(body2_compliance="pair.h5", body1_young=1.5), "was made for body 1 with young 1, not 1.5"),
+        (dict(body2_compliance="pair.h5", body1_poisson=0.2), "was made for body 1 with poisson 0.3, not 0.2"),
+        (dict(body2_compliance="bad.h5"), "young1 is inf, poisson1 0.3: expected a finite modulus > 0"),
+    ],
+)
+def test_pair_that_does_not_fit_is_refused(given, text, petsam, tmp_path):
+    matrix = compliances.layer(0.5, 2)
+    for name, young in (("one", None), ("pair", 1.0), ("bad", np.inf)):
+        file = compliances.write(tmp_path / f"{name}.h5", matrix)
+        if young:
+            paired(file, young=young, poisson=0.3)
+    both = {f"body{b}_{name}": value for b in (1, 2) for name, value in (("young", 1), ("poisson", 0.3))}
+    done = petsam({**SPHERE, "grid_n": 8}, both, dict(load_n=1e-4), given, check=None)
+    assert text in done.complaint[0]
+
+
+def test_degrees_may_differ_along_the_axes(solve, tmp_path):
+    """Degree 14 in x and 2 in y: the load of a case whose displacement is a wave in x."""
+    table = np.array([(a, b) for a in range(15) for b in range(3)])
+    x, weight = np.polynomial.legendre.leggauss(40)
+    field = np.zeros((45, 3))
+    for k, (a, b) in enumerate(table):
+        if b == 0:
+            along = np.polynomial.legendre.legval(x, np.eye(15)[a]) * np.sqrt(a + 0.5)
+            field[k, 2] = 1e-4 * np.sum(weight * along * np.cos(6 * x)) * np.sqrt(2)
+    file = compliances.write(tmp_path / "c.h5", np.zeros((45, 3, 45, 3)), table=table, cases=dict(wave=field))
+    r = solve({**SPHERE, "gap_radius1": 20}, STEEL, dict(load_n=2e-4, body2_compliance=file, body2_case_wave=1))
+    side = r.x[1] - r.x[0]
+    wave = 1e-4 * np.cos(6 * r.x) * np.sin(3 * side) / (3 * side)
+    with h5py.File(r.path) as f:
+        load = f["history/body2_case_wave_load"][-1]
+    assert load == pytest.approx(np.sum(r.pressure * wave) * side**2, rel=1e-5)

@@ -13,7 +13,7 @@ static inline SamStiffness Stiffness(const Case *c, SamStiffnessDirection direct
 {
   SamStiffness k;
 
-  sam_call(SamStiffnessCompute(c->contact, direction, &k));
+  sam_call(SamStiffnessCompute(c->contact, direction, 0, NULL, &k));
   return k;
 }
 

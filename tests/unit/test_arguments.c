@@ -164,8 +164,8 @@ static void test_contact_and_state(void **state)
   REFUSES_NO_VEC(3, SamContactGetField(c.contact, "pressure", NULL));
   REFUSES_NULL(2, SamContactGetSolution(c.contact, NULL));
   REFUSES_NULL(2, SamContactGetState(c.contact, NULL));
-  REFUSES(SamStiffnessCompute, SamContact, 1, object, SAM_STIFFNESS_FORWARD, &stiffness);
-  REFUSES_NULL(3, SamStiffnessCompute(c.contact, SAM_STIFFNESS_FORWARD, NULL));
+  REFUSES(SamStiffnessCompute, SamContact, 1, object, SAM_STIFFNESS_FORWARD, 0, NULL, &stiffness);
+  REFUSES_NULL(5, SamStiffnessCompute(c.contact, SAM_STIFFNESS_FORWARD, 0, NULL, NULL));
   sam_call(SamContactGetState(c.contact, &own));
   REFUSES(SamStateSetField, SamState, 1, object, 0, &field);
   REFUSES_NULL(3, SamStateSetField(own, 0, NULL));

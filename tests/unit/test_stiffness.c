@@ -301,7 +301,7 @@ static void test_committed_step_has_the_stiffness_of_its_reversal(void **state)
     committed = Stiffness(&c, SAM_STIFFNESS_REVERSAL);
     sam_assert(!memcmp(tried.k, committed.k, sizeof(tried.k)));
     BeginCatching();
-    sam_assert(SamStiffnessCompute(c.contact, SAM_STIFFNESS_FORWARD, &k) == PETSC_ERR_ORDER);
+    sam_assert(SamStiffnessCompute(c.contact, SAM_STIFFNESS_FORWARD, 0, NULL, &k) == PETSC_ERR_ORDER);
     EndCatching();
     sam_assert(strstr(CaughtMessage(), "forward stiffness needs the slip"));
     step = Try(&c, &then);
@@ -339,8 +339,8 @@ static void test_surfaces_apart_have_no_stiffness(void **state)
   SamStiffness k;
 
   (void)state;
-  sam_fails(SamStiffnessCompute(c.contact, SAM_STIFFNESS_FORWARD, &k), PETSC_ERR_ORDER);
-  sam_fails(SamStiffnessCompute(c.contact, SAM_STIFFNESS_REVERSAL, &k), PETSC_ERR_ORDER);
+  sam_fails(SamStiffnessCompute(c.contact, SAM_STIFFNESS_FORWARD, 0, NULL, &k), PETSC_ERR_ORDER);
+  sam_fails(SamStiffnessCompute(c.contact, SAM_STIFFNESS_REVERSAL, 0, NULL, &k), PETSC_ERR_ORDER);
   Displace(&control, SAM_COMPONENT_N, -1e-6);
   (void)Try(&c, &control);
   k = Stiffness(&c, SAM_STIFFNESS_FORWARD);

@@ -56,6 +56,14 @@ module petsam
       real(c_double), intent(out) :: k(6, 6)
     end function
 
+    integer(c_int) function petsam_stiffness_with(contact, reversal, cases, k) bind(c)
+      import :: c_int, c_char, c_double, c_ptr
+      type(c_ptr), value :: contact
+      integer(c_int), value :: reversal
+      character(c_char), intent(in) :: cases(*)
+      real(c_double), intent(out) :: k(*)
+    end function
+
     integer(c_int) function petsam_get_field(contact, name, values) bind(c)
       import :: c_int, c_char, c_double, c_ptr
       type(c_ptr), value :: contact

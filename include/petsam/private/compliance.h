@@ -8,17 +8,18 @@
 #include <petsam/private/elasticityimpl.h>
 #include <petsam/private/stressimpl.h>
 
-#define SAM_COMPLIANCE_DEGREE 10 /* highest degree of the polynomials */
-#define SAM_COMPLIANCE_MODES  66 /* maximum number of polynomials: those up to this degree */
-#define SAM_COMPLIANCE_CASES  8  /* maximum number of load cases of a body */
-#define SAM_CASE_NAME         20 /* maximum number of letters in the name of a load case */
+#define SAM_COMPLIANCE_DEGREE 24  /* highest degree of the polynomials in x or y */
+#define SAM_COMPLIANCE_MODES  325 /* maximum number of polynomials: all of total degree 24, or 24 by 12 */
+#define SAM_COMPLIANCE_CASES  40  /* maximum number of load cases of a body */
+#define SAM_CASE_NAME         20  /* maximum number of letters in the name of a load case */
 
 /*
   SamCompliance - the additional compliance of one body. The displacement of its surface by a traction t, minus that of
   the half-space, is sum phi_i matrix[.][i][.][j] c_j with c_j the integral of phi_j t over the patch. The phi are
   products of Legendre polynomials in x and y, orthonormal on the patch. Directions and places refer to the body's own
   frame, x, y, and z into the body. The frame of body 2 is that of the contact; the frame of body 1 is rotated about x
-  by half a turn.
+  by half a turn. That of a pair of bodies which are joined outside of the contact is the displacement of body 2 minus
+  that of body 1 by t on body 2 and -t on body 1, in the frame of body 2.
 */
 typedef struct _n_SamCompliance *SamCompliance;
 struct _n_SamCompliance {
@@ -27,21 +28,22 @@ struct _n_SamCompliance {
   char     file[PETSC_MAX_PATH_LEN];
   uint64_t checksum;           /* checksum of all members below */
   double   young, poisson;     /* constants of the half-space, Pa, 1 */
+  double   young1, poisson1;   /* those of body 1 if the compliance is that of a pair; else NaN */
   double   center[2], half[2]; /* centre and half widths of the patch, m */
   PetscInt modes, degree, power[SAM_COMPLIANCE_MODES][2];
-  double   matrix[3][SAM_COMPLIANCE_MODES][3][SAM_COMPLIANCE_MODES]; /* m3/N, symmetric */
   PetscInt cases;
   char     name[SAM_COMPLIANCE_CASES][32];
   PetscInt below[3]; /* number of points along x, y, z with known stresses; 0: none */
-  double   field[SAM_COMPLIANCE_CASES][3][SAM_COMPLIANCE_MODES]; /* m2, coefficients for the unit load case */
+  double  *matrix;   /* (3, modes, 3, modes), m3/N, symmetric */
+  double  *field;    /* (cases, 3, modes), coefficients for the unit load case, m2 */
 };
 
 /*
-  SamComplianceRead - reads the compliance of body 0 or 1 from the file that `option` (without dash) names; `of`: the
-  body without it. Collective. Errors: SAM_ERR_FILE for a file that cannot be read or does not fit, and for a body that
-  would gain energy, or be too compliant, under some traction.
+  SamComplianceRead - reads the compliance of body 0 or 1 from the file that `option` (without dash) names; `pair`: the
+  bodies without it. Collective. Errors: SAM_ERR_FILE for a file that cannot be read or does not fit, and for a body
+  that would gain energy, or be too compliant, under some traction.
 */
-PETSC_INTERN PetscErrorCode SamComplianceRead(MPI_Comm comm, PetscInt body, SamBody of, const char option[],
+PETSC_INTERN PetscErrorCode SamComplianceRead(MPI_Comm comm, PetscInt body, SamPair pair, const char option[],
                                               const char file[], SamCompliance *compliance);
 /*
   SamComplianceFactor - returns the factor on load case l in a step, body1_case_<name> or body2_case_<name>. Not
@@ -57,10 +59,10 @@ PETSC_INTERN PetscErrorCode SamComplianceDestroy(SamCompliance *compliance);
 PETSC_INTERN void SamComplianceMeans(SamCompliance compliance, PetscInt axis, double from, double to, double means[]);
 /*
   SamComplianceEnds - computes the smallest and the largest eigenvalue of the body's compliance relative to that of the
-  body without it, for tractions that are uniform on 20 x 20 cells of the patch. For a rigid body they are 0 if the
-  compliance is semidefinite, else negative, and 1.
+  body without it (of a pair: of both bodies), for tractions that are uniform on 20 x 20 cells of the patch. For a
+  rigid body they are 0 if the compliance is semidefinite, else negative, and 1.
 */
-PETSC_INTERN PetscErrorCode SamComplianceEnds(SamCompliance compliance, SamBody of, double *least, double *most);
+PETSC_INTERN PetscErrorCode SamComplianceEnds(SamCompliance compliance, SamPair pair, double *least, double *most);
 /*
   SamComplianceCollect - computes the c_j of tractions p, q_x, q_y on body 2. Collective.
   SamComplianceReadStress - reads the axes x, y, z (m), then the stresses at the points by each c and each load case:
@@ -73,6 +75,23 @@ PETSC_INTERN PetscErrorCode SamComplianceCollect(SamElasticity elasticity, SamCo
 PETSC_INTERN PetscErrorCode SamComplianceReadStress(MPI_Comm comm, SamCompliance compliance, double values[]);
 PETSC_INTERN PetscErrorCode SamComplianceAddStress(SamElasticity elasticity, SamCompliance compliance,
                                                    SamStress stress);
+/* SamComplianceIsPair - returns true if the compliance is that of a pair of bodies. Not collective. */
+static inline PetscBool SamComplianceIsPair(SamCompliance c)
+{
+  return PetscIsNanReal(c->young1) ? PETSC_FALSE : PETSC_TRUE;
+}
+/*
+  SamComplianceRow - returns the row of the matrix for direction k and polynomial m: a number for each direction and
+  polynomial. SamComplianceCase - returns the coefficients of load case l in direction k. Not collective.
+*/
+static inline const double *SamComplianceRow(SamCompliance c, PetscInt k, PetscInt m)
+{
+  return c->matrix + (ptrdiff_t)(k * c->modes + m) * 3 * c->modes;
+}
+static inline const double *SamComplianceCase(SamCompliance c, PetscInt l, PetscInt k)
+{
+  return c->field + (ptrdiff_t)(3 * l + k) * c->modes;
+}
 /*
   SamComplianceField - returns the number of stress values of one field at all points. SamComplianceStresses - returns
   the number of values of the axes and of all fields, which are one for each c and each load case.

@@ -28,7 +28,9 @@ typedef struct {
   double       *bears;   /* 1; 0 in cells that yield, whose pressure stays */
   double        self[2]; /* influence of a cell on itself, normal and tangential, m/Pa */
   Vec           p, q, u_z, u_t, w_z, w_t;
-  float        *r, *z; /* of two components */
+  float        *r, *z;  /* of two components */
+  PetscInt      more;   /* number of unit motions besides the six phi */
+  double      **motion; /* these motions, each of three packed components, normal first, m */
   /* the system that is solved */
   SamFrozenPart part;
   PetscInt      applies, preconditions;
@@ -58,10 +60,13 @@ PETSC_INTERN PetscErrorCode SamFrozenCreate(SamElasticity elasticity, const Vec 
 PETSC_INTERN PetscErrorCode SamFrozenDestroy(SamFrozen *frozen);
 /* SamFrozenSize - returns the number of a field's values on this rank in the system that is solved. Not collective. */
 PETSC_INTERN PetscInt SamFrozenSize(const SamFrozen *frozen);
-/* SamFrozenMotion - gets the unit motion along one of the six phi, packed: normal (one component) or tangential
-   (two). */
-PETSC_INTERN void SamFrozenMotion(const SamFrozen *frozen, PetscInt k, double values[]);
-/* SamFrozenColumn - computes the right-hand side of a unit motion along one of the six phi, normal ones first. */
+/* SamFrozenAddMotion - adds a unit motion of body 1 relative to body 2 that is no rigid one: u_z and u_t on the grid,
+   m. The first one has the index 6. Not collective. */
+PETSC_INTERN PetscErrorCode SamFrozenAddMotion(SamFrozen *frozen, Vec u_z, Vec u_t);
+/* SamFrozenMotion - gets the components of a part of a unit motion, packed: of one of the six phi, normal ones first,
+   or of one that was added. */
+PETSC_INTERN void SamFrozenMotion(const SamFrozen *frozen, PetscInt k, SamFrozenPart part, double values[]);
+/* SamFrozenColumn - computes the right-hand side of a unit motion. */
 PETSC_INTERN void SamFrozenColumn(const SamFrozen *frozen, PetscInt k, double column[]);
 /* SamFrozenApply - computes Ax, the system's matrix times x; sets u_z and u_t to the displacements by x. Collective. */
 PETSC_INTERN PetscErrorCode SamFrozenApply(SamFrozen *frozen, const double x[], double Ax[]);

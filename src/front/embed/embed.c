@@ -435,20 +435,34 @@ static int TryTogether(petsam_contact *c, PetscBool given, double time, int coun
   return (int)c->last.status;
 }
 
-/* Each comma ends a name, even an empty one, so that as many values are read as there are names. */
+/*
+  Divides a copy of `names` at its commas; each comma ends a name, even an empty one, so that there are as many as a
+  caller counts. The caller frees the list and the copy; NULL: there is no memory, or no text.
+*/
+static const char **SplitNames(const char names[], char **copy, int *count)
+{
+  const char **list;
+  char        *next;
+
+  *count = 0;
+  *copy  = names ? strdup(names) : NULL;
+  list   = *copy ? (const char **)calloc(strlen(*copy) + 1, sizeof(*list)) : NULL;
+  next   = list ? *copy : NULL;
+  while (next) {
+    list[(*count)++] = next;
+    next             = strchr(next, ',');
+    if (next) *next++ = '\0';
+  }
+  return list;
+}
+
 int petsam_try(petsam_contact *c, double time, const char *names, const double values[], double load[6],
                double rigid[6])
 {
-  char        *copy  = names && values ? strdup(names) : NULL;
-  const char **list  = copy ? (const char **)calloc(strlen(copy) + 1, sizeof(*list)) : NULL;
-  char        *next  = list ? copy : NULL;
-  int          count = 0, code;
+  char        *copy;
+  int          count, code;
+  const char **list = SplitNames(values ? names : NULL, &copy, &count);
 
-  while (next) {
-    list[count++] = next;
-    next          = strchr(next, ',');
-    if (next) *next++ = '\0';
-  }
   code = TryTogether(c, list != NULL, time, count, list, values, load, rigid);
   free(list);
   free(copy);
@@ -493,18 +507,28 @@ int petsam_reject(petsam_contact *c)
   return SamEmbedEnterTogether(c, __func__, PETSC_TRUE, 0) ? SamEmbedLeave(c, SamEmbedForget(c)) : SAM_EMBED_USAGE;
 }
 
-static PetscErrorCode Stiffness(petsam_contact *c, PetscBool reversal, double k[])
+static PetscErrorCode Stiffness(petsam_contact *c, PetscBool reversal, int count, const char *const cases[], double k[])
 {
-  SamStiffness    s;
-  char            text[SAM_MESSAGE];
-  const PetscBool tried = SamContactHasStep(c->setup->contact, SAM_TRIED);
+  SamStiffness        s;
+  char                text[SAM_MESSAGE];
+  const SamCondition *conditions[SAM_CONDITIONS];
+  const PetscInt      size  = SAM_COMPONENTS + count;
+  const PetscBool     tried = SamContactHasStep(c->setup->contact, SAM_TRIED);
 
   PetscFunctionBegin;
+  PetscCheck(count <= SAM_CONDITIONS, c->comm, SAM_ERR_USER, "%d load cases: a contact has at most %d", count,
+             SAM_CONDITIONS);
+  for (int l = 0; l < count; l++) {
+    conditions[l] = SamConditionsFind(c->conditions, cases[l]);
+    PetscCheck(conditions[l], c->comm, SAM_ERR_USER, "%s: is no load case of this contact, like body2_case_NAME",
+               cases[l]);
+  }
   PetscCheck(!tried || SamStepIsSolved(&c->last), c->comm, PETSC_ERR_NOT_CONVERGED,
              "the tried step did not converge, and has no stiffness: %s", c->last.message);
-  PetscCall(SamStiffnessCompute(c->setup->contact, reversal ? SAM_STIFFNESS_REVERSAL : SAM_STIFFNESS_FORWARD, &s));
-  for (PetscInt i = 0; i < SAM_COMPONENTS; i++)
-    for (PetscInt j = 0; j < SAM_COMPONENTS; j++) k[SAM_COMPONENTS * i + j] = (double)s.k[i][j];
+  PetscCall(SamStiffnessCompute(c->setup->contact, reversal ? SAM_STIFFNESS_REVERSAL : SAM_STIFFNESS_FORWARD, count,
+                                conditions, &s));
+  for (PetscInt i = 0; i < size; i++)
+    for (PetscInt j = 0; j < size; j++) k[size * i + j] = (double)s.k[i][j];
   SamStiffnessDescribe(&s, text, sizeof(text));
   PetscCheck(s.converged, c->comm, PETSC_ERR_NOT_CONVERGED, "%s", text);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -512,8 +536,23 @@ static PetscErrorCode Stiffness(petsam_contact *c, PetscBool reversal, double k[
 
 int petsam_stiffness(petsam_contact *c, int reversal, double k[36])
 {
-  return SamEmbedEnterTogether(c, __func__, k != NULL, reversal != 0) ? SamEmbedLeave(c, Stiffness(c, reversal != 0, k))
-                                                                      : SAM_EMBED_USAGE;
+  return SamEmbedEnterTogether(c, __func__, k != NULL, reversal != 0)
+           ? SamEmbedLeave(c, Stiffness(c, reversal != 0, 0, NULL, k))
+           : SAM_EMBED_USAGE;
+}
+
+int petsam_stiffness_with(petsam_contact *c, int reversal, const char *cases, double *k)
+{
+  char          *copy;
+  int            count, code = SAM_EMBED_USAGE;
+  const char   **list = SplitNames(k ? cases : NULL, &copy, &count);
+  const uint64_t sum  = SamEmbedAddText(reversal != 0, cases);
+
+  if (SamEmbedEnterTogether(c, __func__, list != NULL, sum))
+    code = SamEmbedLeave(c, Stiffness(c, reversal != 0, count, list, k));
+  free(list);
+  free(copy);
+  return code;
 }
 
 /* ---- results ---- */

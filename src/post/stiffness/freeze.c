@@ -2,6 +2,7 @@
 #include "stiffnessimpl.h"
 #include <petsam/normal.h>
 #include <petsam/private/contact.h>
+#include <petsam/private/control.h>
 #include <petsam/private/elasticity.h>
 #include <petsam/private/problem.h>
 #include <petsam/private/problemimpl.h>
@@ -104,7 +105,49 @@ static PetscErrorCode CheckStep(SamContact contact, SamStiffnessDirection direct
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamStiffnessFreeze(SamContact contact, SamStiffnessDirection direction, SamFrozen *f)
+/* Computes the displacement (m) of body 1 relative to body 2 by a unit of a condition, on the whole grid. */
+static PetscErrorCode ComputeMotion(SamProblem problem, SamState state, const SamCondition *condition, Vec u_z, Vec u_t)
+{
+  Vec        rest[2];
+  SamControl control = {.force = {PETSC_FALSE}};
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(u_z, &rest[0]));
+  PetscCall(VecDuplicate(u_t, &rest[1]));
+  PetscCall(VecZeroEntries(u_z));
+  PetscCall(VecZeroEntries(u_t));
+  PetscCall(SamProblemDisplace(problem, state, &control, rest[0], rest[1], NULL, NULL));
+  SamControlSetCondition(&control, condition, 1);
+  PetscCall(SamProblemDisplace(problem, state, &control, u_z, u_t, NULL, NULL));
+  PetscCall(VecAYPX(u_z, -1, rest[0]));
+  PetscCall(VecAYPX(u_t, -1, rest[1]));
+  PetscCall(VecDestroy(&rest[0]));
+  PetscCall(VecDestroy(&rest[1]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode AddMotions(SamContact contact, SamWindow window, PetscInt count,
+                                 const SamCondition *const conditions[], SamFrozen *f)
+{
+  SamState      state;
+  Vec           whole[2], part[2];
+  const SamGrid grid = SamContactGetGrid(contact);
+
+  PetscFunctionBegin;
+  PetscCall(SamContactGetState(contact, &state));
+  for (PetscInt d = 0; d < 2; d++) PetscCall(SamGridCreateVec(grid, d + 1, &whole[d]));
+  for (PetscInt k = 0; k < count; k++) {
+    PetscCall(ComputeMotion(SamContactGetProblem(contact), state, conditions[k], whole[0], whole[1]));
+    for (PetscInt d = 0; d < 2; d++) PetscCall(TakeField(window, f->grid, d + 1, whole[d], &part[d]));
+    PetscCall(SamFrozenAddMotion(f, part[0], part[1]));
+    for (PetscInt d = 0; d < 2; d++) PetscCall(VecDestroy(&part[d]));
+  }
+  for (PetscInt d = 0; d < 2; d++) PetscCall(VecDestroy(&whole[d]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamStiffnessFreeze(SamContact contact, SamStiffnessDirection direction, PetscInt count,
+                                  const SamCondition *const conditions[], SamFrozen *f)
 {
   const SamSolution  *s;
   SamWindow           window;
@@ -124,7 +167,8 @@ PetscErrorCode SamStiffnessFreeze(SamContact contact, SamStiffnessDirection dire
   PetscCall(SamGridGetSupport(whole, s->pressure, first, n));
   PetscCall(SamElasticityChoosePart(e, first, n, PETSC_TRUE, &window, &part));
   PetscCall(CreateFields(contact, direction, window, window ? SamWindowGetGrid(window) : whole, fields));
-  PetscCall(SamFrozenCreate(window ? part : e, fields, coupled, f));
+  PetscCall(SamFrozenCreate(window ? part : e, fields, coupled || count ? PETSC_TRUE : PETSC_FALSE, f));
+  PetscCall(AddMotions(contact, window, count, conditions, f));
   for (int k = 0; k < SAM_FROZEN_FIELDS; k++) PetscCall(VecDestroy(&fields[k]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,6 +1,10 @@
 /*
   The tangent stiffness: a linear system for each rigid motion, and the loads of its solutions.
 
+  Besides the six rigid motions there may be motions by conditions, such as the load cases of bodies. Their displacement
+  v is that of body 2 relative to body 1, opposite to a rigid motion, and the load that belongs to it is sum t.v dA; so
+  the motion that is solved is -v, and its row of the stiffness changes its sign.
+
   A system with a symmetric matrix A gives its part of the stiffness as b_i.x_j + x_i.r_j, b being the columns, x the
   solutions and r their residuals. This part is symmetric, and its error is of second order in the error of x. Without
   coupling the matrices of pressure and shear are symmetric. The unsymmetric part, by slipping cells whose shear follows
@@ -21,10 +25,11 @@ enum { HALF = 3 }; /* normal or tangential motions */
 /* The solutions of some systems, and the data of the stiffness, as arrays of packed fields */
 typedef struct {
   SamFrozen f;
-  PetscInt  count; /* number of systems */
-  double   *b[SAM_COMPONENTS], *x[SAM_COMPONENTS];
-  double   *slip[HALF];                        /* of the tangential motions, without coupling; NULL: not wanted */
-  double    k[SAM_COMPONENTS][SAM_COMPONENTS]; /* stiffness in the basis phi of the frames, normal first */
+  PetscInt  count;   /* number of systems */
+  PetscInt  motions; /* number of all motions */
+  double   *b[SAM_STIFFNESS_MOST], *x[SAM_STIFFNESS_MOST];
+  double   *slip[HALF]; /* of the tangential motions, without coupling; NULL: not wanted */
+  double    k[SAM_STIFFNESS_MOST][SAM_STIFFNESS_MOST]; /* stiffness in the basis phi of the frames, normal first */
   PetscReal error;
 } Systems;
 
@@ -33,7 +38,7 @@ typedef struct {
 */
 static PetscErrorCode AddSymmetric(Systems *s, PetscInt first, PetscInt j, const double r[])
 {
-  double some[SAM_COMPONENTS], more[SAM_COMPONENTS];
+  double some[SAM_STIFFNESS_MOST], more[SAM_STIFFNESS_MOST];
 
   PetscFunctionBegin;
   PetscCall(SamFrozenDots(&s->f, j + 1, s->b, s->x[j], some));
@@ -46,18 +51,18 @@ static PetscErrorCode AddSymmetric(Systems *s, PetscInt first, PetscInt j, const
 static PetscErrorCode AddLoads(Systems *s, PetscInt j)
 {
   const PetscInt m = s->f.count;
-  double        *motion[SAM_COMPONENTS], *traction, loads[SAM_COMPONENTS];
+  double        *motion[SAM_STIFFNESS_MOST], *traction, loads[SAM_STIFFNESS_MOST];
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(3 * m, &traction));
   PetscCall(PetscArraycpy(traction, s->x[j], m));
   SamFrozenShear(&s->f, s->x[j], s->x[j] + m, traction + m);
-  for (PetscInt i = 0; i < SAM_COMPONENTS; i++) {
-    PetscCall(PetscCalloc1(3 * m, &motion[i]));
-    SamFrozenMotion(&s->f, i, motion[i] + (i < HALF ? 0 : m));
+  for (PetscInt i = 0; i < s->motions; i++) {
+    PetscCall(PetscMalloc1(3 * m, &motion[i]));
+    SamFrozenMotion(&s->f, i, SAM_FROZEN_BOTH, motion[i]);
   }
-  PetscCall(SamFrozenDots(&s->f, SAM_COMPONENTS, motion, traction, loads));
-  for (PetscInt i = 0; i < SAM_COMPONENTS; i++) {
+  PetscCall(SamFrozenDots(&s->f, s->motions, motion, traction, loads));
+  for (PetscInt i = 0; i < s->motions; i++) {
     s->k[i][j] = loads[i];
     PetscCall(PetscFree(motion[i]));
   }
@@ -127,9 +132,10 @@ static PetscErrorCode ComputeUncoupled(Systems *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Sets the combination of the grid's phi for each rigid motion: to[k][c] of phi k and component c. */
-static void SetMotions(SamGrid grid, double to[SAM_COMPONENTS][SAM_COMPONENTS])
+/* Sets the combination of the grid's phi for each rigid motion: to[k][c] of phi k and component c; others stay. */
+static void SetMotions(SamGrid grid, PetscInt motions, double to[][SAM_STIFFNESS_MOST])
 {
+  for (PetscInt k = SAM_COMPONENTS; k < motions; k++) to[k][k] = 1;
   for (PetscInt kind = 0; kind < 2; kind++)
     for (PetscInt c = 0; c < HALF; c++) {
       double row[HALF];
@@ -142,19 +148,20 @@ static void SetMotions(SamGrid grid, double to[SAM_COMPONENTS][SAM_COMPONENTS])
 /* Computes the stiffness of the six components; NaN for rotations that the bodies do not have. */
 static void Transform(const Systems *s, const PetscBool rotations[3], SamStiffness *stiffness)
 {
-  double       to[SAM_COMPONENTS][SAM_COMPONENTS] = {{0}};
-  const double area                               = s->f.grid->dx * s->f.grid->dy;
+  double       to[SAM_STIFFNESS_MOST][SAM_STIFFNESS_MOST] = {{0}};
+  const double area                                       = s->f.grid->dx * s->f.grid->dy;
+  PetscBool    has[SAM_STIFFNESS_MOST];
 
-  PetscBool has[SAM_COMPONENTS] = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE};
-
-  for (PetscInt k = 0; k < 3; k++) has[SAM_COMPONENT_MX + k] = rotations[k];
-  SetMotions(s->f.grid, to);
-  for (PetscInt i = 0; i < SAM_COMPONENTS; i++)
-    for (PetscInt j = 0; j < SAM_COMPONENTS; j++) {
+  for (PetscInt k = 0; k < s->motions; k++)
+    has[k] = k < SAM_COMPONENT_MX || k >= SAM_COMPONENTS || rotations[k - SAM_COMPONENT_MX] ? PETSC_TRUE : PETSC_FALSE;
+  SetMotions(s->f.grid, s->motions, to);
+  for (PetscInt i = 0; i < s->motions; i++)
+    for (PetscInt j = 0; j < s->motions; j++) {
       double sum = 0;
 
-      for (PetscInt k = 0; k < SAM_COMPONENTS; k++)
-        for (PetscInt l = 0; l < SAM_COMPONENTS; l++) sum += to[k][i] * s->k[k][l] * to[l][j];
+      for (PetscInt k = 0; k < s->motions; k++)
+        for (PetscInt l = 0; l < s->motions; l++) sum += to[k][i] * s->k[k][l] * to[l][j];
+      if (i >= SAM_COMPONENTS) sum = -sum;
       stiffness->k[i][j] = stiffness->converged && has[i] && has[j] ? sum * area : NAN;
     }
 }
@@ -168,26 +175,43 @@ static PetscErrorCode RefuseYield(SamContact contact)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Afterwards the elasticity may use another part of the grid: each try chooses its own part. */
-PetscErrorCode SamStiffnessCompute(SamContact contact, SamStiffnessDirection direction, SamStiffness *stiffness)
+static PetscErrorCode CheckConditions(SamContact contact, PetscInt count, const SamCondition *const conditions[])
 {
-  Systems s = {.error = 0};
+  const MPI_Comm comm = SamContactGetGrid(contact)->comm;
+
+  PetscFunctionBegin;
+  PetscCheck(count <= SAM_STIFFNESS_MOST - SAM_COMPONENTS, comm, SAM_ERR_USER,
+             "the stiffness over %" PetscInt_FMT " load cases: expected at most %d", count,
+             SAM_STIFFNESS_MOST - SAM_COMPONENTS);
+  for (PetscInt k = 0; k < count; k++)
+    PetscCheck(conditions[k]->conjugate, comm, SAM_ERR_USER,
+               "%s: has no load that belongs to it, and so no stiffness: name load cases of bodies",
+               conditions[k]->name);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Afterwards the elasticity may use another part of the grid: each try chooses its own part. */
+PetscErrorCode SamStiffnessCompute(SamContact contact, SamStiffnessDirection direction, PetscInt count,
+                                   const SamCondition *const conditions[], SamStiffness *stiffness)
+{
+  Systems s = {.error = 0, .motions = SAM_COMPONENTS + count};
 
   PetscFunctionBegin;
   SamValidHandle(contact, SamContact, 1);
-  SamValidPointer(stiffness, 3);
+  SamValidPointer(stiffness, 5);
+  PetscCall(CheckConditions(contact, count, conditions));
   PetscCall(SamMotionRefuse(SamContactGetMotion(contact), SAM_MOTION_STIFFNESS, PETSC_COMM_SELF, "-", "stiffness"));
   PetscCall(RefuseYield(contact));
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_STIFFNESS], 0, 0, 0, 0));
-  PetscCall(SamStiffnessFreeze(contact, direction, &s.f));
+  PetscCall(SamStiffnessFreeze(contact, direction, count, conditions, &s.f));
   if (s.f.coupled)
-    PetscCall(Solve(&s, SAM_FROZEN_BOTH, 0, SAM_COMPONENTS, direction == SAM_STIFFNESS_REVERSAL));
+    PetscCall(Solve(&s, SAM_FROZEN_BOTH, 0, s.motions, direction == SAM_STIFFNESS_REVERSAL));
   else
     PetscCall(ComputeUncoupled(&s));
   PetscCall(Free(&s));
   stiffness->error         = s.error;
   stiffness->converged     = s.error <= SAM_FROZEN_RTOL;
-  stiffness->columns       = SAM_COMPONENTS;
+  stiffness->columns       = s.motions;
   stiffness->applies       = s.f.applies;
   stiffness->preconditions = s.f.preconditions;
   Transform(&s, SamElasticityGetTraits(SamProblemGetElasticity(SamContactGetProblem(contact))).rotations, stiffness);
@@ -233,10 +257,12 @@ PetscErrorCode SamStiffnessRecord(SamContact contact, SamStep *step)
   PetscCall(SamContactGetState(contact, &state));
   for (int k = 0; k < SAM_STIFFNESS_DIRECTIONS; k++) {
     SamStiffness s;
+    double      *to;
 
-    PetscCall(SamStiffnessCompute(contact, (SamStiffnessDirection)k, &s));
-    PetscCall(PetscArraycpy(SamStateNumbers(state, SamStateFindNumber(state, numbers[k].name), SAM_TRIED), &s.k[0][0],
-                            SAM_COMPONENTS * SAM_COMPONENTS));
+    PetscCall(SamStiffnessCompute(contact, (SamStiffnessDirection)k, 0, NULL, &s));
+    to = SamStateNumbers(state, SamStateFindNumber(state, numbers[k].name), SAM_TRIED);
+    for (PetscInt i = 0; i < SAM_COMPONENTS; i++)
+      PetscCall(PetscArraycpy(to + SAM_COMPONENTS * i, s.k[i], SAM_COMPONENTS));
     if (!s.converged && !step->message[0]) SamStiffnessDescribe(&s, step->message, sizeof(step->message));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

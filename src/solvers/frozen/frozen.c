@@ -157,5 +157,7 @@ PetscErrorCode SamFrozenDestroy(SamFrozen *f)
   PetscCall(VecDestroy(&f->w_t));
   SamFree(f->r);
   SamFree(f->z);
+  for (PetscInt k = 0; k < f->more; k++) PetscCall(PetscFree(f->motion[k]));
+  PetscCall(PetscFree(f->motion));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

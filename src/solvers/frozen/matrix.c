@@ -56,7 +56,8 @@ static void Bear(const SamFrozen *f, double p[])
   for (PetscInt m = 0; m < f->count; m++) p[m] *= f->bears[m];
 }
 
-void SamFrozenMotion(const SamFrozen *f, PetscInt k, double values[])
+/* Gets one of the six phi, which has one normal component or two tangential ones. */
+static void RigidMotion(const SamFrozen *f, PetscInt k, double values[])
 {
   const SamGrid   grid  = f->grid;
   const SamFrame *frame = k < 3 ? &f->normal : &f->tangential;
@@ -79,17 +80,25 @@ void SamFrozenMotion(const SamFrozen *f, PetscInt k, double values[])
   }
 }
 
+void SamFrozenMotion(const SamFrozen *f, PetscInt k, SamFrozenPart part, double values[])
+{
+  const PetscInt normal = part == SAM_FROZEN_TANGENTIAL ? 0 : f->count;
+  const PetscInt all    = normal + (part == SAM_FROZEN_NORMAL ? 0 : 2 * f->count);
+
+  if (k >= SAM_COMPONENTS) {
+    (void)PetscArraycpy(values, f->motion[k - SAM_COMPONENTS] + (normal ? 0 : f->count), all);
+    return;
+  }
+  (void)PetscArrayzero(values, all);
+  if (k < 3 && normal) RigidMotion(f, k, values);
+  if (k >= 3 && all > normal) RigidMotion(f, k, values + normal);
+}
+
 void SamFrozenColumn(const SamFrozen *f, PetscInt k, double column[])
 {
-  const PetscInt at = k < 3 ? PressureAt(f) : ShearAt(f);
-
-  for (PetscInt m = 0; m < SamFrozenSize(f); m++) column[m] = 0;
-  if (at < 0) return;
-  SamFrozenMotion(f, k, column + at);
-  if (k >= 3)
-    Project(f, PETSC_FALSE, column + at);
-  else
-    Bear(f, column + at);
+  SamFrozenMotion(f, k, f->part, column);
+  if (PressureAt(f) >= 0) Bear(f, column + PressureAt(f));
+  if (ShearAt(f) >= 0) Project(f, PETSC_FALSE, column + ShearAt(f));
 }
 
 void SamFrozenShear(const SamFrozen *f, const double p[], const double x[], double q[])
@@ -108,7 +117,7 @@ PetscErrorCode SamFrozenTakeSlip(const SamFrozen *f, PetscInt k, double slip[])
   const double *u;
 
   PetscFunctionBegin;
-  SamFrozenMotion(f, k, slip);
+  SamFrozenMotion(f, k, SAM_FROZEN_TANGENTIAL, slip);
   PetscCall(VecGetArrayRead(f->u_t, &u));
   for (PetscInt c = 0; c < 2; c++)
     for (PetscInt m = 0; m < f->count; m++)
@@ -138,7 +147,7 @@ PetscErrorCode SamFrozenDots(const SamFrozen *f, PetscInt n, double *const field
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- the matrix ---- */
+/* ---- fields of the grid ---- */
 
 /* Writes packed components to a field, which is zero elsewhere. */
 static PetscErrorCode Unpack(const SamFrozen *f, PetscInt components, const double values[], Vec field)
@@ -164,6 +173,21 @@ static PetscErrorCode Pack(const SamFrozen *f, PetscInt components, Vec field, d
   PetscCall(VecRestoreArrayRead(field, &from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+PetscErrorCode SamFrozenAddMotion(SamFrozen *f, Vec u_z, Vec u_t)
+{
+  double *motion;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(3 * f->count, &motion));
+  PetscCall(Pack(f, 1, u_z, motion));
+  PetscCall(Pack(f, 2, u_t, motion + f->count));
+  PetscCall(PetscRealloc(sizeof(*f->motion) * (size_t)(f->more + 1), &f->motion));
+  f->motion[f->more++] = motion;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* ---- the matrix ---- */
 
 /* Computes u_z and u_t of the tractions p and q, as far as the system has them. */
 static PetscErrorCode ComputeDisplacements(SamFrozen *f)

@@ -166,10 +166,11 @@ static void Multiply(SamCompliance of, Kind in, Kind out, double factor, const C
 {
   for (PetscInt k = first_of[out]; k < first_of[out] + count_of[out]; k++)
     for (PetscInt m = 0; m < of->modes; m++) {
-      double total = 0;
+      const double *row   = SamComplianceRow(of, k, m);
+      double        total = 0;
 
       for (PetscInt l = first_of[in]; l < first_of[in] + count_of[in]; l++)
-        for (PetscInt n = 0; n < of->modes; n++) total += of->matrix[k][m][l][n] * c[l][n];
+        for (PetscInt n = 0; n < of->modes; n++) total += row[l * of->modes + n] * c[l][n];
       d[k][m] = factor * turned[of->body][k] * total;
     }
 }
@@ -277,12 +278,13 @@ static PetscErrorCode AddConditions(SamElasticity e, SamConditions conditions)
     const SamCompliance c = ((const Bodies *)e->data)->of[b];
 
     for (PetscInt l = 0; c && l < c->cases; l++) {
-      const SamCondition factor = {.name    = name,
-                                   .unit    = "1",
-                                   .text    = "factor on a load case of a body",
-                                   .range   = SAM_RANGE_ANY,
-                                   .option  = PETSC_TRUE,
-                                   .couples = PETSC_TRUE};
+      const SamCondition factor = {.name      = name,
+                                   .unit      = "1",
+                                   .text      = "factor on a load case of a body",
+                                   .range     = SAM_RANGE_ANY,
+                                   .option    = PETSC_TRUE,
+                                   .couples   = PETSC_TRUE,
+                                   .conjugate = PETSC_TRUE};
 
       NameCase(c, l, "", name);
       PetscCall(SamConditionsAdd(conditions, &factor, NULL));
@@ -318,7 +320,8 @@ static PetscErrorCode AddOffset(SamElasticity e, SamConditions conditions, SamSt
 
       if (adds && factor != 0) *adds = PETSC_TRUE;
       for (PetscInt k = 0; k < 3; k++)
-        for (PetscInt m = 0; m < c->modes; m++) d[b][k][m] += (b ? 1 : -1) * turned[b][k] * factor * c->field[l][k][m];
+        for (PetscInt m = 0; m < c->modes; m++)
+          d[b][k][m] += (b ? 1 : -1) * turned[b][k] * factor * SamComplianceCase(c, l, k)[m];
     }
   }
   for (Kind kind = NORMAL; kind <= TANGENTIAL; kind++) {
@@ -382,7 +385,7 @@ static PetscErrorCode SumLoads(SamElasticity e, SamState state, Vec pressure, Ve
       double load = 0;
 
       for (PetscInt k = 0; k < 3; k++)
-        for (PetscInt m = 0; m < c->modes; m++) load += (b ? 1 : -1) * c->field[l][k][m] * sums[k][m];
+        for (PetscInt m = 0; m < c->modes; m++) load += (b ? 1 : -1) * SamComplianceCase(c, l, k)[m] * sums[k][m];
       NameCase(c, l, LOAD, name);
       *SamStateNumbers(state, SamStateFindNumber(state, name), SAM_TRIED) = load;
     }
@@ -479,7 +482,8 @@ static PetscBool Couples(SamCompliance c)
   double most = 0;
 
   for (PetscInt k = 0; k < 2 * c->modes; k++)
-    for (PetscInt m = 0; m < c->modes; m++) most = PetscMax(most, fabs(c->matrix[k % 2][k / 2][2][m]));
+    for (PetscInt m = 0; m < c->modes; m++)
+      most = PetscMax(most, fabs(SamComplianceRow(c, k % 2, k / 2)[2 * c->modes + m]));
   return most > 0 || c->cases ? PETSC_TRUE : PETSC_FALSE;
 }
 
@@ -507,19 +511,36 @@ static PetscErrorCode NotePatch(SamElasticity e, const SamOptions *from, SamComp
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Checks that the constants of body b are those in the file of compliance c. */
+static PetscErrorCode CheckBody(SamElasticity e, const SamOptions *from, SamCompliance c, PetscInt b, double young,
+                                double poisson)
+{
+  const SamMaterial *last = SamBodySubstrate(e->pair->body[b]);
+  const double       own = (double)last->young, ratio = (double)last->poisson;
+
+  PetscFunctionBegin;
+  PetscCheck(own == young || fabs(own - young) <= 1e-6 * young, from->comm, SAM_ERR_USER,
+             "-%sbody%" PetscInt_FMT "_compliance %s: was made for body %" PetscInt_FMT
+             " with young %.10g, not %.10g: make them equal",
+             SamOptionsPrefix(from), c->body + 1, c->file, b + 1, young, own);
+  PetscCheck(isinf(own) || fabs(ratio - poisson) <= 1e-6, from->comm, SAM_ERR_USER,
+             "-%sbody%" PetscInt_FMT "_compliance %s: was made for body %" PetscInt_FMT
+             " with poisson %.10g, not %.10g: make them equal",
+             SamOptionsPrefix(from), c->body + 1, c->file, b + 1, poisson, ratio);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Checks that the compliance was computed for the kernel to which it is added. */
 static PetscErrorCode CheckConstants(SamElasticity e, const SamOptions *from, SamCompliance c)
 {
-  const SamMaterial *last  = SamBodySubstrate(e->pair->body[c->body]);
-  const double       young = (double)last->young, poisson = (double)last->poisson;
+  const SamCompliance other = ((const Bodies *)e->data)->of[1 - c->body];
 
   PetscFunctionBegin;
-  PetscCheck(young == c->young || fabs(young - c->young) <= 1e-6 * c->young, from->comm, SAM_ERR_USER,
-             "-%sbody%" PetscInt_FMT "_compliance %s: is of a body with young %.10g, not %.10g: make them equal",
-             SamOptionsPrefix(from), c->body + 1, c->file, c->young, young);
-  PetscCheck(isinf(young) || fabs(poisson - c->poisson) <= 1e-6, from->comm, SAM_ERR_USER,
-             "-%sbody%" PetscInt_FMT "_compliance %s: is of a body with poisson %.10g, not %.10g: make them equal",
-             SamOptionsPrefix(from), c->body + 1, c->file, c->poisson, poisson);
+  PetscCall(CheckBody(e, from, c, c->body, c->young, c->poisson));
+  if (!SamComplianceIsPair(c)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(CheckBody(e, from, c, 0, c->young1, c->poisson1));
+  PetscCheck(!other, from->comm, SAM_ERR_USER, "-%s%s %s: -%s%s %s is of a pair and has body 1 already: omit the first",
+             SamOptionsPrefix(from), names[0], other->file, SamOptionsPrefix(from), names[1], c->file);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -543,7 +564,7 @@ static PetscErrorCode Add(SamElasticity *elasticity, const SamOptions *from, Pet
     *elasticity     = e;
     e->traits.patch = PETSC_TRUE;
   }
-  PetscCall(SamComplianceRead(from->comm, b, e->pair->body[b], option, file, &c));
+  PetscCall(SamComplianceRead(from->comm, b, e->pair, option, file, &c));
   ((Bodies *)e->data)->of[b] = c;
   PetscCall(CheckConstants(e, from, c));
   PetscCall(NotePatch(e, from, c));

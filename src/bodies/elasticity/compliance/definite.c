@@ -5,6 +5,7 @@
   With K of the half-space on cells, Phi the polynomials' means (modes, cells), A the area of a cell and G =
   A Phi K^-1 Phi', the eigenvalues of K + A Phi'D Phi relative to K are 1 and 1 + those of D G.
 */
+#include <petsam/private/body.h>
 #include <petsam/private/compliance.h>
 #include <math.h>
 #include <petscksp.h>
@@ -52,7 +53,7 @@ static PetscErrorCode FillTable(SamElasticity e, double table[])
 }
 
 /* Computes the lower triangle of K, by columns; K is the compliance of the body against a rigid one. */
-static PetscErrorCode Fill(SamBody body, const double d[2], double matrix[])
+static PetscErrorCode Fill(SamCompliance c, SamPair both, const double d[2], double matrix[])
 {
   const PetscReal   width[2] = {LAGS * d[0], LAGS * d[1]}, center[2] = {0, 0};
   const SamMaterial rigid = {.young = INFINITY};
@@ -64,7 +65,7 @@ static PetscErrorCode Fill(SamBody body, const double d[2], double matrix[])
 
   PetscFunctionBegin;
   PetscCall(SamBodyCreate(1, &rigid, &above));
-  PetscCall(SamPairCreate(above, body, &pair));
+  PetscCall(SamPairCreate(SamComplianceIsPair(c) ? SamPairBody(both, 0) : above, SamPairBody(both, c->body), &pair));
   PetscCall(SamBodyDestroy(&above));
   PetscCall(SamGridCreate(PETSC_COMM_SELF, (PetscInt[]){LAGS, LAGS}, width, center, &grid));
   PetscCall(SamElasticityCreate(grid, pair, &e));
@@ -103,7 +104,7 @@ static void FillMeans(SamCompliance c, const double d[2], double means[])
 }
 
 /* Computes D G, the compliance of the tractions on the cells relative to the half-space's, minus the identity. */
-static PetscErrorCode CreateRelative(SamCompliance c, SamBody body, Mat d, PetscInt n, Mat *relative)
+static PetscErrorCode CreateRelative(SamCompliance c, SamPair pair, Mat d, PetscInt n, Mat *relative)
 {
   const double side[2] = {2 * c->half[0] / SIDE, 2 * c->half[1] / SIDE};
   Mat          matrix, means, solved, g;
@@ -113,7 +114,7 @@ static PetscErrorCode CreateRelative(SamCompliance c, SamBody body, Mat d, Petsc
   PetscCall(MatCreateSeqDense(PETSC_COMM_SELF, UNKNOWNS, UNKNOWNS, NULL, &matrix));
   PetscCall(MatCreateSeqDense(PETSC_COMM_SELF, UNKNOWNS, n, NULL, &means));
   PetscCall(MatDenseGetArray(matrix, &values));
-  PetscCall(Fill(body, side, values));
+  PetscCall(Fill(c, pair, side, values));
   PetscCall(MatDenseRestoreArray(matrix, &values));
   PetscCall(MatDenseGetArray(means, &values));
   FillMeans(c, side, values);
@@ -157,7 +158,7 @@ static PetscErrorCode FindEnds(Mat matrix, PetscInt n, double *least, double *mo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamComplianceEnds(SamCompliance c, SamBody of, double *least, double *most)
+PetscErrorCode SamComplianceEnds(SamCompliance c, SamPair pair, double *least, double *most)
 {
   const PetscInt n = 3 * c->modes;
   double        *values, entry = 0;
@@ -168,11 +169,11 @@ PetscErrorCode SamComplianceEnds(SamCompliance c, SamBody of, double *least, dou
   PetscCall(MatCreateSeqDense(PETSC_COMM_SELF, n, n, NULL, &d));
   PetscCall(MatDenseGetArray(d, &values));
   for (PetscInt k = 0; k < n * n; k++) {
-    values[k] = c->matrix[k % n / c->modes][k % c->modes][k / n / c->modes][k / n % c->modes];
+    values[k] = c->matrix[k];
     entry     = PetscMax(entry, fabs(values[k]));
   }
   PetscCall(MatDenseRestoreArray(d, &values));
-  if (!isinf(c->young)) PetscCall(CreateRelative(c, of, d, n, &relative));
+  if (!isinf(c->young)) PetscCall(CreateRelative(c, pair, d, n, &relative));
   PetscCall(MatNorm(relative ? relative : d, NORM_FROBENIUS, &norm));
   *least = *most = NAN; /* for matrices that are not finite, for which LAPACK would end the process with exit code 0 */
   if (isfinite(norm)) PetscCall(FindEnds(relative ? relative : d, n, least, most));

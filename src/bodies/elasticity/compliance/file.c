@@ -93,7 +93,7 @@ static PetscErrorCode ReadBasis(SamFile f, SamCompliance c)
 }
 
 /* Reads the matrix and keeps its symmetric part. */
-static PetscErrorCode ReadMatrix(SamFile f, SamCompliance c)
+static PetscErrorCode ReadMatrix(SamFile f, SamCompliance c, double matrix[])
 {
   const hsize_t  m     = (hsize_t)c->modes;
   const PetscInt n     = 3 * c->modes;
@@ -104,7 +104,8 @@ static PetscErrorCode ReadMatrix(SamFile f, SamCompliance c)
   PetscCall(PetscMalloc1(n * n, &all));
   PetscCall(ReadNumbers(f, "/compliance", &shape, all));
   for (PetscInt r = 0; r < n; r++)
-    for (PetscInt s = 0; s < n; s++) c->matrix[r % 3][r / 3][s % 3][s / 3] = 0.5 * (all[r * n + s] + all[s * n + r]);
+    for (PetscInt s = 0; s < n; s++)
+      matrix[(r % 3 * c->modes + r / 3) * n + s % 3 * c->modes + s / 3] = 0.5 * (all[r * n + s] + all[s * n + r]);
   PetscCall(PetscFree(all));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -221,7 +222,7 @@ static PetscErrorCode ReadPoints(SamFile f, SamCompliance c, const char name[], 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Reads the load cases, in the order of their names. */
+/* Reads the names of the load cases, in their order. */
 static PetscErrorCode ReadCases(SamFile f, SamCompliance c)
 {
   const hid_t group = H5Lexists(f->id, "/cases", H5P_DEFAULT) > 0 ? H5Gopen2(f->id, "/cases", H5P_DEFAULT) : -1;
@@ -233,11 +234,9 @@ static PetscErrorCode ReadCases(SamFile f, SamCompliance c)
              "-%s %s: has %lld load cases: expected at most %d", f->option, f->filename, (long long)info.nlinks,
              SAM_COMPLIANCE_CASES);
   for (hsize_t k = 0; k < info.nlinks; k++) {
-    char         *name = c->name[c->cases], path[64];
+    char         *name = c->name[c->cases];
     const ssize_t size =
       H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, k, name, sizeof(c->name[0]), H5P_DEFAULT);
-    Shape     shape = {2, {(hsize_t)c->modes, 3}, 0};
-    double    field[SAM_COMPLIANCE_MODES][3];
     PetscBool good = size > 0 && size <= SAM_CASE_NAME;
 
     for (const char *letter = name; *letter && good; letter++)
@@ -245,16 +244,41 @@ static PetscErrorCode ReadCases(SamFile f, SamCompliance c)
     PetscCheck(good, f->comm, SAM_ERR_FILE,
                "-%s %s: a load case is named %s: expected at most %d letters, digits and underscores", f->option,
                f->filename, name, SAM_CASE_NAME);
-    (void)snprintf(path, sizeof(path), "/cases/%s/field", name);
-    if (H5Lexists(f->id, path, H5P_DEFAULT) > 0) {
-      PetscCall(ReadPoints(f, c, name, field));
-    } else {
-      (void)snprintf(path, sizeof(path), "/cases/%s/displacement", name);
-      PetscCall(ReadNumbers(f, path, &shape, field[0]));
-    }
-    for (PetscInt m = 0; m < 3 * c->modes; m++) c->field[c->cases][m % 3][m / 3] = field[m / 3][m % 3];
     c->cases++;
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Reads the displacements of the load cases. */
+static PetscErrorCode ReadFields(SamFile f, SamCompliance c, double fields[])
+{
+  PetscFunctionBegin;
+  for (PetscInt l = 0; l < c->cases; l++, fields += 3 * c->modes) {
+    Shape  shape = {2, {(hsize_t)c->modes, 3}, 0};
+    char   path[64];
+    double field[SAM_COMPLIANCE_MODES][3];
+
+    (void)snprintf(path, sizeof(path), "/cases/%s/field", c->name[l]);
+    if (H5Lexists(f->id, path, H5P_DEFAULT) > 0) {
+      PetscCall(ReadPoints(f, c, c->name[l], field));
+    } else {
+      (void)snprintf(path, sizeof(path), "/cases/%s/displacement", c->name[l]);
+      PetscCall(ReadNumbers(f, path, &shape, field[0]));
+    }
+    for (PetscInt m = 0; m < 3 * c->modes; m++) fields[m % 3 * c->modes + m / 3] = field[m / 3][m % 3];
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Reads the matrix and the fields of the load cases, one after the other. */
+static PetscErrorCode LookInside(SamFile f, const void *question, void *answer)
+{
+  struct _n_SamCompliance c  = *(const struct _n_SamCompliance *)question;
+  double                 *to = (double *)answer;
+
+  PetscFunctionBegin;
+  PetscCall(ReadMatrix(f, &c, to));
+  PetscCall(ReadFields(f, &c, to + 9 * c.modes * c.modes));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -316,13 +340,30 @@ PetscErrorCode SamComplianceReadStress(MPI_Comm comm, SamCompliance c, double va
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Reads the constants of body 1 if the file is that of a pair. */
+static PetscErrorCode ReadOther(SamFile f, SamCompliance c)
+{
+  PetscFunctionBegin;
+  c->young1 = c->poisson1 = NAN;
+  if (!SamFileHasAttribute(f, "young1")) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ReadAttribute(f, "young1", &c->young1));
+  PetscCall(ReadAttribute(f, "poisson1", &c->poisson1));
+  PetscCheck(c->body == 1, f->comm, SAM_ERR_FILE,
+             "-%s %s: is of a pair of bodies: give it to -body2_compliance alone, which then contains body 1 too",
+             f->option, f->filename);
+  PetscCheck(c->young1 > 0 && isfinite(c->young1) && c->poisson1 > -1 && c->poisson1 <= 0.5, f->comm, SAM_ERR_FILE,
+             "-%s %s: young1 is %.6g, poisson1 %.6g: expected a finite modulus > 0 and a ratio from -1 to 0.5",
+             f->option, f->filename, c->young1, c->poisson1);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Look(SamFile f, const void *question, void *answer)
 {
   SamCompliance c = (SamCompliance)answer;
   double        version;
 
   PetscFunctionBegin;
-  (void)question;
+  c->body = *(const PetscInt *)question;
   PetscCall(ReadAttribute(f, "petsam_compliance", &version));
   PetscCheck(version == 1, f->comm, SAM_ERR_FILE, "-%s %s: petsam_compliance is %.6g: expected 1: use a newer petsam",
              f->option, f->filename, version);
@@ -331,29 +372,33 @@ static PetscErrorCode Look(SamFile f, const void *question, void *answer)
   PetscCheck(c->young > 0 && (isinf(c->young) || (c->poisson > -1 && c->poisson <= 0.5)), f->comm, SAM_ERR_FILE,
              "-%s %s: young is %.6g, poisson %.6g: expected a modulus > 0 and a ratio from -1 to 0.5", f->option,
              f->filename, c->young, c->poisson);
+  PetscCall(ReadOther(f, c));
   PetscCall(ReadBasis(f, c));
-  PetscCall(ReadMatrix(f, c));
   PetscCall(ReadCases(f, c));
   if (H5Lexists(f->id, "/stress", H5P_DEFAULT) > 0) PetscCall(ReadAxes(f, c, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamComplianceRead(MPI_Comm comm, PetscInt body, SamBody of, const char option[], const char file[],
+PetscErrorCode SamComplianceRead(MPI_Comm comm, PetscInt body, SamPair pair, const char option[], const char file[],
                                  SamCompliance *compliance)
 {
   SamCompliance c;
+  PetscInt      numbers;
   double        least, most;
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&c));
-  *compliance   = c;
-  c->references = 1;
-  PetscCall(SamFileExamine(comm, option, file, NULL, Look, NULL, c, sizeof(*c)));
+  *compliance = c;
+  PetscCall(SamFileExamine(comm, option, file, NULL, Look, &body, c, sizeof(*c)));
   c->checksum   = SamHashBytes(0, (const unsigned char *)c, sizeof(*c));
   c->references = 1;
-  c->body       = body;
+  numbers       = 9 * c->modes * c->modes + 3 * c->cases * c->modes;
+  PetscCall(PetscMalloc1(numbers, &c->matrix));
+  c->field = c->matrix + 9 * c->modes * c->modes;
+  PetscCall(SamFileExamine(comm, option, file, NULL, LookInside, c, c->matrix, sizeof(*c->matrix) * (size_t)numbers));
+  c->checksum = SamHashBytes(c->checksum, (const unsigned char *)c->matrix, sizeof(*c->matrix) * (size_t)numbers);
   PetscCall(PetscStrncpy(c->file, file, sizeof(c->file)));
-  PetscCall(SamComplianceEnds(c, of, &least, &most));
+  PetscCall(SamComplianceEnds(c, pair, &least, &most));
   PetscCheck(least > 0 || (isinf(c->young) && least == 0), comm, SAM_ERR_FILE,
              "-%s %s: under some traction the body would gain energy: the smallest eigenvalue of its compliance is "
              "%.3g of the half-space's, degree %" PetscInt_FMT ", patch %.6g m x %.6g m: use a higher degree or a "
@@ -369,7 +414,10 @@ PetscErrorCode SamComplianceRead(MPI_Comm comm, PetscInt body, SamBody of, const
 PetscErrorCode SamComplianceDestroy(SamCompliance *c)
 {
   PetscFunctionBegin;
-  if (*c && --(*c)->references == 0) PetscCall(PetscFree(*c));
+  if (*c && --(*c)->references == 0) {
+    PetscCall(PetscFree((*c)->matrix));
+    PetscCall(PetscFree(*c));
+  }
   *c = NULL;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
