@@ -693,6 +693,17 @@ def test_compliance_of_a_pair_is_that_of_both_bodies(solve, layer, tmp_path):
         assert l2(getattr(r, name), getattr(plain, name)) < 1e-7, name
 
 
+@pytest.mark.parametrize("pair", (True, False))
+def test_pair_is_measured_against_both_half_spaces(pair, petsam, layer):
+    """A correction that takes 1.5 times the half-space of body 2, or 0.74 of the two together."""
+    file = layer(0.25, 0, 1.5)
+    if pair:
+        paired(file, young=1.0, poisson=0.3)
+    both = {f"body{b}_{name}": value for b in (1, 2) for name, value in (("young", 1), ("poisson", 0.3))}
+    done = petsam({**SPHERE, "grid_n": 8}, both, dict(load_n=1e-4, body2_compliance=file), check=0 if pair else 3)
+    assert pair or "would gain energy" in done.complaint[0]
+
+
 @pytest.mark.parametrize(
     "given, text",
     [
