@@ -681,6 +681,12 @@ class Contact:
         other._call("copy", self._contact)
         return other
 
+    def take(self, other):
+        """Takes over the committed state of another contact of the same options, gap and friction."""
+        if not isinstance(other, Contact) or not other._contact:
+            raise TypeError("take: expected an open Contact")
+        self._call("copy", other._contact)
+
     def reset(self):
         """Resets the contact to bodies that have never touched."""
         self._call("reset")

@@ -1,8 +1,16 @@
-"""Joints: what a structural analysis needs of a contact.
+"""Joints: what a structural analysis needs of a contact, and the structure itself.
 
 interface   contact stiffness, damping and real contact area of a rough interface per area (interface.py)
+structure   patches of contact in a linear structure (structure.py); pair: of a file of petsam-compliance (pair.py)
+backbone    frequency and damping of a mode over its amplitude (backbone.py)
 """
 
+from .backbone import Backbone, BackboneWarning, backbone
 from .interface import Interface, mirrored, of_interface, of_windows
+from .pair import Pair
+from .structure import NoSolution, Patch, Structure
 
-__all__ = ["Interface", "mirrored", "of_interface", "of_windows"]
+__all__ = [
+    "Backbone", "BackboneWarning", "Interface", "NoSolution", "Pair", "Patch", "Structure", "backbone", "mirrored",
+    "of_interface", "of_windows",
+]  # fmt: skip

@@ -1,15 +1,21 @@
-"""Stiffness per area of a joint's contact, for a structural analysis.
+"""Stiffness and damping of a joint, for a structural analysis.
 
     petsam-joint stiffness scan.h5 --pressure 1MPa:50MPa:12 --friction 0.4 --body1 steel --body2 steel -o interface
+    petsam-joint backbone lap.h5 --contact lap.opts --preload B1=12e3 --sensor TIP:z --amplitudes 1um:100um:12 -o lap
 
-scan.h5 is a surface or a separation that petsam-surface has written. Prints, for each nominal pressure, the normal and
-the tangential stiffness per area of the interface alone, the real contact area, and the energy of a loop of the shear;
-with the standard deviation of five windows of the surface, and the exponent chi and the weight beta of an Iwan element.
--o NAME writes NAME.csv with all numbers, NAME.json, elements for tmdsimpy and pyHarm, NAME.inp, the interaction for a
-deck of Abaqus, and NAME.png.
+stiffness: scan.h5 is a surface or a separation that petsam-surface has written. Prints, for each nominal pressure, the
+normal and the tangential stiffness per area of the interface alone, the real contact area, and the energy of a loop of
+the shear; with the standard deviation of five windows of the surface, and the exponent chi and the weight beta of an
+Iwan element. -o NAME writes NAME.csv with all numbers, NAME.json, elements for tmdsimpy and pyHarm, NAME.inp, the
+interaction for a deck of Abaqus, and NAME.png.
+
+backbone: lap.h5 is a pair of bodies with bolts and modes that petsam-compliance --pair has written. Tightens the bolts
+and prints frequency and damping of a mode over its amplitude, by friction in the joint alone. -o NAME writes NAME.csv
+and NAME.png.
 """
 
 import argparse
+import os
 import re
 import sys
 import warnings
@@ -21,7 +27,10 @@ from ..contact import AdviceWarning
 from ..errors import FILE, USAGE, Error, Parser, fail, guarded, joined, short
 from ..files import need_regular, need_replaceable
 from ..plot.saving import DPI, add_resolution, write
+from ..surface.lengths import lengths
 from . import interface
+from .backbone import BackboneWarning, backbone
+from .pair import Pair, truncated
 
 MATERIALS = {"steel": (210e9, 0.3), "aluminium": (70e9, 0.33), "titanium": (115e9, 0.32), "nickel": (205e9, 0.3)}
 PASCALS = {"": 1.0, "Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9}
@@ -94,6 +103,65 @@ def read_separation(path):
         raise Unreadable(f"{path}: no surface of petsam-surface: {reason}") from error
 
 
+def frictions(text):
+    """Reader of NAME=NUMBER for argparse."""
+    name, _, number = text.partition("=")
+    try:
+        value = float(number)
+    except ValueError:
+        value = -1.0
+    if not name or not 0.0 <= value < float("inf"):
+        raise argparse.ArgumentTypeError(f"{short(text) or repr('')}: expected NAME=FORCE in N, such as B1=12e3")
+    return name, value
+
+
+def amplitude_range(text):
+    """Reader of amplitudes for argparse: FIRST:LAST:COUNT in geometric steps, or lengths separated by commas, m."""
+    words = text.split(":")
+    if len(words) == 1:
+        found = np.array(lengths(text))
+    elif len(words) == 3 and words[2].isdigit() and 2 <= int(words[2]) <= 1000:
+        found = np.geomspace(*(lengths(word)[0] for word in words[:2]), int(words[2]))
+    else:
+        found = np.zeros(1)
+    if not np.all((found > 0.0) & np.isfinite(found)):
+        what = "expected FIRST:LAST:COUNT, or lengths above 0 separated by commas: 1um:100um:12"
+        raise argparse.ArgumentTypeError(f"{short(text)}: {what}")
+    return found
+
+
+def _stiffness_options(one):
+    group = one.add_argument_group("stiffness")
+    group.add_argument("--pressure", type=pressures, help="nominal pressures (Pa): FIRST:LAST:COUNT or P,P,...")
+    group.add_argument("--friction", type=float, help="coefficient of friction")
+    for body in "12":
+        group.add_argument(
+            f"--body{body}", type=material, metavar="MATERIAL",
+            help=f"material of body {body}: {', '.join(MATERIALS)}, or Young's modulus and Poisson's ratio, 210GPa,0.3",
+        )  # fmt: skip
+    group.add_argument("--hardness", type=stress, help="maximum pressure (Pa), where the surfaces yield")
+    group.add_argument("--shear", type=float, help="shear of the loop over friction times pressure (0.5)")
+    group.add_argument("--periodic", action="store_true", default=None, help="the surface repeats itself: no windows")
+    group.add_argument("--area", type=float, help="area of the elements in NAME.json, m2 (1: they are per area)")
+
+
+def _backbone_options(one):
+    group = one.add_argument_group("backbone")
+    group.add_argument("--contact", metavar="NAME", help="file of petsam's options: -grid_n, -friction, -gap_type, ...")
+    group.add_argument(
+        "--preload", type=frictions, action="append", metavar="BOLT=N",
+        help="initial tension of a bolt, N; may be repeated: bolts are tightened in this order",
+    )  # fmt: skip
+    group.add_argument("--mode", type=int, help="number of the mode while all that touches sticks (1)")
+    group.add_argument("--sensor", metavar="NAME:D", help="where the amplitude is, and its direction x, y or z")
+    group.add_argument("--amplitudes", type=amplitude_range, help="at the sensor: FIRST:LAST:COUNT, such as 1um:0.1mm:12")
+    group.add_argument("--damping", type=float, help="damping of the material, as a part of critical damping (0)")
+    group.add_argument(
+        "--degree-check", action="store_true", default=None,
+        help="also the largest amplitude with polynomials of a degree lower by 2",
+    )  # fmt: skip
+
+
 def _parser():
     one = Parser(
         prog="petsam-joint",
@@ -101,40 +169,47 @@ def _parser():
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )
-    one.add_argument("action", choices=["stiffness"], help="stiffness: stiffness and damping per area of an interface")
-    one.add_argument("surface", help="file of petsam-surface: heights, or a separation")
-    one.add_argument(
-        "--pressure", type=pressures, required=True, help="nominal pressures (Pa): FIRST:LAST:COUNT or P,P,..."
-    )
-    one.add_argument("--friction", type=float, required=True, help="coefficient of friction")
-    for body in "12":
-        one.add_argument(
-            f"--body{body}", type=material, required=True, metavar="MATERIAL",
-            help=f"material of body {body}: {', '.join(MATERIALS)}, or Young's modulus and Poisson's ratio, 210GPa,0.3",
-        )  # fmt: skip
-    one.add_argument("--hardness", type=stress, help="maximum pressure (Pa), where the surfaces yield")
-    one.add_argument("--shear", type=float, default=0.5, help="shear of the loop over friction times pressure (0.5)")
-    one.add_argument("--steps", type=int, default=8, help="load steps of a quarter of the loop (8)")
-    one.add_argument("--periodic", action="store_true", help="the surface repeats itself: no windows of it")
-    one.add_argument(
-        "--area", type=float, default=1.0, help="area of the elements in NAME.json, m2 (1: they are per area)"
-    )
-    one.add_argument("-o", "--output", metavar="NAME", help="write NAME.csv, NAME.json, NAME.inp and NAME.png")
+    one.add_argument("action", choices=list(ACTIONS), help="what is computed")
+    one.add_argument("file", help="of petsam-surface (stiffness) or of petsam-compliance --pair (backbone)")
+    one.add_argument("--steps", type=int, default=8, help="load steps of a quarter, of a half cycle of a backbone (8)")
+    one.add_argument("-o", "--output", metavar="NAME", help="write NAME.csv and NAME.png, and other files of NAME")
     add_resolution(one)
+    _stiffness_options(one)
+    _backbone_options(one)
     return one
 
 
+def _need(reader, args):
+    """Ends with an error unless the options are those of the action; sets those that were not given."""
+    for action, (needed, usual, _) in ACTIONS.items():
+        for name, value in {**dict.fromkeys(needed), **usual}.items():
+            given = getattr(args, name)
+            option = f"--{name.replace('_', '-')}"
+            if action != args.action and given is not None:
+                reader.error(f"{option} is for petsam-joint {action}: remove it")
+            if action == args.action and given is None and name in needed:
+                reader.error(f"petsam-joint {action} needs {option}")
+            if action == args.action and given is None:
+                setattr(args, name, value)
+
+
 def _run():
-    args = _parser().parse_args(joined(sys.argv[1:]))
+    reader = _parser()
+    args = reader.parse_args(joined(sys.argv[1:]))
+    _need(reader, args)
     if args.steps < 1:
         raise Error(f"--steps {args.steps}: expected 1 or more")
     if args.dpi != DPI and not args.output:
         raise Error("--dpi: is for the picture, which --output writes; give both or none")
+    return ACTIONS[args.action][2](args)
+
+
+def _stiffness(args):
     if not 0.0 < args.area < float("inf"):
         raise Error(f"--area {args.area:g}: expected an area above 0, in m2")
     for ending in (".csv", ".json", ".inp", ".png") if args.output else ():
         need_replaceable(args.output + ending)
-    separation, spacing = read_separation(args.surface)
+    separation, spacing = read_separation(args.file)
     options = dict(friction=args.friction, shear=args.shear, steps=args.steps)
     for body, (young, poisson) in (("body1", args.body1), ("body2", args.body2)):
         options.update({f"{body}_young": young, f"{body}_poisson": poisson})
@@ -142,19 +217,96 @@ def _run():
         options["pressure_limit"] = args.hardness
     compute = interface.of_interface if args.periodic else interface.of_windows
     if not args.periodic:
-        options["report"] = lambda k, count: print(f"window {k} of {count}", file=sys.stderr, flush=True)
+        options["report"] = lambda k, count: _tell(f"window {k} of {count}")
     with warnings.catch_warnings(record=True) as found:
         warnings.simplefilter("always", AdviceWarning)
         result = compute(separation, spacing, args.pressure, **options)
-    print("\n".join(result.table()))
-    for one in found:
-        print(f"petsam-joint: warning: {one.message}", file=sys.stderr)
+    _print(result, found)
     if args.output:
         result.to_csv(args.output + ".csv")
         result.to_json(args.output + ".json", args.area)
         result.to_abaqus(args.output + ".inp")
         write(result.plot(), args.output + ".png", args.dpi)
     return 0
+
+
+def _tell(text):
+    print(text, file=sys.stderr, flush=True)
+
+
+def _print(result, found):
+    """Prints the table and the warnings."""
+    print("\n".join(result.table()))
+    for one in found:
+        print(f"petsam-joint: warning: {one.message}", file=sys.stderr)
+
+
+def _sensor(text, pair):
+    """(modes,) displacement of the sensor NAME:D by each modal coordinate; None: there is none."""
+    if text is None:
+        return None
+    name, _, direction = text.partition(":")
+    if name not in pair.sensors or direction not in ("x", "y", "z"):
+        raise Error(
+            f"--sensor {short(text)}: expected NAME:x, :y or :z with a sensor of {pair.path}: "
+            f"{', '.join(pair.sensors) or 'it has none; make it with --sensor NAME=NODE'}"
+        )
+    return pair.sensors[name][:, "xyz".index(direction)]
+
+
+def _backbone(args):
+    for ending in (".csv", ".png") if args.output else ():
+        need_replaceable(args.output + ending)
+    need_regular(args.contact)
+    preload = dict(args.preload or [])
+    given = dict(mode=args.mode, damping=args.damping, steps=args.steps)
+
+    def compute(path, amplitudes, **more):
+        pair = Pair(path, preload, options_file=args.contact)
+        sensor = _sensor(args.sensor, pair)
+        return pair, backbone(pair.structure, amplitudes, sensor=sensor, **given, **more)
+
+    with warnings.catch_warnings(record=True) as found:
+        warnings.simplefilter("always", BackboneWarning)
+        count = len(args.amplitudes)
+        tell = lambda k, _: _tell(f"amplitude {k} of {count}")  # noqa: E731
+        pair, result = compute(args.file, args.amplitudes, report=tell)
+        lines = _degree_lines(args, compute, result) if args.degree_check else []
+    for name, tension in pair.tensions.items():
+        print(f"bolt {name}: {tension:.6g} N left of {preload.get(name, 0.0):g} N after all are tightened")
+    _print(result, found)
+    print("\n".join(lines), end="\n" if lines else "")
+    if args.output:
+        result.to_csv(args.output + ".csv")
+        write(result.plot(), args.output + ".png", args.dpi)
+    return 0
+
+
+def _degree_lines(args, compute, result):
+    """The largest amplitude with fewer polynomials."""
+    fewer = truncated(args.file)
+    try:
+        _, other = compute(fewer, args.amplitudes[-1:])
+    finally:
+        os.remove(fewer)
+    frequency = other.frequency[-1] / result.frequency[-1] - 1.0
+    damping = other.damping[-1] / result.damping[-1] - 1.0 if result.damping[-1] else float("nan")
+    return ["", f"degree lower by 2: frequency {frequency:+.1e}, damping {damping:+.1e} at the largest amplitude"]
+
+
+# for each action: options it needs, others with their defaults, the function
+ACTIONS = {
+    "stiffness": (
+        ("pressure", "friction", "body1", "body2"),
+        dict(hardness=None, shear=0.5, periodic=False, area=1.0),
+        _stiffness,
+    ),
+    "backbone": (
+        ("contact", "amplitudes"),
+        dict(preload=None, mode=1, sensor=None, damping=0.0, degree_check=False),
+        _backbone,
+    ),
+}
 
 
 def _main():

@@ -1,0 +1,236 @@
+"""Frequency and damping of a mode over its amplitude: quasi-static modal analysis of a Structure.
+
+The structure is loaded by alpha M phi_0, phi_0 being a mode while all that touches sticks. With q = phi_0'M u of a
+closed cycle between +alpha and -alpha, and W, what all patches dissipate in it,
+
+    w^2 = 2 alpha/(q_max - q_min)      zeta = W/(pi alpha (q_max - q_min))      A = (q_max - q_min)/2
+
+(R. M. Lacayo, M. S. Allen, Mech. Syst. Signal Process. 118 (2019) 133). Each amplitude begins from the same preload.
+Its cycle is repeated until energy and loop do not change, as contacts shake down first.
+"""
+
+import csv
+import warnings
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ..errors import Error
+
+STEPS = 8  # load steps of a half cycle
+SETTLED = 1e-3  # change of the energy from one cycle to the next at which it counts as settled
+CYCLES = 12  # largest number of cycles of an amplitude
+AGREE = 0.02  # largest difference of the dissipated energy and the loop's, relative
+FEW = 10  # slipping cells below which the energy is that of the grid
+COLUMNS = {
+    "alpha": ("m/s2 kg^0.5", "modal force"),
+    "modal_amplitude": ("m kg^0.5", "modal amplitude"),
+    "amplitude": ("m", "displacement at the sensor"),
+    "acceleration": ("m/s2", "acceleration at the sensor"),
+    "frequency": ("Hz", "frequency"),
+    "damping": ("1", "damping by friction, as a part of critical damping"),
+    "viscous": ("1", "damping of the material, as a part of critical damping"),
+    "energy": ("J", "dissipated energy of a cycle"),
+    "loop": ("J", "energy of the loop of force and displacement"),
+    "slipping": ("1", "cells that slip, all patches"),
+    "cycles": ("1", "cycles until the energy had settled"),
+}
+
+
+class BackboneWarning(UserWarning):
+    """Numbers of a backbone that the grid, the patch or the method does not give."""
+
+
+@dataclass
+class Cycle:
+    """One cycle: modal displacement at the reversals, energies, slipping cells, areas at the extremes."""
+
+    ends: tuple
+    energies: np.ndarray
+    loop: float
+    slipping: int
+    areas: tuple = ()
+
+
+@dataclass
+class Backbone:
+    """Numbers over amplitude, each an array: alpha, amplitude, frequency, damping ... (COLUMNS).
+
+    linear    frequency (Hz) of the mode while all that touches sticks
+    shape     the mode in modal coordinates
+    patches   dissipated energy of a cycle in each patch, (amplitudes, patches), J
+    names     names of the patches
+    """
+
+    linear: float
+    shape: np.ndarray
+    numbers: dict
+    patches: np.ndarray
+    names: list = field(default_factory=list)
+
+    def __getattr__(self, name):
+        if name != "numbers" and name in self.numbers:
+            return self.numbers[name]
+        raise AttributeError(name)
+
+    def table(self):
+        """Lines of a printed table."""
+        lines = [f"mode of {self.linear:.6g} Hz while all that touches sticks", ""]
+        lines.append(f"{'amplitude/m':>12} {'accel./(m/s2)':>14} {'f/Hz':>11} {'zeta':>10} {'W/J':>10} {'slip':>6} cycles")
+        for k in range(len(self.alpha)):
+            lines.append(
+                f"{self.amplitude[k]:12.4e} {self.acceleration[k]:14.4e} {self.frequency[k]:11.6g} "
+                f"{self.damping[k]:10.4e} {self.energy[k]:10.3e} {self.slipping[k]:6.0f} {self.cycles[k]:6.0f}"
+            )
+        return lines
+
+    def to_csv(self, path):
+        """Writes all numbers, with names and units in the first line, and the energy of each patch."""
+        with open(path, "w", newline="", encoding="utf-8") as file:
+            rows = csv.writer(file)
+            head = [f"{name} ({unit})" for name, (unit, _) in COLUMNS.items()]
+            rows.writerow(head + [f"energy_{name} (J)" for name in self.names])
+            for k in range(len(self.alpha)):
+                values = [self.numbers[name][k] for name in COLUMNS] + list(self.patches[k])
+                rows.writerow([f"{value:.10g}" for value in values])
+
+    def plot(self):
+        """A figure of frequency and damping over the amplitude."""
+        from ..plot.style import COLORS, STYLE, plt
+
+        with plt.rc_context(STYLE):
+            figure, axes = plt.subplots(1, 2, figsize=(8.0, 3.4), layout="constrained")
+            for axis, values, label in zip(axes, (self.frequency, 100 * (self.damping + self.viscous)), LABELS):
+                axis.semilogx(self.amplitude, values, marker="o", markersize=3, color=COLORS[0])
+                axis.set_xlabel("amplitude / m")
+                axis.set_ylabel(label)
+            axes[0].axhline(self.linear, linewidth=0.8, linestyle="--", color="0.5")
+        return figure
+
+
+LABELS = ("frequency / Hz", "damping / % of critical")
+
+
+def _settled(one, before):
+    """True if a cycle repeats the one before."""
+    now, then = one.energies.sum(), before.energies.sum()
+    reach, last = np.ptp(one.ends), np.ptp(before.ends)
+    return abs(now - then) <= SETTLED * now and abs(reach - last) <= SETTLED * reach
+
+
+class Sweep:
+    """The cycles of a structure along one of its stuck modes, from the preload in which the structure is."""
+
+    def __init__(self, structure, mode=1, steps=STEPS):
+        self.preload, self.work, self.steps = structure, structure.copy(), steps
+        omegas, shapes = structure.stuck_modes()
+        if not 1 <= mode <= len(omegas):
+            raise Error(f"mode {mode}: the structure has modes 1 to {len(omegas)}")
+        self.omega, self.shape = omegas[mode - 1], shapes[:, mode - 1]
+        self.tangent = structure.tangent()
+        z, a = structure.respond(self.tangent, self.shape)
+        self.unit = z, self.tangent @ z, a
+        self._warn_of_mode(mode)
+
+    def _warn_of_mode(self, mode):
+        alone = self.preload.omega[np.argmin(np.abs(self.preload.omega - self.omega))] if self.preload.omega.size else 0.0
+        if abs(alone - self.omega) <= 1e-6 * self.omega:
+            warnings.warn(
+                f"mode {mode} of {self.omega / (2 * np.pi):.6g} Hz is one without contact: it does not move the "
+                "patches, and friction does not damp it; take another mode",
+                BackboneWarning,
+                stacklevel=4,
+            )
+
+    def _go(self, start, end, alpha):
+        """Steps from one factor of alpha to another; returns modal displacements and energies of each step."""
+        scale = tuple(alpha * np.abs(one) for one in self.unit)
+        found, energies, tangent = [], [], self.tangent
+        for part in np.linspace(start, end, self.steps + 1)[1:]:
+            force = part * alpha * self.shape
+            tangent = self.work.step(force, tangent=tangent, scale=scale)
+            found.append(self.shape @ self.work.modal(force, self.work.loads, self.work.a))
+            energies.append([patch.number("dissipated_energy") for patch in self.work.patches])
+        return np.array(found), np.array(energies)
+
+    def cycles(self, alpha):
+        """Cycles between +alpha and -alpha until they repeat."""
+        self.work.take(self.preload)
+        up, _ = self._go(0.0, 1.0, alpha)
+        last, before, count = up[-1], None, 0
+        while count < CYCLES:
+            count += 1
+            down, lost = self._go(1.0, -1.0, alpha)
+            slipping = self._slipping()
+            back, more = self._go(-1.0, 1.0, alpha)
+            path = np.concatenate([[last], down, back])
+            forces = alpha * np.concatenate([np.linspace(1, -1, self.steps + 1), np.linspace(-1, 1, self.steps + 1)[1:]])
+            loop = -float(np.sum(0.5 * (path[1:] + path[:-1]) * np.diff(forces)))
+            one = Cycle((down[-1], back[-1]), (lost + more).sum(axis=0), loop, slipping)
+            last = back[-1]
+            if before is not None and _settled(one, before):
+                break
+            before = one
+        return one, count
+
+    def _slipping(self):
+        """Number of cells that slip in the last step of a half cycle."""
+        return int(sum(np.sum(patch.contact.field("state") == 2) for patch in self.work.patches))
+
+
+def backbone(structure, amplitudes, mode=1, sensor=None, damping=0.0, steps=STEPS, names=None, report=None):
+    """The Backbone of a structure in its preload.
+
+    amplitudes  displacements (m) at the sensor of a linear mode: the forces follow from them, and the amplitudes of the
+                results are larger where the joint is softer
+    mode        number of the mode, from 1, by rising frequency while all that touches sticks
+    sensor      (modes,): displacement of the sensor by each modal coordinate; None: amplitudes are modal (m kg^0.5)
+    damping     damping of the material as a part of critical, for that mode
+    report      called with the number of the amplitude and of all of them
+    """
+    sweep = Sweep(structure, mode, steps)
+    sensor = np.ones(1) if sensor is None else np.asarray(sensor, dtype=float)
+    factor = abs(float(sensor @ sweep.shape)) if sensor.size > 1 or structure.modes == 1 else 1.0
+    if not factor:
+        raise Error("sensor: the mode does not move it; take another sensor")
+    rows, patches = [], []
+    for k, amplitude in enumerate(amplitudes):
+        if report:
+            report(k + 1, len(amplitudes))
+        alpha = sweep.omega**2 * amplitude / factor
+        one, count = sweep.cycles(alpha)
+        reach = one.ends[1] - one.ends[0]
+        omega2 = 2.0 * alpha / reach
+        energy = float(one.energies.sum())
+        modal = 0.5 * reach
+        rows.append(
+            [alpha, modal, factor * modal, factor * modal * omega2, np.sqrt(omega2) / (2.0 * np.pi)]
+            + [energy / (np.pi * alpha * reach), damping, energy, one.loop, one.slipping, count]
+        )
+        patches.append(one.energies)
+    numbers = {name: np.array(column) for name, column in zip(COLUMNS, np.transpose(rows))}
+    found = Backbone(sweep.omega / (2.0 * np.pi), sweep.shape, numbers, np.array(patches))
+    found.names = list(names or [f"patch{k + 1}" for k in range(len(structure.patches))])
+    _warn(found)
+    return found
+
+
+def _warn(found):
+    """Warns of damping by few cells and of energies that disagree."""
+    few = (found.slipping < FEW) & (found.slipping > 0)
+    if np.any(few):
+        last = found.amplitude[few].max()
+        warnings.warn(
+            f"up to an amplitude of {last:.3g} m fewer than {FEW} cells slip ({found.slipping[few].max():.0f} at the most): "
+            "the damping there is that of the grid; use a finer grid",
+            BackboneWarning,
+            stacklevel=3,
+        )
+    moving = found.cycles >= CYCLES
+    if np.any(moving):
+        warnings.warn(
+            f"at an amplitude of {found.amplitude[moving][0]:.3g} m the energy of a cycle still changes after {CYCLES} "
+            "cycles: the joint shakes down slowly; use more steps, or a smaller amplitude",
+            BackboneWarning,
+            stacklevel=3,
+        )

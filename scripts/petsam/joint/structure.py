@@ -1,0 +1,273 @@
+"""Patches of contact in a linear structure: Patch, Structure.
+
+The structure is given by modes without contact, of unit modal mass, and by what joins the patches statically. A patch
+has coordinates z, values that a step of its contact prescribes: displacements of its body 1, or factors on load cases
+of a body. The loads F that belong to them act on the structure. With a modal force f (of M phi_k for each mode k)
+
+    z = Phi W^-2 f + X F(z) + R a      R'F + f_r = 0      eta_k = (f_k + Phi_k'F)/w_k^2      eta_r = a_r
+
+Phi are the elastic modes in the coordinates, W their angular frequencies, R the modes without stiffness, with their
+amplitudes a, and X the static compliance between coordinates that the contacts themselves do not have. The modes that
+are not kept have no inertia, but their stiffness.
+
+Of one patch whose file has all its compliance X is zero, and z is known without an iteration. Of a body that only its
+contact holds, the loads are known. Otherwise Broyden's method begins with dF/dz of the step before, or of sticking
+contacts at a reversal, and takes the contacts' own stiffness where it is slow.
+"""
+
+import warnings
+
+import numpy as np
+
+from ..contact import AdviceWarning
+from ..errors import Error
+
+TOLERANCE = 1e-7  # of the work of the errors, relative to that of the loads
+ROUGH = 1e-5  # the same where the contact's own tolerance ends the iteration
+SLOW = 0.3  # ratio of successive errors above which the contacts' stiffness is computed
+MOST = 25  # iterations
+# the displacements of body 1 as a step prescribes them, in the order of a contact's stiffness, with their loads
+DISPLACEMENTS = {
+    "disp_z": "load_n", "disp_x": "load_tx", "disp_y": "load_ty",
+    "rot_x": "load_mx", "rot_y": "load_my", "rot_z": "load_mz",
+}  # fmt: skip
+
+
+class NoSolution(Error):
+    """Equilibrium of patches and structure was not found."""
+
+
+class Patch:
+    """A contact of the structure.
+
+    contact      a Contact; its committed state is the one from which the structure's steps begin
+    coordinates  names of what the structure prescribes: "disp_x", "body2_case_mode1", ...
+    held         {name: value} of what every step prescribes besides: load_n=1000.0, or displacements of 0
+    """
+
+    def __init__(self, contact, coordinates, held=None):
+        self.contact, self.coordinates, self.held = contact, list(coordinates), dict(held or {})
+        self.cases = [name for name in self.coordinates if name not in DISPLACEMENTS]
+        self.sign = np.array([-1.0 if name in DISPLACEMENTS else 1.0 for name in self.coordinates])
+        order = [*DISPLACEMENTS, *self.cases]
+        self._rows = [order.index(name) for name in self.coordinates]
+        self._loads = [DISPLACEMENTS.get(name, f"{name}_load") for name in self.coordinates]
+
+    def step(self, values, held=None, loads=False):
+        """Tries a step with these coordinates, or these loads on the structure; returns coordinates and loads."""
+        names = self._loads if loads else self.coordinates
+        given = {**self.held, **(held or {}), **dict(zip(names, self.sign * values if loads else values))}
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", AdviceWarning)  # of small slip zones: the backbone has its own
+            self.contact.try_step(**given)
+        return np.array([self.contact.number(name) for name in self.coordinates]), self.loads()
+
+    def loads(self):
+        """Loads on the structure of the last step."""
+        return self.sign * np.array([self.contact.number(name) for name in self._loads])
+
+    def stiffness(self, reversal):
+        """d(loads on the structure)/d(coordinates)."""
+        k = np.asarray(self.contact.stiffness(reversal, cases=self.cases))
+        return self.sign[:, None] * k[np.ix_(self._rows, self._rows)]
+
+    def number(self, name):
+        """A number of the last step."""
+        return self.contact.number(name)
+
+    def copy(self):
+        """Another patch in the committed state of this one."""
+        return Patch(self.contact.copy(), self.coordinates, self.held)
+
+
+class Structure:
+    """Patches and the structure that joins them.
+
+    patches   list of Patch; all their coordinates, one patch after the other, are the n coordinates below
+    omega     angular frequencies (rad/s) of the elastic modes without contact
+    shapes    (n, modes): the coordinates by a unit of each mode; for coordinates that are the modes themselves
+              np.eye(n)
+    coupling  (n, n): X, the static compliance between coordinates that no contact has of itself; None: none
+    rigid     (n, r): the coordinates by a unit of each mode without stiffness; None: the structure is supported
+    """
+
+    def __init__(self, patches, omega=(), shapes=None, coupling=None, rigid=None):
+        self.patches = list(patches)
+        n = sum(len(patch.coordinates) for patch in self.patches)
+        self.omega = np.asarray(omega, dtype=float)
+        self.shapes = self._matrix(shapes, (n, self.omega.size), "shapes")
+        self.rigid = self._matrix(rigid, (n, None), "rigid")
+        self.coupling = self._matrix(coupling, (n, n), "coupling")
+        if np.any(self.omega <= 0.0):
+            raise Error("omega: expected frequencies above 0; modes of 0 are given by rigid")
+        self.direct = not self.rigid.size and not np.any(self.coupling)
+        floats = n == self.rigid.shape[1] and not any(patch.cases for patch in self.patches)
+        self.given = floats and abs(np.linalg.det(self.rigid)) > 0.0  # the loads are known
+        self.z, self.a, self.loads = np.zeros(n), np.zeros(self.rigid.shape[1]), np.zeros(n)
+        self.iterations = []
+
+    @staticmethod
+    def _matrix(values, shape, name):
+        rows, columns = shape
+        found = np.zeros((rows, columns or 0)) if values is None else np.asarray(values, dtype=float)
+        if found.ndim != 2 or found.shape[0] != rows or columns not in (None, found.shape[1]):
+            raise Error(f"{name}: has the shape {found.shape}: expected ({rows}, {columns or 'modes'})")
+        return found
+
+    @property
+    def modes(self):
+        """Number of modes: elastic ones, then those without stiffness."""
+        return self.omega.size + self.rigid.shape[1]
+
+    def copy(self):
+        """The structure with copies of its contacts."""
+        other = Structure([p.copy() for p in self.patches], self.omega, self.shapes, self.coupling, self.rigid)
+        other.z, other.a, other.loads = self.z, self.a, self.loads
+        return other
+
+    def take(self, other):
+        """Takes over the state of another one of the same patches."""
+        for mine, its in zip(self.patches, other.patches):
+            mine.contact.take(its.contact)
+        self.z, self.a, self.loads = other.z, other.a, other.loads
+
+    # ------------------------------------------------------------ linear
+
+    def _split(self, values):
+        ends = np.cumsum([len(patch.coordinates) for patch in self.patches])[:-1]
+        return np.split(values, ends)
+
+    def tangent(self, reversal=True):
+        """d(loads)/d(coordinates) of all patches."""
+        blocks = [patch.stiffness(reversal) for patch in self.patches]
+        found, at = np.zeros((self.z.size, self.z.size)), 0
+        for block in blocks:
+            found[at : at + len(block), at : at + len(block)] = block
+            at += len(block)
+        return found
+
+    def _system(self, tangent):
+        """Matrix of the changes of z and a."""
+        n, r = self.rigid.shape
+        return np.block([[np.eye(n) - self.coupling @ tangent, -self.rigid], [self.rigid.T @ tangent, np.zeros((r, r))]])
+
+    def _driven(self, force):
+        """Coordinates by a modal force (modes) alone, and the force on modes without stiffness."""
+        elastic, free = np.split(np.asarray(force, dtype=float), [self.omega.size])
+        return self.shapes @ (elastic / self.omega**2), free
+
+    def respond(self, tangent, force):
+        """Changes of z and a by a change of the modal force, where loads follow the tangent."""
+        z, free = self._driven(force)
+        both = _solved(self._system(tangent), np.concatenate([z, -free]))
+        return both[: self.z.size], both[self.z.size :]
+
+    def modal(self, force, loads, a):
+        """Modal coordinates by a modal force and the loads of the patches."""
+        elastic = (np.asarray(force)[: self.omega.size] + self.shapes.T @ loads) / self.omega**2
+        return np.concatenate([elastic, a])
+
+    def stuck_modes(self):
+        """Angular frequencies (rad/s), rising, and shapes (modes, modes), as columns in modal coordinates, while all
+        that touches sticks."""
+        tangent = self.tangent()
+        columns = []
+        for unit in np.eye(self.modes):
+            z, a = self.respond(tangent, unit)
+            columns.append(self.modal(unit, tangent @ z, a))
+        flexibility = np.array(columns).T
+        values, vectors = np.linalg.eigh(0.5 * (flexibility + flexibility.T))
+        if values[0] <= 0.0:
+            raise NoSolution("the structure with sticking contacts has a mode of negative stiffness")
+        order = np.argsort(-values)
+        shapes = vectors[:, order]
+        return 1.0 / np.sqrt(values[order]), shapes * np.sign(shapes[np.argmax(np.abs(shapes), axis=0), range(len(order))])
+
+    # ------------------------------------------------------------ steps
+
+    def _try(self, values, held, loads=False):
+        """Coordinates and loads of a tried step of all patches."""
+        every = held or [None] * len(self.patches)
+        found = [p.step(part, one, loads) for p, part, one in zip(self.patches, self._split(values), every)]
+        return [np.concatenate(parts) for parts in zip(*found)]
+
+    def step(self, force, held=None, tangent=None, scale=None):
+        """Solves a step under a modal force and commits it in all patches; sets z, a and loads.
+
+        held     for each patch {name: value} that it prescribes besides; None: what patches have
+        tangent  d(loads)/d(coordinates) with which the iteration begins; None: that of the patches' last steps
+        scale    (z, loads, a): changes to which the tolerance is relative; None: what the step has
+
+        Returns the tangent with which the next step may begin.
+        """
+        driven, free = self._driven(force)
+        if self.direct:
+            self.z, self.loads = self._try(driven, held)
+            self.iterations.append(1)
+        elif self.given:
+            self.z, self.loads = self._try(_solved(self.rigid.T, -free), held, loads=True)
+            self.a = _solved(self.rigid, self.z - driven - self.coupling @ self.loads)
+            self.iterations.append(1)
+        else:
+            tangent = self._iterate(driven, free, held, tangent, scale)
+        for patch in self.patches:
+            patch.contact.commit()
+        return tangent
+
+    def _iterate(self, driven, free, held, tangent, scale):
+        """Broyden's method for the coordinates and a; returns its last tangent."""
+        n, z, a, loads = self.z.size, self.z, self.a, self.loads
+        size, known = np.inf, tangent is not None
+        if known:
+            change = _solved(self._system(tangent), -self._error(z, a, loads, driven, free))
+            z, a = z + change[:n], a + change[n:]
+        for count in range(1, MOST + 1):
+            before, last = (z, loads), size
+            _, loads = self._try(z, held)
+            error = self._error(z, a, loads, driven, free)
+            size = _work(error, scale or (z, loads, a))
+            if size <= TOLERANCE or (SLOW * last <= size <= ROUGH):
+                break
+            if not known or size > SLOW * last:
+                tangent, known = self.tangent(False), True
+            elif count > 1:
+                tangent = self._updated(tangent, moved, loads - before[1])
+            change = _solved(self._system(tangent), -error)
+            moved = change[:n]
+            z, a = z + moved, a + change[n:]
+        else:
+            raise NoSolution(
+                f"patches and structure found no equilibrium in {MOST} iterations, error {size:.2g}, limit "
+                f"{TOLERANCE:g}: use more steps"
+            )
+        self.iterations.append(count)
+        self.z, self.a, self.loads = z, a, loads
+        return tangent
+
+    def _updated(self, tangent, moved, changed):
+        """Broyden's tangent, patch by patch, by a change of the loads."""
+        tangent, at = tangent.copy(), 0
+        for part, change in zip(self._split(moved), self._split(changed)):
+            own = slice(at, at + part.size)
+            at += part.size
+            if part @ part > 0.0:
+                tangent[own, own] += np.outer(change - tangent[own, own] @ part, part) / (part @ part)
+        return tangent
+
+    def _error(self, z, a, loads, driven, free):
+        moved = z - driven - self.coupling @ loads - self.rigid @ a
+        return np.concatenate([moved, self.rigid.T @ loads + free])
+
+
+def _work(error, scale):
+    """The work of the errors of coordinates and of equilibrium, relative to that of the loads."""
+    z, loads, a = (np.abs(one) for one in scale)
+    whole = z @ loads
+    return float(np.abs(error) @ np.concatenate([loads, a]) / whole) if whole else 0.0
+
+
+def _solved(matrix, right):
+    try:
+        return np.linalg.solve(matrix, right)
+    except np.linalg.LinAlgError:
+        raise NoSolution("structure and sticking contacts leave a motion without stiffness: support it") from None
