@@ -26,9 +26,10 @@ from ..files import same
 from ..plot.saving import add_choice
 from ..replacing import need_own
 from ..surface.lengths import lengths, several, shown, sides
-from . import model, picture, substructure, writing
+from . import basis, model, picture, substructure, writing
 
 HIGHEST = 10  # highest degree that petsam reads
+HIGHEST_EACH, MOST_FUNCTIONS = 24, 325  # the same of degrees in x and y, and the number of their products
 NAME = re.compile(r"[A-Za-z0-9_]{1,20}")
 MOST_CASES = 8
 MESH_ONLY = ("contact", "fixed", "symmetry", "case", "coarse_mesh", "depth")
@@ -60,10 +61,22 @@ def case(text):
 
 
 def degree(text):
-    """Reads a degree for argparse."""
-    if not text.isdecimal() or int(text) > HIGHEST:
-        raise argparse.ArgumentTypeError(f"{short(text)}: expected an integer from 0 to {HIGHEST}")
-    return int(text)
+    """Reads a degree for argparse: of all products, or largest ones in x and y."""
+    words = text.split(",")
+    most = HIGHEST if len(words) == 1 else HIGHEST_EACH
+    if len(words) > 2 or not all(word.isdecimal() and int(word) <= most for word in words):
+        raise argparse.ArgumentTypeError(
+            f"{short(text)}: expected an integer from 0 to {HIGHEST}, or two from 0 to {HIGHEST_EACH} for x and y: 12,6"
+        )
+    if len(words) == 1:
+        return int(text)
+    found = tuple(int(word) for word in words)
+    count = len(basis.powers(found))
+    if count > MOST_FUNCTIONS:
+        raise argparse.ArgumentTypeError(
+            f"{short(text)} gives {count} polynomials, limit {MOST_FUNCTIONS}: lower the degree in one direction"
+        )
+    return found
 
 
 def length(text):
@@ -110,7 +123,11 @@ def parser():
         "--center", type=several(2, "X,Y"), default=(0.0, 0.0), metavar="X,Y", help="its centre in the frame (0,0)"
     )
     patch.add_argument(
-        "--degree", type=degree, metavar="N", help=f"of the polynomials, 0 to {HIGHEST} (6; of a matrix 1)"
+        "--degree",
+        type=degree,
+        metavar="N|NX,NY",
+        help=f"of the polynomials: the sum in x and y, 0 to {HIGHEST}, or the largest in x and in y, up to "
+        f"{HIGHEST_EACH} (6; of a matrix 1)",
     )
     method = found.add_argument_group("method")
     method.add_argument("--method", choices=("auto", "image", "cutoff"), default="auto", help="(auto: image if valid)")
@@ -166,16 +183,15 @@ def description(body):
         "patch       {} x {} about x = {:g} m, y = {:g} m".format(
             *(shown(2.0 * half) for half in body.patch.half), *body.patch.center
         ),
-        f"functions   {m} of degree {body.patch.degree} in each direction, method {body.method}",
+        f"functions   {m} of degree {basis.written(body.patch.degree)} in each direction, method {body.method}",
         *(f"            {text}" for text in body.remarks),
         "checks      asymmetry {:.1e}, smallest eigenvalue {:.3g} relative to the half-space".format(
             body.checks["asymmetry"], body.checks["smallest_eigenvalue"]
         ),
     ]
     if "degree_change" in body.checks:
-        lines.append(
-            f"            degree {body.patch.degree - 2} changes the correction by {body.checks['degree_change']:.1e}"
-        )
+        lower = basis.written(basis.reduced(body.patch.degree, 2))
+        lines.append(f"            degree {lower} changes the correction by {body.checks['degree_change']:.1e}")
     if "mesh_change" in body.checks:
         lines.append(f"            the coarser mesh changes the compliance by {body.checks['mesh_change']:.1e}")
     lines += [

@@ -210,7 +210,7 @@ def _cases(model, solver, found):
     if not model.options.case:
         return {}
     patch = model.patch
-    points, _ = patch.quadrature(*(2 * [patch.degree + GAUSS_MORE]))
+    points, _ = patch.quadrature(*(degree + GAUSS_MORE for degree in patch.largest))
     inward = max(images.FLAT, 1.01 * checks.deviation(model.mesh, patch, model.contact)) * min(patch.half)
     lift = np.concatenate([points, np.full((len(points), 1), inward)], axis=1)
     place = model.mesh.locate(lift)
@@ -272,5 +272,5 @@ def examine(body):
     body.checks["smallest_eigenvalue"] = definite.need_positive(symmetric)
     body.eigenvalues = definite.eigenvalues(symmetric)
     body.changes = checks.degree_changes(symmetric, body.patch)
-    if body.patch.degree >= 2:
-        body.checks["degree_change"] = body.changes[body.patch.degree - 2]
+    if len(body.changes) >= 2:
+        body.checks["degree_change"] = body.changes[-2]

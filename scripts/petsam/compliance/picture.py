@@ -5,6 +5,7 @@ import numpy as np
 from ..plot.saving import DPI, write
 from ..plot.style import COLORS, STYLE, bar, field, frame, note, plt
 from ..plot.units import label, scale
+from .basis import written
 
 CELLS = 80  # of the patch in a map
 COLUMNS = 3
@@ -73,7 +74,9 @@ def _spectrum(axes, body):
 def _convergence(axes, body):
     changes = np.maximum(body.changes, 1e-16)
     axes.semilogy(np.arange(len(changes)), changes, "o-", color=COLORS[2], markersize=4)
-    frame(axes, "correction under a Hertzian pressure", "degree", f"difference from degree {body.patch.degree}")
+    frame(
+        axes, "correction under a Hertzian pressure", "degree", f"difference from degree {written(body.patch.degree)}"
+    )
 
 
 def draw(body):
@@ -97,7 +100,7 @@ def draw(body):
         panel(axes)
     for axes in grid.ravel()[len(panels) :]:
         axes.set_axis_off()
-    note(figure, f"method {body.method}, degree {body.patch.degree}: body minus half-space", 10)
+    note(figure, f"method {body.method}, degree {written(body.patch.degree)}: body minus half-space", 10)
     return figure
 
 

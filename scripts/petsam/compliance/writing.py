@@ -6,7 +6,6 @@ import os
 import numpy as np
 
 from ..replacing import replacing
-from .basis import powers
 
 SIGN = "petsam_compliance"  # root attribute that identifies a file of this command
 VERSION = 1
@@ -25,7 +24,9 @@ def checksum(path):
 def _fill(file, body):
     patch, m = body.patch, body.patch.count
     file.attrs.update({SIGN: VERSION, "young": body.young, "poisson": body.poisson, "method": body.method})
-    file.attrs.update(degree=patch.degree, source=os.path.basename(body.source), source_sha256=checksum(body.source))
+    file.attrs.update(
+        degree=int(patch.powers.max()), source=os.path.basename(body.source), source_sha256=checksum(body.source)
+    )
     file.attrs["command"] = body.command
 
     def put(name, values, unit, text):
@@ -36,7 +37,7 @@ def _fill(file, body):
     put("/frame/axes", body.frame.axes, "1", "x, y, z of the frame, z into the body, in the model's coordinates")
     put("/patch/center", patch.center, "m", "centre of the patch, x and y of the frame")
     put("/patch/half", patch.half, "m", "half widths of the patch")
-    file["/basis/degree_xy"] = powers(patch.degree)
+    file["/basis/degree_xy"] = patch.powers
     compliance = body.compliance.reshape(m, 3, m, 3)
     put("/compliance", compliance, "m3/N", "displacement coefficients by traction coefficients, beyond the half-space")
     for name, case in body.cases.items():
