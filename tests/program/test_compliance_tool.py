@@ -7,7 +7,7 @@ import shutil
 import numpy as np
 import pytest
 
-from petsam.compliance import basis, checks, cutoff, halfspace, images, mesh, solve, stiffness
+from petsam.compliance import basis, checks, cutoff, halfspace, images, mesh, remainder, solve, stiffness
 from petsam.compliance import substructure as direct
 from petsam.errors import Error
 
@@ -36,7 +36,7 @@ class Example:
     def by_images(self, patch, young=1.0):
         """The Remainder by images."""
         fields = halfspace.Fields(patch, young, 0.3)
-        return images.solved(self.mesh, fields, self.solver, self.supported)
+        return images.solved([remainder.Side(self.mesh, fields)], self.solver, self.supported)
 
     def by_cutoff(self, patch):
         """The Remainder by a cut-off."""

@@ -148,6 +148,31 @@ class Fields:
         return self.stress_of(self.gradient(points))
 
 
+MIRROR = np.array([1.0, 1.0, -1.0])
+
+
+class Mirrored(Fields):
+    """The same of -phi_j on the half-space z <= 0, by reflection."""
+
+    def __init__(self, patch, young, poisson):
+        super().__init__(patch, young, poisson)
+        self.signs = -np.tile(MIRROR, patch.count)
+
+    def displacement(self, points):
+        """As that of Fields."""
+        return super().displacement(points * MIRROR) * MIRROR[:, None] * self.signs
+
+    def gradient(self, points):
+        """As that of Fields."""
+        return super().gradient(points * MIRROR) * np.outer(MIRROR, MIRROR)[:, :, None] * self.signs
+
+
+def opposite(matrix):
+    """Compliance (3 n, 3 n) of a half-space as that of body 1: displacement -u by tractions -t on z <= 0."""
+    sign = np.tile(MIRROR, len(matrix) // 3)
+    return matrix * sign[:, None] * sign
+
+
 # ---------------------------------------------------------------- the surface itself, by uniform cells
 
 

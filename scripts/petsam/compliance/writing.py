@@ -6,6 +6,7 @@ import os
 import numpy as np
 
 from ..replacing import replacing
+from .modes import UNIT as MODE
 
 SIGN = "petsam_compliance"  # root attribute that identifies a file of this command
 VERSION = 1
@@ -41,21 +42,53 @@ def _fill(file, body):
     compliance = body.compliance.reshape(m, 3, m, 3)
     put("/compliance", compliance, "m3/N", "displacement coefficients by traction coefficients, beyond the half-space")
     for name, case in body.cases.items():
-        put(f"/cases/{name}/displacement", case.coefficients, "m2", "displacement of the patch by the unit load case")
+        unit = case.unit.replace("m", "m2", 1)
+        put(f"/cases/{name}/displacement", case.coefficients, unit, "displacement of the patch by the unit load case")
     if body.stress:
-        where, basis, cases = body.stress
-        for letter in "xyz":
-            put(f"/stress/{letter}", getattr(where, letter), "m", f"{letter} of the points")
-        put(
-            "/stress/basis",
-            basis,
-            "1/m2",
-            "stress xx, yy, zz, xy, xz, yz by traction coefficients, beyond the half-space",
-        )
-        for name, stress in cases.items():
-            put(f"/stress/cases/{name}", stress, "Pa", "stress xx, yy, zz, xy, xz, yz by the unit load case")
+        _put_stress(put, body)
+    if body.other:
+        file.attrs.update(young1=body.other[0], poisson1=body.other[1])
+    if body.bolts:
+        _put_bolts(file, put, body)
+    if body.modes:
+        _put_modes(file, put, body)
     for name, value in body.checks.items():
         put(f"/checks/{name}", value, "1", name.replace("_", " "))
+
+
+def _put_stress(put, body):
+    where, basis, cases = body.stress
+    for letter in "xyz":
+        put(f"/stress/{letter}", getattr(where, letter), "m", f"{letter} of the points")
+    put("/stress/basis", basis, "1/m2", "stress xx, yy, zz, xy, xz, yz by traction coefficients, beyond the half-space")
+    for name, stress in cases.items():
+        put(f"/stress/cases/{name}", stress, "Pa", "stress xx, yy, zz, xy, xz, yz by the unit load case")
+
+
+def _put_modes(file, put, body):
+    put("/modes/omega", body.modes.omega, "rad/s", "angular frequencies without contact")
+    put("/modes/mass_error", body.modes.mass_error, "1", "largest error of the modes' orthonormality")
+    if body.mesh.sensors:
+        text = "mass-normalised modes at the sensors, in the deck's directions"
+        put("/modes/sensors", body.modes.sensors, MODE, text)
+        file["/modes/sensors"].attrs["names"] = [name for name, _ in body.mesh.options.sensor]
+
+
+def _put_bolts(file, put, body):
+    names = [one.name for one in body.bolts]
+    for one in body.bolts:
+        text = "axial stiffness between the washers"
+        put(f"/bolts/{one.name}/stiffness", one.stiffness, "N/m", text)
+        put(f"/bolts/{one.name}/length", one.length, "m", "distance of the washers' centres")
+        put(f"/bolts/{one.name}/diameter", one.diameter, "m", "diameter")
+        put(f"/bolts/{one.name}/young", one.young, "Pa", "Young's modulus")
+    closing = np.stack([body.closing(f"bolt_{name}") for name in names], axis=1)
+    put("/bolts/closing", closing, "m/N", "approach of a bolt's washers (row) by unit initial tension of one (column)")
+    file["/bolts/closing"].attrs["names"] = names
+    for name, case in body.cases.items():
+        if not name.startswith("bolt_"):
+            text = "approach of the bolts' washers by the unit load case"
+            put(f"/bolts/closing_by/{name}", body.closing(name), case.unit, text)
 
 
 def write(body, path):
