@@ -5,8 +5,9 @@ import math
 import h5py
 import numpy as np
 import pytest
+from scipy import linalg
 
-from petsam.compliance import basis, bolts, halfspace, mesh, modes, stiffness
+from petsam.compliance import basis, bolts, checks, halfspace, mesh, modes, stiffness
 from test_compliance_command import compliance  # noqa: F401
 from test_compliance_tool import CCX, needs_calculix
 
@@ -172,7 +173,7 @@ def test_a_washer_moves_with_a_rigid_motion_and_the_mean_of_any_other():
 class Direct:
     """The same finite elements with consistent forces of the tractions on both surfaces, dense."""
 
-    def __init__(self, patch, held, bolted, diameter=0.5, young=2.0, poisson=0.25):
+    def __init__(self, patch, held, bolted, diameter=0.5, young=40.0, poisson=0.25):
         self.mesh, self.patch = both(), patch
         matrix = stiffness.assembled(self.mesh).toarray()
         centers, motions = [], []
@@ -188,8 +189,7 @@ class Direct:
         self.axial = young * math.pi * diameter**2 / 4 / length
         fixed = np.unique(np.concatenate([self.mesh.node_sets[name] for name in held]))
         self.free = np.setdiff1d(np.arange(len(matrix)), (3 * fixed[:, None] + np.arange(3)).ravel())
-        self.inverse = np.zeros_like(matrix)
-        self.inverse[np.ix_(self.free, self.free)] = np.linalg.inv(matrix[np.ix_(self.free, self.free)])
+        self.factor = linalg.cho_factor(matrix[np.ix_(self.free, self.free)])
         self.force = self._force("TOP2") - self._force("TOP1")
 
     def _force(self, name):
@@ -204,13 +204,19 @@ class Direct:
                 np.add.at(out[:, c, c::3], group.nodes, nodal)
         return out.reshape(-1, 3 * self.patch.count)
 
+    def solve(self, force):
+        """Displacements by forces."""
+        u = np.zeros_like(force)
+        u[self.free] = linalg.cho_solve(self.factor, force[self.free])
+        return u
+
     def compliance(self):
         """With the half-spaces' part."""
-        return self.force.T @ self.inverse @ self.force
+        return self.force.T @ self.solve(self.force)
 
 
-SQUARE = basis.Patch((0.0, 0.0), (1.0, 1.0), 2)
-STEEL = ["--bolt", "B=WASHER1,WASHER2:0.5:2"]
+SQUARE = basis.Patch((0.0, 0.0), (1.0, 1.0), 3)
+STEEL = ["--bolt", "B=WASHER1,WASHER2:0.5:40"]
 
 
 def close(found, exact, most):
@@ -221,7 +227,7 @@ def close(found, exact, most):
 
 def test_a_bolt_changes_the_compliance_as_in_a_direct_solution(pair):
     """Local errors of the finite elements cancel in the difference."""
-    loose, tight = (pair(*HELD, "--degree", "2", *more)["matrix"] for more in ([], STEEL))
+    loose, tight = (pair(*HELD, "--degree", "3", *more)["matrix"] for more in ([], STEEL))
     exact = [Direct(SQUARE, ["END1", "END2"], bolted).compliance() for bolted in (False, True)]
     assert np.linalg.norm(tight - loose, 2) > 0.02 * np.linalg.norm(loose, 2)
     close(tight - loose, exact[1] - exact[0], 5e-3)
@@ -229,25 +235,27 @@ def test_a_bolt_changes_the_compliance_as_in_a_direct_solution(pair):
 
 
 def test_a_body_that_only_a_bolt_holds_moves_as_in_a_direct_solution(pair):
-    found = pair("--fixed", "END1", "--degree", "1", *STEEL)["matrix"]
+    hung = pair("--fixed", "END1", "--degree", "1", *STEEL)["matrix"]
+    held = pair(*HELD, "--degree", "1")["matrix"]
     patch = basis.Patch((0.0, 0.0), (1.0, 1.0), 1)
-    exact = Direct(patch, ["END1"], True).compliance() - halfspace.projected(patch, 1.0, 0.3)
-    exact -= halfspace.opposite(halfspace.projected(patch, *OTHER))
-    close(found, exact, 2e-3)
+    exact = Direct(patch, ["END1"], True).compliance() - Direct(patch, ["END1", "END2"], False).compliance()
+    close(hung - held, exact, 2e-3)
+    local = halfspace.projected(patch, 1.0, 0.3) + halfspace.opposite(halfspace.projected(patch, *OTHER))
+    close(hung, Direct(patch, ["END1"], True).compliance() - local, 3e-2)  # the local error of the direct solution
 
 
 def test_the_tension_that_is_left_follows_from_the_conjugate_load_of_the_bolts_case(pair):
-    found = pair(*HELD, "--degree", "2", *STEEL)
+    found = pair(*HELD, "--degree", "3", *STEEL)
     direct = Direct(SQUARE, ["END1", "END2"], True)
     traction = np.random.default_rng(2).normal(size=direct.force.shape[1])
     tension = 3.0
-    u = direct.inverse @ (direct.force @ traction + tension * direct.closing)
+    u = direct.solve(direct.force @ traction + tension * direct.closing)
     exact = tension - direct.axial * direct.closing @ u
     k, closing = found["bolts/B/stiffness"], found["bolts/closing"]
     load = found["cases/bolt_B/displacement"].ravel() @ traction
     assert k == pytest.approx(direct.axial) and closing.shape == (1, 1)
-    assert abs(k * load) > 0.02 * tension and k * closing[0, 0] > 0.02
-    assert tension - k * (closing[0, 0] * tension + load) == pytest.approx(exact, abs=2e-3 * abs(k * load))
+    assert abs(k * load) > 5e-3 * tension and k * closing[0, 0] > 0.02
+    assert tension - k * (closing[0, 0] * tension + load) == pytest.approx(exact, abs=5e-3 * abs(k * load))
 
 
 def test_tension_without_contact_closes_the_gap(pair):
@@ -270,20 +278,131 @@ def test_the_consistent_mass_is_that_of_the_volume():
     assert shift @ matrix @ shift == pytest.approx(3.0 * volumes[0] + 5.0 * volumes[1])
 
 
+LIGHT = 1e-6  # CalculiX finds the modes nearest to 1 rad/s
+
+
+def light(found):
+    """Its deck with a small density."""
+    text = lines(found)
+    return [f"{LIGHT:g}" if before == "*DENSITY" else line for before, line in zip(["", *text], text)]
+
+
+def frequencies(path):
+    """Angular frequencies that CalculiX has printed."""
+    text = path.read_text().split("E I G E N V A L U E")[1].split("P A R T I C I P A T I O N")[0]
+    rows = [line.split() for line in text.splitlines()]
+    return np.array([row[2] for row in rows if len(row) == 5 and row[0].isdecimal()], dtype=float)
+
+
 @needs_calculix
-@pytest.mark.parametrize("kind", ["C3D20", "C3D20R", "C3D8I"])
-def test_frequencies_are_calculixs(compliance, tmp_path, kind):  # noqa: F811
-    found = both(kind)
-    write(tmp_path / "pair.inp", found)
+@pytest.mark.parametrize("kind, most", [("C3D20", 1e-6), ("C3D20R", 1e-6), ("C3D8I", 1e-2)])
+def test_frequencies_are_calculixs(compliance, tmp_path, kind, most):  # noqa: F811
+    """C3D8I differs by 7e-3: its incompatible modes have no mass here."""
+    text = light(both(kind))
+    (tmp_path / "pair.inp").write_text("\n".join(text) + "\n")
     words = [word for word in PAIR if word not in ("--stiffness", "own")]
     compliance(*words, *HELD, "--degree", "4", "--modes", "6", "--sensor", "TIP=3", "-o", "pair.h5")
     held = [f"{name}, 1, 3" for name in ("END1", "END2")]
-    step = ["*STEP", "*FREQUENCY", "6", "*NODE PRINT, NSET=NALL", "U", "*END STEP"]
-    stiffness.run([*lines(found), "*BOUNDARY", *held, *step], tmp_path, "free", CCX)
-    rows = [line.split() for line in (tmp_path / "free.dat").read_text().splitlines()]
-    table = np.array([row[1:3] for row in rows if len(row) == 5 and row[0].isdecimal()][:6], dtype=float)
+    stiffness.run([*text, "*BOUNDARY", *held, "*STEP", "*FREQUENCY", "6", "*END STEP"], tmp_path, "free", CCX)
     with h5py.File("pair.h5", "r") as file:
-        assert np.allclose(file["/modes/omega"], table[:, 1], rtol=1e-6)
+        assert np.allclose(file["/modes/omega"], frequencies(tmp_path / "free.dat"), rtol=most)
         assert file["/modes/mass_error"][()] < 1e-9 and file["/modes/sensors"].shape == (6, 1, 3)
         assert file["/modes/sensors"].attrs["names"].tolist() == ["TIP"]
-        print(rows[:40])
+
+
+@needs_calculix
+def test_modes_have_the_signs_and_directions_of_calculixs(compliance, tmp_path):  # noqa: F811
+    """In a turned frame, at one node in the deck's directions; and the patch moves as the nodes do."""
+    text = light(both())
+    (tmp_path / "pair.inp").write_text("\n".join(text) + "\n")
+    words = [word for word in PAIR if word not in FRAME] + ["--frame", "0,0,0:0,1,0:0,0,1"]
+    node = int(np.argmin(np.linalg.norm(both().nodes - [3.0, 2.5, 3.0], axis=1))) + 1
+    words += ["--degree", "4", "--modes", "4", "--sensor", f"TIP={node}", "--sensor", "HELD=1"]
+    printed = compliance(*words, *HELD, "-o", "pair.h5")
+    held = [f"{name}, 1, 3" for name in ("END1", "END2")]
+    sets = ["*NSET, NSET=TIP", f"{node},"]
+    step = ["*STEP", "*FREQUENCY", "4", "*NODE PRINT, NSET=TIP", "U", "*END STEP"]
+    stiffness.run([*text, *sets, "*BOUNDARY", *held, *step], tmp_path, "free", CCX)
+    rows = [line.split() for line in (tmp_path / "free.dat").read_text().splitlines()]
+    exact = np.array([row[1:] for row in rows if len(row) == 4 and row[0] == str(node)], dtype=float)
+    with h5py.File("pair.h5", "r") as file:
+        tip, omega = file["/modes/sensors"][:, 0], file["/modes/omega"][:]
+        sign = np.sign(np.sum(tip * exact, axis=1))
+        assert np.allclose(tip * sign[:, None], exact, atol=1e-5 * np.max(np.abs(exact)))
+        assert file["/modes/sensors"].attrs["names"].tolist() == ["TIP", "HELD"]
+        assert np.all(file["/modes/sensors"][:, 1] == 0.0)
+        parts = [file[f"/cases/mode{k}/displacement"][:] for k in range(1, 5)]
+        assert file["/cases/mode1/displacement"].attrs["units"] == "m2/(m kg^0.5)"
+        # K's compliance without that of the modes is positive, and smaller
+        matrix = file["/compliance"][:]
+        left = matrix - sum(np.multiply.outer(d, d) / w**2 for d, w in zip(parts, omega))
+        size = 3 * len(matrix)
+        definite = checks.Definiteness(basis.Patch((0.0, 0.0), (1.0, 1.0), 4), 1.0, 0.3, OTHER)
+        least = definite.smallest(0.5 * (left + left.transpose(2, 3, 0, 1)).reshape(size, size))
+        assert 0.0 < least == pytest.approx(file["/checks/residual_eigenvalue"][()])
+        assert np.trace(left.reshape(size, size)) < 0.9 * np.trace(matrix.reshape(size, size))
+    assert any(line.startswith("  modes, Hz   ") for line in printed)
+
+
+# ---------------------------------------------------------------- what is rejected
+
+
+def test_pairs_that_are_none_are_rejected(pair, compliance, tmp_path):  # noqa: F811
+    one = pair("--fixed", "END2", "--fixed", "END1", "--pair", "WASHER2", check=3)
+    assert "are of one body: give both bodies nodes of their own" in one
+    assert "WASHER1 of --pair does not face surface TOP2" in pair(*HELD, "--pair", "WASHER1", check=3)
+    assert "no surface LID; there are" in pair(*HELD, "--pair", "LID", check=3)
+    assert "both washers are on one body" in pair(*HELD, "--bolt", "B=WASHER1,TOP1:0.5", check=3)
+    assert "floats, as nothing but the contact holds it: hold it by --fixed" in pair("--fixed", "END1", check=3)
+    assert "washers are of several materials: give its modulus" in pair(*HELD, *BOLT, check=3)
+    assert "no node 99999 of --sensor TIP" in pair(*HELD, "--modes", "1", "--sensor", "TIP=99999", check=3)
+    alone = both()
+    alone.nodes = np.concatenate([alone.nodes, body(2).nodes + [9.0, 0.0, 0.0]])
+    block = alone.blocks[0]
+    third = mesh.Block("C3D20", block.numbers + 1000, block.nodes + len(both().nodes), block.young, block.poisson)
+    alone.blocks.append(third)
+    write(tmp_path / "pair.inp", alone)
+    said = pair(*HELD, check=3)
+    assert "3 separate parts" in said and "join it by --bolt, or remove it" in said
+
+
+def test_two_materials_in_a_body_of_a_pair_are_rejected(pair, tmp_path):
+    found = both()
+    found.blocks[0].young[-1] = 5.0
+    write(tmp_path / "pair.inp", found)
+    assert "several materials: each body of a pair needs one material" in pair(*HELD, check=3)
+
+
+def test_modes_need_the_density_of_each_material(pair, tmp_path):
+    text = "\n".join(lines(both()))
+    (tmp_path / "pair.inp").write_text(text.replace("*DENSITY\n1.\n", "", 1) + "\n")
+    assert "material E0M0 has no *DENSITY, which --modes needs: give it in kg/m3" in pair(
+        *HELD, "--modes", "1", check=3
+    )
+    (tmp_path / "pair.inp").write_text(text.replace("*DENSITY\n1.\n", "*DENSITY\n-1.\n", 1) + "\n")
+    assert "density -1: use a value above 0" in pair(*HELD, "--modes", "1", check=3)
+
+
+@pytest.mark.parametrize(
+    "words, text",
+    [
+        (["--bolt", "B=WASHER1:0.5"], "expected NAME=SURFACE1,SURFACE2:DIAMETER[:YOUNG]"),
+        (["--bolt", "closing=WASHER1,WASHER2:0.5"], "expected NAME=SURFACE1"),
+        (["--bolt", "B=WASHER1,WASHER2:0.5:-2"], "expected a modulus above 0"),
+        (["--bolt", "B123456789012345=WASHER1,WASHER2:0.5"], "at most 15 letters"),
+        (["--modes", "41"], "from 1 to 40"),
+        (["--modes", "40", "--case", "pull=1"], "at most 40 of them, with those of --bolt and --modes"),
+        (["--modes", "1", "--case", "mode1=1"], "give each name once"),
+        (["--sensor", "TIP=3"], "--sensor needs --modes"),
+        (["--modes", "1", "--sensor", "TIP=x"], "expected NAME=NODE"),
+        (["--method", "cutoff"], "--method cutoff is not for a pair"),
+        (["--depth", "1"], "--depth is not for a pair"),
+    ],
+)
+def test_options_of_a_pair_that_make_no_sense_are_rejected(pair, words, text):
+    assert text in pair(*HELD, *words, check=2)
+
+
+def test_options_of_a_pair_need_a_pair(compliance):  # noqa: F811
+    words = ["--mesh", "a.inp", "--contact", "TOP", "--fixed", "END", "--patch", "1"]
+    assert "--modes is for a pair: give the surface of body 1 by --pair" in compliance(*words, "--modes", 1, check=2)[0]

@@ -5,7 +5,7 @@ A washer is a surface of the deck. Its motion is the mean displacement U and the
     U = int u dA / A     theta = J^-1 int r x u dA     J = int (r.r - r r') dA
 
 with r from its centroid, so that the bolt's forces are spread over it and nothing is stiffened. The bolt is a beam by
-Timoshenko with Cowper's shear factor, clamped to the motions of both washers. Initial tension F pulls the washers
+Timoshenko with Cowper's shear factor and Poisson's ratio of the elements of washer 1, clamped to the motions of both washers. Initial tension F pulls the washers
 together. With closing = e.(U_1 - U_2), e from washer 1 to 2 and k = E A/l, the tension is F - k closing.
 """
 
@@ -103,7 +103,7 @@ def bolt(mesh, name, surfaces, diameter, young):
         raise Error(f"bolt {name}: its washers are of several materials: give its modulus, --bolt NAME=S1,S2:D:YOUNG")
     young = min(moduli)[0] if young is None else young
     motion = sparse.vstack([first.motion, second.motion]).tocsr()
-    matrix = motion.T @ sparse.csr_matrix(beam(along, diameter, young, min(moduli)[1])) @ motion
+    matrix = motion.T @ sparse.csr_matrix(beam(along, diameter, young, min(first.moduli)[1])) @ motion
     closing = sparse.csr_matrix(along / length) @ (first.motion[:3] - second.motion[:3])
     stiffness = young * 0.25 * np.pi * diameter**2 / length
     return Bolt(name, stiffness, length, diameter, young, closing.tocsr(), sparse.csr_matrix(0.5 * (matrix + matrix.T)))

@@ -301,7 +301,10 @@ def _joint(body):
         )
     if body.modes:
         lines.append("modes, Hz   " + ", ".join(f"{omega / (2.0 * math.pi):.6g}" for omega in body.modes.omega))
-        lines.append(f"            orthonormal within {body.modes.mass_error:.1e}")
+        lines.append(
+            f"            orthonormal within {body.modes.mass_error:.1e}, smallest eigenvalue without them "
+            f"{body.checks['residual_eigenvalue']:.3g}"
+        )
     return lines
 
 

@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..errors import Error
-from . import cases as load_cases
 from . import bolts, checks, cutoff, deck, images, modes, parts, stresses
+from . import cases as load_cases
 from .basis import Patch
 from .halfspace import Fields, Mirrored
 from .remainder import Side
@@ -66,6 +66,7 @@ class Body:
     remarks: list = field(default_factory=list)
     other: tuple = None  # moduli of body 1 of a pair
     modes: object = None
+    definite: object = None
 
     @property
     def bolts(self):
@@ -143,6 +144,7 @@ class Model:
             if first == second:
                 raise Error(f"bolt {one.name}: both washers are on one body: name a surface of each body")
         self.parts = parts.pair(components, options.contact, options.pair, links)
+        components.need_held(self.supported, links)
         self.bolts = [bolts.bolt(self.mesh, *one) for one in options.bolt]
         if options.modes and self.deck.weightless:
             raise Error(
@@ -303,6 +305,7 @@ def computed(path, options, command, progress):
         body.modes = modes.found(model, solver, options.modes, model.sensors)
         body.cases.update(modes.cases(model, body.modes))
         body.checks["mass_error"] = body.modes.mass_error
+        body.checks["residual_eigenvalue"] = _without_modes(body)
     for name, case in body.cases.items():
         body.checks[f"rest_{name}"] = case.rest
     if options.stress and not options.pair:
@@ -315,9 +318,15 @@ def computed(path, options, command, progress):
     return body
 
 
+def _without_modes(body):
+    """Smallest eigenvalue of the compliance without that of the modes."""
+    d = np.stack([body.cases[f"mode{k}"].coefficients.ravel() / w for k, w in enumerate(body.modes.omega, 1)])
+    return body.definite.smallest(0.5 * (body.compliance + body.compliance.T) - d.T @ d)
+
+
 def examine(body):
     """Writes the checks of the compliance to body.checks."""
-    definite = checks.Definiteness(body.patch, body.young, body.poisson, body.other)
+    body.definite = definite = checks.Definiteness(body.patch, body.young, body.poisson, body.other)
     body.checks["asymmetry"] = checks.asymmetry(body.compliance)
     symmetric = checks.symmetric(body.compliance)
     body.checks["smallest_eigenvalue"] = definite.need_positive(symmetric)

@@ -8,6 +8,7 @@ from scipy.sparse.linalg import ArpackError, LinearOperator, eigsh
 
 from ..errors import Error
 from .cases import Case, Jump, rest
+from .stiffness import rule
 
 UNIT = "m/(m kg^0.5)"  # of a mode at factor 1, the factor being in m kg^0.5
 EQUAL = 1e-6  # relative difference of components that count as equally large
@@ -31,7 +32,7 @@ def mass(mesh):
     size = len(mesh.nodes)
     parts = []
     for index, block in enumerate(mesh.blocks):
-        local, weight = block.shape.rule(block.shape.full)
+        local, weight = rule(block)
         _, volume, values, _ = mesh.volume(index, local, weight)
         element = np.einsum("qk,ql,nq,n->nkl", values, values, volume, block.density, optimize=True)
         row = np.repeat(block.nodes, block.nodes.shape[1], axis=1).ravel()

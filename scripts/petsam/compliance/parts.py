@@ -68,11 +68,26 @@ class Components:
         chosen = [(block, self.of_node[block.nodes[:, 0]] == number) for block in self.mesh.blocks]
         return replace(self.mesh, blocks=[_some(block, mask) for block, mask in chosen if np.any(mask)])
 
+    def _groups(self, links):
+        """Groups of the components that links (first, second) join."""
+        ends = np.array(links, dtype=int).reshape(-1, 2).T
+        pattern = sparse.coo_matrix((np.ones(ends.shape[1]), tuple(ends)), shape=2 * (self.count,))
+        return connected_components(pattern, directed=False)[1]
+
+    def need_held(self, supported, links):
+        """Raises Error if no node of a component, or of those that are joined to it, is supported."""
+        group = self._groups(links)[self.of_node]
+        free = np.flatnonzero(~np.isin(group, group[supported]))
+        if len(free):
+            x = self.mesh.nodes[group == group[free[0]]].mean(axis=0)
+            raise Error(
+                f"the body about x = {x[0]:.3g}, y = {x[1]:.3g}, z = {x[2]:.3g} m of the frame floats, as nothing but "
+                "the contact holds it: hold it by --fixed, or join it to the other body by --bolt"
+            )
+
     def need_joined(self, first, second, links):
         """Raises Error if a part of the mesh is neither one of two components nor joined to one by links."""
-        ends = np.array([*links, (first, second)]).T
-        pattern = sparse.coo_matrix((np.ones(ends.shape[1]), tuple(ends)), shape=2 * (self.count,))
-        _, group = connected_components(pattern, directed=False)
+        group = self._groups([*links, (first, second)])
         free = np.flatnonzero(group != group[first])
         if len(free):
             x = self.mesh.nodes[self.of_node == free[0]].mean(axis=0)
