@@ -92,7 +92,7 @@ def solved(sides, solver, supported, progress=lambda text: None, tie=None):
 
 
 def _on_faces(side, faces):
-    """Displacements and tractions, times areas, of the half-space (3 points, columns) on faces; nodal forces of these."""
+    """Half-space displacements and tractions times areas (3 points, columns) on faces, and nodal forces of these."""
     gauss = side.mesh.gauss(faces, ORDER)
     x, area = gauss.x.reshape(-1, 3), gauss.area.reshape(-1, 3)
     columns = side.fields.columns
