@@ -5,8 +5,9 @@ A washer is a surface of the deck. Its motion is the mean displacement U and the
     U = int u dA / A     theta = J^-1 int r x u dA     J = int (r.r - r r') dA
 
 with r from its centroid, so that the bolt's forces are spread over it and nothing is stiffened. The bolt is a beam by
-Timoshenko with Cowper's shear factor and Poisson's ratio of the elements of washer 1, clamped to the motions of both washers. Initial tension F pulls the washers
-together. With closing = e.(U_1 - U_2), e from washer 1 to 2 and k = E A/l, the tension is F - k closing.
+Timoshenko, with Cowper's shear factor and Poisson's ratio of the elements of washer 1, clamped to the motions of both
+washers. Initial tension F pulls the washers together. With closing = e.(U_1 - U_2), e from washer 1 to 2 and
+k = E A/l, the tension is F - k closing.
 """
 
 from dataclasses import dataclass
