@@ -297,7 +297,7 @@ def _joint(body):
         left = 1.0 - one.stiffness * one.closing @ body.cases[f"bolt_{one.name}"].displacement
         lines.append(
             f"bolt        {one.name}: {one.stiffness:.4g} N/m, {shown(one.diameter)} x {shown(one.length)}, without "
-            f"contact {left[0, 0]:.2g} of its tension is left"
+            f"contact {max(0.0, left[0, 0]):.2g} of its tension is left"
         )
     if body.modes:
         lines.append("modes, Hz   " + ", ".join(f"{omega / (2.0 * math.pi):.6g}" for omega in body.modes.omega))

@@ -19,7 +19,7 @@ MORE = 8
 @dataclass
 class Modes:
     """omega (n), rad/s; the modes (3 nodes, n), kg^-1/2, those at the sensors (n, sensors, 3) in the deck's directions,
-    and the largest error of phi'M phi."""
+    and the maximum error of phi'M phi."""
 
     omega: np.ndarray
     shapes: np.ndarray
