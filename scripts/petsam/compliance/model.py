@@ -134,7 +134,7 @@ class Model:
             self._take_pair()
 
     def _take_pair(self):
-        """Finds the two bodies and their bolts, and checks what the modes need."""
+        """Finds the two bodies and their bolts."""
         options = self.options
         for name in [options.pair, *(surface for one in options.bolt for surface in one.surfaces)]:
             deck.need_set(self.mesh.surfaces, name, "surface", self.path)
@@ -146,12 +146,15 @@ class Model:
         self.parts = parts.pair(components, options.contact, options.pair, links)
         components.need_held(self.supported, links)
         self.bolts = [bolts.bolt(self.mesh, *one) for one in options.bolt]
-        if options.modes and self.deck.weightless:
+
+    def prepare_modes(self):
+        """Finds what the modes need: densities, and the nodes of the sensors."""
+        if self.deck.weightless:
             raise Error(
                 f"{self.path}: material {self.deck.weightless[0]} has no *DENSITY, which --modes needs: give it in "
                 f"{self.units.density_name}"
             )
-        self.sensors = [self._sensor(*one) for one in options.sensor]
+        self.sensors = [self._sensor(*one) for one in self.options.sensor]
 
     def _sensor(self, name, number):
         """Index of the node of a sensor."""
@@ -288,6 +291,8 @@ def computed(path, options, command, progress):
     plane = all([checks.need_plane(part.mesh, model.patch, part.contact) for part in model.parts])
     for part in model.parts:
         checks.need_inside(part.mesh, model.patch, part.contact)
+    if options.modes:
+        model.prepare_modes()
     other = Model(options.coarse_mesh, options) if options.coarse_mesh else None  # to find its mistakes before the work
     method, reason = choose(model, plane)
     found, solver, remarks = remainder(model, method, plane, progress)
