@@ -36,13 +36,13 @@ def of_file(path):
     """Means of a compliance file, (2, 2), normal and along."""
     with h5py.File(path) as file:
         half, degree = tuple(file["patch/half"][:]), int(file.attrs["degree"])
-        kernel = cell_compliance(half, CELLS, file.attrs["young"], file.attrs["poisson"])
+        kernel = cell_compliance(half, (CELLS, CELLS), file.attrs["young"], file.attrs["poisson"])
         compliance = file["compliance"][:]
     x, y = np.meshgrid(*[((np.arange(CELLS) + 0.5) / CELLS * 2.0 - 1.0) * side for side in half])
     area = 4.0 * half[0] * half[1] / CELLS**2
     traction = pressure(1e3 * x, 1e3 * y).ravel()
     traction /= area * traction.sum()
-    coefficients = area * traction @ Patch((0.0, 0.0), half, degree).cell_means(CELLS)
+    coefficients = area * traction @ Patch((0.0, 0.0), half, degree).cell_means((CELLS, CELLS))
     local = np.einsum("i,iajb,j->ab", traction, kernel.reshape(CELLS**2, 3, CELLS**2, 3), traction) * area
     beyond = np.einsum("i,iajb,j->ab", coefficients, compliance, coefficients)
     return 1e9 * (local + beyond)[np.ix_([2, 0], [2, 0])]

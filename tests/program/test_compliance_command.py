@@ -86,6 +86,24 @@ def test_the_file_has_all_that_its_format_names(compliance, block):
     assert any("-body2_compliance f.h5 -body2_young 1 -body2_poisson 0.3" in line for line in printed)
 
 
+def test_degrees_in_x_and_y_give_the_same_compliance_of_the_same_functions(compliance, block):
+    compliance(*block, "--degree", "4", "--no-stress", "-o", "total.h5")
+    printed = compliance(*block, "--degree", "3,1", "--no-stress", "-o", "each.h5")
+    assert any("8 of degree 3,1" in line for line in printed) and any("degree 1,0 changes" in line for line in printed)
+    with h5py.File("total.h5", "r") as total, h5py.File("each.h5", "r") as each:
+        powers = each["/basis/degree_xy"][:].tolist()
+        assert sorted(powers) == [[a, b] for a in range(4) for b in range(2)] and each.attrs["degree"] == 3
+        place = [total["/basis/degree_xy"][:].tolist().index(pair) for pair in powers]
+        assert np.allclose(total["/compliance"][:][place][:, :, place], each["/compliance"], atol=1e-10)
+        assert 0.0 < each["/checks/degree_change"][()] < 1.0
+
+
+def test_too_many_polynomials_are_rejected(compliance, block):
+    for degree, text in (("12,25", "0 to 24 for x and y"), ("24,24", "625 polynomials, limit 325"), ("11", "0 to 10")):
+        said = compliance(*block, "--degree", degree, check=2)[0]
+        assert text in said, said
+
+
 @needs_calculix
 def test_calculixs_stiffness_gives_the_same_compliance(compliance, block):
     compliance(*block, "-o", "own.h5", "--no-stress")

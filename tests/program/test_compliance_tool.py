@@ -7,7 +7,7 @@ import shutil
 import numpy as np
 import pytest
 
-from petsam.compliance import basis, checks, cutoff, halfspace, images, mesh, solve, stiffness
+from petsam.compliance import basis, checks, cutoff, halfspace, images, mesh, remainder, solve, stiffness
 from petsam.compliance import substructure as direct
 from petsam.errors import Error
 
@@ -36,7 +36,7 @@ class Example:
     def by_images(self, patch, young=1.0):
         """The Remainder by images."""
         fields = halfspace.Fields(patch, young, 0.3)
-        return images.solved(self.mesh, fields, self.solver, self.supported)
+        return images.solved([remainder.Side(self.mesh, fields)], self.solver, self.supported)
 
     def by_cutoff(self, patch):
         """The Remainder by a cut-off."""
@@ -84,10 +84,31 @@ def test_functions_are_orthonormal_and_ordered_by_total_degree():
 
 def test_means_over_cells_are_those_of_the_functions():
     patch = basis.Patch((0.3, -0.2), (2.0, 0.5), 4)
-    means = patch.cell_means(3)
+    means = patch.cell_means((3, 3))
     cell = basis.Patch((0.3 + 4.0 / 3.0, -0.2), (2.0 / 3.0, 0.5 / 3.0), 0)  # third in x, second in y
     points, weights = cell.quadrature(5, 5)
     assert np.allclose(means[5], patch.values(*points.T).T @ weights / weights.sum(), atol=1e-13)
+
+
+def test_products_of_degrees_in_x_and_y_have_their_own_means_and_compliance():
+    patch = basis.Patch((0.3, -0.2), (2.0, 0.5), (5, 2))
+    points, weights = patch.quadrature(8, 8)
+    values = patch.values(*points.T)
+    assert patch.count == 18 and patch.powers.max(axis=0).tolist() == [5, 2]
+    assert np.allclose(values.T @ (values * weights[:, None]), np.eye(18), atol=1e-13)
+    assert np.allclose(patch.cell_means((4, 3)).T @ np.ones(12) / 12, [0.5] + [0.0] * 17, atol=1e-13)
+    whole = basis.Patch((0.3, -0.2), (2.0, 0.5), 7)
+    place = 3 * np.array([whole.powers.tolist().index(pair) for pair in patch.powers.tolist()])
+    place = (place[:, None] + np.arange(3)).ravel()
+    found = halfspace.projected(whole, 1.0, 0.3)[np.ix_(place, place)]
+    assert np.allclose(halfspace.projected(patch, 1.0, 0.3), found, atol=1e-12)
+
+
+def test_the_definiteness_tells_polynomials_of_a_high_degree_apart():
+    patch = basis.Patch((0.0, 0.0), (3.0, 0.5), (24, 2))
+    definite = checks.Definiteness(patch, 1.0, 0.3)
+    assert np.linalg.cond(definite.root) < 1e4
+    assert definite.smallest(0.5 * halfspace.projected(patch, 1.0, 0.3)) == 1.0
 
 
 def test_half_space_fields_are_the_reference_numbers():
@@ -118,8 +139,8 @@ def test_compliance_of_cells_converges_to_the_projected_one():
     projected = halfspace.projected(SQUARE, 1.0, 0.3)
     assert np.allclose(projected, projected.T, atol=1e-13)
     for n, most in ((10, 8e-3), (20, 2.5e-3)):
-        means = np.kron(SQUARE.cell_means(n), np.eye(3))
-        cells = 4.0 / n**2 * means.T @ halfspace.cell_compliance((1.0, 1.0), n, 1.0, 0.3) @ means
+        means = np.kron(SQUARE.cell_means((n, n)), np.eye(3))
+        cells = 4.0 / n**2 * means.T @ halfspace.cell_compliance((1.0, 1.0), (n, n), 1.0, 0.3) @ means
         assert np.max(np.abs(cells - projected)) < most * 2.1
 
 

@@ -11,6 +11,9 @@ remainder     body minus half-space, by
   images      fields taken back on the other surfaces
   cutoff      half-space fields cut off about the patch
 substructure  stiffness matrices of other programs
+parts         the bodies of a mesh: one, or a pair
+bolts         bolts of a pair
+modes         its modes without contact
 cases         load cases
 stresses      stresses below the surface
 checks        limits

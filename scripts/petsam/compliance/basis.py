@@ -1,14 +1,37 @@
-"""Legendre polynomials in x times those in y, by total degree, orthonormal on the patch: a rectangle in x and y."""
+"""Legendre polynomials in x times those in y, orthonormal on the patch: a rectangle in x and y.
+
+A degree is one number, the largest sum of the degrees in x and y, or two: the largest degree in x and that in y.
+"""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.polynomial import legendre
 
 
 def powers(degree):
-    """Degrees (m, 2) in x and y of the (degree + 1)(degree + 2)/2 functions, by total degree, x first."""
-    return np.array([(total - j, j) for total in range(degree + 1) for j in range(total + 1)])
+    """Degrees (m, 2) in x and y of the functions up to a degree, by their sum, x first."""
+    nx, ny = largest(degree)
+    table = [(total - j, j) for total in range(nx + ny + 1) for j in range(total + 1)]
+    if np.ndim(degree) == 0:
+        return np.array([pair for pair in table if sum(pair) <= degree])
+    return np.array([pair for pair in table if pair[0] <= nx and pair[1] <= ny])
+
+
+def largest(degree):
+    """Largest degrees in x and y."""
+    return (degree, degree) if np.ndim(degree) == 0 else tuple(degree)
+
+
+def reduced(degree, by):
+    """The degree that is lower by that number, but at least 0."""
+    return max(degree - by, 0) if np.ndim(degree) == 0 else tuple(max(one - by, 0) for one in degree)
+
+
+def written(degree):
+    """The degree as --degree takes it."""
+    return ",".join(str(one) for one in np.atleast_1d(degree))
 
 
 def along(degree, x, center, half):
@@ -29,18 +52,27 @@ class Patch:
 
     center: tuple
     half: tuple
-    degree: int
+    degree: int | tuple
+
+    @cached_property
+    def powers(self):
+        """Degrees (m, 2) of the functions in x and y."""
+        return powers(self.degree)
+
+    @property
+    def largest(self):
+        """Largest degrees in x and y."""
+        return largest(self.degree)
 
     @property
     def count(self):
         """Number m of the functions."""
-        return (self.degree + 1) * (self.degree + 2) // 2
+        return len(self.powers)
 
     def values(self, x, y):
         """Functions (points, m), 1/m, at points."""
-        px, py = (along(self.degree, v, self.center[d], self.half[d]) for d, v in enumerate((x, y)))
-        table = powers(self.degree)
-        return px[:, table[:, 0]] * py[:, table[:, 1]]
+        px, py = (along(self.largest[d], v, self.center[d], self.half[d]) for d, v in enumerate((x, y)))
+        return px[:, self.powers[:, 0]] * py[:, self.powers[:, 1]]
 
     def quadrature(self, nx, ny):
         """Points (nx ny, 2) and weights, m2."""
@@ -54,13 +86,13 @@ class Patch:
         return np.sqrt(np.sum(beyond**2, axis=1) + points[:, 2] ** 2)[:, None] / np.array(self.half)
 
     def cell_means(self, n):
-        """Means (n n, m), 1/m, over the n x n equal cells of the patch, y slower than x."""
+        """Means (cells, m), 1/m, over the n[0] x n[1] equal cells of the patch, y slower than x."""
         means = []
         for d in range(2):
-            edges = np.linspace(-self.half[d], self.half[d], n + 1)
-            inner, weight = legendre.leggauss(self.degree // 2 + 1)
-            x = 0.5 * (edges[1:] + edges[:-1])[:, None] + (self.half[d] / n) * inner
-            values = along(self.degree, x.ravel(), 0.0, self.half[d]).reshape(n, inner.size, -1)
+            edges = np.linspace(-self.half[d], self.half[d], n[d] + 1)
+            inner, weight = legendre.leggauss(self.largest[d] // 2 + 1)
+            x = 0.5 * (edges[1:] + edges[:-1])[:, None] + (self.half[d] / n[d]) * inner
+            values = along(self.largest[d], x.ravel(), 0.0, self.half[d]).reshape(n[d], inner.size, -1)
             means.append(np.einsum("cqk,q->ck", values, 0.5 * weight))
-        table = powers(self.degree)
-        return (means[0][None, :, table[:, 0]] * means[1][:, None, table[:, 1]]).reshape(n * n, -1)
+        table = self.powers
+        return (means[0][None, :, table[:, 0]] * means[1][:, None, table[:, 1]]).reshape(n[0] * n[1], -1)

@@ -11,7 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import Error, short
+from .checks import deviation
 from .deck import UNSUPPORTED_LOADS, _value
+from .images import FLAT
 from .remainder import scatter
 
 REST = 1e-2  # part of the field's range; largest deviation of the polynomials
@@ -21,11 +23,15 @@ CHANGING = {"AMPLITUDE", "SECTOR", "SUBMODEL", "TIME DELAY", "USER"}  # paramete
 
 @dataclass
 class Case:
-    """Returns coefficients (m, 3), m2, the part of the field that these miss, and displacements (3 nodes, 1)."""
+    """Returns coefficients (m, 3), m2, the part of the field that these miss, and displacements (3 nodes, 1).
+
+    unit: of the field at factor 1, where it is not that of a displacement.
+    """
 
     coefficients: np.ndarray
     rest: float
     displacement: np.ndarray
+    unit: str = "m"
 
 
 class Loads:
@@ -128,8 +134,8 @@ def loads(deck, mesh, frame, units, step):
     return found
 
 
-def case(found, solver, remainder, patch, place, points):
-    """Returns the Case of the Loads; place: of the points (n, 2) of the patch, in the mesh; `found.name`: in errors."""
+def case(found, solver, remainder, jump):
+    """Returns the Case of the Loads; jump: Jump of the patch; `found.name`: in errors."""
     free = found.prescribed & ~solver.fixed
     if np.any(free):
         number = found.mesh.node_numbers[np.flatnonzero(free)[0] // 3]
@@ -140,12 +146,37 @@ def case(found, solver, remainder, patch, place, points):
     coefficients = np.einsum("nic,ni->c", remainder.total(loaded), found.force.reshape(-1, 3)[loaded])
     coefficients -= (remainder.support.T @ given)[:, 0]
     coefficients = coefficients.reshape(-1, 3)
-    sampled = found.mesh.interpolate(place, v.reshape(-1, 3))
-    rest = np.max(np.abs(sampled - patch.values(*points.T) @ coefficients))
+    return Case(coefficients, rest(f"load case {found.name}", jump, jump(v), coefficients), v)
+
+
+def rest(what, jump, sampled, coefficients):
+    """Returns the part of a sampled field that its coefficients miss, after a check."""
+    missed = np.max(np.abs(sampled - jump.patch.values(*jump.points.T) @ coefficients))
     spread = np.max(np.ptp(sampled, axis=0)) + 1e-3 * np.max(np.abs(sampled))
-    if not rest <= REST * spread:
+    if not missed <= REST * spread:
         raise Error(
-            f"load case {found.name}: the polynomials miss {rest / spread:.2g} of its field on the patch, limit "
+            f"{what}: the polynomials miss {missed / spread:.2g} of its field on the patch, limit "
             f"{REST:g}: use a higher --degree, a finer mesh, or a load farther from the patch"
         )
-    return Case(coefficients, float(rest / spread), v)
+    return float(missed / spread)
+
+
+class Jump:
+    """Displacements of the patch by those of the nodes: of the body, or of body 2 minus body 1."""
+
+    def __init__(self, parts, patch, counts):
+        """counts: numbers of Gauss points in x and y."""
+        self.patch, self.parts = patch, parts
+        self.points, self.weights = patch.quadrature(*counts)
+        self.places = []
+        for part in parts:
+            inward = max(FLAT, 1.01 * deviation(part.mesh, patch, part.contact)) * min(patch.half)
+            lift = np.concatenate([self.points, np.full((len(self.points), 1), part.sign * inward)], axis=1)
+            self.places.append(part.mesh.locate(lift))
+            if np.any(self.places[-1][0] < 0):
+                raise Error("the patch is not inside the mesh: use a smaller --patch")
+
+    def __call__(self, v):
+        """Values (points, 3) by displacements (3 nodes, 1)."""
+        v = v.reshape(-1, 3)
+        return sum(part.sign * part.mesh.interpolate(place, v) for part, place in zip(self.parts, self.places))

@@ -4,10 +4,11 @@ import numpy as np
 from scipy import linalg
 
 from ..errors import Error
-from . import images
-from .halfspace import cell_compliance
+from . import basis, images
+from .halfspace import cell_compliance, opposite
 
-CELLS = 20  # number of cells per side of the patch for which the definiteness is examined
+CELLS = 20  # least number of cells per side of the patch for which the definiteness is examined
+PER_DEGREE = 2  # and by the degree along that side, of which they must tell the polynomials apart
 ASYMMETRY = 1e-4  # largest relative asymmetry of D
 CLEARANCE = 0.25  # least distance from the patch to another surface, in half widths
 COARSEST = 1.3  # largest element at the nearest edge, in clearances
@@ -102,14 +103,17 @@ def symmetric(compliance):
 
 
 class Definiteness:
-    """The half-space's compliance on cells of the patch, in the basis."""
+    """The half-space's compliance on cells of the patch, in the basis; other: moduli of body 1 of a pair."""
 
-    def __init__(self, patch, young, poisson):
+    def __init__(self, patch, young, poisson, other=None):
         self.patch = patch
-        means = patch.cell_means(CELLS)
-        self.area = 4.0 * patch.half[0] * patch.half[1] / CELLS**2
+        cells = tuple(max(CELLS, PER_DEGREE * degree) for degree in patch.largest)
+        means = patch.cell_means(cells)
+        self.area = 4.0 * patch.half[0] * patch.half[1] / (cells[0] * cells[1])
         self.means = np.kron(means, np.eye(3))  # (3 cells, 3 m)
-        self.kernel = cell_compliance(patch.half, CELLS, young, poisson)
+        self.kernel = cell_compliance(patch.half, cells, young, poisson)
+        if other:
+            self.kernel += opposite(cell_compliance(patch.half, cells, *other))
         self.factor = linalg.cho_factor(0.5 * (self.kernel + self.kernel.T))
         gram = self.area * self.means.T @ linalg.cho_solve(self.factor, self.means)
         self.root = linalg.cholesky(0.5 * (gram + gram.T), lower=True)
@@ -126,9 +130,10 @@ class Definiteness:
         """Returns the smallest eigenvalue, after a check that it is positive."""
         least = self.smallest(compliance)
         if not least > 0.0:
+            sides = "{:.3g} x {:.3g} m".format(*(2.0 * half for half in self.patch.half))
             raise Error(
                 f"the compliance is not positive: smallest eigenvalue {least:.3g} relative to the half-space, degree "
-                f"{self.patch.degree}, patch {2 * self.patch.half[0]:.3g} x {2 * self.patch.half[1]:.3g} m: use a "
+                f"{basis.written(self.patch.degree)}, patch {sides}: use a "
                 "higher --degree or a smaller --patch"
             )
         return least
@@ -147,13 +152,15 @@ def pressure_coefficients(patch):
 
 
 def degree_changes(compliance, patch):
-    """Returns the change of the correction under Hertz's pressure, L2 on the patch, for each lower degree (degree)."""
+    """Returns the change of the correction under Hertz's pressure, L2 on the patch, for each lower degree: at an index
+    from the end the one that is reduced by that number."""
     c = pressure_coefficients(patch)
     full = compliance @ c
     changes = []
-    for degree in range(patch.degree):
-        kept = 3 * (degree + 1) * (degree + 2) // 2
+    for by in range(max(patch.largest), 0, -1):
+        lower = set(map(tuple, basis.powers(basis.reduced(patch.degree, by)).tolist()))
+        kept = np.flatnonzero(np.repeat([tuple(pair) in lower for pair in patch.powers.tolist()], 3))
         part = np.zeros_like(full)
-        part[:kept] = compliance[:kept, :kept] @ c[:kept]
+        part[kept] = compliance[np.ix_(kept, kept)] @ c[kept]
         changes.append(float(np.linalg.norm(full - part) / max(np.linalg.norm(full), 1e-300)))
     return changes

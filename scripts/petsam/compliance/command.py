@@ -3,6 +3,8 @@
     petsam-compliance --mesh block.inp --units mm --contact TOP --fixed BOTTOM --frame 0,0,0 --patch 2.4mm
     petsam-compliance --mesh beam.inp --units mm --contact TOP --fixed ENDS --frame 0,0,0:1,0,0 --patch 3mm,2mm \\
         --degree 6 --case pull=1 -o beam.h5
+    petsam-compliance --mesh lap.inp --units mm --contact LOWER --pair UPPER --fixed CLAMP --patch 36mm,20mm \\
+        --degree 12,6 --bolt B1=TOP_WASHER,BOTTOM_WASHER:8mm --modes 12 --sensor TIP=1234 -o lap.h5
     petsam-compliance --matrix beam.mtx --nodes beam.txt --units mm --young 2.1e11 --poisson 0.3 --patch 3mm
 
 Reads a CalculiX deck (.inp) of solid elements: C3D20, C3D20R, C3D8I, C3D10 and others, isotropic elastic materials, and
@@ -11,9 +13,15 @@ frame, whose z points into the body; it lies on the surface --contact. The body 
 nodes of --symmetry do not leave their plane: of half of a body whose halves are loaded alike. A load case is a step of
 the deck, with *CLOAD, *DLOAD, *DSLOAD or *BOUNDARY, without contact. Writes HDF5 and a picture beside it. With --matrix
 the body is a substructure of another program, whose retained nodes are the patch: less accurate, so of degree 1.
+
+With --pair the deck has both bodies, and bolts join them. The file is the compliance of both, for -body2_compliance:
+displacement of body 2 minus that of body 1. Unit initial tension of a bolt is the load case bolt_NAME, and a mode
+without contact the load case modeK.
 """
 
 import argparse
+import collections
+import math
 import os
 import re
 import shlex
@@ -26,12 +34,17 @@ from ..files import same
 from ..plot.saving import add_choice
 from ..replacing import need_own
 from ..surface.lengths import lengths, several, shown, sides
-from . import model, picture, substructure, writing
+from . import basis, model, picture, substructure, writing
 
 HIGHEST = 10  # highest degree that petsam reads
+HIGHEST_EACH, MOST_FUNCTIONS = 24, 325  # the same of degrees in x and y, and the number of their products
 NAME = re.compile(r"[A-Za-z0-9_]{1,20}")
-MOST_CASES = 8
-MESH_ONLY = ("contact", "fixed", "symmetry", "case", "coarse_mesh", "depth")
+Bolt = collections.namedtuple("Bolt", "name surfaces diameter young")
+MOST_CASES, MOST_OF_PAIR = 8, 40
+LONGEST = 20  # letters of the name of a load case
+MESH_ONLY = ("contact", "fixed", "symmetry", "case", "coarse_mesh", "depth", "pair", "bolt", "modes", "sensor")
+PAIR_ONLY = ("bolt", "modes", "sensor")
+RESERVED = ("closing", "closing_by")  # names beside those of bolts in the file
 PROGRAM = "petsam-compliance"
 
 
@@ -60,10 +73,63 @@ def case(text):
 
 
 def degree(text):
-    """Reads a degree for argparse."""
-    if not text.isdecimal() or int(text) > HIGHEST:
-        raise argparse.ArgumentTypeError(f"{short(text)}: expected an integer from 0 to {HIGHEST}")
+    """Reads a degree for argparse: of all products, or largest ones in x and y."""
+    words = text.split(",")
+    most = HIGHEST if len(words) == 1 else HIGHEST_EACH
+    if len(words) > 2 or not all(word.isdecimal() and int(word) <= most for word in words):
+        raise argparse.ArgumentTypeError(
+            f"{short(text)}: expected an integer from 0 to {HIGHEST}, or two from 0 to {HIGHEST_EACH} for x and y: 12,6"
+        )
+    if len(words) == 1:
+        return int(text)
+    found = tuple(int(word) for word in words)
+    count = len(basis.powers(found))
+    if count > MOST_FUNCTIONS:
+        raise argparse.ArgumentTypeError(
+            f"{short(text)} gives {count} polynomials, limit {MOST_FUNCTIONS}: lower the degree in one direction"
+        )
+    return found
+
+
+def bolt(text):
+    """Reads a bolt for argparse."""
+    name, _, rest = text.partition("=")
+    surfaces, *numbers = rest.split(":")
+    both = surfaces.split(",")
+    if not NAME.fullmatch(name) or name in RESERVED or len(both) != 2 or not all(both) or len(numbers) not in (1, 2):
+        raise argparse.ArgumentTypeError(
+            f"{short(text)}: expected NAME=SURFACE1,SURFACE2:DIAMETER[:YOUNG], as in B1=HEAD,NUT:8mm"
+        )
+    if len("bolt_" + name) > LONGEST:
+        raise argparse.ArgumentTypeError(f"{short(name)}: use a name of at most {LONGEST - len('bolt_')} letters")
+    young = positive(numbers[1]) if len(numbers) == 2 else None
+    return Bolt(name, tuple(both), length(numbers[0]), young)
+
+
+def positive(text):
+    """Reads a modulus for argparse."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
+    if not 0.0 < value < float("inf"):
+        raise argparse.ArgumentTypeError(f"{short(text)}: expected a modulus above 0, in Pa")
+    return value
+
+
+def modes(text):
+    """Reads a number of modes for argparse."""
+    if not text.isdecimal() or not 1 <= int(text) <= MOST_OF_PAIR:
+        raise argparse.ArgumentTypeError(f"{short(text)}: expected an integer from 1 to {MOST_OF_PAIR}")
     return int(text)
+
+
+def sensor(text):
+    """Reads a sensor for argparse."""
+    name, _, node = text.partition("=")
+    if not NAME.fullmatch(name) or not node.isdecimal():
+        raise argparse.ArgumentTypeError(f"{short(text)}: expected NAME=NODE, a number of a node of the deck")
+    return name, int(node)
 
 
 def length(text):
@@ -92,6 +158,23 @@ def _body_options(parser):
     body.add_argument("--case", type=case, action="append", metavar="NAME=STEP", help="load case: a step of the deck")
 
 
+def _pair_options(parser):
+    pair = parser.add_argument_group("a pair: both bodies in one mesh, body 2 with --contact")
+    pair.add_argument("--pair", metavar="SURFACE", help="element surface of body 1 that faces --contact")
+    pair.add_argument(
+        "--bolt",
+        type=bolt,
+        action="append",
+        metavar="NAME=S1,S2:D[:E]",
+        help="bolt from washer surface S1 on body 1 to S2 on body 2, its diameter and its modulus, Pa (the bodies'); "
+        "may be repeated",
+    )
+    pair.add_argument("--modes", type=modes, metavar="N", help="number of modes without contact; needs *DENSITY")
+    pair.add_argument(
+        "--sensor", type=sensor, action="append", metavar="NAME=NODE", help="node whose modes are written"
+    )
+
+
 def _matrix_options(parser):
     other = parser.add_argument_group("instead of a mesh, a substructure matrix")
     other.add_argument("--matrix", metavar="NAME", help="stiffness: Abaqus .mtx, Nastran DMIG KAAX, ANSYS .sub as text")
@@ -104,13 +187,18 @@ def parser():
     """Creates the parser of the command line."""
     found = Parser(prog=PROGRAM, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     _body_options(found)
+    _pair_options(found)
     patch = found.add_argument_group("the patch")
     patch.add_argument("--patch", type=sides, required=True, metavar="X[,Y]", help="full widths: 2e-3 (m) or 2mm")
     patch.add_argument(
         "--center", type=several(2, "X,Y"), default=(0.0, 0.0), metavar="X,Y", help="its centre in the frame (0,0)"
     )
     patch.add_argument(
-        "--degree", type=degree, metavar="N", help=f"of the polynomials, 0 to {HIGHEST} (6; of a matrix 1)"
+        "--degree",
+        type=degree,
+        metavar="N|NX,NY",
+        help=f"of the polynomials: the sum in x and y, 0 to {HIGHEST}, or the largest in x and in y, up to "
+        f"{HIGHEST_EACH} (6; of a matrix 1)",
     )
     method = found.add_argument_group("method")
     method.add_argument("--method", choices=("auto", "image", "cutoff"), default="auto", help="(auto: image if valid)")
@@ -126,6 +214,26 @@ def parser():
     out.add_argument("--picture", metavar="NAME.png", help="(beside the output)")
     add_choice(out)
     return found
+
+
+def _check_cases(reader, options):
+    """Checks --pair and what belongs to it, and the names and the number of load cases."""
+    if not options.pair:
+        for name in PAIR_ONLY:
+            if getattr(options, name):
+                reader.error(f"--{name} is for a pair: give the surface of body 1 by --pair, or remove it")
+    elif options.depth or options.method == "cutoff":
+        name = "--depth" if options.depth else "--method cutoff"
+        reader.error(f"{name} is not for a pair, which has no stresses and the method image only: remove it")
+    options.bolt, options.sensor = options.bolt or [], options.sensor or []
+    if options.sensor and not options.modes:
+        reader.error("--sensor needs --modes: give their number, or remove it")
+    names = [name for name, _ in options.case] + [f"bolt_{one.name}" for one in options.bolt]
+    names += [f"mode{k}" for k in range(1, 1 + (options.modes or 0))]
+    most = MOST_OF_PAIR if options.pair else MOST_CASES
+    if len(set(names)) < len(names) or len(names) > most:
+        bolts = ", with those of --bolt and --modes" if options.pair else ""
+        reader.error(f"--case: give each name once, at most {most} of them{bolts}")
 
 
 def arguments(words):
@@ -144,9 +252,7 @@ def arguments(words):
             reader.error(f"--{name.replace('_', '-')} is not for {'--mesh' if options.mesh else '--matrix'}: remove it")
     options.frame = options.frame or [[0.0, 0.0, 0.0]]
     options.case, options.symmetry = options.case or [], options.symmetry or []
-    names = [name for name, _ in options.case]
-    if len(set(names)) < len(names) or len(names) > MOST_CASES:
-        reader.error(f"--case: give each name once, at most {MOST_CASES} of them")
+    _check_cases(reader, options)
     if options.degree is None:
         options.degree = 6 if options.mesh else 1
     options.ccx = os.environ.get("CCX", "ccx")
@@ -163,24 +269,42 @@ def description(body):
     m = body.patch.count
     lines = [
         f"half-space  E = {body.young:.6g} Pa, nu = {body.poisson:.6g}",
+        *(["body 1      E = {:.6g} Pa, nu = {:.6g}".format(*body.other)] if body.other else []),
         "patch       {} x {} about x = {:g} m, y = {:g} m".format(
             *(shown(2.0 * half) for half in body.patch.half), *body.patch.center
         ),
-        f"functions   {m} of degree {body.patch.degree} in each direction, method {body.method}",
+        f"functions   {m} of degree {basis.written(body.patch.degree)} in each direction, method {body.method}",
         *(f"            {text}" for text in body.remarks),
         "checks      asymmetry {:.1e}, smallest eigenvalue {:.3g} relative to the half-space".format(
             body.checks["asymmetry"], body.checks["smallest_eigenvalue"]
         ),
     ]
     if "degree_change" in body.checks:
-        lines.append(
-            f"            degree {body.patch.degree - 2} changes the correction by {body.checks['degree_change']:.1e}"
-        )
+        lower = basis.written(basis.reduced(body.patch.degree, 2))
+        lines.append(f"            degree {lower} changes the correction by {body.checks['degree_change']:.1e}")
     if "mesh_change" in body.checks:
         lines.append(f"            the coarser mesh changes the compliance by {body.checks['mesh_change']:.1e}")
     lines += [
         f"load case   {name}: the polynomials miss {one.rest:.1e} of its field" for name, one in body.cases.items()
     ]
+    return lines + _joint(body)
+
+
+def _joint(body):
+    """Returns lines that describe the bolts and modes of a Body."""
+    lines = []
+    for one in body.bolts:
+        left = 1.0 - one.stiffness * one.closing @ body.cases[f"bolt_{one.name}"].displacement
+        lines.append(
+            f"bolt        {one.name}: {one.stiffness:.4g} N/m, {shown(one.diameter)} x {shown(one.length)}, without "
+            f"contact {max(0.0, left[0, 0]):.2g} of its tension is left"
+        )
+    if body.modes:
+        lines.append("modes, Hz   " + ", ".join(f"{omega / (2.0 * math.pi):.6g}" for omega in body.modes.omega))
+        lines.append(
+            f"            orthonormal within {body.modes.mass_error:.1e}, smallest eigenvalue without them "
+            f"{body.checks['residual_eigenvalue']:.3g}"
+        )
     return lines
 
 
@@ -210,6 +334,7 @@ def carry_out(options, words):
     print(
         f"options for petsam:\n  -body2_compliance {name} -body2_young {body.young:.10g} "
         f"-body2_poisson {body.poisson:.10g}"
+        + (" -body1_young {:.10g} -body1_poisson {:.10g}".format(*body.other) if body.other else "")
     )
 
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import Error
-from .remainder import Remainder, scatter
+from .remainder import Remainder, Side, scatter
 
 ORDER = 4  # Gauss points along the side of an element
 POINTS = 2000  # number of points processed at a time
@@ -146,7 +146,7 @@ def solved(mesh, fields, solver, cutoff, progress=lambda text: None):
     progress(f"{columns} solutions")
     w = solver(force, np.zeros((len(solver.held), columns)))
     compliance += w.T @ force
-    return Remainder(mesh, fields, compliance, w, solver.reaction(w, force), cutoff)
+    return Remainder([Side(mesh, fields)], compliance, w, solver.reaction(w, force), cutoff)
 
 
 def _element_forces(volume, fields, cutoff):

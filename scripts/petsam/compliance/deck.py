@@ -39,12 +39,14 @@ class Card:
 
 @dataclass
 class Deck:
-    """A deck's mesh, in its own units and coordinates, the load cards of its steps, and *BOUNDARY before the steps."""
+    """A deck's mesh, in its own units and coordinates, the load cards of its steps, *BOUNDARY before the steps, and the
+    materials in use that have no density."""
 
     mesh: Mesh
     element_sets: dict
     steps: list
     supports: list
+    weightless: list
 
 
 def cards(path, depth=0):
@@ -91,7 +93,7 @@ class Reader:
         self.path = path
         self.nodes, self.elements = {}, []  # number -> x; (kind, number, nodes)
         self.node_sets, self.element_sets, self.surfaces = {}, {}, {}
-        self.materials, self.sections, self.steps, self.supports = {}, [], [], []
+        self.materials, self.densities, self.sections, self.steps, self.supports = {}, {}, [], [], []
         self._material, self._in_step = None, False
         for card in cards(path):
             self._take(card)
@@ -190,6 +192,15 @@ class Reader:
             raise Error(f"{card.place}: E = {young:g}, nu = {poisson:g}: use E > 0 and -1 < nu < 0.5")
         self.materials[self._material] = (young, poisson)
 
+    def take_density(self, card):
+        words = [word for word in card.lines[0] if word] if card.lines else []
+        if len(words) != 1 or len(card.lines) > 1:
+            raise Error(f"{card.place}: *DENSITY needs one value, which does not depend on the temperature")
+        density = _value(card, words[0])
+        if not density > 0.0:
+            raise Error(f"{card.place}: density {density:g}: use a value above 0")
+        self.densities[self._material] = density
+
     def take_solid_section(self, card):
         if "ORIENTATION" in card.parameters:
             raise Error(f"{card.place}: oriented materials are not supported: remove ORIENTATION")
@@ -198,14 +209,15 @@ class Reader:
     # ---------------------------------------------------------------- the whole
 
     def _moduli(self):
-        """{element number: (E, nu)}."""
+        """{element number: (E, nu, density)}; a density of 0 where the material has none."""
         moduli = {}
         for card, name, material in self.sections:
             if name not in self.element_sets:
                 raise Error(f"{card.place}: no element set {short(name)}")
             if material not in self.materials:
                 raise Error(f"{card.place}: material {short(material)} has no *ELASTIC")
-            moduli.update(dict.fromkeys(self.element_sets[name], self.materials[material]))
+            constants = (*self.materials[material], self.densities.get(material, 0.0))
+            moduli.update(dict.fromkeys(self.element_sets[name], constants))
         return moduli
 
     def deck(self):
@@ -228,7 +240,9 @@ class Reader:
             blocks.append(Block(kind, np.array([n for n, _ in chosen]), nodes, *constants.T.copy()))
         points = np.array([self.nodes[number] for number in used.tolist()])
         sets = {name: np.searchsorted(used, np.intersect1d(used, n)) for name, n in self.node_sets.items()}
-        return Deck(Mesh(points, blocks, sets, self.surfaces, used), self.element_sets, self.steps, self.supports)
+        weightless = sorted({material for _, _, material in self.sections if material not in self.densities})
+        mesh = Mesh(points, blocks, sets, self.surfaces, used)
+        return Deck(mesh, self.element_sets, self.steps, self.supports, weightless)
 
 
 def read(path):

@@ -13,7 +13,7 @@ import itertools
 
 import numpy as np
 
-from .basis import along, powers
+from .basis import along
 
 ACCURACY = 1e-9  # relative accuracy of a Gauss sum
 MOST = 160  # maximum number of Gauss points along a side
@@ -86,10 +86,13 @@ def gradient(d, poisson):
 
 
 def points_needed(distance, degree):
-    """Returns the number of Gauss points along a side for a point at that distance from the patch in half widths."""
+    """Returns the number of Gauss points along sides for points at distances (points, 2) from the patch in half widths.
+
+    degree: largest ones in x and y.
+    """
     distance = np.maximum(distance, 1e-3)
     ellipse = np.log(distance + np.sqrt(1.0 + distance**2))
-    n = 0.5 * (-np.log(ACCURACY) / ellipse + degree) + 2
+    n = 0.5 * (-np.log(ACCURACY) / ellipse + np.array(degree)) + 2
     return np.minimum(MOST, np.ceil(n / 4.0) * 4.0).astype(int)
 
 
@@ -106,7 +109,7 @@ class Fields:
         """Sums (points, parts, m, 3) of kernel(differences, poisson) (parts, 3, ...) over the patch."""
         points = np.asarray(points, dtype=float)
         result = np.empty((len(points), parts, self.patch.count, 3))
-        counts = points_needed(self.patch.distance(points), self.patch.degree)
+        counts = points_needed(self.patch.distance(points), self.patch.largest)
         for pair in np.unique(counts, axis=0):
             chosen = np.flatnonzero(np.all(counts == pair, axis=1))
             source, weight = self.patch.quadrature(*pair)
@@ -145,6 +148,31 @@ class Fields:
         return self.stress_of(self.gradient(points))
 
 
+MIRROR = np.array([1.0, 1.0, -1.0])
+
+
+class Mirrored(Fields):
+    """The same of -phi_j on the half-space z <= 0, by reflection."""
+
+    def __init__(self, patch, young, poisson):
+        super().__init__(patch, young, poisson)
+        self.signs = -np.tile(MIRROR, patch.count)
+
+    def displacement(self, points):
+        """As that of Fields."""
+        return super().displacement(points * MIRROR) * MIRROR[:, None] * self.signs
+
+    def gradient(self, points):
+        """As that of Fields."""
+        return super().gradient(points * MIRROR) * np.outer(MIRROR, MIRROR)[:, :, None] * self.signs
+
+
+def opposite(matrix):
+    """Compliance (3 n, 3 n) of a half-space as that of body 1: displacement -u by tractions -t on z <= 0."""
+    sign = np.tile(MIRROR, len(matrix) // 3)
+    return matrix * sign[:, None] * sign
+
+
 # ---------------------------------------------------------------- the surface itself, by uniform cells
 
 
@@ -166,17 +194,19 @@ def _corner(x, y, poisson):
 
 
 def cell_compliance(half, n, young, poisson):
-    """Dense compliance (3 n n, 3 n n), m3/N, of n x n cells of a rectangle: displacement of centres by pressures."""
+    """Dense compliance (3 cells, 3 cells), m3/N, of n[0] x n[1] cells of a rectangle: displacement of centres by
+    pressures."""
+    nx, ny = n
     h = 2.0 * np.array(half) / n
-    ix, iy = np.meshgrid(np.arange(1 - n, n), np.arange(1 - n, n))
+    ix, iy = np.meshgrid(np.arange(1 - nx, nx), np.arange(1 - ny, ny))
     total = 0.0
     for sx in (-1, 1):
         for sy in (-1, 1):
             total = total + sx * sy * _corner((ix + 0.5 * sx) * h[0], (iy + 0.5 * sy) * h[1], poisson)
     total *= 0.5 * (1.0 + poisson) / (np.pi * young)
-    row, column = (v.ravel() for v in np.indices((n, n)))
-    dense = total[row[:, None] - row + n - 1, column[:, None] - column + n - 1]
-    return dense.transpose(0, 2, 1, 3).reshape(3 * n * n, 3 * n * n)
+    row, column = (v.ravel() for v in np.indices((ny, nx)))
+    dense = total[row[:, None] - row + ny - 1, column[:, None] - column + nx - 1]
+    return dense.transpose(0, 2, 1, 3).reshape(3 * nx * ny, 3 * nx * ny)
 
 
 def _correlation(degree, half, d):
@@ -191,11 +221,11 @@ def _correlation(degree, half, d):
 def projected(patch, young, poisson):
     """<phi_i, K phi_j> (3 m, 3 m) of the half-space, m3/N, to rounding: r times the kernel depends on the angle
     alone, so that in polar coordinates of the difference all integrands are smooth."""
-    n = 2 * patch.degree + 12
+    n = 2 * max(patch.largest) + 12
     t, weight = np.polynomial.legendre.leggauss(n)
     t, weight = 0.5 * (1.0 + t), 0.5 * weight
     sides = 2.0 * np.array(patch.half)
-    table = powers(patch.degree)
+    table = patch.powers
     total = np.zeros((patch.count, 3, patch.count, 3))
     for sx, sy, swapped in itertools.product((1, -1), (1, -1), (False, True)):
         # triangle between an axis and the diagonal, collapsed: d = u (1, v) or u (v, 1), its corner at d = 0
@@ -204,7 +234,7 @@ def projected(patch, young, poisson):
         measure = np.outer(weight, weight).ravel() * u * sides[0] * sides[1]
         difference = np.stack([*d.T, np.zeros(len(d))])
         kernel = displacement(difference, poisson) * (measure * 0.5 * (1.0 + poisson) / (np.pi * young))
-        cx, cy = (_correlation(patch.degree, patch.half[axis], d[:, axis]) for axis in range(2))
+        cx, cy = (_correlation(patch.largest[axis], patch.half[axis], d[:, axis]) for axis in range(2))
         pairs = cx[:, table[:, 0][:, None], table[:, 0]] * cy[:, table[:, 1][:, None], table[:, 1]]
         total += np.einsum("pab,ijp->aibj", pairs, kernel, optimize=True)
     return total.reshape(3 * patch.count, 3 * patch.count)

@@ -9,12 +9,20 @@ needs no displacement of the patch:
     f_j = -int_free N' T_j     g_j = -u_j at supported nodes     R_i = K w_i - f_i there
 
 The last two terms are an energy, whose error is the square of that of w.
+
+The two bodies of a pair lie on either side of z = 0 and bear phi_j (z >= 0) and -phi_j (z <= 0). Each has its own
+half-space's u_j, supports and free sides. Bolts between them, of stiffness K_r, take part in K and feel u_j at the
+nodes: f_j contains -K_r u_j, and D_ij contains -u_i.K_r u_j, as
+
+    D_ij = <phi_i, w_j> = a(u_i, w_j) - int T_i.w_j     a(w_j, u_i) = f_j.u_i + R_j.u_i - w_j.K_r u_i
+
+by the half-space's equilibrium and that of w_j, where <phi_i, w> is that of w on body 2 minus w on body 1.
 """
 
 import numpy as np
 
 from .mesh import some
-from .remainder import Remainder, scatter
+from .remainder import Remainder, half_space, scatter
 
 ORDER = 5  # Gauss points along the side of a face
 POINTS = 3000  # number of points processed at a time
@@ -49,32 +57,46 @@ def pieces(faces):
         yield some(faces, mask)
 
 
-def solved(mesh, fields, solver, supported, progress=lambda text: None):
-    """Returns the Remainder of a body; supported: its supported nodes."""
-    patch, columns = fields.patch, fields.columns
-    force, support = (np.zeros((3 * len(mesh.nodes), columns)) for _ in range(2))
+def solved(sides, solver, supported, progress=lambda text: None, tie=None):
+    """Returns the Remainder of the bodies on some Sides; supported: supported nodes; tie: stiffness of the bolts."""
+    columns = sides[0].fields.columns
+    force, support = (np.zeros((3 * len(sides[0].mesh.nodes), columns)) for _ in range(2))
     compliance = np.zeros((columns, columns))
-    groups = list(other_faces(mesh, patch, supported))
-    total = sum(len(faces.elements) for faces, _ in groups)
+    groups = [(side, *group) for side in sides for group in other_faces(side.mesh, side.fields.patch, supported)]
+    total = sum(len(faces.elements) for _, faces, _ in groups)
     done = 0
-    for faces, fixed in groups:
+    for side, faces, fixed in groups:
         for piece in pieces(faces):
-            gauss = mesh.gauss(piece, ORDER)
-            x, area = gauss.x.reshape(-1, 3), gauss.area.reshape(-1, 3)
-            u = fields.displacement(x).reshape(-1, columns)
-            traction = np.einsum("pikc,pk->pic", fields.stress(x), area)
-            nodal = np.einsum("qk,nqic->nkic", gauss.values, traction.reshape(*gauss.x.shape, columns))
+            u, traction, nodal = _on_faces(side, piece)
             if fixed:
-                compliance += traction.reshape(-1, columns).T @ u
+                compliance += traction.T @ u
                 scatter(support, piece.nodes, nodal)
             else:
-                compliance -= u.T @ traction.reshape(-1, columns)
+                compliance -= u.T @ traction
                 scatter(force, piece.nodes, -nodal)
             done += len(piece.elements)
             progress(f"half-space fields on {done} of {total} faces")
+    if tie is not None:
+        nodes = np.unique(tie.indices // 3)
+        rows = (3 * nodes[:, None] + np.arange(3)).ravel()
+        u = half_space(sides, nodes).reshape(-1, columns)
+        pull = tie[rows][:, rows] @ u
+        force[rows] -= pull
+        compliance -= u.T @ pull
     progress(f"{columns} solutions")
-    prescribed = -fields.displacement(mesh.nodes[supported]).reshape(-1, columns)
+    prescribed = -half_space(sides, supported).reshape(-1, columns)
     w = solver(force, prescribed)
     reaction = solver.reaction(w, force)
     compliance += w.T @ force - reaction.T @ prescribed
-    return Remainder(mesh, fields, compliance, w, reaction + support[solver.held])
+    return Remainder(sides, compliance, w, reaction + support[solver.held])
+
+
+def _on_faces(side, faces):
+    """Half-space displacements and tractions times areas (3 points, columns) on faces, and nodal forces of these."""
+    gauss = side.mesh.gauss(faces, ORDER)
+    x, area = gauss.x.reshape(-1, 3), gauss.area.reshape(-1, 3)
+    columns = side.fields.columns
+    u = side.fields.displacement(x).reshape(-1, columns)
+    traction = np.einsum("pikc,pk->pic", side.fields.stress(x), area)
+    nodal = np.einsum("qk,nqic->nkic", gauss.values, traction.reshape(*gauss.x.shape, columns))
+    return u, traction.reshape(-1, columns), nodal

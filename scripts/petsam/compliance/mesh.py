@@ -14,13 +14,14 @@ INSIDE = 1e-6  # tolerance by which local coordinates may be outside
 
 @dataclass
 class Block:
-    """Elements of one type: numbers in the deck, nodes (n, k) by index, moduli (n)."""
+    """Elements of one type: numbers in the deck, nodes (n, k) by index, moduli (n), densities (n)."""
 
     kind: str
     numbers: np.ndarray
     nodes: np.ndarray
     young: np.ndarray
     poisson: np.ndarray
+    density: np.ndarray = None
 
     @property
     def shape(self):
@@ -60,6 +61,10 @@ class Mesh:
     def turned(self, origin, axes):
         """The mesh in the coordinates of a frame: axes (3, 3) are its x, y, z as rows."""
         return replace(self, nodes=(self.nodes - origin) @ np.asarray(axes).T)
+
+    def used(self):
+        """Nodes of the elements."""
+        return np.unique(np.concatenate([block.nodes.ravel() for block in self.blocks]))
 
     # ---------------------------------------------------------------- faces
 

@@ -6,10 +6,11 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..errors import Error
+from . import bolts, checks, cutoff, deck, images, modes, parts, stresses
 from . import cases as load_cases
-from . import checks, cutoff, deck, images, stresses
 from .basis import Patch
-from .halfspace import Fields
+from .halfspace import Fields, Mirrored
+from .remainder import Side
 from .solve import Solver, plane_normal
 from .stiffness import stiffness
 
@@ -22,14 +23,20 @@ class Units:
 
     length: float
     stress: float
+    density_name: str
 
     @property
     def force(self):
         """Newtons."""
         return self.stress * self.length**2
 
+    @property
+    def density(self):
+        """kg/m3."""
+        return self.stress / self.length**2
 
-UNITS = {"m": Units(1.0, 1.0), "mm": Units(1e-3, 1e6)}
+
+UNITS = {"m": Units(1.0, 1.0, "kg/m3"), "mm": Units(1e-3, 1e6, "t/mm3")}
 
 
 @dataclass(frozen=True)
@@ -57,6 +64,18 @@ class Body:
     checks: dict = field(default_factory=dict)
     mesh: object = None
     remarks: list = field(default_factory=list)
+    other: tuple = None  # moduli of body 1 of a pair
+    modes: object = None
+    definite: object = None
+
+    @property
+    def bolts(self):
+        """Bolts of a pair."""
+        return self.mesh.bolts if self.mesh else []
+
+    def closing(self, name):
+        """Mutual approach (bolts) of the washers of each bolt by a load case."""
+        return np.array([(one.closing @ self.cases[name].displacement)[0, 0] for one in self.bolts])
 
 
 def frame_of(origin, x, z, outward):
@@ -88,6 +107,7 @@ class Model:
         mesh.nodes = mesh.nodes * units.length
         for block in mesh.blocks:
             block.young *= units.stress
+            block.density *= units.density
         deck.need_set(mesh.surfaces, options.contact, "surface", path)
         self.supported = np.unique(
             np.concatenate([deck.need_set(mesh.node_sets, name, "node set", path) for name in options.fixed])
@@ -108,8 +128,45 @@ class Model:
         held = np.unique(np.concatenate([self.supported, *symmetric]))
         load_cases.need_supports(self.deck, self.mesh, self.frame, units, held)
         self.planes = [(nodes, self._normal(name, nodes)) for name, nodes in zip(options.symmetry, symmetric)]
-        self.contact = faces
         self.patch = Patch(options.center, tuple(0.5 * side for side in options.patch), options.degree)
+        self.parts, self.bolts = [parts.Part(self.mesh, faces)], []
+        if options.pair:
+            self._take_pair()
+
+    def _take_pair(self):
+        """Finds the two bodies and their bolts."""
+        options = self.options
+        for name in [options.pair, *(surface for one in options.bolt for surface in one.surfaces)]:
+            deck.need_set(self.mesh.surfaces, name, "surface", self.path)
+        components = parts.Components(self.mesh)
+        links = [tuple(components.of_surface(surface) for surface in one.surfaces) for one in options.bolt]
+        for one, (first, second) in zip(options.bolt, links):
+            if first == second:
+                raise Error(f"bolt {one.name}: both washers are on one body: name a surface of each body")
+        self.parts = parts.pair(components, options.contact, options.pair, links)
+        components.need_held(self.supported, links)
+        self.bolts = [bolts.bolt(self.mesh, *one) for one in options.bolt]
+
+    def prepare_modes(self):
+        """Finds what the modes need: densities, and the nodes of the sensors."""
+        if self.deck.weightless:
+            raise Error(
+                f"{self.path}: material {self.deck.weightless[0]} has no *DENSITY, which --modes needs: give it in "
+                f"{self.units.density_name}"
+            )
+        self.sensors = [self._sensor(*one) for one in self.options.sensor]
+
+    def _sensor(self, name, number):
+        """Index of the node of a sensor."""
+        index = int(np.searchsorted(self.mesh.node_numbers, number))
+        if index == len(self.mesh.node_numbers) or self.mesh.node_numbers[index] != number:
+            raise Error(f"{self.path}: no node {number} of --sensor {name} in the mesh: name a node of its elements")
+        return index
+
+    def sides(self):
+        """The Sides of the bodies: body 2 first."""
+        kinds = {1: Fields, -1: Mirrored}
+        return [Side(one.mesh, kinds[one.sign](self.patch, *one.moduli(self.patch))) for one in self.parts]
 
     def _normal(self, name, nodes):
         """Normal of a plane of symmetry in the frame's coordinates."""
@@ -118,38 +175,22 @@ class Model:
             raise Error(f"{self.path}: node set {name} of --symmetry is not a plane: name the nodes of one plane")
         return normal
 
-    def moduli(self):
-        """(E, nu) of the material under the patch."""
-        found = set()
-        for group in self.contact:
-            block = self.mesh.blocks[group.block]
-            x = self.mesh.nodes[group.nodes].mean(axis=1)
-            inside = np.all(np.abs(x[:, :2] - self.patch.center) <= self.patch.half, axis=1)
-            chosen = group.elements[inside] if np.any(inside) else group.elements
-            found |= set(zip(block.young[chosen].tolist(), block.poisson[chosen].tolist()))
-        if len(found) > 1:
-            raise Error("the contact surface has several materials under the patch: use a smaller --patch")
-        return found.pop()
-
-    def uniform(self):
-        """True if the body has only one material."""
-        return len({pair for b in self.mesh.blocks for pair in zip(b.young.tolist(), b.poisson.tolist())}) == 1
-
-    def above(self):
-        """True if parts of the body lie above the plane of the patch."""
-        return bool(np.min(self.mesh.nodes[:, 2]) < -images.FLAT * max(self.patch.half))
-
 
 def choose(model, plane):
     """Returns `image` if it is valid, else `cutoff`, and the reason why not."""
     reasons = [
         ("the surface is curved", not plane),
-        ("the body rises above the plane of the patch", plane and model.above()),
-        ("the body has several materials", not model.uniform()),
+        ("the body rises above the plane of the patch", plane and any(one.beyond(model.patch) for one in model.parts)),
+        ("the body has several materials", not all(one.uniform() for one in model.parts)),
         ("the body has a plane of symmetry", bool(model.planes)),
     ]
     reason = ", ".join(text for text, holds in reasons if holds)
     wanted = model.options.method
+    if reason and len(model.parts) > 1:
+        raise Error(
+            f"{reason}: each body of a pair needs one material and a plane contact surface above which it does not "
+            "rise, and no --symmetry: change the deck, or give one body alone by --contact, without --pair"
+        )
     if wanted == "image" and reason:
         raise Error(f"{reason}: use --method cutoff")
     return ("cutoff" if reason or wanted == "cutoff" else "image"), reason
@@ -169,58 +210,65 @@ class Progress:
             print(f"  {now - self.start:.0f} s: {text}", file=self.stream, flush=True)
 
 
+def _cutoff(model, plane, moduli):
+    """Returns the Cutoff, and remarks."""
+    mesh, patch, (part,) = model.mesh, model.patch, model.parts
+    remarks = []
+    if not plane:
+        off = checks.deviation(mesh, patch, part.contact)
+        remarks.append(f"warning: the surface is up to {off:.2g} of the patch's half width off the tangent plane")
+    tolerance = max(images.FLAT * max(patch.half), 0.0 if plane else checks.CURVED * min(patch.half))
+    mirrored = np.concatenate([model.supported, *(nodes for nodes, _ in model.planes)])
+    chi = cutoff.widest(mesh, patch, mirrored, part.contact, tolerance, moduli)
+    coarse = cutoff.too_coarse(mesh, chi)
+    remarks.append(f"cut-off from {chi.outer[0, :2]} to {chi.outer[1]} m")
+    if coarse * cutoff.ELEMENTS > 1.0:
+        remarks.append(
+            f"warning: elements are up to {coarse:.2g} times as wide as the cut-off's ramp: "
+            f"use at least {cutoff.ELEMENTS} across it"
+        )
+    return chi, remarks
+
+
 def remainder(model, method, plane, progress):
     """Returns the Remainder of a Model, and its solver, after the checks of the geometry; and remarks."""
-    mesh, patch, supported = model.mesh, model.patch, model.supported
-    young, poisson = model.moduli()
+    mesh, patch, supported, sides = model.mesh, model.patch, model.supported, model.sides()
+    young = sides[0].fields.young
     remarks = []
     if MEGAPASCALS[0] <= young < MEGAPASCALS[1] and model.options.units == "m":
         remarks.append(f"warning: Young's modulus is {young:.6g} Pa: give --units mm if the deck is in mm and MPa")
     if method == "image":
-        clearance = checks.need_clearance(mesh, patch, supported)
+        clearance = min(checks.need_clearance(part.mesh, patch, supported) for part in model.parts)
         remarks.append(f"nearest other surface {clearance:.4g} m from the patch")
     else:
-        if not plane:
-            off = checks.deviation(mesh, patch, model.contact)
-            remarks.append(f"warning: the surface is up to {off:.2g} of the patch's half width off the tangent plane")
-        tolerance = max(images.FLAT * max(patch.half), 0.0 if plane else checks.CURVED * min(patch.half))
-        mirrored = np.concatenate([supported, *(nodes for nodes, _ in model.planes)])
-        chi = cutoff.widest(mesh, patch, mirrored, model.contact, tolerance, (young, poisson))
-        coarse = cutoff.too_coarse(mesh, chi)
-        remarks.append(f"cut-off from {chi.outer[0, :2]} to {chi.outer[1]} m")
-        if coarse * cutoff.ELEMENTS > 1.0:
-            remarks.append(
-                f"warning: elements are up to {coarse:.2g} times as wide as the cut-off's ramp: "
-                f"use at least {cutoff.ELEMENTS} across it"
-            )
+        chi, more = _cutoff(model, plane, (young, sides[0].fields.poisson))
+        remarks += more
     progress("stiffness")
     matrix = stiffness(mesh, model.options.stiffness, model.options.ccx)
+    tie = sum(one.matrix for one in model.bolts) if model.bolts else None
     fixed = np.zeros((len(mesh.nodes), 3), dtype=bool)
     fixed[supported] = True
     progress("factorization")
-    solver = Solver(matrix, mesh.nodes, fixed.ravel(), model.planes)
-    fields = Fields(patch, young, poisson)
+    solver = Solver(matrix if tie is None else matrix + tie, mesh.nodes, fixed.ravel(), model.planes)
     if method == "image":
-        return images.solved(mesh, fields, solver, supported, progress), solver, remarks
-    return cutoff.solved(mesh, fields, solver, chi, progress), solver, remarks
+        return images.solved(sides, solver, supported, progress, tie), solver, remarks
+    return cutoff.solved(mesh, sides[0].fields, solver, chi, progress), solver, remarks
 
 
 def _cases(model, solver, found):
-    """Load cases by name."""
-    if not model.options.case:
+    """Load cases by name: those of the deck, and unit initial tension of each bolt."""
+    if not (model.options.case or model.bolts):
         return {}
-    patch = model.patch
-    points, _ = patch.quadrature(*(2 * [patch.degree + GAUSS_MORE]))
-    inward = max(images.FLAT, 1.01 * checks.deviation(model.mesh, patch, model.contact)) * min(patch.half)
-    lift = np.concatenate([points, np.full((len(points), 1), inward)], axis=1)
-    place = model.mesh.locate(lift)
-    if np.any(place[0] < 0):
-        raise Error("the patch is not inside the mesh: use a smaller --patch")
+    jump = load_cases.Jump(model.parts, model.patch, [degree + GAUSS_MORE for degree in model.patch.largest])
     cases = {}
     for name, step in model.options.case:
         loads = load_cases.loads(model.deck, model.mesh, model.frame, model.units, step)
         loads.name = name
-        cases[name] = load_cases.case(loads, solver, found, patch, place, points)
+        cases[name] = load_cases.case(loads, solver, found, jump)
+    for one in model.bolts:
+        loads = load_cases.Loads(model.deck, model.mesh, model.frame, model.units)
+        loads.name, loads.force = f"bolt_{one.name}", one.closing.T.toarray()
+        cases[loads.name] = load_cases.case(loads, solver, found, jump)
     return cases
 
 
@@ -240,8 +288,11 @@ def _stress(model, found, cases):
 def computed(path, options, command, progress):
     """The Body of a deck."""
     model = Model(path, options)
-    plane = checks.need_plane(model.mesh, model.patch, model.contact)
-    checks.need_inside(model.mesh, model.patch, model.contact)
+    plane = all([checks.need_plane(part.mesh, model.patch, part.contact) for part in model.parts])
+    for part in model.parts:
+        checks.need_inside(part.mesh, model.patch, part.contact)
+    if options.modes:
+        model.prepare_modes()
     other = Model(options.coarse_mesh, options) if options.coarse_mesh else None  # to find its mistakes before the work
     method, reason = choose(model, plane)
     found, solver, remarks = remainder(model, method, plane, progress)
@@ -250,11 +301,19 @@ def computed(path, options, command, progress):
     young, poisson = found.fields.young, found.fields.poisson
     body = Body(young, poisson, method, path, command, model.frame, model.patch, found.compliance)
     body.mesh, body.remarks = model, remarks
+    if options.pair:
+        body.other = tuple(getattr(found.sides[1].fields, name) for name in ("young", "poisson"))
     examine(body)
     body.cases = _cases(model, solver, found)
+    if options.modes:
+        progress(f"{options.modes} modes")
+        body.modes = modes.found(model, solver, options.modes, model.sensors)
+        body.cases.update(modes.cases(model, body.modes))
+        body.checks["mass_error"] = body.modes.mass_error
+        body.checks["residual_eigenvalue"] = _without_modes(body)
     for name, case in body.cases.items():
         body.checks[f"rest_{name}"] = case.rest
-    if options.stress:
+    if options.stress and not options.pair:
         progress("stresses")
         body.stress = _stress(model, found, body.cases)
     if other:
@@ -264,13 +323,19 @@ def computed(path, options, command, progress):
     return body
 
 
+def _without_modes(body):
+    """Smallest eigenvalue of the compliance without that of the modes."""
+    d = np.stack([body.cases[f"mode{k}"].coefficients.ravel() / w for k, w in enumerate(body.modes.omega, 1)])
+    return body.definite.smallest(0.5 * (body.compliance + body.compliance.T) - d.T @ d)
+
+
 def examine(body):
     """Writes the checks of the compliance to body.checks."""
-    definite = checks.Definiteness(body.patch, body.young, body.poisson)
+    body.definite = definite = checks.Definiteness(body.patch, body.young, body.poisson, body.other)
     body.checks["asymmetry"] = checks.asymmetry(body.compliance)
     symmetric = checks.symmetric(body.compliance)
     body.checks["smallest_eigenvalue"] = definite.need_positive(symmetric)
     body.eigenvalues = definite.eigenvalues(symmetric)
     body.changes = checks.degree_changes(symmetric, body.patch)
-    if body.patch.degree >= 2:
-        body.checks["degree_change"] = body.changes[body.patch.degree - 2]
+    if len(body.changes) >= 2:
+        body.checks["degree_change"] = body.changes[-2]

@@ -5,6 +5,7 @@ import numpy as np
 from ..plot.saving import DPI, write
 from ..plot.style import COLORS, STYLE, bar, field, frame, note, plt
 from ..plot.units import label, scale
+from .basis import written
 
 CELLS = 80  # of the patch in a map
 COLUMNS = 3
@@ -13,11 +14,11 @@ SIDE = 3.6  # inches of a panel
 
 def _outline(body):
     """Edges (n, 2, 2) of the contact surface's faces, x and y."""
-    model = body.mesh
+    part = body.mesh.parts[0]
     edges = []
-    for group in model.contact:
-        count = model.mesh.blocks[group.block].shape.face_corners(group.local)
-        corners = model.mesh.nodes[group.nodes[:, :count], :2]
+    for group in part.contact:
+        count = part.mesh.blocks[group.block].shape.face_corners(group.local)
+        corners = part.mesh.nodes[group.nodes[:, :count], :2]
         edges.append(np.stack([corners, np.roll(corners, -1, axis=1)], axis=2).reshape(-1, 2, 2))
     return np.concatenate(edges)
 
@@ -41,12 +42,12 @@ def _points(patch):
     return [v.ravel() for v in np.meshgrid(x, y)]
 
 
-def _map(axes, body, coefficients, title, unit):
+def _map(axes, body, coefficients, title, unit, field_unit="m"):
     """u_z, or the largest component, of a displacement on the patch."""
     patch = body.patch
     values = (patch.values(*_points(patch)) @ coefficients).T.reshape(3, CELLS, CELLS)
     largest = int(np.argmax(np.max(np.abs(values), axis=(1, 2))))
-    size = scale("m", float(np.max(np.abs(values))))
+    size = scale("m", float(np.max(np.abs(values)))) if field_unit == "m" else (1.0, field_unit)
     (x, y), (a, b) = patch.center, patch.half
     edges = [v * unit[0] for v in (x - a, x + a, y - b, y + b)]
     shown = values[largest] * size[0]
@@ -73,7 +74,9 @@ def _spectrum(axes, body):
 def _convergence(axes, body):
     changes = np.maximum(body.changes, 1e-16)
     axes.semilogy(np.arange(len(changes)), changes, "o-", color=COLORS[2], markersize=4)
-    frame(axes, "correction under a Hertzian pressure", "degree", f"difference from degree {body.patch.degree}")
+    frame(
+        axes, "correction under a Hertzian pressure", "degree", f"difference from degree {written(body.patch.degree)}"
+    )
 
 
 def draw(body):
@@ -88,7 +91,7 @@ def draw(body):
     if len(body.changes) > 1:
         panels.append(lambda axes: _convergence(axes, body))
     for name, case in body.cases.items():
-        panels.append(lambda axes, c=case, n=name: _map(axes, body, c.coefficients, f"load case {n}", unit))
+        panels.append(lambda axes, c=case, n=name: _map(axes, body, c.coefficients, f"load case {n}", unit, c.unit))
     rows = -(-len(panels) // COLUMNS)
     figure, grid = plt.subplots(
         rows, COLUMNS, figsize=(COLUMNS * (SIDE + 1.0), rows * SIDE), squeeze=False, layout="constrained"
@@ -97,7 +100,7 @@ def draw(body):
         panel(axes)
     for axes in grid.ravel()[len(panels) :]:
         axes.set_axis_off()
-    note(figure, f"method {body.method}, degree {body.patch.degree}: body minus half-space", 10)
+    note(figure, f"method {body.method}, degree {written(body.patch.degree)}: body minus half-space", 10)
     return figure
 
 

@@ -104,7 +104,7 @@ class Solver:
         self.moves.eliminate_zeros()
         supported = (self.moves.T @ self.matrix @ self.moves).tocsc()
         try:
-            self._factor = splu(supported, permc_spec="NATURAL", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+            self.factor = splu(supported, permc_spec="NATURAL", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
         except (RuntimeError, MemoryError) as error:
             raise Error(
                 f"the stiffness of {len(node)} unknowns cannot be factorized ({error}): "
@@ -115,7 +115,7 @@ class Solver:
         """Displacements (3 n, columns): forces (3 n, columns) on free unknowns, prescribed values (held, columns)."""
         u = np.zeros_like(force)
         u[self.held] = prescribed
-        return u + self.moves @ self._factor.solve(self.moves.T @ (force - self.matrix @ u))
+        return u + self.moves @ self.factor.solve(self.moves.T @ (force - self.matrix @ u))
 
     def reaction(self, u, force):
         """Forces (held, columns) of the supports: K u - force."""

@@ -48,6 +48,11 @@ def dofs(nodes):
     return (3 * nodes[..., None] + np.arange(3)).reshape(len(nodes), -1)
 
 
+def rule(block):
+    """Gauss points of CalculiX in the elements of a block, for stiffness and mass."""
+    return block.shape.rule(2 if block.kind == "C3D20R" else block.shape.full)
+
+
 def assembled(mesh):
     """K in compressed rows, by this program's own shape functions."""
     size = 3 * len(mesh.nodes)
@@ -55,7 +60,7 @@ def assembled(mesh):
     for index, block in enumerate(mesh.blocks):
         if block.kind not in OWN:
             raise Error(f"elements of type {block.kind} need CalculiX's stiffness: use --stiffness calculix")
-        local, weight = block.shape.rule(2 if block.kind == "C3D20R" else block.shape.full)
+        local, weight = rule(block)
         stride = max(1, (1 << 22) // block.nodes.shape[1] ** 2)
         for first in range(0, len(block.nodes), stride):
             chosen = slice(first, first + stride)

@@ -178,7 +178,7 @@ def examined(matrix, path):
 
 def weights(points, patch):
     """int N phi_j (nodes, m) of linear shape functions on triangles between the points (n, 2)."""
-    local, weight = simplex_rule(patch.degree // 2 + 2)
+    local, weight = simplex_rule(max(patch.largest) // 2 + 2)
     corners = points[Delaunay(points).simplices]
     sides = corners[:, 1:] - corners[:, :1]
     area = np.abs(np.linalg.det(sides))
