@@ -6,6 +6,7 @@ import os
 import numpy as np
 
 from ..replacing import replacing
+from . import rigid
 from .modes import UNIT as MODE
 
 SIGN = "petsam_compliance"  # root attribute that identifies a file of this command
@@ -48,6 +49,10 @@ def _fill(file, body):
         _put_stress(put, body)
     if body.other:
         file.attrs.update(young1=body.other[0], poisson1=body.other[1])
+        text = "displacement of body 1 against body 2 as a whole by loads on it, a part of /compliance"
+        put("/rigid/compliance", rigid.compliance(body), "m/N, rad/N, m/(N m), rad/(N m)", text)
+        put("/rigid/motions", rigid.motions(body.patch), "m2", "displacement of body 1 by a unit of each component")
+        file["/rigid/compliance"].attrs["components"] = rigid.COMPONENTS
     if body.bolts:
         _put_bolts(file, put, body)
     if body.modes:

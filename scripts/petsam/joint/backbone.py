@@ -11,7 +11,7 @@ Its cycle is repeated until energy and loop do not change, as contacts shake dow
 
 import csv
 import warnings
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -66,7 +66,7 @@ class Backbone:
     shape: np.ndarray
     numbers: dict
     patches: np.ndarray
-    names: list = field(default_factory=list)
+    names: list
 
     def __getattr__(self, name):
         if name != "numbers" and name in self.numbers:
@@ -76,7 +76,9 @@ class Backbone:
     def table(self):
         """Lines of a printed table."""
         lines = [f"mode of {self.linear:.6g} Hz while all that touches sticks", ""]
-        lines.append(f"{'amplitude/m':>12} {'accel./(m/s2)':>14} {'f/Hz':>11} {'zeta':>10} {'W/J':>10} {'slip':>6} cycles")
+        lines.append(
+            f"{'amplitude/m':>12} {'accel./(m/s2)':>14} {'f/Hz':>11} {'zeta':>10} {'W/J':>10} {'slip':>6} cycles"
+        )
         for k in range(len(self.alpha)):
             lines.append(
                 f"{self.amplitude[k]:12.4e} {self.acceleration[k]:14.4e} {self.frequency[k]:11.6g} "
@@ -128,12 +130,14 @@ class Sweep:
             raise Error(f"mode {mode}: the structure has modes 1 to {len(omegas)}")
         self.omega, self.shape = omegas[mode - 1], shapes[:, mode - 1]
         self.tangent = structure.tangent()
-        z, a = structure.respond(self.tangent, self.shape)
-        self.unit = z, self.tangent @ z, a
+        self.unit = structure.respond(self.tangent, self.shape)
+        self.reversed = structure.respond_to(self.tangent)
         self._warn_of_mode(mode)
 
     def _warn_of_mode(self, mode):
-        alone = self.preload.omega[np.argmin(np.abs(self.preload.omega - self.omega))] if self.preload.omega.size else 0.0
+        alone = (
+            self.preload.omega[np.argmin(np.abs(self.preload.omega - self.omega))] if self.preload.omega.size else 0.0
+        )
         if abs(alone - self.omega) <= 1e-6 * self.omega:
             warnings.warn(
                 f"mode {mode} of {self.omega / (2 * np.pi):.6g} Hz is one without contact: it does not move the "
@@ -145,10 +149,10 @@ class Sweep:
     def _go(self, start, end, alpha):
         """Steps from one factor of alpha to another; returns modal displacements and energies of each step."""
         scale = tuple(alpha * np.abs(one) for one in self.unit)
-        found, energies, tangent = [], [], self.tangent
+        found, energies, response = [], [], self.reversed
         for part in np.linspace(start, end, self.steps + 1)[1:]:
             force = part * alpha * self.shape
-            tangent = self.work.step(force, tangent=tangent, scale=scale)
+            response = self.work.step(force, response=response, scale=scale)
             found.append(self.shape @ self.work.modal(force, self.work.loads, self.work.a))
             energies.append([patch.number("dissipated_energy") for patch in self.work.patches])
         return np.array(found), np.array(energies)
@@ -164,7 +168,9 @@ class Sweep:
             slipping = self._slipping()
             back, more = self._go(-1.0, 1.0, alpha)
             path = np.concatenate([[last], down, back])
-            forces = alpha * np.concatenate([np.linspace(1, -1, self.steps + 1), np.linspace(-1, 1, self.steps + 1)[1:]])
+            forces = alpha * np.concatenate(
+                [np.linspace(1, -1, self.steps + 1), np.linspace(-1, 1, self.steps + 1)[1:]]
+            )
             loop = -float(np.sum(0.5 * (path[1:] + path[:-1]) * np.diff(forces)))
             one = Cycle((down[-1], back[-1]), (lost + more).sum(axis=0), loop, slipping)
             last = back[-1]
@@ -178,7 +184,7 @@ class Sweep:
         return int(sum(np.sum(patch.contact.field("state") == 2) for patch in self.work.patches))
 
 
-def backbone(structure, amplitudes, mode=1, sensor=None, damping=0.0, steps=STEPS, names=None, report=None):
+def backbone(structure, amplitudes, mode=1, sensor=None, damping=0.0, steps=STEPS, report=None):
     """The Backbone of a structure in its preload.
 
     amplitudes  displacements (m) at the sensor of a linear mode: the forces follow from them, and the amplitudes of the
@@ -209,20 +215,20 @@ def backbone(structure, amplitudes, mode=1, sensor=None, damping=0.0, steps=STEP
         )
         patches.append(one.energies)
     numbers = {name: np.array(column) for name, column in zip(COLUMNS, np.transpose(rows))}
-    found = Backbone(sweep.omega / (2.0 * np.pi), sweep.shape, numbers, np.array(patches))
-    found.names = list(names or [f"patch{k + 1}" for k in range(len(structure.patches))])
+    names = [patch.name or f"patch{k}" for k, patch in enumerate(structure.patches, 1)]
+    found = Backbone(sweep.omega / (2.0 * np.pi), sweep.shape, numbers, np.array(patches), names)
     _warn(found)
     return found
 
 
 def _warn(found):
     """Warns of damping by few cells and of energies that disagree."""
-    few = (found.slipping < FEW) & (found.slipping > 0)
+    few = found.slipping < FEW
     if np.any(few):
-        last = found.amplitude[few].max()
+        last, most = found.amplitude[few].max(), found.slipping[few].max()
         warnings.warn(
-            f"up to an amplitude of {last:.3g} m fewer than {FEW} cells slip ({found.slipping[few].max():.0f} at the most): "
-            "the damping there is that of the grid; use a finer grid",
+            f"up to an amplitude of {last:.3g} m fewer than {FEW} cells slip, at most {most:.0f}: damping there is that "
+            "of the grid; use a finer grid",
             BackboneWarning,
             stacklevel=3,
         )

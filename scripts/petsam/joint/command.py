@@ -15,7 +15,6 @@ and NAME.png.
 """
 
 import argparse
-import os
 import re
 import sys
 import warnings
@@ -30,7 +29,7 @@ from ..plot.saving import DPI, add_resolution, write
 from ..surface.lengths import lengths
 from . import interface
 from .backbone import BackboneWarning, backbone
-from .pair import Pair, truncated
+from .pair import Pair
 
 MATERIALS = {"steel": (210e9, 0.3), "aluminium": (70e9, 0.33), "titanium": (115e9, 0.32), "nickel": (205e9, 0.3)}
 PASCALS = {"": 1.0, "Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9}
@@ -154,7 +153,9 @@ def _backbone_options(one):
     )  # fmt: skip
     group.add_argument("--mode", type=int, help="number of the mode while all that touches sticks (1)")
     group.add_argument("--sensor", metavar="NAME:D", help="where the amplitude is, and its direction x, y or z")
-    group.add_argument("--amplitudes", type=amplitude_range, help="at the sensor: FIRST:LAST:COUNT, such as 1um:0.1mm:12")
+    group.add_argument(
+        "--amplitudes", type=amplitude_range, help="at the sensor: FIRST:LAST:COUNT, such as 1um:0.1mm:12"
+    )
     group.add_argument("--damping", type=float, help="damping of the material, as a part of critical damping (0)")
     group.add_argument(
         "--degree-check", action="store_true", default=None,
@@ -261,8 +262,8 @@ def _backbone(args):
     preload = dict(args.preload or [])
     given = dict(mode=args.mode, damping=args.damping, steps=args.steps)
 
-    def compute(path, amplitudes, **more):
-        pair = Pair(path, preload, options_file=args.contact)
+    def compute(lower, amplitudes, **more):
+        pair = Pair(args.file, preload, lower=lower, options_file=args.contact)
         sensor = _sensor(args.sensor, pair)
         return pair, backbone(pair.structure, amplitudes, sensor=sensor, **given, **more)
 
@@ -270,7 +271,7 @@ def _backbone(args):
         warnings.simplefilter("always", BackboneWarning)
         count = len(args.amplitudes)
         tell = lambda k, _: _tell(f"amplitude {k} of {count}")  # noqa: E731
-        pair, result = compute(args.file, args.amplitudes, report=tell)
+        pair, result = compute(0, args.amplitudes, report=tell)
         lines = _degree_lines(args, compute, result) if args.degree_check else []
     for name, tension in pair.tensions.items():
         print(f"bolt {name}: {tension:.6g} N left of {preload.get(name, 0.0):g} N after all are tightened")
@@ -284,11 +285,7 @@ def _backbone(args):
 
 def _degree_lines(args, compute, result):
     """The largest amplitude with fewer polynomials."""
-    fewer = truncated(args.file)
-    try:
-        _, other = compute(fewer, args.amplitudes[-1:])
-    finally:
-        os.remove(fewer)
+    _, other = compute(2, args.amplitudes[-1:])
     frequency = other.frequency[-1] / result.frequency[-1] - 1.0
     damping = other.damping[-1] / result.damping[-1] - 1.0 if result.damping[-1] else float("nan")
     return ["", f"degree lower by 2: frequency {frequency:+.1e}, damping {damping:+.1e} at the largest amplitude"]

@@ -1,4 +1,4 @@
-"""The structure of a pair of bodies, from a file of petsam-compliance --pair: of_pair(), truncated()."""
+"""The structure of a pair of bodies, from a file of petsam-compliance --pair."""
 
 import os
 import tempfile
@@ -29,7 +29,7 @@ class Pair:
     tensions    {name: N}: tension left in each bolt after all are tightened
     """
 
-    def __init__(self, path, preload, press=PRESS, **options):
+    def __init__(self, path, preload, press=PRESS, lower=0, **options):
         need_regular(path)
         self.path = path
         try:
@@ -38,14 +38,21 @@ class Pair:
         except (OSError, LookupError, ValueError, TypeError) as error:
             raise Unreadable(f"{path}: no pair of petsam-compliance with modes: {short(error)}") from error
         self._check(preload)
-        contact = Contact(**{**self.defaults, "body2_compliance": path, **options})
+        self._folder = tempfile.TemporaryDirectory(prefix="petsam-")
+        own = os.path.join(self._folder.name, "pair.h5")
+        rigid = without_rigid(path, own, lower)
+        contact = Contact(**{**self.defaults, "body2_compliance": own, **options})
         modes = [f"body2_case_mode{k + 1}" for k in range(self.omega.size)]
-        patch = Patch(contact, modes, dict.fromkeys(DISPLACEMENTS, 0.0))
-        self.structure = Structure([patch], self.omega, np.eye(self.omega.size))
+        patch = Patch(contact, [*DISPLACEMENTS, *modes], by_load=DISPLACEMENTS, name="contact")
+        count = len(patch.coordinates)
+        coupling = np.zeros((count, count))
+        coupling[:6, :6] = rigid
+        self.structure = Structure([patch], self.omega, np.eye(count)[:, 6:], coupling)
+        self.structure.needs = self._folder  # copies of the contact read the file
         self._tighten(patch, preload, press)
 
     def _read(self, file):
-        if "young1" not in file.attrs or "modes" not in file:
+        if "rigid" not in file or "modes" not in file:
             raise ValueError("it has no body 1, or no modes: make it with --pair and --modes")
         self.omega = file["modes/omega"][()].astype(float)
         self.sensors = {}
@@ -74,6 +81,7 @@ class Pair:
     def _tighten(self, patch, preload, press):
         """Tightens the bolts one after the other, in the order given, each in `press` steps."""
         force = np.zeros(self.omega.size)
+        self.structure.loads[0] = -next(iter(preload.values()), 0.0) / press  # a first guess: all of the first tension
         for name, whole in preload.items():
             for part in np.linspace(0.0, 1.0, press + 1)[1:]:
                 patch.held[f"body2_case_bolt_{name}"] = part * whole
@@ -84,23 +92,19 @@ class Pair:
         self.tensions = dict(zip(self.bolts, left))
 
 
-def truncated(path, by=2):
-    """Name of a temporary file of the same pair with polynomials of a degree lower by `by` in x and in y; the caller
-    removes it."""
-    handle, name = tempfile.mkstemp(suffix=".h5")
-    os.close(handle)
+def without_rigid(path, name, lower=0):
+    """Writes the pair without the compliance of rigid motions to a file, and returns that compliance (6, 6). The degree
+    is lower by `lower` in x and in y."""
     with h5py.File(path) as old, h5py.File(name, "w") as new:
         table = old["basis/degree_xy"][()]
-        kept = np.flatnonzero(np.all(table <= np.maximum(table.max(axis=0) - by, 0), axis=1))
-        total = table.sum(axis=1)
+        kept = np.flatnonzero(np.all(table <= np.maximum(table.max(axis=0) - lower, 1), axis=1))
         if len(table) < np.prod(table.max(axis=0) + 1):  # up to a total degree
-            kept = np.flatnonzero(total <= max(total.max() - by, 0))
+            kept = np.flatnonzero(table.sum(axis=1) <= max(table.sum(axis=1).max() - lower, 1))
+        rigid, q = old["rigid/compliance"][()], old["rigid/motions"][()][:, kept]
         new.attrs.update(old.attrs)
-        for group in ("patch", "modes", "bolts"):
-            if group in old:
-                old.copy(group, new)
+        old.copy("patch", new)
         new["basis/degree_xy"] = table[kept]
-        new["compliance"] = old["compliance"][()][kept][:, :, kept]
+        new["compliance"] = old["compliance"][()][kept][:, :, kept] - np.einsum("cik,cd,djl->ikjl", q, rigid, q)
         for case, data in old["cases"].items():
             new[f"cases/{case}/displacement"] = data["displacement"][()][kept]
-    return name
+    return rigid

@@ -43,28 +43,34 @@ class Patch:
     contact      a Contact; its committed state is the one from which the structure's steps begin
     coordinates  names of what the structure prescribes: "disp_x", "body2_case_mode1", ...
     held         {name: value} of what every step prescribes besides: load_n=1000.0, or displacements of 0
+    by_load      names of those coordinates, displacements of body 1, whose load a step prescribes instead: where the
+                 structure is softer than the contact, this converges better
+    name         of the patch in tables
     """
 
-    def __init__(self, contact, coordinates, held=None):
-        self.contact, self.coordinates, self.held = contact, list(coordinates), dict(held or {})
+    def __init__(self, contact, coordinates, held=None, by_load=(), name=""):
+        self.contact, self.coordinates, self.held, self.name = contact, list(coordinates), dict(held or {}), name
+        self.by_load = np.array([name in by_load for name in self.coordinates])
         self.cases = [name for name in self.coordinates if name not in DISPLACEMENTS]
         self.sign = np.array([-1.0 if name in DISPLACEMENTS else 1.0 for name in self.coordinates])
         order = [*DISPLACEMENTS, *self.cases]
         self._rows = [order.index(name) for name in self.coordinates]
         self._loads = [DISPLACEMENTS.get(name, f"{name}_load") for name in self.coordinates]
 
-    def step(self, values, held=None, loads=False):
-        """Tries a step with these coordinates, or these loads on the structure; returns coordinates and loads."""
-        names = self._loads if loads else self.coordinates
-        given = {**self.held, **(held or {}), **dict(zip(names, self.sign * values if loads else values))}
+    def step(self, values, held=None):
+        """Tries a step with these coordinates, or loads on the structure where it is by_load; returns coordinates and
+        loads."""
+        given = {**self.held, **(held or {})}
+        for k, value in enumerate(values):
+            given[self._loads[k] if self.by_load[k] else self.coordinates[k]] = value * (
+                self.sign[k] if self.by_load[k] else 1.0
+            )
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", AdviceWarning)  # of small slip zones: the backbone has its own
             self.contact.try_step(**given)
-        return np.array([self.contact.number(name) for name in self.coordinates]), self.loads()
-
-    def loads(self):
-        """Loads on the structure of the last step."""
-        return self.sign * np.array([self.contact.number(name) for name in self._loads])
+        z = np.array(values, dtype=float)
+        z[self.by_load] = [self.contact.number(name) for name, load in zip(self.coordinates, self.by_load) if load]
+        return z, self.sign * np.array([self.contact.number(name) for name in self._loads])
 
     def stiffness(self, reversal):
         """d(loads on the structure)/d(coordinates)."""
@@ -77,7 +83,8 @@ class Patch:
 
     def copy(self):
         """Another patch in the committed state of this one."""
-        return Patch(self.contact.copy(), self.coordinates, self.held)
+        names = [name for name, load in zip(self.coordinates, self.by_load) if load]
+        return Patch(self.contact.copy(), self.coordinates, self.held, names, self.name)
 
 
 class Structure:
@@ -101,7 +108,8 @@ class Structure:
         if np.any(self.omega <= 0.0):
             raise Error("omega: expected frequencies above 0; modes of 0 are given by rigid")
         self.direct = not self.rigid.size and not np.any(self.coupling)
-        floats = n == self.rigid.shape[1] and not any(patch.cases for patch in self.patches)
+        self.by_load = np.concatenate([patch.by_load for patch in self.patches])
+        floats = n == self.rigid.shape[1] and np.all(self.by_load)
         self.given = floats and abs(np.linalg.det(self.rigid)) > 0.0  # the loads are known
         self.z, self.a, self.loads = np.zeros(n), np.zeros(self.rigid.shape[1]), np.zeros(n)
         self.iterations = []
@@ -146,10 +154,27 @@ class Structure:
             at += len(block)
         return found
 
-    def _system(self, tangent):
-        """Matrix of the changes of z and a."""
+    def _response(self, tangent):
+        """d(what steps find)/d(what steps prescribe): loads by coordinates, and the reverse where patches are
+        by_load."""
+        load, rest = np.flatnonzero(self.by_load), np.flatnonzero(~self.by_load)
+        found = np.zeros_like(tangent)
+        inverse = np.linalg.inv(tangent[np.ix_(load, load)])
+        found[np.ix_(load, load)] = inverse
+        found[np.ix_(load, rest)] = -inverse @ tangent[np.ix_(load, rest)]
+        found[np.ix_(rest, load)] = tangent[np.ix_(rest, load)] @ inverse
+        found[np.ix_(rest, rest)] = (
+            tangent[np.ix_(rest, rest)] + tangent[np.ix_(rest, load)] @ found[np.ix_(load, rest)]
+        )
+        return found
+
+    def _system(self, response):
+        """Matrix of the changes of what steps prescribe, and of a, in the errors of z and of equilibrium."""
         n, r = self.rigid.shape
-        return np.block([[np.eye(n) - self.coupling @ tangent, -self.rigid], [self.rigid.T @ tangent, np.zeros((r, r))]])
+        unit = np.eye(n)
+        z = np.where(self.by_load[:, None], response, unit)
+        loads = np.where(self.by_load[:, None], unit, response)
+        return np.block([[z - self.coupling @ loads, -self.rigid], [self.rigid.T @ loads, np.zeros((r, r))]])
 
     def _driven(self, force):
         """Coordinates by a modal force (modes) alone, and the force on modes without stiffness."""
@@ -157,10 +182,14 @@ class Structure:
         return self.shapes @ (elastic / self.omega**2), free
 
     def respond(self, tangent, force):
-        """Changes of z and a by a change of the modal force, where loads follow the tangent."""
+        """Changes of z, of the loads and of a by a change of the modal force, where loads follow the tangent."""
         z, free = self._driven(force)
-        both = _solved(self._system(tangent), np.concatenate([z, -free]))
-        return both[: self.z.size], both[self.z.size :]
+        n, r = self.rigid.shape
+        matrix = np.block(
+            [[np.eye(n) - self.coupling @ tangent, -self.rigid], [self.rigid.T @ tangent, np.zeros((r, r))]]
+        )
+        both = _solved(matrix, np.concatenate([z, -free]))
+        return both[:n], tangent @ both[:n], both[n:]
 
     def modal(self, force, loads, a):
         """Modal coordinates by a modal force and the loads of the patches."""
@@ -173,86 +202,94 @@ class Structure:
         tangent = self.tangent()
         columns = []
         for unit in np.eye(self.modes):
-            z, a = self.respond(tangent, unit)
-            columns.append(self.modal(unit, tangent @ z, a))
+            _, loads, a = self.respond(tangent, unit)
+            columns.append(self.modal(unit, loads, a))
         flexibility = np.array(columns).T
         values, vectors = np.linalg.eigh(0.5 * (flexibility + flexibility.T))
         if values[0] <= 0.0:
             raise NoSolution("the structure with sticking contacts has a mode of negative stiffness")
         order = np.argsort(-values)
         shapes = vectors[:, order]
-        return 1.0 / np.sqrt(values[order]), shapes * np.sign(shapes[np.argmax(np.abs(shapes), axis=0), range(len(order))])
+        return 1.0 / np.sqrt(values[order]), shapes * np.sign(
+            shapes[np.argmax(np.abs(shapes), axis=0), range(len(order))]
+        )
 
     # ------------------------------------------------------------ steps
 
-    def _try(self, values, held, loads=False):
+    def _try(self, values, held):
         """Coordinates and loads of a tried step of all patches."""
         every = held or [None] * len(self.patches)
-        found = [p.step(part, one, loads) for p, part, one in zip(self.patches, self._split(values), every)]
+        found = [p.step(part, one) for p, part, one in zip(self.patches, self._split(values), every)]
         return [np.concatenate(parts) for parts in zip(*found)]
 
-    def step(self, force, held=None, tangent=None, scale=None):
+    def step(self, force, held=None, response=None, scale=None):
         """Solves a step under a modal force and commits it in all patches; sets z, a and loads.
 
-        held     for each patch {name: value} that it prescribes besides; None: what patches have
-        tangent  d(loads)/d(coordinates) with which the iteration begins; None: that of the patches' last steps
-        scale    (z, loads, a): changes to which the tolerance is relative; None: what the step has
+        held      for each patch {name: value} that it prescribes besides; None: what patches have
+        response  of respond_to(), with which the iteration begins; None: that of the patches' last steps
+        scale     (z, loads, a): changes to which the tolerance is relative; None: what the step has
 
-        Returns the tangent with which the next step may begin.
+        Returns the response with which the next step may begin.
         """
         driven, free = self._driven(force)
         if self.direct:
             self.z, self.loads = self._try(driven, held)
             self.iterations.append(1)
         elif self.given:
-            self.z, self.loads = self._try(_solved(self.rigid.T, -free), held, loads=True)
+            self.z, self.loads = self._try(_solved(self.rigid.T, -free), held)
             self.a = _solved(self.rigid, self.z - driven - self.coupling @ self.loads)
             self.iterations.append(1)
         else:
-            tangent = self._iterate(driven, free, held, tangent, scale)
+            response = self._iterate(driven, free, held, response, scale)
         for patch in self.patches:
             patch.contact.commit()
-        return tangent
+        return response
 
-    def _iterate(self, driven, free, held, tangent, scale):
-        """Broyden's method for the coordinates and a; returns its last tangent."""
-        n, z, a, loads = self.z.size, self.z, self.a, self.loads
-        size, known = np.inf, tangent is not None
-        if known:
-            change = _solved(self._system(tangent), -self._error(z, a, loads, driven, free))
-            z, a = z + change[:n], a + change[n:]
-        for count in range(1, MOST + 1):
-            before, last = (z, loads), size
-            _, loads = self._try(z, held)
+    def respond_to(self, tangent):
+        """The response with which step() may begin, of a tangent."""
+        return None if self.direct or self.given else self._response(tangent)
+
+    def _iterate(self, driven, free, held, response, scale):
+        """Broyden's method for what steps prescribe, and for a; returns its last response."""
+        n, a, size = self.z.size, self.a, np.inf
+        given, z, loads = np.where(self.by_load, self.loads, self.z), self.z, self.loads
+        moved = None
+        if response is not None:
+            change = _solved(self._system(response), -self._error(z, a, loads, driven, free))
+            given, a = given + change[:n], a + change[n:]
+        self.iterations.append(0)
+        while True:
+            self.iterations[-1] += 1
+            before, last = np.where(self.by_load, z, loads), size
+            z, loads = self._try(given, held)
             error = self._error(z, a, loads, driven, free)
             size = _work(error, scale or (z, loads, a))
             if size <= TOLERANCE or (SLOW * last <= size <= ROUGH):
                 break
-            if not known or size > SLOW * last:
-                tangent, known = self.tangent(False), True
-            elif count > 1:
-                tangent = self._updated(tangent, moved, loads - before[1])
-            change = _solved(self._system(tangent), -error)
+            if self.iterations[-1] == MOST:
+                raise NoSolution(
+                    f"patches and structure found no equilibrium in {MOST} iterations, error {size:.2g}, limit "
+                    f"{TOLERANCE:g}: use more steps"
+                )
+            if response is None or size > SLOW * last:
+                response = self._response(self.tangent(False))
+            elif moved is not None:
+                response = self._updated(response, moved, np.where(self.by_load, z, loads) - before)
+            change = _solved(self._system(response), -error)
             moved = change[:n]
-            z, a = z + moved, a + change[n:]
-        else:
-            raise NoSolution(
-                f"patches and structure found no equilibrium in {MOST} iterations, error {size:.2g}, limit "
-                f"{TOLERANCE:g}: use more steps"
-            )
-        self.iterations.append(count)
+            given, a = given + moved, a + change[n:]
         self.z, self.a, self.loads = z, a, loads
-        return tangent
+        return response
 
-    def _updated(self, tangent, moved, changed):
-        """Broyden's tangent, patch by patch, by a change of the loads."""
-        tangent, at = tangent.copy(), 0
+    def _updated(self, response, moved, changed):
+        """Broyden's response, patch by patch, by a change of what steps find."""
+        response, at = response.copy(), 0
         for part, change in zip(self._split(moved), self._split(changed)):
             own = slice(at, at + part.size)
             at += part.size
             if part @ part > 0.0:
-                tangent[own, own] += np.outer(change - tangent[own, own] @ part, part) / (part @ part)
-        return tangent
+                response[own, own] += np.outer(change - response[own, own] @ part, part) / (part @ part)
+        return response
 
     def _error(self, z, a, loads, driven, free):
         moved = z - driven - self.coupling @ loads - self.rigid @ a

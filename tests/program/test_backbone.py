@@ -1,0 +1,284 @@
+"""Frequency and damping of joints over amplitude: Mindlin's oscillators, and pairs of bodies."""
+
+import csv
+import sys
+import warnings
+
+import h5py
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+import compliances
+import petsam
+from petsam import joint
+from petsam.compliance import basis, rigid
+from petsam.joint import command as _  # noqa: F401
+
+pytestmark = pytest.mark.filterwarnings("ignore::petsam.joint.BackboneWarning")
+
+FRICTION, LOAD, RADIUS, YOUNG = 0.15, 700.0, 0.12, 200e9
+
+
+def sphere(load, n=64, **more):
+    """A contact of two equal spheres of Poisson's ratio 0, pressed, and its tangential stiffness by Mindlin (1949)."""
+    radius = (3 * load * (RADIUS / 2) / (4 * (YOUNG / 2))) ** (1 / 3)
+    bodies = {f"body{k}_{name}": value for k in (1, 2) for name, value in (("young", YOUNG), ("poisson", 0.0))}
+    given = dict(bodies, grid_n=n, grid_size=2.2 * radius, friction=FRICTION, gap_type="sphere", gap_radius1=RADIUS)
+    contact = petsam.Contact(**given, gap_radius2=RADIUS, **more)
+    contact.try_step(load_n=load)
+    contact.commit()
+    return contact, 4 * radius * (YOUNG / 2) / 2
+
+
+def shear(q, load, stiffness):
+    """Mindlin's force at a displacement."""
+    limit = FRICTION * load
+    return limit * (1 - np.maximum(1 - q / (1.5 * limit / stiffness), 0) ** 1.5)
+
+
+def lost(q, load, stiffness):
+    """Energy of a cycle between +q and -q (Mindlin and Deresiewicz, 1953), also where all slips."""
+    limit = FRICTION * load
+    full = 1.5 * limit / stiffness
+    e = np.minimum(q / full, 1)
+    inside = full * limit * (e - 0.4 * (1 - (1 - e) ** 2.5))
+    within = 8 * (inside - shear(e * full, load, stiffness) * e * full / 2)
+    return within + 4 * limit * np.maximum(q - full, 0)
+
+
+def closed(contacts, spring=0.0):
+    """Force and energy of contacts (load, stiffness) and a spring in parallel, over the displacement, and the limit of
+    the displacement at which the last one slides."""
+    limit = max(1.5 * FRICTION * load / stiffness for load, stiffness in contacts)
+    return (
+        lambda q: sum(shear(q, *one) for one in contacts) + spring * q,
+        lambda q: sum(lost(q, *one) for one in contacts),
+        (1 - 1e-9) * limit,
+    )
+
+
+def differences(found, force, energy, most, mass):
+    """Relative differences of frequency and damping from a force and an energy of the displacement q of the mass."""
+    rows = []
+    for k, alpha in enumerate(found.alpha * np.sqrt(mass)):
+        q = brentq(lambda q, alpha=alpha: force(q) - alpha, 0.0, most, xtol=1e-20)
+        omega2 = alpha / (q * mass)
+        zeta = energy(q) / (2 * np.pi * mass * omega2 * q**2)
+        rows.append((2 * np.pi * found.frequency[k] / np.sqrt(omega2) - 1, found.damping[k] / zeta - 1))
+    return np.abs(rows).T
+
+
+@pytest.mark.parametrize("by_load", [True, False])
+@pytest.mark.parametrize("soft", [0.0, 1.0, 30.0])
+def test_a_mass_on_one_contact_and_a_spring_in_series(soft, by_load):
+    """The spring is `soft` times as compliant as the sticking contact; the contact is given loads or displacements."""
+    contact, stiffness = sphere(LOAD)
+    mass, spring = 3.0, soft / stiffness
+    patch = joint.Patch(contact, ["disp_x"], dict(load_n=LOAD), by_load=["disp_x"] if by_load else ())
+    one = joint.Structure([patch], coupling=[[spring]], rigid=[[1 / np.sqrt(mass)]])
+    amplitudes = np.array([0.3, 0.6, 0.9]) * FRICTION * LOAD * (1 / stiffness + spring) * np.sqrt(mass)
+    found = joint.backbone(one, amplitudes, steps=3)
+    assert 2 * np.pi * found.linear == pytest.approx(np.sqrt(1 / (1 / stiffness + spring) / mass), rel=1e-3)
+
+    def reach(force):  # of the contact
+        return 1.5 * FRICTION * LOAD / stiffness * (1 - (1 - force / (FRICTION * LOAD)) ** (2 / 3))
+
+    for k, alpha in enumerate(found.alpha * np.sqrt(mass)):
+        q = reach(alpha) + alpha * spring
+        omega2 = alpha / (q * mass)
+        assert found.frequency[k] * 2 * np.pi == pytest.approx(np.sqrt(omega2), rel=5e-5)
+        zeta = lost(reach(alpha), LOAD, stiffness) / (2 * np.pi * mass * omega2 * q**2)
+        assert found.damping[k] == pytest.approx(zeta, rel=6e-3)
+    assert found.energy == pytest.approx(found.patches[:, 0]) and np.all(found.cycles == 2)
+
+
+def test_damping_converges_with_the_grid():
+    """Mindlin's oscillator: frequency within 1e-6 and damping within 1e-3 of the closed values on 128 cells."""
+    errors = []
+    for n in 64, 128:
+        contact, stiffness = sphere(LOAD, n)
+        patch = joint.Patch(contact, ["disp_x"], dict(load_n=LOAD), by_load=["disp_x"])
+        one = joint.Structure([patch], rigid=[[1.0]])
+        found = joint.backbone(one, np.array([0.3, 0.7]) * FRICTION * LOAD / stiffness, steps=2)
+        errors.append(differences(found, *closed([(LOAD, stiffness)]), 1.0))
+    assert errors[1][0].max() < 1e-5 and errors[1][1].max() < 1e-3 and errors[0][1].max() < 6e-3
+
+
+def test_two_contacts_in_parallel_until_one_slides():
+    (first, k1), (second, k2) = sphere(LOAD), sphere(LOAD / 2)
+    pairs = ((first, LOAD, "a"), (second, LOAD / 2, "b"))
+    patches = [joint.Patch(c, ["disp_x"], dict(load_n=n), name=name) for c, n, name in pairs]
+    mass = 0.7
+    one = joint.Structure(patches, rigid=2 * [[1 / np.sqrt(mass)]])
+    alphas = np.array([0.6, 1.38]) * FRICTION * LOAD  # in the second the weaker contact slides
+    found = joint.backbone(one, alphas / (k1 + k2) * np.sqrt(mass), steps=3)
+    assert found.names == ["a", "b"]
+    error = differences(found, *closed([(LOAD, k1), (LOAD / 2, k2)]), mass)
+    assert error[0].max() < 5e-5 and error[1].max() < 6e-3
+    assert found.patches.sum(axis=1) == pytest.approx(found.energy) and np.all(found.patches > 0)
+
+
+@pytest.mark.parametrize("ratio", [0.5, 8.0])
+def test_an_elastic_mode_beside_the_contact(ratio):
+    """A mass that a spring and the contact hold: the mode without contact is that of the spring."""
+    contact, stiffness = sphere(LOAD)
+    mass, spring = 2.0, ratio * stiffness
+    patch = joint.Patch(contact, ["disp_x"], dict(load_n=LOAD), by_load=["disp_x"] if ratio < 1 else ())
+    one = joint.Structure([patch], [np.sqrt(spring / mass)], [[1 / np.sqrt(mass)]], coupling=[[1 / spring]])
+    amplitudes = np.array([0.4, 0.9]) * FRICTION * LOAD / stiffness * np.sqrt(mass)
+    found = joint.backbone(one, amplitudes, steps=3)
+    error = differences(found, *closed([(LOAD, stiffness)], spring), mass)
+    assert error[0].max() < 5e-5 and error[1].max() < 6e-3
+
+
+# ---------------------------------------------------------------- pairs of bodies
+
+
+def pair_file(path, soft):
+    """A pair of layers' compliance with a rigid part `soft` times a half-space's, two modes and a bolt; E = 1."""
+    matrix = 0.3 * compliances.layer(0.5, 3)
+    m = len(matrix)
+    patch = basis.Patch((0.0, 0.0), (1.0, 1.0), 3)
+    motions = rigid.motions(patch)
+    part = np.diag([0.5, 0.4, 0.6, 1.0, 2.0, 1.5]) * soft
+    part[0, 4] = part[4, 0] = 0.3 * soft
+    matrix = matrix + np.einsum("cik,cd,djl->ikjl", motions, part, motions)
+    shape = np.random.default_rng(5).normal(size=(2, m, 3)) * 0.05
+    shape[:, 0, 0] += 1.0  # the modes shear the contact
+    bolt = np.zeros((m, 3))
+    bolt[0, 2] = -2.0 * (1 + soft)  # closes
+    bolt[3, 2] = 1.0
+    cases = dict(mode1=shape[0], mode2=shape[1], bolt_B=bolt)
+    compliances.write(path, matrix, cases=cases)
+    with h5py.File(path, "a") as file:
+        file.attrs.update(young1=1.0, poisson1=0.3)
+        file["rigid/compliance"], file["rigid/motions"] = part, motions
+        file["modes/omega"] = np.array([0.5, 2.0])
+        file["modes/sensors"] = np.array([[[0.0, 0.0, 1.0]], [[0.0, 0.0, -0.5]]])
+        file["modes/sensors"].attrs["names"] = ["TIP"]
+        file["bolts/B/stiffness"] = 0.2
+        file["bolts/closing"] = np.array([[0.4]])
+        file["bolts/closing"].attrs["names"] = ["B"]
+    return path
+
+
+OPTIONS = dict(grid_n=24, friction=0.3, gap_type="sphere", gap_radius1=8.0, gap_radius2="inf")
+PRELOAD = dict(B=0.02)
+
+
+def test_a_rigid_part_outside_of_the_contact_changes_nothing(tmp_path):
+    """Against the contact that has all compliance itself, whose steps need no iteration."""
+    file = pair_file(tmp_path / "pair.h5", 1.0)
+    pair = joint.Pair(file, PRELOAD, **OPTIONS)
+    shapes = ["body2_case_mode1", "body2_case_mode2"]
+    whole = petsam.Contact(body2_compliance=file, **pair.defaults | OPTIONS)
+    held = dict.fromkeys(joint.structure.DISPLACEMENTS, 0.0)
+    patch = joint.Patch(whole, shapes, held)
+    plain = joint.Structure([patch], pair.omega, np.eye(2))
+    assert plain.direct and not pair.structure.direct
+    for part in np.linspace(0, PRELOAD["B"], 5)[1:]:
+        patch.held["body2_case_bolt_B"] = part
+        plain.step(np.zeros(2))
+    mine = pair.structure.patches[0].contact
+    assert mine["pressure"] == pytest.approx(whole["pressure"], abs=1e-5 * whole["pressure"].max())
+    left = 0.02 - 0.2 * (0.4 * 0.02 + whole.number("body2_case_bolt_B_load"))
+    assert pair.tensions["B"] == pytest.approx(left, rel=1e-6)
+    sensor = pair.sensors["TIP"][:, 2]
+    one, other = (
+        joint.backbone(s, [3e-3, 1e-2], sensor=sensor, steps=3, damping=1e-3) for s in (pair.structure, plain)
+    )
+    assert one.linear == pytest.approx(other.linear, rel=1e-6) and np.all(one.energy > 0)
+    assert np.ptp(one.frequency) > 1e-3 * one.linear
+    for name in ("frequency", "energy", "amplitude"):
+        assert one.numbers[name] == pytest.approx(other.numbers[name], rel=1e-5), name
+    assert max(plain.iterations) == 1 and one.viscous.tolist() == [1e-3, 1e-3]
+
+
+def test_a_body_that_only_a_soft_bolt_holds(tmp_path):
+    """A rigid part of 200 times the contact's: equilibrium of loads and of the bolt's energy."""
+    file = pair_file(tmp_path / "pair.h5", 200.0)
+    pair = joint.Pair(file, PRELOAD, **OPTIONS)
+    found = joint.backbone(pair.structure, [1e-3, 3e-3], steps=4)
+    assert np.all(found.energy > 0) and found.loop == pytest.approx(found.energy, rel=0.3)
+    structure = pair.structure
+    moved = structure.z - structure.coupling @ structure.loads
+    assert np.abs(moved[:6] * structure.loads[:6]).max() < 1e-6 * np.abs(structure.z @ structure.loads)
+
+
+@pytest.fixture
+def command(tmp_path, monkeypatch, capsys):
+    """command(*words, check=0): what petsam-joint backbone prints, and its complaints."""
+    monkeypatch.chdir(tmp_path)
+
+    def run(*words, check=0):
+        monkeypatch.setattr(sys, "argv", ["petsam-joint", "backbone", *map(str, words)])
+        try:
+            code = joint.command.main()
+        except SystemExit as error:
+            code = error.code
+        out, err = capsys.readouterr()
+        assert code == check, (code, err)
+        return err if check else out
+
+    return run
+
+
+def test_command_prints_and_writes_the_numbers(command, tmp_path):
+    pair_file(tmp_path / "pair.h5", 1.0)
+    lines = [f"-{name} {value}" for name, value in OPTIONS.items()]
+    (tmp_path / "c.opts").write_text("\n".join(lines) + "\n")
+    words = ("pair.h5", "--contact", "c.opts", "--preload", "B=0.02", "--sensor", "TIP:z", "--steps", 3)
+    printed = command(*words, "--amplitudes", "3mm:10mm:2", "-o", "out", "--damping", "0.001", "--degree-check")
+    pair = joint.Pair(tmp_path / "pair.h5", PRELOAD, **OPTIONS)
+    expected = joint.backbone(pair.structure, [3e-3, 1e-2], sensor=pair.sensors["TIP"][:, 2], steps=3, damping=1e-3)
+    assert "\n".join(expected.table()) in printed
+    assert f"bolt B: {pair.tensions['B']:.6g} N left of 0.02 N" in printed
+    assert "degree lower by 2: frequency" in printed
+    with open("out.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert [float(row["frequency (Hz)"]) for row in rows] == pytest.approx(expected.frequency)
+    assert (tmp_path / "out.png").stat().st_size > 10000
+
+
+@pytest.mark.parametrize(
+    "words, says, code",
+    [
+        (("--preload", "C=1"), "preload C: is no bolt of pair.h5; there are B", 2),
+        ((), "preload: give the tension of B, in N", 2),
+        (("--preload", "B=-1"), "B=-1: expected NAME=FORCE in N", 2),
+        (("--preload", "B=0.02", "--mode", "9"), "mode 9: the structure has modes 1 to 2", 2),
+        (("--preload", "B=0.02", "--sensor", "TOP:z"), "--sensor TOP:z: expected NAME:x, :y or :z with a sensor", 2),
+        (("--preload", "B=0.02", "--pressure", "1MPa"), "--pressure is for petsam-joint stiffness: remove it", 2),
+        (("--preload", "B=0.02", "--steps", "0"), "--steps 0: expected 1 or more", 2),
+        (("--preload", "B=0.02", "--contact", "none.opts"), "none.opts", 3),
+    ],
+)
+def test_a_mistake_is_named(words, says, code, command, tmp_path):
+    pair_file(tmp_path / "pair.h5", 1.0)
+    (tmp_path / "c.opts").write_text("".join(f"-{name} {value}\n" for name, value in OPTIONS.items()))
+    said = command("pair.h5", "--contact", "c.opts", "--amplitudes", "1mm", *words, check=code)
+    assert says in said and len(said.splitlines()) == 1
+
+
+def test_files_that_are_no_pair_are_named(command, tmp_path):
+    compliances.write(tmp_path / "one.h5", compliances.layer(0.5, 1))
+    (tmp_path / "c.opts").write_text("-grid_n 8\n")
+    said = command("one.h5", "--contact", "c.opts", "--amplitudes", "1mm", check=3)
+    assert "one.h5: no pair of petsam-compliance with modes: it has no body 1, or no modes" in said
+
+
+def test_few_slipping_cells_and_modes_beside_the_patch_are_warned_of():
+    contact, stiffness = sphere(LOAD, 32)
+    patch = joint.Patch(contact, ["disp_x"], dict(load_n=LOAD), by_load=["disp_x"])
+    one = joint.Structure([patch], rigid=[[1.0]])
+    with pytest.warns(joint.BackboneWarning, match="fewer than 10 cells slip"):
+        joint.backbone(one, [0.004 * FRICTION * LOAD / stiffness], steps=2)
+    patch = joint.Patch(contact, ["disp_x"], dict(load_n=LOAD))
+    two = joint.Structure([patch], [50.0, 100.0], [[1e-3, 0.0]], coupling=[[1e-6 / 2500.0]])
+    with pytest.warns(joint.BackboneWarning, match="is one without contact: it does not move the patches"):
+        joint.backbone(two, [1e-9], mode=2 if two.stuck_modes()[0][1] > 99.9 else 1, steps=1)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with pytest.raises(petsam.Error, match="shapes: has the shape"):
+            joint.Structure([patch], [1.0], np.eye(2))
