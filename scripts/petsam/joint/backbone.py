@@ -227,8 +227,8 @@ def _warn(found):
     if np.any(few):
         last, most = found.amplitude[few].max(), found.slipping[few].max()
         warnings.warn(
-            f"up to an amplitude of {last:.3g} m fewer than {FEW} cells slip, at most {most:.0f}: damping there is that of "
-            "the grid; use a finer grid",
+            f"up to an amplitude of {last:.3g} m fewer than {FEW} cells slip, at most {most:.0f}: the grid makes the "
+            "damping there; use a finer one",
             BackboneWarning,
             stacklevel=3,
         )
