@@ -1,8 +1,8 @@
 """The part of a pair's compliance that moves one body as a whole against the other.
 
 A body that only bolts hold moves far more as a whole than it deforms, and a contact that is solved at given
-displacements would be ill-conditioned. With the motions Q of body 1 (private order of petsam's components: d_z, d_x, d_y,
-r_x, r_y, r_z), the half-space's compliance G^-1 on the polynomials and D beyond it,
+displacements would be ill-conditioned. With the motions Q of body 1, in the order d_z, d_x, d_y, r_x, r_y, r_z, the
+half-space's compliance G^-1 on the polynomials and D beyond it,
 
     b = (Q'(D + G^-1)^-1 Q)^-1 - (Q' G Q)^-1
 
