@@ -15,12 +15,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..contact import NoEquilibrium, NotConverged
 from ..errors import Error
+from .structure import NoSolution
 
+ENDS = (NoSolution, NoEquilibrium, NotConverged)  # of an amplitude, after which the larger ones are left out
 STEPS = 8  # load steps of a half cycle
 SETTLED = 1e-3  # change of the energy from one cycle to the next at which it counts as settled
 CYCLES = 12  # largest number of cycles of an amplitude
 AGREE = 0.02  # largest difference of the dissipated energy and the loop's, relative
+FEW_MODES = 1e-3  # change of the frequency without a quarter of the modes
 FEW = 10  # slipping cells below which the energy is that of the grid
 COLUMNS = {
     "alpha": ("m/s2 kg^0.5", "modal force"),
@@ -60,6 +64,8 @@ class Backbone:
     shape     the mode in modal coordinates
     patches   dissipated energy of a cycle in each patch, (amplitudes, patches), J
     names     names of the patches
+    modes_change  relative change of `linear` without the inertia of the highest quarter of the structure's modes; NaN
+                  where there are fewer than four
     """
 
     linear: float
@@ -67,6 +73,7 @@ class Backbone:
     numbers: dict
     patches: np.ndarray
     names: list
+    modes_change: float = float("nan")
 
     def __getattr__(self, name):
         if name != "numbers" and name in self.numbers:
@@ -75,7 +82,10 @@ class Backbone:
 
     def table(self):
         """Lines of a printed table."""
-        lines = [f"mode of {self.linear:.6g} Hz while all that touches sticks", ""]
+        lines = [f"mode of {self.linear:.6g} Hz while all that touches sticks"]
+        if np.isfinite(self.modes_change):
+            lines.append(f"without a quarter of the structure's modes its frequency changes by {self.modes_change:.1e}")
+        lines.append("")
         lines.append(
             f"{'amplitude/m':>12} {'accel./(m/s2)':>14} {'f/Hz':>11} {'zeta':>10} {'W/J':>10} {'slip':>6} cycles"
         )
@@ -98,19 +108,20 @@ class Backbone:
 
     def plot(self):
         """A figure of frequency and damping over the amplitude."""
-        from ..plot.style import COLORS, STYLE, plt
+        from ..plot.style import COLORS, STYLE, logarithmic, plt
 
         with plt.rc_context(STYLE):
-            figure, axes = plt.subplots(1, 2, figsize=(8.0, 3.4), layout="constrained")
-            for axis, values, label in zip(axes, (self.frequency, 100 * (self.damping + self.viscous)), LABELS):
-                axis.semilogx(self.amplitude, values, marker="o", markersize=3, color=COLORS[0])
-                axis.set_xlabel("amplitude / m")
-                axis.set_ylabel(label)
-            axes[0].axhline(self.linear, linewidth=0.8, linestyle="--", color="0.5")
+            figure, (left, right) = plt.subplots(1, 2, figsize=(8.0, 3.4), layout="constrained")
+            reach = 1e6 * self.amplitude
+            left.axhline(self.linear, color="0.4", linewidth=0.8, linestyle="--", label="all that touches sticks")
+            left.plot(reach, self.frequency, "o-", color=COLORS[0], markersize=4.0)
+            left.set(xlabel="amplitude, µm", ylabel="frequency, Hz")
+            left.legend()
+            right.plot(reach, 100.0 * (self.damping + self.viscous), "o-", color=COLORS[0], markersize=4.0)
+            right.set(xlabel="amplitude, µm", ylabel="damping, % of critical")
+            logarithmic(left, "x")
+            logarithmic(right, "xy" if np.all(self.damping > 0.0) else "x")
         return figure
-
-
-LABELS = ("frequency / Hz", "damping / % of critical")
 
 
 def _settled(one, before):
@@ -133,6 +144,22 @@ class Sweep:
         self.unit = structure.respond(self.tangent, self.shape)
         self.reversed = structure.respond_to(self.tangent)
         self._warn_of_mode(mode)
+        self.modes_change = self._compare(mode)
+
+    def _compare(self, mode):
+        """Relative change of the frequency without the inertia of a quarter of the elastic modes; NaN: too few."""
+        fewer = self.preload.omega.size // 4
+        if not fewer or mode > self.preload.modes - fewer:
+            return float("nan")
+        change = float(self.preload.stuck_modes(fewer)[0][mode - 1] / self.omega - 1.0)
+        if abs(change) > FEW_MODES:
+            warnings.warn(
+                f"without the highest {fewer} modes of the structure mode {mode} changes its frequency by {change:.1e}: use "
+                "more --modes of petsam-compliance",
+                BackboneWarning,
+                stacklevel=4,
+            )
+        return change
 
     def _warn_of_mode(self, mode):
         alone = (
@@ -204,7 +231,13 @@ def backbone(structure, amplitudes, mode=1, sensor=None, damping=0.0, steps=STEP
         if report:
             report(k + 1, len(amplitudes))
         alpha = sweep.omega**2 * amplitude / factor
-        one, count = sweep.cycles(alpha)
+        try:
+            one, count = sweep.cycles(alpha)
+        except ENDS as error:
+            if not rows:
+                raise
+            warnings.warn(f"ended before an amplitude of {amplitude:.3g} m: {error}", BackboneWarning, stacklevel=2)
+            break
         reach = one.ends[1] - one.ends[0]
         omega2 = 2.0 * alpha / reach
         energy = float(one.energies.sum())
@@ -216,7 +249,7 @@ def backbone(structure, amplitudes, mode=1, sensor=None, damping=0.0, steps=STEP
         patches.append(one.energies)
     numbers = {name: np.array(column) for name, column in zip(COLUMNS, np.transpose(rows))}
     names = [patch.name or f"patch{k}" for k, patch in enumerate(structure.patches, 1)]
-    found = Backbone(sweep.omega / (2.0 * np.pi), sweep.shape, numbers, np.array(patches), names)
+    found = Backbone(sweep.omega / (2.0 * np.pi), sweep.shape, numbers, np.array(patches), names, sweep.modes_change)
     _warn(found)
     return found
 

@@ -28,7 +28,7 @@ from ..files import need_regular, need_replaceable
 from ..plot.saving import DPI, add_resolution, write
 from ..surface.lengths import lengths
 from . import interface
-from .backbone import BackboneWarning, backbone
+from .backbone import ENDS, BackboneWarning, backbone
 from .pair import Pair
 
 MATERIALS = {"steel": (210e9, 0.3), "aluminium": (70e9, 0.33), "titanium": (115e9, 0.32), "nickel": (205e9, 0.3)}
@@ -272,23 +272,29 @@ def _backbone(args):
         count = len(args.amplitudes)
         tell = lambda k, _: _tell(f"amplitude {k} of {count}")  # noqa: E731
         pair, result = compute(0, args.amplitudes, report=tell)
-        lines = _degree_lines(args, compute, result) if args.degree_check else []
     for name, tension in pair.tensions.items():
         print(f"bolt {name}: {tension:.6g} N left of {preload.get(name, 0.0):g} N after all are tightened")
     _print(result, found)
-    print("\n".join(lines), end="\n" if lines else "")
+    if args.degree_check:
+        print(_degree_line(args, compute, result))
     if args.output:
         result.to_csv(args.output + ".csv")
         write(result.plot(), args.output + ".png", args.dpi)
     return 0
 
 
-def _degree_lines(args, compute, result):
-    """The largest amplitude with fewer polynomials."""
-    _, other = compute(2, args.amplitudes[-1:])
+def _degree_line(args, compute, result):
+    """What fewer polynomials change at the largest amplitude."""
+    last = len(result.alpha) - 1
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", BackboneWarning)
+            _, other = compute(2, args.amplitudes[last : last + 1])
+    except ENDS as error:
+        return f"degree lower by 2: {error}"
     frequency = other.frequency[-1] / result.frequency[-1] - 1.0
     damping = other.damping[-1] / result.damping[-1] - 1.0 if result.damping[-1] else float("nan")
-    return ["", f"degree lower by 2: frequency {frequency:+.1e}, damping {damping:+.1e} at the largest amplitude"]
+    return f"degree lower by 2: frequency {frequency:+.1e}, damping {damping:+.1e} at the largest amplitude"
 
 
 # for each action: options it needs, others with their defaults, the function

@@ -19,7 +19,7 @@ import warnings
 
 import numpy as np
 
-from ..contact import AdviceWarning
+from ..contact import AdviceWarning, EdgeContactWarning
 from ..errors import Error
 
 TOLERANCE = 1e-7  # of the work of the errors, relative to that of the loads
@@ -34,7 +34,7 @@ DISPLACEMENTS = {
 
 
 class NoSolution(Error):
-    """Equilibrium of patches and structure was not found."""
+    """Equilibrium of patches and structure was not found, or the contact leaves its patch."""
 
 
 class Patch:
@@ -67,7 +67,11 @@ class Patch:
             )
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", AdviceWarning)  # of small slip zones: the backbone has its own
-            self.contact.try_step(**given)
+            warnings.simplefilter("error", EdgeContactWarning)
+            try:
+                self.contact.try_step(**given)
+            except EdgeContactWarning as edge:
+                raise NoSolution(f"{self.name or 'a contact'}: {edge}") from None
         z = np.array(values, dtype=float)
         z[self.by_load] = [self.contact.number(name) for name, load in zip(self.coordinates, self.by_load) if load]
         return z, self.sign * np.array([self.contact.number(name) for name in self._loads])
@@ -196,16 +200,20 @@ class Structure:
         elastic = (np.asarray(force)[: self.omega.size] + self.shapes.T @ loads) / self.omega**2
         return np.concatenate([elastic, a])
 
-    def stuck_modes(self):
-        """Angular frequencies (rad/s), rising, and shapes (modes, modes), as columns in modal coordinates, while all
-        that touches sticks."""
-        tangent = self.tangent()
-        columns = []
+    def flexibility(self):
+        """(modes, modes): modal coordinates by a unit of each modal force, while all that touches sticks."""
+        tangent, columns = self.tangent(), []
         for unit in np.eye(self.modes):
             _, loads, a = self.respond(tangent, unit)
             columns.append(self.modal(unit, loads, a))
-        flexibility = np.array(columns).T
-        values, vectors = np.linalg.eigh(0.5 * (flexibility + flexibility.T))
+        found = np.array(columns).T
+        return 0.5 * (found + found.T)
+
+    def stuck_modes(self, without=0):
+        """Angular frequencies (rad/s), rising, and shapes (modes, modes), as columns in modal coordinates, while all
+        that touches sticks; `without` the inertia of the so many highest elastic modes."""
+        kept = np.r_[: self.omega.size - without, self.omega.size : self.modes]
+        values, vectors = np.linalg.eigh(self.flexibility()[np.ix_(kept, kept)])
         if values[0] <= 0.0:
             raise NoSolution("the structure with sticking contacts has a mode of negative stiffness")
         order = np.argsort(-values)
