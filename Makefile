@@ -7,6 +7,8 @@ PKG_CONFIG ?= pkg-config
 OPT        ?= -O3 -g
 WERROR     ?=
 READELF    ?= readelf
+# within the shared library, calls go straight to its own functions
+BIND       ?= -Wl,-Bsymbolic-functions
 prefix     ?= /usr/local
 PYTHON     ?= python3
 B          := build
@@ -92,7 +94,7 @@ $(B)/lib/exports.map: $(B)/lib/libpetsam.a $(HEADERS)
 $(B)/lib/libpetsam.so: $(LIB_OBJ) $(B)/lib/exports.map
 	@mkdir -p $(@D)
 	$(say) LD $@
-	$(Q)$(CC) -shared -Wl,-Bsymbolic-functions -Wl,-soname,$(SONAME) -Wl,--version-script=$(B)/lib/exports.map $(LDFLAGS) -o $@.$(VERSION) $(LIB_OBJ) $(PC_LIBS)
+	$(Q)$(CC) -shared $(BIND) -Wl,-soname,$(SONAME) -Wl,--version-script=$(B)/lib/exports.map $(LDFLAGS) -o $@.$(VERSION) $(LIB_OBJ) $(PC_LIBS)
 	$(Q)cd $(@D) && ln -sf $(@F).$(VERSION) $(SONAME) && ln -sf $(SONAME) $(@F)
 
 # with the shared library beside them, whose lists of types plugins add to

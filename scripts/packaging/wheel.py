@@ -45,6 +45,11 @@ def needed(*files):
     return {name for name in names if not OF_THE_SYSTEM.fullmatch(name) and name != MPI and "petsam" not in name}
 
 
+def license_of(library):
+    """The name of the library's licence in the folder licenses, or None."""
+    return next((text for start, text in LICENSES.items() if library.startswith(start)), None)
+
+
 def carried(files):
     """{name: path} of the libraries that the files need, and those need, as the loader finds them now."""
     found = {}
@@ -55,7 +60,7 @@ def carried(files):
         name = left.pop()
         if name not in found:
             raise SystemExit(f"wheel.py: error: {name} not found")
-        if not any(name.startswith(start) for start in LICENSES):
+        if not license_of(name):
             raise SystemExit(f"wheel.py: error: {name}: a library of unknown license; add it to LICENSES")
         names[name] = found[name]
         left |= needed(found[name]) - set(names)
@@ -87,6 +92,8 @@ def stage(build, libraries, tree):
         with open(tree / "requirements.txt", "a", encoding="utf-8") as lines:
             lines.write(f"mpich>={mpich}\n")
         shutil.copytree(libraries / "licenses", data / "share/petsam/licenses")
+        listed = "".join(f"{name}: {license_of(name)}\n" for name in sorted(others))
+        (data / "share/petsam/licenses/libraries.txt").write_text(listed, encoding="utf-8")
         print("carried: " + ", ".join(sorted(others)))
     for path, source in places.items():
         copy(source, path)

@@ -121,13 +121,29 @@ def test_the_carrying_wheel_names_the_C_library_that_its_files_need(monkeypatch)
     assert maker.platform(["old"]) == machine.replace("linux", "manylinux_2_28")
 
 
-def test_a_wheel_that_stands_needs_no_newer_C_library_than_its_name_says(tmp_path):
+@pytest.fixture(scope="module")
+def standing(tmp_path_factory):
+    """The wheel of `make wheel`: its name, and the folder of its files for the environment."""
     wheels = list((ROOT / "build/wheel").glob("petsam-*manylinux_*.whl"))
     if not wheels:
         pytest.skip("no wheel of make wheel stands in build/wheel")
+    folder = tmp_path_factory.mktemp("standing")
     with zipfile.ZipFile(wheels[0]) as archive:
-        archive.extractall(tmp_path)
-    files = [path for path in tmp_path.rglob("*.data/data/**/*") if path.is_file()]
-    files = [path for path in files if path.read_bytes()[:4] == b"\x7fELF"]
-    named = re.search(r"manylinux_(\d+)_(\d+)_", wheels[0].name)
+        archive.extractall(folder)
+    (data,) = folder.glob("*.data/data")
+    return wheels[0].name, data
+
+
+def test_a_wheel_that_stands_needs_no_newer_C_library_than_its_name_says(standing):
+    name, data = standing
+    files = [path for path in data.rglob("*") if path.is_file() and path.read_bytes()[:4] == b"\x7fELF"]
+    named = re.search(r"manylinux_(\d+)_(\d+)_", name)
     assert len(files) > 4 and maker.c_library(files) <= (int(named[1]), int(named[2]))
+
+
+def test_a_wheel_that_stands_has_the_license_of_each_library(standing):
+    _, data = standing
+    licenses = data / "share/petsam/licenses"
+    listed = dict(line.split(": ") for line in (licenses / "libraries.txt").read_text().splitlines())
+    assert set(listed) == {path.name for path in data.glob("lib/petsam/lib*")}
+    assert all((licenses / text).stat().st_size > 1000 for text in listed.values())
