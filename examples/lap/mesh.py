@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """CalculiX deck (mm, N, MPa, t) of a lap joint: two steel strips, one over the other, for one bolt.
 
-    mesh.py lap lap.inp         body 2, x -150..30 mm, clamped at its end; body 1 above it, x -30..150 mm, with node TIP
+    mesh.py lap lap.inp     body 2, x -150..30 mm, clamped at its end; body 1 above it, x -30..150 mm, TIP at its end
 
 The contact's plane is z = 0, z points down into body 2. Strips are 50 mm wide and 12.7 mm high; washers are squares.
 --coarse is for an estimate of the mesh's error.
@@ -22,7 +22,7 @@ def edges(coarse):
     """Planes of elements along x of body 1, y and z of both."""
     near = [6.0, 10.0, 14.0, 18.0, 21.0, 25.0, LAP] if coarse else [3.0, 6.0, 9.0, 12.0, 15.0, 18.0, 20.0,
                                                                     23.0, 26.5, LAP]  # fmt: skip
-    far = [60.0, 100.0, END] if coarse else [36.0, 45.0, 57.0, 72.0, 90.0, 110.0, 130.0, END]
+    far = [40.0, 53.0, 70.0, 95.0, 120.0, END] if coarse else [36.0, 45.0, 57.0, 72.0, 90.0, 110.0, 130.0, END]
     y = [6.0, 12.0, 18.0, 25.0] if coarse else [3.0, 6.0, 9.0, 12.0, 15.0, 18.0, 21.0, 25.0]
     z = [0.0, 3.0, 7.0, HEIGHT] if coarse else [0.0, 1.5, 3.5, 6.0, 9.0, HEIGHT]
     both = [[-v for v in one[::-1]] + [0.0] + one for one in (near, y)]
@@ -58,8 +58,8 @@ def lines(_name, coarse, kind):
         if body == 2:
             sets += ["*NSET, NSET=CLAMP", *numbers(end + 1 + first)]
         else:
-            tip = end[np.argmin(np.abs(mesh.nodes[end]) @ [0.0, 1.0, 1.0])]
-            sets += [f"** the tip is node {tip + 1 + first}", "*NSET, NSET=TIP", f"{tip + 1 + first}"]
+            middle = end[np.argmin(np.abs(mesh.nodes[end]) @ [0.0, 1.0, 1.0])]
+            sets += ["*NSET, NSET=TIP", f"{middle + 1 + first}"]
         first += max(len(mesh.nodes), len(block.numbers))
     out += ["*MATERIAL, NAME=STEEL", "*ELASTIC", "{}, {}".format(*STEEL), "*DENSITY", f"{DENSITY}"]
     return out + sets

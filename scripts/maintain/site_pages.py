@@ -85,7 +85,7 @@ PARTS = (
         ),
     ),
     ("Stresses and fatigue", ("examples/manual/STRESSES.md", "examples/stress/README.md")),
-    ("Joints", ("examples/joint/README.md", "examples/vibrating-joint/README.md")),
+    ("Joints", ("examples/lap/README.md", "examples/joint/README.md", "examples/vibrating-joint/README.md")),
     ("Python and scripts", ("scripts/README.md", "scripts/PYTHON.md", "examples/study/README.md")),
     ("C and other programs", ("examples/embed/README.md", "include/FUNCTIONS.md")),
     ("Options", ("examples/manual/OPTIONS.md", "examples/manual/INDEX.md")),

@@ -1,19 +1,26 @@
 """Frequency and damping of joints over amplitude: Mindlin's oscillators, and pairs of bodies."""
 
 import csv
+import subprocess
 import sys
 import warnings
 
 import h5py
 import numpy as np
 import pytest
+from scipy import sparse
+from scipy.interpolate import RegularGridInterpolator
 from scipy.optimize import brentq
+from scipy.sparse.linalg import eigsh
+from scipy.spatial import cKDTree
 
 import compliances
 import petsam
 from petsam import joint
-from petsam.compliance import basis, rigid
+from petsam.compliance import basis, model, modes, rigid, stiffness
+from petsam.compliance.command import arguments, carry_out
 from petsam.joint import command as _  # noqa: F401
+from support import ROOT
 
 pytestmark = pytest.mark.filterwarnings("ignore::petsam.joint.BackboneWarning")
 
@@ -161,6 +168,46 @@ def pair_file(path, soft):
         file["bolts/closing"] = np.array([[0.4]])
         file["bolts/closing"].attrs["names"] = ["B"]
     return path
+
+
+@pytest.mark.slow
+def test_stuck_modes_of_the_lap_are_those_of_tied_elements(tmp_path, monkeypatch):
+    """The same finite elements, with nodes of both bodies made one where the surfaces touch: no polynomials, no
+    half-space, no modes without contact."""
+    monkeypatch.chdir(tmp_path)
+    subprocess.run([sys.executable, ROOT / "examples/lap/mesh.py", "lap", "lap.inp", "--coarse"], check=True)
+    words = "--mesh lap.inp --units mm --contact CONTACT2 --pair CONTACT1 --fixed CLAMP --patch 36mm --degree 6,6 "
+    words += "--no-picture --stiffness own --bolt B=WASHER1,WASHER2:8mm --modes 12"
+    options = arguments(words.split())
+    carry_out(options, [])
+    pair = joint.Pair("lap.h5", dict(B=15e3), grid_n=64, friction=0.3)
+    contact = pair.structure.patches[0].contact
+    body = model.Model(options.mesh, options)
+    body.prepare_modes()
+    nodes = body.mesh.nodes
+    one, two = (
+        np.unique(np.concatenate([g.nodes.ravel() for g in body.mesh.surface_faces(f"CONTACT{k}")])) for k in (1, 2)
+    )
+    touch = RegularGridInterpolator(
+        (contact.y, contact.x), (contact["pressure"] > 0) * 1.0, bounds_error=False, fill_value=0
+    )
+    distance, nearest = cKDTree(nodes[two]).query(nodes[one])
+    same = np.arange(3 * len(nodes))
+    for a, b in zip(one[distance < 1e-7], two[nearest[distance < 1e-7]]):
+        if touch(nodes[b, [1, 0]])[0] > 0.5:
+            same[3 * a : 3 * a + 3] = 3 * b + np.arange(3)
+    fixed = (3 * body.supported[:, None] + np.arange(3)).ravel()
+    kept = np.setdiff1d(np.unique(same), fixed)
+    column = np.full(len(same), -1)
+    column[kept] = np.arange(len(kept))
+    rows = np.flatnonzero(column[same] >= 0)
+    tie = sparse.csr_matrix((np.ones(len(rows)), (rows, column[same[rows]])), shape=(len(same), len(kept)))
+    whole = stiffness.stiffness(body.mesh, "own") + sum(bolt.matrix for bolt in body.bolts)
+    k, m = ((tie.T @ matrix @ tie).tocsc() for matrix in (whole, modes.mass(body.mesh)))
+    squares = eigsh(k, 3, m, sigma=0.0, return_eigenvectors=False)
+    found = pair.structure.stuck_modes()[0][:3]
+    assert found == pytest.approx(np.sqrt(np.sort(squares)), rel=1e-2)
+    assert found[0] > 1.5 * pair.omega[0]
 
 
 OPTIONS = dict(grid_n=24, friction=0.3, gap_type="sphere", gap_radius1=8.0, gap_radius2="inf")

@@ -298,10 +298,10 @@ def frequencies(path):
 @pytest.mark.parametrize("kind, most", [("C3D20", 1e-6), ("C3D20R", 1e-6), ("C3D8I", 1e-2)])
 def test_frequencies_are_calculixs(compliance, tmp_path, kind, most):  # noqa: F811
     """C3D8I differs by 7e-3, perhaps because its incompatible modes have no mass here."""
-    text = light(both(kind))
+    text = [*light(both(kind)), "*NSET, NSET=CORNER", "3,"]
     (tmp_path / "pair.inp").write_text("\n".join(text) + "\n")
     words = [word for word in PAIR if word not in ("--stiffness", "own")]
-    compliance(*words, *HELD, "--degree", "4", "--modes", "6", "--sensor", "TIP=3", "-o", "pair.h5")
+    compliance(*words, *HELD, "--degree", "4", "--modes", "6", "--sensor", "TIP=CORNER", "-o", "pair.h5")
     held = [f"{name}, 1, 3" for name in ("END1", "END2")]
     stiffness.run([*text, "*BOUNDARY", *held, "*STEP", "*FREQUENCY", "6", "*END STEP"], tmp_path, "free", CCX)
     with h5py.File("pair.h5", "r") as file:
@@ -361,6 +361,9 @@ def test_pairs_that_are_none_are_rejected(pair, compliance, tmp_path):  # noqa: 
     assert "both washers are on one body" in pair(*HELD, "--bolt", "B=WASHER1,TOP1:0.5", check=3)
     assert "floats, as nothing but the contact holds it: hold it by --fixed" in pair("--fixed", "END1", check=3)
     assert "washers are of several materials: give its modulus" in pair(*HELD, *BOLT, check=3)
+    few = "node set END1 of --sensor TIP has "
+    assert few in pair(*HELD, "--modes", "1", "--sensor", "TIP=END1", check=3)
+    assert "no node set CORNER; there are" in pair(*HELD, "--modes", "1", "--sensor", "TIP=CORNER", check=3)
     assert "no node 99999 of --sensor TIP" in pair(*HELD, "--modes", "1", "--sensor", "TIP=99999", check=3)
     alone = both()
     alone.nodes = np.concatenate([alone.nodes, body(2).nodes + [9.0, 0.0, 0.0]])
@@ -400,7 +403,7 @@ def test_modes_need_the_density_of_each_material(pair, tmp_path):
         (["--modes", "40", "--case", "pull=1"], "at most 40 of them, with those of --bolt and --modes"),
         (["--modes", "1", "--case", "mode1=1"], "give each name once"),
         (["--sensor", "TIP=3"], "--sensor needs --modes"),
-        (["--modes", "1", "--sensor", "TIP=x"], "expected NAME=NODE"),
+        (["--modes", "1", "--sensor", "TIP="], "expected NAME=NODE"),
         (["--method", "cutoff"], "--method cutoff is not for a pair"),
         (["--depth", "1"], "--depth is not for a pair"),
     ],

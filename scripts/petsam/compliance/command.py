@@ -127,9 +127,9 @@ def modes(text):
 def sensor(text):
     """Reads a sensor for argparse."""
     name, _, node = text.partition("=")
-    if not NAME.fullmatch(name) or not node.isdecimal():
-        raise argparse.ArgumentTypeError(f"{short(text)}: expected NAME=NODE, a number of a node of the deck")
-    return name, int(node)
+    if not NAME.fullmatch(name) or not node:
+        raise argparse.ArgumentTypeError(f"{short(text)}: expected NAME=NODE, a node of the deck or a set of one node")
+    return name, node
 
 
 def length(text):
@@ -171,7 +171,11 @@ def _pair_options(parser):
     )
     pair.add_argument("--modes", type=modes, metavar="N", help="number of modes without contact; needs *DENSITY")
     pair.add_argument(
-        "--sensor", type=sensor, action="append", metavar="NAME=NODE", help="node whose modes are written"
+        "--sensor",
+        type=sensor,
+        action="append",
+        metavar="NAME=NODE",
+        help="node, or set of one node, whose modes are written",
     )
 
 

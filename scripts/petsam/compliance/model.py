@@ -156,8 +156,14 @@ class Model:
             )
         self.sensors = [self._sensor(*one) for one in self.options.sensor]
 
-    def _sensor(self, name, number):
-        """Index of the node of a sensor."""
+    def _sensor(self, name, node):
+        """Index of the node of a sensor, a number or a set."""
+        if not node.isdecimal():
+            found = deck.need_set(self.mesh.node_sets, node, "node set", self.path)
+            if len(found) > 1:
+                raise Error(f"{self.path}: node set {node} of --sensor {name} has {len(found)} nodes: name one node")
+            return int(found[0])
+        number = int(node)
         index = int(np.searchsorted(self.mesh.node_numbers, number))
         if index == len(self.mesh.node_numbers) or self.mesh.node_numbers[index] != number:
             raise Error(f"{self.path}: no node {number} of --sensor {name} in the mesh: name a node of its elements")
