@@ -139,7 +139,39 @@ def test_an_elastic_mode_beside_the_contact(ratio):
     assert error[0].max() < 5e-5 and error[1].max() < 6e-3
 
 
+def test_the_response_of_loads_is_that_of_coordinates():
+    """With a random tangent: coordinates and loads that belong together, whichever of them is prescribed."""
+    rng = np.random.default_rng(3)
+    contact, _ = sphere(LOAD, 16)
+    names = ["disp_x", "disp_y", "rot_z"]
+    patch = joint.Patch(contact, names, dict(load_n=LOAD), by_load=names[:2])
+    tangent = -np.eye(3) + 0.2 * rng.normal(size=(3, 3))
+    response = joint.Structure([patch]).response_of(tangent)
+    z = rng.normal(size=3)
+    loads = tangent @ z
+    given, found = np.array([*loads[:2], z[2]]), np.array([*z[:2], loads[2]])
+    assert response @ given == pytest.approx(found)
+
+
 # ---------------------------------------------------------------- pairs of bodies
+
+
+def test_motions_of_a_pair_are_those_of_the_contact(tmp_path):
+    """A load case that is a rigid motion moves the contact as the displacement does."""
+    motions = rigid.motions(basis.Patch((0.0, 0.0), (1.0, 1.0), 1))
+    cases = {f"c{k}": motions[k] for k in range(6)}
+    file = compliances.write(tmp_path / "c.h5", np.zeros((3, 3, 3, 3)), cases=cases)
+    bodies = dict(body1_young=1, body2_young=1, body1_poisson=0.3, body2_poisson=0.3)
+    given = dict(OPTIONS, **bodies, grid_size=2.0, body2_compliance=file)
+    amounts = dict(zip(joint.structure.DISPLACEMENTS, (0.01, 1e-3, -5e-4, 2e-3, 1e-3, 1e-3)))
+    with petsam.Contact(**given) as contact:
+        plain = contact.try_step(**amounts).load
+        cased = contact.try_step(
+            **dict.fromkeys(amounts, 0.0), **{f"body2_case_c{k}": -amount for k, amount in enumerate(amounts.values())}
+        ).load
+        assert cased == pytest.approx(plain, rel=1e-6, abs=1e-9 * plain[0])
+        works = [contact.number(f"body2_case_c{k}_load") for k in range(6)]
+        assert works == pytest.approx(cased, rel=1e-6, abs=1e-9 * plain[0])
 
 
 def pair_file(path, soft):

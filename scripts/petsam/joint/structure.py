@@ -158,7 +158,7 @@ class Structure:
             at += len(block)
         return found
 
-    def _response(self, tangent):
+    def response_of(self, tangent):
         """d(what steps find)/d(what steps prescribe): loads by coordinates, and the reverse where patches are
         by_load."""
         load, rest = np.flatnonzero(self.by_load), np.flatnonzero(~self.by_load)
@@ -255,7 +255,7 @@ class Structure:
 
     def respond_to(self, tangent):
         """The response with which step() may begin, of a tangent."""
-        return None if self.direct or self.given else self._response(tangent)
+        return None if self.direct or self.given else self.response_of(tangent)
 
     def _iterate(self, driven, free, held, response, scale):
         """Broyden's method for what steps prescribe, and for a; returns its last response."""
@@ -280,7 +280,7 @@ class Structure:
                     f"{TOLERANCE:g}: use more steps"
                 )
             if response is None or size > SLOW * last:
-                response = self._response(self.tangent(False))
+                response = self.response_of(self.tangent(False))
             elif moved is not None:
                 response = self._updated(response, moved, np.where(self.by_load, z, loads) - before)
             change = _solved(self._system(response), -error)
