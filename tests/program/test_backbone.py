@@ -142,7 +142,7 @@ def test_an_elastic_mode_beside_the_contact(ratio):
 def test_the_response_of_loads_is_that_of_coordinates():
     """With a random tangent: coordinates and loads that belong together, whichever of them is prescribed."""
     rng = np.random.default_rng(3)
-    contact, _ = sphere(LOAD, 16)
+    contact = sphere(LOAD, 16)[0]
     names = ["disp_x", "disp_y", "rot_z"]
     patch = joint.Patch(contact, names, dict(load_n=LOAD), by_load=names[:2])
     tangent = -np.eye(3) + 0.2 * rng.normal(size=(3, 3))
