@@ -291,6 +291,27 @@ static void test_impossible_normal_loads_are_found(void **state)
   }
 }
 
+/* A cell that is no number, on the first rank, ends the projection everywhere: nothing is nearest to it. */
+static void test_a_shear_with_nan_is_not_projected(void **state)
+{
+  (void)state;
+  for (int k = 0; k < NUM_GRIDS; k++) {
+    SamGrid          grid     = Grid(k);
+    const PetscReal  loads[3] = {1, 0, 0};
+    const SamBalance b        = Balance(SAM_BALANCE_TANGENTIAL, 3, loads);
+    Vec              q = NewRandom(grid, 2, 1), bound = NewField(grid, 1);
+    double          *a;
+
+    sam_call(VecSet(bound, 1e9));
+    sam_call(VecGetArray(q, &a));
+    if (grid->cells && !grid->row_start) a[0] = NAN;
+    sam_call(VecRestoreArray(q, &a));
+    sam_assert(!Project(grid, &b, bound, q));
+    sam_destroy(&q, &bound);
+    sam_call(SamGridDestroy(&grid));
+  }
+}
+
 /* ---- sliding ---- */
 
 static double Disc(double x, double y, const void *context)
@@ -540,6 +561,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_weighted_projection_is_the_nearest_shear_in_its_metric),
     cmocka_unit_test(test_normal_projection_keeps_to_its_mask),
     cmocka_unit_test(test_impossible_normal_loads_are_found),
+    cmocka_unit_test(test_a_shear_with_nan_is_not_projected),
     cmocka_unit_test(test_force_alone_slides_at_the_sum_of_the_bound),
     cmocka_unit_test(test_torque_alone_slides_at_two_thirds_of_a_uniform_disc),
     cmocka_unit_test(test_combined_limit_lies_between_line_and_rectangle),
