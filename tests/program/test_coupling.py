@@ -444,9 +444,13 @@ def test_nearly_flat_periodic_bodies_converge(petsam, tmp_path, size, limit):
         assert f["history/coupling_iterations"][0] <= 30
 
 
-def test_full_contact_of_yielding_periodic_bodies_converges(petsam, tmp_path):
-    mean = write_rough(tmp_path / "h.h5", 3e-7, 8)
-    petsam(PERIODIC, dict(disp_z=1.5 * mean, pressure_limit=1e9, disp_x=1e-7))
+@pytest.mark.parametrize(
+    "size, lengths, approach, limit",
+    [(3e-7, 8, 1.5, 1e9), (1.2e-6, 4, 1.63, 3.8e9), (5.1e-7, 7, 1.53, 2.7e9), (1.1e-7, 11, 1.58, 2.6e9)],
+)
+def test_full_contact_of_yielding_periodic_bodies_converges(size, lengths, approach, limit, petsam, tmp_path):
+    mean = write_rough(tmp_path / "h.h5", size, lengths)
+    petsam(PERIODIC, dict(disp_z=approach * mean, pressure_limit=limit, disp_x=1e-7))
 
 
 def test_tight_tolerances_are_met_or_one_that_can_be_is_named(petsam):
