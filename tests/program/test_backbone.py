@@ -252,6 +252,9 @@ def test_command_prints_and_writes_the_numbers(command, tmp_path):
         (("--preload", "B=0.02", "--pressure", "1MPa"), "--pressure is for petsam-joint stiffness: remove it", 2),
         (("--preload", "B=0.02", "--steps", "0"), "--steps 0: expected 1 or more", 2),
         (("--preload", "B=0.02", "--contact", "none.opts"), "none.opts", 3),
+        (("--preload", "B=0.02", "--preload", "B=0.01"), "--preload: a bolt is given twice", 2),
+        (("--preload", "B=0"), "does not resist them: give it friction and preload", 2),
+        (("--preload", "B=0.02", "--damping", "nan"), "damping nan: expected a part of critical damping", 2),
     ],
 )
 def test_a_mistake_is_named(words, says, code, command, tmp_path):
@@ -259,6 +262,53 @@ def test_a_mistake_is_named(words, says, code, command, tmp_path):
     (tmp_path / "c.opts").write_text("".join(f"-{name} {value}\n" for name, value in OPTIONS.items()))
     said = command("pair.h5", "--contact", "c.opts", "--amplitudes", "1mm", *words, check=code)
     assert says in said and len(said.splitlines()) == 1
+
+
+def test_the_pair_in_the_options_file_is_not_counted_twice(command, tmp_path):
+    """As the options that petsam-compliance prints have it."""
+    pair_file(tmp_path / "pair.h5", 1.0)
+    lines = "".join(f"-{name} {value}\n" for name, value in OPTIONS.items())
+    printed = []
+    for name, more in (("c", ""), ("d", "-body2_compliance pair.h5\n")):
+        (tmp_path / f"{name}.opts").write_text(lines + more)
+        words = ("pair.h5", "--contact", f"{name}.opts", "--preload", "B=0.02", "--steps", 1)
+        printed.append(command(*words, "--amplitudes", "3mm"))
+    assert printed[0] == printed[1]
+
+
+def test_bodies_that_are_pulled_apart_end_the_backbone(tmp_path):
+    pair = joint.Pair(pair_file(tmp_path / "pair.h5", 1.0), PRELOAD, **OPTIONS)
+    with pytest.warns(joint.BackboneWarning, match="ended before .* pulls the bodies apart with"):
+        found = joint.backbone(pair.structure, [3e-3, 10.0], steps=2)
+    assert len(found.alpha) == 1
+
+
+def test_displacements_whose_loads_are_held_follow(tmp_path):
+    """Of a mode that moves the surfaces also along z: its frequency while all sticks is that of tiny amplitudes."""
+    file = compliances.write(
+        tmp_path / "one.h5", 0.3 * compliances.layer(0.5, 1), cases=dict(mode1=[[1.0, 0, 0.4], [0, 0, 0], [0, 0, 0]])
+    )
+    bodies = {f"body{k}_{name}": value for k in (1, 2) for name, value in (("young", 1.0), ("poisson", 0.3))}
+    contact = petsam.Contact(**bodies, **OPTIONS, grid_size=2.0, body2_compliance=file)
+    contact.try_step(load_n=0.05)
+    contact.commit()
+    patch = joint.Patch(contact, ["body2_case_mode1"], dict(load_n=0.05))
+    found = joint.backbone(joint.Structure([patch], [3.0], [[1.0]]), [2e-5], steps=1)
+    assert found.frequency == pytest.approx(found.linear, rel=1e-5)
+
+
+def test_numbers_that_make_no_sense_are_refused():
+    contact, stiffness = sphere(LOAD, 16)
+    one = joint.Structure([joint.Patch(contact, ["disp_x"], dict(load_n=LOAD), by_load=["disp_x"])], rigid=[[1.0]])
+    for given, says in (
+        (dict(amplitudes=[1e-7, 0.0]), "amplitudes: expected lengths above 0"),
+        (dict(amplitudes=[1e-7], sensor=[1.0, 2.0]), r"sensor: has the shape \(2,\): expected a number for each of 1"),
+        (dict(amplitudes=[1e-7], damping=-0.1), "damping -0.1: expected a part"),
+    ):
+        with pytest.raises(petsam.Error, match=says):
+            joint.backbone(one, **given)
+    with pytest.raises(petsam.Error, match="omega: expected frequencies above 0"):
+        joint.Structure(one.patches, [np.nan], [[1.0]])
 
 
 def test_files_that_are_no_pair_are_named(command, tmp_path):

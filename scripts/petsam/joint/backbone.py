@@ -211,6 +211,24 @@ class Sweep:
         return int(sum(np.sum(patch.contact.field("state") == 2) for patch in self.work.patches))
 
 
+def _checked(amplitudes, damping):
+    """The amplitudes as an array."""
+    found = np.atleast_1d(np.asarray(amplitudes, dtype=float))
+    if not (found.ndim == 1 and found.size and np.all((found > 0.0) & np.isfinite(found))):
+        raise Error("amplitudes: expected lengths above 0")
+    if not 0.0 <= damping < 1.0:
+        raise Error(f"damping {damping:g}: expected a part of critical damping, from 0 to below 1")
+    return found
+
+
+def _moved(sensor, shape):
+    """Displacement of the sensor by a unit of the mode."""
+    sensor = np.asarray(sensor, dtype=float)
+    if sensor.shape != shape.shape:
+        raise Error(f"sensor: has the shape {sensor.shape}: expected a number for each of {len(shape)} modes")
+    return abs(float(sensor @ shape))
+
+
 def backbone(structure, amplitudes, mode=1, sensor=None, damping=0.0, steps=STEPS, report=None):
     """The Backbone of a structure in its preload.
 
@@ -221,9 +239,9 @@ def backbone(structure, amplitudes, mode=1, sensor=None, damping=0.0, steps=STEP
     damping     damping of the material as a part of critical, for that mode
     report      called with the number of the amplitude and of all of them
     """
+    amplitudes = _checked(amplitudes, damping)
     sweep = Sweep(structure, mode, steps)
-    sensor = np.ones(1) if sensor is None else np.asarray(sensor, dtype=float)
-    factor = abs(float(sensor @ sweep.shape)) if sensor.size > 1 or structure.modes == 1 else 1.0
+    factor = 1.0 if sensor is None else _moved(sensor, sweep.shape)
     if not factor:
         raise Error("sensor: the mode does not move it; take another sensor")
     rows, patches = [], []

@@ -41,7 +41,8 @@ class Pair:
         self._folder = tempfile.TemporaryDirectory(prefix="petsam-")
         own = os.path.join(self._folder.name, "pair.h5")
         rigid = without_rigid(path, own, lower)
-        contact = Contact(**{**self.defaults, "body2_compliance": own, **options})
+        # a file of options may have the pair's own, with the compliance of rigid motions: the last one counts
+        contact = Contact(**{**self.defaults, **options, "body2_compliance": own})
         modes = [f"body2_case_mode{k + 1}" for k in range(self.omega.size)]
         patch = Patch(contact, [*DISPLACEMENTS, *modes], by_load=DISPLACEMENTS, name="contact")
         count = len(patch.coordinates)

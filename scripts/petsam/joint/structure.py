@@ -65,6 +65,11 @@ class Patch:
             given[self._loads[k] if self.by_load[k] else self.coordinates[k]] = value * (
                 self.sign[k] if self.by_load[k] else 1.0
             )
+        if given.get("load_n", 0.0) < 0.0:
+            raise NoSolution(
+                f"{self.name or 'a contact'}: the structure pulls the bodies apart with {-given['load_n']:.3g} N: use a "
+                "higher preload, a smaller amplitude, or more steps"
+            )
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", AdviceWarning)  # of small slip zones: the backbone has its own
             warnings.simplefilter("error", EdgeContactWarning)
@@ -77,8 +82,11 @@ class Patch:
         return z, self.sign * np.array([self.contact.number(name) for name in self._loads])
 
     def stiffness(self, reversal):
-        """d(loads on the structure)/d(coordinates)."""
-        k = np.asarray(self.contact.stiffness(reversal, cases=self.cases))
+        """d(loads on the structure)/d(coordinates); displacements whose loads steps give follow."""
+        k = np.array(self.contact.stiffness(reversal, cases=self.cases))
+        given = {*self.coordinates, *self.held}
+        free = [c for c, name in enumerate(DISPLACEMENTS) if name not in given and (k[c, c] > 0.0 or k[c, c] < 0.0)]
+        k -= k[:, free] @ _solved(k[np.ix_(free, free)], k[free])
         return self.sign[:, None] * k[np.ix_(self._rows, self._rows)]
 
     def number(self, name):
@@ -109,7 +117,7 @@ class Structure:
         self.shapes = self._matrix(shapes, (n, self.omega.size), "shapes")
         self.rigid = self._matrix(rigid, (n, None), "rigid")
         self.coupling = self._matrix(coupling, (n, n), "coupling")
-        if np.any(self.omega <= 0.0):
+        if not np.all((self.omega > 0.0) & np.isfinite(self.omega)):
             raise Error("omega: expected frequencies above 0; modes of 0 are given by rigid")
         self.direct = not self.rigid.size and not np.any(self.coupling)
         self.by_load = np.concatenate([patch.by_load for patch in self.patches])
@@ -163,7 +171,11 @@ class Structure:
         by_load."""
         load, rest = np.flatnonzero(self.by_load), np.flatnonzero(~self.by_load)
         found = np.zeros_like(tangent)
-        inverse = np.linalg.inv(tangent[np.ix_(load, load)])
+        inverse = _solved(
+            tangent[np.ix_(load, load)],
+            np.eye(len(load)),
+            "a contact that is given loads does not resist them: give it friction and preload",
+        )
         found[np.ix_(load, load)] = inverse
         found[np.ix_(load, rest)] = -inverse @ tangent[np.ix_(load, rest)]
         found[np.ix_(rest, load)] = tangent[np.ix_(rest, load)] @ inverse
@@ -311,8 +323,8 @@ def _work(error, scale):
     return float(np.abs(error) @ np.concatenate([loads, a]) / whole) if whole else 0.0
 
 
-def _solved(matrix, right):
+def _solved(matrix, right, fails="structure and sticking contacts leave a motion without stiffness: support it"):
     try:
         return np.linalg.solve(matrix, right)
     except np.linalg.LinAlgError:
-        raise NoSolution("structure and sticking contacts leave a motion without stiffness: support it") from None
+        raise NoSolution(fails) from None
