@@ -67,8 +67,8 @@ class Patch:
             )
         if given.get("load_n", 0.0) < 0.0:
             raise NoSolution(
-                f"{self.name or 'a contact'}: the structure pulls the bodies apart with {-given['load_n']:.3g} N: use a "
-                "higher preload, a smaller amplitude, or more steps"
+                f"{self.name or 'a contact'}: the structure pulls the bodies apart with {-given['load_n']:.3g} N: use "
+                "a higher preload, a smaller amplitude, or more steps"
             )
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", AdviceWarning)  # of small slip zones: the backbone has its own
