@@ -316,6 +316,20 @@ def test_files_that_are_no_pair_are_named(command, tmp_path):
     (tmp_path / "c.opts").write_text("-grid_n 8\n")
     said = command("one.h5", "--contact", "c.opts", "--amplitudes", "1mm", check=3)
     assert "one.h5: no pair of petsam-compliance with modes: it has no body 1, or no modes" in said
+    damages = (
+        ("basis/degree_xy", None, 3, "bad.h5: no pair of petsam-compliance with modes: "),
+        ("rigid/compliance", np.eye(3), 3, "bad.h5: no pair of petsam-compliance with modes: "),
+        ("bolts/closing", np.eye(2), 3, "bad.h5: no pair of petsam-compliance with modes: "),
+        ("bolts", None, 2, "bad.h5: has no bolt, so nothing presses the bodies together: make it with --bolt"),
+    )
+    for name, values, code, says in damages:
+        with h5py.File(pair_file(tmp_path / "bad.h5", 1.0), "a") as file:
+            names = dict(file[name].attrs)
+            del file[name]
+            if values is not None:
+                file[name] = values
+                file[name].attrs.update(names)
+        assert says in command("bad.h5", "--contact", "c.opts", "--amplitudes", "1mm", check=code)
 
 
 def test_few_slipping_cells_and_modes_beside_the_patch_are_warned_of():

@@ -154,8 +154,8 @@ class Sweep:
         change = float(self.preload.stuck_modes(fewer)[0][mode - 1] / self.omega - 1.0)
         if abs(change) > FEW_MODES:
             warnings.warn(
-                f"without the highest {fewer} modes of the structure mode {mode} changes its frequency by {change:.1e}: "
-                "use more --modes of petsam-compliance",
+                f"without the highest {fewer} modes of the structure mode {mode} changes its frequency by {change:.1e}"
+                ": use more --modes of petsam-compliance",
                 BackboneWarning,
                 stacklevel=4,
             )
