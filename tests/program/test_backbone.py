@@ -105,6 +105,18 @@ def test_damping_converges_with_the_grid():
     assert errors[1][0].max() < 1e-5 and errors[1][1].max() < 1e-3 and errors[0][1].max() < 6e-3
 
 
+def test_a_force_that_presses_the_bodies_stays():
+    """The mass is pressed by a modal force of its own, and not by its contact."""
+    contact, stiffness = sphere(LOAD)
+    patch = joint.Patch(contact, ["disp_x", "disp_z"], by_load=["disp_x", "disp_z"])
+    one = joint.Structure([patch], rigid=np.eye(2))
+    one.step([0.0, LOAD])
+    found = joint.backbone(one, [0.6 * FRICTION * LOAD / stiffness], steps=2)
+    error = differences(found, *closed([(LOAD, stiffness)]), 1.0)
+    assert error[0].max() < 5e-5 and error[1].max() < 6e-3
+    assert one.copy().force == pytest.approx([0.0, LOAD])
+
+
 def test_two_contacts_in_parallel_until_one_slides():
     (first, k1), (second, k2) = sphere(LOAD), sphere(LOAD / 2)
     pairs = ((first, LOAD, "a"), (second, LOAD / 2, "b"))

@@ -178,7 +178,7 @@ class Sweep:
         scale = tuple(alpha * np.abs(one) for one in self.unit)
         found, energies, response = [], [], self.reversed
         for part in np.linspace(start, end, self.steps + 1)[1:]:
-            force = part * alpha * self.shape
+            force = self.preload.force + part * alpha * self.shape
             response = self.work.step(force, response=response, scale=scale)
             found.append(self.shape @ self.work.modal(force, self.work.loads, self.work.a))
             energies.append([patch.number("dissipated_energy") for patch in self.work.patches])

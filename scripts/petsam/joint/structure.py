@@ -124,6 +124,7 @@ class Structure:
         floats = n == self.rigid.shape[1] and np.all(self.by_load)
         self.given = floats and abs(np.linalg.det(self.rigid)) > 0.0  # the loads are known
         self.z, self.a, self.loads = np.zeros(n), np.zeros(self.rigid.shape[1]), np.zeros(n)
+        self.force = np.zeros(self.modes)  # of the last step
         self.iterations = []
 
     @staticmethod
@@ -142,14 +143,14 @@ class Structure:
     def copy(self):
         """The structure with copies of its contacts."""
         other = Structure([p.copy() for p in self.patches], self.omega, self.shapes, self.coupling, self.rigid)
-        other.z, other.a, other.loads = self.z, self.a, self.loads
+        other.z, other.a, other.loads, other.force = self.z, self.a, self.loads, self.force
         return other
 
     def take(self, other):
         """Takes over the state of another one of the same patches."""
         for mine, its in zip(self.patches, other.patches):
             mine.contact.take(its.contact)
-        self.z, self.a, self.loads = other.z, other.a, other.loads
+        self.z, self.a, self.loads, self.force = other.z, other.a, other.loads, other.force
 
     # ------------------------------------------------------------ linear
 
@@ -243,7 +244,7 @@ class Structure:
         return [np.concatenate(parts) for parts in zip(*found)]
 
     def step(self, force, held=None, response=None, scale=None):
-        """Solves a step under a modal force and commits it in all patches; sets z, a and loads.
+        """Solves a step under a modal force and commits it in all patches; sets force, z, a and loads.
 
         held      for each patch {name: value} that it prescribes besides; None: what patches have
         response  of respond_to(), with which the iteration begins; None: that of the patches' last steps
@@ -263,6 +264,7 @@ class Structure:
             response = self._iterate(driven, free, held, response, scale)
         for patch in self.patches:
             patch.contact.commit()
+        self.force = np.array(force, dtype=float)
         return response
 
     def respond_to(self, tangent):
