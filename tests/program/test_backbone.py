@@ -93,6 +93,24 @@ def test_a_mass_on_one_contact_and_a_spring_in_series(soft, by_load):
     assert found.energy == pytest.approx(found.patches[:, 0]) and np.all(found.cycles == 2)
 
 
+def test_a_normal_load_that_changes_by_rounding_is_constant():
+    """As the loads of a structure do: the ratio of the changes of shear and normal load was infinite."""
+    bodies = dict(body1_young=210e9, body1_poisson=0.1, body2_young=70e9, body2_poisson=0.4)
+    grid = dict(grid_n=64, grid_size=2.0655848524420454e-3, gap_type="sphere", gap_radius1=0.1, gap_radius2=0.1)
+    held = dict(disp_y=0.0, rot_x=0.0, rot_z=0.0)
+    cycle = [0.5, 0.0, -0.5, -1.0, -0.5, 0.0, 0.5, 1.0]
+    found = []
+    for rounding in (0.0, 3e-13):
+        with petsam.Contact(**bodies, **grid, friction=0.2) as contact:
+            contact.try_step(load_n=800.0, disp_x=0.0, rot_y=0.0, **held)
+            contact.commit()
+            for part in [0.0, 0.25, 0.5, 0.75, 1.0, *cycle, *cycle]:
+                loads = dict(load_n=800.0 - rounding * part, load_tx=48 * part, load_my=-0.0005585375507115025 * part)
+                found.append(contact.try_step(**loads, **held).disp_x)
+                contact.commit()
+    assert found[:21] == pytest.approx(found[21:], rel=1e-5, abs=1e-12)
+
+
 def test_damping_converges_with_the_grid():
     """Mindlin's oscillator: frequency within 1e-6 and damping within 1e-3 of the closed values on 128 cells."""
     errors = []
