@@ -22,7 +22,9 @@ from petsam.compliance.command import arguments, carry_out
 from petsam.joint import command as _  # noqa: F401
 from support import ROOT
 
-pytestmark = pytest.mark.filterwarnings("ignore::petsam.joint.BackboneWarning")
+pytestmark = [
+    pytest.mark.filterwarnings(f"ignore::petsam.{name}") for name in ("joint.BackboneWarning", "AdviceWarning")
+]
 
 FRICTION, LOAD, RADIUS, YOUNG = 0.15, 700.0, 0.12, 200e9
 
@@ -100,6 +102,24 @@ def test_a_mass_on_one_contact_and_a_spring_in_series(soft, by_load):
     assert found.energy == pytest.approx(found.patches[:, 0]) and np.all(found.cycles == 2)
 
 
+def test_a_normal_load_that_changes_by_rounding_is_constant():
+    """As the loads of a structure do: the ratio of the changes of shear and normal load was infinite."""
+    bodies = dict(body1_young=210e9, body1_poisson=0.1, body2_young=70e9, body2_poisson=0.4)
+    grid = dict(grid_n=64, grid_size=2.0655848524420454e-3, gap_type="sphere", gap_radius1=0.1, gap_radius2=0.1)
+    held = dict(disp_y=0.0, rot_x=0.0, rot_z=0.0)
+    cycle = [0.5, 0.0, -0.5, -1.0, -0.5, 0.0, 0.5, 1.0]
+    found = []
+    for rounding in (0.0, 3e-13):
+        with petsam.Contact(**bodies, **grid, friction=0.2) as contact:
+            contact.try_step(load_n=800.0, disp_x=0.0, rot_y=0.0, **held)
+            contact.commit()
+            for part in [0.0, 0.25, 0.5, 0.75, 1.0, *cycle, *cycle]:
+                loads = dict(load_n=800.0 - rounding * part, load_tx=48 * part, load_my=-0.0005585375507115025 * part)
+                found.append(contact.try_step(**loads, **held).disp_x)
+                contact.commit()
+    assert found[:21] == pytest.approx(found[21:], rel=1e-5, abs=1e-12)
+
+
 def test_damping_converges_with_the_grid():
     """Mindlin's oscillator: frequency within 1e-6 and damping within 1e-3 of the closed values on 128 cells."""
     errors = []
@@ -110,6 +130,18 @@ def test_damping_converges_with_the_grid():
         found = joint.backbone(one, np.array([0.3, 0.7]) * FRICTION * LOAD / stiffness, steps=2)
         errors.append(differences(found, *closed([(LOAD, stiffness)]), 1.0))
     assert errors[1][0].max() < 1e-5 and errors[1][1].max() < 1e-3 and errors[0][1].max() < 6e-3
+
+
+def test_a_force_that_presses_the_bodies_stays():
+    """The mass is pressed by a modal force of its own, and not by its contact."""
+    contact, stiffness = sphere(LOAD)
+    patch = joint.Patch(contact, ["disp_x", "disp_z"], by_load=["disp_x", "disp_z"])
+    one = joint.Structure([patch], rigid=np.eye(2))
+    one.step([0.0, LOAD])
+    found = joint.backbone(one, [0.6 * FRICTION * LOAD / stiffness], steps=2)
+    error = differences(found, *closed([(LOAD, stiffness)]), 1.0)
+    assert error[0].max() < 5e-5 and error[1].max() < 6e-3
+    assert one.copy().force == pytest.approx([0.0, LOAD])
 
 
 def test_two_contacts_in_parallel_until_one_slides():
@@ -331,6 +363,9 @@ def test_command_prints_and_writes_the_numbers(command, tmp_path):
         (("--preload", "B=0.02", "--pressure", "1MPa"), "--pressure is for petsam-joint stiffness: remove it", 2),
         (("--preload", "B=0.02", "--steps", "0"), "--steps 0: expected 1 or more", 2),
         (("--preload", "B=0.02", "--contact", "none.opts"), "none.opts", 3),
+        (("--preload", "B=0.02", "--preload", "B=0.01"), "--preload: a bolt is given twice", 2),
+        (("--preload", "B=0"), "does not resist them: give it friction and preload", 2),
+        (("--preload", "B=0.02", "--damping", "nan"), "damping nan: expected a part of critical damping", 2),
     ],
 )
 def test_a_mistake_is_named(words, says, code, command, tmp_path):
@@ -340,18 +375,79 @@ def test_a_mistake_is_named(words, says, code, command, tmp_path):
     assert says in said and len(said.splitlines()) == 1
 
 
+def test_the_pair_in_the_options_file_is_not_counted_twice(command, tmp_path):
+    """As the options that petsam-compliance prints have it."""
+    pair_file(tmp_path / "pair.h5", 1.0)
+    lines = "".join(f"-{name} {value}\n" for name, value in OPTIONS.items())
+    printed = []
+    for name, more in (("c", ""), ("d", "-body2_compliance pair.h5\n")):
+        (tmp_path / f"{name}.opts").write_text(lines + more)
+        words = ("pair.h5", "--contact", f"{name}.opts", "--preload", "B=0.02", "--steps", 1)
+        printed.append(command(*words, "--amplitudes", "3mm"))
+    assert printed[0] == printed[1]
+
+
+def test_bodies_that_are_pulled_apart_end_the_backbone(tmp_path):
+    pair = joint.Pair(pair_file(tmp_path / "pair.h5", 1.0), PRELOAD, **OPTIONS)
+    with pytest.warns(joint.BackboneWarning, match="ended before .* pulls the bodies apart with"):
+        found = joint.backbone(pair.structure, [3e-3, 10.0], steps=2)
+    assert len(found.alpha) == 1
+
+
+def test_displacements_whose_loads_are_held_follow(tmp_path):
+    """Of a mode that moves the surfaces also along z: its frequency while all sticks is that of tiny amplitudes."""
+    file = compliances.write(
+        tmp_path / "one.h5", 0.3 * compliances.layer(0.5, 1), cases=dict(mode1=[[1.0, 0, 0.4], [0, 0, 0], [0, 0, 0]])
+    )
+    bodies = {f"body{k}_{name}": value for k in (1, 2) for name, value in (("young", 1.0), ("poisson", 0.3))}
+    contact = petsam.Contact(**bodies, **OPTIONS, grid_size=2.0, body2_compliance=file)
+    contact.try_step(load_n=0.05)
+    contact.commit()
+    patch = joint.Patch(contact, ["body2_case_mode1"], dict(load_n=0.05))
+    found = joint.backbone(joint.Structure([patch], [3.0], [[1.0]]), [2e-5], steps=1)
+    assert found.frequency == pytest.approx(found.linear, rel=1e-5)
+
+
+def test_numbers_that_make_no_sense_are_refused():
+    contact, stiffness = sphere(LOAD, 16)
+    one = joint.Structure([joint.Patch(contact, ["disp_x"], dict(load_n=LOAD), by_load=["disp_x"])], rigid=[[1.0]])
+    for given, says in (
+        (dict(amplitudes=[1e-7, 0.0]), "amplitudes: expected lengths above 0"),
+        (dict(amplitudes=[1e-7], sensor=[1.0, 2.0]), r"sensor: has the shape \(2,\): expected a number for each of 1"),
+        (dict(amplitudes=[1e-7], damping=-0.1), "damping -0.1: expected a part"),
+    ):
+        with pytest.raises(petsam.Error, match=says):
+            joint.backbone(one, **given)
+    with pytest.raises(petsam.Error, match="omega: expected frequencies above 0"):
+        joint.Structure(one.patches, [np.nan], [[1.0]])
+
+
 def test_files_that_are_no_pair_are_named(command, tmp_path):
     compliances.write(tmp_path / "one.h5", compliances.layer(0.5, 1))
     (tmp_path / "c.opts").write_text("-grid_n 8\n")
     said = command("one.h5", "--contact", "c.opts", "--amplitudes", "1mm", check=3)
     assert "one.h5: no pair of petsam-compliance with modes: it has no body 1, or no modes" in said
+    damages = (
+        ("basis/degree_xy", None, 3, "bad.h5: no pair of petsam-compliance with modes: "),
+        ("rigid/compliance", np.eye(3), 3, "bad.h5: no pair of petsam-compliance with modes: "),
+        ("bolts/closing", np.eye(2), 3, "bad.h5: no pair of petsam-compliance with modes: "),
+        ("bolts", None, 2, "bad.h5: has no bolt, so nothing presses the bodies together: make it with --bolt"),
+    )
+    for name, values, code, says in damages:
+        with h5py.File(pair_file(tmp_path / "bad.h5", 1.0), "a") as file:
+            names = dict(file[name].attrs)
+            del file[name]
+            if values is not None:
+                file[name] = values
+                file[name].attrs.update(names)
+        assert says in command("bad.h5", "--contact", "c.opts", "--amplitudes", "1mm", check=code)
 
 
 def test_few_slipping_cells_and_modes_beside_the_patch_are_warned_of():
     contact, stiffness = sphere(LOAD, 32)
     patch = joint.Patch(contact, ["disp_x"], dict(load_n=LOAD), by_load=["disp_x"])
     one = joint.Structure([patch], rigid=[[1.0]])
-    with pytest.warns(joint.BackboneWarning, match="fewer than 10 cells slip"):
+    with pytest.warns(joint.BackboneWarning, match="fewer than 100 cells slip"):
         joint.backbone(one, [0.004 * FRICTION * LOAD / stiffness], steps=2)
     patch = joint.Patch(contact, ["disp_x"], dict(load_n=LOAD))
     two = joint.Structure([patch], [50.0, 100.0], [[1e-3, 0.0]], coupling=[[1e-6 / 2500.0]])

@@ -403,6 +403,7 @@ def test_modes_need_the_density_of_each_material(pair, tmp_path):
         (["--modes", "40", "--case", "pull=1"], "at most 40 of them, with those of --bolt and --modes"),
         (["--modes", "1", "--case", "mode1=1"], "give each name once"),
         (["--sensor", "TIP=3"], "--sensor needs --modes"),
+        (["--modes", "1", "--sensor", "TIP=3", "--sensor", "TIP=4"], "--sensor: give each name once"),
         (["--modes", "1", "--sensor", "TIP="], "expected NAME=NODE"),
         (["--method", "cutoff"], "--method cutoff is not for a pair"),
         (["--depth", "1"], "--depth is not for a pair"),

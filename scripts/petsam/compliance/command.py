@@ -232,6 +232,8 @@ def _check_cases(reader, options):
     options.bolt, options.sensor = options.bolt or [], options.sensor or []
     if options.sensor and not options.modes:
         reader.error("--sensor needs --modes: give their number, or remove it")
+    if len({name for name, _ in options.sensor}) < len(options.sensor):
+        reader.error("--sensor: give each name once")
     names = [name for name, _ in options.case] + [f"bolt_{one.name}" for one in options.bolt]
     names += [f"mode{k}" for k in range(1, 1 + (options.modes or 0))]
     most = MOST_OF_PAIR if options.pair else MOST_CASES

@@ -23,9 +23,9 @@ ENDS = (NoSolution, NoEquilibrium, NotConverged)  # of an amplitude, after which
 STEPS = 8  # load steps of a half cycle
 SETTLED = 1e-3  # change of the energy from one cycle to the next at which it counts as settled
 CYCLES = 12  # largest number of cycles of an amplitude
-AGREE = 0.02  # largest difference of the dissipated energy and the loop's, relative
 FEW_MODES = 1e-3  # change of the frequency without a quarter of the modes
-FEW = 10  # slipping cells below which the energy is that of the grid
+FEW = 100  # slipping cells below which the energy is inaccurate
+ERROR = 10.0  # its relative error times the number of slipping cells, about: Mindlin's sphere, a synthetic pair
 COLUMNS = {
     "alpha": ("m/s2 kg^0.5", "modal force"),
     "modal_amplitude": ("m kg^0.5", "modal amplitude"),
@@ -178,7 +178,7 @@ class Sweep:
         scale = tuple(alpha * np.abs(one) for one in self.unit)
         found, energies, response = [], [], self.reversed
         for part in np.linspace(start, end, self.steps + 1)[1:]:
-            force = part * alpha * self.shape
+            force = self.preload.force + part * alpha * self.shape
             response = self.work.step(force, response=response, scale=scale)
             found.append(self.shape @ self.work.modal(force, self.work.loads, self.work.a))
             energies.append([patch.number("dissipated_energy") for patch in self.work.patches])
@@ -211,6 +211,24 @@ class Sweep:
         return int(sum(np.sum(patch.contact.field("state") == 2) for patch in self.work.patches))
 
 
+def _checked(amplitudes, damping):
+    """The amplitudes as an array."""
+    found = np.atleast_1d(np.asarray(amplitudes, dtype=float))
+    if not (found.ndim == 1 and found.size and np.all((found > 0.0) & np.isfinite(found))):
+        raise Error("amplitudes: expected lengths above 0")
+    if not 0.0 <= damping < 1.0:
+        raise Error(f"damping {damping:g}: expected a part of critical damping, from 0 to below 1")
+    return found
+
+
+def _moved(sensor, shape):
+    """Displacement of the sensor by a unit of the mode."""
+    sensor = np.asarray(sensor, dtype=float)
+    if sensor.shape != shape.shape:
+        raise Error(f"sensor: has the shape {sensor.shape}: expected a number for each of {len(shape)} modes")
+    return abs(float(sensor @ shape))
+
+
 def backbone(structure, amplitudes, mode=1, sensor=None, damping=0.0, steps=STEPS, report=None):
     """The Backbone of a structure in its preload.
 
@@ -221,9 +239,9 @@ def backbone(structure, amplitudes, mode=1, sensor=None, damping=0.0, steps=STEP
     damping     damping of the material as a part of critical, for that mode
     report      called with the number of the amplitude and of all of them
     """
+    amplitudes = _checked(amplitudes, damping)
     sweep = Sweep(structure, mode, steps)
-    sensor = np.ones(1) if sensor is None else np.asarray(sensor, dtype=float)
-    factor = abs(float(sensor @ sweep.shape)) if sensor.size > 1 or structure.modes == 1 else 1.0
+    factor = 1.0 if sensor is None else _moved(sensor, sweep.shape)
     if not factor:
         raise Error("sensor: the mode does not move it; take another sensor")
     rows, patches = [], []
@@ -258,10 +276,11 @@ def _warn(found):
     """Warns of damping by few cells and of energies that disagree."""
     few = found.slipping < FEW
     if np.any(few):
-        last, most = found.amplitude[few].max(), found.slipping[few].max()
+        least, last = found.slipping[few].min(), found.amplitude[few].max()
+        error = f"{100.0 * ERROR / least:.0f} %" if least > ERROR else "all of it"
         warnings.warn(
-            f"up to an amplitude of {last:.3g} m fewer than {FEW} cells slip, at most {most:.0f}: the grid makes the "
-            "damping there; use a finer one",
+            f"up to an amplitude of {last:.3g} m fewer than {FEW} cells slip, at least {least:.0f}: damping there has "
+            f"an error of up to about {error}; use a finer grid",
             BackboneWarning,
             stacklevel=3,
         )
@@ -269,7 +288,7 @@ def _warn(found):
     if np.any(moving):
         warnings.warn(
             f"at an amplitude of {found.amplitude[moving][0]:.3g} m the energy of a cycle still changes after {CYCLES} "
-            "cycles: the joint shakes down slowly; use more steps, or a smaller amplitude",
+            "cycles: the joint shakes down slowly, or the amplitude is within the tolerance of the contact",
             BackboneWarning,
             stacklevel=3,
         )

@@ -260,6 +260,8 @@ def _backbone(args):
         need_replaceable(args.output + ending)
     need_regular(args.contact)
     preload = dict(args.preload or [])
+    if len(preload) < len(args.preload or []):
+        raise Error("--preload: a bolt is given twice; give each once, in the order of tightening")
     given = dict(mode=args.mode, damping=args.damping, steps=args.steps)
 
     def compute(lower, amplitudes, **more):

@@ -32,16 +32,17 @@ class Pair:
     def __init__(self, path, preload, press=PRESS, lower=0, **options):
         need_regular(path)
         self.path = path
+        self._folder = tempfile.TemporaryDirectory(prefix="petsam-")
+        own = os.path.join(self._folder.name, "pair.h5")
         try:
             with h5py.File(path) as file:
                 self._read(file)
+            rigid = without_rigid(path, own, lower)
         except (OSError, LookupError, ValueError, TypeError) as error:
             raise Unreadable(f"{path}: no pair of petsam-compliance with modes: {short(error)}") from error
         self._check(preload)
-        self._folder = tempfile.TemporaryDirectory(prefix="petsam-")
-        own = os.path.join(self._folder.name, "pair.h5")
-        rigid = without_rigid(path, own, lower)
-        contact = Contact(**{**self.defaults, "body2_compliance": own, **options})
+        # a file of options may have the pair's own, with the compliance of rigid motions: the last one counts
+        contact = Contact(**{**self.defaults, **options, "body2_compliance": own})
         modes = [f"body2_case_mode{k + 1}" for k in range(self.omega.size)]
         patch = Patch(contact, [*DISPLACEMENTS, *modes], by_load=DISPLACEMENTS, name="contact")
         count = len(patch.coordinates)
@@ -63,7 +64,7 @@ class Pair:
         if "bolts" in file:
             self.bolts = [str(name) for name in file["bolts/closing"].attrs["names"]]
             self.stiffness = np.array([float(file[f"bolts/{name}/stiffness"][()]) for name in self.bolts])
-            self.closing = file["bolts/closing"][()]
+            self.closing = file["bolts/closing"][()].reshape(2 * (len(self.bolts),))
         half, center = file["patch/half"][()], file["patch/center"][()]
         self.defaults = dict(grid_size=2 * half, grid_center=center, gap_type="flat")
         for body, end in (("body1", "1"), ("body2", "")):
@@ -75,7 +76,9 @@ class Pair:
                 raise Error(f"preload {short(name)}: is no bolt of {self.path}{there_are(name, self.bolts)}")
             if not 0.0 <= force < np.inf:
                 raise Error(f"preload {name}={force:g}: expected a tension from 0 on, in N")
-        if self.bolts and not preload:
+        if not self.bolts:
+            raise Error(f"{self.path}: has no bolt, so nothing presses the bodies together: make it with --bolt")
+        if not preload:
             raise Error(f"preload: give the tension of {', '.join(self.bolts)}, in N")
 
     def _tighten(self, patch, preload, press):

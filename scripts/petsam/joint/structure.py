@@ -19,13 +19,14 @@ import warnings
 
 import numpy as np
 
-from ..contact import AdviceWarning, EdgeContactWarning
+from ..contact import AdviceWarning, EdgeContactWarning, NoEquilibrium, NotConverged, PrescribedError
 from ..errors import Error
 
 TOLERANCE = 1e-7  # of the work of the errors, relative to that of the loads
 ROUGH = 1e-5  # the same where the contact's own tolerance ends the iteration
 SLOW = 0.3  # ratio of successive errors above which the contacts' stiffness is computed
 MOST = 25  # iterations
+BEYOND = (NoEquilibrium, NotConverged, PrescribedError)  # of a guess that contacts do not bear
 # the displacements of body 1 as a step prescribes them, in the order of a contact's stiffness, with their loads
 DISPLACEMENTS = {
     "disp_z": "load_n", "disp_x": "load_tx", "disp_y": "load_ty",
@@ -65,6 +66,11 @@ class Patch:
             given[self._loads[k] if self.by_load[k] else self.coordinates[k]] = value * (
                 self.sign[k] if self.by_load[k] else 1.0
             )
+        if given.get("load_n", 0.0) < 0.0:
+            raise NoSolution(
+                f"{self.name or 'a contact'}: the structure pulls the bodies apart with {-given['load_n']:.3g} N: use "
+                "a higher preload, a smaller amplitude, or more steps"
+            )
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", AdviceWarning)  # of small slip zones: the backbone has its own
             warnings.simplefilter("error", EdgeContactWarning)
@@ -77,8 +83,11 @@ class Patch:
         return z, self.sign * np.array([self.contact.number(name) for name in self._loads])
 
     def stiffness(self, reversal):
-        """d(loads on the structure)/d(coordinates)."""
-        k = np.asarray(self.contact.stiffness(reversal, cases=self.cases))
+        """d(loads on the structure)/d(coordinates); displacements whose loads steps give follow."""
+        k = np.array(self.contact.stiffness(reversal, cases=self.cases))
+        given = {*self.coordinates, *self.held}
+        free = [c for c, name in enumerate(DISPLACEMENTS) if name not in given and (k[c, c] > 0.0 or k[c, c] < 0.0)]
+        k -= k[:, free] @ _solved(k[np.ix_(free, free)], k[free])
         return self.sign[:, None] * k[np.ix_(self._rows, self._rows)]
 
     def number(self, name):
@@ -109,13 +118,14 @@ class Structure:
         self.shapes = self._matrix(shapes, (n, self.omega.size), "shapes")
         self.rigid = self._matrix(rigid, (n, None), "rigid")
         self.coupling = self._matrix(coupling, (n, n), "coupling")
-        if np.any(self.omega <= 0.0):
+        if not np.all((self.omega > 0.0) & np.isfinite(self.omega)):
             raise Error("omega: expected frequencies above 0; modes of 0 are given by rigid")
         self.direct = not self.rigid.size and not np.any(self.coupling)
         self.by_load = np.concatenate([patch.by_load for patch in self.patches])
         floats = n == self.rigid.shape[1] and np.all(self.by_load)
         self.given = floats and abs(np.linalg.det(self.rigid)) > 0.0  # the loads are known
         self.z, self.a, self.loads = np.zeros(n), np.zeros(self.rigid.shape[1]), np.zeros(n)
+        self.force = np.zeros(self.modes)  # of the last step
         self.iterations = []
 
     @staticmethod
@@ -134,14 +144,14 @@ class Structure:
     def copy(self):
         """The structure with copies of its contacts."""
         other = Structure([p.copy() for p in self.patches], self.omega, self.shapes, self.coupling, self.rigid)
-        other.z, other.a, other.loads = self.z, self.a, self.loads
+        other.z, other.a, other.loads, other.force = self.z, self.a, self.loads, self.force
         return other
 
     def take(self, other):
         """Takes over the state of another one of the same patches."""
         for mine, its in zip(self.patches, other.patches):
             mine.contact.take(its.contact)
-        self.z, self.a, self.loads = other.z, other.a, other.loads
+        self.z, self.a, self.loads, self.force = other.z, other.a, other.loads, other.force
 
     # ------------------------------------------------------------ linear
 
@@ -163,7 +173,11 @@ class Structure:
         by_load."""
         load, rest = np.flatnonzero(self.by_load), np.flatnonzero(~self.by_load)
         found = np.zeros_like(tangent)
-        inverse = np.linalg.inv(tangent[np.ix_(load, load)])
+        inverse = _solved(
+            tangent[np.ix_(load, load)],
+            np.eye(len(load)),
+            "a contact that is given loads does not resist them: give it friction and preload",
+        )
         found[np.ix_(load, load)] = inverse
         found[np.ix_(load, rest)] = -inverse @ tangent[np.ix_(load, rest)]
         found[np.ix_(rest, load)] = tangent[np.ix_(rest, load)] @ inverse
@@ -231,7 +245,7 @@ class Structure:
         return [np.concatenate(parts) for parts in zip(*found)]
 
     def step(self, force, held=None, response=None, scale=None):
-        """Solves a step under a modal force and commits it in all patches; sets z, a and loads.
+        """Solves a step under a modal force and commits it in all patches; sets force, z, a and loads.
 
         held      for each patch {name: value} that it prescribes besides; None: what patches have
         response  of respond_to(), with which the iteration begins; None: that of the patches' last steps
@@ -251,6 +265,7 @@ class Structure:
             response = self._iterate(driven, free, held, response, scale)
         for patch in self.patches:
             patch.contact.commit()
+        self.force = np.array(force, dtype=float)
         return response
 
     def respond_to(self, tangent):
@@ -259,17 +274,23 @@ class Structure:
 
     def _iterate(self, driven, free, held, response, scale):
         """Broyden's method for what steps prescribe, and for a; returns its last response."""
-        n, a, size = self.z.size, self.a, np.inf
-        given, z, loads = np.where(self.by_load, self.loads, self.z), self.z, self.loads
-        moved = None
+        z, loads, size = self.z, self.loads, np.inf
+        base = np.concatenate([np.where(self.by_load, loads, z), self.a])
+        change, moved = np.zeros(base.size), None
         if response is not None:
-            change = _solved(self._system(response), -self._error(z, a, loads, driven, free))
-            given, a = given + change[:n], a + change[n:]
+            change = _solved(self._system(response), -self._error(z, self.a, loads, driven, free))
         self.iterations.append(0)
         while True:
             self.iterations[-1] += 1
+            given, a = np.split(base + change, [z.size])
             before, last = np.where(self.by_load, z, loads), size
-            z, loads = self._try(given, held)
+            try:
+                z, loads = self._try(given, held)
+            except BEYOND:
+                if self.iterations[-1] == MOST or not np.any(change):
+                    raise
+                change = 0.5 * change  # the guess is beyond what the contacts bear
+                continue
             error = self._error(z, a, loads, driven, free)
             size = _work(error, scale or (z, loads, a))
             if size <= TOLERANCE or (SLOW * last <= size <= ROUGH):
@@ -282,10 +303,9 @@ class Structure:
             if response is None or size > SLOW * last:
                 response = self.response_of(self.tangent(False))
             elif moved is not None:
-                response = self._updated(response, moved, np.where(self.by_load, z, loads) - before)
+                response = self._updated(response, change[: z.size], np.where(self.by_load, z, loads) - before)
+            base, moved = base + change, True
             change = _solved(self._system(response), -error)
-            moved = change[:n]
-            given, a = given + moved, a + change[n:]
         self.z, self.a, self.loads = z, a, loads
         return response
 
@@ -311,8 +331,8 @@ def _work(error, scale):
     return float(np.abs(error) @ np.concatenate([loads, a]) / whole) if whole else 0.0
 
 
-def _solved(matrix, right):
+def _solved(matrix, right, fails="structure and sticking contacts leave a motion without stiffness: support it"):
     try:
         return np.linalg.solve(matrix, right)
     except np.linalg.LinAlgError:
-        raise NoSolution("structure and sticking contacts leave a motion without stiffness: support it") from None
+        raise NoSolution(fails) from None

@@ -77,6 +77,8 @@
 
 /* Largest absolute Dundurs' constant of surfaces whose relative motion is determined by the shear alone */
 #define MOST_DUNDURS 0.15
+/* Growth of N, relative to it, below which it is rounding: the ratio of the changes of T and N says nothing there */
+#define LEAST_GROWTH 1e-9
 
 /* Returns a load before the step: zero before the first one. */
 static PetscReal LoadBefore(SamSolve *w, PetscInt component)
@@ -92,7 +94,8 @@ static PetscBool Grows(SamSolve *w)
   const PetscBool touched = before > 0 || w->s->control.together ? PETSC_TRUE : PETSC_FALSE;
 
   return touched && w->task->set->slip_direction == SAM_SLIP_MID && w->task->motion->continues && !w->task->rolls &&
-         SamSolutionGetNormal(w->s) > before && !(w->task->coupled && fabs((double)pair->dundurs) > MOST_DUNDURS);
+         SamSolutionGetNormal(w->s) > (1 + LEAST_GROWTH) * before &&
+         !(w->task->coupled && fabs((double)pair->dundurs) > MOST_DUNDURS);
 }
 
 PetscBool SamSolveIsTwice(SamSolve *w)
