@@ -371,6 +371,7 @@ def test_command_prints_and_writes_the_numbers(command, tmp_path):
 def test_a_mistake_is_named(words, says, code, command, tmp_path):
     pair_file(tmp_path / "pair.h5", 1.0)
     (tmp_path / "c.opts").write_text("".join(f"-{name} {value}\n" for name, value in OPTIONS.items()))
+    words = words if "--sensor" in words else ("--sensor", "TIP:z", *words)
     said = command("pair.h5", "--contact", "c.opts", "--amplitudes", "1mm", *words, check=code)
     assert says in said and len(said.splitlines()) == 1
 
@@ -383,7 +384,7 @@ def test_the_pair_in_the_options_file_is_not_counted_twice(command, tmp_path):
     for name, more in (("c", ""), ("d", "-body2_compliance pair.h5\n")):
         (tmp_path / f"{name}.opts").write_text(lines + more)
         words = ("pair.h5", "--contact", f"{name}.opts", "--preload", "B=0.02", "--steps", 1)
-        printed.append(command(*words, "--amplitudes", "3mm"))
+        printed.append(command(*words, "--amplitudes", "3mm", "--sensor", "TIP:z"))
     assert printed[0] == printed[1]
 
 
@@ -425,7 +426,7 @@ def test_numbers_that_make_no_sense_are_refused():
 def test_files_that_are_no_pair_are_named(command, tmp_path):
     compliances.write(tmp_path / "one.h5", compliances.layer(0.5, 1))
     (tmp_path / "c.opts").write_text("-grid_n 8\n")
-    said = command("one.h5", "--contact", "c.opts", "--amplitudes", "1mm", check=3)
+    said = command("one.h5", "--contact", "c.opts", "--amplitudes", "1mm", "--sensor", "TIP:z", check=3)
     assert "one.h5: no pair of petsam-compliance with modes: it has no body 1, or no modes" in said
     damages = (
         ("basis/degree_xy", None, 3, "bad.h5: no pair of petsam-compliance with modes: "),
@@ -440,7 +441,7 @@ def test_files_that_are_no_pair_are_named(command, tmp_path):
             if values is not None:
                 file[name] = values
                 file[name].attrs.update(names)
-        assert says in command("bad.h5", "--contact", "c.opts", "--amplitudes", "1mm", check=code)
+        assert says in command("bad.h5", "--contact", "c.opts", "--amplitudes", "1mm", "--sensor", "TIP:z", check=code)
 
 
 def test_few_slipping_cells_and_modes_beside_the_patch_are_warned_of():
@@ -457,3 +458,21 @@ def test_few_slipping_cells_and_modes_beside_the_patch_are_warned_of():
         warnings.simplefilter("error")
         with pytest.raises(petsam.Error, match="shapes: has the shape"):
             joint.Structure([patch], [1.0], np.eye(2))
+
+
+def test_a_sensor_that_the_mode_does_not_move_is_named():
+    contact, stiffness = sphere(LOAD, 16)
+    patch = joint.Patch(contact, ["disp_x"], dict(load_n=LOAD))
+    one = joint.Structure([patch], [50.0, 90.0], [[1e-3, 0.0]], coupling=[[1e-6 / 2500.0]])
+    with pytest.raises(petsam.Error, match="the mode does not move it in this direction"):
+        joint.backbone(one, [1e-9], mode=1, sensor=[1e-12, 1.0], steps=1)
+    table = joint.backbone(one, [1e-9], mode=1, steps=1).table()
+    assert "amplitudes are modal, in m kg^0.5" in table[-2] and "touches sticks, Hz: " in table[0]
+
+
+def test_an_amplitude_that_slides_is_named():
+    contact, stiffness = sphere(LOAD, 16)
+    patch = joint.Patch(contact, ["disp_x"], dict(load_n=LOAD), by_load=["disp_x"])
+    one = joint.Structure([patch], rigid=[[1.0]])
+    with pytest.raises(petsam.Error, match="at an amplitude of .* m: gross slip: load_tx"):
+        joint.backbone(one, [2 * FRICTION * LOAD / stiffness], steps=2)

@@ -390,6 +390,13 @@ def test_modes_need_the_density_of_each_material(pair, tmp_path):
     )
     (tmp_path / "pair.inp").write_text(text.replace("*DENSITY\n1.\n", "*DENSITY\n-1.\n", 1) + "\n")
     assert "density -1: use a value above 0" in pair(*HELD, "--modes", "1", check=3)
+    stiff = both()
+    for block in stiff.blocks:
+        block.young = np.full(len(block.young), 2e11)
+    wrong = "\n".join(lines(stiff)).replace("*DENSITY\n1.\n", "*DENSITY\n7.8e6\n")
+    (tmp_path / "pair.inp").write_text(wrong + "\n")
+    said = pair(*HELD, "--modes", "1", check=3)
+    assert "a density is 7.8e+06 kg/m3, limits 1 and 100000: give it in kg/m3" in said
 
 
 @pytest.mark.parametrize(

@@ -93,6 +93,8 @@ def frame_of(origin, x, z, outward):
     return Frame(np.array(origin, dtype=float), np.stack([x, np.cross(z, x), z]))
 
 
+DENSITIES = (1.0, 1e5)  # of solids whose modulus is that of a solid, kg/m3
+SOFT = 1e6  # Pa: smaller moduli are those of tests in other units
 MEGAPASCALS = (1e3, 1e6)  # moduli of metals and plastics in MPa
 
 
@@ -154,6 +156,13 @@ class Model:
                 f"{self.path}: material {self.deck.weightless[0]} has no *DENSITY, which --modes needs: give it in "
                 f"{self.units.density_name}"
             )
+        for block in self.mesh.blocks:
+            wrong = (block.young > SOFT) & ((block.density < DENSITIES[0]) | (block.density > DENSITIES[1]))
+            if np.any(wrong):
+                raise Error(
+                    f"{self.path}: a density is {block.density[wrong][0]:.3g} kg/m3, limits {DENSITIES[0]:g} and "
+                    f"{DENSITIES[1]:g}: give it in {self.units.density_name}"
+                )
         self.sensors = [self._sensor(*one) for one in self.options.sensor]
 
     def _sensor(self, name, node):

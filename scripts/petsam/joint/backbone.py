@@ -23,9 +23,12 @@ ENDS = (NoSolution, NoEquilibrium, NotConverged)  # of an amplitude, after which
 STEPS = 8  # load steps of a half cycle
 SETTLED = 1e-3  # change of the energy from one cycle to the next at which it counts as settled
 CYCLES = 12  # largest number of cycles of an amplitude
+UNMOVED = 1e-6  # displacement of a sensor that is rounding, relative to those by the modes
 FEW_MODES = 1e-3  # change of the frequency without a quarter of the modes
+LISTED = 6  # modes in the table
 FEW = 100  # slipping cells below which the energy is inaccurate
 ERROR = 10.0  # its relative error times the number of slipping cells, about: Mindlin's sphere, a synthetic pair
+MODAL = "m kg^0.5"
 COLUMNS = {
     "alpha": ("m/s2 kg^0.5", "modal force"),
     "modal_amplitude": ("m kg^0.5", "modal amplitude"),
@@ -47,13 +50,12 @@ class BackboneWarning(UserWarning):
 
 @dataclass
 class Cycle:
-    """One cycle: modal displacement at the reversals, energies, slipping cells, areas at the extremes."""
+    """One cycle: modal displacement at the reversals, energy of each patch, that of the loop, slipping cells."""
 
     ends: tuple
     energies: np.ndarray
     loop: float
     slipping: int
-    areas: tuple = ()
 
 
 @dataclass
@@ -61,6 +63,8 @@ class Backbone:
     """Numbers over amplitude, each an array: alpha, amplitude, frequency, damping ... (COLUMNS).
 
     linear    frequency (Hz) of the mode while all that touches sticks
+    stuck     those of all modes
+    unit      of the amplitude: m at a sensor, m kg^0.5 of the modal one
     shape     the mode in modal coordinates
     patches   dissipated energy of a cycle in each patch, (amplitudes, patches), J
     names     names of the patches
@@ -73,7 +77,9 @@ class Backbone:
     numbers: dict
     patches: np.ndarray
     names: list
-    modes_change: float = float("nan")
+    modes_change: float
+    stuck: np.ndarray
+    unit: str
 
     def __getattr__(self, name):
         if name != "numbers" and name in self.numbers:
@@ -82,12 +88,14 @@ class Backbone:
 
     def table(self):
         """Lines of a printed table."""
-        lines = [f"mode of {self.linear:.6g} Hz while all that touches sticks"]
+        stuck = ", ".join(f"{one:.6g}" for one in self.stuck[:LISTED])
+        lines = [f"modes while all that touches sticks, Hz: {stuck}", f"mode of {self.linear:.6g} Hz"]
         if np.isfinite(self.modes_change):
             lines.append(f"without a quarter of the structure's modes its frequency changes by {self.modes_change:.1e}")
         lines.append("")
         lines.append(
             f"{'amplitude/m':>12} {'accel./(m/s2)':>14} {'f/Hz':>11} {'zeta':>10} {'W/J':>10} {'slip':>6} cycles"
+            + (", amplitudes are modal, in m kg^0.5" if self.unit == MODAL else "")
         )
         for k in range(len(self.alpha)):
             lines.append(
@@ -115,10 +123,11 @@ class Backbone:
             reach = 1e6 * self.amplitude
             left.axhline(self.linear, color="0.4", linewidth=0.8, linestyle="--", label="all that touches sticks")
             left.plot(reach, self.frequency, "o-", color=COLORS[0], markersize=4.0)
-            left.set(xlabel="amplitude, µm", ylabel="frequency, Hz")
+            label = "modal amplitude, 1e-6 m kg$^{1/2}$" if self.unit == MODAL else "amplitude, µm"
+            left.set(xlabel=label, ylabel="frequency, Hz")
             left.legend()
             right.plot(reach, 100.0 * (self.damping + self.viscous), "o-", color=COLORS[0], markersize=4.0)
-            right.set(xlabel="amplitude, µm", ylabel="damping, % of critical")
+            right.set(xlabel=label, ylabel="damping, % of critical")
             logarithmic(left, "x")
             logarithmic(right, "xy" if np.all(self.damping > 0.0) else "x")
         return figure
@@ -139,7 +148,7 @@ class Sweep:
         omegas, shapes = structure.stuck_modes()
         if not 1 <= mode <= len(omegas):
             raise Error(f"mode {mode}: the structure has modes 1 to {len(omegas)}")
-        self.omega, self.shape = omegas[mode - 1], shapes[:, mode - 1]
+        self.omega, self.shape, self.stuck = omegas[mode - 1], shapes[:, mode - 1], omegas / (2.0 * np.pi)
         self.tangent = structure.tangent()
         self.unit = structure.respond(self.tangent, self.shape)
         self.reversed = structure.respond_to(self.tangent)
@@ -226,7 +235,10 @@ def _moved(sensor, shape):
     sensor = np.asarray(sensor, dtype=float)
     if sensor.shape != shape.shape:
         raise Error(f"sensor: has the shape {sensor.shape}: expected a number for each of {len(shape)} modes")
-    return abs(float(sensor @ shape))
+    moved = abs(float(sensor @ shape))
+    if moved <= UNMOVED * np.linalg.norm(sensor) * np.linalg.norm(shape):
+        raise Error("sensor: the mode does not move it in this direction: take another direction, sensor or mode")
+    return moved
 
 
 def backbone(structure, amplitudes, mode=1, sensor=None, damping=0.0, steps=STEPS, report=None):
@@ -242,8 +254,6 @@ def backbone(structure, amplitudes, mode=1, sensor=None, damping=0.0, steps=STEP
     amplitudes = _checked(amplitudes, damping)
     sweep = Sweep(structure, mode, steps)
     factor = 1.0 if sensor is None else _moved(sensor, sweep.shape)
-    if not factor:
-        raise Error("sensor: the mode does not move it; take another sensor")
     rows, patches = [], []
     for k, amplitude in enumerate(amplitudes):
         if report:
@@ -252,9 +262,10 @@ def backbone(structure, amplitudes, mode=1, sensor=None, damping=0.0, steps=STEP
         try:
             one, count = sweep.cycles(alpha)
         except ENDS as error:
+            reason = str(error).partition("; for gross slip give")[0]
             if not rows:
-                raise
-            warnings.warn(f"ended before an amplitude of {amplitude:.3g} m: {error}", BackboneWarning, stacklevel=2)
+                raise NoSolution(f"at an amplitude of {amplitude:.3g} m: {reason}") from error
+            warnings.warn(f"ended before an amplitude of {amplitude:.3g} m: {reason}", BackboneWarning, stacklevel=2)
             break
         reach = one.ends[1] - one.ends[0]
         omega2 = 2.0 * alpha / reach
@@ -267,13 +278,23 @@ def backbone(structure, amplitudes, mode=1, sensor=None, damping=0.0, steps=STEP
         patches.append(one.energies)
     numbers = {name: np.array(column) for name, column in zip(COLUMNS, np.transpose(rows))}
     names = [patch.name or f"patch{k}" for k, patch in enumerate(structure.patches, 1)]
-    found = Backbone(sweep.omega / (2.0 * np.pi), sweep.shape, numbers, np.array(patches), names, sweep.modes_change)
+    unit = MODAL if sensor is None else "m"
+    found = Backbone(
+        sweep.omega / (2.0 * np.pi),
+        sweep.shape,
+        numbers,
+        np.array(patches),
+        names,
+        sweep.modes_change,
+        sweep.stuck,
+        unit,
+    )
     _warn(found)
     return found
 
 
 def _warn(found):
-    """Warns of damping by few cells and of energies that disagree."""
+    """Warns of damping by few cells and of cycles that do not settle."""
     few = found.slipping < FEW
     if np.any(few):
         least, last = found.slipping[few].min(), found.amplitude[few].max()

@@ -1,7 +1,7 @@
 """Stiffness and damping of a joint, for a structural analysis.
 
     petsam-joint stiffness scan.h5 --pressure 1MPa:50MPa:12 --friction 0.4 --body1 steel --body2 steel -o interface
-    petsam-joint backbone lap.h5 --contact lap.opts --preload B1=12e3 --sensor TIP:z --amplitudes 1um:100um:12 -o lap
+    petsam-joint backbone lap.h5 --contact lap.opts --preload B1=12e3 --sensor TIP:z --amplitudes 1um:0.1mm:9 -o out
 
 stiffness: scan.h5 is a surface or a separation that petsam-surface has written. Prints, for each nominal pressure, the
 normal and the tangential stiffness per area of the interface alone, the real contact area, and the energy of a loop of
@@ -243,9 +243,7 @@ def _print(result, found):
 
 
 def _sensor(text, pair):
-    """(modes,) displacement of the sensor NAME:D by each modal coordinate; None: there is none."""
-    if text is None:
-        return None
+    """(modes,) displacement of the sensor NAME:D by each modal coordinate."""
     name, _, direction = text.partition(":")
     if name not in pair.sensors or direction not in ("x", "y", "z"):
         raise Error(
@@ -276,6 +274,8 @@ def _backbone(args):
         pair, result = compute(0, args.amplitudes, report=tell)
     for name, tension in pair.tensions.items():
         print(f"bolt {name}: {tension:.6g} N left of {preload.get(name, 0.0):g} N after all are tightened")
+        if not tension > 0.0:
+            print(f"petsam-joint: warning: bolt {name} bears no tension: a bolt here has no slack", file=sys.stderr)
     _print(result, found)
     if args.degree_check:
         print(_degree_line(args, compute, result))
@@ -307,8 +307,8 @@ ACTIONS = {
         _stiffness,
     ),
     "backbone": (
-        ("contact", "amplitudes"),
-        dict(preload=None, mode=1, sensor=None, damping=0.0, degree_check=False),
+        ("contact", "amplitudes", "sensor"),
+        dict(preload=None, mode=1, damping=0.0, degree_check=False),
         _backbone,
     ),
 }

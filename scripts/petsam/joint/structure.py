@@ -76,8 +76,11 @@ class Patch:
             warnings.simplefilter("error", EdgeContactWarning)
             try:
                 self.contact.try_step(**given)
-            except EdgeContactWarning as edge:
-                raise NoSolution(f"{self.name or 'a contact'}: {edge}") from None
+            except EdgeContactWarning:
+                raise NoSolution(
+                    f"{self.name or 'a contact'}: reaches the border of its grid or patch: use smaller amplitudes, a "
+                    "higher preload, or a larger grid and patch"
+                ) from None
         z = np.array(values, dtype=float)
         z[self.by_load] = [self.contact.number(name) for name, load in zip(self.coordinates, self.by_load) if load]
         return z, self.sign * np.array([self.contact.number(name) for name in self._loads])
