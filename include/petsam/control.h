@@ -51,11 +51,10 @@ typedef struct {
   PetscBool   option; /* true: it may be an option, and starts at `usual`; false: it starts at its first value */
   PetscBool   change; /* true: a change since the row before, divided among the steps of the row; false: a level */
   PetscBool   bounds; /* true: acts only on the bound of the shear, which each step computes anew */
-  PetscBool   reverses; /* true: causes shear, and changes sign in a reversed step */
-  PetscBool   couples;  /* true: displaces the surfaces in all directions, so pressure and shear must be coupled */
-  PetscBool
-    conjugate;    /* true: a displacement times a factor; the number NAME_load of a step is the work by the factor */
-  PetscInt place; /* index in its list and in a control; set by SamConditionsAdd() */
+  PetscBool   reverses;  /* true: causes shear, and changes sign in a reversed step */
+  PetscBool   couples;   /* true: displaces the surfaces in all directions, so pressure and shear must be coupled */
+  PetscBool   conjugate; /* true: a factor on a displacement; a step's number NAME_load is the work by a unit of it */
+  PetscInt    place;     /* index in its list and in a control; set by SamConditionsAdd() */
 } SamCondition;
 
 /* SamConditions - the list of the conditions of a problem. */

@@ -275,3 +275,23 @@ def closing():
 
     yield
     plt.close("all")
+
+
+@pytest.fixture
+def joint_command(tmp_path, monkeypatch, capsys):
+    """joint_command(action, *words, check=0): what petsam-joint prints; its complaint where it fails."""
+    from petsam.joint import command
+
+    monkeypatch.chdir(tmp_path)
+
+    def run(action, *words, check=0):
+        monkeypatch.setattr(sys, "argv", ["petsam-joint", action, *map(str, words)])
+        try:
+            code = command.main()
+        except SystemExit as error:
+            code = error.code
+        out, err = capsys.readouterr()
+        assert code == check, (code, err)
+        return err if check else out
+
+    return run

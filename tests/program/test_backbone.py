@@ -1,6 +1,7 @@
 """Frequency and damping of joints over amplitude: Mindlin's oscillators, and pairs of bodies."""
 
 import csv
+import functools
 import subprocess
 import sys
 import warnings
@@ -19,7 +20,6 @@ import petsam
 from petsam import joint
 from petsam.compliance import basis, model, modes, rigid, stiffness
 from petsam.compliance.command import arguments, carry_out
-from petsam.joint import command as _  # noqa: F401
 from support import ROOT
 
 pytestmark = [
@@ -318,21 +318,9 @@ def test_a_body_that_only_a_soft_bolt_holds(tmp_path):
 
 
 @pytest.fixture
-def command(tmp_path, monkeypatch, capsys):
-    """command(*words, check=0): what petsam-joint backbone prints, and its complaints."""
-    monkeypatch.chdir(tmp_path)
-
-    def run(*words, check=0):
-        monkeypatch.setattr(sys, "argv", ["petsam-joint", "backbone", *map(str, words)])
-        try:
-            code = joint.command.main()
-        except SystemExit as error:
-            code = error.code
-        out, err = capsys.readouterr()
-        assert code == check, (code, err)
-        return err if check else out
-
-    return run
+def command(joint_command):
+    """command(*words, check=0): what petsam-joint backbone prints; its complaint where it fails."""
+    return functools.partial(joint_command, "backbone")
 
 
 def test_command_prints_and_writes_the_numbers(command, tmp_path):

@@ -1,8 +1,8 @@
 """Contact stiffness of an interface: compliance of cracks, ratio of tangential and normal stiffness, scaling."""
 
 import csv
+import functools
 import json
-import sys
 import warnings
 
 import h5py
@@ -11,7 +11,6 @@ import pytest
 
 import petsam
 from petsam import joint
-from petsam.joint import command as _  # noqa: F401
 from petsam.joint import elements
 from petsam.plot.style import COLORS, plt
 from support import bodies
@@ -275,21 +274,9 @@ def test_a_mistake_is_named(change, says):
 
 
 @pytest.fixture
-def command(tmp_path, monkeypatch, capsys):
+def command(joint_command):
     """command(*words, check=0): what petsam-joint stiffness prints; its complaint where it fails."""
-    monkeypatch.chdir(tmp_path)
-
-    def run(*words, check=0):
-        monkeypatch.setattr(sys, "argv", ["petsam-joint", "stiffness", *map(str, words)])
-        try:
-            code = joint.command.main()
-        except SystemExit as error:
-            code = error.code
-        out, err = capsys.readouterr()
-        assert code == check, (code, err)
-        return err if check else out
-
-    return run
+    return functools.partial(joint_command, "stiffness")
 
 
 STEEL = ("--body1", "steel", "--body2", "210GPa,0.3")

@@ -94,7 +94,7 @@ def frame_of(origin, x, z, outward):
 
 
 DENSITIES = (1.0, 1e5)  # of solids whose modulus is that of a solid, kg/m3
-SOFT = 1e6  # Pa: smaller moduli are those of tests in other units
+SOFT = 1e6  # Pa: a deck of smaller moduli is in units of its own, such as E = 1, which do not tell the density's
 MEGAPASCALS = (1e3, 1e6)  # moduli of metals and plastics in MPa
 
 

@@ -145,11 +145,11 @@ class Sweep:
 
     def __init__(self, structure, mode=1, steps=STEPS):
         self.preload, self.work, self.steps = structure, structure.copy(), steps
-        omegas, shapes = structure.stuck_modes()
+        self.tangent = structure.tangent()
+        omegas, shapes = structure.stuck_modes(self.tangent)
         if not 1 <= mode <= len(omegas):
             raise Error(f"mode {mode}: the structure has modes 1 to {len(omegas)}")
         self.omega, self.shape, self.stuck = omegas[mode - 1], shapes[:, mode - 1], omegas / (2.0 * np.pi)
-        self.tangent = structure.tangent()
         self.unit = structure.respond(self.tangent, self.shape)
         self.reversed = structure.respond_to(self.tangent)
         self._warn_of_mode(mode)
@@ -160,7 +160,7 @@ class Sweep:
         fewer = self.preload.omega.size // 4
         if not fewer or mode > self.preload.modes - fewer:
             return float("nan")
-        change = float(self.preload.stuck_modes(fewer)[0][mode - 1] / self.omega - 1.0)
+        change = float(self.preload.stuck_modes(self.tangent, fewer)[0][mode - 1] / self.omega - 1.0)
         if abs(change) > FEW_MODES:
             warnings.warn(
                 f"without the highest {fewer} modes mode {mode} changes its frequency by {change:.1e}: use more "

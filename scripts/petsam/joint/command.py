@@ -23,22 +23,16 @@ import h5py
 import numpy as np
 
 from ..contact import AdviceWarning
-from ..errors import FILE, USAGE, Error, Parser, fail, guarded, joined, short
+from ..errors import USAGE, Error, Parser, fail, guarded, joined, short
 from ..files import need_regular, need_replaceable
 from ..plot.saving import DPI, add_resolution, write
 from ..surface.lengths import lengths
 from . import interface
 from .backbone import ENDS, BackboneWarning, backbone
-from .pair import Pair
+from .pair import Pair, Unreadable
 
 MATERIALS = {"steel": (210e9, 0.3), "aluminium": (70e9, 0.33), "titanium": (115e9, 0.32), "nickel": (205e9, 0.3)}
 PASCALS = {"": 1.0, "Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9}
-
-
-class Unreadable(Error):
-    """A file that is no surface."""
-
-    code = FILE
 
 
 def stress(text):

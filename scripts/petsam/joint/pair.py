@@ -15,7 +15,7 @@ PRESS = 4  # steps in which each bolt is tightened
 
 
 class Unreadable(Error):
-    """A file that is no pair of petsam-compliance."""
+    """A file that is not of the kind that is needed: a surface, or a pair of petsam-compliance."""
 
     code = FILE
 

@@ -191,10 +191,14 @@ class Structure:
 
     def _system(self, response):
         """Matrix of the changes of what steps prescribe, and of a, in the errors of z and of equilibrium."""
-        n, r = self.rigid.shape
-        unit = np.eye(n)
-        z = np.where(self.by_load[:, None], response, unit)
-        loads = np.where(self.by_load[:, None], unit, response)
+        unit = np.eye(self.z.size)
+        return self._equations(
+            np.where(self.by_load[:, None], response, unit), np.where(self.by_load[:, None], unit, response)
+        )
+
+    def _equations(self, z, loads):
+        """Matrix of the equations in what z and loads depend on, and in a."""
+        r = self.rigid.shape[1]
         return np.block([[z - self.coupling @ loads, -self.rigid], [self.rigid.T @ loads, np.zeros((r, r))]])
 
     def _driven(self, force):
@@ -205,11 +209,8 @@ class Structure:
     def respond(self, tangent, force):
         """Changes of z, of the loads and of a by a change of the modal force, where loads follow the tangent."""
         z, free = self._driven(force)
-        n, r = self.rigid.shape
-        matrix = np.block(
-            [[np.eye(n) - self.coupling @ tangent, -self.rigid], [self.rigid.T @ tangent, np.zeros((r, r))]]
-        )
-        both = _solved(matrix, np.concatenate([z, -free]))
+        n = z.size
+        both = _solved(self._equations(np.eye(n), tangent), np.concatenate([z, -free]))
         return both[:n], tangent @ both[:n], both[n:]
 
     def modal(self, force, loads, a):
@@ -217,20 +218,22 @@ class Structure:
         elastic = (np.asarray(force)[: self.omega.size] + self.shapes.T @ loads) / self.omega**2
         return np.concatenate([elastic, a])
 
-    def flexibility(self):
-        """(modes, modes): modal coordinates by a unit of each modal force, while all that touches sticks."""
-        tangent, columns = self.tangent(), []
+    def flexibility(self, tangent):
+        """(modes, modes): modal coordinates by a unit of each modal force, where loads follow the tangent."""
+        columns = []
         for unit in np.eye(self.modes):
             _, loads, a = self.respond(tangent, unit)
             columns.append(self.modal(unit, loads, a))
         found = np.array(columns).T
         return 0.5 * (found + found.T)
 
-    def stuck_modes(self, without=0):
+    def stuck_modes(self, tangent=None, without=0):
         """Angular frequencies (rad/s), rising, and shapes (modes, modes), as columns in modal coordinates, while all
-        that touches sticks; `without` the inertia of the so many highest elastic modes."""
+        that touches sticks; `without` the inertia of the so many highest elastic modes. tangent: that of tangent(), if
+        it is known."""
+        tangent = self.tangent() if tangent is None else tangent
         kept = np.r_[: self.omega.size - without, self.omega.size : self.modes]
-        values, vectors = np.linalg.eigh(self.flexibility()[np.ix_(kept, kept)])
+        values, vectors = np.linalg.eigh(self.flexibility(tangent)[np.ix_(kept, kept)])
         if values[0] <= 0.0:
             raise NoSolution("the structure with sticking contacts has a mode of negative stiffness")
         order = np.argsort(-values)

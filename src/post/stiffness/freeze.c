@@ -105,44 +105,48 @@ static PetscErrorCode CheckStep(SamContact contact, SamStiffnessDirection direct
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Computes the displacement (m) of body 1 relative to body 2 by a unit of a condition, on the whole grid. */
-static PetscErrorCode ComputeMotion(SamProblem problem, SamState state, const SamCondition *condition, Vec u_z, Vec u_t)
+/* Computes the displacement (m) of body 1 relative to body 2 by a unit of a condition, on the whole grid; `rest`: the
+   fields without conditions, of body 2 relative to body 1. */
+static PetscErrorCode ComputeMotion(SamProblem problem, SamState state, const SamCondition *condition,
+                                    const Vec rest[2], const Vec u[2])
 {
-  Vec        rest[2];
   SamControl control = {.force = {PETSC_FALSE}};
 
   PetscFunctionBegin;
-  PetscCall(VecDuplicate(u_z, &rest[0]));
-  PetscCall(VecDuplicate(u_t, &rest[1]));
-  PetscCall(VecZeroEntries(u_z));
-  PetscCall(VecZeroEntries(u_t));
-  PetscCall(SamProblemDisplace(problem, state, &control, rest[0], rest[1], NULL, NULL));
   SamControlSetCondition(&control, condition, 1);
-  PetscCall(SamProblemDisplace(problem, state, &control, u_z, u_t, NULL, NULL));
-  PetscCall(VecAYPX(u_z, -1, rest[0]));
-  PetscCall(VecAYPX(u_t, -1, rest[1]));
-  PetscCall(VecDestroy(&rest[0]));
-  PetscCall(VecDestroy(&rest[1]));
+  for (PetscInt d = 0; d < 2; d++) PetscCall(VecZeroEntries(u[d]));
+  PetscCall(SamProblemDisplace(problem, state, &control, u[0], u[1], NULL, NULL));
+  for (PetscInt d = 0; d < 2; d++) PetscCall(VecAYPX(u[d], -1, rest[d]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode AddMotions(SamContact contact, SamWindow window, PetscInt count,
                                  const SamCondition *const conditions[], SamFrozen *f)
 {
-  SamState      state;
-  Vec           whole[2], part[2];
-  const SamGrid grid = SamContactGetGrid(contact);
+  SamState         state;
+  Vec              whole[2], part[2], rest[2];
+  const SamControl none    = {.force = {PETSC_FALSE}};
+  const SamProblem problem = SamContactGetProblem(contact);
+  const SamGrid    grid    = SamContactGetGrid(contact);
 
   PetscFunctionBegin;
+  if (!count) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamContactGetState(contact, &state));
-  for (PetscInt d = 0; d < 2; d++) PetscCall(SamGridCreateVec(grid, d + 1, &whole[d]));
+  for (PetscInt d = 0; d < 2; d++) {
+    PetscCall(SamGridCreateVec(grid, d + 1, &whole[d]));
+    PetscCall(SamGridCreateVec(grid, d + 1, &rest[d]));
+  }
+  PetscCall(SamProblemDisplace(problem, state, &none, rest[0], rest[1], NULL, NULL));
   for (PetscInt k = 0; k < count; k++) {
-    PetscCall(ComputeMotion(SamContactGetProblem(contact), state, conditions[k], whole[0], whole[1]));
+    PetscCall(ComputeMotion(problem, state, conditions[k], rest, whole));
     for (PetscInt d = 0; d < 2; d++) PetscCall(TakeField(window, f->grid, d + 1, whole[d], &part[d]));
     PetscCall(SamFrozenAddMotion(f, part[0], part[1]));
     for (PetscInt d = 0; d < 2; d++) PetscCall(VecDestroy(&part[d]));
   }
-  for (PetscInt d = 0; d < 2; d++) PetscCall(VecDestroy(&whole[d]));
+  for (PetscInt d = 0; d < 2; d++) {
+    PetscCall(VecDestroy(&whole[d]));
+    PetscCall(VecDestroy(&rest[d]));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
