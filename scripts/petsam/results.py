@@ -228,6 +228,8 @@ class Results(Datafile):
         self.is_plane = self.y.size == 1  # plane strain: numbers are per metre
         self.work_unit = self.units.get("dissipated_energy", "J")
         self.times = self._row(_own(self.file, "time"), "time")
+        self._held = self._count_saved()  # saved steps of this file alone
+        self.times = self.times[: self._held]
         if "friction_file" not in self.parameters:
             _ = self.parameters["friction"]  # which every other file has
         self.before = int(self.parameters.get("branch_step", 0))
@@ -239,12 +241,24 @@ class Results(Datafile):
         attributes = {name: _own(self.file, f"history/{name}").attrs for name in self.history}
         self._fills = {name: float(of["value_before"]) for name, of in attributes.items() if "value_before" in of}
         self._later, self._places = [], [(0, k) for k in range(self.times.size)]
-        self._held = self.times.size  # saved steps of this file alone
         self.wear, self.wear_units = Named(self.path, {}), {}
         if "wear" in self.file:
             self.wear, self.wear_units = self._read_table("wear")
             complete = min((values.size for values in self.wear.values()), default=0)  # see solved
             self.wear.update({name: values[:complete] for name, values in self.wear.items()})
+
+    def _count_saved(self):
+        """Number of saved steps; those that are in all fields, where a run was killed as it wrote another one."""
+        if self.parameters.get("closed", 1):
+            return self.times.size
+        nodes = [node for group in (self.file, *self._layer_groups().values()) for node in _nodes(group).values()]
+        series = [node for node in nodes if getattr(node, "ndim", 0) >= 3 and node.maxshape[0] is None]
+        return min([self.times.size, *(data.shape[0] for data in series)])
+
+    def _layer_groups(self):
+        """Name: group with fields in layers."""
+        groups = {name: node for name, node in _nodes(self.file).items() if isinstance(node, h5py.Group)}
+        return {name: group for name, group in groups.items() if "z" in group}
 
     def __repr__(self):
         return f"Results({self.path!r}: {self.history['time'].size} steps, {self.x.size} x {self.y.size} cells)"
@@ -465,20 +479,22 @@ class Results(Datafile):
     @cached_property
     def fields(self):
         """Names of all fields that the file has."""
-        shape = (self._held, self.y.size, self.x.size)
         with reading(self.path):
-            links = {name: self.file.get(name, getlink=True) for name in self.file}
-            local = [name for name, link in links.items() if isinstance(link, h5py.HardLink)]
-            return [name for name in local if getattr(self.file[name], "shape", None) == shape and self._all_have(name)]
+            return [name for name, node in _nodes(self.file).items() if self._is_field(node) and self._all_have(name)]
+
+    def _is_field(self, node):
+        """True if a node of this file is a field of its saved steps."""
+        return getattr(node, "ndim", 0) == 3 and self._has_saved(node) and node.shape[1:] == (self.y.size, self.x.size)
+
+    def _has_saved(self, data):
+        """True if a dataset has the saved steps of this file; it may have one more where a run was killed."""
+        return data.shape[:1] == (self._held,) or not self.parameters.get("closed", 1) and data.shape[0] > self._held
 
     @cached_property
     def layered(self):
         """Names GROUP/NAME of the fields in layers below the cells (bodies that yield): field() has (nz, ny, nx)."""
         with reading(self.path):
-            links = {name: self.file.get(name, getlink=True) for name in self.file}
-            groups = [name for name, link in links.items() if isinstance(link, h5py.HardLink)]
-            groups = [name for name in groups if isinstance(self.file[name], h5py.Group) and "z" in self.file[name]]
-            names = [f"{group}/{name}" for group in groups for name in self.file[group]]
+            names = [f"{place}/{name}" for place, group in self._layer_groups().items() for name in group]
             return [name for name in names if getattr(self.file[name], "ndim", 0) == 4 and self._all_have(name)]
 
     @cached_property
@@ -615,7 +631,7 @@ class Results(Datafile):
             if data.dtype.kind not in "biuf":
                 raise ValueError(f"/{name} has no numbers")
             layers = (self.z_of(name).size,) if name in self.layered else ()
-            if data.shape != (source._held, *layers, self.y.size, self.x.size):
+            if not source._has_saved(data) or data.shape[1:] != (*layers, self.y.size, self.x.size):
                 raise ValueError(f"/{name} has the shape {data.shape}")
             block = stride * max(1, BLOCK // stride)
             blocks = []
@@ -634,7 +650,7 @@ class Results(Datafile):
         try:
             with reading(source.path):
                 data = self._saved(name, source)
-                if data.dtype.kind != "f" or data.ndim != 3 or data.shape[::2] != (source._held, 2):
+                if data.dtype.kind != "f" or data.ndim != 3 or not source._has_saved(data) or data.shape[2] != 2:
                     raise ValueError(f"/{name} is no edge: its shape is {data.shape}")
                 points = data[index]
         except DAMAGED as error:
@@ -741,6 +757,12 @@ def _own(group, name):
     if found is None or isinstance(found, h5py.Dataset) and (found.external or found.is_virtual):
         raise ValueError(f"{name} is in another file")
     return found
+
+
+def _nodes(group):
+    """Name: what a group has of this name itself, not by a link to another place."""
+    local = [name for name in group if isinstance(group.get(name, getlink=True), h5py.HardLink)]
+    return {name: group[name] for name in local}
 
 
 def _row_of(times, time):

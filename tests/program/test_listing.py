@@ -5,6 +5,7 @@ import re
 import shutil
 import subprocess
 
+import h5py
 import numpy as np
 import pytest
 
@@ -37,6 +38,27 @@ def test_listing_names_all_with_shapes_and_units(results):
 def test_listing_says_that_a_run_was_killed(results):
     results.parameters["closed"] = 0
     assert "not closed: a run writes to it, or was killed" in str(results)
+
+
+@pytest.mark.parametrize("lacking", ["time", "pressure", "all but displacement_y", "plastic/residual_stress_xx"])
+def test_step_that_a_killed_run_was_writing_does_not_count(lacking, solve, tmp_path):
+    """HDF5 writes the new sizes of the datasets one after the other."""
+    part = "plastic" if "/" in lacking else "displacement_y"
+    more = dict(body2_yield=3e8) if part == "plastic" else {}
+    whole = solve(CASE, more, dict(output_fields=f"usual,{part}")).path
+    with petsam.open(whole) as run:
+        last = len(run.steps) - 1
+        expected = {name: run.field(name, last - 1) for name in (*run.fields, *run.layered)}
+    cut = shutil.copy(whole, tmp_path / "cut.h5")
+    with h5py.File(cut, "r+") as f:
+        f.attrs["closed"] = 0
+        names = [n for n in (*expected, "time") if n != "displacement_y"] if lacking.startswith("all") else [lacking]
+        for name in names:
+            f[name].resize(last, axis=0)
+    with petsam.open(cut) as run:
+        assert len(run.steps) == last and set(run.fields) | set(run.layered) == set(expected)
+        for name, values in expected.items():
+            assert np.array_equal(run.field(name, -1), values), name
 
 
 @pytest.mark.parametrize(
