@@ -2,7 +2,6 @@
 
 import importlib.util
 
-
 from conftest import PROGRAM
 from support import ROOT, few
 
