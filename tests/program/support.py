@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 import h5py
 import numpy as np
+import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
@@ -41,6 +42,22 @@ def finished(command, check=0, timeout=300, **how):
     done = subprocess.run(command, capture_output=True, text=True, timeout=timeout, **how)
     assert done.returncode == check, (command, done.stdout[-3000:], done.stderr[-3000:])
     return done
+
+
+# ---------------------------------------------------------------- rows that are alike
+
+
+def spread(length, count=3):
+    """Places of `count` of so many rows: the first, the last, and some between."""
+    return {round(k * (length - 1) / (count - 1)) for k in range(count)}
+
+
+def few(names, rows, count=3):
+    """Parametrizes a test by rows that exercise the same lines: `make test` runs `count` of them, the rest are slow."""
+    rows = [row if "," in names else (row,) for row in rows]
+    kept = spread(len(rows), count)
+    marked = [pytest.param(*row, marks=() if k in kept else pytest.mark.slow) for k, row in enumerate(rows)]
+    return pytest.mark.parametrize(names, marked)
 
 
 # ---------------------------------------------------------------- options

@@ -6,7 +6,7 @@ import pytest
 
 import compliances
 import conftest
-from support import assert_same, history, l2, read_run
+from support import assert_same, few, history, l2, read_run
 from test_embed import run_python
 
 # E = 1, nu = 0.3, the patch is the grid: [-1, 1]^2
@@ -166,7 +166,7 @@ def beam(path, softer):
     return compliances.write(path, np.einsum("iak,kl,jbl->iajb", r, c, r) * 210e3 / half, half=half, young=210e3)
 
 
-@pytest.mark.parametrize("softer, friction, most", [(1, 0.5, 10), (10, 0.5, 16), (10, 1, 18), (30, 1, 30)])
+@few("softer, friction, most", [(1, 0.5, 10), (10, 0.5, 16), (10, 1, 18), (30, 1, 30)], 2)
 def test_soft_bodies_converge_with_rotations_held(softer, friction, most, petsam, tmp_path):
     """What the bending by shear couples: pressed, sheared and reversed."""
     z, x = 0.0057 + 0.0363 * softer, 0.004 * softer + 0.001
@@ -603,7 +603,7 @@ def test_numbers_that_were_never_written_are_refused(petsam, layer):
     assert "the numbers of /compliance cannot be read: the file is damaged" in message
 
 
-@pytest.mark.parametrize("part", [0.3, 0.6, 0.9, 0.999])
+@few("part", [0.3, 0.6, 0.9, 0.999], 2)
 def test_damaged_files_are_refused(part, petsam, layer):
     file = layer(1, 2)
     content = file.read_bytes()

@@ -6,7 +6,7 @@ import h5py
 import numpy as np
 import pytest
 
-from support import ROOT, assert_close, assert_same, ball, bodies, closed, displacement
+from support import ROOT, assert_close, assert_same, ball, bodies, closed, displacement, few
 
 INF = float("inf")
 
@@ -105,8 +105,8 @@ def test_materials_reach_the_largest_coupling():
 
 @pytest.mark.parametrize("steps", [1, 4])
 @pytest.mark.parametrize("load", [{}, dict(load_tx=0.6)], ids=["N", "N-Tx"])
-@pytest.mark.parametrize("friction", [0.1, 0.3, 1.0])
-@pytest.mark.parametrize("materials", MATERIALS)
+@few("friction", [0.1, 0.3, 1.0], 2)
+@few("materials", MATERIALS)
 def test_dissimilar_bodies_converge(solve, materials, friction, load, steps):
     n = 100 if friction == 1.0 else 64
     case = pair(materials, n, friction=friction, steps=steps)

@@ -9,7 +9,7 @@ import pytest
 
 sys.path.append(str(Path(__file__).resolve().parents[1] / "bench"))
 from problem import rough_plane  # noqa: E402
-from support import PUNCH, ball, bodies, slide_limit, sliding_pair
+from support import PUNCH, ball, bodies, few, slide_limit, sliding_pair
 
 
 @pytest.mark.parametrize("n", [256, 512, pytest.param(1024, marks=pytest.mark.slow), (509, 330)])
@@ -43,16 +43,14 @@ def test_normal_products_of_a_rough_plane_at_most_30(solve, tmp_path, n):
     assert solve(case)["normal_applies"] <= 30
 
 
-@pytest.mark.parametrize(
-    "tx, mz", [(0.01, 0), (0.3, 0), (0.6, 0), (0.9, 0), (0.99, 0), (0, 0.1), (0, 0.7), (0, 0.95), (0, 0.99)]
-)
+@few("tx, mz", [(0.01, 0), (0.3, 0), (0.6, 0), (0.9, 0), (0.99, 0), (0, 0.1), (0, 0.7), (0, 0.95), (0, 0.99)], 4)
 def test_tangential_products_at_512_at_most_25(solve, tx, mz):
     case = ball(512, poisson=0.3)
     force, torque = slide_limit(case)
     assert solve(case, dict(load_tx=tx * force, load_mz=mz * torque))["tangential_applies"] <= 25
 
 
-@pytest.mark.parametrize("part", [0.5, 0.95, 0.99])
+@few("part", [0.5, 0.95, 0.99], 2)
 @pytest.mark.parametrize("arm", [0.3, 1.0])
 def test_tangential_products_of_force_with_torque_at_512_at_most_25(solve, arm, part):
     case = ball(512, poisson=0.3)

@@ -11,7 +11,7 @@ import petsam
 from petsam.plot import bodies, looks
 from petsam.plot.style import STYLE, logarithmic, plt
 from petsam.plot.units import on_axis, size_of
-from support import ball, slide_limit
+from support import ball, few, slide_limit
 
 pytestmark = pytest.mark.usefixtures("closing")
 STRESS = conftest.PROGRAM.with_name("petsam-stress")
@@ -147,7 +147,7 @@ def test_limits_without_data_are_rejected(plot, folder):
     assert plot("--field", "pressure", "--xlim=-1e-5,2", "-o", "w.png", "c.h5")[0] == 0
 
 
-@pytest.mark.parametrize("decades", [0.1, 0.3, 0.6, 1.0, 1.7, 2.5, 4.0, 7.0])
+@few("decades", [0.1, 0.3, 0.6, 1.0, 1.7, 2.5, 4.0, 7.0])
 @pytest.mark.parametrize("inches", [2.0, 4.0, 9.0])
 @pytest.mark.parametrize("first", [3e-8, 1.0, 2e6])
 def test_labels_of_logarithmic_axes_do_not_collide(decades, inches, first):

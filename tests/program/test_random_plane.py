@@ -2,17 +2,15 @@
 
 import importlib.util
 
-import pytest
-
 from conftest import PROGRAM
-from support import ROOT
+from support import ROOT, few
 
 spec = importlib.util.spec_from_file_location("random_plane", ROOT / "tests/fuzz/plane.py")
 problems = importlib.util.module_from_spec(spec)
 spec.loader.exec_module(problems)
 
 
-@pytest.mark.parametrize("seed", range(1, 31))
+@few("seed", range(1, 31), 8)
 def test_random_problem(seed):
     _, _, wrong, line = problems.trial(PROGRAM, seed)
     assert not wrong, line

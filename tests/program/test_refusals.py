@@ -170,8 +170,10 @@ def given(launcher, tmp_path_factory):
     return folder
 
 
-def contents(folder):
-    return {path.name: path.read_bytes() if path.is_file() else None for path in folder.iterdir()}
+def stamps(folder):
+    """What changes with a file that is written, replaced or removed."""
+    found = {path.name: path.lstat() for path in folder.iterdir()}
+    return {name: (file.st_mode, file.st_ino, file.st_size, file.st_mtime_ns) for name, file in found.items()}
 
 
 def copy(source, target):
@@ -179,19 +181,43 @@ def copy(source, target):
     shutil.copy(source, target) if stat.S_ISREG(os.stat(source).st_mode) else os.link(source, target)
 
 
+def copy_all(source, target):
+    shutil.copytree(source, target, symlinks=True, copy_function=copy, dirs_exist_ok=True)
+
+
+def fill(folder, given):
+    """All files that rows name, and results of an earlier run."""
+    copy_all(given, folder)
+    shutil.copy(given / "r.h5", folder / "results.h5")
+
+
+@pytest.fixture(scope="session")
+def kept(given, tmp_path_factory):
+    """The folder of all rows that must leave its files as they are."""
+    folder = tmp_path_factory.mktemp("kept")
+    fill(folder, given)
+    return folder
+
+
 @pytest.fixture
-def prepared(tmp_path, given):
-    """prepared(row): the folder in which that row runs."""
+def prepared(tmp_path, given, kept):
+    """prepared(row): the folder in which that row runs: one for all rows that are rejected, which change no file."""
+    before = stamps(kept)
 
     def prepare(row):
-        shutil.copytree(given, tmp_path, symlinks=True, copy_function=copy, dirs_exist_ok=True)
+        folder = kept if row.code in (2, 3) else tmp_path
+        if folder == tmp_path:
+            copy_all(given, folder)
         for name, text in row.files.items():
-            (tmp_path / name).write_bytes(text)
-        if row.code in (2, 3):
-            shutil.copy(given / "r.h5", tmp_path / "results.h5")  # of an earlier run
-        return tmp_path
+            (folder / name).write_bytes(text)
+        return folder
 
-    return prepare
+    yield prepare
+    for name in stamps(kept).keys() - before.keys():
+        (kept / name).unlink()
+    if stamps(kept) != before:  # a row has a file of such a name, or has failed
+        shutil.rmtree(kept)
+        fill(kept, given)
 
 
 def assert_answered(row, done, folder, before):
@@ -204,7 +230,7 @@ def assert_answered(row, done, folder, before):
     assert "PETSC ERROR" not in done.stderr and "HDF5-DIAG" not in done.stderr
     assert len(others) == (2 if row.code == 2 else 1), done.stderr
     if row.code in (2, 3):
-        assert contents(folder) == before, "files changed"
+        assert stamps(folder) == before, "files changed"
         assert row.code == 3 or not done.stdout, done.stdout
     else:
         assert (folder / "results.h5").exists()
@@ -213,7 +239,7 @@ def assert_answered(row, done, folder, before):
 
 def run(launcher, row, folder, ranks):
     """All lines of a run of petsam or petsam-stress on stderr that are its own."""
-    before = contents(folder)
+    before = stamps(folder)
     environment = dict(word.split("=", 1) for word in row.words if word.startswith("PETSC_OPTIONS="))
     line = [word for word in row.words if not word.startswith("PETSC_OPTIONS=")]
     done = execute(launcher, folder, line, ranks, row.code, environment, PROGRAM.with_name(row.program))
@@ -238,11 +264,12 @@ def test_message_of_three_ranks_is_told_once(launcher, prepared, row):
 
 
 @pytest.mark.parametrize("row", rows_of(*TOOLS))
-def test_message_of_a_tool_is_one_line(call, prepared, row):
+def test_message_of_a_tool_is_one_line(call, prepared, monkeypatch, row):
     folder = prepared(row)
-    before = contents(folder)
+    monkeypatch.chdir(folder)
+    before = stamps(folder)
     command = importlib.import_module(row.program.replace("-", ".") + ".command")
     code, told = call(row.program, command.main, *row.words)
     assert code == row.code and len(told) == 1 and told[0].startswith(f"{row.program}: error: "), told
     assert all(text in told[0] for text in row.says) and "TRACEBACK" not in told[0], (row.says, told)
-    assert contents(folder) == before, "files changed"
+    assert stamps(folder) == before, "files changed"

@@ -3,7 +3,7 @@
 import pytest
 
 from random_repeats import BALL, trial
-from support import history, read_run
+from support import few, history, read_run
 
 
 @pytest.mark.parametrize("loads", [(400, 1500, 1600, 400, 1500), (400, 1500, 400, 1500, 400, 1500)])
@@ -22,7 +22,7 @@ def test_a_load_comes_back_to_surfaces_that_have_yielded_since(petsam, tmp_path,
         assert (found[0]["history/normal_applies"][4:] == 0).all()
 
 
-@pytest.mark.parametrize("seed", range(1, 13))
+@few("seed", range(1, 13))
 def test_random_pair(tmp_path, seed):
     pair, codes, wrong, _ = trial(seed, tmp_path)
     assert not wrong, f"{pair}: exit codes {codes}, {wrong}"

@@ -30,13 +30,17 @@ CYCLE = "41:56"  # of 56 steps
 
 @pytest.fixture(scope="module")
 def contact(launcher, tmp_path_factory):
-    """The folder of a run: a sphere pushed to and fro under bulk stress; the first cycle is not yet closed."""
+    """
+    The folder of two runs, on a fine and a coarse grid: a sphere pushed to and fro under bulk stress; the first cycle
+    is not yet closed.
+    """
     folder = tmp_path_factory.mktemp("cycle")
     case = dict(SPHERE, friction=0.5, grid_n=(96, 95), history="h.csv", steps=8)
     t = PART * slide_limit(case)[0]
     rows = [(k + 1, *((-t, -1e7) if k % 2 else (t, 3e7))) for k in range(7)]
     (folder / "h.csv").write_text("time,load_tx,bulk2_stress_xx\n" + "\n".join(",".join(map(repr, r)) for r in rows))
     conftest.execute(launcher, folder, [case, dict(output="c.h5")], 1, 0)
+    conftest.execute(launcher, folder, [case, dict(output="coarse.h5", grid_n=(48, 47))], 1, 0)
     return folder
 
 
@@ -188,7 +192,7 @@ def test_held_loads_are_no_further_cycle(launcher, tmp_path):
 @pytest.mark.parametrize("ranks", [2, 3])
 def test_cycle_does_not_depend_on_the_ranks(stress, contact, ranks):
     for section in (None, "x=-3e-4"):
-        common = dict(input="c.h5", depths="0,3e-4", steps=CYCLE + ":8", section=section, **ALL)
+        common = dict(input="coarse.h5", depths="0,3e-4", steps=CYCLE + ":8", section=section, **ALL)
         stress(dict(common, output="one.h5"))
         stress(dict(common, output="many.h5"), ranks=ranks)
         one, many = read(contact / "one.h5"), read(contact / "many.h5")
@@ -197,7 +201,7 @@ def test_cycle_does_not_depend_on_the_ranks(stress, contact, ranks):
 
 
 def test_sections_are_lines_of_the_maps(stress, contact):
-    common = dict(input="c.h5", depths="0,1e-4", steps=CYCLE + ":5", quantities="mises", **ALL)
+    common = dict(input="coarse.h5", depths="0,1e-4", steps=CYCLE + ":5", quantities="mises", **ALL)
     stress(dict(common, output="map.h5"))
     maps = read(contact / "map.h5")
     for section, axis, at in (("y=1e-4", 1, "y"), ("x=-3e-4", 2, "x")):
@@ -205,7 +209,7 @@ def test_sections_are_lines_of_the_maps(stress, contact):
         line = read(contact / "line.h5")
         k = int(np.argmin(abs(maps[at] - line[at][0])))
         for name in NAMES:
-            assert maps[name].shape == (2, 95, 96)
+            assert maps[name].shape == (2, 47, 48)
             part, largest = np.take(maps[name], [k], axis=axis), np.nanmax(maps[name])
             # the search over planes may end beside a maximum that is as large
             assert np.allclose(line[name], part, rtol=1e-4, atol=1e-9 * largest, equal_nan=True), name
