@@ -99,7 +99,8 @@ class Comparison:
         self._profile(panels[0], "block", "pressure", "Block near an edge: pressure", "$p$, MPa")
         self._profile(panels[1], "beam", "pressure", "Clamped beam, pulled: pressure", "$p$, MPa")
         self._profile(panels[2], "beam", "shear_x", "Clamped beam, pulled: shear", "$q_x$, MPa")
-        panels[0].legend(loc="lower center")
+        for panel in panels[:2]:
+            panel.legend(loc="lower center", fontsize="small")
         save(figure, directory, "body.png")
 
     def _profile(self, panel, body, name, title, label):

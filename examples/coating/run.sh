@@ -56,7 +56,7 @@ pull() {
     shift
     solve_quietly "pull_$film" -options_file "$here/coating.opts" -friction 0.3 -load_tx 29.7 -steps 8 -grid_n 129 \
         -grid_size 1e-3 "$@"
-    stress "pull_$film" "pull_$film-stress" -section y=0 -depths 0:3e-4:31 -quantities stress,principal
+    stress "pull_$film" "pull_$film-stress" -section y=0 -depths 0:3e-4:121 -quantities principal
 }
 coat() { # coat NAME MODULUS THICKNESS
     pull "$1" -body2_layer_young "$2" -body2_layer_poisson 0.3 -body2_layer_thickness "$3"

@@ -129,7 +129,7 @@ def panel_friction(axes, cases):
         points(axes, *computed, tint, markersize=5, label=rf"$\nu = {poisson}$, $\beta = {beta:.3g}$")
     axes.plot([], [], color="0.4", linewidth=1.3, label="Spence")
     axes.plot([], [], "--", color="0.4", linewidth=0.8, label="Goodman")
-    frame(axes, "Stick radius against friction", r"$\mu$", "$c/a$", (0.0, 1.05), (0.0, 1.02))
+    frame(axes, "Stick radius against friction (points: petsam)", r"$\mu$", "$c/a$", (0.0, 1.05), (0.0, 1.02))
     axes.legend(loc="lower right")
 
 

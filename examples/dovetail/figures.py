@@ -141,7 +141,7 @@ class Comparison:
         x, z = 1e3 * self.fatigue.x, 1e3 * self.fatigue.z
         image = panel.contourf(x, z, 1e-6 * self.swt, levels=30, cmap=DAMAGE)
         cross(panel, 1e3 * self.place[0], 1e3 * self.place[1])
-        bar(panel, image, "SWT, MPa", ticks=np.linspace(0.0, 1e-6 * self.swt.max(), 5).round(2))
+        bar(panel, image, "SWT, MPa", ticks=np.arange(0.0, 1e-6 * self.swt.max(), 0.1).round(1))
         text = f"Fatigue of the blade: maximum {1e-6 * self.swt.max():.2f} MPa"
         frame(panel, text, "$x$, mm  at $y$ = 0", "depth $z$, mm", reach(self.swt, x))
         panel.set_ylim(z[-1], z[0])
@@ -159,9 +159,11 @@ class Comparison:
                     best = self.full[-1]
                     row = best.y < 1e-9
                     points(panel, best.x[row], getattr(best, name)[step - 1][row], color)
-        panel.plot([], [], "o", color=COLORS[5], markerfacecolor="white", markersize=3.6, label="CalculiX")
-        panel.legend(loc="upper right")
+        if self.full:
+            panel.plot([], [], "o", color=COLORS[5], markerfacecolor="white", markersize=3.6, label="CalculiX")
         frame(panel, "Pressure and shear along the flank", "$x$, mm  at $y$ = 0", "$p$, $q_x$, MPa", (-0.75, 0.75))
+        panel.set_ylim(top=1.4 * panel.get_ylim()[1])  # room for the legend
+        panel.legend(loc="upper center", ncols=2)
 
 
 if __name__ == "__main__":

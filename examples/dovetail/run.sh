@@ -50,7 +50,7 @@ flank() {
     name=$1
     suffix=$2
     shift 2
-    solve_quietly "$name" -options_file "$here/dovetail.opts" -body1_compliance "$out/blade$suffix.h5" \
+    solve_quietly "$name" -options_file "${opts:-$here/dovetail.opts}" -body1_compliance "$out/blade$suffix.h5" \
         -body2_compliance "$out/disc$suffix.h5" "$@"
 }
 flank cycles "" -history "$here/cycles.csv"
@@ -62,7 +62,10 @@ stress cycles fatigue -body 1 -steps 13:20 -section y=0 -depths 0:4e-4:41 -quant
 if [ "${FULL:-0}" = 1 ]; then
     for size in 0.2 0.17; do
         "$python" "$here/full.py" "$out/full_$size" --size "$size"
-        flank "facets_$size" "" -history "$here/cycles.csv" -gap_type file -gap_file "$out/full_${size}_gap.h5"
+        # the crown's radii have no effect beside a file of the gap, and petsam rejects them
+        grep -v '^-gap_' "$here/dovetail.opts" >"$out/facets.opts"
+        opts=$out/facets.opts flank "facets_$size" "" -history "$here/cycles.csv" -gap_type file \
+            -gap_file "$out/full_${size}_gap.h5"
     done
     for body in blade disc; do
         "$python" "$here/linear.py" "$body" "$out/$body.h5" "$out/${body}_coarse.h5"

@@ -133,8 +133,8 @@ def transient(directory):
         axes[1].plot(steps.x / a, steps.field("shear_x", k)[row] / peak, color=color, linewidth=1.3,
                      label=f"after {way[k]:.1f} $a$")  # fmt: skip
     points(axes[1], steady.x / a, steady.field("shear_x")[row] / peak, COLORS[5], label="steady", markersize=4)
-    axes[1].legend(loc="upper left")
-    frame(axes[1], "Shear at $y = 0$", "$x/a$, rolling to the right", r"$q_x/(\mu p_0)$", (-2.1, 1.2), (0.0, 1.05))
+    axes[1].legend(loc="upper center", ncols=3)
+    frame(axes[1], "Shear at $y = 0$", "$x/a$, rolling to the right", r"$q_x/(\mu p_0)$", (-1.2, 1.2), (0.0, 1.35))
     save(figure, directory, "transient.png")
 
 

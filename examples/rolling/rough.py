@@ -16,7 +16,7 @@ import numpy as np
 
 import petsam
 from petsam.comparison import print_table
-from petsam.plot.style import CLOSED, COLORS, STYLE, bar, extent, field, frame, plt, save
+from petsam.plot.style import CLOSED, COLORS, DAMAGE, STYLE, bar, extent, field, frame, plt, save
 
 G, NU, MU, P0, A = 82e9, 0.28, 0.3, 800e6, 1e-3  # Pa; 1; 1; Hertz's peak pressure, Pa, and half width, m
 LOAD = 2 / 3 * np.pi * P0 * A**2
@@ -92,9 +92,9 @@ def draw(planes, limit, directory):
     frame(axes[0], "Tangential force", "rolled distance / $a$", r"$T_x/(\mu N)$", (0.0, TRAVEL / A), (0.0, 0.55))
     frame(axes[1], "Approach", "rolled distance / $a$", "$d_z$, µm", (0.0, TRAVEL / A))
     last = planes[RMS[-1]]
-    image = field(axes[2], 1e-6 * last.shear, extent(last.x, last.y, A))
-    axes[2].set(title=f"Shear $q_x$, {name(RMS[-1])}, MPa".replace("um", "µm"), xlabel="$x/a$", ylabel="$y/a$")
-    bar(axes[2], image, "")
+    image = field(axes[2], 1e-6 * last.shear, extent(last.x, last.y, A), color_map=DAMAGE)
+    axes[2].set(title=f"Shear at the end, {name(RMS[-1])}".replace("um", "µm"), xlabel="$x/a$", ylabel="$y/a$")
+    bar(axes[2], image, "$q_x$, MPa")
     save(figure, directory, "rough.png")
 
 

@@ -105,7 +105,7 @@ def draw_axis(axes, case):
         axes.plot(depth, line, **CLOSED)
         found = case.over_p0("stress_" + name)[:, 0, column]
         points(axes, case.z, found, tint(k, 3), label=f"$\\sigma_{{{name}}}$")
-    frame(axes, "N: on the axis, lines: Hertz", "$z/a$", "$\\sigma/p_0$")
+    frame(axes, "Normal load: stress on the axis; lines: Hertz", "$z/a$", "$\\sigma/p_0$")
     axes.legend()
 
 
@@ -116,11 +116,11 @@ def draw_surface(axes, cases, mu):
         values = case.over_p0("stress_xx")[0, row]
         axes.plot(case.x, values, color=tint(k, 3), linewidth=0.9)
         shown = thinned(np.flatnonzero(np.abs(case.x) < 1.3), 45)
-        points(axes, case.x[shown], values[shown], tint(k, 3), label=name)
+        points(axes, case.x[shown], values[shown], tint(k, 3), label="normal load" if name == "N" else name)
         if name != WORDS["partial"]:
             x = np.linspace(-0.999, 0.999, 200)
             axes.plot(x, exact_surface(case, x, 0.0 * x, mu if name == WORDS["sliding"] else 0.0)[0], **CLOSED)
-    frame(axes, f"surface, $\\mu$ = {mu}; grey: Hertz, Hamilton", "$x/a$", "$\\sigma_{xx}/p_0$", (-1.3, 1.3))
+    frame(axes, f"Surface, $\\mu$ = {mu}; grey: Hertz, Hamilton", "$x/a$", "$\\sigma_{xx}/p_0$", (-1.3, 1.3))
     axes.legend()
 
 
@@ -148,7 +148,7 @@ def draw_fatigue(axes, surface):
     cross(axes, surface.x[x], surface.y[y])
     circle = np.linspace(0.0, 2.0 * np.pi, 200)
     axes.plot(np.cos(circle), np.sin(circle), ":", color="black", linewidth=0.8)
-    frame(axes, f"Smith, Watson and Topper on the surface: maximum {values.max():.3f} MPa", "$x/a$", "$y/a$")
+    frame(axes, f"SWT of a cycle on the surface: maximum {values.max():.3f} MPa", "$x/a$", "$y/a$")
 
 
 class Comparison:
@@ -223,7 +223,7 @@ class Comparison:
         figure, axes = plt.subplots(2, 2, figsize=(11.0, 7.6), constrained_layout=True)
         draw_axis(axes[0, 0], self.axis)
         draw_surface(axes[0, 1], self._by_state("0.5"), 0.5)
-        draw_section(axes[1, 0], self.sections["sliding", "0.5"], "von Mises, $\\mu$ = 0.5, sliding")
+        draw_section(axes[1, 0], self.sections["sliding", "0.5"], "Von Mises stress, $\\mu$ = 0.5, sliding")
         draw_fatigue(axes[1, 1], self.cycle["surface"])
         untangle(figure)
         save(figure, directory, "overview.png")
