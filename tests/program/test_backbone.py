@@ -2,6 +2,7 @@
 
 import csv
 import functools
+import re
 import subprocess
 import sys
 import warnings
@@ -11,7 +12,8 @@ import numpy as np
 import pytest
 from scipy import sparse
 from scipy.interpolate import RegularGridInterpolator
-from scipy.optimize import brentq
+from scipy.linalg import eigh
+from scipy.optimize import brentq, fsolve
 from scipy.sparse.linalg import eigsh
 from scipy.spatial import cKDTree
 
@@ -281,12 +283,12 @@ PRELOAD = dict(B=0.02)
 def test_a_rigid_part_outside_of_the_contact_changes_nothing(tmp_path):
     """Against the contact that has all compliance itself, whose steps need no iteration."""
     file = pair_file(tmp_path / "pair.h5", 1.0)
-    pair = joint.Pair(file, PRELOAD, **OPTIONS)
+    pair = joint.Pair(file, PRELOAD, damping=1e-3, **OPTIONS)
     shapes = ["body2_case_mode1", "body2_case_mode2"]
     whole = petsam.Contact(body2_compliance=file, **pair.defaults | OPTIONS)
     held = dict.fromkeys(joint.structure.DISPLACEMENTS, 0.0)
     patch = joint.Patch(whole, shapes, held)
-    plain = joint.Structure([patch], pair.omega, np.eye(2))
+    plain = joint.Structure([patch], pair.omega, np.eye(2), damping=1e-3)
     assert plain.direct and not pair.structure.direct
     for part in np.linspace(0, PRELOAD["B"], 5)[1:]:
         patch.held["body2_case_bolt_B"] = part
@@ -296,9 +298,7 @@ def test_a_rigid_part_outside_of_the_contact_changes_nothing(tmp_path):
     left = 0.02 - 0.2 * (0.4 * 0.02 + whole.number("body2_case_bolt_B_load"))
     assert pair.tensions["B"] == pytest.approx(left, rel=1e-6)
     sensor = pair.sensors["TIP"][:, 2]
-    one, other = (
-        joint.backbone(s, [3e-3, 1e-2], sensor=sensor, steps=3, damping=1e-3) for s in (pair.structure, plain)
-    )
+    one, other = (joint.backbone(s, [3e-3, 1e-2], sensor=sensor, steps=3) for s in (pair.structure, plain))
     assert one.linear == pytest.approx(other.linear, rel=1e-6) and np.all(one.energy > 0)
     assert np.ptp(one.frequency) > 1e-3 * one.linear
     for name in ("frequency", "energy", "amplitude"):
@@ -317,6 +317,105 @@ def test_a_body_that_only_a_soft_bolt_holds(tmp_path):
     assert np.abs(moved[:6] * structure.loads[:6]).max() < 1e-6 * np.abs(structure.z @ structure.loads)
 
 
+def masing(x):
+    """Mindlin's force over a period of displacements with one maximum and one minimum, both over a full slide."""
+    first = np.argmax(x)
+    x = np.roll(x, -first)
+    last = np.argmin(x)
+    force = lambda q: 1 - np.maximum(1 - q / 1.5, 0) ** 1.5  # noqa: E731
+    found = np.empty_like(x)
+    found[: last + 1] = force(x[0]) - 2 * force((x[0] - x[: last + 1]) / 2)
+    found[last:] = found[last] + 2 * force((x[last:] - x[last]) / 2)
+    return np.roll(found, first)
+
+
+def harmonic(stiffness, mass, damp, force, omega, guess):
+    """First and higher odd harmonics (orders, masses) of masses, the first of which is on a contact of stiffness and
+    limit 1, by harmonic balance of the displacements in a wide range; residual of the balance where omega is None."""
+    orders, angles = np.arange(1, 16, 2), 2 * np.pi * np.arange(2048) / 2048
+    waves = np.exp(1j * orders[:, None] * angles)
+    matrices = [stiffness - (h * omega) ** 2 * mass + 1j * h * omega * damp for h in orders]
+
+    def error(values):
+        x = (values[::2] + 1j * values[1::2]).reshape(len(orders), -1)
+        wrong = np.array([matrix @ one for matrix, one in zip(matrices, x)])
+        wrong[:, 0] += 2 * np.conj(waves) @ masing(np.real(x[:, 0] @ waves)) / angles.size
+        wrong[0] -= force
+        return np.column_stack([wrong.real.ravel(), wrong.imag.ravel()]).ravel()
+
+    start = np.zeros((len(orders), len(mass)), dtype=complex)
+    start[0] = guess
+    values, _, done, said = fsolve(
+        error, np.column_stack([start.real.ravel(), start.imag.ravel()]).ravel(), xtol=1e-11, full_output=True
+    )
+    assert done == 1, said
+    return (values[::2] + 1j * values[1::2]).reshape(len(orders), -1)
+
+
+def resonance(amplitude):
+    """Squared frequency and damping of a unit mass on a contact of stiffness and limit 1 at an amplitude."""
+    orders, angles = np.arange(1, 16, 2), 2 * np.pi * np.arange(2048) / 2048
+    waves = np.exp(1j * orders[:, None] * angles)
+
+    def error(values):
+        x = np.concatenate([[amplitude], values[2::2] + 1j * values[3::2]])
+        wrong = 2 * np.conj(waves) @ masing(np.real(x @ waves)) / angles.size - orders**2 * values[0] * x
+        wrong[0] -= 1j * values[1]
+        return np.concatenate([wrong.real, wrong.imag])
+
+    values, _, done, said = fsolve(error, [0.9, 0.01] + 14 * [0.0], xtol=1e-11, full_output=True)
+    assert done == 1, said
+    return values[0], values[1] / (2 * values[0] * amplitude)
+
+
+# two masses with springs to the ground and between them; of contacts with stiffness and limit 1
+MASSES, SPRINGS, DAMPING = np.diag([1.0, 0.6]), np.array([[3.5, -3.0], [-3.0, 3.9]]), 4e-3
+
+
+def test_resonance_of_a_mass_by_harmonic_balance():
+    """Beside the balance of the displacements, whose frequency is up to 1e-3 above the quasi-static one."""
+    contact, k = sphere(LOAD, 64)
+    patch = joint.Patch(contact, ["disp_x"], dict(load_n=LOAD), by_load=["disp_x"])
+    mass, unit = 2.5, FRICTION * LOAD / k
+    one = joint.Structure([patch], rigid=[[1 / np.sqrt(mass)]])
+    amplitudes = 1.5 * np.array([0.2, 0.5, 0.8])
+    found = joint.backbone(one, amplitudes * unit * np.sqrt(mass), harmonics=7, steps=14)
+    static = joint.backbone(one, found.alpha / found.linear**2 / (2 * np.pi) ** 2)
+    assert np.all(found.frequency[1:] > (1 + 1e-4) * static.frequency[1:])
+    for row, amplitude in enumerate(amplitudes):
+        square, zeta = resonance(amplitude)
+        assert 2 * np.pi * found.frequency[row] == pytest.approx(np.sqrt(square * k / mass), rel=1e-4)
+        assert found.damping[row] == pytest.approx(zeta, rel=8e-3)
+
+
+def two_masses():
+    """The structure, its coordinates as lengths of Mindlin's and frequencies of the contact's, and its viscous matrix;
+    and Mindlin's stiffness and full slide."""
+    contact, k = sphere(LOAD, 64)
+    unit = FRICTION * LOAD / k
+    squares, shapes = eigh(SPRINGS * k, MASSES)
+    patch = joint.Patch(contact, ["disp_x"], dict(load_n=LOAD))
+    coupling = np.linalg.inv(SPRINGS * k)[:1, :1]
+    one = joint.Structure([patch], np.sqrt(squares), shapes[:1], coupling, damping=DAMPING)
+    stuck, psi = eigh(SPRINGS + np.diag([1.0, 0.0]), MASSES)
+    damp = MASSES @ psi @ np.diag(2 * DAMPING * np.sqrt(stuck)) @ psi.T @ MASSES
+    return one, shapes, damp, k, unit
+
+
+def test_response_of_two_masses_to_a_force():
+    """Through the resonance; three times the first frequency is near the second mode."""
+    one, shapes, damp, k, unit = two_masses()
+    place = shapes[1]  # of the second mass
+    omegas, level = np.array([1.02, 1.14, 1.18, 1.2, 1.3]), 0.06
+    force = level * FRICTION * LOAD * place
+    found = joint.forced(one, force, omegas * np.sqrt(k) / (2 * np.pi), place, steps=12, harmonics=3)
+    guess = np.zeros(2)
+    for row, omega in enumerate(omegas):
+        guess = harmonic(SPRINGS, MASSES, damp, np.array([0, level]), omega, guess if row else [0.1, 0.1])[0]
+        assert found.amplitude[row] == pytest.approx(abs(guess[1]) * unit, rel=2e-3), omega
+        assert found.phase[row] == pytest.approx(np.angle(guess[1]), abs=3e-3), omega
+
+
 @pytest.fixture
 def command(joint_command):
     """command(*words, check=0): what petsam-joint backbone prints; its complaint where it fails."""
@@ -330,13 +429,39 @@ def test_command_prints_and_writes_the_numbers(command, tmp_path):
     words = ("pair.h5", "--contact", "c.opts", "--preload", "B=0.02", "--sensor", "TIP:z", "--steps", 3)
     printed = command(*words, "--amplitudes", "3mm:10mm:2", "-o", "out", "--damping", "0.001", "--degree-check")
     pair = joint.Pair(tmp_path / "pair.h5", PRELOAD, **OPTIONS)
-    expected = joint.backbone(pair.structure, [3e-3, 1e-2], sensor=pair.sensors["TIP"][:, 2], steps=3, damping=1e-3)
+    expected = joint.backbone(pair.structure, [3e-3, 1e-2], sensor=pair.sensors["TIP"][:, 2], steps=3)
     assert "\n".join(expected.table()) in printed
     assert f"bolt B: {pair.tensions['B']:.6g} N left of 0.02 N" in printed
     assert "degree lower by 2: frequency" in printed
     with open("out.csv", newline="") as file:
         rows = list(csv.DictReader(file))
     assert [float(row["frequency (Hz)"]) for row in rows] == pytest.approx(expected.frequency)
+    assert (tmp_path / "out.png").stat().st_size > 10000
+
+
+def test_command_prints_the_response_to_a_force(command, joint_command, tmp_path):
+    """Power of the force = friction and damping of the material; at resonance the backbone by harmonic balance."""
+    pair_file(tmp_path / "pair.h5", 1.0)
+    (tmp_path / "c.opts").write_text("".join(f"-{name} {value}\n" for name, value in OPTIONS.items()))
+    pair = joint.Pair(tmp_path / "pair.h5", PRELOAD, damping=0.01, **OPTIONS)
+    sensor = pair.sensors["TIP"][:, 2]
+    point = joint.backbone(pair.structure, [5e-3], sensor=sensor, harmonics=3, steps=16)
+    level = 1e-4
+    words = ("pair.h5", "--contact", "c.opts", "--preload", "B=0.02", "--force", f"TIP:z={level}", "--damping", 0.01)
+    around = np.array([0.9, 1.0, 1.1]) * point.frequency[0]
+    printed = joint_command("response", *words, "--frequencies", ",".join(f"{f:.12g}" for f in around), "-o", "out")
+    found = joint.forced(pair.structure, level * sensor, around, sensor)
+    assert found.table()[0] in printed and len(re.findall(r"^ +0\.[01]\d+ ", printed, re.M)) == 3
+    stuck, psi = pair.structure.stuck_modes()
+    viscous = np.zeros(3)
+    for order in range(1, 4):
+        moved = np.abs(found.motion[:, order - 1] @ psi) ** 2
+        viscous += np.pi * 2 * np.pi * around * order**2 * (moved @ (2 * 0.01 * stuck))
+    power = -np.pi * level * found.amplitude * np.sin(found.phase)
+    assert power == pytest.approx(found.energy + viscous, rel=2e-3)
+    with open("out.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert [float(row["amplitude (m)"]) for row in rows] == pytest.approx(found.amplitude, rel=1e-4)
     assert (tmp_path / "out.png").stat().st_size > 10000
 
 
@@ -403,12 +528,21 @@ def test_numbers_that_make_no_sense_are_refused():
     for given, says in (
         (dict(amplitudes=[1e-7, 0.0]), "amplitudes: expected lengths above 0"),
         (dict(amplitudes=[1e-7], sensor=[1.0, 2.0]), r"sensor: has the shape \(2,\): expected a number for each of 1"),
-        (dict(amplitudes=[1e-7], damping=-0.1), "damping -0.1: expected a part"),
+        (dict(amplitudes=[1e-7], harmonics=5), "steps 8: with 5 harmonics use 10 or more"),
+        (dict(amplitudes=[1e-7], harmonics=-1), "harmonics -1: expected 1 or more"),
     ):
         with pytest.raises(petsam.Error, match=says):
             joint.backbone(one, **given)
     with pytest.raises(petsam.Error, match="omega: expected frequencies above 0"):
         joint.Structure(one.patches, [np.nan], [[1.0]])
+    with pytest.raises(petsam.Error, match="damping -0.1: expected a part"):
+        joint.Structure(one.patches, rigid=[[1.0]], damping=-0.1)
+    for given, says in (
+        (dict(force=[1.0, 2.0], frequencies=[1.0]), r"force: has the shape \(2,\): expected a number for each of 1"),
+        (dict(force=[1.0], frequencies=[0.0]), "frequencies: expected numbers above 0, Hz"),
+    ):
+        with pytest.raises(petsam.Error, match=says):
+            joint.forced(one, **given, sensor=[1.0])
 
 
 def test_files_that_are_no_pair_are_named(command, tmp_path):

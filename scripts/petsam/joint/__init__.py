@@ -3,14 +3,17 @@
 interface   contact stiffness, damping and real contact area of a rough interface per area (interface.py)
 structure   patches of contact in a linear structure (structure.py); pair: of a file of petsam-compliance (pair.py)
 backbone    frequency and damping of a mode over its amplitude (backbone.py)
+balance     its resonance, and the response to a harmonic force, by harmonic balance (balance.py)
 """
 
-from .backbone import Backbone, BackboneWarning, backbone
+from .backbone import Backbone, backbone
+from .balance import Response, forced
 from .interface import Interface, mirrored, of_interface, of_windows
 from .pair import Pair
 from .structure import NoSolution, Patch, Structure
+from .sweep import BackboneWarning
 
 __all__ = [
-    "Backbone", "BackboneWarning", "Interface", "NoSolution", "Pair", "Patch", "Structure", "backbone", "mirrored",
-    "of_interface", "of_windows",
+    "Backbone", "BackboneWarning", "Interface", "NoSolution", "Pair", "Patch", "Response", "Structure", "backbone",
+    "forced", "mirrored", "of_interface", "of_windows",
 ]  # fmt: skip

@@ -1,4 +1,4 @@
-"""Frequency and damping of a mode over its amplitude: quasi-static modal analysis of a Structure.
+"""Frequency and damping of a mode over its amplitude: quasi-static modal analysis of a Structure, or harmonic balance.
 
 The structure is loaded by alpha M phi_0, phi_0 being a mode while all that touches sticks. With q = phi_0'M u of a
 closed cycle between +alpha and -alpha, and W, what all patches dissipate in it,
@@ -6,10 +6,10 @@ closed cycle between +alpha and -alpha, and W, what all patches dissipate in it,
     w^2 = 2 alpha/(q_max - q_min)      zeta = W/(pi alpha (q_max - q_min))      A = (q_max - q_min)/2
 
 (R. M. Lacayo, M. S. Allen, Mech. Syst. Signal Process. 118 (2019) 133). Each amplitude begins from the same preload.
-Its cycle is repeated until energy and loop do not change, as contacts shake down first.
+Its cycle is repeated until energy and loop do not change, as contacts shake down first. Harmonic balance is in
+balance.py.
 """
 
-import csv
 import warnings
 from dataclasses import dataclass
 
@@ -17,14 +17,12 @@ import numpy as np
 
 from ..contact import NoEquilibrium, NotConverged
 from ..errors import Error
+from .balance import Balance, write_csv
 from .structure import NoSolution
+from .sweep import CYCLES, STEPS, BackboneWarning, Sweep
 
 ENDS = (NoSolution, NoEquilibrium, NotConverged)  # of an amplitude, after which the larger ones are left out
-STEPS = 8  # load steps of a half cycle
-SETTLED = 1e-3  # change of the energy from one cycle to the next at which it counts as settled
-CYCLES = 12  # largest number of cycles of an amplitude
 UNMOVED = 1e-6  # displacement of a sensor that is rounding, relative to those by the modes
-FEW_MODES = 1e-3  # change of the frequency without a quarter of the modes
 LISTED = 6  # modes in the table
 FEW = 100  # slipping cells below which the energy is inaccurate
 ERROR = 10.0  # its relative error times the number of slipping cells, about: Mindlin's sphere, a synthetic pair
@@ -42,20 +40,6 @@ COLUMNS = {
     "slipping": ("1", "cells that slip, all patches"),
     "cycles": ("1", "cycles until the energy had settled"),
 }
-
-
-class BackboneWarning(UserWarning):
-    """Numbers of a backbone that the grid, the patch or the method does not give."""
-
-
-@dataclass
-class Cycle:
-    """One cycle: modal displacement at the reversals, energy of each patch, that of the loop, slipping cells."""
-
-    ends: tuple
-    energies: np.ndarray
-    loop: float
-    slipping: int
 
 
 @dataclass
@@ -106,13 +90,7 @@ class Backbone:
 
     def to_csv(self, path):
         """Writes all numbers, with names and units in the first line, and the energy of each patch."""
-        with open(path, "w", newline="", encoding="utf-8") as file:
-            rows = csv.writer(file)
-            head = [f"{name} ({unit})" for name, (unit, _) in COLUMNS.items()]
-            rows.writerow(head + [f"energy_{name} (J)" for name in self.names])
-            for k in range(len(self.alpha)):
-                values = [self.numbers[name][k] for name in COLUMNS] + list(self.patches[k])
-                rows.writerow([f"{value:.10g}" for value in values])
+        write_csv(path, self.numbers, COLUMNS, self.patches, self.names)
 
     def plot(self):
         """A figure of frequency and damping over the amplitude."""
@@ -133,100 +111,11 @@ class Backbone:
         return figure
 
 
-def _settled(one, before):
-    """True if a cycle repeats the one before."""
-    now, then = one.energies.sum(), before.energies.sum()
-    reach, last = np.ptp(one.ends), np.ptp(before.ends)
-    return abs(now - then) <= SETTLED * now and abs(reach - last) <= SETTLED * reach
-
-
-class Sweep:
-    """The cycles of a structure along one of its stuck modes, from the preload in which the structure is."""
-
-    def __init__(self, structure, mode=1, steps=STEPS):
-        self.preload, self.work, self.steps = structure, structure.copy(), steps
-        self.tangent = structure.tangent()
-        omegas, shapes = structure.stuck_modes(self.tangent)
-        if not 1 <= mode <= len(omegas):
-            raise Error(f"mode {mode}: the structure has modes 1 to {len(omegas)}")
-        self.omega, self.shape, self.stuck = omegas[mode - 1], shapes[:, mode - 1], omegas / (2.0 * np.pi)
-        self.unit = structure.respond(self.tangent, self.shape)
-        self.reversed = structure.respond_to(self.tangent)
-        self._warn_of_mode(mode)
-        self.modes_change = self._compare(mode)
-
-    def _compare(self, mode):
-        """Relative change of the frequency without the inertia of a quarter of the elastic modes; NaN: too few."""
-        fewer = self.preload.omega.size // 4
-        if not fewer or mode > self.preload.modes - fewer:
-            return float("nan")
-        change = float(self.preload.stuck_modes(self.tangent, fewer)[0][mode - 1] / self.omega - 1.0)
-        if abs(change) > FEW_MODES:
-            warnings.warn(
-                f"without the highest {fewer} modes mode {mode} changes its frequency by {change:.1e}: use more "
-                "--modes of petsam-compliance",
-                BackboneWarning,
-                stacklevel=4,
-            )
-        return change
-
-    def _warn_of_mode(self, mode):
-        alone = (
-            self.preload.omega[np.argmin(np.abs(self.preload.omega - self.omega))] if self.preload.omega.size else 0.0
-        )
-        if abs(alone - self.omega) <= 1e-6 * self.omega:
-            warnings.warn(
-                f"mode {mode} of {self.omega / (2 * np.pi):.6g} Hz is one without contact: it does not move the "
-                "patches, and friction does not damp it; take another mode",
-                BackboneWarning,
-                stacklevel=4,
-            )
-
-    def _go(self, start, end, alpha):
-        """Steps from one factor of alpha to another; returns modal displacements and energies of each step."""
-        scale = tuple(alpha * np.abs(one) for one in self.unit)
-        found, energies, response = [], [], self.reversed
-        for part in np.linspace(start, end, self.steps + 1)[1:]:
-            force = self.preload.force + part * alpha * self.shape
-            response = self.work.step(force, response=response, scale=scale)
-            found.append(self.shape @ self.work.modal(force, self.work.loads, self.work.a))
-            energies.append([patch.number("dissipated_energy") for patch in self.work.patches])
-        return np.array(found), np.array(energies)
-
-    def cycles(self, alpha):
-        """Cycles between +alpha and -alpha until they repeat."""
-        self.work.take(self.preload)
-        up, _ = self._go(0.0, 1.0, alpha)
-        last, before, count = up[-1], None, 0
-        while count < CYCLES:
-            count += 1
-            down, lost = self._go(1.0, -1.0, alpha)
-            slipping = self._slipping()
-            back, more = self._go(-1.0, 1.0, alpha)
-            path = np.concatenate([[last], down, back])
-            forces = alpha * np.concatenate(
-                [np.linspace(1, -1, self.steps + 1), np.linspace(-1, 1, self.steps + 1)[1:]]
-            )
-            loop = -float(np.sum(0.5 * (path[1:] + path[:-1]) * np.diff(forces)))
-            one = Cycle((down[-1], back[-1]), (lost + more).sum(axis=0), loop, slipping)
-            last = back[-1]
-            if before is not None and _settled(one, before):
-                break
-            before = one
-        return one, count
-
-    def _slipping(self):
-        """Number of cells that slip in the last step of a half cycle."""
-        return int(sum(np.sum(patch.contact.field("state") == 2) for patch in self.work.patches))
-
-
-def _checked(amplitudes, damping):
+def _checked(amplitudes):
     """The amplitudes as an array."""
     found = np.atleast_1d(np.asarray(amplitudes, dtype=float))
     if not (found.ndim == 1 and found.size and np.all((found > 0.0) & np.isfinite(found))):
         raise Error("amplitudes: expected lengths above 0")
-    if not 0.0 <= damping < 1.0:
-        raise Error(f"damping {damping:g}: expected a part of critical damping, from 0 to below 1")
     return found
 
 
@@ -241,52 +130,49 @@ def _moved(sensor, shape):
     return moved
 
 
-def backbone(structure, amplitudes, mode=1, sensor=None, damping=0.0, steps=STEPS, report=None):
+def backbone(structure, amplitudes, mode=1, sensor=None, steps=STEPS, harmonics=0, report=None):
     """The Backbone of a structure in its preload.
 
     amplitudes  displacements (m) at the sensor of a linear mode: the forces follow from them, and the amplitudes of the
                 results are larger where the joint is softer
     mode        number of the mode, from 1, by rising frequency while all that touches sticks
     sensor      (modes,): displacement of the sensor by each modal coordinate; None: amplitudes are modal (m kg^0.5)
-    damping     damping of the material as a part of critical, for that mode
+    steps       load steps of a half cycle
+    harmonics   0: quasi-static modal analysis; else the number of harmonics that are balanced: the resonance under a
+                force along the mode, with the inertia of all modes and harmonics. The amplitudes are then those found
     report      called with the number of the amplitude and of all of them
     """
-    amplitudes = _checked(amplitudes, damping)
-    sweep = Sweep(structure, mode, steps)
+    amplitudes = _checked(amplitudes)
+    sweep = Balance(structure, mode, steps, harmonics) if harmonics else Sweep(structure, mode, steps)
     factor = 1.0 if sensor is None else _moved(sensor, sweep.shape)
     rows, patches = [], []
     for k, amplitude in enumerate(amplitudes):
         if report:
             report(k + 1, len(amplitudes))
-        alpha = sweep.omega**2 * amplitude / factor
         try:
-            one, count = sweep.cycles(alpha)
+            one = sweep.point(amplitude / factor)
         except ENDS as error:
             reason = str(error).partition("; for gross slip give")[0]
             if not rows:
                 raise NoSolution(f"at an amplitude of {amplitude:.3g} m: {reason}") from error
             warnings.warn(f"ended before an amplitude of {amplitude:.3g} m: {reason}", BackboneWarning, stacklevel=2)
             break
-        reach = one.ends[1] - one.ends[0]
-        omega2 = 2.0 * alpha / reach
-        energy = float(one.energies.sum())
-        modal = 0.5 * reach
+        reach, energy = factor * one.modal, float(one.cycle.energies.sum())
         rows.append(
-            [alpha, modal, factor * modal, factor * modal * omega2, np.sqrt(omega2) / (2.0 * np.pi)]
-            + [energy / (np.pi * alpha * reach), damping, energy, one.loop, one.slipping, count]
+            [one.alpha, one.modal, reach, reach * one.omega2, np.sqrt(one.omega2) / (2.0 * np.pi), one.damping]
+            + [structure.damping, energy, one.cycle.loop, one.cycle.slipping, one.cycles]
         )
-        patches.append(one.energies)
+        patches.append(one.cycle.energies)
     numbers = {name: np.array(column) for name, column in zip(COLUMNS, np.transpose(rows))}
-    names = [patch.name or f"patch{k}" for k, patch in enumerate(structure.patches, 1)]
     unit = MODAL if sensor is None else "m"
     found = Backbone(
         sweep.omega / (2.0 * np.pi),
         sweep.shape,
         numbers,
         np.array(patches),
-        names,
+        structure.names,
         sweep.modes_change,
-        sweep.stuck,
+        sweep.omegas / (2.0 * np.pi),
         unit,
     )
     _warn(found)

@@ -2,6 +2,7 @@
 
     petsam-joint stiffness scan.h5 --pressure 1MPa:50MPa:12 --friction 0.4 --body1 steel --body2 steel -o interface
     petsam-joint backbone lap.h5 --contact lap.opts --preload B1=12e3 --sensor TIP:z --amplitudes 1um:0.1mm:9 -o out
+    petsam-joint response lap.h5 --contact lap.opts --preload B1=12e3 --force TIP:z=0.5 --frequencies 110:118:17
 
 stiffness: scan.h5 is a surface or a separation that petsam-surface has written. Prints, for each nominal pressure, the
 normal and the tangential stiffness per area of the interface alone, the real contact area, and the energy of a loop of
@@ -10,8 +11,11 @@ Iwan element. -o NAME writes NAME.csv with all numbers, NAME.json, elements for 
 interaction for a deck of Abaqus, and NAME.png.
 
 backbone: lap.h5 is a pair of bodies with bolts and modes that petsam-compliance --pair has written. Tightens the bolts
-and prints frequency and damping of a mode over its amplitude, by friction in the joint alone. -o NAME writes NAME.csv
-and NAME.png.
+and prints frequency and damping of a mode over its amplitude, by friction in the joint alone: by quasi-static modal
+analysis, or with --harmonics by harmonic balance. -o NAME writes NAME.csv and NAME.png.
+
+response: prints the response of the same to a harmonic force over its frequency, by harmonic balance, with the damping
+of the material and of friction. -o NAME writes NAME.csv and NAME.png.
 """
 
 import argparse
@@ -28,8 +32,10 @@ from ..files import need_regular, need_replaceable
 from ..plot.saving import DPI, add_resolution, write
 from ..surface.lengths import lengths
 from . import interface
-from .backbone import ENDS, BackboneWarning, backbone
+from .backbone import ENDS, backbone
+from .balance import forced
 from .pair import Pair, Unreadable
+from .sweep import BackboneWarning
 
 MATERIALS = {"steel": (210e9, 0.3), "aluminium": (70e9, 0.33), "titanium": (115e9, 0.32), "nickel": (205e9, 0.3)}
 PASCALS = {"": 1.0, "Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9}
@@ -123,6 +129,35 @@ def amplitude_range(text):
     return found
 
 
+def force(text):
+    """Reader of SENSOR:D=N for argparse: the place and direction, and the force's amplitude."""
+    place, _, number = text.rpartition("=")
+    try:
+        value = float(number)
+    except ValueError:
+        value = 0.0
+    if not place or not 0.0 < value < float("inf"):
+        raise argparse.ArgumentTypeError(f"{short(text) or repr('')}: expected SENSOR:D=FORCE in N, such as TIP:z=0.5")
+    return place, value
+
+
+def frequency_range(text):
+    """Reader of frequencies for argparse: FIRST:LAST:COUNT in equal steps, or numbers separated by commas, Hz."""
+    words = text.split(":")
+    try:
+        if len(words) == 1:
+            found = np.array([float(word) for word in text.split(",")])
+        else:
+            first, last, count = words
+            found = np.linspace(float(first), float(last), int(count) if 2 <= int(count) <= 10000 else 0)
+    except ValueError:
+        found = np.zeros(0)
+    if not (found.size and np.all((found > 0.0) & np.isfinite(found))):
+        what = "expected FIRST:LAST:COUNT, or numbers above 0 separated by commas, in Hz: 110:118:17"
+        raise argparse.ArgumentTypeError(f"{short(text) or repr('')}: {what}")
+    return found
+
+
 def _stiffness_options(one):
     group = one.add_argument_group("stiffness")
     group.add_argument("--pressure", type=pressures, help="nominal pressures (Pa): FIRST:LAST:COUNT or P,P,...")
@@ -138,22 +173,32 @@ def _stiffness_options(one):
     group.add_argument("--area", type=float, help="area of the elements in NAME.json, m2 (1: they are per area)")
 
 
-def _backbone_options(one):
-    group = one.add_argument_group("backbone")
+def _structure_options(one):
+    group = one.add_argument_group("backbone and response")
     group.add_argument("--contact", metavar="NAME", help="file of petsam's options: -grid_n, -friction, -gap_type, ...")
     group.add_argument(
         "--preload", type=frictions, action="append", metavar="BOLT=N",
         help="initial tension of a bolt, N; may be repeated: bolts are tightened in this order",
     )  # fmt: skip
-    group.add_argument("--mode", type=int, help="number of the mode while all that touches sticks (1)")
     group.add_argument("--sensor", metavar="NAME:D", help="where the amplitude is, and its direction x, y or z")
+    group.add_argument("--damping", type=float, help="damping of the material, as a part of critical damping (0)")
+    group.add_argument("--harmonics", type=int, help="how many are balanced (backbone 0: quasi-static; response 3)")
+    group = one.add_argument_group("backbone")
+    group.add_argument("--mode", type=int, help="number of the mode while all that touches sticks (1)")
     group.add_argument(
         "--amplitudes", type=amplitude_range, help="at the sensor: FIRST:LAST:COUNT, such as 1um:0.1mm:12"
     )
-    group.add_argument("--damping", type=float, help="damping of the material, as a part of critical damping (0)")
     group.add_argument(
         "--degree-check", action="store_true", default=None,
         help="also the largest amplitude with polynomials of a degree lower by 2",
+    )  # fmt: skip
+    group = one.add_argument_group("response")
+    group.add_argument(
+        "--force", type=force, metavar="SENSOR:D=N", help="amplitude of the force, and where it acts; also the sensor"
+    )
+    group.add_argument(
+        "--frequencies", type=frequency_range,
+        help="of the force, Hz, in the order of computation: FIRST:LAST:COUNT, such as 110:118:17",
     )  # fmt: skip
 
 
@@ -165,27 +210,28 @@ def _parser():
         allow_abbrev=False,
     )
     one.add_argument("action", choices=list(ACTIONS), help="what is computed")
-    one.add_argument("file", help="of petsam-surface (stiffness) or of petsam-compliance --pair (backbone)")
-    one.add_argument("--steps", type=int, default=8, help="load steps of a quarter, of a half cycle of a backbone (8)")
+    one.add_argument("file", help="of petsam-surface (stiffness) or of petsam-compliance --pair")
+    one.add_argument("--steps", type=int, help="load steps of a half cycle (8, response 16) or quarter (stiffness 8)")
     one.add_argument("-o", "--output", metavar="NAME", help="write NAME.csv and NAME.png, and other files of NAME")
     add_resolution(one)
     _stiffness_options(one)
-    _backbone_options(one)
+    _structure_options(one)
     return one
 
 
 def _need(reader, args):
     """Ends with an error unless the options are those of the action; sets those that were not given."""
-    for action, (needed, usual, _) in ACTIONS.items():
-        for name, value in {**dict.fromkeys(needed), **usual}.items():
-            given = getattr(args, name)
-            option = f"--{name.replace('_', '-')}"
-            if action != args.action and given is not None:
-                reader.error(f"{option} is for petsam-joint {action}: remove it")
-            if action == args.action and given is None and name in needed:
-                reader.error(f"petsam-joint {action} needs {option}")
-            if action == args.action and given is None:
-                setattr(args, name, value)
+    needed, usual, _ = ACTIONS[args.action]
+    for name in sorted({name for needs, others, _ in ACTIONS.values() for name in (*needs, *others)}):
+        option, given = f"--{name.replace('_', '-')}", getattr(args, name)
+        if name not in needed and name not in usual:
+            owners = [action for action, (needs, others, _) in ACTIONS.items() if name in needs or name in others]
+            if given is not None:
+                reader.error(f"{option} is for petsam-joint {' and '.join(owners)}: remove it")
+        elif given is None and name in needed:
+            reader.error(f"petsam-joint {args.action} needs {option}")
+        elif given is None:
+            setattr(args, name, usual[name])
 
 
 def _run():
@@ -236,46 +282,83 @@ def _print(result, found):
         print(f"petsam-joint: warning: {one.message}", file=sys.stderr)
 
 
-def _sensor(text, pair):
+def _sensor(text, pair, option="--sensor"):
     """(modes,) displacement of the sensor NAME:D by each modal coordinate."""
     name, _, direction = text.partition(":")
     if name not in pair.sensors or direction not in ("x", "y", "z"):
         raise Error(
-            f"--sensor {short(text)}: expected NAME:x, :y or :z with a sensor of {pair.path}: "
+            f"{option} {short(text)}: expected NAME:x, :y or :z with a sensor of {pair.path}: "
             f"{', '.join(pair.sensors) or 'it has none; make it with --sensor NAME=NODE'}"
         )
     return pair.sensors[name][:, "xyz".index(direction)]
 
 
-def _backbone(args):
+def _checked_preload(args):
+    """{bolt: N} of --preload; ends with an error where a file is missing, or could not be written."""
     for ending in (".csv", ".png") if args.output else ():
         need_replaceable(args.output + ending)
     need_regular(args.contact)
     preload = dict(args.preload or [])
     if len(preload) < len(args.preload or []):
         raise Error("--preload: a bolt is given twice; give each once, in the order of tightening")
-    given = dict(mode=args.mode, damping=args.damping, steps=args.steps)
+    if args.harmonics is not None and args.harmonics < 0:
+        raise Error(f"--harmonics {args.harmonics}: expected 1 or more, or 0 for a quasi-static backbone")
+    return preload
+
+
+def _pair(args, preload, lower=0):
+    return Pair(args.file, preload, lower=lower, damping=args.damping, options_file=args.contact)
+
+
+def _tell_tensions(pair, preload):
+    for name, tension in pair.tensions.items():
+        print(f"bolt {name}: {tension:.6g} N left of {preload.get(name, 0.0):g} N after all are tightened")
+        if not tension > 0.0:
+            print(f"petsam-joint: warning: bolt {name} bears no tension: a bolt here has no slack", file=sys.stderr)
+
+
+def _write(args, result):
+    if args.output:
+        result.to_csv(args.output + ".csv")
+        write(result.plot(), args.output + ".png", args.dpi)
+
+
+def _backbone(args):
+    preload = _checked_preload(args)
+    given = dict(mode=args.mode, steps=args.steps, harmonics=args.harmonics)
 
     def compute(lower, amplitudes, **more):
-        pair = Pair(args.file, preload, lower=lower, options_file=args.contact)
-        sensor = _sensor(args.sensor, pair)
-        return pair, backbone(pair.structure, amplitudes, sensor=sensor, **given, **more)
+        pair = _pair(args, preload, lower)
+        return pair, backbone(pair.structure, amplitudes, sensor=_sensor(args.sensor, pair), **given, **more)
 
     with warnings.catch_warnings(record=True) as found:
         warnings.simplefilter("always", BackboneWarning)
         count = len(args.amplitudes)
         tell = lambda k, _: _tell(f"amplitude {k} of {count}")  # noqa: E731
         pair, result = compute(0, args.amplitudes, report=tell)
-    for name, tension in pair.tensions.items():
-        print(f"bolt {name}: {tension:.6g} N left of {preload.get(name, 0.0):g} N after all are tightened")
-        if not tension > 0.0:
-            print(f"petsam-joint: warning: bolt {name} bears no tension: a bolt here has no slack", file=sys.stderr)
+    _tell_tensions(pair, preload)
     _print(result, found)
     if args.degree_check:
         print(_degree_line(args, compute, result))
-    if args.output:
-        result.to_csv(args.output + ".csv")
-        write(result.plot(), args.output + ".png", args.dpi)
+    _write(args, result)
+    return 0
+
+
+def _response(args):
+    preload = _checked_preload(args)
+    place, amplitude = args.force
+    pair = _pair(args, preload)
+    driven = _sensor(place, pair, "--force")
+    sensor = _sensor(args.sensor, pair) if args.sensor else driven
+    given = dict(steps=args.steps, harmonics=args.harmonics)
+    with warnings.catch_warnings(record=True) as found:
+        warnings.simplefilter("always", BackboneWarning)
+        count = len(args.frequencies)
+        tell = lambda k, _: _tell(f"frequency {k} of {count}")  # noqa: E731
+        result = forced(pair.structure, amplitude * driven, args.frequencies, sensor, report=tell, **given)
+    _tell_tensions(pair, preload)
+    _print(result, found)
+    _write(args, result)
     return 0
 
 
@@ -297,13 +380,18 @@ def _degree_line(args, compute, result):
 ACTIONS = {
     "stiffness": (
         ("pressure", "friction", "body1", "body2"),
-        dict(hardness=None, shear=0.5, periodic=False, area=1.0),
+        dict(hardness=None, shear=0.5, periodic=False, area=1.0, steps=8),
         _stiffness,
     ),
     "backbone": (
         ("contact", "amplitudes", "sensor"),
-        dict(preload=None, mode=1, damping=0.0, degree_check=False),
+        dict(preload=None, mode=1, damping=0.0, harmonics=0, degree_check=False, steps=8),
         _backbone,
+    ),
+    "response": (
+        ("contact", "force", "frequencies"),
+        dict(preload=None, sensor=None, damping=0.0, harmonics=3, steps=16),
+        _response,
     ),
 }
 

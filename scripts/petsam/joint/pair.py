@@ -29,7 +29,7 @@ class Pair:
     tensions    {name: N}: tension left in each bolt after all are tightened
     """
 
-    def __init__(self, path, preload, press=PRESS, lower=0, **options):
+    def __init__(self, path, preload, press=PRESS, lower=0, damping=0.0, **options):
         need_regular(path)
         self.path = path
         self._folder = tempfile.TemporaryDirectory(prefix="petsam-")
@@ -48,7 +48,7 @@ class Pair:
         count = len(patch.coordinates)
         coupling = np.zeros((count, count))
         coupling[:6, :6] = rigid
-        self.structure = Structure([patch], self.omega, np.eye(count)[:, 6:], coupling)
+        self.structure = Structure([patch], self.omega, np.eye(count)[:, 6:], coupling, damping=damping)
         self.structure.needs = self._folder  # copies of the contact read the file
         self._tighten(patch, preload, press)
 

@@ -112,10 +112,13 @@ class Structure:
               np.eye(n)
     coupling  (n, n): X, the static compliance between coordinates that no contact has of itself; None: none
     rigid     (n, r): the coordinates by a unit of each mode without stiffness; None: the structure is supported
+    damping   damping of the material as a part of critical, of all modes while all that touches sticks
     """
 
-    def __init__(self, patches, omega=(), shapes=None, coupling=None, rigid=None):
-        self.patches = list(patches)
+    def __init__(self, patches, omega=(), shapes=None, coupling=None, rigid=None, damping=0.0):
+        if not 0.0 <= damping < 1.0:
+            raise Error(f"damping {damping:g}: expected a part of critical damping, from 0 to below 1")
+        self.patches, self.damping = list(patches), damping
         n = sum(len(patch.coordinates) for patch in self.patches)
         self.omega = np.asarray(omega, dtype=float)
         self.shapes = self._matrix(shapes, (n, self.omega.size), "shapes")
@@ -144,9 +147,15 @@ class Structure:
         """Number of modes: elastic ones, then those without stiffness."""
         return self.omega.size + self.rigid.shape[1]
 
+    @property
+    def names(self):
+        """Names of the patches."""
+        return [patch.name or f"patch{k}" for k, patch in enumerate(self.patches, 1)]
+
     def copy(self):
         """The structure with copies of its contacts."""
-        other = Structure([p.copy() for p in self.patches], self.omega, self.shapes, self.coupling, self.rigid)
+        patches = [patch.copy() for patch in self.patches]
+        other = Structure(patches, self.omega, self.shapes, self.coupling, self.rigid, self.damping)
         other.z, other.a, other.loads, other.force = self.z, self.a, self.loads, self.force
         return other
 

@@ -1,0 +1,348 @@
+"""Harmonic balance: resonance of a mode under friction, and the response to a harmonic force.
+
+In modal coordinates without contact, with force f and zeta the damping of the material, the structure moves as under
+the static force
+
+    g = f - eta'' - 2 zeta omega eta'
+
+because its patches have no inertia. g is periodic; its harmonics G_1 .. G_H are the unknowns, and a cycle of load steps
+under g gives the harmonics eta_h of the motion. In the modes s while all that touches sticks, of angular frequency w_s,
+
+    G_hs = f_hs + (h^2 Omega^2 - 2 i h Omega zeta w_s) eta_hs(G)
+
+Modes answer harmonics above H statically. Each cycle begins from the preload and is repeated until it settles.
+Broyden's method begins with sticking contacts, for which eta_hs = G_hs/w_s^2.
+"""
+
+import csv
+import warnings
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..errors import Error
+from .structure import BEYOND, NoSolution
+from .sweep import STEPS, BackboneWarning, Point, Sweep
+
+TOLERANCE = 1e-5  # of the balance, relative to its forces
+NEAR = 0.01  # relative difference of amplitudes that are the same
+BEYOND_LAST = 1.5  # largest amplitude of a guess over the largest one that was computed
+FAR = 1e-2  # balance that is not near to a solution
+MOST = 25  # cycles in which it is found
+PER_HARMONIC = 4  # least load steps of a period of the highest harmonic
+
+
+class Balance(Sweep):
+    """Motions with H harmonics about the preload of a structure."""
+
+    def __init__(self, structure, mode=1, steps=STEPS, harmonics=3):
+        if harmonics < 1:
+            raise Error(f"harmonics {harmonics}: expected 1 or more")
+        if 2 * steps < PER_HARMONIC * harmonics:
+            raise Error(f"steps {steps}: with {harmonics} harmonics use {PER_HARMONIC * harmonics // 2} or more")
+        super().__init__(structure, mode, steps)
+        self.order = np.arange(1, harmonics + 1)[:, None]
+        self.mode, self.least = mode - 1, 2
+        self.known = None  # amplitude and force of the last point
+        self.secants = {}  # (0, mode): the stiffness that its resonance has shown
+        angles = np.pi * np.arange(1, 2 * steps + 1) / steps
+        self.waves = np.exp(1j * self.order * angles)  # (harmonics, steps of a cycle)
+
+    def motion(self, force):
+        """Harmonics of the modes' motion by those of the static force, both (harmonics, modes) of the stuck modes, and
+        the cycle. The number of cycles only grows near a solution, where motion must be a smooth function of force."""
+        lead = force[:, np.argmax(np.abs(force[0]) / self.omegas**2)]
+        turn = np.exp(1j * self.order * peak(lead))  # so that the cycle reverses at the end of a step
+        forces = np.real(self.waves.T @ (turn * force)) @ self.shapes.T
+        rise = np.outer(np.linspace(0.0, 1.0, self.steps // 2 + 2)[1:], forces[-1])
+        scale = self.scale_of(float(np.abs(force).sum()))
+        cycle, self.least = self.repeat(rise, np.split(forces, 2), scale, self.least)
+        return np.conj(turn) * (np.conj(self.waves) @ cycle.moved @ self.shapes) / self.steps, cycle
+
+    def inertia(self, omega):
+        """Factors of the motion in the balance at an angular frequency."""
+        turned = self.order * omega
+        return turned**2 - 2j * turned * self.preload.damping * self.omegas
+
+    def solve(self, error, guess, far=None):
+        """The force for which error(force, motion) is zero; returns it, the motion and the cycle. error is about the
+        change of the force that removes it; far(force, motion) a better guess where it is not small."""
+        force, change, found = np.zeros_like(guess), guess, None
+        inverse, best = np.eye(2 * guess.size), np.inf
+        for _ in range(MOST):
+            try:
+                motion, cycle = self.motion(force + change)
+            except BEYOND:
+                change = 0.5 * change  # the guess is beyond what the contacts bear
+                continue
+            force = force + change
+            wrong = _real(error(force, motion))
+            size = np.linalg.norm(wrong) / np.linalg.norm(force)
+            best = min(best, size)
+            if size <= TOLERANCE:
+                return force, motion, cycle
+            if size > FAR:
+                self.least = 2
+                if far:
+                    force, change, found = np.zeros_like(guess), far(force, motion), None
+                    continue
+            if found is not None:
+                inverse = _updated(inverse, _real(change), wrong - found)
+            found = wrong
+            change = _complex(-inverse @ wrong, force.shape)
+        raise NoSolution(
+            f"the balance of {len(self.order)} harmonics was not found in {MOST} cycles, error {best:.1e}, limit "
+            f"{TOLERANCE:g}: use smaller steps of amplitude or frequency, or the quasi-static backbone"
+        )
+
+    def point(self, amplitude):
+        """The Point of the mode's resonance at an amplitude of its first harmonic."""
+        self.least = 2
+        stiffness, at = self.omegas**2, (0, self.mode)
+
+        def error(force, motion):
+            inertia = self.inertia(np.sqrt(max(force[at].real / amplitude, 0.0)))
+            slope = 1.0 - inertia / stiffness
+            slope[at] = 1.0
+            wrong = (force - inertia * motion) / slope
+            wrong[at] = stiffness[self.mode] * (motion[at] - amplitude)
+            return wrong
+
+        if self.known is None:
+            guess = np.zeros((len(self.order), len(self.omegas)), dtype=complex)
+            guess[at] = stiffness[self.mode] * amplitude
+        else:
+            guess = self.known[1] * amplitude / self.known[0]
+        force, motion, cycle = self.solve(error, guess)
+        self.known = amplitude, force
+        omega2 = force[at].real / amplitude
+        damping = float(cycle.energies.sum()) / (2.0 * np.pi * omega2 * np.sum(np.abs(motion[0]) ** 2))
+        return Point(abs(force[at]), amplitude, omega2, damping, cycle, self.least)
+
+    def respond(self, force, omega):
+        """Motion of the stuck modes (harmonics, modes) under a modal force at an angular frequency, and its cycle.
+
+        One mode may be near its resonance. Its stiffness over its amplitude is gathered from all cycles; the others
+        begin as if the contacts stuck.
+        """
+        self.least = 2
+        inertia = self.inertia(omega)
+        given = np.zeros(inertia.shape, dtype=complex)
+        given[0] = self.shapes.T @ force
+        slope = 1.0 - inertia / self.omegas**2
+        at = 0, int(np.argmin(np.abs(slope[0]) / np.maximum(np.abs(given[0]), 1e-30)))
+        secant = self.secants.setdefault(at, Secant(self.omegas[at[1]] ** 2))
+
+        def error(force, motion):
+            wrong = (force - given - inertia * motion) / slope
+            wrong[at] *= slope[at]
+            wrong[at] = secant.removed(wrong[at], force[at], motion[at], inertia[at])
+            return wrong
+
+        def guess(force, motion):
+            """The forces of this motion of the other modes, and of the resonant one by its stiffness."""
+            if force is None:
+                found = given / slope
+            else:
+                secant.add(force[at], motion[at])
+                found = (given + inertia * (motion - force / self.omegas**2)) / slope
+            found[at] = secant.resonance(given[at], inertia[at])
+            return found
+
+        force, motion, cycle = self.solve(error, guess(None, None), guess)
+        secant.add(force[at], motion[at])
+        return motion, cycle
+
+
+class Secant:
+    """Force over motion of one mode's first harmonic, a complex stiffness, over its amplitude."""
+
+    def __init__(self, stiffness):
+        self.amplitudes, self.stiffness = np.zeros(1), np.array([stiffness + 0j])
+        self.last = 0.0  # amplitude that was added last
+
+    def add(self, force, motion):
+        """Adds what a cycle has found."""
+        self.last = abs(motion)
+        kept = np.abs(self.amplitudes - self.last) > NEAR * self.last
+        order = np.argsort(amplitudes := np.append(self.amplitudes[kept], self.last))
+        self.amplitudes = amplitudes[order]
+        self.stiffness = np.append(self.stiffness[kept], force / motion)[order]
+
+    def at(self, amplitude):
+        """Stiffness at amplitudes; beyond the largest one it goes on as a line."""
+        found = np.interp(amplitude, self.amplitudes, self.stiffness)
+        if self.amplitudes.size > 1:
+            slope = (self.stiffness[-1] - self.stiffness[-2]) / (self.amplitudes[-1] - self.amplitudes[-2])
+            found = found + slope * np.maximum(amplitude - self.amplitudes[-1], 0.0)
+        return found
+
+    def resonance(self, force, inertia):
+        """Static force on the mode under a force: of the amplitudes that balance it, that nearest to the last one."""
+        most = max(2.0 * abs(force / (self.stiffness[0] - inertia)), 1e-300)
+        if self.amplitudes.size > 1:
+            most = BEYOND_LAST * self.amplitudes[-1]
+        amplitudes = np.linspace(0.0, most, 4001)[1:]
+        excess = np.abs(self.at(amplitudes) - inertia) * amplitudes - abs(force)
+        roots = np.flatnonzero(excess[1:] * excess[:-1] <= 0.0)
+        found = roots[np.argmin(np.abs(amplitudes[roots] - self.last))] if roots.size else np.argmin(np.abs(excess))
+        stiffness = self.at(amplitudes[found])
+        motion = force / (stiffness - inertia)
+        return stiffness * motion * amplitudes[found] / abs(motion)
+
+    def removed(self, wrong, force, motion, inertia):
+        """Change of the static force that removes an error of its balance."""
+        kappa, amplitude = force / motion, abs(motion)
+        steps = amplitude * np.array([1.0 - NEAR, 1.0 + NEAR])
+        low, high = self.at(steps)
+        bend = (high - low) / (steps[1] - steps[0]) * amplitude
+        turn = motion / amplitude
+        stiffness = _plane(kappa) + np.outer(_pair(bend * turn), _pair(turn))
+        real, imaginary = np.linalg.solve(np.eye(2) - _plane(inertia) @ np.linalg.inv(stiffness), _pair(wrong))
+        return real + 1j * imaginary
+
+
+def _pair(value):
+    return np.array([value.real, value.imag])
+
+
+def _plane(value):
+    """Multiplication by a complex number, of pairs."""
+    return np.array([[value.real, -value.imag], [value.imag, value.real]])
+
+
+RESPONSE = {
+    "frequency": ("Hz", "frequency of the force"),
+    "amplitude": ("m", "first harmonic of the displacement at the sensor"),
+    "phase": ("rad", "its phase after that of the force"),
+    "higher": ("m", "sum of the higher harmonics at the sensor"),
+    "energy": ("J", "energy that friction dissipates in a cycle"),
+    "slipping": ("1", "cells that slip, all patches"),
+    "cycles": ("1", "cycles until the energy had settled"),
+}
+
+
+@dataclass
+class Response:
+    """Numbers over frequency, each an array: frequency, amplitude, phase, ... (RESPONSE).
+
+    motion   harmonics of the modal coordinates without contact, (frequencies, harmonics, modes), m kg^0.5
+    patches  dissipated energy of a cycle in each patch, (frequencies, patches), J
+    names    names of the patches
+    """
+
+    numbers: dict
+    motion: np.ndarray
+    patches: np.ndarray
+    names: list
+
+    def __getattr__(self, name):
+        if name != "numbers" and name in self.numbers:
+            return self.numbers[name]
+        raise AttributeError(name)
+
+    def table(self):
+        """Lines of a printed table."""
+        lines = [f"{'f/Hz':>11} {'amplitude/m':>12} {'phase/deg':>9} {'higher/m':>10} {'W/J':>10} {'slip':>6} cycles"]
+        for k in range(len(self.frequency)):
+            lines.append(
+                f"{self.frequency[k]:11.6g} {self.amplitude[k]:12.4e} {np.degrees(self.phase[k]):9.2f} "
+                f"{self.higher[k]:10.2e} {self.energy[k]:10.3e} {self.slipping[k]:6.0f} {self.cycles[k]:6.0f}"
+            )
+        return lines
+
+    def to_csv(self, path):
+        """Writes all numbers, with names and units in the first line, and the energy of each patch."""
+        write_csv(path, self.numbers, RESPONSE, self.patches, self.names)
+
+    def plot(self):
+        """A figure of amplitude and phase over the frequency."""
+        from ..plot.style import COLORS, STYLE, logarithmic, plt
+
+        with plt.rc_context(STYLE):
+            figure, (left, right) = plt.subplots(1, 2, figsize=(8.0, 3.4), layout="constrained")
+            left.plot(self.frequency, 1e6 * self.amplitude, "o-", color=COLORS[0], markersize=4.0)
+            left.set(xlabel="frequency, Hz", ylabel="amplitude, µm")
+            logarithmic(left, "y")
+            right.plot(self.frequency, np.degrees(self.phase), "o-", color=COLORS[0], markersize=4.0)
+            right.set(xlabel="frequency, Hz", ylabel="phase, degrees")
+        return figure
+
+
+def write_csv(path, numbers, columns, patches, names):
+    """Writes numbers over amplitude or frequency, with names and units in the first line, and each patch's energy."""
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        rows = csv.writer(file)
+        head = [f"{name} ({unit})" for name, (unit, _) in columns.items()]
+        rows.writerow(head + [f"energy_{name} (J)" for name in names])
+        for k, energies in enumerate(patches):
+            values = [numbers[name][k] for name in columns] + list(energies)
+            rows.writerow([f"{value:.10g}" for value in values])
+
+
+def forced(structure, force, frequencies, sensor, steps=2 * STEPS, harmonics=3, report=None):
+    """The Response of a structure in its preload to a harmonic force, frequency after frequency.
+
+    force        (modes,): modal force, N times the displacement of its place by each modal coordinate
+    frequencies  Hz, in the order in which they are computed: each begins from what the one before has found
+    sensor       (modes,): displacement of the sensor by each modal coordinate
+    steps        load steps of a half cycle
+    harmonics    number of harmonics that are balanced
+    report       called with the number of the frequency and of all of them
+    """
+    balance = Balance(structure, 1, steps, harmonics)
+    force, frequencies = np.asarray(force, dtype=float), np.atleast_1d(np.asarray(frequencies, dtype=float))
+    sensor = np.asarray(sensor, dtype=float)
+    for name, values in (("force", force), ("sensor", sensor)):
+        if values.shape != balance.shape.shape:
+            raise Error(f"{name}: has the shape {values.shape}: expected a number for each of {structure.modes} modes")
+    if frequencies.ndim != 1 or not np.all((frequencies > 0.0) & np.isfinite(frequencies)):
+        raise Error("frequencies: expected numbers above 0, Hz")
+    rows, motions, patches = [], [], []
+    for k, frequency in enumerate(frequencies):
+        if report:
+            report(k + 1, len(frequencies))
+        try:
+            motion, cycle = balance.respond(force, 2.0 * np.pi * frequency)
+        except (NoSolution, *BEYOND) as error:
+            reason = str(error).partition("; for gross slip give")[0]
+            if not rows:
+                raise NoSolution(f"at {frequency:.6g} Hz: {reason}") from error
+            warnings.warn(f"ended before {frequency:.6g} Hz: {reason}", BackboneWarning, stacklevel=2)
+            break
+        modal = motion @ balance.shapes.T
+        moved = modal @ sensor
+        rows.append(
+            [frequency, abs(moved[0]), np.angle(moved[0]), np.abs(moved[1:]).sum(), cycle.energies.sum()]
+            + [cycle.slipping, balance.least]
+        )
+        motions.append(modal)
+        patches.append(cycle.energies)
+    numbers = {name: np.array(column) for name, column in zip(RESPONSE, np.transpose(rows))}
+    return Response(numbers, np.array(motions), np.array(patches), structure.names)
+
+
+def peak(harmonics):
+    """Angle at which a periodic function is largest."""
+    order = np.arange(1, len(harmonics) + 1)
+    angles = 2.0 * np.pi * np.arange(32 * len(harmonics)) / (32 * len(harmonics))
+    angle = angles[np.argmax(np.real(harmonics @ np.exp(1j * order[:, None] * angles)))]
+    for _ in range(4):  # Newton's method
+        slope, bend = (np.real((1j * order) ** k * harmonics @ np.exp(1j * order * angle)) for k in (1, 2))
+        angle -= slope / min(bend, -0.1 * abs(harmonics[0])) if harmonics[0] else 0.0
+    return angle
+
+
+def _real(values):
+    return np.concatenate([values.real.ravel(), values.imag.ravel()])
+
+
+def _complex(values, shape):
+    real, imaginary = np.split(values, 2)
+    return (real + 1j * imaginary).reshape(shape)
+
+
+def _updated(inverse, moved, changed):
+    """Broyden's inverse after a change of the error."""
+    turned = inverse @ changed
+    return inverse + np.outer(moved - turned, moved @ inverse) / (moved @ turned)
