@@ -317,6 +317,89 @@ def test_a_body_that_only_a_soft_bolt_holds(tmp_path):
     assert np.abs(moved[:6] * structure.loads[:6]).max() < 1e-6 * np.abs(structure.z @ structure.loads)
 
 
+def test_a_band_has_its_assemblies_and_their_scatter(tmp_path):
+    """Against backbones one by one; without friction nothing is left of the shear."""
+    file = pair_file(tmp_path / "pair.h5", 1.0)
+    pairs, small = [], OPTIONS | dict(grid_n=16)
+
+    def make(preload, **changes):
+        pairs.append(joint.Pair(file, preload, **small, **changes))
+        return pairs[-1]
+
+    tip = lambda pair: pair.sensors["TIP"][:, 2]  # noqa: E731
+    given = dict(steps=3)
+    found = joint.band(make, PRELOAD, [1e-2], tip, dict(friction=0.2, preload=0.1), **given)
+    assert list(found.backbones) == ["as given", "without friction", "after the largest"] and len(pairs) == 7
+    plain, bare = pairs[0].structure.patches[0].contact, pairs[1].structure.patches[0].contact
+    assert np.abs(bare["shear_x"]).max() < 1e-9 * np.abs(plain["shear_x"]).max()
+    rows = [joint.backbone(pairs[k].structure, [1e-2], sensor=tip(pairs[k]), **given) for k in (0, 1)]
+    for one, other in zip(rows, found.backbones.values()):
+        assert one.damping == pytest.approx(other.damping, rel=1e-5)
+    assert np.all(np.ptp([one.damping for one in found.backbones.values()], axis=0) > 0)
+    for name in ("frequency", "damping"):
+        low, high = found.limits(name)
+        assert np.all((low <= found.given.numbers[name]) & (found.given.numbers[name] <= high))
+    slippery = joint.Pair(file, PRELOAD, **{**small, "friction": 0.8 * small["friction"]})
+    other = joint.backbone(slippery.structure, [1e-2], sensor=tip(slippery), **given)
+    assert found.scatter["friction"][0].damping == pytest.approx(other.damping, rel=1e-4)
+    half = 0.5 * np.subtract(*(one.damping for one in found.scatter["friction"]))
+    assert found.deviation("damping", "friction") == pytest.approx(np.abs(half))
+    both = np.hypot(*(found.deviation("damping", name) for name in found.scatter))
+    assert found.deviation("damping") == pytest.approx(both)
+    with pytest.raises(petsam.Error, match="scatter young: expected friction or preload"):
+        joint.band(make, PRELOAD, [3e-3], tip, dict(young=0.1), **given)
+
+
+def test_a_shaken_contact_comes_to_rest_with_other_tractions():
+    contact, stiffness = sphere(LOAD, 48)
+    patch = joint.Patch(contact, ["disp_x"], dict(load_n=LOAD), by_load=["disp_x"])
+    one = joint.Structure([patch], rigid=[[1.0]])
+    joint.shake(one, 0.7 * FRICTION * LOAD / stiffness)
+    shear = one.patches[0].contact["shear_x"]
+    assert abs(one.loads[0]) < 1e-9 * LOAD and np.abs(shear).max() > 0.01 * contact["pressure"].max()
+    # the cycles that ended smaller ones leave a shear whose changes of sign are those of the amplitudes
+    middle = shear[24, 24:]
+    assert np.sum(np.diff(np.sign(middle[np.abs(middle) > 1e-6 * np.abs(shear).max()])) != 0) >= 3
+
+
+def test_wear_of_one_contact_is_that_of_its_own_life():
+    """Its loads do not change, so that a life of the structure is one of the contact."""
+    contact, stiffness = sphere(LOAD, 32, wear_coefficient1=1e-15)
+    patch = joint.Patch(contact, ["disp_x"], dict(load_n=LOAD), by_load=["disp_x"])
+    one = joint.Structure([patch], rigid=[[1.0]])
+    amplitude = 0.6 * FRICTION * LOAD / stiffness
+    found = joint.life(one, amplitude, [1e3, 1e4], steps=4)
+    other = contact.copy()
+    parts = np.concatenate([[1.0], np.arange(0.5, -1.1, -0.5), np.arange(-0.5, 1.1, 0.5)])
+    shear = -(joint.sweep.Sweep(one).omega ** 2) * amplitude * parts
+    rise = np.linspace(0.0, shear[0], 5)[1:]
+    steps = np.concatenate([rise, shear[1:], shear[1:]])
+    other.run(dict(time=np.arange(1.0, steps.size + 1), load_n=np.full(steps.size, LOAD), load_tx=steps))
+    cycle = dict(time=20.0 + np.arange(shear.size), load_n=np.full(shear.size, LOAD), load_tx=shear)
+    worn = other.live(1e4, cycle)[-1]
+    assert found.volume[2] == pytest.approx(worn.volume1, rel=0.03) and found.volume[1] < 0.2 * found.volume[2]
+    again = joint.backbone(found.structures[2], [amplitude], steps=4)
+    assert found.frequency[0] > found.frequency[2] == pytest.approx(again.frequency[0], rel=2e-3)
+    assert np.all(found.frequency_error <= 0.2 * np.ptp(found.frequency))
+
+
+def test_wear_unloads_the_bolt(tmp_path):
+    """Wear of the contact lets the washers move: tension falls, and the parts of the life change little of that."""
+    pair = joint.Pair(
+        pair_file(tmp_path / "pair.h5", 1.0), PRELOAD, **OPTIONS | dict(grid_n=16), wear_coefficient1=1e-3
+    )
+    sensor = pair.sensors["TIP"][:, 2]
+    found = joint.life(pair.structure, 1e-2, [1e4, 4e4], sensor=sensor, measure=pair.left, steps=3)
+    assert np.all(np.diff(found.measured["B"]) < 0) and found.measured["B"][0] == pair.tensions["B"]
+    assert np.all(np.diff(found.frequency) < 0)
+    assert np.all(found.frequency_error < 0.1 * (found.frequency[0] - found.frequency[2]))
+    structure = found.structures[2]
+    moved = structure.z - structure.coupling @ structure.loads
+    assert np.abs(moved[:6] * structure.loads[:6]).max() < 1e-5 * np.abs(structure.z @ structure.loads)
+    with pytest.raises(petsam.Error, match="cycles: expected rising numbers above 0"):
+        joint.life(pair.structure, 1e-2, [1e4, 1e3], sensor=sensor)
+
+
 def masing(x):
     """Mindlin's force over a period of displacements with one maximum and one minimum, both over a full slide."""
     first = np.argmax(x)

@@ -3,17 +3,21 @@
 interface   contact stiffness, damping and real contact area of a rough interface per area (interface.py)
 structure   patches of contact in a linear structure (structure.py); pair: of a file of petsam-compliance (pair.py)
 backbone    frequency and damping of a mode over its amplitude (backbone.py)
+band        the same over the histories of assembly, and their scatter (band.py)
+life        what wear makes of them over the cycles of a vibration (life.py)
 balance     its resonance, and the response to a harmonic force, by harmonic balance (balance.py)
 """
 
-from .backbone import Backbone, backbone
+from .backbone import Backbone, backbone, shake
 from .balance import Response, forced
+from .band import Band, band
 from .interface import Interface, mirrored, of_interface, of_windows
+from .life import Life, life
 from .pair import Pair
 from .structure import NoSolution, Patch, Structure
 from .sweep import BackboneWarning
 
 __all__ = [
-    "Backbone", "BackboneWarning", "Interface", "NoSolution", "Pair", "Patch", "Response", "Structure", "backbone",
-    "forced", "mirrored", "of_interface", "of_windows",
+    "Backbone", "BackboneWarning", "Band", "Interface", "Life", "NoSolution", "Pair", "Patch", "Response",
+    "Structure", "backbone", "band", "forced", "life", "mirrored", "of_interface", "of_windows", "shake",
 ]  # fmt: skip

@@ -111,16 +111,18 @@ class Backbone:
         return figure
 
 
-def _checked(amplitudes):
-    """The amplitudes as an array."""
+def modal_amplitudes(sweep, amplitudes, sensor):
+    """Modal amplitudes (m kg^0.5) by those at a sensor, m, or modal ones where it is None."""
     found = np.atleast_1d(np.asarray(amplitudes, dtype=float))
     if not (found.ndim == 1 and found.size and np.all((found > 0.0) & np.isfinite(found))):
         raise Error("amplitudes: expected lengths above 0")
-    return found
+    return found / _moved(sensor, sweep.shape)
 
 
 def _moved(sensor, shape):
-    """Displacement of the sensor by a unit of the mode."""
+    """Displacement of the sensor by a unit of the mode; 1 without sensor."""
+    if sensor is None:
+        return 1.0
     sensor = np.asarray(sensor, dtype=float)
     if sensor.shape != shape.shape:
         raise Error(f"sensor: has the shape {sensor.shape}: expected a number for each of {len(shape)} modes")
@@ -142,16 +144,16 @@ def backbone(structure, amplitudes, mode=1, sensor=None, steps=STEPS, harmonics=
                 force along the mode, with the inertia of all modes and harmonics. The amplitudes are then those found
     report      called with the number of the amplitude and of all of them
     """
-    amplitudes = _checked(amplitudes)
     sweep = Balance(structure, mode, steps, harmonics) if harmonics else Sweep(structure, mode, steps)
-    factor = 1.0 if sensor is None else _moved(sensor, sweep.shape)
+    modal, factor = modal_amplitudes(sweep, amplitudes, sensor), _moved(sensor, sweep.shape)
     rows, patches = [], []
-    for k, amplitude in enumerate(amplitudes):
+    for k, wanted in enumerate(modal):
         if report:
-            report(k + 1, len(amplitudes))
+            report(k + 1, len(modal))
         try:
-            one = sweep.point(amplitude / factor)
+            one = sweep.point(wanted)
         except ENDS as error:
+            amplitude = factor * wanted
             reason = str(error).partition("; for gross slip give")[0]
             if not rows:
                 raise NoSolution(f"at an amplitude of {amplitude:.3g} m: {reason}") from error
@@ -177,6 +179,17 @@ def backbone(structure, amplitudes, mode=1, sensor=None, steps=STEPS, harmonics=
     )
     _warn(found)
     return found
+
+
+def shake(structure, amplitude, mode=1, sensor=None, steps=STEPS):
+    """Vibrates a structure at an amplitude, as of backbone(), until its cycles settle, and lets it come to rest in four
+    cycles; its state is then that after the vibration."""
+    sweep = Sweep(structure, mode, steps)
+    point = sweep.point(*modal_amplitudes(sweep, amplitude, sensor))
+    ends = 0.125 * np.arange(8.0, -1.0, -1.0) * (-1.0) ** np.arange(9)
+    parts = np.concatenate([np.linspace(*two, steps + 1)[1:] for two in zip(ends, ends[1:])])
+    sweep.follow(point.alpha * np.outer(parts, sweep.shape), sweep.scale_of(point.alpha))
+    structure.take(sweep.work)
 
 
 def _warn(found):

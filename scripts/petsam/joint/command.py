@@ -2,6 +2,8 @@
 
     petsam-joint stiffness scan.h5 --pressure 1MPa:50MPa:12 --friction 0.4 --body1 steel --body2 steel -o interface
     petsam-joint backbone lap.h5 --contact lap.opts --preload B1=12e3 --sensor TIP:z --amplitudes 1um:0.1mm:9 -o out
+    petsam-joint band lap.h5 --contact lap.opts --preload B1=12e3 --sensor TIP:z --amplitudes 1um:0.1mm:5
+    petsam-joint life lap.h5 --contact worn.opts --preload B1=12e3 --sensor TIP:z --amplitudes 50um --cycles 1e4,1e5,1e6
     petsam-joint response lap.h5 --contact lap.opts --preload B1=12e3 --force TIP:z=0.5 --frequencies 110:118:17
 
 stiffness: scan.h5 is a surface or a separation that petsam-surface has written. Prints, for each nominal pressure, the
@@ -13,6 +15,13 @@ interaction for a deck of Abaqus, and NAME.png.
 backbone: lap.h5 is a pair of bodies with bolts and modes that petsam-compliance --pair has written. Tightens the bolts
 and prints frequency and damping of a mode over its amplitude, by friction in the joint alone: by quasi-static modal
 analysis, or with --harmonics by harmonic balance. -o NAME writes NAME.csv and NAME.png.
+
+band: prints the range of the backbone over the histories of assembly: bolts in the given and in the reverse order,
+without friction until all are tightened, and after a vibration at the largest amplitude. With --scatter also the
+standard deviation by those of friction and preload. -o NAME writes NAME.csv and NAME.png.
+
+life: prints frequency, damping and the bolts' tension over the cycles of a vibration that wears the contact, whose
+options give the wear coefficients. -o NAME writes NAME.csv and NAME.png.
 
 response: prints the response of the same to a harmonic force over its frequency, by harmonic balance, with the damping
 of the material and of friction. -o NAME writes NAME.csv and NAME.png.
@@ -34,6 +43,8 @@ from ..surface.lengths import lengths
 from . import interface
 from .backbone import ENDS, backbone
 from .balance import forced
+from .band import band
+from .life import life
 from .pair import Pair, Unreadable
 from .sweep import BackboneWarning
 
@@ -129,6 +140,30 @@ def amplitude_range(text):
     return found
 
 
+def scatter(text):
+    """Reader of NAME=NUMBER of --scatter for argparse."""
+    name, _, number = text.partition("=")
+    try:
+        value = float(number)
+    except ValueError:
+        value = -1.0
+    if name not in ("friction", "preload") or not 0.0 <= value < 1.0:
+        what = "expected friction=S or preload=S, a standard deviation as a part of it: friction=0.1"
+        raise argparse.ArgumentTypeError(f"{short(text) or repr('')}: {what}")
+    return name, value
+
+
+def cycle_counts(text):
+    """Reader of rising numbers of cycles for argparse."""
+    try:
+        found = np.array([float(word) for word in text.split(",")])
+    except ValueError:
+        found = np.zeros(1)
+    if not np.all((np.diff(found, prepend=0.0) > 0.0) & np.isfinite(found)):
+        raise argparse.ArgumentTypeError(f"{short(text) or repr('')}: expected rising numbers above 0: 1e4,1e5,1e6")
+    return found
+
+
 def force(text):
     """Reader of SENSOR:D=N for argparse: the place and direction, and the force's amplitude."""
     place, _, number = text.rpartition("=")
@@ -174,7 +209,7 @@ def _stiffness_options(one):
 
 
 def _structure_options(one):
-    group = one.add_argument_group("backbone and response")
+    group = one.add_argument_group("backbone, band, life and response")
     group.add_argument("--contact", metavar="NAME", help="file of petsam's options: -grid_n, -friction, -gap_type, ...")
     group.add_argument(
         "--preload", type=frictions, action="append", metavar="BOLT=N",
@@ -183,7 +218,7 @@ def _structure_options(one):
     group.add_argument("--sensor", metavar="NAME:D", help="where the amplitude is, and its direction x, y or z")
     group.add_argument("--damping", type=float, help="damping of the material, as a part of critical damping (0)")
     group.add_argument("--harmonics", type=int, help="how many are balanced (backbone 0: quasi-static; response 3)")
-    group = one.add_argument_group("backbone")
+    group = one.add_argument_group("backbone, band and life")
     group.add_argument("--mode", type=int, help="number of the mode while all that touches sticks (1)")
     group.add_argument(
         "--amplitudes", type=amplitude_range, help="at the sensor: FIRST:LAST:COUNT, such as 1um:0.1mm:12"
@@ -192,6 +227,11 @@ def _structure_options(one):
         "--degree-check", action="store_true", default=None,
         help="also the largest amplitude with polynomials of a degree lower by 2",
     )  # fmt: skip
+    group.add_argument(
+        "--scatter", type=scatter, action="append", metavar="NAME=S",
+        help="standard deviation of friction or preload as a part of it, may be repeated: friction=0.1",
+    )  # fmt: skip
+    group.add_argument("--cycles", type=cycle_counts, help="of the life, at which the numbers are wanted: 1e4,1e5,1e6")
     group = one.add_argument_group("response")
     group.add_argument(
         "--force", type=force, metavar="SENSOR:D=N", help="amplitude of the force, and where it acts; also the sensor"
@@ -306,8 +346,8 @@ def _checked_preload(args):
     return preload
 
 
-def _pair(args, preload, lower=0):
-    return Pair(args.file, preload, lower=lower, damping=args.damping, options_file=args.contact)
+def _pair(args, preload, **more):
+    return Pair(args.file, preload, damping=args.damping or 0.0, options_file=args.contact, **more)
 
 
 def _tell_tensions(pair, preload):
@@ -328,7 +368,7 @@ def _backbone(args):
     given = dict(mode=args.mode, steps=args.steps, harmonics=args.harmonics)
 
     def compute(lower, amplitudes, **more):
-        pair = _pair(args, preload, lower)
+        pair = _pair(args, preload, lower=lower)
         return pair, backbone(pair.structure, amplitudes, sensor=_sensor(args.sensor, pair), **given, **more)
 
     with warnings.catch_warnings(record=True) as found:
@@ -340,6 +380,36 @@ def _backbone(args):
     _print(result, found)
     if args.degree_check:
         print(_degree_line(args, compute, result))
+    _write(args, result)
+    return 0
+
+
+def _band(args):
+    preload = _checked_preload(args)
+    given = dict(mode=args.mode, steps=args.steps, harmonics=args.harmonics)
+    make = lambda preload, **changes: _pair(args, preload, **changes)  # noqa: E731
+    with warnings.catch_warnings(record=True) as found:
+        warnings.simplefilter("always", BackboneWarning)
+        sensor = lambda pair: _sensor(args.sensor, pair)  # noqa: E731
+        spread = dict(args.scatter or [])
+        result = band(make, preload, args.amplitudes, sensor, spread, lambda name: _tell(f"assembly: {name}"), **given)
+    _print(result, found)
+    _write(args, result)
+    return 0
+
+
+def _life(args):
+    preload = _checked_preload(args)
+    if len(args.amplitudes) != 1:
+        raise Error(f"--amplitudes: a life has one amplitude, not {len(args.amplitudes)}")
+    pair = _pair(args, preload)
+    sensor = _sensor(args.sensor, pair)
+    tension = lambda structure: {f"{name}/N": left for name, left in pair.left(structure).items()}  # noqa: E731
+    with warnings.catch_warnings(record=True) as found:
+        warnings.simplefilter("always", BackboneWarning)
+        given = dict(mode=args.mode, sensor=sensor, steps=args.steps, measure=tension)
+        result = life(pair.structure, args.amplitudes[0], args.cycles, **given)
+    _print(result, found)
     _write(args, result)
     return 0
 
@@ -388,6 +458,12 @@ ACTIONS = {
         dict(preload=None, mode=1, damping=0.0, harmonics=0, degree_check=False, steps=8),
         _backbone,
     ),
+    "band": (
+        ("contact", "amplitudes", "sensor"),
+        dict(preload=None, mode=1, damping=0.0, harmonics=0, scatter=None, steps=8),
+        _band,
+    ),
+    "life": (("contact", "amplitudes", "sensor", "cycles"), dict(preload=None, mode=1, steps=8), _life),
     "response": (
         ("contact", "force", "frequencies"),
         dict(preload=None, sensor=None, damping=0.0, harmonics=3, steps=16),

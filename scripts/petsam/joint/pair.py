@@ -12,6 +12,7 @@ from ..files import need_regular
 from .structure import DISPLACEMENTS, Patch, Structure
 
 PRESS = 4  # steps in which each bolt is tightened
+PRESSING = ("disp_z", "rot_x", "rot_y")  # displacements whose loads press the bodies together
 
 
 class Unreadable(Error):
@@ -23,13 +24,26 @@ class Unreadable(Error):
 class Pair:
     """Modes, bolts and sensors of a file, and the structure with its contact.
 
+    path          the file
+    preload       {bolt: initial tension in N}; the bolts are tightened in this order
+    press         load steps in which each bolt is tightened
+    frictionless  True: without friction while they are tightened, as if a vibration settled the surfaces
+    friction_scale  factor on the friction of the options
+    lower         by how much the degree of the file's polynomials is lowered
+    damping       damping of the material as a part of critical
+    options       of the contact: grid_n=..., friction=..., options_file=...
+
+    Attributes:
+
     structure   the Structure, its bolts tightened
     omega       angular frequencies (rad/s) of the modes without contact
     sensors     {name: (modes, 3)}: displacement (m) of a sensor by each modal coordinate
     tensions    {name: N}: tension left in each bolt after all are tightened
     """
 
-    def __init__(self, path, preload, press=PRESS, lower=0, damping=0.0, **options):
+    def __init__(
+        self, path, preload, press=PRESS, frictionless=False, lower=0, damping=0.0, friction_scale=1.0, **options
+    ):
         need_regular(path)
         self.path = path
         self._folder = tempfile.TemporaryDirectory(prefix="petsam-")
@@ -43,14 +57,21 @@ class Pair:
         self._check(preload)
         # a file of options may have the pair's own, with the compliance of rigid motions: the last one counts
         contact = Contact(**{**self.defaults, **options, "body2_compliance": own})
+        self.structure = self._structure(contact, rigid, DISPLACEMENTS, damping)
+        self.structure.patches[0].held["friction_scale"] = friction_scale
+        pressed = self._structure(contact, rigid, PRESSING, damping) if frictionless else self.structure
+        self._tighten(pressed, preload, press, frictionless)
+        self.tensions = self.left()
+
+    def _structure(self, contact, rigid, by_load, damping):
         modes = [f"body2_case_mode{k + 1}" for k in range(self.omega.size)]
-        patch = Patch(contact, [*DISPLACEMENTS, *modes], by_load=DISPLACEMENTS, name="contact")
+        patch = Patch(contact, [*DISPLACEMENTS, *modes], by_load=by_load, name="contact")
         count = len(patch.coordinates)
         coupling = np.zeros((count, count))
         coupling[:6, :6] = rigid
-        self.structure = Structure([patch], self.omega, np.eye(count)[:, 6:], coupling, damping=damping)
-        self.structure.needs = self._folder  # copies of the contact read the file
-        self._tighten(patch, preload, press)
+        found = Structure([patch], self.omega, np.eye(count)[:, 6:], coupling, damping=damping)
+        found.needs = self._folder  # copies of the contact read the file
+        return found
 
     def _read(self, file):
         if "rigid" not in file or "modes" not in file:
@@ -81,18 +102,28 @@ class Pair:
         if not preload:
             raise Error(f"preload: give the tension of {', '.join(self.bolts)}, in N")
 
-    def _tighten(self, patch, preload, press):
+    def _tighten(self, structure, preload, press, frictionless):
         """Tightens the bolts one after the other, in the order given, each in `press` steps."""
-        force = np.zeros(self.omega.size)
-        self.structure.loads[0] = -next(iter(preload.values()), 0.0) / press  # a first guess: all of the first tension
+        (patch,), force = structure.patches, np.zeros(self.omega.size)
+        structure.loads[0] = -next(iter(preload.values()), 0.0) / press  # a first guess: all of the first tension
+        if frictionless:
+            patch.held["friction_scale"] = 0.0
         for name, whole in preload.items():
             for part in np.linspace(0.0, 1.0, press + 1)[1:]:
                 patch.held[f"body2_case_bolt_{name}"] = part * whole
-                self.structure.step(force)
-        given = np.array([preload.get(name, 0.0) for name in self.bolts])
+                structure.step(force)
+        if frictionless:
+            patch = self.structure.patches[0]
+            patch.held.update({name: value for name, value in structure.patches[0].held.items() if "bolt" in name})
+            self.structure.z, self.structure.loads = structure.z, structure.loads
+            self.structure.step(force)
+
+    def left(self, structure=None):
+        """{bolt: tension in N} that is left in the last step of the structure, or of a copy of it."""
+        patch = (structure or self.structure).patches[0]
+        given = np.array([patch.held.get(f"body2_case_bolt_{name}", 0.0) for name in self.bolts])
         loads = np.array([patch.number(f"body2_case_bolt_{name}_load") for name in self.bolts])
-        left = given - self.stiffness * (self.closing @ given + loads)
-        self.tensions = dict(zip(self.bolts, left))
+        return dict(zip(self.bolts, given - self.stiffness * (self.closing @ given + loads)))
 
 
 def without_rigid(path, name, lower=0):

@@ -27,6 +27,7 @@ class Cycle:
     energies  dissipated energy in each patch, J
     loop      that of the loop of forces and displacements, J
     slipping  cells that slip before the reversal
+    given     what each step prescribed, for each patch {name: value}
     """
 
     moved: np.ndarray
@@ -34,6 +35,7 @@ class Cycle:
     energies: np.ndarray
     loop: float
     slipping: int
+    given: list
 
 
 @dataclass
@@ -99,12 +101,13 @@ class Sweep:
 
     def follow(self, forces, scale):
         """Steps under these modal forces, beside those of the preload; returns modal coordinates and energies of each
-        step."""
-        found, energies, response = [], [], self.reversed
+        step, and leaves in self.given what they prescribed."""
+        found, energies, response, self.given = [], [], self.reversed, []
         for force in forces:
             response = self.work.step(self.preload.force + force, response=response, scale=scale)
             found.append(self.work.modal(self.work.force, self.work.loads, self.work.a))
             energies.append([patch.number("dissipated_energy") for patch in self.work.patches])
+            self.given.append([patch.given for patch in self.work.patches])
         return np.array(found), np.array(energies)
 
     def scale_of(self, alpha):
@@ -119,20 +122,24 @@ class Sweep:
         forces = np.concatenate([rise[-1:], *halves])
         for count in range(1, CYCLES + 1):
             down, lost = self.follow(halves[0], scale)
-            slipping = self.slipping()
+            slipping, given = self.slipping(), self.given
             back, more = self.follow(halves[1], scale)
             path = np.concatenate([[last], down, back])
             loop = -0.5 * float(np.sum((path[1:] + path[:-1]) * np.diff(forces, axis=0)))
-            one = Cycle(path[1:], back[-1] - down[-1], (lost + more).sum(axis=0), loop, slipping)
+            one = Cycle(path[1:], back[-1] - down[-1], (lost + more).sum(axis=0), loop, slipping, given + self.given)
             last = back[-1]
             if count >= least and settled(one, before):
                 break
             before = one
+        self.last = one
         return one, count
 
     def point(self, amplitude):
         """The Point whose modal force gives this modal amplitude while all that touches sticks."""
-        alpha = self.omega**2 * amplitude
+        return self.under(self.omega**2 * amplitude)
+
+    def under(self, alpha):
+        """The Point under a modal force."""
         rise, *halves = (
             alpha * np.outer(np.linspace(*ends, self.steps + 1)[1:], self.shape) for ends in ((0, 1), (1, -1), (-1, 1))
         )

@@ -1,0 +1,155 @@
+"""The band of frequency and damping over the histories of assembly, and their scatter.
+
+The residual tractions of a joint depend on how it was assembled, and damping and frequency follow them. A band has the
+backbones of several assemblies at the same modal forces. To first order, each parameter with a standard deviation adds
+the change that it makes, by the difference of two backbones.
+"""
+
+import csv
+import warnings
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..errors import Error, short
+from .backbone import COLUMNS, Backbone, backbone, shake
+from .sweep import BackboneWarning
+
+ASSEMBLED, REVERSED, FRICTIONLESS, SHAKEN = "as given", "bolts reversed", "without friction", "after the largest"
+TEXTS = {
+    ASSEMBLED: "bolts tightened in the given order, with friction",
+    REVERSED: "in the reverse order",
+    FRICTIONLESS: "without friction until all are tightened",
+    SHAKEN: "as given, then vibrated at the largest amplitude",
+}
+NUMBERS = ("frequency", "damping")
+
+
+@dataclass
+class Band:
+    """Backbones of a joint.
+
+    backbones  {assembly: Backbone}, the first one as given
+    scatter    {parameter: (low, high)}, backbones with the parameter a standard deviation lower and higher
+    """
+
+    backbones: dict
+    scatter: dict
+
+    @property
+    def given(self) -> Backbone:
+        """The backbone as given."""
+        return self.backbones[ASSEMBLED]
+
+    @property
+    def count(self):
+        """Number of amplitudes that all backbones have."""
+        every = [*self.backbones.values(), *(one for pair in self.scatter.values() for one in pair)]
+        return min(len(one.alpha) for one in every)
+
+    def limits(self, name):
+        """Lowest and highest frequency or damping of all assemblies, an array each."""
+        rows = np.array([one.numbers[name][: self.count] for one in self.backbones.values()])
+        return rows.min(axis=0), rows.max(axis=0)
+
+    def deviation(self, name, parameter=None):
+        """Standard deviation of frequency or damping by one parameter, or by all, to first order."""
+        names = list(self.scatter) if parameter is None else [parameter]
+        parts = [0.5 * np.subtract(*(one.numbers[name][: self.count] for one in self.scatter[of])) for of in names]
+        return np.sqrt(np.sum(np.square(parts), axis=0)) if parts else np.zeros(self.count)
+
+    def table(self):
+        """Lines of a printed table."""
+        lines = ["", f"{'amplitude/m':>12} {'f/Hz':>11} {'lowest':>11} {'highest':>11} {'zeta':>10} {'lowest':>10} "
+                 f"{'highest':>10}" + (f" {'f +-':>9} {'zeta +-':>9}" if self.scatter else "")]  # fmt: skip
+        f, z = (self.limits(name) for name in NUMBERS)
+        of, oz = (self.deviation(name) for name in NUMBERS)
+        for k in range(self.count):
+            lines.append(
+                f"{self.given.amplitude[k]:12.4e} {self.given.frequency[k]:11.6g} {f[0][k]:11.6g} {f[1][k]:11.6g} "
+                f"{self.given.damping[k]:10.4e} {z[0][k]:10.4e} {z[1][k]:10.4e}"
+                + (f" {of[k]:9.2e} {oz[k]:9.2e}" if self.scatter else "")
+            )
+        return lines
+
+    def to_csv(self, path):
+        """Writes the numbers of all backbones, a row for each assembly and amplitude."""
+        with open(path, "w", newline="", encoding="utf-8") as file:
+            rows = csv.writer(file)
+            rows.writerow(["assembly", *(f"{name} ({unit})" for name, (unit, _) in COLUMNS.items())])
+            named = dict(self.backbones)
+            for parameter, (low, high) in self.scatter.items():
+                named.update({f"{parameter} lower": low, f"{parameter} higher": high})
+            for assembly, one in named.items():
+                for k in range(len(one.alpha)):
+                    rows.writerow([assembly, *(f"{one.numbers[name][k]:.10g}" for name in COLUMNS)])
+
+    def plot(self):
+        """A figure of the bands of frequency and damping over the amplitude."""
+        from ..plot.style import COLORS, STYLE, logarithmic, plt
+
+        with plt.rc_context(STYLE):
+            figure, axes = plt.subplots(1, 2, figsize=(8.0, 3.4), layout="constrained")
+            reach = 1e6 * self.given.amplitude[: self.count]
+            for ax, name, factor in zip(axes, NUMBERS, (1.0, 100.0)):
+                low, high = (factor * one for one in self.limits(name))
+                ax.fill_between(reach, low, high, color="0.85", label="all assemblies")
+                for color, (assembly, one) in zip(COLORS, self.backbones.items()):
+                    values = factor * one.numbers[name][: self.count]
+                    error = factor * self.deviation(name) if self.scatter and assembly == ASSEMBLED else None
+                    ax.errorbar(reach, values, error, color=color, marker="o", markersize=3.0, label=assembly)
+                ax.set(xlabel="amplitude, µm")
+            axes[0].set(ylabel="frequency, Hz")
+            axes[1].set(ylabel="damping by friction, % of critical")
+            axes[0].legend()
+            logarithmic(axes[0], "x")
+            logarithmic(axes[1], "xy" if np.all(self.given.damping > 0.0) else "x")
+        return figure
+
+
+def band(make, preload, amplitudes, sensor, scatter=None, report=None, **given):
+    """The Band of a joint.
+
+    make        make(preload, **changes) returns the joint's Pair; changes are options of it: frictionless=True, or
+                friction_scale=1.1
+    preload     {bolt: initial tension in N} in the order of tightening
+    amplitudes  displacements at the sensor, as of backbone()
+    sensor      sensor(pair) returns the displacement of the sensor by each modal coordinate
+    scatter     {"friction": relative standard deviation, "preload": that of all bolts together}
+    report      called with the name of each assembly
+    given       mode, steps, harmonics of backbone()
+    """
+    largest = float(np.max(amplitudes))
+
+    def one(name, preload=preload, **changes):
+        if report:
+            report(name)
+        with warnings.catch_warnings():
+            if name != ASSEMBLED:
+                warnings.simplefilter("ignore", BackboneWarning)  # those of the first one
+            pair = make(preload, **changes)
+            if name == SHAKEN:
+                shake(pair.structure, largest, given.get("mode", 1), sensor(pair))
+            return backbone(pair.structure, amplitudes, sensor=sensor(pair), **given)
+
+    found = {ASSEMBLED: one(ASSEMBLED)}
+    if len(preload) > 1:
+        found[REVERSED] = one(REVERSED, dict(reversed(preload.items())))
+    found[FRICTIONLESS] = one(FRICTIONLESS, frictionless=True)
+    found[SHAKEN] = one(SHAKEN)
+    parts = {}
+    for name, value in (scatter or {}).items():
+        parts[name] = tuple(one(f"{name} {side}", **_scattered(name, value, sign, preload))
+                            for side, sign in (("lower", -1.0), ("higher", 1.0)))  # fmt: skip
+    return Band(found, parts)
+
+
+def _scattered(name, value, sign, preload):
+    """Changes of make() by a standard deviation of a parameter."""
+    if name not in ("friction", "preload"):
+        raise Error(f"scatter {short(name)}: expected friction or preload")
+    if not 0.0 <= value < 1.0:
+        raise Error(f"scatter {name}={value:g}: expected a standard deviation as a part of it, from 0 to below 1")
+    if name == "friction":
+        return dict(friction_scale=1.0 + sign * value)
+    return dict(preload={bolt: (1.0 + sign * value) * force for bolt, force in preload.items()})

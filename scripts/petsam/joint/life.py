@@ -1,0 +1,139 @@
+"""What wear makes of a joint: frequency and damping of a mode over the cycles of a vibration, Life.
+
+The joint vibrates at a given modal force. Its settled cycle prescribes the steps of each patch, whose contact wears
+over many of them. Then the structure finds its equilibrium anew, as worn patches unload the bolts. Within one part of
+the life the loads of the patches and the motions of the bodies stay; halving the number of parts shows what that costs.
+"""
+
+import csv
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..errors import Error
+from .backbone import modal_amplitudes
+from .sweep import STEPS, Sweep
+
+PARTS = 2  # parts of each span of cycles
+LIFE = {
+    "cycles": ("1", "cycles of the vibration"),
+    "frequency": ("Hz", "frequency at the amplitude of the vibration"),
+    "frequency_error": ("Hz", "its error by the number of parts, estimated"),
+    "damping": ("1", "damping by friction there, as a part of critical damping"),
+    "damping_error": ("1", "its error by the number of parts, estimated"),
+    "energy": ("J", "dissipated energy of a cycle"),
+    "volume": ("m3", "worn volume of both bodies, all patches"),
+}
+
+
+@dataclass
+class Life:
+    """Numbers over the cycles of a vibration, each an array: cycles, frequency, damping, ... (LIFE).
+
+    measured    {name: array} of what `measure` returned after each span, such as the tension of the bolts
+    structures  copies of the structure at rest, at each number of cycles, for backbone()
+    """
+
+    numbers: dict
+    measured: dict
+    structures: list
+
+    def __getattr__(self, name):
+        if name != "numbers" and name in self.numbers:
+            return self.numbers[name]
+        raise AttributeError(name)
+
+    def table(self):
+        """Lines of a printed table."""
+        heads = "".join(f" {name:>12}" for name in self.measured)
+        lines = [f"{'cycles':>10} {'f/Hz':>11} {'+-':>8} {'zeta':>10} {'+-':>8} {'W/J':>10} {'volume/m3':>10}{heads}"]
+        for k in range(len(self.cycles)):
+            lines.append(
+                f"{self.cycles[k]:10.4g} {self.frequency[k]:11.6g} {self.frequency_error[k]:8.1e} "
+                f"{self.damping[k]:10.4e} {self.damping_error[k]:8.1e} {self.energy[k]:10.3e} {self.volume[k]:10.3e}"
+                + "".join(f" {values[k]:12.6g}" for values in self.measured.values())
+            )
+        return lines
+
+    def to_csv(self, path):
+        """Writes all numbers, with names and units in the first line."""
+        with open(path, "w", newline="", encoding="utf-8") as file:
+            rows = csv.writer(file)
+            rows.writerow([*(f"{name} ({unit})" for name, (unit, _) in LIFE.items()), *self.measured])
+            for k in range(len(self.cycles)):
+                values = [self.numbers[name][k] for name in LIFE] + [column[k] for column in self.measured.values()]
+                rows.writerow([f"{value:.10g}" for value in values])
+
+    def plot(self):
+        """A figure of frequency and damping over the cycles."""
+        from ..plot.style import COLORS, STYLE, plt
+
+        with plt.rc_context(STYLE):
+            figure, axes = plt.subplots(1, 2, figsize=(8.0, 3.4), layout="constrained")
+            for ax, name, factor in zip(axes, ("frequency", "damping"), (1.0, 100.0)):
+                values, error = (factor * self.numbers[one] for one in (name, f"{name}_error"))
+                ax.errorbar(self.cycles, values, error, color=COLORS[0], marker="o", markersize=4.0)
+                ax.set_xscale("symlog", linthresh=max(self.cycles[1], 1.0))
+                ax.set(xlabel="cycles")
+            axes[0].set(ylabel="frequency, Hz")
+            axes[1].set(ylabel="damping by friction, % of critical")
+        return figure
+
+
+def life(structure, amplitude, cycles, mode=1, sensor=None, steps=STEPS, measure=None):
+    """The Life of a structure in its preload, whose contacts have the options of wear.
+
+    amplitude  of the vibration, as of backbone(); its modal force stays the same
+    cycles     rising numbers of cycles at which the numbers are wanted, the first above 0
+    measure    measure(structure) returns {name: number} of a structure at rest, such as Pair.left
+    """
+    cycles = np.atleast_1d(np.asarray(cycles, dtype=float))
+    if not (cycles.size and np.all(np.isfinite(cycles)) and np.all(np.diff(cycles, prepend=0.0) > 0.0)):
+        raise Error("cycles: expected rising numbers above 0")
+    measure = measure or (lambda _: {})
+    first = Sweep(structure, mode, steps)
+    modal = float(modal_amplitudes(first, [amplitude], sensor)[0])
+    alpha = first.omega**2 * modal
+    fine, coarse = (_live(structure.copy(), alpha, cycles, (mode, steps), measure, parts) for parts in (PARTS, 1))
+    rows, measured, structures = fine
+    for name in ("frequency", "damping"):
+        rows[f"{name}_error"] = np.abs(rows[name] - coarse[0][name])
+    return Life({"cycles": np.append(0.0, cycles), **rows}, measured, structures)
+
+
+def _live(structure, alpha, cycles, how, measure, parts):
+    """Numbers, what was measured and structures at 0 and all `cycles`, each span of which has so many parts."""
+    points, volumes, measured, structures = [], [0.0], [], []
+    for span in (*np.diff(cycles, prepend=0.0), None):
+        structures.append(structure.copy())
+        measured.append(measure(structure))
+        sweep = Sweep(structure, *how)
+        points.append(sweep.under(alpha))
+        volumes.append(volumes[-1])
+        for part in range(parts if span else 0):
+            if part:
+                sweep = Sweep(structure, *how)
+                sweep.under(alpha)
+            volumes[-1] += _wear(sweep, span / parts)
+            sweep.work.step(structure.force, response=sweep.reversed)  # comes to rest
+            structure.take(sweep.work)
+    rows = dict(
+        frequency=np.sqrt([one.omega2 for one in points]) / (2.0 * np.pi),
+        damping=np.array([one.damping for one in points]),
+        energy=np.array([one.cycle.energies.sum() for one in points]),
+        volume=np.array(volumes[:-1]),
+    )
+    return rows, {name: np.array([one[name] for one in measured]) for name in measured[0]}, structures
+
+
+def _wear(sweep, count):
+    """Wears the patches over so many of the sweep's last cycle; returns the worn volume, m3."""
+    volume, given = 0.0, sweep.last.given
+    for k, patch in enumerate(sweep.work.patches):
+        steps = [given[-1][k], *(one[k] for one in given)]  # closed
+        history = {name: np.array([one[name] for one in steps]) for name in steps[0]}
+        start = patch.contact.number("time")
+        history["time"] = start + np.arange(len(steps), dtype=float)
+        done = patch.contact.live(count, history)[-1]
+        volume += done.volume1 + done.volume2
+    return volume
