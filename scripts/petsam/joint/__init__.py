@@ -4,7 +4,7 @@ interface   contact stiffness, damping and real contact area of a rough interfac
 structure   patches of contact in a linear structure (structure.py); pair: of a file of petsam-compliance (pair.py)
 backbone    frequency and damping of a mode over its amplitude (backbone.py)
 band        the same over the histories of assembly, and their scatter (band.py)
-life        what wear makes of them over the cycles of a vibration (life.py)
+wear        what wear does to them over the cycles of a vibration (wear.py)
 balance     its resonance, and the response to a harmonic force, by harmonic balance (balance.py)
 """
 
@@ -12,12 +12,12 @@ from .backbone import Backbone, backbone, shake
 from .balance import Response, forced
 from .band import Band, band
 from .interface import Interface, mirrored, of_interface, of_windows
-from .life import Life, life
 from .pair import Pair
 from .structure import NoSolution, Patch, Structure
 from .sweep import BackboneWarning
+from .wear import Wear, wear
 
 __all__ = [
-    "Backbone", "BackboneWarning", "Band", "Interface", "Life", "NoSolution", "Pair", "Patch", "Response",
-    "Structure", "backbone", "band", "forced", "life", "mirrored", "of_interface", "of_windows", "shake",
+    "Backbone", "BackboneWarning", "Band", "Interface", "NoSolution", "Pair", "Patch", "Response",
+    "Structure", "Wear", "backbone", "band", "forced", "mirrored", "of_interface", "of_windows", "shake", "wear",
 ]  # fmt: skip

@@ -52,6 +52,9 @@ class Backbone:
     shape     the mode in modal coordinates
     patches   dissipated energy of a cycle in each patch, (amplitudes, patches), J
     names     names of the patches
+    pressure  field of each patch in the preload, Pa
+    states    field of each patch at the largest amplitude, before the reversal: 0 open, 1 stick, 2 slip
+    axes      x and y (m) of each patch's cells
     modes_change  relative change of `linear` without the inertia of the highest quarter of the structure's modes; NaN
                   where there are fewer than four
     """
@@ -64,6 +67,9 @@ class Backbone:
     modes_change: float
     stuck: np.ndarray
     unit: str
+    pressure: list
+    states: list
+    axes: list
 
     def __getattr__(self, name):
         if name != "numbers" and name in self.numbers:
@@ -108,6 +114,31 @@ class Backbone:
             right.set(xlabel=label, ylabel="damping, % of critical")
             logarithmic(left, "x")
             logarithmic(right, "xy" if np.all(self.damping > 0.0) else "x")
+        return figure
+
+    def plot_contact(self):
+        """A figure of the patches, one below the other: pressure in the preload, and where the largest amplitude makes
+        them slip."""
+        from matplotlib.colors import ListedColormap
+        from matplotlib.patches import Patch as Key
+
+        from ..plot.maps import OPEN, STATES
+        from ..plot.style import STYLE, plt
+
+        words, tints = zip(*(STATES[k] for k in sorted(STATES)))
+        with plt.rc_context({**STYLE, "axes.grid": False}):
+            size = (8.0, 3.4 * len(self.names))
+            figure, rows = plt.subplots(len(self.names), 2, figsize=size, layout="constrained", squeeze=False)
+            for k, ((left, right), (x, y)) in enumerate(zip(rows, self.axes)):
+                pressed = np.where(self.pressure[k] > 0.0, 1e-6 * self.pressure[k], np.nan)
+                drawn = left.pcolormesh(1e3 * x, 1e3 * y, pressed, cmap="viridis", vmin=0.0, rasterized=True)
+                figure.colorbar(drawn, ax=left, label="pressure in the preload, MPa")
+                given = dict(cmap=ListedColormap(tints), vmin=-0.5, vmax=len(tints) - 0.5, rasterized=True)
+                right.pcolormesh(1e3 * x, 1e3 * y, self.states[k], **given)
+                keys = [Key(color=tint, label=word) for word, tint in zip(words, tints) if word != STATES[OPEN][0]]
+                right.legend(handles=keys, loc="upper right", title="at the largest amplitude")
+                for ax in (left, right):
+                    ax.set(xlabel="x, mm", ylabel="y, mm", aspect="equal", title=self.names[k])
         return figure
 
 
@@ -165,6 +196,7 @@ def backbone(structure, amplitudes, mode=1, sensor=None, steps=STEPS, harmonics=
             + [structure.damping, energy, one.cycle.loop, one.cycle.slipping, one.cycles]
         )
         patches.append(one.cycle.energies)
+        states = one.cycle.states
     numbers = {name: np.array(column) for name, column in zip(COLUMNS, np.transpose(rows))}
     unit = MODAL if sensor is None else "m"
     found = Backbone(
@@ -176,6 +208,9 @@ def backbone(structure, amplitudes, mode=1, sensor=None, steps=STEPS, harmonics=
         sweep.modes_change,
         sweep.omegas / (2.0 * np.pi),
         unit,
+        [patch.contact.field("pressure") for patch in structure.patches],
+        states,
+        [(patch.contact.x, patch.contact.y) for patch in structure.patches],
     )
     _warn(found)
     return found

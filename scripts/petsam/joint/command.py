@@ -3,7 +3,7 @@
     petsam-joint stiffness scan.h5 --pressure 1MPa:50MPa:12 --friction 0.4 --body1 steel --body2 steel -o interface
     petsam-joint backbone lap.h5 --contact lap.opts --preload B1=12e3 --sensor TIP:z --amplitudes 1um:0.1mm:9 -o out
     petsam-joint band lap.h5 --contact lap.opts --preload B1=12e3 --sensor TIP:z --amplitudes 1um:0.1mm:5
-    petsam-joint life lap.h5 --contact worn.opts --preload B1=12e3 --sensor TIP:z --amplitudes 50um --cycles 1e4,1e5,1e6
+    petsam-joint wear lap.h5 --contact worn.opts --preload B1=12e3 --sensor TIP:z --amplitudes 50um --cycles 1e4,1e5,1e6
     petsam-joint response lap.h5 --contact lap.opts --preload B1=12e3 --force TIP:z=0.5 --frequencies 110:118:17
 
 stiffness: scan.h5 is a surface or a separation that petsam-surface has written. Prints, for each nominal pressure, the
@@ -14,13 +14,14 @@ interaction for a deck of Abaqus, and NAME.png.
 
 backbone: lap.h5 is a pair of bodies with bolts and modes that petsam-compliance --pair has written. Tightens the bolts
 and prints frequency and damping of a mode over its amplitude, by friction in the joint alone: by quasi-static modal
-analysis, or with --harmonics by harmonic balance. -o NAME writes NAME.csv and NAME.png.
+analysis, or with --harmonics by harmonic balance. -o NAME writes NAME.csv, NAME.png and NAME-contact.png, which shows
+the pressure in the preload and where the contact slips.
 
 band: prints the range of the backbone over the histories of assembly: bolts in the given and in the reverse order,
 without friction until all are tightened, and after a vibration at the largest amplitude. With --scatter also the
 standard deviation by those of friction and preload. -o NAME writes NAME.csv and NAME.png.
 
-life: prints frequency, damping and the bolts' tension over the cycles of a vibration that wears the contact, whose
+wear: prints frequency, damping and the bolts' tension over the cycles of a vibration that wears the contact, whose
 options give the wear coefficients. -o NAME writes NAME.csv and NAME.png.
 
 response: prints the response of the same to a harmonic force over its frequency, by harmonic balance, with the damping
@@ -44,9 +45,9 @@ from . import interface
 from .backbone import ENDS, backbone
 from .balance import forced
 from .band import band
-from .life import life
 from .pair import Pair, Unreadable
 from .sweep import BackboneWarning
+from .wear import wear
 
 MATERIALS = {"steel": (210e9, 0.3), "aluminium": (70e9, 0.33), "titanium": (115e9, 0.32), "nickel": (205e9, 0.3)}
 PASCALS = {"": 1.0, "Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9}
@@ -209,7 +210,7 @@ def _stiffness_options(one):
 
 
 def _structure_options(one):
-    group = one.add_argument_group("backbone, band, life and response")
+    group = one.add_argument_group("backbone, band, wear and response")
     group.add_argument("--contact", metavar="NAME", help="file of petsam's options: -grid_n, -friction, -gap_type, ...")
     group.add_argument(
         "--preload", type=frictions, action="append", metavar="BOLT=N",
@@ -218,7 +219,7 @@ def _structure_options(one):
     group.add_argument("--sensor", metavar="NAME:D", help="where the amplitude is, and its direction x, y or z")
     group.add_argument("--damping", type=float, help="damping of the material, as a part of critical damping (0)")
     group.add_argument("--harmonics", type=int, help="how many are balanced (backbone 0: quasi-static; response 3)")
-    group = one.add_argument_group("backbone, band and life")
+    group = one.add_argument_group("backbone, band and wear")
     group.add_argument("--mode", type=int, help="number of the mode while all that touches sticks (1)")
     group.add_argument(
         "--amplitudes", type=amplitude_range, help="at the sensor: FIRST:LAST:COUNT, such as 1um:0.1mm:12"
@@ -231,7 +232,7 @@ def _structure_options(one):
         "--scatter", type=scatter, action="append", metavar="NAME=S",
         help="standard deviation of friction or preload as a part of it, may be repeated: friction=0.1",
     )  # fmt: skip
-    group.add_argument("--cycles", type=cycle_counts, help="of the life, at which the numbers are wanted: 1e4,1e5,1e6")
+    group.add_argument("--cycles", type=cycle_counts, help="of the vibration that wears, for the numbers: 1e4,1e5,1e6")
     group = one.add_argument_group("response")
     group.add_argument(
         "--force", type=force, metavar="SENSOR:D=N", help="amplitude of the force, and where it acts; also the sensor"
@@ -267,7 +268,7 @@ def _need(reader, args):
         if name not in needed and name not in usual:
             owners = [action for action, (needs, others, _) in ACTIONS.items() if name in needs or name in others]
             if given is not None:
-                reader.error(f"{option} is for petsam-joint {' and '.join(owners)}: remove it")
+                reader.error(f"{option} is for petsam-joint {' or '.join(owners)}: remove it")
         elif given is None and name in needed:
             reader.error(f"petsam-joint {args.action} needs {option}")
         elif given is None:
@@ -318,8 +319,8 @@ def _tell(text):
 def _print(result, found):
     """Prints the table and the warnings."""
     print("\n".join(result.table()))
-    for one in found:
-        print(f"petsam-joint: warning: {one.message}", file=sys.stderr)
+    for text in dict.fromkeys(str(one.message).strip() for one in found):
+        print(f"petsam-joint: warning: {text}", file=sys.stderr)
 
 
 def _sensor(text, pair, option="--sensor"):
@@ -335,7 +336,7 @@ def _sensor(text, pair, option="--sensor"):
 
 def _checked_preload(args):
     """{bolt: N} of --preload; ends with an error where a file is missing, or could not be written."""
-    for ending in (".csv", ".png") if args.output else ():
+    for ending in (".csv", ".png", "-contact.png") if args.output else ():
         need_replaceable(args.output + ending)
     need_regular(args.contact)
     preload = dict(args.preload or [])
@@ -381,6 +382,8 @@ def _backbone(args):
     if args.degree_check:
         print(_degree_line(args, compute, result))
     _write(args, result)
+    if args.output:
+        write(result.plot_contact(), args.output + "-contact.png", args.dpi)
     return 0
 
 
@@ -398,17 +401,17 @@ def _band(args):
     return 0
 
 
-def _life(args):
+def _wear(args):
     preload = _checked_preload(args)
     if len(args.amplitudes) != 1:
-        raise Error(f"--amplitudes: a life has one amplitude, not {len(args.amplitudes)}")
+        raise Error(f"--amplitudes: petsam-joint wear needs one amplitude, not {len(args.amplitudes)}")
     pair = _pair(args, preload)
     sensor = _sensor(args.sensor, pair)
     tension = lambda structure: {f"{name}/N": left for name, left in pair.left(structure).items()}  # noqa: E731
     with warnings.catch_warnings(record=True) as found:
         warnings.simplefilter("always", BackboneWarning)
         given = dict(mode=args.mode, sensor=sensor, steps=args.steps, measure=tension)
-        result = life(pair.structure, args.amplitudes[0], args.cycles, **given)
+        result = wear(pair.structure, args.amplitudes[0], args.cycles, **given)
     _print(result, found)
     _write(args, result)
     return 0
@@ -463,7 +466,7 @@ ACTIONS = {
         dict(preload=None, mode=1, damping=0.0, harmonics=0, scatter=None, steps=8),
         _band,
     ),
-    "life": (("contact", "amplitudes", "sensor", "cycles"), dict(preload=None, mode=1, steps=8), _life),
+    "wear": (("contact", "amplitudes", "sensor", "cycles"), dict(preload=None, mode=1, steps=8), _wear),
     "response": (
         ("contact", "force", "frequencies"),
         dict(preload=None, sensor=None, damping=0.0, harmonics=3, steps=16),

@@ -9,6 +9,7 @@ from numpy.linalg import norm
 from ..errors import Error
 
 STEPS = 8  # load steps of a half cycle
+SLIP = 2  # in the field state
 SETTLED = 1e-3  # change of the energy from one cycle to the next at which it counts as settled
 CYCLES = 12  # largest number of cycles of an amplitude
 FEW_MODES = 1e-3  # change of the frequency without a quarter of the modes
@@ -26,7 +27,7 @@ class Cycle:
     reach     change of the modal coordinates from one reversal to the other
     energies  dissipated energy in each patch, J
     loop      that of the loop of forces and displacements, J
-    slipping  cells that slip before the reversal
+    states    the field state of each patch before the reversal: 0 open, 1 stick, 2 slip
     given     what each step prescribed, for each patch {name: value}
     """
 
@@ -34,8 +35,13 @@ class Cycle:
     reach: np.ndarray
     energies: np.ndarray
     loop: float
-    slipping: int
+    states: list
     given: list
+
+    @property
+    def slipping(self):
+        """Number of cells that slip, in all patches."""
+        return int(sum(np.sum(state == SLIP) for state in self.states))
 
 
 @dataclass
@@ -122,11 +128,11 @@ class Sweep:
         forces = np.concatenate([rise[-1:], *halves])
         for count in range(1, CYCLES + 1):
             down, lost = self.follow(halves[0], scale)
-            slipping, given = self.slipping(), self.given
+            states, given = [patch.contact.field("state") for patch in self.work.patches], self.given
             back, more = self.follow(halves[1], scale)
             path = np.concatenate([[last], down, back])
             loop = -0.5 * float(np.sum((path[1:] + path[:-1]) * np.diff(forces, axis=0)))
-            one = Cycle(path[1:], back[-1] - down[-1], (lost + more).sum(axis=0), loop, slipping, given + self.given)
+            one = Cycle(path[1:], back[-1] - down[-1], (lost + more).sum(axis=0), loop, states, given + self.given)
             last = back[-1]
             if count >= least and settled(one, before):
                 break
@@ -147,7 +153,3 @@ class Sweep:
         reach = float(one.reach @ self.shape)
         damping = float(one.energies.sum()) / (np.pi * alpha * reach)
         return Point(alpha, 0.5 * reach, 2.0 * alpha / reach, damping, one, count)
-
-    def slipping(self):
-        """Number of cells that slip in the last step of a half cycle."""
-        return int(sum(np.sum(patch.contact.field("state") == 2) for patch in self.work.patches))

@@ -1,11 +1,13 @@
-"""What wear makes of a joint: frequency and damping of a mode over the cycles of a vibration, Life.
+"""What wear does to a joint: frequency and damping of a mode over the cycles of a vibration.
 
 The joint vibrates at a given modal force. Its settled cycle prescribes the steps of each patch, whose contact wears
 over many of them. Then the structure finds its equilibrium anew, as worn patches unload the bolts. Within one part of
-the life the loads of the patches and the motions of the bodies stay; halving the number of parts shows what that costs.
+the simulation the loads of the patches and the motions of the bodies stay; half the number of parts shows what that
+costs.
 """
 
 import csv
+import warnings
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,7 +17,7 @@ from .backbone import modal_amplitudes
 from .sweep import STEPS, Sweep
 
 PARTS = 2  # parts of each span of cycles
-LIFE = {
+WEAR = {
     "cycles": ("1", "cycles of the vibration"),
     "frequency": ("Hz", "frequency at the amplitude of the vibration"),
     "frequency_error": ("Hz", "its error by the number of parts, estimated"),
@@ -27,8 +29,8 @@ LIFE = {
 
 
 @dataclass
-class Life:
-    """Numbers over the cycles of a vibration, each an array: cycles, frequency, damping, ... (LIFE).
+class Wear:
+    """Numbers over the cycles of a vibration, each an array: cycles, frequency, damping, ... (WEAR).
 
     measured    {name: array} of what `measure` returned after each span, such as the tension of the bolts
     structures  copies of the structure at rest, at each number of cycles, for backbone()
@@ -59,9 +61,9 @@ class Life:
         """Writes all numbers, with names and units in the first line."""
         with open(path, "w", newline="", encoding="utf-8") as file:
             rows = csv.writer(file)
-            rows.writerow([*(f"{name} ({unit})" for name, (unit, _) in LIFE.items()), *self.measured])
+            rows.writerow([*(f"{name} ({unit})" for name, (unit, _) in WEAR.items()), *self.measured])
             for k in range(len(self.cycles)):
-                values = [self.numbers[name][k] for name in LIFE] + [column[k] for column in self.measured.values()]
+                values = [self.numbers[name][k] for name in WEAR] + [column[k] for column in self.measured.values()]
                 rows.writerow([f"{value:.10g}" for value in values])
 
     def plot(self):
@@ -80,8 +82,8 @@ class Life:
         return figure
 
 
-def life(structure, amplitude, cycles, mode=1, sensor=None, steps=STEPS, measure=None):
-    """The Life of a structure in its preload, whose contacts have the options of wear.
+def wear(structure, amplitude, cycles, mode=1, sensor=None, steps=STEPS, measure=None):
+    """The Wear of a structure in its preload, whose contacts have the options of wear.
 
     amplitude  of the vibration, as of backbone(); its modal force stays the same
     cycles     rising numbers of cycles at which the numbers are wanted, the first above 0
@@ -94,14 +96,17 @@ def life(structure, amplitude, cycles, mode=1, sensor=None, steps=STEPS, measure
     first = Sweep(structure, mode, steps)
     modal = float(modal_amplitudes(first, [amplitude], sensor)[0])
     alpha = first.omega**2 * modal
-    fine, coarse = (_live(structure.copy(), alpha, cycles, (mode, steps), measure, parts) for parts in (PARTS, 1))
-    rows, measured, structures = fine
+    given = alpha, cycles, (mode, steps), measure
+    rows, measured, structures = _run(structure.copy(), *given, PARTS)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # those of the run with all parts
+        coarse = _run(structure.copy(), *given, 1)
     for name in ("frequency", "damping"):
         rows[f"{name}_error"] = np.abs(rows[name] - coarse[0][name])
-    return Life({"cycles": np.append(0.0, cycles), **rows}, measured, structures)
+    return Wear({"cycles": np.append(0.0, cycles), **rows}, measured, structures)
 
 
-def _live(structure, alpha, cycles, how, measure, parts):
+def _run(structure, alpha, cycles, how, measure, parts):
     """Numbers, what was measured and structures at 0 and all `cycles`, each span of which has so many parts."""
     points, volumes, measured, structures = [], [0.0], [], []
     for span in (*np.diff(cycles, prepend=0.0), None):
