@@ -60,13 +60,14 @@ class Band:
 
     def table(self):
         """Lines of a printed table."""
-        lines = ["", f"{'amplitude/m':>12} {'f/Hz':>11} {'lowest':>11} {'highest':>11} {'zeta':>10} {'lowest':>10} "
+        lines = [f"{name}: {TEXTS[name]}" for name in self.backbones]
+        lines += ["", f"{'amplitude/m':>12} {'f/Hz':>13} {'lowest':>13} {'highest':>13} {'zeta':>10} {'lowest':>10} "
                  f"{'highest':>10}" + (f" {'f +-':>9} {'zeta +-':>9}" if self.scatter else "")]  # fmt: skip
         f, z = (self.limits(name) for name in NUMBERS)
         of, oz = (self.deviation(name) for name in NUMBERS)
         for k in range(self.count):
             lines.append(
-                f"{self.given.amplitude[k]:12.4e} {self.given.frequency[k]:11.6g} {f[0][k]:11.6g} {f[1][k]:11.6g} "
+                f"{self.given.amplitude[k]:12.4e} {self.given.frequency[k]:13.8g} {f[0][k]:13.8g} {f[1][k]:13.8g} "
                 f"{self.given.damping[k]:10.4e} {z[0][k]:10.4e} {z[1][k]:10.4e}"
                 + (f" {of[k]:9.2e} {oz[k]:9.2e}" if self.scatter else "")
             )

@@ -48,10 +48,10 @@ class Wear:
     def table(self):
         """Lines of a printed table."""
         heads = "".join(f" {name:>12}" for name in self.measured)
-        lines = [f"{'cycles':>10} {'f/Hz':>11} {'+-':>8} {'zeta':>10} {'+-':>8} {'W/J':>10} {'volume/m3':>10}{heads}"]
+        lines = [f"{'cycles':>10} {'f/Hz':>13} {'+-':>8} {'zeta':>10} {'+-':>8} {'W/J':>10} {'volume/m3':>10}{heads}"]
         for k in range(len(self.cycles)):
             lines.append(
-                f"{self.cycles[k]:10.4g} {self.frequency[k]:11.6g} {self.frequency_error[k]:8.1e} "
+                f"{self.cycles[k]:10.4g} {self.frequency[k]:13.8g} {self.frequency_error[k]:8.1e} "
                 f"{self.damping[k]:10.4e} {self.damping_error[k]:8.1e} {self.energy[k]:10.3e} {self.volume[k]:10.3e}"
                 + "".join(f" {values[k]:12.6g}" for values in self.measured.values())
             )

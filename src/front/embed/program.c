@@ -48,7 +48,7 @@ static PetscErrorCode Tell(void *context, SamContact contact, const SamSimulatio
   case SAM_NOTIFY_MESSAGE:
     if (news->result->status)
       c->last = *news->result;
-    else
+    else if (news->result->message[0])
       PetscCall(SamEmbedWarn(c, news->result->message, ""));
     break;
   case SAM_NOTIFY_ADVICE:
