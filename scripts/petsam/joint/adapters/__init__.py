@@ -1,0 +1,1 @@
+"""Contacts in other programs of harmonic balance: tmdsimpy (tmdsimpy.py), pyHarm (pyharm.py, which imports it)."""
