@@ -4,6 +4,7 @@ interface   contact stiffness, damping and real contact area of a rough interfac
 structure   patches of contact in a linear structure (structure.py); pair: of a file of petsam-compliance (pair.py)
 backbone    frequency and damping of a mode over its amplitude (backbone.py)
 balance     its resonance, and the response to a harmonic force, by harmonic balance (balance.py)
+adapters    contacts in other programs of harmonic balance: tmdsimpy, pyHarm (adapters/)
 """
 
 from .backbone import Backbone, backbone

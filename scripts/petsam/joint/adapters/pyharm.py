@@ -65,3 +65,8 @@ class Contact(ABCElement):
         self.J = -self.length * np.einsum("ia,winj,jb->wanb", self.Q, slope, self.Q).reshape(2 * (self.indices.size,))
         self.dJdom = np.zeros((self.indices.size, 1))
         return self.J, self.dJdom
+
+
+def extension():
+    """The element, for pyHarm's entry points."""
+    return [Contact]
