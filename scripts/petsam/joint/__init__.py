@@ -7,6 +7,7 @@ balance     its resonance, and the response to a harmonic force, by harmonic bal
 adapters    contacts in other programs of harmonic balance: tmdsimpy, pyHarm (adapters/)
 """
 
+from . import adapters
 from .backbone import Backbone, backbone
 from .balance import Response, forced
 from .interface import Interface, mirrored, of_interface, of_windows
@@ -15,6 +16,6 @@ from .structure import NoSolution, Patch, Structure
 from .sweep import BackboneWarning
 
 __all__ = [
-    "Backbone", "BackboneWarning", "Interface", "NoSolution", "Pair", "Patch", "Response", "Structure", "backbone",
-    "forced", "mirrored", "of_interface", "of_windows",
+    "Backbone", "BackboneWarning", "Interface", "NoSolution", "Pair", "Patch", "Response", "Structure", "adapters",
+    "backbone", "forced", "mirrored", "of_interface", "of_windows",
 ]  # fmt: skip
