@@ -14,7 +14,7 @@ import functions
 
 PACKAGE = Path(__file__).resolve().parents[1] / "petsam"
 # names of the package that users meet first, in the order of work; the others follow, errors and warnings at the end
-FIRST = ("open", "run", "Contact", "Results", "Snapshot", "Stresses", "Study")
+FIRST = ("open", "run", "Contact", "Element", "Results", "Snapshot", "Stresses", "Study")
 # classes of which users get objects from those, by their modules
 OBTAINED = {"contact": ("Step", "Cycle"), "results": ("Datafile",)}
 # modules in the order of the page; of a folder the modules that its __init__.py represents

@@ -9,7 +9,8 @@ run             a run of the program, whose results it returns (running.py)
 open            reading of files: Results of petsam (results.py), Stresses of petsam-stress (stresses.py), the table of
                 petsam-study (studies.py)
 cycles          cycles of a load history and their energies
-joint           contact stiffness and damping of rough interfaces per area
+Element         a contact as a force element of a time integration or of a static solver (element.py)
+joint           contact stiffness and damping of rough interfaces per area; joints in a structure
 closed          closed-form solutions of contact mechanics
 lives           lives, safety factors, short cracks: petsam-fatigue
 sliding         regime, energy ratio, sliding ratio of a cycle; slip amplitudes
@@ -37,6 +38,7 @@ __all__ = [
     "ContactError",
     "CycleWarning",
     "EdgeContactWarning",
+    "Element",
     "Error",
     "Missing",
     "MissingFile",
@@ -61,6 +63,7 @@ _HOMES = {
     "ContactError": ".contact",
     "CycleWarning": ".contact",
     "EdgeContactWarning": ".contact",
+    "Element": ".element",
     "NoEquilibrium": ".contact",
     "NotConverged": ".contact",
     "PrescribedError": ".contact",

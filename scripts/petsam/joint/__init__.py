@@ -6,8 +6,10 @@ backbone    frequency and damping of a mode over its amplitude (backbone.py)
 band        the same over the histories of assembly, and their scatter (band.py)
 wear        what wear does to them over the cycles of a vibration (wear.py)
 balance     its resonance, and the response to a harmonic force, by harmonic balance (balance.py)
+adapters    contacts in other programs of harmonic balance: tmdsimpy, pyHarm (adapters/)
 """
 
+from . import adapters
 from .backbone import Backbone, backbone, shake
 from .balance import Response, forced
 from .band import Band, band
@@ -19,5 +21,6 @@ from .wear import Wear, wear
 
 __all__ = [
     "Backbone", "BackboneWarning", "Band", "Interface", "NoSolution", "Pair", "Patch", "Response",
-    "Structure", "Wear", "backbone", "band", "forced", "mirrored", "of_interface", "of_windows", "shake", "wear",
+    "Structure", "Wear", "adapters", "backbone", "band", "forced", "mirrored", "of_interface", "of_windows", "shake",
+    "wear",
 ]  # fmt: skip

@@ -15,11 +15,12 @@ contact holds, the loads are known. Otherwise Broyden's method begins with dF/dz
 contacts at a reversal, and takes the contacts' own stiffness where it is slow.
 """
 
+import contextlib
 import warnings
 
 import numpy as np
 
-from ..contact import AdviceWarning, EdgeContactWarning, NoEquilibrium, NotConverged, PrescribedError
+from ..contact import AdviceWarning, ContactError, EdgeContactWarning, NoEquilibrium, NotConverged, PrescribedError
 from ..errors import Error
 
 TOLERANCE = 1e-7  # of the work of the errors, relative to that of the loads
@@ -83,7 +84,16 @@ class Patch:
                     "higher preload, or a larger grid and patch"
                 ) from None
         z = np.array(values, dtype=float)
-        z[self.by_load] = [self.contact.number(name) for name, load in zip(self.coordinates, self.by_load) if load]
+        found, loads = self.state()
+        z[self.by_load] = found[self.by_load]
+        return z, loads
+
+    def state(self):
+        """Coordinates and loads on the structure of the contact's last step. A factor that no step has given is 0."""
+        z = np.zeros(len(self.coordinates))
+        for k, name in enumerate(self.coordinates):
+            with contextlib.suppress(ContactError if name in self.cases else ()):
+                z[k] = self.contact.number(name)
         return z, self.sign * np.array([self.contact.number(name) for name in self._loads])
 
     def stiffness(self, reversal):
@@ -261,7 +271,18 @@ class Structure:
         return [np.concatenate(parts) for parts in zip(*found)]
 
     def step(self, force, held=None, response=None, scale=None):
-        """Solves a step under a modal force and commits it in all patches; sets force, z, a and loads.
+        """try_step(), and commit()."""
+        response = self.try_step(force, held, response, scale)
+        self.commit()
+        return response
+
+    def commit(self):
+        """Makes the tried step of all patches the state from which the next one continues."""
+        for patch in self.patches:
+            patch.contact.commit()
+
+    def try_step(self, force, held=None, response=None, scale=None):
+        """Solves a step under a modal force from the committed state; sets force, z, a and loads.
 
         held      for each patch {name: value} that it prescribes besides; None: what patches have
         response  of respond_to(), with which the iteration begins; None: that of the patches' last steps
@@ -279,8 +300,6 @@ class Structure:
             self.iterations.append(1)
         else:
             response = self._iterate(driven, free, held, response, scale)
-        for patch in self.patches:
-            patch.contact.commit()
         self.force = np.array(force, dtype=float)
         return response
 
