@@ -627,6 +627,7 @@ def test_numbers_that_make_no_sense_are_refused():
     for given, says in (
         (dict(force=[1.0, 2.0], frequencies=[1.0]), r"force: has the shape \(2,\): expected a number for each of 1"),
         (dict(force=[1.0], frequencies=[0.0]), "frequencies: expected numbers above 0, Hz"),
+        (dict(force=[0.0], frequencies=[1.0]), "force: moves no mode"),
     ):
         with pytest.raises(petsam.Error, match=says):
             joint.forced(one, **given, sensor=[1.0])

@@ -27,6 +27,7 @@ from .sweep import STEPS, BackboneWarning, Point, Sweep
 TOLERANCE = 1e-5  # of the balance, relative to its forces
 NEAR = 0.01  # relative difference of amplitudes that are the same
 BEYOND_LAST = 1.5  # largest amplitude of a guess over the largest one that was computed
+LEAST_SLOPE = 0.02  # of the balance beside its force
 FAR = 1e-2  # balance that is not near to a solution
 MOST = 25  # cycles in which it is found
 PER_HARMONIC = 4  # least load steps of a period of the highest harmonic
@@ -64,16 +65,22 @@ class Balance(Sweep):
         turned = self.order * omega
         return turned**2 - 2j * turned * self.preload.damping * self.omegas
 
+    def slope(self, inertia):
+        """Change of the balance's error by that of the force while all sticks; at a resonance of it never 0, as the
+        contacts' slip moves the resonance."""
+        found = 1.0 - inertia / self.omegas**2
+        return np.where(np.abs(found) < LEAST_SLOPE, LEAST_SLOPE, found)
+
     def solve(self, error, guess, far=None):
         """The force for which error(force, motion) is zero; returns it, the motion and the cycle. error is about the
         change of the force that removes it; far(force, motion) a better guess where it is not small."""
         force, change, found = np.zeros_like(guess), guess, None
-        inverse, best = np.eye(2 * guess.size), np.inf
+        inverse, best, beyond = np.eye(2 * guess.size), np.inf, ""
         for _ in range(MOST):
             try:
                 motion, cycle = self.motion(force + change)
             except BEYOND:
-                change = 0.5 * change  # the guess is beyond what the contacts bear
+                change, beyond = 0.5 * change, " (some guesses make a contact slide as a whole)"
                 continue
             force = force + change
             wrong = _real(error(force, motion))
@@ -91,7 +98,7 @@ class Balance(Sweep):
             found = wrong
             change = _complex(-inverse @ wrong, force.shape)
         raise NoSolution(
-            f"the balance of {len(self.order)} harmonics was not found in {MOST} cycles, error {best:.1e}, limit "
+            f"the balance of {len(self.order)} harmonics was not found in {MOST} cycles{beyond}, error {best:.1e}, limit "
             f"{TOLERANCE:g}: use smaller steps of amplitude or frequency, or the quasi-static backbone"
         )
 
@@ -102,9 +109,7 @@ class Balance(Sweep):
 
         def error(force, motion):
             inertia = self.inertia(np.sqrt(max(force[at].real / amplitude, 0.0)))
-            slope = 1.0 - inertia / stiffness
-            slope[at] = 1.0
-            wrong = (force - inertia * motion) / slope
+            wrong = (force - inertia * motion) / self.slope(inertia)
             wrong[at] = stiffness[self.mode] * (motion[at] - amplitude)
             return wrong
 
@@ -129,13 +134,15 @@ class Balance(Sweep):
         inertia = self.inertia(omega)
         given = np.zeros(inertia.shape, dtype=complex)
         given[0] = self.shapes.T @ force
-        slope = 1.0 - inertia / self.omegas**2
-        at = 0, int(np.argmin(np.abs(slope[0]) / np.maximum(np.abs(given[0]), 1e-30)))
+        if not np.any(given):
+            raise Error("force: moves no mode: take another place or direction")
+        slope = self.slope(inertia)
+        still = np.abs(slope[0]) * self.omegas**2 / np.maximum(np.abs(given[0]), 1e-12 * np.abs(given[0]).max())
+        at = 0, int(np.argmin(still))
         secant = self.secants.setdefault(at, Secant(self.omegas[at[1]] ** 2))
 
         def error(force, motion):
             wrong = (force - given - inertia * motion) / slope
-            wrong[at] *= slope[at]
             wrong[at] = secant.removed(wrong[at], force[at], motion[at], inertia[at])
             return wrong
 
@@ -179,7 +186,7 @@ class Secant:
 
     def resonance(self, force, inertia):
         """Static force on the mode under a force: of the amplitudes that balance it, that nearest to the last one."""
-        most = max(2.0 * abs(force / (self.stiffness[0] - inertia)), 1e-300)
+        most = 2.0 * abs(force) / max(abs(self.stiffness[0] - inertia), NEAR * abs(inertia))
         if self.amplitudes.size > 1:
             most = BEYOND_LAST * self.amplitudes[-1]
         amplitudes = np.linspace(0.0, most, 4001)[1:]
