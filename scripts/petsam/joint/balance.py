@@ -98,8 +98,8 @@ class Balance(Sweep):
             found = wrong
             change = _complex(-inverse @ wrong, force.shape)
         raise NoSolution(
-            f"the balance of {len(self.order)} harmonics was not found in {MOST} cycles{beyond}, error {best:.1e}, limit "
-            f"{TOLERANCE:g}: use smaller steps of amplitude or frequency, or the quasi-static backbone"
+            f"the balance of {len(self.order)} harmonics was not found in {MOST} cycles{beyond}, error {best:.1e}, "
+            f"limit {TOLERANCE:g}: use smaller steps of amplitude or frequency, or the quasi-static backbone"
         )
 
     def point(self, amplitude):
@@ -139,6 +139,7 @@ class Balance(Sweep):
         slope = self.slope(inertia)
         still = np.abs(slope[0]) * self.omegas**2 / np.maximum(np.abs(given[0]), 1e-12 * np.abs(given[0]).max())
         at = 0, int(np.argmin(still))
+        slope[at] = 1.0  # its own is that of the secant
         secant = self.secants.setdefault(at, Secant(self.omegas[at[1]] ** 2))
 
         def error(force, motion):
