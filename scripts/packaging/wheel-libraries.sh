@@ -2,7 +2,7 @@
 # Builds the libraries that the wheel carries into a folder: FFTW and HDF5 from Debian's sources, PETSc from PyPI's,
 # against PyPI's MPICH, with netlib's BLAS and LAPACK from PyPI. The compiler, bin/zig-cc in the folder, is PyPI's zig: it
 # links with the C library of older systems, so that the wheel runs on clusters. Called by `make wheel`, it builds each
-# library once; after an interruption it goes on with the one that was not finished. OMP_NUM_THREADS=1 builds with one
+# library once; after an interruption it continues with the one that was not finished. OMP_NUM_THREADS=1 builds with one
 # process at a time.
 #
 #   scripts/packaging/wheel-libraries.sh build/wheel/libraries
