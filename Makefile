@@ -265,13 +265,15 @@ $(B)/share/bash-completion/completions/%: $(B)/bin/% scripts/maintain/completion
 	$(say) COMPLETION $@
 	$(Q)$(PYTHON) scripts/maintain/completion.py $< > $@
 
-# built anew against libraries of its own, all below build/wheel; the environment's Python has pip
+# built anew by zig against libraries of its own, all below build/wheel; the environment's Python has pip. zig's linker lacks
+# -Bsymbolic-functions. Binding data too is safe where all code is compiled with -fPIC, as petsam's and that of plugins is
 WHEEL     := build/wheel
 LIBRARIES := $(CURDIR)/$(WHEEL)/libraries
 wheel: $(B)/venv/done ## make a wheel in build/wheel that carries programs and libraries and takes MPI from PyPI
 	scripts/packaging/wheel-libraries.sh $(LIBRARIES)
-	PATH="$(LIBRARIES)/bin:$$PATH" PKG_CONFIG_LIBDIR=$(LIBRARIES)/lib/pkgconfig $(MAKE) B=$(WHEEL)/petsam PETSC_DIR= CC=mpicc OPT=-O3 \
-	  CFLAGS=-I$(LIBRARIES)/include LDFLAGS="-L$(LIBRARIES)/lib -Wl,-rpath,$(LIBRARIES)/lib" all pages
+	PATH="$(LIBRARIES)/bin:$$PATH" MPICH_CC=zig-cc PKG_CONFIG_LIBDIR=$(LIBRARIES)/lib/pkgconfig $(MAKE) B=$(WHEEL)/petsam \
+	  PETSC_DIR= CC=mpicc OPT=-O3 BIND=-Wl,-Bsymbolic CFLAGS=-I$(LIBRARIES)/include \
+	  LDFLAGS="-L$(LIBRARIES)/lib -Wl,-rpath,$(LIBRARIES)/lib" all pages
 	$(B)/venv/bin/python scripts/packaging/wheel.py --build $(WHEEL)/petsam --libraries $(LIBRARIES)
 
 # the pages as a site that can be searched; a link that leads nowhere is an error

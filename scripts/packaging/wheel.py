@@ -20,7 +20,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAMS = ("petsam", "petsam-stress")
 MPI = "libmpi.so.12"  # of MPICH and those compatible with it
-OF_MPICH = (2, 28)  # the C library that PyPI's mpich asks for
+C_LIBRARY = (2, 28)  # the oldest one, for which wheel-libraries.sh builds and PyPI's mpich is made
 # on every system: the C library, zlib and the compiler's own
 OF_THE_SYSTEM = re.compile(r"(lib(c|m|rt|dl|pthread|z|gcc_s)|ld-linux-[\w-]+)\.so\.\d+")
 # files in the folder licenses of the libraries that are carried, by the beginnings of their names
@@ -67,6 +67,11 @@ def carried(files):
     return names
 
 
+def ready(library):
+    """Whether the library seeks others beside itself already: another run of strip or patchelf would break it."""
+    return re.search(r"R(UN)?PATH +\$ORIGIN$", output("objdump", "-p", library), re.M)
+
+
 def copy(source, path):
     """A file's copy, with its folder."""
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -98,10 +103,11 @@ def stage(build, libraries, tree):
     for path, source in places.items():
         copy(source, path)
         path.chmod(0o755)
-        subprocess.run(["strip", "--strip-unneeded", path], check=True)
-        if libraries:
-            up = "$ORIGIN/" + os.path.relpath(data / "lib", path.parent)
-            subprocess.run([libraries / "bin/patchelf", "--set-rpath", f"{up}/petsam:{up}", path], check=True)
+        if not ready(path):
+            subprocess.run(["strip", "--strip-unneeded", path], check=True)
+            if libraries:
+                up = "$ORIGIN/" + os.path.relpath(data / "lib", path.parent)
+                subprocess.run([libraries / "bin/patchelf", "--set-rpath", f"{up}/petsam:{up}", path], check=True)
     scripts = [path.name for path in (ROOT / "scripts").glob("petsam-*")]
     manual = [f"man/man1/{name}.1" for name in (*PROGRAMS, *scripts)]
     for page in (*manual, *(f"bash-completion/completions/{name}" for name in PROGRAMS)):
@@ -112,19 +118,26 @@ def stage(build, libraries, tree):
     return list(places)
 
 
-def c_library(files):
-    """The version (major, minor) of the GNU C library that the files need, by the symbols that they take from it."""
-    symbols = "".join(output("objdump", "-T", file) for file in files)
-    return max((int(major), int(minor)) for major, minor in re.findall(r"GLIBC_(\d+)\.(\d+)", symbols))
+def c_library(file):
+    """The version (major, minor) of the GNU C library that the file needs, by the symbols that it takes from it."""
+    versions = re.findall(r"GLIBC_(\d+)\.(\d+)", output("objdump", "-T", file))
+    return max(((int(major), int(minor)) for major, minor in versions), default=(0, 0))
 
 
 def platform(files):
-    """The wheel's tag: with all that it needs inside (`files`), any system with the C library that those need."""
+    """The wheel's tag: with all that it needs inside (`files`), any system with C_LIBRARY or a newer one."""
     machine = re.sub(r"[-.]", "_", sysconfig.get_platform())
     if not files or not machine.startswith("linux_"):
         return machine
-    major, minor = max(c_library(files), OF_MPICH)
-    return f"manylinux_{major}_{minor}_{machine[6:]}"
+    oldest = "{}.{}".format(*C_LIBRARY)
+    for file in files:
+        if c_library(file) > C_LIBRARY:
+            needs = "{}.{}".format(*c_library(file))
+            raise SystemExit(
+                f"wheel.py: error: {file} needs glibc {needs}, expected {oldest} at most: "
+                "compile it with zig-cc of wheel-libraries.sh"
+            )
+    return f"manylinux_{oldest.replace('.', '_')}_{machine[6:]}"
 
 
 def main():
@@ -135,11 +148,12 @@ def main():
     options = parser.parse_args()
     out, tree = options.out.resolve(), options.out.resolve() / "tree"
     files = stage(options.build.resolve(), options.libraries and options.libraries.resolve(), tree)
+    tag = platform(options.libraries and files)
     for old in out.glob("petsam-*.whl"):
         old.unlink()
     subprocess.run(
         [sys.executable, "-m", "pip", "wheel", "-q", "--disable-pip-version-check", "--no-deps", "-w", out, tree],
-        env=dict(os.environ, PETSAM_WHEEL=platform(options.libraries and files)),
+        env=dict(os.environ, PETSAM_WHEEL=tag),
         check=True,
     )
     (wheel,) = out.glob("petsam-*.whl")

@@ -3,6 +3,7 @@
 import importlib.util
 import os
 import re
+import shutil
 import subprocess
 import sys
 import sysconfig
@@ -56,21 +57,25 @@ def test_the_wheel_has_the_package_the_programs_and_the_license(wheel):
     assert not any("maintain/" in name or "packaging/" in name for name in names)
 
 
-@pytest.fixture
-def fresh(wheel, tmp_path):
+def install(wheel, folder):
     """A new environment with the wheel; numpy and the others are those of this Python."""
-    folder = tmp_path / "fresh"
     subprocess.run([sys.executable, "-m", "venv", "--without-pip", folder], check=True, timeout=300)
-    install = [sys.executable, "-m", "pip", "--python", folder / "bin/python", "install", "-q", "--no-deps", wheel]
-    subprocess.run(install, check=True, timeout=300)
+    pip = [sys.executable, "-m", "pip", "--python", folder / "bin/python", "install", "-q", "--no-deps", wheel]
+    subprocess.run(pip, check=True, timeout=300)
     (site,) = folder.glob("lib/python*/site-packages")
     (site / "others.pth").write_text(sysconfig.get_path("purelib") + "\n")
     return folder
 
 
-def test_an_environment_with_the_wheel_alone_solves_the_first_contact_of_the_README(fresh, tmp_path):
+@pytest.fixture
+def fresh(wheel, tmp_path):
+    return install(wheel, tmp_path / "fresh")
+
+
+def first_contact(fresh, tmp_path, launcher):
+    """Solves the README's contact on two ranks and in process; returns {name: path} of the libraries of the latter."""
     path = f"{fresh}/bin:{os.environ['PATH']}"
-    command = "mpirun --oversubscribe -n 2 petsam -grid_n " + re.sub(r"^\d+", "64", FIRST.group(1))
+    command = f"{launcher} -n 2 petsam -grid_n " + re.sub(r"^\d+", "64", FIRST.group(1))
     (tmp_path / "build/run").mkdir(parents=True)
     assert "check" in shell(command, tmp_path, PATH=path)
     result = Results(next(tmp_path.glob("build/run/*.h5")))
@@ -79,14 +84,21 @@ def test_an_environment_with_the_wheel_alone_solves_the_first_contact_of_the_REA
     code = (
         f"import petsam; print(petsam.__file__); c = petsam.Contact(grid_n=64, grid_size=2.6e-3, {STEEL}, friction=0.1,"
         "gap_type='sphere', gap_radius1=0.2, gap_radius2=0.2); print(c.try_step(load_n=1000, load_tx=60).pressure_max);"
-        "print(*[line.split()[-1] for line in open('/proc/self/maps') if 'libpetsam' in line])"
+        "print(*{line.split()[-1] for line in open('/proc/self/maps') if '.so' in line})"
     )
     package, pressure, libraries = shell(f'"{fresh}/bin/python" -c "{code}"', tmp_path).splitlines()
-    assert package.startswith(str(fresh)) and set(libraries.split()) == {str(next(fresh.glob("lib/libpetsam.so.*.?")))}
+    mapped = {name.rsplit("/", 1)[-1]: name for name in libraries.split()}
+    (library,) = (name for name in mapped if name.startswith("libpetsam"))
+    assert package.startswith(str(fresh)) and mapped[library] == str(next(fresh.glob("lib/libpetsam.so.*.?")))
     assert np.isclose(float(pressure), result["pressure_max"], rtol=1e-12)
     for tool in ("petsam-plot --maps -o maps.png build/run/*.h5", "petsam-surface --help", "petsam-stress --version"):
         shell(tool, tmp_path, PATH=path)
     assert (tmp_path / "maps.png").exists()
+    return mapped
+
+
+def test_an_environment_with_the_wheel_alone_solves_the_first_contact_of_the_README(fresh, tmp_path):
+    first_contact(fresh, tmp_path, "mpirun --oversubscribe")
 
 
 def test_a_study_finds_program_and_job_script_of_the_wheel(fresh, tmp_path):
@@ -110,40 +122,62 @@ def test_a_library_whose_license_is_not_listed_is_not_carried(monkeypatch):
         maker.carried([PROGRAM])
 
 
-def test_the_carrying_wheel_names_the_C_library_that_its_files_need(monkeypatch):
+def test_the_carrying_wheel_is_refused_where_a_file_needs_a_newer_C_library(monkeypatch):
     machine = sysconfig.get_platform().replace("-", "_")
     assert maker.platform(None) == machine
-    table = {"old": "(GLIBC_2.2.5) pow", "new": "(GLIBC_2.9) a\n(GLIBC_2.34) b\n(GFORTRAN_8) c"}
+    table = {"old": "(GLIBC_2.2.5) pow\n(GLIBC_2.28) a", "new": "(GLIBC_2.9) a\n(GLIBC_2.34) b\n(GFORTRAN_8) c", "": ""}
     monkeypatch.setattr(maker, "output", lambda *words: table[words[-1]])
-    assert maker.c_library(["old", "new"]) == (2, 34) and maker.c_library(["old"]) == (2, 2)
-    assert maker.platform(["old", "new"]) == machine.replace("linux", "manylinux_2_34")
-    # never older than the mpich that the wheel requires
-    assert maker.platform(["old"]) == machine.replace("linux", "manylinux_2_28")
+    assert [maker.c_library(file) for file in table] == [(2, 28), (2, 34), (0, 0)]
+    assert maker.platform(["old", ""]) == machine.replace("linux", "manylinux_2_28")
+    with pytest.raises(SystemExit, match="new needs glibc 2.34, expected 2.28"):
+        maker.platform(["old", "new"])
+
+
+def test_the_libraries_are_linked_with_the_C_library_that_the_wheel_names():
+    script = (ROOT / "scripts/packaging/wheel-libraries.sh").read_text()
+    assert re.search(r"^glibc=(.*)$", script, re.M)[1] == "{}.{}".format(*maker.C_LIBRARY)
 
 
 @pytest.fixture(scope="module")
-def standing(tmp_path_factory):
-    """The wheel of `make wheel`: its name, and the folder of its files for the environment."""
+def standing():
+    """The wheel of `make wheel`."""
     wheels = list((ROOT / "build/wheel").glob("petsam-*manylinux_*.whl"))
     if not wheels:
         pytest.skip("no wheel of make wheel stands in build/wheel")
+    return wheels[0]
+
+
+@pytest.fixture(scope="module")
+def data(standing, tmp_path_factory):
+    """The folder of its files for the environment."""
     folder = tmp_path_factory.mktemp("standing")
-    with zipfile.ZipFile(wheels[0]) as archive:
+    with zipfile.ZipFile(standing) as archive:
         archive.extractall(folder)
-    (data,) = folder.glob("*.data/data")
-    return wheels[0].name, data
+    return next(folder.glob("*.data/data"))
 
 
-def test_a_wheel_that_stands_needs_no_newer_C_library_than_its_name_says(standing):
-    name, data = standing
+def test_a_wheel_that_stands_needs_no_newer_C_library_than_its_name_says(standing, data):
     files = [path for path in data.rglob("*") if path.is_file() and path.read_bytes()[:4] == b"\x7fELF"]
-    named = re.search(r"manylinux_(\d+)_(\d+)_", name)
-    assert len(files) > 4 and maker.c_library(files) <= (int(named[1]), int(named[2]))
+    named = re.search(r"manylinux_(\d+)_(\d+)_", standing.name)
+    assert len(files) > 4 and max(map(maker.c_library, files)) <= (int(named[1]), int(named[2])) == maker.C_LIBRARY
 
 
-def test_a_wheel_that_stands_has_the_license_of_each_library(standing):
-    _, data = standing
+def test_a_wheel_that_stands_has_the_license_of_each_library(data):
     licenses = data / "share/petsam/licenses"
     listed = dict(line.split(": ") for line in (licenses / "libraries.txt").read_text().splitlines())
     assert set(listed) == {path.name for path in data.glob("lib/petsam/lib*")}
-    assert all((licenses / text).stat().st_size > 1000 for text in listed.values())
+    assert all((licenses / text).stat().st_size > 1000 for text in (*listed.values(), "compiler_rt"))
+
+
+def test_a_wheel_that_stands_solves_the_first_contact_with_libraries_of_its_own(standing, data, tmp_path):
+    """Its MPI is the one of PyPI that it was built with."""
+    fresh = install(standing, tmp_path / "fresh")
+    mpich = ROOT / "build/wheel/libraries"
+    for name in ("bin/mpirun", "bin/hydra_pmi_proxy", f"lib/{maker.MPI}"):
+        shutil.copy(mpich / name, fresh / name)
+    (fresh / "lib/mpich").symlink_to(mpich / "lib/mpich")
+    mapped = first_contact(fresh, tmp_path, "mpirun")
+    inside = {path.name for path in data.glob("lib/petsam/lib*")} | {maker.MPI}
+    assert {name: mapped[name] for name in inside} == {
+        name: str(fresh / "lib" / ("" if name == maker.MPI else "petsam") / name) for name in inside
+    }
