@@ -260,8 +260,10 @@ int petsam_reject(petsam_contact *c);
   Errors: 2 without a solved step, or for bodies that have no such stiffness; 10 if the step or the linear systems did
   not converge.
 
-  With 0 it is the derivative of petsam_try() at fixed committed state, and not symmetric. With 1 it is the stiffness at
-  the time at which the motion reverses, and symmetric; without a tried step it is that of the committed one.
+  With 0 it is the derivative of petsam_try() at fixed committed state, and not symmetric. It takes the slip directions
+  at the end of the step, as -slip_direction end does; with mid, entries of a slip that turns differ by up to a quarter.
+  With 1 it is the stiffness at the time at which the motion reverses, and symmetric; without a tried step it is that of
+  the committed one.
 */
 int petsam_stiffness(petsam_contact *c, int reversal, double k[36]);
 

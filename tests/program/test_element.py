@@ -105,6 +105,15 @@ def test_a_spring_in_series_is_condensed(soft):
         one.commit()
 
 
+def test_a_spring_behind_a_contact_with_shear_is_stretched():
+    one, stiffness, _ = element(32)
+    force, u = one.try_(reach(0.5 * LIMIT, stiffness)), one.u
+    one.commit()
+    one.condense(stiffness)
+    assert one.u == pytest.approx(u - force / stiffness, rel=1e-12) and np.array_equal(one.force, force)
+    assert one.try_(one.u) == pytest.approx(force, rel=1e-5)
+
+
 def test_the_tangent_is_that_of_differences():
     """Of translation and rotation about x and y, with springs that couple them; z follows."""
     contact, stiffness = sphere(LOAD, 32)
