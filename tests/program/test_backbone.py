@@ -478,7 +478,7 @@ def test_resonance_of_a_mass_by_harmonic_balance():
 def two_masses():
     """The structure, its coordinates as lengths of Mindlin's and frequencies of the contact's, and its viscous matrix;
     and Mindlin's stiffness and full slide."""
-    contact, k = sphere(LOAD, 64)
+    contact, k = sphere(LOAD, 48)
     unit = FRICTION * LOAD / k
     squares, shapes = eigh(SPRINGS * k, MASSES)
     patch = joint.Patch(contact, ["disp_x"], dict(load_n=LOAD))
@@ -493,7 +493,7 @@ def test_response_of_two_masses_to_a_force():
     """Through the resonance; three times the first frequency is near the second mode."""
     one, shapes, damp, k, unit = two_masses()
     place = shapes[1]  # of the second mass
-    omegas, level = np.array([1.02, 1.14, 1.18, 1.2, 1.3]), 0.06
+    omegas, level = np.array([1.02, 1.14, 1.18, 1.2]), 0.06
     force = level * FRICTION * LOAD * place
     found = joint.forced(one, force, omegas * np.sqrt(k) / (2 * np.pi), place, steps=12, harmonics=3)
     guess = np.zeros(2)
@@ -527,20 +527,22 @@ def test_command_prints_and_writes_the_numbers(command, tmp_path):
 
 
 def test_command_prints_the_response_to_a_force(command, joint_command, tmp_path):
-    """Power of the force = friction and damping of the material; at resonance the backbone by harmonic balance."""
+    """The power of the force is that of friction and of the material's damping."""
     pair_file(tmp_path / "pair.h5", 1.0)
-    (tmp_path / "c.opts").write_text("".join(f"-{name} {value}\n" for name, value in OPTIONS.items()))
-    pair = joint.Pair(tmp_path / "pair.h5", PRELOAD, damping=0.01, **OPTIONS)
+    small = OPTIONS | dict(grid_n=16)
+    (tmp_path / "c.opts").write_text("".join(f"-{name} {value}\n" for name, value in small.items()))
+    pair = joint.Pair(tmp_path / "pair.h5", PRELOAD, damping=0.01, **small)
     sensor = pair.sensors["TIP"][:, 2]
-    point = joint.backbone(pair.structure, [5e-3], sensor=sensor, harmonics=3, steps=16)
+    point = joint.backbone(pair.structure, [5e-3], sensor=sensor, steps=3)
     level = 1e-4
     words = ("pair.h5", "--contact", "c.opts", "--preload", "B=0.02", "--force", f"TIP:z={level}", "--damping", 0.01)
-    around = np.array([0.9, 1.0, 1.1]) * point.frequency[0]
-    printed = joint_command("response", *words, "--frequencies", ",".join(f"{f:.12g}" for f in around), "-o", "out")
-    found = joint.forced(pair.structure, level * sensor, around, sensor)
-    assert found.table()[0] in printed and len(re.findall(r"^ +0\.[01]\d+ ", printed, re.M)) == 3
+    around = np.array([0.9, 1.0]) * point.frequency[0]
+    given = ",".join(f"{one:.12g}" for one in around)
+    printed = joint_command("response", *words, "--frequencies", given, "--steps", 8, "-o", "out")
+    found = joint.forced(pair.structure, level * sensor, around, sensor, steps=8)
+    assert found.table()[0] in printed and len(re.findall(r"^ +0\.[01]\d+ ", printed, re.M)) == 2
     stuck, psi = pair.structure.stuck_modes()
-    viscous = np.zeros(3)
+    viscous = np.zeros(2)
     for order in range(1, 4):
         moved = np.abs(found.motion[:, order - 1] @ psi) ** 2
         viscous += np.pi * 2 * np.pi * around * order**2 * (moved @ (2 * 0.01 * stuck))
