@@ -102,7 +102,7 @@ class Backbone:
         """A figure of frequency and damping over the amplitude."""
         from ..plot.style import COLORS, STYLE, logarithmic, plt
 
-        with plt.rc_context(STYLE):
+        with plt.rc_context({**STYLE, "axes.formatter.useoffset": False}):
             figure, (left, right) = plt.subplots(1, 2, figsize=(8.0, 3.4), layout="constrained")
             reach = 1e6 * self.amplitude
             left.axhline(self.linear, color="0.4", linewidth=0.8, linestyle="--", label="all that touches sticks")
@@ -132,13 +132,13 @@ class Backbone:
             for k, ((left, right), (x, y)) in enumerate(zip(rows, self.axes)):
                 pressed = np.where(self.pressure[k] > 0.0, 1e-6 * self.pressure[k], np.nan)
                 drawn = left.pcolormesh(1e3 * x, 1e3 * y, pressed, cmap="viridis", vmin=0.0, rasterized=True)
-                figure.colorbar(drawn, ax=left, label="pressure in the preload, MPa")
+                figure.colorbar(drawn, ax=left, label="pressure, MPa")
                 given = dict(cmap=ListedColormap(tints), vmin=-0.5, vmax=len(tints) - 0.5, rasterized=True)
                 right.pcolormesh(1e3 * x, 1e3 * y, self.states[k], **given)
                 keys = [Key(color=tint, label=word) for word, tint in zip(words, tints) if word != STATES[OPEN][0]]
-                right.legend(handles=keys, loc="upper right", title="at the largest amplitude")
-                for ax in (left, right):
-                    ax.set(xlabel="x, mm", ylabel="y, mm", aspect="equal", title=self.names[k])
+                right.legend(handles=keys, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2)
+                for ax, title in ((left, "preload"), (right, "largest amplitude")):
+                    ax.set(xlabel="x, mm", ylabel="y, mm", aspect="equal", title=f"{self.names[k]}, {title}")
         return figure
 
 

@@ -267,7 +267,7 @@ class Response:
         """A figure of amplitude and phase over the frequency."""
         from ..plot.style import COLORS, STYLE, logarithmic, plt
 
-        with plt.rc_context(STYLE):
+        with plt.rc_context({**STYLE, "axes.formatter.useoffset": False}):
             figure, (left, right) = plt.subplots(1, 2, figsize=(8.0, 3.4), layout="constrained")
             left.plot(self.frequency, 1e6 * self.amplitude, "o-", color=COLORS[0], markersize=4.0)
             left.set(xlabel="frequency, Hz", ylabel="amplitude, µm")

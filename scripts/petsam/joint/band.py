@@ -89,7 +89,7 @@ class Band:
         """A figure of the bands of frequency and damping over the amplitude."""
         from ..plot.style import COLORS, STYLE, logarithmic, plt
 
-        with plt.rc_context(STYLE):
+        with plt.rc_context({**STYLE, "axes.formatter.useoffset": False}):
             figure, axes = plt.subplots(1, 2, figsize=(8.0, 3.4), layout="constrained")
             reach = 1e6 * self.given.amplitude[: self.count]
             for ax, name, factor in zip(axes, NUMBERS, (1.0, 100.0)):

@@ -70,7 +70,7 @@ class Wear:
         """A figure of frequency and damping over the cycles."""
         from ..plot.style import COLORS, STYLE, plt
 
-        with plt.rc_context(STYLE):
+        with plt.rc_context({**STYLE, "axes.formatter.useoffset": False}):
             figure, axes = plt.subplots(1, 2, figsize=(8.0, 3.4), layout="constrained")
             for ax, name, factor in zip(axes, ("frequency", "damping"), (1.0, 100.0)):
                 values, error = (factor * self.numbers[one] for one in (name, f"{name}_error"))
